@@ -6,7 +6,7 @@
 From Coq Require Import Reals.
 From Orthocert Require Import Vec3 SingularValues Kinematics Velocity Diagonal CubeLower Scaling
   Postulate Extremes Design TightCorner AllPsi Claim.
-From Orthocert.kernel Require Apart Solve Tolerances Check Machine Acceleration Accuracy Gradient Near Problem Faces Witness Cubes NoCube Closed Trig Arm Written AtPoint Turning Same Twins Singular Legs Control Pose Drives Driven Certificate PavingText.
+From Orthocert.kernel Require Apart Solve Tolerances Check Machine Acceleration Accuracy Gradient Near Problem Faces Witness Cubes NoCube Closed Trig Arm Written AtPoint Turning Same Twins Accelerated Far Singular Legs Control Pose Drives Driven Certificate PavingText.
 From Orthocert.instances Require OrthoglideTolerance LinearDelta PostulateAll PostulateUpTo2 FourSliders StrutsAndPlane DeltaSpeed DeltaMargin UpuAxes
   FiveBar PlanarPlatform FiveBarFormulas Prototype DeltaTooFast NoCube Atlas.
 Local Open Scope R_scope.
@@ -110,6 +110,9 @@ Check kernel.Singular.refute_between_sound.
 Check kernel.Same.fits_sound.
 Check @kernel.Twins.refute_same_sound.
 Check @kernel.Twins.refute_same_pose_sound.
+Check kernel.Accelerated.refute_accelerated_sound.
+Check @kernel.Far.refute_far_sound.
+Check @kernel.Far.refute_far_pose_sound.
 Check kernel.Control.controls_decide.
 Check kernel.Pose.check_turning_sound.
 Check @Claim.every_value.
@@ -153,7 +156,8 @@ Definition all_of_them :=
    @kernel.Orientation.rotation_about_axes, @kernel.Turning.length_velocity,
    @kernel.Turning.refute_turning_sound, @kernel.Singular.refute_between_sound,
    @kernel.Same.fits_sound, @kernel.Twins.refute_same_sound,
-   @kernel.Twins.refute_same_pose_sound, @kernel.Control.controls_decide,
+   @kernel.Twins.refute_same_pose_sound, @kernel.Accelerated.refute_accelerated_sound,
+   @kernel.Far.refute_far_sound, @kernel.Far.refute_far_pose_sound, @kernel.Control.controls_decide,
    @kernel.Pose.check_turning_sound, @Claim.every_value, @kernel.Tolerances.mean_value,
    @kernel.Tolerances.less_changes_sound, @kernel.Check.shows_apart_sound,
    @kernel.Certificate.accept_cells_sound, @FiveBar.certified, @PlanarPlatform.certified,

@@ -9,7 +9,7 @@
 
 From Coq Require Import ZArith QArith Reals Lra List Bool String Ascii DecimalString.
 From Orthocert Require Import Vec3 SingularValues Kinematics Diagonal Postulate Claim.
-From Orthocert.kernel Require Import Configuration Arm Written AtPoint Orientation Turning Singular Twins Legs Inputs Pose Driven.
+From Orthocert.kernel Require Import Configuration Arm Written AtPoint Orientation Turning Accelerated Singular Twins Far Legs Inputs Pose Driven.
 From Orthocert.kernel Require Tolerances.
 From Orthocert.kernel Require Import Statement Check Number Problem Faces Witness Closed Cubes NoCube.
 Import ListNotations.
@@ -1404,7 +1404,8 @@ Definition accept_witness (ls : list written_leg) (w : written_region) (bs : lis
       end
   | [x; y; z], (m, []), how =>
       match failure_of k how with
-      | Some f => is_right && refute exact_bits k m (Numbers (denoted x) (denoted y) (denoted z)) f
+      | Some f => let P := Numbers (denoted x) (denoted y) (denoted z) in
+          is_right && (refute exact_bits k m P f || match how with Obligation i [v] => refute_far exact_bits k m P i v | _ => false end)
       | None => false
       end
   | _, _, _ => false
@@ -1504,7 +1505,8 @@ Definition accept (c : certificate) : bool :=
               end
           | Singular_ other, _ => let other := map denoted other in
               refute_between exact_bits c m (numbers_of (firstn n point)) (skipn n point) (numbers_of (firstn n other)) (skipn n other)
-          | _, Some f => refute_turning exact_bits c m (numbers_of (firstn n point)) (skipn n point) f
+          | _, Some f => let P := numbers_of (firstn n point) in let t := skipn n point in refute_turning exact_bits c m P t f ||
+              match f with NFails i [v] => refute_accelerated exact_bits c m P t i v || refute_far_pose exact_bits c m P t i v | _ => false end
           | _, None => false
           end
       | _ => false
@@ -1550,7 +1552,8 @@ Lemma accept_witness_sound : forall (names : naming) ls w bs rs point machine ho
 Proof.
   intros names ls w bs rs point machine how h. unfold accept_witness in h. destruct point as [| x [| y [| z [|]]]]; try discriminate.
   cbv zeta in h. destruct (take_legs _ _) as [m [|]]; [| destruct how; discriminate].
-  destruct how; try (destruct (failure_of _ _) as [f |]; [| discriminate]; apply andb_true_iff in h as [_ h]; exact (@refute_sound names _ _ _ _ _ h)).
+  destruct how; try (destruct (failure_of _ _) as [f |]; [| discriminate]; apply andb_true_iff in h as [_ h]; apply orb_true_iff in h as [h | h]; [exact (@refute_sound names _ _ _ _ _ h) | try discriminate]).
+  { destruct directions as [| v [|]]; try discriminate. exact (@refute_far_sound _ names _ _ _ _ _ h). }
   destruct (nth_error _ _) as [[] |]; try discriminate. destruct (all_rational least) as [a |]; [| discriminate]. destruct (all_rational greatest) as [b |]; [| discriminate].
   apply andb_true_iff in h as [_ h]. exact (@refute_same_sound names _ _ _ _ _ _ _ h).
 Qed.
@@ -1625,7 +1628,8 @@ Proof.
   - cbv zeta in h. destruct (take_struts _ _) as [m [|]]; [| discriminate]. apply andb_true_iff in h as [_ h].
     destruct how; try exact (refute_between_sound _ _ _ _ _ _ _ h);
       try (destruct (all_rational least); [| discriminate]; destruct (all_rational greatest); [| discriminate]; apply andb_true_iff in h as [_ h]; exact (refute_same_pose_sound _ _ _ _ _ _ _ _ _ h));
-      (destruct (failure_at _ _ _ _ _ _); [| discriminate]; exact (refute_turning_sound _ _ _ _ _ _ h)).
+      (destruct (failure_at _ _ _ _ _ _) as [f |]; [| discriminate]; apply orb_true_iff in h as [h | h]; [exact (refute_turning_sound _ _ _ _ _ _ h) |]; destruct f as [| i [| d [|]] | |]; try discriminate;
+       apply orb_true_iff in h as [h | h]; [exact (refute_accelerated_sound _ _ _ _ _ _ _ h) | exact (refute_far_pose_sound _ _ _ _ _ _ _ h)]).
   - destruct (tree_of _ _ _ _ _ nodes) as [[tr [|]] |]; try discriminate. apply andb_true_iff in h as [_ h].
     exact (certify_written_sound _ _ _ _ _ _ h).
   - cbv zeta in h. destruct (take_list _ _) as [thetas [|]]; [| discriminate]. destruct (failure_at _ _ _ _ _ how); [| discriminate].
@@ -1644,18 +1648,11 @@ Qed.
 
 (** Whether a failure is one that has a theorem: for who reads, to say what is not covered. *)
 Definition is_of_known_failure (c : certificate) : bool :=
-  let is_demand parts legs bs rs how ds := match failure_at false parts legs bs rs how with
-    | Some (NFails i _) => match Configuration.test_at exact_bits parts i ds with Some (OnePose _ _ _, _) | Some (AccelerationMax _ _ _ _, _) => false | _ => true end
-    | _ => true
-    end in
   match subject_ c, proof_ c with
-  | (Machine_ ls _ bs rs), ByWitness _ _ _ (Obligation i _) =>
-      match nth_error (obligations (length ls) bs rs) i with Some (Accuracy _ _) => false | _ => true end
   | Atlas_ _ ls _ rs _ _, Cells cells => forallb (fun x => match x with
       | Disproved _ _ _ (Obligation i _) => match nth_error (obligations (length ls) [] rs) i with Some (Accuracy _ _) => false | _ => true end
       | _ => true
       end) cells
-  | Turning_ k ls _ _ _ bs rs, ByWitness _ _ _ how => is_demand (parts_of k) (length ls) bs rs how (demands false (length ls) bs rs)
   | _, _ => true
   end.
 

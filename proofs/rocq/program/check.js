@@ -244,6 +244,7 @@ const refutations = [
   ["kernel/linear-delta-formulas", "joint_range = { max = 300 }", 900], ["kernel/linear-delta-formulas", "joint_force = { tool = 10, max = 1 }", 90], ["kernel/linear-delta-formulas", "joint_speed = { tool = 10, max = 1 }", 90],
   ["kernel/linear-delta-formulas", "stiffness = { joint = [3, 4, 5], min = 90 }", 0.01], ["kernel/agile-eye", "transmission = { max = 1.01 }", 9], ["kernel/agile-eye", "joint_force = { tool = 10, max = 1 }", 90],
   ["kernel/georg-v-type", "transmission = { max = 0.01 }", 9000],
+  ...["planar-3-rpr", "hexapod-linuxcnc", "spherical-3-ups"].map((name) => [`kernel/${name}`, "joint_acceleration = { speed = 50, acceleration = 1000, max = 10 }", 90000]),
 ];
 let no_refutations = 0;
 for (const [name, requirement, beyond, joint] of refutations) {
@@ -265,6 +266,43 @@ for (const [name, requirement, beyond, joint] of refutations) {
   read.push(nearest);
 }
 console.log(`refutations: ${12 * refutations.length} bounds of ${refutations.length} with one answer, and ${no_refutations} refused`);
+// Accuracy: what refutes there does here, where the sum of all legs is one polynomial, and here at bounds that are up to a fifth greater too.
+let at_accuracy = 0, no_accuracy = 0;
+for (const [name, angle] of [
+  ["skew-guides"], ["upu-struts"], ["tripteron"], ["orthoglide-tolerance"],
+  ["kernel/planar-3-rpr", 0.1], ["kernel/hexapod-accuracy", 0.03], ["kernel/hexapod-rubin-camera-as-made", 0.1], ["kernel/spherical-3-ups", 0.001],
+]) {
+  const design = path.join(made, "refuted.toml"), file = path.join(made, "refuted.cert.json");
+  const [head] = fs.readFileSync(path.join(__dirname, "../../../tests/designs", `${name}.toml`), "utf8").split("[requirements]");
+  fs.writeFileSync(design, `${head}\n[requirements]\naccuracy = { joint_error = 0.002, max = 0.0001${angle ? `, max_angle = ${angle}` : ""} }\n`);
+  spawnSync(orthocert, ["verify", design, "-o", file]);
+  // About a point there is no other place: by the angle.
+  const text = fs.readFileSync(file, "latin1"), by = name.includes("spherical") ? `"max_angle":["${angle}"]` : '"bound":"0.0001"', with_ = (x) => text.replace(by, by.replace(/[\d.]+/, x.toFixed(15).replace(/\.?0+$/, "")));
+  let refuted = angle && name.includes("spherical") ? angle : 0.0001, rejected = 60, farthest = 0;
+  for (let i = 0; i < 14; i++) {
+    const middle = Math.sqrt(refuted * rejected), [there, here] = two_answers(with_(middle));
+    if (there === "REFUTED") refuted = middle; else rejected = middle;
+    if (here === "REFUTED") farthest = Math.max(farthest, middle);
+    if (there === "REFUTED" && here !== "REFUTED") fail(`${name}, accuracy at ${middle}: ${here}`); else at_accuracy++;
+  }
+  if (farthest > 1.2 * refuted) fail(`${name}, accuracy: refuted at ${farthest}`);
+  for (const [x, answer] of [[refuted, "REFUTED"], [1.3 * refuted, "REJECTED"]]) {
+    const answers = three_answers(with_(x));
+    if (answers.some((a) => a !== answer)) fail(`${name}, accuracy at ${x}: ${answers}`);
+  }
+  const nearest = with_(refuted);
+  read.push(nearest);
+  for (const [from, to] of [
+    [/"obligation":\[\d+/, '"obligation":[0'], [/"obligation":\[\d+/, '"obligation":[9'], [/"obligation":\[(\d+),\[\[.*?\]\]/, '"obligation":[$1,[[0,0,0]]'], [/\]\]\}\}\}/, ",1]]}}}"], [/("obligation":\[\d+,)\[.*?\]\]/, "$1[]]"],
+    ['"joint_error":["', '"joint_error":["-'], [by, by.replace(/[\d.]+/, "-1")], [by, by.replace(/[\d.]+/, "0")], ['"max_angle":["', '"max_angle":["18'],
+  ]) {
+    const wrong = nearest.replace(from, to);
+    if (wrong === nearest) continue;
+    const answers = two_answers(wrong);
+    if (answers.some((a) => a !== "REJECTED")) fail(`${name}, accuracy: ${answers}: ${from} ${to}`); else no_accuracy++;
+  }
+}
+console.log(`accuracy refuted: eight machines, ${at_accuracy} bounds, and ${no_accuracy} refused`);
 // Tolerances halved at the root of a tree, above twice its nodes: at bounds ever nearer to the last with which they are certified, and beyond that of the tree alone.
 for (const [name, m, numbers, beyond, further] of [
   ["orthoglide-tolerance", 3, 3, 0.8, 0], ["planar-3-prr", 3, 3, 0.8, 1], ["five-bar", 2, 2, 0.8, 1], ["hexapod-rubin-camera-as-made", 6, 36, 0.8, 17], ["five-bar-formulas", 2, 1, 0.8, 0],

@@ -4,56 +4,56 @@ globalThis!=="object"&&(this?b():(a.defineProperty(a.prototype,"_T_",{configurab
 b(){var
 b=this||self;b.globalThis=b;delete
 a.prototype._T_}}(Object));(function(M){"use strict";var
-jF="spatial",qI="Invalid_argument",hb="precision",aJ='"',jE=1255,qH="inside",pG="(",pH=0x800,qG="yaw",pD="range",pE="tree",pF="jsError",cc=0x8000,qF="sqrt(",pC=256,ha="obligation",fA="offset",bi="machine",pB="End_of_file",eA="strut",jD="center",fz="arm",jC="Failure",qE="serial_margin",hj="parameters",cD=0xff,qD="bodies",qC="max_angle",jQ="outside",hi="base_axis",jB="ENOENT",qB="singular",qA=122,pA="([^/]+)",qz="0",jA=0xf,fy=128,pz=0xdc00,qx="Sys_blocked_io",qy="fd ",fq="given",py="ENOTEMPTY",aX=248,g$="bound",px="Division_by_zero",qv="by",qw=1027,pw="Sys_error",hh="slider",pv="torsion",qu="postulate",pu="proof",jP="joint_error",fx="refuted",eu="mechanism",g_="row",pt="EEXIST",qt="roll_pitch_yaw",fw="y",ps="cube",dE="lower",qs="within",pr="clearance",qr="turned",pq="control",g9="int_of_string",qp="definitions",qq="dependent",fv=1024,po="from",pp="name",qo=" : flags Open_rdonly and Open_wronly are not compatible",pn="orthocert/2",qn="reach",pm=512,ql="base_joint",qm="witness",fu="-",bb="platform",pl=0x7ff0,pk="pitch",jO=": Not a directory",bB="min",qj="trim",ez="workspace",qk=" : file already exists",g8="split",qh='the failure "singular" of such a mechanism',jN="legs",qi="claim",jz="joint",dF=0xffffff,pj="platform_joint",pi="formulas",ph="roll",g7="atlas",qe="greatest",qf="nodes",qg="Out_of_memory",pg="psi_max",hg="orientation",g6=254,qd="angle",jM="index out of bounds",pf="end",qc="one_to_one",hf="_bigarr02",pe=" : flags Open_text and Open_binary are not compatible",qb="inverse",bV="drive",pd="coordinates",qa="holds",pc="lower_divided",pb="speed",p_="cylinder",p$="joints",cC=0xffff,p7="a leaf that fails",p8="acceleration",fs="certified",ft="chords",p9=12520,jy="on",p6="same",et="accuracy",fr="axis",p5="no_cube",p4="parallel_margin",pa='the drive "',jx="Unix.Unix_error",he="fails",g5="tool",jw="mkdir",p2="rho",p3="least",hd=1000,jv="translational",jL="tolerances",o$="Stack_overflow",jK="characteristic_length",aa="",jJ="^",g3="places",g4=": No such file or directory",o_="/static/",ey=0x3f,o8="stiffness",o9="Not_found",dD="planar",fp="mode",p1="joint_speed",p0="Match_failure",o7="transmission",bA="anchor",pZ="at",o6="joint_force",ex="leg",o5="joint_acceleration",hc="+",ju="rmdir",pY=0xf0,pX="spherical",o4=1026,pV="REJECTED",pW="undecided",bC="max",cd="direction",o2="leg_angle",o3="orthoglide",ew="rank",pT="constraint_margin",pU="fan",g2="test",o0="Pervasives.do_at_exit",o1="utf8",bU=0x80,ev="conditioning",es="length",oZ="Undefined_recursive_module",jI=")",oY="base",pS="quantity",oX="joint_range",g1="tilt",oW="Q2",pR='the failure "same" of such a mechanism',pQ="reference",oU="this quantity in a claim that is refuted",oV="point",pO="corner",pP=0xe0,oT="version",jH="z",pM="to",pN=0xdfff,jt="compare: functional value",pL="Assert_failure",bX="/",pK="provenance",dC="radius",g0="side",bW="require",pJ="format",oS="Q1",jG="ENOTDIR",oR="all",dB="box",pI=250;function
-j2(c,b,a){var
+jS="spatial",q3="Invalid_argument",hk="precision",aL='"',jR=1255,q2="inside",p1="(",p2=0x800,q1="yaw",pY="range",pZ="tree",p0="jsError",cf=0x8000,q0="sqrt(",pX=256,hj="obligation",fG="offset",bl="machine",pW="End_of_file",eF="strut",jQ="center",fF="arm",jP="Failure",qZ="serial_margin",hs="parameters",cK=0xff,qY="bodies",qX="max_angle",j3="outside",hr="base_axis",jO="ENOENT",qW="singular",qV=122,pV="([^/]+)",qU="0",jN=0xf,fE=128,pU=0xdc00,qS="Sys_blocked_io",qT="fd ",fw="given",pT="ENOTEMPTY",aZ=248,hi="bound",pS="Division_by_zero",qQ="by",qR=1027,pR="Sys_error",hq="slider",pQ="torsion",qP="postulate",pP="proof",j2="joint_error",fD="refuted",ez="mechanism",hh="row",pO="EEXIST",qO="roll_pitch_yaw",fC="y",pN="cube",dI="lower",qN="within",pM="clearance",qM="turned",pL="control",hg="int_of_string",qK="definitions",qL="dependent",fB=1024,pJ="from",pK="name",qJ=" : flags Open_rdonly and Open_wronly are not compatible",pI="orthocert/2",qI="reach",pH=512,qG="base_joint",qH="witness",fA="-",bd="platform",pG=0x7ff0,pF="pitch",j1=": Not a directory",bD="min",qE="trim",eE="workspace",qF=" : file already exists",hf="split",qC='the failure "singular" of such a mechanism',j0="legs",qD="claim",jM="joint",dJ=0xffffff,pE="platform_joint",pD="formulas",pC="roll",he="atlas",qz="greatest",qA="nodes",qB="Out_of_memory",pB="psi_max",hp="orientation",hd=254,qy="angle",jZ="index out of bounds",pA="end",qx="one_to_one",ho="_bigarr02",pz=" : flags Open_text and Open_binary are not compatible",qw="inverse",bZ="drive",py="coordinates",qv="holds",px="lower_divided",pw="speed",qt="cylinder",qu="joints",cJ=0xffff,qq="a leaf that fails",qr="acceleration",fy="certified",fz="chords",qs=12520,jL="on",qp="same",ey="accuracy",fx="axis",qo="no_cube",qn="parallel_margin",pv='the drive "',jK="Unix.Unix_error",hn="fails",hc="tool",jJ="mkdir",ql="rho",qm="least",hm=1000,jI="translational",jY="tolerances",pu="Stack_overflow",jX="characteristic_length",ad="",jW="^",ha="places",hb=": No such file or directory",pt="/static/",eD=0x3f,pr="stiffness",ps="Not_found",dH="planar",fv="mode",qk="joint_speed",qj="Match_failure",pq="transmission",bC="anchor",qi="at",pp="joint_force",eC="leg",po="joint_acceleration",hl="+",jH="rmdir",qh=0xf0,qg="spherical",pn=1026,qe="REJECTED",qf="undecided",bE="max",cg="direction",pl="leg_angle",pm="orthoglide",eB="rank",qc="constraint_margin",qd="fan",g$="test",pj="Pervasives.do_at_exit",pk="utf8",bY=0x80,eA="conditioning",ex="length",pi="Undefined_recursive_module",jV=")",ph="base",qb="quantity",pg="joint_range",g_="tilt",pf="Q2",qa='the failure "same" of such a mechanism',p$="reference",pd="this quantity in a claim that is refuted",pe="point",p9="corner",p_=0xe0,pc="version",jU="z",p7="to",p8=0xdfff,jG="compare: functional value",p6="Assert_failure",b1="/",p5="provenance",dG="radius",g9="side",b0="require",p4="format",pb="Q1",jT="ENOTDIR",pa="all",dF="box",p3=250;function
+kd(c,b,a){var
 d=String.fromCharCode;if(b==0&&a<=4096&&a==c.length)return d.apply(null,c);var
-e=aa;for(;0<a;b+=fv,a-=fv)e+=d.apply(null,c.slice(b,b+Math.min(a,fv)));return e}function
-hl(b){if(M.Uint8Array)var
+e=ad;for(;0<a;b+=fB,a-=fB)e+=d.apply(null,c.slice(b,b+Math.min(a,fB)));return e}function
+hu(b){if(M.Uint8Array)var
 c=new(M.Uint8Array)(b.l);else
 var
 c=new
 Array(b.l);var
 e=b.c,d=e.length,a=0;for(;a<d;a++)c[a]=e.charCodeAt(a);for(d=b.l;a<d;a++)c[a]=0;b.c=c;b.t=4;return c}function
-fB(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?j2(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
-if(b.t==2&&f==b.c.length){b.c+=d.t==4?j2(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)hl(b);var
+fH(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?kd(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
+if(b.t==2&&f==b.c.length){b.c+=d.t==4?kd(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)hu(b);var
 g=d.c,h=b.c;if(d.t==4)if(f<=e)for(var
 a=0;a<c;a++)h[f+a]=g[e+a];else
 for(var
 a=c-1;a>=0;a--)h[f+a]=g[e+a];else{var
 i=Math.min(c,g.length-e);for(var
 a=0;a<i;a++)h[f+a]=g.charCodeAt(e+a);for(;a<c;a++)h[f+a]=0}}return 0}function
-eD(a){return a}function
-eC(a,b,c,d,e){fB(eD(a),b,c,d,e);return 0}function
-jS(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
+eI(a){return a}function
+eH(a,b,c,d,e){fH(eI(a),b,c,d,e);return 0}function
+j5(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
 0:return a.c.charCodeAt(b);case
 4:return a.c[b]}}function
-c8(c,a){if(c.fun)return c8(c.fun,a);if(typeof
+dg(c,a){if(c.fun)return dg(c.fun,a);if(typeof
 c!=="function")return c;var
 b=c.length|0;if(b===0)return c.apply(null,a);var
 e=a.length|0,d=b-e|0;if(d==0)return c.apply(null,a);else
-if(d<0)return c8(c.apply(null,a.slice(0,b)),a.slice(b));else
+if(d<0)return dg(c.apply(null,a.slice(0,b)),a.slice(b));else
 return function(){var
 e=arguments.length==0?1:arguments.length,d=new
 Array(a.length+e);for(var
 b=0;b<a.length;b++)d[b]=a[b];for(var
-b=0;b<arguments.length;b++)d[a.length+b]=arguments[b];return c8(c,d)}}function
-q_(b,a){if(b==0)return aa;if(a.repeat)return a.repeat(b);var
-d=aa,c=0;for(;;){if(b&1)d+=a;b>>=1;if(b==0)return d;a+=a;c++;if(c==9)a.slice(0,1)}}function
-eE(a){if(a.t==2)a.c+=q_(a.l-a.c.length,"\0");else
-a.c=j2(a.c,0,a.c.length);a.t=0}function
-eF(a){a.t&6&&eE(a);return a.c}var
-Hv=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
-Hu(a){if(Hv)return Math.floor(Math.log2(a));var
+b=0;b<arguments.length;b++)d[a.length+b]=arguments[b];return dg(c,d)}}function
+rt(b,a){if(b==0)return ad;if(a.repeat)return a.repeat(b);var
+d=ad,c=0;for(;;){if(b&1)d+=a;b>>=1;if(b==0)return d;a+=a;c++;if(c==9)a.slice(0,1)}}function
+eJ(a){if(a.t==2)a.c+=rt(a.l-a.c.length,"\0");else
+a.c=kd(a.c,0,a.c.length);a.t=0}function
+eK(a){a.t&6&&eJ(a);return a.c}var
+H7=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
+H6(a){if(H7)return Math.floor(Math.log2(a));var
 b=0;if(a==0)return-Infinity;if(a>=1)while(a>=2){a/=2;b++}else
 while(a<1){a*=2;b--}return b}function
-jV(c){var
+j8(c){var
 a=new(M.Float32Array)(1);a[0]=c;var
 b=new(M.Int32Array)(a.buffer);return b[0]|0}var
-q1=Math.pow(2,-24);function
-Hl(a){throw a}var
-ax=[0];function
-q7(){Hl(ax.Division_by_zero)}function
-L(b,c,a){this.lo=b&dF;this.mi=c&dF;this.hi=a&cC}L.prototype.caml_custom="_j";L.prototype.copy=function(){return new
+rk=Math.pow(2,-24);function
+HX(a){throw a}var
+ay=[0];function
+rq(){HX(ay.Division_by_zero)}function
+L(b,c,a){this.lo=b&dJ;this.mi=c&dJ;this.hi=a&cJ}L.prototype.caml_custom="_j";L.prototype.copy=function(){return new
 L(this.lo,this.mi,this.hi)};L.prototype.ucompare=function(a){if(this.hi>a.hi)return 1;if(this.hi<a.hi)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};L.prototype.compare=function(a){var
 b=this.hi<<16,c=a.hi<<16;if(b>c)return 1;if(b<c)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};L.prototype.neg=function(){var
 a=-this.lo,b=-this.mi+(a>>24),c=-this.hi+(b>>24);return new
@@ -62,7 +62,7 @@ b=this.lo+a.lo,c=this.mi+a.mi+(b>>24),d=this.hi+a.hi+(c>>24);return new
 L(b,c,d)};L.prototype.sub=function(a){var
 b=this.lo-a.lo,c=this.mi-a.mi+(b>>24),d=this.hi-a.hi+(c>>24);return new
 L(b,c,d)};L.prototype.mul=function(a){var
-b=this.lo*a.lo,c=(b*q1|0)+this.mi*a.lo+this.lo*a.mi,d=(c*q1|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
+b=this.lo*a.lo,c=(b*rk|0)+this.mi*a.lo+this.lo*a.mi,d=(c*rk|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
 L(b,c,d)};L.prototype.isZero=function(){return(this.lo|this.mi|this.hi)==0};L.prototype.isNeg=function(){return this.hi<<16<0};L.prototype.and=function(a){return new
 L(this.lo&a.lo,this.mi&a.mi,this.hi&a.hi)};L.prototype.or=function(a){return new
 L(this.lo|a.lo,this.mi|a.mi,this.hi|a.hi)};L.prototype.xor=function(a){return new
@@ -76,27 +76,27 @@ L(this.hi>>a-48,0,0)};L.prototype.shift_right=function(a){a=a&63;if(a==0)return 
 c=this.hi<<16>>16;if(a<24)return new
 L(this.lo>>a|this.mi<<24-a,this.mi>>a|c<<24-a,this.hi<<16>>a>>>16);var
 b=this.hi<<16>>31;if(a<48)return new
-L(this.mi>>a-24|this.hi<<48-a,this.hi<<16>>a-24>>16,b&cC);return new
-L(this.hi<<16>>a-32,b,b)};L.prototype.lsl1=function(){this.hi=this.hi<<1|this.mi>>23;this.mi=(this.mi<<1|this.lo>>23)&dF;this.lo=this.lo<<1&dF};L.prototype.lsr1=function(){this.lo=(this.lo>>>1|this.mi<<23)&dF;this.mi=(this.mi>>>1|this.hi<<23)&dF;this.hi=this.hi>>>1};L.prototype.udivmod=function(e){var
+L(this.mi>>a-24|this.hi<<48-a,this.hi<<16>>a-24>>16,b&cJ);return new
+L(this.hi<<16>>a-32,b,b)};L.prototype.lsl1=function(){this.hi=this.hi<<1|this.mi>>23;this.mi=(this.mi<<1|this.lo>>23)&dJ;this.lo=this.lo<<1&dJ};L.prototype.lsr1=function(){this.lo=(this.lo>>>1|this.mi<<23)&dJ;this.mi=(this.mi>>>1|this.hi<<23)&dJ;this.hi=this.hi>>>1};L.prototype.udivmod=function(e){var
 c=0,b=this.copy(),a=e.copy(),d=new
 L(0,0,0);while(b.ucompare(a)>0){c++;a.lsl1()}while(c>=0){c--;d.lsl1();if(b.ucompare(a)>=0){d.lo++;b=b.sub(a)}a.lsr1()}return{quotient:d,modulus:b}};L.prototype.div=function(a){var
-b=this;if(a.isZero())q7();var
-d=b.hi^a.hi;if(b.hi&cc)b=b.neg();if(a.hi&cc)a=a.neg();var
-c=b.udivmod(a).quotient;if(d&cc)c=c.neg();return c};L.prototype.mod=function(b){var
-a=this;if(b.isZero())q7();var
-d=a.hi;if(a.hi&cc)a=a.neg();if(b.hi&cc)b=b.neg();var
-c=a.udivmod(b).modulus;if(d&cc)c=c.neg();return c};L.prototype.toInt=function(){return this.lo|this.mi<<24};L.prototype.toFloat=function(){return(this.hi<<16)*Math.pow(2,32)+this.mi*Math.pow(2,24)+this.lo};L.prototype.toArray=function(){return[this.hi>>8,this.hi&cD,this.mi>>16,this.mi>>8&cD,this.mi&cD,this.lo>>16,this.lo>>8&cD,this.lo&cD]};L.prototype.lo32=function(){return this.lo|(this.mi&cD)<<24};L.prototype.hi32=function(){return this.mi>>>8&cC|this.hi<<16};function
-hn(b,c,a){return new
+b=this;if(a.isZero())rq();var
+d=b.hi^a.hi;if(b.hi&cf)b=b.neg();if(a.hi&cf)a=a.neg();var
+c=b.udivmod(a).quotient;if(d&cf)c=c.neg();return c};L.prototype.mod=function(b){var
+a=this;if(b.isZero())rq();var
+d=a.hi;if(a.hi&cf)a=a.neg();if(b.hi&cf)b=b.neg();var
+c=a.udivmod(b).modulus;if(d&cf)c=c.neg();return c};L.prototype.toInt=function(){return this.lo|this.mi<<24};L.prototype.toFloat=function(){return(this.hi<<16)*Math.pow(2,32)+this.mi*Math.pow(2,24)+this.lo};L.prototype.toArray=function(){return[this.hi>>8,this.hi&cK,this.mi>>16,this.mi>>8&cK,this.mi&cK,this.lo>>16,this.lo>>8&cK,this.lo&cK]};L.prototype.lo32=function(){return this.lo|(this.mi&cK)<<24};L.prototype.hi32=function(){return this.mi>>>8&cJ|this.hi<<16};function
+hw(b,c,a){return new
 L(b,c,a)}function
-hm(a){if(!isFinite(a)){if(isNaN(a))return hn(1,0,pl);return a>0?hn(0,0,pl):hn(0,0,0xfff0)}var
-f=a==0&&1/a==-Infinity?cc:a>=0?0:cc;if(f)a=-a;var
-b=Hu(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-o4)}else{a/=Math.pow(2,b-qw);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
+hv(a){if(!isFinite(a)){if(isNaN(a))return hw(1,0,pG);return a>0?hw(0,0,pG):hw(0,0,0xfff0)}var
+f=a==0&&1/a==-Infinity?cf:a>=0?0:cf;if(f)a=-a;var
+b=H6(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-pn)}else{a/=Math.pow(2,b-qR);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
 d=Math.pow(2,24),c=a|0;a=(a-c)*d;var
 e=a|0;a=(a-e)*d;var
-g=a|0;c=c&jA|f|b<<4;return hn(g,e,c)}function
-fE(a){return a.toArray()}function
-qP(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==hf)for(var
-a=0;a<b.dims.length;a++)if(b.dims[a]<cC)c.write(16,b.dims[a]);else{c.write(16,cC);c.write(32,0);c.write(32,b.dims[a])}else
+g=a|0;c=c&jN|f|b<<4;return hw(g,e,c)}function
+fK(a){return a.toArray()}function
+q_(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==ho)for(var
+a=0;a<b.dims.length;a++)if(b.dims[a]<cJ)c.write(16,b.dims[a]);else{c.write(16,cJ);c.write(32,0);c.write(32,b.dims[a])}else
 for(var
 a=0;a<b.dims.length;a++)c.write(32,b.dims[a]);switch(b.kind){case
 2:case
@@ -113,51 +113,51 @@ a=0;a<b.data.length;a++)c.write(32,b.data[a]);break;case
 a=0;a<b.data.length;a++)c.write(32,b.data[a]);break;case
 7:for(var
 a=0;a<b.data.length/2;a++){var
-e=fE(b.get(a));for(var
+e=fK(b.get(a));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 1:for(var
 a=0;a<b.data.length;a++){var
-e=fE(hm(b.get(a)));for(var
+e=fK(hv(b.get(a)));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 0:for(var
 a=0;a<b.data.length;a++){var
-e=jV(b.get(a));c.write(32,e)}break;case
+e=j8(b.get(a));c.write(32,e)}break;case
 10:for(var
 a=0;a<b.data.length/2;a++){var
-d=b.get(a);c.write(32,jV(d[1]));c.write(32,jV(d[2]))}break;case
+d=b.get(a);c.write(32,j8(d[1]));c.write(32,j8(d[2]))}break;case
 11:for(var
 a=0;a<b.data.length/2;a++){var
-f=b.get(a),e=fE(hm(f[1]));for(var
+f=b.get(a),e=fK(hv(f[1]));for(var
 d=0;d<8;d++)c.write(8,e[d]);var
-e=fE(hm(f[2]));for(var
+e=fK(hv(f[2]));for(var
 d=0;d<8;d++)c.write(8,e[d])}break}g[0]=(4+b.dims.length)*4;g[1]=(4+b.dims.length)*8}function
-Hn(b,a){throw[0,b,a]}function
-rd(a){if(a.length<24){for(var
+HZ(b,a){throw[0,b,a]}function
+ry(a){if(a.length<24){for(var
 b=0;b<a.length;b++)if(a.charCodeAt(b)>127)return false;return true}else
 return!/[^\x00-\x7f]/.test(a)}function
-j3(e){for(var
-j=aa,c=aa,g,f,h,a,b=0,i=e.length;b<i;b++){f=e.charCodeAt(b);if(f<bU){for(var
-d=b+1;d<i&&(f=e.charCodeAt(d))<bU;d++);if(d-b>pm){c.substr(0,1);j+=c;c=aa;j+=e.slice(b,d)}else
-c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==fy){g=h+(f<<6);if(f<pP){a=g-0x3080;if(a<bU)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==fy){g=h+(g<<6);if(f<pY){a=g-0xe2080;if(a<pH||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==fy&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
-if(a>cC)c+=String.fromCharCode(0xd7c0+(a>>10),pz+(a&0x3FF));else
-c+=String.fromCharCode(a);if(c.length>fv){c.substr(0,1);j+=c;c=aa}}return j+c}function
-ce(c,a,b){this.t=c;this.c=a;this.l=b}ce.prototype.toString=function(){switch(this.t){case
-9:return this.c;default:eE(this);case
-0:if(rd(this.c)){this.t=9;return this.c}this.t=8;case
-8:return this.c}};ce.prototype.toUtf16=function(){var
-a=this.toString();if(this.t==9)return a;return j3(a)};ce.prototype.slice=function(){var
+ke(e){for(var
+j=ad,c=ad,g,f,h,a,b=0,i=e.length;b<i;b++){f=e.charCodeAt(b);if(f<bY){for(var
+d=b+1;d<i&&(f=e.charCodeAt(d))<bY;d++);if(d-b>pH){c.substr(0,1);j+=c;c=ad;j+=e.slice(b,d)}else
+c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==fE){g=h+(f<<6);if(f<p_){a=g-0x3080;if(a<bY)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==fE){g=h+(g<<6);if(f<qh){a=g-0xe2080;if(a<p2||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==fE&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
+if(a>cJ)c+=String.fromCharCode(0xd7c0+(a>>10),pU+(a&0x3FF));else
+c+=String.fromCharCode(a);if(c.length>fB){c.substr(0,1);j+=c;c=ad}}return j+c}function
+ch(c,a,b){this.t=c;this.c=a;this.l=b}ch.prototype.toString=function(){switch(this.t){case
+9:return this.c;default:eJ(this);case
+0:if(ry(this.c)){this.t=9;return this.c}this.t=8;case
+8:return this.c}};ch.prototype.toUtf16=function(){var
+a=this.toString();if(this.t==9)return a;return ke(a)};ch.prototype.slice=function(){var
 a=this.t==4?this.c.slice():this.c;return new
-ce(this.t,a,this.l)};function
-qS(a){return new
-ce(0,a,a.length)}function
-a(a){return qS(a)}function
-j1(c,b){Hn(c,a(b))}function
-aQ(a){j1(ax.Invalid_argument,a)}function
-qN(a){switch(a){case
+ch(this.t,a,this.l)};function
+rb(a){return new
+ch(0,a,a.length)}function
+a(a){return rb(a)}function
+kc(c,b){HZ(c,a(b))}function
+aR(a){kc(ay.Invalid_argument,a)}function
+q8(a){switch(a){case
 7:case
 10:case
 11:return 2;default:return 1}}function
-GR(c,e){var
+Hr(c,e){var
 b=M,a;switch(c){case
 0:a=b.Float32Array;break;case
 1:a=b.Float64Array;break;case
@@ -171,52 +171,52 @@ b=M,a;switch(c){case
 9:a=b.Int32Array;break;case
 10:a=b.Float32Array;break;case
 11:a=b.Float64Array;break;case
-12:a=b.Uint8Array;break}if(!a)aQ("Bigarray.create: unsupported kind");var
+12:a=b.Uint8Array;break}if(!a)aR("Bigarray.create: unsupported kind");var
 d=new
-a(e*qN(c));return d}function
-jW(c){var
+a(e*q8(c));return d}function
+j9(c){var
 a=new(M.Int32Array)(1);a[0]=c;var
 b=new(M.Float32Array)(a.buffer);return b[0]}function
-fD(a){return new
+fJ(a){return new
 L(a[7]<<0|a[6]<<8|a[5]<<16,a[4]<<0|a[3]<<8|a[2]<<16,a[1]<<0|a[0]<<8)}function
-jX(d){var
-f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&jA)==0?b&cc?-Infinity:Infinity:NaN;var
-e=Math.pow(2,-24),a=(f*e+g)*e+(b&jA);if(c>0){a+=16;a*=Math.pow(2,c-qw)}else
-a*=Math.pow(2,-o4);if(b&cc)a=-a;return a}function
-jR(b){var
+j_(d){var
+f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&jN)==0?b&cf?-Infinity:Infinity:NaN;var
+e=Math.pow(2,-24),a=(f*e+g)*e+(b&jN);if(c>0){a+=16;a*=Math.pow(2,c-qR)}else
+a*=Math.pow(2,-pn);if(b&cf)a=-a;return a}function
+j4(b){var
 d=b.length,c=1;for(var
-a=0;a<d;a++){if(b[a]<0)aQ("Bigarray.create: negative dimension");c=c*b[a]}return c}function
-G7(b,a){return new
-L(b&dF,b>>>24&cD|(a&cC)<<8,a>>>16&cC)}function
-jY(a){return a.hi32()}function
-jZ(a){return a.lo32()}function
-hk(){aQ(jM)}var
-GS=hf;function
-c7(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}c7.prototype.caml_custom=GS;c7.prototype.offset=function(b){var
+a=0;a<d;a++){if(b[a]<0)aR("Bigarray.create: negative dimension");c=c*b[a]}return c}function
+HH(b,a){return new
+L(b&dJ,b>>>24&cK|(a&cJ)<<8,a>>>16&cJ)}function
+j$(a){return a.hi32()}function
+ka(a){return a.lo32()}function
+ht(){aR(jZ)}var
+Hs=ho;function
+df(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}df.prototype.caml_custom=Hs;df.prototype.offset=function(b){var
 c=0;if(typeof
 b==="number")b=[b];if(!(b
 instanceof
-Array))aQ("bigarray.js: invalid offset");if(this.dims.length!=b.length)aQ("Bigarray.get/set: bad number of dimensions");if(this.layout==0)for(var
-a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])hk();c=c*this.dims[a]+b[a]}else
+Array))aR("bigarray.js: invalid offset");if(this.dims.length!=b.length)aR("Bigarray.get/set: bad number of dimensions");if(this.layout==0)for(var
+a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])ht();c=c*this.dims[a]+b[a]}else
 for(var
-a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])hk();c=c*this.dims[a]+(b[a]-1)}return c};c7.prototype.get=function(a){switch(this.kind){case
+a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])ht();c=c*this.dims[a]+(b[a]-1)}return c};df.prototype.get=function(a){switch(this.kind){case
 7:var
-d=this.data[a*2+0],b=this.data[a*2+1];return G7(d,b);case
+d=this.data[a*2+0],b=this.data[a*2+1];return HH(d,b);case
 10:case
 11:var
-e=this.data[a*2+0],c=this.data[a*2+1];return[g6,e,c];default:return this.data[a]}};c7.prototype.set=function(a,b){switch(this.kind){case
-7:this.data[a*2+0]=jZ(b);this.data[a*2+1]=jY(b);break;case
+e=this.data[a*2+0],c=this.data[a*2+1];return[hd,e,c];default:return this.data[a]}};df.prototype.set=function(a,b){switch(this.kind){case
+7:this.data[a*2+0]=ka(b);this.data[a*2+1]=j$(b);break;case
 10:case
-11:this.data[a*2+0]=b[1];this.data[a*2+1]=b[2];break;default:this.data[a]=b;break}return 0};c7.prototype.fill=function(b){switch(this.kind){case
+11:this.data[a*2+0]=b[1];this.data[a*2+1]=b[2];break;default:this.data[a]=b;break}return 0};df.prototype.fill=function(b){switch(this.kind){case
 7:var
-c=jZ(b),e=jY(b);if(c==e)this.data.fill(c);else
+c=ka(b),e=j$(b);if(c==e)this.data.fill(c);else
 for(var
 a=0;a<this.data.length;a++)this.data[a]=a%2==0?c:e;break;case
 10:case
 11:var
 d=b[1],f=b[2];if(d==f)this.data.fill(d);else
 for(var
-a=0;a<this.data.length;a++)this.data[a]=a%2==0?d:f;break;default:this.data.fill(b);break}};c7.prototype.compare=function(b,g){if(this.layout!=b.layout||this.kind!=b.kind){var
+a=0;a<this.data.length;a++)this.data[a]=a%2==0?d:f;break;default:this.data.fill(b);break}};df.prototype.compare=function(b,g){if(this.layout!=b.layout||this.kind!=b.kind){var
 e=this.kind|this.layout<<8,f=b.kind|b.layout<<8;return f-e}if(this.dims.length!=b.dims.length)return b.dims.length-this.dims.length;for(var
 a=0;a<this.dims.length;a++)if(this.dims[a]!=b.dims[a])return this.dims[a]<b.dims[a]?-1:1;switch(this.kind){case
 0:case
@@ -236,26 +236,26 @@ a=0;a<this.data.length;a+=2){if(this.data[a+1]<b.data[a+1])return-1;if(this.data
 9:case
 12:for(var
 a=0;a<this.data.length;a++){if(this.data[a]<b.data[a])return-1;if(this.data[a]>b.data[a])return 1}break}return 0};function
-eB(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}eB.prototype=new
-c7();eB.prototype.offset=function(a){if(typeof
+eG(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}eG.prototype=new
+df();eG.prototype.offset=function(a){if(typeof
 a!=="number")if(a
 instanceof
 Array&&a.length==1)a=a[0];else
-aQ("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])hk();return a};eB.prototype.get=function(a){return this.data[a]};eB.prototype.set=function(a,b){this.data[a]=b;return 0};eB.prototype.fill=function(a){this.data.fill(a);return 0};function
-qL(c,d,a,b){var
-e=qN(c);if(jR(a)*e!=b.length)aQ("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
-eB(c,d,a,b);return new
-c7(c,d,a,b)}function
-bY(b){if(!ax.Failure)ax.Failure=[aX,a(jC),-3];j1(ax.Failure,b)}function
-qM(b,v,r){var
-i=b.read32s();if(i<0||i>16)bY("input_value: wrong number of bigarray dimensions");var
-p=b.read32s(),j=p&cD,o=p>>8&1,h=[];if(r==hf)for(var
+aR("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])ht();return a};eG.prototype.get=function(a){return this.data[a]};eG.prototype.set=function(a,b){this.data[a]=b;return 0};eG.prototype.fill=function(a){this.data.fill(a);return 0};function
+q6(c,d,a,b){var
+e=q8(c);if(j4(a)*e!=b.length)aR("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
+eG(c,d,a,b);return new
+df(c,d,a,b)}function
+b2(b){if(!ay.Failure)ay.Failure=[aZ,a(jP),-3];kc(ay.Failure,b)}function
+q7(b,v,r){var
+i=b.read32s();if(i<0||i>16)b2("input_value: wrong number of bigarray dimensions");var
+p=b.read32s(),j=p&cK,o=p>>8&1,h=[];if(r==ho)for(var
 a=0;a<i;a++){var
-n=b.read16u();if(n==cC){var
-t=b.read32u(),u=b.read32u();if(t!=0)bY("input_value: bigarray dimension overflow in 32bit");n=u}h.push(n)}else
+n=b.read16u();if(n==cJ){var
+t=b.read32u(),u=b.read32u();if(t!=0)b2("input_value: bigarray dimension overflow in 32bit");n=u}h.push(n)}else
 for(var
 a=0;a<i;a++)h.push(b.read32u());var
-d=jR(h),f=GR(j,d),g=qL(j,o,h,f);switch(j){case
+d=j4(h),f=Hr(j,d),g=q6(j,o,h,f);switch(j){case
 2:for(var
 a=0;a<d;a++)f[a]=b.read8s();break;case
 3:case
@@ -269,129 +269,129 @@ a=0;a<d;a++)f[a]=b.read16u();break;case
 a=0;a<d;a++)f[a]=b.read32s();break;case
 8:case
 9:var
-s=b.read8u();if(s)bY("input_value: cannot read bigarray with 64-bit OCaml ints");for(var
+s=b.read8u();if(s)b2("input_value: cannot read bigarray with 64-bit OCaml ints");for(var
 a=0;a<d;a++)f[a]=b.read32s();break;case
 7:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-q=fD(e);g.set(a,q)}break;case
+q=fJ(e);g.set(a,q)}break;case
 1:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-k=jX(fD(e));g.set(a,k)}break;case
+k=j_(fJ(e));g.set(a,k)}break;case
 0:for(var
 a=0;a<d;a++){var
-k=jW(b.read32s());g.set(a,k)}break;case
+k=j9(b.read32s());g.set(a,k)}break;case
 10:for(var
 a=0;a<d;a++){var
-m=jW(b.read32s()),l=jW(b.read32s());g.set(a,[g6,m,l])}break;case
+m=j9(b.read32s()),l=j9(b.read32s());g.set(a,[hd,m,l])}break;case
 11:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-m=jX(fD(e));for(var
+m=j_(fJ(e));for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-l=jX(fD(e));g.set(a,[g6,m,l])}break}v[0]=(4+i)*4;return qL(j,o,h,f)}function
-qK(a,b,c){return a.compare(b,c)}function
-q4(a,b){return Math.imul(a,b)}function
-cE(b,a){a=q4(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=q4(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
-G4(a,b){a=cE(a,jZ(b));a=cE(a,jY(b));return a}function
-q0(a,b){return G4(a,hm(b))}function
-qO(c){var
-b=jR(c.dims),d=0;switch(c.kind){case
+l=j_(fJ(e));g.set(a,[hd,m,l])}break}v[0]=(4+i)*4;return q6(j,o,h,f)}function
+q5(a,b,c){return a.compare(b,c)}function
+rn(a,b){return Math.imul(a,b)}function
+cL(b,a){a=rn(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=rn(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
+HE(a,b){a=cL(a,ka(b));a=cL(a,j$(b));return a}function
+rj(a,b){return HE(a,hv(b))}function
+q9(c){var
+b=j4(c.dims),d=0;switch(c.kind){case
 2:case
 3:case
-12:if(b>pC)b=pC;var
-e=0,a=0;for(a=0;a+4<=c.data.length;a+=4){e=c.data[a+0]|c.data[a+1]<<8|c.data[a+2]<<16|c.data[a+3]<<24;d=cE(d,e)}e=0;switch(b&3){case
+12:if(b>pX)b=pX;var
+e=0,a=0;for(a=0;a+4<=c.data.length;a+=4){e=c.data[a+0]|c.data[a+1]<<8|c.data[a+2]<<16|c.data[a+3]<<24;d=cL(d,e)}e=0;switch(b&3){case
 3:e=c.data[a+2]<<16;case
 2:e|=c.data[a+1]<<8;case
-1:e|=c.data[a+0];d=cE(d,e)}break;case
+1:e|=c.data[a+0];d=cL(d,e)}break;case
 4:case
-5:if(b>fy)b=fy;var
-e=0,a=0;for(a=0;a+2<=c.data.length;a+=2){e=c.data[a+0]|c.data[a+1]<<16;d=cE(d,e)}if((b&1)!=0)d=cE(d,c.data[a]);break;case
+5:if(b>fE)b=fE;var
+e=0,a=0;for(a=0;a+2<=c.data.length;a+=2){e=c.data[a+0]|c.data[a+1]<<16;d=cL(d,e)}if((b&1)!=0)d=cL(d,c.data[a]);break;case
 6:if(b>64)b=64;for(var
-a=0;a<b;a++)d=cE(d,c.data[a]);break;case
+a=0;a<b;a++)d=cL(d,c.data[a]);break;case
 8:case
 9:if(b>64)b=64;for(var
-a=0;a<b;a++)d=cE(d,c.data[a]);break;case
+a=0;a<b;a++)d=cL(d,c.data[a]);break;case
 7:if(b>32)b=32;b*=2;for(var
-a=0;a<b;a++)d=cE(d,c.data[a]);break;case
+a=0;a<b;a++)d=cL(d,c.data[a]);break;case
 10:b*=2;case
 0:if(b>64)b=64;for(var
-a=0;a<b;a++)d=q0(d,c.data[a]);break;case
+a=0;a<b;a++)d=rj(d,c.data[a]);break;case
 11:b*=2;case
 1:if(b>32)b=32;for(var
-a=0;a<b;a++)d=q0(d,c.data[a]);break}return d}function
-G5(a,b){b[0]=4;return a.read32s()}function
-Hi(a,b){switch(a.read8u()){case
+a=0;a<b;a++)d=rj(d,c.data[a]);break}return d}function
+HF(a,b){b[0]=4;return a.read32s()}function
+HU(a,b){switch(a.read8u()){case
 1:b[0]=4;return a.read32s();case
-2:bY("input_value: native integer value too large");default:bY("input_value: ill-formed native integer")}}function
-G_(c,d){var
+2:b2("input_value: native integer value too large");default:b2("input_value: ill-formed native integer")}}function
+HK(c,d){var
 b=new
 Array(8);for(var
-a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return fD(b)}function
-G9(e,d,b){var
-c=fE(d);for(var
+a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return fJ(b)}function
+HJ(e,d,b){var
+c=fK(d);for(var
 a=0;a<8;a++)e.write(8,c[a]);b[0]=8;b[1]=8}function
-G6(a,b,c){return a.compare(b)}function
-G8(a){return a.lo32()^a.hi32()}var
-qV={"_j":{deserialize:G_,serialize:G9,fixed_length:8,compare:G6,hash:G8},"_i":{deserialize:G5,fixed_length:4},"_n":{deserialize:Hi,fixed_length:4},"_bigarray":{deserialize:function(a,b){return qM(a,b,"_bigarray")},serialize:qP,compare:qK,hash:qO},"_bigarr02":{deserialize:function(a,b){return qM(a,b,hf)},serialize:qP,compare:qK,hash:qO}};function
-jU(a){return qV[a.caml_custom]&&qV[a.caml_custom].compare}function
-qT(f,c,d,e){var
-b=jU(c);if(b){var
+HG(a,b,c){return a.compare(b)}function
+HI(a){return a.lo32()^a.hi32()}var
+re={"_j":{deserialize:HK,serialize:HJ,fixed_length:8,compare:HG,hash:HI},"_i":{deserialize:HF,fixed_length:4},"_n":{deserialize:HU,fixed_length:4},"_bigarray":{deserialize:function(a,b){return q7(a,b,"_bigarray")},serialize:q_,compare:q5,hash:q9},"_bigarr02":{deserialize:function(a,b){return q7(a,b,ho)},serialize:q_,compare:q5,hash:q9}};function
+j7(a){return re[a.caml_custom]&&re[a.caml_custom].compare}function
+rc(f,c,d,e){var
+b=j7(c);if(b){var
 a=d>0?b(c,f,e):b(f,c,e);if(e&&a!=a)return d;if(+a!=+a)return+a;if((a|0)!=0)return a|0}return d}function
-j0(a){return a
+kb(a){return a
 instanceof
-ce}function
-q2(a){return j0(a)}function
-qU(a){if(typeof
-a==="number")return hd;else
-if(j0(a))return 252;else
-if(q2(a))return 1252;else
+ch}function
+rl(a){return kb(a)}function
+rd(a){if(typeof
+a==="number")return hm;else
+if(kb(a))return 252;else
+if(rl(a))return 1252;else
 if(a
 instanceof
 Array&&a[0]===a[0]>>>0&&a[0]<=255){var
-b=a[0]|0;return b==g6?0:b}else
+b=a[0]|0;return b==hd?0:b}else
 if(a
 instanceof
-String)return p9;else
+String)return qs;else
 if(typeof
-a=="string")return p9;else
+a=="string")return qs;else
 if(a
 instanceof
-Number)return hd;else
-if(a&&a.caml_custom)return jE;else
+Number)return hm;else
+if(a&&a.caml_custom)return jR;else
 if(a&&a.compare)return 1256;else
 if(typeof
 a=="function")return 1247;else
 if(typeof
 a=="symbol")return 1251;return 1001}function
-G$(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
-qR(a,b){a.t&6&&eE(a);b.t&6&&eE(b);return a.c<b.c?-1:a.c>b.c?1:0}function
-q$(a,b){return qR(a,b)}function
-jT(a,b,d){var
+HL(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
+ra(a,b){a.t&6&&eJ(a);b.t&6&&eJ(b);return a.c<b.c?-1:a.c>b.c?1:0}function
+ru(a,b){return ra(a,b)}function
+j6(a,b,d){var
 e=[];for(;;){if(!(d&&a===b)){var
-f=qU(a);if(f==pI){a=a[1];continue}var
-g=qU(b);if(g==pI){b=b[1];continue}if(f!==g){if(f==hd){if(g==jE)return qT(a,b,-1,d);return-1}if(g==hd){if(f==jE)return qT(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
-247:aQ(jt);break;case
+f=rd(a);if(f==p3){a=a[1];continue}var
+g=rd(b);if(g==p3){b=b[1];continue}if(f!==g){if(f==hm){if(g==jR)return rc(a,b,-1,d);return-1}if(g==hm){if(f==jR)return rc(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
+247:aR(jG);break;case
 248:var
-c=G$(a[2],b[2]);if(c!=0)return c|0;break;case
-249:aQ(jt);break;case
-250:aQ("equal: got Forward_tag, should not happen");break;case
-251:aQ("equal: abstract value");break;case
+c=HL(a[2],b[2]);if(c!=0)return c|0;break;case
+249:aR(jG);break;case
+250:aR("equal: got Forward_tag, should not happen");break;case
+251:aR("equal: abstract value");break;case
 252:if(a!==b){var
-c=qR(a,b);if(c!=0)return c|0}break;case
-253:aQ("equal: got Double_tag, should not happen");break;case
-254:aQ("equal: got Double_array_tag, should not happen");break;case
-255:aQ("equal: got Custom_tag, should not happen");break;case
-1247:aQ(jt);break;case
+c=ra(a,b);if(c!=0)return c|0}break;case
+253:aR("equal: got Double_tag, should not happen");break;case
+254:aR("equal: got Double_array_tag, should not happen");break;case
+255:aR("equal: got Custom_tag, should not happen");break;case
+1247:aR(jG);break;case
 1255:var
-i=jU(a);if(i!=jU(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)aQ("compare: abstract value");var
+i=j7(a);if(i!=j7(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)aR("compare: abstract value");var
 c=i(a,b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
 1256:var
 c=a.compare(b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
@@ -399,182 +399,182 @@ c=a.compare(b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;
 1001:if(a<b)return-1;if(a>b)return 1;if(a!=b){if(!d)return NaN;if(a==a)return 1;if(b==b)return-1}break;case
 1251:if(a!==b){if(!d)return NaN;return 1}break;case
 1252:var
-a=eF(a),b=eF(b);if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
+a=eK(a),b=eK(b);if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
 12520:var
 a=a.toString(),b=b.toString();if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
 246:case
 254:default:if(a.length!=b.length)return a.length<b.length?-1:1;if(a.length>1)e.push(a,b,1);break}}if(e.length==0)return 0;var
 h=e.pop();b=e.pop();a=e.pop();if(h+1<a.length)e.push(a,b,h+1);a=a[h];b=b[h]}}function
-GZ(a,b){return jT(a,b,true)}function
-cg(a){if(a<0)aQ("Bytes.create");return new
-ce(a?2:9,aa,a)}function
-qW(a,b){return+(jT(a,b,false)==0)}function
-G1(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=aa;a.t=2}else{a.c=q_(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)hl(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}var
-Hj=0;function
-qY(){return Hj++}function
-Hb(a){return a.toUtf16()}function
-fF(){return typeof
+Hz(a,b){return j6(a,b,true)}function
+cj(a){if(a<0)aR("Bytes.create");return new
+ch(a?2:9,ad,a)}function
+rf(a,b){return+(j6(a,b,false)==0)}function
+HB(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=ad;a.t=2}else{a.c=rt(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)hu(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}var
+HV=0;function
+rh(){return HV++}function
+HN(a){return a.toUtf16()}function
+fL(){return typeof
 M.process!=="undefined"&&typeof
 M.process.versions!=="undefined"&&typeof
 M.process.versions.node!=="undefined"}function
-Hw(){function
-a(a){if(a.charAt(0)===bX)return[aa,a.substring(1)];return}function
+H8(){function
+a(a){if(a.charAt(0)===b1)return[ad,a.substring(1)];return}function
 b(c){var
-g=/^([a-zA-Z]:|[\\/]{2}[^\\/]+[\\/]+[^\\/]+)?([\\/])?([\s\S]*?)$/,a=g.exec(c),b=a[1]||aa,e=Boolean(b&&b.charAt(1)!==":");if(Boolean(a[2]||e)){var
-d=a[1]||aa,f=a[2]||aa;return[d,c.substring(d.length+f.length)]}return}return fF()&&M.process&&M.process.platform?M.process.platform==="win32"?b:a:a}var
-j7=Hw();function
-ra(a){return a.slice(-1)!==bX?a+bX:a}if(fF()&&M.process&&M.process.cwd)var
-fC=M.process.cwd().replace(/\\/g,bX);else
+g=/^([a-zA-Z]:|[\\/]{2}[^\\/]+[\\/]+[^\\/]+)?([\\/])?([\s\S]*?)$/,a=g.exec(c),b=a[1]||ad,e=Boolean(b&&b.charAt(1)!==":");if(Boolean(a[2]||e)){var
+d=a[1]||ad,f=a[2]||ad;return[d,c.substring(d.length+f.length)]}return}return fL()&&M.process&&M.process.platform?M.process.platform==="win32"?b:a:a}var
+ki=H8();function
+rv(a){return a.slice(-1)!==b1?a+b1:a}if(fL()&&M.process&&M.process.cwd)var
+fI=M.process.cwd().replace(/\\/g,b1);else
 var
-fC="/static";fC=ra(fC);function
-Hd(a){a=Hb(a);if(!j7(a))a=fC+a;var
-e=j7(a),d=e[1].split(bX),b=[];for(var
+fI="/static";fI=rv(fI);function
+HP(a){a=HN(a);if(!ki(a))a=fI+a;var
+e=ki(a),d=e[1].split(b1),b=[];for(var
 c=0;c<d.length;c++)switch(d[c]){case"..":if(b.length>1)b.pop();break;case".":break;default:b.push(d[c]);break}b.unshift(e[0]);b.orig=a;return b}function
-Hr(e){for(var
-f=aa,b=f,a,h,c=0,g=e.length;c<g;c++){a=e.charCodeAt(c);if(a<bU){for(var
-d=c+1;d<g&&(a=e.charCodeAt(d))<bU;d++);if(d-c>pm){b.substr(0,1);f+=b;b=aa;f+=e.slice(c,d)}else
-b+=e.slice(c,d);if(d==g)break;c=d}if(a<pH){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(bU|a&ey)}else
-if(a<0xd800||a>=pN)b+=String.fromCharCode(pP|a>>12,bU|a>>6&ey,bU|a&ey);else
-if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<pz||h>pN)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(pY|a>>18,bU|a>>12&ey,bU|a>>6&ey,bU|a&ey)}if(b.length>fv){b.substr(0,1);f+=b;b=aa}}return f+b}function
-GW(a){var
-b=9;if(!rd(a))b=8,a=Hr(a);return new
-ce(b,a,a.length)}function
-eG(a){return GW(a)}var
-Hz=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",pt,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",jB,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",jG,py,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
-dJ(d,f,e,a){var
-b=Hz.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
-c=[b,eG(f||aa),eG(e||aa)];return c}var
-q5={};function
-dG(a){return q5[a]}function
-dH(b,a){throw[0,b].concat(a)}function
-GV(a){return new
-ce(4,a,a.length)}function
-ao(a){j1(ax.Sys_error,a)}function
-Hm(a){ao(a+g4)}function
-qQ(){aQ(jM)}function
-GU(b,a){if(a>>>0>=b.l)qQ();return jS(b,a)}function
-hp(a){return a.l}function
-qJ(){}function
-aO(a){this.data=a}aO.prototype=new
-qJ();aO.prototype.truncate=function(a){var
-b=this.data;this.data=cg(a|0);fB(b,0,this.data,0,a)};aO.prototype.length=function(){return hp(this.data)};aO.prototype.write=function(b,d,g,a){var
+H3(e){for(var
+f=ad,b=f,a,h,c=0,g=e.length;c<g;c++){a=e.charCodeAt(c);if(a<bY){for(var
+d=c+1;d<g&&(a=e.charCodeAt(d))<bY;d++);if(d-c>pH){b.substr(0,1);f+=b;b=ad;f+=e.slice(c,d)}else
+b+=e.slice(c,d);if(d==g)break;c=d}if(a<p2){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(bY|a&eD)}else
+if(a<0xd800||a>=p8)b+=String.fromCharCode(p_|a>>12,bY|a>>6&eD,bY|a&eD);else
+if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<pU||h>p8)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(qh|a>>18,bY|a>>12&eD,bY|a>>6&eD,bY|a&eD)}if(b.length>fB){b.substr(0,1);f+=b;b=ad}}return f+b}function
+Hw(a){var
+b=9;if(!ry(a))b=8,a=H3(a);return new
+ch(b,a,a.length)}function
+eL(a){return Hw(a)}var
+H$=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",pO,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",jO,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",jT,pT,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
+dN(d,f,e,a){var
+b=H$.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
+c=[b,eL(f||ad),eL(e||ad)];return c}var
+ro={};function
+dK(a){return ro[a]}function
+dL(b,a){throw[0,b].concat(a)}function
+Hv(a){return new
+ch(4,a,a.length)}function
+ap(a){kc(ay.Sys_error,a)}function
+HY(a){ap(a+hb)}function
+q$(){aR(jZ)}function
+Hu(b,a){if(a>>>0>=b.l)q$();return j5(b,a)}function
+hy(a){return a.l}function
+q4(){}function
+aP(a){this.data=a}aP.prototype=new
+q4();aP.prototype.truncate=function(a){var
+b=this.data;this.data=cj(a|0);fH(b,0,this.data,0,a)};aP.prototype.length=function(){return hy(this.data)};aP.prototype.write=function(b,d,g,a){var
 c=this.length();if(b+a>=c){var
-e=cg(b+a),f=this.data;this.data=e;fB(f,0,this.data,0,c)}eC(d,g,this.data,b,a);return 0};aO.prototype.read=function(c,a,d,b){var
-e=this.length();fB(this.data,c,a,d,b);return 0};aO.prototype.read_one=function(a){return GU(this.data,a)};aO.prototype.close=function(){};aO.prototype.constructor=aO;function
-a7(b,a){this.content={};this.root=b;this.lookupFun=a}a7.prototype.nm=function(a){return this.root+a};a7.prototype.create_dir_if_needed=function(d){var
-c=d.split(bX),b=aa;for(var
-a=0;a<c.length-1;a++){b+=c[a]+bX;if(this.content[b])continue;this.content[b]=Symbol("directory")}};a7.prototype.slash=function(a){return/\/$/.test(a)?a:a+bX};a7.prototype.lookup=function(b){if(!this.content[b]&&this.lookupFun){var
+e=cj(b+a),f=this.data;this.data=e;fH(f,0,this.data,0,c)}eH(d,g,this.data,b,a);return 0};aP.prototype.read=function(c,a,d,b){var
+e=this.length();fH(this.data,c,a,d,b);return 0};aP.prototype.read_one=function(a){return Hu(this.data,a)};aP.prototype.close=function(){};aP.prototype.constructor=aP;function
+a8(b,a){this.content={};this.root=b;this.lookupFun=a}a8.prototype.nm=function(a){return this.root+a};a8.prototype.create_dir_if_needed=function(d){var
+c=d.split(b1),b=ad;for(var
+a=0;a<c.length-1;a++){b+=c[a]+b1;if(this.content[b])continue;this.content[b]=Symbol("directory")}};a8.prototype.slash=function(a){return/\/$/.test(a)?a:a+b1};a8.prototype.lookup=function(b){if(!this.content[b]&&this.lookupFun){var
 c=this.lookupFun(a(this.root),a(b));if(c!==0){this.create_dir_if_needed(b);this.content[b]=new
-aO(eD(c[1]))}}};a7.prototype.exists=function(a){if(a==aa)return 1;var
-b=this.slash(a);if(this.content[b])return 1;this.lookup(a);return this.content[a]?1:0};a7.prototype.mkdir=function(c,e,d){var
-b=d&&dG(jx);if(this.exists(c))if(b)dH(b,dJ(pt,jw,this.nm(c)));else
-ao(c+": File exists");var
-a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||aa;if(!this.exists(a))if(b)dH(b,dJ(jB,jw,this.nm(a)));else
-ao(a+g4);if(!this.is_dir(a))if(b)dH(b,dJ(jG,jw,this.nm(a)));else
-ao(a+jO);this.create_dir_if_needed(this.slash(c))};a7.prototype.rmdir=function(a,f){var
-b=f&&dG(jx),c=a==aa?aa:this.slash(a),e=new
-RegExp(jJ+c+pA);if(!this.exists(a))if(b)dH(b,dJ(jB,ju,this.nm(a)));else
-ao(a+g4);if(!this.is_dir(a))if(b)dH(b,dJ(jG,ju,this.nm(a)));else
-ao(a+jO);for(var
+aP(eI(c[1]))}}};a8.prototype.exists=function(a){if(a==ad)return 1;var
+b=this.slash(a);if(this.content[b])return 1;this.lookup(a);return this.content[a]?1:0};a8.prototype.mkdir=function(c,e,d){var
+b=d&&dK(jK);if(this.exists(c))if(b)dL(b,dN(pO,jJ,this.nm(c)));else
+ap(c+": File exists");var
+a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||ad;if(!this.exists(a))if(b)dL(b,dN(jO,jJ,this.nm(a)));else
+ap(a+hb);if(!this.is_dir(a))if(b)dL(b,dN(jT,jJ,this.nm(a)));else
+ap(a+j1);this.create_dir_if_needed(this.slash(c))};a8.prototype.rmdir=function(a,f){var
+b=f&&dK(jK),c=a==ad?ad:this.slash(a),e=new
+RegExp(jW+c+pV);if(!this.exists(a))if(b)dL(b,dN(jO,jH,this.nm(a)));else
+ap(a+hb);if(!this.is_dir(a))if(b)dL(b,dN(jT,jH,this.nm(a)));else
+ap(a+j1);for(var
 d
 in
-this.content)if(d.match(e))if(b)dH(b,dJ(py,ju,this.nm(a)));else
-ao(this.nm(a)+": Directory not empty");delete
-this.content[c]};a7.prototype.readdir=function(a){var
-f=a==aa?aa:this.slash(a);if(!this.exists(a))ao(a+g4);if(!this.is_dir(a))ao(a+jO);var
+this.content)if(d.match(e))if(b)dL(b,dN(pT,jH,this.nm(a)));else
+ap(this.nm(a)+": Directory not empty");delete
+this.content[c]};a8.prototype.readdir=function(a){var
+f=a==ad?ad:this.slash(a);if(!this.exists(a))ap(a+hb);if(!this.is_dir(a))ap(a+j1);var
 g=new
-RegExp(jJ+f+pA),d={},c=[];for(var
+RegExp(jW+f+pV),d={},c=[];for(var
 e
 in
 this.content){var
-b=e.match(g);if(b&&!d[b[1]]){d[b[1]]=true;c.push(b[1])}}return c};a7.prototype.is_dir=function(a){if(a==aa)return true;var
-b=this.slash(a);return this.content[b]?1:0};a7.prototype.unlink=function(a){var
+b=e.match(g);if(b&&!d[b[1]]){d[b[1]]=true;c.push(b[1])}}return c};a8.prototype.is_dir=function(a){if(a==ad)return true;var
+b=this.slash(a);return this.content[b]?1:0};a8.prototype.unlink=function(a){var
 b=this.content[a]?true:false;delete
-this.content[a];return b};a7.prototype.open=function(a,b){if(b.rdonly&&b.wronly)ao(this.nm(a)+qo);if(b.text&&b.binary)ao(this.nm(a)+pe);this.lookup(a);if(this.content[a]){if(this.is_dir(a))ao(this.nm(a)+" : is a directory");if(b.create&&b.excl)ao(this.nm(a)+qk);var
+this.content[a];return b};a8.prototype.open=function(a,b){if(b.rdonly&&b.wronly)ap(this.nm(a)+qJ);if(b.text&&b.binary)ap(this.nm(a)+pz);this.lookup(a);if(this.content[a]){if(this.is_dir(a))ap(this.nm(a)+" : is a directory");if(b.create&&b.excl)ap(this.nm(a)+qF);var
 c=this.content[a];if(b.truncate)c.truncate();return c}else
 if(b.create){this.create_dir_if_needed(a);this.content[a]=new
-aO(cg(0));return this.content[a]}else
-Hm(this.nm(a))};a7.prototype.register=function(c,a){var
-b;if(this.content[c])ao(this.nm(c)+qk);if(j0(a))b=new
-aO(a);if(q2(a))b=new
-aO(eD(a));else
+aP(cj(0));return this.content[a]}else
+HY(this.nm(a))};a8.prototype.register=function(c,a){var
+b;if(this.content[c])ap(this.nm(c)+qF);if(kb(a))b=new
+aP(a);if(rl(a))b=new
+aP(eI(a));else
 if(a
 instanceof
 Array)b=new
-aO(GV(a));else
+aP(Hv(a));else
 if(typeof
 a==="string")b=new
-aO(qS(a));else
+aP(rb(a));else
 if(a.toString){var
-d=eD(eG(a.toString()));b=new
-aO(d)}if(b){this.create_dir_if_needed(c);this.content[c]=b}else
-ao(this.nm(c)+" : registering file with invalid content type")};a7.prototype.constructor=a7;function
-au(a){return hp(a)}function
-dI(b,a){return jS(b,a)}function
-GQ(d){var
+d=eI(eL(a.toString()));b=new
+aP(d)}if(b){this.create_dir_if_needed(c);this.content[c]=b}else
+ap(this.nm(c)+" : registering file with invalid content type")};a8.prototype.constructor=a8;function
+au(a){return hy(a)}function
+dM(b,a){return j5(b,a)}function
+Hq(d){var
 c=au(d),b=new
-Array(c),a=0;for(;a<c;a++)b[a]=dI(d,a);return b}function
-GP(a){if(a.t!=4)hl(a);return a.c}function
-GY(a,c,b){b&=cD;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}hl(a)}a.c[c]=b;return 0}function
-GX(b,a,c){if(a>>>0>=b.l)qQ();return GY(b,a,c)}function
-cf(a){this.fs=require("fs");this.fd=a}cf.prototype=new
-qJ();cf.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){ao(a.toString())}};cf.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){ao(a.toString())}};cf.prototype.write=function(f,b,c,e){var
-a=GQ(b);if(!(a
+Array(c),a=0;for(;a<c;a++)b[a]=dM(d,a);return b}function
+Hp(a){if(a.t!=4)hu(a);return a.c}function
+Hy(a,c,b){b&=cK;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}hu(a)}a.c[c]=b;return 0}function
+Hx(b,a,c){if(a>>>0>=b.l)q$();return Hy(b,a,c)}function
+ci(a){this.fs=require("fs");this.fd=a}ci.prototype=new
+q4();ci.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){ap(a.toString())}};ci.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){ap(a.toString())}};ci.prototype.write=function(f,b,c,e){var
+a=Hq(b);if(!(a
 instanceof
 M.Uint8Array))a=new(M.Uint8Array)(a);var
-d=M.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){ao(a.toString())}return 0};cf.prototype.read=function(g,d,c,f){var
-a=GP(d);if(!(a
+d=M.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){ap(a.toString())}return 0};ci.prototype.read=function(g,d,c,f){var
+a=Hp(d);if(!(a
 instanceof
 M.Uint8Array))a=new(M.Uint8Array)(a);var
-e=M.Buffer.from(a);try{this.fs.readSync(this.fd,e,c,f,g)}catch(a){ao(a.toString())}for(var
-b=0;b<f;b++)GX(d,c+b,e[c+b]);return 0};cf.prototype.read_one=function(c){var
-b=new(M.Uint8Array)(1),a=M.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){ao(a.toString())}return a[0]};cf.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){ao(a.toString())}};cf.prototype.constructor=cf;function
-aP(a){this.fs=require("fs");this.root=a}aP.prototype.nm=function(a){return this.root+a};aP.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};aP.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};aP.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};aP.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};aP.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){ao(a.toString())}};aP.prototype.unlink=function(a,c){try{var
-b=this.fs.existsSync(this.nm(a))?1:0;this.fs.unlinkSync(this.nm(a));return b}catch(a){this.raise_nodejs_error(a,c)}};aP.prototype.open=function(f,c,g){var
+e=M.Buffer.from(a);try{this.fs.readSync(this.fd,e,c,f,g)}catch(a){ap(a.toString())}for(var
+b=0;b<f;b++)Hx(d,c+b,e[c+b]);return 0};ci.prototype.read_one=function(c){var
+b=new(M.Uint8Array)(1),a=M.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){ap(a.toString())}return a[0]};ci.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){ap(a.toString())}};ci.prototype.constructor=ci;function
+aQ(a){this.fs=require("fs");this.root=a}aQ.prototype.nm=function(a){return this.root+a};aQ.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};aQ.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};aQ.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};aQ.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};aQ.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){ap(a.toString())}};aQ.prototype.unlink=function(a,c){try{var
+b=this.fs.existsSync(this.nm(a))?1:0;this.fs.unlinkSync(this.nm(a));return b}catch(a){this.raise_nodejs_error(a,c)}};aQ.prototype.open=function(f,c,g){var
 a=require("constants"),b=0;for(var
 e
 in
 c)switch(e){case"rdonly":b|=a.O_RDONLY;break;case"wronly":b|=a.O_WRONLY;break;case"append":b|=a.O_WRONLY|a.O_APPEND;break;case"create":b|=a.O_CREAT;break;case"truncate":b|=a.O_TRUNC;break;case"excl":b|=a.O_EXCL;break;case"binary":b|=a.O_BINARY;break;case"text":b|=a.O_TEXT;break;case"nonblock":b|=a.O_NONBLOCK;break}try{var
 d=this.fs.openSync(this.nm(f),b);return new
-cf(d)}catch(a){this.raise_nodejs_error(a,g)}};aP.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};aP.prototype.stat=function(b,c){try{var
-a=this.fs.statSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aP.prototype.lstat=function(b,c){try{var
-a=this.fs.lstatSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aP.prototype.symlink=function(d,c,a,b){try{this.fs.symlinkSync(this.nm(c),this.nm(a),d?"dir":"file");return 0}catch(a){this.raise_nodejs_error(a,b)}};aP.prototype.readlink=function(b,c){try{var
-a=this.fs.readlinkSync(this.nm(b),o1);return eG(a)}catch(a){this.raise_nodejs_error(a,c)}};aP.prototype.raise_nodejs_error=function(a,d){var
-b=dG(jx);if(d&&b){var
-c=dJ(a.code,a.syscall,a.path,a.errno);dH(b,c)}else
-ao(a.toString())};aP.prototype.stats_from_js=function(a){var
+ci(d)}catch(a){this.raise_nodejs_error(a,g)}};aQ.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};aQ.prototype.stat=function(b,c){try{var
+a=this.fs.statSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aQ.prototype.lstat=function(b,c){try{var
+a=this.fs.lstatSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aQ.prototype.symlink=function(d,c,a,b){try{this.fs.symlinkSync(this.nm(c),this.nm(a),d?"dir":"file");return 0}catch(a){this.raise_nodejs_error(a,b)}};aQ.prototype.readlink=function(b,c){try{var
+a=this.fs.readlinkSync(this.nm(b),pk);return eL(a)}catch(a){this.raise_nodejs_error(a,c)}};aQ.prototype.raise_nodejs_error=function(a,d){var
+b=dK(jK);if(d&&b){var
+c=dN(a.code,a.syscall,a.path,a.errno);dL(b,c)}else
+ap(a.toString())};aQ.prototype.stats_from_js=function(a){var
 b;if(a.isFile())b=0;else
 if(a.isDirectory())b=1;else
 if(a.isCharacterDevice())b=2;else
 if(a.isBlockDevice())b=3;else
 if(a.isSymbolicLink())b=4;else
 if(a.isFIFO())b=5;else
-if(a.isSocket())b=6;return[0,a.dev,a.ino,b,a.mode,a.nlink,a.uid,a.gid,a.rdev,a.size,a.atimeMs,a.mtimeMs,a.ctimeMs]};aP.prototype.constructor=aP;function
-qZ(b){var
-a=j7(b);if(!a)return;return a[0]+bX}var
-hq=qZ(fC)||bY("unable to compute caml_root"),eH=[];if(fF())eH.push({path:hq,device:new
-aP(hq)});else
-eH.push({path:hq,device:new
-a7(hq)});eH.push({path:o_,device:new
-a7(o_)});function
-rh(b){var
-g=Hd(b),b=g.join(bX),f=ra(b),c;for(var
-e=0;e<eH.length;e++){var
-a=eH[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&fF()){var
-d=qZ(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
+if(a.isSocket())b=6;return[0,a.dev,a.ino,b,a.mode,a.nlink,a.uid,a.gid,a.rdev,a.size,a.atimeMs,a.mtimeMs,a.ctimeMs]};aQ.prototype.constructor=aQ;function
+ri(b){var
+a=ki(b);if(!a)return;return a[0]+b1}var
+hz=ri(fI)||b2("unable to compute caml_root"),eM=[];if(fL())eM.push({path:hz,device:new
+aQ(hz)});else
+eM.push({path:hz,device:new
+a8(hz)});eM.push({path:pt,device:new
+a8(pt)});function
+rC(b){var
+g=HP(b),b=g.join(b1),f=rv(b),c;for(var
+e=0;e<eM.length;e++){var
+a=eM[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&fL()){var
+d=ri(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
 a={path:d,device:new
-aP(d)};eH.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;ao("no device found for "+f)}function
-G0(c,b){var
-a=rh(c);if(!a.device.register)bY("cannot register file");a.device.register(a.rest,b);return 0}function
-rc(c,b){var
-c=a(c),b=a(b);return G0(c,b)}function
-G3(){var
+aQ(d)};eM.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;ap("no device found for "+f)}function
+HA(c,b){var
+a=rC(c);if(!a.device.register)b2("cannot register file");a.device.register(a.rest,b);return 0}function
+rx(c,b){var
+c=a(c),b=a(b);return HA(c,b)}function
+HD(){var
 b=M.caml_fs_tmp;if(b)for(var
-a=0;a<b.length;a++)rc(b[a].name,b[a].content);M.jsoo_create_file=rc;M.caml_fs_tmp=[];return 0}function
-Hk(c){var
-a=0,e=au(c),b=10,d=1;if(e>0)switch(dI(c,a)){case
+a=0;a<b.length;a++)rx(b[a].name,b[a].content);M.jsoo_create_file=rx;M.caml_fs_tmp=[];return 0}function
+HW(c){var
+a=0,e=au(c),b=10,d=1;if(e>0)switch(dM(c,a)){case
 45:a++;d=-1;break;case
-43:a++;d=1;break}if(a+1<e&&dI(c,a)==48)switch(dI(c,a+1)){case
+43:a++;d=1;break}if(a+1<e&&dM(c,a)==48)switch(dM(c,a+1)){case
 120:case
 88:b=16;a+=2;break;case
 111:case
@@ -583,33 +583,33 @@ a=0,e=au(c),b=10,d=1;if(e>0)switch(dI(c,a)){case
 66:b=2;a+=2;break;case
 117:case
 85:a+=2;break}return[a,d,b]}function
-q6(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=qA)return a-87;return-1}function
-ho(f){var
-h=Hk(f),c=h[0],i=h[1],d=h[2],g=au(f),j=-1>>>0,e=c<g?dI(f,c):0,b=q6(e);if(b<0||b>=d)bY(g9);var
-a=b;for(c++;c<g;c++){e=dI(f,c);if(e==95)continue;b=q6(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)bY(g9)}if(c!=g)bY(g9);a=i*a;if(d==10&&(a|0)!=a)bY(g9);return a|0}function
-Hc(a,b){return+(jT(a,b,false)<=0)}function
-He(a,d){if(a<0)hk();var
+rp(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=qV)return a-87;return-1}function
+hx(f){var
+h=HW(f),c=h[0],i=h[1],d=h[2],g=au(f),j=-1>>>0,e=c<g?dM(f,c):0,b=rp(e);if(b<0||b>=d)b2(hg);var
+a=b;for(c++;c<g;c++){e=dM(f,c);if(e==95)continue;b=rp(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)b2(hg)}if(c!=g)b2(hg);a=i*a;if(d==10&&(a|0)!=a)b2(hg);return a|0}function
+HO(a,b){return+(j6(a,b,false)<=0)}function
+HQ(a,d){if(a<0)ht();var
 a=a+1|0,b=new
 Array(a);b[0]=0;for(var
 c=1;c<a;c++)b[c]=d;return b}var
-cF=new
+cM=new
 Array();function
-Hf(c){var
-a=cF[c];if(!a.opened)ao("Cannot flush a closed channel");if(!a.buffer||a.buffer==aa)return 0;if(a.fd&&ax.fds[a.fd]&&ax.fds[a.fd].output){var
-b=ax.fds[a.fd].output;switch(b.length){case
-2:b(c,a.buffer);break;default:b(a.buffer)}}a.buffer=aa;return 0}function
-q9(e,f){var
-b=cF[e],d=a(f),c=au(d);b.file.write(b.offset,d,0,c);b.offset+=c;return 0}function
-Hs(a){var
-a=j3(a),b=M;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+HR(c){var
+a=cM[c];if(!a.opened)ap("Cannot flush a closed channel");if(!a.buffer||a.buffer==ad)return 0;if(a.fd&&ay.fds[a.fd]&&ay.fds[a.fd].output){var
+b=ay.fds[a.fd].output;switch(b.length){case
+2:b(c,a.buffer);break;default:b(a.buffer)}}a.buffer=ad;return 0}function
+rs(e,f){var
+b=cM[e],d=a(f),c=au(d);b.file.write(b.offset,d,0,c);b.offset+=c;return 0}function
+H4(a){var
+a=ke(a),b=M;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.error&&c.error(a)}}function
-Ht(a){var
-a=j3(a),b=M;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+H5(a){var
+a=ke(a),b=M;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.log&&c.log(a)}}function
-hs(c,e,d,a){if(ax.fds===undefined)ax.fds=new
+hB(c,e,d,a){if(ay.fds===undefined)ay.fds=new
 Array();a=a?a:{};var
-b={};b.file=d;b.offset=a.append?d.length():0;b.flags=a;b.output=e;ax.fds[c]=b;if(!ax.fd_last_idx||c>ax.fd_last_idx)ax.fd_last_idx=c;return c}function
-HA(c,b,g){var
+b={};b.file=d;b.offset=a.append?d.length():0;b.flags=a;b.output=e;ay.fds[c]=b;if(!ay.fd_last_idx||c>ay.fd_last_idx)ay.fd_last_idx=c;return c}function
+Ia(c,b,g){var
 a={};while(b){switch(b[1]){case
 0:a.rdonly=1;break;case
 1:a.wronly=1;break;case
@@ -619,162 +619,162 @@ a={};while(b){switch(b[1]){case
 5:a.excl=1;break;case
 6:a.binary=1;break;case
 7:a.text=1;break;case
-8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)ao(eF(c)+qo);if(a.text&&a.binary)ao(eF(c)+pe);var
-d=rh(c),e=d.device.open(d.rest,a),f=ax.fd_last_idx?ax.fd_last_idx:0;return hs(f+1,q9,e,a)}hs(0,q9,new
-aO(cg(0)));hs(1,Ht,new
-aO(cg(0)));hs(2,Hs,new
-aO(cg(0)));function
-Hg(a){var
-c=ax.fds[a];if(c.flags.wronly)ao(qy+a+" is writeonly");var
-d=null;if(a==0&&fF()){var
-e=require("fs");d=function(){return eG(e.readFileSync(0,o1))}}var
-b={file:c.file,offset:c.offset,fd:a,opened:true,out:false,refill:d};cF[b.fd]=b;return b.fd}function
-q3(c){var
-b=ax.fds[c];if(b.flags.rdonly)ao(qy+c+" is readonly");var
-a={file:b.file,offset:b.offset,fd:c,opened:true,out:true,buffer:aa};cF[a.fd]=a;return a.fd}function
-Hh(){var
+8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)ap(eK(c)+qJ);if(a.text&&a.binary)ap(eK(c)+pz);var
+d=rC(c),e=d.device.open(d.rest,a),f=ay.fd_last_idx?ay.fd_last_idx:0;return hB(f+1,rs,e,a)}hB(0,rs,new
+aP(cj(0)));hB(1,H5,new
+aP(cj(0)));hB(2,H4,new
+aP(cj(0)));function
+HS(a){var
+c=ay.fds[a];if(c.flags.wronly)ap(qT+a+" is writeonly");var
+d=null;if(a==0&&fL()){var
+e=require("fs");d=function(){return eL(e.readFileSync(0,pk))}}var
+b={file:c.file,offset:c.offset,fd:a,opened:true,out:false,refill:d};cM[b.fd]=b;return b.fd}function
+rm(c){var
+b=ay.fds[c];if(b.flags.rdonly)ap(qT+c+" is readonly");var
+a={file:b.file,offset:b.offset,fd:c,opened:true,out:true,buffer:ad};cM[a.fd]=a;return a.fd}function
+HT(){var
 b=0;for(var
-a=0;a<cF.length;a++)if(cF[a]&&cF[a].opened&&cF[a].out)b=[0,cF[a].fd,b];return b}function
-bD(b,c,a){if(a&&M.toplevelReloc)b=M.toplevelReloc(a);ax[b+1]=c;if(a)ax[a]=c}function
-Ho(a,b){q5[eF(a)]=b;return 0}function
-GT(a,b){if(a===b)return 1;a.t&6&&eE(a);b.t&6&&eE(b);return a.c==b.c?1:0}function
-aw(a,b){return GT(a,b)}function
-Hq(){aQ(jM)}function
-aY(b,a){if(a>>>0>=au(b))Hq();return dI(b,a)}function
+a=0;a<cM.length;a++)if(cM[a]&&cM[a].opened&&cM[a].out)b=[0,cM[a].fd,b];return b}function
+bF(b,c,a){if(a&&M.toplevelReloc)b=M.toplevelReloc(a);ay[b+1]=c;if(a)ay[a]=c}function
+H0(a,b){ro[eK(a)]=b;return 0}function
+Ht(a,b){if(a===b)return 1;a.t&6&&eJ(a);b.t&6&&eJ(b);return a.c==b.c?1:0}function
+aw(a,b){return Ht(a,b)}function
+H2(){aR(jZ)}function
+a0(b,a){if(a>>>0>=au(b))H2();return dM(b,a)}function
 o(a,b){return 1-aw(a,b)}function
-hr(a){return a}function
-q8(a){return a}function
-rb(a){if(a
+hA(a){return a}function
+rr(a){return a}function
+rw(a){if(a
 instanceof
 Array)return a;if(M.RangeError&&a
 instanceof
-M.RangeError&&a.message&&a.message.match(/maximum call stack/i))return q8(ax.Stack_overflow);if(M.InternalError&&a
+M.RangeError&&a.message&&a.message.match(/maximum call stack/i))return rr(ay.Stack_overflow);if(M.InternalError&&a
 instanceof
-M.InternalError&&a.message&&a.message.match(/too much recursion/i))return q8(ax.Stack_overflow);if(a
+M.InternalError&&a.message&&a.message.match(/too much recursion/i))return rr(ay.Stack_overflow);if(a
 instanceof
-M.Error&&dG(pF))return[0,dG(pF),a];return[0,ax.Failure,eG(String(a))]}function
-ch(a){return a<0?-a:a}function
-C(a,b){return a+b}function
-j4(a,b){return a<b?-1:a>b?1:0}function
-re(c,b){var
-a=c%b;return a<0?a+ch(b):a}function
-j5(a,b){return(a-re(a,b))/b}function
+M.Error&&dK(p0))return[0,dK(p0),a];return[0,ay.Failure,eL(String(a))]}function
+ck(a){return a<0?-a:a}function
+D(a,b){return a+b}function
+kf(a,b){return a<b?-1:a>b?1:0}function
+rz(c,b){var
+a=c%b;return a<0?a+ck(b):a}function
+kg(a,b){return(a-rz(a,b))/b}function
 J(a,b){return a==b?1:0}function
-Hx(c){M.orthocert_verify=function(b){return eF(c8(c,[a(b)]))}}function
+H9(c){M.orthocert_verify=function(b){return eK(dg(c,[a(b)]))}}function
 E(a,b){return a<=b?1:0}function
-K(a,b){return a<b?1:0}function
-A(a,b){return a*b}function
-R(a){return-a}function
-aE(a){return M.BigInt(a)}function
-rf(a,b){return a<<M.BigInt(b)}function
-rg(a,b){return a>>M.BigInt(b)}function
-aK(a){return a<0?-1:a>0?1:0}function
-Hy(a){if(a<0)throw new(M.Error)("a root of a negative number");if(a<2)return a;var
+I(a,b){return a<b?1:0}function
+B(a,b){return a*b}function
+O(a){return-a}function
+aD(a){return M.BigInt(a)}function
+rA(a,b){return a<<M.BigInt(b)}function
+rB(a,b){return a>>M.BigInt(b)}function
+aM(a){return a<0?-1:a>0?1:0}function
+H_(a){if(a<0)throw new(M.Error)("a root of a negative number");if(a<2)return a;var
 d=M.BigInt(1),b=d<<M.BigInt((a.toString(16).length*4+1)/2|0),c;for(;;){c=b+a/b>>d;if(c>=b)return b;b=c}}function
-aB(a,b){return a-b}function
-j6(a){if(a>0x7fffffff||a<-0x80000000)throw new(M.Error)("a number of more than 32 bits");return M.Number(a)}function
-Ha(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
-G2(b){var
-a=aa;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&Ha(b[1]))var
+aE(a,b){return a-b}function
+kh(a){if(a>0x7fffffff||a<-0x80000000)throw new(M.Error)("a number of more than 32 bits");return M.Number(a)}function
+HM(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
+HC(b){var
+a=ad;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&HM(b[1]))var
 e=b[2],f=1;else
 var
-f=2,e=b;a+=pG;for(var
+f=2,e=b;a+=p1;for(var
 d=f;d<e.length;d++){if(d>f)a+=", ";var
 c=e[d];if(typeof
 c=="number")a+=c.toString();else
 if(c
 instanceof
-ce)a+=aJ+c.toString()+aJ;else
+ch)a+=aL+c.toString()+aL;else
 if(typeof
-c=="string")a+=aJ+c.toString()+aJ;else
-a+="_"}a+=jI}else
-if(b[0]==aX)a+=b[1];return a}function
-qX(a){if(a
+c=="string")a+=aL+c.toString()+aL;else
+a+="_"}a+=jV}else
+if(b[0]==aZ)a+=b[1];return a}function
+rg(a){if(a
 instanceof
-Array&&(a[0]==0||a[0]==aX)){var
-c=dG("Printexc.handle_uncaught_exception");if(c)c(a,false);else{var
-d=G2(a),b=dG(o0);if(b)b(0);M.console.error("Fatal error: exception "+d+"\n")}}else
+Array&&(a[0]==0||a[0]==aZ)){var
+c=dK("Printexc.handle_uncaught_exception");if(c)c(a,false);else{var
+d=HC(a),b=dK(pj);if(b)b(0);M.console.error("Fatal error: exception "+d+"\n")}}else
 throw a}function
-Hp(){var
-a=M;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){qX(b);a.process.exit(2)});else
-if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)qX(a.error)})}Hp();function
-i(a,b){return a.length==1?a(b):c8(a,[b])}function
-an(a,b,c){return a.length==2?a(b,c):c8(a,[b,c])}function
-fo(a,b,c,d){return a.length==3?a(b,c,d):c8(a,[b,c,d])}function
-js(a,b,c,d,e){return a.length==4?a(b,c,d,e):c8(a,[b,c,d,e])}G3();var
-j9=[aX,a(pw),-2],j8=[aX,a(qI),-4],FJ=[0,[0,[0,[0,0]]]],FK=[0,0],FL=[0,0],FM=[0,[0,0]],FN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FM]]]]]]]]]]],gO=[0,[1,0],0],n_=[0,[2,0],0],ja=[0,[1,0],0],n9=[0,[2,0],0],gM=[0,[1,0],0],i$=[0,[2,0],0],FO=[0,[0,[0,[0,0]]]],FP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FO]]]]]]]]]]],FQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FP]]]]]]]]]]],FR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FQ]]]]]]]]]]],FS=[0,[0,0]],FT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FS]]]]]]]]]]],FU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FT]]]]]]]]]]],FV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FU]]]]]]]]]]],FW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FV]]]]]]]]]]],FX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],FY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FX]]]]]]]]]]],FZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FY]]]]]]]]]]],F0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FZ]]]]]]]]]]],F1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,F0]]]]]]]]]]],F2=[0,[0,0]],F3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,F2]]]]]]]]]]],F4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,F3]]]]]]]]]]],F5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,F4]]]]]]]]]]],F6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,F5]]]]]]]]]]],F7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,F6]]]]]]]]]]],F8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,F7]]]]]]]]]]],F9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,F8]]]]]]]]]]],F_=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],F$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,F_]]]]]]]]]]],Ga=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,F$]]]]]]]]]]],Gb=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ga]]]]]]]]]]],Gc=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gb]]]]]]]]]]],Gd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gc]]]]]]]]]]],Ge=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gd]]]]]]]]]]],Gf=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ge]]]]]]]]]]],Gg=[0,0],Gh=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gg]]]]]]]]]]],Gi=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gh]]]]]]]]]]],Gj=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gi]]]]]]]]]]],Gk=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gj]]]]]]]]]]],Gl=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gk]]]]]]]]]]],Gm=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gl]]]]]]]]]]],Gn=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gm]]]]]]]]]]],Go=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gn]]]]]]]]]]],Gp=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Go]]]]]]]]]]],Gq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gp]]]]]]]]]]],Gr=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],Gs=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gr]]]]]]]]]]],Gt=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],Gu=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gt]]]]]]]]]]],Gv=[0,[0,[0,[0,[0,0]]]]],Gw=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gv]]]]]]]]]]],Gx=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gw]]]]]]]]]]],Gy=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gx]]]]]]]]]]],Gz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gy]]]]]]]]]]],GA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gz]]]]]]]]]]],GB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GA]]]]]]]]]]],GC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GB]]]]]]]]]]],GD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GC]]]]]]]]]]],GE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GD]]]]]]]]]]],GF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GE]]]]]]]]]]],GG=[0,0],GH=[0,[0,0]],GI=[0,0],GJ=[0,[0,[0,[0,[0,0]]]]],kG=[0,[0,[0,0]]],dc=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],gC=[0,[0,[0,[0,0]]]],GK=[0,[0,[0,[0,[0,0]]]]],GL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GK]]]]]]]]]]],GM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GL]]]]]]]]]]],GN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GM]]]]]]]]]]],GO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GN]]]]]]]]]]];bD(11,[aX,a(oZ),-12],oZ);bD(10,[aX,a(pL),-11],pL);bD(9,[aX,a(qx),-10],qx);bD(8,[aX,a(o$),-9],o$);bD(7,[aX,a(p0),-8],p0);bD(6,[aX,a(o9),-7],o9);bD(5,[aX,a(px),-6],px);bD(4,[aX,a(pB),-5],pB);bD(3,j8,qI);bD(2,[aX,a(jC),-3],jC);bD(1,j9,pw);bD(0,[aX,a(qg),-1],qg);var
-ri=a("String.sub / Bytes.sub"),rk=a(aa),rj=a("String.concat"),rl=a("Array.init"),rm=a("power"),rF=[0,0],rG=[0,0],rM=[0,0,0],rN=[0,0,0],rO=[0,0],r_=[0,0],r$=[0,0],sc=[0,0],sw=[0,0],sz=[0,0],sB=[0,0],sC=[0,0],sR=[0,0],sS=[0,0],tj=[0,0],tD=[0,[0,[0,0]]],t7=[0,0],uj=[0,0],uk=[0,0],ul=[0,0],uG=a(","),uY=[0,a(jI),0],uZ=a(pG),u0=a("."),u1=[0,[0,[0,0]]],u2=a(fu),u3=a(jJ),u4=[0,[0,[0,[0,[0,0]]]]],u5=[0,a(jI),0],u6=a(qF),x3=a(oW),x5=a(oS),x4=a(pO),x6=a(ev),x7=a(et),x8=a(qH),x9=a(qr),x_=a(pq),x$=a(jL),ya=a(pU),zr=[0,[0,0,0]],zI=[0,0],zs=a(g2),zt=[0,0],zu=a("divided"),zv=[0,1],zw=a("mirror"),zx=[0,3],zy=a("negative"),zz=[0,2],zA=a(ft),zB=[0,5],zC=a(jQ),zD=[0,4],zE=a(dE),zF=a(pc),zG=a(ew),zH=a(cd),zJ=[0,0],zK=[0,0],zL=[0,0],zO=[0,[0,[0,0]]],zP=[0,[0,[0,0]]],Ae=[0,[0,[0,0]]],As=[0,0],AH=a(aa),AA=[0,0],AB=[0,0],AC=[0,[0,[0,[0,0]]]],AD=[0,[0,[0,0]]],AE=[0,[0,[0,[0,0]]]],AF=[0,[0,[0,0]]],Ay=[0,[0,[0,0]]],Ax=[0,0],Aw=a(ew),Av=[0,[0,[0,0]]],Au=[0,0],Ap=[0,[0,0]],Ar=[0,[0,[0,0]]],Aq=[0,0],Al=[0,[0,[0,0]]],Ak=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FJ]]]]]]]]]],[0,0,[0,[0,[0,[0,0]]],0]]],Af=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],[0,0,0]],Ag=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],[0,[0,[0,[0,[0,[0,[0,0]]]]]],0]],Ah=[0,[0,[0,[0,[0,[0,[0,0]]]]]],0],Ai=[0,[0,[0,[0,0]]],[0,0,0]],Ac=[0,0],Ad=[0,[0,0]],Ab=[0,0,0],Aa=[0,[0,[0,0]]],z6=[0,[0,0]],z7=[0,[0,[0,0]]],z8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FK]]]]]]]]]]],z9=[0,[0,0]],z_=[0,[0,[0,0]]],z5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FL]]]]]]]]]]],z3=[0,[0,0]],z4=[0,[0,[0,0]]],z1=[0,[0,[0,0]]],z2=[0,[0,0]],z0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FN]]]]]]]]]]],zZ=[0,0],zY=[0,0],zV=[0,[0,0]],zW=[0,0],zT=[0,0],zU=[0,1],zR=[0,[0,0]],zS=[0,0],zQ=[0,0],zM=[0,0],zN=[0,1],zo=[0,0],zp=[0,1],zq=[0,2],zk=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],zi=[0,[0,0],0],zj=[0,[1,0],0],zl=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],zg=[0,[0,0]],zh=[0,0],zf=[0,0],ze=[0,0],zd=[0,0],zc=[0,0],zb=[0,0,0],y$=[0,[0,0]],za=[0,0],y_=[0,0,0],y8=[0,[0,[0,0]]],y9=[0,[0,[0,0]]],y7=[0,0],y5=[0,1,0],yX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FR]]]]]]]]]]],yY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FW]]]]]]]]]]],yT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,F1]]]]]]]]]]],yU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,F9]]]]]]]]]]],yV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gf]]]]]]]]]]],yW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gq]]]]]]]]]]],yZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gs]]]]]]]]]]],y0=a("sqrt"),yR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gu]]]]]]]]]]],yS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GF]]]]]]]]]]],yG=[0,a("\n"),0],yH=a(oT),yI=a(g5),yJ=a(pK),yK=a(pu),yQ=a(fx),yL=a(fs),yM=a("verdict"),yN=a(qi),yO=a(pn),yP=a(pJ),yD=a(pE),yE=a(qm),yF=a(g7),yz=a(pW),yA=a(g8),yB=a(fs),yC=a(fx),yu=a(he),yv=a(bi),yw=a(oV),yx=a(hb),yr=a(qf),ys=a(ft),yt=a(hb),yn=a(pZ),yo=a(he),yp=a(g8),yq=a(qv),yc=a(qn),yd=a(qq),ye=a(ha),yf=a(g_),yg=a(qB),yh=a(qb),yi=a(qe),yj=a(p3),yk=a(ha),yl=a(p6),x1=a(g3),x2=a(fw),xW=a(bC),xX=a(bB),xY=a(pp),xw=a(g_),xx=a(p2),xa=a(bi),xb=a(bW),xc=a(hg),xd=a(ez),xe=a(dD),xj=a(jv),xf=a(jK),xg=a(jN),xh=a(eu),xi=a(bi),xk=a(bW),xl=a(hg),xm=a(ez),xn=a(jK),xo=a(jN),xp=a(eu),xq=a(bi),xr=a(bW),xs=a(bC),xt=a(bB),xu=a(dB),xv=a(ez),xy=a(p$),xz=a(qp),xA=a(hj),xB=a(pd),xC=a(pi),xD=a(eu),xE=a(bi),xF=a(bW),xG=a(g0),xH=a(ps),xI=a(ez),xJ=a(fA),xK=a(o3),xL=a(eu),xM=a(bi),xN=a(g0),xO=a(bi),xP=a(p5),xS=a(oR),xQ=a(pg),xR=a(qu),xT=a(fx),xU=a(fs),xV=a(bi),xZ=a(hj),x0=a(g7),w7=a(bW),w8=a(ez),w9=a(jv),w_=a(eu),w6=a(qD),wU=a(fA),wV=a(qj),wW=a(dC),wX=a(ex),wY=a(ex),wZ=a(jy),w0=a(dC),w1=a(pM),w2=a(po),w3=a(bb),w5=a(oY),w4=a(jy),wK=a(pD),wL=a(qG),wM=a(pk),wN=a(ph),wO=a(qt),wP=a(qd),wQ=a(pv),wR=a(g1),wS=a(g1),wG=a(bb),wH=a(bA),wI=a(eA),wJ=a(bV),wC=a(dD),wD=a(jF),wE=a(pX),wz=a(bC),wA=a(bB),wB=a(dB),ws=a(bC),wt=a(bB),wu=a(dB),wv=a(jH),ww=a(dC),wx=a(jD),wy=a(p_),wb=a(pf),wh=a(g5),wg=a(jP),wc=a(jz),wd=a(fq),wk=a(fr),wl=a(jz),wi=a(fr),wj=a(fq),wm=a(pb),wn=a(p8),wo=a(fq),wp=a(qC),wq=a(jP),wr=a(fq),we=a(ex),wf=a(pS),v_=a(g$),v$=a(g$),wa=a(g$),v6=a(qa),v7=a(bB),v8=a(bC),v9=a(qs),vQ=a(o7),vR=a(oX),vS=a(p1),vT=a(ev),vU=a(qE),vV=a(p4),vW=a(o8),vX=a(pT),vY=a(o6),vZ=a(pr),v0=a(o5),v1=a(qc),v2=a(et),v3=a(o2),v4=a(ql),v5=a(pj),vv=a(hc),vx=a(fu),vw=a(fp),vy=a(es),vz=a(bb),vA=a(bA),vB=a(cd),vC=a(hh),vD=a(bV),vE=a(bb),vF=a(bA),vG=a(eA),vH=a(bV),vI=a(es),vJ=a(fz),vK=a(bb),vL=a(bA),vM=a(pQ),vN=a(fr),vO=a(fz),vP=a(bV),vd=a(hc),vl=a(fu),ve=a(fp),vf=a(es),vg=a(bb),vh=a(bA),vi=a(cd),vj=a(hh),vk=a(bV),vm=a(hi),vn=a(bb),vo=a(bA),vp=a(eA),vq=a(bV),vr=a(cd),vs=a(dD),vt=a(bV),va=a(bC),vb=a(bB),u_=[0,a(aJ),0],u$=a(aJ),u8=a(aa),u7=[0,a(aJ),0],u9=a(aJ),uU=a(hc),uV=a(fu),uW=a("*"),uX=a(bX),uP=[0,[0,[0,[0,[0,0]]]]],uQ=[0,[0,[0,0]]],uR=[0,[0,0]],uS=[0,0],uT=[0,[0,[0,[0,0]]]],uN=a('":'),uO=a(aJ),uL=[0,a(aJ),0],uM=a(aJ),uJ=[0,a("}"),0],uK=a("{"),uH=[0,a("]"),0],uI=a("["),uF=[0,[0,[0,0]]],uE=[0,[0,[0,0]]],uC=[0,0],uz=[0,[0,[0,0]]],uA=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],uB=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],ux=[0,[0,0]],uy=[0,[0,[0,0]]],uu=[0,[0,[0,0]]],uw=[0,[0,[0,0]]],uv=[0,0],ur=[0,[0,0]],us=[0,0],up=[0,[0,0]],uq=[0,0],uo=[0,[0,[0,0]]],um=[0,[0,0]],un=[0,0],ui=[0,0],ue=[0,0],uf=[0,[0,[0,[0,[0,[0,0]]]]]],ug=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GG]]]]]]]]]]],uc=[0,0],t$=[0,0,0],ua=[0,0,0],ub=[0,0,0],t8=[0,[0,0]],t9=[0,[0,[0,0]]],t_=[0,0],tX=[0,[0,[0,[0,[0,[0,0]]]]]],tY=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],tZ=[0,[0,[0,0]]],t0=[0,[0,[0,0]]],t1=[0,[0,[0,[0,[0,[0,0]]]]]],t2=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],t3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GH]]]]]]]]]]],t4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GI]]]]]]]]]]],t5=[0,[0,[0,0]]],t6=[0,[0,[0,[0,[0,[0,0]]]]]],tW=[0,0],tU=[0,[0,0]],tV=[0,[0,[0,0]]],tQ=[0,0,0],tR=[0,0,0],tM=[0,0,0],tN=[0,0,0],tO=[0,0,0],tP=[0,0,0],tL=[0,0],tK=[0,0],tJ=[0,0],tH=[0,0],tI=[0,0],tG=[0,0],tE=[0,0],tF=[0,0],tx=[0,0],ty=[0,0],tz=[0,0],tA=[0,[0,[0,0]]],tw=[0,0],tr=[0,[0,[0,0]]],ts=[0,[0,0]],tp=[0,[0,0]],tq=[0,[0,[0,0]]],to=[0,0],tm=[0,0],tn=[0,0],tk=[0,0,0],th=[0,[0,0]],ti=[0,0],s$=[0,[0,0]],ta=[0,0],tb=[0,[0,0]],tc=[0,0],td=[0,[0,0]],te=[0,0],tf=[0,[0,0]],tg=[0,0],s9=[0,[0,0]],s_=[0,0],s7=[0,[0,0]],s8=[0,0],s3=[0,[0,0]],s4=[0,0],s5=[0,0],s6=[0,[0,0]],sU=[0,[0,0]],sV=[0,0],sW=[0,[0,0]],sX=[0,0],sY=[0,0],sZ=[0,[0,0]],s0=[0,[0,0]],s1=[0,[0,0]],s2=[0,0],sQ=[0,0],sP=[0,0],sM=[0,0],sN=[0,[0,0]],sL=[0,[0,[0,0]]],sK=[0,[0,[0,[0,[0,[0,0]]]]]],sG=[0,[0,0]],sH=[0,[0,0]],sI=[0,0],sF=[0,0],sD=[0,0],sE=[0,[0,[0,0]]],sA=[0,[0,[0,0]]],sx=[0,[0,[0,0]]],sv=[0,[0,[0,0]]],st=[0,[0,[0,[0,[0,[0,0]]]]]],su=[0,[0,[0,[0,[0,[0,0]]]]]],so=[0,[0,0]],sp=[0,0],sq=[0,[0,0]],sr=[0,[0,[0,0]]],ss=[0,[0,[0,0]]],sh=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],si=[0,[0,[0,[0,[0,[0,0]]]]]],sj=[0,[0,[0,[0,[0,[0,0]]]]]],sk=[0,[0,[0,0]]],sl=[0,[0,[0,[0,[0,[0,0]]]]]],sm=[0,[0,[0,0]]],sn=[0,[0,[0,0]]],sf=[0,[0,0]],sg=[0,0],se=[0,0,0],sd=[0,0,0],sb=[0,0,0],sa=[0,[0,[0,0]]],r6=[0,0],r7=[0,0],r8=[0,0],r9=[0,0],r4=[0,0],r5=[0,0],r0=[0,[0,[0,0]]],r1=[0,[0,[0,0]]],r2=[0,[0,[0,0]]],rZ=[0,[0,[0,[0,0]]]],rV=[0,[0,[0,0]]],rW=[0,[0,[0,0]]],rX=[0,[0,[0,0]]],rY=[0,[0,1,1],[0,[0,0,1],[0,[0,1,0],[0,[0,0,0],0]]]],rT=[0,[0,0]],rU=[0,0],rR=[0,[0,0]],rS=[0,0],rP=[0,[0,0]],rQ=[0,0],rC=[0,0],rD=[0,[0,0]],rA=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],rB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GJ]]]]]]]]]]],ry=[0,0,0],rx=a(qz),rw=a(aa),rv=[0,[0,0]],rt=[0,0],rq=[0,0],rs=[1,0],rr=[0,0],rp=[0,0],rn=[1,0],ro=[1,0],sO=[10,0,0,0,0],At=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GO]]]]]]]]]]],DI=a(bC),DJ=a(bB),DK=a(pp),DA=a(hi),DB=[0,a("a base axis of such a platform"),0],DC=a(bb),DD=a(bA),Dn=a(qd),Do=a(pD),Dp=a(qt),Dq=a(g1),Dr=a(pv),Ds=a(g1),Dt=a(qG),Du=a(pk),Dv=a(ph),Dd=a(p2),De=a(g_),CR=[0,a("such a machine with bodies"),0],CE=a(g7),CF=a(bi),CG=a(p5),CH=a(qu),CK=a(pg),CL=a(oR),CM=a(bi),CN=a(bi),CP=a(g0),CO=[0,a("a claim that no cube of such a machine fits"),0],CQ=a(qD),CS=a(eu),CT=a(ez),CU=a(dD),CV=a(jF),CW=a(pX),CX=a(hg),CY=a(pi),CZ=a(o3),C0=a(jv),C3=a(dB),C4=a(p_),C7=a(bW),C8=a(bW),C9=a(ps),C_=a(bW),C$=[0,a("the closed design with other bounds on psi than one from below and one from above"),0],Da=a(g0),Db=a(fA),Dc=a(dB),Df=a(bW),Dg=a(bC),Dh=a(bB),Di=a(p$),Dj=a(qp),Dk=a(hj),Dl=a(pd),C1=[0,a(aJ),0],C2=a('the mechanism "'),Dm=a(jK),Dw=a(hg),Dx=a(dD),Dy=a(jF),Dz=a(jN),DE=a(bW),DH=a(dD),DF=[0,a("a platform that turns on struts and other drives"),0],DG=a(bW),C5=[0,a(aJ),0],C6=a('the workspace "'),DL=a(bi),DM=a(bi),DO=a(fx),DP=a(fs),DQ=a(hj),DN=[0,a("an atlas of such a machine"),0],CI=[0,a(aJ),0],CJ=a('a claim of the kind "'),D6=a(jL),D7=[0,a('the evidence "fan" without "tolerances"'),0],DV=a(dE),Ee=a(fw),Ef=[0,1,1],DW=a(pU),D8=a(et),D9=a(ev),D_=a(pq),D$=a(pO),Ea=a(cd),Eb=a(fw),Ec=a(g3),Ed=a(cd),DX=a(qH),DY=a(dE),DZ=a(pc),D0=a(ew),D1=a(jL),D4=a(ew),D5=[0,a('the evidence "inside" about "rank"'),0],D2=[0,a(aJ),0],D3=a('the evidence "'),Eg=a(et),Eh=a(ev),Ei=a(dE),Ej=a(ew),Ek=a(qr),Em=a(et),En=a(ev),Eo=a(dE),Ep=a(ew),Eq=a(ft),Er=a(g2),Es=a(ft),Et=a(g2),El=[0,a("this evidence at control points"),0],FC=a('"orthocert-paving/'),Fs=a(dE),Ft=a(dE),E$=a(pJ),Fa=a(pn),Fb=a(qi),FA=[0,3,3],Fc=a(pu),Fq=[0,a("this set of orientations with such drives"),0],Fr=[0,a('"parallel_margin" of struts in the plane'),0],Fu=[0,a('this evidence "tolerances" of a platform that turns'),0],Fv=[0,a('"one_to_one" of this set of orientations'),0],Fw=[0,a("a step of a platform that turns that is not at control points"),0],Fx=[0,a('the evidence "tolerances" of such a mechanism'),0],Fy=[0,a(pR),0],Fz=[0,a(qh),0],Fp=[0,a(pR),0],Fo=[0,a(qh),0],Fm=[0,a(oU),0],Fn=[0,a("a step in a proof that no cube fits"),0],Fl=[0,a('"one_to_one" of such a mechanism'),0],Fd=[0,a("the acceleration of a joint of a machine with a plane"),0],Fj=[0,a("a stiffness for each joint in such a claim"),0],Fk=[0,a(p7),0],Fi=[0,a(p7),0],Fe=a(pK),Ff=a(oT),Fg=a(g5),Fh=[0,a(oU),0],E7=a(jQ),E8=a(g2),E9=a(cd),EZ=a(g7),E0=a(pE),E1=a(qm),E2=[0,a(aJ),0],E3=a('a proof of the kind "'),EV=a(fs),EW=a(fx),EX=a(g8),EY=a(pW),ER=a(bi),ES=a(he),ET=a(oV),EU=a(hb),EO=a(qf),EP=a(ft),EQ=a(hb),EK=a(pZ),EL=a(he),EM=a(g8),EN=a(qv),Ew=a(qq),Ex=a(ha),Ey=a(qn),Ez=a(g_),EA=a(p6),EB=a(qB),EE=a(qb),EF=a(g3),EG=a(fw),EH=a(qe),EI=a(p3),EJ=a(ha),EC=[0,a(aJ),0],ED=a('the failure "'),Eu=a(jQ),Ev=a(qz),DT=a(fw),DU=a(g3),DR=a(oS),DS=a(oW),CB=a(fA),Cr=a(jy),Cs=a(oY),Ct=a(ex),Cu=a(bb),Cz=a(qj),CA=a(fA),CC=a(dC),CD=a(ex),Cv=a(dC),Cw=a(pM),Cx=a(po),Cy=a(bb),Ck=a(dB),Co=a(bC),Cp=a(bB),Cl=a(jD),Cm=a(jH),Cn=a(dC),Ce=a(dB),Ci=a(bC),Cj=a(bB),Cf=a(jD),Cg=a(jH),Ch=a(dC),Cd=[0,1],Cc=[0,1],Ca=[0,1],B$=[0,1],B9=[0,1],B_=[0,a("this quantity of such a mechanism"),0],BT=a(jz),BU=a(p8),BV=a(pb),BW=a(jP),BX=a(qC),BY=a(fr),BS=a(g5),BK=a(g$),Bz=a(pS),BA=a(p1),B1=a(et),B2=a(ql),B3=a(pr),B4=a(ev),B5=a(pT),B6=a(o5),B7=a(o6),B8=a(oX),BB=a(o2),BC=a(qc),BD=a(p4),BE=a(pj),BF=a(qE),BG=a(o8),BH=a(o7),BI=[0,a(aJ),0],BJ=a('the quantity "'),BL=a(pf),BM=a(qa),BN=a(bC),BO=a(bB),BP=a(qs),BQ=[0,a(aJ),0],BR=a('a bound "'),BZ=a(fq),B0=a(ex),Bx=a(bV),By=a(eA),Bc=a(bV),Bd=a(hi),Be=a(fz),Bf=a(hh),Bg=a(eA),Bj=a(bb),Bk=a(bA),Bl=a(fp),Bm=a(es),Bn=a(bb),Bo=a(bA),Bp=a(cd),Bq=a(fp),Br=a(es),Bs=a(fz),Bt=a(bb),Bu=a(bA),Bv=a(pQ),Bw=a(fr),Bh=[0,a('" of such a machine'),0],Bi=a(pa),Ba=a(bV),Bb=a(fz),AW=a(bV),AX=a(dD),AY=a(hh),AZ=a(eA),A2=a(hi),A3=a(bb),A4=a(bA),A5=a(fp),A6=a(es),A7=a(bb),A8=a(bA),A9=a(cd),A_=a(cd),A0=[0,a(aJ),0],A1=a(pa),AT=a(hc),AU=a(fu),AR=a(" is not covered by the verified checker"),AS=a(aa),AP=a(bC),AQ=a(bB),AL=a(aa),AM=a(qF),AN=a(aa),AO=a(aa),AK=[1,0],AI=a("Reader.Malformed"),AJ=a("Reader.Not_covered"),FE=[0,a("a paving is checked by orthocert-verified")],FD=a(pV),FF=a("CERTIFIED"),FG=a("REFUTED"),FH=a(pV),FI=a("NOT COVERED: ");function
-fG(a){throw[0,j8,a]}function
-a8(d,c){var
-a=au(d),e=au(c),b=cg(a+e|0);eC(d,0,b,0,a);eC(c,0,b,a,e);return hr(b)}Hg(0);q3(1);q3(2);function
-j_(b){function
+H1(){var
+a=M;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){rg(b);a.process.exit(2)});else
+if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)rg(a.error)})}H1();function
+i(a,b){return a.length==1?a(b):dg(a,[b])}function
+ao(a,b,c){return a.length==2?a(b,c):dg(a,[b,c])}function
+fu(a,b,c,d){return a.length==3?a(b,c,d):dg(a,[b,c,d])}function
+jF(a,b,c,d,e){return a.length==4?a(b,c,d,e):dg(a,[b,c,d,e])}HD();var
+kk=[aZ,a(pR),-2],kj=[aZ,a(q3),-4],Gj=[0,[0,[0,[0,0]]]],Gk=[0,0],Gl=[0,0],Gm=[0,[0,0]],Gn=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gm]]]]]]]]]]],gZ=[0,[1,0],0],ot=[0,[2,0],0],jl=[0,[1,0],0],os=[0,[2,0],0],gX=[0,[1,0],0],jk=[0,[2,0],0],Go=[0,[0,[0,[0,0]]]],Gp=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Go]]]]]]]]]]],Gq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gp]]]]]]]]]]],Gr=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gq]]]]]]]]]]],Gs=[0,[0,0]],Gt=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gs]]]]]]]]]]],Gu=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gt]]]]]]]]]]],Gv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gu]]]]]]]]]]],Gw=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gv]]]]]]]]]]],Gx=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],Gy=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gx]]]]]]]]]]],Gz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gy]]]]]]]]]]],GA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gz]]]]]]]]]]],GB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GA]]]]]]]]]]],GC=[0,[0,0]],GD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GC]]]]]]]]]]],GE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GD]]]]]]]]]]],GF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GE]]]]]]]]]]],GG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GF]]]]]]]]]]],GH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GG]]]]]]]]]]],GI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GH]]]]]]]]]]],GJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GI]]]]]]]]]]],GK=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],GL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GK]]]]]]]]]]],GM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GL]]]]]]]]]]],GN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GM]]]]]]]]]]],GO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GN]]]]]]]]]]],GP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GO]]]]]]]]]]],GQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GP]]]]]]]]]]],GR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GQ]]]]]]]]]]],GS=[0,0],GT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GS]]]]]]]]]]],GU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GT]]]]]]]]]]],GV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GU]]]]]]]]]]],GW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GV]]]]]]]]]]],GX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GW]]]]]]]]]]],GY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GX]]]]]]]]]]],GZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GY]]]]]]]]]]],G0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GZ]]]]]]]]]]],G1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G0]]]]]]]]]]],G2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G1]]]]]]]]]]],G3=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],G4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G3]]]]]]]]]]],G5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],G6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G5]]]]]]]]]]],G7=[0,[0,[0,[0,[0,0]]]]],G8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G7]]]]]]]]]]],G9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G8]]]]]]]]]]],G_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G9]]]]]]]]]]],G$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G_]]]]]]]]]]],Ha=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G$]]]]]]]]]]],Hb=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ha]]]]]]]]]]],Hc=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hb]]]]]]]]]]],Hd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hc]]]]]]]]]]],He=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hd]]]]]]]]]]],Hf=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,He]]]]]]]]]]],Hg=[0,0],Hh=[0,[0,0]],Hi=[0,0],Hj=[0,[0,[0,[0,[0,0]]]]],kT=[0,[0,[0,0]]],dm=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],gN=[0,[0,[0,[0,0]]]],Hk=[0,[0,[0,[0,[0,0]]]]],Hl=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hk]]]]]]]]]]],Hm=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hl]]]]]]]]]]],Hn=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hm]]]]]]]]]]],Ho=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hn]]]]]]]]]]];bF(11,[aZ,a(pi),-12],pi);bF(10,[aZ,a(p6),-11],p6);bF(9,[aZ,a(qS),-10],qS);bF(8,[aZ,a(pu),-9],pu);bF(7,[aZ,a(qj),-8],qj);bF(6,[aZ,a(ps),-7],ps);bF(5,[aZ,a(pS),-6],pS);bF(4,[aZ,a(pW),-5],pW);bF(3,kj,q3);bF(2,[aZ,a(jP),-3],jP);bF(1,kk,pR);bF(0,[aZ,a(qB),-1],qB);var
+rD=a("String.sub / Bytes.sub"),rF=a(ad),rE=a("String.concat"),rG=a("Array.init"),rH=a("power"),r0=[0,0],r1=[0,0],r7=[0,0,0],r8=[0,0,0],r9=[0,0],st=[0,0],su=[0,0],sx=[0,0],sR=[0,0],sU=[0,0],sW=[0,0],sX=[0,0],s$=[0,0],ta=[0,0],tD=[0,0],tX=[0,[0,[0,0]]],up=[0,0],uO=[0,0],uP=[0,0],uQ=[0,0],vg=a(","),vy=[0,a(jV),0],vz=a(p1),vA=a("."),vB=[0,[0,[0,0]]],vC=a(fA),vD=a(jW),vE=[0,[0,[0,[0,[0,0]]]]],vF=[0,a(jV),0],vG=a(q0),yD=a(pf),yF=a(pb),yE=a(p9),yG=a(eA),yH=a(ey),yI=a(q2),yJ=a(qM),yK=a(pL),yL=a(jY),yM=a(qd),z3=[0,[0,0,0]],Ai=[0,0],z4=a(g$),z5=[0,0],z6=a("divided"),z7=[0,1],z8=a("mirror"),z9=[0,3],z_=a("negative"),z$=[0,2],Aa=a(fz),Ab=[0,5],Ac=a(j3),Ad=[0,4],Ae=a(dI),Af=a(px),Ag=a(eB),Ah=a(cg),Aj=[0,0],Ak=[0,0],Al=[0,0],Ao=[0,[0,[0,0]]],Ap=[0,[0,[0,0]]],AQ=[0,[0,[0,0]]],A4=[0,0],Bh=a(ad),Ba=[0,0],Bb=[0,0],Bc=[0,[0,[0,[0,0]]]],Bd=[0,[0,[0,0]]],Be=[0,[0,[0,[0,0]]]],Bf=[0,[0,[0,0]]],A_=[0,[0,[0,0]]],A9=[0,0],A8=a(eB),A7=[0,[0,[0,0]]],A6=[0,0],A1=[0,[0,0]],A3=[0,[0,[0,0]]],A2=[0,0],AX=[0,[0,[0,0]]],AW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gj]]]]]]]]]],[0,0,[0,[0,[0,[0,0]]],0]]],AR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],[0,0,0]],AS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],[0,[0,[0,[0,[0,[0,[0,0]]]]]],0]],AT=[0,[0,[0,[0,[0,[0,[0,0]]]]]],0],AU=[0,[0,[0,[0,0]]],[0,0,0]],AO=[0,0],AP=[0,[0,0]],AN=[0,0,0],AM=[0,[0,[0,0]]],AG=[0,[0,0]],AH=[0,[0,[0,0]]],AI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gk]]]]]]]]]]],AJ=[0,[0,0]],AK=[0,[0,[0,0]]],AF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gl]]]]]]]]]]],AD=[0,[0,0]],AE=[0,[0,[0,0]]],AB=[0,[0,[0,0]]],AC=[0,[0,0]],AA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gn]]]]]]]]]]],Az=[0,0],Ay=[0,0],Av=[0,[0,0]],Aw=[0,0],At=[0,0],Au=[0,1],Ar=[0,[0,0]],As=[0,0],Aq=[0,0],Am=[0,0],An=[0,1],z0=[0,0],z1=[0,1],z2=[0,2],zW=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],zU=[0,[0,0],0],zV=[0,[1,0],0],zX=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],zS=[0,[0,0]],zT=[0,0],zR=[0,0],zQ=[0,0],zP=[0,0],zO=[0,0],zN=[0,0,0],zL=[0,[0,0]],zM=[0,0],zK=[0,0,0],zI=[0,[0,[0,0]]],zJ=[0,[0,[0,0]]],zH=[0,0],zF=[0,1,0],zx=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gr]]]]]]]]]]],zy=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gw]]]]]]]]]]],zt=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GB]]]]]]]]]]],zu=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GJ]]]]]]]]]]],zv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GR]]]]]]]]]]],zw=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G2]]]]]]]]]]],zz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G4]]]]]]]]]]],zA=a("sqrt"),zr=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G6]]]]]]]]]]],zs=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hf]]]]]]]]]]],zg=[0,a("\n"),0],zh=a(pc),zi=a(hc),zj=a(p5),zk=a(pP),zq=a(fD),zl=a(fy),zm=a("verdict"),zn=a(qD),zo=a(pI),zp=a(p4),zd=a(pZ),ze=a(qH),zf=a(he),y$=a(qf),za=a(hf),zb=a(fy),zc=a(fD),y6=a(hn),y7=a(bl),y8=a(pe),y9=a(hk),y3=a(qA),y4=a(fz),y5=a(hk),yZ=a(qi),y0=a(hn),y1=a(hf),y2=a(qQ),yO=a(qI),yP=a(qL),yQ=a(hj),yR=a(hh),yS=a(qW),yT=a(qw),yU=a(qz),yV=a(qm),yW=a(hj),yX=a(qp),yB=a(ha),yC=a(fC),yw=a(bE),yx=a(bD),yy=a(pK),x8=a(hh),x9=a(ql),xM=a(bl),xN=a(b0),xO=a(hp),xP=a(eE),xQ=a(dH),xV=a(jI),xR=a(jX),xS=a(j0),xT=a(ez),xU=a(bl),xW=a(b0),xX=a(hp),xY=a(eE),xZ=a(jX),x0=a(j0),x1=a(ez),x2=a(bl),x3=a(b0),x4=a(bE),x5=a(bD),x6=a(dF),x7=a(eE),x_=a(qu),x$=a(qK),ya=a(hs),yb=a(py),yc=a(pD),yd=a(ez),ye=a(bl),yf=a(b0),yg=a(g9),yh=a(pN),yi=a(eE),yj=a(fG),yk=a(pm),yl=a(ez),ym=a(bl),yn=a(g9),yo=a(bl),yp=a(qo),ys=a(pa),yq=a(pB),yr=a(qP),yt=a(fD),yu=a(fy),yv=a(bl),yz=a(hs),yA=a(he),xH=a(b0),xI=a(eE),xJ=a(jI),xK=a(ez),xG=a(qY),xu=a(fG),xv=a(qE),xw=a(dG),xx=a(eC),xy=a(eC),xz=a(jL),xA=a(dG),xB=a(p7),xC=a(pJ),xD=a(bd),xF=a(ph),xE=a(jL),xk=a(pY),xl=a(q1),xm=a(pF),xn=a(pC),xo=a(qO),xp=a(qy),xq=a(pQ),xr=a(g_),xs=a(g_),xg=a(bd),xh=a(bC),xi=a(eF),xj=a(bZ),xc=a(dH),xd=a(jS),xe=a(qg),w$=a(bE),xa=a(bD),xb=a(dF),w4=a(bE),w5=a(bD),w6=a(dF),w7=a(jU),w8=a(dG),w9=a(jQ),w_=a(qt),wN=a(pA),wT=a(hc),wS=a(j2),wO=a(jM),wP=a(fw),wW=a(fx),wX=a(jM),wU=a(fx),wV=a(fw),wY=a(pw),wZ=a(qr),w0=a(fw),w1=a(qX),w2=a(j2),w3=a(fw),wQ=a(eC),wR=a(qb),wK=a(hi),wL=a(hi),wM=a(hi),wG=a(qv),wH=a(bD),wI=a(bE),wJ=a(qN),wq=a(pq),wr=a(pg),ws=a(qk),wt=a(eA),wu=a(qZ),wv=a(qn),ww=a(pr),wx=a(qc),wy=a(pp),wz=a(pM),wA=a(po),wB=a(qx),wC=a(ey),wD=a(pl),wE=a(qG),wF=a(pE),v7=a(hl),v9=a(fA),v8=a(fv),v_=a(ex),v$=a(bd),wa=a(bC),wb=a(cg),wc=a(hq),wd=a(bZ),we=a(bd),wf=a(bC),wg=a(eF),wh=a(bZ),wi=a(ex),wj=a(fF),wk=a(bd),wl=a(bC),wm=a(p$),wn=a(fx),wo=a(fF),wp=a(bZ),vP=a(hl),vX=a(fA),vQ=a(fv),vR=a(ex),vS=a(bd),vT=a(bC),vU=a(cg),vV=a(hq),vW=a(bZ),vY=a(hr),vZ=a(bd),v0=a(bC),v1=a(eF),v2=a(bZ),v3=a(cg),v4=a(dH),v5=a(bZ),vM=a(bE),vN=a(bD),vK=[0,a(aL),0],vL=a(aL),vI=a(ad),vH=[0,a(aL),0],vJ=a(aL),vu=a(hl),vv=a(fA),vw=a("*"),vx=a(b1),vp=[0,[0,[0,[0,[0,0]]]]],vq=[0,[0,[0,0]]],vr=[0,[0,0]],vs=[0,0],vt=[0,[0,[0,[0,0]]]],vn=a('":'),vo=a(aL),vl=[0,a(aL),0],vm=a(aL),vj=[0,a("}"),0],vk=a("{"),vh=[0,a("]"),0],vi=a("["),vf=[0,[0,[0,0]]],ve=[0,[0,[0,0]]],vc=[0,0],u$=[0,[0,[0,0]]],va=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],vb=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],u9=[0,[0,0]],u_=[0,[0,[0,0]]],u7=[0,0],u8=[0,[0,0]],u3=[0,[0,0]],u4=[0,0],u5=[0,[0,[0,0]]],u6=[0,[0,[0,0]]],uZ=[0,[0,[0,0]]],u1=[0,[0,[0,0]]],u0=[0,0],uW=[0,[0,0]],uX=[0,0],uU=[0,[0,0]],uV=[0,0],uT=[0,[0,[0,0]]],uR=[0,[0,0]],uS=[0,0],uM=[0,0],uN=[0,[0,0]],uG=[0,[0,0]],uH=[0,[0,[0,[0,[0,0]]]]],uI=[0,[0,[0,[0,0]]]],uJ=[0,[0,[0,0]]],uK=[0,[0,0]],uL=[0,0],uD=[0,0],uE=[0,[0,0]],uF=[0,0],uC=[0,0],uy=[0,0],uz=[0,[0,[0,[0,[0,[0,0]]]]]],uA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hg]]]]]]]]]]],uw=[0,0],ut=[0,0,0],uu=[0,0,0],uv=[0,0,0],uq=[0,[0,0]],ur=[0,[0,[0,0]]],us=[0,0],uf=[0,[0,[0,[0,[0,[0,0]]]]]],ug=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],uh=[0,[0,[0,0]]],ui=[0,[0,[0,0]]],uj=[0,[0,[0,[0,[0,[0,0]]]]]],uk=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],ul=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hh]]]]]]]]]]],um=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hi]]]]]]]]]]],un=[0,[0,[0,0]]],uo=[0,[0,[0,[0,[0,[0,0]]]]]],ue=[0,0],uc=[0,[0,0]],ud=[0,[0,[0,0]]],t_=[0,0,0],t$=[0,0,0],t6=[0,0,0],t7=[0,0,0],t8=[0,0,0],t9=[0,0,0],t5=[0,0],t4=[0,0],t3=[0,0],t1=[0,0],t2=[0,0],t0=[0,0],tY=[0,0],tZ=[0,0],tR=[0,0],tS=[0,0],tT=[0,0],tU=[0,[0,[0,0]]],tQ=[0,0],tL=[0,[0,[0,0]]],tM=[0,[0,0]],tJ=[0,[0,0]],tK=[0,[0,[0,0]]],tI=[0,0],tG=[0,0],tH=[0,0],tE=[0,0,0],tB=[0,[0,0]],tC=[0,0],tt=[0,[0,0]],tu=[0,0],tv=[0,[0,0]],tw=[0,0],tx=[0,[0,0]],ty=[0,0],tz=[0,[0,0]],tA=[0,0],tr=[0,[0,0]],ts=[0,0],tp=[0,[0,0]],tq=[0,0],tl=[0,[0,0]],tm=[0,0],tn=[0,0],to=[0,[0,0]],tc=[0,[0,0]],td=[0,0],te=[0,[0,0]],tf=[0,0],tg=[0,0],th=[0,[0,0]],ti=[0,[0,0]],tj=[0,[0,0]],tk=[0,0],s_=[0,0],s9=[0,0],s6=[0,0],s7=[0,[0,0]],s5=[0,[0,[0,0]]],s4=[0,[0,[0,[0,[0,[0,0]]]]]],s1=[0,[0,0]],s2=[0,[0,0]],s3=[0,0],s0=[0,0],sY=[0,0],sZ=[0,[0,[0,0]]],sV=[0,[0,[0,0]]],sS=[0,[0,[0,0]]],sQ=[0,[0,[0,0]]],sO=[0,[0,[0,[0,[0,[0,0]]]]]],sP=[0,[0,[0,[0,[0,[0,0]]]]]],sJ=[0,[0,0]],sK=[0,0],sL=[0,[0,0]],sM=[0,[0,[0,0]]],sN=[0,[0,[0,0]]],sC=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],sD=[0,[0,[0,[0,[0,[0,0]]]]]],sE=[0,[0,[0,[0,[0,[0,0]]]]]],sF=[0,[0,[0,0]]],sG=[0,[0,[0,[0,[0,[0,0]]]]]],sH=[0,[0,[0,0]]],sI=[0,[0,[0,0]]],sA=[0,[0,0]],sB=[0,0],sz=[0,0,0],sy=[0,0,0],sw=[0,0,0],sv=[0,[0,[0,0]]],sp=[0,0],sq=[0,0],sr=[0,0],ss=[0,0],sn=[0,0],so=[0,0],sj=[0,[0,[0,0]]],sk=[0,[0,[0,0]]],sl=[0,[0,[0,0]]],si=[0,[0,[0,[0,0]]]],se=[0,[0,[0,0]]],sf=[0,[0,[0,0]]],sg=[0,[0,[0,0]]],sh=[0,[0,1,1],[0,[0,0,1],[0,[0,1,0],[0,[0,0,0],0]]]],sc=[0,[0,0]],sd=[0,0],sa=[0,[0,0]],sb=[0,0],r_=[0,[0,0]],r$=[0,0],rX=[0,0],rY=[0,[0,0]],rV=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],rW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hj]]]]]]]]]]],rT=[0,0,0],rS=a(qU),rR=a(ad),rQ=[0,[0,0]],rO=[0,0],rL=[0,0],rN=[1,0],rM=[0,0],rK=[0,0],rI=[1,0],rJ=[1,0],s8=[10,0,0,0,0],A5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ho]]]]]]]]]]],Ei=a(bE),Ej=a(bD),Ek=a(pK),Ea=a(hr),Eb=[0,a("a base axis of such a platform"),0],Ec=a(bd),Ed=a(bC),DZ=a(qy),D0=a(pY),D1=a(qO),D2=a(g_),D3=a(pQ),D4=a(g_),D5=a(q1),D6=a(pF),D7=a(pC),DP=a(ql),DQ=a(hh),Dr=[0,a("such a machine with bodies"),0],De=a(he),Df=a(bl),Dg=a(qo),Dh=a(qP),Dk=a(pB),Dl=a(pa),Dm=a(bl),Dn=a(bl),Dp=a(g9),Do=[0,a("a claim that no cube of such a machine fits"),0],Dq=a(qY),Ds=a(ez),Dt=a(eE),Du=a(dH),Dv=a(jS),Dw=a(qg),Dx=a(hp),Dy=a(pD),Dz=a(pm),DA=a(jI),DD=a(dF),DE=a(qt),DH=a(b0),DI=a(b0),DJ=a(pN),DK=a(b0),DL=[0,a("the closed design with other bounds on psi than one from below and one from above"),0],DM=a(g9),DN=a(fG),DO=a(dF),DR=a(b0),DS=a(bE),DT=a(bD),DU=a(qu),DV=a(qK),DW=a(hs),DX=a(py),DB=[0,a(aL),0],DC=a('the mechanism "'),DY=a(jX),D8=a(hp),D9=a(dH),D_=a(jS),D$=a(j0),Ee=a(b0),Eh=a(dH),Ef=[0,a("a platform that turns on struts and other drives"),0],Eg=a(b0),DF=[0,a(aL),0],DG=a('the workspace "'),El=a(bl),Em=a(bl),Eo=a(fD),Ep=a(fy),Eq=a(hs),En=[0,a("an atlas of such a machine"),0],Di=[0,a(aL),0],Dj=a('a claim of the kind "'),EG=a(jY),EH=[0,a('the evidence "fan" without "tolerances"'),0],Ev=a(dI),EQ=a(fC),ER=[0,1,1],Ew=a(qd),EI=a(ey),EJ=a(eA),EK=a(pL),EL=a(p9),EM=a(cg),EN=a(fC),EO=a(ha),EP=a(cg),Ex=a(q2),Ey=a(dI),Ez=a(px),EA=a(eB),EB=a(jY),EE=a(eB),EF=[0,a('the evidence "inside" about "rank"'),0],EC=[0,a(aL),0],ED=a('the evidence "'),ES=a(ey),ET=a(eA),EU=a(dI),EV=a(eB),EW=a(qM),EY=a(ey),EZ=a(eA),E0=a(dI),E1=a(eB),E2=a(fz),E3=a(g$),E4=a(fz),E5=a(g$),EX=[0,a("this evidence at control points"),0],Gc=a('"orthocert-paving/'),F4=a(dI),F5=a(dI),FL=a(p4),FM=a(pI),FN=a(qD),Ga=[0,3,3],FO=a(pP),F2=[0,a("this set of orientations with such drives"),0],F3=[0,a('"parallel_margin" of struts in the plane'),0],F6=[0,a('this evidence "tolerances" of a platform that turns'),0],F7=[0,a('"one_to_one" of this set of orientations'),0],F8=[0,a("a step of a platform that turns that is not at control points"),0],F9=[0,a('the evidence "tolerances" of such a mechanism'),0],F_=[0,a(qa),0],F$=[0,a(qC),0],F1=[0,a(qa),0],F0=[0,a(qC),0],FY=[0,a(pd),0],FZ=[0,a("a step in a proof that no cube fits"),0],FX=[0,a('"one_to_one" of such a mechanism'),0],FP=[0,a("the acceleration of a joint of a machine with a plane"),0],FV=[0,a("a stiffness for each joint in such a claim"),0],FW=[0,a(qq),0],FU=[0,a(qq),0],FQ=a(p5),FR=a(pc),FS=a(hc),FT=[0,a(pd),0],FH=a(j3),FI=a(g$),FJ=a(cg),Fz=a(he),FA=a(pZ),FB=a(qH),FC=[0,a(aL),0],FD=a('a proof of the kind "'),Fv=a(fy),Fw=a(fD),Fx=a(hf),Fy=a(qf),Fr=a(bl),Fs=a(hn),Ft=a(pe),Fu=a(hk),Fo=a(qA),Fp=a(fz),Fq=a(hk),Fk=a(qi),Fl=a(hn),Fm=a(hf),Fn=a(qQ),E8=a(qL),E9=a(hj),E_=a(qI),E$=a(hh),Fa=a(qp),Fb=a(qW),Fe=a(qw),Ff=a(ha),Fg=a(fC),Fh=a(qz),Fi=a(qm),Fj=a(hj),Fc=[0,a(aL),0],Fd=a('the failure "'),E6=a(j3),E7=a(qU),Et=a(fC),Eu=a(ha),Er=a(pb),Es=a(pf),Db=a(fG),C3=a(jL),C4=a(ph),C5=a(eC),C6=a(bd),C$=a(qE),Da=a(fG),Dc=a(dG),Dd=a(eC),C7=a(dG),C8=a(p7),C9=a(pJ),C_=a(bd),CW=a(dF),C0=a(bE),C1=a(bD),CX=a(jQ),CY=a(jU),CZ=a(dG),CQ=a(dF),CU=a(bE),CV=a(bD),CR=a(jQ),CS=a(jU),CT=a(dG),CP=[0,1],CO=[0,1],CM=[0,1],CL=[0,1],CJ=[0,1],CK=[0,a("this quantity of such a mechanism"),0],Ct=a(jM),Cu=a(qr),Cv=a(pw),Cw=a(j2),Cx=a(qX),Cy=a(fx),Cs=a(hc),Ck=a(hi),B$=a(qb),Ca=a(qk),CB=a(ey),CC=a(qG),CD=a(pM),CE=a(eA),CF=a(qc),CG=a(po),CH=a(pp),CI=a(pg),Cb=a(pl),Cc=a(qx),Cd=a(qn),Ce=a(pE),Cf=a(qZ),Cg=a(pr),Ch=a(pq),Ci=[0,a(aL),0],Cj=a('the quantity "'),Cl=a(pA),Cm=a(qv),Cn=a(bE),Co=a(bD),Cp=a(qN),Cq=[0,a(aL),0],Cr=a('a bound "'),Cz=a(fw),CA=a(eC),B9=a(bZ),B_=a(eF),BO=a(bZ),BP=a(hr),BQ=a(fF),BR=a(hq),BS=a(eF),BV=a(bd),BW=a(bC),BX=a(fv),BY=a(ex),BZ=a(bd),B0=a(bC),B1=a(cg),B2=a(fv),B3=a(ex),B4=a(fF),B5=a(bd),B6=a(bC),B7=a(p$),B8=a(fx),BT=[0,a('" of such a machine'),0],BU=a(pv),BM=a(bZ),BN=a(fF),Bw=a(bZ),Bx=a(dH),By=a(hq),Bz=a(eF),BC=a(hr),BD=a(bd),BE=a(bC),BF=a(fv),BG=a(ex),BH=a(bd),BI=a(bC),BJ=a(cg),BK=a(cg),BA=[0,a(aL),0],BB=a(pv),Bt=a(hl),Bu=a(fA),Br=a(" is not covered by the verified checker"),Bs=a(ad),Bp=a(bE),Bq=a(bD),Bl=a(ad),Bm=a(q0),Bn=a(ad),Bo=a(ad),Bk=[1,0],Bi=a("Reader.Malformed"),Bj=a("Reader.Not_covered"),Ge=[0,a("a paving is checked by orthocert-verified")],Gd=a(qe),Gf=a("CERTIFIED"),Gg=a("REFUTED"),Gh=a(qe),Gi=a("NOT COVERED: ");function
+fM(a){throw[0,kj,a]}function
+a9(d,c){var
+a=au(d),e=au(c),b=cj(a+e|0);eH(d,0,b,0,a);eH(c,0,b,a,e);return hA(b)}HS(0);rm(1);rm(2);function
+kl(b){function
 a(b){var
 a=b;for(;;){if(a){var
-c=a[2],d=a[1];try{Hf(d)}catch(a){a=rb(a);if(a[1]!==j9)throw a;var
+c=a[2],d=a[1];try{HR(d)}catch(a){a=rw(a);if(a[1]!==kk)throw a;var
 e=a}var
-a=c;continue}return 0}}return a(Hh(0))}Ho(a(o0),j_);function
-ci(c){var
+a=c;continue}return 0}}return a(HT(0))}H0(a(pj),kl);function
+cl(c){var
 b=0,a=c;for(;;){if(a){var
 b=b+1|0,a=a[2];continue}return b}}function
-j$(d){var
+km(d){var
 a=d,b=0;for(;;){if(a){var
 c=[0,a[1],b],a=a[2],b=c;continue}return b}}function
-X(b,a){if(a){var
-c=a[2],d=i(b,a[1]);return[0,d,X(b,c)]}return 0}function
-ht(d,c){var
+Y(b,a){if(a){var
+c=a[2],d=i(b,a[1]);return[0,d,Y(b,c)]}return 0}function
+hC(d,c){var
 a=c;for(;;){if(a){var
 e=a[2],b=i(d,a[1]);if(b){var
 a=e;continue}return b}return 1}}function
-ay(d,c){var
+az(d,c){var
 a=c;for(;;){if(a){var
 e=a[2],b=i(d,a[1]);if(b)return b;var
 a=e;continue}return 0}}function
-bE(b,c){var
-a=cg(b);G1(a,0,b,c);return hr(a)}function
-dK(g,b,a){var
-d=eD(g),f=0;if(0<=b&&0<=a&&!((hp(d)-a|0)<b)){var
-c=cg(a);fB(d,b,c,0,a);var
+bG(b,c){var
+a=cj(b);HB(a,0,b,c);return hA(a)}function
+dO(g,b,a){var
+d=eI(g),f=0;if(0<=b&&0<=a&&!((hy(d)-a|0)<b)){var
+c=cj(a);fH(d,b,c,0,a);var
 e=c;f=1}if(!f)var
-e=fG(ri);return hr(e)}function
-ka(k,g){if(g){var
+e=fM(rD);return hA(e)}function
+kn(k,g){if(g){var
 h=au(k),c=0,b=g,p=0;for(;;){if(b){var
 i=b[1];if(b[2]){var
-j=(au(i)+h|0)+c|0,m=b[2],n=c<=j?j:fG(rj),c=n,b=m;continue}var
+j=(au(i)+h|0)+c|0,m=b[2],n=c<=j?j:fM(rE),c=n,b=m;continue}var
 l=au(i)+c|0}else
 var
 l=c;var
-f=cg(l),e=p,d=g;for(;;){if(d){var
+f=cj(l),e=p,d=g;for(;;){if(d){var
 a=d[1];if(d[2]){var
-o=d[2];eC(a,0,f,e,au(a));eC(k,0,f,e+au(a)|0,h);var
-e=(e+au(a)|0)+h|0,d=o;continue}eC(a,0,f,e,au(a))}return hr(f)}}}return rk}function
-hu(b,c){if(0===b)return[0];if(0<=b){var
-d=He(b,i(c,0)),e=b-1|0,f=1;if(!(e<1)){var
+o=d[2];eH(a,0,f,e,au(a));eH(k,0,f,e+au(a)|0,h);var
+e=(e+au(a)|0)+h|0,d=o;continue}eH(a,0,f,e,au(a))}return hA(f)}}}return rF}function
+hD(b,c){if(0===b)return[0];if(0<=b){var
+d=HQ(b,i(c,0)),e=b-1|0,f=1;if(!(e<1)){var
 a=f;for(;;){d[1+a]=i(c,a);var
 g=a+1|0;if(e!==a){var
-a=g;continue}break}}return d}return fG(rl)}function
-hv(c){var
+a=g;continue}break}}return d}return fM(rG)}function
+hE(c){var
 a=c.length-1-1|0,b=0;for(;;){if(0<=a){var
 d=[0,c[1+a],b],a=a-1|0,b=d;continue}return b}}var
-d=aE(0),b=aE(1);function
-p(a){return C(a,b)}function
-kb(b,a){return C(aE(b),a)}function
-c(b,a){return A(aE(b),a)}function
-aT(b,a){return[0,j5(b,a),re(b,a)]}function
-hw(b,a){return E(b,a)?b:a}function
-bj(b,a){return E(b,a)?a:b}function
-eI(a){return eI}function
-T(a){return a?0:1}function
-y(b,a){var
+d=aD(0),b=aD(1);function
+r(a){return D(a,b)}function
+ko(b,a){return D(aD(b),a)}function
+c(b,a){return B(aD(b),a)}function
+aS(b,a){return[0,kg(b,a),rz(b,a)]}function
+hF(b,a){return E(b,a)?b:a}function
+bm(b,a){return E(b,a)?a:b}function
+eN(a){return eN}function
+S(a){return a?0:1}function
+z(b,a){var
 c=a?[0,i(b,a[1])]:a;return c}function
-az(a){return a[1]}function
-aU(a){return a[2]}function
+aB(a){return a[1]}function
+aW(a){return a[2]}function
 g(a){var
 b=a?[0,g(a[2])]:a;return b}function
 f(a,b){if(a){var
 c=f(a[2],b);return[0,a[1],c]}return b}function
-kc(a){return typeof
-a==="number"?0:[0,kc(a[1])]}function
-kd(d,c){var
+kp(a){return typeof
+a==="number"?0:[0,kp(a[1])]}function
+kq(d,c){var
 a=d,b=c;for(;;)if(typeof
 a==="number")return b;else
 switch(a[0]){case
@@ -797,9 +797,9 @@ a=a[1],b=[7,b];continue;case
 8:var
 a=a[1],b=[8,b];continue;default:var
 a=a[1],b=[9,b];continue}}function
-fH(a){return kd(a,0)}function
-ke(a){if(typeof
-a==="number")return rn;else
+fN(a){return kq(a,0)}function
+kr(a){if(typeof
+a==="number")return rI;else
 switch(a[0]){case
 0:return[1,a[1]];case
 1:return[2,a[1]];case
@@ -809,167 +809,173 @@ switch(a[0]){case
 5:return[6,a[1]];case
 6:return[7,a[1]];case
 7:return[8,a[1]];case
-8:return[9,a[1]];default:return[0,ke(a[1])]}}function
-bG(a){if(typeof
-a==="number")return ro;else
+8:return[9,a[1]];default:return[0,kr(a[1])]}}function
+bI(a){if(typeof
+a==="number")return rJ;else
 switch(a[0]){case
-0:return[1,bF(a[1])];case
-1:return[3,bF(a[1])];case
-2:return[5,bF(a[1])];case
-3:return[7,bF(a[1])];case
-4:return[9,bF(a[1])];case
-5:return[1,bG(a[1])];case
-6:return[3,bG(a[1])];case
-7:return[5,bG(a[1])];case
-8:return[7,bG(a[1])];default:return[9,bG(a[1])]}}function
-bF(a){if(typeof
+0:return[1,bH(a[1])];case
+1:return[3,bH(a[1])];case
+2:return[5,bH(a[1])];case
+3:return[7,bH(a[1])];case
+4:return[9,bH(a[1])];case
+5:return[1,bI(a[1])];case
+6:return[3,bI(a[1])];case
+7:return[5,bI(a[1])];case
+8:return[7,bI(a[1])];default:return[9,bI(a[1])]}}function
+bH(a){if(typeof
 a==="number")return 0;else
 switch(a[0]){case
-0:return[0,bF(a[1])];case
-1:return[2,bF(a[1])];case
-2:return[4,bF(a[1])];case
-3:return[6,bF(a[1])];case
-4:return[8,bF(a[1])];case
-5:return[0,bG(a[1])];case
-6:return[2,bG(a[1])];case
-7:return[4,bG(a[1])];case
-8:return[6,bG(a[1])];default:return[8,bG(a[1])]}}function
-bs(a){return a?a[1]:a}function
-O(b,a){return b?[0,O(b[1],a)]:a}function
-kf(a,b){return a?O(b,kf(a[1],b)):a}function
-dL(d,c){var
+0:return[0,bH(a[1])];case
+1:return[2,bH(a[1])];case
+2:return[4,bH(a[1])];case
+3:return[6,bH(a[1])];case
+4:return[8,bH(a[1])];case
+5:return[0,bI(a[1])];case
+6:return[2,bI(a[1])];case
+7:return[4,bI(a[1])];case
+8:return[6,bI(a[1])];default:return[8,bI(a[1])]}}function
+bv(a){return a?a[1]:a}function
+P(b,a){return b?[0,P(b[1],a)]:a}function
+ks(a,b){return a?P(b,ks(a[1],b)):a}function
+dP(d,c){var
 a=d,b=c;for(;;){if(a){if(b){var
 a=a[1],b=b[1];continue}return a}return a}}function
-cj(b,a){return b?a:a?0:1}function
-r(d,c){var
+cm(b,a){return b?a:a?0:1}function
+p(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return a?0:1}}function
-Y(d,c){var
+Z(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return 1}}function
-aV(b,a){return Y([0,b],a)}function
-kg(c){var
+aN(b,a){return Z([0,b],a)}function
+kt(c){var
 a=c;for(;;){if(a){var
 b=a[1];if(b){var
 a=b[1];continue}return b}return 1}}function
-fI(c,b,a){return c?i(b,fI(c[1],b,a)):a}function
-kh(a){if(a)var
-b=a[1],d=b?[0,kh(b[1])]:b,c=d;else
+fO(c,b,a){return c?i(b,fO(c[1],b,a)):a}function
+ku(a){if(a)var
+b=a[1],d=b?[0,ku(b[1])]:b,c=d;else
 var
 c=a;return c}function
-hx(d,c){var
+hG(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return a?0:1}}function
-ki(a){if(E(a,b))return b;var
-e=aT(a,aE(2)),f=e[1];return J(e[2],d)?p(c(2,ki(f))):p(c(2,c(2,f)))}function
-kj(c,a){return bj(b,aB(c,a))}function
-fJ(a){if(E(a,b))return rq;var
-c=aT(a,aE(2)),e=c[1];return J(c[2],d)?[0,fJ(e)]:[0,fJ(e)]}function
-fK(a){if(E(a,b))return b;var
-c=aT(a,aE(2)),e=c[1];return J(c[2],d)?p(fK(e)):p(fK(e))}function
-kk(c,b){var
-a=j4(c,b);return 0===a?0:0<=a?2:1}function
-fL(j,i){var
-c=j,a=i;for(;;){if(E(c,b))return E(a,b)?1:J(aT(a,aE(2))[2],d)?0:0;var
-g=aT(c,aE(2)),h=g[1];if(J(g[2],d)){if(E(a,b))return 0;var
-e=aT(a,aE(2)),k=e[1];if(J(e[2],d)){var
+kv(a){if(E(a,b))return b;var
+e=aS(a,aD(2)),f=e[1];return J(e[2],d)?r(c(2,kv(f))):r(c(2,c(2,f)))}function
+kw(c,a){return bm(b,aE(c,a))}function
+fP(a,j,h){var
+c=j,f=h;for(;;){if(E(f,b))return i(a,c);var
+g=aS(f,aD(2)),e=g[1];if(J(g[2],d)){var
+c=fP(a,c,e),f=e;continue}return i(a,fP(a,fP(a,c,e),e))}}function
+kx(a){function
+c(b){return B(a,b)}return function(a){return fP(c,b,a)}}function
+fQ(a){if(E(a,b))return rL;var
+c=aS(a,aD(2)),e=c[1];return J(c[2],d)?[0,fQ(e)]:[0,fQ(e)]}function
+fR(a){if(E(a,b))return b;var
+c=aS(a,aD(2)),e=c[1];return J(c[2],d)?r(fR(e)):r(fR(e))}function
+ky(c,b){var
+a=kf(c,b);return 0===a?0:0<=a?2:1}function
+fS(j,i){var
+c=j,a=i;for(;;){if(E(c,b))return E(a,b)?1:J(aS(a,aD(2))[2],d)?0:0;var
+g=aS(c,aD(2)),h=g[1];if(J(g[2],d)){if(E(a,b))return 0;var
+e=aS(a,aD(2)),k=e[1];if(J(e[2],d)){var
 c=h,a=k;continue}return 0}if(E(a,b))return 0;var
-f=aT(a,aE(2)),l=f[1];if(J(f[2],d))return 0;var
+f=aS(a,aD(2)),l=f[1];if(J(f[2],d))return 0;var
 c=h,a=l;continue}}function
-fM(b,a){return 2<=kk(b,a)?0:1}function
-dM(i,e,a){if(i){var
+fT(b,a){return 2<=ky(b,a)?0:1}function
+dQ(i,e,a){if(i){var
 f=i[1];if(E(e,b))return[0,b,[0,b,a]];var
-w=aT(e,aE(2)),g=w[1];if(J(w[2],d)){if(E(a,b))return[0,b,[0,e,b]];var
-m=aT(a,aE(2)),A=m[1];if(J(m[2],d)){var
-j=dM(f,g,A),x=j[2];return[0,c(2,j[1]),x]}var
-k=dM(f,g,a),l=k[2],y=l[2],z=[0,c(2,l[1]),y];return[0,k[1],z]}if(E(a,b))return[0,b,[0,e,b]];var
-v=aT(a,aE(2)),h=v[1];if(J(v[2],d)){var
-n=dM(f,e,h),o=n[2],B=c(2,o[2]);return[0,n[1],[0,o[1],B]]}switch(kk(g,h)){case
+w=aS(e,aD(2)),g=w[1];if(J(w[2],d)){if(E(a,b))return[0,b,[0,e,b]];var
+m=aS(a,aD(2)),A=m[1];if(J(m[2],d)){var
+j=dQ(f,g,A),x=j[2];return[0,c(2,j[1]),x]}var
+k=dQ(f,g,a),l=k[2],y=l[2],z=[0,c(2,l[1]),y];return[0,k[1],z]}if(E(a,b))return[0,b,[0,e,b]];var
+v=aS(a,aD(2)),h=v[1];if(J(v[2],d)){var
+n=dQ(f,e,h),o=n[2],B=c(2,o[2]);return[0,n[1],[0,o[1],B]]}switch(ky(g,h)){case
 0:return[0,e,[0,b,b]];case
 1:var
-p=dM(f,kj(h,g),e),q=p[2],r=q[2],D=[0,r,C(r,c(2,q[1]))];return[0,p[1],D];default:var
-s=dM(f,kj(g,h),a),t=s[2],u=t[2],F=[0,C(u,c(2,t[1])),u];return[0,s[1],F]}}return[0,b,[0,e,a]]}function
-fN(b,a){var
-c=fJ(a);return dM(O(fJ(b),c),b,a)}function
-kl(c,i,h){var
+p=dQ(f,kw(h,g),e),q=p[2],r=q[2],C=[0,r,D(r,c(2,q[1]))];return[0,p[1],C];default:var
+s=dQ(f,kw(g,h),a),t=s[2],u=t[2],F=[0,D(u,c(2,t[1])),u];return[0,s[1],F]}}return[0,b,[0,e,a]]}function
+fU(b,a){var
+c=fQ(a);return dQ(P(fQ(b),c),b,a)}function
+kz(c,i,h){var
 e=i,a=h;for(;;){if(E(e,b))return a;var
-f=aT(e,aE(2)),g=f[1];if(J(f[2],d)){var
-e=g,a=an(c,a,a);continue}return an(c,a,kl(c,g,an(c,a,a)))}}function
-eJ(a){return kl(O,a,rr)}function
-km(a){return a?p(km(a[1])):b}function
-ck(f,e){var
+f=aS(e,aD(2)),g=f[1];if(J(f[2],d)){var
+e=g,a=ao(c,a,a);continue}return ao(c,a,kz(c,g,ao(c,a,a)))}}function
+eO(a){return kz(P,a,rM)}function
+kA(a){return a?r(kA(a[1])):b}function
+cn(f,e){var
 a=f,d=e;for(;;)if(typeof
 a==="number")return d;else
 switch(a[0]){case
 0:var
-g=A(c(2,p(c(2,c(2,b)))),d),a=a[1],d=g;continue;case
+g=B(c(2,r(c(2,c(2,b)))),d),a=a[1],d=g;continue;case
 1:var
-h=C(b,A(c(2,p(c(2,c(2,b)))),d)),a=a[1],d=h;continue;case
+h=D(b,B(c(2,r(c(2,c(2,b)))),d)),a=a[1],d=h;continue;case
 2:var
-i=A(c(2,p(c(2,c(2,b)))),d),j=C(c(2,b),i),a=a[1],d=j;continue;case
+i=B(c(2,r(c(2,c(2,b)))),d),j=D(c(2,b),i),a=a[1],d=j;continue;case
 3:var
-k=A(c(2,p(c(2,c(2,b)))),d),l=C(p(c(2,b)),k),a=a[1],d=l;continue;case
+k=B(c(2,r(c(2,c(2,b)))),d),l=D(r(c(2,b)),k),a=a[1],d=l;continue;case
 4:var
-m=A(c(2,p(c(2,c(2,b)))),d),n=C(c(2,c(2,b)),m),a=a[1],d=n;continue;case
+m=B(c(2,r(c(2,c(2,b)))),d),n=D(c(2,c(2,b)),m),a=a[1],d=n;continue;case
 5:var
-o=A(c(2,p(c(2,c(2,b)))),d),q=C(p(c(2,c(2,b))),o),a=a[1],d=q;continue;case
+o=B(c(2,r(c(2,c(2,b)))),d),p=D(r(c(2,c(2,b))),o),a=a[1],d=p;continue;case
 6:var
-r=A(c(2,p(c(2,c(2,b)))),d),s=C(c(2,p(c(2,b))),r),a=a[1],d=s;continue;case
+q=B(c(2,r(c(2,c(2,b)))),d),s=D(c(2,r(c(2,b))),q),a=a[1],d=s;continue;case
 7:var
-t=A(c(2,p(c(2,c(2,b)))),d),u=C(p(c(2,p(c(2,b)))),t),a=a[1],d=u;continue;case
+t=B(c(2,r(c(2,c(2,b)))),d),u=D(r(c(2,r(c(2,b)))),t),a=a[1],d=u;continue;case
 8:var
-v=A(c(2,p(c(2,c(2,b)))),d),w=C(c(2,c(2,c(2,b))),v),a=a[1],d=w;continue;default:var
-x=A(c(2,p(c(2,c(2,b)))),d),y=C(p(c(2,c(2,c(2,b)))),x),a=a[1],d=y;continue}}function
-hy(a){if(E(a,b))return rs;var
-c=aT(a,aE(2)),e=c[1];return J(c[2],d)?bF(hy(e)):bG(hy(e))}function
-fO(a){return fH(hy(a))}function
-kn(c,b){var
-a=j4(c,b);return 0===a?0:0<=a?2:1}function
-ko(b,a){return 1===kn(b,a)?1:0}var
-kp=C,ru=R;function
-bZ(k,f){if(0<=aK(f)){var
-g=j6(f);if(0<=g){var
+v=B(c(2,r(c(2,c(2,b)))),d),w=D(c(2,c(2,c(2,b))),v),a=a[1],d=w;continue;default:var
+x=B(c(2,r(c(2,c(2,b)))),d),y=D(r(c(2,c(2,c(2,b)))),x),a=a[1],d=y;continue}}function
+hH(a){if(E(a,b))return rN;var
+c=aS(a,aD(2)),e=c[1];return J(c[2],d)?bH(hH(e)):bI(hH(e))}function
+fV(a){return fN(hH(a))}function
+kB(c,b){var
+a=kf(c,b);return 0===a?0:0<=a?2:1}function
+kC(b,a){return 1===kB(b,a)?1:0}var
+kD=D,rP=O;function
+b3(k,f){if(0<=aM(f)){var
+g=kh(f);if(0<=g){var
 e=b,c=k,a=g;for(;;){if(0===a)return e;var
-h=a>>>1|0,i=A(c,c),j=1===(a&1)?A(e,c):e,e=j,c=i,a=h;continue}}return fG(rm)}return d}function
-hz(c){var
-a=aK(c);return 0===a?d:0<a?b:R(b)}function
-hA(a){return 0<=aK(a)?a:d}function
-dN(a){var
-c=aK(a);return 0===c?b:0<c?a:b}function
-kq(m){var
+h=a>>>1|0,i=B(c,c),j=1===(a&1)?B(e,c):e,e=j,c=i,a=h;continue}}return fM(rH)}return d}function
+hI(c){var
+a=aM(c);return 0===a?d:0<a?b:O(b)}function
+hJ(a){return 0<=aM(a)?a:d}function
+dR(a){var
+c=aM(a);return 0===c?b:0<c?a:b}function
+kE(m){var
 a=m;for(;;)if(typeof
 a==="number")return d;else
 switch(a[0]){case
 0:var
 a=a[1];continue;case
-1:return ck(a[1],b);case
+1:return cn(a[1],b);case
 2:var
-e=c(2,b);return ck(a[1],e);case
+e=c(2,b);return cn(a[1],e);case
 3:var
-f=p(c(2,b));return ck(a[1],f);case
+f=r(c(2,b));return cn(a[1],f);case
 4:var
-g=c(2,c(2,b));return ck(a[1],g);case
+g=c(2,c(2,b));return cn(a[1],g);case
 5:var
-h=p(c(2,c(2,b)));return ck(a[1],h);case
+h=r(c(2,c(2,b)));return cn(a[1],h);case
 6:var
-i=c(2,p(c(2,b)));return ck(a[1],i);case
+i=c(2,r(c(2,b)));return cn(a[1],i);case
 7:var
-j=p(c(2,p(c(2,b))));return ck(a[1],j);case
+j=r(c(2,r(c(2,b))));return cn(a[1],j);case
 8:var
-k=c(2,c(2,c(2,b)));return ck(a[1],k);default:var
-l=p(c(2,c(2,c(2,b))));return ck(a[1],l)}}function
-cl(b,a){var
-c=aK(a);return 0===c?d:1===c?j5(b,a):kb(-1,j5(kb(-1,b),a))}function
-kr(a){var
-f=aK(a);if(0===f)return d;if(0<f){if(E(a,b))return d;var
-c=aT(a,aE(2)),e=c[1];return J(c[2],d)?fK(e):fK(e)}return d}function
-fP(a){return 0<aK(a)?Hy(a):d}function
-eK(b,c){var
-a=j6(c);return 0<=a?rf(b,a):rg(b,-a|0)}function
-c9(b,c){var
-a=j6(c);return 0<=a?rg(b,a):rf(b,-a|0)}function
-bH(b,a){return a?a[1]:b}function
-bt(a){var
+k=c(2,c(2,c(2,b)));return cn(a[1],k);default:var
+l=r(c(2,c(2,c(2,b))));return cn(a[1],l)}}function
+co(b,a){var
+c=aM(a);return 0===c?d:1===c?kg(b,a):ko(-1,kg(ko(-1,b),a))}function
+kF(a){var
+f=aM(a);if(0===f)return d;if(0<f){if(E(a,b))return d;var
+c=aS(a,aD(2)),e=c[1];return J(c[2],d)?fR(e):fR(e)}return d}function
+fW(a){return 0<aM(a)?H_(a):d}function
+eP(b,c){var
+a=kh(c);return 0<=a?rA(b,a):rB(b,-a|0)}function
+dh(b,c){var
+a=kh(c);return 0<=a?rB(b,a):rA(b,-a|0)}function
+bJ(b,a){return a?a[1]:b}function
+bw(a){var
 b=a?a[2]:a;return b}function
 q(e,d,c){var
 b=e,a=d;for(;;){if(b){if(a){var
@@ -978,16 +984,16 @@ F(d,c){var
 a=d,b=c;for(;;){if(b){if(a){var
 a=a[2],b=b[1];continue}return a}var
 e=a?[0,a[1]]:a;return e}}function
-ks(a){if(a){var
-b=[0,a[1],0];return f(ks(a[2]),b)}return a}function
-eL(d,c){var
+kG(a){if(a){var
+b=[0,a[1],0];return f(kG(a[2]),b)}return a}function
+eQ(d,c){var
 a=d,b=c;for(;;){if(a){var
 e=[0,a[1],b],a=a[2],b=e;continue}return b}}function
-dO(a){if(a){var
-b=dO(a[2]);return f(a[1],b)}return a}function
-hB(g,f,e){var
+dS(a){if(a){var
+b=dS(a[2]);return f(a[1],b)}return a}function
+hK(g,f,e){var
 b=f,a=e;for(;;){if(b){if(a){var
-c=an(g,b[1],a[1]);if(c){var
+c=ao(g,b[1],a[1]);if(c){var
 b=b[2],a=a[2];continue}var
 d=c}else
 var
@@ -996,14 +1002,14 @@ e(b,a){if(a)var
 d=e(b,a[2]),c=[0,i(b,a[1]),d];else
 var
 c=a;return c}function
-x(b,a){if(a){var
-c=x(b,a[2]);return f(i(b,a[1]),c)}return a}function
-b0(e,d,c){var
+y(b,a){if(a){var
+c=y(b,a[2]);return f(i(b,a[1]),c)}return a}function
+b4(e,d,c){var
 a=d,b=c;for(;;){if(a){var
-f=an(e,b,a[1]),a=a[2],b=f;continue}return b}}function
-as(c,b,a){if(a){var
-d=as(c,b,a[2]);return an(c,a[1],d)}return b}function
-ak(e,d){var
+f=ao(e,b,a[1]),a=a[2],b=f;continue}return b}}function
+aq(c,b,a){if(a){var
+d=aq(c,b,a[2]);return ao(c,a[1],d)}return b}function
+al(e,d){var
 a=d;for(;;){if(a){var
 b=i(e,a[1]);if(!b){var
 a=a[2];continue}var
@@ -1014,133 +1020,135 @@ m(d,c){var
 a=c;for(;;){if(a){var
 b=i(d,a[1]);if(b){var
 a=a[2];continue}return b}return 1}}function
-bk(b,e){var
+bn(b,e){var
 a=e;for(;;){if(a){var
-c=a[2],d=a[1];if(i(b,d))return[0,d,bk(b,c)];var
+c=a[2],d=a[1];if(i(b,d))return[0,d,bn(b,c)];var
 a=c;continue}return a}}function
-kt(d,c){var
+kH(d,c){var
 a=c;for(;;){if(a){var
 b=a[1];if(i(d,b))return[0,b];var
 a=a[2];continue}return a}}function
-ag(b,a){if(b)if(a)var
-d=ag(b[2],a[2]),c=[0,[0,b[1],a[1]],d];else
+_(b,a){if(b)if(a)var
+d=_(b[2],a[2]),c=[0,[0,b[1],a[1]],d];else
 var
 c=a;else
 var
 c=b;return c}function
-aL(b,a){if(b)if(a)var
-d=aL(b[1],a[2]),c=[0,a[1],d];else
+aH(b,a){if(b)if(a)var
+d=aH(b[1],a[2]),c=[0,a[1],d];else
 var
 c=a;else
 var
 c=b;return c}function
-aZ(d,c){var
+aX(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[2];continue}return a}return a}}function
 aA(b,a){var
 c=a?[0,b,aA([0,b],a[1])]:a;return c}function
-al(b,a){var
-c=a?[0,b,al(b,a[1])]:a;return c}function
-ku(a){if(a){var
-e=ku(a[2]),f=A(c(2,b),e),g=a[1]?b:d;return C(g,f)}return d}function
-fQ(j){function
+am(b,a){var
+c=a?[0,b,am(b,a[1])]:a;return c}function
+kI(a){if(a){var
+e=kI(a[2]),f=B(c(2,b),e),g=a[1]?b:d;return D(g,f)}return d}function
+fX(j){function
 a(a){return 0!==(j&1<<a)?1:0}var
-c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=ku([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<aK(b)?eJ(b):0}function
-kv(a){return[0,a,b]}function
-dP(c,b){var
-a=j4(A(c[1],b[2]),A(b[1],c[2])),d=0===a?0:0<=a?2:1;return d?0:1}function
-bl(b,a){return E(A(b[1],a[2]),A(a[1],b[2]))}function
-c_(b,a){return[0,C(A(b[1],a[2]),A(a[1],b[2])),A(b[2],a[2])]}function
-a0(b,a){return[0,A(b[1],a[1]),A(b[2],a[2])]}function
-kw(a){return[0,R(a[1]),a[2]]}function
-dQ(b,a){return c_(b,kw(a))}function
-fR(f,c){var
-a=c[1],e=aK(a),g=0===e?[0,d,b]:0<e?[0,c[2],a]:[0,R(c[2]),R(a)];return a0(f,g)}function
-c$(q){var
-a=q[2],b=q[1],o=aK(b);if(0===o)var
-c=[0,ch(a),[0,d,hz(a)]];else
+c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=kI([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<aM(b)?eO(b):0}function
+kJ(a){return[0,a,b]}function
+dT(c,b){var
+a=kf(B(c[1],b[2]),B(b[1],c[2])),d=0===a?0:0<=a?2:1;return d?0:1}function
+a_(b,a){return E(B(b[1],a[2]),B(a[1],b[2]))}function
+di(b,a){return[0,D(B(b[1],a[2]),B(a[1],b[2])),B(b[2],a[2])]}function
+a1(b,a){return[0,B(b[1],a[1]),B(b[2],a[2])]}function
+hL(a){return[0,O(a[1]),a[2]]}function
+dU(b,a){return di(b,hL(a))}function
+fY(f,c){var
+a=c[1],e=aM(a),g=0===e?[0,d,b]:0<e?[0,c[2],a]:[0,O(c[2]),O(a)];return a1(f,g)}function
+dj(q){var
+a=q[2],b=q[1],o=aM(b);if(0===o)var
+c=[0,ck(a),[0,d,hI(a)]];else
 if(0<o){var
-n=aK(a);if(0===n)var
-c=[0,ch(b),[0,hz(b),d]];else
+n=aM(a);if(0===n)var
+c=[0,ck(b),[0,hI(b),d]];else
 if(0<n)var
-l=fN(b,a),m=l[2],c=[0,l[1],[0,m[1],m[2]]];else
+l=fU(b,a),m=l[2],c=[0,l[1],[0,m[1],m[2]]];else
 var
-j=fN(b,R(a)),k=j[2],c=[0,j[1],[0,k[1],R(k[2])]]}else{var
-p=R(b),i=aK(a);if(0===i)var
-c=[0,ch(b),[0,hz(b),d]];else
+j=fU(b,O(a)),k=j[2],c=[0,j[1],[0,k[1],O(k[2])]]}else{var
+p=O(b),i=aM(a);if(0===i)var
+c=[0,ck(b),[0,hI(b),d]];else
 if(0<i)var
-g=fN(p,a),h=g[2],c=[0,g[1],[0,R(h[1]),h[2]]];else
+g=fU(p,a),h=g[2],c=[0,g[1],[0,O(h[1]),h[2]]];else
 var
-e=fN(p,R(a)),f=e[2],c=[0,e[1],[0,R(f[1]),R(f[2])]]}var
-r=c[2],s=dN(r[2]);return[0,r[1],s]}function
-bc(a){if(typeof
-a==="number")return rw;else
+e=fU(p,O(a)),f=e[2],c=[0,e[1],[0,O(f[1]),O(f[2])]]}var
+r=c[2],s=dR(r[2]);return[0,r[1],s]}function
+be(a){if(typeof
+a==="number")return rR;else
 switch(a[0]){case
 0:var
-b=bc(a[1]);return a8(bE(1,48),b);case
+b=be(a[1]);return a9(bG(1,48),b);case
 1:var
-c=bc(a[1]);return a8(bE(1,49),c);case
+c=be(a[1]);return a9(bG(1,49),c);case
 2:var
-d=bc(a[1]);return a8(bE(1,50),d);case
+d=be(a[1]);return a9(bG(1,50),d);case
 3:var
-e=bc(a[1]);return a8(bE(1,51),e);case
+e=be(a[1]);return a9(bG(1,51),e);case
 4:var
-f=bc(a[1]);return a8(bE(1,52),f);case
+f=be(a[1]);return a9(bG(1,52),f);case
 5:var
-g=bc(a[1]);return a8(bE(1,53),g);case
+g=be(a[1]);return a9(bG(1,53),g);case
 6:var
-h=bc(a[1]);return a8(bE(1,54),h);case
+h=be(a[1]);return a9(bG(1,54),h);case
 7:var
-i=bc(a[1]);return a8(bE(1,55),i);case
+i=be(a[1]);return a9(bG(1,55),i);case
 8:var
-j=bc(a[1]);return a8(bE(1,56),j);default:var
-k=bc(a[1]);return a8(bE(1,57),k)}}function
-eM(a){return typeof
-a==="number"?rx:bc(a)}function
-cm(a){return bZ(c(2,b),a)}function
-kx(b,a){return c9(a,b)}function
-ky(b,a){return R(c9(R(a),b))}function
-fS(b,a){return R(cl(R(b),a))}function
-P(c,b){var
-a=eK(b,c);return[0,a,a]}function
-kz(d,c,a){var
-b=eK(c,d),e=fS(b,a);return[0,cl(b,a),e]}function
-z(b,a){return[0,C(b[1],a[1]),C(b[2],a[2])]}function
-G(b,a){return[0,aB(b[1],a[2]),aB(b[2],a[1])]}function
-ab(a){return[0,R(a[2]),R(a[1])]}function
-kA(e,c,b,a){if(E(d,e))return E(d,b)?[0,A(e,b),A(c,a)]:E(a,d)?[0,A(c,b),A(e,a)]:[0,A(c,b),A(c,a)];if(E(c,d))return E(d,b)?[0,A(e,a),A(c,b)]:E(a,d)?[0,A(c,a),A(e,b)]:[0,A(e,a),A(e,b)];if(E(d,b))return[0,A(e,a),A(c,a)];if(E(a,d))return[0,A(c,b),A(e,b)];var
-f=bj(A(e,b),A(c,a));return[0,hw(A(e,a),A(c,b)),f]}function
+j=be(a[1]);return a9(bG(1,56),j);default:var
+k=be(a[1]);return a9(bG(1,57),k)}}function
+eR(a){return typeof
+a==="number"?rS:be(a)}function
+cp(a){return b3(c(2,b),a)}function
+kK(b,a){return dh(a,b)}function
+kL(b,a){return O(dh(O(a),b))}function
+fZ(b,a){return O(co(O(b),a))}function
+Q(c,b){var
+a=eP(b,c);return[0,a,a]}function
+kM(d,c,a){var
+b=eP(c,d),e=fZ(b,a);return[0,co(b,a),e]}function
+A(b,a){return[0,D(b[1],a[1]),D(b[2],a[2])]}function
+H(b,a){return[0,aE(b[1],a[2]),aE(b[2],a[1])]}function
+ae(a){return[0,O(a[2]),O(a[1])]}function
+kN(e,c,b,a){if(E(d,e))return E(d,b)?[0,B(e,b),B(c,a)]:E(a,d)?[0,B(c,b),B(e,a)]:[0,B(c,b),B(c,a)];if(E(c,d))return E(d,b)?[0,B(e,a),B(c,b)]:E(a,d)?[0,B(c,a),B(e,b)]:[0,B(e,a),B(e,b)];if(E(d,b))return[0,B(e,a),B(c,a)];if(E(a,d))return[0,B(c,b),B(e,b)];var
+f=bm(B(e,b),B(c,a));return[0,hF(B(e,a),B(c,b)),f]}function
 t(c,b,a){var
-d=kA(b[1],b[2],a[1],a[2]),e=ky(c,d[2]);return[0,kx(c,d[1]),e]}function
-W(b,a){var
-c=A(a[1],a[1]),e=A(a[2],a[2]),h=ky(b,bj(c,e)),g=0;if(K(a[1],d)&&K(d,a[2])){var
+d=kN(b[1],b[2],a[1],a[2]),e=kL(c,d[2]);return[0,kK(c,d[1]),e]}function
+X(b,a){var
+c=B(a[1],a[1]),e=B(a[2],a[2]),h=kL(b,bm(c,e)),g=0;if(I(a[1],d)&&I(d,a[2])){var
 f=d;g=1}if(!g)var
-f=kx(b,hw(c,e));return[0,f,h]}function
-hC(b,a){var
-c=eK(cm(b),b),d=fS(c,a[1]);return[0,cl(c,a[2]),d]}function
-b1(b,a){if(K(d,a[1]))return[0,hC(b,a)];var
-c=K(a[2],d),e=c?[0,ab(hC(b,ab(a)))]:c;return e}function
-b2(f,c){var
-g=K(d,c[1]);if(g)var
-e=eK(c[2],f),a=fP(e),i=J(A(a,a),e)?a:C(a,b),h=[0,[0,fP(eK(c[1],f)),i]];else
+f=kK(b,hF(c,e));return[0,f,h]}function
+hM(b,a){var
+c=eP(cp(b),b),d=fZ(c,a[1]);return[0,co(c,a[2]),d]}function
+b5(b,a){if(I(d,a[1]))return[0,hM(b,a)];var
+c=I(a[2],d),e=c?[0,ae(hM(b,ae(a)))]:c;return e}function
+hN(c){var
+a=fW(c);return J(B(a,a),c)?a:D(a,b)}function
+b6(b,a){var
+c=I(d,a[1]);if(c)var
+f=hN(eP(a[2],b)),e=[0,[0,fW(eP(a[1],b)),f]];else
 var
-h=g;return h}function
-dR(a){return 0===a[0]?a[2]:a[1]}function
-aF(f,d,c,b,a){if(b){if(a){var
-g=aF(f,d,c,b[2],a[2]);return[0,an(c,b[1],a[1]),g]}return e(f,b)}return e(d,a)}function
-cG(b,a){return c9(b,a)}function
-aR(a,c,b){if(E(d,a)){var
-e=b[1],f=R(cG(R(A(a,b[2])),c));return[0,cG(A(a,e),c),f]}var
-g=b[2],h=R(cG(R(A(a,b[1])),c));return[0,cG(A(a,g),c),h]}function
-aq(a){var
-c=R(c9(R(a[2]),b));return[0,c9(a[1],b),c]}function
-dS(c,b,a){var
-e=kA(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=K(f,d)?a[2]:a[1],i=fS(f,h),j=K(g,d)?a[1]:a[2];return[0,cl(g,j),i]}function
-b3(a){return bj(a[2],R(a[1]))}var
+e=c;return e}function
+dV(a){return 0===a[0]?a[2]:a[1]}function
+aI(f,d,c,b,a){if(b){if(a){var
+g=aI(f,d,c,b[2],a[2]);return[0,ao(c,b[1],a[1]),g]}return e(f,b)}return e(d,a)}function
+cN(b,a){return dh(b,a)}function
+aT(a,c,b){if(E(d,a)){var
+e=b[1],f=O(cN(O(B(a,b[2])),c));return[0,cN(B(a,e),c),f]}var
+g=b[2],h=O(cN(O(B(a,b[1])),c));return[0,cN(B(a,g),c),h]}function
+as(a){var
+c=O(dh(O(a[2]),b));return[0,dh(a[1],b),c]}function
+dW(c,b,a){var
+e=kN(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=I(f,d)?a[2]:a[1],i=fZ(f,h),j=I(g,d)?a[1]:a[2];return[0,co(g,j),i]}function
+b7(a){return bm(a[2],O(a[1]))}var
 v=[0,d,d];function
-b4(a){return[0,a[1],a[1]]}function
-cn(a){return[0,a[2],a[2]]}function
-bI(b,a){switch(a[0]){case
+b8(a){return[0,a[1],a[1]]}function
+cq(a){return[0,a[2],a[2]]}function
+bK(b,a){switch(a[0]){case
 0:return[0,a[1]];case
 1:return[1,a[1]];case
 2:return[2,a[1]];case
@@ -1156,80 +1164,80 @@ f=i(b,a[2]);return[7,i(b,a[1]),f];case
 8:return[8,i(b,a[1])];case
 9:return[9,i(b,a[1])];default:var
 g=i(b,a[4]),h=i(b,a[3]),j=i(b,a[2]);return[10,a[1],j,h,g]}}function
-aC(n,m){var
+aF(n,m){var
 d=n,c=m;for(;;){var
 a=c[1],b=d[1];switch(b[0]){case
-0:return 0===a[0]?r(b[1],a[1]):0;case
-1:return 1===a[0]?r(b[1],a[1]):0;case
+0:return 0===a[0]?p(b[1],a[1]):0;case
+1:return 1===a[0]?p(b[1],a[1]):0;case
 2:return 2===a[0]?J(b[1],a[1]):0;case
 3:if(3===a[0]){var
-f=aC(b[1],a[1]);if(f){var
+f=aF(b[1],a[1]);if(f){var
 d=b[2],c=a[2];continue}return f}return 0;case
 4:if(4===a[0]){var
-g=aC(b[1],a[1]);if(g){var
+g=aF(b[1],a[1]);if(g){var
 d=b[2],c=a[2];continue}return g}return 0;case
 5:if(5===a[0]){var
 d=b[1],c=a[1];continue}return 0;case
 6:if(6===a[0]){var
-h=aC(b[1],a[1]);if(h){var
+h=aF(b[1],a[1]);if(h){var
 d=b[2],c=a[2];continue}return h}return 0;case
 7:if(7===a[0]){var
-i=aC(b[1],a[1]);if(i){var
+i=aF(b[1],a[1]);if(i){var
 d=b[2],c=a[2];continue}return i}return 0;case
 8:if(8===a[0]){var
 d=b[1],c=a[1];continue}return 0;case
 9:if(9===a[0]){var
 d=b[1],c=a[1];continue}return 0;default:if(10===a[0]){var
-j=cj(b[1],a[1]);if(j){var
-k=aC(b[2],a[2]);if(k){var
-l=aC(b[3],a[3]);if(l){var
+j=cm(b[1],a[1]);if(j){var
+k=aF(b[2],a[2]);if(k){var
+l=aF(b[3],a[3]);if(l){var
 d=b[4],c=a[4];continue}var
 e=l}else
 var
 e=k}else
 var
 e=j;return e}return 0}}}function
-fT(b){var
+f0(b){var
 a=b[1];return 2===a[0]?[0,a[1]]:0}function
-a1(c,b){var
-a=fT(b);return a?J(c,a[1]):a}function
-eN(a){return K(ch(a),c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b))))))))))))))))}function
+a2(c,b){var
+a=f0(b);return a?J(c,a[1]):a}function
+eS(a){return I(ck(a),c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b))))))))))))))))}function
 k(a){return[0,[2,a]]}function
-B(b,a){if(a1(d,b))return a;if(a1(d,a))return b;var
-c=fT(b);if(c){var
-e=c[1],f=fT(a);if(f){var
-g=f[1];if(eN(e)&&eN(g))return k(C(e,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
-bu(a){var
+C(b,a){if(a2(d,b))return a;if(a2(d,a))return b;var
+c=f0(b);if(c){var
+e=c[1],f=f0(a);if(f){var
+g=f[1];if(eS(e)&&eS(g))return k(D(e,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
+bx(a){var
 b=a[1];switch(b[0]){case
 2:var
-c=b[1];return eN(c)?k(R(c)):[0,[5,a]];case
+c=b[1];return eS(c)?k(O(c)):[0,[5,a]];case
 5:return b[1];default:return[0,[5,a]]}}function
-w(b,a){if(a1(d,a))return b;if(a1(d,b))return bu(a);var
+x(b,a){if(a2(d,a))return b;if(a2(d,b))return bx(a);var
 c=b[1];if(0===c[0]){var
-e=a[1];return 0===e[0]?r(c[1],e[1])?k(d):[0,[4,b,a]]:[0,[4,b,a]]}return[0,[4,b,a]]}function
-Q(a){var
-c=fT(a);if(c){var
-b=c[1];return eN(b)?k(A(b,b)):[0,[8,a]]}return[0,[8,a]]}function
-s(a,c){if(!a1(d,a)&&!a1(b,c)){if(!a1(d,c)&&!a1(b,a))return aC(a,c)?Q(a):[0,[6,a,c]];return c}return a}function
-aj(c,a){return a1(b,a)?c:[0,[7,c,a]]}function
-aD(a){return a1(b,a)?a:[0,[9,a]]}function
-kB(d,c,b,a){return[0,[10,d,c,b,a]]}function
-bm(f,e,d,c){var
+e=a[1];return 0===e[0]?p(c[1],e[1])?k(d):[0,[4,b,a]]:[0,[4,b,a]]}return[0,[4,b,a]]}function
+R(a){var
+c=f0(a);if(c){var
+b=c[1];return eS(b)?k(B(b,b)):[0,[8,a]]}return[0,[8,a]]}function
+s(a,c){if(!a2(d,a)&&!a2(b,c)){if(!a2(d,c)&&!a2(b,a))return aF(a,c)?R(a):[0,[6,a,c]];return c}return a}function
+ak(c,a){return a2(b,a)?c:[0,[7,c,a]]}function
+aG(a){return a2(b,a)?a:[0,[9,a]]}function
+kO(d,c,b,a){return[0,[10,d,c,b,a]]}function
+bo(f,e,d,c){var
 b=d,a=c;for(;;){if(b){var
-g=b[1],h=[0,i(e,bI(function(b){return function(a){return q(a,b,f)}}(a),g)),a],b=b[2],a=h;continue}return a}}function
-kC(d,f,k,j,h){var
+g=b[1],h=[0,i(e,bK(function(b){return function(a){return q(a,b,f)}}(a),g)),a],b=b[2],a=h;continue}return a}}function
+kP(d,f,k,j,h){var
 b=k,c=j,a=h;for(;;){if(c){var
 e=c[2],g=c[1];if(b){if(b[1]){var
-l=[0,i(f,bI(function(b){return function(a){return q(a,b,d)}}(a),g)),a],b=bt(b),c=e,a=l;continue}var
+l=[0,i(f,bK(function(b){return function(a){return q(a,b,d)}}(a),g)),a],b=bw(b),c=e,a=l;continue}var
 b=b[2],c=e,a=[0,d,a];continue}var
-m=[0,i(f,bI(function(b){return function(a){return q(a,b,d)}}(a),g)),a],b=bt(b),c=e,a=m;continue}return a}}function
-eO(b,a){if(a){var
+m=[0,i(f,bK(function(b){return function(a){return q(a,b,d)}}(a),g)),a],b=bw(b),c=e,a=m;continue}return a}}function
+eT(b,a){if(a){var
 c=a[2];if(b){var
-e=eO(b[1],c);return[0,a[1],e]}var
+e=eT(b[1],c);return[0,a[1],e]}var
 d=[0,1,c]}else
 var
 d=a;return d}function
-kD(a){switch(a[0]){case
+kQ(a){switch(a[0]){case
 10:return[0,a[2],[0,a[3],[0,a[4],0]]];case
 5:case
 8:case
@@ -1237,57 +1245,57 @@ kD(a){switch(a[0]){case
 0:case
 1:case
 2:return 0;default:return[0,a[1],[0,a[2],0]]}}function
-fU(j,g){var
-k=0,l=as(eO,e(function(a){return 0},g),j),c=eL(g,0),b=l,a=k;for(;;){if(c){if(b){var
-d=b[2],f=b[1],h=[0,f,a],i=f?as(eO,d,kD(c[1])):d,c=c[2],b=i,a=h;continue}return a}return a}}function
-cH(a){var
+f1(j,g){var
+k=0,l=aq(eT,e(function(a){return 0},g),j),c=eQ(g,0),b=l,a=k;for(;;){if(c){if(b){var
+d=b[2],f=b[1],h=[0,f,a],i=f?aq(eT,d,kQ(c[1])):d,c=c[2],b=i,a=h;continue}return a}return a}}function
+cO(a){var
 b=0;function
-c(a){return[0,a]}return bm(k(d),c,a,b)}function
-a9(d,c){var
-a=d,b=0;for(;;){if(a){if(aC(c,a[1]))return b;var
+c(a){return[0,a]}return bo(k(d),c,a,b)}function
+a$(d,c){var
+a=d,b=0;for(;;){if(a){if(aF(c,a[1]))return b;var
 a=a[2],b=[0,b];continue}return a}}function
-da(d,b){var
-e=b[1];if(ak(function(a){return aC(d,a)},e))return b;var
+dk(d,b){var
+e=b[1];if(al(function(a){return aF(d,a)},e))return b;var
 a=d[1];switch(a[0]){case
 10:var
-j=da(a[2],b),k=da(a[3],j),c=da(a[4],k);break;case
+j=dk(a[2],b),k=dk(a[3],j),c=dk(a[4],k);break;case
 5:case
 8:case
 9:var
-c=da(a[1],b);break;case
+c=dk(a[1],b);break;case
 0:case
 1:case
 2:var
 c=b;break;default:var
-i=da(a[1],b),c=da(a[2],i)}var
-f=c[2],g=c[1],h=[0,bI(function(a){return a9(g,a)},a),f];return[0,[0,d,c[1]],h]}function
-cI(a){var
-b=b0(function(b,a){return da(a,b)},a,ry),c=b[1],d=e(function(a){return a9(c,a)},a);return[0,ks(b[2]),d]}function
-fV(a){return as(function(b,a){return C(b3(b),a)},d,a)}function
-co(b,c,a){var
-d=fV(a),e=hw(c[2],C(b[2],d)),f=fV(a);return[0,b,[0,bj(c[1],aB(b[1],f)),e],a]}function
-Z(a){return[0,a,a,0]}function
-b5(b,a){var
+i=dk(a[1],b),c=dk(a[2],i)}var
+f=c[2],g=c[1],h=[0,bK(function(a){return a$(g,a)},a),f];return[0,[0,d,c[1]],h]}function
+cP(a){var
+b=b4(function(b,a){return dk(a,b)},a,rT),c=b[1],d=e(function(a){return a$(c,a)},a);return[0,kG(b[2]),d]}function
+f2(a){return aq(function(b,a){return D(b7(b),a)},d,a)}function
+cr(b,c,a){var
+d=f2(a),e=hF(c[2],D(b[2],d)),f=f2(a);return[0,b,[0,bm(c[1],aE(b[1],f)),e],a]}function
+$(a){return[0,a,a,0]}function
+b9(b,a){var
 c=a[3],d=b[3];function
 e(a){return a}var
-f=aF(function(a){return a},e,z,d,c),g=z(b[2],a[2]);return co(z(b[1],a[1]),g,f)}function
-bn(b,a){var
-c=a[3],d=b[3],e=aF(function(a){return a},ab,G,d,c),f=G(b[2],a[2]);return co(G(b[1],a[1]),f,e)}function
-eP(a){var
-b=e(ab,a[3]),c=ab(a[2]);return[0,ab(a[1]),c,b]}function
-aG(a,c,b){var
-d=z(b[2],b[1]),e=z(c[2],c[1]),f=b[3],g=c[3];function
+f=aI(function(a){return a},e,A,d,c),g=A(b[2],a[2]);return cr(A(b[1],a[1]),g,f)}function
+bp(b,a){var
+c=a[3],d=b[3],e=aI(function(a){return a},ae,H,d,c),f=H(b[2],a[2]);return cr(H(b[1],a[1]),f,e)}function
+eU(a){var
+b=e(ae,a[3]),c=ae(a[2]);return[0,ae(a[1]),c,b]}function
+aJ(a,c,b){var
+d=A(b[2],b[1]),e=A(c[2],c[1]),f=b[3],g=c[3];function
 h(c,b){var
-f=t(a,e,b);return aq(z(t(a,d,c),f))}function
-i(b){return aq(t(a,e,b))}var
-j=aF(function(b){return aq(t(a,d,b))},i,h,g,f),k=t(a,c[2],b[2]);return co(t(a,c[1],b[1]),k,j)}function
-eQ(b,a){var
-c=a[3],d=z(a[2],a[1]),f=e(function(a){return t(b,d,a)},c),g=W(b,a[2]);return co(W(b,a[1]),g,f)}function
-hD(a,b){var
-c=b2(a,b[1]);if(c){var
-g=c[1],d=b2(a,b[2]);if(d){var
-h=d[1],f=b1(a,z(h,g));if(f)var
-l=b[3],m=f[1],i=[0,co(g,h,e(function(b){return t(a,m,b)},l))];else
+f=t(a,e,b);return as(A(t(a,d,c),f))}function
+i(b){return as(t(a,e,b))}var
+j=aI(function(b){return as(t(a,d,b))},i,h,g,f),k=t(a,c[2],b[2]);return cr(t(a,c[1],b[1]),k,j)}function
+eV(b,a){var
+c=a[3],d=A(a[2],a[1]),f=e(function(a){return t(b,d,a)},c),g=X(b,a[2]);return cr(X(b,a[1]),g,f)}function
+hO(a,b){var
+c=b6(a,b[1]);if(c){var
+g=c[1],d=b6(a,b[2]);if(d){var
+h=d[1],f=b5(a,A(h,g));if(f)var
+l=b[3],m=f[1],i=[0,cr(g,h,e(function(b){return t(a,m,b)},l))];else
 var
 i=f;var
 j=i}else
@@ -1296,499 +1304,498 @@ j=d;var
 k=j}else
 var
 k=c;return k}function
-dT(a,c,b){var
-d=b1(a,b[1]);if(d){var
-f=b1(a,b[2]);if(f)var
-h=f[1],g=t(a,c[1],d[1]),k=b[3],l=c[3],m=function(c,b){return G(c,t(a,g,b))},n=function(b){return ab(t(a,g,b))},o=aF(function(a){return a},n,m,l,k),p=e(function(b){return t(a,h,b)},o),i=[0,co(g,t(a,c[2],h),p)];else
+dX(a,c,b){var
+d=b5(a,b[1]);if(d){var
+f=b5(a,b[2]);if(f)var
+h=f[1],g=t(a,c[1],d[1]),k=b[3],l=c[3],m=function(c,b){return H(c,t(a,g,b))},n=function(b){return ae(t(a,g,b))},o=aI(function(a){return a},n,m,l,k),p=e(function(b){return t(a,h,b)},o),i=[0,cr(g,t(a,c[2],h),p)];else
 var
 i=f;var
 j=i}else
 var
 j=d;return j}function
-cJ(b,a){return a?i(b,a[1]):a}function
-fW(a){var
-b=e(aq,a[3]),c=aq(z(a[2],a[1]));return co(a[1],c,b)}function
-kE(a,k,j,r,c){var
-l=fW(k),m=fW(j),g=fW(c[1]),h=fW(c[2]),s=aG(a,l,h),u=bn(aG(a,m,g),s),i=dT(a,Z(P(a,b)),u);if(i)var
-f=i[1],n=aG(a,bn(l,g),f),o=aG(a,bn(m,h),f),d=function(c,b){return aG(a,c,Z(b))},v=j[3],w=k[3],x=function(b,a){var
-c=d(o,a);return b5(d(n,b),c)},y=function(a){return d(o,a)},z=aF(function(a){return d(n,a)},y,x,w,v),A=r[3],B=function(b,a){return bn(b,d(f,aq(a)))[2]},C=function(a){return eP(d(f,aq(a)))[2]},p=aF(function(a){return a[2]},C,B,z,A),D=g[2],E=e(function(b){return t(a,D,b)},p),F=co(c[2][1],c[2][2],E),G=ab(h[2]),H=e(function(b){return t(a,G,b)},p),q=[0,[0,co(c[1][1],c[1][2],H),F]];else
+cQ(b,a){return a?i(b,a[1]):a}function
+f3(a){var
+b=e(as,a[3]),c=as(A(a[2],a[1]));return cr(a[1],c,b)}function
+kR(a,k,j,r,c){var
+l=f3(k),m=f3(j),g=f3(c[1]),h=f3(c[2]),s=aJ(a,l,h),u=bp(aJ(a,m,g),s),i=dX(a,$(Q(a,b)),u);if(i)var
+f=i[1],n=aJ(a,bp(l,g),f),o=aJ(a,bp(m,h),f),d=function(c,b){return aJ(a,c,$(b))},v=j[3],w=k[3],x=function(b,a){var
+c=d(o,a);return b9(d(n,b),c)},y=function(a){return d(o,a)},z=aI(function(a){return d(n,a)},y,x,w,v),A=r[3],B=function(b,a){return bp(b,d(f,as(a)))[2]},C=function(a){return eU(d(f,as(a)))[2]},p=aI(function(a){return a[2]},C,B,z,A),D=g[2],E=e(function(b){return t(a,D,b)},p),F=cr(c[2][1],c[2][2],E),G=ae(h[2]),H=e(function(b){return t(a,G,b)},p),q=[0,[0,cr(c[1][1],c[1][2],H),F]];else
 var
 q=i;return q}function
-kF(a,e,d,k){var
-p=eQ(a,d),f=b5(eQ(a,e),p),g=bn(b5(f,Z(P(a,b))),k),l=aG(a,Z(P(a,c(2,b))),f),q=eQ(a,g),h=hD(a,bn(aG(a,Z(P(a,c(2,c(2,b)))),f),q));if(h){var
-m=h[1],r=aG(a,m,d),i=dT(a,b5(aG(a,g,e),r),l);if(i)var
-s=aG(a,m,e),j=dT(a,bn(aG(a,g,d),s),l),t=j?[0,[0,i[1],j[1]]]:j,n=t;else
+kS(a,e,d,k){var
+p=eV(a,d),f=b9(eV(a,e),p),g=bp(b9(f,$(Q(a,b))),k),l=aJ(a,$(Q(a,c(2,b))),f),q=eV(a,g),h=hO(a,bp(aJ(a,$(Q(a,c(2,c(2,b)))),f),q));if(h){var
+m=h[1],r=aJ(a,m,d),i=dX(a,b9(aJ(a,g,e),r),l);if(i)var
+s=aJ(a,m,e),j=dX(a,bp(aJ(a,g,d),s),l),t=j?[0,[0,i[1],j[1]]]:j,n=t;else
 var
 n=i;var
 o=n}else
 var
 o=h;var
-u=cJ(function(b){return kE(a,e,d,k,b)},o);return cJ(function(b){return kE(a,e,d,k,b)},u)}function
-cp(d,b,a){if(b){if(a)return an(d,b[1],a[1]);var
+u=cQ(function(b){return kR(a,e,d,k,b)},o);return cQ(function(b){return kR(a,e,d,k,b)},u)}function
+cs(d,b,a){if(b){if(a)return ao(d,b[1],a[1]);var
 c=a}else
 var
 c=b;return c}function
-bJ(b,j,i){var
-f=Z(v);return function(a){switch(a[0]){case
+bL(b,j,i){var
+f=$(v);return function(a){switch(a[0]){case
 0:return[0,q(a[1],j,f)];case
 1:return[0,q(a[1],i,f)];case
-2:return[0,Z(P(b,a[1]))];case
+2:return[0,$(Q(b,a[1]))];case
 3:var
-k=a[2],l=a[1];return cp(function(b,a){return[0,b5(b,a)]},l,k);case
+k=a[2],l=a[1];return cs(function(b,a){return[0,b9(b,a)]},l,k);case
 4:var
-m=a[2],n=a[1];return cp(function(b,a){return[0,bn(b,a)]},n,m);case
+m=a[2],n=a[1];return cs(function(b,a){return[0,bp(b,a)]},n,m);case
 5:var
-o=a[1];return cJ(function(a){return[0,eP(a)]},o);case
+o=a[1];return cQ(function(a){return[0,eU(a)]},o);case
 6:var
-p=a[2],r=a[1];return cp(function(c,a){return[0,aG(b,c,a)]},r,p);case
+p=a[2],r=a[1];return cs(function(c,a){return[0,aJ(b,c,a)]},r,p);case
 7:var
-s=a[2],t=a[1];return cp(function(a,c){return dT(b,a,c)},t,s);case
+s=a[2],t=a[1];return cs(function(a,c){return dX(b,a,c)},t,s);case
 8:var
-u=a[1];return cJ(function(a){return[0,eQ(b,a)]},u);case
+u=a[1];return cQ(function(a){return[0,eV(b,a)]},u);case
 9:var
-v=a[1];return cJ(function(a){return hD(b,a)},v);default:var
+v=a[1];return cQ(function(a){return hO(b,a)},v);default:var
 c=a[2];if(c){var
 d=a[3];if(d){var
 e=a[4];if(e){var
-w=kF(b,c[1],d[1],e[1]),x=a[1]?aU:az;return y(x,w)}var
+w=kS(b,c[1],d[1],e[1]),x=a[1]?aW:aB;return z(x,w)}var
 g=e}else
 var
 g=d;var
 h=g}else
 var
 h=c;return h}}}function
-dU(c){var
+dY(c){var
 a=c;for(;;)switch(a[0]){case
 0:return 0;case
 1:return 1;case
 6:var
 a=a[1];continue;default:var
-b=dU(a[1]);if(b)return b;var
+b=dY(a[1]);if(b)return b;var
 a=a[2];continue}}function
-cq(q,p){var
-b=q,a=p;for(;;)switch(b[0]){case
+ct(r,q){var
+b=r,a=q;for(;;)switch(b[0]){case
 0:if(0===a[0]){var
-c=J(b[1],a[1]);return c?fL(b[2],a[2]):c}return 0;case
+c=J(b[1],a[1]);return c?fS(b[2],a[2]):c}return 0;case
 1:var
 d=b[3],e=b[2];if(1===a[0]){var
-f=a[3],g=a[2],h=r(b[1],a[1]),i=h?J(e[1],g[1]):h,j=i?fL(e[2],g[2]):i,k=j?J(d[1],f[1]):j;return k?fL(d[2],f[2]):k}return 0;case
+f=a[3],g=a[2],h=p(b[1],a[1]),i=h?J(e[1],g[1]):h,j=i?fS(e[2],g[2]):i,k=j?J(d[1],f[1]):j;return k?fS(d[2],f[2]):k}return 0;case
 2:if(2===a[0]){var
-l=cq(b[1],a[1]);if(l){var
+l=ct(b[1],a[1]);if(l){var
 b=b[2],a=a[2];continue}return l}return 0;case
 3:if(3===a[0]){var
-m=cq(b[1],a[1]);if(m){var
+m=ct(b[1],a[1]);if(m){var
 b=b[2],a=a[2];continue}return m}return 0;case
 4:if(4===a[0]){var
-n=cq(b[1],a[1]);if(n){var
+n=ct(b[1],a[1]);if(n){var
 b=b[2],a=a[2];continue}return n}return 0;case
 5:if(5===a[0]){var
-o=cq(b[1],a[1]);if(o){var
+o=ct(b[1],a[1]);if(o){var
 b=b[2],a=a[2];continue}return o}return 0;default:if(6===a[0]){var
 b=b[1],a=a[1];continue}return 0}}function
-eR(c,a){switch(a[0]){case
+eW(c,a){switch(a[0]){case
 0:return[0,[0,a[1],a[2]]];case
 1:return 0;case
 2:var
-m=a[2],n=a[1],g=m,f=n,e=function(b,a){return[0,c_(b,a)]};break;case
+m=a[2],n=a[1],g=m,f=n,e=function(b,a){return[0,di(b,a)]};break;case
 3:var
-o=a[2],p=a[1],g=o,f=p,e=function(b,a){return[0,dQ(b,a)]};break;case
+o=a[2],p=a[1],g=o,f=p,e=function(b,a){return[0,dU(b,a)]};break;case
 4:var
-q=a[2],r=a[1],g=q,f=r,e=function(b,a){return[0,a0(b,a)]};break;case
+q=a[2],r=a[1],g=q,f=r,e=function(b,a){return[0,a1(b,a)]};break;case
 5:var
-s=a[2],t=a[1],g=s,f=t,e=function(c,a){return dP(a,[0,d,b])?0:[0,fR(c,a)]};break;default:var
-k=eR(c,a[1]);return k?i(c,k[1]):k}var
-h=eR(c,f);if(h){var
-j=eR(c,g);if(j)return e(h[1],j[1]);var
+s=a[2],t=a[1],g=s,f=t,e=function(c,a){return dT(a,[0,d,b])?0:[0,fY(c,a)]};break;default:var
+k=eW(c,a[1]);return k?i(c,k[1]):k}var
+h=eW(c,f);if(h){var
+j=eW(c,g);if(j)return e(h[1],j[1]);var
 l=j}else
 var
 l=h;return l}function
-rz(a){return 0}function
-cr(a){return eR(rz,a)}function
-bK(a,c){switch(c[0]){case
-0:return[0,kz(a,c[1],c[2])];case
+rU(a){return 0}function
+cu(a){return eW(rU,a)}function
+bM(a,c){switch(c[0]){case
+0:return[0,kM(a,c[1],c[2])];case
 1:return 0;case
 2:var
-g=bK(a,c[1]);if(g)var
-h=bK(a,c[2]),D=h?[0,z(g[1],h[1])]:h,r=D;else
+g=bM(a,c[1]);if(g)var
+h=bM(a,c[2]),D=h?[0,A(g[1],h[1])]:h,r=D;else
 var
 r=g;return r;case
 3:var
-i=bK(a,c[1]);if(i)var
-j=bK(a,c[2]),E=j?[0,G(i[1],j[1])]:j,s=E;else
+i=bM(a,c[1]);if(i)var
+j=bM(a,c[2]),E=j?[0,H(i[1],j[1])]:j,s=E;else
 var
 s=i;return s;case
 4:var
-k=bK(a,c[1]);if(k)var
-l=bK(a,c[2]),F=l?[0,t(a,k[1],l[1])]:l,u=F;else
+k=bM(a,c[1]);if(k)var
+l=bM(a,c[2]),F=l?[0,t(a,k[1],l[1])]:l,u=F;else
 var
 u=k;return u;case
 5:var
-m=bK(a,c[1]);if(m){var
-n=bK(a,c[2]);if(n)var
-o=b1(a,n[1]),H=o?[0,t(a,m[1],o[1])]:o,w=H;else
+m=bM(a,c[1]);if(m){var
+n=bM(a,c[2]);if(n)var
+o=b5(a,n[1]),G=o?[0,t(a,m[1],o[1])]:o,w=G;else
 var
 w=n;var
 x=w}else
 var
 x=m;return x;default:var
-A=c[1],p=bK(a,A);if(p){var
-e=p[1];if(K(d,e[1]))return b2(a,e);var
-f=cr(A),I=f?T(bl([0,d,b],f[1])):f;if(I)return 0;if(K(d,e[2])){var
-B=b2(a,[0,e[2],e[2]]);return y(function(a){return[0,d,a[2]]},B)}var
+y=c[1],p=bM(a,y);if(p){var
+e=p[1];if(I(d,e[1]))return b6(a,e);var
+f=cu(y),K=f?S(a_([0,d,b],f[1])):f;if(K)return 0;if(I(d,e[2])){var
+B=b6(a,[0,e[2],e[2]]);return z(function(a){return[0,d,a[2]]},B)}var
 q=J(e[2],d),C=q?[0,v]:q;return C}return p}}function
-cs(b,a){return kz(b,a[1],a[2])}function
-eS(c,e,a){function
-b(a){return eS(c,e,a)}if(dU(a))switch(a[0]){case
+cv(b,a){return kM(b,a[1],a[2])}function
+kU(a,g,e,d){var
+h=[0,b,c(2,b)],i=[0,cv(a,a1(dU(d,e),h)),0],j=f(am(v,g),i),k=cv(a,d)[2],l=[0,cv(a,e)[1],k],m=[0,b,c(2,b)];return[0,cv(a,a1(di(e,d),m)),l,j]}function
+dZ(c,e,a){function
+b(a){return dZ(c,e,a)}if(dY(a))switch(a[0]){case
 0:return 0;case
-1:return fo(e,a[1],a[2],a[3]);case
+1:return fu(e,a[1],a[2],a[3]);case
 2:var
-g=b(a[2]),h=b(a[1]);return cp(function(b,a){return[0,b5(b,a)]},h,g);case
+g=b(a[2]),h=b(a[1]);return cs(function(b,a){return[0,b9(b,a)]},h,g);case
 3:var
-i=b(a[2]),j=b(a[1]);return cp(function(b,a){return[0,bn(b,a)]},j,i);case
+i=b(a[2]),j=b(a[1]);return cs(function(b,a){return[0,bp(b,a)]},j,i);case
 4:var
-f=a[2],d=a[1];if(cq(d,f)){var
-k=b(d);return cJ(function(a){return[0,eQ(c,a)]},k)}var
-l=b(f),m=b(d);return cp(function(b,a){return[0,aG(c,b,a)]},m,l);case
+f=a[2],d=a[1];if(ct(d,f)){var
+k=b(d);return cQ(function(a){return[0,eV(c,a)]},k)}var
+l=b(f),m=b(d);return cs(function(b,a){return[0,aJ(c,b,a)]},m,l);case
 5:var
-n=b(a[2]),o=b(a[1]);return cp(function(a,b){return dT(c,a,b)},o,n);default:var
-p=b(a[1]);return cJ(function(a){return hD(c,a)},p)}return y(Z,bK(c,a))}function
-aM(a,d){if(dU(d)){var
-e=eS(a,function(g,e,d){var
-h=aV(g,kG),i=h?bl(e,d):h;if(i)var
-k=[0,b,c(2,b)],l=[0,cs(a,a0(dQ(d,e),k)),0],m=f(al(v,g),l),n=cs(a,d)[2],o=[0,cs(a,e)[1],n],p=[0,b,c(2,b)],j=[0,[0,cs(a,a0(c_(e,d),p)),o,m]];else
-var
-j=i;return j},d);return y(function(a){return a[2]},e)}return bK(a,d)}function
-hE(a){var
-e=bj(R(a),d);return dN(C(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e))}function
-kH(a){return hA(C(hE(a),a))}function
-kI(b,a){var
-c=kH(b),d=R(cG(R(a[2]),c)),e=kH(b);return[0,cG(a[1],e),d]}function
-cK(c,a,b){var
-d=aM(C(c,hE(a)),b);return y(function(b){return kI(a,b)},d)}function
-am(d,a){var
-b=cK(d,a[2],a[1][1]);if(b)var
-c=cK(d,a[2],a[1][2]),f=c?[0,[0,b[1][1],c[1][2]]]:c,e=f;else
+n=b(a[2]),o=b(a[1]);return cs(function(a,b){return dX(c,a,b)},o,n);default:var
+p=b(a[1]);return cQ(function(a){return hO(c,a)},p)}return z($,bM(c,a))}function
+aC(b,a){if(dY(a)){var
+c=dZ(b,function(d,c,a){var
+e=aN(d,kT),f=e?a_(c,a):e,g=f?[0,kU(b,d,c,a)]:f;return g},a);return z(function(a){return a[2]},c)}return bM(b,a)}function
+hP(a){var
+e=bm(O(a),d);return dR(D(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e))}function
+kV(a){return hJ(D(hP(a),a))}function
+kW(b,a){var
+c=kV(b),d=O(cN(O(a[2]),c)),e=kV(b);return[0,cN(a[1],e),d]}function
+cR(c,a,b){var
+d=aC(D(c,hP(a)),b);return z(function(b){return kW(a,b)},d)}function
+an(d,a){var
+b=cR(d,a[2],a[1][1]);if(b)var
+c=cR(d,a[2],a[1][2]),f=c?[0,[0,b[1][1],c[1][2]]]:c,e=f;else
 var
 e=b;return e}function
-kJ(b,a){var
-c=R(cG(R(a[2]),b));return[0,cG(a[1],b),c]}function
-fX(b,a){var
-c=fS(b[2],a);return[0,cl(b[1],a),c]}function
-kK(h,g,d,b){var
-e=b[2],f=km(d),i=c(2,f),j=A(ki(f),i),a=fX(t(h,b[1],g),j),k=kg(d)?G(e,a):z(e,a);return[0,a,k]}function
-kL(a,d,c){if(c){var
-e=c[1];return kK(a,d,e,kL(a,d,e))}var
-f=P(a,b);return[0,P(a,b),f]}function
-kM(e,g){var
-o=cm(e),p=A(c(2,c(2,b)),o),j=E(g[2],p);if(j){var
-n=eJ(e),i=rA[1],d=n,f=0,a=i;for(;;){if(d){var
+kX(b,a){var
+c=O(cN(O(a[2]),b));return[0,cN(a[1],b),c]}function
+f4(b,a){var
+c=fZ(b[2],a);return[0,co(b[1],a),c]}function
+kY(h,g,d,b){var
+e=b[2],f=kA(d),i=c(2,f),j=B(kv(f),i),a=f4(t(h,b[1],g),j),k=kt(d)?H(e,a):A(e,a);return[0,a,k]}function
+kZ(a,d,c){if(c){var
+e=c[1];return kY(a,d,e,kZ(a,d,e))}var
+f=Q(a,b);return[0,Q(a,b),f]}function
+k0(e,g){var
+o=cp(e),p=B(c(2,c(2,b)),o),j=E(g[2],p);if(j){var
+n=eO(e),i=rV[1],d=n,f=0,a=i;for(;;){if(d){var
 h=d[1];if(a){var
 d=h,a=a[1];continue}var
 d=h,f=[0,f],a=i;continue}var
-k=O(kf(rD,O(rB,f)),rC),l=kL(e,g,k),q=kK(e,g,k,l)[2][2],m=[0,[0,l[2][1],q]];break}}else
+k=P(ks(rY,P(rW,f)),rX),l=kZ(e,g,k),q=kY(e,g,k,l)[2][2],m=[0,[0,l[2][1],q]];break}}else
 var
 m=j;return m}function
-kN(i){function
+k1(i){function
 a(h){var
-m=cl(cm(i),h),g=eJ(i),f=m,e=d,a=b;for(;;){if(g){var
-j=C(a,c(2,b)),k=C(e,cl(f,a)),l=R(cl(f,A(h,h))),g=g[1],f=l,e=k,a=j;continue}return e}}var
-e=a(p(c(2,p(c(2,p(c(2,p(c(2,c(2,p(c(2,p(c(2,b)))))))))))))),f=A(c(2,c(2,b)),e),g=a(p(c(2,c(2,b))));return aB(A(c(2,c(2,c(2,c(2,b)))),g),f)}function
-kO(e,a){var
+m=co(cp(i),h),g=eO(i),f=m,e=d,a=b;for(;;){if(g){var
+j=D(a,c(2,b)),k=D(e,co(f,a)),l=O(co(f,B(h,h))),g=g[1],f=l,e=k,a=j;continue}return e}}var
+e=a(r(c(2,r(c(2,r(c(2,r(c(2,c(2,r(c(2,r(c(2,b)))))))))))))),f=B(c(2,c(2,b)),e),g=a(r(c(2,c(2,b))));return aE(B(c(2,c(2,c(2,c(2,b)))),g),f)}function
+k2(e,a){var
 f=E(d,a);if(f){var
-g=c(2,c(2,b));return kM(e,fX(W(e,[0,a,a]),g))}return f}function
-kP(a){var
-m=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),g=aB(kN(a),m),n=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),h=C(kN(a),n),e=kO(a,g);if(e){var
-f=kO(a,h);if(f)var
-i=K(d,e[1][1]),j=i?K(f[1][2],d):i,k=j?[0,[0,g,h]]:j;else
+g=c(2,c(2,b));return k0(e,f4(X(e,[0,a,a]),g))}return f}function
+k3(a){var
+m=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),g=aE(k1(a),m),n=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),h=D(k1(a),n),e=k2(a,g);if(e){var
+f=k2(a,h);if(f)var
+i=I(d,e[1][1]),j=i?I(f[1][2],d):i,k=j?[0,[0,g,h]]:j;else
 var
 k=f;var
 l=k}else
 var
 l=e;return l}function
-kQ(a,d){var
-c=W(a,d),e=P(a,b);return G(z(c,c),e)}function
-cL(f,j){var
-e=aM(C(f,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),j);if(e){var
-k=e[1],a=C(f,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),d=kP(a);if(d)var
-h=c(2,c(2,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b)))))))))))),i=kM(a,W(a,fX(t(a,k,d[1]),h))),g=y(function(b){return kQ(a,kQ(a,b))},i);else
+k4(a,d){var
+c=X(a,d),e=Q(a,b);return H(A(c,c),e)}function
+cS(f,j){var
+e=aC(D(f,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),j);if(e){var
+k=e[1],a=D(f,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),d=k3(a);if(d)var
+h=c(2,c(2,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))))),i=k0(a,X(a,f4(t(a,k,d[1]),h))),g=z(function(b){return k4(a,k4(a,b))},i);else
 var
 g=d;var
-l=c(2,c(2,c(2,c(2,c(2,c(2,b))))));return y(function(a){return kJ(l,a)},g)}return e}function
-kR(a,d){var
-e=kP(C(a,c(2,c(2,c(2,c(2,c(2,c(2,b))))))));return y(function(e){var
-f=c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b))))))))));return fX(t(a,d,kJ(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e)),f)},e)}function
-fY(d,a){return cL(d,[3,a,[0,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b))))))))),b]])}function
+l=c(2,c(2,c(2,c(2,c(2,c(2,b))))));return z(function(a){return kX(l,a)},g)}return e}function
+k5(a,d){var
+e=k3(D(a,c(2,c(2,c(2,c(2,c(2,c(2,b))))))));return z(function(e){var
+f=c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b))))))))));return f4(t(a,d,kX(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e)),f)},e)}function
+f5(d,a){return cS(d,[3,a,[0,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b))))))))),b]])}function
 h(i,e,c){var
-f=cr(c);if(f){var
-g=f[1];return e?T(bl(g,[0,d,b])):bl([0,d,b],g)}var
-a=aM(i,c);if(a){var
-h=a[1];return e?K(d,h[1]):E(d,h[1])}return a}function
-kS(c,b){var
-a=aM(c,b),d=a?1:a;return d}function
-bo(c,a,b){var
-d=cq(a,b),e=d?kS(c,a):d;return e?e:h(c,0,[3,b,a])}function
-rE(c){var
-a=c$(c),g=dN(fP(a[2])),b=[0,fP(a[1]),g],e=K(d,a[1]),f=e?dP(a0(b,b),c):e,h=f?[0,b]:f;return h}function
-kT(a){if(a){var
-e=a[2],c=a[1];if(dP(bH([0,d,b],c),[0,d,b])){var
-g=kT(e);return y(function(a){return[0,a[1],[0,c,a[2]]]},g)}var
+f=cu(c);if(f){var
+g=f[1];return e?S(a_(g,[0,d,b])):a_([0,d,b],g)}var
+a=aC(i,c);if(a){var
+h=a[1];return e?I(d,h[1]):E(d,h[1])}return a}function
+k6(c,b){var
+a=aC(c,b),d=a?1:a;return d}function
+bq(c,a,b){var
+d=ct(a,b),e=d?k6(c,a):d;return e?e:h(c,0,[3,b,a])}function
+rZ(c){var
+a=dj(c),g=dR(fW(a[2])),b=[0,fW(a[1]),g],e=I(d,a[1]),f=e?dT(a1(b,b),c):e,h=f?[0,b]:f;return h}function
+k7(a){if(a){var
+e=a[2],c=a[1];if(dT(bJ([0,d,b],c),[0,d,b])){var
+g=k7(e);return z(function(a){return[0,a[1],[0,c,a[2]]]},g)}var
 f=[0,[0,c,e]]}else
 var
 f=a;return f}function
-kU(c,a){var
-e=ag(c,a),f=[0,d,b];return as(function(a,b){return c$(c_(a0(a[1],a[2]),b))},f,e)}function
-kV(c,j){if(c){var
-f=c[1],g=kT(j);if(g){var
+k8(c,a){var
+e=_(c,a),f=[0,d,b];return aq(function(a,b){return dj(di(a1(a[1],a[2]),b))},f,e)}function
+k9(c,j){if(c){var
+f=c[1],g=k7(j);if(g){var
 h=g[1],a=h[1],k=function(c){var
-f=bH([0,d,b],a),g=fR(bH([0,d,b],c),f),h=bt(a),i=ag(bt(c),h);return e(function(a){var
-b=a0(g,a[2]);return c$(dQ(a[1],b))},i)},l=kV(f,e(k,h[2]));return y(function(c){var
-e=bH([0,d,b],a);return[0,c$(fR(kw(kU(bt(a),c)),e)),c]},l)}var
-i=[0,[0,[0,b,b],al([0,d,b],f)]]}else
+f=bJ([0,d,b],a),g=fY(bJ([0,d,b],c),f),h=bw(a),i=_(bw(c),h);return e(function(a){var
+b=a1(g,a[2]);return dj(dU(a[1],b))},i)},l=k9(f,e(k,h[2]));return z(function(c){var
+e=bJ([0,d,b],a);return[0,dj(fY(hL(k8(bw(a),c)),e)),c]},l)}var
+i=[0,[0,[0,b,b],am([0,d,b],f)]]}else
 var
 i=c;return i}function
-kW(a){if(a){var
-b=eR(rE,a[1]);if(b)var
-c=kW(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+k_(a){if(a){var
+b=eW(rZ,a[1]);if(b)var
+c=k_(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return rF}function
-kX(a){if(a){var
-b=kW(a[1]);if(b)var
-c=kX(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+d=b;return d}return r0}function
+k$(a){if(a){var
+b=k_(a[1]);if(b)var
+c=k$(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return rG}function
-kY(i,l){var
-a=kX(l);if(a){var
-j=a[1],c=kV(i,j);if(c){var
-e=c[1],f=r(g(e),i),h=f?ak(function(a){return T(dP(a,[0,d,b]))},e):f;return h?m(function(a){return dP(kU(a,e),[0,d,b])},j):h}var
+d=b;return d}return r1}function
+la(i,l){var
+a=k$(l);if(a){var
+j=a[1],c=k9(i,j);if(c){var
+e=c[1],f=p(g(e),i),h=f?al(function(a){return S(dT(a,[0,d,b]))},e):f;return h?m(function(a){return dT(k8(a,e),[0,d,b])},j):h}var
 k=c}else
 var
 k=a;return k}function
-rH(a){return a}function
-rI(a){return a}function
-rJ(a,b){return aF(rI,rH,z,a,b)}function
-rK(a){return a}function
-rL(a){return a}function
-a_(a,b){return aF(rL,rK,rJ,a,b)}function
-hF(a,f,c,d){if(c){var
-h=c[2],i=P(a,b),g=dS(c[1],i,f);if(d){var
-j=hF(a,f,h,d[2]),k=d[1],l=function(c,b){return G(c,t(a,g,b))},m=function(b){return ab(t(a,g,b))};return[0,aF(function(a){return a},m,l,k,c),j]}var
-n=hF(a,f,h,0);return[0,e(function(b){return ab(t(a,g,b))},c),n]}return d}function
-fZ(h,a){if(a){var
+r2(a){return a}function
+r3(a){return a}function
+r4(a,b){return aI(r3,r2,A,a,b)}function
+r5(a){return a}function
+r6(a){return a}function
+ba(a,b){return aI(r6,r5,r4,a,b)}function
+hQ(a,f,c,d){if(c){var
+h=c[2],i=Q(a,b),g=dW(c[1],i,f);if(d){var
+j=hQ(a,f,h,d[2]),k=d[1],l=function(c,b){return H(c,t(a,g,b))},m=function(b){return ae(t(a,g,b))};return[0,aI(function(a){return a},m,l,k,c),j]}var
+n=hQ(a,f,h,0);return[0,e(function(b){return ae(t(a,g,b))},c),n]}return d}function
+f6(h,a){if(a){var
 b=a[1];if(b)var
-c=b[1],e=K(d,c[1]),i=e?[0,hF(h,c,b[2],a[2])]:e,f=i;else
+c=b[1],e=I(d,c[1]),i=e?[0,hQ(h,c,b[2],a[2])]:e,f=i;else
 var
 f=b;var
 g=f}else
 var
 g=a;return g}function
-kZ(g,f,e){var
+lb(g,f,e){var
 a=f,b=e;for(;;){if(b){if(a){var
-c=fZ(g,b);if(c){var
+c=f6(g,b);if(c){var
 a=a[1],b=c[1];continue}var
 d=c}else
 var
 d=a;return d}return 1}}function
-k0(d,b,a){if(b)if(a)var
-e=a[1],f=k0(d,b[2],a[2]),g=cj(d,b[1])?b4(e):cn(e),c=[0,g,f];else
+lc(d,b,a){if(b)if(a)var
+e=a[1],f=lc(d,b[2],a[2]),g=cm(d,b[1])?b8(e):cq(e),c=[0,g,f];else
 var
 c=a;else
 var
 c=b;return c}function
-k1(a,b){if(a)if(b)var
-d=k1(a[2],b[2]),c=[0,k0(a[1],a,b[1]),d];else
+ld(a,b){if(a)if(b)var
+d=ld(a[2],b[2]),c=[0,lc(a[1],a,b[1]),d];else
 var
 c=b;else
 var
 c=a;return c}function
-bd(a){if(a){var
-b=a[1],c=bd(b),d=e(function(a){return[0,1,a]},c),g=bd(b);return f(e(function(a){return[0,0,a]},g),d)}return rM}function
-dV(c,a){var
-b=g(a);if(kZ(c,b,a))return 1;var
-d=bd(bs(b));return m(function(d){return kZ(c,b,k1([0,0,d],a))},d)}function
+bf(a){if(a){var
+b=a[1],c=bf(b),d=e(function(a){return[0,1,a]},c),g=bf(b);return f(e(function(a){return[0,0,a]},g),d)}return r7}function
+d0(c,a){var
+b=g(a);if(lb(c,b,a))return 1;var
+d=bf(bv(b));return m(function(d){return lb(c,b,ld([0,0,d],a))},d)}function
 av(a){function
 b(b){var
 c=i(a,b[2]);return[0,e(a,b[1]),c]}return function(a){return e(b,a)}}function
-aH(h,e){var
+aK(h,e){var
 c=h,a=e[1],b=e[3];for(;;){if(c){if(b){var
-d=b[1],f=b[2],g=c[1]?z(a,d):G(a,d),c=c[2],a=g,b=f;continue}return a}return a}}function
-hG(c,b,a){var
-d=bd(c);return m(function(c){return i(a,i(av(function(a){return aH(c,a)}),b))},d)}function
-hH(h,d,c){if(d)if(c)var
-i=c[2],e=c[1],j=d[2],f=d[1],a=function(c,a){return aR(c,C(h,b),a)},k=hH(h,j,i),l=function(c,b){var
-d=a(b,e);return z(a(f,c),d)},m=function(b){return a(b,e)},n=aF(function(b){return a(f,b)},m,l,i,j),o=a(f,e),g=[0,[0,z(a(f,e),o),n],k];else
+d=b[1],f=b[2],g=c[1]?A(a,d):H(a,d),c=c[2],a=g,b=f;continue}return a}return a}}function
+hR(c,b,a){var
+d=bf(c);return m(function(c){return i(a,i(av(function(a){return aK(c,a)}),b))},d)}function
+hS(h,d,c){if(d)if(c)var
+i=c[2],e=c[1],j=d[2],f=d[1],a=function(c,a){return aT(c,D(h,b),a)},k=hS(h,j,i),l=function(c,b){var
+d=a(b,e);return A(a(f,c),d)},m=function(b){return a(b,e)},n=aI(function(b){return a(f,b)},m,l,i,j),o=a(f,e),g=[0,[0,A(a(f,e),o),n],k];else
 var
 g=c;else
 var
 g=d;return g}function
-dW(b,d,a,c){function
+d1(b,d,a,c){function
 e(c,d){var
-e=aR(d,b,a);return G(z(c,c),e)}function
-f(c){return ab(aR(c,b,a))}return aF(function(a){return z(a,a)},f,e,d,c)}function
-f0(d,i,h,g){var
+e=aT(d,b,a);return H(A(c,c),e)}function
+f(c){return ae(aT(c,b,a))}return aI(function(a){return A(a,a)},f,e,d,c)}function
+f7(d,i,h,g){var
 c=i,b=h,a=g;for(;;){if(c){if(b){var
-e=b[1],f=c[1],j=cn(e[2]),k=a_(a,hH(d,f,dW(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
-hI(b,a){return[0,[0,0,b],a]}function
-dX(i,b,c,h,f,a){function
+e=b[1],f=c[1],j=cq(e[2]),k=ba(a,hS(d,f,d1(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
+hT(b,a){return[0,[0,0,b],a]}function
+d2(i,b,c,h,f,a){function
 d(a){if(a){var
-j=al([0,ab(a[1][2]),0],b),c=f0(h,f,a[2],j),d=r(g(c),b);if(d)return dV(i,c);var
+j=am([0,ae(a[1][2]),0],b),c=f7(h,f,a[2],j),d=p(g(c),b);if(d)return d0(i,c);var
 e=d}else
 var
-e=a;return e}return hG(b,hI(c,a),d)}function
-f1(g,f,e){var
+e=a;return e}return hR(b,hT(c,a),d)}function
+f8(g,f,e){var
 a=f,b=e;for(;;){if(a){var
-d=a[1],h=d[1],c=fZ(g,[0,[0,b4(d[2]),h],b]);if(c){var
+d=a[1],h=d[1],c=f6(g,[0,[0,b8(d[2]),h],b]);if(c){var
 a=a[2],b=c[1];continue}return c}return[0,b]}}function
-hJ(d,b,c,a){function
+hU(d,b,c,a){function
 e(a){if(a){var
-j=al([0,a[1][2],0],b),c=f1(d,a[2],j);if(c){var
-e=c[1],f=r(g(e),b);if(f)return dV(d,e);var
+j=am([0,a[1][2],0],b),c=f8(d,a[2],j);if(c){var
+e=c[1],f=p(g(e),b);if(f)return d0(d,e);var
 h=f}else
 var
 h=c;var
 i=h}else
 var
-i=a;return i}return hG(b,hI(c,a),e)}function
-k2(b,a){return e(function(a){return[0,a[1],b]},a)}function
-k3(b,a){var
-c=bd(b);return m(function(b){return K(d,aH(b,a)[1])},c)}function
-hK(c,b,a){var
-d=a[3],f=e(function(a){return aR(c,b,a)},d),g=a[2];return[0,aR(c,b,a[1]),g,f]}function
-k4(a,b){var
-c=b[3],d=a[3],e=aF(function(a){return a},ab,G,d,c),f=a[2];return[0,G(a[1],b[1]),f,e]}function
-bL(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-af(c,b,a){var
-d=an(c,b[3],a[3]),e=an(c,b[2],a[2]);return[0,an(c,b[1],a[1]),e,d]}function
-aW(b,a){var
+i=a;return i}return hR(b,hT(c,a),e)}function
+le(b,a){return e(function(a){return[0,a[1],b]},a)}function
+lf(b,a){var
+c=bf(b);return m(function(b){return I(d,aK(b,a)[1])},c)}function
+hV(c,b,a){var
+d=a[3],f=e(function(a){return aT(c,b,a)},d),g=a[2];return[0,aT(c,b,a[1]),g,f]}function
+lg(a,b){var
+c=b[3],d=a[3],e=aI(function(a){return a},ae,H,d,c),f=a[2];return[0,H(a[1],b[1]),f,e]}function
+bN(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+ah(c,b,a){var
+d=ao(c,b[3],a[3]),e=ao(c,b[2],a[2]);return[0,ao(c,b[1],a[1]),e,d]}function
+aY(b,a){var
 c=s(b,a[3]),d=s(b,a[2]);return[0,s(b,a[1]),d,c]}function
-be(b,a){var
-c=aj(b[3],a),d=aj(b[2],a);return[0,aj(b[1],a),d,c]}function
-U(b,a){var
-c=s(b[3],a[3]),d=s(b[2],a[2]);return B(B(s(b[1],a[1]),d),c)}function
-db(a){return be(a,aD(U(a,a)))}function
-cM(a){var
-b=a[5];return b?b[1]:aD(a[2])}function
-f2(b,a){return b?a:bu(a)}function
-k5(e,a,i,d,h){var
-f=U(a,e),b=af(w,e,aW(f,a)),j=U(b,b),g=w(Q(d),j),c=f2(h,aD(g)),k=w(f,c),l=af(B,a,be(b,c));return[0,af(B,b,aW(c,a)),g,l,k,[0,d],0,[0,i]]}function
-k6(a,e,d){var
-b=U(a,a),c=aD(b),f=[0,e],g=y(function(b){return af(w,a,aW(U(b,a),b))},d);return[0,a,b,be(a,c),c,0,g,f]}function
-k7(c,a){var
-d=U(a,c);return[0,a,k(b),a,d,0,0,0]}function
-eT(a){return e(function(a){var
-b=a[2];return[0,bL(a[1]),b]},a)}function
-k8(a){return e(function(a){var
-c=k(b);return[0,bL(a[3]),c]},a)}function
-k9(b,a){var
+bg(b,a){var
+c=ak(b[3],a),d=ak(b[2],a);return[0,ak(b[1],a),d,c]}function
+V(b,a){var
+c=s(b[3],a[3]),d=s(b[2],a[2]);return C(C(s(b[1],a[1]),d),c)}function
+dl(a){return bg(a,aG(V(a,a)))}function
+cT(a){var
+b=a[5];return b?b[1]:aG(a[2])}function
+f9(b,a){return b?a:bx(a)}function
+lh(e,a,i,d,h){var
+f=V(a,e),b=ah(x,e,aY(f,a)),j=V(b,b),g=x(R(d),j),c=f9(h,aG(g)),k=x(f,c),l=ah(C,a,bg(b,c));return[0,ah(C,b,aY(c,a)),g,l,k,[0,d],0,[0,i]]}function
+li(a,e,d){var
+b=V(a,a),c=aG(b),f=[0,e],g=z(function(b){return ah(x,a,aY(V(b,a),b))},d);return[0,a,b,bg(a,c),c,0,g,f]}function
+lj(c,a){var
+d=V(a,c);return[0,a,k(b),a,d,0,0,0]}function
+eX(a){return e(function(a){var
+b=a[2];return[0,bN(a[1]),b]},a)}function
+lk(a){return e(function(a){var
+c=k(b);return[0,bN(a[3]),c]},a)}function
+ll(b,a){var
 c=i(b,a[3]),d=i(b,a[2]);return[0,i(b,a[1]),d,c]}function
-k_(c,b,a){var
-d=an(c,b[3],a[3]),e=an(c,b[2],a[2]);return[0,an(c,b[1],a[1]),e,d]}function
-dY(d,a){var
-b=b2(d,[0,a[2],a[2]]);if(b){var
+lm(c,b,a){var
+d=ao(c,b[3],a[3]),e=ao(c,b[2],a[2]);return[0,ao(c,b[1],a[1]),e,d]}function
+d3(d,a){var
+b=b6(d,[0,a[2],a[2]]);if(b){var
 c=b[1];return[0,c[2],c[2]]}return[0,a[2],a[2]]}function
-f3(a,n,f,l,e,k,j){var
-o=k_(bn,k,j),b=k_(function(b,c){return aG(a,b,c)},e,o),c=b[3],g=b[2],h=b[1],i=b5(b5(b5(Z(P(a,d)),h),g),c),p=bd(n);return m(function(c){var
-b=k9(function(b){return W(a,aH(c,b))},e),h=b[3],j=b[2],k=b[1],m=t(a,l,dY(a,z(z(z(P(a,d),k),j),h))),g=G(aH(c,i),m),n=f?G(g,aH(c,f[1])):g;return K(d,n[1])},p)}function
-b6(a){return c9(C(a[1],a[2]),b)}function
-dZ(a){var
-b=b6(a);return aB(a[2],b)}function
-d0(c,b){if(b)var
-a=b[1],e=d0([0,c],b[2]),g=dZ(a),h=[0,[0,dZ(a),g],0],i=f(al(v,c),h),j=b6(a),d=[0,[0,[0,b6(a),j],a,i],e];else
+f_(a,n,f,l,e,k,j){var
+o=lm(bp,k,j),b=lm(function(b,c){return aJ(a,b,c)},e,o),c=b[3],g=b[2],h=b[1],i=b9(b9(b9($(Q(a,d)),h),g),c),p=bf(n);return m(function(c){var
+b=ll(function(b){return X(a,aK(c,b))},e),h=b[3],j=b[2],k=b[1],m=t(a,l,d3(a,A(A(A(Q(a,d),k),j),h))),g=H(aK(c,i),m),n=f?H(g,aK(c,f[1])):g;return I(d,n[1])},p)}function
+b_(a){return dh(D(a[1],a[2]),b)}function
+d4(a){var
+b=b_(a);return aE(a[2],b)}function
+d5(c,b){if(b)var
+a=b[1],e=d5([0,c],b[2]),g=d4(a),h=[0,[0,d4(a),g],0],i=f(am(v,c),h),j=b_(a),d=[0,[0,[0,b_(a),j],a,i],e];else
 var
 d=b;return d}function
-cN(d,b){if(b){var
+cU(d,b){if(b){var
 c=b[2],a=b[1];if(d){var
-e=cN(d[1],c);return[0,[0,a,e[1]],[0,a,e[2]]]}var
-f=a[2],g=[0,[0,b6(a),f],c],h=b6(a);return[0,[0,[0,a[1],h],c],g]}return rN}function
-k$(d,c,a){if(c){if(a){var
-e=k$(d,c[2],a[2]);return z(aR(c[1],C(d,b),a[1]),e)}return v}return v}function
-d1(f,a){if(a)var
-g=a[1],c=g[2],d=g[1],h=a[2],b=function(a,b){return k$(f,a,b)},j=d1(f,h),k=e(function(a){var
-e=b(d,a[2]);return z(b(a[1],c),e)},h),l=b(d,c),i=[0,[0,z(b(d,c),l),k],j];else
+e=cU(d[1],c);return[0,[0,a,e[1]],[0,a,e[2]]]}var
+f=a[2],g=[0,[0,b_(a),f],c],h=b_(a);return[0,[0,[0,a[1],h],c],g]}return r8}function
+ln(d,c,a){if(c){if(a){var
+e=ln(d,c[2],a[2]);return A(aT(c[1],D(d,b),a[1]),e)}return v}return v}function
+d6(f,a){if(a)var
+g=a[1],c=g[2],d=g[1],h=a[2],b=function(a,b){return ln(f,a,b)},j=d6(f,h),k=e(function(a){var
+e=b(d,a[2]);return A(b(a[1],c),e)},h),l=b(d,c),i=[0,[0,A(b(d,c),l),k],j];else
 var
 i=a;return i}function
-d2(e,b,d,a){if(b)if(a)var
-f=b[1],g=d2(e,b[2],d,a[2]),c=[0,[0,f,dW(e,a[1][1],d,f)],g];else
+d7(e,b,d,a){if(b)if(a)var
+f=b[1],g=d7(e,b[2],d,a[2]),c=[0,[0,f,d1(e,a[1][1],d,f)],g];else
 var
 c=a;else
 var
 c=b;return c}function
-f4(f,d,c,b,a){if(a){var
+f$(f,d,c,b,a){if(a){var
 g=a[2];if(d){var
-i=f4(f,d[1],c,b,g);return[0,[0,G(v,b),0],i]}var
-j=e(function(a){return[0,G(v,b),0]},g),h=[0,[0,G(ab(t(f,c,cn(a[1][2]))),b),0],j]}else
+i=f$(f,d[1],c,b,g);return[0,[0,H(v,b),0],i]}var
+j=e(function(a){return[0,H(v,b),0]},g),h=[0,[0,H(ae(t(f,c,cq(a[1][2]))),b),0],j]}else
 var
 h=a;return h}function
-a$(d,c,a){var
-b=r(g(a),c);return b?dV(d,a):b}function
-f5(d,b,a){if(b)var
-c=b[1],g=f5([0,d],b[2],a),h=f(al(v,d),[0,a,0]),e=[0,[0,c,[0,aB(c[1],a[2]),C(c[2],a[2])],h],g];else
+bb(d,c,a){var
+b=p(g(a),c);return b?d0(d,a):b}function
+ga(d,b,a){if(b)var
+c=b[1],g=ga([0,d],b[2],a),h=f(am(v,d),[0,a,0]),e=[0,[0,c,[0,aE(c[1],a[2]),D(c[2],a[2])],h],g];else
 var
 e=b;return e}function
-la(d){if(d){var
+lo(d){if(d){var
 a=d[1][1];if(a){var
 b=a[2];if(b){var
 c=b[2];if(c){if(c[2])return 0;var
-g=c[1],h=b[1],i=a[1],j=la(d[2]);return y(function(a){return[0,[0,[0,i,h],g],a]},j)}var
+g=c[1],h=b[1],i=a[1],j=lo(d[2]);return z(function(a){return[0,[0,[0,i,h],g],a]},j)}var
 e=c}else
 var
 e=b;var
 f=e}else
 var
-f=a;return f}return rO}function
-hL(a){return y(function(a){return y(eP,a)},a)}function
-cO(c,b,a){function
-d(a){return aG(c,b,a)}return y(function(a){return y(d,a)},a)}function
-hM(c,b,a){function
-d(a){return dT(c,a,b)}return y(function(a){return cJ(d,a)},a)}function
-d3(b,a){var
-c=ag(b,a);return e(function(c){var
+f=a;return f}return r9}function
+hW(a){return z(function(a){return z(eU,a)},a)}function
+cV(c,b,a){function
+d(a){return aJ(c,b,a)}return z(function(a){return z(d,a)},a)}function
+hX(c,b,a){function
+d(a){return dX(c,a,b)}return z(function(a){return cQ(d,a)},a)}function
+d8(b,a){var
+c=_(b,a);return e(function(c){var
 a=c[2],b=c[1];if(b){if(a){var
-d=a[1],e=b[1];return[0,cp(function(b,a){return[0,b5(b,a)]},e,d)]}return b}return a},c)}function
-f6(a){return Z(P(a,c(2,b)))}function
-lb(a,au,at,K,c){var
-av=bI(az,c),f=i(bJ(a,au,at),av);switch(c[0]){case
+d=a[1],e=b[1];return[0,cs(function(b,a){return[0,b9(b,a)]},e,d)]}return b}return a},c)}function
+gb(a){return $(Q(a,c(2,b)))}function
+lp(a,au,at,K,c){var
+av=bK(aB,c),f=i(bL(a,au,at),av);switch(c[0]){case
 1:var
 N=c[1],d=e(function(d){var
-c=r(N,d),e=c?[0,[0,Z(P(a,b))]]:c;return e},K);break;case
+c=p(N,d),e=c?[0,[0,$(Q(a,b))]]:c;return e},K);break;case
 3:var
-d=d3(c[1][2],c[2][2]);break;case
+d=d8(c[1][2],c[2][2]);break;case
 4:var
-O=e(hL,c[2][2]),d=d3(c[1][2],O);break;case
+O=e(hW,c[2][2]),d=d8(c[1][2],O);break;case
 5:var
-d=e(hL,c[1][2]);break;case
+d=e(hW,c[1][2]);break;case
 6:var
 x=c[2],y=c[1],g=y[1],u=0;if(g){var
 h=x[1];if(h)var
-Q=x[2],R=g[1],S=e(function(b){return cO(a,R,b)},Q),T=y[2],U=h[1],d=d3(e(function(b){return cO(a,U,b)},T),S);else{var
+P=x[2],R=g[1],S=e(function(b){return cV(a,R,b)},P),T=y[2],U=h[1],d=d8(e(function(b){return cV(a,U,b)},T),S);else{var
 z=h;u=1}}else{var
 z=g;u=1}if(u)var
 d=z;break;case
 7:var
 v=0;if(f){var
 A=c[2],j=A[1];if(j)var
-V=A[2],W=eP(f[1]),X=e(function(b){return cO(a,W,b)},V),Y=d3(c[1][2],X),_=j[1],d=e(function(b){return hM(a,_,b)},Y);else{var
+V=A[2],W=eU(f[1]),X=e(function(b){return cV(a,W,b)},V),Y=d8(c[1][2],X),Z=j[1],d=e(function(b){return hX(a,Z,b)},Y);else{var
 B=j;v=1}}else{var
 B=f;v=1}if(v)var
 d=B;break;case
 8:var
 C=c[1],k=C[1];if(k)var
-$=C[2],aa=k[1],ab=aG(a,f6(a),aa),d=e(function(b){return cO(a,ab,b)},$);else
+_=C[2],aa=k[1],ab=aJ(a,gb(a),aa),d=e(function(b){return cV(a,ab,b)},_);else
 var
 d=k;break;case
 9:if(f)var
-ac=c[1][2],ad=f[1],ae=aG(a,f6(a),ad),d=e(function(b){return hM(a,ae,b)},ac);else
+ac=c[1][2],ad=f[1],ae=aJ(a,gb(a),ad),d=e(function(b){return hX(a,ae,b)},ac);else
 var
 d=f;break;case
 10:var
 D=c[4],E=c[3],F=c[2],l=F[1],w=0;if(l){var
 m=l[1],n=E[1],L=0;if(n){var
-o=n[1],p=D[1],M=0;if(p){var
-q=kF(a,m,o,p[1]);if(q){var
-G=q[1],s=G[2],t=G[1],af=E[2],ag=bn(o,s),ah=e(function(b){return cO(a,ag,b)},af),ai=F[2],aj=bn(m,t),ak=d3(e(function(b){return cO(a,aj,b)},ai),ah),al=e(hL,D[2]),am=f6(a),an=d3(e(function(b){return cO(a,am,b)},ak),al),ao=c[1]?t:eP(s),ap=e(function(b){return cO(a,ao,b)},an),aq=aG(a,m,s),ar=bn(aG(a,o,t),aq),as=aG(a,f6(a),ar),d=e(function(b){return hM(a,as,b)},ap);L=1;M=1}else
+o=n[1],q=D[1],M=0;if(q){var
+r=kS(a,m,o,q[1]);if(r){var
+G=r[1],s=G[2],t=G[1],af=E[2],ag=bp(o,s),ah=e(function(b){return cV(a,ag,b)},af),ai=F[2],aj=bp(m,t),ak=d8(e(function(b){return cV(a,aj,b)},ai),ah),al=e(hW,D[2]),am=gb(a),an=d8(e(function(b){return cV(a,am,b)},ak),al),ao=c[1]?t:eU(s),ap=e(function(b){return cV(a,ao,b)},an),aq=aJ(a,m,s),ar=bp(aJ(a,o,t),aq),as=aJ(a,gb(a),ar),d=e(function(b){return hX(a,as,b)},ap);L=1;M=1}else
 var
-H=q}else
+H=r}else
 var
-H=p;if(!M)var
+H=q;if(!M)var
 I=H}else
 var
 I=n;if(!L){var
@@ -1796,112 +1803,112 @@ J=I;w=1}}else{var
 J=l;w=1}if(w)var
 d=J;break;default:var
 d=e(function(a){return 0},K)}return[0,f,d]}function
-hN(b,c,a){if(a)var
-f=a[1],g=hN(b,c,a[2]),d=[0,e(function(a){return ab(t(b,t(b,c,f),a))},a),g];else
+hY(b,c,a){if(a)var
+f=a[1],g=hY(b,c,a[2]),d=[0,e(function(a){return ae(t(b,t(b,c,f),a))},a),g];else
 var
 d=a;return d}function
-hO(a){return m(function(a){var
+hZ(a){return m(function(a){var
 b=J(a[1],d);return b?J(a[2],d):b},a)}function
-hP(c,b,a){var
-d=ag(b,a);return as(function(a,b){return z(t(c,a[1],a[2]),b)},v,d)}function
-hQ(c,b,a){var
-d=b3(hP(c,a,b));return as(function(b,a){return C(b3(b),a)},d,a)}function
-b7(a){return P(a,b)}function
-eU(a,i,c,v,u){var
+h0(c,b,a){var
+d=_(b,a);return aq(function(a,b){return A(t(c,a[1],a[2]),b)},v,d)}function
+h1(c,b,a){var
+d=b7(h0(c,a,b));return aq(function(b,a){return D(b7(b),a)},d,a)}function
+b$(a){return Q(a,b)}function
+eY(a,i,c,v,u){var
 f=v,e=u;for(;;){if(f){var
-j=f[1],n=0;if(!hO(c)&&!hO(j)){var
-h=hQ(a,i,j),o=b7(a),p=hQ(a,i,c),b=dS([0,hQ(a,i,c),p],o,[0,h,h])[1],k=K(d,h),l=k?K(d,b):k;if(l)var
-q=aq(hC(a,[0,b,b])),r=function(b){return function(d,c){return G(t(a,[0,b,b],d),c)}}(b),s=[0,b,b],m=[0,a_(e,hN(a,q,aF(function(c){return function(b){return t(a,c,b)}}(s),ab,r,j,c)))];else
+j=f[1],n=0;if(!hZ(c)&&!hZ(j)){var
+h=h1(a,i,j),o=b$(a),p=h1(a,i,c),b=dW([0,h1(a,i,c),p],o,[0,h,h])[1],k=I(d,h),l=k?I(d,b):k;if(l)var
+q=as(hM(a,[0,b,b])),r=function(b){return function(d,c){return H(t(a,[0,b,b],d),c)}}(b),s=[0,b,b],m=[0,ba(e,hY(a,q,aI(function(c){return function(b){return t(a,c,b)}}(s),ae,r,j,c)))];else
 var
 m=l;var
 g=m;n=1}if(!n)var
 g=[0,e];if(g){var
 f=f[2],e=g[1];continue}return g}return[0,e]}}function
-lc(a){var
+lq(a){var
 b=a[2],c=e(function(a){return[0,a[1],v]},b);return[0,[0,a[1][1],v],c]}function
-ld(h,n,a,m,l,k){var
+lr(h,n,a,m,l,k){var
 d=m,c=l,b=k;for(;;){if(d){if(c){var
-i=c[1],j=i[1],f=d[1],o=cn(j[2]),p=a_(b,hH(a,f,dW(a,j[1],o,f))),q=i[2],r=e(function(c){return function(b){return e(aq,dW(a,b[1],b[2],c))}}(f),q),g=eU(h,n,e(function(b){return aR(b,a,b7(h))},f),r,p);if(g){var
+i=c[1],j=i[1],f=d[1],o=cq(j[2]),p=ba(b,hS(a,f,d1(a,j[1],o,f))),q=i[2],r=e(function(c){return function(b){return e(as,d1(a,b[1],b[2],c))}}(f),q),g=eY(h,n,e(function(b){return aT(b,a,b$(h))},f),r,p);if(g){var
 d=d[2],c=c[2],b=g[1];continue}return g}return[0,b]}return[0,b]}}function
-le(c,b,a){var
-d=aA(0,a);return e(function(a){return r(a,b)?b7(c):v},d)}function
-lf(c,b,a){if(b){if(a){var
-d=lf(c,b[2],a[2]);return z(aR(b[1],c,a[1]),d)}return v}return v}function
-lg(a,j){switch(j){case
+ls(c,b,a){var
+d=aA(0,a);return e(function(a){return p(a,b)?b$(c):v},d)}function
+lt(c,b,a){if(b){if(a){var
+d=lt(c,b[2],a[2]);return A(aT(b[1],c,a[1]),d)}return v}return v}function
+lu(a,j){switch(j){case
 0:var
-d=aB(a[2],a[1]),e=a[1];return[0,[0,e,e],[0,[0,d,d],0]];case
+d=aE(a[2],a[1]),e=a[1];return[0,[0,e,e],[0,[0,d,d],0]];case
 1:var
-f=aB(a[1],a[2]),g=a[2];return[0,[0,g,g],[0,[0,f,f],0]];default:var
-c=c9(C(a[1],a[2]),b),h=aB(c,a[2]),i=aB(a[2],c);return[0,[0,c,c],[0,[0,i,i],[0,[0,h,h],0]]]}}function
-f7(d,c,a){if(a)var
-e=a[1],g=f7(d,[0,c],a[2]),b=y(aU,kt(function(a){return r(a[1],c)},d)),h=b?lg(e,b[1])[1]:e,f=[0,h,g];else
+f=aE(a[1],a[2]),g=a[2];return[0,[0,g,g],[0,[0,f,f],0]];default:var
+c=dh(D(a[1],a[2]),b),h=aE(c,a[2]),i=aE(a[2],c);return[0,[0,c,c],[0,[0,i,i],[0,[0,h,h],0]]]}}function
+gc(d,c,a){if(a)var
+e=a[1],g=gc(d,[0,c],a[2]),b=z(aW,kH(function(a){return p(a[1],c)},d)),h=b?lu(e,b[1])[1]:e,f=[0,h,g];else
 var
 f=a;return f}function
-hR(a,b){return e(function(a){var
-c=a[2];return lg(q(a[1],b,v),c)[2]},a)}function
-hS(i,b,g,a){function
-d(a){return aH(b,a[1])}var
-h=0,j=Z(v);function
+h2(a,b){return e(function(a){var
+c=a[2];return lu(q(a[1],b,v),c)[2]},a)}function
+h3(i,b,g,a){function
+d(a){return aK(b,a[1])}var
+h=0,j=$(v);function
 c(g,d,a,b){if(a){var
-h=function(a){return aH(g,q(d,a[2],j))},k=e(h,b[1]),l=h(b[2]),m=c(g,[0,d],a[2],b),n=a[1];return f(e(function(a){var
+h=function(a){return aK(g,q(d,a[2],j))},k=e(h,b[1]),l=h(b[2]),m=c(g,[0,d],a[2],b),n=a[1];return f(e(function(a){var
 b=t(i,a,l);return[0,e(function(b){return t(i,a,b)},k),b]},n),m)}return a}var
 k=c(b,h,g,a),l=d(a[2]);return[0,[0,e(d,a[1]),l],k]}var
-r3=Z(v);function
-lh(e,d,c){if(d){var
-f=q(e,c[2],r4),a=f?f[1]:[0,r3];if(a)var
-b=lh([0,e],d[2],c),h=b?[0,[0,a[1],b[1]]]:b,g=h;else
+sm=$(v);function
+lv(e,d,c){if(d){var
+f=q(e,c[2],sn),a=f?f[1]:[0,sm];if(a)var
+b=lv([0,e],d[2],c),h=b?[0,[0,a[1],b[1]]]:b,g=h;else
 var
-g=a;return g}return r5}function
-li(a,c,h,p,o,g,n){var
-d=bd(c);return m(function(d){var
+g=a;return g}return so}function
+lw(a,c,h,p,o,g,n){var
+d=bf(c);return m(function(d){var
 f=i(n,d);if(f){var
-q=t(a,o,f[1]),j=G(P(a,b),q),r=h?G(j,aH(d,h[1])):j,k=function(b){function
-f(c){return t(a,b,aH(d,c))}var
-g=e(function(a){return e(f,a)},p);return a$(a,c,a_(al([0,r,0],c),g))},l=k(aq(g));if(l)return k(ab(aq(g)));var
+q=t(a,o,f[1]),j=H(Q(a,b),q),r=h?H(j,aK(d,h[1])):j,k=function(b){function
+f(c){return t(a,b,aK(d,c))}var
+g=e(function(a){return e(f,a)},p);return bb(a,c,ba(am([0,r,0],c),g))},l=k(as(g));if(l)return k(ae(as(g)));var
 m=l}else
 var
 m=f;return m},d)}function
-lj(c,b,a){if(a){var
+lx(c,b,a){if(a){var
 d=a[2];if(c){var
-f=lj(c[1],b,d);return[0,a[1],f]}var
+f=lx(c[1],b,d);return[0,a[1],f]}var
 e=[0,b,d]}else
 var
 e=a;return e}function
-f8(a,g){var
-b=bk(function(e){var
-c=q(e,a,v),b=E(c[1],d),f=b?E(d,c[2]):b;return T(f)},g);if(b){if(b[2])return a;var
-f=b[1],c=q(f,a,v),e=K(d,c[1])?c[1]:c[2];return lj(f,[0,e,e],a)}return a}function
-lk(c,a){if(a)var
-b=a[2],f=lk(c,b),g=b?b[1]:e(ru,c),d=[0,[0,a[1],g],f];else
+gd(a,g){var
+b=bn(function(e){var
+c=q(e,a,v),b=E(c[1],d),f=b?E(d,c[2]):b;return S(f)},g);if(b){if(b[2])return a;var
+f=b[1],c=q(f,a,v),e=I(d,c[1])?c[1]:c[2];return lx(f,[0,e,e],a)}return a}function
+ly(c,a){if(a)var
+b=a[2],f=ly(c,b),g=b?b[1]:e(rP,c),d=[0,[0,a[1],g],f];else
 var
 d=a;return d}function
-cP(c,d,b,a){if(d){var
+cW(c,d,b,a){if(d){var
 e=d[1];if(a){var
-f=cP(c,e,b,a[2]);return[0,a[1],f]}return[0,c,cP(c,e,b,0)]}return a?[0,b,a[2]]:[0,b,0]}function
-f9(a,c,b){if(c)if(b)var
-g=b[2],e=b[1],h=c[2],d=c[1],i=f9(a,h,g),j=function(c,b){var
-f=t(a,e,b);return z(t(a,d,c),f)},k=function(b){return t(a,e,b)},l=aF(function(b){return t(a,d,b)},k,j,g,h),f=[0,[0,t(a,z(d,d),e),l],i];else
+f=cW(c,e,b,a[2]);return[0,a[1],f]}return[0,c,cW(c,e,b,0)]}return a?[0,b,a[2]]:[0,b,0]}function
+ge(a,c,b){if(c)if(b)var
+g=b[2],e=b[1],h=c[2],d=c[1],i=ge(a,h,g),j=function(c,b){var
+f=t(a,e,b);return A(t(a,d,c),f)},k=function(b){return t(a,e,b)},l=aI(function(b){return t(a,d,b)},k,j,g,h),f=[0,[0,t(a,A(d,d),e),l],i];else
 var
 f=b;else
 var
 f=c;return f}function
-cQ(d,c,b,a){return cP(v,c,hP(d,a,b),a)}function
-ll(g,b,f,a){if(a)var
-c=a[2],d=a[1],h=q(b,c,v),e=[0,d,cP(v,b,z(t(g,f,d),h),c)];else
+cX(d,c,b,a){return cW(v,c,h0(d,a,b),a)}function
+lz(g,b,f,a){if(a)var
+c=a[2],d=a[1],h=q(b,c,v),e=[0,d,cW(v,b,A(t(g,f,d),h),c)];else
 var
 e=a;return e}function
-hT(f,d,c,b,a){var
-g=e(Z,c);return kC(0,bJ(f,d0(0,a),g),b,d,0)}function
-_(a){if(a){var
+h4(f,d,c,b,a){var
+g=e($,c);return kP(0,bL(f,d5(0,a),g),b,d,0)}function
+aa(a){if(a){var
 b=a[1];if(b)var
-c=_(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+c=aa(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return r_}function
-f_(b,a){if(a){var
-h=a[1],n=h[1],c=_(e(function(a){return q(a,b,0)},n));if(c){var
+d=b;return d}return st}function
+gf(b,a){if(a){var
+h=a[1],n=h[1],c=aa(e(function(a){return q(a,b,0)},n));if(c){var
 f=q(h[2],b,0);if(f){var
-i=f[1],g=f_(b,a[2]);if(g)var
-j=K(d,i[2][1]),k=j?[0,[0,[0,c[1],i],g[1]]]:j;else
+i=f[1],g=gf(b,a[2]);if(g)var
+j=I(d,i[2][1]),k=j?[0,[0,[0,c[1],i],g[1]]]:j;else
 var
 k=g;var
 l=k}else
@@ -1909,22 +1916,22 @@ var
 l=f;var
 m=l}else
 var
-m=c;return m}return r$}function
-ct(d,c,b){var
-a=f_(d,c);return a?i(b,a[1]):a}function
-cR(a,b){return m(function(c){var
+m=c;return m}return su}function
+cw(d,c,b){var
+a=gf(d,c);return a?i(b,a[1]):a}function
+cY(a,b){return m(function(c){var
 a=q(c,b,0),d=a?1:a;return d},a)}function
-f$(b,a){if(b){var
-c=b[1],d=c[3],e=a[3],f=function(a){return a},g=aF(function(a){return a},f,z,e,d),h=a[2];return[0,z(a[1],c[1]),h,g]}return a}function
-hU(b,a){return b?k4(a,b[1]):a}function
-hV(h,g,b,f){var
+gg(b,a){if(b){var
+c=b[1],d=c[3],e=a[3],f=function(a){return a},g=aI(function(a){return a},f,A,e,d),h=a[2];return[0,A(a[1],c[1]),h,g]}return a}function
+h5(b,a){return b?lg(a,b[1]):a}function
+h6(h,g,b,f){var
 a=q(f,h,0);if(a){var
 c=a[1];if(b){var
-i=k4(c,b[1]),e=bd(g);return m(function(a){return E(d,aH(a,i)[1])},e)}return E(d,c[2][1])}return a}function
-lm(f,d,a){function
-c(a){return aR(a,d,P(f,b))}if(a){var
-g=e(c,a[2]);return[0,c(a[1]),v,g]}return Z(v)}function
-ga(b,a){var
+i=lg(c,b[1]),e=bf(g);return m(function(a){return E(d,aK(a,i)[1])},e)}return E(d,c[2][1])}return a}function
+lA(f,d,a){function
+c(a){return aT(a,d,Q(f,b))}if(a){var
+g=e(c,a[2]);return[0,c(a[1]),v,g]}return $(v)}function
+gh(b,a){var
 c=q(a[1],b,0);if(c){var
 d=q(a[2],b,0);if(d)var
 e=q(a[3],b,0),h=e?[0,[0,c[1],d[1],e[1]]]:e,f=h;else
@@ -1933,58 +1940,58 @@ f=d;var
 g=f}else
 var
 g=c;return g}function
-hW(b,a){return _(e(function(a){return q(a,b,0)},a))}function
-eV(c,k,X,D,i,h,j,f,a){switch(f[0]){case
+h7(b,a){return aa(e(function(a){return q(a,b,0)},a))}function
+eZ(c,k,W,C,i,h,j,f,a){switch(f[0]){case
 0:var
 s=f[1];if(typeof
 a!=="number")switch(a[0]){case
 0:var
-Y=cR(D,i);if(Y){var
-aE=a[2],aF=a[1],aG=f$(j,Z(s));return ct(i,k,function(a){return dX(c,h,aG,aF,aE,a)})}return Y;case
+Y=cY(C,i);if(Y){var
+aD=a[2],aF=a[1],aG=gg(j,$(s));return cw(i,k,function(a){return d2(c,h,aG,aF,aD,a)})}return Y;case
 1:var
-$=cR(D,i);if($){var
-aI=a[2],aJ=a[1],aK=f$(j,Z(s));return ct(i,X,function(a){return dX(c,h,aK,aJ,aI,a)})}return $;case
+Z=cY(C,i);if(Z){var
+aH=a[2],aI=a[1],aJ=gg(j,$(s));return cw(i,W,function(a){return d2(c,h,aJ,aI,aH,a)})}return Z;case
 2:var
-aa=cR(D,i);if(aa){if(j)return 0;var
+_=cY(C,i);if(_){if(j)return 0;var
 ab=J(s[1],d),ac=ab?J(s[2],d):ab;if(ac){var
-aL=a[2],aM=a[1];return ct(i,k,function(a){return dX(c,h,[0,v,v,0],aM,aL,k2([0,v,v,0],a))})}var
+aL=a[2],aM=a[1];return cw(i,k,function(a){return d2(c,h,[0,v,v,0],aM,aL,le([0,v,v,0],a))})}var
 ad=ac}else
 var
-ad=aa;return ad}return 0;case
+ad=_;return ad}return 0;case
 1:var
 ae=f[1];if(typeof
 a==="number"){if(1===a){var
-aN=hU(j,Z(ae));return ct(i,X,function(a){return hJ(c,h,aN,a)})}if(!a){var
-aO=hU(j,Z(ae));return ct(i,k,function(a){return hJ(c,h,aO,a)})}}return 0;case
+aN=h5(j,$(ae));return cw(i,W,function(a){return hU(c,h,aN,a)})}if(!a){var
+aO=h5(j,$(ae));return cw(i,k,function(a){return hU(c,h,aO,a)})}}return 0;case
 2:if(typeof
 a!=="number"&&3===a[0]){var
-af=a[1],l=lm(c,af,a[3]),ag=f[1],aP=a[2];return ct(i,k,function(d){var
-a=k3(h,l),b=a?dX(c,h,f$(j,l),af,aP,d):a;if(b){var
-f=l[3],g=e(function(a){return t(c,ag,a)},f),i=l[2];return hJ(c,h,hU(j,[0,t(c,ag,l[1]),i,g]),d)}return b})}return 0;case
+af=a[1],l=lA(c,af,a[3]),ag=f[1],aP=a[2];return cw(i,k,function(d){var
+a=lf(h,l),b=a?d2(c,h,gg(j,l),af,aP,d):a;if(b){var
+f=l[3],g=e(function(a){return t(c,ag,a)},f),i=l[2];return hU(c,h,h5(j,[0,t(c,ag,l[1]),i,g]),d)}return b})}return 0;case
 3:if(typeof
-a==="number"&&!a)return hV(i,h,j,f[1]);return 0;case
+a==="number"&&!a)return h6(i,h,j,f[1]);return 0;case
 4:if(typeof
 a!=="number"&&0===a[0]){var
-aQ=a[2],aS=a[1],aT=f$(j,Z(f[2])),aU=function(a){return dX(c,h,aT,aS,aQ,a)};return ct(i,f[1],aU)}return 0;case
+aQ=a[2],aR=a[1],aS=gg(j,$(f[2])),aU=function(a){return d2(c,h,aS,aR,aQ,a)};return cw(i,f[1],aU)}return 0;case
 5:if(typeof
 a==="number"&&!(3<=a))switch(a){case
-0:return hV(i,h,j,f[1]);case
-2:return hV(i,h,j,f[2])}return 0;case
+0:return h6(i,h,j,f[1]);case
+2:return h6(i,h,j,f[2])}return 0;case
 6:if(typeof
 a!=="number"&&8===a[0]){var
-E=ga(i,f[1]);if(E){var
-F=ga(i,f[2]);if(F){var
-H=ga(i,f[3]);if(H){var
-I=ga(i,f[4]);if(I){var
-ah=I[1],ai=H[1],aj=F[1],ak=E[1],n=a[2],u=f[5],aV=a[1];if(n){var
+E=gh(i,f[1]);if(E){var
+F=gh(i,f[2]);if(F){var
+G=gh(i,f[3]);if(G){var
+I=gh(i,f[4]);if(I){var
+ah=I[1],ai=G[1],aj=F[1],ak=E[1],n=a[2],u=f[5],aV=a[1];if(n){var
 o=n[2];if(o){var
-p=o[2];if(p){if(p[2])return 0;var
-aD=[0,n[1],o[1],p[1]],q=k9(function(f){function
-g(a){return aR(a,aV,P(c,b))}if(f){var
-a=e(g,f[2]),d=g(f[1]),h=fV(a),i=C(d[2],h),j=fV(a);return[0,d,[0,aB(d[1],j),i],a]}return Z(v)},aD),N=m(function(a){return r(g(a),[0,h])},n),O=N?f3(c,h,j,u,q,ak,ai):N,Q=O?f3(c,h,j,u,q,ak,ah):O,R=Q?f3(c,h,j,u,q,aj,ai):Q;if(R)return f3(c,h,j,u,q,aj,ah);var
+q=o[2];if(q){if(q[2])return 0;var
+aC=[0,n[1],o[1],q[1]],r=ll(function(f){function
+g(a){return aT(a,aV,Q(c,b))}if(f){var
+a=e(g,f[2]),d=g(f[1]),h=f2(a),i=D(d[2],h),j=f2(a);return[0,d,[0,aE(d[1],j),i],a]}return $(v)},aC),N=m(function(a){return p(g(a),[0,h])},n),O=N?f_(c,h,j,u,r,ak,ai):N,P=O?f_(c,h,j,u,r,ak,ah):O,R=P?f_(c,h,j,u,r,aj,ai):P;if(R)return f_(c,h,j,u,r,aj,ah);var
 S=R}else
 var
-S=p;var
+S=q;var
 T=S}else
 var
 T=o;var
@@ -1993,7 +2000,7 @@ var
 U=n;return U}var
 al=I}else
 var
-al=H;var
+al=G;var
 am=al}else
 var
 am=F;var
@@ -2002,33 +2009,33 @@ var
 an=E;return an}return 0;case
 7:if(typeof
 a!=="number"&&0===a[0]){var
-ao=a[2],ap=a[1],aW=f[2],aX=f[1];return ct(i,k,function(e){var
-a=r(g(e),h),d=a?r(g(ao),h):a;if(d){var
+ao=a[2],ap=a[1],aW=f[2],aX=f[1];return cw(i,k,function(e){var
+a=p(g(e),h),d=a?p(g(ao),h):a;if(d){var
 f=function(a){if(a){var
-d=a[2],e=r(g(d),h);if(e){var
-i=d1(ap,d2(ap,ao,P(c,b),d));return a$(c,h,a_(f4(c,aX,aW,a[1][2],d),i))}var
+d=a[2],e=p(g(d),h);if(e){var
+i=d6(ap,d7(ap,ao,Q(c,b),d));return bb(c,h,ba(f$(c,aX,aW,a[1][2],d),i))}var
 f=e}else
 var
-f=a;return f},i=j?j[1]:Z(v);return hG(h,hI(i,e),f)}return d})}return 0;case
+f=a;return f},i=j?j[1]:$(v);return hR(h,hT(i,e),f)}return d})}return 0;case
 8:if(typeof
 a==="number"&&5<=a){var
 aY=f[3],aZ=f[2],a0=function(d){var
-a=k2([0,v,v,0],d),b=j?j[1]:[0,v,v,0];return dX(c,h,b,aZ,aY,a)};return ct(i,f[1],a0)}return 0;case
+a=le([0,v,v,0],d),b=j?j[1]:[0,v,v,0];return d2(c,h,b,aZ,aY,a)};return cw(i,f[1],a0)}return 0;case
 9:return 0;default:if(typeof
 a==="number"&&!a){var
-K=hW(i,f[1]);if(K){var
-a1=f[2],L=_(e(function(a){return hW(i,a)},a1));if(L){var
-M=hW(i,[0,f[3],[0,f[4],[0,f[5],[0,f[6],0]]]]);if(M){var
+K=h7(i,f[1]);if(K){var
+a1=f[2],L=aa(e(function(a){return h7(i,a)},a1));if(L){var
+M=h7(i,[0,f[3],[0,f[4],[0,f[5],[0,f[6],0]]]]);if(M){var
 w=M[1];if(w){var
 x=w[2];if(x){var
-A=x[2];if(A){var
-B=A[2];if(B){if(B[2])return 0;var
-aq=B[1],ar=A[1][2],at=x[1][2],au=w[1][2],av=L[1],a2=K[1],V=li(c,h,j,av,au,at,function(d){return[0,dY(c,as(function(b,a){return z(W(c,aH(d,b)),a)},v,a2))]});return V?V:li(c,h,j,av,au,at,function(f){var
-b=b4(aq[1]),a=b2(c,G(ar,W(c,b)));if(a){var
-d=b1(c,a[1]),e=G(ar,t(c,b,aH(f,aq)));return y(function(a){return t(c,e,a)},d)}return a})}var
+y=x[2];if(y){var
+B=y[2];if(B){if(B[2])return 0;var
+ar=B[1],as=y[1][2],at=x[1][2],au=w[1][2],av=L[1],a2=K[1],V=lw(c,h,j,av,au,at,function(d){return[0,d3(c,aq(function(b,a){return A(X(c,aK(d,b)),a)},v,a2))]});return V?V:lw(c,h,j,av,au,at,function(f){var
+b=b8(ar[1]),a=b6(c,H(as,X(c,b)));if(a){var
+d=b5(c,a[1]),e=H(as,t(c,b,aK(f,ar)));return z(function(a){return t(c,e,a)},d)}return a})}var
 aw=B}else
 var
-aw=A;var
+aw=y;var
 ax=aw}else
 var
 ax=x;var
@@ -2041,40 +2048,40 @@ az=M;var
 aA=az}else
 var
 aA=L;var
-aC=aA}else
+aB=aA}else
 var
-aC=K;return aC}return 0}}function
-ln(a,aa,s,l,n,$,h,k,j,f,c){if(9===f[0]){var
-ac=f[2],ad=f[1];if(typeof
+aB=K;return aB}return 0}}function
+lB(a,_,s,l,n,Z,h,k,j,f,c){if(9===f[0]){var
+ab=f[2],ac=f[1];if(typeof
 c!=="number"&&9===c[0]){var
-L=c[2],u=c[1],ae=c[3];if(0<aK(c[4]))return eV(a,s,l,n,h,g(k),j,f,c);var
-U=e(Z,$),D=bm(0,bJ(a,f5(0,k,ad),U),aa,0),M=r(g(k),sa),N=M?cR(n,D):M;if(N){var
-w=f_(D,l);if(w){var
-x=f_(h,l);if(x){var
-A=_(e(function(b){var
+L=c[2],u=c[1],ad=c[3];if(0<aM(c[4]))return eZ(a,s,l,n,h,g(k),j,f,c);var
+U=e($,Z),C=bo(0,bL(a,ga(0,k,ac),U),_,0),M=p(g(k),sv),N=M?cY(n,C):M;if(N){var
+w=gf(C,l);if(w){var
+x=gf(h,l);if(x){var
+y=aa(e(function(b){var
 c=q(b[1],h,0);if(c)var
-f=b[2][2],a=_(e(function(a){var
-b=q(a[2],h,0);return y(function(b){return[0,a[1],b]},b)},f)),g=a?[0,[0,b[2][1],a[1]]]:a,d=g;else
+f=b[2][2],a=aa(e(function(a){var
+b=q(a[2],h,0);return z(function(b){return[0,a[1],b]},b)},f)),g=a?[0,[0,b[2][1],a[1]]]:a,d=g;else
 var
-d=c;return d},ac));if(A){var
-B=la(w[1]);if(B){var
-O=x[1],af=A[1],ag=B[1],E=dY(a,as(function(f,h){function
+d=c;return d},ab));if(y){var
+B=lo(w[1]);if(B){var
+O=x[1],af=y[1],ag=B[1],E=d3(a,aq(function(f,h){function
 b(b,d){var
-a=f[1],c=b?b[1]?f[2]:a[2]:a[1];return b3(q(d,c[3],v))}function
+a=f[1],c=b?b[1]?f[2]:a[2]:a[1];return b7(q(d,c[3],v))}function
 c(a){var
-b=i(a,rP),c=bj(i(a,rQ),b);return bj(i(a,0),c)}var
+b=i(a,r_),c=bm(i(a,r$),b);return bm(i(a,0),c)}var
 d=c(function(a){var
-c=b(rR,a),d=b(rS,a);return C(C(b(0,a),d),c)}),g=[0,d,d],e=c(function(a){var
-c=b(a,rT),d=b(a,rU);return C(C(b(a,0),d),c)});return z(h,W(a,dY(a,t(a,[0,e,e],g))))},v,ag)),o=aR(ae,u,P(a,b)),F=K(d,G(o,E)[1]),H=F?r(g(L),r0):F,I=H?r(g(O),r1):H;if(I){var
-p=b1(a,o);if(p){var
-V=aq(t(a,E,p[1])),X=G(P(a,b),V),Y=bd(r2);return m(function(h){var
+c=b(sa,a),d=b(sb,a);return D(D(b(0,a),d),c)}),g=[0,d,d],e=c(function(a){var
+c=b(a,sc),d=b(a,sd);return D(D(b(a,0),d),c)});return A(h,X(a,d3(a,t(a,[0,e,e],g))))},v,ag)),o=aT(ad,u,Q(a,b)),F=I(d,H(o,E)[1]),G=F?p(g(L),sj):F,J=G?p(g(O),sk):G;if(J){var
+r=b5(a,o);if(r){var
+V=as(t(a,E,r[1])),W=H(Q(a,b),V),Y=bf(sl);return m(function(h){var
 g=e(function(b){var
-c=b[2],d=b[1];return cn(b0(function(d,b){var
-c=b3(aH(h,b[2]));return z(d,t(a,b[1],[0,c,c]))},c,d))},af),r=i(av(function(a){return aH(h,a)}),O),E=j?aH(h,j[1]):v,M=W(a,X),s=W(a,o),q=d1(u,d2(u,L,P(a,b),r)),c=a_(al([0,ab(E),0],rV),q);if(g){var
+c=b[2],d=b[1];return cq(b4(function(d,b){var
+c=b7(aK(h,b[2]));return A(d,t(a,b[1],[0,c,c]))},c,d))},af),r=i(av(function(a){return aK(h,a)}),O),E=j?aK(h,j[1]):v,M=X(a,W),s=X(a,o),q=d6(u,d7(u,L,Q(a,b),r)),c=ba(am([0,ae(E),0],se),q);if(g){var
 d=g[2];if(d){var
 f=d[2];if(f){if(f[2])return 0;var
-B=d[1],C=g[1],I=f[1],k=a$(a,rX,a_(al([0,ab(s),0],rW),c));if(k)return m(function(D){var
-J=G(M,E),K=D[2]?B:ab(B),L=D[1]?C:ab(C),o=0;if(c){var
+B=d[1],C=g[1],I=f[1],k=bb(a,sg,ba(am([0,ae(s),0],sf),c));if(k)return m(function(D){var
+J=H(M,E),K=D[2]?B:ae(B),L=D[1]?C:ae(C),o=0;if(c){var
 b=c[1],l=0;if(b){var
 d=b[2],m=0;if(d){var
 e=d[2],n=0;if(e)if(e[2]){var
@@ -2084,12 +2091,12 @@ g=f[1],q=0;if(g){var
 h=g[2],r=0;if(h)if(h[2]){var
 k=0;l=1;m=1;n=1;p=1;q=1;r=1}else{var
 i=f[2],F=0;if(i){var
-j=i[1],H=0;if(j)if(j[2]||i[2]){var
-k=0;l=1;m=1;n=1;p=1;q=1;r=1;F=1;H=1}else
+j=i[1],G=0;if(j)if(j[2]||i[2]){var
+k=0;l=1;m=1;n=1;p=1;q=1;r=1;F=1;G=1}else
 var
 s=[0,[0,b[1],[0,d[1],[0,e[1],[0,L,0]]]],[0,[0,g[1],[0,h[1],[0,K,0]]],[0,[0,j[1],[0,I,0]],[0,[0,J,0],0]]]];else
 var
-s=j;if(!H)var
+s=j;if(!G)var
 t=s}else
 var
 t=i;if(!F)var
@@ -2113,7 +2120,7 @@ var
 z=b;if(!l){var
 A=z;o=1}}else{var
 A=c;o=1}if(o)var
-k=A;return a$(a,rZ,k)},rY);var
+k=A;return bb(a,si,k)},sh);var
 l=k}else
 var
 l=f;var
@@ -2123,13 +2130,13 @@ n=d;var
 p=n}else
 var
 p=g;return p},Y)}var
-J=p}else
+K=r}else
 var
-J=I;return J}var
-Q=B}else
+K=J;return K}var
+P=B}else
 var
-Q=A;var
-R=Q}else
+P=y;var
+R=P}else
 var
 R=x;var
 S=R}else
@@ -2137,26 +2144,26 @@ var
 S=w;var
 T=S}else
 var
-T=N;return T}return eV(a,s,l,n,h,g(k),j,f,c)}return eV(a,s,l,n,h,g(k),j,f,c)}function
-hX(d){var
+T=N;return T}return eZ(a,s,l,n,h,g(k),j,f,c)}return eZ(a,s,l,n,h,g(k),j,f,c)}function
+h8(d){var
 a=d;for(;;){if(a){var
-b=a[2],e=a[1],c=T(ak(function(b){return function(a){return r(b,a)}}(e),b));if(c){var
+b=a[2],e=a[1],c=S(al(function(b){return function(a){return p(b,a)}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-lo(j,i,h,g,a){var
+lC(j,i,h,g,a){var
 d=q(a,j,0);if(d){var
 b=q(a,i,0);if(b)var
-c=lh(0,g,q(a,h,sb)),k=c?[0,[0,b[1],c[1]]]:c,e=k;else
+c=lv(0,g,q(a,h,sw)),k=c?[0,[0,b[1],c[1]]]:c,e=k;else
 var
 e=b;var
 f=e}else
 var
 f=d;return f}function
-hY(j,b,a){if(a){var
-k=a[1],l=k[2],c=_(e(b,k[1]));if(c){var
+h9(j,b,a){if(a){var
+k=a[1],l=k[2],c=aa(e(b,k[1]));if(c){var
 f=i(b,l);if(f){var
 g=q(l,j,0);if(g){var
-h=hY(j,b,a[2]);if(h)var
-m=K(d,g[1][2][1]),n=m?[0,[0,[0,c[1],f[1]],h[1]]]:m;else
+h=h9(j,b,a[2]);if(h)var
+m=I(d,g[1][2][1]),n=m?[0,[0,[0,c[1],f[1]],h[1]]]:m;else
 var
 n=h;var
 o=n}else
@@ -2167,26 +2174,26 @@ var
 p=f;var
 r=p}else
 var
-r=c;return r}return sc}function
-lp(c,N,j,M,p,o,L,w,f,b,i,a){var
-h=g(L),O=d0(0,L),aI=bm(0,bJ(c,O,e(Z,f7(i,0,p))),N,0),aK=e(az,i),aJ=0,aL=e(Z,p),aM=bm(sd,function(a){return lb(c,O,aL,aK,a)},N,aJ),aN=hR(i,p);function
-Q(a){return lo(o,aI,aM,i,a)}function
-x(a){return e(function(a){return P(c,a)},a)}var
-aO=w?w[1]:Z(v);function
-S(a){return a?a$(c,h,a[1]):a}function
-q(f,e,d,b,a){var
-g=al([0,ab(e),0],h);return S(ld(c,x(f),d,b,a,g))}function
+r=c;return r}return sx}function
+lD(c,N,j,M,q,o,L,w,f,b,i,a){var
+h=g(L),P=d5(0,L),aH=bo(0,bL(c,P,e($,gc(i,0,q))),N,0),aJ=e(aB,i),aI=0,aL=e($,q),aM=bo(sy,function(a){return lp(c,P,aL,aJ,a)},N,aI),aO=h2(i,q);function
+R(a){return lC(o,aH,aM,i,a)}function
+x(a){return e(function(a){return Q(c,a)},a)}var
+aP=w?w[1]:$(v);function
+S(a){return a?bb(c,h,a[1]):a}function
+r(f,e,d,b,a){var
+g=am([0,ae(e),0],h);return S(lr(c,x(f),d,b,a,g))}function
 T(A,z,y){var
-B=al([0,z,0],h),q=x(A),b=y,f=B;for(;;){if(b){var
-k=b[1],l=k[1],g=l[2],i=l[1],m=k[2],n=[0,[0,b4(g),i],f];if(m){var
-o=K(d,g[1]);if(o)var
+B=am([0,z,0],h),q=x(A),b=y,f=B;for(;;){if(b){var
+k=b[1],l=k[1],g=l[2],i=l[1],m=k[2],n=[0,[0,b8(g),i],f];if(m){var
+o=I(d,g[1]);if(o)var
 s=e(function(a){var
-b=a[1];return[0,aq(a[2]),b]},m),t=e(function(a){return v},i),u=[0,b7(c),t],w=b7(c),a=eU(c,[0,ab(dS(hP(c,i,q),w,g)),q],u,s,n);else
+b=a[1];return[0,as(a[2]),b]},m),t=e(function(a){return v},i),u=[0,b$(c),t],w=b$(c),a=eY(c,[0,ae(dW(h0(c,i,q),w,g)),q],u,s,n);else
 var
 a=o}else
 var
 a=[0,n];if(a){var
-j=fZ(c,a[1]);if(j){var
+j=f6(c,a[1]);if(j){var
 b=b[2],f=j[1];continue}var
 p=j}else
 var
@@ -2194,86 +2201,86 @@ p=a;var
 r=p}else
 var
 r=[0,f];return S(r)}}var
-aP=e(az,i),U=m(function(a){return aV(a,g(p))},aP),V=U?hX(e(az,i)):U,W=V?m(function(a){return r(g(a),h)},a):V;if(W){var
+aQ=e(aB,i),U=m(function(a){return aN(a,g(q))},aQ),V=U?h8(e(aB,i)):U,W=V?m(function(a){return p(g(a),h)},a):V;if(W){var
 u=0;switch(f[0]){case
 0:var
-y=f[1],H=0;if(typeof
+y=f[1],G=0;if(typeof
 b!=="number")switch(b[0]){case
 0:var
 at=0;if(a){if(a[2])return 0;var
-aQ=a[1],aR=b[2],aS=b[1],X=cR(M,o);if(X){var
+aR=a[1],aS=b[2],aT=b[1],X=cY(M,o);if(X){var
 l=function(c,a){var
-b=z(y,a);return function(a){return q(aQ,b,aS,aR,a)}},k=j;H=1;at=1}else
+b=A(y,a);return function(a){return r(aR,b,aT,aS,a)}},k=j;G=1;at=1}else
 var
-$=X}else
+aa=X}else
 var
-$=a;if(!at)return $;break;case
+aa=a;if(!at)return aa;break;case
 2:var
 au=0;if(a){if(a[2])return 0;var
-aU=a[1],aW=b[2],aX=b[1],aa=cR(M,o),av=0;if(aa){if(w)return 0;var
+aV=a[1],aW=b[2],aX=b[1],ab=cY(M,o),av=0;if(ab){if(w)return 0;var
 ac=J(y[1],d),ad=ac?J(y[2],d):ac;if(ad){var
-l=function(c,b,a){return q(aU,v,aX,aW,e(lc,a))},k=j;H=1;au=1;av=1}else
+l=function(c,b,a){return r(aV,v,aX,aW,e(lq,a))},k=j;G=1;au=1;av=1}else
 var
-ae=ad}else
+af=ad}else
 var
-ae=aa;if(!av)var
-af=ae}else
+af=ab;if(!av)var
+ag=af}else
 var
-af=a;if(!au)return af;break}if(!H)return 0;break;case
+ag=a;if(!au)return ag;break}if(!G)return 0;break;case
 1:var
 aw=0,aY=f[1];if(typeof
 b==="number"&&!b){if(!a)return a;if(a[2])return 0;var
 aZ=a[1],l=function(c,a){var
-b=G(aY,a);return function(a){return T(aZ,b,a)}},k=j;aw=1}if(!aw)return 0;break;case
+b=H(aY,a);return function(a){return T(aZ,b,a)}},k=j;aw=1}if(!aw)return 0;break;case
 2:var
 ax=0,a0=f[1];if(typeof
 b==="number"||!(3===b[0]))ax=1;else{var
 ay=0;if(a){var
-s=a[2],aC=0;if(s){if(s[2])return 0;var
-ah=b[1],a1=s[1],a2=a[1],a3=b[2],ai=lm(c,ah,b[3]),aj=k3(h,ai);if(aj){var
+s=a[2],az=0;if(s){if(s[2])return 0;var
+ah=b[1],a1=s[1],a2=a[1],a3=b[2],ai=lA(c,ah,b[3]),aj=lf(h,ai);if(aj){var
 l=function(f,b,a){var
-d=aH(f,ai),e=q(a2,z(d,b),ah,a3,a);return e?T(a1,G(t(c,a0,d),b),a):e},k=j;ay=1;aC=1}else
+d=aK(f,ai),e=r(a2,A(d,b),ah,a3,a);return e?T(a1,H(t(c,a0,d),b),a):e},k=j;ay=1;az=1}else
 var
 ak=aj}else
 var
-ak=s;if(!aC)var
-am=ak}else
+ak=s;if(!az)var
+al=ak}else
 var
-am=a;if(!ay)return am}if(ax)return 0;break;case
+al=a;if(!ay)return al}if(ax)return 0;break;case
 3:var
-aD=0;if(typeof
+aC=0;if(typeof
 b==="number"&&!b){if(a)return 0;var
 B=f[1];u=1}else
-aD=1;if(aD)return 0;break;case
+aC=1;if(aC)return 0;break;case
 4:var
-aE=0,a5=f[2];if(typeof
-b==="number"||!(0===b[0]))aE=1;else{if(!a)return a;if(a[2])return 0;var
+aD=0,a5=f[2];if(typeof
+b==="number"||!(0===b[0]))aD=1;else{if(!a)return a;if(a[2])return 0;var
 a6=a[1],a7=b[2],a8=b[1],a9=function(c,a){var
-b=z(a5,a);return function(a){return q(a6,b,a8,a7,a)}},l=a9,k=f[1]}if(aE)return 0;break;case
+b=A(a5,a);return function(a){return r(a6,b,a8,a7,a)}},l=a9,k=f[1]}if(aD)return 0;break;case
 5:var
-I=0;if(typeof
+K=0;if(typeof
 b==="number"&&!(3<=b))switch(b){case
 0:if(a)return 0;var
 B=f[1];u=1;break;case
 2:if(a)return 0;var
-B=f[2];u=1;break;default:I=1}else
-I=1;if(I)return 0;break;case
+B=f[2];u=1;break;default:K=1}else
+K=1;if(K)return 0;break;case
 7:var
 an=f[2],ao=f[1],aF=0;if(typeof
 b==="number"||!(0===b[0]))aF=1;else{var
 aG=0;if(a){if(a[2])return 0;var
-n=b[2],F=b[1],ba=a[1],ap=r(g(j),h);if(ap){var
+n=b[2],F=b[1],a_=a[1],ap=p(g(j),h);if(ap){var
 l=function(a,y){var
-z=x(ba);return function(f){var
-k=r(g(f),h),l=k?r(g(n),h):k;if(l){var
-s=e(az,f),u=d1(F,d2(F,n,b7(c),s)),v=a_(f4(c,ao,an,y,e(az,f)),u),a=0,b=f,i=v,w=g(n);for(;;){if(b){var
-o=b[1][2],p=r(a,ao),q=e(function(f,h){return function(d){var
-a=ag(aA(0,g(n)),n);return e(function(a){var
-b=lf(F,a[2],d[1]);if(h&&r(a[1],f))return G(b,aq(t(c,an,d[2])));return b},a)}}(a,p),o),j=eU(c,z,le(c,a,w),q,i);if(j){var
+z=x(a_);return function(f){var
+k=p(g(f),h),l=k?p(g(n),h):k;if(l){var
+s=e(aB,f),u=d6(F,d7(F,n,b$(c),s)),v=ba(f$(c,ao,an,y,e(aB,f)),u),a=0,b=f,i=v,w=g(n);for(;;){if(b){var
+o=b[1][2],q=p(a,ao),r=e(function(f,h){return function(d){var
+a=_(aA(0,g(n)),n);return e(function(a){var
+b=lt(F,a[2],d[1]);if(h&&p(a[1],f))return H(b,as(t(c,an,d[2])));return b},a)}}(a,q),o),j=eY(c,z,ls(c,a,w),r,i);if(j){var
 a=[0,a],b=b[2],i=j[1];continue}var
 d=j}else
 var
-d=[0,i];if(d)return a$(c,h,d[1]);var
+d=[0,i];if(d)return bb(c,h,d[1]);var
 m=d;break}}else
 var
 m=l;return m}},k=j;aG=1}else
@@ -2281,105 +2288,105 @@ var
 ar=ap}else
 var
 ar=a;if(!aG)return ar}if(aF)return 0;break;default:return 0}if(u){var
-D=Q(B);if(!D)return D;var
+C=R(B);if(!C)return C;var
 a4=function(b,f,a){return m(function(a){var
-b=f[2],c=a[2],e=as(function(b,a){return C(bj(d,R(b[2][1])),a)},d,c);return E(d,aB(aB(a[1][2][1],e),b))},a)},_=a4,Y=[0,[0,0,D[1]],0]}else{var
-A=hY(o,Q,k);if(!A)return A;var
-_=l,Y=A[1]}var
-aT=bd(h);return m(function(a){var
-b=e(function(b){return hS(c,a,aN,b)},Y);return fo(_,a,aH(a,aO),b)},aT)}return W}function
-lq(a,W,y,V,p,o,U,x,n,h,l,i,S,aB,R,Q){var
-k=g(U),X=d0(0,U),aC=bm(0,bJ(a,X,e(Z,f7(l,0,p))),W,0),aE=e(az,l),aD=0,aF=e(Z,p),aG=bm(se,function(b){return lb(a,X,aF,aE,b)},W,aD),aI=hR(l,p);function
-aJ(a){return lo(o,aC,aG,l,a)}var
-aK=x?x[1]:Z(v),w=as(function(b,a){return bj(ch(b),a)},d,i);function
-M(a){if(a){if(J(ch(a[1]),w))return 0;var
+b=f[2],c=a[2],e=aq(function(b,a){return D(bm(d,O(b[2][1])),a)},d,c);return E(d,aE(aE(a[1][2][1],e),b))},a)},Z=a4,Y=[0,[0,0,C[1]],0]}else{var
+z=h9(o,R,k);if(!z)return z;var
+Z=l,Y=z[1]}var
+aU=bf(h);return m(function(a){var
+b=e(function(b){return h3(c,a,aO,b)},Y);return fu(Z,a,aK(a,aP),b)},aU)}return W}function
+lE(a,W,y,V,r,o,U,x,n,h,l,i,T,az,R,P){var
+k=g(U),X=d5(0,U),aC=bo(0,bL(a,X,e($,gc(l,0,r))),W,0),aE=e(aB,l),aD=0,aF=e($,r),aG=bo(sz,function(b){return lp(a,X,aF,aE,b)},W,aD),aH=h2(l,r);function
+aI(a){return lC(o,aC,aG,l,a)}var
+aJ=x?x[1]:$(v),w=aq(function(b,a){return bm(ck(b),a)},d,i);function
+M(a){if(a){if(J(ck(a[1]),w))return 0;var
 b=[0,M(a[2])]}else
 var
 b=a;return b}var
 N=M(i);if(J(w,d))var
-aw=e(function(a){return v},i),ax=i?[0,b,i[2]]:i,B=[0,[0,[0,0,ax],d],aw];else
+aw=e(function(a){return v},i),ax=i?[0,b,i[2]]:i,z=[0,[0,[0,0,ax],d],aw];else
 var
-O=hA(C(kr(w),b)),ay=e(function(a){return v},i),B=[0,[0,[0,N,i],O],cP(v,N,P(a,bZ(c(2,b),O)),ay)];var
-Y=B[1],_=Y[1],D=_[2],f=_[1],$=B[2],aL=Y[2],j=e(function(c){return aR(c,aL,P(a,b))},D);function
+O=hJ(D(kF(w),b)),ay=e(function(a){return v},i),z=[0,[0,[0,N,i],O],cW(v,N,Q(a,b3(c(2,b),O)),ay)];var
+Y=z[1],Z=Y[1],C=Z[2],f=Z[1],_=z[2],aL=Y[2],j=e(function(c){return aT(c,aL,Q(a,b))},C);function
 aa(h){var
-i=0,c=aA(0,k),d=as(function(c,b){var
-d=cQ(a,f,j,le(a,c,k));return a_(b,hN(a,ab(h),d))},i,c),g=cQ(a,f,j,e(function(b){return P(a,A(R,b))},aB));return a_(d,f9(a,cQ(a,f,j,e(function(c){return aR(c,C(Q,b),b7(a))},S)),g))}function
-ac(b){return b?a$(a,k,b[1]):b}function
+i=0,c=aA(0,k),d=aq(function(c,b){var
+d=cX(a,f,j,ls(a,c,k));return ba(b,hY(a,ae(h),d))},i,c),g=cX(a,f,j,e(function(b){return Q(a,B(R,b))},az));return ba(d,ge(a,cX(a,f,j,e(function(c){return aT(c,D(P,b),b$(a))},T)),g))}function
+ab(b){return b?bb(a,k,b[1]):b}function
 F(u,i,t,s){var
-c=t,b=s,d=aa(ab(u));for(;;){if(c&&b){var
-k=b[1],l=k[1],g=c[1],m=cQ(a,f,j,e(function(b){return aR(b,i,b7(a))},g)),o=cn(l[2]),p=cQ(a,f,j,dW(i,l[1],o,g)),q=a_(d,f9(a,e(aq,m),p)),r=k[2],h=eU(a,$,m,e(function(c){return function(b){return cQ(a,f,j,e(aq,dW(i,b[1],b[2],c)))}}(g),r),q);if(h){var
+c=t,b=s,d=aa(ae(u));for(;;){if(c&&b){var
+k=b[1],l=k[1],g=c[1],m=cX(a,f,j,e(function(b){return aT(b,i,b$(a))},g)),o=cq(l[2]),p=cX(a,f,j,d1(i,l[1],o,g)),q=ba(d,ge(a,e(as,m),p)),r=k[2],h=eY(a,_,m,e(function(c){return function(b){return cX(a,f,j,e(as,d1(i,b[1],b[2],c)))}}(g),r),q);if(h){var
 c=c[2],b=b[2],d=h[1];continue}var
 n=h}else
 var
-n=[0,d];return ac(n)}}var
-aM=e(az,l),ad=m(function(a){return aV(a,g(p))},aM),ae=ad?hX(e(az,l)):ad,af=ae?r(g(D),k):ae,ag=af?r(g(S),k):af,ah=ag?E(d,R):ag,ai=ah?ko(Q,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):ah,aj=ai?aV(f,k):ai,ak=aj?T(J(q(f,D,d),d)):aj;if(ak){switch(n[0]){case
+n=[0,d];return ab(n)}}var
+aM=e(aB,l),ac=m(function(a){return aN(a,g(r))},aM),ad=ac?h8(e(aB,l)):ac,af=ad?p(g(C),k):ad,ag=af?p(g(T),k):af,ah=ag?E(d,R):ag,ai=ah?kC(P,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):ah,aj=ai?aN(f,k):ai,ak=aj?S(J(q(f,C,d),d)):aj;if(ak){switch(n[0]){case
 0:var
-H=n[1],L=0;if(typeof
+G=n[1],L=0;if(typeof
 h==="number")L=1;else
 switch(h[0]){case
 0:var
-aN=h[2],aO=h[1],al=cR(V,o);if(!al)return al;var
+aO=h[2],aP=h[1],al=cY(V,o);if(!al)return al;var
 u=function(a){var
-b=z(H,a);return function(a){return F(b,aO,aN,a)}},s=y;break;case
+b=A(G,a);return function(a){return F(b,aP,aO,a)}},s=y;break;case
 2:var
-aS=h[2],aT=h[1],am=cR(V,o),at=0;if(am){if(x)return 0;var
-ao=J(H[1],d),ap=ao?J(H[2],d):ao;if(ap){var
-u=function(b,a){return F(v,aT,aS,e(lc,a))},s=y;at=1}else
+aS=h[2],aU=h[1],am=cY(V,o),at=0;if(am){if(x)return 0;var
+an=J(G[1],d),ap=an?J(G[2],d):an;if(ap){var
+u=function(b,a){return F(v,aU,aS,e(lq,a))},s=y;at=1}else
 var
 ar=ap}else
 var
 ar=am;if(!at)return ar;break;default:L=1}if(L)return 0;break;case
 1:var
-au=0,aU=n[1];if(typeof
+au=0,aV=n[1];if(typeof
 h==="number"&&!h)var
 u=function(b){var
-F=G(aU,b);return function(G){var
+F=H(aV,b);return function(G){var
 i=G,h=aa(F);for(;;){if(i){var
-n=i[1],o=n[1],k=o[2],p=n[2],b=cQ(a,f,j,o[1]);if(p){var
-r=K(d,k[1]);if(r)var
-C=b7(a),c=b4(ab(dS(q(f,b,v),C,k))),l=b4(k),w=cP(v,f,c,0),x=q(f,b,v),y=a_(h,f9(a,w,cP(v,f,z(aq(t(a,c,l)),x),b))),A=q(f,b,v),B=[0,[0,l,cP(v,f,z(t(a,c,l),A),b)],y],D=e(function(d){return function(b){var
-c=cQ(a,f,j,b[1]);return ll(a,f,d,[0,aq(b[2]),c])}}(c),p),E=e(function(a){return v},b),g=eU(a,[0,v,$],ll(a,f,c,[0,b7(a),E]),D,B);else
+n=i[1],o=n[1],k=o[2],p=n[2],b=cX(a,f,j,o[1]);if(p){var
+r=I(d,k[1]);if(r)var
+C=b$(a),c=b8(ae(dW(q(f,b,v),C,k))),l=b8(k),w=cW(v,f,c,0),x=q(f,b,v),y=ba(h,ge(a,w,cW(v,f,A(as(t(a,c,l)),x),b))),z=q(f,b,v),B=[0,[0,l,cW(v,f,A(t(a,c,l),z),b)],y],D=e(function(d){return function(b){var
+c=cX(a,f,j,b[1]);return lz(a,f,d,[0,as(b[2]),c])}}(c),p),E=e(function(a){return v},b),g=eY(a,[0,v,_],lz(a,f,c,[0,b$(a),E]),D,B);else
 var
 g=r}else
 var
-g=[0,[0,[0,b4(k),b],h]];if(g){var
-m=fZ(a,g[1]);if(m){var
+g=[0,[0,[0,b8(k),b],h]];if(g){var
+m=f6(a,g[1]);if(m){var
 i=i[2],h=m[1];continue}var
 s=m}else
 var
 s=g;var
 u=s}else
 var
-u=[0,h];return ac(u)}}},s=y;else
+u=[0,h];return ab(u)}}},s=y;else
 au=1;if(au)return 0;break;case
 4:var
 av=0,aW=n[2];if(typeof
 h==="number"||!(0===h[0]))av=1;else
 var
 aX=h[2],aY=h[1],aZ=function(a){var
-b=z(aW,a);return function(a){return F(b,aY,aX,a)}},u=aZ,s=n[1];if(av)return 0;break;default:return 0}var
-I=hY(o,aJ,s);if(I){var
-aP=I[1],aQ=bd(k);return m(function(b){var
-c=e(function(c){return hS(a,b,aI,c)},aP);return an(u,aH(b,aK),c)},aQ)}return I}return ak}function
-lr(r,q,p,o,n,x,m,e,l,k,j,h,g,c){if(typeof
+b=A(aW,a);return function(a){return F(b,aY,aX,a)}},u=aZ,s=n[1];if(av)return 0;break;default:return 0}var
+K=h9(o,aI,s);if(K){var
+aQ=K[1],aR=bf(k);return m(function(b){var
+c=e(function(c){return h3(a,b,aH,c)},aQ);return ao(u,aK(b,aJ),c)},aR)}return K}return ak}function
+lF(r,q,p,o,n,x,m,e,l,k,j,h,g,c){if(typeof
 c!=="number"&&10===c[0]){var
 a=c[3],s=c[2],b=c[1];if(typeof
 b!=="number"&&5===b[0]){if(a){if(a[2])return 0;var
 t=b[2],f=i(x,e);if(f){var
 u=E(d,t);if(u){var
-y=a[1],z=b[1];return lq(r,q,p,o,n,m,e,[0,hK(t,b[3],f[1])],l,z,s,y,k,j,h,g)}var
+y=a[1],z=b[1];return lE(r,q,p,o,n,m,e,[0,hV(t,b[3],f[1])],l,z,s,y,k,j,h,g)}var
 v=u}else
 var
 v=f;var
 w=v}else
 var
-w=a;return w}return a?a[2]?0:lq(r,q,p,o,n,m,e,0,l,b,s,a[1],k,j,h,g):a}return 0}function
-ls(l,k,j,p,h,g,o,f,b,e,a){if(typeof
+w=a;return w}return a?a[2]?0:lE(r,q,p,o,n,m,e,0,l,b,s,a[1],k,j,h,g):a}return 0}function
+lG(l,k,j,p,h,g,o,f,b,e,a){if(typeof
 a!=="number")switch(a[0]){case
 5:var
 q=a[2],m=i(o,b);if(m){var
 r=E(d,q);if(r){var
-y=a[1];return ln(l,k,j,p,h,g,f,b,[0,hK(q,a[3],m[1])],e,y)}var
+y=a[1];return lB(l,k,j,p,h,g,f,b,[0,hV(q,a[3],m[1])],e,y)}var
 s=r}else
 var
 s=m;return s;case
@@ -2388,13 +2395,13 @@ t=a[3],u=a[2],c=a[1];if(typeof
 c!=="number"&&5===c[0]){var
 v=c[2],n=i(o,b);if(n){var
 w=E(d,v);if(w){var
-z=c[1];return lp(l,k,j,h,g,f,b,[0,hK(v,c[3],n[1])],e,z,u,t)}var
+z=c[1];return lD(l,k,j,h,g,f,b,[0,hV(v,c[3],n[1])],e,z,u,t)}var
 x=w}else
 var
-x=n;return x}return lp(l,k,j,h,g,f,b,0,e,c,u,t)}return ln(l,k,j,p,h,g,f,b,0,e,a)}function
-hZ(a){return 9===a[0]?0:1}function
-d4(a){return x(function(a){return f(a[1],[0,a[2],0])},a)}function
-h0(j,d,i,a,h){var
+x=n;return x}return lD(l,k,j,h,g,f,b,0,e,c,u,t)}return lB(l,k,j,p,h,g,f,b,0,e,a)}function
+h_(a){return 9===a[0]?0:1}function
+d9(a){return y(function(a){return f(a[1],[0,a[2],0])},a)}function
+h$(j,d,i,a,h){var
 b=h;for(;;){var
 c=0;if(typeof
 b==="number"){if(1!==b)c=1}else
@@ -2405,26 +2412,26 @@ b=b[3];continue;case
 5:case
 10:var
 b=b[1];continue;default:c=1}var
-k=c?0:1,l=k?d:j,g=d4(l);switch(a[0]){case
+k=c?0:1,l=k?d:j,g=d9(l);switch(a[0]){case
 0:return f(i,g);case
 3:return[0,a[1],0];case
 5:return[0,a[1],[0,a[2],0]];case
 6:var
-m=[0,a[1],[0,a[2],[0,a[3],[0,a[4],0]]]];return x(function(a){return[0,a[1],[0,a[2],[0,a[3],0]]]},m);case
+m=[0,a[1],[0,a[2],[0,a[3],[0,a[4],0]]]];return y(function(a){return[0,a[1],[0,a[2],[0,a[3],0]]]},m);case
 9:var
-n=a[2],o=x(function(a){var
-b=e(aU,a[2][2]);return[0,a[1],b]},n);return f(d4(d),o);case
+n=a[2],o=y(function(a){var
+b=e(aW,a[2][2]);return[0,a[1],b]},n);return f(d9(d),o);case
 10:var
-p=[0,a[3],[0,a[4],[0,a[5],[0,a[6],0]]]],q=f(dO(a[2]),p);return f(a[1],q);case
+p=[0,a[3],[0,a[4],[0,a[5],[0,a[6],0]]]],q=f(dS(a[2]),p);return f(a[1],q);case
 4:case
-8:return d4(a[1]);default:return g}}}function
-lt(u,t,s,p,k,a,g,j){var
-h=hZ(a),i=h?m(function(b){var
-a=q(b,b0(f8,g,k),v);return J(a[1],a[2])},j):h;return i?m(function(ao){switch(a[0]){case
+8:return d9(a[1]);default:return g}}}function
+lH(u,t,s,r,k,a,g,j){var
+h=h_(a),i=h?m(function(b){var
+a=q(b,b4(gd,g,k),v);return J(a[1],a[2])},j):h;return i?m(function(ao){switch(a[0]){case
 3:var
 g=[0,a[1],0];break;case
 4:var
-g=d4(a[1]);break;case
+g=d9(a[1]);break;case
 5:var
 g=[0,a[1],[0,a[2],0]];break;case
 6:case
@@ -2432,17 +2439,17 @@ g=[0,a[1],[0,a[2],0]];break;case
 9:case
 10:return 0;default:var
 g=0}var
-j=0,k=bm(0,function(a){switch(a[0]){case
+j=0,k=bo(0,function(a){switch(a[0]){case
 0:return[0,[0,d]];case
 1:var
-ad=a[1],ae=ak(function(a){return r(ad,a)},ao)?b:d;return[0,[0,ae]];case
+ad=a[1],ae=al(function(a){return p(ad,a)},ao)?b:d;return[0,[0,ae]];case
 2:var
 af=J(a[1],d)?0:[0,d];return[0,af];case
 3:var
 e=a[2],j=a[1];if(j){var
 z=j[1];if(z){if(e){var
 A=e[1];if(A){var
-B=z[1],D=J(B,A[1]),ag=D?[0,[0,B]]:D;return ag}var
+B=z[1],C=J(B,A[1]),ag=C?[0,[0,B]]:C;return ag}var
 F=j}else
 var
 F=e;return F}return e}if(e){if(e[1])return 0;var
@@ -2463,40 +2470,40 @@ N=f;return N;case
 5:return a[1];case
 6:var
 n=a[1];if(n){var
-O=n[1],g=a[2];if(O){if(g){var
-P=g[1];if(P)return[0,[0,C(O[1],P[1])]];var
-Q=r6}else
+P=n[1],g=a[2];if(P){if(g){var
+Q=g[1];if(Q)return[0,[0,D(P[1],Q[1])]];var
+R=sp}else
 var
-Q=g;return Q}var
-ai=g?r7:g,S=ai}else
+R=g;return R}var
+ai=g?sq:g,S=ai}else
 var
 S=n;return S;case
 7:var
 o=a[1];if(o){var
 T=o[1],h=a[2];if(T){if(h)var
-p=h[1],aj=p?[0,[0,aB(T[1],p[1])]]:p,U=aj;else
+q=h[1],aj=q?[0,[0,aE(T[1],q[1])]]:q,U=aj;else
 var
 U=h;return U}var
-al=h?r8:h,V=al}else
+ak=h?sr:h,V=ak}else
 var
 V=o;return V;case
 8:var
-q=a[1];if(q){var
-W=q[1];if(W){var
-X=W[1];return[0,[0,C(X,X)]]}var
-Y=r9}else
+r=a[1];if(r){var
+W=r[1];if(W){var
+X=W[1];return[0,[0,D(X,X)]]}var
+Y=ss}else
 var
-Y=q;return Y;case
+Y=r;return Y;case
 9:var
 s=a[1];if(s){var
 t=s[1];if(t){var
-i=t[1],x=aK(i);if(0===x)var
+i=t[1],x=aM(i);if(0===x)var
 l=1;else
 if(0<x)var
-l=E(i,b)?0:J(aT(i,aE(2))[2],d)?1:0;else
+l=E(i,b)?0:J(aS(i,aD(2))[2],d)?1:0;else
 var
-y=R(i),l=E(y,b)?0:J(aT(y,aE(2))[2],d)?1:0;var
-am=l?[0,[0,cl(i,c(2,b))]]:l,Z=am}else
+y=O(i),l=E(y,b)?0:J(aS(y,aD(2))[2],d)?1:0;var
+am=l?[0,[0,co(i,c(2,b))]]:l,Z=am}else
 var
 Z=t;var
 _=Z}else
@@ -2515,67 +2522,67 @@ ac=ab}else
 var
 ac=u;return ac}},u,j);function
 l(a){return a?a[1]:d}var
-h=e(function(a){return y(l,a)},k),i=m(function(c){var
-a=q(c,h,0),b=a?1:a;return b},p);if(i){var
-n=f(d4(s),g),o=f(d4(t),n);return m(function(c){var
+h=e(function(a){return z(l,a)},k),i=m(function(c){var
+a=q(c,h,0),b=a?1:a;return b},r);if(i){var
+n=f(d9(s),g),o=f(d9(t),n);return m(function(c){var
 a=q(c,h,0);if(a){var
-b=aK(a[1]);return 0===b?1:0<b?0:0}return a},o)}return i},g):i}function
-lu(j,a,i,h,g,f,e,d,c,b){var
-k=fU(h0(i,h,g,c,b),a);return hT(j,a,b0(f8,e,f),k,d)}function
-gb(b,a){if(a){var
+b=aM(a[1]);return 0===b?1:0<b?0:0}return a},o)}return i},g):i}function
+lI(j,a,i,h,g,f,e,d,c,b){var
+k=f1(h$(i,h,g,c,b),a);return h4(j,a,b4(gd,e,f),k,d)}function
+gi(b,a){if(a){var
 c=a[2];if(b){var
-e=gb(b[1],c);return[0,a[1],e]}var
+e=gi(b[1],c);return[0,a[1],e]}var
 d=[0,0,c]}else
 var
 d=a;return d}function
-eW(k,a,c,j,b,p,o,h,f,U,l){switch(l[0]){case
+e0(k,a,c,j,b,r,o,h,f,U,l){switch(l[0]){case
 0:var
-$=function(a){return m(T,a)},H=$,y=l[1];break;case
+aa=function(a){return m(S,a)},H=aa,x=l[1];break;case
 1:var
-aa=l[4],ab=l[3],ac=l[2],ad=function(d){var
-e=cN(ac,f),g=eW(k,a,c,j,b,p,o,h,e[1],d,ab);return g?eW(k,a,c,j,b,p,o,h,e[2],d,aa):g},H=ad,y=l[1];break;default:var
-ae=l[4],af=l[3],ah=l[2],ai=function(d){var
-n=ag(p,d),e=m(function(a){var
-b=hZ(a[1]);return b?b:T(a[2])},n);if(e){var
-g=cN(ah,h),i=eW(k,a,c,j,b,p,o,g[1],f,d,af);if(i)return eW(k,a,c,j,b,p,o,g[2],f,d,ae);var
+ab=l[4],ac=l[3],ad=l[2],ae=function(d){var
+e=cU(ad,f),g=e0(k,a,c,j,b,r,o,h,e[1],d,ac);return g?e0(k,a,c,j,b,r,o,h,e[2],d,ab):g},H=ae,x=l[1];break;default:var
+af=l[4],ag=l[3],ah=l[2],ai=function(d){var
+n=_(r,d),e=m(function(a){var
+b=h_(a[1]);return b?b:S(a[2])},n);if(e){var
+g=cU(ah,h),i=e0(k,a,c,j,b,r,o,g[1],f,d,ag);if(i)return e0(k,a,c,j,b,r,o,g[2],f,d,af);var
 l=i}else
 var
-l=e;return l},H=ai,y=l[1]}if(y){var
-S=hT(k,a,h,fU(x(function(f){var
+l=e;return l},H=ai,x=l[1]}if(x){var
+T=h4(k,a,h,f1(y(function(f){var
 a=f[2],e=0;if(typeof
 a==="number"){if(4!==a)e=1}else
 if(11!==a[0])e=1;if(e){var
-d=F(p,f[1]);return d?h0(c,j,b,d[1],a):d}return 0},y),a),f),v=y,s=U;for(;;){if(v){var
+d=F(r,f[1]);return d?h$(c,j,b,d[1],a):d}return 0},x),a),f),v=x,s=U;for(;;){if(v){var
 N=v[1],n=N[2],D=N[1],O=v[2],V=0;if(typeof
 n==="number"&&4===n){var
 A=i(o,f);if(A)var
-X=A[1],W=bd(g(f)),E=m(function(b){return function(a){return K(aH(a,b)[2],d)}}(X),W);else
+X=A[1],W=bf(g(f)),E=m(function(b){return function(a){return I(aK(a,b)[2],d)}}(X),W);else
 var
 E=A;if(E){var
 v=O,s=e(function(a){return 0},s);continue}var
 u=E}else
 V=1;if(V){var
 P=q(D,s,0);if(P){var
-G=F(p,D);if(G){var
-w=G[1],I=0;if(typeof
-n==="number")I=1;else
+G=F(r,D);if(G){var
+w=G[1],J=0;if(typeof
+n==="number")J=1;else
 switch(n[0]){case
 11:var
-J=n[3],B=n[1],L=lt(a,c,j,b,h,w,B,n[2]);if(L)var
-Y=lu(k,a,c,j,b,h,B,f,w,J),t=ls(k,a,c,j,b,b0(f8,B,h),o,Y,f,w,J);else
+K=n[3],B=n[1],L=lH(a,c,j,b,h,w,B,n[2]);if(L)var
+Y=lI(k,a,c,j,b,h,B,f,w,K),t=lG(k,a,c,j,b,b4(gd,B,h),o,Y,f,w,K);else
 var
 t=L;break;case
 12:var
-C=n[1],M=T(r(g(C),0));if(M)var
-z=e(function(a){return a[1][1][1]},C),Z=z?lk(z[1],z):z,_=ag(Z,C),t=m(function(g){return function(r){var
+C=n[1],M=S(p(g(C),0));if(M)var
+z=e(function(a){return a[1][1][1]},C),Z=z?ly(z[1],z):z,$=_(Z,C),t=m(function(g){return function(r){var
 s=r[2],e=r[1],l=s[1],m=l[1][2],n=l[2],d=s[2];if(typeof
 d!=="number"&&11===d[0]){var
-p=d[3],i=d[1],q=lt(a,c,j,b,h,g,i,d[2]);if(q){var
-t=e[2],u=e[1],v=lu(k,a,c,j,b,h,i,f,g,p);return lr(k,a,c,b,b0(f8,i,h),o,v,f,g,u,t,m,n,p)}return q}return lr(k,a,c,b,h,o,S,f,g,e[1],e[2],m,n,d)}}(w),_);else
+p=d[3],i=d[1],q=lH(a,c,j,b,h,g,i,d[2]);if(q){var
+t=e[2],u=e[1],v=lI(k,a,c,j,b,h,i,f,g,p);return lF(k,a,c,b,b4(gd,i,h),o,v,f,g,u,t,m,n,p)}return q}return lF(k,a,c,b,h,o,T,f,g,e[1],e[2],m,n,d)}}(w),$);else
 var
-t=M;break;default:I=1}if(I)var
-t=ls(k,a,c,j,b,h,o,S,f,w,n);if(t){var
-v=O,s=gb(D,s);continue}var
+t=M;break;default:J=1}if(J)var
+t=lG(k,a,c,j,b,h,o,T,f,w,n);if(t){var
+v=O,s=gi(D,s);continue}var
 Q=t}else
 var
 Q=G;var
@@ -2587,81 +2594,81 @@ var
 u=[0,s];break}}else
 var
 u=[0,U];return u?H(u[1]):u}function
-h1(h,g,f,e,d,c,b,a){return function(i,j,k){return eW(h,g,f,e,d,b,a,c,i,j,k)}}function
-h2(a){return e(function(a){return 1},a)}function
-d5(a,d,b,c){function
+ia(h,g,f,e,d,c,b,a){return function(i,j,k){return e0(h,g,f,e,d,b,a,c,i,j,k)}}function
+ib(a){return e(function(a){return 1},a)}function
+d_(a,d,b,c){function
 f(d,c){var
-f=ag(a[1],b[1]);return e(function(a){var
-b=s(c,a[2]);return B(s(d,a[1]),b)},f)}if(aC(a[2],b[2])){var
+f=_(a[1],b[1]);return e(function(a){var
+b=s(c,a[2]);return C(s(d,a[1]),b)},f)}if(aF(a[2],b[2])){var
 g=a[2];return[0,f(d,c),g]}var
 h=s(a[2],b[2]),i=s(c,a[2]);return[0,f(s(d,b[2]),i),h]}function
-lv(a){var
+lJ(a){var
 c=k(b);return[0,e(function(a){return k(d)},a),c]}function
-a2(a,l){var
+a3(a,l){var
 f=l[1];switch(f[0]){case
 1:var
-u=f[1];if(ak(function(a){return r(u,a)},a)){var
+u=f[1];if(al(function(a){return p(u,a)},a)){var
 C=k(b);return[0,e(function(a){var
-c=r(a,u)?b:d;return k(c)},a),C]}return lv(a);case
+c=p(a,u)?b:d;return k(c)},a),C]}return lJ(a);case
 3:var
-D=k(b),E=a2(a,f[2]),F=k(b);return d5(a2(a,f[1]),F,E,D);case
+D=k(b),E=a3(a,f[2]),F=k(b);return d_(a3(a,f[1]),F,E,D);case
 4:var
-G=k(R(b)),H=a2(a,f[2]),I=k(b);return d5(a2(a,f[1]),I,H,G);case
+G=k(O(b)),H=a3(a,f[2]),I=k(b);return d_(a3(a,f[1]),I,H,G);case
 5:var
-v=a2(a,f[1]),J=v[2];return[0,e(bu,v[1]),J];case
+v=a3(a,f[1]),J=v[2];return[0,e(bx,v[1]),J];case
 6:var
-x=f[2],y=f[1],K=a2(a,x);return d5(a2(a,y),x,K,y);case
+w=f[2],y=f[1],K=a3(a,w);return d_(a3(a,y),w,K,y);case
 7:var
-z=f[2],L=bu(l),M=a2(a,z),N=k(b),i=d5(a2(a,f[1]),N,M,L),O=i[1];if(m(function(a){return a1(d,a)},O))return i;var
-P=s(i[2],z);return[0,i[1],P];case
+z=f[2],L=bx(l),M=a3(a,z),N=k(b),i=d_(a3(a,f[1]),N,M,L),P=i[1];if(m(function(a){return a2(d,a)},P))return i;var
+Q=s(i[2],z);return[0,i[1],Q];case
 8:var
-A=f[1],B=a2(a,A),Q=B[2],S=B[1],T=s(k(c(2,b)),A);return[0,e(function(a){return s(T,a)},S),Q];case
+A=f[1],B=a3(a,A),R=B[2],S=B[1],T=s(k(c(2,b)),A);return[0,e(function(a){return s(T,a)},S),R];case
 9:var
-j=a2(a,f[1]),U=j[1];if(m(function(a){return a1(d,a)},U)){var
+j=a3(a,f[1]),U=j[1];if(m(function(a){return a2(d,a)},U)){var
 V=k(b);return[0,j[1],V]}var
 W=s(k(c(2,b)),l),X=s(j[2],W);return[0,j[1],X];case
 10:var
-n=f[4],g=f[3],h=f[2],o=[0,[10,0,h,g,n]],p=[0,[10,1,h,g,n]],Y=w(g,p),Z=a2(a,g),_=w(h,o),$=d5(a2(a,h),_,Z,Y),aa=k(R(b)),ab=a2(a,n),q=d5($,k(c(2,b)),ab,aa),ac=q[1],ad=f[1]?o:bu(p),t=e(function(a){return s(ad,a)},ac);if(m(function(a){return a1(d,a)},t))return[0,t,q[2]];var
-ae=s(h,p),af=w(s(g,o),ae),ag=s(k(c(2,b)),af);return[0,t,s(q[2],ag)];default:return lv(a)}}function
-lw(c,a){var
-b=a2(c,a),f=b[1];return e(function(a){return a1(d,a)?a:aj(a,b[2])},f)}function
-lx(g){var
+n=f[4],g=f[3],h=f[2],o=[0,[10,0,h,g,n]],q=[0,[10,1,h,g,n]],Y=x(g,q),Z=a3(a,g),_=x(h,o),$=d_(a3(a,h),_,Z,Y),aa=k(O(b)),ab=a3(a,n),r=d_($,k(c(2,b)),ab,aa),ac=r[1],ad=f[1]?o:bx(q),t=e(function(a){return s(ad,a)},ac);if(m(function(a){return a2(d,a)},t))return[0,t,r[2]];var
+ae=s(h,q),af=x(s(g,o),ae),ag=s(k(c(2,b)),af);return[0,t,s(r[2],ag)];default:return lJ(a)}}function
+lK(c,a){var
+b=a3(c,a),f=b[1];return e(function(a){return a2(d,a)?a:ak(a,b[2])},f)}function
+lL(g){var
 h=g[1],c=h[2],e=h[1];if(0===e[0]){var
 i=e[2],a=e[1];if(E(i,b)){if(0===c[0]){var
 j=c[2],m=c[1];if(E(j,b)){var
-k=J(a,m),l=k?eN(a):k;if(l)var
+k=J(a,m),l=k?eS(a):k;if(l)var
 n=J(g[2],d),f=n||J(a,d);else
 var
 f=l;var
-o=f?[0,a]:f;return o}return J(aT(j,aE(2))[2],d)?0:0}return 0}return J(aT(i,aE(2))[2],d)?0:0}return 0}function
-cS(c,b){var
-a=lx(c);return a?k(a[1]):[0,[1,b]]}function
-cu(b,a){if(a)var
-d=cu([0,b],a[2]),c=[0,cS(a[1],b),d];else
+o=f?[0,a]:f;return o}return J(aS(j,aD(2))[2],d)?0:0}return 0}return J(aS(i,aD(2))[2],d)?0:0}return 0}function
+cZ(c,b){var
+a=lL(c);return a?k(a[1]):[0,[1,b]]}function
+cx(b,a){if(a)var
+d=cx([0,b],a[2]),c=[0,cZ(a[1],b),d];else
 var
 c=a;return c}function
-a3(b,a){return[0,[0,b[1],a],[0,[0,b[2],a],[0,[0,b[3],a],0]]]}function
-gc(b,d,a){switch(a[0]){case
+a4(b,a){return[0,[0,b[1],a],[0,[0,b[2],a],[0,[0,b[3],a],0]]]}function
+gj(b,d,a){switch(a[0]){case
 0:var
-c=a[1],g=[0,[0,c[4],b],0],h=f(a3(c[3],b),g),i=f(a3(c[2],b),h);return f(a3(c[1],d),i);case
+c=a[1],g=[0,[0,c[4],b],0],h=f(a4(c[3],b),g),i=f(a4(c[2],b),h);return f(a4(c[1],d),i);case
 1:var
-e=a[3],j=e?a3(e[1],d):e,k=f(a3(a[2],b),j);return f(a3(a[1],b),k);default:return a3(a[1],d)}}function
-ai(b,a){var
-c=k(d),e=q(O(sf,a),b,c),f=k(d),g=q(O(sg,a),b,f);return[0,q(a,b,k(d)),g,e]}function
-ly(b,a){return af(w,af(B,dc,a),b)}function
-gd(c,b,a){if(a){var
-e=a[2],g=gd(c,bt(b),e),h=a[1];return f(gc(c,bH(d,b),h),g)}return a}function
-h3(f,e,c,j){if(c){var
-b=c[1],v=O(j,g(gc(f,bH(d,e),b))),w=c[2],x=h3(f,bt(e),w,v),a=cu(j,gc(f,bH(d,e),b));switch(b[0]){case
+e=a[3],j=e?a4(e[1],d):e,k=f(a4(a[2],b),j);return f(a4(a[1],b),k);default:return a4(a[1],d)}}function
+aj(b,a){var
+c=k(d),e=q(P(sA,a),b,c),f=k(d),g=q(P(sB,a),b,f);return[0,q(a,b,k(d)),g,e]}function
+lM(b,a){return ah(x,ah(C,dm,a),b)}function
+gk(c,b,a){if(a){var
+e=a[2],g=gk(c,bw(b),e),h=a[1];return f(gj(c,bJ(d,b),h),g)}return a}function
+ic(f,e,c,j){if(c){var
+b=c[1],v=P(j,g(gj(f,bJ(d,e),b))),w=c[2],x=ic(f,bw(e),w,v),a=cx(j,gj(f,bJ(d,e),b));switch(b[0]){case
 0:var
-m=b[1][5],n=q(sh,a,k(d)),o=af(B,dc,ai(a,si)),p=db(ai(a,0)),r=ai(a,sj),h=k5(ly(ai(a,sk),r),p,o,n,m);break;case
+m=b[1][5],n=q(sC,a,k(d)),o=ah(C,dm,aj(a,sD)),p=dl(aj(a,0)),r=aj(a,sE),h=lh(lM(aj(a,sF),r),p,o,n,m);break;case
 1:var
-i=b[3],s=i?[0,db(ai(a,sl))]:i,t=af(B,dc,ai(a,sm)),u=ai(a,sn),h=k6(ly(ai(a,0),u),t,s);break;default:var
-h=k7(dc,db(ai(a,0)))}var
+i=b[3],s=i?[0,dl(aj(a,sG))]:i,t=ah(C,dm,aj(a,sH)),u=aj(a,sI),h=li(lM(aj(a,0),u),t,s);break;default:var
+h=lj(dm,dl(aj(a,0)))}var
 l=[0,h,x]}else
 var
 l=c;return l}function
-bM(c,a){if(typeof
+bO(c,a){if(typeof
 a!=="number")switch(a[0]){case
 4:var
 h=[5,a[3],a[2]];return[0,[0,h,h],d];case
@@ -2670,7 +2677,7 @@ j=a[2];return[0,[0,j,j],d];case
 8:var
 k=[5,a[2],a[1]];return[0,[0,k,k],d];case
 10:var
-p=a[3],q=dR(a[2]),l=[2,[2,dR(a[1]),q],p];return[0,[0,l,l],c];case
+p=a[3],q=dV(a[2]),l=[2,[2,dV(a[1]),q],p];return[0,[0,l,l],c];case
 11:var
 m=a[4];return[0,[0,m,m],c];case
 12:var
@@ -2687,110 +2694,110 @@ f=[5,[0,b,b],a[1]];return[0,[0,f,f],d];case
 g=a[2];return[0,[0,g,g],c];default:var
 i=a[1];return[0,[0,i,i],d]}var
 e=[0,d,b];return[0,[0,e,e],d]}function
-eX(b,a){var
+e1(b,a){var
 c=a[3],d=a[2],e=a[1];return[0,[0,[0,e,e],b],[0,[0,[0,d,d],b],[0,[0,[0,c,c],b],0]]]}function
-d6(c,a){if(0===a[0]){var
-e=[0,d,b],i=f(eX(c,a[5]),[0,[0,[0,e,e],d],0]),g=a[4],h=a[3];return f([0,[0,[0,h,h],c],[0,[0,[0,g,g],c],0]],i)}var
-j=eX(c,a[3]);return f(eX(c,a[2]),j)}function
-dd(b,a){if(typeof
+d$(c,a){if(0===a[0]){var
+e=[0,d,b],i=f(e1(c,a[5]),[0,[0,[0,e,e],d],0]),g=a[4],h=a[3];return f([0,[0,[0,h,h],c],[0,[0,[0,g,g],c],0]],i)}var
+j=e1(c,a[3]);return f(e1(c,a[2]),j)}function
+dn(b,a){if(typeof
 a!=="number")switch(a[0]){case
 10:var
-h=d6(b,a[2]);return f(d6(b,a[1]),h);case
+h=d$(b,a[2]);return f(d$(b,a[1]),h);case
 11:var
-i=eX(b,a[3]);return f(eX(b,a[2]),i);case
+i=e1(b,a[3]);return f(e1(b,a[2]),i);case
 12:var
 c=a[3],g=[5,[4,c,c],a[4]];return[0,[0,[0,g,g],b],0];case
 15:var
 j=a[2],k=a[1];return e(function(b){var
 a=[5,j,b];return[0,[0,a,a],d]},k)}return 0}function
-lz(c,b,a){var
-d=g(dd(c,b)),e=O(a[2],d);return[0,[0,a[1]],e]}function
-h4(c,b){if(aC(b,c))return[0,k(d)];var
+lN(c,b,a){var
+d=g(dn(c,b)),e=P(a[2],d);return[0,[0,a[1]],e]}function
+id(c,b){if(aF(b,c))return[0,k(d)];var
 a=b[1];if(4===a[0]){var
-e=aC(a[1],c),f=e?[0,a[2]]:e;return f}return 0}function
-lA(y,p,a,o){switch(o[0]){case
+e=aF(a[1],c),f=e?[0,a[2]]:e;return f}return 0}function
+lO(y,p,a,o){switch(o[0]){case
 0:var
 h=F(y,o[1]);if(h){var
 j=h[1];if(j){var
-r=j[1],s=r[1],c=s[2],e=s[1],t=r[2],z=ai(a,so),A=af(B,af(w,e,aW(aj(q(sp,a,k(d)),t),c)),z),C=ai(a,sq),f=aj(q(0,a,k(d)),t),l=h4(e[1],c[1]);if(l){var
-m=h4(e[2],c[2]);if(m){var
-n=h4(e[3],c[3]);if(n)var
-x=aW(f,c),g=af(B,[0,l[1],m[1],n[1]],x);else
+r=j[1],s=r[1],c=s[2],e=s[1],t=r[2],z=aj(a,sJ),A=ah(C,ah(x,e,aY(ak(q(sK,a,k(d)),t),c)),z),B=aj(a,sL),f=ak(q(0,a,k(d)),t),l=id(e[1],c[1]);if(l){var
+m=id(e[2],c[2]);if(m){var
+n=id(e[3],c[3]);if(n)var
+w=aY(f,c),g=ah(C,[0,l[1],m[1],n[1]],w);else
 var
-g=af(w,e,aW(w(k(b),f),c))}else
+g=ah(x,e,aY(x(k(b),f),c))}else
 var
-g=af(w,e,aW(w(k(b),f),c))}else
+g=ah(x,e,aY(x(k(b),f),c))}else
 var
-g=af(w,e,aW(w(k(b),f),c));var
-u=[0,[0,af(B,g,C),A]]}else
+g=ah(x,e,aY(x(k(b),f),c));var
+u=[0,[0,ah(C,g,B),A]]}else
 var
 u=j;var
 v=u}else
 var
 v=h;return v;case
 1:var
-D=ai(a,sr);return[0,[0,ai(a,0),D]];default:var
-E=i(p,ai(a,ss));return[0,[0,i(p,ai(a,0)),E]]}}function
-lB(e,d,c,h,g){var
-a=lA(e,d,aL(st,c),h);if(a)var
-b=lA(e,d,aZ(su,c),g),i=b?[0,[0,a[1],b[1]]]:b,f=i;else
+D=aj(a,sM);return[0,[0,aj(a,0),D]];default:var
+E=i(p,aj(a,sN));return[0,[0,i(p,aj(a,0)),E]]}}function
+lP(e,d,c,h,g){var
+a=lO(e,d,aH(sO,c),h);if(a)var
+b=lO(e,d,aX(sP,c),g),i=b?[0,[0,a[1],b[1]]]:b,f=i;else
 var
 f=a;return f}function
-lC(g,c,d,b,a){var
-h=d6(c,a),i=cu(d,f(d6(c,b),h));function
-j(a){return af(B,dc,a)}return lB(e(function(a){var
-b=a[7];return y(function(b){var
-c=cM(a);return[0,[0,b,a[1]],c]},b)},g),j,i,b,a)}function
-de(d,c,b,a){var
-e=s(c,b);return w(s(d,a),e)}function
-bN(a){return x(function(a){return f(a[1],[0,a[2],0])},a)}function
-lD(b,a){if(b)if(a)var
-d=b[1],e=lD(b[2],a[2]),f=s(d[2],a[1]),c=[0,[0,bL(d[1]),f],e];else
+lQ(g,c,d,b,a){var
+h=d$(c,a),i=cx(d,f(d$(c,b),h));function
+j(a){return ah(C,dm,a)}return lP(e(function(a){var
+b=a[7];return z(function(b){var
+c=cT(a);return[0,[0,b,a[1]],c]},b)},g),j,i,b,a)}function
+dp(d,c,b,a){var
+e=s(c,b);return x(s(d,a),e)}function
+bP(a){return y(function(a){return f(a[1],[0,a[2],0])},a)}function
+lR(b,a){if(b)if(a)var
+d=b[1],e=lR(b[2],a[2]),f=s(d[2],a[1]),c=[0,[0,bN(d[1]),f],e];else
 var
 c=a;else
 var
 c=b;return c}function
-lE(a){if(a){var
+lS(a){if(a){var
 b=a[1][6];if(b){var
-c=b[1],d=lE(a[2]);if(d)var
-g=d[1],h=U(c,c),e=[0,[0,[0,bL(c),h],g]];else
+c=b[1],d=lS(a[2]);if(d)var
+g=d[1],h=V(c,c),e=[0,[0,[0,bN(c),h],g]];else
 var
 e=d;var
 f=e}else
 var
-f=b;return f}return sw}function
-eY(b,d,c,a){if(typeof
+f=b;return f}return sR}function
+e2(b,d,c,a){if(typeof
 a!=="number")switch(a[0]){case
 8:var
-i=c[1],j=cS(bM(d,a),i);return[0,e(function(a){var
-b=s(a[2],j);return[0,bL(a[1]),b]},b)];case
-9:return lE(b);case
+i=c[1],j=cZ(bO(d,a),i);return[0,e(function(a){var
+b=s(a[2],j);return[0,bN(a[1]),b]},b)];case
+9:return lS(b);case
 15:var
-k=g(b),f=r(g(a[1]),k);if(f)var
-l=dd(d,a),h=[0,lD(b,cu(c[2],l))];else
+k=g(b),f=p(g(a[1]),k);if(f)var
+l=dn(d,a),h=[0,lR(b,cx(c[2],l))];else
 var
 h=f;return h}return 0}function
-ge(e,l,j,a){var
-P=j[1],c=cS(bM(l,a),P),u=0;if(typeof
+gl(e,l,j,a){var
+P=j[1],c=cZ(bO(l,a),P),u=0;if(typeof
 a==="number")u=1;else
 switch(a[0]){case
 2:var
-R=function(a){return[0,w(a[4],c),0]},g=R,f=a[1];break;case
+Q=function(a){return[0,x(a[4],c),0]},g=Q,f=a[1];break;case
 3:var
-S=function(a){return[0,w(c,a[4]),0]},g=S,f=a[1];break;case
+S=function(a){return[0,x(c,a[4]),0]},g=S,f=a[1];break;case
 4:var
 T=function(b){var
-a=b[1],d=Q(a[3]),e=Q(a[2]),f=Q(a[1]),g=b[2];return[0,w(w(w(s(Q(c),g),f),e),d),0]},g=T,f=a[1];break;case
+a=b[1],d=R(a[3]),e=R(a[2]),f=R(a[1]),g=b[2];return[0,x(x(x(s(R(c),g),f),e),d),0]},g=T,f=a[1];break;case
 6:var
-V=function(b){var
+U=function(b){var
 a=b[5];if(a)var
-e=Q(a[1]),f=s(Q(c),e),d=[0,w(b[2],f),0];else
+e=R(a[1]),f=s(R(c),e),d=[0,x(b[2],f),0];else
 var
-d=a;return d},g=V,f=a[1];break;case
+d=a;return d},g=U,f=a[1];break;case
 7:if(e){var
 m=e[2];if(m){var
 n=m[2];if(n){if(n[2])return 0;var
-y=n[1],z=m[1],A=e[1],h=y[1],i=z[1],p=A[1],K=de(i[1],i[2],h[1],h[2]),L=s(p[3],K),M=de(i[1],i[3],h[1],h[3]),N=s(p[2],M),O=de(i[2],i[3],h[2],h[3]),v=B(w(s(p[1],O),N),L),W=cM(y),X=cM(z),C=s(s(s(c,cM(A)),X),W),Y=[0,bu(B(v,C)),0],D=[0,w(v,C),Y]}else
+w=n[1],z=m[1],A=e[1],h=w[1],i=z[1],p=A[1],K=dp(i[1],i[2],h[1],h[2]),L=s(p[3],K),M=dp(i[1],i[3],h[1],h[3]),N=s(p[2],M),O=dp(i[2],i[3],h[2],h[3]),v=C(x(s(p[1],O),N),L),W=cT(w),X=cT(z),B=s(s(s(c,cT(A)),X),W),Y=[0,bx(C(v,B)),0],D=[0,x(v,B),Y]}else
 var
 D=n;var
 E=D}else
@@ -2800,66 +2807,66 @@ G=E}else
 var
 G=e;return G;case
 10:var
-t=lC(e,l,j[2],a[1],a[2]);if(t){var
-H=t[1],I=H[2],J=H[1];return x(bL,[0,J[1],[0,J[2],[0,I[1],[0,I[2],0]]]])}return t;case
+t=lQ(e,l,j[2],a[1],a[2]);if(t){var
+H=t[1],I=H[2],J=H[1];return y(bN,[0,J[1],[0,J[2],[0,I[1],[0,I[2],0]]]])}return t;case
 11:var
 Z=function(d){var
 e=d[7];if(e)var
-n=dd(l,a),f=cu(j[2],n),h=ai(f,sv),b=af(w,ai(f,0),h),i=Q(c),k=Q(cM(d)),m=aj(Q(U(b,d[1])),k),g=[0,w(w(U(b,b),m),i),0];else
+n=dn(l,a),f=cx(j[2],n),h=aj(f,sQ),b=ah(x,aj(f,0),h),i=R(c),k=R(cT(d)),m=ak(R(V(b,d[1])),k),g=[0,x(x(V(b,b),m),i),0];else
 var
 g=e;return g},g=Z,f=a[1];break;case
 12:var
 _=function(e){var
-p=k(d),r=dd(l,a),t=q(0,cu(j[2],r),p),f=aj(t,cM(e)),g=e[5];if(g){var
-m=aD(e[2]),h=aj(g[1],m),n=s(h,B(c,s(f,Q(h))));return[0,w(k(b),n),0]}var
-i=e[7],o=i?[0,w(w(k(b),c),f),0]:i;return o},g=_,f=a[1];break;case
+p=k(d),r=dn(l,a),t=q(0,cx(j[2],r),p),f=ak(t,cT(e)),g=e[5];if(g){var
+m=aG(e[2]),h=ak(g[1],m),n=s(h,C(c,s(f,R(h))));return[0,x(k(b),n),0]}var
+i=e[7],o=i?[0,x(x(k(b),c),f),0]:i;return o},g=_,f=a[1];break;case
 8:case
 9:case
 15:var
-r=eY(e,l,j,a);return r?bN(r[1]):r;default:u=1}if(u)return 0;var
+r=e2(e,l,j,a);return r?bP(r[1]):r;default:u=1}if(u)return 0;var
 o=F(e,f);return o?g(o[1]):o}function
-h5(d,b,c,a){if(a){var
-e=a[1],g=a[2],h=h5(d,b,lz(b,e,c),g);return f(ge(d,b,c,e),h)}return a}var
-lF=[0,d,b],lG=[0,[0,lF,lF],d];function
-h6(a){return T(cq(a[1][1],a[1][2]))}function
-lH(a){var
-b=aA(0,g(a));return bk(function(b){return h6(q(b,a,lG))},b)}function
-gf(a,b){var
-c=lw(lH(a),b),e=ag(lH(a),c);return bk(function(a){return T(a1(d,a[2]))},e)}function
-lI(b,a){var
+ie(d,b,c,a){if(a){var
+e=a[1],g=a[2],h=ie(d,b,lN(b,e,c),g);return f(gl(d,b,c,e),h)}return a}var
+lT=[0,d,b],lU=[0,[0,lT,lT],d];function
+ig(a){return S(ct(a[1][1],a[1][2]))}function
+lV(a){var
+b=aA(0,g(a));return bn(function(b){return ig(q(b,a,lU))},b)}function
+gm(a,b){var
+c=lK(lV(a),b),e=_(lV(a),c);return bn(function(a){return S(a2(d,a[2]))},e)}function
+lW(b,a){var
 c=i(b,a[3]),d=i(b,a[2]);return[0,i(b,a[1]),d,c]}function
-lJ(m,l,f,k,j,a){var
-d=gf(f,a);return _(e(function(e){var
-a=q(e[1],f,lG),g=aB(a[2],k),h=[4,[0,c(2,b),b],j],d=[5,[3,a[1][2],a[1][1]],h],n=am(m,[0,[0,d,d],g]);return y(function(a){return[0,a,i(l,e[2])]},n)},d))}function
-lK(g,f,n,m,l,e,c){var
-h=[5,l,e],a=am(g,[0,[0,h,h],d]);if(a){var
-b=lJ(g,f,n,m,e,c);if(b)var
+lX(m,l,f,k,j,a){var
+d=gm(f,a);return aa(e(function(e){var
+a=q(e[1],f,lU),g=aE(a[2],k),h=[4,[0,c(2,b),b],j],d=[5,[3,a[1][2],a[1][1]],h],n=an(m,[0,[0,d,d],g]);return z(function(a){return[0,a,i(l,e[2])]},n)},d))}function
+lY(g,f,n,m,l,e,c){var
+h=[5,l,e],a=an(g,[0,[0,h,h],d]);if(a){var
+b=lX(g,f,n,m,e,c);if(b)var
 o=[0,a[1],b[1]],j=[0,[0,i(f,c),o]];else
 var
 j=b;var
 k=j}else
 var
 k=a;return k}function
-lL(c,G,l,al,k,j,n,s){if(s){var
-a=s[1],aH=s[2],aI=lL(c,G,l,al,k,j,lz(j,a,n),aH);if(typeof
+lZ(c,G,l,al,k,j,n,s){if(s){var
+a=s[1],aH=s[2],aI=lZ(c,G,l,al,k,j,lN(j,a,n),aH);if(typeof
 a==="number")if(0===a)var
 f=[0,[0,v]];else
 var
-ao=G[2],ap=G[1],aq=eT(k),f=[0,[8,i(av(l),aq),ap,ao]];else
+ao=G[2],ap=G[1],aq=eX(k),f=[0,[8,i(av(l),aq),ap,ao]];else
 switch(a[0]){case
 0:var
-ar=am(c,bM(j,a)),f=y(function(a){return[0,W(c,a)]},ar);break;case
+ar=an(c,bO(j,a)),f=z(function(a){return[0,X(c,a)]},ar);break;case
 1:var
-as=am(c,bM(j,a)),f=y(function(a){return[1,W(c,a)]},as);break;case
+as=an(c,bO(j,a)),f=z(function(a){return[1,X(c,a)]},as);break;case
 5:var
-au=am(c,bM(j,a)),f=y(function(a){return[2,W(c,a)]},au);break;case
+au=an(c,bO(j,a)),f=z(function(a){return[2,X(c,a)]},au);break;case
 8:var
-aw=eY(k,j,n,a),f=y(function(a){var
-d=P(c,b);return[4,i(av(l),a),d]},aw);break;case
+aw=e2(k,j,n,a),f=z(function(a){var
+d=Q(c,b);return[4,i(av(l),a),d]},aw);break;case
 9:var
-w=eY(k,j,n,a);if(w){var
-x=am(c,bM(j,a));if(x)var
-ax=W(c,x[1]),ay=w[1],L=[0,[4,i(av(l),ay),ax]];else
+w=e2(k,j,n,a);if(w){var
+x=an(c,bO(j,a));if(x)var
+ax=X(c,x[1]),ay=w[1],L=[0,[4,i(av(l),ay),ax]];else
 var
 L=x;var
 M=L}else
@@ -2867,10 +2874,10 @@ var
 M=w;var
 f=M;break;case
 10:var
-z=lC(k,j,n[2],a[1],a[2]);if(z){var
-N=z[1],O=N[2],Q=N[1],A=am(c,bM(j,a));if(A){var
+y=lQ(k,j,n[2],a[1],a[2]);if(y){var
+N=y[1],O=N[2],P=N[1],A=an(c,bO(j,a));if(A){var
 R=A[1],S=E(d,R[1]);if(S)var
-p=function(a){return lI(l,a)},az=p(O[2]),aA=p(O[1]),aB=p(Q[2]),T=[0,[6,p(Q[1]),aB,aA,az,R]];else
+q=function(a){return lW(l,a)},az=q(O[2]),aA=q(O[1]),aB=q(P[2]),T=[0,[6,q(P[1]),aB,aA,az,R]];else
 var
 T=S;var
 U=T}else
@@ -2878,27 +2885,27 @@ var
 U=A;var
 V=U}else
 var
-V=z;var
+V=y;var
 f=V;break;case
 12:var
-q=ge(k,j,n,a),t=0;if(q)if(q[2])var
+r=gl(k,j,n,a),t=0;if(r)if(r[2])var
 f=0;else{var
-X=h(c,0,a[2]),Y=X?h(c,1,a[4]):X;if(Y){var
-B=[0,[3,i(l,q[1])]];t=1}else{var
+W=h(c,0,a[2]),Y=W?h(c,1,a[4]):W;if(Y){var
+B=[0,[3,i(l,r[1])]];t=1}else{var
 B=Y;t=1}}else{var
-B=q;t=1}if(t)var
+B=r;t=1}if(t)var
 f=B;break;case
 13:var
-Z=a[1],$=F(k,Z),H=0;if($){var
-aa=h(c,1,a[2]),ab=aa?h(c,1,a[3]):aa;if(ab)var
-aC=am(c,bM(j,a)),f=y(function(a){return[7,Z,W(c,a)]},aC);else{var
+Z=a[1],_=F(k,Z),H=0;if(_){var
+$=h(c,1,a[2]),ab=$?h(c,1,a[3]):$;if(ab)var
+aC=an(c,bO(j,a)),f=z(function(a){return[7,Z,X(c,a)]},aC);else{var
 ac=ab;H=1}}else{var
-ac=$;H=1}if(H)var
+ac=_;H=1}if(H)var
 f=ac;break;case
 14:var
-ad=a[2],ae=a[1],af=r(g(k),sx),ag=af?h(c,0,ae):af,ah=ag?h(c,1,ad):ag;if(ah){var
-C=am(c,bM(j,a));if(C)var
-D=_(e(function(a){return lK(c,l,al,j,ae,ad,a[4])},k)),aD=D?[0,[9,C[1],D[1]]]:D,ai=aD;else
+ad=a[2],ae=a[1],af=p(g(k),sS),ag=af?h(c,0,ae):af,ah=ag?h(c,1,ad):ag;if(ah){var
+C=an(c,bO(j,a));if(C)var
+D=aa(e(function(a){return lY(c,l,al,j,ae,ad,a[4])},k)),aD=D?[0,[9,C[1],D[1]]]:D,ai=aD;else
 var
 ai=C;var
 aj=ai}else
@@ -2907,11 +2914,11 @@ aj=ah;var
 f=aj;break;case
 15:var
 aE=[0,a[2],a[1]],aF=1,ak=m(function(a){return h(c,aF,a)},aE);if(ak)var
-aG=eY(k,j,n,a),f=y(function(a){var
-d=P(c,b);return[4,i(av(l),a),d]},aG);else
+aG=e2(k,j,n,a),f=z(function(a){var
+d=Q(c,b);return[4,i(av(l),a),d]},aG);else
 var
 f=ak;break;default:var
-o=ge(k,j,n,a),I=0;if(o){var
+o=gl(k,j,n,a),I=0;if(o){var
 u=o[2],J=o[1];if(u)if(u[2])var
 f=0;else
 var
@@ -2919,22 +2926,22 @@ at=i(l,u[1]),f=[0,[5,i(l,J),at]];else{var
 K=[0,[3,i(l,J)]];I=1}}else{var
 K=o;I=1}if(I)var
 f=K}var
-an=[0,f,aI]}else
+am=[0,f,aI]}else
 var
-an=s;return an}function
-sy(a){var
+am=s;return am}function
+sT(a){var
 b=0;if(typeof
 a==="number"){if(0!==a)b=1}else
 if(0!==a[0])b=1;return b?0:1}function
-d7(a){if(0===a[0])return a[1];var
+ea(a){if(0===a[0])return a[1];var
 b=a[3],c=a[2],d=a[1];return[0,[0,[3,d,b],[2,d,b]],[0,[3,c,b],[2,c,b]],a[4]]}function
-lM(a,c,g,b){if(0===c[0])return 0;if(b){var
+l0(a,c,g,b){if(0===c[0])return 0;if(b){var
 d=b[2];if(d){var
 h=d[2];if(h){if(h[2])return 0;var
-e=d[1],f=b[1],i=cK(a,g,c[1]);if(i){var
-j=cK(a,g,c[2]);if(j){var
-k=cK(a,g,c[3]);if(k)var
-u=i[1],w=b6(f),l=G([0,b6(f),w],u),x=j[1],y=b6(e),m=G([0,b6(e),y],x),A=dZ(e),B=[0,dZ(e),A],C=[0,t(a,ab(z(m,m)),B),0],D=dZ(f),E=[0,dZ(f),D],F=[0,t(a,ab(z(l,l)),E),C],H=W(a,m),I=W(a,l),n=[0,[0,G(G(W(a,k[1]),I),H),v,F]];else
+e=d[1],f=b[1],i=cR(a,g,c[1]);if(i){var
+j=cR(a,g,c[2]);if(j){var
+k=cR(a,g,c[3]);if(k)var
+u=i[1],w=b_(f),l=H([0,b_(f),w],u),x=j[1],y=b_(e),m=H([0,b_(e),y],x),z=d4(e),B=[0,d4(e),z],C=[0,t(a,ae(A(m,m)),B),0],D=d4(f),E=[0,d4(f),D],F=[0,t(a,ae(A(l,l)),E),C],G=X(a,m),I=X(a,l),n=[0,[0,H(H(X(a,k[1]),I),G),v,F]];else
 var
 n=k;var
 o=n}else
@@ -2952,14 +2959,14 @@ r=d;var
 s=r}else
 var
 s=b;return s}function
-gg(a,p,o){var
-q=a3(p,o),b=e(function(b){return am(a,b)},q);if(b){var
+gn(a,p,o){var
+q=a4(p,o),b=e(function(b){return an(a,b)},q);if(b){var
 g=b[1];if(g){var
 c=b[2];if(c){var
 h=c[1];if(h){var
 f=c[2];if(f){var
 i=f[1];if(i){if(f[2])return 0;var
-r=W(a,i[1]),s=W(a,h[1]);return K(d,z(z(W(a,g[1]),s),r)[1])}var
+r=X(a,i[1]),s=X(a,h[1]);return I(d,A(A(X(a,g[1]),s),r)[1])}var
 j=i}else
 var
 j=f;var
@@ -2975,252 +2982,252 @@ m=g;var
 n=m}else
 var
 n=b;return n}function
-ac(c,b,a){var
-d=an(c,b[3],a[3]),e=an(c,b[2],a[2]);return[0,an(c,b[1],a[1]),e,d]}function
-at(b,a){return[0,[4,b,a[1]],[4,b,a[2]],[4,b,a[3]]]}function
-H(b,a){return[2,[2,[4,b[1],a[1]],[4,b[2],a[2]]],[4,b[3],a[3]]]}function
-aI(a){return at([5,[0,b,b],[6,H(a,a)]],a)}function
-cT(c,b,a){var
-d=bo(c,b[1],a);return d?bo(c,a,b[2]):d}function
-bf(c,b,a){var
-d=cT(c,b[1],a[1]),e=d?cT(c,b[2],a[2]):d;return e?cT(c,b[3],a[3]):e}function
-lN(b,c,a){switch(c[0]){case
+T(c,b,a){var
+d=ao(c,b[3],a[3]),e=ao(c,b[2],a[2]);return[0,ao(c,b[1],a[1]),e,d]}function
+ab(b,a){return[0,[4,b,a[1]],[4,b,a[2]],[4,b,a[3]]]}function
+w(b,a){return[2,[2,[4,b[1],a[1]],[4,b[2],a[2]]],[4,b[3],a[3]]]}function
+ax(a){return ab([5,[0,b,b],[6,w(a,a)]],a)}function
+c0(c,b,a){var
+d=bq(c,b[1],a);return d?bq(c,a,b[2]):d}function
+bh(c,b,a){var
+d=c0(c,b[1],a[1]),e=d?c0(c,b[2],a[2]):d;return e?c0(c,b[3],a[3]):e}function
+l1(b,c,a){switch(c[0]){case
 0:var
 d=c[1];if(0===a[0]){var
-j=a[4],f=a[1],k=bf(b,d[1],f),l=k?h(b,1,H(f,f)):k,m=l?bf(b,d[2],a[2]):l,n=m?bf(b,d[3],a[3]):m,o=n?cT(b,d[4],j):n,p=o?h(b,1,j):o;return p?cj(d[5],a[5]):p}return 0;case
+j=a[4],f=a[1],k=bh(b,d[1],f),l=k?h(b,1,w(f,f)):k,m=l?bh(b,d[2],a[2]):l,n=m?bh(b,d[3],a[3]):m,o=n?c0(b,d[4],j):n,p=o?h(b,1,j):o;return p?cm(d[5],a[5]):p}return 0;case
 1:var
 q=c[3];if(1===a[0]){var
-e=a[3],r=bf(b,c[1],a[1]),s=r?bf(b,c[2],a[2]):r;if(s){if(q){if(e){var
-g=e[1],t=bf(b,q[1],g);if(t)return h(b,1,H(g,g));var
+e=a[3],r=bh(b,c[1],a[1]),s=r?bh(b,c[2],a[2]):r;if(s){if(q){if(e){var
+g=e[1],t=bh(b,q[1],g);if(t)return h(b,1,w(g,g));var
 u=t}else
 var
 u=e;return u}if(e)return 0;var
 v=1}else
 var
 v=s;return v}return 0;default:if(2===a[0]){var
-i=a[1],w=bf(b,c[1],i);return w?h(b,1,H(i,i)):w}return 0}}function
-cv(c,a,b){if(0===a[0])return bf(c,a[1],b);var
-d=a[3],e=[3,b[1],a[1]],f=[3,b[2],a[2]],g=h(c,0,[3,[3,[4,d,d],[4,e,e]],[4,f,f]]),i=g?h(c,0,d):g;return i?cT(c,a[4],b[3]):i}function
-h7(g,f,i,h){var
+i=a[1],x=bh(b,c[1],i);return x?h(b,1,w(i,i)):x}return 0}}function
+bQ(c,a,b){if(0===a[0])return bh(c,a[1],b);var
+d=a[3],e=[3,b[1],a[1]],f=[3,b[2],a[2]],g=h(c,0,[3,[3,[4,d,d],[4,e,e]],[4,f,f]]),i=g?h(c,0,d):g;return i?c0(c,a[4],b[3]):i}function
+go(g,f,i,h){var
 b=f[1],a=i;for(;;){if(b){if(a){var
-d=lN(g,b[1],a[1]);if(d){var
+d=l1(g,b[1],a[1]);if(d){var
 b=b[2],a=a[2];continue}var
 e=d}else
 var
 e=a;var
 c=e}else
 var
-c=a?0:1;return c?cv(g,f[2],h):c}}function
-ba(c,b,a){var
-d=ac(function(b,a){return[2,b,a]},a,b);return ac(function(b,a){return[3,b,a]},d,c)}function
-eZ(a,e,d,c){var
-b=ba(e,d,c),f=aI(a),g=at(H(aI(a),b),f);return ac(function(b,a){return[3,b,a]},b,g)}function
-cU(f,e,d,a,c){var
-b=eZ(f,e,d,c);return[3,[4,a,a],H(b,b)]}function
-df(c,a){return c?[6,a]:[3,[0,d,b],[6,a]]}function
-b8(a,c){switch(a[0]){case
+c=a?0:1;return c?bQ(g,f[2],h):c}}function
+aU(c,b,a){var
+d=T(function(b,a){return[2,b,a]},a,b);return T(function(b,a){return[3,b,a]},d,c)}function
+e3(a,e,d,c){var
+b=aU(e,d,c),f=ax(a),g=ab(w(ax(a),b),f);return T(function(b,a){return[3,b,a]},b,g)}function
+cy(f,e,d,a,c){var
+b=e3(f,e,d,c);return[3,[4,a,a],w(b,b)]}function
+c1(c,a){return c?[6,a]:[3,[0,d,b],[6,a]]}function
+ca(a,c){switch(a[0]){case
 0:var
-e=a[3],f=a[2],d=a[1],g=eZ(d,f,e,c),h=cU(d,f,e,a[4],c),i=at([5,[0,b,b],df(a[5],h)],g),j=aI(d);return ac(function(b,a){return[2,b,a]},j,i);case
-1:return aI(ba(a[1],a[2],c));default:return aI(a[1])}}function
-cw(a,b){switch(a[0]){case
+e=a[3],f=a[2],d=a[1],g=e3(d,f,e,c),h=cy(d,f,e,a[4],c),i=ab([5,[0,b,b],c1(a[5],h)],g),j=ax(d);return T(function(b,a){return[2,b,a]},j,i);case
+1:return ax(aU(a[1],a[2],c));default:return ax(a[1])}}function
+cz(a,b){switch(a[0]){case
 0:var
-d=a[3],e=a[2],c=a[1],f=aI(c),g=cU(c,e,d,a[4],b),h=at(df(a[5],g),f),i=eZ(c,e,d,b);return ac(function(b,a){return[2,b,a]},i,h);case
-1:return ba(a[1],a[2],b);default:return aI(a[1])}}function
-d8(a,b){switch(a[0]){case
+d=a[3],e=a[2],c=a[1],f=ax(c),g=cy(c,e,d,a[4],b),h=ab(c1(a[5],g),f),i=e3(c,e,d,b);return T(function(b,a){return[2,b,a]},i,h);case
+1:return aU(a[1],a[2],b);default:return ax(a[1])}}function
+c2(a,b){switch(a[0]){case
 0:var
-c=a[3],d=a[2],e=a[1],h=cU(e,d,c,a[4],b),i=df(a[5],h),j=ba(d,c,b);return[3,H(aI(e),j),i];case
+c=a[3],d=a[2],e=a[1],h=cy(e,d,c,a[4],b),i=c1(a[5],h),j=aU(d,c,b);return[3,w(ax(e),j),i];case
 1:var
-f=a[2],g=a[1],k=ba(g,f,b);return[6,H(ba(g,f,b),k)];default:return H(aI(a[1]),b)}}function
-h8(a,b){switch(a[0]){case
-0:return[0,cU(a[1],a[2],a[3],a[4],b)];case
+f=a[2],g=a[1],k=aU(g,f,b);return[6,w(aU(g,f,b),k)];default:return w(ax(a[1]),b)}}function
+ih(a,b){switch(a[0]){case
+0:return[0,cy(a[1],a[2],a[3],a[4],b)];case
 1:var
-c=a[2],d=a[1],e=ba(d,c,b);return[0,H(ba(d,c,b),e)];default:return 0}}function
-e0(e,c,a){var
-f=[0,d,b];return as(function(b,d){var
-e=H(b8(b,c),a);return[2,[4,H(b8(b,c),a),e],d]},f,e)}function
-lO(f,e,c,a){if(f){if(e){var
-g=e[1],h=lO(f[2],e[2],c,a),i=H(b8(g,c),a),j=[4,H(b8(g,c),a),i];return[2,[4,f[1],j],h]}return[0,d,b]}return[0,d,b]}function
-lP(a){var
+c=a[2],d=a[1],e=aU(d,c,b);return[0,w(aU(d,c,b),e)];default:return 0}}function
+e4(e,c,a){var
+f=[0,d,b];return aq(function(b,d){var
+e=w(ca(b,c),a);return[2,[4,w(ca(b,c),a),e],d]},f,e)}function
+l2(f,e,c,a){if(f){if(e){var
+g=e[1],h=l2(f[2],e[2],c,a),i=w(ca(g,c),a),j=[4,w(ca(g,c),a),i];return[2,[4,f[1],j],h]}return[0,d,b]}return[0,d,b]}function
+l3(a){var
 c=a[1];return[0,[0,c[1],b],[0,c[2],b],[0,a[2],b]]}function
-h9(a,c){switch(a[0]){case
+ii(a,c){switch(a[0]){case
 0:return a[4];case
 1:var
-d=a[2],e=a[1],f=ba(e,d,c);return[6,H(ba(e,d,c),f)];default:return[0,b,b]}}function
-lQ(d,i){if(d){var
+d=a[2],e=a[1],f=aU(e,d,c);return[6,w(aU(e,d,c),f)];default:return[0,b,b]}}function
+l4(d,i){if(d){var
 a=d[1];if(1===a[0]){var
 c=a[3];if(c)var
-f=c[1],g=ba(a[1],a[2],i),k=aI(f),l=at(H(aI(f),g),k),h=[0,ac(function(b,a){return[3,b,a]},g,l)];else
+f=c[1],g=aU(a[1],a[2],i),k=ax(f),l=ab(w(ax(f),g),k),h=[0,T(function(b,a){return[3,b,a]},g,l)];else
 var
 h=c;var
 b=h}else
 var
 b=0;if(b)var
-e=lQ(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
+e=l4(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
 var
-j=b;return j}return sz}function
-cV(a){return[0,a[1],a[2],a[3]]}function
-lR(a,b){switch(a[0]){case
+j=b;return j}return sU}function
+c3(a){return[0,a[1],a[2],a[3]]}function
+l5(a,b){switch(a[0]){case
 0:var
-f=a[4],c=a[3],g=a[2],d=a[1],i=aI(d),j=cU(d,g,c,f,b),k=at(df(a[5],j),i),l=eZ(d,g,c,b),m=ac(function(b,a){return[2,b,a]},l,k);return[0,[0,[0,ac(function(b,a){return[2,b,a]},b,c),m],f]];case
+f=a[4],c=a[3],g=a[2],d=a[1],i=ax(d),j=cy(d,g,c,f,b),k=ab(c1(a[5],j),i),l=e3(d,g,c,b),m=T(function(b,a){return[2,b,a]},l,k);return[0,[0,[0,T(function(b,a){return[2,b,a]},b,c),m],f]];case
 1:var
-h=a[2],e=ba(a[1],h,b),n=[6,H(e,e)];return[0,[0,[0,ac(function(b,a){return[2,b,a]},b,h),e],n]];default:return 0}}function
-lS(m,e,a){switch(a[0]){case
+h=a[2],e=aU(a[1],h,b),n=[6,w(e,e)];return[0,[0,[0,T(function(b,a){return[2,b,a]},b,h),e],n]];default:return 0}}function
+l6(m,e,a){switch(a[0]){case
 0:var
 n=a[5],c=F(m,a[1]);if(c){var
 d=c[1];if(d)var
 f=d[1],g=f[1],h=f[2],o=g[2],p=g[1],j=function(a){var
-b=cV(n),c=at(a,o),d=ac(function(b,a){return[3,b,a]},p,c);return ac(function(b,a){return[2,b,a]},d,b)},q=j([5,a[4],h]),k=[0,[0,j([3,[0,b,b],[5,a[3],h]]),q]];else
+b=c3(n),c=ab(a,o),d=T(function(b,a){return[3,b,a]},p,c);return T(function(b,a){return[2,b,a]},d,b)},q=j([5,a[4],h]),k=[0,[0,j([3,[0,b,b],[5,a[3],h]]),q]];else
 var
 k=d;var
 l=k}else
 var
 l=c;return l;case
 1:var
-r=cV(a[3]);return[0,[0,cV(a[2]),r]];default:var
-s=i(e,cV(a[3]));return[0,[0,i(e,cV(a[2])),s]]}}function
-lT(d,a,c,b){var
-e=at(a,b),f=at([3,d,a],c);return ac(function(b,a){return[2,b,a]},f,e)}function
-lU(a,l,c,k,j,x){var
+r=c3(a[3]);return[0,[0,c3(a[2]),r]];default:var
+s=i(e,c3(a[3]));return[0,[0,i(e,c3(a[2])),s]]}}function
+l7(d,a,c,b){var
+e=ab(a,b),f=ab([3,d,a],c);return T(function(b,a){return[2,b,a]},f,e)}function
+l8(a,l,c,k,j,y){var
 d=i(l,k);if(d){var
 m=d[1],e=i(l,j);if(e){var
-n=e[1],f=c[1],g=c[2],b=c[3],y=lT(b,g,n[1],n[2]),z=lT(b,f,m[1],m[2]),o=ac(function(b,a){return[3,b,a]},z,y),A=dR(j),p=[4,b,[2,[2,dR(k),A],x]],q=h(a,1,b),r=q?h(a,0,f):q,s=r?h(a,0,[3,b,f]):r,t=s?h(a,0,g):s,u=t?h(a,0,[3,b,g]):t;if(u)return h(a,1,[3,[4,p,p],H(o,o)]);var
+n=e[1],f=c[1],g=c[2],b=c[3],z=l7(b,g,n[1],n[2]),A=l7(b,f,m[1],m[2]),o=T(function(b,a){return[3,b,a]},A,z),B=dV(j),p=[4,b,[2,[2,dV(k),B],y]],q=h(a,1,b),r=q?h(a,0,f):q,s=r?h(a,0,[3,b,f]):r,t=s?h(a,0,g):s,u=t?h(a,0,[3,b,g]):t;if(u)return h(a,1,[3,[4,p,p],w(o,o)]);var
 v=u}else
 var
 v=e;var
-w=v}else
+x=v}else
 var
-w=d;return w}function
-lV(d,c,b,a,i,g,f,e){var
+x=d;return x}function
+l9(d,c,b,a,i,g,f,e){var
 j=h(d,1,b),k=j?h(d,1,a):j;if(k){var
-l=an(c,f,f),m=[4,[4,a,a],[4,an(c,g,g),l]];return h(d,1,[3,[4,[4,[4,b,b],[4,i,i]],an(c,e,e)],m])}return k}function
-lW(i,g,c,f,x,a){function
-R(a){return[4,[4,[5,[0,b,b],a],[5,[0,b,b],a]],H(f,f)]}var
+l=ao(c,f,f),m=[4,[4,a,a],[4,ao(c,g,g),l]];return h(d,1,[3,[4,[4,[4,b,b],[4,i,i]],ao(c,e,e)],m])}return k}function
+l_(i,g,c,f,y,a){function
+R(a){return[4,[4,[5,[0,b,b],a],[5,[0,b,b],a]],w(f,f)]}var
 N=0;if(typeof
 a==="number")N=1;else
 switch(a[0]){case
 0:var
-aF=e0(g,c,f);return h(i,1,[3,R(a[1]),aF]);case
+aG=e4(g,c,f);return h(i,1,[3,R(a[1]),aG]);case
 1:var
-aG=R(a[1]);return h(i,1,[3,e0(g,c,f),aG]);case
+aH=R(a[1]);return h(i,1,[3,e4(g,c,f),aH]);case
 2:var
-aH=a[2],aJ=function(a){return[3,aH,d8(a,c)]},z=aJ,y=a[1];break;case
+aI=a[2],aJ=function(a){return[3,aI,c2(a,c)]},A=aJ,z=a[1];break;case
 3:var
-aK=a[2],aL=function(a){return[3,d8(a,c),aK]},z=aL,y=a[1];break;case
+aK=a[2],aL=function(a){return[3,c2(a,c),aK]},A=aL,z=a[1];break;case
 4:var
-S=a[3],T=a[2],aM=function(a){var
-b=b8(a,c);return[3,[4,[4,T,T],H(b8(a,c),b)],[4,S,S]]},z=aM,y=a[1];break;case
+S=a[3],U=a[2],aM=function(a){var
+b=ca(a,c);return[3,[4,[4,U,U],w(ca(a,c),b)],[4,S,S]]},A=aM,z=a[1];break;case
 5:var
-U=a[1],aN=H(f,f),aO=[4,[4,U,U],[4,e0(g,c,x),aN]],aP=H(x,x);return h(i,1,[3,[4,e0(g,c,f),aP],aO]);case
+V=a[1],aN=w(f,f),aO=[4,[4,V,V],[4,e4(g,c,y),aN]],aP=w(y,y);return h(i,1,[3,[4,e4(g,c,f),aP],aO]);case
 6:var
-V=a[2],B=F(g,a[1]);if(B){var
-k=B[1];if(0===k[0]){var
-C=k[4],aQ=cU(k[1],k[2],k[3],C,c),W=df(k[5],aQ);return h(i,1,[3,[4,[4,V,C],[4,V,C]],[4,W,W]])}var
-X=0}else
+W=a[2],C=F(g,a[1]);if(C){var
+k=C[1];if(0===k[0]){var
+D=k[4],aQ=cy(k[1],k[2],k[3],D,c),X=c1(k[5],aQ);return h(i,1,[3,[4,[4,W,D],[4,W,D]],[4,X,X]])}var
+Y=0}else
 var
-X=B;return X;case
+Y=C;return Y;case
 7:if(g){var
 p=g[2];if(p){var
 q=p[2];if(q){if(q[2])return 0;var
-Y=q[1],Z=p[1],_=g[1],aR=h9(Y,c),aS=h9(Z,c),aT=h9(_,c),$=[4,[4,[4,a[1],aT],aS],aR],l=cw(Y,c),m=cw(Z,c),aU=cw(_,c),O=H(aU,[0,[3,[4,m[2],l[3]],[4,m[3],l[2]]],[3,[4,m[3],l[1]],[4,m[1],l[3]]],[3,[4,m[1],l[2]],[4,m[2],l[1]]]]),aa=h(i,1,[3,$,O]);if(aa)return h(i,1,[2,$,O]);var
-ab=aa}else
+Z=q[1],_=p[1],$=g[1],aR=ii(Z,c),aS=ii(_,c),aT=ii($,c),aa=[4,[4,[4,a[1],aT],aS],aR],l=cz(Z,c),m=cz(_,c),aV=cz($,c),O=w(aV,[0,[3,[4,m[2],l[3]],[4,m[3],l[2]]],[3,[4,m[3],l[1]],[4,m[1],l[3]]],[3,[4,m[1],l[2]],[4,m[2],l[1]]]]),ac=h(i,1,[3,aa,O]);if(ac)return h(i,1,[2,aa,O]);var
+ad=ac}else
 var
-ab=q;var
-ad=ab}else
-var
-ad=p;var
+ad=q;var
 ae=ad}else
 var
-ae=g;return ae;case
-8:var
-aV=e0(g,c,f),aW=H(f,f);return h(i,1,[3,[4,[5,a[2],a[1]],aW],aV]);case
-9:var
-af=a[1],D=lQ(g,c);if(D){var
-aX=D[1],az=[0,d,b],aA=as(function(a,b){var
-c=H(aI(a),f);return[2,[4,H(aI(a),f),c],b]},az,aX);return h(i,1,[3,[4,[4,af,af],H(f,f)],aA])}return D;case
-10:var
-aY=a[3],aZ=a[2],a0=a[1],aB=function(b,a){return[2,b,a]},aC=function(a){return ac(aB,c,a)},aD=e(function(a){return lR(a,c)},g);return lU(i,function(a){return lS(aD,aC,a)},f,a0,aZ,aY);case
-11:var
-ag=a[4],E=F(g,a[1]);if(E){var
-G=lR(E[1],c);if(G){var
-n=G[1][1][2],a1=cV(a[3]),a2=cV(a[2]),r=ac(function(b,a){return[3,b,a]},a2,a1),ah=h(i,1,H(n,n));if(ah){var
-a3=H(n,n),a4=H(r,n),a5=[5,[4,H(r,n),a4],a3];return h(i,1,[3,[4,ag,ag],[3,H(r,r),a5]])}var
-ai=ah}else
+ae=p;var
+af=ae}else
 var
-ai=G;var
+af=g;return af;case
+8:var
+aW=e4(g,c,f),aX=w(f,f);return h(i,1,[3,[4,[5,a[2],a[1]],aX],aW]);case
+9:var
+ag=a[1],E=l4(g,c);if(E){var
+aY=E[1],aA=[0,d,b],aB=aq(function(a,b){var
+c=w(ax(a),f);return[2,[4,w(ax(a),f),c],b]},aA,aY);return h(i,1,[3,[4,[4,ag,ag],w(f,f)],aB])}return E;case
+10:var
+aZ=a[3],a0=a[2],a1=a[1],aC=function(b,a){return[2,b,a]},aD=function(a){return T(aC,c,a)},aE=e(function(a){return l5(a,c)},g);return l8(i,function(a){return l6(aE,aD,a)},f,a1,a0,aZ);case
+11:var
+ah=a[4],G=F(g,a[1]);if(G){var
+H=l5(G[1],c);if(H){var
+n=H[1][1][2],a2=c3(a[3]),a3=c3(a[2]),r=T(function(b,a){return[3,b,a]},a3,a2),ai=h(i,1,w(n,n));if(ai){var
+a4=w(n,n),a5=w(r,n),a6=[5,[4,w(r,n),a5],a4];return h(i,1,[3,[4,ah,ah],[3,w(r,r),a6]])}var
 aj=ai}else
 var
-aj=E;return aj;case
+aj=H;var
+ak=aj}else
+var
+ak=G;return ak;case
 12:var
 o=a[3],s=a[2],I=F(g,a[1]);if(I){var
-j=I[1],ak=h(i,0,s),al=ak?h(i,0,o):ak;if(al){var
-a6=a[4];switch(j[0]){case
+j=I[1],al=h(i,0,s),am=al?h(i,0,o):al;if(am){var
+a7=a[4];switch(j[0]){case
 0:var
-v=j[4],w=[5,v,[6,cU(j[1],j[2],j[3],v,c)]],J=[4,w,[2,s,[4,[5,[4,o,o],v],[4,w,w]]]];break;case
+v=j[4],x=[5,v,[6,cy(j[1],j[2],j[3],v,c)]],J=[4,x,[2,s,[4,[5,[4,o,o],v],[4,x,x]]]];break;case
 1:var
-P=j[2],Q=j[1],aE=ba(Q,P,c),J=[2,s,[5,[4,o,o],[6,H(ba(Q,P,c),aE)]]];break;default:var
+P=j[2],Q=j[1],aF=aU(Q,P,c),J=[2,s,[5,[4,o,o],[6,w(aU(Q,P,c),aF)]]];break;default:var
 J=s}var
-K=h(i,1,[3,J,a6])}else
+K=h(i,1,[3,J,a7])}else
 var
-K=al;if(K){if(2===j[0])return h(i,1,H(f,f));var
-am=1}else
+K=am;if(K){if(2===j[0])return h(i,1,w(f,f));var
+an=1}else
 var
-am=K;var
-an=am}else
+an=K;var
+ao=an}else
 var
-an=I;return an;case
+ao=I;return ao;case
 13:if(g){var
 t=g[2];if(t){var
 u=t[2];if(u){if(u[2])return 0;var
-ao=u[1],ap=t[1],aq=g[1],ar=a[1],L=F([0,f[1],[0,f[2],[0,f[3],0]]],ar);if(L){var
-M=F([0,aq,[0,ap,[0,ao,0]]],ar);if(M){var
-au=M[1],a7=cw(au,c),a8=b8(au,c),a9=cw(ao,c),a_=at(f[3],a9),a$=cw(ap,c),bb=at(f[2],a$),bc=cw(aq,c),bd=at(f[1],bc),be=ac(function(b,a){return[2,b,a]},bd,bb),bf=ac(function(b,a){return[2,b,a]},be,a_);return lV(i,H,a[2],a[3],L[1],bf,a8,a7)}var
+ap=u[1],ar=t[1],as=g[1],at=a[1],L=F([0,f[1],[0,f[2],[0,f[3],0]]],at);if(L){var
+M=F([0,as,[0,ar,[0,ap,0]]],at);if(M){var
+au=M[1],a8=cz(au,c),a9=ca(au,c),a_=cz(ap,c),a$=ab(f[3],a_),ba=cz(ar,c),bb=ab(f[2],ba),bc=cz(as,c),bd=ab(f[1],bc),be=T(function(b,a){return[2,b,a]},bd,bb),bf=T(function(b,a){return[2,b,a]},be,a$);return l9(i,w,a[2],a[3],L[1],bf,a9,a8)}var
 av=M}else
 var
 av=L;var
 aw=av}else
 var
 aw=u;var
-ax=aw}else
+ay=aw}else
 var
-ax=t;var
-ay=ax}else
+ay=t;var
+az=ay}else
 var
-ay=g;return ay;case
+az=g;return az;case
 15:var
-bg=lO(a[1],g,c,f),bh=H(f,f);return h(i,1,[3,[4,a[2],bh],bg]);default:N=1}if(N)return 0;var
-A=F(g,y);return A?h(i,1,z(A[1])):A}function
-bv(a){return[0,a[1][1],a[2][1],a[3][1]]}function
-lX(a){switch(a[0]){case
+bg=l2(a[1],g,c,f),bh=w(f,f);return h(i,1,[3,[4,a[2],bh],bg]);default:N=1}if(N)return 0;var
+B=F(g,z);return B?h(i,1,A(B[1])):B}function
+by(a){return[0,a[1][1],a[2][1],a[3][1]]}function
+l$(a){switch(a[0]){case
 0:var
-b=a[1],c=b[5],d=b[4][1],e=bv(b[3]),f=bv(b[2]);return[0,bv(b[1]),f,e,d,c];case
+b=a[1],c=b[5],d=b[4][1],e=by(b[3]),f=by(b[2]);return[0,by(b[1]),f,e,d,c];case
 1:var
-g=y(bv,a[3]),h=bv(a[2]);return[1,bv(a[1]),h,g];default:return[2,bv(a[1])]}}function
-h_(a){return 0===a[0]?bv(a[1]):[0,a[1],a[2],a[4][1]]}function
-lY(b,a){var
-c=h_(a[2]);return h7(b,a,e(lX,a[1]),c)}function
-lZ(b,a,c){var
-d=[0,c,aZ(b,a)];return f(aL(b,a),d)}function
-bw(c,a){if(c){if(a){var
-e=bw(c[2],a[2]);return[2,[4,c[1],a[1]],e]}return[0,d,b]}return[0,d,b]}function
-l0(e,c,a){if(e){if(c){var
-f=c[1],g=l0(e[2],c[2],a),h=bw(f,a),i=[4,bw(f,a),h];return[2,[4,e[1],i],g]}return[0,d,b]}return[0,d,b]}function
-l1(b,a){if(b){if(a){var
-c=b[1],e=l1(b[2],a[2]),f=a[1],g=function(b,a){return[2,[4,c,b],a]},h=function(a){return a};return aF(function(a){return[4,c,a]},h,g,f,e)}var
+g=z(by,a[3]),h=by(a[2]);return[1,by(a[1]),h,g];default:return[2,by(a[1])]}}function
+ij(a){return 0===a[0]?by(a[1]):[0,a[1],a[2],a[4][1]]}function
+ma(b,a){var
+c=ij(a[2]);return go(b,a,e(l$,a[1]),c)}function
+mb(b,a,c){var
+d=[0,c,aX(b,a)];return f(aH(b,a),d)}function
+bi(c,a){if(c){if(a){var
+e=bi(c[2],a[2]);return[2,[4,c[1],a[1]],e]}return[0,d,b]}return[0,d,b]}function
+mc(e,c,a){if(e){if(c){var
+f=c[1],g=mc(e[2],c[2],a),h=bi(f,a),i=[4,bi(f,a),h];return[2,[4,e[1],i],g]}return[0,d,b]}return[0,d,b]}function
+md(b,a){if(b){if(a){var
+c=b[1],e=md(b[2],a[2]),f=a[1],g=function(b,a){return[2,[4,c,b],a]},h=function(a){return a};return aI(function(a){return[4,c,a]},h,g,f,e)}var
 d=a}else
 var
 d=b;return d}function
-l2(a){if(a){var
+me(a){if(a){var
 b=a[1];if(b){var
-c=b[1],d=l2(a[2]);return y(function(a){return[0,c,a]},d)}return b}return sB}function
-h$(a){if(a){var
+c=b[1],d=me(a[2]);return z(function(a){return[0,c,a]},d)}return b}return sW}function
+ik(a){if(a){var
 b=a[1];if(b){var
-c=b[1],d=h$(a[2]);return y(function(a){return[0,c,a]},d)}return b}return sC}function
-l3(a,l,k,f){var
-b=aM(a,l);if(b){var
-c=aM(a,k);if(c){var
-d=cL(a,f);if(d){var
-e=fY(a,f);if(e)var
-m=t(a,b[1],e[1]),g=[0,G(t(a,c[1],d[1]),m)];else
+c=b[1],d=ik(a[2]);return z(function(a){return[0,c,a]},d)}return b}return sX}function
+mf(a,l,k,f){var
+b=aC(a,l);if(b){var
+c=aC(a,k);if(c){var
+d=cS(a,f);if(d){var
+e=f5(a,f);if(e)var
+m=t(a,b[1],e[1]),g=[0,H(t(a,c[1],d[1]),m)];else
 var
 g=e;var
 h=g}else
@@ -3232,18 +3239,18 @@ i=c;var
 j=i}else
 var
 j=b;return j}function
-l4(a){return a?K(a[1][2],d):a}function
-d9(a){return a?K(d,a[1][1]):a}function
-l5(d,a){return h(d,0,[3,[0,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b))))))))),b],a])}function
-l6(f,z,l,y,a,j){function
-aW(c,a){return[4,[4,[5,[0,b,b],c],[5,[0,b,b],c]],bw(a,a)]}var
+mg(a){return a?I(a[1][2],d):a}function
+eb(a){return a?I(d,a[1][1]):a}function
+mh(d,a){return h(d,0,[3,[0,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b))))))))),b],a])}function
+mi(f,A,l,z,a,j){function
+aW(c,a){return[4,[4,[5,[0,b,b],c],[5,[0,b,b],c]],bi(a,a)]}var
 bB=l[1];function
-A(c){var
-a=[0,d,b];return as(function(a,b){var
-d=bw(a,c);return[2,[4,bw(a,c),d],b]},a,bB)}function
+B(c){var
+a=[0,d,b];return aq(function(a,b){var
+d=bi(a,c);return[2,[4,bi(a,c),d],b]},a,bB)}function
 af(f,e){var
 a=F(l[1],f);if(a){var
-b=a[1],c=r(g(b),z);if(c)return i(e,b);var
+b=a[1],c=p(g(b),A);if(c)return i(e,b);var
 d=c}else
 var
 d=a;return d}var
@@ -3252,18 +3259,18 @@ b=0;if(typeof
 j==="number")b=1;else
 switch(j[0]){case
 6:var
-a=sD;break;case
+a=sY;break;case
 13:case
 14:var
-a=sE;break;default:b=1}if(b)var
-a=z;return r(g(c),a)},a);if(aX){var
+a=sZ;break;default:b=1}if(b)var
+a=A;return p(g(c),a)},a);if(aX){var
 s=0;if(typeof
 j==="number")s=1;else
 switch(j[0]){case
 0:if(a){if(a[2])return 0;var
-aZ=a[1],bC=A(aZ);return h(f,1,[3,aW(j[1],aZ),bC])}return a;case
+aZ=a[1],bC=B(aZ);return h(f,1,[3,aW(j[1],aZ),bC])}return a;case
 1:if(a){if(a[2])return 0;var
-a0=a[1],bD=aW(j[1],a0);return h(f,1,[3,A(a0),bD])}return a;case
+a0=a[1],bD=aW(j[1],a0);return h(f,1,[3,B(a0),bD])}return a;case
 2:if(a)return 0;var
 bE=j[2],bF=function(a){if(typeof
 a!=="number"&&0===a[0])return h(f,1,[3,bE,a[1]]);return 0},ah=bF,ag=j[1];break;case
@@ -3272,32 +3279,32 @@ bG=j[2],bH=function(a){if(typeof
 a!=="number"&&0===a[0])return h(f,1,[3,a[1],bG]);return 0},ah=bH,ag=j[1];break;case
 4:if(a)return 0;var
 a1=j[3],a2=j[2],bI=function(a){var
-i=r(y,0);if(typeof
+i=p(z,0);if(typeof
 a!=="number"&&1===a[0]){var
-d=a[2],e=a[1],g=h(f,0,[3,[2,a2,[0,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b)))))))))),b]],a1]);return g?i?l4(l3(f,e,d,a2)):d9(l3(f,e,d,a1)):g}return 0},ah=bI,ag=j[1];break;case
+d=a[2],e=a[1],g=h(f,0,[3,[2,a2,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b]],a1]);return g?i?mg(mf(f,e,d,a2)):eb(mf(f,e,d,a1)):g}return 0},ah=bI,ag=j[1];break;case
 5:if(a){var
-B=a[2];if(B){if(B[2])return 0;var
-aj=B[1],ak=a[1],a3=j[1],bJ=bw(ak,ak),bK=[4,[4,a3,a3],[4,A(aj),bJ]],bL=bw(aj,aj);return h(f,1,[3,[4,A(ak),bL],bK])}var
-a4=B}else
+C=a[2];if(C){if(C[2])return 0;var
+aj=C[1],ak=a[1],a3=j[1],bJ=bi(ak,ak),bK=[4,[4,a3,a3],[4,B(aj),bJ]],bL=bi(aj,aj);return h(f,1,[3,[4,B(ak),bL],bK])}var
+a4=C}else
 var
 a4=a;return a4;case
 6:var
 a5=j[2],bM=j[3],bN=function(a){var
-b=[5,bM,a5],c=h(f,1,a5);return c?h(f,1,[3,bw(a,a),[4,b,b]]):c},a6=af(j[1],bN);if(a6){if(l[4]){if(a){var
-C=a[1];if(C){if(C[2])return 0;if(a[2])return 0;var
-a7=C[1];return h(f,1,[4,a7,a7])}var
-a8=C}else
+b=[5,bM,a5],c=h(f,1,a5);return c?h(f,1,[3,bi(a,a),[4,b,b]]):c},a6=af(j[1],bN);if(a6){if(l[4]){if(a){var
+D=a[1];if(D){if(D[2])return 0;if(a[2])return 0;var
+a7=D[1];return h(f,1,[4,a7,a7])}var
+a8=D}else
 var
 a8=a;return a8}if(a)return 0;var
 a9=1}else
 var
 a9=a6;return a9;case
 7:if(a){if(a[2])return 0;var
-a_=a[1],al=j[1],bO=j[3],bP=j[2],am=h$(l[7]);if(am){var
-D=am[1],an=F(a_,al);if(an){var
-bQ=an[1],a$=r(g(D),z),ba=a$?m(function(a){return r(g(a),z)},D):a$;if(ba){var
-ao=F(D,al);if(ao){var
-bR=ao[1];return af(al,function(a){return lV(f,bw,bP,bO,bQ,l1(a_,D),a,bR)})}var
+a_=a[1],al=j[1],bO=j[3],bP=j[2],am=ik(l[7]);if(am){var
+E=am[1],an=F(a_,al);if(an){var
+bQ=an[1],a$=p(g(E),A),ba=a$?m(function(a){return p(g(a),A)},E):a$;if(ba){var
+ao=F(E,al);if(ao){var
+bR=ao[1];return af(al,function(a){return l9(f,bi,bP,bO,bQ,md(a_,E),a,bR)})}var
 bb=ao}else
 var
 bb=ba;var
@@ -3311,14 +3318,14 @@ be=bd}else
 var
 be=a;return be;case
 8:if(a){if(a[2])return 0;var
-ap=a[1],bS=l0(j[1],l[1],ap),bT=bw(ap,ap);return h(f,1,[3,[4,j[2],bT],bS])}return a;case
+ap=a[1],bS=mc(j[1],l[1],ap),bT=bi(ap,ap);return h(f,1,[3,[4,j[2],bT],bS])}return a;case
 9:if(a)return 0;var
 bf=j[3],bg=j[2],bU=function(d){var
 e=h(f,1,bg),g=e?h(f,0,bf):e;if(g){var
-a=aM(f,bw(d,d));if(a){var
-b=aM(f,[5,bf,bg]);if(b){var
-c=kR(f,b[1]);if(c){var
-l=W(f,c[1]);return d9([0,G(a[1],l)])}var
+a=aC(f,bi(d,d));if(a){var
+b=aC(f,[5,bf,bg]);if(b){var
+c=k5(f,b[1]);if(c){var
+l=X(f,c[1]);return eb([0,H(a[1],l)])}var
 i=c}else
 var
 i=b;var
@@ -3330,14 +3337,14 @@ var
 k=g;return k};return af(j[1],bU);case
 10:if(a)return 0;var
 bV=j[2],bW=function(a){var
-b=[4,bV,a[3]],c=h(f,1,b);return c?h(f,1,[3,[4,b,b],[4,a[2],a[2]]]):c},bi=bW,bh=j[1];s=2;break;case
+b=[4,bV,a[3]],c=h(f,1,b);return c?h(f,1,[3,[4,b,b],[4,a[2],a[2]]]):c},bj=bW,bh=j[1];s=2;break;case
 11:if(a)return 0;var
 bX=j[2],bY=function(d){var
-a=cL(f,bX);if(a){var
-b=aM(f,d[3]);if(b){var
-c=aM(f,d[2]);if(c){var
-e=t(f,a[1],b[1]),g=d9([0,e]);if(g){var
-k=W(f,c[1]);return d9([0,G(W(f,e),k)])}var
+a=cS(f,bX);if(a){var
+b=aC(f,d[3]);if(b){var
+c=aC(f,d[2]);if(c){var
+e=t(f,a[1],b[1]),g=eb([0,e]);if(g){var
+k=X(f,c[1]);return eb([0,H(X(f,e),k)])}var
 h=g}else
 var
 h=c;var
@@ -3346,10 +3353,10 @@ var
 i=b;var
 j=i}else
 var
-j=a;return j},bi=bY,bh=j[1];s=2;break;case
+j=a;return j},bj=bY,bh=j[1];s=2;break;case
 12:if(a)return 0;var
-at=l2(l[3]);if(at){var
-bk=at[1],bZ=j[1],bl=b0(function(b,a){return[4,b,a[3]]},bk,bZ),au=e(function(a){return a[1]},bk),u=function(d,c,b,a){return[3,[4,d,a],[4,c,b]]};if(au){var
+at=me(l[3]);if(at){var
+bl=at[1],bZ=j[1],bm=b4(function(b,a){return[4,b,a[3]]},bl,bZ),au=e(function(a){return a[1]},bl),u=function(d,c,b,a){return[3,[4,d,a],[4,c,b]]};if(au){var
 M=au[1];if(M){var
 N=M[2];if(N){var
 O=N[2],ax=N[1],ay=M[1],n=au[2];if(O)if(O[2]||!n)var
@@ -3358,10 +3365,10 @@ P=n[1];if(P){var
 Q=P[2];if(Q){var
 R=Q[2];if(R&&!R[2]){var
 S=n[2];if(S){var
-T=S[1];if(T){var
-U=T[2];if(U){var
-V=U[2];if(V&&!(V[2]||S[2]))var
-az=V[1],aA=U[1],aB=T[1],aC=R[1],aD=Q[1],aE=P[1],bt=u(aE,aD,aB,aA),bu=[4,O[1],bt],bv=[4,ax,u(aE,aC,aB,az)],k=[2,[3,[4,ay,u(aD,aC,aA,az)],bv],bu];else
+U=S[1];if(U){var
+V=U[2];if(V){var
+W=V[2];if(W&&!(W[2]||S[2]))var
+az=W[1],aA=V[1],aB=U[1],aD=R[1],aE=Q[1],aF=P[1],bu=u(aF,aE,aB,aA),bv=[4,O[1],bu],bw=[4,ax,u(aF,aD,aB,az)],k=[2,[3,[4,ay,u(aE,aD,aA,az)],bw],bv];else
 var
 k=[0,d,b]}else
 var
@@ -3377,8 +3384,8 @@ k=[0,d,b]}else
 var
 k=[0,d,b]}else
 if(n){var
-X=n[1];if(X)var
-Y=X[2],k=Y?Y[2]?[0,d,b]:n[2]?[0,d,b]:u(ay,ax,X[1],Y[1]):[0,d,b];else
+Y=n[1];if(Y)var
+Z=Y[2],k=Z?Z[2]?[0,d,b]:n[2]?[0,d,b]:u(ay,ax,Y[1],Z[1]):[0,d,b];else
 var
 k=[0,d,b]}else
 var
@@ -3389,164 +3396,165 @@ var
 k=[0,d,b]}else
 var
 k=[0,d,b];var
-bm=h(f,1,[3,bl,k]);if(bm)return h(f,1,[2,bl,k]);var
-bn=bm}else
+bn=h(f,1,[3,bm,k]);if(bn)return h(f,1,[2,bm,k]);var
+bo=bn}else
 var
-bn=at;return bn;case
+bo=at;return bo;case
 13:var
-b1=j[2],av=F(l[4],j[1]);if(av){var
+b0=j[2],av=F(l[4],j[1]);if(av){var
 aw=av[1];if(aw){var
-bo=function(a){if(b1){var
-c=i(l[5],[0,[0,d,b],[0,d,b],[0,d,b]]),e=i(l[5],a);return ac(function(b,a){return[3,b,a]},e,c)}return a},E=j[4],q=bo(cV(j[3])),I=aw[1][1][2],o=H(I,q);if(l5(f,E)){if(y){if(y[1])return 0;if(a){var
+bp=function(a){if(b0){var
+c=i(l[5],[0,[0,d,b],[0,d,b],[0,d,b]]),e=i(l[5],a);return T(function(b,a){return[3,b,a]},e,c)}return a},G=j[4],q=bp(c3(j[3])),I=aw[1][1][2],o=w(I,q);if(mh(f,G)){if(z){if(z[1])return 0;if(a){var
 v=a[1];if(v){var
-w=v[2];if(w){var
-x=w[2];if(x){if(x[2])return 0;if(a[2])return 0;var
-Z=bo([0,v[1],w[1],x[1]]),aF=H(I,Z),aG=h(f,1,o);if(aG){var
-_=cL(f,E);if(_){var
-aH=_[1],$=aM(f,[4,H(q,q),[4,aF,aF]]);if($){var
-aa=aM(f,[4,[4,o,o],H(Z,Z)]);if(aa){var
-aI=d9([0,aH]);if(aI){var
-bx=aa[1],by=$[1];return d9([0,G(t(f,W(f,aH),by),bx)])}var
-aJ=aI}else
-var
-aJ=aa;var
+x=v[2];if(x){var
+y=x[2];if(y){if(y[2])return 0;if(a[2])return 0;var
+_=bp([0,v[1],x[1],y[1]]),aG=w(I,_),aH=h(f,1,o);if(aH){var
+$=cS(f,G);if($){var
+aI=$[1],aa=aC(f,[4,w(q,q),[4,aG,aG]]);if(aa){var
+ab=aC(f,[4,[4,o,o],w(_,_)]);if(ab){var
+aJ=eb([0,aI]);if(aJ){var
+bx=ab[1],by=aa[1];return eb([0,H(t(f,X(f,aI),by),bx)])}var
 aK=aJ}else
 var
-aK=$;var
+aK=ab;var
 aL=aK}else
 var
-aL=_;var
-aN=aL}else
+aL=aa;var
+aM=aL}else
 var
-aN=aG;var
+aM=$;var
+aN=aM}else
+var
+aN=aH;var
 aO=aN}else
 var
-aO=x;var
+aO=y;var
 aP=aO}else
 var
-aP=w;var
+aP=x;var
 aQ=aP}else
 var
 aQ=v;var
 aR=aQ}else
 var
-aR=a;return aR}return a?0:h(f,1,[3,[0,d,b],o])}if(y)return 0;if(a)return 0;var
-aS=h(f,0,[3,[0,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b)))))))))),b],E]);if(aS){var
-ab=cL(f,E);if(ab){var
-ad=aM(f,o);if(ad){var
-bz=H(I,I),ae=aM(f,[6,[4,H(q,q),bz]]);if(ae){var
-bA=t(f,ab[1],ae[1]);return l4([0,G(ad[1],bA)])}var
+aR=a;return aR}return a?0:h(f,1,[3,[0,d,b],o])}if(z)return 0;if(a)return 0;var
+aS=h(f,0,[3,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b],G]);if(aS){var
+ac=cS(f,G);if(ac){var
+ad=aC(f,o);if(ad){var
+bz=w(I,I),ae=aC(f,[6,[4,w(q,q),bz]]);if(ae){var
+bA=t(f,ac[1],ae[1]);return mg([0,H(ad[1],bA)])}var
 aT=ae}else
 var
 aT=ad;var
 aU=aT}else
 var
-aU=ab;var
+aU=ac;var
 aV=aU}else
 var
 aV=aS;return aV}var
-bp=aw}else
+bq=aw}else
 var
-bp=av;return bp;case
+bq=av;return bq;case
 14:if(a){var
 J=a[1];if(J){var
 K=J[2];if(K){var
 L=K[2];if(L){if(L[2])return 0;if(a[2])return 0;var
-b2=j[3],b3=j[2],b4=j[1],b5=[0,J[1],K[1],L[1]],b6=l[5],b7=l[4];return lU(f,function(a){return lS(b7,b6,a)},b5,b4,b3,b2)}var
-bq=L}else
+b1=j[3],b2=j[2],b3=j[1],b5=[0,J[1],K[1],L[1]],b6=l[5],b7=l[4];return l8(f,function(a){return l6(b7,b6,a)},b5,b3,b2,b1)}var
+br=L}else
 var
-bq=K;var
-br=bq}else
-var
-br=J;var
+br=K;var
 bs=br}else
 var
-bs=a;return bs;default:s=1}switch(s){case
+bs=J;var
+bt=bs}else
+var
+bt=a;return bt;default:s=1}switch(s){case
 1:var
 aY=0;break;case
 2:var
-aq=F(l[3],bh);if(aq){var
-ar=aq[1];if(ar)return bi(ar[1]);var
-bj=ar}else
+ar=F(l[3],bh);if(ar){var
+as=ar[1];if(as)return bj(as[1]);var
+bk=as}else
 var
-bj=aq;return bj;default:var
+bk=ar;return bk;default:var
 ai=F(l[2],ag);return ai?ah(ai[1]):ai}}else
 var
 aY=aX;return aY}function
-ia(d,f,a){if(typeof
+il(d,f,a){if(typeof
 a!=="number")switch(a[0]){case
-4:return sG;case
+4:return s1;case
 13:var
-e=a[4];if(l5(d,e)&&T(h(d,0,[3,e,[0,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b))))))))),b]])))return sH;return sI;case
-16:return f}return sF}function
-ib(e,d,g,f){var
+e=a[4];if(mh(d,e)&&S(h(d,0,[3,e,[0,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b))))))))),b]])))return s2;return s3;case
+16:return f}return s0}function
+gp(e,d,g,f){var
 b=g,a=f;for(;;){if(a){var
-c=a[1];if(aV(b,ia(e,d,c)))return[0,[0,c,b]];var
-h=a[2],b=dL(b,ia(e,d,c)),a=h;continue}return a}}function
-sJ(a){return e(function(a){return[0,a,b]},a)}function
-ic(f,o,g,c,n,a){if(typeof
+c=a[1];if(aN(b,il(e,d,c)))return[0,[0,c,b]];var
+h=a[2],b=dP(b,il(e,d,c)),a=h;continue}return a}}function
+mj(a){return e(function(a){return[0,a,b]},a)}function
+im(f,o,g,c,n,a){if(typeof
 a==="number"){if(0===a){var
-s=c[6];return ak(function(a){return h(f,0,[3,[0,d,b],a])},s)}var
-i=h$(c[7]);return i?kY(g,i[1]):i}else{if(0===a[0]){var
-j=ib(f,o,a[1],n);if(j){var
-p=j[1],t=p[1],u=e(sJ,a[2]);return l6(f,g,c,p[2],u,t)}return j}var
-k=ib(f,o,a[1],n);if(k){var
+s=c[6];return al(function(a){return h(f,0,[3,[0,d,b],a])},s)}var
+i=ik(c[7]);return i?la(g,i[1]):i}else{if(0===a[0]){var
+j=gp(f,o,a[1],n);if(j){var
+p=j[1],t=p[1],u=e(mj,a[2]);return mi(f,g,c,p[2],u,t)}return j}var
+k=gp(f,o,a[1],n);if(k){var
 q=k[1],l=q[1];if(typeof
 l!=="number"&&1===l[0]){var
-m=F(c[1],a[2]);return m?l6(f,g,c,q[2],[0,m[1],0],[1,l[1]]):m}var
+m=F(c[1],a[2]);return m?mi(f,g,c,q[2],[0,m[1],0],[1,l[1]]):m}var
 r=0}else
 var
 r=k;return r}}function
-id(a){var
-b=aI(a[1]),c=at(H(b,a[2]),b),d=a[2];return ac(function(b,a){return[3,b,a]},d,c)}function
-ie(a){return aI(id(a))}function
-l7(c){var
-a=ie(c),b=aI(c[1]);return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
-ig(a,b){return ba(a[3],a[4],b)}function
-ih(a,b){var
-c=ig(a,b);return H(ie(a),c)}function
-ii(a,b){var
-c=ig(a,b);return H(l7(a),c)}function
-l8(a,b){var
-c=ig(a,b);return H(aI(a[1]),c)}function
-ij(b,a){var
-c=ii(b,a),d=ih(b,a);return[2,[4,d,d],[4,c,c]]}function
-ik(a,d){var
-h=a[5],i=[4,[0,c(2,b),b],h],e=a[6],f=a[5],g=l8(a,d);return[5,[2,ij(a,d),[2,[4,g,g],[3,[4,f,f],[4,e,e]]]],i]}function
-l9(a,b){var
-f=a[5],c=[3,ik(a,b),f],d=l8(a,b),e=a[6];return[3,[3,[4,e,e],[4,d,d]],[4,c,c]]}function
-gh(a,b){var
-c=l9(a,b);return df(a[7],c)}function
-l_(b,a){var
-c=ij(b,a),d=ii(b,a),e=[4,gh(b,a),d],f=ih(b,a);return[5,[2,[4,ik(b,a),f],e],c]}function
-l$(b,a){var
-c=ij(b,a),d=ih(b,a),e=[4,gh(b,a),d],f=ii(b,a);return[5,[3,[4,ik(b,a),f],e],c]}function
-il(a,b){var
-c=l7(a),d=at(l$(a,b),c),e=ie(a),f=at(l_(a,b),e),g=ac(function(b,a){return[2,b,a]},f,d),h=at(a[5],g),i=a[3];return ac(function(b,a){return[2,b,a]},i,h)}function
-ma(a){return[5,[3,[0,b,b],[4,a,a]],[2,[0,b,b],[4,a,a]]]}function
-mb(a){return[5,[4,[0,c(2,b),b],a],[2,[0,b,b],[4,a,a]]]}function
-im(a,c,b){var
-d=[4,ma(a),b],e=[2,[4,mb(a),c],d],f=[4,mb(a),b];return[0,[3,[4,ma(a),c],f],e]}function
-mc(c,a){var
-b=im(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
-e1(b,a){return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
-d_(t,d,a){switch(t[0]){case
-0:return d?d[2]?a:mc(d[1],a):a;case
-1:if(d){var
-f=d[2];if(f){var
-g=f[2];if(g){if(g[2])return a;var
-j=im(d[1],a[2],a[3]),m=j[1],k=im(f[1],j[2],a[1]);return mc(g[1],[0,k[2],m,k[1]])}return a}return a}return a;default:if(d){var
-h=d[2];if(h){var
-i=h[2];if(i){if(i[2])return a;var
-e=[0,d[1],h[1],i[1]],l=H(e,e),n=e1(e,a),o=at([0,c(2,b),b],n),p=H(e,a),q=at([4,[0,c(2,b),b],p],e),r=at([3,[0,b,b],l],a),s=ac(function(b,a){return[2,b,a]},r,q);return at([5,[0,b,b],[2,[0,b,b],l]],ac(function(b,a){return[2,b,a]},s,o))}return a}return a}return a}}function
-md(c){var
-a=cr(c);return a?dP(a[1],[0,d,b]):a}function
-me(a,n,k,j){if(md(j)){var
+io(a){var
+b=ax(a[1]),c=ab(w(b,a[2]),b),d=a[2];return T(function(b,a){return[3,b,a]},d,c)}function
+ip(a){return ax(io(a))}function
+mk(c){var
+a=ip(c),b=ax(c[1]);return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
+iq(a,b){return aU(a[3],a[4],b)}function
+ir(a,b){var
+c=iq(a,b);return w(ip(a),c)}function
+is(a,b){var
+c=iq(a,b);return w(mk(a),c)}function
+ml(a,b){var
+c=iq(a,b);return w(ax(a[1]),c)}function
+it(b,a){var
+c=is(b,a),d=ir(b,a);return[2,[4,d,d],[4,c,c]]}function
+iu(a,d){var
+h=a[5],i=[4,[0,c(2,b),b],h],e=a[6],f=a[5],g=ml(a,d);return[5,[2,it(a,d),[2,[4,g,g],[3,[4,f,f],[4,e,e]]]],i]}function
+mm(a,b){var
+f=a[5],c=[3,iu(a,b),f],d=ml(a,b),e=a[6];return[3,[3,[4,e,e],[4,d,d]],[4,c,c]]}function
+gq(a,b){var
+c=mm(a,b);return c1(a[7],c)}function
+mn(b,a){var
+c=it(b,a),d=is(b,a),e=[4,gq(b,a),d],f=ir(b,a);return[5,[2,[4,iu(b,a),f],e],c]}function
+mo(b,a){var
+c=it(b,a),d=ir(b,a),e=[4,gq(b,a),d],f=is(b,a);return[5,[3,[4,iu(b,a),f],e],c]}function
+iv(a,b){var
+c=mk(a),d=ab(mo(a,b),c),e=ip(a),f=ab(mn(a,b),e),g=T(function(b,a){return[2,b,a]},f,d),h=ab(a[5],g),i=a[3];return T(function(b,a){return[2,b,a]},i,h)}function
+mp(a){return[5,[3,[0,b,b],[4,a,a]],[2,[0,b,b],[4,a,a]]]}function
+mq(a){return[5,[4,[0,c(2,b),b],a],[2,[0,b,b],[4,a,a]]]}function
+iw(a,c,b){var
+d=[4,mp(a),b],e=[2,[4,mq(a),c],d],f=[4,mq(a),b];return[0,[3,[4,mp(a),c],f],e]}function
+mr(c,a){var
+b=iw(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
+dq(b,a){return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
+ms(a,d){var
+e=w(a,a),f=dq(a,d),g=ab([0,c(2,b),b],f),h=w(a,d),i=ab([4,[0,c(2,b),b],h],a),j=ab([3,[0,b,b],e],d),k=T(function(b,a){return[2,b,a]},j,i);return ab([5,[0,b,b],[2,[0,b,b],e]],T(function(b,a){return[2,b,a]},k,g))}function
+cA(j,b,a){switch(j[0]){case
+0:return b?b[2]?a:mr(b[1],a):a;case
+1:if(b){var
+c=b[2];if(c){var
+d=c[2];if(d){if(d[2])return a;var
+g=iw(b[1],a[2],a[3]),i=g[1],h=iw(c[1],g[2],a[1]);return mr(d[1],[0,h[2],i,h[1]])}return a}return a}return a;default:if(b){var
+e=b[2];if(e){var
+f=e[2];return f?f[2]?a:ms([0,b[1],e[1],f[1]],a):a}return a}return a}}function
+mt(c){var
+a=cu(c);return a?dT(a[1],[0,d,b]):a}function
+mu(a,n,k,j){if(mt(j)){var
 q=n?[3,[0,d,b],k]:k;return h(a,0,q)}var
-f=aM(a,k);if(f){var
-g=cL(a,[5,j,[0,c(2,b),b]]);if(g){var
-i=fY(a,[5,j,[0,c(2,b),b]]);if(i)var
-p=t(a,f[1],g[1]),l=[0,G(i[1],p)];else
+f=aC(a,k);if(f){var
+g=cS(a,[5,j,[0,c(2,b),b]]);if(g){var
+i=f5(a,[5,j,[0,c(2,b),b]]);if(i)var
+p=t(a,f[1],g[1]),l=[0,H(i[1],p)];else
 var
 l=i;var
 m=l}else
@@ -3556,25 +3564,25 @@ e=m}else
 var
 e=f;if(e){var
 o=e[1];return n?E(d,o[1]):E(o[2],d)}return e}function
-dg(b,a,c){var
-d=bo(b,a[1],a[2]),e=d?me(b,0,c,a[1]):d;return e?me(b,1,c,a[2]):e}function
-mf(h,f,c){if(md(c))return[0,v];var
-a=C(h,hE(f)),d=cL(a,c);if(d){var
-e=fY(a,c);if(e){var
-i=e[1],j=d[1],k=b1(a,z(P(a,b),j));return y(function(b){return kI(f,t(a,i,b))},k)}var
+dr(b,a,c){var
+d=bq(b,a[1],a[2]),e=d?mu(b,0,c,a[1]):d;return e?mu(b,1,c,a[2]):e}function
+mv(h,f,c){if(mt(c))return[0,v];var
+a=D(h,hP(f)),d=cS(a,c);if(d){var
+e=f5(a,c);if(e){var
+i=e[1],j=d[1],k=b5(a,A(Q(a,b),j));return z(function(b){return kW(f,t(a,i,b))},k)}var
 g=e}else
 var
 g=d;return g}function
-dh(a){return function(b){return mf(a,d,b)}}function
-di(d,a){var
-e=h(d,1,[2,[0,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b)))))))))),b],a]);return e?h(d,1,[3,[0,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b)))))))))),b],a]):e}function
-cW(a){return[0,[3,[0,d,b],a],a]}function
-mg(a,c,o,n){var
-h=bo(a,[0,d,b],c),j=h?di(a,c):h;if(j){var
-e=i(dh(a),c);if(e){var
-f=aM(a,o);if(f){var
-g=aM(a,n);if(g){var
-p=f[1],q=g[1];return E(d,G(t(a,W(a,e[1]),q),p)[1])}var
+c4(a){return function(b){return mv(a,d,b)}}function
+c5(d,a){var
+e=h(d,1,[2,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b],a]);return e?h(d,1,[3,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b],a]):e}function
+c6(a){return[0,[3,[0,d,b],a],a]}function
+mw(a,c,o,n){var
+h=bq(a,[0,d,b],c),j=h?c5(a,c):h;if(j){var
+e=i(c4(a),c);if(e){var
+f=aC(a,o);if(f){var
+g=aC(a,n);if(g){var
+p=f[1],q=g[1];return E(d,H(t(a,X(a,e[1]),q),p)[1])}var
 k=g}else
 var
 k=f;var
@@ -3584,12 +3592,12 @@ l=e;var
 m=l}else
 var
 m=j;return m}function
-dj(d,c,a){switch(c[0]){case
-0:return a?a[2]?0:dg(d,c[1],a[1]):a;case
+cB(d,c,a){switch(c[0]){case
+0:return a?a[2]?0:dr(d,c[1],a[1]):a;case
 1:if(a){var
 e=a[2];if(e){var
 f=e[2];if(f){if(f[2])return 0;var
-l=dg(d,c[1],a[1]),m=l?dg(d,c[2],e[1]):l;if(m)return dg(d,c[3],f[1]);var
+l=dr(d,c[1],a[1]),m=l?dr(d,c[2],e[1]):l;if(m)return dr(d,c[3],f[1]);var
 n=m}else
 var
 n=f;var
@@ -3602,7 +3610,7 @@ p=a;return p;case
 2:if(a){var
 g=a[2];if(g){var
 h=g[2];if(h){if(h[2])return 0;var
-q=h[1],r=g[1],s=a[1],B=H([0,s,r,q],[0,s,r,q]);return mg(d,c[1],B,[0,b,b])}var
+q=h[1],r=g[1],s=a[1],C=w([0,s,r,q],[0,s,r,q]);return mw(d,c[1],C,[0,b,b])}var
 t=h}else
 var
 t=g;var
@@ -3611,96 +3619,96 @@ var
 u=a;return u;default:if(a){var
 i=a[2];if(i){var
 j=i[2];if(j){if(j[2])return 0;var
-k=j[1],v=i[1],w=a[1],x=mg(d,c[1],[2,[4,w,w],[4,v,v]],[2,[0,b,b],[4,k,k]]);if(x)return dg(d,cW(c[2]),k);var
-y=x}else
-var
-y=j;var
+k=j[1],v=i[1],x=a[1],y=mw(d,c[1],[2,[4,x,x],[4,v,v]],[2,[0,b,b],[4,k,k]]);if(y)return dr(d,c6(c[2]),k);var
 z=y}else
 var
-z=i;var
+z=j;var
 A=z}else
 var
-A=a;return A}}var
-n=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))));function
-bx(b){var
-a=as(function(f,e){var
-a=aM(n,f);if(a)var
-b=a[1],c=bj(ch(b[1]),ch(b[2]));else
+A=i;var
+B=A}else
 var
-c=d;return bj(c,e)},d,b);return K(d,a)?aB(kr(a),n):d}function
-d$(a){return[0,a[1],[0,a[2],0]]}function
-a4(a){var
-b=d$(a[3]),c=f(d$(a[2]),b);return f(d$(a[1]),c)}function
-gi(a){return gg(n,a,bx(a4(a)))}function
-mh(b,a){if(a){var
-g=mh([0,b],a[2]),c=a[1];if(0===c[0])var
-d=c[1],e=cS([0,[0,d,d],c[2]],b);else
+B=a;return B}}var
+l=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))));function
+bz(b){var
+a=aq(function(f,e){var
+a=aC(l,f);if(a)var
+b=a[1],c=bm(ck(b[1]),ck(b[2]));else
+var
+c=d;return bm(c,e)},d,b);return I(d,a)?aE(kF(a),l):d}function
+ec(a){return[0,a[1],[0,a[2],0]]}function
+a5(a){var
+b=ec(a[3]),c=f(ec(a[2]),b);return f(ec(a[1]),c)}function
+gr(a){return gn(l,a,bz(a5(a)))}function
+mx(b,a){if(a){var
+g=mx([0,b],a[2]),c=a[1];if(0===c[0])var
+d=c[1],e=cZ([0,[0,d,d],c[2]],b);else
 var
 e=[0,[1,b]];var
 f=[0,e,g]}else
 var
 f=a;return f}function
-mi(c,b,a){var
-d=dR(b);return[2,[2,dR(c),d],a]}function
-io(b,a){return b?R(a):d}function
-e2(h,b,a){if(typeof
+my(c,b,a){var
+d=dV(b);return[2,[2,dV(c),d],a]}function
+ix(b,a){return b?O(a):d}function
+e5(h,b,a){if(typeof
 a!=="number")switch(a[0]){case
 4:var
 i=a[3],j=a[2];return[0,[2,j],[0,[3,j],[0,[2,i],[0,[3,i],0]]]];case
 6:return[0,[0,[5,a[3],a[2]],d],0];case
 8:var
 q=a[2],r=a[1];return e(function(a){var
-c=io(h,b);return[0,[5,q,a],C(io(h,b),c)]},r);case
-9:return[0,[1,[5,a[3],a[2]],R(b)],0];case
+c=ix(h,b);return[0,[5,q,a],D(ix(h,b),c)]},r);case
+9:return[0,[1,[5,a[3],a[2]],O(b)],0];case
 10:return[0,[0,a[2],d],0];case
 11:return[0,[2,a[2]],0];case
 12:return[0,[0,a[1],d],0];case
 13:var
-c=a[3],g=bx([0,c[1],[0,c[2],[0,c[3],0]]]);return[0,[2,a[4]],[0,[0,c[1],g],[0,[0,c[2],g],[0,[0,c[3],g],0]]]];case
+c=a[3],g=bz([0,c[1],[0,c[2],[0,c[3],0]]]);return[0,[2,a[4]],[0,[0,c[1],g],[0,[0,c[2],g],[0,[0,c[3],g],0]]]];case
 14:var
-k=a[2],l=a[1],s=d6(b,k),t=f(d6(b,l),s),u=e(function(a){return[0,a[1][2],a[2]]},t);return[0,[0,mi(l,k,a[3]),b],u];case
+k=a[2],l=a[1],s=d$(b,k),t=f(d$(b,l),s),u=e(function(a){return[0,a[1][2],a[2]]},t);return[0,[0,my(l,k,a[3]),b],u];case
 15:var
 m=a[4],n=a[3];return[0,[0,[5,a[2],m],d],[0,[0,[5,[4,n,n],m],b],0]];case
 16:var
-o=a[2],p=bx([0,o,0]);return[0,[4,a[3],aB(p,b)],[0,[0,o,p],0]];case
+o=a[2],p=bz([0,o,0]);return[0,[4,a[3],aE(p,b)],[0,[0,o,p],0]];case
 2:case
 3:return[0,[0,a[2],b],0]}return 0}function
-cX(h,c,b,e,a){if(a){var
-d=a[1],i=a[2],j=cX(h,c,b,O(e,g(e2(c,b,d))),i);return f(an(h,mh(e,e2(c,b,d)),d),j)}return a}function
-gj(b,a){var
-c=ag(b,a);return e(function(a){var
+c7(h,c,b,e,a){if(a){var
+d=a[1],i=a[2],j=c7(h,c,b,P(e,g(e5(c,b,d))),i);return f(ao(h,mx(e,e5(c,b,d)),d),j)}return a}function
+gs(b,a){var
+c=_(b,a);return e(function(a){var
 b=s(a[1][2],a[2]);return[0,a[1][1],b]},c)}function
-ip(b,a){switch(a[0]){case
+iy(b,a){switch(a[0]){case
 0:var
-d=a[1];return am(b,[0,[0,d,d],a[2]]);case
+d=a[1];return an(b,[0,[0,d,d],a[2]]);case
 1:var
-e=a[1],c=am(b,[0,[0,e,e],a[2]]);return c?kR(b,c[1]):c;case
-2:return cL(b,a[1]);case
-3:return fY(b,a[1]);default:var
-f=a[1],g=di(b,f);return g?mf(b,a[2],f):g}}function
-b9(a){return 1===a?sK:sL}function
-dk(d,c,b,a){var
-e=a[1],f=d_(d,c,a[2]),g=ac(function(b,a){return[2,b,a]},b,f);return ac(function(b,a){return[3,b,a]},g,e)}function
-iq(c,b,a){switch(c){case
+e=a[1],c=an(b,[0,[0,e,e],a[2]]);return c?k5(b,c[1]):c;case
+2:return cS(b,a[1]);case
+3:return f5(b,a[1]);default:var
+f=a[1],g=c5(b,f);return g?mv(b,a[2],f):g}}function
+br(a){return 1===a?s4:s5}function
+bR(d,c,b,a){var
+e=a[1],f=cA(d,c,a[2]),g=T(function(b,a){return[2,b,a]},b,f);return T(function(b,a){return[3,b,a]},g,e)}function
+iz(c,b,a){switch(c){case
 0:return[0,b[1],[0,b[2],[0,a[3],0]]];case
 1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}}function
-mj(h,g,d,c,f,a){var
-e=dk(d,c,f,a);return iq(h,e,at([5,[0,b,b],g],e1(d_(d,c,a[2]),e)))}function
-ir(c,j,i){var
+iA(h,g,d,c,f,a){var
+e=bR(d,c,f,a);return iz(h,e,ab([5,[0,b,b],g],dq(cA(d,c,a[2]),e)))}function
+e6(c,j,i){var
 b=j,a=i;for(;;){if(b){if(a){var
-d=a[1],e=b[1],f=bf(c,e[1],d[1]),g=f?bf(c,e[2],d[2]):f;if(g){var
+d=a[1],e=b[1],f=bh(c,e[1],d[1]),g=f?bh(c,e[2],d[2]):f;if(g){var
 b=b[2],a=a[2];continue}var
 h=g}else
 var
 h=a;return h}return a?0:1}}function
-bp(b,d){var
+bs(b,d){var
 a=d[1];if(8===a[0]){var
-c=a[1][1];return 0===c[0]?[0,[0,O(b,c[1])]]:[0,bI(function(a){return bp(b,a)},a)]}return[0,bI(function(a){return bp(b,a)},a)]}function
-dl(d,b,h){var
+c=a[1][1];return 0===c[0]?[0,[0,P(b,c[1])]]:[0,bK(function(a){return bs(b,a)},a)]}return[0,bK(function(a){return bs(b,a)},a)]}function
+ds(d,b,h){var
 c=h;for(;;){var
 a=c[1];switch(a[0]){case
 0:var
-e=a[1],f=T(r(e,b));return f?T(r(e,O(d,b))):f;case
+e=a[1],f=S(p(e,b));return f?S(p(e,P(d,b))):f;case
 10:return 0;case
 1:case
 2:return 1;case
@@ -3708,31 +3716,31 @@ e=a[1],f=T(r(e,b));return f?T(r(e,O(d,b))):f;case
 8:case
 9:var
 c=a[1];continue;default:var
-g=dl(d,b,a[1]);if(g){var
+g=ds(d,b,a[1]);if(g){var
 c=a[2];continue}return g}}}function
-ea(c,b,m){var
+ed(c,b,m){var
 d=m;for(;;){var
 a=d[1];switch(a[0]){case
 5:var
 d=a[1];continue;case
 6:var
-f=a[2],g=a[1],h=dl(c,b,g),i=h?ea(c,b,f):h;if(i)var
+f=a[2],g=a[1],h=ds(c,b,g),i=h?ed(c,b,f):h;if(i)var
 j=i;else{var
-k=ea(c,b,g);if(k)return dl(c,b,f);var
+k=ed(c,b,g);if(k)return ds(c,b,f);var
 j=k}return j;case
 7:var
-l=ea(c,b,a[1]);return l?dl(c,b,a[2]):l;case
+l=ed(c,b,a[1]);return l?ds(c,b,a[2]):l;case
 10:return 0;case
 3:case
 4:var
-e=ea(c,b,a[1]);if(e){var
+e=ed(c,b,a[1]);if(e){var
 d=a[2];continue}return e;case
 8:case
-9:return dl(c,b,a[1]);default:return 1}}}function
-cx(c,e){var
+9:return ds(c,b,a[1]);default:return 1}}}function
+cC(c,e){var
 b=e;for(;;){var
 a=b[1];switch(a[0]){case
-0:return T(r(a[1],c));case
+0:return S(p(a[1],c));case
 10:return 0;case
 1:case
 2:return 1;case
@@ -3740,32 +3748,32 @@ a=b[1];switch(a[0]){case
 8:case
 9:var
 b=a[1];continue;default:var
-d=cx(c,a[1]);if(d){var
+d=cC(c,a[1]);if(d){var
 b=a[2];continue}return d}}}function
-gk(d,b,m){var
+gt(d,b,m){var
 c=m;for(;;){var
 a=c[1];switch(a[0]){case
 3:var
-f=gk(d,b,a[1]);if(f){var
+f=gt(d,b,a[1]);if(f){var
 c=a[2];continue}return f;case
 4:var
-g=gk(d,b,a[1]);return g?cx(b,a[2]):g;case
+g=gt(d,b,a[1]);return g?cC(b,a[2]):g;case
 6:var
-h=a[2],i=a[1],j=cx(b,i);if(j){var
-k=cx(b,h);if(k)var
+h=a[2],i=a[1],j=cC(b,i);if(j){var
+k=cC(b,h);if(k)var
 e=k;else{var
-l=aC(i,d);if(l){var
+l=aF(i,d);if(l){var
 c=h;continue}var
 e=l}}else
 var
 e=j;return e;case
 0:case
 1:case
-2:return 1;default:return cx(b,c)}}}function
-gl(c,e){var
+2:return 1;default:return cC(b,c)}}}function
+gu(c,e){var
 b=e;for(;;){var
 a=b[1];switch(a[0]){case
-0:return aV(a[1],c);case
+0:return aN(a[1],c);case
 10:return 0;case
 1:case
 2:return 1;case
@@ -3773,139 +3781,139 @@ a=b[1];switch(a[0]){case
 8:case
 9:var
 b=a[1];continue;default:var
-d=gl(c,a[1]);if(d){var
+d=gu(c,a[1]);if(d){var
 b=a[2];continue}return d}}}function
-gm(a,b){if(a){var
+gv(a,b){if(a){var
 c=a[2],d=a[1];if(b){var
-e=b[2];return b[1]?[0,d,gm(c,as(eO,e,kD(d)))]:[0,sO,gm(c,e)]}var
-f=[0,d,gm(c,0)]}else
+e=b[2];return b[1]?[0,d,gv(c,aq(eT,e,kQ(d)))]:[0,s8,gv(c,e)]}var
+f=[0,d,gv(c,0)]}else
 var
 f=a;return f}function
-cY(b,a){return a?i(b,a[1]):a}function
-cZ(c,b,a){return cY(function(b){return cY(i(c,b),a)},b)}function
-mk(b,a){switch(a[0]){case
+c8(b,a){return a?i(b,a[1]):a}function
+c9(c,b,a){return c8(function(b){return c8(i(c,b),a)},b)}function
+mz(b,a){switch(a[0]){case
 0:return a;case
 1:return a[1];default:var
 c=a[3],d=a[2],e=a[1];switch(b){case
 0:return e;case
 1:return d;default:return c}}}function
-ml(a){return 0===a[0]?a[1]:0}function
-mm(d,c){var
+mA(a){return 0===a[0]?a[1]:0}function
+mB(d,c){var
 b=d,a=c;for(;;){if(a){var
-e=a[2],b=mk(a[1],b),a=e;continue}return ml(b)}}function
-b_(b,a){switch(a[0]){case
+e=a[2],b=mz(a[1],b),a=e;continue}return mA(b)}}function
+cb(b,a){switch(a[0]){case
 0:return[0,i(b,a[1])];case
-1:return[1,b_(b,a[1])];default:var
-c=b_(b,a[3]),d=b_(b,a[2]);return[2,b_(b,a[1]),d,c]}}function
-bg(b,c,a){switch(c[0]){case
-0:return b_(i(b,c[1]),a);case
+1:return[1,cb(b,a[1])];default:var
+c=cb(b,a[3]),d=cb(b,a[2]);return[2,cb(b,a[1]),d,c]}}function
+bj(b,c,a){switch(c[0]){case
+0:return cb(i(b,c[1]),a);case
 1:var
 d=c[1];switch(a[0]){case
 0:var
-k=a[1];return[1,b_(function(a){return an(b,a,k)},d)];case
-1:return[1,bg(b,d,a[1])];default:var
-l=bg(b,d,a[3]),m=bg(b,d,a[2]);return[2,bg(b,d,a[1]),m,l]}default:var
+k=a[1];return[1,cb(function(a){return ao(b,a,k)},d)];case
+1:return[1,bj(b,d,a[1])];default:var
+l=bj(b,d,a[3]),m=bj(b,d,a[2]);return[2,bj(b,d,a[1]),m,l]}default:var
 e=c[3],f=c[2],g=c[1];switch(a[0]){case
 0:var
-n=a[1],o=function(a){return an(b,a,n)},h=function(a){return b_(o,a)},p=h(e),q=h(f);return[2,h(g),q,p];case
+n=a[1],o=function(a){return ao(b,a,n)},h=function(a){return cb(o,a)},p=h(e),q=h(f);return[2,h(g),q,p];case
 1:var
-j=a[1],r=bg(b,e,j),s=bg(b,f,j);return[2,bg(b,g,j),s,r];default:var
-t=bg(b,e,a[3]),u=bg(b,f,a[2]);return[2,bg(b,g,a[1]),u,t]}}}function
-is(c,f,a){if(a)var
+j=a[1],r=bj(b,e,j),s=bj(b,f,j);return[2,bj(b,g,j),s,r];default:var
+t=bj(b,e,a[3]),u=bj(b,f,a[2]);return[2,bj(b,g,a[1]),u,t]}}}function
+iB(c,f,a){if(a)var
 d=a[1],b=function(h){var
 a=[0,d[1],d[1]],b=[0,d[2],d[2]];switch(h){case
 0:var
-e=[0,a,W(c,a)];break;case
+e=[0,a,X(c,a)];break;case
 1:var
-g=t(c,a,b),e=[0,aq(z(a,b)),g];break;default:var
-e=[0,b,W(c,b)]}return[0,[0,i(f,e)]]},h=is(c,f,a[2]),j=e(function(a){return[1,a]},h),k=b(2),l=b(1),g=[0,[2,b(0),l,k],j];else
+g=t(c,a,b),e=[0,as(A(a,b)),g];break;default:var
+e=[0,b,X(c,b)]}return[0,[0,i(f,e)]]},h=iB(c,f,a[2]),j=e(function(a){return[1,a]},h),k=b(2),l=b(1),g=[0,[2,b(0),l,k],j];else
 var
 g=a;return g}function
-it(b,x,c,a){var
-e=is(b,aU,a),d=0,A=f(is(b,az,a),e);return bm(sQ,function(a){switch(a[0]){case
-0:return q(a[1],A,[0,[0,v]]);case
+iC(b,x,c,a){var
+e=iB(b,aW,a),d=0,y=f(iB(b,aB,a),e);return bo(s_,function(a){switch(a[0]){case
+0:return q(a[1],y,[0,[0,v]]);case
 1:return[0,[0,q(a[1],x,v)]];case
-2:return[0,[0,P(b,a[1])]];case
+2:return[0,[0,Q(b,a[1])]];case
 3:var
-c=a[2],d=a[1],e=function(b,a){return[0,z(b,a)]};return bg(function(a,b){return cZ(e,a,b)},d,c);case
+c=a[2],d=a[1],e=function(b,a){return[0,A(b,a)]};return bj(function(a,b){return c9(e,a,b)},d,c);case
 4:var
-f=a[2],g=a[1],h=function(b,a){return[0,G(b,a)]};return bg(function(a,b){return cZ(h,a,b)},g,f);case
+f=a[2],g=a[1],h=function(b,a){return[0,H(b,a)]};return bj(function(a,b){return c9(h,a,b)},g,f);case
 5:var
-i=a[1],j=function(a){return[0,ab(a)]};return b_(function(a){return cY(j,a)},i);case
+i=a[1],j=function(a){return[0,ae(a)]};return cb(function(a){return c8(j,a)},i);case
 6:var
-k=a[2],l=a[1],m=function(c,a){return[0,t(b,c,a)]};return bg(function(a,b){return cZ(m,a,b)},l,k);case
+k=a[2],l=a[1],m=function(c,a){return[0,t(b,c,a)]};return bj(function(a,b){return c9(m,a,b)},l,k);case
 7:var
 n=a[2],o=a[1],p=function(c,a){var
-d=b1(b,a);return y(function(a){return t(b,c,a)},d)};return bg(function(a,b){return cZ(p,a,b)},o,n);case
+d=b5(b,a);return z(function(a){return t(b,c,a)},d)};return bj(function(a,b){return c9(p,a,b)},o,n);case
 8:var
-r=a[1],s=function(a){return[0,W(b,a)]};return b_(function(a){return cY(s,a)},r);case
+r=a[1],s=function(a){return[0,X(b,a)]};return cb(function(a){return c8(s,a)},r);case
 9:var
-u=a[1],w=function(a){return b2(b,a)};return b_(function(a){return cY(w,a)},u);default:return sP}},c,d)}function
-gn(a){if(a){var
+u=a[1],w=function(a){return b6(b,a)};return cb(function(a){return c8(w,a)},u);default:return s9}},c,d)}function
+gw(a){if(a){var
 b=a[1];if(b)var
-c=gn(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+c=gw(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return sR}function
-eb(a){if(a){var
-g=a[1],b=g[2],c=gn(g[1]);if(c)if(b){var
-h=b[1],e=eb(a[2]);if(e)var
-i=K(d,h[1]),j=i?[0,[0,[0,c[1],h],e[1]]]:i;else
+d=b;return d}return s$}function
+ee(a){if(a){var
+g=a[1],b=g[2],c=gw(g[1]);if(c)if(b){var
+h=b[1],e=ee(a[2]);if(e)var
+i=I(d,h[1]),j=i?[0,[0,[0,c[1],h],e[1]]]:i;else
 var
 j=e;var
 f=j}else
 var
 f=b;else
 var
-f=c;return f}return sS}function
-ec(b,a){var
-c=a[3],d=y(function(a){var
+f=c;return f}return ta}function
+ef(b,a){var
+c=a[3],d=z(function(a){var
 c=a[2],d=a[1][2];return[0,[0,i(b,a[1][1]),d],c]},c),e=i(b,a[2]),f=a[1];return[0,i(av(b),f),e,d]}function
-iu(c,g,f,b,a,e){if(b){var
+iD(c,g,f,b,a,e){if(b){var
 h=b[1],l=b[2],d=function(b,a){var
-d=js(c,eI,eI,function(a){return mk(b,a)},e);return iu(c,g,bs(f),l,a,d)},i=d(0,aB(a,h));if(i){var
-j=d(2,C(a,h));if(j)return f?1:d(1,a);var
+d=jF(c,eN,eN,function(a){return mz(b,a)},e);return iD(c,g,bv(f),l,a,d)},i=d(0,aE(a,h));if(i){var
+j=d(2,D(a,h));if(j)return f?1:d(1,a);var
 k=j}else
 var
-k=i;return k}return an(g,a,js(c,eI,eI,ml,e))}function
-iv(e,c,b,a){var
-f=al(d,b);function
-g(b){return a}return function(a){return iu(e,g,c,f,d,a)}}function
-c0(a){if(a){var
-b=a[1],c=b[1],d=c[1],e=b[2],f=c[2];return y(function(a){return aR(f,e,a)},d)}return[0,v]}function
-mn(f,e,k,j,i,a){var
-b=eb(a[1]);if(b){var
+k=i;return k}return ao(g,a,jF(c,eN,eN,mA,e))}function
+iE(e,c,b,a){var
+f=am(d,b);function
+g(b){return a}return function(a){return iD(e,g,c,f,d,a)}}function
+c_(a){if(a){var
+b=a[1],c=b[1],d=c[1],e=b[2],f=c[2];return z(function(a){return aT(f,e,a)},d)}return[0,v]}function
+mC(f,e,k,j,i,a){var
+b=ee(a[1]);if(b){var
 c=a[2];if(c){var
-d=c0(a[3]);if(d){var
-l=d[1],m=al([0,G(ab(t(f,i,c[1])),l),0],e);return a$(f,e,f0(k,j,b[1],m))}var
+d=c_(a[3]);if(d){var
+l=d[1],m=am([0,H(ae(t(f,i,c[1])),l),0],e);return bb(f,e,f7(k,j,b[1],m))}var
 g=d}else
 var
 g=c;var
 h=g}else
 var
 h=b;return h}function
-mo(i,d,h,g,c){var
-a=eb(c[1]);if(a){var
-b=c0(c[3]);if(b){var
-j=al([0,G(v,b[1]),0],d),k=a[1];return a$(i,d,f0(h,g,e(function(a){return[0,a[1],v]},k),j))}var
+mD(i,d,h,g,c){var
+a=ee(c[1]);if(a){var
+b=c_(c[3]);if(b){var
+j=am([0,H(v,b[1]),0],d),k=a[1];return bb(i,d,f7(h,g,e(function(a){return[0,a[1],v]},k),j))}var
 f=b}else
 var
 f=a;return f}function
-mp(a,c,E,i){var
-j=eb(i[1]);if(j){var
+mE(a,c,E,i){var
+j=ee(i[1]);if(j){var
 k=i[2];if(k){var
-l=c0(i[3]);if(l){var
-F=l[1],e=G(t(a,E,k[1]),F),b=j[1];if(b){var
+l=c_(i[3]);if(l){var
+F=l[1],e=H(t(a,E,k[1]),F),b=j[1];if(b){var
 m=b[1],n=m[2];if(b[2]){var
-f=f1(a,b,al([0,e,0],c));if(f){var
-o=f[1],p=r(g(o),c);if(p)return dV(a,o);var
-q=p}else
+f=f8(a,b,am([0,e,0],c));if(f){var
+o=f[1],q=p(g(o),c);if(q)return d0(a,o);var
+r=q}else
 var
-q=f;return q}var
-s=K(d,e[1]),u=s?K(d,n[1]):s;if(u){var
-B=A(e[1],n[1]),D=m[1];return K(as(function(a,b){var
-c=b3(a);return C(A(b3(a),c),b)},d,D),B)}return u}var
-h=f1(a,b,al([0,e,0],c));if(h){var
-v=h[1],w=r(g(v),c);if(w)return dV(a,v);var
+r=f;return r}var
+s=I(d,e[1]),u=s?I(d,n[1]):s;if(u){var
+A=B(e[1],n[1]),C=m[1];return I(aq(function(a,b){var
+c=b7(a);return D(B(b7(a),c),b)},d,C),A)}return u}var
+h=f8(a,b,am([0,e,0],c));if(h){var
+v=h[1],w=p(g(v),c);if(w)return d0(a,v);var
 x=w}else
 var
 x=h;return x}var
@@ -3915,136 +3923,136 @@ y=k;var
 z=y}else
 var
 z=j;return z}function
-sT(c){var
+tb(c){var
 a=c[2];if(a){var
-b=c0(c[3]);if(b)return E(d,G(a[1],b[1])[1]);var
+b=c_(c[3]);if(b)return E(d,H(a[1],b[1])[1]);var
 e=b}else
 var
 e=a;return e}function
-iw(a){return x(function(a){return f(a[1],[0,a[2],0])},a)}function
-mq(a,c,b){var
-e=q(b,c,k(d)),f=aA(0,a);return m(function(b){return ea(a,b,e)},f)}function
-e3(a){var
-c=Q(a);return B(k(b),c)}function
-go(i,g){var
-h=e3(g),j=Q(g),e=w(k(b),j),f=s(k(c(2,b)),g),a=k(d);return i?i[1]?[0,[0,e,bu(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,bu(f),a,e]]:[0,[0,h,a,a],[0,a,e,bu(f)],[0,a,f,e]]}function
-e4(b,a){var
-c=U(b[3],a),d=U(b[2],a);return[0,U(b[1],a),d,c]}function
-mr(b,a){function
+iF(a){return y(function(a){return f(a[1],[0,a[2],0])},a)}function
+mF(a,c,b){var
+e=q(b,c,k(d)),f=aA(0,a);return m(function(b){return ed(a,b,e)},f)}function
+e7(a){var
+c=R(a);return C(k(b),c)}function
+gx(i,g){var
+h=e7(g),j=R(g),e=x(k(b),j),f=s(k(c(2,b)),g),a=k(d);return i?i[1]?[0,[0,e,bx(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,bx(f),a,e]]:[0,[0,h,a,a],[0,a,e,bx(f)],[0,a,f,e]]}function
+e8(b,a){var
+c=V(b[3],a),d=V(b[2],a);return[0,V(b[1],a),d,c]}function
+mG(b,a){function
 c(b){var
 c=i(b,a[3]),d=i(b,a[2]);return[0,i(b,a[1]),d,c]}function
 d(a){var
-b=U(a,c(function(a){return a[3]})),d=U(a,c(function(a){return a[2]}));return[0,U(a,c(function(a){return a[1]})),d,b]}var
+b=V(a,c(function(a){return a[3]})),d=V(a,c(function(a){return a[2]}));return[0,V(a,c(function(a){return a[1]})),d,b]}var
 e=d(b[3]),f=d(b[2]);return[0,d(b[1]),f,e]}function
-ms(v,u){function
-a(a){return[0,[0,O(u,a)]]}switch(v[0]){case
+mH(v,u){function
+a(a){return[0,[0,P(u,a)]]}switch(v[0]){case
 0:var
-x=e3(a(0));return[0,go(sU,a(0)),x];case
+w=e7(a(0));return[0,gx(tc,a(0)),w];case
 1:var
-y=e3(a(0)),z=s(e3(a(sV)),y),A=s(e3(a(sW)),z),C=go(0,a(0)),D=mr(go(sY,a(sX)),C);return[0,mr(go(s0,a(sZ)),D),A];default:var
-E=a(s1),F=a(s2),g=[0,a(0),F,E],G=U(g,g),H=B(k(b),G),j=U(g,g),d=g[1],e=g[2],f=g[3],i=function(a){var
-d=Q(a),e=s(k(c(2,b)),d);return B(w(k(b),j),e)},h=function(f,e,d,a){var
-g=an(f,s(e,d),a);return s(k(c(2,b)),g)},l=i(f),m=h(B,e,f,d),n=[0,h(w,d,f,e),m,l],o=h(w,e,f,d),p=i(e),q=[0,h(B,d,e,f),p,o],r=h(B,d,f,e),t=h(w,d,e,f);return[0,[0,[0,i(d),t,r],q,n],H]}}function
-mt(a){return 1<a[0]?[0,a[1],0]:0}function
-gp(a){switch(a[0]){case
+y=e7(a(0)),z=s(e7(a(td)),y),A=s(e7(a(te)),z),B=gx(0,a(0)),D=mG(gx(tg,a(tf)),B);return[0,mG(gx(ti,a(th)),D),A];default:var
+E=a(tj),F=a(tk),g=[0,a(0),F,E],G=V(g,g),H=C(k(b),G),j=V(g,g),d=g[1],e=g[2],f=g[3],i=function(a){var
+d=R(a),e=s(k(c(2,b)),d);return C(x(k(b),j),e)},h=function(f,e,d,a){var
+g=ao(f,s(e,d),a);return s(k(c(2,b)),g)},l=i(f),m=h(C,e,f,d),n=[0,h(x,d,f,e),m,l],o=h(x,e,f,d),p=i(e),q=[0,h(C,d,e,f),p,o],r=h(C,d,f,e),t=h(x,d,e,f);return[0,[0,[0,i(d),t,r],q,n],H]}}function
+mI(a){return 1<a[0]?[0,a[1],0]:0}function
+gy(a){switch(a[0]){case
 0:return[0,a[1],0];case
 1:return[0,a[1],[0,a[2],[0,a[3],0]]];case
-2:return[0,cW(a[1]),0];default:var
-b=[0,cW(a[2]),0];return[0,cW(a[1]),b]}}function
-ed(a){return[0,[0,a[1]],[0,a[2]]]}function
-mu(a){switch(a[0]){case
-0:return[0,ed(a[1]),0];case
+2:return[0,c6(a[1]),0];default:var
+b=[0,c6(a[2]),0];return[0,c6(a[1]),b]}}function
+eg(a){return[0,[0,a[1]],[0,a[2]]]}function
+mJ(a){switch(a[0]){case
+0:return[0,eg(a[1]),0];case
 1:var
-f=[0,ed(a[3]),0],g=[0,ed(a[2]),f];return[0,ed(a[1]),g];case
+f=[0,eg(a[3]),0],g=[0,eg(a[2]),f];return[0,eg(a[1]),g];case
 2:var
-b=ed(cW(a[1]));return[0,b,[0,b,[0,b,0]]];default:var
-c=a[2],d=a[1],e=[0,[1,cW(d)[1],c],[1,d,c]];return[0,e,[0,e,[0,ed(cW(c)),0]]]}}function
-mv(a,c){if(0===c[0]){var
-g=c[1];return i(dh(a),g)}var
-h=c[1],d=i(dh(a),h);if(d){var
-j=c[2],e=i(dh(a),j);if(e){var
-k=W(a,e[1]),l=b2(a,z(P(a,b),k)),m=d[1];return y(function(b){return t(a,m,b)},l)}var
+b=eg(c6(a[1]));return[0,b,[0,b,[0,b,0]]];default:var
+c=a[2],d=a[1],e=[0,[1,c6(d)[1],c],[1,d,c]];return[0,e,[0,e,[0,eg(c6(c)),0]]]}}function
+mK(a,c){if(0===c[0]){var
+g=c[1];return i(c4(a),g)}var
+h=c[1],d=i(c4(a),h);if(d){var
+j=c[2],e=i(c4(a),j);if(e){var
+k=X(a,e[1]),l=b6(a,A(Q(a,b),k)),m=d[1];return z(function(b){return t(a,m,b)},l)}var
 f=e}else
 var
 f=d;return f}function
-mw(d,c){var
-a=mv(d,c[1]);if(a)var
-b=mv(d,c[2]),f=b?[0,[0,a[1][1],b[1][2]]]:b,e=f;else
+mL(d,c){var
+a=mK(d,c[1]);if(a)var
+b=mK(d,c[2]),f=b?[0,[0,a[1][1],b[1][2]]]:b,e=f;else
 var
 e=a;return e}function
-mx(a,e,c){var
+mM(a,e,c){var
 b=c[1];if(1===b[0]){var
-f=b[1];if(aV(f,a))return c;var
-g=k(d);return q(dL(f,a),e,g)}return[0,bI(function(b){return mx(a,e,b)},b)]}function
-ix(g,a,n,f,c){var
-h=g?[0,a,[0,[0,a],[0,[0,[0,a]],0]]]:[0,a,[0,[0,a],0]],i=lw(h,c),j=bL(f),b=e(function(b){return mx(a,j,b)},i),l=q(s7,b,k(d)),m=q(s8,b,k(d));return[0,q(0,b,k(d)),m,l]}function
-b$(b,a){var
-c=s(b[2],a[1]),d=w(s(b[1],a[2]),c),e=s(b[1],a[3]),f=w(s(b[3],a[1]),e),g=s(b[3],a[2]);return[0,w(s(b[2],a[3]),g),f,d]}function
-dm(b,a){return b?b[1]?a[3]:a[2]:a[1]}function
-my(c){function
+f=b[1];if(aN(f,a))return c;var
+g=k(d);return q(dP(f,a),e,g)}return[0,bK(function(b){return mM(a,e,b)},b)]}function
+iG(g,a,n,f,c){var
+h=g?[0,a,[0,[0,a],[0,[0,[0,a]],0]]]:[0,a,[0,[0,a],0]],i=lK(h,c),j=bN(f),b=e(function(b){return mM(a,j,b)},i),l=q(tp,b,k(d)),m=q(tq,b,k(d));return[0,q(0,b,k(d)),m,l]}function
+cc(b,a){var
+c=s(b[2],a[1]),d=x(s(b[1],a[2]),c),e=s(b[1],a[3]),f=x(s(b[3],a[1]),e),g=s(b[3],a[2]);return[0,x(s(b[2],a[3]),g),f,d]}function
+dt(b,a){return b?b[1]?a[3]:a[2]:a[1]}function
+mN(c){function
 a(a){var
-e=r(c,a)?b:d;return k(e)}var
-e=a(s9),f=a(s_);return[0,a(0),f,e]}function
-mz(b,a){if(a)var
-d=mz(b,a[2]),c=[0,e(i(b,a[1]),a),d];else
+e=p(c,a)?b:d;return k(e)}var
+e=a(tr),f=a(ts);return[0,a(0),f,e]}function
+mO(b,a){if(a)var
+d=mO(b,a[2]),c=[0,e(i(b,a[1]),a),d];else
 var
 c=a;return c}function
-gq(c,b,a){switch(c){case
+gz(c,b,a){switch(c){case
 0:return[0,b[1],[0,b[2],[0,a[3],0]]];case
 1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}}function
-mA(b,c,a){return c?aZ(b,a):aL(b,a)}function
-mB(a){if(a){var
-f=a[1],b=f[2],c=gn(f[1]);if(c)if(b)var
-d=mB(a[2]),g=d?[0,[0,[0,c[1],b[1]],d[1]]]:d,e=g;else
+mP(b,c,a){return c?aX(b,a):aH(b,a)}function
+mQ(a){if(a){var
+f=a[1],b=f[2],c=gw(f[1]);if(c)if(b)var
+d=mQ(a[2]),g=d?[0,[0,[0,c[1],b[1]],d[1]]]:d,e=g;else
 var
 e=b;else
 var
-e=c;return e}return tj}function
-mC(c,b,a){var
-d=ag(b,a);return as(function(a,d){var
-b=b3(a[2]);return z(t(c,a[1],[0,b,b]),d)},v,d)}function
-mD(a,h,e,f,d){if(e)if(d)var
-i=d[1],o=mD(a,h,e[2],f,d[2]),p=i[2],q=aZ(h,i[1]),c=e[1],j=aq(t(a,c[3],f)),k=c[3],l=z(aq(dS(p,P(a,b),k)),j),m=t(a,c[2],l),n=t(a,c[1],f),g=[0,cn(z(z(aq(mC(a,c[4],q)),n),m)),o];else
+e=c;return e}return tD}function
+mR(c,b,a){var
+d=_(b,a);return aq(function(a,d){var
+b=b7(a[2]);return A(t(c,a[1],[0,b,b]),d)},v,d)}function
+mS(a,h,e,f,d){if(e)if(d)var
+i=d[1],o=mS(a,h,e[2],f,d[2]),p=i[2],q=aX(h,i[1]),c=e[1],j=as(t(a,c[3],f)),k=c[3],l=A(as(dW(p,Q(a,b),k)),j),m=t(a,c[2],l),n=t(a,c[1],f),g=[0,cq(A(A(as(mR(a,c[4],q)),n),m)),o];else
 var
 g=d;else
 var
 g=e;return g}function
-tl(a){return[0,a[1][1],a[2][1][2][1],a[1][2],a[2][2]]}function
-mE(b,a){return _(e(function(a){return q(a,b,0)},a))}function
-dn(a){switch(a){case
-0:return tp;case
-1:return tq;default:return 0}}function
-dp(a){switch(a){case
-0:return[0,ts,tr,k(d)];case
-1:return dc;default:var
+tF(a){return[0,a[1][1],a[2][1][2][1],a[1][2],a[2][2]]}function
+mT(b,a){return aa(e(function(a){return q(a,b,0)},a))}function
+cD(a){switch(a){case
+0:return tJ;case
+1:return tK;default:return 0}}function
+du(a){switch(a){case
+0:return[0,tM,tL,k(d)];case
+1:return dm;default:var
 b=k(d),c=k(d);return[0,k(d),c,b]}}function
-gr(c,b,a){return be(e4(c,a),b)}function
-mF(a){var
-d=U(a,a),e=B(k(b),d);return aj(k(c(2,b)),e)}function
-mG(k,j,i,h,g,a){var
-e=gr(j,i,g),c=b$(a,e),f=af(B,c,b$(a,c)),d=af(B,e,aW(mF(a),f)),b=af(w,af(B,dp(k),d),h);return[0,[0,d,b],aD(U(b,b))]}function
-bO(e,j){var
+gA(c,b,a){return bg(e8(c,a),b)}function
+mU(a){var
+d=V(a,a),e=C(k(b),d);return ak(k(c(2,b)),e)}function
+mV(k,j,i,h,g,a){var
+e=gA(j,i,g),c=cc(a,e),f=ah(C,c,cc(a,c)),d=ah(C,e,aY(mU(a),f)),b=ah(x,ah(C,du(k),d),h);return[0,[0,d,b],aG(V(b,b))]}function
+bS(e,j){var
 a=j[1];switch(a[0]){case
 1:var
-l=r(a[1],e)?b:d;return k(l);case
+l=p(a[1],e)?b:d;return k(l);case
 3:var
-m=bO(e,a[2]);return B(bO(e,a[1]),m);case
+m=bS(e,a[2]);return C(bS(e,a[1]),m);case
 4:var
-n=bO(e,a[2]);return w(bO(e,a[1]),n);case
-5:return bu(bO(e,a[1]));case
+n=bS(e,a[2]);return x(bS(e,a[1]),n);case
+5:return bx(bS(e,a[1]));case
 6:var
-g=a[2],h=a[1],o=s(h,bO(e,g));return B(s(g,bO(e,h)),o);case
+g=a[2],h=a[1],o=s(h,bS(e,g));return C(s(g,bS(e,h)),o);case
 7:var
-f=bO(e,a[1]);return a1(d,f)?f:aj(f,a[2]);case
+f=bS(e,a[1]);return a2(d,f)?f:ak(f,a[2]);case
 8:var
-i=a[1],p=bO(e,i);return s(s(k(c(2,b)),i),p);default:return k(d)}}function
-gs(c,b,k){var
+i=a[1],q=bS(e,i);return s(s(k(c(2,b)),i),q);default:return k(d)}}function
+gB(c,b,k){var
 e=k;for(;;){var
 a=e[1];switch(a[0]){case
 7:var
-g=gs(c,b,a[1]);if(g){var
+g=gB(c,b,a[1]);if(g){var
 h=a[2][1];if(1===h[0]){var
-i=h[1],j=K(d,q(i,c,v)[1]);return j?T(ak(function(a){return r(i,a)},b)):j}return 0}return g;case
+i=h[1],j=I(d,q(i,c,v)[1]);return j?S(al(function(a){return p(i,a)},b)):j}return 0}return g;case
 5:case
 8:var
 e=a[1];continue;case
@@ -4053,9 +4061,9 @@ e=a[1];continue;case
 0:case
 1:case
 2:return 1;default:var
-f=gs(c,b,a[1]);if(f){var
+f=gB(c,b,a[1]);if(f){var
 e=a[2];continue}return f}}}function
-mH(d){var
+mW(d){var
 b=d;for(;;){var
 a=b[1];switch(a[0]){case
 0:case
@@ -4066,72 +4074,72 @@ a=b[1];switch(a[0]){case
 8:case
 9:var
 b=a[1];continue;default:var
-c=mH(a[1]);if(c){var
+c=mW(a[1]);if(c){var
 b=a[2];continue}return c}}}function
-mI(c,b,a){var
+mX(c,b,a){var
 d=e(b,a[2]);return[0,i(c,a[1]),d]}function
-iy(b,a,c){return e(function(c){var
-d=mI(b,a,c[2]),f=c[1];return[0,e(function(c){return mI(b,a,c)},f),d]},c)}function
-mJ(b,a){return y(function(a){var
+iH(b,a,c){return e(function(c){var
+d=mX(b,a,c[2]),f=c[1];return[0,e(function(c){return mX(b,a,c)},f),d]},c)}function
+mY(b,a){return z(function(a){var
 c=a[2],d=a[1][2];return[0,[0,i(b,a[1][1]),d],c]},a)}function
-tt(a,b){var
-c=mJ(a,b[3]),d=i(a,b[2]);return[0,iy(a,a,b[1]),d,c]}function
-mK(c){var
+tN(a,b){var
+c=mY(a,b[3]),d=i(a,b[2]);return[0,iH(a,a,b[1]),d,c]}function
+mZ(c){var
 a=c[1];if(a){var
-b=gn(c[2]);if(b)var
-g=e(Z,b[1]),d=[0,[0,Z(a[1]),g]];else
+b=gw(c[2]);if(b)var
+g=e($,b[1]),d=[0,[0,$(a[1]),g]];else
 var
 d=b;var
 f=d}else
 var
 f=a;return f}function
-tu(c){var
-a=_(e(mK,c[1]));if(a)var
-b=mK(c[2]),f=b?[0,[0,a[1],b[1]]]:b,d=f;else
+tO(c){var
+a=aa(e(mZ,c[1]));if(a)var
+b=mZ(c[2]),f=b?[0,[0,a[1],b[1]]]:b,d=f;else
 var
 d=a;return d}function
-tv(a){return T(hO([0,a[2],a[1]]))}function
-iz(a){return[0,a[1],a[2]]}function
-mL(b,c,a){var
-d=e(function(c){return bp(b,bO(c,a))},c);return[0,bp(b,a),d]}function
-iA(b,e,a,d){var
-c=x(function(a){var
-b=iz(a[2]);return f(x(iz,a[1]),b)},d),g=a?[0,bp(b,a[1]),0]:a,h=f(g,c);return[0,bp(b,e),h]}function
-mM(c,f,b,a){var
-d=gs(f,b,a),e=d?gl(c,a):d;return e?m(function(b){return gl(c,bO(b,a))},b):e}function
-mN(a){switch(a[0]){case
+tP(a){return S(hZ([0,a[2],a[1]]))}function
+iI(a){return[0,a[1],a[2]]}function
+m0(b,c,a){var
+d=e(function(c){return bs(b,bS(c,a))},c);return[0,bs(b,a),d]}function
+iJ(b,e,a,d){var
+c=y(function(a){var
+b=iI(a[2]);return f(y(iI,a[1]),b)},d),g=a?[0,bs(b,a[1]),0]:a,h=f(g,c);return[0,bs(b,e),h]}function
+m1(c,f,b,a){var
+d=gB(f,b,a),e=d?gu(c,a):d;return e?m(function(b){return gu(c,bS(b,a))},b):e}function
+m2(a){switch(a[0]){case
 3:var
-d=iw(a[2]);return[0,a[3],d];case
+d=iF(a[2]);return[0,a[3],d];case
 4:return[0,a[1],0];case
 8:var
-b=a[1],e=iw(b[1]);return[0,b[2],e];case
+b=a[1],e=iF(b[1]);return[0,b[2],e];case
 9:return 0;default:var
-c=iw(a[1]);return[0,a[2],c]}}function
-mO(a,aw,br,k,n,R,av,x,Q,j,h){switch(j[0]){case
+c=iF(a[1]);return[0,a[2],c]}}function
+m3(a,aw,br,k,n,R,av,x,P,j,h){switch(j[0]){case
 0:var
-ax=j[4],S=j[3],ay=j[2],aB=j[1],U=0;if(typeof
+ax=j[4],S=j[3],ay=j[2],az=j[1],U=0;if(typeof
 h==="number")U=1;else
 switch(h[0]){case
 0:var
-bt=h[2],bu=h[1],u=ay,s=aB,p=function(b){return mn(a,n,bu,bt,S,b)},o=ax;break;case
+bs=h[2],bt=h[1],u=ay,s=az,r=function(b){return mC(a,n,bt,bs,S,b)},o=ax;break;case
 2:var
 aC=J(S[1],d),aD=aC?J(S[2],d):aC;if(!aD)return aD;var
-bx=h[2],by=h[1],u=ay,s=aB,p=function(b){return mo(a,n,by,bx,b)},o=ax;break;default:U=1}if(U)return 0;break;case
+bx=h[2],by=h[1],u=ay,s=az,r=function(b){return mD(a,n,by,bx,b)},o=ax;break;default:U=1}if(U)return 0;break;case
 1:var
-aP=0;if(typeof
+aQ=0;if(typeof
 h==="number"&&!h)var
-bz=j[2],bA=j[1],bB=j[3],u=bz,s=bA,bC=0,p=function(b){return mp(a,n,bB,b)},o=bC;else
-aP=1;if(aP)return 0;break;case
+bz=j[2],bA=j[1],bB=j[3],u=bz,s=bA,bC=0,r=function(b){return mE(a,n,bB,b)},o=bC;else
+aQ=1;if(aQ)return 0;break;case
 2:if(typeof
 h!=="number"&&3===h[0]){var
 B=h[3];if(B){var
-aE=B[2],aG=r(g(aE),k);if(aG){var
-bD=[0,j[1],j[2],Q],bE=ec(function(a){return q(a,x,ty)},bD),aH=h[1],bF=0,bG=B[1],bH=h[2],bI=j[3],bK=function(w,i){var
-c=eb(i[1]);if(c){var
+aE=B[2],aF=p(g(aE),k);if(aF){var
+bD=[0,j[1],j[2],P],bE=ef(function(a){return q(a,x,tS)},bD),aG=h[1],bF=0,bG=B[1],bH=h[2],bI=j[3],bJ=function(w,i){var
+c=ee(i[1]);if(c){var
 j=c[1],e=i[2];if(e){var
-f=c0(i[3]);if(f){var
-k=f[1],l=function(c){return aR(c,aH,P(a,b))},u=l(w),v=e[1],g=z(t(a,l(bG),v),u),m=K(d,g[1]),o=m?a$(a,n,f0(aH,bH,j,al([0,G(ab(g),k),0],n))):m;if(o){var
-h=f1(a,j,al([0,G(t(a,bI,g),k),0],n));if(h)return a$(a,n,h[1]);var
+f=c_(i[3]);if(f){var
+k=f[1],l=function(c){return aT(c,aG,Q(a,b))},u=l(w),v=e[1],g=A(t(a,l(bG),v),u),m=I(d,g[1]),o=m?bb(a,n,f7(aG,bH,j,am([0,H(ae(g),k),0],n))):m;if(o){var
+h=f8(a,j,am([0,H(t(a,bI,g),k),0],n));if(h)return bb(a,n,h[1]);var
 p=h}else
 var
 p=o;var
@@ -4143,20 +4151,20 @@ var
 r=e;var
 s=r}else
 var
-s=c;return s};return iu(function(b,a){return ec},bK,bF,aE,d,bE)}var
-aI=aG}else
+s=c;return s};return iD(function(b,a){return ef},bJ,bF,aE,d,bE)}var
+aJ=aF}else
 var
-aI=B;return aI}return 0;case
+aJ=B;return aJ}return 0;case
 3:var
-aQ=0;if(typeof
-h==="number"||!(0===h[0]))aQ=1;else
+aR=0;if(typeof
+h==="number"||!(0===h[0]))aR=1;else
 var
-aJ=h[2],aM=h[1],bL=j[3],bM=j[2],bN=j[4],bO=j[1],bP=function(f){var
-b=eb(f[1]);if(b){var
+aK=h[2],aL=h[1],bK=j[3],bM=j[2],bN=j[4],bO=j[1],bP=function(f){var
+b=ee(f[1]);if(b){var
 c=b[1],d=f[2];if(d){var
-e=c0(f[3]);if(e){var
-h=r(g(c),n),i=h?r(g(aJ),n):h;if(i){var
-m=d1(aM,d2(aM,aJ,d[1],c));return a$(a,n,a_(f4(a,bO,bN,e[1],c),m))}var
+e=c_(f[3]);if(e){var
+h=p(g(c),n),i=h?p(g(aK),n):h;if(i){var
+m=d6(aL,d7(aL,aK,d[1],c));return bb(a,n,ba(f$(a,bO,bN,e[1],c),m))}var
 j=i}else
 var
 j=e;var
@@ -4165,91 +4173,91 @@ var
 k=d;var
 l=k}else
 var
-l=b;return l},u=bL,s=bM,p=bP,o=j[5];if(aQ)return 0;break;case
+l=b;return l},u=bK,s=bM,r=bP,o=j[5];if(aR)return 0;break;case
 4:var
 aS=0;if(typeof
 h==="number"&&!h)var
-u=j[1],s=0,p=sT,o=0;else
+u=j[1],s=0,r=tb,o=0;else
 aS=1;if(aS)return 0;break;case
 5:var
-aT=0;if(typeof
-h==="number"||!(0===h[0]))aT=1;else{var
-C=h[2],aU=0;if(C){var
+aU=0;if(typeof
+h==="number"||!(0===h[0]))aU=1;else{var
+C=h[2],aV=0;if(C){var
 D=C[1];if(D){if(D[2])return 0;if(C[2])return 0;var
-bQ=j[2],bR=j[1],bS=P(a,b),bT=[0,[0,D[1],0],0],bU=h[1],u=bQ,s=bR,bV=0,p=function(b){return mn(a,tz,bU,bT,bS,b)},o=bV;aU=1}else
+bQ=j[2],bR=j[1],bS=Q(a,b),bT=[0,[0,D[1],0],0],bU=h[1],u=bQ,s=bR,bV=0,r=function(b){return mC(a,tT,bU,bT,bS,b)},o=bV;aV=1}else
 var
-aN=D}else
+aO=D}else
 var
-aN=C;if(!aU)return aN}if(aT)return 0;break;case
+aO=C;if(!aV)return aO}if(aU)return 0;break;case
 6:var
 aW=0;if(typeof
 h==="number"&&!h)var
-bW=j[2],bX=j[1],bY=P(a,b),u=bW,s=bX,b0=0,p=function(b){return mp(a,tA,bY,b)},o=b0;else
+bW=j[2],bX=j[1],bY=Q(a,b),u=bW,s=bX,bZ=0,r=function(b){return mE(a,tU,bY,b)},o=bZ;else
 aW=1;if(aW)return 0;break;case
 7:var
-aX=0;if(typeof
+aY=0;if(typeof
 h==="number"&&5<=h)var
-b5=j[2],b6=j[1],b7=j[4],b8=j[3],u=b5,s=b6,b9=0,p=function(b){return mo(a,n,b8,b7,b)},o=b9;else
-aX=1;if(aX)return 0;break;case
+b0=j[2],b1=j[1],b2=j[4],b4=j[3],u=b0,s=b1,b9=0,r=function(b){return mD(a,n,b4,b2,b)},o=b9;else
+aY=1;if(aY)return 0;break;case
 8:if(typeof
 h!=="number"&&9===h[0]){var
-E=h[4],aO=h[2],T=h[1],l=j[1],w=l[9],b_=h[3],a3=l[5],a4=fU(f(dO(l[4]),a3),aw),a5=e(Z,br),A=l[9],a6=l[8],a7=l[7],a1=f5(A,al(v,dL(k,A)),a6),a2=f(e(Z,aZ(A,R)),a1),X=kC(0,bJ(a,f(f5(0,aL(A,R),a7),a2),a5),a4,aw,0),$=0<aK(E)?0<aK(d)?fL(E,d):0:0<aK(d)?0:1;if($)var
-F=$;else
+E=h[4],aP=h[2],T=h[1],l=j[1],w=l[9],b_=h[3],a3=l[5],a4=f1(f(dS(l[4]),a3),aw),a5=e($,br),y=l[9],a6=l[8],a7=l[7],a1=ga(y,am(v,dP(k,y)),a6),a2=f(e($,aX(y,R)),a1),W=kP(0,bL(a,f(ga(0,aH(y,R),a7),a2),a5),a4,aw,0),Y=0<aM(E)?0<aM(d)?fS(E,d):0:0<aM(d)?0:1;if(Y)var
+F=Y;else
 var
-at=2<=kn(E,c(2,c(2,c(2,c(2,b)))))?0:1,au=at?aV(0,w):at,F=au?aV(w,k):au;var
-aa=F?Y(w,k):F,ac=aa?r(g(R),k):aa,ad=ac?r(g(aO),k):ac,ae=ad?r(g(l[1]),k):ad,af=ae?r(g(l[6]),k):ae,ah=af?r(g(l[4]),k):af;if(ah)var
-a8=l[4],H=m(function(a){return r(g(a),k)},a8);else
+at=2<=kB(E,c(2,c(2,c(2,c(2,b)))))?0:1,au=at?aN(0,w):at,F=au?aN(w,k):au;var
+ab=F?Z(w,k):F,ac=ab?p(g(R),k):ab,ad=ac?p(g(aP),k):ac,af=ad?p(g(l[1]),k):ad,ag=af?p(g(l[6]),k):af,ah=ag?p(g(l[4]),k):ag;if(ah)var
+a8=l[4],G=m(function(a){return p(g(a),k)},a8);else
 var
-H=ah;if(H){var
-a9=l[4],I=_(e(function(a){return mE(X,a)},a9));if(I){var
-ai=mE(X,l[5]);if(ai){var
-ba=l[6],L=_(e(function(j){var
+G=ah;if(G){var
+a9=l[4],K=aa(e(function(a){return mT(W,a)},a9));if(K){var
+ai=mT(W,l[5]);if(ai){var
+a_=l[6],L=aa(e(function(j){var
 c=j[1],k=l[7],d=q(c[1],av,0);if(d){var
-h=c[2][2],b=_(e(function(a){var
-b=q(a[2],av,0);return y(function(a){return a[2]},b)},h));if(b)var
-i=b[1],f=[0,cn(aq(t(a,k,W(a,mC(a,e(az,c[2][2]),i)))))];else
+h=c[2][2],b=aa(e(function(a){var
+b=q(a[2],av,0);return z(function(a){return a[2]},b)},h));if(b)var
+i=b[1],f=[0,cq(as(t(a,k,X(a,mR(a,e(aB,c[2][2]),i)))))];else
 var
 f=b;var
 g=f}else
 var
-g=d;return g},ba));if(L){var
-bb=l[1],bc=l[2],M=_(e(function(m){function
+g=d;return g},a_));if(L){var
+a$=l[1],bc=l[2],M=aa(e(function(m){function
 f(e){var
-g=al(e,k),c=mm(q(m[2],x,tm),g);if(c){var
-h=al(e,k),d=mm(q(bc,x,tn),h);if(d){var
-i=d[1],j=P(a,b);return b2(a,b4(dS(c[1],j,i)))}var
+g=am(e,k),c=mB(q(m[2],x,tG),g);if(c){var
+h=am(e,k),d=mB(q(bc,x,tH),h);if(d){var
+i=d[1],j=Q(a,b);return b6(a,b8(dW(c[1],j,i)))}var
 f=d}else
 var
 f=c;return f}var
 c=f(0);if(c){var
 e=f(2);if(e)var
-g=b4(aq(z(c[1],e[1]))),h=K(d,g[1]),l=h?[0,g]:h,i=l;else
+g=b8(as(A(c[1],e[1]))),h=I(d,g[1]),l=h?[0,g]:h,i=l;else
 var
 i=e;var
 j=i}else
 var
-j=c;return j},bb));if(M){var
-be=I[1],V=dY(a,as(function(i,h){var
+j=c;return j},a$));if(M){var
+bd=K[1],V=d3(a,aq(function(i,h){var
 o=e(function(b){var
-a=aA(0,k);return e(function(a){return b3(q(a,b[3],v))},a)},i);function
+a=aA(0,k);return e(function(a){return b7(q(a,b[3],v))},a)},i);function
 b(m,l){var
-n=mA(w,m,o),g=e(function(a){return mA(w,l,a)},n);function
-b(a){return as(bj,d,a)}var
+n=mP(w,m,o),g=e(function(a){return mP(w,l,a)},n);function
+b(a){return aq(bm,d,a)}var
 h=0;function
 i(a){return a}function
 j(a){return a}var
-c=b(as(function(a,b){return aF(j,i,kp,a,b)},h,g)),k=[0,c,c],f=b(e(function(a){return as(kp,d,a)},g));return dY(a,t(a,[0,f,f],k))}var
-c=b(1,1),f=b(1,0),g=b(0,1);return z(h,W(a,z(z(z(b(0,0),g),f),c)))},v,be)),N=aR(b_,T,P(a,b)),aj=K(d,G(N,V)[1]);if(aj){var
-O=b1(a,N);if(O){var
-bf=aq(t(a,V,O[1])),bg=G(P(a,b),bf),bh=[0,l[1],l[2],Q],bi=ec(function(a){return q(a,x,to)},bh),bk=l[6],bl=e(tl,ag(ag(L[1],M[1]),bk)),bm=W(a,bg),bn=W(a,N),bo=l[10],aY=aA(0,k),a0=e(function(a){var
-d=bo?Y(w,a):aV(a,w);return d?b:bZ(c(2,b),E)},aY),bp=function(q){var
-h=mB(q[1]);if(h){var
-v=h[1],i=q[2];if(i){var
-j=i[1],l=c0(q[3]);if(l){var
-w=l[1],x=mD(a,k,bl,j,v),n=e(function(a){var
-c=a[2],b=ag(a0,a[1]);return[0,e(function(a){return aR(a[1],d,a[2])},b),c]},v),F=d1(T,d2(T,aO,j,n)),o=a_(al([0,ab(w),0],k),F),H=G(t(a,j,bm),w),y=r(g(n),k),z=y?r(g(x),k):y;if(z){var
+c=b(aq(function(a,b){return aI(j,i,kD,a,b)},h,g)),k=[0,c,c],f=b(e(function(a){return aq(kD,d,a)},g));return d3(a,t(a,[0,f,f],k))}var
+c=b(1,1),f=b(1,0),g=b(0,1);return A(h,X(a,A(A(A(b(0,0),g),f),c)))},v,bd)),N=aT(b_,T,Q(a,b)),aj=I(d,H(N,V)[1]);if(aj){var
+O=b5(a,N);if(O){var
+be=as(t(a,V,O[1])),bg=H(Q(a,b),be),bh=[0,l[1],l[2],P],bi=ef(function(a){return q(a,x,tI)},bh),bj=l[6],bk=e(tF,_(_(L[1],M[1]),bj)),bl=X(a,bg),bn=X(a,N),bo=l[10],aZ=aA(0,k),a0=e(function(a){var
+d=bo?Z(w,a):aN(a,w);return d?b:b3(c(2,b),E)},aZ),bp=function(r){var
+h=mQ(r[1]);if(h){var
+v=h[1],i=r[2];if(i){var
+j=i[1],l=c_(r[3]);if(l){var
+w=l[1],x=mS(a,k,bk,j,v),n=e(function(a){var
+c=a[2],b=_(a0,a[1]);return[0,e(function(a){return aT(a[1],d,a[2])},b),c]},v),F=d6(T,d7(T,aP,j,n)),o=ba(am([0,ae(w),0],k),F),G=H(t(a,j,bl),w),y=p(g(n),k),z=y?p(g(x),k):y;if(z){var
 b=k,c=o;for(;;){if(c){if(b){var
-s=r(g(c[1]),b);if(s){var
+s=p(g(c[1]),b);if(s){var
 b=b[1],c=c[2];continue}var
 u=s}else
 var
@@ -4257,12 +4265,12 @@ u=b;var
 A=u}else
 var
 A=b?0:1;var
-p=A;break}}else
+q=A;break}}else
 var
-p=z;var
-B=p?a$(a,k,a_(e(function(b){return[0,ab(t(a,bn,b[2])),0]},n),o)):p;if(B){var
-I=bd(bs(k));return m(function(g){var
-d=ag(f(g,tk),x),b=[0,[0,H,0],0],c=ag(o,e(function(a){return a[1]?ab(a[2]):a[2]},d));return a$(a,[0,k],f(e(function(a){return f(a[1],[0,a[2],0])},c),b))},I)}var
+q=z;var
+B=q?bb(a,k,ba(e(function(b){return[0,ae(t(a,bn,b[2])),0]},n),o)):q;if(B){var
+I=bf(bv(k));return m(function(g){var
+d=_(f(g,tE),x),b=[0,[0,G,0],0],c=_(o,e(function(a){return a[1]?ae(a[2]):a[2]},d));return bb(a,[0,k],f(e(function(a){return f(a[1],[0,a[2],0])},c),b))},I)}var
 C=B}else
 var
 C=l;var
@@ -4271,14 +4279,14 @@ var
 D=i;var
 E=D}else
 var
-E=h;return E},bq=l[3];return i(iv(function(b,a){return ec},bq,k,bp),bi)}var
+E=h;return E},bq=l[3];return i(iE(function(b,a){return ef},bq,k,bp),bi)}var
 ak=O}else
 var
 ak=aj;var
-am=ak}else
+al=ak}else
 var
-am=M;var
-an=am}else
+al=M;var
+an=al}else
 var
 an=L;var
 ao=an}else
@@ -4286,375 +4294,375 @@ var
 ao=ai;var
 ap=ao}else
 var
-ap=I;var
+ap=K;var
 ar=ap}else
 var
-ar=H;return ar}return 0;default:return 0}var
-bv=[0,s,u,Q],bw=ec(function(a){return q(a,x,tx)},bv);return i(iv(function(b,a){return ec},o,k,p),bw)}function
-tB(b,a){var
-c=hB(hx,b[1],a[1]);return c?hx(b[2],a[2]):c}function
-mP(i,q,p,h,o,k,A,z,y,j,n,g,a,e){if(typeof
-e==="number"){if(0===e)return 9===a[0]?eV(i,0,0,0,g,h,0,a[1],e):0}else
+ar=G;return ar}return 0;default:return 0}var
+bu=[0,s,u,P],bw=ef(function(a){return q(a,x,tR)},bu);return i(iE(function(b,a){return ef},o,k,r),bw)}function
+tV(b,a){var
+c=hK(hG,b[1],a[1]);return c?hG(b[2],a[2]):c}function
+m4(i,r,q,h,o,k,A,z,y,j,n,g,a,e){if(typeof
+e==="number"){if(0===e)return 9===a[0]?eZ(i,0,0,0,g,h,0,a[1],e):0}else
 switch(e[0]){case
 6:var
 f=e[1];if(typeof
 f!=="number"&&7===f[0]){if(k){var
-s=f[3],t=f[2],u=E(d,t),v=u?ko(s,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):u;if(v)return mO(i,q,p,h,o,j,g,n,[0,[0,[0,k[1],t],s]],a,f[1]);var
+s=f[3],t=f[2],u=E(d,t),v=u?kC(s,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):u;if(v)return m3(i,r,q,h,o,j,g,n,[0,[0,[0,k[1],t],s]],a,f[1]);var
 w=v}else
 var
-w=k;return w}return mO(i,q,p,h,o,j,g,n,0,a,f);case
-8:return 9===a[0]?eV(i,0,0,0,g,h,0,a[1],e):0;case
+w=k;return w}return m3(i,r,q,h,o,j,g,n,0,a,f);case
+8:return 9===a[0]?eZ(i,0,0,0,g,h,0,a[1],e):0;case
 10:if(0===a[0]){var
-l=hB(tB,a[1],A),m=l?1:l,x=m?r(a[2],z):m;return x?js(y,j,a[3],a[4],e):x}return 0}return 0}function
-mQ(b){var
+l=hK(tV,a[1],A),m=l?1:l,x=m?p(a[2],z):m;return x?jF(y,j,a[3],a[4],e):x}return 0}return 0}function
+m5(b){var
 a=b[2];if(typeof
 a!=="number"&&6===a[0])return 1;return 0}function
-tC(c){var
+tW(c){var
 b=0,a=c[2];if(typeof
 a==="number"){if(0!==a)b=1}else
 switch(a[0]){case
 6:case
 8:break;default:b=1}return b?0:1}function
-e5(a,o,l,j,A,w,b,u,s,C,h,k,au,c){switch(c[0]){case
+e9(a,o,l,j,x,w,b,u,s,C,h,k,au,c){switch(c[0]){case
 0:var
-av=function(a){return m(T,a)},N=av,p=c[1];break;case
+av=function(a){return m(S,a)},N=av,p=c[1];break;case
 1:var
-aw=c[4],ax=c[3],ay=c[2],aA=function(c){var
-d=cN(ay,k),e=e5(a,o,l,j,A,w,b,u,s,C,h,d[1],c,ax);return e?e5(a,o,l,j,A,w,b,u,s,C,h,d[2],c,aw):e},N=aA,p=c[1];break;default:var
-aB=c[4],aC=c[3],aD=c[2],aE=function(c){var
-i=ag(j,c),d=m(function(b){var
+aw=c[4],ax=c[3],ay=c[2],az=function(c){var
+d=cU(ay,k),e=e9(a,o,l,j,x,w,b,u,s,C,h,d[1],c,ax);return e?e9(a,o,l,j,x,w,b,u,s,C,h,d[2],c,aw):e},N=az,p=c[1];break;default:var
+aA=c[4],aC=c[3],aD=c[2],aE=function(c){var
+i=_(j,c),d=m(function(b){var
 c=b[1];switch(c[0]){case
 8:var
 a=0;break;case
 9:var
-a=hZ(c[1]);break;default:var
-a=1}return a?a:T(b[2])},i);if(d){var
-e=cN(aD,h),f=e5(a,o,l,j,A,w,b,u,s,C,e[1],k,c,aC);if(f)return e5(a,o,l,j,A,w,b,u,s,C,e[2],k,c,aB);var
+a=h_(c[1]);break;default:var
+a=1}return a?a:S(b[2])},i);if(d){var
+e=cU(aD,h),f=e9(a,o,l,j,x,w,b,u,s,C,e[1],k,c,aC);if(f)return e9(a,o,l,j,x,w,b,u,s,C,e[2],k,c,aA);var
 g=f}else
 var
 g=d;return g},N=aE,p=c[1]}var
-ae=i(C,h),aa=ak(tC,p),ac=aa?hT(a,l,h,fU(x(function(c){var
+af=i(C,h),ab=al(tW,p),ac=ab?h4(a,l,h,f1(y(function(c){var
 a=F(j,c[1]);if(a){var
 b=a[1];switch(b[0]){case
 8:var
-d=b[1][6];return x(function(a){var
-b=e(aU,a[1][2][2]);return[0,a[1][1],b]},d);case
-9:return h0(0,0,0,b[1],c[2]);default:return 0}}return a},p),l),k):aa,ad=ak(mQ,p);if(ad)var
-aq=x(function(b){var
-c=mQ(b);if(c){var
-a=F(j,b[1]);if(a)return mN(a[1]);var
+d=b[1][6];return y(function(a){var
+b=e(aW,a[1][2][2]);return[0,a[1][1],b]},d);case
+9:return h$(0,0,0,b[1],c[2]);default:return 0}}return a},p),l),k):ab,ad=al(m5,p);if(ad)var
+ar=y(function(b){var
+c=m5(b);if(c){var
+a=F(j,b[1]);if(a)return m2(a[1]);var
 d=a}else
 var
-d=c;return d},p),ar=b?[0,b[1],0]:b,at=f(ar,aq),ai=0,aj=as(eO,e(function(a){return 0},o),at),M=it(a,h,eL(gm(eL(o,0),aj),ai),k);else
+d=c;return d},p),as=b?[0,b[1],0]:b,at=f(as,ar),ai=0,aj=aq(eT,e(function(a){return 0},o),at),M=iC(a,h,eQ(gv(eQ(o,0),aj),ai),k);else
 var
 M=ad;var
 r=p,g=au;for(;;){if(r){var
-R=r[1],D=R[2],n=R[1],H=r[2];if(n){var
-S=q(n,g,0);if(S){var
-I=F(j,n);if(I){var
-U=mP(a,l,h,A,w,b,u,s,ae,k,M,ac,I[1],D);if(U){var
-r=H,g=gb(n,g);continue}var
+R=r[1],D=R[2],n=R[1],G=r[2];if(n){var
+T=q(n,g,0);if(T){var
+J=F(j,n);if(J){var
+U=m4(a,l,h,x,w,b,u,s,af,k,M,ac,J[1],D);if(U){var
+r=G,g=gi(n,g);continue}var
 V=U}else
 var
-V=I;var
-X=V}else
+V=J;var
+W=V}else
 var
-X=S;var
-B=X}else{var
-af=0;if(typeof
+W=T;var
+B=W}else{var
+ag=0;if(typeof
 D==="number"&&4===D){var
 ah=0;if(b){var
-ap=0,O=e(function(b){return[0,b,W(a,b)]},k),am=e(aU,O),al=0,an=f(e(az,O),am),ao=bm(0,function(o){return function(b){switch(b[0]){case
+ap=0,O=e(function(b){return[0,b,X(a,b)]},k),am=e(aW,O),ak=0,an=f(e(aB,O),am),ao=bo(0,function(o){return function(b){switch(b[0]){case
 0:return[0,q(b[1],o,v)];case
 1:return[0,q(b[1],h,v)];case
-2:return[0,P(a,b[1])];case
+2:return[0,Q(a,b[1])];case
 3:var
-c=b[2],d=b[1];return cZ(function(b,a){return[0,z(b,a)]},d,c);case
+c=b[2],d=b[1];return c9(function(b,a){return[0,A(b,a)]},d,c);case
 4:var
-e=b[2],f=b[1];return cZ(function(b,a){return[0,G(b,a)]},f,e);case
+e=b[2],f=b[1];return c9(function(b,a){return[0,H(b,a)]},f,e);case
 5:var
-g=b[1];return cY(function(a){return[0,ab(a)]},g);case
+g=b[1];return c8(function(a){return[0,ae(a)]},g);case
 6:var
-i=b[2],j=b[1];return cZ(function(c,b){return[0,t(a,c,b)]},j,i);case
+i=b[2],j=b[1];return c9(function(c,b){return[0,t(a,c,b)]},j,i);case
 7:var
-k=b[2],l=b[1];return cZ(function(c,b){var
-d=b1(a,b);return y(function(b){return t(a,c,b)},d)},l,k);case
+k=b[2],l=b[1];return c9(function(c,b){var
+d=b5(a,b);return z(function(b){return t(a,c,b)},d)},l,k);case
 8:var
-m=b[1];return cY(function(b){return[0,W(a,b)]},m);case
+m=b[1];return c8(function(b){return[0,X(a,b)]},m);case
 9:var
-n=b[1];return cY(function(b){return b2(a,b)},n);default:return 0}}}(an),o,al),E=q(b[1],ao,ap);if(E){var
-J=K(E[1][2],d);ah=1}else
+n=b[1];return c8(function(b){return b6(a,b)},n);default:return 0}}}(an),o,ak),E=q(b[1],ao,ap);if(E){var
+K=I(E[1][2],d);ah=1}else
 var
-Q=E}else
+P=E}else
 var
-Q=b;if(!ah)var
-J=Q;if(J){var
-r=H,g=e(function(a){return 0},g);continue}var
-B=J}else
-af=1;if(af){var
+P=b;if(!ah)var
+K=P;if(K){var
+r=G,g=e(function(a){return 0},g);continue}var
+B=K}else
+ag=1;if(ag){var
 Y=q(n,g,0);if(Y){var
 L=F(j,n);if(L){var
-Z=mP(a,l,h,A,w,b,u,s,ae,k,M,ac,L[1],D);if(Z){var
-r=H,g=gb(n,g);continue}var
-_=Z}else
+Z=m4(a,l,h,x,w,b,u,s,af,k,M,ac,L[1],D);if(Z){var
+r=G,g=gi(n,g);continue}var
+$=Z}else
 var
-_=L;var
-$=_}else
+$=L;var
+aa=$}else
 var
-$=Y;var
-B=$}}}else
+aa=Y;var
+B=aa}}}else
 var
 B=[0,g];return B?N(B[1]):B}}function
-iB(d,a){var
-e=Q(a),f=s(s(k(c(2,b)),a),d);return B(w(Q(d),f),e)}function
-iC(k,a,d,j,c,h){var
-e=af(w,dp(k),j);if(h){var
+iK(d,a){var
+e=R(a),f=s(s(k(c(2,b)),a),d);return C(x(R(d),f),e)}function
+iL(k,a,d,j,c,h){var
+e=ah(x,du(k),j);if(h){var
 b=function(b){var
-c=i(b,a[3]),d=i(b,a[2]);return[0,i(b,a[1]),d,c]},f=b(function(a){return a[3]}),g=b(function(a){return a[2]}),l=e4([0,b(function(a){return a[1]}),g,f],e);return af(B,aW(d,c),l)}var
-m=e4(a,c);return af(B,aW(d,e),m)}function
-mR(f,h,g,l,a,d){var
-e=dp(f),i=af(w,e,a),j=e4(h,d),m=iB(e[3],a[3]),n=iB(e[2],a[2]),o=iB(e[1],a[1]),p=B(B(B(U(d,d),o),n),m),q=U(j,i),r=s(k(c(2,b)),q),t=B(s(g,p),r),u=be(b$(j,i),l);return[0,gq(f,iC(f,h,g,a,d,0),u),t]}function
-mS(d,c,b,a){var
-e=gr(c,b,a);return af(B,dp(d),e)}function
-mT(g,f,e,d,c){var
-b=mS(g,f,e,c),a=af(w,b,d);return[0,[0,b,a],aD(U(a,a))]}function
-gt(b,a){var
-c=a3(a[2],b);return f(a3(a[1],b),c)}function
-iD(d,b,a,c){if(a)var
-e=a[1],f=cu(c,gt(b,e)),i=O(c,g(gt(b,e))),j=iD(d,b,a[2],i),k=ai(f,tD),h=[0,an(d,ai(f,0),k),j];else
+c=i(b,a[3]),d=i(b,a[2]);return[0,i(b,a[1]),d,c]},f=b(function(a){return a[3]}),g=b(function(a){return a[2]}),l=e8([0,b(function(a){return a[1]}),g,f],e);return ah(C,aY(d,c),l)}var
+m=e8(a,c);return ah(C,aY(d,e),m)}function
+m6(f,h,g,l,a,d){var
+e=du(f),i=ah(x,e,a),j=e8(h,d),m=iK(e[3],a[3]),n=iK(e[2],a[2]),o=iK(e[1],a[1]),p=C(C(C(V(d,d),o),n),m),q=V(j,i),r=s(k(c(2,b)),q),t=C(s(g,p),r),u=bg(cc(j,i),l);return[0,gz(f,iL(f,h,g,a,d,0),u),t]}function
+m7(d,c,b,a){var
+e=gA(c,b,a);return ah(C,du(d),e)}function
+m8(g,f,e,d,c){var
+b=m7(g,f,e,c),a=ah(x,b,d);return[0,[0,b,a],aG(V(a,a))]}function
+gC(b,a){var
+c=a4(a[2],b);return f(a4(a[1],b),c)}function
+iM(d,b,a,c){if(a)var
+e=a[1],f=cx(c,gC(b,e)),i=P(c,g(gC(b,e))),j=iM(d,b,a[2],i),k=aj(f,tX),h=[0,ao(d,aj(f,0),k),j];else
 var
 h=a;return h}function
-iE(f,o,e,n,a){var
-g=s(Q(q(0,n,k(d))),o);if(typeof
+iN(f,o,e,n,a){var
+g=s(R(q(0,n,k(d))),o);if(typeof
 a!=="number")switch(a[0]){case
 2:var
 b=F(e,a[1]);if(b)var
-i=h(f,0,a[2]),j=i?[0,w(b[1][1][2],g)]:i;else
+i=h(f,0,a[2]),j=i?[0,x(b[1][1][2],g)]:i;else
 var
 j=b;return j;case
 3:var
 c=F(e,a[1]);if(c)var
-l=h(f,0,a[2]),m=l?[0,w(g,c[1][1][2])]:l;else
+l=h(f,0,a[2]),m=l?[0,x(g,c[1][1][2])]:l;else
 var
 m=c;return m}return 0}function
-mU(c,b,a){if(typeof
+m9(c,b,a){if(typeof
 a!=="number"&&6===a[0]){var
-e=F(c,a[1]);return y(function(a){var
+e=F(c,a[1]);return z(function(a){var
 c=q(0,b,k(d)),e=i(a[2][2],c);return[0,a[2][1],e]},e)}return 0}function
-gu(a){return h(n,0,[3,[0,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b))))))))),b],a])}function
-mV(a){var
-b=ai(a,tE),c=aD(U(ai(a,tF),b));return s(q(0,a,k(d)),c)}function
-mW(b,a){var
-c=U(a,ai(b,tG));return[0,bL(aW(mV(b),a)),c]}function
-mX(e,d,a,c,b){var
-f=b[2],g=s(mV(a),f),h=c?gr(e,d,ai(a,tH)):ai(a,tI);return w(U(b[1][2],h),g)}function
-mY(h,g,f,d,c,b,a){var
-i=bt(c);function
-j(a){return mS(h,g,f,a)}return lB(e(function(a){return[0,a[4]]},d),j,i,b,a)}function
-e6(a){var
-b=q(tJ,a,k(d));return aj(q(0,a,k(d)),b)}function
-iF(a){return a[4][2]}function
-mZ(g,o,n,m,a){var
-p=a[1][2],q=e(aU,gf(n,a[1][2])),h=e6(m),i=s(s(k(c(2,b)),o),h),d=a[1][1],j=aZ(dn(g),d),l=e(function(a){return s(a,i)},j);return[0,f(f(aL(dn(g),d),l),q),p]}function
-m0(a){var
-b=a[3],c=a[2],d=a[1];return gi([0,[0,d,d],[0,c,c],[0,b,b]])}function
-tS(a){if(typeof
+gD(a){return h(l,0,[3,[0,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b))))))))),b],a])}function
+m_(a){var
+b=aj(a,tY),c=aG(V(aj(a,tZ),b));return s(q(0,a,k(d)),c)}function
+m$(b,a){var
+c=V(a,aj(b,t0));return[0,bN(aY(m_(b),a)),c]}function
+na(e,d,a,c,b){var
+f=b[2],g=s(m_(a),f),h=c?gA(e,d,aj(a,t1)):aj(a,t2);return x(V(b[1][2],h),g)}function
+nb(h,g,f,d,c,b,a){var
+i=bw(c);function
+j(a){return m7(h,g,f,a)}return lP(e(function(a){return[0,a[4]]},d),j,i,b,a)}function
+e_(a){var
+b=q(t3,a,k(d));return ak(q(0,a,k(d)),b)}function
+iO(a){return a[4][2]}function
+nc(g,o,n,m,a){var
+p=a[1][2],q=e(aW,gm(n,a[1][2])),h=e_(m),i=s(s(k(c(2,b)),o),h),d=a[1][1],j=aX(cD(g),d),l=e(function(a){return s(a,i)},j);return[0,f(f(aH(cD(g),d),l),q),p]}function
+nd(a){var
+b=a[3],c=a[2],d=a[1];return gr([0,[0,d,d],[0,c,c],[0,b,b]])}function
+ua(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-m1(b,a){switch(b){case
+ne(b,a){switch(b){case
 0:return[0,a[1],[0,a[2],0]];case
 1:return[0,a[1],[0,a[2],[0,a[3],0]]];default:return 0}}function
-gv(a){var
-c=cq(a[1],[0,d,b]);return c?cq(a[2],[0,d,b]):c}function
-iG(d,a){switch(d){case
-0:return gv(a[3]);case
+gE(a){var
+c=ct(a[1],[0,d,b]);return c?ct(a[2],[0,d,b]):c}function
+iP(d,a){switch(d){case
+0:return gE(a[3]);case
 1:return 1;default:var
-b=gv(a[1]),c=b?gv(a[2]):b;return c?gv(a[3]):c}}function
-iH(c,b){var
-a=x(function(a){return gt(c,a)},b),d=ag(aA(0,g(a)),a);return e(az,bk(function(a){return h6(a[2])},d))}function
-m2(b){var
+b=gE(a[1]),c=b?gE(a[2]):b;return c?gE(a[3]):c}}function
+iQ(c,b){var
+a=y(function(a){return gC(c,a)},b),d=_(aA(0,g(a)),a);return e(aB,bn(function(a){return ig(a[2])},d))}function
+nf(b){var
 a=b[2];if(typeof
 a!=="number"&&10===a[0])return 1;return 0}function
-m3(c){var
-a=c;for(;;){if(0===a[0])return ak(m2,a[1]);var
-d=ak(m2,a[1]),b=d||m3(a[3]);if(b)return b;var
+ng(c){var
+a=c;for(;;){if(0===a[0])return al(nf,a[1]);var
+d=al(nf,a[1]),b=d||ng(a[3]);if(b)return b;var
 a=a[4];continue}}function
-tT(a,aP,bD,A,C,aO){var
-l=A[1],j=b9(l),Y=A[6],bE=A[2],K=x(function(a){return gt(C,a)},bE),aQ=A[3],R=[0,[0,aQ,aQ],C],aa=[0,g(K)],bF=0,aR=x(function(a){return e2(bF,C,a)},Y),bG=dn(l),aS=ms(A[5],bG),o=aS[2],H=aS[1],J=cS(R,g(K)),bI=A[2],S=g(K),bH=0,z=iD(function(e,a){function
+ub(a,aQ,bE,A,B,aP){var
+n=A[1],j=br(n),Y=A[6],bF=A[2],K=y(function(a){return gC(B,a)},bF),aR=A[3],O=[0,[0,aR,aR],B],$=[0,g(K)],bG=0,aS=y(function(a){return e5(bG,B,a)},Y),bH=cD(n),aT=mH(A[5],bH),o=aT[2],G=aT[1],J=cZ(O,g(K)),bJ=A[2],T=g(K),bI=0,w=iM(function(e,a){function
 i(g){var
-c=b9(l);if(l)var
+c=br(n);if(n)var
 b=[0,[0,[0,c]],[0,[0,[0,c]]],[0,[0,[0,[0,c]]]]];else
 var
-n=k(d),b=[0,k(d),n,[0,[0,c]]];var
-t=mG(l,H,o,e,a,b)[2],h=mG(l,H,o,e,a,b),i=h[1],j=be(i[2],h[2]),m=b$(i[1],j),p=af(B,m,b$(m,b)),f=aW(mF(b),p),q=s(f[3],g),r=s(f[2],g);return[0,gq(l,j,[0,s(f[1],g),r,q]),t]}function
+m=k(d),b=[0,k(d),m,[0,[0,c]]];var
+t=mV(n,G,o,e,a,b)[2],h=mV(n,G,o,e,a,b),i=h[1],j=bg(i[2],h[2]),l=cc(i[1],j),p=ah(C,l,cc(l,b)),f=aY(mU(b),p),q=s(f[3],g),r=s(f[2],g);return[0,gz(n,j,[0,s(f[1],g),r,q]),t]}function
 j(Y){var
-v=mT(l,H,o,e,a),x=v[1],W=af(w,dp(l),e),y=v[2],q=x[1],X=x[2],g=gr(H,o,a),i=be(X,y),N=aj(U(g,i),J),O=Q(J),P=aj(U(a,a),O),R=2<=l?d:b,T=B(k(R),P);function
-h(a){return[0,my(a),0]}function
-f(a){return[0,be(b$(my(a),g),J),[0,a]]}switch(l){case
+v=m8(n,G,o,e,a),w=v[1],W=ah(x,du(n),e),y=v[2],r=w[1],X=w[2],g=gA(G,o,a),i=bg(X,y),N=ak(V(g,i),J),O=R(J),P=ak(V(a,a),O),Q=2<=n?d:b,S=C(k(Q),P);function
+h(a){return[0,mN(a),0]}function
+f(a){return[0,bg(cc(mN(a),g),J),[0,a]]}switch(n){case
 0:var
-C=[0,f(s$),0],D=[0,h(ta),C],p=[0,h(0),D];break;case
+B=[0,f(tt),0],D=[0,h(tu),B],q=[0,h(0),D];break;case
 1:var
-E=[0,f(tb),0],F=[0,f(tc),E],G=[0,f(0),F],I=[0,h(td),G],K=[0,h(te),I],p=[0,h(0),K];break;default:var
-L=[0,f(tf),0],M=[0,f(tg),L],p=[0,f(0),M]}var
-j=af(w,[0,[0,[1,S]],[0,[1,[0,S]]],[0,[1,[0,[0,S]]]]],e),m=be(j,aD(U(j,j)));if(l)var
-n=ix(l,S,e,q,m[3]);else
+E=[0,f(tv),0],F=[0,f(tw),E],H=[0,f(0),F],I=[0,h(tx),H],K=[0,h(ty),I],q=[0,h(0),K];break;default:var
+L=[0,f(tz),0],M=[0,f(tA),L],q=[0,f(0),M]}var
+j=ah(x,[0,[0,[1,T]],[0,[1,[0,T]]],[0,[1,[0,[0,T]]]]],e),l=bg(j,aG(V(j,j)));if(n)var
+m=iG(n,T,e,r,l[3]);else
 var
-z=k(d),A=k(d),n=[0,k(d),A,z];var
-t=ix(l,S,e,q,m[2]),u=ix(l,S,e,q,m[1]),V=mz(function(q,v){var
+z=k(d),A=k(d),m=[0,k(d),A,z];var
+t=iG(n,T,e,r,l[2]),u=iG(n,T,e,r,l[1]),U=mO(function(r,v){var
 e=v[1];function
 a(b,a){var
-c=e[3],f=dm(a,n),g=s(B(b[3],f),c),h=e[2],i=dm(a,t),j=s(B(b[2],i),h),l=e[1],m=dm(a,u),o=s(B(b[1],m),l);return B(B(B(k(d),o),j),g)}var
-x=a(n,th),y=a(t,ti),z=[0,a(u,0),y,x],f=U(q[1],z),l=q[2];if(l){var
-h=l[1],m=v[2];if(m){var
-j=m[1],A=dm(h,g),C=s(dm(j,i),A),D=dm(j,g),o=B(s(dm(h,i),D),C),E=Q(J);if(r(h,j))var
-F=U(i,g),p=w(o,s(k(c(2,b)),F));else
+c=e[3],f=dt(a,m),g=s(C(b[3],f),c),h=e[2],i=dt(a,t),j=s(C(b[2],i),h),l=e[1],n=dt(a,u),o=s(C(b[1],n),l);return C(C(C(k(d),o),j),g)}var
+w=a(m,tB),y=a(t,tC),z=[0,a(u,0),y,w],f=V(r[1],z),l=r[2];if(l){var
+h=l[1],n=v[2];if(n){var
+j=n[1],A=dt(h,g),B=s(dt(j,i),A),D=dt(j,g),o=C(s(dt(h,i),D),B),E=R(J);if(p(h,j))var
+F=V(i,g),q=x(o,s(k(c(2,b)),F));else
 var
-p=o;return B(f,aj(p,E))}return f}return f},p);return[0,gq(l,i,be(b$(g,be(W,y)),J)),V,T,N]}var
-m=mT(l,H,o,e,a);function
-n(b){return iC(l,H,o,e,a,b)}var
-f=2<=l?d:b;function
+q=o;return C(f,ak(q,E))}return f}return f},q);return[0,gz(n,i,bg(cc(g,bg(W,y)),J)),U,S,N]}var
+l=m8(n,G,o,e,a);function
+m(b){return iL(n,G,o,e,a,b)}var
+f=2<=n?d:b;function
 g(b){var
-c=Q(J),d=k(f),e=s(w(Q(b),d),c);return s(o,w(U(a,a),e))}var
-h=[0,U(iC(l,H,o,e,a,1),a),g];return[0,mR(l,H,o,J,e,a),h,n,m,j,i]},C,bI,bH),V=e(function(a){return a[1]},z),bJ=O(aa,g(aR)),bK=dn(l),bM=A[5];function
-N(a){return[0,[0,O(bK,a)]]}var
-aI=Q([0,[1,bJ]]);switch(bM[0]){case
+c=R(J),d=k(f),e=s(x(R(b),d),c);return s(o,x(V(a,a),e))}var
+h=[0,V(iL(n,G,o,e,a,1),a),g];return[0,m6(n,G,o,J,e,a),h,m,l,j,i]},B,bJ,bI),U=e(function(a){return a[1]},w),bK=P($,g(aS)),bL=cD(n),bM=A[5];function
+N(a){return[0,[0,P(bL,a)]]}var
+aI=R([0,[1,bK]]);switch(bM[0]){case
 2:var
-bt=N(s3),bu=N(s4),aJ=[0,N(0),bu,bt],D=[0,w(aI,U(aJ,aJ))];break;case
+bu=N(tl),bv=N(tm),aJ=[0,N(0),bv,bu],D=[0,x(aI,V(aJ,aJ))];break;case
 3:var
-bv=Q(N(s5)),bw=Q(N(0)),bx=Q(N(s6)),D=[0,w(w(s(aI,B(k(b),bx)),bw),bv)];break;default:var
+bw=R(N(tn)),bx=R(N(0)),by=R(N(to)),D=[0,x(x(s(aI,C(k(b),by)),bx),bw)];break;default:var
 D=0}var
-aT=A[7];if(aT)var
-bO=0,bP=A[2],ao=iD(function(j,k){var
-a=mR(l,H,o,cS(R,g(K)),j,k),c=a[1];if(c){var
+aU=A[7];if(aU)var
+bO=0,bQ=A[2],ao=iM(function(j,k){var
+a=m6(n,G,o,cZ(O,g(K)),j,k),c=a[1];if(c){var
 d=c[2],b=c[1];if(d){var
 h=d[2],e=d[1];if(h){var
-i=h[1],f=b$(j,[0,b,e,i]);return[0,[0,b,[0,e,[0,i,[0,f[1],[0,f[2],[0,f[3],0]]]]]],a[2]]}return[0,[0,b,[0,e,0]],a[2]]}return[0,[0,b,0],a[2]]}return[0,0,a[2]]},C,bP,bO);else
+i=h[1],f=cc(j,[0,b,e,i]);return[0,[0,b,[0,e,[0,i,[0,f[1],[0,f[2],[0,f[3],0]]]]]],a[2]]}return[0,[0,b,[0,e,0]],a[2]]}return[0,[0,b,0],a[2]]}return[0,0,a[2]]},B,bQ,bO);else
 var
-ao=aT;var
-bQ=bN(ao),bR=D?[0,D[1],0]:D,bS=f(bR,bQ),bT=0,bU=f(K,[0,R,0]),bC=e(function(a){return a[1]},z),bV=[0,o,f(cX(function(c,b){if(typeof
+ao=aU;var
+bR=bP(ao),bS=D?[0,D[1],0]:D,bT=f(bS,bR),bU=0,bV=f(K,[0,O,0]),bD=e(function(a){return a[1]},w),bW=[0,o,f(c7(function(c,b){if(typeof
 b!=="number")switch(b[0]){case
 6:var
-g=mU(z,c,b);if(g)var
+g=m9(w,c,b);if(g)var
 j=g[1],k=[0,j[1],[0,j[2],0]];else
 var
 k=g;return k;case
-8:return e(aU,gj(bC,c));case
+8:return e(aW,gs(bD,c));case
 13:var
-h=F(z,b[1]);if(h){var
-m=gu(b[4]);if(m){var
-n=mW(c,i(h[1][3],b[2]));return f(n[1],[0,n[2],0])}var
-p=m}else
+h=F(w,b[1]);if(h){var
+l=gD(b[4]);if(l){var
+m=m$(c,i(h[1][3],b[2]));return f(m[1],[0,m[2],0])}var
+p=l}else
 var
 p=h;return p;case
-16:return x(function(a){return mZ(l,J,bU,c,a)[1]},z)}var
-d=iE(a,o,z,c,b),q=d?[0,d[1],0]:d;return q},bT,C,aa,Y),bS)],ap=f(bN(V),bV),bW=0,bX=f(K,[0,R,0]),aX=cX(function(b,a){if(typeof
+16:return y(function(a){return nc(n,J,bV,c,a)[1]},w)}var
+d=iN(a,o,w,c,b),q=d?[0,d[1],0]:d;return q},bU,B,$,Y),bT)],ap=f(bP(U),bW),bX=0,bY=f(K,[0,O,0]),aV=c7(function(b,a){if(typeof
 a!=="number")switch(a[0]){case
 13:var
-g=F(z,a[1]);if(g){if(gu(a[4]))return 0;var
-m=[0,mX(H,o,b,a[2],g[1][4]),0]}else
+g=F(w,a[1]);if(g){if(gD(a[4]))return 0;var
+l=[0,na(G,o,b,a[2],g[1][4]),0]}else
 var
-m=g;return m;case
+l=g;return l;case
 14:var
-h=mY(l,H,o,z,b,a[1],a[2]);if(h){var
-n=h[1],p=n[2],r=n[1];return x(bL,[0,r[1],[0,r[2],[0,p[1],[0,p[2],0]]]])}return h;case
+h=nb(n,G,o,w,b,a[1],a[2]);if(h){var
+m=h[1],p=m[2],r=m[1];return y(bN,[0,r[1],[0,r[2],[0,p[1],[0,p[2],0]]]])}return h;case
 15:var
-j=F(z,a[1]);if(j){var
-c=i(j[1][5],0),s=[0,c[3],[0,c[4],0]],t=[0,q(tK,b,k(d)),s],u=[0,q(0,b,k(d)),t],v=f(dO(c[2]),u);return f(c[1],v)}return j;case
+j=F(w,a[1]);if(j){var
+c=i(j[1][5],0),s=[0,c[3],[0,c[4],0]],t=[0,q(t4,b,k(d)),s],u=[0,q(0,b,k(d)),t],v=f(dS(c[2]),u);return f(c[1],v)}return j;case
 16:var
-w=x(function(a){var
-b=e(aU,gf(bX,iF(a)));return[0,iF(a),b]},z);return f(x(function(a){var
-c=e6(b),d=[0,i(a[6],c)[2],0],e=e6(b);return f(i(a[6],e)[1],d)},z),w)}return 0},bW,C,aa,Y),aY=cI(e(function(a){return bp(j,a)},ap))[1],aZ=cI(aX)[1],Z=cH(aY),aq=cH(aZ);function
-u(a){return a9(Z,bp(j,a))}function
+x=y(function(a){var
+b=e(aW,gm(bY,iO(a)));return[0,iO(a),b]},w);return f(y(function(a){var
+c=e_(b),d=[0,i(a[6],c)[2],0],e=e_(b);return f(i(a[6],e)[1],d)},w),x)}return 0},bX,B,$,Y),aX=cP(e(function(a){return bs(j,a)},ap))[1],aZ=cP(aV)[1],Z=cO(aX),aq=cO(aZ);function
+u(a){return a$(Z,bs(j,a))}function
 a0(i){if(0===A[4][0]){var
-s=y(u,D),t=u(o),e=dn(l),f=r(g(i),j);if(f)var
-h=y(function(a){return[0,[0,a,d],d]},s),a=function(a){return q(a,Z,k(d))},c=a(t),n=aA(0,e),b=m(function(b){var
-d=dl(j,b,c),e=d?m(function(d){var
+s=z(u,D),t=u(o),e=cD(n),f=p(g(i),j);if(f)var
+h=z(function(a){return[0,[0,a,d],d]},s),a=function(a){return q(a,Z,k(d))},c=a(t),l=aA(0,e),b=m(function(b){var
+d=ds(j,b,c),e=d?m(function(d){var
 f=d[1],e=m(function(c){var
-d=a(c);return cx(O(j,b),d)},f);if(e){var
-g=a(d[2]);return gk(c,O(j,b),g)}return e},i):d;if(e){if(h){var
-g=a(h[1][1][1]);return cx(O(j,b),g)}var
+d=a(c);return cC(P(j,b),d)},f);if(e){var
+g=a(d[2]);return gt(c,P(j,b),g)}return e},i):d;if(e){if(h){var
+g=a(h[1][1][1]);return cC(P(j,b),g)}var
 f=1}else
 var
-f=e;return f},n);else
+f=e;return f},l);else
 var
 b=f;var
-p=b?e:b;return p}return 0}var
-X=a0(i(av(u),V)),a1=m(function(a){var
-b=bp(j,a),c=k(d);return aC(q(u(a),Z,c),b)},ap),a2=a1?m(function(a){return gl(j,a)},ap):a1,a3=a2?m(function(a){var
-b=k(d);return aC(q(a9(aq,a),aq,b),a)},aX):a2,a4=a3?ak(tS,Y):a3;if(a4){var
-a5=T(A[7]);if(a5)var
-ac=a5;else{var
-br=A[5];if(1===l&&2===br[0])var
-bB=br[1],bs=h(a,1,[3,[0,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b))))))))),b],bB]);else
+r=b?e:b;return r}return 0}var
+W=a0(i(av(u),U)),a1=m(function(a){var
+b=bs(j,a),c=k(d);return aF(q(u(a),Z,c),b)},ap),a2=a1?m(function(a){return gu(j,a)},ap):a1,a3=a2?m(function(a){var
+b=k(d);return aF(q(a$(aq,a),aq,b),a)},aV):a2,a4=a3?al(ua,Y):a3;if(a4){var
+a5=S(A[7]);if(a5)var
+ab=a5;else{var
+bq=A[5];if(1===n&&2===bq[0])var
+bC=bq[1],bt=h(a,1,[3,[0,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b))))))))),b],bC]);else
 var
-bs=0;var
-ac=bs}}else
+bt=0;var
+ab=bt}}else
 var
-ac=a4;var
-a6=ac?iG(l,d7(A[4])):ac,a7=a6?h(a,1,A[3]):a6;if(a7)var
-bY=gp(A[5]),ar=m(function(b){var
-c=di(a,b[1]);return c?di(a,b[2]):c},bY);else
+ab=a4;var
+a6=ab?iP(n,ea(A[4])):ab,a7=a6?h(a,1,A[3]):a6;if(a7)var
+bZ=gy(A[5]),ar=m(function(b){var
+c=c5(a,b[1]);return c?c5(a,b[2]):c},bZ);else
 var
 ar=a7;if(ar){var
-bZ=f(K,[0,R,0]),as=_(e(function(b){return am(a,b)},bZ));if(as){var
-at=_(e(function(b){return ip(a,b)},aR));if(at){var
-b0=m1(l,d7(A[4])),au=_(e(function(b){return am(a,[0,b,C])},b0));if(au){var
-a8=au[1],b1=mu(A[5]),aw=_(e(function(b){return mw(a,b)},b1));if(aw){var
-a_=aw[1],b2=mt(A[5]),ax=_(e(dh(a),b2));if(ax){var
-b3=0,I=function(a){return a9(aq,a)},ay=f(K,[0,R,0]),aB=_(cX(function(j,f){if(typeof
+b0=f(K,[0,O,0]),as=aa(e(function(b){return an(a,b)},b0));if(as){var
+at=aa(e(function(b){return iy(a,b)},aS));if(at){var
+b1=ne(n,ea(A[4])),au=aa(e(function(b){return an(a,[0,b,B])},b1));if(au){var
+a8=au[1],b2=mJ(A[5]),aw=aa(e(function(b){return mL(a,b)},b2));if(aw){var
+a9=aw[1],b3=mI(A[5]),ax=aa(e(c4(a),b3));if(ax){var
+b4=0,I=function(a){return a$(aq,a)},ay=f(K,[0,O,0]),az=aa(c7(function(j,f){if(typeof
 f!=="number")switch(f[0]){case
 13:var
-D=f[4],aM=F(z,f[1]);if(aM){if(m0(f[3])&&h(a,0,D)&&h(a,0,[3,[0,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b)))))))))),b],D])){var
-aN=f[2],aO=aM[1];if(gu(D)){var
-aG=mW(j,i(aO[3],aN)),U=aG[2];if(h(n,0,[3,D,[0,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b))))))))),b]]))var
+D=f[4],aM=F(w,f[1]);if(aM){if(nd(f[3])&&h(a,0,D)&&h(a,0,[3,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b],D])){var
+aN=f[2],aO=aM[1];if(gD(D)){var
+aG=m$(j,i(aO[3],aN)),U=aG[2];if(h(l,0,[3,D,[0,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b))))))))),b]]))var
 aH=0;else
 var
 be=u(U),bf=u(U),aH=[0,[6,[0,[0,e(u,aG[1]),bf],0],be],0];var
 aP=[0,[4,u(U)],aH]}else
 var
-aP=[0,[9,[3,I(mX(H,o,j,aN,aO[4]))]],0];return e(function(a){return[0,a]},aP)}return tQ}return tR;case
+aP=[0,[9,[3,I(na(G,o,j,aN,aO[4]))]],0];return e(function(a){return[0,a]},aP)}return t_}return t$;case
 16:var
-Y=f[3],t=f[2],aQ=f[1],bg=b9(l);if(r(g(z),bg)&&h(a,0,aQ)&&h(a,1,t)&&h(a,1,Y)&&di(a,Y)){var
-aI=am(a,[0,[0,t,t],C]);if(aI){var
-bh=aI[1],aJ=i(dh(a),Y);if(aJ){var
-bi=aJ[1],aK=_(e(function(f){var
-b=lK(a,I,ay,C,aQ,t,iF(f));if(b){var
-c=lJ(a,u,ay,C,t,f[1][2]);if(c){var
-g=gs(0,0,f[1][2]);if(g)var
-i=e(az,c[1]),d=[0,[0,b[1],i]];else
+Y=f[3],t=f[2],aQ=f[1],bg=br(n);if(p(g(w),bg)&&h(a,0,aQ)&&h(a,1,t)&&h(a,1,Y)&&c5(a,Y)){var
+aI=an(a,[0,[0,t,t],B]);if(aI){var
+bh=aI[1],aJ=i(c4(a),Y);if(aJ){var
+bi=aJ[1],aK=aa(e(function(f){var
+b=lY(a,I,ay,B,aQ,t,iO(f));if(b){var
+c=lX(a,u,ay,B,t,f[1][2]);if(c){var
+g=gB(0,0,f[1][2]);if(g)var
+i=e(aB,c[1]),d=[0,[0,b[1],i]];else
 var
 d=g}else
 var
 d=c;var
 h=d}else
 var
-h=b;return h},z));if(aK){var
-bj=aK[1],bk=e(function(a){return mZ(l,J,ay,j,a)},z),aL=i(av(u),bk),V=function(a){var
-b=dn(l),c=e(function(a){var
-b=e6(j);return I(i(a[6],b)[2])},z),d=e(function(a){var
-b=e6(j);return e(I,i(a[6],b)[1])},z),f=a0(aL);return[0,[8,[0,aL,u(o),f,d,c,bj,bh,bi,b,a]]]};if(2<=l)return[0,V(1),0];var
-bl=[0,V(1),0];return[0,V(0),bl]}return tM}return tN}return tO}return tP}var
-bm=0,w=e(function(a){return a[1]},z);function
-Z(c,b,a){return[0,c,b,a,X]}var
-G=0;if(typeof
+h=b;return h},w));if(aK){var
+bj=aK[1],bk=e(function(a){return nc(n,J,ay,j,a)},w),aL=i(av(u),bk),V=function(a){var
+b=cD(n),c=e(function(a){var
+b=e_(j);return I(i(a[6],b)[2])},w),d=e(function(a){var
+b=e_(j);return e(I,i(a[6],b)[1])},w),f=a0(aL);return[0,[8,[0,aL,u(o),f,d,c,bj,bh,bi,b,a]]]};if(2<=n)return[0,V(1),0];var
+bl=[0,V(1),0];return[0,V(0),bl]}return t6}return t7}return t8}return t9}var
+bm=0,x=e(function(a){return a[1]},w);function
+Z(c,b,a){return[0,c,b,a,W]}var
+H=0;if(typeof
 f==="number")var
-aS=u(o),s=[0,Z(i(av(u),w),aS,v)];else
+aS=u(o),s=[0,Z(i(av(u),x),aS,v)];else
 switch(f[0]){case
 0:var
-x=[5,[0,b,b],f[1]],K=Z;G=1;break;case
+y=[5,[0,b,b],f[1]],K=Z;H=1;break;case
 1:var
-aU=[5,[0,b,b],f[1]],x=aU,K=function(c,b,a){return[1,c,b,a]};G=1;break;case
+aU=[5,[0,b,b],f[1]],y=aU,K=function(c,b,a){return[1,c,b,a]};H=1;break;case
 2:var
-aV=iE(a,o,z,j,f),s=y(function(a){return[4,u(a)]},aV);break;case
+aV=iN(a,o,w,j,f),s=z(function(a){return[4,u(a)]},aV);break;case
 3:var
-aW=iE(a,o,z,j,f),s=y(function(a){return[4,u(a)]},aW);break;case
+aW=iN(a,o,w,j,f),s=z(function(a){return[4,u(a)]},aW);break;case
 5:var
-$=f[1],aX=am(a,[0,[0,$,$],d]),s=y(function(b){var
-c=W(a,b),d=u(o);return[2,i(av(u),w),d,c]},aX);break;case
+_=f[1],aX=an(a,[0,[0,_,_],d]),s=z(function(b){var
+c=X(a,b),d=u(o);return[2,i(av(u),x),d,c]},aX);break;case
 6:var
-L=F(z,f[1]);if(L){var
-M=mU(z,j,f);if(M){var
-aa=M[1],ab=h(a,1,f[2]),ac=ab?h(a,1,f[3]):ab;if(ac)var
-aY=u(aa[2]),aZ=u(L[1][1][2]),ad=[0,[5,[0,[0,[0,u(aa[1]),0],aZ],0],aY]];else
+L=F(w,f[1]);if(L){var
+M=m9(w,j,f);if(M){var
+$=M[1],ab=h(a,1,f[2]),ac=ab?h(a,1,f[3]):ab;if(ac)var
+aY=u($[2]),aZ=u(L[1][1][2]),ad=[0,[5,[0,[0,[0,u($[1]),0],aZ],0],aY]];else
 var
 ad=ac;var
 ae=ad}else
@@ -4665,115 +4673,115 @@ var
 af=L;var
 s=af;break;case
 7:var
-ag=f[3],ah=f[2],ai=f[1],aj=F(z,ai),aR=0;if(aj){var
+ag=f[3],ah=f[2],ai=f[1],aj=F(w,ai),aR=0;if(aj){var
 ak=h(a,1,ah),al=ak?h(a,1,ag):ak;if(al){var
-a1=[5,ah,ag],x=a1,K=function(c,b,a){return[3,ai,c,b,a,X]};G=1;aR=1}else
+a1=[5,ah,ag],y=a1,K=function(c,b,a){return[3,ai,c,b,a,W]};H=1;aR=1}else
 var
-an=al}else
+am=al}else
 var
-an=aj;if(!aR)var
-s=an;break;case
+am=aj;if(!aR)var
+s=am;break;case
 8:var
 ao=h(a,1,f[2]);if(ao)var
 a2=f[1],a3=1,N=m(function(b){return h(a,a3,b)},a2);else
 var
 N=ao;if(N)var
-a4=P(a,b),a5=u(o),a6=gj(w,j),ap=[0,[0,i(av(u),a6),a5,a4,0]];else
+a4=Q(a,b),a5=u(o),a6=gs(x,j),ap=[0,[0,i(av(u),a6),a5,a4,0]];else
 var
 ap=N;var
 s=ap;break;case
 14:var
-aq=f[2],ar=f[1],O=mY(l,H,o,z,j,ar,aq);if(O){var
-as=O[1],at=as[2],au=as[1],aw=mi(ar,aq,f[3]),Q=am(a,[0,[0,aw,aw],C]);if(Q){var
-ax=Q[1],aA=E(d,ax[1]);if(aA)var
-A=function(a){return lI(I,a)},a7=A(at[2]),a8=A(at[1]),a9=A(au[2]),aB=[0,[9,[6,A(au[1]),a9,a8,a7,ax]]];else
+aq=f[2],ar=f[1],O=nb(n,G,o,w,j,ar,aq);if(O){var
+as=O[1],at=as[2],au=as[1],aw=my(ar,aq,f[3]),P=an(a,[0,[0,aw,aw],B]);if(P){var
+ax=P[1],az=E(d,ax[1]);if(az)var
+A=function(a){return lW(I,a)},a7=A(at[2]),a8=A(at[1]),a9=A(au[2]),aA=[0,[9,[6,A(au[1]),a9,a8,a7,ax]]];else
 var
-aB=aA;var
-aC=aB}else
+aA=az;var
+aC=aA}else
 var
-aC=Q;var
+aC=P;var
 aD=aC}else
 var
 aD=O;var
 s=aD;break;case
 15:var
-R=F(z,f[1]);if(R){var
+R=F(w,f[1]);if(R){var
 aE=h(a,1,f[4]);if(aE)var
 aF=h(a,0,f[2]),S=aF?h(a,0,f[3]):aF;else
 var
 S=aE;if(S)var
-B=i(R[1][5],0),a_=I(B[4]),a$=I(B[3]),ba=I(q(tL,j,k(d))),bb=I(q(0,j,k(d))),bc=B[2],bd=e(function(a){return e(I,a)},bc),T=[0,[9,[10,e(I,B[1]),bd,bb,ba,a$,a_]]];else
+C=i(R[1][5],0),a_=I(C[4]),a$=I(C[3]),ba=I(q(t5,j,k(d))),bb=I(q(0,j,k(d))),bc=C[2],bd=e(function(a){return e(I,a)},bc),T=[0,[9,[10,e(I,C[1]),bd,bb,ba,a$,a_]]];else
 var
 T=S}else
 var
 T=R;var
 s=T;break;default:var
-s=0}if(G)var
-aT=am(a,[0,[0,x,x],d]),s=y(function(b){var
-c=W(a,b),d=u(o);return K(i(av(u),w),d,c)},aT);return[0,s,bm]},b3,C,aa,Y));if(aB){var
-ba=aB[1];if(A[7])var
-b4=aP[2],b5=aP[1],b6=u(o),ad=lZ(bD,ba,[7,i(av(u),ao),b6,b5,b4]);else
+s=0}if(H)var
+aT=an(a,[0,[0,y,y],d]),s=z(function(b){var
+c=X(a,b),d=u(o);return K(i(av(u),x),d,c)},aT);return[0,s,bm]},b4,B,$,Y));if(az){var
+a_=az[1];if(A[7])var
+b5=aQ[2],b6=aQ[1],b7=u(o),ac=mb(bE,a_,[7,i(av(u),ao),b7,b6,b5]);else
 var
-ad=ba;var
-bb=r(g(f(a8,a_)),j),bc=bb?m(function(a){var
-b=mN(a);return m(function(a){return mq(j,Z,a)},b)},ad):bb,bd=bc?D?mq(j,Z,u(D[1])):1:bc;if(bd){var
-b7=f(at[1],ax[1]),aE=f(as[1],b7),L=m3(aO),M=iH(C,A[2]),$=L?e(function(a){var
-b=mL(j,M,a[2]),c=a[1];return[0,e(function(a){return mL(j,M,a)},c),b]},V):L,aF=L?cI(iA(j,o,D,$))[1]:L,aG=cH(aF),ae=function(a){return a9(aG,a)},b8=iy(ae,ae,$),b_=ae(bp(j,o)),aH=y(function(a){return ae(bp(j,a))},D),bf=T(L);if(bf)var
-ag=bf;else{var
-bq=r(g(V),j);if(bq){var
-bz=iA(j,o,D,$),aL=m(function(a){var
-b=k(d);return aC(q(a9(aG,a),aG,b),a)},bz);if(aL)var
-bA=iA(j,o,D,$),ah=m(function(a){var
-b=aA(0,j);return m(function(b){return ea(j,b,a)},b)},bA);else
+ac=a_;var
+ba=p(g(f(a8,a9)),j),bc=ba?m(function(a){var
+b=m2(a);return m(function(a){return mF(j,Z,a)},b)},ac):ba,bd=bc?D?mF(j,Z,u(D[1])):1:bc;if(bd){var
+b8=f(at[1],ax[1]),aC=f(as[1],b8),L=ng(aP),M=iQ(B,A[2]),_=L?e(function(a){var
+b=m0(j,M,a[2]),c=a[1];return[0,e(function(a){return m0(j,M,a)},c),b]},U):L,aD=L?cP(iJ(j,o,D,_))[1]:L,aE=cO(aD),ad=function(a){return a$(aE,a)},b9=iH(ad,ad,_),b_=ad(bs(j,o)),aH=z(function(a){return ad(bs(j,a))},D),be=S(L);if(be)var
+af=be;else{var
+bp=p(g(U),j);if(bp){var
+bA=iJ(j,o,D,_),aL=m(function(a){var
+b=k(d);return aF(q(a$(aE,a),aE,b),a)},bA);if(aL)var
+bB=iJ(j,o,D,_),ag=m(function(a){var
+b=aA(0,j);return m(function(b){return ed(j,b,a)},b)},bB);else
 var
-ah=aL;if(ah){var
-aM=y(function(a){return bp(j,a)},D),ai=bp(j,o),aK=mH(ai);if(aK)var
-by=aA(0,X),aN=m(function(a){var
-b=dl(j,a,ai),c=b?m(function(b){var
-d=b[2][2],e=f(x(iz,b[1]),d),g=O(j,a),c=m(function(a){return cx(g,a)},e);if(c){var
-h=b[2][1];return gk(ai,O(j,a),h)}return c},$):b;if(c){if(aM){var
-e=aM[1];return cx(O(j,a),e)}var
+ag=aL;if(ag){var
+aM=z(function(a){return bs(j,a)},D),ai=bs(j,o),aK=mW(ai);if(aK)var
+bz=aA(0,W),aO=m(function(a){var
+b=ds(j,a,ai),c=b?m(function(b){var
+d=b[2][2],e=f(y(iI,b[1]),d),g=P(j,a),c=m(function(a){return cC(g,a)},e);if(c){var
+h=b[2][1];return gt(ai,P(j,a),h)}return c},_):b;if(c){if(aM){var
+e=aM[1];return cC(P(j,a),e)}var
 d=1}else
 var
-d=c;return d},by);else
+d=c;return d},bz);else
 var
-aN=aK;var
-an=aN}else
+aO=aK;var
+aj=aO}else
 var
-an=ah;var
-cf=an?m(function(a){var
-c=a[1],b=m(function(a){return mM(j,aE,M,a)},c);return b?mM(j,aE,M,a[2]):b},V):an,ag=cf}else
+aj=ag;var
+cf=aj?m(function(a){var
+c=a[1],b=m(function(a){return m1(j,aC,M,a)},c);return b?m1(j,aC,M,a[2]):b},U):aj,af=cf}else
 var
-ag=bq}if(ag){var
-ca=e(function(a){return 1},ad),cb=f(a8,a_),cc=function(l,O,ac,aa,c){if(L){if(typeof
+af=bp}if(af){var
+b$=e(function(a){return 1},ac),ca=f(a8,a9),cb=function(l,O,ab,$,c){if(L){if(typeof
 c!=="number"&&10===c[0]){var
-h=c[3],o=c[2],p=c[1];if(typeof
-p!=="number"&&6===p[0]){if(h){if(h[2])return 0;var
-w=h[1],b=p[1],x=r(aa,X),y=x?aV(0,X):x;if(y)var
-v=hB(hx,e(az,o),M),Y=v?1:v,s=Y;else
+h=c[3],o=c[2],r=c[1];if(typeof
+r!=="number"&&6===r[0]){if(h){if(h[2])return 0;var
+w=h[1],b=r[1],x=p($,W),y=x?aN(0,W):x;if(y)var
+v=hK(hG,e(aB,o),M),Y=v?1:v,s=Y;else
 var
 s=y;var
-z=s?hX(M):s,A=z?m(function(a){return aV(a,g(l))},M):z,B=A?r(g(w),j):A;if(B){var
+z=s?h8(M):s,A=z?m(function(a){return aN(a,g(l))},M):z,B=A?p(g(w),j):A;if(B){var
 u=0;if(typeof
 b!=="number")switch(b[0]){case
 0:var
-I=b[2],H=b[1],F=0;u=1;break;case
+I=b[2],G=b[1],F=0;u=1;break;case
 7:var
-J=b[2],k=b[1],Q=0;if(typeof
+J=b[2],k=b[1],P=0;if(typeof
 k!=="number"&&0===k[0]){var
 R=0;if(aH){var
 K=E(d,J);if(K){var
-I=k[2],H=k[1],F=[0,[0,[0,aH[1],J],b[3]]];u=1;Q=1;R=1}else
+I=k[2],G=k[1],F=[0,[0,[0,aH[1],J],b[3]]];u=1;P=1;R=1}else
 var
 N=K}else
 var
-N=aH;if(!R)return N}if(!Q)return 0;break}if(u){var
-S=it(a,f7(o,0,l),aF,O),n=it(a,l,aF,O),f=function(b,a){return q(a,b,tw)},T=mJ(function(a){return f(n,a)},F),U=f(n,b_),V=function(a){return f(n,a)},W=[0,iy(function(a){return f(S,a)},V,b8),U,T],Z=hR(o,l),$=function(g){var
-b=_(e(tu,g[1]));if(b){var
+N=aH;if(!R)return N}if(!P)return 0;break}if(u){var
+S=iC(a,gc(o,0,l),aD,O),n=iC(a,l,aD,O),f=function(b,a){return q(a,b,tQ)},T=mY(function(a){return f(n,a)},F),U=f(n,b_),V=function(a){return f(n,a)},X=[0,iH(function(a){return f(S,a)},V,b9),U,T],Z=h2(o,l),_=function(g){var
+b=aa(e(tO,g[1]));if(b){var
 c=g[2];if(c){var
-d=c0(g[3]);if(d){var
-l=d[1],m=al([0,G(ab(t(a,ac,c[1])),l),0],j),n=b[1],o=e(function(d){var
-b=hS(a,0,Z,d),c=bk(tv,b[2]);return[0,b[1],c]},n),f=ld(a,e(function(b){return P(a,b)},w),H,I,o,m);if(f)return a$(a,j,f[1]);var
+d=c_(g[3]);if(d){var
+l=d[1],m=am([0,H(ae(t(a,ab,c[1])),l),0],j),n=b[1],o=e(function(d){var
+b=h3(a,0,Z,d),c=bn(tP,b[2]);return[0,b[1],c]},n),f=lr(a,e(function(b){return Q(a,b)},w),G,I,o,m);if(f)return bb(a,j,f[1]);var
 h=f}else
 var
 h=d;var
@@ -4782,113 +4790,113 @@ var
 i=c;var
 k=i}else
 var
-k=b;return k};return i(iv(function(b,a){return tt},X,j,$),W)}var
+k=b;return k};return i(iE(function(b,a){return tN},W,j,_),X)}var
 C=0}else
 var
 C=B;var
 D=C}else
 var
-D=h;return D}return 0}return 0}return L},cd=u(o),ce=i(av(u),V);return e5(a,aY,aZ,ad,j,j,y(u,D),ce,cd,cc,aE,cb,ca,aO)}var
-bg=ag}else
+D=h;return D}return 0}return 0}return L},cd=u(o),ce=i(av(u),U);return e9(a,aX,aZ,ac,j,j,z(u,D),ce,cd,cb,aC,ca,b$,aP)}var
+bf=af}else
 var
-bg=bd;var
-bh=bg}else
+bf=bd;var
+bh=bf}else
 var
-bh=aB;var
+bh=az;var
 bi=bh}else
 var
 bi=ax;var
 bj=bi}else
 var
 bj=aw;var
-bl=bj}else
+bk=bj}else
 var
-bl=au;var
+bk=au;var
+bl=bk}else
+var
+bl=at;var
 bm=bl}else
 var
-bm=at;var
-bn=bm}else
-var
-bn=as;var
-bo=bn}else
+bm=as;var
+bo=bm}else
 var
 bo=ar;return bo}function
-e7(b,a){return bo(b,a[1],a[2])}function
-m4(b,a){var
-c=e7(b,a[1]),d=c?e7(b,a[2]):c;return d?e7(b,a[3]):d}function
-bh(a){return typeof
-a==="number"?a?tU:tV:b9(a[1])}function
-m5(b,a,c){return typeof
-b==="number"?b?[0,a[1],[0,a[2],0]]:[0,a[1],[0,a[2],[0,a[3],0]]]:iq(b[1],a,c)}function
-gw(a){if(0===a[0]){var
+e$(b,a){return bq(b,a[1],a[2])}function
+nh(b,a){var
+c=e$(b,a[1]),d=c?e$(b,a[2]):c;return d?e$(b,a[3]):d}function
+bk(a){return typeof
+a==="number"?a?uc:ud:br(a[1])}function
+ni(b,a,c){return typeof
+b==="number"?b?[0,a[1],[0,a[2],0]]:[0,a[1],[0,a[2],[0,a[3],0]]]:iz(b[1],a,c)}function
+gF(a){if(0===a[0]){var
 c=a[1];switch(c[0]){case
 0:return c[3];case
 1:return c[2];default:return[0,[0,d,b],[0,d,b],[0,d,b]]}}return a[1][4]}function
-gx(b,c,a){return b?d_(b[1],c,a):a}function
-bP(d,c,b,a){var
-e=gw(a),f=gx(d,c,gw(a)),g=ac(function(b,a){return[2,b,a]},b,f);return ac(function(b,a){return[3,b,a]},g,e)}function
-m6(b,a){var
+gG(b,c,a){return b?cA(b[1],c,a):a}function
+bT(d,c,b,a){var
+e=gF(a),f=gG(d,c,gF(a)),g=T(function(b,a){return[2,b,a]},b,f);return T(function(b,a){return[3,b,a]},g,e)}function
+nj(b,a){var
 c=typeof
 b==="number"?1:0;if(c){if(b)return[0,a[1],[0,a[2],0]];var
 d=[0,a[1],[0,a[2],[0,a[3],0]]]}else
 var
 d=c;return d}function
-m7(b,w,v){var
-e=w,d=v;for(;;){if(e){if(d){var
+nk(b,x,v){var
+e=x,d=v;for(;;){if(e){if(d){var
 f=d[1],j=e[1];if(0===j[0])var
-g=0===f[0]?lN(b,j[1],f[1]):0;else
+g=0===f[0]?l1(b,j[1],f[1]):0;else
 if(0===f[0])var
 g=0;else{var
-a=f[1],c=j[1],k=bf(b,c[1],a[1]),l=k?bf(b,c[2],a[2]):k,m=l?bf(b,c[3],a[3]):l,n=m?bf(b,c[4],a[4]):m,o=n?cT(b,c[5],a[5]):n,p=o?cT(b,c[6],a[6]):o,q=p?h(b,1,a[5]):p,r=q?h(b,1,a[6]):q,s=r?h(b,1,H(a[1],a[1])):r;if(s)var
-u=id(a),i=h(b,1,H(id(a),u));else
+a=f[1],c=j[1],k=bh(b,c[1],a[1]),l=k?bh(b,c[2],a[2]):k,m=l?bh(b,c[3],a[3]):l,n=m?bh(b,c[4],a[4]):m,o=n?c0(b,c[5],a[5]):n,p=o?c0(b,c[6],a[6]):o,q=p?h(b,1,a[5]):p,r=q?h(b,1,a[6]):q,s=r?h(b,1,w(a[1],a[1])):r;if(s)var
+u=io(a),i=h(b,1,w(io(a),u));else
 var
 i=s;var
-g=i?cj(c[7],a[7]):i}if(g){var
+g=i?cm(c[7],a[7]):i}if(g){var
 e=e[2],d=d[2];continue}var
 t=g}else
 var
 t=d;return t}return d?0:1}}function
-m8(a){return typeof
-a==="number"?a?dp(0):dc:dp(a[1])}function
-iI(b,d,c){if(0===c[0])return gc(b,d[1],c[1]);var
-a=c[1],e=[0,[0,a[5],b],[0,[0,a[6],b],0]],g=f(a3(a[4],b),e),h=f(a3(a[3],b),g),i=f(a3(a[2],d[2]),h);return f(a3(a[1],d[1]),i)}function
-iJ(b,a){if(b){var
-c=b[1],d=c[2];return be(e4(c[1],a),d)}return a}function
-m9(f,t,am,J,al,r,ak){if(r){var
-j=r[1],an=bH([0,d,d],al),a=cu(ak,iI(J,an,j)),y=function(c,b){var
-d=ai(a,c);return af(w,af(B,m8(f),b),d)};if(0===j[0]){var
+nl(a){return typeof
+a==="number"?a?du(0):dm:du(a[1])}function
+iR(b,d,c){if(0===c[0])return gj(b,d[1],c[1]);var
+a=c[1],e=[0,[0,a[5],b],[0,[0,a[6],b],0]],g=f(a4(a[4],b),e),h=f(a4(a[3],b),g),i=f(a4(a[2],d[2]),h);return f(a4(a[1],d[1]),i)}function
+iS(b,a){if(b){var
+c=b[1],d=c[2];return bg(e8(c[1],a),d)}return a}function
+nm(f,t,am,J,al,r,ai){if(r){var
+j=r[1],an=bJ([0,d,d],al),a=cx(ai,iR(J,an,j)),y=function(c,b){var
+d=aj(a,c);return ah(x,ah(C,nl(f),b),d)};if(0===j[0]){var
 z=j[1];switch(z[0]){case
 0:var
-$=iJ(t,ai(a,tX)),aE=z[1][5],A=q(tY,a,k(d)),C=ai(a,0),aa=y(tZ,$),i=k5(aa,db(C),aa,A,aE),ap=[0,aD(A),0],aq=[0,aD(U(C,C)),ap],l=[0,[0,i[1],i[2],i[3],[0,i[4]],[0,[0,i[2],A]],aq],$];break;case
+$=iS(t,aj(a,uf)),aD=z[1][5],A=q(ug,a,k(d)),B=aj(a,0),aa=y(uh,$),i=lh(aa,dl(B),aa,A,aD),ap=[0,aG(A),0],aq=[0,aG(V(B,B)),ap],l=[0,[0,i[1],i[2],i[3],[0,i[4]],[0,[0,i[2],A]],aq],$];break;case
 1:var
-ab=iJ(t,ai(a,t0)),ac=z[3],D=ac?[0,ai(a,t1)]:ac,ad=y(0,ab),m=k6(ad,ad,0);if(D)var
-K=D[1],L=[0,aD(U(K,K)),0];else
+ab=iS(t,aj(a,ui)),ac=z[3],D=ac?[0,aj(a,uj)]:ac,ad=y(0,ab),m=li(ad,ad,0);if(D)var
+K=D[1],L=[0,aG(V(K,K)),0];else
 var
 L=D;var
 l=[0,[0,m[1],m[2],m[3],[0,m[4]],0,L],ab];break;default:var
-aF=k(d),aG=k(d),aH=[0,k(d),aG,aF],E=ai(a,0),aI=m8(f),n=k7(aI,db(E)),ar=[0,aD(U(E,E)),0],l=[0,[0,n[1],n[2],n[3],[0,n[4]],0,ar],aH]}}else
+aE=k(d),aF=k(d),aH=[0,k(d),aF,aE],E=aj(a,0),aI=nl(f),n=lj(aI,dl(E)),ar=[0,aG(V(E,E)),0],l=[0,[0,n[1],n[2],n[3],[0,n[4]],0,ar],aH]}}else
 var
-ae=iJ(t,ai(a,t2)),F=j[1][7],G=q(t3,a,k(d)),e=q(t4,a,k(d)),ag=ai(a,t5),H=ai(a,0),p=y(t6,ae),o=db(H),u=af(w,ag,aW(U(o,ag),o)),v=db(u),M=b$(o,v),N=U(p,v),P=U(p,M),as=U(o,p),at=Q(P),R=B(Q(N),at),au=Q(as),S=w(Q(G),au),av=s(k(c(2,b)),e),x=w(R,Q(aj(B(R,w(Q(e),S)),av))),aw=f2(F,s(e,aD(x))),T=aj(N,e),V=f2(F,aj(P,e)),W=aj(S,Q(e)),X=kB(0,T,V,W),Y=f2(F,kB(1,T,V,W)),ax=aW(Y,M),Z=af(w,p,aW(e,af(B,aW(X,v),ax))),ay=[0,aD(G),0],az=[0,aD(e),ay],aA=[0,aD(U(u,u)),az],aB=[0,aD(U(H,H)),aA],aC=be(Z,aw),l=[0,[0,Z,s(Q(e),x),aC,[1,X,Y],[0,[0,x,G]],aB],ae];var
-aP=O(ak,g(iI(J,an,j))),aQ=r[2],aR=m9(f,t,am,J,bt(al),aQ,aP),h=l[1],aS=l[2],ah=function(a){var
-b=be(b$(aS,a),am);return typeof
-f==="number"?f?[0,a[1],[0,a[2],0]]:bL(a):gq(f[1],a,b)},I=h[1],_=typeof
-f==="number"?1:0,aJ=h[6],aK=h[5],aL=_?f?[0,I[1],[0,I[2],0]]:bL(I):_,aM=h[4],aN=ah(h[3]),aO=h[2],ao=[0,[0,ah(h[1]),aO,aN,aM,aL,aK,aJ],aR]}else
+ae=iS(t,aj(a,uk)),F=j[1][7],G=q(ul,a,k(d)),e=q(um,a,k(d)),af=aj(a,un),H=aj(a,0),p=y(uo,ae),o=dl(H),u=ah(x,af,aY(V(o,af),o)),v=dl(u),M=cc(o,v),N=V(p,v),O=V(p,M),as=V(o,p),at=R(O),Q=C(R(N),at),au=R(as),S=x(R(G),au),av=s(k(c(2,b)),e),w=x(Q,R(ak(C(Q,x(R(e),S)),av))),aw=f9(F,s(e,aG(w))),T=ak(N,e),U=f9(F,ak(O,e)),W=ak(S,R(e)),X=kO(0,T,U,W),Y=f9(F,kO(1,T,U,W)),ax=aY(Y,M),Z=ah(x,p,aY(e,ah(C,aY(X,v),ax))),ay=[0,aG(G),0],az=[0,aG(e),ay],aA=[0,aG(V(u,u)),az],aB=[0,aG(V(H,H)),aA],aC=bg(Z,aw),l=[0,[0,Z,s(R(e),w),aC,[1,X,Y],[0,[0,w,G]],aB],ae];var
+aP=P(ai,g(iR(J,an,j))),aQ=r[2],aR=nm(f,t,am,J,bw(al),aQ,aP),h=l[1],aS=l[2],ag=function(a){var
+b=bg(cc(aS,a),am);return typeof
+f==="number"?f?[0,a[1],[0,a[2],0]]:bN(a):gz(f[1],a,b)},I=h[1],_=typeof
+f==="number"?1:0,aJ=h[6],aK=h[5],aL=_?f?[0,I[1],[0,I[2],0]]:bN(I):_,aM=h[4],aN=ag(h[3]),aO=h[2],ao=[0,[0,ag(h[1]),aO,aN,aM,aL,aK,aJ],aR]}else
 var
 ao=r;return ao}function
-iK(c,b,a){if(a){var
-e=a[2],g=iK(c,bt(b),e),h=a[1];return f(iI(c,bH([0,d,d],b),h),g)}return a}function
-m_(a){if(a){var
+iT(c,b,a){if(a){var
+e=a[2],g=iT(c,bw(b),e),h=a[1];return f(iR(c,bJ([0,d,d],b),h),g)}return a}function
+nn(a){if(a){var
 b=a[1][6];if(b)var
-c=m_(a[2]),e=c?[0,[0,b[1][2],c[1]]]:c,d=e;else
+c=nn(a[2]),e=c?[0,[0,b[1][2],c[1]]]:c,d=e;else
 var
-d=b;return d}return t7}function
-m$(y,V,b){function
+d=b;return d}return up}function
+no(y,V,b){function
 c(a){return q(a,V,k(d))}function
 N(a){var
-e=a[2],f=s(Q(c(0)),e),b=0,d=0,g=a[1];return[0,[0,b0(function(b,a){return w(b,Q(a))},g,f),d],b]}function
+e=a[2],f=s(R(c(0)),e),b=0,d=0,g=a[1];return[0,[0,b4(function(b,a){return x(b,R(a))},g,f),d],b]}function
 O(e){var
 a=e[6];if(a)var
-b=a[1],f=Q(b[2]),g=s(Q(c(0)),f),d=[0,[0,w(b[1],g),0],0];else
+b=a[1],f=R(b[2]),g=s(R(c(0)),f),d=[0,[0,x(b[1],g),0],0];else
 var
 d=a;return d}var
 D=0;if(typeof
@@ -4898,17 +4906,17 @@ switch(b[0]){case
 W=function(b){var
 a=b[4];if(typeof
 a!=="number"&&0===a[0]){var
-d=c(0);return[0,[0,w(a[1],d),0],0]}return 0},g=W,f=b[1];break;case
+d=c(0);return[0,[0,x(a[1],d),0],0]}return 0},g=W,f=b[1];break;case
 3:var
 X=function(b){var
 a=b[4];if(typeof
 a!=="number"&&0===a[0]){var
-d=a[1];return[0,[0,w(c(0),d),0],0]}return 0},g=X,f=b[1];break;case
+d=a[1];return[0,[0,x(c(0),d),0],0]}return 0},g=X,f=b[1];break;case
 4:var
 Y=function(e){var
 a=e[4];if(typeof
 a!=="number"&&1===a[0]){var
-b=a[2],d=a[1],f=s(c(t8),b),g=[0,[0,w(s(c(t9),d),f),0],0],h=s(d,c(t_));return[0,[0,w(s(b,c(0)),h),0],g]}return 0},g=Y,f=b[1];break;case
+b=a[2],d=a[1],f=s(c(uq),b),g=[0,[0,x(s(c(ur),d),f),0],0],h=s(d,c(us));return[0,[0,x(s(b,c(0)),h),0],g]}return 0},g=Y,f=b[1];break;case
 6:var
 Z=function(a){var
 b=a[4];if(typeof
@@ -4924,9 +4932,9 @@ $=function(a){var
 b=a[4];if(typeof
 b!=="number"&&0===b[0])return O(a);return 0},g=$,f=b[1];break;case
 12:var
-A=m_(y);if(A){var
-aa=c(0),P=b0(s,A[1],aa),C=e(function(a){return a[5]},y);if(C){var
-h=C[2],i=C[1];if(i){var
+A=nn(y);if(A){var
+aa=c(0),P=b4(s,A[1],aa),B=e(function(a){return a[5]},y);if(B){var
+h=B[2],i=B[1];if(i){var
 j=i[2],E=i[1];if(j){var
 l=j[2],G=j[1];if(l)if(l[2]||!h)var
 a=k(d);else{var
@@ -4941,7 +4949,7 @@ u=t[2],L=t[1];if(u){var
 M=u[1];if(u[2]||m[2])var
 a=k(d);else
 var
-S=de(H,I,K,L),T=s(l[1],S),U=s(G,de(H,J,K,M)),a=B(w(s(E,de(I,J,L,M)),U),T)}else
+S=dp(H,I,K,L),T=s(l[1],S),U=s(G,dp(H,J,K,M)),a=C(x(s(E,dp(I,J,L,M)),U),T)}else
 var
 a=k(d)}else
 var
@@ -4956,7 +4964,7 @@ var
 a=k(d)}else
 if(h){var
 v=h[1];if(v)var
-x=v[2],a=x?x[2]?k(d):h[2]?k(d):de(E,G,v[1],x[1]):k(d);else
+w=v[2],a=w?w[2]?k(d):h[2]?k(d):dp(E,G,v[1],w[1]):k(d);else
 var
 a=k(d)}else
 var
@@ -4967,16 +4975,16 @@ var
 a=k(d)}else
 var
 a=k(d);var
-ab=[0,bu(B(a,P)),0],R=[0,[0,w(a,P),ab],0]}else
+ab=[0,bx(C(a,P)),0],Q=[0,[0,x(a,P),ab],0]}else
 var
-R=A;return R;default:D=1}if(D)return 0;var
+Q=A;return Q;default:D=1}if(D)return 0;var
 z=F(y,f);return z?g(z[1]):z}function
-ee(a){return e(function(a){return[0,a[1],a[2]]},a)}function
-e8(a){return e(function(a){var
+eh(a){return e(function(a){return[0,a[1],a[2]]},a)}function
+fa(a){return e(function(a){var
 c=k(b);return[0,a[3],c]},a)}function
-na(c,b,a){if(typeof
-a!=="number"&&8===a[0])return bN(gj(ee(c),b));return dO(m$(c,b,a))}function
-nb(f,g,l,I,H,s,a){if(typeof
+np(c,b,a){if(typeof
+a!=="number"&&8===a[0])return bP(gs(eh(c),b));return dS(no(c,b,a))}function
+nq(f,g,l,I,H,s,a){if(typeof
 a==="number")return[0,[0,[0,v]],0];else
 switch(a[0]){case
 0:var
@@ -4984,42 +4992,42 @@ J=[5,[0,b,b],a[1]],j=J,n=function(a){return[0,a]};break;case
 1:var
 M=[5,[0,b,b],a[1]],j=M,n=function(a){return[1,a]};break;case
 5:var
-z=a[1],Q=0,R=am(f,[0,[0,z,z],d]);return[0,y(function(a){return[2,W(f,a)]},R),Q];case
+y=a[1],P=0,R=an(f,[0,[0,y,y],d]);return[0,z(function(a){return[2,X(f,a)]},R),P];case
 7:var
-A=a[3],B=a[2],C=a[1];if(!F(l,C))return ub;var
+A=a[3],B=a[2],C=a[1];if(!F(l,C))return uv;var
 G=0;if(h(f,1,B)&&h(f,1,A))var
 S=[5,B,A],j=S,n=function(a){return[7,C,a]};else
-G=1;if(G)return ua;break;case
+G=1;if(G)return uu;break;case
 8:var
 D=h(f,1,a[2]),T=0;if(D)var
-U=a[1],V=1,q=m(function(a){return h(f,V,a)},U);else
+U=a[1],V=1,p=m(function(a){return h(f,V,a)},U);else
 var
-q=D;if(q)var
-X=P(f,b),Y=gj(ee(l),s),E=[0,[4,i(av(g),Y),X]];else
+p=D;if(p)var
+W=Q(f,b),Y=gs(eh(l),s),E=[0,[4,i(av(g),Y),W]];else
 var
-E=q;return[0,E,T];default:var
-r=0;if(typeof
-a==="number")r=1;else
+E=p;return[0,E,T];default:var
+q=0;if(typeof
+a==="number")q=1;else
 switch(a[0]){case
 4:var
-t=a[3],u=a[2],w=h(f,1,[3,t,u]),O=w?h(f,1,[3,[2,u,[0,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b)))))))))),b]],t]):w,k=O;break;case
+t=a[3],u=a[2],w=h(f,1,[3,t,u]),O=w?h(f,1,[3,[2,u,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b]],t]):w,k=O;break;case
 6:case
 9:var
-x=h(f,1,a[2]),k=x?h(f,0,a[3]):x;break;default:r=1}if(r)var
+x=h(f,1,a[2]),k=x?h(f,0,a[3]):x;break;default:q=1}if(q)var
 k=1;var
-o=k?m$(l,s,a):k;if(o){var
+o=k?no(l,s,a):k;if(o){var
 N=[0,o[1],o[2]];return e(function(a){if(a){var
 b=a[2],c=a[1];if(b){if(b[2])return 0;var
 e=i(g,b[1]);return[0,[5,i(g,c),e]]}var
 d=[0,[3,i(g,c)]]}else
 var
-d=a;return d},N)}return t$}var
-K=0,L=am(f,[0,[0,j,j],io(I,H)]);return[0,y(function(a){return n(W(f,a))},L),K]}function
-nc(a){if(typeof
+d=a;return d},N)}return ut}var
+K=0,L=an(f,[0,[0,j,j],ix(I,H)]);return[0,z(function(a){return n(X(f,a))},L),K]}function
+nr(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-ud(b){if(0===b[0])return[0,lX(b[1])];var
-a=b[1],c=a[7],d=a[6][1],e=a[5][1],f=bv(a[4]),g=bv(a[3]),h=bv(a[2]);return[1,[0,bv(a[1]),h,g,f,e,d,c]]}function
-bQ(c){var
+ux(b){if(0===b[0])return[0,l$(b[1])];var
+a=b[1],c=a[7],d=a[6][1],e=a[5][1],f=by(a[4]),g=by(a[3]),h=by(a[2]);return[1,[0,by(a[1]),h,g,f,e,d,c]]}function
+bU(c){var
 a=c;for(;;)switch(a[0]){case
 0:var
 b=a[1];return[0,[0,[0,b,b],d],0];case
@@ -5028,104 +5036,104 @@ b=a[1];return[0,[0,[0,b,b],d],0];case
 7:case
 8:var
 a=a[1];continue;default:var
-e=bQ(a[2]);return f(bQ(a[1]),e)}}function
-by(e,a,c){switch(a[0]){case
+e=bU(a[2]);return f(bU(a[1]),e)}}function
+bA(e,a,c){switch(a[0]){case
 0:var
-q=a[1];return cS([0,[0,q,q],d],c);case
+q=a[1];return cZ([0,[0,q,q],d],c);case
 1:var
 t=a[1],h=e,u=k(d);for(;;){if(h){var
-n=h[1];if(qW(n[1],t))return n[2];var
+n=h[1];if(rf(n[1],t))return n[2];var
 h=h[2];continue}return u}case
-2:return bu(by(e,a[1],c));case
+2:return bx(bA(e,a[1],c));case
 3:var
-j=a[2],f=a[1],i=B;break;case
+j=a[2],f=a[1],i=C;break;case
 4:var
-j=a[2],f=a[1],i=w;break;case
+j=a[2],f=a[1],i=x;break;case
 5:var
 j=a[2],f=a[1],i=s;break;case
 6:var
-j=a[2],f=a[1],i=aj;break;case
+j=a[2],f=a[1],i=ak;break;case
 7:var
-l=eJ(a[2]),m=by(e,a[1],c);if(l){if(l[1]){var
-o=Q(m),r=function(a){return s(a,o)},p=fI(bs(kh(l)),r,o);return kg(l)?p:s(p,m)}return m}return k(b);default:return aD(by(e,a[1],c))}var
-v=by(e,j,O(c,g(bQ(f))));return i(by(e,f,c),v)}function
-c1(c,h,b){var
+l=eO(a[2]),m=bA(e,a[1],c);if(l){if(l[1]){var
+o=R(m),r=function(a){return s(a,o)},p=fO(bv(ku(l)),r,o);return kt(l)?p:s(p,m)}return m}return k(b);default:return aG(bA(e,a[1],c))}var
+v=bA(e,j,P(c,g(bU(f))));return i(bA(e,f,c),v)}function
+c$(c,h,b){var
 a=h;for(;;)switch(a[0]){case
 6:var
-e=a[1],k=O(b,g(bQ(e))),l=c1(c,a[2],k),m=f(c1(c,e,b),l);return[0,by(c,a,b),m];case
+e=a[1],k=P(b,g(bU(e))),l=c$(c,a[2],k),m=f(c$(c,e,b),l);return[0,bA(c,a,b),m];case
 8:var
-n=c1(c,a[1],b);return[0,by(c,a,b),n];case
+n=c$(c,a[1],b);return[0,bA(c,a,b),n];case
 2:case
 7:var
 a=a[1];continue;case
 0:case
 1:return 0;default:var
-d=a[1],i=O(b,g(bQ(d))),j=c1(c,a[2],i);return f(c1(c,d,b),j)}}function
-nd(i,h,f){var
+d=a[1],i=P(b,g(bU(d))),j=c$(c,a[2],i);return f(c$(c,d,b),j)}}function
+ns(i,h,f){var
 b=i,a=h,c=f;for(;;){if(a){var
-d=a[1],e=d[2],j=O(c,g(bQ(e))),k=a[2],l=by(b,e,c),b=[0,[0,d[1],l],b],a=k,c=j;continue}return b}}function
-iL(c,a,b){if(a){var
-e=a[1],d=e[2],h=O(b,g(bQ(d))),i=a[2],j=by(c,d,b),k=iL([0,[0,e[1],j],c],i,h);return f(c1(c,d,b),k)}return a}function
-e9(a){return x(bQ,a)}function
-ne(c,a,b){if(a)var
-d=a[1],f=O(b,g(bQ(d))),h=ne(c,a[2],f),e=[0,by(c,d,b),h];else
+d=a[1],e=d[2],j=P(c,g(bU(e))),k=a[2],l=bA(b,e,c),b=[0,[0,d[1],l],b],a=k,c=j;continue}return b}}function
+iU(c,a,b){if(a){var
+e=a[1],d=e[2],h=P(b,g(bU(d))),i=a[2],j=bA(c,d,b),k=iU([0,[0,e[1],j],c],i,h);return f(c$(c,d,b),k)}return a}function
+fb(a){return y(bU,a)}function
+nt(c,a,b){if(a)var
+d=a[1],f=P(b,g(bU(d))),h=nt(c,a[2],f),e=[0,bA(c,d,b),h];else
 var
 e=a;return e}function
-nf(c,a,b){if(a){var
-d=a[1],e=O(b,g(bQ(d))),h=nf(c,a[2],e);return f(c1(c,d,b),h)}return a}function
-gy(a){return 0===a[0]?e9(a[1]):bQ(a[1])}function
-iM(c,b,a){if(b){var
-d=b[1],j=O(a,g(gy(d))),k=iM(c,b[2],j);if(0===d[0])var
-h=nf(c,d[1],a);else
+nu(c,a,b){if(a){var
+d=a[1],e=P(b,g(bU(d))),h=nu(c,a[2],e);return f(c$(c,d,b),h)}return a}function
+gH(a){return 0===a[0]?fb(a[1]):bU(a[1])}function
+iV(c,b,a){if(b){var
+d=b[1],j=P(a,g(gH(d))),k=iV(c,b[2],j);if(0===d[0])var
+h=nu(c,d[1],a);else
 var
-e=d[1],i=c1(c,e,a),h=[0,by(c,e,a),i];return f(h,k)}return b}function
-gz(c){var
+e=d[1],i=c$(c,e,a),h=[0,bA(c,e,a),i];return f(h,k)}return b}function
+gI(c){var
 a=c[1];switch(a[0]){case
 0:var
 b=[1,a[1]];break;case
 1:var
 b=[0,a[1]];break;default:var
-b=bI(gz,a)}return[0,b]}function
-iN(c){var
+b=bK(gI,a)}return[0,b]}function
+iW(c){var
 b=c;for(;;){var
 a=b[1];switch(a[0]){case
 5:var
 b=a[1];continue;case
 6:var
-d=iN(a[2]);return s(iN(a[1]),d);case
-9:return a[1];default:return Q(b)}}}function
-iO(n,h,a,f){if(a){var
-c=a[1],w=O(f,g(gy(c))),x=iO(n,h,a[2],w);if(0===c[0])var
-l=ne(h,c[1],f),o=[0,l,k(b),l,0,0,0,0];else
+d=iW(a[2]);return s(iW(a[1]),d);case
+9:return a[1];default:return R(b)}}}function
+iX(n,h,a,f){if(a){var
+c=a[1],w=P(f,g(gH(c))),x=iX(n,h,a[2],w);if(0===c[0])var
+l=nt(h,c[1],f),o=[0,l,k(b),l,0,0,0,0];else
 var
-m=by(h,c[1],f),q=gz(m),i=a2(aA(0,n),q),d=gz(i[2]),j=e(gz,i[1]),r=0,s=0,t=0,u=[0,m],v=e(function(a){return aC(a,d)?k(b):aj(a,d)},j),o=[0,j,iN(d),v,u,t,s,r];var
+m=bA(h,c[1],f),q=gI(m),i=a3(aA(0,n),q),d=gI(i[2]),j=e(gI,i[1]),r=0,s=0,t=0,u=[0,m],v=e(function(a){return aF(a,d)?k(b):ak(a,d)},j),o=[0,j,iW(d),v,u,t,s,r];var
 p=[0,o,x]}else
 var
 p=a;return p}function
-ng(a){return e(function(a){return[0,a[2],d]},a)}function
-iP(a){var
-b=x(gy,a[4]),c=f(e9(e(aU,a[3])),b);return f(ng(a[2]),c)}function
-gA(a){var
-c=cu(0,ng(a[2])),d=aA(0,g(a[1])),h=e(function(a){return[0,[0,a]]},d),b=ag(e(az,a[2]),c);return f(ag(a[1],h),b)}function
-iQ(b,d){var
+nv(a){return e(function(a){return[0,a[2],d]},a)}function
+iY(a){var
+b=y(gH,a[4]),c=f(fb(e(aW,a[3])),b);return f(nv(a[2]),c)}function
+gJ(a){var
+c=cx(0,nv(a[2])),d=aA(0,g(a[1])),h=e(function(a){return[0,[0,a]]},d),b=_(e(aB,a[2]),c);return f(_(a[1],h),b)}function
+iZ(b,d){var
 a=d;for(;;)switch(a[0]){case
 0:return 1;case
 1:var
-e=a[1];return ak(function(a){return aw(e,a)},b);case
+e=a[1];return al(function(a){return aw(e,a)},b);case
 2:case
 7:case
 8:var
 a=a[1];continue;default:var
-c=iQ(b,a[1]);if(c){var
+c=iZ(b,a[1]);if(c){var
 a=a[2];continue}return c}}function
-nh(d){var
+nw(d){var
 a=d;for(;;){if(a){var
-b=a[2],e=a[1],c=T(ak(function(b){return function(a){return qW(b,a)}}(e),b));if(c){var
+b=a[2],e=a[1],c=S(al(function(b){return function(a){return rf(b,a)}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-ni(a){var
-u=e(az,a[2]),d=f(a[1],u),h=g(a[1]),o=Y(ue,h),p=o?Y(h,uf):o,q=p?Y(h,g(a[4])):p,r=q?Y(g(a[4]),ug):q,s=r?nh(d):r;if(s){var
+nx(a){var
+u=e(aB,a[2]),d=f(a[1],u),h=g(a[1]),o=Z(uy,h),p=o?Z(h,uz):o,q=p?Z(h,g(a[4])):p,r=q?Z(g(a[4]),uA):q,s=r?nw(d):r;if(s){var
 c=d,b=a[3];for(;;){if(b){var
-j=b[1],k=j[1],l=T(ak(function(b){return function(a){return aw(b,a)}}(k),c)),n=l?iQ(c,j[2]):l;if(n){var
+j=b[1],k=j[1],l=S(al(function(b){return function(a){return aw(b,a)}}(k),c)),n=l?iZ(c,j[2]):l;if(n){var
 c=[0,k,c],b=b[2];continue}var
 t=n}else
 var
@@ -5134,9 +5142,9 @@ i=t;break}}else
 var
 i=s;if(i){var
 v=a[4];return m(function(b){var
-c=0===b[0]?b[1]:[0,b[1],0],g=f(e(az,a[3]),d);return m(function(a){return iQ(g,a)},c)},v)}return i}function
-ef(f,e,g){var
-h=g[1],a=bI(function(a){return ef(f,e,a)},h);switch(a[0]){case
+c=0===b[0]?b[1]:[0,b[1],0],g=f(e(aB,a[3]),d);return m(function(a){return iZ(g,a)},c)},v)}return i}function
+ei(f,e,g){var
+h=g[1],a=bK(function(a){return ei(f,e,a)},h);switch(a[0]){case
 0:return q(a[1],f,[0,d,b]);case
 1:return q(a[1],e,[0,d,b]);case
 2:return[0,a[1],b];case
@@ -5148,7 +5156,7 @@ h=g[1],a=bI(function(a){return ef(f,e,a)},h);switch(a[0]){case
 8:var
 c=a[1];return[4,c,c];case
 9:return[6,a[1]];default:return[0,d,b]}}function
-nj(d){var
+ny(d){var
 b=d;for(;;){var
 a=b[1];switch(a[0]){case
 10:return 0;case
@@ -5159,83 +5167,97 @@ b=a[1];continue;case
 0:case
 1:case
 2:return 1;default:var
-c=nj(a[1]);if(c){var
+c=ny(a[1]);if(c){var
 b=a[2];continue}return c}}}function
-nk(g,f,e){var
+nz(g,f,e){var
 b=f,a=e;for(;;){if(b){if(a){var
-c=cT(g,b[1],a[1]);if(c){var
+c=c0(g,b[1],a[1]);if(c){var
 b=b[2],a=a[2];continue}var
 d=c}else
 var
 d=a;return d}return a?0:1}}function
-uh(a){var
+uB(a){var
 b=a[4],d=0;if(typeof
 b!=="number"&&0===b[0]){var
 c=[0,b[1],0];d=1}if(!d)var
 c=0;var
 e=f(a[3],c);return f(a[1],e)}function
-nl(b,h,g,d,c,a){if(a){var
-j=a[2],k=a[1],l=nl(b,h,g,d,f(c,[0,k,0]),j),m=i(d,e(bt,f(c,j)));return an(h,an(g,bH(b,k),m),l)}return b}function
-nm(a,f,e,d,c,b){if(c){var
-g=0,h=c[1];return nl(a,e,d,function(b){return nm(a,f,e,d,h,b)},g,b)}return b?a:f}function
-nn(d,a){if(a){var
-b=aM(d,a[1]);if(b)var
-c=nn(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
+nA(f,e){function
+a(a){return q(a,e,[0,d,b])}var
+c=[0,d,b];switch(f){case
+0:var
+g=a(uD);return[0,a(0),g,c];case
+1:var
+h=a(uE),i=a(uF);return[0,a(0),i,h];default:return[0,c,c,c]}}function
+nB(f,e){function
+a(a){return q(a,e,[0,d,b])}var
+c=[0,d,b];switch(f){case
+0:return[0,c,c,a(uG)];case
+1:var
+g=a(uH),h=a(uI);return[0,a(uJ),h,g];default:var
+i=a(uK),j=a(uL);return[0,a(0),j,i]}}function
+nC(b,h,g,d,c,a){if(a){var
+j=a[2],k=a[1],l=nC(b,h,g,d,f(c,[0,k,0]),j),m=i(d,e(bw,f(c,j)));return ao(h,ao(g,bJ(b,k),m),l)}return b}function
+nD(a,f,e,d,c,b){if(c){var
+g=0,h=c[1];return nC(a,e,d,function(b){return nD(a,f,e,d,h,b)},g,b)}return b?a:f}function
+nE(d,a){if(a){var
+b=aC(d,a[1]);if(b)var
+c=nE(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
 var
-e=b;return e}return uj}function
-no(d,a){if(a){var
-b=nn(d,a[1]);if(b)var
-c=no(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
+e=b;return e}return uO}function
+nF(d,a){if(a){var
+b=nE(d,a[1]);if(b)var
+c=nF(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
 var
-e=b;return e}return uk}function
-np(c,j,d,b,a){var
-e=aV(d,j),g=e?bl(b,a):e;if(g)var
-k=cs(c,a)[2],h=[0,cs(c,b)[1],k],l=[0,cs(c,dQ(a,b)),0],i=[0,[0,h,h,f(al(v,d),l)]];else
+e=b;return e}return uP}function
+nG(c,j,d,b,a){var
+e=aN(d,j),g=e?a_(b,a):e;if(g)var
+k=cv(c,a)[2],h=[0,cv(c,b)[1],k],l=[0,cv(c,dU(a,b)),0],i=[0,[0,h,h,f(am(v,d),l)]];else
 var
 i=g;return i}function
-iR(a){if(a){var
+i0(a){if(a){var
 b=a[1];if(b)var
-c=iR(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+c=i0(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return ul}function
-nq(c,b,a){if(b){if(a){var
-d=b[1],f=nq(c,b[2],a[2]),g=a[1],h=function(b,a){return z(t(c,d,b),a)},i=function(a){return a};return aF(function(a){return t(c,d,a)},i,h,g,f)}var
+d=b;return d}return uQ}function
+nH(c,b,a){if(b){if(a){var
+d=b[1],f=nH(c,b[2],a[2]),g=a[1],h=function(b,a){return A(t(c,d,b),a)},i=function(a){return a};return aI(function(a){return t(c,d,a)},i,h,g,f)}var
 e=a}else
 var
 e=b;return e}function
-nr(c,b,a){if(b){if(a){var
-d=nr(c,b[2],a[2]);return z(t(c,b[1],a[1]),d)}return v}return v}function
-ns(a){return as(function(d,a){var
-e=c(2,b);return C(bZ(b3(d),e),a)},d,a)}function
-nt(a,i,h){var
+nI(c,b,a){if(b){if(a){var
+d=nI(c,b[2],a[2]);return A(t(c,b[1],a[1]),d)}return v}return v}function
+gK(a){return aq(function(d,a){var
+e=c(2,b);return D(b3(b7(d),e),a)},d,a)}function
+nJ(a,i,h){var
 d=g(i);function
 t(g,e,f){var
-d=[0,b,c(2,b)];return[0,Z(cs(a,a0(c_(e,f),d)))]}var
-j=iR(e(function(b){return eS(a,t,b)},i));if(j){var
-u=j[1],w=function(b,c,e){return np(a,d,b,c,e)},k=iR(e(function(b){return eS(a,w,b)},i));if(k){var
-x=function(b){return cs(a,b)},n=e(function(a){return e(x,a)},h),y=k[1],z=e(function(a){return a[3]},y),B=e(function(b){return nr(a,b,e(function(a){return a[2]},u))},n),C=ag(aA(0,d),n),D=e(function(c){var
-i=nq(a,c[2],z),j=c[1],d=[0,P(a,b),0],e=f(al(v,j),d);function
-g(b,a){return G(b,aq(a))}function
-h(a){return ab(aq(a))}return aF(function(a){return a},h,g,e,i)},C),o=r(g(h),d),p=o?m(function(a){return r(g(a),d)},h):o;if(p)var
-F=c(2,b),H=bZ(cm(a),F),I=ns(B),l=E(A(c(2,c(2,b)),I),H);else
+d=[0,b,c(2,b)];return[0,$(cv(a,a1(di(e,f),d)))]}var
+j=i0(e(function(b){return dZ(a,t,b)},i));if(j){var
+u=j[1],w=function(b,c,e){return nG(a,d,b,c,e)},k=i0(e(function(b){return dZ(a,w,b)},i));if(k){var
+x=function(b){return cv(a,b)},n=e(function(a){return e(x,a)},h),y=k[1],z=e(function(a){return a[3]},y),A=e(function(b){return nI(a,b,e(function(a){return a[2]},u))},n),C=_(aA(0,d),n),D=e(function(c){var
+i=nH(a,c[2],z),j=c[1],d=[0,Q(a,b),0],e=f(am(v,j),d);function
+g(b,a){return H(b,as(a))}function
+h(a){return ae(as(a))}return aI(function(a){return a},h,g,e,i)},C),o=p(g(h),d),q=o?m(function(a){return p(g(a),d)},h):o;if(q)var
+F=c(2,b),G=b3(cp(a),F),I=gK(A),l=E(B(c(2,c(2,b)),I),G);else
 var
-l=p;if(l){var
-J=c(2,b),K=bZ(cm(a),J),L=ns(dO(D));return E(A(c(2,c(2,b)),L),K)}var
-q=l}else
+l=q;if(l){var
+J=c(2,b),K=b3(cp(a),J),L=gK(dS(D));return E(B(c(2,c(2,b)),L),K)}var
+r=l}else
 var
-q=k;var
-s=q}else
+r=k;var
+s=r}else
 var
 s=j;return s}function
-gB(a){return m(function(a){return T(dU(a))},a)}function
-bR(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-bq(a){return[0,a[1],a[2]]}function
-nu(b,a){var
-d=g(a),c=r(g(b),d);if(c){var
-e=ag(b,a);return m(function(a){return bl(a[1],a[2])},e)}return c}function
-iS(e,k,j,i){var
+bV(a){return m(function(a){return S(dY(a))},a)}function
+bc(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+bt(a){return[0,a[1],a[2]]}function
+nK(b,a){var
+d=g(a),c=p(g(b),d);if(c){var
+e=_(b,a);return m(function(a){return a_(a[1],a[2])},e)}return c}function
+i1(e,k,j,i){var
 c=k,b=j,a=i;for(;;){if(c)if(b)if(a){var
-f=a[1],l=h(e,1,[3,bq(c[1]),f]),g=l||h(e,1,[3,f,bq(b[1])]);if(!g){var
+f=a[1],l=h(e,1,[3,bt(c[1]),f]),g=l||h(e,1,[3,f,bt(b[1])]);if(!g){var
 c=c[2],b=b[2],a=a[2];continue}var
 d=g}else
 var
@@ -5244,83 +5266,88 @@ var
 d=b;else
 var
 d=c;return d}}function
-nv(f,e,b,a){var
+nL(f,e,b,a){var
 c=a[1],d=b[1],g=c[2],h=a[2],i=d[2],j=b[2],k=[0,d[1],[0,c[1],0]];return m(function(a){var
 b=[0,i,[0,g,0]];return m(function(b){var
 c=[0,j,[0,h,0]];return m(function(c){var
-d=bq(c),g=bq(b);return cv(f,e,[0,bq(a),g,d])},c)},b)},k)}function
-e_(b,a){var
-c=a0(a,a);return bl(a0(b,b),c)?a:b}function
-e$(b,a,e,d){var
-c=dg(b,a,bq(e));return c?dg(b,a,bq(d)):c}function
-nw(a){var
-c=q(ur,a,[0,d,b]),e=q(us,a,[0,d,b]);return[0,[0,q(0,a,[0,d,b]),e],c]}function
-iT(d,c,b,a){var
-e=dk(d,c,b,a);return H(dk(d,c,b,a),e)}function
-ut(i,k,t,S,H,o,l,n,aR){var
-j=t[5],aI=ag(l,n),aJ=ag(aA(0,g(l)),aI),af=e(function(a){return[1,a[1],a[2][1],a[2][2]]},aJ),ax=t[7],ay=ax?ir(i,t[2],S):ax,az=ay?cv(i,t[4],H):ay,aB=az?dj(i,j,o):az,aC=aB?Y(k,uu):aB;if(aC)var
-aS=O(k,g(o)),T=r(g(l),aS);else
+d=bt(c),g=bt(b);return bQ(f,e,[0,bt(a),g,d])},c)},b)},k)}function
+nM(a){switch(a[0]){case
+0:var
+c=[0,a[4],0],d=f(bc(a[3]),c),e=f(bc(a[2]),d);return f(bc(a[1]),e);case
+1:var
+b=a[3],g=b?bc(b[1]):b,h=f(bc(a[2]),g);return f(bc(a[1]),h);default:return bc(a[1])}}function
+fc(b,a){var
+c=a1(a,a);return a_(a1(b,b),c)?a:b}function
+fd(b,a,e,d){var
+c=dr(b,a,bt(e));return c?dr(b,a,bt(d)):c}function
+nN(a){var
+c=q(uW,a,[0,d,b]),e=q(uX,a,[0,d,b]);return[0,[0,q(0,a,[0,d,b]),e],c]}function
+i2(d,c,b,a){var
+e=bR(d,c,b,a);return w(bR(d,c,b,a),e)}function
+uY(i,k,t,S,H,o,l,n,aR){var
+j=t[5],aJ=_(l,n),aK=_(aA(0,g(l)),aJ),ag=e(function(a){return[1,a[1],a[2][1],a[2][2]]},aK),ax=t[7],ay=ax?e6(i,t[2],S):ax,az=ay?bQ(i,t[4],H):ay,aB=az?cB(i,j,o):az,aC=aB?Z(k,uZ):aB;if(aC)var
+aS=P(k,g(o)),T=p(g(l),aS);else
 var
 T=aC;if(T)var
-aT=0===j[0]?uv:uw,U=r(g(o),aT);else
+aT=0===j[0]?u0:u1,U=p(g(o),aT);else
 var
 U=T;var
-aD=U?nu(l,n):U;if(aD)var
-aU=nw(aL(k,n)),aV=nw(aL(k,l)),V=nv(i,t[4],aV,aU);else
+aD=U?nK(l,n):U;if(aD)var
+aU=nN(aH(k,n)),aV=nN(aH(k,l)),V=nL(i,t[4],aV,aU);else
 var
 V=aD;if(V){var
-a=aZ(k,n),c=aZ(k,l);switch(j[0]){case
+a=aX(k,n),c=aX(k,l);switch(j[0]){case
 0:var
 X=0;if(c)if(c[2])var
 h=0;else
 if(a)var
-h=a[2]?0:e$(i,j[1],c[1],a[1]);else{var
+h=a[2]?0:fd(i,j[1],c[1],a[1]);else{var
 ah=a;X=1}else{var
 ah=c;X=1}if(X)var
 h=ah;break;case
 1:var
-Z=0;if(c){var
+Y=0;if(c){var
 v=c[2],I=0;if(v){var
 w=v[2],J=0;if(w)if(w[2]){var
 h=0;I=1;J=1}else
 if(a){var
-x=a[2],_=0;if(x){var
-y=x[2],$=0;if(y)if(y[2]){var
-h=0;I=1;J=1;_=1;$=1}else{var
-ai=e$(i,j[1],c[1],a[1]),aj=ai?e$(i,j[2],v[1],x[1]):ai;if(aj){var
-h=e$(i,j[3],w[1],y[1]);I=1;J=1;_=1;$=1}else
+x=a[2],$=0;if(x){var
+y=x[2],aa=0;if(y)if(y[2]){var
+h=0;I=1;J=1;$=1;aa=1}else{var
+ai=fd(i,j[1],c[1],a[1]),aj=ai?fd(i,j[2],v[1],x[1]):ai;if(aj){var
+h=fd(i,j[3],w[1],y[1]);I=1;J=1;$=1;aa=1}else
 var
 ak=aj}else
 var
-ak=y;if(!$)var
+ak=y;if(!aa)var
 al=ak}else
 var
-al=x;if(!_)var
-P=al}else
+al=x;if(!$)var
+O=al}else
 var
-P=a;else
+O=a;else
 var
-P=w;if(!J)var
-am=P}else
+O=w;if(!J)var
+am=O}else
 var
 am=v;if(!I){var
-an=am;Z=1}}else{var
-an=c;Z=1}if(Z)var
+an=am;Y=1}}else{var
+an=c;Y=1}if(Y)var
 h=an;break;case
 2:var
-aa=0;if(c){var
+ab=0;if(c){var
 z=c[2],K=0;if(z){var
 A=z[2],L=0;if(A)if(A[2]){var
 h=0;K=1;L=1}else
 if(a){var
-B=a[2],ab=0;if(B){var
+B=a[2],ac=0;if(B){var
 C=B[2];if(C)if(C[2]){var
-h=0;K=1;L=1;ab=1}else{var
-aM=[0,bq(e_(A[1],C[1])),0],aN=[0,bq(e_(z[1],B[1])),aM],h=dj(i,j,[0,bq(e_(c[1],a[1])),aN]);K=1;L=1;ab=1}else
+h=0;K=1;L=1;ac=1}else{var
+aM=[0,bt(fc(A[1],C[1])),0],aN=[0,bt(fc(z[1],B[1])),aM],h=cB(i,j,[0,bt(fc(c[1],a[1])),aN]);K=1;L=1;ac=1}else
 var
 ao=C}else
 var
-ao=B;if(!ab)var
+ao=B;if(!ac)var
 Q=ao}else
 var
 Q=a;else
@@ -5329,30 +5356,30 @@ Q=A;if(!L)var
 ap=Q}else
 var
 ap=z;if(!K){var
-aq=ap;aa=1}}else{var
-aq=c;aa=1}if(aa)var
+aq=ap;ab=1}}else{var
+aq=c;ab=1}if(ab)var
 h=aq;break;default:var
-ac=0;if(c){var
+ad=0;if(c){var
 D=c[2],M=0;if(D){var
 E=D[2],N=0;if(E)if(E[2]){var
 h=0;M=1;N=1}else
 if(a){var
-F=a[2],ad=0;if(F){var
-G=F[2],ae=0;if(G)if(G[2]){var
-h=0;M=1;N=1;ad=1;ae=1}else{var
-p=G[1],s=E[1],aH=0,aO=0;if(bl(s,[0,d,b])&&bl([0,d,b],p))var
+F=a[2],ae=0;if(F){var
+G=F[2],af=0;if(G)if(G[2]){var
+h=0;M=1;N=1;ae=1;af=1}else{var
+r=G[1],s=E[1],aI=0,aO=0;if(a_(s,[0,d,b])&&a_([0,d,b],r))var
 ar=[0,d,b];else
-aH=1;if(aH)var
-aK=a0(p,p),ar=bl(a0(s,s),aK)?s:p;var
-aP=[0,bq(ar),aO],aQ=[0,bq(e_(D[1],F[1])),aP],as=dj(i,j,[0,bq(e_(c[1],a[1])),aQ]);if(as){var
-h=e$(i,cW(j[2]),s,p);M=1;N=1;ad=1;ae=1}else
+aI=1;if(aI)var
+aL=a1(r,r),ar=a_(a1(s,s),aL)?s:r;var
+aP=[0,bt(ar),aO],aQ=[0,bt(fc(D[1],F[1])),aP],as=cB(i,j,[0,bt(fc(c[1],a[1])),aQ]);if(as){var
+h=fd(i,c6(j[2]),s,r);M=1;N=1;ae=1;af=1}else
 var
 at=as}else
 var
-at=G;if(!ae)var
+at=G;if(!af)var
 au=at}else
 var
-au=F;if(!ad)var
+au=F;if(!ae)var
 R=au}else
 var
 R=a;else
@@ -5361,38 +5388,68 @@ R=E;if(!N)var
 av=R}else
 var
 av=D;if(!M){var
-aw=av;ac=1}}else{var
-aw=c;ac=1}if(ac)var
+aw=av;ad=1}}else{var
+aw=c;ad=1}if(ad)var
 h=aw}var
 W=h}else
 var
 W=V;if(W){var
-aW=aL(k,bR(H)),aX=aL(k,n),aE=iS(i,aL(k,l),aX,aW);if(aE)var
+aW=aH(k,bc(H)),aY=aH(k,n),aE=i1(i,aH(k,l),aY,aW);if(aE)var
 u=aE;else{var
 aG=1===j[0]?0:1;if(aG)var
-aY=aZ(k,n),u=iS(i,aZ(k,l),aY,o);else
+aZ=aX(k,n),u=i1(i,aX(k,l),aZ,o);else
 var
 u=aG}}else
 var
 u=W;var
 aF=u?m(function(a){var
-c=bR(a[2]),b=gB(f(bR(a[1]),c));return b?gB([0,iT(j,o,H,a),0]):b},S):u;return aF?nt(i,e(function(c){var
-h=[6,iT(j,o,H,c)],a=aL(k,af),e=q(up,a,[0,d,b]),f=q(uq,a,[0,d,b]),g=[0,q(0,a,[0,d,b]),f,e];return[3,[6,iT(j,aZ(k,af),g,c)],h]},S),aR):aF}var
-gD=w(k(b),gC);function
-nx(e){var
-a=Q(gD);if(e)var
-f=s(k(c(2,b)),a),g=B(k(c(2,c(2,b))),f),h=s(k(c(2,b)),a),d=aj(B(k(b),h),g);else
+c=bc(a[2]),b=bV(f(bc(a[1]),c));return b?bV([0,i2(j,o,H,a),0]):b},S):u;return aF?nJ(i,e(function(c){var
+h=[6,i2(j,o,H,c)],a=aH(k,ag),e=q(uU,a,[0,d,b]),f=q(uV,a,[0,d,b]),g=[0,q(0,a,[0,d,b]),f,e];return[3,[6,i2(j,aX(k,ag),g,c)],h]},S),aR):aF}var
+ej=c(2,c(2,c(2,c(2,c(2,r(c(2,b)))))));function
+i3(e){var
+a=aC(ej,e);if(a){var
+f=i(kx(c(2,b)),ej);return[0,a[1][2],f]}return[0,d,b]}var
+u2=[0,[0,d,b],[0,d,b],[0,d,b]];function
+fe(c,a){var
+e=[0,d,b];return aq(function(b,a){return[2,i(c,b),a]},e,a)}function
+ff(b,a){return aq(function(c,a){var
+d=i(b,c);return T(function(b,a){return[2,b,a]},d,a)},u2,a)}function
+nO(d,h,c,e){var
+a=dZ(d,function(c,e,f){var
+a=aN(c,h),b=a?a_(e,f):a,g=b?[0,kU(d,c,e,f)]:b;return g},e);if(a){var
+b=a[1],f=hN(gK(aX(c,b[3]))),g=O(D(hN(gK(aH(c,b[3]))),f));return I(b[1][2],g)}return a}function
+i4(b,a,c){if(b)if(a)var
+f=a[1],g=i4(b[2],a[2],c),h=I(b[1],d)?[3,f,c]:[2,f,c],e=[0,h,g];else
 var
-i=B(k(c(2,b)),a),j=Q(gC),d=aj(B(s(k(c(2,b)),j),a),i);return aD(d)}function
-ny(d,c,a){if(d){var
-e=nx(c),f=B(k(b),e),g=s(w(k(b),a),f);return w(k(b),g)}var
-h=k(b),i=nx(c),j=aj(k(b),i);return w(s(a,B(k(b),j)),h)}function
-eg(f,e,d,a){var
-g=Q(a),h=Q(d),i=w(w(k(c(2,b)),h),g),j=f?e?gD:aj(gD,s(k(c(2,b)),gC)):aj(gD,k(c(2,b))),l=s(Q(j),i);return aD(B(k(b),l))}function
-nz(g,d){var
+e=a;else
+var
+e=b;return e}function
+i5(a){return z(function(a){var
+d=i(kx(c(2,b)),ej);return[0,a[2],d]},a)}function
+gL(b,a){return[1,b,hL(a),a]}function
+gM(a){var
+d=[0,c(2,b),b];return[5,[2,a[1],a[2]],d]}function
+cE(a){var
+b=gM(a[3]),c=gM(a[2]);return[0,gM(a[1]),c,b]}function
+nP(a,d,c){var
+b=aA(0,br(a));return e(function(b){var
+e=aN(b,cD(a))?d:c;return gL(b,e)},b)}function
+nQ(a){return[6,w(a,a)]}var
+gO=x(k(b),gN);function
+nR(e){var
+a=R(gO);if(e)var
+f=s(k(c(2,b)),a),g=C(k(c(2,c(2,b))),f),h=s(k(c(2,b)),a),d=ak(C(k(b),h),g);else
+var
+i=C(k(c(2,b)),a),j=R(gN),d=ak(C(s(k(c(2,b)),j),a),i);return aG(d)}function
+nS(d,c,a){if(d){var
+e=nR(c),f=C(k(b),e),g=s(x(k(b),a),f);return x(k(b),g)}var
+h=k(b),i=nR(c),j=ak(k(b),i);return x(s(a,C(k(b),j)),h)}function
+ek(f,e,d,a){var
+g=R(a),h=R(d),i=x(x(k(c(2,b)),h),g),j=f?e?gO:ak(gO,s(k(c(2,b)),gN)):ak(gO,k(c(2,b))),l=s(R(j),i);return aG(C(k(b),l))}function
+nT(g,d){var
 c=g,a=d[1],b=d[3];for(;;){if(c){if(b){var
-e=b[2],f=c[1]?z(a,b[1]):a,c=c[2],a=f,b=e;continue}return a}return a}}function
-iU(w,v,u,t){var
+e=b[2],f=c[1]?A(a,b[1]):a,c=c[2],a=f,b=e;continue}return a}return a}}function
+i6(w,v,u,t){var
 a=e(function(a){return q(a,u,0)},v);if(a){var
 f=a[1];if(f){var
 b=a[2];if(b){var
@@ -5402,7 +5459,7 @@ h=c[1];if(h){var
 d=c[2];if(d){var
 j=d[1];if(j){if(d[2])return 0;var
 x=j[1],y=h[1],z=g[1],A=f[1];return m(function(a){var
-c=i(a,x),d=i(a,y),e=i(a,z),b=i(a,A);return dV(w,[0,[0,b,[0,e,[0,d,0]]],[0,[0,b,[0,c,0]],[0,[0,b,0],0]]])},t)}var
+c=i(a,x),d=i(a,y),e=i(a,z),b=i(a,A);return d0(w,[0,[0,b,[0,e,[0,d,0]]],[0,[0,b,[0,c,0]],[0,[0,b,0],0]]])},t)}var
 k=j}else
 var
 k=d;var
@@ -5424,12 +5481,12 @@ r=f;var
 s=r}else
 var
 s=a;return s}function
-nA(f,i,e,c,h){var
-j=f?b:d,a=P(i,j);function
+nU(f,i,e,c,h){var
+j=f?b:d,a=Q(i,j);function
 g(b){var
-c=f?b4(b):cn(b);return G(c,a)}var
-k=[0,Z(h),0],l=[0,[0,a,c,[0,v,[0,g(c),0]]],k];return[0,[0,a,e,[0,g(e),0]],l]}function
-nB(r,b,q,p,g,o,n){if(o){var
+c=f?b8(b):cq(b);return H(c,a)}var
+k=[0,$(h),0],l=[0,[0,a,c,[0,v,[0,g(c),0]]],k];return[0,[0,a,e,[0,g(e),0]],l]}function
+nV(r,b,q,p,g,o,n){if(o){var
 x=o[1];if(x[1])return 0;if(o[2])return 0;if(n){var
 j=x[2],s=0;if(g){var
 h=g[2],c=0;if(h){var
@@ -5438,16 +5495,16 @@ a=0;c=1;d=1}else{var
 t=i[1],k=h[1],l=g[1],f=0;if(typeof
 j==="number")switch(j){case
 0:var
-A=e(aH,bd(uz)),z=e(Z,0),a=iU(b,p,bm(0,bJ(b,d0(0,g),z),q,0),A);c=1;d=1;f=1;break;case
+A=e(aK,bf(u$)),z=e($,0),a=i6(b,p,bo(0,bL(b,d5(0,g),z),q,0),A);c=1;d=1;f=1;break;case
 3:var
 a=E(k[2],l[1]);c=1;d=1;f=1;break}else
 if(4===j[0]){var
 m=j[1];if(r)if(m){var
-B=e(nz,uA),a=iU(b,p,bm(0,bJ(b,nA(r,b,l,k,t),0),q,0),B);c=1;d=1;f=1}else{var
+B=e(nT,va),a=i6(b,p,bo(0,bL(b,nU(r,b,l,k,t),0),q,0),B);c=1;d=1;f=1}else{var
 a=m;c=1;d=1;f=1}else
 if(m){var
 a=0;c=1;d=1;f=1}else{var
-C=e(nz,uB),a=iU(b,p,bm(0,bJ(b,nA(r,b,l,k,t),0),q,0),C);c=1;d=1;f=1}}if(!f)var
+C=e(nT,vb),a=i6(b,p,bo(0,bL(b,nU(r,b,l,k,t),0),q,0),C);c=1;d=1;f=1}}if(!f)var
 u=0}else
 var
 u=i;if(!d)var
@@ -5457,29 +5514,29 @@ v=h;if(!c){var
 w=v;s=1}}else{var
 w=g;s=1}if(s)var
 a=w;var
-y=a?uC:a}else
+y=a?vc:a}else
 var
 y=n;return y}return[0,n]}function
-nC(f,e,d,c,p,o,n){var
+nW(f,e,d,c,p,o,n){var
 b=p,g=o,a=n;for(;;)switch(a[0]){case
 0:var
-h=nB(f,e,d,c,b,a[1],g);return h?T(h[1]):h;case
+h=nV(f,e,d,c,b,a[1],g);return h?S(h[1]):h;case
 1:var
-i=nB(f,e,d,c,b,a[1],g);if(i){var
-j=i[1],k=cN(a[2],b),l=nC(f,e,d,c,k[1],j,a[3]);if(l){var
+i=nV(f,e,d,c,b,a[1],g);if(i){var
+j=i[1],k=cU(a[2],b),l=nW(f,e,d,c,k[1],j,a[3]);if(l){var
 b=k[2],g=j,a=a[4];continue}var
 m=l}else
 var
 m=i;return m;default:return 0}}function
-iV(a){return bZ(c(2,b),aB(a,b))}function
-eh(i,a,e,w,v){var
-m=a?b:R(b),f=k(m),g=ny(a,e,ux),h=ny(a,e,uy),n=aj(g,eg(a,e,f,g)),o=[0,B(aj(h,eg(a,e,h,f)),n),0],p=aj(f,eg(a,e,f,g)),q=[0,B(aj(h,eg(a,e,g,h)),p),o],r=aj(f,eg(a,e,h,f)),t=[0,B(aj(g,eg(a,e,g,h)),r),q],u=a?e?k(c(2,b)):s(k(c(2,c(2,b))),gC):k(c(2,c(2,b))),j=cI([0,u,t]),l=[0,d,cm(i)];return nC(a,i,j[1],j[2],[0,l,[0,l,[0,w,0]]],1,v)}function
-nD(a,g,b){if(K(g,iV(a))){if(b){var
+i7(a){return b3(c(2,b),aE(a,b))}function
+el(i,a,e,w,v){var
+m=a?b:O(b),f=k(m),g=nS(a,e,u9),h=nS(a,e,u_),n=ak(g,ek(a,e,f,g)),o=[0,C(ak(h,ek(a,e,h,f)),n),0],p=ak(f,ek(a,e,f,g)),q=[0,C(ak(h,ek(a,e,g,h)),p),o],r=ak(f,ek(a,e,h,f)),t=[0,C(ak(g,ek(a,e,g,h)),r),q],u=a?e?k(c(2,b)):s(k(c(2,c(2,b))),gN):k(c(2,c(2,b))),j=cP([0,u,t]),l=[0,d,cp(i)];return nW(a,i,j[1],j[2],[0,l,[0,l,[0,w,0]]],1,v)}function
+nX(a,g,b){if(I(g,i7(a))){if(b){var
 c=b[2];if(c){var
 d=c[2];if(d){var
 e=d[2];if(e){if(e[2])return 0;var
-h=[0,g,iV(a)],v=cm(a),i=[0,iV(a),v],j=eh(a,0,1,h,b[1]),k=j?eh(a,0,0,i,c[1]):j;if(k){var
-l=eh(a,1,1,h,d[1]);if(l)return eh(a,1,0,i,e[1]);var
+h=[0,g,i7(a)],v=cp(a),i=[0,i7(a),v],j=el(a,0,1,h,b[1]),k=j?el(a,0,0,i,c[1]):j;if(k){var
+l=el(a,1,1,h,d[1]);if(l)return el(a,1,0,i,e[1]);var
 m=l}else
 var
 m=k;var
@@ -5496,285 +5553,285 @@ q=p}else
 var
 q=b;return q}if(b){var
 f=b[2];if(f){if(f[2])return 0;var
-r=[0,g,cm(a)],s=eh(a,0,0,r,b[1]);if(s)return eh(a,1,0,r,f[1]);var
+r=[0,g,cp(a)],s=el(a,0,0,r,b[1]);if(s)return el(a,1,0,r,f[1]);var
 t=s}else
 var
 t=f;var
 u=t}else
 var
 u=b;return u}function
-iW(a){var
-b=[1,[2,d]];return b0(function(b,a){return[1,[3,b,a]]},a,b)}function
-gE(a){return iW(e(function(a){return[1,[8,[1,[2,a]]]]},a))}function
-gF(a,c){return iW(e(function(a){var
-d=[0,a[2]],b=ag(a[1],c);return[1,[7,[1,[8,iW(e(function(a){return[1,[6,[0,a[1]],[1,[2,a[2]]]]]},b))]],d]]},a))}function
-nE(e,d,c,b,a){if(0===a[0])return q(a[1],b,0);var
-f=a[1],g=bI(function(a){return nE(e,d,c,b,a)},f);return i(bJ(e,d,c),g)}function
-nF(a){return a?K(d,a[1][2][1]):a}function
-uD(a){var
-b=r(g(a),uE);return b?ak(function(a){return T(J(a,d))},a):b}function
-nG(c,f,b,a){if(b)if(a)var
-d=b[1],g=t(c,P(c,a[1]),f),h=nG(c,f,b[2],a[2]),i=d[3],j=z(d[2],g),e=[0,[0,z(d[1],g),j,i],h];else
+i8(a){var
+b=[1,[2,d]];return b4(function(b,a){return[1,[3,b,a]]},a,b)}function
+gP(a){return i8(e(function(a){return[1,[8,[1,[2,a]]]]},a))}function
+gQ(a,c){return i8(e(function(a){var
+d=[0,a[2]],b=_(a[1],c);return[1,[7,[1,[8,i8(e(function(a){return[1,[6,[0,a[1]],[1,[2,a[2]]]]]},b))]],d]]},a))}function
+nY(e,d,c,b,a){if(0===a[0])return q(a[1],b,0);var
+f=a[1],g=bK(function(a){return nY(e,d,c,b,a)},f);return i(bL(e,d,c),g)}function
+nZ(a){return a?I(d,a[1][2][1]):a}function
+vd(a){var
+b=p(g(a),ve);return b?al(function(a){return S(J(a,d))},a):b}function
+n0(c,f,b,a){if(b)if(a)var
+d=b[1],g=t(c,Q(c,a[1]),f),h=n0(c,f,b[2],a[2]),i=d[3],j=A(d[2],g),e=[0,[0,A(d[1],g),j,i],h];else
 var
 e=a;else
 var
 e=b;return e}function
-nH(d,c){var
+n1(d,c){var
 a=F(c,d);if(a){var
-b=a[1],e=b[1];return T(J(b6(b),e))}return a}function
-gG(b,a){return eL(eL(b,0),a)}function
-iX(a){if(a){var
-b=a[2],c=a[1];if(b)return gG(c,[0,uG,iX(b)]);var
+b=a[1],e=b[1];return S(J(b_(b),e))}return a}function
+gR(b,a){return eQ(eQ(b,0),a)}function
+i9(a){if(a){var
+b=a[2],c=a[1];if(b)return gR(c,[0,vg,i9(b)]);var
 d=c}else
 var
 d=a;return d}function
-D(a){return[0,uI,gG(iX(a),uH)]}function
-ae(a){return[0,uK,gG(iX(a),uJ)]}function
-ap(a){return[0,uM,[0,a,uL]]}function
-l(b,a){return[0,a8(uO,a8(b,uN)),a]}function
-N(b,a){return ae([0,l(b,a),0])}function
-cy(d){var
-b=d,a=rp,e=0;for(;;){if(b){var
-c=ke(a),b=b[1],a=c;continue}return[0,eM(fH(a)),e]}}function
-iY(a){return[0,eM(fO(a)),0]}function
-fa(a){var
-c=aK(a),f=0,b=0===c?rv:0<c?[0,fO(a)]:[1,fO(R(a))];if(0===b[0])var
-d=eM(b[1]);else
+G(a){return[0,vi,gR(i9(a),vh)]}function
+ag(a){return[0,vk,gR(i9(a),vj)]}function
+ar(a){return[0,vm,[0,a,vl]]}function
+n(b,a){return[0,a9(vo,a9(b,vn)),a]}function
+N(b,a){return ag([0,n(b,a),0])}function
+cF(d){var
+b=d,a=rK,e=0;for(;;){if(b){var
+c=kr(a),b=b[1],a=c;continue}return[0,eR(fN(a)),e]}}function
+i_(a){return[0,eR(fV(a)),0]}function
+fg(a){var
+c=aM(a),f=0,b=0===c?rQ:0<c?[0,fV(a)]:[1,fV(O(a))];if(0===b[0])var
+d=eR(b[1]);else
 var
-e=eM(b[1]),d=a8(bE(1,45),e);return[0,d,f]}function
-fb(a){var
-b=0,c=0<aK(a)?fO(a):rt;return[0,eM(c),b]}function
-iZ(a){switch(a[0]){case
-2:return uQ;case
-3:return 2<=a[1]?uR:uS;case
-4:return uT;default:return uP}}function
-fc(b,a){function
-c(c,a){return Y(c,iZ(a))?fc(b,a):[0,uZ,f(fc(b,a),uY)]}switch(a[0]){case
+e=eR(b[1]),d=a9(bG(1,45),e);return[0,d,f]}function
+fh(a){var
+b=0,c=0<aM(a)?fV(a):rO;return[0,eR(c),b]}function
+i$(a){switch(a[0]){case
+2:return vq;case
+3:return 2<=a[1]?vr:vs;case
+4:return vt;default:return vp}}function
+fi(b,a){function
+c(c,a){return Z(c,i$(a))?fi(b,a):[0,vz,f(fi(b,a),vy)]}switch(a[0]){case
 0:var
 e=a[2],g=a[1];if(typeof
-e==="number")return[0,bc(g),0];var
-h=[0,u0,[0,bc(e),0]];return[0,bc(g),h];case
+e==="number")return[0,be(g),0];var
+h=[0,vA,[0,be(e),0]];return[0,be(g),h];case
 1:return[0,i(b,a[1]),0];case
-2:return[0,u2,c(u1,a[1])];case
+2:return[0,vC,c(vB,a[1])];case
 3:var
-j=a[3],k=c([0,iZ(a)],j);switch(a[1]){case
+j=a[3],k=c([0,i$(a)],j);switch(a[1]){case
 0:var
-d=uU;break;case
+d=vu;break;case
 1:var
-d=uV;break;case
+d=vv;break;case
 2:var
-d=uW;break;default:var
-d=uX}var
-l=a[2];return f(c(iZ(a),l),[0,d,k]);case
+d=vw;break;default:var
+d=vx}var
+l=a[2];return f(c(i$(a),l),[0,d,k]);case
 4:var
-m=[0,u3,iY(a[2])];return f(c(u4,a[1]),m);default:return[0,u6,f(fc(b,a[1]),u5)]}}function
-I(a){return[0,u9,f(fc(function(a){return 0===a[0]?a[1]:u8},a),u7)]}function
-i0(a){return[0,u$,f(fc(function(a){return a},a),u_)]}function
-cz(a){if(0===a[0])return I(a[1]);var
-b=[0,l(va,I(a[2])),0];return ae([0,l(vb,I(a[1])),b])}function
-gH(b,a){var
-c=[0,i(b,a[3]),0],d=[0,i(b,a[2]),c];return D([0,i(b,a[1]),d])}function
-vc(a){function
-b(a){return gH(cz,a)}switch(a[0]){case
+m=[0,vD,i_(a[2])];return f(c(vE,a[1]),m);default:return[0,vG,f(fi(b,a[1]),vF)]}}function
+K(a){return[0,vJ,f(fi(function(a){return 0===a[0]?a[1]:vI},a),vH)]}function
+ja(a){return[0,vL,f(fi(function(a){return a},a),vK)]}function
+cG(a){if(0===a[0])return K(a[1]);var
+b=[0,n(vM,K(a[2])),0];return ag([0,n(vN,K(a[1])),b])}function
+gS(b,a){var
+c=[0,i(b,a[3]),0],d=[0,i(b,a[2]),c];return G([0,i(b,a[1]),d])}function
+vO(a){function
+b(a){return gS(cG,a)}switch(a[0]){case
 0:var
-e=0,g=a[5]?vd:vl,h=[0,l(ve,ap(g)),e],i=[0,l(vf,cz(a[4])),h],j=[0,l(vg,b(a[3])),i],k=[0,l(vh,b(a[2])),j],m=[0,l(vi,b(a[1])),k],c=[0,l(vk,ap(vj)),m];break;case
+e=0,g=a[5]?vP:vX,h=[0,n(vQ,ar(g)),e],i=[0,n(vR,cG(a[4])),h],j=[0,n(vS,b(a[3])),i],k=[0,n(vT,b(a[2])),j],l=[0,n(vU,b(a[1])),k],c=[0,n(vW,ar(vV)),l];break;case
 1:var
-d=a[3],n=d?[0,l(vm,b(d[1])),0]:d,o=[0,l(vn,b(a[2])),0],p=[0,l(vo,b(a[1])),o],c=f([0,l(vq,ap(vp)),p],n);break;default:var
-q=[0,l(vr,b(a[1])),0],c=[0,l(vt,ap(vs)),q]}return ae(c)}function
-vu(a){function
-b(a){return D(e(cz,a))}function
+d=a[3],m=d?[0,n(vY,b(d[1])),0]:d,o=[0,n(vZ,b(a[2])),0],p=[0,n(v0,b(a[1])),o],c=f([0,n(v2,ar(v1)),p],m);break;default:var
+q=[0,n(v3,b(a[1])),0],c=[0,n(v5,ar(v4)),q]}return ag(c)}function
+v6(a){function
+b(a){return G(e(cG,a))}function
 d(a){var
-b=a?vv:vx;return l(vw,ap(b))}switch(a[0]){case
+b=a?v7:v9;return n(v8,ar(b))}switch(a[0]){case
 0:var
-f=[0,d(a[5]),0],g=[0,l(vy,cz(a[4])),f],h=[0,l(vz,b(a[3])),g],i=[0,l(vA,b(a[2])),h],j=[0,l(vB,b(a[1])),i],c=[0,l(vD,ap(vC)),j];break;case
+f=[0,d(a[5]),0],g=[0,n(v_,cG(a[4])),f],h=[0,n(v$,b(a[3])),g],i=[0,n(wa,b(a[2])),h],j=[0,n(wb,b(a[1])),i],c=[0,n(wd,ar(wc)),j];break;case
 1:var
-k=[0,l(vE,b(a[2])),0],m=[0,l(vF,b(a[1])),k],c=[0,l(vH,ap(vG)),m];break;default:var
-n=[0,d(a[7]),0],o=[0,l(vI,cz(a[6])),n],p=[0,l(vJ,cz(a[5])),o],q=[0,l(vK,b(a[4])),p],r=[0,l(vL,b(a[3])),q],s=[0,l(vM,b(a[2])),r],t=[0,l(vN,b(a[1])),s],c=[0,l(vP,ap(vO)),t]}return ae(c)}function
-i1(a){switch(a){case
-0:return vQ;case
-1:return vR;case
-2:return vS;case
-3:return vT;case
-4:return vU;case
-5:return vV;case
-6:return vW;case
-7:return vX;case
-8:return vY;case
-9:return vZ;case
-10:return v0;case
-11:return v1;case
-12:return v2;case
-13:return v3;case
-14:return v4;default:return v5}}function
-i2(a){if(typeof
-a==="number")return v6;else
+k=[0,n(we,b(a[2])),0],l=[0,n(wf,b(a[1])),k],c=[0,n(wh,ar(wg)),l];break;default:var
+m=[0,d(a[7]),0],o=[0,n(wi,cG(a[6])),m],p=[0,n(wj,cG(a[5])),o],q=[0,n(wk,b(a[4])),p],r=[0,n(wl,b(a[3])),q],s=[0,n(wm,b(a[2])),r],t=[0,n(wn,b(a[1])),s],c=[0,n(wp,ar(wo)),t]}return ag(c)}function
+jb(a){switch(a){case
+0:return wq;case
+1:return wr;case
+2:return ws;case
+3:return wt;case
+4:return wu;case
+5:return wv;case
+6:return ww;case
+7:return wx;case
+8:return wy;case
+9:return wz;case
+10:return wA;case
+11:return wB;case
+12:return wC;case
+13:return wD;case
+14:return wE;default:return wF}}function
+jc(a){if(typeof
+a==="number")return wG;else
 switch(a[0]){case
-0:return v7;case
-1:return v8;default:return v9}}function
-fd(a){var
+0:return wH;case
+1:return wI;default:return wJ}}function
+fj(a){var
 c=a[4];if(typeof
 c==="number")var
 d=0;else
 switch(c[0]){case
 0:var
-d=[0,l(v_,I(c[1])),0];break;case
+d=[0,n(wK,K(c[1])),0];break;case
 1:var
-d=[0,l(v$,I(c[1])),0];break;default:var
-n=[0,I(c[2]),0],d=[0,l(wa,D([0,I(c[1]),n])),0]}var
-o=[0,l(wb,ap(i2(a[4]))),d],h=a[3];if(h){var
+d=[0,n(wL,K(c[1])),0];break;default:var
+m=[0,K(c[2]),0],d=[0,n(wM,G([0,K(c[1]),m])),0]}var
+o=[0,n(wN,ar(jc(a[4]))),d],h=a[3];if(h){var
 b=h[1];switch(b[0]){case
 0:var
-q=D([0,I(b[1]),0]),j=a[1],p=0,r=6===j?wc:12===j?wg:wh,g=[0,l(wd,N(r,q)),p];break;case
+q=G([0,K(b[1]),0]),j=a[1],p=0,r=6===j?wO:12===j?wS:wT,g=[0,n(wP,N(r,q)),p];break;case
 1:var
-w=D(e(I,b[1])),m=a[1],v=0,x=14===m?wi:15<=m?wk:wl,g=[0,l(wj,N(x,w)),v];break;case
+w=G(e(K,b[1])),l=a[1],v=0,x=14===l?wU:15<=l?wW:wX,g=[0,n(wV,N(x,w)),v];break;case
 2:var
-y=[0,l(wm,D([0,I(b[2]),0])),0],g=[0,l(wo,ae([0,l(wn,D([0,I(b[1]),0])),y])),0];break;default:var
-z=[0,l(wp,D([0,I(b[2]),0])),0],g=[0,l(wr,ae([0,l(wq,D([0,I(b[1]),0])),z])),0]}var
+y=[0,n(wY,G([0,K(b[2]),0])),0],g=[0,n(w0,ag([0,n(wZ,G([0,K(b[1]),0])),y])),0];break;default:var
+z=[0,n(w1,G([0,K(b[2]),0])),0],g=[0,n(w3,ag([0,n(w2,G([0,K(b[1]),0])),z])),0]}var
 k=g}else
 var
 k=h;var
-s=f(k,o),i=a[2],t=i?[0,l(we,cy(i[1])),0]:i,u=f(t,s);return ae([0,l(wf,ap(i1(a[1]))),u])}function
-nI(a){if(0===a[0]){var
-b=[0,l(ws,gH(I,a[2])),0];return N(wu,ae([0,l(wt,gH(I,a[1])),b]))}var
-c=[0,I(a[5]),0],d=[0,l(wv,D([0,I(a[4]),c])),0],e=[0,l(ww,I(a[3])),d],f=[0,I(a[2]),0];return N(wy,ae([0,l(wx,D([0,I(a[1]),f])),e]))}function
-nJ(a){if(0===a[0]){var
-b=[0,l(wz,D(e(I,a[2]))),0];return N(wB,ae([0,l(wA,D(e(I,a[1]))),b]))}return nI([1,a[1],a[2],a[3],a[4],a[5]])}function
-nK(a){switch(a){case
-0:return wC;case
-1:return wD;default:return wE}}function
-wF(a){function
-b(a){return D(e(cz,a))}var
-c=[0,l(wG,b(a[2])),0],d=[0,l(wH,b(a[1])),c];return ae([0,l(wJ,ap(wI)),d])}function
-nL(a){function
+s=f(k,o),i=a[2],t=i?[0,n(wQ,cF(i[1])),0]:i,u=f(t,s);return ag([0,n(wR,ar(jb(a[1]))),u])}function
+n2(a){if(0===a[0]){var
+b=[0,n(w4,gS(K,a[2])),0];return N(w6,ag([0,n(w5,gS(K,a[1])),b]))}var
+c=[0,K(a[5]),0],d=[0,n(w7,G([0,K(a[4]),c])),0],e=[0,n(w8,K(a[3])),d],f=[0,K(a[2]),0];return N(w_,ag([0,n(w9,G([0,K(a[1]),f])),e]))}function
+n3(a){if(0===a[0]){var
+b=[0,n(w$,G(e(K,a[2]))),0];return N(xb,ag([0,n(xa,G(e(K,a[1]))),b]))}return n2([1,a[1],a[2],a[3],a[4],a[5]])}function
+n4(a){switch(a){case
+0:return xc;case
+1:return xd;default:return xe}}function
+xf(a){function
+b(a){return G(e(cG,a))}var
+c=[0,n(xg,b(a[2])),0],d=[0,n(xh,b(a[1])),c];return ag([0,n(xj,ar(xi)),d])}function
+n5(a){function
 b(b,a){var
-c=[0,I(a),0];return D([0,I(b),c])}switch(a[0]){case
-0:return N(wK,b(a[1],a[2]));case
+c=[0,K(a),0];return G([0,K(b),c])}switch(a[0]){case
+0:return N(xk,b(a[1],a[2]));case
 1:var
-c=a[3],d=a[2],e=a[1],f=[0,l(wL,b(c[1],c[2])),0],g=[0,l(wM,b(d[1],d[2])),f];return N(wO,ae([0,l(wN,b(e[1],e[2])),g]));case
-2:return N(wP,I(a[1]));default:var
-h=[0,l(wQ,I(a[2])),0];return N(wS,ae([0,l(wR,I(a[1])),h]))}}function
-wT(a){function
-b(a){return gH(I,a)}if(0===a[0])var
-c=a[5],e=c?[0,l(wU,b(c[1])),0]:c,g=[0,I(a[4]),0],h=[0,l(wV,D([0,I(a[3]),g])),0],i=[0,l(wW,I(a[2])),h],j=[0,l(wX,cy(a[1])),i],d=f([0,l(wZ,ap(wY)),j],e);else
+c=a[3],d=a[2],e=a[1],f=[0,n(xl,b(c[1],c[2])),0],g=[0,n(xm,b(d[1],d[2])),f];return N(xo,ag([0,n(xn,b(e[1],e[2])),g]));case
+2:return N(xp,K(a[1]));default:var
+h=[0,n(xq,K(a[2])),0];return N(xs,ag([0,n(xr,K(a[1])),h]))}}function
+xt(a){function
+b(a){return gS(K,a)}if(0===a[0])var
+c=a[5],e=c?[0,n(xu,b(c[1])),0]:c,g=[0,K(a[4]),0],h=[0,n(xv,G([0,K(a[3]),g])),0],i=[0,n(xw,K(a[2])),h],j=[0,n(xx,cF(a[1])),i],d=f([0,n(xz,ar(xy)),j],e);else
 var
-k=[0,l(w0,I(a[4])),0],m=[0,l(w1,b(a[3])),k],n=[0,l(w2,b(a[2])),m],o=a[1]?w3:w5,d=[0,l(w4,ap(o)),n];return ae(d)}function
-nM(a){var
-b=a?[0,l(w6,D(e(wT,a))),0]:a;return b}function
-i3(d,c,b,a){var
-g=[0,l(w7,D(e(fd,a))),0],h=f(nM(b),g),i=[0,l(w8,nI(c)),0];return ae(f([0,l(w_,N(w9,D(e(vc,d)))),i],h))}function
-w$(a){switch(a[0]){case
-0:return N(xa,i3(a[1],a[2],a[3],a[4]));case
+k=[0,n(xA,K(a[4])),0],l=[0,n(xB,b(a[3])),k],m=[0,n(xC,b(a[2])),l],o=a[1]?xD:xF,d=[0,n(xE,ar(o)),m];return ag(d)}function
+n6(a){var
+b=a?[0,n(xG,G(e(xt,a))),0]:a;return b}function
+jd(d,c,b,a){var
+g=[0,n(xH,G(e(fj,a))),0],h=f(n6(b),g),i=[0,n(xI,n2(c)),0];return ag(f([0,n(xK,N(xJ,G(e(vO,d)))),i],h))}function
+xL(a){switch(a[0]){case
+0:return N(xM,jd(a[1],a[2],a[3],a[4]));case
 1:var
-b=a[5],c=a[3],d=a[1],g=D(e(vu,a[2])),m=[0,l(xb,D(e(fd,a[6]))),0],n=b?[0,l(xc,nL(b[1])),0]:b,o=f(n,m),k=0,p=[0,l(xd,nJ(a[4])),o];if(typeof
+b=a[5],c=a[3],d=a[1],g=G(e(v6,a[2])),l=[0,n(xN,G(e(fj,a[6]))),0],m=b?[0,n(xO,n5(b[1])),0]:b,o=f(m,l),k=0,p=[0,n(xP,n3(a[4])),o];if(typeof
 d==="number")if(d)var
-h=xe;else{var
-i=N(xj,g);k=1}else
+h=xQ;else{var
+i=N(xV,g);k=1}else
 var
-h=nK(d[1]);if(!k)var
-q=c?[0,l(xf,I(c[1])),0]:c,i=N(h,ae([0,l(xg,g),q]));return N(xi,ae([0,l(xh,i),p]));case
+h=n4(d[1]);if(!k)var
+q=c?[0,n(xR,K(c[1])),0]:c,i=N(h,ag([0,n(xS,g),q]));return N(xU,ag([0,n(xT,i),p]));case
 2:var
-r=[0,l(xk,D(e(fd,a[7]))),0],s=f(nM(a[6]),r),t=[0,l(xl,nL(a[5])),0],u=[0,l(xm,nJ(a[4])),t],v=[0,l(xn,I(a[3])),0],w=ae([0,l(xo,D(e(wF,a[2]))),v]);return N(xq,ae(f([0,l(xp,N(nK(a[1]),w)),u],s)));case
+r=[0,n(xW,G(e(fj,a[7]))),0],s=f(n6(a[6]),r),t=[0,n(xX,n5(a[5])),0],u=[0,n(xY,n3(a[4])),t],v=[0,n(xZ,K(a[3])),0],w=ag([0,n(x0,G(e(xf,a[2]))),v]);return N(x2,ag(f([0,n(x1,N(n4(a[1]),w)),u],s)));case
 3:var
-x=[0,l(xr,D(e(fd,a[7]))),0],y=[0,l(xs,D(e(I,a[6]))),0],z=[0,l(xv,N(xu,ae([0,l(xt,D(e(I,a[5]))),y]))),x],A=0,B=a[4],C=[0,l(xy,D(e(function(a){return 0===a[0]?N(xw,D(e(i0,a[1]))):N(xx,i0(a[1]))},B))),A],E=a[3],F=[0,l(xz,D(e(function(a){var
-b=[0,i0(a[2]),0];return D([0,ap(a[1]),b])},E))),C],G=a[2],H=[0,l(xA,D(e(function(a){var
-b=[0,cz(a[2]),0];return D([0,ap(a[1]),b])},G))),F];return N(xE,ae([0,l(xD,N(xC,ae([0,l(xB,D(e(ap,a[1]))),H]))),z]));case
+x=[0,n(x3,G(e(fj,a[7]))),0],y=[0,n(x4,G(e(K,a[6]))),0],z=[0,n(x7,N(x6,ag([0,n(x5,G(e(K,a[5]))),y]))),x],A=0,B=a[4],C=[0,n(x_,G(e(function(a){return 0===a[0]?N(x8,G(e(ja,a[1]))):N(x9,ja(a[1]))},B))),A],D=a[3],E=[0,n(x$,G(e(function(a){var
+b=[0,ja(a[2]),0];return G([0,ar(a[1]),b])},D))),C],F=a[2],H=[0,n(ya,G(e(function(a){var
+b=[0,cG(a[2]),0];return G([0,ar(a[1]),b])},F))),E];return N(ye,ag([0,n(yd,N(yc,ag([0,n(yb,G(e(ar,a[1]))),H]))),z]));case
 4:var
-J=[0,l(xF,D(e(fd,a[3]))),0],K=[0,l(xI,N(xH,ae([0,l(xG,I(a[2])),0]))),J];return N(xM,ae([0,l(xL,N(xK,ae([0,l(xJ,I(a[1])),0]))),K]));case
+I=[0,n(yf,G(e(fj,a[3]))),0],J=[0,n(yi,N(yh,ag([0,n(yg,K(a[2])),0]))),I];return N(ym,ag([0,n(yl,N(yk,ag([0,n(yj,K(a[1])),0]))),J]));case
 5:var
-L=[0,l(xN,I(a[5])),0];return N(xP,ae([0,l(xO,i3(a[1],[0,a[2],a[3]],0,a[4])),L]));case
+L=[0,n(yn,K(a[5])),0];return N(yp,ag([0,n(yo,jd(a[1],[0,a[2],a[3]],0,a[4])),L]));case
 6:var
-j=a[1],M=0,O=j?cz(j[1]):ap(xS);return N(xR,ae([0,l(xQ,O),M]));default:var
-P=[0,l(xT,I(a[6])),0],Q=[0,l(xU,I(a[5])),P],R=[0,l(xV,i3(a[2],a[3],0,a[4])),Q],S=a[1];return N(x0,ae([0,l(xZ,D(e(function(a){var
-b=[0,l(xW,I(a[2][2])),0],c=[0,l(xX,I(a[2][1])),b];return ae([0,l(xY,ap(a[1])),c])},S))),R]))}}function
-ei(a){return D(e(fa,a))}function
-fe(b,a){var
-c=[0,l(x1,fb(a)),0];return ae([0,l(x2,D(e(ei,b))),c])}function
-ej(a){switch(a[0]){case
-0:return ap(a[1]);case
+j=a[1],M=0,O=j?cG(j[1]):ar(ys);return N(yr,ag([0,n(yq,O),M]));default:var
+P=[0,n(yt,K(a[6])),0],Q=[0,n(yu,K(a[5])),P],R=[0,n(yv,jd(a[2],a[3],0,a[4])),Q],S=a[1];return N(yA,ag([0,n(yz,G(e(function(a){var
+b=[0,n(yw,K(a[2][2])),0],c=[0,n(yx,K(a[2][1])),b];return ag([0,n(yy,ar(a[1])),c])},S))),R]))}}function
+em(a){return G(e(fg,a))}function
+fk(b,a){var
+c=[0,n(yB,fh(a)),0];return ag([0,n(yC,G(e(em,b))),c])}function
+en(a){switch(a[0]){case
+0:return ar(a[1]);case
 1:var
-b=fe(a[2],a[3]);return N(a[1],b);case
+b=fk(a[2],a[3]);return N(a[1],b);case
 2:var
-c=a[1]?x3:x5;return N(x4,ap(c));case
+c=a[1]?yD:yF;return N(yE,ar(c));case
 3:var
-d=[0,ei(a[3]),0];return N(x6,D([0,fe(a[1],a[2]),d]));case
+d=[0,em(a[3]),0];return N(yG,G([0,fk(a[1],a[2]),d]));case
 4:var
-f=[0,fb(a[4]),0],g=[0,fa(a[3]),f];return N(x7,D([0,fe(a[1],a[2]),g]));case
+f=[0,fh(a[4]),0],g=[0,fg(a[3]),f];return N(yH,G([0,fk(a[1],a[2]),g]));case
 5:var
-h=[0,fb(a[3]),0],i=[0,fa(a[2]),h];return N(x8,D([0,ej(a[1]),i]));case
+h=[0,fh(a[3]),0],i=[0,fg(a[2]),h];return N(yI,G([0,en(a[1]),i]));case
 6:var
-j=[0,fb(a[3]),0],k=[0,fa(a[2]),j];return N(x9,D([0,ej(a[1]),k]));case
-7:return N(x_,ej(a[1]));case
+j=[0,fh(a[3]),0],k=[0,fg(a[2]),j];return N(yJ,G([0,en(a[1]),k]));case
+7:return N(yK,en(a[1]));case
 8:var
-l=[0,D(e(ei,a[3])),0],m=[0,ap(a[2]),l];return N(x$,D([0,ej(a[1]),m]));default:var
-n=a[1];return N(ya,D(e(function(a){var
-b=a[1],c=b[1],d=[0,ej(a[2]),0],e=[0,fb(b[2]),d],f=[0,fa(c[2]),e];return D([0,ei(c[1]),f])},n)))}}function
-yb(a){var
-b=[0,ej(a[2]),0];return D([0,cy(a[1]),b])}function
-nN(a){if(typeof
-a==="number")return 0===a?ap(yc):ap(yd);else
+l=[0,G(e(em,a[3])),0],m=[0,ar(a[2]),l];return N(yL,G([0,en(a[1]),m]));default:var
+n=a[1];return N(yM,G(e(function(a){var
+b=a[1],c=b[1],d=[0,en(a[2]),0],e=[0,fh(b[2]),d],f=[0,fg(c[2]),e];return G([0,em(c[1]),f])},n)))}}function
+yN(a){var
+b=[0,en(a[2]),0];return G([0,cF(a[1]),b])}function
+n7(a){if(typeof
+a==="number")return 0===a?ar(yO):ar(yP);else
 switch(a[0]){case
 0:var
-b=[0,D(e(ei,a[2])),0];return N(ye,D([0,cy(a[1]),b]));case
+b=[0,G(e(em,a[2])),0];return N(yQ,G([0,cF(a[1]),b]));case
 1:var
-c=[0,cy(a[2]),0];return N(yf,D([0,cy(a[1]),c]));case
-2:return N(yg,D(e(I,a[1])));default:var
-d=[0,l(yh,fe(a[4],a[5])),0],f=[0,l(yi,D(e(I,a[3]))),d],g=[0,l(yj,D(e(I,a[2]))),f];return N(yl,ae([0,l(yk,cy(a[1])),g]))}}function
-ym(a){var
-b=a[4],h=b?[0,l(yn,ei([0,b[1],b[2]])),0]:b,d=a[3],i=d?[0,l(yo,nN(d[1])),0]:d,j=f(i,h),g=a[2],k=g?[0,l(yp,cy(g[1])),0]:g,m=f(k,j),c=a[1],n=c?[0,l(yq,D(e(yb,[0,c[1],c[2]]))),0]:c;return ae(f(n,m))}function
-nO(g,a,d){var
-h=[0,l(yr,D(e(ym,d))),0];if(a)var
-b=a[1],c=[0,l(ys,fe(b[1],b[2])),0];else
+c=[0,cF(a[2]),0];return N(yR,G([0,cF(a[1]),c]));case
+2:return N(yS,G(e(K,a[1])));default:var
+d=[0,n(yT,fk(a[4],a[5])),0],f=[0,n(yU,G(e(K,a[3]))),d],g=[0,n(yV,G(e(K,a[2]))),f];return N(yX,ag([0,n(yW,cF(a[1])),g]))}}function
+yY(a){var
+b=a[4],h=b?[0,n(yZ,em([0,b[1],b[2]])),0]:b,d=a[3],i=d?[0,n(y0,n7(d[1])),0]:d,j=f(i,h),g=a[2],k=g?[0,n(y1,cF(g[1])),0]:g,l=f(k,j),c=a[1],m=c?[0,n(y2,G(e(yN,[0,c[1],c[2]]))),0]:c;return ag(f(m,l))}function
+n8(g,a,d){var
+h=[0,n(y3,G(e(yY,d))),0];if(a)var
+b=a[1],c=[0,n(y4,fk(b[1],b[2])),0];else
 var
 c=a;var
-i=f(c,h);return ae([0,l(yt,iY(g)),i])}function
-nP(d,c,a,b){var
-g=[0,l(yu,nN(b)),0],h=a?[0,l(yv,D(e(I,a))),0]:a,i=f(h,g),j=[0,l(yw,D(e(I,c))),0];return ae(f([0,l(yx,iY(d)),j],i))}function
-yy(a){if(typeof
-a==="number")return ap(yz);else
+i=f(c,h);return ag([0,n(y5,i_(g)),i])}function
+n9(d,c,a,b){var
+g=[0,n(y6,n7(b)),0],h=a?[0,n(y7,G(e(K,a))),0]:a,i=f(h,g),j=[0,n(y8,G(e(K,c))),0];return ag(f([0,n(y9,i_(d)),j],i))}function
+y_(a){if(typeof
+a==="number")return ar(y$);else
 switch(a[0]){case
-0:return N(yA,cy(a[1]));case
-1:return N(yB,nO(a[1],a[2],a[3]));default:return N(yC,nP(a[1],a[2],a[3],a[4]))}}function
-gI(a){var
-b=hv(hu(au(a),function(b){return aY(a,b)}));return m(function(a){var
-b=T(34===a?1:0),c=b?T(92===a?1:0):b,d=c?Y(yR,fQ(a)):c;return d?Y(fQ(a),yS):d},b)}function
-nQ(c){var
+0:return N(za,cF(a[1]));case
+1:return N(zb,n8(a[1],a[2],a[3]));default:return N(zc,n9(a[1],a[2],a[3],a[4]))}}function
+gT(a){var
+b=hE(hD(au(a),function(b){return a0(a,b)}));return m(function(a){var
+b=S(34===a?1:0),c=b?S(92===a?1:0):b,d=c?Z(zr,fX(a)):c;return d?Z(fX(a),zs):d},b)}function
+n_(c){var
 a=c;for(;;)switch(a[0]){case
 8:var
-b=gI(a[2]);if(b){var
+b=gT(a[2]);if(b){var
 a=a[1];continue}return b;case
 9:var
-d=a[1];return m(function(a){return nQ(a[2])},d);case
+d=a[1];return m(function(a){return n_(a[2])},d);case
 0:case
-1:return gI(a[1]);case
+1:return gT(a[1]);case
 5:case
 6:case
 7:var
 a=a[1];continue;default:return 1}}function
-ff(b){function
+fl(b){function
 c(f){var
-a=fQ(f),b=Y(yT,a),c=b?Y(a,yU):b;if(c)var
+a=fX(f),b=Z(zt,a),c=b?Z(a,zu):b;if(c)var
 d=c;else{var
-e=Y(yV,a);if(e)return Y(a,yW);var
+e=Z(zv,a);if(e)return Z(a,zw);var
 d=e}return d}var
-a=hv(hu(au(b),function(a){return aY(b,a)}));if(a){var
+a=hE(hD(au(b),function(a){return a0(b,a)}));if(a){var
 d=a[2],e=c(a[1]),f=e?m(function(a){var
 b=c(a);if(b)var
 d=b;else
 var
-e=fQ(a),f=Y(yX,e),h=f?Y(e,yY):f,d=h;var
-g=d||(95===a?1:0);return g},d):e,h=f?Y(g(d),yZ):f;if(h)return T(aw(b,y0));var
+e=fX(a),f=Z(zx,e),h=f?Z(e,zy):f,d=h;var
+g=d||(95===a?1:0);return g},d):e,h=f?Z(g(d),zz):f;if(h)return S(aw(b,zA));var
 i=h}else
 var
 i=a;return i}function
-i4(c){var
+je(c){var
 a=c;for(;;)switch(a[0]){case
 0:return 1;case
-1:return ff(a[1]);case
+1:return fl(a[1]);case
 3:var
-b=i4(a[2]);if(b){var
+b=je(a[2]);if(b){var
 a=a[3];continue}return b;default:var
 a=a[1];continue}}function
-fg(m){var
+fm(m){var
 a=m;for(;;)switch(a[0]){case
 0:var
 e=a[1];if(typeof
@@ -5785,40 +5842,40 @@ h=typeof
 e[1]==="number"?1:0,d=h?1:h;else
 var
 d=1;if(d){var
-f=fH(a[2]);if(typeof
+f=fN(a[2]);if(typeof
 f!=="number"&&0===f[0])return 0;var
 g=1}else
 var
 g=d;return g;case
 1:return 1;case
 3:var
-i=fg(a[2]);if(i){var
+i=fm(a[2]);if(i){var
 a=a[3];continue}return i;case
 4:var
-j=a[2],k=fg(a[1]),l=k?fM(c(2,b),j):k;return l?fM(j,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):l;default:var
+j=a[2],k=fm(a[1]),l=k?fT(c(2,b),j):k;return l?fT(j,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):l;default:var
 a=a[1];continue}}function
-ek(a){return 0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
-bS(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-dq(a){return x(ek,bS(a))}function
-i5(a){switch(a[0]){case
+eo(a){return 0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
+bW(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+dv(a){return y(eo,bW(a))}function
+jf(a){switch(a[0]){case
 0:var
-c=ek(a[4]),d=f(dq(a[3]),c),e=f(dq(a[2]),d);return f(dq(a[1]),e);case
+c=eo(a[4]),d=f(dv(a[3]),c),e=f(dv(a[2]),d);return f(dv(a[1]),e);case
 1:var
-b=a[3],g=b?dq(b[1]):b,h=f(dq(a[2]),g);return f(dq(a[1]),h);default:return dq(a[1])}}function
-y1(a){switch(a[0]){case
+b=a[3],g=b?dv(b[1]):b,h=f(dv(a[2]),g);return f(dv(a[1]),h);default:return dv(a[1])}}function
+zB(a){switch(a[0]){case
 0:var
 c=f(a[3],[0,a[4],0]),d=f(a[2],c),b=f(a[1],d);break;case
 1:var
 b=f(a[1],a[2]);break;default:var
-e=f(a[4],[0,a[5],[0,a[6],0]]),g=f(a[3],e),h=f(a[2],g),b=f(a[1],h)}return x(ek,b)}function
-nR(a){return 0===a[0]?f(a[1],a[2]):[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
-nS(a){if(0===a[0]){var
-b=bS(a[2]);return f(bS(a[1]),b)}return[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
-nT(a){switch(a[0]){case
+e=f(a[4],[0,a[5],[0,a[6],0]]),g=f(a[3],e),h=f(a[2],g),b=f(a[1],h)}return y(eo,b)}function
+n$(a){return 0===a[0]?f(a[1],a[2]):[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
+oa(a){if(0===a[0]){var
+b=bW(a[2]);return f(bW(a[1]),b)}return[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
+ob(a){switch(a[0]){case
 1:var
 b=a[3],c=a[2],d=a[1];return[0,d[1],[0,d[2],[0,c[1],[0,c[2],[0,b[1],[0,b[2],0]]]]]];case
 2:return[0,a[1],0];default:return[0,a[1],[0,a[2],0]]}}function
-dr(e){var
+dw(e){var
 a=e[4],h=typeof
 a==="number"?0:2===a[0]?[0,a[1],[0,a[2],0]]:[0,a[1],0],c=e[3];if(c){var
 b=c[1];switch(b[0]){case
@@ -5830,70 +5887,70 @@ d=[0,b[1],[0,b[2],0]]}var
 g=d}else
 var
 g=c;return f(g,h)}function
-nU(a){if(0===a[0]){var
-b=a[5],c=b?bS(b[1]):b;return[0,a[2],[0,a[3],[0,a[4],c]]]}var
-d=[0,a[4],0],e=f(bS(a[3]),d);return f(bS(a[2]),e)}function
-nV(b,e){var
+oc(a){if(0===a[0]){var
+b=a[5],c=b?bW(b[1]):b;return[0,a[2],[0,a[3],[0,a[4],c]]]}var
+d=[0,a[4],0],e=f(bW(a[3]),d);return f(bW(a[2]),e)}function
+od(b,e){var
 a=e;for(;;)switch(a[0]){case
 0:return 1;case
 1:var
 c=a[1];if(0===c[0]){var
-f=c[1];return ak(function(a){return aw(f,a)},b)}return 0;case
+f=c[1];return al(function(a){return aw(f,a)},b)}return 0;case
 3:var
-d=nV(b,a[2]);if(d){var
+d=od(b,a[2]);if(d){var
 a=a[3];continue}return d;default:var
 a=a[1];continue}}function
-fh(c,a){return m(function(a){var
-b=fg(a);return b?nV(c,a):b},a)}function
-nW(a){if(typeof
+fn(c,a){return m(function(a){var
+b=fm(a);return b?od(c,a):b},a)}function
+oe(a){if(typeof
 a!=="number")switch(a[0]){case
 2:return a[1];case
 3:return f(a[2],a[3])}return 0}function
-nX(a){var
-d=fM(c(2,c(2,c(2,c(2,c(2,b))))),a);return d?fM(a,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b))))))))))):d}function
-nY(a,b){return b?[4,nY(a,b[1]),a]:a}function
+of(a){var
+d=fT(c(2,c(2,c(2,c(2,c(2,b))))),a);return d?fT(a,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b))))))))))):d}function
+og(a,b){return b?[4,og(a,b[1]),a]:a}function
 j(a){switch(a[0]){case
 0:var
-i=a[2],k=c(2,p(c(2,c(2,b)))),l=function(a){return A(k,a)},m=fI(kc(i),l,b);return[0,kq(kd(fH(a[1]),i)),m];case
+i=a[2],k=c(2,r(c(2,c(2,b)))),l=function(a){return B(k,a)},m=fO(kp(i),l,b);return[0,kE(kq(fN(a[1]),i)),m];case
 1:var
 e=a[1];return 0===e[0]?[5,[0,b,b],[0,d,b]]:[1,e[1],e[2],e[3]];case
 2:var
-f=j(a[1]);return 0===f[0]?[0,R(f[1]),f[2]]:[3,[0,d,b],f];case
+f=j(a[1]);return 0===f[0]?[0,O(f[1]),f[2]]:[3,[0,d,b],f];case
 3:var
 g=j(a[2]),h=j(a[3]);switch(a[1]){case
 0:return[2,g,h];case
 1:return[3,g,h];case
 2:return[4,g,h];default:return[5,g,h]}case
 4:var
-n=bs(eJ(a[2]));return nY(j(a[1]),n);default:return[6,j(a[1])]}}function
-bT(a){if(0===a[0]){var
+n=bv(eO(a[2]));return og(j(a[1]),n);default:return[6,j(a[1])]}}function
+bX(a){if(0===a[0]){var
 b=j(a[1]);return[0,b,b]}var
 c=j(a[2]);return[0,j(a[1]),c]}function
-ds(a){var
-b=bT(a[3]),c=bT(a[2]);return[0,bT(a[1]),c,b]}function
-y2(a){switch(a[0]){case
+dx(a){var
+b=bX(a[3]),c=bX(a[2]);return[0,bX(a[1]),c,b]}function
+zC(a){switch(a[0]){case
 0:var
-b=a[5],c=bT(a[4]),d=ds(a[3]),e=ds(a[2]);return[0,[0,ds(a[1]),e,d,c,b]];case
+b=a[5],c=bX(a[4]),d=dx(a[3]),e=dx(a[2]);return[0,[0,dx(a[1]),e,d,c,b]];case
 1:var
-f=y(ds,a[3]),g=ds(a[2]);return[1,ds(a[1]),g,f];default:return[2,ds(a[1])]}}function
-nZ(a){if(0===a[0]){var
+f=z(dx,a[3]),g=dx(a[2]);return[1,dx(a[1]),g,f];default:return[2,dx(a[1])]}}function
+oh(a){if(0===a[0]){var
 c=a[2],d=a[1],b=function(a){var
 b=j(i(a,c));return[0,j(i(a,d)),b]},e=b(function(a){return a[3]}),f=b(function(a){return a[2]});return[0,[0,b(function(a){return a[1]}),f,e]]}var
 g=j(a[5]),h=[0,j(a[4]),g],k=j(a[3]),l=j(a[2]);return[1,j(a[1]),l,k,h]}function
-el(a){var
+ep(a){var
 b=j(a[3]),c=j(a[2]);return[0,j(a[1]),c,b]}function
-c2(a){if(0===a[0]){var
-c=a[5],h=c?el(c[1]):[0,[0,d,b],[0,d,b],[0,d,b]],i=j(a[4]),k=j(a[3]),l=j(a[2]);return[0,bs(a[1]),l,k,i,h]}var
+da(a){if(0===a[0]){var
+c=a[5],h=c?ep(c[1]):[0,[0,d,b],[0,d,b],[0,d,b]],i=j(a[4]),k=j(a[3]),l=j(a[2]);return[0,bv(a[1]),l,k,i,h]}var
 e=a[4],f=a[3],g=a[2];if(a[1]){var
-m=el(f),n=el(g);return[2,j(e),n,m]}var
-o=el(f),p=el(g);return[1,j(e),p,o]}function
-gJ(b,a){if(a){var
-c=a[1],d=a[2],g=gJ(f(b,[0,c,0]),d),h=e(function(a){return[0,c,a]},b);return f(bk(function(c){var
-a=c[2],b=c[1],d=0===b[0]?b[5]?0:0===a[0]?a[5]?0:r(b[1],a[1]):0:0===a[0]?0:cj(b[1],a[1]);return T(d)},h),g)}return a}function
-y3(b){if(b[1])return 0;var
+m=ep(f),n=ep(g);return[2,j(e),n,m]}var
+o=ep(f),p=ep(g);return[1,j(e),p,o]}function
+gU(b,a){if(a){var
+c=a[1],d=a[2],g=gU(f(b,[0,c,0]),d),h=e(function(a){return[0,c,a]},b);return f(bn(function(c){var
+a=c[2],b=c[1],d=0===b[0]?b[5]?0:0===a[0]?a[5]?0:p(b[1],a[1]):0:0===a[0]?0:cm(b[1],a[1]);return S(d)},h),g)}return a}function
+zD(b){if(b[1])return 0;var
 a=b[4];if(typeof
 a!=="number"&&1===a[0])return[0,[0,j(a[1])],0];return 0}function
-y4(N,M,a){switch(a[1]){case
+zE(N,M,a){switch(a[1]){case
 0:var
 g=a[4];if(typeof
 g!=="number"&&0===g[0])return[0,[1,j(g[1])],0];return 0;case
@@ -5927,17 +5984,17 @@ m!=="number"&&0===m[0])return[0,[7,j(m[1])],0];return 0;case
 n=a[4];if(typeof
 n!=="number"&&0===n[0]){var
 D=n[1],o=a[3];if(o){var
-p=o[1];switch(p[0]){case
+q=o[1];switch(q[0]){case
 0:var
-U=j(D);return[0,[8,j(p[1]),U],0];case
+U=j(D);return[0,[8,j(q[1]),U],0];case
 1:var
-V=j(D);return[0,[15,e(j,p[1]),V],0];default:var
+V=j(D);return[0,[15,e(j,q[1]),V],0];default:var
 E=0}}else
 var
 E=o;return E}return 0;case
 7:var
-q=a[4];if(typeof
-q!=="number"&&0===q[0])return[0,[9,j(q[1])],0];return 0;case
+r=a[4];if(typeof
+r!=="number"&&0===r[0])return[0,[9,j(r[1])],0];return 0;case
 8:var
 s=a[4],K=0;if(typeof
 s==="number"||!(1===s[0]))K=1;else{var
@@ -5948,14 +6005,14 @@ b=j(W);return[13,a,j(X),b]}}if(K)return 0;break;case
 9:var
 u=a[4];if(typeof
 u!=="number"&&0===u[0]){var
-Y=u[1],Z=gJ(0,M);return e(function(h){var
+Y=u[1],Z=gU(0,M);return e(function(h){var
 e=j(Y),a=h[2],c=h[1];if(0===c[0]){var
 f=c[1];if(0===a[0]){var
-g=function(a){return a?el(a[1]):[0,[0,d,b],[0,d,b],[0,d,b]]};if(r(f,a[1])){var
-i=j(a[2]),k=[2,[2,j(c[2]),i],e],l=g(a[5]),m=g(c[5]);return[11,bs(f),m,l,k]}var
-n=c2(a);return[10,c2(c),n,e]}var
-o=c2(a);return[10,c2(c),o,e]}var
-p=c2(a);return[10,c2(c),p,e]},Z)}return 0;case
+g=function(a){return a?ep(a[1]):[0,[0,d,b],[0,d,b],[0,d,b]]};if(p(f,a[1])){var
+i=j(a[2]),k=[2,[2,j(c[2]),i],e],l=g(a[5]),m=g(c[5]);return[11,bv(f),m,l,k]}var
+n=da(a);return[10,da(c),n,e]}var
+o=da(a);return[10,da(c),o,e]}var
+q=da(a);return[10,da(c),q,e]},Z)}return 0;case
 10:var
 v=a[4],L=0;if(typeof
 v==="number"||!(1===v[0]))L=1;else{var
@@ -5965,15 +6022,15 @@ $=x[2],aa=x[1],c=function(a){var
 b=j(_),c=j($);return[12,a,j(aa),c,b]}}if(L)return 0;break;case
 11:var
 G=typeof
-a[4]==="number"?1:0,ab=G?y5:G;return ab;case
+a[4]==="number"?1:0,ab=G?zF:G;return ab;case
 12:var
 y=a[4];if(typeof
 y!=="number"&&1===y[0]){var
 z=a[3];if(z){var
 H=z[1];if(0===H[0]){var
 ac=j(y[1]);return[0,[14,j(H[1]),ac],0]}return 0}return z}return 0;default:return 0}var
-B=a[2],P=B?[0,bs(B[1]),0]:aA(0,N);return e(c,P)}function
-y6(c,a){switch(a[1]){case
+B=a[2],P=B?[0,bv(B[1]),0]:aA(0,N);return e(c,P)}function
+zG(c,a){switch(a[1]){case
 0:var
 l=a[4];if(typeof
 l!=="number"&&2!==l[0])return a[2]?0:a[3]?0:1;return 0;case
@@ -5983,12 +6040,12 @@ m==="number"||2===m[0])K=1;else{var
 n=a[2];if(!n)return a[3]?0:1;if(a[3])return 0;var
 b=n[1]}if(K)return 0;break;case
 2:var
-L=0,p=a[4];if(typeof
-p==="number"||!(1===p[0]))L=1;else{var
-q=a[2];if(!q){var
+L=0,q=a[4];if(typeof
+q==="number"||!(1===q[0]))L=1;else{var
+r=a[2];if(!r){var
 e=a[3];return e?0===e[1][0]?1:0:e}var
 d=a[3];if(!d)return d;if(0!==d[1][0])return 0;var
-b=q[1]}if(L)return 0;break;case
+b=r[1]}if(L)return 0;break;case
 3:var
 s=a[4];if(typeof
 s!=="number"&&1===s[0])return a[2]?0:a[3]?0:1;return 0;case
@@ -6006,7 +6063,7 @@ w!=="number"&&0===w[0]){if(a[2])return 0;var
 f=a[3];if(f){var
 x=f[1];switch(x[0]){case
 0:return 1;case
-1:return r(g(x[1]),c);default:var
+1:return p(g(x[1]),c);default:var
 y=0}}else
 var
 y=f;return y}return 0;case
@@ -6017,7 +6074,7 @@ z!=="number"&&0===z[0])return a[2]?0:a[3]?0:1;return 0;case
 N=0,A=a[4];if(typeof
 A==="number"||!(1===A[0]))N=1;else{var
 h=a[3];if(!h)return h;if(0!==h[1][0])return 0;var
-B=r(c,y8),O=0;if(B){var
+B=p(c,zI),O=0;if(B){var
 C=a[2];if(C){var
 b=C[1];O=1}else
 var
@@ -6043,19 +6100,19 @@ I=H;return I;case
 12:var
 J=a[4];if(typeof
 J!=="number"&&1===J[0]){if(a[2])return 0;var
-k=a[3];return k?0===k[1][0]?r(c,y9):0:k}return 0;default:return 0}var
-o=Y(y7,b);return o?Y(b,c):o}function
-i6(d,c,b){var
-e=x(function(a){return y4(d,c,a)},b),a=x(y3,b),g=a?[0,a[1],a[2]]:y_;return f(g,e)}function
-i7(a,d,c,b){var
-f=i6(g(a),c,b),h=nZ(d);return[0,e(y2,a),h,f]}function
-n0(b){if(b[1])return 0;var
+k=a[3];return k?0===k[1][0]?p(c,zJ):0:k}return 0;default:return 0}var
+o=Z(zH,b);return o?Z(b,c):o}function
+oi(d,c,b){var
+e=y(function(a){return zE(d,c,a)},b),a=y(zD,b),g=a?[0,a[1],a[2]]:zK;return f(g,e)}function
+jg(a,d,c,b){var
+f=oi(g(a),c,b),h=oh(d);return[0,e(zC,a),h,f]}function
+oj(b){if(b[1])return 0;var
 a=b[4];if(typeof
 a!=="number"&&1===a[0])return[0,[0,j(a[1])],0];return 0}function
-n1(c){function
+ok(c){function
 a(a){return q(a,e(j,c),[0,d,b])}var
-f=a(y$),g=a(za);return[0,a(0),g,f]}function
-i8(S,C,R,a){switch(a[1]){case
+f=a(zL),g=a(zM);return[0,a(0),g,f]}function
+jh(S,C,R,a){switch(a[1]){case
 0:var
 d=a[4];if(typeof
 d!=="number"&&0===d[0])return[0,[1,j(d[1])],0];return 0;case
@@ -6093,7 +6150,7 @@ l!=="number"&&0===l[0]){var
 F=l[1],m=a[3];if(m){var
 n=m[1];switch(n[0]){case
 0:var
-$=j(F);return[0,[8,al(j(n[1]),C),$],0];case
+$=j(F);return[0,[8,am(j(n[1]),C),$],0];case
 1:var
 aa=j(F);return[0,[8,e(j,n[1]),aa],0];default:var
 G=0}}else
@@ -6109,8 +6166,8 @@ b=j(ab);return[7,a,j(ac),b]}}if(M)return 0;break;case
 9:var
 q=a[4];if(typeof
 q!=="number"&&0===q[0]){var
-ad=q[1],ae=gJ(0,R);return e(function(a){var
-b=j(ad),c=c2(a[2]);return[14,c2(a[1]),c,b]},ae)}return 0;case
+ad=q[1],ae=gU(0,R);return e(function(a){var
+b=j(ad),c=da(a[2]);return[14,da(a[1]),c,b]},ae)}return 0;case
 10:var
 r=a[4],N=0;if(typeof
 r==="number"||!(1===r[0]))N=1;else{var
@@ -6132,22 +6189,22 @@ ak=x[1],b=function(a){return[11,a,j(ak)]};if(O)return 0;break;case
 14:var
 y=a[4],P=0;if(typeof
 y==="number"||!(1===y[0]))P=1;else{var
-z=a[3],am=y[1];if(!z)return z;var
+z=a[3],al=y[1];if(!z)return z;var
 I=z[1];if(1!==I[0])return 0;var
 an=I[1],b=function(a){var
-b=j(am);return[13,a,0,n1(an),b]}}if(P)return 0;break;case
+b=j(al);return[13,a,0,ok(an),b]}}if(P)return 0;break;case
 15:var
 A=a[4],Q=0;if(typeof
 A==="number"||!(1===A[0]))Q=1;else{var
 B=a[3],ao=A[1];if(!B)return B;var
 J=B[1];if(1!==J[0])return 0;var
 ap=J[1],b=function(a){var
-b=j(ao);return[13,a,1,n1(ap),b]}}if(Q)return 0;break;default:return 0}var
-D=a[2],U=D?[0,bs(D[1]),0]:aA(0,C);return e(b,U)}function
-dt(e,d,c,b){var
-g=x(function(a){return i8(e,d,c,a)},b),a=x(n0,b),h=a?[0,a[1],a[2]]:zb;return f(h,g)}function
-em(a){return 11===a[1]?1:0}function
-ca(n,m,a){var
+b=j(ao);return[13,a,1,ok(ap),b]}}if(Q)return 0;break;default:return 0}var
+D=a[2],U=D?[0,bv(D[1]),0]:aA(0,C);return e(b,U)}function
+eq(e,d,c,b){var
+g=y(function(a){return jh(e,d,c,a)},b),a=y(oj,b),h=a?[0,a[1],a[2]]:zN;return f(h,g)}function
+er(a){return 11===a[1]?1:0}function
+cd(n,m,a){var
 b=a[1];if(!(4<=b))switch(b){case
 0:var
 c=a[4];if(typeof
@@ -6157,25 +6214,25 @@ l=0,d=a[4];if(typeof
 d!=="number"&&2===d[0]){var
 e=1;l=1}if(!l)var
 e=0;var
-f=cj(n,e);if(f){var
+f=cm(n,e);if(f){var
 g=a[2];if(g){var
-h=g[1],i=Y(zc,h);return i?Y(h,m):i}var
+h=g[1],i=Z(zO,h);return i?Z(h,m):i}var
 j=1}else
 var
 j=f;return j;case
 3:var
 k=a[4];if(typeof
 k!=="number"&&1===k[0])return a[2]?0:a[3]?0:1;return 0}return 0}function
-bz(s,b,a){var
+bB(s,b,a){var
 d=a[2];if(d)var
-e=d[1],f=Y(zd,e),t=f?Y(e,b):f,c=t;else
+e=d[1],f=Z(zP,e),t=f?Z(e,b):f,c=t;else
 var
 c=1;var
 h=a[1];if(!(9<=h))switch(h){case
 2:var
 i=a[4];if(typeof
 i!=="number"&&1===i[0]){var
-j=a[3];return j?0===j[1][0]?c:ca(0,b,a):ca(0,b,a)}return ca(0,b,a);case
+j=a[3];return j?0===j[1][0]?c:cd(0,b,a):cd(0,b,a)}return cd(0,b,a);case
 6:var
 k=a[4];if(typeof
 k!=="number"&&0===k[0]){var
@@ -6183,64 +6240,64 @@ l=a[3];if(l){var
 m=l[1];switch(m[0]){case
 0:return a[2]?0:1;case
 1:var
-n=r(g(m[1]),b);if(n){if(a[2])return 0;var
+n=p(g(m[1]),b);if(n){if(a[2])return 0;var
 o=1}else
 var
-o=n;return o;default:return ca(0,b,a)}}return ca(0,b,a)}return ca(0,b,a);case
+o=n;return o;default:return cd(0,b,a)}}return cd(0,b,a)}return cd(0,b,a);case
 8:var
-p=a[4];if(typeof
-p!=="number"&&1===p[0]){var
-q=a[3];return q?0===q[1][0]?c?r(b,s):c:ca(0,b,a):ca(0,b,a)}return ca(0,b,a)}return ca(0,b,a)}function
-aN(c,b,a){return 11===a[1]?typeof
-a[4]==="number"?a[2]?bz(c,b,a):a[3]?bz(c,b,a):1:bz(c,b,a):bz(c,b,a)}function
-n2(f,c,b,a){var
+q=a[4];if(typeof
+q!=="number"&&1===q[0]){var
+r=a[3];return r?0===r[1][0]?c?p(b,s):c:cd(0,b,a):cd(0,b,a)}return cd(0,b,a)}return cd(0,b,a)}function
+aO(c,b,a){return 11===a[1]?typeof
+a[4]==="number"?a[2]?bB(c,b,a):a[3]?bB(c,b,a):1:bB(c,b,a):bB(c,b,a)}function
+ol(f,c,b,a){var
 g=a[2];if(g)var
-h=g[1],i=Y(zf,h),s=i?Y(h,b):i,d=s;else
+h=g[1],i=Z(zR,h),s=i?Z(h,b):i,d=s;else
 var
 d=1;switch(a[1]){case
-1:if(a[3])return bz(bh(c),b,a);if(d){var
-q=0,j=a[4];if(typeof
+1:if(a[3])return bB(bk(c),b,a);if(d){var
+r=0,j=a[4];if(typeof
 j!=="number"&&2===j[0]){var
-k=1;q=1}if(!q)var
-k=0;return cj(f,k)}return d;case
+k=1;r=1}if(!r)var
+k=0;return cm(f,k)}return d;case
 4:var
 l=a[4];if(typeof
-l!=="number"&&0===l[0])return a[3]?bz(bh(c),b,a):d;return bz(bh(c),b,a);case
+l!=="number"&&0===l[0])return a[3]?bB(bk(c),b,a):d;return bB(bk(c),b,a);case
 5:var
 m=a[4];if(typeof
-m!=="number"&&0===m[0]){if(a[3])return bz(bh(c),b,a);var
-n=r(b,bh(c));if(n){var
+m!=="number"&&0===m[0]){if(a[3])return bB(bk(c),b,a);var
+n=p(b,bk(c));if(n){var
 o=typeof
 c==="number"?1:0;if(o){if(a[2])return 0;var
 e=1}else
 var
 e=o}else
 var
-e=n;return e}return bz(bh(c),b,a);case
+e=n;return e}return bB(bk(c),b,a);case
 13:var
-p=a[4];if(typeof
-p!=="number"&&1===p[0])return a[3]?bz(bh(c),b,a):d?T(f):d;return bz(bh(c),b,a);default:return bz(bh(c),b,a)}}function
-c3(a){switch(a[0]){case
+q=a[4];if(typeof
+q!=="number"&&1===q[0])return a[3]?bB(bk(c),b,a):d?S(f):d;return bB(bk(c),b,a);default:return bB(bk(c),b,a)}}function
+db(a){switch(a[0]){case
 0:return[0,j([0,a[1],a[2]])];case
 1:return[1,a[1]];case
-2:return[2,c3(a[1])];case
+2:return[2,db(a[1])];case
 3:var
-b=c3(a[2]),c=c3(a[3]);switch(a[1]){case
+b=db(a[2]),c=db(a[3]);switch(a[1]){case
 0:return[3,b,c];case
 1:return[4,b,c];case
 2:return[5,b,c];default:return[6,b,c]}case
 4:var
-d=a[2];return[7,c3(a[1]),d];default:return[8,c3(a[1])]}}function
-i9(i,h,f,b,d,c,a){var
-k=ak(em,a),l=dt(0,g(b),0,a),m=ag(d,c),n=e(function(a){var
-b=j(a[2]);return[0,j(a[1]),b]},m),o=e(function(a){return 0===a[0]?[0,e(c3,a[1])]:[1,c3(a[1])]},b),p=e(function(a){var
-b=c3(a[2]);return[0,a[1],b]},f);return[0,[0,i,e(function(a){var
-b=bT(a[2]);return[0,a[1],b]},h),p,o],n,l,k]}function
-i_(c){function
+d=a[2];return[7,db(a[1]),d];default:return[8,db(a[1])]}}function
+ji(i,h,f,b,d,c,a){var
+k=al(er,a),l=eq(0,g(b),0,a),m=_(d,c),n=e(function(a){var
+b=j(a[2]);return[0,j(a[1]),b]},m),o=e(function(a){return 0===a[0]?[0,e(db,a[1])]:[1,db(a[1])]},b),p=e(function(a){var
+b=db(a[2]);return[0,a[1],b]},f);return[0,[0,i,e(function(a){var
+b=bX(a[2]);return[0,a[1],b]},h),p,o],n,l,k]}function
+jj(c){function
 a(e){var
 a=[0,d,b];return q(e,c,[0,a,a])}var
-e=a(zg),f=a(zh);return[0,a(0),f,e]}function
-du(a){function
+e=a(zS),f=a(zT);return[0,a(0),f,e]}function
+dy(a){function
 b(a){var
 b=j(a[2]);return[0,j(a[1]),b]}switch(a[0]){case
 0:return[0,b([0,a[1],a[2]])];case
@@ -6248,29 +6305,29 @@ b=j(a[2]);return[0,j(a[1]),b]}switch(a[0]){case
 c=b(a[3]),d=b(a[2]);return[1,b(a[1]),d,c];case
 2:return[2,j(a[1])];default:var
 e=j(a[2]);return[3,j(a[1]),e]}}function
-n3(a){if(0===a[0]){var
-b=ag(a[1],a[2]);return[0,i_(e(function(a){var
-b=j(a[2]);return[0,j(a[1]),b]},b))]}return nZ([1,a[1],a[2],a[3],a[4],a[5]])}function
-n4(k,b,i,h,f,d,a){function
-c(a){return i_(e(bT,a))}var
-l=ak(em,a),m=dt(0,g(b),d,a),n=du(f),o=n3(h),p=j(i);return[0,k,e(function(a){var
+om(a){if(0===a[0]){var
+b=_(a[1],a[2]);return[0,jj(e(function(a){var
+b=j(a[2]);return[0,j(a[1]),b]},b))]}return oh([1,a[1],a[2],a[3],a[4],a[5]])}function
+on(k,b,i,h,f,d,a){function
+c(a){return jj(e(bX,a))}var
+l=al(er,a),m=eq(0,g(b),d,a),n=dy(f),o=om(h),p=j(i);return[0,k,e(function(a){var
 b=c(a[2]);return[0,c(a[1]),b]},b),p,o,n,m,l]}function
-gK(a){return ak(function(a){return 2===a[0]?1:0},a)}function
-n5(k,a,c,i,h,f){var
-l=g(a),m=dt(gK(a),l,0,f),n=y(du,h),o=n3(i),p=c?j(c[1]):[0,b,b];return[0,k,e(function(a){function
-c(a){return i_(e(bT,a))}switch(a[0]){case
+gV(a){return al(function(a){return 2===a[0]?1:0},a)}function
+oo(k,a,c,i,h,f){var
+l=g(a),m=eq(gV(a),l,0,f),n=z(dy,h),o=om(i),p=c?j(c[1]):[0,b,b];return[0,k,e(function(a){function
+c(a){return jj(e(bX,a))}switch(a[0]){case
 0:var
-k=a[5],l=bT(a[4]),m=c(a[3]),n=c(a[2]);return[0,[0,[0,c(a[1]),n,m,l,k]]];case
+k=a[5],l=bX(a[4]),m=c(a[3]),n=c(a[2]);return[0,[0,[0,c(a[1]),n,m,l,k]]];case
 1:var
 o=c(a[2]);return[0,[1,c(a[1]),o,0]];default:var
 f=a[1];if(f)var
 g=c(f);else
 var
 h=[0,b,b],i=[0,d,b],j=[0,d,b],g=[0,[0,j,j],[0,i,i],[0,h,h]];var
-p=a[7],q=bT(a[6]),r=bT(a[5]),s=c(a[4]),t=c(a[3]);return[1,[0,g,c(a[2]),t,s,r,q,p]]}},a),p,o,n,m]}function
-n6(a){return a[1]?0:1}function
-n7(l){var
-b=bk(n6,l);if(b){var
+p=a[7],q=bX(a[6]),r=bX(a[5]),s=c(a[4]),t=c(a[3]);return[1,[0,g,c(a[2]),t,s,r,q,p]]}},a),p,o,n,m]}function
+op(a){return a[1]?0:1}function
+oq(l){var
+b=bn(op,l);if(b){var
 d=b[1];if(d[2])return 0;if(d[3])return 0;var
 c=d[4],a=b[2];if(typeof
 c!=="number")switch(c[0]){case
@@ -6291,69 +6348,69 @@ k=a;return k}var
 i=0}else
 var
 i=b;return i}function
-n8(a){var
-c=n6(a);if(c)return c;if(1===a[1]){var
+or(a){var
+c=op(a);if(c)return c;if(1===a[1]){var
 b=a[4];if(typeof
 b!=="number"&&0===b[0])return 1;return 0}return 0}function
-gL(i,h,b){function
+gW(i,h,b){function
 c(b,a){return[3,1,b,a]}function
 a(b,a){return[3,3,b,a]}function
 d(b,a){return[3,2,b,a]}function
 e(b,a){return[3,0,b,a]}var
-f=c(gM,a(gM,b)),j=a(f,i$),k=i?f:a(c(b,gM),i$);function
-g(b){return a(b,[5,e(gM,d(i$,d(b,b)))])}var
+f=c(gX,a(gX,b)),j=a(f,jk),k=i?f:a(c(b,gX),jk);function
+g(b){return a(b,[5,e(gX,d(jk,d(b,b)))])}var
 l=g(k);return a(h,e(g(j),l))}function
-gN(f,e,d){function
+gY(f,e,d){function
 a(b,a){return[3,3,b,a]}function
 b(b,a){return[3,2,b,a]}var
-c=a([3,1,ja,a(ja,d)],n9),g=a(c,[5,[3,0,ja,b(n9,b(c,c))]]);return[2,b(gL(f,e,d),g)]}function
-jb(e,g,a){function
+c=a([3,1,jl,a(jl,d)],os),g=a(c,[5,[3,0,jl,b(os,b(c,c))]]);return[2,b(gW(f,e,d),g)]}function
+jm(e,g,a){function
 f(b,a){return[3,1,b,a]}function
 b(b,a){return[3,3,b,a]}function
 c(b,a){return[3,2,b,a]}var
-h=f(gO,b(gO,a)),d=e?h:b(f(a,gO),n_),i=b(d,[5,[3,0,gO,c(n_,c(d,d))]]);return c(gL(e,g,a),i)}function
-n$(c,g,b,a){function
+h=f(gZ,b(gZ,a)),d=e?h:b(f(a,gZ),ot),i=b(d,[5,[3,0,gZ,c(ot,c(d,d))]]);return c(gW(e,g,a),i)}function
+ou(c,g,b,a){function
 d(b,a){return e(function(c){var
-d=r(b,c)?a:zi;return[0,d]},zk)}return e(function(e){var
-j=[0,gL(c,b,a)],i=1,k=d(e,[2,g]);function
+d=p(b,c)?a:zU;return[0,d]},zW)}return e(function(e){var
+j=[0,gW(c,b,a)],i=1,k=d(e,[2,g]);function
 f(b,a){return[3,1,b,a]}var
-h=gL(c,b,a),l=d(e,f(f(gN(c,b,a),g),h));return[0,d(e,zj),l,k,j,i]},zl)}function
-oa(c,b,a){var
-d=[0,jb(c,b,a),0],e=[0,jb(c,b,a),d],f=[0,jb(c,b,a),e],g=[0,gN(c,b,a),0],h=[0,gN(c,b,a),g];return[0,[0,gN(c,b,a),h],f]}function
-ob(o,e,a){if(e)if(a){var
-g=e[1],h=a[1],k=cr(j(g[2][1]));if(k){var
-l=k[1],m=cr(j(g[2][2]));if(m)var
+h=gW(c,b,a),l=d(e,f(f(gY(c,b,a),g),h));return[0,d(e,zV),l,k,j,i]},zX)}function
+ov(c,b,a){var
+d=[0,jm(c,b,a),0],e=[0,jm(c,b,a),d],f=[0,jm(c,b,a),e],g=[0,gY(c,b,a),0],h=[0,gY(c,b,a),g];return[0,[0,gY(c,b,a),h],f]}function
+ow(o,e,a){if(e)if(a){var
+g=e[1],h=a[1],k=cu(j(g[2][1]));if(k){var
+l=k[1],m=cu(j(g[2][2]));if(m)var
 p=m[1],n=function(a){function
 d(a){return c(2,a)}var
-e=[0,a,fI(h[2],d,b)];return c_(l,a0(dQ(p,l),e))},q=n(C(h[1],b)),f=[0,n(h[1]),q];else
+e=[0,a,fO(h[2],d,b)];return di(l,a1(dU(p,l),e))},q=n(D(h[1],b)),f=[0,n(h[1]),q];else
 var
 f=[0,[0,d,b],[0,d,b]]}else
 var
 f=[0,[0,d,b],[0,d,b]];var
-r=ob([0,o],e[2],a[2]),i=[0,[0,g[1],[1,o,f[1],f[2]]],r]}else
+r=ow([0,o],e[2],a[2]),i=[0,[0,g[1],[1,o,f[1],f[2]]],r]}else
 var
 i=a;else
 var
 i=e;return i}function
-ar(b,a){switch(a[0]){case
+at(b,a){switch(a[0]){case
 0:return[0,a[1],a[2]];case
 1:var
 c=a[1];if(0===c[0]){var
-e=c[1],d=kt(function(a){return aw(e,a[1])},b);return d?[1,d[1][2]]:a}return a;case
-2:return[2,ar(b,a[1])];case
+e=c[1],d=kH(function(a){return aw(e,a[1])},b);return d?[1,d[1][2]]:a}return a;case
+2:return[2,at(b,a[1])];case
 3:var
-f=ar(b,a[3]),g=ar(b,a[2]);return[3,a[1],g,f];case
+f=at(b,a[3]),g=at(b,a[2]);return[3,a[1],g,f];case
 4:var
-h=a[2];return[4,ar(b,a[1]),h];default:return[5,ar(b,a[1])]}}function
-oc(b,a){if(0===a[0])return[0,ar(b,a[1])];var
-c=ar(b,a[2]);return[1,ar(b,a[1]),c]}function
-jc(b,a){var
+h=a[2];return[4,at(b,a[1]),h];default:return[5,at(b,a[1])]}}function
+ox(b,a){if(0===a[0])return[0,at(b,a[1])];var
+c=at(b,a[2]);return[1,at(b,a[1]),c]}function
+jn(b,a){var
 c=i(b,a[3]),d=i(b,a[2]);return[0,i(b,a[1]),d,c]}function
-jd(c,a){if(c)if(a){var
+jo(c,a){if(c)if(a){var
 g=a[2],b=a[1],h=c[1];if(typeof
 b!=="number"&&0===b[0]){var
-e=jd(h,g);if(e){var
-i=e[1],f=jd(h,i[2]);if(f)var
+e=jo(h,g);if(e){var
+i=e[1],f=jo(h,i[2]);if(f)var
 j=f[1],k=[0,[0,[0,b[1],i[1],j[1]],j[2]]];else
 var
 k=f;var
@@ -6365,62 +6422,62 @@ var
 d=a;else
 var
 d=c;return d}function
-je(g,f,a){if(a){var
-e=a[1],h=a[2];if(f)return[0,e,je(g,f[1],h)];var
-j=[0,e[2]],k=g?b:d,l=e[1],i=[0,[0,C(A(c(2,b),l),k),j],h]}else
+jp(g,f,a){if(a){var
+e=a[1],h=a[2];if(f)return[0,e,jp(g,f[1],h)];var
+j=[0,e[2]],k=g?b:d,l=e[1],i=[0,[0,D(B(c(2,b),l),k),j],h]}else
 var
 i=a;return i}function
-zm(a){if(typeof
+zY(a){if(typeof
 a!=="number"&&1===a[0])return 1;return 0}function
-zn(a){if(typeof
+zZ(a){if(typeof
 a!=="number"&&2===a[0])return 1;return 0}function
-gP(e,a){if(0===a[0]){var
-f=[0,b,c(2,b)],g=gP(e,a[3]);return a0(c_(gP(e,a[2]),g),f)}return i(e,a[1])?[0,b,b]:[0,d,b]}function
-od(a){return 0===a[0]?d$(a[1][4]):0}function
-oe(a){switch(a[0]){case
+g0(e,a){if(0===a[0]){var
+f=[0,b,c(2,b)],g=g0(e,a[3]);return a1(di(g0(e,a[2]),g),f)}return i(e,a[1])?[0,b,b]:[0,d,b]}function
+oy(a){return 0===a[0]?ec(a[1][4]):0}function
+oz(a){switch(a[0]){case
 0:var
-b=a[1],c=a4(b[3]);return f(a4(b[2]),c);case
+b=a[1],c=a5(b[3]);return f(a5(b[2]),c);case
 1:var
-d=a4(a[2]);return f(a4(a[1]),d);default:return 0}}function
-gQ(a){switch(a[0]){case
-0:return bx(a4(a[1][1]));case
+d=a5(a[2]);return f(a5(a[1]),d);default:return 0}}function
+g1(a){switch(a[0]){case
+0:return bz(a5(a[1][1]));case
 1:var
-b=a[3];return b?bx(a4(b[1])):d;default:return bx(a4(a[1]))}}function
-gR(c){var
-a=x(od,c),d=a?[0,a[1],a[2]]:x(oe,c);return C(b,bx(d))}function
-of(d,a){if(d){if(a){var
-b=a[1],g=d[1],e=of(d[2],a[2]);if(e){var
+b=a[3];return b?bz(a5(b[1])):d;default:return bz(a5(a[1]))}}function
+g2(c){var
+a=y(oy,c),d=a?[0,a[1],a[2]]:y(oz,c);return D(b,bz(d))}function
+oA(d,a){if(d){if(a){var
+b=a[1],g=d[1],e=oA(d[2],a[2]);if(e){var
 h=e[1],i=h[2],j=h[1];if(45===b)var
-c=zo;else
+c=z0;else
 if(43===b)var
-c=zp;else
+c=z1;else
 var
-f=48===b?1:0,n=f?zq:f,c=n;if(c)return[0,[0,[0,[0,g,c[1]],j],i]];var
+f=48===b?1:0,n=f?z2:f,c=n;if(c)return[0,[0,[0,[0,g,c[1]],j],i]];var
 k=49===b?1:0,o=k?[0,[0,j,[0,g,i]]]:k,l=o}else
 var
 l=e;var
 m=l}else
 var
-m=a;return m}return a?0:zr}function
-en(b,c,a){switch(a[0]){case
+m=a;return m}return a?0:z3}function
+es(b,c,a){switch(a[0]){case
 0:var
-d=a[1];if(aw(d,zs))return zt;if(aw(d,zu))return zv;if(aw(d,zw))return zx;if(aw(d,zy))return zz;if(aw(d,zA))return zB;var
-l=aw(d,zC),x=l?zD:l;return x;case
+d=a[1];if(aw(d,z4))return z5;if(aw(d,z6))return z7;if(aw(d,z8))return z9;if(aw(d,z_))return z$;if(aw(d,Aa))return Ab;var
+l=aw(d,Ac),x=l?Ad:l;return x;case
 1:var
-e=a[3],f=a[2],g=a[1];if(aw(g,zE))return[0,[0,e,f]];if(aw(g,zF))return[0,[1,e,f]];if(aw(g,zG))return[0,[2,e,f]];var
-m=aw(g,zH),z=m?[0,[8,e,f]]:m;return z;case
+e=a[3],f=a[2],g=a[1];if(aw(g,Ae))return[0,[0,e,f]];if(aw(g,Af))return[0,[1,e,f]];if(aw(g,Ag))return[0,[2,e,f]];var
+m=aw(g,Ah),y=m?[0,[8,e,f]]:m;return y;case
 2:return[0,[4,a[1]]];case
 3:return[0,[3,a[2],a[1],a[3]]];case
 4:return[0,[9,a[2],a[1],a[3],a[4]]];case
 5:var
-h=en(b,c,a[1]),A=h?[0,[5,h[1],a[2],a[3]]]:h;return A;case
+h=es(b,c,a[1]),A=h?[0,[5,h[1],a[2],a[3]]]:h;return A;case
 6:var
-i=en(b,c,a[1]),B=i?[0,[7,i[1],a[2],a[3]]]:i;return B;case
+i=es(b,c,a[1]),B=i?[0,[7,i[1],a[2],a[3]]]:i;return B;case
 7:var
-C=en(b,c,a[1]);return y(function(a){return[6,a]},C);case
+C=es(b,c,a[1]);return z(function(a){return[6,a]},C);case
 8:if(b){var
-n=a[3],o=a[2],j=en(b,c,a[1]);if(j){var
-p=j[1],k=of(b,hv(hu(au(o),function(a){return aY(o,a)})));if(k){var
+n=a[3],o=a[2],j=es(b,c,a[1]);if(j){var
+p=j[1],k=oA(b,hE(hD(au(o),function(a){return a0(o,a)})));if(k){var
 q=k[1],r=q[2],s=q[1];if(r)return[0,[11,c,r,[10,p,s,n]]];var
 t=[0,[10,p,s,n]]}else
 var
@@ -6432,25 +6489,25 @@ v=u}else
 var
 v=b;return v;default:var
 w=function(a){if(a){var
-f=a[1],d=en(b,c,f[2]);if(d)var
+f=a[1],d=es(b,c,f[2]);if(d)var
 e=w(a[2]),h=e?[0,[0,[0,f[1],d[1]],e[1]]]:e,g=h;else
 var
-g=d;return g}return zI},D=w(a[1]);return y(function(a){return[12,a]},D)}}function
-og(e,d,a){if(a){var
-f=a[1],b=en(e,d,f[2]);if(b)var
-c=og(e,d,a[2]),h=c?[0,[0,[0,f[1],b[1]],c[1]]]:c,g=h;else
+g=d;return g}return Ai},D=w(a[1]);return z(function(a){return[12,a]},D)}}function
+oB(e,d,a){if(a){var
+f=a[1],b=es(e,d,f[2]);if(b)var
+c=oB(e,d,a[2]),h=c?[0,[0,[0,f[1],b[1]],c[1]]]:c,g=h;else
 var
-g=b;return g}return zJ}function
-dv(b,g,f,e,d,a){if(d)if(a){var
+g=b;return g}return Aj}function
+dz(b,g,f,e,d,a){if(d)if(a){var
 c=a[1];if(c[3])return 0;if(c[4])return 0;var
-n=c[2],o=a[2],p=d[1],h=og(f,e,c[1]);if(h){var
+n=c[2],o=a[2],p=d[1],h=oB(f,e,c[1]);if(h){var
 i=h[1];if(n){var
-j=dv(b,g,f,e,p,o);if(j){var
-q=j[1],k=dv(b,g,f,e,p,q[2]);if(k){var
-r=k[1],s=r[1],t=q[1],l=n[1],z=r[2];if(aV(l,b))var
+j=dz(b,g,f,e,p,o);if(j){var
+q=j[1],k=dz(b,g,f,e,p,q[2]);if(k){var
+r=k[1],s=r[1],t=q[1],l=n[1],y=r[2];if(aN(l,b))var
 u=[0,[1,i,l,t,s]];else
 var
-x=F(g,dL(l,b)),u=y(function(a){return[2,i,a,t,s]},x);return y(function(a){return[0,a,z]},u)}var
+x=F(g,dP(l,b)),u=z(function(a){return[2,i,a,t,s]},x);return z(function(a){return[0,a,y]},u)}var
 v=k}else
 var
 v=j;return v}var
@@ -6462,262 +6519,262 @@ var
 m=a;else
 var
 m=d;return m}function
-jf(i,h,f,e,d,a){if(d){if(a){var
-b=dv(i,h,f,e,g(a),a);if(b)var
-j=b[1],c=jf(i,h,f,e,d[1],j[2]),l=c?[0,[0,j[1],c[1]]]:c,k=l;else
+jq(i,h,f,e,d,a){if(d){if(a){var
+b=dz(i,h,f,e,g(a),a);if(b)var
+j=b[1],c=jq(i,h,f,e,d[1],j[2]),l=c?[0,[0,j[1],c[1]]]:c,k=l;else
 var
-k=b;return k}return zK}return a?0:zL}function
-oh(a){if(typeof
-a==="number")return 0===a?zM:zN;else
+k=b;return k}return Ak}return a?0:Al}function
+oC(a){if(typeof
+a==="number")return 0===a?Am:An;else
 switch(a[0]){case
 0:return[0,[0,a[1],a[2]]];case
 1:return[0,[1,a[1],a[2]]];default:return 0}}function
-jg(e,d,a){if(d)if(a){var
+jr(e,d,a){if(d)if(a){var
 b=a[1];if(b[1])return 0;var
 j=b[4],c=b[3],k=b[2],l=a[2],m=d[1];if(k){if(c)return 0;if(j)return 0;var
-f=k[1],g=jg(e,m,l);if(g){var
-n=g[1],o=n[1],h=jg(e,m,n[2]);if(h){var
-p=h[1],q=p[2],r=p[1];if(aV(f,zO))return[0,[0,[1,f,o,r],q]];var
-t=F(e,dL(f,zP));return y(function(a){return[0,[2,a,o,r],q]},t)}var
+f=k[1],g=jr(e,m,l);if(g){var
+n=g[1],o=n[1],h=jr(e,m,n[2]);if(h){var
+p=h[1],q=p[2],r=p[1];if(aN(f,Ao))return[0,[0,[1,f,o,r],q]];var
+t=F(e,dP(f,Ap));return z(function(a){return[0,[2,a,o,r],q]},t)}var
 s=h}else
 var
 s=g;return s}if(c){var
-u=oh(c[1]);return y(function(a){return[0,[0,j,a],l]},u)}var
+u=oC(c[1]);return z(function(a){return[0,[0,j,a],l]},u)}var
 i=c}else
 var
 i=a;else
 var
 i=d;return i}function
-c4(b,a){return 0===b[0]?[0,j(b[1]),a]:a?[0,a[1],a[2]]:[0,j(b[1]),0]}function
-dw(a,e){var
-b=c4(a[1],e),c=c4(a[2],b[2]),d=c4(a[3],c[2]);return[0,[0,b[1],c[1],d[1]],d[2]]}function
-oi(d,c){if(d){var
+dc(b,a){return 0===b[0]?[0,j(b[1]),a]:a?[0,a[1],a[2]]:[0,j(b[1]),0]}function
+dA(a,e){var
+b=dc(a[1],e),c=dc(a[2],b[2]),d=dc(a[3],c[2]);return[0,[0,b[1],c[1],d[1]],d[2]]}function
+oD(d,c){if(d){var
 a=d[1];switch(a[0]){case
 0:var
-e=dw(a[1],c),f=dw(a[2],e[2]),g=dw(a[3],f[2]),h=c4(a[4],g[2]),b=[0,[0,e[1],f[1],g[1],h[1],a[5]],h[2]];break;case
+e=dA(a[1],c),f=dA(a[2],e[2]),g=dA(a[3],f[2]),h=dc(a[4],g[2]),b=[0,[0,e[1],f[1],g[1],h[1],a[5]],h[2]];break;case
 1:var
-i=a[3],j=dw(a[1],c),k=j[1],l=dw(a[2],j[2]),m=l[2],n=l[1];if(i)var
-o=dw(i[1],m),b=[0,[1,k,n,[0,o[1]]],o[2]];else
+i=a[3],j=dA(a[1],c),k=j[1],l=dA(a[2],j[2]),m=l[2],n=l[1];if(i)var
+o=dA(i[1],m),b=[0,[1,k,n,[0,o[1]]],o[2]];else
 var
 b=[0,[1,k,n,0],m];break;default:var
-p=dw(a[1],c),b=[0,[2,p[1]],p[2]]}var
-q=oi(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
-br(a,b){if(a){var
-c=c4(a[1],b),d=br(a[2],c[2]);return[0,[0,c[1],d[1]],d[2]]}return[0,0,b]}function
-a5(c){function
+p=dA(a[1],c),b=[0,[2,p[1]],p[2]]}var
+q=oD(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
+bu(a,b){if(a){var
+c=dc(a[1],b),d=bu(a[2],c[2]);return[0,[0,c[1],d[1]],d[2]]}return[0,0,b]}function
+a6(c){function
 a(a){return q(a,c,[0,d,b])}var
-e=a(zV),f=a(zW);return[0,a(0),f,e]}function
-oj(a,b){if(a){var
-c=a[1],d=br(c[1],b),e=br(c[2],d[2]),f=oj(a[2],e[2]),g=f[2],h=f[1],i=a5(e[1]);return[0,[0,[0,a5(d[1]),i],h],g]}return[0,0,b]}function
-ok(f,c){if(f){var
+e=a(Av),f=a(Aw);return[0,a(0),f,e]}function
+oE(a,b){if(a){var
+c=a[1],d=bu(c[1],b),e=bu(c[2],d[2]),f=oE(a[2],e[2]),g=f[2],h=f[1],i=a6(e[1]);return[0,[0,[0,a6(d[1]),i],h],g]}return[0,0,b]}function
+oF(f,c){if(f){var
 a=f[1];switch(a[0]){case
 0:var
-g=br(a[1],c),h=br(a[2],g[2]),i=br(a[3],h[2]),j=c4(a[4],i[2]),u=j[2],v=a[5],w=j[1],x=a5(i[1]),y=a5(h[1]),e=[0,[0,[0,a5(g[1]),y,x,w,v]],u];break;case
+g=bu(a[1],c),h=bu(a[2],g[2]),i=bu(a[3],h[2]),j=dc(a[4],i[2]),u=j[2],v=a[5],w=j[1],x=a6(i[1]),y=a6(h[1]),e=[0,[0,[0,a6(g[1]),y,x,w,v]],u];break;case
 1:var
-k=br(a[1],c),l=br(a[2],k[2]),z=l[2],A=a5(l[1]),e=[0,[0,[1,a5(k[1]),A,0]],z];break;default:var
-m=a[1],n=br(m,c),o=br(a[2],n[2]),p=br(a[3],o[2]),q=br(a[4],p[2]),r=c4(a[5],q[2]),s=c4(a[6],r[2]),B=m?a5(n[1]):[0,[0,d,b],[0,d,b],[0,b,b]],C=s[2],D=a[7],E=s[1],F=r[1],G=a5(q[1]),H=a5(p[1]),e=[0,[1,[0,B,a5(o[1]),H,G,F,E,D]],C]}var
-t=ok(f[2],e[2]);return[0,[0,e[1],t[1]],t[2]]}return[0,0,c]}function
-dx(a){return kS(n,a)}function
-zX(a){if(typeof
+k=bu(a[1],c),l=bu(a[2],k[2]),z=l[2],A=a6(l[1]),e=[0,[0,[1,a6(k[1]),A,0]],z];break;default:var
+m=a[1],n=bu(m,c),o=bu(a[2],n[2]),p=bu(a[3],o[2]),q=bu(a[4],p[2]),r=dc(a[5],q[2]),s=dc(a[6],r[2]),B=m?a6(n[1]):[0,[0,d,b],[0,d,b],[0,b,b]],C=s[2],D=a[7],E=s[1],F=r[1],G=a6(q[1]),H=a6(p[1]),e=[0,[1,[0,B,a6(o[1]),H,G,F,E,D]],C]}var
+t=oF(f[2],e[2]);return[0,[0,e[1],t[1]],t[2]]}return[0,0,c]}function
+dB(a){return k6(l,a)}function
+Ax(a){if(typeof
 a==="number")return 1;else
 switch(a[0]){case
-5:return h(n,1,[3,a[1],[0,b,b]]);case
-6:return h(n,1,a[2]);case
+5:return h(l,1,[3,a[1],[0,b,b]]);case
+6:return h(l,1,a[2]);case
 8:var
-d=h(n,1,a[1]);return d?h(n,1,a[2]):d;case
-10:return h(n,0,a[3]);case
+d=h(l,1,a[1]);return d?h(l,1,a[2]):d;case
+10:return h(l,0,a[3]);case
 11:var
-e=a[4];return 2===e[0]?h(n,0,e[2]):0;case
+e=a[4];return 2===e[0]?h(l,0,e[2]):0;case
 12:var
-f=h(n,0,a[2]),g=f?h(n,0,a[3]):f;return g?h(n,1,a[4]):g;case
+f=h(l,0,a[2]),g=f?h(l,0,a[3]):f;return g?h(l,1,a[4]):g;case
 14:var
-i=h(n,0,a[1]);return i?h(n,1,a[2]):i;case
+i=h(l,0,a[1]);return i?h(l,1,a[2]):i;case
 15:var
-j=[0,a[2],a[1]],k=1;return m(function(a){return h(n,k,a)},j);case
+j=[0,a[2],a[1]],k=1;return m(function(a){return h(l,k,a)},j);case
 2:case
-3:return dx(a[2]);case
+3:return dB(a[2]);case
 4:case
 13:var
-c=h(n,1,a[2]);return c?h(n,1,a[3]):c;default:return h(n,1,a[1])}}function
-jh(a){if(typeof
+c=h(l,1,a[2]);return c?h(l,1,a[3]):c;default:return h(l,1,a[1])}}function
+js(a){if(typeof
 a==="number")return 1;else
 switch(a[0]){case
 4:var
-d=a[3],e=a[2],f=h(n,1,[3,d,e]),g=f?h(n,1,[3,[2,e,[0,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b)))))))))),b]],d]):f,i=g?h(n,0,[2,e,[0,c(2,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b))))))))))),b]]):g;return i?h(n,0,[3,[0,c(2,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b))))))))))),b],d]):i;case
-5:return h(n,1,[3,a[1],[0,b,b]]);case
+d=a[3],e=a[2],f=h(l,1,[3,d,e]),g=f?h(l,1,[3,[2,e,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b]],d]):f,i=g?h(l,0,[2,e,[0,c(2,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b))))))))))),b]]):g;return i?h(l,0,[3,[0,c(2,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b))))))))))),b],d]):i;case
+5:return h(l,1,[3,a[1],[0,b,b]]);case
 8:var
-y=[0,a[2],a[1]],z=1;return m(function(a){return h(n,z,a)},y);case
-10:return h(n,1,a[2]);case
+y=[0,a[2],a[1]],z=1;return m(function(a){return h(l,z,a)},y);case
+10:return h(l,1,a[2]);case
 11:var
-k=a[2],l=h(n,1,k);return l?h(n,0,[3,[0,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b))))))))),b],k]):l;case
+k=a[2],n=h(l,1,k);return n?h(l,0,[3,[0,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b))))))))),b],k]):n;case
 13:var
-o=a[4],q=m0(a[3]),r=q?h(n,1,o):q;return r?h(n,0,[3,[0,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b)))))))))),b],o]):r;case
-14:return h(n,0,a[3]);case
+o=a[4],p=nd(a[3]),q=p?h(l,1,o):p;return q?h(l,0,[3,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b],o]):q;case
+14:return h(l,0,a[3]);case
 15:var
-s=h(n,0,a[2]),t=s?h(n,0,a[3]):s;return t?h(n,1,a[4]):t;case
+s=h(l,0,a[2]),t=s?h(l,0,a[3]):s;return t?h(l,1,a[4]):t;case
 16:var
-u=a[3],v=h(n,0,a[1]),w=v?h(n,1,a[2]):v,x=w?h(n,1,u):w;return x?h(n,1,[3,[0,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b)))))))))),b],u]):x;case
+u=a[3],v=h(l,0,a[1]),w=v?h(l,1,a[2]):v,x=w?h(l,1,u):w;return x?h(l,1,[3,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b],u]):x;case
 2:case
-3:return dx(a[2]);case
-6:case
-7:case
-9:var
-j=h(n,1,a[2]);return j?h(n,1,a[3]):j;default:return h(n,1,a[1])}}function
-gS(d){var
+3:return dB(a[2]);case
+0:case
+1:case
+12:return h(l,1,a[1]);default:var
+j=h(l,1,a[2]);return j?h(l,1,a[3]):j}}function
+g3(d){var
 a=d;for(;;){if(a){var
-b=a[2],e=a[1],c=T(ak(function(d){return function(a){var
-h=i1(a[1]),e=aw(i1(d[1]),h);if(e)var
-i=i2(a[4]),b=aw(i2(d[4]),i);else
+b=a[2],e=a[1],c=S(al(function(d){return function(a){var
+h=jb(a[1]),e=aw(jb(d[1]),h);if(e)var
+i=jc(a[4]),b=aw(jc(d[4]),i);else
 var
 b=e;if(b){var
 f=d[2];if(f){var
-c=a[2];return c?r(f[1],c[1]):c}if(a[2])return 0;var
+c=a[2];return c?p(f[1],c[1]):c}if(a[2])return 0;var
 g=1}else
 var
 g=b;return g}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-fi(a){if(0===a[0])return dx(j(a[1]));var
-b=a[2],c=a[1];if(!dU(j(c))&&!dU(j(b))){var
-e=j(c);return h(n,1,[3,j(b),e])}var
-d=j(b);return bo(n,j(c),d)}function
-dy(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-ol(a){switch(a[0]){case
+fo(a){if(0===a[0])return dB(j(a[1]));var
+b=a[2],c=a[1];if(!dY(j(c))&&!dY(j(b))){var
+e=j(c);return h(l,1,[3,j(b),e])}var
+d=j(b);return bq(l,j(c),d)}function
+dC(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+oG(a){switch(a[0]){case
 0:var
-c=[0,a[4],0],d=f(dy(a[3]),c),e=f(dy(a[2]),d);return f(dy(a[1]),e);case
+c=[0,a[4],0],d=f(dC(a[3]),c),e=f(dC(a[2]),d);return f(dC(a[1]),e);case
 1:var
-b=a[3],g=b?dy(b[1]):b,h=f(dy(a[2]),g);return f(dy(a[1]),h);default:return dy(a[1])}}function
-om(s,a,k){if(ak(function(a){return 9===a[1]?1:0},k)){var
-b=Y(g(a),z0),c=b?m(function(a){if(0===a[0]){var
-d=a[5],e=h(n,1,j(a[2])),g=e?h(n,0,j(a[3])):e,k=g?h(n,0,j(a[4])):g,c=0;if(k)if(d)var
-p=bS(d[1]),b=m(function(a){return dx(j(a))},p);else{var
-l=1;c=1}else{var
-l=k;c=1}if(c)var
-b=l}else{var
-o=h(n,1,j(a[4]));if(o)var
-q=bS(a[3]),r=f(bS(a[2]),q),b=m(function(a){return dx(j(a))},r);else
+b=a[3],g=b?dC(b[1]):b,h=f(dC(a[2]),g);return f(dC(a[1]),h);default:return dC(a[1])}}function
+oH(s,a,k){if(al(function(a){return 9===a[1]?1:0},k)){var
+b=Z(g(a),AA),c=b?m(function(a){if(0===a[0]){var
+d=a[5],e=h(l,1,j(a[2])),g=e?h(l,0,j(a[3])):e,k=g?h(l,0,j(a[4])):g,c=0;if(k)if(d)var
+p=bW(d[1]),b=m(function(a){return dB(j(a))},p);else{var
+n=1;c=1}else{var
+n=k;c=1}if(c)var
+b=n}else{var
+o=h(l,1,j(a[4]));if(o)var
+q=bW(a[3]),r=f(bW(a[2]),q),b=m(function(a){return dB(j(a))},r);else
 var
 b=o}return b?i(s,a):b},a):b;if(c)var
-d=gJ(0,a),l=d?1:d,e=l;else
+d=gU(0,a),n=d?1:d,e=n;else
 var
 e=c;return e}return a?0:1}function
-on(a){return a?z1:z2}function
-ji(a){switch(a){case
-0:return z3;case
-1:return z4;default:return 0}}function
-c5(a){var
-f=a[1],d=h(n,1,[2,[0,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b)))))))))),b],f]),e=d?bo(n,a[1],a[2]):d;if(e){var
-g=a[2];return h(n,1,[3,[0,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b)))))))))),b],g])}return e}function
-eo(a){var
-e=bo(n,[0,d,b],a);return e?h(n,1,[3,[0,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b)))))))))),b],a]):e}function
-oo(c,b,a){if(0===a[0]){var
-d=a[2],e=a[1],f=r(g(e),c),i=f?r(g(d),c):f;if(i){var
-l=ag(e,d);return m(function(a){var
-b=j(a[2]);return bo(n,j(a[1]),b)},l)}return i}var
-k=b?h(n,1,j(a[3])):b;if(k){var
-o=j(a[5]);return bo(n,j(a[4]),o)}return k}function
-op(a,e,F,E,t,s,f){function
+oI(a){return a?AB:AC}function
+jt(a){switch(a){case
+0:return AD;case
+1:return AE;default:return 0}}function
+dd(a){var
+f=a[1],d=h(l,1,[2,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b],f]),e=d?bq(l,a[1],a[2]):d;if(e){var
+g=a[2];return h(l,1,[3,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b],g])}return e}function
+et(a){var
+e=bq(l,[0,d,b],a);return e?h(l,1,[3,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b],a]):e}function
+oJ(c,b,a){if(0===a[0]){var
+d=a[2],e=a[1],f=p(g(e),c),i=f?p(g(d),c):f;if(i){var
+n=_(e,d);return m(function(a){var
+b=j(a[2]);return bq(l,j(a[1]),b)},n)}return i}var
+k=b?h(l,1,j(a[3])):b;if(k){var
+o=j(a[5]);return bq(l,j(a[4]),o)}return k}function
+oK(a,e,F,E,t,s,f){function
 u(b){var
-d=on(a),c=r(g(b),d);return c?m(fi,b):c}var
+d=oI(a),c=p(g(b),d);return c?m(fo,b):c}var
 v=m(function(a){var
 b=u(a[1]);return b?u(a[2]):b},e);if(v)var
-G=g(e),l=Y(b9(a),G);else
+G=g(e),n=Z(br(a),G);else
 var
-l=v;var
-w=l?Y(g(e),z5):l,x=w?h(n,1,j(F)):w;if(x)var
-H=1===a?1:0,o=oo(ji(a),H,E);else
+n=v;var
+w=n?Z(g(e),AF):n,x=w?h(l,1,j(F)):w;if(x)var
+H=1===a?1:0,o=oJ(jt(a),H,E);else
 var
 o=x;if(o)if(a){var
-d=du(t);switch(d[0]){case
+d=dy(t);switch(d[0]){case
 0:var
 i=0;break;case
 1:var
-A=c5(d[1]),B=A?c5(d[2]):A,i=B?c5(d[3]):B;break;case
+A=dd(d[1]),B=A?dd(d[2]):A,i=B?dd(d[3]):B;break;case
 2:var
-i=eo(d[1]);break;default:var
-C=eo(d[1]),i=C?eo(d[2]):C}var
+i=et(d[1]);break;default:var
+C=et(d[1]),i=C?et(d[2]):C}var
 k=i}else
 var
-D=du(t),J=0===D[0]?c5(D[1]):0,k=J;else
+D=dy(t),J=0===D[0]?dd(D[1]):0,k=J;else
 var
 k=o;if(k)var
-I=g(e),p=om(function(a){if(0===a[0]){var
-b=a[1],c=Y(zZ,b),d=c?Y(b,I):c;if(d){if(a[5])return 0;var
+I=g(e),q=oH(function(a){if(0===a[0]){var
+b=a[1],c=Z(Az,b),d=c?Z(b,I):c;if(d){if(a[5])return 0;var
 e=1}else
 var
 e=d;return e}return 1},s,f);else
 var
-p=k;if(p)var
-b=g(e),c=b9(a),y=on(a),q=m(function(a){var
+q=k;if(q)var
+b=g(e),c=br(a),y=oI(a),r=m(function(a){var
 e=a[2];if(e)var
-f=e[1],h=Y(ze,f),w=h?Y(f,b):h,d=w;else
+f=e[1],h=Z(zQ,f),w=h?Z(f,b):h,d=w;else
 var
 d=1;switch(a[1]){case
 9:var
 i=a[4];if(typeof
-i!=="number"&&0===i[0])return a[2]?aN(c,b,a):a[3]?aN(c,b,a):1;return aN(c,b,a);case
+i!=="number"&&0===i[0])return a[2]?aO(c,b,a):a[3]?aO(c,b,a):1;return aO(c,b,a);case
 10:var
 j=a[4];if(typeof
 j!=="number"&&1===j[0]){var
-k=a[3];return k?2===k[1][0]?d:aN(c,b,a):aN(c,b,a)}return aN(c,b,a);case
+k=a[3];return k?2===k[1][0]?d:aO(c,b,a):aO(c,b,a)}return aO(c,b,a);case
 12:var
 l=a[4];if(typeof
-l!=="number"&&1===l[0]){if(a[2])return aN(c,b,a);var
-m=a[3];return m?3===m[1][0]?r(b,c):aN(c,b,a):aN(c,b,a)}return aN(c,b,a);case
+l!=="number"&&1===l[0]){if(a[2])return aO(c,b,a);var
+m=a[3];return m?3===m[1][0]?p(b,c):aO(c,b,a):aO(c,b,a)}return aO(c,b,a);case
 14:var
 n=a[4];if(typeof
 n!=="number"&&1===n[0]){var
 o=a[3];if(o){var
-p=o[1];if(1===p[0]){var
-q=r(g(p[1]),y),x=q?d:q;return x}return aN(c,b,a)}return aN(c,b,a)}return aN(c,b,a);case
+q=o[1];if(1===q[0]){var
+r=p(g(q[1]),y),x=r?d:r;return x}return aO(c,b,a)}return aO(c,b,a)}return aO(c,b,a);case
 15:var
 s=a[4];if(typeof
 s!=="number"&&1===s[0]){var
 t=a[3];if(t){var
 u=t[1];if(1===u[0]){var
-v=r(g(u[1]),y),z=v?d:v;return z}return aN(c,b,a)}return aN(c,b,a)}return aN(c,b,a);default:return aN(c,b,a)}},f);else
+v=p(g(u[1]),y),z=v?d:v;return z}return aO(c,b,a)}return aO(c,b,a)}return aO(c,b,a);default:return aO(c,b,a)}},f);else
 var
-q=p;var
-z=q?gS(f):q;return z?m(jh,dt(0,g(e),s,f)):z}function
-oq(a){switch(a[0]){case
+r=q;var
+z=r?g3(f):r;return z?m(js,eq(0,g(e),s,f)):z}function
+oL(a){switch(a[0]){case
 0:var
 b=f(a[3],[0,a[4],0]),c=f(a[2],b);return f(a[1],c);case
 1:return f(a[1],a[2]);default:var
 d=f(a[4],[0,a[5],[0,a[6],0]]),e=f(a[3],d),g=f(a[2],e);return f(a[1],g)}}function
-or(a,e,d,R,o,w,l){var
-p=typeof
+oM(a,e,d,R,o,w,n){var
+q=typeof
 a==="number"?a?1:a:a[1]?0:1;function
 c(a){var
-b=p?z6:z7;return r(g(a),b)}var
-i=gK(e),z=m(function(b){switch(b[0]){case
+b=q?AG:AH;return p(g(a),b)}var
+i=gV(e),x=m(function(b){switch(b[0]){case
 0:var
-d=T(i),e=d?c(b[1]):d,f=e?c(b[2]):e;return f?c(b[3]):f;case
+d=S(i),e=d?c(b[1]):d,f=e?c(b[2]):e;return f?c(b[3]):f;case
 1:var
-g=T(i),h=g?c(b[1]):g,j=h?c(b[2]):h;if(j)var
+g=S(i),h=g?c(b[1]):g,j=h?c(b[2]):h;if(j)var
 k=typeof
 a==="number"?1:0,l=k?1:k;else
 var
 l=j;return l;default:var
-m=b[1],n=p?m?0:1:c(m),o=n?c(b[2]):n,q=o?c(b[3]):o;return q?c(b[4]):q}},e);if(z)var
-S=g(e),q=Y(bh(a),S);else
+m=b[1],n=q?m?0:1:c(m),o=n?c(b[2]):n,p=o?c(b[3]):o;return p?c(b[4]):p}},e);if(x)var
+T=g(e),r=Z(bk(a),T);else
 var
-q=z;var
-A=q?Y(g(e),z8):q,B=A?m(fi,x(oq,e)):A;if(B){var
+r=x;var
+A=r?Z(g(e),AI):r,B=A?m(fo,y(oL,e)):A;if(B){var
 Q=0;if(typeof
 a==="number"&&!a){var
 C=1;Q=1}if(!Q)var
 C=0;var
-U=p?z9:z_,s=oo(U,C,R)}else
+U=q?AJ:AK,s=oJ(U,C,R)}else
 var
 s=B;if(s)if(typeof
 a==="number")if(d)var
 b=0;else
 var
-V=y(du,o)?0:1,b=V;else
+V=z(dy,o)?0:1,b=V;else
 switch(a[1]){case
 0:if(d){var
-t=y(du,o);if(t){var
+t=z(dy,o);if(t){var
 F=t[1];if(0===F[0])var
-G=h(n,1,j(d[1])),H=G?c5(F[1]):G;else
+G=h(l,1,j(d[1])),H=G?dd(F[1]):G;else
 var
 H=0;var
 I=H}else
@@ -6727,15 +6784,15 @@ b=I}else
 var
 b=d;break;case
 1:if(d){var
-u=d[1],v=y(du,o);if(v){var
+u=d[1],v=z(dy,o);if(v){var
 f=v[1];switch(f[0]){case
 0:var
 k=0;break;case
 1:var
-K=h(n,1,j(u)),L=K?c5(f[1]):K,M=L?c5(f[2]):L,k=M?c5(f[3]):M;break;case
+K=h(l,1,j(u)),L=K?dd(f[1]):K,M=L?dd(f[2]):L,k=M?dd(f[3]):M;break;case
 2:var
-N=h(n,1,j(u)),k=N?eo(f[1]):N;break;default:var
-O=h(n,1,j(u)),P=O?eo(f[1]):O,k=P?eo(f[2]):P}var
+N=h(l,1,j(u)),k=N?et(f[1]):N;break;default:var
+O=h(l,1,j(u)),P=O?et(f[1]):O,k=P?et(f[2]):P}var
 J=k}else
 var
 J=v;var
@@ -6746,111 +6803,111 @@ b=0}else
 var
 b=s;var
 D=b?m(function(b){var
-c=n2(i,a,g(e),b);if(c)var
+c=ol(i,a,g(e),b);if(c)var
 d=c;else{var
-f=w?em(b):w;if(f)return aN(0,0,b);var
-d=f}return d},l):b,E=D?gS(l):D;return E?m(jh,dt(i,g(e),0,l)):E}function
-z$(a){switch(a[0]){case
-0:return gi(a[1][1]);case
+f=w?er(b):w;if(f)return aO(0,0,b);var
+d=f}return d},n):b,E=D?g3(n):D;return E?m(js,eq(i,g(e),0,n)):E}function
+AL(a){switch(a[0]){case
+0:return gr(a[1][1]);case
 1:var
-b=a[3];return b?gi(b[1]):1;default:return gi(a[1])}}function
-jj(a,k,b,d){var
-e=om(function(g){if(0===g[0]){var
-c=g[1],d=Y(zY,c);if(d){var
-b=F(a,bs(c));if(b){if(2===b[1][0])return 0;var
+b=a[3];return b?gr(b[1]):1;default:return gr(a[1])}}function
+ju(a,k,b,d){var
+e=oH(function(g){if(0===g[0]){var
+c=g[1],d=Z(Ay,c);if(d){var
+b=F(a,bv(c));if(b){if(2===b[1][0])return 0;var
 e=1}else
 var
 e=b;var
 f=e}else
 var
-f=d;return f}return 1},k,b),f=e?m(z$,d[1]):e,h=f?Y(Aa,g(a)):f;if(h)var
-l=g(a),c=m(function(a){return y6(l,a)},b);else
+f=d;return f}return 1},k,b),f=e?m(AL,d[1]):e,h=f?Z(AM,g(a)):f;if(h)var
+l=g(a),c=m(function(a){return zG(l,a)},b);else
 var
 c=h;var
-i=c?gS(b):c,j=i?m(fi,x(ol,a)):i;return j?m(zX,d[3]):j}function
-os(k,j,a,i,h,b){var
-l=g(k),n=g(h),c=r(g(i),n),d=c?m(function(b){var
-c=aN(l,g(a),b);if(c){var
+i=c?g3(b):c,j=i?m(fo,y(oG,a)):i;return j?m(Ax,d[3]):j}function
+oN(k,j,a,i,h,b){var
+l=g(k),n=g(h),c=p(g(i),n),d=c?m(function(b){var
+c=aO(l,g(a),b);if(c){var
 d=b[1];if(1===d){var
-e=b[2],f=e?[0,bs(e[1]),0]:aA(0,g(a));return m(function(c){var
-b=F(a,c);return b?0===b[1][0]?0:1:b},f)}return 11===d?m(function(a){return 0===a[0]?0:1},a):1}return c},b):c,e=d?gS(b):d,f=e?m(function(a){return fi(a[2])},j):e;return f?m(jh,dt(0,g(a),0,b)):f}function
-ot(a){if(a){var
-b=a[1];if(em(b))return 0;var
-c=[0,b,ot(a[2])]}else
+e=b[2],f=e?[0,bv(e[1]),0]:aA(0,g(a));return m(function(c){var
+b=F(a,c);return b?0===b[1][0]?0:1:b},f)}return 11===d?m(function(a){return 0===a[0]?0:1},a):1}return c},b):c,e=d?g3(b):d,f=e?m(function(a){return fo(a[2])},j):e;return f?m(js,eq(0,g(a),0,b)):f}function
+oO(a){if(a){var
+b=a[1];if(er(b))return 0;var
+c=[0,b,oO(a[2])]}else
 var
 c=a;return c}function
-gT(i,h,f,d,b){var
-j=ot(b),k=x(function(a){return i8(i,f,d,a)},j),c=as(O,0,e(function(a){return ia(n,h,a)},k)),a=x(n0,b),l=a?[0,a[1],a[2]]:Ab;return O(g(l),c)}function
-gU(a){return 2<=a?Ac:Ad}function
-gV(m,l,k,j,f,i){var
-g=gT(m,l,k,j,f),c=oh(i);if(c){var
+g4(i,h,f,d,b){var
+j=oO(b),k=y(function(a){return jh(i,f,d,a)},j),c=aq(P,0,e(function(a){return il(l,h,a)},k)),a=y(oj,b),m=a?[0,a[1],a[2]]:AN;return P(g(m),c)}function
+jv(a){return 2<=a?AO:AP}function
+jw(m,l,k,j,f,i){var
+g=g4(m,l,k,j,f),c=oC(i);if(c){var
 a=c[1],e=0;if(typeof
 a==="number")var
 h=[0,a];else
 if(0===a[0]){var
 n=a[2],o=a[1],b=o,d=function(a){return[0,a,n]};e=1}else{var
-p=a[2],q=a[1],b=q,d=function(a){return[1,a,p]};e=1}if(e){if(!T(ak(em,f))&&!aV(b,g))return r(b,g)?0:[0,d(bs(b))];return[0,d(b)]}}else
+q=a[2],r=a[1],b=r,d=function(a){return[1,a,q]};e=1}if(e){if(!S(al(er,f))&&!aN(b,g))return p(b,g)?0:[0,d(bv(b))];return[0,d(b)]}}else
 var
 h=c;return h}function
-gW(b,a){var
-c=g(bk(function(a){return 0===a[0]?0:1},b));return r(g(a),c)}function
-gX(a){var
-b=ag(aA(0,g(a)),a);return e(az,bk(function(a){return h6(a[2])},b))}function
-ou(a){var
-b=a[1],c=e(gQ,a[1]);return gd(gR(a[1]),c,b)}function
-jk(a){return gX(ou(a))}function
-ov(b,a){if(a){var
-c=a[1],d=a[2],g=ov(O(b,c[1]),d),h=c[2];return f(e(function(a){return aA(O(b,a),Ae)},h),g)}return a}function
-ow(e,a){function
+g5(b,a){var
+c=g(bn(function(a){return 0===a[0]?0:1},b));return p(g(a),c)}function
+g6(a){var
+b=_(aA(0,g(a)),a);return e(aB,bn(function(a){return ig(a[2])},b))}function
+oP(a){var
+b=a[1],c=e(g1,a[1]);return gk(g2(a[1]),c,b)}function
+jx(a){return g6(oP(a))}function
+oQ(b,a){if(a){var
+c=a[1],d=a[2],g=oQ(P(b,c[1]),d),h=c[2];return f(e(function(a){return aA(P(b,a),AQ)},h),g)}return a}function
+oR(e,a){function
 b(f){var
 a=F(e,f);if(a){var
-b=lx(a[1]);if(b)return J(b[1],d);var
+b=lL(a[1]);if(b)return J(b[1],d);var
 c=1}else
 var
 c=a;return c}var
-c=ov(0,a);return bk(function(a){return m(b,a)},c)}function
-ox(a){switch(a[0]){case
-0:return Af;case
-1:return a[3]?Ag:Ah;default:return Ai}}function
-Aj(a){return 0===a[0]?ox(a[1]):Ak}function
-jl(a){if(a){var
+c=oQ(0,a);return bn(function(a){return m(b,a)},c)}function
+oS(a){switch(a[0]){case
+0:return AR;case
+1:return a[3]?AS:AT;default:return AU}}function
+AV(a){return 0===a[0]?oS(a[1]):AW}function
+jy(a){if(a){var
 b=a[1];return[0,b[2],b[1]]}return[0,d,0]}function
-oy(aD,Y,aB,X,W,b,aA,V){var
-a=i7(Y,aB,X,W),aE=g(V),aF=e(ox,a[1]),aG=ow(ou(a),aF),aH=aD?0:jk(a),B=dv(Al,jk(a),aH,aG,aE,V);if(B){var
+oT(aC,Y,aB,X,W,b,aA,V){var
+a=jg(Y,aB,X,W),aD=g(V),aE=e(oS,a[1]),aG=oR(oP(a),aE),aH=aC?0:jx(a),B=dz(AX,jx(a),aH,aG,aD,V);if(B){var
 Z=B[1];if(Z[2])return 0;var
-$=jj(Y,X,W,a);if($){var
-aI=Z[1],C=e(gQ,a[1]),c=gR(a[1]),aJ=jl(aA),U=lY(n,a);if(U){var
-l=gd(c,C,a[1]),h=h3(c,C,a[1],0),ac=g(a[3]),ad=O(g(l),ac),J=[0,g(l),ad],ae=a[3],E=ak(function(a){if(typeof
-a!=="number"&&14===a[0])return 1;return 0},ae),af=E?x(function(a){var
-b=e(aU,gf(l,a[4]));return[0,a[4],b]},h):E,ag=f(h5(h,c,J,a[3]),af),ah=f(bN(k8(h)),ag),L=f(bN(eT(h)),ah),M=cI(L)[1],o=cH(M),N=m(function(a){var
-b=k(d);return aC(q(a9(o,a),o,b),a)},L);if(N){var
-P=ak(sy,a[3]);if(P){var
+_=ju(Y,X,W,a);if(_){var
+aI=Z[1],C=e(g1,a[1]),c=g2(a[1]),aJ=jy(aA),U=ma(l,a);if(U){var
+n=gk(c,C,a[1]),h=ic(c,C,a[1],0),ac=g(a[3]),ad=P(g(n),ac),K=[0,g(n),ad],ae=a[3],E=al(function(a){if(typeof
+a!=="number"&&14===a[0])return 1;return 0},ae),af=E?y(function(a){var
+b=e(aW,gm(n,a[4]));return[0,a[4],b]},h):E,ag=f(ie(h,c,K,a[3]),af),ah=f(bP(lk(h)),ag),L=f(bP(eX(h)),ah),M=cP(L)[1],o=cO(M),N=m(function(a){var
+b=k(d);return aF(q(a$(o,a),o,b),a)},L);if(N){var
+O=al(sT,a[3]);if(O){var
 t=C,p=a[1];for(;;){if(p){var
-r=p[1],u=bH(d,t);switch(r[0]){case
+r=p[1],u=bJ(d,t);switch(r[0]){case
 0:var
-F=r[1],G=gg(b,F[1],u),D=0;if(G){var
-s=am(b,[0,F[4],c]);if(s)var
-j=K(d,s[1][1]);else{var
+F=r[1],G=gn(b,F[1],u),D=0;if(G){var
+s=an(b,[0,F[4],c]);if(s)var
+j=I(d,s[1][1]);else{var
 H=s;D=1}}else{var
 H=G;D=1}if(D)var
 j=H;break;case
 1:var
-I=r[3],j=I?gg(b,I[1],u):1;break;default:var
-j=gg(b,r[1],u)}if(j){var
-ab=p[2],t=bt(t),p=ab;continue}var
+J=r[3],j=J?gn(b,J[1],u):1;break;default:var
+j=gn(b,r[1],u)}if(j){var
+ab=p[2],t=bw(t),p=ab;continue}var
 Q=j}else
 var
 Q=1;var
 v=Q;break}}else
 var
-v=P;if(v){var
-ai=a[3],aj=x(function(a){return dd(c,a)},ai),al=a[3],an=f(l,f(e(function(a){return bM(c,a)},al),aj)),w=_(e(function(a){return am(b,a)},an));if(w){var
-ao=a3(d7(a[2]),c),y=_(e(function(a){return am(b,a)},ao));if(y){var
-ap=a[3],z=_(lL(b,aJ,function(a){return a9(o,a)},l,h,c,J,ap));if(z){var
-R=z[1],aq=h2(R),ar=y[1],as=a[2],at=function(a){return lM(b,as,c,a)},au=w[1],aw=0,ax=k8(h),ay=i(av(function(a){return a9(o,a)}),ax),az=eT(h);return fo(h1(b,M,i(av(function(a){return a9(o,a)}),az),ay,aw,au,R,at),ar,aq,aI)}var
+v=O;if(v){var
+ai=a[3],aj=y(function(a){return dn(c,a)},ai),ak=a[3],am=f(n,f(e(function(a){return bO(c,a)},ak),aj)),w=aa(e(function(a){return an(b,a)},am));if(w){var
+ao=a4(ea(a[2]),c),x=aa(e(function(a){return an(b,a)},ao));if(x){var
+ap=a[3],z=aa(lZ(b,aJ,function(a){return a$(o,a)},n,h,c,K,ap));if(z){var
+R=z[1],aq=ib(R),ar=x[1],as=a[2],at=function(a){return l0(b,as,c,a)},au=w[1],aw=0,ax=lk(h),ay=i(av(function(a){return a$(o,a)}),ax),az=eX(h);return fu(ia(b,M,i(av(function(a){return a$(o,a)}),az),ay,aw,au,R,at),ar,aq,aI)}var
 S=z}else
 var
-S=y;var
+S=x;var
 T=S}else
 var
 T=w;var
@@ -6859,39 +6916,39 @@ var
 A=v}else
 var
 A=N;return A}return U}var
-aa=$}else
+$=_}else
 var
-aa=B;return aa}function
-Am(a){if(0===a[0])return od(a[1]);var
-b=a[1],c=d$(b[6]);return f(d$(b[5]),c)}function
-An(a){if(0===a[0])return oe(a[1]);var
-b=a[1],c=a4(b[4]);return f(a4(b[3]),c)}function
-Ao(a){if(0===a[0])return[0,gQ(a[1]),d];var
-b=a[1],c=bx(a4(b[2]));return[0,bx(a4(b[1])),c]}function
-oz(P,aG,aF,aE,aD,aB,j,aA){var
-a=n5(P,aG,aF,aE,aD,aB),aH=a[2],O=x(Am,aH),bb=O?[0,O[1],O[2]]:x(An,aH),l=C(b,bx(bb)),Q=e(Ao,a[2]),R=iK(l,Q,a[2]),bc=g(aA),bd=ow(R,e(Aj,a[2])),be=gX(R),bf=gX(R),S=dv(bh(P),bf,be,bd,bc,aA);if(S){var
+$=B;return $}function
+AY(a){if(0===a[0])return oy(a[1]);var
+b=a[1],c=ec(b[6]);return f(ec(b[5]),c)}function
+AZ(a){if(0===a[0])return oz(a[1]);var
+b=a[1],c=a5(b[4]);return f(a5(b[3]),c)}function
+A0(a){if(0===a[0])return[0,g1(a[1]),d];var
+b=a[1],c=bz(a5(b[2]));return[0,bz(a5(b[1])),c]}function
+oU(P,aG,aE,aD,aC,aB,j,aA){var
+a=oo(P,aG,aE,aD,aC,aB),aH=a[2],O=y(AY,aH),bb=O?[0,O[1],O[2]]:y(AZ,aH),n=D(b,bz(bb)),Q=e(A0,a[2]),R=iT(n,Q,a[2]),bc=g(aA),bd=oR(R,e(AV,a[2])),be=g6(R),bf=g6(R),S=dz(bk(P),bf,be,bd,bc,aA);if(S){var
 aI=S[1];if(aI[2])return 0;var
-aJ=or(P,aG,aF,aE,aD,0,aB);if(aJ){var
-bg=aI[1],a_=e(ud,a[2]),ax=m7(n,a[2],a_);if(ax)var
-a$=h_(a[4]),M=cv(n,a[4],a$);else
+aJ=oM(P,aG,aE,aD,aC,0,aB);if(aJ){var
+bg=aI[1],a9=e(ux,a[2]),ax=nk(l,a[2],a9);if(ax)var
+a_=ij(a[4]),M=bQ(l,a[4],a_);else
 var
 M=ax;if(M){var
 ay=a[5];if(ay)var
-ba=gp(ay[1]),az=m(function(a){return e7(n,a)},ba);else
+ba=gy(ay[1]),az=m(function(a){return e$(l,a)},ba);else
 var
 az=1;var
 N=az}else
 var
 N=M;if(N){var
-c=a[1],aO=bh(c),u=a[6],B=iK(l,Q,a[2]),X=a[3],Y=[0,[0,X,X],l],Z=[0,g(B)],D=a[2],s=D?0===D[1][0]?0:1:D,aP=a[5],aQ=y(function(a){var
+c=a[1],aO=bk(c),u=a[6],B=iT(n,Q,a[2]),X=a[3],Y=[0,[0,X,X],n],Z=[0,g(B)],C=a[2],s=C?0===C[1][0]?0:1:C,aP=a[5],aQ=z(function(a){var
 b=typeof
-c==="number"?0:dn(c[1]);return ms(a,b)},aP),aR=a[2],o=m9(c,aQ,cS(Y,g(B)),l,Q,aR,0),$=x(function(a){return a[7]},o),aS=f($,cX(function(a,b){return na(o,a,b)},s,l,Z,u)),aT=f(bN(e8(o)),aS),aa=f(bN(ee(o)),aT),ab=cI(aa)[1],ac=cH(ab),t=function(a){return a9(ac,a)},ad=m(function(a){var
-b=k(d);return aC(q(t(a),ac,b),a)},aa),ae=ad?ak(nc,u):ad;if(ae){var
+c==="number"?0:cD(c[1]);return mH(a,b)},aP),aR=a[2],o=nm(c,aQ,cZ(Y,g(B)),n,Q,aR,0),_=y(function(a){return a[7]},o),aS=f(_,c7(function(a,b){return np(o,a,b)},s,n,Z,u)),aT=f(bP(fa(o)),aS),$=f(bP(eh(o)),aT),ab=cP($)[1],ac=cO(ab),t=function(a){return a$(ac,a)},ad=m(function(a){var
+b=k(d);return aF(q(t(a),ac,b),a)},$),ae=ad?al(nr,u):ad;if(ae){var
 af=a[4];if(typeof
 c==="number")var
-ag=c?iG(0,d7(af)):1;else
+ag=c?iP(0,ea(af)):1;else
 var
-aM=d7(af),ag=iG(c[1],aM);var
+aM=ea(af),ag=iP(c[1],aM);var
 E=ag}else
 var
 E=ae;if(E){var
@@ -6900,37 +6957,37 @@ U==="number")var
 v=a[5]?0:1;else
 if(2<=U[1])var
 v=0;else{var
-z=a[5],T=0;if(z){var
+x=a[5],T=0;if(x){var
 V=h(j,1,a[3]);if(V)var
-aN=gp(z[1]),v=m(function(a){var
-b=di(j,a[1]);return b?di(j,a[2]):b},aN);else{var
+aN=gy(x[1]),v=m(function(a){var
+b=c5(j,a[1]);return b?c5(j,a[2]):b},aN);else{var
 W=V;T=1}}else{var
-W=z;T=1}if(T)var
+W=x;T=1}if(T)var
 v=W}var
 F=v}else
 var
 F=E;if(F)var
 aU=a[2],G=m(function(a){var
-b=0===a[0]?0:1;return cj(b,s)},aU);else
+b=0===a[0]?0:1;return cm(b,s)},aU);else
 var
 G=F;if(G){var
-aV=f(B,[0,Y,0]),H=_(e(function(a){return am(j,a)},aV));if(H){var
-aW=x(function(a){return e2(s,l,a)},u),I=_(e(function(a){return ip(j,a)},aW));if(I){var
-p=d7(a[4]),aX=typeof
-c==="number"?c?[0,p[1],[0,p[2],0]]:[0,p[1],[0,p[2],[0,p[3],0]]]:m1(c[1],p),J=_(e(function(a){return am(j,[0,a,l])},aX));if(J){var
+aV=f(B,[0,Y,0]),H=aa(e(function(a){return an(j,a)},aV));if(H){var
+aW=y(function(a){return e5(s,n,a)},u),I=aa(e(function(a){return iy(j,a)},aW));if(I){var
+r=ea(a[4]),aX=typeof
+c==="number"?c?[0,r[1],[0,r[2],0]]:[0,r[1],[0,r[2],[0,r[3],0]]]:ne(c[1],r),J=aa(e(function(a){return an(j,[0,a,n])},aX));if(J){var
 ah=J[1],ai=a[5];if(ai)var
-aY=mu(ai[1]),w=_(e(function(a){return mw(j,a)},aY));else
+aY=mJ(ai[1]),w=aa(e(function(a){return mL(j,a)},aY));else
 var
-w=uc;if(w){var
-aj=w[1],A=a[5],aZ=A?mt(A[1]):A,K=_(e(dh(j),aZ));if(K){var
-L=_(cX(function(a,b){return nb(j,t,o,s,l,a,b)},s,l,Z,u));if(L){var
-al=L[1],an=r(g(f(ah,aj)),aO);if(an){var
-a0=h2(al),a1=f(ah,aj),aL=0,a2=a[4];if(typeof
+w=uw;if(w){var
+aj=w[1],A=a[5],aZ=A?mI(A[1]):A,K=aa(e(c4(j),aZ));if(K){var
+L=aa(c7(function(a,b){return nq(j,t,o,s,n,a,b)},s,n,Z,u));if(L){var
+ak=L[1],am=p(g(f(ah,aj)),aO);if(am){var
+a0=ib(ak),a1=f(ah,aj),aL=0,a2=a[4];if(typeof
 c==="number"&&!c){var
-ao=function(a){return lM(j,a2,l,a)};aL=1}if(!aL)var
+ao=function(a){return l0(j,a2,n,a)};aL=1}if(!aL)var
 ao=function(a){return 0};var
-a3=f(I[1],K[1]),a4=f(H[1],a3),a5=e(t,$),a6=e8(o),a7=i(av(t),a6),a8=ee(o);return fo(h1(j,ab,i(av(t),a8),a7,a5,a4,al,ao),a1,a0,bg)}var
-ap=an}else
+a3=f(I[1],K[1]),a4=f(H[1],a3),a5=e(t,_),a6=fa(o),a7=i(av(t),a6),a8=eh(o);return fu(ia(j,ab,i(av(t),a8),a7,a5,a4,ak,ao),a1,a0,bg)}var
+ap=am}else
 var
 ap=L;var
 aq=ap}else
@@ -6954,148 +7011,143 @@ aw=G;return aw}return N}var
 aK=aJ}else
 var
 aK=S;return aK}function
-oA(i,h,G,F,E,s,W,D,q){var
+oV(i,h,G,F,E,s,X,D,r){var
 H=typeof
-i==="number"?i?Ap:Ar:ji(i[1]),t=e(j,W),I=ok(h,e(j,D));if(I[2])return 0;var
-X=g(h),u=gV(gK(h),Aq,X,0,s,q);if(u){var
-J=gW(x(oq,h),D),K=J?or(i,h,G,F,E,1,s):J;if(K)var
-Y=bh(i),v=r(g(t),Y);else
+i==="number"?i?A1:A3:jt(i[1]),t=e(j,X),I=oF(h,e(j,D));if(I[2])return 0;var
+Y=g(h),u=jw(gV(h),A2,Y,0,s,r);if(u){var
+J=g5(y(oL,h),D),K=J?oM(i,h,G,F,E,1,s):J;if(K)var
+Z=bk(i),v=p(g(t),Z);else
 var
 v=K;if(v){var
 M=0;if(typeof
-q==="number"&&q)var
-m=T(gK(h));else
+r==="number"&&r)var
+n=S(gV(h));else
 M=1;if(M)var
-m=1}else
+n=1}else
 var
-m=v;if(m){var
-Z=u[1],a=aZ(H,t),d=a5(aL(H,t)),k=I[1],f=n5(i,h,G,F,E,s),B=m7(n,f[2],k);if(B){var
-y=cv(n,f[4],d),w=0;if(y){var
+n=v;if(n){var
+_=u[1],a=aX(H,t),d=a6(aH(H,t)),k=I[1],f=oo(i,h,G,F,E,s),B=nk(l,f[2],k);if(B){var
+x=bQ(l,f[4],d),w=0;if(x){var
 z=f[5];if(z)var
-o=dj(n,z[1],a);else
+o=cB(l,z[1],a);else
 if(a)var
 o=0;else{var
 A=1;w=1}}else{var
-A=y;w=1}if(w)var
+A=x;w=1}if(w)var
 o=A;var
-p=o}else
+q=o}else
 var
-p=B;if(p){var
-c=f[5],C=f[3],l=f[1],V=f[6],N=e(function(e){if(0===e[0])var
-h=bP(c,a,d,e),f=cw(e[1],h);else
+q=B;if(q){var
+c=f[5],C=f[3],m=f[1],W=f[6],N=e(function(e){if(0===e[0])var
+h=bT(c,a,d,e),f=cz(e[1],h);else
 var
-g=e[1],i=il(g,bP(c,a,d,e)),j=g[4],k=bP(c,a,d,e),m=ac(function(b,a){return[2,b,a]},k,j),f=ac(function(b,a){return[3,b,a]},m,i);return[0,m5(l,f,at([5,[0,b,b],C],e1(gx(c,a,gw(e)),f)))]},k),O=x(function(b){if(0===b[0]){var
-f=bP(c,a,d,b),e=h8(b[1],f),g=e?[0,e[1],0]:e;return g}var
-h=bP(c,a,d,b);return[0,l9(b[1],h),0]},k),P=function(b){var
-e=gx(c,a,b);return ac(function(b,a){return[2,b,a]},d,e)},Q=0,R=e(function(g){var
-e=bP(c,a,d,g);if(0===g[0]){var
+g=e[1],i=iv(g,bT(c,a,d,e)),j=g[4],k=bT(c,a,d,e),l=T(function(b,a){return[2,b,a]},k,j),f=T(function(b,a){return[3,b,a]},l,i);return[0,ni(m,f,ab([5,[0,b,b],C],dq(gG(c,a,gF(e)),f)))]},k),O=y(function(b){if(0===b[0]){var
+f=bT(c,a,d,b),e=ih(b[1],f),g=e?[0,e[1],0]:e;return g}var
+h=bT(c,a,d,b);return[0,mm(b[1],h),0]},k),P=function(b){var
+e=gG(c,a,b);return T(function(b,a){return[2,b,a]},d,e)},Q=0,R=e(function(g){var
+e=bT(c,a,d,g);if(0===g[0]){var
 b=g[1];if(0===b[0]){var
-i=b[4],j=b[3],k=b[2],h=b[1],n=cU(h,k,j,i,e),m=df(b[5],n),o=at(m,aI(h)),p=eZ(h,k,j,e);return[0,[0,m6(l,ac(function(b,a){return[2,b,a]},p,o)),m,i]]}return 0}var
-f=g[1],q=f[6],r=gh(f,e),s=il(f,e),t=f[4],u=ac(function(b,a){return[2,b,a]},e,t);return[0,[0,m6(l,ac(function(b,a){return[3,b,a]},u,s)),r,q]]},k),S=e(function(b){if(0===b[0]){var
-f=bP(c,a,d,b);return[0,d8(b[1],f)]}var
-e=b[1],g=l$(e,bP(c,a,d,b));return[1,l_(e,bP(c,a,d,b)),g]},k),U=[0,e(function(e){if(0===e[0])var
-o=bP(c,a,d,e),g=b8(e[1],o);else
+i=b[4],j=b[3],k=b[2],h=b[1],n=cy(h,k,j,i,e),l=c1(b[5],n),o=ab(l,ax(h)),p=e3(h,k,j,e);return[0,[0,nj(m,T(function(b,a){return[2,b,a]},p,o)),l,i]]}return 0}var
+f=g[1],q=f[6],r=gq(f,e),s=iv(f,e),t=f[4],u=T(function(b,a){return[2,b,a]},e,t);return[0,[0,nj(m,T(function(b,a){return[3,b,a]},u,s)),r,q]]},k),U=e(function(b){if(0===b[0]){var
+f=bT(c,a,d,b);return[0,c2(b[1],f)]}var
+e=b[1],g=mo(e,bT(c,a,d,b));return[1,mn(e,bT(c,a,d,b)),g]},k),V=[0,e(function(e){if(0===e[0])var
+o=bT(c,a,d,e),g=ca(e[1],o);else
 var
-h=bP(c,a,d,e),f=e[1],i=il(f,h),j=f[4],k=ac(function(b,a){return[2,b,a]},h,j),m=ac(function(b,a){return[3,b,a]},k,i),n=gh(f,h),g=at([5,[0,b,b],[4,f[5],n]],m);return m5(l,g,at([5,[0,b,b],C],e1(gx(c,a,gw(e)),g)))},k),S,R,Q,P,O,N];return ic(n,tW,bh(f[1]),U,V,Z)}return p}var
-L=m}else
+h=bT(c,a,d,e),f=e[1],i=iv(f,h),j=f[4],k=T(function(b,a){return[2,b,a]},h,j),l=T(function(b,a){return[3,b,a]},k,i),n=gq(f,h),g=ab([5,[0,b,b],[4,f[5],n]],l);return ni(m,g,ab([5,[0,b,b],C],dq(gG(c,a,gF(e)),g)))},k),U,R,Q,P,O,N];return im(l,ue,bk(f[1]),V,W,_)}return q}var
+L=n}else
 var
 L=u;return L}function
-fj(a){if(a){var
-b=cr(j(a[1]));if(b){var
-c=fj(a[2]);if(c)var
-f=c[1],d=[0,[0,c$(b[1]),f]];else
+fp(a){if(a){var
+b=cu(j(a[1]));if(b){var
+c=fp(a[2]);if(c)var
+f=c[1],d=[0,[0,dj(b[1]),f]];else
 var
 d=c;var
 e=d}else
 var
-e=b;return e}return As}function
-oB(f,k,j,a,i){var
-l=g(f),h=r(g(a),l);if(h){var
-m=ag(ag(f,ag(k,j)),a);return e(function(f){var
-g=f[1],h=g[2],j=dQ(h[2],h[1]),a=aB(g[1],i),k=E(d,a)?kv(bZ(c(2,b),a)):[0,b,dN(bZ(c(2,b),R(a)))],l=c$(fR(a0([0,c(2,b),b],k),j)),m=f[2];return e(function(a){return c$(a0(kv(a),l))},m)},m)}return h}function
-oC(Q,bB,a8,a7,P,a6,a){var
-l=i7(Q,bB,a8,a7),a9=gW(x(ol,Q),a6),R=a9?jj(Q,a8,a7,l):a9;if(P){var
-S=P[2];if(S){var
-T=S[2];if(T){if(T[2])return 0;var
-a_=T[1],a$=S[1],ba=P[1],bb=oi(Q,e(j,a6));if(bb[2])return 0;var
-o=bb[1];if(typeof
+e=b;return e}return A4}function
+oW(f,k,j,a,i){var
+l=g(f),h=p(g(a),l);if(h){var
+m=_(_(f,_(k,j)),a);return e(function(f){var
+g=f[1],h=g[2],j=dU(h[2],h[1]),a=aE(g[1],i),k=E(d,a)?kJ(b3(c(2,b),a)):[0,b,dR(b3(c(2,b),O(a)))],l=dj(fY(a1([0,c(2,b),b],k),j)),m=f[2];return e(function(a){return dj(a1(kJ(a),l))},m)},m)}return h}function
+oX(S,cg,bD,bC,R,bB,a){var
+i=jg(S,cg,bD,bC),bE=g5(y(oG,S),bB),U=bE?ju(S,bD,bC,i):bE;if(R){var
+V=R[2];if(V){var
+W=V[2];if(W){if(W[2])return 0;var
+bF=W[1],bG=V[1],bH=R[1],bI=oD(S,e(j,bB));if(bI[2])return 0;var
+n=bI[1];if(typeof
 a!=="number"&&3===a[0]){var
-ad=F(l[3],a[1]);if(ad){var
-bg=ad[1];if(typeof
-bg==="number"&&bg){var
-ae=fj(a[2]);if(ae){var
-s=ae[1],af=fj(a[3]);if(af){var
-t=af[1];if(R){var
-bE=oB([0,d,[0,d,[0,d,0]]],s,t,a[4],a[5]),bF=j(a_),bG=j(a$),U=[0,j(ba),bG,bF];if(s){var
+au=F(i[3],a[1]);if(au){var
+bN=au[1];if(typeof
+bN==="number"&&bN){var
+av=fp(a[2]);if(av){var
+s=av[1],aw=fp(a[3]);if(aw){var
+t=aw[1];if(U){var
+cl=oW([0,d,[0,d,[0,d,0]]],s,t,a[4],a[5]),cn=j(bF),co=j(bG),Y=[0,j(bH),co,cn];if(s){var
 v=s[2];if(v){var
-w=v[2];if(w){if(w[2])return 0;if(t){var
-z=t[2];if(z){var
-B=z[2];if(B){if(B[2])return 0;var
-ar=B[1],as=z[1],at=t[1],au=w[1],av=v[1],aw=s[1],ax=[0,[1,0,aw,at],[1,un,av,as],[1,um,au,ar]],ay=h7(n,l,o,U);if(ay)var
-by=l[3],Y=ak(function(a){if(typeof
-a==="number"&&a)return 1;return 0},by);else
+x=v[2];if(x){if(x[2])return 0;if(t){var
+A=t[2];if(A){var
+C=A[2];if(C){if(C[2])return 0;var
+aJ=C[1],aK=A[1],aL=t[1],aM=x[1],aN=v[1],aO=s[1],aP=[0,[1,0,aO,aL],[1,uS,aN,aK],[1,uR,aM,aJ]],aQ=go(l,i,n,Y);if(aQ)var
+b7=i[3],ac=al(function(a){if(typeof
+a==="number"&&a)return 1;return 0},b7);else
 var
-Y=ay;var
-az=Y?nu(s,t):Y,aA=az?nv(n,l[2],[0,[0,aw,av],au],[0,[0,at,as],ar]):az,aB=aA?iS(n,s,t,bR(U)):aA,aC=aB?m(function(a){switch(a[0]){case
-0:var
-k=[0,a[4],0],l=f(bR(a[3]),k),m=f(bR(a[2]),l),e=f(bR(a[1]),m);break;case
-1:var
-c=a[3],o=c?bR(c[1]):c,p=f(bR(a[2]),o),e=f(bR(a[1]),p);break;default:var
-e=bR(a[1])}var
-g=gB(e),h=g?gB([0,d8(a,U),0]):g;if(h){var
-i=h8(a,ax);if(i){var
-q=i[1],b=eS(n,function(a,b,c){return np(n,uo,a,b,c)},q);return b?K(d,b[1][2][1]):b}var
-j=1}else
+ac=aQ;var
+aR=ac?nK(s,t):ac,aS=aR?nL(l,i[2],[0,[0,aO,aN],aM],[0,[0,aL,aK],aJ]):aR,aT=aS?i1(l,s,t,bc(Y)):aS,aV=aT?m(function(b){var
+c=bV(nM(b)),e=c?bV([0,c2(b,Y),0]):c;if(e){var
+f=ih(b,aP);if(f){var
+h=f[1],a=dZ(l,function(a,b,c){return nG(l,uT,a,b,c)},h);return a?I(d,a[1][2][1]):a}var
+g=1}else
 var
-j=h;return j},o):aB;if(aC)return nt(n,e(function(a){var
-b=d8(a,U);return[3,d8(a,ax),b]},o),bE);var
-aD=aC}else
+g=e;return g},n):aT;if(aV)return nJ(l,e(function(a){var
+b=c2(a,Y);return[3,c2(a,aP),b]},n),cl);var
+aW=aV}else
 var
-aD=B;var
-aE=aD}else
+aW=C;var
+aX=aW}else
 var
-aE=z;var
-Z=aE}else
+aX=A;var
+ad=aX}else
 var
-Z=t}else
+ad=t}else
 var
-Z=w;var
-aF=Z}else
+ad=x;var
+aY=ad}else
 var
-aF=v;var
-aG=aF}else
+aY=v;var
+aZ=aY}else
 var
-aG=s;return aG}var
-bh=R}else
+aZ=s;return aZ}var
+bO=U}else
 var
-bh=af;var
-bi=bh}else
+bO=aw;var
+bP=bO}else
 var
-bi=ae;return bi}var
-bj=0}else
+bP=av;return bP}var
+bQ=0}else
 var
-bj=ad;return bj}var
-_=l[3];if(typeof
+bQ=au;return bQ}var
+an=i[3];if(typeof
 a==="number")var
-i=0===a?zT:zU;else
+k=0===a?At:Au;else
 switch(a[0]){case
 0:var
-$=a[2],u=a[1],aI=F(_,u);if(aI){var
-bk=0,aJ=aI[1];if(typeof
-aJ==="number"||!(13===aJ[0]))bk=1;else
+ao=a[2],u=a[1],bd=F(an,u);if(bd){var
+bR=0,be=bd[1];if(typeof
+be==="number"||!(13===be[0]))bR=1;else
 var
-ab=l[1],aH=gR(ab),k=e(function(a){var
-f=g(ab);if(r(g(a),f)){var
-h=ag(ab,a);return e(function(a){var
-e=a[2],f=E(d,aH),g=2===a[1][0]?1:0;return cj(g,f)?A(e,bZ(c(2,b),ch(aH))):e},h)}return a},$);if(bk)var
-k=$}else
+aq=i[1],bb=g2(aq),o=e(function(a){var
+f=g(aq);if(p(g(a),f)){var
+h=_(aq,a);return e(function(a){var
+e=a[2],f=E(d,bb),g=2===a[1][0]?1:0;return cm(g,f)?B(e,b3(c(2,b),ck(bb))):e},h)}return a},ao);if(bR)var
+o=ao}else
 var
-k=$;var
-bz=F(_,u),bA=l[1],aa=y(function(b){if(typeof
+o=ao;var
+ce=F(an,u),cf=i[1],ap=z(function(b){if(typeof
 b!=="number")switch(b[0]){case
-5:return zR;case
+5:return Ar;case
 12:var
-a=F(bA,b[1]);if(a){if(2===a[1][0])return zS;var
+a=F(cf,b[1]);if(a){if(2===a[1][0])return As;var
 c=0}else
 var
 c=a;return c;case
@@ -7104,441 +7156,562 @@ c=a;return c;case
 4:case
 6:case
 7:case
-11:return 0}return zQ},bz),ah=0;if(aa){var
-aK=aa[1];if(aK){var
-aL=aK[1];if(aL)if(aL[1])var
-i=0;else{var
-ai=0;if(k){var
-C=k[1],aj=0;if(C){var
-D=C[2],al=0;if(D){var
-G=D[2],am=0;if(G)if(G[2]){var
-i=0;ai=1;aj=1;al=1;am=1}else{var
-H=k[2],bl=0;if(H){var
-I=H[1],bm=0;if(I){var
-J=I[2],bn=0;if(J){var
-L=J[2],bo=0;if(L)if(L[2]||H[2]){var
-i=0;ai=1;aj=1;al=1;am=1;bl=1;bm=1;bn=1;bo=1}else
+11:return 0}return Aq},ce),ay=0;if(ap){var
+bf=ap[1];if(bf){var
+bg=bf[1];if(bg)if(bg[1])var
+k=0;else{var
+az=0;if(o){var
+G=o[1],aA=0;if(G){var
+H=G[2],aB=0;if(H){var
+J=H[2],aD=0;if(J)if(J[2]){var
+k=0;az=1;aA=1;aB=1;aD=1}else{var
+K=o[2],bS=0;if(K){var
+L=K[1],bT=0;if(L){var
+M=L[2],bU=0;if(M){var
+N=M[2],bW=0;if(N)if(N[2]||K[2]){var
+k=0;az=1;aA=1;aB=1;aD=1;bS=1;bT=1;bU=1;bW=1}else
 var
-aM=[0,[0,u,[0,[0,C[1],D[1]],G[1]],[0,[0,I[1],J[1]],L[1]]]];else
+bh=[0,[0,u,[0,[0,G[1],H[1]],J[1]],[0,[0,L[1],M[1]],N[1]]]];else
 var
-aM=L;if(!bo)var
-aN=aM}else
+bh=N;if(!bW)var
+bi=bh}else
 var
-aN=J;if(!bn)var
-aO=aN}else
+bi=M;if(!bU)var
+bj=bi}else
 var
-aO=I;if(!bm)var
-aP=aO}else
+bj=L;if(!bT)var
+bk=bj}else
 var
-aP=H;if(!bl)var
-aQ=aP}else
+bk=K;if(!bS)var
+bl=bk}else
 var
-aQ=G;if(!am)var
-aR=aQ}else
+bl=J;if(!aD)var
+bm=bl}else
 var
-aR=D;if(!al)var
-aS=aR}else
+bm=H;if(!aB)var
+bn=bm}else
 var
-aS=C;if(!aj)var
-aT=aS}else
+bn=G;if(!aA)var
+bo=bn}else
 var
-aT=k;if(!ai)var
-i=aT}else{var
-bp=0;if(k){var
-M=k[1],bq=0;if(M){var
-N=M[2],br=0;if(N){var
-O=N[2],bs=0;if(O)if(O[2]||k[2]){var
-i=0;bp=1;bq=1;br=1;bs=1}else
+bo=o;if(!az)var
+k=bo}else{var
+bX=0;if(o){var
+O=o[1],bY=0;if(O){var
+P=O[2],bZ=0;if(P){var
+Q=P[2],b0=0;if(Q)if(Q[2]||o[2]){var
+k=0;bX=1;bY=1;bZ=1;b0=1}else
 var
-aU=O[1],aV=N[1],aW=M[1],aX=[0,[0,u,[0,[0,aW,aV],aU],[0,[0,aW,aV],aU]]];else
+bp=Q[1],bq=P[1],br=O[1],bs=[0,[0,u,[0,[0,br,bq],bp],[0,[0,br,bq],bp]]];else
 var
-aX=O;if(!bs)var
-aY=aX}else
+bs=Q;if(!b0)var
+bt=bs}else
 var
-aY=N;if(!br)var
-aZ=aY}else
+bt=P;if(!bZ)var
+bu=bt}else
 var
-aZ=M;if(!bq)var
-a0=aZ}else
+bu=O;if(!bY)var
+bv=bu}else
 var
-a0=k;if(!bp)var
-i=a0}}else
-if(k)var
-i=0;else{var
-a1=[0,[0,d,d],d],a2=[0,[0,u,a1,a1]];ah=1}}else{var
-a2=aa;ah=1}if(ah)var
-i=a2;break;case
+bv=o;if(!bX)var
+k=bv}}else
+if(o)var
+k=0;else{var
+bw=[0,[0,d,d],d],bx=[0,[0,u,bw,bw]];ay=1}}else{var
+bx=ap;ay=1}if(ay)var
+k=bx;break;case
 1:var
-a3=a[1],ac=F(_,a3),an=0;if(ac){var
-bt=0,a4=ac[1];if(typeof
-a4!=="number"&&1===a4[0]){var
-i=[0,[1,a3,a[2]]];bt=1}if(!bt){var
-a5=0;an=1}}else{var
-a5=ac;an=1}if(an)var
-i=a5;break;default:var
-i=0}if(i){if(R){var
-p=i[1],bC=j(a_),bD=j(a$),q=[0,j(ba),bD,bC],ao=h7(n,l,o,q);if(ao)if(typeof
-p==="number")return 0===p?ak(function(c){var
-a=h8(c,q);return a?h(n,0,[3,[0,d,b],a[1]]):a},o):kY(sA,e(function(b){var
-a=cw(b,q);return[0,a[1],[0,a[2],[0,a[3],0]]]},o));else{if(0===p[0]){var
-V=F(l[3],p[1]);if(V){var
-bu=V[1],bv=lP(p[3]);return lW(n,o,q,lP(p[2]),bv,bu)}return V}var
-W=F(l[3],p[1]);if(W){var
-X=F(o,p[2]);if(X){var
-ap=X[1],bw=W[1],bx=b8(ap,q);return lW(n,o,q,b8(ap,q),bx,bw)}var
-aq=X}else
+by=a[1],ar=F(an,by),aE=0;if(ar){var
+b1=0,bz=ar[1];if(typeof
+bz!=="number"&&1===bz[0]){var
+k=[0,[1,by,a[2]]];b1=1}if(!b1){var
+bA=0;aE=1}}else{var
+bA=ar;aE=1}if(aE)var
+k=bA;break;default:var
+k=0}if(k){var
+ch=j(bF),ci=j(bG),f=[0,j(bH),ci,ch];if(U){var
+q=k[1],aG=go(l,i,n,f);if(aG)if(typeof
+q==="number")var
+r=0===q?al(function(c){var
+a=ih(c,f);return a?h(l,0,[3,[0,d,b],a[1]]):a},n):la(sV,e(function(b){var
+a=cz(b,f);return[0,a[1],[0,a[2],[0,a[3],0]]]},n));else
+if(0===q[0]){var
+Z=F(i[3],q[1]);if(Z)var
+b2=Z[1],b4=l3(q[3]),r=l_(l,n,f,l3(q[2]),b4,b2);else
 var
-aq=W;return aq}return ao}var
-bc=R}else
+r=Z}else{var
+$=F(i[3],q[1]),aF=0;if($){var
+aa=F(n,q[2]);if(aa)var
+aH=aa[1],b5=$[1],b6=ca(aH,f),r=l_(l,n,f,ca(aH,f),b6,b5);else{var
+aI=aa;aF=1}}else{var
+aI=$;aF=1}if(aF)var
+r=aI}else
 var
-bc=i;var
-bd=bc}else
+r=aG;if(r)var
+as=r;else{if(typeof
+a!=="number"&&0===a[0]){var
+X=a[2];if(X){if(X[2])return 0;var
+at=X[1],cj=a[1],a0=go(l,i,n,f),a1=a0?bV(bc(f)):a0;if(a1){var
+ag=F(i[3],cj);if(ag){var
+D=ag[1];if(typeof
+D!=="number"&&14===D[0]){var
+a4=D[2],a5=D[1],ah=i5(aC(ej,a4));if(ah){var
+ai=ah[1],b$=gL(u3,ai),cb=gL(u4,ai),aj=[0,gL(0,ai),cb,b$],a6=h(l,1,a4),a7=a6?h(l,0,a5):a6;if(a7)var
+cc=g(i[1]),ak=p(g(at),cc);else
 var
-bd=T;var
-be=bd}else
+ak=a7;var
+a8=ak?m(function(a){return bV(nM(a))},n):ak;if(a8){var
+cd=i[1],a9=i4(at,e(function(a){switch(a[0]){case
+0:var
+b=a[1],d=b[5],e=gM(b[4]),g=cE(b[3]),h=cE(b[2]),c=[0,cE(b[1]),h,g,e,d];break;case
+1:var
+i=z(cE,a[3]),j=cE(a[2]),c=[1,cE(a[1]),j,i];break;default:var
+c=[2,cE(a[1])]}return c2(c,f)},cd),a5),a_=bV(a9);if(a_){var
+am=_(_(n,a9),at),ae=function(k){var
+e=k[1][2],a=k[1][1];switch(a[0]){case
+0:var
+i=a[4],l=ab(e,ax(a[1])),m=aU(a[2],a[3],f),g=T(function(b,a){return[3,b,a]},m,l),n=ab([0,c(2,b),b],g);return[0,[3,w(g,g),[4,i,i]],n,[0,b,b]];case
+1:var
+h=aU(a[1],a[2],f),o=ab([0,c(2,b),b],h);return[0,[3,w(h,h),[4,e,e]],o,[0,b,b]];default:var
+j=a[1],p=ax(j);return[0,[3,w(ax(j),f),e],p,[0,d,b]]}},af=function(j){var
+d=j[1],e=d[2],a=d[1],c=j[2];switch(a[0]){case
+0:var
+g=a[3],h=a[2],i=a[1],k=aU(h,g,f),l=[3,w(ax(i),k),e],m=cy(i,h,g,a[4],f);return i3([5,[0,c,b],[2,c1(a[5],m),l]]);case
+1:return i3([5,[0,c,b],[2,e,c2(a,f)]]);default:return[0,c,b]}},b8=w(aj,aj),b9=[4,fe(function(a){var
+b=ae(a)[3];return[4,af(a),b]},am),b8],b_=w(ff(function(a){var
+b=ae(a)[2];return ab(af(a),b)},am),aj);return nO(l,u6,u5,[2,[2,fe(function(a){var
+b=ae(a)[1];return[4,af(a),b]},am),b_],b9])}var
+a$=a_}else
 var
-be=S;var
-bf=be}else
+a$=a8;var
+ba=a$}else
 var
-bf=P;return bf}function
-oD(m,l,b,k,z,x){var
-f=z,d=x;for(;;){if(0===d[0]){var
-g=d[1],h=F(f,g),n=h?aV(h[1][2],At):h;if(n)var
-A=d[2],i=oD(m,l,b,k,je(0,g,f),A);else
+ba=ah;return ba}var
+a2=0}else
+var
+a2=ag;var
+a3=a2}else
+var
+a3=a1;return a3}return X}var
+as=0}}else
+var
+as=U;var
+bJ=as}else
+var
+bJ=k;var
+bK=bJ}else
+var
+bK=W;var
+bL=bK}else
+var
+bL=V;var
+bM=bL}else
+var
+bM=R;return bM}function
+oY(m,l,b,k,y,x){var
+f=y,d=x;for(;;){if(0===d[0]){var
+g=d[1],h=F(f,g),n=h?aN(h[1][2],A5):h;if(n)var
+A=d[2],i=oY(m,l,b,k,jp(0,g,f),A);else
 var
 i=n;if(i){var
-B=d[3],f=je(1,g,f),d=B;continue}return i}var
-c=d[1],a=ob(0,m,f),o=e(function(b){function
-d(b){return oc(a,b)}function
-c(a){return jc(d,a)}switch(b[0]){case
+B=d[3],f=jp(1,g,f),d=B;continue}return i}var
+c=d[1],a=ow(0,m,f),o=e(function(b){function
+d(b){return ox(a,b)}function
+c(a){return jn(d,a)}switch(b[0]){case
 0:var
-e=b[5],f=oc(a,b[4]),g=c(b[3]),h=c(b[2]);return[0,c(b[1]),h,g,f,e];case
+e=b[5],f=ox(a,b[4]),g=c(b[3]),h=c(b[2]);return[0,c(b[1]),h,g,f,e];case
 1:var
-i=y(c,b[3]),j=c(b[2]);return[1,c(b[1]),j,i];default:return[2,c(b[1])]}},l);if(0===b[0])var
-q=b[2],r=jc(function(b){return ar(a,b)},q),s=b[1],j=[0,jc(function(b){return ar(a,b)},s),r];else
+i=z(c,b[3]),j=c(b[2]);return[1,c(b[1]),j,i];default:return[2,c(b[1])]}},l);if(0===b[0])var
+q=b[2],r=jn(function(b){return at(a,b)},q),s=b[1],j=[0,jn(function(b){return at(a,b)},s),r];else
 var
-t=ar(a,b[5]),u=ar(a,b[4]),v=ar(a,b[3]),w=ar(a,b[2]),j=[1,ar(a,b[1]),w,v,u,t];var
+t=at(a,b[5]),u=at(a,b[4]),v=at(a,b[3]),w=at(a,b[2]),j=[1,at(a,b[1]),w,v,u,t];var
 p=e(function(g){var
 c=g[4];if(typeof
 c==="number")var
 d=0;else
 switch(c[0]){case
 0:var
-d=[0,ar(a,c[1])];break;case
+d=[0,at(a,c[1])];break;case
 1:var
-d=[1,ar(a,c[1])];break;default:var
-m=ar(a,c[2]),d=[2,ar(a,c[1]),m]}var
+d=[1,at(a,c[1])];break;default:var
+m=at(a,c[2]),d=[2,at(a,c[1]),m]}var
 h=g[3];if(h){var
 b=h[1];switch(b[0]){case
 0:var
-f=[0,[0,ar(a,b[1])]];break;case
+f=[0,[0,at(a,b[1])]];break;case
 1:var
-j=b[1],f=[0,[1,e(function(b){return ar(a,b)},j)]];break;case
+j=b[1],f=[0,[1,e(function(b){return at(a,b)},j)]];break;case
 2:var
-k=ar(a,b[2]),f=[0,[2,ar(a,b[1]),k]];break;default:var
-l=ar(a,b[2]),f=[0,[3,ar(a,b[1]),l]]}var
+k=at(a,b[2]),f=[0,[2,at(a,b[1]),k]];break;default:var
+l=at(a,b[2]),f=[0,[3,at(a,b[1]),l]]}var
 i=f}else
 var
 i=h;return[0,g[1],g[2],i,d]},k);if(typeof
 c==="number")return 1;else
 switch(c[0]){case
 0:return 0;case
-1:return oy(1,o,j,0,p,c[1],c[2],c[3]);default:var
-C=c[4],D=c[3],E=e(function(b){return ar(a,b)},D),G=c[2];return oC(o,j,0,p,e(function(b){return ar(a,b)},G),E,C)}}}function
-oE(h,g){var
-a=cr(j(h));if(a){var
-c=a[1],e=bl([0,d,b],c);if(e)return bl(c,g);var
+1:return oT(1,o,j,0,p,c[1],c[2],c[3]);default:var
+C=c[4],D=c[3],E=e(function(b){return at(a,b)},D),G=c[2];return oX(o,j,0,p,e(function(b){return at(a,b)},G),E,C)}}}function
+oZ(h,g){var
+a=cu(j(h));if(a){var
+c=a[1],e=a_([0,d,b],c);if(e)return a_(c,g);var
 f=e}else
 var
 f=a;return f}function
-Az(p){var
-dh=gI(p[3]),di=dh?gI(p[4]):dh;if(di){var
-S=p[1];switch(S[0]){case
+A$(u){var
+eP=gT(u[3]),eQ=eP?gT(u[4]):eP;if(eQ){var
+W=u[1];switch(W[0]){case
 3:var
-ds=m(ff,S[1]);if(ds)var
-gN=S[2],bH=m(function(a){return ff(a[1])},gN);else
+eW=m(fl,W[1]);if(eW)var
+i$=W[2],cq=m(function(a){return fl(a[1])},i$);else
 var
-bH=ds;if(bH)var
-gO=S[3],bI=m(function(a){var
-b=ff(a[1]),c=b?i4(a[2]):b;return c?fg(a[2]):c},gO);else
+cq=eW;if(cq)var
+ja=W[3],cr=m(function(a){var
+b=fl(a[1]),c=b?je(a[2]):b;return c?fm(a[2]):c},ja);else
 var
-bI=bH;if(bI)var
-gS=S[4],aR=m(function(a){var
+cr=cq;if(cr)var
+jb=W[4],be=m(function(a){var
 b=0===a[0]?a[1]:[0,a[1],0];return m(function(a){var
-b=i4(a);return b?fg(a):b},b)},gS);else
+b=je(a);return b?fm(a):b},b)},jb);else
 var
-aR=bI;break;case
+be=cr;break;case
 7:var
-gY=S[1],dt=m(function(a){var
-b=ff(a[1]);return b?fh(0,[0,a[2][1],[0,a[2][2],0]]):b},gY),aR=dt?fh(0,[0,S[5],[0,S[6],0]]):dt;break;default:var
-aR=1}var
-bF=aR}else
+jc=W[1],eY=m(function(a){var
+b=fl(a[1]);return b?fn(0,[0,a[2][1],[0,a[2][2],0]]):b},jc),be=eY?fn(0,[0,W[5],[0,W[6],0]]):eY;break;default:var
+be=1}var
+cn=be}else
 var
-bF=di;var
-cc=0;if(bF){var
-dl=p[1],bG=7===dl[0]?e(az,dl[1]):0,dm=function(c,b){var
-a=nX(c);return a?m(function(a){var
-e=a[1],b=m(function(a){return nQ(a[2])},e);if(b){var
-c=a[3];if(c)return fh(bG,nW(c[1]));var
+cn=eQ;var
+c2=0;if(cn){var
+eR=u[1],co=7===eR[0]?e(aB,eR[1]):0,eS=function(c,b){var
+a=of(c);return a?m(function(a){var
+e=a[1],b=m(function(a){return n_(a[2])},e);if(b){var
+c=a[3];if(c)return fn(co,oe(c[1]));var
 d=1}else
 var
-d=b;return d},b):a},dn=function(e,d,c,b){var
-a=nX(e);return a?fh(bG,f(d,f(c,nW(b)))):a},l=p[1];switch(l[0]){case
+d=b;return d},b):a},eT=function(e,d,c,b){var
+a=of(e);return a?fn(co,f(d,f(c,oe(b)))):a},o=u[1];switch(o[0]){case
 0:var
-gg=x(dr,l[4]),gh=f(x(nU,l[3]),gg),gi=f(nS(l[2]),gh),U=f(x(i5,l[1]),gi);break;case
+iC=y(dw,o[4]),iD=f(y(oc,o[3]),iC),iE=f(oa(o[2]),iD),X=f(y(jf,o[1]),iE);break;case
 1:var
-bC=l[5],bD=l[3],gj=x(dr,l[6]),gk=bC?nT(bC[1]):bC,gl=f(gk,gj),gm=f(nR(l[4]),gl),gn=bD?[0,bD[1],0]:bD,go=f(gn,gm),U=f(x(y1,l[2]),go);break;case
+ck=o[5],cl=o[3],iF=y(dw,o[6]),iG=ck?ob(ck[1]):ck,iH=f(iG,iF),iI=f(n$(o[4]),iH),iJ=cl?[0,cl[1],0]:cl,iK=f(iJ,iI),X=f(y(zB,o[2]),iK);break;case
 2:var
-gq=x(dr,l[7]),gr=f(x(nU,l[6]),gq),gs=f(nT(l[5]),gr),gt=f(nR(l[4]),gs),gu=[0,l[3],gt],gv=l[2],U=f(x(function(a){return x(ek,f(a[1],a[2]))},gv),gu);break;case
+iL=y(dw,o[7]),iM=f(y(oc,o[6]),iL),iN=f(ob(o[5]),iM),iO=f(n$(o[4]),iN),iP=[0,o[3],iO],iR=o[2],X=f(y(function(a){return y(eo,f(a[1],a[2]))},iR),iP);break;case
 3:var
-gw=x(dr,l[7]),gx=f(l[6],gw),gz=f(l[5],gx),gB=l[2],U=f(x(function(a){return ek(a[2])},gB),gz);break;case
+iS=y(dw,o[7]),iT=f(o[6],iS),iW=f(o[5],iT),iZ=o[2],X=f(y(function(a){return eo(a[2])},iZ),iW);break;case
 4:var
-gC=x(dr,l[3]),U=[0,l[1],[0,l[2],gC]];break;case
+i0=y(dw,o[3]),X=[0,o[1],[0,o[2],i0]];break;case
 5:var
-gD=x(dr,l[4]),gG=f(bS(l[3]),gD),gH=f(bS(l[2]),gG),gJ=f(x(i5,l[1]),gH),U=[0,l[5],gJ];break;case
+i1=y(dw,o[4]),i2=f(bW(o[3]),i1),i6=f(bW(o[2]),i2),i7=f(y(jf,o[1]),i6),X=[0,o[5],i7];break;case
 6:var
-bE=l[1],U=bE?ek(bE[1]):bE;break;default:var
-gK=x(dr,l[4]),gL=f(nS(l[3]),gK),U=f(x(i5,l[2]),gL)}var
-dp=fh(bG,U);if(dp){var
-V=p[2];switch(V[0]){case
+cm=o[1],X=cm?eo(cm[1]):cm;break;default:var
+i8=y(dw,o[4]),i9=f(oa(o[3]),i8),X=f(y(jf,o[2]),i9)}var
+eU=fn(co,X);if(eU){var
+Y=u[2];switch(Y[0]){case
 0:var
-aG=dm(V[1],V[3]);break;case
+aU=eS(Y[1],Y[3]);break;case
 1:var
-aG=dn(V[1],V[2],V[3],V[4]);break;default:var
-gM=V[1],aG=m(function(a){if(typeof
+aU=eT(Y[1],Y[2],Y[3],Y[4]);break;default:var
+i_=Y[1],aU=m(function(a){if(typeof
 a!=="number")switch(a[0]){case
-1:return dm(a[1],a[3]);case
-2:return dn(a[1],a[2],a[3],a[4])}return 1},gM)}}else{var
-dq=dp;cc=1}}else{var
-dq=bF;cc=1}if(cc)var
-aG=dq;if(aG){var
-a=p[1];switch(a[0]){case
+1:return eS(a[1],a[3]);case
+2:return eT(a[1],a[2],a[3],a[4])}return 1},i_)}}else{var
+eV=eU;c2=1}}else{var
+eV=cn;c2=1}if(c2)var
+aU=eV;if(aU){var
+a=u[1];switch(a[0]){case
 0:var
-dP=a[4],dQ=a[3],dR=a[2],dS=a[1],ab=p[2];switch(ab[0]){case
-0:return oy(0,dS,dR,dQ,dP,ab[1],ab[2],ab[3]);case
-1:return oC(dS,dR,dQ,dP,ab[2],ab[3],ab[4]);default:return 0}case
+fs=a[4],ft=a[3],fv=a[2],fw=a[1],ah=u[2];switch(ah[0]){case
+0:return oT(0,fw,fv,ft,fs,ah[1],ah[2],ah[3]);case
+1:return oX(fw,fv,ft,fs,ah[2],ah[3],ah[4]);default:return 0}case
 1:var
-dT=a[6],dU=a[5],dV=a[4],dW=a[3],dX=a[2],dY=a[1],ar=p[2];switch(ar[0]){case
-0:return oz(dY,dX,dW,dV,dU,dT,ar[1],ar[3]);case
-1:return oA(dY,dX,dW,dV,dU,dT,ar[2],ar[3],ar[4]);default:return 0}case
+fx=a[6],fy=a[5],fz=a[4],fA=a[3],fB=a[2],fC=a[1],az=u[2];switch(az[0]){case
+0:return oU(fC,fB,fA,fz,fy,fx,az[1],az[3]);case
+1:return oV(fC,fB,fA,fz,fy,fx,az[2],az[3],az[4]);default:return 0}case
 2:var
-ad=a[7],ae=a[6],aW=a[5],aX=a[4],aY=a[3],D=a[2],I=a[1],af=p[2];switch(af[0]){case
+ai=a[7],aj=a[6],bj=a[5],bk=a[4],bl=a[3],K=a[2],L=a[1],ak=u[2];switch(ak[0]){case
 0:var
-dZ=af[3],W=n4(I,D,aY,aX,aW,ae,ad),g$=W[2],bR=C(b,bx(x(function(a){var
-b=a4(a[2]);return f(a4(a[1]),b)},g$))),ha=g(dZ),hb=iH(bR,W[2]),hc=iH(bR,W[2]),bU=dv(b9(I),hc,hb,0,ha,dZ);if(bU){var
-d1=bU[1];if(d1[2])return 0;var
-d2=op(I,D,aY,aX,aW,ae,ad);if(d2){var
-hd=d1[1],he=g(D),hf=gT(0,gU(I),he,ae,ad),hg=jl(af[2]),hh=af[1],e6=W[2],ci=m(function(a){var
-b=m4(n,a[1]);return b?m4(n,a[2]):b},e6);if(ci)var
-e_=h_(W[4]),a6=cv(n,W[4],e_);else
+fD=ak[3],ac=on(L,K,bl,bk,bj,aj,ai),jD=ac[2],cy=D(b,bz(y(function(a){var
+b=a5(a[2]);return f(a5(a[1]),b)},jD))),jE=g(fD),jF=iQ(cy,ac[2]),jG=iQ(cy,ac[2]),cz=dz(br(L),jG,jF,0,jE,fD);if(cz){var
+fE=cz[1];if(fE[2])return 0;var
+fF=oK(L,K,bl,bk,bj,aj,ai);if(fF){var
+jH=fE[1],jI=g(K),jJ=g4(0,jv(L),jI,aj,ai),jK=jy(ak[2]),jL=ak[1],gL=ac[2],da=m(function(a){var
+b=nh(l,a[1]);return b?nh(l,a[2]):b},gL);if(da)var
+gM=ij(ac[4]),by=bQ(l,ac[4],gM);else
 var
-a6=ci;if(a6)var
-e$=gp(W[5]),a7=m(function(a){return e7(n,a)},e$);else
+by=da;if(by)var
+gN=gy(ac[5]),bA=m(function(a){return e$(l,a)},gN);else
 var
-a7=a6;return a7?tT(hh,hg,hf,W,bR,hd):a7}var
-d3=d2}else
+bA=by;return bA?ub(jL,jK,jJ,ac,cy,jH):bA}var
+fG=fF}else
 var
-d3=bU;return d3;case
+fG=cz;return fG;case
 1:var
-J=af[4],d4=af[3],ag=e(j,af[2]),z=ji(I),d5=oj(D,e(j,d4));if(d5[2])return 0;var
-A=d5[1],d6=gW(x(function(a){return f(a[1],a[2])},D),d4),d7=d6?op(I,D,aY,aX,aW,ae,ad):d6;if(d7){var
-o=n4(I,D,aY,aX,aW,ae,ad);if(typeof
-J!=="number")switch(J[0]){case
+M=ak[4],fH=ak[3],ao=e(j,ak[2]),G=jt(L),fI=oE(K,e(j,fH));if(fI[2])return 0;var
+x=fI[1],fJ=g5(y(function(a){return f(a[1],a[2])},K),fH),fK=fJ?oK(L,K,bl,bk,bj,aj,ai):fJ;if(fK){var
+n=on(L,K,bl,bk,bj,aj,ai);if(typeof
+M!=="number")switch(M[0]){case
 2:var
-d9=e(j,J[1]),d$=aZ(z,d9),ea=a5(aL(z,d9)),eb=aZ(z,ag),ec=a5(aL(z,ag)),cW=ir(n,o[2],A);if(cW)var
-fV=b9(o[1]),bq=r(g(A),fV);else
+fQ=e(j,M[1]),fR=aX(G,fQ),fS=a6(aH(G,fQ)),fT=aX(G,ao),fU=a6(aH(G,ao)),d4=e6(l,n[2],x);if(d4)var
+hM=br(n[1]),b4=p(g(x),hM);else
 var
-bq=cW;var
-cY=bq?cv(n,o[4],ec):bq,cZ=cY?cv(n,o[4],ea):cY,c0=cZ?dj(n,o[5],eb):cZ,c1=c0?dj(n,o[5],d$):c0;if(c1){var
-c2=o[1],fW=o[5],fX=o[3],cL=function(g,f){var
-h=e(function(a){return mj(c2,fX,fW,f,g,a)},A),i=b9(c2),a=no(n,h);function
-c(a,b){return t(n,a,b)}var
-d=P(n,b);return y(function(a){return nm(v,d,G,c,i,a)},a)},bn=cL(ec,eb);if(bn){var
-cO=bn[1],bp=cL(ea,d$);if(bp){var
-cP=bp[1],cQ=K(d,cO[1]),cR=cQ?K(cP[2],d):cQ;if(cR)var
-cS=cR;else{var
-cV=K(cO[2],d);if(cV)return K(d,cP[1]);var
-cS=cV}var
-cT=cS}else
+b4=d4;var
+d6=b4?bQ(l,n[4],fU):b4,d7=d6?bQ(l,n[4],fS):d6,d8=d7?cB(l,n[5],fT):d7,d9=d8?cB(l,n[5],fR):d8;if(d9){var
+d_=n[1],hN=n[5],hO=n[3],dV=function(g,f){var
+h=e(function(a){return iA(d_,hO,hN,f,g,a)},x),i=br(d_),a=nF(l,h);function
+c(a,b){return t(l,a,b)}var
+d=Q(l,b);return z(function(a){return nD(v,d,H,c,i,a)},a)},b2=dV(fU,fT);if(b2){var
+dW=b2[1],b3=dV(fS,fR);if(b3){var
+dX=b3[1],dY=I(d,dW[1]),dZ=dY?I(dX[2],d):dY;if(dZ)var
+d0=dZ;else{var
+d3=I(dW[2],d);if(d3)return I(d,dX[1]);var
+d0=d3}var
+d1=d0}else
 var
-cT=bp;var
-cU=cT}else
+d1=b3;var
+d2=d1}else
 var
-cU=bn;return cU}return c1;case
+d2=b2;return d2}return d9;case
 3:var
-bW=fj(J[2]);if(bW){var
-ed=bW[1],bX=fj(J[3]);if(bX){var
-eg=bX[1],hk=o[2],hl=C(b,bx(x(function(a){var
-b=a4(a[2]);return f(a4(a[1]),b)},hk))),hm=g(D),hn=gT(0,gU(I),hm,ae,ad),eh=r(J[1],hn);if(eh){var
-ho=J[5],hp=J[4],hq=al(R(hl),dL(g(ag),z)),hr=oB(f(al(d,z),hq),ed,eg,hp,ho),hs=aZ(z,ag);return ut(n,z,o,A,a5(aL(z,ag)),hs,ed,eg,hr)}var
-ei=eh}else
+cG=fp(M[2]);if(cG){var
+fV=cG[1],cH=fp(M[3]);if(cH){var
+fW=cH[1],jN=n[2],jO=D(b,bz(y(function(a){var
+b=a5(a[2]);return f(a5(a[1]),b)},jN))),jP=g(K),jQ=g4(0,jv(L),jP,aj,ai),fX=p(M[1],jQ);if(fX){var
+jR=M[5],jS=M[4],jT=am(O(jO),dP(g(ao),G)),jU=oW(f(am(d,G),jT),fV,fW,jS,jR),jV=aX(G,ao);return uY(l,G,n,x,a6(aH(G,ao)),jV,fV,fW,jU)}var
+fY=fX}else
 var
-ei=bX;var
-ej=ei}else
+fY=cH;var
+fZ=fY}else
 var
-ej=bW;return ej}var
-hi=g(D),bV=gV(0,gU(I),hi,ae,ad,J);if(bV){var
-hj=bV[1],L=aZ(z,ag),X=a5(aL(z,ag)),cd=ir(n,o[2],A),ce=cd?cv(n,o[4],X):cd,cf=ce?dj(n,o[5],L):ce;if(cf){var
-N=o[5],cg=o[3],ch=o[1],e3=o[6],a2=function(a){var
-b=dk(N,L,X,a);return H(dk(N,L,X,a),b)},eS=e(function(a){return[0,mj(ch,cg,N,L,X,a)]},A),eU=e(a2,A),eV=function(a){var
-b=d_(N,L,a);return ac(function(b,a){return[2,b,a]},X,b)},eW=e(function(a){var
-b=[6,a2(a)],c=dk(N,L,X,a),d=d_(N,L,a[2]);return[0,[0,[0,ac(function(b,a){return[2,b,a]},X,d),c],b]]},A),eX=e(function(a){return 0},A),eZ=e(function(a){return[0,[6,a2(a)]]},A),e0=[0,e(function(c){var
-a=aI(dk(N,L,X,c));return iq(ch,a,at([5,[0,b,b],cg],e1(d_(N,L,c[2]),a)))},A),eZ,eX,eW,eV,eU,eS],e4=b9(o[1]),e5=2<=o[1]?sM:sN;return ic(n,e5,e4,e0,e3,hj)}return cf}var
-d8=bV}else
+fZ=cG;return fZ}var
+jM=g(K),cC=jw(0,jv(L),jM,aj,ai,M);if(cC){var
+aV=cC[1],s=a6(aH(G,ao)),r=aX(G,ao),c6=e6(l,n[2],x),c8=c6?bQ(l,n[4],s):c6,c9=c8?cB(l,n[5],r):c8;if(c9)var
+R=n[5],c_=n[3],c$=n[1],gG=n[6],bx=function(a){var
+b=bR(R,r,s,a);return w(bR(R,r,s,a),b)},gz=e(function(a){return[0,iA(c$,c_,R,r,s,a)]},x),gA=e(bx,x),gB=function(a){var
+b=cA(R,r,a);return T(function(b,a){return[2,b,a]},s,b)},gC=e(function(a){var
+b=[6,bx(a)],c=bR(R,r,s,a),d=cA(R,r,a[2]);return[0,[0,[0,T(function(b,a){return[2,b,a]},s,d),c],b]]},x),gD=e(function(a){return 0},x),gE=e(function(a){return[0,[6,bx(a)]]},x),gF=[0,e(function(c){var
+a=ax(bR(R,r,s,c));return iz(c$,a,ab([5,[0,b,b],c_],dq(cA(R,r,c[2]),a)))},x),gE,gD,gC,gB,gA,gz],gI=br(n[1]),gK=2<=n[1]?s6:s7,cF=im(l,gK,gI,gF,gG,aV);else
 var
-d8=d7;return d8;default:return 0}case
+cF=c9;if(cF)var
+fL=cF;else{if(typeof
+aV!=="number"&&0===aV[0]){var
+bm=aV[2];if(bm){if(bm[2])return 0;var
+bp=bm[1],fO=aV[1],aN=n[1],dO=e6(l,n[2],x),dQ=dO?bQ(l,n[4],s):dO,dR=dQ?cB(l,n[5],r):dQ,c3=0;if(dR){var
+hI=n[6],hJ=2<=aN?uM:uN,bZ=gp(l,hJ,fO,hI),bv=0;if(bZ){var
+ay=bZ[1][1],bw=0;if(typeof
+ay!=="number"&&15===ay[0]){var
+b0=F(x,ay[1]);if(b0){var
+aO=mj(bp),dU=ay[3],a9=b0[1],ba=n[5],b1=n[3],hK=ay[4],hL=ay[2],dE=iA(aN,b1,ba,r,s,a9),dF=bR(ba,r,s,a9),bY=bi(aO,aO),dG=[4,[4,hL,[6,bi(dE,dE)]],bY],aL=bR(ba,r,s,a9),bT=cA(ba,r,a9[2]),aM=ab([5,[0,b,b],b1],nB(aN,aO)),hA=dq(aM,bT),hB=nA(aN,aO),bU=T(function(b,a){return[2,b,a]},hB,hA),dD=w(aL,bU),hC=w(aM,aM),hD=[4,w(aL,bT),hC],hE=w(bT,aM),hF=[3,[4,w(aL,aM),hE],hD],hG=[5,[4,dD,dD],w(aL,aL)],dH=[4,[4,dU,dU],[2,[3,w(bU,bU),hG],hF]],dI=[4,[4,hK,bY],[6,w(dF,dF)]],hH=br(aN),dJ=p(g(aO),hH),dK=dJ?h(l,1,bY):dJ,dL=dK?h(l,1,b1):dK,gx=0;if(dL){var
+dM=h(l,1,[3,[2,dG,dH],dI]);if(dM)var
+dN=dM;else{var
+aY=h(l,1,[3,[3,dG,dH],dI]);bv=1;bw=1;gx=1}}else
+var
+dN=dL;if(!gx){var
+aY=dN;bv=1;bw=1}}else{var
+aY=b0;bv=1;bw=1}}if(!bw)var
+dS=0}else
+var
+dS=bZ;if(!bv){var
+dT=dS;c3=1}}else{var
+dT=dR;c3=1}if(c3)var
+aY=dT;if(!aY){var
+af=n[1],aP=n[5],eb=e6(l,n[2],x),ec=eb?bQ(l,n[4],s):eb,ed=ec?cB(l,aP,r):ec,ee=ed?bV(bc(s)):ed;if(ee){var
+h5=n[6],h6=2<=af?u7:u8,b7=gp(l,h6,fO,h5);if(b7){var
+aQ=b7[1][1];if(typeof
+aQ!=="number"&&16===aQ[0]){var
+b8=aQ[3],ek=aQ[2],el=aQ[1],b9=i5(aC(ej,ek));if(b9){var
+em=b9[1],b_=i5(i(c4(ej),b8));if(b_){var
+b$=b_[1],bb=nA(af,nP(af,em,b$)),U=nB(af,nP(af,em,b$)),en=h(l,1,ek),ep=en?h(l,0,el):en,eq=ep?h(l,1,b8):ep,es=eq?c5(l,b8):eq,et=es?S(a_(b$,[0,d,b])):es;if(et)var
+h7=g(n[2]),ca=p(g(bp),h7);else
+var
+ca=et;var
+eu=ca?m(function(a){var
+b=bV(bc(a[1]));return b?bV(bc(cA(aP,r,a[2]))):b},x):ca;if(eu){var
+h8=n[2],ev=i4(bp,e(function(a){var
+b=cE(a[2]);return nQ(bR(aP,r,s,[0,cE(a[1]),b]))},h8),el),ew=bV(ev);if(ew){var
+h9=_(_(x,ev),bp),ag=e(function(e){var
+c=e[1],d=c[2],a=c[1],f=cA(aP,r,a[2]),g=a[1],h=T(function(b,a){return[3,b,a]},s,g),i=[2,d,nQ(bR(aP,r,s,a))];return[0,i3([5,[0,e[2],b],i]),d,h,f]},h9),b5=[0,c(2,b),b],b6=function(b){return ff(function(a){var
+c=a[3],d=i(b,a[4]);return ab([4,a[1],d],c)},ag)},d$=fe(function(a){var
+b=w(a[3],a[4]);return[4,a[1],b]},ag),ea=w(U,U),hP=b6(function(a){return a[3]}),hQ=ab(U[3],hP),hR=b6(function(a){return a[2]}),hS=ab(U[2],hR),hT=b6(function(a){return a[1]}),hU=ab(U[1],hT),hV=T(function(b,a){return[2,b,a]},hU,hS),hW=[4,ea,d$],hX=w(U,T(function(b,a){return[2,b,a]},hV,hQ)),hY=[3,[2,w(U,ff(function(a){var
+b=dq(a[4],a[3]);return ab(a[1],b)},ag)),hX],hW],hZ=[2,[4,b5,d$],[4,[5,[0,c(2,c(2,b)),b],[2,[0,b,b],ea]],hY]],h0=[4,b5,w(bb,ms(U,ff(function(a){return ab(a[1],a[4])},ag)))],h1=w(bb,bb),h2=[2,[4,fe(function(a){return a[1]},ag),h1],h0],h3=[4,b5,w(ff(function(a){return ab(a[1],a[3])},ag),bb)],h4=[2,[2,[2,fe(function(a){var
+b=[4,a[2],a[2]],c=w(a[4],a[4]),d=[3,[2,w(a[3],a[3]),c],b];return[4,a[1],d]},ag),h3],h2],hZ],h_=cD(af);return nO(l,br(af),h_,h4)}var
+ex=ew}else
+var
+ex=eu;var
+ey=ex}else
+var
+ey=b_;var
+ez=ey}else
+var
+ez=b9;return ez}var
+ef=0}else
+var
+ef=b7;var
+eg=ef}else
+var
+eg=ee;return eg}var
+fP=aY}else
+var
+fP=bm;return fP}var
+fL=0}var
+fM=fL}else
+var
+fM=cC;var
+fN=fM}else
+var
+fN=fK;return fN;default:return 0}case
 3:var
-ah=a[7],aH=a[6],aJ=a[5],ai=a[4],bY=a[3],aj=a[2],as=a[1],an=p[2];switch(an[0]){case
+ap=a[7],aZ=a[6],a0=a[5],aq=a[4],cI=a[3],ar=a[2],aD=a[1],as=u[2];switch(as[0]){case
 0:var
-el=an[3],ht=g(el),hu=gX(iP(i9(as,aj,bY,ai,aJ,aH,ah)[1])),bZ=dv(g(as),hu,0,0,ht,el);if(bZ){var
-en=bZ[1];if(en[2])return 0;var
-eo=os(as,aj,ai,aJ,aH,ah);if(eo){var
-hv=en[1],M=i9(as,aj,bY,ai,aJ,aH,ah),hw=gT(0,AA,g(ai),0,ah),ep=jl(an[2]),aK=an[1],cA=ni(M[1]);if(cA)var
-fG=M[1][2],bg=m(function(a){return bo(n,a[2][1],a[2][2])},fG);else
+f0=as[3],jW=g(f0),jX=g6(iY(ji(aD,ar,cI,aq,a0,aZ,ap)[1])),cJ=dz(g(aD),jX,0,0,jW,f0);if(cJ){var
+f1=cJ[1];if(f1[2])return 0;var
+f2=oN(aD,ar,aq,a0,aZ,ap);if(f2){var
+jY=f1[1],N=ji(aD,ar,cI,aq,a0,aZ,ap),jZ=g4(0,Ba,g(aq),0,ap),f3=jy(as[2]),a1=as[1],ds=nx(N[1]);if(ds)var
+hl=N[1][2],bK=m(function(a){return bq(l,a[2][1],a[2][2])},hl);else
 var
-bg=cA;if(bg)var
-fH=M[2],bh=m(function(a){return bo(n,a[1],a[2])},fH);else
+bK=ds;if(bK)var
+hm=N[2],bM=m(function(a){return bq(l,a[1],a[2])},hm);else
 var
-bh=bg;if(bh){var
-u=M[1],a8=g(u[1]),aN=M[3],a_=g(u[2]),cj=O(a_,g(e9(e(aU,u[3])))),fa=u[3],ck=nd(gA(u),fa,a_),aa=iO(a8,ck,u[4],cj),fb=iM(ck,u[4],cj),fc=u[3],cl=f(iL(gA(u),fc,a_),fb),cn=g(iP(u)),fd=0,fe=f(cl,cX(function(a,b){return na(aa,a,b)},fd,d,cn,aN)),fk=f(bN(e8(aa)),fe),co=f(bN(ee(aa)),fk),a$=cI(co)[1],fl=cH(a$),aq=function(a){return a9(fl,a)},cp=r(g(M[2]),a8);if(cp)var
-fm=u[4],ba=m(function(a){return 0===a[0]?r(g(a[1]),a8):1},fm);else
+bM=bK;if(bM){var
+B=N[1],bB=g(B[1]),a3=N[3],bC=g(B[2]),db=P(bC,g(fb(e(aW,B[3])))),gO=B[3],dc=ns(gJ(B),gO,bC),ae=iX(bB,dc,B[4],db),gR=iV(dc,B[4],db),gS=B[3],dd=f(iU(gJ(B),gS,bC),gR),de=g(iY(B)),gU=0,gV=f(dd,c7(function(a,b){return np(ae,a,b)},gU,d,de,a3)),gW=f(bP(fa(ae)),gV),df=f(bP(eh(ae)),gW),bD=cP(df)[1],gX=cO(bD),aw=function(a){return a$(gX,a)},dg=p(g(N[2]),bB);if(dg)var
+gY=B[4],bE=m(function(a){return 0===a[0]?p(g(a[1]),bB):1},gY);else
 var
-ba=cp;var
-cq=ba?m(function(a){var
-b=k(d),c=cH(a$);return aC(q(aq(a),c,b),a)},co):ba,cs=cq?ak(nc,aN):cq;if(cs){var
-ct=T(M[4]);if(ct)var
-aO=ct;else
+bE=dg;var
+dh=bE?m(function(a){var
+b=k(d),c=cO(bD);return aF(q(aw(a),c,b),a)},df):bE,di=dh?al(nr,a3):dh;if(di){var
+dj=S(N[4]);if(dj)var
+a7=dj;else
 var
-fF=u[4],aO=m(function(a){return 0===a[0]?0:1},fF)}else
+hk=B[4],a7=m(function(a){return 0===a[0]?0:1},hk)}else
 var
-aO=cs;if(aO){var
-fn=iP(u),bb=_(e(function(a){return am(aK,a)},fn));if(bb){var
-fp=0,fq=x(function(a){return e2(fp,d,a)},aN),bc=_(e(function(a){return ip(aK,a)},fq));if(bc){var
-fr=M[2],bd=_(e(function(a){return am(aK,[0,a,d])},fr));if(bd){var
-fs=0,ft=0,be=_(cX(function(a,b){return nb(aK,aq,aa,ft,d,a,b)},fs,d,cn,aN));if(be){var
-cu=be[1];if(M[4])var
-fu=ep[2],fv=ep[1],fw=e8(aa),bf=lZ(hw,cu,[8,i(av(aq),fw),fv,fu]);else
+a7=di;if(a7){var
+gZ=iY(B),bF=aa(e(function(a){return an(a1,a)},gZ));if(bF){var
+g3=0,g7=y(function(a){return e5(g3,d,a)},a3),bG=aa(e(function(a){return iy(a1,a)},g7));if(bG){var
+g8=N[2],bH=aa(e(function(a){return an(a1,[0,a,d])},g8));if(bH){var
+g9=0,g_=0,bI=aa(c7(function(a,b){return nq(a1,aw,ae,g_,d,a,b)},g9,d,de,a3));if(bI){var
+dk=bI[1];if(N[4])var
+g$=f3[2],ha=f3[1],hb=fa(ae),bJ=mb(jZ,dk,[8,i(av(aw),hb),ha,g$]);else
 var
-bf=cu;var
-fx=h2(bf),fy=bd[1],fz=function(a){return 0},fA=f(bb[1],bc[1]),fB=e(aq,cl),fC=e8(aa),fD=i(av(aq),fC),fE=ee(aa);return fo(h1(aK,a$,i(av(aq),fE),fD,fB,fA,bf,fz),fy,fx,hv)}var
-cw=be}else
+bJ=dk;var
+hc=ib(bJ),hd=bH[1],he=function(a){return 0},hf=f(bF[1],bG[1]),hg=e(aw,dd),hh=fa(ae),hi=i(av(aw),hh),hj=eh(ae);return fu(ia(a1,bD,i(av(aw),hj),hi,hg,hf,bJ,he),hd,hc,jY)}var
+dl=bI}else
 var
-cw=bd;var
-cx=cw}else
+dl=bH;var
+dm=dl}else
 var
-cx=bc;var
-cy=cx}else
+dm=bG;var
+dp=dm}else
 var
-cy=bb;var
-cz=cy}else
+dp=bF;var
+dr=dp}else
 var
-cz=aO;return cz}return bh}var
-eq=eo}else
+dr=a7;return dr}return bM}var
+f4=f2}else
 var
-eq=bZ;return eq;case
+f4=cJ;return f4;case
 1:var
-er=an[3],aM=i9(as,aj,bY,ai,aJ,aH,ah),hx=e(j,er),es=br(e(aU,aj),hx);if(es[2])return 0;var
-hy=an[4],b0=gV(0,AB,g(ai),0,ah,hy);if(b0){var
-et=gW(e(aU,aj),er),eu=et?os(as,aj,ai,aJ,aH,ah):et,ev=eu?ni(aM[1]):eu;if(ev)var
-hz=aM[2],b1=m(function(a){return bo(n,a[1],a[2])},hz);else
+f5=as[3],a2=ji(aD,ar,cI,aq,a0,aZ,ap),j0=e(j,f5),f6=bu(e(aW,ar),j0);if(f6[2])return 0;var
+j1=as[4],cK=jw(0,Bb,g(aq),0,ap,j1);if(cK){var
+f7=g5(e(aW,ar),f5),f8=f7?oN(aD,ar,aq,a0,aZ,ap):f7,f9=f8?nx(a2[1]):f8;if(f9)var
+j2=a2[2],cL=m(function(a){return bq(l,a[1],a[2])},j2);else
 var
-b1=ev;if(b1){var
-hA=b0[1],ao=e(j,an[2]),ew=es[1],w=aM[1],aP=g(w[1]),bi=g(w[2]),cB=O(bi,g(e9(e(aU,w[3])))),fO=w[3],cC=nd(gA(w),fO,bi),ay=iO(aP,cC,w[4],cB),fP=iM(cC,w[4],cB),fQ=w[3],cD=f(iL(gA(w),fQ,bi),fP),fR=x(gy,w[4]),fS=f(e9(e(aU,w[3])),fR),aB=f(ew,e(function(a){return a[1][1]},fS)),cE=nk(n,e(aU,w[2]),ew),cF=cE?nk(n,aM[2],ao):cE,cG=cF?r(g(ao),aP):cF;if(cG)var
-fT=w[4],bj=m(function(a){return 0===a[0]?r(g(a[1]),aP):1},fT);else
+cL=f9;if(cL){var
+j3=cK[1],at=e(j,as[2]),f_=f6[1],C=a2[1],a8=g(C[1]),bN=g(C[2]),dt=P(bN,g(fb(e(aW,C[3])))),ht=C[3],du=ns(gJ(C),ht,bN),aJ=iX(a8,du,C[4],dt),hu=iV(du,C[4],dt),hv=C[3],dv=f(iU(gJ(C),hv,bN),hu),hw=y(gH,C[4]),hx=f(fb(e(aW,C[3])),hw),aK=f(f_,e(function(a){return a[1][1]},hx)),dx=nz(l,e(aW,C[2]),f_),dy=dx?nz(l,a2[2],at):dx,dA=dy?p(g(at),a8):dy;if(dA)var
+hy=C[4],bS=m(function(a){return 0===a[0]?p(g(a[1]),a8):1},hy);else
 var
-bj=cG;var
-cJ=bj?m(nj,f(x(uh,ay),cD)):bj;if(cJ){var
-fU=aM[3],fI=e(function(a){var
-b=a[1];return[0,e(function(a){return ef(ao,aB,a)},b)]},ay),fJ=x(function(c){var
+bS=dA;var
+dC=bS?m(ny,f(y(uB,aJ),dv)):bS;if(dC){var
+hz=a2[3],hn=e(function(a){var
+b=a[1];return[0,e(function(a){return ei(at,aK,a)},b)]},aJ),ho=y(function(c){var
 a=c[1];switch(a[0]){case
 7:var
-b=ef(ao,aB,a[2]);return[0,[4,b,b],0];case
-9:return[0,ef(ao,aB,a[1]),0];default:return 0}},cD),fK=function(a){return a},fL=0,fM=e(function(a){return 0},ay),fN=e(function(b){var
+b=ei(at,aK,a[2]);return[0,[4,b,b],0];case
+9:return[0,ei(at,aK,a[1]),0];default:return 0}},dv),hp=function(a){return a},hq=0,hr=e(function(a){return 0},aJ),hs=e(function(b){var
 a=b[4];if(typeof
-a!=="number"&&0===a[0])return[0,ef(ao,aB,a[1])];return 0},ay);return ic(n,ui,aP,[0,e(function(a){var
-b=a[3];return e(function(a){return ef(ao,aB,a)},b)},ay),fN,fM,fL,fK,fJ,fI],fU,hA)}return cJ}var
-ex=b1}else
+a!=="number"&&0===a[0])return[0,ei(at,aK,a[1])];return 0},aJ);return im(l,uC,a8,[0,e(function(a){var
+b=a[3];return e(function(a){return ei(at,aK,a)},b)},aJ),hs,hr,hq,hp,ho,hn],hz,j3)}return dC}var
+f$=cL}else
 var
-ex=b0;return ex;default:return 0}case
+f$=cK;return f$;default:return 0}case
 4:var
-ap=a[3],au=a[2],a0=a[1],aw=p[2];switch(aw[0]){case
+au=a[3],aE=a[2],bs=a[1],aG=u[2];switch(aG[0]){case
 0:var
-hB=aw[3],hC=aw[1],dA=dx(j(a0));if(dA){var
-bL=n7(ap);if(bL){var
-dB=bL[1],aE=dB[2],dC=j(aE),dD=j(dB[1]),c6=h(n,1,j(au)),c7=c6?h(n,1,[3,dC,[0,b,b]]):c6,c8=c7?h(n,1,dD):c7,dE=c8?h(n,0,[3,[5,[0,b,b],dC],dD]):c8;if(dE)var
-g2=0,g3=0,bO=m(function(a){return n2(g3,g2,Ay,a)},ap);else
+j4=aG[3],j5=aG[1],e4=dB(j(bs));if(e4){var
+ct=oq(au);if(ct){var
+e7=ct[1],aS=e7[2],e8=j(aS),e9=j(e7[1]),eD=h(l,1,j(aE)),eE=eD?h(l,1,[3,e8,[0,b,b]]):eD,eF=eE?h(l,1,e9):eE,e_=eF?h(l,0,[3,[5,[0,b,b],e8],e9]):eF;if(e_)var
+jl=0,jm=0,cv=m(function(a){return ol(jm,jl,A_,a)},au);else
 var
-bO=dE;var
-dF=bO?m(function(c){if(1===c[1]){var
+cv=e_;var
+fc=cv?m(function(c){if(1===c[1]){var
 a=c[4];if(typeof
-a!=="number"&&0===a[0])return h(n,0,[3,[0,d,b],j(a[1])]);return 1}return 1},ap):bO;if(dF){var
-bK=bk(function(a){return T(n8(a))},ap);if(bK){var
-g4=[0,c(2,b),b],aS=h(n,0,[3,j(aE),g4]);if(aS)var
-bP=aS;else
+a!=="number"&&0===a[0])return h(l,0,[3,[0,d,b],j(a[1])]);return 1}return 1},au):cv;if(fc){var
+cs=bn(function(a){return S(or(a))},au);if(cs){var
+jn=[0,c(2,b),b],bf=h(l,0,[3,j(aS),jn]);if(bf)var
+cw=bf;else
 var
-g7=j(aE),bP=h(n,0,[3,[0,c(2,b),b],g7]);if(bP){var
-dz=x(function(a){var
-b=i8(0,Av,0,a);return e(function(b){return T(n8(a))},b)},ap),g0=function(f){var
+jz=j(aS),cw=h(l,0,[3,[0,c(2,b),b],jz]);if(cw){var
+e3=y(function(a){var
+b=jh(0,A7,0,a);return e(function(b){return S(or(a))},b)},au),jj=function(f){var
 h=f[1];if(h){var
-i=h[1],j=q(i,dz,0);if(j)var
-l=aL(i,dz),k=[0,[0,g(bk(function(a){return a},l))]];else
+i=h[1],j=q(i,e3,0);if(j)var
+l=aH(i,e3),k=[0,[0,g(bn(function(a){return a},l))]];else
 var
 k=j;var
 a=k}else
 var
-a=Ax;if(a){var
+a=A9;if(a){var
 c=a[1],e=f[2];switch(e[0]){case
 0:return[0,[0,c,[0,e[1]]],0];case
-2:return[0,[0,c,[1,Aw,[0,[0,b,[0,d,[0,d,0]]],[0,[0,d,[0,b,[0,d,0]]],[0,[0,d,[0,d,[0,b,0]]],0]]],d]],0];default:return[0,[0,c,e],0]}}return a},g1=e(function(a){var
-b=a[4],c=a[3],d=a[2];return[0,x(g0,a[1]),d,c,b]},hB),g5=[0,bK[1],bK[2]],g6=oa(aS,au,aE);return oz(0,n$(aS,a0,au,aE),0,g6,0,g5,hC,g1)}return bP}var
-dG=1}else
+2:return[0,[0,c,[1,A8,[0,[0,b,[0,d,[0,d,0]]],[0,[0,d,[0,b,[0,d,0]]],[0,[0,d,[0,d,[0,b,0]]],0]]],d]],0];default:return[0,[0,c,e],0]}}return a},jk=e(function(a){var
+b=a[4],c=a[3],d=a[2];return[0,y(jj,a[1]),d,c,b]},j4),jp=[0,cs[1],cs[2]],js=ov(bf,aE,aS);return oU(0,ou(bf,bs,aE,aS),0,js,0,jp,j5,jk)}return cw}var
+fd=1}else
 var
-dG=dF;var
-dH=dG}else
+fd=fc;var
+fg=fd}else
 var
-dH=bL;var
-dI=dH}else
+fg=ct;var
+fh=fg}else
 var
-dI=dA;return dI;case
+fh=e4;return fh;case
 1:var
-hD=aw[4],hE=aw[3],hF=aw[2],dJ=dx(j(a0));if(dJ){var
-bQ=n7(ap);if(bQ){var
-aF=bQ[1][2],g8=[0,c(2,b),b],aT=h(n,0,[3,j(aF),g8]),dK=h(n,1,j(au)),dM=dK?h(n,1,[3,j(aF),[0,b,b]]):dK;if(dM)if(aT)var
-aV=aT;else
+j6=aG[4],j7=aG[3],j8=aG[2],fi=dB(j(bs));if(fi){var
+cx=oq(au);if(cx){var
+aT=cx[1][2],jA=[0,c(2,b),b],bg=h(l,0,[3,j(aT),jA]),fj=h(l,1,j(aE)),fk=fj?h(l,1,[3,j(aT),[0,b,b]]):fj;if(fk)if(bg)var
+bh=bg;else
 var
-g_=j(aF),aV=h(n,0,[3,[0,c(2,b),b],g_]);else
+jC=j(aT),bh=h(l,0,[3,[0,c(2,b),b],jC]);else
 var
-aV=dM;if(aV){var
-g9=oa(aT,au,aF);return oA(0,n$(aT,a0,au,aF),0,g9,0,ap,hF,hE,hD)}var
-dN=aV}else
+bh=fk;if(bh){var
+jB=ov(bg,aE,aT);return oV(0,ou(bg,bs,aE,aT),0,jB,0,au,j8,j7,j6)}var
+fq=bh}else
 var
-dN=bQ;var
-dO=dN}else
+fq=cx;var
+fr=fq}else
 var
-dO=dJ;return dO;default:return 0}case
+fr=fi;return fr;default:return 0}case
 5:var
-b2=a[4],ey=a[1],b3=p[2];if(0===b3[0]){var
-ez=b3[3],s=i7(ey,[0,a[2],a[3]],0,b2),hG=g(ez),b4=jg(jk(s),hG,ez);if(b4){var
-eA=b4[1];if(eA[2])return 0;var
-eB=jj(ey,0,b2,s),eC=eB?T(ak(em,b2)):eB;if(eC){var
-eD=lY(n,s);if(eD){var
-hH=eA[1],eE=e(gQ,s[1]),B=gR(s[1]),eF=j(a[5]),$=b3[1],bv=gd(B,eE,s[1]),Q=h3(B,eE,s[1],0),f2=g(s[3]),f3=O(g(bv),f2),aQ=[0,g(bv),f3],f4=h5(Q,B,aQ,s[3]),f5=f(e(cM,Q),f4),c_=f(bN(eT(Q)),f5),c$=cI(c_)[1],bw=cH(c$),da=s[2];if(0===da[0]){var
-db=m(function(a){var
-b=k(d);return aC(q(a9(bw,a),bw,b),a)},c_),dc=db?h(n,1,eF):db;if(dc){var
-f6=s[3],f7=x(function(a){return dd(B,a)},f6),f8=s[3],f9=f(bv,f(e(function(a){return bM(B,a)},f8),f7)),by=_(e(function(a){return am($,a)},f9));if(by){var
-f_=a3(da[1],B),bz=_(e(function(a){return am($,a)},f_));if(bz){var
-bA=cK($,B,[5,eF,[0,c(2,c(2,c(2,c(2,b)))),b]]);if(bA){var
-bB=s[3],f$=bz[1],ga=by[1],gb=bA[1],aD=function(a){return a9(bw,a)},fZ=aA(0,g(bB)),f0=e(function(k){var
-l=F(bB,k);if(l){var
-a=l[1],u=aL(k,bB),v=g(x(function(a){return dd(B,a)},u)),w=O(aQ[2],v),j=[0,O(aQ[1],k),w],r=eT(Q),f=i(av(aD),r),c=[1,[8,[1,[1,j[1]]]]],d=ge(Q,B,j,a),n=d?[0,[3,e(aD,[0,d[1],d[2]])]]:d,m=0;if(typeof
+cM=a[4],ga=a[1],cN=u[2];if(0===cN[0]){var
+gb=cN[3],A=jg(ga,[0,a[2],a[3]],0,cM),j9=g(gb),cQ=jr(jx(A),j9,gb);if(cQ){var
+gc=cQ[1];if(gc[2])return 0;var
+gd=ju(ga,0,cM,A),ge=gd?S(al(er,cM)):gd;if(ge){var
+gf=ma(l,A);if(gf){var
+j_=gc[1],gg=e(g1,A[1]),J=g2(A[1]),gh=j(a[5]),ad=cN[1],ce=gk(J,gg,A[1]),V=ic(J,gg,A[1],0),ii=g(A[3]),ik=P(g(ce),ii),bd=[0,g(ce),ik],il=ie(V,J,bd,A[3]),io=f(e(cT,V),il),eH=f(bP(eX(V)),io),eI=cP(eH)[1],cf=cO(eI),eJ=A[2];if(0===eJ[0]){var
+eK=m(function(a){var
+b=k(d);return aF(q(a$(cf,a),cf,b),a)},eH),eL=eK?h(l,1,gh):eK;if(eL){var
+ip=A[3],iq=y(function(a){return dn(J,a)},ip),ir=A[3],is=f(ce,f(e(function(a){return bO(J,a)},ir),iq)),cg=aa(e(function(a){return an(ad,a)},is));if(cg){var
+it=a4(eJ[1],J),ch=aa(e(function(a){return an(ad,a)},it));if(ch){var
+ci=cR(ad,J,[5,gh,[0,c(2,c(2,c(2,c(2,b)))),b]]);if(ci){var
+cj=A[3],iu=ch[1],iv=cg[1],iw=ci[1],aR=function(a){return a$(cf,a)},id=aA(0,g(cj)),ig=e(function(k){var
+l=F(cj,k);if(l){var
+a=l[1],u=aH(k,cj),v=g(y(function(a){return dn(J,a)},u)),w=P(bd[2],v),j=[0,P(bd[1],k),w],r=eX(V),f=i(av(aR),r),c=[1,[8,[1,[1,j[1]]]]],d=gl(V,J,j,a),n=d?[0,[3,e(aR,[0,d[1],d[2]])]]:d,m=0;if(typeof
 a!=="number")switch(a[0]){case
 0:return[0,[0,f,c]];case
 1:return[0,[1,f,c]];case
 4:var
-o=h($,1,a[2]),s=o?n:o;return s;case
+o=h(ad,1,a[2]),s=o?n:o;return s;case
 5:return[0,[2,f,c]];case
 8:var
-p=h($,1,[5,a[2],a[1]]);if(!p)return p;var
+p=h(ad,1,[5,a[2],a[1]]);if(!p)return p;var
 q=[1,[2,b]];m=1;break;case
 9:var
 q=c;m=1;break;case
@@ -7546,27 +7719,27 @@ q=c;m=1;break;case
 3:case
 6:case
 7:return n}if(m){var
-t=eY(Q,B,j,a);return y(function(a){return[0,i(av(aD),a),q]},t)}return 0}return l},fZ),f1=e(function(a){return aD(cM(a))},Q),c9=e(function(a){return aD(a[2])},Q),gc=s[3],gf=aQ[1],bu=function(aC,aB,aA){var
+t=e2(V,J,j,a);return z(function(a){return[0,i(av(aR),a),q]},t)}return 0}return l},id),ih=e(function(a){return aR(cT(a))},V),eG=e(function(a){return aR(a[2])},V),ix=A[3],iB=bd[1],cd=function(aC,aB,aA){var
 k=aC,l=aB,f=aA;for(;;)switch(f[0]){case
 0:var
-v=f[1],aa=r(g(v),uF),ab=aa?m(function(a){var
-d=E(R(c(2,c(2,c(2,b)))),a);return d?E(a,c(2,c(2,c(2,b)))):d},v):aa;if(ab){var
-ac=nG($,gb,d0(0,l),v),j=f[2],w=bm(0,bJ($,ac,e(Z,k)),c$,0),aD=e(Z,k),M=function(a){return nF(nE($,ac,aD,w,a))};if(typeof
-j==="number")return 0===j?ak(function(b){var
-a=q(b,w,0);return a?E(a[1][2][2],d):a},c9):0;else{if(0===j[0]){var
-a=j[2],N=m(uD,a);if(N){var
-p=q(j[1],f0,0);if(p){var
-i=p[1];switch(i[0]){case
+v=f[1],_=p(g(v),vf),aa=_?m(function(a){var
+d=E(O(c(2,c(2,c(2,b)))),a);return d?E(a,c(2,c(2,c(2,b)))):d},v):_;if(aa){var
+ab=n0(ad,iw,d5(0,l),v),j=f[2],w=bo(0,bL(ad,ab,e($,k)),eI,0),aD=e($,k),M=function(a){return nZ(nY(ad,ab,aD,w,a))};if(typeof
+j==="number")return 0===j?al(function(b){var
+a=q(b,w,0);return a?E(a[1][2][2],d):a},eG):0;else{if(0===j[0]){var
+a=j[2],N=m(vd,a);if(N){var
+r=q(j[1],ig,0);if(r){var
+i=r[1];switch(i[0]){case
 0:var
 x=0;if(a)if(a[2])var
 h=0;else{var
-A=a[1],B=i[1],ap=gF(B,A),aq=gE(A),C=[0,[0,B,[0,[1,[4,[1,[6,i[2],aq]],ap]],0]]];x=1}else{var
+A=a[1],B=i[1],ap=gQ(B,A),aq=gP(A),C=[0,[0,B,[0,[1,[4,[1,[6,i[2],aq]],ap]],0]]];x=1}else{var
 C=a;x=1}if(x)var
 h=C;break;case
 1:var
 y=0;if(a)if(a[2])var
 h=0;else{var
-D=a[1],G=i[1],ar=gE(D),as=[1,[6,i[2],ar]],H=[0,[0,G,[0,[1,[4,gF(G,D),as]],0]]];y=1}else{var
+D=a[1],G=i[1],ar=gP(D),as=[1,[6,i[2],ar]],H=[0,[0,G,[0,[1,[4,gQ(G,D),as]],0]]];y=1}else{var
 H=a;y=1}if(y)var
 h=H;break;case
 2:var
@@ -7574,7 +7747,7 @@ z=0;if(a){var
 n=a[2],ao=0;if(n)if(n[2]){var
 h=0;ao=1}else
 var
-I=n[1],J=a[1],o=i[1],at=gE(J),au=[1,[6,gF(o,I),at]],av=[1,[6,i[2],au]],aw=gE(I),K=[0,[0,o,[0,[1,[4,[1,[6,gF(o,J),aw]],av]],0]]];else
+I=n[1],J=a[1],o=i[1],at=gP(J),au=[1,[6,gQ(o,I),at]],av=[1,[6,i[2],au]],aw=gP(I),K=[0,[0,o,[0,[1,[4,[1,[6,gQ(o,J),aw]],av]],0]]];else
 var
 K=n;if(!ao){var
 L=K;z=1}}else{var
@@ -7583,128 +7756,128 @@ h=L;break;default:if(a)var
 h=0;else
 var
 ax=i[1],h=[0,[0,0,e(function(a){return[1,[5,[0,a]]]},ax)]]}if(h){var
-P=h[1],ay=P[1],Q=m(function(a){return nF(q(a[2],w,0))},ay);if(Q)return m(M,P[2]);var
-S=Q}else
+Q=h[1],ay=Q[1],R=m(function(a){return nZ(q(a[2],w,0))},ay);if(R)return m(M,Q[2]);var
+S=R}else
 var
 S=h;var
 T=S}else
 var
-T=p;var
+T=r;var
 U=T}else
 var
 U=N;return U}var
-V=j[2],W=j[1],s=F(gc,W);if(s){var
+V=j[2],W=j[1],s=F(ix,W);if(s){var
 X=s[1];if(typeof
 X!=="number"&&1===X[0]){var
-t=F(c9,V);if(t){var
-u=F(f1,V);if(u){var
-az=O(gf,W);return M([1,[4,[1,[8,[0,u[1]]]],[1,[6,[1,[8,[1,[1,az]]]],[0,t[1]]]]]])}var
-_=u}else
+t=F(eG,V);if(t){var
+u=F(ih,V);if(u){var
+az=P(iB,W);return M([1,[4,[1,[8,[0,u[1]]]],[1,[6,[1,[8,[1,[1,az]]]],[0,t[1]]]]]])}var
+Z=u}else
 var
-_=t;return _}var
+Z=t;return Z}var
 Y=0}else
 var
-Y=s;return Y}}return ab;case
+Y=s;return Y}}return aa;case
 1:var
-ad=f[1],ae=nH(ad,l);if(ae){var
-af=cN(ad,l),ag=bu(k,af[1],f[2]);if(ag){var
+ac=f[1],ae=n1(ac,l);if(ae){var
+af=cU(ac,l),ag=cd(k,af[1],f[2]);if(ag){var
 l=af[2],f=f[3];continue}var
 ah=ag}else
 var
 ah=ae;return ah;default:var
-ai=f[1],aj=nH(ai,k);if(aj){var
-al=cN(ai,k),am=bu(al[1],l,f[2]);if(am){var
-k=al[2],f=f[3];continue}var
+ai=f[1],aj=n1(ai,k);if(aj){var
+ak=cU(ai,k),am=cd(ak[1],l,f[2]);if(am){var
+k=ak[2],f=f[3];continue}var
 an=am}else
 var
-an=aj;return an}};return bu(ga,f$,hH)}var
-de=bA}else
+an=aj;return an}};return cd(iv,iu,j_)}var
+eM=ci}else
 var
-de=bz;var
-df=de}else
+eM=ch;var
+eN=eM}else
 var
-df=by;var
-dg=df}else
+eN=cg;var
+eO=eN}else
 var
-dg=dc;return dg}return 0}var
-eG=eD}else
+eO=eL;return eO}return 0}var
+gi=gf}else
 var
-eG=eC;var
-eH=eG}else
+gi=ge;var
+gj=gi}else
 var
-eH=b4;return eH}return 0;case
+gj=cQ;return gj}return 0;case
 6:var
-eI=a[1];if(eI){var
-eJ=eI[1],b5=p[2];if(0===b5[0]){var
-b6=jf(AD,0,0,0,AC,b5[3]);if(b6){var
-eK=fi(eJ);if(eK){var
-hI=b6[1],eL=bT(eJ)[2],a1=b5[1],bs=cK(a1,d,eL);if(bs){var
-bt=cK(a1,d,[5,[0,b,b],eL]);if(bt){var
-fY=bs[1][1],c3=K(cm(a1),fY);if(c3)return nD(a1,bt[1][1],hI);var
-c4=c3}else
+gm=a[1];if(gm){var
+gn=gm[1],cS=u[2];if(0===cS[0]){var
+cV=jq(Bd,0,0,0,Bc,cS[3]);if(cV){var
+go=fo(gn);if(go){var
+j$=cV[1],gq=bX(gn)[2],bt=cS[1],cb=cR(bt,d,gq);if(cb){var
+cc=cR(bt,d,[5,[0,b,b],gq]);if(cc){var
+h$=cb[1][1],eA=I(cp(bt),h$);if(eA)return nX(bt,cc[1][1],j$);var
+eB=eA}else
 var
-c4=bt;var
-c5=c4}else
+eB=cc;var
+eC=eB}else
 var
-c5=bs;return c5}var
-eM=eK}else
+eC=cb;return eC}var
+gr=go}else
 var
-eM=b6;return eM}return 0}var
-b7=p[2];if(0===b7[0]){var
-b8=jf(AF,0,0,0,AE,b7[3]);return b8?nD(b7[1],d,b8[1]):b8}return 0;default:var
-ax=a[1],eN=p[2];if(2===eN[0]){var
-eO=eN[1],b_=jd(g(eO),eO);if(b_){var
-eP=b_[1];if(eP[2])return 0;var
-b$=eP[1],du=Y(Au,g(ax)),dw=du?Y(g(ax),kG):du,dy=dw?nh(e(az,ax)):dw,eQ=dy?m(function(c){var
-a=cr(j(c[2][1]));if(a){var
-b=cr(j(c[2][2]));if(b)return T(bl(b[1],a[1]));var
+gr=cV;return gr}return 0}var
+cW=u[2];if(0===cW[0]){var
+cX=jq(Bf,0,0,0,Be,cW[3]);return cX?nX(cW[1],d,cX[1]):cX}return 0;default:var
+aI=a[1],gs=u[2];if(2===gs[0]){var
+gt=gs[1],cY=jo(g(gt),gt);if(cY){var
+gu=cY[1];if(gu[2])return 0;var
+cZ=gu[1],eZ=Z(A6,g(aI)),e0=eZ?Z(g(aI),kT):eZ,e1=e0?nw(e(aB,aI)):e0,gv=e1?m(function(c){var
+a=cu(j(c[2][1]));if(a){var
+b=cu(j(c[2][2]));if(b)return S(a_(b[1],a[1]));var
 d=b}else
 var
-d=a;return d},ax):dy;if(eQ)var
-hJ=gP(zm,b$),ca=oE(a[5],hJ);else
+d=a;return d},aI):e1;if(gv)var
+ka=g0(zY,cZ),c0=oZ(a[5],ka);else
 var
-ca=eQ;if(ca)var
-hK=gP(zn,b$),cb=oE(a[6],hK);else
+c0=gv;if(c0)var
+kb=g0(zZ,cZ),c1=oZ(a[6],kb);else
 var
-cb=ca;if(cb){var
-gZ=e(function(a){return[0,d,0]},ax);return oD(ax,a[2],a[3],a[4],gZ,b$)}var
-eR=cb}else
+c1=c0;if(c1){var
+jd=e(function(a){return[0,d,0]},aI);return oY(aI,a[2],a[3],a[4],jd,cZ)}var
+gw=c1}else
 var
-eR=b_;return eR}return 0}}return aG}var
-V=[aX,AI,qY(0)],oF=[aX,AJ,qY(0)];function
-AG(m,b){var
-f=[0,l(yH,ap(b[4])),0],g=[0,l(yJ,ae([0,l(yI,ap(b[3])),f])),0],a=b[2];switch(a[0]){case
+gw=cY;return gw}return 0}}return aU}var
+W=[aZ,Bi,rh(0)],o0=[aZ,Bj,rh(0)];function
+Bg(l,b){var
+f=[0,n(zh,ar(b[4])),0],g=[0,n(zj,ag([0,n(zi,ar(b[3])),f])),0],a=b[2];switch(a[0]){case
 0:var
-c=N(yD,nO(a[1],a[2],a[3]));break;case
+c=N(zd,n8(a[1],a[2],a[3]));break;case
 1:var
-c=N(yE,nP(a[1],a[2],a[3],a[4]));break;default:var
-c=N(yF,D(e(yy,a[1])))}var
-h=[0,l(yK,c),g],i=1===b[2][0]?yQ:yL,j=[0,l(yM,ap(i)),h],k=[0,l(yN,w$(b[1])),j],d=aw(ka(AH,gG(ae([0,l(yP,ap(yO)),k]),yG)),m);return d?Az(b):d}function
-ah(a){if(0===a[0])return a[1];throw V}function
-ad(a){if(1===a[0])return a[1];throw V}function
-aS(a){if(2===a[0])return a[1];throw V}function
-fk(a){if(3===a[0])return a[1];throw V}function
-a6(f,e){var
+c=N(ze,n9(a[1],a[2],a[3],a[4]));break;default:var
+c=N(zf,G(e(y_,a[1])))}var
+h=[0,n(zk,c),g],i=1===b[2][0]?zq:zl,j=[0,n(zm,ar(i)),h],k=[0,n(zn,xL(b[1])),j],d=aw(kn(Bh,gR(ag([0,n(zp,ar(zo)),k]),zg)),l);return d?A$(b):d}function
+ai(a){if(0===a[0])return a[1];throw W}function
+af(a){if(1===a[0])return a[1];throw W}function
+aV(a){if(2===a[0])return a[1];throw W}function
+fq(a){if(3===a[0])return a[1];throw W}function
+a7(f,e){var
 a=f;for(;;){if(a){var
-b=a[1],c=a[2],d=b[2];if(0===GZ(b[1],e))return[0,d];var
+b=a[1],c=a[2],d=b[2];if(0===Hz(b[1],e))return[0,d];var
 a=c;continue}return 0}}function
 u(c,b){var
-a=a6(c,b);if(a)return a[1];throw V}function
-cA(b,a){var
+a=a7(c,b);if(a)return a[1];throw W}function
+cH(b,a){var
 c=a?[0,i(b,a[1])]:a;return c}function
-dz(a){switch(a[0]){case
+dD(a){switch(a[0]){case
 0:var
 b=a[1];if(b&&!b[2]){var
 c=b[1];return[0,c[1],c[2]]}break;case
-2:return[0,a[1],AK]}throw V}function
-fl(e,d){var
-a=X(e,ad(d));if(a){var
+2:return[0,a[1],Bk]}throw W}function
+fr(e,d){var
+a=Y(e,af(d));if(a){var
 b=a[2];if(b){var
-c=b[2];if(c&&!c[2])return[0,a[1],b[1],c[1]]}}throw V}function
-gY(i){var
-f=eD(i),d=[0,0],e=hp(f)-1|0;if(!(e<0)){var
+c=b[2];if(c&&!c[2])return[0,a[1],b[1],c[1]]}}throw W}function
+g7(i){var
+f=eI(i),d=[0,0],e=hy(f)-1|0;if(!(e<0)){var
 c=e;for(;;){var
-a=d[1],g=jS(f,c)-48|0;if(9<g>>>0)throw V;switch(g){case
+a=d[1],g=j5(f,c)-48|0;if(9<g>>>0)throw W;switch(g){case
 0:var
 b=[0,a];break;case
 1:var
@@ -7726,97 +7899,97 @@ b=[8,a];break;default:var
 b=[9,a]}d[1]=b;var
 h=c-1|0;if(0!==c){var
 c=h;continue}break}}return d[1]}function
-fm(a){return kq(gY(a))}function
-ep(b){var
-a=fk(b);return 45===aY(a,0)?R(fm(dK(a,1,au(a)-1|0))):fm(a)}function
-oG(a){return dN(fm(fk(a)))}function
-dA(b){var
-a=fk(b);if(!(2<au(a))&&!(64<=ho(a)))return hA(fm(a));throw V}function
-cB(c){var
-a=fk(c);if(6<au(a))throw V;function
-b(a){return 0<a?[0,b(a-1|0)]:0}return b(ho(a))}function
-oH(a){var
-b=97<=a?1:0,c=b?a<=qA?1:0:b;if(c)var
+fs(a){return kE(g7(a))}function
+eu(b){var
+a=fq(b);return 45===a0(a,0)?O(fs(dO(a,1,au(a)-1|0))):fs(a)}function
+o1(a){return dR(fs(fq(a)))}function
+dE(b){var
+a=fq(b);if(!(2<au(a))&&!(64<=hx(a)))return hJ(fs(a));throw W}function
+cI(c){var
+a=fq(c);if(6<au(a))throw W;function
+b(a){return 0<a?[0,b(a-1|0)]:0}return b(hx(a))}function
+o2(a){var
+b=97<=a?1:0,c=b?a<=qV?1:0:b;if(c)var
 d=c;else
 var
 e=65<=a?1:0,d=e?a<=90?1:0:e;return d}function
-oI(y,b){var
+o3(y,b){var
 d=au(b),a=[0,0];function
 c(e){var
-c=a[1]<d?1:0,f=c?aY(b,a[1])===e?1:0:c;return f}function
+c=a[1]<d?1:0,f=c?a0(b,a[1])===e?1:0:c;return f}function
 l(e){var
-c=a[1];for(;;){if(a[1]<d&&48<=aY(b,a[1])&&!(57<aY(b,a[1]))){a[1]++;continue}return dK(b,c,a[1]-c|0)}}function
+c=a[1];for(;;){if(a[1]<d&&48<=a0(b,a[1])&&!(57<a0(b,a[1]))){a[1]++;continue}return dO(b,c,a[1]-c|0)}}function
 m(b){a[1]++;var
-d=f(b+1|0);if(c(41)){a[1]++;return d}throw V}function
-h(j){if(64<j)throw V;if(c(45)){a[1]++;return[2,h(j+1|0)]}if(c(40))var
+d=f(b+1|0);if(c(41)){a[1]++;return d}throw W}function
+h(j){if(64<j)throw W;if(c(45)){a[1]++;return[2,h(j+1|0)]}if(c(40))var
 e=m(j);else{var
-u=0;if((a[1]+5|0)<=d&&aw(dK(b,a[1],5),AM)){a[1]=a[1]+4|0;var
+u=0;if((a[1]+5|0)<=d&&aw(dO(b,a[1],5),Bm)){a[1]=a[1]+4|0;var
 e=[5,m(j)]}else
 u=1;if(u){var
-v=0;if(a[1]<d&&oH(aY(b,a[1]))){var
+v=0;if(a[1]<d&&o2(a0(b,a[1]))){var
 n=a[1];for(;;){if(a[1]<d){var
-w=0;if(!oH(aY(b,a[1]))&&95!==aY(b,a[1])&&(!(48<=aY(b,a[1]))||57<aY(b,a[1])))w=1;if(!w){a[1]++;continue}}var
-e=[1,i(y,dK(b,n,a[1]-n|0))];break}}else
+w=0;if(!o2(a0(b,a[1]))&&95!==a0(b,a[1])&&(!(48<=a0(b,a[1]))||57<a0(b,a[1])))w=1;if(!w){a[1]++;continue}}var
+e=[1,i(y,dO(b,n,a[1]-n|0))];break}}else
 v=1;if(v){var
-g=l(0),p=c(46),q=p?(a[1]++,[0,l(0)]):p,r=aw(g,AN);if(r)var
+g=l(0),p=c(46),q=p?(a[1]++,[0,l(0)]):p,r=aw(g,Bn);if(r)var
 s=r;else
 var
-t=1<au(g)?1:0,s=t?48===aY(g,0)?1:0:t;if(s)throw V;if(q){var
-k=q[1],x=0;if(aw(k,AO)||48===aY(k,au(k)-1|0))x=1;else
+t=1<au(g)?1:0,s=t?48===a0(g,0)?1:0:t;if(s)throw W;if(q){var
+k=q[1],x=0;if(aw(k,Bo)||48===a0(k,au(k)-1|0))x=1;else
 var
-z=gY(k),e=[0,gY(g),z];if(x)throw V}else
+z=g7(k),e=[0,g7(g),z];if(x)throw W}else
 var
-e=[0,gY(g),0]}}}if(c(94)){a[1]++;var
-f=l(0);if(o(f,AL)){if(!(2<au(f))&&2<=ho(f)&&!(64<ho(f)))return[4,e,dN(fm(f))];throw V}throw V}return e}function
+e=[0,g7(g),0]}}}if(c(94)){a[1]++;var
+f=l(0);if(o(f,Bl)){if(!(2<au(f))&&2<=hx(f)&&!(64<hx(f)))return[4,e,dR(fs(f))];throw W}throw W}return e}function
 e(d){var
 b=h(d);for(;;){if(c(42)){a[1]++;var
 b=[3,2,b,h(d)];continue}if(c(47)){a[1]++;var
 b=[3,3,b,h(d)];continue}return b}}function
-f(d){if(64<d)throw V;var
+f(d){if(64<d)throw W;var
 b=e(d);for(;;){if(c(43)){a[1]++;var
 b=[3,0,b,e(d)];continue}if(c(45)){a[1]++;var
 b=[3,1,b,e(d)];continue}return b}}var
-g=f(0);if(a[1]<d)throw V;return g}function
-gZ(a){return oI(function(a){return[0,a]},a)}function
-jm(a){var
-b=aS(a);return oI(function(a){return a},b)}function
-S(a){return gZ(aS(a))}function
-cb(a){if(2===a[0])return[0,gZ(a[1])];var
-b=ah(a),c=S(u(b,AP));return[1,S(u(b,AQ)),c]}function
-$(a){throw[0,oF,a8(ka(AS,a),AR)]}function
-jn(c){var
-a=aS(c);if(o(a,AT)){var
-b=o(a,AU);if(b)throw V;return b}return 1}function
-AV(d){var
-b=ah(d);function
-a(a){return fl(cb,u(b,a))}var
-c=aS(u(b,AW));if(o(c,AX)){if(o(c,AY)){if(o(c,AZ))return $([0,A1,[0,c,A0]]);var
-e=a6(b,A2),f=cA(function(a){return fl(cb,a)},e),g=a(A3);return[1,a(A4),g,f]}var
-h=jn(u(b,A5)),i=cb(u(b,A6)),j=a(A7),k=a(A8);return[0,a(A9),k,j,i,h]}return[2,a(A_)]}function
-A$(d){var
-a=ah(d);if(a){var
-b=a[1];if(!o(b[1],Ba)){var
-c=b[2];if(2===c[0]&&!o(c[1],Bb))return 1}}return 0}function
-oJ(e){var
-b=ah(e);function
-a(a){return X(cb,ad(u(b,a)))}var
-c=aS(u(b,Bc)),d=a6(b,Bd);if(o(c,Be)){if(o(c,Bf)){if(!o(c,Bg)&&!d){var
-f=a(Bj);return[1,a(Bk),f]}}else
+g=f(0);if(a[1]<d)throw W;return g}function
+g8(a){return o3(function(a){return[0,a]},a)}function
+jz(a){var
+b=aV(a);return o3(function(a){return a},b)}function
+U(a){return g8(aV(a))}function
+ce(a){if(2===a[0])return[0,g8(a[1])];var
+b=ai(a),c=U(u(b,Bp));return[1,U(u(b,Bq)),c]}function
+ac(a){throw[0,o0,a9(kn(Bs,a),Br)]}function
+jA(c){var
+a=aV(c);if(o(a,Bt)){var
+b=o(a,Bu);if(b)throw W;return b}return 1}function
+Bv(d){var
+b=ai(d);function
+a(a){return fr(ce,u(b,a))}var
+c=aV(u(b,Bw));if(o(c,Bx)){if(o(c,By)){if(o(c,Bz))return ac([0,BB,[0,c,BA]]);var
+e=a7(b,BC),f=cH(function(a){return fr(ce,a)},e),g=a(BD);return[1,a(BE),g,f]}var
+h=jA(u(b,BF)),i=ce(u(b,BG)),j=a(BH),k=a(BI);return[0,a(BJ),k,j,i,h]}return[2,a(BK)]}function
+BL(d){var
+a=ai(d);if(a){var
+b=a[1];if(!o(b[1],BM)){var
+c=b[2];if(2===c[0]&&!o(c[1],BN))return 1}}return 0}function
+o4(e){var
+b=ai(e);function
+a(a){return Y(ce,af(u(b,a)))}var
+c=aV(u(b,BO)),d=a7(b,BP);if(o(c,BQ)){if(o(c,BR)){if(!o(c,BS)&&!d){var
+f=a(BV);return[1,a(BW),f]}}else
 if(!d){var
-g=jn(u(b,Bl)),h=cb(u(b,Bm)),i=a(Bn),j=a(Bo);return[0,a(Bp),j,i,h,g]}}else
+g=jA(u(b,BX)),h=ce(u(b,BY)),i=a(BZ),j=a(B0);return[0,a(B1),j,i,h,g]}}else
 if(!d){var
-k=jn(u(b,Bq)),l=cb(u(b,Br)),m=cb(u(b,Bs)),n=a(Bt),p=a(Bu),q=a(Bv);return[2,a(Bw),q,p,n,m,l,k]}return $([0,Bi,[0,c,Bh]])}function
-oK(d){var
-a=ah(d);if(a){var
-b=a[1];if(!o(b[1],Bx)){var
-c=b[2];if(2===c[0]&&!o(c[1],By))return 1}}return 0}function
-c6(c,d){var
-a=ad(d);if(a){var
+k=jA(u(b,B2)),l=ce(u(b,B3)),m=ce(u(b,B4)),n=a(B5),p=a(B6),q=a(B7);return[2,a(B8),q,p,n,m,l,k]}return ac([0,BU,[0,c,BT]])}function
+o5(d){var
+a=ai(d);if(a){var
+b=a[1];if(!o(b[1],B9)){var
+c=b[2];if(2===c[0]&&!o(c[1],B_))return 1}}return 0}function
+de(c,d){var
+a=af(d);if(a){var
 b=a[2];if(b&&!b[2]){var
-e=i(c,b[1]);return[0,i(c,a[1]),e]}}throw V}function
-eq(g,p){var
-h=g?g[1]:g,c=ah(p),a=aS(u(c,Bz)),j=q$(a,BA),f=0;if(0<=j)if(0<j)if(o(a,BB))if(o(a,BC))if(o(a,BD))if(o(a,BE))if(o(a,BF))if(o(a,BG)){var
-k=o(a,BH);if(k)f=1;else
+e=i(c,b[1]);return[0,i(c,a[1]),e]}}throw W}function
+ev(g,p){var
+h=g?g[1]:g,c=ai(p),a=aV(u(c,B$)),j=ru(a,Ca),f=0;if(0<=j)if(0<j)if(o(a,Cb))if(o(a,Cc))if(o(a,Cd))if(o(a,Ce))if(o(a,Cf))if(o(a,Cg)){var
+k=o(a,Ch);if(k)f=1;else
 var
 b=k}else
 var
@@ -7834,7 +8007,7 @@ var
 b=13;else
 var
 b=2;else
-if(o(a,B1))if(o(a,B2))if(o(a,B3))if(o(a,B4))if(o(a,B5))if(o(a,B6))if(o(a,B7))if(o(a,B8))f=1;else
+if(o(a,CB))if(o(a,CC))if(o(a,CD))if(o(a,CE))if(o(a,CF))if(o(a,CG))if(o(a,CH))if(o(a,CI))f=1;else
 var
 b=1;else
 var
@@ -7852,108 +8025,108 @@ b=14;else
 f=1;else
 var
 b=12;var
-n=f?$([0,BJ,[0,a,BI]]):b;function
-i(a){return u(c,BK)}var
-d=aS(u(c,BL)),l=o(d,BM);if(l)if(o(d,BN))if(o(d,BO))if(o(d,BP))var
-e=$([0,BR,[0,d,BQ]]);else
+n=f?ac([0,Cj,[0,a,Ci]]):b;function
+i(a){return u(c,Ck)}var
+d=aV(u(c,Cl)),l=o(d,Cm);if(l)if(o(d,Cn))if(o(d,Co))if(o(d,Cp))var
+e=ac([0,Cr,[0,d,Cq]]);else
 var
-m=c6(S,i(0)),e=[2,m[1],m[2]];else
+m=de(U,i(0)),e=[2,m[1],m[2]];else
 var
-e=[0,S(i(0))];else
+e=[0,U(i(0))];else
 var
-e=[1,S(i(0))];else
+e=[1,U(i(0))];else
 var
 e=l;function
 q(E){var
-a=ah(E),c=0;switch(n){case
+a=ai(E),c=0;switch(n){case
 6:if(a){var
-r=a[1];if(!o(r[1],BT)){var
+r=a[1];if(!o(r[1],Ct)){var
 s=r[2];if(1===s[0]){var
 b=s[1],m=0;if(b&&!b[2])if(a[2])m=1;else{var
-e=b[1];c=1;m=1}if(!m&&!a[2])return[1,X(S,b)]}}}break;case
+e=b[1];c=1;m=1}if(!m&&!a[2])return[1,Y(U,b)]}}}break;case
 10:if(a){var
-t=a[1];if(!o(t[1],BU)){var
+t=a[1];if(!o(t[1],Cu)){var
 u=t[2];if(1===u[0]){var
 f=u[1];if(f&&!f[2]){var
 g=a[2];if(g){var
-v=g[1];if(!o(v[1],BV)){var
+v=g[1];if(!o(v[1],Cv)){var
 w=v[2];if(1===w[0]){var
 i=w[1];if(i&&!i[2]&&!g[2]){var
-F=S(i[1]);return[2,S(f[1]),F]}}}}}}}}break;case
+F=U(i[1]);return[2,U(f[1]),F]}}}}}}}}break;case
 12:if(a){var
-x=a[1];if(!o(x[1],BW)){var
+x=a[1];if(!o(x[1],Cw)){var
 y=x[2];if(1===y[0]){var
 j=y[1];if(j&&!j[2]){var
 k=a[2],z=j[1];if(k){var
-A=k[1];if(!o(A[1],BX)){var
+A=k[1];if(!o(A[1],Cx)){var
 B=A[2];if(1===B[0]){var
 l=B[1];if(l&&!l[2]&&!k[2]&&h){var
-G=S(l[1]);return[3,S(z),G]}}}}else{var
+G=U(l[1]);return[3,U(z),G]}}}}else{var
 e=z;c=1}}}}}break;case
 14:case
 15:if(a){var
-C=a[1];if(!o(C[1],BY)){var
-D=C[2];if(1===D[0]&&!a[2])return[1,X(S,D[1])]}}break;case
+C=a[1];if(!o(C[1],Cy)){var
+D=C[2];if(1===D[0]&&!a[2])return[1,Y(U,D[1])]}}break;case
 2:case
 8:if(a){var
-p=a[1];if(!o(p[1],BS)){var
+p=a[1];if(!o(p[1],Cs)){var
 q=p[2];if(1===q[0]){var
 d=q[1];if(d&&!d[2]&&!a[2]){var
-e=d[1];c=1}}}}break}if(c)return[0,S(e)];throw V}var
-r=cA(q,a6(c,BZ));return[0,n,cA(cB,a6(c,B0)),r,e]}function
-oL(c){var
-d=eq(B$,c),e=d[1];if(!(9<=e))switch(e){case
+e=d[1];c=1}}}}break}if(c)return[0,U(e)];throw W}var
+r=cH(q,a7(c,Cz));return[0,n,cH(cI,a7(c,CA)),r,e]}function
+o6(c){var
+d=ev(CL,c),e=d[1];if(!(9<=e))switch(e){case
 2:case
 6:case
 8:return d}var
-a=eq(B9,c),b=a[1];if(2!==b&&!(4<=b))return a;return $(B_)}function
-oM(a){var
-b=eq(Ca,a);return 11===b[1]?b:oL(a)}function
-Cb(c){var
-d=eq(Cc,c),a=d[1]-9|0,b=0;if(3<a>>>0){if(5<=a)b=1}else
-if(2!==a)b=1;return b?d:oM(c)}function
-jo(a){var
-b=eq(Cd,a),c=b[1];if(4<=c)switch(c-4|0){case
+a=ev(CJ,c),b=a[1];if(2!==b&&!(4<=b))return a;return ac(CK)}function
+o7(a){var
+b=ev(CM,a);return 11===b[1]?b:o6(a)}function
+CN(c){var
+d=ev(CO,c),a=d[1]-9|0,b=0;if(3<a>>>0){if(5<=a)b=1}else
+if(2!==a)b=1;return b?d:o7(c)}function
+jB(a){var
+b=ev(CP,a),c=b[1];if(4<=c)switch(c-4|0){case
 0:case
 1:case
 7:case
-9:return b}return oL(a)}function
-jp(b){var
-a=ah(b[2]);if(o(b[1],Ck)){var
-c=c6(S,u(a,Cl)),d=c6(S,u(a,Cm)),e=d[2],f=d[1],g=S(u(a,Cn));return[1,c[1],c[2],g,f,e]}var
-h=X(S,ad(u(a,Co)));return[0,X(S,ad(u(a,Cp))),h]}function
-Cq(f){var
-a=ah(f);function
-d(b){return S(u(a,b))}function
-c(b){return fl(S,u(a,b))}var
-b=aS(u(a,Cr));if(o(b,Cs)){if(!o(b,Ct)){var
-j=u(a,Cz),e=c6(function(a){return a},j),k=a6(a,CA),l=cA(function(a){return c(CB)},k),m=gZ(aS(e[2])),n=gZ(aS(e[1])),p=d(CC);return[0,cB(u(a,CD)),p,n,m,l]}if(o(b,Cu))throw V}var
-g=d(Cv),h=c(Cw),i=c(Cx);return[1,aw(b,Cy),i,h,g]}function
-jq(an){var
-g=dz(an),h=g[1];if(o(h,CE)){if(o(h,CF)){if(o(h,CG)){if(o(h,CH))return $([0,CJ,[0,h,CI]]);var
-w=u(ah(g[2]),CK),ac=0;if(2===w[0]){var
-K=o(w[1],CL);if(!K){var
-J=K;ac=1}}if(!ac)var
-J=[0,cb(w)];return[6,J]}var
-L=ah(g[2]),j=jq([0,[0,[0,CN,u(L,CM)],0]]);if(0===j[0]){var
+9:return b}return o6(a)}function
+jC(b){var
+a=ai(b[2]);if(o(b[1],CW)){var
+c=de(U,u(a,CX)),d=de(U,u(a,CY)),e=d[2],f=d[1],g=U(u(a,CZ));return[1,c[1],c[2],g,f,e]}var
+h=Y(U,af(u(a,C0)));return[0,Y(U,af(u(a,C1))),h]}function
+C2(f){var
+a=ai(f);function
+d(b){return U(u(a,b))}function
+c(b){return fr(U,u(a,b))}var
+b=aV(u(a,C3));if(o(b,C4)){if(!o(b,C5)){var
+j=u(a,C$),e=de(function(a){return a},j),k=a7(a,Da),l=cH(function(a){return c(Db)},k),m=g8(aV(e[2])),n=g8(aV(e[1])),p=d(Dc);return[0,cI(u(a,Dd)),p,n,m,l]}if(o(b,C6))throw W}var
+g=d(C7),h=c(C8),i=c(C9);return[1,aw(b,C_),i,h,g]}function
+jD(an){var
+g=dD(an),h=g[1];if(o(h,De)){if(o(h,Df)){if(o(h,Dg)){if(o(h,Dh))return ac([0,Dj,[0,h,Di]]);var
+w=u(ai(g[2]),Dk),ab=0;if(2===w[0]){var
+K=o(w[1],Dl);if(!K){var
+J=K;ab=1}}if(!ab)var
+J=[0,ce(w)];return[6,J]}var
+L=ai(g[2]),j=jD([0,[0,[0,Dn,u(L,Dm)],0]]);if(0===j[0]){var
 x=j[2];if(0===x[0]&&!j[3]){var
-ao=S(u(L,CP));return[5,j[1],x[1],x[2],j[4],ao]}}return $(CO)}var
-a=ah(g[2]),y=a6(a,CQ),z=y?X(Cq,ad(y[1])):y,n=function(b){var
-a=0!==z?1:0;return a?$(CR):a},k=dz(u(a,CS)),b=dz(u(a,CT)),c=k[1];if(o(c,CU)&&o(c,CV)&&o(c,CW)){if(0===a6(a,CX)){if(o(c,CY)){var
-ae=0;if(o(c,CZ)){if(!o(c,C0)){var
-M=b[1],af=0;if(o(M,C3)&&o(M,C4)){ae=1;af=1}if(!af){var
-A=ad(k[2]),ap=ad(u(a,C7)),N=X(function(a){return eq(0,a)},ap);if(!ay(A$,A)&&!ay(function(a){return 13===a[1]?1:0},N)){var
-as=X(AV,A),f=ah(b[2]);if(o(b[1],Ce))var
-H=c6(S,u(f,Cf)),I=c6(S,u(f,Cg)),aj=I[2],ak=I[1],al=S(u(f,Ch)),O=[1,H[1],H[2],al,ak,aj];else
+ao=U(u(L,Dp));return[5,j[1],x[1],x[2],j[4],ao]}}return ac(Do)}var
+a=ai(g[2]),y=a7(a,Dq),z=y?Y(C2,af(y[1])):y,n=function(b){var
+a=0!==z?1:0;return a?ac(Dr):a},k=dD(u(a,Ds)),b=dD(u(a,Dt)),c=k[1];if(o(c,Du)&&o(c,Dv)&&o(c,Dw)){if(0===a7(a,Dx)){if(o(c,Dy)){var
+ad=0;if(o(c,Dz)){if(!o(c,DA)){var
+M=b[1],ae=0;if(o(M,DD)&&o(M,DE)){ad=1;ae=1}if(!ae){var
+A=af(k[2]),ap=af(u(a,DH)),N=Y(function(a){return ev(0,a)},ap);if(!az(BL,A)&&!az(function(a){return 13===a[1]?1:0},N)){var
+as=Y(Bv,A),f=ai(b[2]);if(o(b[1],CQ))var
+H=de(U,u(f,CR)),I=de(U,u(f,CS)),aj=I[2],ak=I[1],al=U(u(f,CT)),O=[1,H[1],H[2],al,ak,aj];else
 var
-am=fl(S,u(f,Ci)),O=[0,fl(S,u(f,Cj)),am];return[0,as,O,z,N]}n(0);var
-aq=X(jo,ad(u(a,C8))),ar=jp(b);return[1,0,X(oJ,A),0,ar,0,aq]}}}else
-if(!o(b[1],C9)){n(0);var
-P=X(jo,ad(u(a,C_))),v=0,e=P;for(;;){if(e){var
+am=fr(U,u(f,CU)),O=[0,fr(U,u(f,CV)),am];return[0,as,O,z,N]}n(0);var
+aq=Y(jB,af(u(a,DI))),ar=jC(b);return[1,0,Y(o4,A),0,ar,0,aq]}}}else
+if(!o(b[1],DJ)){n(0);var
+P=Y(jB,af(u(a,DK))),v=0,e=P;for(;;){if(e){var
 F=e[2],G=e[1];if(0===G[1]){var
 v=[0,G,v],e=F;continue}var
 e=F;continue}var
-m=j$(v),ag=0;if(m){var
+m=km(v),ag=0;if(m){var
 d=0,Q=m[1][4];if(typeof
 Q==="number")d=1;else
 switch(Q[0]){case
@@ -7965,68 +8138,68 @@ D=1;if(!D)d=1}else
 d=1;break;case
 1:var
 C=m[2];if(C){var
-E=0,T=C[1][4];if(typeof
-T!=="number"&&0===T[0])if(C[2]){d=1;E=1}else
+E=0,S=C[1][4];if(typeof
+S!=="number"&&0===S[0])if(C[2]){d=1;E=1}else
 E=1;if(!E)d=1}else
-d=1;break;default:d=1}if(!d)ag=1}if(!ag)$(C$);var
-at=S(u(ah(b[2]),Da));return[4,S(u(ah(k[2]),Db)),at,P]}}if(!ae)return $([0,C2,[0,c,C1]])}else
-if(!o(b[1],Dc)){n(0);var
-p=ah(k[2]),U=ah(b[2]),W=function(c,a){var
-b=ad(a);return X(function(d){var
-a=ad(d);if(a){var
+d=1;break;default:d=1}if(!d)ag=1}if(!ag)ac(DL);var
+at=U(u(ai(b[2]),DM));return[4,U(u(ai(k[2]),DN)),at,P]}}if(!ad)return ac([0,DC,[0,c,DB]])}else
+if(!o(b[1],DO)){n(0);var
+p=ai(k[2]),T=ai(b[2]),V=function(c,a){var
+b=af(a);return Y(function(d){var
+a=af(d);if(a){var
 b=a[2];if(b&&!b[2]){var
-e=i(c,b[1]);return[0,aS(a[1]),e]}}throw V},b)},au=function(d){var
-a=ah(d);if(a){var
-b=a[1],c=b[1];if(o(c,Dd)){if(!o(c,De)&&!a[2])return[0,X(jm,ad(b[2]))]}else
-if(!a[2])return[1,jm(b[2])]}throw V},av=X(oM,ad(u(a,Df))),ax=X(S,ad(u(U,Dg))),az=X(S,ad(u(U,Dh))),aA=X(au,ad(u(p,Di))),aB=W(jm,u(p,Dj)),aC=W(cb,u(p,Dk));return[3,X(aS,ad(u(p,Dl))),aC,aB,aA,az,ax,av]}return $([0,C6,[0,b[1],C5]])}throw V}var
-Y=ah(k[2]),q=cA(S,a6(Y,Dm)),aD=function(f){var
-a=dz(f),b=a[1];if(o(b,Dn)){if(o(b,Do)){if(o(b,Dp)){if(o(b,Dq))throw V;var
-d=a[2],g=S(u(ah(d),Dr));return[3,S(u(ah(d),Ds)),g]}var
-h=a[2],c=function(a){return c6(S,u(ah(h),a))},i=c(Dt),j=c(Du);return[1,c(Dv),j,i]}var
-e=c6(S,a[2]);return[0,e[1],e[2]]}return[2,S(a[2])]},r=cA(aD,a6(a,Dw)),Z=o(c,Dx),_=Z?o(c,Dy)?2:1:Z,s=ad(u(Y,Dz));if(q&&r&&ht(oK,s)){var
+e=i(c,b[1]);return[0,aV(a[1]),e]}}throw W},b)},au=function(d){var
+a=ai(d);if(a){var
+b=a[1],c=b[1];if(o(c,DP)){if(!o(c,DQ)&&!a[2])return[0,Y(jz,af(b[2]))]}else
+if(!a[2])return[1,jz(b[2])]}throw W},av=Y(o7,af(u(a,DR))),ax=Y(U,af(u(T,DS))),ay=Y(U,af(u(T,DT))),aA=Y(au,af(u(p,DU))),aB=V(jz,u(p,DV)),aC=V(ce,u(p,DW));return[3,Y(aV,af(u(p,DX))),aC,aB,aA,ay,ax,av]}return ac([0,DG,[0,b[1],DF]])}throw W}var
+X=ai(k[2]),q=cH(U,a7(X,DY)),aD=function(f){var
+a=dD(f),b=a[1];if(o(b,DZ)){if(o(b,D0)){if(o(b,D1)){if(o(b,D2))throw W;var
+d=a[2],g=U(u(ai(d),D3));return[3,U(u(ai(d),D4)),g]}var
+h=a[2],c=function(a){return de(U,u(ai(h),a))},i=c(D5),j=c(D6);return[1,c(D7),j,i]}var
+e=de(U,a[2]);return[0,e[1],e[2]]}return[2,U(a[2])]},r=cH(aD,a7(a,D8)),Z=o(c,D9),_=Z?o(c,D_)?2:1:Z,s=af(u(X,D$));if(q&&r&&hC(o5,s)){var
 aE=function(c){var
-a=ah(c);function
-b(b){return X(cb,ad(u(a,b)))}if(0!==a6(a,DA))$(DB);var
-d=b(DC);return[0,b(DD),d]},aF=X(Cb,ad(u(a,DE))),aG=r[1],aH=jp(b),aI=q[1];return[2,_,X(aE,s),aI,aH,aG,z,aF]}n(0);var
-ai=0;if(!q&&aw(c,DH)){var
-aa=1;ai=1}if(!ai)var
-aa=[0,_];var
-ab=0!==r?1:0,aJ=ab?ay(oK,s):ab;if(aJ)$(DF);var
-aK=X(jo,ad(u(a,DG))),aL=jp(b);return[1,aa,X(oJ,s),q,aL,r,aK]}var
-t=ah(g[2]);function
+a=ai(c);function
+b(b){return Y(ce,af(u(a,b)))}if(0!==a7(a,Ea))ac(Eb);var
+d=b(Ec);return[0,b(Ed),d]},aF=Y(CN,af(u(a,Ee))),aG=r[1],aH=jC(b),aI=q[1];return[2,_,Y(aE,s),aI,aH,aG,z,aF]}n(0);var
+ah=0;if(!q&&aw(c,Eh)){var
+$=1;ah=1}if(!ah)var
+$=[0,_];var
+aa=0!==r?1:0,aJ=aa?az(o5,s):aa;if(aJ)ac(Ef);var
+aK=Y(jB,af(u(a,Eg))),aL=jC(b);return[1,$,Y(o4,s),q,aL,r,aK]}var
+t=ai(g[2]);function
 aM(b){var
-a=ah(b),c=S(u(a,DI)),d=[0,S(u(a,DJ)),c];return[0,aS(u(a,DK)),d]}var
-l=jq([0,[0,[0,DM,u(t,DL)],0]]);if(0===l[0]&&!l[3]){var
-aN=S(u(t,DO)),aO=S(u(t,DP)),aP=l[4],aQ=l[2],aR=l[1];return[7,X(aM,ad(u(t,DQ))),aR,aQ,aP,aO,aN]}return $(DN)}function
-fn(a){return X(ep,ad(a))}function
-jr(c,b){var
-a=fn(b);if(ci(a)!==c)throw V;return a}function
-oN(a,d){var
-b=ah(d),e=ad(u(b,DT)),f=a[2],c=X(function(a){return jr(f,a)},e),g=a[1];if(ci(c)!==g)throw V;return[0,c,dA(u(b,DU))]}function
-er(au,i){var
+a=ai(b),c=U(u(a,Ei)),d=[0,U(u(a,Ej)),c];return[0,aV(u(a,Ek)),d]}var
+l=jD([0,[0,[0,Em,u(t,El)],0]]);if(0===l[0]&&!l[3]){var
+aN=U(u(t,Eo)),aO=U(u(t,Ep)),aP=l[4],aQ=l[2],aR=l[1];return[7,Y(aM,af(u(t,Eq))),aR,aQ,aP,aO,aN]}return ac(En)}function
+ft(a){return Y(eu,af(a))}function
+jE(c,b){var
+a=ft(b);if(cl(a)!==c)throw W;return a}function
+o8(a,d){var
+b=ai(d),e=af(u(b,Et)),f=a[2],c=Y(function(a){return jE(f,a)},e),g=a[1];if(cl(c)!==g)throw W;return[0,c,dE(u(b,Eu))]}function
+ew(au,i){var
 as=0;if(0===i[0]){var
 s=i[1];if(s){var
-S=s[1];if(!o(S[1],DV)){var
-ai=S[2];if(0===ai[0]){var
-J=ai[1];if(J){var
-aj=J[1];if(!o(aj[1],Ee)){var
+S=s[1];if(!o(S[1],Ev)){var
+ah=S[2];if(0===ah[0]){var
+J=ah[1];if(J){var
+aj=J[1];if(!o(aj[1],EQ)){var
 ak=aj[2];if(1===ak[0]){var
 K=ak[1];if(K){var
 al=K[1];if(1===al[0]){var
 am=al[1];if(am&&!am[2]&&!K[2]){var
 an=J[2];if(an&&!an[2]&&!s[2]){var
-f=Ef;as=1}}}}}}}}}}}if(!as)var
+f=ER;as=1}}}}}}}}}}}if(!as)var
 f=au;var
 T=f[2];switch(i[0]){case
 0:var
 b=i[1];if(b){var
-e=b[1],c=e[1],U=q$(c,DW),a=0;if(0<=U)if(0<U)if(o(c,DX)){var
-g=0;if(o(c,DY)&&o(c,DZ)&&o(c,D0))if(o(c,D1))g=1;else{var
-W=e[2];if(1===W[0]){var
-t=W[1];if(t){var
+e=b[1],c=e[1],U=ru(c,Ew),a=0;if(0<=U)if(0<U)if(o(c,Ex)){var
+g=0;if(o(c,Ey)&&o(c,Ez)&&o(c,EA))if(o(c,EB))g=1;else{var
+V=e[2];if(1===V[0]){var
+t=V[1];if(t){var
 v=t[2];if(v){var
 w=v[2];if(w&&!w[2]){if(!b[2]){var
-av=X(fn,ad(w[1])),aw=aS(v[1]);return[8,er(f,t[1]),aw,av]}a=1;g=1}else
+av=Y(ft,af(w[1])),aw=aV(v[1]);return[8,ew(f,t[1]),aw,av]}a=1;g=1}else
 g=1}else
 g=1}else
 g=1}else
@@ -8035,343 +8208,312 @@ ax=e[2],y=ax,x=function(b,a){return[1,c,b,a]};a=2}}else{var
 Z=e[2];if(1===Z[0]){var
 k=Z[1];if(k){var
 z=k[1],q=0;if(0===z[0]){var
-A=z[1];if(A&&!o(A[1][1],D4)&&!A[2]){var
+A=z[1];if(A&&!o(A[1][1],EE)&&!A[2]){var
 _=k[2];if(_){var
-aa=_[2];if(aa&&!aa[2]){if(!b[2])return $(D5);a=1;q=1}else
+$=_[2];if($&&!$[2]){if(!b[2])return ac(EF);a=1;q=1}else
 q=1}else
 q=1}}if(!q){var
 B=k[2];if(B){var
 C=B[2];if(C&&!C[2]){if(!b[2]){var
-ay=dA(C[1]),az=ep(B[1]);return[5,er(f,z),az,ay]}a=1}}}}}}else{var
-ab=e[2];if(1===ab[0]){if(!b[2]){var
+ay=dE(C[1]),az=eu(B[1]);return[5,ew(f,z),az,ay]}a=1}}}}}}else{var
+aa=e[2];if(1===aa[0]){if(!b[2]){var
 aA=function(i){if(1===i[0]){var
 b=i[1];if(b){var
 c=b[2];if(c){var
 d=c[2];if(d){var
 a=d[2];if(a){var
 e=a[1],h=0;if(0===e[0]){var
-g=e[1];if(g&&!(o(g[1][1],D6)||g[2])){if(!a[2]){var
-j=er(f,e),k=dA(d[1]),l=ep(c[1]);return[0,[0,[0,fn(b[1]),l],k],j]}}else
+g=e[1];if(g&&!(o(g[1][1],EG)||g[2])){if(!a[2]){var
+j=ew(f,e),k=dE(d[1]),l=eu(c[1]);return[0,[0,[0,ft(b[1]),l],k],j]}}else
 h=1}else
-h=1;if(h&&!a[2])return $(D7)}}}}}throw V};return[9,X(aA,ab[1])]}a=1}}else
-if(o(c,D8))if(o(c,D9))if(o(c,D_))if(o(c,D$)){if(!o(c,Ea)){if(!b[2]){var
-ac=ah(e[2]),aB=ad(u(ac,Eb)),aC=T+1|0,ae=X(function(a){return jr(aC,a)},aB);if(3===ci(ae))return[1,Ed,ae,dA(u(ac,Ec))];throw V}a=1}}else{if(!b[2]){var
-P=aS(e[2]),Q=o(P,DR);if(Q){if(o(P,DS))throw V;var
+h=1;if(h&&!a[2])return ac(EH)}}}}}throw W};return[9,Y(aA,aa[1])]}a=1}}else
+if(o(c,EI))if(o(c,EJ))if(o(c,EK))if(o(c,EL)){if(!o(c,EM)){if(!b[2]){var
+ab=ai(e[2]),aB=af(u(ab,EN)),aC=T+1|0,ad=Y(function(a){return jE(aC,a)},aB);if(3===cl(ad))return[1,EP,ad,dE(u(ab,EO))];throw W}a=1}}else{if(!b[2]){var
+P=aV(e[2]),Q=o(P,Er);if(Q){if(o(P,Es))throw W;var
 R=1}else
 var
 R=Q;return[2,R]}a=1}else{if(!b[2]){var
 l=e[2],r=0;switch(l[0]){case
 0:var
 m=l[1];if(m){var
-ao=m[1],j=ao[1],d=0;if(o(j,Eg)&&o(j,Eh)&&o(j,Ei)&&o(j,Ej))if(o(j,Ek))d=1;else{var
+ao=m[1],j=ao[1],d=0;if(o(j,ES)&&o(j,ET)&&o(j,EU)&&o(j,EV))if(o(j,EW))d=1;else{var
 ap=ao[2];if(1===ap[0]){var
 L=ap[1];if(L){var
 n=L[1],h=0;switch(n[0]){case
 0:var
 M=n[1];if(M){var
-p=M[1][1],at=0;if(o(p,Em)&&o(p,En)&&o(p,Eo)&&o(p,Ep)){d=1;h=1;at=1}if(!at&&M[2]){d=1;h=1}}else{d=1;h=1}break;case
+p=M[1][1],at=0;if(o(p,EY)&&o(p,EZ)&&o(p,E0)&&o(p,E1)){d=1;h=1;at=1}if(!at&&M[2]){d=1;h=1}}else{d=1;h=1}break;case
 2:var
-aq=n[1];if(o(aq,Eq)&&o(aq,Er)){d=1;h=1}break;default:d=1;h=1}if(!h){var
+aq=n[1];if(o(aq,E2)&&o(aq,E3)){d=1;h=1}break;default:d=1;h=1}if(!h){var
 N=L[2];if(N){var
 O=N[2];if(O&&!(O[2]||m[2])){var
-aI=dA(O[1]),aJ=ep(N[1]),D=[6,er(f,n),aJ,aI];r=2;d=1}else
+aI=dE(O[1]),aJ=eu(N[1]),D=[6,ew(f,n),aJ,aI];r=2;d=1}else
 d=1}else
 d=1}}else
 d=1}else
 d=1}if(!d&&!m[2])r=1}break;case
 2:var
-ar=l[1];if(!o(ar,Es)||!o(ar,Et))r=1;break}switch(r){case
+ar=l[1];if(!o(ar,E4)||!o(ar,E5))r=1;break}switch(r){case
 0:var
-D=$(El);break;case
+D=ac(EX);break;case
 1:var
-D=er(f,l);break}return[7,D]}a=1}else{var
-af=e[2];if(1===af[0]){var
-E=af[1];if(E){var
+D=ew(f,l);break}return[7,D]}a=1}else{var
+ae=e[2];if(1===ae[0]){var
+E=ae[1];if(E){var
 F=E[2];if(F&&!F[2])if(b[2])a=1;else{var
-aD=F[1],aE=E[1],y=aE,x=function(b,a){return[3,b,a,jr(T+1|0,aD)]};a=2}}}}else{var
+aD=F[1],aE=E[1],y=aE,x=function(b,a){return[3,b,a,jE(T+1|0,aD)]};a=2}}}}else{var
 ag=e[2];if(1===ag[0]){var
 G=ag[1];if(G){var
 H=G[2];if(H){var
 I=H[2];if(I&&!I[2])if(b[2])a=1;else{var
 aF=I[1],aG=H[1],aH=G[1],y=aH,x=function(b,a){var
-c=dA(aF);return[4,b,a,ep(aG),c]};a=2}}}}}switch(a){case
-0:if(!b[2])return $([0,D3,[0,c,D2]]);break;case
+c=dE(aF);return[4,b,a,eu(aG),c]};a=2}}}}}switch(a){case
+0:if(!b[2])return ac([0,ED,[0,c,EC]]);break;case
 1:break;default:var
-Y=oN(f,y);return x(Y[1],Y[2])}}break;case
-2:return[0,i[1]]}throw V}function
-oO(n){var
-b=dz(n),a=b[1];if(o(a,Ew))if(o(a,Ex)){var
-h=o(a,Ey);if(!h)return h;if(o(a,Ez)){if(!o(a,EA)){var
-c=ah(b[2]),i=function(a){return X(S,ad(u(c,a)))},j=ah(u(c,EE)),p=dA(u(j,EF)),q=X(fn,ad(u(j,EG))),r=i(EH),s=i(EI);return[3,cB(u(c,EJ)),s,r,q,p]}if(!o(a,EB))return[2,X(S,ad(b[2]))]}else{var
+X=o8(f,y);return x(X[1],X[2])}}break;case
+2:return[0,i[1]]}throw W}function
+o9(n){var
+b=dD(n),a=b[1];if(o(a,E8))if(o(a,E9)){var
+h=o(a,E_);if(!h)return h;if(o(a,E$)){if(!o(a,Fa)){var
+c=ai(b[2]),i=function(a){return Y(U,af(u(c,a)))},j=ai(u(c,Fe)),p=dE(u(j,Ff)),q=Y(ft,af(u(j,Fg))),r=i(Fh),s=i(Fi);return[3,cI(u(c,Fj)),s,r,q,p]}if(!o(a,Fb))return[2,Y(U,af(b[2]))]}else{var
 k=b[2];if(1===k[0]){var
 d=k[1];if(d){var
 e=d[2];if(e&&!e[2]){var
-t=cB(e[1]);return[1,cB(d[1]),t]}}}}}else{var
+t=cI(e[1]);return[1,cI(d[1]),t]}}}}}else{var
 l=b[2];if(1===l[0]){var
 f=l[1];if(f){var
 g=f[2];if(g&&!g[2]){var
-v=X(fn,ad(g[1]));return[0,cB(f[1]),v]}}}}else{var
-m=b[2];if(1===m[0]&&!m[1])return 1}return $([0,ED,[0,a,EC]])}function
-oP(f,b){var
-a=ah(b),c=ad(u(a,EO)),d=X(function(g){var
-a=ah(g);function
+v=Y(ft,af(g[1]));return[0,cI(f[1]),v]}}}}else{var
+m=b[2];if(1===m[0]&&!m[1])return 1}return ac([0,Fd,[0,a,Fc]])}function
+o_(f,b){var
+a=ai(b),c=af(u(a,Fo)),d=Y(function(g){var
+a=ai(g);function
 b(d,c){var
-b=a6(a,c);return b?X(d,ad(b[1])):b}var
-c=b(ep,EK),d=cA(oO,a6(a,EL)),e=cA(cB,a6(a,EM));return[0,b(function(h){var
-b=ad(h);if(b){var
+b=a7(a,c);return b?Y(d,af(b[1])):b}var
+c=b(eu,Fk),d=cH(o9,a7(a,Fl)),e=cH(cI,a7(a,Fm));return[0,b(function(h){var
+b=af(h);if(b){var
 a=b[2];if(a){var
-c=a[1],e=b[1],d=0;if(2===c[0]&&!o(c[1],Eu)){if(!a[2]){if(o(fk(e),Ev))throw V;d=1}}else
+c=a[1],e=b[1],d=0;if(2===c[0]&&!o(c[1],E6)){if(!a[2]){if(o(fq(e),E7))throw W;d=1}}else
 d=1;if(d&&!a[2]){var
-g=er(f,c);return[0,cB(e),g]}}}throw V},EN),e,d,c]},c),e=a6(a,EP),g=cA(function(a){return oN(f,a)},e);return[0,oG(u(a,EQ)),g,d]}function
-oQ(c){var
-a=ah(c),b=a6(a,ER),d=b?X(S,ad(b[1])):b,e=oO(u(a,ES)),f=X(S,ad(u(a,ET)));return[0,oG(u(a,EU)),f,d,e]}function
-E4(c){var
+g=ew(f,c);return[0,cI(e),g]}}}throw W},Fn),e,d,c]},c),e=a7(a,Fp),g=cH(function(a){return o8(f,a)},e);return[0,o1(u(a,Fq)),g,d]}function
+o$(c){var
+a=ai(c),b=a7(a,Fr),d=b?Y(U,af(b[1])):b,e=o9(u(a,Fs)),f=Y(U,af(u(a,Ft)));return[0,o1(u(a,Fu)),f,d,e]}function
+FE(c){var
 a=c[1],b=0;if(10<=a){if(!(13<=a))b=1}else
 if(8===a)b=1;return b?1:0}function
-E5(b){var
+FF(b){var
 a=b[3];if(a&&1===a[1][0])return 1;return 0}function
-E6(b){var
+FG(b){var
 c=b[1],a=b[4];if(14<=c&&typeof
-a!=="number"&&1===a[0])return 1-gu(j(a[1]));return 10===c?1:0}function
-E_(p){var
-s=au(p),c=[0,0];function
-t(a){if(c[1]<s)return aY(p,c[1]);throw V}function
-v(a){if(t(0)===a){c[1]++;return 0}throw V}function
-aa(a,b){for(;;){if(c[1]<s&&i(b,aY(p,c[1]))){c[1]++;continue}return dK(p,a,c[1]-a|0)}}function
-ab(d){v(34);function
+a!=="number"&&1===a[0])return 1-gD(j(a[1]));return 10===c?1:0}function
+FK(k){var
+n=au(k),c=[0,0];function
+p(a){if(c[1]<n)return a0(k,c[1]);throw W}function
+q(a){if(p(0)===a){c[1]++;return 0}throw W}function
+L(a,b){for(;;){if(c[1]<n&&i(b,a0(k,c[1]))){c[1]++;continue}return dO(k,a,c[1]-a|0)}}function
+M(d){q(34);function
 a(a){var
 b=34!==a?1:0;if(b)var
 c=92!==a?1:0,d=c?32<=a?1:0:c;else
 var
 d=b;return d}var
-b=aa(c[1],a);v(34);return b}function
-ac(e,a){if(t(0)===a){c[1]++;return 0}var
+b=L(c[1],a);q(34);return b}function
+N(e,a){if(p(0)===a){c[1]++;return 0}var
 b=0;for(;;){var
-d=[0,i(e,0),b];if(44===t(0)){c[1]++;var
-b=d;continue}v(a);return j$(d)}}function
-D(b,i){if(64<b)throw V;var
-a=t(0),d=0;if(48<=a){if(91===a){c[1]++;var
-e=93,f=b+1|0;return[1,ac(function(a){return D(f,a)},e)]}if(123===a){c[1]++;var
-g=125;return[0,ac(function(c){var
-a=ab(0);v(58);return[0,a,D(b+1|0,0)]},g)]}if(!(58<=a))d=1}else{if(34===a)return[2,ab(0)];if(45===a)d=1}if(d){var
-h=c[1];c[1]++;return[3,aa(h,function(a){var
-b=48<=a?1:0,c=b?a<=57?1:0:b;return c})]}throw V}var
-aQ=D(0,0),ae=c[1]<s?1:0,aR=ae?10===aY(p,c[1])?1:0:ae;if(aR)c[1]++;if(c[1]<s)throw V;var
-z=ah(aQ);if(o(aS(u(z,E$)),Fa))throw V;var
-a=jq(u(z,Fb)),K=0;switch(a[0]){case
+d=[0,i(e,0),b];if(44===p(0)){c[1]++;var
+b=d;continue}q(a);return km(d)}}function
+y(b,i){if(64<b)throw W;var
+a=p(0),d=0;if(48<=a){if(91===a){c[1]++;var
+e=93,f=b+1|0;return[1,N(function(a){return y(f,a)},e)]}if(123===a){c[1]++;var
+g=125;return[0,N(function(c){var
+a=M(0);q(58);return[0,a,y(b+1|0,0)]},g)]}if(!(58<=a))d=1}else{if(34===a)return[2,M(0)];if(45===a)d=1}if(d){var
+h=c[1];c[1]++;return[3,L(h,function(a){var
+b=48<=a?1:0,c=b?a<=57?1:0:b;return c})]}throw W}var
+ar=y(0,0),O=c[1]<n?1:0,as=O?10===a0(k,c[1])?1:0:O;if(as)c[1]++;if(c[1]<n)throw W;var
+v=ai(ar);if(o(aV(u(v,FL)),FM))throw W;var
+a=jD(u(v,FN)),H=0;switch(a[0]){case
 1:var
-I=a[1],L=0;if(typeof
-I==="number")if(I)var
-J=2;else
-L=1;else
-if(1===I[1])var
-J=6;else
-L=1;if(L)var
-J=3;var
-l=[0,ci(a[2]),J];break;case
+E=a[1],I=0;if(typeof
+E==="number")if(E)var
+G=2;else
+I=1;else
+if(1===E[1])var
+G=6;else
+I=1;if(I)var
+G=3;var
+j=[0,cl(a[2]),G];break;case
 2:var
-a7=1===a[1]?6:3,l=[0,ci(a[2]),a7];break;case
+aI=1===a[1]?6:3,j=[0,cl(a[2]),aI];break;case
 3:var
-a8=ci(a[1]),l=[0,ci(a[4]),a8];break;case
+aJ=cl(a[1]),j=[0,cl(a[4]),aJ];break;case
 7:var
-af=a[2];K=1;break;case
+P=a[2];H=1;break;case
 0:case
 5:var
-af=a[1];K=1;break;default:var
-l=FA}if(K)var
-l=[0,ci(af),3];var
-w=dz(u(z,Fc)),x=w[1];if(o(x,EZ))if(o(x,E0))if(o(x,E1))var
-b=$([0,E3,[0,x,E2]]);else
+P=a[1];H=1;break;default:var
+j=Ga}if(H)var
+j=[0,cl(P),3];var
+r=dD(u(v,FO)),s=r[1];if(o(s,Fz))if(o(s,FA))if(o(s,FB))var
+b=ac([0,FD,[0,s,FC]]);else
 var
-y=oQ(w[2]),b=[1,y[1],y[2],y[3],y[4]];else
+t=o$(r[2]),b=[1,t[1],t[2],t[3],t[4]];else
 var
-E=oP(l,w[2]),b=[0,E[1],E[2],E[3]];else
+z=o_(j,r[2]),b=[0,z[1],z[2],z[3]];else
 var
-aT=ad(w[2]),b=[2,X(function(f){var
-a=dz(f),b=a[1];if(o(b,EV)){if(o(b,EW)){if(o(b,EX)){var
-e=o(b,EY);if(e)throw V;return e}return[0,cB(a[2])]}var
-c=oQ(a[2]);return[2,c[1],c[2],c[3],c[4]]}var
-d=oP(l,a[2]);return[1,d[1],d[2],d[3]]},aT)];function
-aU(a){var
-b=a[1];return ay(function(a){return 7<a[2][0]?1:0},b)}function
-aV(a){return 0!==a[3]?1:0}function
-ag(a){return ay(aV,a)}function
-ai(a){if(typeof
+at=af(r[2]),b=[2,Y(function(f){var
+a=dD(f),b=a[1];if(o(b,Fv)){if(o(b,Fw)){if(o(b,Fx)){var
+e=o(b,Fy);if(e)throw W;return e}return[0,cI(a[2])]}var
+c=o$(a[2]);return[2,c[1],c[2],c[3],c[4]]}var
+d=o_(j,a[2]);return[1,d[1],d[2],d[3]]},at)];function
+av(a){var
+b=a[1];return az(function(a){return 7<a[2][0]?1:0},b)}function
+aw(a){return 0!==a[3]?1:0}function
+Q(a){return az(aw,a)}function
+R(a){if(typeof
 a!=="number"&&2===a[0])return 1;return 0}var
 d=0;switch(a[0]){case
 0:switch(b[0]){case
 0:var
-ak=a[4],aj=a[1];d=6;break;case
+T=a[4],S=a[1];d=6;break;case
 1:var
-am=b[4];d=typeof
-am==="number"||!(3===am[0])?1:5;break;default:d=2}break;case
+V=b[4];d=typeof
+V==="number"||!(3===V[0])?1:5;break;default:d=2}break;case
 1:var
-av=0;if(0===b[0]){var
-a0=b[3];if(ay(function(a){var
-b=a[1];return ay(function(a){switch(a[2][0]){case
+ae=0;if(0===b[0]){var
+aB=b[3];if(az(function(a){var
+b=a[1];return az(function(a){switch(a[2][0]){case
 6:case
-7:return 1;default:return 0}},b)},a0)){$(Fq);av=1}}if(!av){var
-a1=a[6];if(ay(function(a){return 5===a[1]?1:0},a1)){var
-a2=a[2];if(ay(function(a){return 1===a[0]?1:0},a2))$(Fr);else
+7:return 1;default:return 0}},b)},aB)){ac(F2);ae=1}}if(!ae){var
+aC=a[6];if(az(function(a){return 5===a[1]?1:0},aC)){var
+aD=a[2];if(az(function(a){return 1===a[0]?1:0},aD))ac(F3);else
 d=1}else
 d=1}break;case
 2:var
-ap=a[7],G=a[1];switch(b[0]){case
+_=a[7],C=a[1];switch(b[0]){case
 0:var
-a3=1===G?6:3,aq=ci(a[2])===a3?1:0;if(aq){var
-aw=0;if(2<=G||!(0===a[4][0]))aw=1;else
+aE=1===C?6:3,$=cl(a[2])===aE?1:0;if($){var
+ag=0;if(2<=C||!(0===a[4][0]))ag=1;else
 var
-H=1;if(aw)var
-H=0}else
+D=1;if(ag)var
+D=0}else
 var
-H=aq;var
-a4=function(b){var
+D=$;var
+aF=function(b){var
 g=0;if(!b[1]){var
 d=b[2];if(8===d[0]){var
 e=d[1];if(7===e[0]){var
 c=e[1],a=0;switch(c[0]){case
-1:if(o(c[1],Fs))a=1;break;case
+1:if(o(c[1],F4))a=1;break;case
 6:var
-f=c[1];if(1!==f[0]||o(f[1],Ft))a=1;break;default:a=1}if(!a)return 1-H}}else
-g=1}if(!g&&8===b[2][0])return 1;return 0},a5=b[3],a9=0;if(ay(function(a){return ay(a4,a[1])},a5))$(Fu);else{var
-ax=0;if(ay(function(a){return 11===a[1]?1:0},ap)){var
-az=0;if(1===G&&2===a[5][0]){var
-ar=0;az=1}if(!az)var
-ar=1;if(ar){$(Fv);ax=1}}if(!ax){var
-a6=b[3];if(ht(function(a){var
-b=a[1];return ht(function(d){var
+f=c[1];if(1!==f[0]||o(f[1],F5))a=1;break;default:a=1}if(!a)return 1-D}}else
+g=1}if(!g&&8===b[2][0])return 1;return 0},aG=b[3],aK=0;if(az(function(a){return az(aF,a[1])},aG))ac(F6);else{var
+ah=0;if(az(function(a){return 11===a[1]?1:0},_)){var
+aj=0;if(1===C&&2===a[5][0]){var
+aa=0;aj=1}if(!aj)var
+aa=1;if(aa){ac(F7);ah=1}}if(!ah){var
+aH=b[3];if(hC(function(a){var
+b=a[1];return hC(function(d){var
 b=d[2],a=0;switch(b[0]){case
 0:var
-c=b[1];if(o(c,E7)){if(!o(c,E8))return ay(E6,ap)}else
+c=b[1];if(o(c,FH)){if(!o(c,FI))return az(FG,_)}else
 a=1;break;case
-1:if(!o(b[1],E9))a=1;break;case
+1:if(!o(b[1],FJ))a=1;break;case
 7:case
-8:a=1;break}return a?1:0},b)},a6)){d=3;a9=1}else
-$(Fw)}}break;case
+8:a=1;break}return a?1:0},b)},aH)){d=3;aK=1}else
+ac(F8)}}break;case
 1:var
-aA=0,as=b[4];if(typeof
-as==="number"||!(1<as[0]))aA=1;else
-d=5;if(aA)d=1;break;default:d=2}break;case
+ak=0,ab=b[4];if(typeof
+ab==="number"||!(1<ab[0]))ak=1;else
+d=5;if(ak)d=1;break;default:d=2}break;case
 3:switch(b[0]){case
-0:if(ay(aU,b[3]))$(Fx);else
+0:if(az(av,b[3]))ac(F9);else
 d=3;break;case
 2:d=2;break;default:d=1}break;case
 7:switch(b[0]){case
 2:var
-at=b[1],aB=0;if(ay(function(a){if(typeof
+ad=b[1],al=0;if(az(function(a){if(typeof
 a!=="number"&&2===a[0]){var
 b=a[4];if(typeof
-b!=="number"&&3===b[0])return 1}return 0},at)){$(Fy);aB=1}else
-if(ay(function(a){if(typeof
-a!=="number"&&2===a[0])return ai(a[4]);return 0},at)){$(Fz);aB=1}else
+b!=="number"&&3===b[0])return 1}return 0},ad)){ac(F_);al=1}else
+if(az(function(a){if(typeof
+a!=="number"&&2===a[0])return R(a[4]);return 0},ad)){ac(F$);al=1}else
 d=4;break;case
 1:d=1;break;default:d=4}break;default:d=1}var
-k=0;switch(d){case
+h=0;switch(d){case
 1:if(1===b[0]){var
-aC=0,ao=b[4];if(typeof
-ao!=="number"&&3===ao[0]){$(Fp);aC=1}if(!aC)if(ai(b[4]))$(Fo);else
-k=3}else
-k=3;break;case
-4:k=3;break;case
+am=0,Z=b[4];if(typeof
+Z!=="number"&&3===Z[0]){ac(F1);am=1}if(!am)if(R(b[4]))ac(F0);else
+h=3}else
+h=3;break;case
+4:h=3;break;case
 5:break;case
 0:break;case
-6:k=4;break;case
-3:k=1;break;default:k=2}var
-h=0;switch(k){case
+6:h=4;break;case
+3:h=1;break;default:h=2}var
+e=0;switch(h){case
 3:var
-j=0;switch(a[0]){case
+f=0;switch(a[0]){case
 1:var
-an=a[6];break;case
+X=a[6];break;case
 4:var
-an=a[3];break;case
-5:if(ay(E4,a[4])){$(Fm);h=2;j=1}else
+X=a[3];break;case
+5:if(az(FE,a[4])){ac(FY);e=2;f=1}else
 if(0===b[0]){var
-aZ=b[3];if(ay(function(a){return 0!==a[1]?1:0},aZ)){$(Fn);h=2;j=1}else
-j=1}else
-j=1;break;case
-6:j=1;break;case
+aA=b[3];if(az(function(a){return 0!==a[1]?1:0},aA)){ac(FZ);e=2;f=1}else
+f=1}else
+f=1;break;case
+6:f=1;break;case
 7:var
-ak=a[4],aj=a[2];h=3;j=1;break;default:h=1;j=1}if(!j)if(0===b[0]){if(ay(function(a){return 11===a[1]?1:0},an)){$(Fl);h=2}}else
-h=1;break;case
-0:h=2;break;case
-4:h=3;break;case
-1:break;default:h=1}var
-A=0;switch(h){case
+T=a[4],S=a[2];e=3;f=1;break;default:e=1;f=1}if(!f)if(0===b[0]){if(az(function(a){return 11===a[1]?1:0},X)){ac(FX);e=2}}else
+e=1;break;case
+0:e=2;break;case
+4:e=3;break;case
+1:break;default:e=1}var
+w=0;switch(e){case
 2:break;case
 3:var
-aD=0;if(ay(function(a){return 10===a[1]?1:0},ak)&&ay(function(a){return 2===a[0]?1:0},aj)){$(Fd);aD=1}if(!aD)A=2;break;case
-0:A=2;break;default:A=1}var
-M=0;switch(A){case
+an=0;if(az(function(a){return 10===a[1]?1:0},T)&&az(function(a){return 2===a[0]?1:0},S)){ac(FP);an=1}if(!an)w=2;break;case
+0:w=2;break;default:w=1}var
+J=0;switch(w){case
 2:var
-r=0;switch(a[0]){case
+l=0;switch(a[0]){case
 5:case
-7:if(ay(E5,a[4])){$(Fj);r=1}else
+7:if(az(FF,a[4])){ac(FV);l=1}else
 if(7===a[0])switch(b[0]){case
 2:var
-aX=function(a){if(typeof
-a!=="number"&&1===a[0])return ag(a[3]);return 0};if(ay(aX,b[1]))$(Fk);r=1;break;case
-0:break;default:M=1;r=1}else
-r=1;break}if(!r)if(0===b[0]&&ag(b[3]))$(Fi);else
-M=1;break;case
-1:M=1;break}var
-al=ah(u(z,Fe)),aW=aS(u(al,Ff)),q=[0,a,b,aS(u(al,Fg)),aW],f=q[1];switch(f[0]){case
-0:var
-N=q[2];if(1===N[0]){var
-B=N[4],aE=0;if(typeof
-B==="number"||!(0===B[0]))aE=1;else{var
-aI=B[1],aJ=f[4],aK=f[3],O=F(i6(g(f[1]),aK,aJ),aI);if(O){var
-aF=0,P=O[1];if(typeof
-P!=="number"&&14===P[0]){var
-e=0;aF=1}if(!aF)var
-e=1}else
-var
-e=1}if(aE)var
-e=1}else
-var
-e=1;break;case
-2:var
-Q=f[7],R=f[6],S=f[2],T=q[2];if(1===T[0]){var
-aL=dt(0,g(S),R,Q),aM=g(S),U=gU(f[1]),W=gV(0,U,aM,R,Q,T[4]);if(W){var
-C=W[1],aG=0;if(typeof
-C==="number"||!(0===C[0]))aG=1;else{var
-Y=ib(n,U,C[1],aL);if(Y){var
-aH=0,Z=Y[1][1];if(typeof
-Z!=="number"&&14<Z[0]){var
-e=0;aH=1}if(!aH)var
-e=1}else
-var
-e=1}if(aG)var
-e=1}else
-var
-e=1}else
-var
-e=1;break;case
-7:var
-_=q[2],aN=f[4],aO=f[2];if(2===_[0])var
-aP=_[1],e=m(function(a){if(typeof
+ay=function(a){if(typeof
+a!=="number"&&1===a[0])return Q(a[3]);return 0};if(az(ay,b[1]))ac(FW);l=1;break;case
+0:break;default:J=1;l=1}else
+l=1;break}if(!l)if(0===b[0]&&Q(b[3]))ac(FU);else
+J=1;break;case
+1:J=1;break}var
+U=ai(u(v,FQ)),ax=aV(u(U,FR)),A=[0,a,b,aV(u(U,FS)),ax],x=A[1];if(7===x[0]){var
+K=A[2],ao=x[4],ap=x[2];if(2===K[0])var
+aq=K[1],B=m(function(a){if(typeof
 a!=="number"&&2===a[0]){var
 b=a[4];if(typeof
 b!=="number"&&0===b[0]){var
-e=b[1],c=F(i6(g(aO),0,aN),e);if(c){var
+e=b[1],c=F(oi(g(ap),0,ao),e);if(c){var
 d=c[1];if(typeof
-d!=="number"&&14===d[0])return 0;return 1}return 1}return 1}return 1},aP);else
+d!=="number"&&14===d[0])return 0;return 1}return 1}return 1}return 1},aq);else
 var
-e=1;break;default:var
-e=1}return e?q:$(Fh)}function
-FB(b){var
-c=au(b),g=64,h=Hc(64,c)?g:c,a=0,i=h-18|0;for(;;){var
+B=1}else
+var
+B=1;return B?A:ac(FT)}function
+Gb(b){var
+c=au(b),g=64,h=HO(64,c)?g:c,a=0,i=h-18|0;for(;;){var
 d=a<=i?1:0;if(d){var
-e=aw(dK(b,a,18),FC);if(!e){var
+e=aw(dO(b,a,18),Gc);if(!e){var
 a=a+1|0;continue}var
 f=e}else
 var
-f=d;return f}}Hx(function(b){try{if(FB(b))var
-a=FE;else{try{var
-e=0,d=E_(b);e=1}catch(a){a=rb(a);if(a[1]===oF)var
-c=[0,a[2]];else{if(a!==V)throw a;var
+f=d;return f}}H9(function(b){try{if(Gb(b))var
+a=Ge;else{try{var
+e=0,d=FK(b);e=1}catch(a){a=rw(a);if(a[1]===o0)var
+c=[0,a[2]];else{if(a!==W)throw a;var
 c=2}}if(e)var
-c=AG(b,d)?1===d[2][0]?1:0:2;var
-a=c}}catch(a){return FD}if(typeof
+c=Bg(b,d)?1===d[2][0]?1:0:2;var
+a=c}}catch(a){return Gd}if(typeof
 a==="number")switch(a){case
-0:return FF;case
-1:return FG;default:return FH}return a8(FI,a[1])});j_(0);return}(globalThis));
+0:return Gf;case
+1:return Gg;default:return Gh}return a9(Gi,a[1])});kl(0);return}(globalThis));

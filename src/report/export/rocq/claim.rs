@@ -49,8 +49,7 @@ impl Subject<'_> {
             let requirement = problem.obligations.get(*number)?.requirement?;
             Some(self.requirements.get(requirement)?.quantity.as_str())
         });
-        let of_turning = self.kind == Kind::Turning;
-        quantity == Some("accuracy") || (of_turning && quantity == Some("joint_acceleration"))
+        self.kind == Kind::Atlas && quantity == Some("accuracy")
     }
 
     /// The value of the type `subject`.
