@@ -3,6 +3,8 @@
 open Verified
 open Reader
 
+let whole v = Z.to_N (natural (digits v))
+
 (* What is read: its bytes, and the end of the file as [None]. *)
 type source = { byte : unit -> char option }
 let of_channel channel = { byte = fun () -> match input_char channel with c -> Some c | exception End_of_file -> None }
@@ -34,7 +36,7 @@ let header line =
       | _ -> not_covered [ "this quantity in a paving" ]) require_;
     let p = members (get l "provenance") in
     { legs_; min_; max_; require_; coordinates_ = optional (fun v -> List.map coordinate (array v)) (find l "coordinates");
-      precision_ = positive (get l "precision"); depth_ = places (get l "depth");
+      precision_ = positive (get l "precision"); depth_ = whole (get l "depth");
       symmetry_ = (match find l "symmetry" with None -> false | Some v -> if string v = "permutations" then true else raise Malformed);
       tool_ = string (get p "tool"); version_ = string (get p "version") }
   | Machine_ (_, Box_ _, _, _) -> not_covered [ "a paving of a machine with bodies" ]
@@ -51,7 +53,7 @@ let summary line =
       if n = "" || (Char.code n.[String.length n - 1]) land 1 = 0 || d = "1" then raise Malformed;
       (Z.to_N (natural n), Z.to_pos (natural d))
     | _ -> raise Malformed in
-  let count key = places (get l key) in
+  let count key = whole (get l key) in
   { splits_ = count "splits"; inners_ = count "inner"; outers_ = count "outer"; boundaries_ = count "boundary";
     mirrored_ = count "mirrored"; inner_part = fraction "inner_share"; boundary_part = fraction "boundary_share" }
 
