@@ -60,11 +60,12 @@ pub fn answered(question: &[u8]) -> String {
                 json!({ "sections": anchors.iter().map(section).collect::<Vec<_>>() })
             })
         }
-        Ok(Question::Report { certificate, file, title }) => {
-            page(&certificate, &file, &title, |page| {
-                json!({ "html": page.signing(|claim| signed(claim, None)).html() })
-            })
-        }
+        Ok(Question::Report { certificate, file, title }) => page(
+            &certificate,
+            &file,
+            &title,
+            |page| json!({ "html": page.signing(|claim| signed(claim, None)).html() }),
+        ),
         Ok(Question::Limit { text, file, key }) => limit(&text, &file, &key),
         Err(error) => Err(error.to_string()),
     };
