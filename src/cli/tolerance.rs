@@ -7,7 +7,7 @@ use crate::exact::decimal::{exact, outward, Toward};
 use crate::exact::Exact;
 use crate::files::output;
 use crate::questions::frontier::Bracket;
-use crate::questions::tolerance::{legs_of, squares, widest, Kind, Scheme};
+use crate::questions::tolerance::{legs_of, squares, widest, Kind, Scheme, ROOT_BITS};
 use crate::report::text::{duration, wrap, WIDTH};
 use crate::report::{counterexample, CertificateFile, Counterexample};
 use crate::search::solver::{proof, refutation};
@@ -29,8 +29,6 @@ const BOXES: (usize, usize) = (2_000, 4);
 
 /// Significant digits of tolerances.
 const DIGITS: u32 = 6;
-/// Fractional bits of those that are not rational.
-const RATIO_BITS: u32 = 256;
 
 /// Its flags.
 #[derive(Debug, clap::Args)]
@@ -373,6 +371,8 @@ fn row(
 
 /// The unit of a direction's tolerance for people: thousandths of its length.
 const PER_METRE: &str = "mm/m";
+/// The same as the design writes it.
+const COMPONENT: &str = "component";
 
 /// A tolerance of the components of a vector, of which the square of the length is known, in thousandths of
 /// that; rounded as asked for. The same where it is not known.
@@ -380,7 +380,7 @@ fn per_metre(t: Exact, square: Option<BigRational>, toward: Toward) -> Option<Ex
     let Some(square) = square else { return Some(t) };
     let thousandths = t.as_rational()? * BigRational::from_integer(1000.into());
     let ratio = Exact::Rational(&thousandths * &thousandths / square).root().ok()?;
-    let [least, most] = ratio.ends(RATIO_BITS)?;
+    let [least, most] = ratio.ends(ROOT_BITS)?;
     Some(Exact::Rational(if matches!(toward, Toward::Below) { least } else { most }))
 }
 
@@ -392,17 +392,6 @@ fn text(rows: &[Row], arguments: &Arguments, design: &Design, started: Instant) 
         (_, Measure::Component, _) => "all directions".to_owned(),
         (_, Measure::Share, _) => "all, at a common share".to_owned(),
     };
-    let sizes = |row: &Row| {
-        let told = row.measure == Measure::Component && !arguments.verbose;
-        let leg = row.leg.map(|leg| leg - 1);
-        told.then(|| squares(&design.claim.mechanism, &row.on, leg)).flatten()
-    };
-    let measure = |row: &Row| match row.measure {
-        Measure::Length => design.unit.unwrap_or("length"),
-        Measure::Component if sizes(row).is_some() => PER_METRE,
-        Measure::Component => "component",
-        Measure::Share => "share",
-    };
     let limit =
         |row: &Row| row.counterexample.as_ref().map_or(String::new(), |it| it.limit.clone());
     let names: Vec<String> = rows.iter().map(name).collect();
@@ -411,19 +400,29 @@ fn text(rows: &[Row], arguments: &Arguments, design: &Design, started: Instant) 
         texts.max().unwrap_or(0).max(head.chars().count())
     };
     let first = width(&mut names.iter().map(|name| name.chars().count()), head);
-    let second = width(&mut rows.iter().map(|row| measure(row).len()), "in");
-    let end = |x: &Option<Exact>, toward| {
-        x.as_ref().map_or("not found".into(), |t| outward(t, DIGITS, toward))
-    };
-    let ends = |row: &Row| {
-        let [least, most] = sizes(row).map_or([None, None], |ends| ends.map(Some));
-        let scaled = |t: &Option<Exact>, square, toward| {
-            end(&t.clone().and_then(|t| per_metre(t, square, toward)), toward)
+    // What is told of a row: its unit, and both ends in it.
+    let told = |row: &Row| {
+        let in_lengths = row.measure == Measure::Component && !arguments.verbose;
+        let leg = row.leg.map(|leg| leg - 1);
+        let sizes = in_lengths.then(|| squares(&design.claim.mechanism, &row.on, leg)).flatten();
+        let unit = match row.measure {
+            Measure::Length => design.unit.unwrap_or("length"),
+            Measure::Component if sizes.is_some() => PER_METRE,
+            Measure::Component => COMPONENT,
+            Measure::Share => "share",
         };
-        let certified = scaled(&row.certified, most, Toward::Below);
-        [certified, scaled(&row.refuted, least, Toward::Above)]
+        let [least, most] = sizes.map_or([None, None], |ends| ends.map(Some));
+        let end = |t: &Option<Exact>, square, toward| {
+            let t = t.clone().and_then(|t| per_metre(t, square, toward));
+            t.map_or("not found".into(), |t| outward(&t, DIGITS, toward))
+        };
+        let certified = end(&row.certified, most, Toward::Below);
+        (unit, [certified, end(&row.refuted, least, Toward::Above)])
     };
-    let third = width(&mut rows.iter().flat_map(|row| ends(row).map(|end| end.len())), "certified");
+    let told: Vec<(&str, [String; 2])> = rows.iter().map(told).collect();
+    let second = width(&mut told.iter().map(|(unit, _)| unit.len()), "in");
+    let lengths = told.iter().flat_map(|(_, ends)| ends).map(String::len);
+    let third = width(&mut { lengths }, "certified");
     let mut out = String::new();
     let quiet = arguments.effort.quiet;
     if !quiet {
@@ -433,13 +432,11 @@ fn text(rows: &[Row], arguments: &Arguments, design: &Design, started: Instant) 
             "in", "certified", "refuted", "gap"
         );
     }
-    for (row, name) in rows.iter().zip(&names) {
-        let [certified, refuted] = ends(row);
+    for ((row, name), (unit, [certified, refuted])) in rows.iter().zip(&names).zip(&told) {
         let gap = row.gap.as_deref().unwrap_or("-");
         let mark = if row.out_of_time { " *" } else { "" };
         let line = format!(
-            "  {name:first$}  {:second$}  {certified:>third$}  {refuted:>third$}  {gap:>7}{mark}",
-            measure(row)
+            "  {name:first$}  {unit:second$}  {certified:>third$}  {refuted:>third$}  {gap:>7}{mark}"
         );
         let limit = limit(row);
         let line = match line.chars().count() + 2 + limit.chars().count() {
@@ -477,7 +474,8 @@ fn text(rows: &[Row], arguments: &Arguments, design: &Design, started: Instant) 
         }
         wrap(&mut out, &format!("Each row had at most {each} of time."), 2);
     }
-    if rows.iter().any(|row| measure(row) == PER_METRE) {
+    let is_told_in = |one: &str| told.iter().any(|(unit, _)| *unit == one);
+    if is_told_in(PER_METRE) {
         wrap(
             &mut out,
             "A direction's t is that of each component of its unit vector: 1 mm/m, across it, is 0.0573 \
@@ -485,7 +483,7 @@ fn text(rows: &[Row], arguments: &Arguments, design: &Design, started: Instant) 
             2,
         );
     }
-    if rows.iter().any(|row| measure(row) == "component") {
+    if is_told_in(COMPONENT) {
         wrap(
             &mut out,
             "A direction's t is that of its components as the design writes them: of a unit vector, \

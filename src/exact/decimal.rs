@@ -8,7 +8,7 @@ use num_traits::{One, Signed, ToPrimitive, Zero};
 use std::cmp::Ordering;
 
 /// Longest text of an exact number that is shown to people as it stands.
-const READABLE: usize = 12;
+const READABLE: u32 = 12;
 /// Most decimal places of a number in full; beyond, it is a fraction.
 const EXACT_PLACES: u32 = 40;
 /// Digits shown of a number that is not.
@@ -131,6 +131,11 @@ pub fn terminating(x: &BigRational, places: u32) -> Option<String> {
     })
 }
 
+/// The decimal that a rational is exactly, if it has one of at most so many characters.
+fn short(x: &BigRational, most: u32) -> Option<String> {
+    terminating(x, most).filter(|text| text.len() <= most as usize)
+}
+
 /// The decimal of the fewest places from `min` to `max`, `min < max`: of those the nearest to the
 /// middle.
 pub fn shortest(min: &BigRational, max: &BigRational) -> BigRational {
@@ -153,13 +158,11 @@ pub fn shortest(min: &BigRational, max: &BigRational) -> BigRational {
 /// An exact number for people: itself where that is short, as a decimal if it is one; else nine
 /// digits after a `~`.
 pub fn readable(x: &Exact) -> String {
-    if let Some(decimal) = x.as_rational().and_then(|x| terminating(x, READABLE as u32)) {
-        if decimal.len() <= READABLE {
-            return decimal;
-        }
+    if let Some(decimal) = x.as_rational().and_then(|x| short(x, READABLE)) {
+        return decimal;
     }
     let text = x.to_string();
-    if text.len() <= READABLE {
+    if text.len() <= READABLE as usize {
         return text;
     }
     // Beyond the doubles, too, the order of magnitude is what is to be seen.
@@ -173,10 +176,8 @@ pub fn readable(x: &Exact) -> String {
 /// An exact number as a decimal; where that has more than so many characters, the nine digits that it begins
 /// with, and an ellipsis.
 pub fn begun(x: &Exact, most: u32) -> String {
-    if let Some(text) = x.as_rational().and_then(|x| terminating(x, most)) {
-        if text.len() <= most as usize {
-            return text;
-        }
+    if let Some(text) = x.as_rational().and_then(|x| short(x, most)) {
+        return text;
     }
     match x.ends(SHOWN_BITS).map(|ends| ends.map(|end| first_digits(&end))) {
         Some([least, most]) if least == most && least != "0" => least,
@@ -196,11 +197,7 @@ fn first_digits(x: &BigRational) -> String {
 /// sign and point, and three more; else rounded outward.
 pub fn outward(x: &Exact, digits: u32, toward: Toward) -> String {
     let Some(x) = x.as_rational() else { return x.to_string() };
-    let short = digits + 3;
-    match terminating(x, short).filter(|text| text.len() <= short as usize) {
-        Some(text) => text,
-        None => briefly(x, digits, toward),
-    }
+    short(x, digits + 3).unwrap_or_else(|| briefly(x, digits, toward))
 }
 
 /// [`rounded`] to at most so many digits, without trailing zeros.

@@ -100,8 +100,8 @@ impl Kind {
     }
 }
 
-/// Fractional bits of squares that are not rational.
-const SQUARE_BITS: u32 = 256;
+/// Fractional bits of lengths of vectors, and of their squares, that are not rational.
+pub const ROOT_BITS: u32 = 256;
 
 /// The legs of a mechanism.
 fn legs(mechanism: &Mechanism) -> &[Leg] {
@@ -161,7 +161,7 @@ pub fn squares(
                 square = square.plus(twice.clone().times(twice).ok()?).ok()?;
             }
             let four = BigRational::from_integer(4.into());
-            all.push(square.ends(SQUARE_BITS)?.map(|end| end / &four));
+            all.push(square.ends(ROOT_BITS)?.map(|end| end / &four));
         }
     }
     let least = all.iter().map(|[least, _]| least).min()?.clone();

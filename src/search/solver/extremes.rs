@@ -319,7 +319,7 @@ pub fn enclose(
     let found = narrowest(relative, |width| {
         for _ in 0..ROUNDS {
             let step = width * known.size()?;
-            let (_, outer) = ends(extreme, known.value, &step).ok_or(NotEnclosed::Undecided)?;
+            let outer = end(extreme, known.value, &step, 2).ok_or(NotEnclosed::Undecided)?;
             let outer_claim = extreme.claim(claim, &outer).ok_or(NotEnclosed::Undecided)?;
             let found = steps.next(control, 2, |control| {
                 certify(&outer_claim, &mut known, extreme, &mut begun, budget, control)
@@ -404,7 +404,10 @@ fn inner_end(
     let mut width = narrowest.clone();
     loop {
         let step = &width * known.size()?;
-        let (value, _) = ends(extreme, known.value, &step).ok_or(NotEnclosed::Undecided)?;
+        let mut value = end(extreme, known.value, &step, -1).ok_or(NotEnclosed::Undecided)?;
+        if extreme.bounded.requirement.quantity == "conditioning" {
+            value = value.max(BigRational::one());
+        }
         let own = extreme.well_formed(claim, &value);
         let refuted = own.as_ref().and_then(|claim| refute(claim, &known.place));
         if own.is_none() || refuted.is_some() {
@@ -541,18 +544,12 @@ pub fn loosest() -> BigRational {
     BigRational::new(1.into(), 10.into())
 }
 
-/// A bound that the value found goes beyond, and one that no value is expected to go beyond.
-fn ends(extreme: &Extreme, found: f64, step: &BigRational) -> Option<(BigRational, BigRational)> {
-    let sign = BigRational::from_integer(if extreme.is_greatest() { 1 } else { -1 }.into());
-    // Two thirds of the width on the outer side, where the proof needs room.
-    let third = step * &sign / BigRational::from_integer(3.into());
-    let found = BigRational::from_f64(found)?;
-    let mut inner = rounded(&(&found - &third), step);
-    let outer = rounded(&(&found + &third + &third), step);
-    if extreme.bounded.requirement.quantity == "conditioning" {
-        inner = inner.max(BigRational::one());
-    }
-    Some((inner, outer))
+/// A bound at so many thirds of a step beyond the value found. No value is expected to go beyond two, where the
+/// proof needs room; the value itself goes beyond one on its inner side.
+fn end(extreme: &Extreme, found: f64, step: &BigRational, thirds: i32) -> Option<BigRational> {
+    let sign = if extreme.is_greatest() { 1 } else { -1 };
+    let beyond = step * BigRational::new((sign * thirds).into(), 3.into());
+    Some(rounded(&(BigRational::from_f64(found)? + beyond), step))
 }
 
 /// The decimal nearest to `x` on a grid of at most a hundredth of `step`.
