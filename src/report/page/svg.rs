@@ -207,7 +207,8 @@ pub fn beside_edges(
     }
 }
 
-/// The `d` of a path through points, to a tenth; those on a line between their neighbours are left out.
+/// The `d` of a path through points, to a tenth; those on a line between their neighbours are left out, and each but
+/// the first is told from the one before.
 pub fn path_data(points: &[[f64; 2]], closed: bool) -> String {
     let mut kept: Vec<[f64; 2]> = Vec::with_capacity(points.len());
     for next in points.iter().map(|point| point.map(|x| (10.0 * x).round())) {
@@ -219,14 +220,34 @@ pub fn path_data(points: &[[f64; 2]], closed: bool) -> String {
         }
         kept.push(next);
     }
-    let mut d = String::with_capacity(kept.len() * 12);
-    for (i, [x, y]) in kept.iter().map(|point| point.map(|x| x / 10.0)).enumerate() {
-        let _ = write!(d, "{}{x:.1} {y:.1}", if i == 0 { "M" } else { "L" });
+    let mut d = String::with_capacity(kept.len() * 8);
+    let mut before = [0.0; 2];
+    for (i, point) in kept.into_iter().enumerate() {
+        // Differences of integers are exact.
+        let [x, y] = [0, 1].map(|k| tenths(point[k] - before[k]));
+        let between = if y.starts_with('-') { "" } else { " " };
+        d += &match (i, &*x, &*y) {
+            (0, ..) => format!("M{x}{between}{y}"),
+            (_, x, "0") => format!("h{x}"),
+            (_, "0", y) => format!("v{y}"),
+            _ => format!("l{x}{between}{y}"),
+        };
+        before = point;
     }
     if closed {
         d.push('Z');
     }
     d
+}
+
+/// So many tenths, as short as can be.
+fn tenths(n: f64) -> String {
+    let text = format!("{}", n / 10.0);
+    match text.strip_prefix('-') {
+        Some("0") => "0".to_owned(),
+        Some(size) => format!("-{}", size.strip_prefix('0').unwrap_or(size)),
+        None => text.strip_prefix('0').filter(|rest| !rest.is_empty()).unwrap_or(&text).to_owned(),
+    }
 }
 
 /// Whether a way goes straight on at `b`, or has not left `a`.
@@ -243,16 +264,10 @@ mod tests {
     fn paths_have_their_corners_alone() {
         let square =
             [[0.0, 0.0], [0.5, 0.0], [1.0, 0.0], [1.0, 0.0], [1.0, 1.0], [1.0, 2.0], [0.0, 2.0]];
-        assert_eq!(path_data(&square, true), "M0.0 0.0L1.0 0.0L1.0 2.0L0.0 2.0Z");
+        assert_eq!(path_data(&square, true), "M0 0h1v2h-1Z");
         // A way that turns back, and one that bends by less than is drawn.
-        assert_eq!(
-            path_data(&[[0.0, 0.0], [2.0, 0.0], [1.0, 0.0]], false),
-            "M0.0 0.0L2.0 0.0L1.0 0.0"
-        );
-        assert_eq!(
-            path_data(&[[0.0, 0.0], [1.0, 0.1], [2.0, 0.0]], false),
-            "M0.0 0.0L1.0 0.1L2.0 0.0"
-        );
+        assert_eq!(path_data(&[[0.0, 0.0], [2.0, 0.0], [1.0, 0.0]], false), "M0 0h2h-1");
+        assert_eq!(path_data(&[[0.0, 0.0], [1.0, 0.1], [2.0, 0.0]], false), "M0 0l1 .1l1-.1");
     }
 
     #[test]
