@@ -56,9 +56,9 @@ Inductive written_driven :=
   | AnyStrut_ (anchor platform : list quantity)
   | AnyArm_ (axis reference anchor platform : list quantity) (arm rod : quantity) (mode : bool).
 
-Inductive about := Transmission | JointRange | Speed_ | Condition_ | Serial_ | Parallel_ | Stiffness_ | Constraint_ | Force_ | Clearance_ | Acceleration_ | OneToOne_ | Accuracy_ | LegAngle_ | BaseJoint_ | PlatformJoint_.
+Inductive about := Transmission | JointRange | Speed_ | Condition_ | Serial_ | Parallel_ | Stiffness_ | Constraint_ | Force_ | Clearance_ | Acceleration_ | OneToOne_ | Accuracy_ | LegAngle_ | BaseJoint_ | PlatformJoint_ | Load_.
 (** [leg_] is counted from one; [given_] is the platform's speed, of speeds, the force on it, of forces, the joints' stiffness, of stiffness,
-    the joints' error, of accuracy, and the greatest angle if it turns, its acceleration and speed, of accelerations, and an axis, of angles at joints. *)
+    the joints' error, of accuracy, and the greatest angle if it turns, its acceleration and speed, of accelerations, an axis, of angles at joints, and a force on the platform, of loads. *)
 Inductive written_given := Given_ (x : expression) | Each_ (xs : list expression) | Motion_ (acceleration speed : expression) | Near_ (error angle : expression).
 Inductive written_end := AtLeast_ (b : expression) | AtMost_ (b : expression) | Within_ (a b : expression) | Holds_.
 Record written_requirement := Require_ { about_ : about; leg_ : option nat; given_ : option written_given; end_ : written_end }.
@@ -222,7 +222,7 @@ Definition about_text (a : about) : string :=
   | Condition_ => "conditioning" | Serial_ => "serial_margin" | Parallel_ => "parallel_margin"
   | Stiffness_ => "stiffness" | Constraint_ => "constraint_margin"
   | Force_ => "joint_force" | Clearance_ => "clearance" | Acceleration_ => "joint_acceleration" | OneToOne_ => "one_to_one" | Accuracy_ => "accuracy"
-  | LegAngle_ => "leg_angle" | BaseJoint_ => "base_joint" | PlatformJoint_ => "platform_joint"
+  | LegAngle_ => "leg_angle" | BaseJoint_ => "base_joint" | PlatformJoint_ => "platform_joint" | Load_ => "load"
   end.
 Definition end_text (e : written_end) : string := match e with AtLeast_ _ => "min" | AtMost_ _ => "max" | Within_ _ _ => "within" | Holds_ => "holds" end.
 Definition bound_text (e : written_end) : list text :=
@@ -232,7 +232,7 @@ Definition requirement_text (r : written_requirement) : text :=
     match leg_ r with Some n => [field "leg" (natural n)] | None => [] end ++
     match given_ r with
     | Some (Given_ x) => [field "given" (variant (match about_ r with Stiffness_ => "joint" | Accuracy_ => "joint_error" | _ => "tool" end) (array [number x]))]
-    | Some (Each_ xs) => [field "given" (variant (match about_ r with BaseJoint_ | PlatformJoint_ => "axis" | _ => "joint" end) (array (map number xs)))]
+    | Some (Each_ xs) => [field "given" (variant (match about_ r with BaseJoint_ | PlatformJoint_ => "axis" | Load_ => "force" | _ => "joint" end) (array (map number xs)))]
     | Some (Motion_ a v) => [field "given" (object [field "acceleration" (array [number a]); field "speed" (array [number v])])]
     | Some (Near_ e a) => [field "given" (object [field "joint_error" (array [number e]); field "max_angle" (array [number a])])]
     | None => []
@@ -627,6 +627,7 @@ Definition demand_of (are_angles : bool) (legs : nat) (bs : list written_body) (
   | BaseJoint_, AtMost_ b => match given_ r with Some (Each_ xs) => each (fun i => JointAngleMax i false (axis_of xs) (denoted b)) | _ => [] end
   | PlatformJoint_, AtMost_ b => match given_ r with Some (Each_ xs) => each (fun i => JointAngleMax i true (axis_of xs) (denoted b)) | _ => [] end
   | Clearance_, AtLeast_ b => map (fun p => Clear (body_of (fst p)) (body_of (snd p)) (denoted b)) (pairs_of [] bs)
+  | Load_, AtMost_ b => match given_ r with Some (Each_ force) => each (fun i => LoadMax i (map denoted force) (denoted b)) | _ => [] end
   | Accuracy_, AtMost_ b => match given_ r with Some (Near_ e a) => [OnePose (denoted e) (denoted b) (denoted a)] | _ => [] end
   | Acceleration_, AtMost_ b => match given_ r with Some (Motion_ a v) => each (fun i => AccelerationMax i (denoted a) (denoted v) (denoted b)) | _ => [] end
   | _, _ => []
@@ -676,6 +677,7 @@ Definition is_driven_demand (are_angles : bool) (k : mobility) (legs : nat) (r :
   | LegAngle_, AtMost_ _, None => is_leg && negb are_angles
   | Parallel_, AtLeast_ _, None => Nat.eqb legs (freedom k) && match k, leg_ r with Turns _, _ | _, Some _ => false | _, None => true end
   | JointRange, e, None => is_leg && Bool.eqb are_angles match e with Within_ _ _ => true | _ => false end
+  | Load_, AtMost_ _, Some (Each_ force) => is_leg && Nat.eqb legs (freedom k) && Nat.eqb (length force) legs && match k with Turns _ => false | _ => true end
   | _, _, _ => is_turning_demand (freedom k) legs r
   end.
 
@@ -1196,6 +1198,7 @@ Definition is_demand_bound (d : demand) : bool :=
   | JointAngleMax _ _ j b => is_axis j && certainly exact_bits true b && certainly exact_bits false (Minus (180 // 1) b)
   | Clear _ _ b => certainly exact_bits false b
   | AccelerationMax _ a v b => certainly exact_bits false a && certainly exact_bits false v && certainly exact_bits true b
+  | LoadMax _ force b => forallb is_number force && existsb (fun x => certainly exact_bits true (Times x x)) force && certainly exact_bits true b
   | OnePose e b a => certainly exact_bits false e && certainly exact_bits true b && certainly exact_bits true a && certainly exact_bits true (Minus (180 // 1) a)
   | Nonsingular => true
   end.
@@ -1435,7 +1438,7 @@ Definition is_share (x : expression) (found : Q) : bool :=
 
 (** Of the tree of a closed design, what it says of the rest; about a tight corner M has full rank, which is asked there. *)
 Definition closed_nodes (rs : list written_requirement) (nodes : list node) : list node :=
-  let left := flat_map (fun r => map (fun _ => negb (is_by_theorem r)) (demand_of false 3 [] r)) rs in
+  let left := flat_map (fun r => flat_map (fun d => repeat (negb (is_by_theorem r)) (Configuration.tests_of exact_bits 1 d)) (demand_of false 3 [] r)) rs in
   let number_of i := match i with
     | O => Some O
     | S j => if nth j left false then Some (S (length (filter (fun x => x) (firstn j left)))) else None

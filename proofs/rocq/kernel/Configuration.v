@@ -65,7 +65,9 @@ Inductive demand :=
   (* of no motion of the platform with this acceleration and speed at most *)
   | AccelerationMax (joint : nat) (acceleration speed b : number)
   (* of platforms that turn: the one pose within b, turned by at most so many degrees, where joints are off by [error] at most *)
-  | OnePose (error b angle : number).
+  | OnePose (error b angle : number)
+  (* a joint's static force at this one force on the platform *)
+  | LoadMax (joint : nat) (force : list number) (b : number).
 
 (** By the first row. *)
 Definition determinant (rows : list (list R)) : R :=
@@ -111,6 +113,7 @@ Definition fulfils (n : nat) (c : configuration) (d : demand) : Prop :=
   | AccelerationMax i acceleration speed b => forall v a, length v = n -> length a = n -> dot v v <= value speed ^ 2 -> dot a a <= value acceleration ^ 2 ->
       exists y, accelerates c i v a y /\ Rabs y <= value b
   | OnePose error b angle => recovers c error b angle
+  | LoadMax i force b => forall tau, holds_force n (jacobian c) tau (map value force) -> Rabs (nth i tau 0) <= value b
   end.
 
 Definition meets (n : nat) (c : configuration) (ds : list demand) : Prop :=
@@ -199,6 +202,41 @@ Lemma value_ndeterminant : forall rows, value (ndeterminant rows) = determinant 
 Proof.
   intros [| [| a [| b [| c [| ? ?]]]] [| [| d [| e [| f [| ? ?]]]] [| [| g [| h [| i [| ? ?]]]] [| ? ?]]]]; cbn [ndeterminant determinant map]; try exact zero_value; cbn [value]; ring.
 Qed.
+
+(** [F] for row [i]. *)
+Definition replaced {A : Type} (i : nat) (F : A) (rows : list A) : list A := firstn i rows ++ F :: skipn (S i) rows.
+Definition is_square {A : Type} (n : nat) (rows : list (list A)) : bool :=
+  (Nat.eqb n 2 || Nat.eqb n 3) && Nat.eqb (length rows) n && forallb (fun r => Nat.eqb (length r) n) rows.
+Lemma map_replaced : forall (A B : Type) (f : A -> B) i F rows, map f (replaced i F rows) = replaced i (f F) (map f rows).
+Proof. intros. unfold replaced. rewrite map_app, firstn_map, skipn_map. reflexivity. Qed.
+Lemma square_map : forall (A B : Type) (f : A -> B) n rows, is_square n (map (map f) rows) = is_square n rows.
+Proof.
+  intros. unfold is_square. rewrite map_length. f_equal. induction rows as [| r rows IH]; [reflexivity |]. cbn [map forallb]. rewrite map_length, IH. reflexivity.
+Qed.
+
+(** Two or three rows of as many entries. *)
+Lemma square_cases : forall n (rows : list (list R)), is_square n rows = true ->
+  (n = 2%nat /\ exists a b c d, rows = [[a; b]; [c; d]]) \/ (n = 3%nat /\ exists a b c d e f g h i, rows = [[a; b; c]; [d; e; f]; [g; h; i]]).
+Proof.
+  intros n rows h. apply andb_true_iff in h as [h h2]. apply andb_true_iff in h as [h h1]. apply Nat.eqb_eq in h1. rewrite forallb_forall in h2.
+  assert (K : forall r, In r rows -> length r = n) by (intros r i; apply Nat.eqb_eq, h2, i). clear h2.
+  apply orb_true_iff in h as [h | h]; apply Nat.eqb_eq in h; subst n; [left | right]; (split; [reflexivity |]).
+  - destruct rows as [| r1 [| r2 [|]]]; try discriminate. pose proof (K r1 ltac:(cbn; tauto)). pose proof (K r2 ltac:(cbn; tauto)).
+    destruct r1 as [| a [| b [|]]]; try discriminate. destruct r2 as [| c [| d [|]]]; try discriminate. exists a, b, c, d. reflexivity.
+  - destruct rows as [| r1 [| r2 [| r3 [|]]]]; try discriminate. pose proof (K r1 ltac:(cbn; tauto)). pose proof (K r2 ltac:(cbn; tauto)). pose proof (K r3 ltac:(cbn; tauto)).
+    destruct r1 as [| a [| b [| c [|]]]]; try discriminate. destruct r2 as [| d [| e [| f [|]]]]; try discriminate. destruct r3 as [| g [| h' [| i [|]]]]; try discriminate.
+    exists a, b, c, d, e, f, g, h', i. reflexivity.
+Qed.
+
+(** Cramer's rule. *)
+Lemma cramer : forall n rows F w, is_square n rows = true -> length F = n -> length w = n ->
+  determinant rows * dot F w = dot (map (fun j => determinant (replaced j F rows)) (seq 0 n)) (map (fun r => dot r w) rows).
+Proof.
+  intros n rows F w h lF lw. destruct (square_cases n rows h) as [[-> [a [b [c [d ->]]]]] | [-> [a [b [c [d [e [f [g [k [i ->]]]]]]]]]]].
+  - destruct F as [| x [| y [|]]]; try discriminate. destruct w as [| p [| q [|]]]; try discriminate. cbn. ring.
+  - destruct F as [| x [| y [| z [|]]]]; try discriminate. destruct w as [| p [| q [| r [|]]]]; try discriminate. cbn. ring.
+Qed.
+
 (** The legs, where all have fixed lengths. *)
 Fixpoint all_rods (l : list (option nrod)) : option (list nrod) :=
   match l with [] => Some [] | Some q :: l' => option_map (cons q) (all_rods l') | None :: _ => None end.
@@ -317,6 +355,16 @@ Definition fails (n : nat) (c : nconfiguration) (which : nat) (vs : list (list n
   | ParallelMin b, [] => match all_rods (nrods c) with
       | Some ls => let least := fold_left (fun p l => Times p (nrod_size l)) ls b in let d := ndeterminant (map nrod_vector ls) in
           certainly true (Minus least d) && certainly true (Plus least d)
+      | None => false
+      end
+  (* tau_i = k det(rays with F for ray i)/det(rays) where row i is ray i over k; of which sign the former is, is told by the test *)
+  | LoadMax i F b, [] => match all_rays (nrays c) with
+      | Some rays => is_square n rays && Nat.eqb (length F) n && match nth_error rays i with
+          | Some ray => of_row i (fun row => let d := ndeterminant rays in let e := ndeterminant (replaced i F rays) in
+              certainly true b && certainly true (Times d d) && certainly true (if Nat.eqb which 0 then e else Minus (0 // 1) e) &&
+              certainly true (Minus (Times (Times e e) (ndot ray ray)) (Times (Times (Times b b) (Times d d)) (ndot row row))))
+          | None => false
+          end
       | None => false
       end
   | _, _ => false
@@ -439,7 +487,7 @@ Proof.
     assert (value b <= Rabs (value b / value tool) * value tool).
     { replace (value b) with (value b / value tool * value tool) at 1 by (field; lra). apply Rmult_le_compat_r; [lra | apply Rle_abs]. }
     lra. }
-  destruct d as [| b | b | i b | i b | i a b | b | i tool b | i a b | a b | i tool b | i b | i b | b | i on j b | one other b | i p q b | p q b]; cbn [fulfils] in F;
+  destruct d as [| b | b | i b | i b | i a b | b | i tool b | i a b | a b | i tool b | i b | i b | b | i on j b | one other b | i p q b | p q b | i P b]; cbn [fulfils] in F;
     destruct vs as [| u [| v [| w vs]]]; try discriminate.
   - apply positive_sound in h. specialize (F _ (Of u ltac:(left; reflexivity))). rewrite <- B, J, <- value_nspeed2 in F.
     set (t := Times _ (ndot u u)) in *. clearbody t. cbn [value] in h. lra.
@@ -517,6 +565,43 @@ Proof.
   - destruct u as [| s [| t [| x [|]]]]; try discriminate. apply (are_nearer_sound bits _ _ _ _ _ _ (nsegment_along_sound (nlimbs c) (nplaced c) (placed k) PL) h). rewrite <- LB. exact F.
   - destruct u as [| s [| t [| x [|]]]]; discriminate.
   - destruct u as [| s [| t [| x [|]]]]; discriminate.
+  - destruct (all_rays (nrays c)) as [rays |] eqn:er; [| discriminate]. apply andb_true_iff in h as [h h3]. apply andb_true_iff in h as [sq lP]. apply Nat.eqb_eq in lP.
+    destruct (nth_error rays i) as [ray |] eqn:ey; [| discriminate]. destruct (nth_error (njacobian c) i) as [row |] eqn:ew; [| discriminate].
+    apply andb_true_iff in h3 as [_ h]. apply andb_true_iff in h as [h h4]. apply andb_true_iff in h as [h _]. apply andb_true_iff in h as [b0 d0].
+    apply positive_sound in b0, d0, h4. cbn [value] in d0, h4. rewrite !value_ndeterminant, !value_ndot, map_replaced in h4. rewrite value_ndeterminant in d0.
+    destruct (all_rays_sound _ _ _ er RY) as [ks [k1 [k2 k3]]].
+    assert (lk : nth_error ks i <> None) by (apply nth_error_Some; rewrite k1; apply nth_error_Some; congruence). destruct (nth_error ks i) as [k0 |] eqn:ek; [clear lk | congruence].
+    assert (nk : k0 <> 0) by (rewrite Forall_forall in k2; apply k2, (nth_error_In _ _ ek)).
+    assert (er2 : map value row = map (Rmult k0) (map value ray)).
+    { assert (E : nth_error (jacobian k) i = Some (map value row)) by (rewrite J, nth_error_map, ew; reflexivity). rewrite k3, nth_error_map in E.
+      rewrite (nth_combined _ _ _ _ _ _ _ ek ey) in E. cbn [option_map fst snd] in E. rewrite map_map. congruence. }
+    rewrite er2, dot_map, (Solve.dot_commutes _ (map (Rmult k0) _)), dot_map in h4. rewrite <- (square_map _ _ value n rays) in sq.
+    set (A := map (map value) rays) in *. set (G := map value P) in *. assert (lG : length G = n) by (unfold G; rewrite map_length; exact lP). set (D := determinant A) in *.
+    assert (D0 : D <> 0) by (intro z; rewrite z in d0; lra). assert (lA : length A = n) by (apply andb_true_iff in sq as [sq _]; apply andb_true_iff in sq as [_ sq]; apply Nat.eqb_eq, sq).
+    set (us := map (fun j => determinant (replaced j G A)) (seq 0 n)). assert (lu : length us = length rays) by (unfold us; rewrite map_length, seq_length, <- lA; apply map_length).
+    set (tau := map (fun p => fst p / (D * snd p)) (combine us ks)).
+    assert (et : nth i tau 0 = determinant (replaced i G A) / (D * k0)).
+    { assert (E : nth_error tau i = Some (determinant (replaced i G A) / (D * k0))); [| exact (nth_error_nth _ _ _ E)]. unfold tau. rewrite nth_error_map.
+      assert (I : (i < n)%nat) by (rewrite <- lA; unfold A; rewrite map_length; apply nth_error_Some; congruence).
+      assert (U : nth_error us i = Some (determinant (replaced i G A))).
+      { unfold us. rewrite nth_error_map. assert (Q : nth_error (seq 0 n) i = Some i); [| rewrite Q; reflexivity].
+        rewrite (nth_error_nth' _ 0%nat) by (rewrite seq_length; exact I). rewrite seq_nth by exact I. reflexivity. }
+      rewrite (nth_combined _ _ _ _ _ _ _ U ek). reflexivity. }
+    assert (B2 : value b < Rabs (nth i tau 0)).
+    { set (e := determinant (replaced i G A)) in *. set (r := dot (map value ray) (map value ray)) in *. pose proof (dot_self (map value ray)) as r0. fold r in r0.
+      assert (H4 : 0 < r * (e ^ 2 - (value b * (D * k0)) ^ 2)) by (apply (Rlt_le_trans _ _ _ h4); right; ring).
+      assert (rp : 0 < r) by (destruct (Rle_lt_or_eq_dec _ _ r0) as [|z]; [assumption | rewrite <- z in H4; lra]).
+      assert (E2 : 0 < e ^ 2 - (value b * (D * k0)) ^ 2) by (apply Rmult_lt_reg_l with r; lra).
+      assert (Dk : D * k0 <> 0) by (apply Rmult_integral_contrapositive_currified; assumption).
+      rewrite et. apply Rnot_le_lt. intro z. assert (Z : (e / (D * k0)) ^ 2 <= value b ^ 2).
+      { rewrite <- (Rabs_right (value b)) in z by lra. apply Rsqr_le_abs_1 in z. rewrite !Rsqr_pow2 in z. exact z. }
+      assert (S0 : 0 < (D * k0) ^ 2) by (pose proof (pow2_ge_0 (D * k0)) as s0; destruct (Rle_lt_or_eq_dec _ _ s0) as [|w]; [assumption | exfalso; apply (pow_nonzero _ 2 Dk); symmetry; exact w]).
+      apply (Rmult_le_compat_l _ _ _ (Rlt_le _ _ S0)) in Z. replace ((D * k0) ^ 2 * (e / (D * k0)) ^ 2) with (e ^ 2) in Z by (field; exact Dk || (split; assumption)). lra. }
+    apply (Rlt_not_le _ _ B2), F. split; [unfold tau; rewrite k3, !map_length, !combine_length; congruence |]. split; [exact lG |]. intros w lw.
+    apply Rmult_eq_reg_l with D; [| exact D0]. unfold D at 1. rewrite (cramer n A G w sq lG lw). fold us. rewrite k3. unfold tau, A. clear - k1 k2 lu D0. clearbody us D. revert us ks k1 k2 lu.
+    induction rays as [| r rays IH]; intros [| y u] [| q ks] l1 n0 l2; try discriminate; cbn [combine map dot fst snd]; [ring |]. inversion n0 as [| ? ? q0 n1]; subst.
+    rewrite Rmult_plus_distr_l, <- IH by (assumption || (injection l1; injection l2; auto)).
+    replace (map (fun x => q * value x) r) with (map (Rmult q) (map value r)) by (rewrite map_map; reflexivity). rewrite dot_map. f_equal. field. split; assumption.
 Qed.
 
 (** Of the test [number] of the demands the demand, and which of its tests it is; [parts] are those of poses near another one. *)
@@ -527,6 +612,7 @@ Definition tests_of (d : demand) : nat :=
   | AngleWithin _ _ _ => 2
   | JointAngleMax _ _ _ b => if is_up_to_90 b && negb (certainly false (Minus b (90 // 1))) then 2 else 1
   | OnePose _ _ _ => parts
+  | LoadMax _ _ _ => 2
   | _ => 1
   end.
 Fixpoint test_at (number : nat) (ds : list demand) : option (demand * nat) :=

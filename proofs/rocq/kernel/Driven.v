@@ -3,7 +3,7 @@
 From Coq Require Import ZArith Reals Lra Lia List Bool.
 From Orthocert Require Import Vec3 SingularValues Kinematics Fixed Claim.
 From Orthocert.kernel Require Import Statement Linear Arithmetic Slope Test Cell Check Number Trig Formula Machine Problem Witness Orientation Turning Control Chart Configuration Inputs Onward Pose Arm Legs Drives.
-From Orthocert.kernel Require Solve.
+From Orthocert.kernel Require Solve Load.
 Import ListNotations.
 Local Open Scope R_scope.
 Local Notation length := Datatypes.length.
@@ -43,6 +43,8 @@ Definition signs_of (fs : list pose_formulas) (q : list formula) (d : demand) : 
       | Some ls => let least := fold_left times ls (b 0%nat) in let det := edeterminant (map d_vector fs) in [[minus det least; opposite (plus det least)]]
       | None => []
       end
+  | LoadMax i _ _ => of_leg i (fun f => let det := edeterminant (map d_A fs) in
+      let beyond c := [minus det c; opposite (plus det c)] in let c := times (root (d_D f)) (edeterminant (replaced i q (map d_A fs))) in [beyond c; beyond (opposite c)])
   | _ => []
   end.
 Definition pose_rows (fs : list pose_formulas) : rows formula := map (fun f => (d_A f, d_D f)) fs.
@@ -71,6 +73,7 @@ Definition tests_for (place : formula -> nat) (fs : list pose_formulas) (are_ang
       let ok := match d with
         | AngleWithin _ a b => certainly bits true (Minus b a) && certainly bits true (Minus (Plus a (180 // 1)) b)
         | SpeedMax _ tool b | TurnMax _ tool b => certainly bits true tool && certainly bits false b
+        | LoadMax _ force b => certainly bits true b && is_square (length force) (map d_A fs)
         | _ => true
         end in
       match (if ok then signs_of fs q d else []) with
@@ -244,6 +247,12 @@ Proof.
   destruct which as [-> | ->]; [destruct (rows_energy pos) as [h1 h2] | destruct (divided_energy def) as [h1 h2]]; (split; [exact h1 |]; eexists; split; [exact h | exact h2]).
 Qed.
 
+Lemma low_sees : forall low c, contains bits low c -> 0 <= c -> holds (SigmaMin low) -> Configuration.injective n conf.
+Proof.
+  intros low c hc c0 [_ h] v lv nz. destruct (of_rows_energy _ h) as [_ [r [b e]]]. specialize (b c v hc lv nz). rewrite e in b. unfold nonzero in nz.
+  pose proof (Rmult_le_pos _ _ c0 (Rlt_le _ _ nz)). pose proof (pow_lt _ 2 mu_pos). apply Rnot_le_lt. intro z. nra.
+Qed.
+
 Lemma good_at : forall i f, nth_error fs i = Some f -> exists l, nth_error m i = Some l /\ is_good f l.
 Proof.
   intros i f. revert i. induction good as [| g l fs' m' h hs IH]; intros [| i] e; try discriminate; cbn [nth_error] in *.
@@ -302,16 +311,18 @@ Proof. intro j. rewrite <- numbers. symmetry. exact (map_nth value q (integer 0)
 
 (** The demands that signs decide. *)
 Definition by_signs : Prop :=
-  match d with LengthMin _ _ | LengthMax _ _ | AngleWithin _ _ _ | SpeedMax _ _ _ | TurnMax _ _ _ | SerialMin _ _ | LegAngleMax _ _ | ParallelMin _ => True | _ => False end.
+  match d with LengthMin _ _ | LengthMax _ _ | AngleWithin _ _ _ | SpeedMax _ _ _ | TurnMax _ _ _ | SerialMin _ _ | LegAngleMax _ _ | ParallelMin _ | LoadMax _ _ _ => True | _ => False end.
 Lemma signs_hold : by_signs -> signs_of fs q d <> [] /\ (match d with
     | AngleWithin _ a b => certainly bits true (Minus b a) && certainly bits true (Minus (Plus a (180 // 1)) b) = true
     | SpeedMax _ tool b | TurnMax _ tool b => certainly bits true tool && certainly bits false b = true
+    | LoadMax _ force b => certainly bits true b && is_square (length force) (map d_A fs) = true
     | _ => True end) /\
   forall l, In l (signs_of fs q d) -> Exists (fun f => 0 <= value f) l.
 Proof.
   intro by_. unfold by_signs in by_. assert (K : exists ok, (ok = true -> match d with
       | AngleWithin _ a b => certainly bits true (Minus b a) && certainly bits true (Minus (Plus a (180 // 1)) b) = true
       | SpeedMax _ tool b | TurnMax _ tool b => certainly bits true tool && certainly bits false b = true
+      | LoadMax _ force b => certainly bits true b && is_square (length force) (map d_A fs) = true
       | _ => True end) /\ tests_for bits found fs are_angles s q d = match (if ok : bool then signs_of fs q d else []) with
       | [] => [None]
       | l => map (fun fs => match fs with [f] => Some (AtLeast (found f)) | [f; g] => Some (Either (found f) (found g)) | _ => None end) l
@@ -319,6 +330,7 @@ Proof.
   { exists (match d with
       | AngleWithin _ a b => certainly bits true (Minus b a) && certainly bits true (Minus (Plus a (180 // 1)) b)
       | SpeedMax _ tool b | TurnMax _ tool b => certainly bits true tool && certainly bits false b
+      | LoadMax _ force b => certainly bits true b && is_square (length force) (map d_A fs)
       | _ => true
       end). destruct d; try contradiction; (split; [| reflexivity]); intro h; try exact I; exact h. }
   destruct K as [ok [K1 K2]]. rewrite K2 in shown. destruct ok; [| destruct (shown None ltac:(left; reflexivity)) as [t [e _]]; discriminate].
@@ -359,13 +371,45 @@ Proof.
   assert (0 <= c * tool) by (apply Rmult_le_pos; lra). apply Rabs_le. split; nra.
 Qed.
 
+(** Of each joint, the formulas' row of A is so many times that of M. *)
+Lemma all_multiples : exists cs, length cs = length (jacobian conf) /\ Forall (fun c => c <> 0) cs /\
+  map (map value) (map d_A fs) = Load.multiples (map (fun c => c * mu) cs) (jacobian conf) /\ forall i f, nth_error fs i = Some f -> value (d_D f) = nth i cs 0 ^ 2.
+Proof.
+  clear - good reach. unfold conf. cbn [jacobian]. revert reach. induction good as [| g l fs' m' [_ [_ [_ [s2 [_ s4]]]]] hs IH]; intro reach.
+  - exists []. split; [reflexivity |]. split; [constructor |]. split; [reflexivity |]. intros [|] f e; discriminate e.
+  - inversion reach as [| ? ? r1 r2]; subst. destruct (IH hs r2) as [cs [I1 [I2 [I3 I4]]]]. destruct (s4 r1) as [[c [c2 A]] _]. specialize (s2 r1). fold mu in A.
+    exists (c :: cs). split; [cbn; congruence |]. split; [constructor; [intros ->; rewrite <- c2 in s2; lra | exact I2] |]. split.
+    + unfold Load.multiples in *. cbn [map combine fst snd]. rewrite <- I3. f_equal. exact A.
+    + intros [| i] f e; cbn [nth_error nth] in *; [injection e as <-; symmetry; exact c2 | exact (I4 i f e)].
+Qed.
+
+Hypothesis sees : Configuration.injective n conf.
+Lemma load_met : forall i force b, d = LoadMax i force b -> Configuration.fulfils n conf d.
+Proof.
+  intros i force b ed. pose proof mu_pos as m0. pose proof numbers as Q. rewrite ed in Q. cbn [inputs_of] in Q. rewrite map_map in Q. cbn [input_value Claim.value] in Q.
+  destruct (signs_hold ltac:(unfold by_signs; rewrite ed; exact I)) as [ne [ok H]]. rewrite ed in ne, ok, H |- *. cbn [signs_of] in ne, H. destruct (nth_error fs i) as [f |] eqn:ef; [| contradiction].
+  apply andb_true_iff in ok as [b0 sq]. apply positive_sound in b0. rewrite <- (square_map _ _ value) in sq.
+  destruct all_multiples as [cs [lc [nz [A D]]]]. specialize (D i f ef). cbn [Configuration.fulfils]. intros tau hF. assert (hF' := hF). destruct hF' as [lt' [lF _]]. rewrite map_length in lF.
+  pose proof (H _ (or_introl eq_refl)) as h1. pose proof (H _ (or_intror (or_introl eq_refl))) as h2.
+  assert (Two : forall (T : formula -> Prop) f1 f2, Exists T [f1; f2] -> T f1 \/ T f2) by (intros T f1 f2 e; inversion e as [| ? ? e']; subst; [left; assumption | right; inversion e' as [| ? ? e'']; subst; [assumption | inversion e'']]).
+  apply Two in h1, h2. clear Two.
+  rewrite value_opposite, value_minus, value_plus in h1, h2. rewrite value_opposite in h2. rewrite value_times, value_root, !value_edeterminant, map_replaced, D, A in h1, h2.
+  assert (Eq : map value q = map (Rmult (mu / Claim.value b)) (map Claim.value force)).
+  { rewrite Q, map_map. apply map_ext. intro y. unfold mu. pose proof (two_to_pos (rate are_angles s)). field. split; lra. }
+  rewrite Eq in h1, h2.
+  rewrite lF in sq. assert (li : (i < n)%nat) by (rewrite <- (Load.square_length _ _ _ sq), !map_length; apply nth_error_Some; congruence).
+  rewrite A, Load.multiples_square in sq by (rewrite map_length; exact lc).
+  exact (Load.load_bounded n cs (jacobian conf) mu tau (map Claim.value force) (Claim.value b) i sq lc nz m0 b0 sees li hF h1 h2).
+Qed.
+
 Theorem demand_met : Configuration.fulfils n conf d.
 Proof.
   pose proof mu_pos as m0. pose proof u_positive as u0. assert (m2 : 0 < mu ^ 2) by (apply pow_lt, m0).
   assert (Low : forall low, holds (SigmaMin low) -> forall c v, contains bits low c -> length v = n -> nonzero v -> c * Linear.dot v v < mu ^ 2 * Configuration.speed2 (jacobian conf) v).
   { intros low [_ h] c v hc lv nz. destruct (of_rows_energy _ h) as [_ [r [b e]]]. rewrite <- e. exact (b c v hc lv nz). }
-  assert (Num := number_at). assert (Signs := signs_hold). assert (One := one_sign). unfold by_signs in Signs, One.
-  destruct d as [| b | b | i b | i b | i a b | b | i tool b | i tool b | a b | i tool b | i b | i b | b | i on j b | one other b | i acc spe b | err b ang]; cbn [Configuration.fulfils].
+  assert (Num := number_at). assert (Signs := signs_hold). assert (One := one_sign). assert (Loaded := load_met). unfold by_signs in Signs, One.
+  destruct d as [| b | b | i b | i b | i a b | b | i tool b | i tool b | a b | i tool b | i b | i b | b | i on j b | one other b | i acc spe b | err b ang | i force b]; cbn [Configuration.fulfils].
+  19: exact (Loaded i force b eq_refl).
   15-18: exfalso; destruct (shown None ltac:(left; reflexivity)) as [t [e _]]; discriminate.
   - intros v lv nz. destruct (shown (Some (SigmaMin zero)) ltac:(left; reflexivity)) as [t [e h]]. injection e as <-.
     pose proof (Low zero h 0 v (zero_sound bits) lv nz) as q0. rewrite Rmult_0_l in q0. apply Rmult_lt_reg_l with (mu ^ 2); lra.
@@ -634,15 +678,13 @@ Proof.
     split; [exact h1 |]. split; [exact h2 |]. split; [intro d; exact (h3 d V4) | exact h4]. }
   assert (W1 : forall e, In e (entries (pose_rows fs)) -> formula_at tape (place e) = e) by (intros e i; apply Found, in_or_app; left; exact i).
   assert (W2 : forall e, In e (entries (pose_divided fs)) -> formula_at tape (place e) = e) by (intros e i; apply Found, in_or_app; right; apply in_or_app; left; exact i).
-  destruct (of_rows_energy x theta s (freedom k) angular fs (map look m) (fun b => vadd P (mulv Q b)) tape good W1 W2 _ LOW) as [RE [r [b e]]].
-  unfold meets_driven. fold k demands L. cbn [jacobian] in e. assert (EJ : map seen_row (map look m) = jacobian (legs_at k L m P Q)) by (rewrite map_map; reflexivity). rewrite EJ in e.
-  split; [rewrite Forall_map in RE; exact RE |]. split.
-  - intros v lv nz. specialize (b c0 v hc0 lv nz). rewrite e in b. unfold nonzero in nz.
-    assert (0 <= c0 * Linear.dot v v) by (apply Rmult_le_pos; lra). apply Rnot_le_lt. intro z.
-    pose proof (mu_pos s angular) as m0. assert (0 < (/ two_to (rate angular s)) ^ 2) by (apply pow_lt, m0). nra.
-  - apply Forall_forall. intros d id. destruct (HT d id) as [q [q1 [q2 q3]]].
-    pose proof (demand_met bits x theta s (freedom k) angular fs (map look m) (fun b => vadd P (mulv Q b)) tape (params ++ inputs ++ tangents) (map place built) good W1 W2 RE q d q1 q2 q3) as met.
-    rewrite !map_map in met. exact (reached_aside _ _ _ _ _ _ _ _ _ _ _ met).
+  destruct (of_rows_energy x theta s (freedom k) angular fs (map look m) (fun b => vadd P (mulv Q b)) tape good W1 W2 _ LOW) as [RE _].
+  pose proof (low_sees bits x theta s (freedom k) angular fs (map look m) (fun b => vadd P (mulv Q b)) tape (params ++ inputs ++ tangents) (map place built) good W1 W2 low c0 hc0 c00 (conj BU LOW)) as SEES.
+  assert (EJ : map seen_row (map look m) = jacobian (legs_at k L m P Q)) by (rewrite map_map; reflexivity).
+  unfold meets_driven. fold k demands L. split; [rewrite Forall_map in RE; exact RE |]. split; [unfold Configuration.injective in *; cbn [jacobian] in SEES; rewrite EJ in SEES; exact SEES |].
+  apply Forall_forall. intros d id. destruct (HT d id) as [q [q1 [q2 q3]]].
+  pose proof (demand_met bits x theta s (freedom k) angular fs (map look m) (fun b => vadd P (mulv Q b)) tape (params ++ inputs ++ tangents) (map place built) good W1 W2 RE q d q1 q2 q3 SEES) as met.
+  rewrite !map_map in met. exact (reached_aside _ _ _ _ _ _ _ _ _ _ _ met).
 Qed.
 
 (** ** Claims that are about something *)

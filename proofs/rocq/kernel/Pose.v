@@ -1255,7 +1255,7 @@ Proof.
   assert (Joint : forall n l, nth_error m n = Some l -> nth_error (joints conf) n = Some (Length (strut_length l P Q)))
     by (intros n l e; unfold conf, struts_at; cbn [joints]; rewrite nth_error_map, e; reflexivity).
   assert (Over1 : forall y, y / 1 = y) by (intro; field). pose proof (pow_lt ratio 2 r0) as r2. pose proof (Rmult_lt_0_compat _ _ W0 r2) as wr.
-  destruct d as [| b | b | n b | n b | n b b' | b | n b b' | n b b' | b b' | n b b' | n b | n b | b | n on ax b | one other b | n p q b | error b angle]; cbn [Configuration.fulfils];
+  destruct d as [| b | b | n b | n b | n b b' | b | n b b' | n b b' | b b' | n b b' | n b | n b | b | n on ax b | one other b | n p q b | error b angle | n force b]; cbn [Configuration.fulfils];
     try (destruct (shown _ (or_introl eq_refl)) as [u [pu iu]]; cbn [pose_test_of] in pu; fold rows in pu; try discriminate).
   4-5: cbn [own_formulas length_sign] in *; destruct (nth_error zs n) as [z |] eqn:nz; [| discriminate]; destruct (certainly bits false b) eqn:b0; [| discriminate];
     cbn [option_map] in pu; injection pu as <-; apply nonneg_sound in b0; destruct (LegOf n z nz) as [l [nl sl]]; pose proof (Size z l sl) as vD;

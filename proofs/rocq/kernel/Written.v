@@ -638,7 +638,8 @@ Proof.
   destruct E1 as [E1 [E2 E3]].
   assert (W1 : forall e, In e (entries (pose_rows fs)) -> formula_at tape (place e) = e) by (intros e k; apply Found, in_or_app; left; exact k).
   assert (W2 : forall e, In e (entries (pose_divided fs)) -> formula_at tape (place e) = e) by (intros e k; apply Found, in_or_app; right; apply in_or_app; left; exact k).
-  destruct (of_rows_energy x th 0 n false fs looks (fun b => b) tape good W1 W2 _ LOW) as [RE [r [b e]]]. cbn [jacobian] in e. rewrite E1 in e.
+  destruct (of_rows_energy x th 0 n false fs looks (fun b => b) tape good W1 W2 _ LOW) as [RE _].
+  pose proof (low_sees bits x th 0 n false fs looks (fun b => b) tape (params ++ numbers) (map place partial) good W1 W2 lowest c0 hc0 c00 (conj BU LOW)) as SEES.
   split.
   2: { assert (EM : M = map (map (value x th)) (map d_divided fs)).
     { assert (g0 : Forall2 (is_good x th 0 n false) fs (map (fun p => Seen (snd p) (coordinate_at f theta x (fst p)) None True) (combine (joint_forms f) M))) by exact good. clear - g0 lM. revert M lM g0. generalize fs. clear. induction (joint_forms f) as [| jo js IH]; intros qs [| row M] l h; try discriminate l; cbn [combine map] in h; inversion h as [| q ? ? ? g hs]; subst; [reflexivity |].
@@ -648,13 +649,10 @@ Proof.
     unfold all_tests in K. rewrite o in K. destruct (K (proj2 (inserted_in _ _ _ _ _) (or_introl eq_refl))) as [_ G].
     replace (map_rows (formula_at tape) (map_rows place (pose_divided fs))) with (pose_divided fs) in G by (symmetry; exact (rows_found tape _ W2)).
     specialize (G v lv nz). rewrite EM. unfold pose_divided, map_rows in G. rewrite !map_map in *. exact G. }
-  split; [split; [exact (proj2 (Agree x lx) DP1) | exact JD] |]. split.
-  - intros v lv nz. specialize (b c0 v hc0 lv nz). rewrite e in b. unfold nonzero in nz. cbn [machine_at jacobian].
-    assert (0 <= c0 * Linear.dot v v) by (apply Rmult_le_pos; lra). apply Rnot_le_lt. intro z.
-    pose proof (mu_pos 0 false) as m0. assert (0 < (/ two_to (rate false 0)) ^ 2) by (apply pow_lt, m0). nra.
-  - apply Forall_forall. intros d id. destruct (HT d id) as [q [q1 [q2 q3]]].
-    pose proof (demand_met bits x th 0 n false fs looks (fun b => b) tape (params ++ numbers) (map place partial) good W1 W2 RE q d q1 q2 q3) as met.
-    rewrite E1, E2, E3 in met. exact (reached_aside _ _ _ _ _ _ _ _ _ _ _ met).
+  split; [split; [exact (proj2 (Agree x lx) DP1) | exact JD] |]. split; [unfold Configuration.injective in *; cbn [jacobian] in SEES; rewrite E1 in SEES; exact SEES |].
+  apply Forall_forall. intros d id. destruct (HT d id) as [q [q1 [q2 q3]]].
+  pose proof (demand_met bits x th 0 n false fs looks (fun b => b) tape (params ++ numbers) (map place partial) good W1 W2 RE q d q1 q2 q3 SEES) as met.
+  rewrite E1, E2, E3 in met. exact (reached_aside _ _ _ _ _ _ _ _ _ _ _ met).
 Qed.
 End Precision.
 

@@ -230,6 +230,29 @@ for (const [name, more, beyond, wrong] of [
   }
 }
 console.log("accelerations of three platforms that turn, and four with a stiffness for each joint: 112 bounds with one answer, and 27 refused");
+// Loads: of sliders, arms and struts, in space and in the plane, with tolerances, at bounds ever nearer to the last with which they are certified.
+let loads = 0, no_loads = 0;
+for (const [name, force, stated, edits] of [
+  ["delta-parallel-margin", "10, 5, -100", 83, []], ["delta-parallel-margin", '10, "-5", 100', 83, [[/length = 333/g, 'length = "333 ± 0.1"'], [/direction = \[0, 0, 1\]/g, 'direction = ["0 ± 0.001", "0 ± 0.001", 1]']]],
+  ["upu-struts", '"sqrt(2)", -3, 9', 9.5, []], ["rotary-delta-speed", "0, 2, -10", 90, []], ["kernel/five-bar", "1, -3", 495, []], ["orthoglide-prototype", "0, 1, 3", 9, [["[requirements]", '[requirements]\ntransmission = { max = 2 }']]],
+]) {
+  const design = path.join(made, "load.toml"), file = path.join(made, "load.cert.json");
+  const own_text = fs.readFileSync(path.join(__dirname, "../../../tests/designs", `${name}.toml`), "utf8").replace(/\[requirements\][^]*/, "[requirements]\n");
+  fs.writeFileSync(design, `${edits.reduce((text, [from, to]) => text.replace(from, to), own_text)}\nload = { force = [${force}], max = ${stated} }\n`);
+  spawnSync(orthocert, ["verify", design, "-o", file]);
+  const text = fs.readFileSync(file, "latin1"), own = three_answers(text);
+  if (own.some((answer) => answer !== "CERTIFIED")) fail(`load of ${name}: ${own}`);
+  read.push(last_number((b) => text.replace(`"end":"max","bound":"${stated}"`, `"end":"max","bound":"${b}"`), 0.3 * stated, stated, 14, `load of ${name}`)), loads += 14;
+  for (const [from, to] of [
+    [/"force":\[[^\]]*\]/, (all) => all.replace(/"[^"]*"/g, '"0"')], [/"force":\[/, '"force":["1",'], [/"force":\["[^"]*",/, '"force":['], [`"bound":"${stated}"`, '"bound":"0"'], [`"bound":"${stated}"`, `"bound":"-${stated}"`],
+    ['"quantity":"load",', '"quantity":"load","leg":4,'], ['"end":"max","bound"', '"end":"min","bound"'], ['{"force":', '{"tool":'], [/\[2,("test"|"negative"|\{"tolerances")/, "[0,$1"],
+  ]) {
+    const wrong = text.replace(from, to), answers = three_answers(wrong);
+    if (wrong === text || answers.some((answer) => ["CERTIFIED", "REFUTED"].includes(answer))) fail(`load of ${name}: ${answers}: ${from} ${to}`);
+    no_loads++;
+  }
+}
+console.log(`loads: ${loads} bounds with one answer, and ${no_loads} refused`);
 // Refutations: of quantities on machines of each kind, at bounds ever nearer to the last with which the witness refutes; and in no directions, or others.
 const refutations = [
   ["skew-guides", "joint_force = { tool = 10, max = 1 }", 90], ["skew-guides", "joint_acceleration = { speed = 50, acceleration = 1000, max = 10 }", 9000],
@@ -244,6 +267,7 @@ const refutations = [
   ["kernel/linear-delta-formulas", "joint_range = { max = 300 }", 900], ["kernel/linear-delta-formulas", "joint_force = { tool = 10, max = 1 }", 90], ["kernel/linear-delta-formulas", "joint_speed = { tool = 10, max = 1 }", 90],
   ["kernel/linear-delta-formulas", "stiffness = { joint = [3, 4, 5], min = 90 }", 0.01], ["kernel/agile-eye", "transmission = { max = 1.01 }", 9], ["kernel/agile-eye", "joint_force = { tool = 10, max = 1 }", 90],
   ["kernel/georg-v-type", "transmission = { max = 0.01 }", 9000],
+  ...["skew-guides", "upu-struts", "orthoglide-tolerance", "rotary-delta-speed"].map((name) => [name, "load = { force = [1, 2, -10], max = 1 }", 900]), ["kernel/five-bar", "load = { force = [1, -3], max = 1 }", 9000],
   ...["planar-3-rpr", "hexapod-linuxcnc", "spherical-3-ups"].map((name) => [`kernel/${name}`, "joint_acceleration = { speed = 50, acceleration = 1000, max = 10 }", 90000]),
 ];
 let no_refutations = 0;
@@ -258,7 +282,7 @@ for (const [name, requirement, beyond, joint] of refutations) {
   const nearest = last_number((b) => text.replace(all, `${before}"${b}"`), beyond, +stated, 12, `${name}, ${quantity}`, "REFUTED"), [, number, directions] = /"obligation":\[(\d+),(\[.*?\])\]\}\}\}/.exec(text);
   const with_ = (number, directions) => nearest.replace(/"obligation":\[\d+,\[.*?\]\]\}\}\}/, `"obligation":[${number},${directions}]}}}`);
   const zero = directions.replace(/-?\d+/g, "0"), others = directions.replace(/(\[\[?)-?(\d+),/, "$1-7$2,"), more = directions === "[]" ? "[[1]]" : directions.replace(/\]\]$/, ",1]]");
-  for (const wrong of [with_(0, directions), with_(+number + 90, directions), with_(number, zero), with_(number, others), with_(number, more), with_(number, directions === "[]" ? "[[0]]" : "[]")]) {
+  for (const wrong of [with_(0, directions), with_(+number + 90, directions), with_(+number + 1, directions), with_(number, zero), with_(number, others), with_(number, more), with_(number, directions === "[]" ? "[[0]]" : "[]")]) {
     const answers = three_answers(wrong);
     if (new Set(answers).size > 1) fail(`${name}, ${quantity}: ${answers}: ${wrong.slice(wrong.indexOf('"fails"'))}`);
     no_refutations += answers[0] === "REJECTED";

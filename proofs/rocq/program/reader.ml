@@ -181,6 +181,7 @@ let requirement ?(turns = false) v =
     | "accuracy" -> Accuracy_
     | "clearance" -> Clearance_
     | "leg_angle" -> LegAngle_
+    | "load" -> Load_
     | "base_joint" when turns -> BaseJoint_
     | "platform_joint" when turns -> PlatformJoint_
     | quantity -> not_covered [ "the quantity \""; quantity; "\"" ] in
@@ -196,7 +197,7 @@ let requirement ?(turns = false) v =
     | Acceleration_, [ ("acceleration", Array [ a ]); ("speed", Array [ v ]) ] -> Motion_ (number a, number v)
     | (BaseJoint_ | PlatformJoint_), [ ("axis", Array l) ] -> Each_ (List.map number l)
     | Accuracy_, [ ("joint_error", Array [ e ]); ("max_angle", Array [ a ]) ] when turns -> Near_ (number e, number a)
-    | Stiffness_, [ ("joint", Array l) ] -> Each_ (List.map number l)
+    | Stiffness_, [ ("joint", Array l) ] | Load_, [ ("force", Array l) ] -> Each_ (List.map number l)
     | _ -> raise Malformed in
   { about_; leg_ = optional count (find l "leg"); given_ = optional given (find l "given"); end_ }
 
@@ -223,7 +224,7 @@ let strut_demand v =
 let driven_demand v =
   let r = requirement ~turns:true v in
   match r.about_ with
-  | Serial_ | Parallel_ | LegAngle_ | OneToOne_ -> r
+  | Serial_ | Parallel_ | LegAngle_ | Load_ | OneToOne_ -> r
   | _ -> turning_demand v
 
 let region (kind, v) =
@@ -292,7 +293,7 @@ let rec subject v =
      | ("translational", legs), (("box" | "cylinder"), _ as workspace) ->
        let legs = array legs in
        let require = require () in
-       if List.exists is_arm legs || List.exists (fun r -> r.about_ = LegAngle_) require then begin
+       if List.exists is_arm legs || List.exists (fun r -> r.about_ = LegAngle_ || r.about_ = Load_) require then begin
          without_bodies ();
          Legs_ (Translates, List.map driven legs, None, place workspace, None, List.map driven_demand (array (get l "require")))
        end else begin

@@ -4,18 +4,18 @@ globalThis!=="object"&&(this?b():(a.defineProperty(a.prototype,"_T_",{configurab
 b(){var
 b=this||self;b.globalThis=b;delete
 a.prototype._T_}}(Object));(function(M){"use strict";var
-jS="spatial",q3="Invalid_argument",hk="precision",aL='"',jR=1255,q2="inside",p1="(",p2=0x800,q1="yaw",pY="range",pZ="tree",p0="jsError",cf=0x8000,q0="sqrt(",pX=256,hj="obligation",fG="offset",bl="machine",pW="End_of_file",eF="strut",jQ="center",fF="arm",jP="Failure",qZ="serial_margin",hs="parameters",cK=0xff,qY="bodies",qX="max_angle",j3="outside",hr="base_axis",jO="ENOENT",qW="singular",qV=122,pV="([^/]+)",qU="0",jN=0xf,fE=128,pU=0xdc00,qS="Sys_blocked_io",qT="fd ",fw="given",pT="ENOTEMPTY",aZ=248,hi="bound",pS="Division_by_zero",qQ="by",qR=1027,pR="Sys_error",hq="slider",pQ="torsion",qP="postulate",pP="proof",j2="joint_error",fD="refuted",ez="mechanism",hh="row",pO="EEXIST",qO="roll_pitch_yaw",fC="y",pN="cube",dI="lower",qN="within",pM="clearance",qM="turned",pL="control",hg="int_of_string",qK="definitions",qL="dependent",fB=1024,pJ="from",pK="name",qJ=" : flags Open_rdonly and Open_wronly are not compatible",pI="orthocert/2",qI="reach",pH=512,qG="base_joint",qH="witness",fA="-",bd="platform",pG=0x7ff0,pF="pitch",j1=": Not a directory",bD="min",qE="trim",eE="workspace",qF=" : file already exists",hf="split",qC='the failure "singular" of such a mechanism',j0="legs",qD="claim",jM="joint",dJ=0xffffff,pE="platform_joint",pD="formulas",pC="roll",he="atlas",qz="greatest",qA="nodes",qB="Out_of_memory",pB="psi_max",hp="orientation",hd=254,qy="angle",jZ="index out of bounds",pA="end",qx="one_to_one",ho="_bigarr02",pz=" : flags Open_text and Open_binary are not compatible",qw="inverse",bZ="drive",py="coordinates",qv="holds",px="lower_divided",pw="speed",qt="cylinder",qu="joints",cJ=0xffff,qq="a leaf that fails",qr="acceleration",fy="certified",fz="chords",qs=12520,jL="on",qp="same",ey="accuracy",fx="axis",qo="no_cube",qn="parallel_margin",pv='the drive "',jK="Unix.Unix_error",hn="fails",hc="tool",jJ="mkdir",ql="rho",qm="least",hm=1000,jI="translational",jY="tolerances",pu="Stack_overflow",jX="characteristic_length",ad="",jW="^",ha="places",hb=": No such file or directory",pt="/static/",eD=0x3f,pr="stiffness",ps="Not_found",dH="planar",fv="mode",qk="joint_speed",qj="Match_failure",pq="transmission",bC="anchor",qi="at",pp="joint_force",eC="leg",po="joint_acceleration",hl="+",jH="rmdir",qh=0xf0,qg="spherical",pn=1026,qe="REJECTED",qf="undecided",bE="max",cg="direction",pl="leg_angle",pm="orthoglide",eB="rank",qc="constraint_margin",qd="fan",g$="test",pj="Pervasives.do_at_exit",pk="utf8",bY=0x80,eA="conditioning",ex="length",pi="Undefined_recursive_module",jV=")",ph="base",qb="quantity",pg="joint_range",g_="tilt",pf="Q2",qa='the failure "same" of such a mechanism',p$="reference",pd="this quantity in a claim that is refuted",pe="point",p9="corner",p_=0xe0,pc="version",jU="z",p7="to",p8=0xdfff,jG="compare: functional value",p6="Assert_failure",b1="/",p5="provenance",dG="radius",g9="side",b0="require",p4="format",pb="Q1",jT="ENOTDIR",pa="all",dF="box",p3=250;function
-kd(c,b,a){var
+jU="spatial",q_="Invalid_argument",hn="precision",aL='"',jT=1255,q9="inside",p5="(",p6=0x800,q8="yaw",p2="range",p3="tree",p4="jsError",cf=0x8000,q7="sqrt(",p1=256,hm="obligation",q6="load",fG="offset",bn="machine",p0="End_of_file",eF="strut",jS="center",fF="arm",jR="Failure",q5="serial_margin",hv="parameters",cK=0xff,q4="bodies",q3="max_angle",j5="outside",hu="base_axis",jQ="ENOENT",q2="singular",q1=122,pZ="([^/]+)",q0="0",jP=0xf,fE=128,pY=0xdc00,qY="Sys_blocked_io",qZ="fd ",fw="given",pX="ENOTEMPTY",a0=248,hl="bound",pW="Division_by_zero",qW="by",qX=1027,pV="Sys_error",ht="slider",pU="torsion",qV="postulate",pT="proof",j4="joint_error",fD="refuted",ez="mechanism",hk="row",pS="EEXIST",qU="roll_pitch_yaw",fC="y",pR="cube",dI="lower",qT="within",pQ="clearance",qS="turned",pP="control",hj="int_of_string",qQ="definitions",qR="dependent",fB=1024,pN="from",pO="name",qP=" : flags Open_rdonly and Open_wronly are not compatible",pM="orthocert/2",qO="reach",pL=512,qM="base_joint",qN="witness",fA="-",bg="platform",pK=0x7ff0,pJ="pitch",j3=": Not a directory",bD="min",qK="trim",eE="workspace",qL=" : file already exists",hi="split",qI='the failure "singular" of such a mechanism',j2="legs",qJ="claim",jO="joint",dJ=0xffffff,pI="platform_joint",pH="formulas",pG="roll",hh="atlas",qF="greatest",qG="nodes",qH="Out_of_memory",pF="psi_max",hs="orientation",hg=254,qE="angle",j1="index out of bounds",pE="end",qD="one_to_one",hr="_bigarr02",pD=" : flags Open_text and Open_binary are not compatible",qC="inverse",bZ="drive",pC="coordinates",qB="holds",pB="lower_divided",pA="speed",qz="cylinder",qA="joints",cJ=0xffff,qv="a leaf that fails",qw="acceleration",qx="force",fy="certified",fz="chords",qy=12520,jN="on",qu="same",ey="accuracy",fx="axis",qt="no_cube",qs="parallel_margin",pz='the drive "',jM="Unix.Unix_error",hq="fails",hf="tool",jL="mkdir",qq="rho",qr="least",hp=1000,jK="translational",j0="tolerances",py="Stack_overflow",jZ="characteristic_length",ad="",jY="^",hd="places",he=": No such file or directory",px="/static/",eD=0x3f,pv="stiffness",pw="Not_found",dH="planar",fv="mode",qp="joint_speed",qo="Match_failure",pu="transmission",bC="anchor",qn="at",pt="joint_force",eC="leg",ps="joint_acceleration",ho="+",jJ="rmdir",qm=0xf0,ql="spherical",pr=1026,qj="REJECTED",qk="undecided",bE="max",cg="direction",pp="leg_angle",pq="orthoglide",eB="rank",qh="constraint_margin",qi="fan",hc="test",pn="Pervasives.do_at_exit",po="utf8",bY=0x80,eA="conditioning",ex="length",pm="Undefined_recursive_module",jX=")",pl="base",qg="quantity",pk="joint_range",hb="tilt",pj="Q2",qf='the failure "same" of such a mechanism',qe="reference",ph="this quantity in a claim that is refuted",pi="point",qc="corner",qd=0xe0,pg="version",jW="z",qa="to",qb=0xdfff,jI="compare: functional value",p$="Assert_failure",b1="/",p_="provenance",dG="radius",ha="side",p8=-14,b0="require",p9="format",pf="Q1",jV="ENOTDIR",pe="all",dF="box",p7=250;function
+kf(c,b,a){var
 d=String.fromCharCode;if(b==0&&a<=4096&&a==c.length)return d.apply(null,c);var
 e=ad;for(;0<a;b+=fB,a-=fB)e+=d.apply(null,c.slice(b,b+Math.min(a,fB)));return e}function
-hu(b){if(M.Uint8Array)var
+hx(b){if(M.Uint8Array)var
 c=new(M.Uint8Array)(b.l);else
 var
 c=new
 Array(b.l);var
 e=b.c,d=e.length,a=0;for(;a<d;a++)c[a]=e.charCodeAt(a);for(d=b.l;a<d;a++)c[a]=0;b.c=c;b.t=4;return c}function
-fH(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?kd(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
-if(b.t==2&&f==b.c.length){b.c+=d.t==4?kd(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)hu(b);var
+fH(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?kf(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
+if(b.t==2&&f==b.c.length){b.c+=d.t==4?kf(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)hx(b);var
 g=d.c,h=b.c;if(d.t==4)if(f<=e)for(var
 a=0;a<c;a++)h[f+a]=g[e+a];else
 for(var
@@ -24,35 +24,35 @@ i=Math.min(c,g.length-e);for(var
 a=0;a<i;a++)h[f+a]=g.charCodeAt(e+a);for(;a<c;a++)h[f+a]=0}}return 0}function
 eI(a){return a}function
 eH(a,b,c,d,e){fH(eI(a),b,c,d,e);return 0}function
-j5(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
+j7(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
 0:return a.c.charCodeAt(b);case
 4:return a.c[b]}}function
-dg(c,a){if(c.fun)return dg(c.fun,a);if(typeof
+dh(c,a){if(c.fun)return dh(c.fun,a);if(typeof
 c!=="function")return c;var
 b=c.length|0;if(b===0)return c.apply(null,a);var
 e=a.length|0,d=b-e|0;if(d==0)return c.apply(null,a);else
-if(d<0)return dg(c.apply(null,a.slice(0,b)),a.slice(b));else
+if(d<0)return dh(c.apply(null,a.slice(0,b)),a.slice(b));else
 return function(){var
 e=arguments.length==0?1:arguments.length,d=new
 Array(a.length+e);for(var
 b=0;b<a.length;b++)d[b]=a[b];for(var
-b=0;b<arguments.length;b++)d[a.length+b]=arguments[b];return dg(c,d)}}function
-rt(b,a){if(b==0)return ad;if(a.repeat)return a.repeat(b);var
+b=0;b<arguments.length;b++)d[a.length+b]=arguments[b];return dh(c,d)}}function
+rA(b,a){if(b==0)return ad;if(a.repeat)return a.repeat(b);var
 d=ad,c=0;for(;;){if(b&1)d+=a;b>>=1;if(b==0)return d;a+=a;c++;if(c==9)a.slice(0,1)}}function
-eJ(a){if(a.t==2)a.c+=rt(a.l-a.c.length,"\0");else
-a.c=kd(a.c,0,a.c.length);a.t=0}function
+eJ(a){if(a.t==2)a.c+=rA(a.l-a.c.length,"\0");else
+a.c=kf(a.c,0,a.c.length);a.t=0}function
 eK(a){a.t&6&&eJ(a);return a.c}var
-H7=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
-H6(a){if(H7)return Math.floor(Math.log2(a));var
+Ij=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
+Ii(a){if(Ij)return Math.floor(Math.log2(a));var
 b=0;if(a==0)return-Infinity;if(a>=1)while(a>=2){a/=2;b++}else
 while(a<1){a*=2;b--}return b}function
-j8(c){var
+j_(c){var
 a=new(M.Float32Array)(1);a[0]=c;var
 b=new(M.Int32Array)(a.buffer);return b[0]|0}var
-rk=Math.pow(2,-24);function
-HX(a){throw a}var
+rr=Math.pow(2,-24);function
+H$(a){throw a}var
 ay=[0];function
-rq(){HX(ay.Division_by_zero)}function
+rx(){H$(ay.Division_by_zero)}function
 L(b,c,a){this.lo=b&dJ;this.mi=c&dJ;this.hi=a&cJ}L.prototype.caml_custom="_j";L.prototype.copy=function(){return new
 L(this.lo,this.mi,this.hi)};L.prototype.ucompare=function(a){if(this.hi>a.hi)return 1;if(this.hi<a.hi)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};L.prototype.compare=function(a){var
 b=this.hi<<16,c=a.hi<<16;if(b>c)return 1;if(b<c)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};L.prototype.neg=function(){var
@@ -62,7 +62,7 @@ b=this.lo+a.lo,c=this.mi+a.mi+(b>>24),d=this.hi+a.hi+(c>>24);return new
 L(b,c,d)};L.prototype.sub=function(a){var
 b=this.lo-a.lo,c=this.mi-a.mi+(b>>24),d=this.hi-a.hi+(c>>24);return new
 L(b,c,d)};L.prototype.mul=function(a){var
-b=this.lo*a.lo,c=(b*rk|0)+this.mi*a.lo+this.lo*a.mi,d=(c*rk|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
+b=this.lo*a.lo,c=(b*rr|0)+this.mi*a.lo+this.lo*a.mi,d=(c*rr|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
 L(b,c,d)};L.prototype.isZero=function(){return(this.lo|this.mi|this.hi)==0};L.prototype.isNeg=function(){return this.hi<<16<0};L.prototype.and=function(a){return new
 L(this.lo&a.lo,this.mi&a.mi,this.hi&a.hi)};L.prototype.or=function(a){return new
 L(this.lo|a.lo,this.mi|a.mi,this.hi|a.hi)};L.prototype.xor=function(a){return new
@@ -80,22 +80,22 @@ L(this.mi>>a-24|this.hi<<48-a,this.hi<<16>>a-24>>16,b&cJ);return new
 L(this.hi<<16>>a-32,b,b)};L.prototype.lsl1=function(){this.hi=this.hi<<1|this.mi>>23;this.mi=(this.mi<<1|this.lo>>23)&dJ;this.lo=this.lo<<1&dJ};L.prototype.lsr1=function(){this.lo=(this.lo>>>1|this.mi<<23)&dJ;this.mi=(this.mi>>>1|this.hi<<23)&dJ;this.hi=this.hi>>>1};L.prototype.udivmod=function(e){var
 c=0,b=this.copy(),a=e.copy(),d=new
 L(0,0,0);while(b.ucompare(a)>0){c++;a.lsl1()}while(c>=0){c--;d.lsl1();if(b.ucompare(a)>=0){d.lo++;b=b.sub(a)}a.lsr1()}return{quotient:d,modulus:b}};L.prototype.div=function(a){var
-b=this;if(a.isZero())rq();var
+b=this;if(a.isZero())rx();var
 d=b.hi^a.hi;if(b.hi&cf)b=b.neg();if(a.hi&cf)a=a.neg();var
 c=b.udivmod(a).quotient;if(d&cf)c=c.neg();return c};L.prototype.mod=function(b){var
-a=this;if(b.isZero())rq();var
+a=this;if(b.isZero())rx();var
 d=a.hi;if(a.hi&cf)a=a.neg();if(b.hi&cf)b=b.neg();var
 c=a.udivmod(b).modulus;if(d&cf)c=c.neg();return c};L.prototype.toInt=function(){return this.lo|this.mi<<24};L.prototype.toFloat=function(){return(this.hi<<16)*Math.pow(2,32)+this.mi*Math.pow(2,24)+this.lo};L.prototype.toArray=function(){return[this.hi>>8,this.hi&cK,this.mi>>16,this.mi>>8&cK,this.mi&cK,this.lo>>16,this.lo>>8&cK,this.lo&cK]};L.prototype.lo32=function(){return this.lo|(this.mi&cK)<<24};L.prototype.hi32=function(){return this.mi>>>8&cJ|this.hi<<16};function
-hw(b,c,a){return new
+hz(b,c,a){return new
 L(b,c,a)}function
-hv(a){if(!isFinite(a)){if(isNaN(a))return hw(1,0,pG);return a>0?hw(0,0,pG):hw(0,0,0xfff0)}var
+hy(a){if(!isFinite(a)){if(isNaN(a))return hz(1,0,pK);return a>0?hz(0,0,pK):hz(0,0,0xfff0)}var
 f=a==0&&1/a==-Infinity?cf:a>=0?0:cf;if(f)a=-a;var
-b=H6(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-pn)}else{a/=Math.pow(2,b-qR);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
+b=Ii(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-pr)}else{a/=Math.pow(2,b-qX);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
 d=Math.pow(2,24),c=a|0;a=(a-c)*d;var
 e=a|0;a=(a-e)*d;var
-g=a|0;c=c&jN|f|b<<4;return hw(g,e,c)}function
+g=a|0;c=c&jP|f|b<<4;return hz(g,e,c)}function
 fK(a){return a.toArray()}function
-q_(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==ho)for(var
+rf(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==hr)for(var
 a=0;a<b.dims.length;a++)if(b.dims[a]<cJ)c.write(16,b.dims[a]);else{c.write(16,cJ);c.write(32,0);c.write(32,b.dims[a])}else
 for(var
 a=0;a<b.dims.length;a++)c.write(32,b.dims[a]);switch(b.kind){case
@@ -117,47 +117,47 @@ e=fK(b.get(a));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 1:for(var
 a=0;a<b.data.length;a++){var
-e=fK(hv(b.get(a)));for(var
+e=fK(hy(b.get(a)));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 0:for(var
 a=0;a<b.data.length;a++){var
-e=j8(b.get(a));c.write(32,e)}break;case
+e=j_(b.get(a));c.write(32,e)}break;case
 10:for(var
 a=0;a<b.data.length/2;a++){var
-d=b.get(a);c.write(32,j8(d[1]));c.write(32,j8(d[2]))}break;case
+d=b.get(a);c.write(32,j_(d[1]));c.write(32,j_(d[2]))}break;case
 11:for(var
 a=0;a<b.data.length/2;a++){var
-f=b.get(a),e=fK(hv(f[1]));for(var
+f=b.get(a),e=fK(hy(f[1]));for(var
 d=0;d<8;d++)c.write(8,e[d]);var
-e=fK(hv(f[2]));for(var
+e=fK(hy(f[2]));for(var
 d=0;d<8;d++)c.write(8,e[d])}break}g[0]=(4+b.dims.length)*4;g[1]=(4+b.dims.length)*8}function
-HZ(b,a){throw[0,b,a]}function
-ry(a){if(a.length<24){for(var
+Ib(b,a){throw[0,b,a]}function
+rF(a){if(a.length<24){for(var
 b=0;b<a.length;b++)if(a.charCodeAt(b)>127)return false;return true}else
 return!/[^\x00-\x7f]/.test(a)}function
-ke(e){for(var
+kg(e){for(var
 j=ad,c=ad,g,f,h,a,b=0,i=e.length;b<i;b++){f=e.charCodeAt(b);if(f<bY){for(var
-d=b+1;d<i&&(f=e.charCodeAt(d))<bY;d++);if(d-b>pH){c.substr(0,1);j+=c;c=ad;j+=e.slice(b,d)}else
-c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==fE){g=h+(f<<6);if(f<p_){a=g-0x3080;if(a<bY)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==fE){g=h+(g<<6);if(f<qh){a=g-0xe2080;if(a<p2||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==fE&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
-if(a>cJ)c+=String.fromCharCode(0xd7c0+(a>>10),pU+(a&0x3FF));else
+d=b+1;d<i&&(f=e.charCodeAt(d))<bY;d++);if(d-b>pL){c.substr(0,1);j+=c;c=ad;j+=e.slice(b,d)}else
+c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==fE){g=h+(f<<6);if(f<qd){a=g-0x3080;if(a<bY)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==fE){g=h+(g<<6);if(f<qm){a=g-0xe2080;if(a<p6||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==fE&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
+if(a>cJ)c+=String.fromCharCode(0xd7c0+(a>>10),pY+(a&0x3FF));else
 c+=String.fromCharCode(a);if(c.length>fB){c.substr(0,1);j+=c;c=ad}}return j+c}function
 ch(c,a,b){this.t=c;this.c=a;this.l=b}ch.prototype.toString=function(){switch(this.t){case
 9:return this.c;default:eJ(this);case
-0:if(ry(this.c)){this.t=9;return this.c}this.t=8;case
+0:if(rF(this.c)){this.t=9;return this.c}this.t=8;case
 8:return this.c}};ch.prototype.toUtf16=function(){var
-a=this.toString();if(this.t==9)return a;return ke(a)};ch.prototype.slice=function(){var
+a=this.toString();if(this.t==9)return a;return kg(a)};ch.prototype.slice=function(){var
 a=this.t==4?this.c.slice():this.c;return new
 ch(this.t,a,this.l)};function
-rb(a){return new
+ri(a){return new
 ch(0,a,a.length)}function
-a(a){return rb(a)}function
-kc(c,b){HZ(c,a(b))}function
-aR(a){kc(ay.Invalid_argument,a)}function
-q8(a){switch(a){case
+a(a){return ri(a)}function
+ke(c,b){Ib(c,a(b))}function
+aR(a){ke(ay.Invalid_argument,a)}function
+rd(a){switch(a){case
 7:case
 10:case
 11:return 2;default:return 1}}function
-Hr(c,e){var
+HF(c,e){var
 b=M,a;switch(c){case
 0:a=b.Float32Array;break;case
 1:a=b.Float64Array;break;case
@@ -173,50 +173,50 @@ b=M,a;switch(c){case
 11:a=b.Float64Array;break;case
 12:a=b.Uint8Array;break}if(!a)aR("Bigarray.create: unsupported kind");var
 d=new
-a(e*q8(c));return d}function
-j9(c){var
+a(e*rd(c));return d}function
+j$(c){var
 a=new(M.Int32Array)(1);a[0]=c;var
 b=new(M.Float32Array)(a.buffer);return b[0]}function
 fJ(a){return new
 L(a[7]<<0|a[6]<<8|a[5]<<16,a[4]<<0|a[3]<<8|a[2]<<16,a[1]<<0|a[0]<<8)}function
-j_(d){var
-f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&jN)==0?b&cf?-Infinity:Infinity:NaN;var
-e=Math.pow(2,-24),a=(f*e+g)*e+(b&jN);if(c>0){a+=16;a*=Math.pow(2,c-qR)}else
-a*=Math.pow(2,-pn);if(b&cf)a=-a;return a}function
-j4(b){var
+ka(d){var
+f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&jP)==0?b&cf?-Infinity:Infinity:NaN;var
+e=Math.pow(2,-24),a=(f*e+g)*e+(b&jP);if(c>0){a+=16;a*=Math.pow(2,c-qX)}else
+a*=Math.pow(2,-pr);if(b&cf)a=-a;return a}function
+j6(b){var
 d=b.length,c=1;for(var
 a=0;a<d;a++){if(b[a]<0)aR("Bigarray.create: negative dimension");c=c*b[a]}return c}function
-HH(b,a){return new
+HV(b,a){return new
 L(b&dJ,b>>>24&cK|(a&cJ)<<8,a>>>16&cJ)}function
-j$(a){return a.hi32()}function
-ka(a){return a.lo32()}function
-ht(){aR(jZ)}var
-Hs=ho;function
-df(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}df.prototype.caml_custom=Hs;df.prototype.offset=function(b){var
+kb(a){return a.hi32()}function
+kc(a){return a.lo32()}function
+hw(){aR(j1)}var
+HG=hr;function
+dg(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}dg.prototype.caml_custom=HG;dg.prototype.offset=function(b){var
 c=0;if(typeof
 b==="number")b=[b];if(!(b
 instanceof
 Array))aR("bigarray.js: invalid offset");if(this.dims.length!=b.length)aR("Bigarray.get/set: bad number of dimensions");if(this.layout==0)for(var
-a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])ht();c=c*this.dims[a]+b[a]}else
+a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])hw();c=c*this.dims[a]+b[a]}else
 for(var
-a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])ht();c=c*this.dims[a]+(b[a]-1)}return c};df.prototype.get=function(a){switch(this.kind){case
+a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])hw();c=c*this.dims[a]+(b[a]-1)}return c};dg.prototype.get=function(a){switch(this.kind){case
 7:var
-d=this.data[a*2+0],b=this.data[a*2+1];return HH(d,b);case
+d=this.data[a*2+0],b=this.data[a*2+1];return HV(d,b);case
 10:case
 11:var
-e=this.data[a*2+0],c=this.data[a*2+1];return[hd,e,c];default:return this.data[a]}};df.prototype.set=function(a,b){switch(this.kind){case
-7:this.data[a*2+0]=ka(b);this.data[a*2+1]=j$(b);break;case
+e=this.data[a*2+0],c=this.data[a*2+1];return[hg,e,c];default:return this.data[a]}};dg.prototype.set=function(a,b){switch(this.kind){case
+7:this.data[a*2+0]=kc(b);this.data[a*2+1]=kb(b);break;case
 10:case
-11:this.data[a*2+0]=b[1];this.data[a*2+1]=b[2];break;default:this.data[a]=b;break}return 0};df.prototype.fill=function(b){switch(this.kind){case
+11:this.data[a*2+0]=b[1];this.data[a*2+1]=b[2];break;default:this.data[a]=b;break}return 0};dg.prototype.fill=function(b){switch(this.kind){case
 7:var
-c=ka(b),e=j$(b);if(c==e)this.data.fill(c);else
+c=kc(b),e=kb(b);if(c==e)this.data.fill(c);else
 for(var
 a=0;a<this.data.length;a++)this.data[a]=a%2==0?c:e;break;case
 10:case
 11:var
 d=b[1],f=b[2];if(d==f)this.data.fill(d);else
 for(var
-a=0;a<this.data.length;a++)this.data[a]=a%2==0?d:f;break;default:this.data.fill(b);break}};df.prototype.compare=function(b,g){if(this.layout!=b.layout||this.kind!=b.kind){var
+a=0;a<this.data.length;a++)this.data[a]=a%2==0?d:f;break;default:this.data.fill(b);break}};dg.prototype.compare=function(b,g){if(this.layout!=b.layout||this.kind!=b.kind){var
 e=this.kind|this.layout<<8,f=b.kind|b.layout<<8;return f-e}if(this.dims.length!=b.dims.length)return b.dims.length-this.dims.length;for(var
 a=0;a<this.dims.length;a++)if(this.dims[a]!=b.dims[a])return this.dims[a]<b.dims[a]?-1:1;switch(this.kind){case
 0:case
@@ -237,25 +237,25 @@ a=0;a<this.data.length;a+=2){if(this.data[a+1]<b.data[a+1])return-1;if(this.data
 12:for(var
 a=0;a<this.data.length;a++){if(this.data[a]<b.data[a])return-1;if(this.data[a]>b.data[a])return 1}break}return 0};function
 eG(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}eG.prototype=new
-df();eG.prototype.offset=function(a){if(typeof
+dg();eG.prototype.offset=function(a){if(typeof
 a!=="number")if(a
 instanceof
 Array&&a.length==1)a=a[0];else
-aR("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])ht();return a};eG.prototype.get=function(a){return this.data[a]};eG.prototype.set=function(a,b){this.data[a]=b;return 0};eG.prototype.fill=function(a){this.data.fill(a);return 0};function
-q6(c,d,a,b){var
-e=q8(c);if(j4(a)*e!=b.length)aR("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
+aR("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])hw();return a};eG.prototype.get=function(a){return this.data[a]};eG.prototype.set=function(a,b){this.data[a]=b;return 0};eG.prototype.fill=function(a){this.data.fill(a);return 0};function
+rb(c,d,a,b){var
+e=rd(c);if(j6(a)*e!=b.length)aR("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
 eG(c,d,a,b);return new
-df(c,d,a,b)}function
-b2(b){if(!ay.Failure)ay.Failure=[aZ,a(jP),-3];kc(ay.Failure,b)}function
-q7(b,v,r){var
+dg(c,d,a,b)}function
+b2(b){if(!ay.Failure)ay.Failure=[a0,a(jR),-3];ke(ay.Failure,b)}function
+rc(b,v,r){var
 i=b.read32s();if(i<0||i>16)b2("input_value: wrong number of bigarray dimensions");var
-p=b.read32s(),j=p&cK,o=p>>8&1,h=[];if(r==ho)for(var
+p=b.read32s(),j=p&cK,o=p>>8&1,h=[];if(r==hr)for(var
 a=0;a<i;a++){var
 n=b.read16u();if(n==cJ){var
 t=b.read32u(),u=b.read32u();if(t!=0)b2("input_value: bigarray dimension overflow in 32bit");n=u}h.push(n)}else
 for(var
 a=0;a<i;a++)h.push(b.read32u());var
-d=j4(h),f=Hr(j,d),g=q6(j,o,h,f);switch(j){case
+d=j6(h),f=HF(j,d),g=rb(j,o,h,f);switch(j){case
 2:for(var
 a=0;a<d;a++)f[a]=b.read8s();break;case
 3:case
@@ -282,31 +282,31 @@ e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-k=j_(fJ(e));g.set(a,k)}break;case
+k=ka(fJ(e));g.set(a,k)}break;case
 0:for(var
 a=0;a<d;a++){var
-k=j9(b.read32s());g.set(a,k)}break;case
+k=j$(b.read32s());g.set(a,k)}break;case
 10:for(var
 a=0;a<d;a++){var
-m=j9(b.read32s()),l=j9(b.read32s());g.set(a,[hd,m,l])}break;case
+m=j$(b.read32s()),l=j$(b.read32s());g.set(a,[hg,m,l])}break;case
 11:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-m=j_(fJ(e));for(var
+m=ka(fJ(e));for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-l=j_(fJ(e));g.set(a,[hd,m,l])}break}v[0]=(4+i)*4;return q6(j,o,h,f)}function
-q5(a,b,c){return a.compare(b,c)}function
-rn(a,b){return Math.imul(a,b)}function
-cL(b,a){a=rn(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=rn(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
-HE(a,b){a=cL(a,ka(b));a=cL(a,j$(b));return a}function
-rj(a,b){return HE(a,hv(b))}function
-q9(c){var
-b=j4(c.dims),d=0;switch(c.kind){case
+l=ka(fJ(e));g.set(a,[hg,m,l])}break}v[0]=(4+i)*4;return rb(j,o,h,f)}function
+ra(a,b,c){return a.compare(b,c)}function
+ru(a,b){return Math.imul(a,b)}function
+cL(b,a){a=ru(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=ru(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
+HS(a,b){a=cL(a,kc(b));a=cL(a,kb(b));return a}function
+rq(a,b){return HS(a,hy(b))}function
+re(c){var
+b=j6(c.dims),d=0;switch(c.kind){case
 2:case
 3:case
-12:if(b>pX)b=pX;var
+12:if(b>p1)b=p1;var
 e=0,a=0;for(a=0;a+4<=c.data.length;a+=4){e=c.data[a+0]|c.data[a+1]<<8|c.data[a+2]<<16|c.data[a+3]<<24;d=cL(d,e)}e=0;switch(b&3){case
 3:e=c.data[a+2]<<16;case
 2:e|=c.data[a+1]<<8;case
@@ -323,75 +323,75 @@ a=0;a<b;a++)d=cL(d,c.data[a]);break;case
 a=0;a<b;a++)d=cL(d,c.data[a]);break;case
 10:b*=2;case
 0:if(b>64)b=64;for(var
-a=0;a<b;a++)d=rj(d,c.data[a]);break;case
+a=0;a<b;a++)d=rq(d,c.data[a]);break;case
 11:b*=2;case
 1:if(b>32)b=32;for(var
-a=0;a<b;a++)d=rj(d,c.data[a]);break}return d}function
-HF(a,b){b[0]=4;return a.read32s()}function
-HU(a,b){switch(a.read8u()){case
+a=0;a<b;a++)d=rq(d,c.data[a]);break}return d}function
+HT(a,b){b[0]=4;return a.read32s()}function
+H8(a,b){switch(a.read8u()){case
 1:b[0]=4;return a.read32s();case
 2:b2("input_value: native integer value too large");default:b2("input_value: ill-formed native integer")}}function
-HK(c,d){var
+HY(c,d){var
 b=new
 Array(8);for(var
 a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return fJ(b)}function
-HJ(e,d,b){var
+HX(e,d,b){var
 c=fK(d);for(var
 a=0;a<8;a++)e.write(8,c[a]);b[0]=8;b[1]=8}function
-HG(a,b,c){return a.compare(b)}function
-HI(a){return a.lo32()^a.hi32()}var
-re={"_j":{deserialize:HK,serialize:HJ,fixed_length:8,compare:HG,hash:HI},"_i":{deserialize:HF,fixed_length:4},"_n":{deserialize:HU,fixed_length:4},"_bigarray":{deserialize:function(a,b){return q7(a,b,"_bigarray")},serialize:q_,compare:q5,hash:q9},"_bigarr02":{deserialize:function(a,b){return q7(a,b,ho)},serialize:q_,compare:q5,hash:q9}};function
-j7(a){return re[a.caml_custom]&&re[a.caml_custom].compare}function
-rc(f,c,d,e){var
-b=j7(c);if(b){var
+HU(a,b,c){return a.compare(b)}function
+HW(a){return a.lo32()^a.hi32()}var
+rl={"_j":{deserialize:HY,serialize:HX,fixed_length:8,compare:HU,hash:HW},"_i":{deserialize:HT,fixed_length:4},"_n":{deserialize:H8,fixed_length:4},"_bigarray":{deserialize:function(a,b){return rc(a,b,"_bigarray")},serialize:rf,compare:ra,hash:re},"_bigarr02":{deserialize:function(a,b){return rc(a,b,hr)},serialize:rf,compare:ra,hash:re}};function
+j9(a){return rl[a.caml_custom]&&rl[a.caml_custom].compare}function
+rj(f,c,d,e){var
+b=j9(c);if(b){var
 a=d>0?b(c,f,e):b(f,c,e);if(e&&a!=a)return d;if(+a!=+a)return+a;if((a|0)!=0)return a|0}return d}function
-kb(a){return a
+kd(a){return a
 instanceof
 ch}function
-rl(a){return kb(a)}function
-rd(a){if(typeof
-a==="number")return hm;else
-if(kb(a))return 252;else
-if(rl(a))return 1252;else
+rs(a){return kd(a)}function
+rk(a){if(typeof
+a==="number")return hp;else
+if(kd(a))return 252;else
+if(rs(a))return 1252;else
 if(a
 instanceof
 Array&&a[0]===a[0]>>>0&&a[0]<=255){var
-b=a[0]|0;return b==hd?0:b}else
+b=a[0]|0;return b==hg?0:b}else
 if(a
 instanceof
-String)return qs;else
+String)return qy;else
 if(typeof
-a=="string")return qs;else
+a=="string")return qy;else
 if(a
 instanceof
-Number)return hm;else
-if(a&&a.caml_custom)return jR;else
+Number)return hp;else
+if(a&&a.caml_custom)return jT;else
 if(a&&a.compare)return 1256;else
 if(typeof
 a=="function")return 1247;else
 if(typeof
 a=="symbol")return 1251;return 1001}function
-HL(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
-ra(a,b){a.t&6&&eJ(a);b.t&6&&eJ(b);return a.c<b.c?-1:a.c>b.c?1:0}function
-ru(a,b){return ra(a,b)}function
-j6(a,b,d){var
+HZ(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
+rh(a,b){a.t&6&&eJ(a);b.t&6&&eJ(b);return a.c<b.c?-1:a.c>b.c?1:0}function
+rB(a,b){return rh(a,b)}function
+j8(a,b,d){var
 e=[];for(;;){if(!(d&&a===b)){var
-f=rd(a);if(f==p3){a=a[1];continue}var
-g=rd(b);if(g==p3){b=b[1];continue}if(f!==g){if(f==hm){if(g==jR)return rc(a,b,-1,d);return-1}if(g==hm){if(f==jR)return rc(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
-247:aR(jG);break;case
+f=rk(a);if(f==p7){a=a[1];continue}var
+g=rk(b);if(g==p7){b=b[1];continue}if(f!==g){if(f==hp){if(g==jT)return rj(a,b,-1,d);return-1}if(g==hp){if(f==jT)return rj(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
+247:aR(jI);break;case
 248:var
-c=HL(a[2],b[2]);if(c!=0)return c|0;break;case
-249:aR(jG);break;case
+c=HZ(a[2],b[2]);if(c!=0)return c|0;break;case
+249:aR(jI);break;case
 250:aR("equal: got Forward_tag, should not happen");break;case
 251:aR("equal: abstract value");break;case
 252:if(a!==b){var
-c=ra(a,b);if(c!=0)return c|0}break;case
+c=rh(a,b);if(c!=0)return c|0}break;case
 253:aR("equal: got Double_tag, should not happen");break;case
 254:aR("equal: got Double_array_tag, should not happen");break;case
 255:aR("equal: got Custom_tag, should not happen");break;case
-1247:aR(jG);break;case
+1247:aR(jI);break;case
 1255:var
-i=j7(a);if(i!=j7(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)aR("compare: abstract value");var
+i=j9(a);if(i!=j9(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)aR("compare: abstract value");var
 c=i(a,b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
 1256:var
 c=a.compare(b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
@@ -405,129 +405,129 @@ a=a.toString(),b=b.toString();if(a!==b){if(a<b)return-1;if(a>b)return 1}break;ca
 246:case
 254:default:if(a.length!=b.length)return a.length<b.length?-1:1;if(a.length>1)e.push(a,b,1);break}}if(e.length==0)return 0;var
 h=e.pop();b=e.pop();a=e.pop();if(h+1<a.length)e.push(a,b,h+1);a=a[h];b=b[h]}}function
-Hz(a,b){return j6(a,b,true)}function
+HN(a,b){return j8(a,b,true)}function
 cj(a){if(a<0)aR("Bytes.create");return new
 ch(a?2:9,ad,a)}function
-rf(a,b){return+(j6(a,b,false)==0)}function
-HB(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=ad;a.t=2}else{a.c=rt(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)hu(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}var
-HV=0;function
-rh(){return HV++}function
-HN(a){return a.toUtf16()}function
+rm(a,b){return+(j8(a,b,false)==0)}function
+HP(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=ad;a.t=2}else{a.c=rA(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)hx(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}var
+H9=0;function
+ro(){return H9++}function
+H1(a){return a.toUtf16()}function
 fL(){return typeof
 M.process!=="undefined"&&typeof
 M.process.versions!=="undefined"&&typeof
 M.process.versions.node!=="undefined"}function
-H8(){function
+Ik(){function
 a(a){if(a.charAt(0)===b1)return[ad,a.substring(1)];return}function
 b(c){var
 g=/^([a-zA-Z]:|[\\/]{2}[^\\/]+[\\/]+[^\\/]+)?([\\/])?([\s\S]*?)$/,a=g.exec(c),b=a[1]||ad,e=Boolean(b&&b.charAt(1)!==":");if(Boolean(a[2]||e)){var
 d=a[1]||ad,f=a[2]||ad;return[d,c.substring(d.length+f.length)]}return}return fL()&&M.process&&M.process.platform?M.process.platform==="win32"?b:a:a}var
-ki=H8();function
-rv(a){return a.slice(-1)!==b1?a+b1:a}if(fL()&&M.process&&M.process.cwd)var
+kk=Ik();function
+rC(a){return a.slice(-1)!==b1?a+b1:a}if(fL()&&M.process&&M.process.cwd)var
 fI=M.process.cwd().replace(/\\/g,b1);else
 var
-fI="/static";fI=rv(fI);function
-HP(a){a=HN(a);if(!ki(a))a=fI+a;var
-e=ki(a),d=e[1].split(b1),b=[];for(var
+fI="/static";fI=rC(fI);function
+H3(a){a=H1(a);if(!kk(a))a=fI+a;var
+e=kk(a),d=e[1].split(b1),b=[];for(var
 c=0;c<d.length;c++)switch(d[c]){case"..":if(b.length>1)b.pop();break;case".":break;default:b.push(d[c]);break}b.unshift(e[0]);b.orig=a;return b}function
-H3(e){for(var
+If(e){for(var
 f=ad,b=f,a,h,c=0,g=e.length;c<g;c++){a=e.charCodeAt(c);if(a<bY){for(var
-d=c+1;d<g&&(a=e.charCodeAt(d))<bY;d++);if(d-c>pH){b.substr(0,1);f+=b;b=ad;f+=e.slice(c,d)}else
-b+=e.slice(c,d);if(d==g)break;c=d}if(a<p2){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(bY|a&eD)}else
-if(a<0xd800||a>=p8)b+=String.fromCharCode(p_|a>>12,bY|a>>6&eD,bY|a&eD);else
-if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<pU||h>p8)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(qh|a>>18,bY|a>>12&eD,bY|a>>6&eD,bY|a&eD)}if(b.length>fB){b.substr(0,1);f+=b;b=ad}}return f+b}function
-Hw(a){var
-b=9;if(!ry(a))b=8,a=H3(a);return new
+d=c+1;d<g&&(a=e.charCodeAt(d))<bY;d++);if(d-c>pL){b.substr(0,1);f+=b;b=ad;f+=e.slice(c,d)}else
+b+=e.slice(c,d);if(d==g)break;c=d}if(a<p6){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(bY|a&eD)}else
+if(a<0xd800||a>=qb)b+=String.fromCharCode(qd|a>>12,bY|a>>6&eD,bY|a&eD);else
+if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<pY||h>qb)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(qm|a>>18,bY|a>>12&eD,bY|a>>6&eD,bY|a&eD)}if(b.length>fB){b.substr(0,1);f+=b;b=ad}}return f+b}function
+HK(a){var
+b=9;if(!rF(a))b=8,a=If(a);return new
 ch(b,a,a.length)}function
-eL(a){return Hw(a)}var
-H$=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",pO,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",jO,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",jT,pT,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
+eL(a){return HK(a)}var
+In=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",pS,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",jQ,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",jV,pX,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
 dN(d,f,e,a){var
-b=H$.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
+b=In.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
 c=[b,eL(f||ad),eL(e||ad)];return c}var
-ro={};function
-dK(a){return ro[a]}function
+rv={};function
+dK(a){return rv[a]}function
 dL(b,a){throw[0,b].concat(a)}function
-Hv(a){return new
+HJ(a){return new
 ch(4,a,a.length)}function
-ap(a){kc(ay.Sys_error,a)}function
-HY(a){ap(a+hb)}function
-q$(){aR(jZ)}function
-Hu(b,a){if(a>>>0>=b.l)q$();return j5(b,a)}function
-hy(a){return a.l}function
-q4(){}function
+ap(a){ke(ay.Sys_error,a)}function
+Ia(a){ap(a+he)}function
+rg(){aR(j1)}function
+HI(b,a){if(a>>>0>=b.l)rg();return j7(b,a)}function
+hB(a){return a.l}function
+q$(){}function
 aP(a){this.data=a}aP.prototype=new
-q4();aP.prototype.truncate=function(a){var
-b=this.data;this.data=cj(a|0);fH(b,0,this.data,0,a)};aP.prototype.length=function(){return hy(this.data)};aP.prototype.write=function(b,d,g,a){var
+q$();aP.prototype.truncate=function(a){var
+b=this.data;this.data=cj(a|0);fH(b,0,this.data,0,a)};aP.prototype.length=function(){return hB(this.data)};aP.prototype.write=function(b,d,g,a){var
 c=this.length();if(b+a>=c){var
 e=cj(b+a),f=this.data;this.data=e;fH(f,0,this.data,0,c)}eH(d,g,this.data,b,a);return 0};aP.prototype.read=function(c,a,d,b){var
-e=this.length();fH(this.data,c,a,d,b);return 0};aP.prototype.read_one=function(a){return Hu(this.data,a)};aP.prototype.close=function(){};aP.prototype.constructor=aP;function
-a8(b,a){this.content={};this.root=b;this.lookupFun=a}a8.prototype.nm=function(a){return this.root+a};a8.prototype.create_dir_if_needed=function(d){var
+e=this.length();fH(this.data,c,a,d,b);return 0};aP.prototype.read_one=function(a){return HI(this.data,a)};aP.prototype.close=function(){};aP.prototype.constructor=aP;function
+a_(b,a){this.content={};this.root=b;this.lookupFun=a}a_.prototype.nm=function(a){return this.root+a};a_.prototype.create_dir_if_needed=function(d){var
 c=d.split(b1),b=ad;for(var
-a=0;a<c.length-1;a++){b+=c[a]+b1;if(this.content[b])continue;this.content[b]=Symbol("directory")}};a8.prototype.slash=function(a){return/\/$/.test(a)?a:a+b1};a8.prototype.lookup=function(b){if(!this.content[b]&&this.lookupFun){var
+a=0;a<c.length-1;a++){b+=c[a]+b1;if(this.content[b])continue;this.content[b]=Symbol("directory")}};a_.prototype.slash=function(a){return/\/$/.test(a)?a:a+b1};a_.prototype.lookup=function(b){if(!this.content[b]&&this.lookupFun){var
 c=this.lookupFun(a(this.root),a(b));if(c!==0){this.create_dir_if_needed(b);this.content[b]=new
-aP(eI(c[1]))}}};a8.prototype.exists=function(a){if(a==ad)return 1;var
-b=this.slash(a);if(this.content[b])return 1;this.lookup(a);return this.content[a]?1:0};a8.prototype.mkdir=function(c,e,d){var
-b=d&&dK(jK);if(this.exists(c))if(b)dL(b,dN(pO,jJ,this.nm(c)));else
+aP(eI(c[1]))}}};a_.prototype.exists=function(a){if(a==ad)return 1;var
+b=this.slash(a);if(this.content[b])return 1;this.lookup(a);return this.content[a]?1:0};a_.prototype.mkdir=function(c,e,d){var
+b=d&&dK(jM);if(this.exists(c))if(b)dL(b,dN(pS,jL,this.nm(c)));else
 ap(c+": File exists");var
-a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||ad;if(!this.exists(a))if(b)dL(b,dN(jO,jJ,this.nm(a)));else
-ap(a+hb);if(!this.is_dir(a))if(b)dL(b,dN(jT,jJ,this.nm(a)));else
-ap(a+j1);this.create_dir_if_needed(this.slash(c))};a8.prototype.rmdir=function(a,f){var
-b=f&&dK(jK),c=a==ad?ad:this.slash(a),e=new
-RegExp(jW+c+pV);if(!this.exists(a))if(b)dL(b,dN(jO,jH,this.nm(a)));else
-ap(a+hb);if(!this.is_dir(a))if(b)dL(b,dN(jT,jH,this.nm(a)));else
-ap(a+j1);for(var
+a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||ad;if(!this.exists(a))if(b)dL(b,dN(jQ,jL,this.nm(a)));else
+ap(a+he);if(!this.is_dir(a))if(b)dL(b,dN(jV,jL,this.nm(a)));else
+ap(a+j3);this.create_dir_if_needed(this.slash(c))};a_.prototype.rmdir=function(a,f){var
+b=f&&dK(jM),c=a==ad?ad:this.slash(a),e=new
+RegExp(jY+c+pZ);if(!this.exists(a))if(b)dL(b,dN(jQ,jJ,this.nm(a)));else
+ap(a+he);if(!this.is_dir(a))if(b)dL(b,dN(jV,jJ,this.nm(a)));else
+ap(a+j3);for(var
 d
 in
-this.content)if(d.match(e))if(b)dL(b,dN(pT,jH,this.nm(a)));else
+this.content)if(d.match(e))if(b)dL(b,dN(pX,jJ,this.nm(a)));else
 ap(this.nm(a)+": Directory not empty");delete
-this.content[c]};a8.prototype.readdir=function(a){var
-f=a==ad?ad:this.slash(a);if(!this.exists(a))ap(a+hb);if(!this.is_dir(a))ap(a+j1);var
+this.content[c]};a_.prototype.readdir=function(a){var
+f=a==ad?ad:this.slash(a);if(!this.exists(a))ap(a+he);if(!this.is_dir(a))ap(a+j3);var
 g=new
-RegExp(jW+f+pV),d={},c=[];for(var
+RegExp(jY+f+pZ),d={},c=[];for(var
 e
 in
 this.content){var
-b=e.match(g);if(b&&!d[b[1]]){d[b[1]]=true;c.push(b[1])}}return c};a8.prototype.is_dir=function(a){if(a==ad)return true;var
-b=this.slash(a);return this.content[b]?1:0};a8.prototype.unlink=function(a){var
+b=e.match(g);if(b&&!d[b[1]]){d[b[1]]=true;c.push(b[1])}}return c};a_.prototype.is_dir=function(a){if(a==ad)return true;var
+b=this.slash(a);return this.content[b]?1:0};a_.prototype.unlink=function(a){var
 b=this.content[a]?true:false;delete
-this.content[a];return b};a8.prototype.open=function(a,b){if(b.rdonly&&b.wronly)ap(this.nm(a)+qJ);if(b.text&&b.binary)ap(this.nm(a)+pz);this.lookup(a);if(this.content[a]){if(this.is_dir(a))ap(this.nm(a)+" : is a directory");if(b.create&&b.excl)ap(this.nm(a)+qF);var
+this.content[a];return b};a_.prototype.open=function(a,b){if(b.rdonly&&b.wronly)ap(this.nm(a)+qP);if(b.text&&b.binary)ap(this.nm(a)+pD);this.lookup(a);if(this.content[a]){if(this.is_dir(a))ap(this.nm(a)+" : is a directory");if(b.create&&b.excl)ap(this.nm(a)+qL);var
 c=this.content[a];if(b.truncate)c.truncate();return c}else
 if(b.create){this.create_dir_if_needed(a);this.content[a]=new
 aP(cj(0));return this.content[a]}else
-HY(this.nm(a))};a8.prototype.register=function(c,a){var
-b;if(this.content[c])ap(this.nm(c)+qF);if(kb(a))b=new
-aP(a);if(rl(a))b=new
+Ia(this.nm(a))};a_.prototype.register=function(c,a){var
+b;if(this.content[c])ap(this.nm(c)+qL);if(kd(a))b=new
+aP(a);if(rs(a))b=new
 aP(eI(a));else
 if(a
 instanceof
 Array)b=new
-aP(Hv(a));else
+aP(HJ(a));else
 if(typeof
 a==="string")b=new
-aP(rb(a));else
+aP(ri(a));else
 if(a.toString){var
 d=eI(eL(a.toString()));b=new
 aP(d)}if(b){this.create_dir_if_needed(c);this.content[c]=b}else
-ap(this.nm(c)+" : registering file with invalid content type")};a8.prototype.constructor=a8;function
-au(a){return hy(a)}function
-dM(b,a){return j5(b,a)}function
-Hq(d){var
+ap(this.nm(c)+" : registering file with invalid content type")};a_.prototype.constructor=a_;function
+au(a){return hB(a)}function
+dM(b,a){return j7(b,a)}function
+HE(d){var
 c=au(d),b=new
 Array(c),a=0;for(;a<c;a++)b[a]=dM(d,a);return b}function
-Hp(a){if(a.t!=4)hu(a);return a.c}function
-Hy(a,c,b){b&=cK;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}hu(a)}a.c[c]=b;return 0}function
-Hx(b,a,c){if(a>>>0>=b.l)q$();return Hy(b,a,c)}function
+HD(a){if(a.t!=4)hx(a);return a.c}function
+HM(a,c,b){b&=cK;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}hx(a)}a.c[c]=b;return 0}function
+HL(b,a,c){if(a>>>0>=b.l)rg();return HM(b,a,c)}function
 ci(a){this.fs=require("fs");this.fd=a}ci.prototype=new
-q4();ci.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){ap(a.toString())}};ci.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){ap(a.toString())}};ci.prototype.write=function(f,b,c,e){var
-a=Hq(b);if(!(a
+q$();ci.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){ap(a.toString())}};ci.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){ap(a.toString())}};ci.prototype.write=function(f,b,c,e){var
+a=HE(b);if(!(a
 instanceof
 M.Uint8Array))a=new(M.Uint8Array)(a);var
 d=M.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){ap(a.toString())}return 0};ci.prototype.read=function(g,d,c,f){var
-a=Hp(d);if(!(a
+a=HD(d);if(!(a
 instanceof
 M.Uint8Array))a=new(M.Uint8Array)(a);var
 e=M.Buffer.from(a);try{this.fs.readSync(this.fd,e,c,f,g)}catch(a){ap(a.toString())}for(var
-b=0;b<f;b++)Hx(d,c+b,e[c+b]);return 0};ci.prototype.read_one=function(c){var
+b=0;b<f;b++)HL(d,c+b,e[c+b]);return 0};ci.prototype.read_one=function(c){var
 b=new(M.Uint8Array)(1),a=M.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){ap(a.toString())}return a[0]};ci.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){ap(a.toString())}};ci.prototype.constructor=ci;function
 aQ(a){this.fs=require("fs");this.root=a}aQ.prototype.nm=function(a){return this.root+a};aQ.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};aQ.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};aQ.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};aQ.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};aQ.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){ap(a.toString())}};aQ.prototype.unlink=function(a,c){try{var
 b=this.fs.existsSync(this.nm(a))?1:0;this.fs.unlinkSync(this.nm(a));return b}catch(a){this.raise_nodejs_error(a,c)}};aQ.prototype.open=function(f,c,g){var
@@ -539,8 +539,8 @@ d=this.fs.openSync(this.nm(f),b);return new
 ci(d)}catch(a){this.raise_nodejs_error(a,g)}};aQ.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};aQ.prototype.stat=function(b,c){try{var
 a=this.fs.statSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aQ.prototype.lstat=function(b,c){try{var
 a=this.fs.lstatSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aQ.prototype.symlink=function(d,c,a,b){try{this.fs.symlinkSync(this.nm(c),this.nm(a),d?"dir":"file");return 0}catch(a){this.raise_nodejs_error(a,b)}};aQ.prototype.readlink=function(b,c){try{var
-a=this.fs.readlinkSync(this.nm(b),pk);return eL(a)}catch(a){this.raise_nodejs_error(a,c)}};aQ.prototype.raise_nodejs_error=function(a,d){var
-b=dK(jK);if(d&&b){var
+a=this.fs.readlinkSync(this.nm(b),po);return eL(a)}catch(a){this.raise_nodejs_error(a,c)}};aQ.prototype.raise_nodejs_error=function(a,d){var
+b=dK(jM);if(d&&b){var
 c=dN(a.code,a.syscall,a.path,a.errno);dL(b,c)}else
 ap(a.toString())};aQ.prototype.stats_from_js=function(a){var
 b;if(a.isFile())b=0;else
@@ -550,28 +550,28 @@ if(a.isBlockDevice())b=3;else
 if(a.isSymbolicLink())b=4;else
 if(a.isFIFO())b=5;else
 if(a.isSocket())b=6;return[0,a.dev,a.ino,b,a.mode,a.nlink,a.uid,a.gid,a.rdev,a.size,a.atimeMs,a.mtimeMs,a.ctimeMs]};aQ.prototype.constructor=aQ;function
-ri(b){var
-a=ki(b);if(!a)return;return a[0]+b1}var
-hz=ri(fI)||b2("unable to compute caml_root"),eM=[];if(fL())eM.push({path:hz,device:new
-aQ(hz)});else
-eM.push({path:hz,device:new
-a8(hz)});eM.push({path:pt,device:new
-a8(pt)});function
-rC(b){var
-g=HP(b),b=g.join(b1),f=rv(b),c;for(var
+rp(b){var
+a=kk(b);if(!a)return;return a[0]+b1}var
+hC=rp(fI)||b2("unable to compute caml_root"),eM=[];if(fL())eM.push({path:hC,device:new
+aQ(hC)});else
+eM.push({path:hC,device:new
+a_(hC)});eM.push({path:px,device:new
+a_(px)});function
+rJ(b){var
+g=H3(b),b=g.join(b1),f=rC(b),c;for(var
 e=0;e<eM.length;e++){var
 a=eM[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&fL()){var
-d=ri(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
+d=rp(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
 a={path:d,device:new
 aQ(d)};eM.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;ap("no device found for "+f)}function
-HA(c,b){var
-a=rC(c);if(!a.device.register)b2("cannot register file");a.device.register(a.rest,b);return 0}function
-rx(c,b){var
-c=a(c),b=a(b);return HA(c,b)}function
-HD(){var
+HO(c,b){var
+a=rJ(c);if(!a.device.register)b2("cannot register file");a.device.register(a.rest,b);return 0}function
+rE(c,b){var
+c=a(c),b=a(b);return HO(c,b)}function
+HR(){var
 b=M.caml_fs_tmp;if(b)for(var
-a=0;a<b.length;a++)rx(b[a].name,b[a].content);M.jsoo_create_file=rx;M.caml_fs_tmp=[];return 0}function
-HW(c){var
+a=0;a<b.length;a++)rE(b[a].name,b[a].content);M.jsoo_create_file=rE;M.caml_fs_tmp=[];return 0}function
+H_(c){var
 a=0,e=au(c),b=10,d=1;if(e>0)switch(dM(c,a)){case
 45:a++;d=-1;break;case
 43:a++;d=1;break}if(a+1<e&&dM(c,a)==48)switch(dM(c,a+1)){case
@@ -583,33 +583,33 @@ a=0,e=au(c),b=10,d=1;if(e>0)switch(dM(c,a)){case
 66:b=2;a+=2;break;case
 117:case
 85:a+=2;break}return[a,d,b]}function
-rp(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=qV)return a-87;return-1}function
-hx(f){var
-h=HW(f),c=h[0],i=h[1],d=h[2],g=au(f),j=-1>>>0,e=c<g?dM(f,c):0,b=rp(e);if(b<0||b>=d)b2(hg);var
-a=b;for(c++;c<g;c++){e=dM(f,c);if(e==95)continue;b=rp(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)b2(hg)}if(c!=g)b2(hg);a=i*a;if(d==10&&(a|0)!=a)b2(hg);return a|0}function
-HO(a,b){return+(j6(a,b,false)<=0)}function
-HQ(a,d){if(a<0)ht();var
+rw(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=q1)return a-87;return-1}function
+hA(f){var
+h=H_(f),c=h[0],i=h[1],d=h[2],g=au(f),j=-1>>>0,e=c<g?dM(f,c):0,b=rw(e);if(b<0||b>=d)b2(hj);var
+a=b;for(c++;c<g;c++){e=dM(f,c);if(e==95)continue;b=rw(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)b2(hj)}if(c!=g)b2(hj);a=i*a;if(d==10&&(a|0)!=a)b2(hj);return a|0}function
+H2(a,b){return+(j8(a,b,false)<=0)}function
+H4(a,d){if(a<0)hw();var
 a=a+1|0,b=new
 Array(a);b[0]=0;for(var
 c=1;c<a;c++)b[c]=d;return b}var
 cM=new
 Array();function
-HR(c){var
+H5(c){var
 a=cM[c];if(!a.opened)ap("Cannot flush a closed channel");if(!a.buffer||a.buffer==ad)return 0;if(a.fd&&ay.fds[a.fd]&&ay.fds[a.fd].output){var
 b=ay.fds[a.fd].output;switch(b.length){case
 2:b(c,a.buffer);break;default:b(a.buffer)}}a.buffer=ad;return 0}function
-rs(e,f){var
+rz(e,f){var
 b=cM[e],d=a(f),c=au(d);b.file.write(b.offset,d,0,c);b.offset+=c;return 0}function
-H4(a){var
-a=ke(a),b=M;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+Ig(a){var
+a=kg(a),b=M;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.error&&c.error(a)}}function
-H5(a){var
-a=ke(a),b=M;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+Ih(a){var
+a=kg(a),b=M;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.log&&c.log(a)}}function
-hB(c,e,d,a){if(ay.fds===undefined)ay.fds=new
+hE(c,e,d,a){if(ay.fds===undefined)ay.fds=new
 Array();a=a?a:{};var
 b={};b.file=d;b.offset=a.append?d.length():0;b.flags=a;b.output=e;ay.fds[c]=b;if(!ay.fd_last_idx||c>ay.fd_last_idx)ay.fd_last_idx=c;return c}function
-Ia(c,b,g){var
+Io(c,b,g){var
 a={};while(b){switch(b[1]){case
 0:a.rdonly=1;break;case
 1:a.wronly=1;break;case
@@ -619,66 +619,66 @@ a={};while(b){switch(b[1]){case
 5:a.excl=1;break;case
 6:a.binary=1;break;case
 7:a.text=1;break;case
-8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)ap(eK(c)+qJ);if(a.text&&a.binary)ap(eK(c)+pz);var
-d=rC(c),e=d.device.open(d.rest,a),f=ay.fd_last_idx?ay.fd_last_idx:0;return hB(f+1,rs,e,a)}hB(0,rs,new
-aP(cj(0)));hB(1,H5,new
-aP(cj(0)));hB(2,H4,new
+8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)ap(eK(c)+qP);if(a.text&&a.binary)ap(eK(c)+pD);var
+d=rJ(c),e=d.device.open(d.rest,a),f=ay.fd_last_idx?ay.fd_last_idx:0;return hE(f+1,rz,e,a)}hE(0,rz,new
+aP(cj(0)));hE(1,Ih,new
+aP(cj(0)));hE(2,Ig,new
 aP(cj(0)));function
-HS(a){var
-c=ay.fds[a];if(c.flags.wronly)ap(qT+a+" is writeonly");var
+H6(a){var
+c=ay.fds[a];if(c.flags.wronly)ap(qZ+a+" is writeonly");var
 d=null;if(a==0&&fL()){var
-e=require("fs");d=function(){return eL(e.readFileSync(0,pk))}}var
+e=require("fs");d=function(){return eL(e.readFileSync(0,po))}}var
 b={file:c.file,offset:c.offset,fd:a,opened:true,out:false,refill:d};cM[b.fd]=b;return b.fd}function
-rm(c){var
-b=ay.fds[c];if(b.flags.rdonly)ap(qT+c+" is readonly");var
+rt(c){var
+b=ay.fds[c];if(b.flags.rdonly)ap(qZ+c+" is readonly");var
 a={file:b.file,offset:b.offset,fd:c,opened:true,out:true,buffer:ad};cM[a.fd]=a;return a.fd}function
-HT(){var
+H7(){var
 b=0;for(var
 a=0;a<cM.length;a++)if(cM[a]&&cM[a].opened&&cM[a].out)b=[0,cM[a].fd,b];return b}function
 bF(b,c,a){if(a&&M.toplevelReloc)b=M.toplevelReloc(a);ay[b+1]=c;if(a)ay[a]=c}function
-H0(a,b){ro[eK(a)]=b;return 0}function
-Ht(a,b){if(a===b)return 1;a.t&6&&eJ(a);b.t&6&&eJ(b);return a.c==b.c?1:0}function
-aw(a,b){return Ht(a,b)}function
-H2(){aR(jZ)}function
-a0(b,a){if(a>>>0>=au(b))H2();return dM(b,a)}function
+Ic(a,b){rv[eK(a)]=b;return 0}function
+HH(a,b){if(a===b)return 1;a.t&6&&eJ(a);b.t&6&&eJ(b);return a.c==b.c?1:0}function
+aw(a,b){return HH(a,b)}function
+Ie(){aR(j1)}function
+a1(b,a){if(a>>>0>=au(b))Ie();return dM(b,a)}function
 o(a,b){return 1-aw(a,b)}function
-hA(a){return a}function
-rr(a){return a}function
-rw(a){if(a
+hD(a){return a}function
+ry(a){return a}function
+rD(a){if(a
 instanceof
 Array)return a;if(M.RangeError&&a
 instanceof
-M.RangeError&&a.message&&a.message.match(/maximum call stack/i))return rr(ay.Stack_overflow);if(M.InternalError&&a
+M.RangeError&&a.message&&a.message.match(/maximum call stack/i))return ry(ay.Stack_overflow);if(M.InternalError&&a
 instanceof
-M.InternalError&&a.message&&a.message.match(/too much recursion/i))return rr(ay.Stack_overflow);if(a
+M.InternalError&&a.message&&a.message.match(/too much recursion/i))return ry(ay.Stack_overflow);if(a
 instanceof
-M.Error&&dK(p0))return[0,dK(p0),a];return[0,ay.Failure,eL(String(a))]}function
+M.Error&&dK(p4))return[0,dK(p4),a];return[0,ay.Failure,eL(String(a))]}function
 ck(a){return a<0?-a:a}function
 D(a,b){return a+b}function
-kf(a,b){return a<b?-1:a>b?1:0}function
-rz(c,b){var
+kh(a,b){return a<b?-1:a>b?1:0}function
+rG(c,b){var
 a=c%b;return a<0?a+ck(b):a}function
-kg(a,b){return(a-rz(a,b))/b}function
+ki(a,b){return(a-rG(a,b))/b}function
 J(a,b){return a==b?1:0}function
-H9(c){M.orthocert_verify=function(b){return eK(dg(c,[a(b)]))}}function
-E(a,b){return a<=b?1:0}function
+Il(c){M.orthocert_verify=function(b){return eK(dh(c,[a(b)]))}}function
+F(a,b){return a<=b?1:0}function
 I(a,b){return a<b?1:0}function
 B(a,b){return a*b}function
 O(a){return-a}function
-aD(a){return M.BigInt(a)}function
-rA(a,b){return a<<M.BigInt(b)}function
-rB(a,b){return a>>M.BigInt(b)}function
+aE(a){return M.BigInt(a)}function
+rH(a,b){return a<<M.BigInt(b)}function
+rI(a,b){return a>>M.BigInt(b)}function
 aM(a){return a<0?-1:a>0?1:0}function
-H_(a){if(a<0)throw new(M.Error)("a root of a negative number");if(a<2)return a;var
+Im(a){if(a<0)throw new(M.Error)("a root of a negative number");if(a<2)return a;var
 d=M.BigInt(1),b=d<<M.BigInt((a.toString(16).length*4+1)/2|0),c;for(;;){c=b+a/b>>d;if(c>=b)return b;b=c}}function
-aE(a,b){return a-b}function
-kh(a){if(a>0x7fffffff||a<-0x80000000)throw new(M.Error)("a number of more than 32 bits");return M.Number(a)}function
-HM(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
-HC(b){var
-a=ad;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&HM(b[1]))var
+aF(a,b){return a-b}function
+kj(a){if(a>0x7fffffff||a<-0x80000000)throw new(M.Error)("a number of more than 32 bits");return M.Number(a)}function
+H0(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
+HQ(b){var
+a=ad;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&H0(b[1]))var
 e=b[2],f=1;else
 var
-f=2,e=b;a+=p1;for(var
+f=2,e=b;a+=p5;for(var
 d=f;d<e.length;d++){if(d>f)a+=", ";var
 c=e[d];if(typeof
 c=="number")a+=c.toString();else
@@ -687,41 +687,41 @@ instanceof
 ch)a+=aL+c.toString()+aL;else
 if(typeof
 c=="string")a+=aL+c.toString()+aL;else
-a+="_"}a+=jV}else
-if(b[0]==aZ)a+=b[1];return a}function
-rg(a){if(a
+a+="_"}a+=jX}else
+if(b[0]==a0)a+=b[1];return a}function
+rn(a){if(a
 instanceof
-Array&&(a[0]==0||a[0]==aZ)){var
+Array&&(a[0]==0||a[0]==a0)){var
 c=dK("Printexc.handle_uncaught_exception");if(c)c(a,false);else{var
-d=HC(a),b=dK(pj);if(b)b(0);M.console.error("Fatal error: exception "+d+"\n")}}else
+d=HQ(a),b=dK(pn);if(b)b(0);M.console.error("Fatal error: exception "+d+"\n")}}else
 throw a}function
-H1(){var
-a=M;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){rg(b);a.process.exit(2)});else
-if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)rg(a.error)})}H1();function
-i(a,b){return a.length==1?a(b):dg(a,[b])}function
-ao(a,b,c){return a.length==2?a(b,c):dg(a,[b,c])}function
-fu(a,b,c,d){return a.length==3?a(b,c,d):dg(a,[b,c,d])}function
-jF(a,b,c,d,e){return a.length==4?a(b,c,d,e):dg(a,[b,c,d,e])}HD();var
-kk=[aZ,a(pR),-2],kj=[aZ,a(q3),-4],Gj=[0,[0,[0,[0,0]]]],Gk=[0,0],Gl=[0,0],Gm=[0,[0,0]],Gn=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gm]]]]]]]]]]],gZ=[0,[1,0],0],ot=[0,[2,0],0],jl=[0,[1,0],0],os=[0,[2,0],0],gX=[0,[1,0],0],jk=[0,[2,0],0],Go=[0,[0,[0,[0,0]]]],Gp=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Go]]]]]]]]]]],Gq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gp]]]]]]]]]]],Gr=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gq]]]]]]]]]]],Gs=[0,[0,0]],Gt=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gs]]]]]]]]]]],Gu=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gt]]]]]]]]]]],Gv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gu]]]]]]]]]]],Gw=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gv]]]]]]]]]]],Gx=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],Gy=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gx]]]]]]]]]]],Gz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gy]]]]]]]]]]],GA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gz]]]]]]]]]]],GB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GA]]]]]]]]]]],GC=[0,[0,0]],GD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GC]]]]]]]]]]],GE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GD]]]]]]]]]]],GF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GE]]]]]]]]]]],GG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GF]]]]]]]]]]],GH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GG]]]]]]]]]]],GI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GH]]]]]]]]]]],GJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GI]]]]]]]]]]],GK=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],GL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GK]]]]]]]]]]],GM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GL]]]]]]]]]]],GN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GM]]]]]]]]]]],GO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GN]]]]]]]]]]],GP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GO]]]]]]]]]]],GQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GP]]]]]]]]]]],GR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GQ]]]]]]]]]]],GS=[0,0],GT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GS]]]]]]]]]]],GU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GT]]]]]]]]]]],GV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GU]]]]]]]]]]],GW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GV]]]]]]]]]]],GX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GW]]]]]]]]]]],GY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GX]]]]]]]]]]],GZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GY]]]]]]]]]]],G0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GZ]]]]]]]]]]],G1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G0]]]]]]]]]]],G2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G1]]]]]]]]]]],G3=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],G4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G3]]]]]]]]]]],G5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],G6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G5]]]]]]]]]]],G7=[0,[0,[0,[0,[0,0]]]]],G8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G7]]]]]]]]]]],G9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G8]]]]]]]]]]],G_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G9]]]]]]]]]]],G$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G_]]]]]]]]]]],Ha=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G$]]]]]]]]]]],Hb=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ha]]]]]]]]]]],Hc=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hb]]]]]]]]]]],Hd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hc]]]]]]]]]]],He=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hd]]]]]]]]]]],Hf=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,He]]]]]]]]]]],Hg=[0,0],Hh=[0,[0,0]],Hi=[0,0],Hj=[0,[0,[0,[0,[0,0]]]]],kT=[0,[0,[0,0]]],dm=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],gN=[0,[0,[0,[0,0]]]],Hk=[0,[0,[0,[0,[0,0]]]]],Hl=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hk]]]]]]]]]]],Hm=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hl]]]]]]]]]]],Hn=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hm]]]]]]]]]]],Ho=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hn]]]]]]]]]]];bF(11,[aZ,a(pi),-12],pi);bF(10,[aZ,a(p6),-11],p6);bF(9,[aZ,a(qS),-10],qS);bF(8,[aZ,a(pu),-9],pu);bF(7,[aZ,a(qj),-8],qj);bF(6,[aZ,a(ps),-7],ps);bF(5,[aZ,a(pS),-6],pS);bF(4,[aZ,a(pW),-5],pW);bF(3,kj,q3);bF(2,[aZ,a(jP),-3],jP);bF(1,kk,pR);bF(0,[aZ,a(qB),-1],qB);var
-rD=a("String.sub / Bytes.sub"),rF=a(ad),rE=a("String.concat"),rG=a("Array.init"),rH=a("power"),r0=[0,0],r1=[0,0],r7=[0,0,0],r8=[0,0,0],r9=[0,0],st=[0,0],su=[0,0],sx=[0,0],sR=[0,0],sU=[0,0],sW=[0,0],sX=[0,0],s$=[0,0],ta=[0,0],tD=[0,0],tX=[0,[0,[0,0]]],up=[0,0],uO=[0,0],uP=[0,0],uQ=[0,0],vg=a(","),vy=[0,a(jV),0],vz=a(p1),vA=a("."),vB=[0,[0,[0,0]]],vC=a(fA),vD=a(jW),vE=[0,[0,[0,[0,[0,0]]]]],vF=[0,a(jV),0],vG=a(q0),yD=a(pf),yF=a(pb),yE=a(p9),yG=a(eA),yH=a(ey),yI=a(q2),yJ=a(qM),yK=a(pL),yL=a(jY),yM=a(qd),z3=[0,[0,0,0]],Ai=[0,0],z4=a(g$),z5=[0,0],z6=a("divided"),z7=[0,1],z8=a("mirror"),z9=[0,3],z_=a("negative"),z$=[0,2],Aa=a(fz),Ab=[0,5],Ac=a(j3),Ad=[0,4],Ae=a(dI),Af=a(px),Ag=a(eB),Ah=a(cg),Aj=[0,0],Ak=[0,0],Al=[0,0],Ao=[0,[0,[0,0]]],Ap=[0,[0,[0,0]]],AQ=[0,[0,[0,0]]],A4=[0,0],Bh=a(ad),Ba=[0,0],Bb=[0,0],Bc=[0,[0,[0,[0,0]]]],Bd=[0,[0,[0,0]]],Be=[0,[0,[0,[0,0]]]],Bf=[0,[0,[0,0]]],A_=[0,[0,[0,0]]],A9=[0,0],A8=a(eB),A7=[0,[0,[0,0]]],A6=[0,0],A1=[0,[0,0]],A3=[0,[0,[0,0]]],A2=[0,0],AX=[0,[0,[0,0]]],AW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gj]]]]]]]]]],[0,0,[0,[0,[0,[0,0]]],0]]],AR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],[0,0,0]],AS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],[0,[0,[0,[0,[0,[0,[0,0]]]]]],0]],AT=[0,[0,[0,[0,[0,[0,[0,0]]]]]],0],AU=[0,[0,[0,[0,0]]],[0,0,0]],AO=[0,0],AP=[0,[0,0]],AN=[0,0,0],AM=[0,[0,[0,0]]],AG=[0,[0,0]],AH=[0,[0,[0,0]]],AI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gk]]]]]]]]]]],AJ=[0,[0,0]],AK=[0,[0,[0,0]]],AF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gl]]]]]]]]]]],AD=[0,[0,0]],AE=[0,[0,[0,0]]],AB=[0,[0,[0,0]]],AC=[0,[0,0]],AA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gn]]]]]]]]]]],Az=[0,0],Ay=[0,0],Av=[0,[0,0]],Aw=[0,0],At=[0,0],Au=[0,1],Ar=[0,[0,0]],As=[0,0],Aq=[0,0],Am=[0,0],An=[0,1],z0=[0,0],z1=[0,1],z2=[0,2],zW=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],zU=[0,[0,0],0],zV=[0,[1,0],0],zX=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],zS=[0,[0,0]],zT=[0,0],zR=[0,0],zQ=[0,0],zP=[0,0],zO=[0,0],zN=[0,0,0],zL=[0,[0,0]],zM=[0,0],zK=[0,0,0],zI=[0,[0,[0,0]]],zJ=[0,[0,[0,0]]],zH=[0,0],zF=[0,1,0],zx=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gr]]]]]]]]]]],zy=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gw]]]]]]]]]]],zt=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GB]]]]]]]]]]],zu=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GJ]]]]]]]]]]],zv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GR]]]]]]]]]]],zw=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G2]]]]]]]]]]],zz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G4]]]]]]]]]]],zA=a("sqrt"),zr=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G6]]]]]]]]]]],zs=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hf]]]]]]]]]]],zg=[0,a("\n"),0],zh=a(pc),zi=a(hc),zj=a(p5),zk=a(pP),zq=a(fD),zl=a(fy),zm=a("verdict"),zn=a(qD),zo=a(pI),zp=a(p4),zd=a(pZ),ze=a(qH),zf=a(he),y$=a(qf),za=a(hf),zb=a(fy),zc=a(fD),y6=a(hn),y7=a(bl),y8=a(pe),y9=a(hk),y3=a(qA),y4=a(fz),y5=a(hk),yZ=a(qi),y0=a(hn),y1=a(hf),y2=a(qQ),yO=a(qI),yP=a(qL),yQ=a(hj),yR=a(hh),yS=a(qW),yT=a(qw),yU=a(qz),yV=a(qm),yW=a(hj),yX=a(qp),yB=a(ha),yC=a(fC),yw=a(bE),yx=a(bD),yy=a(pK),x8=a(hh),x9=a(ql),xM=a(bl),xN=a(b0),xO=a(hp),xP=a(eE),xQ=a(dH),xV=a(jI),xR=a(jX),xS=a(j0),xT=a(ez),xU=a(bl),xW=a(b0),xX=a(hp),xY=a(eE),xZ=a(jX),x0=a(j0),x1=a(ez),x2=a(bl),x3=a(b0),x4=a(bE),x5=a(bD),x6=a(dF),x7=a(eE),x_=a(qu),x$=a(qK),ya=a(hs),yb=a(py),yc=a(pD),yd=a(ez),ye=a(bl),yf=a(b0),yg=a(g9),yh=a(pN),yi=a(eE),yj=a(fG),yk=a(pm),yl=a(ez),ym=a(bl),yn=a(g9),yo=a(bl),yp=a(qo),ys=a(pa),yq=a(pB),yr=a(qP),yt=a(fD),yu=a(fy),yv=a(bl),yz=a(hs),yA=a(he),xH=a(b0),xI=a(eE),xJ=a(jI),xK=a(ez),xG=a(qY),xu=a(fG),xv=a(qE),xw=a(dG),xx=a(eC),xy=a(eC),xz=a(jL),xA=a(dG),xB=a(p7),xC=a(pJ),xD=a(bd),xF=a(ph),xE=a(jL),xk=a(pY),xl=a(q1),xm=a(pF),xn=a(pC),xo=a(qO),xp=a(qy),xq=a(pQ),xr=a(g_),xs=a(g_),xg=a(bd),xh=a(bC),xi=a(eF),xj=a(bZ),xc=a(dH),xd=a(jS),xe=a(qg),w$=a(bE),xa=a(bD),xb=a(dF),w4=a(bE),w5=a(bD),w6=a(dF),w7=a(jU),w8=a(dG),w9=a(jQ),w_=a(qt),wN=a(pA),wT=a(hc),wS=a(j2),wO=a(jM),wP=a(fw),wW=a(fx),wX=a(jM),wU=a(fx),wV=a(fw),wY=a(pw),wZ=a(qr),w0=a(fw),w1=a(qX),w2=a(j2),w3=a(fw),wQ=a(eC),wR=a(qb),wK=a(hi),wL=a(hi),wM=a(hi),wG=a(qv),wH=a(bD),wI=a(bE),wJ=a(qN),wq=a(pq),wr=a(pg),ws=a(qk),wt=a(eA),wu=a(qZ),wv=a(qn),ww=a(pr),wx=a(qc),wy=a(pp),wz=a(pM),wA=a(po),wB=a(qx),wC=a(ey),wD=a(pl),wE=a(qG),wF=a(pE),v7=a(hl),v9=a(fA),v8=a(fv),v_=a(ex),v$=a(bd),wa=a(bC),wb=a(cg),wc=a(hq),wd=a(bZ),we=a(bd),wf=a(bC),wg=a(eF),wh=a(bZ),wi=a(ex),wj=a(fF),wk=a(bd),wl=a(bC),wm=a(p$),wn=a(fx),wo=a(fF),wp=a(bZ),vP=a(hl),vX=a(fA),vQ=a(fv),vR=a(ex),vS=a(bd),vT=a(bC),vU=a(cg),vV=a(hq),vW=a(bZ),vY=a(hr),vZ=a(bd),v0=a(bC),v1=a(eF),v2=a(bZ),v3=a(cg),v4=a(dH),v5=a(bZ),vM=a(bE),vN=a(bD),vK=[0,a(aL),0],vL=a(aL),vI=a(ad),vH=[0,a(aL),0],vJ=a(aL),vu=a(hl),vv=a(fA),vw=a("*"),vx=a(b1),vp=[0,[0,[0,[0,[0,0]]]]],vq=[0,[0,[0,0]]],vr=[0,[0,0]],vs=[0,0],vt=[0,[0,[0,[0,0]]]],vn=a('":'),vo=a(aL),vl=[0,a(aL),0],vm=a(aL),vj=[0,a("}"),0],vk=a("{"),vh=[0,a("]"),0],vi=a("["),vf=[0,[0,[0,0]]],ve=[0,[0,[0,0]]],vc=[0,0],u$=[0,[0,[0,0]]],va=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],vb=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],u9=[0,[0,0]],u_=[0,[0,[0,0]]],u7=[0,0],u8=[0,[0,0]],u3=[0,[0,0]],u4=[0,0],u5=[0,[0,[0,0]]],u6=[0,[0,[0,0]]],uZ=[0,[0,[0,0]]],u1=[0,[0,[0,0]]],u0=[0,0],uW=[0,[0,0]],uX=[0,0],uU=[0,[0,0]],uV=[0,0],uT=[0,[0,[0,0]]],uR=[0,[0,0]],uS=[0,0],uM=[0,0],uN=[0,[0,0]],uG=[0,[0,0]],uH=[0,[0,[0,[0,[0,0]]]]],uI=[0,[0,[0,[0,0]]]],uJ=[0,[0,[0,0]]],uK=[0,[0,0]],uL=[0,0],uD=[0,0],uE=[0,[0,0]],uF=[0,0],uC=[0,0],uy=[0,0],uz=[0,[0,[0,[0,[0,[0,0]]]]]],uA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hg]]]]]]]]]]],uw=[0,0],ut=[0,0,0],uu=[0,0,0],uv=[0,0,0],uq=[0,[0,0]],ur=[0,[0,[0,0]]],us=[0,0],uf=[0,[0,[0,[0,[0,[0,0]]]]]],ug=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],uh=[0,[0,[0,0]]],ui=[0,[0,[0,0]]],uj=[0,[0,[0,[0,[0,[0,0]]]]]],uk=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],ul=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hh]]]]]]]]]]],um=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hi]]]]]]]]]]],un=[0,[0,[0,0]]],uo=[0,[0,[0,[0,[0,[0,0]]]]]],ue=[0,0],uc=[0,[0,0]],ud=[0,[0,[0,0]]],t_=[0,0,0],t$=[0,0,0],t6=[0,0,0],t7=[0,0,0],t8=[0,0,0],t9=[0,0,0],t5=[0,0],t4=[0,0],t3=[0,0],t1=[0,0],t2=[0,0],t0=[0,0],tY=[0,0],tZ=[0,0],tR=[0,0],tS=[0,0],tT=[0,0],tU=[0,[0,[0,0]]],tQ=[0,0],tL=[0,[0,[0,0]]],tM=[0,[0,0]],tJ=[0,[0,0]],tK=[0,[0,[0,0]]],tI=[0,0],tG=[0,0],tH=[0,0],tE=[0,0,0],tB=[0,[0,0]],tC=[0,0],tt=[0,[0,0]],tu=[0,0],tv=[0,[0,0]],tw=[0,0],tx=[0,[0,0]],ty=[0,0],tz=[0,[0,0]],tA=[0,0],tr=[0,[0,0]],ts=[0,0],tp=[0,[0,0]],tq=[0,0],tl=[0,[0,0]],tm=[0,0],tn=[0,0],to=[0,[0,0]],tc=[0,[0,0]],td=[0,0],te=[0,[0,0]],tf=[0,0],tg=[0,0],th=[0,[0,0]],ti=[0,[0,0]],tj=[0,[0,0]],tk=[0,0],s_=[0,0],s9=[0,0],s6=[0,0],s7=[0,[0,0]],s5=[0,[0,[0,0]]],s4=[0,[0,[0,[0,[0,[0,0]]]]]],s1=[0,[0,0]],s2=[0,[0,0]],s3=[0,0],s0=[0,0],sY=[0,0],sZ=[0,[0,[0,0]]],sV=[0,[0,[0,0]]],sS=[0,[0,[0,0]]],sQ=[0,[0,[0,0]]],sO=[0,[0,[0,[0,[0,[0,0]]]]]],sP=[0,[0,[0,[0,[0,[0,0]]]]]],sJ=[0,[0,0]],sK=[0,0],sL=[0,[0,0]],sM=[0,[0,[0,0]]],sN=[0,[0,[0,0]]],sC=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],sD=[0,[0,[0,[0,[0,[0,0]]]]]],sE=[0,[0,[0,[0,[0,[0,0]]]]]],sF=[0,[0,[0,0]]],sG=[0,[0,[0,[0,[0,[0,0]]]]]],sH=[0,[0,[0,0]]],sI=[0,[0,[0,0]]],sA=[0,[0,0]],sB=[0,0],sz=[0,0,0],sy=[0,0,0],sw=[0,0,0],sv=[0,[0,[0,0]]],sp=[0,0],sq=[0,0],sr=[0,0],ss=[0,0],sn=[0,0],so=[0,0],sj=[0,[0,[0,0]]],sk=[0,[0,[0,0]]],sl=[0,[0,[0,0]]],si=[0,[0,[0,[0,0]]]],se=[0,[0,[0,0]]],sf=[0,[0,[0,0]]],sg=[0,[0,[0,0]]],sh=[0,[0,1,1],[0,[0,0,1],[0,[0,1,0],[0,[0,0,0],0]]]],sc=[0,[0,0]],sd=[0,0],sa=[0,[0,0]],sb=[0,0],r_=[0,[0,0]],r$=[0,0],rX=[0,0],rY=[0,[0,0]],rV=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],rW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hj]]]]]]]]]]],rT=[0,0,0],rS=a(qU),rR=a(ad),rQ=[0,[0,0]],rO=[0,0],rL=[0,0],rN=[1,0],rM=[0,0],rK=[0,0],rI=[1,0],rJ=[1,0],s8=[10,0,0,0,0],A5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ho]]]]]]]]]]],Ei=a(bE),Ej=a(bD),Ek=a(pK),Ea=a(hr),Eb=[0,a("a base axis of such a platform"),0],Ec=a(bd),Ed=a(bC),DZ=a(qy),D0=a(pY),D1=a(qO),D2=a(g_),D3=a(pQ),D4=a(g_),D5=a(q1),D6=a(pF),D7=a(pC),DP=a(ql),DQ=a(hh),Dr=[0,a("such a machine with bodies"),0],De=a(he),Df=a(bl),Dg=a(qo),Dh=a(qP),Dk=a(pB),Dl=a(pa),Dm=a(bl),Dn=a(bl),Dp=a(g9),Do=[0,a("a claim that no cube of such a machine fits"),0],Dq=a(qY),Ds=a(ez),Dt=a(eE),Du=a(dH),Dv=a(jS),Dw=a(qg),Dx=a(hp),Dy=a(pD),Dz=a(pm),DA=a(jI),DD=a(dF),DE=a(qt),DH=a(b0),DI=a(b0),DJ=a(pN),DK=a(b0),DL=[0,a("the closed design with other bounds on psi than one from below and one from above"),0],DM=a(g9),DN=a(fG),DO=a(dF),DR=a(b0),DS=a(bE),DT=a(bD),DU=a(qu),DV=a(qK),DW=a(hs),DX=a(py),DB=[0,a(aL),0],DC=a('the mechanism "'),DY=a(jX),D8=a(hp),D9=a(dH),D_=a(jS),D$=a(j0),Ee=a(b0),Eh=a(dH),Ef=[0,a("a platform that turns on struts and other drives"),0],Eg=a(b0),DF=[0,a(aL),0],DG=a('the workspace "'),El=a(bl),Em=a(bl),Eo=a(fD),Ep=a(fy),Eq=a(hs),En=[0,a("an atlas of such a machine"),0],Di=[0,a(aL),0],Dj=a('a claim of the kind "'),EG=a(jY),EH=[0,a('the evidence "fan" without "tolerances"'),0],Ev=a(dI),EQ=a(fC),ER=[0,1,1],Ew=a(qd),EI=a(ey),EJ=a(eA),EK=a(pL),EL=a(p9),EM=a(cg),EN=a(fC),EO=a(ha),EP=a(cg),Ex=a(q2),Ey=a(dI),Ez=a(px),EA=a(eB),EB=a(jY),EE=a(eB),EF=[0,a('the evidence "inside" about "rank"'),0],EC=[0,a(aL),0],ED=a('the evidence "'),ES=a(ey),ET=a(eA),EU=a(dI),EV=a(eB),EW=a(qM),EY=a(ey),EZ=a(eA),E0=a(dI),E1=a(eB),E2=a(fz),E3=a(g$),E4=a(fz),E5=a(g$),EX=[0,a("this evidence at control points"),0],Gc=a('"orthocert-paving/'),F4=a(dI),F5=a(dI),FL=a(p4),FM=a(pI),FN=a(qD),Ga=[0,3,3],FO=a(pP),F2=[0,a("this set of orientations with such drives"),0],F3=[0,a('"parallel_margin" of struts in the plane'),0],F6=[0,a('this evidence "tolerances" of a platform that turns'),0],F7=[0,a('"one_to_one" of this set of orientations'),0],F8=[0,a("a step of a platform that turns that is not at control points"),0],F9=[0,a('the evidence "tolerances" of such a mechanism'),0],F_=[0,a(qa),0],F$=[0,a(qC),0],F1=[0,a(qa),0],F0=[0,a(qC),0],FY=[0,a(pd),0],FZ=[0,a("a step in a proof that no cube fits"),0],FX=[0,a('"one_to_one" of such a mechanism'),0],FP=[0,a("the acceleration of a joint of a machine with a plane"),0],FV=[0,a("a stiffness for each joint in such a claim"),0],FW=[0,a(qq),0],FU=[0,a(qq),0],FQ=a(p5),FR=a(pc),FS=a(hc),FT=[0,a(pd),0],FH=a(j3),FI=a(g$),FJ=a(cg),Fz=a(he),FA=a(pZ),FB=a(qH),FC=[0,a(aL),0],FD=a('a proof of the kind "'),Fv=a(fy),Fw=a(fD),Fx=a(hf),Fy=a(qf),Fr=a(bl),Fs=a(hn),Ft=a(pe),Fu=a(hk),Fo=a(qA),Fp=a(fz),Fq=a(hk),Fk=a(qi),Fl=a(hn),Fm=a(hf),Fn=a(qQ),E8=a(qL),E9=a(hj),E_=a(qI),E$=a(hh),Fa=a(qp),Fb=a(qW),Fe=a(qw),Ff=a(ha),Fg=a(fC),Fh=a(qz),Fi=a(qm),Fj=a(hj),Fc=[0,a(aL),0],Fd=a('the failure "'),E6=a(j3),E7=a(qU),Et=a(fC),Eu=a(ha),Er=a(pb),Es=a(pf),Db=a(fG),C3=a(jL),C4=a(ph),C5=a(eC),C6=a(bd),C$=a(qE),Da=a(fG),Dc=a(dG),Dd=a(eC),C7=a(dG),C8=a(p7),C9=a(pJ),C_=a(bd),CW=a(dF),C0=a(bE),C1=a(bD),CX=a(jQ),CY=a(jU),CZ=a(dG),CQ=a(dF),CU=a(bE),CV=a(bD),CR=a(jQ),CS=a(jU),CT=a(dG),CP=[0,1],CO=[0,1],CM=[0,1],CL=[0,1],CJ=[0,1],CK=[0,a("this quantity of such a mechanism"),0],Ct=a(jM),Cu=a(qr),Cv=a(pw),Cw=a(j2),Cx=a(qX),Cy=a(fx),Cs=a(hc),Ck=a(hi),B$=a(qb),Ca=a(qk),CB=a(ey),CC=a(qG),CD=a(pM),CE=a(eA),CF=a(qc),CG=a(po),CH=a(pp),CI=a(pg),Cb=a(pl),Cc=a(qx),Cd=a(qn),Ce=a(pE),Cf=a(qZ),Cg=a(pr),Ch=a(pq),Ci=[0,a(aL),0],Cj=a('the quantity "'),Cl=a(pA),Cm=a(qv),Cn=a(bE),Co=a(bD),Cp=a(qN),Cq=[0,a(aL),0],Cr=a('a bound "'),Cz=a(fw),CA=a(eC),B9=a(bZ),B_=a(eF),BO=a(bZ),BP=a(hr),BQ=a(fF),BR=a(hq),BS=a(eF),BV=a(bd),BW=a(bC),BX=a(fv),BY=a(ex),BZ=a(bd),B0=a(bC),B1=a(cg),B2=a(fv),B3=a(ex),B4=a(fF),B5=a(bd),B6=a(bC),B7=a(p$),B8=a(fx),BT=[0,a('" of such a machine'),0],BU=a(pv),BM=a(bZ),BN=a(fF),Bw=a(bZ),Bx=a(dH),By=a(hq),Bz=a(eF),BC=a(hr),BD=a(bd),BE=a(bC),BF=a(fv),BG=a(ex),BH=a(bd),BI=a(bC),BJ=a(cg),BK=a(cg),BA=[0,a(aL),0],BB=a(pv),Bt=a(hl),Bu=a(fA),Br=a(" is not covered by the verified checker"),Bs=a(ad),Bp=a(bE),Bq=a(bD),Bl=a(ad),Bm=a(q0),Bn=a(ad),Bo=a(ad),Bk=[1,0],Bi=a("Reader.Malformed"),Bj=a("Reader.Not_covered"),Ge=[0,a("a paving is checked by orthocert-verified")],Gd=a(qe),Gf=a("CERTIFIED"),Gg=a("REFUTED"),Gh=a(qe),Gi=a("NOT COVERED: ");function
-fM(a){throw[0,kj,a]}function
-a9(d,c){var
-a=au(d),e=au(c),b=cj(a+e|0);eH(d,0,b,0,a);eH(c,0,b,a,e);return hA(b)}HS(0);rm(1);rm(2);function
-kl(b){function
+Id(){var
+a=M;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){rn(b);a.process.exit(2)});else
+if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)rn(a.error)})}Id();function
+i(a,b){return a.length==1?a(b):dh(a,[b])}function
+ao(a,b,c){return a.length==2?a(b,c):dh(a,[b,c])}function
+fu(a,b,c,d){return a.length==3?a(b,c,d):dh(a,[b,c,d])}function
+jH(a,b,c,d,e){return a.length==4?a(b,c,d,e):dh(a,[b,c,d,e])}HR();var
+km=[a0,a(pV),-2],kl=[a0,a(q_),-4],Gx=[0,[0,[0,[0,0]]]],Gy=[0,0],Gz=[0,0],GA=[0,[0,0]],GB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GA]]]]]]]]]]],g2=[0,[1,0],0],ox=[0,[2,0],0],jn=[0,[1,0],0],ow=[0,[2,0],0],g0=[0,[1,0],0],jm=[0,[2,0],0],GC=[0,[0,[0,[0,0]]]],GD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GC]]]]]]]]]]],GE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GD]]]]]]]]]]],GF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GE]]]]]]]]]]],GG=[0,[0,0]],GH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GG]]]]]]]]]]],GI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GH]]]]]]]]]]],GJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GI]]]]]]]]]]],GK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GJ]]]]]]]]]]],GL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],GM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GL]]]]]]]]]]],GN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GM]]]]]]]]]]],GO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GN]]]]]]]]]]],GP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GO]]]]]]]]]]],GQ=[0,[0,0]],GR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GQ]]]]]]]]]]],GS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GR]]]]]]]]]]],GT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GS]]]]]]]]]]],GU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GT]]]]]]]]]]],GV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GU]]]]]]]]]]],GW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GV]]]]]]]]]]],GX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GW]]]]]]]]]]],GY=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],GZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GY]]]]]]]]]]],G0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GZ]]]]]]]]]]],G1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G0]]]]]]]]]]],G2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G1]]]]]]]]]]],G3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G2]]]]]]]]]]],G4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G3]]]]]]]]]]],G5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G4]]]]]]]]]]],G6=[0,0],G7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G6]]]]]]]]]]],G8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G7]]]]]]]]]]],G9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G8]]]]]]]]]]],G_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G9]]]]]]]]]]],G$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G_]]]]]]]]]]],Ha=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G$]]]]]]]]]]],Hb=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ha]]]]]]]]]]],Hc=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hb]]]]]]]]]]],Hd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hc]]]]]]]]]]],He=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hd]]]]]]]]]]],Hf=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],Hg=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hf]]]]]]]]]]],Hh=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],Hi=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hh]]]]]]]]]]],Hj=[0,[0,[0,[0,[0,0]]]]],Hk=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hj]]]]]]]]]]],Hl=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hk]]]]]]]]]]],Hm=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hl]]]]]]]]]]],Hn=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hm]]]]]]]]]]],Ho=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hn]]]]]]]]]]],Hp=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ho]]]]]]]]]]],Hq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hp]]]]]]]]]]],Hr=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hq]]]]]]]]]]],Hs=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hr]]]]]]]]]]],Ht=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hs]]]]]]]]]]],Hu=[0,0],Hv=[0,[0,0]],Hw=[0,0],Hx=[0,[0,[0,[0,[0,0]]]]],kV=[0,[0,[0,0]]],dn=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],gQ=[0,[0,[0,[0,0]]]],Hy=[0,[0,[0,[0,[0,0]]]]],Hz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hy]]]]]]]]]]],HA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hz]]]]]]]]]]],HB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HA]]]]]]]]]]],HC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HB]]]]]]]]]]];bF(11,[a0,a(pm),-12],pm);bF(10,[a0,a(p$),-11],p$);bF(9,[a0,a(qY),-10],qY);bF(8,[a0,a(py),-9],py);bF(7,[a0,a(qo),-8],qo);bF(6,[a0,a(pw),-7],pw);bF(5,[a0,a(pW),-6],pW);bF(4,[a0,a(p0),-5],p0);bF(3,kl,q_);bF(2,[a0,a(jR),-3],jR);bF(1,km,pV);bF(0,[a0,a(qH),-1],qH);var
+rK=a("String.sub / Bytes.sub"),rM=a(ad),rL=a("String.concat"),rN=a("Array.init"),rO=a("power"),r7=[0,0],r8=[0,0],sc=[0,0,0],sd=[0,0,0],se=[0,0],sA=[0,0],sB=[0,0],sE=[0,0],sY=[0,0],s1=[0,0],s5=[0,0],s6=[0,0],ti=[0,0],tj=[0,0],tM=[0,0],t6=[0,[0,[0,0]]],uy=[0,0],uz=[0,0],uA=[0,0],uZ=[0,0],vp=a(","),vH=[0,a(jX),0],vI=a(p5),vJ=a("."),vK=[0,[0,[0,0]]],vL=a(fA),vM=a(jY),vN=[0,[0,[0,[0,[0,0]]]]],vO=[0,a(jX),0],vP=a(q7),yO=a(pj),yQ=a(pf),yP=a(qc),yR=a(eA),yS=a(ey),yT=a(q9),yU=a(qS),yV=a(pP),yW=a(j0),yX=a(qi),Ac=[0,[0,0,0]],At=[0,0],Ad=a(hc),Ae=[0,0],Af=a("divided"),Ag=[0,1],Ah=a("mirror"),Ai=[0,3],Aj=a("negative"),Ak=[0,2],Al=a(fz),Am=[0,5],An=a(j5),Ao=[0,4],Ap=a(dI),Aq=a(pB),Ar=a(eB),As=a(cg),Au=[0,0],Av=[0,0],Aw=[0,0],Az=[0,[0,[0,0]]],AA=[0,[0,[0,0]]],A1=[0,[0,[0,0]]],Bd=[0,0],Bt=a(ad),Bm=[0,0],Bn=[0,0],Bo=[0,[0,[0,[0,0]]]],Bp=[0,[0,[0,0]]],Bq=[0,[0,[0,[0,0]]]],Br=[0,[0,[0,0]]],Bk=[0,[0,[0,0]]],Bj=[0,0],Bi=a(eB),Bh=[0,0],Bg=[0,[0,[0,0]]],Bf=[0,0],Ba=[0,[0,0]],Bc=[0,[0,[0,0]]],Bb=[0,0],A8=[0,[0,[0,0]]],A7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gx]]]]]]]]]],[0,0,[0,[0,[0,[0,0]]],0]]],A2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],[0,0,0]],A3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],[0,[0,[0,[0,[0,[0,[0,0]]]]]],0]],A4=[0,[0,[0,[0,[0,[0,[0,0]]]]]],0],A5=[0,[0,[0,[0,0]]],[0,0,0]],AZ=[0,0],A0=[0,[0,0]],AY=[0,0,0],AX=[0,[0,[0,0]]],AR=[0,[0,0]],AS=[0,[0,[0,0]]],AT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gy]]]]]]]]]]],AU=[0,[0,0]],AV=[0,[0,[0,0]]],AQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gz]]]]]]]]]]],AO=[0,[0,0]],AP=[0,[0,[0,0]]],AM=[0,[0,[0,0]]],AN=[0,[0,0]],AL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GB]]]]]]]]]]],AK=[0,0],AJ=[0,0],AG=[0,[0,0]],AH=[0,0],AE=[0,0],AF=[0,1],AC=[0,[0,0]],AD=[0,0],AB=[0,0],Ax=[0,0],Ay=[0,1],z$=[0,0],Aa=[0,1],Ab=[0,2],z7=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],z5=[0,[0,0],0],z6=[0,[1,0],0],z8=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],z3=[0,[0,0]],z4=[0,0],z2=[0,0],z1=[0,0],z0=[0,0],zZ=[0,0],zY=[0,0,0],zW=[0,[0,0]],zX=[0,0],zV=[0,0,0],zT=[0,[0,[0,0]]],zU=[0,[0,[0,0]]],zS=[0,0],zQ=[0,1,0],zI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GF]]]]]]]]]]],zJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GK]]]]]]]]]]],zE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GP]]]]]]]]]]],zF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GX]]]]]]]]]]],zG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G5]]]]]]]]]]],zH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,He]]]]]]]]]]],zK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hg]]]]]]]]]]],zL=a("sqrt"),zC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hi]]]]]]]]]]],zD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ht]]]]]]]]]]],zr=[0,a("\n"),0],zs=a(pg),zt=a(hf),zu=a(p_),zv=a(pT),zB=a(fD),zw=a(fy),zx=a("verdict"),zy=a(qJ),zz=a(pM),zA=a(p9),zo=a(p3),zp=a(qN),zq=a(hh),zk=a(qk),zl=a(hi),zm=a(fy),zn=a(fD),zf=a(hq),zg=a(bn),zh=a(pi),zi=a(hn),zc=a(qG),zd=a(fz),ze=a(hn),y_=a(qn),y$=a(hq),za=a(hi),zb=a(qW),yZ=a(qO),y0=a(qR),y1=a(hm),y2=a(hk),y3=a(q2),y4=a(qC),y5=a(qF),y6=a(qr),y7=a(hm),y8=a(qu),yM=a(hd),yN=a(fC),yH=a(bE),yI=a(bD),yJ=a(pO),yh=a(hk),yi=a(qq),xX=a(bn),xY=a(b0),xZ=a(hs),x0=a(eE),x1=a(dH),x6=a(jK),x2=a(jZ),x3=a(j2),x4=a(ez),x5=a(bn),x7=a(b0),x8=a(hs),x9=a(eE),x_=a(jZ),x$=a(j2),ya=a(ez),yb=a(bn),yc=a(b0),yd=a(bE),ye=a(bD),yf=a(dF),yg=a(eE),yj=a(qA),yk=a(qQ),yl=a(hv),ym=a(pC),yn=a(pH),yo=a(ez),yp=a(bn),yq=a(b0),yr=a(ha),ys=a(pR),yt=a(eE),yu=a(fG),yv=a(pq),yw=a(ez),yx=a(bn),yy=a(ha),yz=a(bn),yA=a(qt),yD=a(pe),yB=a(pF),yC=a(qV),yE=a(fD),yF=a(fy),yG=a(bn),yK=a(hv),yL=a(hh),xS=a(b0),xT=a(eE),xU=a(jK),xV=a(ez),xR=a(q4),xF=a(fG),xG=a(qK),xH=a(dG),xI=a(eC),xJ=a(eC),xK=a(jN),xL=a(dG),xM=a(qa),xN=a(pN),xO=a(bg),xQ=a(pl),xP=a(jN),xv=a(p2),xw=a(q8),xx=a(pJ),xy=a(pG),xz=a(qU),xA=a(qE),xB=a(pU),xC=a(hb),xD=a(hb),xr=a(bg),xs=a(bC),xt=a(eF),xu=a(bZ),xn=a(dH),xo=a(jU),xp=a(ql),xk=a(bE),xl=a(bD),xm=a(dF),xd=a(bE),xe=a(bD),xf=a(dF),xg=a(jW),xh=a(dG),xi=a(jS),xj=a(qz),wX=a(pE),w3=a(hf),w2=a(j4),wY=a(jO),wZ=a(fw),w4=a(fx),w6=a(fx),w7=a(qx),w8=a(jO),w5=a(fw),w9=a(pA),w_=a(qw),w$=a(fw),xa=a(q3),xb=a(j4),xc=a(fw),w0=a(eC),w1=a(qg),wU=a(hl),wV=a(hl),wW=a(hl),wQ=a(qB),wR=a(bD),wS=a(bE),wT=a(qT),wz=a(pu),wA=a(pk),wB=a(qp),wC=a(eA),wD=a(q5),wE=a(qs),wF=a(pv),wG=a(qh),wH=a(pt),wI=a(pQ),wJ=a(ps),wK=a(qD),wL=a(ey),wM=a(pp),wN=a(qM),wO=a(pI),wP=a(q6),we=a(ho),wg=a(fA),wf=a(fv),wh=a(ex),wi=a(bg),wj=a(bC),wk=a(cg),wl=a(ht),wm=a(bZ),wn=a(bg),wo=a(bC),wp=a(eF),wq=a(bZ),wr=a(ex),ws=a(fF),wt=a(bg),wu=a(bC),wv=a(qe),ww=a(fx),wx=a(fF),wy=a(bZ),vY=a(ho),v6=a(fA),vZ=a(fv),v0=a(ex),v1=a(bg),v2=a(bC),v3=a(cg),v4=a(ht),v5=a(bZ),v7=a(hu),v8=a(bg),v9=a(bC),v_=a(eF),v$=a(bZ),wa=a(cg),wb=a(dH),wc=a(bZ),vV=a(bE),vW=a(bD),vT=[0,a(aL),0],vU=a(aL),vR=a(ad),vQ=[0,a(aL),0],vS=a(aL),vD=a(ho),vE=a(fA),vF=a("*"),vG=a(b1),vy=[0,[0,[0,[0,[0,0]]]]],vz=[0,[0,[0,0]]],vA=[0,[0,0]],vB=[0,0],vC=[0,[0,[0,[0,0]]]],vw=a('":'),vx=a(aL),vu=[0,a(aL),0],vv=a(aL),vs=[0,a("}"),0],vt=a("{"),vq=[0,a("]"),0],vr=a("["),vo=[0,[0,[0,0]]],vn=[0,[0,[0,0]]],vl=[0,0],vi=[0,[0,[0,0]]],vj=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],vk=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],vg=[0,[0,0]],vh=[0,[0,[0,0]]],ve=[0,0],vf=[0,[0,0]],va=[0,[0,0]],vb=[0,0],vc=[0,[0,[0,0]]],vd=[0,[0,[0,0]]],u8=[0,[0,[0,0]]],u_=[0,[0,[0,0]]],u9=[0,0],u5=[0,[0,0]],u6=[0,0],u3=[0,[0,0]],u4=[0,0],u2=[0,[0,[0,0]]],u0=[0,[0,0]],u1=[0,0],uX=[0,0],uY=[0,[0,0]],uR=[0,[0,0]],uS=[0,[0,[0,[0,[0,0]]]]],uT=[0,[0,[0,[0,0]]]],uU=[0,[0,[0,0]]],uV=[0,[0,0]],uW=[0,0],uO=[0,0],uP=[0,[0,0]],uQ=[0,0],uN=[0,0],uJ=[0,0],uK=[0,[0,[0,[0,[0,[0,0]]]]]],uL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hu]]]]]]]]]]],uH=[0,0],uE=[0,0,0],uF=[0,0,0],uG=[0,0,0],uB=[0,[0,0]],uC=[0,[0,[0,0]]],uD=[0,0],uo=[0,[0,[0,[0,[0,[0,0]]]]]],up=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],uq=[0,[0,[0,0]]],ur=[0,[0,[0,0]]],us=[0,[0,[0,[0,[0,[0,0]]]]]],ut=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],uu=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hv]]]]]]]]]]],uv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hw]]]]]]]]]]],uw=[0,[0,[0,0]]],ux=[0,[0,[0,[0,[0,[0,0]]]]]],un=[0,0],ul=[0,[0,0]],um=[0,[0,[0,0]]],uh=[0,0,0],ui=[0,0,0],ud=[0,0,0],ue=[0,0,0],uf=[0,0,0],ug=[0,0,0],uc=[0,0],ub=[0,0],ua=[0,0],t_=[0,0],t$=[0,0],t9=[0,0],t7=[0,0],t8=[0,0],t0=[0,0],t1=[0,0],t2=[0,0],t3=[0,[0,[0,0]]],tZ=[0,0],tU=[0,[0,[0,0]]],tV=[0,[0,0]],tS=[0,[0,0]],tT=[0,[0,[0,0]]],tR=[0,0],tP=[0,0],tQ=[0,0],tN=[0,0,0],tK=[0,[0,0]],tL=[0,0],tC=[0,[0,0]],tD=[0,0],tE=[0,[0,0]],tF=[0,0],tG=[0,[0,0]],tH=[0,0],tI=[0,[0,0]],tJ=[0,0],tA=[0,[0,0]],tB=[0,0],ty=[0,[0,0]],tz=[0,0],tu=[0,[0,0]],tv=[0,0],tw=[0,0],tx=[0,[0,0]],tl=[0,[0,0]],tm=[0,0],tn=[0,[0,0]],to=[0,0],tp=[0,0],tq=[0,[0,0]],tr=[0,[0,0]],ts=[0,[0,0]],tt=[0,0],th=[0,0],tg=[0,0],td=[0,0],te=[0,[0,0]],tc=[0,[0,[0,0]]],tb=[0,[0,[0,[0,[0,[0,0]]]]]],s$=[0,[0,0]],ta=[0,0],s_=[0,[0,0]],s9=[0,0],s7=[0,0],s8=[0,[0,[0,0]]],s3=[0,[0,0]],s4=[0,[0,[0,0]]],s2=[0,[0,[0,0]]],sZ=[0,[0,[0,0]]],sX=[0,[0,[0,0]]],sV=[0,[0,[0,[0,[0,[0,0]]]]]],sW=[0,[0,[0,[0,[0,[0,0]]]]]],sQ=[0,[0,0]],sR=[0,0],sS=[0,[0,0]],sT=[0,[0,[0,0]]],sU=[0,[0,[0,0]]],sJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],sK=[0,[0,[0,[0,[0,[0,0]]]]]],sL=[0,[0,[0,[0,[0,[0,0]]]]]],sM=[0,[0,[0,0]]],sN=[0,[0,[0,[0,[0,[0,0]]]]]],sO=[0,[0,[0,0]]],sP=[0,[0,[0,0]]],sH=[0,[0,0]],sI=[0,0],sG=[0,0,0],sF=[0,0,0],sD=[0,0,0],sC=[0,[0,[0,0]]],sw=[0,0],sx=[0,0],sy=[0,0],sz=[0,0],su=[0,0],sv=[0,0],sq=[0,[0,[0,0]]],sr=[0,[0,[0,0]]],ss=[0,[0,[0,0]]],sp=[0,[0,[0,[0,0]]]],sl=[0,[0,[0,0]]],sm=[0,[0,[0,0]]],sn=[0,[0,[0,0]]],so=[0,[0,1,1],[0,[0,0,1],[0,[0,1,0],[0,[0,0,0],0]]]],sj=[0,[0,0]],sk=[0,0],sh=[0,[0,0]],si=[0,0],sf=[0,[0,0]],sg=[0,0],r4=[0,0],r5=[0,[0,0]],r2=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],r3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hx]]]]]]]]]]],r0=[0,0,0],rZ=a(q0),rY=a(ad),rX=[0,[0,0]],rV=[0,0],rS=[0,0],rU=[1,0],rT=[0,0],rR=[0,0],rP=[1,0],rQ=[1,0],tf=[10,0,0,0,0],Be=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HC]]]]]]]]]]],Ew=a(bE),Ex=a(bD),Ey=a(pO),Eo=a(hu),Ep=[0,a("a base axis of such a platform"),0],Eq=a(bg),Er=a(bC),Eb=a(qE),Ec=a(p2),Ed=a(qU),Ee=a(hb),Ef=a(pU),Eg=a(hb),Eh=a(q8),Ei=a(pJ),Ej=a(pG),D3=a(qq),D4=a(hk),DF=[0,a("such a machine with bodies"),0],Ds=a(hh),Dt=a(bn),Du=a(qt),Dv=a(qV),Dy=a(pF),Dz=a(pe),DA=a(bn),DB=a(bn),DD=a(ha),DC=[0,a("a claim that no cube of such a machine fits"),0],DE=a(q4),DG=a(ez),DH=a(eE),DI=a(dH),DJ=a(jU),DK=a(ql),DL=a(hs),DM=a(pH),DN=a(pq),DO=a(jK),DR=a(dF),DS=a(qz),DV=a(b0),DW=a(b0),DX=a(pR),DY=a(b0),DZ=[0,a("the closed design with other bounds on psi than one from below and one from above"),0],D0=a(ha),D1=a(fG),D2=a(dF),D5=a(b0),D6=a(bE),D7=a(bD),D8=a(qA),D9=a(qQ),D_=a(hv),D$=a(pC),DP=[0,a(aL),0],DQ=a('the mechanism "'),Ea=a(jZ),Ek=a(hs),El=a(dH),Em=a(jU),En=a(j2),Es=a(b0),Ev=a(dH),Et=[0,a("a platform that turns on struts and other drives"),0],Eu=a(b0),DT=[0,a(aL),0],DU=a('the workspace "'),Ez=a(bn),EA=a(bn),EC=a(fD),ED=a(fy),EE=a(hv),EB=[0,a("an atlas of such a machine"),0],Dw=[0,a(aL),0],Dx=a('a claim of the kind "'),EU=a(j0),EV=[0,a('the evidence "fan" without "tolerances"'),0],EJ=a(dI),E4=a(fC),E5=[0,1,1],EK=a(qi),EW=a(ey),EX=a(eA),EY=a(pP),EZ=a(qc),E0=a(cg),E1=a(fC),E2=a(hd),E3=a(cg),EL=a(q9),EM=a(dI),EN=a(pB),EO=a(eB),EP=a(j0),ES=a(eB),ET=[0,a('the evidence "inside" about "rank"'),0],EQ=[0,a(aL),0],ER=a('the evidence "'),E6=a(ey),E7=a(eA),E8=a(dI),E9=a(eB),E_=a(qS),Fa=a(ey),Fb=a(eA),Fc=a(dI),Fd=a(eB),Fe=a(fz),Ff=a(hc),Fg=a(fz),Fh=a(hc),E$=[0,a("this evidence at control points"),0],Gq=a('"orthocert-paving/'),Gg=a(dI),Gh=a(dI),FZ=a(p9),F0=a(pM),F1=a(qJ),Go=[0,3,3],F2=a(pT),Ge=[0,a("this set of orientations with such drives"),0],Gf=[0,a('"parallel_margin" of struts in the plane'),0],Gi=[0,a('this evidence "tolerances" of a platform that turns'),0],Gj=[0,a('"one_to_one" of this set of orientations'),0],Gk=[0,a("a step of a platform that turns that is not at control points"),0],Gl=[0,a('the evidence "tolerances" of such a mechanism'),0],Gm=[0,a(qf),0],Gn=[0,a(qI),0],Gd=[0,a(qf),0],Gc=[0,a(qI),0],Ga=[0,a(ph),0],Gb=[0,a("a step in a proof that no cube fits"),0],F$=[0,a('"one_to_one" of such a mechanism'),0],F3=[0,a("the acceleration of a joint of a machine with a plane"),0],F9=[0,a("a stiffness for each joint in such a claim"),0],F_=[0,a(qv),0],F8=[0,a(qv),0],F4=a(p_),F5=a(pg),F6=a(hf),F7=[0,a(ph),0],FV=a(j5),FW=a(hc),FX=a(cg),FN=a(hh),FO=a(p3),FP=a(qN),FQ=[0,a(aL),0],FR=a('a proof of the kind "'),FJ=a(fy),FK=a(fD),FL=a(hi),FM=a(qk),FF=a(bn),FG=a(hq),FH=a(pi),FI=a(hn),FC=a(qG),FD=a(fz),FE=a(hn),Fy=a(qn),Fz=a(hq),FA=a(hi),FB=a(qW),Fk=a(qR),Fl=a(hm),Fm=a(qO),Fn=a(hk),Fo=a(qu),Fp=a(q2),Fs=a(qC),Ft=a(hd),Fu=a(fC),Fv=a(qF),Fw=a(qr),Fx=a(hm),Fq=[0,a(aL),0],Fr=a('the failure "'),Fi=a(j5),Fj=a(q0),EH=a(fC),EI=a(hd),EF=a(pf),EG=a(pj),Dp=a(fG),Df=a(jN),Dg=a(pl),Dh=a(eC),Di=a(bg),Dn=a(qK),Do=a(fG),Dq=a(dG),Dr=a(eC),Dj=a(dG),Dk=a(qa),Dl=a(pN),Dm=a(bg),C_=a(dF),Dc=a(bE),Dd=a(bD),C$=a(jS),Da=a(jW),Db=a(dG),C4=a(dF),C8=a(bE),C9=a(bD),C5=a(jS),C6=a(jW),C7=a(dG),C3=[0,1],C2=[0,1],C0=[0,1],CZ=[0,1],CX=[0,1],CY=[0,a("this quantity of such a mechanism"),0],CG=a(jO),CH=a(qw),CI=a(pA),CJ=a(j4),CK=a(q3),CM=a(qx),CL=a(fx),CF=a(hf),Cx=a(hl),Cl=a(qg),Cm=a(qp),CP=a(ey),CQ=a(qM),CR=a(pQ),CS=a(eA),CT=a(qh),CU=a(ps),CV=a(pt),CW=a(pk),Cn=a(pp),Co=a(q6),Cp=a(qD),Cq=a(qs),Cr=a(pI),Cs=a(q5),Ct=a(pv),Cu=a(pu),Cv=[0,a(aL),0],Cw=a('the quantity "'),Cy=a(pE),Cz=a(qB),CA=a(bE),CB=a(bD),CC=a(qT),CD=[0,a(aL),0],CE=a('a bound "'),CN=a(fw),CO=a(eC),Cj=a(bZ),Ck=a(eF),B0=a(bZ),B1=a(hu),B2=a(fF),B3=a(ht),B4=a(eF),B7=a(bg),B8=a(bC),B9=a(fv),B_=a(ex),B$=a(bg),Ca=a(bC),Cb=a(cg),Cc=a(fv),Cd=a(ex),Ce=a(fF),Cf=a(bg),Cg=a(bC),Ch=a(qe),Ci=a(fx),B5=[0,a('" of such a machine'),0],B6=a(pz),BY=a(bZ),BZ=a(fF),BI=a(bZ),BJ=a(dH),BK=a(ht),BL=a(eF),BO=a(hu),BP=a(bg),BQ=a(bC),BR=a(fv),BS=a(ex),BT=a(bg),BU=a(bC),BV=a(cg),BW=a(cg),BM=[0,a(aL),0],BN=a(pz),BF=a(ho),BG=a(fA),BD=a(" is not covered by the verified checker"),BE=a(ad),BB=a(bE),BC=a(bD),Bx=a(ad),By=a(q7),Bz=a(ad),BA=a(ad),Bw=[1,0],Bu=a("Reader.Malformed"),Bv=a("Reader.Not_covered"),Gs=[0,a("a paving is checked by orthocert-verified")],Gr=a(qj),Gt=a("CERTIFIED"),Gu=a("REFUTED"),Gv=a(qj),Gw=a("NOT COVERED: ");function
+fM(a){throw[0,kl,a]}function
+a$(d,c){var
+a=au(d),e=au(c),b=cj(a+e|0);eH(d,0,b,0,a);eH(c,0,b,a,e);return hD(b)}H6(0);rt(1);rt(2);function
+kn(b){function
 a(b){var
 a=b;for(;;){if(a){var
-c=a[2],d=a[1];try{HR(d)}catch(a){a=rw(a);if(a[1]!==kk)throw a;var
+c=a[2],d=a[1];try{H5(d)}catch(a){a=rD(a);if(a[1]!==km)throw a;var
 e=a}var
-a=c;continue}return 0}}return a(HT(0))}H0(a(pj),kl);function
+a=c;continue}return 0}}return a(H7(0))}Ic(a(pn),kn);function
 cl(c){var
 b=0,a=c;for(;;){if(a){var
 b=b+1|0,a=a[2];continue}return b}}function
-km(d){var
+ko(d){var
 a=d,b=0;for(;;){if(a){var
 c=[0,a[1],b],a=a[2],b=c;continue}return b}}function
 Y(b,a){if(a){var
 c=a[2],d=i(b,a[1]);return[0,d,Y(b,c)]}return 0}function
-hC(d,c){var
+hF(d,c){var
 a=c;for(;;){if(a){var
 e=a[2],b=i(d,a[1]);if(b){var
 a=e;continue}return b}return 1}}function
@@ -730,51 +730,51 @@ a=c;for(;;){if(a){var
 e=a[2],b=i(d,a[1]);if(b)return b;var
 a=e;continue}return 0}}function
 bG(b,c){var
-a=cj(b);HB(a,0,b,c);return hA(a)}function
+a=cj(b);HP(a,0,b,c);return hD(a)}function
 dO(g,b,a){var
-d=eI(g),f=0;if(0<=b&&0<=a&&!((hy(d)-a|0)<b)){var
+d=eI(g),f=0;if(0<=b&&0<=a&&!((hB(d)-a|0)<b)){var
 c=cj(a);fH(d,b,c,0,a);var
 e=c;f=1}if(!f)var
-e=fM(rD);return hA(e)}function
-kn(k,g){if(g){var
+e=fM(rK);return hD(e)}function
+kp(k,g){if(g){var
 h=au(k),c=0,b=g,p=0;for(;;){if(b){var
 i=b[1];if(b[2]){var
-j=(au(i)+h|0)+c|0,m=b[2],n=c<=j?j:fM(rE),c=n,b=m;continue}var
+j=(au(i)+h|0)+c|0,m=b[2],n=c<=j?j:fM(rL),c=n,b=m;continue}var
 l=au(i)+c|0}else
 var
 l=c;var
 f=cj(l),e=p,d=g;for(;;){if(d){var
 a=d[1];if(d[2]){var
 o=d[2];eH(a,0,f,e,au(a));eH(k,0,f,e+au(a)|0,h);var
-e=(e+au(a)|0)+h|0,d=o;continue}eH(a,0,f,e,au(a))}return hA(f)}}}return rF}function
-hD(b,c){if(0===b)return[0];if(0<=b){var
-d=HQ(b,i(c,0)),e=b-1|0,f=1;if(!(e<1)){var
+e=(e+au(a)|0)+h|0,d=o;continue}eH(a,0,f,e,au(a))}return hD(f)}}}return rM}function
+hG(b,c){if(0===b)return[0];if(0<=b){var
+d=H4(b,i(c,0)),e=b-1|0,f=1;if(!(e<1)){var
 a=f;for(;;){d[1+a]=i(c,a);var
 g=a+1|0;if(e!==a){var
-a=g;continue}break}}return d}return fM(rG)}function
-hE(c){var
+a=g;continue}break}}return d}return fM(rN)}function
+hH(c){var
 a=c.length-1-1|0,b=0;for(;;){if(0<=a){var
 d=[0,c[1+a],b],a=a-1|0,b=d;continue}return b}}var
-d=aD(0),b=aD(1);function
+d=aE(0),b=aE(1);function
 r(a){return D(a,b)}function
-ko(b,a){return D(aD(b),a)}function
-c(b,a){return B(aD(b),a)}function
-aS(b,a){return[0,kg(b,a),rz(b,a)]}function
-hF(b,a){return E(b,a)?b:a}function
-bm(b,a){return E(b,a)?a:b}function
+kq(b,a){return D(aE(b),a)}function
+c(b,a){return B(aE(b),a)}function
+aS(b,a){return[0,ki(b,a),rG(b,a)]}function
+hI(b,a){return F(b,a)?b:a}function
+bo(b,a){return F(b,a)?a:b}function
 eN(a){return eN}function
 S(a){return a?0:1}function
 z(b,a){var
 c=a?[0,i(b,a[1])]:a;return c}function
 aB(a){return a[1]}function
-aW(a){return a[2]}function
+aY(a){return a[2]}function
 g(a){var
 b=a?[0,g(a[2])]:a;return b}function
 f(a,b){if(a){var
 c=f(a[2],b);return[0,a[1],c]}return b}function
-kp(a){return typeof
-a==="number"?0:[0,kp(a[1])]}function
-kq(d,c){var
+kr(a){return typeof
+a==="number"?0:[0,kr(a[1])]}function
+ks(d,c){var
 a=d,b=c;for(;;)if(typeof
 a==="number")return b;else
 switch(a[0]){case
@@ -797,9 +797,9 @@ a=a[1],b=[7,b];continue;case
 8:var
 a=a[1],b=[8,b];continue;default:var
 a=a[1],b=[9,b];continue}}function
-fN(a){return kq(a,0)}function
-kr(a){if(typeof
-a==="number")return rI;else
+fN(a){return ks(a,0)}function
+kt(a){if(typeof
+a==="number")return rP;else
 switch(a[0]){case
 0:return[1,a[1]];case
 1:return[2,a[1]];case
@@ -809,9 +809,9 @@ switch(a[0]){case
 5:return[6,a[1]];case
 6:return[7,a[1]];case
 7:return[8,a[1]];case
-8:return[9,a[1]];default:return[0,kr(a[1])]}}function
+8:return[9,a[1]];default:return[0,kt(a[1])]}}function
 bI(a){if(typeof
-a==="number")return rJ;else
+a==="number")return rQ;else
 switch(a[0]){case
 0:return[1,bH(a[1])];case
 1:return[3,bH(a[1])];case
@@ -834,9 +834,9 @@ switch(a[0]){case
 6:return[2,bI(a[1])];case
 7:return[4,bI(a[1])];case
 8:return[6,bI(a[1])];default:return[8,bI(a[1])]}}function
-bv(a){return a?a[1]:a}function
+bx(a){return a?a[1]:a}function
 P(b,a){return b?[0,P(b[1],a)]:a}function
-ks(a,b){return a?P(b,ks(a[1],b)):a}function
+ku(a,b){return a?P(b,ku(a[1],b)):a}function
 dP(d,c){var
 a=d,b=c;for(;;){if(a){if(b){var
 a=a[1],b=b[1];continue}return a}return a}}function
@@ -848,61 +848,61 @@ Z(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return 1}}function
 aN(b,a){return Z([0,b],a)}function
-kt(c){var
+kv(c){var
 a=c;for(;;){if(a){var
 b=a[1];if(b){var
 a=b[1];continue}return b}return 1}}function
 fO(c,b,a){return c?i(b,fO(c[1],b,a)):a}function
-ku(a){if(a)var
-b=a[1],d=b?[0,ku(b[1])]:b,c=d;else
+kw(a){if(a)var
+b=a[1],d=b?[0,kw(b[1])]:b,c=d;else
 var
 c=a;return c}function
-hG(d,c){var
+hJ(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return a?0:1}}function
-kv(a){if(E(a,b))return b;var
-e=aS(a,aD(2)),f=e[1];return J(e[2],d)?r(c(2,kv(f))):r(c(2,c(2,f)))}function
-kw(c,a){return bm(b,aE(c,a))}function
+kx(a){if(F(a,b))return b;var
+e=aS(a,aE(2)),f=e[1];return J(e[2],d)?r(c(2,kx(f))):r(c(2,c(2,f)))}function
+ky(c,a){return bo(b,aF(c,a))}function
 fP(a,j,h){var
-c=j,f=h;for(;;){if(E(f,b))return i(a,c);var
-g=aS(f,aD(2)),e=g[1];if(J(g[2],d)){var
+c=j,f=h;for(;;){if(F(f,b))return i(a,c);var
+g=aS(f,aE(2)),e=g[1];if(J(g[2],d)){var
 c=fP(a,c,e),f=e;continue}return i(a,fP(a,fP(a,c,e),e))}}function
-kx(a){function
+kz(a){function
 c(b){return B(a,b)}return function(a){return fP(c,b,a)}}function
-fQ(a){if(E(a,b))return rL;var
-c=aS(a,aD(2)),e=c[1];return J(c[2],d)?[0,fQ(e)]:[0,fQ(e)]}function
-fR(a){if(E(a,b))return b;var
-c=aS(a,aD(2)),e=c[1];return J(c[2],d)?r(fR(e)):r(fR(e))}function
-ky(c,b){var
-a=kf(c,b);return 0===a?0:0<=a?2:1}function
+fQ(a){if(F(a,b))return rS;var
+c=aS(a,aE(2)),e=c[1];return J(c[2],d)?[0,fQ(e)]:[0,fQ(e)]}function
+fR(a){if(F(a,b))return b;var
+c=aS(a,aE(2)),e=c[1];return J(c[2],d)?r(fR(e)):r(fR(e))}function
+kA(c,b){var
+a=kh(c,b);return 0===a?0:0<=a?2:1}function
 fS(j,i){var
-c=j,a=i;for(;;){if(E(c,b))return E(a,b)?1:J(aS(a,aD(2))[2],d)?0:0;var
-g=aS(c,aD(2)),h=g[1];if(J(g[2],d)){if(E(a,b))return 0;var
-e=aS(a,aD(2)),k=e[1];if(J(e[2],d)){var
-c=h,a=k;continue}return 0}if(E(a,b))return 0;var
-f=aS(a,aD(2)),l=f[1];if(J(f[2],d))return 0;var
+c=j,a=i;for(;;){if(F(c,b))return F(a,b)?1:J(aS(a,aE(2))[2],d)?0:0;var
+g=aS(c,aE(2)),h=g[1];if(J(g[2],d)){if(F(a,b))return 0;var
+e=aS(a,aE(2)),k=e[1];if(J(e[2],d)){var
+c=h,a=k;continue}return 0}if(F(a,b))return 0;var
+f=aS(a,aE(2)),l=f[1];if(J(f[2],d))return 0;var
 c=h,a=l;continue}}function
-fT(b,a){return 2<=ky(b,a)?0:1}function
+fT(b,a){return 2<=kA(b,a)?0:1}function
 dQ(i,e,a){if(i){var
-f=i[1];if(E(e,b))return[0,b,[0,b,a]];var
-w=aS(e,aD(2)),g=w[1];if(J(w[2],d)){if(E(a,b))return[0,b,[0,e,b]];var
-m=aS(a,aD(2)),A=m[1];if(J(m[2],d)){var
+f=i[1];if(F(e,b))return[0,b,[0,b,a]];var
+w=aS(e,aE(2)),g=w[1];if(J(w[2],d)){if(F(a,b))return[0,b,[0,e,b]];var
+m=aS(a,aE(2)),A=m[1];if(J(m[2],d)){var
 j=dQ(f,g,A),x=j[2];return[0,c(2,j[1]),x]}var
-k=dQ(f,g,a),l=k[2],y=l[2],z=[0,c(2,l[1]),y];return[0,k[1],z]}if(E(a,b))return[0,b,[0,e,b]];var
-v=aS(a,aD(2)),h=v[1];if(J(v[2],d)){var
-n=dQ(f,e,h),o=n[2],B=c(2,o[2]);return[0,n[1],[0,o[1],B]]}switch(ky(g,h)){case
+k=dQ(f,g,a),l=k[2],y=l[2],z=[0,c(2,l[1]),y];return[0,k[1],z]}if(F(a,b))return[0,b,[0,e,b]];var
+v=aS(a,aE(2)),h=v[1];if(J(v[2],d)){var
+n=dQ(f,e,h),o=n[2],B=c(2,o[2]);return[0,n[1],[0,o[1],B]]}switch(kA(g,h)){case
 0:return[0,e,[0,b,b]];case
 1:var
-p=dQ(f,kw(h,g),e),q=p[2],r=q[2],C=[0,r,D(r,c(2,q[1]))];return[0,p[1],C];default:var
-s=dQ(f,kw(g,h),a),t=s[2],u=t[2],F=[0,D(u,c(2,t[1])),u];return[0,s[1],F]}}return[0,b,[0,e,a]]}function
+p=dQ(f,ky(h,g),e),q=p[2],r=q[2],C=[0,r,D(r,c(2,q[1]))];return[0,p[1],C];default:var
+s=dQ(f,ky(g,h),a),t=s[2],u=t[2],E=[0,D(u,c(2,t[1])),u];return[0,s[1],E]}}return[0,b,[0,e,a]]}function
 fU(b,a){var
 c=fQ(a);return dQ(P(fQ(b),c),b,a)}function
-kz(c,i,h){var
-e=i,a=h;for(;;){if(E(e,b))return a;var
-f=aS(e,aD(2)),g=f[1];if(J(f[2],d)){var
-e=g,a=ao(c,a,a);continue}return ao(c,a,kz(c,g,ao(c,a,a)))}}function
-eO(a){return kz(P,a,rM)}function
-kA(a){return a?r(kA(a[1])):b}function
+kB(c,i,h){var
+e=i,a=h;for(;;){if(F(e,b))return a;var
+f=aS(e,aE(2)),g=f[1];if(J(f[2],d)){var
+e=g,a=ao(c,a,a);continue}return ao(c,a,kB(c,g,ao(c,a,a)))}}function
+eO(a){return kB(P,a,rT)}function
+kC(a){return a?r(kC(a[1])):b}function
 cn(f,e){var
 a=f,d=e;for(;;)if(typeof
 a==="number")return d;else
@@ -926,23 +926,23 @@ t=B(c(2,r(c(2,c(2,b)))),d),u=D(r(c(2,r(c(2,b)))),t),a=a[1],d=u;continue;case
 8:var
 v=B(c(2,r(c(2,c(2,b)))),d),w=D(c(2,c(2,c(2,b))),v),a=a[1],d=w;continue;default:var
 x=B(c(2,r(c(2,c(2,b)))),d),y=D(r(c(2,c(2,c(2,b)))),x),a=a[1],d=y;continue}}function
-hH(a){if(E(a,b))return rN;var
-c=aS(a,aD(2)),e=c[1];return J(c[2],d)?bH(hH(e)):bI(hH(e))}function
-fV(a){return fN(hH(a))}function
-kB(c,b){var
-a=kf(c,b);return 0===a?0:0<=a?2:1}function
-kC(b,a){return 1===kB(b,a)?1:0}var
-kD=D,rP=O;function
+hK(a){if(F(a,b))return rU;var
+c=aS(a,aE(2)),e=c[1];return J(c[2],d)?bH(hK(e)):bI(hK(e))}function
+fV(a){return fN(hK(a))}function
+kD(c,b){var
+a=kh(c,b);return 0===a?0:0<=a?2:1}function
+kE(b,a){return 1===kD(b,a)?1:0}var
+kF=D,rW=O;function
 b3(k,f){if(0<=aM(f)){var
-g=kh(f);if(0<=g){var
+g=kj(f);if(0<=g){var
 e=b,c=k,a=g;for(;;){if(0===a)return e;var
-h=a>>>1|0,i=B(c,c),j=1===(a&1)?B(e,c):e,e=j,c=i,a=h;continue}}return fM(rH)}return d}function
-hI(c){var
+h=a>>>1|0,i=B(c,c),j=1===(a&1)?B(e,c):e,e=j,c=i,a=h;continue}}return fM(rO)}return d}function
+hL(c){var
 a=aM(c);return 0===a?d:0<a?b:O(b)}function
-hJ(a){return 0<=aM(a)?a:d}function
+hM(a){return 0<=aM(a)?a:d}function
 dR(a){var
 c=aM(a);return 0===c?b:0<c?a:b}function
-kE(m){var
+kG(m){var
 a=m;for(;;)if(typeof
 a==="number")return d;else
 switch(a[0]){case
@@ -965,33 +965,33 @@ j=r(c(2,r(c(2,b))));return cn(a[1],j);case
 k=c(2,c(2,c(2,b)));return cn(a[1],k);default:var
 l=r(c(2,c(2,c(2,b))));return cn(a[1],l)}}function
 co(b,a){var
-c=aM(a);return 0===c?d:1===c?kg(b,a):ko(-1,kg(ko(-1,b),a))}function
-kF(a){var
-f=aM(a);if(0===f)return d;if(0<f){if(E(a,b))return d;var
-c=aS(a,aD(2)),e=c[1];return J(c[2],d)?fR(e):fR(e)}return d}function
-fW(a){return 0<aM(a)?H_(a):d}function
+c=aM(a);return 0===c?d:1===c?ki(b,a):kq(-1,ki(kq(-1,b),a))}function
+kH(a){var
+f=aM(a);if(0===f)return d;if(0<f){if(F(a,b))return d;var
+c=aS(a,aE(2)),e=c[1];return J(c[2],d)?fR(e):fR(e)}return d}function
+fW(a){return 0<aM(a)?Im(a):d}function
 eP(b,c){var
-a=kh(c);return 0<=a?rA(b,a):rB(b,-a|0)}function
-dh(b,c){var
-a=kh(c);return 0<=a?rB(b,a):rA(b,-a|0)}function
+a=kj(c);return 0<=a?rH(b,a):rI(b,-a|0)}function
+di(b,c){var
+a=kj(c);return 0<=a?rI(b,a):rH(b,-a|0)}function
 bJ(b,a){return a?a[1]:b}function
-bw(a){var
+by(a){var
 b=a?a[2]:a;return b}function
 q(e,d,c){var
 b=e,a=d;for(;;){if(b){if(a){var
 b=b[1],a=a[2];continue}return c}return a?a[1]:c}}function
-F(d,c){var
+E(d,c){var
 a=d,b=c;for(;;){if(b){if(a){var
 a=a[2],b=b[1];continue}return a}var
 e=a?[0,a[1]]:a;return e}}function
-kG(a){if(a){var
-b=[0,a[1],0];return f(kG(a[2]),b)}return a}function
+kI(a){if(a){var
+b=[0,a[1],0];return f(kI(a[2]),b)}return a}function
 eQ(d,c){var
 a=d,b=c;for(;;){if(a){var
 e=[0,a[1],b],a=a[2],b=e;continue}return b}}function
 dS(a){if(a){var
 b=dS(a[2]);return f(a[1],b)}return a}function
-hK(g,f,e){var
+hN(g,f,e){var
 b=f,a=e;for(;;){if(b){if(a){var
 c=ao(g,b[1],a[1]);if(c){var
 b=b[2],a=a[2];continue}var
@@ -1009,7 +1009,7 @@ a=d,b=c;for(;;){if(a){var
 f=ao(e,b,a[1]),a=a[2],b=f;continue}return b}}function
 aq(c,b,a){if(a){var
 d=aq(c,b,a[2]);return ao(c,a[1],d)}return b}function
-al(e,d){var
+ak(e,d){var
 a=d;for(;;){if(a){var
 b=i(e,a[1]);if(!b){var
 a=a[2];continue}var
@@ -1020,11 +1020,11 @@ m(d,c){var
 a=c;for(;;){if(a){var
 b=i(d,a[1]);if(b){var
 a=a[2];continue}return b}return 1}}function
-bn(b,e){var
+bp(b,e){var
 a=e;for(;;){if(a){var
-c=a[2],d=a[1];if(i(b,d))return[0,d,bn(b,c)];var
+c=a[2],d=a[1];if(i(b,d))return[0,d,bp(b,c)];var
 a=c;continue}return a}}function
-kH(d,c){var
+kJ(d,c){var
 a=c;for(;;){if(a){var
 b=a[1];if(i(d,b))return[0,b];var
 a=a[2];continue}return a}}function
@@ -1034,117 +1034,117 @@ var
 c=a;else
 var
 c=b;return c}function
-aH(b,a){if(b)if(a)var
-d=aH(b[1],a[2]),c=[0,a[1],d];else
+aG(b,a){if(b)if(a)var
+d=aG(b[1],a[2]),c=[0,a[1],d];else
 var
 c=a;else
 var
 c=b;return c}function
-aX(d,c){var
+aT(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[2];continue}return a}return a}}function
 aA(b,a){var
 c=a?[0,b,aA([0,b],a[1])]:a;return c}function
 am(b,a){var
 c=a?[0,b,am(b,a[1])]:a;return c}function
-kI(a){if(a){var
-e=kI(a[2]),f=B(c(2,b),e),g=a[1]?b:d;return D(g,f)}return d}function
+kK(a){if(a){var
+e=kK(a[2]),f=B(c(2,b),e),g=a[1]?b:d;return D(g,f)}return d}function
 fX(j){function
 a(a){return 0!==(j&1<<a)?1:0}var
-c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=kI([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<aM(b)?eO(b):0}function
-kJ(a){return[0,a,b]}function
+c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=kK([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<aM(b)?eO(b):0}function
+kL(a){return[0,a,b]}function
 dT(c,b){var
-a=kf(B(c[1],b[2]),B(b[1],c[2])),d=0===a?0:0<=a?2:1;return d?0:1}function
-a_(b,a){return E(B(b[1],a[2]),B(a[1],b[2]))}function
-di(b,a){return[0,D(B(b[1],a[2]),B(a[1],b[2])),B(b[2],a[2])]}function
-a1(b,a){return[0,B(b[1],a[1]),B(b[2],a[2])]}function
-hL(a){return[0,O(a[1]),a[2]]}function
-dU(b,a){return di(b,hL(a))}function
+a=kh(B(c[1],b[2]),B(b[1],c[2])),d=0===a?0:0<=a?2:1;return d?0:1}function
+ba(b,a){return F(B(b[1],a[2]),B(a[1],b[2]))}function
+dj(b,a){return[0,D(B(b[1],a[2]),B(a[1],b[2])),B(b[2],a[2])]}function
+a2(b,a){return[0,B(b[1],a[1]),B(b[2],a[2])]}function
+hO(a){return[0,O(a[1]),a[2]]}function
+dU(b,a){return dj(b,hO(a))}function
 fY(f,c){var
-a=c[1],e=aM(a),g=0===e?[0,d,b]:0<e?[0,c[2],a]:[0,O(c[2]),O(a)];return a1(f,g)}function
-dj(q){var
+a=c[1],e=aM(a),g=0===e?[0,d,b]:0<e?[0,c[2],a]:[0,O(c[2]),O(a)];return a2(f,g)}function
+dk(q){var
 a=q[2],b=q[1],o=aM(b);if(0===o)var
-c=[0,ck(a),[0,d,hI(a)]];else
+c=[0,ck(a),[0,d,hL(a)]];else
 if(0<o){var
 n=aM(a);if(0===n)var
-c=[0,ck(b),[0,hI(b),d]];else
+c=[0,ck(b),[0,hL(b),d]];else
 if(0<n)var
 l=fU(b,a),m=l[2],c=[0,l[1],[0,m[1],m[2]]];else
 var
 j=fU(b,O(a)),k=j[2],c=[0,j[1],[0,k[1],O(k[2])]]}else{var
 p=O(b),i=aM(a);if(0===i)var
-c=[0,ck(b),[0,hI(b),d]];else
+c=[0,ck(b),[0,hL(b),d]];else
 if(0<i)var
 g=fU(p,a),h=g[2],c=[0,g[1],[0,O(h[1]),h[2]]];else
 var
 e=fU(p,O(a)),f=e[2],c=[0,e[1],[0,O(f[1]),O(f[2])]]}var
 r=c[2],s=dR(r[2]);return[0,r[1],s]}function
-be(a){if(typeof
-a==="number")return rR;else
+bh(a){if(typeof
+a==="number")return rY;else
 switch(a[0]){case
 0:var
-b=be(a[1]);return a9(bG(1,48),b);case
+b=bh(a[1]);return a$(bG(1,48),b);case
 1:var
-c=be(a[1]);return a9(bG(1,49),c);case
+c=bh(a[1]);return a$(bG(1,49),c);case
 2:var
-d=be(a[1]);return a9(bG(1,50),d);case
+d=bh(a[1]);return a$(bG(1,50),d);case
 3:var
-e=be(a[1]);return a9(bG(1,51),e);case
+e=bh(a[1]);return a$(bG(1,51),e);case
 4:var
-f=be(a[1]);return a9(bG(1,52),f);case
+f=bh(a[1]);return a$(bG(1,52),f);case
 5:var
-g=be(a[1]);return a9(bG(1,53),g);case
+g=bh(a[1]);return a$(bG(1,53),g);case
 6:var
-h=be(a[1]);return a9(bG(1,54),h);case
+h=bh(a[1]);return a$(bG(1,54),h);case
 7:var
-i=be(a[1]);return a9(bG(1,55),i);case
+i=bh(a[1]);return a$(bG(1,55),i);case
 8:var
-j=be(a[1]);return a9(bG(1,56),j);default:var
-k=be(a[1]);return a9(bG(1,57),k)}}function
+j=bh(a[1]);return a$(bG(1,56),j);default:var
+k=bh(a[1]);return a$(bG(1,57),k)}}function
 eR(a){return typeof
-a==="number"?rS:be(a)}function
+a==="number"?rZ:bh(a)}function
 cp(a){return b3(c(2,b),a)}function
-kK(b,a){return dh(a,b)}function
-kL(b,a){return O(dh(O(a),b))}function
+kM(b,a){return di(a,b)}function
+kN(b,a){return O(di(O(a),b))}function
 fZ(b,a){return O(co(O(b),a))}function
 Q(c,b){var
 a=eP(b,c);return[0,a,a]}function
-kM(d,c,a){var
+kO(d,c,a){var
 b=eP(c,d),e=fZ(b,a);return[0,co(b,a),e]}function
 A(b,a){return[0,D(b[1],a[1]),D(b[2],a[2])]}function
-H(b,a){return[0,aE(b[1],a[2]),aE(b[2],a[1])]}function
+H(b,a){return[0,aF(b[1],a[2]),aF(b[2],a[1])]}function
 ae(a){return[0,O(a[2]),O(a[1])]}function
-kN(e,c,b,a){if(E(d,e))return E(d,b)?[0,B(e,b),B(c,a)]:E(a,d)?[0,B(c,b),B(e,a)]:[0,B(c,b),B(c,a)];if(E(c,d))return E(d,b)?[0,B(e,a),B(c,b)]:E(a,d)?[0,B(c,a),B(e,b)]:[0,B(e,a),B(e,b)];if(E(d,b))return[0,B(e,a),B(c,a)];if(E(a,d))return[0,B(c,b),B(e,b)];var
-f=bm(B(e,b),B(c,a));return[0,hF(B(e,a),B(c,b)),f]}function
+kP(e,c,b,a){if(F(d,e))return F(d,b)?[0,B(e,b),B(c,a)]:F(a,d)?[0,B(c,b),B(e,a)]:[0,B(c,b),B(c,a)];if(F(c,d))return F(d,b)?[0,B(e,a),B(c,b)]:F(a,d)?[0,B(c,a),B(e,b)]:[0,B(e,a),B(e,b)];if(F(d,b))return[0,B(e,a),B(c,a)];if(F(a,d))return[0,B(c,b),B(e,b)];var
+f=bo(B(e,b),B(c,a));return[0,hI(B(e,a),B(c,b)),f]}function
 t(c,b,a){var
-d=kN(b[1],b[2],a[1],a[2]),e=kL(c,d[2]);return[0,kK(c,d[1]),e]}function
+d=kP(b[1],b[2],a[1],a[2]),e=kN(c,d[2]);return[0,kM(c,d[1]),e]}function
 X(b,a){var
-c=B(a[1],a[1]),e=B(a[2],a[2]),h=kL(b,bm(c,e)),g=0;if(I(a[1],d)&&I(d,a[2])){var
+c=B(a[1],a[1]),e=B(a[2],a[2]),h=kN(b,bo(c,e)),g=0;if(I(a[1],d)&&I(d,a[2])){var
 f=d;g=1}if(!g)var
-f=kK(b,hF(c,e));return[0,f,h]}function
-hM(b,a){var
+f=kM(b,hI(c,e));return[0,f,h]}function
+hP(b,a){var
 c=eP(cp(b),b),d=fZ(c,a[1]);return[0,co(c,a[2]),d]}function
-b5(b,a){if(I(d,a[1]))return[0,hM(b,a)];var
-c=I(a[2],d),e=c?[0,ae(hM(b,ae(a)))]:c;return e}function
-hN(c){var
+b5(b,a){if(I(d,a[1]))return[0,hP(b,a)];var
+c=I(a[2],d),e=c?[0,ae(hP(b,ae(a)))]:c;return e}function
+hQ(c){var
 a=fW(c);return J(B(a,a),c)?a:D(a,b)}function
 b6(b,a){var
 c=I(d,a[1]);if(c)var
-f=hN(eP(a[2],b)),e=[0,[0,fW(eP(a[1],b)),f]];else
+f=hQ(eP(a[2],b)),e=[0,[0,fW(eP(a[1],b)),f]];else
 var
 e=c;return e}function
 dV(a){return 0===a[0]?a[2]:a[1]}function
 aI(f,d,c,b,a){if(b){if(a){var
 g=aI(f,d,c,b[2],a[2]);return[0,ao(c,b[1],a[1]),g]}return e(f,b)}return e(d,a)}function
-cN(b,a){return dh(b,a)}function
-aT(a,c,b){if(E(d,a)){var
+cN(b,a){return di(b,a)}function
+aU(a,c,b){if(F(d,a)){var
 e=b[1],f=O(cN(O(B(a,b[2])),c));return[0,cN(B(a,e),c),f]}var
 g=b[2],h=O(cN(O(B(a,b[1])),c));return[0,cN(B(a,g),c),h]}function
 as(a){var
-c=O(dh(O(a[2]),b));return[0,dh(a[1],b),c]}function
+c=O(di(O(a[2]),b));return[0,di(a[1],b),c]}function
 dW(c,b,a){var
-e=kN(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=I(f,d)?a[2]:a[1],i=fZ(f,h),j=I(g,d)?a[1]:a[2];return[0,co(g,j),i]}function
-b7(a){return bm(a[2],O(a[1]))}var
+e=kP(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=I(f,d)?a[2]:a[1],i=fZ(f,h),j=I(g,d)?a[1]:a[2];return[0,co(g,j),i]}function
+b7(a){return bo(a[2],O(a[1]))}var
 v=[0,d,d];function
 b8(a){return[0,a[1],a[1]]}function
 cq(a){return[0,a[2],a[2]]}function
@@ -1164,33 +1164,33 @@ f=i(b,a[2]);return[7,i(b,a[1]),f];case
 8:return[8,i(b,a[1])];case
 9:return[9,i(b,a[1])];default:var
 g=i(b,a[4]),h=i(b,a[3]),j=i(b,a[2]);return[10,a[1],j,h,g]}}function
-aF(n,m){var
+aH(n,m){var
 d=n,c=m;for(;;){var
 a=c[1],b=d[1];switch(b[0]){case
 0:return 0===a[0]?p(b[1],a[1]):0;case
 1:return 1===a[0]?p(b[1],a[1]):0;case
 2:return 2===a[0]?J(b[1],a[1]):0;case
 3:if(3===a[0]){var
-f=aF(b[1],a[1]);if(f){var
+f=aH(b[1],a[1]);if(f){var
 d=b[2],c=a[2];continue}return f}return 0;case
 4:if(4===a[0]){var
-g=aF(b[1],a[1]);if(g){var
+g=aH(b[1],a[1]);if(g){var
 d=b[2],c=a[2];continue}return g}return 0;case
 5:if(5===a[0]){var
 d=b[1],c=a[1];continue}return 0;case
 6:if(6===a[0]){var
-h=aF(b[1],a[1]);if(h){var
+h=aH(b[1],a[1]);if(h){var
 d=b[2],c=a[2];continue}return h}return 0;case
 7:if(7===a[0]){var
-i=aF(b[1],a[1]);if(i){var
+i=aH(b[1],a[1]);if(i){var
 d=b[2],c=a[2];continue}return i}return 0;case
 8:if(8===a[0]){var
 d=b[1],c=a[1];continue}return 0;case
 9:if(9===a[0]){var
 d=b[1],c=a[1];continue}return 0;default:if(10===a[0]){var
 j=cm(b[1],a[1]);if(j){var
-k=aF(b[2],a[2]);if(k){var
-l=aF(b[3],a[3]);if(l){var
+k=aH(b[2],a[2]);if(k){var
+l=aH(b[3],a[3]);if(l){var
 d=b[4],c=a[4];continue}var
 e=l}else
 var
@@ -1199,45 +1199,45 @@ var
 e=j;return e}return 0}}}function
 f0(b){var
 a=b[1];return 2===a[0]?[0,a[1]]:0}function
-a2(c,b){var
+a3(c,b){var
 a=f0(b);return a?J(c,a[1]):a}function
 eS(a){return I(ck(a),c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b))))))))))))))))}function
 k(a){return[0,[2,a]]}function
-C(b,a){if(a2(d,b))return a;if(a2(d,a))return b;var
+C(b,a){if(a3(d,b))return a;if(a3(d,a))return b;var
 c=f0(b);if(c){var
 e=c[1],f=f0(a);if(f){var
 g=f[1];if(eS(e)&&eS(g))return k(D(e,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
-bx(a){var
+bi(a){var
 b=a[1];switch(b[0]){case
 2:var
 c=b[1];return eS(c)?k(O(c)):[0,[5,a]];case
 5:return b[1];default:return[0,[5,a]]}}function
-x(b,a){if(a2(d,a))return b;if(a2(d,b))return bx(a);var
+w(b,a){if(a3(d,a))return b;if(a3(d,b))return bi(a);var
 c=b[1];if(0===c[0]){var
 e=a[1];return 0===e[0]?p(c[1],e[1])?k(d):[0,[4,b,a]]:[0,[4,b,a]]}return[0,[4,b,a]]}function
 R(a){var
 c=f0(a);if(c){var
 b=c[1];return eS(b)?k(B(b,b)):[0,[8,a]]}return[0,[8,a]]}function
-s(a,c){if(!a2(d,a)&&!a2(b,c)){if(!a2(d,c)&&!a2(b,a))return aF(a,c)?R(a):[0,[6,a,c]];return c}return a}function
-ak(c,a){return a2(b,a)?c:[0,[7,c,a]]}function
-aG(a){return a2(b,a)?a:[0,[9,a]]}function
-kO(d,c,b,a){return[0,[10,d,c,b,a]]}function
-bo(f,e,d,c){var
+s(a,c){if(!a3(d,a)&&!a3(b,c)){if(!a3(d,c)&&!a3(b,a))return aH(a,c)?R(a):[0,[6,a,c]];return c}return a}function
+al(c,a){return a3(b,a)?c:[0,[7,c,a]]}function
+aC(a){return a3(b,a)?a:[0,[9,a]]}function
+kQ(d,c,b,a){return[0,[10,d,c,b,a]]}function
+bq(f,e,d,c){var
 b=d,a=c;for(;;){if(b){var
 g=b[1],h=[0,i(e,bK(function(b){return function(a){return q(a,b,f)}}(a),g)),a],b=b[2],a=h;continue}return a}}function
-kP(d,f,k,j,h){var
+kR(d,f,k,j,h){var
 b=k,c=j,a=h;for(;;){if(c){var
 e=c[2],g=c[1];if(b){if(b[1]){var
-l=[0,i(f,bK(function(b){return function(a){return q(a,b,d)}}(a),g)),a],b=bw(b),c=e,a=l;continue}var
+l=[0,i(f,bK(function(b){return function(a){return q(a,b,d)}}(a),g)),a],b=by(b),c=e,a=l;continue}var
 b=b[2],c=e,a=[0,d,a];continue}var
-m=[0,i(f,bK(function(b){return function(a){return q(a,b,d)}}(a),g)),a],b=bw(b),c=e,a=m;continue}return a}}function
+m=[0,i(f,bK(function(b){return function(a){return q(a,b,d)}}(a),g)),a],b=by(b),c=e,a=m;continue}return a}}function
 eT(b,a){if(a){var
 c=a[2];if(b){var
 e=eT(b[1],c);return[0,a[1],e]}var
 d=[0,1,c]}else
 var
 d=a;return d}function
-kQ(a){switch(a[0]){case
+kS(a){switch(a[0]){case
 10:return[0,a[2],[0,a[3],[0,a[4],0]]];case
 5:case
 8:case
@@ -1247,39 +1247,39 @@ kQ(a){switch(a[0]){case
 2:return 0;default:return[0,a[1],[0,a[2],0]]}}function
 f1(j,g){var
 k=0,l=aq(eT,e(function(a){return 0},g),j),c=eQ(g,0),b=l,a=k;for(;;){if(c){if(b){var
-d=b[2],f=b[1],h=[0,f,a],i=f?aq(eT,d,kQ(c[1])):d,c=c[2],b=i,a=h;continue}return a}return a}}function
+d=b[2],f=b[1],h=[0,f,a],i=f?aq(eT,d,kS(c[1])):d,c=c[2],b=i,a=h;continue}return a}return a}}function
 cO(a){var
 b=0;function
-c(a){return[0,a]}return bo(k(d),c,a,b)}function
-a$(d,c){var
-a=d,b=0;for(;;){if(a){if(aF(c,a[1]))return b;var
+c(a){return[0,a]}return bq(k(d),c,a,b)}function
+bb(d,c){var
+a=d,b=0;for(;;){if(a){if(aH(c,a[1]))return b;var
 a=a[2],b=[0,b];continue}return a}}function
-dk(d,b){var
-e=b[1];if(al(function(a){return aF(d,a)},e))return b;var
+dl(d,b){var
+e=b[1];if(ak(function(a){return aH(d,a)},e))return b;var
 a=d[1];switch(a[0]){case
 10:var
-j=dk(a[2],b),k=dk(a[3],j),c=dk(a[4],k);break;case
+j=dl(a[2],b),k=dl(a[3],j),c=dl(a[4],k);break;case
 5:case
 8:case
 9:var
-c=dk(a[1],b);break;case
+c=dl(a[1],b);break;case
 0:case
 1:case
 2:var
 c=b;break;default:var
-i=dk(a[1],b),c=dk(a[2],i)}var
-f=c[2],g=c[1],h=[0,bK(function(a){return a$(g,a)},a),f];return[0,[0,d,c[1]],h]}function
+i=dl(a[1],b),c=dl(a[2],i)}var
+f=c[2],g=c[1],h=[0,bK(function(a){return bb(g,a)},a),f];return[0,[0,d,c[1]],h]}function
 cP(a){var
-b=b4(function(b,a){return dk(a,b)},a,rT),c=b[1],d=e(function(a){return a$(c,a)},a);return[0,kG(b[2]),d]}function
+b=b4(function(b,a){return dl(a,b)},a,r0),c=b[1],d=e(function(a){return bb(c,a)},a);return[0,kI(b[2]),d]}function
 f2(a){return aq(function(b,a){return D(b7(b),a)},d,a)}function
 cr(b,c,a){var
-d=f2(a),e=hF(c[2],D(b[2],d)),f=f2(a);return[0,b,[0,bm(c[1],aE(b[1],f)),e],a]}function
+d=f2(a),e=hI(c[2],D(b[2],d)),f=f2(a);return[0,b,[0,bo(c[1],aF(b[1],f)),e],a]}function
 $(a){return[0,a,a,0]}function
 b9(b,a){var
 c=a[3],d=b[3];function
 e(a){return a}var
 f=aI(function(a){return a},e,A,d,c),g=A(b[2],a[2]);return cr(A(b[1],a[1]),g,f)}function
-bp(b,a){var
+br(b,a){var
 c=a[3],d=b[3],e=aI(function(a){return a},ae,H,d,c),f=H(b[2],a[2]);return cr(H(b[1],a[1]),f,e)}function
 eU(a){var
 b=e(ae,a[3]),c=ae(a[2]);return[0,ae(a[1]),c,b]}function
@@ -1291,7 +1291,7 @@ i(b){return as(t(a,e,b))}var
 j=aI(function(b){return as(t(a,d,b))},i,h,g,f),k=t(a,c[2],b[2]);return cr(t(a,c[1],b[1]),k,j)}function
 eV(b,a){var
 c=a[3],d=A(a[2],a[1]),f=e(function(a){return t(b,d,a)},c),g=X(b,a[2]);return cr(X(b,a[1]),g,f)}function
-hO(a,b){var
+hR(a,b){var
 c=b6(a,b[1]);if(c){var
 g=c[1],d=b6(a,b[2]);if(d){var
 h=d[1],f=b5(a,A(h,g));if(f)var
@@ -1316,22 +1316,22 @@ j=d;return j}function
 cQ(b,a){return a?i(b,a[1]):a}function
 f3(a){var
 b=e(as,a[3]),c=as(A(a[2],a[1]));return cr(a[1],c,b)}function
-kR(a,k,j,r,c){var
-l=f3(k),m=f3(j),g=f3(c[1]),h=f3(c[2]),s=aJ(a,l,h),u=bp(aJ(a,m,g),s),i=dX(a,$(Q(a,b)),u);if(i)var
-f=i[1],n=aJ(a,bp(l,g),f),o=aJ(a,bp(m,h),f),d=function(c,b){return aJ(a,c,$(b))},v=j[3],w=k[3],x=function(b,a){var
-c=d(o,a);return b9(d(n,b),c)},y=function(a){return d(o,a)},z=aI(function(a){return d(n,a)},y,x,w,v),A=r[3],B=function(b,a){return bp(b,d(f,as(a)))[2]},C=function(a){return eU(d(f,as(a)))[2]},p=aI(function(a){return a[2]},C,B,z,A),D=g[2],E=e(function(b){return t(a,D,b)},p),F=cr(c[2][1],c[2][2],E),G=ae(h[2]),H=e(function(b){return t(a,G,b)},p),q=[0,[0,cr(c[1][1],c[1][2],H),F]];else
+kT(a,k,j,r,c){var
+l=f3(k),m=f3(j),g=f3(c[1]),h=f3(c[2]),s=aJ(a,l,h),u=br(aJ(a,m,g),s),i=dX(a,$(Q(a,b)),u);if(i)var
+f=i[1],n=aJ(a,br(l,g),f),o=aJ(a,br(m,h),f),d=function(c,b){return aJ(a,c,$(b))},v=j[3],w=k[3],x=function(b,a){var
+c=d(o,a);return b9(d(n,b),c)},y=function(a){return d(o,a)},z=aI(function(a){return d(n,a)},y,x,w,v),A=r[3],B=function(b,a){return br(b,d(f,as(a)))[2]},C=function(a){return eU(d(f,as(a)))[2]},p=aI(function(a){return a[2]},C,B,z,A),D=g[2],E=e(function(b){return t(a,D,b)},p),F=cr(c[2][1],c[2][2],E),G=ae(h[2]),H=e(function(b){return t(a,G,b)},p),q=[0,[0,cr(c[1][1],c[1][2],H),F]];else
 var
 q=i;return q}function
-kS(a,e,d,k){var
-p=eV(a,d),f=b9(eV(a,e),p),g=bp(b9(f,$(Q(a,b))),k),l=aJ(a,$(Q(a,c(2,b))),f),q=eV(a,g),h=hO(a,bp(aJ(a,$(Q(a,c(2,c(2,b)))),f),q));if(h){var
+kU(a,e,d,k){var
+p=eV(a,d),f=b9(eV(a,e),p),g=br(b9(f,$(Q(a,b))),k),l=aJ(a,$(Q(a,c(2,b))),f),q=eV(a,g),h=hR(a,br(aJ(a,$(Q(a,c(2,c(2,b)))),f),q));if(h){var
 m=h[1],r=aJ(a,m,d),i=dX(a,b9(aJ(a,g,e),r),l);if(i)var
-s=aJ(a,m,e),j=dX(a,bp(aJ(a,g,d),s),l),t=j?[0,[0,i[1],j[1]]]:j,n=t;else
+s=aJ(a,m,e),j=dX(a,br(aJ(a,g,d),s),l),t=j?[0,[0,i[1],j[1]]]:j,n=t;else
 var
 n=i;var
 o=n}else
 var
 o=h;var
-u=cQ(function(b){return kR(a,e,d,k,b)},o);return cQ(function(b){return kR(a,e,d,k,b)},u)}function
+u=cQ(function(b){return kT(a,e,d,k,b)},o);return cQ(function(b){return kT(a,e,d,k,b)},u)}function
 cs(d,b,a){if(b){if(a)return ao(d,b[1],a[1]);var
 c=a}else
 var
@@ -1344,7 +1344,7 @@ f=$(v);return function(a){switch(a[0]){case
 3:var
 k=a[2],l=a[1];return cs(function(b,a){return[0,b9(b,a)]},l,k);case
 4:var
-m=a[2],n=a[1];return cs(function(b,a){return[0,bp(b,a)]},n,m);case
+m=a[2],n=a[1];return cs(function(b,a){return[0,br(b,a)]},n,m);case
 5:var
 o=a[1];return cQ(function(a){return[0,eU(a)]},o);case
 6:var
@@ -1354,11 +1354,11 @@ s=a[2],t=a[1];return cs(function(a,c){return dX(b,a,c)},t,s);case
 8:var
 u=a[1];return cQ(function(a){return[0,eV(b,a)]},u);case
 9:var
-v=a[1];return cQ(function(a){return hO(b,a)},v);default:var
+v=a[1];return cQ(function(a){return hR(b,a)},v);default:var
 c=a[2];if(c){var
 d=a[3];if(d){var
 e=a[4];if(e){var
-w=kS(b,c[1],d[1],e[1]),x=a[1]?aW:aB;return z(x,w)}var
+w=kU(b,c[1],d[1],e[1]),x=a[1]?aY:aB;return z(x,w)}var
 g=e}else
 var
 g=d;var
@@ -1397,11 +1397,11 @@ eW(c,a){switch(a[0]){case
 0:return[0,[0,a[1],a[2]]];case
 1:return 0;case
 2:var
-m=a[2],n=a[1],g=m,f=n,e=function(b,a){return[0,di(b,a)]};break;case
+m=a[2],n=a[1],g=m,f=n,e=function(b,a){return[0,dj(b,a)]};break;case
 3:var
 o=a[2],p=a[1],g=o,f=p,e=function(b,a){return[0,dU(b,a)]};break;case
 4:var
-q=a[2],r=a[1],g=q,f=r,e=function(b,a){return[0,a1(b,a)]};break;case
+q=a[2],r=a[1],g=q,f=r,e=function(b,a){return[0,a2(b,a)]};break;case
 5:var
 s=a[2],t=a[1],g=s,f=t,e=function(c,a){return dT(a,[0,d,b])?0:[0,fY(c,a)]};break;default:var
 k=eW(c,a[1]);return k?i(c,k[1]):k}var
@@ -1410,10 +1410,10 @@ j=eW(c,g);if(j)return e(h[1],j[1]);var
 l=j}else
 var
 l=h;return l}function
-rU(a){return 0}function
-cu(a){return eW(rU,a)}function
+r1(a){return 0}function
+cu(a){return eW(r1,a)}function
 bM(a,c){switch(c[0]){case
-0:return[0,kM(a,c[1],c[2])];case
+0:return[0,kO(a,c[1],c[2])];case
 1:return 0;case
 2:var
 g=bM(a,c[1]);if(g)var
@@ -1441,12 +1441,12 @@ var
 x=m;return x;default:var
 y=c[1],p=bM(a,y);if(p){var
 e=p[1];if(I(d,e[1]))return b6(a,e);var
-f=cu(y),K=f?S(a_([0,d,b],f[1])):f;if(K)return 0;if(I(d,e[2])){var
+f=cu(y),K=f?S(ba([0,d,b],f[1])):f;if(K)return 0;if(I(d,e[2])){var
 B=b6(a,[0,e[2],e[2]]);return z(function(a){return[0,d,a[2]]},B)}var
 q=J(e[2],d),C=q?[0,v]:q;return C}return p}}function
-cv(b,a){return kM(b,a[1],a[2])}function
-kU(a,g,e,d){var
-h=[0,b,c(2,b)],i=[0,cv(a,a1(dU(d,e),h)),0],j=f(am(v,g),i),k=cv(a,d)[2],l=[0,cv(a,e)[1],k],m=[0,b,c(2,b)];return[0,cv(a,a1(di(e,d),m)),l,j]}function
+cv(b,a){return kO(b,a[1],a[2])}function
+kW(a,g,e,d){var
+h=[0,b,c(2,b)],i=[0,cv(a,a2(dU(d,e),h)),0],j=f(am(v,g),i),k=cv(a,d)[2],l=[0,cv(a,e)[1],k],m=[0,b,c(2,b)];return[0,cv(a,a2(dj(e,d),m)),l,j]}function
 dZ(c,e,a){function
 b(a){return dZ(c,e,a)}if(dY(a))switch(a[0]){case
 0:return 0;case
@@ -1454,174 +1454,174 @@ b(a){return dZ(c,e,a)}if(dY(a))switch(a[0]){case
 2:var
 g=b(a[2]),h=b(a[1]);return cs(function(b,a){return[0,b9(b,a)]},h,g);case
 3:var
-i=b(a[2]),j=b(a[1]);return cs(function(b,a){return[0,bp(b,a)]},j,i);case
+i=b(a[2]),j=b(a[1]);return cs(function(b,a){return[0,br(b,a)]},j,i);case
 4:var
 f=a[2],d=a[1];if(ct(d,f)){var
 k=b(d);return cQ(function(a){return[0,eV(c,a)]},k)}var
 l=b(f),m=b(d);return cs(function(b,a){return[0,aJ(c,b,a)]},m,l);case
 5:var
 n=b(a[2]),o=b(a[1]);return cs(function(a,b){return dX(c,a,b)},o,n);default:var
-p=b(a[1]);return cQ(function(a){return hO(c,a)},p)}return z($,bM(c,a))}function
-aC(b,a){if(dY(a)){var
+p=b(a[1]);return cQ(function(a){return hR(c,a)},p)}return z($,bM(c,a))}function
+aD(b,a){if(dY(a)){var
 c=dZ(b,function(d,c,a){var
-e=aN(d,kT),f=e?a_(c,a):e,g=f?[0,kU(b,d,c,a)]:f;return g},a);return z(function(a){return a[2]},c)}return bM(b,a)}function
-hP(a){var
-e=bm(O(a),d);return dR(D(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e))}function
-kV(a){return hJ(D(hP(a),a))}function
-kW(b,a){var
-c=kV(b),d=O(cN(O(a[2]),c)),e=kV(b);return[0,cN(a[1],e),d]}function
+e=aN(d,kV),f=e?ba(c,a):e,g=f?[0,kW(b,d,c,a)]:f;return g},a);return z(function(a){return a[2]},c)}return bM(b,a)}function
+hS(a){var
+e=bo(O(a),d);return dR(D(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e))}function
+kX(a){return hM(D(hS(a),a))}function
+kY(b,a){var
+c=kX(b),d=O(cN(O(a[2]),c)),e=kX(b);return[0,cN(a[1],e),d]}function
 cR(c,a,b){var
-d=aC(D(c,hP(a)),b);return z(function(b){return kW(a,b)},d)}function
+d=aD(D(c,hS(a)),b);return z(function(b){return kY(a,b)},d)}function
 an(d,a){var
 b=cR(d,a[2],a[1][1]);if(b)var
 c=cR(d,a[2],a[1][2]),f=c?[0,[0,b[1][1],c[1][2]]]:c,e=f;else
 var
 e=b;return e}function
-kX(b,a){var
+kZ(b,a){var
 c=O(cN(O(a[2]),b));return[0,cN(a[1],b),c]}function
 f4(b,a){var
 c=fZ(b[2],a);return[0,co(b[1],a),c]}function
-kY(h,g,d,b){var
-e=b[2],f=kA(d),i=c(2,f),j=B(kv(f),i),a=f4(t(h,b[1],g),j),k=kt(d)?H(e,a):A(e,a);return[0,a,k]}function
-kZ(a,d,c){if(c){var
-e=c[1];return kY(a,d,e,kZ(a,d,e))}var
+k0(h,g,d,b){var
+e=b[2],f=kC(d),i=c(2,f),j=B(kx(f),i),a=f4(t(h,b[1],g),j),k=kv(d)?H(e,a):A(e,a);return[0,a,k]}function
+k1(a,d,c){if(c){var
+e=c[1];return k0(a,d,e,k1(a,d,e))}var
 f=Q(a,b);return[0,Q(a,b),f]}function
-k0(e,g){var
-o=cp(e),p=B(c(2,c(2,b)),o),j=E(g[2],p);if(j){var
-n=eO(e),i=rV[1],d=n,f=0,a=i;for(;;){if(d){var
+k2(e,g){var
+o=cp(e),p=B(c(2,c(2,b)),o),j=F(g[2],p);if(j){var
+n=eO(e),i=r2[1],d=n,f=0,a=i;for(;;){if(d){var
 h=d[1];if(a){var
 d=h,a=a[1];continue}var
 d=h,f=[0,f],a=i;continue}var
-k=P(ks(rY,P(rW,f)),rX),l=kZ(e,g,k),q=kY(e,g,k,l)[2][2],m=[0,[0,l[2][1],q]];break}}else
+k=P(ku(r5,P(r3,f)),r4),l=k1(e,g,k),q=k0(e,g,k,l)[2][2],m=[0,[0,l[2][1],q]];break}}else
 var
 m=j;return m}function
-k1(i){function
+k3(i){function
 a(h){var
 m=co(cp(i),h),g=eO(i),f=m,e=d,a=b;for(;;){if(g){var
 j=D(a,c(2,b)),k=D(e,co(f,a)),l=O(co(f,B(h,h))),g=g[1],f=l,e=k,a=j;continue}return e}}var
-e=a(r(c(2,r(c(2,r(c(2,r(c(2,c(2,r(c(2,r(c(2,b)))))))))))))),f=B(c(2,c(2,b)),e),g=a(r(c(2,c(2,b))));return aE(B(c(2,c(2,c(2,c(2,b)))),g),f)}function
-k2(e,a){var
-f=E(d,a);if(f){var
-g=c(2,c(2,b));return k0(e,f4(X(e,[0,a,a]),g))}return f}function
-k3(a){var
-m=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),g=aE(k1(a),m),n=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),h=D(k1(a),n),e=k2(a,g);if(e){var
-f=k2(a,h);if(f)var
+e=a(r(c(2,r(c(2,r(c(2,r(c(2,c(2,r(c(2,r(c(2,b)))))))))))))),f=B(c(2,c(2,b)),e),g=a(r(c(2,c(2,b))));return aF(B(c(2,c(2,c(2,c(2,b)))),g),f)}function
+k4(e,a){var
+f=F(d,a);if(f){var
+g=c(2,c(2,b));return k2(e,f4(X(e,[0,a,a]),g))}return f}function
+k5(a){var
+m=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),g=aF(k3(a),m),n=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),h=D(k3(a),n),e=k4(a,g);if(e){var
+f=k4(a,h);if(f)var
 i=I(d,e[1][1]),j=i?I(f[1][2],d):i,k=j?[0,[0,g,h]]:j;else
 var
 k=f;var
 l=k}else
 var
 l=e;return l}function
-k4(a,d){var
+k6(a,d){var
 c=X(a,d),e=Q(a,b);return H(A(c,c),e)}function
 cS(f,j){var
-e=aC(D(f,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),j);if(e){var
-k=e[1],a=D(f,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),d=k3(a);if(d)var
-h=c(2,c(2,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))))),i=k0(a,X(a,f4(t(a,k,d[1]),h))),g=z(function(b){return k4(a,k4(a,b))},i);else
+e=aD(D(f,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),j);if(e){var
+k=e[1],a=D(f,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),d=k5(a);if(d)var
+h=c(2,c(2,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))))),i=k2(a,X(a,f4(t(a,k,d[1]),h))),g=z(function(b){return k6(a,k6(a,b))},i);else
 var
 g=d;var
-l=c(2,c(2,c(2,c(2,c(2,c(2,b))))));return z(function(a){return kX(l,a)},g)}return e}function
-k5(a,d){var
-e=k3(D(a,c(2,c(2,c(2,c(2,c(2,c(2,b))))))));return z(function(e){var
-f=c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b))))))))));return f4(t(a,d,kX(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e)),f)},e)}function
+l=c(2,c(2,c(2,c(2,c(2,c(2,b))))));return z(function(a){return kZ(l,a)},g)}return e}function
+k7(a,d){var
+e=k5(D(a,c(2,c(2,c(2,c(2,c(2,c(2,b))))))));return z(function(e){var
+f=c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b))))))))));return f4(t(a,d,kZ(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e)),f)},e)}function
 f5(d,a){return cS(d,[3,a,[0,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b))))))))),b]])}function
 h(i,e,c){var
 f=cu(c);if(f){var
-g=f[1];return e?S(a_(g,[0,d,b])):a_([0,d,b],g)}var
-a=aC(i,c);if(a){var
-h=a[1];return e?I(d,h[1]):E(d,h[1])}return a}function
-k6(c,b){var
-a=aC(c,b),d=a?1:a;return d}function
-bq(c,a,b){var
-d=ct(a,b),e=d?k6(c,a):d;return e?e:h(c,0,[3,b,a])}function
-rZ(c){var
-a=dj(c),g=dR(fW(a[2])),b=[0,fW(a[1]),g],e=I(d,a[1]),f=e?dT(a1(b,b),c):e,h=f?[0,b]:f;return h}function
-k7(a){if(a){var
+g=f[1];return e?S(ba(g,[0,d,b])):ba([0,d,b],g)}var
+a=aD(i,c);if(a){var
+h=a[1];return e?I(d,h[1]):F(d,h[1])}return a}function
+k8(c,b){var
+a=aD(c,b),d=a?1:a;return d}function
+bs(c,a,b){var
+d=ct(a,b),e=d?k8(c,a):d;return e?e:h(c,0,[3,b,a])}function
+r6(c){var
+a=dk(c),g=dR(fW(a[2])),b=[0,fW(a[1]),g],e=I(d,a[1]),f=e?dT(a2(b,b),c):e,h=f?[0,b]:f;return h}function
+k9(a){if(a){var
 e=a[2],c=a[1];if(dT(bJ([0,d,b],c),[0,d,b])){var
-g=k7(e);return z(function(a){return[0,a[1],[0,c,a[2]]]},g)}var
+g=k9(e);return z(function(a){return[0,a[1],[0,c,a[2]]]},g)}var
 f=[0,[0,c,e]]}else
 var
 f=a;return f}function
-k8(c,a){var
-e=_(c,a),f=[0,d,b];return aq(function(a,b){return dj(di(a1(a[1],a[2]),b))},f,e)}function
-k9(c,j){if(c){var
-f=c[1],g=k7(j);if(g){var
+k_(c,a){var
+e=_(c,a),f=[0,d,b];return aq(function(a,b){return dk(dj(a2(a[1],a[2]),b))},f,e)}function
+k$(c,j){if(c){var
+f=c[1],g=k9(j);if(g){var
 h=g[1],a=h[1],k=function(c){var
-f=bJ([0,d,b],a),g=fY(bJ([0,d,b],c),f),h=bw(a),i=_(bw(c),h);return e(function(a){var
-b=a1(g,a[2]);return dj(dU(a[1],b))},i)},l=k9(f,e(k,h[2]));return z(function(c){var
-e=bJ([0,d,b],a);return[0,dj(fY(hL(k8(bw(a),c)),e)),c]},l)}var
+f=bJ([0,d,b],a),g=fY(bJ([0,d,b],c),f),h=by(a),i=_(by(c),h);return e(function(a){var
+b=a2(g,a[2]);return dk(dU(a[1],b))},i)},l=k$(f,e(k,h[2]));return z(function(c){var
+e=bJ([0,d,b],a);return[0,dk(fY(hO(k_(by(a),c)),e)),c]},l)}var
 i=[0,[0,[0,b,b],am([0,d,b],f)]]}else
 var
 i=c;return i}function
-k_(a){if(a){var
-b=eW(rZ,a[1]);if(b)var
-c=k_(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+la(a){if(a){var
+b=eW(r6,a[1]);if(b)var
+c=la(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return r0}function
-k$(a){if(a){var
-b=k_(a[1]);if(b)var
-c=k$(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+d=b;return d}return r7}function
+lb(a){if(a){var
+b=la(a[1]);if(b)var
+c=lb(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return r1}function
-la(i,l){var
-a=k$(l);if(a){var
-j=a[1],c=k9(i,j);if(c){var
-e=c[1],f=p(g(e),i),h=f?al(function(a){return S(dT(a,[0,d,b]))},e):f;return h?m(function(a){return dT(k8(a,e),[0,d,b])},j):h}var
+d=b;return d}return r8}function
+lc(i,l){var
+a=lb(l);if(a){var
+j=a[1],c=k$(i,j);if(c){var
+e=c[1],f=p(g(e),i),h=f?ak(function(a){return S(dT(a,[0,d,b]))},e):f;return h?m(function(a){return dT(k_(a,e),[0,d,b])},j):h}var
 k=c}else
 var
 k=a;return k}function
-r2(a){return a}function
-r3(a){return a}function
-r4(a,b){return aI(r3,r2,A,a,b)}function
-r5(a){return a}function
-r6(a){return a}function
-ba(a,b){return aI(r6,r5,r4,a,b)}function
-hQ(a,f,c,d){if(c){var
+r9(a){return a}function
+r_(a){return a}function
+r$(a,b){return aI(r_,r9,A,a,b)}function
+sa(a){return a}function
+sb(a){return a}function
+bc(a,b){return aI(sb,sa,r$,a,b)}function
+hT(a,f,c,d){if(c){var
 h=c[2],i=Q(a,b),g=dW(c[1],i,f);if(d){var
-j=hQ(a,f,h,d[2]),k=d[1],l=function(c,b){return H(c,t(a,g,b))},m=function(b){return ae(t(a,g,b))};return[0,aI(function(a){return a},m,l,k,c),j]}var
-n=hQ(a,f,h,0);return[0,e(function(b){return ae(t(a,g,b))},c),n]}return d}function
+j=hT(a,f,h,d[2]),k=d[1],l=function(c,b){return H(c,t(a,g,b))},m=function(b){return ae(t(a,g,b))};return[0,aI(function(a){return a},m,l,k,c),j]}var
+n=hT(a,f,h,0);return[0,e(function(b){return ae(t(a,g,b))},c),n]}return d}function
 f6(h,a){if(a){var
 b=a[1];if(b)var
-c=b[1],e=I(d,c[1]),i=e?[0,hQ(h,c,b[2],a[2])]:e,f=i;else
+c=b[1],e=I(d,c[1]),i=e?[0,hT(h,c,b[2],a[2])]:e,f=i;else
 var
 f=b;var
 g=f}else
 var
 g=a;return g}function
-lb(g,f,e){var
+ld(g,f,e){var
 a=f,b=e;for(;;){if(b){if(a){var
 c=f6(g,b);if(c){var
 a=a[1],b=c[1];continue}var
 d=c}else
 var
 d=a;return d}return 1}}function
-lc(d,b,a){if(b)if(a)var
-e=a[1],f=lc(d,b[2],a[2]),g=cm(d,b[1])?b8(e):cq(e),c=[0,g,f];else
+le(d,b,a){if(b)if(a)var
+e=a[1],f=le(d,b[2],a[2]),g=cm(d,b[1])?b8(e):cq(e),c=[0,g,f];else
 var
 c=a;else
 var
 c=b;return c}function
-ld(a,b){if(a)if(b)var
-d=ld(a[2],b[2]),c=[0,lc(a[1],a,b[1]),d];else
+lf(a,b){if(a)if(b)var
+d=lf(a[2],b[2]),c=[0,le(a[1],a,b[1]),d];else
 var
 c=b;else
 var
 c=a;return c}function
-bf(a){if(a){var
-b=a[1],c=bf(b),d=e(function(a){return[0,1,a]},c),g=bf(b);return f(e(function(a){return[0,0,a]},g),d)}return r7}function
+bj(a){if(a){var
+b=a[1],c=bj(b),d=e(function(a){return[0,1,a]},c),g=bj(b);return f(e(function(a){return[0,0,a]},g),d)}return sc}function
 d0(c,a){var
-b=g(a);if(lb(c,b,a))return 1;var
-d=bf(bv(b));return m(function(d){return lb(c,b,ld([0,0,d],a))},d)}function
+b=g(a);if(ld(c,b,a))return 1;var
+d=bj(bx(b));return m(function(d){return ld(c,b,lf([0,0,d],a))},d)}function
 av(a){function
 b(b){var
 c=i(a,b[2]);return[0,e(a,b[1]),c]}return function(a){return e(b,a)}}function
 aK(h,e){var
 c=h,a=e[1],b=e[3];for(;;){if(c){if(b){var
 d=b[1],f=b[2],g=c[1]?A(a,d):H(a,d),c=c[2],a=g,b=f;continue}return a}return a}}function
-hR(c,b,a){var
-d=bf(c);return m(function(c){return i(a,i(av(function(a){return aK(c,a)}),b))},d)}function
-hS(h,d,c){if(d)if(c)var
-i=c[2],e=c[1],j=d[2],f=d[1],a=function(c,a){return aT(c,D(h,b),a)},k=hS(h,j,i),l=function(c,b){var
+hU(c,b,a){var
+d=bj(c);return m(function(c){return i(a,i(av(function(a){return aK(c,a)}),b))},d)}function
+hV(h,d,c){if(d)if(c)var
+i=c[2],e=c[1],j=d[2],f=d[1],a=function(c,a){return aU(c,D(h,b),a)},k=hV(h,j,i),l=function(c,b){var
 d=a(b,e);return A(a(f,c),d)},m=function(b){return a(b,e)},n=aI(function(b){return a(f,b)},m,l,i,j),o=a(f,e),g=[0,[0,A(a(f,e),o),n],k];else
 var
 g=c;else
@@ -1629,23 +1629,23 @@ var
 g=d;return g}function
 d1(b,d,a,c){function
 e(c,d){var
-e=aT(d,b,a);return H(A(c,c),e)}function
-f(c){return ae(aT(c,b,a))}return aI(function(a){return A(a,a)},f,e,d,c)}function
+e=aU(d,b,a);return H(A(c,c),e)}function
+f(c){return ae(aU(c,b,a))}return aI(function(a){return A(a,a)},f,e,d,c)}function
 f7(d,i,h,g){var
 c=i,b=h,a=g;for(;;){if(c){if(b){var
-e=b[1],f=c[1],j=cq(e[2]),k=ba(a,hS(d,f,d1(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
-hT(b,a){return[0,[0,0,b],a]}function
+e=b[1],f=c[1],j=cq(e[2]),k=bc(a,hV(d,f,d1(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
+hW(b,a){return[0,[0,0,b],a]}function
 d2(i,b,c,h,f,a){function
 d(a){if(a){var
 j=am([0,ae(a[1][2]),0],b),c=f7(h,f,a[2],j),d=p(g(c),b);if(d)return d0(i,c);var
 e=d}else
 var
-e=a;return e}return hR(b,hT(c,a),d)}function
+e=a;return e}return hU(b,hW(c,a),d)}function
 f8(g,f,e){var
 a=f,b=e;for(;;){if(a){var
 d=a[1],h=d[1],c=f6(g,[0,[0,b8(d[2]),h],b]);if(c){var
 a=a[2],b=c[1];continue}return c}return[0,b]}}function
-hU(d,b,c,a){function
+hX(d,b,c,a){function
 e(a){if(a){var
 j=am([0,a[1][2],0],b),c=f8(d,a[2],j);if(c){var
 e=c[1],f=p(g(e),b);if(f)return d0(d,e);var
@@ -1654,50 +1654,50 @@ var
 h=c;var
 i=h}else
 var
-i=a;return i}return hR(b,hT(c,a),e)}function
-le(b,a){return e(function(a){return[0,a[1],b]},a)}function
-lf(b,a){var
-c=bf(b);return m(function(b){return I(d,aK(b,a)[1])},c)}function
-hV(c,b,a){var
-d=a[3],f=e(function(a){return aT(c,b,a)},d),g=a[2];return[0,aT(c,b,a[1]),g,f]}function
-lg(a,b){var
+i=a;return i}return hU(b,hW(c,a),e)}function
+lg(b,a){return e(function(a){return[0,a[1],b]},a)}function
+lh(b,a){var
+c=bj(b);return m(function(b){return I(d,aK(b,a)[1])},c)}function
+hY(c,b,a){var
+d=a[3],f=e(function(a){return aU(c,b,a)},d),g=a[2];return[0,aU(c,b,a[1]),g,f]}function
+li(a,b){var
 c=b[3],d=a[3],e=aI(function(a){return a},ae,H,d,c),f=a[2];return[0,H(a[1],b[1]),f,e]}function
 bN(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
 ah(c,b,a){var
 d=ao(c,b[3],a[3]),e=ao(c,b[2],a[2]);return[0,ao(c,b[1],a[1]),e,d]}function
-aY(b,a){var
+aZ(b,a){var
 c=s(b,a[3]),d=s(b,a[2]);return[0,s(b,a[1]),d,c]}function
-bg(b,a){var
-c=ak(b[3],a),d=ak(b[2],a);return[0,ak(b[1],a),d,c]}function
+bk(b,a){var
+c=al(b[3],a),d=al(b[2],a);return[0,al(b[1],a),d,c]}function
 V(b,a){var
 c=s(b[3],a[3]),d=s(b[2],a[2]);return C(C(s(b[1],a[1]),d),c)}function
-dl(a){return bg(a,aG(V(a,a)))}function
+dm(a){return bk(a,aC(V(a,a)))}function
 cT(a){var
-b=a[5];return b?b[1]:aG(a[2])}function
-f9(b,a){return b?a:bx(a)}function
-lh(e,a,i,d,h){var
-f=V(a,e),b=ah(x,e,aY(f,a)),j=V(b,b),g=x(R(d),j),c=f9(h,aG(g)),k=x(f,c),l=ah(C,a,bg(b,c));return[0,ah(C,b,aY(c,a)),g,l,k,[0,d],0,[0,i]]}function
-li(a,e,d){var
-b=V(a,a),c=aG(b),f=[0,e],g=z(function(b){return ah(x,a,aY(V(b,a),b))},d);return[0,a,b,bg(a,c),c,0,g,f]}function
-lj(c,a){var
+b=a[5];return b?b[1]:aC(a[2])}function
+f9(b,a){return b?a:bi(a)}function
+lj(e,a,i,d,h){var
+f=V(a,e),b=ah(w,e,aZ(f,a)),j=V(b,b),g=w(R(d),j),c=f9(h,aC(g)),k=w(f,c),l=ah(C,a,bk(b,c));return[0,ah(C,b,aZ(c,a)),g,l,k,[0,d],0,[0,i]]}function
+lk(a,e,d){var
+b=V(a,a),c=aC(b),f=[0,e],g=z(function(b){return ah(w,a,aZ(V(b,a),b))},d);return[0,a,b,bk(a,c),c,0,g,f]}function
+ll(c,a){var
 d=V(a,c);return[0,a,k(b),a,d,0,0,0]}function
 eX(a){return e(function(a){var
 b=a[2];return[0,bN(a[1]),b]},a)}function
-lk(a){return e(function(a){var
+lm(a){return e(function(a){var
 c=k(b);return[0,bN(a[3]),c]},a)}function
-ll(b,a){var
+ln(b,a){var
 c=i(b,a[3]),d=i(b,a[2]);return[0,i(b,a[1]),d,c]}function
-lm(c,b,a){var
+lo(c,b,a){var
 d=ao(c,b[3],a[3]),e=ao(c,b[2],a[2]);return[0,ao(c,b[1],a[1]),e,d]}function
 d3(d,a){var
 b=b6(d,[0,a[2],a[2]]);if(b){var
 c=b[1];return[0,c[2],c[2]]}return[0,a[2],a[2]]}function
 f_(a,n,f,l,e,k,j){var
-o=lm(bp,k,j),b=lm(function(b,c){return aJ(a,b,c)},e,o),c=b[3],g=b[2],h=b[1],i=b9(b9(b9($(Q(a,d)),h),g),c),p=bf(n);return m(function(c){var
-b=ll(function(b){return X(a,aK(c,b))},e),h=b[3],j=b[2],k=b[1],m=t(a,l,d3(a,A(A(A(Q(a,d),k),j),h))),g=H(aK(c,i),m),n=f?H(g,aK(c,f[1])):g;return I(d,n[1])},p)}function
-b_(a){return dh(D(a[1],a[2]),b)}function
+o=lo(br,k,j),b=lo(function(b,c){return aJ(a,b,c)},e,o),c=b[3],g=b[2],h=b[1],i=b9(b9(b9($(Q(a,d)),h),g),c),p=bj(n);return m(function(c){var
+b=ln(function(b){return X(a,aK(c,b))},e),h=b[3],j=b[2],k=b[1],m=t(a,l,d3(a,A(A(A(Q(a,d),k),j),h))),g=H(aK(c,i),m),n=f?H(g,aK(c,f[1])):g;return I(d,n[1])},p)}function
+b_(a){return di(D(a[1],a[2]),b)}function
 d4(a){var
-b=b_(a);return aE(a[2],b)}function
+b=b_(a);return aF(a[2],b)}function
 d5(c,b){if(b)var
 a=b[1],e=d5([0,c],b[2]),g=d4(a),h=[0,[0,d4(a),g],0],i=f(am(v,c),h),j=b_(a),d=[0,[0,[0,b_(a),j],a,i],e];else
 var
@@ -1705,11 +1705,11 @@ d=b;return d}function
 cU(d,b){if(b){var
 c=b[2],a=b[1];if(d){var
 e=cU(d[1],c);return[0,[0,a,e[1]],[0,a,e[2]]]}var
-f=a[2],g=[0,[0,b_(a),f],c],h=b_(a);return[0,[0,[0,a[1],h],c],g]}return r8}function
-ln(d,c,a){if(c){if(a){var
-e=ln(d,c[2],a[2]);return A(aT(c[1],D(d,b),a[1]),e)}return v}return v}function
+f=a[2],g=[0,[0,b_(a),f],c],h=b_(a);return[0,[0,[0,a[1],h],c],g]}return sd}function
+lp(d,c,a){if(c){if(a){var
+e=lp(d,c[2],a[2]);return A(aU(c[1],D(d,b),a[1]),e)}return v}return v}function
 d6(f,a){if(a)var
-g=a[1],c=g[2],d=g[1],h=a[2],b=function(a,b){return ln(f,a,b)},j=d6(f,h),k=e(function(a){var
+g=a[1],c=g[2],d=g[1],h=a[2],b=function(a,b){return lp(f,a,b)},j=d6(f,h),k=e(function(a){var
 e=b(d,a[2]);return A(b(a[1],c),e)},h),l=b(d,c),i=[0,[0,A(b(d,c),l),k],j];else
 var
 i=a;return i}function
@@ -1725,34 +1725,34 @@ i=f$(f,d[1],c,b,g);return[0,[0,H(v,b),0],i]}var
 j=e(function(a){return[0,H(v,b),0]},g),h=[0,[0,H(ae(t(f,c,cq(a[1][2]))),b),0],j]}else
 var
 h=a;return h}function
-bb(d,c,a){var
+bd(d,c,a){var
 b=p(g(a),c);return b?d0(d,a):b}function
 ga(d,b,a){if(b)var
-c=b[1],g=ga([0,d],b[2],a),h=f(am(v,d),[0,a,0]),e=[0,[0,c,[0,aE(c[1],a[2]),D(c[2],a[2])],h],g];else
+c=b[1],g=ga([0,d],b[2],a),h=f(am(v,d),[0,a,0]),e=[0,[0,c,[0,aF(c[1],a[2]),D(c[2],a[2])],h],g];else
 var
 e=b;return e}function
-lo(d){if(d){var
+lq(d){if(d){var
 a=d[1][1];if(a){var
 b=a[2];if(b){var
 c=b[2];if(c){if(c[2])return 0;var
-g=c[1],h=b[1],i=a[1],j=lo(d[2]);return z(function(a){return[0,[0,[0,i,h],g],a]},j)}var
+g=c[1],h=b[1],i=a[1],j=lq(d[2]);return z(function(a){return[0,[0,[0,i,h],g],a]},j)}var
 e=c}else
 var
 e=b;var
 f=e}else
 var
-f=a;return f}return r9}function
-hW(a){return z(function(a){return z(eU,a)},a)}function
+f=a;return f}return se}function
+hZ(a){return z(function(a){return z(eU,a)},a)}function
 cV(c,b,a){function
 d(a){return aJ(c,b,a)}return z(function(a){return z(d,a)},a)}function
-hX(c,b,a){function
+h0(c,b,a){function
 d(a){return dX(c,a,b)}return z(function(a){return cQ(d,a)},a)}function
 d8(b,a){var
 c=_(b,a);return e(function(c){var
 a=c[2],b=c[1];if(b){if(a){var
 d=a[1],e=b[1];return[0,cs(function(b,a){return[0,b9(b,a)]},e,d)]}return b}return a},c)}function
 gb(a){return $(Q(a,c(2,b)))}function
-lp(a,au,at,K,c){var
+lr(a,au,at,K,c){var
 av=bK(aB,c),f=i(bL(a,au,at),av);switch(c[0]){case
 1:var
 N=c[1],d=e(function(d){var
@@ -1760,9 +1760,9 @@ c=p(N,d),e=c?[0,[0,$(Q(a,b))]]:c;return e},K);break;case
 3:var
 d=d8(c[1][2],c[2][2]);break;case
 4:var
-O=e(hW,c[2][2]),d=d8(c[1][2],O);break;case
+O=e(hZ,c[2][2]),d=d8(c[1][2],O);break;case
 5:var
-d=e(hW,c[1][2]);break;case
+d=e(hZ,c[1][2]);break;case
 6:var
 x=c[2],y=c[1],g=y[1],u=0;if(g){var
 h=x[1];if(h)var
@@ -1773,7 +1773,7 @@ d=z;break;case
 7:var
 v=0;if(f){var
 A=c[2],j=A[1];if(j)var
-V=A[2],W=eU(f[1]),X=e(function(b){return cV(a,W,b)},V),Y=d8(c[1][2],X),Z=j[1],d=e(function(b){return hX(a,Z,b)},Y);else{var
+V=A[2],W=eU(f[1]),X=e(function(b){return cV(a,W,b)},V),Y=d8(c[1][2],X),Z=j[1],d=e(function(b){return h0(a,Z,b)},Y);else{var
 B=j;v=1}}else{var
 B=f;v=1}if(v)var
 d=B;break;case
@@ -1783,15 +1783,15 @@ _=C[2],aa=k[1],ab=aJ(a,gb(a),aa),d=e(function(b){return cV(a,ab,b)},_);else
 var
 d=k;break;case
 9:if(f)var
-ac=c[1][2],ad=f[1],ae=aJ(a,gb(a),ad),d=e(function(b){return hX(a,ae,b)},ac);else
+ac=c[1][2],ad=f[1],ae=aJ(a,gb(a),ad),d=e(function(b){return h0(a,ae,b)},ac);else
 var
 d=f;break;case
 10:var
 D=c[4],E=c[3],F=c[2],l=F[1],w=0;if(l){var
 m=l[1],n=E[1],L=0;if(n){var
 o=n[1],q=D[1],M=0;if(q){var
-r=kS(a,m,o,q[1]);if(r){var
-G=r[1],s=G[2],t=G[1],af=E[2],ag=bp(o,s),ah=e(function(b){return cV(a,ag,b)},af),ai=F[2],aj=bp(m,t),ak=d8(e(function(b){return cV(a,aj,b)},ai),ah),al=e(hW,D[2]),am=gb(a),an=d8(e(function(b){return cV(a,am,b)},ak),al),ao=c[1]?t:eU(s),ap=e(function(b){return cV(a,ao,b)},an),aq=aJ(a,m,s),ar=bp(aJ(a,o,t),aq),as=aJ(a,gb(a),ar),d=e(function(b){return hX(a,as,b)},ap);L=1;M=1}else
+r=kU(a,m,o,q[1]);if(r){var
+G=r[1],s=G[2],t=G[1],af=E[2],ag=br(o,s),ah=e(function(b){return cV(a,ag,b)},af),ai=F[2],aj=br(m,t),ak=d8(e(function(b){return cV(a,aj,b)},ai),ah),al=e(hZ,D[2]),am=gb(a),an=d8(e(function(b){return cV(a,am,b)},ak),al),ao=c[1]?t:eU(s),ap=e(function(b){return cV(a,ao,b)},an),aq=aJ(a,m,s),ar=br(aJ(a,o,t),aq),as=aJ(a,gb(a),ar),d=e(function(b){return h0(a,as,b)},ap);L=1;M=1}else
 var
 H=r}else
 var
@@ -1803,83 +1803,83 @@ J=I;w=1}}else{var
 J=l;w=1}if(w)var
 d=J;break;default:var
 d=e(function(a){return 0},K)}return[0,f,d]}function
-hY(b,c,a){if(a)var
-f=a[1],g=hY(b,c,a[2]),d=[0,e(function(a){return ae(t(b,t(b,c,f),a))},a),g];else
+h1(b,c,a){if(a)var
+f=a[1],g=h1(b,c,a[2]),d=[0,e(function(a){return ae(t(b,t(b,c,f),a))},a),g];else
 var
 d=a;return d}function
-hZ(a){return m(function(a){var
+h2(a){return m(function(a){var
 b=J(a[1],d);return b?J(a[2],d):b},a)}function
-h0(c,b,a){var
+h3(c,b,a){var
 d=_(b,a);return aq(function(a,b){return A(t(c,a[1],a[2]),b)},v,d)}function
-h1(c,b,a){var
-d=b7(h0(c,a,b));return aq(function(b,a){return D(b7(b),a)},d,a)}function
+h4(c,b,a){var
+d=b7(h3(c,a,b));return aq(function(b,a){return D(b7(b),a)},d,a)}function
 b$(a){return Q(a,b)}function
 eY(a,i,c,v,u){var
 f=v,e=u;for(;;){if(f){var
-j=f[1],n=0;if(!hZ(c)&&!hZ(j)){var
-h=h1(a,i,j),o=b$(a),p=h1(a,i,c),b=dW([0,h1(a,i,c),p],o,[0,h,h])[1],k=I(d,h),l=k?I(d,b):k;if(l)var
-q=as(hM(a,[0,b,b])),r=function(b){return function(d,c){return H(t(a,[0,b,b],d),c)}}(b),s=[0,b,b],m=[0,ba(e,hY(a,q,aI(function(c){return function(b){return t(a,c,b)}}(s),ae,r,j,c)))];else
+j=f[1],n=0;if(!h2(c)&&!h2(j)){var
+h=h4(a,i,j),o=b$(a),p=h4(a,i,c),b=dW([0,h4(a,i,c),p],o,[0,h,h])[1],k=I(d,h),l=k?I(d,b):k;if(l)var
+q=as(hP(a,[0,b,b])),r=function(b){return function(d,c){return H(t(a,[0,b,b],d),c)}}(b),s=[0,b,b],m=[0,bc(e,h1(a,q,aI(function(c){return function(b){return t(a,c,b)}}(s),ae,r,j,c)))];else
 var
 m=l;var
 g=m;n=1}if(!n)var
 g=[0,e];if(g){var
 f=f[2],e=g[1];continue}return g}return[0,e]}}function
-lq(a){var
+ls(a){var
 b=a[2],c=e(function(a){return[0,a[1],v]},b);return[0,[0,a[1][1],v],c]}function
-lr(h,n,a,m,l,k){var
+lt(h,n,a,m,l,k){var
 d=m,c=l,b=k;for(;;){if(d){if(c){var
-i=c[1],j=i[1],f=d[1],o=cq(j[2]),p=ba(b,hS(a,f,d1(a,j[1],o,f))),q=i[2],r=e(function(c){return function(b){return e(as,d1(a,b[1],b[2],c))}}(f),q),g=eY(h,n,e(function(b){return aT(b,a,b$(h))},f),r,p);if(g){var
+i=c[1],j=i[1],f=d[1],o=cq(j[2]),p=bc(b,hV(a,f,d1(a,j[1],o,f))),q=i[2],r=e(function(c){return function(b){return e(as,d1(a,b[1],b[2],c))}}(f),q),g=eY(h,n,e(function(b){return aU(b,a,b$(h))},f),r,p);if(g){var
 d=d[2],c=c[2],b=g[1];continue}return g}return[0,b]}return[0,b]}}function
-ls(c,b,a){var
+lu(c,b,a){var
 d=aA(0,a);return e(function(a){return p(a,b)?b$(c):v},d)}function
-lt(c,b,a){if(b){if(a){var
-d=lt(c,b[2],a[2]);return A(aT(b[1],c,a[1]),d)}return v}return v}function
-lu(a,j){switch(j){case
+lv(c,b,a){if(b){if(a){var
+d=lv(c,b[2],a[2]);return A(aU(b[1],c,a[1]),d)}return v}return v}function
+lw(a,j){switch(j){case
 0:var
-d=aE(a[2],a[1]),e=a[1];return[0,[0,e,e],[0,[0,d,d],0]];case
+d=aF(a[2],a[1]),e=a[1];return[0,[0,e,e],[0,[0,d,d],0]];case
 1:var
-f=aE(a[1],a[2]),g=a[2];return[0,[0,g,g],[0,[0,f,f],0]];default:var
-c=dh(D(a[1],a[2]),b),h=aE(c,a[2]),i=aE(a[2],c);return[0,[0,c,c],[0,[0,i,i],[0,[0,h,h],0]]]}}function
+f=aF(a[1],a[2]),g=a[2];return[0,[0,g,g],[0,[0,f,f],0]];default:var
+c=di(D(a[1],a[2]),b),h=aF(c,a[2]),i=aF(a[2],c);return[0,[0,c,c],[0,[0,i,i],[0,[0,h,h],0]]]}}function
 gc(d,c,a){if(a)var
-e=a[1],g=gc(d,[0,c],a[2]),b=z(aW,kH(function(a){return p(a[1],c)},d)),h=b?lu(e,b[1])[1]:e,f=[0,h,g];else
+e=a[1],g=gc(d,[0,c],a[2]),b=z(aY,kJ(function(a){return p(a[1],c)},d)),h=b?lw(e,b[1])[1]:e,f=[0,h,g];else
 var
 f=a;return f}function
-h2(a,b){return e(function(a){var
-c=a[2];return lu(q(a[1],b,v),c)[2]},a)}function
-h3(i,b,g,a){function
+h5(a,b){return e(function(a){var
+c=a[2];return lw(q(a[1],b,v),c)[2]},a)}function
+h6(i,b,g,a){function
 d(a){return aK(b,a[1])}var
 h=0,j=$(v);function
 c(g,d,a,b){if(a){var
 h=function(a){return aK(g,q(d,a[2],j))},k=e(h,b[1]),l=h(b[2]),m=c(g,[0,d],a[2],b),n=a[1];return f(e(function(a){var
 b=t(i,a,l);return[0,e(function(b){return t(i,a,b)},k),b]},n),m)}return a}var
 k=c(b,h,g,a),l=d(a[2]);return[0,[0,e(d,a[1]),l],k]}var
-sm=$(v);function
-lv(e,d,c){if(d){var
-f=q(e,c[2],sn),a=f?f[1]:[0,sm];if(a)var
-b=lv([0,e],d[2],c),h=b?[0,[0,a[1],b[1]]]:b,g=h;else
+st=$(v);function
+lx(e,d,c){if(d){var
+f=q(e,c[2],su),a=f?f[1]:[0,st];if(a)var
+b=lx([0,e],d[2],c),h=b?[0,[0,a[1],b[1]]]:b,g=h;else
 var
-g=a;return g}return so}function
-lw(a,c,h,p,o,g,n){var
-d=bf(c);return m(function(d){var
+g=a;return g}return sv}function
+ly(a,c,h,p,o,g,n){var
+d=bj(c);return m(function(d){var
 f=i(n,d);if(f){var
 q=t(a,o,f[1]),j=H(Q(a,b),q),r=h?H(j,aK(d,h[1])):j,k=function(b){function
 f(c){return t(a,b,aK(d,c))}var
-g=e(function(a){return e(f,a)},p);return bb(a,c,ba(am([0,r,0],c),g))},l=k(as(g));if(l)return k(ae(as(g)));var
+g=e(function(a){return e(f,a)},p);return bd(a,c,bc(am([0,r,0],c),g))},l=k(as(g));if(l)return k(ae(as(g)));var
 m=l}else
 var
 m=f;return m},d)}function
-lx(c,b,a){if(a){var
+lz(c,b,a){if(a){var
 d=a[2];if(c){var
-f=lx(c[1],b,d);return[0,a[1],f]}var
+f=lz(c[1],b,d);return[0,a[1],f]}var
 e=[0,b,d]}else
 var
 e=a;return e}function
 gd(a,g){var
-b=bn(function(e){var
-c=q(e,a,v),b=E(c[1],d),f=b?E(d,c[2]):b;return S(f)},g);if(b){if(b[2])return a;var
-f=b[1],c=q(f,a,v),e=I(d,c[1])?c[1]:c[2];return lx(f,[0,e,e],a)}return a}function
-ly(c,a){if(a)var
-b=a[2],f=ly(c,b),g=b?b[1]:e(rP,c),d=[0,[0,a[1],g],f];else
+b=bp(function(e){var
+c=q(e,a,v),b=F(c[1],d),f=b?F(d,c[2]):b;return S(f)},g);if(b){if(b[2])return a;var
+f=b[1],c=q(f,a,v),e=I(d,c[1])?c[1]:c[2];return lz(f,[0,e,e],a)}return a}function
+lA(c,a){if(a)var
+b=a[2],f=lA(c,b),g=b?b[1]:e(rW,c),d=[0,[0,a[1],g],f];else
 var
 d=a;return d}function
 cW(c,d,b,a){if(d){var
@@ -1892,18 +1892,18 @@ var
 f=b;else
 var
 f=c;return f}function
-cX(d,c,b,a){return cW(v,c,h0(d,a,b),a)}function
-lz(g,b,f,a){if(a)var
+cX(d,c,b,a){return cW(v,c,h3(d,a,b),a)}function
+lB(g,b,f,a){if(a)var
 c=a[2],d=a[1],h=q(b,c,v),e=[0,d,cW(v,b,A(t(g,f,d),h),c)];else
 var
 e=a;return e}function
-h4(f,d,c,b,a){var
-g=e($,c);return kP(0,bL(f,d5(0,a),g),b,d,0)}function
+h7(f,d,c,b,a){var
+g=e($,c);return kR(0,bL(f,d5(0,a),g),b,d,0)}function
 aa(a){if(a){var
 b=a[1];if(b)var
 c=aa(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return st}function
+d=b;return d}return sA}function
 gf(b,a){if(a){var
 h=a[1],n=h[1],c=aa(e(function(a){return q(a,b,0)},n));if(c){var
 f=q(h[2],b,0);if(f){var
@@ -1916,20 +1916,20 @@ var
 l=f;var
 m=l}else
 var
-m=c;return m}return su}function
+m=c;return m}return sB}function
 cw(d,c,b){var
 a=gf(d,c);return a?i(b,a[1]):a}function
 cY(a,b){return m(function(c){var
 a=q(c,b,0),d=a?1:a;return d},a)}function
 gg(b,a){if(b){var
 c=b[1],d=c[3],e=a[3],f=function(a){return a},g=aI(function(a){return a},f,A,e,d),h=a[2];return[0,A(a[1],c[1]),h,g]}return a}function
-h5(b,a){return b?lg(a,b[1]):a}function
-h6(h,g,b,f){var
+h8(b,a){return b?li(a,b[1]):a}function
+h9(h,g,b,f){var
 a=q(f,h,0);if(a){var
 c=a[1];if(b){var
-i=lg(c,b[1]),e=bf(g);return m(function(a){return E(d,aK(a,i)[1])},e)}return E(d,c[2][1])}return a}function
-lA(f,d,a){function
-c(a){return aT(a,d,Q(f,b))}if(a){var
+i=li(c,b[1]),e=bj(g);return m(function(a){return F(d,aK(a,i)[1])},e)}return F(d,c[2][1])}return a}function
+lC(f,d,a){function
+c(a){return aU(a,d,Q(f,b))}if(a){var
 g=e(c,a[2]);return[0,c(a[1]),v,g]}return $(v)}function
 gh(b,a){var
 c=q(a[1],b,0);if(c){var
@@ -1940,43 +1940,43 @@ f=d;var
 g=f}else
 var
 g=c;return g}function
-h7(b,a){return aa(e(function(a){return q(a,b,0)},a))}function
+h_(b,a){return aa(e(function(a){return q(a,b,0)},a))}function
 eZ(c,k,W,C,i,h,j,f,a){switch(f[0]){case
 0:var
 s=f[1];if(typeof
 a!=="number")switch(a[0]){case
 0:var
 Y=cY(C,i);if(Y){var
-aD=a[2],aF=a[1],aG=gg(j,$(s));return cw(i,k,function(a){return d2(c,h,aG,aF,aD,a)})}return Y;case
+aD=a[2],aE=a[1],aG=gg(j,$(s));return cw(i,k,function(a){return d2(c,h,aG,aE,aD,a)})}return Y;case
 1:var
 Z=cY(C,i);if(Z){var
 aH=a[2],aI=a[1],aJ=gg(j,$(s));return cw(i,W,function(a){return d2(c,h,aJ,aI,aH,a)})}return Z;case
 2:var
 _=cY(C,i);if(_){if(j)return 0;var
 ab=J(s[1],d),ac=ab?J(s[2],d):ab;if(ac){var
-aL=a[2],aM=a[1];return cw(i,k,function(a){return d2(c,h,[0,v,v,0],aM,aL,le([0,v,v,0],a))})}var
+aL=a[2],aM=a[1];return cw(i,k,function(a){return d2(c,h,[0,v,v,0],aM,aL,lg([0,v,v,0],a))})}var
 ad=ac}else
 var
 ad=_;return ad}return 0;case
 1:var
 ae=f[1];if(typeof
 a==="number"){if(1===a){var
-aN=h5(j,$(ae));return cw(i,W,function(a){return hU(c,h,aN,a)})}if(!a){var
-aO=h5(j,$(ae));return cw(i,k,function(a){return hU(c,h,aO,a)})}}return 0;case
+aN=h8(j,$(ae));return cw(i,W,function(a){return hX(c,h,aN,a)})}if(!a){var
+aO=h8(j,$(ae));return cw(i,k,function(a){return hX(c,h,aO,a)})}}return 0;case
 2:if(typeof
 a!=="number"&&3===a[0]){var
-af=a[1],l=lA(c,af,a[3]),ag=f[1],aP=a[2];return cw(i,k,function(d){var
-a=lf(h,l),b=a?d2(c,h,gg(j,l),af,aP,d):a;if(b){var
-f=l[3],g=e(function(a){return t(c,ag,a)},f),i=l[2];return hU(c,h,h5(j,[0,t(c,ag,l[1]),i,g]),d)}return b})}return 0;case
+af=a[1],l=lC(c,af,a[3]),ag=f[1],aP=a[2];return cw(i,k,function(d){var
+a=lh(h,l),b=a?d2(c,h,gg(j,l),af,aP,d):a;if(b){var
+f=l[3],g=e(function(a){return t(c,ag,a)},f),i=l[2];return hX(c,h,h8(j,[0,t(c,ag,l[1]),i,g]),d)}return b})}return 0;case
 3:if(typeof
-a==="number"&&!a)return h6(i,h,j,f[1]);return 0;case
+a==="number"&&!a)return h9(i,h,j,f[1]);return 0;case
 4:if(typeof
 a!=="number"&&0===a[0]){var
-aQ=a[2],aR=a[1],aS=gg(j,$(f[2])),aU=function(a){return d2(c,h,aS,aR,aQ,a)};return cw(i,f[1],aU)}return 0;case
+aQ=a[2],aR=a[1],aS=gg(j,$(f[2])),aT=function(a){return d2(c,h,aS,aR,aQ,a)};return cw(i,f[1],aT)}return 0;case
 5:if(typeof
 a==="number"&&!(3<=a))switch(a){case
-0:return h6(i,h,j,f[1]);case
-2:return h6(i,h,j,f[2])}return 0;case
+0:return h9(i,h,j,f[1]);case
+2:return h9(i,h,j,f[2])}return 0;case
 6:if(typeof
 a!=="number"&&8===a[0]){var
 E=gh(i,f[1]);if(E){var
@@ -1986,9 +1986,9 @@ I=gh(i,f[4]);if(I){var
 ah=I[1],ai=G[1],aj=F[1],ak=E[1],n=a[2],u=f[5],aV=a[1];if(n){var
 o=n[2];if(o){var
 q=o[2];if(q){if(q[2])return 0;var
-aC=[0,n[1],o[1],q[1]],r=ll(function(f){function
-g(a){return aT(a,aV,Q(c,b))}if(f){var
-a=e(g,f[2]),d=g(f[1]),h=f2(a),i=D(d[2],h),j=f2(a);return[0,d,[0,aE(d[1],j),i],a]}return $(v)},aC),N=m(function(a){return p(g(a),[0,h])},n),O=N?f_(c,h,j,u,r,ak,ai):N,P=O?f_(c,h,j,u,r,ak,ah):O,R=P?f_(c,h,j,u,r,aj,ai):P;if(R)return f_(c,h,j,u,r,aj,ah);var
+aC=[0,n[1],o[1],q[1]],r=ln(function(f){function
+g(a){return aU(a,aV,Q(c,b))}if(f){var
+a=e(g,f[2]),d=g(f[1]),h=f2(a),i=D(d[2],h),j=f2(a);return[0,d,[0,aF(d[1],j),i],a]}return $(v)},aC),N=m(function(a){return p(g(a),[0,h])},n),O=N?f_(c,h,j,u,r,ak,ai):N,P=O?f_(c,h,j,u,r,ak,ah):O,R=P?f_(c,h,j,u,r,aj,ai):P;if(R)return f_(c,h,j,u,r,aj,ah);var
 S=R}else
 var
 S=q;var
@@ -2013,24 +2013,24 @@ ao=a[2],ap=a[1],aW=f[2],aX=f[1];return cw(i,k,function(e){var
 a=p(g(e),h),d=a?p(g(ao),h):a;if(d){var
 f=function(a){if(a){var
 d=a[2],e=p(g(d),h);if(e){var
-i=d6(ap,d7(ap,ao,Q(c,b),d));return bb(c,h,ba(f$(c,aX,aW,a[1][2],d),i))}var
+i=d6(ap,d7(ap,ao,Q(c,b),d));return bd(c,h,bc(f$(c,aX,aW,a[1][2],d),i))}var
 f=e}else
 var
-f=a;return f},i=j?j[1]:$(v);return hR(h,hT(i,e),f)}return d})}return 0;case
+f=a;return f},i=j?j[1]:$(v);return hU(h,hW(i,e),f)}return d})}return 0;case
 8:if(typeof
 a==="number"&&5<=a){var
 aY=f[3],aZ=f[2],a0=function(d){var
-a=le([0,v,v,0],d),b=j?j[1]:[0,v,v,0];return d2(c,h,b,aZ,aY,a)};return cw(i,f[1],a0)}return 0;case
+a=lg([0,v,v,0],d),b=j?j[1]:[0,v,v,0];return d2(c,h,b,aZ,aY,a)};return cw(i,f[1],a0)}return 0;case
 9:return 0;default:if(typeof
 a==="number"&&!a){var
-K=h7(i,f[1]);if(K){var
-a1=f[2],L=aa(e(function(a){return h7(i,a)},a1));if(L){var
-M=h7(i,[0,f[3],[0,f[4],[0,f[5],[0,f[6],0]]]]);if(M){var
+K=h_(i,f[1]);if(K){var
+a1=f[2],L=aa(e(function(a){return h_(i,a)},a1));if(L){var
+M=h_(i,[0,f[3],[0,f[4],[0,f[5],[0,f[6],0]]]]);if(M){var
 w=M[1];if(w){var
 x=w[2];if(x){var
 y=x[2];if(y){var
 B=y[2];if(B){if(B[2])return 0;var
-ar=B[1],as=y[1][2],at=x[1][2],au=w[1][2],av=L[1],a2=K[1],V=lw(c,h,j,av,au,at,function(d){return[0,d3(c,aq(function(b,a){return A(X(c,aK(d,b)),a)},v,a2))]});return V?V:lw(c,h,j,av,au,at,function(f){var
+ar=B[1],as=y[1][2],at=x[1][2],au=w[1][2],av=L[1],a2=K[1],V=ly(c,h,j,av,au,at,function(d){return[0,d3(c,aq(function(b,a){return A(X(c,aK(d,b)),a)},v,a2))]});return V?V:ly(c,h,j,av,au,at,function(f){var
 b=b8(ar[1]),a=b6(c,H(as,X(c,b)));if(a){var
 d=b5(c,a[1]),e=H(as,t(c,b,aK(f,ar)));return z(function(a){return t(c,e,a)},d)}return a})}var
 aw=B}else
@@ -2051,11 +2051,11 @@ aA=L;var
 aB=aA}else
 var
 aB=K;return aB}return 0}}function
-lB(a,_,s,l,n,Z,h,k,j,f,c){if(9===f[0]){var
+lD(a,_,s,l,n,Z,h,k,j,f,c){if(9===f[0]){var
 ab=f[2],ac=f[1];if(typeof
 c!=="number"&&9===c[0]){var
 L=c[2],u=c[1],ad=c[3];if(0<aM(c[4]))return eZ(a,s,l,n,h,g(k),j,f,c);var
-U=e($,Z),C=bo(0,bL(a,ga(0,k,ac),U),_,0),M=p(g(k),sv),N=M?cY(n,C):M;if(N){var
+U=e($,Z),C=bq(0,bL(a,ga(0,k,ac),U),_,0),M=p(g(k),sC),N=M?cY(n,C):M;if(N){var
 w=gf(C,l);if(w){var
 x=gf(h,l);if(x){var
 y=aa(e(function(b){var
@@ -2064,23 +2064,23 @@ f=b[2][2],a=aa(e(function(a){var
 b=q(a[2],h,0);return z(function(b){return[0,a[1],b]},b)},f)),g=a?[0,[0,b[2][1],a[1]]]:a,d=g;else
 var
 d=c;return d},ab));if(y){var
-B=lo(w[1]);if(B){var
+B=lq(w[1]);if(B){var
 O=x[1],af=y[1],ag=B[1],E=d3(a,aq(function(f,h){function
 b(b,d){var
 a=f[1],c=b?b[1]?f[2]:a[2]:a[1];return b7(q(d,c[3],v))}function
 c(a){var
-b=i(a,r_),c=bm(i(a,r$),b);return bm(i(a,0),c)}var
+b=i(a,sf),c=bo(i(a,sg),b);return bo(i(a,0),c)}var
 d=c(function(a){var
-c=b(sa,a),d=b(sb,a);return D(D(b(0,a),d),c)}),g=[0,d,d],e=c(function(a){var
-c=b(a,sc),d=b(a,sd);return D(D(b(a,0),d),c)});return A(h,X(a,d3(a,t(a,[0,e,e],g))))},v,ag)),o=aT(ad,u,Q(a,b)),F=I(d,H(o,E)[1]),G=F?p(g(L),sj):F,J=G?p(g(O),sk):G;if(J){var
+c=b(sh,a),d=b(si,a);return D(D(b(0,a),d),c)}),g=[0,d,d],e=c(function(a){var
+c=b(a,sj),d=b(a,sk);return D(D(b(a,0),d),c)});return A(h,X(a,d3(a,t(a,[0,e,e],g))))},v,ag)),o=aU(ad,u,Q(a,b)),F=I(d,H(o,E)[1]),G=F?p(g(L),sq):F,J=G?p(g(O),sr):G;if(J){var
 r=b5(a,o);if(r){var
-V=as(t(a,E,r[1])),W=H(Q(a,b),V),Y=bf(sl);return m(function(h){var
+V=as(t(a,E,r[1])),W=H(Q(a,b),V),Y=bj(ss);return m(function(h){var
 g=e(function(b){var
 c=b[2],d=b[1];return cq(b4(function(d,b){var
-c=b7(aK(h,b[2]));return A(d,t(a,b[1],[0,c,c]))},c,d))},af),r=i(av(function(a){return aK(h,a)}),O),E=j?aK(h,j[1]):v,M=X(a,W),s=X(a,o),q=d6(u,d7(u,L,Q(a,b),r)),c=ba(am([0,ae(E),0],se),q);if(g){var
+c=b7(aK(h,b[2]));return A(d,t(a,b[1],[0,c,c]))},c,d))},af),r=i(av(function(a){return aK(h,a)}),O),E=j?aK(h,j[1]):v,M=X(a,W),s=X(a,o),q=d6(u,d7(u,L,Q(a,b),r)),c=bc(am([0,ae(E),0],sl),q);if(g){var
 d=g[2];if(d){var
 f=d[2];if(f){if(f[2])return 0;var
-B=d[1],C=g[1],I=f[1],k=bb(a,sg,ba(am([0,ae(s),0],sf),c));if(k)return m(function(D){var
+B=d[1],C=g[1],I=f[1],k=bd(a,sn,bc(am([0,ae(s),0],sm),c));if(k)return m(function(D){var
 J=H(M,E),K=D[2]?B:ae(B),L=D[1]?C:ae(C),o=0;if(c){var
 b=c[1],l=0;if(b){var
 d=b[2],m=0;if(d){var
@@ -2120,7 +2120,7 @@ var
 z=b;if(!l){var
 A=z;o=1}}else{var
 A=c;o=1}if(o)var
-k=A;return bb(a,si,k)},sh);var
+k=A;return bd(a,sp,k)},so);var
 l=k}else
 var
 l=f;var
@@ -2145,24 +2145,24 @@ S=w;var
 T=S}else
 var
 T=N;return T}return eZ(a,s,l,n,h,g(k),j,f,c)}return eZ(a,s,l,n,h,g(k),j,f,c)}function
-h8(d){var
+h$(d){var
 a=d;for(;;){if(a){var
-b=a[2],e=a[1],c=S(al(function(b){return function(a){return p(b,a)}}(e),b));if(c){var
+b=a[2],e=a[1],c=S(ak(function(b){return function(a){return p(b,a)}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-lC(j,i,h,g,a){var
+lE(j,i,h,g,a){var
 d=q(a,j,0);if(d){var
 b=q(a,i,0);if(b)var
-c=lv(0,g,q(a,h,sw)),k=c?[0,[0,b[1],c[1]]]:c,e=k;else
+c=lx(0,g,q(a,h,sD)),k=c?[0,[0,b[1],c[1]]]:c,e=k;else
 var
 e=b;var
 f=e}else
 var
 f=d;return f}function
-h9(j,b,a){if(a){var
+ia(j,b,a){if(a){var
 k=a[1],l=k[2],c=aa(e(b,k[1]));if(c){var
 f=i(b,l);if(f){var
 g=q(l,j,0);if(g){var
-h=h9(j,b,a[2]);if(h)var
+h=ia(j,b,a[2]);if(h)var
 m=I(d,g[1][2][1]),n=m?[0,[0,[0,c[1],f[1]],h[1]]]:m;else
 var
 n=h;var
@@ -2174,21 +2174,21 @@ var
 p=f;var
 r=p}else
 var
-r=c;return r}return sx}function
-lD(c,N,j,M,q,o,L,w,f,b,i,a){var
-h=g(L),P=d5(0,L),aH=bo(0,bL(c,P,e($,gc(i,0,q))),N,0),aJ=e(aB,i),aI=0,aL=e($,q),aM=bo(sy,function(a){return lp(c,P,aL,aJ,a)},N,aI),aO=h2(i,q);function
-R(a){return lC(o,aH,aM,i,a)}function
+r=c;return r}return sE}function
+lF(c,N,j,M,q,o,L,w,f,b,i,a){var
+h=g(L),P=d5(0,L),aH=bq(0,bL(c,P,e($,gc(i,0,q))),N,0),aJ=e(aB,i),aI=0,aL=e($,q),aM=bq(sF,function(a){return lr(c,P,aL,aJ,a)},N,aI),aO=h5(i,q);function
+R(a){return lE(o,aH,aM,i,a)}function
 x(a){return e(function(a){return Q(c,a)},a)}var
 aP=w?w[1]:$(v);function
-S(a){return a?bb(c,h,a[1]):a}function
+S(a){return a?bd(c,h,a[1]):a}function
 r(f,e,d,b,a){var
-g=am([0,ae(e),0],h);return S(lr(c,x(f),d,b,a,g))}function
+g=am([0,ae(e),0],h);return S(lt(c,x(f),d,b,a,g))}function
 T(A,z,y){var
 B=am([0,z,0],h),q=x(A),b=y,f=B;for(;;){if(b){var
 k=b[1],l=k[1],g=l[2],i=l[1],m=k[2],n=[0,[0,b8(g),i],f];if(m){var
 o=I(d,g[1]);if(o)var
 s=e(function(a){var
-b=a[1];return[0,as(a[2]),b]},m),t=e(function(a){return v},i),u=[0,b$(c),t],w=b$(c),a=eY(c,[0,ae(dW(h0(c,i,q),w,g)),q],u,s,n);else
+b=a[1];return[0,as(a[2]),b]},m),t=e(function(a){return v},i),u=[0,b$(c),t],w=b$(c),a=eY(c,[0,ae(dW(h3(c,i,q),w,g)),q],u,s,n);else
 var
 a=o}else
 var
@@ -2201,7 +2201,7 @@ p=a;var
 r=p}else
 var
 r=[0,f];return S(r)}}var
-aQ=e(aB,i),U=m(function(a){return aN(a,g(q))},aQ),V=U?h8(e(aB,i)):U,W=V?m(function(a){return p(g(a),h)},a):V;if(W){var
+aQ=e(aB,i),U=m(function(a){return aN(a,g(q))},aQ),V=U?h$(e(aB,i)):U,W=V?m(function(a){return p(g(a),h)},a):V;if(W){var
 u=0;switch(f[0]){case
 0:var
 y=f[1],G=0;if(typeof
@@ -2219,7 +2219,7 @@ aa=a;if(!at)return aa;break;case
 au=0;if(a){if(a[2])return 0;var
 aV=a[1],aW=b[2],aX=b[1],ab=cY(M,o),av=0;if(ab){if(w)return 0;var
 ac=J(y[1],d),ad=ac?J(y[2],d):ac;if(ad){var
-l=function(c,b,a){return r(aV,v,aX,aW,e(lq,a))},k=j;G=1;au=1;av=1}else
+l=function(c,b,a){return r(aV,v,aX,aW,e(ls,a))},k=j;G=1;au=1;av=1}else
 var
 af=ad}else
 var
@@ -2237,7 +2237,7 @@ ax=0,a0=f[1];if(typeof
 b==="number"||!(3===b[0]))ax=1;else{var
 ay=0;if(a){var
 s=a[2],az=0;if(s){if(s[2])return 0;var
-ah=b[1],a1=s[1],a2=a[1],a3=b[2],ai=lA(c,ah,b[3]),aj=lf(h,ai);if(aj){var
+ah=b[1],a1=s[1],a2=a[1],a3=b[2],ai=lC(c,ah,b[3]),aj=lh(h,ai);if(aj){var
 l=function(f,b,a){var
 d=aK(f,ai),e=r(a2,A(d,b),ah,a3,a);return e?T(a1,H(t(c,a0,d),b),a):e},k=j;ay=1;az=1}else
 var
@@ -2266,39 +2266,39 @@ B=f[1];u=1;break;case
 B=f[2];u=1;break;default:K=1}else
 K=1;if(K)return 0;break;case
 7:var
-an=f[2],ao=f[1],aF=0;if(typeof
-b==="number"||!(0===b[0]))aF=1;else{var
+an=f[2],ao=f[1],aE=0;if(typeof
+b==="number"||!(0===b[0]))aE=1;else{var
 aG=0;if(a){if(a[2])return 0;var
-n=b[2],F=b[1],a_=a[1],ap=p(g(j),h);if(ap){var
+n=b[2],E=b[1],a_=a[1],ap=p(g(j),h);if(ap){var
 l=function(a,y){var
 z=x(a_);return function(f){var
 k=p(g(f),h),l=k?p(g(n),h):k;if(l){var
-s=e(aB,f),u=d6(F,d7(F,n,b$(c),s)),v=ba(f$(c,ao,an,y,e(aB,f)),u),a=0,b=f,i=v,w=g(n);for(;;){if(b){var
+s=e(aB,f),u=d6(E,d7(E,n,b$(c),s)),v=bc(f$(c,ao,an,y,e(aB,f)),u),a=0,b=f,i=v,w=g(n);for(;;){if(b){var
 o=b[1][2],q=p(a,ao),r=e(function(f,h){return function(d){var
 a=_(aA(0,g(n)),n);return e(function(a){var
-b=lt(F,a[2],d[1]);if(h&&p(a[1],f))return H(b,as(t(c,an,d[2])));return b},a)}}(a,q),o),j=eY(c,z,ls(c,a,w),r,i);if(j){var
+b=lv(E,a[2],d[1]);if(h&&p(a[1],f))return H(b,as(t(c,an,d[2])));return b},a)}}(a,q),o),j=eY(c,z,lu(c,a,w),r,i);if(j){var
 a=[0,a],b=b[2],i=j[1];continue}var
 d=j}else
 var
-d=[0,i];if(d)return bb(c,h,d[1]);var
+d=[0,i];if(d)return bd(c,h,d[1]);var
 m=d;break}}else
 var
 m=l;return m}},k=j;aG=1}else
 var
 ar=ap}else
 var
-ar=a;if(!aG)return ar}if(aF)return 0;break;default:return 0}if(u){var
+ar=a;if(!aG)return ar}if(aE)return 0;break;default:return 0}if(u){var
 C=R(B);if(!C)return C;var
 a4=function(b,f,a){return m(function(a){var
-b=f[2],c=a[2],e=aq(function(b,a){return D(bm(d,O(b[2][1])),a)},d,c);return E(d,aE(aE(a[1][2][1],e),b))},a)},Z=a4,Y=[0,[0,0,C[1]],0]}else{var
-z=h9(o,R,k);if(!z)return z;var
+b=f[2],c=a[2],e=aq(function(b,a){return D(bo(d,O(b[2][1])),a)},d,c);return F(d,aF(aF(a[1][2][1],e),b))},a)},Z=a4,Y=[0,[0,0,C[1]],0]}else{var
+z=ia(o,R,k);if(!z)return z;var
 Z=l,Y=z[1]}var
-aU=bf(h);return m(function(a){var
-b=e(function(b){return h3(c,a,aO,b)},Y);return fu(Z,a,aK(a,aP),b)},aU)}return W}function
-lE(a,W,y,V,r,o,U,x,n,h,l,i,T,az,R,P){var
-k=g(U),X=d5(0,U),aC=bo(0,bL(a,X,e($,gc(l,0,r))),W,0),aE=e(aB,l),aD=0,aF=e($,r),aG=bo(sz,function(b){return lp(a,X,aF,aE,b)},W,aD),aH=h2(l,r);function
-aI(a){return lC(o,aC,aG,l,a)}var
-aJ=x?x[1]:$(v),w=aq(function(b,a){return bm(ck(b),a)},d,i);function
+aU=bj(h);return m(function(a){var
+b=e(function(b){return h6(c,a,aO,b)},Y);return fu(Z,a,aK(a,aP),b)},aU)}return W}function
+lG(a,W,y,V,r,o,U,x,n,h,l,i,T,az,R,P){var
+k=g(U),X=d5(0,U),aC=bq(0,bL(a,X,e($,gc(l,0,r))),W,0),aE=e(aB,l),aD=0,aF=e($,r),aG=bq(sG,function(b){return lr(a,X,aF,aE,b)},W,aD),aH=h5(l,r);function
+aI(a){return lE(o,aC,aG,l,a)}var
+aJ=x?x[1]:$(v),w=aq(function(b,a){return bo(ck(b),a)},d,i);function
 M(a){if(a){if(J(ck(a[1]),w))return 0;var
 b=[0,M(a[2])]}else
 var
@@ -2306,20 +2306,20 @@ b=a;return b}var
 N=M(i);if(J(w,d))var
 aw=e(function(a){return v},i),ax=i?[0,b,i[2]]:i,z=[0,[0,[0,0,ax],d],aw];else
 var
-O=hJ(D(kF(w),b)),ay=e(function(a){return v},i),z=[0,[0,[0,N,i],O],cW(v,N,Q(a,b3(c(2,b),O)),ay)];var
-Y=z[1],Z=Y[1],C=Z[2],f=Z[1],_=z[2],aL=Y[2],j=e(function(c){return aT(c,aL,Q(a,b))},C);function
+O=hM(D(kH(w),b)),ay=e(function(a){return v},i),z=[0,[0,[0,N,i],O],cW(v,N,Q(a,b3(c(2,b),O)),ay)];var
+Y=z[1],Z=Y[1],C=Z[2],f=Z[1],_=z[2],aL=Y[2],j=e(function(c){return aU(c,aL,Q(a,b))},C);function
 aa(h){var
 i=0,c=aA(0,k),d=aq(function(c,b){var
-d=cX(a,f,j,ls(a,c,k));return ba(b,hY(a,ae(h),d))},i,c),g=cX(a,f,j,e(function(b){return Q(a,B(R,b))},az));return ba(d,ge(a,cX(a,f,j,e(function(c){return aT(c,D(P,b),b$(a))},T)),g))}function
-ab(b){return b?bb(a,k,b[1]):b}function
-F(u,i,t,s){var
+d=cX(a,f,j,lu(a,c,k));return bc(b,h1(a,ae(h),d))},i,c),g=cX(a,f,j,e(function(b){return Q(a,B(R,b))},az));return bc(d,ge(a,cX(a,f,j,e(function(c){return aU(c,D(P,b),b$(a))},T)),g))}function
+ab(b){return b?bd(a,k,b[1]):b}function
+E(u,i,t,s){var
 c=t,b=s,d=aa(ae(u));for(;;){if(c&&b){var
-k=b[1],l=k[1],g=c[1],m=cX(a,f,j,e(function(b){return aT(b,i,b$(a))},g)),o=cq(l[2]),p=cX(a,f,j,d1(i,l[1],o,g)),q=ba(d,ge(a,e(as,m),p)),r=k[2],h=eY(a,_,m,e(function(c){return function(b){return cX(a,f,j,e(as,d1(i,b[1],b[2],c)))}}(g),r),q);if(h){var
+k=b[1],l=k[1],g=c[1],m=cX(a,f,j,e(function(b){return aU(b,i,b$(a))},g)),o=cq(l[2]),p=cX(a,f,j,d1(i,l[1],o,g)),q=bc(d,ge(a,e(as,m),p)),r=k[2],h=eY(a,_,m,e(function(c){return function(b){return cX(a,f,j,e(as,d1(i,b[1],b[2],c)))}}(g),r),q);if(h){var
 c=c[2],b=b[2],d=h[1];continue}var
 n=h}else
 var
 n=[0,d];return ab(n)}}var
-aM=e(aB,l),ac=m(function(a){return aN(a,g(r))},aM),ad=ac?h8(e(aB,l)):ac,af=ad?p(g(C),k):ad,ag=af?p(g(T),k):af,ah=ag?E(d,R):ag,ai=ah?kC(P,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):ah,aj=ai?aN(f,k):ai,ak=aj?S(J(q(f,C,d),d)):aj;if(ak){switch(n[0]){case
+aM=e(aB,l),ac=m(function(a){return aN(a,g(r))},aM),ad=ac?h$(e(aB,l)):ac,af=ad?p(g(C),k):ad,ag=af?p(g(T),k):af,ah=ag?F(d,R):ag,ai=ah?kE(P,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):ah,aj=ai?aN(f,k):ai,ak=aj?S(J(q(f,C,d),d)):aj;if(ak){switch(n[0]){case
 0:var
 G=n[1],L=0;if(typeof
 h==="number")L=1;else
@@ -2327,11 +2327,11 @@ switch(h[0]){case
 0:var
 aO=h[2],aP=h[1],al=cY(V,o);if(!al)return al;var
 u=function(a){var
-b=A(G,a);return function(a){return F(b,aP,aO,a)}},s=y;break;case
+b=A(G,a);return function(a){return E(b,aP,aO,a)}},s=y;break;case
 2:var
-aS=h[2],aU=h[1],am=cY(V,o),at=0;if(am){if(x)return 0;var
+aS=h[2],aT=h[1],am=cY(V,o),at=0;if(am){if(x)return 0;var
 an=J(G[1],d),ap=an?J(G[2],d):an;if(ap){var
-u=function(b,a){return F(v,aU,aS,e(lq,a))},s=y;at=1}else
+u=function(b,a){return E(v,aT,aS,e(ls,a))},s=y;at=1}else
 var
 ar=ap}else
 var
@@ -2344,8 +2344,8 @@ F=H(aV,b);return function(G){var
 i=G,h=aa(F);for(;;){if(i){var
 n=i[1],o=n[1],k=o[2],p=n[2],b=cX(a,f,j,o[1]);if(p){var
 r=I(d,k[1]);if(r)var
-C=b$(a),c=b8(ae(dW(q(f,b,v),C,k))),l=b8(k),w=cW(v,f,c,0),x=q(f,b,v),y=ba(h,ge(a,w,cW(v,f,A(as(t(a,c,l)),x),b))),z=q(f,b,v),B=[0,[0,l,cW(v,f,A(t(a,c,l),z),b)],y],D=e(function(d){return function(b){var
-c=cX(a,f,j,b[1]);return lz(a,f,d,[0,as(b[2]),c])}}(c),p),E=e(function(a){return v},b),g=eY(a,[0,v,_],lz(a,f,c,[0,b$(a),E]),D,B);else
+C=b$(a),c=b8(ae(dW(q(f,b,v),C,k))),l=b8(k),w=cW(v,f,c,0),x=q(f,b,v),y=bc(h,ge(a,w,cW(v,f,A(as(t(a,c,l)),x),b))),z=q(f,b,v),B=[0,[0,l,cW(v,f,A(t(a,c,l),z),b)],y],D=e(function(d){return function(b){var
+c=cX(a,f,j,b[1]);return lB(a,f,d,[0,as(b[2]),c])}}(c),p),E=e(function(a){return v},b),g=eY(a,[0,v,_],lB(a,f,c,[0,b$(a),E]),D,B);else
 var
 g=r}else
 var
@@ -2364,29 +2364,29 @@ av=0,aW=n[2];if(typeof
 h==="number"||!(0===h[0]))av=1;else
 var
 aX=h[2],aY=h[1],aZ=function(a){var
-b=A(aW,a);return function(a){return F(b,aY,aX,a)}},u=aZ,s=n[1];if(av)return 0;break;default:return 0}var
-K=h9(o,aI,s);if(K){var
-aQ=K[1],aR=bf(k);return m(function(b){var
-c=e(function(c){return h3(a,b,aH,c)},aQ);return ao(u,aK(b,aJ),c)},aR)}return K}return ak}function
-lF(r,q,p,o,n,x,m,e,l,k,j,h,g,c){if(typeof
+b=A(aW,a);return function(a){return E(b,aY,aX,a)}},u=aZ,s=n[1];if(av)return 0;break;default:return 0}var
+K=ia(o,aI,s);if(K){var
+aQ=K[1],aR=bj(k);return m(function(b){var
+c=e(function(c){return h6(a,b,aH,c)},aQ);return ao(u,aK(b,aJ),c)},aR)}return K}return ak}function
+lH(r,q,p,o,n,x,m,e,l,k,j,h,g,c){if(typeof
 c!=="number"&&10===c[0]){var
 a=c[3],s=c[2],b=c[1];if(typeof
 b!=="number"&&5===b[0]){if(a){if(a[2])return 0;var
 t=b[2],f=i(x,e);if(f){var
-u=E(d,t);if(u){var
-y=a[1],z=b[1];return lE(r,q,p,o,n,m,e,[0,hV(t,b[3],f[1])],l,z,s,y,k,j,h,g)}var
+u=F(d,t);if(u){var
+y=a[1],z=b[1];return lG(r,q,p,o,n,m,e,[0,hY(t,b[3],f[1])],l,z,s,y,k,j,h,g)}var
 v=u}else
 var
 v=f;var
 w=v}else
 var
-w=a;return w}return a?a[2]?0:lE(r,q,p,o,n,m,e,0,l,b,s,a[1],k,j,h,g):a}return 0}function
-lG(l,k,j,p,h,g,o,f,b,e,a){if(typeof
+w=a;return w}return a?a[2]?0:lG(r,q,p,o,n,m,e,0,l,b,s,a[1],k,j,h,g):a}return 0}function
+lI(l,k,j,p,h,g,o,f,b,e,a){if(typeof
 a!=="number")switch(a[0]){case
 5:var
 q=a[2],m=i(o,b);if(m){var
-r=E(d,q);if(r){var
-y=a[1];return lB(l,k,j,p,h,g,f,b,[0,hV(q,a[3],m[1])],e,y)}var
+r=F(d,q);if(r){var
+y=a[1];return lD(l,k,j,p,h,g,f,b,[0,hY(q,a[3],m[1])],e,y)}var
 s=r}else
 var
 s=m;return s;case
@@ -2394,14 +2394,14 @@ s=m;return s;case
 t=a[3],u=a[2],c=a[1];if(typeof
 c!=="number"&&5===c[0]){var
 v=c[2],n=i(o,b);if(n){var
-w=E(d,v);if(w){var
-z=c[1];return lD(l,k,j,h,g,f,b,[0,hV(v,c[3],n[1])],e,z,u,t)}var
+w=F(d,v);if(w){var
+z=c[1];return lF(l,k,j,h,g,f,b,[0,hY(v,c[3],n[1])],e,z,u,t)}var
 x=w}else
 var
-x=n;return x}return lD(l,k,j,h,g,f,b,0,e,c,u,t)}return lB(l,k,j,p,h,g,f,b,0,e,a)}function
-h_(a){return 9===a[0]?0:1}function
+x=n;return x}return lF(l,k,j,h,g,f,b,0,e,c,u,t)}return lD(l,k,j,p,h,g,f,b,0,e,a)}function
+ib(a){return 9===a[0]?0:1}function
 d9(a){return y(function(a){return f(a[1],[0,a[2],0])},a)}function
-h$(j,d,i,a,h){var
+ic(j,d,i,a,h){var
 b=h;for(;;){var
 c=0;if(typeof
 b==="number"){if(1!==b)c=1}else
@@ -2420,13 +2420,13 @@ k=c?0:1,l=k?d:j,g=d9(l);switch(a[0]){case
 m=[0,a[1],[0,a[2],[0,a[3],[0,a[4],0]]]];return y(function(a){return[0,a[1],[0,a[2],[0,a[3],0]]]},m);case
 9:var
 n=a[2],o=y(function(a){var
-b=e(aW,a[2][2]);return[0,a[1],b]},n);return f(d9(d),o);case
+b=e(aY,a[2][2]);return[0,a[1],b]},n);return f(d9(d),o);case
 10:var
 p=[0,a[3],[0,a[4],[0,a[5],[0,a[6],0]]]],q=f(dS(a[2]),p);return f(a[1],q);case
 4:case
 8:return d9(a[1]);default:return g}}}function
-lH(u,t,s,r,k,a,g,j){var
-h=h_(a),i=h?m(function(b){var
+lJ(u,t,s,r,k,a,g,j){var
+h=ib(a),i=h?m(function(b){var
 a=q(b,b4(gd,g,k),v);return J(a[1],a[2])},j):h;return i?m(function(ao){switch(a[0]){case
 3:var
 g=[0,a[1],0];break;case
@@ -2439,10 +2439,10 @@ g=[0,a[1],[0,a[2],0]];break;case
 9:case
 10:return 0;default:var
 g=0}var
-j=0,k=bo(0,function(a){switch(a[0]){case
+j=0,k=bq(0,function(a){switch(a[0]){case
 0:return[0,[0,d]];case
 1:var
-ad=a[1],ae=al(function(a){return p(ad,a)},ao)?b:d;return[0,[0,ae]];case
+ad=a[1],ae=ak(function(a){return p(ad,a)},ao)?b:d;return[0,[0,ae]];case
 2:var
 af=J(a[1],d)?0:[0,d];return[0,af];case
 3:var
@@ -2450,9 +2450,9 @@ e=a[2],j=a[1];if(j){var
 z=j[1];if(z){if(e){var
 A=e[1];if(A){var
 B=z[1],C=J(B,A[1]),ag=C?[0,[0,B]]:C;return ag}var
-F=j}else
+E=j}else
 var
-F=e;return F}return e}if(e){if(e[1])return 0;var
+E=e;return E}return e}if(e){if(e[1])return 0;var
 G=j}else
 var
 G=e;return G;case
@@ -2472,26 +2472,26 @@ N=f;return N;case
 n=a[1];if(n){var
 P=n[1],g=a[2];if(P){if(g){var
 Q=g[1];if(Q)return[0,[0,D(P[1],Q[1])]];var
-R=sp}else
+R=sw}else
 var
 R=g;return R}var
-ai=g?sq:g,S=ai}else
+ai=g?sx:g,S=ai}else
 var
 S=n;return S;case
 7:var
 o=a[1];if(o){var
 T=o[1],h=a[2];if(T){if(h)var
-q=h[1],aj=q?[0,[0,aE(T[1],q[1])]]:q,U=aj;else
+q=h[1],aj=q?[0,[0,aF(T[1],q[1])]]:q,U=aj;else
 var
 U=h;return U}var
-ak=h?sr:h,V=ak}else
+al=h?sy:h,V=al}else
 var
 V=o;return V;case
 8:var
 r=a[1];if(r){var
 W=r[1];if(W){var
 X=W[1];return[0,[0,D(X,X)]]}var
-Y=ss}else
+Y=sz}else
 var
 Y=r;return Y;case
 9:var
@@ -2500,9 +2500,9 @@ t=s[1];if(t){var
 i=t[1],x=aM(i);if(0===x)var
 l=1;else
 if(0<x)var
-l=E(i,b)?0:J(aS(i,aD(2))[2],d)?1:0;else
+l=F(i,b)?0:J(aS(i,aE(2))[2],d)?1:0;else
 var
-y=O(i),l=E(y,b)?0:J(aS(y,aD(2))[2],d)?1:0;var
+y=O(i),l=F(y,b)?0:J(aS(y,aE(2))[2],d)?1:0;var
 am=l?[0,[0,co(i,c(2,b))]]:l,Z=am}else
 var
 Z=t;var
@@ -2527,8 +2527,8 @@ a=q(c,h,0),b=a?1:a;return b},r);if(i){var
 n=f(d9(s),g),o=f(d9(t),n);return m(function(c){var
 a=q(c,h,0);if(a){var
 b=aM(a[1]);return 0===b?1:0<b?0:0}return a},o)}return i},g):i}function
-lI(j,a,i,h,g,f,e,d,c,b){var
-k=f1(h$(i,h,g,c,b),a);return h4(j,a,b4(gd,e,f),k,d)}function
+lK(j,a,i,h,g,f,e,d,c,b){var
+k=f1(ic(i,h,g,c,b),a);return h7(j,a,b4(gd,e,f),k,d)}function
 gi(b,a){if(a){var
 c=a[2];if(b){var
 e=gi(b[1],c);return[0,a[1],e]}var
@@ -2543,45 +2543,45 @@ ab=l[4],ac=l[3],ad=l[2],ae=function(d){var
 e=cU(ad,f),g=e0(k,a,c,j,b,r,o,h,e[1],d,ac);return g?e0(k,a,c,j,b,r,o,h,e[2],d,ab):g},H=ae,x=l[1];break;default:var
 af=l[4],ag=l[3],ah=l[2],ai=function(d){var
 n=_(r,d),e=m(function(a){var
-b=h_(a[1]);return b?b:S(a[2])},n);if(e){var
+b=ib(a[1]);return b?b:S(a[2])},n);if(e){var
 g=cU(ah,h),i=e0(k,a,c,j,b,r,o,g[1],f,d,ag);if(i)return e0(k,a,c,j,b,r,o,g[2],f,d,af);var
 l=i}else
 var
 l=e;return l},H=ai,x=l[1]}if(x){var
-T=h4(k,a,h,f1(y(function(f){var
+T=h7(k,a,h,f1(y(function(f){var
 a=f[2],e=0;if(typeof
 a==="number"){if(4!==a)e=1}else
 if(11!==a[0])e=1;if(e){var
-d=F(r,f[1]);return d?h$(c,j,b,d[1],a):d}return 0},x),a),f),v=x,s=U;for(;;){if(v){var
+d=E(r,f[1]);return d?ic(c,j,b,d[1],a):d}return 0},x),a),f),v=x,s=U;for(;;){if(v){var
 N=v[1],n=N[2],D=N[1],O=v[2],V=0;if(typeof
 n==="number"&&4===n){var
 A=i(o,f);if(A)var
-X=A[1],W=bf(g(f)),E=m(function(b){return function(a){return I(aK(a,b)[2],d)}}(X),W);else
+X=A[1],W=bj(g(f)),F=m(function(b){return function(a){return I(aK(a,b)[2],d)}}(X),W);else
 var
-E=A;if(E){var
+F=A;if(F){var
 v=O,s=e(function(a){return 0},s);continue}var
-u=E}else
+u=F}else
 V=1;if(V){var
 P=q(D,s,0);if(P){var
-G=F(r,D);if(G){var
+G=E(r,D);if(G){var
 w=G[1],J=0;if(typeof
 n==="number")J=1;else
 switch(n[0]){case
 11:var
-K=n[3],B=n[1],L=lH(a,c,j,b,h,w,B,n[2]);if(L)var
-Y=lI(k,a,c,j,b,h,B,f,w,K),t=lG(k,a,c,j,b,b4(gd,B,h),o,Y,f,w,K);else
+K=n[3],B=n[1],L=lJ(a,c,j,b,h,w,B,n[2]);if(L)var
+Y=lK(k,a,c,j,b,h,B,f,w,K),t=lI(k,a,c,j,b,b4(gd,B,h),o,Y,f,w,K);else
 var
 t=L;break;case
 12:var
 C=n[1],M=S(p(g(C),0));if(M)var
-z=e(function(a){return a[1][1][1]},C),Z=z?ly(z[1],z):z,$=_(Z,C),t=m(function(g){return function(r){var
+z=e(function(a){return a[1][1][1]},C),Z=z?lA(z[1],z):z,$=_(Z,C),t=m(function(g){return function(r){var
 s=r[2],e=r[1],l=s[1],m=l[1][2],n=l[2],d=s[2];if(typeof
 d!=="number"&&11===d[0]){var
-p=d[3],i=d[1],q=lH(a,c,j,b,h,g,i,d[2]);if(q){var
-t=e[2],u=e[1],v=lI(k,a,c,j,b,h,i,f,g,p);return lF(k,a,c,b,b4(gd,i,h),o,v,f,g,u,t,m,n,p)}return q}return lF(k,a,c,b,h,o,T,f,g,e[1],e[2],m,n,d)}}(w),$);else
+p=d[3],i=d[1],q=lJ(a,c,j,b,h,g,i,d[2]);if(q){var
+t=e[2],u=e[1],v=lK(k,a,c,j,b,h,i,f,g,p);return lH(k,a,c,b,b4(gd,i,h),o,v,f,g,u,t,m,n,p)}return q}return lH(k,a,c,b,h,o,T,f,g,e[1],e[2],m,n,d)}}(w),$);else
 var
 t=M;break;default:J=1}if(J)var
-t=lG(k,a,c,j,b,h,o,T,f,w,n);if(t){var
+t=lI(k,a,c,j,b,h,o,T,f,w,n);if(t){var
 v=O,s=gi(D,s);continue}var
 Q=t}else
 var
@@ -2594,77 +2594,77 @@ var
 u=[0,s];break}}else
 var
 u=[0,U];return u?H(u[1]):u}function
-ia(h,g,f,e,d,c,b,a){return function(i,j,k){return e0(h,g,f,e,d,b,a,c,i,j,k)}}function
-ib(a){return e(function(a){return 1},a)}function
+id(h,g,f,e,d,c,b,a){return function(i,j,k){return e0(h,g,f,e,d,b,a,c,i,j,k)}}function
+ie(a){return e(function(a){return 1},a)}function
 d_(a,d,b,c){function
 f(d,c){var
 f=_(a[1],b[1]);return e(function(a){var
-b=s(c,a[2]);return C(s(d,a[1]),b)},f)}if(aF(a[2],b[2])){var
+b=s(c,a[2]);return C(s(d,a[1]),b)},f)}if(aH(a[2],b[2])){var
 g=a[2];return[0,f(d,c),g]}var
 h=s(a[2],b[2]),i=s(c,a[2]);return[0,f(s(d,b[2]),i),h]}function
-lJ(a){var
+lL(a){var
 c=k(b);return[0,e(function(a){return k(d)},a),c]}function
-a3(a,l){var
+a4(a,l){var
 f=l[1];switch(f[0]){case
 1:var
-u=f[1];if(al(function(a){return p(u,a)},a)){var
+u=f[1];if(ak(function(a){return p(u,a)},a)){var
 C=k(b);return[0,e(function(a){var
-c=p(a,u)?b:d;return k(c)},a),C]}return lJ(a);case
+c=p(a,u)?b:d;return k(c)},a),C]}return lL(a);case
 3:var
-D=k(b),E=a3(a,f[2]),F=k(b);return d_(a3(a,f[1]),F,E,D);case
+D=k(b),E=a4(a,f[2]),F=k(b);return d_(a4(a,f[1]),F,E,D);case
 4:var
-G=k(O(b)),H=a3(a,f[2]),I=k(b);return d_(a3(a,f[1]),I,H,G);case
+G=k(O(b)),H=a4(a,f[2]),I=k(b);return d_(a4(a,f[1]),I,H,G);case
 5:var
-v=a3(a,f[1]),J=v[2];return[0,e(bx,v[1]),J];case
+v=a4(a,f[1]),J=v[2];return[0,e(bi,v[1]),J];case
 6:var
-w=f[2],y=f[1],K=a3(a,w);return d_(a3(a,y),w,K,y);case
+x=f[2],y=f[1],K=a4(a,x);return d_(a4(a,y),x,K,y);case
 7:var
-z=f[2],L=bx(l),M=a3(a,z),N=k(b),i=d_(a3(a,f[1]),N,M,L),P=i[1];if(m(function(a){return a2(d,a)},P))return i;var
+z=f[2],L=bi(l),M=a4(a,z),N=k(b),i=d_(a4(a,f[1]),N,M,L),P=i[1];if(m(function(a){return a3(d,a)},P))return i;var
 Q=s(i[2],z);return[0,i[1],Q];case
 8:var
-A=f[1],B=a3(a,A),R=B[2],S=B[1],T=s(k(c(2,b)),A);return[0,e(function(a){return s(T,a)},S),R];case
+A=f[1],B=a4(a,A),R=B[2],S=B[1],T=s(k(c(2,b)),A);return[0,e(function(a){return s(T,a)},S),R];case
 9:var
-j=a3(a,f[1]),U=j[1];if(m(function(a){return a2(d,a)},U)){var
+j=a4(a,f[1]),U=j[1];if(m(function(a){return a3(d,a)},U)){var
 V=k(b);return[0,j[1],V]}var
 W=s(k(c(2,b)),l),X=s(j[2],W);return[0,j[1],X];case
 10:var
-n=f[4],g=f[3],h=f[2],o=[0,[10,0,h,g,n]],q=[0,[10,1,h,g,n]],Y=x(g,q),Z=a3(a,g),_=x(h,o),$=d_(a3(a,h),_,Z,Y),aa=k(O(b)),ab=a3(a,n),r=d_($,k(c(2,b)),ab,aa),ac=r[1],ad=f[1]?o:bx(q),t=e(function(a){return s(ad,a)},ac);if(m(function(a){return a2(d,a)},t))return[0,t,r[2]];var
-ae=s(h,q),af=x(s(g,o),ae),ag=s(k(c(2,b)),af);return[0,t,s(r[2],ag)];default:return lJ(a)}}function
-lK(c,a){var
-b=a3(c,a),f=b[1];return e(function(a){return a2(d,a)?a:ak(a,b[2])},f)}function
-lL(g){var
+n=f[4],g=f[3],h=f[2],o=[0,[10,0,h,g,n]],q=[0,[10,1,h,g,n]],Y=w(g,q),Z=a4(a,g),_=w(h,o),$=d_(a4(a,h),_,Z,Y),aa=k(O(b)),ab=a4(a,n),r=d_($,k(c(2,b)),ab,aa),ac=r[1],ad=f[1]?o:bi(q),t=e(function(a){return s(ad,a)},ac);if(m(function(a){return a3(d,a)},t))return[0,t,r[2]];var
+ae=s(h,q),af=w(s(g,o),ae),ag=s(k(c(2,b)),af);return[0,t,s(r[2],ag)];default:return lL(a)}}function
+lM(c,a){var
+b=a4(c,a),f=b[1];return e(function(a){return a3(d,a)?a:al(a,b[2])},f)}function
+lN(g){var
 h=g[1],c=h[2],e=h[1];if(0===e[0]){var
-i=e[2],a=e[1];if(E(i,b)){if(0===c[0]){var
-j=c[2],m=c[1];if(E(j,b)){var
+i=e[2],a=e[1];if(F(i,b)){if(0===c[0]){var
+j=c[2],m=c[1];if(F(j,b)){var
 k=J(a,m),l=k?eS(a):k;if(l)var
 n=J(g[2],d),f=n||J(a,d);else
 var
 f=l;var
-o=f?[0,a]:f;return o}return J(aS(j,aD(2))[2],d)?0:0}return 0}return J(aS(i,aD(2))[2],d)?0:0}return 0}function
+o=f?[0,a]:f;return o}return J(aS(j,aE(2))[2],d)?0:0}return 0}return J(aS(i,aE(2))[2],d)?0:0}return 0}function
 cZ(c,b){var
-a=lL(c);return a?k(a[1]):[0,[1,b]]}function
+a=lN(c);return a?k(a[1]):[0,[1,b]]}function
 cx(b,a){if(a)var
 d=cx([0,b],a[2]),c=[0,cZ(a[1],b),d];else
 var
 c=a;return c}function
-a4(b,a){return[0,[0,b[1],a],[0,[0,b[2],a],[0,[0,b[3],a],0]]]}function
+a5(b,a){return[0,[0,b[1],a],[0,[0,b[2],a],[0,[0,b[3],a],0]]]}function
 gj(b,d,a){switch(a[0]){case
 0:var
-c=a[1],g=[0,[0,c[4],b],0],h=f(a4(c[3],b),g),i=f(a4(c[2],b),h);return f(a4(c[1],d),i);case
+c=a[1],g=[0,[0,c[4],b],0],h=f(a5(c[3],b),g),i=f(a5(c[2],b),h);return f(a5(c[1],d),i);case
 1:var
-e=a[3],j=e?a4(e[1],d):e,k=f(a4(a[2],b),j);return f(a4(a[1],b),k);default:return a4(a[1],d)}}function
+e=a[3],j=e?a5(e[1],d):e,k=f(a5(a[2],b),j);return f(a5(a[1],b),k);default:return a5(a[1],d)}}function
 aj(b,a){var
-c=k(d),e=q(P(sA,a),b,c),f=k(d),g=q(P(sB,a),b,f);return[0,q(a,b,k(d)),g,e]}function
-lM(b,a){return ah(x,ah(C,dm,a),b)}function
+c=k(d),e=q(P(sH,a),b,c),f=k(d),g=q(P(sI,a),b,f);return[0,q(a,b,k(d)),g,e]}function
+lO(b,a){return ah(w,ah(C,dn,a),b)}function
 gk(c,b,a){if(a){var
-e=a[2],g=gk(c,bw(b),e),h=a[1];return f(gj(c,bJ(d,b),h),g)}return a}function
-ic(f,e,c,j){if(c){var
-b=c[1],v=P(j,g(gj(f,bJ(d,e),b))),w=c[2],x=ic(f,bw(e),w,v),a=cx(j,gj(f,bJ(d,e),b));switch(b[0]){case
+e=a[2],g=gk(c,by(b),e),h=a[1];return f(gj(c,bJ(d,b),h),g)}return a}function
+ig(f,e,c,j){if(c){var
+b=c[1],v=P(j,g(gj(f,bJ(d,e),b))),w=c[2],x=ig(f,by(e),w,v),a=cx(j,gj(f,bJ(d,e),b));switch(b[0]){case
 0:var
-m=b[1][5],n=q(sC,a,k(d)),o=ah(C,dm,aj(a,sD)),p=dl(aj(a,0)),r=aj(a,sE),h=lh(lM(aj(a,sF),r),p,o,n,m);break;case
+m=b[1][5],n=q(sJ,a,k(d)),o=ah(C,dn,aj(a,sK)),p=dm(aj(a,0)),r=aj(a,sL),h=lj(lO(aj(a,sM),r),p,o,n,m);break;case
 1:var
-i=b[3],s=i?[0,dl(aj(a,sG))]:i,t=ah(C,dm,aj(a,sH)),u=aj(a,sI),h=li(lM(aj(a,0),u),t,s);break;default:var
-h=lj(dm,dl(aj(a,0)))}var
+i=b[3],s=i?[0,dm(aj(a,sN))]:i,t=ah(C,dn,aj(a,sO)),u=aj(a,sP),h=lk(lO(aj(a,0),u),t,s);break;default:var
+h=ll(dn,dm(aj(a,0)))}var
 l=[0,h,x]}else
 var
 l=c;return l}function
@@ -2699,7 +2699,7 @@ c=a[3],d=a[2],e=a[1];return[0,[0,[0,e,e],b],[0,[0,[0,d,d],b],[0,[0,[0,c,c],b],0]
 d$(c,a){if(0===a[0]){var
 e=[0,d,b],i=f(e1(c,a[5]),[0,[0,[0,e,e],d],0]),g=a[4],h=a[3];return f([0,[0,[0,h,h],c],[0,[0,[0,g,g],c],0]],i)}var
 j=e1(c,a[3]);return f(e1(c,a[2]),j)}function
-dn(b,a){if(typeof
+dp(b,a){if(typeof
 a!=="number")switch(a[0]){case
 10:var
 h=d$(b,a[2]);return f(d$(b,a[1]),h);case
@@ -2710,25 +2710,25 @@ c=a[3],g=[5,[4,c,c],a[4]];return[0,[0,[0,g,g],b],0];case
 15:var
 j=a[2],k=a[1];return e(function(b){var
 a=[5,j,b];return[0,[0,a,a],d]},k)}return 0}function
-lN(c,b,a){var
-d=g(dn(c,b)),e=P(a[2],d);return[0,[0,a[1]],e]}function
-id(c,b){if(aF(b,c))return[0,k(d)];var
+lP(c,b,a){var
+d=g(dp(c,b)),e=P(a[2],d);return[0,[0,a[1]],e]}function
+ih(c,b){if(aH(b,c))return[0,k(d)];var
 a=b[1];if(4===a[0]){var
-e=aF(a[1],c),f=e?[0,a[2]]:e;return f}return 0}function
-lO(y,p,a,o){switch(o[0]){case
+e=aH(a[1],c),f=e?[0,a[2]]:e;return f}return 0}function
+lQ(y,p,a,o){switch(o[0]){case
 0:var
-h=F(y,o[1]);if(h){var
+h=E(y,o[1]);if(h){var
 j=h[1];if(j){var
-r=j[1],s=r[1],c=s[2],e=s[1],t=r[2],z=aj(a,sJ),A=ah(C,ah(x,e,aY(ak(q(sK,a,k(d)),t),c)),z),B=aj(a,sL),f=ak(q(0,a,k(d)),t),l=id(e[1],c[1]);if(l){var
-m=id(e[2],c[2]);if(m){var
-n=id(e[3],c[3]);if(n)var
-w=aY(f,c),g=ah(C,[0,l[1],m[1],n[1]],w);else
+r=j[1],s=r[1],c=s[2],e=s[1],t=r[2],z=aj(a,sQ),A=ah(C,ah(w,e,aZ(al(q(sR,a,k(d)),t),c)),z),B=aj(a,sS),f=al(q(0,a,k(d)),t),l=ih(e[1],c[1]);if(l){var
+m=ih(e[2],c[2]);if(m){var
+n=ih(e[3],c[3]);if(n)var
+x=aZ(f,c),g=ah(C,[0,l[1],m[1],n[1]],x);else
 var
-g=ah(x,e,aY(x(k(b),f),c))}else
+g=ah(w,e,aZ(w(k(b),f),c))}else
 var
-g=ah(x,e,aY(x(k(b),f),c))}else
+g=ah(w,e,aZ(w(k(b),f),c))}else
 var
-g=ah(x,e,aY(x(k(b),f),c));var
+g=ah(w,e,aZ(w(k(b),f),c));var
 u=[0,[0,ah(C,g,B),A]]}else
 var
 u=j;var
@@ -2736,45 +2736,45 @@ v=u}else
 var
 v=h;return v;case
 1:var
-D=aj(a,sM);return[0,[0,aj(a,0),D]];default:var
-E=i(p,aj(a,sN));return[0,[0,i(p,aj(a,0)),E]]}}function
-lP(e,d,c,h,g){var
-a=lO(e,d,aH(sO,c),h);if(a)var
-b=lO(e,d,aX(sP,c),g),i=b?[0,[0,a[1],b[1]]]:b,f=i;else
+D=aj(a,sT);return[0,[0,aj(a,0),D]];default:var
+F=i(p,aj(a,sU));return[0,[0,i(p,aj(a,0)),F]]}}function
+lR(e,d,c,h,g){var
+a=lQ(e,d,aG(sV,c),h);if(a)var
+b=lQ(e,d,aT(sW,c),g),i=b?[0,[0,a[1],b[1]]]:b,f=i;else
 var
 f=a;return f}function
-lQ(g,c,d,b,a){var
+lS(g,c,d,b,a){var
 h=d$(c,a),i=cx(d,f(d$(c,b),h));function
-j(a){return ah(C,dm,a)}return lP(e(function(a){var
+j(a){return ah(C,dn,a)}return lR(e(function(a){var
 b=a[7];return z(function(b){var
 c=cT(a);return[0,[0,b,a[1]],c]},b)},g),j,i,b,a)}function
-dp(d,c,b,a){var
-e=s(c,b);return x(s(d,a),e)}function
+dq(d,c,b,a){var
+e=s(c,b);return w(s(d,a),e)}function
 bP(a){return y(function(a){return f(a[1],[0,a[2],0])},a)}function
-lR(b,a){if(b)if(a)var
-d=b[1],e=lR(b[2],a[2]),f=s(d[2],a[1]),c=[0,[0,bN(d[1]),f],e];else
+lT(b,a){if(b)if(a)var
+d=b[1],e=lT(b[2],a[2]),f=s(d[2],a[1]),c=[0,[0,bN(d[1]),f],e];else
 var
 c=a;else
 var
 c=b;return c}function
-lS(a){if(a){var
+lU(a){if(a){var
 b=a[1][6];if(b){var
-c=b[1],d=lS(a[2]);if(d)var
+c=b[1],d=lU(a[2]);if(d)var
 g=d[1],h=V(c,c),e=[0,[0,[0,bN(c),h],g]];else
 var
 e=d;var
 f=e}else
 var
-f=b;return f}return sR}function
+f=b;return f}return sY}function
 e2(b,d,c,a){if(typeof
 a!=="number")switch(a[0]){case
 8:var
 i=c[1],j=cZ(bO(d,a),i);return[0,e(function(a){var
 b=s(a[2],j);return[0,bN(a[1]),b]},b)];case
-9:return lS(b);case
+9:return lU(b);case
 15:var
 k=g(b),f=p(g(a[1]),k);if(f)var
-l=dn(d,a),h=[0,lR(b,cx(c[2],l))];else
+l=dp(d,a),h=[0,lT(b,cx(c[2],l))];else
 var
 h=f;return h}return 0}function
 gl(e,l,j,a){var
@@ -2782,73 +2782,73 @@ P=j[1],c=cZ(bO(l,a),P),u=0;if(typeof
 a==="number")u=1;else
 switch(a[0]){case
 2:var
-Q=function(a){return[0,x(a[4],c),0]},g=Q,f=a[1];break;case
+Q=function(a){return[0,w(a[4],c),0]},g=Q,f=a[1];break;case
 3:var
-S=function(a){return[0,x(c,a[4]),0]},g=S,f=a[1];break;case
+S=function(a){return[0,w(c,a[4]),0]},g=S,f=a[1];break;case
 4:var
 T=function(b){var
-a=b[1],d=R(a[3]),e=R(a[2]),f=R(a[1]),g=b[2];return[0,x(x(x(s(R(c),g),f),e),d),0]},g=T,f=a[1];break;case
+a=b[1],d=R(a[3]),e=R(a[2]),f=R(a[1]),g=b[2];return[0,w(w(w(s(R(c),g),f),e),d),0]},g=T,f=a[1];break;case
 6:var
 U=function(b){var
 a=b[5];if(a)var
-e=R(a[1]),f=s(R(c),e),d=[0,x(b[2],f),0];else
+e=R(a[1]),f=s(R(c),e),d=[0,w(b[2],f),0];else
 var
 d=a;return d},g=U,f=a[1];break;case
 7:if(e){var
 m=e[2];if(m){var
 n=m[2];if(n){if(n[2])return 0;var
-w=n[1],z=m[1],A=e[1],h=w[1],i=z[1],p=A[1],K=dp(i[1],i[2],h[1],h[2]),L=s(p[3],K),M=dp(i[1],i[3],h[1],h[3]),N=s(p[2],M),O=dp(i[2],i[3],h[2],h[3]),v=C(x(s(p[1],O),N),L),W=cT(w),X=cT(z),B=s(s(s(c,cT(A)),X),W),Y=[0,bx(C(v,B)),0],D=[0,x(v,B),Y]}else
+x=n[1],z=m[1],A=e[1],h=x[1],i=z[1],p=A[1],K=dq(i[1],i[2],h[1],h[2]),L=s(p[3],K),M=dq(i[1],i[3],h[1],h[3]),N=s(p[2],M),O=dq(i[2],i[3],h[2],h[3]),v=C(w(s(p[1],O),N),L),W=cT(x),X=cT(z),B=s(s(s(c,cT(A)),X),W),Y=[0,bi(C(v,B)),0],D=[0,w(v,B),Y]}else
 var
 D=n;var
-E=D}else
+F=D}else
 var
-E=m;var
-G=E}else
+F=m;var
+G=F}else
 var
 G=e;return G;case
 10:var
-t=lQ(e,l,j[2],a[1],a[2]);if(t){var
+t=lS(e,l,j[2],a[1],a[2]);if(t){var
 H=t[1],I=H[2],J=H[1];return y(bN,[0,J[1],[0,J[2],[0,I[1],[0,I[2],0]]]])}return t;case
 11:var
 Z=function(d){var
 e=d[7];if(e)var
-n=dn(l,a),f=cx(j[2],n),h=aj(f,sQ),b=ah(x,aj(f,0),h),i=R(c),k=R(cT(d)),m=ak(R(V(b,d[1])),k),g=[0,x(x(V(b,b),m),i),0];else
+n=dp(l,a),f=cx(j[2],n),h=aj(f,sX),b=ah(w,aj(f,0),h),i=R(c),k=R(cT(d)),m=al(R(V(b,d[1])),k),g=[0,w(w(V(b,b),m),i),0];else
 var
 g=e;return g},g=Z,f=a[1];break;case
 12:var
 _=function(e){var
-p=k(d),r=dn(l,a),t=q(0,cx(j[2],r),p),f=ak(t,cT(e)),g=e[5];if(g){var
-m=aG(e[2]),h=ak(g[1],m),n=s(h,C(c,s(f,R(h))));return[0,x(k(b),n),0]}var
-i=e[7],o=i?[0,x(x(k(b),c),f),0]:i;return o},g=_,f=a[1];break;case
+p=k(d),r=dp(l,a),t=q(0,cx(j[2],r),p),f=al(t,cT(e)),g=e[5];if(g){var
+m=aC(e[2]),h=al(g[1],m),n=s(h,C(c,s(f,R(h))));return[0,w(k(b),n),0]}var
+i=e[7],o=i?[0,w(w(k(b),c),f),0]:i;return o},g=_,f=a[1];break;case
 8:case
 9:case
 15:var
 r=e2(e,l,j,a);return r?bP(r[1]):r;default:u=1}if(u)return 0;var
-o=F(e,f);return o?g(o[1]):o}function
-ie(d,b,c,a){if(a){var
-e=a[1],g=a[2],h=ie(d,b,lN(b,e,c),g);return f(gl(d,b,c,e),h)}return a}var
-lT=[0,d,b],lU=[0,[0,lT,lT],d];function
-ig(a){return S(ct(a[1][1],a[1][2]))}function
-lV(a){var
-b=aA(0,g(a));return bn(function(b){return ig(q(b,a,lU))},b)}function
+o=E(e,f);return o?g(o[1]):o}function
+ii(d,b,c,a){if(a){var
+e=a[1],g=a[2],h=ii(d,b,lP(b,e,c),g);return f(gl(d,b,c,e),h)}return a}var
+lV=[0,d,b],lW=[0,[0,lV,lV],d];function
+ij(a){return S(ct(a[1][1],a[1][2]))}function
+lX(a){var
+b=aA(0,g(a));return bp(function(b){return ij(q(b,a,lW))},b)}function
 gm(a,b){var
-c=lK(lV(a),b),e=_(lV(a),c);return bn(function(a){return S(a2(d,a[2]))},e)}function
-lW(b,a){var
+c=lM(lX(a),b),e=_(lX(a),c);return bp(function(a){return S(a3(d,a[2]))},e)}function
+lY(b,a){var
 c=i(b,a[3]),d=i(b,a[2]);return[0,i(b,a[1]),d,c]}function
-lX(m,l,f,k,j,a){var
+lZ(m,l,f,k,j,a){var
 d=gm(f,a);return aa(e(function(e){var
-a=q(e[1],f,lU),g=aE(a[2],k),h=[4,[0,c(2,b),b],j],d=[5,[3,a[1][2],a[1][1]],h],n=an(m,[0,[0,d,d],g]);return z(function(a){return[0,a,i(l,e[2])]},n)},d))}function
-lY(g,f,n,m,l,e,c){var
+a=q(e[1],f,lW),g=aF(a[2],k),h=[4,[0,c(2,b),b],j],d=[5,[3,a[1][2],a[1][1]],h],n=an(m,[0,[0,d,d],g]);return z(function(a){return[0,a,i(l,e[2])]},n)},d))}function
+l0(g,f,n,m,l,e,c){var
 h=[5,l,e],a=an(g,[0,[0,h,h],d]);if(a){var
-b=lX(g,f,n,m,e,c);if(b)var
+b=lZ(g,f,n,m,e,c);if(b)var
 o=[0,a[1],b[1]],j=[0,[0,i(f,c),o]];else
 var
 j=b;var
 k=j}else
 var
 k=a;return k}function
-lZ(c,G,l,al,k,j,n,s){if(s){var
-a=s[1],aH=s[2],aI=lZ(c,G,l,al,k,j,lN(j,a,n),aH);if(typeof
+l1(c,G,l,al,k,j,n,s){if(s){var
+a=s[1],aH=s[2],aI=l1(c,G,l,al,k,j,lP(j,a,n),aH);if(typeof
 a==="number")if(0===a)var
 f=[0,[0,v]];else
 var
@@ -2874,10 +2874,10 @@ var
 M=w;var
 f=M;break;case
 10:var
-y=lQ(k,j,n[2],a[1],a[2]);if(y){var
+y=lS(k,j,n[2],a[1],a[2]);if(y){var
 N=y[1],O=N[2],P=N[1],A=an(c,bO(j,a));if(A){var
-R=A[1],S=E(d,R[1]);if(S)var
-q=function(a){return lW(l,a)},az=q(O[2]),aA=q(O[1]),aB=q(P[2]),T=[0,[6,q(P[1]),aB,aA,az,R]];else
+R=A[1],S=F(d,R[1]);if(S)var
+q=function(a){return lY(l,a)},az=q(O[2]),aA=q(O[1]),aB=q(P[2]),T=[0,[6,q(P[1]),aB,aA,az,R]];else
 var
 T=S;var
 U=T}else
@@ -2896,16 +2896,16 @@ B=Y;t=1}}else{var
 B=r;t=1}if(t)var
 f=B;break;case
 13:var
-Z=a[1],_=F(k,Z),H=0;if(_){var
+Z=a[1],_=E(k,Z),H=0;if(_){var
 $=h(c,1,a[2]),ab=$?h(c,1,a[3]):$;if(ab)var
 aC=an(c,bO(j,a)),f=z(function(a){return[7,Z,X(c,a)]},aC);else{var
 ac=ab;H=1}}else{var
 ac=_;H=1}if(H)var
 f=ac;break;case
 14:var
-ad=a[2],ae=a[1],af=p(g(k),sS),ag=af?h(c,0,ae):af,ah=ag?h(c,1,ad):ag;if(ah){var
+ad=a[2],ae=a[1],af=p(g(k),sZ),ag=af?h(c,0,ae):af,ah=ag?h(c,1,ad):ag;if(ah){var
 C=an(c,bO(j,a));if(C)var
-D=aa(e(function(a){return lY(c,l,al,j,ae,ad,a[4])},k)),aD=D?[0,[9,C[1],D[1]]]:D,ai=aD;else
+D=aa(e(function(a){return l0(c,l,al,j,ae,ad,a[4])},k)),aD=D?[0,[9,C[1],D[1]]]:D,ai=aD;else
 var
 ai=C;var
 aj=ai}else
@@ -2929,13 +2929,13 @@ f=K}var
 am=[0,f,aI]}else
 var
 am=s;return am}function
-sT(a){var
+s0(a){var
 b=0;if(typeof
 a==="number"){if(0!==a)b=1}else
 if(0!==a[0])b=1;return b?0:1}function
 ea(a){if(0===a[0])return a[1];var
 b=a[3],c=a[2],d=a[1];return[0,[0,[3,d,b],[2,d,b]],[0,[3,c,b],[2,c,b]],a[4]]}function
-l0(a,c,g,b){if(0===c[0])return 0;if(b){var
+l2(a,c,g,b){if(0===c[0])return 0;if(b){var
 d=b[2];if(d){var
 h=d[2];if(h){if(h[2])return 0;var
 e=d[1],f=b[1],i=cR(a,g,c[1]);if(i){var
@@ -2960,7 +2960,7 @@ s=r}else
 var
 s=b;return s}function
 gn(a,p,o){var
-q=a4(p,o),b=e(function(b){return an(a,b)},q);if(b){var
+q=a5(p,o),b=e(function(b){return an(a,b)},q);if(b){var
 g=b[1];if(g){var
 c=b[2];if(c){var
 h=c[1];if(h){var
@@ -2985,32 +2985,32 @@ n=b;return n}function
 T(c,b,a){var
 d=ao(c,b[3],a[3]),e=ao(c,b[2],a[2]);return[0,ao(c,b[1],a[1]),e,d]}function
 ab(b,a){return[0,[4,b,a[1]],[4,b,a[2]],[4,b,a[3]]]}function
-w(b,a){return[2,[2,[4,b[1],a[1]],[4,b[2],a[2]]],[4,b[3],a[3]]]}function
-ax(a){return ab([5,[0,b,b],[6,w(a,a)]],a)}function
+x(b,a){return[2,[2,[4,b[1],a[1]],[4,b[2],a[2]]],[4,b[3],a[3]]]}function
+ax(a){return ab([5,[0,b,b],[6,x(a,a)]],a)}function
 c0(c,b,a){var
-d=bq(c,b[1],a);return d?bq(c,a,b[2]):d}function
-bh(c,b,a){var
+d=bs(c,b[1],a);return d?bs(c,a,b[2]):d}function
+bl(c,b,a){var
 d=c0(c,b[1],a[1]),e=d?c0(c,b[2],a[2]):d;return e?c0(c,b[3],a[3]):e}function
-l1(b,c,a){switch(c[0]){case
+l3(b,c,a){switch(c[0]){case
 0:var
 d=c[1];if(0===a[0]){var
-j=a[4],f=a[1],k=bh(b,d[1],f),l=k?h(b,1,w(f,f)):k,m=l?bh(b,d[2],a[2]):l,n=m?bh(b,d[3],a[3]):m,o=n?c0(b,d[4],j):n,p=o?h(b,1,j):o;return p?cm(d[5],a[5]):p}return 0;case
+j=a[4],f=a[1],k=bl(b,d[1],f),l=k?h(b,1,x(f,f)):k,m=l?bl(b,d[2],a[2]):l,n=m?bl(b,d[3],a[3]):m,o=n?c0(b,d[4],j):n,p=o?h(b,1,j):o;return p?cm(d[5],a[5]):p}return 0;case
 1:var
 q=c[3];if(1===a[0]){var
-e=a[3],r=bh(b,c[1],a[1]),s=r?bh(b,c[2],a[2]):r;if(s){if(q){if(e){var
-g=e[1],t=bh(b,q[1],g);if(t)return h(b,1,w(g,g));var
+e=a[3],r=bl(b,c[1],a[1]),s=r?bl(b,c[2],a[2]):r;if(s){if(q){if(e){var
+g=e[1],t=bl(b,q[1],g);if(t)return h(b,1,x(g,g));var
 u=t}else
 var
 u=e;return u}if(e)return 0;var
 v=1}else
 var
 v=s;return v}return 0;default:if(2===a[0]){var
-i=a[1],x=bh(b,c[1],i);return x?h(b,1,w(i,i)):x}return 0}}function
-bQ(c,a,b){if(0===a[0])return bh(c,a[1],b);var
+i=a[1],w=bl(b,c[1],i);return w?h(b,1,x(i,i)):w}return 0}}function
+bQ(c,a,b){if(0===a[0])return bl(c,a[1],b);var
 d=a[3],e=[3,b[1],a[1]],f=[3,b[2],a[2]],g=h(c,0,[3,[3,[4,d,d],[4,e,e]],[4,f,f]]),i=g?h(c,0,d):g;return i?c0(c,a[4],b[3]):i}function
 go(g,f,i,h){var
 b=f[1],a=i;for(;;){if(b){if(a){var
-d=l1(g,b[1],a[1]);if(d){var
+d=l3(g,b[1],a[1]);if(d){var
 b=b[2],a=a[2];continue}var
 e=d}else
 var
@@ -3018,62 +3018,62 @@ e=a;var
 c=e}else
 var
 c=a?0:1;return c?bQ(g,f[2],h):c}}function
-aU(c,b,a){var
+aV(c,b,a){var
 d=T(function(b,a){return[2,b,a]},a,b);return T(function(b,a){return[3,b,a]},d,c)}function
 e3(a,e,d,c){var
-b=aU(e,d,c),f=ax(a),g=ab(w(ax(a),b),f);return T(function(b,a){return[3,b,a]},b,g)}function
+b=aV(e,d,c),f=ax(a),g=ab(x(ax(a),b),f);return T(function(b,a){return[3,b,a]},b,g)}function
 cy(f,e,d,a,c){var
-b=e3(f,e,d,c);return[3,[4,a,a],w(b,b)]}function
+b=e3(f,e,d,c);return[3,[4,a,a],x(b,b)]}function
 c1(c,a){return c?[6,a]:[3,[0,d,b],[6,a]]}function
 ca(a,c){switch(a[0]){case
 0:var
 e=a[3],f=a[2],d=a[1],g=e3(d,f,e,c),h=cy(d,f,e,a[4],c),i=ab([5,[0,b,b],c1(a[5],h)],g),j=ax(d);return T(function(b,a){return[2,b,a]},j,i);case
-1:return ax(aU(a[1],a[2],c));default:return ax(a[1])}}function
+1:return ax(aV(a[1],a[2],c));default:return ax(a[1])}}function
 cz(a,b){switch(a[0]){case
 0:var
 d=a[3],e=a[2],c=a[1],f=ax(c),g=cy(c,e,d,a[4],b),h=ab(c1(a[5],g),f),i=e3(c,e,d,b);return T(function(b,a){return[2,b,a]},i,h);case
-1:return aU(a[1],a[2],b);default:return ax(a[1])}}function
+1:return aV(a[1],a[2],b);default:return ax(a[1])}}function
 c2(a,b){switch(a[0]){case
 0:var
-c=a[3],d=a[2],e=a[1],h=cy(e,d,c,a[4],b),i=c1(a[5],h),j=aU(d,c,b);return[3,w(ax(e),j),i];case
+c=a[3],d=a[2],e=a[1],h=cy(e,d,c,a[4],b),i=c1(a[5],h),j=aV(d,c,b);return[3,x(ax(e),j),i];case
 1:var
-f=a[2],g=a[1],k=aU(g,f,b);return[6,w(aU(g,f,b),k)];default:return w(ax(a[1]),b)}}function
-ih(a,b){switch(a[0]){case
+f=a[2],g=a[1],k=aV(g,f,b);return[6,x(aV(g,f,b),k)];default:return x(ax(a[1]),b)}}function
+ik(a,b){switch(a[0]){case
 0:return[0,cy(a[1],a[2],a[3],a[4],b)];case
 1:var
-c=a[2],d=a[1],e=aU(d,c,b);return[0,w(aU(d,c,b),e)];default:return 0}}function
+c=a[2],d=a[1],e=aV(d,c,b);return[0,x(aV(d,c,b),e)];default:return 0}}function
 e4(e,c,a){var
 f=[0,d,b];return aq(function(b,d){var
-e=w(ca(b,c),a);return[2,[4,w(ca(b,c),a),e],d]},f,e)}function
-l2(f,e,c,a){if(f){if(e){var
-g=e[1],h=l2(f[2],e[2],c,a),i=w(ca(g,c),a),j=[4,w(ca(g,c),a),i];return[2,[4,f[1],j],h]}return[0,d,b]}return[0,d,b]}function
-l3(a){var
+e=x(ca(b,c),a);return[2,[4,x(ca(b,c),a),e],d]},f,e)}function
+l4(f,e,c,a){if(f){if(e){var
+g=e[1],h=l4(f[2],e[2],c,a),i=x(ca(g,c),a),j=[4,x(ca(g,c),a),i];return[2,[4,f[1],j],h]}return[0,d,b]}return[0,d,b]}function
+l5(a){var
 c=a[1];return[0,[0,c[1],b],[0,c[2],b],[0,a[2],b]]}function
-ii(a,c){switch(a[0]){case
+il(a,c){switch(a[0]){case
 0:return a[4];case
 1:var
-d=a[2],e=a[1],f=aU(e,d,c);return[6,w(aU(e,d,c),f)];default:return[0,b,b]}}function
-l4(d,i){if(d){var
+d=a[2],e=a[1],f=aV(e,d,c);return[6,x(aV(e,d,c),f)];default:return[0,b,b]}}function
+l6(d,i){if(d){var
 a=d[1];if(1===a[0]){var
 c=a[3];if(c)var
-f=c[1],g=aU(a[1],a[2],i),k=ax(f),l=ab(w(ax(f),g),k),h=[0,T(function(b,a){return[3,b,a]},g,l)];else
+f=c[1],g=aV(a[1],a[2],i),k=ax(f),l=ab(x(ax(f),g),k),h=[0,T(function(b,a){return[3,b,a]},g,l)];else
 var
 h=c;var
 b=h}else
 var
 b=0;if(b)var
-e=l4(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
+e=l6(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
 var
-j=b;return j}return sU}function
+j=b;return j}return s1}function
 c3(a){return[0,a[1],a[2],a[3]]}function
-l5(a,b){switch(a[0]){case
+l7(a,b){switch(a[0]){case
 0:var
 f=a[4],c=a[3],g=a[2],d=a[1],i=ax(d),j=cy(d,g,c,f,b),k=ab(c1(a[5],j),i),l=e3(d,g,c,b),m=T(function(b,a){return[2,b,a]},l,k);return[0,[0,[0,T(function(b,a){return[2,b,a]},b,c),m],f]];case
 1:var
-h=a[2],e=aU(a[1],h,b),n=[6,w(e,e)];return[0,[0,[0,T(function(b,a){return[2,b,a]},b,h),e],n]];default:return 0}}function
-l6(m,e,a){switch(a[0]){case
+h=a[2],e=aV(a[1],h,b),n=[6,x(e,e)];return[0,[0,[0,T(function(b,a){return[2,b,a]},b,h),e],n]];default:return 0}}function
+l8(m,e,a){switch(a[0]){case
 0:var
-n=a[5],c=F(m,a[1]);if(c){var
+n=a[5],c=E(m,a[1]);if(c){var
 d=c[1];if(d)var
 f=d[1],g=f[1],h=f[2],o=g[2],p=g[1],j=function(a){var
 b=c3(n),c=ab(a,o),d=T(function(b,a){return[3,b,a]},p,c);return T(function(b,a){return[2,b,a]},d,b)},q=j([5,a[4],h]),k=[0,[0,j([3,[0,b,b],[5,a[3],h]]),q]];else
@@ -3085,23 +3085,23 @@ l=c;return l;case
 1:var
 r=c3(a[3]);return[0,[0,c3(a[2]),r]];default:var
 s=i(e,c3(a[3]));return[0,[0,i(e,c3(a[2])),s]]}}function
-l7(d,a,c,b){var
+l9(d,a,c,b){var
 e=ab(a,b),f=ab([3,d,a],c);return T(function(b,a){return[2,b,a]},f,e)}function
-l8(a,l,c,k,j,y){var
+l_(a,l,c,k,j,y){var
 d=i(l,k);if(d){var
 m=d[1],e=i(l,j);if(e){var
-n=e[1],f=c[1],g=c[2],b=c[3],z=l7(b,g,n[1],n[2]),A=l7(b,f,m[1],m[2]),o=T(function(b,a){return[3,b,a]},A,z),B=dV(j),p=[4,b,[2,[2,dV(k),B],y]],q=h(a,1,b),r=q?h(a,0,f):q,s=r?h(a,0,[3,b,f]):r,t=s?h(a,0,g):s,u=t?h(a,0,[3,b,g]):t;if(u)return h(a,1,[3,[4,p,p],w(o,o)]);var
+n=e[1],f=c[1],g=c[2],b=c[3],z=l9(b,g,n[1],n[2]),A=l9(b,f,m[1],m[2]),o=T(function(b,a){return[3,b,a]},A,z),B=dV(j),p=[4,b,[2,[2,dV(k),B],y]],q=h(a,1,b),r=q?h(a,0,f):q,s=r?h(a,0,[3,b,f]):r,t=s?h(a,0,g):s,u=t?h(a,0,[3,b,g]):t;if(u)return h(a,1,[3,[4,p,p],x(o,o)]);var
 v=u}else
 var
 v=e;var
-x=v}else
+w=v}else
 var
-x=d;return x}function
-l9(d,c,b,a,i,g,f,e){var
+w=d;return w}function
+l$(d,c,b,a,i,g,f,e){var
 j=h(d,1,b),k=j?h(d,1,a):j;if(k){var
 l=ao(c,f,f),m=[4,[4,a,a],[4,ao(c,g,g),l]];return h(d,1,[3,[4,[4,[4,b,b],[4,i,i]],ao(c,e,e)],m])}return k}function
-l_(i,g,c,f,y,a){function
-R(a){return[4,[4,[5,[0,b,b],a],[5,[0,b,b],a]],w(f,f)]}var
+ma(i,g,c,f,y,a){function
+R(a){return[4,[4,[5,[0,b,b],a],[5,[0,b,b],a]],x(f,f)]}var
 N=0;if(typeof
 a==="number")N=1;else
 switch(a[0]){case
@@ -3115,11 +3115,11 @@ aI=a[2],aJ=function(a){return[3,aI,c2(a,c)]},A=aJ,z=a[1];break;case
 aK=a[2],aL=function(a){return[3,c2(a,c),aK]},A=aL,z=a[1];break;case
 4:var
 S=a[3],U=a[2],aM=function(a){var
-b=ca(a,c);return[3,[4,[4,U,U],w(ca(a,c),b)],[4,S,S]]},A=aM,z=a[1];break;case
+b=ca(a,c);return[3,[4,[4,U,U],x(ca(a,c),b)],[4,S,S]]},A=aM,z=a[1];break;case
 5:var
-V=a[1],aN=w(f,f),aO=[4,[4,V,V],[4,e4(g,c,y),aN]],aP=w(y,y);return h(i,1,[3,[4,e4(g,c,f),aP],aO]);case
+V=a[1],aN=x(f,f),aO=[4,[4,V,V],[4,e4(g,c,y),aN]],aP=x(y,y);return h(i,1,[3,[4,e4(g,c,f),aP],aO]);case
 6:var
-W=a[2],C=F(g,a[1]);if(C){var
+W=a[2],C=E(g,a[1]);if(C){var
 k=C[1];if(0===k[0]){var
 D=k[4],aQ=cy(k[1],k[2],k[3],D,c),X=c1(k[5],aQ);return h(i,1,[3,[4,[4,W,D],[4,W,D]],[4,X,X]])}var
 Y=0}else
@@ -3128,7 +3128,7 @@ Y=C;return Y;case
 7:if(g){var
 p=g[2];if(p){var
 q=p[2];if(q){if(q[2])return 0;var
-Z=q[1],_=p[1],$=g[1],aR=ii(Z,c),aS=ii(_,c),aT=ii($,c),aa=[4,[4,[4,a[1],aT],aS],aR],l=cz(Z,c),m=cz(_,c),aV=cz($,c),O=w(aV,[0,[3,[4,m[2],l[3]],[4,m[3],l[2]]],[3,[4,m[3],l[1]],[4,m[1],l[3]]],[3,[4,m[1],l[2]],[4,m[2],l[1]]]]),ac=h(i,1,[3,aa,O]);if(ac)return h(i,1,[2,aa,O]);var
+Z=q[1],_=p[1],$=g[1],aR=il(Z,c),aS=il(_,c),aT=il($,c),aa=[4,[4,[4,a[1],aT],aS],aR],l=cz(Z,c),m=cz(_,c),aU=cz($,c),O=x(aU,[0,[3,[4,m[2],l[3]],[4,m[3],l[2]]],[3,[4,m[3],l[1]],[4,m[1],l[3]]],[3,[4,m[1],l[2]],[4,m[2],l[1]]]]),ac=h(i,1,[3,aa,O]);if(ac)return h(i,1,[2,aa,O]);var
 ad=ac}else
 var
 ad=q;var
@@ -3139,18 +3139,18 @@ af=ae}else
 var
 af=g;return af;case
 8:var
-aW=e4(g,c,f),aX=w(f,f);return h(i,1,[3,[4,[5,a[2],a[1]],aX],aW]);case
+aW=e4(g,c,f),aX=x(f,f);return h(i,1,[3,[4,[5,a[2],a[1]],aX],aW]);case
 9:var
-ag=a[1],E=l4(g,c);if(E){var
-aY=E[1],aA=[0,d,b],aB=aq(function(a,b){var
-c=w(ax(a),f);return[2,[4,w(ax(a),f),c],b]},aA,aY);return h(i,1,[3,[4,[4,ag,ag],w(f,f)],aB])}return E;case
+ag=a[1],F=l6(g,c);if(F){var
+aY=F[1],aA=[0,d,b],aB=aq(function(a,b){var
+c=x(ax(a),f);return[2,[4,x(ax(a),f),c],b]},aA,aY);return h(i,1,[3,[4,[4,ag,ag],x(f,f)],aB])}return F;case
 10:var
-aZ=a[3],a0=a[2],a1=a[1],aC=function(b,a){return[2,b,a]},aD=function(a){return T(aC,c,a)},aE=e(function(a){return l5(a,c)},g);return l8(i,function(a){return l6(aE,aD,a)},f,a1,a0,aZ);case
+aZ=a[3],a0=a[2],a1=a[1],aC=function(b,a){return[2,b,a]},aD=function(a){return T(aC,c,a)},aE=e(function(a){return l7(a,c)},g);return l_(i,function(a){return l8(aE,aD,a)},f,a1,a0,aZ);case
 11:var
-ah=a[4],G=F(g,a[1]);if(G){var
-H=l5(G[1],c);if(H){var
-n=H[1][1][2],a2=c3(a[3]),a3=c3(a[2]),r=T(function(b,a){return[3,b,a]},a3,a2),ai=h(i,1,w(n,n));if(ai){var
-a4=w(n,n),a5=w(r,n),a6=[5,[4,w(r,n),a5],a4];return h(i,1,[3,[4,ah,ah],[3,w(r,r),a6]])}var
+ah=a[4],G=E(g,a[1]);if(G){var
+H=l7(G[1],c);if(H){var
+n=H[1][1][2],a2=c3(a[3]),a3=c3(a[2]),r=T(function(b,a){return[3,b,a]},a3,a2),ai=h(i,1,x(n,n));if(ai){var
+a4=x(n,n),a5=x(r,n),a6=[5,[4,x(r,n),a5],a4];return h(i,1,[3,[4,ah,ah],[3,x(r,r),a6]])}var
 aj=ai}else
 var
 aj=H;var
@@ -3158,17 +3158,17 @@ ak=aj}else
 var
 ak=G;return ak;case
 12:var
-o=a[3],s=a[2],I=F(g,a[1]);if(I){var
+o=a[3],s=a[2],I=E(g,a[1]);if(I){var
 j=I[1],al=h(i,0,s),am=al?h(i,0,o):al;if(am){var
 a7=a[4];switch(j[0]){case
 0:var
-v=j[4],x=[5,v,[6,cy(j[1],j[2],j[3],v,c)]],J=[4,x,[2,s,[4,[5,[4,o,o],v],[4,x,x]]]];break;case
+v=j[4],w=[5,v,[6,cy(j[1],j[2],j[3],v,c)]],J=[4,w,[2,s,[4,[5,[4,o,o],v],[4,w,w]]]];break;case
 1:var
-P=j[2],Q=j[1],aF=aU(Q,P,c),J=[2,s,[5,[4,o,o],[6,w(aU(Q,P,c),aF)]]];break;default:var
+P=j[2],Q=j[1],aF=aV(Q,P,c),J=[2,s,[5,[4,o,o],[6,x(aV(Q,P,c),aF)]]];break;default:var
 J=s}var
 K=h(i,1,[3,J,a7])}else
 var
-K=am;if(K){if(2===j[0])return h(i,1,w(f,f));var
+K=am;if(K){if(2===j[0])return h(i,1,x(f,f));var
 an=1}else
 var
 an=K;var
@@ -3178,9 +3178,9 @@ ao=I;return ao;case
 13:if(g){var
 t=g[2];if(t){var
 u=t[2];if(u){if(u[2])return 0;var
-ap=u[1],ar=t[1],as=g[1],at=a[1],L=F([0,f[1],[0,f[2],[0,f[3],0]]],at);if(L){var
-M=F([0,as,[0,ar,[0,ap,0]]],at);if(M){var
-au=M[1],a8=cz(au,c),a9=ca(au,c),a_=cz(ap,c),a$=ab(f[3],a_),ba=cz(ar,c),bb=ab(f[2],ba),bc=cz(as,c),bd=ab(f[1],bc),be=T(function(b,a){return[2,b,a]},bd,bb),bf=T(function(b,a){return[2,b,a]},be,a$);return l9(i,w,a[2],a[3],L[1],bf,a9,a8)}var
+ap=u[1],ar=t[1],as=g[1],at=a[1],L=E([0,f[1],[0,f[2],[0,f[3],0]]],at);if(L){var
+M=E([0,as,[0,ar,[0,ap,0]]],at);if(M){var
+au=M[1],a8=cz(au,c),a9=ca(au,c),a_=cz(ap,c),a$=ab(f[3],a_),ba=cz(ar,c),bb=ab(f[2],ba),bc=cz(as,c),bd=ab(f[1],bc),be=T(function(b,a){return[2,b,a]},bd,bb),bf=T(function(b,a){return[2,b,a]},be,a$);return l$(i,x,a[2],a[3],L[1],bf,a9,a8)}var
 av=M}else
 var
 av=L;var
@@ -3194,37 +3194,56 @@ az=ay}else
 var
 az=g;return az;case
 15:var
-bg=l2(a[1],g,c,f),bh=w(f,f);return h(i,1,[3,[4,a[2],bh],bg]);default:N=1}if(N)return 0;var
-B=F(g,z);return B?h(i,1,A(B[1])):B}function
-by(a){return[0,a[1][1],a[2][1],a[3][1]]}function
-l$(a){switch(a[0]){case
+bg=l4(a[1],g,c,f),bh=x(f,f);return h(i,1,[3,[4,a[2],bh],bg]);default:N=1}if(N)return 0;var
+B=E(g,z);return B?h(i,1,A(B[1])):B}function
+bz(a){return[0,a[1][1],a[2][1],a[3][1]]}function
+mb(a){switch(a[0]){case
 0:var
-b=a[1],c=b[5],d=b[4][1],e=by(b[3]),f=by(b[2]);return[0,by(b[1]),f,e,d,c];case
+b=a[1],c=b[5],d=b[4][1],e=bz(b[3]),f=bz(b[2]);return[0,bz(b[1]),f,e,d,c];case
 1:var
-g=z(by,a[3]),h=by(a[2]);return[1,by(a[1]),h,g];default:return[2,by(a[1])]}}function
-ij(a){return 0===a[0]?by(a[1]):[0,a[1],a[2],a[4][1]]}function
-ma(b,a){var
-c=ij(a[2]);return go(b,a,e(l$,a[1]),c)}function
-mb(b,a,c){var
-d=[0,c,aX(b,a)];return f(aH(b,a),d)}function
-bi(c,a){if(c){if(a){var
-e=bi(c[2],a[2]);return[2,[4,c[1],a[1]],e]}return[0,d,b]}return[0,d,b]}function
-mc(e,c,a){if(e){if(c){var
-f=c[1],g=mc(e[2],c[2],a),h=bi(f,a),i=[4,bi(f,a),h];return[2,[4,e[1],i],g]}return[0,d,b]}return[0,d,b]}function
-md(b,a){if(b){if(a){var
-c=b[1],e=md(b[2],a[2]),f=a[1],g=function(b,a){return[2,[4,c,b],a]},h=function(a){return a};return aI(function(a){return[4,c,a]},h,g,f,e)}var
+g=z(bz,a[3]),h=bz(a[2]);return[1,bz(a[1]),h,g];default:return[2,bz(a[1])]}}function
+im(a){return 0===a[0]?bz(a[1]):[0,a[1],a[2],a[4][1]]}function
+mc(b,a){var
+c=im(a[2]);return go(b,a,e(mb,a[1]),c)}function
+md(b,a,c){var
+d=[0,c,aT(b,a)];return f(aG(b,a),d)}function
+a6(c,a){if(c){if(a){var
+e=a6(c[2],a[2]);return[2,[4,c[1],a[1]],e]}return[0,d,b]}return[0,d,b]}function
+me(e,c,a){if(e){if(c){var
+f=c[1],g=me(e[2],c[2],a),h=a6(f,a),i=[4,a6(f,a),h];return[2,[4,e[1],i],g]}return[0,d,b]}return[0,d,b]}function
+mf(b,a){if(b){if(a){var
+c=b[1],e=mf(b[2],a[2]),f=a[1],g=function(b,a){return[2,[4,c,b],a]},h=function(a){return a};return aI(function(a){return[4,c,a]},h,g,f,e)}var
 d=a}else
 var
 d=b;return d}function
-me(a){if(a){var
+io(e){function
+c(d,c,b,a){return[3,[4,d,a],[4,c,b]]}if(e){var
+f=e[1];if(f){var
+g=f[2];if(g){var
+h=g[2],r=g[1],s=f[1],a=e[2];if(h){if(h[2])return[0,d,b];if(a){var
+i=a[1];if(i){var
+j=i[2];if(j){var
+k=j[2];if(k){if(k[2])return[0,d,b];var
+l=a[2];if(l){var
+m=l[1];if(m){var
+n=m[2];if(n){var
+o=n[2];if(o){if(o[2])return[0,d,b];if(l[2])return[0,d,b];var
+t=o[1],u=n[1],v=m[1],w=k[1],x=j[1],y=i[1],z=c(y,x,v,u),A=[4,h[1],z],B=[4,r,c(y,w,v,t)];return[2,[3,[4,s,c(x,w,u,t)],B],A]}return[0,d,b]}return[0,d,b]}return[0,d,b]}return[0,d,b]}return[0,d,b]}return[0,d,b]}return[0,d,b]}return[0,d,b]}if(a){var
+p=a[1];if(p){var
+q=p[2];return q?q[2]?[0,d,b]:a[2]?[0,d,b]:c(s,r,p[1],q[1]):[0,d,b]}return[0,d,b]}return[0,d,b]}return[0,d,b]}return[0,d,b]}return[0,d,b]}function
+mg(b,c,a){var
+d=[0,c,aT([0,b],a)];return f(aG(b,a),d)}function
+mh(a,b){var
+e=p(a,s3),c=e||p(a,s4),d=c?p(g(b),a):c;return d?m(function(b){return p(g(b),a)},b):d}function
+mi(a){if(a){var
 b=a[1];if(b){var
-c=b[1],d=me(a[2]);return z(function(a){return[0,c,a]},d)}return b}return sW}function
-ik(a){if(a){var
+c=b[1],d=mi(a[2]);return z(function(a){return[0,c,a]},d)}return b}return s5}function
+gp(a){if(a){var
 b=a[1];if(b){var
-c=b[1],d=ik(a[2]);return z(function(a){return[0,c,a]},d)}return b}return sX}function
-mf(a,l,k,f){var
-b=aC(a,l);if(b){var
-c=aC(a,k);if(c){var
+c=b[1],d=gp(a[2]);return z(function(a){return[0,c,a]},d)}return b}return s6}function
+mj(a,l,k,f){var
+b=aD(a,l);if(b){var
+c=aD(a,k);if(c){var
 d=cS(a,f);if(d){var
 e=f5(a,f);if(e)var
 m=t(a,b[1],e[1]),g=[0,H(t(a,c[1],d[1]),m)];else
@@ -3239,319 +3258,296 @@ i=c;var
 j=i}else
 var
 j=b;return j}function
-mg(a){return a?I(a[1][2],d):a}function
+mk(a){return a?I(a[1][2],d):a}function
 eb(a){return a?I(d,a[1][1]):a}function
-mh(d,a){return h(d,0,[3,[0,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b))))))))),b],a])}function
-mi(f,A,l,z,a,j){function
-aW(c,a){return[4,[4,[5,[0,b,b],c],[5,[0,b,b],c]],bi(a,a)]}var
-bB=l[1];function
-B(c){var
+ml(d,a){return h(d,0,[3,[0,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b))))))))),b],a])}function
+mm(a,l,k,o,f,j){function
+aC(c,a){return[4,[4,[5,[0,b,b],c],[5,[0,b,b],c]],a6(a,a)]}var
+bm=k[1];function
+y(c){var
 a=[0,d,b];return aq(function(a,b){var
-d=bi(a,c);return[2,[4,bi(a,c),d],b]},a,bB)}function
-af(f,e){var
-a=F(l[1],f);if(a){var
-b=a[1],c=p(g(b),A);if(c)return i(e,b);var
+d=a6(a,c);return[2,[4,a6(a,c),d],b]},a,bm)}function
+z(f,e){var
+a=E(k[1],f);if(a){var
+b=a[1],c=p(g(b),l);if(c)return i(e,b);var
 d=c}else
 var
 d=a;return d}var
-aX=m(function(c){var
+aE=m(function(c){var
 b=0;if(typeof
 j==="number")b=1;else
 switch(j[0]){case
 6:var
-a=sY;break;case
+a=s7;break;case
 13:case
 14:var
-a=sZ;break;default:b=1}if(b)var
-a=A;return p(g(c),a)},a);if(aX){var
+a=s8;break;default:b=1}if(b)var
+a=l;return p(g(c),a)},f);if(aE){var
 s=0;if(typeof
 j==="number")s=1;else
 switch(j[0]){case
-0:if(a){if(a[2])return 0;var
-aZ=a[1],bC=B(aZ);return h(f,1,[3,aW(j[1],aZ),bC])}return a;case
-1:if(a){if(a[2])return 0;var
-a0=a[1],bD=aW(j[1],a0);return h(f,1,[3,B(a0),bD])}return a;case
-2:if(a)return 0;var
-bE=j[2],bF=function(a){if(typeof
-a!=="number"&&0===a[0])return h(f,1,[3,bE,a[1]]);return 0},ah=bF,ag=j[1];break;case
-3:if(a)return 0;var
-bG=j[2],bH=function(a){if(typeof
-a!=="number"&&0===a[0])return h(f,1,[3,a[1],bG]);return 0},ah=bH,ag=j[1];break;case
-4:if(a)return 0;var
-a1=j[3],a2=j[2],bI=function(a){var
-i=p(z,0);if(typeof
-a!=="number"&&1===a[0]){var
-d=a[2],e=a[1],g=h(f,0,[3,[2,a2,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b]],a1]);return g?i?mg(mf(f,e,d,a2)):eb(mf(f,e,d,a1)):g}return 0},ah=bI,ag=j[1];break;case
-5:if(a){var
-C=a[2];if(C){if(C[2])return 0;var
-aj=C[1],ak=a[1],a3=j[1],bJ=bi(ak,ak),bK=[4,[4,a3,a3],[4,B(aj),bJ]],bL=bi(aj,aj);return h(f,1,[3,[4,B(ak),bL],bK])}var
-a4=C}else
+0:if(f){if(f[2])return 0;var
+aG=f[1],bn=y(aG);return h(a,1,[3,aC(j[1],aG),bn])}return f;case
+1:if(f){if(f[2])return 0;var
+aH=f[1],bo=aC(j[1],aH);return h(a,1,[3,y(aH),bo])}return f;case
+2:if(f)return 0;var
+bp=j[2],bq=function(b){if(typeof
+b!=="number"&&0===b[0])return h(a,1,[3,bp,b[1]]);return 0},U=bq,S=j[1];break;case
+3:if(f)return 0;var
+br=j[2],bs=function(b){if(typeof
+b!=="number"&&0===b[0])return h(a,1,[3,b[1],br]);return 0},U=bs,S=j[1];break;case
+4:if(f)return 0;var
+aI=j[3],aJ=j[2],bt=function(d){var
+i=p(o,0);if(typeof
+d!=="number"&&1===d[0]){var
+e=d[2],f=d[1],g=h(a,0,[3,[2,aJ,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b]],aI]);return g?i?mk(mj(a,f,e,aJ)):eb(mj(a,f,e,aI)):g}return 0},U=bt,S=j[1];break;case
+5:if(f){var
+A=f[2];if(A){if(A[2])return 0;var
+W=A[1],Y=f[1],aK=j[1],bu=a6(Y,Y),bv=[4,[4,aK,aK],[4,y(W),bu]],bw=a6(W,W);return h(a,1,[3,[4,y(Y),bw],bv])}var
+aL=A}else
 var
-a4=a;return a4;case
+aL=f;return aL;case
 6:var
-a5=j[2],bM=j[3],bN=function(a){var
-b=[5,bM,a5],c=h(f,1,a5);return c?h(f,1,[3,bi(a,a),[4,b,b]]):c},a6=af(j[1],bN);if(a6){if(l[4]){if(a){var
-D=a[1];if(D){if(D[2])return 0;if(a[2])return 0;var
-a7=D[1];return h(f,1,[4,a7,a7])}var
-a8=D}else
+aM=j[2],bx=j[3],by=function(b){var
+c=[5,bx,aM],d=h(a,1,aM);return d?h(a,1,[3,a6(b,b),[4,c,c]]):d},aN=z(j[1],by);if(aN){if(k[4]){if(f){var
+B=f[1];if(B){if(B[2])return 0;if(f[2])return 0;var
+aO=B[1];return h(a,1,[4,aO,aO])}var
+aP=B}else
 var
-a8=a;return a8}if(a)return 0;var
-a9=1}else
+aP=f;return aP}if(f)return 0;var
+aQ=1}else
 var
-a9=a6;return a9;case
-7:if(a){if(a[2])return 0;var
-a_=a[1],al=j[1],bO=j[3],bP=j[2],am=ik(l[7]);if(am){var
-E=am[1],an=F(a_,al);if(an){var
-bQ=an[1],a$=p(g(E),A),ba=a$?m(function(a){return p(g(a),A)},E):a$;if(ba){var
-ao=F(E,al);if(ao){var
-bR=ao[1];return af(al,function(a){return l9(f,bi,bP,bO,bQ,md(a_,E),a,bR)})}var
-bb=ao}else
+aQ=aN;return aQ;case
+7:if(f){if(f[2])return 0;var
+aR=f[1],Z=j[1],bz=j[3],bA=j[2],_=gp(k[7]);if(_){var
+C=_[1],$=E(aR,Z);if($){var
+bB=$[1],aS=p(g(C),l),aT=aS?m(function(a){return p(g(a),l)},C):aS;if(aT){var
+aa=E(C,Z);if(aa){var
+bC=aa[1];return z(Z,function(b){return l$(a,a6,bA,bz,bB,mf(aR,C),b,bC)})}var
+aU=aa}else
 var
-bb=ba;var
-bc=bb}else
-var
-bc=an;var
-bd=bc}else
-var
-bd=am;var
-be=bd}else
-var
-be=a;return be;case
-8:if(a){if(a[2])return 0;var
-ap=a[1],bS=mc(j[1],l[1],ap),bT=bi(ap,ap);return h(f,1,[3,[4,j[2],bT],bS])}return a;case
-9:if(a)return 0;var
-bf=j[3],bg=j[2],bU=function(d){var
-e=h(f,1,bg),g=e?h(f,0,bf):e;if(g){var
-a=aC(f,bi(d,d));if(a){var
-b=aC(f,[5,bf,bg]);if(b){var
-c=k5(f,b[1]);if(c){var
-l=X(f,c[1]);return eb([0,H(a[1],l)])}var
-i=c}else
-var
-i=b;var
-j=i}else
-var
-j=a;var
-k=j}else
-var
-k=g;return k};return af(j[1],bU);case
-10:if(a)return 0;var
-bV=j[2],bW=function(a){var
-b=[4,bV,a[3]],c=h(f,1,b);return c?h(f,1,[3,[4,b,b],[4,a[2],a[2]]]):c},bj=bW,bh=j[1];s=2;break;case
-11:if(a)return 0;var
-bX=j[2],bY=function(d){var
-a=cS(f,bX);if(a){var
-b=aC(f,d[3]);if(b){var
-c=aC(f,d[2]);if(c){var
-e=t(f,a[1],b[1]),g=eb([0,e]);if(g){var
-k=X(f,c[1]);return eb([0,H(X(f,e),k)])}var
-h=g}else
-var
-h=c;var
-i=h}else
-var
-i=b;var
-j=i}else
-var
-j=a;return j},bj=bY,bh=j[1];s=2;break;case
-12:if(a)return 0;var
-at=me(l[3]);if(at){var
-bl=at[1],bZ=j[1],bm=b4(function(b,a){return[4,b,a[3]]},bl,bZ),au=e(function(a){return a[1]},bl),u=function(d,c,b,a){return[3,[4,d,a],[4,c,b]]};if(au){var
-M=au[1];if(M){var
-N=M[2];if(N){var
-O=N[2],ax=N[1],ay=M[1],n=au[2];if(O)if(O[2]||!n)var
-k=[0,d,b];else{var
-P=n[1];if(P){var
-Q=P[2];if(Q){var
-R=Q[2];if(R&&!R[2]){var
-S=n[2];if(S){var
-U=S[1];if(U){var
-V=U[2];if(V){var
-W=V[2];if(W&&!(W[2]||S[2]))var
-az=W[1],aA=V[1],aB=U[1],aD=R[1],aE=Q[1],aF=P[1],bu=u(aF,aE,aB,aA),bv=[4,O[1],bu],bw=[4,ax,u(aF,aD,aB,az)],k=[2,[3,[4,ay,u(aE,aD,aA,az)],bw],bv];else
-var
-k=[0,d,b]}else
-var
-k=[0,d,b]}else
-var
-k=[0,d,b]}else
-var
-k=[0,d,b]}else
-var
-k=[0,d,b]}else
-var
-k=[0,d,b]}else
-var
-k=[0,d,b]}else
-if(n){var
-Y=n[1];if(Y)var
-Z=Y[2],k=Z?Z[2]?[0,d,b]:n[2]?[0,d,b]:u(ay,ax,Y[1],Z[1]):[0,d,b];else
-var
-k=[0,d,b]}else
-var
-k=[0,d,b]}else
-var
-k=[0,d,b]}else
-var
-k=[0,d,b]}else
-var
-k=[0,d,b];var
-bn=h(f,1,[3,bm,k]);if(bn)return h(f,1,[2,bm,k]);var
-bo=bn}else
-var
-bo=at;return bo;case
-13:var
-b0=j[2],av=F(l[4],j[1]);if(av){var
-aw=av[1];if(aw){var
-bp=function(a){if(b0){var
-c=i(l[5],[0,[0,d,b],[0,d,b],[0,d,b]]),e=i(l[5],a);return T(function(b,a){return[3,b,a]},e,c)}return a},G=j[4],q=bp(c3(j[3])),I=aw[1][1][2],o=w(I,q);if(mh(f,G)){if(z){if(z[1])return 0;if(a){var
-v=a[1];if(v){var
-x=v[2];if(x){var
-y=x[2];if(y){if(y[2])return 0;if(a[2])return 0;var
-_=bp([0,v[1],x[1],y[1]]),aG=w(I,_),aH=h(f,1,o);if(aH){var
-$=cS(f,G);if($){var
-aI=$[1],aa=aC(f,[4,w(q,q),[4,aG,aG]]);if(aa){var
-ab=aC(f,[4,[4,o,o],w(_,_)]);if(ab){var
-aJ=eb([0,aI]);if(aJ){var
-bx=ab[1],by=aa[1];return eb([0,H(t(f,X(f,aI),by),bx)])}var
-aK=aJ}else
-var
-aK=ab;var
-aL=aK}else
-var
-aL=aa;var
-aM=aL}else
-var
-aM=$;var
-aN=aM}else
-var
-aN=aH;var
-aO=aN}else
-var
-aO=y;var
-aP=aO}else
-var
-aP=x;var
-aQ=aP}else
-var
-aQ=v;var
-aR=aQ}else
-var
-aR=a;return aR}return a?0:h(f,1,[3,[0,d,b],o])}if(z)return 0;if(a)return 0;var
-aS=h(f,0,[3,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b],G]);if(aS){var
-ac=cS(f,G);if(ac){var
-ad=aC(f,o);if(ad){var
-bz=w(I,I),ae=aC(f,[6,[4,w(q,q),bz]]);if(ae){var
-bA=t(f,ac[1],ae[1]);return mg([0,H(ad[1],bA)])}var
-aT=ae}else
-var
-aT=ad;var
-aU=aT}else
-var
-aU=ac;var
+aU=aT;var
 aV=aU}else
 var
-aV=aS;return aV}var
-bq=aw}else
+aV=$;var
+aW=aV}else
 var
-bq=av;return bq;case
-14:if(a){var
-J=a[1];if(J){var
-K=J[2];if(K){var
-L=K[2];if(L){if(L[2])return 0;if(a[2])return 0;var
-b1=j[3],b2=j[2],b3=j[1],b5=[0,J[1],K[1],L[1]],b6=l[5],b7=l[4];return l8(f,function(a){return l6(b7,b6,a)},b5,b3,b2,b1)}var
-br=L}else
+aW=_;var
+aX=aW}else
 var
-br=K;var
-bs=br}else
+aX=f;return aX;case
+8:if(f){if(f[2])return 0;var
+ab=f[1],bD=me(j[1],k[1],ab),bE=a6(ab,ab);return h(a,1,[3,[4,j[2],bE],bD])}return f;case
+9:if(f)return 0;var
+aY=j[3],aZ=j[2],bF=function(e){var
+f=h(a,1,aZ),g=f?h(a,0,aY):f;if(g){var
+b=aD(a,a6(e,e));if(b){var
+c=aD(a,[5,aY,aZ]);if(c){var
+d=k7(a,c[1]);if(d){var
+l=X(a,d[1]);return eb([0,H(b[1],l)])}var
+i=d}else
 var
-bs=J;var
-bt=bs}else
+i=c;var
+j=i}else
 var
-bt=a;return bt;default:s=1}switch(s){case
-1:var
-aY=0;break;case
-2:var
-ar=F(l[3],bh);if(ar){var
-as=ar[1];if(as)return bj(as[1]);var
-bk=as}else
+j=b;var
+k=j}else
 var
-bk=ar;return bk;default:var
-ai=F(l[2],ag);return ai?ah(ai[1]):ai}}else
+k=g;return k};return z(j[1],bF);case
+10:if(f)return 0;var
+bG=j[2],bH=function(b){var
+c=[4,bG,b[3]],d=h(a,1,c);return d?h(a,1,[3,[4,c,c],[4,b[2],b[2]]]):d},a1=bH,a0=j[1];s=2;break;case
+11:if(f)return 0;var
+bI=j[2],bJ=function(e){var
+b=cS(a,bI);if(b){var
+c=aD(a,e[3]);if(c){var
+d=aD(a,e[2]);if(d){var
+f=t(a,b[1],c[1]),g=eb([0,f]);if(g){var
+k=X(a,d[1]);return eb([0,H(X(a,f),k)])}var
+h=g}else
 var
-aY=aX;return aY}function
-il(d,f,a){if(typeof
-a!=="number")switch(a[0]){case
-4:return s1;case
+h=d;var
+i=h}else
+var
+i=c;var
+j=i}else
+var
+j=b;return j},a1=bJ,a0=j[1];s=2;break;case
+12:if(f)return 0;var
+ae=mi(k[3]);if(ae){var
+a3=ae[1],bK=j[1],a4=b4(function(b,a){return[4,b,a[3]]},a3,bK),a5=io(e(function(a){return a[1]},a3)),a7=h(a,1,[3,a4,a5]);if(a7)return h(a,1,[2,a4,a5]);var
+a8=a7}else
+var
+a8=ae;return a8;case
 13:var
-e=a[4];if(mh(d,e)&&S(h(d,0,[3,e,[0,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b))))))))),b]])))return s2;return s3;case
-16:return f}return s0}function
-gp(e,d,g,f){var
+bL=j[2],af=E(k[4],j[1]);if(af){var
+ag=af[1];if(ag){var
+a9=function(a){if(bL){var
+c=i(k[5],[0,[0,d,b],[0,d,b],[0,d,b]]),e=i(k[5],a);return T(function(b,a){return[3,b,a]},e,c)}return a},D=j[4],q=a9(c3(j[3])),F=ag[1][1][2],n=x(F,q);if(ml(a,D)){if(o){if(o[1])return 0;if(f){var
+u=f[1];if(u){var
+v=u[2];if(v){var
+w=v[2];if(w){if(w[2])return 0;if(f[2])return 0;var
+L=a9([0,u[1],v[1],w[1]]),al=x(F,L),am=h(a,1,n);if(am){var
+M=cS(a,D);if(M){var
+an=M[1],N=aD(a,[4,x(q,q),[4,al,al]]);if(N){var
+O=aD(a,[4,[4,n,n],x(L,L)]);if(O){var
+ao=eb([0,an]);if(ao){var
+bi=O[1],bj=N[1];return eb([0,H(t(a,X(a,an),bj),bi)])}var
+ap=ao}else
+var
+ap=O;var
+ar=ap}else
+var
+ar=N;var
+as=ar}else
+var
+as=M;var
+at=as}else
+var
+at=am;var
+au=at}else
+var
+au=w;var
+av=au}else
+var
+av=v;var
+aw=av}else
+var
+aw=u;var
+ax=aw}else
+var
+ax=f;return ax}return f?0:h(a,1,[3,[0,d,b],n])}if(o)return 0;if(f)return 0;var
+ay=h(a,0,[3,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b],D]);if(ay){var
+P=cS(a,D);if(P){var
+Q=aD(a,n);if(Q){var
+bk=x(F,F),R=aD(a,[6,[4,x(q,q),bk]]);if(R){var
+bl=t(a,P[1],R[1]);return mk([0,H(Q[1],bl)])}var
+az=R}else
+var
+az=Q;var
+aA=az}else
+var
+aA=P;var
+aB=aA}else
+var
+aB=ay;return aB}var
+a_=ag}else
+var
+a_=af;return a_;case
+14:if(f){var
+G=f[1];if(G){var
+I=G[2];if(I){var
+J=I[2];if(J){if(J[2])return 0;if(f[2])return 0;var
+bM=j[3],bN=j[2],bO=j[1],bP=[0,G[1],I[1],J[1]],bQ=k[5],bR=k[4];return l_(a,function(a){return l8(bR,bQ,a)},bP,bO,bN,bM)}var
+a$=J}else
+var
+a$=I;var
+ba=a$}else
+var
+ba=G;var
+bb=ba}else
+var
+bb=f;return bb;case
+17:if(f)return 0;var
+ah=j[3],bc=j[2],ai=j[1],aj=gp(k[7]);if(aj){var
+K=aj[1],bd=mh(l,K),be=bd?p(g(bc),l):bd;if(be){var
+ak=E(K,ai);if(ak){var
+bf=ak[1];return z(ai,function(g){var
+c=io(K),e=io(mg(ai,bc,K)),i=h(a,1,ah),j=i?h(a,1,[4,c,c]):i;if(j)var
+k=p(o,0)?e:[3,[0,d,b],e],f=h(a,1,k);else
+var
+f=j;if(f){var
+l=[4,[4,[4,ah,ah],[4,c,c]],a6(g,g)];return h(a,1,[3,[4,[4,e,e],a6(bf,bf)],l])}return f})}var
+bg=ak}else
+var
+bg=be;var
+bh=bg}else
+var
+bh=aj;return bh;default:s=1}switch(s){case
+1:var
+aF=0;break;case
+2:var
+ac=E(k[3],a0);if(ac){var
+ad=ac[1];if(ad)return a1(ad[1]);var
+a2=ad}else
+var
+a2=ac;return a2;default:var
+V=E(k[2],S);return V?U(V[1]):V}}else
+var
+aF=aE;return aF}function
+gq(d,f,a){if(typeof
+a!=="number")switch(a[0]){case
+13:var
+e=a[4];if(ml(d,e)&&S(h(d,0,[3,e,[0,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b))))))))),b]])))return s$;return ta;case
+16:return f;case
+4:case
+17:return s_}return s9}function
+gr(e,d,g,f){var
 b=g,a=f;for(;;){if(a){var
-c=a[1];if(aN(b,il(e,d,c)))return[0,[0,c,b]];var
-h=a[2],b=dP(b,il(e,d,c)),a=h;continue}return a}}function
-mj(a){return e(function(a){return[0,a,b]},a)}function
-im(f,o,g,c,n,a){if(typeof
+c=a[1];if(aN(b,gq(e,d,c)))return[0,[0,c,b]];var
+h=a[2],b=dP(b,gq(e,d,c)),a=h;continue}return a}}function
+mn(a){return e(function(a){return[0,a,b]},a)}function
+ip(f,o,g,c,n,a){if(typeof
 a==="number"){if(0===a){var
-s=c[6];return al(function(a){return h(f,0,[3,[0,d,b],a])},s)}var
-i=ik(c[7]);return i?la(g,i[1]):i}else{if(0===a[0]){var
-j=gp(f,o,a[1],n);if(j){var
-p=j[1],t=p[1],u=e(mj,a[2]);return mi(f,g,c,p[2],u,t)}return j}var
-k=gp(f,o,a[1],n);if(k){var
+s=c[6];return ak(function(a){return h(f,0,[3,[0,d,b],a])},s)}var
+i=gp(c[7]);return i?lc(g,i[1]):i}else{if(0===a[0]){var
+j=gr(f,o,a[1],n);if(j){var
+p=j[1],t=p[1],u=e(mn,a[2]);return mm(f,g,c,p[2],u,t)}return j}var
+k=gr(f,o,a[1],n);if(k){var
 q=k[1],l=q[1];if(typeof
 l!=="number"&&1===l[0]){var
-m=F(c[1],a[2]);return m?mi(f,g,c,q[2],[0,m[1],0],[1,l[1]]):m}var
+m=E(c[1],a[2]);return m?mm(f,g,c,q[2],[0,m[1],0],[1,l[1]]):m}var
 r=0}else
 var
 r=k;return r}}function
-io(a){var
-b=ax(a[1]),c=ab(w(b,a[2]),b),d=a[2];return T(function(b,a){return[3,b,a]},d,c)}function
-ip(a){return ax(io(a))}function
-mk(c){var
-a=ip(c),b=ax(c[1]);return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
-iq(a,b){return aU(a[3],a[4],b)}function
-ir(a,b){var
-c=iq(a,b);return w(ip(a),c)}function
-is(a,b){var
-c=iq(a,b);return w(mk(a),c)}function
-ml(a,b){var
-c=iq(a,b);return w(ax(a[1]),c)}function
-it(b,a){var
-c=is(b,a),d=ir(b,a);return[2,[4,d,d],[4,c,c]]}function
-iu(a,d){var
-h=a[5],i=[4,[0,c(2,b),b],h],e=a[6],f=a[5],g=ml(a,d);return[5,[2,it(a,d),[2,[4,g,g],[3,[4,f,f],[4,e,e]]]],i]}function
-mm(a,b){var
-f=a[5],c=[3,iu(a,b),f],d=ml(a,b),e=a[6];return[3,[3,[4,e,e],[4,d,d]],[4,c,c]]}function
-gq(a,b){var
-c=mm(a,b);return c1(a[7],c)}function
-mn(b,a){var
-c=it(b,a),d=is(b,a),e=[4,gq(b,a),d],f=ir(b,a);return[5,[2,[4,iu(b,a),f],e],c]}function
-mo(b,a){var
-c=it(b,a),d=ir(b,a),e=[4,gq(b,a),d],f=is(b,a);return[5,[3,[4,iu(b,a),f],e],c]}function
-iv(a,b){var
-c=mk(a),d=ab(mo(a,b),c),e=ip(a),f=ab(mn(a,b),e),g=T(function(b,a){return[2,b,a]},f,d),h=ab(a[5],g),i=a[3];return T(function(b,a){return[2,b,a]},i,h)}function
-mp(a){return[5,[3,[0,b,b],[4,a,a]],[2,[0,b,b],[4,a,a]]]}function
-mq(a){return[5,[4,[0,c(2,b),b],a],[2,[0,b,b],[4,a,a]]]}function
-iw(a,c,b){var
-d=[4,mp(a),b],e=[2,[4,mq(a),c],d],f=[4,mq(a),b];return[0,[3,[4,mp(a),c],f],e]}function
-mr(c,a){var
-b=iw(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
-dq(b,a){return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
-ms(a,d){var
-e=w(a,a),f=dq(a,d),g=ab([0,c(2,b),b],f),h=w(a,d),i=ab([4,[0,c(2,b),b],h],a),j=ab([3,[0,b,b],e],d),k=T(function(b,a){return[2,b,a]},j,i);return ab([5,[0,b,b],[2,[0,b,b],e]],T(function(b,a){return[2,b,a]},k,g))}function
+iq(a){var
+b=ax(a[1]),c=ab(x(b,a[2]),b),d=a[2];return T(function(b,a){return[3,b,a]},d,c)}function
+ir(a){return ax(iq(a))}function
+mo(c){var
+a=ir(c),b=ax(c[1]);return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
+is(a,b){return aV(a[3],a[4],b)}function
+it(a,b){var
+c=is(a,b);return x(ir(a),c)}function
+iu(a,b){var
+c=is(a,b);return x(mo(a),c)}function
+mp(a,b){var
+c=is(a,b);return x(ax(a[1]),c)}function
+iv(b,a){var
+c=iu(b,a),d=it(b,a);return[2,[4,d,d],[4,c,c]]}function
+iw(a,d){var
+h=a[5],i=[4,[0,c(2,b),b],h],e=a[6],f=a[5],g=mp(a,d);return[5,[2,iv(a,d),[2,[4,g,g],[3,[4,f,f],[4,e,e]]]],i]}function
+mq(a,b){var
+f=a[5],c=[3,iw(a,b),f],d=mp(a,b),e=a[6];return[3,[3,[4,e,e],[4,d,d]],[4,c,c]]}function
+gs(a,b){var
+c=mq(a,b);return c1(a[7],c)}function
+mr(b,a){var
+c=iv(b,a),d=iu(b,a),e=[4,gs(b,a),d],f=it(b,a);return[5,[2,[4,iw(b,a),f],e],c]}function
+ms(b,a){var
+c=iv(b,a),d=it(b,a),e=[4,gs(b,a),d],f=iu(b,a);return[5,[3,[4,iw(b,a),f],e],c]}function
+ix(a,b){var
+c=mo(a),d=ab(ms(a,b),c),e=ir(a),f=ab(mr(a,b),e),g=T(function(b,a){return[2,b,a]},f,d),h=ab(a[5],g),i=a[3];return T(function(b,a){return[2,b,a]},i,h)}function
+mt(a){return[5,[3,[0,b,b],[4,a,a]],[2,[0,b,b],[4,a,a]]]}function
+mu(a){return[5,[4,[0,c(2,b),b],a],[2,[0,b,b],[4,a,a]]]}function
+iy(a,c,b){var
+d=[4,mt(a),b],e=[2,[4,mu(a),c],d],f=[4,mu(a),b];return[0,[3,[4,mt(a),c],f],e]}function
+mv(c,a){var
+b=iy(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
+dr(b,a){return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
+mw(a,d){var
+e=x(a,a),f=dr(a,d),g=ab([0,c(2,b),b],f),h=x(a,d),i=ab([4,[0,c(2,b),b],h],a),j=ab([3,[0,b,b],e],d),k=T(function(b,a){return[2,b,a]},j,i);return ab([5,[0,b,b],[2,[0,b,b],e]],T(function(b,a){return[2,b,a]},k,g))}function
 cA(j,b,a){switch(j[0]){case
-0:return b?b[2]?a:mr(b[1],a):a;case
+0:return b?b[2]?a:mv(b[1],a):a;case
 1:if(b){var
 c=b[2];if(c){var
 d=c[2];if(d){if(d[2])return a;var
-g=iw(b[1],a[2],a[3]),i=g[1],h=iw(c[1],g[2],a[1]);return mr(d[1],[0,h[2],i,h[1]])}return a}return a}return a;default:if(b){var
+g=iy(b[1],a[2],a[3]),i=g[1],h=iy(c[1],g[2],a[1]);return mv(d[1],[0,h[2],i,h[1]])}return a}return a}return a;default:if(b){var
 e=b[2];if(e){var
-f=e[2];return f?f[2]?a:ms([0,b[1],e[1],f[1]],a):a}return a}return a}}function
-mt(c){var
+f=e[2];return f?f[2]?a:mw([0,b[1],e[1],f[1]],a):a}return a}return a}}function
+mx(c){var
 a=cu(c);return a?dT(a[1],[0,d,b]):a}function
-mu(a,n,k,j){if(mt(j)){var
+my(a,n,k,j){if(mx(j)){var
 q=n?[3,[0,d,b],k]:k;return h(a,0,q)}var
-f=aC(a,k);if(f){var
+f=aD(a,k);if(f){var
 g=cS(a,[5,j,[0,c(2,b),b]]);if(g){var
 i=f5(a,[5,j,[0,c(2,b),b]]);if(i)var
 p=t(a,f[1],g[1]),l=[0,H(i[1],p)];else
@@ -3563,26 +3559,26 @@ m=g;var
 e=m}else
 var
 e=f;if(e){var
-o=e[1];return n?E(d,o[1]):E(o[2],d)}return e}function
-dr(b,a,c){var
-d=bq(b,a[1],a[2]),e=d?mu(b,0,c,a[1]):d;return e?mu(b,1,c,a[2]):e}function
-mv(h,f,c){if(mt(c))return[0,v];var
-a=D(h,hP(f)),d=cS(a,c);if(d){var
+o=e[1];return n?F(d,o[1]):F(o[2],d)}return e}function
+ds(b,a,c){var
+d=bs(b,a[1],a[2]),e=d?my(b,0,c,a[1]):d;return e?my(b,1,c,a[2]):e}function
+mz(h,f,c){if(mx(c))return[0,v];var
+a=D(h,hS(f)),d=cS(a,c);if(d){var
 e=f5(a,c);if(e){var
-i=e[1],j=d[1],k=b5(a,A(Q(a,b),j));return z(function(b){return kW(f,t(a,i,b))},k)}var
+i=e[1],j=d[1],k=b5(a,A(Q(a,b),j));return z(function(b){return kY(f,t(a,i,b))},k)}var
 g=e}else
 var
 g=d;return g}function
-c4(a){return function(b){return mv(a,d,b)}}function
+c4(a){return function(b){return mz(a,d,b)}}function
 c5(d,a){var
 e=h(d,1,[2,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b],a]);return e?h(d,1,[3,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b],a]):e}function
 c6(a){return[0,[3,[0,d,b],a],a]}function
-mw(a,c,o,n){var
-h=bq(a,[0,d,b],c),j=h?c5(a,c):h;if(j){var
+mA(a,c,o,n){var
+h=bs(a,[0,d,b],c),j=h?c5(a,c):h;if(j){var
 e=i(c4(a),c);if(e){var
-f=aC(a,o);if(f){var
-g=aC(a,n);if(g){var
-p=f[1],q=g[1];return E(d,H(t(a,X(a,e[1]),q),p)[1])}var
+f=aD(a,o);if(f){var
+g=aD(a,n);if(g){var
+p=f[1],q=g[1];return F(d,H(t(a,X(a,e[1]),q),p)[1])}var
 k=g}else
 var
 k=f;var
@@ -3593,11 +3589,11 @@ m=l}else
 var
 m=j;return m}function
 cB(d,c,a){switch(c[0]){case
-0:return a?a[2]?0:dr(d,c[1],a[1]):a;case
+0:return a?a[2]?0:ds(d,c[1],a[1]):a;case
 1:if(a){var
 e=a[2];if(e){var
 f=e[2];if(f){if(f[2])return 0;var
-l=dr(d,c[1],a[1]),m=l?dr(d,c[2],e[1]):l;if(m)return dr(d,c[3],f[1]);var
+l=ds(d,c[1],a[1]),m=l?ds(d,c[2],e[1]):l;if(m)return ds(d,c[3],f[1]);var
 n=m}else
 var
 n=f;var
@@ -3610,7 +3606,7 @@ p=a;return p;case
 2:if(a){var
 g=a[2];if(g){var
 h=g[2];if(h){if(h[2])return 0;var
-q=h[1],r=g[1],s=a[1],C=w([0,s,r,q],[0,s,r,q]);return mw(d,c[1],C,[0,b,b])}var
+q=h[1],r=g[1],s=a[1],C=x([0,s,r,q],[0,s,r,q]);return mA(d,c[1],C,[0,b,b])}var
 t=h}else
 var
 t=g;var
@@ -3619,7 +3615,7 @@ var
 u=a;return u;default:if(a){var
 i=a[2];if(i){var
 j=i[2];if(j){if(j[2])return 0;var
-k=j[1],v=i[1],x=a[1],y=mw(d,c[1],[2,[4,x,x],[4,v,v]],[2,[0,b,b],[4,k,k]]);if(y)return dr(d,c6(c[2]),k);var
+k=j[1],v=i[1],w=a[1],y=mA(d,c[1],[2,[4,w,w],[4,v,v]],[2,[0,b,b],[4,k,k]]);if(y)return ds(d,c6(c[2]),k);var
 z=y}else
 var
 z=j;var
@@ -3630,81 +3626,83 @@ B=A}else
 var
 B=a;return B}}var
 l=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))));function
-bz(b){var
+bA(b){var
 a=aq(function(f,e){var
-a=aC(l,f);if(a)var
-b=a[1],c=bm(ck(b[1]),ck(b[2]));else
+a=aD(l,f);if(a)var
+b=a[1],c=bo(ck(b[1]),ck(b[2]));else
 var
-c=d;return bm(c,e)},d,b);return I(d,a)?aE(kF(a),l):d}function
+c=d;return bo(c,e)},d,b);return I(d,a)?aF(kH(a),l):d}function
 ec(a){return[0,a[1],[0,a[2],0]]}function
-a5(a){var
+a7(a){var
 b=ec(a[3]),c=f(ec(a[2]),b);return f(ec(a[1]),c)}function
-gr(a){return gn(l,a,bz(a5(a)))}function
-mx(b,a){if(a){var
-g=mx([0,b],a[2]),c=a[1];if(0===c[0])var
+gt(a){return gn(l,a,bA(a7(a)))}function
+mB(b,a){if(a){var
+g=mB([0,b],a[2]),c=a[1];if(0===c[0])var
 d=c[1],e=cZ([0,[0,d,d],c[2]],b);else
 var
 e=[0,[1,b]];var
 f=[0,e,g]}else
 var
 f=a;return f}function
-my(c,b,a){var
+mC(c,b,a){var
 d=dV(b);return[2,[2,dV(c),d],a]}function
-ix(b,a){return b?O(a):d}function
-e5(h,b,a){if(typeof
+gu(b,a){return b?O(a):d}function
+e5(g,b,a){if(typeof
 a!=="number")switch(a[0]){case
 4:var
 i=a[3],j=a[2];return[0,[2,j],[0,[3,j],[0,[2,i],[0,[3,i],0]]]];case
 6:return[0,[0,[5,a[3],a[2]],d],0];case
 8:var
 q=a[2],r=a[1];return e(function(a){var
-c=ix(h,b);return[0,[5,q,a],D(ix(h,b),c)]},r);case
+c=gu(g,b);return[0,[5,q,a],D(gu(g,b),c)]},r);case
 9:return[0,[1,[5,a[3],a[2]],O(b)],0];case
 10:return[0,[0,a[2],d],0];case
 11:return[0,[2,a[2]],0];case
 12:return[0,[0,a[1],d],0];case
 13:var
-c=a[3],g=bz([0,c[1],[0,c[2],[0,c[3],0]]]);return[0,[2,a[4]],[0,[0,c[1],g],[0,[0,c[2],g],[0,[0,c[3],g],0]]]];case
+c=a[3],h=bA([0,c[1],[0,c[2],[0,c[3],0]]]);return[0,[2,a[4]],[0,[0,c[1],h],[0,[0,c[2],h],[0,[0,c[3],h],0]]]];case
 14:var
-k=a[2],l=a[1],s=d$(b,k),t=f(d$(b,l),s),u=e(function(a){return[0,a[1][2],a[2]]},t);return[0,[0,my(l,k,a[3]),b],u];case
+k=a[2],l=a[1],s=d$(b,k),t=f(d$(b,l),s),u=e(function(a){return[0,a[1][2],a[2]]},t);return[0,[0,mC(l,k,a[3]),b],u];case
 15:var
 m=a[4],n=a[3];return[0,[0,[5,a[2],m],d],[0,[0,[5,[4,n,n],m],b],0]];case
 16:var
-o=a[2],p=bz([0,o,0]);return[0,[4,a[3],aE(p,b)],[0,[0,o,p],0]];case
+o=a[2],p=bA([0,o,0]);return[0,[4,a[3],aF(p,b)],[0,[0,o,p],0]];case
+17:var
+v=a[3],w=a[2];return e(function(a){return[0,[5,a,v],gu(g,b)]},w);case
 2:case
 3:return[0,[0,a[2],b],0]}return 0}function
 c7(h,c,b,e,a){if(a){var
-d=a[1],i=a[2],j=c7(h,c,b,P(e,g(e5(c,b,d))),i);return f(ao(h,mx(e,e5(c,b,d)),d),j)}return a}function
-gs(b,a){var
+d=a[1],i=a[2],j=c7(h,c,b,P(e,g(e5(c,b,d))),i);return f(ao(h,mB(e,e5(c,b,d)),d),j)}return a}function
+gv(b,a){var
 c=_(b,a);return e(function(a){var
 b=s(a[1][2],a[2]);return[0,a[1][1],b]},c)}function
-iy(b,a){switch(a[0]){case
+iz(b,a){switch(a[0]){case
 0:var
 d=a[1];return an(b,[0,[0,d,d],a[2]]);case
 1:var
-e=a[1],c=an(b,[0,[0,e,e],a[2]]);return c?k5(b,c[1]):c;case
+e=a[1],c=an(b,[0,[0,e,e],a[2]]);return c?k7(b,c[1]):c;case
 2:return cS(b,a[1]);case
 3:return f5(b,a[1]);default:var
-f=a[1],g=c5(b,f);return g?mv(b,a[2],f):g}}function
-br(a){return 1===a?s4:s5}function
+f=a[1],g=c5(b,f);return g?mz(b,a[2],f):g}}function
+bt(a){return 1===a?tb:tc}function
 bR(d,c,b,a){var
 e=a[1],f=cA(d,c,a[2]),g=T(function(b,a){return[2,b,a]},b,f);return T(function(b,a){return[3,b,a]},g,e)}function
-iz(c,b,a){switch(c){case
+iA(c,b,a){switch(c){case
 0:return[0,b[1],[0,b[2],[0,a[3],0]]];case
 1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}}function
-iA(h,g,d,c,f,a){var
-e=bR(d,c,f,a);return iz(h,e,ab([5,[0,b,b],g],dq(cA(d,c,a[2]),e)))}function
+iB(h,g,d,c,f,a){var
+e=bR(d,c,f,a);return iA(h,e,ab([5,[0,b,b],g],dr(cA(d,c,a[2]),e)))}function
 e6(c,j,i){var
 b=j,a=i;for(;;){if(b){if(a){var
-d=a[1],e=b[1],f=bh(c,e[1],d[1]),g=f?bh(c,e[2],d[2]):f;if(g){var
+d=a[1],e=b[1],f=bl(c,e[1],d[1]),g=f?bl(c,e[2],d[2]):f;if(g){var
 b=b[2],a=a[2];continue}var
 h=g}else
 var
 h=a;return h}return a?0:1}}function
-bs(b,d){var
+bu(b,d){var
 a=d[1];if(8===a[0]){var
-c=a[1][1];return 0===c[0]?[0,[0,P(b,c[1])]]:[0,bK(function(a){return bs(b,a)},a)]}return[0,bK(function(a){return bs(b,a)},a)]}function
-ds(d,b,h){var
+c=a[1][1];return 0===c[0]?[0,[0,P(b,c[1])]]:[0,bK(function(a){return bu(b,a)},a)]}return[0,bK(function(a){return bu(b,a)},a)]}function
+dt(d,b,h){var
 c=h;for(;;){var
 a=c[1];switch(a[0]){case
 0:var
@@ -3716,7 +3714,7 @@ e=a[1],f=S(p(e,b));return f?S(p(e,P(d,b))):f;case
 8:case
 9:var
 c=a[1];continue;default:var
-g=ds(d,b,a[1]);if(g){var
+g=dt(d,b,a[1]);if(g){var
 c=a[2];continue}return g}}}function
 ed(c,b,m){var
 d=m;for(;;){var
@@ -3724,19 +3722,19 @@ a=d[1];switch(a[0]){case
 5:var
 d=a[1];continue;case
 6:var
-f=a[2],g=a[1],h=ds(c,b,g),i=h?ed(c,b,f):h;if(i)var
+f=a[2],g=a[1],h=dt(c,b,g),i=h?ed(c,b,f):h;if(i)var
 j=i;else{var
-k=ed(c,b,g);if(k)return ds(c,b,f);var
+k=ed(c,b,g);if(k)return dt(c,b,f);var
 j=k}return j;case
 7:var
-l=ed(c,b,a[1]);return l?ds(c,b,a[2]):l;case
+l=ed(c,b,a[1]);return l?dt(c,b,a[2]):l;case
 10:return 0;case
 3:case
 4:var
 e=ed(c,b,a[1]);if(e){var
 d=a[2];continue}return e;case
 8:case
-9:return ds(c,b,a[1]);default:return 1}}}function
+9:return dt(c,b,a[1]);default:return 1}}}function
 cC(c,e){var
 b=e;for(;;){var
 a=b[1];switch(a[0]){case
@@ -3750,19 +3748,19 @@ a=b[1];switch(a[0]){case
 b=a[1];continue;default:var
 d=cC(c,a[1]);if(d){var
 b=a[2];continue}return d}}}function
-gt(d,b,m){var
+gw(d,b,m){var
 c=m;for(;;){var
 a=c[1];switch(a[0]){case
 3:var
-f=gt(d,b,a[1]);if(f){var
+f=gw(d,b,a[1]);if(f){var
 c=a[2];continue}return f;case
 4:var
-g=gt(d,b,a[1]);return g?cC(b,a[2]):g;case
+g=gw(d,b,a[1]);return g?cC(b,a[2]):g;case
 6:var
 h=a[2],i=a[1],j=cC(b,i);if(j){var
 k=cC(b,h);if(k)var
 e=k;else{var
-l=aF(i,d);if(l){var
+l=aH(i,d);if(l){var
 c=h;continue}var
 e=l}}else
 var
@@ -3770,7 +3768,7 @@ e=j;return e;case
 0:case
 1:case
 2:return 1;default:return cC(b,c)}}}function
-gu(c,e){var
+gx(c,e){var
 b=e;for(;;){var
 a=b[1];switch(a[0]){case
 0:return aN(a[1],c);case
@@ -3781,81 +3779,81 @@ a=b[1];switch(a[0]){case
 8:case
 9:var
 b=a[1];continue;default:var
-d=gu(c,a[1]);if(d){var
+d=gx(c,a[1]);if(d){var
 b=a[2];continue}return d}}}function
-gv(a,b){if(a){var
+gy(a,b){if(a){var
 c=a[2],d=a[1];if(b){var
-e=b[2];return b[1]?[0,d,gv(c,aq(eT,e,kQ(d)))]:[0,s8,gv(c,e)]}var
-f=[0,d,gv(c,0)]}else
+e=b[2];return b[1]?[0,d,gy(c,aq(eT,e,kS(d)))]:[0,tf,gy(c,e)]}var
+f=[0,d,gy(c,0)]}else
 var
 f=a;return f}function
 c8(b,a){return a?i(b,a[1]):a}function
 c9(c,b,a){return c8(function(b){return c8(i(c,b),a)},b)}function
-mz(b,a){switch(a[0]){case
+mD(b,a){switch(a[0]){case
 0:return a;case
 1:return a[1];default:var
 c=a[3],d=a[2],e=a[1];switch(b){case
 0:return e;case
 1:return d;default:return c}}}function
-mA(a){return 0===a[0]?a[1]:0}function
-mB(d,c){var
+mE(a){return 0===a[0]?a[1]:0}function
+mF(d,c){var
 b=d,a=c;for(;;){if(a){var
-e=a[2],b=mz(a[1],b),a=e;continue}return mA(b)}}function
+e=a[2],b=mD(a[1],b),a=e;continue}return mE(b)}}function
 cb(b,a){switch(a[0]){case
 0:return[0,i(b,a[1])];case
 1:return[1,cb(b,a[1])];default:var
 c=cb(b,a[3]),d=cb(b,a[2]);return[2,cb(b,a[1]),d,c]}}function
-bj(b,c,a){switch(c[0]){case
+bm(b,c,a){switch(c[0]){case
 0:return cb(i(b,c[1]),a);case
 1:var
 d=c[1];switch(a[0]){case
 0:var
 k=a[1];return[1,cb(function(a){return ao(b,a,k)},d)];case
-1:return[1,bj(b,d,a[1])];default:var
-l=bj(b,d,a[3]),m=bj(b,d,a[2]);return[2,bj(b,d,a[1]),m,l]}default:var
+1:return[1,bm(b,d,a[1])];default:var
+l=bm(b,d,a[3]),m=bm(b,d,a[2]);return[2,bm(b,d,a[1]),m,l]}default:var
 e=c[3],f=c[2],g=c[1];switch(a[0]){case
 0:var
 n=a[1],o=function(a){return ao(b,a,n)},h=function(a){return cb(o,a)},p=h(e),q=h(f);return[2,h(g),q,p];case
 1:var
-j=a[1],r=bj(b,e,j),s=bj(b,f,j);return[2,bj(b,g,j),s,r];default:var
-t=bj(b,e,a[3]),u=bj(b,f,a[2]);return[2,bj(b,g,a[1]),u,t]}}}function
-iB(c,f,a){if(a)var
+j=a[1],r=bm(b,e,j),s=bm(b,f,j);return[2,bm(b,g,j),s,r];default:var
+t=bm(b,e,a[3]),u=bm(b,f,a[2]);return[2,bm(b,g,a[1]),u,t]}}}function
+iC(c,f,a){if(a)var
 d=a[1],b=function(h){var
 a=[0,d[1],d[1]],b=[0,d[2],d[2]];switch(h){case
 0:var
 e=[0,a,X(c,a)];break;case
 1:var
 g=t(c,a,b),e=[0,as(A(a,b)),g];break;default:var
-e=[0,b,X(c,b)]}return[0,[0,i(f,e)]]},h=iB(c,f,a[2]),j=e(function(a){return[1,a]},h),k=b(2),l=b(1),g=[0,[2,b(0),l,k],j];else
+e=[0,b,X(c,b)]}return[0,[0,i(f,e)]]},h=iC(c,f,a[2]),j=e(function(a){return[1,a]},h),k=b(2),l=b(1),g=[0,[2,b(0),l,k],j];else
 var
 g=a;return g}function
-iC(b,x,c,a){var
-e=iB(b,aW,a),d=0,y=f(iB(b,aB,a),e);return bo(s_,function(a){switch(a[0]){case
+iD(b,x,c,a){var
+e=iC(b,aY,a),d=0,y=f(iC(b,aB,a),e);return bq(th,function(a){switch(a[0]){case
 0:return q(a[1],y,[0,[0,v]]);case
 1:return[0,[0,q(a[1],x,v)]];case
 2:return[0,[0,Q(b,a[1])]];case
 3:var
-c=a[2],d=a[1],e=function(b,a){return[0,A(b,a)]};return bj(function(a,b){return c9(e,a,b)},d,c);case
+c=a[2],d=a[1],e=function(b,a){return[0,A(b,a)]};return bm(function(a,b){return c9(e,a,b)},d,c);case
 4:var
-f=a[2],g=a[1],h=function(b,a){return[0,H(b,a)]};return bj(function(a,b){return c9(h,a,b)},g,f);case
+f=a[2],g=a[1],h=function(b,a){return[0,H(b,a)]};return bm(function(a,b){return c9(h,a,b)},g,f);case
 5:var
 i=a[1],j=function(a){return[0,ae(a)]};return cb(function(a){return c8(j,a)},i);case
 6:var
-k=a[2],l=a[1],m=function(c,a){return[0,t(b,c,a)]};return bj(function(a,b){return c9(m,a,b)},l,k);case
+k=a[2],l=a[1],m=function(c,a){return[0,t(b,c,a)]};return bm(function(a,b){return c9(m,a,b)},l,k);case
 7:var
 n=a[2],o=a[1],p=function(c,a){var
-d=b5(b,a);return z(function(a){return t(b,c,a)},d)};return bj(function(a,b){return c9(p,a,b)},o,n);case
+d=b5(b,a);return z(function(a){return t(b,c,a)},d)};return bm(function(a,b){return c9(p,a,b)},o,n);case
 8:var
 r=a[1],s=function(a){return[0,X(b,a)]};return cb(function(a){return c8(s,a)},r);case
 9:var
-u=a[1],w=function(a){return b6(b,a)};return cb(function(a){return c8(w,a)},u);default:return s9}},c,d)}function
-gw(a){if(a){var
+u=a[1],w=function(a){return b6(b,a)};return cb(function(a){return c8(w,a)},u);default:return tg}},c,d)}function
+gz(a){if(a){var
 b=a[1];if(b)var
-c=gw(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+c=gz(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return s$}function
+d=b;return d}return ti}function
 ee(a){if(a){var
-g=a[1],b=g[2],c=gw(g[1]);if(c)if(b){var
+g=a[1],b=g[2],c=gz(g[1]);if(c)if(b){var
 h=b[1],e=ee(a[2]);if(e)var
 i=I(d,h[1]),j=i?[0,[0,[0,c[1],h],e[1]]]:i;else
 var
@@ -3864,41 +3862,41 @@ f=j}else
 var
 f=b;else
 var
-f=c;return f}return ta}function
+f=c;return f}return tj}function
 ef(b,a){var
 c=a[3],d=z(function(a){var
 c=a[2],d=a[1][2];return[0,[0,i(b,a[1][1]),d],c]},c),e=i(b,a[2]),f=a[1];return[0,i(av(b),f),e,d]}function
-iD(c,g,f,b,a,e){if(b){var
+iE(c,g,f,b,a,e){if(b){var
 h=b[1],l=b[2],d=function(b,a){var
-d=jF(c,eN,eN,function(a){return mz(b,a)},e);return iD(c,g,bv(f),l,a,d)},i=d(0,aE(a,h));if(i){var
+d=jH(c,eN,eN,function(a){return mD(b,a)},e);return iE(c,g,bx(f),l,a,d)},i=d(0,aF(a,h));if(i){var
 j=d(2,D(a,h));if(j)return f?1:d(1,a);var
 k=j}else
 var
-k=i;return k}return ao(g,a,jF(c,eN,eN,mA,e))}function
-iE(e,c,b,a){var
+k=i;return k}return ao(g,a,jH(c,eN,eN,mE,e))}function
+iF(e,c,b,a){var
 f=am(d,b);function
-g(b){return a}return function(a){return iD(e,g,c,f,d,a)}}function
+g(b){return a}return function(a){return iE(e,g,c,f,d,a)}}function
 c_(a){if(a){var
-b=a[1],c=b[1],d=c[1],e=b[2],f=c[2];return z(function(a){return aT(f,e,a)},d)}return[0,v]}function
-mC(f,e,k,j,i,a){var
+b=a[1],c=b[1],d=c[1],e=b[2],f=c[2];return z(function(a){return aU(f,e,a)},d)}return[0,v]}function
+mG(f,e,k,j,i,a){var
 b=ee(a[1]);if(b){var
 c=a[2];if(c){var
 d=c_(a[3]);if(d){var
-l=d[1],m=am([0,H(ae(t(f,i,c[1])),l),0],e);return bb(f,e,f7(k,j,b[1],m))}var
+l=d[1],m=am([0,H(ae(t(f,i,c[1])),l),0],e);return bd(f,e,f7(k,j,b[1],m))}var
 g=d}else
 var
 g=c;var
 h=g}else
 var
 h=b;return h}function
-mD(i,d,h,g,c){var
+mH(i,d,h,g,c){var
 a=ee(c[1]);if(a){var
 b=c_(c[3]);if(b){var
-j=am([0,H(v,b[1]),0],d),k=a[1];return bb(i,d,f7(h,g,e(function(a){return[0,a[1],v]},k),j))}var
+j=am([0,H(v,b[1]),0],d),k=a[1];return bd(i,d,f7(h,g,e(function(a){return[0,a[1],v]},k),j))}var
 f=b}else
 var
 f=a;return f}function
-mE(a,c,E,i){var
+mI(a,c,E,i){var
 j=ee(i[1]);if(j){var
 k=i[2];if(k){var
 l=c_(i[3]);if(l){var
@@ -3923,51 +3921,51 @@ y=k;var
 z=y}else
 var
 z=j;return z}function
-tb(c){var
+tk(c){var
 a=c[2];if(a){var
-b=c_(c[3]);if(b)return E(d,H(a[1],b[1])[1]);var
+b=c_(c[3]);if(b)return F(d,H(a[1],b[1])[1]);var
 e=b}else
 var
 e=a;return e}function
-iF(a){return y(function(a){return f(a[1],[0,a[2],0])},a)}function
-mF(a,c,b){var
+iG(a){return y(function(a){return f(a[1],[0,a[2],0])},a)}function
+mJ(a,c,b){var
 e=q(b,c,k(d)),f=aA(0,a);return m(function(b){return ed(a,b,e)},f)}function
 e7(a){var
 c=R(a);return C(k(b),c)}function
-gx(i,g){var
-h=e7(g),j=R(g),e=x(k(b),j),f=s(k(c(2,b)),g),a=k(d);return i?i[1]?[0,[0,e,bx(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,bx(f),a,e]]:[0,[0,h,a,a],[0,a,e,bx(f)],[0,a,f,e]]}function
+gA(i,g){var
+h=e7(g),j=R(g),e=w(k(b),j),f=s(k(c(2,b)),g),a=k(d);return i?i[1]?[0,[0,e,bi(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,bi(f),a,e]]:[0,[0,h,a,a],[0,a,e,bi(f)],[0,a,f,e]]}function
 e8(b,a){var
 c=V(b[3],a),d=V(b[2],a);return[0,V(b[1],a),d,c]}function
-mG(b,a){function
+mK(b,a){function
 c(b){var
 c=i(b,a[3]),d=i(b,a[2]);return[0,i(b,a[1]),d,c]}function
 d(a){var
 b=V(a,c(function(a){return a[3]})),d=V(a,c(function(a){return a[2]}));return[0,V(a,c(function(a){return a[1]})),d,b]}var
 e=d(b[3]),f=d(b[2]);return[0,d(b[1]),f,e]}function
-mH(v,u){function
+mL(v,u){function
 a(a){return[0,[0,P(u,a)]]}switch(v[0]){case
 0:var
-w=e7(a(0));return[0,gx(tc,a(0)),w];case
+x=e7(a(0));return[0,gA(tl,a(0)),x];case
 1:var
-y=e7(a(0)),z=s(e7(a(td)),y),A=s(e7(a(te)),z),B=gx(0,a(0)),D=mG(gx(tg,a(tf)),B);return[0,mG(gx(ti,a(th)),D),A];default:var
-E=a(tj),F=a(tk),g=[0,a(0),F,E],G=V(g,g),H=C(k(b),G),j=V(g,g),d=g[1],e=g[2],f=g[3],i=function(a){var
-d=R(a),e=s(k(c(2,b)),d);return C(x(k(b),j),e)},h=function(f,e,d,a){var
-g=ao(f,s(e,d),a);return s(k(c(2,b)),g)},l=i(f),m=h(C,e,f,d),n=[0,h(x,d,f,e),m,l],o=h(x,e,f,d),p=i(e),q=[0,h(C,d,e,f),p,o],r=h(C,d,f,e),t=h(x,d,e,f);return[0,[0,[0,i(d),t,r],q,n],H]}}function
-mI(a){return 1<a[0]?[0,a[1],0]:0}function
-gy(a){switch(a[0]){case
+y=e7(a(0)),z=s(e7(a(tm)),y),A=s(e7(a(tn)),z),B=gA(0,a(0)),D=mK(gA(tp,a(to)),B);return[0,mK(gA(tr,a(tq)),D),A];default:var
+E=a(ts),F=a(tt),g=[0,a(0),F,E],G=V(g,g),H=C(k(b),G),j=V(g,g),d=g[1],e=g[2],f=g[3],i=function(a){var
+d=R(a),e=s(k(c(2,b)),d);return C(w(k(b),j),e)},h=function(f,e,d,a){var
+g=ao(f,s(e,d),a);return s(k(c(2,b)),g)},l=i(f),m=h(C,e,f,d),n=[0,h(w,d,f,e),m,l],o=h(w,e,f,d),p=i(e),q=[0,h(C,d,e,f),p,o],r=h(C,d,f,e),t=h(w,d,e,f);return[0,[0,[0,i(d),t,r],q,n],H]}}function
+mM(a){return 1<a[0]?[0,a[1],0]:0}function
+gB(a){switch(a[0]){case
 0:return[0,a[1],0];case
 1:return[0,a[1],[0,a[2],[0,a[3],0]]];case
 2:return[0,c6(a[1]),0];default:var
 b=[0,c6(a[2]),0];return[0,c6(a[1]),b]}}function
 eg(a){return[0,[0,a[1]],[0,a[2]]]}function
-mJ(a){switch(a[0]){case
+mN(a){switch(a[0]){case
 0:return[0,eg(a[1]),0];case
 1:var
 f=[0,eg(a[3]),0],g=[0,eg(a[2]),f];return[0,eg(a[1]),g];case
 2:var
 b=eg(c6(a[1]));return[0,b,[0,b,[0,b,0]]];default:var
 c=a[2],d=a[1],e=[0,[1,c6(d)[1],c],[1,d,c]];return[0,e,[0,e,[0,eg(c6(c)),0]]]}}function
-mK(a,c){if(0===c[0]){var
+mO(a,c){if(0===c[0]){var
 g=c[1];return i(c4(a),g)}var
 h=c[1],d=i(c4(a),h);if(d){var
 j=c[2],e=i(c4(a),j);if(e){var
@@ -3975,62 +3973,62 @@ k=X(a,e[1]),l=b6(a,A(Q(a,b),k)),m=d[1];return z(function(b){return t(a,m,b)},l)}
 f=e}else
 var
 f=d;return f}function
-mL(d,c){var
-a=mK(d,c[1]);if(a)var
-b=mK(d,c[2]),f=b?[0,[0,a[1][1],b[1][2]]]:b,e=f;else
+mP(d,c){var
+a=mO(d,c[1]);if(a)var
+b=mO(d,c[2]),f=b?[0,[0,a[1][1],b[1][2]]]:b,e=f;else
 var
 e=a;return e}function
-mM(a,e,c){var
+mQ(a,e,c){var
 b=c[1];if(1===b[0]){var
 f=b[1];if(aN(f,a))return c;var
-g=k(d);return q(dP(f,a),e,g)}return[0,bK(function(b){return mM(a,e,b)},b)]}function
-iG(g,a,n,f,c){var
-h=g?[0,a,[0,[0,a],[0,[0,[0,a]],0]]]:[0,a,[0,[0,a],0]],i=lK(h,c),j=bN(f),b=e(function(b){return mM(a,j,b)},i),l=q(tp,b,k(d)),m=q(tq,b,k(d));return[0,q(0,b,k(d)),m,l]}function
+g=k(d);return q(dP(f,a),e,g)}return[0,bK(function(b){return mQ(a,e,b)},b)]}function
+iH(g,a,n,f,c){var
+h=g?[0,a,[0,[0,a],[0,[0,[0,a]],0]]]:[0,a,[0,[0,a],0]],i=lM(h,c),j=bN(f),b=e(function(b){return mQ(a,j,b)},i),l=q(ty,b,k(d)),m=q(tz,b,k(d));return[0,q(0,b,k(d)),m,l]}function
 cc(b,a){var
-c=s(b[2],a[1]),d=x(s(b[1],a[2]),c),e=s(b[1],a[3]),f=x(s(b[3],a[1]),e),g=s(b[3],a[2]);return[0,x(s(b[2],a[3]),g),f,d]}function
-dt(b,a){return b?b[1]?a[3]:a[2]:a[1]}function
-mN(c){function
+c=s(b[2],a[1]),d=w(s(b[1],a[2]),c),e=s(b[1],a[3]),f=w(s(b[3],a[1]),e),g=s(b[3],a[2]);return[0,w(s(b[2],a[3]),g),f,d]}function
+du(b,a){return b?b[1]?a[3]:a[2]:a[1]}function
+mR(c){function
 a(a){var
 e=p(c,a)?b:d;return k(e)}var
-e=a(tr),f=a(ts);return[0,a(0),f,e]}function
-mO(b,a){if(a)var
-d=mO(b,a[2]),c=[0,e(i(b,a[1]),a),d];else
+e=a(tA),f=a(tB);return[0,a(0),f,e]}function
+mS(b,a){if(a)var
+d=mS(b,a[2]),c=[0,e(i(b,a[1]),a),d];else
 var
 c=a;return c}function
-gz(c,b,a){switch(c){case
+gC(c,b,a){switch(c){case
 0:return[0,b[1],[0,b[2],[0,a[3],0]]];case
 1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}}function
-mP(b,c,a){return c?aX(b,a):aH(b,a)}function
-mQ(a){if(a){var
-f=a[1],b=f[2],c=gw(f[1]);if(c)if(b)var
-d=mQ(a[2]),g=d?[0,[0,[0,c[1],b[1]],d[1]]]:d,e=g;else
+mT(b,c,a){return c?aT(b,a):aG(b,a)}function
+mU(a){if(a){var
+f=a[1],b=f[2],c=gz(f[1]);if(c)if(b)var
+d=mU(a[2]),g=d?[0,[0,[0,c[1],b[1]],d[1]]]:d,e=g;else
 var
 e=b;else
 var
-e=c;return e}return tD}function
-mR(c,b,a){var
+e=c;return e}return tM}function
+mV(c,b,a){var
 d=_(b,a);return aq(function(a,d){var
 b=b7(a[2]);return A(t(c,a[1],[0,b,b]),d)},v,d)}function
-mS(a,h,e,f,d){if(e)if(d)var
-i=d[1],o=mS(a,h,e[2],f,d[2]),p=i[2],q=aX(h,i[1]),c=e[1],j=as(t(a,c[3],f)),k=c[3],l=A(as(dW(p,Q(a,b),k)),j),m=t(a,c[2],l),n=t(a,c[1],f),g=[0,cq(A(A(as(mR(a,c[4],q)),n),m)),o];else
+mW(a,h,e,f,d){if(e)if(d)var
+i=d[1],o=mW(a,h,e[2],f,d[2]),p=i[2],q=aT(h,i[1]),c=e[1],j=as(t(a,c[3],f)),k=c[3],l=A(as(dW(p,Q(a,b),k)),j),m=t(a,c[2],l),n=t(a,c[1],f),g=[0,cq(A(A(as(mV(a,c[4],q)),n),m)),o];else
 var
 g=d;else
 var
 g=e;return g}function
-tF(a){return[0,a[1][1],a[2][1][2][1],a[1][2],a[2][2]]}function
-mT(b,a){return aa(e(function(a){return q(a,b,0)},a))}function
+tO(a){return[0,a[1][1],a[2][1][2][1],a[1][2],a[2][2]]}function
+mX(b,a){return aa(e(function(a){return q(a,b,0)},a))}function
 cD(a){switch(a){case
-0:return tJ;case
-1:return tK;default:return 0}}function
-du(a){switch(a){case
-0:return[0,tM,tL,k(d)];case
-1:return dm;default:var
+0:return tS;case
+1:return tT;default:return 0}}function
+dv(a){switch(a){case
+0:return[0,tV,tU,k(d)];case
+1:return dn;default:var
 b=k(d),c=k(d);return[0,k(d),c,b]}}function
-gA(c,b,a){return bg(e8(c,a),b)}function
-mU(a){var
-d=V(a,a),e=C(k(b),d);return ak(k(c(2,b)),e)}function
-mV(k,j,i,h,g,a){var
-e=gA(j,i,g),c=cc(a,e),f=ah(C,c,cc(a,c)),d=ah(C,e,aY(mU(a),f)),b=ah(x,ah(C,du(k),d),h);return[0,[0,d,b],aG(V(b,b))]}function
+gD(c,b,a){return bk(e8(c,a),b)}function
+mY(a){var
+d=V(a,a),e=C(k(b),d);return al(k(c(2,b)),e)}function
+mZ(k,j,i,h,g,a){var
+e=gD(j,i,g),c=cc(a,e),f=ah(C,c,cc(a,c)),d=ah(C,e,aZ(mY(a),f)),b=ah(w,ah(C,dv(k),d),h);return[0,[0,d,b],aC(V(b,b))]}function
 bS(e,j){var
 a=j[1];switch(a[0]){case
 1:var
@@ -4038,32 +4036,32 @@ l=p(a[1],e)?b:d;return k(l);case
 3:var
 m=bS(e,a[2]);return C(bS(e,a[1]),m);case
 4:var
-n=bS(e,a[2]);return x(bS(e,a[1]),n);case
-5:return bx(bS(e,a[1]));case
+n=bS(e,a[2]);return w(bS(e,a[1]),n);case
+5:return bi(bS(e,a[1]));case
 6:var
 g=a[2],h=a[1],o=s(h,bS(e,g));return C(s(g,bS(e,h)),o);case
 7:var
-f=bS(e,a[1]);return a2(d,f)?f:ak(f,a[2]);case
+f=bS(e,a[1]);return a3(d,f)?f:al(f,a[2]);case
 8:var
 i=a[1],q=bS(e,i);return s(s(k(c(2,b)),i),q);default:return k(d)}}function
-gB(c,b,k){var
+gE(c,b,k){var
 e=k;for(;;){var
 a=e[1];switch(a[0]){case
 7:var
-g=gB(c,b,a[1]);if(g){var
+g=gE(c,b,a[1]);if(g){var
 h=a[2][1];if(1===h[0]){var
-i=h[1],j=I(d,q(i,c,v)[1]);return j?S(al(function(a){return p(i,a)},b)):j}return 0}return g;case
+i=h[1],j=I(d,q(i,c,v)[1]);return j?S(ak(function(a){return p(i,a)},b)):j}return 0}return g;case
 5:case
 8:var
 e=a[1];continue;case
 9:case
 10:return 0;case
-0:case
-1:case
-2:return 1;default:var
-f=gB(c,b,a[1]);if(f){var
-e=a[2];continue}return f}}}function
-mW(d){var
+3:case
+4:case
+6:var
+f=gE(c,b,a[1]);if(f){var
+e=a[2];continue}return f;default:return 1}}}function
+m0(d){var
 b=d;for(;;){var
 a=b[1];switch(a[0]){case
 0:case
@@ -4074,72 +4072,72 @@ a=b[1];switch(a[0]){case
 8:case
 9:var
 b=a[1];continue;default:var
-c=mW(a[1]);if(c){var
+c=m0(a[1]);if(c){var
 b=a[2];continue}return c}}}function
-mX(c,b,a){var
+m1(c,b,a){var
 d=e(b,a[2]);return[0,i(c,a[1]),d]}function
-iH(b,a,c){return e(function(c){var
-d=mX(b,a,c[2]),f=c[1];return[0,e(function(c){return mX(b,a,c)},f),d]},c)}function
-mY(b,a){return z(function(a){var
+iI(b,a,c){return e(function(c){var
+d=m1(b,a,c[2]),f=c[1];return[0,e(function(c){return m1(b,a,c)},f),d]},c)}function
+m2(b,a){return z(function(a){var
 c=a[2],d=a[1][2];return[0,[0,i(b,a[1][1]),d],c]},a)}function
-tN(a,b){var
-c=mY(a,b[3]),d=i(a,b[2]);return[0,iH(a,a,b[1]),d,c]}function
-mZ(c){var
+tW(a,b){var
+c=m2(a,b[3]),d=i(a,b[2]);return[0,iI(a,a,b[1]),d,c]}function
+m3(c){var
 a=c[1];if(a){var
-b=gw(c[2]);if(b)var
+b=gz(c[2]);if(b)var
 g=e($,b[1]),d=[0,[0,$(a[1]),g]];else
 var
 d=b;var
 f=d}else
 var
 f=a;return f}function
-tO(c){var
-a=aa(e(mZ,c[1]));if(a)var
-b=mZ(c[2]),f=b?[0,[0,a[1],b[1]]]:b,d=f;else
+tX(c){var
+a=aa(e(m3,c[1]));if(a)var
+b=m3(c[2]),f=b?[0,[0,a[1],b[1]]]:b,d=f;else
 var
 d=a;return d}function
-tP(a){return S(hZ([0,a[2],a[1]]))}function
-iI(a){return[0,a[1],a[2]]}function
-m0(b,c,a){var
-d=e(function(c){return bs(b,bS(c,a))},c);return[0,bs(b,a),d]}function
-iJ(b,e,a,d){var
+tY(a){return S(h2([0,a[2],a[1]]))}function
+iJ(a){return[0,a[1],a[2]]}function
+m4(b,c,a){var
+d=e(function(c){return bu(b,bS(c,a))},c);return[0,bu(b,a),d]}function
+iK(b,e,a,d){var
 c=y(function(a){var
-b=iI(a[2]);return f(y(iI,a[1]),b)},d),g=a?[0,bs(b,a[1]),0]:a,h=f(g,c);return[0,bs(b,e),h]}function
-m1(c,f,b,a){var
-d=gB(f,b,a),e=d?gu(c,a):d;return e?m(function(b){return gu(c,bS(b,a))},b):e}function
-m2(a){switch(a[0]){case
+b=iJ(a[2]);return f(y(iJ,a[1]),b)},d),g=a?[0,bu(b,a[1]),0]:a,h=f(g,c);return[0,bu(b,e),h]}function
+m5(c,f,b,a){var
+d=gE(f,b,a),e=d?gx(c,a):d;return e?m(function(b){return gx(c,bS(b,a))},b):e}function
+m6(a){switch(a[0]){case
 3:var
-d=iF(a[2]);return[0,a[3],d];case
+d=iG(a[2]);return[0,a[3],d];case
 4:return[0,a[1],0];case
 8:var
-b=a[1],e=iF(b[1]);return[0,b[2],e];case
+b=a[1],e=iG(b[1]);return[0,b[2],e];case
 9:return 0;default:var
-c=iF(a[1]);return[0,a[2],c]}}function
-m3(a,aw,br,k,n,R,av,x,P,j,h){switch(j[0]){case
+c=iG(a[1]);return[0,a[2],c]}}function
+m7(a,aw,br,k,n,R,av,x,P,j,h){switch(j[0]){case
 0:var
 ax=j[4],S=j[3],ay=j[2],az=j[1],U=0;if(typeof
 h==="number")U=1;else
 switch(h[0]){case
 0:var
-bs=h[2],bt=h[1],u=ay,s=az,r=function(b){return mC(a,n,bt,bs,S,b)},o=ax;break;case
+bs=h[2],bt=h[1],u=ay,s=az,r=function(b){return mG(a,n,bt,bs,S,b)},o=ax;break;case
 2:var
 aC=J(S[1],d),aD=aC?J(S[2],d):aC;if(!aD)return aD;var
-bx=h[2],by=h[1],u=ay,s=az,r=function(b){return mD(a,n,by,bx,b)},o=ax;break;default:U=1}if(U)return 0;break;case
+bw=h[2],by=h[1],u=ay,s=az,r=function(b){return mH(a,n,by,bw,b)},o=ax;break;default:U=1}if(U)return 0;break;case
 1:var
 aQ=0;if(typeof
 h==="number"&&!h)var
-bz=j[2],bA=j[1],bB=j[3],u=bz,s=bA,bC=0,r=function(b){return mE(a,n,bB,b)},o=bC;else
+bz=j[2],bA=j[1],bB=j[3],u=bz,s=bA,bC=0,r=function(b){return mI(a,n,bB,b)},o=bC;else
 aQ=1;if(aQ)return 0;break;case
 2:if(typeof
 h!=="number"&&3===h[0]){var
 B=h[3];if(B){var
 aE=B[2],aF=p(g(aE),k);if(aF){var
-bD=[0,j[1],j[2],P],bE=ef(function(a){return q(a,x,tS)},bD),aG=h[1],bF=0,bG=B[1],bH=h[2],bI=j[3],bJ=function(w,i){var
+bD=[0,j[1],j[2],P],bE=ef(function(a){return q(a,x,t1)},bD),aH=h[1],bF=0,bG=B[1],bH=h[2],bI=j[3],bJ=function(w,i){var
 c=ee(i[1]);if(c){var
 j=c[1],e=i[2];if(e){var
 f=c_(i[3]);if(f){var
-k=f[1],l=function(c){return aT(c,aG,Q(a,b))},u=l(w),v=e[1],g=A(t(a,l(bG),v),u),m=I(d,g[1]),o=m?bb(a,n,f7(aG,bH,j,am([0,H(ae(g),k),0],n))):m;if(o){var
-h=f8(a,j,am([0,H(t(a,bI,g),k),0],n));if(h)return bb(a,n,h[1]);var
+k=f[1],l=function(c){return aU(c,aH,Q(a,b))},u=l(w),v=e[1],g=A(t(a,l(bG),v),u),m=I(d,g[1]),o=m?bd(a,n,f7(aH,bH,j,am([0,H(ae(g),k),0],n))):m;if(o){var
+h=f8(a,j,am([0,H(t(a,bI,g),k),0],n));if(h)return bd(a,n,h[1]);var
 p=h}else
 var
 p=o;var
@@ -4151,7 +4149,7 @@ var
 r=e;var
 s=r}else
 var
-s=c;return s};return iD(function(b,a){return ef},bJ,bF,aE,d,bE)}var
+s=c;return s};return iE(function(b,a){return ef},bJ,bF,aE,d,bE)}var
 aJ=aF}else
 var
 aJ=B;return aJ}return 0;case
@@ -4164,7 +4162,7 @@ b=ee(f[1]);if(b){var
 c=b[1],d=f[2];if(d){var
 e=c_(f[3]);if(e){var
 h=p(g(c),n),i=h?p(g(aK),n):h;if(i){var
-m=d6(aL,d7(aL,aK,d[1],c));return bb(a,n,ba(f$(a,bO,bN,e[1],c),m))}var
+m=d6(aL,d7(aL,aK,d[1],c));return bd(a,n,bc(f$(a,bO,bN,e[1],c),m))}var
 j=i}else
 var
 j=e;var
@@ -4177,54 +4175,54 @@ l=b;return l},u=bK,s=bM,r=bP,o=j[5];if(aR)return 0;break;case
 4:var
 aS=0;if(typeof
 h==="number"&&!h)var
-u=j[1],s=0,r=tb,o=0;else
+u=j[1],s=0,r=tk,o=0;else
 aS=1;if(aS)return 0;break;case
 5:var
-aU=0;if(typeof
-h==="number"||!(0===h[0]))aU=1;else{var
-C=h[2],aV=0;if(C){var
+aV=0;if(typeof
+h==="number"||!(0===h[0]))aV=1;else{var
+C=h[2],aW=0;if(C){var
 D=C[1];if(D){if(D[2])return 0;if(C[2])return 0;var
-bQ=j[2],bR=j[1],bS=Q(a,b),bT=[0,[0,D[1],0],0],bU=h[1],u=bQ,s=bR,bV=0,r=function(b){return mC(a,tT,bU,bT,bS,b)},o=bV;aV=1}else
+bQ=j[2],bR=j[1],bS=Q(a,b),bT=[0,[0,D[1],0],0],bU=h[1],u=bQ,s=bR,bV=0,r=function(b){return mG(a,t2,bU,bT,bS,b)},o=bV;aW=1}else
 var
 aO=D}else
 var
-aO=C;if(!aV)return aO}if(aU)return 0;break;case
+aO=C;if(!aW)return aO}if(aV)return 0;break;case
 6:var
-aW=0;if(typeof
+aX=0;if(typeof
 h==="number"&&!h)var
-bW=j[2],bX=j[1],bY=Q(a,b),u=bW,s=bX,bZ=0,r=function(b){return mE(a,tU,bY,b)},o=bZ;else
-aW=1;if(aW)return 0;break;case
+bW=j[2],bX=j[1],bY=Q(a,b),u=bW,s=bX,bZ=0,r=function(b){return mI(a,t3,bY,b)},o=bZ;else
+aX=1;if(aX)return 0;break;case
 7:var
 aY=0;if(typeof
 h==="number"&&5<=h)var
-b0=j[2],b1=j[1],b2=j[4],b4=j[3],u=b0,s=b1,b9=0,r=function(b){return mD(a,n,b4,b2,b)},o=b9;else
+b0=j[2],b1=j[1],b2=j[4],b4=j[3],u=b0,s=b1,b9=0,r=function(b){return mH(a,n,b4,b2,b)},o=b9;else
 aY=1;if(aY)return 0;break;case
 8:if(typeof
 h!=="number"&&9===h[0]){var
-E=h[4],aP=h[2],T=h[1],l=j[1],w=l[9],b_=h[3],a3=l[5],a4=f1(f(dS(l[4]),a3),aw),a5=e($,br),y=l[9],a6=l[8],a7=l[7],a1=ga(y,am(v,dP(k,y)),a6),a2=f(e($,aX(y,R)),a1),W=kP(0,bL(a,f(ga(0,aH(y,R),a7),a2),a5),a4,aw,0),Y=0<aM(E)?0<aM(d)?fS(E,d):0:0<aM(d)?0:1;if(Y)var
+E=h[4],aP=h[2],T=h[1],l=j[1],w=l[9],b_=h[3],a3=l[5],a4=f1(f(dS(l[4]),a3),aw),a5=e($,br),y=l[9],a6=l[8],a7=l[7],a1=ga(y,am(v,dP(k,y)),a6),a2=f(e($,aT(y,R)),a1),W=kR(0,bL(a,f(ga(0,aG(y,R),a7),a2),a5),a4,aw,0),Y=0<aM(E)?0<aM(d)?fS(E,d):0:0<aM(d)?0:1;if(Y)var
 F=Y;else
 var
-at=2<=kB(E,c(2,c(2,c(2,c(2,b)))))?0:1,au=at?aN(0,w):at,F=au?aN(w,k):au;var
+at=2<=kD(E,c(2,c(2,c(2,c(2,b)))))?0:1,au=at?aN(0,w):at,F=au?aN(w,k):au;var
 ab=F?Z(w,k):F,ac=ab?p(g(R),k):ab,ad=ac?p(g(aP),k):ac,af=ad?p(g(l[1]),k):ad,ag=af?p(g(l[6]),k):af,ah=ag?p(g(l[4]),k):ag;if(ah)var
 a8=l[4],G=m(function(a){return p(g(a),k)},a8);else
 var
 G=ah;if(G){var
-a9=l[4],K=aa(e(function(a){return mT(W,a)},a9));if(K){var
-ai=mT(W,l[5]);if(ai){var
+a9=l[4],K=aa(e(function(a){return mX(W,a)},a9));if(K){var
+ai=mX(W,l[5]);if(ai){var
 a_=l[6],L=aa(e(function(j){var
 c=j[1],k=l[7],d=q(c[1],av,0);if(d){var
 h=c[2][2],b=aa(e(function(a){var
 b=q(a[2],av,0);return z(function(a){return a[2]},b)},h));if(b)var
-i=b[1],f=[0,cq(as(t(a,k,X(a,mR(a,e(aB,c[2][2]),i)))))];else
+i=b[1],f=[0,cq(as(t(a,k,X(a,mV(a,e(aB,c[2][2]),i)))))];else
 var
 f=b;var
 g=f}else
 var
 g=d;return g},a_));if(L){var
-a$=l[1],bc=l[2],M=aa(e(function(m){function
+a$=l[1],ba=l[2],M=aa(e(function(m){function
 f(e){var
-g=am(e,k),c=mB(q(m[2],x,tG),g);if(c){var
-h=am(e,k),d=mB(q(bc,x,tH),h);if(d){var
+g=am(e,k),c=mF(q(m[2],x,tP),g);if(c){var
+h=am(e,k),d=mF(q(ba,x,tQ),h);if(d){var
 i=d[1],j=Q(a,b);return b6(a,b8(dW(c[1],j,i)))}var
 f=d}else
 var
@@ -4237,25 +4235,25 @@ i=e;var
 j=i}else
 var
 j=c;return j},a$));if(M){var
-bd=K[1],V=d3(a,aq(function(i,h){var
+bb=K[1],V=d3(a,aq(function(i,h){var
 o=e(function(b){var
 a=aA(0,k);return e(function(a){return b7(q(a,b[3],v))},a)},i);function
 b(m,l){var
-n=mP(w,m,o),g=e(function(a){return mP(w,l,a)},n);function
-b(a){return aq(bm,d,a)}var
+n=mT(w,m,o),g=e(function(a){return mT(w,l,a)},n);function
+b(a){return aq(bo,d,a)}var
 h=0;function
 i(a){return a}function
 j(a){return a}var
-c=b(aq(function(a,b){return aI(j,i,kD,a,b)},h,g)),k=[0,c,c],f=b(e(function(a){return aq(kD,d,a)},g));return d3(a,t(a,[0,f,f],k))}var
-c=b(1,1),f=b(1,0),g=b(0,1);return A(h,X(a,A(A(A(b(0,0),g),f),c)))},v,bd)),N=aT(b_,T,Q(a,b)),aj=I(d,H(N,V)[1]);if(aj){var
+c=b(aq(function(a,b){return aI(j,i,kF,a,b)},h,g)),k=[0,c,c],f=b(e(function(a){return aq(kF,d,a)},g));return d3(a,t(a,[0,f,f],k))}var
+c=b(1,1),f=b(1,0),g=b(0,1);return A(h,X(a,A(A(A(b(0,0),g),f),c)))},v,bb)),N=aU(b_,T,Q(a,b)),aj=I(d,H(N,V)[1]);if(aj){var
 O=b5(a,N);if(O){var
-be=as(t(a,V,O[1])),bg=H(Q(a,b),be),bh=[0,l[1],l[2],P],bi=ef(function(a){return q(a,x,tI)},bh),bj=l[6],bk=e(tF,_(_(L[1],M[1]),bj)),bl=X(a,bg),bn=X(a,N),bo=l[10],aZ=aA(0,k),a0=e(function(a){var
-d=bo?Z(w,a):aN(a,w);return d?b:b3(c(2,b),E)},aZ),bp=function(r){var
-h=mQ(r[1]);if(h){var
+be=as(t(a,V,O[1])),bf=H(Q(a,b),be),bg=[0,l[1],l[2],P],bh=ef(function(a){return q(a,x,tR)},bg),bi=l[6],bk=e(tO,_(_(L[1],M[1]),bi)),bl=X(a,bf),bm=X(a,N),bn=l[10],aZ=aA(0,k),a0=e(function(a){var
+d=bn?Z(w,a):aN(a,w);return d?b:b3(c(2,b),E)},aZ),bp=function(r){var
+h=mU(r[1]);if(h){var
 v=h[1],i=r[2];if(i){var
 j=i[1],l=c_(r[3]);if(l){var
-w=l[1],x=mS(a,k,bk,j,v),n=e(function(a){var
-c=a[2],b=_(a0,a[1]);return[0,e(function(a){return aT(a[1],d,a[2])},b),c]},v),F=d6(T,d7(T,aP,j,n)),o=ba(am([0,ae(w),0],k),F),G=H(t(a,j,bl),w),y=p(g(n),k),z=y?p(g(x),k):y;if(z){var
+w=l[1],x=mW(a,k,bk,j,v),n=e(function(a){var
+c=a[2],b=_(a0,a[1]);return[0,e(function(a){return aU(a[1],d,a[2])},b),c]},v),F=d6(T,d7(T,aP,j,n)),o=bc(am([0,ae(w),0],k),F),G=H(t(a,j,bl),w),y=p(g(n),k),z=y?p(g(x),k):y;if(z){var
 b=k,c=o;for(;;){if(c){if(b){var
 s=p(g(c[1]),b);if(s){var
 b=b[1],c=c[2];continue}var
@@ -4268,9 +4266,9 @@ A=b?0:1;var
 q=A;break}}else
 var
 q=z;var
-B=q?bb(a,k,ba(e(function(b){return[0,ae(t(a,bn,b[2])),0]},n),o)):q;if(B){var
-I=bf(bv(k));return m(function(g){var
-d=_(f(g,tE),x),b=[0,[0,G,0],0],c=_(o,e(function(a){return a[1]?ae(a[2]):a[2]},d));return bb(a,[0,k],f(e(function(a){return f(a[1],[0,a[2],0])},c),b))},I)}var
+B=q?bd(a,k,bc(e(function(b){return[0,ae(t(a,bm,b[2])),0]},n),o)):q;if(B){var
+I=bj(bx(k));return m(function(g){var
+d=_(f(g,tN),x),b=[0,[0,G,0],0],c=_(o,e(function(a){return a[1]?ae(a[2]):a[2]},d));return bd(a,[0,k],f(e(function(a){return f(a[1],[0,a[2],0])},c),b))},I)}var
 C=B}else
 var
 C=l;var
@@ -4279,7 +4277,7 @@ var
 D=i;var
 E=D}else
 var
-E=h;return E},bq=l[3];return i(iE(function(b,a){return ef},bq,k,bp),bi)}var
+E=h;return E},bq=l[3];return i(iF(function(b,a){return ef},bq,k,bp),bh)}var
 ak=O}else
 var
 ak=aj;var
@@ -4298,26 +4296,26 @@ ap=K;var
 ar=ap}else
 var
 ar=G;return ar}return 0;default:return 0}var
-bu=[0,s,u,P],bw=ef(function(a){return q(a,x,tR)},bu);return i(iE(function(b,a){return ef},o,k,r),bw)}function
-tV(b,a){var
-c=hK(hG,b[1],a[1]);return c?hG(b[2],a[2]):c}function
-m4(i,r,q,h,o,k,A,z,y,j,n,g,a,e){if(typeof
+bu=[0,s,u,P],bv=ef(function(a){return q(a,x,t0)},bu);return i(iF(function(b,a){return ef},o,k,r),bv)}function
+t4(b,a){var
+c=hN(hJ,b[1],a[1]);return c?hJ(b[2],a[2]):c}function
+m8(i,r,q,h,o,k,A,z,y,j,n,g,a,e){if(typeof
 e==="number"){if(0===e)return 9===a[0]?eZ(i,0,0,0,g,h,0,a[1],e):0}else
 switch(e[0]){case
 6:var
 f=e[1];if(typeof
 f!=="number"&&7===f[0]){if(k){var
-s=f[3],t=f[2],u=E(d,t),v=u?kC(s,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):u;if(v)return m3(i,r,q,h,o,j,g,n,[0,[0,[0,k[1],t],s]],a,f[1]);var
+s=f[3],t=f[2],u=F(d,t),v=u?kE(s,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):u;if(v)return m7(i,r,q,h,o,j,g,n,[0,[0,[0,k[1],t],s]],a,f[1]);var
 w=v}else
 var
-w=k;return w}return m3(i,r,q,h,o,j,g,n,0,a,f);case
+w=k;return w}return m7(i,r,q,h,o,j,g,n,0,a,f);case
 8:return 9===a[0]?eZ(i,0,0,0,g,h,0,a[1],e):0;case
 10:if(0===a[0]){var
-l=hK(tV,a[1],A),m=l?1:l,x=m?p(a[2],z):m;return x?jF(y,j,a[3],a[4],e):x}return 0}return 0}function
-m5(b){var
+l=hN(t4,a[1],A),m=l?1:l,x=m?p(a[2],z):m;return x?jH(y,j,a[3],a[4],e):x}return 0}return 0}function
+m9(b){var
 a=b[2];if(typeof
 a!=="number"&&6===a[0])return 1;return 0}function
-tW(c){var
+t5(c){var
 b=0,a=c[2];if(typeof
 a==="number"){if(0!==a)b=1}else
 switch(a[0]){case
@@ -4335,32 +4333,32 @@ c=b[1];switch(c[0]){case
 8:var
 a=0;break;case
 9:var
-a=h_(c[1]);break;default:var
+a=ib(c[1]);break;default:var
 a=1}return a?a:S(b[2])},i);if(d){var
 e=cU(aD,h),f=e9(a,o,l,j,x,w,b,u,s,C,e[1],k,c,aC);if(f)return e9(a,o,l,j,x,w,b,u,s,C,e[2],k,c,aA);var
 g=f}else
 var
 g=d;return g},N=aE,p=c[1]}var
-af=i(C,h),ab=al(tW,p),ac=ab?h4(a,l,h,f1(y(function(c){var
-a=F(j,c[1]);if(a){var
+af=i(C,h),ab=ak(t5,p),ac=ab?h7(a,l,h,f1(y(function(c){var
+a=E(j,c[1]);if(a){var
 b=a[1];switch(b[0]){case
 8:var
 d=b[1][6];return y(function(a){var
-b=e(aW,a[1][2][2]);return[0,a[1][1],b]},d);case
-9:return h$(0,0,0,b[1],c[2]);default:return 0}}return a},p),l),k):ab,ad=al(m5,p);if(ad)var
+b=e(aY,a[1][2][2]);return[0,a[1][1],b]},d);case
+9:return ic(0,0,0,b[1],c[2]);default:return 0}}return a},p),l),k):ab,ad=ak(m9,p);if(ad)var
 ar=y(function(b){var
-c=m5(b);if(c){var
-a=F(j,b[1]);if(a)return m2(a[1]);var
+c=m9(b);if(c){var
+a=E(j,b[1]);if(a)return m6(a[1]);var
 d=a}else
 var
-d=c;return d},p),as=b?[0,b[1],0]:b,at=f(as,ar),ai=0,aj=aq(eT,e(function(a){return 0},o),at),M=iC(a,h,eQ(gv(eQ(o,0),aj),ai),k);else
+d=c;return d},p),as=b?[0,b[1],0]:b,at=f(as,ar),ai=0,aj=aq(eT,e(function(a){return 0},o),at),M=iD(a,h,eQ(gy(eQ(o,0),aj),ai),k);else
 var
 M=ad;var
 r=p,g=au;for(;;){if(r){var
 R=r[1],D=R[2],n=R[1],G=r[2];if(n){var
 T=q(n,g,0);if(T){var
-J=F(j,n);if(J){var
-U=m4(a,l,h,x,w,b,u,s,af,k,M,ac,J[1],D);if(U){var
+J=E(j,n);if(J){var
+U=m8(a,l,h,x,w,b,u,s,af,k,M,ac,J[1],D);if(U){var
 r=G,g=gi(n,g);continue}var
 V=U}else
 var
@@ -4372,7 +4370,7 @@ B=W}else{var
 ag=0;if(typeof
 D==="number"&&4===D){var
 ah=0;if(b){var
-ap=0,O=e(function(b){return[0,b,X(a,b)]},k),am=e(aW,O),ak=0,an=f(e(aB,O),am),ao=bo(0,function(o){return function(b){switch(b[0]){case
+ap=0,O=e(function(b){return[0,b,X(a,b)]},k),am=e(aY,O),al=0,an=f(e(aB,O),am),ao=bq(0,function(o){return function(b){switch(b[0]){case
 0:return[0,q(b[1],o,v)];case
 1:return[0,q(b[1],h,v)];case
 2:return[0,Q(a,b[1])];case
@@ -4390,10 +4388,10 @@ d=b5(a,b);return z(function(b){return t(a,c,b)},d)},l,k);case
 8:var
 m=b[1];return c8(function(b){return[0,X(a,b)]},m);case
 9:var
-n=b[1];return c8(function(b){return b6(a,b)},n);default:return 0}}}(an),o,ak),E=q(b[1],ao,ap);if(E){var
-K=I(E[1][2],d);ah=1}else
+n=b[1];return c8(function(b){return b6(a,b)},n);default:return 0}}}(an),o,al),F=q(b[1],ao,ap);if(F){var
+K=I(F[1][2],d);ah=1}else
 var
-P=E}else
+P=F}else
 var
 P=b;if(!ah)var
 K=P;if(K){var
@@ -4401,8 +4399,8 @@ r=G,g=e(function(a){return 0},g);continue}var
 B=K}else
 ag=1;if(ag){var
 Y=q(n,g,0);if(Y){var
-L=F(j,n);if(L){var
-Z=m4(a,l,h,x,w,b,u,s,af,k,M,ac,L[1],D);if(Z){var
+L=E(j,n);if(L){var
+Z=m8(a,l,h,x,w,b,u,s,af,k,M,ac,L[1],D);if(Z){var
 r=G,g=gi(n,g);continue}var
 $=Z}else
 var
@@ -4413,172 +4411,172 @@ aa=Y;var
 B=aa}}}else
 var
 B=[0,g];return B?N(B[1]):B}}function
-iK(d,a){var
-e=R(a),f=s(s(k(c(2,b)),a),d);return C(x(R(d),f),e)}function
-iL(k,a,d,j,c,h){var
-e=ah(x,du(k),j);if(h){var
+iL(d,a){var
+e=R(a),f=s(s(k(c(2,b)),a),d);return C(w(R(d),f),e)}function
+iM(k,a,d,j,c,h){var
+e=ah(w,dv(k),j);if(h){var
 b=function(b){var
-c=i(b,a[3]),d=i(b,a[2]);return[0,i(b,a[1]),d,c]},f=b(function(a){return a[3]}),g=b(function(a){return a[2]}),l=e8([0,b(function(a){return a[1]}),g,f],e);return ah(C,aY(d,c),l)}var
-m=e8(a,c);return ah(C,aY(d,e),m)}function
-m6(f,h,g,l,a,d){var
-e=du(f),i=ah(x,e,a),j=e8(h,d),m=iK(e[3],a[3]),n=iK(e[2],a[2]),o=iK(e[1],a[1]),p=C(C(C(V(d,d),o),n),m),q=V(j,i),r=s(k(c(2,b)),q),t=C(s(g,p),r),u=bg(cc(j,i),l);return[0,gz(f,iL(f,h,g,a,d,0),u),t]}function
-m7(d,c,b,a){var
-e=gA(c,b,a);return ah(C,du(d),e)}function
-m8(g,f,e,d,c){var
-b=m7(g,f,e,c),a=ah(x,b,d);return[0,[0,b,a],aG(V(a,a))]}function
-gC(b,a){var
-c=a4(a[2],b);return f(a4(a[1],b),c)}function
-iM(d,b,a,c){if(a)var
-e=a[1],f=cx(c,gC(b,e)),i=P(c,g(gC(b,e))),j=iM(d,b,a[2],i),k=aj(f,tX),h=[0,ao(d,aj(f,0),k),j];else
+c=i(b,a[3]),d=i(b,a[2]);return[0,i(b,a[1]),d,c]},f=b(function(a){return a[3]}),g=b(function(a){return a[2]}),l=e8([0,b(function(a){return a[1]}),g,f],e);return ah(C,aZ(d,c),l)}var
+m=e8(a,c);return ah(C,aZ(d,e),m)}function
+m_(f,h,g,l,a,d){var
+e=dv(f),i=ah(w,e,a),j=e8(h,d),m=iL(e[3],a[3]),n=iL(e[2],a[2]),o=iL(e[1],a[1]),p=C(C(C(V(d,d),o),n),m),q=V(j,i),r=s(k(c(2,b)),q),t=C(s(g,p),r),u=bk(cc(j,i),l);return[0,gC(f,iM(f,h,g,a,d,0),u),t]}function
+m$(d,c,b,a){var
+e=gD(c,b,a);return ah(C,dv(d),e)}function
+na(g,f,e,d,c){var
+b=m$(g,f,e,c),a=ah(w,b,d);return[0,[0,b,a],aC(V(a,a))]}function
+gF(b,a){var
+c=a5(a[2],b);return f(a5(a[1],b),c)}function
+iN(d,b,a,c){if(a)var
+e=a[1],f=cx(c,gF(b,e)),i=P(c,g(gF(b,e))),j=iN(d,b,a[2],i),k=aj(f,t6),h=[0,ao(d,aj(f,0),k),j];else
 var
 h=a;return h}function
-iN(f,o,e,n,a){var
+iO(f,o,e,n,a){var
 g=s(R(q(0,n,k(d))),o);if(typeof
 a!=="number")switch(a[0]){case
 2:var
-b=F(e,a[1]);if(b)var
-i=h(f,0,a[2]),j=i?[0,x(b[1][1][2],g)]:i;else
+b=E(e,a[1]);if(b)var
+i=h(f,0,a[2]),j=i?[0,w(b[1][1][2],g)]:i;else
 var
 j=b;return j;case
 3:var
-c=F(e,a[1]);if(c)var
-l=h(f,0,a[2]),m=l?[0,x(g,c[1][1][2])]:l;else
+c=E(e,a[1]);if(c)var
+l=h(f,0,a[2]),m=l?[0,w(g,c[1][1][2])]:l;else
 var
 m=c;return m}return 0}function
-m9(c,b,a){if(typeof
+nb(c,b,a){if(typeof
 a!=="number"&&6===a[0]){var
-e=F(c,a[1]);return z(function(a){var
+e=E(c,a[1]);return z(function(a){var
 c=q(0,b,k(d)),e=i(a[2][2],c);return[0,a[2][1],e]},e)}return 0}function
-gD(a){return h(l,0,[3,[0,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b))))))))),b],a])}function
-m_(a){var
-b=aj(a,tY),c=aG(V(aj(a,tZ),b));return s(q(0,a,k(d)),c)}function
-m$(b,a){var
-c=V(a,aj(b,t0));return[0,bN(aY(m_(b),a)),c]}function
-na(e,d,a,c,b){var
-f=b[2],g=s(m_(a),f),h=c?gA(e,d,aj(a,t1)):aj(a,t2);return x(V(b[1][2],h),g)}function
-nb(h,g,f,d,c,b,a){var
-i=bw(c);function
-j(a){return m7(h,g,f,a)}return lP(e(function(a){return[0,a[4]]},d),j,i,b,a)}function
+gG(a){return h(l,0,[3,[0,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b))))))))),b],a])}function
+nc(a){var
+b=aj(a,t7),c=aC(V(aj(a,t8),b));return s(q(0,a,k(d)),c)}function
+nd(b,a){var
+c=V(a,aj(b,t9));return[0,bN(aZ(nc(b),a)),c]}function
+ne(e,d,a,c,b){var
+f=b[2],g=s(nc(a),f),h=c?gD(e,d,aj(a,t_)):aj(a,t$);return w(V(b[1][2],h),g)}function
+nf(h,g,f,d,c,b,a){var
+i=by(c);function
+j(a){return m$(h,g,f,a)}return lR(e(function(a){return[0,a[4]]},d),j,i,b,a)}function
 e_(a){var
-b=q(t3,a,k(d));return ak(q(0,a,k(d)),b)}function
-iO(a){return a[4][2]}function
-nc(g,o,n,m,a){var
-p=a[1][2],q=e(aW,gm(n,a[1][2])),h=e_(m),i=s(s(k(c(2,b)),o),h),d=a[1][1],j=aX(cD(g),d),l=e(function(a){return s(a,i)},j);return[0,f(f(aH(cD(g),d),l),q),p]}function
-nd(a){var
-b=a[3],c=a[2],d=a[1];return gr([0,[0,d,d],[0,c,c],[0,b,b]])}function
-ua(a){if(typeof
+b=q(ua,a,k(d));return al(q(0,a,k(d)),b)}function
+iP(a){return a[4][2]}function
+ng(g,o,n,m,a){var
+p=a[1][2],q=e(aY,gm(n,a[1][2])),h=e_(m),i=s(s(k(c(2,b)),o),h),d=a[1][1],j=aT(cD(g),d),l=e(function(a){return s(a,i)},j);return[0,f(f(aG(cD(g),d),l),q),p]}function
+nh(a){var
+b=a[3],c=a[2],d=a[1];return gt([0,[0,d,d],[0,c,c],[0,b,b]])}function
+uj(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-ne(b,a){switch(b){case
+ni(b,a){switch(b){case
 0:return[0,a[1],[0,a[2],0]];case
 1:return[0,a[1],[0,a[2],[0,a[3],0]]];default:return 0}}function
-gE(a){var
+gH(a){var
 c=ct(a[1],[0,d,b]);return c?ct(a[2],[0,d,b]):c}function
-iP(d,a){switch(d){case
-0:return gE(a[3]);case
+iQ(d,a){switch(d){case
+0:return gH(a[3]);case
 1:return 1;default:var
-b=gE(a[1]),c=b?gE(a[2]):b;return c?gE(a[3]):c}}function
-iQ(c,b){var
-a=y(function(a){return gC(c,a)},b),d=_(aA(0,g(a)),a);return e(aB,bn(function(a){return ig(a[2])},d))}function
-nf(b){var
+b=gH(a[1]),c=b?gH(a[2]):b;return c?gH(a[3]):c}}function
+iR(c,b){var
+a=y(function(a){return gF(c,a)},b),d=_(aA(0,g(a)),a);return e(aB,bp(function(a){return ij(a[2])},d))}function
+nj(b){var
 a=b[2];if(typeof
 a!=="number"&&10===a[0])return 1;return 0}function
-ng(c){var
-a=c;for(;;){if(0===a[0])return al(nf,a[1]);var
-d=al(nf,a[1]),b=d||ng(a[3]);if(b)return b;var
+nk(c){var
+a=c;for(;;){if(0===a[0])return ak(nj,a[1]);var
+d=ak(nj,a[1]),b=d||nk(a[3]);if(b)return b;var
 a=a[4];continue}}function
-ub(a,aQ,bE,A,B,aP){var
-n=A[1],j=br(n),Y=A[6],bF=A[2],K=y(function(a){return gC(B,a)},bF),aR=A[3],O=[0,[0,aR,aR],B],$=[0,g(K)],bG=0,aS=y(function(a){return e5(bG,B,a)},Y),bH=cD(n),aT=mH(A[5],bH),o=aT[2],G=aT[1],J=cZ(O,g(K)),bJ=A[2],T=g(K),bI=0,w=iM(function(e,a){function
+uk(a,aQ,bE,A,B,aP){var
+n=A[1],j=bt(n),Y=A[6],bF=A[2],K=y(function(a){return gF(B,a)},bF),aR=A[3],O=[0,[0,aR,aR],B],$=[0,g(K)],bG=0,aS=y(function(a){return e5(bG,B,a)},Y),bH=cD(n),aT=mL(A[5],bH),o=aT[2],G=aT[1],J=cZ(O,g(K)),bJ=A[2],T=g(K),bI=0,x=iN(function(e,a){function
 i(g){var
-c=br(n);if(n)var
+c=bt(n);if(n)var
 b=[0,[0,[0,c]],[0,[0,[0,c]]],[0,[0,[0,[0,c]]]]];else
 var
 m=k(d),b=[0,k(d),m,[0,[0,c]]];var
-t=mV(n,G,o,e,a,b)[2],h=mV(n,G,o,e,a,b),i=h[1],j=bg(i[2],h[2]),l=cc(i[1],j),p=ah(C,l,cc(l,b)),f=aY(mU(b),p),q=s(f[3],g),r=s(f[2],g);return[0,gz(n,j,[0,s(f[1],g),r,q]),t]}function
+t=mZ(n,G,o,e,a,b)[2],h=mZ(n,G,o,e,a,b),i=h[1],j=bk(i[2],h[2]),l=cc(i[1],j),p=ah(C,l,cc(l,b)),f=aZ(mY(b),p),q=s(f[3],g),r=s(f[2],g);return[0,gC(n,j,[0,s(f[1],g),r,q]),t]}function
 j(Y){var
-v=m8(n,G,o,e,a),w=v[1],W=ah(x,du(n),e),y=v[2],r=w[1],X=w[2],g=gA(G,o,a),i=bg(X,y),N=ak(V(g,i),J),O=R(J),P=ak(V(a,a),O),Q=2<=n?d:b,S=C(k(Q),P);function
-h(a){return[0,mN(a),0]}function
-f(a){return[0,bg(cc(mN(a),g),J),[0,a]]}switch(n){case
+v=na(n,G,o,e,a),x=v[1],W=ah(w,dv(n),e),y=v[2],r=x[1],X=x[2],g=gD(G,o,a),i=bk(X,y),N=al(V(g,i),J),O=R(J),P=al(V(a,a),O),Q=2<=n?d:b,S=C(k(Q),P);function
+h(a){return[0,mR(a),0]}function
+f(a){return[0,bk(cc(mR(a),g),J),[0,a]]}switch(n){case
 0:var
-B=[0,f(tt),0],D=[0,h(tu),B],q=[0,h(0),D];break;case
+B=[0,f(tC),0],D=[0,h(tD),B],q=[0,h(0),D];break;case
 1:var
-E=[0,f(tv),0],F=[0,f(tw),E],H=[0,f(0),F],I=[0,h(tx),H],K=[0,h(ty),I],q=[0,h(0),K];break;default:var
-L=[0,f(tz),0],M=[0,f(tA),L],q=[0,f(0),M]}var
-j=ah(x,[0,[0,[1,T]],[0,[1,[0,T]]],[0,[1,[0,[0,T]]]]],e),l=bg(j,aG(V(j,j)));if(n)var
-m=iG(n,T,e,r,l[3]);else
+E=[0,f(tE),0],F=[0,f(tF),E],H=[0,f(0),F],I=[0,h(tG),H],K=[0,h(tH),I],q=[0,h(0),K];break;default:var
+L=[0,f(tI),0],M=[0,f(tJ),L],q=[0,f(0),M]}var
+j=ah(w,[0,[0,[1,T]],[0,[1,[0,T]]],[0,[1,[0,[0,T]]]]],e),l=bk(j,aC(V(j,j)));if(n)var
+m=iH(n,T,e,r,l[3]);else
 var
 z=k(d),A=k(d),m=[0,k(d),A,z];var
-t=iG(n,T,e,r,l[2]),u=iG(n,T,e,r,l[1]),U=mO(function(r,v){var
+t=iH(n,T,e,r,l[2]),u=iH(n,T,e,r,l[1]),U=mS(function(r,v){var
 e=v[1];function
 a(b,a){var
-c=e[3],f=dt(a,m),g=s(C(b[3],f),c),h=e[2],i=dt(a,t),j=s(C(b[2],i),h),l=e[1],n=dt(a,u),o=s(C(b[1],n),l);return C(C(C(k(d),o),j),g)}var
-w=a(m,tB),y=a(t,tC),z=[0,a(u,0),y,w],f=V(r[1],z),l=r[2];if(l){var
+c=e[3],f=du(a,m),g=s(C(b[3],f),c),h=e[2],i=du(a,t),j=s(C(b[2],i),h),l=e[1],n=du(a,u),o=s(C(b[1],n),l);return C(C(C(k(d),o),j),g)}var
+x=a(m,tK),y=a(t,tL),z=[0,a(u,0),y,x],f=V(r[1],z),l=r[2];if(l){var
 h=l[1],n=v[2];if(n){var
-j=n[1],A=dt(h,g),B=s(dt(j,i),A),D=dt(j,g),o=C(s(dt(h,i),D),B),E=R(J);if(p(h,j))var
-F=V(i,g),q=x(o,s(k(c(2,b)),F));else
+j=n[1],A=du(h,g),B=s(du(j,i),A),D=du(j,g),o=C(s(du(h,i),D),B),E=R(J);if(p(h,j))var
+F=V(i,g),q=w(o,s(k(c(2,b)),F));else
 var
-q=o;return C(f,ak(q,E))}return f}return f},q);return[0,gz(n,i,bg(cc(g,bg(W,y)),J)),U,S,N]}var
-l=m8(n,G,o,e,a);function
-m(b){return iL(n,G,o,e,a,b)}var
+q=o;return C(f,al(q,E))}return f}return f},q);return[0,gC(n,i,bk(cc(g,bk(W,y)),J)),U,S,N]}var
+l=na(n,G,o,e,a);function
+m(b){return iM(n,G,o,e,a,b)}var
 f=2<=n?d:b;function
 g(b){var
-c=R(J),d=k(f),e=s(x(R(b),d),c);return s(o,x(V(a,a),e))}var
-h=[0,V(iL(n,G,o,e,a,1),a),g];return[0,m6(n,G,o,J,e,a),h,m,l,j,i]},B,bJ,bI),U=e(function(a){return a[1]},w),bK=P($,g(aS)),bL=cD(n),bM=A[5];function
+c=R(J),d=k(f),e=s(w(R(b),d),c);return s(o,w(V(a,a),e))}var
+h=[0,V(iM(n,G,o,e,a,1),a),g];return[0,m_(n,G,o,J,e,a),h,m,l,j,i]},B,bJ,bI),U=e(function(a){return a[1]},x),bK=P($,g(aS)),bL=cD(n),bM=A[5];function
 N(a){return[0,[0,P(bL,a)]]}var
 aI=R([0,[1,bK]]);switch(bM[0]){case
 2:var
-bu=N(tl),bv=N(tm),aJ=[0,N(0),bv,bu],D=[0,x(aI,V(aJ,aJ))];break;case
+bs=N(tu),bv=N(tv),aJ=[0,N(0),bv,bs],D=[0,w(aI,V(aJ,aJ))];break;case
 3:var
-bw=R(N(tn)),bx=R(N(0)),by=R(N(to)),D=[0,x(x(s(aI,C(k(b),by)),bx),bw)];break;default:var
+bw=R(N(tw)),bx=R(N(0)),by=R(N(tx)),D=[0,w(w(s(aI,C(k(b),by)),bx),bw)];break;default:var
 D=0}var
 aU=A[7];if(aU)var
-bO=0,bQ=A[2],ao=iM(function(j,k){var
-a=m6(n,G,o,cZ(O,g(K)),j,k),c=a[1];if(c){var
+bO=0,bQ=A[2],ao=iN(function(j,k){var
+a=m_(n,G,o,cZ(O,g(K)),j,k),c=a[1];if(c){var
 d=c[2],b=c[1];if(d){var
 h=d[2],e=d[1];if(h){var
 i=h[1],f=cc(j,[0,b,e,i]);return[0,[0,b,[0,e,[0,i,[0,f[1],[0,f[2],[0,f[3],0]]]]]],a[2]]}return[0,[0,b,[0,e,0]],a[2]]}return[0,[0,b,0],a[2]]}return[0,0,a[2]]},B,bQ,bO);else
 var
 ao=aU;var
-bR=bP(ao),bS=D?[0,D[1],0]:D,bT=f(bS,bR),bU=0,bV=f(K,[0,O,0]),bD=e(function(a){return a[1]},w),bW=[0,o,f(c7(function(c,b){if(typeof
+bR=bP(ao),bS=D?[0,D[1],0]:D,bT=f(bS,bR),bU=0,bV=f(K,[0,O,0]),bD=e(function(a){return a[1]},x),bW=[0,o,f(c7(function(c,b){if(typeof
 b!=="number")switch(b[0]){case
 6:var
-g=m9(w,c,b);if(g)var
+g=nb(x,c,b);if(g)var
 j=g[1],k=[0,j[1],[0,j[2],0]];else
 var
 k=g;return k;case
-8:return e(aW,gs(bD,c));case
+8:return e(aY,gv(bD,c));case
 13:var
-h=F(w,b[1]);if(h){var
-l=gD(b[4]);if(l){var
-m=m$(c,i(h[1][3],b[2]));return f(m[1],[0,m[2],0])}var
+h=E(x,b[1]);if(h){var
+l=gG(b[4]);if(l){var
+m=nd(c,i(h[1][3],b[2]));return f(m[1],[0,m[2],0])}var
 p=l}else
 var
 p=h;return p;case
-16:return y(function(a){return nc(n,J,bV,c,a)[1]},w)}var
-d=iN(a,o,w,c,b),q=d?[0,d[1],0]:d;return q},bU,B,$,Y),bT)],ap=f(bP(U),bW),bX=0,bY=f(K,[0,O,0]),aV=c7(function(b,a){if(typeof
+16:return y(function(a){return ng(n,J,bV,c,a)[1]},x)}var
+d=iO(a,o,x,c,b),q=d?[0,d[1],0]:d;return q},bU,B,$,Y),bT)],ap=f(bP(U),bW),bX=0,bY=f(K,[0,O,0]),aV=c7(function(b,a){if(typeof
 a!=="number")switch(a[0]){case
 13:var
-g=F(w,a[1]);if(g){if(gD(a[4]))return 0;var
-l=[0,na(G,o,b,a[2],g[1][4]),0]}else
+g=E(x,a[1]);if(g){if(gG(a[4]))return 0;var
+l=[0,ne(G,o,b,a[2],g[1][4]),0]}else
 var
 l=g;return l;case
 14:var
-h=nb(n,G,o,w,b,a[1],a[2]);if(h){var
+h=nf(n,G,o,x,b,a[1],a[2]);if(h){var
 m=h[1],p=m[2],r=m[1];return y(bN,[0,r[1],[0,r[2],[0,p[1],[0,p[2],0]]]])}return h;case
 15:var
-j=F(w,a[1]);if(j){var
-c=i(j[1][5],0),s=[0,c[3],[0,c[4],0]],t=[0,q(t4,b,k(d)),s],u=[0,q(0,b,k(d)),t],v=f(dS(c[2]),u);return f(c[1],v)}return j;case
+j=E(x,a[1]);if(j){var
+c=i(j[1][5],0),s=[0,c[3],[0,c[4],0]],t=[0,q(ub,b,k(d)),s],u=[0,q(0,b,k(d)),t],v=f(dS(c[2]),u);return f(c[1],v)}return j;case
 16:var
-x=y(function(a){var
-b=e(aW,gm(bY,iO(a)));return[0,iO(a),b]},w);return f(y(function(a){var
-c=e_(b),d=[0,i(a[6],c)[2],0],e=e_(b);return f(i(a[6],e)[1],d)},w),x)}return 0},bX,B,$,Y),aX=cP(e(function(a){return bs(j,a)},ap))[1],aZ=cP(aV)[1],Z=cO(aX),aq=cO(aZ);function
-u(a){return a$(Z,bs(j,a))}function
+w=y(function(a){var
+b=e(aY,gm(bY,iP(a)));return[0,iP(a),b]},x);return f(y(function(a){var
+c=e_(b),d=[0,i(a[6],c)[2],0],e=e_(b);return f(i(a[6],e)[1],d)},x),w)}return 0},bX,B,$,Y),aW=cP(e(function(a){return bu(j,a)},ap))[1],aX=cP(aV)[1],Z=cO(aW),aq=cO(aX);function
+u(a){return bb(Z,bu(j,a))}function
 a0(i){if(0===A[4][0]){var
 s=z(u,D),t=u(o),e=cD(n),f=p(g(i),j);if(f)var
 h=z(function(a){return[0,[0,a,d],d]},s),a=function(a){return q(a,Z,k(d))},c=a(t),l=aA(0,e),b=m(function(b){var
-d=ds(j,b,c),e=d?m(function(d){var
+d=dt(j,b,c),e=d?m(function(d){var
 f=d[1],e=m(function(c){var
 d=a(c);return cC(P(j,b),d)},f);if(e){var
-g=a(d[2]);return gt(c,P(j,b),g)}return e},i):d;if(e){if(h){var
+g=a(d[2]);return gw(c,P(j,b),g)}return e},i):d;if(e){if(h){var
 g=a(h[1][1][1]);return cC(P(j,b),g)}var
 f=1}else
 var
@@ -4587,47 +4585,47 @@ var
 b=f;var
 r=b?e:b;return r}return 0}var
 W=a0(i(av(u),U)),a1=m(function(a){var
-b=bs(j,a),c=k(d);return aF(q(u(a),Z,c),b)},ap),a2=a1?m(function(a){return gu(j,a)},ap):a1,a3=a2?m(function(a){var
-b=k(d);return aF(q(a$(aq,a),aq,b),a)},aV):a2,a4=a3?al(ua,Y):a3;if(a4){var
+b=bu(j,a),c=k(d);return aH(q(u(a),Z,c),b)},ap),a2=a1?m(function(a){return gx(j,a)},ap):a1,a3=a2?m(function(a){var
+b=k(d);return aH(q(bb(aq,a),aq,b),a)},aV):a2,a4=a3?ak(uj,Y):a3;if(a4){var
 a5=S(A[7]);if(a5)var
 ab=a5;else{var
 bq=A[5];if(1===n&&2===bq[0])var
-bC=bq[1],bt=h(a,1,[3,[0,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b))))))))),b],bC]);else
+bC=bq[1],br=h(a,1,[3,[0,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b))))))))),b],bC]);else
 var
-bt=0;var
-ab=bt}}else
+br=0;var
+ab=br}}else
 var
 ab=a4;var
-a6=ab?iP(n,ea(A[4])):ab,a7=a6?h(a,1,A[3]):a6;if(a7)var
-bZ=gy(A[5]),ar=m(function(b){var
+a6=ab?iQ(n,ea(A[4])):ab,a7=a6?h(a,1,A[3]):a6;if(a7)var
+bZ=gB(A[5]),ar=m(function(b){var
 c=c5(a,b[1]);return c?c5(a,b[2]):c},bZ);else
 var
 ar=a7;if(ar){var
 b0=f(K,[0,O,0]),as=aa(e(function(b){return an(a,b)},b0));if(as){var
-at=aa(e(function(b){return iy(a,b)},aS));if(at){var
-b1=ne(n,ea(A[4])),au=aa(e(function(b){return an(a,[0,b,B])},b1));if(au){var
-a8=au[1],b2=mJ(A[5]),aw=aa(e(function(b){return mL(a,b)},b2));if(aw){var
-a9=aw[1],b3=mI(A[5]),ax=aa(e(c4(a),b3));if(ax){var
-b4=0,I=function(a){return a$(aq,a)},ay=f(K,[0,O,0]),az=aa(c7(function(j,f){if(typeof
+at=aa(e(function(b){return iz(a,b)},aS));if(at){var
+b1=ni(n,ea(A[4])),au=aa(e(function(b){return an(a,[0,b,B])},b1));if(au){var
+a8=au[1],b2=mN(A[5]),aw=aa(e(function(b){return mP(a,b)},b2));if(aw){var
+a9=aw[1],b3=mM(A[5]),ax=aa(e(c4(a),b3));if(ax){var
+b4=0,I=function(a){return bb(aq,a)},ay=f(K,[0,O,0]),az=aa(c7(function(j,f){if(typeof
 f!=="number")switch(f[0]){case
 13:var
-D=f[4],aM=F(w,f[1]);if(aM){if(nd(f[3])&&h(a,0,D)&&h(a,0,[3,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b],D])){var
-aN=f[2],aO=aM[1];if(gD(D)){var
-aG=m$(j,i(aO[3],aN)),U=aG[2];if(h(l,0,[3,D,[0,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b))))))))),b]]))var
+D=f[4],aM=E(x,f[1]);if(aM){if(nh(f[3])&&h(a,0,D)&&h(a,0,[3,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b],D])){var
+aN=f[2],aO=aM[1];if(gG(D)){var
+aG=nd(j,i(aO[3],aN)),U=aG[2];if(h(l,0,[3,D,[0,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b))))))))),b]]))var
 aH=0;else
 var
 be=u(U),bf=u(U),aH=[0,[6,[0,[0,e(u,aG[1]),bf],0],be],0];var
 aP=[0,[4,u(U)],aH]}else
 var
-aP=[0,[9,[3,I(na(G,o,j,aN,aO[4]))]],0];return e(function(a){return[0,a]},aP)}return t_}return t$;case
+aP=[0,[9,[3,I(ne(G,o,j,aN,aO[4]))]],0];return e(function(a){return[0,a]},aP)}return uh}return ui;case
 16:var
-Y=f[3],t=f[2],aQ=f[1],bg=br(n);if(p(g(w),bg)&&h(a,0,aQ)&&h(a,1,t)&&h(a,1,Y)&&c5(a,Y)){var
+Y=f[3],t=f[2],aQ=f[1],bg=bt(n);if(p(g(x),bg)&&h(a,0,aQ)&&h(a,1,t)&&h(a,1,Y)&&c5(a,Y)){var
 aI=an(a,[0,[0,t,t],B]);if(aI){var
 bh=aI[1],aJ=i(c4(a),Y);if(aJ){var
 bi=aJ[1],aK=aa(e(function(f){var
-b=lY(a,I,ay,B,aQ,t,iO(f));if(b){var
-c=lX(a,u,ay,B,t,f[1][2]);if(c){var
-g=gB(0,0,f[1][2]);if(g)var
+b=l0(a,I,ay,B,aQ,t,iP(f));if(b){var
+c=lZ(a,u,ay,B,t,f[1][2]);if(c){var
+g=gE(0,0,f[1][2]);if(g)var
 i=e(aB,c[1]),d=[0,[0,b[1],i]];else
 var
 d=g}else
@@ -4635,32 +4633,32 @@ var
 d=c;var
 h=d}else
 var
-h=b;return h},w));if(aK){var
-bj=aK[1],bk=e(function(a){return nc(n,J,ay,j,a)},w),aL=i(av(u),bk),V=function(a){var
+h=b;return h},x));if(aK){var
+bj=aK[1],bk=e(function(a){return ng(n,J,ay,j,a)},x),aL=i(av(u),bk),V=function(a){var
 b=cD(n),c=e(function(a){var
-b=e_(j);return I(i(a[6],b)[2])},w),d=e(function(a){var
-b=e_(j);return e(I,i(a[6],b)[1])},w),f=a0(aL);return[0,[8,[0,aL,u(o),f,d,c,bj,bh,bi,b,a]]]};if(2<=n)return[0,V(1),0];var
-bl=[0,V(1),0];return[0,V(0),bl]}return t6}return t7}return t8}return t9}var
-bm=0,x=e(function(a){return a[1]},w);function
+b=e_(j);return I(i(a[6],b)[2])},x),d=e(function(a){var
+b=e_(j);return e(I,i(a[6],b)[1])},x),f=a0(aL);return[0,[8,[0,aL,u(o),f,d,c,bj,bh,bi,b,a]]]};if(2<=n)return[0,V(1),0];var
+bl=[0,V(1),0];return[0,V(0),bl]}return ud}return ue}return uf}return ug}var
+bm=0,w=e(function(a){return a[1]},x);function
 Z(c,b,a){return[0,c,b,a,W]}var
 H=0;if(typeof
 f==="number")var
-aS=u(o),s=[0,Z(i(av(u),x),aS,v)];else
+aS=u(o),s=[0,Z(i(av(u),w),aS,v)];else
 switch(f[0]){case
 0:var
 y=[5,[0,b,b],f[1]],K=Z;H=1;break;case
 1:var
 aU=[5,[0,b,b],f[1]],y=aU,K=function(c,b,a){return[1,c,b,a]};H=1;break;case
 2:var
-aV=iN(a,o,w,j,f),s=z(function(a){return[4,u(a)]},aV);break;case
+aV=iO(a,o,x,j,f),s=z(function(a){return[4,u(a)]},aV);break;case
 3:var
-aW=iN(a,o,w,j,f),s=z(function(a){return[4,u(a)]},aW);break;case
+aW=iO(a,o,x,j,f),s=z(function(a){return[4,u(a)]},aW);break;case
 5:var
 _=f[1],aX=an(a,[0,[0,_,_],d]),s=z(function(b){var
-c=X(a,b),d=u(o);return[2,i(av(u),x),d,c]},aX);break;case
+c=X(a,b),d=u(o);return[2,i(av(u),w),d,c]},aX);break;case
 6:var
-L=F(w,f[1]);if(L){var
-M=m9(w,j,f);if(M){var
+L=E(x,f[1]);if(L){var
+M=nb(x,j,f);if(M){var
 $=M[1],ab=h(a,1,f[2]),ac=ab?h(a,1,f[3]):ab;if(ac)var
 aY=u($[2]),aZ=u(L[1][1][2]),ad=[0,[5,[0,[0,[0,u($[1]),0],aZ],0],aY]];else
 var
@@ -4673,7 +4671,7 @@ var
 af=L;var
 s=af;break;case
 7:var
-ag=f[3],ah=f[2],ai=f[1],aj=F(w,ai),aR=0;if(aj){var
+ag=f[3],ah=f[2],ai=f[1],aj=E(x,ai),aR=0;if(aj){var
 ak=h(a,1,ah),al=ak?h(a,1,ag):ak;if(al){var
 a1=[5,ah,ag],y=a1,K=function(c,b,a){return[3,ai,c,b,a,W]};H=1;aR=1}else
 var
@@ -4686,15 +4684,15 @@ ao=h(a,1,f[2]);if(ao)var
 a2=f[1],a3=1,N=m(function(b){return h(a,a3,b)},a2);else
 var
 N=ao;if(N)var
-a4=Q(a,b),a5=u(o),a6=gs(x,j),ap=[0,[0,i(av(u),a6),a5,a4,0]];else
+a4=Q(a,b),a5=u(o),a6=gv(w,j),ap=[0,[0,i(av(u),a6),a5,a4,0]];else
 var
 ap=N;var
 s=ap;break;case
 14:var
-aq=f[2],ar=f[1],O=nb(n,G,o,w,j,ar,aq);if(O){var
-as=O[1],at=as[2],au=as[1],aw=my(ar,aq,f[3]),P=an(a,[0,[0,aw,aw],B]);if(P){var
-ax=P[1],az=E(d,ax[1]);if(az)var
-A=function(a){return lW(I,a)},a7=A(at[2]),a8=A(at[1]),a9=A(au[2]),aA=[0,[9,[6,A(au[1]),a9,a8,a7,ax]]];else
+aq=f[2],ar=f[1],O=nf(n,G,o,x,j,ar,aq);if(O){var
+as=O[1],at=as[2],au=as[1],aw=mC(ar,aq,f[3]),P=an(a,[0,[0,aw,aw],B]);if(P){var
+ax=P[1],az=F(d,ax[1]);if(az)var
+A=function(a){return lY(I,a)},a7=A(at[2]),a8=A(at[1]),a9=A(au[2]),aA=[0,[9,[6,A(au[1]),a9,a8,a7,ax]]];else
 var
 aA=az;var
 aC=aA}else
@@ -4705,12 +4703,12 @@ var
 aD=O;var
 s=aD;break;case
 15:var
-R=F(w,f[1]);if(R){var
+R=E(x,f[1]);if(R){var
 aE=h(a,1,f[4]);if(aE)var
 aF=h(a,0,f[2]),S=aF?h(a,0,f[3]):aF;else
 var
 S=aE;if(S)var
-C=i(R[1][5],0),a_=I(C[4]),a$=I(C[3]),ba=I(q(t5,j,k(d))),bb=I(q(0,j,k(d))),bc=C[2],bd=e(function(a){return e(I,a)},bc),T=[0,[9,[10,e(I,C[1]),bd,bb,ba,a$,a_]]];else
+C=i(R[1][5],0),a_=I(C[4]),a$=I(C[3]),ba=I(q(uc,j,k(d))),bb=I(q(0,j,k(d))),bc=C[2],bd=e(function(a){return e(I,a)},bc),T=[0,[9,[10,e(I,C[1]),bd,bb,ba,a$,a_]]];else
 var
 T=S}else
 var
@@ -4718,28 +4716,28 @@ T=R;var
 s=T;break;default:var
 s=0}if(H)var
 aT=an(a,[0,[0,y,y],d]),s=z(function(b){var
-c=X(a,b),d=u(o);return K(i(av(u),x),d,c)},aT);return[0,s,bm]},b4,B,$,Y));if(az){var
+c=X(a,b),d=u(o);return K(i(av(u),w),d,c)},aT);return[0,s,bm]},b4,B,$,Y));if(az){var
 a_=az[1];if(A[7])var
-b5=aQ[2],b6=aQ[1],b7=u(o),ac=mb(bE,a_,[7,i(av(u),ao),b7,b6,b5]);else
+b5=aQ[2],b6=aQ[1],b7=u(o),ac=md(bE,a_,[7,i(av(u),ao),b7,b6,b5]);else
 var
 ac=a_;var
-ba=p(g(f(a8,a9)),j),bc=ba?m(function(a){var
-b=m2(a);return m(function(a){return mF(j,Z,a)},b)},ac):ba,bd=bc?D?mF(j,Z,u(D[1])):1:bc;if(bd){var
-b8=f(at[1],ax[1]),aC=f(as[1],b8),L=ng(aP),M=iQ(B,A[2]),_=L?e(function(a){var
-b=m0(j,M,a[2]),c=a[1];return[0,e(function(a){return m0(j,M,a)},c),b]},U):L,aD=L?cP(iJ(j,o,D,_))[1]:L,aE=cO(aD),ad=function(a){return a$(aE,a)},b9=iH(ad,ad,_),b_=ad(bs(j,o)),aH=z(function(a){return ad(bs(j,a))},D),be=S(L);if(be)var
+a$=p(g(f(a8,a9)),j),ba=a$?m(function(a){var
+b=m6(a);return m(function(a){return mJ(j,Z,a)},b)},ac):a$,bc=ba?D?mJ(j,Z,u(D[1])):1:ba;if(bc){var
+b8=f(at[1],ax[1]),aD=f(as[1],b8),L=nk(aP),M=iR(B,A[2]),_=L?e(function(a){var
+b=m4(j,M,a[2]),c=a[1];return[0,e(function(a){return m4(j,M,a)},c),b]},U):L,aE=L?cP(iK(j,o,D,_))[1]:L,aF=cO(aE),ad=function(a){return bb(aF,a)},b9=iI(ad,ad,_),b_=ad(bu(j,o)),aG=z(function(a){return ad(bu(j,a))},D),be=S(L);if(be)var
 af=be;else{var
-bp=p(g(U),j);if(bp){var
-bA=iJ(j,o,D,_),aL=m(function(a){var
-b=k(d);return aF(q(a$(aE,a),aE,b),a)},bA);if(aL)var
-bB=iJ(j,o,D,_),ag=m(function(a){var
+bo=p(g(U),j);if(bo){var
+bA=iK(j,o,D,_),aL=m(function(a){var
+b=k(d);return aH(q(bb(aF,a),aF,b),a)},bA);if(aL)var
+bB=iK(j,o,D,_),ag=m(function(a){var
 b=aA(0,j);return m(function(b){return ed(j,b,a)},b)},bB);else
 var
 ag=aL;if(ag){var
-aM=z(function(a){return bs(j,a)},D),ai=bs(j,o),aK=mW(ai);if(aK)var
+aM=z(function(a){return bu(j,a)},D),ai=bu(j,o),aK=m0(ai);if(aK)var
 bz=aA(0,W),aO=m(function(a){var
-b=ds(j,a,ai),c=b?m(function(b){var
-d=b[2][2],e=f(y(iI,b[1]),d),g=P(j,a),c=m(function(a){return cC(g,a)},e);if(c){var
-h=b[2][1];return gt(ai,P(j,a),h)}return c},_):b;if(c){if(aM){var
+b=dt(j,a,ai),c=b?m(function(b){var
+d=b[2][2],e=f(y(iJ,b[1]),d),g=P(j,a),c=m(function(a){return cC(g,a)},e);if(c){var
+h=b[2][1];return gw(ai,P(j,a),h)}return c},_):b;if(c){if(aM){var
 e=aM[1];return cC(P(j,a),e)}var
 d=1}else
 var
@@ -4750,38 +4748,38 @@ aj=aO}else
 var
 aj=ag;var
 cf=aj?m(function(a){var
-c=a[1],b=m(function(a){return m1(j,aC,M,a)},c);return b?m1(j,aC,M,a[2]):b},U):aj,af=cf}else
+c=a[1],b=m(function(a){return m5(j,aD,M,a)},c);return b?m5(j,aD,M,a[2]):b},U):aj,af=cf}else
 var
-af=bp}if(af){var
+af=bo}if(af){var
 b$=e(function(a){return 1},ac),ca=f(a8,a9),cb=function(l,O,ab,$,c){if(L){if(typeof
 c!=="number"&&10===c[0]){var
 h=c[3],o=c[2],r=c[1];if(typeof
 r!=="number"&&6===r[0]){if(h){if(h[2])return 0;var
 w=h[1],b=r[1],x=p($,W),y=x?aN(0,W):x;if(y)var
-v=hK(hG,e(aB,o),M),Y=v?1:v,s=Y;else
+v=hN(hJ,e(aB,o),M),Y=v?1:v,s=Y;else
 var
 s=y;var
-z=s?h8(M):s,A=z?m(function(a){return aN(a,g(l))},M):z,B=A?p(g(w),j):A;if(B){var
+z=s?h$(M):s,A=z?m(function(a){return aN(a,g(l))},M):z,B=A?p(g(w),j):A;if(B){var
 u=0;if(typeof
 b!=="number")switch(b[0]){case
 0:var
-I=b[2],G=b[1],F=0;u=1;break;case
+I=b[2],G=b[1],E=0;u=1;break;case
 7:var
 J=b[2],k=b[1],P=0;if(typeof
 k!=="number"&&0===k[0]){var
-R=0;if(aH){var
-K=E(d,J);if(K){var
-I=k[2],G=k[1],F=[0,[0,[0,aH[1],J],b[3]]];u=1;P=1;R=1}else
+R=0;if(aG){var
+K=F(d,J);if(K){var
+I=k[2],G=k[1],E=[0,[0,[0,aG[1],J],b[3]]];u=1;P=1;R=1}else
 var
 N=K}else
 var
-N=aH;if(!R)return N}if(!P)return 0;break}if(u){var
-S=iC(a,gc(o,0,l),aD,O),n=iC(a,l,aD,O),f=function(b,a){return q(a,b,tQ)},T=mY(function(a){return f(n,a)},F),U=f(n,b_),V=function(a){return f(n,a)},X=[0,iH(function(a){return f(S,a)},V,b9),U,T],Z=h2(o,l),_=function(g){var
-b=aa(e(tO,g[1]));if(b){var
+N=aG;if(!R)return N}if(!P)return 0;break}if(u){var
+S=iD(a,gc(o,0,l),aE,O),n=iD(a,l,aE,O),f=function(b,a){return q(a,b,tZ)},T=m2(function(a){return f(n,a)},E),U=f(n,b_),V=function(a){return f(n,a)},X=[0,iI(function(a){return f(S,a)},V,b9),U,T],Z=h5(o,l),_=function(g){var
+b=aa(e(tX,g[1]));if(b){var
 c=g[2];if(c){var
 d=c_(g[3]);if(d){var
 l=d[1],m=am([0,H(ae(t(a,ab,c[1])),l),0],j),n=b[1],o=e(function(d){var
-b=h3(a,0,Z,d),c=bn(tP,b[2]);return[0,b[1],c]},n),f=lr(a,e(function(b){return Q(a,b)},w),G,I,o,m);if(f)return bb(a,j,f[1]);var
+b=h6(a,0,Z,d),c=bp(tY,b[2]);return[0,b[1],c]},n),f=lt(a,e(function(b){return Q(a,b)},w),G,I,o,m);if(f)return bd(a,j,f[1]);var
 h=f}else
 var
 h=d;var
@@ -4790,65 +4788,65 @@ var
 i=c;var
 k=i}else
 var
-k=b;return k};return i(iE(function(b,a){return tN},W,j,_),X)}var
+k=b;return k};return i(iF(function(b,a){return tW},W,j,_),X)}var
 C=0}else
 var
 C=B;var
 D=C}else
 var
-D=h;return D}return 0}return 0}return L},cd=u(o),ce=i(av(u),U);return e9(a,aX,aZ,ac,j,j,z(u,D),ce,cd,cb,aC,ca,b$,aP)}var
+D=h;return D}return 0}return 0}return L},cd=u(o),ce=i(av(u),U);return e9(a,aW,aX,ac,j,j,z(u,D),ce,cd,cb,aD,ca,b$,aP)}var
 bf=af}else
 var
-bf=bd;var
-bh=bf}else
+bf=bc;var
+bg=bf}else
 var
-bh=az;var
+bg=az;var
+bh=bg}else
+var
+bh=ax;var
 bi=bh}else
 var
-bi=ax;var
+bi=aw;var
 bj=bi}else
 var
-bj=aw;var
-bk=bj}else
-var
-bk=au;var
-bl=bk}else
+bj=au;var
+bl=bj}else
 var
 bl=at;var
 bm=bl}else
 var
 bm=as;var
-bo=bm}else
+bn=bm}else
 var
-bo=ar;return bo}function
-e$(b,a){return bq(b,a[1],a[2])}function
-nh(b,a){var
+bn=ar;return bn}function
+e$(b,a){return bs(b,a[1],a[2])}function
+nl(b,a){var
 c=e$(b,a[1]),d=c?e$(b,a[2]):c;return d?e$(b,a[3]):d}function
-bk(a){return typeof
-a==="number"?a?uc:ud:br(a[1])}function
-ni(b,a,c){return typeof
-b==="number"?b?[0,a[1],[0,a[2],0]]:[0,a[1],[0,a[2],[0,a[3],0]]]:iz(b[1],a,c)}function
-gF(a){if(0===a[0]){var
+aW(a){return typeof
+a==="number"?a?ul:um:bt(a[1])}function
+nm(b,a,c){return typeof
+b==="number"?b?[0,a[1],[0,a[2],0]]:[0,a[1],[0,a[2],[0,a[3],0]]]:iA(b[1],a,c)}function
+gI(a){if(0===a[0]){var
 c=a[1];switch(c[0]){case
 0:return c[3];case
 1:return c[2];default:return[0,[0,d,b],[0,d,b],[0,d,b]]}}return a[1][4]}function
-gG(b,c,a){return b?cA(b[1],c,a):a}function
+gJ(b,c,a){return b?cA(b[1],c,a):a}function
 bT(d,c,b,a){var
-e=gF(a),f=gG(d,c,gF(a)),g=T(function(b,a){return[2,b,a]},b,f);return T(function(b,a){return[3,b,a]},g,e)}function
-nj(b,a){var
+e=gI(a),f=gJ(d,c,gI(a)),g=T(function(b,a){return[2,b,a]},b,f);return T(function(b,a){return[3,b,a]},g,e)}function
+nn(b,a){var
 c=typeof
 b==="number"?1:0;if(c){if(b)return[0,a[1],[0,a[2],0]];var
 d=[0,a[1],[0,a[2],[0,a[3],0]]]}else
 var
 d=c;return d}function
-nk(b,x,v){var
-e=x,d=v;for(;;){if(e){if(d){var
+no(b,w,v){var
+e=w,d=v;for(;;){if(e){if(d){var
 f=d[1],j=e[1];if(0===j[0])var
-g=0===f[0]?l1(b,j[1],f[1]):0;else
+g=0===f[0]?l3(b,j[1],f[1]):0;else
 if(0===f[0])var
 g=0;else{var
-a=f[1],c=j[1],k=bh(b,c[1],a[1]),l=k?bh(b,c[2],a[2]):k,m=l?bh(b,c[3],a[3]):l,n=m?bh(b,c[4],a[4]):m,o=n?c0(b,c[5],a[5]):n,p=o?c0(b,c[6],a[6]):o,q=p?h(b,1,a[5]):p,r=q?h(b,1,a[6]):q,s=r?h(b,1,w(a[1],a[1])):r;if(s)var
-u=io(a),i=h(b,1,w(io(a),u));else
+a=f[1],c=j[1],k=bl(b,c[1],a[1]),l=k?bl(b,c[2],a[2]):k,m=l?bl(b,c[3],a[3]):l,n=m?bl(b,c[4],a[4]):m,o=n?c0(b,c[5],a[5]):n,p=o?c0(b,c[6],a[6]):o,q=p?h(b,1,a[5]):p,r=q?h(b,1,a[6]):q,s=r?h(b,1,x(a[1],a[1])):r;if(s)var
+u=iq(a),i=h(b,1,x(iq(a),u));else
 var
 i=s;var
 g=i?cm(c[7],a[7]):i}if(g){var
@@ -4856,177 +4854,175 @@ e=e[2],d=d[2];continue}var
 t=g}else
 var
 t=d;return t}return d?0:1}}function
-nl(a){return typeof
-a==="number"?a?du(0):dm:du(a[1])}function
-iR(b,d,c){if(0===c[0])return gj(b,d[1],c[1]);var
-a=c[1],e=[0,[0,a[5],b],[0,[0,a[6],b],0]],g=f(a4(a[4],b),e),h=f(a4(a[3],b),g),i=f(a4(a[2],d[2]),h);return f(a4(a[1],d[1]),i)}function
-iS(b,a){if(b){var
-c=b[1],d=c[2];return bg(e8(c[1],a),d)}return a}function
-nm(f,t,am,J,al,r,ai){if(r){var
-j=r[1],an=bJ([0,d,d],al),a=cx(ai,iR(J,an,j)),y=function(c,b){var
-d=aj(a,c);return ah(x,ah(C,nl(f),b),d)};if(0===j[0]){var
+np(a){return typeof
+a==="number"?a?dv(0):dn:dv(a[1])}function
+iS(b,d,c){if(0===c[0])return gj(b,d[1],c[1]);var
+a=c[1],e=[0,[0,a[5],b],[0,[0,a[6],b],0]],g=f(a5(a[4],b),e),h=f(a5(a[3],b),g),i=f(a5(a[2],d[2]),h);return f(a5(a[1],d[1]),i)}function
+iT(b,a){if(b){var
+c=b[1],d=c[2];return bk(e8(c[1],a),d)}return a}function
+nq(f,t,am,J,ak,r,ai){if(r){var
+j=r[1],an=bJ([0,d,d],ak),a=cx(ai,iS(J,an,j)),y=function(c,b){var
+d=aj(a,c);return ah(w,ah(C,np(f),b),d)};if(0===j[0]){var
 z=j[1];switch(z[0]){case
 0:var
-$=iS(t,aj(a,uf)),aD=z[1][5],A=q(ug,a,k(d)),B=aj(a,0),aa=y(uh,$),i=lh(aa,dl(B),aa,A,aD),ap=[0,aG(A),0],aq=[0,aG(V(B,B)),ap],l=[0,[0,i[1],i[2],i[3],[0,i[4]],[0,[0,i[2],A]],aq],$];break;case
+$=iT(t,aj(a,uo)),aE=z[1][5],A=q(up,a,k(d)),B=aj(a,0),aa=y(uq,$),i=lj(aa,dm(B),aa,A,aE),ap=[0,aC(A),0],aq=[0,aC(V(B,B)),ap],l=[0,[0,i[1],i[2],i[3],[0,i[4]],[0,[0,i[2],A]],aq],$];break;case
 1:var
-ab=iS(t,aj(a,ui)),ac=z[3],D=ac?[0,aj(a,uj)]:ac,ad=y(0,ab),m=li(ad,ad,0);if(D)var
-K=D[1],L=[0,aG(V(K,K)),0];else
+ab=iT(t,aj(a,ur)),ac=z[3],D=ac?[0,aj(a,us)]:ac,ad=y(0,ab),m=lk(ad,ad,0);if(D)var
+K=D[1],L=[0,aC(V(K,K)),0];else
 var
 L=D;var
 l=[0,[0,m[1],m[2],m[3],[0,m[4]],0,L],ab];break;default:var
-aE=k(d),aF=k(d),aH=[0,k(d),aF,aE],E=aj(a,0),aI=nl(f),n=lj(aI,dl(E)),ar=[0,aG(V(E,E)),0],l=[0,[0,n[1],n[2],n[3],[0,n[4]],0,ar],aH]}}else
+aF=k(d),aG=k(d),aH=[0,k(d),aG,aF],E=aj(a,0),aI=np(f),n=ll(aI,dm(E)),ar=[0,aC(V(E,E)),0],l=[0,[0,n[1],n[2],n[3],[0,n[4]],0,ar],aH]}}else
 var
-ae=iS(t,aj(a,uk)),F=j[1][7],G=q(ul,a,k(d)),e=q(um,a,k(d)),af=aj(a,un),H=aj(a,0),p=y(uo,ae),o=dl(H),u=ah(x,af,aY(V(o,af),o)),v=dl(u),M=cc(o,v),N=V(p,v),O=V(p,M),as=V(o,p),at=R(O),Q=C(R(N),at),au=R(as),S=x(R(G),au),av=s(k(c(2,b)),e),w=x(Q,R(ak(C(Q,x(R(e),S)),av))),aw=f9(F,s(e,aG(w))),T=ak(N,e),U=f9(F,ak(O,e)),W=ak(S,R(e)),X=kO(0,T,U,W),Y=f9(F,kO(1,T,U,W)),ax=aY(Y,M),Z=ah(x,p,aY(e,ah(C,aY(X,v),ax))),ay=[0,aG(G),0],az=[0,aG(e),ay],aA=[0,aG(V(u,u)),az],aB=[0,aG(V(H,H)),aA],aC=bg(Z,aw),l=[0,[0,Z,s(R(e),w),aC,[1,X,Y],[0,[0,w,G]],aB],ae];var
-aP=P(ai,g(iR(J,an,j))),aQ=r[2],aR=nm(f,t,am,J,bw(al),aQ,aP),h=l[1],aS=l[2],ag=function(a){var
-b=bg(cc(aS,a),am);return typeof
-f==="number"?f?[0,a[1],[0,a[2],0]]:bN(a):gz(f[1],a,b)},I=h[1],_=typeof
+ae=iT(t,aj(a,ut)),F=j[1][7],G=q(uu,a,k(d)),e=q(uv,a,k(d)),af=aj(a,uw),H=aj(a,0),p=y(ux,ae),o=dm(H),u=ah(w,af,aZ(V(o,af),o)),v=dm(u),M=cc(o,v),N=V(p,v),O=V(p,M),as=V(o,p),at=R(O),Q=C(R(N),at),au=R(as),S=w(R(G),au),av=s(k(c(2,b)),e),x=w(Q,R(al(C(Q,w(R(e),S)),av))),aw=f9(F,s(e,aC(x))),T=al(N,e),U=f9(F,al(O,e)),W=al(S,R(e)),X=kQ(0,T,U,W),Y=f9(F,kQ(1,T,U,W)),ax=aZ(Y,M),Z=ah(w,p,aZ(e,ah(C,aZ(X,v),ax))),ay=[0,aC(G),0],az=[0,aC(e),ay],aA=[0,aC(V(u,u)),az],aB=[0,aC(V(H,H)),aA],aD=bk(Z,aw),l=[0,[0,Z,s(R(e),x),aD,[1,X,Y],[0,[0,x,G]],aB],ae];var
+aP=P(ai,g(iS(J,an,j))),aQ=r[2],aR=nq(f,t,am,J,by(ak),aQ,aP),h=l[1],aS=l[2],ag=function(a){var
+b=bk(cc(aS,a),am);return typeof
+f==="number"?f?[0,a[1],[0,a[2],0]]:bN(a):gC(f[1],a,b)},I=h[1],_=typeof
 f==="number"?1:0,aJ=h[6],aK=h[5],aL=_?f?[0,I[1],[0,I[2],0]]:bN(I):_,aM=h[4],aN=ag(h[3]),aO=h[2],ao=[0,[0,ag(h[1]),aO,aN,aM,aL,aK,aJ],aR]}else
 var
 ao=r;return ao}function
-iT(c,b,a){if(a){var
-e=a[2],g=iT(c,bw(b),e),h=a[1];return f(iR(c,bJ([0,d,d],b),h),g)}return a}function
-nn(a){if(a){var
-b=a[1][6];if(b)var
-c=nn(a[2]),e=c?[0,[0,b[1][2],c[1]]]:c,d=e;else
+iU(c,b,a){if(a){var
+e=a[2],g=iU(c,by(b),e),h=a[1];return f(iS(c,bJ([0,d,d],b),h),g)}return a}function
+nr(b,h,g,d,c,a){if(a){var
+j=a[2],k=a[1],l=nr(b,h,g,d,f(c,[0,k,0]),j),m=i(d,e(by,f(c,j)));return ao(h,ao(g,bJ(b,k),m),l)}return b}function
+ns(a,f,e,d,c,b){if(c){var
+g=0,h=c[1];return nr(a,e,d,function(b){return ns(a,f,e,d,h,b)},g,b)}return b?a:f}function
+nt(d,a){if(a){var
+b=aD(d,a[1]);if(b)var
+c=nt(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
 var
-d=b;return d}return up}function
-no(y,V,b){function
-c(a){return q(a,V,k(d))}function
-N(a){var
-e=a[2],f=s(R(c(0)),e),b=0,d=0,g=a[1];return[0,[0,b4(function(b,a){return x(b,R(a))},g,f),d],b]}function
-O(e){var
+e=b;return e}return uy}function
+nu(d,a){if(a){var
+b=nt(d,a[1]);if(b)var
+c=nu(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
+var
+e=b;return e}return uz}function
+iV(b){if(b){var
+a=b[2],c=b[1];if(c){var
+e=c[2],q=c[1];if(e){var
+f=e[2],r=e[1];if(f){if(f[2])return k(d);if(a){var
+g=a[2],h=a[1];if(h){var
+i=h[2],t=h[1];if(i){var
+j=i[2],u=i[1];if(j){var
+v=j[1];if(j[2])return k(d);if(g){var
+l=g[1];if(l){var
+m=l[2],x=l[1];if(m){var
+n=m[2],y=m[1];if(n){var
+z=n[1];if(n[2])return k(d);if(g[2])return k(d);var
+A=dq(t,u,x,y),B=s(f[1],A),D=s(r,dq(t,v,x,z));return C(w(s(q,dq(u,v,y,z)),D),B)}return k(d)}return k(d)}return k(d)}return k(d)}return k(d)}return k(d)}return k(d)}return k(d)}if(a){var
+o=a[1];if(o){var
+p=o[2];return p?p[2]?k(d):a[2]?k(d):dq(q,r,o[1],p[1]):k(d)}return k(d)}return k(d)}return k(d)}return k(d)}return k(d)}function
+nv(a){if(a){var
+b=a[1][6];if(b)var
+c=nv(a[2]),e=c?[0,[0,b[1][2],c[1]]]:c,d=e;else
+var
+d=b;return d}return uA}function
+nw(g,l,a){function
+b(a){return q(a,l,k(d))}function
+m(a){var
+e=a[2],f=s(R(b(0)),e),c=0,d=0,g=a[1];return[0,[0,b4(function(b,a){return w(b,R(a))},g,f),d],c]}function
+n(e){var
 a=e[6];if(a)var
-b=a[1],f=R(b[2]),g=s(R(c(0)),f),d=[0,[0,x(b[1],g),0],0];else
+c=a[1],f=R(c[2]),g=s(R(b(0)),f),d=[0,[0,w(c[1],g),0],0];else
 var
 d=a;return d}var
-D=0;if(typeof
-b==="number")D=1;else
-switch(b[0]){case
+j=0;if(typeof
+a==="number")j=1;else
+switch(a[0]){case
 2:var
-W=function(b){var
-a=b[4];if(typeof
+u=function(c){var
+a=c[4];if(typeof
 a!=="number"&&0===a[0]){var
-d=c(0);return[0,[0,x(a[1],d),0],0]}return 0},g=W,f=b[1];break;case
+d=b(0);return[0,[0,w(a[1],d),0],0]}return 0},f=u,c=a[1];break;case
 3:var
-X=function(b){var
-a=b[4];if(typeof
+v=function(c){var
+a=c[4];if(typeof
 a!=="number"&&0===a[0]){var
-d=a[1];return[0,[0,x(c(0),d),0],0]}return 0},g=X,f=b[1];break;case
+d=a[1];return[0,[0,w(b(0),d),0],0]}return 0},f=v,c=a[1];break;case
 4:var
-Y=function(e){var
+x=function(e){var
 a=e[4];if(typeof
 a!=="number"&&1===a[0]){var
-b=a[2],d=a[1],f=s(c(uq),b),g=[0,[0,x(s(c(ur),d),f),0],0],h=s(d,c(us));return[0,[0,x(s(b,c(0)),h),0],g]}return 0},g=Y,f=b[1];break;case
+c=a[2],d=a[1],f=s(b(uB),c),g=[0,[0,w(s(b(uC),d),f),0],0],h=s(d,b(uD));return[0,[0,w(s(c,b(0)),h),0],g]}return 0},f=x,c=a[1];break;case
 6:var
-Z=function(a){var
+y=function(a){var
 b=a[4];if(typeof
-b!=="number"&&1===b[0])return 0;return N(a)},g=Z,f=b[1];break;case
+b!=="number"&&1===b[0])return 0;return m(a)},f=y,c=a[1];break;case
 9:var
-_=function(a){var
+z=function(a){var
 b=a[4];if(typeof
-b!=="number"&&1===b[0])return N(a);return 0},g=_,f=b[1];break;case
+b!=="number"&&1===b[0])return m(a);return 0},f=z,c=a[1];break;case
 10:var
-g=O,f=b[1];break;case
+f=n,c=a[1];break;case
 11:var
-$=function(a){var
+A=function(a){var
 b=a[4];if(typeof
-b!=="number"&&0===b[0])return O(a);return 0},g=$,f=b[1];break;case
+b!=="number"&&0===b[0])return n(a);return 0},f=A,c=a[1];break;case
 12:var
-A=nn(y);if(A){var
-aa=c(0),P=b4(s,A[1],aa),B=e(function(a){return a[5]},y);if(B){var
-h=B[2],i=B[1];if(i){var
-j=i[2],E=i[1];if(j){var
-l=j[2],G=j[1];if(l)if(l[2]||!h)var
-a=k(d);else{var
-m=h[2],n=h[1];if(n){var
-o=n[2],H=n[1];if(o){var
-p=o[2],I=o[1];if(p){var
-J=p[1];if(p[2]||!m)var
-a=k(d);else{var
-r=m[1];if(r){var
-t=r[2],K=r[1];if(t){var
-u=t[2],L=t[1];if(u){var
-M=u[1];if(u[2]||m[2])var
-a=k(d);else
+i=nv(g);if(i)var
+B=b(0),o=b4(s,i[1],B),p=iV(e(function(a){return a[5]},g)),D=[0,bi(C(p,o)),0],r=[0,[0,w(p,o),D],0];else
 var
-S=dp(H,I,K,L),T=s(l[1],S),U=s(G,dp(H,J,K,M)),a=C(x(s(E,dp(I,J,L,M)),U),T)}else
-var
-a=k(d)}else
-var
-a=k(d)}else
-var
-a=k(d)}}else
-var
-a=k(d)}else
-var
-a=k(d)}else
-var
-a=k(d)}else
-if(h){var
-v=h[1];if(v)var
-w=v[2],a=w?w[2]?k(d):h[2]?k(d):dp(E,G,v[1],w[1]):k(d);else
-var
-a=k(d)}else
-var
-a=k(d)}else
-var
-a=k(d)}else
-var
-a=k(d)}else
-var
-a=k(d);var
-ab=[0,bx(C(a,P)),0],Q=[0,[0,x(a,P),ab],0]}else
-var
-Q=A;return Q;default:D=1}if(D)return 0;var
-z=F(y,f);return z?g(z[1]):z}function
+r=i;return r;case
+17:var
+t=a[1],f=function(d){var
+a=iV(e(function(a){return a[1]},g));function
+b(b){var
+c=[0,bi(C(a,b)),0];return[0,w(a,b),c]}var
+f=iV(mg(t,l,e(function(a){return a[1]},g))),c=s(aC(d[2]),f),h=[0,b(bi(c)),0];return[0,b(c),h]},c=t;break;default:j=1}if(j)return 0;var
+h=E(g,c);return h?f(h[1]):h}function
 eh(a){return e(function(a){return[0,a[1],a[2]]},a)}function
 fa(a){return e(function(a){var
 c=k(b);return[0,a[3],c]},a)}function
-np(c,b,a){if(typeof
-a!=="number"&&8===a[0])return bP(gs(eh(c),b));return dS(no(c,b,a))}function
-nq(f,g,l,I,H,s,a){if(typeof
+nx(c,b,a){if(typeof
+a!=="number"&&8===a[0])return bP(gv(eh(c),b));return dS(nw(c,b,a))}function
+ny(f,l,k,K,J,t,a){if(typeof
 a==="number")return[0,[0,[0,v]],0];else
 switch(a[0]){case
 0:var
-J=[5,[0,b,b],a[1]],j=J,n=function(a){return[0,a]};break;case
+L=[5,[0,b,b],a[1]],n=L,o=function(a){return[0,a]};break;case
 1:var
-M=[5,[0,b,b],a[1]],j=M,n=function(a){return[1,a]};break;case
+O=[5,[0,b,b],a[1]],n=O,o=function(a){return[1,a]};break;case
 5:var
-y=a[1],P=0,R=an(f,[0,[0,y,y],d]);return[0,z(function(a){return[2,X(f,a)]},R),P];case
+B=a[1],T=0,U=an(f,[0,[0,B,B],d]);return[0,z(function(a){return[2,X(f,a)]},U),T];case
 7:var
-A=a[3],B=a[2],C=a[1];if(!F(l,C))return uv;var
-G=0;if(h(f,1,B)&&h(f,1,A))var
-S=[5,B,A],j=S,n=function(a){return[7,C,a]};else
-G=1;if(G)return uu;break;case
+C=a[3],D=a[2],F=a[1];if(!E(k,F))return uG;var
+I=0;if(h(f,1,D)&&h(f,1,C))var
+V=[5,D,C],n=V,o=function(a){return[7,F,a]};else
+I=1;if(I)return uF;break;case
 8:var
-D=h(f,1,a[2]),T=0;if(D)var
-U=a[1],V=1,p=m(function(a){return h(f,V,a)},U);else
+G=h(f,1,a[2]),W=0;if(G)var
+Y=a[1],Z=1,q=m(function(a){return h(f,Z,a)},Y);else
 var
-p=D;if(p)var
-W=Q(f,b),Y=gs(eh(l),s),E=[0,[4,i(av(g),Y),W]];else
+q=G;if(q)var
+_=Q(f,b),$=gv(eh(k),t),H=[0,[4,i(av(l),$),_]];else
 var
-E=p;return[0,E,T];default:var
-q=0;if(typeof
-a==="number")q=1;else
+H=q;return[0,H,W];default:var
+s=0;if(typeof
+a==="number")s=1;else
 switch(a[0]){case
 4:var
-t=a[3],u=a[2],w=h(f,1,[3,t,u]),O=w?h(f,1,[3,[2,u,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b]],t]):w,k=O;break;case
+u=a[3],w=a[2],x=h(f,1,[3,u,w]),R=x?h(f,1,[3,[2,w,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b]],u]):x,j=R;break;case
+17:var
+A=h(f,1,a[3]);if(A)var
+S=e(function(a){return a[1]},k),j=mh(g(a[2]),S);else
+var
+j=A;break;case
 6:case
 9:var
-x=h(f,1,a[2]),k=x?h(f,0,a[3]):x;break;default:q=1}if(q)var
-k=1;var
-o=k?no(l,s,a):k;if(o){var
-N=[0,o[1],o[2]];return e(function(a){if(a){var
+y=h(f,1,a[2]),j=y?h(f,0,a[3]):y;break;default:s=1}if(s)var
+j=1;var
+p=j?nw(k,t,a):j;if(p){var
+P=[0,p[1],p[2]];return e(function(a){if(a){var
 b=a[2],c=a[1];if(b){if(b[2])return 0;var
-e=i(g,b[1]);return[0,[5,i(g,c),e]]}var
-d=[0,[3,i(g,c)]]}else
+e=i(l,b[1]);return[0,[5,i(l,c),e]]}var
+d=[0,[3,i(l,c)]]}else
 var
-d=a;return d},N)}return ut}var
-K=0,L=an(f,[0,[0,j,j],ix(I,H)]);return[0,z(function(a){return n(X(f,a))},L),K]}function
-nr(a){if(typeof
+d=a;return d},P)}return uE}var
+M=0,N=an(f,[0,[0,n,n],gu(K,J)]);return[0,z(function(a){return o(X(f,a))},N),M]}function
+nz(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-ux(b){if(0===b[0])return[0,l$(b[1])];var
-a=b[1],c=a[7],d=a[6][1],e=a[5][1],f=by(a[4]),g=by(a[3]),h=by(a[2]);return[1,[0,by(a[1]),h,g,f,e,d,c]]}function
+uI(b){if(0===b[0])return[0,mb(b[1])];var
+a=b[1],c=a[7],d=a[6][1],e=a[5][1],f=bz(a[4]),g=bz(a[3]),h=bz(a[2]);return[1,[0,bz(a[1]),h,g,f,e,d,c]]}function
 bU(c){var
 a=c;for(;;)switch(a[0]){case
 0:var
@@ -5037,103 +5033,103 @@ b=a[1];return[0,[0,[0,b,b],d],0];case
 8:var
 a=a[1];continue;default:var
 e=bU(a[2]);return f(bU(a[1]),e)}}function
-bA(e,a,c){switch(a[0]){case
+bB(e,a,c){switch(a[0]){case
 0:var
 q=a[1];return cZ([0,[0,q,q],d],c);case
 1:var
 t=a[1],h=e,u=k(d);for(;;){if(h){var
-n=h[1];if(rf(n[1],t))return n[2];var
+n=h[1];if(rm(n[1],t))return n[2];var
 h=h[2];continue}return u}case
-2:return bx(bA(e,a[1],c));case
+2:return bi(bB(e,a[1],c));case
 3:var
 j=a[2],f=a[1],i=C;break;case
 4:var
-j=a[2],f=a[1],i=x;break;case
+j=a[2],f=a[1],i=w;break;case
 5:var
 j=a[2],f=a[1],i=s;break;case
 6:var
-j=a[2],f=a[1],i=ak;break;case
+j=a[2],f=a[1],i=al;break;case
 7:var
-l=eO(a[2]),m=bA(e,a[1],c);if(l){if(l[1]){var
-o=R(m),r=function(a){return s(a,o)},p=fO(bv(ku(l)),r,o);return kt(l)?p:s(p,m)}return m}return k(b);default:return aG(bA(e,a[1],c))}var
-v=bA(e,j,P(c,g(bU(f))));return i(bA(e,f,c),v)}function
+l=eO(a[2]),m=bB(e,a[1],c);if(l){if(l[1]){var
+o=R(m),r=function(a){return s(a,o)},p=fO(bx(kw(l)),r,o);return kv(l)?p:s(p,m)}return m}return k(b);default:return aC(bB(e,a[1],c))}var
+v=bB(e,j,P(c,g(bU(f))));return i(bB(e,f,c),v)}function
 c$(c,h,b){var
 a=h;for(;;)switch(a[0]){case
 6:var
-e=a[1],k=P(b,g(bU(e))),l=c$(c,a[2],k),m=f(c$(c,e,b),l);return[0,bA(c,a,b),m];case
+e=a[1],k=P(b,g(bU(e))),l=c$(c,a[2],k),m=f(c$(c,e,b),l);return[0,bB(c,a,b),m];case
 8:var
-n=c$(c,a[1],b);return[0,bA(c,a,b),n];case
+n=c$(c,a[1],b);return[0,bB(c,a,b),n];case
 2:case
 7:var
 a=a[1];continue;case
 0:case
 1:return 0;default:var
 d=a[1],i=P(b,g(bU(d))),j=c$(c,a[2],i);return f(c$(c,d,b),j)}}function
-ns(i,h,f){var
+nA(i,h,f){var
 b=i,a=h,c=f;for(;;){if(a){var
-d=a[1],e=d[2],j=P(c,g(bU(e))),k=a[2],l=bA(b,e,c),b=[0,[0,d[1],l],b],a=k,c=j;continue}return b}}function
-iU(c,a,b){if(a){var
-e=a[1],d=e[2],h=P(b,g(bU(d))),i=a[2],j=bA(c,d,b),k=iU([0,[0,e[1],j],c],i,h);return f(c$(c,d,b),k)}return a}function
+d=a[1],e=d[2],j=P(c,g(bU(e))),k=a[2],l=bB(b,e,c),b=[0,[0,d[1],l],b],a=k,c=j;continue}return b}}function
+iW(c,a,b){if(a){var
+e=a[1],d=e[2],h=P(b,g(bU(d))),i=a[2],j=bB(c,d,b),k=iW([0,[0,e[1],j],c],i,h);return f(c$(c,d,b),k)}return a}function
 fb(a){return y(bU,a)}function
-nt(c,a,b){if(a)var
-d=a[1],f=P(b,g(bU(d))),h=nt(c,a[2],f),e=[0,bA(c,d,b),h];else
+nB(c,a,b){if(a)var
+d=a[1],f=P(b,g(bU(d))),h=nB(c,a[2],f),e=[0,bB(c,d,b),h];else
 var
 e=a;return e}function
-nu(c,a,b){if(a){var
-d=a[1],e=P(b,g(bU(d))),h=nu(c,a[2],e);return f(c$(c,d,b),h)}return a}function
-gH(a){return 0===a[0]?fb(a[1]):bU(a[1])}function
-iV(c,b,a){if(b){var
-d=b[1],j=P(a,g(gH(d))),k=iV(c,b[2],j);if(0===d[0])var
-h=nu(c,d[1],a);else
+nC(c,a,b){if(a){var
+d=a[1],e=P(b,g(bU(d))),h=nC(c,a[2],e);return f(c$(c,d,b),h)}return a}function
+gK(a){return 0===a[0]?fb(a[1]):bU(a[1])}function
+iX(c,b,a){if(b){var
+d=b[1],j=P(a,g(gK(d))),k=iX(c,b[2],j);if(0===d[0])var
+h=nC(c,d[1],a);else
 var
-e=d[1],i=c$(c,e,a),h=[0,bA(c,e,a),i];return f(h,k)}return b}function
-gI(c){var
+e=d[1],i=c$(c,e,a),h=[0,bB(c,e,a),i];return f(h,k)}return b}function
+gL(c){var
 a=c[1];switch(a[0]){case
 0:var
 b=[1,a[1]];break;case
 1:var
 b=[0,a[1]];break;default:var
-b=bK(gI,a)}return[0,b]}function
-iW(c){var
+b=bK(gL,a)}return[0,b]}function
+iY(c){var
 b=c;for(;;){var
 a=b[1];switch(a[0]){case
 5:var
 b=a[1];continue;case
 6:var
-d=iW(a[2]);return s(iW(a[1]),d);case
+d=iY(a[2]);return s(iY(a[1]),d);case
 9:return a[1];default:return R(b)}}}function
-iX(n,h,a,f){if(a){var
-c=a[1],w=P(f,g(gH(c))),x=iX(n,h,a[2],w);if(0===c[0])var
-l=nt(h,c[1],f),o=[0,l,k(b),l,0,0,0,0];else
+iZ(n,h,a,f){if(a){var
+c=a[1],w=P(f,g(gK(c))),x=iZ(n,h,a[2],w);if(0===c[0])var
+l=nB(h,c[1],f),o=[0,l,k(b),l,0,0,0,0];else
 var
-m=bA(h,c[1],f),q=gI(m),i=a3(aA(0,n),q),d=gI(i[2]),j=e(gI,i[1]),r=0,s=0,t=0,u=[0,m],v=e(function(a){return aF(a,d)?k(b):ak(a,d)},j),o=[0,j,iW(d),v,u,t,s,r];var
+m=bB(h,c[1],f),q=gL(m),i=a4(aA(0,n),q),d=gL(i[2]),j=e(gL,i[1]),r=0,s=0,t=0,u=[0,m],v=e(function(a){return aH(a,d)?k(b):al(a,d)},j),o=[0,j,iY(d),v,u,t,s,r];var
 p=[0,o,x]}else
 var
 p=a;return p}function
-nv(a){return e(function(a){return[0,a[2],d]},a)}function
-iY(a){var
-b=y(gH,a[4]),c=f(fb(e(aW,a[3])),b);return f(nv(a[2]),c)}function
-gJ(a){var
-c=cx(0,nv(a[2])),d=aA(0,g(a[1])),h=e(function(a){return[0,[0,a]]},d),b=_(e(aB,a[2]),c);return f(_(a[1],h),b)}function
-iZ(b,d){var
+nD(a){return e(function(a){return[0,a[2],d]},a)}function
+i0(a){var
+b=y(gK,a[4]),c=f(fb(e(aY,a[3])),b);return f(nD(a[2]),c)}function
+gM(a){var
+c=cx(0,nD(a[2])),d=aA(0,g(a[1])),h=e(function(a){return[0,[0,a]]},d),b=_(e(aB,a[2]),c);return f(_(a[1],h),b)}function
+i1(b,d){var
 a=d;for(;;)switch(a[0]){case
 0:return 1;case
 1:var
-e=a[1];return al(function(a){return aw(e,a)},b);case
+e=a[1];return ak(function(a){return aw(e,a)},b);case
 2:case
 7:case
 8:var
 a=a[1];continue;default:var
-c=iZ(b,a[1]);if(c){var
+c=i1(b,a[1]);if(c){var
 a=a[2];continue}return c}}function
-nw(d){var
+nE(d){var
 a=d;for(;;){if(a){var
-b=a[2],e=a[1],c=S(al(function(b){return function(a){return rf(b,a)}}(e),b));if(c){var
+b=a[2],e=a[1],c=S(ak(function(b){return function(a){return rm(b,a)}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-nx(a){var
-u=e(aB,a[2]),d=f(a[1],u),h=g(a[1]),o=Z(uy,h),p=o?Z(h,uz):o,q=p?Z(h,g(a[4])):p,r=q?Z(g(a[4]),uA):q,s=r?nw(d):r;if(s){var
+nF(a){var
+u=e(aB,a[2]),d=f(a[1],u),h=g(a[1]),o=Z(uJ,h),p=o?Z(h,uK):o,q=p?Z(h,g(a[4])):p,r=q?Z(g(a[4]),uL):q,s=r?nE(d):r;if(s){var
 c=d,b=a[3];for(;;){if(b){var
-j=b[1],k=j[1],l=S(al(function(b){return function(a){return aw(b,a)}}(k),c)),n=l?iZ(c,j[2]):l;if(n){var
+j=b[1],k=j[1],l=S(ak(function(b){return function(a){return aw(b,a)}}(k),c)),n=l?i1(c,j[2]):l;if(n){var
 c=[0,k,c],b=b[2];continue}var
 t=n}else
 var
@@ -5142,7 +5138,7 @@ i=t;break}}else
 var
 i=s;if(i){var
 v=a[4];return m(function(b){var
-c=0===b[0]?b[1]:[0,b[1],0],g=f(e(aB,a[3]),d);return m(function(a){return iZ(g,a)},c)},v)}return i}function
+c=0===b[0]?b[1]:[0,b[1],0],g=f(e(aB,a[3]),d);return m(function(a){return i1(g,a)},c)},v)}return i}function
 ei(f,e,g){var
 h=g[1],a=bK(function(a){return ei(f,e,a)},h);switch(a[0]){case
 0:return q(a[1],f,[0,d,b]);case
@@ -5156,7 +5152,7 @@ h=g[1],a=bK(function(a){return ei(f,e,a)},h);switch(a[0]){case
 8:var
 c=a[1];return[4,c,c];case
 9:return[6,a[1]];default:return[0,d,b]}}function
-ny(d){var
+nG(d){var
 b=d;for(;;){var
 a=b[1];switch(a[0]){case
 10:return 0;case
@@ -5167,82 +5163,68 @@ b=a[1];continue;case
 0:case
 1:case
 2:return 1;default:var
-c=ny(a[1]);if(c){var
+c=nG(a[1]);if(c){var
 b=a[2];continue}return c}}}function
-nz(g,f,e){var
+nH(g,f,e){var
 b=f,a=e;for(;;){if(b){if(a){var
 c=c0(g,b[1],a[1]);if(c){var
 b=b[2],a=a[2];continue}var
 d=c}else
 var
 d=a;return d}return a?0:1}}function
-uB(a){var
+uM(a){var
 b=a[4],d=0;if(typeof
 b!=="number"&&0===b[0]){var
 c=[0,b[1],0];d=1}if(!d)var
 c=0;var
 e=f(a[3],c);return f(a[1],e)}function
-nA(f,e){function
+nI(f,e){function
 a(a){return q(a,e,[0,d,b])}var
 c=[0,d,b];switch(f){case
 0:var
-g=a(uD);return[0,a(0),g,c];case
+g=a(uO);return[0,a(0),g,c];case
 1:var
-h=a(uE),i=a(uF);return[0,a(0),i,h];default:return[0,c,c,c]}}function
-nB(f,e){function
+h=a(uP),i=a(uQ);return[0,a(0),i,h];default:return[0,c,c,c]}}function
+nJ(f,e){function
 a(a){return q(a,e,[0,d,b])}var
 c=[0,d,b];switch(f){case
-0:return[0,c,c,a(uG)];case
+0:return[0,c,c,a(uR)];case
 1:var
-g=a(uH),h=a(uI);return[0,a(uJ),h,g];default:var
-i=a(uK),j=a(uL);return[0,a(0),j,i]}}function
-nC(b,h,g,d,c,a){if(a){var
-j=a[2],k=a[1],l=nC(b,h,g,d,f(c,[0,k,0]),j),m=i(d,e(bw,f(c,j)));return ao(h,ao(g,bJ(b,k),m),l)}return b}function
-nD(a,f,e,d,c,b){if(c){var
-g=0,h=c[1];return nC(a,e,d,function(b){return nD(a,f,e,d,h,b)},g,b)}return b?a:f}function
-nE(d,a){if(a){var
-b=aC(d,a[1]);if(b)var
-c=nE(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
-var
-e=b;return e}return uO}function
-nF(d,a){if(a){var
-b=nE(d,a[1]);if(b)var
-c=nF(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
-var
-e=b;return e}return uP}function
-nG(c,j,d,b,a){var
-e=aN(d,j),g=e?a_(b,a):e;if(g)var
+g=a(uS),h=a(uT);return[0,a(uU),h,g];default:var
+i=a(uV),j=a(uW);return[0,a(0),j,i]}}function
+nK(c,j,d,b,a){var
+e=aN(d,j),g=e?ba(b,a):e;if(g)var
 k=cv(c,a)[2],h=[0,cv(c,b)[1],k],l=[0,cv(c,dU(a,b)),0],i=[0,[0,h,h,f(am(v,d),l)]];else
 var
 i=g;return i}function
-i0(a){if(a){var
+i2(a){if(a){var
 b=a[1];if(b)var
-c=i0(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+c=i2(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return uQ}function
-nH(c,b,a){if(b){if(a){var
-d=b[1],f=nH(c,b[2],a[2]),g=a[1],h=function(b,a){return A(t(c,d,b),a)},i=function(a){return a};return aI(function(a){return t(c,d,a)},i,h,g,f)}var
+d=b;return d}return uZ}function
+nL(c,b,a){if(b){if(a){var
+d=b[1],f=nL(c,b[2],a[2]),g=a[1],h=function(b,a){return A(t(c,d,b),a)},i=function(a){return a};return aI(function(a){return t(c,d,a)},i,h,g,f)}var
 e=a}else
 var
 e=b;return e}function
-nI(c,b,a){if(b){if(a){var
-d=nI(c,b[2],a[2]);return A(t(c,b[1],a[1]),d)}return v}return v}function
-gK(a){return aq(function(d,a){var
+nM(c,b,a){if(b){if(a){var
+d=nM(c,b[2],a[2]);return A(t(c,b[1],a[1]),d)}return v}return v}function
+gN(a){return aq(function(d,a){var
 e=c(2,b);return D(b3(b7(d),e),a)},d,a)}function
-nJ(a,i,h){var
+nN(a,i,h){var
 d=g(i);function
 t(g,e,f){var
-d=[0,b,c(2,b)];return[0,$(cv(a,a1(di(e,f),d)))]}var
-j=i0(e(function(b){return dZ(a,t,b)},i));if(j){var
-u=j[1],w=function(b,c,e){return nG(a,d,b,c,e)},k=i0(e(function(b){return dZ(a,w,b)},i));if(k){var
-x=function(b){return cv(a,b)},n=e(function(a){return e(x,a)},h),y=k[1],z=e(function(a){return a[3]},y),A=e(function(b){return nI(a,b,e(function(a){return a[2]},u))},n),C=_(aA(0,d),n),D=e(function(c){var
-i=nH(a,c[2],z),j=c[1],d=[0,Q(a,b),0],e=f(am(v,j),d);function
+d=[0,b,c(2,b)];return[0,$(cv(a,a2(dj(e,f),d)))]}var
+j=i2(e(function(b){return dZ(a,t,b)},i));if(j){var
+u=j[1],w=function(b,c,e){return nK(a,d,b,c,e)},k=i2(e(function(b){return dZ(a,w,b)},i));if(k){var
+x=function(b){return cv(a,b)},n=e(function(a){return e(x,a)},h),y=k[1],z=e(function(a){return a[3]},y),A=e(function(b){return nM(a,b,e(function(a){return a[2]},u))},n),C=_(aA(0,d),n),D=e(function(c){var
+i=nL(a,c[2],z),j=c[1],d=[0,Q(a,b),0],e=f(am(v,j),d);function
 g(b,a){return H(b,as(a))}function
 h(a){return ae(as(a))}return aI(function(a){return a},h,g,e,i)},C),o=p(g(h),d),q=o?m(function(a){return p(g(a),d)},h):o;if(q)var
-F=c(2,b),G=b3(cp(a),F),I=gK(A),l=E(B(c(2,c(2,b)),I),G);else
+E=c(2,b),G=b3(cp(a),E),I=gN(A),l=F(B(c(2,c(2,b)),I),G);else
 var
 l=q;if(l){var
-J=c(2,b),K=b3(cp(a),J),L=gK(dS(D));return E(B(c(2,c(2,b)),L),K)}var
+J=c(2,b),K=b3(cp(a),J),L=gN(dS(D));return F(B(c(2,c(2,b)),L),K)}var
 r=l}else
 var
 r=k;var
@@ -5250,14 +5232,14 @@ s=r}else
 var
 s=j;return s}function
 bV(a){return m(function(a){return S(dY(a))},a)}function
-bc(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-bt(a){return[0,a[1],a[2]]}function
-nK(b,a){var
+be(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+bv(a){return[0,a[1],a[2]]}function
+nO(b,a){var
 d=g(a),c=p(g(b),d);if(c){var
-e=_(b,a);return m(function(a){return a_(a[1],a[2])},e)}return c}function
-i1(e,k,j,i){var
+e=_(b,a);return m(function(a){return ba(a[1],a[2])},e)}return c}function
+i3(e,k,j,i){var
 c=k,b=j,a=i;for(;;){if(c)if(b)if(a){var
-f=a[1],l=h(e,1,[3,bt(c[1]),f]),g=l||h(e,1,[3,f,bt(b[1])]);if(!g){var
+f=a[1],l=h(e,1,[3,bv(c[1]),f]),g=l||h(e,1,[3,f,bv(b[1])]);if(!g){var
 c=c[2],b=b[2],a=a[2];continue}var
 d=g}else
 var
@@ -5266,37 +5248,37 @@ var
 d=b;else
 var
 d=c;return d}}function
-nL(f,e,b,a){var
+nP(f,e,b,a){var
 c=a[1],d=b[1],g=c[2],h=a[2],i=d[2],j=b[2],k=[0,d[1],[0,c[1],0]];return m(function(a){var
 b=[0,i,[0,g,0]];return m(function(b){var
 c=[0,j,[0,h,0]];return m(function(c){var
-d=bt(c),g=bt(b);return bQ(f,e,[0,bt(a),g,d])},c)},b)},k)}function
-nM(a){switch(a[0]){case
+d=bv(c),g=bv(b);return bQ(f,e,[0,bv(a),g,d])},c)},b)},k)}function
+nQ(a){switch(a[0]){case
 0:var
-c=[0,a[4],0],d=f(bc(a[3]),c),e=f(bc(a[2]),d);return f(bc(a[1]),e);case
+c=[0,a[4],0],d=f(be(a[3]),c),e=f(be(a[2]),d);return f(be(a[1]),e);case
 1:var
-b=a[3],g=b?bc(b[1]):b,h=f(bc(a[2]),g);return f(bc(a[1]),h);default:return bc(a[1])}}function
+b=a[3],g=b?be(b[1]):b,h=f(be(a[2]),g);return f(be(a[1]),h);default:return be(a[1])}}function
 fc(b,a){var
-c=a1(a,a);return a_(a1(b,b),c)?a:b}function
+c=a2(a,a);return ba(a2(b,b),c)?a:b}function
 fd(b,a,e,d){var
-c=dr(b,a,bt(e));return c?dr(b,a,bt(d)):c}function
-nN(a){var
-c=q(uW,a,[0,d,b]),e=q(uX,a,[0,d,b]);return[0,[0,q(0,a,[0,d,b]),e],c]}function
-i2(d,c,b,a){var
-e=bR(d,c,b,a);return w(bR(d,c,b,a),e)}function
-uY(i,k,t,S,H,o,l,n,aR){var
-j=t[5],aJ=_(l,n),aK=_(aA(0,g(l)),aJ),ag=e(function(a){return[1,a[1],a[2][1],a[2][2]]},aK),ax=t[7],ay=ax?e6(i,t[2],S):ax,az=ay?bQ(i,t[4],H):ay,aB=az?cB(i,j,o):az,aC=aB?Z(k,uZ):aB;if(aC)var
+c=ds(b,a,bv(e));return c?ds(b,a,bv(d)):c}function
+nR(a){var
+c=q(u5,a,[0,d,b]),e=q(u6,a,[0,d,b]);return[0,[0,q(0,a,[0,d,b]),e],c]}function
+i4(d,c,b,a){var
+e=bR(d,c,b,a);return x(bR(d,c,b,a),e)}function
+u7(i,k,t,S,H,o,l,n,aR){var
+j=t[5],aJ=_(l,n),aK=_(aA(0,g(l)),aJ),ag=e(function(a){return[1,a[1],a[2][1],a[2][2]]},aK),ax=t[7],ay=ax?e6(i,t[2],S):ax,az=ay?bQ(i,t[4],H):ay,aB=az?cB(i,j,o):az,aC=aB?Z(k,u8):aB;if(aC)var
 aS=P(k,g(o)),T=p(g(l),aS);else
 var
 T=aC;if(T)var
-aT=0===j[0]?u0:u1,U=p(g(o),aT);else
+aU=0===j[0]?u9:u_,U=p(g(o),aU);else
 var
 U=T;var
-aD=U?nK(l,n):U;if(aD)var
-aU=nN(aH(k,n)),aV=nN(aH(k,l)),V=nL(i,t[4],aV,aU);else
+aD=U?nO(l,n):U;if(aD)var
+aV=nR(aG(k,n)),aW=nR(aG(k,l)),V=nP(i,t[4],aW,aV);else
 var
 V=aD;if(V){var
-a=aX(k,n),c=aX(k,l);switch(j[0]){case
+a=aT(k,n),c=aT(k,l);switch(j[0]){case
 0:var
 X=0;if(c)if(c[2])var
 h=0;else
@@ -5343,7 +5325,7 @@ if(a){var
 B=a[2],ac=0;if(B){var
 C=B[2];if(C)if(C[2]){var
 h=0;K=1;L=1;ac=1}else{var
-aM=[0,bt(fc(A[1],C[1])),0],aN=[0,bt(fc(z[1],B[1])),aM],h=cB(i,j,[0,bt(fc(c[1],a[1])),aN]);K=1;L=1;ac=1}else
+aM=[0,bv(fc(A[1],C[1])),0],aN=[0,bv(fc(z[1],B[1])),aM],h=cB(i,j,[0,bv(fc(c[1],a[1])),aN]);K=1;L=1;ac=1}else
 var
 ao=C}else
 var
@@ -5367,11 +5349,11 @@ if(a){var
 F=a[2],ae=0;if(F){var
 G=F[2],af=0;if(G)if(G[2]){var
 h=0;M=1;N=1;ae=1;af=1}else{var
-r=G[1],s=E[1],aI=0,aO=0;if(a_(s,[0,d,b])&&a_([0,d,b],r))var
+r=G[1],s=E[1],aI=0,aO=0;if(ba(s,[0,d,b])&&ba([0,d,b],r))var
 ar=[0,d,b];else
 aI=1;if(aI)var
-aL=a1(r,r),ar=a_(a1(s,s),aL)?s:r;var
-aP=[0,bt(ar),aO],aQ=[0,bt(fc(D[1],F[1])),aP],as=cB(i,j,[0,bt(fc(c[1],a[1])),aQ]);if(as){var
+aL=a2(r,r),ar=ba(a2(s,s),aL)?s:r;var
+aP=[0,bv(ar),aO],aQ=[0,bv(fc(D[1],F[1])),aP],as=cB(i,j,[0,bv(fc(c[1],a[1])),aQ]);if(as){var
 h=fd(i,c6(j[2]),s,r);M=1;N=1;ae=1;af=1}else
 var
 at=as}else
@@ -5394,62 +5376,62 @@ h=aw}var
 W=h}else
 var
 W=V;if(W){var
-aW=aH(k,bc(H)),aY=aH(k,n),aE=i1(i,aH(k,l),aY,aW);if(aE)var
+aX=aG(k,be(H)),aY=aG(k,n),aE=i3(i,aG(k,l),aY,aX);if(aE)var
 u=aE;else{var
-aG=1===j[0]?0:1;if(aG)var
-aZ=aX(k,n),u=i1(i,aX(k,l),aZ,o);else
+aH=1===j[0]?0:1;if(aH)var
+aZ=aT(k,n),u=i3(i,aT(k,l),aZ,o);else
 var
-u=aG}}else
+u=aH}}else
 var
 u=W;var
 aF=u?m(function(a){var
-c=bc(a[2]),b=bV(f(bc(a[1]),c));return b?bV([0,i2(j,o,H,a),0]):b},S):u;return aF?nJ(i,e(function(c){var
-h=[6,i2(j,o,H,c)],a=aH(k,ag),e=q(uU,a,[0,d,b]),f=q(uV,a,[0,d,b]),g=[0,q(0,a,[0,d,b]),f,e];return[3,[6,i2(j,aX(k,ag),g,c)],h]},S),aR):aF}var
+c=be(a[2]),b=bV(f(be(a[1]),c));return b?bV([0,i4(j,o,H,a),0]):b},S):u;return aF?nN(i,e(function(c){var
+h=[6,i4(j,o,H,c)],a=aG(k,ag),e=q(u3,a,[0,d,b]),f=q(u4,a,[0,d,b]),g=[0,q(0,a,[0,d,b]),f,e];return[3,[6,i4(j,aT(k,ag),g,c)],h]},S),aR):aF}var
 ej=c(2,c(2,c(2,c(2,c(2,r(c(2,b)))))));function
-i3(e){var
-a=aC(ej,e);if(a){var
-f=i(kx(c(2,b)),ej);return[0,a[1][2],f]}return[0,d,b]}var
-u2=[0,[0,d,b],[0,d,b],[0,d,b]];function
+i5(e){var
+a=aD(ej,e);if(a){var
+f=i(kz(c(2,b)),ej);return[0,a[1][2],f]}return[0,d,b]}var
+u$=[0,[0,d,b],[0,d,b],[0,d,b]];function
 fe(c,a){var
 e=[0,d,b];return aq(function(b,a){return[2,i(c,b),a]},e,a)}function
 ff(b,a){return aq(function(c,a){var
-d=i(b,c);return T(function(b,a){return[2,b,a]},d,a)},u2,a)}function
-nO(d,h,c,e){var
+d=i(b,c);return T(function(b,a){return[2,b,a]},d,a)},u$,a)}function
+nS(d,h,c,e){var
 a=dZ(d,function(c,e,f){var
-a=aN(c,h),b=a?a_(e,f):a,g=b?[0,kU(d,c,e,f)]:b;return g},e);if(a){var
-b=a[1],f=hN(gK(aX(c,b[3]))),g=O(D(hN(gK(aH(c,b[3]))),f));return I(b[1][2],g)}return a}function
-i4(b,a,c){if(b)if(a)var
-f=a[1],g=i4(b[2],a[2],c),h=I(b[1],d)?[3,f,c]:[2,f,c],e=[0,h,g];else
+a=aN(c,h),b=a?ba(e,f):a,g=b?[0,kW(d,c,e,f)]:b;return g},e);if(a){var
+b=a[1],f=hQ(gN(aT(c,b[3]))),g=O(D(hQ(gN(aG(c,b[3]))),f));return I(b[1][2],g)}return a}function
+i6(b,a,c){if(b)if(a)var
+f=a[1],g=i6(b[2],a[2],c),h=I(b[1],d)?[3,f,c]:[2,f,c],e=[0,h,g];else
 var
 e=a;else
 var
 e=b;return e}function
-i5(a){return z(function(a){var
-d=i(kx(c(2,b)),ej);return[0,a[2],d]},a)}function
-gL(b,a){return[1,b,hL(a),a]}function
-gM(a){var
+i7(a){return z(function(a){var
+d=i(kz(c(2,b)),ej);return[0,a[2],d]},a)}function
+gO(b,a){return[1,b,hO(a),a]}function
+gP(a){var
 d=[0,c(2,b),b];return[5,[2,a[1],a[2]],d]}function
 cE(a){var
-b=gM(a[3]),c=gM(a[2]);return[0,gM(a[1]),c,b]}function
-nP(a,d,c){var
-b=aA(0,br(a));return e(function(b){var
-e=aN(b,cD(a))?d:c;return gL(b,e)},b)}function
-nQ(a){return[6,w(a,a)]}var
-gO=x(k(b),gN);function
-nR(e){var
-a=R(gO);if(e)var
-f=s(k(c(2,b)),a),g=C(k(c(2,c(2,b))),f),h=s(k(c(2,b)),a),d=ak(C(k(b),h),g);else
+b=gP(a[3]),c=gP(a[2]);return[0,gP(a[1]),c,b]}function
+nT(a,d,c){var
+b=aA(0,bt(a));return e(function(b){var
+e=aN(b,cD(a))?d:c;return gO(b,e)},b)}function
+nU(a){return[6,x(a,a)]}var
+gR=w(k(b),gQ);function
+nV(e){var
+a=R(gR);if(e)var
+f=s(k(c(2,b)),a),g=C(k(c(2,c(2,b))),f),h=s(k(c(2,b)),a),d=al(C(k(b),h),g);else
 var
-i=C(k(c(2,b)),a),j=R(gN),d=ak(C(s(k(c(2,b)),j),a),i);return aG(d)}function
-nS(d,c,a){if(d){var
-e=nR(c),f=C(k(b),e),g=s(x(k(b),a),f);return x(k(b),g)}var
-h=k(b),i=nR(c),j=ak(k(b),i);return x(s(a,C(k(b),j)),h)}function
+i=C(k(c(2,b)),a),j=R(gQ),d=al(C(s(k(c(2,b)),j),a),i);return aC(d)}function
+nW(d,c,a){if(d){var
+e=nV(c),f=C(k(b),e),g=s(w(k(b),a),f);return w(k(b),g)}var
+h=k(b),i=nV(c),j=al(k(b),i);return w(s(a,C(k(b),j)),h)}function
 ek(f,e,d,a){var
-g=R(a),h=R(d),i=x(x(k(c(2,b)),h),g),j=f?e?gO:ak(gO,s(k(c(2,b)),gN)):ak(gO,k(c(2,b))),l=s(R(j),i);return aG(C(k(b),l))}function
-nT(g,d){var
+g=R(a),h=R(d),i=w(w(k(c(2,b)),h),g),j=f?e?gR:al(gR,s(k(c(2,b)),gQ)):al(gR,k(c(2,b))),l=s(R(j),i);return aC(C(k(b),l))}function
+nX(g,d){var
 c=g,a=d[1],b=d[3];for(;;){if(c){if(b){var
 e=b[2],f=c[1]?A(a,b[1]):a,c=c[2],a=f,b=e;continue}return a}return a}}function
-i6(w,v,u,t){var
+i8(w,v,u,t){var
 a=e(function(a){return q(a,u,0)},v);if(a){var
 f=a[1];if(f){var
 b=a[2];if(b){var
@@ -5481,12 +5463,12 @@ r=f;var
 s=r}else
 var
 s=a;return s}function
-nU(f,i,e,c,h){var
+nY(f,i,e,c,h){var
 j=f?b:d,a=Q(i,j);function
 g(b){var
 c=f?b8(b):cq(b);return H(c,a)}var
 k=[0,$(h),0],l=[0,[0,a,c,[0,v,[0,g(c),0]]],k];return[0,[0,a,e,[0,g(e),0]],l]}function
-nV(r,b,q,p,g,o,n){if(o){var
+nZ(r,b,q,p,g,o,n){if(o){var
 x=o[1];if(x[1])return 0;if(o[2])return 0;if(n){var
 j=x[2],s=0;if(g){var
 h=g[2],c=0;if(h){var
@@ -5495,16 +5477,16 @@ a=0;c=1;d=1}else{var
 t=i[1],k=h[1],l=g[1],f=0;if(typeof
 j==="number")switch(j){case
 0:var
-A=e(aK,bf(u$)),z=e($,0),a=i6(b,p,bo(0,bL(b,d5(0,g),z),q,0),A);c=1;d=1;f=1;break;case
+A=e(aK,bj(vi)),z=e($,0),a=i8(b,p,bq(0,bL(b,d5(0,g),z),q,0),A);c=1;d=1;f=1;break;case
 3:var
-a=E(k[2],l[1]);c=1;d=1;f=1;break}else
+a=F(k[2],l[1]);c=1;d=1;f=1;break}else
 if(4===j[0]){var
 m=j[1];if(r)if(m){var
-B=e(nT,va),a=i6(b,p,bo(0,bL(b,nU(r,b,l,k,t),0),q,0),B);c=1;d=1;f=1}else{var
+B=e(nX,vj),a=i8(b,p,bq(0,bL(b,nY(r,b,l,k,t),0),q,0),B);c=1;d=1;f=1}else{var
 a=m;c=1;d=1;f=1}else
 if(m){var
 a=0;c=1;d=1;f=1}else{var
-C=e(nT,vb),a=i6(b,p,bo(0,bL(b,nU(r,b,l,k,t),0),q,0),C);c=1;d=1;f=1}}if(!f)var
+C=e(nX,vk),a=i8(b,p,bq(0,bL(b,nY(r,b,l,k,t),0),q,0),C);c=1;d=1;f=1}}if(!f)var
 u=0}else
 var
 u=i;if(!d)var
@@ -5514,28 +5496,28 @@ v=h;if(!c){var
 w=v;s=1}}else{var
 w=g;s=1}if(s)var
 a=w;var
-y=a?vc:a}else
+y=a?vl:a}else
 var
 y=n;return y}return[0,n]}function
-nW(f,e,d,c,p,o,n){var
+n0(f,e,d,c,p,o,n){var
 b=p,g=o,a=n;for(;;)switch(a[0]){case
 0:var
-h=nV(f,e,d,c,b,a[1],g);return h?S(h[1]):h;case
+h=nZ(f,e,d,c,b,a[1],g);return h?S(h[1]):h;case
 1:var
-i=nV(f,e,d,c,b,a[1],g);if(i){var
-j=i[1],k=cU(a[2],b),l=nW(f,e,d,c,k[1],j,a[3]);if(l){var
+i=nZ(f,e,d,c,b,a[1],g);if(i){var
+j=i[1],k=cU(a[2],b),l=n0(f,e,d,c,k[1],j,a[3]);if(l){var
 b=k[2],g=j,a=a[4];continue}var
 m=l}else
 var
 m=i;return m;default:return 0}}function
-i7(a){return b3(c(2,b),aE(a,b))}function
+i9(a){return b3(c(2,b),aF(a,b))}function
 el(i,a,e,w,v){var
-m=a?b:O(b),f=k(m),g=nS(a,e,u9),h=nS(a,e,u_),n=ak(g,ek(a,e,f,g)),o=[0,C(ak(h,ek(a,e,h,f)),n),0],p=ak(f,ek(a,e,f,g)),q=[0,C(ak(h,ek(a,e,g,h)),p),o],r=ak(f,ek(a,e,h,f)),t=[0,C(ak(g,ek(a,e,g,h)),r),q],u=a?e?k(c(2,b)):s(k(c(2,c(2,b))),gN):k(c(2,c(2,b))),j=cP([0,u,t]),l=[0,d,cp(i)];return nW(a,i,j[1],j[2],[0,l,[0,l,[0,w,0]]],1,v)}function
-nX(a,g,b){if(I(g,i7(a))){if(b){var
+m=a?b:O(b),f=k(m),g=nW(a,e,vg),h=nW(a,e,vh),n=al(g,ek(a,e,f,g)),o=[0,C(al(h,ek(a,e,h,f)),n),0],p=al(f,ek(a,e,f,g)),q=[0,C(al(h,ek(a,e,g,h)),p),o],r=al(f,ek(a,e,h,f)),t=[0,C(al(g,ek(a,e,g,h)),r),q],u=a?e?k(c(2,b)):s(k(c(2,c(2,b))),gQ):k(c(2,c(2,b))),j=cP([0,u,t]),l=[0,d,cp(i)];return n0(a,i,j[1],j[2],[0,l,[0,l,[0,w,0]]],1,v)}function
+n1(a,g,b){if(I(g,i9(a))){if(b){var
 c=b[2];if(c){var
 d=c[2];if(d){var
 e=d[2];if(e){if(e[2])return 0;var
-h=[0,g,i7(a)],v=cp(a),i=[0,i7(a),v],j=el(a,0,1,h,b[1]),k=j?el(a,0,0,i,c[1]):j;if(k){var
+h=[0,g,i9(a)],v=cp(a),i=[0,i9(a),v],j=el(a,0,1,h,b[1]),k=j?el(a,0,0,i,c[1]):j;if(k){var
 l=el(a,1,1,h,d[1]);if(l)return el(a,1,0,i,e[1]);var
 m=l}else
 var
@@ -5560,275 +5542,284 @@ t=f;var
 u=t}else
 var
 u=b;return u}function
-i8(a){var
+i_(a){var
 b=[1,[2,d]];return b4(function(b,a){return[1,[3,b,a]]},a,b)}function
-gP(a){return i8(e(function(a){return[1,[8,[1,[2,a]]]]},a))}function
-gQ(a,c){return i8(e(function(a){var
-d=[0,a[2]],b=_(a[1],c);return[1,[7,[1,[8,i8(e(function(a){return[1,[6,[0,a[1]],[1,[2,a[2]]]]]},b))]],d]]},a))}function
-nY(e,d,c,b,a){if(0===a[0])return q(a[1],b,0);var
-f=a[1],g=bK(function(a){return nY(e,d,c,b,a)},f);return i(bL(e,d,c),g)}function
-nZ(a){return a?I(d,a[1][2][1]):a}function
-vd(a){var
-b=p(g(a),ve);return b?al(function(a){return S(J(a,d))},a):b}function
-n0(c,f,b,a){if(b)if(a)var
-d=b[1],g=t(c,Q(c,a[1]),f),h=n0(c,f,b[2],a[2]),i=d[3],j=A(d[2],g),e=[0,[0,A(d[1],g),j,i],h];else
+gS(a){return i_(e(function(a){return[1,[8,[1,[2,a]]]]},a))}function
+gT(a,c){return i_(e(function(a){var
+d=[0,a[2]],b=_(a[1],c);return[1,[7,[1,[8,i_(e(function(a){return[1,[6,[0,a[1]],[1,[2,a[2]]]]]},b))]],d]]},a))}function
+n2(e,d,c,b,a){if(0===a[0])return q(a[1],b,0);var
+f=a[1],g=bK(function(a){return n2(e,d,c,b,a)},f);return i(bL(e,d,c),g)}function
+n3(a){return a?I(d,a[1][2][1]):a}function
+vm(a){var
+b=p(g(a),vn);return b?ak(function(a){return S(J(a,d))},a):b}function
+n4(c,f,b,a){if(b)if(a)var
+d=b[1],g=t(c,Q(c,a[1]),f),h=n4(c,f,b[2],a[2]),i=d[3],j=A(d[2],g),e=[0,[0,A(d[1],g),j,i],h];else
 var
 e=a;else
 var
 e=b;return e}function
-n1(d,c){var
-a=F(c,d);if(a){var
+n5(d,c){var
+a=E(c,d);if(a){var
 b=a[1],e=b[1];return S(J(b_(b),e))}return a}function
-gR(b,a){return eQ(eQ(b,0),a)}function
-i9(a){if(a){var
-b=a[2],c=a[1];if(b)return gR(c,[0,vg,i9(b)]);var
+gU(b,a){return eQ(eQ(b,0),a)}function
+i$(a){if(a){var
+b=a[2],c=a[1];if(b)return gU(c,[0,vp,i$(b)]);var
 d=c}else
 var
 d=a;return d}function
-G(a){return[0,vi,gR(i9(a),vh)]}function
-ag(a){return[0,vk,gR(i9(a),vj)]}function
-ar(a){return[0,vm,[0,a,vl]]}function
-n(b,a){return[0,a9(vo,a9(b,vn)),a]}function
+G(a){return[0,vr,gU(i$(a),vq)]}function
+ag(a){return[0,vt,gU(i$(a),vs)]}function
+ar(a){return[0,vv,[0,a,vu]]}function
+n(b,a){return[0,a$(vx,a$(b,vw)),a]}function
 N(b,a){return ag([0,n(b,a),0])}function
 cF(d){var
-b=d,a=rK,e=0;for(;;){if(b){var
-c=kr(a),b=b[1],a=c;continue}return[0,eR(fN(a)),e]}}function
-i_(a){return[0,eR(fV(a)),0]}function
+b=d,a=rR,e=0;for(;;){if(b){var
+c=kt(a),b=b[1],a=c;continue}return[0,eR(fN(a)),e]}}function
+ja(a){return[0,eR(fV(a)),0]}function
 fg(a){var
-c=aM(a),f=0,b=0===c?rQ:0<c?[0,fV(a)]:[1,fV(O(a))];if(0===b[0])var
+c=aM(a),f=0,b=0===c?rX:0<c?[0,fV(a)]:[1,fV(O(a))];if(0===b[0])var
 d=eR(b[1]);else
 var
-e=eR(b[1]),d=a9(bG(1,45),e);return[0,d,f]}function
+e=eR(b[1]),d=a$(bG(1,45),e);return[0,d,f]}function
 fh(a){var
-b=0,c=0<aM(a)?fV(a):rO;return[0,eR(c),b]}function
-i$(a){switch(a[0]){case
-2:return vq;case
-3:return 2<=a[1]?vr:vs;case
-4:return vt;default:return vp}}function
+b=0,c=0<aM(a)?fV(a):rV;return[0,eR(c),b]}function
+jb(a){switch(a[0]){case
+2:return vz;case
+3:return 2<=a[1]?vA:vB;case
+4:return vC;default:return vy}}function
 fi(b,a){function
-c(c,a){return Z(c,i$(a))?fi(b,a):[0,vz,f(fi(b,a),vy)]}switch(a[0]){case
+c(c,a){return Z(c,jb(a))?fi(b,a):[0,vI,f(fi(b,a),vH)]}switch(a[0]){case
 0:var
 e=a[2],g=a[1];if(typeof
-e==="number")return[0,be(g),0];var
-h=[0,vA,[0,be(e),0]];return[0,be(g),h];case
+e==="number")return[0,bh(g),0];var
+h=[0,vJ,[0,bh(e),0]];return[0,bh(g),h];case
 1:return[0,i(b,a[1]),0];case
-2:return[0,vC,c(vB,a[1])];case
+2:return[0,vL,c(vK,a[1])];case
 3:var
-j=a[3],k=c([0,i$(a)],j);switch(a[1]){case
+j=a[3],k=c([0,jb(a)],j);switch(a[1]){case
 0:var
-d=vu;break;case
+d=vD;break;case
 1:var
-d=vv;break;case
+d=vE;break;case
 2:var
-d=vw;break;default:var
-d=vx}var
-l=a[2];return f(c(i$(a),l),[0,d,k]);case
+d=vF;break;default:var
+d=vG}var
+l=a[2];return f(c(jb(a),l),[0,d,k]);case
 4:var
-m=[0,vD,i_(a[2])];return f(c(vE,a[1]),m);default:return[0,vG,f(fi(b,a[1]),vF)]}}function
-K(a){return[0,vJ,f(fi(function(a){return 0===a[0]?a[1]:vI},a),vH)]}function
-ja(a){return[0,vL,f(fi(function(a){return a},a),vK)]}function
+m=[0,vM,ja(a[2])];return f(c(vN,a[1]),m);default:return[0,vP,f(fi(b,a[1]),vO)]}}function
+K(a){return[0,vS,f(fi(function(a){return 0===a[0]?a[1]:vR},a),vQ)]}function
+jc(a){return[0,vU,f(fi(function(a){return a},a),vT)]}function
 cG(a){if(0===a[0])return K(a[1]);var
-b=[0,n(vM,K(a[2])),0];return ag([0,n(vN,K(a[1])),b])}function
-gS(b,a){var
+b=[0,n(vV,K(a[2])),0];return ag([0,n(vW,K(a[1])),b])}function
+gV(b,a){var
 c=[0,i(b,a[3]),0],d=[0,i(b,a[2]),c];return G([0,i(b,a[1]),d])}function
-vO(a){function
-b(a){return gS(cG,a)}switch(a[0]){case
+vX(a){function
+b(a){return gV(cG,a)}switch(a[0]){case
 0:var
-e=0,g=a[5]?vP:vX,h=[0,n(vQ,ar(g)),e],i=[0,n(vR,cG(a[4])),h],j=[0,n(vS,b(a[3])),i],k=[0,n(vT,b(a[2])),j],l=[0,n(vU,b(a[1])),k],c=[0,n(vW,ar(vV)),l];break;case
+e=0,g=a[5]?vY:v6,h=[0,n(vZ,ar(g)),e],i=[0,n(v0,cG(a[4])),h],j=[0,n(v1,b(a[3])),i],k=[0,n(v2,b(a[2])),j],l=[0,n(v3,b(a[1])),k],c=[0,n(v5,ar(v4)),l];break;case
 1:var
-d=a[3],m=d?[0,n(vY,b(d[1])),0]:d,o=[0,n(vZ,b(a[2])),0],p=[0,n(v0,b(a[1])),o],c=f([0,n(v2,ar(v1)),p],m);break;default:var
-q=[0,n(v3,b(a[1])),0],c=[0,n(v5,ar(v4)),q]}return ag(c)}function
-v6(a){function
+d=a[3],m=d?[0,n(v7,b(d[1])),0]:d,o=[0,n(v8,b(a[2])),0],p=[0,n(v9,b(a[1])),o],c=f([0,n(v$,ar(v_)),p],m);break;default:var
+q=[0,n(wa,b(a[1])),0],c=[0,n(wc,ar(wb)),q]}return ag(c)}function
+wd(a){function
 b(a){return G(e(cG,a))}function
 d(a){var
-b=a?v7:v9;return n(v8,ar(b))}switch(a[0]){case
+b=a?we:wg;return n(wf,ar(b))}switch(a[0]){case
 0:var
-f=[0,d(a[5]),0],g=[0,n(v_,cG(a[4])),f],h=[0,n(v$,b(a[3])),g],i=[0,n(wa,b(a[2])),h],j=[0,n(wb,b(a[1])),i],c=[0,n(wd,ar(wc)),j];break;case
+f=[0,d(a[5]),0],g=[0,n(wh,cG(a[4])),f],h=[0,n(wi,b(a[3])),g],i=[0,n(wj,b(a[2])),h],j=[0,n(wk,b(a[1])),i],c=[0,n(wm,ar(wl)),j];break;case
 1:var
-k=[0,n(we,b(a[2])),0],l=[0,n(wf,b(a[1])),k],c=[0,n(wh,ar(wg)),l];break;default:var
-m=[0,d(a[7]),0],o=[0,n(wi,cG(a[6])),m],p=[0,n(wj,cG(a[5])),o],q=[0,n(wk,b(a[4])),p],r=[0,n(wl,b(a[3])),q],s=[0,n(wm,b(a[2])),r],t=[0,n(wn,b(a[1])),s],c=[0,n(wp,ar(wo)),t]}return ag(c)}function
-jb(a){switch(a){case
-0:return wq;case
-1:return wr;case
-2:return ws;case
-3:return wt;case
-4:return wu;case
-5:return wv;case
-6:return ww;case
-7:return wx;case
-8:return wy;case
-9:return wz;case
-10:return wA;case
-11:return wB;case
-12:return wC;case
-13:return wD;case
-14:return wE;default:return wF}}function
-jc(a){if(typeof
-a==="number")return wG;else
+k=[0,n(wn,b(a[2])),0],l=[0,n(wo,b(a[1])),k],c=[0,n(wq,ar(wp)),l];break;default:var
+m=[0,d(a[7]),0],o=[0,n(wr,cG(a[6])),m],p=[0,n(ws,cG(a[5])),o],q=[0,n(wt,b(a[4])),p],r=[0,n(wu,b(a[3])),q],s=[0,n(wv,b(a[2])),r],t=[0,n(ww,b(a[1])),s],c=[0,n(wy,ar(wx)),t]}return ag(c)}function
+jd(a){switch(a){case
+0:return wz;case
+1:return wA;case
+2:return wB;case
+3:return wC;case
+4:return wD;case
+5:return wE;case
+6:return wF;case
+7:return wG;case
+8:return wH;case
+9:return wI;case
+10:return wJ;case
+11:return wK;case
+12:return wL;case
+13:return wM;case
+14:return wN;case
+15:return wO;default:return wP}}function
+je(a){if(typeof
+a==="number")return wQ;else
 switch(a[0]){case
-0:return wH;case
-1:return wI;default:return wJ}}function
+0:return wR;case
+1:return wS;default:return wT}}function
 fj(a){var
 c=a[4];if(typeof
 c==="number")var
 d=0;else
 switch(c[0]){case
 0:var
-d=[0,n(wK,K(c[1])),0];break;case
+d=[0,n(wU,K(c[1])),0];break;case
 1:var
-d=[0,n(wL,K(c[1])),0];break;default:var
-m=[0,K(c[2]),0],d=[0,n(wM,G([0,K(c[1]),m])),0]}var
-o=[0,n(wN,ar(jc(a[4]))),d],h=a[3];if(h){var
-b=h[1];switch(b[0]){case
+d=[0,n(wV,K(c[1])),0];break;default:var
+o=[0,K(c[2]),0],d=[0,n(wW,G([0,K(c[1]),o])),0]}var
+p=[0,n(wX,ar(je(a[4]))),d],i=a[3];if(i){var
+b=i[1];switch(b[0]){case
 0:var
-q=G([0,K(b[1]),0]),j=a[1],p=0,r=6===j?wO:12===j?wS:wT,g=[0,n(wP,N(r,q)),p];break;case
+r=G([0,K(b[1]),0]),k=a[1],q=0,s=6===k?wY:12===k?w2:w3,g=[0,n(wZ,N(s,r)),q];break;case
 1:var
-w=G(e(K,b[1])),l=a[1],v=0,x=14===l?wU:15<=l?wW:wX,g=[0,n(wV,N(x,w)),v];break;case
-2:var
-y=[0,n(wY,G([0,K(b[2]),0])),0],g=[0,n(w0,ag([0,n(wZ,G([0,K(b[1]),0])),y])),0];break;default:var
-z=[0,n(w1,G([0,K(b[2]),0])),0],g=[0,n(w3,ag([0,n(w2,G([0,K(b[1]),0])),z])),0]}var
-k=g}else
+x=G(e(K,b[1])),m=a[1],w=0;if(14<=m)switch(m+p8|0){case
+0:var
+h=w4;break;case
+1:var
+h=w6;break;default:var
+h=w7}else
 var
-k=h;var
-s=f(k,o),i=a[2],t=i?[0,n(wQ,cF(i[1])),0]:i,u=f(t,s);return ag([0,n(wR,ar(jb(a[1]))),u])}function
-n2(a){if(0===a[0]){var
-b=[0,n(w4,gS(K,a[2])),0];return N(w6,ag([0,n(w5,gS(K,a[1])),b]))}var
-c=[0,K(a[5]),0],d=[0,n(w7,G([0,K(a[4]),c])),0],e=[0,n(w8,K(a[3])),d],f=[0,K(a[2]),0];return N(w_,ag([0,n(w9,G([0,K(a[1]),f])),e]))}function
-n3(a){if(0===a[0]){var
-b=[0,n(w$,G(e(K,a[2]))),0];return N(xb,ag([0,n(xa,G(e(K,a[1]))),b]))}return n2([1,a[1],a[2],a[3],a[4],a[5]])}function
-n4(a){switch(a){case
-0:return xc;case
-1:return xd;default:return xe}}function
-xf(a){function
+h=w8;var
+g=[0,n(w5,N(h,x)),w];break;case
+2:var
+y=[0,n(w9,G([0,K(b[2]),0])),0],g=[0,n(w$,ag([0,n(w_,G([0,K(b[1]),0])),y])),0];break;default:var
+z=[0,n(xa,G([0,K(b[2]),0])),0],g=[0,n(xc,ag([0,n(xb,G([0,K(b[1]),0])),z])),0]}var
+l=g}else
+var
+l=i;var
+t=f(l,p),j=a[2],u=j?[0,n(w0,cF(j[1])),0]:j,v=f(u,t);return ag([0,n(w1,ar(jd(a[1]))),v])}function
+n6(a){if(0===a[0]){var
+b=[0,n(xd,gV(K,a[2])),0];return N(xf,ag([0,n(xe,gV(K,a[1])),b]))}var
+c=[0,K(a[5]),0],d=[0,n(xg,G([0,K(a[4]),c])),0],e=[0,n(xh,K(a[3])),d],f=[0,K(a[2]),0];return N(xj,ag([0,n(xi,G([0,K(a[1]),f])),e]))}function
+n7(a){if(0===a[0]){var
+b=[0,n(xk,G(e(K,a[2]))),0];return N(xm,ag([0,n(xl,G(e(K,a[1]))),b]))}return n6([1,a[1],a[2],a[3],a[4],a[5]])}function
+n8(a){switch(a){case
+0:return xn;case
+1:return xo;default:return xp}}function
+xq(a){function
 b(a){return G(e(cG,a))}var
-c=[0,n(xg,b(a[2])),0],d=[0,n(xh,b(a[1])),c];return ag([0,n(xj,ar(xi)),d])}function
-n5(a){function
+c=[0,n(xr,b(a[2])),0],d=[0,n(xs,b(a[1])),c];return ag([0,n(xu,ar(xt)),d])}function
+n9(a){function
 b(b,a){var
 c=[0,K(a),0];return G([0,K(b),c])}switch(a[0]){case
-0:return N(xk,b(a[1],a[2]));case
+0:return N(xv,b(a[1],a[2]));case
 1:var
-c=a[3],d=a[2],e=a[1],f=[0,n(xl,b(c[1],c[2])),0],g=[0,n(xm,b(d[1],d[2])),f];return N(xo,ag([0,n(xn,b(e[1],e[2])),g]));case
-2:return N(xp,K(a[1]));default:var
-h=[0,n(xq,K(a[2])),0];return N(xs,ag([0,n(xr,K(a[1])),h]))}}function
-xt(a){function
-b(a){return gS(K,a)}if(0===a[0])var
-c=a[5],e=c?[0,n(xu,b(c[1])),0]:c,g=[0,K(a[4]),0],h=[0,n(xv,G([0,K(a[3]),g])),0],i=[0,n(xw,K(a[2])),h],j=[0,n(xx,cF(a[1])),i],d=f([0,n(xz,ar(xy)),j],e);else
+c=a[3],d=a[2],e=a[1],f=[0,n(xw,b(c[1],c[2])),0],g=[0,n(xx,b(d[1],d[2])),f];return N(xz,ag([0,n(xy,b(e[1],e[2])),g]));case
+2:return N(xA,K(a[1]));default:var
+h=[0,n(xB,K(a[2])),0];return N(xD,ag([0,n(xC,K(a[1])),h]))}}function
+xE(a){function
+b(a){return gV(K,a)}if(0===a[0])var
+c=a[5],e=c?[0,n(xF,b(c[1])),0]:c,g=[0,K(a[4]),0],h=[0,n(xG,G([0,K(a[3]),g])),0],i=[0,n(xH,K(a[2])),h],j=[0,n(xI,cF(a[1])),i],d=f([0,n(xK,ar(xJ)),j],e);else
 var
-k=[0,n(xA,K(a[4])),0],l=[0,n(xB,b(a[3])),k],m=[0,n(xC,b(a[2])),l],o=a[1]?xD:xF,d=[0,n(xE,ar(o)),m];return ag(d)}function
-n6(a){var
-b=a?[0,n(xG,G(e(xt,a))),0]:a;return b}function
-jd(d,c,b,a){var
-g=[0,n(xH,G(e(fj,a))),0],h=f(n6(b),g),i=[0,n(xI,n2(c)),0];return ag(f([0,n(xK,N(xJ,G(e(vO,d)))),i],h))}function
-xL(a){switch(a[0]){case
-0:return N(xM,jd(a[1],a[2],a[3],a[4]));case
+k=[0,n(xL,K(a[4])),0],l=[0,n(xM,b(a[3])),k],m=[0,n(xN,b(a[2])),l],o=a[1]?xO:xQ,d=[0,n(xP,ar(o)),m];return ag(d)}function
+n_(a){var
+b=a?[0,n(xR,G(e(xE,a))),0]:a;return b}function
+jf(d,c,b,a){var
+g=[0,n(xS,G(e(fj,a))),0],h=f(n_(b),g),i=[0,n(xT,n6(c)),0];return ag(f([0,n(xV,N(xU,G(e(vX,d)))),i],h))}function
+xW(a){switch(a[0]){case
+0:return N(xX,jf(a[1],a[2],a[3],a[4]));case
 1:var
-b=a[5],c=a[3],d=a[1],g=G(e(v6,a[2])),l=[0,n(xN,G(e(fj,a[6]))),0],m=b?[0,n(xO,n5(b[1])),0]:b,o=f(m,l),k=0,p=[0,n(xP,n3(a[4])),o];if(typeof
+b=a[5],c=a[3],d=a[1],g=G(e(wd,a[2])),l=[0,n(xY,G(e(fj,a[6]))),0],m=b?[0,n(xZ,n9(b[1])),0]:b,o=f(m,l),k=0,p=[0,n(x0,n7(a[4])),o];if(typeof
 d==="number")if(d)var
-h=xQ;else{var
-i=N(xV,g);k=1}else
+h=x1;else{var
+i=N(x6,g);k=1}else
 var
-h=n4(d[1]);if(!k)var
-q=c?[0,n(xR,K(c[1])),0]:c,i=N(h,ag([0,n(xS,g),q]));return N(xU,ag([0,n(xT,i),p]));case
+h=n8(d[1]);if(!k)var
+q=c?[0,n(x2,K(c[1])),0]:c,i=N(h,ag([0,n(x3,g),q]));return N(x5,ag([0,n(x4,i),p]));case
 2:var
-r=[0,n(xW,G(e(fj,a[7]))),0],s=f(n6(a[6]),r),t=[0,n(xX,n5(a[5])),0],u=[0,n(xY,n3(a[4])),t],v=[0,n(xZ,K(a[3])),0],w=ag([0,n(x0,G(e(xf,a[2]))),v]);return N(x2,ag(f([0,n(x1,N(n4(a[1]),w)),u],s)));case
+r=[0,n(x7,G(e(fj,a[7]))),0],s=f(n_(a[6]),r),t=[0,n(x8,n9(a[5])),0],u=[0,n(x9,n7(a[4])),t],v=[0,n(x_,K(a[3])),0],w=ag([0,n(x$,G(e(xq,a[2]))),v]);return N(yb,ag(f([0,n(ya,N(n8(a[1]),w)),u],s)));case
 3:var
-x=[0,n(x3,G(e(fj,a[7]))),0],y=[0,n(x4,G(e(K,a[6]))),0],z=[0,n(x7,N(x6,ag([0,n(x5,G(e(K,a[5]))),y]))),x],A=0,B=a[4],C=[0,n(x_,G(e(function(a){return 0===a[0]?N(x8,G(e(ja,a[1]))):N(x9,ja(a[1]))},B))),A],D=a[3],E=[0,n(x$,G(e(function(a){var
-b=[0,ja(a[2]),0];return G([0,ar(a[1]),b])},D))),C],F=a[2],H=[0,n(ya,G(e(function(a){var
-b=[0,cG(a[2]),0];return G([0,ar(a[1]),b])},F))),E];return N(ye,ag([0,n(yd,N(yc,ag([0,n(yb,G(e(ar,a[1]))),H]))),z]));case
+x=[0,n(yc,G(e(fj,a[7]))),0],y=[0,n(yd,G(e(K,a[6]))),0],z=[0,n(yg,N(yf,ag([0,n(ye,G(e(K,a[5]))),y]))),x],A=0,B=a[4],C=[0,n(yj,G(e(function(a){return 0===a[0]?N(yh,G(e(jc,a[1]))):N(yi,jc(a[1]))},B))),A],D=a[3],E=[0,n(yk,G(e(function(a){var
+b=[0,jc(a[2]),0];return G([0,ar(a[1]),b])},D))),C],F=a[2],H=[0,n(yl,G(e(function(a){var
+b=[0,cG(a[2]),0];return G([0,ar(a[1]),b])},F))),E];return N(yp,ag([0,n(yo,N(yn,ag([0,n(ym,G(e(ar,a[1]))),H]))),z]));case
 4:var
-I=[0,n(yf,G(e(fj,a[3]))),0],J=[0,n(yi,N(yh,ag([0,n(yg,K(a[2])),0]))),I];return N(ym,ag([0,n(yl,N(yk,ag([0,n(yj,K(a[1])),0]))),J]));case
+I=[0,n(yq,G(e(fj,a[3]))),0],J=[0,n(yt,N(ys,ag([0,n(yr,K(a[2])),0]))),I];return N(yx,ag([0,n(yw,N(yv,ag([0,n(yu,K(a[1])),0]))),J]));case
 5:var
-L=[0,n(yn,K(a[5])),0];return N(yp,ag([0,n(yo,jd(a[1],[0,a[2],a[3]],0,a[4])),L]));case
+L=[0,n(yy,K(a[5])),0];return N(yA,ag([0,n(yz,jf(a[1],[0,a[2],a[3]],0,a[4])),L]));case
 6:var
-j=a[1],M=0,O=j?cG(j[1]):ar(ys);return N(yr,ag([0,n(yq,O),M]));default:var
-P=[0,n(yt,K(a[6])),0],Q=[0,n(yu,K(a[5])),P],R=[0,n(yv,jd(a[2],a[3],0,a[4])),Q],S=a[1];return N(yA,ag([0,n(yz,G(e(function(a){var
-b=[0,n(yw,K(a[2][2])),0],c=[0,n(yx,K(a[2][1])),b];return ag([0,n(yy,ar(a[1])),c])},S))),R]))}}function
+j=a[1],M=0,O=j?cG(j[1]):ar(yD);return N(yC,ag([0,n(yB,O),M]));default:var
+P=[0,n(yE,K(a[6])),0],Q=[0,n(yF,K(a[5])),P],R=[0,n(yG,jf(a[2],a[3],0,a[4])),Q],S=a[1];return N(yL,ag([0,n(yK,G(e(function(a){var
+b=[0,n(yH,K(a[2][2])),0],c=[0,n(yI,K(a[2][1])),b];return ag([0,n(yJ,ar(a[1])),c])},S))),R]))}}function
 em(a){return G(e(fg,a))}function
 fk(b,a){var
-c=[0,n(yB,fh(a)),0];return ag([0,n(yC,G(e(em,b))),c])}function
+c=[0,n(yM,fh(a)),0];return ag([0,n(yN,G(e(em,b))),c])}function
 en(a){switch(a[0]){case
 0:return ar(a[1]);case
 1:var
 b=fk(a[2],a[3]);return N(a[1],b);case
 2:var
-c=a[1]?yD:yF;return N(yE,ar(c));case
+c=a[1]?yO:yQ;return N(yP,ar(c));case
 3:var
-d=[0,em(a[3]),0];return N(yG,G([0,fk(a[1],a[2]),d]));case
+d=[0,em(a[3]),0];return N(yR,G([0,fk(a[1],a[2]),d]));case
 4:var
-f=[0,fh(a[4]),0],g=[0,fg(a[3]),f];return N(yH,G([0,fk(a[1],a[2]),g]));case
+f=[0,fh(a[4]),0],g=[0,fg(a[3]),f];return N(yS,G([0,fk(a[1],a[2]),g]));case
 5:var
-h=[0,fh(a[3]),0],i=[0,fg(a[2]),h];return N(yI,G([0,en(a[1]),i]));case
+h=[0,fh(a[3]),0],i=[0,fg(a[2]),h];return N(yT,G([0,en(a[1]),i]));case
 6:var
-j=[0,fh(a[3]),0],k=[0,fg(a[2]),j];return N(yJ,G([0,en(a[1]),k]));case
-7:return N(yK,en(a[1]));case
+j=[0,fh(a[3]),0],k=[0,fg(a[2]),j];return N(yU,G([0,en(a[1]),k]));case
+7:return N(yV,en(a[1]));case
 8:var
-l=[0,G(e(em,a[3])),0],m=[0,ar(a[2]),l];return N(yL,G([0,en(a[1]),m]));default:var
-n=a[1];return N(yM,G(e(function(a){var
+l=[0,G(e(em,a[3])),0],m=[0,ar(a[2]),l];return N(yW,G([0,en(a[1]),m]));default:var
+n=a[1];return N(yX,G(e(function(a){var
 b=a[1],c=b[1],d=[0,en(a[2]),0],e=[0,fh(b[2]),d],f=[0,fg(c[2]),e];return G([0,em(c[1]),f])},n)))}}function
-yN(a){var
+yY(a){var
 b=[0,en(a[2]),0];return G([0,cF(a[1]),b])}function
-n7(a){if(typeof
-a==="number")return 0===a?ar(yO):ar(yP);else
+n$(a){if(typeof
+a==="number")return 0===a?ar(yZ):ar(y0);else
 switch(a[0]){case
 0:var
-b=[0,G(e(em,a[2])),0];return N(yQ,G([0,cF(a[1]),b]));case
+b=[0,G(e(em,a[2])),0];return N(y1,G([0,cF(a[1]),b]));case
 1:var
-c=[0,cF(a[2]),0];return N(yR,G([0,cF(a[1]),c]));case
-2:return N(yS,G(e(K,a[1])));default:var
-d=[0,n(yT,fk(a[4],a[5])),0],f=[0,n(yU,G(e(K,a[3]))),d],g=[0,n(yV,G(e(K,a[2]))),f];return N(yX,ag([0,n(yW,cF(a[1])),g]))}}function
-yY(a){var
-b=a[4],h=b?[0,n(yZ,em([0,b[1],b[2]])),0]:b,d=a[3],i=d?[0,n(y0,n7(d[1])),0]:d,j=f(i,h),g=a[2],k=g?[0,n(y1,cF(g[1])),0]:g,l=f(k,j),c=a[1],m=c?[0,n(y2,G(e(yN,[0,c[1],c[2]]))),0]:c;return ag(f(m,l))}function
-n8(g,a,d){var
-h=[0,n(y3,G(e(yY,d))),0];if(a)var
-b=a[1],c=[0,n(y4,fk(b[1],b[2])),0];else
+c=[0,cF(a[2]),0];return N(y2,G([0,cF(a[1]),c]));case
+2:return N(y3,G(e(K,a[1])));default:var
+d=[0,n(y4,fk(a[4],a[5])),0],f=[0,n(y5,G(e(K,a[3]))),d],g=[0,n(y6,G(e(K,a[2]))),f];return N(y8,ag([0,n(y7,cF(a[1])),g]))}}function
+y9(a){var
+b=a[4],h=b?[0,n(y_,em([0,b[1],b[2]])),0]:b,d=a[3],i=d?[0,n(y$,n$(d[1])),0]:d,j=f(i,h),g=a[2],k=g?[0,n(za,cF(g[1])),0]:g,l=f(k,j),c=a[1],m=c?[0,n(zb,G(e(yY,[0,c[1],c[2]]))),0]:c;return ag(f(m,l))}function
+oa(g,a,d){var
+h=[0,n(zc,G(e(y9,d))),0];if(a)var
+b=a[1],c=[0,n(zd,fk(b[1],b[2])),0];else
 var
 c=a;var
-i=f(c,h);return ag([0,n(y5,i_(g)),i])}function
-n9(d,c,a,b){var
-g=[0,n(y6,n7(b)),0],h=a?[0,n(y7,G(e(K,a))),0]:a,i=f(h,g),j=[0,n(y8,G(e(K,c))),0];return ag(f([0,n(y9,i_(d)),j],i))}function
-y_(a){if(typeof
-a==="number")return ar(y$);else
+i=f(c,h);return ag([0,n(ze,ja(g)),i])}function
+ob(d,c,a,b){var
+g=[0,n(zf,n$(b)),0],h=a?[0,n(zg,G(e(K,a))),0]:a,i=f(h,g),j=[0,n(zh,G(e(K,c))),0];return ag(f([0,n(zi,ja(d)),j],i))}function
+zj(a){if(typeof
+a==="number")return ar(zk);else
 switch(a[0]){case
-0:return N(za,cF(a[1]));case
-1:return N(zb,n8(a[1],a[2],a[3]));default:return N(zc,n9(a[1],a[2],a[3],a[4]))}}function
-gT(a){var
-b=hE(hD(au(a),function(b){return a0(a,b)}));return m(function(a){var
-b=S(34===a?1:0),c=b?S(92===a?1:0):b,d=c?Z(zr,fX(a)):c;return d?Z(fX(a),zs):d},b)}function
-n_(c){var
+0:return N(zl,cF(a[1]));case
+1:return N(zm,oa(a[1],a[2],a[3]));default:return N(zn,ob(a[1],a[2],a[3],a[4]))}}function
+gW(a){var
+b=hH(hG(au(a),function(b){return a1(a,b)}));return m(function(a){var
+b=S(34===a?1:0),c=b?S(92===a?1:0):b,d=c?Z(zC,fX(a)):c;return d?Z(fX(a),zD):d},b)}function
+oc(c){var
 a=c;for(;;)switch(a[0]){case
 8:var
-b=gT(a[2]);if(b){var
+b=gW(a[2]);if(b){var
 a=a[1];continue}return b;case
 9:var
-d=a[1];return m(function(a){return n_(a[2])},d);case
+d=a[1];return m(function(a){return oc(a[2])},d);case
 0:case
-1:return gT(a[1]);case
+1:return gW(a[1]);case
 5:case
 6:case
 7:var
 a=a[1];continue;default:return 1}}function
 fl(b){function
 c(f){var
-a=fX(f),b=Z(zt,a),c=b?Z(a,zu):b;if(c)var
+a=fX(f),b=Z(zE,a),c=b?Z(a,zF):b;if(c)var
 d=c;else{var
-e=Z(zv,a);if(e)return Z(a,zw);var
+e=Z(zG,a);if(e)return Z(a,zH);var
 d=e}return d}var
-a=hE(hD(au(b),function(a){return a0(b,a)}));if(a){var
+a=hH(hG(au(b),function(a){return a1(b,a)}));if(a){var
 d=a[2],e=c(a[1]),f=e?m(function(a){var
 b=c(a);if(b)var
 d=b;else
 var
-e=fX(a),f=Z(zx,e),h=f?Z(e,zy):f,d=h;var
-g=d||(95===a?1:0);return g},d):e,h=f?Z(g(d),zz):f;if(h)return S(aw(b,zA));var
+e=fX(a),f=Z(zI,e),h=f?Z(e,zJ):f,d=h;var
+g=d||(95===a?1:0);return g},d):e,h=f?Z(g(d),zK):f;if(h)return S(aw(b,zL));var
 i=h}else
 var
 i=a;return i}function
-je(c){var
+jg(c){var
 a=c;for(;;)switch(a[0]){case
 0:return 1;case
 1:return fl(a[1]);case
 3:var
-b=je(a[2]);if(b){var
+b=jg(a[2]);if(b){var
 a=a[3];continue}return b;default:var
 a=a[1];continue}}function
 fm(m){var
@@ -5856,26 +5847,26 @@ j=a[2],k=fm(a[1]),l=k?fT(c(2,b),j):k;return l?fT(j,c(2,c(2,c(2,c(2,c(2,c(2,b))))
 a=a[1];continue}}function
 eo(a){return 0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
 bW(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-dv(a){return y(eo,bW(a))}function
-jf(a){switch(a[0]){case
+dw(a){return y(eo,bW(a))}function
+jh(a){switch(a[0]){case
 0:var
-c=eo(a[4]),d=f(dv(a[3]),c),e=f(dv(a[2]),d);return f(dv(a[1]),e);case
+c=eo(a[4]),d=f(dw(a[3]),c),e=f(dw(a[2]),d);return f(dw(a[1]),e);case
 1:var
-b=a[3],g=b?dv(b[1]):b,h=f(dv(a[2]),g);return f(dv(a[1]),h);default:return dv(a[1])}}function
-zB(a){switch(a[0]){case
+b=a[3],g=b?dw(b[1]):b,h=f(dw(a[2]),g);return f(dw(a[1]),h);default:return dw(a[1])}}function
+zM(a){switch(a[0]){case
 0:var
 c=f(a[3],[0,a[4],0]),d=f(a[2],c),b=f(a[1],d);break;case
 1:var
 b=f(a[1],a[2]);break;default:var
 e=f(a[4],[0,a[5],[0,a[6],0]]),g=f(a[3],e),h=f(a[2],g),b=f(a[1],h)}return y(eo,b)}function
-n$(a){return 0===a[0]?f(a[1],a[2]):[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
-oa(a){if(0===a[0]){var
+od(a){return 0===a[0]?f(a[1],a[2]):[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
+oe(a){if(0===a[0]){var
 b=bW(a[2]);return f(bW(a[1]),b)}return[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
-ob(a){switch(a[0]){case
+of(a){switch(a[0]){case
 1:var
 b=a[3],c=a[2],d=a[1];return[0,d[1],[0,d[2],[0,c[1],[0,c[2],[0,b[1],[0,b[2],0]]]]]];case
 2:return[0,a[1],0];default:return[0,a[1],[0,a[2],0]]}}function
-dw(e){var
+dx(e){var
 a=e[4],h=typeof
 a==="number"?0:2===a[0]?[0,a[1],[0,a[2],0]]:[0,a[1],0],c=e[3];if(c){var
 b=c[1];switch(b[0]){case
@@ -5887,31 +5878,31 @@ d=[0,b[1],[0,b[2],0]]}var
 g=d}else
 var
 g=c;return f(g,h)}function
-oc(a){if(0===a[0]){var
+og(a){if(0===a[0]){var
 b=a[5],c=b?bW(b[1]):b;return[0,a[2],[0,a[3],[0,a[4],c]]]}var
 d=[0,a[4],0],e=f(bW(a[3]),d);return f(bW(a[2]),e)}function
-od(b,e){var
+oh(b,e){var
 a=e;for(;;)switch(a[0]){case
 0:return 1;case
 1:var
 c=a[1];if(0===c[0]){var
-f=c[1];return al(function(a){return aw(f,a)},b)}return 0;case
+f=c[1];return ak(function(a){return aw(f,a)},b)}return 0;case
 3:var
-d=od(b,a[2]);if(d){var
+d=oh(b,a[2]);if(d){var
 a=a[3];continue}return d;default:var
 a=a[1];continue}}function
 fn(c,a){return m(function(a){var
-b=fm(a);return b?od(c,a):b},a)}function
-oe(a){if(typeof
+b=fm(a);return b?oh(c,a):b},a)}function
+oi(a){if(typeof
 a!=="number")switch(a[0]){case
 2:return a[1];case
 3:return f(a[2],a[3])}return 0}function
-of(a){var
+oj(a){var
 d=fT(c(2,c(2,c(2,c(2,c(2,b))))),a);return d?fT(a,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b))))))))))):d}function
-og(a,b){return b?[4,og(a,b[1]),a]:a}function
+ok(a,b){return b?[4,ok(a,b[1]),a]:a}function
 j(a){switch(a[0]){case
 0:var
-i=a[2],k=c(2,r(c(2,c(2,b)))),l=function(a){return B(k,a)},m=fO(kp(i),l,b);return[0,kE(kq(fN(a[1]),i)),m];case
+i=a[2],k=c(2,r(c(2,c(2,b)))),l=function(a){return B(k,a)},m=fO(kr(i),l,b);return[0,kG(ks(fN(a[1]),i)),m];case
 1:var
 e=a[1];return 0===e[0]?[5,[0,b,b],[0,d,b]]:[1,e[1],e[2],e[3]];case
 2:var
@@ -5922,35 +5913,35 @@ g=j(a[2]),h=j(a[3]);switch(a[1]){case
 1:return[3,g,h];case
 2:return[4,g,h];default:return[5,g,h]}case
 4:var
-n=bv(eO(a[2]));return og(j(a[1]),n);default:return[6,j(a[1])]}}function
+n=bx(eO(a[2]));return ok(j(a[1]),n);default:return[6,j(a[1])]}}function
 bX(a){if(0===a[0]){var
 b=j(a[1]);return[0,b,b]}var
 c=j(a[2]);return[0,j(a[1]),c]}function
-dx(a){var
+dy(a){var
 b=bX(a[3]),c=bX(a[2]);return[0,bX(a[1]),c,b]}function
-zC(a){switch(a[0]){case
+zN(a){switch(a[0]){case
 0:var
-b=a[5],c=bX(a[4]),d=dx(a[3]),e=dx(a[2]);return[0,[0,dx(a[1]),e,d,c,b]];case
+b=a[5],c=bX(a[4]),d=dy(a[3]),e=dy(a[2]);return[0,[0,dy(a[1]),e,d,c,b]];case
 1:var
-f=z(dx,a[3]),g=dx(a[2]);return[1,dx(a[1]),g,f];default:return[2,dx(a[1])]}}function
-oh(a){if(0===a[0]){var
+f=z(dy,a[3]),g=dy(a[2]);return[1,dy(a[1]),g,f];default:return[2,dy(a[1])]}}function
+ol(a){if(0===a[0]){var
 c=a[2],d=a[1],b=function(a){var
 b=j(i(a,c));return[0,j(i(a,d)),b]},e=b(function(a){return a[3]}),f=b(function(a){return a[2]});return[0,[0,b(function(a){return a[1]}),f,e]]}var
 g=j(a[5]),h=[0,j(a[4]),g],k=j(a[3]),l=j(a[2]);return[1,j(a[1]),l,k,h]}function
 ep(a){var
 b=j(a[3]),c=j(a[2]);return[0,j(a[1]),c,b]}function
 da(a){if(0===a[0]){var
-c=a[5],h=c?ep(c[1]):[0,[0,d,b],[0,d,b],[0,d,b]],i=j(a[4]),k=j(a[3]),l=j(a[2]);return[0,bv(a[1]),l,k,i,h]}var
+c=a[5],h=c?ep(c[1]):[0,[0,d,b],[0,d,b],[0,d,b]],i=j(a[4]),k=j(a[3]),l=j(a[2]);return[0,bx(a[1]),l,k,i,h]}var
 e=a[4],f=a[3],g=a[2];if(a[1]){var
 m=ep(f),n=ep(g);return[2,j(e),n,m]}var
 o=ep(f),p=ep(g);return[1,j(e),p,o]}function
-gU(b,a){if(a){var
-c=a[1],d=a[2],g=gU(f(b,[0,c,0]),d),h=e(function(a){return[0,c,a]},b);return f(bn(function(c){var
+gX(b,a){if(a){var
+c=a[1],d=a[2],g=gX(f(b,[0,c,0]),d),h=e(function(a){return[0,c,a]},b);return f(bp(function(c){var
 a=c[2],b=c[1],d=0===b[0]?b[5]?0:0===a[0]?a[5]?0:p(b[1],a[1]):0:0===a[0]?0:cm(b[1],a[1]);return S(d)},h),g)}return a}function
-zD(b){if(b[1])return 0;var
+zO(b){if(b[1])return 0;var
 a=b[4];if(typeof
 a!=="number"&&1===a[0])return[0,[0,j(a[1])],0];return 0}function
-zE(N,M,a){switch(a[1]){case
+zP(N,M,a){switch(a[1]){case
 0:var
 g=a[4];if(typeof
 g!=="number"&&0===g[0])return[0,[1,j(g[1])],0];return 0;case
@@ -6005,11 +5996,11 @@ b=j(W);return[13,a,j(X),b]}}if(K)return 0;break;case
 9:var
 u=a[4];if(typeof
 u!=="number"&&0===u[0]){var
-Y=u[1],Z=gU(0,M);return e(function(h){var
+Y=u[1],Z=gX(0,M);return e(function(h){var
 e=j(Y),a=h[2],c=h[1];if(0===c[0]){var
 f=c[1];if(0===a[0]){var
 g=function(a){return a?ep(a[1]):[0,[0,d,b],[0,d,b],[0,d,b]]};if(p(f,a[1])){var
-i=j(a[2]),k=[2,[2,j(c[2]),i],e],l=g(a[5]),m=g(c[5]);return[11,bv(f),m,l,k]}var
+i=j(a[2]),k=[2,[2,j(c[2]),i],e],l=g(a[5]),m=g(c[5]);return[11,bx(f),m,l,k]}var
 n=da(a);return[10,da(c),n,e]}var
 o=da(a);return[10,da(c),o,e]}var
 q=da(a);return[10,da(c),q,e]},Z)}return 0;case
@@ -6022,15 +6013,15 @@ $=x[2],aa=x[1],c=function(a){var
 b=j(_),c=j($);return[12,a,j(aa),c,b]}}if(L)return 0;break;case
 11:var
 G=typeof
-a[4]==="number"?1:0,ab=G?zF:G;return ab;case
+a[4]==="number"?1:0,ab=G?zQ:G;return ab;case
 12:var
 y=a[4];if(typeof
 y!=="number"&&1===y[0]){var
 z=a[3];if(z){var
 H=z[1];if(0===H[0]){var
 ac=j(y[1]);return[0,[14,j(H[1]),ac],0]}return 0}return z}return 0;default:return 0}var
-B=a[2],P=B?[0,bv(B[1]),0]:aA(0,N);return e(c,P)}function
-zG(c,a){switch(a[1]){case
+B=a[2],P=B?[0,bx(B[1]),0]:aA(0,N);return e(c,P)}function
+zR(c,a){switch(a[1]){case
 0:var
 l=a[4];if(typeof
 l!=="number"&&2!==l[0])return a[2]?0:a[3]?0:1;return 0;case
@@ -6074,7 +6065,7 @@ z!=="number"&&0===z[0])return a[2]?0:a[3]?0:1;return 0;case
 N=0,A=a[4];if(typeof
 A==="number"||!(1===A[0]))N=1;else{var
 h=a[3];if(!h)return h;if(0!==h[1][0])return 0;var
-B=p(c,zI),O=0;if(B){var
+B=p(c,zT),O=0;if(B){var
 C=a[2];if(C){var
 b=C[1];O=1}else
 var
@@ -6100,19 +6091,19 @@ I=H;return I;case
 12:var
 J=a[4];if(typeof
 J!=="number"&&1===J[0]){if(a[2])return 0;var
-k=a[3];return k?0===k[1][0]?p(c,zJ):0:k}return 0;default:return 0}var
-o=Z(zH,b);return o?Z(b,c):o}function
-oi(d,c,b){var
-e=y(function(a){return zE(d,c,a)},b),a=y(zD,b),g=a?[0,a[1],a[2]]:zK;return f(g,e)}function
-jg(a,d,c,b){var
-f=oi(g(a),c,b),h=oh(d);return[0,e(zC,a),h,f]}function
-oj(b){if(b[1])return 0;var
+k=a[3];return k?0===k[1][0]?p(c,zU):0:k}return 0;default:return 0}var
+o=Z(zS,b);return o?Z(b,c):o}function
+om(d,c,b){var
+e=y(function(a){return zP(d,c,a)},b),a=y(zO,b),g=a?[0,a[1],a[2]]:zV;return f(g,e)}function
+ji(a,d,c,b){var
+f=om(g(a),c,b),h=ol(d);return[0,e(zN,a),h,f]}function
+on(b){if(b[1])return 0;var
 a=b[4];if(typeof
 a!=="number"&&1===a[0])return[0,[0,j(a[1])],0];return 0}function
-ok(c){function
+oo(c){function
 a(a){return q(a,e(j,c),[0,d,b])}var
-f=a(zL),g=a(zM);return[0,a(0),g,f]}function
-jh(S,C,R,a){switch(a[1]){case
+f=a(zW),g=a(zX);return[0,a(0),g,f]}function
+jj(W,E,V,a){switch(a[1]){case
 0:var
 d=a[4];if(typeof
 d!=="number"&&0===d[0])return[0,[1,j(d[1])],0];return 0;case
@@ -6121,88 +6112,95 @@ c=a[4];if(typeof
 c==="number")return 0;else
 switch(c[0]){case
 0:var
-T=c[1],b=function(a){return[2,a,j(T)]};break;case
+X=c[1],b=function(a){return[2,a,j(X)]};break;case
 1:var
-V=c[1],b=function(a){return[3,a,j(V)]};break;default:var
-W=c[2],X=c[1],b=function(a){var
-b=j(W);return[4,a,j(X),b]}}break;case
+Z=c[1],b=function(a){return[3,a,j(Z)]};break;default:var
+_=c[2],$=c[1],b=function(a){var
+b=j(_);return[4,a,j($),b]}}break;case
 2:var
-f=a[4],K=0;if(typeof
-f==="number"||!(1===f[0]))K=1;else{var
-g=a[3],Y=f[1];if(!g)return g;var
-E=g[1];if(0!==E[0])return 0;var
-Z=E[1],b=function(a){var
-b=j(Z),c=j(Y);return S?[9,a,b,c]:[6,a,b,c]}}if(K)return 0;break;case
+f=a[4],N=0;if(typeof
+f==="number"||!(1===f[0]))N=1;else{var
+g=a[3],aa=f[1];if(!g)return g;var
+G=g[1];if(0!==G[0])return 0;var
+ab=G[1],b=function(a){var
+b=j(ab),c=j(aa);return W?[9,a,b,c]:[6,a,b,c]}}if(N)return 0;break;case
 3:var
 h=a[4];if(typeof
 h!=="number"&&1===h[0])return[0,[5,j(h[1])],0];return 0;case
 4:var
-i=a[4],L=0;if(typeof
-i==="number"||!(0===i[0]))L=1;else
+i=a[4],O=0;if(typeof
+i==="number"||!(0===i[0]))O=1;else
 var
-_=i[1],b=function(a){return[10,a,j(_)]};if(L)return 0;break;case
+ac=i[1],b=function(a){return[10,a,j(ac)]};if(O)return 0;break;case
 5:var
 k=a[4];if(typeof
 k!=="number"&&0===k[0])return[0,[12,j(k[1])],0];return 0;case
 6:var
 l=a[4];if(typeof
 l!=="number"&&0===l[0]){var
-F=l[1],m=a[3];if(m){var
+H=l[1],m=a[3];if(m){var
 n=m[1];switch(n[0]){case
 0:var
-$=j(F);return[0,[8,am(j(n[1]),C),$],0];case
+ad=j(H);return[0,[8,am(j(n[1]),E),ad],0];case
 1:var
-aa=j(F);return[0,[8,e(j,n[1]),aa],0];default:var
-G=0}}else
+ae=j(H);return[0,[8,e(j,n[1]),ae],0];default:var
+I=0}}else
 var
-G=m;return G}return 0;case
+I=m;return I}return 0;case
 8:var
-o=a[4],M=0;if(typeof
-o==="number"||!(1===o[0]))M=1;else{var
-p=a[3],ab=o[1];if(!p)return p;var
-H=p[1];if(0!==H[0])return 0;var
-ac=H[1],b=function(a){var
-b=j(ab);return[7,a,j(ac),b]}}if(M)return 0;break;case
+o=a[4],P=0;if(typeof
+o==="number"||!(1===o[0]))P=1;else{var
+p=a[3],af=o[1];if(!p)return p;var
+J=p[1];if(0!==J[0])return 0;var
+ag=J[1],b=function(a){var
+b=j(af);return[7,a,j(ag),b]}}if(P)return 0;break;case
 9:var
 q=a[4];if(typeof
 q!=="number"&&0===q[0]){var
-ad=q[1],ae=gU(0,R);return e(function(a){var
-b=j(ad),c=da(a[2]);return[14,da(a[1]),c,b]},ae)}return 0;case
+ah=q[1],ai=gX(0,V);return e(function(a){var
+b=j(ah),c=da(a[2]);return[14,da(a[1]),c,b]},ai)}return 0;case
 10:var
-r=a[4],N=0;if(typeof
-r==="number"||!(1===r[0]))N=1;else{var
-s=a[3],af=r[1];if(!s)return s;var
+r=a[4],Q=0;if(typeof
+r==="number"||!(1===r[0]))Q=1;else{var
+s=a[3],aj=r[1];if(!s)return s;var
 t=s[1];if(2!==t[0])return 0;var
-ag=t[2],ah=t[1],b=function(a){var
-b=j(af),c=j(ag);return[15,a,j(ah),c,b]}}if(N)return 0;break;case
+ak=t[2],al=t[1],b=function(a){var
+b=j(aj),c=j(ak);return[15,a,j(al),c,b]}}if(Q)return 0;break;case
 12:var
 u=a[4];if(typeof
 u!=="number"&&1===u[0]){var
 v=a[3];if(v){var
 w=v[1];if(3===w[0]){var
-ai=j(w[2]),aj=j(u[1]);return[0,[16,j(w[1]),aj,ai],0]}return 0}return v}return 0;case
+an=j(w[2]),ao=j(u[1]);return[0,[16,j(w[1]),ao,an],0]}return 0}return v}return 0;case
 13:var
-x=a[4],O=0;if(typeof
-x==="number"||!(1===x[0]))O=1;else
+x=a[4],R=0;if(typeof
+x==="number"||!(1===x[0]))R=1;else
 var
-ak=x[1],b=function(a){return[11,a,j(ak)]};if(O)return 0;break;case
+ap=x[1],b=function(a){return[11,a,j(ap)]};if(R)return 0;break;case
 14:var
-y=a[4],P=0;if(typeof
-y==="number"||!(1===y[0]))P=1;else{var
-z=a[3],al=y[1];if(!z)return z;var
-I=z[1];if(1!==I[0])return 0;var
-an=I[1],b=function(a){var
-b=j(al);return[13,a,0,ok(an),b]}}if(P)return 0;break;case
+y=a[4],S=0;if(typeof
+y==="number"||!(1===y[0]))S=1;else{var
+z=a[3],aq=y[1];if(!z)return z;var
+K=z[1];if(1!==K[0])return 0;var
+ar=K[1],b=function(a){var
+b=j(aq);return[13,a,0,oo(ar),b]}}if(S)return 0;break;case
 15:var
-A=a[4],Q=0;if(typeof
-A==="number"||!(1===A[0]))Q=1;else{var
-B=a[3],ao=A[1];if(!B)return B;var
-J=B[1];if(1!==J[0])return 0;var
-ap=J[1],b=function(a){var
-b=j(ao);return[13,a,1,ok(ap),b]}}if(Q)return 0;break;default:return 0}var
-D=a[2],U=D?[0,bv(D[1]),0]:aA(0,C);return e(b,U)}function
+A=a[4],T=0;if(typeof
+A==="number"||!(1===A[0]))T=1;else{var
+B=a[3],as=A[1];if(!B)return B;var
+L=B[1];if(1!==L[0])return 0;var
+at=L[1],b=function(a){var
+b=j(as);return[13,a,1,oo(at),b]}}if(T)return 0;break;case
+16:var
+C=a[4],U=0;if(typeof
+C==="number"||!(1===C[0]))U=1;else{var
+D=a[3],au=C[1];if(!D)return D;var
+M=D[1];if(1!==M[0])return 0;var
+av=M[1],b=function(a){var
+b=j(au);return[17,a,e(j,av),b]}}if(U)return 0;break;default:return 0}var
+F=a[2],Y=F?[0,bx(F[1]),0]:aA(0,E);return e(b,Y)}function
 eq(e,d,c,b){var
-g=y(function(a){return jh(e,d,c,a)},b),a=y(oj,b),h=a?[0,a[1],a[2]]:zN;return f(h,g)}function
+g=y(function(a){return jj(e,d,c,a)},b),a=y(on,b),h=a?[0,a[1],a[2]]:zY;return f(h,g)}function
 er(a){return 11===a[1]?1:0}function
 cd(n,m,a){var
 b=a[1];if(!(4<=b))switch(b){case
@@ -6216,16 +6214,16 @@ e=1;l=1}if(!l)var
 e=0;var
 f=cm(n,e);if(f){var
 g=a[2];if(g){var
-h=g[1],i=Z(zO,h);return i?Z(h,m):i}var
+h=g[1],i=Z(zZ,h);return i?Z(h,m):i}var
 j=1}else
 var
 j=f;return j;case
 3:var
 k=a[4];if(typeof
 k!=="number"&&1===k[0])return a[2]?0:a[3]?0:1;return 0}return 0}function
-bB(s,b,a){var
+bf(s,b,a){var
 d=a[2];if(d)var
-e=d[1],f=Z(zP,e),t=f?Z(e,b):f,c=t;else
+e=d[1],f=Z(z0,e),t=f?Z(e,b):f,c=t;else
 var
 c=1;var
 h=a[1];if(!(9<=h))switch(h){case
@@ -6249,34 +6247,44 @@ q=a[4];if(typeof
 q!=="number"&&1===q[0]){var
 r=a[3];return r?0===r[1][0]?c?p(b,s):c:cd(0,b,a):cd(0,b,a)}return cd(0,b,a)}return cd(0,b,a)}function
 aO(c,b,a){return 11===a[1]?typeof
-a[4]==="number"?a[2]?bB(c,b,a):a[3]?bB(c,b,a):1:bB(c,b,a):bB(c,b,a)}function
-ol(f,c,b,a){var
-g=a[2];if(g)var
-h=g[1],i=Z(zR,h),s=i?Z(h,b):i,d=s;else
+a[4]==="number"?a[2]?bf(c,b,a):a[3]?bf(c,b,a):1:bf(c,b,a):bf(c,b,a)}function
+op(f,c,b,a){var
+h=a[2];if(h)var
+i=h[1],j=Z(z2,i),A=j?Z(i,b):j,d=A;else
 var
 d=1;switch(a[1]){case
-1:if(a[3])return bB(bk(c),b,a);if(d){var
-r=0,j=a[4];if(typeof
-j!=="number"&&2===j[0]){var
-k=1;r=1}if(!r)var
-k=0;return cm(f,k)}return d;case
+1:if(a[3])return bf(aW(c),b,a);if(d){var
+z=0,k=a[4];if(typeof
+k!=="number"&&2===k[0]){var
+l=1;z=1}if(!z)var
+l=0;return cm(f,l)}return d;case
 4:var
-l=a[4];if(typeof
-l!=="number"&&0===l[0])return a[3]?bB(bk(c),b,a):d;return bB(bk(c),b,a);case
-5:var
 m=a[4];if(typeof
-m!=="number"&&0===m[0]){if(a[3])return bB(bk(c),b,a);var
-n=p(b,bk(c));if(n){var
-o=typeof
-c==="number"?1:0;if(o){if(a[2])return 0;var
+m!=="number"&&0===m[0])return a[3]?bf(aW(c),b,a):d;return bf(aW(c),b,a);case
+5:var
+n=a[4];if(typeof
+n!=="number"&&0===n[0]){if(a[3])return bf(aW(c),b,a);var
+o=p(b,aW(c));if(o){var
+q=typeof
+c==="number"?1:0;if(q){if(a[2])return 0;var
 e=1}else
 var
-e=o}else
+e=q}else
 var
-e=n;return e}return bB(bk(c),b,a);case
+e=o;return e}return bf(aW(c),b,a);case
 13:var
-q=a[4];if(typeof
-q!=="number"&&1===q[0])return a[3]?bB(bk(c),b,a):d?S(f):d;return bB(bk(c),b,a);default:return bB(bk(c),b,a)}}function
+r=a[4];if(typeof
+r!=="number"&&1===r[0])return a[3]?bf(aW(c),b,a):d?S(f):d;return bf(aW(c),b,a);case
+16:var
+s=a[4];if(typeof
+s!=="number"&&1===s[0]){var
+t=a[3];if(t){var
+u=t[1];if(1===u[0]){var
+v=d?p(b,aW(c)):d,w=v?p(g(u[1]),b):v;if(w)var
+x=typeof
+c==="number"?1:0,y=x?1:x;else
+var
+y=w;return y}return bf(aW(c),b,a)}return bf(aW(c),b,a)}return bf(aW(c),b,a);default:return bf(aW(c),b,a)}}function
 db(a){switch(a[0]){case
 0:return[0,j([0,a[1],a[2]])];case
 1:return[1,a[1]];case
@@ -6288,16 +6296,16 @@ b=db(a[2]),c=db(a[3]);switch(a[1]){case
 2:return[5,b,c];default:return[6,b,c]}case
 4:var
 d=a[2];return[7,db(a[1]),d];default:return[8,db(a[1])]}}function
-ji(i,h,f,b,d,c,a){var
-k=al(er,a),l=eq(0,g(b),0,a),m=_(d,c),n=e(function(a){var
+jk(i,h,f,b,d,c,a){var
+k=ak(er,a),l=eq(0,g(b),0,a),m=_(d,c),n=e(function(a){var
 b=j(a[2]);return[0,j(a[1]),b]},m),o=e(function(a){return 0===a[0]?[0,e(db,a[1])]:[1,db(a[1])]},b),p=e(function(a){var
 b=db(a[2]);return[0,a[1],b]},f);return[0,[0,i,e(function(a){var
 b=bX(a[2]);return[0,a[1],b]},h),p,o],n,l,k]}function
-jj(c){function
+jl(c){function
 a(e){var
 a=[0,d,b];return q(e,c,[0,a,a])}var
-e=a(zS),f=a(zT);return[0,a(0),f,e]}function
-dy(a){function
+e=a(z3),f=a(z4);return[0,a(0),f,e]}function
+dz(a){function
 b(a){var
 b=j(a[2]);return[0,j(a[1]),b]}switch(a[0]){case
 0:return[0,b([0,a[1],a[2]])];case
@@ -6305,17 +6313,17 @@ b=j(a[2]);return[0,j(a[1]),b]}switch(a[0]){case
 c=b(a[3]),d=b(a[2]);return[1,b(a[1]),d,c];case
 2:return[2,j(a[1])];default:var
 e=j(a[2]);return[3,j(a[1]),e]}}function
-om(a){if(0===a[0]){var
-b=_(a[1],a[2]);return[0,jj(e(function(a){var
-b=j(a[2]);return[0,j(a[1]),b]},b))]}return oh([1,a[1],a[2],a[3],a[4],a[5]])}function
-on(k,b,i,h,f,d,a){function
-c(a){return jj(e(bX,a))}var
-l=al(er,a),m=eq(0,g(b),d,a),n=dy(f),o=om(h),p=j(i);return[0,k,e(function(a){var
+oq(a){if(0===a[0]){var
+b=_(a[1],a[2]);return[0,jl(e(function(a){var
+b=j(a[2]);return[0,j(a[1]),b]},b))]}return ol([1,a[1],a[2],a[3],a[4],a[5]])}function
+or(k,b,i,h,f,d,a){function
+c(a){return jl(e(bX,a))}var
+l=ak(er,a),m=eq(0,g(b),d,a),n=dz(f),o=oq(h),p=j(i);return[0,k,e(function(a){var
 b=c(a[2]);return[0,c(a[1]),b]},b),p,o,n,m,l]}function
-gV(a){return al(function(a){return 2===a[0]?1:0},a)}function
-oo(k,a,c,i,h,f){var
-l=g(a),m=eq(gV(a),l,0,f),n=z(dy,h),o=om(i),p=c?j(c[1]):[0,b,b];return[0,k,e(function(a){function
-c(a){return jj(e(bX,a))}switch(a[0]){case
+gY(a){return ak(function(a){return 2===a[0]?1:0},a)}function
+os(k,a,c,i,h,f){var
+l=g(a),m=eq(gY(a),l,0,f),n=z(dz,h),o=oq(i),p=c?j(c[1]):[0,b,b];return[0,k,e(function(a){function
+c(a){return jl(e(bX,a))}switch(a[0]){case
 0:var
 k=a[5],l=bX(a[4]),m=c(a[3]),n=c(a[2]);return[0,[0,[0,c(a[1]),n,m,l,k]]];case
 1:var
@@ -6325,9 +6333,9 @@ g=c(f);else
 var
 h=[0,b,b],i=[0,d,b],j=[0,d,b],g=[0,[0,j,j],[0,i,i],[0,h,h]];var
 p=a[7],q=bX(a[6]),r=bX(a[5]),s=c(a[4]),t=c(a[3]);return[1,[0,g,c(a[2]),t,s,r,q,p]]}},a),p,o,n,m]}function
-op(a){return a[1]?0:1}function
-oq(l){var
-b=bn(op,l);if(b){var
+ot(a){return a[1]?0:1}function
+ou(l){var
+b=bp(ot,l);if(b){var
 d=b[1];if(d[2])return 0;if(d[3])return 0;var
 c=d[4],a=b[2];if(typeof
 c!=="number")switch(c[0]){case
@@ -6348,46 +6356,46 @@ k=a;return k}var
 i=0}else
 var
 i=b;return i}function
-or(a){var
-c=op(a);if(c)return c;if(1===a[1]){var
+ov(a){var
+c=ot(a);if(c)return c;if(1===a[1]){var
 b=a[4];if(typeof
 b!=="number"&&0===b[0])return 1;return 0}return 0}function
-gW(i,h,b){function
+gZ(i,h,b){function
 c(b,a){return[3,1,b,a]}function
 a(b,a){return[3,3,b,a]}function
 d(b,a){return[3,2,b,a]}function
 e(b,a){return[3,0,b,a]}var
-f=c(gX,a(gX,b)),j=a(f,jk),k=i?f:a(c(b,gX),jk);function
-g(b){return a(b,[5,e(gX,d(jk,d(b,b)))])}var
+f=c(g0,a(g0,b)),j=a(f,jm),k=i?f:a(c(b,g0),jm);function
+g(b){return a(b,[5,e(g0,d(jm,d(b,b)))])}var
 l=g(k);return a(h,e(g(j),l))}function
-gY(f,e,d){function
+g1(f,e,d){function
 a(b,a){return[3,3,b,a]}function
 b(b,a){return[3,2,b,a]}var
-c=a([3,1,jl,a(jl,d)],os),g=a(c,[5,[3,0,jl,b(os,b(c,c))]]);return[2,b(gW(f,e,d),g)]}function
-jm(e,g,a){function
+c=a([3,1,jn,a(jn,d)],ow),g=a(c,[5,[3,0,jn,b(ow,b(c,c))]]);return[2,b(gZ(f,e,d),g)]}function
+jo(e,g,a){function
 f(b,a){return[3,1,b,a]}function
 b(b,a){return[3,3,b,a]}function
 c(b,a){return[3,2,b,a]}var
-h=f(gZ,b(gZ,a)),d=e?h:b(f(a,gZ),ot),i=b(d,[5,[3,0,gZ,c(ot,c(d,d))]]);return c(gW(e,g,a),i)}function
-ou(c,g,b,a){function
+h=f(g2,b(g2,a)),d=e?h:b(f(a,g2),ox),i=b(d,[5,[3,0,g2,c(ox,c(d,d))]]);return c(gZ(e,g,a),i)}function
+oy(c,g,b,a){function
 d(b,a){return e(function(c){var
-d=p(b,c)?a:zU;return[0,d]},zW)}return e(function(e){var
-j=[0,gW(c,b,a)],i=1,k=d(e,[2,g]);function
+d=p(b,c)?a:z5;return[0,d]},z7)}return e(function(e){var
+j=[0,gZ(c,b,a)],i=1,k=d(e,[2,g]);function
 f(b,a){return[3,1,b,a]}var
-h=gW(c,b,a),l=d(e,f(f(gY(c,b,a),g),h));return[0,d(e,zV),l,k,j,i]},zX)}function
-ov(c,b,a){var
-d=[0,jm(c,b,a),0],e=[0,jm(c,b,a),d],f=[0,jm(c,b,a),e],g=[0,gY(c,b,a),0],h=[0,gY(c,b,a),g];return[0,[0,gY(c,b,a),h],f]}function
-ow(o,e,a){if(e)if(a){var
+h=gZ(c,b,a),l=d(e,f(f(g1(c,b,a),g),h));return[0,d(e,z6),l,k,j,i]},z8)}function
+oz(c,b,a){var
+d=[0,jo(c,b,a),0],e=[0,jo(c,b,a),d],f=[0,jo(c,b,a),e],g=[0,g1(c,b,a),0],h=[0,g1(c,b,a),g];return[0,[0,g1(c,b,a),h],f]}function
+oA(o,e,a){if(e)if(a){var
 g=e[1],h=a[1],k=cu(j(g[2][1]));if(k){var
 l=k[1],m=cu(j(g[2][2]));if(m)var
 p=m[1],n=function(a){function
 d(a){return c(2,a)}var
-e=[0,a,fO(h[2],d,b)];return di(l,a1(dU(p,l),e))},q=n(D(h[1],b)),f=[0,n(h[1]),q];else
+e=[0,a,fO(h[2],d,b)];return dj(l,a2(dU(p,l),e))},q=n(D(h[1],b)),f=[0,n(h[1]),q];else
 var
 f=[0,[0,d,b],[0,d,b]]}else
 var
 f=[0,[0,d,b],[0,d,b]];var
-r=ow([0,o],e[2],a[2]),i=[0,[0,g[1],[1,o,f[1],f[2]]],r]}else
+r=oA([0,o],e[2],a[2]),i=[0,[0,g[1],[1,o,f[1],f[2]]],r]}else
 var
 i=a;else
 var
@@ -6396,21 +6404,21 @@ at(b,a){switch(a[0]){case
 0:return[0,a[1],a[2]];case
 1:var
 c=a[1];if(0===c[0]){var
-e=c[1],d=kH(function(a){return aw(e,a[1])},b);return d?[1,d[1][2]]:a}return a;case
+e=c[1],d=kJ(function(a){return aw(e,a[1])},b);return d?[1,d[1][2]]:a}return a;case
 2:return[2,at(b,a[1])];case
 3:var
 f=at(b,a[3]),g=at(b,a[2]);return[3,a[1],g,f];case
 4:var
 h=a[2];return[4,at(b,a[1]),h];default:return[5,at(b,a[1])]}}function
-ox(b,a){if(0===a[0])return[0,at(b,a[1])];var
+oB(b,a){if(0===a[0])return[0,at(b,a[1])];var
 c=at(b,a[2]);return[1,at(b,a[1]),c]}function
-jn(b,a){var
+jp(b,a){var
 c=i(b,a[3]),d=i(b,a[2]);return[0,i(b,a[1]),d,c]}function
-jo(c,a){if(c)if(a){var
+jq(c,a){if(c)if(a){var
 g=a[2],b=a[1],h=c[1];if(typeof
 b!=="number"&&0===b[0]){var
-e=jo(h,g);if(e){var
-i=e[1],f=jo(h,i[2]);if(f)var
+e=jq(h,g);if(e){var
+i=e[1],f=jq(h,i[2]);if(f)var
 j=f[1],k=[0,[0,[0,b[1],i[1],j[1]],j[2]]];else
 var
 k=f;var
@@ -6422,50 +6430,50 @@ var
 d=a;else
 var
 d=c;return d}function
-jp(g,f,a){if(a){var
-e=a[1],h=a[2];if(f)return[0,e,jp(g,f[1],h)];var
+jr(g,f,a){if(a){var
+e=a[1],h=a[2];if(f)return[0,e,jr(g,f[1],h)];var
 j=[0,e[2]],k=g?b:d,l=e[1],i=[0,[0,D(B(c(2,b),l),k),j],h]}else
 var
 i=a;return i}function
-zY(a){if(typeof
+z9(a){if(typeof
 a!=="number"&&1===a[0])return 1;return 0}function
-zZ(a){if(typeof
+z_(a){if(typeof
 a!=="number"&&2===a[0])return 1;return 0}function
-g0(e,a){if(0===a[0]){var
-f=[0,b,c(2,b)],g=g0(e,a[3]);return a1(di(g0(e,a[2]),g),f)}return i(e,a[1])?[0,b,b]:[0,d,b]}function
-oy(a){return 0===a[0]?ec(a[1][4]):0}function
-oz(a){switch(a[0]){case
+g3(e,a){if(0===a[0]){var
+f=[0,b,c(2,b)],g=g3(e,a[3]);return a2(dj(g3(e,a[2]),g),f)}return i(e,a[1])?[0,b,b]:[0,d,b]}function
+oC(a){return 0===a[0]?ec(a[1][4]):0}function
+oD(a){switch(a[0]){case
 0:var
-b=a[1],c=a5(b[3]);return f(a5(b[2]),c);case
+b=a[1],c=a7(b[3]);return f(a7(b[2]),c);case
 1:var
-d=a5(a[2]);return f(a5(a[1]),d);default:return 0}}function
-g1(a){switch(a[0]){case
-0:return bz(a5(a[1][1]));case
+d=a7(a[2]);return f(a7(a[1]),d);default:return 0}}function
+g4(a){switch(a[0]){case
+0:return bA(a7(a[1][1]));case
 1:var
-b=a[3];return b?bz(a5(b[1])):d;default:return bz(a5(a[1]))}}function
-g2(c){var
-a=y(oy,c),d=a?[0,a[1],a[2]]:y(oz,c);return D(b,bz(d))}function
-oA(d,a){if(d){if(a){var
-b=a[1],g=d[1],e=oA(d[2],a[2]);if(e){var
+b=a[3];return b?bA(a7(b[1])):d;default:return bA(a7(a[1]))}}function
+g5(c){var
+a=y(oC,c),d=a?[0,a[1],a[2]]:y(oD,c);return D(b,bA(d))}function
+oE(d,a){if(d){if(a){var
+b=a[1],g=d[1],e=oE(d[2],a[2]);if(e){var
 h=e[1],i=h[2],j=h[1];if(45===b)var
-c=z0;else
+c=z$;else
 if(43===b)var
-c=z1;else
+c=Aa;else
 var
-f=48===b?1:0,n=f?z2:f,c=n;if(c)return[0,[0,[0,[0,g,c[1]],j],i]];var
+f=48===b?1:0,n=f?Ab:f,c=n;if(c)return[0,[0,[0,[0,g,c[1]],j],i]];var
 k=49===b?1:0,o=k?[0,[0,j,[0,g,i]]]:k,l=o}else
 var
 l=e;var
 m=l}else
 var
-m=a;return m}return a?0:z3}function
+m=a;return m}return a?0:Ac}function
 es(b,c,a){switch(a[0]){case
 0:var
-d=a[1];if(aw(d,z4))return z5;if(aw(d,z6))return z7;if(aw(d,z8))return z9;if(aw(d,z_))return z$;if(aw(d,Aa))return Ab;var
-l=aw(d,Ac),x=l?Ad:l;return x;case
+d=a[1];if(aw(d,Ad))return Ae;if(aw(d,Af))return Ag;if(aw(d,Ah))return Ai;if(aw(d,Aj))return Ak;if(aw(d,Al))return Am;var
+l=aw(d,An),x=l?Ao:l;return x;case
 1:var
-e=a[3],f=a[2],g=a[1];if(aw(g,Ae))return[0,[0,e,f]];if(aw(g,Af))return[0,[1,e,f]];if(aw(g,Ag))return[0,[2,e,f]];var
-m=aw(g,Ah),y=m?[0,[8,e,f]]:m;return y;case
+e=a[3],f=a[2],g=a[1];if(aw(g,Ap))return[0,[0,e,f]];if(aw(g,Aq))return[0,[1,e,f]];if(aw(g,Ar))return[0,[2,e,f]];var
+m=aw(g,As),y=m?[0,[8,e,f]]:m;return y;case
 2:return[0,[4,a[1]]];case
 3:return[0,[3,a[2],a[1],a[3]]];case
 4:return[0,[9,a[2],a[1],a[3],a[4]]];case
@@ -6477,7 +6485,7 @@ i=es(b,c,a[1]),B=i?[0,[7,i[1],a[2],a[3]]]:i;return B;case
 C=es(b,c,a[1]);return z(function(a){return[6,a]},C);case
 8:if(b){var
 n=a[3],o=a[2],j=es(b,c,a[1]);if(j){var
-p=j[1],k=oA(b,hE(hD(au(o),function(a){return a0(o,a)})));if(k){var
+p=j[1],k=oE(b,hH(hG(au(o),function(a){return a1(o,a)})));if(k){var
 q=k[1],r=q[2],s=q[1];if(r)return[0,[11,c,r,[10,p,s,n]]];var
 t=[0,[10,p,s,n]]}else
 var
@@ -6492,22 +6500,22 @@ w=function(a){if(a){var
 f=a[1],d=es(b,c,f[2]);if(d)var
 e=w(a[2]),h=e?[0,[0,[0,f[1],d[1]],e[1]]]:e,g=h;else
 var
-g=d;return g}return Ai},D=w(a[1]);return z(function(a){return[12,a]},D)}}function
-oB(e,d,a){if(a){var
+g=d;return g}return At},D=w(a[1]);return z(function(a){return[12,a]},D)}}function
+oF(e,d,a){if(a){var
 f=a[1],b=es(e,d,f[2]);if(b)var
-c=oB(e,d,a[2]),h=c?[0,[0,[0,f[1],b[1]],c[1]]]:c,g=h;else
+c=oF(e,d,a[2]),h=c?[0,[0,[0,f[1],b[1]],c[1]]]:c,g=h;else
 var
-g=b;return g}return Aj}function
-dz(b,g,f,e,d,a){if(d)if(a){var
+g=b;return g}return Au}function
+dA(b,g,f,e,d,a){if(d)if(a){var
 c=a[1];if(c[3])return 0;if(c[4])return 0;var
-n=c[2],o=a[2],p=d[1],h=oB(f,e,c[1]);if(h){var
+n=c[2],o=a[2],p=d[1],h=oF(f,e,c[1]);if(h){var
 i=h[1];if(n){var
-j=dz(b,g,f,e,p,o);if(j){var
-q=j[1],k=dz(b,g,f,e,p,q[2]);if(k){var
+j=dA(b,g,f,e,p,o);if(j){var
+q=j[1],k=dA(b,g,f,e,p,q[2]);if(k){var
 r=k[1],s=r[1],t=q[1],l=n[1],y=r[2];if(aN(l,b))var
 u=[0,[1,i,l,t,s]];else
 var
-x=F(g,dP(l,b)),u=z(function(a){return[2,i,a,t,s]},x);return z(function(a){return[0,a,y]},u)}var
+x=E(g,dP(l,b)),u=z(function(a){return[2,i,a,t,s]},x);return z(function(a){return[0,a,y]},u)}var
 v=k}else
 var
 v=j;return v}var
@@ -6519,63 +6527,63 @@ var
 m=a;else
 var
 m=d;return m}function
-jq(i,h,f,e,d,a){if(d){if(a){var
-b=dz(i,h,f,e,g(a),a);if(b)var
-j=b[1],c=jq(i,h,f,e,d[1],j[2]),l=c?[0,[0,j[1],c[1]]]:c,k=l;else
+js(i,h,f,e,d,a){if(d){if(a){var
+b=dA(i,h,f,e,g(a),a);if(b)var
+j=b[1],c=js(i,h,f,e,d[1],j[2]),l=c?[0,[0,j[1],c[1]]]:c,k=l;else
 var
-k=b;return k}return Ak}return a?0:Al}function
-oC(a){if(typeof
-a==="number")return 0===a?Am:An;else
+k=b;return k}return Av}return a?0:Aw}function
+oG(a){if(typeof
+a==="number")return 0===a?Ax:Ay;else
 switch(a[0]){case
 0:return[0,[0,a[1],a[2]]];case
 1:return[0,[1,a[1],a[2]]];default:return 0}}function
-jr(e,d,a){if(d)if(a){var
+jt(e,d,a){if(d)if(a){var
 b=a[1];if(b[1])return 0;var
 j=b[4],c=b[3],k=b[2],l=a[2],m=d[1];if(k){if(c)return 0;if(j)return 0;var
-f=k[1],g=jr(e,m,l);if(g){var
-n=g[1],o=n[1],h=jr(e,m,n[2]);if(h){var
-p=h[1],q=p[2],r=p[1];if(aN(f,Ao))return[0,[0,[1,f,o,r],q]];var
-t=F(e,dP(f,Ap));return z(function(a){return[0,[2,a,o,r],q]},t)}var
+f=k[1],g=jt(e,m,l);if(g){var
+n=g[1],o=n[1],h=jt(e,m,n[2]);if(h){var
+p=h[1],q=p[2],r=p[1];if(aN(f,Az))return[0,[0,[1,f,o,r],q]];var
+t=E(e,dP(f,AA));return z(function(a){return[0,[2,a,o,r],q]},t)}var
 s=h}else
 var
 s=g;return s}if(c){var
-u=oC(c[1]);return z(function(a){return[0,[0,j,a],l]},u)}var
+u=oG(c[1]);return z(function(a){return[0,[0,j,a],l]},u)}var
 i=c}else
 var
 i=a;else
 var
 i=d;return i}function
 dc(b,a){return 0===b[0]?[0,j(b[1]),a]:a?[0,a[1],a[2]]:[0,j(b[1]),0]}function
-dA(a,e){var
+dB(a,e){var
 b=dc(a[1],e),c=dc(a[2],b[2]),d=dc(a[3],c[2]);return[0,[0,b[1],c[1],d[1]],d[2]]}function
-oD(d,c){if(d){var
+oH(d,c){if(d){var
 a=d[1];switch(a[0]){case
 0:var
-e=dA(a[1],c),f=dA(a[2],e[2]),g=dA(a[3],f[2]),h=dc(a[4],g[2]),b=[0,[0,e[1],f[1],g[1],h[1],a[5]],h[2]];break;case
+e=dB(a[1],c),f=dB(a[2],e[2]),g=dB(a[3],f[2]),h=dc(a[4],g[2]),b=[0,[0,e[1],f[1],g[1],h[1],a[5]],h[2]];break;case
 1:var
-i=a[3],j=dA(a[1],c),k=j[1],l=dA(a[2],j[2]),m=l[2],n=l[1];if(i)var
-o=dA(i[1],m),b=[0,[1,k,n,[0,o[1]]],o[2]];else
+i=a[3],j=dB(a[1],c),k=j[1],l=dB(a[2],j[2]),m=l[2],n=l[1];if(i)var
+o=dB(i[1],m),b=[0,[1,k,n,[0,o[1]]],o[2]];else
 var
 b=[0,[1,k,n,0],m];break;default:var
-p=dA(a[1],c),b=[0,[2,p[1]],p[2]]}var
-q=oD(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
-bu(a,b){if(a){var
-c=dc(a[1],b),d=bu(a[2],c[2]);return[0,[0,c[1],d[1]],d[2]]}return[0,0,b]}function
-a6(c){function
+p=dB(a[1],c),b=[0,[2,p[1]],p[2]]}var
+q=oH(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
+bw(a,b){if(a){var
+c=dc(a[1],b),d=bw(a[2],c[2]);return[0,[0,c[1],d[1]],d[2]]}return[0,0,b]}function
+a8(c){function
 a(a){return q(a,c,[0,d,b])}var
-e=a(Av),f=a(Aw);return[0,a(0),f,e]}function
-oE(a,b){if(a){var
-c=a[1],d=bu(c[1],b),e=bu(c[2],d[2]),f=oE(a[2],e[2]),g=f[2],h=f[1],i=a6(e[1]);return[0,[0,[0,a6(d[1]),i],h],g]}return[0,0,b]}function
-oF(f,c){if(f){var
+e=a(AG),f=a(AH);return[0,a(0),f,e]}function
+oI(a,b){if(a){var
+c=a[1],d=bw(c[1],b),e=bw(c[2],d[2]),f=oI(a[2],e[2]),g=f[2],h=f[1],i=a8(e[1]);return[0,[0,[0,a8(d[1]),i],h],g]}return[0,0,b]}function
+oJ(f,c){if(f){var
 a=f[1];switch(a[0]){case
 0:var
-g=bu(a[1],c),h=bu(a[2],g[2]),i=bu(a[3],h[2]),j=dc(a[4],i[2]),u=j[2],v=a[5],w=j[1],x=a6(i[1]),y=a6(h[1]),e=[0,[0,[0,a6(g[1]),y,x,w,v]],u];break;case
+g=bw(a[1],c),h=bw(a[2],g[2]),i=bw(a[3],h[2]),j=dc(a[4],i[2]),u=j[2],v=a[5],w=j[1],x=a8(i[1]),y=a8(h[1]),e=[0,[0,[0,a8(g[1]),y,x,w,v]],u];break;case
 1:var
-k=bu(a[1],c),l=bu(a[2],k[2]),z=l[2],A=a6(l[1]),e=[0,[0,[1,a6(k[1]),A,0]],z];break;default:var
-m=a[1],n=bu(m,c),o=bu(a[2],n[2]),p=bu(a[3],o[2]),q=bu(a[4],p[2]),r=dc(a[5],q[2]),s=dc(a[6],r[2]),B=m?a6(n[1]):[0,[0,d,b],[0,d,b],[0,b,b]],C=s[2],D=a[7],E=s[1],F=r[1],G=a6(q[1]),H=a6(p[1]),e=[0,[1,[0,B,a6(o[1]),H,G,F,E,D]],C]}var
-t=oF(f[2],e[2]);return[0,[0,e[1],t[1]],t[2]]}return[0,0,c]}function
-dB(a){return k6(l,a)}function
-Ax(a){if(typeof
+k=bw(a[1],c),l=bw(a[2],k[2]),z=l[2],A=a8(l[1]),e=[0,[0,[1,a8(k[1]),A,0]],z];break;default:var
+m=a[1],n=bw(m,c),o=bw(a[2],n[2]),p=bw(a[3],o[2]),q=bw(a[4],p[2]),r=dc(a[5],q[2]),s=dc(a[6],r[2]),B=m?a8(n[1]):[0,[0,d,b],[0,d,b],[0,b,b]],C=s[2],D=a[7],E=s[1],F=r[1],G=a8(q[1]),H=a8(p[1]),e=[0,[1,[0,B,a8(o[1]),H,G,F,E,D]],C]}var
+t=oJ(f[2],e[2]);return[0,[0,e[1],t[1]],t[2]]}return[0,0,c]}function
+dd(a){return k8(l,a)}function
+AI(a){if(typeof
 a==="number")return 1;else
 switch(a[0]){case
 5:return h(l,1,[3,a[1],[0,b,b]]);case
@@ -6592,39 +6600,41 @@ i=h(l,0,a[1]);return i?h(l,1,a[2]):i;case
 15:var
 j=[0,a[2],a[1]],k=1;return m(function(a){return h(l,k,a)},j);case
 2:case
-3:return dB(a[2]);case
+3:return dd(a[2]);case
 4:case
 13:var
 c=h(l,1,a[2]);return c?h(l,1,a[3]):c;default:return h(l,1,a[1])}}function
-js(a){if(typeof
+ju(a){if(typeof
 a==="number")return 1;else
 switch(a[0]){case
 4:var
 d=a[3],e=a[2],f=h(l,1,[3,d,e]),g=f?h(l,1,[3,[2,e,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b]],d]):f,i=g?h(l,0,[2,e,[0,c(2,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b))))))))))),b]]):g;return i?h(l,0,[3,[0,c(2,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b))))))))))),b],d]):i;case
 5:return h(l,1,[3,a[1],[0,b,b]]);case
 8:var
-y=[0,a[2],a[1]],z=1;return m(function(a){return h(l,z,a)},y);case
+B=[0,a[2],a[1]],C=1;return m(function(a){return h(l,C,a)},B);case
 10:return h(l,1,a[2]);case
 11:var
 k=a[2],n=h(l,1,k);return n?h(l,0,[3,[0,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b))))))))),b],k]):n;case
 13:var
-o=a[4],p=nd(a[3]),q=p?h(l,1,o):p;return q?h(l,0,[3,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b],o]):q;case
+o=a[4],p=nh(a[3]),q=p?h(l,1,o):p;return q?h(l,0,[3,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b],o]):q;case
 14:return h(l,0,a[3]);case
 15:var
 s=h(l,0,a[2]),t=s?h(l,0,a[3]):s;return t?h(l,1,a[4]):t;case
 16:var
 u=a[3],v=h(l,0,a[1]),w=v?h(l,1,a[2]):v,x=w?h(l,1,u):w;return x?h(l,1,[3,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b],u]):x;case
+17:var
+y=a[2],z=m(dd,y),A=z?ak(function(a){return h(l,1,[4,a,a])},y):z;return A?h(l,1,a[3]):A;case
 2:case
-3:return dB(a[2]);case
-0:case
-1:case
-12:return h(l,1,a[1]);default:var
-j=h(l,1,a[2]);return j?h(l,1,a[3]):j}}function
-g3(d){var
+3:return dd(a[2]);case
+6:case
+7:case
+9:var
+j=h(l,1,a[2]);return j?h(l,1,a[3]):j;default:return h(l,1,a[1])}}function
+g6(d){var
 a=d;for(;;){if(a){var
-b=a[2],e=a[1],c=S(al(function(d){return function(a){var
-h=jb(a[1]),e=aw(jb(d[1]),h);if(e)var
-i=jc(a[4]),b=aw(jc(d[4]),i);else
+b=a[2],e=a[1],c=S(ak(function(d){return function(a){var
+h=jd(a[1]),e=aw(jd(d[1]),h);if(e)var
+i=je(a[4]),b=aw(je(d[4]),i);else
 var
 b=e;if(b){var
 f=d[2];if(f){var
@@ -6633,80 +6643,80 @@ g=1}else
 var
 g=b;return g}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-fo(a){if(0===a[0])return dB(j(a[1]));var
+fo(a){if(0===a[0])return dd(j(a[1]));var
 b=a[2],c=a[1];if(!dY(j(c))&&!dY(j(b))){var
 e=j(c);return h(l,1,[3,j(b),e])}var
-d=j(b);return bq(l,j(c),d)}function
+d=j(b);return bs(l,j(c),d)}function
 dC(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-oG(a){switch(a[0]){case
+oK(a){switch(a[0]){case
 0:var
 c=[0,a[4],0],d=f(dC(a[3]),c),e=f(dC(a[2]),d);return f(dC(a[1]),e);case
 1:var
 b=a[3],g=b?dC(b[1]):b,h=f(dC(a[2]),g);return f(dC(a[1]),h);default:return dC(a[1])}}function
-oH(s,a,k){if(al(function(a){return 9===a[1]?1:0},k)){var
-b=Z(g(a),AA),c=b?m(function(a){if(0===a[0]){var
+oL(s,a,k){if(ak(function(a){return 9===a[1]?1:0},k)){var
+b=Z(g(a),AL),c=b?m(function(a){if(0===a[0]){var
 d=a[5],e=h(l,1,j(a[2])),g=e?h(l,0,j(a[3])):e,k=g?h(l,0,j(a[4])):g,c=0;if(k)if(d)var
-p=bW(d[1]),b=m(function(a){return dB(j(a))},p);else{var
+p=bW(d[1]),b=m(function(a){return dd(j(a))},p);else{var
 n=1;c=1}else{var
 n=k;c=1}if(c)var
 b=n}else{var
 o=h(l,1,j(a[4]));if(o)var
-q=bW(a[3]),r=f(bW(a[2]),q),b=m(function(a){return dB(j(a))},r);else
+q=bW(a[3]),r=f(bW(a[2]),q),b=m(function(a){return dd(j(a))},r);else
 var
 b=o}return b?i(s,a):b},a):b;if(c)var
-d=gU(0,a),n=d?1:d,e=n;else
+d=gX(0,a),n=d?1:d,e=n;else
 var
 e=c;return e}return a?0:1}function
-oI(a){return a?AB:AC}function
-jt(a){switch(a){case
-0:return AD;case
-1:return AE;default:return 0}}function
-dd(a){var
-f=a[1],d=h(l,1,[2,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b],f]),e=d?bq(l,a[1],a[2]):d;if(e){var
+oM(a){return a?AM:AN}function
+jv(a){switch(a){case
+0:return AO;case
+1:return AP;default:return 0}}function
+de(a){var
+f=a[1],d=h(l,1,[2,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b],f]),e=d?bs(l,a[1],a[2]):d;if(e){var
 g=a[2];return h(l,1,[3,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b],g])}return e}function
 et(a){var
-e=bq(l,[0,d,b],a);return e?h(l,1,[3,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b],a]):e}function
-oJ(c,b,a){if(0===a[0]){var
+e=bs(l,[0,d,b],a);return e?h(l,1,[3,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b],a]):e}function
+oN(c,b,a){if(0===a[0]){var
 d=a[2],e=a[1],f=p(g(e),c),i=f?p(g(d),c):f;if(i){var
 n=_(e,d);return m(function(a){var
-b=j(a[2]);return bq(l,j(a[1]),b)},n)}return i}var
+b=j(a[2]);return bs(l,j(a[1]),b)},n)}return i}var
 k=b?h(l,1,j(a[3])):b;if(k){var
-o=j(a[5]);return bq(l,j(a[4]),o)}return k}function
-oK(a,e,F,E,t,s,f){function
+o=j(a[5]);return bs(l,j(a[4]),o)}return k}function
+oO(a,e,F,E,t,s,f){function
 u(b){var
-d=oI(a),c=p(g(b),d);return c?m(fo,b):c}var
+d=oM(a),c=p(g(b),d);return c?m(fo,b):c}var
 v=m(function(a){var
 b=u(a[1]);return b?u(a[2]):b},e);if(v)var
-G=g(e),n=Z(br(a),G);else
+G=g(e),n=Z(bt(a),G);else
 var
 n=v;var
-w=n?Z(g(e),AF):n,x=w?h(l,1,j(F)):w;if(x)var
-H=1===a?1:0,o=oJ(jt(a),H,E);else
+w=n?Z(g(e),AQ):n,x=w?h(l,1,j(F)):w;if(x)var
+H=1===a?1:0,o=oN(jv(a),H,E);else
 var
 o=x;if(o)if(a){var
-d=dy(t);switch(d[0]){case
+d=dz(t);switch(d[0]){case
 0:var
 i=0;break;case
 1:var
-A=dd(d[1]),B=A?dd(d[2]):A,i=B?dd(d[3]):B;break;case
+A=de(d[1]),B=A?de(d[2]):A,i=B?de(d[3]):B;break;case
 2:var
 i=et(d[1]);break;default:var
 C=et(d[1]),i=C?et(d[2]):C}var
 k=i}else
 var
-D=dy(t),J=0===D[0]?dd(D[1]):0,k=J;else
+D=dz(t),J=0===D[0]?de(D[1]):0,k=J;else
 var
 k=o;if(k)var
-I=g(e),q=oH(function(a){if(0===a[0]){var
-b=a[1],c=Z(Az,b),d=c?Z(b,I):c;if(d){if(a[5])return 0;var
+I=g(e),q=oL(function(a){if(0===a[0]){var
+b=a[1],c=Z(AK,b),d=c?Z(b,I):c;if(d){if(a[5])return 0;var
 e=1}else
 var
 e=d;return e}return 1},s,f);else
 var
 q=k;if(q)var
-b=g(e),c=br(a),y=oI(a),r=m(function(a){var
+b=g(e),c=bt(a),y=oM(a),r=m(function(a){var
 e=a[2];if(e)var
-f=e[1],h=Z(zQ,f),w=h?Z(f,b):h,d=w;else
+f=e[1],h=Z(z1,f),w=h?Z(f,b):h,d=w;else
 var
 d=1;switch(a[1]){case
 9:var
@@ -6734,18 +6744,18 @@ u=t[1];if(1===u[0]){var
 v=p(g(u[1]),y),z=v?d:v;return z}return aO(c,b,a)}return aO(c,b,a)}return aO(c,b,a);default:return aO(c,b,a)}},f);else
 var
 r=q;var
-z=r?g3(f):r;return z?m(js,eq(0,g(e),s,f)):z}function
-oL(a){switch(a[0]){case
+z=r?g6(f):r;return z?m(ju,eq(0,g(e),s,f)):z}function
+oP(a){switch(a[0]){case
 0:var
 b=f(a[3],[0,a[4],0]),c=f(a[2],b);return f(a[1],c);case
 1:return f(a[1],a[2]);default:var
 d=f(a[4],[0,a[5],[0,a[6],0]]),e=f(a[3],d),g=f(a[2],e);return f(a[1],g)}}function
-oM(a,e,d,R,o,w,n){var
+oQ(a,e,d,R,o,w,n){var
 q=typeof
 a==="number"?a?1:a:a[1]?0:1;function
 c(a){var
-b=q?AG:AH;return p(g(a),b)}var
-i=gV(e),x=m(function(b){switch(b[0]){case
+b=q?AR:AS;return p(g(a),b)}var
+i=gY(e),x=m(function(b){switch(b[0]){case
 0:var
 d=S(i),e=d?c(b[1]):d,f=e?c(b[2]):e;return f?c(b[3]):f;case
 1:var
@@ -6755,26 +6765,26 @@ a==="number"?1:0,l=k?1:k;else
 var
 l=j;return l;default:var
 m=b[1],n=q?m?0:1:c(m),o=n?c(b[2]):n,p=o?c(b[3]):o;return p?c(b[4]):p}},e);if(x)var
-T=g(e),r=Z(bk(a),T);else
+T=g(e),r=Z(aW(a),T);else
 var
 r=x;var
-A=r?Z(g(e),AI):r,B=A?m(fo,y(oL,e)):A;if(B){var
+A=r?Z(g(e),AT):r,B=A?m(fo,y(oP,e)):A;if(B){var
 Q=0;if(typeof
 a==="number"&&!a){var
 C=1;Q=1}if(!Q)var
 C=0;var
-U=q?AJ:AK,s=oJ(U,C,R)}else
+U=q?AU:AV,s=oN(U,C,R)}else
 var
 s=B;if(s)if(typeof
 a==="number")if(d)var
 b=0;else
 var
-V=z(dy,o)?0:1,b=V;else
+V=z(dz,o)?0:1,b=V;else
 switch(a[1]){case
 0:if(d){var
-t=z(dy,o);if(t){var
+t=z(dz,o);if(t){var
 F=t[1];if(0===F[0])var
-G=h(l,1,j(d[1])),H=G?dd(F[1]):G;else
+G=h(l,1,j(d[1])),H=G?de(F[1]):G;else
 var
 H=0;var
 I=H}else
@@ -6784,12 +6794,12 @@ b=I}else
 var
 b=d;break;case
 1:if(d){var
-u=d[1],v=z(dy,o);if(v){var
+u=d[1],v=z(dz,o);if(v){var
 f=v[1];switch(f[0]){case
 0:var
 k=0;break;case
 1:var
-K=h(l,1,j(u)),L=K?dd(f[1]):K,M=L?dd(f[2]):L,k=M?dd(f[3]):M;break;case
+K=h(l,1,j(u)),L=K?de(f[1]):K,M=L?de(f[2]):L,k=M?de(f[3]):M;break;case
 2:var
 N=h(l,1,j(u)),k=N?et(f[1]):N;break;default:var
 O=h(l,1,j(u)),P=O?et(f[1]):O,k=P?et(f[2]):P}var
@@ -6803,85 +6813,85 @@ b=0}else
 var
 b=s;var
 D=b?m(function(b){var
-c=ol(i,a,g(e),b);if(c)var
+c=op(i,a,g(e),b);if(c)var
 d=c;else{var
 f=w?er(b):w;if(f)return aO(0,0,b);var
-d=f}return d},n):b,E=D?g3(n):D;return E?m(js,eq(i,g(e),0,n)):E}function
-AL(a){switch(a[0]){case
-0:return gr(a[1][1]);case
+d=f}return d},n):b,E=D?g6(n):D;return E?m(ju,eq(i,g(e),0,n)):E}function
+AW(a){switch(a[0]){case
+0:return gt(a[1][1]);case
 1:var
-b=a[3];return b?gr(b[1]):1;default:return gr(a[1])}}function
-ju(a,k,b,d){var
-e=oH(function(g){if(0===g[0]){var
-c=g[1],d=Z(Ay,c);if(d){var
-b=F(a,bv(c));if(b){if(2===b[1][0])return 0;var
+b=a[3];return b?gt(b[1]):1;default:return gt(a[1])}}function
+jw(a,k,b,d){var
+e=oL(function(g){if(0===g[0]){var
+c=g[1],d=Z(AJ,c);if(d){var
+b=E(a,bx(c));if(b){if(2===b[1][0])return 0;var
 e=1}else
 var
 e=b;var
 f=e}else
 var
-f=d;return f}return 1},k,b),f=e?m(AL,d[1]):e,h=f?Z(AM,g(a)):f;if(h)var
-l=g(a),c=m(function(a){return zG(l,a)},b);else
+f=d;return f}return 1},k,b),f=e?m(AW,d[1]):e,h=f?Z(AX,g(a)):f;if(h)var
+l=g(a),c=m(function(a){return zR(l,a)},b);else
 var
 c=h;var
-i=c?g3(b):c,j=i?m(fo,y(oG,a)):i;return j?m(Ax,d[3]):j}function
-oN(k,j,a,i,h,b){var
+i=c?g6(b):c,j=i?m(fo,y(oK,a)):i;return j?m(AI,d[3]):j}function
+oR(k,j,a,i,h,b){var
 l=g(k),n=g(h),c=p(g(i),n),d=c?m(function(b){var
 c=aO(l,g(a),b);if(c){var
 d=b[1];if(1===d){var
-e=b[2],f=e?[0,bv(e[1]),0]:aA(0,g(a));return m(function(c){var
-b=F(a,c);return b?0===b[1][0]?0:1:b},f)}return 11===d?m(function(a){return 0===a[0]?0:1},a):1}return c},b):c,e=d?g3(b):d,f=e?m(function(a){return fo(a[2])},j):e;return f?m(js,eq(0,g(a),0,b)):f}function
-oO(a){if(a){var
+e=b[2],f=e?[0,bx(e[1]),0]:aA(0,g(a));return m(function(c){var
+b=E(a,c);return b?0===b[1][0]?0:1:b},f)}return 11===d?m(function(a){return 0===a[0]?0:1},a):1}return c},b):c,e=d?g6(b):d,f=e?m(function(a){return fo(a[2])},j):e;return f?m(ju,eq(0,g(a),0,b)):f}function
+oS(a){if(a){var
 b=a[1];if(er(b))return 0;var
-c=[0,b,oO(a[2])]}else
+c=[0,b,oS(a[2])]}else
 var
 c=a;return c}function
-g4(i,h,f,d,b){var
-j=oO(b),k=y(function(a){return jh(i,f,d,a)},j),c=aq(P,0,e(function(a){return il(l,h,a)},k)),a=y(oj,b),m=a?[0,a[1],a[2]]:AN;return P(g(m),c)}function
-jv(a){return 2<=a?AO:AP}function
-jw(m,l,k,j,f,i){var
-g=g4(m,l,k,j,f),c=oC(i);if(c){var
+g7(i,h,f,d,b){var
+j=oS(b),k=y(function(a){return jj(i,f,d,a)},j),c=aq(P,0,e(function(a){return gq(l,h,a)},k)),a=y(on,b),m=a?[0,a[1],a[2]]:AY;return P(g(m),c)}function
+jx(a){return 2<=a?AZ:A0}function
+jy(m,l,k,j,f,i){var
+g=g7(m,l,k,j,f),c=oG(i);if(c){var
 a=c[1],e=0;if(typeof
 a==="number")var
 h=[0,a];else
 if(0===a[0]){var
 n=a[2],o=a[1],b=o,d=function(a){return[0,a,n]};e=1}else{var
-q=a[2],r=a[1],b=r,d=function(a){return[1,a,q]};e=1}if(e){if(!S(al(er,f))&&!aN(b,g))return p(b,g)?0:[0,d(bv(b))];return[0,d(b)]}}else
+q=a[2],r=a[1],b=r,d=function(a){return[1,a,q]};e=1}if(e){if(!S(ak(er,f))&&!aN(b,g))return p(b,g)?0:[0,d(bx(b))];return[0,d(b)]}}else
 var
 h=c;return h}function
-g5(b,a){var
-c=g(bn(function(a){return 0===a[0]?0:1},b));return p(g(a),c)}function
-g6(a){var
-b=_(aA(0,g(a)),a);return e(aB,bn(function(a){return ig(a[2])},b))}function
-oP(a){var
-b=a[1],c=e(g1,a[1]);return gk(g2(a[1]),c,b)}function
-jx(a){return g6(oP(a))}function
-oQ(b,a){if(a){var
-c=a[1],d=a[2],g=oQ(P(b,c[1]),d),h=c[2];return f(e(function(a){return aA(P(b,a),AQ)},h),g)}return a}function
-oR(e,a){function
+g8(b,a){var
+c=g(bp(function(a){return 0===a[0]?0:1},b));return p(g(a),c)}function
+g9(a){var
+b=_(aA(0,g(a)),a);return e(aB,bp(function(a){return ij(a[2])},b))}function
+oT(a){var
+b=a[1],c=e(g4,a[1]);return gk(g5(a[1]),c,b)}function
+jz(a){return g9(oT(a))}function
+oU(b,a){if(a){var
+c=a[1],d=a[2],g=oU(P(b,c[1]),d),h=c[2];return f(e(function(a){return aA(P(b,a),A1)},h),g)}return a}function
+oV(e,a){function
 b(f){var
-a=F(e,f);if(a){var
-b=lL(a[1]);if(b)return J(b[1],d);var
+a=E(e,f);if(a){var
+b=lN(a[1]);if(b)return J(b[1],d);var
 c=1}else
 var
 c=a;return c}var
-c=oQ(0,a);return bn(function(a){return m(b,a)},c)}function
-oS(a){switch(a[0]){case
-0:return AR;case
-1:return a[3]?AS:AT;default:return AU}}function
-AV(a){return 0===a[0]?oS(a[1]):AW}function
-jy(a){if(a){var
+c=oU(0,a);return bp(function(a){return m(b,a)},c)}function
+oW(a){switch(a[0]){case
+0:return A2;case
+1:return a[3]?A3:A4;default:return A5}}function
+A6(a){return 0===a[0]?oW(a[1]):A7}function
+jA(a){if(a){var
 b=a[1];return[0,b[2],b[1]]}return[0,d,0]}function
-oT(aC,Y,aB,X,W,b,aA,V){var
-a=jg(Y,aB,X,W),aD=g(V),aE=e(oS,a[1]),aG=oR(oP(a),aE),aH=aC?0:jx(a),B=dz(AX,jx(a),aH,aG,aD,V);if(B){var
+oX(aC,Y,aB,X,W,b,aA,V){var
+a=ji(Y,aB,X,W),aD=g(V),aE=e(oW,a[1]),aF=oV(oT(a),aE),aG=aC?0:jz(a),B=dA(A8,jz(a),aG,aF,aD,V);if(B){var
 Z=B[1];if(Z[2])return 0;var
-_=ju(Y,X,W,a);if(_){var
-aI=Z[1],C=e(g1,a[1]),c=g2(a[1]),aJ=jy(aA),U=ma(l,a);if(U){var
-n=gk(c,C,a[1]),h=ic(c,C,a[1],0),ac=g(a[3]),ad=P(g(n),ac),K=[0,g(n),ad],ae=a[3],E=al(function(a){if(typeof
+_=jw(Y,X,W,a);if(_){var
+aI=Z[1],C=e(g4,a[1]),c=g5(a[1]),aJ=jA(aA),U=mc(l,a);if(U){var
+n=gk(c,C,a[1]),h=ig(c,C,a[1],0),ac=g(a[3]),ad=P(g(n),ac),K=[0,g(n),ad],ae=a[3],E=ak(function(a){if(typeof
 a!=="number"&&14===a[0])return 1;return 0},ae),af=E?y(function(a){var
-b=e(aW,gm(n,a[4]));return[0,a[4],b]},h):E,ag=f(ie(h,c,K,a[3]),af),ah=f(bP(lk(h)),ag),L=f(bP(eX(h)),ah),M=cP(L)[1],o=cO(M),N=m(function(a){var
-b=k(d);return aF(q(a$(o,a),o,b),a)},L);if(N){var
-O=al(sT,a[3]);if(O){var
+b=e(aY,gm(n,a[4]));return[0,a[4],b]},h):E,ag=f(ii(h,c,K,a[3]),af),ah=f(bP(lm(h)),ag),L=f(bP(eX(h)),ah),M=cP(L)[1],o=cO(M),N=m(function(a){var
+b=k(d);return aH(q(bb(o,a),o,b),a)},L);if(N){var
+O=ak(s0,a[3]);if(O){var
 t=C,p=a[1];for(;;){if(p){var
 r=p[1],u=bJ(d,t);switch(r[0]){case
 0:var
@@ -6894,17 +6904,17 @@ j=H;break;case
 1:var
 J=r[3],j=J?gn(b,J[1],u):1;break;default:var
 j=gn(b,r[1],u)}if(j){var
-ab=p[2],t=bw(t),p=ab;continue}var
+ab=p[2],t=by(t),p=ab;continue}var
 Q=j}else
 var
 Q=1;var
 v=Q;break}}else
 var
 v=O;if(v){var
-ai=a[3],aj=y(function(a){return dn(c,a)},ai),ak=a[3],am=f(n,f(e(function(a){return bO(c,a)},ak),aj)),w=aa(e(function(a){return an(b,a)},am));if(w){var
-ao=a4(ea(a[2]),c),x=aa(e(function(a){return an(b,a)},ao));if(x){var
-ap=a[3],z=aa(lZ(b,aJ,function(a){return a$(o,a)},n,h,c,K,ap));if(z){var
-R=z[1],aq=ib(R),ar=x[1],as=a[2],at=function(a){return l0(b,as,c,a)},au=w[1],aw=0,ax=lk(h),ay=i(av(function(a){return a$(o,a)}),ax),az=eX(h);return fu(ia(b,M,i(av(function(a){return a$(o,a)}),az),ay,aw,au,R,at),ar,aq,aI)}var
+ai=a[3],aj=y(function(a){return dp(c,a)},ai),al=a[3],am=f(n,f(e(function(a){return bO(c,a)},al),aj)),w=aa(e(function(a){return an(b,a)},am));if(w){var
+ao=a5(ea(a[2]),c),x=aa(e(function(a){return an(b,a)},ao));if(x){var
+ap=a[3],z=aa(l1(b,aJ,function(a){return bb(o,a)},n,h,c,K,ap));if(z){var
+R=z[1],aq=ie(R),ar=x[1],as=a[2],at=function(a){return l2(b,as,c,a)},au=w[1],aw=0,ax=lm(h),ay=i(av(function(a){return bb(o,a)}),ax),az=eX(h);return fu(id(b,M,i(av(function(a){return bb(o,a)}),az),ay,aw,au,R,at),ar,aq,aI)}var
 S=z}else
 var
 S=x;var
@@ -6919,36 +6929,36 @@ A=N;return A}return U}var
 $=_}else
 var
 $=B;return $}function
-AY(a){if(0===a[0])return oy(a[1]);var
+A9(a){if(0===a[0])return oC(a[1]);var
 b=a[1],c=ec(b[6]);return f(ec(b[5]),c)}function
-AZ(a){if(0===a[0])return oz(a[1]);var
-b=a[1],c=a5(b[4]);return f(a5(b[3]),c)}function
-A0(a){if(0===a[0])return[0,g1(a[1]),d];var
-b=a[1],c=bz(a5(b[2]));return[0,bz(a5(b[1])),c]}function
-oU(P,aG,aE,aD,aC,aB,j,aA){var
-a=oo(P,aG,aE,aD,aC,aB),aH=a[2],O=y(AY,aH),bb=O?[0,O[1],O[2]]:y(AZ,aH),n=D(b,bz(bb)),Q=e(A0,a[2]),R=iT(n,Q,a[2]),bc=g(aA),bd=oR(R,e(AV,a[2])),be=g6(R),bf=g6(R),S=dz(bk(P),bf,be,bd,bc,aA);if(S){var
+A_(a){if(0===a[0])return oD(a[1]);var
+b=a[1],c=a7(b[4]);return f(a7(b[3]),c)}function
+A$(a){if(0===a[0])return[0,g4(a[1]),d];var
+b=a[1],c=bA(a7(b[2]));return[0,bA(a7(b[1])),c]}function
+oY(P,aF,aE,aD,aC,aB,j,aA){var
+a=os(P,aF,aE,aD,aC,aB),aG=a[2],O=y(A9,aG),bc=O?[0,O[1],O[2]]:y(A_,aG),n=D(b,bA(bc)),Q=e(A$,a[2]),R=iU(n,Q,a[2]),bd=g(aA),be=oV(R,e(A6,a[2])),bf=g9(R),bg=g9(R),S=dA(aW(P),bg,bf,be,bd,aA);if(S){var
 aI=S[1];if(aI[2])return 0;var
-aJ=oM(P,aG,aE,aD,aC,0,aB);if(aJ){var
-bg=aI[1],a9=e(ux,a[2]),ax=nk(l,a[2],a9);if(ax)var
-a_=ij(a[4]),M=bQ(l,a[4],a_);else
+aJ=oQ(P,aF,aE,aD,aC,0,aB);if(aJ){var
+bh=aI[1],a_=e(uI,a[2]),ax=no(l,a[2],a_);if(ax)var
+a$=im(a[4]),M=bQ(l,a[4],a$);else
 var
 M=ax;if(M){var
 ay=a[5];if(ay)var
-ba=gy(ay[1]),az=m(function(a){return e$(l,a)},ba);else
+ba=gB(ay[1]),az=m(function(a){return e$(l,a)},ba);else
 var
 az=1;var
 N=az}else
 var
 N=M;if(N){var
-c=a[1],aO=bk(c),u=a[6],B=iT(n,Q,a[2]),X=a[3],Y=[0,[0,X,X],n],Z=[0,g(B)],C=a[2],s=C?0===C[1][0]?0:1:C,aP=a[5],aQ=z(function(a){var
+c=a[1],aO=aW(c),u=a[6],B=iU(n,Q,a[2]),X=a[3],Y=[0,[0,X,X],n],Z=[0,g(B)],C=a[2],s=C?0===C[1][0]?0:1:C,aP=a[5],aQ=z(function(a){var
 b=typeof
-c==="number"?0:cD(c[1]);return mH(a,b)},aP),aR=a[2],o=nm(c,aQ,cZ(Y,g(B)),n,Q,aR,0),_=y(function(a){return a[7]},o),aS=f(_,c7(function(a,b){return np(o,a,b)},s,n,Z,u)),aT=f(bP(fa(o)),aS),$=f(bP(eh(o)),aT),ab=cP($)[1],ac=cO(ab),t=function(a){return a$(ac,a)},ad=m(function(a){var
-b=k(d);return aF(q(t(a),ac,b),a)},$),ae=ad?al(nr,u):ad;if(ae){var
+c==="number"?0:cD(c[1]);return mL(a,b)},aP),aR=a[2],o=nq(c,aQ,cZ(Y,g(B)),n,Q,aR,0),_=y(function(a){return a[7]},o),aS=f(_,c7(function(a,b){return nx(o,a,b)},s,n,Z,u)),aT=f(bP(fa(o)),aS),$=f(bP(eh(o)),aT),ab=cP($)[1],ac=cO(ab),t=function(a){return bb(ac,a)},ad=m(function(a){var
+b=k(d);return aH(q(t(a),ac,b),a)},$),ae=ad?ak(nz,u):ad;if(ae){var
 af=a[4];if(typeof
 c==="number")var
-ag=c?iP(0,ea(af)):1;else
+ag=c?iQ(0,ea(af)):1;else
 var
-aM=ea(af),ag=iP(c[1],aM);var
+aM=ea(af),ag=iQ(c[1],aM);var
 E=ag}else
 var
 E=ae;if(E){var
@@ -6959,7 +6969,7 @@ if(2<=U[1])var
 v=0;else{var
 x=a[5],T=0;if(x){var
 V=h(j,1,a[3]);if(V)var
-aN=gy(x[1]),v=m(function(a){var
+aN=gB(x[1]),v=m(function(a){var
 b=c5(j,a[1]);return b?c5(j,a[2]):b},aN);else{var
 W=V;T=1}}else{var
 W=x;T=1}if(T)var
@@ -6972,21 +6982,21 @@ b=0===a[0]?0:1;return cm(b,s)},aU);else
 var
 G=F;if(G){var
 aV=f(B,[0,Y,0]),H=aa(e(function(a){return an(j,a)},aV));if(H){var
-aW=y(function(a){return e5(s,n,a)},u),I=aa(e(function(a){return iy(j,a)},aW));if(I){var
-r=ea(a[4]),aX=typeof
-c==="number"?c?[0,r[1],[0,r[2],0]]:[0,r[1],[0,r[2],[0,r[3],0]]]:ne(c[1],r),J=aa(e(function(a){return an(j,[0,a,n])},aX));if(J){var
+aX=y(function(a){return e5(s,n,a)},u),I=aa(e(function(a){return iz(j,a)},aX));if(I){var
+r=ea(a[4]),aY=typeof
+c==="number"?c?[0,r[1],[0,r[2],0]]:[0,r[1],[0,r[2],[0,r[3],0]]]:ni(c[1],r),J=aa(e(function(a){return an(j,[0,a,n])},aY));if(J){var
 ah=J[1],ai=a[5];if(ai)var
-aY=mJ(ai[1]),w=aa(e(function(a){return mL(j,a)},aY));else
+aZ=mN(ai[1]),w=aa(e(function(a){return mP(j,a)},aZ));else
 var
-w=uw;if(w){var
-aj=w[1],A=a[5],aZ=A?mI(A[1]):A,K=aa(e(c4(j),aZ));if(K){var
-L=aa(c7(function(a,b){return nq(j,t,o,s,n,a,b)},s,n,Z,u));if(L){var
-ak=L[1],am=p(g(f(ah,aj)),aO);if(am){var
-a0=ib(ak),a1=f(ah,aj),aL=0,a2=a[4];if(typeof
+w=uH;if(w){var
+aj=w[1],A=a[5],a0=A?mM(A[1]):A,K=aa(e(c4(j),a0));if(K){var
+L=aa(c7(function(a,b){return ny(j,t,o,s,n,a,b)},s,n,Z,u));if(L){var
+al=L[1],am=p(g(f(ah,aj)),aO);if(am){var
+a1=ie(al),a2=f(ah,aj),aL=0,a3=a[4];if(typeof
 c==="number"&&!c){var
-ao=function(a){return l0(j,a2,n,a)};aL=1}if(!aL)var
+ao=function(a){return l2(j,a3,n,a)};aL=1}if(!aL)var
 ao=function(a){return 0};var
-a3=f(I[1],K[1]),a4=f(H[1],a3),a5=e(t,_),a6=fa(o),a7=i(av(t),a6),a8=eh(o);return fu(ia(j,ab,i(av(t),a8),a7,a5,a4,ak,ao),a1,a0,bg)}var
+a4=f(I[1],K[1]),a5=f(H[1],a4),a6=e(t,_),a7=fa(o),a8=i(av(t),a7),a9=eh(o);return fu(id(j,ab,i(av(t),a9),a8,a6,a5,al,ao),a2,a1,bh)}var
 ap=am}else
 var
 ap=L;var
@@ -7011,22 +7021,22 @@ aw=G;return aw}return N}var
 aK=aJ}else
 var
 aK=S;return aK}function
-oV(i,h,G,F,E,s,X,D,r){var
+oZ(i,h,G,F,E,s,X,D,r){var
 H=typeof
-i==="number"?i?A1:A3:jt(i[1]),t=e(j,X),I=oF(h,e(j,D));if(I[2])return 0;var
-Y=g(h),u=jw(gV(h),A2,Y,0,s,r);if(u){var
-J=g5(y(oL,h),D),K=J?oM(i,h,G,F,E,1,s):J;if(K)var
-Z=bk(i),v=p(g(t),Z);else
+i==="number"?i?Ba:Bc:jv(i[1]),t=e(j,X),I=oJ(h,e(j,D));if(I[2])return 0;var
+Y=g(h),u=jy(gY(h),Bb,Y,0,s,r);if(u){var
+J=g8(y(oP,h),D),K=J?oQ(i,h,G,F,E,1,s):J;if(K)var
+Z=aW(i),v=p(g(t),Z);else
 var
 v=K;if(v){var
 M=0;if(typeof
 r==="number"&&r)var
-n=S(gV(h));else
+n=S(gY(h));else
 M=1;if(M)var
 n=1}else
 var
 n=v;if(n){var
-_=u[1],a=aX(H,t),d=a6(aH(H,t)),k=I[1],f=oo(i,h,G,F,E,s),B=nk(l,f[2],k);if(B){var
+_=u[1],a=aT(H,t),d=a8(aG(H,t)),k=I[1],f=os(i,h,G,F,E,s),B=no(l,f[2],k);if(B){var
 x=bQ(l,f[4],d),w=0;if(x){var
 z=f[5];if(z)var
 o=cB(l,z[1],a);else
@@ -7041,67 +7051,67 @@ q=B;if(q){var
 c=f[5],C=f[3],m=f[1],W=f[6],N=e(function(e){if(0===e[0])var
 h=bT(c,a,d,e),f=cz(e[1],h);else
 var
-g=e[1],i=iv(g,bT(c,a,d,e)),j=g[4],k=bT(c,a,d,e),l=T(function(b,a){return[2,b,a]},k,j),f=T(function(b,a){return[3,b,a]},l,i);return[0,ni(m,f,ab([5,[0,b,b],C],dq(gG(c,a,gF(e)),f)))]},k),O=y(function(b){if(0===b[0]){var
-f=bT(c,a,d,b),e=ih(b[1],f),g=e?[0,e[1],0]:e;return g}var
-h=bT(c,a,d,b);return[0,mm(b[1],h),0]},k),P=function(b){var
-e=gG(c,a,b);return T(function(b,a){return[2,b,a]},d,e)},Q=0,R=e(function(g){var
+g=e[1],i=ix(g,bT(c,a,d,e)),j=g[4],k=bT(c,a,d,e),l=T(function(b,a){return[2,b,a]},k,j),f=T(function(b,a){return[3,b,a]},l,i);return[0,nm(m,f,ab([5,[0,b,b],C],dr(gJ(c,a,gI(e)),f)))]},k),O=y(function(b){if(0===b[0]){var
+f=bT(c,a,d,b),e=ik(b[1],f),g=e?[0,e[1],0]:e;return g}var
+h=bT(c,a,d,b);return[0,mq(b[1],h),0]},k),P=function(b){var
+e=gJ(c,a,b);return T(function(b,a){return[2,b,a]},d,e)},Q=0,R=e(function(g){var
 e=bT(c,a,d,g);if(0===g[0]){var
 b=g[1];if(0===b[0]){var
-i=b[4],j=b[3],k=b[2],h=b[1],n=cy(h,k,j,i,e),l=c1(b[5],n),o=ab(l,ax(h)),p=e3(h,k,j,e);return[0,[0,nj(m,T(function(b,a){return[2,b,a]},p,o)),l,i]]}return 0}var
-f=g[1],q=f[6],r=gq(f,e),s=iv(f,e),t=f[4],u=T(function(b,a){return[2,b,a]},e,t);return[0,[0,nj(m,T(function(b,a){return[3,b,a]},u,s)),r,q]]},k),U=e(function(b){if(0===b[0]){var
+i=b[4],j=b[3],k=b[2],h=b[1],n=cy(h,k,j,i,e),l=c1(b[5],n),o=ab(l,ax(h)),p=e3(h,k,j,e);return[0,[0,nn(m,T(function(b,a){return[2,b,a]},p,o)),l,i]]}return 0}var
+f=g[1],q=f[6],r=gs(f,e),s=ix(f,e),t=f[4],u=T(function(b,a){return[2,b,a]},e,t);return[0,[0,nn(m,T(function(b,a){return[3,b,a]},u,s)),r,q]]},k),U=e(function(b){if(0===b[0]){var
 f=bT(c,a,d,b);return[0,c2(b[1],f)]}var
-e=b[1],g=mo(e,bT(c,a,d,b));return[1,mn(e,bT(c,a,d,b)),g]},k),V=[0,e(function(e){if(0===e[0])var
+e=b[1],g=ms(e,bT(c,a,d,b));return[1,mr(e,bT(c,a,d,b)),g]},k),V=[0,e(function(e){if(0===e[0])var
 o=bT(c,a,d,e),g=ca(e[1],o);else
 var
-h=bT(c,a,d,e),f=e[1],i=iv(f,h),j=f[4],k=T(function(b,a){return[2,b,a]},h,j),l=T(function(b,a){return[3,b,a]},k,i),n=gq(f,h),g=ab([5,[0,b,b],[4,f[5],n]],l);return ni(m,g,ab([5,[0,b,b],C],dq(gG(c,a,gF(e)),g)))},k),U,R,Q,P,O,N];return im(l,ue,bk(f[1]),V,W,_)}return q}var
+h=bT(c,a,d,e),f=e[1],i=ix(f,h),j=f[4],k=T(function(b,a){return[2,b,a]},h,j),l=T(function(b,a){return[3,b,a]},k,i),n=gs(f,h),g=ab([5,[0,b,b],[4,f[5],n]],l);return nm(m,g,ab([5,[0,b,b],C],dr(gJ(c,a,gI(e)),g)))},k),U,R,Q,P,O,N];return ip(l,un,aW(f[1]),V,W,_)}return q}var
 L=n}else
 var
 L=u;return L}function
 fp(a){if(a){var
 b=cu(j(a[1]));if(b){var
 c=fp(a[2]);if(c)var
-f=c[1],d=[0,[0,dj(b[1]),f]];else
+f=c[1],d=[0,[0,dk(b[1]),f]];else
 var
 d=c;var
 e=d}else
 var
-e=b;return e}return A4}function
-oW(f,k,j,a,i){var
+e=b;return e}return Bd}function
+o0(f,k,j,a,i){var
 l=g(f),h=p(g(a),l);if(h){var
 m=_(_(f,_(k,j)),a);return e(function(f){var
-g=f[1],h=g[2],j=dU(h[2],h[1]),a=aE(g[1],i),k=E(d,a)?kJ(b3(c(2,b),a)):[0,b,dR(b3(c(2,b),O(a)))],l=dj(fY(a1([0,c(2,b),b],k),j)),m=f[2];return e(function(a){return dj(a1(kJ(a),l))},m)},m)}return h}function
-oX(S,cg,bD,bC,R,bB,a){var
-i=jg(S,cg,bD,bC),bE=g5(y(oG,S),bB),U=bE?ju(S,bD,bC,i):bE;if(R){var
+g=f[1],h=g[2],j=dU(h[2],h[1]),a=aF(g[1],i),k=F(d,a)?kL(b3(c(2,b),a)):[0,b,dR(b3(c(2,b),O(a)))],l=dk(fY(a2([0,c(2,b),b],k),j)),m=f[2];return e(function(a){return dk(a2(kL(a),l))},m)},m)}return h}function
+o1(S,cg,bD,bC,R,bB,a){var
+i=ji(S,cg,bD,bC),bE=g8(y(oK,S),bB),U=bE?jw(S,bD,bC,i):bE;if(R){var
 V=R[2];if(V){var
 W=V[2];if(W){if(W[2])return 0;var
-bF=W[1],bG=V[1],bH=R[1],bI=oD(S,e(j,bB));if(bI[2])return 0;var
+bF=W[1],bG=V[1],bH=R[1],bI=oH(S,e(j,bB));if(bI[2])return 0;var
 n=bI[1];if(typeof
 a!=="number"&&3===a[0]){var
-au=F(i[3],a[1]);if(au){var
+au=E(i[3],a[1]);if(au){var
 bN=au[1];if(typeof
 bN==="number"&&bN){var
 av=fp(a[2]);if(av){var
 s=av[1],aw=fp(a[3]);if(aw){var
 t=aw[1];if(U){var
-cl=oW([0,d,[0,d,[0,d,0]]],s,t,a[4],a[5]),cn=j(bF),co=j(bG),Y=[0,j(bH),co,cn];if(s){var
+cl=o0([0,d,[0,d,[0,d,0]]],s,t,a[4],a[5]),cn=j(bF),co=j(bG),Y=[0,j(bH),co,cn];if(s){var
 v=s[2];if(v){var
-x=v[2];if(x){if(x[2])return 0;if(t){var
+w=v[2];if(w){if(w[2])return 0;if(t){var
 A=t[2];if(A){var
 C=A[2];if(C){if(C[2])return 0;var
-aJ=C[1],aK=A[1],aL=t[1],aM=x[1],aN=v[1],aO=s[1],aP=[0,[1,0,aO,aL],[1,uS,aN,aK],[1,uR,aM,aJ]],aQ=go(l,i,n,Y);if(aQ)var
-b7=i[3],ac=al(function(a){if(typeof
+aJ=C[1],aK=A[1],aL=t[1],aM=w[1],aN=v[1],aO=s[1],aP=[0,[1,0,aO,aL],[1,u1,aN,aK],[1,u0,aM,aJ]],aQ=go(l,i,n,Y);if(aQ)var
+b7=i[3],ac=ak(function(a){if(typeof
 a==="number"&&a)return 1;return 0},b7);else
 var
 ac=aQ;var
-aR=ac?nK(s,t):ac,aS=aR?nL(l,i[2],[0,[0,aO,aN],aM],[0,[0,aL,aK],aJ]):aR,aT=aS?i1(l,s,t,bc(Y)):aS,aV=aT?m(function(b){var
-c=bV(nM(b)),e=c?bV([0,c2(b,Y),0]):c;if(e){var
-f=ih(b,aP);if(f){var
-h=f[1],a=dZ(l,function(a,b,c){return nG(l,uT,a,b,c)},h);return a?I(d,a[1][2][1]):a}var
+aR=ac?nO(s,t):ac,aS=aR?nP(l,i[2],[0,[0,aO,aN],aM],[0,[0,aL,aK],aJ]):aR,aT=aS?i3(l,s,t,be(Y)):aS,aU=aT?m(function(b){var
+c=bV(nQ(b)),e=c?bV([0,c2(b,Y),0]):c;if(e){var
+f=ik(b,aP);if(f){var
+h=f[1],a=dZ(l,function(a,b,c){return nK(l,u2,a,b,c)},h);return a?I(d,a[1][2][1]):a}var
 g=1}else
 var
-g=e;return g},n):aT;if(aV)return nJ(l,e(function(a){var
+g=e;return g},n):aT;if(aU)return nN(l,e(function(a){var
 b=c2(a,Y);return[3,c2(a,aP),b]},n),cl);var
-aW=aV}else
+aW=aU}else
 var
 aW=C;var
 aX=aW}else
@@ -7111,7 +7121,7 @@ ad=aX}else
 var
 ad=t}else
 var
-ad=x;var
+ad=w;var
 aY=ad}else
 var
 aY=v;var
@@ -7129,25 +7139,25 @@ var
 bQ=au;return bQ}var
 an=i[3];if(typeof
 a==="number")var
-k=0===a?At:Au;else
+k=0===a?AE:AF;else
 switch(a[0]){case
 0:var
-ao=a[2],u=a[1],bd=F(an,u);if(bd){var
-bR=0,be=bd[1];if(typeof
-be==="number"||!(13===be[0]))bR=1;else
+ao=a[2],u=a[1],bc=E(an,u);if(bc){var
+bR=0,bd=bc[1];if(typeof
+bd==="number"||!(13===bd[0]))bR=1;else
 var
-aq=i[1],bb=g2(aq),o=e(function(a){var
+aq=i[1],bb=g5(aq),o=e(function(a){var
 f=g(aq);if(p(g(a),f)){var
 h=_(aq,a);return e(function(a){var
-e=a[2],f=E(d,bb),g=2===a[1][0]?1:0;return cm(g,f)?B(e,b3(c(2,b),ck(bb))):e},h)}return a},ao);if(bR)var
+e=a[2],f=F(d,bb),g=2===a[1][0]?1:0;return cm(g,f)?B(e,b3(c(2,b),ck(bb))):e},h)}return a},ao);if(bR)var
 o=ao}else
 var
 o=ao;var
-ce=F(an,u),cf=i[1],ap=z(function(b){if(typeof
+ce=E(an,u),cf=i[1],ap=z(function(b){if(typeof
 b!=="number")switch(b[0]){case
-5:return Ar;case
+5:return AC;case
 12:var
-a=F(cf,b[1]);if(a){if(2===a[1][0])return As;var
+a=E(cf,b[1]);if(a){if(2===a[1][0])return AD;var
 c=0}else
 var
 c=a;return c;case
@@ -7156,20 +7166,20 @@ c=a;return c;case
 4:case
 6:case
 7:case
-11:return 0}return Aq},ce),ay=0;if(ap){var
+11:return 0}return AB},ce),ay=0;if(ap){var
 bf=ap[1];if(bf){var
 bg=bf[1];if(bg)if(bg[1])var
 k=0;else{var
 az=0;if(o){var
 G=o[1],aA=0;if(G){var
 H=G[2],aB=0;if(H){var
-J=H[2],aD=0;if(J)if(J[2]){var
-k=0;az=1;aA=1;aB=1;aD=1}else{var
+J=H[2],aC=0;if(J)if(J[2]){var
+k=0;az=1;aA=1;aB=1;aC=1}else{var
 K=o[2],bS=0;if(K){var
 L=K[1],bT=0;if(L){var
 M=L[2],bU=0;if(M){var
 N=M[2],bW=0;if(N)if(N[2]||K[2]){var
-k=0;az=1;aA=1;aB=1;aD=1;bS=1;bT=1;bU=1;bW=1}else
+k=0;az=1;aA=1;aB=1;aC=1;bS=1;bT=1;bU=1;bW=1}else
 var
 bh=[0,[0,u,[0,[0,G[1],H[1]],J[1]],[0,[0,L[1],M[1]],N[1]]]];else
 var
@@ -7185,7 +7195,7 @@ var
 bk=K;if(!bS)var
 bl=bk}else
 var
-bl=J;if(!aD)var
+bl=J;if(!aC)var
 bm=bl}else
 var
 bm=H;if(!aB)var
@@ -7221,7 +7231,7 @@ bw=[0,[0,d,d],d],bx=[0,[0,u,bw,bw]];ay=1}}else{var
 bx=ap;ay=1}if(ay)var
 k=bx;break;case
 1:var
-by=a[1],ar=F(an,by),aE=0;if(ar){var
+by=a[1],ar=E(an,by),aE=0;if(ar){var
 b1=0,bz=ar[1];if(typeof
 bz!=="number"&&1===bz[0]){var
 k=[0,[1,by,a[2]]];b1=1}if(!b1){var
@@ -7232,17 +7242,17 @@ k=0}if(k){var
 ch=j(bF),ci=j(bG),f=[0,j(bH),ci,ch];if(U){var
 q=k[1],aG=go(l,i,n,f);if(aG)if(typeof
 q==="number")var
-r=0===q?al(function(c){var
-a=ih(c,f);return a?h(l,0,[3,[0,d,b],a[1]]):a},n):la(sV,e(function(b){var
+r=0===q?ak(function(c){var
+a=ik(c,f);return a?h(l,0,[3,[0,d,b],a[1]]):a},n):lc(s2,e(function(b){var
 a=cz(b,f);return[0,a[1],[0,a[2],[0,a[3],0]]]},n));else
 if(0===q[0]){var
-Z=F(i[3],q[1]);if(Z)var
-b2=Z[1],b4=l3(q[3]),r=l_(l,n,f,l3(q[2]),b4,b2);else
+Z=E(i[3],q[1]);if(Z)var
+b2=Z[1],b4=l5(q[3]),r=ma(l,n,f,l5(q[2]),b4,b2);else
 var
 r=Z}else{var
-$=F(i[3],q[1]),aF=0;if($){var
-aa=F(n,q[2]);if(aa)var
-aH=aa[1],b5=$[1],b6=ca(aH,f),r=l_(l,n,f,ca(aH,f),b6,b5);else{var
+$=E(i[3],q[1]),aF=0;if($){var
+aa=E(n,q[2]);if(aa)var
+aH=aa[1],b5=$[1],b6=ca(aH,f),r=ma(l,n,f,ca(aH,f),b6,b5);else{var
 aI=aa;aF=1}}else{var
 aI=$;aF=1}if(aF)var
 r=aI}else
@@ -7251,35 +7261,35 @@ r=aG;if(r)var
 as=r;else{if(typeof
 a!=="number"&&0===a[0]){var
 X=a[2];if(X){if(X[2])return 0;var
-at=X[1],cj=a[1],a0=go(l,i,n,f),a1=a0?bV(bc(f)):a0;if(a1){var
-ag=F(i[3],cj);if(ag){var
+at=X[1],cj=a[1],a0=go(l,i,n,f),a1=a0?bV(be(f)):a0;if(a1){var
+ag=E(i[3],cj);if(ag){var
 D=ag[1];if(typeof
 D!=="number"&&14===D[0]){var
-a4=D[2],a5=D[1],ah=i5(aC(ej,a4));if(ah){var
-ai=ah[1],b$=gL(u3,ai),cb=gL(u4,ai),aj=[0,gL(0,ai),cb,b$],a6=h(l,1,a4),a7=a6?h(l,0,a5):a6;if(a7)var
-cc=g(i[1]),ak=p(g(at),cc);else
+a4=D[2],a5=D[1],ah=i7(aD(ej,a4));if(ah){var
+ai=ah[1],b$=gO(va,ai),cb=gO(vb,ai),aj=[0,gO(0,ai),cb,b$],a6=h(l,1,a4),a7=a6?h(l,0,a5):a6;if(a7)var
+cc=g(i[1]),al=p(g(at),cc);else
 var
-ak=a7;var
-a8=ak?m(function(a){return bV(nM(a))},n):ak;if(a8){var
-cd=i[1],a9=i4(at,e(function(a){switch(a[0]){case
+al=a7;var
+a8=al?m(function(a){return bV(nQ(a))},n):al;if(a8){var
+cd=i[1],a9=i6(at,e(function(a){switch(a[0]){case
 0:var
-b=a[1],d=b[5],e=gM(b[4]),g=cE(b[3]),h=cE(b[2]),c=[0,cE(b[1]),h,g,e,d];break;case
+b=a[1],d=b[5],e=gP(b[4]),g=cE(b[3]),h=cE(b[2]),c=[0,cE(b[1]),h,g,e,d];break;case
 1:var
 i=z(cE,a[3]),j=cE(a[2]),c=[1,cE(a[1]),j,i];break;default:var
 c=[2,cE(a[1])]}return c2(c,f)},cd),a5),a_=bV(a9);if(a_){var
 am=_(_(n,a9),at),ae=function(k){var
 e=k[1][2],a=k[1][1];switch(a[0]){case
 0:var
-i=a[4],l=ab(e,ax(a[1])),m=aU(a[2],a[3],f),g=T(function(b,a){return[3,b,a]},m,l),n=ab([0,c(2,b),b],g);return[0,[3,w(g,g),[4,i,i]],n,[0,b,b]];case
+i=a[4],l=ab(e,ax(a[1])),m=aV(a[2],a[3],f),g=T(function(b,a){return[3,b,a]},m,l),n=ab([0,c(2,b),b],g);return[0,[3,x(g,g),[4,i,i]],n,[0,b,b]];case
 1:var
-h=aU(a[1],a[2],f),o=ab([0,c(2,b),b],h);return[0,[3,w(h,h),[4,e,e]],o,[0,b,b]];default:var
-j=a[1],p=ax(j);return[0,[3,w(ax(j),f),e],p,[0,d,b]]}},af=function(j){var
+h=aV(a[1],a[2],f),o=ab([0,c(2,b),b],h);return[0,[3,x(h,h),[4,e,e]],o,[0,b,b]];default:var
+j=a[1],p=ax(j);return[0,[3,x(ax(j),f),e],p,[0,d,b]]}},af=function(j){var
 d=j[1],e=d[2],a=d[1],c=j[2];switch(a[0]){case
 0:var
-g=a[3],h=a[2],i=a[1],k=aU(h,g,f),l=[3,w(ax(i),k),e],m=cy(i,h,g,a[4],f);return i3([5,[0,c,b],[2,c1(a[5],m),l]]);case
-1:return i3([5,[0,c,b],[2,e,c2(a,f)]]);default:return[0,c,b]}},b8=w(aj,aj),b9=[4,fe(function(a){var
-b=ae(a)[3];return[4,af(a),b]},am),b8],b_=w(ff(function(a){var
-b=ae(a)[2];return ab(af(a),b)},am),aj);return nO(l,u6,u5,[2,[2,fe(function(a){var
+g=a[3],h=a[2],i=a[1],k=aV(h,g,f),l=[3,x(ax(i),k),e],m=cy(i,h,g,a[4],f);return i5([5,[0,c,b],[2,c1(a[5],m),l]]);case
+1:return i5([5,[0,c,b],[2,e,c2(a,f)]]);default:return[0,c,b]}},b8=x(aj,aj),b9=[4,fe(function(a){var
+b=ae(a)[3];return[4,af(a),b]},am),b8],b_=x(ff(function(a){var
+b=ae(a)[2];return ab(af(a),b)},am),aj);return nS(l,vd,vc,[2,[2,fe(function(a){var
 b=ae(a)[1];return[4,af(a),b]},am),b_],b9])}var
 a$=a_}else
 var
@@ -7308,21 +7318,21 @@ bL=V;var
 bM=bL}else
 var
 bM=R;return bM}function
-oY(m,l,b,k,y,x){var
+o2(m,l,b,k,y,x){var
 f=y,d=x;for(;;){if(0===d[0]){var
-g=d[1],h=F(f,g),n=h?aN(h[1][2],A5):h;if(n)var
-A=d[2],i=oY(m,l,b,k,jp(0,g,f),A);else
+g=d[1],h=E(f,g),n=h?aN(h[1][2],Be):h;if(n)var
+A=d[2],i=o2(m,l,b,k,jr(0,g,f),A);else
 var
 i=n;if(i){var
-B=d[3],f=jp(1,g,f),d=B;continue}return i}var
-c=d[1],a=ow(0,m,f),o=e(function(b){function
-d(b){return ox(a,b)}function
-c(a){return jn(d,a)}switch(b[0]){case
+B=d[3],f=jr(1,g,f),d=B;continue}return i}var
+c=d[1],a=oA(0,m,f),o=e(function(b){function
+d(b){return oB(a,b)}function
+c(a){return jp(d,a)}switch(b[0]){case
 0:var
-e=b[5],f=ox(a,b[4]),g=c(b[3]),h=c(b[2]);return[0,c(b[1]),h,g,f,e];case
+e=b[5],f=oB(a,b[4]),g=c(b[3]),h=c(b[2]);return[0,c(b[1]),h,g,f,e];case
 1:var
 i=z(c,b[3]),j=c(b[2]);return[1,c(b[1]),j,i];default:return[2,c(b[1])]}},l);if(0===b[0])var
-q=b[2],r=jn(function(b){return at(a,b)},q),s=b[1],j=[0,jn(function(b){return at(a,b)},s),r];else
+q=b[2],r=jp(function(b){return at(a,b)},q),s=b[1],j=[0,jp(function(b){return at(a,b)},s),r];else
 var
 t=at(a,b[5]),u=at(a,b[4]),v=at(a,b[3]),w=at(a,b[2]),j=[1,at(a,b[1]),w,v,u,t];var
 p=e(function(g){var
@@ -7350,191 +7360,191 @@ i=h;return[0,g[1],g[2],i,d]},k);if(typeof
 c==="number")return 1;else
 switch(c[0]){case
 0:return 0;case
-1:return oT(1,o,j,0,p,c[1],c[2],c[3]);default:var
-C=c[4],D=c[3],E=e(function(b){return at(a,b)},D),G=c[2];return oX(o,j,0,p,e(function(b){return at(a,b)},G),E,C)}}}function
-oZ(h,g){var
+1:return oX(1,o,j,0,p,c[1],c[2],c[3]);default:var
+C=c[4],D=c[3],F=e(function(b){return at(a,b)},D),G=c[2];return o1(o,j,0,p,e(function(b){return at(a,b)},G),F,C)}}}function
+o3(h,g){var
 a=cu(j(h));if(a){var
-c=a[1],e=a_([0,d,b],c);if(e)return a_(c,g);var
+c=a[1],e=ba([0,d,b],c);if(e)return ba(c,g);var
 f=e}else
 var
 f=a;return f}function
-A$(u){var
-eP=gT(u[3]),eQ=eP?gT(u[4]):eP;if(eQ){var
+Bl(u){var
+eP=gW(u[3]),eQ=eP?gW(u[4]):eP;if(eQ){var
 W=u[1];switch(W[0]){case
 3:var
 eW=m(fl,W[1]);if(eW)var
-i$=W[2],cq=m(function(a){return fl(a[1])},i$);else
+ja=W[2],cq=m(function(a){return fl(a[1])},ja);else
 var
 cq=eW;if(cq)var
-ja=W[3],cr=m(function(a){var
-b=fl(a[1]),c=b?je(a[2]):b;return c?fm(a[2]):c},ja);else
+jb=W[3],cr=m(function(a){var
+b=fl(a[1]),c=b?jg(a[2]):b;return c?fm(a[2]):c},jb);else
 var
 cr=cq;if(cr)var
-jb=W[4],be=m(function(a){var
+jc=W[4],bf=m(function(a){var
 b=0===a[0]?a[1]:[0,a[1],0];return m(function(a){var
-b=je(a);return b?fm(a):b},b)},jb);else
+b=jg(a);return b?fm(a):b},b)},jc);else
 var
-be=cr;break;case
+bf=cr;break;case
 7:var
-jc=W[1],eY=m(function(a){var
-b=fl(a[1]);return b?fn(0,[0,a[2][1],[0,a[2][2],0]]):b},jc),be=eY?fn(0,[0,W[5],[0,W[6],0]]):eY;break;default:var
-be=1}var
-cn=be}else
+jd=W[1],eY=m(function(a){var
+b=fl(a[1]);return b?fn(0,[0,a[2][1],[0,a[2][2],0]]):b},jd),bf=eY?fn(0,[0,W[5],[0,W[6],0]]):eY;break;default:var
+bf=1}var
+cn=bf}else
 var
 cn=eQ;var
 c2=0;if(cn){var
 eR=u[1],co=7===eR[0]?e(aB,eR[1]):0,eS=function(c,b){var
-a=of(c);return a?m(function(a){var
-e=a[1],b=m(function(a){return n_(a[2])},e);if(b){var
-c=a[3];if(c)return fn(co,oe(c[1]));var
+a=oj(c);return a?m(function(a){var
+e=a[1],b=m(function(a){return oc(a[2])},e);if(b){var
+c=a[3];if(c)return fn(co,oi(c[1]));var
 d=1}else
 var
 d=b;return d},b):a},eT=function(e,d,c,b){var
-a=of(e);return a?fn(co,f(d,f(c,oe(b)))):a},o=u[1];switch(o[0]){case
+a=oj(e);return a?fn(co,f(d,f(c,oi(b)))):a},o=u[1];switch(o[0]){case
 0:var
-iC=y(dw,o[4]),iD=f(y(oc,o[3]),iC),iE=f(oa(o[2]),iD),X=f(y(jf,o[1]),iE);break;case
+iD=y(dx,o[4]),iE=f(y(og,o[3]),iD),iF=f(oe(o[2]),iE),X=f(y(jh,o[1]),iF);break;case
 1:var
-ck=o[5],cl=o[3],iF=y(dw,o[6]),iG=ck?ob(ck[1]):ck,iH=f(iG,iF),iI=f(n$(o[4]),iH),iJ=cl?[0,cl[1],0]:cl,iK=f(iJ,iI),X=f(y(zB,o[2]),iK);break;case
+ck=o[5],cl=o[3],iG=y(dx,o[6]),iH=ck?of(ck[1]):ck,iI=f(iH,iG),iJ=f(od(o[4]),iI),iK=cl?[0,cl[1],0]:cl,iL=f(iK,iJ),X=f(y(zM,o[2]),iL);break;case
 2:var
-iL=y(dw,o[7]),iM=f(y(oc,o[6]),iL),iN=f(ob(o[5]),iM),iO=f(n$(o[4]),iN),iP=[0,o[3],iO],iR=o[2],X=f(y(function(a){return y(eo,f(a[1],a[2]))},iR),iP);break;case
+iM=y(dx,o[7]),iN=f(y(og,o[6]),iM),iO=f(of(o[5]),iN),iP=f(od(o[4]),iO),iQ=[0,o[3],iP],iS=o[2],X=f(y(function(a){return y(eo,f(a[1],a[2]))},iS),iQ);break;case
 3:var
-iS=y(dw,o[7]),iT=f(o[6],iS),iW=f(o[5],iT),iZ=o[2],X=f(y(function(a){return eo(a[2])},iZ),iW);break;case
+iT=y(dx,o[7]),iU=f(o[6],iT),iV=f(o[5],iU),iY=o[2],X=f(y(function(a){return eo(a[2])},iY),iV);break;case
 4:var
-i0=y(dw,o[3]),X=[0,o[1],[0,o[2],i0]];break;case
+i1=y(dx,o[3]),X=[0,o[1],[0,o[2],i1]];break;case
 5:var
-i1=y(dw,o[4]),i2=f(bW(o[3]),i1),i6=f(bW(o[2]),i2),i7=f(y(jf,o[1]),i6),X=[0,o[5],i7];break;case
+i2=y(dx,o[4]),i3=f(bW(o[3]),i2),i4=f(bW(o[2]),i3),i8=f(y(jh,o[1]),i4),X=[0,o[5],i8];break;case
 6:var
 cm=o[1],X=cm?eo(cm[1]):cm;break;default:var
-i8=y(dw,o[4]),i9=f(oa(o[3]),i8),X=f(y(jf,o[2]),i9)}var
+i9=y(dx,o[4]),i_=f(oe(o[3]),i9),X=f(y(jh,o[2]),i_)}var
 eU=fn(co,X);if(eU){var
 Y=u[2];switch(Y[0]){case
 0:var
-aU=eS(Y[1],Y[3]);break;case
+aV=eS(Y[1],Y[3]);break;case
 1:var
-aU=eT(Y[1],Y[2],Y[3],Y[4]);break;default:var
-i_=Y[1],aU=m(function(a){if(typeof
+aV=eT(Y[1],Y[2],Y[3],Y[4]);break;default:var
+i$=Y[1],aV=m(function(a){if(typeof
 a!=="number")switch(a[0]){case
 1:return eS(a[1],a[3]);case
-2:return eT(a[1],a[2],a[3],a[4])}return 1},i_)}}else{var
+2:return eT(a[1],a[2],a[3],a[4])}return 1},i$)}}else{var
 eV=eU;c2=1}}else{var
 eV=cn;c2=1}if(c2)var
-aU=eV;if(aU){var
+aV=eV;if(aV){var
 a=u[1];switch(a[0]){case
 0:var
 fs=a[4],ft=a[3],fv=a[2],fw=a[1],ah=u[2];switch(ah[0]){case
-0:return oT(0,fw,fv,ft,fs,ah[1],ah[2],ah[3]);case
-1:return oX(fw,fv,ft,fs,ah[2],ah[3],ah[4]);default:return 0}case
+0:return oX(0,fw,fv,ft,fs,ah[1],ah[2],ah[3]);case
+1:return o1(fw,fv,ft,fs,ah[2],ah[3],ah[4]);default:return 0}case
 1:var
 fx=a[6],fy=a[5],fz=a[4],fA=a[3],fB=a[2],fC=a[1],az=u[2];switch(az[0]){case
-0:return oU(fC,fB,fA,fz,fy,fx,az[1],az[3]);case
-1:return oV(fC,fB,fA,fz,fy,fx,az[2],az[3],az[4]);default:return 0}case
+0:return oY(fC,fB,fA,fz,fy,fx,az[1],az[3]);case
+1:return oZ(fC,fB,fA,fz,fy,fx,az[2],az[3],az[4]);default:return 0}case
 2:var
-ai=a[7],aj=a[6],bj=a[5],bk=a[4],bl=a[3],K=a[2],L=a[1],ak=u[2];switch(ak[0]){case
+ai=a[7],aj=a[6],bj=a[5],bk=a[4],bl=a[3],K=a[2],L=a[1],al=u[2];switch(al[0]){case
 0:var
-fD=ak[3],ac=on(L,K,bl,bk,bj,aj,ai),jD=ac[2],cy=D(b,bz(y(function(a){var
-b=a5(a[2]);return f(a5(a[1]),b)},jD))),jE=g(fD),jF=iQ(cy,ac[2]),jG=iQ(cy,ac[2]),cz=dz(br(L),jG,jF,0,jE,fD);if(cz){var
+fD=al[3],ac=or(L,K,bl,bk,bj,aj,ai),jE=ac[2],cy=D(b,bA(y(function(a){var
+b=a7(a[2]);return f(a7(a[1]),b)},jE))),jF=g(fD),jG=iR(cy,ac[2]),jH=iR(cy,ac[2]),cz=dA(bt(L),jH,jG,0,jF,fD);if(cz){var
 fE=cz[1];if(fE[2])return 0;var
-fF=oK(L,K,bl,bk,bj,aj,ai);if(fF){var
-jH=fE[1],jI=g(K),jJ=g4(0,jv(L),jI,aj,ai),jK=jy(ak[2]),jL=ak[1],gL=ac[2],da=m(function(a){var
-b=nh(l,a[1]);return b?nh(l,a[2]):b},gL);if(da)var
-gM=ij(ac[4]),by=bQ(l,ac[4],gM);else
+fF=oO(L,K,bl,bk,bj,aj,ai);if(fF){var
+jI=fE[1],jJ=g(K),jK=g7(0,jx(L),jJ,aj,ai),jL=jA(al[2]),jM=al[1],gL=ac[2],da=m(function(a){var
+b=nl(l,a[1]);return b?nl(l,a[2]):b},gL);if(da)var
+gN=im(ac[4]),by=bQ(l,ac[4],gN);else
 var
 by=da;if(by)var
-gN=gy(ac[5]),bA=m(function(a){return e$(l,a)},gN);else
+gO=gB(ac[5]),bz=m(function(a){return e$(l,a)},gO);else
 var
-bA=by;return bA?ub(jL,jK,jJ,ac,cy,jH):bA}var
+bz=by;return bz?uk(jM,jL,jK,ac,cy,jI):bz}var
 fG=fF}else
 var
 fG=cz;return fG;case
 1:var
-M=ak[4],fH=ak[3],ao=e(j,ak[2]),G=jt(L),fI=oE(K,e(j,fH));if(fI[2])return 0;var
-x=fI[1],fJ=g5(y(function(a){return f(a[1],a[2])},K),fH),fK=fJ?oK(L,K,bl,bk,bj,aj,ai):fJ;if(fK){var
-n=on(L,K,bl,bk,bj,aj,ai);if(typeof
+M=al[4],fH=al[3],ao=e(j,al[2]),G=jv(L),fI=oI(K,e(j,fH));if(fI[2])return 0;var
+w=fI[1],fJ=g8(y(function(a){return f(a[1],a[2])},K),fH),fK=fJ?oO(L,K,bl,bk,bj,aj,ai):fJ;if(fK){var
+n=or(L,K,bl,bk,bj,aj,ai);if(typeof
 M!=="number")switch(M[0]){case
 2:var
-fQ=e(j,M[1]),fR=aX(G,fQ),fS=a6(aH(G,fQ)),fT=aX(G,ao),fU=a6(aH(G,ao)),d4=e6(l,n[2],x);if(d4)var
-hM=br(n[1]),b4=p(g(x),hM);else
+fQ=e(j,M[1]),fR=aT(G,fQ),fS=a8(aG(G,fQ)),fT=aT(G,ao),fU=a8(aG(G,ao)),dl=e6(l,n[2],w);if(dl)var
+gP=bt(n[1]),bD=p(g(w),gP);else
 var
-b4=d4;var
-d6=b4?bQ(l,n[4],fU):b4,d7=d6?bQ(l,n[4],fS):d6,d8=d7?cB(l,n[5],fT):d7,d9=d8?cB(l,n[5],fR):d8;if(d9){var
-d_=n[1],hN=n[5],hO=n[3],dV=function(g,f){var
-h=e(function(a){return iA(d_,hO,hN,f,g,a)},x),i=br(d_),a=nF(l,h);function
+bD=dl;var
+dm=bD?bQ(l,n[4],fU):bD,dn=dm?bQ(l,n[4],fS):dm,dq=dn?cB(l,n[5],fT):dn,ds=dq?cB(l,n[5],fR):dq;if(ds){var
+dt=n[1],gQ=n[5],gR=n[3],db=function(g,f){var
+h=e(function(a){return iB(dt,gR,gQ,f,g,a)},w),i=bt(dt),a=nu(l,h);function
 c(a,b){return t(l,a,b)}var
-d=Q(l,b);return z(function(a){return nD(v,d,H,c,i,a)},a)},b2=dV(fU,fT);if(b2){var
-dW=b2[1],b3=dV(fS,fR);if(b3){var
-dX=b3[1],dY=I(d,dW[1]),dZ=dY?I(dX[2],d):dY;if(dZ)var
-d0=dZ;else{var
-d3=I(dW[2],d);if(d3)return I(d,dX[1]);var
-d0=d3}var
-d1=d0}else
+d=Q(l,b);return z(function(a){return ns(v,d,H,c,i,a)},a)},bB=db(fU,fT);if(bB){var
+dc=bB[1],bC=db(fS,fR);if(bC){var
+de=bC[1],df=I(d,dc[1]),dg=df?I(de[2],d):df;if(dg)var
+dh=dg;else{var
+dk=I(dc[2],d);if(dk)return I(d,de[1]);var
+dh=dk}var
+di=dh}else
 var
-d1=b3;var
-d2=d1}else
+di=bC;var
+dj=di}else
 var
-d2=b2;return d2}return d9;case
+dj=bB;return dj}return ds;case
 3:var
 cG=fp(M[2]);if(cG){var
 fV=cG[1],cH=fp(M[3]);if(cH){var
-fW=cH[1],jN=n[2],jO=D(b,bz(y(function(a){var
-b=a5(a[2]);return f(a5(a[1]),b)},jN))),jP=g(K),jQ=g4(0,jv(L),jP,aj,ai),fX=p(M[1],jQ);if(fX){var
-jR=M[5],jS=M[4],jT=am(O(jO),dP(g(ao),G)),jU=oW(f(am(d,G),jT),fV,fW,jS,jR),jV=aX(G,ao);return uY(l,G,n,x,a6(aH(G,ao)),jV,fV,fW,jU)}var
+fW=cH[1],jO=n[2],jP=D(b,bA(y(function(a){var
+b=a7(a[2]);return f(a7(a[1]),b)},jO))),jQ=g(K),jR=g7(0,jx(L),jQ,aj,ai),fX=p(M[1],jR);if(fX){var
+jS=M[5],jT=M[4],jU=am(O(jP),dP(g(ao),G)),jV=o0(f(am(d,G),jU),fV,fW,jT,jS),jW=aT(G,ao);return u7(l,G,n,w,a8(aG(G,ao)),jW,fV,fW,jV)}var
 fY=fX}else
 var
 fY=cH;var
 fZ=fY}else
 var
 fZ=cG;return fZ}var
-jM=g(K),cC=jw(0,jv(L),jM,aj,ai,M);if(cC){var
-aV=cC[1],s=a6(aH(G,ao)),r=aX(G,ao),c6=e6(l,n[2],x),c8=c6?bQ(l,n[4],s):c6,c9=c8?cB(l,n[5],r):c8;if(c9)var
-R=n[5],c_=n[3],c$=n[1],gG=n[6],bx=function(a){var
-b=bR(R,r,s,a);return w(bR(R,r,s,a),b)},gz=e(function(a){return[0,iA(c$,c_,R,r,s,a)]},x),gA=e(bx,x),gB=function(a){var
-b=cA(R,r,a);return T(function(b,a){return[2,b,a]},s,b)},gC=e(function(a){var
-b=[6,bx(a)],c=bR(R,r,s,a),d=cA(R,r,a[2]);return[0,[0,[0,T(function(b,a){return[2,b,a]},s,d),c],b]]},x),gD=e(function(a){return 0},x),gE=e(function(a){return[0,[6,bx(a)]]},x),gF=[0,e(function(c){var
-a=ax(bR(R,r,s,c));return iz(c$,a,ab([5,[0,b,b],c_],dq(cA(R,r,c[2]),a)))},x),gE,gD,gC,gB,gA,gz],gI=br(n[1]),gK=2<=n[1]?s6:s7,cF=im(l,gK,gI,gF,gG,aV);else
+jN=g(K),cC=jy(0,jx(L),jN,aj,ai,M);if(cC){var
+aW=cC[1],s=a8(aG(G,ao)),r=aT(G,ao),c6=e6(l,n[2],w),c8=c6?bQ(l,n[4],s):c6,c9=c8?cB(l,n[5],r):c8;if(c9)var
+R=n[5],c_=n[3],c$=n[1],gH=n[6],bx=function(a){var
+b=bR(R,r,s,a);return x(bR(R,r,s,a),b)},gz=e(function(a){return[0,iB(c$,c_,R,r,s,a)]},w),gA=e(bx,w),gC=function(a){var
+b=cA(R,r,a);return T(function(b,a){return[2,b,a]},s,b)},gD=e(function(a){var
+b=[6,bx(a)],c=bR(R,r,s,a),d=cA(R,r,a[2]);return[0,[0,[0,T(function(b,a){return[2,b,a]},s,d),c],b]]},w),gE=e(function(a){return 0},w),gF=e(function(a){return[0,[6,bx(a)]]},w),gG=[0,e(function(c){var
+a=ax(bR(R,r,s,c));return iA(c$,a,ab([5,[0,b,b],c_],dr(cA(R,r,c[2]),a)))},w),gF,gE,gD,gC,gA,gz],gI=bt(n[1]),gJ=2<=n[1]?td:te,cF=ip(l,gJ,gI,gG,gH,aW);else
 var
 cF=c9;if(cF)var
 fL=cF;else{if(typeof
-aV!=="number"&&0===aV[0]){var
-bm=aV[2];if(bm){if(bm[2])return 0;var
-bp=bm[1],fO=aV[1],aN=n[1],dO=e6(l,n[2],x),dQ=dO?bQ(l,n[4],s):dO,dR=dQ?cB(l,n[5],r):dQ,c3=0;if(dR){var
-hI=n[6],hJ=2<=aN?uM:uN,bZ=gp(l,hJ,fO,hI),bv=0;if(bZ){var
-ay=bZ[1][1],bw=0;if(typeof
+aW!=="number"&&0===aW[0]){var
+bm=aW[2];if(bm){if(bm[2])return 0;var
+bn=bm[1],fO=aW[1],aN=n[1],d4=e6(l,n[2],w),d6=d4?bQ(l,n[4],s):d4,d7=d6?cB(l,n[5],r):d6,c3=0;if(d7){var
+hM=n[6],hN=2<=aN?uX:uY,b2=gr(l,hN,fO,hM),bu=0;if(b2){var
+ay=b2[1][1],bv=0;if(typeof
 ay!=="number"&&15===ay[0]){var
-b0=F(x,ay[1]);if(b0){var
-aO=mj(bp),dU=ay[3],a9=b0[1],ba=n[5],b1=n[3],hK=ay[4],hL=ay[2],dE=iA(aN,b1,ba,r,s,a9),dF=bR(ba,r,s,a9),bY=bi(aO,aO),dG=[4,[4,hL,[6,bi(dE,dE)]],bY],aL=bR(ba,r,s,a9),bT=cA(ba,r,a9[2]),aM=ab([5,[0,b,b],b1],nB(aN,aO)),hA=dq(aM,bT),hB=nA(aN,aO),bU=T(function(b,a){return[2,b,a]},hB,hA),dD=w(aL,bU),hC=w(aM,aM),hD=[4,w(aL,bT),hC],hE=w(bT,aM),hF=[3,[4,w(aL,aM),hE],hD],hG=[5,[4,dD,dD],w(aL,aL)],dH=[4,[4,dU,dU],[2,[3,w(bU,bU),hG],hF]],dI=[4,[4,hK,bY],[6,w(dF,dF)]],hH=br(aN),dJ=p(g(aO),hH),dK=dJ?h(l,1,bY):dJ,dL=dK?h(l,1,b1):dK,gx=0;if(dL){var
-dM=h(l,1,[3,[2,dG,dH],dI]);if(dM)var
-dN=dM;else{var
-aY=h(l,1,[3,[3,dG,dH],dI]);bv=1;bw=1;gx=1}}else
+b3=E(w,ay[1]);if(b3){var
+aO=mn(bn),d_=ay[3],a_=b3[1],a$=n[5],b4=n[3],hO=ay[4],hP=ay[2],dU=iB(aN,b4,a$,r,s,a_),dV=bR(a$,r,s,a_),b1=a6(aO,aO),dW=[4,[4,hP,[6,a6(dU,dU)]],b1],aL=bR(a$,r,s,a_),bZ=cA(a$,r,a_[2]),aM=ab([5,[0,b,b],b4],nJ(aN,aO)),hE=dr(aM,bZ),hF=nI(aN,aO),b0=T(function(b,a){return[2,b,a]},hF,hE),dT=x(aL,b0),hG=x(aM,aM),hH=[4,x(aL,bZ),hG],hI=x(bZ,aM),hJ=[3,[4,x(aL,aM),hI],hH],hK=[5,[4,dT,dT],x(aL,aL)],dX=[4,[4,d_,d_],[2,[3,x(b0,b0),hK],hJ]],dY=[4,[4,hO,b1],[6,x(dV,dV)]],hL=bt(aN),dZ=p(g(aO),hL),d0=dZ?h(l,1,b1):dZ,d1=d0?h(l,1,b4):d0,gy=0;if(d1){var
+d2=h(l,1,[3,[2,dW,dX],dY]);if(d2)var
+d3=d2;else{var
+aX=h(l,1,[3,[3,dW,dX],dY]);bu=1;bv=1;gy=1}}else
 var
-dN=dL;if(!gx){var
-aY=dN;bv=1;bw=1}}else{var
-aY=b0;bv=1;bw=1}}if(!bw)var
-dS=0}else
+d3=d1;if(!gy){var
+aX=d3;bu=1;bv=1}}else{var
+aX=b3;bu=1;bv=1}}if(!bv)var
+d8=0}else
 var
-dS=bZ;if(!bv){var
-dT=dS;c3=1}}else{var
-dT=dR;c3=1}if(c3)var
-aY=dT;if(!aY){var
-af=n[1],aP=n[5],eb=e6(l,n[2],x),ec=eb?bQ(l,n[4],s):eb,ed=ec?cB(l,aP,r):ec,ee=ed?bV(bc(s)):ed;if(ee){var
-h5=n[6],h6=2<=af?u7:u8,b7=gp(l,h6,fO,h5);if(b7){var
+d8=b2;if(!bu){var
+d9=d8;c3=1}}else{var
+d9=d7;c3=1}if(c3)var
+aX=d9;if(!aX){var
+af=n[1],aP=n[5],eb=e6(l,n[2],w),ec=eb?bQ(l,n[4],s):eb,ed=ec?cB(l,aP,r):ec,ee=ed?bV(be(s)):ed;if(ee){var
+h6=n[6],h7=2<=af?ve:vf,b7=gr(l,h7,fO,h6);if(b7){var
 aQ=b7[1][1];if(typeof
 aQ!=="number"&&16===aQ[0]){var
-b8=aQ[3],ek=aQ[2],el=aQ[1],b9=i5(aC(ej,ek));if(b9){var
-em=b9[1],b_=i5(i(c4(ej),b8));if(b_){var
-b$=b_[1],bb=nA(af,nP(af,em,b$)),U=nB(af,nP(af,em,b$)),en=h(l,1,ek),ep=en?h(l,0,el):en,eq=ep?h(l,1,b8):ep,es=eq?c5(l,b8):eq,et=es?S(a_(b$,[0,d,b])):es;if(et)var
-h7=g(n[2]),ca=p(g(bp),h7);else
+b8=aQ[3],ek=aQ[2],el=aQ[1],b9=i7(aD(ej,ek));if(b9){var
+em=b9[1],b_=i7(i(c4(ej),b8));if(b_){var
+b$=b_[1],bc=nI(af,nT(af,em,b$)),U=nJ(af,nT(af,em,b$)),en=h(l,1,ek),ep=en?h(l,0,el):en,eq=ep?h(l,1,b8):ep,es=eq?c5(l,b8):eq,et=es?S(ba(b$,[0,d,b])):es;if(et)var
+h8=g(n[2]),ca=p(g(bn),h8);else
 var
 ca=et;var
 eu=ca?m(function(a){var
-b=bV(bc(a[1]));return b?bV(bc(cA(aP,r,a[2]))):b},x):ca;if(eu){var
-h8=n[2],ev=i4(bp,e(function(a){var
-b=cE(a[2]);return nQ(bR(aP,r,s,[0,cE(a[1]),b]))},h8),el),ew=bV(ev);if(ew){var
-h9=_(_(x,ev),bp),ag=e(function(e){var
-c=e[1],d=c[2],a=c[1],f=cA(aP,r,a[2]),g=a[1],h=T(function(b,a){return[3,b,a]},s,g),i=[2,d,nQ(bR(aP,r,s,a))];return[0,i3([5,[0,e[2],b],i]),d,h,f]},h9),b5=[0,c(2,b),b],b6=function(b){return ff(function(a){var
+b=bV(be(a[1]));return b?bV(be(cA(aP,r,a[2]))):b},w):ca;if(eu){var
+h9=n[2],ev=i6(bn,e(function(a){var
+b=cE(a[2]);return nU(bR(aP,r,s,[0,cE(a[1]),b]))},h9),el),ew=bV(ev);if(ew){var
+h_=_(_(w,ev),bn),ag=e(function(e){var
+c=e[1],d=c[2],a=c[1],f=cA(aP,r,a[2]),g=a[1],h=T(function(b,a){return[3,b,a]},s,g),i=[2,d,nU(bR(aP,r,s,a))];return[0,i5([5,[0,e[2],b],i]),d,h,f]},h_),b5=[0,c(2,b),b],b6=function(b){return ff(function(a){var
 c=a[3],d=i(b,a[4]);return ab([4,a[1],d],c)},ag)},d$=fe(function(a){var
-b=w(a[3],a[4]);return[4,a[1],b]},ag),ea=w(U,U),hP=b6(function(a){return a[3]}),hQ=ab(U[3],hP),hR=b6(function(a){return a[2]}),hS=ab(U[2],hR),hT=b6(function(a){return a[1]}),hU=ab(U[1],hT),hV=T(function(b,a){return[2,b,a]},hU,hS),hW=[4,ea,d$],hX=w(U,T(function(b,a){return[2,b,a]},hV,hQ)),hY=[3,[2,w(U,ff(function(a){var
-b=dq(a[4],a[3]);return ab(a[1],b)},ag)),hX],hW],hZ=[2,[4,b5,d$],[4,[5,[0,c(2,c(2,b)),b],[2,[0,b,b],ea]],hY]],h0=[4,b5,w(bb,ms(U,ff(function(a){return ab(a[1],a[4])},ag)))],h1=w(bb,bb),h2=[2,[4,fe(function(a){return a[1]},ag),h1],h0],h3=[4,b5,w(ff(function(a){return ab(a[1],a[3])},ag),bb)],h4=[2,[2,[2,fe(function(a){var
-b=[4,a[2],a[2]],c=w(a[4],a[4]),d=[3,[2,w(a[3],a[3]),c],b];return[4,a[1],d]},ag),h3],h2],hZ],h_=cD(af);return nO(l,br(af),h_,h4)}var
+b=x(a[3],a[4]);return[4,a[1],b]},ag),ea=x(U,U),hQ=b6(function(a){return a[3]}),hR=ab(U[3],hQ),hS=b6(function(a){return a[2]}),hT=ab(U[2],hS),hU=b6(function(a){return a[1]}),hV=ab(U[1],hU),hW=T(function(b,a){return[2,b,a]},hV,hT),hX=[4,ea,d$],hY=x(U,T(function(b,a){return[2,b,a]},hW,hR)),hZ=[3,[2,x(U,ff(function(a){var
+b=dr(a[4],a[3]);return ab(a[1],b)},ag)),hY],hX],h0=[2,[4,b5,d$],[4,[5,[0,c(2,c(2,b)),b],[2,[0,b,b],ea]],hZ]],h1=[4,b5,x(bc,mw(U,ff(function(a){return ab(a[1],a[4])},ag)))],h2=x(bc,bc),h3=[2,[4,fe(function(a){return a[1]},ag),h2],h1],h4=[4,b5,x(ff(function(a){return ab(a[1],a[3])},ag),bc)],h5=[2,[2,[2,fe(function(a){var
+b=[4,a[2],a[2]],c=x(a[4],a[4]),d=[3,[2,x(a[3],a[3]),c],b];return[4,a[1],d]},ag),h4],h3],h0],h$=cD(af);return nS(l,bt(af),h$,h5)}var
 ex=ew}else
 var
 ex=eu;var
@@ -7550,7 +7560,7 @@ ef=b7;var
 eg=ef}else
 var
 eg=ee;return eg}var
-fP=aY}else
+fP=aX}else
 var
 fP=bm;return fP}var
 fL=0}var
@@ -7561,109 +7571,110 @@ fN=fM}else
 var
 fN=fK;return fN;default:return 0}case
 3:var
-ap=a[7],aZ=a[6],a0=a[5],aq=a[4],cI=a[3],ar=a[2],aD=a[1],as=u[2];switch(as[0]){case
+ap=a[7],aZ=a[6],a0=a[5],aq=a[4],cI=a[3],ar=a[2],aC=a[1],as=u[2];switch(as[0]){case
 0:var
-f0=as[3],jW=g(f0),jX=g6(iY(ji(aD,ar,cI,aq,a0,aZ,ap)[1])),cJ=dz(g(aD),jX,0,0,jW,f0);if(cJ){var
+f0=as[3],jX=g(f0),jY=g9(i0(jk(aC,ar,cI,aq,a0,aZ,ap)[1])),cJ=dA(g(aC),jY,0,0,jX,f0);if(cJ){var
 f1=cJ[1];if(f1[2])return 0;var
-f2=oN(aD,ar,aq,a0,aZ,ap);if(f2){var
-jY=f1[1],N=ji(aD,ar,cI,aq,a0,aZ,ap),jZ=g4(0,Ba,g(aq),0,ap),f3=jy(as[2]),a1=as[1],ds=nx(N[1]);if(ds)var
-hl=N[1][2],bK=m(function(a){return bq(l,a[2][1],a[2][2])},hl);else
+f2=oR(aC,ar,aq,a0,aZ,ap);if(f2){var
+jZ=f1[1],N=jk(aC,ar,cI,aq,a0,aZ,ap),j0=g7(0,Bm,g(aq),0,ap),f3=jA(as[2]),a1=as[1],dK=nF(N[1]);if(dK)var
+hp=N[1][2],bS=m(function(a){return bs(l,a[2][1],a[2][2])},hp);else
 var
-bK=ds;if(bK)var
-hm=N[2],bM=m(function(a){return bq(l,a[1],a[2])},hm);else
+bS=dK;if(bS)var
+hq=N[2],bT=m(function(a){return bs(l,a[1],a[2])},hq);else
 var
-bM=bK;if(bM){var
-B=N[1],bB=g(B[1]),a3=N[3],bC=g(B[2]),db=P(bC,g(fb(e(aW,B[3])))),gO=B[3],dc=ns(gJ(B),gO,bC),ae=iX(bB,dc,B[4],db),gR=iV(dc,B[4],db),gS=B[3],dd=f(iU(gJ(B),gS,bC),gR),de=g(iY(B)),gU=0,gV=f(dd,c7(function(a,b){return np(ae,a,b)},gU,d,de,a3)),gW=f(bP(fa(ae)),gV),df=f(bP(eh(ae)),gW),bD=cP(df)[1],gX=cO(bD),aw=function(a){return a$(gX,a)},dg=p(g(N[2]),bB);if(dg)var
-gY=B[4],bE=m(function(a){return 0===a[0]?p(g(a[1]),bB):1},gY);else
+bT=bS;if(bT){var
+B=N[1],bE=g(B[1]),a3=N[3],bF=g(B[2]),du=P(bF,g(fb(e(aY,B[3])))),gU=B[3],dv=nA(gM(B),gU,bF),ae=iZ(bE,dv,B[4],du),gV=iX(dv,B[4],du),gX=B[3],dw=f(iW(gM(B),gX,bF),gV),dy=g(i0(B)),gY=0,gZ=f(dw,c7(function(a,b){return nx(ae,a,b)},gY,d,dy,a3)),g0=f(bP(fa(ae)),gZ),dz=f(bP(eh(ae)),g0),bG=cP(dz)[1],g1=cO(bG),aw=function(a){return bb(g1,a)},dB=p(g(N[2]),bE);if(dB)var
+g2=B[4],bH=m(function(a){return 0===a[0]?p(g(a[1]),bE):1},g2);else
 var
-bE=dg;var
-dh=bE?m(function(a){var
-b=k(d),c=cO(bD);return aF(q(aw(a),c,b),a)},df):bE,di=dh?al(nr,a3):dh;if(di){var
-dj=S(N[4]);if(dj)var
-a7=dj;else
+bH=dB;var
+dC=bH?m(function(a){var
+b=k(d),c=cO(bG);return aH(q(aw(a),c,b),a)},dz):bH,dD=dC?ak(nz,a3):dC;if(dD){var
+dE=S(N[4]);if(dE)var
+a4=dE;else
 var
-hk=B[4],a7=m(function(a){return 0===a[0]?0:1},hk)}else
+ho=B[4],a4=m(function(a){return 0===a[0]?0:1},ho)}else
 var
-a7=di;if(a7){var
-gZ=iY(B),bF=aa(e(function(a){return an(a1,a)},gZ));if(bF){var
-g3=0,g7=y(function(a){return e5(g3,d,a)},a3),bG=aa(e(function(a){return iy(a1,a)},g7));if(bG){var
-g8=N[2],bH=aa(e(function(a){return an(a1,[0,a,d])},g8));if(bH){var
-g9=0,g_=0,bI=aa(c7(function(a,b){return nq(a1,aw,ae,g_,d,a,b)},g9,d,de,a3));if(bI){var
-dk=bI[1];if(N[4])var
-g$=f3[2],ha=f3[1],hb=fa(ae),bJ=mb(jZ,dk,[8,i(av(aw),hb),ha,g$]);else
+a4=dD;if(a4){var
+g6=i0(B),bI=aa(e(function(a){return an(a1,a)},g6));if(bI){var
+g_=0,g$=y(function(a){return e5(g_,d,a)},a3),bJ=aa(e(function(a){return iz(a1,a)},g$));if(bJ){var
+ha=N[2],bK=aa(e(function(a){return an(a1,[0,a,d])},ha));if(bK){var
+hb=0,hc=0,bM=aa(c7(function(a,b){return ny(a1,aw,ae,hc,d,a,b)},hb,d,dy,a3));if(bM){var
+dF=bM[1];if(N[4])var
+hd=f3[2],he=f3[1],hf=fa(ae),bN=md(j0,dF,[8,i(av(aw),hf),he,hd]);else
 var
-bJ=dk;var
-hc=ib(bJ),hd=bH[1],he=function(a){return 0},hf=f(bF[1],bG[1]),hg=e(aw,dd),hh=fa(ae),hi=i(av(aw),hh),hj=eh(ae);return fu(ia(a1,bD,i(av(aw),hj),hi,hg,hf,bJ,he),hd,hc,jY)}var
-dl=bI}else
+bN=dF;var
+hg=ie(bN),hh=bK[1],hi=function(a){return 0},hj=f(bI[1],bJ[1]),hk=e(aw,dw),hl=fa(ae),hm=i(av(aw),hl),hn=eh(ae);return fu(id(a1,bG,i(av(aw),hn),hm,hk,hj,bN,hi),hh,hg,jZ)}var
+dG=bM}else
 var
-dl=bH;var
-dm=dl}else
+dG=bK;var
+dH=dG}else
 var
-dm=bG;var
-dp=dm}else
+dH=bJ;var
+dI=dH}else
 var
-dp=bF;var
-dr=dp}else
+dI=bI;var
+dJ=dI}else
 var
-dr=a7;return dr}return bM}var
+dJ=a4;return dJ}return bT}var
 f4=f2}else
 var
 f4=cJ;return f4;case
 1:var
-f5=as[3],a2=ji(aD,ar,cI,aq,a0,aZ,ap),j0=e(j,f5),f6=bu(e(aW,ar),j0);if(f6[2])return 0;var
-j1=as[4],cK=jw(0,Bb,g(aq),0,ap,j1);if(cK){var
-f7=g5(e(aW,ar),f5),f8=f7?oN(aD,ar,aq,a0,aZ,ap):f7,f9=f8?nx(a2[1]):f8;if(f9)var
-j2=a2[2],cL=m(function(a){return bq(l,a[1],a[2])},j2);else
+f5=as[3],a2=jk(aC,ar,cI,aq,a0,aZ,ap),j1=e(j,f5),f6=bw(e(aY,ar),j1);if(f6[2])return 0;var
+j2=as[4],cK=jy(0,Bn,g(aq),0,ap,j2);if(cK){var
+f7=g8(e(aY,ar),f5),f8=f7?oR(aC,ar,aq,a0,aZ,ap):f7,f9=f8?nF(a2[1]):f8;if(f9)var
+j3=a2[2],cL=m(function(a){return bs(l,a[1],a[2])},j3);else
 var
 cL=f9;if(cL){var
-j3=cK[1],at=e(j,as[2]),f_=f6[1],C=a2[1],a8=g(C[1]),bN=g(C[2]),dt=P(bN,g(fb(e(aW,C[3])))),ht=C[3],du=ns(gJ(C),ht,bN),aJ=iX(a8,du,C[4],dt),hu=iV(du,C[4],dt),hv=C[3],dv=f(iU(gJ(C),hv,bN),hu),hw=y(gH,C[4]),hx=f(fb(e(aW,C[3])),hw),aK=f(f_,e(function(a){return a[1][1]},hx)),dx=nz(l,e(aW,C[2]),f_),dy=dx?nz(l,a2[2],at):dx,dA=dy?p(g(at),a8):dy;if(dA)var
-hy=C[4],bS=m(function(a){return 0===a[0]?p(g(a[1]),a8):1},hy);else
+j4=cK[1],at=e(j,as[2]),f_=f6[1],C=a2[1],a9=g(C[1]),bU=g(C[2]),dL=P(bU,g(fb(e(aY,C[3])))),hx=C[3],dM=nA(gM(C),hx,bU),aJ=iZ(a9,dM,C[4],dL),hy=iX(dM,C[4],dL),hz=C[3],dN=f(iW(gM(C),hz,bU),hy),hA=y(gK,C[4]),hB=f(fb(e(aY,C[3])),hA),aK=f(f_,e(function(a){return a[1][1]},hB)),dO=nH(l,e(aY,C[2]),f_),dQ=dO?nH(l,a2[2],at):dO,dR=dQ?p(g(at),a9):dQ;if(dR)var
+hC=C[4],bY=m(function(a){return 0===a[0]?p(g(a[1]),a9):1},hC);else
 var
-bS=dA;var
-dC=bS?m(ny,f(y(uB,aJ),dv)):bS;if(dC){var
-hz=a2[3],hn=e(function(a){var
-b=a[1];return[0,e(function(a){return ei(at,aK,a)},b)]},aJ),ho=y(function(c){var
+bY=dR;var
+dS=bY?m(nG,f(y(uM,aJ),dN)):bY;if(dS){var
+hD=a2[3],hr=e(function(a){var
+b=a[1];return[0,e(function(a){return ei(at,aK,a)},b)]},aJ),hs=y(function(c){var
 a=c[1];switch(a[0]){case
 7:var
 b=ei(at,aK,a[2]);return[0,[4,b,b],0];case
-9:return[0,ei(at,aK,a[1]),0];default:return 0}},dv),hp=function(a){return a},hq=0,hr=e(function(a){return 0},aJ),hs=e(function(b){var
+9:return[0,ei(at,aK,a[1]),0];default:return 0}},dN),ht=function(a){return a},hu=0,hv=e(function(a){return 0},aJ),hw=e(function(b){var
 a=b[4];if(typeof
-a!=="number"&&0===a[0])return[0,ei(at,aK,a[1])];return 0},aJ);return im(l,uC,a8,[0,e(function(a){var
-b=a[3];return e(function(a){return ei(at,aK,a)},b)},aJ),hs,hr,hq,hp,ho,hn],hz,j3)}return dC}var
+a!=="number"&&0===a[0])return[0,ei(at,aK,a[1])];return 0},aJ);return ip(l,uN,a9,[0,e(function(a){var
+b=a[3];return e(function(a){return ei(at,aK,a)},b)},aJ),hw,hv,hu,ht,hs,hr],hD,j4)}return dS}var
 f$=cL}else
 var
 f$=cK;return f$;default:return 0}case
 4:var
-au=a[3],aE=a[2],bs=a[1],aG=u[2];switch(aG[0]){case
+au=a[3],aE=a[2],bo=a[1],aF=u[2];switch(aF[0]){case
 0:var
-j4=aG[3],j5=aG[1],e4=dB(j(bs));if(e4){var
-ct=oq(au);if(ct){var
+j5=aF[3],j6=aF[1],e4=dd(j(bo));if(e4){var
+ct=ou(au);if(ct){var
 e7=ct[1],aS=e7[2],e8=j(aS),e9=j(e7[1]),eD=h(l,1,j(aE)),eE=eD?h(l,1,[3,e8,[0,b,b]]):eD,eF=eE?h(l,1,e9):eE,e_=eF?h(l,0,[3,[5,[0,b,b],e8],e9]):eF;if(e_)var
-jl=0,jm=0,cv=m(function(a){return ol(jm,jl,A_,a)},au);else
+jm=0,jn=0,cv=m(function(a){return op(jn,jm,Bk,a)},au);else
 var
 cv=e_;var
 fc=cv?m(function(c){if(1===c[1]){var
 a=c[4];if(typeof
 a!=="number"&&0===a[0])return h(l,0,[3,[0,d,b],j(a[1])]);return 1}return 1},au):cv;if(fc){var
-cs=bn(function(a){return S(or(a))},au);if(cs){var
-jn=[0,c(2,b),b],bf=h(l,0,[3,j(aS),jn]);if(bf)var
-cw=bf;else
+cs=bp(function(a){return S(ov(a))},au);if(cs){var
+jo=[0,c(2,b),b],bg=h(l,0,[3,j(aS),jo]);if(bg)var
+cw=bg;else
 var
-jz=j(aS),cw=h(l,0,[3,[0,c(2,b),b],jz]);if(cw){var
+ju=j(aS),cw=h(l,0,[3,[0,c(2,b),b],ju]);if(cw){var
 e3=y(function(a){var
-b=jh(0,A7,0,a);return e(function(b){return S(or(a))},b)},au),jj=function(f){var
+b=jj(0,Bg,0,a);return y(function(b){var
+c=gq(l,Bh,b);return am(S(ov(a)),c)},b)},au),jf=function(f){var
 h=f[1];if(h){var
 i=h[1],j=q(i,e3,0);if(j)var
-l=aH(i,e3),k=[0,[0,g(bn(function(a){return a},l))]];else
+l=aG(i,e3),k=[0,[0,g(bp(function(a){return a},l))]];else
 var
 k=j;var
 a=k}else
 var
-a=A9;if(a){var
+a=Bj;if(a){var
 c=a[1],e=f[2];switch(e[0]){case
 0:return[0,[0,c,[0,e[1]]],0];case
-2:return[0,[0,c,[1,A8,[0,[0,b,[0,d,[0,d,0]]],[0,[0,d,[0,b,[0,d,0]]],[0,[0,d,[0,d,[0,b,0]]],0]]],d]],0];default:return[0,[0,c,e],0]}}return a},jk=e(function(a){var
-b=a[4],c=a[3],d=a[2];return[0,y(jj,a[1]),d,c,b]},j4),jp=[0,cs[1],cs[2]],js=ov(bf,aE,aS);return oU(0,ou(bf,bs,aE,aS),0,js,0,jp,j5,jk)}return cw}var
+2:return[0,[0,c,[1,Bi,[0,[0,b,[0,d,[0,d,0]]],[0,[0,d,[0,b,[0,d,0]]],[0,[0,d,[0,d,[0,b,0]]],0]]],d]],0];default:return[0,[0,c,e],0]}}return a},jl=e(function(a){var
+b=a[4],c=a[3],d=a[2];return[0,y(jf,a[1]),d,c,b]},j5),jp=[0,cs[1],cs[2]],jr=oz(bg,aE,aS);return oY(0,oy(bg,bo,aE,aS),0,jr,0,jp,j6,jl)}return cw}var
 fd=1}else
 var
 fd=fc;var
@@ -7674,16 +7685,16 @@ fh=fg}else
 var
 fh=e4;return fh;case
 1:var
-j6=aG[4],j7=aG[3],j8=aG[2],fi=dB(j(bs));if(fi){var
-cx=oq(au);if(cx){var
-aT=cx[1][2],jA=[0,c(2,b),b],bg=h(l,0,[3,j(aT),jA]),fj=h(l,1,j(aE)),fk=fj?h(l,1,[3,j(aT),[0,b,b]]):fj;if(fk)if(bg)var
-bh=bg;else
+j7=aF[4],j8=aF[3],j9=aF[2],fi=dd(j(bo));if(fi){var
+cx=ou(au);if(cx){var
+aU=cx[1][2],jB=[0,c(2,b),b],bh=h(l,0,[3,j(aU),jB]),fj=h(l,1,j(aE)),fk=fj?h(l,1,[3,j(aU),[0,b,b]]):fj;if(fk)if(bh)var
+bi=bh;else
 var
-jC=j(aT),bh=h(l,0,[3,[0,c(2,b),b],jC]);else
+jD=j(aU),bi=h(l,0,[3,[0,c(2,b),b],jD]);else
 var
-bh=fk;if(bh){var
-jB=ov(bg,aE,aT);return oV(0,ou(bg,bs,aE,aT),0,jB,0,au,j8,j7,j6)}var
-fq=bh}else
+bi=fk;if(bi){var
+jC=oz(bh,aE,aU);return oZ(0,oy(bh,bo,aE,aU),0,jC,0,au,j9,j8,j7)}var
+fq=bi}else
 var
 fq=cx;var
 fr=fq}else
@@ -7691,19 +7702,19 @@ var
 fr=fi;return fr;default:return 0}case
 5:var
 cM=a[4],ga=a[1],cN=u[2];if(0===cN[0]){var
-gb=cN[3],A=jg(ga,[0,a[2],a[3]],0,cM),j9=g(gb),cQ=jr(jx(A),j9,gb);if(cQ){var
+gb=cN[3],A=ji(ga,[0,a[2],a[3]],0,cM),j_=g(gb),cQ=jt(jz(A),j_,gb);if(cQ){var
 gc=cQ[1];if(gc[2])return 0;var
-gd=ju(ga,0,cM,A),ge=gd?S(al(er,cM)):gd;if(ge){var
-gf=ma(l,A);if(gf){var
-j_=gc[1],gg=e(g1,A[1]),J=g2(A[1]),gh=j(a[5]),ad=cN[1],ce=gk(J,gg,A[1]),V=ic(J,gg,A[1],0),ii=g(A[3]),ik=P(g(ce),ii),bd=[0,g(ce),ik],il=ie(V,J,bd,A[3]),io=f(e(cT,V),il),eH=f(bP(eX(V)),io),eI=cP(eH)[1],cf=cO(eI),eJ=A[2];if(0===eJ[0]){var
+gd=jw(ga,0,cM,A),ge=gd?S(ak(er,cM)):gd;if(ge){var
+gf=mc(l,A);if(gf){var
+j$=gc[1],gg=e(g4,A[1]),J=g5(A[1]),gh=j(a[5]),ad=cN[1],ce=gk(J,gg,A[1]),V=ig(J,gg,A[1],0),ij=g(A[3]),ik=P(g(ce),ij),bd=[0,g(ce),ik],il=ii(V,J,bd,A[3]),io=f(e(cT,V),il),eH=f(bP(eX(V)),io),eI=cP(eH)[1],cf=cO(eI),eJ=A[2];if(0===eJ[0]){var
 eK=m(function(a){var
-b=k(d);return aF(q(a$(cf,a),cf,b),a)},eH),eL=eK?h(l,1,gh):eK;if(eL){var
-ip=A[3],iq=y(function(a){return dn(J,a)},ip),ir=A[3],is=f(ce,f(e(function(a){return bO(J,a)},ir),iq)),cg=aa(e(function(a){return an(ad,a)},is));if(cg){var
-it=a4(eJ[1],J),ch=aa(e(function(a){return an(ad,a)},it));if(ch){var
+b=k(d);return aH(q(bb(cf,a),cf,b),a)},eH),eL=eK?h(l,1,gh):eK;if(eL){var
+iq=A[3],ir=y(function(a){return dp(J,a)},iq),is=A[3],it=f(ce,f(e(function(a){return bO(J,a)},is),ir)),cg=aa(e(function(a){return an(ad,a)},it));if(cg){var
+iu=a5(eJ[1],J),ch=aa(e(function(a){return an(ad,a)},iu));if(ch){var
 ci=cR(ad,J,[5,gh,[0,c(2,c(2,c(2,c(2,b)))),b]]);if(ci){var
-cj=A[3],iu=ch[1],iv=cg[1],iw=ci[1],aR=function(a){return a$(cf,a)},id=aA(0,g(cj)),ig=e(function(k){var
-l=F(cj,k);if(l){var
-a=l[1],u=aH(k,cj),v=g(y(function(a){return dn(J,a)},u)),w=P(bd[2],v),j=[0,P(bd[1],k),w],r=eX(V),f=i(av(aR),r),c=[1,[8,[1,[1,j[1]]]]],d=gl(V,J,j,a),n=d?[0,[3,e(aR,[0,d[1],d[2]])]]:d,m=0;if(typeof
+cj=A[3],iv=ch[1],iw=cg[1],ix=ci[1],aR=function(a){return bb(cf,a)},ib=aA(0,g(cj)),ic=e(function(k){var
+l=E(cj,k);if(l){var
+a=l[1],u=aG(k,cj),v=g(y(function(a){return dp(J,a)},u)),w=P(bd[2],v),j=[0,P(bd[1],k),w],r=eX(V),f=i(av(aR),r),c=[1,[8,[1,[1,j[1]]]]],d=gl(V,J,j,a),n=d?[0,[3,e(aR,[0,d[1],d[2]])]]:d,m=0;if(typeof
 a!=="number")switch(a[0]){case
 0:return[0,[0,f,c]];case
 1:return[0,[1,f,c]];case
@@ -7719,27 +7730,27 @@ q=c;m=1;break;case
 3:case
 6:case
 7:return n}if(m){var
-t=e2(V,J,j,a);return z(function(a){return[0,i(av(aR),a),q]},t)}return 0}return l},id),ih=e(function(a){return aR(cT(a))},V),eG=e(function(a){return aR(a[2])},V),ix=A[3],iB=bd[1],cd=function(aC,aB,aA){var
+t=e2(V,J,j,a);return z(function(a){return[0,i(av(aR),a),q]},t)}return 0}return l},ib),ih=e(function(a){return aR(cT(a))},V),eG=e(function(a){return aR(a[2])},V),iy=A[3],iC=bd[1],cd=function(aC,aB,aA){var
 k=aC,l=aB,f=aA;for(;;)switch(f[0]){case
 0:var
-v=f[1],_=p(g(v),vf),aa=_?m(function(a){var
-d=E(O(c(2,c(2,c(2,b)))),a);return d?E(a,c(2,c(2,c(2,b)))):d},v):_;if(aa){var
-ab=n0(ad,iw,d5(0,l),v),j=f[2],w=bo(0,bL(ad,ab,e($,k)),eI,0),aD=e($,k),M=function(a){return nZ(nY(ad,ab,aD,w,a))};if(typeof
-j==="number")return 0===j?al(function(b){var
-a=q(b,w,0);return a?E(a[1][2][2],d):a},eG):0;else{if(0===j[0]){var
-a=j[2],N=m(vd,a);if(N){var
-r=q(j[1],ig,0);if(r){var
+v=f[1],_=p(g(v),vo),aa=_?m(function(a){var
+d=F(O(c(2,c(2,c(2,b)))),a);return d?F(a,c(2,c(2,c(2,b)))):d},v):_;if(aa){var
+ab=n4(ad,ix,d5(0,l),v),j=f[2],w=bq(0,bL(ad,ab,e($,k)),eI,0),aD=e($,k),M=function(a){return n3(n2(ad,ab,aD,w,a))};if(typeof
+j==="number")return 0===j?ak(function(b){var
+a=q(b,w,0);return a?F(a[1][2][2],d):a},eG):0;else{if(0===j[0]){var
+a=j[2],N=m(vm,a);if(N){var
+r=q(j[1],ic,0);if(r){var
 i=r[1];switch(i[0]){case
 0:var
 x=0;if(a)if(a[2])var
 h=0;else{var
-A=a[1],B=i[1],ap=gQ(B,A),aq=gP(A),C=[0,[0,B,[0,[1,[4,[1,[6,i[2],aq]],ap]],0]]];x=1}else{var
+A=a[1],B=i[1],ap=gT(B,A),aq=gS(A),C=[0,[0,B,[0,[1,[4,[1,[6,i[2],aq]],ap]],0]]];x=1}else{var
 C=a;x=1}if(x)var
 h=C;break;case
 1:var
 y=0;if(a)if(a[2])var
 h=0;else{var
-D=a[1],G=i[1],ar=gP(D),as=[1,[6,i[2],ar]],H=[0,[0,G,[0,[1,[4,gQ(G,D),as]],0]]];y=1}else{var
+D=a[1],G=i[1],ar=gS(D),as=[1,[6,i[2],ar]],H=[0,[0,G,[0,[1,[4,gT(G,D),as]],0]]];y=1}else{var
 H=a;y=1}if(y)var
 h=H;break;case
 2:var
@@ -7747,7 +7758,7 @@ z=0;if(a){var
 n=a[2],ao=0;if(n)if(n[2]){var
 h=0;ao=1}else
 var
-I=n[1],J=a[1],o=i[1],at=gP(J),au=[1,[6,gQ(o,I),at]],av=[1,[6,i[2],au]],aw=gP(I),K=[0,[0,o,[0,[1,[4,[1,[6,gQ(o,J),aw]],av]],0]]];else
+I=n[1],J=a[1],o=i[1],at=gS(J),au=[1,[6,gT(o,I),at]],av=[1,[6,i[2],au]],aw=gS(I),K=[0,[0,o,[0,[1,[4,[1,[6,gT(o,J),aw]],av]],0]]];else
 var
 K=n;if(!ao){var
 L=K;z=1}}else{var
@@ -7756,7 +7767,7 @@ h=L;break;default:if(a)var
 h=0;else
 var
 ax=i[1],h=[0,[0,0,e(function(a){return[1,[5,[0,a]]]},ax)]]}if(h){var
-Q=h[1],ay=Q[1],R=m(function(a){return nZ(q(a[2],w,0))},ay);if(R)return m(M,Q[2]);var
+Q=h[1],ay=Q[1],R=m(function(a){return n3(q(a[2],w,0))},ay);if(R)return m(M,Q[2]);var
 S=R}else
 var
 S=h;var
@@ -7766,12 +7777,12 @@ T=r;var
 U=T}else
 var
 U=N;return U}var
-V=j[2],W=j[1],s=F(ix,W);if(s){var
+V=j[2],W=j[1],s=E(iy,W);if(s){var
 X=s[1];if(typeof
 X!=="number"&&1===X[0]){var
-t=F(eG,V);if(t){var
-u=F(ih,V);if(u){var
-az=P(iB,W);return M([1,[4,[1,[8,[0,u[1]]]],[1,[6,[1,[8,[1,[1,az]]]],[0,t[1]]]]]])}var
+t=E(eG,V);if(t){var
+u=E(ih,V);if(u){var
+az=P(iC,W);return M([1,[4,[1,[8,[0,u[1]]]],[1,[6,[1,[8,[1,[1,az]]]],[0,t[1]]]]]])}var
 Z=u}else
 var
 Z=t;return Z}var
@@ -7779,18 +7790,18 @@ Y=0}else
 var
 Y=s;return Y}}return aa;case
 1:var
-ac=f[1],ae=n1(ac,l);if(ae){var
+ac=f[1],ae=n5(ac,l);if(ae){var
 af=cU(ac,l),ag=cd(k,af[1],f[2]);if(ag){var
 l=af[2],f=f[3];continue}var
 ah=ag}else
 var
 ah=ae;return ah;default:var
-ai=f[1],aj=n1(ai,k);if(aj){var
-ak=cU(ai,k),am=cd(ak[1],l,f[2]);if(am){var
-k=ak[2],f=f[3];continue}var
+ai=f[1],aj=n5(ai,k);if(aj){var
+al=cU(ai,k),am=cd(al[1],l,f[2]);if(am){var
+k=al[2],f=f[3];continue}var
 an=am}else
 var
-an=aj;return an}};return cd(iv,iu,j_)}var
+an=aj;return an}};return cd(iw,iv,j$)}var
 eM=ci}else
 var
 eM=ch;var
@@ -7809,75 +7820,75 @@ gj=cQ;return gj}return 0;case
 6:var
 gm=a[1];if(gm){var
 gn=gm[1],cS=u[2];if(0===cS[0]){var
-cV=jq(Bd,0,0,0,Bc,cS[3]);if(cV){var
+cV=js(Bp,0,0,0,Bo,cS[3]);if(cV){var
 go=fo(gn);if(go){var
-j$=cV[1],gq=bX(gn)[2],bt=cS[1],cb=cR(bt,d,gq);if(cb){var
-cc=cR(bt,d,[5,[0,b,b],gq]);if(cc){var
-h$=cb[1][1],eA=I(cp(bt),h$);if(eA)return nX(bt,cc[1][1],j$);var
+ka=cV[1],gp=bX(gn)[2],br=cS[1],cb=cR(br,d,gp);if(cb){var
+cc=cR(br,d,[5,[0,b,b],gp]);if(cc){var
+ia=cb[1][1],eA=I(cp(br),ia);if(eA)return n1(br,cc[1][1],ka);var
 eB=eA}else
 var
 eB=cc;var
 eC=eB}else
 var
 eC=cb;return eC}var
-gr=go}else
+gs=go}else
 var
-gr=cV;return gr}return 0}var
+gs=cV;return gs}return 0}var
 cW=u[2];if(0===cW[0]){var
-cX=jq(Bf,0,0,0,Be,cW[3]);return cX?nX(cW[1],d,cX[1]):cX}return 0;default:var
-aI=a[1],gs=u[2];if(2===gs[0]){var
-gt=gs[1],cY=jo(g(gt),gt);if(cY){var
-gu=cY[1];if(gu[2])return 0;var
-cZ=gu[1],eZ=Z(A6,g(aI)),e0=eZ?Z(g(aI),kT):eZ,e1=e0?nw(e(aB,aI)):e0,gv=e1?m(function(c){var
+cX=js(Br,0,0,0,Bq,cW[3]);return cX?n1(cW[1],d,cX[1]):cX}return 0;default:var
+aI=a[1],gt=u[2];if(2===gt[0]){var
+gu=gt[1],cY=jq(g(gu),gu);if(cY){var
+gv=cY[1];if(gv[2])return 0;var
+cZ=gv[1],eZ=Z(Bf,g(aI)),e0=eZ?Z(g(aI),kV):eZ,e1=e0?nE(e(aB,aI)):e0,gw=e1?m(function(c){var
 a=cu(j(c[2][1]));if(a){var
-b=cu(j(c[2][2]));if(b)return S(a_(b[1],a[1]));var
+b=cu(j(c[2][2]));if(b)return S(ba(b[1],a[1]));var
 d=b}else
 var
-d=a;return d},aI):e1;if(gv)var
-ka=g0(zY,cZ),c0=oZ(a[5],ka);else
+d=a;return d},aI):e1;if(gw)var
+kb=g3(z9,cZ),c0=o3(a[5],kb);else
 var
-c0=gv;if(c0)var
-kb=g0(zZ,cZ),c1=oZ(a[6],kb);else
+c0=gw;if(c0)var
+kc=g3(z_,cZ),c1=o3(a[6],kc);else
 var
 c1=c0;if(c1){var
-jd=e(function(a){return[0,d,0]},aI);return oY(aI,a[2],a[3],a[4],jd,cZ)}var
-gw=c1}else
+je=e(function(a){return[0,d,0]},aI);return o2(aI,a[2],a[3],a[4],je,cZ)}var
+gx=c1}else
 var
-gw=cY;return gw}return 0}}return aU}var
-W=[aZ,Bi,rh(0)],o0=[aZ,Bj,rh(0)];function
-Bg(l,b){var
-f=[0,n(zh,ar(b[4])),0],g=[0,n(zj,ag([0,n(zi,ar(b[3])),f])),0],a=b[2];switch(a[0]){case
+gx=cY;return gx}return 0}}return aV}var
+W=[a0,Bu,ro(0)],o4=[a0,Bv,ro(0)];function
+Bs(l,b){var
+f=[0,n(zs,ar(b[4])),0],g=[0,n(zu,ag([0,n(zt,ar(b[3])),f])),0],a=b[2];switch(a[0]){case
 0:var
-c=N(zd,n8(a[1],a[2],a[3]));break;case
+c=N(zo,oa(a[1],a[2],a[3]));break;case
 1:var
-c=N(ze,n9(a[1],a[2],a[3],a[4]));break;default:var
-c=N(zf,G(e(y_,a[1])))}var
-h=[0,n(zk,c),g],i=1===b[2][0]?zq:zl,j=[0,n(zm,ar(i)),h],k=[0,n(zn,xL(b[1])),j],d=aw(kn(Bh,gR(ag([0,n(zp,ar(zo)),k]),zg)),l);return d?A$(b):d}function
+c=N(zp,ob(a[1],a[2],a[3],a[4]));break;default:var
+c=N(zq,G(e(zj,a[1])))}var
+h=[0,n(zv,c),g],i=1===b[2][0]?zB:zw,j=[0,n(zx,ar(i)),h],k=[0,n(zy,xW(b[1])),j],d=aw(kp(Bt,gU(ag([0,n(zA,ar(zz)),k]),zr)),l);return d?Bl(b):d}function
 ai(a){if(0===a[0])return a[1];throw W}function
 af(a){if(1===a[0])return a[1];throw W}function
-aV(a){if(2===a[0])return a[1];throw W}function
+aX(a){if(2===a[0])return a[1];throw W}function
 fq(a){if(3===a[0])return a[1];throw W}function
-a7(f,e){var
+a9(f,e){var
 a=f;for(;;){if(a){var
-b=a[1],c=a[2],d=b[2];if(0===Hz(b[1],e))return[0,d];var
+b=a[1],c=a[2],d=b[2];if(0===HN(b[1],e))return[0,d];var
 a=c;continue}return 0}}function
 u(c,b){var
-a=a7(c,b);if(a)return a[1];throw W}function
+a=a9(c,b);if(a)return a[1];throw W}function
 cH(b,a){var
 c=a?[0,i(b,a[1])]:a;return c}function
 dD(a){switch(a[0]){case
 0:var
 b=a[1];if(b&&!b[2]){var
 c=b[1];return[0,c[1],c[2]]}break;case
-2:return[0,a[1],Bk]}throw W}function
+2:return[0,a[1],Bw]}throw W}function
 fr(e,d){var
 a=Y(e,af(d));if(a){var
 b=a[2];if(b){var
 c=b[2];if(c&&!c[2])return[0,a[1],b[1],c[1]]}}throw W}function
-g7(i){var
-f=eI(i),d=[0,0],e=hy(f)-1|0;if(!(e<0)){var
+g_(i){var
+f=eI(i),d=[0,0],e=hB(f)-1|0;if(!(e<0)){var
 c=e;for(;;){var
-a=d[1],g=j5(f,c)-48|0;if(9<g>>>0)throw W;switch(g){case
+a=d[1],g=j7(f,c)-48|0;if(9<g>>>0)throw W;switch(g){case
 0:var
 b=[0,a];break;case
 1:var
@@ -7899,48 +7910,48 @@ b=[8,a];break;default:var
 b=[9,a]}d[1]=b;var
 h=c-1|0;if(0!==c){var
 c=h;continue}break}}return d[1]}function
-fs(a){return kE(g7(a))}function
+fs(a){return kG(g_(a))}function
 eu(b){var
-a=fq(b);return 45===a0(a,0)?O(fs(dO(a,1,au(a)-1|0))):fs(a)}function
-o1(a){return dR(fs(fq(a)))}function
+a=fq(b);return 45===a1(a,0)?O(fs(dO(a,1,au(a)-1|0))):fs(a)}function
+o5(a){return dR(fs(fq(a)))}function
 dE(b){var
-a=fq(b);if(!(2<au(a))&&!(64<=hx(a)))return hJ(fs(a));throw W}function
+a=fq(b);if(!(2<au(a))&&!(64<=hA(a)))return hM(fs(a));throw W}function
 cI(c){var
 a=fq(c);if(6<au(a))throw W;function
-b(a){return 0<a?[0,b(a-1|0)]:0}return b(hx(a))}function
-o2(a){var
-b=97<=a?1:0,c=b?a<=qV?1:0:b;if(c)var
+b(a){return 0<a?[0,b(a-1|0)]:0}return b(hA(a))}function
+o6(a){var
+b=97<=a?1:0,c=b?a<=q1?1:0:b;if(c)var
 d=c;else
 var
 e=65<=a?1:0,d=e?a<=90?1:0:e;return d}function
-o3(y,b){var
+o7(y,b){var
 d=au(b),a=[0,0];function
 c(e){var
-c=a[1]<d?1:0,f=c?a0(b,a[1])===e?1:0:c;return f}function
+c=a[1]<d?1:0,f=c?a1(b,a[1])===e?1:0:c;return f}function
 l(e){var
-c=a[1];for(;;){if(a[1]<d&&48<=a0(b,a[1])&&!(57<a0(b,a[1]))){a[1]++;continue}return dO(b,c,a[1]-c|0)}}function
+c=a[1];for(;;){if(a[1]<d&&48<=a1(b,a[1])&&!(57<a1(b,a[1]))){a[1]++;continue}return dO(b,c,a[1]-c|0)}}function
 m(b){a[1]++;var
 d=f(b+1|0);if(c(41)){a[1]++;return d}throw W}function
 h(j){if(64<j)throw W;if(c(45)){a[1]++;return[2,h(j+1|0)]}if(c(40))var
 e=m(j);else{var
-u=0;if((a[1]+5|0)<=d&&aw(dO(b,a[1],5),Bm)){a[1]=a[1]+4|0;var
+u=0;if((a[1]+5|0)<=d&&aw(dO(b,a[1],5),By)){a[1]=a[1]+4|0;var
 e=[5,m(j)]}else
 u=1;if(u){var
-v=0;if(a[1]<d&&o2(a0(b,a[1]))){var
+v=0;if(a[1]<d&&o6(a1(b,a[1]))){var
 n=a[1];for(;;){if(a[1]<d){var
-w=0;if(!o2(a0(b,a[1]))&&95!==a0(b,a[1])&&(!(48<=a0(b,a[1]))||57<a0(b,a[1])))w=1;if(!w){a[1]++;continue}}var
+w=0;if(!o6(a1(b,a[1]))&&95!==a1(b,a[1])&&(!(48<=a1(b,a[1]))||57<a1(b,a[1])))w=1;if(!w){a[1]++;continue}}var
 e=[1,i(y,dO(b,n,a[1]-n|0))];break}}else
 v=1;if(v){var
-g=l(0),p=c(46),q=p?(a[1]++,[0,l(0)]):p,r=aw(g,Bn);if(r)var
+g=l(0),p=c(46),q=p?(a[1]++,[0,l(0)]):p,r=aw(g,Bz);if(r)var
 s=r;else
 var
-t=1<au(g)?1:0,s=t?48===a0(g,0)?1:0:t;if(s)throw W;if(q){var
-k=q[1],x=0;if(aw(k,Bo)||48===a0(k,au(k)-1|0))x=1;else
+t=1<au(g)?1:0,s=t?48===a1(g,0)?1:0:t;if(s)throw W;if(q){var
+k=q[1],x=0;if(aw(k,BA)||48===a1(k,au(k)-1|0))x=1;else
 var
-z=g7(k),e=[0,g7(g),z];if(x)throw W}else
+z=g_(k),e=[0,g_(g),z];if(x)throw W}else
 var
-e=[0,g7(g),0]}}}if(c(94)){a[1]++;var
-f=l(0);if(o(f,Bl)){if(!(2<au(f))&&2<=hx(f)&&!(64<hx(f)))return[4,e,dR(fs(f))];throw W}throw W}return e}function
+e=[0,g_(g),0]}}}if(c(94)){a[1]++;var
+f=l(0);if(o(f,Bx)){if(!(2<au(f))&&2<=hA(f)&&!(64<hA(f)))return[4,e,dR(fs(f))];throw W}throw W}return e}function
 e(d){var
 b=h(d);for(;;){if(c(42)){a[1]++;var
 b=[3,2,b,h(d)];continue}if(c(47)){a[1]++;var
@@ -7950,46 +7961,46 @@ b=e(d);for(;;){if(c(43)){a[1]++;var
 b=[3,0,b,e(d)];continue}if(c(45)){a[1]++;var
 b=[3,1,b,e(d)];continue}return b}}var
 g=f(0);if(a[1]<d)throw W;return g}function
-g8(a){return o3(function(a){return[0,a]},a)}function
-jz(a){var
-b=aV(a);return o3(function(a){return a},b)}function
-U(a){return g8(aV(a))}function
-ce(a){if(2===a[0])return[0,g8(a[1])];var
-b=ai(a),c=U(u(b,Bp));return[1,U(u(b,Bq)),c]}function
-ac(a){throw[0,o0,a9(kn(Bs,a),Br)]}function
-jA(c){var
-a=aV(c);if(o(a,Bt)){var
-b=o(a,Bu);if(b)throw W;return b}return 1}function
-Bv(d){var
+g$(a){return o7(function(a){return[0,a]},a)}function
+jB(a){var
+b=aX(a);return o7(function(a){return a},b)}function
+U(a){return g$(aX(a))}function
+ce(a){if(2===a[0])return[0,g$(a[1])];var
+b=ai(a),c=U(u(b,BB));return[1,U(u(b,BC)),c]}function
+ac(a){throw[0,o4,a$(kp(BE,a),BD)]}function
+jC(c){var
+a=aX(c);if(o(a,BF)){var
+b=o(a,BG);if(b)throw W;return b}return 1}function
+BH(d){var
 b=ai(d);function
 a(a){return fr(ce,u(b,a))}var
-c=aV(u(b,Bw));if(o(c,Bx)){if(o(c,By)){if(o(c,Bz))return ac([0,BB,[0,c,BA]]);var
-e=a7(b,BC),f=cH(function(a){return fr(ce,a)},e),g=a(BD);return[1,a(BE),g,f]}var
-h=jA(u(b,BF)),i=ce(u(b,BG)),j=a(BH),k=a(BI);return[0,a(BJ),k,j,i,h]}return[2,a(BK)]}function
-BL(d){var
+c=aX(u(b,BI));if(o(c,BJ)){if(o(c,BK)){if(o(c,BL))return ac([0,BN,[0,c,BM]]);var
+e=a9(b,BO),f=cH(function(a){return fr(ce,a)},e),g=a(BP);return[1,a(BQ),g,f]}var
+h=jC(u(b,BR)),i=ce(u(b,BS)),j=a(BT),k=a(BU);return[0,a(BV),k,j,i,h]}return[2,a(BW)]}function
+BX(d){var
 a=ai(d);if(a){var
-b=a[1];if(!o(b[1],BM)){var
-c=b[2];if(2===c[0]&&!o(c[1],BN))return 1}}return 0}function
-o4(e){var
+b=a[1];if(!o(b[1],BY)){var
+c=b[2];if(2===c[0]&&!o(c[1],BZ))return 1}}return 0}function
+o8(e){var
 b=ai(e);function
 a(a){return Y(ce,af(u(b,a)))}var
-c=aV(u(b,BO)),d=a7(b,BP);if(o(c,BQ)){if(o(c,BR)){if(!o(c,BS)&&!d){var
-f=a(BV);return[1,a(BW),f]}}else
+c=aX(u(b,B0)),d=a9(b,B1);if(o(c,B2)){if(o(c,B3)){if(!o(c,B4)&&!d){var
+f=a(B7);return[1,a(B8),f]}}else
 if(!d){var
-g=jA(u(b,BX)),h=ce(u(b,BY)),i=a(BZ),j=a(B0);return[0,a(B1),j,i,h,g]}}else
+g=jC(u(b,B9)),h=ce(u(b,B_)),i=a(B$),j=a(Ca);return[0,a(Cb),j,i,h,g]}}else
 if(!d){var
-k=jA(u(b,B2)),l=ce(u(b,B3)),m=ce(u(b,B4)),n=a(B5),p=a(B6),q=a(B7);return[2,a(B8),q,p,n,m,l,k]}return ac([0,BU,[0,c,BT]])}function
-o5(d){var
+k=jC(u(b,Cc)),l=ce(u(b,Cd)),m=ce(u(b,Ce)),n=a(Cf),p=a(Cg),q=a(Ch);return[2,a(Ci),q,p,n,m,l,k]}return ac([0,B6,[0,c,B5]])}function
+o9(d){var
 a=ai(d);if(a){var
-b=a[1];if(!o(b[1],B9)){var
-c=b[2];if(2===c[0]&&!o(c[1],B_))return 1}}return 0}function
-de(c,d){var
+b=a[1];if(!o(b[1],Cj)){var
+c=b[2];if(2===c[0]&&!o(c[1],Ck))return 1}}return 0}function
+df(c,d){var
 a=af(d);if(a){var
 b=a[2];if(b&&!b[2]){var
 e=i(c,b[1]);return[0,i(c,a[1]),e]}}throw W}function
 ev(g,p){var
-h=g?g[1]:g,c=ai(p),a=aV(u(c,B$)),j=ru(a,Ca),f=0;if(0<=j)if(0<j)if(o(a,Cb))if(o(a,Cc))if(o(a,Cd))if(o(a,Ce))if(o(a,Cf))if(o(a,Cg)){var
-k=o(a,Ch);if(k)f=1;else
+h=g?g[1]:g,c=ai(p),a=aX(u(c,Cl)),j=rB(a,Cm),f=0;if(0<=j)if(0<j)if(o(a,Cn))if(o(a,Co))if(o(a,Cp))if(o(a,Cq))if(o(a,Cr))if(o(a,Cs))if(o(a,Ct)){var
+k=o(a,Cu);if(k)f=1;else
 var
 b=k}else
 var
@@ -8004,10 +8015,12 @@ b=5;else
 var
 b=11;else
 var
+b=16;else
+var
 b=13;else
 var
 b=2;else
-if(o(a,CB))if(o(a,CC))if(o(a,CD))if(o(a,CE))if(o(a,CF))if(o(a,CG))if(o(a,CH))if(o(a,CI))f=1;else
+if(o(a,CP))if(o(a,CQ))if(o(a,CR))if(o(a,CS))if(o(a,CT))if(o(a,CU))if(o(a,CV))if(o(a,CW))f=1;else
 var
 b=1;else
 var
@@ -8025,108 +8038,119 @@ b=14;else
 f=1;else
 var
 b=12;var
-n=f?ac([0,Cj,[0,a,Ci]]):b;function
-i(a){return u(c,Ck)}var
-d=aV(u(c,Cl)),l=o(d,Cm);if(l)if(o(d,Cn))if(o(d,Co))if(o(d,Cp))var
-e=ac([0,Cr,[0,d,Cq]]);else
+n=f?ac([0,Cw,[0,a,Cv]]):b;function
+i(a){return u(c,Cx)}var
+d=aX(u(c,Cy)),l=o(d,Cz);if(l)if(o(d,CA))if(o(d,CB))if(o(d,CC))var
+e=ac([0,CE,[0,d,CD]]);else
 var
-m=de(U,i(0)),e=[2,m[1],m[2]];else
+m=df(U,i(0)),e=[2,m[1],m[2]];else
 var
 e=[0,U(i(0))];else
 var
 e=[1,U(i(0))];else
 var
 e=l;function
-q(E){var
-a=ai(E),c=0;switch(n){case
+q(H){var
+a=ai(H),b=0;switch(n){case
 6:if(a){var
-r=a[1];if(!o(r[1],Ct)){var
+r=a[1];if(!o(r[1],CG)){var
 s=r[2];if(1===s[0]){var
-b=s[1],m=0;if(b&&!b[2])if(a[2])m=1;else{var
-e=b[1];c=1;m=1}if(!m&&!a[2])return[1,Y(U,b)]}}}break;case
+c=s[1],m=0;if(c&&!c[2])if(a[2])m=1;else{var
+e=c[1];b=1;m=1}if(!m&&!a[2]){var
+t=c;b=2}}}}break;case
 10:if(a){var
-t=a[1];if(!o(t[1],Cu)){var
-u=t[2];if(1===u[0]){var
-f=u[1];if(f&&!f[2]){var
+u=a[1];if(!o(u[1],CH)){var
+v=u[2];if(1===v[0]){var
+f=v[1];if(f&&!f[2]){var
 g=a[2];if(g){var
-v=g[1];if(!o(v[1],Cv)){var
-w=v[2];if(1===w[0]){var
-i=w[1];if(i&&!i[2]&&!g[2]){var
-F=U(i[1]);return[2,U(f[1]),F]}}}}}}}}break;case
+w=g[1];if(!o(w[1],CI)){var
+x=w[2];if(1===x[0]){var
+i=x[1];if(i&&!i[2]&&!g[2]){var
+I=U(i[1]);return[2,U(f[1]),I]}}}}}}}}break;case
 12:if(a){var
-x=a[1];if(!o(x[1],Cw)){var
-y=x[2];if(1===y[0]){var
-j=y[1];if(j&&!j[2]){var
-k=a[2],z=j[1];if(k){var
-A=k[1];if(!o(A[1],Cx)){var
-B=A[2];if(1===B[0]){var
-l=B[1];if(l&&!l[2]&&!k[2]&&h){var
-G=U(l[1]);return[3,U(z),G]}}}}else{var
-e=z;c=1}}}}}break;case
+y=a[1];if(!o(y[1],CJ)){var
+z=y[2];if(1===z[0]){var
+j=z[1];if(j&&!j[2]){var
+k=a[2],A=j[1];if(k){var
+B=k[1];if(!o(B[1],CK)){var
+C=B[2];if(1===C[0]){var
+l=C[1];if(l&&!l[2]&&!k[2]&&h){var
+J=U(l[1]);return[3,U(A),J]}}}}else{var
+e=A;b=1}}}}}break;case
+16:if(a){var
+F=a[1];if(!o(F[1],CM)){var
+G=F[2];if(1===G[0]&&!a[2]){var
+t=G[1];b=2}}}break;case
 14:case
 15:if(a){var
-C=a[1];if(!o(C[1],Cy)){var
-D=C[2];if(1===D[0]&&!a[2])return[1,Y(U,D[1])]}}break;case
+D=a[1];if(!o(D[1],CL)){var
+E=D[2];if(1===E[0]&&!a[2])return[1,Y(U,E[1])]}}break;case
 2:case
 8:if(a){var
-p=a[1];if(!o(p[1],Cs)){var
+p=a[1];if(!o(p[1],CF)){var
 q=p[2];if(1===q[0]){var
 d=q[1];if(d&&!d[2]&&!a[2]){var
-e=d[1];c=1}}}}break}if(c)return[0,U(e)];throw W}var
-r=cH(q,a7(c,Cz));return[0,n,cH(cI,a7(c,CA)),r,e]}function
-o6(c){var
-d=ev(CL,c),e=d[1];if(!(9<=e))switch(e){case
+e=d[1];b=1}}}}break}switch(b){case
+0:throw W;case
+1:return[0,U(e)];default:return[1,Y(U,t)]}}var
+r=cH(q,a9(c,CN));return[0,n,cH(cI,a9(c,CO)),r,e]}function
+o_(c){var
+d=ev(CZ,c),e=d[1];if(!(9<=e))switch(e){case
 2:case
 6:case
 8:return d}var
-a=ev(CJ,c),b=a[1];if(2!==b&&!(4<=b))return a;return ac(CK)}function
-o7(a){var
-b=ev(CM,a);return 11===b[1]?b:o6(a)}function
-CN(c){var
-d=ev(CO,c),a=d[1]-9|0,b=0;if(3<a>>>0){if(5<=a)b=1}else
-if(2!==a)b=1;return b?d:o7(c)}function
-jB(a){var
-b=ev(CP,a),c=b[1];if(4<=c)switch(c-4|0){case
-0:case
-1:case
-7:case
-9:return b}return o6(a)}function
-jC(b){var
-a=ai(b[2]);if(o(b[1],CW)){var
-c=de(U,u(a,CX)),d=de(U,u(a,CY)),e=d[2],f=d[1],g=U(u(a,CZ));return[1,c[1],c[2],g,f,e]}var
-h=Y(U,af(u(a,C0)));return[0,Y(U,af(u(a,C1))),h]}function
-C2(f){var
+a=ev(CX,c),b=a[1];if(2!==b&&!(4<=b))return a;return ac(CY)}function
+o$(a){var
+b=ev(C0,a);return 11===b[1]?b:o_(a)}function
+C1(a){var
+b=ev(C2,a),c=b[1];if(9<=c)switch(c-9|0){case
+2:case
+4:case
+7:break;default:return b}return o$(a)}function
+jD(a){var
+b=ev(C3,a);switch(b[1]){case
+4:case
+5:case
+11:case
+13:case
+16:return b;default:return o_(a)}}function
+jE(b){var
+a=ai(b[2]);if(o(b[1],C_)){var
+c=df(U,u(a,C$)),d=df(U,u(a,Da)),e=d[2],f=d[1],g=U(u(a,Db));return[1,c[1],c[2],g,f,e]}var
+h=Y(U,af(u(a,Dc)));return[0,Y(U,af(u(a,Dd))),h]}function
+De(f){var
 a=ai(f);function
 d(b){return U(u(a,b))}function
 c(b){return fr(U,u(a,b))}var
-b=aV(u(a,C3));if(o(b,C4)){if(!o(b,C5)){var
-j=u(a,C$),e=de(function(a){return a},j),k=a7(a,Da),l=cH(function(a){return c(Db)},k),m=g8(aV(e[2])),n=g8(aV(e[1])),p=d(Dc);return[0,cI(u(a,Dd)),p,n,m,l]}if(o(b,C6))throw W}var
-g=d(C7),h=c(C8),i=c(C9);return[1,aw(b,C_),i,h,g]}function
-jD(an){var
-g=dD(an),h=g[1];if(o(h,De)){if(o(h,Df)){if(o(h,Dg)){if(o(h,Dh))return ac([0,Dj,[0,h,Di]]);var
-w=u(ai(g[2]),Dk),ab=0;if(2===w[0]){var
-K=o(w[1],Dl);if(!K){var
+b=aX(u(a,Df));if(o(b,Dg)){if(!o(b,Dh)){var
+j=u(a,Dn),e=df(function(a){return a},j),k=a9(a,Do),l=cH(function(a){return c(Dp)},k),m=g$(aX(e[2])),n=g$(aX(e[1])),p=d(Dq);return[0,cI(u(a,Dr)),p,n,m,l]}if(o(b,Di))throw W}var
+g=d(Dj),h=c(Dk),i=c(Dl);return[1,aw(b,Dm),i,h,g]}function
+jF(an){var
+g=dD(an),h=g[1];if(o(h,Ds)){if(o(h,Dt)){if(o(h,Du)){if(o(h,Dv))return ac([0,Dx,[0,h,Dw]]);var
+w=u(ai(g[2]),Dy),ab=0;if(2===w[0]){var
+K=o(w[1],Dz);if(!K){var
 J=K;ab=1}}if(!ab)var
 J=[0,ce(w)];return[6,J]}var
-L=ai(g[2]),j=jD([0,[0,[0,Dn,u(L,Dm)],0]]);if(0===j[0]){var
+L=ai(g[2]),j=jF([0,[0,[0,DB,u(L,DA)],0]]);if(0===j[0]){var
 x=j[2];if(0===x[0]&&!j[3]){var
-ao=U(u(L,Dp));return[5,j[1],x[1],x[2],j[4],ao]}}return ac(Do)}var
-a=ai(g[2]),y=a7(a,Dq),z=y?Y(C2,af(y[1])):y,n=function(b){var
-a=0!==z?1:0;return a?ac(Dr):a},k=dD(u(a,Ds)),b=dD(u(a,Dt)),c=k[1];if(o(c,Du)&&o(c,Dv)&&o(c,Dw)){if(0===a7(a,Dx)){if(o(c,Dy)){var
-ad=0;if(o(c,Dz)){if(!o(c,DA)){var
-M=b[1],ae=0;if(o(M,DD)&&o(M,DE)){ad=1;ae=1}if(!ae){var
-A=af(k[2]),ap=af(u(a,DH)),N=Y(function(a){return ev(0,a)},ap);if(!az(BL,A)&&!az(function(a){return 13===a[1]?1:0},N)){var
-as=Y(Bv,A),f=ai(b[2]);if(o(b[1],CQ))var
-H=de(U,u(f,CR)),I=de(U,u(f,CS)),aj=I[2],ak=I[1],al=U(u(f,CT)),O=[1,H[1],H[2],al,ak,aj];else
+ao=U(u(L,DD));return[5,j[1],x[1],x[2],j[4],ao]}}return ac(DC)}var
+a=ai(g[2]),y=a9(a,DE),z=y?Y(De,af(y[1])):y,n=function(b){var
+a=0!==z?1:0;return a?ac(DF):a},k=dD(u(a,DG)),b=dD(u(a,DH)),c=k[1];if(o(c,DI)&&o(c,DJ)&&o(c,DK)){if(0===a9(a,DL)){if(o(c,DM)){var
+ad=0;if(o(c,DN)){if(!o(c,DO)){var
+M=b[1],ae=0;if(o(M,DR)&&o(M,DS)){ad=1;ae=1}if(!ae){var
+A=af(k[2]),ap=af(u(a,DV)),N=Y(function(a){return ev(0,a)},ap);if(!az(BX,A)&&!az(function(a){var
+b=13===a[1]?1:0,c=b||(16===a[1]?1:0);return c},N)){var
+as=Y(BH,A),f=ai(b[2]);if(o(b[1],C4))var
+H=df(U,u(f,C5)),I=df(U,u(f,C6)),aj=I[2],ak=I[1],al=U(u(f,C7)),O=[1,H[1],H[2],al,ak,aj];else
 var
-am=fr(U,u(f,CU)),O=[0,fr(U,u(f,CV)),am];return[0,as,O,z,N]}n(0);var
-aq=Y(jB,af(u(a,DI))),ar=jC(b);return[1,0,Y(o4,A),0,ar,0,aq]}}}else
-if(!o(b[1],DJ)){n(0);var
-P=Y(jB,af(u(a,DK))),v=0,e=P;for(;;){if(e){var
+am=fr(U,u(f,C8)),O=[0,fr(U,u(f,C9)),am];return[0,as,O,z,N]}n(0);var
+aq=Y(jD,af(u(a,DW))),ar=jE(b);return[1,0,Y(o8,A),0,ar,0,aq]}}}else
+if(!o(b[1],DX)){n(0);var
+P=Y(jD,af(u(a,DY))),v=0,e=P;for(;;){if(e){var
 F=e[2],G=e[1];if(0===G[1]){var
 v=[0,G,v],e=F;continue}var
 e=F;continue}var
-m=km(v),ag=0;if(m){var
+m=ko(v),ag=0;if(m){var
 d=0,Q=m[1][4];if(typeof
 Q==="number")d=1;else
 switch(Q[0]){case
@@ -8141,65 +8165,65 @@ C=m[2];if(C){var
 E=0,S=C[1][4];if(typeof
 S!=="number"&&0===S[0])if(C[2]){d=1;E=1}else
 E=1;if(!E)d=1}else
-d=1;break;default:d=1}if(!d)ag=1}if(!ag)ac(DL);var
-at=U(u(ai(b[2]),DM));return[4,U(u(ai(k[2]),DN)),at,P]}}if(!ad)return ac([0,DC,[0,c,DB]])}else
-if(!o(b[1],DO)){n(0);var
+d=1;break;default:d=1}if(!d)ag=1}if(!ag)ac(DZ);var
+at=U(u(ai(b[2]),D0));return[4,U(u(ai(k[2]),D1)),at,P]}}if(!ad)return ac([0,DQ,[0,c,DP]])}else
+if(!o(b[1],D2)){n(0);var
 p=ai(k[2]),T=ai(b[2]),V=function(c,a){var
 b=af(a);return Y(function(d){var
 a=af(d);if(a){var
 b=a[2];if(b&&!b[2]){var
-e=i(c,b[1]);return[0,aV(a[1]),e]}}throw W},b)},au=function(d){var
+e=i(c,b[1]);return[0,aX(a[1]),e]}}throw W},b)},au=function(d){var
 a=ai(d);if(a){var
-b=a[1],c=b[1];if(o(c,DP)){if(!o(c,DQ)&&!a[2])return[0,Y(jz,af(b[2]))]}else
-if(!a[2])return[1,jz(b[2])]}throw W},av=Y(o7,af(u(a,DR))),ax=Y(U,af(u(T,DS))),ay=Y(U,af(u(T,DT))),aA=Y(au,af(u(p,DU))),aB=V(jz,u(p,DV)),aC=V(ce,u(p,DW));return[3,Y(aV,af(u(p,DX))),aC,aB,aA,ay,ax,av]}return ac([0,DG,[0,b[1],DF]])}throw W}var
-X=ai(k[2]),q=cH(U,a7(X,DY)),aD=function(f){var
-a=dD(f),b=a[1];if(o(b,DZ)){if(o(b,D0)){if(o(b,D1)){if(o(b,D2))throw W;var
-d=a[2],g=U(u(ai(d),D3));return[3,U(u(ai(d),D4)),g]}var
-h=a[2],c=function(a){return de(U,u(ai(h),a))},i=c(D5),j=c(D6);return[1,c(D7),j,i]}var
-e=de(U,a[2]);return[0,e[1],e[2]]}return[2,U(a[2])]},r=cH(aD,a7(a,D8)),Z=o(c,D9),_=Z?o(c,D_)?2:1:Z,s=af(u(X,D$));if(q&&r&&hC(o5,s)){var
+b=a[1],c=b[1];if(o(c,D3)){if(!o(c,D4)&&!a[2])return[0,Y(jB,af(b[2]))]}else
+if(!a[2])return[1,jB(b[2])]}throw W},av=Y(o$,af(u(a,D5))),ax=Y(U,af(u(T,D6))),ay=Y(U,af(u(T,D7))),aA=Y(au,af(u(p,D8))),aB=V(jB,u(p,D9)),aC=V(ce,u(p,D_));return[3,Y(aX,af(u(p,D$))),aC,aB,aA,ay,ax,av]}return ac([0,DU,[0,b[1],DT]])}throw W}var
+X=ai(k[2]),q=cH(U,a9(X,Ea)),aD=function(f){var
+a=dD(f),b=a[1];if(o(b,Eb)){if(o(b,Ec)){if(o(b,Ed)){if(o(b,Ee))throw W;var
+d=a[2],g=U(u(ai(d),Ef));return[3,U(u(ai(d),Eg)),g]}var
+h=a[2],c=function(a){return df(U,u(ai(h),a))},i=c(Eh),j=c(Ei);return[1,c(Ej),j,i]}var
+e=df(U,a[2]);return[0,e[1],e[2]]}return[2,U(a[2])]},r=cH(aD,a9(a,Ek)),Z=o(c,El),_=Z?o(c,Em)?2:1:Z,s=af(u(X,En));if(q&&r&&hF(o9,s)){var
 aE=function(c){var
 a=ai(c);function
-b(b){return Y(ce,af(u(a,b)))}if(0!==a7(a,Ea))ac(Eb);var
-d=b(Ec);return[0,b(Ed),d]},aF=Y(CN,af(u(a,Ee))),aG=r[1],aH=jC(b),aI=q[1];return[2,_,Y(aE,s),aI,aH,aG,z,aF]}n(0);var
-ah=0;if(!q&&aw(c,Eh)){var
+b(b){return Y(ce,af(u(a,b)))}if(0!==a9(a,Eo))ac(Ep);var
+d=b(Eq);return[0,b(Er),d]},aF=Y(C1,af(u(a,Es))),aG=r[1],aH=jE(b),aI=q[1];return[2,_,Y(aE,s),aI,aH,aG,z,aF]}n(0);var
+ah=0;if(!q&&aw(c,Ev)){var
 $=1;ah=1}if(!ah)var
 $=[0,_];var
-aa=0!==r?1:0,aJ=aa?az(o5,s):aa;if(aJ)ac(Ef);var
-aK=Y(jB,af(u(a,Eg))),aL=jC(b);return[1,$,Y(o4,s),q,aL,r,aK]}var
+aa=0!==r?1:0,aJ=aa?az(o9,s):aa;if(aJ)ac(Et);var
+aK=Y(jD,af(u(a,Eu))),aL=jE(b);return[1,$,Y(o8,s),q,aL,r,aK]}var
 t=ai(g[2]);function
 aM(b){var
-a=ai(b),c=U(u(a,Ei)),d=[0,U(u(a,Ej)),c];return[0,aV(u(a,Ek)),d]}var
-l=jD([0,[0,[0,Em,u(t,El)],0]]);if(0===l[0]&&!l[3]){var
-aN=U(u(t,Eo)),aO=U(u(t,Ep)),aP=l[4],aQ=l[2],aR=l[1];return[7,Y(aM,af(u(t,Eq))),aR,aQ,aP,aO,aN]}return ac(En)}function
+a=ai(b),c=U(u(a,Ew)),d=[0,U(u(a,Ex)),c];return[0,aX(u(a,Ey)),d]}var
+l=jF([0,[0,[0,EA,u(t,Ez)],0]]);if(0===l[0]&&!l[3]){var
+aN=U(u(t,EC)),aO=U(u(t,ED)),aP=l[4],aQ=l[2],aR=l[1];return[7,Y(aM,af(u(t,EE))),aR,aQ,aP,aO,aN]}return ac(EB)}function
 ft(a){return Y(eu,af(a))}function
-jE(c,b){var
+jG(c,b){var
 a=ft(b);if(cl(a)!==c)throw W;return a}function
-o8(a,d){var
-b=ai(d),e=af(u(b,Et)),f=a[2],c=Y(function(a){return jE(f,a)},e),g=a[1];if(cl(c)!==g)throw W;return[0,c,dE(u(b,Eu))]}function
+pa(a,d){var
+b=ai(d),e=af(u(b,EH)),f=a[2],c=Y(function(a){return jG(f,a)},e),g=a[1];if(cl(c)!==g)throw W;return[0,c,dE(u(b,EI))]}function
 ew(au,i){var
 as=0;if(0===i[0]){var
 s=i[1];if(s){var
-S=s[1];if(!o(S[1],Ev)){var
+S=s[1];if(!o(S[1],EJ)){var
 ah=S[2];if(0===ah[0]){var
 J=ah[1];if(J){var
-aj=J[1];if(!o(aj[1],EQ)){var
+aj=J[1];if(!o(aj[1],E4)){var
 ak=aj[2];if(1===ak[0]){var
 K=ak[1];if(K){var
 al=K[1];if(1===al[0]){var
 am=al[1];if(am&&!am[2]&&!K[2]){var
 an=J[2];if(an&&!an[2]&&!s[2]){var
-f=ER;as=1}}}}}}}}}}}if(!as)var
+f=E5;as=1}}}}}}}}}}}if(!as)var
 f=au;var
 T=f[2];switch(i[0]){case
 0:var
 b=i[1];if(b){var
-e=b[1],c=e[1],U=ru(c,Ew),a=0;if(0<=U)if(0<U)if(o(c,Ex)){var
-g=0;if(o(c,Ey)&&o(c,Ez)&&o(c,EA))if(o(c,EB))g=1;else{var
+e=b[1],c=e[1],U=rB(c,EK),a=0;if(0<=U)if(0<U)if(o(c,EL)){var
+g=0;if(o(c,EM)&&o(c,EN)&&o(c,EO))if(o(c,EP))g=1;else{var
 V=e[2];if(1===V[0]){var
 t=V[1];if(t){var
 v=t[2];if(v){var
 w=v[2];if(w&&!w[2]){if(!b[2]){var
-av=Y(ft,af(w[1])),aw=aV(v[1]);return[8,ew(f,t[1]),aw,av]}a=1;g=1}else
+av=Y(ft,af(w[1])),aw=aX(v[1]);return[8,ew(f,t[1]),aw,av]}a=1;g=1}else
 g=1}else
 g=1}else
 g=1}else
@@ -8208,9 +8232,9 @@ ax=e[2],y=ax,x=function(b,a){return[1,c,b,a]};a=2}}else{var
 Z=e[2];if(1===Z[0]){var
 k=Z[1];if(k){var
 z=k[1],q=0;if(0===z[0]){var
-A=z[1];if(A&&!o(A[1][1],EE)&&!A[2]){var
+A=z[1];if(A&&!o(A[1][1],ES)&&!A[2]){var
 _=k[2];if(_){var
-$=_[2];if($&&!$[2]){if(!b[2])return ac(EF);a=1;q=1}else
+$=_[2];if($&&!$[2]){if(!b[2])return ac(ET);a=1;q=1}else
 q=1}else
 q=1}}if(!q){var
 B=k[2];if(B){var
@@ -8223,28 +8247,28 @@ c=b[2];if(c){var
 d=c[2];if(d){var
 a=d[2];if(a){var
 e=a[1],h=0;if(0===e[0]){var
-g=e[1];if(g&&!(o(g[1][1],EG)||g[2])){if(!a[2]){var
+g=e[1];if(g&&!(o(g[1][1],EU)||g[2])){if(!a[2]){var
 j=ew(f,e),k=dE(d[1]),l=eu(c[1]);return[0,[0,[0,ft(b[1]),l],k],j]}}else
 h=1}else
-h=1;if(h&&!a[2])return ac(EH)}}}}}throw W};return[9,Y(aA,aa[1])]}a=1}}else
-if(o(c,EI))if(o(c,EJ))if(o(c,EK))if(o(c,EL)){if(!o(c,EM)){if(!b[2]){var
-ab=ai(e[2]),aB=af(u(ab,EN)),aC=T+1|0,ad=Y(function(a){return jE(aC,a)},aB);if(3===cl(ad))return[1,EP,ad,dE(u(ab,EO))];throw W}a=1}}else{if(!b[2]){var
-P=aV(e[2]),Q=o(P,Er);if(Q){if(o(P,Es))throw W;var
+h=1;if(h&&!a[2])return ac(EV)}}}}}throw W};return[9,Y(aA,aa[1])]}a=1}}else
+if(o(c,EW))if(o(c,EX))if(o(c,EY))if(o(c,EZ)){if(!o(c,E0)){if(!b[2]){var
+ab=ai(e[2]),aB=af(u(ab,E1)),aC=T+1|0,ad=Y(function(a){return jG(aC,a)},aB);if(3===cl(ad))return[1,E3,ad,dE(u(ab,E2))];throw W}a=1}}else{if(!b[2]){var
+P=aX(e[2]),Q=o(P,EF);if(Q){if(o(P,EG))throw W;var
 R=1}else
 var
 R=Q;return[2,R]}a=1}else{if(!b[2]){var
 l=e[2],r=0;switch(l[0]){case
 0:var
 m=l[1];if(m){var
-ao=m[1],j=ao[1],d=0;if(o(j,ES)&&o(j,ET)&&o(j,EU)&&o(j,EV))if(o(j,EW))d=1;else{var
+ao=m[1],j=ao[1],d=0;if(o(j,E6)&&o(j,E7)&&o(j,E8)&&o(j,E9))if(o(j,E_))d=1;else{var
 ap=ao[2];if(1===ap[0]){var
 L=ap[1];if(L){var
 n=L[1],h=0;switch(n[0]){case
 0:var
 M=n[1];if(M){var
-p=M[1][1],at=0;if(o(p,EY)&&o(p,EZ)&&o(p,E0)&&o(p,E1)){d=1;h=1;at=1}if(!at&&M[2]){d=1;h=1}}else{d=1;h=1}break;case
+p=M[1][1],at=0;if(o(p,Fa)&&o(p,Fb)&&o(p,Fc)&&o(p,Fd)){d=1;h=1;at=1}if(!at&&M[2]){d=1;h=1}}else{d=1;h=1}break;case
 2:var
-aq=n[1];if(o(aq,E2)&&o(aq,E3)){d=1;h=1}break;default:d=1;h=1}if(!h){var
+aq=n[1];if(o(aq,Fe)&&o(aq,Ff)){d=1;h=1}break;default:d=1;h=1}if(!h){var
 N=L[2];if(N){var
 O=N[2];if(O&&!(O[2]||m[2])){var
 aI=dE(O[1]),aJ=eu(N[1]),D=[6,ew(f,n),aJ,aI];r=2;d=1}else
@@ -8253,29 +8277,29 @@ d=1}}else
 d=1}else
 d=1}if(!d&&!m[2])r=1}break;case
 2:var
-ar=l[1];if(!o(ar,E4)||!o(ar,E5))r=1;break}switch(r){case
+ar=l[1];if(!o(ar,Fg)||!o(ar,Fh))r=1;break}switch(r){case
 0:var
-D=ac(EX);break;case
+D=ac(E$);break;case
 1:var
 D=ew(f,l);break}return[7,D]}a=1}else{var
 ae=e[2];if(1===ae[0]){var
 E=ae[1];if(E){var
 F=E[2];if(F&&!F[2])if(b[2])a=1;else{var
-aD=F[1],aE=E[1],y=aE,x=function(b,a){return[3,b,a,jE(T+1|0,aD)]};a=2}}}}else{var
+aD=F[1],aE=E[1],y=aE,x=function(b,a){return[3,b,a,jG(T+1|0,aD)]};a=2}}}}else{var
 ag=e[2];if(1===ag[0]){var
 G=ag[1];if(G){var
 H=G[2];if(H){var
 I=H[2];if(I&&!I[2])if(b[2])a=1;else{var
 aF=I[1],aG=H[1],aH=G[1],y=aH,x=function(b,a){var
 c=dE(aF);return[4,b,a,eu(aG),c]};a=2}}}}}switch(a){case
-0:if(!b[2])return ac([0,ED,[0,c,EC]]);break;case
+0:if(!b[2])return ac([0,ER,[0,c,EQ]]);break;case
 1:break;default:var
-X=o8(f,y);return x(X[1],X[2])}}break;case
+X=pa(f,y);return x(X[1],X[2])}}break;case
 2:return[0,i[1]]}throw W}function
-o9(n){var
-b=dD(n),a=b[1];if(o(a,E8))if(o(a,E9)){var
-h=o(a,E_);if(!h)return h;if(o(a,E$)){if(!o(a,Fa)){var
-c=ai(b[2]),i=function(a){return Y(U,af(u(c,a)))},j=ai(u(c,Fe)),p=dE(u(j,Ff)),q=Y(ft,af(u(j,Fg))),r=i(Fh),s=i(Fi);return[3,cI(u(c,Fj)),s,r,q,p]}if(!o(a,Fb))return[2,Y(U,af(b[2]))]}else{var
+pb(n){var
+b=dD(n),a=b[1];if(o(a,Fk))if(o(a,Fl)){var
+h=o(a,Fm);if(!h)return h;if(o(a,Fn)){if(!o(a,Fo)){var
+c=ai(b[2]),i=function(a){return Y(U,af(u(c,a)))},j=ai(u(c,Fs)),p=dE(u(j,Ft)),q=Y(ft,af(u(j,Fu))),r=i(Fv),s=i(Fw);return[3,cI(u(c,Fx)),s,r,q,p]}if(!o(a,Fp))return[2,Y(U,af(b[2]))]}else{var
 k=b[2];if(1===k[0]){var
 d=k[1];if(d){var
 e=d[2];if(e&&!e[2]){var
@@ -8284,33 +8308,33 @@ l=b[2];if(1===l[0]){var
 f=l[1];if(f){var
 g=f[2];if(g&&!g[2]){var
 v=Y(ft,af(g[1]));return[0,cI(f[1]),v]}}}}else{var
-m=b[2];if(1===m[0]&&!m[1])return 1}return ac([0,Fd,[0,a,Fc]])}function
-o_(f,b){var
-a=ai(b),c=af(u(a,Fo)),d=Y(function(g){var
+m=b[2];if(1===m[0]&&!m[1])return 1}return ac([0,Fr,[0,a,Fq]])}function
+pc(f,b){var
+a=ai(b),c=af(u(a,FC)),d=Y(function(g){var
 a=ai(g);function
 b(d,c){var
-b=a7(a,c);return b?Y(d,af(b[1])):b}var
-c=b(eu,Fk),d=cH(o9,a7(a,Fl)),e=cH(cI,a7(a,Fm));return[0,b(function(h){var
+b=a9(a,c);return b?Y(d,af(b[1])):b}var
+c=b(eu,Fy),d=cH(pb,a9(a,Fz)),e=cH(cI,a9(a,FA));return[0,b(function(h){var
 b=af(h);if(b){var
 a=b[2];if(a){var
-c=a[1],e=b[1],d=0;if(2===c[0]&&!o(c[1],E6)){if(!a[2]){if(o(fq(e),E7))throw W;d=1}}else
+c=a[1],e=b[1],d=0;if(2===c[0]&&!o(c[1],Fi)){if(!a[2]){if(o(fq(e),Fj))throw W;d=1}}else
 d=1;if(d&&!a[2]){var
-g=ew(f,c);return[0,cI(e),g]}}}throw W},Fn),e,d,c]},c),e=a7(a,Fp),g=cH(function(a){return o8(f,a)},e);return[0,o1(u(a,Fq)),g,d]}function
-o$(c){var
-a=ai(c),b=a7(a,Fr),d=b?Y(U,af(b[1])):b,e=o9(u(a,Fs)),f=Y(U,af(u(a,Ft)));return[0,o1(u(a,Fu)),f,d,e]}function
-FE(c){var
+g=ew(f,c);return[0,cI(e),g]}}}throw W},FB),e,d,c]},c),e=a9(a,FD),g=cH(function(a){return pa(f,a)},e);return[0,o5(u(a,FE)),g,d]}function
+pd(c){var
+a=ai(c),b=a9(a,FF),d=b?Y(U,af(b[1])):b,e=pb(u(a,FG)),f=Y(U,af(u(a,FH)));return[0,o5(u(a,FI)),f,d,e]}function
+FS(c){var
 a=c[1],b=0;if(10<=a){if(!(13<=a))b=1}else
 if(8===a)b=1;return b?1:0}function
-FF(b){var
+FT(b){var
 a=b[3];if(a&&1===a[1][0])return 1;return 0}function
-FG(b){var
-c=b[1],a=b[4];if(14<=c&&typeof
-a!=="number"&&1===a[0])return 1-gD(j(a[1]));return 10===c?1:0}function
-FK(k){var
+FU(b){var
+c=b[1],a=b[4];if(!(1<c+p8>>>0)&&typeof
+a!=="number"&&1===a[0])return 1-gG(j(a[1]));return 10===c?1:0}function
+FY(k){var
 n=au(k),c=[0,0];function
-p(a){if(c[1]<n)return a0(k,c[1]);throw W}function
+p(a){if(c[1]<n)return a1(k,c[1]);throw W}function
 q(a){if(p(0)===a){c[1]++;return 0}throw W}function
-L(a,b){for(;;){if(c[1]<n&&i(b,a0(k,c[1]))){c[1]++;continue}return dO(k,a,c[1]-a|0)}}function
+L(a,b){for(;;){if(c[1]<n&&i(b,a1(k,c[1]))){c[1]++;continue}return dO(k,a,c[1]-a|0)}}function
 M(d){q(34);function
 a(a){var
 b=34!==a?1:0;if(b)var
@@ -8321,7 +8345,7 @@ b=L(c[1],a);q(34);return b}function
 N(e,a){if(p(0)===a){c[1]++;return 0}var
 b=0;for(;;){var
 d=[0,i(e,0),b];if(44===p(0)){c[1]++;var
-b=d;continue}q(a);return km(d)}}function
+b=d;continue}q(a);return ko(d)}}function
 y(b,i){if(64<b)throw W;var
 a=p(0),d=0;if(48<=a){if(91===a){c[1]++;var
 e=93,f=b+1|0;return[1,N(function(a){return y(f,a)},e)]}if(123===a){c[1]++;var
@@ -8329,15 +8353,15 @@ g=125;return[0,N(function(c){var
 a=M(0);q(58);return[0,a,y(b+1|0,0)]},g)]}if(!(58<=a))d=1}else{if(34===a)return[2,M(0)];if(45===a)d=1}if(d){var
 h=c[1];c[1]++;return[3,L(h,function(a){var
 b=48<=a?1:0,c=b?a<=57?1:0:b;return c})]}throw W}var
-ar=y(0,0),O=c[1]<n?1:0,as=O?10===a0(k,c[1])?1:0:O;if(as)c[1]++;if(c[1]<n)throw W;var
-v=ai(ar);if(o(aV(u(v,FL)),FM))throw W;var
-a=jD(u(v,FN)),H=0;switch(a[0]){case
+ar=y(0,0),O=c[1]<n?1:0,as=O?10===a1(k,c[1])?1:0:O;if(as)c[1]++;if(c[1]<n)throw W;var
+v=ai(ar);if(o(aX(u(v,FZ)),F0))throw W;var
+a=jF(u(v,F1)),H=0;switch(a[0]){case
 1:var
-E=a[1],I=0;if(typeof
-E==="number")if(E)var
+F=a[1],I=0;if(typeof
+F==="number")if(F)var
 G=2;else
 I=1;else
-if(1===E[1])var
+if(1===F[1])var
 G=6;else
 I=1;if(I)var
 G=3;var
@@ -8351,20 +8375,20 @@ P=a[2];H=1;break;case
 0:case
 5:var
 P=a[1];H=1;break;default:var
-j=Ga}if(H)var
+j=Go}if(H)var
 j=[0,cl(P),3];var
-r=dD(u(v,FO)),s=r[1];if(o(s,Fz))if(o(s,FA))if(o(s,FB))var
-b=ac([0,FD,[0,s,FC]]);else
+r=dD(u(v,F2)),s=r[1];if(o(s,FN))if(o(s,FO))if(o(s,FP))var
+b=ac([0,FR,[0,s,FQ]]);else
 var
-t=o$(r[2]),b=[1,t[1],t[2],t[3],t[4]];else
+t=pd(r[2]),b=[1,t[1],t[2],t[3],t[4]];else
 var
-z=o_(j,r[2]),b=[0,z[1],z[2],z[3]];else
+z=pc(j,r[2]),b=[0,z[1],z[2],z[3]];else
 var
 at=af(r[2]),b=[2,Y(function(f){var
-a=dD(f),b=a[1];if(o(b,Fv)){if(o(b,Fw)){if(o(b,Fx)){var
-e=o(b,Fy);if(e)throw W;return e}return[0,cI(a[2])]}var
-c=o$(a[2]);return[2,c[1],c[2],c[3],c[4]]}var
-d=o_(j,a[2]);return[1,d[1],d[2],d[3]]},at)];function
+a=dD(f),b=a[1];if(o(b,FJ)){if(o(b,FK)){if(o(b,FL)){var
+e=o(b,FM);if(e)throw W;return e}return[0,cI(a[2])]}var
+c=pd(a[2]);return[2,c[1],c[2],c[3],c[4]]}var
+d=pc(j,a[2]);return[1,d[1],d[2],d[3]]},at)];function
 av(a){var
 b=a[1];return az(function(a){return 7<a[2][0]?1:0},b)}function
 aw(a){return 0!==a[3]?1:0}function
@@ -8383,9 +8407,9 @@ ae=0;if(0===b[0]){var
 aB=b[3];if(az(function(a){var
 b=a[1];return az(function(a){switch(a[2][0]){case
 6:case
-7:return 1;default:return 0}},b)},aB)){ac(F2);ae=1}}if(!ae){var
+7:return 1;default:return 0}},b)},aB)){ac(Ge);ae=1}}if(!ae){var
 aC=a[6];if(az(function(a){return 5===a[1]?1:0},aC)){var
-aD=a[2];if(az(function(a){return 1===a[0]?1:0},aD))ac(F3);else
+aD=a[2];if(az(function(a){return 1===a[0]?1:0},aD))ac(Gf);else
 d=1}else
 d=1}break;case
 2:var
@@ -8403,30 +8427,30 @@ g=0;if(!b[1]){var
 d=b[2];if(8===d[0]){var
 e=d[1];if(7===e[0]){var
 c=e[1],a=0;switch(c[0]){case
-1:if(o(c[1],F4))a=1;break;case
+1:if(o(c[1],Gg))a=1;break;case
 6:var
-f=c[1];if(1!==f[0]||o(f[1],F5))a=1;break;default:a=1}if(!a)return 1-D}}else
-g=1}if(!g&&8===b[2][0])return 1;return 0},aG=b[3],aK=0;if(az(function(a){return az(aF,a[1])},aG))ac(F6);else{var
+f=c[1];if(1!==f[0]||o(f[1],Gh))a=1;break;default:a=1}if(!a)return 1-D}}else
+g=1}if(!g&&8===b[2][0])return 1;return 0},aG=b[3],aK=0;if(az(function(a){return az(aF,a[1])},aG))ac(Gi);else{var
 ah=0;if(az(function(a){return 11===a[1]?1:0},_)){var
 aj=0;if(1===C&&2===a[5][0]){var
 aa=0;aj=1}if(!aj)var
-aa=1;if(aa){ac(F7);ah=1}}if(!ah){var
-aH=b[3];if(hC(function(a){var
-b=a[1];return hC(function(d){var
+aa=1;if(aa){ac(Gj);ah=1}}if(!ah){var
+aH=b[3];if(hF(function(a){var
+b=a[1];return hF(function(d){var
 b=d[2],a=0;switch(b[0]){case
 0:var
-c=b[1];if(o(c,FH)){if(!o(c,FI))return az(FG,_)}else
+c=b[1];if(o(c,FV)){if(!o(c,FW))return az(FU,_)}else
 a=1;break;case
-1:if(!o(b[1],FJ))a=1;break;case
+1:if(!o(b[1],FX))a=1;break;case
 7:case
 8:a=1;break}return a?1:0},b)},aH)){d=3;aK=1}else
-ac(F8)}}break;case
+ac(Gk)}}break;case
 1:var
 ak=0,ab=b[4];if(typeof
 ab==="number"||!(1<ab[0]))ak=1;else
 d=5;if(ak)d=1;break;default:d=2}break;case
 3:switch(b[0]){case
-0:if(az(av,b[3]))ac(F9);else
+0:if(az(av,b[3]))ac(Gl);else
 d=3;break;case
 2:d=2;break;default:d=1}break;case
 7:switch(b[0]){case
@@ -8434,15 +8458,15 @@ d=3;break;case
 ad=b[1],al=0;if(az(function(a){if(typeof
 a!=="number"&&2===a[0]){var
 b=a[4];if(typeof
-b!=="number"&&3===b[0])return 1}return 0},ad)){ac(F_);al=1}else
+b!=="number"&&3===b[0])return 1}return 0},ad)){ac(Gm);al=1}else
 if(az(function(a){if(typeof
-a!=="number"&&2===a[0])return R(a[4]);return 0},ad)){ac(F$);al=1}else
+a!=="number"&&2===a[0])return R(a[4]);return 0},ad)){ac(Gn);al=1}else
 d=4;break;case
 1:d=1;break;default:d=4}break;default:d=1}var
 h=0;switch(d){case
 1:if(1===b[0]){var
 am=0,Z=b[4];if(typeof
-Z!=="number"&&3===Z[0]){ac(F1);am=1}if(!am)if(R(b[4]))ac(F0);else
+Z!=="number"&&3===Z[0]){ac(Gd);am=1}if(!am)if(R(b[4]))ac(Gc);else
 h=3}else
 h=3;break;case
 4:h=3;break;case
@@ -8457,14 +8481,14 @@ f=0;switch(a[0]){case
 X=a[6];break;case
 4:var
 X=a[3];break;case
-5:if(az(FE,a[4])){ac(FY);e=2;f=1}else
+5:if(az(FS,a[4])){ac(Ga);e=2;f=1}else
 if(0===b[0]){var
-aA=b[3];if(az(function(a){return 0!==a[1]?1:0},aA)){ac(FZ);e=2;f=1}else
+aA=b[3];if(az(function(a){return 0!==a[1]?1:0},aA)){ac(Gb);e=2;f=1}else
 f=1}else
 f=1;break;case
 6:f=1;break;case
 7:var
-T=a[4],S=a[2];e=3;f=1;break;default:e=1;f=1}if(!f)if(0===b[0]){if(az(function(a){return 11===a[1]?1:0},X)){ac(FX);e=2}}else
+T=a[4],S=a[2];e=3;f=1;break;default:e=1;f=1}if(!f)if(0===b[0]){if(az(function(a){return 11===a[1]?1:0},X)){ac(F$);e=2}}else
 e=1;break;case
 0:e=2;break;case
 4:e=3;break;case
@@ -8472,48 +8496,48 @@ e=1;break;case
 w=0;switch(e){case
 2:break;case
 3:var
-an=0;if(az(function(a){return 10===a[1]?1:0},T)&&az(function(a){return 2===a[0]?1:0},S)){ac(FP);an=1}if(!an)w=2;break;case
+an=0;if(az(function(a){return 10===a[1]?1:0},T)&&az(function(a){return 2===a[0]?1:0},S)){ac(F3);an=1}if(!an)w=2;break;case
 0:w=2;break;default:w=1}var
 J=0;switch(w){case
 2:var
 l=0;switch(a[0]){case
 5:case
-7:if(az(FF,a[4])){ac(FV);l=1}else
+7:if(az(FT,a[4])){ac(F9);l=1}else
 if(7===a[0])switch(b[0]){case
 2:var
 ay=function(a){if(typeof
-a!=="number"&&1===a[0])return Q(a[3]);return 0};if(az(ay,b[1]))ac(FW);l=1;break;case
+a!=="number"&&1===a[0])return Q(a[3]);return 0};if(az(ay,b[1]))ac(F_);l=1;break;case
 0:break;default:J=1;l=1}else
-l=1;break}if(!l)if(0===b[0]&&Q(b[3]))ac(FU);else
+l=1;break}if(!l)if(0===b[0]&&Q(b[3]))ac(F8);else
 J=1;break;case
 1:J=1;break}var
-U=ai(u(v,FQ)),ax=aV(u(U,FR)),A=[0,a,b,aV(u(U,FS)),ax],x=A[1];if(7===x[0]){var
+U=ai(u(v,F4)),ax=aX(u(U,F5)),A=[0,a,b,aX(u(U,F6)),ax],x=A[1];if(7===x[0]){var
 K=A[2],ao=x[4],ap=x[2];if(2===K[0])var
 aq=K[1],B=m(function(a){if(typeof
 a!=="number"&&2===a[0]){var
 b=a[4];if(typeof
 b!=="number"&&0===b[0]){var
-e=b[1],c=F(oi(g(ap),0,ao),e);if(c){var
+e=b[1],c=E(om(g(ap),0,ao),e);if(c){var
 d=c[1];if(typeof
 d!=="number"&&14===d[0])return 0;return 1}return 1}return 1}return 1},aq);else
 var
 B=1}else
 var
-B=1;return B?A:ac(FT)}function
-Gb(b){var
-c=au(b),g=64,h=HO(64,c)?g:c,a=0,i=h-18|0;for(;;){var
+B=1;return B?A:ac(F7)}function
+Gp(b){var
+c=au(b),g=64,h=H2(64,c)?g:c,a=0,i=h-18|0;for(;;){var
 d=a<=i?1:0;if(d){var
-e=aw(dO(b,a,18),Gc);if(!e){var
+e=aw(dO(b,a,18),Gq);if(!e){var
 a=a+1|0;continue}var
 f=e}else
 var
-f=d;return f}}H9(function(b){try{if(Gb(b))var
-a=Ge;else{try{var
-e=0,d=FK(b);e=1}catch(a){a=rw(a);if(a[1]===o0)var
+f=d;return f}}Il(function(b){try{if(Gp(b))var
+a=Gs;else{try{var
+e=0,d=FY(b);e=1}catch(a){a=rD(a);if(a[1]===o4)var
 c=[0,a[2]];else{if(a!==W)throw a;var
 c=2}}if(e)var
-c=Bg(b,d)?1===d[2][0]?1:0:2;var
-a=c}}catch(a){return Gd}if(typeof
+c=Bs(b,d)?1===d[2][0]?1:0:2;var
+a=c}}catch(a){return Gr}if(typeof
 a==="number")switch(a){case
-0:return Gf;case
-1:return Gg;default:return Gh}return a9(Gi,a[1])});kl(0);return}(globalThis));
+0:return Gt;case
+1:return Gu;default:return Gv}return a$(Gw,a[1])});kn(0);return}(globalThis));

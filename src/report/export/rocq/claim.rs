@@ -205,7 +205,8 @@ fn machine(claim: &MachineClaim) -> Exported<Subject<'_>> {
     let MachineClaim { mechanism, workspace, bodies, require, .. } = claim;
     let is_of_legs = |legs: &[Leg]| {
         let is_arm = |leg: &Leg| matches!(leg, Leg::Arm { .. });
-        legs.iter().any(is_arm) || require.iter().any(|r| r.quantity == "leg_angle")
+        let is_of_any = |r: &Requirement| ["leg_angle", "load"].contains(&r.quantity.as_str());
+        legs.iter().any(is_arm) || require.iter().any(is_of_any)
     };
     let (kind, arguments, legs) = match (mechanism, workspace) {
         (Mechanism::Planar(turning), _) => turning_machine(claim, turning, "InPlane")?,
@@ -486,6 +487,7 @@ fn requirement(requirement: &Requirement, asked: Asked) -> Exported<String> {
         "accuracy" => "Accuracy_",
         "clearance" => "Clearance_",
         "leg_angle" => "LegAngle_",
+        "load" => "Load_",
         "base_joint" if asked > Asked::Anything => "BaseJoint_",
         "platform_joint" if asked > Asked::Anything => "PlatformJoint_",
         other => return not_covered(format!("the quantity {other:?}")),
@@ -508,14 +510,16 @@ fn requirement(requirement: &Requirement, asked: Asked) -> Exported<String> {
         ("Accuracy_", [("joint_error", [e]), ("max_angle", [a])]) => {
             Some(format!("(Near_ {} {})", expression(e), expression(a)))
         }
-        ("Stiffness_", [("joint", all)]) | ("BaseJoint_" | "PlatformJoint_", [("axis", all)]) => {
+        ("Stiffness_", [("joint", all)])
+        | ("BaseJoint_" | "PlatformJoint_", [("axis", all)])
+        | ("Load_", [("force", all)]) => {
             Some(format!("(Each_ {})", list(all.iter().map(expression))))
         }
         _ => return not_covered(format!("what is given for {quantity:?}")),
     };
     let is_asked = match about {
         "Transmission" | "JointRange" | "Condition_" | "Speed_" | "Force_" | "Stiffness_" => true,
-        "Serial_" | "Parallel_" | "LegAngle_" => asked < Asked::OfTwoPoints,
+        "Serial_" | "Parallel_" | "LegAngle_" | "Load_" => asked < Asked::OfTwoPoints,
         "OneToOne_" => true,
         "BaseJoint_" | "PlatformJoint_" => asked == Asked::OfStruts,
         "Clearance_" | "Acceleration_" | "Accuracy_" => {
