@@ -2,7 +2,6 @@
 
 use crate::certificate::AtlasCell;
 use crate::claim::{AtlasClaim, MachineClaim, Mechanism, Parameter, Workspace};
-use crate::fixed::Integer;
 use crate::input::{malformed, ClaimError};
 use crate::number::{Expression, Range};
 use crate::problem::Problem;
@@ -230,7 +229,7 @@ pub(crate) fn shown(
             spend(&mut left, work::of_numbers(&problem, tree))?;
             let is_apart = tree.takes_tolerances_apart();
             let problem = if is_apart { problem.with_derivatives() } else { problem };
-            let most_work = problem.most_work.min(left.saturating_mul(BigInt::WORK));
+            let most_work = problem.most_work.min(left.saturating_mul(work::OF_TREES));
             tree::check(&Problem { most_work, ..problem }, tree)
         }
         AtlasCell::Refuted(witness) => {

@@ -15,6 +15,8 @@ use crate::vary::Numbers;
 
 /// Units of work for each byte of a certificate, of a third of a microsecond or so.
 pub const WORK_A_BYTE: usize = 192;
+/// Work of a tree (`step/work.rs`) that is a unit.
+pub(crate) const OF_TREES: usize = 16;
 /// A certificate may ask for the work of so many bytes, however short it is.
 pub const LEAST_BYTES: usize = 100_000;
 

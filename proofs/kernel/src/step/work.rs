@@ -10,11 +10,11 @@ use crate::test::Row;
 use std::collections::BTreeSet;
 
 impl<E: Enclosure> Checker<'_, E> {
-    /// The work of all steps, beside that of formulas over cells: at vertices a quarter of the operations on
+    /// The work of all steps, beside that of formulas over cells: at vertices the operations on
     /// matrices, with all their sign vertices; at control points the formulas there; with tolerances apart all
     /// formulas with their derivatives once a node, twice where directions are of one scale in some of its steps and not in
     /// others, and for each step those of one machine, and at each vertex or
-    /// control point all changes.
+    /// control point all changes, four operations each.
     pub(crate) fn work_of(&self, tree: &Tree) -> usize {
         let m = self.problem.dimension();
         let signs = |test: &Test| match test {
@@ -44,7 +44,7 @@ impl<E: Enclosure> Checker<'_, E> {
                 let values = if is_control { 0 } else { m * (m + 1) };
                 let each = matrices * (steps * (m + 2) * (m + 2) + values);
                 let changes = derived.and_then(|derived| derived.changes.get(*obligation));
-                let changes = changes.map_or(0, |&changes| changes * each);
+                let changes = changes.map_or(0, |&changes| 4 * changes * each);
                 let start = changes.saturating_mul(points).saturating_add(entries);
                 controls().map(at_controls).fold(start, usize::saturating_add)
             }
@@ -68,8 +68,7 @@ impl<E: Enclosure> Checker<'_, E> {
     }
 }
 
-/// A quarter of the operations of a test on its matrices and on all their sign vertices, at all vertices of
-/// `m` coordinates.
+/// The operations of a test on its matrices and on all their sign vertices, at all vertices of `m` coordinates.
 fn at_vertices(test: &Test, rows: &[Row<Formula>], m: usize) -> usize {
     let n = test.rows(rows).len();
     let (k, matrices) = match test {
@@ -79,5 +78,5 @@ fn at_vertices(test: &Test, rows: &[Row<Formula>], m: usize) -> usize {
         _ => (m, 1),
     };
     let signs = (1usize << k) / 2;
-    ((matrices * (n * k * k + signs * k * k * k / 6)) << m) / 4
+    (matrices * (n * k * k + signs * k * k * k / 6)) << m
 }

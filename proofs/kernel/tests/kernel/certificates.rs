@@ -128,9 +128,12 @@ fn costly(leaves: usize, precision: u32) -> Certificate {
     certificate(&own, Verdict::Certified, Proof::Tree(Tree { precision, chords: None, nodes }))
 }
 
-/// Matrices at vertices are counted: eight such leaves would take eight seconds.
+/// Matrices at vertices are counted, in integers of any size more: such a leaf takes an eighth of a second there, with
+/// 1,024 bits a second.
 #[test]
 fn matrices_in_six_coordinates_are_work() {
     assert_eq!(check(&costly(2, 52)), Ok(()));
+    assert_eq!(check(&costly(64, 52)), Err(Rejected::Work));
+    assert_eq!(check(&costly(8, 60)), Err(Rejected::Work));
     assert_eq!(check(&costly(8, 1024)), Err(Rejected::Work));
 }
