@@ -43,8 +43,10 @@ Inductive evidence :=
   | ByTolerances (e : evidence) (ends : list (nat * Tolerances.choice)) (directions : list (list Z))
   (* with directions of one scale, by the numbers of their parameters, and which of these are the same of all machines then *)
   | OfOneScale (groups : list (list nat)) (ones : list nat) (e : evidence)
-  (* with tolerances apart, of the directions between each of these and the next one: less n over 2^places times what says so *)
-  | ByFan (parts : list (list Z * Z * N * evidence)).
+  (* of the directions between each of these and the next one: less n over 2^places times what says so *)
+  | ByFan (parts : list (list Z * Z * N * evidence))
+  (* condition numbers: [mu] as of [ByConditioning], and each bound by itself *)
+  | ByBetween (places : N) (mu : list Z) (lower upper : evidence).
 
 (** Steps name tests by their number, counted from zero. *)
 Inductive tree :=
@@ -143,7 +145,7 @@ Definition shows (values : list (option slope)) (m : nat) (less : option slope) 
   | SigmaMin low, ByLower places Y => are_defined values && over_rows values whole (sigma_min bits m (raised less (constant low)) places Y)
   | SigmaMin low, ByLowerDivided places Y => are_defined values && over_rows values divided (sigma_min bits m (raised less (constant low)) places Y)
   | SigmaMin low, ByRank places Y => are_defined values &&
-      match less with None => (lo low =? 0)%Z && (hi low =? 0)%Z && over_rows values whole (full_rank bits m places Y) | Some _ => false end
+      ((lo low =? 0)%Z && (hi low =? 0)%Z && over_rows values whole (chords bits m less places Y))
   | SigmaMax high, ByTest => over_rows values whole (sigma_max bits m (lowered less (constant high)))
   | SigmaMax high, ByDivided => over_rows values divided (sigma_max bits m (lowered less (constant high)))
   | Conditioning c2, ByConditioning places Y mu => over_rows values whole (conditioned m less c2 places Y (mu_slope places mu))
@@ -224,10 +226,7 @@ Definition shows_apart (values : list (option slope)) (cell : list fixed) (less 
   match t, e, directions with
   | SigmaMin low, ByLower places Y, [v] => are_defined values && over whole (fun _ t => lower v (add low t) places Y)
   | SigmaMin low, ByRank places Y, [v] => are_defined values &&
-      match less with
-      | None => (lo low =? 0)%Z && (hi low =? 0)%Z && over whole (fun _ t r => lower v zero places Y (map Tolerances.without_D r))
-      | Some _ => false
-      end
+      ((lo low =? 0)%Z && (hi low =? 0)%Z && over whole (fun _ t r => lower v t places Y (map Tolerances.without_D r)))
   | Least r low, ByLower places Y, [v] => over r (fun _ t => lower v (add low t) places Y)
   | SigmaMax high, ByTest, [v] => over whole (fun _ t => upper v (sub high t))
   | Conditioning c2, ByConditioning places Y mu, [u; v] => let mu := mu_slope places mu in
@@ -272,23 +271,70 @@ Definition shows_wedge (values : list (option slope)) (cell : list fixed) (less 
   match t, e with
   | SigmaMin low, ByLower places Y => are_defined values && over whole (fun t => lower (add low t) places Y)
   | SigmaMin low, ByRank places Y => are_defined values &&
-      match less with
-      | None => (lo low =? 0)%Z && (hi low =? 0)%Z && over whole (fun t r => lower zero places Y (map Tolerances.without_D r))
-      | Some _ => false
-      end
+      ((lo low =? 0)%Z && (hi low =? 0)%Z && over whole (fun t r => lower t places Y (map Tolerances.without_D r)))
   | Least r low, ByLower places Y => over r (fun t => lower (add low t) places Y)
   | SigmaMax high, ByTest => over whole (fun t => upper (sub high t))
   | _, _ => false
   end.
+(** With no tolerances apart there is no direction of them. *)
 Definition shows_along (values : list (option slope)) (cell : list fixed) (t : test) (b c : list Z) (n : Z) (places : N) (e : evidence) : bool :=
+  let inside_of k p f := match inside cell with Some tangent => (0 <=? k)%Z && f (Some (dyadic_slope k p tangent)) | None => false end in
+  let none := map (fun _ => 0%Z) cell in
   match e with
-  | ByTolerances (Inside e k p) ends [v] =>
-      match inside cell with
-      | Some tangent => (0 <=? k)%Z && shows_wedge values cell (Some (dyadic_slope k p tangent)) t e ends v b c n places
-      | None => false
-      end
+  | ByTolerances (Inside e k p) ends [v] => inside_of k p (fun less => shows_wedge values cell less t e ends v b c n places)
   | ByTolerances e ends [v] => shows_wedge values cell None t e ends v b c n places
-  | _ => false
+  | ByTolerances _ _ _ => false
+  | Inside e k p => inside_of k p (fun less => shows_wedge values cell less t e [] none b c n places)
+  | e => shows_wedge values cell None t e [] none b c n places
+  end.
+
+(** One bound of a condition number, [mu], or where [upper] c^2 mu, at the vertices; of the directions of a wedge, or of all. *)
+Definition shows_half (values : list (option slope)) (cell : list fixed) (upper : option fixed) (mu : slope) (wedge : option (list Z * list Z * Z * N))
+    (less : option slope) (e : evidence) (ends : list (nat * Tolerances.choice)) (direction : list Z) : bool :=
+  let m := length cell in
+  let coords := coords_from 0 cell in
+  let machine := run (option slope) None (slope_op bits coords (map constant (Tolerances.starts_from ends 0 params))) tape [] in
+  let duals := run Tolerances.dual (None, []) (Tolerances.dual_op bits coords (map constant params) (map fst ends)) tape [] in
+  let of := multi_of values machine duals ends in
+  let subtracted := match less with Some t => t | None => constant zero end in
+  let over (holds : list bool -> fixed -> list (Tolerances.varied fixed) -> bool) :=
+    match rows_apart values of whole with
+    | Some r => forallb (fun s => holds s (at_vertex s subtracted) (map (Tolerances.varied_at bits s (Tolerances.steps ends params)) r)) (signs m)
+    | None => false
+    end in
+  let definite t := match t with Some t => Solve.is_definite bits m t | None => false end in
+  let least s t := neg (add (at_vertex s mu) t) in
+  let greatest c2 s t := sub (mul bits c2 (at_vertex s mu)) t in
+  forallb (fun j => Nat.ltb j (length params)) (map fst ends) && are_once (map fst ends) && Nat.eqb (length direction) m &&
+  match wedge with
+  | None =>
+      let w := map (Fixed.integer bits) direction in
+      match upper, e with
+      | None, ByLower places Y => over (fun s t r => definite (Tolerances.lower_apart bits w places Y r (repeat [least s t] m)))
+      | Some c2, ByTest => over (fun s t r => definite (Tolerances.upper_apart bits w r (repeat [greatest c2 s t] m)))
+      | _, _ => false
+      end
+  | Some (b, c, n, pl) =>
+      let '(k, w, q, d) := toward_of direction in
+      let w' := map (fun x => Arithmetic.dyadic x q (Fixed.integer bits 1)) w in
+      let start a := Toward.less_wedge bits k w' b c n pl (Toward.squares bits k w' m a []) in
+      Nat.eqb (length w) m && Nat.eqb (length b) m && (0 <=? n)%Z && (pl <? 64)%N && Nat.ltb k m && negb (nth k w 0 =? 0)%Z &&
+      match upper, e with
+      | None, ByLower places Y => over (fun s t r => definite (Toward.lower_toward bits k w' d places Y r (start (least s t))))
+      | Some c2, ByTest => over (fun s t r => definite (Toward.upper_toward bits k w' d r (start (greatest c2 s t))))
+      | _, _ => false
+      end
+  end.
+Definition half_on (values : list (option slope)) (cell : list fixed) (upper : option fixed) (mu : slope) (wedge : option (list Z * list Z * Z * N)) (e : evidence) : bool :=
+  let half := shows_half values cell upper mu wedge in
+  let inside_of k p f := match inside cell with Some tangent => (0 <=? k)%Z && f (Some (dyadic_slope k p tangent)) | None => false end in
+  let none := map (fun _ => 0%Z) cell in
+  match e with
+  | ByTolerances (Inside e k p) ends [v] => inside_of k p (fun less => half less e ends v)
+  | ByTolerances e ends [v] => half None e ends v
+  | ByTolerances _ _ _ => false
+  | Inside e k p => inside_of k p (fun less => half less e [] none)
+  | e => half None e [] none
   end.
 
 Definition shows_on (values : list (option slope)) (cell : list fixed) (t : test) (e : evidence) : bool :=
@@ -382,6 +428,31 @@ Definition holds_along (P : list R -> Prop) (m : nat) (x : list R) (t : test) : 
   | Least r low => of_these x (map_rows formula_at r) (fun r => forall kappa2 v, contains low kappa2 -> length v = m -> nonzero v -> P v -> kappa2 * dot v v < energy r v)
   | _ => False
   end.
+Lemma energy_nonneg : forall r v, positive_D r -> 0 <= energy r v.
+Proof.
+  intros r v. induction 1 as [| [a d] q h1 _ IH]; cbn [energy snd] in *; [lra |].
+  assert (0 <= dot a v ^ 2 / d) by (apply Rmult_le_pos; [apply pow2_ge_0 | apply Rlt_le, Rinv_0_lt_compat, h1]). lra.
+Qed.
+
+(** One bound of a condition number, with [mu] at the point: of some directions. *)
+Definition half_holds (P : list R -> Prop) (m : nat) (x : list R) (upper : option fixed) (mu : R) : Prop :=
+  of_these x (map_rows formula_at whole) (fun r => forall v, length v = m -> nonzero v -> P v ->
+    match upper with None => mu * dot v v < energy r v | Some c2 => forall c, contains c2 c -> energy r v < c * mu * dot v v end).
+Lemma half_of_fan : forall m x upper mu cs, cs <> [] -> (forall p, In p (Toward.wedges cs) -> half_holds (Toward.in_wedge (fst p) (snd p)) m x upper mu) -> half_holds (fun _ => True) m x upper mu.
+Proof.
+  intros m x upper mu cs n h. destruct (Toward.fan_covers cs [] n) as [p0 [i0 _]]. split; [exact (proj1 (h p0 i0)) |].
+  intros v lv nz _. destruct (Toward.fan_covers cs v n) as [p [i w]]. exact (proj2 (h p i) v lv nz w).
+Qed.
+Lemma holds_of_halves : forall m x c2 mu, 0 < mu -> half_holds (fun _ => True) m x None mu -> half_holds (fun _ => True) m x (Some c2) mu -> holds m x (Conditioning c2).
+Proof.
+  intros m x c2 mu p [R A] [_ B]. exists (map_rows formula_at whole). split; [left; reflexivity |]. split; [exact R |]. intros c u v hc lu lv nu nv.
+  specialize (A v lv nv I). specialize (B u lu nu I c hc). pose proof (energy_nonneg _ u (proj2 R)) as E0. set (M := map_rows (value x theta) (map_rows formula_at whole)) in *. clearbody M.
+  unfold nonzero in nu, nv. set (U := dot u u) in *. set (V := dot v v) in *. clearbody U V.
+  assert (c0 : 0 < c). { apply Rnot_le_lt. intro n. assert (c * mu <= 0) by nra. nra. }
+  apply Rlt_trans with (c * mu * U * V); [apply Rmult_lt_compat_r; assumption |].
+  replace (c * mu * U * V) with (c * U * (mu * V)) by ring. replace (c * energy M v * U) with (c * U * energy M v) by ring.
+  apply Rmult_lt_compat_l; [apply Rmult_lt_0_compat |]; assumption.
+Qed.
 Lemma holds_of_fan : forall m x t cs, cs <> [] -> (forall p, In p (Toward.wedges cs) -> holds_along (Toward.in_wedge (fst p) (snd p)) m x t) -> holds m x t.
 Proof.
   intros m x t cs n h.
@@ -493,12 +564,6 @@ Qed.
 Lemma dot_self : forall v, 0 <= dot v v.
 Proof. induction v as [| a v IH]; cbn [dot]; [lra |]. pose proof (Rle_0_sqr a) as p. unfold Rsqr in p. lra. Qed.
 
-Lemma energy_nonneg : forall r v, positive_D r -> 0 <= energy r v.
-Proof.
-  intros r v. induction 1 as [| [a d] q h1 _ IH]; cbn [energy snd] in *; [lra |].
-  assert (0 <= dot a v ^ 2 / d) by (apply Rmult_le_pos; [apply pow2_ge_0 | apply Rlt_le, Rinv_0_lt_compat, h1]). lra.
-Qed.
-
 Lemma is_sign_sound : forall less f, harmless less -> is_sign values (length lambda) less f = true -> is_nonneg x f.
 Proof.
   intros less f hs h. unfold is_sign in h. destruct (nth f values None) as [s |] eqn:n; [| discriminate].
@@ -529,7 +594,7 @@ Qed.
 Lemma shows_sound : forall less t e, harmless less -> shows values (length cell) less t e = true -> holds (length cell) x t.
 Proof.
   rewrite <- lambda_length. intros less t e hs h.
-  destruct t as [low | high | c2 | f | r low | f g | p p' q q' distance | i k2 | r0 places0 Y0 | distance joints | row twice a b k2 ls], e as [| | places Y | places Y | places Y | places Y mu | | | | | | | | places Y | | places Y kappa | e0 ends0 directions0 | |];
+  destruct t as [low | high | c2 | f | r low | f g | p p' q q' distance | i k2 | r0 places0 Y0 | distance joints | row twice a b k2 ls], e as [| | places Y | places Y | places Y | places Y mu | | | | | | | | places Y | | places Y kappa | e0 ends0 directions0 | | |];
     cbn [shows holds] in *; try discriminate.
   1-3: apply andb_true_iff in h as [hd h]; split; [exact (are_defined_sound hd) |].
   1-2: eapply over_rows_sound; [| exact h |]; [auto |]; cbn beta; intros s es sm rel pos kappa2 v hk len nz;
@@ -537,11 +602,11 @@ Proof.
     pose proof (sigma_min_sound bits _ _ _ _ _ _ _ _ sm he rel lambda_in len nz pos) as S;
     rewrite at_constant in le; pose proof (dot_self v);
     apply Rle_lt_trans with (2 := S), Rmult_le_compat_r; assumption.
-  - destruct less; [discriminate |]. apply andb_true_iff in h as [z h]. apply andb_true_iff in z as [z1 z2].
+  - apply andb_true_iff in h as [z h]. apply andb_true_iff in z as [z1 z2].
     apply Z.eqb_eq in z1, z2. eapply over_rows_sound; [| exact h |]; [auto |]. cbn beta.
     intros s es sm rel pos kappa2 v [k1 k2] len nz. rewrite z1 in k1. rewrite z2 in k2.
     pose proof (unit_R_pos bits). assert (kappa2 = 0) by nra. subst kappa2. rewrite Rmult_0_l.
-    eapply full_rank_sound; eassumption.
+    apply (rank_energy places Y _ v pos). eapply chords_sound; eassumption.
   - eapply over_rows_sound; [| exact h |]; [auto |]; cbn beta; intros s es sm rel pos k2 v hk len nz;
     destruct (lowered_in less _ _ hs (constant_in bits _ _ hk)) as [e' [he le]];
     pose proof (sigma_max_sound bits _ _ _ _ _ _ sm he rel lambda_in len nz pos) as S;
@@ -836,23 +901,24 @@ Proof.
       replace (dot A0 []) with 0 by (destruct A0; reflexivity). lra. }
   assert (Constant : forall a k, contains a k -> forall s, length s = length cell -> contains ((fun _ : list bool => a) s) ((fun _ : list R => k) (map corner s))) by (intros; assumption).
   destruct t as [low | high | c2 | f | r low | f g | p p' q q' distance | i k2 | r0 places0 Y0 | distance joints | row twice a b k2 ls],
-    e as [| | places Y | places Y | places Y | places Y mu | | | | | | | | places Y | | places Y kappa | e0 ends0 directions0 | |]; try discriminate; try (destruct directions; discriminate).
+    e as [| | places Y | places Y | places Y | places Y mu | | | | | | | | places Y | | places Y kappa | e0 ends0 directions0 | | |]; try discriminate; try (destruct directions; discriminate).
   - destruct directions as [| u [|]]; try discriminate. apply andb_true_iff in h as [hd' h]. cbn [holds]. split; [exact (are_defined_sound cell x lambda keep (encloses_all theta theta_in) hd') |].
     exists (map_rows formula_at whole). split; [left; reflexivity |].
     assert (Reg : regular x (map_rows formula_at whole)) by exact (proj1 (Over _ (fun s t i => match Tolerances.lower_apart bits (map (Fixed.integer bits) u) places Y i (repeat [neg (add low t)] (length cell)) with Some t => Solve.is_definite bits (length cell) t | None => false end) h)).
     split; [exact Reg |]. intros kappa2 v hk len nz. exact (proj2 (Low (fun _ => low) (fun _ => kappa2) _ places Y whole v (Still _) (Constant _ _ hk) len nz h)).
-  - destruct directions as [| u [|]]; try discriminate. apply andb_true_iff in h as [hd' h]. destruct less; [discriminate |]. apply andb_true_iff in h as [z h]. apply andb_true_iff in z as [z1 z2]. apply Z.eqb_eq in z1, z2.
+  - destruct directions as [| u [|]]; try discriminate. apply andb_true_iff in h as [hd' h]. apply andb_true_iff in h as [z h]. apply andb_true_iff in z as [z1 z2]. apply Z.eqb_eq in z1, z2.
     cbn [holds]. split; [exact (are_defined_sound cell x lambda keep (encloses_all theta theta_in) hd') |].
     exists (map_rows formula_at whole). split; [left; reflexivity |].
-    destruct (Over whole (fun s t i => match Tolerances.lower_apart bits (map (Fixed.integer bits) u) places Y (map Tolerances.without_D i) (repeat [neg zero] (length cell)) with Some t => Solve.is_definite bits (length cell) t | None => false end) h) as [reg G].
+    destruct (Over whole (fun s t i => match Tolerances.lower_apart bits (map (Fixed.integer bits) u) places Y (map Tolerances.without_D i) (repeat [neg t] (length cell)) with Some t => Solve.is_definite bits (length cell) t | None => false end) h) as [reg G].
     split; [exact reg |]. intros kappa2 v [k1 k2] len nz. rewrite z1 in k1. rewrite z2 in k2. pose proof (unit_R_pos bits). assert (kappa2 = 0) by nra. subst kappa2. rewrite Rmult_0_l.
     apply (rank_energy places Y _ v (proj2 reg)).
     assert (W : forall w r, form (map (fun p => (fst p, 0)) w) r v = form w (map (fun p => (fst p, 0)) r) v).
     { induction w as [| [a b] w I]; intros [| [A D] r]; cbn [map form fst snd]; try reflexivity. rewrite I. ring. }
-    rewrite <- W. specialize (G (fun _ => 0) 0 (map (fun p => (fst p, 0)) (lower_weights places Y v)) v (Still _)). cbv beta in G. rewrite Rmult_0_l, Rplus_0_l, Rplus_0_l in G. apply G.
-    intros s t' T i real _ hh _ hr _. rewrite W, Rmult_0_l, !Rplus_0_l.
+    rewrite <- W. specialize (G (fun _ => 0) (- dot v v) (map (fun p => (fst p, 0)) (lower_weights places Y v)) v (Still _)). cbv beta in G.
+    pose proof (Rmult_le_pos _ _ (dot_self v) el0). enough (P0 : 0 < 0 + - dot v v * at_lambda lambda el + form (map (fun p => (fst p, 0)) (lower_weights places Y v)) (map_rows (value x theta) (map_rows formula_at whole)) v) by lra. apply G.
+    intros s t' T i real _ hh ht hr _. rewrite W.
     assert (hr' : Forall2 (Tolerances.varied_in bits) (map Tolerances.without_D i) (map (fun A => (fst A, 0)) real)) by (eapply map_related; [| exact hr]; intros; apply Tolerances.without_D_sound; assumption).
-    pose proof (lower_apart_shows _ _ 0 _ _ _ _ _ _ hh hr' (zero_sound bits) len nz) as P. rewrite Rmult_0_l in P. exact P.
+    pose proof (lower_apart_shows _ _ T _ _ _ _ _ _ hh hr' ht len nz) as P. lra.
   - destruct directions as [| u [|]]; try discriminate. cbn [holds]. exists (map_rows formula_at whole). split; [left; reflexivity |].
     assert (Reg : regular x (map_rows formula_at whole)) by exact (proj1 (Over _ (fun s t i => match Tolerances.upper_apart bits (map (Fixed.integer bits) u) i (repeat [sub high t] (length cell)) with Some t => Solve.is_definite bits (length cell) t | None => false end) h)).
     split; [exact Reg |]. intros k v hk len nz. exact (proj2 (Up (fun _ => high) (fun _ => k) _ whole v (Still _) (Constant _ _ hk) len nz h)).
@@ -895,14 +961,17 @@ Qed.
 
 Lemma rows_shown : forall less el r (holds_at : list bool -> fixed -> list (Tolerances.varied fixed) -> bool), entry_in bits less el ->
   match rows_apart values of r with Some srs => forallb (fun s => holds_at s (at_vertex s less) (map (Tolerances.varied_at bits s (Tolerances.steps ends params)) srs)) (signs (length cell)) | None => false end = true ->
-  regular x (map_rows formula_at r) /\ forall c p w v, (forall s t T i real, length s = length cell -> holds_at s t i = true -> contains t T -> Forall2 (Tolerances.varied_in bits) i real -> 0 < c + p * T + form w real v) ->
-    0 < c + p * at_lambda lambda el + form w (map_rows (value x theta) (map_rows formula_at r)) v.
+  regular x (map_rows formula_at r) /\ forall c p w v,
+    (forall l l1 l2 a b, (forall e, at_lambda l e = a * at_lambda l1 e + b * at_lambda l2 e) -> a + b = 1 -> c l = a * c l1 + b * c l2) ->
+    (forall s t T i real, length s = length cell -> holds_at s t i = true -> contains t T -> Forall2 (Tolerances.varied_in bits) i real -> 0 < c (map corner s) + p * T + form w real v) ->
+    0 < c lambda + p * at_lambda lambda el + form w (map_rows (value x theta) (map_rows formula_at r)) v.
 Proof.
   intros less el r holds_at hel k. destruct strides as [theta0 [mss [h0 [h1 [same [hm hd]]]]]]. destruct (rows_apart values of r) as [srs |] eqn:er; [| discriminate].
-  destruct (rows_apart_sound theta0 mss r srs h0 h1 same hd er) as [reg [es [e1 e2]]]. split; [exact reg |]. intros c p w v H. rewrite e2.
-  apply (vertices_apart mss srs es less el holds_at (fun _ => c) p w v hm e1 hel k); [| exact H].
-  intros l l1 l2 a b _ s. replace (a * c + b * c) with ((a + b) * c) by ring. rewrite s. ring.
+  destruct (rows_apart_sound theta0 mss r srs h0 h1 same hd er) as [reg [es [e1 e2]]]. split; [exact reg |]. intros c p w v affine H. rewrite e2.
+  exact (vertices_apart mss srs es less el holds_at c p w v hm e1 hel k affine H).
 Qed.
+Lemma still : forall (k : R) (l l1 l2 : list R) a b, (forall e : entry, at_lambda l e = a * at_lambda l1 e + b * at_lambda l2 e) -> a + b = 1 -> (fun _ : list R => k) l = a * k + b * k.
+Proof. intros k l l1 l2 a b _ s. replace (a * k + b * k) with ((a + b) * k) by ring. rewrite s. ring. Qed.
 
 Section Wedge.
 Variables (direction b c : list Z) (n : Z) (places : N).
@@ -973,7 +1042,7 @@ Proof.
   { intros low r pl Y g1. destruct (rows_shown subtracted el r (fun s t i => match Toward.lower_toward bits k w' d pl Y i
       (Toward.less_wedge bits k w' b c n places (Toward.squares bits k w' (length cell) (neg (add low t)) [])) with Some t => Solve.is_definite bits (length cell) t | None => false end) hel g1) as [R G].
     split; [exact R |]. intros K v hk lv nz iv. pose proof (lower_energy pl Y _ v (proj2 R)) as E. pose proof (dot_self v) as d0.
-    specialize (G (- (K * dot v v)) (- dot v v) (lower_weights pl Y v) v).
+    specialize (G (fun _ => - (K * dot v v)) (- dot v v) (lower_weights pl Y v) v (still _)). cbv beta in G.
     assert (0 < - (K * dot v v) + - dot v v * at_lambda lambda el + form (lower_weights pl Y v) (map_rows (value x theta) (map_rows formula_at r)) v).
     { apply G. intros s t' T i real ls hh ht hr.
       pose proof (lower_wedge_shows b c n places n0 k w q d lw kb rg (add low t') (K + T) pl Y i real v hh hr (add_sound bits _ _ _ _ hk ht) lv nz iv). lra. }
@@ -981,26 +1050,71 @@ Proof.
   destruct t as [low | high | c2 | f | r low | f f' | p p' q0 q' distance | i k2 | r0 places0 Y0 | distance joints | row twice a0 b0 k2 ls], e; try discriminate; cbn [holds_along].
   - apply andb_true_iff in h as [hd' h]. split; [exact (are_defined_sound cell x lambda keep (encloses_all theta theta_in) hd') |]. exact (Low low whole _ _ h).
   - apply andb_true_iff in h as [hd' h]. split; [exact (are_defined_sound cell x lambda keep (encloses_all theta theta_in) hd') |].
-    destruct less; [discriminate |]. apply andb_true_iff in h as [z h]. apply andb_true_iff in z as [z1 z2]. apply Z.eqb_eq in z1, z2.
+    apply andb_true_iff in h as [z h]. apply andb_true_iff in z as [z1 z2]. apply Z.eqb_eq in z1, z2.
     destruct (rows_shown subtracted el whole (fun s t i => match Toward.lower_toward bits k w' d places0 Y (map Tolerances.without_D i)
-      (Toward.less_wedge bits k w' b c n places (Toward.squares bits k w' (length cell) (neg zero) [])) with Some t => Solve.is_definite bits (length cell) t | None => false end) hel h) as [R G].
+      (Toward.less_wedge bits k w' b c n places (Toward.squares bits k w' (length cell) (neg t) [])) with Some t => Solve.is_definite bits (length cell) t | None => false end) hel h) as [R G].
     split; [exact R |]. intros kappa2 v [k1 k2] lv nz iv. rewrite z1 in k1. rewrite z2 in k2. pose proof (unit_R_pos bits). assert (kappa2 = 0) by nra. subst kappa2. rewrite Rmult_0_l.
     apply (rank_energy places0 Y _ v (proj2 R)).
     assert (N : forall w r, form (map (fun p => (fst p, 0)) w) r v = form w (map (fun p => (fst p, 0)) r) v).
     { induction w0 as [| [a1 b1] w0 I]; intros [| [A D] r]; cbn [map form fst snd]; try reflexivity. rewrite I. ring. }
-    rewrite <- N. specialize (G 0 0 (map (fun p => (fst p, 0)) (lower_weights places0 Y v)) v). rewrite Rmult_0_l, !Rplus_0_l in G. apply G.
-    intros s t' T i real _ hh _ hr. rewrite N, Rmult_0_l, !Rplus_0_l.
+    rewrite <- N. specialize (G (fun _ => 0) (- dot v v) (map (fun p => (fst p, 0)) (lower_weights places0 Y v)) v (still _)). cbv beta in G.
+    pose proof (Rmult_le_pos _ _ (dot_self v) el0). enough (P0 : 0 < 0 + - dot v v * at_lambda lambda el + form (map (fun p => (fst p, 0)) (lower_weights places0 Y v)) (map_rows (value x theta) (map_rows formula_at whole)) v) by lra. apply G.
+    intros s t' T i real _ hh ht hr. rewrite N.
     assert (hr' : Forall2 (Tolerances.varied_in bits) (map Tolerances.without_D i) (map (fun A => (fst A, 0)) real)) by (eapply map_related; [| exact hr]; intros; apply Tolerances.without_D_sound; assumption).
-    pose proof (lower_wedge_shows b c n places n0 k w q d lw kb rg zero 0 places0 Y _ _ v hh hr' (zero_sound bits) lv nz iv) as P. rewrite Rmult_0_l in P. exact P.
+    pose proof (lower_wedge_shows b c n places n0 k w q d lw kb rg t' T places0 Y _ _ v hh hr' ht lv nz iv) as P. lra.
   - destruct (rows_shown subtracted el whole (fun s t i => match Toward.upper_toward bits k w' d i
       (Toward.less_wedge bits k w' b c n places (Toward.squares bits k w' (length cell) (sub high t) [])) with Some t => Solve.is_definite bits (length cell) t | None => false end) hel h) as [R G].
     split; [exact R |]. intros K v hk lv nz iv. destruct (upper_energy _ v (proj2 R)) as [z E]. pose proof (dot_self v) as d0.
-    specialize (G (K * dot v v) (- dot v v) (upper_weights z) v).
+    specialize (G (fun _ => K * dot v v) (- dot v v) (upper_weights z) v (still _)). cbv beta in G.
     assert (0 < K * dot v v + - dot v v * at_lambda lambda el + form (upper_weights z) (map_rows (value x theta) (map_rows formula_at whole)) v).
     { apply G. intros s t' T i real ls hh ht hr.
       pose proof (upper_wedge_shows b c n places n0 k w q d lw kb rg (sub high t') (K - T) i real v hh hr (sub_sound bits _ _ _ _ hk ht) lv nz iv z). lra. }
     assert (0 <= dot v v * at_lambda lambda el) by (apply Rmult_le_pos; assumption). lra.
   - exact (Low low r _ _ h).
+Qed.
+
+Definition in_part (wedge : option (list Z * list Z * Z * N)) (v : list R) : Prop := match wedge with Some (b, c, _, _) => Toward.in_wedge b c v | None => True end.
+Theorem shows_half_sound : forall upper mu q wedge less e direction, entry_in bits mu q -> harmless lambda less ->
+  shows_half values cell upper mu wedge less e ends direction = true -> half_holds (in_part wedge) (length cell) x upper (at_lambda lambda q).
+Proof.
+  intros upper mu q wedge less e direction hq hs h. unfold shows_half in h. cbv zeta in h. apply andb_true_iff in h as [_ h].
+  assert (L : exists el, entry_in bits match less with Some t => t | None => constant zero end el /\ 0 <= at_lambda lambda el).
+  { destruct less as [s |]; [exact hs |]. exists (0, []). split; [apply constant_in, zero_sound | unfold at_lambda; cbn; lra]. }
+  destruct L as [el [hel el0]]. set (subtracted := match less with Some t => t | None => constant zero end) in *.
+  assert (Low : forall (P : list R -> Prop) places Y (form_at : fixed -> list (Tolerances.varied fixed) -> option triangle),
+    (forall a K i r v, match form_at (neg a) i with Some t => Solve.is_definite bits (length cell) t | None => false end = true -> Forall2 (Tolerances.varied_in bits) i r -> contains a K ->
+      length v = length cell -> nonzero v -> P v -> K * dot v v < form (lower_weights places Y v) r v) ->
+    match rows_apart values of whole with Some srs => forallb (fun s => match form_at (neg (add (at_vertex s mu) (at_vertex s subtracted))) (map (Tolerances.varied_at bits s (Tolerances.steps ends params)) srs) with
+      Some t => Solve.is_definite bits (length cell) t | None => false end) (signs (length cell)) | None => false end = true ->
+    half_holds P (length cell) x None (at_lambda lambda q)).
+  { intros P places Y form_at H g. destruct (rows_shown subtracted el whole (fun s t i => match form_at (neg (add (at_vertex s mu) t)) i with Some t => Solve.is_definite bits (length cell) t | None => false end) hel g) as [R G].
+    split; [exact R |]. intros v lv nz iv. pose proof (lower_energy places Y _ v (proj2 R)) as E.
+    specialize (G (fun l => - (at_lambda l q * dot v v)) (- dot v v) (lower_weights places Y v) v ltac:(intros l l1 l2 a b h3 _; cbv beta; rewrite (h3 q); ring)). cbv beta in G.
+    pose proof (Rmult_le_pos _ _ (dot_self v) el0). enough (0 < - (at_lambda lambda q * dot v v) + - dot v v * at_lambda lambda el + form (lower_weights places Y v) (map_rows (value x theta) (map_rows formula_at whole)) v) by lra.
+    apply G. intros s t T i real ls hh ht hr. pose proof (H _ _ i real v hh hr (add_sound bits _ _ _ _ (at_vertex_sound bits s _ _ hq) ht) lv nz iv). lra. }
+  assert (Up : forall (P : list R -> Prop) c2 (form_at : fixed -> list (Tolerances.varied fixed) -> option triangle),
+    (forall a K i r v, match form_at a i with Some t => Solve.is_definite bits (length cell) t | None => false end = true -> Forall2 (Tolerances.varied_in bits) i r -> contains a K ->
+      length v = length cell -> nonzero v -> P v -> forall z, 0 < K * dot v v + form (upper_weights z) r v) ->
+    match rows_apart values of whole with Some srs => forallb (fun s => match form_at (sub (mul bits c2 (at_vertex s mu)) (at_vertex s subtracted)) (map (Tolerances.varied_at bits s (Tolerances.steps ends params)) srs) with
+      Some t => Solve.is_definite bits (length cell) t | None => false end) (signs (length cell)) | None => false end = true ->
+    half_holds P (length cell) x (Some c2) (at_lambda lambda q)).
+  { intros P c2 form_at H g. destruct (rows_shown subtracted el whole (fun s t i => match form_at (sub (mul bits c2 (at_vertex s mu)) t) i with Some t => Solve.is_definite bits (length cell) t | None => false end) hel g) as [R G].
+    split; [exact R |]. intros v lv nz iv c hc. destruct (upper_energy _ v (proj2 R)) as [z E].
+    specialize (G (fun l => c * at_lambda l q * dot v v) (- dot v v) (upper_weights z) v ltac:(intros l l1 l2 a b h3 _; cbv beta; rewrite (h3 q); ring)). cbv beta in G.
+    pose proof (Rmult_le_pos _ _ (dot_self v) el0). enough (0 < c * at_lambda lambda q * dot v v + - dot v v * at_lambda lambda el + form (upper_weights z) (map_rows (value x theta) (map_rows formula_at whole)) v) by lra.
+    apply G. intros s t T i real ls hh ht hr. pose proof (H _ _ i real v hh hr (sub_sound bits _ _ _ _ (mul_sound bits _ _ _ _ hc (at_vertex_sound bits s _ _ hq)) ht) lv nz iv z). lra. }
+  destruct wedge as [[[[b c] n] pl] |]; cbn [in_part].
+  - destruct (toward_of direction) as [[[k w] q0] d]. apply andb_true_iff in h as [g h]. apply andb_true_iff in g as [g rg]. apply andb_true_iff in g as [g kb]. apply andb_true_iff in g as [g _].
+    apply andb_true_iff in g as [g n0]. apply andb_true_iff in g as [lw _]. apply Nat.eqb_eq in lw. set (w' := map (fun x => Arithmetic.dyadic x q0 (Fixed.integer bits 1)) w) in *. destruct upper as [c2 |], e; try discriminate.
+    + refine (Up _ c2 (fun a i => Toward.upper_toward bits k w' d i (Toward.less_wedge bits k w' b c n pl (Toward.squares bits k w' (length cell) a []))) _ h).
+      intros a K i r v g hr ha lv nz iv z. exact (upper_wedge_shows b c n pl n0 k w q0 d lw kb rg a K i r v g hr ha lv nz iv z).
+    + refine (Low _ places Y (fun a i => Toward.lower_toward bits k w' d places Y i (Toward.less_wedge bits k w' b c n pl (Toward.squares bits k w' (length cell) a []))) _ h).
+      intros a K i r v g hr ha lv nz iv. exact (lower_wedge_shows b c n pl n0 k w q0 d lw kb rg a K places Y i r v g hr ha lv nz iv).
+  - destruct upper as [c2 |], e; try discriminate.
+    + refine (Up (fun _ => True) c2 (fun a i => Tolerances.upper_apart bits (map (Fixed.integer bits) direction) i (repeat [a] (length cell))) _ h).
+      intros a K i r v g hr ha lv nz _ z. exact (upper_apart_shows _ _ K _ _ _ _ g hr ha lv nz z).
+    + refine (Low (fun _ => True) places Y (fun a i => Tolerances.lower_apart bits (map (Fixed.integer bits) direction) places Y i (repeat [a] (length cell))) _ h).
+      intros a K i r v g hr ha lv nz _. exact (lower_apart_shows _ _ K _ _ _ _ _ _ g hr ha lv nz).
 Qed.
 End Apart.
 
@@ -1134,14 +1248,20 @@ Proof.
     destruct (dyadic_in bits n places _ _ h1) as [d' [g1 g2]]. exists d'. split; [exact g1 |]. rewrite g2.
     apply Z.leb_le, IZR_le in n0. pose proof (two_power places) as p.
     apply Rmult_le_pos; [| exact h2]. apply Rmult_le_pos; [exact n0 | apply Rlt_le, Rinv_0_lt_compat, p]. }
-  destruct e as [| | | | | | | | | e' n places | | | | | | | e' ends directions | |]; try (apply (K None _ I h)).
+  destruct e as [| | | | | | | | | e' n places | | | | | | | e' ends directions | | |]; try (apply (K None _ I h)).
   - cbn [shows_on] in h. destruct (inside cell) as [tangent |] eqn:i; [| discriminate h]. apply andb_true_iff in h as [n0 h].
     exact (K _ _ (Tangent tangent n places eq_refl n0) h).
-  - unfold shows_on in h. destruct e' as [| | | | | | | | | e' n places | | | | | | | e' ends' directions' | |]; try (exact (Apart None _ _ _ I h)).
+  - unfold shows_on in h. destruct e' as [| | | | | | | | | e' n places | | | | | | | e' ends' directions' | | |]; try (exact (Apart None _ _ _ I h)).
     destruct (inside cell) as [tangent |] eqn:i; [| discriminate h]. apply andb_true_iff in h as [n0 h].
     exact (Apart _ _ _ _ (Tangent tangent n places eq_refl n0) h).
 Qed.
 
+Lemma tangent_harmless : forall lambda k p tangent d, (0 <=? k)%Z = true -> entry_in bits tangent d -> 0 <= at_lambda lambda d -> harmless lambda (Some (dyadic_slope k p tangent)).
+Proof.
+  intros lambda k p tangent d n0 h1 h2. destruct (dyadic_in bits k p _ _ h1) as [d' [g1 g2]]. exists d'. split; [exact g1 |]. rewrite g2.
+  apply Z.leb_le, IZR_le in n0. pose proof (two_power p) as p0.
+  apply Rmult_le_pos; [| exact h2]. apply Rmult_le_pos; [exact n0 | apply Rlt_le, Rinv_0_lt_compat, p0].
+Qed.
 Lemma along_holds : forall keep cell x t b c n places e, Forall2 contains cell x -> allowed x ->
   shows_along (evaluate_kept keep cell) cell t b c n places e = true -> holds_along (Toward.in_wedge b c) (length cell) x t.
 Proof.
@@ -1151,13 +1271,34 @@ Proof.
   { intros less e' ends direction hl k. assert (k' := k). unfold shows_wedge in k'. cbv zeta in k'. destruct (toward_of direction) as [[[k0 w] q] d].
     apply andb_true_iff in k' as [k' _]. do 6 apply andb_true_iff in k' as [k' _]. apply andb_true_iff in k' as [k1 k2].
     exact (shows_wedge_sound cell x lambda el hlam C ends k1 k2 keep less t e' direction b c n places hl k). }
-  destruct e as [| | | | | | | | | | | | | | | | e ends directions | |]; cbn [shows_along] in h; try discriminate.
-  destruct e as [| | | | | | | | | e k p | | | | | | | | |]; try (destruct directions as [| v [|]]; try discriminate; exact (One None _ _ _ I h)).
-  destruct directions as [| v [|]]; try discriminate. destruct (inside cell) as [tangent |] eqn:i; [| discriminate h]. apply andb_true_iff in h as [n0 h].
-  refine (One _ _ _ _ _ h). destruct (inside_sound _ _ _ _ i el ok hd) as [d [h1 h2]].
-  destruct (dyadic_in bits k p _ _ h1) as [d' [g1 g2]]. exists d'. split; [exact g1 |]. rewrite g2.
-  apply Z.leb_le, IZR_le in n0. pose proof (two_power p) as p0.
-  apply Rmult_le_pos; [| exact h2]. apply Rmult_le_pos; [exact n0 | apply Rlt_le, Rinv_0_lt_compat, p0].
+  assert (Tangent : forall k p f, match inside cell with Some tangent => (0 <=? k)%Z && f (Some (dyadic_slope k p tangent)) | None => false end = true ->
+    exists less, harmless lambda less /\ f less = true).
+  { intros k p f g. destruct (inside cell) as [tangent |] eqn:i; [| discriminate]. apply andb_true_iff in g as [n0 g]. exists (Some (dyadic_slope k p tangent)). split; [| exact g].
+    destruct (inside_sound _ _ _ _ i el ok hd) as [d [h1 h2]]. exact (tangent_harmless lambda k p tangent d n0 h1 h2). }
+  unfold shows_along in h. destruct e as [| | | | | | | | | e k p | | | | | | | e ends directions | | |]; try (exact (One None _ _ _ I h)).
+  - destruct (Tangent k p (fun less => shows_wedge (evaluate_kept keep cell) cell less t e [] (map (fun _ => 0%Z) cell) b c n places) h) as [less [hl g]]. exact (One less _ _ _ hl g).
+  - destruct e as [| | | | | | | | | e k p | | | | | | | | | |]; try (destruct directions as [| v [|]]; try discriminate; exact (One None _ _ _ I h)).
+    destruct directions as [| v [|]]; try discriminate. destruct (Tangent k p (fun less => shows_wedge (evaluate_kept keep cell) cell less t e ends v b c n places) h) as [less [hl g]]. exact (One less _ _ _ hl g).
+Qed.
+
+(** The same of a bound of a condition number, with [mu] at the point, which is that of [lambda]. *)
+Lemma half_on_holds : forall keep cell x lambda upper mu q wedge e, entry_in bits mu q -> length lambda = length cell -> Forall (fun t => -1 <= t <= 1) lambda -> allowed x ->
+  Forall2 (fun a p => snd p - centre_of bits a = IZR (half a) / unit_R bits * fst p) cell (combine lambda x) ->
+  (forall k, Slope.holds bits lambda (nth k (coords_from 0 cell) (constant zero)) (nth k (map (centre_of bits) cell) 0) (nth k x 0)) ->
+  half_on (evaluate_kept keep cell) cell upper mu wedge e = true -> half_holds (in_part wedge) (length cell) x upper (at_lambda lambda q).
+Proof.
+  intros keep cell x lambda upper mu q wedge e hq el hlam ok hd C h.
+  assert (One : forall less e ends direction, harmless lambda less -> shows_half (evaluate_kept keep cell) cell upper mu wedge less e ends direction = true -> half_holds (in_part wedge) (length cell) x upper (at_lambda lambda q)).
+  { intros less e' ends direction hl k. assert (k' := k). unfold shows_half in k'. cbv zeta in k'. apply andb_true_iff in k' as [k' _]. apply andb_true_iff in k' as [k' _]. apply andb_true_iff in k' as [k1 k2].
+    exact (shows_half_sound cell x lambda el hlam C ends k1 k2 keep upper mu q wedge less e' direction hq hl k). }
+  assert (Tangent : forall k p f, match inside cell with Some tangent => (0 <=? k)%Z && f (Some (dyadic_slope k p tangent)) | None => false end = true ->
+    exists less, harmless lambda less /\ f less = true).
+  { intros k p f g. destruct (inside cell) as [tangent |] eqn:i; [| discriminate]. apply andb_true_iff in g as [n0 g]. exists (Some (dyadic_slope k p tangent)). split; [| exact g].
+    destruct (inside_sound _ _ _ _ i el ok hd) as [d [h1 h2]]. exact (tangent_harmless lambda k p tangent d n0 h1 h2). }
+  unfold half_on in h. cbv zeta in h. destruct e as [| | | | | | | | | e k p | | | | | | | e ends directions | | |]; try (exact (One None _ _ _ I h)).
+  - destruct (Tangent k p (fun less => shows_half (evaluate_kept keep cell) cell upper mu wedge less e [] (map (fun _ => 0%Z) cell)) h) as [less [hl g]]. exact (One less _ _ _ hl g).
+  - destruct e as [| | | | | | | | | e k p | | | | | | | | | |]; try (destruct directions as [| v [|]]; try discriminate; exact (One None _ _ _ I h)).
+    destruct directions as [| v [|]]; try discriminate. destruct (Tangent k p (fun less => shows_half (evaluate_kept keep cell) cell upper mu wedge less e ends v) h) as [less [hl g]]. exact (One less _ _ _ hl g).
 Qed.
 
 Lemma evaluate_holds : forall cell x t e, Forall2 contains cell x -> allowed x -> shows_on (evaluate cell) cell t e = true -> holds (length cell) x t.
@@ -1235,12 +1376,30 @@ Definition shows_part (values : list (option slope)) (cell : list fixed) (t : te
       shows_along bits tape whole partial (fold_left Scale.of_one_scale groups params) inside (scaled_values groups cell t e) cell t (fst wedge) (snd wedge) n places e
   | _ => shows_along bits tape whole partial params inside values cell t (fst wedge) (snd wedge) n places e
   end.
+Definition half_of (values : list (option slope)) (cell : list fixed) (t : test) (upper : option fixed) (mu : slope) (wedge : option (list Z * list Z * Z * N)) (e : evidence) : bool :=
+  match e with
+  | OfOneScale groups ones e => may_scale t groups ones &&
+      half_on bits tape whole (fold_left Scale.of_one_scale groups params) inside (scaled_values groups cell t e) cell upper mu wedge e
+  | _ => half_on bits tape whole params inside values cell upper mu wedge e
+  end.
+Definition between_shows (values : list (option slope)) (cell : list fixed) (t : test) (upper : option fixed) (mu : slope) (e : evidence) : bool :=
+  match e with
+  | ByFan parts => negb (Nat.eqb (length parts) 0) && forallb (fun p => let '(_, n, places, e) := snd p in half_of values cell t upper mu (Some (fst (fst p), snd (fst p), n, places)) e)
+      (combine (Toward.wedges (map (fun p => fst (fst (fst p))) parts)) parts)
+  | _ => half_of values cell t upper mu None e
+  end.
 Definition shows_step (values : list (option slope)) (cell : list fixed) (t : test) (e : evidence) : bool :=
   match e with
   | OfOneScale groups ones e => may_scale t groups ones &&
       shows_on bits tape whole divided partial (fold_left Scale.of_one_scale groups params) inside (scaled_values groups cell t e) cell t e
   | ByFan parts => negb (Nat.eqb (length parts) 0) &&
       forallb (fun p => shows_part values cell t (fst p) (snd p)) (combine (Toward.wedges (map (fun p => fst (fst (fst p))) parts)) parts)
+  | ByBetween places mu lower upper =>
+      match t with
+      | Conditioning c2 => let mu := mu_slope bits places mu in
+          positive_there (length cell) mu && between_shows values cell t None mu lower && between_shows values cell t (Some c2) mu upper
+      | _ => false
+      end
   | _ => shows_on bits tape whole divided partial params inside values cell t e
   end.
 
@@ -1330,6 +1489,11 @@ Proof.
   - destruct H as [H | H]; [left; exact (Sign f (a4 f (or_introl eq_refl)) H) | right; exact (Sign g (a4 g (or_intror (or_introl eq_refl))) H)].
   - exact (These whole _ a2 H).
 Qed.
+Lemma half_level : forall P m c2 upper mu, are_level (Conditioning c2) J = true -> half_holds bits tape whole scaled P m x upper mu -> half_holds bits tape whole theta P m x upper mu.
+Proof.
+  intros P m c2 upper mu h [H1 H2]. cbn [are_level] in h. apply andb_true_iff in h as [_ h]. rewrite forallb_forall in h.
+  destruct (rows_level whole (fun i k => h i (in_or_app _ _ _ (or_introl k))) H1) as [G1 G2]. split; [exact G1 | rewrite <- G2; exact H2].
+Qed.
 Lemma along_level : forall P m t, are_level t J = true -> holds_along bits tape whole partial scaled P m x t -> holds_along bits tape whole partial theta P m x t.
 Proof.
   intros P m t h H.
@@ -1357,15 +1521,17 @@ Hypothesis inside_sound : forall cell lambda x tangent, inside cell = Some tange
 Lemma scaled_shows : forall x m t groups ones, may_scale t groups ones = true ->
   exists scaled, Forall2 contains (fold_left Scale.of_one_scale groups params) scaled /\
     (forall ps, holds bits tape whole divided partial ps scaled m x t -> holds bits tape whole divided partial params theta m x t) /\
-    forall P, holds_along bits tape whole partial scaled P m x t -> holds_along bits tape whole partial theta P m x t.
+    (forall P, holds_along bits tape whole partial scaled P m x t -> holds_along bits tape whole partial theta P m x t) /\
+    forall c2 P upper mu, t = Conditioning c2 -> half_holds bits tape whole scaled P m x upper mu -> half_holds bits tape whole theta P m x upper mu.
 Proof.
   intros x m t groups ones h. unfold may_scale in h. apply andb_true_iff in h as [h0 h1]. apply andb_true_iff in h0 as [own _]. rewrite forallb_forall in h1.
   revert h1. generalize theta_in. generalize params, theta. induction groups as [| J groups IH]; intros ps th hth lv.
-  - exists th. split; [exact hth |]. split; [| auto]. intros ps' H. exact (holds_of_each _ _ _ _ _ _ _ _ _ _ _ own H).
+  - exists th. split; [exact hth |]. split; [| split; auto]. intros ps' H. exact (holds_of_each _ _ _ _ _ _ _ _ _ _ _ own H).
   - cbn [fold_left]. destruct (Scale.of_one_scale_sound bits J ps th hth) as [s [th1 [s0 [T1 N1]]]].
-    destruct (IH (Scale.of_one_scale ps J) th1 T1 (fun K i => lv K (or_intror i))) as [th2 [T2 [H2 G2]]]. exists th2. split; [exact T2 |]. split.
+    destruct (IH (Scale.of_one_scale ps J) th1 T1 (fun K i => lv K (or_intror i))) as [th2 [T2 [H2 [G2 F2]]]]. exists th2. split; [exact T2 |]. split; [| split].
     + intros ps' H. exact (holds_level x th th1 s J s0 N1 _ _ _ t (lv J (or_introl eq_refl)) (H2 ps' H)).
     + intros P H. exact (along_level x th th1 s J s0 N1 P _ t (lv J (or_introl eq_refl)) (G2 P H)).
+    + intros c2 P upper mu e H. pose proof (lv J (or_introl eq_refl)) as l. rewrite e in l. exact (half_level x th th1 s J s0 N1 P _ c2 upper mu l (F2 c2 P upper mu e H)).
 Qed.
 
 Lemma wedges_of_parts : forall parts : list (list Z * Z * N * evidence), length (Toward.wedges (map (fun p => fst (fst (fst p))) parts)) = length parts.
@@ -1375,29 +1541,56 @@ Proof.
   intros [| p parts]; [reflexivity |]. exact (G (fst (fst (fst p))) (p :: parts)).
 Qed.
 
+(** Of each wedge of a fan its part. *)
+Lemma part_of_wedge : forall (parts : list (list Z * Z * N * evidence)) p, In p (Toward.wedges (map (fun p => fst (fst (fst p))) parts)) ->
+  exists part, In (p, part) (combine (Toward.wedges (map (fun p => fst (fst (fst p))) parts)) parts).
+Proof.
+  intros parts p ip. pose proof (wedges_of_parts parts) as L. revert ip L. generalize (Toward.wedges (map (fun p => fst (fst (fst p))) parts)). clear. intro ws. revert parts.
+  induction ws as [| r l I]; intros [| part parts] ip e; try discriminate; [contradiction |]. destruct ip as [-> | ip]; [exists part; left; reflexivity |].
+  destruct (I parts ip ltac:(cbn in e; congruence)) as [y iy]. exists y. right. exact iy.
+Qed.
+
+Lemma between_holds : forall keep cell x lambda c2 upper mu q e, entry_in bits mu q -> length lambda = length cell -> Forall (fun t => -1 <= t <= 1) lambda -> allowed x ->
+  Forall2 (fun a p => snd p - centre_of bits a = IZR (half a) / unit_R bits * fst p) cell (combine lambda x) ->
+  (forall k, Slope.holds bits lambda (nth k (coords_from 0 cell) (constant zero)) (nth k (map (centre_of bits) cell) 0) (nth k x 0)) ->
+  between_shows (evaluate_kept keep cell) cell (Conditioning c2) upper mu e = true -> half_holds bits tape whole theta (fun _ => True) (length cell) x upper (at_lambda lambda q).
+Proof.
+  intros keep cell x lambda c2 upper mu q e hq el hlam ok hd C h.
+  assert (One : forall wedge e, half_of (evaluate_kept keep cell) cell (Conditioning c2) upper mu wedge e = true -> half_holds bits tape whole theta (in_part wedge) (length cell) x upper (at_lambda lambda q)).
+  { intros wedge e' g.
+    assert (Own : half_on bits tape whole params inside (evaluate_kept keep cell) cell upper mu wedge e' = true -> half_holds bits tape whole theta (in_part wedge) (length cell) x upper (at_lambda lambda q))
+      by exact (half_on_holds bits tape whole params inside theta theta_in allowed inside_sound keep cell x lambda upper mu q wedge e' hq el hlam ok hd C).
+    destruct e' as [| | | | | | | | | | | | | | | | | groups ones e' | |]; try exact (Own g). cbn [half_of] in g. apply andb_true_iff in g as [g1 g].
+    destruct (scaled_shows x (length cell) (Conditioning c2) groups ones g1) as [scaled [T [_ [_ H]]]]. apply (H c2 _ _ _ eq_refl).
+    exact (half_on_holds bits tape whole _ inside scaled T allowed inside_sound _ cell x lambda upper mu q wedge e' hq el hlam ok hd C g). }
+  destruct e; try exact (One None _ h). cbn [between_shows] in h. apply andb_true_iff in h as [h1 h]. apply negb_true_iff, Nat.eqb_neq in h1. rewrite forallb_forall in h.
+  apply (half_of_fan bits tape whole theta (length cell) x upper _ (map (fun p : list Z * Z * N * evidence => fst (fst (fst p))) parts)); [destruct parts; [contradiction h1; reflexivity | discriminate] |].
+  intros p ip. destruct (part_of_wedge parts p ip) as [[[[c0 n] places] e] iq]. specialize (h _ iq). cbn [fst snd] in h. exact (One _ _ h).
+Qed.
+
 Lemma shows_step_holds : forall keep cell x t e, Forall2 contains cell x -> allowed x ->
   shows_step (evaluate_kept keep cell) cell t e = true -> holds bits tape whole divided partial params theta (length cell) x t.
 Proof.
   intros keep cell x t e hx ok h.
   assert (Other : shows_on bits tape whole divided partial params inside (evaluate_kept keep cell) cell t e = true -> holds bits tape whole divided partial params theta (length cell) x t)
     by exact (kept_holds bits tape whole divided partial params inside theta theta_in allowed inside_sound keep cell x t e hx ok).
-  destruct e as [| | | | | | | | | | | | | | | | | groups ones e | parts]; try exact (Other h); clear Other; cbn [shows_step] in h; apply andb_true_iff in h as [h1 h].
+  destruct e as [| | | | | | | | | | | | | | | | | groups ones e | parts | places mu lower upper]; try exact (Other h); clear Other; cbn [shows_step] in h; [| | destruct t; try discriminate]; apply andb_true_iff in h as [h1 h].
   - destruct (scaled_shows x (length cell) t groups ones h1) as [scaled [T [H _]]].
     exact (H _ (kept_holds bits tape whole divided partial _ inside scaled T allowed inside_sound _ cell x t e hx ok h)).
   - apply negb_true_iff, Nat.eqb_neq in h1. set (cs := map (fun p : list Z * Z * N * evidence => fst (fst (fst p))) parts) in *.
     assert (ne : cs <> []) by (unfold cs; destruct parts; [contradiction h1; reflexivity | discriminate]).
     apply (holds_of_fan bits tape whole divided partial params theta (length cell) x t cs ne). intros p ip. rewrite forallb_forall in h.
-    pose proof (wedges_of_parts parts) as L. fold cs in L.
-    assert (Q : exists part, In (p, part) (combine (Toward.wedges cs) parts)).
-    { clearbody cs. clear - ip L. revert parts L. induction (Toward.wedges cs) as [| r l I]; intros [| part parts] e; try discriminate; [contradiction |]. destruct ip as [-> | ip].
-      - exists part. left. reflexivity.
-      - destruct (I ip parts ltac:(cbn in e; congruence)) as [y iy]. exists y. right. exact iy. }
-    destruct Q as [[[[c0 n] places] e] iq]. specialize (h _ iq). cbn [fst snd shows_part] in h.
+    destruct (part_of_wedge parts p ip) as [[[[c0 n] places] e] iq]. specialize (h _ iq). cbn [fst snd shows_part] in h.
     assert (Own : shows_along bits tape whole partial params inside (evaluate_kept keep cell) cell t (fst p) (snd p) n places e = true -> holds_along bits tape whole partial theta (Toward.in_wedge (fst p) (snd p)) (length cell) x t)
       by exact (along_holds bits tape whole partial params inside theta theta_in allowed inside_sound keep cell x t (fst p) (snd p) n places e hx ok).
-    destruct e as [| | | | | | | | | | | | | | | | | groups ones e |]; try exact (Own h). apply andb_true_iff in h as [h2 h].
-    destruct (scaled_shows x (length cell) t groups ones h2) as [scaled [T [_ H]]].
+    destruct e as [| | | | | | | | | | | | | | | | | groups ones e | |]; try exact (Own h). apply andb_true_iff in h as [h2 h].
+    destruct (scaled_shows x (length cell) t groups ones h2) as [scaled [T [_ [H _]]]].
     exact (H _ (along_holds bits tape whole partial _ inside scaled T allowed inside_sound _ cell x t (fst p) (snd p) n places e hx ok h)).
+  - apply andb_true_iff in h1 as [h0 h1]. destruct (coords_from_hold bits cell x hx) as [lambda [el [hlam [hd C]]]]. specialize (C []). cbn [app length] in C.
+    destruct (mu_slope_in bits places mu) as [q hq]. rewrite <- el in h0. pose proof (positive_there_sound bits _ _ _ h0 hq hlam) as p0.
+    apply (holds_of_halves bits tape whole divided partial params theta (length cell) x c2 _ p0).
+    + exact (between_holds keep cell x lambda c2 None _ q lower hq el hlam ok hd C h1).
+    + exact (between_holds keep cell x lambda c2 (Some c2) _ q upper hq el hlam ok hd C h).
 Qed.
 
 (** Every test that is not open holds. *)

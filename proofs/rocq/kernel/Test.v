@@ -404,9 +404,6 @@ Qed.
 (** ** Full rank: Y^T A + A^T Y, with no D *)
 
 Definition without_D (z : slope) (r : rows slope) : rows slope := map (fun p => (fst p, z)) r.
-Definition full_rank (m : nat) (places : N) (Y : list (list Z)) (r : rows slope) : bool :=
-  sigma_min m (Slope zero zero []) places Y (without_D (Slope zero zero []) r).
-
 Lemma rank_energy : forall places Y r v, positive_D r ->
   0 < form (lower_weights places Y v) (map (fun p => (fst p, 0)) r) v -> 0 < energy r v.
 Proof.
@@ -422,24 +419,7 @@ Proof.
     rewrite <- Rsqr_pow2. apply Rlt_0_sqr, z.
 Qed.
 
-Theorem full_rank_sound : forall places Y r es lambda v,
-  full_rank (length lambda) places Y r = true ->
-  rows_rel entry_in r es -> Forall (fun t => -1 <= t <= 1) lambda ->
-  length v = length lambda -> nonzero v -> positive_D (map_rows (at_lambda lambda) es) ->
-  0 < energy (map_rows (at_lambda lambda) es) v.
-Proof.
-  intros places Y r es lambda v h hr hl len nz hp. apply (rank_energy places Y _ v hp).
-  assert (Z : entry_in (Slope zero zero []) (0, [])) by (split; [apply zero_sound | constructor]).
-  set (es0 := map (fun p => (fst p, (0, [] : list R))) es).
-  assert (R0 : rows_rel entry_in (without_D (Slope zero zero []) r) es0)
-    by (eapply map_related; [| exact hr]; intros a b [k _]; split; [exact k | exact Z]).
-  assert (E : map_rows (at_lambda lambda) es0 = map (fun p => (fst p, 0)) (map_rows (at_lambda lambda) es)).
-  { unfold es0, map_rows. rewrite !map_map. apply map_ext. intros [a d]. cbn [fst snd]. unfold at_lambda at 2. cbn. f_equal. ring. }
-  pose proof (sigma_min_form _ _ _ _ _ _ lambda v h Z R0 hl len nz) as F. rewrite E in F.
-  replace (at_lambda lambda (0, [])) with 0 in F by (unfold at_lambda; cbn; ring). rewrite Rmult_0_l in F. exact F.
-Qed.
-
-(** The same form, where [less] is not negative. *)
+(** The form, where [less] is not negative. *)
 Definition chords (m : nat) (less : option slope) (places : N) (Y : list (list Z)) (r : rows slope) : bool :=
   sigma_min m match less with Some t => t | None => Slope zero zero [] end places Y (without_D (Slope zero zero []) r).
 

@@ -537,7 +537,7 @@ Proof.
         pose proof (Rmult_le_pos (kappa * dot u u) (value x theta w) ltac:(apply Rmult_le_pos; lra) ltac:(lra)). pose proof (Rmult_le_pos (dot u u) less ltac:(lra) l0). lra. }
     intros v lv nz. split; [exact P |]. apply Rlt_le_trans with (2 := lower_energy places Y _ v P). specialize (T v lv nz).
     assert (0 <= dot v v * less) by (apply Rmult_le_pos; [apply Rlt_le, nz | exact l0]). lra. }
-  unfold shows_varied in h. cbv zeta in h. destruct by_ as [| | | | | | | | | | | | | | | | inner es dirs | |]; try discriminate. destruct inner as [| | | | | | | | | | | inner | | | | | | |]; try discriminate.
+  unfold shows_varied in h. cbv zeta in h. destruct by_ as [| | | | | | | | | | | | | | | | inner es dirs | | |]; try discriminate. destruct inner as [| | | | | | | | | | | inner | | | | | | | |]; try discriminate.
   destruct dirs as [| dir [|]]; try discriminate. apply andb_true_iff in h as [h s]. apply andb_true_iff in h as [h _]. apply andb_true_iff in h as [h ex]. apply andb_true_iff in h as [h on]. apply andb_true_iff in h as [_ sn].
   unfold same_numbers in sn. destruct (list_eq_dec _ _ _) as [ef |]; [| discriminate]. rewrite <- ef in on, ex.
   assert (Aff := fit). unfold are_fit in Aff. apply andb_true_iff in Aff as [Aff _]. apply andb_true_iff in Aff as [Aff _]. apply andb_true_iff in Aff as [_ Aff].
@@ -551,9 +551,9 @@ Proof.
   { intros l places Y al hl q v lv nz. rewrite <- Wv.
     apply (varied_form bits tape params tape (thinned_not_at_all tape) es m theta theta_in cell x x_in dimension on ex (map_multis placed_at placed_at own_multis) rs (placed_at (image m w)) l ends m places Y dir k kappa v);
       [exact (own_stand es ef) | exact (Places l al) | exact (eased_placed l hl) | rewrite Wv; lra | exact q | exact hk | exact lv | exact nz]. }
-  destruct inner as [| | places Y | | | | | | | | | | inner n pl | | | | | |]; try discriminate.
+  destruct inner as [| | places Y | | | | | | | | | | inner n pl | | | | | | |]; try discriminate.
   - exists places, Y, 0. split; [lra |]. intros v lv nz. pose proof (Go None places Y eq_refl I s v lv nz) as G. exact G.
-  - destruct inner as [| | places Y | | | | | | | | | | | | | | | |]; try discriminate. destruct g as [f |] eqn:eg; [| discriminate]. cbn [option_map] in s. apply andb_true_iff in s as [n0 s]. apply Z.leb_le, IZR_le in n0.
+  - destruct inner as [| | places Y | | | | | | | | | | | | | | | | |]; try discriminate. destruct g as [f |] eqn:eg; [| discriminate]. cbn [option_map] in s. apply andb_true_iff in s as [n0 s]. apply Z.leb_le, IZR_le in n0.
     exists places, Y, (less_at tape theta (parabola x) (Some (placed_at (image m f), n, pl))).
     assert (ef' : entry_at tape (placed_at (image m f)) = image m f) by (apply found_at; right; rewrite eg; left; reflexivity). split.
     + cbn [less_at]. rewrite ef', <- lx, image_value by (rewrite lx; exact bg). pose proof (two_power pl). apply Rmult_le_pos; [apply Rmult_le_pos; [exact n0 | apply Rlt_le, Rinv_0_lt_compat; assumption] | apply g0; [reflexivity | exact bg]].

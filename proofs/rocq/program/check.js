@@ -393,6 +393,70 @@ for (const to of [...places_of(/[-+0]/g, one_scale).map((at) => put(one_scale, a
 }
 read.push(scaled, fanned, both);
 console.log(`directions of one scale, and apart: three certificates and ${any} others with one answer, and ${places_of(/[-+0]/g, one_scale).length + 11} refused`);
+// Fans about all that is at vertices, each bound of a condition number by itself, and rank with the workspace's own inequality: at bounds ever nearer to the last.
+let by_parts = 0, no_parts = 0;
+{
+  const steps_of = (text, change) => {
+    const all = JSON.parse(text);
+    for (const node of all.proof.tree.nodes) node.by = node.by?.map(([i, e]) => [i, change(e, i)]);
+    return `${JSON.stringify(all)}\n`;
+  };
+  const design_of = (name, requirements) => {
+    const design = path.join(made, "parts.toml"), file = path.join(made, "parts.cert.json");
+    fs.writeFileSync(design, fs.readFileSync(path.join(__dirname, "../../../tests/designs", `${name}.toml`), "utf8").replace(/\[requirements\][^]*/, `[requirements]\n${requirements}\n`));
+    spawnSync(orthocert, ["verify", design, "-o", file]);
+    return fs.readFileSync(file, "latin1");
+  };
+  const nearest = (text, stated, beyond, steps, name) => {
+    const answers = three_answers(text);
+    if (answers.some((answer) => answer !== "CERTIFIED")) fail(`${name}: ${answers}`);
+    read.push(last_number((b) => text.replaceAll(`"bound":"${stated}"`, `"bound":"${b}"`), beyond, stated, steps, name));
+    by_parts += steps;
+  };
+  const refused = (texts, name) => {
+    for (const text of texts) {
+      const answers = three_answers(text);
+      if (answers.some((answer) => ["CERTIFIED", "REFUTED"].includes(answer))) fail(`${name}: ${answers}: ${text.slice(text.indexOf('"by"'), text.indexOf('"by"') + 300)}`);
+      no_parts++;
+    }
+  };
+  // Of all directions, and of two halves of them, with a multiple of what says so.
+  const one_part = (e) => ({ fan: [[[1, 0, 0], 0, 0, e]] }), two_parts = (n, places) => (e) => ({ fan: [[[8, 1, 0], n, places, e], [[-1, 8, 2], n, places, e]] });
+  const halves = (e, part = (e) => e) => e.tolerances ? { between: [e.tolerances[0].conditioning[1], e.tolerances[0].conditioning[0].places,
+      part({ tolerances: [{ lower: e.tolerances[0].conditioning[0] }, e.tolerances[1], [e.tolerances[2][0]]] }), part({ tolerances: ["test", e.tolerances[1], [e.tolerances[2][1]]] })] }
+    : { between: [e.conditioning[1], e.conditioning[0].places, part({ lower: e.conditioning[0] }), part("test")] };
+  const is_conditioned = (e) => e.conditioning || e.tolerances?.[0].conditioning;
+  const conditions = design_of("orthoglide-as-built-tight", "conditioning = { max = 3.92 }"), plainly = design_of("linear-delta-klipper-cylinder", "conditioning = { max = 4 }");
+  for (const [name, text, stated, beyond] of [["as built", conditions, 3.92, 3.8], ["plainly", plainly, 4, 1.1]]) {
+    for (const [i, part] of [(e) => e, one_part, two_parts(1, 24)].entries()) nearest(steps_of(text, (e) => is_conditioned(e) ? halves(e, part) : e), stated, beyond, 10, `between, ${name}, ${i}`);
+    const with_ = (change) => steps_of(text, (e) => { if (!is_conditioned(e)) return e; const all = halves(e); change(all.between); return all; });
+    refused([
+      (b) => b.reverse(), (b) => { b[0][0] = -b[0][0]; }, (b) => b[0].pop(), (b) => b[0].push(0), (b) => { b[1] = 64; }, (b) => { b[1]++; }, (b) => { [b[2], b[3]] = [b[3], b[2]]; }, (b) => { b[3] = b[2]; }, (b) => b.pop(),
+      (b) => { b[2] = { between: b.slice() }; }, (b) => { b[2] = { fan: [] }; }, (b) => { b[3] = { fan: [[[1, 0, 0], -1, 0, b[3]]] }; }, (b) => { b[3] = { control: b[3] }; }, (b) => { b[2] = { fan: [[[1, 0], 0, 0, b[2]]] }; },
+      (b) => { b[2] = { fan: [[[1, 0, 0], 0, 0, { fan: [[[1, 0, 0], 0, 0, b[2]]] }]] }; }, (b) => { b[3] = { fan: [[[1, 0, 0], 0, 0, { between: b.slice() }]] }; },
+    ].map(with_), `between, ${name}`);
+    refused([steps_of(text, (e) => is_conditioned(e) ? one_part(e) : e), steps_of(text, (e) => is_conditioned(e) ? one_part(halves(e)) : e)], `fan about conditioning, ${name}`);
+  }
+  const bounded = design_of("linear-delta-klipper-cylinder", 'transmission = { min = "0.3", max = 9 }\nstiffness = { joint = 3, min = "0.001" }');
+  const is_of_form = (e) => e === "test" || e.lower || e.rank || e.inside?.[0].lower || e.inside?.[0] === "test" || e.inside?.[0].rank;
+  for (const [i, part] of [one_part, two_parts(1, 12)].entries()) {
+    const text = steps_of(bounded, (e, number) => number < 3 && is_of_form(e) ? part(e) : e);
+    if (text === bounded) fail("no fan");
+    nearest(text, 9, 1.01, 10, `fan, psi_max, ${i}`), nearest(text, 0.3, 0.99, 10, `fan, psi_min, ${i}`), nearest(text, 0.001, 3, 10, `fan, stiffness, ${i}`);
+  }
+  refused([[], [[[1, 0, 0], -1, 0]], [[[1, 0, 0], 0, 64]], [[[1, 0], 0, 0]], [[[1, 0, 0, 0], 0, 0]]].map((parts) =>
+    steps_of(bounded, (e, number) => number < 3 && is_of_form(e) ? { fan: parts.map((p) => [...p, e]) } : e)), "fan");
+  const ranked = design_of("linear-delta-klipper-cylinder", "parallel_margin = { min = 0.1 }"), identity = { y: [[0, 0, 1], [0, 1, 0], [1, 0, 0]], places: 0 };
+  const inside = (n, places, then = (e) => e) => steps_of(ranked, (e, number) => number === 0 ? then({ inside: [e.inside?.[0] ?? e, n, places] }) : e);
+  let accepted = 0;
+  for (const then of [(e) => e, one_part]) for (const [n, places] of [[0, 0], [1, 40], [1, 12], [1, 8], [1, 4], [1, 1], [1, 0], [9, 0], [-1, 0], [1, 64]]) {
+    const answers = three_answers(inside(n, places, then));
+    accepted += answers[0] === "CERTIFIED";
+    if (new Set(answers).size > 1) fail(`rank inside: ${answers}: ${n} ${places}`); else by_parts++;
+  }
+  if (accepted < 2) fail("rank inside is never shown");
+}
+console.log(`parts: ${by_parts} bounds with one answer, and ${no_parts} refused`);
 // Components of directions that are 0 as they are written; places; and what is accepted, and not covered.
 {
   const written = (mechanism, workspace, require, by) => `${JSON.stringify({ format: "orthocert/2", claim: { machine: { mechanism, workspace, require } }, verdict: "certified",

@@ -352,7 +352,6 @@ let rec evidence shape v =
   | Object [ ("corner", f) ] -> AtCorner (face f)
   | Object [ ("control", e) ] -> AtControls_ (at_controls shape e)
   | Object [ ("tolerances", Array [ e; ends; directions ]) ] -> Apart_ (evidence shape e, string ends, List.map integers (array directions))
-  | Object [ ("inside", Array [ Object [ ("rank", _) ]; _; _ ]) ] -> not_covered [ "the evidence \"inside\" about \"rank\"" ]
   | Object [ ("inside", Array [ e; k; p ]) ] -> Inside_ (evidence shape e, integer k, places p)
   | Object [ ("accuracy", Array [ y; kappa; q ]) ] ->
     multiplier (fun y p -> Accurate_ (y, p, integer kappa, places q)) y
@@ -363,11 +362,16 @@ let rec evidence shape v =
     let rows = List.map (row (m + 1)) (array (get l "y")) in
     if List.length rows <> 3 then raise Malformed else Multiplied ("direction", rows, places (get l "places"))
   | Object [ ("fan", Array parts) ] ->
+    let rec is_of_fan = function
+      | String "test" | Object [ (("tolerances" | "lower" | "rank"), _) ] -> true
+      | Object [ ("inside", Array (e :: _)) ] -> is_of_fan e
+      | _ -> false in
     let part = function
-      | Array [ c; n; p; Object [ ("tolerances", _) ] as e ] -> (((integers c, integer n), places p), evidence shape e)
-      | Array [ _; _; _; _ ] -> not_covered [ "the evidence \"fan\" without \"tolerances\"" ]
+      | Array [ c; n; p; e ] when is_of_fan e -> (((integers c, integer n), places p), evidence shape e)
+      | Array [ _; _; _; _ ] -> not_covered [ "this evidence \"fan\"" ]
       | _ -> raise Malformed in
     Fan_ (List.map part parts)
+  | Object [ ("between", Array [ mu; p; e; f ]) ] -> Between_ (row (m + 1) mu, places p, evidence shape e, evidence shape f)
   | Object [ (name, _) ] -> not_covered [ "the evidence \""; name; "\"" ]
   | _ -> raise Malformed
 and at_controls shape v =
@@ -443,7 +447,7 @@ let certificate text =
   let proof_ = proof shape (get l "proof") in
   let plane_accelerates legs rs =
     List.exists (fun r -> r.about_ = Acceleration_) rs && List.exists (function Planar_ _ -> true | _ -> false) legs in
-  let has_apart = List.exists (fun n -> List.exists (fun (_, s) -> match s with Apart_ _ | Fan_ _ -> true | _ -> false) n.by_) in
+  let has_apart = List.exists (fun n -> List.exists (fun (_, s) -> match s with Apart_ _ | Fan_ _ | Between_ _ -> true | _ -> false) n.by_) in
   (* Apart are all that is shown of M, at control points, of as many struts as coordinates, over a box. *)
   let has_other_apart kind legs w nodes =
     let is_square = List.length legs = (match kind with InSpace -> 6 | _ -> 3) && (match kind, w with AboutPoint, _ | _, AnyCylinder_ _ -> false | _ -> true) in

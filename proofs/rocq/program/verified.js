@@ -3,19 +3,19 @@
 globalThis!=="object"&&(this?b():(a.defineProperty(a.prototype,"_T_",{configurable:true,get:b}),_T_));function
 b(){var
 b=this||self;b.globalThis=b;delete
-a.prototype._T_}}(Object));(function(M){"use strict";var
-jU="spatial",q_="Invalid_argument",hn="precision",aL='"',jT=1255,q9="inside",p5="(",p6=0x800,q8="yaw",p2="range",p3="tree",p4="jsError",cf=0x8000,q7="sqrt(",p1=256,hm="obligation",q6="load",fG="offset",bn="machine",p0="End_of_file",eF="strut",jS="center",fF="arm",jR="Failure",q5="serial_margin",hv="parameters",cK=0xff,q4="bodies",q3="max_angle",j5="outside",hu="base_axis",jQ="ENOENT",q2="singular",q1=122,pZ="([^/]+)",q0="0",jP=0xf,fE=128,pY=0xdc00,qY="Sys_blocked_io",qZ="fd ",fw="given",pX="ENOTEMPTY",a0=248,hl="bound",pW="Division_by_zero",qW="by",qX=1027,pV="Sys_error",ht="slider",pU="torsion",qV="postulate",pT="proof",j4="joint_error",fD="refuted",ez="mechanism",hk="row",pS="EEXIST",qU="roll_pitch_yaw",fC="y",pR="cube",dI="lower",qT="within",pQ="clearance",qS="turned",pP="control",hj="int_of_string",qQ="definitions",qR="dependent",fB=1024,pN="from",pO="name",qP=" : flags Open_rdonly and Open_wronly are not compatible",pM="orthocert/2",qO="reach",pL=512,qM="base_joint",qN="witness",fA="-",bg="platform",pK=0x7ff0,pJ="pitch",j3=": Not a directory",bD="min",qK="trim",eE="workspace",qL=" : file already exists",hi="split",qI='the failure "singular" of such a mechanism',j2="legs",qJ="claim",jO="joint",dJ=0xffffff,pI="platform_joint",pH="formulas",pG="roll",hh="atlas",qF="greatest",qG="nodes",qH="Out_of_memory",pF="psi_max",hs="orientation",hg=254,qE="angle",j1="index out of bounds",pE="end",qD="one_to_one",hr="_bigarr02",pD=" : flags Open_text and Open_binary are not compatible",qC="inverse",bZ="drive",pC="coordinates",qB="holds",pB="lower_divided",pA="speed",qz="cylinder",qA="joints",cJ=0xffff,qv="a leaf that fails",qw="acceleration",qx="force",fy="certified",fz="chords",qy=12520,jN="on",qu="same",ey="accuracy",fx="axis",qt="no_cube",qs="parallel_margin",pz='the drive "',jM="Unix.Unix_error",hq="fails",hf="tool",jL="mkdir",qq="rho",qr="least",hp=1000,jK="translational",j0="tolerances",py="Stack_overflow",jZ="characteristic_length",ad="",jY="^",hd="places",he=": No such file or directory",px="/static/",eD=0x3f,pv="stiffness",pw="Not_found",dH="planar",fv="mode",qp="joint_speed",qo="Match_failure",pu="transmission",bC="anchor",qn="at",pt="joint_force",eC="leg",ps="joint_acceleration",ho="+",jJ="rmdir",qm=0xf0,ql="spherical",pr=1026,qj="REJECTED",qk="undecided",bE="max",cg="direction",pp="leg_angle",pq="orthoglide",eB="rank",qh="constraint_margin",qi="fan",hc="test",pn="Pervasives.do_at_exit",po="utf8",bY=0x80,eA="conditioning",ex="length",pm="Undefined_recursive_module",jX=")",pl="base",qg="quantity",pk="joint_range",hb="tilt",pj="Q2",qf='the failure "same" of such a mechanism',qe="reference",ph="this quantity in a claim that is refuted",pi="point",qc="corner",qd=0xe0,pg="version",jW="z",qa="to",qb=0xdfff,jI="compare: functional value",p$="Assert_failure",b1="/",p_="provenance",dG="radius",ha="side",p8=-14,b0="require",p9="format",pf="Q1",jV="ENOTDIR",pe="all",dF="box",p7=250;function
-kf(c,b,a){var
+a.prototype._T_}}(Object));(function(O){"use strict";var
+j4="spatial",rj="Invalid_argument",hu="precision",aM='"',j3=1255,ke="inside",qf="(",qg=0x800,ri="yaw",qc="range",qd="tree",qe="jsError",cf=0x8000,rh="sqrt(",qb=256,ht="obligation",rg="load",fJ="offset",bo="machine",qa="End_of_file",eF="strut",j2="center",fI="arm",j1="Failure",rf="serial_margin",hC="parameters",cK=0xff,re="bodies",rd="max_angle",kd="outside",hB="base_axis",j0="ENOENT",rc="singular",rb=122,p$="([^/]+)",ra="0",jZ=0xf,fH=128,p_=0xdc00,q_="Sys_blocked_io",q$="fd ",fz="given",p9="ENOTEMPTY",a0=248,hs="bound",p8="Division_by_zero",q8="by",q9=1027,p7="Sys_error",hA="slider",p6="torsion",q7="postulate",p5="proof",kc="joint_error",fG="refuted",ez="mechanism",hr="row",p4="EEXIST",q6="roll_pitch_yaw",fF="y",p3="cube",dk="lower",q5="within",p2="clearance",q4="turned",p1="control",hq="int_of_string",p0="between",q2="definitions",q3="dependent",fE=1024,pY="from",pZ="name",q1=" : flags Open_rdonly and Open_wronly are not compatible",pX="orthocert/2",q0="reach",pW=512,qY="base_joint",qZ="witness",fD="-",bi="platform",pV=0x7ff0,pU="pitch",kb=": Not a directory",bE="min",qW="trim",eE="workspace",qX=" : file already exists",hp="split",qU='the failure "singular" of such a mechanism',ka="legs",qV="claim",jY="joint",dO=0xffffff,pT="platform_joint",pS="formulas",pR="roll",ho="atlas",qR="greatest",qS="nodes",qT="Out_of_memory",pQ="psi_max",hz="orientation",hn=254,qQ="angle",j$="index out of bounds",pP="end",qP="one_to_one",hy="_bigarr02",pO=" : flags Open_text and Open_binary are not compatible",qO="inverse",b0="drive",pN="coordinates",qN="holds",pM="lower_divided",pL="speed",qL="cylinder",qM="joints",cJ=0xffff,qH="a leaf that fails",qI="acceleration",qJ="force",fB="certified",fC="chords",qK=12520,jX="on",qG="same",ey="accuracy",fA="axis",qF="no_cube",qE="parallel_margin",pK='the drive "',jW="Unix.Unix_error",hx="fails",hm="tool",jV="mkdir",qC="rho",qD="least",hw=1000,jU="translational",j_="tolerances",pJ="Stack_overflow",j9="characteristic_length",ad="",j8="^",hk="places",hl=": No such file or directory",pI="/static/",eD=0x3f,pG="stiffness",pH="Not_found",dN="planar",fy="mode",qB="joint_speed",qA="Match_failure",pF="transmission",bD="anchor",qz="at",pE="joint_force",eC="leg",pD="joint_acceleration",hv="+",jT="rmdir",qy=0xf0,qx="spherical",pC=1026,qv="REJECTED",qw="undecided",bF="max",cg="direction",pA="leg_angle",pB="orthoglide",eB="rank",qt="constraint_margin",qu="fan",fx="test",py="Pervasives.do_at_exit",pz="utf8",bZ=0x80,eA="conditioning",ex="length",px="Undefined_recursive_module",j7=")",pw="base",qs="quantity",pv="joint_range",hj="tilt",pu="Q2",qr='the failure "same" of such a mechanism',qq="reference",ps="this quantity in a claim that is refuted",pt="point",qo="corner",qp=0xe0,pr="version",j6="z",qm="to",qn=0xdfff,jS="compare: functional value",ql="Assert_failure",b2="/",qk="provenance",dM="radius",hi="side",qi=-14,b1="require",qj="format",pq="Q1",j5="ENOTDIR",pp="all",dL="box",qh=250;function
+kq(c,b,a){var
 d=String.fromCharCode;if(b==0&&a<=4096&&a==c.length)return d.apply(null,c);var
-e=ad;for(;0<a;b+=fB,a-=fB)e+=d.apply(null,c.slice(b,b+Math.min(a,fB)));return e}function
-hx(b){if(M.Uint8Array)var
-c=new(M.Uint8Array)(b.l);else
+e=ad;for(;0<a;b+=fE,a-=fE)e+=d.apply(null,c.slice(b,b+Math.min(a,fE)));return e}function
+hE(b){if(O.Uint8Array)var
+c=new(O.Uint8Array)(b.l);else
 var
 c=new
 Array(b.l);var
 e=b.c,d=e.length,a=0;for(;a<d;a++)c[a]=e.charCodeAt(a);for(d=b.l;a<d;a++)c[a]=0;b.c=c;b.t=4;return c}function
-fH(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?kf(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
-if(b.t==2&&f==b.c.length){b.c+=d.t==4?kf(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)hx(b);var
+fK(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?kq(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
+if(b.t==2&&f==b.c.length){b.c+=d.t==4?kq(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)hE(b);var
 g=d.c,h=b.c;if(d.t==4)if(f<=e)for(var
 a=0;a<c;a++)h[f+a]=g[e+a];else
 for(var
@@ -23,79 +23,79 @@ a=c-1;a>=0;a--)h[f+a]=g[e+a];else{var
 i=Math.min(c,g.length-e);for(var
 a=0;a<i;a++)h[f+a]=g.charCodeAt(e+a);for(;a<c;a++)h[f+a]=0}}return 0}function
 eI(a){return a}function
-eH(a,b,c,d,e){fH(eI(a),b,c,d,e);return 0}function
-j7(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
+eH(a,b,c,d,e){fK(eI(a),b,c,d,e);return 0}function
+kg(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
 0:return a.c.charCodeAt(b);case
 4:return a.c[b]}}function
-dh(c,a){if(c.fun)return dh(c.fun,a);if(typeof
+dm(c,a){if(c.fun)return dm(c.fun,a);if(typeof
 c!=="function")return c;var
 b=c.length|0;if(b===0)return c.apply(null,a);var
 e=a.length|0,d=b-e|0;if(d==0)return c.apply(null,a);else
-if(d<0)return dh(c.apply(null,a.slice(0,b)),a.slice(b));else
+if(d<0)return dm(c.apply(null,a.slice(0,b)),a.slice(b));else
 return function(){var
 e=arguments.length==0?1:arguments.length,d=new
 Array(a.length+e);for(var
 b=0;b<a.length;b++)d[b]=a[b];for(var
-b=0;b<arguments.length;b++)d[a.length+b]=arguments[b];return dh(c,d)}}function
-rA(b,a){if(b==0)return ad;if(a.repeat)return a.repeat(b);var
+b=0;b<arguments.length;b++)d[a.length+b]=arguments[b];return dm(c,d)}}function
+rL(b,a){if(b==0)return ad;if(a.repeat)return a.repeat(b);var
 d=ad,c=0;for(;;){if(b&1)d+=a;b>>=1;if(b==0)return d;a+=a;c++;if(c==9)a.slice(0,1)}}function
-eJ(a){if(a.t==2)a.c+=rA(a.l-a.c.length,"\0");else
-a.c=kf(a.c,0,a.c.length);a.t=0}function
+eJ(a){if(a.t==2)a.c+=rL(a.l-a.c.length,"\0");else
+a.c=kq(a.c,0,a.c.length);a.t=0}function
 eK(a){a.t&6&&eJ(a);return a.c}var
-Ij=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
-Ii(a){if(Ij)return Math.floor(Math.log2(a));var
+Iz=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
+Iy(a){if(Iz)return Math.floor(Math.log2(a));var
 b=0;if(a==0)return-Infinity;if(a>=1)while(a>=2){a/=2;b++}else
 while(a<1){a*=2;b--}return b}function
-j_(c){var
-a=new(M.Float32Array)(1);a[0]=c;var
-b=new(M.Int32Array)(a.buffer);return b[0]|0}var
-rr=Math.pow(2,-24);function
-H$(a){throw a}var
-ay=[0];function
-rx(){H$(ay.Division_by_zero)}function
-L(b,c,a){this.lo=b&dJ;this.mi=c&dJ;this.hi=a&cJ}L.prototype.caml_custom="_j";L.prototype.copy=function(){return new
-L(this.lo,this.mi,this.hi)};L.prototype.ucompare=function(a){if(this.hi>a.hi)return 1;if(this.hi<a.hi)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};L.prototype.compare=function(a){var
-b=this.hi<<16,c=a.hi<<16;if(b>c)return 1;if(b<c)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};L.prototype.neg=function(){var
+kj(c){var
+a=new(O.Float32Array)(1);a[0]=c;var
+b=new(O.Int32Array)(a.buffer);return b[0]|0}var
+rC=Math.pow(2,-24);function
+Ip(a){throw a}var
+az=[0];function
+rI(){Ip(az.Division_by_zero)}function
+N(b,c,a){this.lo=b&dO;this.mi=c&dO;this.hi=a&cJ}N.prototype.caml_custom="_j";N.prototype.copy=function(){return new
+N(this.lo,this.mi,this.hi)};N.prototype.ucompare=function(a){if(this.hi>a.hi)return 1;if(this.hi<a.hi)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};N.prototype.compare=function(a){var
+b=this.hi<<16,c=a.hi<<16;if(b>c)return 1;if(b<c)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};N.prototype.neg=function(){var
 a=-this.lo,b=-this.mi+(a>>24),c=-this.hi+(b>>24);return new
-L(a,b,c)};L.prototype.add=function(a){var
+N(a,b,c)};N.prototype.add=function(a){var
 b=this.lo+a.lo,c=this.mi+a.mi+(b>>24),d=this.hi+a.hi+(c>>24);return new
-L(b,c,d)};L.prototype.sub=function(a){var
+N(b,c,d)};N.prototype.sub=function(a){var
 b=this.lo-a.lo,c=this.mi-a.mi+(b>>24),d=this.hi-a.hi+(c>>24);return new
-L(b,c,d)};L.prototype.mul=function(a){var
-b=this.lo*a.lo,c=(b*rr|0)+this.mi*a.lo+this.lo*a.mi,d=(c*rr|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
-L(b,c,d)};L.prototype.isZero=function(){return(this.lo|this.mi|this.hi)==0};L.prototype.isNeg=function(){return this.hi<<16<0};L.prototype.and=function(a){return new
-L(this.lo&a.lo,this.mi&a.mi,this.hi&a.hi)};L.prototype.or=function(a){return new
-L(this.lo|a.lo,this.mi|a.mi,this.hi|a.hi)};L.prototype.xor=function(a){return new
-L(this.lo^a.lo,this.mi^a.mi,this.hi^a.hi)};L.prototype.shift_left=function(a){a=a&63;if(a==0)return this;if(a<24)return new
-L(this.lo<<a,this.mi<<a|this.lo>>24-a,this.hi<<a|this.mi>>24-a);if(a<48)return new
-L(0,this.lo<<a-24,this.mi<<a-24|this.lo>>48-a);return new
-L(0,0,this.lo<<a-48)};L.prototype.shift_right_unsigned=function(a){a=a&63;if(a==0)return this;if(a<24)return new
-L(this.lo>>a|this.mi<<24-a,this.mi>>a|this.hi<<24-a,this.hi>>a);if(a<48)return new
-L(this.mi>>a-24|this.hi<<48-a,this.hi>>a-24,0);return new
-L(this.hi>>a-48,0,0)};L.prototype.shift_right=function(a){a=a&63;if(a==0)return this;var
+N(b,c,d)};N.prototype.mul=function(a){var
+b=this.lo*a.lo,c=(b*rC|0)+this.mi*a.lo+this.lo*a.mi,d=(c*rC|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
+N(b,c,d)};N.prototype.isZero=function(){return(this.lo|this.mi|this.hi)==0};N.prototype.isNeg=function(){return this.hi<<16<0};N.prototype.and=function(a){return new
+N(this.lo&a.lo,this.mi&a.mi,this.hi&a.hi)};N.prototype.or=function(a){return new
+N(this.lo|a.lo,this.mi|a.mi,this.hi|a.hi)};N.prototype.xor=function(a){return new
+N(this.lo^a.lo,this.mi^a.mi,this.hi^a.hi)};N.prototype.shift_left=function(a){a=a&63;if(a==0)return this;if(a<24)return new
+N(this.lo<<a,this.mi<<a|this.lo>>24-a,this.hi<<a|this.mi>>24-a);if(a<48)return new
+N(0,this.lo<<a-24,this.mi<<a-24|this.lo>>48-a);return new
+N(0,0,this.lo<<a-48)};N.prototype.shift_right_unsigned=function(a){a=a&63;if(a==0)return this;if(a<24)return new
+N(this.lo>>a|this.mi<<24-a,this.mi>>a|this.hi<<24-a,this.hi>>a);if(a<48)return new
+N(this.mi>>a-24|this.hi<<48-a,this.hi>>a-24,0);return new
+N(this.hi>>a-48,0,0)};N.prototype.shift_right=function(a){a=a&63;if(a==0)return this;var
 c=this.hi<<16>>16;if(a<24)return new
-L(this.lo>>a|this.mi<<24-a,this.mi>>a|c<<24-a,this.hi<<16>>a>>>16);var
+N(this.lo>>a|this.mi<<24-a,this.mi>>a|c<<24-a,this.hi<<16>>a>>>16);var
 b=this.hi<<16>>31;if(a<48)return new
-L(this.mi>>a-24|this.hi<<48-a,this.hi<<16>>a-24>>16,b&cJ);return new
-L(this.hi<<16>>a-32,b,b)};L.prototype.lsl1=function(){this.hi=this.hi<<1|this.mi>>23;this.mi=(this.mi<<1|this.lo>>23)&dJ;this.lo=this.lo<<1&dJ};L.prototype.lsr1=function(){this.lo=(this.lo>>>1|this.mi<<23)&dJ;this.mi=(this.mi>>>1|this.hi<<23)&dJ;this.hi=this.hi>>>1};L.prototype.udivmod=function(e){var
+N(this.mi>>a-24|this.hi<<48-a,this.hi<<16>>a-24>>16,b&cJ);return new
+N(this.hi<<16>>a-32,b,b)};N.prototype.lsl1=function(){this.hi=this.hi<<1|this.mi>>23;this.mi=(this.mi<<1|this.lo>>23)&dO;this.lo=this.lo<<1&dO};N.prototype.lsr1=function(){this.lo=(this.lo>>>1|this.mi<<23)&dO;this.mi=(this.mi>>>1|this.hi<<23)&dO;this.hi=this.hi>>>1};N.prototype.udivmod=function(e){var
 c=0,b=this.copy(),a=e.copy(),d=new
-L(0,0,0);while(b.ucompare(a)>0){c++;a.lsl1()}while(c>=0){c--;d.lsl1();if(b.ucompare(a)>=0){d.lo++;b=b.sub(a)}a.lsr1()}return{quotient:d,modulus:b}};L.prototype.div=function(a){var
-b=this;if(a.isZero())rx();var
+N(0,0,0);while(b.ucompare(a)>0){c++;a.lsl1()}while(c>=0){c--;d.lsl1();if(b.ucompare(a)>=0){d.lo++;b=b.sub(a)}a.lsr1()}return{quotient:d,modulus:b}};N.prototype.div=function(a){var
+b=this;if(a.isZero())rI();var
 d=b.hi^a.hi;if(b.hi&cf)b=b.neg();if(a.hi&cf)a=a.neg();var
-c=b.udivmod(a).quotient;if(d&cf)c=c.neg();return c};L.prototype.mod=function(b){var
-a=this;if(b.isZero())rx();var
+c=b.udivmod(a).quotient;if(d&cf)c=c.neg();return c};N.prototype.mod=function(b){var
+a=this;if(b.isZero())rI();var
 d=a.hi;if(a.hi&cf)a=a.neg();if(b.hi&cf)b=b.neg();var
-c=a.udivmod(b).modulus;if(d&cf)c=c.neg();return c};L.prototype.toInt=function(){return this.lo|this.mi<<24};L.prototype.toFloat=function(){return(this.hi<<16)*Math.pow(2,32)+this.mi*Math.pow(2,24)+this.lo};L.prototype.toArray=function(){return[this.hi>>8,this.hi&cK,this.mi>>16,this.mi>>8&cK,this.mi&cK,this.lo>>16,this.lo>>8&cK,this.lo&cK]};L.prototype.lo32=function(){return this.lo|(this.mi&cK)<<24};L.prototype.hi32=function(){return this.mi>>>8&cJ|this.hi<<16};function
-hz(b,c,a){return new
-L(b,c,a)}function
-hy(a){if(!isFinite(a)){if(isNaN(a))return hz(1,0,pK);return a>0?hz(0,0,pK):hz(0,0,0xfff0)}var
+c=a.udivmod(b).modulus;if(d&cf)c=c.neg();return c};N.prototype.toInt=function(){return this.lo|this.mi<<24};N.prototype.toFloat=function(){return(this.hi<<16)*Math.pow(2,32)+this.mi*Math.pow(2,24)+this.lo};N.prototype.toArray=function(){return[this.hi>>8,this.hi&cK,this.mi>>16,this.mi>>8&cK,this.mi&cK,this.lo>>16,this.lo>>8&cK,this.lo&cK]};N.prototype.lo32=function(){return this.lo|(this.mi&cK)<<24};N.prototype.hi32=function(){return this.mi>>>8&cJ|this.hi<<16};function
+hG(b,c,a){return new
+N(b,c,a)}function
+hF(a){if(!isFinite(a)){if(isNaN(a))return hG(1,0,pV);return a>0?hG(0,0,pV):hG(0,0,0xfff0)}var
 f=a==0&&1/a==-Infinity?cf:a>=0?0:cf;if(f)a=-a;var
-b=Ii(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-pr)}else{a/=Math.pow(2,b-qX);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
+b=Iy(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-pC)}else{a/=Math.pow(2,b-q9);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
 d=Math.pow(2,24),c=a|0;a=(a-c)*d;var
 e=a|0;a=(a-e)*d;var
-g=a|0;c=c&jP|f|b<<4;return hz(g,e,c)}function
-fK(a){return a.toArray()}function
-rf(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==hr)for(var
+g=a|0;c=c&jZ|f|b<<4;return hG(g,e,c)}function
+fN(a){return a.toArray()}function
+rq(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==hy)for(var
 a=0;a<b.dims.length;a++)if(b.dims[a]<cJ)c.write(16,b.dims[a]);else{c.write(16,cJ);c.write(32,0);c.write(32,b.dims[a])}else
 for(var
 a=0;a<b.dims.length;a++)c.write(32,b.dims[a]);switch(b.kind){case
@@ -113,52 +113,52 @@ a=0;a<b.data.length;a++)c.write(32,b.data[a]);break;case
 a=0;a<b.data.length;a++)c.write(32,b.data[a]);break;case
 7:for(var
 a=0;a<b.data.length/2;a++){var
-e=fK(b.get(a));for(var
+e=fN(b.get(a));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 1:for(var
 a=0;a<b.data.length;a++){var
-e=fK(hy(b.get(a)));for(var
+e=fN(hF(b.get(a)));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 0:for(var
 a=0;a<b.data.length;a++){var
-e=j_(b.get(a));c.write(32,e)}break;case
+e=kj(b.get(a));c.write(32,e)}break;case
 10:for(var
 a=0;a<b.data.length/2;a++){var
-d=b.get(a);c.write(32,j_(d[1]));c.write(32,j_(d[2]))}break;case
+d=b.get(a);c.write(32,kj(d[1]));c.write(32,kj(d[2]))}break;case
 11:for(var
 a=0;a<b.data.length/2;a++){var
-f=b.get(a),e=fK(hy(f[1]));for(var
+f=b.get(a),e=fN(hF(f[1]));for(var
 d=0;d<8;d++)c.write(8,e[d]);var
-e=fK(hy(f[2]));for(var
+e=fN(hF(f[2]));for(var
 d=0;d<8;d++)c.write(8,e[d])}break}g[0]=(4+b.dims.length)*4;g[1]=(4+b.dims.length)*8}function
-Ib(b,a){throw[0,b,a]}function
-rF(a){if(a.length<24){for(var
+Ir(b,a){throw[0,b,a]}function
+rQ(a){if(a.length<24){for(var
 b=0;b<a.length;b++)if(a.charCodeAt(b)>127)return false;return true}else
 return!/[^\x00-\x7f]/.test(a)}function
-kg(e){for(var
-j=ad,c=ad,g,f,h,a,b=0,i=e.length;b<i;b++){f=e.charCodeAt(b);if(f<bY){for(var
-d=b+1;d<i&&(f=e.charCodeAt(d))<bY;d++);if(d-b>pL){c.substr(0,1);j+=c;c=ad;j+=e.slice(b,d)}else
-c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==fE){g=h+(f<<6);if(f<qd){a=g-0x3080;if(a<bY)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==fE){g=h+(g<<6);if(f<qm){a=g-0xe2080;if(a<p6||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==fE&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
-if(a>cJ)c+=String.fromCharCode(0xd7c0+(a>>10),pY+(a&0x3FF));else
-c+=String.fromCharCode(a);if(c.length>fB){c.substr(0,1);j+=c;c=ad}}return j+c}function
+kr(e){for(var
+j=ad,c=ad,g,f,h,a,b=0,i=e.length;b<i;b++){f=e.charCodeAt(b);if(f<bZ){for(var
+d=b+1;d<i&&(f=e.charCodeAt(d))<bZ;d++);if(d-b>pW){c.substr(0,1);j+=c;c=ad;j+=e.slice(b,d)}else
+c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==fH){g=h+(f<<6);if(f<qp){a=g-0x3080;if(a<bZ)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==fH){g=h+(g<<6);if(f<qy){a=g-0xe2080;if(a<qg||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==fH&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
+if(a>cJ)c+=String.fromCharCode(0xd7c0+(a>>10),p_+(a&0x3FF));else
+c+=String.fromCharCode(a);if(c.length>fE){c.substr(0,1);j+=c;c=ad}}return j+c}function
 ch(c,a,b){this.t=c;this.c=a;this.l=b}ch.prototype.toString=function(){switch(this.t){case
 9:return this.c;default:eJ(this);case
-0:if(rF(this.c)){this.t=9;return this.c}this.t=8;case
+0:if(rQ(this.c)){this.t=9;return this.c}this.t=8;case
 8:return this.c}};ch.prototype.toUtf16=function(){var
-a=this.toString();if(this.t==9)return a;return kg(a)};ch.prototype.slice=function(){var
+a=this.toString();if(this.t==9)return a;return kr(a)};ch.prototype.slice=function(){var
 a=this.t==4?this.c.slice():this.c;return new
 ch(this.t,a,this.l)};function
-ri(a){return new
+rt(a){return new
 ch(0,a,a.length)}function
-a(a){return ri(a)}function
-ke(c,b){Ib(c,a(b))}function
-aR(a){ke(ay.Invalid_argument,a)}function
-rd(a){switch(a){case
+a(a){return rt(a)}function
+kp(c,b){Ir(c,a(b))}function
+aS(a){kp(az.Invalid_argument,a)}function
+ro(a){switch(a){case
 7:case
 10:case
 11:return 2;default:return 1}}function
-HF(c,e){var
-b=M,a;switch(c){case
+HV(c,e){var
+b=O,a;switch(c){case
 0:a=b.Float32Array;break;case
 1:a=b.Float64Array;break;case
 2:a=b.Int8Array;break;case
@@ -171,52 +171,52 @@ b=M,a;switch(c){case
 9:a=b.Int32Array;break;case
 10:a=b.Float32Array;break;case
 11:a=b.Float64Array;break;case
-12:a=b.Uint8Array;break}if(!a)aR("Bigarray.create: unsupported kind");var
+12:a=b.Uint8Array;break}if(!a)aS("Bigarray.create: unsupported kind");var
 d=new
-a(e*rd(c));return d}function
-j$(c){var
-a=new(M.Int32Array)(1);a[0]=c;var
-b=new(M.Float32Array)(a.buffer);return b[0]}function
-fJ(a){return new
-L(a[7]<<0|a[6]<<8|a[5]<<16,a[4]<<0|a[3]<<8|a[2]<<16,a[1]<<0|a[0]<<8)}function
-ka(d){var
-f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&jP)==0?b&cf?-Infinity:Infinity:NaN;var
-e=Math.pow(2,-24),a=(f*e+g)*e+(b&jP);if(c>0){a+=16;a*=Math.pow(2,c-qX)}else
-a*=Math.pow(2,-pr);if(b&cf)a=-a;return a}function
-j6(b){var
+a(e*ro(c));return d}function
+kk(c){var
+a=new(O.Int32Array)(1);a[0]=c;var
+b=new(O.Float32Array)(a.buffer);return b[0]}function
+fM(a){return new
+N(a[7]<<0|a[6]<<8|a[5]<<16,a[4]<<0|a[3]<<8|a[2]<<16,a[1]<<0|a[0]<<8)}function
+kl(d){var
+f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&jZ)==0?b&cf?-Infinity:Infinity:NaN;var
+e=Math.pow(2,-24),a=(f*e+g)*e+(b&jZ);if(c>0){a+=16;a*=Math.pow(2,c-q9)}else
+a*=Math.pow(2,-pC);if(b&cf)a=-a;return a}function
+kf(b){var
 d=b.length,c=1;for(var
-a=0;a<d;a++){if(b[a]<0)aR("Bigarray.create: negative dimension");c=c*b[a]}return c}function
-HV(b,a){return new
-L(b&dJ,b>>>24&cK|(a&cJ)<<8,a>>>16&cJ)}function
-kb(a){return a.hi32()}function
-kc(a){return a.lo32()}function
-hw(){aR(j1)}var
-HG=hr;function
-dg(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}dg.prototype.caml_custom=HG;dg.prototype.offset=function(b){var
+a=0;a<d;a++){if(b[a]<0)aS("Bigarray.create: negative dimension");c=c*b[a]}return c}function
+H$(b,a){return new
+N(b&dO,b>>>24&cK|(a&cJ)<<8,a>>>16&cJ)}function
+km(a){return a.hi32()}function
+kn(a){return a.lo32()}function
+hD(){aS(j$)}var
+HW=hy;function
+dl(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}dl.prototype.caml_custom=HW;dl.prototype.offset=function(b){var
 c=0;if(typeof
 b==="number")b=[b];if(!(b
 instanceof
-Array))aR("bigarray.js: invalid offset");if(this.dims.length!=b.length)aR("Bigarray.get/set: bad number of dimensions");if(this.layout==0)for(var
-a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])hw();c=c*this.dims[a]+b[a]}else
+Array))aS("bigarray.js: invalid offset");if(this.dims.length!=b.length)aS("Bigarray.get/set: bad number of dimensions");if(this.layout==0)for(var
+a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])hD();c=c*this.dims[a]+b[a]}else
 for(var
-a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])hw();c=c*this.dims[a]+(b[a]-1)}return c};dg.prototype.get=function(a){switch(this.kind){case
+a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])hD();c=c*this.dims[a]+(b[a]-1)}return c};dl.prototype.get=function(a){switch(this.kind){case
 7:var
-d=this.data[a*2+0],b=this.data[a*2+1];return HV(d,b);case
+d=this.data[a*2+0],b=this.data[a*2+1];return H$(d,b);case
 10:case
 11:var
-e=this.data[a*2+0],c=this.data[a*2+1];return[hg,e,c];default:return this.data[a]}};dg.prototype.set=function(a,b){switch(this.kind){case
-7:this.data[a*2+0]=kc(b);this.data[a*2+1]=kb(b);break;case
+e=this.data[a*2+0],c=this.data[a*2+1];return[hn,e,c];default:return this.data[a]}};dl.prototype.set=function(a,b){switch(this.kind){case
+7:this.data[a*2+0]=kn(b);this.data[a*2+1]=km(b);break;case
 10:case
-11:this.data[a*2+0]=b[1];this.data[a*2+1]=b[2];break;default:this.data[a]=b;break}return 0};dg.prototype.fill=function(b){switch(this.kind){case
+11:this.data[a*2+0]=b[1];this.data[a*2+1]=b[2];break;default:this.data[a]=b;break}return 0};dl.prototype.fill=function(b){switch(this.kind){case
 7:var
-c=kc(b),e=kb(b);if(c==e)this.data.fill(c);else
+c=kn(b),e=km(b);if(c==e)this.data.fill(c);else
 for(var
 a=0;a<this.data.length;a++)this.data[a]=a%2==0?c:e;break;case
 10:case
 11:var
 d=b[1],f=b[2];if(d==f)this.data.fill(d);else
 for(var
-a=0;a<this.data.length;a++)this.data[a]=a%2==0?d:f;break;default:this.data.fill(b);break}};dg.prototype.compare=function(b,g){if(this.layout!=b.layout||this.kind!=b.kind){var
+a=0;a<this.data.length;a++)this.data[a]=a%2==0?d:f;break;default:this.data.fill(b);break}};dl.prototype.compare=function(b,g){if(this.layout!=b.layout||this.kind!=b.kind){var
 e=this.kind|this.layout<<8,f=b.kind|b.layout<<8;return f-e}if(this.dims.length!=b.dims.length)return b.dims.length-this.dims.length;for(var
 a=0;a<this.dims.length;a++)if(this.dims[a]!=b.dims[a])return this.dims[a]<b.dims[a]?-1:1;switch(this.kind){case
 0:case
@@ -237,25 +237,25 @@ a=0;a<this.data.length;a+=2){if(this.data[a+1]<b.data[a+1])return-1;if(this.data
 12:for(var
 a=0;a<this.data.length;a++){if(this.data[a]<b.data[a])return-1;if(this.data[a]>b.data[a])return 1}break}return 0};function
 eG(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}eG.prototype=new
-dg();eG.prototype.offset=function(a){if(typeof
+dl();eG.prototype.offset=function(a){if(typeof
 a!=="number")if(a
 instanceof
 Array&&a.length==1)a=a[0];else
-aR("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])hw();return a};eG.prototype.get=function(a){return this.data[a]};eG.prototype.set=function(a,b){this.data[a]=b;return 0};eG.prototype.fill=function(a){this.data.fill(a);return 0};function
-rb(c,d,a,b){var
-e=rd(c);if(j6(a)*e!=b.length)aR("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
+aS("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])hD();return a};eG.prototype.get=function(a){return this.data[a]};eG.prototype.set=function(a,b){this.data[a]=b;return 0};eG.prototype.fill=function(a){this.data.fill(a);return 0};function
+rm(c,d,a,b){var
+e=ro(c);if(kf(a)*e!=b.length)aS("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
 eG(c,d,a,b);return new
-dg(c,d,a,b)}function
-b2(b){if(!ay.Failure)ay.Failure=[a0,a(jR),-3];ke(ay.Failure,b)}function
-rc(b,v,r){var
-i=b.read32s();if(i<0||i>16)b2("input_value: wrong number of bigarray dimensions");var
-p=b.read32s(),j=p&cK,o=p>>8&1,h=[];if(r==hr)for(var
+dl(c,d,a,b)}function
+b3(b){if(!az.Failure)az.Failure=[a0,a(j1),-3];kp(az.Failure,b)}function
+rn(b,v,r){var
+i=b.read32s();if(i<0||i>16)b3("input_value: wrong number of bigarray dimensions");var
+p=b.read32s(),j=p&cK,o=p>>8&1,h=[];if(r==hy)for(var
 a=0;a<i;a++){var
 n=b.read16u();if(n==cJ){var
-t=b.read32u(),u=b.read32u();if(t!=0)b2("input_value: bigarray dimension overflow in 32bit");n=u}h.push(n)}else
+t=b.read32u(),u=b.read32u();if(t!=0)b3("input_value: bigarray dimension overflow in 32bit");n=u}h.push(n)}else
 for(var
 a=0;a<i;a++)h.push(b.read32u());var
-d=j6(h),f=HF(j,d),g=rb(j,o,h,f);switch(j){case
+d=kf(h),f=HV(j,d),g=rm(j,o,h,f);switch(j){case
 2:for(var
 a=0;a<d;a++)f[a]=b.read8s();break;case
 3:case
@@ -269,50 +269,50 @@ a=0;a<d;a++)f[a]=b.read16u();break;case
 a=0;a<d;a++)f[a]=b.read32s();break;case
 8:case
 9:var
-s=b.read8u();if(s)b2("input_value: cannot read bigarray with 64-bit OCaml ints");for(var
+s=b.read8u();if(s)b3("input_value: cannot read bigarray with 64-bit OCaml ints");for(var
 a=0;a<d;a++)f[a]=b.read32s();break;case
 7:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-q=fJ(e);g.set(a,q)}break;case
+q=fM(e);g.set(a,q)}break;case
 1:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-k=ka(fJ(e));g.set(a,k)}break;case
+k=kl(fM(e));g.set(a,k)}break;case
 0:for(var
 a=0;a<d;a++){var
-k=j$(b.read32s());g.set(a,k)}break;case
+k=kk(b.read32s());g.set(a,k)}break;case
 10:for(var
 a=0;a<d;a++){var
-m=j$(b.read32s()),l=j$(b.read32s());g.set(a,[hg,m,l])}break;case
+m=kk(b.read32s()),l=kk(b.read32s());g.set(a,[hn,m,l])}break;case
 11:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-m=ka(fJ(e));for(var
+m=kl(fM(e));for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-l=ka(fJ(e));g.set(a,[hg,m,l])}break}v[0]=(4+i)*4;return rb(j,o,h,f)}function
-ra(a,b,c){return a.compare(b,c)}function
-ru(a,b){return Math.imul(a,b)}function
-cL(b,a){a=ru(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=ru(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
-HS(a,b){a=cL(a,kc(b));a=cL(a,kb(b));return a}function
-rq(a,b){return HS(a,hy(b))}function
-re(c){var
-b=j6(c.dims),d=0;switch(c.kind){case
+l=kl(fM(e));g.set(a,[hn,m,l])}break}v[0]=(4+i)*4;return rm(j,o,h,f)}function
+rl(a,b,c){return a.compare(b,c)}function
+rF(a,b){return Math.imul(a,b)}function
+cL(b,a){a=rF(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=rF(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
+H8(a,b){a=cL(a,kn(b));a=cL(a,km(b));return a}function
+rB(a,b){return H8(a,hF(b))}function
+rp(c){var
+b=kf(c.dims),d=0;switch(c.kind){case
 2:case
 3:case
-12:if(b>p1)b=p1;var
+12:if(b>qb)b=qb;var
 e=0,a=0;for(a=0;a+4<=c.data.length;a+=4){e=c.data[a+0]|c.data[a+1]<<8|c.data[a+2]<<16|c.data[a+3]<<24;d=cL(d,e)}e=0;switch(b&3){case
 3:e=c.data[a+2]<<16;case
 2:e|=c.data[a+1]<<8;case
 1:e|=c.data[a+0];d=cL(d,e)}break;case
 4:case
-5:if(b>fE)b=fE;var
+5:if(b>fH)b=fH;var
 e=0,a=0;for(a=0;a+2<=c.data.length;a+=2){e=c.data[a+0]|c.data[a+1]<<16;d=cL(d,e)}if((b&1)!=0)d=cL(d,c.data[a]);break;case
 6:if(b>64)b=64;for(var
 a=0;a<b;a++)d=cL(d,c.data[a]);break;case
@@ -323,75 +323,75 @@ a=0;a<b;a++)d=cL(d,c.data[a]);break;case
 a=0;a<b;a++)d=cL(d,c.data[a]);break;case
 10:b*=2;case
 0:if(b>64)b=64;for(var
-a=0;a<b;a++)d=rq(d,c.data[a]);break;case
+a=0;a<b;a++)d=rB(d,c.data[a]);break;case
 11:b*=2;case
 1:if(b>32)b=32;for(var
-a=0;a<b;a++)d=rq(d,c.data[a]);break}return d}function
-HT(a,b){b[0]=4;return a.read32s()}function
-H8(a,b){switch(a.read8u()){case
+a=0;a<b;a++)d=rB(d,c.data[a]);break}return d}function
+H9(a,b){b[0]=4;return a.read32s()}function
+Im(a,b){switch(a.read8u()){case
 1:b[0]=4;return a.read32s();case
-2:b2("input_value: native integer value too large");default:b2("input_value: ill-formed native integer")}}function
-HY(c,d){var
+2:b3("input_value: native integer value too large");default:b3("input_value: ill-formed native integer")}}function
+Ic(c,d){var
 b=new
 Array(8);for(var
-a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return fJ(b)}function
-HX(e,d,b){var
-c=fK(d);for(var
+a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return fM(b)}function
+Ib(e,d,b){var
+c=fN(d);for(var
 a=0;a<8;a++)e.write(8,c[a]);b[0]=8;b[1]=8}function
-HU(a,b,c){return a.compare(b)}function
-HW(a){return a.lo32()^a.hi32()}var
-rl={"_j":{deserialize:HY,serialize:HX,fixed_length:8,compare:HU,hash:HW},"_i":{deserialize:HT,fixed_length:4},"_n":{deserialize:H8,fixed_length:4},"_bigarray":{deserialize:function(a,b){return rc(a,b,"_bigarray")},serialize:rf,compare:ra,hash:re},"_bigarr02":{deserialize:function(a,b){return rc(a,b,hr)},serialize:rf,compare:ra,hash:re}};function
-j9(a){return rl[a.caml_custom]&&rl[a.caml_custom].compare}function
-rj(f,c,d,e){var
-b=j9(c);if(b){var
+H_(a,b,c){return a.compare(b)}function
+Ia(a){return a.lo32()^a.hi32()}var
+rw={"_j":{deserialize:Ic,serialize:Ib,fixed_length:8,compare:H_,hash:Ia},"_i":{deserialize:H9,fixed_length:4},"_n":{deserialize:Im,fixed_length:4},"_bigarray":{deserialize:function(a,b){return rn(a,b,"_bigarray")},serialize:rq,compare:rl,hash:rp},"_bigarr02":{deserialize:function(a,b){return rn(a,b,hy)},serialize:rq,compare:rl,hash:rp}};function
+ki(a){return rw[a.caml_custom]&&rw[a.caml_custom].compare}function
+ru(f,c,d,e){var
+b=ki(c);if(b){var
 a=d>0?b(c,f,e):b(f,c,e);if(e&&a!=a)return d;if(+a!=+a)return+a;if((a|0)!=0)return a|0}return d}function
-kd(a){return a
+ko(a){return a
 instanceof
 ch}function
-rs(a){return kd(a)}function
-rk(a){if(typeof
-a==="number")return hp;else
-if(kd(a))return 252;else
-if(rs(a))return 1252;else
+rD(a){return ko(a)}function
+rv(a){if(typeof
+a==="number")return hw;else
+if(ko(a))return 252;else
+if(rD(a))return 1252;else
 if(a
 instanceof
 Array&&a[0]===a[0]>>>0&&a[0]<=255){var
-b=a[0]|0;return b==hg?0:b}else
+b=a[0]|0;return b==hn?0:b}else
 if(a
 instanceof
-String)return qy;else
+String)return qK;else
 if(typeof
-a=="string")return qy;else
+a=="string")return qK;else
 if(a
 instanceof
-Number)return hp;else
-if(a&&a.caml_custom)return jT;else
+Number)return hw;else
+if(a&&a.caml_custom)return j3;else
 if(a&&a.compare)return 1256;else
 if(typeof
 a=="function")return 1247;else
 if(typeof
 a=="symbol")return 1251;return 1001}function
-HZ(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
-rh(a,b){a.t&6&&eJ(a);b.t&6&&eJ(b);return a.c<b.c?-1:a.c>b.c?1:0}function
-rB(a,b){return rh(a,b)}function
-j8(a,b,d){var
+Id(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
+rs(a,b){a.t&6&&eJ(a);b.t&6&&eJ(b);return a.c<b.c?-1:a.c>b.c?1:0}function
+rM(a,b){return rs(a,b)}function
+kh(a,b,d){var
 e=[];for(;;){if(!(d&&a===b)){var
-f=rk(a);if(f==p7){a=a[1];continue}var
-g=rk(b);if(g==p7){b=b[1];continue}if(f!==g){if(f==hp){if(g==jT)return rj(a,b,-1,d);return-1}if(g==hp){if(f==jT)return rj(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
-247:aR(jI);break;case
+f=rv(a);if(f==qh){a=a[1];continue}var
+g=rv(b);if(g==qh){b=b[1];continue}if(f!==g){if(f==hw){if(g==j3)return ru(a,b,-1,d);return-1}if(g==hw){if(f==j3)return ru(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
+247:aS(jS);break;case
 248:var
-c=HZ(a[2],b[2]);if(c!=0)return c|0;break;case
-249:aR(jI);break;case
-250:aR("equal: got Forward_tag, should not happen");break;case
-251:aR("equal: abstract value");break;case
+c=Id(a[2],b[2]);if(c!=0)return c|0;break;case
+249:aS(jS);break;case
+250:aS("equal: got Forward_tag, should not happen");break;case
+251:aS("equal: abstract value");break;case
 252:if(a!==b){var
-c=rh(a,b);if(c!=0)return c|0}break;case
-253:aR("equal: got Double_tag, should not happen");break;case
-254:aR("equal: got Double_array_tag, should not happen");break;case
-255:aR("equal: got Custom_tag, should not happen");break;case
-1247:aR(jI);break;case
+c=rs(a,b);if(c!=0)return c|0}break;case
+253:aS("equal: got Double_tag, should not happen");break;case
+254:aS("equal: got Double_array_tag, should not happen");break;case
+255:aS("equal: got Custom_tag, should not happen");break;case
+1247:aS(jS);break;case
 1255:var
-i=j9(a);if(i!=j9(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)aR("compare: abstract value");var
+i=ki(a);if(i!=ki(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)aS("compare: abstract value");var
 c=i(a,b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
 1256:var
 c=a.compare(b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
@@ -405,176 +405,176 @@ a=a.toString(),b=b.toString();if(a!==b){if(a<b)return-1;if(a>b)return 1}break;ca
 246:case
 254:default:if(a.length!=b.length)return a.length<b.length?-1:1;if(a.length>1)e.push(a,b,1);break}}if(e.length==0)return 0;var
 h=e.pop();b=e.pop();a=e.pop();if(h+1<a.length)e.push(a,b,h+1);a=a[h];b=b[h]}}function
-HN(a,b){return j8(a,b,true)}function
-cj(a){if(a<0)aR("Bytes.create");return new
+H3(a,b){return kh(a,b,true)}function
+cj(a){if(a<0)aS("Bytes.create");return new
 ch(a?2:9,ad,a)}function
-rm(a,b){return+(j8(a,b,false)==0)}function
-HP(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=ad;a.t=2}else{a.c=rA(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)hx(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}var
-H9=0;function
-ro(){return H9++}function
-H1(a){return a.toUtf16()}function
-fL(){return typeof
-M.process!=="undefined"&&typeof
-M.process.versions!=="undefined"&&typeof
-M.process.versions.node!=="undefined"}function
-Ik(){function
-a(a){if(a.charAt(0)===b1)return[ad,a.substring(1)];return}function
+rx(a,b){return+(kh(a,b,false)==0)}function
+H5(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=ad;a.t=2}else{a.c=rL(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)hE(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}var
+In=0;function
+rz(){return In++}function
+If(a){return a.toUtf16()}function
+fO(){return typeof
+O.process!=="undefined"&&typeof
+O.process.versions!=="undefined"&&typeof
+O.process.versions.node!=="undefined"}function
+IA(){function
+a(a){if(a.charAt(0)===b2)return[ad,a.substring(1)];return}function
 b(c){var
 g=/^([a-zA-Z]:|[\\/]{2}[^\\/]+[\\/]+[^\\/]+)?([\\/])?([\s\S]*?)$/,a=g.exec(c),b=a[1]||ad,e=Boolean(b&&b.charAt(1)!==":");if(Boolean(a[2]||e)){var
-d=a[1]||ad,f=a[2]||ad;return[d,c.substring(d.length+f.length)]}return}return fL()&&M.process&&M.process.platform?M.process.platform==="win32"?b:a:a}var
-kk=Ik();function
-rC(a){return a.slice(-1)!==b1?a+b1:a}if(fL()&&M.process&&M.process.cwd)var
-fI=M.process.cwd().replace(/\\/g,b1);else
+d=a[1]||ad,f=a[2]||ad;return[d,c.substring(d.length+f.length)]}return}return fO()&&O.process&&O.process.platform?O.process.platform==="win32"?b:a:a}var
+kv=IA();function
+rN(a){return a.slice(-1)!==b2?a+b2:a}if(fO()&&O.process&&O.process.cwd)var
+fL=O.process.cwd().replace(/\\/g,b2);else
 var
-fI="/static";fI=rC(fI);function
-H3(a){a=H1(a);if(!kk(a))a=fI+a;var
-e=kk(a),d=e[1].split(b1),b=[];for(var
+fL="/static";fL=rN(fL);function
+Ih(a){a=If(a);if(!kv(a))a=fL+a;var
+e=kv(a),d=e[1].split(b2),b=[];for(var
 c=0;c<d.length;c++)switch(d[c]){case"..":if(b.length>1)b.pop();break;case".":break;default:b.push(d[c]);break}b.unshift(e[0]);b.orig=a;return b}function
-If(e){for(var
-f=ad,b=f,a,h,c=0,g=e.length;c<g;c++){a=e.charCodeAt(c);if(a<bY){for(var
-d=c+1;d<g&&(a=e.charCodeAt(d))<bY;d++);if(d-c>pL){b.substr(0,1);f+=b;b=ad;f+=e.slice(c,d)}else
-b+=e.slice(c,d);if(d==g)break;c=d}if(a<p6){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(bY|a&eD)}else
-if(a<0xd800||a>=qb)b+=String.fromCharCode(qd|a>>12,bY|a>>6&eD,bY|a&eD);else
-if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<pY||h>qb)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(qm|a>>18,bY|a>>12&eD,bY|a>>6&eD,bY|a&eD)}if(b.length>fB){b.substr(0,1);f+=b;b=ad}}return f+b}function
-HK(a){var
-b=9;if(!rF(a))b=8,a=If(a);return new
+Iv(e){for(var
+f=ad,b=f,a,h,c=0,g=e.length;c<g;c++){a=e.charCodeAt(c);if(a<bZ){for(var
+d=c+1;d<g&&(a=e.charCodeAt(d))<bZ;d++);if(d-c>pW){b.substr(0,1);f+=b;b=ad;f+=e.slice(c,d)}else
+b+=e.slice(c,d);if(d==g)break;c=d}if(a<qg){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(bZ|a&eD)}else
+if(a<0xd800||a>=qn)b+=String.fromCharCode(qp|a>>12,bZ|a>>6&eD,bZ|a&eD);else
+if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<p_||h>qn)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(qy|a>>18,bZ|a>>12&eD,bZ|a>>6&eD,bZ|a&eD)}if(b.length>fE){b.substr(0,1);f+=b;b=ad}}return f+b}function
+H0(a){var
+b=9;if(!rQ(a))b=8,a=Iv(a);return new
 ch(b,a,a.length)}function
-eL(a){return HK(a)}var
-In=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",pS,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",jQ,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",jV,pX,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
-dN(d,f,e,a){var
-b=In.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
+eL(a){return H0(a)}var
+ID=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",p4,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",j0,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",j5,p9,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
+dS(d,f,e,a){var
+b=ID.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
 c=[b,eL(f||ad),eL(e||ad)];return c}var
-rv={};function
-dK(a){return rv[a]}function
-dL(b,a){throw[0,b].concat(a)}function
-HJ(a){return new
+rG={};function
+dP(a){return rG[a]}function
+dQ(b,a){throw[0,b].concat(a)}function
+HZ(a){return new
 ch(4,a,a.length)}function
-ap(a){ke(ay.Sys_error,a)}function
-Ia(a){ap(a+he)}function
-rg(){aR(j1)}function
-HI(b,a){if(a>>>0>=b.l)rg();return j7(b,a)}function
-hB(a){return a.l}function
-q$(){}function
-aP(a){this.data=a}aP.prototype=new
-q$();aP.prototype.truncate=function(a){var
-b=this.data;this.data=cj(a|0);fH(b,0,this.data,0,a)};aP.prototype.length=function(){return hB(this.data)};aP.prototype.write=function(b,d,g,a){var
+ap(a){kp(az.Sys_error,a)}function
+Iq(a){ap(a+hl)}function
+rr(){aS(j$)}function
+HY(b,a){if(a>>>0>=b.l)rr();return kg(b,a)}function
+hI(a){return a.l}function
+rk(){}function
+aQ(a){this.data=a}aQ.prototype=new
+rk();aQ.prototype.truncate=function(a){var
+b=this.data;this.data=cj(a|0);fK(b,0,this.data,0,a)};aQ.prototype.length=function(){return hI(this.data)};aQ.prototype.write=function(b,d,g,a){var
 c=this.length();if(b+a>=c){var
-e=cj(b+a),f=this.data;this.data=e;fH(f,0,this.data,0,c)}eH(d,g,this.data,b,a);return 0};aP.prototype.read=function(c,a,d,b){var
-e=this.length();fH(this.data,c,a,d,b);return 0};aP.prototype.read_one=function(a){return HI(this.data,a)};aP.prototype.close=function(){};aP.prototype.constructor=aP;function
-a_(b,a){this.content={};this.root=b;this.lookupFun=a}a_.prototype.nm=function(a){return this.root+a};a_.prototype.create_dir_if_needed=function(d){var
-c=d.split(b1),b=ad;for(var
-a=0;a<c.length-1;a++){b+=c[a]+b1;if(this.content[b])continue;this.content[b]=Symbol("directory")}};a_.prototype.slash=function(a){return/\/$/.test(a)?a:a+b1};a_.prototype.lookup=function(b){if(!this.content[b]&&this.lookupFun){var
+e=cj(b+a),f=this.data;this.data=e;fK(f,0,this.data,0,c)}eH(d,g,this.data,b,a);return 0};aQ.prototype.read=function(c,a,d,b){var
+e=this.length();fK(this.data,c,a,d,b);return 0};aQ.prototype.read_one=function(a){return HY(this.data,a)};aQ.prototype.close=function(){};aQ.prototype.constructor=aQ;function
+a$(b,a){this.content={};this.root=b;this.lookupFun=a}a$.prototype.nm=function(a){return this.root+a};a$.prototype.create_dir_if_needed=function(d){var
+c=d.split(b2),b=ad;for(var
+a=0;a<c.length-1;a++){b+=c[a]+b2;if(this.content[b])continue;this.content[b]=Symbol("directory")}};a$.prototype.slash=function(a){return/\/$/.test(a)?a:a+b2};a$.prototype.lookup=function(b){if(!this.content[b]&&this.lookupFun){var
 c=this.lookupFun(a(this.root),a(b));if(c!==0){this.create_dir_if_needed(b);this.content[b]=new
-aP(eI(c[1]))}}};a_.prototype.exists=function(a){if(a==ad)return 1;var
-b=this.slash(a);if(this.content[b])return 1;this.lookup(a);return this.content[a]?1:0};a_.prototype.mkdir=function(c,e,d){var
-b=d&&dK(jM);if(this.exists(c))if(b)dL(b,dN(pS,jL,this.nm(c)));else
+aQ(eI(c[1]))}}};a$.prototype.exists=function(a){if(a==ad)return 1;var
+b=this.slash(a);if(this.content[b])return 1;this.lookup(a);return this.content[a]?1:0};a$.prototype.mkdir=function(c,e,d){var
+b=d&&dP(jW);if(this.exists(c))if(b)dQ(b,dS(p4,jV,this.nm(c)));else
 ap(c+": File exists");var
-a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||ad;if(!this.exists(a))if(b)dL(b,dN(jQ,jL,this.nm(a)));else
-ap(a+he);if(!this.is_dir(a))if(b)dL(b,dN(jV,jL,this.nm(a)));else
-ap(a+j3);this.create_dir_if_needed(this.slash(c))};a_.prototype.rmdir=function(a,f){var
-b=f&&dK(jM),c=a==ad?ad:this.slash(a),e=new
-RegExp(jY+c+pZ);if(!this.exists(a))if(b)dL(b,dN(jQ,jJ,this.nm(a)));else
-ap(a+he);if(!this.is_dir(a))if(b)dL(b,dN(jV,jJ,this.nm(a)));else
-ap(a+j3);for(var
+a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||ad;if(!this.exists(a))if(b)dQ(b,dS(j0,jV,this.nm(a)));else
+ap(a+hl);if(!this.is_dir(a))if(b)dQ(b,dS(j5,jV,this.nm(a)));else
+ap(a+kb);this.create_dir_if_needed(this.slash(c))};a$.prototype.rmdir=function(a,f){var
+b=f&&dP(jW),c=a==ad?ad:this.slash(a),e=new
+RegExp(j8+c+p$);if(!this.exists(a))if(b)dQ(b,dS(j0,jT,this.nm(a)));else
+ap(a+hl);if(!this.is_dir(a))if(b)dQ(b,dS(j5,jT,this.nm(a)));else
+ap(a+kb);for(var
 d
 in
-this.content)if(d.match(e))if(b)dL(b,dN(pX,jJ,this.nm(a)));else
+this.content)if(d.match(e))if(b)dQ(b,dS(p9,jT,this.nm(a)));else
 ap(this.nm(a)+": Directory not empty");delete
-this.content[c]};a_.prototype.readdir=function(a){var
-f=a==ad?ad:this.slash(a);if(!this.exists(a))ap(a+he);if(!this.is_dir(a))ap(a+j3);var
+this.content[c]};a$.prototype.readdir=function(a){var
+f=a==ad?ad:this.slash(a);if(!this.exists(a))ap(a+hl);if(!this.is_dir(a))ap(a+kb);var
 g=new
-RegExp(jY+f+pZ),d={},c=[];for(var
+RegExp(j8+f+p$),d={},c=[];for(var
 e
 in
 this.content){var
-b=e.match(g);if(b&&!d[b[1]]){d[b[1]]=true;c.push(b[1])}}return c};a_.prototype.is_dir=function(a){if(a==ad)return true;var
-b=this.slash(a);return this.content[b]?1:0};a_.prototype.unlink=function(a){var
+b=e.match(g);if(b&&!d[b[1]]){d[b[1]]=true;c.push(b[1])}}return c};a$.prototype.is_dir=function(a){if(a==ad)return true;var
+b=this.slash(a);return this.content[b]?1:0};a$.prototype.unlink=function(a){var
 b=this.content[a]?true:false;delete
-this.content[a];return b};a_.prototype.open=function(a,b){if(b.rdonly&&b.wronly)ap(this.nm(a)+qP);if(b.text&&b.binary)ap(this.nm(a)+pD);this.lookup(a);if(this.content[a]){if(this.is_dir(a))ap(this.nm(a)+" : is a directory");if(b.create&&b.excl)ap(this.nm(a)+qL);var
+this.content[a];return b};a$.prototype.open=function(a,b){if(b.rdonly&&b.wronly)ap(this.nm(a)+q1);if(b.text&&b.binary)ap(this.nm(a)+pO);this.lookup(a);if(this.content[a]){if(this.is_dir(a))ap(this.nm(a)+" : is a directory");if(b.create&&b.excl)ap(this.nm(a)+qX);var
 c=this.content[a];if(b.truncate)c.truncate();return c}else
 if(b.create){this.create_dir_if_needed(a);this.content[a]=new
-aP(cj(0));return this.content[a]}else
-Ia(this.nm(a))};a_.prototype.register=function(c,a){var
-b;if(this.content[c])ap(this.nm(c)+qL);if(kd(a))b=new
-aP(a);if(rs(a))b=new
-aP(eI(a));else
+aQ(cj(0));return this.content[a]}else
+Iq(this.nm(a))};a$.prototype.register=function(c,a){var
+b;if(this.content[c])ap(this.nm(c)+qX);if(ko(a))b=new
+aQ(a);if(rD(a))b=new
+aQ(eI(a));else
 if(a
 instanceof
 Array)b=new
-aP(HJ(a));else
+aQ(HZ(a));else
 if(typeof
 a==="string")b=new
-aP(ri(a));else
+aQ(rt(a));else
 if(a.toString){var
 d=eI(eL(a.toString()));b=new
-aP(d)}if(b){this.create_dir_if_needed(c);this.content[c]=b}else
-ap(this.nm(c)+" : registering file with invalid content type")};a_.prototype.constructor=a_;function
-au(a){return hB(a)}function
-dM(b,a){return j7(b,a)}function
-HE(d){var
+aQ(d)}if(b){this.create_dir_if_needed(c);this.content[c]=b}else
+ap(this.nm(c)+" : registering file with invalid content type")};a$.prototype.constructor=a$;function
+au(a){return hI(a)}function
+dR(b,a){return kg(b,a)}function
+HU(d){var
 c=au(d),b=new
-Array(c),a=0;for(;a<c;a++)b[a]=dM(d,a);return b}function
-HD(a){if(a.t!=4)hx(a);return a.c}function
-HM(a,c,b){b&=cK;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}hx(a)}a.c[c]=b;return 0}function
-HL(b,a,c){if(a>>>0>=b.l)rg();return HM(b,a,c)}function
+Array(c),a=0;for(;a<c;a++)b[a]=dR(d,a);return b}function
+HT(a){if(a.t!=4)hE(a);return a.c}function
+H2(a,c,b){b&=cK;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}hE(a)}a.c[c]=b;return 0}function
+H1(b,a,c){if(a>>>0>=b.l)rr();return H2(b,a,c)}function
 ci(a){this.fs=require("fs");this.fd=a}ci.prototype=new
-q$();ci.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){ap(a.toString())}};ci.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){ap(a.toString())}};ci.prototype.write=function(f,b,c,e){var
-a=HE(b);if(!(a
+rk();ci.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){ap(a.toString())}};ci.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){ap(a.toString())}};ci.prototype.write=function(f,b,c,e){var
+a=HU(b);if(!(a
 instanceof
-M.Uint8Array))a=new(M.Uint8Array)(a);var
-d=M.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){ap(a.toString())}return 0};ci.prototype.read=function(g,d,c,f){var
-a=HD(d);if(!(a
+O.Uint8Array))a=new(O.Uint8Array)(a);var
+d=O.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){ap(a.toString())}return 0};ci.prototype.read=function(g,d,c,f){var
+a=HT(d);if(!(a
 instanceof
-M.Uint8Array))a=new(M.Uint8Array)(a);var
-e=M.Buffer.from(a);try{this.fs.readSync(this.fd,e,c,f,g)}catch(a){ap(a.toString())}for(var
-b=0;b<f;b++)HL(d,c+b,e[c+b]);return 0};ci.prototype.read_one=function(c){var
-b=new(M.Uint8Array)(1),a=M.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){ap(a.toString())}return a[0]};ci.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){ap(a.toString())}};ci.prototype.constructor=ci;function
-aQ(a){this.fs=require("fs");this.root=a}aQ.prototype.nm=function(a){return this.root+a};aQ.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};aQ.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};aQ.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};aQ.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};aQ.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){ap(a.toString())}};aQ.prototype.unlink=function(a,c){try{var
-b=this.fs.existsSync(this.nm(a))?1:0;this.fs.unlinkSync(this.nm(a));return b}catch(a){this.raise_nodejs_error(a,c)}};aQ.prototype.open=function(f,c,g){var
+O.Uint8Array))a=new(O.Uint8Array)(a);var
+e=O.Buffer.from(a);try{this.fs.readSync(this.fd,e,c,f,g)}catch(a){ap(a.toString())}for(var
+b=0;b<f;b++)H1(d,c+b,e[c+b]);return 0};ci.prototype.read_one=function(c){var
+b=new(O.Uint8Array)(1),a=O.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){ap(a.toString())}return a[0]};ci.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){ap(a.toString())}};ci.prototype.constructor=ci;function
+aR(a){this.fs=require("fs");this.root=a}aR.prototype.nm=function(a){return this.root+a};aR.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};aR.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};aR.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};aR.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};aR.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){ap(a.toString())}};aR.prototype.unlink=function(a,c){try{var
+b=this.fs.existsSync(this.nm(a))?1:0;this.fs.unlinkSync(this.nm(a));return b}catch(a){this.raise_nodejs_error(a,c)}};aR.prototype.open=function(f,c,g){var
 a=require("constants"),b=0;for(var
 e
 in
 c)switch(e){case"rdonly":b|=a.O_RDONLY;break;case"wronly":b|=a.O_WRONLY;break;case"append":b|=a.O_WRONLY|a.O_APPEND;break;case"create":b|=a.O_CREAT;break;case"truncate":b|=a.O_TRUNC;break;case"excl":b|=a.O_EXCL;break;case"binary":b|=a.O_BINARY;break;case"text":b|=a.O_TEXT;break;case"nonblock":b|=a.O_NONBLOCK;break}try{var
 d=this.fs.openSync(this.nm(f),b);return new
-ci(d)}catch(a){this.raise_nodejs_error(a,g)}};aQ.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};aQ.prototype.stat=function(b,c){try{var
-a=this.fs.statSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aQ.prototype.lstat=function(b,c){try{var
-a=this.fs.lstatSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aQ.prototype.symlink=function(d,c,a,b){try{this.fs.symlinkSync(this.nm(c),this.nm(a),d?"dir":"file");return 0}catch(a){this.raise_nodejs_error(a,b)}};aQ.prototype.readlink=function(b,c){try{var
-a=this.fs.readlinkSync(this.nm(b),po);return eL(a)}catch(a){this.raise_nodejs_error(a,c)}};aQ.prototype.raise_nodejs_error=function(a,d){var
-b=dK(jM);if(d&&b){var
-c=dN(a.code,a.syscall,a.path,a.errno);dL(b,c)}else
-ap(a.toString())};aQ.prototype.stats_from_js=function(a){var
+ci(d)}catch(a){this.raise_nodejs_error(a,g)}};aR.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};aR.prototype.stat=function(b,c){try{var
+a=this.fs.statSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aR.prototype.lstat=function(b,c){try{var
+a=this.fs.lstatSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aR.prototype.symlink=function(d,c,a,b){try{this.fs.symlinkSync(this.nm(c),this.nm(a),d?"dir":"file");return 0}catch(a){this.raise_nodejs_error(a,b)}};aR.prototype.readlink=function(b,c){try{var
+a=this.fs.readlinkSync(this.nm(b),pz);return eL(a)}catch(a){this.raise_nodejs_error(a,c)}};aR.prototype.raise_nodejs_error=function(a,d){var
+b=dP(jW);if(d&&b){var
+c=dS(a.code,a.syscall,a.path,a.errno);dQ(b,c)}else
+ap(a.toString())};aR.prototype.stats_from_js=function(a){var
 b;if(a.isFile())b=0;else
 if(a.isDirectory())b=1;else
 if(a.isCharacterDevice())b=2;else
 if(a.isBlockDevice())b=3;else
 if(a.isSymbolicLink())b=4;else
 if(a.isFIFO())b=5;else
-if(a.isSocket())b=6;return[0,a.dev,a.ino,b,a.mode,a.nlink,a.uid,a.gid,a.rdev,a.size,a.atimeMs,a.mtimeMs,a.ctimeMs]};aQ.prototype.constructor=aQ;function
-rp(b){var
-a=kk(b);if(!a)return;return a[0]+b1}var
-hC=rp(fI)||b2("unable to compute caml_root"),eM=[];if(fL())eM.push({path:hC,device:new
-aQ(hC)});else
-eM.push({path:hC,device:new
-a_(hC)});eM.push({path:px,device:new
-a_(px)});function
-rJ(b){var
-g=H3(b),b=g.join(b1),f=rC(b),c;for(var
+if(a.isSocket())b=6;return[0,a.dev,a.ino,b,a.mode,a.nlink,a.uid,a.gid,a.rdev,a.size,a.atimeMs,a.mtimeMs,a.ctimeMs]};aR.prototype.constructor=aR;function
+rA(b){var
+a=kv(b);if(!a)return;return a[0]+b2}var
+hJ=rA(fL)||b3("unable to compute caml_root"),eM=[];if(fO())eM.push({path:hJ,device:new
+aR(hJ)});else
+eM.push({path:hJ,device:new
+a$(hJ)});eM.push({path:pI,device:new
+a$(pI)});function
+rU(b){var
+g=Ih(b),b=g.join(b2),f=rN(b),c;for(var
 e=0;e<eM.length;e++){var
-a=eM[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&fL()){var
-d=rp(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
+a=eM[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&fO()){var
+d=rA(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
 a={path:d,device:new
-aQ(d)};eM.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;ap("no device found for "+f)}function
-HO(c,b){var
-a=rJ(c);if(!a.device.register)b2("cannot register file");a.device.register(a.rest,b);return 0}function
-rE(c,b){var
-c=a(c),b=a(b);return HO(c,b)}function
-HR(){var
-b=M.caml_fs_tmp;if(b)for(var
-a=0;a<b.length;a++)rE(b[a].name,b[a].content);M.jsoo_create_file=rE;M.caml_fs_tmp=[];return 0}function
-H_(c){var
-a=0,e=au(c),b=10,d=1;if(e>0)switch(dM(c,a)){case
+aR(d)};eM.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;ap("no device found for "+f)}function
+H4(c,b){var
+a=rU(c);if(!a.device.register)b3("cannot register file");a.device.register(a.rest,b);return 0}function
+rP(c,b){var
+c=a(c),b=a(b);return H4(c,b)}function
+H7(){var
+b=O.caml_fs_tmp;if(b)for(var
+a=0;a<b.length;a++)rP(b[a].name,b[a].content);O.jsoo_create_file=rP;O.caml_fs_tmp=[];return 0}function
+Io(c){var
+a=0,e=au(c),b=10,d=1;if(e>0)switch(dR(c,a)){case
 45:a++;d=-1;break;case
-43:a++;d=1;break}if(a+1<e&&dM(c,a)==48)switch(dM(c,a+1)){case
+43:a++;d=1;break}if(a+1<e&&dR(c,a)==48)switch(dR(c,a+1)){case
 120:case
 88:b=16;a+=2;break;case
 111:case
@@ -583,33 +583,33 @@ a=0,e=au(c),b=10,d=1;if(e>0)switch(dM(c,a)){case
 66:b=2;a+=2;break;case
 117:case
 85:a+=2;break}return[a,d,b]}function
-rw(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=q1)return a-87;return-1}function
-hA(f){var
-h=H_(f),c=h[0],i=h[1],d=h[2],g=au(f),j=-1>>>0,e=c<g?dM(f,c):0,b=rw(e);if(b<0||b>=d)b2(hj);var
-a=b;for(c++;c<g;c++){e=dM(f,c);if(e==95)continue;b=rw(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)b2(hj)}if(c!=g)b2(hj);a=i*a;if(d==10&&(a|0)!=a)b2(hj);return a|0}function
-H2(a,b){return+(j8(a,b,false)<=0)}function
-H4(a,d){if(a<0)hw();var
+rH(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=rb)return a-87;return-1}function
+hH(f){var
+h=Io(f),c=h[0],i=h[1],d=h[2],g=au(f),j=-1>>>0,e=c<g?dR(f,c):0,b=rH(e);if(b<0||b>=d)b3(hq);var
+a=b;for(c++;c<g;c++){e=dR(f,c);if(e==95)continue;b=rH(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)b3(hq)}if(c!=g)b3(hq);a=i*a;if(d==10&&(a|0)!=a)b3(hq);return a|0}function
+Ig(a,b){return+(kh(a,b,false)<=0)}function
+Ii(a,d){if(a<0)hD();var
 a=a+1|0,b=new
 Array(a);b[0]=0;for(var
 c=1;c<a;c++)b[c]=d;return b}var
 cM=new
 Array();function
-H5(c){var
-a=cM[c];if(!a.opened)ap("Cannot flush a closed channel");if(!a.buffer||a.buffer==ad)return 0;if(a.fd&&ay.fds[a.fd]&&ay.fds[a.fd].output){var
-b=ay.fds[a.fd].output;switch(b.length){case
+Ij(c){var
+a=cM[c];if(!a.opened)ap("Cannot flush a closed channel");if(!a.buffer||a.buffer==ad)return 0;if(a.fd&&az.fds[a.fd]&&az.fds[a.fd].output){var
+b=az.fds[a.fd].output;switch(b.length){case
 2:b(c,a.buffer);break;default:b(a.buffer)}}a.buffer=ad;return 0}function
-rz(e,f){var
+rK(e,f){var
 b=cM[e],d=a(f),c=au(d);b.file.write(b.offset,d,0,c);b.offset+=c;return 0}function
-Ig(a){var
-a=kg(a),b=M;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+Iw(a){var
+a=kr(a),b=O;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.error&&c.error(a)}}function
-Ih(a){var
-a=kg(a),b=M;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+Ix(a){var
+a=kr(a),b=O;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.log&&c.log(a)}}function
-hE(c,e,d,a){if(ay.fds===undefined)ay.fds=new
+hL(c,e,d,a){if(az.fds===undefined)az.fds=new
 Array();a=a?a:{};var
-b={};b.file=d;b.offset=a.append?d.length():0;b.flags=a;b.output=e;ay.fds[c]=b;if(!ay.fd_last_idx||c>ay.fd_last_idx)ay.fd_last_idx=c;return c}function
-Io(c,b,g){var
+b={};b.file=d;b.offset=a.append?d.length():0;b.flags=a;b.output=e;az.fds[c]=b;if(!az.fd_last_idx||c>az.fd_last_idx)az.fd_last_idx=c;return c}function
+IE(c,b,g){var
 a={};while(b){switch(b[1]){case
 0:a.rdonly=1;break;case
 1:a.wronly=1;break;case
@@ -619,162 +619,162 @@ a={};while(b){switch(b[1]){case
 5:a.excl=1;break;case
 6:a.binary=1;break;case
 7:a.text=1;break;case
-8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)ap(eK(c)+qP);if(a.text&&a.binary)ap(eK(c)+pD);var
-d=rJ(c),e=d.device.open(d.rest,a),f=ay.fd_last_idx?ay.fd_last_idx:0;return hE(f+1,rz,e,a)}hE(0,rz,new
-aP(cj(0)));hE(1,Ih,new
-aP(cj(0)));hE(2,Ig,new
-aP(cj(0)));function
-H6(a){var
-c=ay.fds[a];if(c.flags.wronly)ap(qZ+a+" is writeonly");var
-d=null;if(a==0&&fL()){var
-e=require("fs");d=function(){return eL(e.readFileSync(0,po))}}var
+8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)ap(eK(c)+q1);if(a.text&&a.binary)ap(eK(c)+pO);var
+d=rU(c),e=d.device.open(d.rest,a),f=az.fd_last_idx?az.fd_last_idx:0;return hL(f+1,rK,e,a)}hL(0,rK,new
+aQ(cj(0)));hL(1,Ix,new
+aQ(cj(0)));hL(2,Iw,new
+aQ(cj(0)));function
+Ik(a){var
+c=az.fds[a];if(c.flags.wronly)ap(q$+a+" is writeonly");var
+d=null;if(a==0&&fO()){var
+e=require("fs");d=function(){return eL(e.readFileSync(0,pz))}}var
 b={file:c.file,offset:c.offset,fd:a,opened:true,out:false,refill:d};cM[b.fd]=b;return b.fd}function
-rt(c){var
-b=ay.fds[c];if(b.flags.rdonly)ap(qZ+c+" is readonly");var
+rE(c){var
+b=az.fds[c];if(b.flags.rdonly)ap(q$+c+" is readonly");var
 a={file:b.file,offset:b.offset,fd:c,opened:true,out:true,buffer:ad};cM[a.fd]=a;return a.fd}function
-H7(){var
+Il(){var
 b=0;for(var
 a=0;a<cM.length;a++)if(cM[a]&&cM[a].opened&&cM[a].out)b=[0,cM[a].fd,b];return b}function
-bF(b,c,a){if(a&&M.toplevelReloc)b=M.toplevelReloc(a);ay[b+1]=c;if(a)ay[a]=c}function
-Ic(a,b){rv[eK(a)]=b;return 0}function
-HH(a,b){if(a===b)return 1;a.t&6&&eJ(a);b.t&6&&eJ(b);return a.c==b.c?1:0}function
-aw(a,b){return HH(a,b)}function
-Ie(){aR(j1)}function
-a1(b,a){if(a>>>0>=au(b))Ie();return dM(b,a)}function
-o(a,b){return 1-aw(a,b)}function
-hD(a){return a}function
-ry(a){return a}function
-rD(a){if(a
+bG(b,c,a){if(a&&O.toplevelReloc)b=O.toplevelReloc(a);az[b+1]=c;if(a)az[a]=c}function
+Is(a,b){rG[eK(a)]=b;return 0}function
+HX(a,b){if(a===b)return 1;a.t&6&&eJ(a);b.t&6&&eJ(b);return a.c==b.c?1:0}function
+ax(a,b){return HX(a,b)}function
+Iu(){aS(j$)}function
+a1(b,a){if(a>>>0>=au(b))Iu();return dR(b,a)}function
+o(a,b){return 1-ax(a,b)}function
+hK(a){return a}function
+rJ(a){return a}function
+rO(a){if(a
 instanceof
-Array)return a;if(M.RangeError&&a
+Array)return a;if(O.RangeError&&a
 instanceof
-M.RangeError&&a.message&&a.message.match(/maximum call stack/i))return ry(ay.Stack_overflow);if(M.InternalError&&a
+O.RangeError&&a.message&&a.message.match(/maximum call stack/i))return rJ(az.Stack_overflow);if(O.InternalError&&a
 instanceof
-M.InternalError&&a.message&&a.message.match(/too much recursion/i))return ry(ay.Stack_overflow);if(a
+O.InternalError&&a.message&&a.message.match(/too much recursion/i))return rJ(az.Stack_overflow);if(a
 instanceof
-M.Error&&dK(p4))return[0,dK(p4),a];return[0,ay.Failure,eL(String(a))]}function
+O.Error&&dP(qe))return[0,dP(qe),a];return[0,az.Failure,eL(String(a))]}function
 ck(a){return a<0?-a:a}function
-D(a,b){return a+b}function
-kh(a,b){return a<b?-1:a>b?1:0}function
-rG(c,b){var
+E(a,b){return a+b}function
+ks(a,b){return a<b?-1:a>b?1:0}function
+rR(c,b){var
 a=c%b;return a<0?a+ck(b):a}function
-ki(a,b){return(a-rG(a,b))/b}function
-J(a,b){return a==b?1:0}function
-Il(c){M.orthocert_verify=function(b){return eK(dh(c,[a(b)]))}}function
-F(a,b){return a<=b?1:0}function
-I(a,b){return a<b?1:0}function
+kt(a,b){return(a-rR(a,b))/b}function
+I(a,b){return a==b?1:0}function
+IB(c){O.orthocert_verify=function(b){return eK(dm(c,[a(b)]))}}function
+D(a,b){return a<=b?1:0}function
+J(a,b){return a<b?1:0}function
 B(a,b){return a*b}function
-O(a){return-a}function
-aE(a){return M.BigInt(a)}function
-rH(a,b){return a<<M.BigInt(b)}function
-rI(a,b){return a>>M.BigInt(b)}function
-aM(a){return a<0?-1:a>0?1:0}function
-Im(a){if(a<0)throw new(M.Error)("a root of a negative number");if(a<2)return a;var
-d=M.BigInt(1),b=d<<M.BigInt((a.toString(16).length*4+1)/2|0),c;for(;;){c=b+a/b>>d;if(c>=b)return b;b=c}}function
-aF(a,b){return a-b}function
-kj(a){if(a>0x7fffffff||a<-0x80000000)throw new(M.Error)("a number of more than 32 bits");return M.Number(a)}function
-H0(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
-HQ(b){var
-a=ad;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&H0(b[1]))var
+P(a){return-a}function
+aF(a){return O.BigInt(a)}function
+rS(a,b){return a<<O.BigInt(b)}function
+rT(a,b){return a>>O.BigInt(b)}function
+aN(a){return a<0?-1:a>0?1:0}function
+IC(a){if(a<0)throw new(O.Error)("a root of a negative number");if(a<2)return a;var
+d=O.BigInt(1),b=d<<O.BigInt((a.toString(16).length*4+1)/2|0),c;for(;;){c=b+a/b>>d;if(c>=b)return b;b=c}}function
+aG(a,b){return a-b}function
+ku(a){if(a>0x7fffffff||a<-0x80000000)throw new(O.Error)("a number of more than 32 bits");return O.Number(a)}function
+Ie(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
+H6(b){var
+a=ad;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&Ie(b[1]))var
 e=b[2],f=1;else
 var
-f=2,e=b;a+=p5;for(var
+f=2,e=b;a+=qf;for(var
 d=f;d<e.length;d++){if(d>f)a+=", ";var
 c=e[d];if(typeof
 c=="number")a+=c.toString();else
 if(c
 instanceof
-ch)a+=aL+c.toString()+aL;else
+ch)a+=aM+c.toString()+aM;else
 if(typeof
-c=="string")a+=aL+c.toString()+aL;else
-a+="_"}a+=jX}else
+c=="string")a+=aM+c.toString()+aM;else
+a+="_"}a+=j7}else
 if(b[0]==a0)a+=b[1];return a}function
-rn(a){if(a
+ry(a){if(a
 instanceof
 Array&&(a[0]==0||a[0]==a0)){var
-c=dK("Printexc.handle_uncaught_exception");if(c)c(a,false);else{var
-d=HQ(a),b=dK(pn);if(b)b(0);M.console.error("Fatal error: exception "+d+"\n")}}else
+c=dP("Printexc.handle_uncaught_exception");if(c)c(a,false);else{var
+d=H6(a),b=dP(py);if(b)b(0);O.console.error("Fatal error: exception "+d+"\n")}}else
 throw a}function
-Id(){var
-a=M;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){rn(b);a.process.exit(2)});else
-if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)rn(a.error)})}Id();function
-i(a,b){return a.length==1?a(b):dh(a,[b])}function
-ao(a,b,c){return a.length==2?a(b,c):dh(a,[b,c])}function
-fu(a,b,c,d){return a.length==3?a(b,c,d):dh(a,[b,c,d])}function
-jH(a,b,c,d,e){return a.length==4?a(b,c,d,e):dh(a,[b,c,d,e])}HR();var
-km=[a0,a(pV),-2],kl=[a0,a(q_),-4],Gx=[0,[0,[0,[0,0]]]],Gy=[0,0],Gz=[0,0],GA=[0,[0,0]],GB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GA]]]]]]]]]]],g2=[0,[1,0],0],ox=[0,[2,0],0],jn=[0,[1,0],0],ow=[0,[2,0],0],g0=[0,[1,0],0],jm=[0,[2,0],0],GC=[0,[0,[0,[0,0]]]],GD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GC]]]]]]]]]]],GE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GD]]]]]]]]]]],GF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GE]]]]]]]]]]],GG=[0,[0,0]],GH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GG]]]]]]]]]]],GI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GH]]]]]]]]]]],GJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GI]]]]]]]]]]],GK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GJ]]]]]]]]]]],GL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],GM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GL]]]]]]]]]]],GN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GM]]]]]]]]]]],GO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GN]]]]]]]]]]],GP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GO]]]]]]]]]]],GQ=[0,[0,0]],GR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GQ]]]]]]]]]]],GS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GR]]]]]]]]]]],GT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GS]]]]]]]]]]],GU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GT]]]]]]]]]]],GV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GU]]]]]]]]]]],GW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GV]]]]]]]]]]],GX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GW]]]]]]]]]]],GY=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],GZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GY]]]]]]]]]]],G0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GZ]]]]]]]]]]],G1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G0]]]]]]]]]]],G2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G1]]]]]]]]]]],G3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G2]]]]]]]]]]],G4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G3]]]]]]]]]]],G5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G4]]]]]]]]]]],G6=[0,0],G7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G6]]]]]]]]]]],G8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G7]]]]]]]]]]],G9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G8]]]]]]]]]]],G_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G9]]]]]]]]]]],G$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G_]]]]]]]]]]],Ha=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G$]]]]]]]]]]],Hb=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ha]]]]]]]]]]],Hc=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hb]]]]]]]]]]],Hd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hc]]]]]]]]]]],He=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hd]]]]]]]]]]],Hf=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],Hg=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hf]]]]]]]]]]],Hh=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],Hi=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hh]]]]]]]]]]],Hj=[0,[0,[0,[0,[0,0]]]]],Hk=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hj]]]]]]]]]]],Hl=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hk]]]]]]]]]]],Hm=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hl]]]]]]]]]]],Hn=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hm]]]]]]]]]]],Ho=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hn]]]]]]]]]]],Hp=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ho]]]]]]]]]]],Hq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hp]]]]]]]]]]],Hr=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hq]]]]]]]]]]],Hs=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hr]]]]]]]]]]],Ht=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hs]]]]]]]]]]],Hu=[0,0],Hv=[0,[0,0]],Hw=[0,0],Hx=[0,[0,[0,[0,[0,0]]]]],kV=[0,[0,[0,0]]],dn=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],gQ=[0,[0,[0,[0,0]]]],Hy=[0,[0,[0,[0,[0,0]]]]],Hz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hy]]]]]]]]]]],HA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hz]]]]]]]]]]],HB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HA]]]]]]]]]]],HC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HB]]]]]]]]]]];bF(11,[a0,a(pm),-12],pm);bF(10,[a0,a(p$),-11],p$);bF(9,[a0,a(qY),-10],qY);bF(8,[a0,a(py),-9],py);bF(7,[a0,a(qo),-8],qo);bF(6,[a0,a(pw),-7],pw);bF(5,[a0,a(pW),-6],pW);bF(4,[a0,a(p0),-5],p0);bF(3,kl,q_);bF(2,[a0,a(jR),-3],jR);bF(1,km,pV);bF(0,[a0,a(qH),-1],qH);var
-rK=a("String.sub / Bytes.sub"),rM=a(ad),rL=a("String.concat"),rN=a("Array.init"),rO=a("power"),r7=[0,0],r8=[0,0],sc=[0,0,0],sd=[0,0,0],se=[0,0],sA=[0,0],sB=[0,0],sE=[0,0],sY=[0,0],s1=[0,0],s5=[0,0],s6=[0,0],ti=[0,0],tj=[0,0],tM=[0,0],t6=[0,[0,[0,0]]],uy=[0,0],uz=[0,0],uA=[0,0],uZ=[0,0],vp=a(","),vH=[0,a(jX),0],vI=a(p5),vJ=a("."),vK=[0,[0,[0,0]]],vL=a(fA),vM=a(jY),vN=[0,[0,[0,[0,[0,0]]]]],vO=[0,a(jX),0],vP=a(q7),yO=a(pj),yQ=a(pf),yP=a(qc),yR=a(eA),yS=a(ey),yT=a(q9),yU=a(qS),yV=a(pP),yW=a(j0),yX=a(qi),Ac=[0,[0,0,0]],At=[0,0],Ad=a(hc),Ae=[0,0],Af=a("divided"),Ag=[0,1],Ah=a("mirror"),Ai=[0,3],Aj=a("negative"),Ak=[0,2],Al=a(fz),Am=[0,5],An=a(j5),Ao=[0,4],Ap=a(dI),Aq=a(pB),Ar=a(eB),As=a(cg),Au=[0,0],Av=[0,0],Aw=[0,0],Az=[0,[0,[0,0]]],AA=[0,[0,[0,0]]],A1=[0,[0,[0,0]]],Bd=[0,0],Bt=a(ad),Bm=[0,0],Bn=[0,0],Bo=[0,[0,[0,[0,0]]]],Bp=[0,[0,[0,0]]],Bq=[0,[0,[0,[0,0]]]],Br=[0,[0,[0,0]]],Bk=[0,[0,[0,0]]],Bj=[0,0],Bi=a(eB),Bh=[0,0],Bg=[0,[0,[0,0]]],Bf=[0,0],Ba=[0,[0,0]],Bc=[0,[0,[0,0]]],Bb=[0,0],A8=[0,[0,[0,0]]],A7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gx]]]]]]]]]],[0,0,[0,[0,[0,[0,0]]],0]]],A2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],[0,0,0]],A3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],[0,[0,[0,[0,[0,[0,[0,0]]]]]],0]],A4=[0,[0,[0,[0,[0,[0,[0,0]]]]]],0],A5=[0,[0,[0,[0,0]]],[0,0,0]],AZ=[0,0],A0=[0,[0,0]],AY=[0,0,0],AX=[0,[0,[0,0]]],AR=[0,[0,0]],AS=[0,[0,[0,0]]],AT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gy]]]]]]]]]]],AU=[0,[0,0]],AV=[0,[0,[0,0]]],AQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gz]]]]]]]]]]],AO=[0,[0,0]],AP=[0,[0,[0,0]]],AM=[0,[0,[0,0]]],AN=[0,[0,0]],AL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GB]]]]]]]]]]],AK=[0,0],AJ=[0,0],AG=[0,[0,0]],AH=[0,0],AE=[0,0],AF=[0,1],AC=[0,[0,0]],AD=[0,0],AB=[0,0],Ax=[0,0],Ay=[0,1],z$=[0,0],Aa=[0,1],Ab=[0,2],z7=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],z5=[0,[0,0],0],z6=[0,[1,0],0],z8=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],z3=[0,[0,0]],z4=[0,0],z2=[0,0],z1=[0,0],z0=[0,0],zZ=[0,0],zY=[0,0,0],zW=[0,[0,0]],zX=[0,0],zV=[0,0,0],zT=[0,[0,[0,0]]],zU=[0,[0,[0,0]]],zS=[0,0],zQ=[0,1,0],zI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GF]]]]]]]]]]],zJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GK]]]]]]]]]]],zE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GP]]]]]]]]]]],zF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GX]]]]]]]]]]],zG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G5]]]]]]]]]]],zH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,He]]]]]]]]]]],zK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hg]]]]]]]]]]],zL=a("sqrt"),zC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hi]]]]]]]]]]],zD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ht]]]]]]]]]]],zr=[0,a("\n"),0],zs=a(pg),zt=a(hf),zu=a(p_),zv=a(pT),zB=a(fD),zw=a(fy),zx=a("verdict"),zy=a(qJ),zz=a(pM),zA=a(p9),zo=a(p3),zp=a(qN),zq=a(hh),zk=a(qk),zl=a(hi),zm=a(fy),zn=a(fD),zf=a(hq),zg=a(bn),zh=a(pi),zi=a(hn),zc=a(qG),zd=a(fz),ze=a(hn),y_=a(qn),y$=a(hq),za=a(hi),zb=a(qW),yZ=a(qO),y0=a(qR),y1=a(hm),y2=a(hk),y3=a(q2),y4=a(qC),y5=a(qF),y6=a(qr),y7=a(hm),y8=a(qu),yM=a(hd),yN=a(fC),yH=a(bE),yI=a(bD),yJ=a(pO),yh=a(hk),yi=a(qq),xX=a(bn),xY=a(b0),xZ=a(hs),x0=a(eE),x1=a(dH),x6=a(jK),x2=a(jZ),x3=a(j2),x4=a(ez),x5=a(bn),x7=a(b0),x8=a(hs),x9=a(eE),x_=a(jZ),x$=a(j2),ya=a(ez),yb=a(bn),yc=a(b0),yd=a(bE),ye=a(bD),yf=a(dF),yg=a(eE),yj=a(qA),yk=a(qQ),yl=a(hv),ym=a(pC),yn=a(pH),yo=a(ez),yp=a(bn),yq=a(b0),yr=a(ha),ys=a(pR),yt=a(eE),yu=a(fG),yv=a(pq),yw=a(ez),yx=a(bn),yy=a(ha),yz=a(bn),yA=a(qt),yD=a(pe),yB=a(pF),yC=a(qV),yE=a(fD),yF=a(fy),yG=a(bn),yK=a(hv),yL=a(hh),xS=a(b0),xT=a(eE),xU=a(jK),xV=a(ez),xR=a(q4),xF=a(fG),xG=a(qK),xH=a(dG),xI=a(eC),xJ=a(eC),xK=a(jN),xL=a(dG),xM=a(qa),xN=a(pN),xO=a(bg),xQ=a(pl),xP=a(jN),xv=a(p2),xw=a(q8),xx=a(pJ),xy=a(pG),xz=a(qU),xA=a(qE),xB=a(pU),xC=a(hb),xD=a(hb),xr=a(bg),xs=a(bC),xt=a(eF),xu=a(bZ),xn=a(dH),xo=a(jU),xp=a(ql),xk=a(bE),xl=a(bD),xm=a(dF),xd=a(bE),xe=a(bD),xf=a(dF),xg=a(jW),xh=a(dG),xi=a(jS),xj=a(qz),wX=a(pE),w3=a(hf),w2=a(j4),wY=a(jO),wZ=a(fw),w4=a(fx),w6=a(fx),w7=a(qx),w8=a(jO),w5=a(fw),w9=a(pA),w_=a(qw),w$=a(fw),xa=a(q3),xb=a(j4),xc=a(fw),w0=a(eC),w1=a(qg),wU=a(hl),wV=a(hl),wW=a(hl),wQ=a(qB),wR=a(bD),wS=a(bE),wT=a(qT),wz=a(pu),wA=a(pk),wB=a(qp),wC=a(eA),wD=a(q5),wE=a(qs),wF=a(pv),wG=a(qh),wH=a(pt),wI=a(pQ),wJ=a(ps),wK=a(qD),wL=a(ey),wM=a(pp),wN=a(qM),wO=a(pI),wP=a(q6),we=a(ho),wg=a(fA),wf=a(fv),wh=a(ex),wi=a(bg),wj=a(bC),wk=a(cg),wl=a(ht),wm=a(bZ),wn=a(bg),wo=a(bC),wp=a(eF),wq=a(bZ),wr=a(ex),ws=a(fF),wt=a(bg),wu=a(bC),wv=a(qe),ww=a(fx),wx=a(fF),wy=a(bZ),vY=a(ho),v6=a(fA),vZ=a(fv),v0=a(ex),v1=a(bg),v2=a(bC),v3=a(cg),v4=a(ht),v5=a(bZ),v7=a(hu),v8=a(bg),v9=a(bC),v_=a(eF),v$=a(bZ),wa=a(cg),wb=a(dH),wc=a(bZ),vV=a(bE),vW=a(bD),vT=[0,a(aL),0],vU=a(aL),vR=a(ad),vQ=[0,a(aL),0],vS=a(aL),vD=a(ho),vE=a(fA),vF=a("*"),vG=a(b1),vy=[0,[0,[0,[0,[0,0]]]]],vz=[0,[0,[0,0]]],vA=[0,[0,0]],vB=[0,0],vC=[0,[0,[0,[0,0]]]],vw=a('":'),vx=a(aL),vu=[0,a(aL),0],vv=a(aL),vs=[0,a("}"),0],vt=a("{"),vq=[0,a("]"),0],vr=a("["),vo=[0,[0,[0,0]]],vn=[0,[0,[0,0]]],vl=[0,0],vi=[0,[0,[0,0]]],vj=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],vk=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],vg=[0,[0,0]],vh=[0,[0,[0,0]]],ve=[0,0],vf=[0,[0,0]],va=[0,[0,0]],vb=[0,0],vc=[0,[0,[0,0]]],vd=[0,[0,[0,0]]],u8=[0,[0,[0,0]]],u_=[0,[0,[0,0]]],u9=[0,0],u5=[0,[0,0]],u6=[0,0],u3=[0,[0,0]],u4=[0,0],u2=[0,[0,[0,0]]],u0=[0,[0,0]],u1=[0,0],uX=[0,0],uY=[0,[0,0]],uR=[0,[0,0]],uS=[0,[0,[0,[0,[0,0]]]]],uT=[0,[0,[0,[0,0]]]],uU=[0,[0,[0,0]]],uV=[0,[0,0]],uW=[0,0],uO=[0,0],uP=[0,[0,0]],uQ=[0,0],uN=[0,0],uJ=[0,0],uK=[0,[0,[0,[0,[0,[0,0]]]]]],uL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hu]]]]]]]]]]],uH=[0,0],uE=[0,0,0],uF=[0,0,0],uG=[0,0,0],uB=[0,[0,0]],uC=[0,[0,[0,0]]],uD=[0,0],uo=[0,[0,[0,[0,[0,[0,0]]]]]],up=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],uq=[0,[0,[0,0]]],ur=[0,[0,[0,0]]],us=[0,[0,[0,[0,[0,[0,0]]]]]],ut=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],uu=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hv]]]]]]]]]]],uv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hw]]]]]]]]]]],uw=[0,[0,[0,0]]],ux=[0,[0,[0,[0,[0,[0,0]]]]]],un=[0,0],ul=[0,[0,0]],um=[0,[0,[0,0]]],uh=[0,0,0],ui=[0,0,0],ud=[0,0,0],ue=[0,0,0],uf=[0,0,0],ug=[0,0,0],uc=[0,0],ub=[0,0],ua=[0,0],t_=[0,0],t$=[0,0],t9=[0,0],t7=[0,0],t8=[0,0],t0=[0,0],t1=[0,0],t2=[0,0],t3=[0,[0,[0,0]]],tZ=[0,0],tU=[0,[0,[0,0]]],tV=[0,[0,0]],tS=[0,[0,0]],tT=[0,[0,[0,0]]],tR=[0,0],tP=[0,0],tQ=[0,0],tN=[0,0,0],tK=[0,[0,0]],tL=[0,0],tC=[0,[0,0]],tD=[0,0],tE=[0,[0,0]],tF=[0,0],tG=[0,[0,0]],tH=[0,0],tI=[0,[0,0]],tJ=[0,0],tA=[0,[0,0]],tB=[0,0],ty=[0,[0,0]],tz=[0,0],tu=[0,[0,0]],tv=[0,0],tw=[0,0],tx=[0,[0,0]],tl=[0,[0,0]],tm=[0,0],tn=[0,[0,0]],to=[0,0],tp=[0,0],tq=[0,[0,0]],tr=[0,[0,0]],ts=[0,[0,0]],tt=[0,0],th=[0,0],tg=[0,0],td=[0,0],te=[0,[0,0]],tc=[0,[0,[0,0]]],tb=[0,[0,[0,[0,[0,[0,0]]]]]],s$=[0,[0,0]],ta=[0,0],s_=[0,[0,0]],s9=[0,0],s7=[0,0],s8=[0,[0,[0,0]]],s3=[0,[0,0]],s4=[0,[0,[0,0]]],s2=[0,[0,[0,0]]],sZ=[0,[0,[0,0]]],sX=[0,[0,[0,0]]],sV=[0,[0,[0,[0,[0,[0,0]]]]]],sW=[0,[0,[0,[0,[0,[0,0]]]]]],sQ=[0,[0,0]],sR=[0,0],sS=[0,[0,0]],sT=[0,[0,[0,0]]],sU=[0,[0,[0,0]]],sJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],sK=[0,[0,[0,[0,[0,[0,0]]]]]],sL=[0,[0,[0,[0,[0,[0,0]]]]]],sM=[0,[0,[0,0]]],sN=[0,[0,[0,[0,[0,[0,0]]]]]],sO=[0,[0,[0,0]]],sP=[0,[0,[0,0]]],sH=[0,[0,0]],sI=[0,0],sG=[0,0,0],sF=[0,0,0],sD=[0,0,0],sC=[0,[0,[0,0]]],sw=[0,0],sx=[0,0],sy=[0,0],sz=[0,0],su=[0,0],sv=[0,0],sq=[0,[0,[0,0]]],sr=[0,[0,[0,0]]],ss=[0,[0,[0,0]]],sp=[0,[0,[0,[0,0]]]],sl=[0,[0,[0,0]]],sm=[0,[0,[0,0]]],sn=[0,[0,[0,0]]],so=[0,[0,1,1],[0,[0,0,1],[0,[0,1,0],[0,[0,0,0],0]]]],sj=[0,[0,0]],sk=[0,0],sh=[0,[0,0]],si=[0,0],sf=[0,[0,0]],sg=[0,0],r4=[0,0],r5=[0,[0,0]],r2=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],r3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hx]]]]]]]]]]],r0=[0,0,0],rZ=a(q0),rY=a(ad),rX=[0,[0,0]],rV=[0,0],rS=[0,0],rU=[1,0],rT=[0,0],rR=[0,0],rP=[1,0],rQ=[1,0],tf=[10,0,0,0,0],Be=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HC]]]]]]]]]]],Ew=a(bE),Ex=a(bD),Ey=a(pO),Eo=a(hu),Ep=[0,a("a base axis of such a platform"),0],Eq=a(bg),Er=a(bC),Eb=a(qE),Ec=a(p2),Ed=a(qU),Ee=a(hb),Ef=a(pU),Eg=a(hb),Eh=a(q8),Ei=a(pJ),Ej=a(pG),D3=a(qq),D4=a(hk),DF=[0,a("such a machine with bodies"),0],Ds=a(hh),Dt=a(bn),Du=a(qt),Dv=a(qV),Dy=a(pF),Dz=a(pe),DA=a(bn),DB=a(bn),DD=a(ha),DC=[0,a("a claim that no cube of such a machine fits"),0],DE=a(q4),DG=a(ez),DH=a(eE),DI=a(dH),DJ=a(jU),DK=a(ql),DL=a(hs),DM=a(pH),DN=a(pq),DO=a(jK),DR=a(dF),DS=a(qz),DV=a(b0),DW=a(b0),DX=a(pR),DY=a(b0),DZ=[0,a("the closed design with other bounds on psi than one from below and one from above"),0],D0=a(ha),D1=a(fG),D2=a(dF),D5=a(b0),D6=a(bE),D7=a(bD),D8=a(qA),D9=a(qQ),D_=a(hv),D$=a(pC),DP=[0,a(aL),0],DQ=a('the mechanism "'),Ea=a(jZ),Ek=a(hs),El=a(dH),Em=a(jU),En=a(j2),Es=a(b0),Ev=a(dH),Et=[0,a("a platform that turns on struts and other drives"),0],Eu=a(b0),DT=[0,a(aL),0],DU=a('the workspace "'),Ez=a(bn),EA=a(bn),EC=a(fD),ED=a(fy),EE=a(hv),EB=[0,a("an atlas of such a machine"),0],Dw=[0,a(aL),0],Dx=a('a claim of the kind "'),EU=a(j0),EV=[0,a('the evidence "fan" without "tolerances"'),0],EJ=a(dI),E4=a(fC),E5=[0,1,1],EK=a(qi),EW=a(ey),EX=a(eA),EY=a(pP),EZ=a(qc),E0=a(cg),E1=a(fC),E2=a(hd),E3=a(cg),EL=a(q9),EM=a(dI),EN=a(pB),EO=a(eB),EP=a(j0),ES=a(eB),ET=[0,a('the evidence "inside" about "rank"'),0],EQ=[0,a(aL),0],ER=a('the evidence "'),E6=a(ey),E7=a(eA),E8=a(dI),E9=a(eB),E_=a(qS),Fa=a(ey),Fb=a(eA),Fc=a(dI),Fd=a(eB),Fe=a(fz),Ff=a(hc),Fg=a(fz),Fh=a(hc),E$=[0,a("this evidence at control points"),0],Gq=a('"orthocert-paving/'),Gg=a(dI),Gh=a(dI),FZ=a(p9),F0=a(pM),F1=a(qJ),Go=[0,3,3],F2=a(pT),Ge=[0,a("this set of orientations with such drives"),0],Gf=[0,a('"parallel_margin" of struts in the plane'),0],Gi=[0,a('this evidence "tolerances" of a platform that turns'),0],Gj=[0,a('"one_to_one" of this set of orientations'),0],Gk=[0,a("a step of a platform that turns that is not at control points"),0],Gl=[0,a('the evidence "tolerances" of such a mechanism'),0],Gm=[0,a(qf),0],Gn=[0,a(qI),0],Gd=[0,a(qf),0],Gc=[0,a(qI),0],Ga=[0,a(ph),0],Gb=[0,a("a step in a proof that no cube fits"),0],F$=[0,a('"one_to_one" of such a mechanism'),0],F3=[0,a("the acceleration of a joint of a machine with a plane"),0],F9=[0,a("a stiffness for each joint in such a claim"),0],F_=[0,a(qv),0],F8=[0,a(qv),0],F4=a(p_),F5=a(pg),F6=a(hf),F7=[0,a(ph),0],FV=a(j5),FW=a(hc),FX=a(cg),FN=a(hh),FO=a(p3),FP=a(qN),FQ=[0,a(aL),0],FR=a('a proof of the kind "'),FJ=a(fy),FK=a(fD),FL=a(hi),FM=a(qk),FF=a(bn),FG=a(hq),FH=a(pi),FI=a(hn),FC=a(qG),FD=a(fz),FE=a(hn),Fy=a(qn),Fz=a(hq),FA=a(hi),FB=a(qW),Fk=a(qR),Fl=a(hm),Fm=a(qO),Fn=a(hk),Fo=a(qu),Fp=a(q2),Fs=a(qC),Ft=a(hd),Fu=a(fC),Fv=a(qF),Fw=a(qr),Fx=a(hm),Fq=[0,a(aL),0],Fr=a('the failure "'),Fi=a(j5),Fj=a(q0),EH=a(fC),EI=a(hd),EF=a(pf),EG=a(pj),Dp=a(fG),Df=a(jN),Dg=a(pl),Dh=a(eC),Di=a(bg),Dn=a(qK),Do=a(fG),Dq=a(dG),Dr=a(eC),Dj=a(dG),Dk=a(qa),Dl=a(pN),Dm=a(bg),C_=a(dF),Dc=a(bE),Dd=a(bD),C$=a(jS),Da=a(jW),Db=a(dG),C4=a(dF),C8=a(bE),C9=a(bD),C5=a(jS),C6=a(jW),C7=a(dG),C3=[0,1],C2=[0,1],C0=[0,1],CZ=[0,1],CX=[0,1],CY=[0,a("this quantity of such a mechanism"),0],CG=a(jO),CH=a(qw),CI=a(pA),CJ=a(j4),CK=a(q3),CM=a(qx),CL=a(fx),CF=a(hf),Cx=a(hl),Cl=a(qg),Cm=a(qp),CP=a(ey),CQ=a(qM),CR=a(pQ),CS=a(eA),CT=a(qh),CU=a(ps),CV=a(pt),CW=a(pk),Cn=a(pp),Co=a(q6),Cp=a(qD),Cq=a(qs),Cr=a(pI),Cs=a(q5),Ct=a(pv),Cu=a(pu),Cv=[0,a(aL),0],Cw=a('the quantity "'),Cy=a(pE),Cz=a(qB),CA=a(bE),CB=a(bD),CC=a(qT),CD=[0,a(aL),0],CE=a('a bound "'),CN=a(fw),CO=a(eC),Cj=a(bZ),Ck=a(eF),B0=a(bZ),B1=a(hu),B2=a(fF),B3=a(ht),B4=a(eF),B7=a(bg),B8=a(bC),B9=a(fv),B_=a(ex),B$=a(bg),Ca=a(bC),Cb=a(cg),Cc=a(fv),Cd=a(ex),Ce=a(fF),Cf=a(bg),Cg=a(bC),Ch=a(qe),Ci=a(fx),B5=[0,a('" of such a machine'),0],B6=a(pz),BY=a(bZ),BZ=a(fF),BI=a(bZ),BJ=a(dH),BK=a(ht),BL=a(eF),BO=a(hu),BP=a(bg),BQ=a(bC),BR=a(fv),BS=a(ex),BT=a(bg),BU=a(bC),BV=a(cg),BW=a(cg),BM=[0,a(aL),0],BN=a(pz),BF=a(ho),BG=a(fA),BD=a(" is not covered by the verified checker"),BE=a(ad),BB=a(bE),BC=a(bD),Bx=a(ad),By=a(q7),Bz=a(ad),BA=a(ad),Bw=[1,0],Bu=a("Reader.Malformed"),Bv=a("Reader.Not_covered"),Gs=[0,a("a paving is checked by orthocert-verified")],Gr=a(qj),Gt=a("CERTIFIED"),Gu=a("REFUTED"),Gv=a(qj),Gw=a("NOT COVERED: ");function
-fM(a){throw[0,kl,a]}function
-a$(d,c){var
-a=au(d),e=au(c),b=cj(a+e|0);eH(d,0,b,0,a);eH(c,0,b,a,e);return hD(b)}H6(0);rt(1);rt(2);function
-kn(b){function
+It(){var
+a=O;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){ry(b);a.process.exit(2)});else
+if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)ry(a.error)})}It();function
+i(a,b){return a.length==1?a(b):dm(a,[b])}function
+ao(a,b,c){return a.length==2?a(b,c):dm(a,[b,c])}function
+fw(a,b,c,d){return a.length==3?a(b,c,d):dm(a,[b,c,d])}function
+jR(a,b,c,d,e){return a.length==4?a(b,c,d,e):dm(a,[b,c,d,e])}H7();var
+kx=[a0,a(p7),-2],kw=[a0,a(rj),-4],GN=[0,[0,[0,[0,0]]]],GO=[0,0],GP=[0,0],GQ=[0,[0,0]],GR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GQ]]]]]]]]]]],g9=[0,[1,0],0],oI=[0,[2,0],0],jy=[0,[1,0],0],oH=[0,[2,0],0],g7=[0,[1,0],0],jx=[0,[2,0],0],GS=[0,[0,[0,[0,0]]]],GT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GS]]]]]]]]]]],GU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GT]]]]]]]]]]],GV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GU]]]]]]]]]]],GW=[0,[0,0]],GX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GW]]]]]]]]]]],GY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GX]]]]]]]]]]],GZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GY]]]]]]]]]]],G0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GZ]]]]]]]]]]],G1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],G2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G1]]]]]]]]]]],G3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G2]]]]]]]]]]],G4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G3]]]]]]]]]]],G5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G4]]]]]]]]]]],G6=[0,[0,0]],G7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G6]]]]]]]]]]],G8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G7]]]]]]]]]]],G9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G8]]]]]]]]]]],G_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G9]]]]]]]]]]],G$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G_]]]]]]]]]]],Ha=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G$]]]]]]]]]]],Hb=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ha]]]]]]]]]]],Hc=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],Hd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hc]]]]]]]]]]],He=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hd]]]]]]]]]]],Hf=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,He]]]]]]]]]]],Hg=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hf]]]]]]]]]]],Hh=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hg]]]]]]]]]]],Hi=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hh]]]]]]]]]]],Hj=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hi]]]]]]]]]]],Hk=[0,0],Hl=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hk]]]]]]]]]]],Hm=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hl]]]]]]]]]]],Hn=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hm]]]]]]]]]]],Ho=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hn]]]]]]]]]]],Hp=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ho]]]]]]]]]]],Hq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hp]]]]]]]]]]],Hr=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hq]]]]]]]]]]],Hs=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hr]]]]]]]]]]],Ht=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hs]]]]]]]]]]],Hu=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ht]]]]]]]]]]],Hv=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],Hw=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hv]]]]]]]]]]],Hx=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],Hy=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hx]]]]]]]]]]],Hz=[0,[0,[0,[0,[0,0]]]]],HA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hz]]]]]]]]]]],HB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HA]]]]]]]]]]],HC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HB]]]]]]]]]]],HD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HC]]]]]]]]]]],HE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HD]]]]]]]]]]],HF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HE]]]]]]]]]]],HG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HF]]]]]]]]]]],HH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HG]]]]]]]]]]],HI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HH]]]]]]]]]]],HJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HI]]]]]]]]]]],HK=[0,0],HL=[0,[0,0]],HM=[0,0],HN=[0,[0,[0,[0,[0,0]]]]],k5=[0,[0,[0,0]]],dt=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],gX=[0,[0,[0,[0,0]]]],HO=[0,[0,[0,[0,[0,0]]]]],HP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HO]]]]]]]]]]],HQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HP]]]]]]]]]]],HR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HQ]]]]]]]]]]],HS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HR]]]]]]]]]]];bG(11,[a0,a(px),-12],px);bG(10,[a0,a(ql),-11],ql);bG(9,[a0,a(q_),-10],q_);bG(8,[a0,a(pJ),-9],pJ);bG(7,[a0,a(qA),-8],qA);bG(6,[a0,a(pH),-7],pH);bG(5,[a0,a(p8),-6],p8);bG(4,[a0,a(qa),-5],qa);bG(3,kw,rj);bG(2,[a0,a(j1),-3],j1);bG(1,kx,p7);bG(0,[a0,a(qT),-1],qT);var
+rV=a("String.sub / Bytes.sub"),rX=a(ad),rW=a("String.concat"),rY=a("Array.init"),rZ=a("power"),sg=[0,0],sh=[0,0],sn=[0,0,0],so=[0,0,0],sp=[0,0],sL=[0,0],sM=[0,0],sP=[0,0],s_=[0,0],tb=[0,0],tf=[0,0],tg=[0,0],tu=[0,0],tv=[0,0],tY=[0,0],ug=[0,[0,[0,0]]],uK=[0,0],uL=[0,0],uM=[0,0],u$=[0,0],vB=a(","),vT=[0,a(j7),0],vU=a(qf),vV=a("."),vW=[0,[0,[0,0]]],vX=a(fD),vY=a(j8),vZ=[0,[0,[0,[0,[0,0]]]]],v0=[0,a(j7),0],v1=a(rh),y0=a(pu),y2=a(pq),y1=a(qo),y3=a(eA),y4=a(ey),y5=a(ke),y6=a(q4),y7=a(p1),y8=a(j_),y9=a(qu),y_=a(p0),Ap=[0,[0,0,0]],AG=[0,0],Aq=a(fx),Ar=[0,0],As=a("divided"),At=[0,1],Au=a("mirror"),Av=[0,3],Aw=a("negative"),Ax=[0,2],Ay=a(fC),Az=[0,5],AA=a(kd),AB=[0,4],AC=a(dk),AD=a(pM),AE=a(eB),AF=a(cg),AH=[0,0],AI=[0,0],AJ=[0,0],AM=[0,[0,[0,0]]],AN=[0,[0,[0,0]]],Bc=[0,[0,[0,0]]],Bq=[0,0],BG=a(ad),Bz=[0,0],BA=[0,0],BB=[0,[0,[0,[0,0]]]],BC=[0,[0,[0,0]]],BD=[0,[0,[0,[0,0]]]],BE=[0,[0,[0,0]]],Bx=[0,[0,[0,0]]],Bw=[0,0],Bv=a(eB),Bu=[0,0],Bt=[0,[0,[0,0]]],Bs=[0,0],Bn=[0,[0,0]],Bp=[0,[0,[0,0]]],Bo=[0,0],Bj=[0,[0,[0,0]]],Bi=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GN]]]]]]]]]],[0,0,[0,[0,[0,[0,0]]],0]]],Bd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],[0,0,0]],Be=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],[0,[0,[0,[0,[0,[0,[0,0]]]]]],0]],Bf=[0,[0,[0,[0,[0,[0,[0,0]]]]]],0],Bg=[0,[0,[0,[0,0]]],[0,0,0]],Ba=[0,0],Bb=[0,[0,0]],A$=[0,0,0],A_=[0,[0,[0,0]]],A4=[0,[0,0]],A5=[0,[0,[0,0]]],A6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GO]]]]]]]]]]],A7=[0,[0,0]],A8=[0,[0,[0,0]]],A3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GP]]]]]]]]]]],A1=[0,[0,0]],A2=[0,[0,[0,0]]],AZ=[0,[0,[0,0]]],A0=[0,[0,0]],AY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GR]]]]]]]]]]],AX=[0,0],AW=[0,0],AT=[0,[0,0]],AU=[0,0],AR=[0,0],AS=[0,1],AP=[0,[0,0]],AQ=[0,0],AO=[0,0],AK=[0,0],AL=[0,1],Am=[0,0],An=[0,1],Ao=[0,2],Ai=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],Ag=[0,[0,0],0],Ah=[0,[1,0],0],Aj=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],Ae=[0,[0,0]],Af=[0,0],Ad=[0,0],Ac=[0,0],Ab=[0,0],Aa=[0,0],z$=[0,0,0],z9=[0,[0,0]],z_=[0,0],z8=[0,0,0],z6=[0,[0,[0,0]]],z7=[0,[0,[0,0]]],z5=[0,0],z3=[0,1,0],zV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GV]]]]]]]]]]],zW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G0]]]]]]]]]]],zR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G5]]]]]]]]]]],zS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hb]]]]]]]]]]],zT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hj]]]]]]]]]]],zU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hu]]]]]]]]]]],zX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hw]]]]]]]]]]],zY=a("sqrt"),zP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hy]]]]]]]]]]],zQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HJ]]]]]]]]]]],zE=[0,a("\n"),0],zF=a(pr),zG=a(hm),zH=a(qk),zI=a(p5),zO=a(fG),zJ=a(fB),zK=a("verdict"),zL=a(qV),zM=a(pX),zN=a(qj),zB=a(qd),zC=a(qZ),zD=a(ho),zx=a(qw),zy=a(hp),zz=a(fB),zA=a(fG),zs=a(hx),zt=a(bo),zu=a(pt),zv=a(hu),zp=a(qS),zq=a(fC),zr=a(hu),zl=a(qz),zm=a(hx),zn=a(hp),zo=a(q8),za=a(q0),zb=a(q3),zc=a(ht),zd=a(hr),ze=a(rc),zf=a(qO),zg=a(qR),zh=a(qD),zi=a(ht),zj=a(qG),yY=a(hk),yZ=a(fF),yT=a(bF),yU=a(bE),yV=a(pZ),yt=a(hr),yu=a(qC),x9=a(bo),x_=a(b1),x$=a(hz),ya=a(eE),yb=a(dN),yg=a(jU),yc=a(j9),yd=a(ka),ye=a(ez),yf=a(bo),yh=a(b1),yi=a(hz),yj=a(eE),yk=a(j9),yl=a(ka),ym=a(ez),yn=a(bo),yo=a(b1),yp=a(bF),yq=a(bE),yr=a(dL),ys=a(eE),yv=a(qM),yw=a(q2),yx=a(hC),yy=a(pN),yz=a(pS),yA=a(ez),yB=a(bo),yC=a(b1),yD=a(hi),yE=a(p3),yF=a(eE),yG=a(fJ),yH=a(pB),yI=a(ez),yJ=a(bo),yK=a(hi),yL=a(bo),yM=a(qF),yP=a(pp),yN=a(pQ),yO=a(q7),yQ=a(fG),yR=a(fB),yS=a(bo),yW=a(hC),yX=a(ho),x4=a(b1),x5=a(eE),x6=a(jU),x7=a(ez),x3=a(re),xR=a(fJ),xS=a(qW),xT=a(dM),xU=a(eC),xV=a(eC),xW=a(jX),xX=a(dM),xY=a(qm),xZ=a(pY),x0=a(bi),x2=a(pw),x1=a(jX),xH=a(qc),xI=a(ri),xJ=a(pU),xK=a(pR),xL=a(q6),xM=a(qQ),xN=a(p6),xO=a(hj),xP=a(hj),xD=a(bi),xE=a(bD),xF=a(eF),xG=a(b0),xz=a(dN),xA=a(j4),xB=a(qx),xw=a(bF),xx=a(bE),xy=a(dL),xp=a(bF),xq=a(bE),xr=a(dL),xs=a(j6),xt=a(dM),xu=a(j2),xv=a(qL),w9=a(pP),xd=a(hm),xc=a(kc),w_=a(jY),w$=a(fz),xe=a(fA),xg=a(fA),xh=a(qJ),xi=a(jY),xf=a(fz),xj=a(pL),xk=a(qI),xl=a(fz),xm=a(rd),xn=a(kc),xo=a(fz),xa=a(eC),xb=a(qs),w6=a(hs),w7=a(hs),w8=a(hs),w2=a(qN),w3=a(bE),w4=a(bF),w5=a(q5),wL=a(pF),wM=a(pv),wN=a(qB),wO=a(eA),wP=a(rf),wQ=a(qE),wR=a(pG),wS=a(qt),wT=a(pE),wU=a(p2),wV=a(pD),wW=a(qP),wX=a(ey),wY=a(pA),wZ=a(qY),w0=a(pT),w1=a(rg),wq=a(hv),ws=a(fD),wr=a(fy),wt=a(ex),wu=a(bi),wv=a(bD),ww=a(cg),wx=a(hA),wy=a(b0),wz=a(bi),wA=a(bD),wB=a(eF),wC=a(b0),wD=a(ex),wE=a(fI),wF=a(bi),wG=a(bD),wH=a(qq),wI=a(fA),wJ=a(fI),wK=a(b0),v_=a(hv),wg=a(fD),v$=a(fy),wa=a(ex),wb=a(bi),wc=a(bD),wd=a(cg),we=a(hA),wf=a(b0),wh=a(hB),wi=a(bi),wj=a(bD),wk=a(eF),wl=a(b0),wm=a(cg),wn=a(dN),wo=a(b0),v7=a(bF),v8=a(bE),v5=[0,a(aM),0],v6=a(aM),v3=a(ad),v2=[0,a(aM),0],v4=a(aM),vP=a(hv),vQ=a(fD),vR=a("*"),vS=a(b2),vK=[0,[0,[0,[0,[0,0]]]]],vL=[0,[0,[0,0]]],vM=[0,[0,0]],vN=[0,0],vO=[0,[0,[0,[0,0]]]],vI=a('":'),vJ=a(aM),vG=[0,a(aM),0],vH=a(aM),vE=[0,a("}"),0],vF=a("{"),vC=[0,a("]"),0],vD=a("["),vA=[0,[0,[0,0]]],vz=[0,[0,[0,0]]],vx=[0,0],vu=[0,[0,[0,0]]],vv=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],vw=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],vs=[0,[0,0]],vt=[0,[0,[0,0]]],vq=[0,0],vr=[0,[0,0]],vm=[0,[0,0]],vn=[0,0],vo=[0,[0,[0,0]]],vp=[0,[0,[0,0]]],vi=[0,[0,[0,0]]],vk=[0,[0,[0,0]]],vj=[0,0],vf=[0,[0,0]],vg=[0,0],vd=[0,[0,0]],ve=[0,0],vc=[0,[0,[0,0]]],va=[0,[0,0]],vb=[0,0],u9=[0,0],u_=[0,[0,0]],u3=[0,[0,0]],u4=[0,[0,[0,[0,[0,0]]]]],u5=[0,[0,[0,[0,0]]]],u6=[0,[0,[0,0]]],u7=[0,[0,0]],u8=[0,0],u0=[0,0],u1=[0,[0,0]],u2=[0,0],uZ=[0,0],uV=[0,0],uW=[0,[0,[0,[0,[0,[0,0]]]]]],uX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HK]]]]]]]]]]],uT=[0,0],uQ=[0,0,0],uR=[0,0,0],uS=[0,0,0],uN=[0,[0,0]],uO=[0,[0,[0,0]]],uP=[0,0],uA=[0,[0,[0,[0,[0,[0,0]]]]]],uB=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],uC=[0,[0,[0,0]]],uD=[0,[0,[0,0]]],uE=[0,[0,[0,[0,[0,[0,0]]]]]],uF=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],uG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HL]]]]]]]]]]],uH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HM]]]]]]]]]]],uI=[0,[0,[0,0]]],uJ=[0,[0,[0,[0,[0,[0,0]]]]]],uz=[0,0],ux=[0,[0,0]],uy=[0,[0,[0,0]]],ut=[0,0,0],uu=[0,0,0],up=[0,0,0],uq=[0,0,0],ur=[0,0,0],us=[0,0,0],uo=[0,0],un=[0,0],um=[0,0],uk=[0,0],ul=[0,0],uj=[0,0],uh=[0,0],ui=[0,0],ua=[0,0],ub=[0,0],uc=[0,0],ud=[0,[0,[0,0]]],t$=[0,0],t6=[0,[0,[0,0]]],t7=[0,[0,0]],t4=[0,[0,0]],t5=[0,[0,[0,0]]],t3=[0,0],t1=[0,0],t2=[0,0],tZ=[0,0,0],tW=[0,[0,0]],tX=[0,0],tO=[0,[0,0]],tP=[0,0],tQ=[0,[0,0]],tR=[0,0],tS=[0,[0,0]],tT=[0,0],tU=[0,[0,0]],tV=[0,0],tM=[0,[0,0]],tN=[0,0],tK=[0,[0,0]],tL=[0,0],tG=[0,[0,0]],tH=[0,0],tI=[0,0],tJ=[0,[0,0]],tx=[0,[0,0]],ty=[0,0],tz=[0,[0,0]],tA=[0,0],tB=[0,0],tC=[0,[0,0]],tD=[0,[0,0]],tE=[0,[0,0]],tF=[0,0],tt=[0,0],ts=[0,0],tp=[0,0],tq=[0,[0,0]],to=[0,[0,[0,0]]],tn=[0,[0,[0,[0,[0,[0,0]]]]]],tl=[0,[0,0]],tm=[0,0],tk=[0,[0,0]],tj=[0,0],th=[0,0],ti=[0,[0,[0,0]]],td=[0,[0,0]],te=[0,[0,[0,0]]],tc=[0,[0,[0,0]]],s$=[0,[0,[0,0]]],s9=[0,[0,[0,0]]],s7=[0,[0,[0,[0,[0,[0,0]]]]]],s8=[0,[0,[0,[0,[0,[0,0]]]]]],s2=[0,[0,0]],s3=[0,0],s4=[0,[0,0]],s5=[0,[0,[0,0]]],s6=[0,[0,[0,0]]],sV=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],sW=[0,[0,[0,[0,[0,[0,0]]]]]],sX=[0,[0,[0,[0,[0,[0,0]]]]]],sY=[0,[0,[0,0]]],sZ=[0,[0,[0,[0,[0,[0,0]]]]]],s0=[0,[0,[0,0]]],s1=[0,[0,[0,0]]],sT=[0,[0,0]],sU=[0,0],sS=[0,0,0],sR=[0,0,0],sQ=[0,0,0],sO=[0,0,0],sN=[0,[0,[0,0]]],sH=[0,0],sI=[0,0],sJ=[0,0],sK=[0,0],sF=[0,0],sG=[0,0],sB=[0,[0,[0,0]]],sC=[0,[0,[0,0]]],sD=[0,[0,[0,0]]],sA=[0,[0,[0,[0,0]]]],sw=[0,[0,[0,0]]],sx=[0,[0,[0,0]]],sy=[0,[0,[0,0]]],sz=[0,[0,1,1],[0,[0,0,1],[0,[0,1,0],[0,[0,0,0],0]]]],su=[0,[0,0]],sv=[0,0],ss=[0,[0,0]],st=[0,0],sq=[0,[0,0]],sr=[0,0],sd=[0,0],se=[0,[0,0]],sb=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],sc=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HN]]]]]]]]]]],r$=[0,0,0],r_=a(ra),r9=a(ad),r8=[0,[0,0]],r6=[0,0],r3=[0,0],r5=[1,0],r4=[0,0],r2=[0,0],r0=[1,0],r1=[1,0],tr=[10,0,0,0,0],Br=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HS]]]]]]]]]]],EJ=a(bF),EK=a(bE),EL=a(pZ),EB=a(hB),EC=[0,a("a base axis of such a platform"),0],ED=a(bi),EE=a(bD),Eo=a(qQ),Ep=a(qc),Eq=a(q6),Er=a(hj),Es=a(p6),Et=a(hj),Eu=a(ri),Ev=a(pU),Ew=a(pR),Ee=a(qC),Ef=a(hr),DS=[0,a("such a machine with bodies"),0],DF=a(ho),DG=a(bo),DH=a(qF),DI=a(q7),DL=a(pQ),DM=a(pp),DN=a(bo),DO=a(bo),DQ=a(hi),DP=[0,a("a claim that no cube of such a machine fits"),0],DR=a(re),DT=a(ez),DU=a(eE),DV=a(dN),DW=a(j4),DX=a(qx),DY=a(hz),DZ=a(pS),D0=a(pB),D1=a(jU),D4=a(dL),D5=a(qL),D8=a(b1),D9=a(b1),D_=a(p3),D$=a(b1),Ea=[0,a("the closed design with other bounds on psi than one from below and one from above"),0],Eb=a(hi),Ec=a(fJ),Ed=a(dL),Eg=a(b1),Eh=a(bF),Ei=a(bE),Ej=a(qM),Ek=a(q2),El=a(hC),Em=a(pN),D2=[0,a(aM),0],D3=a('the mechanism "'),En=a(j9),Ex=a(hz),Ey=a(dN),Ez=a(j4),EA=a(ka),EF=a(b1),EI=a(dN),EG=[0,a("a platform that turns on struts and other drives"),0],EH=a(b1),D6=[0,a(aM),0],D7=a('the workspace "'),EM=a(bo),EN=a(bo),EP=a(fG),EQ=a(fB),ER=a(hC),EO=[0,a("an atlas of such a machine"),0],DJ=[0,a(aM),0],DK=a('a claim of the kind "'),E5=a(ke),E6=a(dk),E7=a(eB),E8=a(j_),E9=a(fx),E_=[0,a('this evidence "fan"'),0],EW=a(dk),Fi=a(fF),Fj=[0,1,1],EX=a(qu),E$=a(ey),Fa=a(p0),Fb=a(eA),Fc=a(p1),Fd=a(qo),Fe=a(cg),Ff=a(fF),Fg=a(hk),Fh=a(cg),EY=a(ke),EZ=a(dk),E0=a(pM),E1=a(eB),E2=a(j_),E3=[0,a(aM),0],E4=a('the evidence "'),Fk=a(ey),Fl=a(eA),Fm=a(dk),Fn=a(eB),Fo=a(q4),Fq=a(ey),Fr=a(eA),Fs=a(dk),Ft=a(eB),Fu=a(fC),Fv=a(fx),Fw=a(fC),Fx=a(fx),Fp=[0,a("this evidence at control points"),0],GG=a('"orthocert-paving/'),Gw=a(dk),Gx=a(dk),Gd=a(qj),Ge=a(pX),Gf=a(qV),GE=[0,3,3],Gg=a(p5),Gu=[0,a("this set of orientations with such drives"),0],Gv=[0,a('"parallel_margin" of struts in the plane'),0],Gy=[0,a('this evidence "tolerances" of a platform that turns'),0],Gz=[0,a('"one_to_one" of this set of orientations'),0],GA=[0,a("a step of a platform that turns that is not at control points"),0],GB=[0,a('the evidence "tolerances" of such a mechanism'),0],GC=[0,a(qr),0],GD=[0,a(qU),0],Gt=[0,a(qr),0],Gs=[0,a(qU),0],Gq=[0,a(ps),0],Gr=[0,a("a step in a proof that no cube fits"),0],Gp=[0,a('"one_to_one" of such a mechanism'),0],Gh=[0,a("the acceleration of a joint of a machine with a plane"),0],Gn=[0,a("a stiffness for each joint in such a claim"),0],Go=[0,a(qH),0],Gm=[0,a(qH),0],Gi=a(qk),Gj=a(pr),Gk=a(hm),Gl=[0,a(ps),0],F$=a(kd),Ga=a(fx),Gb=a(cg),F3=a(ho),F4=a(qd),F5=a(qZ),F6=[0,a(aM),0],F7=a('a proof of the kind "'),FZ=a(fB),F0=a(fG),F1=a(hp),F2=a(qw),FV=a(bo),FW=a(hx),FX=a(pt),FY=a(hu),FS=a(qS),FT=a(fC),FU=a(hu),FO=a(qz),FP=a(hx),FQ=a(hp),FR=a(q8),FA=a(q3),FB=a(ht),FC=a(q0),FD=a(hr),FE=a(qG),FF=a(rc),FI=a(qO),FJ=a(hk),FK=a(fF),FL=a(qR),FM=a(qD),FN=a(ht),FG=[0,a(aM),0],FH=a('the failure "'),Fy=a(kd),Fz=a(ra),EU=a(fF),EV=a(hk),ES=a(pq),ET=a(pu),DC=a(fJ),Ds=a(jX),Dt=a(pw),Du=a(eC),Dv=a(bi),DA=a(qW),DB=a(fJ),DD=a(dM),DE=a(eC),Dw=a(dM),Dx=a(qm),Dy=a(pY),Dz=a(bi),Dl=a(dL),Dp=a(bF),Dq=a(bE),Dm=a(j2),Dn=a(j6),Do=a(dM),Df=a(dL),Dj=a(bF),Dk=a(bE),Dg=a(j2),Dh=a(j6),Di=a(dM),De=[0,1],Dd=[0,1],Db=[0,1],Da=[0,1],C_=[0,1],C$=[0,a("this quantity of such a mechanism"),0],CT=a(jY),CU=a(qI),CV=a(pL),CW=a(kc),CX=a(rd),CZ=a(qJ),CY=a(fA),CS=a(hm),CK=a(hs),Cy=a(qs),Cz=a(qB),C2=a(ey),C3=a(qY),C4=a(p2),C5=a(eA),C6=a(qt),C7=a(pD),C8=a(pE),C9=a(pv),CA=a(pA),CB=a(rg),CC=a(qP),CD=a(qE),CE=a(pT),CF=a(rf),CG=a(pG),CH=a(pF),CI=[0,a(aM),0],CJ=a('the quantity "'),CL=a(pP),CM=a(qN),CN=a(bF),CO=a(bE),CP=a(q5),CQ=[0,a(aM),0],CR=a('a bound "'),C0=a(fz),C1=a(eC),Cw=a(b0),Cx=a(eF),Cb=a(b0),Cc=a(hB),Cd=a(fI),Ce=a(hA),Cf=a(eF),Ci=a(bi),Cj=a(bD),Ck=a(fy),Cl=a(ex),Cm=a(bi),Cn=a(bD),Co=a(cg),Cp=a(fy),Cq=a(ex),Cr=a(fI),Cs=a(bi),Ct=a(bD),Cu=a(qq),Cv=a(fA),Cg=[0,a('" of such a machine'),0],Ch=a(pK),B$=a(b0),Ca=a(fI),BV=a(b0),BW=a(dN),BX=a(hA),BY=a(eF),B1=a(hB),B2=a(bi),B3=a(bD),B4=a(fy),B5=a(ex),B6=a(bi),B7=a(bD),B8=a(cg),B9=a(cg),BZ=[0,a(aM),0],B0=a(pK),BS=a(hv),BT=a(fD),BQ=a(" is not covered by the verified checker"),BR=a(ad),BO=a(bF),BP=a(bE),BK=a(ad),BL=a(rh),BM=a(ad),BN=a(ad),BJ=[1,0],BH=a("Reader.Malformed"),BI=a("Reader.Not_covered"),GI=[0,a("a paving is checked by orthocert-verified")],GH=a(qv),GJ=a("CERTIFIED"),GK=a("REFUTED"),GL=a(qv),GM=a("NOT COVERED: ");function
+fP(a){throw[0,kw,a]}function
+ba(d,c){var
+a=au(d),e=au(c),b=cj(a+e|0);eH(d,0,b,0,a);eH(c,0,b,a,e);return hK(b)}Ik(0);rE(1);rE(2);function
+ky(b){function
 a(b){var
 a=b;for(;;){if(a){var
-c=a[2],d=a[1];try{H5(d)}catch(a){a=rD(a);if(a[1]!==km)throw a;var
+c=a[2],d=a[1];try{Ij(d)}catch(a){a=rO(a);if(a[1]!==kx)throw a;var
 e=a}var
-a=c;continue}return 0}}return a(H7(0))}Ic(a(pn),kn);function
+a=c;continue}return 0}}return a(Il(0))}Is(a(py),ky);function
 cl(c){var
 b=0,a=c;for(;;){if(a){var
 b=b+1|0,a=a[2];continue}return b}}function
-ko(d){var
+kz(d){var
 a=d,b=0;for(;;){if(a){var
 c=[0,a[1],b],a=a[2],b=c;continue}return b}}function
-Y(b,a){if(a){var
-c=a[2],d=i(b,a[1]);return[0,d,Y(b,c)]}return 0}function
-hF(d,c){var
+Z(b,a){if(a){var
+c=a[2],d=i(b,a[1]);return[0,d,Z(b,c)]}return 0}function
+hM(d,c){var
 a=c;for(;;){if(a){var
 e=a[2],b=i(d,a[1]);if(b){var
 a=e;continue}return b}return 1}}function
-az(d,c){var
+aA(d,c){var
 a=c;for(;;){if(a){var
 e=a[2],b=i(d,a[1]);if(b)return b;var
 a=e;continue}return 0}}function
-bG(b,c){var
-a=cj(b);HP(a,0,b,c);return hD(a)}function
-dO(g,b,a){var
-d=eI(g),f=0;if(0<=b&&0<=a&&!((hB(d)-a|0)<b)){var
-c=cj(a);fH(d,b,c,0,a);var
+bH(b,c){var
+a=cj(b);H5(a,0,b,c);return hK(a)}function
+dT(g,b,a){var
+d=eI(g),f=0;if(0<=b&&0<=a&&!((hI(d)-a|0)<b)){var
+c=cj(a);fK(d,b,c,0,a);var
 e=c;f=1}if(!f)var
-e=fM(rK);return hD(e)}function
-kp(k,g){if(g){var
+e=fP(rV);return hK(e)}function
+kA(k,g){if(g){var
 h=au(k),c=0,b=g,p=0;for(;;){if(b){var
 i=b[1];if(b[2]){var
-j=(au(i)+h|0)+c|0,m=b[2],n=c<=j?j:fM(rL),c=n,b=m;continue}var
+j=(au(i)+h|0)+c|0,m=b[2],n=c<=j?j:fP(rW),c=n,b=m;continue}var
 l=au(i)+c|0}else
 var
 l=c;var
 f=cj(l),e=p,d=g;for(;;){if(d){var
 a=d[1];if(d[2]){var
 o=d[2];eH(a,0,f,e,au(a));eH(k,0,f,e+au(a)|0,h);var
-e=(e+au(a)|0)+h|0,d=o;continue}eH(a,0,f,e,au(a))}return hD(f)}}}return rM}function
-hG(b,c){if(0===b)return[0];if(0<=b){var
-d=H4(b,i(c,0)),e=b-1|0,f=1;if(!(e<1)){var
+e=(e+au(a)|0)+h|0,d=o;continue}eH(a,0,f,e,au(a))}return hK(f)}}}return rX}function
+hN(b,c){if(0===b)return[0];if(0<=b){var
+d=Ii(b,i(c,0)),e=b-1|0,f=1;if(!(e<1)){var
 a=f;for(;;){d[1+a]=i(c,a);var
 g=a+1|0;if(e!==a){var
-a=g;continue}break}}return d}return fM(rN)}function
-hH(c){var
+a=g;continue}break}}return d}return fP(rY)}function
+hO(c){var
 a=c.length-1-1|0,b=0;for(;;){if(0<=a){var
 d=[0,c[1+a],b],a=a-1|0,b=d;continue}return b}}var
-d=aE(0),b=aE(1);function
-r(a){return D(a,b)}function
-kq(b,a){return D(aE(b),a)}function
-c(b,a){return B(aE(b),a)}function
-aS(b,a){return[0,ki(b,a),rG(b,a)]}function
-hI(b,a){return F(b,a)?b:a}function
-bo(b,a){return F(b,a)?a:b}function
+d=aF(0),b=aF(1);function
+r(a){return E(a,b)}function
+kB(b,a){return E(aF(b),a)}function
+c(b,a){return B(aF(b),a)}function
+aT(b,a){return[0,kt(b,a),rR(b,a)]}function
+hP(b,a){return D(b,a)?b:a}function
+bp(b,a){return D(b,a)?a:b}function
 eN(a){return eN}function
-S(a){return a?0:1}function
+Q(a){return a?0:1}function
 z(b,a){var
 c=a?[0,i(b,a[1])]:a;return c}function
-aB(a){return a[1]}function
+av(a){return a[1]}function
 aY(a){return a[2]}function
 g(a){var
 b=a?[0,g(a[2])]:a;return b}function
 f(a,b){if(a){var
 c=f(a[2],b);return[0,a[1],c]}return b}function
-kr(a){return typeof
-a==="number"?0:[0,kr(a[1])]}function
-ks(d,c){var
+kC(a){return typeof
+a==="number"?0:[0,kC(a[1])]}function
+kD(d,c){var
 a=d,b=c;for(;;)if(typeof
 a==="number")return b;else
 switch(a[0]){case
@@ -797,9 +797,9 @@ a=a[1],b=[7,b];continue;case
 8:var
 a=a[1],b=[8,b];continue;default:var
 a=a[1],b=[9,b];continue}}function
-fN(a){return ks(a,0)}function
-kt(a){if(typeof
-a==="number")return rP;else
+fQ(a){return kD(a,0)}function
+kE(a){if(typeof
+a==="number")return r0;else
 switch(a[0]){case
 0:return[1,a[1]];case
 1:return[2,a[1]];case
@@ -809,100 +809,100 @@ switch(a[0]){case
 5:return[6,a[1]];case
 6:return[7,a[1]];case
 7:return[8,a[1]];case
-8:return[9,a[1]];default:return[0,kt(a[1])]}}function
-bI(a){if(typeof
-a==="number")return rQ;else
+8:return[9,a[1]];default:return[0,kE(a[1])]}}function
+bJ(a){if(typeof
+a==="number")return r1;else
 switch(a[0]){case
-0:return[1,bH(a[1])];case
-1:return[3,bH(a[1])];case
-2:return[5,bH(a[1])];case
-3:return[7,bH(a[1])];case
-4:return[9,bH(a[1])];case
-5:return[1,bI(a[1])];case
-6:return[3,bI(a[1])];case
-7:return[5,bI(a[1])];case
-8:return[7,bI(a[1])];default:return[9,bI(a[1])]}}function
-bH(a){if(typeof
+0:return[1,bI(a[1])];case
+1:return[3,bI(a[1])];case
+2:return[5,bI(a[1])];case
+3:return[7,bI(a[1])];case
+4:return[9,bI(a[1])];case
+5:return[1,bJ(a[1])];case
+6:return[3,bJ(a[1])];case
+7:return[5,bJ(a[1])];case
+8:return[7,bJ(a[1])];default:return[9,bJ(a[1])]}}function
+bI(a){if(typeof
 a==="number")return 0;else
 switch(a[0]){case
-0:return[0,bH(a[1])];case
-1:return[2,bH(a[1])];case
-2:return[4,bH(a[1])];case
-3:return[6,bH(a[1])];case
-4:return[8,bH(a[1])];case
-5:return[0,bI(a[1])];case
-6:return[2,bI(a[1])];case
-7:return[4,bI(a[1])];case
-8:return[6,bI(a[1])];default:return[8,bI(a[1])]}}function
+0:return[0,bI(a[1])];case
+1:return[2,bI(a[1])];case
+2:return[4,bI(a[1])];case
+3:return[6,bI(a[1])];case
+4:return[8,bI(a[1])];case
+5:return[0,bJ(a[1])];case
+6:return[2,bJ(a[1])];case
+7:return[4,bJ(a[1])];case
+8:return[6,bJ(a[1])];default:return[8,bJ(a[1])]}}function
 bx(a){return a?a[1]:a}function
-P(b,a){return b?[0,P(b[1],a)]:a}function
-ku(a,b){return a?P(b,ku(a[1],b)):a}function
-dP(d,c){var
+R(b,a){return b?[0,R(b[1],a)]:a}function
+kF(a,b){return a?R(b,kF(a[1],b)):a}function
+dU(d,c){var
 a=d,b=c;for(;;){if(a){if(b){var
 a=a[1],b=b[1];continue}return a}return a}}function
 cm(b,a){return b?a:a?0:1}function
 p(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return a?0:1}}function
-Z(d,c){var
+_(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return 1}}function
-aN(b,a){return Z([0,b],a)}function
-kv(c){var
+aH(b,a){return _([0,b],a)}function
+kG(c){var
 a=c;for(;;){if(a){var
 b=a[1];if(b){var
 a=b[1];continue}return b}return 1}}function
-fO(c,b,a){return c?i(b,fO(c[1],b,a)):a}function
-kw(a){if(a)var
-b=a[1],d=b?[0,kw(b[1])]:b,c=d;else
+fR(c,b,a){return c?i(b,fR(c[1],b,a)):a}function
+kH(a){if(a)var
+b=a[1],d=b?[0,kH(b[1])]:b,c=d;else
 var
 c=a;return c}function
-hJ(d,c){var
+hQ(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return a?0:1}}function
-kx(a){if(F(a,b))return b;var
-e=aS(a,aE(2)),f=e[1];return J(e[2],d)?r(c(2,kx(f))):r(c(2,c(2,f)))}function
-ky(c,a){return bo(b,aF(c,a))}function
-fP(a,j,h){var
-c=j,f=h;for(;;){if(F(f,b))return i(a,c);var
-g=aS(f,aE(2)),e=g[1];if(J(g[2],d)){var
-c=fP(a,c,e),f=e;continue}return i(a,fP(a,fP(a,c,e),e))}}function
-kz(a){function
-c(b){return B(a,b)}return function(a){return fP(c,b,a)}}function
-fQ(a){if(F(a,b))return rS;var
-c=aS(a,aE(2)),e=c[1];return J(c[2],d)?[0,fQ(e)]:[0,fQ(e)]}function
-fR(a){if(F(a,b))return b;var
-c=aS(a,aE(2)),e=c[1];return J(c[2],d)?r(fR(e)):r(fR(e))}function
-kA(c,b){var
-a=kh(c,b);return 0===a?0:0<=a?2:1}function
-fS(j,i){var
-c=j,a=i;for(;;){if(F(c,b))return F(a,b)?1:J(aS(a,aE(2))[2],d)?0:0;var
-g=aS(c,aE(2)),h=g[1];if(J(g[2],d)){if(F(a,b))return 0;var
-e=aS(a,aE(2)),k=e[1];if(J(e[2],d)){var
-c=h,a=k;continue}return 0}if(F(a,b))return 0;var
-f=aS(a,aE(2)),l=f[1];if(J(f[2],d))return 0;var
+kI(a){if(D(a,b))return b;var
+e=aT(a,aF(2)),f=e[1];return I(e[2],d)?r(c(2,kI(f))):r(c(2,c(2,f)))}function
+kJ(c,a){return bp(b,aG(c,a))}function
+fS(a,j,h){var
+c=j,f=h;for(;;){if(D(f,b))return i(a,c);var
+g=aT(f,aF(2)),e=g[1];if(I(g[2],d)){var
+c=fS(a,c,e),f=e;continue}return i(a,fS(a,fS(a,c,e),e))}}function
+kK(a){function
+c(b){return B(a,b)}return function(a){return fS(c,b,a)}}function
+fT(a){if(D(a,b))return r3;var
+c=aT(a,aF(2)),e=c[1];return I(c[2],d)?[0,fT(e)]:[0,fT(e)]}function
+fU(a){if(D(a,b))return b;var
+c=aT(a,aF(2)),e=c[1];return I(c[2],d)?r(fU(e)):r(fU(e))}function
+kL(c,b){var
+a=ks(c,b);return 0===a?0:0<=a?2:1}function
+fV(j,i){var
+c=j,a=i;for(;;){if(D(c,b))return D(a,b)?1:I(aT(a,aF(2))[2],d)?0:0;var
+g=aT(c,aF(2)),h=g[1];if(I(g[2],d)){if(D(a,b))return 0;var
+e=aT(a,aF(2)),k=e[1];if(I(e[2],d)){var
+c=h,a=k;continue}return 0}if(D(a,b))return 0;var
+f=aT(a,aF(2)),l=f[1];if(I(f[2],d))return 0;var
 c=h,a=l;continue}}function
-fT(b,a){return 2<=kA(b,a)?0:1}function
-dQ(i,e,a){if(i){var
-f=i[1];if(F(e,b))return[0,b,[0,b,a]];var
-w=aS(e,aE(2)),g=w[1];if(J(w[2],d)){if(F(a,b))return[0,b,[0,e,b]];var
-m=aS(a,aE(2)),A=m[1];if(J(m[2],d)){var
-j=dQ(f,g,A),x=j[2];return[0,c(2,j[1]),x]}var
-k=dQ(f,g,a),l=k[2],y=l[2],z=[0,c(2,l[1]),y];return[0,k[1],z]}if(F(a,b))return[0,b,[0,e,b]];var
-v=aS(a,aE(2)),h=v[1];if(J(v[2],d)){var
-n=dQ(f,e,h),o=n[2],B=c(2,o[2]);return[0,n[1],[0,o[1],B]]}switch(kA(g,h)){case
+fW(b,a){return 2<=kL(b,a)?0:1}function
+dV(i,e,a){if(i){var
+f=i[1];if(D(e,b))return[0,b,[0,b,a]];var
+w=aT(e,aF(2)),g=w[1];if(I(w[2],d)){if(D(a,b))return[0,b,[0,e,b]];var
+m=aT(a,aF(2)),A=m[1];if(I(m[2],d)){var
+j=dV(f,g,A),x=j[2];return[0,c(2,j[1]),x]}var
+k=dV(f,g,a),l=k[2],y=l[2],z=[0,c(2,l[1]),y];return[0,k[1],z]}if(D(a,b))return[0,b,[0,e,b]];var
+v=aT(a,aF(2)),h=v[1];if(I(v[2],d)){var
+n=dV(f,e,h),o=n[2],B=c(2,o[2]);return[0,n[1],[0,o[1],B]]}switch(kL(g,h)){case
 0:return[0,e,[0,b,b]];case
 1:var
-p=dQ(f,ky(h,g),e),q=p[2],r=q[2],C=[0,r,D(r,c(2,q[1]))];return[0,p[1],C];default:var
-s=dQ(f,ky(g,h),a),t=s[2],u=t[2],E=[0,D(u,c(2,t[1])),u];return[0,s[1],E]}}return[0,b,[0,e,a]]}function
-fU(b,a){var
-c=fQ(a);return dQ(P(fQ(b),c),b,a)}function
-kB(c,i,h){var
-e=i,a=h;for(;;){if(F(e,b))return a;var
-f=aS(e,aE(2)),g=f[1];if(J(f[2],d)){var
-e=g,a=ao(c,a,a);continue}return ao(c,a,kB(c,g,ao(c,a,a)))}}function
-eO(a){return kB(P,a,rT)}function
-kC(a){return a?r(kC(a[1])):b}function
+p=dV(f,kJ(h,g),e),q=p[2],r=q[2],C=[0,r,E(r,c(2,q[1]))];return[0,p[1],C];default:var
+s=dV(f,kJ(g,h),a),t=s[2],u=t[2],F=[0,E(u,c(2,t[1])),u];return[0,s[1],F]}}return[0,b,[0,e,a]]}function
+fX(b,a){var
+c=fT(a);return dV(R(fT(b),c),b,a)}function
+kM(c,i,h){var
+e=i,a=h;for(;;){if(D(e,b))return a;var
+f=aT(e,aF(2)),g=f[1];if(I(f[2],d)){var
+e=g,a=ao(c,a,a);continue}return ao(c,a,kM(c,g,ao(c,a,a)))}}function
+eO(a){return kM(R,a,r4)}function
+kN(a){return a?r(kN(a[1])):b}function
 cn(f,e){var
 a=f,d=e;for(;;)if(typeof
 a==="number")return d;else
@@ -910,39 +910,39 @@ switch(a[0]){case
 0:var
 g=B(c(2,r(c(2,c(2,b)))),d),a=a[1],d=g;continue;case
 1:var
-h=D(b,B(c(2,r(c(2,c(2,b)))),d)),a=a[1],d=h;continue;case
+h=E(b,B(c(2,r(c(2,c(2,b)))),d)),a=a[1],d=h;continue;case
 2:var
-i=B(c(2,r(c(2,c(2,b)))),d),j=D(c(2,b),i),a=a[1],d=j;continue;case
+i=B(c(2,r(c(2,c(2,b)))),d),j=E(c(2,b),i),a=a[1],d=j;continue;case
 3:var
-k=B(c(2,r(c(2,c(2,b)))),d),l=D(r(c(2,b)),k),a=a[1],d=l;continue;case
+k=B(c(2,r(c(2,c(2,b)))),d),l=E(r(c(2,b)),k),a=a[1],d=l;continue;case
 4:var
-m=B(c(2,r(c(2,c(2,b)))),d),n=D(c(2,c(2,b)),m),a=a[1],d=n;continue;case
+m=B(c(2,r(c(2,c(2,b)))),d),n=E(c(2,c(2,b)),m),a=a[1],d=n;continue;case
 5:var
-o=B(c(2,r(c(2,c(2,b)))),d),p=D(r(c(2,c(2,b))),o),a=a[1],d=p;continue;case
+o=B(c(2,r(c(2,c(2,b)))),d),p=E(r(c(2,c(2,b))),o),a=a[1],d=p;continue;case
 6:var
-q=B(c(2,r(c(2,c(2,b)))),d),s=D(c(2,r(c(2,b))),q),a=a[1],d=s;continue;case
+q=B(c(2,r(c(2,c(2,b)))),d),s=E(c(2,r(c(2,b))),q),a=a[1],d=s;continue;case
 7:var
-t=B(c(2,r(c(2,c(2,b)))),d),u=D(r(c(2,r(c(2,b)))),t),a=a[1],d=u;continue;case
+t=B(c(2,r(c(2,c(2,b)))),d),u=E(r(c(2,r(c(2,b)))),t),a=a[1],d=u;continue;case
 8:var
-v=B(c(2,r(c(2,c(2,b)))),d),w=D(c(2,c(2,c(2,b))),v),a=a[1],d=w;continue;default:var
-x=B(c(2,r(c(2,c(2,b)))),d),y=D(r(c(2,c(2,c(2,b)))),x),a=a[1],d=y;continue}}function
-hK(a){if(F(a,b))return rU;var
-c=aS(a,aE(2)),e=c[1];return J(c[2],d)?bH(hK(e)):bI(hK(e))}function
-fV(a){return fN(hK(a))}function
-kD(c,b){var
-a=kh(c,b);return 0===a?0:0<=a?2:1}function
-kE(b,a){return 1===kD(b,a)?1:0}var
-kF=D,rW=O;function
-b3(k,f){if(0<=aM(f)){var
-g=kj(f);if(0<=g){var
+v=B(c(2,r(c(2,c(2,b)))),d),w=E(c(2,c(2,c(2,b))),v),a=a[1],d=w;continue;default:var
+x=B(c(2,r(c(2,c(2,b)))),d),y=E(r(c(2,c(2,c(2,b)))),x),a=a[1],d=y;continue}}function
+hR(a){if(D(a,b))return r5;var
+c=aT(a,aF(2)),e=c[1];return I(c[2],d)?bI(hR(e)):bJ(hR(e))}function
+fY(a){return fQ(hR(a))}function
+kO(c,b){var
+a=ks(c,b);return 0===a?0:0<=a?2:1}function
+hS(b,a){return 1===kO(b,a)?1:0}var
+kP=E,r7=P;function
+b4(k,f){if(0<=aN(f)){var
+g=ku(f);if(0<=g){var
 e=b,c=k,a=g;for(;;){if(0===a)return e;var
-h=a>>>1|0,i=B(c,c),j=1===(a&1)?B(e,c):e,e=j,c=i,a=h;continue}}return fM(rO)}return d}function
-hL(c){var
-a=aM(c);return 0===a?d:0<a?b:O(b)}function
-hM(a){return 0<=aM(a)?a:d}function
-dR(a){var
-c=aM(a);return 0===c?b:0<c?a:b}function
-kG(m){var
+h=a>>>1|0,i=B(c,c),j=1===(a&1)?B(e,c):e,e=j,c=i,a=h;continue}}return fP(rZ)}return d}function
+hT(c){var
+a=aN(c);return 0===a?d:0<a?b:P(b)}function
+hU(a){return 0<=aN(a)?a:d}function
+dW(a){var
+c=aN(a);return 0===c?b:0<c?a:b}function
+kQ(m){var
 a=m;for(;;)if(typeof
 a==="number")return d;else
 switch(a[0]){case
@@ -965,33 +965,33 @@ j=r(c(2,r(c(2,b))));return cn(a[1],j);case
 k=c(2,c(2,c(2,b)));return cn(a[1],k);default:var
 l=r(c(2,c(2,c(2,b))));return cn(a[1],l)}}function
 co(b,a){var
-c=aM(a);return 0===c?d:1===c?ki(b,a):kq(-1,ki(kq(-1,b),a))}function
-kH(a){var
-f=aM(a);if(0===f)return d;if(0<f){if(F(a,b))return d;var
-c=aS(a,aE(2)),e=c[1];return J(c[2],d)?fR(e):fR(e)}return d}function
-fW(a){return 0<aM(a)?Im(a):d}function
+c=aN(a);return 0===c?d:1===c?kt(b,a):kB(-1,kt(kB(-1,b),a))}function
+kR(a){var
+f=aN(a);if(0===f)return d;if(0<f){if(D(a,b))return d;var
+c=aT(a,aF(2)),e=c[1];return I(c[2],d)?fU(e):fU(e)}return d}function
+fZ(a){return 0<aN(a)?IC(a):d}function
 eP(b,c){var
-a=kj(c);return 0<=a?rH(b,a):rI(b,-a|0)}function
-di(b,c){var
-a=kj(c);return 0<=a?rI(b,a):rH(b,-a|0)}function
-bJ(b,a){return a?a[1]:b}function
+a=ku(c);return 0<=a?rS(b,a):rT(b,-a|0)}function
+dn(b,c){var
+a=ku(c);return 0<=a?rT(b,a):rS(b,-a|0)}function
+bK(b,a){return a?a[1]:b}function
 by(a){var
 b=a?a[2]:a;return b}function
 q(e,d,c){var
 b=e,a=d;for(;;){if(b){if(a){var
 b=b[1],a=a[2];continue}return c}return a?a[1]:c}}function
-E(d,c){var
+F(d,c){var
 a=d,b=c;for(;;){if(b){if(a){var
 a=a[2],b=b[1];continue}return a}var
 e=a?[0,a[1]]:a;return e}}function
-kI(a){if(a){var
-b=[0,a[1],0];return f(kI(a[2]),b)}return a}function
+kS(a){if(a){var
+b=[0,a[1],0];return f(kS(a[2]),b)}return a}function
 eQ(d,c){var
 a=d,b=c;for(;;){if(a){var
 e=[0,a[1],b],a=a[2],b=e;continue}return b}}function
-dS(a){if(a){var
-b=dS(a[2]);return f(a[1],b)}return a}function
-hN(g,f,e){var
+dX(a){if(a){var
+b=dX(a[2]);return f(a[1],b)}return a}function
+hV(g,f,e){var
 b=f,a=e;for(;;){if(b){if(a){var
 c=ao(g,b[1],a[1]);if(c){var
 b=b[2],a=a[2];continue}var
@@ -1004,7 +1004,7 @@ var
 c=a;return c}function
 y(b,a){if(a){var
 c=y(b,a[2]);return f(i(b,a[1]),c)}return a}function
-b4(e,d,c){var
+bL(e,d,c){var
 a=d,b=c;for(;;){if(a){var
 f=ao(e,b,a[1]),a=a[2],b=f;continue}return b}}function
 aq(c,b,a){if(a){var
@@ -1020,135 +1020,135 @@ m(d,c){var
 a=c;for(;;){if(a){var
 b=i(d,a[1]);if(b){var
 a=a[2];continue}return b}return 1}}function
-bp(b,e){var
+bq(b,e){var
 a=e;for(;;){if(a){var
-c=a[2],d=a[1];if(i(b,d))return[0,d,bp(b,c)];var
+c=a[2],d=a[1];if(i(b,d))return[0,d,bq(b,c)];var
 a=c;continue}return a}}function
-kJ(d,c){var
+kT(d,c){var
 a=c;for(;;){if(a){var
 b=a[1];if(i(d,b))return[0,b];var
 a=a[2];continue}return a}}function
-_(b,a){if(b)if(a)var
-d=_(b[2],a[2]),c=[0,[0,b[1],a[1]],d];else
+$(b,a){if(b)if(a)var
+d=$(b[2],a[2]),c=[0,[0,b[1],a[1]],d];else
 var
 c=a;else
 var
 c=b;return c}function
-aG(b,a){if(b)if(a)var
-d=aG(b[1],a[2]),c=[0,a[1],d];else
+aI(b,a){if(b)if(a)var
+d=aI(b[1],a[2]),c=[0,a[1],d];else
 var
 c=a;else
 var
 c=b;return c}function
-aT(d,c){var
+aU(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[2];continue}return a}return a}}function
-aA(b,a){var
-c=a?[0,b,aA([0,b],a[1])]:a;return c}function
-am(b,a){var
-c=a?[0,b,am(b,a[1])]:a;return c}function
-kK(a){if(a){var
-e=kK(a[2]),f=B(c(2,b),e),g=a[1]?b:d;return D(g,f)}return d}function
-fX(j){function
+aB(b,a){var
+c=a?[0,b,aB([0,b],a[1])]:a;return c}function
+al(b,a){var
+c=a?[0,b,al(b,a[1])]:a;return c}function
+kU(a){if(a){var
+e=kU(a[2]),f=B(c(2,b),e),g=a[1]?b:d;return E(g,f)}return d}function
+f0(j){function
 a(a){return 0!==(j&1<<a)?1:0}var
-c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=kK([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<aM(b)?eO(b):0}function
-kL(a){return[0,a,b]}function
-dT(c,b){var
-a=kh(B(c[1],b[2]),B(b[1],c[2])),d=0===a?0:0<=a?2:1;return d?0:1}function
-ba(b,a){return F(B(b[1],a[2]),B(a[1],b[2]))}function
-dj(b,a){return[0,D(B(b[1],a[2]),B(a[1],b[2])),B(b[2],a[2])]}function
+c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=kU([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<aN(b)?eO(b):0}function
+kV(a){return[0,a,b]}function
+dY(c,b){var
+a=ks(B(c[1],b[2]),B(b[1],c[2])),d=0===a?0:0<=a?2:1;return d?0:1}function
+bb(b,a){return D(B(b[1],a[2]),B(a[1],b[2]))}function
+dp(b,a){return[0,E(B(b[1],a[2]),B(a[1],b[2])),B(b[2],a[2])]}function
 a2(b,a){return[0,B(b[1],a[1]),B(b[2],a[2])]}function
-hO(a){return[0,O(a[1]),a[2]]}function
-dU(b,a){return dj(b,hO(a))}function
-fY(f,c){var
-a=c[1],e=aM(a),g=0===e?[0,d,b]:0<e?[0,c[2],a]:[0,O(c[2]),O(a)];return a2(f,g)}function
-dk(q){var
-a=q[2],b=q[1],o=aM(b);if(0===o)var
-c=[0,ck(a),[0,d,hL(a)]];else
+hW(a){return[0,P(a[1]),a[2]]}function
+dZ(b,a){return dp(b,hW(a))}function
+f1(f,c){var
+a=c[1],e=aN(a),g=0===e?[0,d,b]:0<e?[0,c[2],a]:[0,P(c[2]),P(a)];return a2(f,g)}function
+dq(q){var
+a=q[2],b=q[1],o=aN(b);if(0===o)var
+c=[0,ck(a),[0,d,hT(a)]];else
 if(0<o){var
-n=aM(a);if(0===n)var
-c=[0,ck(b),[0,hL(b),d]];else
+n=aN(a);if(0===n)var
+c=[0,ck(b),[0,hT(b),d]];else
 if(0<n)var
-l=fU(b,a),m=l[2],c=[0,l[1],[0,m[1],m[2]]];else
+l=fX(b,a),m=l[2],c=[0,l[1],[0,m[1],m[2]]];else
 var
-j=fU(b,O(a)),k=j[2],c=[0,j[1],[0,k[1],O(k[2])]]}else{var
-p=O(b),i=aM(a);if(0===i)var
-c=[0,ck(b),[0,hL(b),d]];else
+j=fX(b,P(a)),k=j[2],c=[0,j[1],[0,k[1],P(k[2])]]}else{var
+p=P(b),i=aN(a);if(0===i)var
+c=[0,ck(b),[0,hT(b),d]];else
 if(0<i)var
-g=fU(p,a),h=g[2],c=[0,g[1],[0,O(h[1]),h[2]]];else
+g=fX(p,a),h=g[2],c=[0,g[1],[0,P(h[1]),h[2]]];else
 var
-e=fU(p,O(a)),f=e[2],c=[0,e[1],[0,O(f[1]),O(f[2])]]}var
-r=c[2],s=dR(r[2]);return[0,r[1],s]}function
-bh(a){if(typeof
-a==="number")return rY;else
+e=fX(p,P(a)),f=e[2],c=[0,e[1],[0,P(f[1]),P(f[2])]]}var
+r=c[2],s=dW(r[2]);return[0,r[1],s]}function
+bj(a){if(typeof
+a==="number")return r9;else
 switch(a[0]){case
 0:var
-b=bh(a[1]);return a$(bG(1,48),b);case
+b=bj(a[1]);return ba(bH(1,48),b);case
 1:var
-c=bh(a[1]);return a$(bG(1,49),c);case
+c=bj(a[1]);return ba(bH(1,49),c);case
 2:var
-d=bh(a[1]);return a$(bG(1,50),d);case
+d=bj(a[1]);return ba(bH(1,50),d);case
 3:var
-e=bh(a[1]);return a$(bG(1,51),e);case
+e=bj(a[1]);return ba(bH(1,51),e);case
 4:var
-f=bh(a[1]);return a$(bG(1,52),f);case
+f=bj(a[1]);return ba(bH(1,52),f);case
 5:var
-g=bh(a[1]);return a$(bG(1,53),g);case
+g=bj(a[1]);return ba(bH(1,53),g);case
 6:var
-h=bh(a[1]);return a$(bG(1,54),h);case
+h=bj(a[1]);return ba(bH(1,54),h);case
 7:var
-i=bh(a[1]);return a$(bG(1,55),i);case
+i=bj(a[1]);return ba(bH(1,55),i);case
 8:var
-j=bh(a[1]);return a$(bG(1,56),j);default:var
-k=bh(a[1]);return a$(bG(1,57),k)}}function
+j=bj(a[1]);return ba(bH(1,56),j);default:var
+k=bj(a[1]);return ba(bH(1,57),k)}}function
 eR(a){return typeof
-a==="number"?rZ:bh(a)}function
-cp(a){return b3(c(2,b),a)}function
-kM(b,a){return di(a,b)}function
-kN(b,a){return O(di(O(a),b))}function
-fZ(b,a){return O(co(O(b),a))}function
-Q(c,b){var
+a==="number"?r_:bj(a)}function
+cp(a){return b4(c(2,b),a)}function
+kW(b,a){return dn(a,b)}function
+kX(b,a){return P(dn(P(a),b))}function
+f2(b,a){return P(co(P(b),a))}function
+L(c,b){var
 a=eP(b,c);return[0,a,a]}function
-kO(d,c,a){var
-b=eP(c,d),e=fZ(b,a);return[0,co(b,a),e]}function
-A(b,a){return[0,D(b[1],a[1]),D(b[2],a[2])]}function
-H(b,a){return[0,aF(b[1],a[2]),aF(b[2],a[1])]}function
-ae(a){return[0,O(a[2]),O(a[1])]}function
-kP(e,c,b,a){if(F(d,e))return F(d,b)?[0,B(e,b),B(c,a)]:F(a,d)?[0,B(c,b),B(e,a)]:[0,B(c,b),B(c,a)];if(F(c,d))return F(d,b)?[0,B(e,a),B(c,b)]:F(a,d)?[0,B(c,a),B(e,b)]:[0,B(e,a),B(e,b)];if(F(d,b))return[0,B(e,a),B(c,a)];if(F(a,d))return[0,B(c,b),B(e,b)];var
-f=bo(B(e,b),B(c,a));return[0,hI(B(e,a),B(c,b)),f]}function
+kY(d,c,a){var
+b=eP(c,d),e=f2(b,a);return[0,co(b,a),e]}function
+A(b,a){return[0,E(b[1],a[1]),E(b[2],a[2])]}function
+H(b,a){return[0,aG(b[1],a[2]),aG(b[2],a[1])]}function
+aa(a){return[0,P(a[2]),P(a[1])]}function
+kZ(e,c,b,a){if(D(d,e))return D(d,b)?[0,B(e,b),B(c,a)]:D(a,d)?[0,B(c,b),B(e,a)]:[0,B(c,b),B(c,a)];if(D(c,d))return D(d,b)?[0,B(e,a),B(c,b)]:D(a,d)?[0,B(c,a),B(e,b)]:[0,B(e,a),B(e,b)];if(D(d,b))return[0,B(e,a),B(c,a)];if(D(a,d))return[0,B(c,b),B(e,b)];var
+f=bp(B(e,b),B(c,a));return[0,hP(B(e,a),B(c,b)),f]}function
 t(c,b,a){var
-d=kP(b[1],b[2],a[1],a[2]),e=kN(c,d[2]);return[0,kM(c,d[1]),e]}function
+d=kZ(b[1],b[2],a[1],a[2]),e=kX(c,d[2]);return[0,kW(c,d[1]),e]}function
 X(b,a){var
-c=B(a[1],a[1]),e=B(a[2],a[2]),h=kN(b,bo(c,e)),g=0;if(I(a[1],d)&&I(d,a[2])){var
+c=B(a[1],a[1]),e=B(a[2],a[2]),h=kX(b,bp(c,e)),g=0;if(J(a[1],d)&&J(d,a[2])){var
 f=d;g=1}if(!g)var
-f=kM(b,hI(c,e));return[0,f,h]}function
-hP(b,a){var
-c=eP(cp(b),b),d=fZ(c,a[1]);return[0,co(c,a[2]),d]}function
-b5(b,a){if(I(d,a[1]))return[0,hP(b,a)];var
-c=I(a[2],d),e=c?[0,ae(hP(b,ae(a)))]:c;return e}function
-hQ(c){var
-a=fW(c);return J(B(a,a),c)?a:D(a,b)}function
+f=kW(b,hP(c,e));return[0,f,h]}function
+hX(b,a){var
+c=eP(cp(b),b),d=f2(c,a[1]);return[0,co(c,a[2]),d]}function
+b5(b,a){if(J(d,a[1]))return[0,hX(b,a)];var
+c=J(a[2],d),e=c?[0,aa(hX(b,aa(a)))]:c;return e}function
+hY(c){var
+a=fZ(c);return I(B(a,a),c)?a:E(a,b)}function
 b6(b,a){var
-c=I(d,a[1]);if(c)var
-f=hQ(eP(a[2],b)),e=[0,[0,fW(eP(a[1],b)),f]];else
+c=J(d,a[1]);if(c)var
+f=hY(eP(a[2],b)),e=[0,[0,fZ(eP(a[1],b)),f]];else
 var
 e=c;return e}function
-dV(a){return 0===a[0]?a[2]:a[1]}function
-aI(f,d,c,b,a){if(b){if(a){var
-g=aI(f,d,c,b[2],a[2]);return[0,ao(c,b[1],a[1]),g]}return e(f,b)}return e(d,a)}function
-cN(b,a){return di(b,a)}function
-aU(a,c,b){if(F(d,a)){var
-e=b[1],f=O(cN(O(B(a,b[2])),c));return[0,cN(B(a,e),c),f]}var
-g=b[2],h=O(cN(O(B(a,b[1])),c));return[0,cN(B(a,g),c),h]}function
+d0(a){return 0===a[0]?a[2]:a[1]}function
+aK(f,d,c,b,a){if(b){if(a){var
+g=aK(f,d,c,b[2],a[2]);return[0,ao(c,b[1],a[1]),g]}return e(f,b)}return e(d,a)}function
+cN(b,a){return dn(b,a)}function
+aO(a,c,b){if(D(d,a)){var
+e=b[1],f=P(cN(P(B(a,b[2])),c));return[0,cN(B(a,e),c),f]}var
+g=b[2],h=P(cN(P(B(a,b[1])),c));return[0,cN(B(a,g),c),h]}function
 as(a){var
-c=O(di(O(a[2]),b));return[0,di(a[1],b),c]}function
-dW(c,b,a){var
-e=kP(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=I(f,d)?a[2]:a[1],i=fZ(f,h),j=I(g,d)?a[1]:a[2];return[0,co(g,j),i]}function
-b7(a){return bo(a[2],O(a[1]))}var
-v=[0,d,d];function
+c=P(dn(P(a[2]),b));return[0,dn(a[1],b),c]}function
+d1(c,b,a){var
+e=kZ(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=J(f,d)?a[2]:a[1],i=f2(f,h),j=J(g,d)?a[1]:a[2];return[0,co(g,j),i]}function
+b7(a){return bp(a[2],P(a[1]))}var
+x=[0,d,d];function
 b8(a){return[0,a[1],a[1]]}function
 cq(a){return[0,a[2],a[2]]}function
-bK(b,a){switch(a[0]){case
+bM(b,a){switch(a[0]){case
 0:return[0,a[1]];case
 1:return[1,a[1]];case
 2:return[2,a[1]];case
@@ -1164,80 +1164,80 @@ f=i(b,a[2]);return[7,i(b,a[1]),f];case
 8:return[8,i(b,a[1])];case
 9:return[9,i(b,a[1])];default:var
 g=i(b,a[4]),h=i(b,a[3]),j=i(b,a[2]);return[10,a[1],j,h,g]}}function
-aH(n,m){var
+aJ(n,m){var
 d=n,c=m;for(;;){var
 a=c[1],b=d[1];switch(b[0]){case
 0:return 0===a[0]?p(b[1],a[1]):0;case
 1:return 1===a[0]?p(b[1],a[1]):0;case
-2:return 2===a[0]?J(b[1],a[1]):0;case
+2:return 2===a[0]?I(b[1],a[1]):0;case
 3:if(3===a[0]){var
-f=aH(b[1],a[1]);if(f){var
+f=aJ(b[1],a[1]);if(f){var
 d=b[2],c=a[2];continue}return f}return 0;case
 4:if(4===a[0]){var
-g=aH(b[1],a[1]);if(g){var
+g=aJ(b[1],a[1]);if(g){var
 d=b[2],c=a[2];continue}return g}return 0;case
 5:if(5===a[0]){var
 d=b[1],c=a[1];continue}return 0;case
 6:if(6===a[0]){var
-h=aH(b[1],a[1]);if(h){var
+h=aJ(b[1],a[1]);if(h){var
 d=b[2],c=a[2];continue}return h}return 0;case
 7:if(7===a[0]){var
-i=aH(b[1],a[1]);if(i){var
+i=aJ(b[1],a[1]);if(i){var
 d=b[2],c=a[2];continue}return i}return 0;case
 8:if(8===a[0]){var
 d=b[1],c=a[1];continue}return 0;case
 9:if(9===a[0]){var
 d=b[1],c=a[1];continue}return 0;default:if(10===a[0]){var
 j=cm(b[1],a[1]);if(j){var
-k=aH(b[2],a[2]);if(k){var
-l=aH(b[3],a[3]);if(l){var
+k=aJ(b[2],a[2]);if(k){var
+l=aJ(b[3],a[3]);if(l){var
 d=b[4],c=a[4];continue}var
 e=l}else
 var
 e=k}else
 var
 e=j;return e}return 0}}}function
-f0(b){var
+f3(b){var
 a=b[1];return 2===a[0]?[0,a[1]]:0}function
 a3(c,b){var
-a=f0(b);return a?J(c,a[1]):a}function
-eS(a){return I(ck(a),c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b))))))))))))))))}function
+a=f3(b);return a?I(c,a[1]):a}function
+eS(a){return J(ck(a),c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b))))))))))))))))}function
 k(a){return[0,[2,a]]}function
 C(b,a){if(a3(d,b))return a;if(a3(d,a))return b;var
-c=f0(b);if(c){var
-e=c[1],f=f0(a);if(f){var
-g=f[1];if(eS(e)&&eS(g))return k(D(e,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
-bi(a){var
+c=f3(b);if(c){var
+e=c[1],f=f3(a);if(f){var
+g=f[1];if(eS(e)&&eS(g))return k(E(e,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
+bk(a){var
 b=a[1];switch(b[0]){case
 2:var
-c=b[1];return eS(c)?k(O(c)):[0,[5,a]];case
+c=b[1];return eS(c)?k(P(c)):[0,[5,a]];case
 5:return b[1];default:return[0,[5,a]]}}function
-w(b,a){if(a3(d,a))return b;if(a3(d,b))return bi(a);var
+v(b,a){if(a3(d,a))return b;if(a3(d,b))return bk(a);var
 c=b[1];if(0===c[0]){var
 e=a[1];return 0===e[0]?p(c[1],e[1])?k(d):[0,[4,b,a]]:[0,[4,b,a]]}return[0,[4,b,a]]}function
-R(a){var
-c=f0(a);if(c){var
+S(a){var
+c=f3(a);if(c){var
 b=c[1];return eS(b)?k(B(b,b)):[0,[8,a]]}return[0,[8,a]]}function
-s(a,c){if(!a3(d,a)&&!a3(b,c)){if(!a3(d,c)&&!a3(b,a))return aH(a,c)?R(a):[0,[6,a,c]];return c}return a}function
-al(c,a){return a3(b,a)?c:[0,[7,c,a]]}function
-aC(a){return a3(b,a)?a:[0,[9,a]]}function
-kQ(d,c,b,a){return[0,[10,d,c,b,a]]}function
-bq(f,e,d,c){var
+s(a,c){if(!a3(d,a)&&!a3(b,c)){if(!a3(d,c)&&!a3(b,a))return aJ(a,c)?S(a):[0,[6,a,c]];return c}return a}function
+am(c,a){return a3(b,a)?c:[0,[7,c,a]]}function
+aD(a){return a3(b,a)?a:[0,[9,a]]}function
+k0(d,c,b,a){return[0,[10,d,c,b,a]]}function
+bc(f,e,d,c){var
 b=d,a=c;for(;;){if(b){var
-g=b[1],h=[0,i(e,bK(function(b){return function(a){return q(a,b,f)}}(a),g)),a],b=b[2],a=h;continue}return a}}function
-kR(d,f,k,j,h){var
+g=b[1],h=[0,i(e,bM(function(b){return function(a){return q(a,b,f)}}(a),g)),a],b=b[2],a=h;continue}return a}}function
+k1(d,f,k,j,h){var
 b=k,c=j,a=h;for(;;){if(c){var
 e=c[2],g=c[1];if(b){if(b[1]){var
-l=[0,i(f,bK(function(b){return function(a){return q(a,b,d)}}(a),g)),a],b=by(b),c=e,a=l;continue}var
+l=[0,i(f,bM(function(b){return function(a){return q(a,b,d)}}(a),g)),a],b=by(b),c=e,a=l;continue}var
 b=b[2],c=e,a=[0,d,a];continue}var
-m=[0,i(f,bK(function(b){return function(a){return q(a,b,d)}}(a),g)),a],b=by(b),c=e,a=m;continue}return a}}function
+m=[0,i(f,bM(function(b){return function(a){return q(a,b,d)}}(a),g)),a],b=by(b),c=e,a=m;continue}return a}}function
 eT(b,a){if(a){var
 c=a[2];if(b){var
 e=eT(b[1],c);return[0,a[1],e]}var
 d=[0,1,c]}else
 var
 d=a;return d}function
-kS(a){switch(a[0]){case
+k2(a){switch(a[0]){case
 10:return[0,a[2],[0,a[3],[0,a[4],0]]];case
 5:case
 8:case
@@ -1245,53 +1245,53 @@ kS(a){switch(a[0]){case
 0:case
 1:case
 2:return 0;default:return[0,a[1],[0,a[2],0]]}}function
-f1(j,g){var
+f4(j,g){var
 k=0,l=aq(eT,e(function(a){return 0},g),j),c=eQ(g,0),b=l,a=k;for(;;){if(c){if(b){var
-d=b[2],f=b[1],h=[0,f,a],i=f?aq(eT,d,kS(c[1])):d,c=c[2],b=i,a=h;continue}return a}return a}}function
+d=b[2],f=b[1],h=[0,f,a],i=f?aq(eT,d,k2(c[1])):d,c=c[2],b=i,a=h;continue}return a}return a}}function
 cO(a){var
 b=0;function
-c(a){return[0,a]}return bq(k(d),c,a,b)}function
-bb(d,c){var
-a=d,b=0;for(;;){if(a){if(aH(c,a[1]))return b;var
+c(a){return[0,a]}return bc(k(d),c,a,b)}function
+bd(d,c){var
+a=d,b=0;for(;;){if(a){if(aJ(c,a[1]))return b;var
 a=a[2],b=[0,b];continue}return a}}function
-dl(d,b){var
-e=b[1];if(ak(function(a){return aH(d,a)},e))return b;var
+dr(d,b){var
+e=b[1];if(ak(function(a){return aJ(d,a)},e))return b;var
 a=d[1];switch(a[0]){case
 10:var
-j=dl(a[2],b),k=dl(a[3],j),c=dl(a[4],k);break;case
+j=dr(a[2],b),k=dr(a[3],j),c=dr(a[4],k);break;case
 5:case
 8:case
 9:var
-c=dl(a[1],b);break;case
+c=dr(a[1],b);break;case
 0:case
 1:case
 2:var
 c=b;break;default:var
-i=dl(a[1],b),c=dl(a[2],i)}var
-f=c[2],g=c[1],h=[0,bK(function(a){return bb(g,a)},a),f];return[0,[0,d,c[1]],h]}function
+i=dr(a[1],b),c=dr(a[2],i)}var
+f=c[2],g=c[1],h=[0,bM(function(a){return bd(g,a)},a),f];return[0,[0,d,c[1]],h]}function
 cP(a){var
-b=b4(function(b,a){return dl(a,b)},a,r0),c=b[1],d=e(function(a){return bb(c,a)},a);return[0,kI(b[2]),d]}function
-f2(a){return aq(function(b,a){return D(b7(b),a)},d,a)}function
+b=bL(function(b,a){return dr(a,b)},a,r$),c=b[1],d=e(function(a){return bd(c,a)},a);return[0,kS(b[2]),d]}function
+f5(a){return aq(function(b,a){return E(b7(b),a)},d,a)}function
 cr(b,c,a){var
-d=f2(a),e=hI(c[2],D(b[2],d)),f=f2(a);return[0,b,[0,bo(c[1],aF(b[1],f)),e],a]}function
-$(a){return[0,a,a,0]}function
+d=f5(a),e=hP(c[2],E(b[2],d)),f=f5(a);return[0,b,[0,bp(c[1],aG(b[1],f)),e],a]}function
+Y(a){return[0,a,a,0]}function
 b9(b,a){var
 c=a[3],d=b[3];function
 e(a){return a}var
-f=aI(function(a){return a},e,A,d,c),g=A(b[2],a[2]);return cr(A(b[1],a[1]),g,f)}function
+f=aK(function(a){return a},e,A,d,c),g=A(b[2],a[2]);return cr(A(b[1],a[1]),g,f)}function
 br(b,a){var
-c=a[3],d=b[3],e=aI(function(a){return a},ae,H,d,c),f=H(b[2],a[2]);return cr(H(b[1],a[1]),f,e)}function
+c=a[3],d=b[3],e=aK(function(a){return a},aa,H,d,c),f=H(b[2],a[2]);return cr(H(b[1],a[1]),f,e)}function
 eU(a){var
-b=e(ae,a[3]),c=ae(a[2]);return[0,ae(a[1]),c,b]}function
-aJ(a,c,b){var
+b=e(aa,a[3]),c=aa(a[2]);return[0,aa(a[1]),c,b]}function
+aL(a,c,b){var
 d=A(b[2],b[1]),e=A(c[2],c[1]),f=b[3],g=c[3];function
 h(c,b){var
 f=t(a,e,b);return as(A(t(a,d,c),f))}function
 i(b){return as(t(a,e,b))}var
-j=aI(function(b){return as(t(a,d,b))},i,h,g,f),k=t(a,c[2],b[2]);return cr(t(a,c[1],b[1]),k,j)}function
+j=aK(function(b){return as(t(a,d,b))},i,h,g,f),k=t(a,c[2],b[2]);return cr(t(a,c[1],b[1]),k,j)}function
 eV(b,a){var
 c=a[3],d=A(a[2],a[1]),f=e(function(a){return t(b,d,a)},c),g=X(b,a[2]);return cr(X(b,a[1]),g,f)}function
-hR(a,b){var
+hZ(a,b){var
 c=b6(a,b[1]);if(c){var
 g=c[1],d=b6(a,b[2]);if(d){var
 h=d[1],f=b5(a,A(h,g));if(f)var
@@ -1304,43 +1304,43 @@ j=d;var
 k=j}else
 var
 k=c;return k}function
-dX(a,c,b){var
+d2(a,c,b){var
 d=b5(a,b[1]);if(d){var
 f=b5(a,b[2]);if(f)var
-h=f[1],g=t(a,c[1],d[1]),k=b[3],l=c[3],m=function(c,b){return H(c,t(a,g,b))},n=function(b){return ae(t(a,g,b))},o=aI(function(a){return a},n,m,l,k),p=e(function(b){return t(a,h,b)},o),i=[0,cr(g,t(a,c[2],h),p)];else
+h=f[1],g=t(a,c[1],d[1]),k=b[3],l=c[3],m=function(c,b){return H(c,t(a,g,b))},n=function(b){return aa(t(a,g,b))},o=aK(function(a){return a},n,m,l,k),p=e(function(b){return t(a,h,b)},o),i=[0,cr(g,t(a,c[2],h),p)];else
 var
 i=f;var
 j=i}else
 var
 j=d;return j}function
 cQ(b,a){return a?i(b,a[1]):a}function
-f3(a){var
+f6(a){var
 b=e(as,a[3]),c=as(A(a[2],a[1]));return cr(a[1],c,b)}function
-kT(a,k,j,r,c){var
-l=f3(k),m=f3(j),g=f3(c[1]),h=f3(c[2]),s=aJ(a,l,h),u=br(aJ(a,m,g),s),i=dX(a,$(Q(a,b)),u);if(i)var
-f=i[1],n=aJ(a,br(l,g),f),o=aJ(a,br(m,h),f),d=function(c,b){return aJ(a,c,$(b))},v=j[3],w=k[3],x=function(b,a){var
-c=d(o,a);return b9(d(n,b),c)},y=function(a){return d(o,a)},z=aI(function(a){return d(n,a)},y,x,w,v),A=r[3],B=function(b,a){return br(b,d(f,as(a)))[2]},C=function(a){return eU(d(f,as(a)))[2]},p=aI(function(a){return a[2]},C,B,z,A),D=g[2],E=e(function(b){return t(a,D,b)},p),F=cr(c[2][1],c[2][2],E),G=ae(h[2]),H=e(function(b){return t(a,G,b)},p),q=[0,[0,cr(c[1][1],c[1][2],H),F]];else
+k3(a,k,j,r,c){var
+l=f6(k),m=f6(j),g=f6(c[1]),h=f6(c[2]),s=aL(a,l,h),u=br(aL(a,m,g),s),i=d2(a,Y(L(a,b)),u);if(i)var
+f=i[1],n=aL(a,br(l,g),f),o=aL(a,br(m,h),f),d=function(c,b){return aL(a,c,Y(b))},v=j[3],w=k[3],x=function(b,a){var
+c=d(o,a);return b9(d(n,b),c)},y=function(a){return d(o,a)},z=aK(function(a){return d(n,a)},y,x,w,v),A=r[3],B=function(b,a){return br(b,d(f,as(a)))[2]},C=function(a){return eU(d(f,as(a)))[2]},p=aK(function(a){return a[2]},C,B,z,A),D=g[2],E=e(function(b){return t(a,D,b)},p),F=cr(c[2][1],c[2][2],E),G=aa(h[2]),H=e(function(b){return t(a,G,b)},p),q=[0,[0,cr(c[1][1],c[1][2],H),F]];else
 var
 q=i;return q}function
-kU(a,e,d,k){var
-p=eV(a,d),f=b9(eV(a,e),p),g=br(b9(f,$(Q(a,b))),k),l=aJ(a,$(Q(a,c(2,b))),f),q=eV(a,g),h=hR(a,br(aJ(a,$(Q(a,c(2,c(2,b)))),f),q));if(h){var
-m=h[1],r=aJ(a,m,d),i=dX(a,b9(aJ(a,g,e),r),l);if(i)var
-s=aJ(a,m,e),j=dX(a,br(aJ(a,g,d),s),l),t=j?[0,[0,i[1],j[1]]]:j,n=t;else
+k4(a,e,d,k){var
+p=eV(a,d),f=b9(eV(a,e),p),g=br(b9(f,Y(L(a,b))),k),l=aL(a,Y(L(a,c(2,b))),f),q=eV(a,g),h=hZ(a,br(aL(a,Y(L(a,c(2,c(2,b)))),f),q));if(h){var
+m=h[1],r=aL(a,m,d),i=d2(a,b9(aL(a,g,e),r),l);if(i)var
+s=aL(a,m,e),j=d2(a,br(aL(a,g,d),s),l),t=j?[0,[0,i[1],j[1]]]:j,n=t;else
 var
 n=i;var
 o=n}else
 var
 o=h;var
-u=cQ(function(b){return kT(a,e,d,k,b)},o);return cQ(function(b){return kT(a,e,d,k,b)},u)}function
+u=cQ(function(b){return k3(a,e,d,k,b)},o);return cQ(function(b){return k3(a,e,d,k,b)},u)}function
 cs(d,b,a){if(b){if(a)return ao(d,b[1],a[1]);var
 c=a}else
 var
 c=b;return c}function
-bL(b,j,i){var
-f=$(v);return function(a){switch(a[0]){case
+bz(b,j,i){var
+f=Y(x);return function(a){switch(a[0]){case
 0:return[0,q(a[1],j,f)];case
 1:return[0,q(a[1],i,f)];case
-2:return[0,$(Q(b,a[1]))];case
+2:return[0,Y(L(b,a[1]))];case
 3:var
 k=a[2],l=a[1];return cs(function(b,a){return[0,b9(b,a)]},l,k);case
 4:var
@@ -1348,38 +1348,38 @@ m=a[2],n=a[1];return cs(function(b,a){return[0,br(b,a)]},n,m);case
 5:var
 o=a[1];return cQ(function(a){return[0,eU(a)]},o);case
 6:var
-p=a[2],r=a[1];return cs(function(c,a){return[0,aJ(b,c,a)]},r,p);case
+p=a[2],r=a[1];return cs(function(c,a){return[0,aL(b,c,a)]},r,p);case
 7:var
-s=a[2],t=a[1];return cs(function(a,c){return dX(b,a,c)},t,s);case
+s=a[2],t=a[1];return cs(function(a,c){return d2(b,a,c)},t,s);case
 8:var
 u=a[1];return cQ(function(a){return[0,eV(b,a)]},u);case
 9:var
-v=a[1];return cQ(function(a){return hR(b,a)},v);default:var
+v=a[1];return cQ(function(a){return hZ(b,a)},v);default:var
 c=a[2];if(c){var
 d=a[3];if(d){var
 e=a[4];if(e){var
-w=kU(b,c[1],d[1],e[1]),x=a[1]?aY:aB;return z(x,w)}var
+w=k4(b,c[1],d[1],e[1]),x=a[1]?aY:av;return z(x,w)}var
 g=e}else
 var
 g=d;var
 h=g}else
 var
 h=c;return h}}}function
-dY(c){var
+d3(c){var
 a=c;for(;;)switch(a[0]){case
 0:return 0;case
 1:return 1;case
 6:var
 a=a[1];continue;default:var
-b=dY(a[1]);if(b)return b;var
+b=d3(a[1]);if(b)return b;var
 a=a[2];continue}}function
 ct(r,q){var
 b=r,a=q;for(;;)switch(b[0]){case
 0:if(0===a[0]){var
-c=J(b[1],a[1]);return c?fS(b[2],a[2]):c}return 0;case
+c=I(b[1],a[1]);return c?fV(b[2],a[2]):c}return 0;case
 1:var
 d=b[3],e=b[2];if(1===a[0]){var
-f=a[3],g=a[2],h=p(b[1],a[1]),i=h?J(e[1],g[1]):h,j=i?fS(e[2],g[2]):i,k=j?J(d[1],f[1]):j;return k?fS(d[2],f[2]):k}return 0;case
+f=a[3],g=a[2],h=p(b[1],a[1]),i=h?I(e[1],g[1]):h,j=i?fV(e[2],g[2]):i,k=j?I(d[1],f[1]):j;return k?fV(d[2],f[2]):k}return 0;case
 2:if(2===a[0]){var
 l=ct(b[1],a[1]);if(l){var
 b=b[2],a=a[2];continue}return l}return 0;case
@@ -1397,60 +1397,60 @@ eW(c,a){switch(a[0]){case
 0:return[0,[0,a[1],a[2]]];case
 1:return 0;case
 2:var
-m=a[2],n=a[1],g=m,f=n,e=function(b,a){return[0,dj(b,a)]};break;case
+m=a[2],n=a[1],g=m,f=n,e=function(b,a){return[0,dp(b,a)]};break;case
 3:var
-o=a[2],p=a[1],g=o,f=p,e=function(b,a){return[0,dU(b,a)]};break;case
+o=a[2],p=a[1],g=o,f=p,e=function(b,a){return[0,dZ(b,a)]};break;case
 4:var
 q=a[2],r=a[1],g=q,f=r,e=function(b,a){return[0,a2(b,a)]};break;case
 5:var
-s=a[2],t=a[1],g=s,f=t,e=function(c,a){return dT(a,[0,d,b])?0:[0,fY(c,a)]};break;default:var
+s=a[2],t=a[1],g=s,f=t,e=function(c,a){return dY(a,[0,d,b])?0:[0,f1(c,a)]};break;default:var
 k=eW(c,a[1]);return k?i(c,k[1]):k}var
 h=eW(c,f);if(h){var
 j=eW(c,g);if(j)return e(h[1],j[1]);var
 l=j}else
 var
 l=h;return l}function
-r1(a){return 0}function
-cu(a){return eW(r1,a)}function
-bM(a,c){switch(c[0]){case
-0:return[0,kO(a,c[1],c[2])];case
+sa(a){return 0}function
+cu(a){return eW(sa,a)}function
+bN(a,c){switch(c[0]){case
+0:return[0,kY(a,c[1],c[2])];case
 1:return 0;case
 2:var
-g=bM(a,c[1]);if(g)var
-h=bM(a,c[2]),D=h?[0,A(g[1],h[1])]:h,r=D;else
+g=bN(a,c[1]);if(g)var
+h=bN(a,c[2]),D=h?[0,A(g[1],h[1])]:h,r=D;else
 var
 r=g;return r;case
 3:var
-i=bM(a,c[1]);if(i)var
-j=bM(a,c[2]),E=j?[0,H(i[1],j[1])]:j,s=E;else
+i=bN(a,c[1]);if(i)var
+j=bN(a,c[2]),E=j?[0,H(i[1],j[1])]:j,s=E;else
 var
 s=i;return s;case
 4:var
-k=bM(a,c[1]);if(k)var
-l=bM(a,c[2]),F=l?[0,t(a,k[1],l[1])]:l,u=F;else
+k=bN(a,c[1]);if(k)var
+l=bN(a,c[2]),F=l?[0,t(a,k[1],l[1])]:l,u=F;else
 var
 u=k;return u;case
 5:var
-m=bM(a,c[1]);if(m){var
-n=bM(a,c[2]);if(n)var
-o=b5(a,n[1]),G=o?[0,t(a,m[1],o[1])]:o,w=G;else
+m=bN(a,c[1]);if(m){var
+n=bN(a,c[2]);if(n)var
+o=b5(a,n[1]),G=o?[0,t(a,m[1],o[1])]:o,v=G;else
 var
-w=n;var
-x=w}else
+v=n;var
+w=v}else
 var
-x=m;return x;default:var
-y=c[1],p=bM(a,y);if(p){var
-e=p[1];if(I(d,e[1]))return b6(a,e);var
-f=cu(y),K=f?S(ba([0,d,b],f[1])):f;if(K)return 0;if(I(d,e[2])){var
+w=m;return w;default:var
+y=c[1],p=bN(a,y);if(p){var
+e=p[1];if(J(d,e[1]))return b6(a,e);var
+f=cu(y),K=f?Q(bb([0,d,b],f[1])):f;if(K)return 0;if(J(d,e[2])){var
 B=b6(a,[0,e[2],e[2]]);return z(function(a){return[0,d,a[2]]},B)}var
-q=J(e[2],d),C=q?[0,v]:q;return C}return p}}function
-cv(b,a){return kO(b,a[1],a[2])}function
-kW(a,g,e,d){var
-h=[0,b,c(2,b)],i=[0,cv(a,a2(dU(d,e),h)),0],j=f(am(v,g),i),k=cv(a,d)[2],l=[0,cv(a,e)[1],k],m=[0,b,c(2,b)];return[0,cv(a,a2(dj(e,d),m)),l,j]}function
-dZ(c,e,a){function
-b(a){return dZ(c,e,a)}if(dY(a))switch(a[0]){case
+q=I(e[2],d),C=q?[0,x]:q;return C}return p}}function
+cv(b,a){return kY(b,a[1],a[2])}function
+k6(a,g,e,d){var
+h=[0,b,c(2,b)],i=[0,cv(a,a2(dZ(d,e),h)),0],j=f(al(x,g),i),k=cv(a,d)[2],l=[0,cv(a,e)[1],k],m=[0,b,c(2,b)];return[0,cv(a,a2(dp(e,d),m)),l,j]}function
+d4(c,e,a){function
+b(a){return d4(c,e,a)}if(d3(a))switch(a[0]){case
 0:return 0;case
-1:return fu(e,a[1],a[2],a[3]);case
+1:return fw(e,a[1],a[2],a[3]);case
 2:var
 g=b(a[2]),h=b(a[1]);return cs(function(b,a){return[0,b9(b,a)]},h,g);case
 3:var
@@ -1458,457 +1458,498 @@ i=b(a[2]),j=b(a[1]);return cs(function(b,a){return[0,br(b,a)]},j,i);case
 4:var
 f=a[2],d=a[1];if(ct(d,f)){var
 k=b(d);return cQ(function(a){return[0,eV(c,a)]},k)}var
-l=b(f),m=b(d);return cs(function(b,a){return[0,aJ(c,b,a)]},m,l);case
+l=b(f),m=b(d);return cs(function(b,a){return[0,aL(c,b,a)]},m,l);case
 5:var
-n=b(a[2]),o=b(a[1]);return cs(function(a,b){return dX(c,a,b)},o,n);default:var
-p=b(a[1]);return cQ(function(a){return hR(c,a)},p)}return z($,bM(c,a))}function
-aD(b,a){if(dY(a)){var
-c=dZ(b,function(d,c,a){var
-e=aN(d,kV),f=e?ba(c,a):e,g=f?[0,kW(b,d,c,a)]:f;return g},a);return z(function(a){return a[2]},c)}return bM(b,a)}function
-hS(a){var
-e=bo(O(a),d);return dR(D(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e))}function
-kX(a){return hM(D(hS(a),a))}function
-kY(b,a){var
-c=kX(b),d=O(cN(O(a[2]),c)),e=kX(b);return[0,cN(a[1],e),d]}function
+n=b(a[2]),o=b(a[1]);return cs(function(a,b){return d2(c,a,b)},o,n);default:var
+p=b(a[1]);return cQ(function(a){return hZ(c,a)},p)}return z(Y,bN(c,a))}function
+aE(b,a){if(d3(a)){var
+c=d4(b,function(d,c,a){var
+e=aH(d,k5),f=e?bb(c,a):e,g=f?[0,k6(b,d,c,a)]:f;return g},a);return z(function(a){return a[2]},c)}return bN(b,a)}function
+h0(a){var
+e=bp(P(a),d);return dW(E(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e))}function
+k7(a){return hU(E(h0(a),a))}function
+k8(b,a){var
+c=k7(b),d=P(cN(P(a[2]),c)),e=k7(b);return[0,cN(a[1],e),d]}function
 cR(c,a,b){var
-d=aD(D(c,hS(a)),b);return z(function(b){return kY(a,b)},d)}function
+d=aE(E(c,h0(a)),b);return z(function(b){return k8(a,b)},d)}function
 an(d,a){var
 b=cR(d,a[2],a[1][1]);if(b)var
 c=cR(d,a[2],a[1][2]),f=c?[0,[0,b[1][1],c[1][2]]]:c,e=f;else
 var
 e=b;return e}function
-kZ(b,a){var
-c=O(cN(O(a[2]),b));return[0,cN(a[1],b),c]}function
-f4(b,a){var
-c=fZ(b[2],a);return[0,co(b[1],a),c]}function
-k0(h,g,d,b){var
-e=b[2],f=kC(d),i=c(2,f),j=B(kx(f),i),a=f4(t(h,b[1],g),j),k=kv(d)?H(e,a):A(e,a);return[0,a,k]}function
-k1(a,d,c){if(c){var
-e=c[1];return k0(a,d,e,k1(a,d,e))}var
-f=Q(a,b);return[0,Q(a,b),f]}function
-k2(e,g){var
-o=cp(e),p=B(c(2,c(2,b)),o),j=F(g[2],p);if(j){var
-n=eO(e),i=r2[1],d=n,f=0,a=i;for(;;){if(d){var
+k9(b,a){var
+c=P(cN(P(a[2]),b));return[0,cN(a[1],b),c]}function
+f7(b,a){var
+c=f2(b[2],a);return[0,co(b[1],a),c]}function
+k_(h,g,d,b){var
+e=b[2],f=kN(d),i=c(2,f),j=B(kI(f),i),a=f7(t(h,b[1],g),j),k=kG(d)?H(e,a):A(e,a);return[0,a,k]}function
+k$(a,d,c){if(c){var
+e=c[1];return k_(a,d,e,k$(a,d,e))}var
+f=L(a,b);return[0,L(a,b),f]}function
+la(e,g){var
+o=cp(e),p=B(c(2,c(2,b)),o),j=D(g[2],p);if(j){var
+n=eO(e),i=sb[1],d=n,f=0,a=i;for(;;){if(d){var
 h=d[1];if(a){var
 d=h,a=a[1];continue}var
 d=h,f=[0,f],a=i;continue}var
-k=P(ku(r5,P(r3,f)),r4),l=k1(e,g,k),q=k0(e,g,k,l)[2][2],m=[0,[0,l[2][1],q]];break}}else
+k=R(kF(se,R(sc,f)),sd),l=k$(e,g,k),q=k_(e,g,k,l)[2][2],m=[0,[0,l[2][1],q]];break}}else
 var
 m=j;return m}function
-k3(i){function
+lb(i){function
 a(h){var
 m=co(cp(i),h),g=eO(i),f=m,e=d,a=b;for(;;){if(g){var
-j=D(a,c(2,b)),k=D(e,co(f,a)),l=O(co(f,B(h,h))),g=g[1],f=l,e=k,a=j;continue}return e}}var
-e=a(r(c(2,r(c(2,r(c(2,r(c(2,c(2,r(c(2,r(c(2,b)))))))))))))),f=B(c(2,c(2,b)),e),g=a(r(c(2,c(2,b))));return aF(B(c(2,c(2,c(2,c(2,b)))),g),f)}function
-k4(e,a){var
-f=F(d,a);if(f){var
-g=c(2,c(2,b));return k2(e,f4(X(e,[0,a,a]),g))}return f}function
-k5(a){var
-m=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),g=aF(k3(a),m),n=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),h=D(k3(a),n),e=k4(a,g);if(e){var
-f=k4(a,h);if(f)var
-i=I(d,e[1][1]),j=i?I(f[1][2],d):i,k=j?[0,[0,g,h]]:j;else
+j=E(a,c(2,b)),k=E(e,co(f,a)),l=P(co(f,B(h,h))),g=g[1],f=l,e=k,a=j;continue}return e}}var
+e=a(r(c(2,r(c(2,r(c(2,r(c(2,c(2,r(c(2,r(c(2,b)))))))))))))),f=B(c(2,c(2,b)),e),g=a(r(c(2,c(2,b))));return aG(B(c(2,c(2,c(2,c(2,b)))),g),f)}function
+lc(e,a){var
+f=D(d,a);if(f){var
+g=c(2,c(2,b));return la(e,f7(X(e,[0,a,a]),g))}return f}function
+ld(a){var
+m=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),g=aG(lb(a),m),n=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),h=E(lb(a),n),e=lc(a,g);if(e){var
+f=lc(a,h);if(f)var
+i=J(d,e[1][1]),j=i?J(f[1][2],d):i,k=j?[0,[0,g,h]]:j;else
 var
 k=f;var
 l=k}else
 var
 l=e;return l}function
-k6(a,d){var
-c=X(a,d),e=Q(a,b);return H(A(c,c),e)}function
+le(a,d){var
+c=X(a,d),e=L(a,b);return H(A(c,c),e)}function
 cS(f,j){var
-e=aD(D(f,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),j);if(e){var
-k=e[1],a=D(f,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),d=k5(a);if(d)var
-h=c(2,c(2,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))))),i=k2(a,X(a,f4(t(a,k,d[1]),h))),g=z(function(b){return k6(a,k6(a,b))},i);else
+e=aE(E(f,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),j);if(e){var
+k=e[1],a=E(f,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),d=ld(a);if(d)var
+h=c(2,c(2,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))))),i=la(a,X(a,f7(t(a,k,d[1]),h))),g=z(function(b){return le(a,le(a,b))},i);else
 var
 g=d;var
-l=c(2,c(2,c(2,c(2,c(2,c(2,b))))));return z(function(a){return kZ(l,a)},g)}return e}function
-k7(a,d){var
-e=k5(D(a,c(2,c(2,c(2,c(2,c(2,c(2,b))))))));return z(function(e){var
-f=c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b))))))))));return f4(t(a,d,kZ(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e)),f)},e)}function
-f5(d,a){return cS(d,[3,a,[0,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b))))))))),b]])}function
+l=c(2,c(2,c(2,c(2,c(2,c(2,b))))));return z(function(a){return k9(l,a)},g)}return e}function
+lf(a,d){var
+e=ld(E(a,c(2,c(2,c(2,c(2,c(2,c(2,b))))))));return z(function(e){var
+f=c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b))))))))));return f7(t(a,d,k9(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e)),f)},e)}function
+f8(d,a){return cS(d,[3,a,[0,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b))))))))),b]])}function
 h(i,e,c){var
 f=cu(c);if(f){var
-g=f[1];return e?S(ba(g,[0,d,b])):ba([0,d,b],g)}var
-a=aD(i,c);if(a){var
-h=a[1];return e?I(d,h[1]):F(d,h[1])}return a}function
-k8(c,b){var
-a=aD(c,b),d=a?1:a;return d}function
+g=f[1];return e?Q(bb(g,[0,d,b])):bb([0,d,b],g)}var
+a=aE(i,c);if(a){var
+h=a[1];return e?J(d,h[1]):D(d,h[1])}return a}function
+lg(c,b){var
+a=aE(c,b),d=a?1:a;return d}function
 bs(c,a,b){var
-d=ct(a,b),e=d?k8(c,a):d;return e?e:h(c,0,[3,b,a])}function
-r6(c){var
-a=dk(c),g=dR(fW(a[2])),b=[0,fW(a[1]),g],e=I(d,a[1]),f=e?dT(a2(b,b),c):e,h=f?[0,b]:f;return h}function
-k9(a){if(a){var
-e=a[2],c=a[1];if(dT(bJ([0,d,b],c),[0,d,b])){var
-g=k9(e);return z(function(a){return[0,a[1],[0,c,a[2]]]},g)}var
+d=ct(a,b),e=d?lg(c,a):d;return e?e:h(c,0,[3,b,a])}function
+sf(c){var
+a=dq(c),g=dW(fZ(a[2])),b=[0,fZ(a[1]),g],e=J(d,a[1]),f=e?dY(a2(b,b),c):e,h=f?[0,b]:f;return h}function
+lh(a){if(a){var
+e=a[2],c=a[1];if(dY(bK([0,d,b],c),[0,d,b])){var
+g=lh(e);return z(function(a){return[0,a[1],[0,c,a[2]]]},g)}var
 f=[0,[0,c,e]]}else
 var
 f=a;return f}function
-k_(c,a){var
-e=_(c,a),f=[0,d,b];return aq(function(a,b){return dk(dj(a2(a[1],a[2]),b))},f,e)}function
-k$(c,j){if(c){var
-f=c[1],g=k9(j);if(g){var
+li(c,a){var
+e=$(c,a),f=[0,d,b];return aq(function(a,b){return dq(dp(a2(a[1],a[2]),b))},f,e)}function
+lj(c,j){if(c){var
+f=c[1],g=lh(j);if(g){var
 h=g[1],a=h[1],k=function(c){var
-f=bJ([0,d,b],a),g=fY(bJ([0,d,b],c),f),h=by(a),i=_(by(c),h);return e(function(a){var
-b=a2(g,a[2]);return dk(dU(a[1],b))},i)},l=k$(f,e(k,h[2]));return z(function(c){var
-e=bJ([0,d,b],a);return[0,dk(fY(hO(k_(by(a),c)),e)),c]},l)}var
-i=[0,[0,[0,b,b],am([0,d,b],f)]]}else
+f=bK([0,d,b],a),g=f1(bK([0,d,b],c),f),h=by(a),i=$(by(c),h);return e(function(a){var
+b=a2(g,a[2]);return dq(dZ(a[1],b))},i)},l=lj(f,e(k,h[2]));return z(function(c){var
+e=bK([0,d,b],a);return[0,dq(f1(hW(li(by(a),c)),e)),c]},l)}var
+i=[0,[0,[0,b,b],al([0,d,b],f)]]}else
 var
 i=c;return i}function
-la(a){if(a){var
-b=eW(r6,a[1]);if(b)var
-c=la(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+lk(a){if(a){var
+b=eW(sf,a[1]);if(b)var
+c=lk(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return r7}function
-lb(a){if(a){var
-b=la(a[1]);if(b)var
-c=lb(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+d=b;return d}return sg}function
+ll(a){if(a){var
+b=lk(a[1]);if(b)var
+c=ll(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return r8}function
-lc(i,l){var
-a=lb(l);if(a){var
-j=a[1],c=k$(i,j);if(c){var
-e=c[1],f=p(g(e),i),h=f?ak(function(a){return S(dT(a,[0,d,b]))},e):f;return h?m(function(a){return dT(k_(a,e),[0,d,b])},j):h}var
+d=b;return d}return sh}function
+lm(i,l){var
+a=ll(l);if(a){var
+j=a[1],c=lj(i,j);if(c){var
+e=c[1],f=p(g(e),i),h=f?ak(function(a){return Q(dY(a,[0,d,b]))},e):f;return h?m(function(a){return dY(li(a,e),[0,d,b])},j):h}var
 k=c}else
 var
 k=a;return k}function
-r9(a){return a}function
-r_(a){return a}function
-r$(a,b){return aI(r_,r9,A,a,b)}function
-sa(a){return a}function
-sb(a){return a}function
-bc(a,b){return aI(sb,sa,r$,a,b)}function
-hT(a,f,c,d){if(c){var
-h=c[2],i=Q(a,b),g=dW(c[1],i,f);if(d){var
-j=hT(a,f,h,d[2]),k=d[1],l=function(c,b){return H(c,t(a,g,b))},m=function(b){return ae(t(a,g,b))};return[0,aI(function(a){return a},m,l,k,c),j]}var
-n=hT(a,f,h,0);return[0,e(function(b){return ae(t(a,g,b))},c),n]}return d}function
-f6(h,a){if(a){var
+si(a){return a}function
+sj(a){return a}function
+sk(a,b){return aK(sj,si,A,a,b)}function
+sl(a){return a}function
+sm(a){return a}function
+be(a,b){return aK(sm,sl,sk,a,b)}function
+h1(a,f,c,d){if(c){var
+h=c[2],i=L(a,b),g=d1(c[1],i,f);if(d){var
+j=h1(a,f,h,d[2]),k=d[1],l=function(c,b){return H(c,t(a,g,b))},m=function(b){return aa(t(a,g,b))};return[0,aK(function(a){return a},m,l,k,c),j]}var
+n=h1(a,f,h,0);return[0,e(function(b){return aa(t(a,g,b))},c),n]}return d}function
+f9(h,a){if(a){var
 b=a[1];if(b)var
-c=b[1],e=I(d,c[1]),i=e?[0,hT(h,c,b[2],a[2])]:e,f=i;else
+c=b[1],e=J(d,c[1]),i=e?[0,h1(h,c,b[2],a[2])]:e,f=i;else
 var
 f=b;var
 g=f}else
 var
 g=a;return g}function
-ld(g,f,e){var
+ln(g,f,e){var
 a=f,b=e;for(;;){if(b){if(a){var
-c=f6(g,b);if(c){var
+c=f9(g,b);if(c){var
 a=a[1],b=c[1];continue}var
 d=c}else
 var
 d=a;return d}return 1}}function
-le(d,b,a){if(b)if(a)var
-e=a[1],f=le(d,b[2],a[2]),g=cm(d,b[1])?b8(e):cq(e),c=[0,g,f];else
+lo(d,b,a){if(b)if(a)var
+e=a[1],f=lo(d,b[2],a[2]),g=cm(d,b[1])?b8(e):cq(e),c=[0,g,f];else
 var
 c=a;else
 var
 c=b;return c}function
-lf(a,b){if(a)if(b)var
-d=lf(a[2],b[2]),c=[0,le(a[1],a,b[1]),d];else
+lp(a,b){if(a)if(b)var
+d=lp(a[2],b[2]),c=[0,lo(a[1],a,b[1]),d];else
 var
 c=b;else
 var
 c=a;return c}function
-bj(a){if(a){var
-b=a[1],c=bj(b),d=e(function(a){return[0,1,a]},c),g=bj(b);return f(e(function(a){return[0,0,a]},g),d)}return sc}function
-d0(c,a){var
-b=g(a);if(ld(c,b,a))return 1;var
-d=bj(bx(b));return m(function(d){return ld(c,b,lf([0,0,d],a))},d)}function
-av(a){function
+bf(a){if(a){var
+b=a[1],c=bf(b),d=e(function(a){return[0,1,a]},c),g=bf(b);return f(e(function(a){return[0,0,a]},g),d)}return sn}function
+d5(c,a){var
+b=g(a);if(ln(c,b,a))return 1;var
+d=bf(bx(b));return m(function(d){return ln(c,b,lp([0,0,d],a))},d)}function
+aw(a){function
 b(b){var
 c=i(a,b[2]);return[0,e(a,b[1]),c]}return function(a){return e(b,a)}}function
-aK(h,e){var
+aC(h,e){var
 c=h,a=e[1],b=e[3];for(;;){if(c){if(b){var
 d=b[1],f=b[2],g=c[1]?A(a,d):H(a,d),c=c[2],a=g,b=f;continue}return a}return a}}function
-hU(c,b,a){var
-d=bj(c);return m(function(c){return i(a,i(av(function(a){return aK(c,a)}),b))},d)}function
-hV(h,d,c){if(d)if(c)var
-i=c[2],e=c[1],j=d[2],f=d[1],a=function(c,a){return aU(c,D(h,b),a)},k=hV(h,j,i),l=function(c,b){var
-d=a(b,e);return A(a(f,c),d)},m=function(b){return a(b,e)},n=aI(function(b){return a(f,b)},m,l,i,j),o=a(f,e),g=[0,[0,A(a(f,e),o),n],k];else
+h2(c,b,a){var
+d=bf(c);return m(function(c){return i(a,i(aw(function(a){return aC(c,a)}),b))},d)}function
+h3(h,d,c){if(d)if(c)var
+i=c[2],e=c[1],j=d[2],f=d[1],a=function(c,a){return aO(c,E(h,b),a)},k=h3(h,j,i),l=function(c,b){var
+d=a(b,e);return A(a(f,c),d)},m=function(b){return a(b,e)},n=aK(function(b){return a(f,b)},m,l,i,j),o=a(f,e),g=[0,[0,A(a(f,e),o),n],k];else
 var
 g=c;else
 var
 g=d;return g}function
-d1(b,d,a,c){function
+d6(b,d,a,c){function
 e(c,d){var
-e=aU(d,b,a);return H(A(c,c),e)}function
-f(c){return ae(aU(c,b,a))}return aI(function(a){return A(a,a)},f,e,d,c)}function
-f7(d,i,h,g){var
+e=aO(d,b,a);return H(A(c,c),e)}function
+f(c){return aa(aO(c,b,a))}return aK(function(a){return A(a,a)},f,e,d,c)}function
+f_(d,i,h,g){var
 c=i,b=h,a=g;for(;;){if(c){if(b){var
-e=b[1],f=c[1],j=cq(e[2]),k=bc(a,hV(d,f,d1(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
-hW(b,a){return[0,[0,0,b],a]}function
-d2(i,b,c,h,f,a){function
+e=b[1],f=c[1],j=cq(e[2]),k=be(a,h3(d,f,d6(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
+h4(b,a){return[0,[0,0,b],a]}function
+eX(i,b,c,h,f,a){function
 d(a){if(a){var
-j=am([0,ae(a[1][2]),0],b),c=f7(h,f,a[2],j),d=p(g(c),b);if(d)return d0(i,c);var
+j=al([0,aa(a[1][2]),0],b),c=f_(h,f,a[2],j),d=p(g(c),b);if(d)return d5(i,c);var
 e=d}else
 var
-e=a;return e}return hU(b,hW(c,a),d)}function
-f8(g,f,e){var
+e=a;return e}return h2(b,h4(c,a),d)}function
+f$(g,f,e){var
 a=f,b=e;for(;;){if(a){var
-d=a[1],h=d[1],c=f6(g,[0,[0,b8(d[2]),h],b]);if(c){var
+d=a[1],h=d[1],c=f9(g,[0,[0,b8(d[2]),h],b]);if(c){var
 a=a[2],b=c[1];continue}return c}return[0,b]}}function
-hX(d,b,c,a){function
+h5(d,b,c,a){function
 e(a){if(a){var
-j=am([0,a[1][2],0],b),c=f8(d,a[2],j);if(c){var
-e=c[1],f=p(g(e),b);if(f)return d0(d,e);var
+j=al([0,a[1][2],0],b),c=f$(d,a[2],j);if(c){var
+e=c[1],f=p(g(e),b);if(f)return d5(d,e);var
 h=f}else
 var
 h=c;var
 i=h}else
 var
-i=a;return i}return hU(b,hW(c,a),e)}function
-lg(b,a){return e(function(a){return[0,a[1],b]},a)}function
-lh(b,a){var
-c=bj(b);return m(function(b){return I(d,aK(b,a)[1])},c)}function
-hY(c,b,a){var
-d=a[3],f=e(function(a){return aU(c,b,a)},d),g=a[2];return[0,aU(c,b,a[1]),g,f]}function
-li(a,b){var
-c=b[3],d=a[3],e=aI(function(a){return a},ae,H,d,c),f=a[2];return[0,H(a[1],b[1]),f,e]}function
-bN(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+i=a;return i}return h2(b,h4(c,a),e)}function
+lq(h,g,a,f,d,c){var
+i=[0,x,x,0],b=e(function(a){return[0,a[1],i]},c),j=a?a[1]:[0,x,x,0];return eX(h,g,j,f,d,b)}function
+h6(b,a){var
+c=bf(b);return m(function(b){return J(d,aC(b,a)[1])},c)}function
+ga(c,b,a){var
+d=a[3],f=e(function(a){return aO(c,b,a)},d),g=a[2];return[0,aO(c,b,a[1]),g,f]}function
+lr(a,b){var
+c=b[3],d=a[3],e=aK(function(a){return a},aa,H,d,c),f=a[2];return[0,H(a[1],b[1]),f,e]}function
+bO(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
 ah(c,b,a){var
 d=ao(c,b[3],a[3]),e=ao(c,b[2],a[2]);return[0,ao(c,b[1],a[1]),e,d]}function
 aZ(b,a){var
 c=s(b,a[3]),d=s(b,a[2]);return[0,s(b,a[1]),d,c]}function
-bk(b,a){var
-c=al(b[3],a),d=al(b[2],a);return[0,al(b[1],a),d,c]}function
+bl(b,a){var
+c=am(b[3],a),d=am(b[2],a);return[0,am(b[1],a),d,c]}function
 V(b,a){var
 c=s(b[3],a[3]),d=s(b[2],a[2]);return C(C(s(b[1],a[1]),d),c)}function
-dm(a){return bk(a,aC(V(a,a)))}function
+ds(a){return bl(a,aD(V(a,a)))}function
 cT(a){var
-b=a[5];return b?b[1]:aC(a[2])}function
-f9(b,a){return b?a:bi(a)}function
-lj(e,a,i,d,h){var
-f=V(a,e),b=ah(w,e,aZ(f,a)),j=V(b,b),g=w(R(d),j),c=f9(h,aC(g)),k=w(f,c),l=ah(C,a,bk(b,c));return[0,ah(C,b,aZ(c,a)),g,l,k,[0,d],0,[0,i]]}function
-lk(a,e,d){var
-b=V(a,a),c=aC(b),f=[0,e],g=z(function(b){return ah(w,a,aZ(V(b,a),b))},d);return[0,a,b,bk(a,c),c,0,g,f]}function
-ll(c,a){var
+b=a[5];return b?b[1]:aD(a[2])}function
+gb(b,a){return b?a:bk(a)}function
+ls(e,a,i,d,h){var
+f=V(a,e),b=ah(v,e,aZ(f,a)),j=V(b,b),g=v(S(d),j),c=gb(h,aD(g)),k=v(f,c),l=ah(C,a,bl(b,c));return[0,ah(C,b,aZ(c,a)),g,l,k,[0,d],0,[0,i]]}function
+lt(a,e,d){var
+b=V(a,a),c=aD(b),f=[0,e],g=z(function(b){return ah(v,a,aZ(V(b,a),b))},d);return[0,a,b,bl(a,c),c,0,g,f]}function
+lu(c,a){var
 d=V(a,c);return[0,a,k(b),a,d,0,0,0]}function
-eX(a){return e(function(a){var
-b=a[2];return[0,bN(a[1]),b]},a)}function
-lm(a){return e(function(a){var
-c=k(b);return[0,bN(a[3]),c]},a)}function
-ln(b,a){var
+eY(a){return e(function(a){var
+b=a[2];return[0,bO(a[1]),b]},a)}function
+lv(a){return e(function(a){var
+c=k(b);return[0,bO(a[3]),c]},a)}function
+lw(b,a){var
 c=i(b,a[3]),d=i(b,a[2]);return[0,i(b,a[1]),d,c]}function
-lo(c,b,a){var
+lx(c,b,a){var
 d=ao(c,b[3],a[3]),e=ao(c,b[2],a[2]);return[0,ao(c,b[1],a[1]),e,d]}function
-d3(d,a){var
+d7(d,a){var
 b=b6(d,[0,a[2],a[2]]);if(b){var
 c=b[1];return[0,c[2],c[2]]}return[0,a[2],a[2]]}function
-f_(a,n,f,l,e,k,j){var
-o=lo(br,k,j),b=lo(function(b,c){return aJ(a,b,c)},e,o),c=b[3],g=b[2],h=b[1],i=b9(b9(b9($(Q(a,d)),h),g),c),p=bj(n);return m(function(c){var
-b=ln(function(b){return X(a,aK(c,b))},e),h=b[3],j=b[2],k=b[1],m=t(a,l,d3(a,A(A(A(Q(a,d),k),j),h))),g=H(aK(c,i),m),n=f?H(g,aK(c,f[1])):g;return I(d,n[1])},p)}function
-b_(a){return di(D(a[1],a[2]),b)}function
-d4(a){var
-b=b_(a);return aF(a[2],b)}function
-d5(c,b){if(b)var
-a=b[1],e=d5([0,c],b[2]),g=d4(a),h=[0,[0,d4(a),g],0],i=f(am(v,c),h),j=b_(a),d=[0,[0,[0,b_(a),j],a,i],e];else
+gc(a,n,f,l,e,k,j){var
+o=lx(br,k,j),b=lx(function(b,c){return aL(a,b,c)},e,o),c=b[3],g=b[2],h=b[1],i=b9(b9(b9(Y(L(a,d)),h),g),c),p=bf(n);return m(function(c){var
+b=lw(function(b){return X(a,aC(c,b))},e),h=b[3],j=b[2],k=b[1],m=t(a,l,d7(a,A(A(A(L(a,d),k),j),h))),g=H(aC(c,i),m),n=f?H(g,aC(c,f[1])):g;return J(d,n[1])},p)}function
+b_(a){return dn(E(a[1],a[2]),b)}function
+d8(a){var
+b=b_(a);return aG(a[2],b)}function
+du(c,b){if(b)var
+a=b[1],e=du([0,c],b[2]),g=d8(a),h=[0,[0,d8(a),g],0],i=f(al(x,c),h),j=b_(a),d=[0,[0,[0,b_(a),j],a,i],e];else
 var
 d=b;return d}function
 cU(d,b){if(b){var
 c=b[2],a=b[1];if(d){var
 e=cU(d[1],c);return[0,[0,a,e[1]],[0,a,e[2]]]}var
-f=a[2],g=[0,[0,b_(a),f],c],h=b_(a);return[0,[0,[0,a[1],h],c],g]}return sd}function
-lp(d,c,a){if(c){if(a){var
-e=lp(d,c[2],a[2]);return A(aU(c[1],D(d,b),a[1]),e)}return v}return v}function
-d6(f,a){if(a)var
-g=a[1],c=g[2],d=g[1],h=a[2],b=function(a,b){return lp(f,a,b)},j=d6(f,h),k=e(function(a){var
+f=a[2],g=[0,[0,b_(a),f],c],h=b_(a);return[0,[0,[0,a[1],h],c],g]}return so}function
+ly(d,c,a){if(c){if(a){var
+e=ly(d,c[2],a[2]);return A(aO(c[1],E(d,b),a[1]),e)}return x}return x}function
+d9(f,a){if(a)var
+g=a[1],c=g[2],d=g[1],h=a[2],b=function(a,b){return ly(f,a,b)},j=d9(f,h),k=e(function(a){var
 e=b(d,a[2]);return A(b(a[1],c),e)},h),l=b(d,c),i=[0,[0,A(b(d,c),l),k],j];else
 var
 i=a;return i}function
-d7(e,b,d,a){if(b)if(a)var
-f=b[1],g=d7(e,b[2],d,a[2]),c=[0,[0,f,d1(e,a[1][1],d,f)],g];else
+d_(e,b,d,a){if(b)if(a)var
+f=b[1],g=d_(e,b[2],d,a[2]),c=[0,[0,f,d6(e,a[1][1],d,f)],g];else
 var
 c=a;else
 var
 c=b;return c}function
-f$(f,d,c,b,a){if(a){var
+gd(f,d,c,b,a){if(a){var
 g=a[2];if(d){var
-i=f$(f,d[1],c,b,g);return[0,[0,H(v,b),0],i]}var
-j=e(function(a){return[0,H(v,b),0]},g),h=[0,[0,H(ae(t(f,c,cq(a[1][2]))),b),0],j]}else
+i=gd(f,d[1],c,b,g);return[0,[0,H(x,b),0],i]}var
+j=e(function(a){return[0,H(x,b),0]},g),h=[0,[0,H(aa(t(f,c,cq(a[1][2]))),b),0],j]}else
 var
 h=a;return h}function
-bd(d,c,a){var
-b=p(g(a),c);return b?d0(d,a):b}function
-ga(d,b,a){if(b)var
-c=b[1],g=ga([0,d],b[2],a),h=f(am(v,d),[0,a,0]),e=[0,[0,c,[0,aF(c[1],a[2]),D(c[2],a[2])],h],g];else
+a4(d,c,a){var
+b=p(g(a),c);return b?d5(d,a):b}function
+ge(d,b,a){if(b)var
+c=b[1],g=ge([0,d],b[2],a),h=f(al(x,d),[0,a,0]),e=[0,[0,c,[0,aG(c[1],a[2]),E(c[2],a[2])],h],g];else
 var
 e=b;return e}function
-lq(d){if(d){var
+lz(d){if(d){var
 a=d[1][1];if(a){var
 b=a[2];if(b){var
 c=b[2];if(c){if(c[2])return 0;var
-g=c[1],h=b[1],i=a[1],j=lq(d[2]);return z(function(a){return[0,[0,[0,i,h],g],a]},j)}var
+g=c[1],h=b[1],i=a[1],j=lz(d[2]);return z(function(a){return[0,[0,[0,i,h],g],a]},j)}var
 e=c}else
 var
 e=b;var
 f=e}else
 var
-f=a;return f}return se}function
-hZ(a){return z(function(a){return z(eU,a)},a)}function
+f=a;return f}return sp}function
+h7(a){return z(function(a){return z(eU,a)},a)}function
 cV(c,b,a){function
-d(a){return aJ(c,b,a)}return z(function(a){return z(d,a)},a)}function
-h0(c,b,a){function
-d(a){return dX(c,a,b)}return z(function(a){return cQ(d,a)},a)}function
-d8(b,a){var
-c=_(b,a);return e(function(c){var
+d(a){return aL(c,b,a)}return z(function(a){return z(d,a)},a)}function
+h8(c,b,a){function
+d(a){return d2(c,a,b)}return z(function(a){return cQ(d,a)},a)}function
+d$(b,a){var
+c=$(b,a);return e(function(c){var
 a=c[2],b=c[1];if(b){if(a){var
 d=a[1],e=b[1];return[0,cs(function(b,a){return[0,b9(b,a)]},e,d)]}return b}return a},c)}function
-gb(a){return $(Q(a,c(2,b)))}function
-lr(a,au,at,K,c){var
-av=bK(aB,c),f=i(bL(a,au,at),av);switch(c[0]){case
+gf(a){return Y(L(a,c(2,b)))}function
+h9(a,au,at,K,c){var
+aw=bM(av,c),f=i(bz(a,au,at),aw);switch(c[0]){case
 1:var
-N=c[1],d=e(function(d){var
-c=p(N,d),e=c?[0,[0,$(Q(a,b))]]:c;return e},K);break;case
+O=c[1],d=e(function(d){var
+c=p(O,d),e=c?[0,[0,Y(L(a,b))]]:c;return e},K);break;case
 3:var
-d=d8(c[1][2],c[2][2]);break;case
+d=d$(c[1][2],c[2][2]);break;case
 4:var
-O=e(hZ,c[2][2]),d=d8(c[1][2],O);break;case
+P=e(h7,c[2][2]),d=d$(c[1][2],P);break;case
 5:var
-d=e(hZ,c[1][2]);break;case
+d=e(h7,c[1][2]);break;case
 6:var
 x=c[2],y=c[1],g=y[1],u=0;if(g){var
 h=x[1];if(h)var
-P=x[2],R=g[1],S=e(function(b){return cV(a,R,b)},P),T=y[2],U=h[1],d=d8(e(function(b){return cV(a,U,b)},T),S);else{var
+Q=x[2],R=g[1],S=e(function(b){return cV(a,R,b)},Q),T=y[2],U=h[1],d=d$(e(function(b){return cV(a,U,b)},T),S);else{var
 z=h;u=1}}else{var
 z=g;u=1}if(u)var
 d=z;break;case
 7:var
 v=0;if(f){var
 A=c[2],j=A[1];if(j)var
-V=A[2],W=eU(f[1]),X=e(function(b){return cV(a,W,b)},V),Y=d8(c[1][2],X),Z=j[1],d=e(function(b){return h0(a,Z,b)},Y);else{var
+V=A[2],W=eU(f[1]),X=e(function(b){return cV(a,W,b)},V),Z=d$(c[1][2],X),_=j[1],d=e(function(b){return h8(a,_,b)},Z);else{var
 B=j;v=1}}else{var
 B=f;v=1}if(v)var
 d=B;break;case
 8:var
 C=c[1],k=C[1];if(k)var
-_=C[2],aa=k[1],ab=aJ(a,gb(a),aa),d=e(function(b){return cV(a,ab,b)},_);else
+$=C[2],aa=k[1],ab=aL(a,gf(a),aa),d=e(function(b){return cV(a,ab,b)},$);else
 var
 d=k;break;case
 9:if(f)var
-ac=c[1][2],ad=f[1],ae=aJ(a,gb(a),ad),d=e(function(b){return h0(a,ae,b)},ac);else
+ac=c[1][2],ad=f[1],ae=aL(a,gf(a),ad),d=e(function(b){return h8(a,ae,b)},ac);else
 var
 d=f;break;case
 10:var
 D=c[4],E=c[3],F=c[2],l=F[1],w=0;if(l){var
-m=l[1],n=E[1],L=0;if(n){var
-o=n[1],q=D[1],M=0;if(q){var
-r=kU(a,m,o,q[1]);if(r){var
-G=r[1],s=G[2],t=G[1],af=E[2],ag=br(o,s),ah=e(function(b){return cV(a,ag,b)},af),ai=F[2],aj=br(m,t),ak=d8(e(function(b){return cV(a,aj,b)},ai),ah),al=e(hZ,D[2]),am=gb(a),an=d8(e(function(b){return cV(a,am,b)},ak),al),ao=c[1]?t:eU(s),ap=e(function(b){return cV(a,ao,b)},an),aq=aJ(a,m,s),ar=br(aJ(a,o,t),aq),as=aJ(a,gb(a),ar),d=e(function(b){return h0(a,as,b)},ap);L=1;M=1}else
+m=l[1],n=E[1],M=0;if(n){var
+o=n[1],q=D[1],N=0;if(q){var
+r=k4(a,m,o,q[1]);if(r){var
+G=r[1],s=G[2],t=G[1],af=E[2],ag=br(o,s),ah=e(function(b){return cV(a,ag,b)},af),ai=F[2],aj=br(m,t),ak=d$(e(function(b){return cV(a,aj,b)},ai),ah),al=e(h7,D[2]),am=gf(a),an=d$(e(function(b){return cV(a,am,b)},ak),al),ao=c[1]?t:eU(s),ap=e(function(b){return cV(a,ao,b)},an),aq=aL(a,m,s),ar=br(aL(a,o,t),aq),as=aL(a,gf(a),ar),d=e(function(b){return h8(a,as,b)},ap);M=1;N=1}else
 var
 H=r}else
 var
-H=q;if(!M)var
+H=q;if(!N)var
 I=H}else
 var
-I=n;if(!L){var
+I=n;if(!M){var
 J=I;w=1}}else{var
 J=l;w=1}if(w)var
 d=J;break;default:var
 d=e(function(a){return 0},K)}return[0,f,d]}function
-h1(b,c,a){if(a)var
-f=a[1],g=h1(b,c,a[2]),d=[0,e(function(a){return ae(t(b,t(b,c,f),a))},a),g];else
+h_(b,c,a){if(a)var
+f=a[1],g=h_(b,c,a[2]),d=[0,e(function(a){return aa(t(b,t(b,c,f),a))},a),g];else
 var
 d=a;return d}function
-h2(a){return m(function(a){var
-b=J(a[1],d);return b?J(a[2],d):b},a)}function
-h3(c,b,a){var
-d=_(b,a);return aq(function(a,b){return A(t(c,a[1],a[2]),b)},v,d)}function
-h4(c,b,a){var
-d=b7(h3(c,a,b));return aq(function(b,a){return D(b7(b),a)},d,a)}function
-b$(a){return Q(a,b)}function
-eY(a,i,c,v,u){var
+h$(a){return m(function(a){var
+b=I(a[1],d);return b?I(a[2],d):b},a)}function
+ia(c,b,a){var
+d=$(b,a);return aq(function(a,b){return A(t(c,a[1],a[2]),b)},x,d)}function
+ib(c,b,a){var
+d=b7(ia(c,a,b));return aq(function(b,a){return E(b7(b),a)},d,a)}function
+b$(a){return L(a,b)}function
+eZ(a,i,c,v,u){var
 f=v,e=u;for(;;){if(f){var
-j=f[1],n=0;if(!h2(c)&&!h2(j)){var
-h=h4(a,i,j),o=b$(a),p=h4(a,i,c),b=dW([0,h4(a,i,c),p],o,[0,h,h])[1],k=I(d,h),l=k?I(d,b):k;if(l)var
-q=as(hP(a,[0,b,b])),r=function(b){return function(d,c){return H(t(a,[0,b,b],d),c)}}(b),s=[0,b,b],m=[0,bc(e,h1(a,q,aI(function(c){return function(b){return t(a,c,b)}}(s),ae,r,j,c)))];else
+j=f[1],n=0;if(!h$(c)&&!h$(j)){var
+h=ib(a,i,j),o=b$(a),p=ib(a,i,c),b=d1([0,ib(a,i,c),p],o,[0,h,h])[1],k=J(d,h),l=k?J(d,b):k;if(l)var
+q=as(hX(a,[0,b,b])),r=function(b){return function(d,c){return H(t(a,[0,b,b],d),c)}}(b),s=[0,b,b],m=[0,be(e,h_(a,q,aK(function(c){return function(b){return t(a,c,b)}}(s),aa,r,j,c)))];else
 var
 m=l;var
 g=m;n=1}if(!n)var
 g=[0,e];if(g){var
 f=f[2],e=g[1];continue}return g}return[0,e]}}function
-ls(a){var
-b=a[2],c=e(function(a){return[0,a[1],v]},b);return[0,[0,a[1][1],v],c]}function
-lt(h,n,a,m,l,k){var
+lA(a){var
+b=a[2],c=e(function(a){return[0,a[1],x]},b);return[0,[0,a[1][1],x],c]}function
+ic(h,n,a,m,l,k){var
 d=m,c=l,b=k;for(;;){if(d){if(c){var
-i=c[1],j=i[1],f=d[1],o=cq(j[2]),p=bc(b,hV(a,f,d1(a,j[1],o,f))),q=i[2],r=e(function(c){return function(b){return e(as,d1(a,b[1],b[2],c))}}(f),q),g=eY(h,n,e(function(b){return aU(b,a,b$(h))},f),r,p);if(g){var
+i=c[1],j=i[1],f=d[1],o=cq(j[2]),p=be(b,h3(a,f,d6(a,j[1],o,f))),q=i[2],r=e(function(c){return function(b){return e(as,d6(a,b[1],b[2],c))}}(f),q),g=eZ(h,n,e(function(b){return aO(b,a,b$(h))},f),r,p);if(g){var
 d=d[2],c=c[2],b=g[1];continue}return g}return[0,b]}return[0,b]}}function
-lu(c,b,a){var
-d=aA(0,a);return e(function(a){return p(a,b)?b$(c):v},d)}function
-lv(c,b,a){if(b){if(a){var
-d=lv(c,b[2],a[2]);return A(aU(b[1],c,a[1]),d)}return v}return v}function
-lw(a,j){switch(j){case
+lB(a,j,r,q){var
+c=r,f=q;for(;;){if(c){var
+k=c[1],l=k[1],g=l[2],h=l[1],m=k[2],n=[0,[0,b8(g),h],f];if(m){var
+o=J(d,g[1]);if(o)var
+s=e(function(a){var
+b=a[1];return[0,as(a[2]),b]},m),t=e(function(a){return x},h),u=[0,b$(a),t],v=b$(a),b=eZ(a,[0,aa(d1(ia(a,h,j),v,g)),j],u,s,n);else
+var
+b=o}else
+var
+b=[0,n];if(b){var
+i=f9(a,b[1]);if(i){var
+c=c[2],f=i[1];continue}var
+p=i}else
+var
+p=b;return p}return[0,f]}}function
+lC(c,b,a){var
+d=aB(0,a);return e(function(a){return p(a,b)?b$(c):x},d)}function
+lD(c,b,a){if(b){if(a){var
+d=lD(c,b[2],a[2]);return A(aO(b[1],c,a[1]),d)}return x}return x}function
+lE(a,j){switch(j){case
 0:var
-d=aF(a[2],a[1]),e=a[1];return[0,[0,e,e],[0,[0,d,d],0]];case
+d=aG(a[2],a[1]),e=a[1];return[0,[0,e,e],[0,[0,d,d],0]];case
 1:var
-f=aF(a[1],a[2]),g=a[2];return[0,[0,g,g],[0,[0,f,f],0]];default:var
-c=di(D(a[1],a[2]),b),h=aF(c,a[2]),i=aF(a[2],c);return[0,[0,c,c],[0,[0,i,i],[0,[0,h,h],0]]]}}function
-gc(d,c,a){if(a)var
-e=a[1],g=gc(d,[0,c],a[2]),b=z(aY,kJ(function(a){return p(a[1],c)},d)),h=b?lw(e,b[1])[1]:e,f=[0,h,g];else
+f=aG(a[1],a[2]),g=a[2];return[0,[0,g,g],[0,[0,f,f],0]];default:var
+c=dn(E(a[1],a[2]),b),h=aG(c,a[2]),i=aG(a[2],c);return[0,[0,c,c],[0,[0,i,i],[0,[0,h,h],0]]]}}function
+e0(d,c,a){if(a)var
+e=a[1],g=e0(d,[0,c],a[2]),b=z(aY,kT(function(a){return p(a[1],c)},d)),h=b?lE(e,b[1])[1]:e,f=[0,h,g];else
 var
 f=a;return f}function
-h5(a,b){return e(function(a){var
-c=a[2];return lw(q(a[1],b,v),c)[2]},a)}function
-h6(i,b,g,a){function
-d(a){return aK(b,a[1])}var
-h=0,j=$(v);function
+gg(a,b){return e(function(a){var
+c=a[2];return lE(q(a[1],b,x),c)[2]},a)}function
+gh(i,b,g,a){function
+d(a){return aC(b,a[1])}var
+h=0,j=Y(x);function
 c(g,d,a,b){if(a){var
-h=function(a){return aK(g,q(d,a[2],j))},k=e(h,b[1]),l=h(b[2]),m=c(g,[0,d],a[2],b),n=a[1];return f(e(function(a){var
+h=function(a){return aC(g,q(d,a[2],j))},k=e(h,b[1]),l=h(b[2]),m=c(g,[0,d],a[2],b),n=a[1];return f(e(function(a){var
 b=t(i,a,l);return[0,e(function(b){return t(i,a,b)},k),b]},n),m)}return a}var
 k=c(b,h,g,a),l=d(a[2]);return[0,[0,e(d,a[1]),l],k]}var
-st=$(v);function
-lx(e,d,c){if(d){var
-f=q(e,c[2],su),a=f?f[1]:[0,st];if(a)var
-b=lx([0,e],d[2],c),h=b?[0,[0,a[1],b[1]]]:b,g=h;else
+sE=Y(x);function
+lF(e,d,c){if(d){var
+f=q(e,c[2],sF),a=f?f[1]:[0,sE];if(a)var
+b=lF([0,e],d[2],c),h=b?[0,[0,a[1],b[1]]]:b,g=h;else
 var
-g=a;return g}return sv}function
-ly(a,c,h,p,o,g,n){var
-d=bj(c);return m(function(d){var
+g=a;return g}return sG}function
+lG(a,c,h,p,o,g,n){var
+d=bf(c);return m(function(d){var
 f=i(n,d);if(f){var
-q=t(a,o,f[1]),j=H(Q(a,b),q),r=h?H(j,aK(d,h[1])):j,k=function(b){function
-f(c){return t(a,b,aK(d,c))}var
-g=e(function(a){return e(f,a)},p);return bd(a,c,bc(am([0,r,0],c),g))},l=k(as(g));if(l)return k(ae(as(g)));var
+q=t(a,o,f[1]),j=H(L(a,b),q),r=h?H(j,aC(d,h[1])):j,k=function(b){function
+f(c){return t(a,b,aC(d,c))}var
+g=e(function(a){return e(f,a)},p);return a4(a,c,be(al([0,r,0],c),g))},l=k(as(g));if(l)return k(aa(as(g)));var
 m=l}else
 var
 m=f;return m},d)}function
-lz(c,b,a){if(a){var
+lH(c,b,a){if(a){var
 d=a[2];if(c){var
-f=lz(c[1],b,d);return[0,a[1],f]}var
+f=lH(c[1],b,d);return[0,a[1],f]}var
 e=[0,b,d]}else
 var
 e=a;return e}function
-gd(a,g){var
-b=bp(function(e){var
-c=q(e,a,v),b=F(c[1],d),f=b?F(d,c[2]):b;return S(f)},g);if(b){if(b[2])return a;var
-f=b[1],c=q(f,a,v),e=I(d,c[1])?c[1]:c[2];return lz(f,[0,e,e],a)}return a}function
-lA(c,a){if(a)var
-b=a[2],f=lA(c,b),g=b?b[1]:e(rW,c),d=[0,[0,a[1],g],f];else
+e1(a,g){var
+b=bq(function(e){var
+c=q(e,a,x),b=D(c[1],d),f=b?D(d,c[2]):b;return Q(f)},g);if(b){if(b[2])return a;var
+f=b[1],c=q(f,a,x),e=J(d,c[1])?c[1]:c[2];return lH(f,[0,e,e],a)}return a}function
+lI(c,a){if(a)var
+b=a[2],f=lI(c,b),g=b?b[1]:e(r7,c),d=[0,[0,a[1],g],f];else
 var
 d=a;return d}function
+lJ(a){return a?lI(a[1],a):a}function
 cW(c,d,b,a){if(d){var
 e=d[1];if(a){var
 f=cW(c,e,b,a[2]);return[0,a[1],f]}return[0,c,cW(c,e,b,0)]}return a?[0,b,a[2]]:[0,b,0]}function
-ge(a,c,b){if(c)if(b)var
-g=b[2],e=b[1],h=c[2],d=c[1],i=ge(a,h,g),j=function(c,b){var
-f=t(a,e,b);return A(t(a,d,c),f)},k=function(b){return t(a,e,b)},l=aI(function(b){return t(a,d,b)},k,j,g,h),f=[0,[0,t(a,A(d,d),e),l],i];else
+gi(a,c,b){if(c)if(b)var
+g=b[2],e=b[1],h=c[2],d=c[1],i=gi(a,h,g),j=function(c,b){var
+f=t(a,e,b);return A(t(a,d,c),f)},k=function(b){return t(a,e,b)},l=aK(function(b){return t(a,d,b)},k,j,g,h),f=[0,[0,t(a,A(d,d),e),l],i];else
 var
 f=b;else
 var
 f=c;return f}function
-cX(d,c,b,a){return cW(v,c,h3(d,a,b),a)}function
-lB(g,b,f,a){if(a)var
-c=a[2],d=a[1],h=q(b,c,v),e=[0,d,cW(v,b,A(t(g,f,d),h),c)];else
+cX(d,c,b,a){return cW(x,c,ia(d,a,b),a)}function
+lK(a,f,e,b,d,c){var
+g=aB(0,b);return aq(function(g,c){var
+h=cX(a,f,e,lC(a,g,b));return be(c,h_(a,aa(d),h))},c,g)}function
+lL(a,d,c,j,i,h,g,f){var
+k=cX(a,d,c,e(function(b){return L(a,B(h,b))},i));return be(f,gi(a,cX(a,d,c,e(function(c){return aO(c,E(g,b),b$(a))},j)),k))}function
+lM(a,h,g,q,f,p,o,n){var
+d=p,c=o,b=n;for(;;){if(d){if(c){var
+k=c[1],l=k[1],i=d[1],m=cX(a,h,g,e(function(b){return aO(b,f,b$(a))},i)),r=cq(l[2]),s=cX(a,h,g,d6(f,l[1],r,i)),t=be(b,gi(a,e(as,m),s)),u=k[2],j=eZ(a,q,m,e(function(c){return function(b){return cX(a,h,g,e(as,d6(f,b[1],b[2],c)))}}(i),u),t);if(j){var
+d=d[2],c=c[2],b=j[1];continue}return j}return[0,b]}return[0,b]}}function
+lN(g,b,f,a){if(a)var
+c=a[2],d=a[1],h=q(b,c,x),e=[0,d,cW(x,b,A(t(g,f,d),h),c)];else
 var
 e=a;return e}function
-h7(f,d,c,b,a){var
-g=e($,c);return kR(0,bL(f,d5(0,a),g),b,d,0)}function
-aa(a){if(a){var
-b=a[1];if(b)var
-c=aa(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+lO(a,b,m,D,C,B){var
+i=C,h=B;for(;;){if(i){var
+n=i[1],o=n[1],j=o[2],p=n[2],c=cX(a,b,m,o[1]);if(p){var
+r=J(d,j[1]);if(r)var
+E=b$(a),f=b8(aa(d1(q(b,c,x),E,j))),k=b8(j),u=cW(x,b,f,0),v=q(b,c,x),w=be(h,gi(a,u,cW(x,b,A(as(t(a,f,k)),v),c))),y=q(b,c,x),z=[0,[0,k,cW(x,b,A(t(a,f,k),y),c)],w],F=e(function(e){return function(c){var
+d=cX(a,b,m,c[1]);return lN(a,b,e,[0,as(c[2]),d])}}(f),p),G=e(function(a){return x},c),g=eZ(a,[0,x,D],lN(a,b,f,[0,b$(a),G]),F,z);else
 var
-d=b;return d}return sA}function
-gf(b,a){if(a){var
-h=a[1],n=h[1],c=aa(e(function(a){return q(a,b,0)},n));if(c){var
+g=r}else
+var
+g=[0,[0,[0,b8(j),c],h]];if(g){var
+l=f9(a,g[1]);if(l){var
+i=i[2],h=l[1];continue}var
+s=l}else
+var
+s=g;return s}return[0,h]}}function
+id(f,d,c,b,a){var
+g=e(Y,c);return k1(0,bz(f,du(0,a),g),b,d,0)}function
+ab(a){if(a){var
+b=a[1];if(b)var
+c=ab(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+var
+d=b;return d}return sL}function
+gj(b,a){if(a){var
+h=a[1],n=h[1],c=ab(e(function(a){return q(a,b,0)},n));if(c){var
 f=q(h[2],b,0);if(f){var
-i=f[1],g=gf(b,a[2]);if(g)var
-j=I(d,i[2][1]),k=j?[0,[0,[0,c[1],i],g[1]]]:j;else
+i=f[1],g=gj(b,a[2]);if(g)var
+j=J(d,i[2][1]),k=j?[0,[0,[0,c[1],i],g[1]]]:j;else
 var
 k=g;var
 l=k}else
@@ -1916,22 +1957,22 @@ var
 l=f;var
 m=l}else
 var
-m=c;return m}return sB}function
+m=c;return m}return sM}function
 cw(d,c,b){var
-a=gf(d,c);return a?i(b,a[1]):a}function
+a=gj(d,c);return a?i(b,a[1]):a}function
 cY(a,b){return m(function(c){var
 a=q(c,b,0),d=a?1:a;return d},a)}function
-gg(b,a){if(b){var
-c=b[1],d=c[3],e=a[3],f=function(a){return a},g=aI(function(a){return a},f,A,e,d),h=a[2];return[0,A(a[1],c[1]),h,g]}return a}function
-h8(b,a){return b?li(a,b[1]):a}function
-h9(h,g,b,f){var
+gk(b,a){if(b){var
+c=b[1],d=c[3],e=a[3],f=function(a){return a},g=aK(function(a){return a},f,A,e,d),h=a[2];return[0,A(a[1],c[1]),h,g]}return a}function
+ie(b,a){return b?lr(a,b[1]):a}function
+ig(h,g,b,f){var
 a=q(f,h,0);if(a){var
 c=a[1];if(b){var
-i=li(c,b[1]),e=bj(g);return m(function(a){return F(d,aK(a,i)[1])},e)}return F(d,c[2][1])}return a}function
-lC(f,d,a){function
-c(a){return aU(a,d,Q(f,b))}if(a){var
-g=e(c,a[2]);return[0,c(a[1]),v,g]}return $(v)}function
-gh(b,a){var
+i=lr(c,b[1]),e=bf(g);return m(function(a){return D(d,aC(a,i)[1])},e)}return D(d,c[2][1])}return a}function
+ih(f,d,a){function
+c(a){return aO(a,d,L(f,b))}if(a){var
+g=e(c,a[2]);return[0,c(a[1]),x,g]}return Y(x)}function
+gl(b,a){var
 c=q(a[1],b,0);if(c){var
 d=q(a[2],b,0);if(d)var
 e=q(a[3],b,0),h=e?[0,[0,c[1],d[1],e[1]]]:e,f=h;else
@@ -1940,55 +1981,55 @@ f=d;var
 g=f}else
 var
 g=c;return g}function
-h_(b,a){return aa(e(function(a){return q(a,b,0)},a))}function
-eZ(c,k,W,C,i,h,j,f,a){switch(f[0]){case
+ii(b,a){return ab(e(function(a){return q(a,b,0)},a))}function
+e2(c,k,W,C,i,h,j,f,a){switch(f[0]){case
 0:var
 s=f[1];if(typeof
 a!=="number")switch(a[0]){case
 0:var
-Y=cY(C,i);if(Y){var
-aD=a[2],aE=a[1],aG=gg(j,$(s));return cw(i,k,function(a){return d2(c,h,aG,aE,aD,a)})}return Y;case
-1:var
 Z=cY(C,i);if(Z){var
-aH=a[2],aI=a[1],aJ=gg(j,$(s));return cw(i,W,function(a){return d2(c,h,aJ,aI,aH,a)})}return Z;case
+aE=a[2],aF=a[1],aH=gk(j,Y(s));return cw(i,k,function(a){return eX(c,h,aH,aF,aE,a)})}return Z;case
+1:var
+_=cY(C,i);if(_){var
+aI=a[2],aJ=a[1],aK=gk(j,Y(s));return cw(i,W,function(a){return eX(c,h,aK,aJ,aI,a)})}return _;case
 2:var
-_=cY(C,i);if(_){if(j)return 0;var
-ab=J(s[1],d),ac=ab?J(s[2],d):ab;if(ac){var
-aL=a[2],aM=a[1];return cw(i,k,function(a){return d2(c,h,[0,v,v,0],aM,aL,lg([0,v,v,0],a))})}var
+$=cY(C,i);if($){var
+aa=I(s[1],d),ac=aa?I(s[2],d):aa;if(ac){var
+aL=a[2],aM=a[1];return cw(i,k,function(a){return lq(c,h,j,aM,aL,a)})}var
 ad=ac}else
 var
-ad=_;return ad}return 0;case
+ad=$;return ad}return 0;case
 1:var
 ae=f[1];if(typeof
 a==="number"){if(1===a){var
-aN=h8(j,$(ae));return cw(i,W,function(a){return hX(c,h,aN,a)})}if(!a){var
-aO=h8(j,$(ae));return cw(i,k,function(a){return hX(c,h,aO,a)})}}return 0;case
+aN=ie(j,Y(ae));return cw(i,W,function(a){return h5(c,h,aN,a)})}if(!a){var
+aP=ie(j,Y(ae));return cw(i,k,function(a){return h5(c,h,aP,a)})}}return 0;case
 2:if(typeof
 a!=="number"&&3===a[0]){var
-af=a[1],l=lC(c,af,a[3]),ag=f[1],aP=a[2];return cw(i,k,function(d){var
-a=lh(h,l),b=a?d2(c,h,gg(j,l),af,aP,d):a;if(b){var
-f=l[3],g=e(function(a){return t(c,ag,a)},f),i=l[2];return hX(c,h,h8(j,[0,t(c,ag,l[1]),i,g]),d)}return b})}return 0;case
+af=a[1],l=ih(c,af,a[3]),ag=f[1],aQ=a[2];return cw(i,k,function(d){var
+a=h6(h,l),b=a?eX(c,h,gk(j,l),af,aQ,d):a;if(b){var
+f=l[3],g=e(function(a){return t(c,ag,a)},f),i=l[2];return h5(c,h,ie(j,[0,t(c,ag,l[1]),i,g]),d)}return b})}return 0;case
 3:if(typeof
-a==="number"&&!a)return h9(i,h,j,f[1]);return 0;case
+a==="number"&&!a)return ig(i,h,j,f[1]);return 0;case
 4:if(typeof
 a!=="number"&&0===a[0]){var
-aQ=a[2],aR=a[1],aS=gg(j,$(f[2])),aT=function(a){return d2(c,h,aS,aR,aQ,a)};return cw(i,f[1],aT)}return 0;case
+aR=a[2],aS=a[1],aT=gk(j,Y(f[2])),aU=function(a){return eX(c,h,aT,aS,aR,a)};return cw(i,f[1],aU)}return 0;case
 5:if(typeof
 a==="number"&&!(3<=a))switch(a){case
-0:return h9(i,h,j,f[1]);case
-2:return h9(i,h,j,f[2])}return 0;case
+0:return ig(i,h,j,f[1]);case
+2:return ig(i,h,j,f[2])}return 0;case
 6:if(typeof
 a!=="number"&&8===a[0]){var
-E=gh(i,f[1]);if(E){var
-F=gh(i,f[2]);if(F){var
-G=gh(i,f[3]);if(G){var
-I=gh(i,f[4]);if(I){var
-ah=I[1],ai=G[1],aj=F[1],ak=E[1],n=a[2],u=f[5],aV=a[1];if(n){var
+D=gl(i,f[1]);if(D){var
+F=gl(i,f[2]);if(F){var
+G=gl(i,f[3]);if(G){var
+J=gl(i,f[4]);if(J){var
+ah=J[1],ai=G[1],aj=F[1],ak=D[1],n=a[2],u=f[5],aV=a[1];if(n){var
 o=n[2];if(o){var
 q=o[2];if(q){if(q[2])return 0;var
-aC=[0,n[1],o[1],q[1]],r=ln(function(f){function
-g(a){return aU(a,aV,Q(c,b))}if(f){var
-a=e(g,f[2]),d=g(f[1]),h=f2(a),i=D(d[2],h),j=f2(a);return[0,d,[0,aF(d[1],j),i],a]}return $(v)},aC),N=m(function(a){return p(g(a),[0,h])},n),O=N?f_(c,h,j,u,r,ak,ai):N,P=O?f_(c,h,j,u,r,ak,ah):O,R=P?f_(c,h,j,u,r,aj,ai):P;if(R)return f_(c,h,j,u,r,aj,ah);var
+aD=[0,n[1],o[1],q[1]],r=lw(function(f){function
+g(a){return aO(a,aV,L(c,b))}if(f){var
+a=e(g,f[2]),d=g(f[1]),h=f5(a),i=E(d[2],h),j=f5(a);return[0,d,[0,aG(d[1],j),i],a]}return Y(x)},aD),O=m(function(a){return p(g(a),[0,h])},n),P=O?gc(c,h,j,u,r,ak,ai):O,Q=P?gc(c,h,j,u,r,ak,ah):P,R=Q?gc(c,h,j,u,r,aj,ai):Q;if(R)return gc(c,h,j,u,r,aj,ah);var
 S=R}else
 var
 S=q;var
@@ -1998,7 +2039,7 @@ T=o;var
 U=T}else
 var
 U=n;return U}var
-al=I}else
+al=J}else
 var
 al=G;var
 am=al}else
@@ -2006,82 +2047,81 @@ var
 am=F;var
 an=am}else
 var
-an=E;return an}return 0;case
+an=D;return an}return 0;case
 7:if(typeof
 a!=="number"&&0===a[0]){var
 ao=a[2],ap=a[1],aW=f[2],aX=f[1];return cw(i,k,function(e){var
 a=p(g(e),h),d=a?p(g(ao),h):a;if(d){var
 f=function(a){if(a){var
 d=a[2],e=p(g(d),h);if(e){var
-i=d6(ap,d7(ap,ao,Q(c,b),d));return bd(c,h,bc(f$(c,aX,aW,a[1][2],d),i))}var
+i=d9(ap,d_(ap,ao,L(c,b),d));return a4(c,h,be(gd(c,aX,aW,a[1][2],d),i))}var
 f=e}else
 var
-f=a;return f},i=j?j[1]:$(v);return hU(h,hW(i,e),f)}return d})}return 0;case
+f=a;return f},i=j?j[1]:Y(x);return h2(h,h4(i,e),f)}return d})}return 0;case
 8:if(typeof
 a==="number"&&5<=a){var
-aY=f[3],aZ=f[2],a0=function(d){var
-a=lg([0,v,v,0],d),b=j?j[1]:[0,v,v,0];return d2(c,h,b,aZ,aY,a)};return cw(i,f[1],a0)}return 0;case
+aY=f[3],aZ=f[2],a0=function(a){return lq(c,h,j,aZ,aY,a)};return cw(i,f[1],a0)}return 0;case
 9:return 0;default:if(typeof
 a==="number"&&!a){var
-K=h_(i,f[1]);if(K){var
-a1=f[2],L=aa(e(function(a){return h_(i,a)},a1));if(L){var
-M=h_(i,[0,f[3],[0,f[4],[0,f[5],[0,f[6],0]]]]);if(M){var
-w=M[1];if(w){var
-x=w[2];if(x){var
-y=x[2];if(y){var
+K=ii(i,f[1]);if(K){var
+a1=f[2],M=ab(e(function(a){return ii(i,a)},a1));if(M){var
+N=ii(i,[0,f[3],[0,f[4],[0,f[5],[0,f[6],0]]]]);if(N){var
+v=N[1];if(v){var
+w=v[2];if(w){var
+y=w[2];if(y){var
 B=y[2];if(B){if(B[2])return 0;var
-ar=B[1],as=y[1][2],at=x[1][2],au=w[1][2],av=L[1],a2=K[1],V=ly(c,h,j,av,au,at,function(d){return[0,d3(c,aq(function(b,a){return A(X(c,aK(d,b)),a)},v,a2))]});return V?V:ly(c,h,j,av,au,at,function(f){var
+ar=B[1],as=y[1][2],at=w[1][2],au=v[1][2],av=M[1],a2=K[1],V=lG(c,h,j,av,au,at,function(d){return[0,d7(c,aq(function(b,a){return A(X(c,aC(d,b)),a)},x,a2))]});return V?V:lG(c,h,j,av,au,at,function(f){var
 b=b8(ar[1]),a=b6(c,H(as,X(c,b)));if(a){var
-d=b5(c,a[1]),e=H(as,t(c,b,aK(f,ar)));return z(function(a){return t(c,e,a)},d)}return a})}var
+d=b5(c,a[1]),e=H(as,t(c,b,aC(f,ar)));return z(function(a){return t(c,e,a)},d)}return a})}var
 aw=B}else
 var
 aw=y;var
 ax=aw}else
 var
-ax=x;var
+ax=w;var
 ay=ax}else
 var
-ay=w;var
+ay=v;var
 az=ay}else
 var
-az=M;var
+az=N;var
 aA=az}else
 var
-aA=L;var
+aA=M;var
 aB=aA}else
 var
 aB=K;return aB}return 0}}function
-lD(a,_,s,l,n,Z,h,k,j,f,c){if(9===f[0]){var
-ab=f[2],ac=f[1];if(typeof
+lP(a,$,s,l,n,_,h,k,j,f,c){if(9===f[0]){var
+ac=f[2],ad=f[1];if(typeof
 c!=="number"&&9===c[0]){var
-L=c[2],u=c[1],ad=c[3];if(0<aM(c[4]))return eZ(a,s,l,n,h,g(k),j,f,c);var
-U=e($,Z),C=bq(0,bL(a,ga(0,k,ac),U),_,0),M=p(g(k),sC),N=M?cY(n,C):M;if(N){var
-w=gf(C,l);if(w){var
-x=gf(h,l);if(x){var
-y=aa(e(function(b){var
+M=c[2],u=c[1],ae=c[3];if(0<aN(c[4]))return e2(a,s,l,n,h,g(k),j,f,c);var
+U=e(Y,_),C=bc(0,bz(a,ge(0,k,ad),U),$,0),N=p(g(k),sN),O=N?cY(n,C):N;if(O){var
+v=gj(C,l);if(v){var
+w=gj(h,l);if(w){var
+y=ab(e(function(b){var
 c=q(b[1],h,0);if(c)var
-f=b[2][2],a=aa(e(function(a){var
+f=b[2][2],a=ab(e(function(a){var
 b=q(a[2],h,0);return z(function(b){return[0,a[1],b]},b)},f)),g=a?[0,[0,b[2][1],a[1]]]:a,d=g;else
 var
-d=c;return d},ab));if(y){var
-B=lq(w[1]);if(B){var
-O=x[1],af=y[1],ag=B[1],E=d3(a,aq(function(f,h){function
+d=c;return d},ac));if(y){var
+B=lz(v[1]);if(B){var
+P=w[1],af=y[1],ag=B[1],D=d7(a,aq(function(f,h){function
 b(b,d){var
-a=f[1],c=b?b[1]?f[2]:a[2]:a[1];return b7(q(d,c[3],v))}function
+a=f[1],c=b?b[1]?f[2]:a[2]:a[1];return b7(q(d,c[3],x))}function
 c(a){var
-b=i(a,sf),c=bo(i(a,sg),b);return bo(i(a,0),c)}var
+b=i(a,sq),c=bp(i(a,sr),b);return bp(i(a,0),c)}var
 d=c(function(a){var
-c=b(sh,a),d=b(si,a);return D(D(b(0,a),d),c)}),g=[0,d,d],e=c(function(a){var
-c=b(a,sj),d=b(a,sk);return D(D(b(a,0),d),c)});return A(h,X(a,d3(a,t(a,[0,e,e],g))))},v,ag)),o=aU(ad,u,Q(a,b)),F=I(d,H(o,E)[1]),G=F?p(g(L),sq):F,J=G?p(g(O),sr):G;if(J){var
+c=b(ss,a),d=b(st,a);return E(E(b(0,a),d),c)}),g=[0,d,d],e=c(function(a){var
+c=b(a,su),d=b(a,sv);return E(E(b(a,0),d),c)});return A(h,X(a,d7(a,t(a,[0,e,e],g))))},x,ag)),o=aO(ae,u,L(a,b)),F=J(d,H(o,D)[1]),G=F?p(g(M),sB):F,I=G?p(g(P),sC):G;if(I){var
 r=b5(a,o);if(r){var
-V=as(t(a,E,r[1])),W=H(Q(a,b),V),Y=bj(ss);return m(function(h){var
+V=as(t(a,D,r[1])),W=H(L(a,b),V),Z=bf(sD);return m(function(h){var
 g=e(function(b){var
-c=b[2],d=b[1];return cq(b4(function(d,b){var
-c=b7(aK(h,b[2]));return A(d,t(a,b[1],[0,c,c]))},c,d))},af),r=i(av(function(a){return aK(h,a)}),O),E=j?aK(h,j[1]):v,M=X(a,W),s=X(a,o),q=d6(u,d7(u,L,Q(a,b),r)),c=bc(am([0,ae(E),0],sl),q);if(g){var
+c=b[2],d=b[1];return cq(bL(function(d,b){var
+c=b7(aC(h,b[2]));return A(d,t(a,b[1],[0,c,c]))},c,d))},af),r=i(aw(function(a){return aC(h,a)}),P),E=j?aC(h,j[1]):x,N=X(a,W),s=X(a,o),q=d9(u,d_(u,M,L(a,b),r)),c=be(al([0,aa(E),0],sw),q);if(g){var
 d=g[2];if(d){var
 f=d[2];if(f){if(f[2])return 0;var
-B=d[1],C=g[1],I=f[1],k=bd(a,sn,bc(am([0,ae(s),0],sm),c));if(k)return m(function(D){var
-J=H(M,E),K=D[2]?B:ae(B),L=D[1]?C:ae(C),o=0;if(c){var
+B=d[1],C=g[1],I=f[1],k=a4(a,sy,be(al([0,aa(s),0],sx),c));if(k)return m(function(D){var
+J=H(N,E),K=D[2]?B:aa(B),L=D[1]?C:aa(C),o=0;if(c){var
 b=c[1],l=0;if(b){var
 d=b[2],m=0;if(d){var
 e=d[2],n=0;if(e)if(e[2]){var
@@ -2120,7 +2160,7 @@ var
 z=b;if(!l){var
 A=z;o=1}}else{var
 A=c;o=1}if(o)var
-k=A;return bd(a,sp,k)},so);var
+k=A;return a4(a,sA,k)},sz);var
 l=k}else
 var
 l=f;var
@@ -2129,41 +2169,41 @@ var
 n=d;var
 p=n}else
 var
-p=g;return p},Y)}var
+p=g;return p},Z)}var
 K=r}else
 var
-K=J;return K}var
-P=B}else
+K=I;return K}var
+Q=B}else
 var
-P=y;var
-R=P}else
+Q=y;var
+R=Q}else
 var
-R=x;var
+R=w;var
 S=R}else
 var
-S=w;var
+S=v;var
 T=S}else
 var
-T=N;return T}return eZ(a,s,l,n,h,g(k),j,f,c)}return eZ(a,s,l,n,h,g(k),j,f,c)}function
-h$(d){var
+T=O;return T}return e2(a,s,l,n,h,g(k),j,f,c)}return e2(a,s,l,n,h,g(k),j,f,c)}function
+gm(d){var
 a=d;for(;;){if(a){var
-b=a[2],e=a[1],c=S(ak(function(b){return function(a){return p(b,a)}}(e),b));if(c){var
+b=a[2],e=a[1],c=Q(ak(function(b){return function(a){return p(b,a)}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-lE(j,i,h,g,a){var
+ij(j,i,h,g,a){var
 d=q(a,j,0);if(d){var
 b=q(a,i,0);if(b)var
-c=lx(0,g,q(a,h,sD)),k=c?[0,[0,b[1],c[1]]]:c,e=k;else
+c=lF(0,g,q(a,h,sO)),k=c?[0,[0,b[1],c[1]]]:c,e=k;else
 var
 e=b;var
 f=e}else
 var
 f=d;return f}function
-ia(j,b,a){if(a){var
-k=a[1],l=k[2],c=aa(e(b,k[1]));if(c){var
+gn(j,b,a){if(a){var
+k=a[1],l=k[2],c=ab(e(b,k[1]));if(c){var
 f=i(b,l);if(f){var
 g=q(l,j,0);if(g){var
-h=ia(j,b,a[2]);if(h)var
-m=I(d,g[1][2][1]),n=m?[0,[0,[0,c[1],f[1]],h[1]]]:m;else
+h=gn(j,b,a[2]);if(h)var
+m=J(d,g[1][2][1]),n=m?[0,[0,[0,c[1],f[1]],h[1]]]:m;else
 var
 n=h;var
 o=n}else
@@ -2174,219 +2214,233 @@ var
 p=f;var
 r=p}else
 var
-r=c;return r}return sE}function
-lF(c,N,j,M,q,o,L,w,f,b,i,a){var
-h=g(L),P=d5(0,L),aH=bq(0,bL(c,P,e($,gc(i,0,q))),N,0),aJ=e(aB,i),aI=0,aL=e($,q),aM=bq(sF,function(a){return lr(c,P,aL,aJ,a)},N,aI),aO=h5(i,q);function
-R(a){return lE(o,aH,aM,i,a)}function
-x(a){return e(function(a){return Q(c,a)},a)}var
-aP=w?w[1]:$(v);function
-S(a){return a?bd(c,h,a[1]):a}function
+r=c;return r}return sP}function
+lQ(c,N,j,M,q,o,K,J,f,b,i,a){var
+h=g(K),O=du(0,K),aI=bc(0,bz(c,O,e(Y,e0(i,0,q))),N,0),aK=e(av,i),aJ=0,aL=e(Y,q),aM=bc(sQ,function(a){return h9(c,O,aL,aK,a)},N,aJ),aN=gg(i,q);function
+Q(a){return ij(o,aI,aM,i,a)}function
+v(a){return e(function(a){return L(c,a)},a)}var
+aO=J?J[1]:Y(x);function
+R(a){return a?a4(c,h,a[1]):a}function
 r(f,e,d,b,a){var
-g=am([0,ae(e),0],h);return S(lt(c,x(f),d,b,a,g))}function
-T(A,z,y){var
-B=am([0,z,0],h),q=x(A),b=y,f=B;for(;;){if(b){var
-k=b[1],l=k[1],g=l[2],i=l[1],m=k[2],n=[0,[0,b8(g),i],f];if(m){var
-o=I(d,g[1]);if(o)var
-s=e(function(a){var
-b=a[1];return[0,as(a[2]),b]},m),t=e(function(a){return v},i),u=[0,b$(c),t],w=b$(c),a=eY(c,[0,ae(dW(h3(c,i,q),w,g)),q],u,s,n);else
-var
-a=o}else
-var
-a=[0,n];if(a){var
-j=f6(c,a[1]);if(j){var
-b=b[2],f=j[1];continue}var
-p=j}else
-var
-p=a;var
-r=p}else
-var
-r=[0,f];return S(r)}}var
-aQ=e(aB,i),U=m(function(a){return aN(a,g(q))},aQ),V=U?h$(e(aB,i)):U,W=V?m(function(a){return p(g(a),h)},a):V;if(W){var
+g=al([0,aa(e),0],h);return R(ic(c,v(f),d,b,a,g))}function
+S(d,b,a){var
+e=al([0,b,0],h);return R(lB(c,v(d),a,e))}var
+aP=e(av,i),T=m(function(a){return aH(a,g(q))},aP),U=T?gm(e(av,i)):T,V=U?m(function(a){return p(g(a),h)},a):U;if(V){var
 u=0;switch(f[0]){case
 0:var
-y=f[1],G=0;if(typeof
+w=f[1],F=0;if(typeof
 b!=="number")switch(b[0]){case
 0:var
-at=0;if(a){if(a[2])return 0;var
-aR=a[1],aS=b[2],aT=b[1],X=cY(M,o);if(X){var
+ar=0;if(a){if(a[2])return 0;var
+aQ=a[1],aR=b[2],aS=b[1],W=cY(M,o);if(W){var
 l=function(c,a){var
-b=A(y,a);return function(a){return r(aR,b,aT,aS,a)}},k=j;G=1;at=1}else
+b=A(w,a);return function(a){return r(aQ,b,aS,aR,a)}},k=j;F=1;ar=1}else
 var
-aa=X}else
+_=W}else
 var
-aa=a;if(!at)return aa;break;case
+_=a;if(!ar)return _;break;case
 2:var
-au=0;if(a){if(a[2])return 0;var
-aV=a[1],aW=b[2],aX=b[1],ab=cY(M,o),av=0;if(ab){if(w)return 0;var
-ac=J(y[1],d),ad=ac?J(y[2],d):ac;if(ad){var
-l=function(c,b,a){return r(aV,v,aX,aW,e(ls,a))},k=j;G=1;au=1;av=1}else
+at=0;if(a){if(a[2])return 0;var
+aU=a[1],aV=b[2],aW=b[1],ab=cY(M,o),au=0;if(ab){var
+ac=I(w[1],d),ad=ac?I(w[2],d):ac;if(ad){var
+l=function(c,b,a){return r(aU,b,aW,aV,e(lA,a))},k=j;F=1;at=1;au=1}else
 var
-af=ad}else
+ae=ad}else
 var
-af=ab;if(!av)var
-ag=af}else
+ae=ab;if(!au)var
+af=ae}else
 var
-ag=a;if(!au)return ag;break}if(!G)return 0;break;case
+af=a;if(!at)return af;break}if(!F)return 0;break;case
 1:var
-aw=0,aY=f[1];if(typeof
+aw=0,aX=f[1];if(typeof
 b==="number"&&!b){if(!a)return a;if(a[2])return 0;var
-aZ=a[1],l=function(c,a){var
-b=H(aY,a);return function(a){return T(aZ,b,a)}},k=j;aw=1}if(!aw)return 0;break;case
+aY=a[1],l=function(c,a){var
+b=H(aX,a);return function(a){return S(aY,b,a)}},k=j;aw=1}if(!aw)return 0;break;case
 2:var
-ax=0,a0=f[1];if(typeof
+ax=0,aZ=f[1];if(typeof
 b==="number"||!(3===b[0]))ax=1;else{var
 ay=0;if(a){var
 s=a[2],az=0;if(s){if(s[2])return 0;var
-ah=b[1],a1=s[1],a2=a[1],a3=b[2],ai=lC(c,ah,b[3]),aj=lh(h,ai);if(aj){var
+ag=b[1],a0=s[1],a1=a[1],a2=b[2],ah=ih(c,ag,b[3]),ai=h6(h,ah);if(ai){var
 l=function(f,b,a){var
-d=aK(f,ai),e=r(a2,A(d,b),ah,a3,a);return e?T(a1,H(t(c,a0,d),b),a):e},k=j;ay=1;az=1}else
+d=aC(f,ah),e=r(a1,A(d,b),ag,a2,a);return e?S(a0,H(t(c,aZ,d),b),a):e},k=j;ay=1;az=1}else
 var
+aj=ai}else
+var
+aj=s;if(!az)var
 ak=aj}else
 var
-ak=s;if(!az)var
-al=ak}else
-var
-al=a;if(!ay)return al}if(ax)return 0;break;case
+ak=a;if(!ay)return ak}if(ax)return 0;break;case
 3:var
-aC=0;if(typeof
+aA=0;if(typeof
 b==="number"&&!b){if(a)return 0;var
-B=f[1];u=1}else
-aC=1;if(aC)return 0;break;case
+z=f[1];u=1}else
+aA=1;if(aA)return 0;break;case
 4:var
 aD=0,a5=f[2];if(typeof
 b==="number"||!(0===b[0]))aD=1;else{if(!a)return a;if(a[2])return 0;var
 a6=a[1],a7=b[2],a8=b[1],a9=function(c,a){var
 b=A(a5,a);return function(a){return r(a6,b,a8,a7,a)}},l=a9,k=f[1]}if(aD)return 0;break;case
 5:var
-K=0;if(typeof
+G=0;if(typeof
 b==="number"&&!(3<=b))switch(b){case
 0:if(a)return 0;var
-B=f[1];u=1;break;case
+z=f[1];u=1;break;case
 2:if(a)return 0;var
-B=f[2];u=1;break;default:K=1}else
-K=1;if(K)return 0;break;case
+z=f[2];u=1;break;default:G=1}else
+G=1;if(G)return 0;break;case
 7:var
-an=f[2],ao=f[1],aE=0;if(typeof
+am=f[2],an=f[1],aE=0;if(typeof
 b==="number"||!(0===b[0]))aE=1;else{var
-aG=0;if(a){if(a[2])return 0;var
-n=b[2],E=b[1],a_=a[1],ap=p(g(j),h);if(ap){var
-l=function(a,y){var
-z=x(a_);return function(f){var
+aF=0;if(a){if(a[2])return 0;var
+n=b[2],C=b[1],a_=a[1],ao=p(g(j),h);if(ao){var
+l=function(a,x){var
+y=v(a_);return function(f){var
 k=p(g(f),h),l=k?p(g(n),h):k;if(l){var
-s=e(aB,f),u=d6(E,d7(E,n,b$(c),s)),v=bc(f$(c,ao,an,y,e(aB,f)),u),a=0,b=f,i=v,w=g(n);for(;;){if(b){var
-o=b[1][2],q=p(a,ao),r=e(function(f,h){return function(d){var
-a=_(aA(0,g(n)),n);return e(function(a){var
-b=lv(E,a[2],d[1]);if(h&&p(a[1],f))return H(b,as(t(c,an,d[2])));return b},a)}}(a,q),o),j=eY(c,z,lu(c,a,w),r,i);if(j){var
+s=e(av,f),u=d9(C,d_(C,n,b$(c),s)),v=be(gd(c,an,am,x,e(av,f)),u),a=0,b=f,i=v,w=g(n);for(;;){if(b){var
+o=b[1][2],q=p(a,an),r=e(function(f,h){return function(d){var
+a=$(aB(0,g(n)),n);return e(function(a){var
+b=lD(C,a[2],d[1]);if(h&&p(a[1],f))return H(b,as(t(c,am,d[2])));return b},a)}}(a,q),o),j=eZ(c,y,lC(c,a,w),r,i);if(j){var
 a=[0,a],b=b[2],i=j[1];continue}var
 d=j}else
 var
-d=[0,i];if(d)return bd(c,h,d[1]);var
+d=[0,i];if(d)return a4(c,h,d[1]);var
 m=d;break}}else
 var
-m=l;return m}},k=j;aG=1}else
+m=l;return m}},k=j;aF=1}else
 var
-ar=ap}else
+ap=ao}else
 var
-ar=a;if(!aG)return ar}if(aE)return 0;break;default:return 0}if(u){var
-C=R(B);if(!C)return C;var
-a4=function(b,f,a){return m(function(a){var
-b=f[2],c=a[2],e=aq(function(b,a){return D(bo(d,O(b[2][1])),a)},d,c);return F(d,aF(aF(a[1][2][1],e),b))},a)},Z=a4,Y=[0,[0,0,C[1]],0]}else{var
-z=ia(o,R,k);if(!z)return z;var
-Z=l,Y=z[1]}var
-aU=bj(h);return m(function(a){var
-b=e(function(b){return h6(c,a,aO,b)},Y);return fu(Z,a,aK(a,aP),b)},aU)}return W}function
-lG(a,W,y,V,r,o,U,x,n,h,l,i,T,az,R,P){var
-k=g(U),X=d5(0,U),aC=bq(0,bL(a,X,e($,gc(l,0,r))),W,0),aE=e(aB,l),aD=0,aF=e($,r),aG=bq(sG,function(b){return lr(a,X,aF,aE,b)},W,aD),aH=h5(l,r);function
-aI(a){return lE(o,aC,aG,l,a)}var
-aJ=x?x[1]:$(v),w=aq(function(b,a){return bo(ck(b),a)},d,i);function
-M(a){if(a){if(J(ck(a[1]),w))return 0;var
-b=[0,M(a[2])]}else
+ap=a;if(!aF)return ap}if(aE)return 0;break;default:return 0}if(u){var
+B=Q(z);if(!B)return B;var
+a3=function(b,f,a){return m(function(a){var
+b=f[2],c=a[2],e=aq(function(b,a){return E(bp(d,P(b[2][1])),a)},d,c);return D(d,aG(aG(a[1][2][1],e),b))},a)},Z=a3,X=[0,[0,0,B[1]],0]}else{var
+y=gn(o,Q,k);if(!y)return y;var
+Z=l,X=y[1]}var
+aT=bf(h);return m(function(a){var
+b=e(function(b){return gh(c,a,aN,b)},X);return fw(Z,a,aC(a,aO),b)},aT)}return V}function
+lR(j,a){var
+f=aq(function(b,a){return bp(ck(b),a)},d,a);function
+g(a){if(a){if(I(ck(a[1]),f))return 0;var
+b=[0,g(a[2])]}else
 var
 b=a;return b}var
-N=M(i);if(J(w,d))var
-aw=e(function(a){return v},i),ax=i?[0,b,i[2]]:i,z=[0,[0,[0,0,ax],d],aw];else
-var
-O=hM(D(kH(w),b)),ay=e(function(a){return v},i),z=[0,[0,[0,N,i],O],cW(v,N,Q(a,b3(c(2,b),O)),ay)];var
-Y=z[1],Z=Y[1],C=Z[2],f=Z[1],_=z[2],aL=Y[2],j=e(function(c){return aU(c,aL,Q(a,b))},C);function
-aa(h){var
-i=0,c=aA(0,k),d=aq(function(c,b){var
-d=cX(a,f,j,lu(a,c,k));return bc(b,h1(a,ae(h),d))},i,c),g=cX(a,f,j,e(function(b){return Q(a,B(R,b))},az));return bc(d,ge(a,cX(a,f,j,e(function(c){return aU(c,D(P,b),b$(a))},T)),g))}function
-ab(b){return b?bd(a,k,b[1]):b}function
-E(u,i,t,s){var
-c=t,b=s,d=aa(ae(u));for(;;){if(c&&b){var
-k=b[1],l=k[1],g=c[1],m=cX(a,f,j,e(function(b){return aU(b,i,b$(a))},g)),o=cq(l[2]),p=cX(a,f,j,d1(i,l[1],o,g)),q=bc(d,ge(a,e(as,m),p)),r=k[2],h=eY(a,_,m,e(function(c){return function(b){return cX(a,f,j,e(as,d1(i,b[1],b[2],c)))}}(g),r),q);if(h){var
-c=c[2],b=b[2],d=h[1];continue}var
-n=h}else
-var
-n=[0,d];return ab(n)}}var
-aM=e(aB,l),ac=m(function(a){return aN(a,g(r))},aM),ad=ac?h$(e(aB,l)):ac,af=ad?p(g(C),k):ad,ag=af?p(g(T),k):af,ah=ag?F(d,R):ag,ai=ah?kE(P,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):ah,aj=ai?aN(f,k):ai,ak=aj?S(J(q(f,C,d),d)):aj;if(ak){switch(n[0]){case
+h=g(a);if(I(f,d)){var
+k=e(function(a){return x},a),l=a?[0,b,a[2]]:a;return[0,[0,[0,0,l],d],k]}var
+i=hU(E(kR(f),b)),m=e(function(a){return x},a);return[0,[0,[0,h,a],i],cW(x,h,L(j,b4(c(2,b),i)),m)]}function
+go(f,K,t,J,n,l,G,F,k,a,h,al,E,ak,C,B){var
+i=g(G),M=du(0,G),am=bc(0,bz(f,M,e(Y,e0(h,0,n))),K,0),ap=e(av,h),an=0,aq=e(Y,n),ar=bc(sR,function(a){return h9(f,M,aq,ap,a)},K,an),as=gg(h,n);function
+at(a){return ij(l,am,ar,h,a)}var
+au=F?F[1]:Y(x),N=lR(f,al),O=N[1],P=O[1],u=P[2],j=P[1],R=N[2],aw=O[2],o=e(function(a){return aO(a,aw,L(f,b))},u);function
+S(a){return lL(f,j,o,E,ak,C,B,lK(f,j,o,i,a,0))}function
+T(a){return a?a4(f,i,a[1]):a}function
+v(d,c,b,a){return T(lM(f,j,o,R,c,b,a,S(aa(d))))}var
+ax=e(av,h),U=m(function(a){return aH(a,g(n))},ax),V=U?gm(e(av,h)):U,W=V?p(g(u),i):V,X=W?p(g(E),i):W,Z=X?D(d,C):X,_=Z?hS(B,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):Z,$=_?aH(j,i):_,ab=$?Q(I(q(j,u,d),d)):$;if(ab){switch(k[0]){case
 0:var
-G=n[1],L=0;if(typeof
-h==="number")L=1;else
-switch(h[0]){case
+w=k[1],z=0;if(typeof
+a==="number")z=1;else
+switch(a[0]){case
 0:var
-aO=h[2],aP=h[1],al=cY(V,o);if(!al)return al;var
-u=function(a){var
-b=A(G,a);return function(a){return E(b,aP,aO,a)}},s=y;break;case
+ay=a[2],az=a[1],ac=cY(J,l);if(!ac)return ac;var
+s=function(a){var
+b=A(w,a);return function(a){return v(b,az,ay,a)}},r=t;break;case
 2:var
-aS=h[2],aT=h[1],am=cY(V,o),at=0;if(am){if(x)return 0;var
-an=J(G[1],d),ap=an?J(G[2],d):an;if(ap){var
-u=function(b,a){return E(v,aT,aS,e(ls,a))},s=y;at=1}else
+aD=a[2],aE=a[1],ad=cY(J,l),ah=0;if(ad){var
+ae=I(w[1],d),af=ae?I(w[2],d):ae;if(af){var
+s=function(b,a){return v(b,aE,aD,e(lA,a))},r=t;ah=1}else
 var
-ar=ap}else
+ag=af}else
 var
-ar=am;if(!at)return ar;break;default:L=1}if(L)return 0;break;case
+ag=ad;if(!ah)return ag;break;default:z=1}if(z)return 0;break;case
 1:var
-au=0,aV=n[1];if(typeof
-h==="number"&&!h)var
-u=function(b){var
-F=H(aV,b);return function(G){var
-i=G,h=aa(F);for(;;){if(i){var
-n=i[1],o=n[1],k=o[2],p=n[2],b=cX(a,f,j,o[1]);if(p){var
-r=I(d,k[1]);if(r)var
-C=b$(a),c=b8(ae(dW(q(f,b,v),C,k))),l=b8(k),w=cW(v,f,c,0),x=q(f,b,v),y=bc(h,ge(a,w,cW(v,f,A(as(t(a,c,l)),x),b))),z=q(f,b,v),B=[0,[0,l,cW(v,f,A(t(a,c,l),z),b)],y],D=e(function(d){return function(b){var
-c=cX(a,f,j,b[1]);return lB(a,f,d,[0,as(b[2]),c])}}(c),p),E=e(function(a){return v},b),g=eY(a,[0,v,_],lB(a,f,c,[0,b$(a),E]),D,B);else
-var
-g=r}else
-var
-g=[0,[0,[0,b8(k),b],h]];if(g){var
-m=f6(a,g[1]);if(m){var
-i=i[2],h=m[1];continue}var
-s=m}else
-var
-s=g;var
-u=s}else
-var
-u=[0,h];return ab(u)}}},s=y;else
-au=1;if(au)return 0;break;case
+ai=0,aF=k[1];if(typeof
+a==="number"&&!a)var
+s=function(a){var
+b=H(aF,a);return function(a){return T(lO(f,j,o,R,a,S(b)))}},r=t;else
+ai=1;if(ai)return 0;break;case
 4:var
-av=0,aW=n[2];if(typeof
-h==="number"||!(0===h[0]))av=1;else
+aj=0,aG=k[2];if(typeof
+a==="number"||!(0===a[0]))aj=1;else
 var
-aX=h[2],aY=h[1],aZ=function(a){var
-b=A(aW,a);return function(a){return E(b,aY,aX,a)}},u=aZ,s=n[1];if(av)return 0;break;default:return 0}var
-K=ia(o,aI,s);if(K){var
-aQ=K[1],aR=bj(k);return m(function(b){var
-c=e(function(c){return h6(a,b,aH,c)},aQ);return ao(u,aK(b,aJ),c)},aR)}return K}return ak}function
-lH(r,q,p,o,n,x,m,e,l,k,j,h,g,c){if(typeof
-c!=="number"&&10===c[0]){var
-a=c[3],s=c[2],b=c[1];if(typeof
-b!=="number"&&5===b[0]){if(a){if(a[2])return 0;var
-t=b[2],f=i(x,e);if(f){var
-u=F(d,t);if(u){var
-y=a[1],z=b[1];return lG(r,q,p,o,n,m,e,[0,hY(t,b[3],f[1])],l,z,s,y,k,j,h,g)}var
-v=u}else
+aI=a[2],aJ=a[1],aK=function(a){var
+b=A(aG,a);return function(a){return v(b,aJ,aI,a)}},s=aK,r=k[1];if(aj)return 0;break;default:return 0}var
+y=gn(l,at,r);if(y){var
+aA=y[1],aB=bf(i);return m(function(a){var
+b=e(function(b){return gh(f,a,as,b)},aA);return ao(s,aC(a,au),b)},aB)}return y}return ab}function
+lS(r,q,p,o,n,C,m,c,l,k,j,h,g,a){var
+v=e(function(a){return d},c),u=0;if(typeof
+a!=="number")switch(a[0]){case
+5:var
+E=a[1],F=function(a){return go(r,q,p,o,n,m,c,a,l,E,0,v,k,j,h,g)},x=F,w=a[3],s=a[2];u=1;break;case
+10:var
+b=a[3],A=a[2],f=a[1],B=0;if(typeof
+f!=="number"&&5===f[0]){if(!b)return b;if(b[2])return 0;var
+G=b[1],H=f[1],I=function(a){return go(r,q,p,o,n,m,c,a,l,H,A,G,k,j,h,g)},x=I,w=f[3],s=f[2];u=1;B=1}if(!B)return b?b[2]?0:go(r,q,p,o,n,m,c,0,l,f,A,b[1],k,j,h,g):b;break}if(u){var
+t=i(C,c);if(t){var
+y=D(d,s);if(y)return x([0,ga(s,w,t[1])]);var
+z=y}else
 var
-v=f;var
-w=v}else
+z=t;return z}return go(r,q,p,o,n,m,c,0,l,a,0,v,k,j,h,g)}function
+lT(a,ai,aL,s,F,ah,r,o,ag,af,h){function
+k(aj,f,j,w){var
+h=g(r),z=du(0,r),aq=bc(0,bz(a,z,e(Y,e0(j,0,s))),ai,0),as=e(av,j),ar=0,at=e(Y,s),au=bc(sS,function(b){return h9(a,z,at,as,b)},ai,ar);function
+aw(a){return ij(ah,aq,au,j,a)}var
+ax=aj?aj[1]:Y(x);function
+k(b){return b?a4(a,h,b[1]):b}function
+B(b,a){return aa(A(aC(b,ag),a))}function
+C(d,c,b){return H(t(a,d,aC(c,ag)),b)}var
+ay=e(av,j),E=m(function(a){return aH(a,g(s))},ay),F=E?gm(e(av,j)):E,G=F?p(g(w),h):F;if(G){var
+ak=0;if(af){var
+J=af[1],K=J[1],M=K[1],N=M[1],O=K[2],P=J[2],az=M[2],R=lR(a,w),S=R[1],T=S[1],u=T[2],i=T[1],U=R[2],aA=S[2],l=e(function(c){return aO(c,aA,L(a,b))},u),V=function(b){return lL(a,i,l,N,az,O,P,lK(a,i,l,h,b,0))},W=p(g(u),h),X=W?p(g(N),h):W,Z=X?D(d,O):X,_=Z?hS(P,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):Z,$=_?aH(i,h):_,ab=$?Q(I(q(i,u,d),d)):$,y=0;if(ab)if(o){var
+am=0,aB=o[1];if(typeof
+f==="number"&&!f){var
+n=function(d,c,b){return k(lO(a,i,l,U,b,V(C(aB,d,c))))};y=1;am=1}if(!am)return 0}else{var
+an=0;if(typeof
+f!=="number"&&0===f[0]){var
+aF=f[2],aG=f[1],n=function(d,c,b){return k(lM(a,i,l,U,aG,aF,b,V(B(d,c))))};y=1;an=1}if(!an)var
+ac=0}else
 var
-w=a;return w}return a?a[2]?0:lG(r,q,p,o,n,m,e,0,l,b,s,a[1],k,j,h,g):a}return 0}function
-lI(l,k,j,p,h,g,o,f,b,e,a){if(typeof
+ac=ab;if(!y)return ac}else{var
+ad=e(function(b){return L(a,b)},w);if(o){var
+ao=0,aI=o[1];if(typeof
+f==="number"&&!f){var
+n=function(d,c,b){return k(lB(a,ad,b,al([0,C(aI,d,c),0],h)))};ao=1}if(!ao)return 0}else{var
+ap=0;if(typeof
+f==="number"||!(0===f[0]))ap=1;else
+var
+aJ=f[2],aK=f[1],n=function(d,c,b){return k(ic(a,ad,aK,aJ,b,al([0,B(d,c),0],h)))};if(ap){var
+ae=0;ak=1}}}if(!ak){var
+v=gn(ah,aw,aL);if(v){var
+aD=v[1],aE=bf(h);return m(function(b){var
+c=gg(j,s),d=e(function(d){return gh(a,b,c,d)},aD);return n(b,aC(b,ax),d)},aE)}return v}}else
+var
+ae=G;return ae}var
+w=e(function(a){return d},r),v=0;if(typeof
+h!=="number")switch(h[0]){case
+5:var
+G=h[1],J=function(a){return k(a,G,0,w)},z=J,y=h[3],l=h[2];v=1;break;case
+10:var
+f=h[3],u=h[2],j=h[1],E=0;if(typeof
+j!=="number")switch(j[0]){case
+5:if(!f)return f;if(f[2])return 0;var
+K=f[1],M=j[1],N=function(a){return k(a,M,u,K)},z=N,y=j[3],l=j[2];v=1;E=1;break;case
+3:case
+7:case
+9:case
+10:case
+11:case
+13:return f?f[2]?0:k(0,j,u,f[1]):f}if(!E)return f?f[2]?0:k(0,j,u,f[1]):f;break}if(v){var
+n=i(F,r);if(n){var
+B=D(d,l);if(B)return z([0,ga(l,y,n[1])]);var
+C=B}else
+var
+C=n;return C}return k(0,h,0,w)}function
+lU(l,k,j,p,h,g,o,f,b,e,a){if(typeof
 a!=="number")switch(a[0]){case
 5:var
 q=a[2],m=i(o,b);if(m){var
-r=F(d,q);if(r){var
-y=a[1];return lD(l,k,j,p,h,g,f,b,[0,hY(q,a[3],m[1])],e,y)}var
+r=D(d,q);if(r){var
+y=a[1];return lP(l,k,j,p,h,g,f,b,[0,ga(q,a[3],m[1])],e,y)}var
 s=r}else
 var
 s=m;return s;case
@@ -2394,14 +2448,14 @@ s=m;return s;case
 t=a[3],u=a[2],c=a[1];if(typeof
 c!=="number"&&5===c[0]){var
 v=c[2],n=i(o,b);if(n){var
-w=F(d,v);if(w){var
-z=c[1];return lF(l,k,j,h,g,f,b,[0,hY(v,c[3],n[1])],e,z,u,t)}var
+w=D(d,v);if(w){var
+z=c[1];return lQ(l,k,j,h,g,f,b,[0,ga(v,c[3],n[1])],e,z,u,t)}var
 x=w}else
 var
-x=n;return x}return lF(l,k,j,h,g,f,b,0,e,c,u,t)}return lD(l,k,j,p,h,g,f,b,0,e,a)}function
-ib(a){return 9===a[0]?0:1}function
-d9(a){return y(function(a){return f(a[1],[0,a[2],0])},a)}function
-ic(j,d,i,a,h){var
+x=n;return x}return lQ(l,k,j,h,g,f,b,0,e,c,u,t)}return lP(l,k,j,p,h,g,f,b,0,e,a)}function
+ik(a){return 9===a[0]?0:1}function
+ea(a){return y(function(a){return f(a[1],[0,a[2],0])},a)}function
+il(j,d,i,a,h){var
 b=h;for(;;){var
 c=0;if(typeof
 b==="number"){if(1!==b)c=1}else
@@ -2412,7 +2466,7 @@ b=b[3];continue;case
 5:case
 10:var
 b=b[1];continue;default:c=1}var
-k=c?0:1,l=k?d:j,g=d9(l);switch(a[0]){case
+k=c?0:1,l=k?d:j,g=ea(l);switch(a[0]){case
 0:return f(i,g);case
 3:return[0,a[1],0];case
 5:return[0,a[1],[0,a[2],0]];case
@@ -2420,18 +2474,18 @@ k=c?0:1,l=k?d:j,g=d9(l);switch(a[0]){case
 m=[0,a[1],[0,a[2],[0,a[3],[0,a[4],0]]]];return y(function(a){return[0,a[1],[0,a[2],[0,a[3],0]]]},m);case
 9:var
 n=a[2],o=y(function(a){var
-b=e(aY,a[2][2]);return[0,a[1],b]},n);return f(d9(d),o);case
+b=e(aY,a[2][2]);return[0,a[1],b]},n);return f(ea(d),o);case
 10:var
-p=[0,a[3],[0,a[4],[0,a[5],[0,a[6],0]]]],q=f(dS(a[2]),p);return f(a[1],q);case
+p=[0,a[3],[0,a[4],[0,a[5],[0,a[6],0]]]],q=f(dX(a[2]),p);return f(a[1],q);case
 4:case
-8:return d9(a[1]);default:return g}}}function
-lJ(u,t,s,r,k,a,g,j){var
-h=ib(a),i=h?m(function(b){var
-a=q(b,b4(gd,g,k),v);return J(a[1],a[2])},j):h;return i?m(function(ao){switch(a[0]){case
+8:return ea(a[1]);default:return g}}}function
+im(u,t,s,r,k,a,g,j){var
+h=ik(a),i=h?m(function(b){var
+a=q(b,bL(e1,g,k),x);return I(a[1],a[2])},j):h;return i?m(function(ao){switch(a[0]){case
 3:var
 g=[0,a[1],0];break;case
 4:var
-g=d9(a[1]);break;case
+g=ea(a[1]);break;case
 5:var
 g=[0,a[1],[0,a[2],0]];break;case
 6:case
@@ -2439,28 +2493,28 @@ g=[0,a[1],[0,a[2],0]];break;case
 9:case
 10:return 0;default:var
 g=0}var
-j=0,k=bq(0,function(a){switch(a[0]){case
+j=0,k=bc(0,function(a){switch(a[0]){case
 0:return[0,[0,d]];case
 1:var
 ad=a[1],ae=ak(function(a){return p(ad,a)},ao)?b:d;return[0,[0,ae]];case
 2:var
-af=J(a[1],d)?0:[0,d];return[0,af];case
+af=I(a[1],d)?0:[0,d];return[0,af];case
 3:var
 e=a[2],j=a[1];if(j){var
 z=j[1];if(z){if(e){var
 A=e[1];if(A){var
-B=z[1],C=J(B,A[1]),ag=C?[0,[0,B]]:C;return ag}var
-E=j}else
+B=z[1],C=I(B,A[1]),ag=C?[0,[0,B]]:C;return ag}var
+F=j}else
 var
-E=e;return E}return e}if(e){if(e[1])return 0;var
+F=e;return F}return e}if(e){if(e[1])return 0;var
 G=j}else
 var
 G=e;return G;case
 4:var
 f=a[2],k=a[1];if(k){var
 H=k[1];if(H){if(f){var
-I=f[1];if(I){var
-K=H[1],L=J(K,I[1]),ah=L?[0,[0,K]]:L;return ah}var
+J=f[1];if(J){var
+K=H[1],L=I(K,J[1]),ah=L?[0,[0,K]]:L;return ah}var
 M=k}else
 var
 M=f;return M}return f}if(f){if(f[1])return 0;var
@@ -2470,39 +2524,39 @@ N=f;return N;case
 5:return a[1];case
 6:var
 n=a[1];if(n){var
-P=n[1],g=a[2];if(P){if(g){var
-Q=g[1];if(Q)return[0,[0,D(P[1],Q[1])]];var
-R=sw}else
+O=n[1],g=a[2];if(O){if(g){var
+Q=g[1];if(Q)return[0,[0,E(O[1],Q[1])]];var
+R=sH}else
 var
 R=g;return R}var
-ai=g?sx:g,S=ai}else
+ai=g?sI:g,S=ai}else
 var
 S=n;return S;case
 7:var
 o=a[1];if(o){var
 T=o[1],h=a[2];if(T){if(h)var
-q=h[1],aj=q?[0,[0,aF(T[1],q[1])]]:q,U=aj;else
+q=h[1],aj=q?[0,[0,aG(T[1],q[1])]]:q,U=aj;else
 var
 U=h;return U}var
-al=h?sy:h,V=al}else
+al=h?sJ:h,V=al}else
 var
 V=o;return V;case
 8:var
 r=a[1];if(r){var
 W=r[1];if(W){var
-X=W[1];return[0,[0,D(X,X)]]}var
-Y=sz}else
+X=W[1];return[0,[0,E(X,X)]]}var
+Y=sK}else
 var
 Y=r;return Y;case
 9:var
 s=a[1];if(s){var
 t=s[1];if(t){var
-i=t[1],x=aM(i);if(0===x)var
+i=t[1],x=aN(i);if(0===x)var
 l=1;else
 if(0<x)var
-l=F(i,b)?0:J(aS(i,aE(2))[2],d)?1:0;else
+l=D(i,b)?0:I(aT(i,aF(2))[2],d)?1:0;else
 var
-y=O(i),l=F(y,b)?0:J(aS(y,aE(2))[2],d)?1:0;var
+y=P(i),l=D(y,b)?0:I(aT(y,aF(2))[2],d)?1:0;var
 am=l?[0,[0,co(i,c(2,b))]]:l,Z=am}else
 var
 Z=t;var
@@ -2512,7 +2566,7 @@ _=s;return _;default:var
 u=a[2];if(u){var
 v=a[3];if(v){var
 w=a[4];if(w)var
-an=[0,u[1],[0,v[1],[0,w[1],0]]],$=m(function(a){return a?J(a[1],d):1},an),aa=$?[0,[0,d]]:$;else
+an=[0,u[1],[0,v[1],[0,w[1],0]]],$=m(function(a){return a?I(a[1],d):1},an),aa=$?[0,[0,d]]:$;else
 var
 aa=w;var
 ab=aa}else
@@ -2524,151 +2578,164 @@ ac=u;return ac}},u,j);function
 l(a){return a?a[1]:d}var
 h=e(function(a){return z(l,a)},k),i=m(function(c){var
 a=q(c,h,0),b=a?1:a;return b},r);if(i){var
-n=f(d9(s),g),o=f(d9(t),n);return m(function(c){var
+n=f(ea(s),g),o=f(ea(t),n);return m(function(c){var
 a=q(c,h,0);if(a){var
-b=aM(a[1]);return 0===b?1:0<b?0:0}return a},o)}return i},g):i}function
-lK(j,a,i,h,g,f,e,d,c,b){var
-k=f1(ic(i,h,g,c,b),a);return h7(j,a,b4(gd,e,f),k,d)}function
-gi(b,a){if(a){var
+b=aN(a[1]);return 0===b?1:0<b?0:0}return a},o)}return i},g):i}function
+io(j,a,i,h,g,f,e,d,c,b){var
+k=f4(il(i,h,g,c,b),a);return id(j,a,bL(e1,e,f),k,d)}function
+lV(f,d,c,n,m,b,l,q,e,k,j,i,h,a){if(typeof
+a!=="number"&&11===a[0]){var
+o=a[3],g=a[1],p=im(d,c,n,m,b,k,g,a[2]);if(p){var
+r=io(f,d,c,n,m,b,g,e,k,o);return lT(f,d,c,bL(e1,g,b),l,r,e,j,i,h,o)}return p}return lT(f,d,c,b,l,q,e,j,i,h,a)}function
+lW(r,q,o,n,l,k,j,i,h,f,d,c,a){if(typeof
+a!=="number"&&12===a[0]){var
+b=a[1],s=Q(p(g(b),0));if(s){var
+t=$(lJ(e(function(a){return a[1][1][1]},b)),b);return m(function(a){var
+b=a[2],e=b[1];return lV(r,q,o,n,l,k,j,i,h,f,d,c,[0,[0,[0,[0,a[1][1],a[1][2]],e[1][2]],e[2]]],b[2])},t)}return s}return lV(r,q,o,n,l,k,j,i,h,f,d,c,0,a)}function
+gp(b,a){if(a){var
 c=a[2];if(b){var
-e=gi(b[1],c);return[0,a[1],e]}var
+e=gp(b[1],c);return[0,a[1],e]}var
 d=[0,0,c]}else
 var
 d=a;return d}function
-e0(k,a,c,j,b,r,o,h,f,U,l){switch(l[0]){case
+e3(j,a,f,l,c,t,n,h,b,W,o){switch(o[0]){case
 0:var
-aa=function(a){return m(S,a)},H=aa,x=l[1];break;case
+ab=function(a){return m(Q,a)},I=ab,x=o[1];break;case
 1:var
-ab=l[4],ac=l[3],ad=l[2],ae=function(d){var
-e=cU(ad,f),g=e0(k,a,c,j,b,r,o,h,e[1],d,ac);return g?e0(k,a,c,j,b,r,o,h,e[2],d,ab):g},H=ae,x=l[1];break;default:var
-af=l[4],ag=l[3],ah=l[2],ai=function(d){var
-n=_(r,d),e=m(function(a){var
-b=ib(a[1]);return b?b:S(a[2])},n);if(e){var
-g=cU(ah,h),i=e0(k,a,c,j,b,r,o,g[1],f,d,ag);if(i)return e0(k,a,c,j,b,r,o,g[2],f,d,af);var
-l=i}else
+ac=o[4],ad=o[3],ae=o[2],af=function(d){var
+e=cU(ae,b),g=e3(j,a,f,l,c,t,n,h,e[1],d,ad);return g?e3(j,a,f,l,c,t,n,h,e[2],d,ac):g},I=af,x=o[1];break;default:var
+ag=o[4],ah=o[3],ai=o[2],aj=function(d){var
+o=$(t,d),e=m(function(a){var
+b=ik(a[1]);return b?b:Q(a[2])},o);if(e){var
+g=cU(ai,h),i=e3(j,a,f,l,c,t,n,g[1],b,d,ah);if(i)return e3(j,a,f,l,c,t,n,g[2],b,d,ag);var
+k=i}else
 var
-l=e;return l},H=ai,x=l[1]}if(x){var
-T=h7(k,a,h,f1(y(function(f){var
-a=f[2],e=0;if(typeof
-a==="number"){if(4!==a)e=1}else
-if(11!==a[0])e=1;if(e){var
-d=E(r,f[1]);return d?ic(c,j,b,d[1],a):d}return 0},x),a),f),v=x,s=U;for(;;){if(v){var
-N=v[1],n=N[2],D=N[1],O=v[2],V=0;if(typeof
-n==="number"&&4===n){var
-A=i(o,f);if(A)var
-X=A[1],W=bj(g(f)),F=m(function(b){return function(a){return I(aK(a,b)[2],d)}}(X),W);else
+k=e;return k},I=aj,x=o[1]}if(x){var
+z=id(j,a,h,f4(y(function(e){var
+a=e[2],d=0;if(typeof
+a==="number"){if(4!==a)d=1}else
+if(11!==a[0])d=1;if(d){var
+b=F(t,e[1]);return b?il(f,l,c,b[1],a):b}return 0},x),a),b),w=x,u=W;for(;;){if(w){var
+R=w[1],k=R[2],E=R[1],S=w[2],X=0;if(typeof
+k==="number"&&4===k){var
+A=i(n,b);if(A)var
+Z=A[1],Y=bf(g(b)),G=m(function(b){return function(a){return J(aC(a,b)[2],d)}}(Z),Y);else
 var
-F=A;if(F){var
-v=O,s=e(function(a){return 0},s);continue}var
-u=F}else
-V=1;if(V){var
-P=q(D,s,0);if(P){var
-G=E(r,D);if(G){var
-w=G[1],J=0;if(typeof
-n==="number")J=1;else
-switch(n[0]){case
+G=A;if(G){var
+w=S,u=e(function(a){return 0},u);continue}var
+v=G}else
+X=1;if(X){var
+T=q(E,u,0);if(T){var
+H=F(t,E);if(H){var
+r=H[1],K=0;if(typeof
+k==="number")K=1;else
+switch(k[0]){case
 11:var
-K=n[3],B=n[1],L=lJ(a,c,j,b,h,w,B,n[2]);if(L)var
-Y=lK(k,a,c,j,b,h,B,f,w,K),t=lI(k,a,c,j,b,b4(gd,B,h),o,Y,f,w,K);else
+L=k[3],B=k[1],M=im(a,f,l,c,h,r,B,k[2]);if(M)var
+_=io(j,a,f,l,c,h,B,b,r,L),s=lU(j,a,f,l,c,bL(e1,B,h),n,_,b,r,L);else
 var
-t=L;break;case
+s=M;break;case
 12:var
-C=n[1],M=S(p(g(C),0));if(M)var
-z=e(function(a){return a[1][1][1]},C),Z=z?lA(z[1],z):z,$=_(Z,C),t=m(function(g){return function(r){var
-s=r[2],e=r[1],l=s[1],m=l[1][2],n=l[2],d=s[2];if(typeof
+C=k[1],N=Q(p(g(C),0));if(N)var
+aa=$(lJ(e(function(a){return a[1][1][1]},C)),C),s=m(function(g){return function(r){var
+s=r[2],e=r[1],k=s[1],m=k[1][2],o=k[2],d=s[2];if(typeof
 d!=="number"&&11===d[0]){var
-p=d[3],i=d[1],q=lJ(a,c,j,b,h,g,i,d[2]);if(q){var
-t=e[2],u=e[1],v=lK(k,a,c,j,b,h,i,f,g,p);return lH(k,a,c,b,b4(gd,i,h),o,v,f,g,u,t,m,n,p)}return q}return lH(k,a,c,b,h,o,T,f,g,e[1],e[2],m,n,d)}}(w),$);else
+p=d[3],i=d[1],q=im(a,f,l,c,h,g,i,d[2]);if(q){var
+t=e[2],u=e[1],v=io(j,a,f,l,c,h,i,b,g,p);return lS(j,a,f,c,bL(e1,i,h),n,v,b,g,u,t,m,o,p)}return q}return lS(j,a,f,c,h,n,z,b,g,e[1],e[2],m,o,d)}}(r),aa);else
 var
-t=M;break;default:J=1}if(J)var
-t=lI(k,a,c,j,b,h,o,T,f,w,n);if(t){var
-v=O,s=gi(D,s);continue}var
-Q=t}else
+s=N;break;case
+13:if(2===r[0])var
+D=ih(j,k[1],k[2]),O=h6(g(b),D),P=O?lW(j,a,f,l,c,h,n,z,b,r,0,D,k[3]):O,s=P?lW(j,a,f,l,c,h,n,z,b,r,[0,r[1]],D,k[4]):P;else
 var
-Q=G;var
-R=Q}else
+s=0;break;default:K=1}if(K)var
+s=lU(j,a,f,l,c,h,n,z,b,r,k);if(s){var
+w=S,u=gp(E,u);continue}var
+U=s}else
 var
-R=P;var
-u=R}}else
+U=H;var
+V=U}else
 var
-u=[0,s];break}}else
+V=T;var
+v=V}}else
 var
-u=[0,U];return u?H(u[1]):u}function
-id(h,g,f,e,d,c,b,a){return function(i,j,k){return e0(h,g,f,e,d,b,a,c,i,j,k)}}function
-ie(a){return e(function(a){return 1},a)}function
-d_(a,d,b,c){function
+v=[0,u];break}}else
+var
+v=[0,W];return v?I(v[1]):v}function
+ip(h,g,f,e,d,c,b,a){return function(i,j,k){return e3(h,g,f,e,d,b,a,c,i,j,k)}}function
+iq(a){return e(function(a){return 1},a)}function
+eb(a,d,b,c){function
 f(d,c){var
-f=_(a[1],b[1]);return e(function(a){var
-b=s(c,a[2]);return C(s(d,a[1]),b)},f)}if(aH(a[2],b[2])){var
+f=$(a[1],b[1]);return e(function(a){var
+b=s(c,a[2]);return C(s(d,a[1]),b)},f)}if(aJ(a[2],b[2])){var
 g=a[2];return[0,f(d,c),g]}var
 h=s(a[2],b[2]),i=s(c,a[2]);return[0,f(s(d,b[2]),i),h]}function
-lL(a){var
+lX(a){var
 c=k(b);return[0,e(function(a){return k(d)},a),c]}function
-a4(a,l){var
+a5(a,l){var
 f=l[1];switch(f[0]){case
 1:var
 u=f[1];if(ak(function(a){return p(u,a)},a)){var
 C=k(b);return[0,e(function(a){var
-c=p(a,u)?b:d;return k(c)},a),C]}return lL(a);case
+c=p(a,u)?b:d;return k(c)},a),C]}return lX(a);case
 3:var
-D=k(b),E=a4(a,f[2]),F=k(b);return d_(a4(a,f[1]),F,E,D);case
+D=k(b),E=a5(a,f[2]),F=k(b);return eb(a5(a,f[1]),F,E,D);case
 4:var
-G=k(O(b)),H=a4(a,f[2]),I=k(b);return d_(a4(a,f[1]),I,H,G);case
+G=k(P(b)),H=a5(a,f[2]),I=k(b);return eb(a5(a,f[1]),I,H,G);case
 5:var
-v=a4(a,f[1]),J=v[2];return[0,e(bi,v[1]),J];case
+w=a5(a,f[1]),J=w[2];return[0,e(bk,w[1]),J];case
 6:var
-x=f[2],y=f[1],K=a4(a,x);return d_(a4(a,y),x,K,y);case
+x=f[2],y=f[1],K=a5(a,x);return eb(a5(a,y),x,K,y);case
 7:var
-z=f[2],L=bi(l),M=a4(a,z),N=k(b),i=d_(a4(a,f[1]),N,M,L),P=i[1];if(m(function(a){return a3(d,a)},P))return i;var
+z=f[2],L=bk(l),M=a5(a,z),N=k(b),i=eb(a5(a,f[1]),N,M,L),O=i[1];if(m(function(a){return a3(d,a)},O))return i;var
 Q=s(i[2],z);return[0,i[1],Q];case
 8:var
-A=f[1],B=a4(a,A),R=B[2],S=B[1],T=s(k(c(2,b)),A);return[0,e(function(a){return s(T,a)},S),R];case
+A=f[1],B=a5(a,A),R=B[2],S=B[1],T=s(k(c(2,b)),A);return[0,e(function(a){return s(T,a)},S),R];case
 9:var
-j=a4(a,f[1]),U=j[1];if(m(function(a){return a3(d,a)},U)){var
+j=a5(a,f[1]),U=j[1];if(m(function(a){return a3(d,a)},U)){var
 V=k(b);return[0,j[1],V]}var
 W=s(k(c(2,b)),l),X=s(j[2],W);return[0,j[1],X];case
 10:var
-n=f[4],g=f[3],h=f[2],o=[0,[10,0,h,g,n]],q=[0,[10,1,h,g,n]],Y=w(g,q),Z=a4(a,g),_=w(h,o),$=d_(a4(a,h),_,Z,Y),aa=k(O(b)),ab=a4(a,n),r=d_($,k(c(2,b)),ab,aa),ac=r[1],ad=f[1]?o:bi(q),t=e(function(a){return s(ad,a)},ac);if(m(function(a){return a3(d,a)},t))return[0,t,r[2]];var
-ae=s(h,q),af=w(s(g,o),ae),ag=s(k(c(2,b)),af);return[0,t,s(r[2],ag)];default:return lL(a)}}function
-lM(c,a){var
-b=a4(c,a),f=b[1];return e(function(a){return a3(d,a)?a:al(a,b[2])},f)}function
-lN(g){var
+n=f[4],g=f[3],h=f[2],o=[0,[10,0,h,g,n]],q=[0,[10,1,h,g,n]],Y=v(g,q),Z=a5(a,g),_=v(h,o),$=eb(a5(a,h),_,Z,Y),aa=k(P(b)),ab=a5(a,n),r=eb($,k(c(2,b)),ab,aa),ac=r[1],ad=f[1]?o:bk(q),t=e(function(a){return s(ad,a)},ac);if(m(function(a){return a3(d,a)},t))return[0,t,r[2]];var
+ae=s(h,q),af=v(s(g,o),ae),ag=s(k(c(2,b)),af);return[0,t,s(r[2],ag)];default:return lX(a)}}function
+lY(c,a){var
+b=a5(c,a),f=b[1];return e(function(a){return a3(d,a)?a:am(a,b[2])},f)}function
+lZ(g){var
 h=g[1],c=h[2],e=h[1];if(0===e[0]){var
-i=e[2],a=e[1];if(F(i,b)){if(0===c[0]){var
-j=c[2],m=c[1];if(F(j,b)){var
-k=J(a,m),l=k?eS(a):k;if(l)var
-n=J(g[2],d),f=n||J(a,d);else
+i=e[2],a=e[1];if(D(i,b)){if(0===c[0]){var
+j=c[2],m=c[1];if(D(j,b)){var
+k=I(a,m),l=k?eS(a):k;if(l)var
+n=I(g[2],d),f=n||I(a,d);else
 var
 f=l;var
-o=f?[0,a]:f;return o}return J(aS(j,aE(2))[2],d)?0:0}return 0}return J(aS(i,aE(2))[2],d)?0:0}return 0}function
+o=f?[0,a]:f;return o}return I(aT(j,aF(2))[2],d)?0:0}return 0}return I(aT(i,aF(2))[2],d)?0:0}return 0}function
 cZ(c,b){var
-a=lN(c);return a?k(a[1]):[0,[1,b]]}function
+a=lZ(c);return a?k(a[1]):[0,[1,b]]}function
 cx(b,a){if(a)var
 d=cx([0,b],a[2]),c=[0,cZ(a[1],b),d];else
 var
 c=a;return c}function
-a5(b,a){return[0,[0,b[1],a],[0,[0,b[2],a],[0,[0,b[3],a],0]]]}function
-gj(b,d,a){switch(a[0]){case
+a6(b,a){return[0,[0,b[1],a],[0,[0,b[2],a],[0,[0,b[3],a],0]]]}function
+gq(b,d,a){switch(a[0]){case
 0:var
-c=a[1],g=[0,[0,c[4],b],0],h=f(a5(c[3],b),g),i=f(a5(c[2],b),h);return f(a5(c[1],d),i);case
+c=a[1],g=[0,[0,c[4],b],0],h=f(a6(c[3],b),g),i=f(a6(c[2],b),h);return f(a6(c[1],d),i);case
 1:var
-e=a[3],j=e?a5(e[1],d):e,k=f(a5(a[2],b),j);return f(a5(a[1],b),k);default:return a5(a[1],d)}}function
+e=a[3],j=e?a6(e[1],d):e,k=f(a6(a[2],b),j);return f(a6(a[1],b),k);default:return a6(a[1],d)}}function
 aj(b,a){var
-c=k(d),e=q(P(sH,a),b,c),f=k(d),g=q(P(sI,a),b,f);return[0,q(a,b,k(d)),g,e]}function
-lO(b,a){return ah(w,ah(C,dn,a),b)}function
-gk(c,b,a){if(a){var
-e=a[2],g=gk(c,by(b),e),h=a[1];return f(gj(c,bJ(d,b),h),g)}return a}function
-ig(f,e,c,j){if(c){var
-b=c[1],v=P(j,g(gj(f,bJ(d,e),b))),w=c[2],x=ig(f,by(e),w,v),a=cx(j,gj(f,bJ(d,e),b));switch(b[0]){case
+c=k(d),e=q(R(sT,a),b,c),f=k(d),g=q(R(sU,a),b,f);return[0,q(a,b,k(d)),g,e]}function
+l0(b,a){return ah(v,ah(C,dt,a),b)}function
+gr(c,b,a){if(a){var
+e=a[2],g=gr(c,by(b),e),h=a[1];return f(gq(c,bK(d,b),h),g)}return a}function
+ir(f,e,c,j){if(c){var
+b=c[1],v=R(j,g(gq(f,bK(d,e),b))),w=c[2],x=ir(f,by(e),w,v),a=cx(j,gq(f,bK(d,e),b));switch(b[0]){case
 0:var
-m=b[1][5],n=q(sJ,a,k(d)),o=ah(C,dn,aj(a,sK)),p=dm(aj(a,0)),r=aj(a,sL),h=lj(lO(aj(a,sM),r),p,o,n,m);break;case
+m=b[1][5],n=q(sV,a,k(d)),o=ah(C,dt,aj(a,sW)),p=ds(aj(a,0)),r=aj(a,sX),h=ls(l0(aj(a,sY),r),p,o,n,m);break;case
 1:var
-i=b[3],s=i?[0,dm(aj(a,sN))]:i,t=ah(C,dn,aj(a,sO)),u=aj(a,sP),h=lk(lO(aj(a,0),u),t,s);break;default:var
-h=ll(dn,dm(aj(a,0)))}var
+i=b[3],s=i?[0,ds(aj(a,sZ))]:i,t=ah(C,dt,aj(a,s0)),u=aj(a,s1),h=lt(l0(aj(a,0),u),t,s);break;default:var
+h=lu(dt,ds(aj(a,0)))}var
 l=[0,h,x]}else
 var
 l=c;return l}function
-bO(c,a){if(typeof
+bP(c,a){if(typeof
 a!=="number")switch(a[0]){case
 4:var
 h=[5,a[3],a[2]];return[0,[0,h,h],d];case
@@ -2677,7 +2744,7 @@ j=a[2];return[0,[0,j,j],d];case
 8:var
 k=[5,a[2],a[1]];return[0,[0,k,k],d];case
 10:var
-p=a[3],q=dV(a[2]),l=[2,[2,dV(a[1]),q],p];return[0,[0,l,l],c];case
+p=a[3],q=d0(a[2]),l=[2,[2,d0(a[1]),q],p];return[0,[0,l,l],c];case
 11:var
 m=a[4];return[0,[0,m,m],c];case
 12:var
@@ -2694,190 +2761,190 @@ f=[5,[0,b,b],a[1]];return[0,[0,f,f],d];case
 g=a[2];return[0,[0,g,g],c];default:var
 i=a[1];return[0,[0,i,i],d]}var
 e=[0,d,b];return[0,[0,e,e],d]}function
-e1(b,a){var
+e4(b,a){var
 c=a[3],d=a[2],e=a[1];return[0,[0,[0,e,e],b],[0,[0,[0,d,d],b],[0,[0,[0,c,c],b],0]]]}function
-d$(c,a){if(0===a[0]){var
-e=[0,d,b],i=f(e1(c,a[5]),[0,[0,[0,e,e],d],0]),g=a[4],h=a[3];return f([0,[0,[0,h,h],c],[0,[0,[0,g,g],c],0]],i)}var
-j=e1(c,a[3]);return f(e1(c,a[2]),j)}function
-dp(b,a){if(typeof
+ec(c,a){if(0===a[0]){var
+e=[0,d,b],i=f(e4(c,a[5]),[0,[0,[0,e,e],d],0]),g=a[4],h=a[3];return f([0,[0,[0,h,h],c],[0,[0,[0,g,g],c],0]],i)}var
+j=e4(c,a[3]);return f(e4(c,a[2]),j)}function
+dv(b,a){if(typeof
 a!=="number")switch(a[0]){case
 10:var
-h=d$(b,a[2]);return f(d$(b,a[1]),h);case
+h=ec(b,a[2]);return f(ec(b,a[1]),h);case
 11:var
-i=e1(b,a[3]);return f(e1(b,a[2]),i);case
+i=e4(b,a[3]);return f(e4(b,a[2]),i);case
 12:var
 c=a[3],g=[5,[4,c,c],a[4]];return[0,[0,[0,g,g],b],0];case
 15:var
 j=a[2],k=a[1];return e(function(b){var
 a=[5,j,b];return[0,[0,a,a],d]},k)}return 0}function
-lP(c,b,a){var
-d=g(dp(c,b)),e=P(a[2],d);return[0,[0,a[1]],e]}function
-ih(c,b){if(aH(b,c))return[0,k(d)];var
+l1(c,b,a){var
+d=g(dv(c,b)),e=R(a[2],d);return[0,[0,a[1]],e]}function
+is(c,b){if(aJ(b,c))return[0,k(d)];var
 a=b[1];if(4===a[0]){var
-e=aH(a[1],c),f=e?[0,a[2]]:e;return f}return 0}function
-lQ(y,p,a,o){switch(o[0]){case
+e=aJ(a[1],c),f=e?[0,a[2]]:e;return f}return 0}function
+l2(y,p,a,o){switch(o[0]){case
 0:var
-h=E(y,o[1]);if(h){var
+h=F(y,o[1]);if(h){var
 j=h[1];if(j){var
-r=j[1],s=r[1],c=s[2],e=s[1],t=r[2],z=aj(a,sQ),A=ah(C,ah(w,e,aZ(al(q(sR,a,k(d)),t),c)),z),B=aj(a,sS),f=al(q(0,a,k(d)),t),l=ih(e[1],c[1]);if(l){var
-m=ih(e[2],c[2]);if(m){var
-n=ih(e[3],c[3]);if(n)var
+r=j[1],s=r[1],c=s[2],e=s[1],t=r[2],z=aj(a,s2),A=ah(C,ah(v,e,aZ(am(q(s3,a,k(d)),t),c)),z),B=aj(a,s4),f=am(q(0,a,k(d)),t),l=is(e[1],c[1]);if(l){var
+m=is(e[2],c[2]);if(m){var
+n=is(e[3],c[3]);if(n)var
 x=aZ(f,c),g=ah(C,[0,l[1],m[1],n[1]],x);else
 var
-g=ah(w,e,aZ(w(k(b),f),c))}else
+g=ah(v,e,aZ(v(k(b),f),c))}else
 var
-g=ah(w,e,aZ(w(k(b),f),c))}else
+g=ah(v,e,aZ(v(k(b),f),c))}else
 var
-g=ah(w,e,aZ(w(k(b),f),c));var
+g=ah(v,e,aZ(v(k(b),f),c));var
 u=[0,[0,ah(C,g,B),A]]}else
 var
 u=j;var
-v=u}else
+w=u}else
 var
-v=h;return v;case
+w=h;return w;case
 1:var
-D=aj(a,sT);return[0,[0,aj(a,0),D]];default:var
-F=i(p,aj(a,sU));return[0,[0,i(p,aj(a,0)),F]]}}function
-lR(e,d,c,h,g){var
-a=lQ(e,d,aG(sV,c),h);if(a)var
-b=lQ(e,d,aT(sW,c),g),i=b?[0,[0,a[1],b[1]]]:b,f=i;else
+D=aj(a,s5);return[0,[0,aj(a,0),D]];default:var
+E=i(p,aj(a,s6));return[0,[0,i(p,aj(a,0)),E]]}}function
+l3(e,d,c,h,g){var
+a=l2(e,d,aI(s7,c),h);if(a)var
+b=l2(e,d,aU(s8,c),g),i=b?[0,[0,a[1],b[1]]]:b,f=i;else
 var
 f=a;return f}function
-lS(g,c,d,b,a){var
-h=d$(c,a),i=cx(d,f(d$(c,b),h));function
-j(a){return ah(C,dn,a)}return lR(e(function(a){var
+l4(g,c,d,b,a){var
+h=ec(c,a),i=cx(d,f(ec(c,b),h));function
+j(a){return ah(C,dt,a)}return l3(e(function(a){var
 b=a[7];return z(function(b){var
 c=cT(a);return[0,[0,b,a[1]],c]},b)},g),j,i,b,a)}function
-dq(d,c,b,a){var
-e=s(c,b);return w(s(d,a),e)}function
-bP(a){return y(function(a){return f(a[1],[0,a[2],0])},a)}function
-lT(b,a){if(b)if(a)var
-d=b[1],e=lT(b[2],a[2]),f=s(d[2],a[1]),c=[0,[0,bN(d[1]),f],e];else
+dw(d,c,b,a){var
+e=s(c,b);return v(s(d,a),e)}function
+bQ(a){return y(function(a){return f(a[1],[0,a[2],0])},a)}function
+l5(b,a){if(b)if(a)var
+d=b[1],e=l5(b[2],a[2]),f=s(d[2],a[1]),c=[0,[0,bO(d[1]),f],e];else
 var
 c=a;else
 var
 c=b;return c}function
-lU(a){if(a){var
+l6(a){if(a){var
 b=a[1][6];if(b){var
-c=b[1],d=lU(a[2]);if(d)var
-g=d[1],h=V(c,c),e=[0,[0,[0,bN(c),h],g]];else
+c=b[1],d=l6(a[2]);if(d)var
+g=d[1],h=V(c,c),e=[0,[0,[0,bO(c),h],g]];else
 var
 e=d;var
 f=e}else
 var
-f=b;return f}return sY}function
-e2(b,d,c,a){if(typeof
+f=b;return f}return s_}function
+e5(b,d,c,a){if(typeof
 a!=="number")switch(a[0]){case
 8:var
-i=c[1],j=cZ(bO(d,a),i);return[0,e(function(a){var
-b=s(a[2],j);return[0,bN(a[1]),b]},b)];case
-9:return lU(b);case
+i=c[1],j=cZ(bP(d,a),i);return[0,e(function(a){var
+b=s(a[2],j);return[0,bO(a[1]),b]},b)];case
+9:return l6(b);case
 15:var
 k=g(b),f=p(g(a[1]),k);if(f)var
-l=dp(d,a),h=[0,lT(b,cx(c[2],l))];else
+l=dv(d,a),h=[0,l5(b,cx(c[2],l))];else
 var
 h=f;return h}return 0}function
-gl(e,l,j,a){var
-P=j[1],c=cZ(bO(l,a),P),u=0;if(typeof
+gs(e,l,j,a){var
+P=j[1],c=cZ(bP(l,a),P),u=0;if(typeof
 a==="number")u=1;else
 switch(a[0]){case
 2:var
-Q=function(a){return[0,w(a[4],c),0]},g=Q,f=a[1];break;case
+Q=function(a){return[0,v(a[4],c),0]},g=Q,f=a[1];break;case
 3:var
-S=function(a){return[0,w(c,a[4]),0]},g=S,f=a[1];break;case
+R=function(a){return[0,v(c,a[4]),0]},g=R,f=a[1];break;case
 4:var
 T=function(b){var
-a=b[1],d=R(a[3]),e=R(a[2]),f=R(a[1]),g=b[2];return[0,w(w(w(s(R(c),g),f),e),d),0]},g=T,f=a[1];break;case
+a=b[1],d=S(a[3]),e=S(a[2]),f=S(a[1]),g=b[2];return[0,v(v(v(s(S(c),g),f),e),d),0]},g=T,f=a[1];break;case
 6:var
 U=function(b){var
 a=b[5];if(a)var
-e=R(a[1]),f=s(R(c),e),d=[0,w(b[2],f),0];else
+e=S(a[1]),f=s(S(c),e),d=[0,v(b[2],f),0];else
 var
 d=a;return d},g=U,f=a[1];break;case
 7:if(e){var
 m=e[2];if(m){var
 n=m[2];if(n){if(n[2])return 0;var
-x=n[1],z=m[1],A=e[1],h=x[1],i=z[1],p=A[1],K=dq(i[1],i[2],h[1],h[2]),L=s(p[3],K),M=dq(i[1],i[3],h[1],h[3]),N=s(p[2],M),O=dq(i[2],i[3],h[2],h[3]),v=C(w(s(p[1],O),N),L),W=cT(x),X=cT(z),B=s(s(s(c,cT(A)),X),W),Y=[0,bi(C(v,B)),0],D=[0,w(v,B),Y]}else
+x=n[1],z=m[1],A=e[1],h=x[1],i=z[1],p=A[1],K=dw(i[1],i[2],h[1],h[2]),L=s(p[3],K),M=dw(i[1],i[3],h[1],h[3]),N=s(p[2],M),O=dw(i[2],i[3],h[2],h[3]),w=C(v(s(p[1],O),N),L),W=cT(x),X=cT(z),B=s(s(s(c,cT(A)),X),W),Y=[0,bk(C(w,B)),0],D=[0,v(w,B),Y]}else
 var
 D=n;var
-F=D}else
+E=D}else
 var
-F=m;var
-G=F}else
+E=m;var
+G=E}else
 var
 G=e;return G;case
 10:var
-t=lS(e,l,j[2],a[1],a[2]);if(t){var
-H=t[1],I=H[2],J=H[1];return y(bN,[0,J[1],[0,J[2],[0,I[1],[0,I[2],0]]]])}return t;case
+t=l4(e,l,j[2],a[1],a[2]);if(t){var
+H=t[1],I=H[2],J=H[1];return y(bO,[0,J[1],[0,J[2],[0,I[1],[0,I[2],0]]]])}return t;case
 11:var
 Z=function(d){var
 e=d[7];if(e)var
-n=dp(l,a),f=cx(j[2],n),h=aj(f,sX),b=ah(w,aj(f,0),h),i=R(c),k=R(cT(d)),m=al(R(V(b,d[1])),k),g=[0,w(w(V(b,b),m),i),0];else
+n=dv(l,a),f=cx(j[2],n),h=aj(f,s9),b=ah(v,aj(f,0),h),i=S(c),k=S(cT(d)),m=am(S(V(b,d[1])),k),g=[0,v(v(V(b,b),m),i),0];else
 var
 g=e;return g},g=Z,f=a[1];break;case
 12:var
 _=function(e){var
-p=k(d),r=dp(l,a),t=q(0,cx(j[2],r),p),f=al(t,cT(e)),g=e[5];if(g){var
-m=aC(e[2]),h=al(g[1],m),n=s(h,C(c,s(f,R(h))));return[0,w(k(b),n),0]}var
-i=e[7],o=i?[0,w(w(k(b),c),f),0]:i;return o},g=_,f=a[1];break;case
+p=k(d),r=dv(l,a),t=q(0,cx(j[2],r),p),f=am(t,cT(e)),g=e[5];if(g){var
+m=aD(e[2]),h=am(g[1],m),n=s(h,C(c,s(f,S(h))));return[0,v(k(b),n),0]}var
+i=e[7],o=i?[0,v(v(k(b),c),f),0]:i;return o},g=_,f=a[1];break;case
 8:case
 9:case
 15:var
-r=e2(e,l,j,a);return r?bP(r[1]):r;default:u=1}if(u)return 0;var
-o=E(e,f);return o?g(o[1]):o}function
-ii(d,b,c,a){if(a){var
-e=a[1],g=a[2],h=ii(d,b,lP(b,e,c),g);return f(gl(d,b,c,e),h)}return a}var
-lV=[0,d,b],lW=[0,[0,lV,lV],d];function
-ij(a){return S(ct(a[1][1],a[1][2]))}function
-lX(a){var
-b=aA(0,g(a));return bp(function(b){return ij(q(b,a,lW))},b)}function
-gm(a,b){var
-c=lM(lX(a),b),e=_(lX(a),c);return bp(function(a){return S(a3(d,a[2]))},e)}function
-lY(b,a){var
+r=e5(e,l,j,a);return r?bQ(r[1]):r;default:u=1}if(u)return 0;var
+o=F(e,f);return o?g(o[1]):o}function
+it(d,b,c,a){if(a){var
+e=a[1],g=a[2],h=it(d,b,l1(b,e,c),g);return f(gs(d,b,c,e),h)}return a}var
+l7=[0,d,b],l8=[0,[0,l7,l7],d];function
+iu(a){return Q(ct(a[1][1],a[1][2]))}function
+l9(a){var
+b=aB(0,g(a));return bq(function(b){return iu(q(b,a,l8))},b)}function
+gt(a,b){var
+c=lY(l9(a),b),e=$(l9(a),c);return bq(function(a){return Q(a3(d,a[2]))},e)}function
+l_(b,a){var
 c=i(b,a[3]),d=i(b,a[2]);return[0,i(b,a[1]),d,c]}function
-lZ(m,l,f,k,j,a){var
-d=gm(f,a);return aa(e(function(e){var
-a=q(e[1],f,lW),g=aF(a[2],k),h=[4,[0,c(2,b),b],j],d=[5,[3,a[1][2],a[1][1]],h],n=an(m,[0,[0,d,d],g]);return z(function(a){return[0,a,i(l,e[2])]},n)},d))}function
-l0(g,f,n,m,l,e,c){var
+l$(m,l,f,k,j,a){var
+d=gt(f,a);return ab(e(function(e){var
+a=q(e[1],f,l8),g=aG(a[2],k),h=[4,[0,c(2,b),b],j],d=[5,[3,a[1][2],a[1][1]],h],n=an(m,[0,[0,d,d],g]);return z(function(a){return[0,a,i(l,e[2])]},n)},d))}function
+ma(g,f,n,m,l,e,c){var
 h=[5,l,e],a=an(g,[0,[0,h,h],d]);if(a){var
-b=lZ(g,f,n,m,e,c);if(b)var
+b=l$(g,f,n,m,e,c);if(b)var
 o=[0,a[1],b[1]],j=[0,[0,i(f,c),o]];else
 var
 j=b;var
 k=j}else
 var
 k=a;return k}function
-l1(c,G,l,al,k,j,n,s){if(s){var
-a=s[1],aH=s[2],aI=l1(c,G,l,al,k,j,lP(j,a,n),aH);if(typeof
+mb(c,G,l,al,k,j,n,s){if(s){var
+a=s[1],aH=s[2],aI=mb(c,G,l,al,k,j,l1(j,a,n),aH);if(typeof
 a==="number")if(0===a)var
-f=[0,[0,v]];else
+f=[0,[0,x]];else
 var
-ao=G[2],ap=G[1],aq=eX(k),f=[0,[8,i(av(l),aq),ap,ao]];else
+ao=G[2],ap=G[1],aq=eY(k),f=[0,[8,i(aw(l),aq),ap,ao]];else
 switch(a[0]){case
 0:var
-ar=an(c,bO(j,a)),f=z(function(a){return[0,X(c,a)]},ar);break;case
+ar=an(c,bP(j,a)),f=z(function(a){return[0,X(c,a)]},ar);break;case
 1:var
-as=an(c,bO(j,a)),f=z(function(a){return[1,X(c,a)]},as);break;case
+as=an(c,bP(j,a)),f=z(function(a){return[1,X(c,a)]},as);break;case
 5:var
-au=an(c,bO(j,a)),f=z(function(a){return[2,X(c,a)]},au);break;case
+au=an(c,bP(j,a)),f=z(function(a){return[2,X(c,a)]},au);break;case
 8:var
-aw=e2(k,j,n,a),f=z(function(a){var
-d=Q(c,b);return[4,i(av(l),a),d]},aw);break;case
+av=e5(k,j,n,a),f=z(function(a){var
+d=L(c,b);return[4,i(aw(l),a),d]},av);break;case
 9:var
-w=e2(k,j,n,a);if(w){var
-x=an(c,bO(j,a));if(x)var
-ax=X(c,x[1]),ay=w[1],L=[0,[4,i(av(l),ay),ax]];else
-var
-L=x;var
-M=L}else
+v=e5(k,j,n,a);if(v){var
+w=an(c,bP(j,a));if(w)var
+ax=X(c,w[1]),ay=v[1],M=[0,[4,i(aw(l),ay),ax]];else
 var
 M=w;var
-f=M;break;case
+N=M}else
+var
+N=v;var
+f=N;break;case
 10:var
-y=lS(k,j,n[2],a[1],a[2]);if(y){var
-N=y[1],O=N[2],P=N[1],A=an(c,bO(j,a));if(A){var
-R=A[1],S=F(d,R[1]);if(S)var
-q=function(a){return lY(l,a)},az=q(O[2]),aA=q(O[1]),aB=q(P[2]),T=[0,[6,q(P[1]),aB,aA,az,R]];else
+y=l4(k,j,n[2],a[1],a[2]);if(y){var
+O=y[1],P=O[2],Q=O[1],A=an(c,bP(j,a));if(A){var
+R=A[1],S=D(d,R[1]);if(S)var
+q=function(a){return l_(l,a)},az=q(P[2]),aA=q(P[1]),aB=q(Q[2]),T=[0,[6,q(Q[1]),aB,aA,az,R]];else
 var
 T=S;var
 U=T}else
@@ -2888,7 +2955,7 @@ var
 V=y;var
 f=V;break;case
 12:var
-r=gl(k,j,n,a),t=0;if(r)if(r[2])var
+r=gs(k,j,n,a),t=0;if(r)if(r[2])var
 f=0;else{var
 W=h(c,0,a[2]),Y=W?h(c,1,a[4]):W;if(Y){var
 B=[0,[3,i(l,r[1])]];t=1}else{var
@@ -2896,16 +2963,16 @@ B=Y;t=1}}else{var
 B=r;t=1}if(t)var
 f=B;break;case
 13:var
-Z=a[1],_=E(k,Z),H=0;if(_){var
-$=h(c,1,a[2]),ab=$?h(c,1,a[3]):$;if(ab)var
-aC=an(c,bO(j,a)),f=z(function(a){return[7,Z,X(c,a)]},aC);else{var
-ac=ab;H=1}}else{var
+Z=a[1],_=F(k,Z),H=0;if(_){var
+$=h(c,1,a[2]),aa=$?h(c,1,a[3]):$;if(aa)var
+aC=an(c,bP(j,a)),f=z(function(a){return[7,Z,X(c,a)]},aC);else{var
+ac=aa;H=1}}else{var
 ac=_;H=1}if(H)var
 f=ac;break;case
 14:var
-ad=a[2],ae=a[1],af=p(g(k),sZ),ag=af?h(c,0,ae):af,ah=ag?h(c,1,ad):ag;if(ah){var
-C=an(c,bO(j,a));if(C)var
-D=aa(e(function(a){return l0(c,l,al,j,ae,ad,a[4])},k)),aD=D?[0,[9,C[1],D[1]]]:D,ai=aD;else
+ad=a[2],ae=a[1],af=p(g(k),s$),ag=af?h(c,0,ae):af,ah=ag?h(c,1,ad):ag;if(ah){var
+C=an(c,bP(j,a));if(C)var
+E=ab(e(function(a){return ma(c,l,al,j,ae,ad,a[4])},k)),aD=E?[0,[9,C[1],E[1]]]:E,ai=aD;else
 var
 ai=C;var
 aj=ai}else
@@ -2914,11 +2981,11 @@ aj=ah;var
 f=aj;break;case
 15:var
 aE=[0,a[2],a[1]],aF=1,ak=m(function(a){return h(c,aF,a)},aE);if(ak)var
-aG=e2(k,j,n,a),f=z(function(a){var
-d=Q(c,b);return[4,i(av(l),a),d]},aG);else
+aG=e5(k,j,n,a),f=z(function(a){var
+d=L(c,b);return[4,i(aw(l),a),d]},aG);else
 var
 f=ak;break;default:var
-o=gl(k,j,n,a),I=0;if(o){var
+o=gs(k,j,n,a),I=0;if(o){var
 u=o[2],J=o[1];if(u)if(u[2])var
 f=0;else
 var
@@ -2929,19 +2996,19 @@ f=K}var
 am=[0,f,aI]}else
 var
 am=s;return am}function
-s0(a){var
+ta(a){var
 b=0;if(typeof
 a==="number"){if(0!==a)b=1}else
 if(0!==a[0])b=1;return b?0:1}function
-ea(a){if(0===a[0])return a[1];var
+ed(a){if(0===a[0])return a[1];var
 b=a[3],c=a[2],d=a[1];return[0,[0,[3,d,b],[2,d,b]],[0,[3,c,b],[2,c,b]],a[4]]}function
-l2(a,c,g,b){if(0===c[0])return 0;if(b){var
+mc(a,c,g,b){if(0===c[0])return 0;if(b){var
 d=b[2];if(d){var
 h=d[2];if(h){if(h[2])return 0;var
 e=d[1],f=b[1],i=cR(a,g,c[1]);if(i){var
 j=cR(a,g,c[2]);if(j){var
 k=cR(a,g,c[3]);if(k)var
-u=i[1],w=b_(f),l=H([0,b_(f),w],u),x=j[1],y=b_(e),m=H([0,b_(e),y],x),z=d4(e),B=[0,d4(e),z],C=[0,t(a,ae(A(m,m)),B),0],D=d4(f),E=[0,d4(f),D],F=[0,t(a,ae(A(l,l)),E),C],G=X(a,m),I=X(a,l),n=[0,[0,H(H(X(a,k[1]),I),G),v,F]];else
+u=i[1],v=b_(f),l=H([0,b_(f),v],u),w=j[1],y=b_(e),m=H([0,b_(e),y],w),z=d8(e),B=[0,d8(e),z],C=[0,t(a,aa(A(m,m)),B),0],D=d8(f),E=[0,d8(f),D],F=[0,t(a,aa(A(l,l)),E),C],G=X(a,m),I=X(a,l),n=[0,[0,H(H(X(a,k[1]),I),G),x,F]];else
 var
 n=k;var
 o=n}else
@@ -2959,14 +3026,14 @@ r=d;var
 s=r}else
 var
 s=b;return s}function
-gn(a,p,o){var
-q=a5(p,o),b=e(function(b){return an(a,b)},q);if(b){var
+gu(a,p,o){var
+q=a6(p,o),b=e(function(b){return an(a,b)},q);if(b){var
 g=b[1];if(g){var
 c=b[2];if(c){var
 h=c[1];if(h){var
 f=c[2];if(f){var
 i=f[1];if(i){if(f[2])return 0;var
-r=X(a,i[1]),s=X(a,h[1]);return I(d,A(A(X(a,g[1]),s),r)[1])}var
+r=X(a,i[1]),s=X(a,h[1]);return J(d,A(A(X(a,g[1]),s),r)[1])}var
 j=i}else
 var
 j=f;var
@@ -2984,99 +3051,99 @@ var
 n=b;return n}function
 T(c,b,a){var
 d=ao(c,b[3],a[3]),e=ao(c,b[2],a[2]);return[0,ao(c,b[1],a[1]),e,d]}function
-ab(b,a){return[0,[4,b,a[1]],[4,b,a[2]],[4,b,a[3]]]}function
-x(b,a){return[2,[2,[4,b[1],a[1]],[4,b[2],a[2]]],[4,b[3],a[3]]]}function
-ax(a){return ab([5,[0,b,b],[6,x(a,a)]],a)}function
+ac(b,a){return[0,[4,b,a[1]],[4,b,a[2]],[4,b,a[3]]]}function
+w(b,a){return[2,[2,[4,b[1],a[1]],[4,b[2],a[2]]],[4,b[3],a[3]]]}function
+ay(a){return ac([5,[0,b,b],[6,w(a,a)]],a)}function
 c0(c,b,a){var
 d=bs(c,b[1],a);return d?bs(c,a,b[2]):d}function
-bl(c,b,a){var
+bm(c,b,a){var
 d=c0(c,b[1],a[1]),e=d?c0(c,b[2],a[2]):d;return e?c0(c,b[3],a[3]):e}function
-l3(b,c,a){switch(c[0]){case
+md(b,c,a){switch(c[0]){case
 0:var
 d=c[1];if(0===a[0]){var
-j=a[4],f=a[1],k=bl(b,d[1],f),l=k?h(b,1,x(f,f)):k,m=l?bl(b,d[2],a[2]):l,n=m?bl(b,d[3],a[3]):m,o=n?c0(b,d[4],j):n,p=o?h(b,1,j):o;return p?cm(d[5],a[5]):p}return 0;case
+j=a[4],f=a[1],k=bm(b,d[1],f),l=k?h(b,1,w(f,f)):k,m=l?bm(b,d[2],a[2]):l,n=m?bm(b,d[3],a[3]):m,o=n?c0(b,d[4],j):n,p=o?h(b,1,j):o;return p?cm(d[5],a[5]):p}return 0;case
 1:var
 q=c[3];if(1===a[0]){var
-e=a[3],r=bl(b,c[1],a[1]),s=r?bl(b,c[2],a[2]):r;if(s){if(q){if(e){var
-g=e[1],t=bl(b,q[1],g);if(t)return h(b,1,x(g,g));var
+e=a[3],r=bm(b,c[1],a[1]),s=r?bm(b,c[2],a[2]):r;if(s){if(q){if(e){var
+g=e[1],t=bm(b,q[1],g);if(t)return h(b,1,w(g,g));var
 u=t}else
 var
 u=e;return u}if(e)return 0;var
 v=1}else
 var
 v=s;return v}return 0;default:if(2===a[0]){var
-i=a[1],w=bl(b,c[1],i);return w?h(b,1,x(i,i)):w}return 0}}function
-bQ(c,a,b){if(0===a[0])return bl(c,a[1],b);var
+i=a[1],x=bm(b,c[1],i);return x?h(b,1,w(i,i)):x}return 0}}function
+bR(c,a,b){if(0===a[0])return bm(c,a[1],b);var
 d=a[3],e=[3,b[1],a[1]],f=[3,b[2],a[2]],g=h(c,0,[3,[3,[4,d,d],[4,e,e]],[4,f,f]]),i=g?h(c,0,d):g;return i?c0(c,a[4],b[3]):i}function
-go(g,f,i,h){var
+gv(g,f,i,h){var
 b=f[1],a=i;for(;;){if(b){if(a){var
-d=l3(g,b[1],a[1]);if(d){var
+d=md(g,b[1],a[1]);if(d){var
 b=b[2],a=a[2];continue}var
 e=d}else
 var
 e=a;var
 c=e}else
 var
-c=a?0:1;return c?bQ(g,f[2],h):c}}function
+c=a?0:1;return c?bR(g,f[2],h):c}}function
 aV(c,b,a){var
 d=T(function(b,a){return[2,b,a]},a,b);return T(function(b,a){return[3,b,a]},d,c)}function
-e3(a,e,d,c){var
-b=aV(e,d,c),f=ax(a),g=ab(x(ax(a),b),f);return T(function(b,a){return[3,b,a]},b,g)}function
+e6(a,e,d,c){var
+b=aV(e,d,c),f=ay(a),g=ac(w(ay(a),b),f);return T(function(b,a){return[3,b,a]},b,g)}function
 cy(f,e,d,a,c){var
-b=e3(f,e,d,c);return[3,[4,a,a],x(b,b)]}function
+b=e6(f,e,d,c);return[3,[4,a,a],w(b,b)]}function
 c1(c,a){return c?[6,a]:[3,[0,d,b],[6,a]]}function
 ca(a,c){switch(a[0]){case
 0:var
-e=a[3],f=a[2],d=a[1],g=e3(d,f,e,c),h=cy(d,f,e,a[4],c),i=ab([5,[0,b,b],c1(a[5],h)],g),j=ax(d);return T(function(b,a){return[2,b,a]},j,i);case
-1:return ax(aV(a[1],a[2],c));default:return ax(a[1])}}function
+e=a[3],f=a[2],d=a[1],g=e6(d,f,e,c),h=cy(d,f,e,a[4],c),i=ac([5,[0,b,b],c1(a[5],h)],g),j=ay(d);return T(function(b,a){return[2,b,a]},j,i);case
+1:return ay(aV(a[1],a[2],c));default:return ay(a[1])}}function
 cz(a,b){switch(a[0]){case
 0:var
-d=a[3],e=a[2],c=a[1],f=ax(c),g=cy(c,e,d,a[4],b),h=ab(c1(a[5],g),f),i=e3(c,e,d,b);return T(function(b,a){return[2,b,a]},i,h);case
-1:return aV(a[1],a[2],b);default:return ax(a[1])}}function
+d=a[3],e=a[2],c=a[1],f=ay(c),g=cy(c,e,d,a[4],b),h=ac(c1(a[5],g),f),i=e6(c,e,d,b);return T(function(b,a){return[2,b,a]},i,h);case
+1:return aV(a[1],a[2],b);default:return ay(a[1])}}function
 c2(a,b){switch(a[0]){case
 0:var
-c=a[3],d=a[2],e=a[1],h=cy(e,d,c,a[4],b),i=c1(a[5],h),j=aV(d,c,b);return[3,x(ax(e),j),i];case
+c=a[3],d=a[2],e=a[1],h=cy(e,d,c,a[4],b),i=c1(a[5],h),j=aV(d,c,b);return[3,w(ay(e),j),i];case
 1:var
-f=a[2],g=a[1],k=aV(g,f,b);return[6,x(aV(g,f,b),k)];default:return x(ax(a[1]),b)}}function
-ik(a,b){switch(a[0]){case
+f=a[2],g=a[1],k=aV(g,f,b);return[6,w(aV(g,f,b),k)];default:return w(ay(a[1]),b)}}function
+iv(a,b){switch(a[0]){case
 0:return[0,cy(a[1],a[2],a[3],a[4],b)];case
 1:var
-c=a[2],d=a[1],e=aV(d,c,b);return[0,x(aV(d,c,b),e)];default:return 0}}function
-e4(e,c,a){var
+c=a[2],d=a[1],e=aV(d,c,b);return[0,w(aV(d,c,b),e)];default:return 0}}function
+e7(e,c,a){var
 f=[0,d,b];return aq(function(b,d){var
-e=x(ca(b,c),a);return[2,[4,x(ca(b,c),a),e],d]},f,e)}function
-l4(f,e,c,a){if(f){if(e){var
-g=e[1],h=l4(f[2],e[2],c,a),i=x(ca(g,c),a),j=[4,x(ca(g,c),a),i];return[2,[4,f[1],j],h]}return[0,d,b]}return[0,d,b]}function
-l5(a){var
+e=w(ca(b,c),a);return[2,[4,w(ca(b,c),a),e],d]},f,e)}function
+me(f,e,c,a){if(f){if(e){var
+g=e[1],h=me(f[2],e[2],c,a),i=w(ca(g,c),a),j=[4,w(ca(g,c),a),i];return[2,[4,f[1],j],h]}return[0,d,b]}return[0,d,b]}function
+mf(a){var
 c=a[1];return[0,[0,c[1],b],[0,c[2],b],[0,a[2],b]]}function
-il(a,c){switch(a[0]){case
+iw(a,c){switch(a[0]){case
 0:return a[4];case
 1:var
-d=a[2],e=a[1],f=aV(e,d,c);return[6,x(aV(e,d,c),f)];default:return[0,b,b]}}function
-l6(d,i){if(d){var
+d=a[2],e=a[1],f=aV(e,d,c);return[6,w(aV(e,d,c),f)];default:return[0,b,b]}}function
+mg(d,i){if(d){var
 a=d[1];if(1===a[0]){var
 c=a[3];if(c)var
-f=c[1],g=aV(a[1],a[2],i),k=ax(f),l=ab(x(ax(f),g),k),h=[0,T(function(b,a){return[3,b,a]},g,l)];else
+f=c[1],g=aV(a[1],a[2],i),k=ay(f),l=ac(w(ay(f),g),k),h=[0,T(function(b,a){return[3,b,a]},g,l)];else
 var
 h=c;var
 b=h}else
 var
 b=0;if(b)var
-e=l6(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
+e=mg(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
 var
-j=b;return j}return s1}function
+j=b;return j}return tb}function
 c3(a){return[0,a[1],a[2],a[3]]}function
-l7(a,b){switch(a[0]){case
+mh(a,b){switch(a[0]){case
 0:var
-f=a[4],c=a[3],g=a[2],d=a[1],i=ax(d),j=cy(d,g,c,f,b),k=ab(c1(a[5],j),i),l=e3(d,g,c,b),m=T(function(b,a){return[2,b,a]},l,k);return[0,[0,[0,T(function(b,a){return[2,b,a]},b,c),m],f]];case
+f=a[4],c=a[3],g=a[2],d=a[1],i=ay(d),j=cy(d,g,c,f,b),k=ac(c1(a[5],j),i),l=e6(d,g,c,b),m=T(function(b,a){return[2,b,a]},l,k);return[0,[0,[0,T(function(b,a){return[2,b,a]},b,c),m],f]];case
 1:var
-h=a[2],e=aV(a[1],h,b),n=[6,x(e,e)];return[0,[0,[0,T(function(b,a){return[2,b,a]},b,h),e],n]];default:return 0}}function
-l8(m,e,a){switch(a[0]){case
+h=a[2],e=aV(a[1],h,b),n=[6,w(e,e)];return[0,[0,[0,T(function(b,a){return[2,b,a]},b,h),e],n]];default:return 0}}function
+mi(m,e,a){switch(a[0]){case
 0:var
-n=a[5],c=E(m,a[1]);if(c){var
+n=a[5],c=F(m,a[1]);if(c){var
 d=c[1];if(d)var
 f=d[1],g=f[1],h=f[2],o=g[2],p=g[1],j=function(a){var
-b=c3(n),c=ab(a,o),d=T(function(b,a){return[3,b,a]},p,c);return T(function(b,a){return[2,b,a]},d,b)},q=j([5,a[4],h]),k=[0,[0,j([3,[0,b,b],[5,a[3],h]]),q]];else
+b=c3(n),c=ac(a,o),d=T(function(b,a){return[3,b,a]},p,c);return T(function(b,a){return[2,b,a]},d,b)},q=j([5,a[4],h]),k=[0,[0,j([3,[0,b,b],[5,a[3],h]]),q]];else
 var
 k=d;var
 l=k}else
@@ -3085,41 +3152,41 @@ l=c;return l;case
 1:var
 r=c3(a[3]);return[0,[0,c3(a[2]),r]];default:var
 s=i(e,c3(a[3]));return[0,[0,i(e,c3(a[2])),s]]}}function
-l9(d,a,c,b){var
-e=ab(a,b),f=ab([3,d,a],c);return T(function(b,a){return[2,b,a]},f,e)}function
-l_(a,l,c,k,j,y){var
+mj(d,a,c,b){var
+e=ac(a,b),f=ac([3,d,a],c);return T(function(b,a){return[2,b,a]},f,e)}function
+mk(a,l,c,k,j,y){var
 d=i(l,k);if(d){var
 m=d[1],e=i(l,j);if(e){var
-n=e[1],f=c[1],g=c[2],b=c[3],z=l9(b,g,n[1],n[2]),A=l9(b,f,m[1],m[2]),o=T(function(b,a){return[3,b,a]},A,z),B=dV(j),p=[4,b,[2,[2,dV(k),B],y]],q=h(a,1,b),r=q?h(a,0,f):q,s=r?h(a,0,[3,b,f]):r,t=s?h(a,0,g):s,u=t?h(a,0,[3,b,g]):t;if(u)return h(a,1,[3,[4,p,p],x(o,o)]);var
+n=e[1],f=c[1],g=c[2],b=c[3],z=mj(b,g,n[1],n[2]),A=mj(b,f,m[1],m[2]),o=T(function(b,a){return[3,b,a]},A,z),B=d0(j),p=[4,b,[2,[2,d0(k),B],y]],q=h(a,1,b),r=q?h(a,0,f):q,s=r?h(a,0,[3,b,f]):r,t=s?h(a,0,g):s,u=t?h(a,0,[3,b,g]):t;if(u)return h(a,1,[3,[4,p,p],w(o,o)]);var
 v=u}else
 var
 v=e;var
-w=v}else
+x=v}else
 var
-w=d;return w}function
-l$(d,c,b,a,i,g,f,e){var
+x=d;return x}function
+ml(d,c,b,a,i,g,f,e){var
 j=h(d,1,b),k=j?h(d,1,a):j;if(k){var
 l=ao(c,f,f),m=[4,[4,a,a],[4,ao(c,g,g),l]];return h(d,1,[3,[4,[4,[4,b,b],[4,i,i]],ao(c,e,e)],m])}return k}function
-ma(i,g,c,f,y,a){function
-R(a){return[4,[4,[5,[0,b,b],a],[5,[0,b,b],a]],x(f,f)]}var
+mm(i,g,c,f,y,a){function
+R(a){return[4,[4,[5,[0,b,b],a],[5,[0,b,b],a]],w(f,f)]}var
 N=0;if(typeof
 a==="number")N=1;else
 switch(a[0]){case
 0:var
-aG=e4(g,c,f);return h(i,1,[3,R(a[1]),aG]);case
+aG=e7(g,c,f);return h(i,1,[3,R(a[1]),aG]);case
 1:var
-aH=R(a[1]);return h(i,1,[3,e4(g,c,f),aH]);case
+aH=R(a[1]);return h(i,1,[3,e7(g,c,f),aH]);case
 2:var
 aI=a[2],aJ=function(a){return[3,aI,c2(a,c)]},A=aJ,z=a[1];break;case
 3:var
 aK=a[2],aL=function(a){return[3,c2(a,c),aK]},A=aL,z=a[1];break;case
 4:var
 S=a[3],U=a[2],aM=function(a){var
-b=ca(a,c);return[3,[4,[4,U,U],x(ca(a,c),b)],[4,S,S]]},A=aM,z=a[1];break;case
+b=ca(a,c);return[3,[4,[4,U,U],w(ca(a,c),b)],[4,S,S]]},A=aM,z=a[1];break;case
 5:var
-V=a[1],aN=x(f,f),aO=[4,[4,V,V],[4,e4(g,c,y),aN]],aP=x(y,y);return h(i,1,[3,[4,e4(g,c,f),aP],aO]);case
+V=a[1],aN=w(f,f),aO=[4,[4,V,V],[4,e7(g,c,y),aN]],aP=w(y,y);return h(i,1,[3,[4,e7(g,c,f),aP],aO]);case
 6:var
-W=a[2],C=E(g,a[1]);if(C){var
+W=a[2],C=F(g,a[1]);if(C){var
 k=C[1];if(0===k[0]){var
 D=k[4],aQ=cy(k[1],k[2],k[3],D,c),X=c1(k[5],aQ);return h(i,1,[3,[4,[4,W,D],[4,W,D]],[4,X,X]])}var
 Y=0}else
@@ -3128,8 +3195,8 @@ Y=C;return Y;case
 7:if(g){var
 p=g[2];if(p){var
 q=p[2];if(q){if(q[2])return 0;var
-Z=q[1],_=p[1],$=g[1],aR=il(Z,c),aS=il(_,c),aT=il($,c),aa=[4,[4,[4,a[1],aT],aS],aR],l=cz(Z,c),m=cz(_,c),aU=cz($,c),O=x(aU,[0,[3,[4,m[2],l[3]],[4,m[3],l[2]]],[3,[4,m[3],l[1]],[4,m[1],l[3]]],[3,[4,m[1],l[2]],[4,m[2],l[1]]]]),ac=h(i,1,[3,aa,O]);if(ac)return h(i,1,[2,aa,O]);var
-ad=ac}else
+Z=q[1],_=p[1],$=g[1],aR=iw(Z,c),aS=iw(_,c),aT=iw($,c),aa=[4,[4,[4,a[1],aT],aS],aR],l=cz(Z,c),m=cz(_,c),aU=cz($,c),O=w(aU,[0,[3,[4,m[2],l[3]],[4,m[3],l[2]]],[3,[4,m[3],l[1]],[4,m[1],l[3]]],[3,[4,m[1],l[2]],[4,m[2],l[1]]]]),ab=h(i,1,[3,aa,O]);if(ab)return h(i,1,[2,aa,O]);var
+ad=ab}else
 var
 ad=q;var
 ae=ad}else
@@ -3139,18 +3206,18 @@ af=ae}else
 var
 af=g;return af;case
 8:var
-aW=e4(g,c,f),aX=x(f,f);return h(i,1,[3,[4,[5,a[2],a[1]],aX],aW]);case
+aW=e7(g,c,f),aX=w(f,f);return h(i,1,[3,[4,[5,a[2],a[1]],aX],aW]);case
 9:var
-ag=a[1],F=l6(g,c);if(F){var
-aY=F[1],aA=[0,d,b],aB=aq(function(a,b){var
-c=x(ax(a),f);return[2,[4,x(ax(a),f),c],b]},aA,aY);return h(i,1,[3,[4,[4,ag,ag],x(f,f)],aB])}return F;case
+ag=a[1],E=mg(g,c);if(E){var
+aY=E[1],aA=[0,d,b],aB=aq(function(a,b){var
+c=w(ay(a),f);return[2,[4,w(ay(a),f),c],b]},aA,aY);return h(i,1,[3,[4,[4,ag,ag],w(f,f)],aB])}return E;case
 10:var
-aZ=a[3],a0=a[2],a1=a[1],aC=function(b,a){return[2,b,a]},aD=function(a){return T(aC,c,a)},aE=e(function(a){return l7(a,c)},g);return l_(i,function(a){return l8(aE,aD,a)},f,a1,a0,aZ);case
+aZ=a[3],a0=a[2],a1=a[1],aC=function(b,a){return[2,b,a]},aD=function(a){return T(aC,c,a)},aE=e(function(a){return mh(a,c)},g);return mk(i,function(a){return mi(aE,aD,a)},f,a1,a0,aZ);case
 11:var
-ah=a[4],G=E(g,a[1]);if(G){var
-H=l7(G[1],c);if(H){var
-n=H[1][1][2],a2=c3(a[3]),a3=c3(a[2]),r=T(function(b,a){return[3,b,a]},a3,a2),ai=h(i,1,x(n,n));if(ai){var
-a4=x(n,n),a5=x(r,n),a6=[5,[4,x(r,n),a5],a4];return h(i,1,[3,[4,ah,ah],[3,x(r,r),a6]])}var
+ah=a[4],G=F(g,a[1]);if(G){var
+H=mh(G[1],c);if(H){var
+n=H[1][1][2],a2=c3(a[3]),a3=c3(a[2]),r=T(function(b,a){return[3,b,a]},a3,a2),ai=h(i,1,w(n,n));if(ai){var
+a4=w(n,n),a5=w(r,n),a6=[5,[4,w(r,n),a5],a4];return h(i,1,[3,[4,ah,ah],[3,w(r,r),a6]])}var
 aj=ai}else
 var
 aj=H;var
@@ -3158,17 +3225,17 @@ ak=aj}else
 var
 ak=G;return ak;case
 12:var
-o=a[3],s=a[2],I=E(g,a[1]);if(I){var
+o=a[3],s=a[2],I=F(g,a[1]);if(I){var
 j=I[1],al=h(i,0,s),am=al?h(i,0,o):al;if(am){var
 a7=a[4];switch(j[0]){case
 0:var
-v=j[4],w=[5,v,[6,cy(j[1],j[2],j[3],v,c)]],J=[4,w,[2,s,[4,[5,[4,o,o],v],[4,w,w]]]];break;case
+v=j[4],x=[5,v,[6,cy(j[1],j[2],j[3],v,c)]],J=[4,x,[2,s,[4,[5,[4,o,o],v],[4,x,x]]]];break;case
 1:var
-P=j[2],Q=j[1],aF=aV(Q,P,c),J=[2,s,[5,[4,o,o],[6,x(aV(Q,P,c),aF)]]];break;default:var
+P=j[2],Q=j[1],aF=aV(Q,P,c),J=[2,s,[5,[4,o,o],[6,w(aV(Q,P,c),aF)]]];break;default:var
 J=s}var
 K=h(i,1,[3,J,a7])}else
 var
-K=am;if(K){if(2===j[0])return h(i,1,x(f,f));var
+K=am;if(K){if(2===j[0])return h(i,1,w(f,f));var
 an=1}else
 var
 an=K;var
@@ -3178,45 +3245,45 @@ ao=I;return ao;case
 13:if(g){var
 t=g[2];if(t){var
 u=t[2];if(u){if(u[2])return 0;var
-ap=u[1],ar=t[1],as=g[1],at=a[1],L=E([0,f[1],[0,f[2],[0,f[3],0]]],at);if(L){var
-M=E([0,as,[0,ar,[0,ap,0]]],at);if(M){var
-au=M[1],a8=cz(au,c),a9=ca(au,c),a_=cz(ap,c),a$=ab(f[3],a_),ba=cz(ar,c),bb=ab(f[2],ba),bc=cz(as,c),bd=ab(f[1],bc),be=T(function(b,a){return[2,b,a]},bd,bb),bf=T(function(b,a){return[2,b,a]},be,a$);return l$(i,x,a[2],a[3],L[1],bf,a9,a8)}var
+ap=u[1],ar=t[1],as=g[1],at=a[1],L=F([0,f[1],[0,f[2],[0,f[3],0]]],at);if(L){var
+M=F([0,as,[0,ar,[0,ap,0]]],at);if(M){var
+au=M[1],a8=cz(au,c),a9=ca(au,c),a_=cz(ap,c),a$=ac(f[3],a_),ba=cz(ar,c),bb=ac(f[2],ba),bc=cz(as,c),bd=ac(f[1],bc),be=T(function(b,a){return[2,b,a]},bd,bb),bf=T(function(b,a){return[2,b,a]},be,a$);return ml(i,w,a[2],a[3],L[1],bf,a9,a8)}var
 av=M}else
 var
 av=L;var
 aw=av}else
 var
 aw=u;var
-ay=aw}else
+ax=aw}else
 var
-ay=t;var
-az=ay}else
+ax=t;var
+az=ax}else
 var
 az=g;return az;case
 15:var
-bg=l4(a[1],g,c,f),bh=x(f,f);return h(i,1,[3,[4,a[2],bh],bg]);default:N=1}if(N)return 0;var
-B=E(g,z);return B?h(i,1,A(B[1])):B}function
-bz(a){return[0,a[1][1],a[2][1],a[3][1]]}function
-mb(a){switch(a[0]){case
+bg=me(a[1],g,c,f),bh=w(f,f);return h(i,1,[3,[4,a[2],bh],bg]);default:N=1}if(N)return 0;var
+B=F(g,z);return B?h(i,1,A(B[1])):B}function
+bA(a){return[0,a[1][1],a[2][1],a[3][1]]}function
+mn(a){switch(a[0]){case
 0:var
-b=a[1],c=b[5],d=b[4][1],e=bz(b[3]),f=bz(b[2]);return[0,bz(b[1]),f,e,d,c];case
+b=a[1],c=b[5],d=b[4][1],e=bA(b[3]),f=bA(b[2]);return[0,bA(b[1]),f,e,d,c];case
 1:var
-g=z(bz,a[3]),h=bz(a[2]);return[1,bz(a[1]),h,g];default:return[2,bz(a[1])]}}function
-im(a){return 0===a[0]?bz(a[1]):[0,a[1],a[2],a[4][1]]}function
-mc(b,a){var
-c=im(a[2]);return go(b,a,e(mb,a[1]),c)}function
-md(b,a,c){var
-d=[0,c,aT(b,a)];return f(aG(b,a),d)}function
-a6(c,a){if(c){if(a){var
-e=a6(c[2],a[2]);return[2,[4,c[1],a[1]],e]}return[0,d,b]}return[0,d,b]}function
-me(e,c,a){if(e){if(c){var
-f=c[1],g=me(e[2],c[2],a),h=a6(f,a),i=[4,a6(f,a),h];return[2,[4,e[1],i],g]}return[0,d,b]}return[0,d,b]}function
-mf(b,a){if(b){if(a){var
-c=b[1],e=mf(b[2],a[2]),f=a[1],g=function(b,a){return[2,[4,c,b],a]},h=function(a){return a};return aI(function(a){return[4,c,a]},h,g,f,e)}var
+g=z(bA,a[3]),h=bA(a[2]);return[1,bA(a[1]),h,g];default:return[2,bA(a[1])]}}function
+ix(a){return 0===a[0]?bA(a[1]):[0,a[1],a[2],a[4][1]]}function
+mo(b,a){var
+c=ix(a[2]);return gv(b,a,e(mn,a[1]),c)}function
+mp(b,a,c){var
+d=[0,c,aU(b,a)];return f(aI(b,a),d)}function
+a7(c,a){if(c){if(a){var
+e=a7(c[2],a[2]);return[2,[4,c[1],a[1]],e]}return[0,d,b]}return[0,d,b]}function
+mq(e,c,a){if(e){if(c){var
+f=c[1],g=mq(e[2],c[2],a),h=a7(f,a),i=[4,a7(f,a),h];return[2,[4,e[1],i],g]}return[0,d,b]}return[0,d,b]}function
+mr(b,a){if(b){if(a){var
+c=b[1],e=mr(b[2],a[2]),f=a[1],g=function(b,a){return[2,[4,c,b],a]},h=function(a){return a};return aK(function(a){return[4,c,a]},h,g,f,e)}var
 d=a}else
 var
 d=b;return d}function
-io(e){function
+iy(e){function
 c(d,c,b,a){return[3,[4,d,a],[4,c,b]]}if(e){var
 f=e[1];if(f){var
 g=f[2];if(g){var
@@ -3231,21 +3298,21 @@ o=n[2];if(o){if(o[2])return[0,d,b];if(l[2])return[0,d,b];var
 t=o[1],u=n[1],v=m[1],w=k[1],x=j[1],y=i[1],z=c(y,x,v,u),A=[4,h[1],z],B=[4,r,c(y,w,v,t)];return[2,[3,[4,s,c(x,w,u,t)],B],A]}return[0,d,b]}return[0,d,b]}return[0,d,b]}return[0,d,b]}return[0,d,b]}return[0,d,b]}return[0,d,b]}return[0,d,b]}if(a){var
 p=a[1];if(p){var
 q=p[2];return q?q[2]?[0,d,b]:a[2]?[0,d,b]:c(s,r,p[1],q[1]):[0,d,b]}return[0,d,b]}return[0,d,b]}return[0,d,b]}return[0,d,b]}return[0,d,b]}function
-mg(b,c,a){var
-d=[0,c,aT([0,b],a)];return f(aG(b,a),d)}function
-mh(a,b){var
-e=p(a,s3),c=e||p(a,s4),d=c?p(g(b),a):c;return d?m(function(b){return p(g(b),a)},b):d}function
-mi(a){if(a){var
+ms(b,c,a){var
+d=[0,c,aU([0,b],a)];return f(aI(b,a),d)}function
+mt(a,b){var
+e=p(a,td),c=e||p(a,te),d=c?p(g(b),a):c;return d?m(function(b){return p(g(b),a)},b):d}function
+mu(a){if(a){var
 b=a[1];if(b){var
-c=b[1],d=mi(a[2]);return z(function(a){return[0,c,a]},d)}return b}return s5}function
-gp(a){if(a){var
+c=b[1],d=mu(a[2]);return z(function(a){return[0,c,a]},d)}return b}return tf}function
+gw(a){if(a){var
 b=a[1];if(b){var
-c=b[1],d=gp(a[2]);return z(function(a){return[0,c,a]},d)}return b}return s6}function
-mj(a,l,k,f){var
-b=aD(a,l);if(b){var
-c=aD(a,k);if(c){var
+c=b[1],d=gw(a[2]);return z(function(a){return[0,c,a]},d)}return b}return tg}function
+mv(a,l,k,f){var
+b=aE(a,l);if(b){var
+c=aE(a,k);if(c){var
 d=cS(a,f);if(d){var
-e=f5(a,f);if(e)var
+e=f8(a,f);if(e)var
 m=t(a,b[1],e[1]),g=[0,H(t(a,c[1],d[1]),m)];else
 var
 g=e;var
@@ -3258,31 +3325,31 @@ i=c;var
 j=i}else
 var
 j=b;return j}function
-mk(a){return a?I(a[1][2],d):a}function
-eb(a){return a?I(d,a[1][1]):a}function
-ml(d,a){return h(d,0,[3,[0,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b))))))))),b],a])}function
-mm(a,l,k,o,f,j){function
-aC(c,a){return[4,[4,[5,[0,b,b],c],[5,[0,b,b],c]],a6(a,a)]}var
+mw(a){return a?J(a[1][2],d):a}function
+ee(a){return a?J(d,a[1][1]):a}function
+mx(d,a){return h(d,0,[3,[0,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b))))))))),b],a])}function
+my(a,l,k,o,f,j){function
+aC(c,a){return[4,[4,[5,[0,b,b],c],[5,[0,b,b],c]],a7(a,a)]}var
 bm=k[1];function
 y(c){var
 a=[0,d,b];return aq(function(a,b){var
-d=a6(a,c);return[2,[4,a6(a,c),d],b]},a,bm)}function
+d=a7(a,c);return[2,[4,a7(a,c),d],b]},a,bm)}function
 z(f,e){var
-a=E(k[1],f);if(a){var
+a=F(k[1],f);if(a){var
 b=a[1],c=p(g(b),l);if(c)return i(e,b);var
 d=c}else
 var
 d=a;return d}var
-aE=m(function(c){var
+aD=m(function(c){var
 b=0;if(typeof
 j==="number")b=1;else
 switch(j[0]){case
 6:var
-a=s7;break;case
+a=th;break;case
 13:case
 14:var
-a=s8;break;default:b=1}if(b)var
-a=l;return p(g(c),a)},f);if(aE){var
+a=ti;break;default:b=1}if(b)var
+a=l;return p(g(c),a)},f);if(aD){var
 s=0;if(typeof
 j==="number")s=1;else
 switch(j[0]){case
@@ -3300,16 +3367,16 @@ b!=="number"&&0===b[0])return h(a,1,[3,b[1],br]);return 0},U=bs,S=j[1];break;cas
 aI=j[3],aJ=j[2],bt=function(d){var
 i=p(o,0);if(typeof
 d!=="number"&&1===d[0]){var
-e=d[2],f=d[1],g=h(a,0,[3,[2,aJ,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b]],aI]);return g?i?mk(mj(a,f,e,aJ)):eb(mj(a,f,e,aI)):g}return 0},U=bt,S=j[1];break;case
+e=d[2],f=d[1],g=h(a,0,[3,[2,aJ,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b]],aI]);return g?i?mw(mv(a,f,e,aJ)):ee(mv(a,f,e,aI)):g}return 0},U=bt,S=j[1];break;case
 5:if(f){var
 A=f[2];if(A){if(A[2])return 0;var
-W=A[1],Y=f[1],aK=j[1],bu=a6(Y,Y),bv=[4,[4,aK,aK],[4,y(W),bu]],bw=a6(W,W);return h(a,1,[3,[4,y(Y),bw],bv])}var
+W=A[1],Y=f[1],aK=j[1],bu=a7(Y,Y),bv=[4,[4,aK,aK],[4,y(W),bu]],bw=a7(W,W);return h(a,1,[3,[4,y(Y),bw],bv])}var
 aL=A}else
 var
 aL=f;return aL;case
 6:var
 aM=j[2],bx=j[3],by=function(b){var
-c=[5,bx,aM],d=h(a,1,aM);return d?h(a,1,[3,a6(b,b),[4,c,c]]):d},aN=z(j[1],by);if(aN){if(k[4]){if(f){var
+c=[5,bx,aM],d=h(a,1,aM);return d?h(a,1,[3,a7(b,b),[4,c,c]]):d},aN=z(j[1],by);if(aN){if(k[4]){if(f){var
 B=f[1];if(B){if(B[2])return 0;if(f[2])return 0;var
 aO=B[1];return h(a,1,[4,aO,aO])}var
 aP=B}else
@@ -3319,11 +3386,11 @@ aQ=1}else
 var
 aQ=aN;return aQ;case
 7:if(f){if(f[2])return 0;var
-aR=f[1],Z=j[1],bz=j[3],bA=j[2],_=gp(k[7]);if(_){var
-C=_[1],$=E(aR,Z);if($){var
+aR=f[1],Z=j[1],bz=j[3],bA=j[2],_=gw(k[7]);if(_){var
+C=_[1],$=F(aR,Z);if($){var
 bB=$[1],aS=p(g(C),l),aT=aS?m(function(a){return p(g(a),l)},C):aS;if(aT){var
-aa=E(C,Z);if(aa){var
-bC=aa[1];return z(Z,function(b){return l$(a,a6,bA,bz,bB,mf(aR,C),b,bC)})}var
+aa=F(C,Z);if(aa){var
+bC=aa[1];return z(Z,function(b){return ml(a,a7,bA,bz,bB,mr(aR,C),b,bC)})}var
 aU=aa}else
 var
 aU=aT;var
@@ -3337,14 +3404,14 @@ aX=aW}else
 var
 aX=f;return aX;case
 8:if(f){if(f[2])return 0;var
-ab=f[1],bD=me(j[1],k[1],ab),bE=a6(ab,ab);return h(a,1,[3,[4,j[2],bE],bD])}return f;case
+ab=f[1],bD=mq(j[1],k[1],ab),bE=a7(ab,ab);return h(a,1,[3,[4,j[2],bE],bD])}return f;case
 9:if(f)return 0;var
 aY=j[3],aZ=j[2],bF=function(e){var
 f=h(a,1,aZ),g=f?h(a,0,aY):f;if(g){var
-b=aD(a,a6(e,e));if(b){var
-c=aD(a,[5,aY,aZ]);if(c){var
-d=k7(a,c[1]);if(d){var
-l=X(a,d[1]);return eb([0,H(b[1],l)])}var
+b=aE(a,a7(e,e));if(b){var
+c=aE(a,[5,aY,aZ]);if(c){var
+d=lf(a,c[1]);if(d){var
+l=X(a,d[1]);return ee([0,H(b[1],l)])}var
 i=d}else
 var
 i=c;var
@@ -3360,10 +3427,10 @@ c=[4,bG,b[3]],d=h(a,1,c);return d?h(a,1,[3,[4,c,c],[4,b[2],b[2]]]):d},a1=bH,a0=j
 11:if(f)return 0;var
 bI=j[2],bJ=function(e){var
 b=cS(a,bI);if(b){var
-c=aD(a,e[3]);if(c){var
-d=aD(a,e[2]);if(d){var
-f=t(a,b[1],c[1]),g=eb([0,f]);if(g){var
-k=X(a,d[1]);return eb([0,H(X(a,f),k)])}var
+c=aE(a,e[3]);if(c){var
+d=aE(a,e[2]);if(d){var
+f=t(a,b[1],c[1]),g=ee([0,f]);if(g){var
+k=X(a,d[1]);return ee([0,H(X(a,f),k)])}var
 h=g}else
 var
 h=d;var
@@ -3374,25 +3441,25 @@ j=i}else
 var
 j=b;return j},a1=bJ,a0=j[1];s=2;break;case
 12:if(f)return 0;var
-ae=mi(k[3]);if(ae){var
-a3=ae[1],bK=j[1],a4=b4(function(b,a){return[4,b,a[3]]},a3,bK),a5=io(e(function(a){return a[1]},a3)),a7=h(a,1,[3,a4,a5]);if(a7)return h(a,1,[2,a4,a5]);var
-a8=a7}else
+ae=mu(k[3]);if(ae){var
+a3=ae[1],bK=j[1],a4=bL(function(b,a){return[4,b,a[3]]},a3,bK),a5=iy(e(function(a){return a[1]},a3)),a6=h(a,1,[3,a4,a5]);if(a6)return h(a,1,[2,a4,a5]);var
+a8=a6}else
 var
 a8=ae;return a8;case
 13:var
-bL=j[2],af=E(k[4],j[1]);if(af){var
+bM=j[2],af=F(k[4],j[1]);if(af){var
 ag=af[1];if(ag){var
-a9=function(a){if(bL){var
-c=i(k[5],[0,[0,d,b],[0,d,b],[0,d,b]]),e=i(k[5],a);return T(function(b,a){return[3,b,a]},e,c)}return a},D=j[4],q=a9(c3(j[3])),F=ag[1][1][2],n=x(F,q);if(ml(a,D)){if(o){if(o[1])return 0;if(f){var
+a9=function(a){if(bM){var
+c=i(k[5],[0,[0,d,b],[0,d,b],[0,d,b]]),e=i(k[5],a);return T(function(b,a){return[3,b,a]},e,c)}return a},D=j[4],q=a9(c3(j[3])),E=ag[1][1][2],n=w(E,q);if(mx(a,D)){if(o){if(o[1])return 0;if(f){var
 u=f[1];if(u){var
 v=u[2];if(v){var
-w=v[2];if(w){if(w[2])return 0;if(f[2])return 0;var
-L=a9([0,u[1],v[1],w[1]]),al=x(F,L),am=h(a,1,n);if(am){var
+x=v[2];if(x){if(x[2])return 0;if(f[2])return 0;var
+L=a9([0,u[1],v[1],x[1]]),al=w(E,L),am=h(a,1,n);if(am){var
 M=cS(a,D);if(M){var
-an=M[1],N=aD(a,[4,x(q,q),[4,al,al]]);if(N){var
-O=aD(a,[4,[4,n,n],x(L,L)]);if(O){var
-ao=eb([0,an]);if(ao){var
-bi=O[1],bj=N[1];return eb([0,H(t(a,X(a,an),bj),bi)])}var
+an=M[1],N=aE(a,[4,w(q,q),[4,al,al]]);if(N){var
+O=aE(a,[4,[4,n,n],w(L,L)]);if(O){var
+ao=ee([0,an]);if(ao){var
+bi=O[1],bj=N[1];return ee([0,H(t(a,X(a,an),bj),bi)])}var
 ap=ao}else
 var
 ap=O;var
@@ -3407,7 +3474,7 @@ var
 at=am;var
 au=at}else
 var
-au=w;var
+au=x;var
 av=au}else
 var
 av=v;var
@@ -3419,9 +3486,9 @@ var
 ax=f;return ax}return f?0:h(a,1,[3,[0,d,b],n])}if(o)return 0;if(f)return 0;var
 ay=h(a,0,[3,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b],D]);if(ay){var
 P=cS(a,D);if(P){var
-Q=aD(a,n);if(Q){var
-bk=x(F,F),R=aD(a,[6,[4,x(q,q),bk]]);if(R){var
-bl=t(a,P[1],R[1]);return mk([0,H(Q[1],bl)])}var
+Q=aE(a,n);if(Q){var
+bk=w(E,E),R=aE(a,[6,[4,w(q,q),bk]]);if(R){var
+bl=t(a,P[1],R[1]);return mw([0,H(Q[1],bl)])}var
 az=R}else
 var
 az=Q;var
@@ -3438,7 +3505,7 @@ a_=af;return a_;case
 G=f[1];if(G){var
 I=G[2];if(I){var
 J=I[2];if(J){if(J[2])return 0;if(f[2])return 0;var
-bM=j[3],bN=j[2],bO=j[1],bP=[0,G[1],I[1],J[1]],bQ=k[5],bR=k[4];return l_(a,function(a){return l8(bR,bQ,a)},bP,bO,bN,bM)}var
+bN=j[3],bO=j[2],bP=j[1],bQ=[0,G[1],I[1],J[1]],bR=k[5],bS=k[4];return mk(a,function(a){return mi(bS,bR,a)},bQ,bP,bO,bN)}var
 a$=J}else
 var
 a$=I;var
@@ -3449,15 +3516,15 @@ bb=ba}else
 var
 bb=f;return bb;case
 17:if(f)return 0;var
-ah=j[3],bc=j[2],ai=j[1],aj=gp(k[7]);if(aj){var
-K=aj[1],bd=mh(l,K),be=bd?p(g(bc),l):bd;if(be){var
-ak=E(K,ai);if(ak){var
+ah=j[3],bc=j[2],ai=j[1],aj=gw(k[7]);if(aj){var
+K=aj[1],bd=mt(l,K),be=bd?p(g(bc),l):bd;if(be){var
+ak=F(K,ai);if(ak){var
 bf=ak[1];return z(ai,function(g){var
-c=io(K),e=io(mg(ai,bc,K)),i=h(a,1,ah),j=i?h(a,1,[4,c,c]):i;if(j)var
+c=iy(K),e=iy(ms(ai,bc,K)),i=h(a,1,ah),j=i?h(a,1,[4,c,c]):i;if(j)var
 k=p(o,0)?e:[3,[0,d,b],e],f=h(a,1,k);else
 var
 f=j;if(f){var
-l=[4,[4,[4,ah,ah],[4,c,c]],a6(g,g)];return h(a,1,[3,[4,[4,e,e],a6(bf,bf)],l])}return f})}var
+l=[4,[4,[4,ah,ah],[4,c,c]],a7(g,g)];return h(a,1,[3,[4,[4,e,e],a7(bf,bf)],l])}return f})}var
 bg=ak}else
 var
 bg=be;var
@@ -3467,89 +3534,89 @@ bh=aj;return bh;default:s=1}switch(s){case
 1:var
 aF=0;break;case
 2:var
-ac=E(k[3],a0);if(ac){var
+ac=F(k[3],a0);if(ac){var
 ad=ac[1];if(ad)return a1(ad[1]);var
 a2=ad}else
 var
 a2=ac;return a2;default:var
-V=E(k[2],S);return V?U(V[1]):V}}else
+V=F(k[2],S);return V?U(V[1]):V}}else
 var
-aF=aE;return aF}function
-gq(d,f,a){if(typeof
+aF=aD;return aF}function
+gx(d,f,a){if(typeof
 a!=="number")switch(a[0]){case
 13:var
-e=a[4];if(ml(d,e)&&S(h(d,0,[3,e,[0,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b))))))))),b]])))return s$;return ta;case
+e=a[4];if(mx(d,e)&&Q(h(d,0,[3,e,[0,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b))))))))),b]])))return tl;return tm;case
 16:return f;case
 4:case
-17:return s_}return s9}function
-gr(e,d,g,f){var
+17:return tk}return tj}function
+gy(e,d,g,f){var
 b=g,a=f;for(;;){if(a){var
-c=a[1];if(aN(b,gq(e,d,c)))return[0,[0,c,b]];var
-h=a[2],b=dP(b,gq(e,d,c)),a=h;continue}return a}}function
-mn(a){return e(function(a){return[0,a,b]},a)}function
-ip(f,o,g,c,n,a){if(typeof
+c=a[1];if(aH(b,gx(e,d,c)))return[0,[0,c,b]];var
+h=a[2],b=dU(b,gx(e,d,c)),a=h;continue}return a}}function
+mz(a){return e(function(a){return[0,a,b]},a)}function
+iz(f,o,g,c,n,a){if(typeof
 a==="number"){if(0===a){var
 s=c[6];return ak(function(a){return h(f,0,[3,[0,d,b],a])},s)}var
-i=gp(c[7]);return i?lc(g,i[1]):i}else{if(0===a[0]){var
-j=gr(f,o,a[1],n);if(j){var
-p=j[1],t=p[1],u=e(mn,a[2]);return mm(f,g,c,p[2],u,t)}return j}var
-k=gr(f,o,a[1],n);if(k){var
+i=gw(c[7]);return i?lm(g,i[1]):i}else{if(0===a[0]){var
+j=gy(f,o,a[1],n);if(j){var
+p=j[1],t=p[1],u=e(mz,a[2]);return my(f,g,c,p[2],u,t)}return j}var
+k=gy(f,o,a[1],n);if(k){var
 q=k[1],l=q[1];if(typeof
 l!=="number"&&1===l[0]){var
-m=E(c[1],a[2]);return m?mm(f,g,c,q[2],[0,m[1],0],[1,l[1]]):m}var
+m=F(c[1],a[2]);return m?my(f,g,c,q[2],[0,m[1],0],[1,l[1]]):m}var
 r=0}else
 var
 r=k;return r}}function
-iq(a){var
-b=ax(a[1]),c=ab(x(b,a[2]),b),d=a[2];return T(function(b,a){return[3,b,a]},d,c)}function
-ir(a){return ax(iq(a))}function
-mo(c){var
-a=ir(c),b=ax(c[1]);return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
-is(a,b){return aV(a[3],a[4],b)}function
-it(a,b){var
-c=is(a,b);return x(ir(a),c)}function
-iu(a,b){var
-c=is(a,b);return x(mo(a),c)}function
-mp(a,b){var
-c=is(a,b);return x(ax(a[1]),c)}function
-iv(b,a){var
-c=iu(b,a),d=it(b,a);return[2,[4,d,d],[4,c,c]]}function
-iw(a,d){var
-h=a[5],i=[4,[0,c(2,b),b],h],e=a[6],f=a[5],g=mp(a,d);return[5,[2,iv(a,d),[2,[4,g,g],[3,[4,f,f],[4,e,e]]]],i]}function
-mq(a,b){var
-f=a[5],c=[3,iw(a,b),f],d=mp(a,b),e=a[6];return[3,[3,[4,e,e],[4,d,d]],[4,c,c]]}function
-gs(a,b){var
-c=mq(a,b);return c1(a[7],c)}function
-mr(b,a){var
-c=iv(b,a),d=iu(b,a),e=[4,gs(b,a),d],f=it(b,a);return[5,[2,[4,iw(b,a),f],e],c]}function
-ms(b,a){var
-c=iv(b,a),d=it(b,a),e=[4,gs(b,a),d],f=iu(b,a);return[5,[3,[4,iw(b,a),f],e],c]}function
-ix(a,b){var
-c=mo(a),d=ab(ms(a,b),c),e=ir(a),f=ab(mr(a,b),e),g=T(function(b,a){return[2,b,a]},f,d),h=ab(a[5],g),i=a[3];return T(function(b,a){return[2,b,a]},i,h)}function
-mt(a){return[5,[3,[0,b,b],[4,a,a]],[2,[0,b,b],[4,a,a]]]}function
-mu(a){return[5,[4,[0,c(2,b),b],a],[2,[0,b,b],[4,a,a]]]}function
-iy(a,c,b){var
-d=[4,mt(a),b],e=[2,[4,mu(a),c],d],f=[4,mu(a),b];return[0,[3,[4,mt(a),c],f],e]}function
-mv(c,a){var
-b=iy(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
-dr(b,a){return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
-mw(a,d){var
-e=x(a,a),f=dr(a,d),g=ab([0,c(2,b),b],f),h=x(a,d),i=ab([4,[0,c(2,b),b],h],a),j=ab([3,[0,b,b],e],d),k=T(function(b,a){return[2,b,a]},j,i);return ab([5,[0,b,b],[2,[0,b,b],e]],T(function(b,a){return[2,b,a]},k,g))}function
+iA(a){var
+b=ay(a[1]),c=ac(w(b,a[2]),b),d=a[2];return T(function(b,a){return[3,b,a]},d,c)}function
+iB(a){return ay(iA(a))}function
+mA(c){var
+a=iB(c),b=ay(c[1]);return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
+iC(a,b){return aV(a[3],a[4],b)}function
+iD(a,b){var
+c=iC(a,b);return w(iB(a),c)}function
+iE(a,b){var
+c=iC(a,b);return w(mA(a),c)}function
+mB(a,b){var
+c=iC(a,b);return w(ay(a[1]),c)}function
+iF(b,a){var
+c=iE(b,a),d=iD(b,a);return[2,[4,d,d],[4,c,c]]}function
+iG(a,d){var
+h=a[5],i=[4,[0,c(2,b),b],h],e=a[6],f=a[5],g=mB(a,d);return[5,[2,iF(a,d),[2,[4,g,g],[3,[4,f,f],[4,e,e]]]],i]}function
+mC(a,b){var
+f=a[5],c=[3,iG(a,b),f],d=mB(a,b),e=a[6];return[3,[3,[4,e,e],[4,d,d]],[4,c,c]]}function
+gz(a,b){var
+c=mC(a,b);return c1(a[7],c)}function
+mD(b,a){var
+c=iF(b,a),d=iE(b,a),e=[4,gz(b,a),d],f=iD(b,a);return[5,[2,[4,iG(b,a),f],e],c]}function
+mE(b,a){var
+c=iF(b,a),d=iD(b,a),e=[4,gz(b,a),d],f=iE(b,a);return[5,[3,[4,iG(b,a),f],e],c]}function
+iH(a,b){var
+c=mA(a),d=ac(mE(a,b),c),e=iB(a),f=ac(mD(a,b),e),g=T(function(b,a){return[2,b,a]},f,d),h=ac(a[5],g),i=a[3];return T(function(b,a){return[2,b,a]},i,h)}function
+mF(a){return[5,[3,[0,b,b],[4,a,a]],[2,[0,b,b],[4,a,a]]]}function
+mG(a){return[5,[4,[0,c(2,b),b],a],[2,[0,b,b],[4,a,a]]]}function
+iI(a,c,b){var
+d=[4,mF(a),b],e=[2,[4,mG(a),c],d],f=[4,mG(a),b];return[0,[3,[4,mF(a),c],f],e]}function
+mH(c,a){var
+b=iI(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
+dx(b,a){return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
+mI(a,d){var
+e=w(a,a),f=dx(a,d),g=ac([0,c(2,b),b],f),h=w(a,d),i=ac([4,[0,c(2,b),b],h],a),j=ac([3,[0,b,b],e],d),k=T(function(b,a){return[2,b,a]},j,i);return ac([5,[0,b,b],[2,[0,b,b],e]],T(function(b,a){return[2,b,a]},k,g))}function
 cA(j,b,a){switch(j[0]){case
-0:return b?b[2]?a:mv(b[1],a):a;case
+0:return b?b[2]?a:mH(b[1],a):a;case
 1:if(b){var
 c=b[2];if(c){var
 d=c[2];if(d){if(d[2])return a;var
-g=iy(b[1],a[2],a[3]),i=g[1],h=iy(c[1],g[2],a[1]);return mv(d[1],[0,h[2],i,h[1]])}return a}return a}return a;default:if(b){var
+g=iI(b[1],a[2],a[3]),i=g[1],h=iI(c[1],g[2],a[1]);return mH(d[1],[0,h[2],i,h[1]])}return a}return a}return a;default:if(b){var
 e=b[2];if(e){var
-f=e[2];return f?f[2]?a:mw([0,b[1],e[1],f[1]],a):a}return a}return a}}function
-mx(c){var
-a=cu(c);return a?dT(a[1],[0,d,b]):a}function
-my(a,n,k,j){if(mx(j)){var
+f=e[2];return f?f[2]?a:mI([0,b[1],e[1],f[1]],a):a}return a}return a}}function
+mJ(c){var
+a=cu(c);return a?dY(a[1],[0,d,b]):a}function
+mK(a,n,k,j){if(mJ(j)){var
 q=n?[3,[0,d,b],k]:k;return h(a,0,q)}var
-f=aD(a,k);if(f){var
+f=aE(a,k);if(f){var
 g=cS(a,[5,j,[0,c(2,b),b]]);if(g){var
-i=f5(a,[5,j,[0,c(2,b),b]]);if(i)var
+i=f8(a,[5,j,[0,c(2,b),b]]);if(i)var
 p=t(a,f[1],g[1]),l=[0,H(i[1],p)];else
 var
 l=i;var
@@ -3559,26 +3626,26 @@ m=g;var
 e=m}else
 var
 e=f;if(e){var
-o=e[1];return n?F(d,o[1]):F(o[2],d)}return e}function
-ds(b,a,c){var
-d=bs(b,a[1],a[2]),e=d?my(b,0,c,a[1]):d;return e?my(b,1,c,a[2]):e}function
-mz(h,f,c){if(mx(c))return[0,v];var
-a=D(h,hS(f)),d=cS(a,c);if(d){var
-e=f5(a,c);if(e){var
-i=e[1],j=d[1],k=b5(a,A(Q(a,b),j));return z(function(b){return kY(f,t(a,i,b))},k)}var
+o=e[1];return n?D(d,o[1]):D(o[2],d)}return e}function
+dy(b,a,c){var
+d=bs(b,a[1],a[2]),e=d?mK(b,0,c,a[1]):d;return e?mK(b,1,c,a[2]):e}function
+mL(h,f,c){if(mJ(c))return[0,x];var
+a=E(h,h0(f)),d=cS(a,c);if(d){var
+e=f8(a,c);if(e){var
+i=e[1],j=d[1],k=b5(a,A(L(a,b),j));return z(function(b){return k8(f,t(a,i,b))},k)}var
 g=e}else
 var
 g=d;return g}function
-c4(a){return function(b){return mz(a,d,b)}}function
+c4(a){return function(b){return mL(a,d,b)}}function
 c5(d,a){var
 e=h(d,1,[2,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b],a]);return e?h(d,1,[3,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b],a]):e}function
 c6(a){return[0,[3,[0,d,b],a],a]}function
-mA(a,c,o,n){var
+mM(a,c,o,n){var
 h=bs(a,[0,d,b],c),j=h?c5(a,c):h;if(j){var
 e=i(c4(a),c);if(e){var
-f=aD(a,o);if(f){var
-g=aD(a,n);if(g){var
-p=f[1],q=g[1];return F(d,H(t(a,X(a,e[1]),q),p)[1])}var
+f=aE(a,o);if(f){var
+g=aE(a,n);if(g){var
+p=f[1],q=g[1];return D(d,H(t(a,X(a,e[1]),q),p)[1])}var
 k=g}else
 var
 k=f;var
@@ -3589,11 +3656,11 @@ m=l}else
 var
 m=j;return m}function
 cB(d,c,a){switch(c[0]){case
-0:return a?a[2]?0:ds(d,c[1],a[1]):a;case
+0:return a?a[2]?0:dy(d,c[1],a[1]):a;case
 1:if(a){var
 e=a[2];if(e){var
 f=e[2];if(f){if(f[2])return 0;var
-l=ds(d,c[1],a[1]),m=l?ds(d,c[2],e[1]):l;if(m)return ds(d,c[3],f[1]);var
+l=dy(d,c[1],a[1]),m=l?dy(d,c[2],e[1]):l;if(m)return dy(d,c[3],f[1]);var
 n=m}else
 var
 n=f;var
@@ -3606,7 +3673,7 @@ p=a;return p;case
 2:if(a){var
 g=a[2];if(g){var
 h=g[2];if(h){if(h[2])return 0;var
-q=h[1],r=g[1],s=a[1],C=x([0,s,r,q],[0,s,r,q]);return mA(d,c[1],C,[0,b,b])}var
+q=h[1],r=g[1],s=a[1],C=w([0,s,r,q],[0,s,r,q]);return mM(d,c[1],C,[0,b,b])}var
 t=h}else
 var
 t=g;var
@@ -3615,7 +3682,7 @@ var
 u=a;return u;default:if(a){var
 i=a[2];if(i){var
 j=i[2];if(j){if(j[2])return 0;var
-k=j[1],v=i[1],w=a[1],y=mA(d,c[1],[2,[4,w,w],[4,v,v]],[2,[0,b,b],[4,k,k]]);if(y)return ds(d,c6(c[2]),k);var
+k=j[1],v=i[1],x=a[1],y=mM(d,c[1],[2,[4,x,x],[4,v,v]],[2,[0,b,b],[4,k,k]]);if(y)return dy(d,c6(c[2]),k);var
 z=y}else
 var
 z=j;var
@@ -3626,87 +3693,87 @@ B=A}else
 var
 B=a;return B}}var
 l=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))));function
-bA(b){var
+bB(b){var
 a=aq(function(f,e){var
-a=aD(l,f);if(a)var
-b=a[1],c=bo(ck(b[1]),ck(b[2]));else
+a=aE(l,f);if(a)var
+b=a[1],c=bp(ck(b[1]),ck(b[2]));else
 var
-c=d;return bo(c,e)},d,b);return I(d,a)?aF(kH(a),l):d}function
-ec(a){return[0,a[1],[0,a[2],0]]}function
-a7(a){var
-b=ec(a[3]),c=f(ec(a[2]),b);return f(ec(a[1]),c)}function
-gt(a){return gn(l,a,bA(a7(a)))}function
-mB(b,a){if(a){var
-g=mB([0,b],a[2]),c=a[1];if(0===c[0])var
+c=d;return bp(c,e)},d,b);return J(d,a)?aG(kR(a),l):d}function
+ef(a){return[0,a[1],[0,a[2],0]]}function
+a8(a){var
+b=ef(a[3]),c=f(ef(a[2]),b);return f(ef(a[1]),c)}function
+gA(a){return gu(l,a,bB(a8(a)))}function
+mN(b,a){if(a){var
+g=mN([0,b],a[2]),c=a[1];if(0===c[0])var
 d=c[1],e=cZ([0,[0,d,d],c[2]],b);else
 var
 e=[0,[1,b]];var
 f=[0,e,g]}else
 var
 f=a;return f}function
-mC(c,b,a){var
-d=dV(b);return[2,[2,dV(c),d],a]}function
-gu(b,a){return b?O(a):d}function
-e5(g,b,a){if(typeof
+mO(c,b,a){var
+d=d0(b);return[2,[2,d0(c),d],a]}function
+gB(b,a){return b?P(a):d}function
+e8(g,b,a){if(typeof
 a!=="number")switch(a[0]){case
 4:var
 i=a[3],j=a[2];return[0,[2,j],[0,[3,j],[0,[2,i],[0,[3,i],0]]]];case
 6:return[0,[0,[5,a[3],a[2]],d],0];case
 8:var
 q=a[2],r=a[1];return e(function(a){var
-c=gu(g,b);return[0,[5,q,a],D(gu(g,b),c)]},r);case
-9:return[0,[1,[5,a[3],a[2]],O(b)],0];case
+c=gB(g,b);return[0,[5,q,a],E(gB(g,b),c)]},r);case
+9:return[0,[1,[5,a[3],a[2]],P(b)],0];case
 10:return[0,[0,a[2],d],0];case
 11:return[0,[2,a[2]],0];case
 12:return[0,[0,a[1],d],0];case
 13:var
-c=a[3],h=bA([0,c[1],[0,c[2],[0,c[3],0]]]);return[0,[2,a[4]],[0,[0,c[1],h],[0,[0,c[2],h],[0,[0,c[3],h],0]]]];case
+c=a[3],h=bB([0,c[1],[0,c[2],[0,c[3],0]]]);return[0,[2,a[4]],[0,[0,c[1],h],[0,[0,c[2],h],[0,[0,c[3],h],0]]]];case
 14:var
-k=a[2],l=a[1],s=d$(b,k),t=f(d$(b,l),s),u=e(function(a){return[0,a[1][2],a[2]]},t);return[0,[0,mC(l,k,a[3]),b],u];case
+k=a[2],l=a[1],s=ec(b,k),t=f(ec(b,l),s),u=e(function(a){return[0,a[1][2],a[2]]},t);return[0,[0,mO(l,k,a[3]),b],u];case
 15:var
 m=a[4],n=a[3];return[0,[0,[5,a[2],m],d],[0,[0,[5,[4,n,n],m],b],0]];case
 16:var
-o=a[2],p=bA([0,o,0]);return[0,[4,a[3],aF(p,b)],[0,[0,o,p],0]];case
+o=a[2],p=bB([0,o,0]);return[0,[4,a[3],aG(p,b)],[0,[0,o,p],0]];case
 17:var
-v=a[3],w=a[2];return e(function(a){return[0,[5,a,v],gu(g,b)]},w);case
+v=a[3],w=a[2];return e(function(a){return[0,[5,a,v],gB(g,b)]},w);case
 2:case
 3:return[0,[0,a[2],b],0]}return 0}function
 c7(h,c,b,e,a){if(a){var
-d=a[1],i=a[2],j=c7(h,c,b,P(e,g(e5(c,b,d))),i);return f(ao(h,mB(e,e5(c,b,d)),d),j)}return a}function
-gv(b,a){var
-c=_(b,a);return e(function(a){var
+d=a[1],i=a[2],j=c7(h,c,b,R(e,g(e8(c,b,d))),i);return f(ao(h,mN(e,e8(c,b,d)),d),j)}return a}function
+gC(b,a){var
+c=$(b,a);return e(function(a){var
 b=s(a[1][2],a[2]);return[0,a[1][1],b]},c)}function
-iz(b,a){switch(a[0]){case
+iJ(b,a){switch(a[0]){case
 0:var
 d=a[1];return an(b,[0,[0,d,d],a[2]]);case
 1:var
-e=a[1],c=an(b,[0,[0,e,e],a[2]]);return c?k7(b,c[1]):c;case
+e=a[1],c=an(b,[0,[0,e,e],a[2]]);return c?lf(b,c[1]):c;case
 2:return cS(b,a[1]);case
-3:return f5(b,a[1]);default:var
-f=a[1],g=c5(b,f);return g?mz(b,a[2],f):g}}function
-bt(a){return 1===a?tb:tc}function
-bR(d,c,b,a){var
+3:return f8(b,a[1]);default:var
+f=a[1],g=c5(b,f);return g?mL(b,a[2],f):g}}function
+bt(a){return 1===a?tn:to}function
+bS(d,c,b,a){var
 e=a[1],f=cA(d,c,a[2]),g=T(function(b,a){return[2,b,a]},b,f);return T(function(b,a){return[3,b,a]},g,e)}function
-iA(c,b,a){switch(c){case
+iK(c,b,a){switch(c){case
 0:return[0,b[1],[0,b[2],[0,a[3],0]]];case
 1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}}function
-iB(h,g,d,c,f,a){var
-e=bR(d,c,f,a);return iA(h,e,ab([5,[0,b,b],g],dr(cA(d,c,a[2]),e)))}function
-e6(c,j,i){var
+iL(h,g,d,c,f,a){var
+e=bS(d,c,f,a);return iK(h,e,ac([5,[0,b,b],g],dx(cA(d,c,a[2]),e)))}function
+e9(c,j,i){var
 b=j,a=i;for(;;){if(b){if(a){var
-d=a[1],e=b[1],f=bl(c,e[1],d[1]),g=f?bl(c,e[2],d[2]):f;if(g){var
+d=a[1],e=b[1],f=bm(c,e[1],d[1]),g=f?bm(c,e[2],d[2]):f;if(g){var
 b=b[2],a=a[2];continue}var
 h=g}else
 var
 h=a;return h}return a?0:1}}function
 bu(b,d){var
 a=d[1];if(8===a[0]){var
-c=a[1][1];return 0===c[0]?[0,[0,P(b,c[1])]]:[0,bK(function(a){return bu(b,a)},a)]}return[0,bK(function(a){return bu(b,a)},a)]}function
-dt(d,b,h){var
+c=a[1][1];return 0===c[0]?[0,[0,R(b,c[1])]]:[0,bM(function(a){return bu(b,a)},a)]}return[0,bM(function(a){return bu(b,a)},a)]}function
+dz(d,b,h){var
 c=h;for(;;){var
 a=c[1];switch(a[0]){case
 0:var
-e=a[1],f=S(p(e,b));return f?S(p(e,P(d,b))):f;case
+e=a[1],f=Q(p(e,b));return f?Q(p(e,R(d,b))):f;case
 10:return 0;case
 1:case
 2:return 1;case
@@ -3714,31 +3781,31 @@ e=a[1],f=S(p(e,b));return f?S(p(e,P(d,b))):f;case
 8:case
 9:var
 c=a[1];continue;default:var
-g=dt(d,b,a[1]);if(g){var
+g=dz(d,b,a[1]);if(g){var
 c=a[2];continue}return g}}}function
-ed(c,b,m){var
+eg(c,b,m){var
 d=m;for(;;){var
 a=d[1];switch(a[0]){case
 5:var
 d=a[1];continue;case
 6:var
-f=a[2],g=a[1],h=dt(c,b,g),i=h?ed(c,b,f):h;if(i)var
+f=a[2],g=a[1],h=dz(c,b,g),i=h?eg(c,b,f):h;if(i)var
 j=i;else{var
-k=ed(c,b,g);if(k)return dt(c,b,f);var
+k=eg(c,b,g);if(k)return dz(c,b,f);var
 j=k}return j;case
 7:var
-l=ed(c,b,a[1]);return l?dt(c,b,a[2]):l;case
+l=eg(c,b,a[1]);return l?dz(c,b,a[2]):l;case
 10:return 0;case
 3:case
 4:var
-e=ed(c,b,a[1]);if(e){var
+e=eg(c,b,a[1]);if(e){var
 d=a[2];continue}return e;case
 8:case
-9:return dt(c,b,a[1]);default:return 1}}}function
+9:return dz(c,b,a[1]);default:return 1}}}function
 cC(c,e){var
 b=e;for(;;){var
 a=b[1];switch(a[0]){case
-0:return S(p(a[1],c));case
+0:return Q(p(a[1],c));case
 10:return 0;case
 1:case
 2:return 1;case
@@ -3748,19 +3815,19 @@ a=b[1];switch(a[0]){case
 b=a[1];continue;default:var
 d=cC(c,a[1]);if(d){var
 b=a[2];continue}return d}}}function
-gw(d,b,m){var
+gD(d,b,m){var
 c=m;for(;;){var
 a=c[1];switch(a[0]){case
 3:var
-f=gw(d,b,a[1]);if(f){var
+f=gD(d,b,a[1]);if(f){var
 c=a[2];continue}return f;case
 4:var
-g=gw(d,b,a[1]);return g?cC(b,a[2]):g;case
+g=gD(d,b,a[1]);return g?cC(b,a[2]):g;case
 6:var
 h=a[2],i=a[1],j=cC(b,i);if(j){var
 k=cC(b,h);if(k)var
 e=k;else{var
-l=aH(i,d);if(l){var
+l=aJ(i,d);if(l){var
 c=h;continue}var
 e=l}}else
 var
@@ -3768,10 +3835,10 @@ e=j;return e;case
 0:case
 1:case
 2:return 1;default:return cC(b,c)}}}function
-gx(c,e){var
+gE(c,e){var
 b=e;for(;;){var
 a=b[1];switch(a[0]){case
-0:return aN(a[1],c);case
+0:return aH(a[1],c);case
 10:return 0;case
 1:case
 2:return 1;case
@@ -3779,139 +3846,139 @@ a=b[1];switch(a[0]){case
 8:case
 9:var
 b=a[1];continue;default:var
-d=gx(c,a[1]);if(d){var
+d=gE(c,a[1]);if(d){var
 b=a[2];continue}return d}}}function
-gy(a,b){if(a){var
+gF(a,b){if(a){var
 c=a[2],d=a[1];if(b){var
-e=b[2];return b[1]?[0,d,gy(c,aq(eT,e,kS(d)))]:[0,tf,gy(c,e)]}var
-f=[0,d,gy(c,0)]}else
+e=b[2];return b[1]?[0,d,gF(c,aq(eT,e,k2(d)))]:[0,tr,gF(c,e)]}var
+f=[0,d,gF(c,0)]}else
 var
 f=a;return f}function
 c8(b,a){return a?i(b,a[1]):a}function
 c9(c,b,a){return c8(function(b){return c8(i(c,b),a)},b)}function
-mD(b,a){switch(a[0]){case
+mP(b,a){switch(a[0]){case
 0:return a;case
 1:return a[1];default:var
 c=a[3],d=a[2],e=a[1];switch(b){case
 0:return e;case
 1:return d;default:return c}}}function
-mE(a){return 0===a[0]?a[1]:0}function
-mF(d,c){var
+mQ(a){return 0===a[0]?a[1]:0}function
+mR(d,c){var
 b=d,a=c;for(;;){if(a){var
-e=a[2],b=mD(a[1],b),a=e;continue}return mE(b)}}function
+e=a[2],b=mP(a[1],b),a=e;continue}return mQ(b)}}function
 cb(b,a){switch(a[0]){case
 0:return[0,i(b,a[1])];case
 1:return[1,cb(b,a[1])];default:var
 c=cb(b,a[3]),d=cb(b,a[2]);return[2,cb(b,a[1]),d,c]}}function
-bm(b,c,a){switch(c[0]){case
+bn(b,c,a){switch(c[0]){case
 0:return cb(i(b,c[1]),a);case
 1:var
 d=c[1];switch(a[0]){case
 0:var
 k=a[1];return[1,cb(function(a){return ao(b,a,k)},d)];case
-1:return[1,bm(b,d,a[1])];default:var
-l=bm(b,d,a[3]),m=bm(b,d,a[2]);return[2,bm(b,d,a[1]),m,l]}default:var
+1:return[1,bn(b,d,a[1])];default:var
+l=bn(b,d,a[3]),m=bn(b,d,a[2]);return[2,bn(b,d,a[1]),m,l]}default:var
 e=c[3],f=c[2],g=c[1];switch(a[0]){case
 0:var
 n=a[1],o=function(a){return ao(b,a,n)},h=function(a){return cb(o,a)},p=h(e),q=h(f);return[2,h(g),q,p];case
 1:var
-j=a[1],r=bm(b,e,j),s=bm(b,f,j);return[2,bm(b,g,j),s,r];default:var
-t=bm(b,e,a[3]),u=bm(b,f,a[2]);return[2,bm(b,g,a[1]),u,t]}}}function
-iC(c,f,a){if(a)var
+j=a[1],r=bn(b,e,j),s=bn(b,f,j);return[2,bn(b,g,j),s,r];default:var
+t=bn(b,e,a[3]),u=bn(b,f,a[2]);return[2,bn(b,g,a[1]),u,t]}}}function
+iM(c,f,a){if(a)var
 d=a[1],b=function(h){var
 a=[0,d[1],d[1]],b=[0,d[2],d[2]];switch(h){case
 0:var
 e=[0,a,X(c,a)];break;case
 1:var
 g=t(c,a,b),e=[0,as(A(a,b)),g];break;default:var
-e=[0,b,X(c,b)]}return[0,[0,i(f,e)]]},h=iC(c,f,a[2]),j=e(function(a){return[1,a]},h),k=b(2),l=b(1),g=[0,[2,b(0),l,k],j];else
+e=[0,b,X(c,b)]}return[0,[0,i(f,e)]]},h=iM(c,f,a[2]),j=e(function(a){return[1,a]},h),k=b(2),l=b(1),g=[0,[2,b(0),l,k],j];else
 var
 g=a;return g}function
-iD(b,x,c,a){var
-e=iC(b,aY,a),d=0,y=f(iC(b,aB,a),e);return bq(th,function(a){switch(a[0]){case
-0:return q(a[1],y,[0,[0,v]]);case
-1:return[0,[0,q(a[1],x,v)]];case
-2:return[0,[0,Q(b,a[1])]];case
+iN(b,w,c,a){var
+e=iM(b,aY,a),d=0,y=f(iM(b,av,a),e);return bc(tt,function(a){switch(a[0]){case
+0:return q(a[1],y,[0,[0,x]]);case
+1:return[0,[0,q(a[1],w,x)]];case
+2:return[0,[0,L(b,a[1])]];case
 3:var
-c=a[2],d=a[1],e=function(b,a){return[0,A(b,a)]};return bm(function(a,b){return c9(e,a,b)},d,c);case
+c=a[2],d=a[1],e=function(b,a){return[0,A(b,a)]};return bn(function(a,b){return c9(e,a,b)},d,c);case
 4:var
-f=a[2],g=a[1],h=function(b,a){return[0,H(b,a)]};return bm(function(a,b){return c9(h,a,b)},g,f);case
+f=a[2],g=a[1],h=function(b,a){return[0,H(b,a)]};return bn(function(a,b){return c9(h,a,b)},g,f);case
 5:var
-i=a[1],j=function(a){return[0,ae(a)]};return cb(function(a){return c8(j,a)},i);case
+i=a[1],j=function(a){return[0,aa(a)]};return cb(function(a){return c8(j,a)},i);case
 6:var
-k=a[2],l=a[1],m=function(c,a){return[0,t(b,c,a)]};return bm(function(a,b){return c9(m,a,b)},l,k);case
+k=a[2],l=a[1],m=function(c,a){return[0,t(b,c,a)]};return bn(function(a,b){return c9(m,a,b)},l,k);case
 7:var
 n=a[2],o=a[1],p=function(c,a){var
-d=b5(b,a);return z(function(a){return t(b,c,a)},d)};return bm(function(a,b){return c9(p,a,b)},o,n);case
+d=b5(b,a);return z(function(a){return t(b,c,a)},d)};return bn(function(a,b){return c9(p,a,b)},o,n);case
 8:var
 r=a[1],s=function(a){return[0,X(b,a)]};return cb(function(a){return c8(s,a)},r);case
 9:var
-u=a[1],w=function(a){return b6(b,a)};return cb(function(a){return c8(w,a)},u);default:return tg}},c,d)}function
-gz(a){if(a){var
+u=a[1],v=function(a){return b6(b,a)};return cb(function(a){return c8(v,a)},u);default:return ts}},c,d)}function
+gG(a){if(a){var
 b=a[1];if(b)var
-c=gz(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+c=gG(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return ti}function
-ee(a){if(a){var
-g=a[1],b=g[2],c=gz(g[1]);if(c)if(b){var
-h=b[1],e=ee(a[2]);if(e)var
-i=I(d,h[1]),j=i?[0,[0,[0,c[1],h],e[1]]]:i;else
+d=b;return d}return tu}function
+eh(a){if(a){var
+g=a[1],b=g[2],c=gG(g[1]);if(c)if(b){var
+h=b[1],e=eh(a[2]);if(e)var
+i=J(d,h[1]),j=i?[0,[0,[0,c[1],h],e[1]]]:i;else
 var
 j=e;var
 f=j}else
 var
 f=b;else
 var
-f=c;return f}return tj}function
-ef(b,a){var
+f=c;return f}return tv}function
+ei(b,a){var
 c=a[3],d=z(function(a){var
-c=a[2],d=a[1][2];return[0,[0,i(b,a[1][1]),d],c]},c),e=i(b,a[2]),f=a[1];return[0,i(av(b),f),e,d]}function
-iE(c,g,f,b,a,e){if(b){var
+c=a[2],d=a[1][2];return[0,[0,i(b,a[1][1]),d],c]},c),e=i(b,a[2]),f=a[1];return[0,i(aw(b),f),e,d]}function
+iO(c,g,f,b,a,e){if(b){var
 h=b[1],l=b[2],d=function(b,a){var
-d=jH(c,eN,eN,function(a){return mD(b,a)},e);return iE(c,g,bx(f),l,a,d)},i=d(0,aF(a,h));if(i){var
-j=d(2,D(a,h));if(j)return f?1:d(1,a);var
+d=jR(c,eN,eN,function(a){return mP(b,a)},e);return iO(c,g,bx(f),l,a,d)},i=d(0,aG(a,h));if(i){var
+j=d(2,E(a,h));if(j)return f?1:d(1,a);var
 k=j}else
 var
-k=i;return k}return ao(g,a,jH(c,eN,eN,mE,e))}function
-iF(e,c,b,a){var
-f=am(d,b);function
-g(b){return a}return function(a){return iE(e,g,c,f,d,a)}}function
+k=i;return k}return ao(g,a,jR(c,eN,eN,mQ,e))}function
+iP(e,c,b,a){var
+f=al(d,b);function
+g(b){return a}return function(a){return iO(e,g,c,f,d,a)}}function
 c_(a){if(a){var
-b=a[1],c=b[1],d=c[1],e=b[2],f=c[2];return z(function(a){return aU(f,e,a)},d)}return[0,v]}function
-mG(f,e,k,j,i,a){var
-b=ee(a[1]);if(b){var
+b=a[1],c=b[1],d=c[1],e=b[2],f=c[2];return z(function(a){return aO(f,e,a)},d)}return[0,x]}function
+mS(f,e,k,j,i,a){var
+b=eh(a[1]);if(b){var
 c=a[2];if(c){var
 d=c_(a[3]);if(d){var
-l=d[1],m=am([0,H(ae(t(f,i,c[1])),l),0],e);return bd(f,e,f7(k,j,b[1],m))}var
+l=d[1],m=al([0,H(aa(t(f,i,c[1])),l),0],e);return a4(f,e,f_(k,j,b[1],m))}var
 g=d}else
 var
 g=c;var
 h=g}else
 var
 h=b;return h}function
-mH(i,d,h,g,c){var
-a=ee(c[1]);if(a){var
+mT(i,d,h,g,c){var
+a=eh(c[1]);if(a){var
 b=c_(c[3]);if(b){var
-j=am([0,H(v,b[1]),0],d),k=a[1];return bd(i,d,f7(h,g,e(function(a){return[0,a[1],v]},k),j))}var
+j=al([0,H(x,b[1]),0],d),k=a[1];return a4(i,d,f_(h,g,e(function(a){return[0,a[1],x]},k),j))}var
 f=b}else
 var
 f=a;return f}function
-mI(a,c,E,i){var
-j=ee(i[1]);if(j){var
+mU(a,c,D,i){var
+j=eh(i[1]);if(j){var
 k=i[2];if(k){var
 l=c_(i[3]);if(l){var
-F=l[1],e=H(t(a,E,k[1]),F),b=j[1];if(b){var
+F=l[1],e=H(t(a,D,k[1]),F),b=j[1];if(b){var
 m=b[1],n=m[2];if(b[2]){var
-f=f8(a,b,am([0,e,0],c));if(f){var
-o=f[1],q=p(g(o),c);if(q)return d0(a,o);var
+f=f$(a,b,al([0,e,0],c));if(f){var
+o=f[1],q=p(g(o),c);if(q)return d5(a,o);var
 r=q}else
 var
 r=f;return r}var
-s=I(d,e[1]),u=s?I(d,n[1]):s;if(u){var
-A=B(e[1],n[1]),C=m[1];return I(aq(function(a,b){var
-c=b7(a);return D(B(b7(a),c),b)},d,C),A)}return u}var
-h=f8(a,b,am([0,e,0],c));if(h){var
-v=h[1],w=p(g(v),c);if(w)return d0(a,v);var
+s=J(d,e[1]),u=s?J(d,n[1]):s;if(u){var
+A=B(e[1],n[1]),C=m[1];return J(aq(function(a,b){var
+c=b7(a);return E(B(b7(a),c),b)},d,C),A)}return u}var
+h=f$(a,b,al([0,e,0],c));if(h){var
+v=h[1],w=p(g(v),c);if(w)return d5(a,v);var
 x=w}else
 var
 x=h;return x}var
@@ -3921,136 +3988,136 @@ y=k;var
 z=y}else
 var
 z=j;return z}function
-tk(c){var
+tw(c){var
 a=c[2];if(a){var
-b=c_(c[3]);if(b)return F(d,H(a[1],b[1])[1]);var
+b=c_(c[3]);if(b)return D(d,H(a[1],b[1])[1]);var
 e=b}else
 var
 e=a;return e}function
-iG(a){return y(function(a){return f(a[1],[0,a[2],0])},a)}function
-mJ(a,c,b){var
-e=q(b,c,k(d)),f=aA(0,a);return m(function(b){return ed(a,b,e)},f)}function
-e7(a){var
-c=R(a);return C(k(b),c)}function
-gA(i,g){var
-h=e7(g),j=R(g),e=w(k(b),j),f=s(k(c(2,b)),g),a=k(d);return i?i[1]?[0,[0,e,bi(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,bi(f),a,e]]:[0,[0,h,a,a],[0,a,e,bi(f)],[0,a,f,e]]}function
-e8(b,a){var
+iQ(a){return y(function(a){return f(a[1],[0,a[2],0])},a)}function
+mV(a,c,b){var
+e=q(b,c,k(d)),f=aB(0,a);return m(function(b){return eg(a,b,e)},f)}function
+e_(a){var
+c=S(a);return C(k(b),c)}function
+gH(i,g){var
+h=e_(g),j=S(g),e=v(k(b),j),f=s(k(c(2,b)),g),a=k(d);return i?i[1]?[0,[0,e,bk(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,bk(f),a,e]]:[0,[0,h,a,a],[0,a,e,bk(f)],[0,a,f,e]]}function
+e$(b,a){var
 c=V(b[3],a),d=V(b[2],a);return[0,V(b[1],a),d,c]}function
-mK(b,a){function
+mW(b,a){function
 c(b){var
 c=i(b,a[3]),d=i(b,a[2]);return[0,i(b,a[1]),d,c]}function
 d(a){var
 b=V(a,c(function(a){return a[3]})),d=V(a,c(function(a){return a[2]}));return[0,V(a,c(function(a){return a[1]})),d,b]}var
 e=d(b[3]),f=d(b[2]);return[0,d(b[1]),f,e]}function
-mL(v,u){function
-a(a){return[0,[0,P(u,a)]]}switch(v[0]){case
+mX(w,u){function
+a(a){return[0,[0,R(u,a)]]}switch(w[0]){case
 0:var
-x=e7(a(0));return[0,gA(tl,a(0)),x];case
+x=e_(a(0));return[0,gH(tx,a(0)),x];case
 1:var
-y=e7(a(0)),z=s(e7(a(tm)),y),A=s(e7(a(tn)),z),B=gA(0,a(0)),D=mK(gA(tp,a(to)),B);return[0,mK(gA(tr,a(tq)),D),A];default:var
-E=a(ts),F=a(tt),g=[0,a(0),F,E],G=V(g,g),H=C(k(b),G),j=V(g,g),d=g[1],e=g[2],f=g[3],i=function(a){var
-d=R(a),e=s(k(c(2,b)),d);return C(w(k(b),j),e)},h=function(f,e,d,a){var
-g=ao(f,s(e,d),a);return s(k(c(2,b)),g)},l=i(f),m=h(C,e,f,d),n=[0,h(w,d,f,e),m,l],o=h(w,e,f,d),p=i(e),q=[0,h(C,d,e,f),p,o],r=h(C,d,f,e),t=h(w,d,e,f);return[0,[0,[0,i(d),t,r],q,n],H]}}function
-mM(a){return 1<a[0]?[0,a[1],0]:0}function
-gB(a){switch(a[0]){case
+y=e_(a(0)),z=s(e_(a(ty)),y),A=s(e_(a(tz)),z),B=gH(0,a(0)),D=mW(gH(tB,a(tA)),B);return[0,mW(gH(tD,a(tC)),D),A];default:var
+E=a(tE),F=a(tF),g=[0,a(0),F,E],G=V(g,g),H=C(k(b),G),j=V(g,g),d=g[1],e=g[2],f=g[3],i=function(a){var
+d=S(a),e=s(k(c(2,b)),d);return C(v(k(b),j),e)},h=function(f,e,d,a){var
+g=ao(f,s(e,d),a);return s(k(c(2,b)),g)},l=i(f),m=h(C,e,f,d),n=[0,h(v,d,f,e),m,l],o=h(v,e,f,d),p=i(e),q=[0,h(C,d,e,f),p,o],r=h(C,d,f,e),t=h(v,d,e,f);return[0,[0,[0,i(d),t,r],q,n],H]}}function
+mY(a){return 1<a[0]?[0,a[1],0]:0}function
+gI(a){switch(a[0]){case
 0:return[0,a[1],0];case
 1:return[0,a[1],[0,a[2],[0,a[3],0]]];case
 2:return[0,c6(a[1]),0];default:var
 b=[0,c6(a[2]),0];return[0,c6(a[1]),b]}}function
-eg(a){return[0,[0,a[1]],[0,a[2]]]}function
-mN(a){switch(a[0]){case
-0:return[0,eg(a[1]),0];case
+ej(a){return[0,[0,a[1]],[0,a[2]]]}function
+mZ(a){switch(a[0]){case
+0:return[0,ej(a[1]),0];case
 1:var
-f=[0,eg(a[3]),0],g=[0,eg(a[2]),f];return[0,eg(a[1]),g];case
+f=[0,ej(a[3]),0],g=[0,ej(a[2]),f];return[0,ej(a[1]),g];case
 2:var
-b=eg(c6(a[1]));return[0,b,[0,b,[0,b,0]]];default:var
-c=a[2],d=a[1],e=[0,[1,c6(d)[1],c],[1,d,c]];return[0,e,[0,e,[0,eg(c6(c)),0]]]}}function
-mO(a,c){if(0===c[0]){var
+b=ej(c6(a[1]));return[0,b,[0,b,[0,b,0]]];default:var
+c=a[2],d=a[1],e=[0,[1,c6(d)[1],c],[1,d,c]];return[0,e,[0,e,[0,ej(c6(c)),0]]]}}function
+m0(a,c){if(0===c[0]){var
 g=c[1];return i(c4(a),g)}var
 h=c[1],d=i(c4(a),h);if(d){var
 j=c[2],e=i(c4(a),j);if(e){var
-k=X(a,e[1]),l=b6(a,A(Q(a,b),k)),m=d[1];return z(function(b){return t(a,m,b)},l)}var
+k=X(a,e[1]),l=b6(a,A(L(a,b),k)),m=d[1];return z(function(b){return t(a,m,b)},l)}var
 f=e}else
 var
 f=d;return f}function
-mP(d,c){var
-a=mO(d,c[1]);if(a)var
-b=mO(d,c[2]),f=b?[0,[0,a[1][1],b[1][2]]]:b,e=f;else
+m1(d,c){var
+a=m0(d,c[1]);if(a)var
+b=m0(d,c[2]),f=b?[0,[0,a[1][1],b[1][2]]]:b,e=f;else
 var
 e=a;return e}function
-mQ(a,e,c){var
+m2(a,e,c){var
 b=c[1];if(1===b[0]){var
-f=b[1];if(aN(f,a))return c;var
-g=k(d);return q(dP(f,a),e,g)}return[0,bK(function(b){return mQ(a,e,b)},b)]}function
-iH(g,a,n,f,c){var
-h=g?[0,a,[0,[0,a],[0,[0,[0,a]],0]]]:[0,a,[0,[0,a],0]],i=lM(h,c),j=bN(f),b=e(function(b){return mQ(a,j,b)},i),l=q(ty,b,k(d)),m=q(tz,b,k(d));return[0,q(0,b,k(d)),m,l]}function
+f=b[1];if(aH(f,a))return c;var
+g=k(d);return q(dU(f,a),e,g)}return[0,bM(function(b){return m2(a,e,b)},b)]}function
+iR(g,a,n,f,c){var
+h=g?[0,a,[0,[0,a],[0,[0,[0,a]],0]]]:[0,a,[0,[0,a],0]],i=lY(h,c),j=bO(f),b=e(function(b){return m2(a,j,b)},i),l=q(tK,b,k(d)),m=q(tL,b,k(d));return[0,q(0,b,k(d)),m,l]}function
 cc(b,a){var
-c=s(b[2],a[1]),d=w(s(b[1],a[2]),c),e=s(b[1],a[3]),f=w(s(b[3],a[1]),e),g=s(b[3],a[2]);return[0,w(s(b[2],a[3]),g),f,d]}function
-du(b,a){return b?b[1]?a[3]:a[2]:a[1]}function
-mR(c){function
+c=s(b[2],a[1]),d=v(s(b[1],a[2]),c),e=s(b[1],a[3]),f=v(s(b[3],a[1]),e),g=s(b[3],a[2]);return[0,v(s(b[2],a[3]),g),f,d]}function
+dA(b,a){return b?b[1]?a[3]:a[2]:a[1]}function
+m3(c){function
 a(a){var
 e=p(c,a)?b:d;return k(e)}var
-e=a(tA),f=a(tB);return[0,a(0),f,e]}function
-mS(b,a){if(a)var
-d=mS(b,a[2]),c=[0,e(i(b,a[1]),a),d];else
+e=a(tM),f=a(tN);return[0,a(0),f,e]}function
+m4(b,a){if(a)var
+d=m4(b,a[2]),c=[0,e(i(b,a[1]),a),d];else
 var
 c=a;return c}function
-gC(c,b,a){switch(c){case
+gJ(c,b,a){switch(c){case
 0:return[0,b[1],[0,b[2],[0,a[3],0]]];case
 1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}}function
-mT(b,c,a){return c?aT(b,a):aG(b,a)}function
-mU(a){if(a){var
-f=a[1],b=f[2],c=gz(f[1]);if(c)if(b)var
-d=mU(a[2]),g=d?[0,[0,[0,c[1],b[1]],d[1]]]:d,e=g;else
+m5(b,c,a){return c?aU(b,a):aI(b,a)}function
+m6(a){if(a){var
+f=a[1],b=f[2],c=gG(f[1]);if(c)if(b)var
+d=m6(a[2]),g=d?[0,[0,[0,c[1],b[1]],d[1]]]:d,e=g;else
 var
 e=b;else
 var
-e=c;return e}return tM}function
-mV(c,b,a){var
-d=_(b,a);return aq(function(a,d){var
-b=b7(a[2]);return A(t(c,a[1],[0,b,b]),d)},v,d)}function
-mW(a,h,e,f,d){if(e)if(d)var
-i=d[1],o=mW(a,h,e[2],f,d[2]),p=i[2],q=aT(h,i[1]),c=e[1],j=as(t(a,c[3],f)),k=c[3],l=A(as(dW(p,Q(a,b),k)),j),m=t(a,c[2],l),n=t(a,c[1],f),g=[0,cq(A(A(as(mV(a,c[4],q)),n),m)),o];else
+e=c;return e}return tY}function
+m7(c,b,a){var
+d=$(b,a);return aq(function(a,d){var
+b=b7(a[2]);return A(t(c,a[1],[0,b,b]),d)},x,d)}function
+m8(a,h,e,f,d){if(e)if(d)var
+i=d[1],o=m8(a,h,e[2],f,d[2]),p=i[2],q=aU(h,i[1]),c=e[1],j=as(t(a,c[3],f)),k=c[3],l=A(as(d1(p,L(a,b),k)),j),m=t(a,c[2],l),n=t(a,c[1],f),g=[0,cq(A(A(as(m7(a,c[4],q)),n),m)),o];else
 var
 g=d;else
 var
 g=e;return g}function
-tO(a){return[0,a[1][1],a[2][1][2][1],a[1][2],a[2][2]]}function
-mX(b,a){return aa(e(function(a){return q(a,b,0)},a))}function
+t0(a){return[0,a[1][1],a[2][1][2][1],a[1][2],a[2][2]]}function
+m9(b,a){return ab(e(function(a){return q(a,b,0)},a))}function
 cD(a){switch(a){case
-0:return tS;case
-1:return tT;default:return 0}}function
-dv(a){switch(a){case
-0:return[0,tV,tU,k(d)];case
-1:return dn;default:var
+0:return t4;case
+1:return t5;default:return 0}}function
+dB(a){switch(a){case
+0:return[0,t7,t6,k(d)];case
+1:return dt;default:var
 b=k(d),c=k(d);return[0,k(d),c,b]}}function
-gD(c,b,a){return bk(e8(c,a),b)}function
-mY(a){var
-d=V(a,a),e=C(k(b),d);return al(k(c(2,b)),e)}function
-mZ(k,j,i,h,g,a){var
-e=gD(j,i,g),c=cc(a,e),f=ah(C,c,cc(a,c)),d=ah(C,e,aZ(mY(a),f)),b=ah(w,ah(C,dv(k),d),h);return[0,[0,d,b],aC(V(b,b))]}function
-bS(e,j){var
+gK(c,b,a){return bl(e$(c,a),b)}function
+m_(a){var
+d=V(a,a),e=C(k(b),d);return am(k(c(2,b)),e)}function
+m$(k,j,i,h,g,a){var
+e=gK(j,i,g),c=cc(a,e),f=ah(C,c,cc(a,c)),d=ah(C,e,aZ(m_(a),f)),b=ah(v,ah(C,dB(k),d),h);return[0,[0,d,b],aD(V(b,b))]}function
+bT(e,j){var
 a=j[1];switch(a[0]){case
 1:var
 l=p(a[1],e)?b:d;return k(l);case
 3:var
-m=bS(e,a[2]);return C(bS(e,a[1]),m);case
+m=bT(e,a[2]);return C(bT(e,a[1]),m);case
 4:var
-n=bS(e,a[2]);return w(bS(e,a[1]),n);case
-5:return bi(bS(e,a[1]));case
+n=bT(e,a[2]);return v(bT(e,a[1]),n);case
+5:return bk(bT(e,a[1]));case
 6:var
-g=a[2],h=a[1],o=s(h,bS(e,g));return C(s(g,bS(e,h)),o);case
+g=a[2],h=a[1],o=s(h,bT(e,g));return C(s(g,bT(e,h)),o);case
 7:var
-f=bS(e,a[1]);return a3(d,f)?f:al(f,a[2]);case
+f=bT(e,a[1]);return a3(d,f)?f:am(f,a[2]);case
 8:var
-i=a[1],q=bS(e,i);return s(s(k(c(2,b)),i),q);default:return k(d)}}function
-gE(c,b,k){var
+i=a[1],q=bT(e,i);return s(s(k(c(2,b)),i),q);default:return k(d)}}function
+gL(c,b,k){var
 e=k;for(;;){var
 a=e[1];switch(a[0]){case
 7:var
-g=gE(c,b,a[1]);if(g){var
+g=gL(c,b,a[1]);if(g){var
 h=a[2][1];if(1===h[0]){var
-i=h[1],j=I(d,q(i,c,v)[1]);return j?S(ak(function(a){return p(i,a)},b)):j}return 0}return g;case
+i=h[1],j=J(d,q(i,c,x)[1]);return j?Q(ak(function(a){return p(i,a)},b)):j}return 0}return g;case
 5:case
 8:var
 e=a[1];continue;case
@@ -4059,9 +4126,9 @@ e=a[1];continue;case
 3:case
 4:case
 6:var
-f=gE(c,b,a[1]);if(f){var
+f=gL(c,b,a[1]);if(f){var
 e=a[2];continue}return f;default:return 1}}}function
-m0(d){var
+na(d){var
 b=d;for(;;){var
 a=b[1];switch(a[0]){case
 0:case
@@ -4072,72 +4139,72 @@ a=b[1];switch(a[0]){case
 8:case
 9:var
 b=a[1];continue;default:var
-c=m0(a[1]);if(c){var
+c=na(a[1]);if(c){var
 b=a[2];continue}return c}}}function
-m1(c,b,a){var
+nb(c,b,a){var
 d=e(b,a[2]);return[0,i(c,a[1]),d]}function
-iI(b,a,c){return e(function(c){var
-d=m1(b,a,c[2]),f=c[1];return[0,e(function(c){return m1(b,a,c)},f),d]},c)}function
-m2(b,a){return z(function(a){var
+iS(b,a,c){return e(function(c){var
+d=nb(b,a,c[2]),f=c[1];return[0,e(function(c){return nb(b,a,c)},f),d]},c)}function
+nc(b,a){return z(function(a){var
 c=a[2],d=a[1][2];return[0,[0,i(b,a[1][1]),d],c]},a)}function
-tW(a,b){var
-c=m2(a,b[3]),d=i(a,b[2]);return[0,iI(a,a,b[1]),d,c]}function
-m3(c){var
+t8(a,b){var
+c=nc(a,b[3]),d=i(a,b[2]);return[0,iS(a,a,b[1]),d,c]}function
+nd(c){var
 a=c[1];if(a){var
-b=gz(c[2]);if(b)var
-g=e($,b[1]),d=[0,[0,$(a[1]),g]];else
+b=gG(c[2]);if(b)var
+g=e(Y,b[1]),d=[0,[0,Y(a[1]),g]];else
 var
 d=b;var
 f=d}else
 var
 f=a;return f}function
-tX(c){var
-a=aa(e(m3,c[1]));if(a)var
-b=m3(c[2]),f=b?[0,[0,a[1],b[1]]]:b,d=f;else
+t9(c){var
+a=ab(e(nd,c[1]));if(a)var
+b=nd(c[2]),f=b?[0,[0,a[1],b[1]]]:b,d=f;else
 var
 d=a;return d}function
-tY(a){return S(h2([0,a[2],a[1]]))}function
-iJ(a){return[0,a[1],a[2]]}function
-m4(b,c,a){var
-d=e(function(c){return bu(b,bS(c,a))},c);return[0,bu(b,a),d]}function
-iK(b,e,a,d){var
+t_(a){return Q(h$([0,a[2],a[1]]))}function
+iT(a){return[0,a[1],a[2]]}function
+ne(b,c,a){var
+d=e(function(c){return bu(b,bT(c,a))},c);return[0,bu(b,a),d]}function
+iU(b,e,a,d){var
 c=y(function(a){var
-b=iJ(a[2]);return f(y(iJ,a[1]),b)},d),g=a?[0,bu(b,a[1]),0]:a,h=f(g,c);return[0,bu(b,e),h]}function
-m5(c,f,b,a){var
-d=gE(f,b,a),e=d?gx(c,a):d;return e?m(function(b){return gx(c,bS(b,a))},b):e}function
-m6(a){switch(a[0]){case
+b=iT(a[2]);return f(y(iT,a[1]),b)},d),g=a?[0,bu(b,a[1]),0]:a,h=f(g,c);return[0,bu(b,e),h]}function
+nf(c,f,b,a){var
+d=gL(f,b,a),e=d?gE(c,a):d;return e?m(function(b){return gE(c,bT(b,a))},b):e}function
+ng(a){switch(a[0]){case
 3:var
-d=iG(a[2]);return[0,a[3],d];case
+d=iQ(a[2]);return[0,a[3],d];case
 4:return[0,a[1],0];case
 8:var
-b=a[1],e=iG(b[1]);return[0,b[2],e];case
+b=a[1],e=iQ(b[1]);return[0,b[2],e];case
 9:return 0;default:var
-c=iG(a[1]);return[0,a[2],c]}}function
-m7(a,aw,br,k,n,R,av,x,P,j,h){switch(j[0]){case
+c=iQ(a[1]);return[0,a[2],c]}}function
+nh(a,ax,br,k,n,R,aw,w,Q,j,h){switch(j[0]){case
 0:var
-ax=j[4],S=j[3],ay=j[2],az=j[1],U=0;if(typeof
+ay=j[4],S=j[3],az=j[2],aA=j[1],U=0;if(typeof
 h==="number")U=1;else
 switch(h[0]){case
 0:var
-bs=h[2],bt=h[1],u=ay,s=az,r=function(b){return mG(a,n,bt,bs,S,b)},o=ax;break;case
+bs=h[2],bt=h[1],u=az,s=aA,r=function(b){return mS(a,n,bt,bs,S,b)},o=ay;break;case
 2:var
-aC=J(S[1],d),aD=aC?J(S[2],d):aC;if(!aD)return aD;var
-bw=h[2],by=h[1],u=ay,s=az,r=function(b){return mH(a,n,by,bw,b)},o=ax;break;default:U=1}if(U)return 0;break;case
+aC=I(S[1],d),aD=aC?I(S[2],d):aC;if(!aD)return aD;var
+bw=h[2],by=h[1],u=az,s=aA,r=function(b){return mT(a,n,by,bw,b)},o=ay;break;default:U=1}if(U)return 0;break;case
 1:var
-aQ=0;if(typeof
+aR=0;if(typeof
 h==="number"&&!h)var
-bz=j[2],bA=j[1],bB=j[3],u=bz,s=bA,bC=0,r=function(b){return mI(a,n,bB,b)},o=bC;else
-aQ=1;if(aQ)return 0;break;case
+bA=j[2],bB=j[1],bC=j[3],u=bA,s=bB,bD=0,r=function(b){return mU(a,n,bC,b)},o=bD;else
+aR=1;if(aR)return 0;break;case
 2:if(typeof
 h!=="number"&&3===h[0]){var
 B=h[3];if(B){var
 aE=B[2],aF=p(g(aE),k);if(aF){var
-bD=[0,j[1],j[2],P],bE=ef(function(a){return q(a,x,t1)},bD),aH=h[1],bF=0,bG=B[1],bH=h[2],bI=j[3],bJ=function(w,i){var
-c=ee(i[1]);if(c){var
+bE=[0,j[1],j[2],Q],bF=ei(function(a){return q(a,w,ub)},bE),aG=h[1],bG=0,bH=B[1],bI=h[2],bJ=j[3],bK=function(w,i){var
+c=eh(i[1]);if(c){var
 j=c[1],e=i[2];if(e){var
 f=c_(i[3]);if(f){var
-k=f[1],l=function(c){return aU(c,aH,Q(a,b))},u=l(w),v=e[1],g=A(t(a,l(bG),v),u),m=I(d,g[1]),o=m?bd(a,n,f7(aH,bH,j,am([0,H(ae(g),k),0],n))):m;if(o){var
-h=f8(a,j,am([0,H(t(a,bI,g),k),0],n));if(h)return bd(a,n,h[1]);var
+k=f[1],l=function(c){return aO(c,aG,L(a,b))},u=l(w),v=e[1],g=A(t(a,l(bH),v),u),m=J(d,g[1]),o=m?a4(a,n,f_(aG,bI,j,al([0,H(aa(g),k),0],n))):m;if(o){var
+h=f$(a,j,al([0,H(t(a,bJ,g),k),0],n));if(h)return a4(a,n,h[1]);var
 p=h}else
 var
 p=o;var
@@ -4149,20 +4216,20 @@ var
 r=e;var
 s=r}else
 var
-s=c;return s};return iE(function(b,a){return ef},bJ,bF,aE,d,bE)}var
+s=c;return s};return iO(function(b,a){return ei},bK,bG,aE,d,bF)}var
 aJ=aF}else
 var
 aJ=B;return aJ}return 0;case
 3:var
-aR=0;if(typeof
-h==="number"||!(0===h[0]))aR=1;else
+aS=0;if(typeof
+h==="number"||!(0===h[0]))aS=1;else
 var
-aK=h[2],aL=h[1],bK=j[3],bM=j[2],bN=j[4],bO=j[1],bP=function(f){var
-b=ee(f[1]);if(b){var
+aL=h[2],aM=h[1],bL=j[3],bM=j[2],bN=j[4],bO=j[1],bP=function(f){var
+b=eh(f[1]);if(b){var
 c=b[1],d=f[2];if(d){var
 e=c_(f[3]);if(e){var
-h=p(g(c),n),i=h?p(g(aK),n):h;if(i){var
-m=d6(aL,d7(aL,aK,d[1],c));return bd(a,n,bc(f$(a,bO,bN,e[1],c),m))}var
+h=p(g(c),n),i=h?p(g(aL),n):h;if(i){var
+m=d9(aM,d_(aM,aL,d[1],c));return a4(a,n,be(gd(a,bO,bN,e[1],c),m))}var
 j=i}else
 var
 j=e;var
@@ -4171,89 +4238,89 @@ var
 k=d;var
 l=k}else
 var
-l=b;return l},u=bK,s=bM,r=bP,o=j[5];if(aR)return 0;break;case
+l=b;return l},u=bL,s=bM,r=bP,o=j[5];if(aS)return 0;break;case
 4:var
-aS=0;if(typeof
+aT=0;if(typeof
 h==="number"&&!h)var
-u=j[1],s=0,r=tk,o=0;else
-aS=1;if(aS)return 0;break;case
+u=j[1],s=0,r=tw,o=0;else
+aT=1;if(aT)return 0;break;case
 5:var
 aV=0;if(typeof
 h==="number"||!(0===h[0]))aV=1;else{var
 C=h[2],aW=0;if(C){var
 D=C[1];if(D){if(D[2])return 0;if(C[2])return 0;var
-bQ=j[2],bR=j[1],bS=Q(a,b),bT=[0,[0,D[1],0],0],bU=h[1],u=bQ,s=bR,bV=0,r=function(b){return mG(a,t2,bU,bT,bS,b)},o=bV;aW=1}else
+bQ=j[2],bR=j[1],bS=L(a,b),bT=[0,[0,D[1],0],0],bU=h[1],u=bQ,s=bR,bV=0,r=function(b){return mS(a,uc,bU,bT,bS,b)},o=bV;aW=1}else
 var
-aO=D}else
+aP=D}else
 var
-aO=C;if(!aW)return aO}if(aV)return 0;break;case
+aP=C;if(!aW)return aP}if(aV)return 0;break;case
 6:var
 aX=0;if(typeof
 h==="number"&&!h)var
-bW=j[2],bX=j[1],bY=Q(a,b),u=bW,s=bX,bZ=0,r=function(b){return mI(a,t3,bY,b)},o=bZ;else
+bW=j[2],bX=j[1],bY=L(a,b),u=bW,s=bX,bZ=0,r=function(b){return mU(a,ud,bY,b)},o=bZ;else
 aX=1;if(aX)return 0;break;case
 7:var
 aY=0;if(typeof
 h==="number"&&5<=h)var
-b0=j[2],b1=j[1],b2=j[4],b4=j[3],u=b0,s=b1,b9=0,r=function(b){return mH(a,n,b4,b2,b)},o=b9;else
+b0=j[2],b1=j[1],b2=j[4],b3=j[3],u=b0,s=b1,b9=0,r=function(b){return mT(a,n,b3,b2,b)},o=b9;else
 aY=1;if(aY)return 0;break;case
 8:if(typeof
 h!=="number"&&9===h[0]){var
-E=h[4],aP=h[2],T=h[1],l=j[1],w=l[9],b_=h[3],a3=l[5],a4=f1(f(dS(l[4]),a3),aw),a5=e($,br),y=l[9],a6=l[8],a7=l[7],a1=ga(y,am(v,dP(k,y)),a6),a2=f(e($,aT(y,R)),a1),W=kR(0,bL(a,f(ga(0,aG(y,R),a7),a2),a5),a4,aw,0),Y=0<aM(E)?0<aM(d)?fS(E,d):0:0<aM(d)?0:1;if(Y)var
-F=Y;else
+E=h[4],aQ=h[2],T=h[1],l=j[1],v=l[9],b_=h[3],a3=l[5],a5=f4(f(dX(l[4]),a3),ax),a6=e(Y,br),y=l[9],a7=l[8],a8=l[7],a1=ge(y,al(x,dU(k,y)),a7),a2=f(e(Y,aU(y,R)),a1),W=k1(0,bz(a,f(ge(0,aI(y,R),a8),a2),a6),a5,ax,0),Z=0<aN(E)?0<aN(d)?fV(E,d):0:0<aN(d)?0:1;if(Z)var
+F=Z;else
 var
-at=2<=kD(E,c(2,c(2,c(2,c(2,b)))))?0:1,au=at?aN(0,w):at,F=au?aN(w,k):au;var
-ab=F?Z(w,k):F,ac=ab?p(g(R),k):ab,ad=ac?p(g(aP),k):ac,af=ad?p(g(l[1]),k):ad,ag=af?p(g(l[6]),k):af,ah=ag?p(g(l[4]),k):ag;if(ah)var
-a8=l[4],G=m(function(a){return p(g(a),k)},a8);else
+at=2<=kO(E,c(2,c(2,c(2,c(2,b)))))?0:1,au=at?aH(0,v):at,F=au?aH(v,k):au;var
+ac=F?_(v,k):F,ad=ac?p(g(R),k):ac,ae=ad?p(g(aQ),k):ad,af=ae?p(g(l[1]),k):ae,ag=af?p(g(l[6]),k):af,ah=ag?p(g(l[4]),k):ag;if(ah)var
+a9=l[4],G=m(function(a){return p(g(a),k)},a9);else
 var
 G=ah;if(G){var
-a9=l[4],K=aa(e(function(a){return mX(W,a)},a9));if(K){var
-ai=mX(W,l[5]);if(ai){var
-a_=l[6],L=aa(e(function(j){var
-c=j[1],k=l[7],d=q(c[1],av,0);if(d){var
-h=c[2][2],b=aa(e(function(a){var
-b=q(a[2],av,0);return z(function(a){return a[2]},b)},h));if(b)var
-i=b[1],f=[0,cq(as(t(a,k,X(a,mV(a,e(aB,c[2][2]),i)))))];else
+a_=l[4],K=ab(e(function(a){return m9(W,a)},a_));if(K){var
+ai=m9(W,l[5]);if(ai){var
+a$=l[6],M=ab(e(function(j){var
+c=j[1],k=l[7],d=q(c[1],aw,0);if(d){var
+h=c[2][2],b=ab(e(function(a){var
+b=q(a[2],aw,0);return z(function(a){return a[2]},b)},h));if(b)var
+i=b[1],f=[0,cq(as(t(a,k,X(a,m7(a,e(av,c[2][2]),i)))))];else
 var
 f=b;var
 g=f}else
 var
-g=d;return g},a_));if(L){var
-a$=l[1],ba=l[2],M=aa(e(function(m){function
+g=d;return g},a$));if(M){var
+ba=l[1],bb=l[2],N=ab(e(function(m){function
 f(e){var
-g=am(e,k),c=mF(q(m[2],x,tP),g);if(c){var
-h=am(e,k),d=mF(q(ba,x,tQ),h);if(d){var
-i=d[1],j=Q(a,b);return b6(a,b8(dW(c[1],j,i)))}var
+g=al(e,k),c=mR(q(m[2],w,t1),g);if(c){var
+h=al(e,k),d=mR(q(bb,w,t2),h);if(d){var
+i=d[1],j=L(a,b);return b6(a,b8(d1(c[1],j,i)))}var
 f=d}else
 var
 f=c;return f}var
 c=f(0);if(c){var
 e=f(2);if(e)var
-g=b8(as(A(c[1],e[1]))),h=I(d,g[1]),l=h?[0,g]:h,i=l;else
+g=b8(as(A(c[1],e[1]))),h=J(d,g[1]),l=h?[0,g]:h,i=l;else
 var
 i=e;var
 j=i}else
 var
-j=c;return j},a$));if(M){var
-bb=K[1],V=d3(a,aq(function(i,h){var
+j=c;return j},ba));if(N){var
+bc=K[1],V=d7(a,aq(function(i,h){var
 o=e(function(b){var
-a=aA(0,k);return e(function(a){return b7(q(a,b[3],v))},a)},i);function
+a=aB(0,k);return e(function(a){return b7(q(a,b[3],x))},a)},i);function
 b(m,l){var
-n=mT(w,m,o),g=e(function(a){return mT(w,l,a)},n);function
-b(a){return aq(bo,d,a)}var
+n=m5(v,m,o),g=e(function(a){return m5(v,l,a)},n);function
+b(a){return aq(bp,d,a)}var
 h=0;function
 i(a){return a}function
 j(a){return a}var
-c=b(aq(function(a,b){return aI(j,i,kF,a,b)},h,g)),k=[0,c,c],f=b(e(function(a){return aq(kF,d,a)},g));return d3(a,t(a,[0,f,f],k))}var
-c=b(1,1),f=b(1,0),g=b(0,1);return A(h,X(a,A(A(A(b(0,0),g),f),c)))},v,bb)),N=aU(b_,T,Q(a,b)),aj=I(d,H(N,V)[1]);if(aj){var
-O=b5(a,N);if(O){var
-be=as(t(a,V,O[1])),bf=H(Q(a,b),be),bg=[0,l[1],l[2],P],bh=ef(function(a){return q(a,x,tR)},bg),bi=l[6],bk=e(tO,_(_(L[1],M[1]),bi)),bl=X(a,bf),bm=X(a,N),bn=l[10],aZ=aA(0,k),a0=e(function(a){var
-d=bn?Z(w,a):aN(a,w);return d?b:b3(c(2,b),E)},aZ),bp=function(r){var
-h=mU(r[1]);if(h){var
+c=b(aq(function(a,b){return aK(j,i,kP,a,b)},h,g)),k=[0,c,c],f=b(e(function(a){return aq(kP,d,a)},g));return d7(a,t(a,[0,f,f],k))}var
+c=b(1,1),f=b(1,0),g=b(0,1);return A(h,X(a,A(A(A(b(0,0),g),f),c)))},x,bc)),O=aO(b_,T,L(a,b)),aj=J(d,H(O,V)[1]);if(aj){var
+P=b5(a,O);if(P){var
+bd=as(t(a,V,P[1])),bg=H(L(a,b),bd),bh=[0,l[1],l[2],Q],bi=ei(function(a){return q(a,w,t3)},bh),bj=l[6],bk=e(t0,$($(M[1],N[1]),bj)),bl=X(a,bg),bm=X(a,O),bn=l[10],aZ=aB(0,k),a0=e(function(a){var
+d=bn?_(v,a):aH(a,v);return d?b:b4(c(2,b),E)},aZ),bo=function(r){var
+h=m6(r[1]);if(h){var
 v=h[1],i=r[2];if(i){var
 j=i[1],l=c_(r[3]);if(l){var
-w=l[1],x=mW(a,k,bk,j,v),n=e(function(a){var
-c=a[2],b=_(a0,a[1]);return[0,e(function(a){return aU(a[1],d,a[2])},b),c]},v),F=d6(T,d7(T,aP,j,n)),o=bc(am([0,ae(w),0],k),F),G=H(t(a,j,bl),w),y=p(g(n),k),z=y?p(g(x),k):y;if(z){var
+w=l[1],x=m8(a,k,bk,j,v),n=e(function(a){var
+c=a[2],b=$(a0,a[1]);return[0,e(function(a){return aO(a[1],d,a[2])},b),c]},v),F=d9(T,d_(T,aQ,j,n)),o=be(al([0,aa(w),0],k),F),G=H(t(a,j,bl),w),y=p(g(n),k),z=y?p(g(x),k):y;if(z){var
 b=k,c=o;for(;;){if(c){if(b){var
 s=p(g(c[1]),b);if(s){var
 b=b[1],c=c[2];continue}var
@@ -4266,9 +4333,9 @@ A=b?0:1;var
 q=A;break}}else
 var
 q=z;var
-B=q?bd(a,k,bc(e(function(b){return[0,ae(t(a,bm,b[2])),0]},n),o)):q;if(B){var
-I=bj(bx(k));return m(function(g){var
-d=_(f(g,tN),x),b=[0,[0,G,0],0],c=_(o,e(function(a){return a[1]?ae(a[2]):a[2]},d));return bd(a,[0,k],f(e(function(a){return f(a[1],[0,a[2],0])},c),b))},I)}var
+B=q?a4(a,k,be(e(function(b){return[0,aa(t(a,bm,b[2])),0]},n),o)):q;if(B){var
+I=bf(bx(k));return m(function(g){var
+d=$(f(g,tZ),x),b=[0,[0,G,0],0],c=$(o,e(function(a){return a[1]?aa(a[2]):a[2]},d));return a4(a,[0,k],f(e(function(a){return f(a[1],[0,a[2],0])},c),b))},I)}var
 C=B}else
 var
 C=l;var
@@ -4277,16 +4344,16 @@ var
 D=i;var
 E=D}else
 var
-E=h;return E},bq=l[3];return i(iF(function(b,a){return ef},bq,k,bp),bh)}var
-ak=O}else
+E=h;return E},bq=l[3];return i(iP(function(b,a){return ei},bq,k,bo),bi)}var
+ak=P}else
 var
 ak=aj;var
-al=ak}else
+am=ak}else
 var
-al=M;var
-an=al}else
+am=N;var
+an=am}else
 var
-an=L;var
+an=M;var
 ao=an}else
 var
 ao=ai;var
@@ -4296,73 +4363,73 @@ ap=K;var
 ar=ap}else
 var
 ar=G;return ar}return 0;default:return 0}var
-bu=[0,s,u,P],bv=ef(function(a){return q(a,x,t0)},bu);return i(iF(function(b,a){return ef},o,k,r),bv)}function
-t4(b,a){var
-c=hN(hJ,b[1],a[1]);return c?hJ(b[2],a[2]):c}function
-m8(i,r,q,h,o,k,A,z,y,j,n,g,a,e){if(typeof
-e==="number"){if(0===e)return 9===a[0]?eZ(i,0,0,0,g,h,0,a[1],e):0}else
+bu=[0,s,u,Q],bv=ei(function(a){return q(a,w,ua)},bu);return i(iP(function(b,a){return ei},o,k,r),bv)}function
+ue(b,a){var
+c=hV(hQ,b[1],a[1]);return c?hQ(b[2],a[2]):c}function
+ni(i,r,q,h,o,k,A,z,y,j,n,g,a,e){if(typeof
+e==="number"){if(0===e)return 9===a[0]?e2(i,0,0,0,g,h,0,a[1],e):0}else
 switch(e[0]){case
 6:var
 f=e[1];if(typeof
 f!=="number"&&7===f[0]){if(k){var
-s=f[3],t=f[2],u=F(d,t),v=u?kE(s,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):u;if(v)return m7(i,r,q,h,o,j,g,n,[0,[0,[0,k[1],t],s]],a,f[1]);var
+s=f[3],t=f[2],u=D(d,t),v=u?hS(s,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):u;if(v)return nh(i,r,q,h,o,j,g,n,[0,[0,[0,k[1],t],s]],a,f[1]);var
 w=v}else
 var
-w=k;return w}return m7(i,r,q,h,o,j,g,n,0,a,f);case
-8:return 9===a[0]?eZ(i,0,0,0,g,h,0,a[1],e):0;case
+w=k;return w}return nh(i,r,q,h,o,j,g,n,0,a,f);case
+8:return 9===a[0]?e2(i,0,0,0,g,h,0,a[1],e):0;case
 10:if(0===a[0]){var
-l=hN(t4,a[1],A),m=l?1:l,x=m?p(a[2],z):m;return x?jH(y,j,a[3],a[4],e):x}return 0}return 0}function
-m9(b){var
+l=hV(ue,a[1],A),m=l?1:l,x=m?p(a[2],z):m;return x?jR(y,j,a[3],a[4],e):x}return 0}return 0}function
+nj(b){var
 a=b[2];if(typeof
 a!=="number"&&6===a[0])return 1;return 0}function
-t5(c){var
+uf(c){var
 b=0,a=c[2];if(typeof
 a==="number"){if(0!==a)b=1}else
 switch(a[0]){case
 6:case
 8:break;default:b=1}return b?0:1}function
-e9(a,o,l,j,x,w,b,u,s,C,h,k,au,c){switch(c[0]){case
+fa(a,o,l,j,w,v,b,u,s,C,h,k,au,c){switch(c[0]){case
 0:var
-av=function(a){return m(S,a)},N=av,p=c[1];break;case
+aw=function(a){return m(Q,a)},O=aw,p=c[1];break;case
 1:var
-aw=c[4],ax=c[3],ay=c[2],az=function(c){var
-d=cU(ay,k),e=e9(a,o,l,j,x,w,b,u,s,C,h,d[1],c,ax);return e?e9(a,o,l,j,x,w,b,u,s,C,h,d[2],c,aw):e},N=az,p=c[1];break;default:var
-aA=c[4],aC=c[3],aD=c[2],aE=function(c){var
-i=_(j,c),d=m(function(b){var
+ax=c[4],ay=c[3],az=c[2],aA=function(c){var
+d=cU(az,k),e=fa(a,o,l,j,w,v,b,u,s,C,h,d[1],c,ay);return e?fa(a,o,l,j,w,v,b,u,s,C,h,d[2],c,ax):e},O=aA,p=c[1];break;default:var
+aB=c[4],aC=c[3],aD=c[2],aE=function(c){var
+i=$(j,c),d=m(function(b){var
 c=b[1];switch(c[0]){case
 8:var
 a=0;break;case
 9:var
-a=ib(c[1]);break;default:var
-a=1}return a?a:S(b[2])},i);if(d){var
-e=cU(aD,h),f=e9(a,o,l,j,x,w,b,u,s,C,e[1],k,c,aC);if(f)return e9(a,o,l,j,x,w,b,u,s,C,e[2],k,c,aA);var
+a=ik(c[1]);break;default:var
+a=1}return a?a:Q(b[2])},i);if(d){var
+e=cU(aD,h),f=fa(a,o,l,j,w,v,b,u,s,C,e[1],k,c,aC);if(f)return fa(a,o,l,j,w,v,b,u,s,C,e[2],k,c,aB);var
 g=f}else
 var
-g=d;return g},N=aE,p=c[1]}var
-af=i(C,h),ab=ak(t5,p),ac=ab?h7(a,l,h,f1(y(function(c){var
-a=E(j,c[1]);if(a){var
+g=d;return g},O=aE,p=c[1]}var
+af=i(C,h),ac=ak(uf,p),ad=ac?id(a,l,h,f4(y(function(c){var
+a=F(j,c[1]);if(a){var
 b=a[1];switch(b[0]){case
 8:var
 d=b[1][6];return y(function(a){var
 b=e(aY,a[1][2][2]);return[0,a[1][1],b]},d);case
-9:return ic(0,0,0,b[1],c[2]);default:return 0}}return a},p),l),k):ab,ad=ak(m9,p);if(ad)var
+9:return il(0,0,0,b[1],c[2]);default:return 0}}return a},p),l),k):ac,ae=ak(nj,p);if(ae)var
 ar=y(function(b){var
-c=m9(b);if(c){var
-a=E(j,b[1]);if(a)return m6(a[1]);var
+c=nj(b);if(c){var
+a=F(j,b[1]);if(a)return ng(a[1]);var
 d=a}else
 var
-d=c;return d},p),as=b?[0,b[1],0]:b,at=f(as,ar),ai=0,aj=aq(eT,e(function(a){return 0},o),at),M=iD(a,h,eQ(gy(eQ(o,0),aj),ai),k);else
+d=c;return d},p),as=b?[0,b[1],0]:b,at=f(as,ar),ai=0,aj=aq(eT,e(function(a){return 0},o),at),N=iN(a,h,eQ(gF(eQ(o,0),aj),ai),k);else
 var
-M=ad;var
+N=ae;var
 r=p,g=au;for(;;){if(r){var
-R=r[1],D=R[2],n=R[1],G=r[2];if(n){var
+S=r[1],D=S[2],n=S[1],G=r[2];if(n){var
 T=q(n,g,0);if(T){var
-J=E(j,n);if(J){var
-U=m8(a,l,h,x,w,b,u,s,af,k,M,ac,J[1],D);if(U){var
-r=G,g=gi(n,g);continue}var
+I=F(j,n);if(I){var
+U=ni(a,l,h,w,v,b,u,s,af,k,N,ad,I[1],D);if(U){var
+r=G,g=gp(n,g);continue}var
 V=U}else
 var
-V=J;var
+V=I;var
 W=V}else
 var
 W=T;var
@@ -4370,16 +4437,16 @@ B=W}else{var
 ag=0;if(typeof
 D==="number"&&4===D){var
 ah=0;if(b){var
-ap=0,O=e(function(b){return[0,b,X(a,b)]},k),am=e(aY,O),al=0,an=f(e(aB,O),am),ao=bq(0,function(o){return function(b){switch(b[0]){case
-0:return[0,q(b[1],o,v)];case
-1:return[0,q(b[1],h,v)];case
-2:return[0,Q(a,b[1])];case
+ap=0,P=e(function(b){return[0,b,X(a,b)]},k),am=e(aY,P),al=0,an=f(e(av,P),am),ao=bc(0,function(o){return function(b){switch(b[0]){case
+0:return[0,q(b[1],o,x)];case
+1:return[0,q(b[1],h,x)];case
+2:return[0,L(a,b[1])];case
 3:var
 c=b[2],d=b[1];return c9(function(b,a){return[0,A(b,a)]},d,c);case
 4:var
 e=b[2],f=b[1];return c9(function(b,a){return[0,H(b,a)]},f,e);case
 5:var
-g=b[1];return c8(function(a){return[0,ae(a)]},g);case
+g=b[1];return c8(function(a){return[0,aa(a)]},g);case
 6:var
 i=b[2],j=b[1];return c9(function(c,b){return[0,t(a,c,b)]},j,i);case
 7:var
@@ -4388,290 +4455,290 @@ d=b5(a,b);return z(function(b){return t(a,c,b)},d)},l,k);case
 8:var
 m=b[1];return c8(function(b){return[0,X(a,b)]},m);case
 9:var
-n=b[1];return c8(function(b){return b6(a,b)},n);default:return 0}}}(an),o,al),F=q(b[1],ao,ap);if(F){var
-K=I(F[1][2],d);ah=1}else
+n=b[1];return c8(function(b){return b6(a,b)},n);default:return 0}}}(an),o,al),E=q(b[1],ao,ap);if(E){var
+K=J(E[1][2],d);ah=1}else
 var
-P=F}else
+R=E}else
 var
-P=b;if(!ah)var
-K=P;if(K){var
+R=b;if(!ah)var
+K=R;if(K){var
 r=G,g=e(function(a){return 0},g);continue}var
 B=K}else
 ag=1;if(ag){var
 Y=q(n,g,0);if(Y){var
-L=E(j,n);if(L){var
-Z=m8(a,l,h,x,w,b,u,s,af,k,M,ac,L[1],D);if(Z){var
-r=G,g=gi(n,g);continue}var
-$=Z}else
+M=F(j,n);if(M){var
+Z=ni(a,l,h,w,v,b,u,s,af,k,N,ad,M[1],D);if(Z){var
+r=G,g=gp(n,g);continue}var
+_=Z}else
 var
-$=L;var
-aa=$}else
+_=M;var
+ab=_}else
 var
-aa=Y;var
-B=aa}}}else
+ab=Y;var
+B=ab}}}else
 var
-B=[0,g];return B?N(B[1]):B}}function
-iL(d,a){var
-e=R(a),f=s(s(k(c(2,b)),a),d);return C(w(R(d),f),e)}function
-iM(k,a,d,j,c,h){var
-e=ah(w,dv(k),j);if(h){var
+B=[0,g];return B?O(B[1]):B}}function
+iV(d,a){var
+e=S(a),f=s(s(k(c(2,b)),a),d);return C(v(S(d),f),e)}function
+iW(k,a,d,j,c,h){var
+e=ah(v,dB(k),j);if(h){var
 b=function(b){var
-c=i(b,a[3]),d=i(b,a[2]);return[0,i(b,a[1]),d,c]},f=b(function(a){return a[3]}),g=b(function(a){return a[2]}),l=e8([0,b(function(a){return a[1]}),g,f],e);return ah(C,aZ(d,c),l)}var
-m=e8(a,c);return ah(C,aZ(d,e),m)}function
-m_(f,h,g,l,a,d){var
-e=dv(f),i=ah(w,e,a),j=e8(h,d),m=iL(e[3],a[3]),n=iL(e[2],a[2]),o=iL(e[1],a[1]),p=C(C(C(V(d,d),o),n),m),q=V(j,i),r=s(k(c(2,b)),q),t=C(s(g,p),r),u=bk(cc(j,i),l);return[0,gC(f,iM(f,h,g,a,d,0),u),t]}function
-m$(d,c,b,a){var
-e=gD(c,b,a);return ah(C,dv(d),e)}function
-na(g,f,e,d,c){var
-b=m$(g,f,e,c),a=ah(w,b,d);return[0,[0,b,a],aC(V(a,a))]}function
-gF(b,a){var
-c=a5(a[2],b);return f(a5(a[1],b),c)}function
-iN(d,b,a,c){if(a)var
-e=a[1],f=cx(c,gF(b,e)),i=P(c,g(gF(b,e))),j=iN(d,b,a[2],i),k=aj(f,t6),h=[0,ao(d,aj(f,0),k),j];else
+c=i(b,a[3]),d=i(b,a[2]);return[0,i(b,a[1]),d,c]},f=b(function(a){return a[3]}),g=b(function(a){return a[2]}),l=e$([0,b(function(a){return a[1]}),g,f],e);return ah(C,aZ(d,c),l)}var
+m=e$(a,c);return ah(C,aZ(d,e),m)}function
+nk(f,h,g,l,a,d){var
+e=dB(f),i=ah(v,e,a),j=e$(h,d),m=iV(e[3],a[3]),n=iV(e[2],a[2]),o=iV(e[1],a[1]),p=C(C(C(V(d,d),o),n),m),q=V(j,i),r=s(k(c(2,b)),q),t=C(s(g,p),r),u=bl(cc(j,i),l);return[0,gJ(f,iW(f,h,g,a,d,0),u),t]}function
+nl(d,c,b,a){var
+e=gK(c,b,a);return ah(C,dB(d),e)}function
+nm(g,f,e,d,c){var
+b=nl(g,f,e,c),a=ah(v,b,d);return[0,[0,b,a],aD(V(a,a))]}function
+gM(b,a){var
+c=a6(a[2],b);return f(a6(a[1],b),c)}function
+iX(d,b,a,c){if(a)var
+e=a[1],f=cx(c,gM(b,e)),i=R(c,g(gM(b,e))),j=iX(d,b,a[2],i),k=aj(f,ug),h=[0,ao(d,aj(f,0),k),j];else
 var
 h=a;return h}function
-iO(f,o,e,n,a){var
-g=s(R(q(0,n,k(d))),o);if(typeof
+iY(f,o,e,n,a){var
+g=s(S(q(0,n,k(d))),o);if(typeof
 a!=="number")switch(a[0]){case
 2:var
-b=E(e,a[1]);if(b)var
-i=h(f,0,a[2]),j=i?[0,w(b[1][1][2],g)]:i;else
+b=F(e,a[1]);if(b)var
+i=h(f,0,a[2]),j=i?[0,v(b[1][1][2],g)]:i;else
 var
 j=b;return j;case
 3:var
-c=E(e,a[1]);if(c)var
-l=h(f,0,a[2]),m=l?[0,w(g,c[1][1][2])]:l;else
+c=F(e,a[1]);if(c)var
+l=h(f,0,a[2]),m=l?[0,v(g,c[1][1][2])]:l;else
 var
 m=c;return m}return 0}function
-nb(c,b,a){if(typeof
+nn(c,b,a){if(typeof
 a!=="number"&&6===a[0]){var
-e=E(c,a[1]);return z(function(a){var
+e=F(c,a[1]);return z(function(a){var
 c=q(0,b,k(d)),e=i(a[2][2],c);return[0,a[2][1],e]},e)}return 0}function
-gG(a){return h(l,0,[3,[0,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b))))))))),b],a])}function
-nc(a){var
-b=aj(a,t7),c=aC(V(aj(a,t8),b));return s(q(0,a,k(d)),c)}function
-nd(b,a){var
-c=V(a,aj(b,t9));return[0,bN(aZ(nc(b),a)),c]}function
-ne(e,d,a,c,b){var
-f=b[2],g=s(nc(a),f),h=c?gD(e,d,aj(a,t_)):aj(a,t$);return w(V(b[1][2],h),g)}function
-nf(h,g,f,d,c,b,a){var
+gN(a){return h(l,0,[3,[0,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b))))))))),b],a])}function
+no(a){var
+b=aj(a,uh),c=aD(V(aj(a,ui),b));return s(q(0,a,k(d)),c)}function
+np(b,a){var
+c=V(a,aj(b,uj));return[0,bO(aZ(no(b),a)),c]}function
+nq(e,d,a,c,b){var
+f=b[2],g=s(no(a),f),h=c?gK(e,d,aj(a,uk)):aj(a,ul);return v(V(b[1][2],h),g)}function
+nr(h,g,f,d,c,b,a){var
 i=by(c);function
-j(a){return m$(h,g,f,a)}return lR(e(function(a){return[0,a[4]]},d),j,i,b,a)}function
-e_(a){var
-b=q(ua,a,k(d));return al(q(0,a,k(d)),b)}function
-iP(a){return a[4][2]}function
-ng(g,o,n,m,a){var
-p=a[1][2],q=e(aY,gm(n,a[1][2])),h=e_(m),i=s(s(k(c(2,b)),o),h),d=a[1][1],j=aT(cD(g),d),l=e(function(a){return s(a,i)},j);return[0,f(f(aG(cD(g),d),l),q),p]}function
-nh(a){var
-b=a[3],c=a[2],d=a[1];return gt([0,[0,d,d],[0,c,c],[0,b,b]])}function
-uj(a){if(typeof
+j(a){return nl(h,g,f,a)}return l3(e(function(a){return[0,a[4]]},d),j,i,b,a)}function
+fb(a){var
+b=q(um,a,k(d));return am(q(0,a,k(d)),b)}function
+iZ(a){return a[4][2]}function
+ns(g,o,n,m,a){var
+p=a[1][2],q=e(aY,gt(n,a[1][2])),h=fb(m),i=s(s(k(c(2,b)),o),h),d=a[1][1],j=aU(cD(g),d),l=e(function(a){return s(a,i)},j);return[0,f(f(aI(cD(g),d),l),q),p]}function
+nt(a){var
+b=a[3],c=a[2],d=a[1];return gA([0,[0,d,d],[0,c,c],[0,b,b]])}function
+uv(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-ni(b,a){switch(b){case
+nu(b,a){switch(b){case
 0:return[0,a[1],[0,a[2],0]];case
 1:return[0,a[1],[0,a[2],[0,a[3],0]]];default:return 0}}function
-gH(a){var
+gO(a){var
 c=ct(a[1],[0,d,b]);return c?ct(a[2],[0,d,b]):c}function
-iQ(d,a){switch(d){case
-0:return gH(a[3]);case
+i0(d,a){switch(d){case
+0:return gO(a[3]);case
 1:return 1;default:var
-b=gH(a[1]),c=b?gH(a[2]):b;return c?gH(a[3]):c}}function
-iR(c,b){var
-a=y(function(a){return gF(c,a)},b),d=_(aA(0,g(a)),a);return e(aB,bp(function(a){return ij(a[2])},d))}function
-nj(b){var
+b=gO(a[1]),c=b?gO(a[2]):b;return c?gO(a[3]):c}}function
+i1(c,b){var
+a=y(function(a){return gM(c,a)},b),d=$(aB(0,g(a)),a);return e(av,bq(function(a){return iu(a[2])},d))}function
+nv(b){var
 a=b[2];if(typeof
 a!=="number"&&10===a[0])return 1;return 0}function
-nk(c){var
-a=c;for(;;){if(0===a[0])return ak(nj,a[1]);var
-d=ak(nj,a[1]),b=d||nk(a[3]);if(b)return b;var
+nw(c){var
+a=c;for(;;){if(0===a[0])return ak(nv,a[1]);var
+d=ak(nv,a[1]),b=d||nw(a[3]);if(b)return b;var
 a=a[4];continue}}function
-uk(a,aQ,bE,A,B,aP){var
-n=A[1],j=bt(n),Y=A[6],bF=A[2],K=y(function(a){return gF(B,a)},bF),aR=A[3],O=[0,[0,aR,aR],B],$=[0,g(K)],bG=0,aS=y(function(a){return e5(bG,B,a)},Y),bH=cD(n),aT=mL(A[5],bH),o=aT[2],G=aT[1],J=cZ(O,g(K)),bJ=A[2],T=g(K),bI=0,x=iN(function(e,a){function
+uw(a,aQ,bE,A,B,aP){var
+n=A[1],j=bt(n),Y=A[6],bF=A[2],K=y(function(a){return gM(B,a)},bF),aR=A[3],P=[0,[0,aR,aR],B],$=[0,g(K)],bG=0,aS=y(function(a){return e8(bG,B,a)},Y),bH=cD(n),aT=mX(A[5],bH),o=aT[2],G=aT[1],J=cZ(P,g(K)),bJ=A[2],T=g(K),bI=0,w=iX(function(e,a){function
 i(g){var
 c=bt(n);if(n)var
 b=[0,[0,[0,c]],[0,[0,[0,c]]],[0,[0,[0,[0,c]]]]];else
 var
 m=k(d),b=[0,k(d),m,[0,[0,c]]];var
-t=mZ(n,G,o,e,a,b)[2],h=mZ(n,G,o,e,a,b),i=h[1],j=bk(i[2],h[2]),l=cc(i[1],j),p=ah(C,l,cc(l,b)),f=aZ(mY(b),p),q=s(f[3],g),r=s(f[2],g);return[0,gC(n,j,[0,s(f[1],g),r,q]),t]}function
+t=m$(n,G,o,e,a,b)[2],h=m$(n,G,o,e,a,b),i=h[1],j=bl(i[2],h[2]),l=cc(i[1],j),p=ah(C,l,cc(l,b)),f=aZ(m_(b),p),q=s(f[3],g),r=s(f[2],g);return[0,gJ(n,j,[0,s(f[1],g),r,q]),t]}function
 j(Y){var
-v=na(n,G,o,e,a),x=v[1],W=ah(w,dv(n),e),y=v[2],r=x[1],X=x[2],g=gD(G,o,a),i=bk(X,y),N=al(V(g,i),J),O=R(J),P=al(V(a,a),O),Q=2<=n?d:b,S=C(k(Q),P);function
-h(a){return[0,mR(a),0]}function
-f(a){return[0,bk(cc(mR(a),g),J),[0,a]]}switch(n){case
+w=nm(n,G,o,e,a),x=w[1],W=ah(v,dB(n),e),y=w[2],r=x[1],X=x[2],g=gK(G,o,a),i=bl(X,y),N=am(V(g,i),J),O=S(J),P=am(V(a,a),O),Q=2<=n?d:b,R=C(k(Q),P);function
+h(a){return[0,m3(a),0]}function
+f(a){return[0,bl(cc(m3(a),g),J),[0,a]]}switch(n){case
 0:var
-B=[0,f(tC),0],D=[0,h(tD),B],q=[0,h(0),D];break;case
+B=[0,f(tO),0],D=[0,h(tP),B],q=[0,h(0),D];break;case
 1:var
-E=[0,f(tE),0],F=[0,f(tF),E],H=[0,f(0),F],I=[0,h(tG),H],K=[0,h(tH),I],q=[0,h(0),K];break;default:var
-L=[0,f(tI),0],M=[0,f(tJ),L],q=[0,f(0),M]}var
-j=ah(w,[0,[0,[1,T]],[0,[1,[0,T]]],[0,[1,[0,[0,T]]]]],e),l=bk(j,aC(V(j,j)));if(n)var
-m=iH(n,T,e,r,l[3]);else
+E=[0,f(tQ),0],F=[0,f(tR),E],H=[0,f(0),F],I=[0,h(tS),H],K=[0,h(tT),I],q=[0,h(0),K];break;default:var
+L=[0,f(tU),0],M=[0,f(tV),L],q=[0,f(0),M]}var
+j=ah(v,[0,[0,[1,T]],[0,[1,[0,T]]],[0,[1,[0,[0,T]]]]],e),l=bl(j,aD(V(j,j)));if(n)var
+m=iR(n,T,e,r,l[3]);else
 var
 z=k(d),A=k(d),m=[0,k(d),A,z];var
-t=iH(n,T,e,r,l[2]),u=iH(n,T,e,r,l[1]),U=mS(function(r,v){var
-e=v[1];function
+t=iR(n,T,e,r,l[2]),u=iR(n,T,e,r,l[1]),U=m4(function(r,w){var
+e=w[1];function
 a(b,a){var
-c=e[3],f=du(a,m),g=s(C(b[3],f),c),h=e[2],i=du(a,t),j=s(C(b[2],i),h),l=e[1],n=du(a,u),o=s(C(b[1],n),l);return C(C(C(k(d),o),j),g)}var
-x=a(m,tK),y=a(t,tL),z=[0,a(u,0),y,x],f=V(r[1],z),l=r[2];if(l){var
-h=l[1],n=v[2];if(n){var
-j=n[1],A=du(h,g),B=s(du(j,i),A),D=du(j,g),o=C(s(du(h,i),D),B),E=R(J);if(p(h,j))var
-F=V(i,g),q=w(o,s(k(c(2,b)),F));else
+c=e[3],f=dA(a,m),g=s(C(b[3],f),c),h=e[2],i=dA(a,t),j=s(C(b[2],i),h),l=e[1],n=dA(a,u),o=s(C(b[1],n),l);return C(C(C(k(d),o),j),g)}var
+x=a(m,tW),y=a(t,tX),z=[0,a(u,0),y,x],f=V(r[1],z),l=r[2];if(l){var
+h=l[1],n=w[2];if(n){var
+j=n[1],A=dA(h,g),B=s(dA(j,i),A),D=dA(j,g),o=C(s(dA(h,i),D),B),E=S(J);if(p(h,j))var
+F=V(i,g),q=v(o,s(k(c(2,b)),F));else
 var
-q=o;return C(f,al(q,E))}return f}return f},q);return[0,gC(n,i,bk(cc(g,bk(W,y)),J)),U,S,N]}var
-l=na(n,G,o,e,a);function
-m(b){return iM(n,G,o,e,a,b)}var
+q=o;return C(f,am(q,E))}return f}return f},q);return[0,gJ(n,i,bl(cc(g,bl(W,y)),J)),U,R,N]}var
+l=nm(n,G,o,e,a);function
+m(b){return iW(n,G,o,e,a,b)}var
 f=2<=n?d:b;function
 g(b){var
-c=R(J),d=k(f),e=s(w(R(b),d),c);return s(o,w(V(a,a),e))}var
-h=[0,V(iM(n,G,o,e,a,1),a),g];return[0,m_(n,G,o,J,e,a),h,m,l,j,i]},B,bJ,bI),U=e(function(a){return a[1]},x),bK=P($,g(aS)),bL=cD(n),bM=A[5];function
-N(a){return[0,[0,P(bL,a)]]}var
-aI=R([0,[1,bK]]);switch(bM[0]){case
+c=S(J),d=k(f),e=s(v(S(b),d),c);return s(o,v(V(a,a),e))}var
+h=[0,V(iW(n,G,o,e,a,1),a),g];return[0,nk(n,G,o,J,e,a),h,m,l,j,i]},B,bJ,bI),U=e(function(a){return a[1]},w),bK=R($,g(aS)),bL=cD(n),bM=A[5];function
+O(a){return[0,[0,R(bL,a)]]}var
+aI=S([0,[1,bK]]);switch(bM[0]){case
 2:var
-bs=N(tu),bv=N(tv),aJ=[0,N(0),bv,bs],D=[0,w(aI,V(aJ,aJ))];break;case
+bs=O(tG),bv=O(tH),aK=[0,O(0),bv,bs],E=[0,v(aI,V(aK,aK))];break;case
 3:var
-bw=R(N(tw)),bx=R(N(0)),by=R(N(tx)),D=[0,w(w(s(aI,C(k(b),by)),bx),bw)];break;default:var
-D=0}var
+bw=S(O(tI)),bx=S(O(0)),by=S(O(tJ)),E=[0,v(v(s(aI,C(k(b),by)),bx),bw)];break;default:var
+E=0}var
 aU=A[7];if(aU)var
-bO=0,bQ=A[2],ao=iN(function(j,k){var
-a=m_(n,G,o,cZ(O,g(K)),j,k),c=a[1];if(c){var
+bN=0,bP=A[2],ao=iX(function(j,k){var
+a=nk(n,G,o,cZ(P,g(K)),j,k),c=a[1];if(c){var
 d=c[2],b=c[1];if(d){var
 h=d[2],e=d[1];if(h){var
-i=h[1],f=cc(j,[0,b,e,i]);return[0,[0,b,[0,e,[0,i,[0,f[1],[0,f[2],[0,f[3],0]]]]]],a[2]]}return[0,[0,b,[0,e,0]],a[2]]}return[0,[0,b,0],a[2]]}return[0,0,a[2]]},B,bQ,bO);else
+i=h[1],f=cc(j,[0,b,e,i]);return[0,[0,b,[0,e,[0,i,[0,f[1],[0,f[2],[0,f[3],0]]]]]],a[2]]}return[0,[0,b,[0,e,0]],a[2]]}return[0,[0,b,0],a[2]]}return[0,0,a[2]]},B,bP,bN);else
 var
 ao=aU;var
-bR=bP(ao),bS=D?[0,D[1],0]:D,bT=f(bS,bR),bU=0,bV=f(K,[0,O,0]),bD=e(function(a){return a[1]},x),bW=[0,o,f(c7(function(c,b){if(typeof
+bR=bQ(ao),bS=E?[0,E[1],0]:E,bT=f(bS,bR),bU=0,bV=f(K,[0,P,0]),bD=e(function(a){return a[1]},w),bW=[0,o,f(c7(function(c,b){if(typeof
 b!=="number")switch(b[0]){case
 6:var
-g=nb(x,c,b);if(g)var
+g=nn(w,c,b);if(g)var
 j=g[1],k=[0,j[1],[0,j[2],0]];else
 var
 k=g;return k;case
-8:return e(aY,gv(bD,c));case
+8:return e(aY,gC(bD,c));case
 13:var
-h=E(x,b[1]);if(h){var
-l=gG(b[4]);if(l){var
-m=nd(c,i(h[1][3],b[2]));return f(m[1],[0,m[2],0])}var
+h=F(w,b[1]);if(h){var
+l=gN(b[4]);if(l){var
+m=np(c,i(h[1][3],b[2]));return f(m[1],[0,m[2],0])}var
 p=l}else
 var
 p=h;return p;case
-16:return y(function(a){return ng(n,J,bV,c,a)[1]},x)}var
-d=iO(a,o,x,c,b),q=d?[0,d[1],0]:d;return q},bU,B,$,Y),bT)],ap=f(bP(U),bW),bX=0,bY=f(K,[0,O,0]),aV=c7(function(b,a){if(typeof
+16:return y(function(a){return ns(n,J,bV,c,a)[1]},w)}var
+d=iY(a,o,w,c,b),q=d?[0,d[1],0]:d;return q},bU,B,$,Y),bT)],ap=f(bQ(U),bW),bX=0,bY=f(K,[0,P,0]),aV=c7(function(b,a){if(typeof
 a!=="number")switch(a[0]){case
 13:var
-g=E(x,a[1]);if(g){if(gG(a[4]))return 0;var
-l=[0,ne(G,o,b,a[2],g[1][4]),0]}else
+g=F(w,a[1]);if(g){if(gN(a[4]))return 0;var
+l=[0,nq(G,o,b,a[2],g[1][4]),0]}else
 var
 l=g;return l;case
 14:var
-h=nf(n,G,o,x,b,a[1],a[2]);if(h){var
-m=h[1],p=m[2],r=m[1];return y(bN,[0,r[1],[0,r[2],[0,p[1],[0,p[2],0]]]])}return h;case
+h=nr(n,G,o,w,b,a[1],a[2]);if(h){var
+m=h[1],p=m[2],r=m[1];return y(bO,[0,r[1],[0,r[2],[0,p[1],[0,p[2],0]]]])}return h;case
 15:var
-j=E(x,a[1]);if(j){var
-c=i(j[1][5],0),s=[0,c[3],[0,c[4],0]],t=[0,q(ub,b,k(d)),s],u=[0,q(0,b,k(d)),t],v=f(dS(c[2]),u);return f(c[1],v)}return j;case
+j=F(w,a[1]);if(j){var
+c=i(j[1][5],0),s=[0,c[3],[0,c[4],0]],t=[0,q(un,b,k(d)),s],u=[0,q(0,b,k(d)),t],v=f(dX(c[2]),u);return f(c[1],v)}return j;case
 16:var
-w=y(function(a){var
-b=e(aY,gm(bY,iP(a)));return[0,iP(a),b]},x);return f(y(function(a){var
-c=e_(b),d=[0,i(a[6],c)[2],0],e=e_(b);return f(i(a[6],e)[1],d)},x),w)}return 0},bX,B,$,Y),aW=cP(e(function(a){return bu(j,a)},ap))[1],aX=cP(aV)[1],Z=cO(aW),aq=cO(aX);function
-u(a){return bb(Z,bu(j,a))}function
+x=y(function(a){var
+b=e(aY,gt(bY,iZ(a)));return[0,iZ(a),b]},w);return f(y(function(a){var
+c=fb(b),d=[0,i(a[6],c)[2],0],e=fb(b);return f(i(a[6],e)[1],d)},w),x)}return 0},bX,B,$,Y),aW=cP(e(function(a){return bu(j,a)},ap))[1],aX=cP(aV)[1],Z=cO(aW),aq=cO(aX);function
+u(a){return bd(Z,bu(j,a))}function
 a0(i){if(0===A[4][0]){var
-s=z(u,D),t=u(o),e=cD(n),f=p(g(i),j);if(f)var
-h=z(function(a){return[0,[0,a,d],d]},s),a=function(a){return q(a,Z,k(d))},c=a(t),l=aA(0,e),b=m(function(b){var
-d=dt(j,b,c),e=d?m(function(d){var
+s=z(u,E),t=u(o),e=cD(n),f=p(g(i),j);if(f)var
+h=z(function(a){return[0,[0,a,d],d]},s),a=function(a){return q(a,Z,k(d))},c=a(t),l=aB(0,e),b=m(function(b){var
+d=dz(j,b,c),e=d?m(function(d){var
 f=d[1],e=m(function(c){var
-d=a(c);return cC(P(j,b),d)},f);if(e){var
-g=a(d[2]);return gw(c,P(j,b),g)}return e},i):d;if(e){if(h){var
-g=a(h[1][1][1]);return cC(P(j,b),g)}var
+d=a(c);return cC(R(j,b),d)},f);if(e){var
+g=a(d[2]);return gD(c,R(j,b),g)}return e},i):d;if(e){if(h){var
+g=a(h[1][1][1]);return cC(R(j,b),g)}var
 f=1}else
 var
 f=e;return f},l);else
 var
 b=f;var
 r=b?e:b;return r}return 0}var
-W=a0(i(av(u),U)),a1=m(function(a){var
-b=bu(j,a),c=k(d);return aH(q(u(a),Z,c),b)},ap),a2=a1?m(function(a){return gx(j,a)},ap):a1,a3=a2?m(function(a){var
-b=k(d);return aH(q(bb(aq,a),aq,b),a)},aV):a2,a4=a3?ak(uj,Y):a3;if(a4){var
-a5=S(A[7]);if(a5)var
-ab=a5;else{var
-bq=A[5];if(1===n&&2===bq[0])var
-bC=bq[1],br=h(a,1,[3,[0,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b))))))))),b],bC]);else
+W=a0(i(aw(u),U)),a1=m(function(a){var
+b=bu(j,a),c=k(d);return aJ(q(u(a),Z,c),b)},ap),a2=a1?m(function(a){return gE(j,a)},ap):a1,a3=a2?m(function(a){var
+b=k(d);return aJ(q(bd(aq,a),aq,b),a)},aV):a2,a5=a3?ak(uv,Y):a3;if(a5){var
+a6=Q(A[7]);if(a6)var
+ac=a6;else{var
+bp=A[5];if(1===n&&2===bp[0])var
+bC=bp[1],br=h(a,1,[3,[0,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b))))))))),b],bC]);else
 var
 br=0;var
-ab=br}}else
+ac=br}}else
 var
-ab=a4;var
-a6=ab?iQ(n,ea(A[4])):ab,a7=a6?h(a,1,A[3]):a6;if(a7)var
-bZ=gB(A[5]),ar=m(function(b){var
+ac=a5;var
+a7=ac?i0(n,ed(A[4])):ac,a8=a7?h(a,1,A[3]):a7;if(a8)var
+bZ=gI(A[5]),ar=m(function(b){var
 c=c5(a,b[1]);return c?c5(a,b[2]):c},bZ);else
 var
-ar=a7;if(ar){var
-b0=f(K,[0,O,0]),as=aa(e(function(b){return an(a,b)},b0));if(as){var
-at=aa(e(function(b){return iz(a,b)},aS));if(at){var
-b1=ni(n,ea(A[4])),au=aa(e(function(b){return an(a,[0,b,B])},b1));if(au){var
-a8=au[1],b2=mN(A[5]),aw=aa(e(function(b){return mP(a,b)},b2));if(aw){var
-a9=aw[1],b3=mM(A[5]),ax=aa(e(c4(a),b3));if(ax){var
-b4=0,I=function(a){return bb(aq,a)},ay=f(K,[0,O,0]),az=aa(c7(function(j,f){if(typeof
+ar=a8;if(ar){var
+b0=f(K,[0,P,0]),as=ab(e(function(b){return an(a,b)},b0));if(as){var
+at=ab(e(function(b){return iJ(a,b)},aS));if(at){var
+b1=nu(n,ed(A[4])),au=ab(e(function(b){return an(a,[0,b,B])},b1));if(au){var
+a9=au[1],b2=mZ(A[5]),ax=ab(e(function(b){return m1(a,b)},b2));if(ax){var
+a_=ax[1],b3=mY(A[5]),ay=ab(e(c4(a),b3));if(ay){var
+b4=0,I=function(a){return bd(aq,a)},az=f(K,[0,P,0]),aA=ab(c7(function(j,f){if(typeof
 f!=="number")switch(f[0]){case
 13:var
-D=f[4],aM=E(x,f[1]);if(aM){if(nh(f[3])&&h(a,0,D)&&h(a,0,[3,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b],D])){var
-aN=f[2],aO=aM[1];if(gG(D)){var
-aG=nd(j,i(aO[3],aN)),U=aG[2];if(h(l,0,[3,D,[0,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b))))))))),b]]))var
+E=f[4],aM=F(w,f[1]);if(aM){if(nt(f[3])&&h(a,0,E)&&h(a,0,[3,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b],E])){var
+aN=f[2],aO=aM[1];if(gN(E)){var
+aG=np(j,i(aO[3],aN)),U=aG[2];if(h(l,0,[3,E,[0,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b))))))))),b]]))var
 aH=0;else
 var
 be=u(U),bf=u(U),aH=[0,[6,[0,[0,e(u,aG[1]),bf],0],be],0];var
 aP=[0,[4,u(U)],aH]}else
 var
-aP=[0,[9,[3,I(ne(G,o,j,aN,aO[4]))]],0];return e(function(a){return[0,a]},aP)}return uh}return ui;case
+aP=[0,[9,[3,I(nq(G,o,j,aN,aO[4]))]],0];return e(function(a){return[0,a]},aP)}return ut}return uu;case
 16:var
-Y=f[3],t=f[2],aQ=f[1],bg=bt(n);if(p(g(x),bg)&&h(a,0,aQ)&&h(a,1,t)&&h(a,1,Y)&&c5(a,Y)){var
+Y=f[3],t=f[2],aQ=f[1],bg=bt(n);if(p(g(w),bg)&&h(a,0,aQ)&&h(a,1,t)&&h(a,1,Y)&&c5(a,Y)){var
 aI=an(a,[0,[0,t,t],B]);if(aI){var
 bh=aI[1],aJ=i(c4(a),Y);if(aJ){var
-bi=aJ[1],aK=aa(e(function(f){var
-b=l0(a,I,ay,B,aQ,t,iP(f));if(b){var
-c=lZ(a,u,ay,B,t,f[1][2]);if(c){var
-g=gE(0,0,f[1][2]);if(g)var
-i=e(aB,c[1]),d=[0,[0,b[1],i]];else
+bi=aJ[1],aK=ab(e(function(f){var
+b=ma(a,I,az,B,aQ,t,iZ(f));if(b){var
+c=l$(a,u,az,B,t,f[1][2]);if(c){var
+g=gL(0,0,f[1][2]);if(g)var
+i=e(av,c[1]),d=[0,[0,b[1],i]];else
 var
 d=g}else
 var
 d=c;var
 h=d}else
 var
-h=b;return h},x));if(aK){var
-bj=aK[1],bk=e(function(a){return ng(n,J,ay,j,a)},x),aL=i(av(u),bk),V=function(a){var
+h=b;return h},w));if(aK){var
+bj=aK[1],bk=e(function(a){return ns(n,J,az,j,a)},w),aL=i(aw(u),bk),V=function(a){var
 b=cD(n),c=e(function(a){var
-b=e_(j);return I(i(a[6],b)[2])},x),d=e(function(a){var
-b=e_(j);return e(I,i(a[6],b)[1])},x),f=a0(aL);return[0,[8,[0,aL,u(o),f,d,c,bj,bh,bi,b,a]]]};if(2<=n)return[0,V(1),0];var
-bl=[0,V(1),0];return[0,V(0),bl]}return ud}return ue}return uf}return ug}var
-bm=0,w=e(function(a){return a[1]},x);function
+b=fb(j);return I(i(a[6],b)[2])},w),d=e(function(a){var
+b=fb(j);return e(I,i(a[6],b)[1])},w),f=a0(aL);return[0,[8,[0,aL,u(o),f,d,c,bj,bh,bi,b,a]]]};if(2<=n)return[0,V(1),0];var
+bl=[0,V(1),0];return[0,V(0),bl]}return up}return uq}return ur}return us}var
+bm=0,v=e(function(a){return a[1]},w);function
 Z(c,b,a){return[0,c,b,a,W]}var
 H=0;if(typeof
 f==="number")var
-aS=u(o),s=[0,Z(i(av(u),w),aS,v)];else
+aS=u(o),s=[0,Z(i(aw(u),v),aS,x)];else
 switch(f[0]){case
 0:var
 y=[5,[0,b,b],f[1]],K=Z;H=1;break;case
 1:var
 aU=[5,[0,b,b],f[1]],y=aU,K=function(c,b,a){return[1,c,b,a]};H=1;break;case
 2:var
-aV=iO(a,o,x,j,f),s=z(function(a){return[4,u(a)]},aV);break;case
+aV=iY(a,o,w,j,f),s=z(function(a){return[4,u(a)]},aV);break;case
 3:var
-aW=iO(a,o,x,j,f),s=z(function(a){return[4,u(a)]},aW);break;case
+aW=iY(a,o,w,j,f),s=z(function(a){return[4,u(a)]},aW);break;case
 5:var
 _=f[1],aX=an(a,[0,[0,_,_],d]),s=z(function(b){var
-c=X(a,b),d=u(o);return[2,i(av(u),w),d,c]},aX);break;case
+c=X(a,b),d=u(o);return[2,i(aw(u),v),d,c]},aX);break;case
 6:var
-L=E(x,f[1]);if(L){var
-M=nb(x,j,f);if(M){var
-$=M[1],ab=h(a,1,f[2]),ac=ab?h(a,1,f[3]):ab;if(ac)var
-aY=u($[2]),aZ=u(L[1][1][2]),ad=[0,[5,[0,[0,[0,u($[1]),0],aZ],0],aY]];else
+M=F(w,f[1]);if(M){var
+N=nn(w,j,f);if(N){var
+$=N[1],aa=h(a,1,f[2]),ac=aa?h(a,1,f[3]):aa;if(ac)var
+aY=u($[2]),aZ=u(M[1][1][2]),ad=[0,[5,[0,[0,[0,u($[1]),0],aZ],0],aY]];else
 var
 ad=ac;var
 ae=ad}else
 var
-ae=M;var
+ae=N;var
 af=ae}else
 var
-af=L;var
+af=M;var
 s=af;break;case
 7:var
-ag=f[3],ah=f[2],ai=f[1],aj=E(x,ai),aR=0;if(aj){var
+ag=f[3],ah=f[2],ai=f[1],aj=F(w,ai),aR=0;if(aj){var
 ak=h(a,1,ah),al=ak?h(a,1,ag):ak;if(al){var
 a1=[5,ah,ag],y=a1,K=function(c,b,a){return[3,ai,c,b,a,W]};H=1;aR=1}else
 var
@@ -4681,34 +4748,34 @@ am=aj;if(!aR)var
 s=am;break;case
 8:var
 ao=h(a,1,f[2]);if(ao)var
-a2=f[1],a3=1,N=m(function(b){return h(a,a3,b)},a2);else
+a2=f[1],a3=1,O=m(function(b){return h(a,a3,b)},a2);else
 var
-N=ao;if(N)var
-a4=Q(a,b),a5=u(o),a6=gv(w,j),ap=[0,[0,i(av(u),a6),a5,a4,0]];else
+O=ao;if(O)var
+a4=L(a,b),a5=u(o),a6=gC(v,j),ap=[0,[0,i(aw(u),a6),a5,a4,0]];else
 var
-ap=N;var
+ap=O;var
 s=ap;break;case
 14:var
-aq=f[2],ar=f[1],O=nf(n,G,o,x,j,ar,aq);if(O){var
-as=O[1],at=as[2],au=as[1],aw=mC(ar,aq,f[3]),P=an(a,[0,[0,aw,aw],B]);if(P){var
-ax=P[1],az=F(d,ax[1]);if(az)var
-A=function(a){return lY(I,a)},a7=A(at[2]),a8=A(at[1]),a9=A(au[2]),aA=[0,[9,[6,A(au[1]),a9,a8,a7,ax]]];else
+aq=f[2],ar=f[1],P=nr(n,G,o,w,j,ar,aq);if(P){var
+as=P[1],at=as[2],au=as[1],ax=mO(ar,aq,f[3]),Q=an(a,[0,[0,ax,ax],B]);if(Q){var
+ay=Q[1],aA=D(d,ay[1]);if(aA)var
+A=function(a){return l_(I,a)},a7=A(at[2]),a8=A(at[1]),a9=A(au[2]),aB=[0,[9,[6,A(au[1]),a9,a8,a7,ay]]];else
 var
-aA=az;var
-aC=aA}else
+aB=aA;var
+aC=aB}else
 var
-aC=P;var
+aC=Q;var
 aD=aC}else
 var
-aD=O;var
+aD=P;var
 s=aD;break;case
 15:var
-R=E(x,f[1]);if(R){var
+R=F(w,f[1]);if(R){var
 aE=h(a,1,f[4]);if(aE)var
 aF=h(a,0,f[2]),S=aF?h(a,0,f[3]):aF;else
 var
 S=aE;if(S)var
-C=i(R[1][5],0),a_=I(C[4]),a$=I(C[3]),ba=I(q(uc,j,k(d))),bb=I(q(0,j,k(d))),bc=C[2],bd=e(function(a){return e(I,a)},bc),T=[0,[9,[10,e(I,C[1]),bd,bb,ba,a$,a_]]];else
+C=i(R[1][5],0),a_=I(C[4]),a$=I(C[3]),ba=I(q(uo,j,k(d))),bb=I(q(0,j,k(d))),bc=C[2],bd=e(function(a){return e(I,a)},bc),T=[0,[9,[10,e(I,C[1]),bd,bb,ba,a$,a_]]];else
 var
 T=S}else
 var
@@ -4716,70 +4783,70 @@ T=R;var
 s=T;break;default:var
 s=0}if(H)var
 aT=an(a,[0,[0,y,y],d]),s=z(function(b){var
-c=X(a,b),d=u(o);return K(i(av(u),w),d,c)},aT);return[0,s,bm]},b4,B,$,Y));if(az){var
-a_=az[1];if(A[7])var
-b5=aQ[2],b6=aQ[1],b7=u(o),ac=md(bE,a_,[7,i(av(u),ao),b7,b6,b5]);else
+c=X(a,b),d=u(o);return K(i(aw(u),v),d,c)},aT);return[0,s,bm]},b4,B,$,Y));if(aA){var
+a$=aA[1];if(A[7])var
+b5=aQ[2],b6=aQ[1],b7=u(o),ad=mp(bE,a$,[7,i(aw(u),ao),b7,b6,b5]);else
 var
-ac=a_;var
-a$=p(g(f(a8,a9)),j),ba=a$?m(function(a){var
-b=m6(a);return m(function(a){return mJ(j,Z,a)},b)},ac):a$,bc=ba?D?mJ(j,Z,u(D[1])):1:ba;if(bc){var
-b8=f(at[1],ax[1]),aD=f(as[1],b8),L=nk(aP),M=iR(B,A[2]),_=L?e(function(a){var
-b=m4(j,M,a[2]),c=a[1];return[0,e(function(a){return m4(j,M,a)},c),b]},U):L,aE=L?cP(iK(j,o,D,_))[1]:L,aF=cO(aE),ad=function(a){return bb(aF,a)},b9=iI(ad,ad,_),b_=ad(bu(j,o)),aG=z(function(a){return ad(bu(j,a))},D),be=S(L);if(be)var
+ad=a$;var
+ba=p(g(f(a9,a_)),j),bb=ba?m(function(a){var
+b=ng(a);return m(function(a){return mV(j,Z,a)},b)},ad):ba,bc=bb?E?mV(j,Z,u(E[1])):1:bb;if(bc){var
+b8=f(at[1],ay[1]),aC=f(as[1],b8),M=nw(aP),N=i1(B,A[2]),_=M?e(function(a){var
+b=ne(j,N,a[2]),c=a[1];return[0,e(function(a){return ne(j,N,a)},c),b]},U):M,aE=M?cP(iU(j,o,E,_))[1]:M,aF=cO(aE),ae=function(a){return bd(aF,a)},b9=iS(ae,ae,_),b_=ae(bu(j,o)),aG=z(function(a){return ae(bu(j,a))},E),be=Q(M);if(be)var
 af=be;else{var
 bo=p(g(U),j);if(bo){var
-bA=iK(j,o,D,_),aL=m(function(a){var
-b=k(d);return aH(q(bb(aF,a),aF,b),a)},bA);if(aL)var
-bB=iK(j,o,D,_),ag=m(function(a){var
-b=aA(0,j);return m(function(b){return ed(j,b,a)},b)},bB);else
+bA=iU(j,o,E,_),aM=m(function(a){var
+b=k(d);return aJ(q(bd(aF,a),aF,b),a)},bA);if(aM)var
+bB=iU(j,o,E,_),ag=m(function(a){var
+b=aB(0,j);return m(function(b){return eg(j,b,a)},b)},bB);else
 var
-ag=aL;if(ag){var
-aM=z(function(a){return bu(j,a)},D),ai=bu(j,o),aK=m0(ai);if(aK)var
-bz=aA(0,W),aO=m(function(a){var
-b=dt(j,a,ai),c=b?m(function(b){var
-d=b[2][2],e=f(y(iJ,b[1]),d),g=P(j,a),c=m(function(a){return cC(g,a)},e);if(c){var
-h=b[2][1];return gw(ai,P(j,a),h)}return c},_):b;if(c){if(aM){var
-e=aM[1];return cC(P(j,a),e)}var
+ag=aM;if(ag){var
+aN=z(function(a){return bu(j,a)},E),ai=bu(j,o),aL=na(ai);if(aL)var
+bz=aB(0,W),aO=m(function(a){var
+b=dz(j,a,ai),c=b?m(function(b){var
+d=b[2][2],e=f(y(iT,b[1]),d),g=R(j,a),c=m(function(a){return cC(g,a)},e);if(c){var
+h=b[2][1];return gD(ai,R(j,a),h)}return c},_):b;if(c){if(aN){var
+e=aN[1];return cC(R(j,a),e)}var
 d=1}else
 var
 d=c;return d},bz);else
 var
-aO=aK;var
+aO=aL;var
 aj=aO}else
 var
 aj=ag;var
 cf=aj?m(function(a){var
-c=a[1],b=m(function(a){return m5(j,aD,M,a)},c);return b?m5(j,aD,M,a[2]):b},U):aj,af=cf}else
+c=a[1],b=m(function(a){return nf(j,aC,N,a)},c);return b?nf(j,aC,N,a[2]):b},U):aj,af=cf}else
 var
 af=bo}if(af){var
-b$=e(function(a){return 1},ac),ca=f(a8,a9),cb=function(l,O,ab,$,c){if(L){if(typeof
+b$=e(function(a){return 1},ad),ca=f(a9,a_),cb=function(l,P,ac,$,c){if(M){if(typeof
 c!=="number"&&10===c[0]){var
 h=c[3],o=c[2],r=c[1];if(typeof
 r!=="number"&&6===r[0]){if(h){if(h[2])return 0;var
-w=h[1],b=r[1],x=p($,W),y=x?aN(0,W):x;if(y)var
-v=hN(hJ,e(aB,o),M),Y=v?1:v,s=Y;else
+w=h[1],b=r[1],x=p($,W),y=x?aH(0,W):x;if(y)var
+v=hV(hQ,e(av,o),N),Y=v?1:v,s=Y;else
 var
 s=y;var
-z=s?h$(M):s,A=z?m(function(a){return aN(a,g(l))},M):z,B=A?p(g(w),j):A;if(B){var
+z=s?gm(N):s,A=z?m(function(a){return aH(a,g(l))},N):z,B=A?p(g(w),j):A;if(B){var
 u=0;if(typeof
 b!=="number")switch(b[0]){case
 0:var
-I=b[2],G=b[1],E=0;u=1;break;case
+I=b[2],G=b[1],F=0;u=1;break;case
 7:var
-J=b[2],k=b[1],P=0;if(typeof
+J=b[2],k=b[1],Q=0;if(typeof
 k!=="number"&&0===k[0]){var
 R=0;if(aG){var
-K=F(d,J);if(K){var
-I=k[2],G=k[1],E=[0,[0,[0,aG[1],J],b[3]]];u=1;P=1;R=1}else
+K=D(d,J);if(K){var
+I=k[2],G=k[1],F=[0,[0,[0,aG[1],J],b[3]]];u=1;Q=1;R=1}else
 var
-N=K}else
+O=K}else
 var
-N=aG;if(!R)return N}if(!P)return 0;break}if(u){var
-S=iD(a,gc(o,0,l),aE,O),n=iD(a,l,aE,O),f=function(b,a){return q(a,b,tZ)},T=m2(function(a){return f(n,a)},E),U=f(n,b_),V=function(a){return f(n,a)},X=[0,iI(function(a){return f(S,a)},V,b9),U,T],Z=h5(o,l),_=function(g){var
-b=aa(e(tX,g[1]));if(b){var
+O=aG;if(!R)return O}if(!Q)return 0;break}if(u){var
+S=iN(a,e0(o,0,l),aE,P),n=iN(a,l,aE,P),f=function(b,a){return q(a,b,t$)},T=nc(function(a){return f(n,a)},F),U=f(n,b_),V=function(a){return f(n,a)},X=[0,iS(function(a){return f(S,a)},V,b9),U,T],Z=gg(o,l),_=function(g){var
+b=ab(e(t9,g[1]));if(b){var
 c=g[2];if(c){var
 d=c_(g[3]);if(d){var
-l=d[1],m=am([0,H(ae(t(a,ab,c[1])),l),0],j),n=b[1],o=e(function(d){var
-b=h6(a,0,Z,d),c=bp(tY,b[2]);return[0,b[1],c]},n),f=lt(a,e(function(b){return Q(a,b)},w),G,I,o,m);if(f)return bd(a,j,f[1]);var
+l=d[1],m=al([0,H(aa(t(a,ac,c[1])),l),0],j),n=b[1],o=e(function(d){var
+b=gh(a,0,Z,d),c=bq(t_,b[2]);return[0,b[1],c]},n),f=ic(a,e(function(b){return L(a,b)},w),G,I,o,m);if(f)return a4(a,j,f[1]);var
 h=f}else
 var
 h=d;var
@@ -4788,65 +4855,65 @@ var
 i=c;var
 k=i}else
 var
-k=b;return k};return i(iF(function(b,a){return tW},W,j,_),X)}var
+k=b;return k};return i(iP(function(b,a){return t8},W,j,_),X)}var
 C=0}else
 var
 C=B;var
-D=C}else
+E=C}else
 var
-D=h;return D}return 0}return 0}return L},cd=u(o),ce=i(av(u),U);return e9(a,aW,aX,ac,j,j,z(u,D),ce,cd,cb,aD,ca,b$,aP)}var
+E=h;return E}return 0}return 0}return M},cd=u(o),ce=i(aw(u),U);return fa(a,aW,aX,ad,j,j,z(u,E),ce,cd,cb,aC,ca,b$,aP)}var
 bf=af}else
 var
 bf=bc;var
 bg=bf}else
 var
-bg=az;var
+bg=aA;var
 bh=bg}else
 var
-bh=ax;var
+bh=ay;var
 bi=bh}else
 var
-bi=aw;var
+bi=ax;var
 bj=bi}else
 var
 bj=au;var
-bl=bj}else
+bk=bj}else
 var
-bl=at;var
-bm=bl}else
+bk=at;var
+bm=bk}else
 var
 bm=as;var
 bn=bm}else
 var
 bn=ar;return bn}function
-e$(b,a){return bs(b,a[1],a[2])}function
-nl(b,a){var
-c=e$(b,a[1]),d=c?e$(b,a[2]):c;return d?e$(b,a[3]):d}function
+fc(b,a){return bs(b,a[1],a[2])}function
+nx(b,a){var
+c=fc(b,a[1]),d=c?fc(b,a[2]):c;return d?fc(b,a[3]):d}function
 aW(a){return typeof
-a==="number"?a?ul:um:bt(a[1])}function
-nm(b,a,c){return typeof
-b==="number"?b?[0,a[1],[0,a[2],0]]:[0,a[1],[0,a[2],[0,a[3],0]]]:iA(b[1],a,c)}function
-gI(a){if(0===a[0]){var
+a==="number"?a?ux:uy:bt(a[1])}function
+ny(b,a,c){return typeof
+b==="number"?b?[0,a[1],[0,a[2],0]]:[0,a[1],[0,a[2],[0,a[3],0]]]:iK(b[1],a,c)}function
+gP(a){if(0===a[0]){var
 c=a[1];switch(c[0]){case
 0:return c[3];case
 1:return c[2];default:return[0,[0,d,b],[0,d,b],[0,d,b]]}}return a[1][4]}function
-gJ(b,c,a){return b?cA(b[1],c,a):a}function
-bT(d,c,b,a){var
-e=gI(a),f=gJ(d,c,gI(a)),g=T(function(b,a){return[2,b,a]},b,f);return T(function(b,a){return[3,b,a]},g,e)}function
-nn(b,a){var
+gQ(b,c,a){return b?cA(b[1],c,a):a}function
+bU(d,c,b,a){var
+e=gP(a),f=gQ(d,c,gP(a)),g=T(function(b,a){return[2,b,a]},b,f);return T(function(b,a){return[3,b,a]},g,e)}function
+nz(b,a){var
 c=typeof
 b==="number"?1:0;if(c){if(b)return[0,a[1],[0,a[2],0]];var
 d=[0,a[1],[0,a[2],[0,a[3],0]]]}else
 var
 d=c;return d}function
-no(b,w,v){var
-e=w,d=v;for(;;){if(e){if(d){var
+nA(b,x,v){var
+e=x,d=v;for(;;){if(e){if(d){var
 f=d[1],j=e[1];if(0===j[0])var
-g=0===f[0]?l3(b,j[1],f[1]):0;else
+g=0===f[0]?md(b,j[1],f[1]):0;else
 if(0===f[0])var
 g=0;else{var
-a=f[1],c=j[1],k=bl(b,c[1],a[1]),l=k?bl(b,c[2],a[2]):k,m=l?bl(b,c[3],a[3]):l,n=m?bl(b,c[4],a[4]):m,o=n?c0(b,c[5],a[5]):n,p=o?c0(b,c[6],a[6]):o,q=p?h(b,1,a[5]):p,r=q?h(b,1,a[6]):q,s=r?h(b,1,x(a[1],a[1])):r;if(s)var
-u=iq(a),i=h(b,1,x(iq(a),u));else
+a=f[1],c=j[1],k=bm(b,c[1],a[1]),l=k?bm(b,c[2],a[2]):k,m=l?bm(b,c[3],a[3]):l,n=m?bm(b,c[4],a[4]):m,o=n?c0(b,c[5],a[5]):n,p=o?c0(b,c[6],a[6]):o,q=p?h(b,1,a[5]):p,r=q?h(b,1,a[6]):q,s=r?h(b,1,w(a[1],a[1])):r;if(s)var
+u=iA(a),i=h(b,1,w(iA(a),u));else
 var
 i=s;var
 g=i?cm(c[7],a[7]):i}if(g){var
@@ -4854,76 +4921,76 @@ e=e[2],d=d[2];continue}var
 t=g}else
 var
 t=d;return t}return d?0:1}}function
-np(a){return typeof
-a==="number"?a?dv(0):dn:dv(a[1])}function
-iS(b,d,c){if(0===c[0])return gj(b,d[1],c[1]);var
-a=c[1],e=[0,[0,a[5],b],[0,[0,a[6],b],0]],g=f(a5(a[4],b),e),h=f(a5(a[3],b),g),i=f(a5(a[2],d[2]),h);return f(a5(a[1],d[1]),i)}function
-iT(b,a){if(b){var
-c=b[1],d=c[2];return bk(e8(c[1],a),d)}return a}function
-nq(f,t,am,J,ak,r,ai){if(r){var
-j=r[1],an=bJ([0,d,d],ak),a=cx(ai,iS(J,an,j)),y=function(c,b){var
-d=aj(a,c);return ah(w,ah(C,np(f),b),d)};if(0===j[0]){var
+nB(a){return typeof
+a==="number"?a?dB(0):dt:dB(a[1])}function
+i2(b,d,c){if(0===c[0])return gq(b,d[1],c[1]);var
+a=c[1],e=[0,[0,a[5],b],[0,[0,a[6],b],0]],g=f(a6(a[4],b),e),h=f(a6(a[3],b),g),i=f(a6(a[2],d[2]),h);return f(a6(a[1],d[1]),i)}function
+i3(b,a){if(b){var
+c=b[1],d=c[2];return bl(e$(c[1],a),d)}return a}function
+nC(f,t,al,J,ak,r,ai){if(r){var
+j=r[1],an=bK([0,d,d],ak),a=cx(ai,i2(J,an,j)),y=function(c,b){var
+d=aj(a,c);return ah(v,ah(C,nB(f),b),d)};if(0===j[0]){var
 z=j[1];switch(z[0]){case
 0:var
-$=iT(t,aj(a,uo)),aE=z[1][5],A=q(up,a,k(d)),B=aj(a,0),aa=y(uq,$),i=lj(aa,dm(B),aa,A,aE),ap=[0,aC(A),0],aq=[0,aC(V(B,B)),ap],l=[0,[0,i[1],i[2],i[3],[0,i[4]],[0,[0,i[2],A]],aq],$];break;case
+$=i3(t,aj(a,uA)),aE=z[1][5],A=q(uB,a,k(d)),B=aj(a,0),aa=y(uC,$),i=ls(aa,ds(B),aa,A,aE),ap=[0,aD(A),0],aq=[0,aD(V(B,B)),ap],l=[0,[0,i[1],i[2],i[3],[0,i[4]],[0,[0,i[2],A]],aq],$];break;case
 1:var
-ab=iT(t,aj(a,ur)),ac=z[3],D=ac?[0,aj(a,us)]:ac,ad=y(0,ab),m=lk(ad,ad,0);if(D)var
-K=D[1],L=[0,aC(V(K,K)),0];else
+ab=i3(t,aj(a,uD)),ac=z[3],D=ac?[0,aj(a,uE)]:ac,ad=y(0,ab),m=lt(ad,ad,0);if(D)var
+K=D[1],L=[0,aD(V(K,K)),0];else
 var
 L=D;var
 l=[0,[0,m[1],m[2],m[3],[0,m[4]],0,L],ab];break;default:var
-aF=k(d),aG=k(d),aH=[0,k(d),aG,aF],E=aj(a,0),aI=np(f),n=ll(aI,dm(E)),ar=[0,aC(V(E,E)),0],l=[0,[0,n[1],n[2],n[3],[0,n[4]],0,ar],aH]}}else
+aF=k(d),aG=k(d),aH=[0,k(d),aG,aF],E=aj(a,0),aI=nB(f),n=lu(aI,ds(E)),ar=[0,aD(V(E,E)),0],l=[0,[0,n[1],n[2],n[3],[0,n[4]],0,ar],aH]}}else
 var
-ae=iT(t,aj(a,ut)),F=j[1][7],G=q(uu,a,k(d)),e=q(uv,a,k(d)),af=aj(a,uw),H=aj(a,0),p=y(ux,ae),o=dm(H),u=ah(w,af,aZ(V(o,af),o)),v=dm(u),M=cc(o,v),N=V(p,v),O=V(p,M),as=V(o,p),at=R(O),Q=C(R(N),at),au=R(as),S=w(R(G),au),av=s(k(c(2,b)),e),x=w(Q,R(al(C(Q,w(R(e),S)),av))),aw=f9(F,s(e,aC(x))),T=al(N,e),U=f9(F,al(O,e)),W=al(S,R(e)),X=kQ(0,T,U,W),Y=f9(F,kQ(1,T,U,W)),ax=aZ(Y,M),Z=ah(w,p,aZ(e,ah(C,aZ(X,v),ax))),ay=[0,aC(G),0],az=[0,aC(e),ay],aA=[0,aC(V(u,u)),az],aB=[0,aC(V(H,H)),aA],aD=bk(Z,aw),l=[0,[0,Z,s(R(e),x),aD,[1,X,Y],[0,[0,x,G]],aB],ae];var
-aP=P(ai,g(iS(J,an,j))),aQ=r[2],aR=nq(f,t,am,J,by(ak),aQ,aP),h=l[1],aS=l[2],ag=function(a){var
-b=bk(cc(aS,a),am);return typeof
-f==="number"?f?[0,a[1],[0,a[2],0]]:bN(a):gC(f[1],a,b)},I=h[1],_=typeof
-f==="number"?1:0,aJ=h[6],aK=h[5],aL=_?f?[0,I[1],[0,I[2],0]]:bN(I):_,aM=h[4],aN=ag(h[3]),aO=h[2],ao=[0,[0,ag(h[1]),aO,aN,aM,aL,aK,aJ],aR]}else
+ae=i3(t,aj(a,uF)),F=j[1][7],G=q(uG,a,k(d)),e=q(uH,a,k(d)),af=aj(a,uI),H=aj(a,0),p=y(uJ,ae),o=ds(H),u=ah(v,af,aZ(V(o,af),o)),w=ds(u),M=cc(o,w),N=V(p,w),O=V(p,M),as=V(o,p),at=S(O),P=C(S(N),at),au=S(as),Q=v(S(G),au),av=s(k(c(2,b)),e),x=v(P,S(am(C(P,v(S(e),Q)),av))),aw=gb(F,s(e,aD(x))),T=am(N,e),U=gb(F,am(O,e)),W=am(Q,S(e)),X=k0(0,T,U,W),Y=gb(F,k0(1,T,U,W)),ax=aZ(Y,M),Z=ah(v,p,aZ(e,ah(C,aZ(X,w),ax))),ay=[0,aD(G),0],az=[0,aD(e),ay],aA=[0,aD(V(u,u)),az],aB=[0,aD(V(H,H)),aA],aC=bl(Z,aw),l=[0,[0,Z,s(S(e),x),aC,[1,X,Y],[0,[0,x,G]],aB],ae];var
+aP=R(ai,g(i2(J,an,j))),aQ=r[2],aR=nC(f,t,al,J,by(ak),aQ,aP),h=l[1],aS=l[2],ag=function(a){var
+b=bl(cc(aS,a),al);return typeof
+f==="number"?f?[0,a[1],[0,a[2],0]]:bO(a):gJ(f[1],a,b)},I=h[1],_=typeof
+f==="number"?1:0,aJ=h[6],aK=h[5],aL=_?f?[0,I[1],[0,I[2],0]]:bO(I):_,aM=h[4],aN=ag(h[3]),aO=h[2],ao=[0,[0,ag(h[1]),aO,aN,aM,aL,aK,aJ],aR]}else
 var
 ao=r;return ao}function
-iU(c,b,a){if(a){var
-e=a[2],g=iU(c,by(b),e),h=a[1];return f(iS(c,bJ([0,d,d],b),h),g)}return a}function
-nr(b,h,g,d,c,a){if(a){var
-j=a[2],k=a[1],l=nr(b,h,g,d,f(c,[0,k,0]),j),m=i(d,e(by,f(c,j)));return ao(h,ao(g,bJ(b,k),m),l)}return b}function
-ns(a,f,e,d,c,b){if(c){var
-g=0,h=c[1];return nr(a,e,d,function(b){return ns(a,f,e,d,h,b)},g,b)}return b?a:f}function
-nt(d,a){if(a){var
-b=aD(d,a[1]);if(b)var
-c=nt(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
+i4(c,b,a){if(a){var
+e=a[2],g=i4(c,by(b),e),h=a[1];return f(i2(c,bK([0,d,d],b),h),g)}return a}function
+nD(b,h,g,d,c,a){if(a){var
+j=a[2],k=a[1],l=nD(b,h,g,d,f(c,[0,k,0]),j),m=i(d,e(by,f(c,j)));return ao(h,ao(g,bK(b,k),m),l)}return b}function
+nE(a,f,e,d,c,b){if(c){var
+g=0,h=c[1];return nD(a,e,d,function(b){return nE(a,f,e,d,h,b)},g,b)}return b?a:f}function
+nF(d,a){if(a){var
+b=aE(d,a[1]);if(b)var
+c=nF(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
 var
-e=b;return e}return uy}function
-nu(d,a){if(a){var
-b=nt(d,a[1]);if(b)var
-c=nu(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
+e=b;return e}return uK}function
+nG(d,a){if(a){var
+b=nF(d,a[1]);if(b)var
+c=nG(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
 var
-e=b;return e}return uz}function
-iV(b){if(b){var
+e=b;return e}return uL}function
+i5(b){if(b){var
 a=b[2],c=b[1];if(c){var
 e=c[2],q=c[1];if(e){var
 f=e[2],r=e[1];if(f){if(f[2])return k(d);if(a){var
 g=a[2],h=a[1];if(h){var
 i=h[2],t=h[1];if(i){var
 j=i[2],u=i[1];if(j){var
-v=j[1];if(j[2])return k(d);if(g){var
+w=j[1];if(j[2])return k(d);if(g){var
 l=g[1];if(l){var
 m=l[2],x=l[1];if(m){var
 n=m[2],y=m[1];if(n){var
 z=n[1];if(n[2])return k(d);if(g[2])return k(d);var
-A=dq(t,u,x,y),B=s(f[1],A),D=s(r,dq(t,v,x,z));return C(w(s(q,dq(u,v,y,z)),D),B)}return k(d)}return k(d)}return k(d)}return k(d)}return k(d)}return k(d)}return k(d)}return k(d)}if(a){var
+A=dw(t,u,x,y),B=s(f[1],A),D=s(r,dw(t,w,x,z));return C(v(s(q,dw(u,w,y,z)),D),B)}return k(d)}return k(d)}return k(d)}return k(d)}return k(d)}return k(d)}return k(d)}return k(d)}if(a){var
 o=a[1];if(o){var
-p=o[2];return p?p[2]?k(d):a[2]?k(d):dq(q,r,o[1],p[1]):k(d)}return k(d)}return k(d)}return k(d)}return k(d)}return k(d)}function
-nv(a){if(a){var
+p=o[2];return p?p[2]?k(d):a[2]?k(d):dw(q,r,o[1],p[1]):k(d)}return k(d)}return k(d)}return k(d)}return k(d)}return k(d)}function
+nH(a){if(a){var
 b=a[1][6];if(b)var
-c=nv(a[2]),e=c?[0,[0,b[1][2],c[1]]]:c,d=e;else
+c=nH(a[2]),e=c?[0,[0,b[1][2],c[1]]]:c,d=e;else
 var
-d=b;return d}return uA}function
-nw(g,l,a){function
+d=b;return d}return uM}function
+nI(g,l,a){function
 b(a){return q(a,l,k(d))}function
 m(a){var
-e=a[2],f=s(R(b(0)),e),c=0,d=0,g=a[1];return[0,[0,b4(function(b,a){return w(b,R(a))},g,f),d],c]}function
+e=a[2],f=s(S(b(0)),e),c=0,d=0,g=a[1];return[0,[0,bL(function(b,a){return v(b,S(a))},g,f),d],c]}function
 n(e){var
 a=e[6];if(a)var
-c=a[1],f=R(c[2]),g=s(R(b(0)),f),d=[0,[0,w(c[1],g),0],0];else
+c=a[1],f=S(c[2]),g=s(S(b(0)),f),d=[0,[0,v(c[1],g),0],0];else
 var
 d=a;return d}var
 j=0;if(typeof
@@ -4933,17 +5000,17 @@ switch(a[0]){case
 u=function(c){var
 a=c[4];if(typeof
 a!=="number"&&0===a[0]){var
-d=b(0);return[0,[0,w(a[1],d),0],0]}return 0},f=u,c=a[1];break;case
+d=b(0);return[0,[0,v(a[1],d),0],0]}return 0},f=u,c=a[1];break;case
 3:var
-v=function(c){var
+w=function(c){var
 a=c[4];if(typeof
 a!=="number"&&0===a[0]){var
-d=a[1];return[0,[0,w(b(0),d),0],0]}return 0},f=v,c=a[1];break;case
+d=a[1];return[0,[0,v(b(0),d),0],0]}return 0},f=w,c=a[1];break;case
 4:var
 x=function(e){var
 a=e[4];if(typeof
 a!=="number"&&1===a[0]){var
-c=a[2],d=a[1],f=s(b(uB),c),g=[0,[0,w(s(b(uC),d),f),0],0],h=s(d,b(uD));return[0,[0,w(s(c,b(0)),h),0],g]}return 0},f=x,c=a[1];break;case
+c=a[2],d=a[1],f=s(b(uN),c),g=[0,[0,v(s(b(uO),d),f),0],0],h=s(d,b(uP));return[0,[0,v(s(c,b(0)),h),0],g]}return 0},f=x,c=a[1];break;case
 6:var
 y=function(a){var
 b=a[4];if(typeof
@@ -4959,71 +5026,71 @@ A=function(a){var
 b=a[4];if(typeof
 b!=="number"&&0===b[0])return n(a);return 0},f=A,c=a[1];break;case
 12:var
-i=nv(g);if(i)var
-B=b(0),o=b4(s,i[1],B),p=iV(e(function(a){return a[5]},g)),D=[0,bi(C(p,o)),0],r=[0,[0,w(p,o),D],0];else
+i=nH(g);if(i)var
+B=b(0),o=bL(s,i[1],B),p=i5(e(function(a){return a[5]},g)),D=[0,bk(C(p,o)),0],r=[0,[0,v(p,o),D],0];else
 var
 r=i;return r;case
 17:var
 t=a[1],f=function(d){var
-a=iV(e(function(a){return a[1]},g));function
+a=i5(e(function(a){return a[1]},g));function
 b(b){var
-c=[0,bi(C(a,b)),0];return[0,w(a,b),c]}var
-f=iV(mg(t,l,e(function(a){return a[1]},g))),c=s(aC(d[2]),f),h=[0,b(bi(c)),0];return[0,b(c),h]},c=t;break;default:j=1}if(j)return 0;var
-h=E(g,c);return h?f(h[1]):h}function
-eh(a){return e(function(a){return[0,a[1],a[2]]},a)}function
-fa(a){return e(function(a){var
+c=[0,bk(C(a,b)),0];return[0,v(a,b),c]}var
+f=i5(ms(t,l,e(function(a){return a[1]},g))),c=s(aD(d[2]),f),h=[0,b(bk(c)),0];return[0,b(c),h]},c=t;break;default:j=1}if(j)return 0;var
+h=F(g,c);return h?f(h[1]):h}function
+ek(a){return e(function(a){return[0,a[1],a[2]]},a)}function
+fd(a){return e(function(a){var
 c=k(b);return[0,a[3],c]},a)}function
-nx(c,b,a){if(typeof
-a!=="number"&&8===a[0])return bP(gv(eh(c),b));return dS(nw(c,b,a))}function
-ny(f,l,k,K,J,t,a){if(typeof
-a==="number")return[0,[0,[0,v]],0];else
+nJ(c,b,a){if(typeof
+a!=="number"&&8===a[0])return bQ(gC(ek(c),b));return dX(nI(c,b,a))}function
+nK(f,l,k,K,J,t,a){if(typeof
+a==="number")return[0,[0,[0,x]],0];else
 switch(a[0]){case
 0:var
-L=[5,[0,b,b],a[1]],n=L,o=function(a){return[0,a]};break;case
+M=[5,[0,b,b],a[1]],n=M,o=function(a){return[0,a]};break;case
 1:var
-O=[5,[0,b,b],a[1]],n=O,o=function(a){return[1,a]};break;case
+P=[5,[0,b,b],a[1]],n=P,o=function(a){return[1,a]};break;case
 5:var
 B=a[1],T=0,U=an(f,[0,[0,B,B],d]);return[0,z(function(a){return[2,X(f,a)]},U),T];case
 7:var
-C=a[3],D=a[2],F=a[1];if(!E(k,F))return uG;var
+C=a[3],D=a[2],E=a[1];if(!F(k,E))return uS;var
 I=0;if(h(f,1,D)&&h(f,1,C))var
-V=[5,D,C],n=V,o=function(a){return[7,F,a]};else
-I=1;if(I)return uF;break;case
+V=[5,D,C],n=V,o=function(a){return[7,E,a]};else
+I=1;if(I)return uR;break;case
 8:var
 G=h(f,1,a[2]),W=0;if(G)var
 Y=a[1],Z=1,q=m(function(a){return h(f,Z,a)},Y);else
 var
 q=G;if(q)var
-_=Q(f,b),$=gv(eh(k),t),H=[0,[4,i(av(l),$),_]];else
+_=L(f,b),$=gC(ek(k),t),H=[0,[4,i(aw(l),$),_]];else
 var
 H=q;return[0,H,W];default:var
 s=0;if(typeof
 a==="number")s=1;else
 switch(a[0]){case
 4:var
-u=a[3],w=a[2],x=h(f,1,[3,u,w]),R=x?h(f,1,[3,[2,w,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b]],u]):x,j=R;break;case
+u=a[3],v=a[2],w=h(f,1,[3,u,v]),R=w?h(f,1,[3,[2,v,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b]],u]):w,j=R;break;case
 17:var
 A=h(f,1,a[3]);if(A)var
-S=e(function(a){return a[1]},k),j=mh(g(a[2]),S);else
+S=e(function(a){return a[1]},k),j=mt(g(a[2]),S);else
 var
 j=A;break;case
 6:case
 9:var
 y=h(f,1,a[2]),j=y?h(f,0,a[3]):y;break;default:s=1}if(s)var
 j=1;var
-p=j?nw(k,t,a):j;if(p){var
-P=[0,p[1],p[2]];return e(function(a){if(a){var
+p=j?nI(k,t,a):j;if(p){var
+Q=[0,p[1],p[2]];return e(function(a){if(a){var
 b=a[2],c=a[1];if(b){if(b[2])return 0;var
 e=i(l,b[1]);return[0,[5,i(l,c),e]]}var
 d=[0,[3,i(l,c)]]}else
 var
-d=a;return d},P)}return uE}var
-M=0,N=an(f,[0,[0,n,n],gu(K,J)]);return[0,z(function(a){return o(X(f,a))},N),M]}function
-nz(a){if(typeof
+d=a;return d},Q)}return uQ}var
+N=0,O=an(f,[0,[0,n,n],gB(K,J)]);return[0,z(function(a){return o(X(f,a))},O),N]}function
+nL(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-uI(b){if(0===b[0])return[0,mb(b[1])];var
-a=b[1],c=a[7],d=a[6][1],e=a[5][1],f=bz(a[4]),g=bz(a[3]),h=bz(a[2]);return[1,[0,bz(a[1]),h,g,f,e,d,c]]}function
-bU(c){var
+uU(b){if(0===b[0])return[0,mn(b[1])];var
+a=b[1],c=a[7],d=a[6][1],e=a[5][1],f=bA(a[4]),g=bA(a[3]),h=bA(a[2]);return[1,[0,bA(a[1]),h,g,f,e,d,c]]}function
+bV(c){var
 a=c;for(;;)switch(a[0]){case
 0:var
 b=a[1];return[0,[0,[0,b,b],d],0];case
@@ -5032,104 +5099,104 @@ b=a[1];return[0,[0,[0,b,b],d],0];case
 7:case
 8:var
 a=a[1];continue;default:var
-e=bU(a[2]);return f(bU(a[1]),e)}}function
-bB(e,a,c){switch(a[0]){case
+e=bV(a[2]);return f(bV(a[1]),e)}}function
+bC(e,a,c){switch(a[0]){case
 0:var
 q=a[1];return cZ([0,[0,q,q],d],c);case
 1:var
 t=a[1],h=e,u=k(d);for(;;){if(h){var
-n=h[1];if(rm(n[1],t))return n[2];var
+n=h[1];if(rx(n[1],t))return n[2];var
 h=h[2];continue}return u}case
-2:return bi(bB(e,a[1],c));case
+2:return bk(bC(e,a[1],c));case
 3:var
 j=a[2],f=a[1],i=C;break;case
 4:var
-j=a[2],f=a[1],i=w;break;case
+j=a[2],f=a[1],i=v;break;case
 5:var
 j=a[2],f=a[1],i=s;break;case
 6:var
-j=a[2],f=a[1],i=al;break;case
+j=a[2],f=a[1],i=am;break;case
 7:var
-l=eO(a[2]),m=bB(e,a[1],c);if(l){if(l[1]){var
-o=R(m),r=function(a){return s(a,o)},p=fO(bx(kw(l)),r,o);return kv(l)?p:s(p,m)}return m}return k(b);default:return aC(bB(e,a[1],c))}var
-v=bB(e,j,P(c,g(bU(f))));return i(bB(e,f,c),v)}function
+l=eO(a[2]),m=bC(e,a[1],c);if(l){if(l[1]){var
+o=S(m),r=function(a){return s(a,o)},p=fR(bx(kH(l)),r,o);return kG(l)?p:s(p,m)}return m}return k(b);default:return aD(bC(e,a[1],c))}var
+w=bC(e,j,R(c,g(bV(f))));return i(bC(e,f,c),w)}function
 c$(c,h,b){var
 a=h;for(;;)switch(a[0]){case
 6:var
-e=a[1],k=P(b,g(bU(e))),l=c$(c,a[2],k),m=f(c$(c,e,b),l);return[0,bB(c,a,b),m];case
+e=a[1],k=R(b,g(bV(e))),l=c$(c,a[2],k),m=f(c$(c,e,b),l);return[0,bC(c,a,b),m];case
 8:var
-n=c$(c,a[1],b);return[0,bB(c,a,b),n];case
+n=c$(c,a[1],b);return[0,bC(c,a,b),n];case
 2:case
 7:var
 a=a[1];continue;case
 0:case
 1:return 0;default:var
-d=a[1],i=P(b,g(bU(d))),j=c$(c,a[2],i);return f(c$(c,d,b),j)}}function
-nA(i,h,f){var
+d=a[1],i=R(b,g(bV(d))),j=c$(c,a[2],i);return f(c$(c,d,b),j)}}function
+nM(i,h,f){var
 b=i,a=h,c=f;for(;;){if(a){var
-d=a[1],e=d[2],j=P(c,g(bU(e))),k=a[2],l=bB(b,e,c),b=[0,[0,d[1],l],b],a=k,c=j;continue}return b}}function
-iW(c,a,b){if(a){var
-e=a[1],d=e[2],h=P(b,g(bU(d))),i=a[2],j=bB(c,d,b),k=iW([0,[0,e[1],j],c],i,h);return f(c$(c,d,b),k)}return a}function
-fb(a){return y(bU,a)}function
-nB(c,a,b){if(a)var
-d=a[1],f=P(b,g(bU(d))),h=nB(c,a[2],f),e=[0,bB(c,d,b),h];else
+d=a[1],e=d[2],j=R(c,g(bV(e))),k=a[2],l=bC(b,e,c),b=[0,[0,d[1],l],b],a=k,c=j;continue}return b}}function
+i6(c,a,b){if(a){var
+e=a[1],d=e[2],h=R(b,g(bV(d))),i=a[2],j=bC(c,d,b),k=i6([0,[0,e[1],j],c],i,h);return f(c$(c,d,b),k)}return a}function
+fe(a){return y(bV,a)}function
+nN(c,a,b){if(a)var
+d=a[1],f=R(b,g(bV(d))),h=nN(c,a[2],f),e=[0,bC(c,d,b),h];else
 var
 e=a;return e}function
-nC(c,a,b){if(a){var
-d=a[1],e=P(b,g(bU(d))),h=nC(c,a[2],e);return f(c$(c,d,b),h)}return a}function
-gK(a){return 0===a[0]?fb(a[1]):bU(a[1])}function
-iX(c,b,a){if(b){var
-d=b[1],j=P(a,g(gK(d))),k=iX(c,b[2],j);if(0===d[0])var
-h=nC(c,d[1],a);else
+nO(c,a,b){if(a){var
+d=a[1],e=R(b,g(bV(d))),h=nO(c,a[2],e);return f(c$(c,d,b),h)}return a}function
+gR(a){return 0===a[0]?fe(a[1]):bV(a[1])}function
+i7(c,b,a){if(b){var
+d=b[1],j=R(a,g(gR(d))),k=i7(c,b[2],j);if(0===d[0])var
+h=nO(c,d[1],a);else
 var
-e=d[1],i=c$(c,e,a),h=[0,bB(c,e,a),i];return f(h,k)}return b}function
-gL(c){var
+e=d[1],i=c$(c,e,a),h=[0,bC(c,e,a),i];return f(h,k)}return b}function
+gS(c){var
 a=c[1];switch(a[0]){case
 0:var
 b=[1,a[1]];break;case
 1:var
 b=[0,a[1]];break;default:var
-b=bK(gL,a)}return[0,b]}function
-iY(c){var
+b=bM(gS,a)}return[0,b]}function
+i8(c){var
 b=c;for(;;){var
 a=b[1];switch(a[0]){case
 5:var
 b=a[1];continue;case
 6:var
-d=iY(a[2]);return s(iY(a[1]),d);case
-9:return a[1];default:return R(b)}}}function
-iZ(n,h,a,f){if(a){var
-c=a[1],w=P(f,g(gK(c))),x=iZ(n,h,a[2],w);if(0===c[0])var
-l=nB(h,c[1],f),o=[0,l,k(b),l,0,0,0,0];else
+d=i8(a[2]);return s(i8(a[1]),d);case
+9:return a[1];default:return S(b)}}}function
+i9(n,h,a,f){if(a){var
+c=a[1],w=R(f,g(gR(c))),x=i9(n,h,a[2],w);if(0===c[0])var
+l=nN(h,c[1],f),o=[0,l,k(b),l,0,0,0,0];else
 var
-m=bB(h,c[1],f),q=gL(m),i=a4(aA(0,n),q),d=gL(i[2]),j=e(gL,i[1]),r=0,s=0,t=0,u=[0,m],v=e(function(a){return aH(a,d)?k(b):al(a,d)},j),o=[0,j,iY(d),v,u,t,s,r];var
+m=bC(h,c[1],f),q=gS(m),i=a5(aB(0,n),q),d=gS(i[2]),j=e(gS,i[1]),r=0,s=0,t=0,u=[0,m],v=e(function(a){return aJ(a,d)?k(b):am(a,d)},j),o=[0,j,i8(d),v,u,t,s,r];var
 p=[0,o,x]}else
 var
 p=a;return p}function
-nD(a){return e(function(a){return[0,a[2],d]},a)}function
-i0(a){var
-b=y(gK,a[4]),c=f(fb(e(aY,a[3])),b);return f(nD(a[2]),c)}function
-gM(a){var
-c=cx(0,nD(a[2])),d=aA(0,g(a[1])),h=e(function(a){return[0,[0,a]]},d),b=_(e(aB,a[2]),c);return f(_(a[1],h),b)}function
-i1(b,d){var
+nP(a){return e(function(a){return[0,a[2],d]},a)}function
+i_(a){var
+b=y(gR,a[4]),c=f(fe(e(aY,a[3])),b);return f(nP(a[2]),c)}function
+gT(a){var
+c=cx(0,nP(a[2])),d=aB(0,g(a[1])),h=e(function(a){return[0,[0,a]]},d),b=$(e(av,a[2]),c);return f($(a[1],h),b)}function
+i$(b,d){var
 a=d;for(;;)switch(a[0]){case
 0:return 1;case
 1:var
-e=a[1];return ak(function(a){return aw(e,a)},b);case
+e=a[1];return ak(function(a){return ax(e,a)},b);case
 2:case
 7:case
 8:var
 a=a[1];continue;default:var
-c=i1(b,a[1]);if(c){var
+c=i$(b,a[1]);if(c){var
 a=a[2];continue}return c}}function
-nE(d){var
+nQ(d){var
 a=d;for(;;){if(a){var
-b=a[2],e=a[1],c=S(ak(function(b){return function(a){return rm(b,a)}}(e),b));if(c){var
+b=a[2],e=a[1],c=Q(ak(function(b){return function(a){return rx(b,a)}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-nF(a){var
-u=e(aB,a[2]),d=f(a[1],u),h=g(a[1]),o=Z(uJ,h),p=o?Z(h,uK):o,q=p?Z(h,g(a[4])):p,r=q?Z(g(a[4]),uL):q,s=r?nE(d):r;if(s){var
+nR(a){var
+u=e(av,a[2]),d=f(a[1],u),h=g(a[1]),o=_(uV,h),p=o?_(h,uW):o,q=p?_(h,g(a[4])):p,r=q?_(g(a[4]),uX):q,s=r?nQ(d):r;if(s){var
 c=d,b=a[3];for(;;){if(b){var
-j=b[1],k=j[1],l=S(ak(function(b){return function(a){return aw(b,a)}}(k),c)),n=l?i1(c,j[2]):l;if(n){var
+j=b[1],k=j[1],l=Q(ak(function(b){return function(a){return ax(b,a)}}(k),c)),n=l?i$(c,j[2]):l;if(n){var
 c=[0,k,c],b=b[2];continue}var
 t=n}else
 var
@@ -5138,9 +5205,9 @@ i=t;break}}else
 var
 i=s;if(i){var
 v=a[4];return m(function(b){var
-c=0===b[0]?b[1]:[0,b[1],0],g=f(e(aB,a[3]),d);return m(function(a){return i1(g,a)},c)},v)}return i}function
-ei(f,e,g){var
-h=g[1],a=bK(function(a){return ei(f,e,a)},h);switch(a[0]){case
+c=0===b[0]?b[1]:[0,b[1],0],g=f(e(av,a[3]),d);return m(function(a){return i$(g,a)},c)},v)}return i}function
+el(f,e,g){var
+h=g[1],a=bM(function(a){return el(f,e,a)},h);switch(a[0]){case
 0:return q(a[1],f,[0,d,b]);case
 1:return q(a[1],e,[0,d,b]);case
 2:return[0,a[1],b];case
@@ -5152,7 +5219,7 @@ h=g[1],a=bK(function(a){return ei(f,e,a)},h);switch(a[0]){case
 8:var
 c=a[1];return[4,c,c];case
 9:return[6,a[1]];default:return[0,d,b]}}function
-nG(d){var
+nS(d){var
 b=d;for(;;){var
 a=b[1];switch(a[0]){case
 10:return 0;case
@@ -5163,81 +5230,81 @@ b=a[1];continue;case
 0:case
 1:case
 2:return 1;default:var
-c=nG(a[1]);if(c){var
+c=nS(a[1]);if(c){var
 b=a[2];continue}return c}}}function
-nH(g,f,e){var
+nT(g,f,e){var
 b=f,a=e;for(;;){if(b){if(a){var
 c=c0(g,b[1],a[1]);if(c){var
 b=b[2],a=a[2];continue}var
 d=c}else
 var
 d=a;return d}return a?0:1}}function
-uM(a){var
+uY(a){var
 b=a[4],d=0;if(typeof
 b!=="number"&&0===b[0]){var
 c=[0,b[1],0];d=1}if(!d)var
 c=0;var
 e=f(a[3],c);return f(a[1],e)}function
-nI(f,e){function
+nU(f,e){function
 a(a){return q(a,e,[0,d,b])}var
 c=[0,d,b];switch(f){case
 0:var
-g=a(uO);return[0,a(0),g,c];case
+g=a(u0);return[0,a(0),g,c];case
 1:var
-h=a(uP),i=a(uQ);return[0,a(0),i,h];default:return[0,c,c,c]}}function
-nJ(f,e){function
+h=a(u1),i=a(u2);return[0,a(0),i,h];default:return[0,c,c,c]}}function
+nV(f,e){function
 a(a){return q(a,e,[0,d,b])}var
 c=[0,d,b];switch(f){case
-0:return[0,c,c,a(uR)];case
+0:return[0,c,c,a(u3)];case
 1:var
-g=a(uS),h=a(uT);return[0,a(uU),h,g];default:var
-i=a(uV),j=a(uW);return[0,a(0),j,i]}}function
-nK(c,j,d,b,a){var
-e=aN(d,j),g=e?ba(b,a):e;if(g)var
-k=cv(c,a)[2],h=[0,cv(c,b)[1],k],l=[0,cv(c,dU(a,b)),0],i=[0,[0,h,h,f(am(v,d),l)]];else
+g=a(u4),h=a(u5);return[0,a(u6),h,g];default:var
+i=a(u7),j=a(u8);return[0,a(0),j,i]}}function
+nW(c,j,d,b,a){var
+e=aH(d,j),g=e?bb(b,a):e;if(g)var
+k=cv(c,a)[2],h=[0,cv(c,b)[1],k],l=[0,cv(c,dZ(a,b)),0],i=[0,[0,h,h,f(al(x,d),l)]];else
 var
 i=g;return i}function
-i2(a){if(a){var
+ja(a){if(a){var
 b=a[1];if(b)var
-c=i2(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+c=ja(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return uZ}function
-nL(c,b,a){if(b){if(a){var
-d=b[1],f=nL(c,b[2],a[2]),g=a[1],h=function(b,a){return A(t(c,d,b),a)},i=function(a){return a};return aI(function(a){return t(c,d,a)},i,h,g,f)}var
+d=b;return d}return u$}function
+nX(c,b,a){if(b){if(a){var
+d=b[1],f=nX(c,b[2],a[2]),g=a[1],h=function(b,a){return A(t(c,d,b),a)},i=function(a){return a};return aK(function(a){return t(c,d,a)},i,h,g,f)}var
 e=a}else
 var
 e=b;return e}function
-nM(c,b,a){if(b){if(a){var
-d=nM(c,b[2],a[2]);return A(t(c,b[1],a[1]),d)}return v}return v}function
-gN(a){return aq(function(d,a){var
-e=c(2,b);return D(b3(b7(d),e),a)},d,a)}function
-nN(a,i,h){var
+nY(c,b,a){if(b){if(a){var
+d=nY(c,b[2],a[2]);return A(t(c,b[1],a[1]),d)}return x}return x}function
+gU(a){return aq(function(d,a){var
+e=c(2,b);return E(b4(b7(d),e),a)},d,a)}function
+nZ(a,i,h){var
 d=g(i);function
 t(g,e,f){var
-d=[0,b,c(2,b)];return[0,$(cv(a,a2(dj(e,f),d)))]}var
-j=i2(e(function(b){return dZ(a,t,b)},i));if(j){var
-u=j[1],w=function(b,c,e){return nK(a,d,b,c,e)},k=i2(e(function(b){return dZ(a,w,b)},i));if(k){var
-x=function(b){return cv(a,b)},n=e(function(a){return e(x,a)},h),y=k[1],z=e(function(a){return a[3]},y),A=e(function(b){return nM(a,b,e(function(a){return a[2]},u))},n),C=_(aA(0,d),n),D=e(function(c){var
-i=nL(a,c[2],z),j=c[1],d=[0,Q(a,b),0],e=f(am(v,j),d);function
+d=[0,b,c(2,b)];return[0,Y(cv(a,a2(dp(e,f),d)))]}var
+j=ja(e(function(b){return d4(a,t,b)},i));if(j){var
+u=j[1],v=function(b,c,e){return nW(a,d,b,c,e)},k=ja(e(function(b){return d4(a,v,b)},i));if(k){var
+w=function(b){return cv(a,b)},n=e(function(a){return e(w,a)},h),y=k[1],z=e(function(a){return a[3]},y),A=e(function(b){return nY(a,b,e(function(a){return a[2]},u))},n),C=$(aB(0,d),n),E=e(function(c){var
+i=nX(a,c[2],z),j=c[1],d=[0,L(a,b),0],e=f(al(x,j),d);function
 g(b,a){return H(b,as(a))}function
-h(a){return ae(as(a))}return aI(function(a){return a},h,g,e,i)},C),o=p(g(h),d),q=o?m(function(a){return p(g(a),d)},h):o;if(q)var
-E=c(2,b),G=b3(cp(a),E),I=gN(A),l=F(B(c(2,c(2,b)),I),G);else
+h(a){return aa(as(a))}return aK(function(a){return a},h,g,e,i)},C),o=p(g(h),d),q=o?m(function(a){return p(g(a),d)},h):o;if(q)var
+F=c(2,b),G=b4(cp(a),F),I=gU(A),l=D(B(c(2,c(2,b)),I),G);else
 var
 l=q;if(l){var
-J=c(2,b),K=b3(cp(a),J),L=gN(dS(D));return F(B(c(2,c(2,b)),L),K)}var
+J=c(2,b),K=b4(cp(a),J),M=gU(dX(E));return D(B(c(2,c(2,b)),M),K)}var
 r=l}else
 var
 r=k;var
 s=r}else
 var
 s=j;return s}function
-bV(a){return m(function(a){return S(dY(a))},a)}function
-be(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+bW(a){return m(function(a){return Q(d3(a))},a)}function
+bg(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
 bv(a){return[0,a[1],a[2]]}function
-nO(b,a){var
+n0(b,a){var
 d=g(a),c=p(g(b),d);if(c){var
-e=_(b,a);return m(function(a){return ba(a[1],a[2])},e)}return c}function
-i3(e,k,j,i){var
+e=$(b,a);return m(function(a){return bb(a[1],a[2])},e)}return c}function
+jb(e,k,j,i){var
 c=k,b=j,a=i;for(;;){if(c)if(b)if(a){var
 f=a[1],l=h(e,1,[3,bv(c[1]),f]),g=l||h(e,1,[3,f,bv(b[1])]);if(!g){var
 c=c[2],b=b[2],a=a[2];continue}var
@@ -5248,42 +5315,42 @@ var
 d=b;else
 var
 d=c;return d}}function
-nP(f,e,b,a){var
+n1(f,e,b,a){var
 c=a[1],d=b[1],g=c[2],h=a[2],i=d[2],j=b[2],k=[0,d[1],[0,c[1],0]];return m(function(a){var
 b=[0,i,[0,g,0]];return m(function(b){var
 c=[0,j,[0,h,0]];return m(function(c){var
-d=bv(c),g=bv(b);return bQ(f,e,[0,bv(a),g,d])},c)},b)},k)}function
-nQ(a){switch(a[0]){case
+d=bv(c),g=bv(b);return bR(f,e,[0,bv(a),g,d])},c)},b)},k)}function
+n2(a){switch(a[0]){case
 0:var
-c=[0,a[4],0],d=f(be(a[3]),c),e=f(be(a[2]),d);return f(be(a[1]),e);case
+c=[0,a[4],0],d=f(bg(a[3]),c),e=f(bg(a[2]),d);return f(bg(a[1]),e);case
 1:var
-b=a[3],g=b?be(b[1]):b,h=f(be(a[2]),g);return f(be(a[1]),h);default:return be(a[1])}}function
-fc(b,a){var
-c=a2(a,a);return ba(a2(b,b),c)?a:b}function
-fd(b,a,e,d){var
-c=ds(b,a,bv(e));return c?ds(b,a,bv(d)):c}function
-nR(a){var
-c=q(u5,a,[0,d,b]),e=q(u6,a,[0,d,b]);return[0,[0,q(0,a,[0,d,b]),e],c]}function
-i4(d,c,b,a){var
-e=bR(d,c,b,a);return x(bR(d,c,b,a),e)}function
-u7(i,k,t,S,H,o,l,n,aR){var
-j=t[5],aJ=_(l,n),aK=_(aA(0,g(l)),aJ),ag=e(function(a){return[1,a[1],a[2][1],a[2][2]]},aK),ax=t[7],ay=ax?e6(i,t[2],S):ax,az=ay?bQ(i,t[4],H):ay,aB=az?cB(i,j,o):az,aC=aB?Z(k,u8):aB;if(aC)var
-aS=P(k,g(o)),T=p(g(l),aS);else
+b=a[3],g=b?bg(b[1]):b,h=f(bg(a[2]),g);return f(bg(a[1]),h);default:return bg(a[1])}}function
+ff(b,a){var
+c=a2(a,a);return bb(a2(b,b),c)?a:b}function
+fg(b,a,e,d){var
+c=dy(b,a,bv(e));return c?dy(b,a,bv(d)):c}function
+n3(a){var
+c=q(vf,a,[0,d,b]),e=q(vg,a,[0,d,b]);return[0,[0,q(0,a,[0,d,b]),e],c]}function
+jc(d,c,b,a){var
+e=bS(d,c,b,a);return w(bS(d,c,b,a),e)}function
+vh(i,k,t,S,H,o,l,n,aR){var
+j=t[5],aJ=$(l,n),aK=$(aB(0,g(l)),aJ),ag=e(function(a){return[1,a[1],a[2][1],a[2][2]]},aK),ax=t[7],ay=ax?e9(i,t[2],S):ax,az=ay?bR(i,t[4],H):ay,aA=az?cB(i,j,o):az,aC=aA?_(k,vi):aA;if(aC)var
+aS=R(k,g(o)),T=p(g(l),aS);else
 var
 T=aC;if(T)var
-aU=0===j[0]?u9:u_,U=p(g(o),aU);else
+aT=0===j[0]?vj:vk,U=p(g(o),aT);else
 var
 U=T;var
-aD=U?nO(l,n):U;if(aD)var
-aV=nR(aG(k,n)),aW=nR(aG(k,l)),V=nP(i,t[4],aW,aV);else
+aD=U?n0(l,n):U;if(aD)var
+aV=n3(aI(k,n)),aW=n3(aI(k,l)),V=n1(i,t[4],aW,aV);else
 var
 V=aD;if(V){var
-a=aT(k,n),c=aT(k,l);switch(j[0]){case
+a=aU(k,n),c=aU(k,l);switch(j[0]){case
 0:var
 X=0;if(c)if(c[2])var
 h=0;else
 if(a)var
-h=a[2]?0:fd(i,j[1],c[1],a[1]);else{var
+h=a[2]?0:fg(i,j[1],c[1],a[1]);else{var
 ah=a;X=1}else{var
 ah=c;X=1}if(X)var
 h=ah;break;case
@@ -5293,18 +5360,18 @@ v=c[2],I=0;if(v){var
 w=v[2],J=0;if(w)if(w[2]){var
 h=0;I=1;J=1}else
 if(a){var
-x=a[2],$=0;if(x){var
+x=a[2],Z=0;if(x){var
 y=x[2],aa=0;if(y)if(y[2]){var
-h=0;I=1;J=1;$=1;aa=1}else{var
-ai=fd(i,j[1],c[1],a[1]),aj=ai?fd(i,j[2],v[1],x[1]):ai;if(aj){var
-h=fd(i,j[3],w[1],y[1]);I=1;J=1;$=1;aa=1}else
+h=0;I=1;J=1;Z=1;aa=1}else{var
+ai=fg(i,j[1],c[1],a[1]),aj=ai?fg(i,j[2],v[1],x[1]):ai;if(aj){var
+h=fg(i,j[3],w[1],y[1]);I=1;J=1;Z=1;aa=1}else
 var
 ak=aj}else
 var
 ak=y;if(!aa)var
 al=ak}else
 var
-al=x;if(!$)var
+al=x;if(!Z)var
 O=al}else
 var
 O=a;else
@@ -5325,17 +5392,17 @@ if(a){var
 B=a[2],ac=0;if(B){var
 C=B[2];if(C)if(C[2]){var
 h=0;K=1;L=1;ac=1}else{var
-aM=[0,bv(fc(A[1],C[1])),0],aN=[0,bv(fc(z[1],B[1])),aM],h=cB(i,j,[0,bv(fc(c[1],a[1])),aN]);K=1;L=1;ac=1}else
+aM=[0,bv(ff(A[1],C[1])),0],aN=[0,bv(ff(z[1],B[1])),aM],h=cB(i,j,[0,bv(ff(c[1],a[1])),aN]);K=1;L=1;ac=1}else
 var
 ao=C}else
 var
 ao=B;if(!ac)var
-Q=ao}else
+P=ao}else
 var
-Q=a;else
+P=a;else
 var
-Q=A;if(!L)var
-ap=Q}else
+P=A;if(!L)var
+ap=P}else
 var
 ap=z;if(!K){var
 aq=ap;ab=1}}else{var
@@ -5349,12 +5416,12 @@ if(a){var
 F=a[2],ae=0;if(F){var
 G=F[2],af=0;if(G)if(G[2]){var
 h=0;M=1;N=1;ae=1;af=1}else{var
-r=G[1],s=E[1],aI=0,aO=0;if(ba(s,[0,d,b])&&ba([0,d,b],r))var
+r=G[1],s=E[1],aH=0,aO=0;if(bb(s,[0,d,b])&&bb([0,d,b],r))var
 ar=[0,d,b];else
-aI=1;if(aI)var
-aL=a2(r,r),ar=ba(a2(s,s),aL)?s:r;var
-aP=[0,bv(ar),aO],aQ=[0,bv(fc(D[1],F[1])),aP],as=cB(i,j,[0,bv(fc(c[1],a[1])),aQ]);if(as){var
-h=fd(i,c6(j[2]),s,r);M=1;N=1;ae=1;af=1}else
+aH=1;if(aH)var
+aL=a2(r,r),ar=bb(a2(s,s),aL)?s:r;var
+aP=[0,bv(ar),aO],aQ=[0,bv(ff(D[1],F[1])),aP],as=cB(i,j,[0,bv(ff(c[1],a[1])),aQ]);if(as){var
+h=fg(i,c6(j[2]),s,r);M=1;N=1;ae=1;af=1}else
 var
 at=as}else
 var
@@ -5362,12 +5429,12 @@ at=G;if(!af)var
 au=at}else
 var
 au=F;if(!ae)var
-R=au}else
+Q=au}else
 var
-R=a;else
+Q=a;else
 var
-R=E;if(!N)var
-av=R}else
+Q=E;if(!N)var
+av=Q}else
 var
 av=D;if(!M){var
 aw=av;ad=1}}else{var
@@ -5376,62 +5443,62 @@ h=aw}var
 W=h}else
 var
 W=V;if(W){var
-aX=aG(k,be(H)),aY=aG(k,n),aE=i3(i,aG(k,l),aY,aX);if(aE)var
+aX=aI(k,bg(H)),aY=aI(k,n),aE=jb(i,aI(k,l),aY,aX);if(aE)var
 u=aE;else{var
-aH=1===j[0]?0:1;if(aH)var
-aZ=aT(k,n),u=i3(i,aT(k,l),aZ,o);else
+aG=1===j[0]?0:1;if(aG)var
+aZ=aU(k,n),u=jb(i,aU(k,l),aZ,o);else
 var
-u=aH}}else
+u=aG}}else
 var
 u=W;var
 aF=u?m(function(a){var
-c=be(a[2]),b=bV(f(be(a[1]),c));return b?bV([0,i4(j,o,H,a),0]):b},S):u;return aF?nN(i,e(function(c){var
-h=[6,i4(j,o,H,c)],a=aG(k,ag),e=q(u3,a,[0,d,b]),f=q(u4,a,[0,d,b]),g=[0,q(0,a,[0,d,b]),f,e];return[3,[6,i4(j,aT(k,ag),g,c)],h]},S),aR):aF}var
-ej=c(2,c(2,c(2,c(2,c(2,r(c(2,b)))))));function
-i5(e){var
-a=aD(ej,e);if(a){var
-f=i(kz(c(2,b)),ej);return[0,a[1][2],f]}return[0,d,b]}var
-u$=[0,[0,d,b],[0,d,b],[0,d,b]];function
-fe(c,a){var
+c=bg(a[2]),b=bW(f(bg(a[1]),c));return b?bW([0,jc(j,o,H,a),0]):b},S):u;return aF?nZ(i,e(function(c){var
+h=[6,jc(j,o,H,c)],a=aI(k,ag),e=q(vd,a,[0,d,b]),f=q(ve,a,[0,d,b]),g=[0,q(0,a,[0,d,b]),f,e];return[3,[6,jc(j,aU(k,ag),g,c)],h]},S),aR):aF}var
+em=c(2,c(2,c(2,c(2,c(2,r(c(2,b)))))));function
+jd(e){var
+a=aE(em,e);if(a){var
+f=i(kK(c(2,b)),em);return[0,a[1][2],f]}return[0,d,b]}var
+vl=[0,[0,d,b],[0,d,b],[0,d,b]];function
+fh(c,a){var
 e=[0,d,b];return aq(function(b,a){return[2,i(c,b),a]},e,a)}function
-ff(b,a){return aq(function(c,a){var
-d=i(b,c);return T(function(b,a){return[2,b,a]},d,a)},u$,a)}function
-nS(d,h,c,e){var
-a=dZ(d,function(c,e,f){var
-a=aN(c,h),b=a?ba(e,f):a,g=b?[0,kW(d,c,e,f)]:b;return g},e);if(a){var
-b=a[1],f=hQ(gN(aT(c,b[3]))),g=O(D(hQ(gN(aG(c,b[3]))),f));return I(b[1][2],g)}return a}function
-i6(b,a,c){if(b)if(a)var
-f=a[1],g=i6(b[2],a[2],c),h=I(b[1],d)?[3,f,c]:[2,f,c],e=[0,h,g];else
+fi(b,a){return aq(function(c,a){var
+d=i(b,c);return T(function(b,a){return[2,b,a]},d,a)},vl,a)}function
+n4(d,h,c,e){var
+a=d4(d,function(c,e,f){var
+a=aH(c,h),b=a?bb(e,f):a,g=b?[0,k6(d,c,e,f)]:b;return g},e);if(a){var
+b=a[1],f=hY(gU(aU(c,b[3]))),g=P(E(hY(gU(aI(c,b[3]))),f));return J(b[1][2],g)}return a}function
+je(b,a,c){if(b)if(a)var
+f=a[1],g=je(b[2],a[2],c),h=J(b[1],d)?[3,f,c]:[2,f,c],e=[0,h,g];else
 var
 e=a;else
 var
 e=b;return e}function
-i7(a){return z(function(a){var
-d=i(kz(c(2,b)),ej);return[0,a[2],d]},a)}function
-gO(b,a){return[1,b,hO(a),a]}function
-gP(a){var
+jf(a){return z(function(a){var
+d=i(kK(c(2,b)),em);return[0,a[2],d]},a)}function
+gV(b,a){return[1,b,hW(a),a]}function
+gW(a){var
 d=[0,c(2,b),b];return[5,[2,a[1],a[2]],d]}function
 cE(a){var
-b=gP(a[3]),c=gP(a[2]);return[0,gP(a[1]),c,b]}function
-nT(a,d,c){var
-b=aA(0,bt(a));return e(function(b){var
-e=aN(b,cD(a))?d:c;return gO(b,e)},b)}function
-nU(a){return[6,x(a,a)]}var
-gR=w(k(b),gQ);function
-nV(e){var
-a=R(gR);if(e)var
-f=s(k(c(2,b)),a),g=C(k(c(2,c(2,b))),f),h=s(k(c(2,b)),a),d=al(C(k(b),h),g);else
+b=gW(a[3]),c=gW(a[2]);return[0,gW(a[1]),c,b]}function
+n5(a,d,c){var
+b=aB(0,bt(a));return e(function(b){var
+e=aH(b,cD(a))?d:c;return gV(b,e)},b)}function
+n6(a){return[6,w(a,a)]}var
+gY=v(k(b),gX);function
+n7(e){var
+a=S(gY);if(e)var
+f=s(k(c(2,b)),a),g=C(k(c(2,c(2,b))),f),h=s(k(c(2,b)),a),d=am(C(k(b),h),g);else
 var
-i=C(k(c(2,b)),a),j=R(gQ),d=al(C(s(k(c(2,b)),j),a),i);return aC(d)}function
-nW(d,c,a){if(d){var
-e=nV(c),f=C(k(b),e),g=s(w(k(b),a),f);return w(k(b),g)}var
-h=k(b),i=nV(c),j=al(k(b),i);return w(s(a,C(k(b),j)),h)}function
-ek(f,e,d,a){var
-g=R(a),h=R(d),i=w(w(k(c(2,b)),h),g),j=f?e?gR:al(gR,s(k(c(2,b)),gQ)):al(gR,k(c(2,b))),l=s(R(j),i);return aC(C(k(b),l))}function
-nX(g,d){var
+i=C(k(c(2,b)),a),j=S(gX),d=am(C(s(k(c(2,b)),j),a),i);return aD(d)}function
+n8(d,c,a){if(d){var
+e=n7(c),f=C(k(b),e),g=s(v(k(b),a),f);return v(k(b),g)}var
+h=k(b),i=n7(c),j=am(k(b),i);return v(s(a,C(k(b),j)),h)}function
+en(f,e,d,a){var
+g=S(a),h=S(d),i=v(v(k(c(2,b)),h),g),j=f?e?gY:am(gY,s(k(c(2,b)),gX)):am(gY,k(c(2,b))),l=s(S(j),i);return aD(C(k(b),l))}function
+n9(g,d){var
 c=g,a=d[1],b=d[3];for(;;){if(c){if(b){var
 e=b[2],f=c[1]?A(a,b[1]):a,c=c[2],a=f,b=e;continue}return a}return a}}function
-i8(w,v,u,t){var
+jg(w,v,u,t){var
 a=e(function(a){return q(a,u,0)},v);if(a){var
 f=a[1];if(f){var
 b=a[2];if(b){var
@@ -5441,7 +5508,7 @@ h=c[1];if(h){var
 d=c[2];if(d){var
 j=d[1];if(j){if(d[2])return 0;var
 x=j[1],y=h[1],z=g[1],A=f[1];return m(function(a){var
-c=i(a,x),d=i(a,y),e=i(a,z),b=i(a,A);return d0(w,[0,[0,b,[0,e,[0,d,0]]],[0,[0,b,[0,c,0]],[0,[0,b,0],0]]])},t)}var
+c=i(a,x),d=i(a,y),e=i(a,z),b=i(a,A);return d5(w,[0,[0,b,[0,e,[0,d,0]]],[0,[0,b,[0,c,0]],[0,[0,b,0],0]]])},t)}var
 k=j}else
 var
 k=d;var
@@ -5463,12 +5530,12 @@ r=f;var
 s=r}else
 var
 s=a;return s}function
-nY(f,i,e,c,h){var
-j=f?b:d,a=Q(i,j);function
+n_(f,i,e,c,h){var
+j=f?b:d,a=L(i,j);function
 g(b){var
 c=f?b8(b):cq(b);return H(c,a)}var
-k=[0,$(h),0],l=[0,[0,a,c,[0,v,[0,g(c),0]]],k];return[0,[0,a,e,[0,g(e),0]],l]}function
-nZ(r,b,q,p,g,o,n){if(o){var
+k=[0,Y(h),0],l=[0,[0,a,c,[0,x,[0,g(c),0]]],k];return[0,[0,a,e,[0,g(e),0]],l]}function
+n$(r,b,q,p,g,o,n){if(o){var
 x=o[1];if(x[1])return 0;if(o[2])return 0;if(n){var
 j=x[2],s=0;if(g){var
 h=g[2],c=0;if(h){var
@@ -5477,16 +5544,16 @@ a=0;c=1;d=1}else{var
 t=i[1],k=h[1],l=g[1],f=0;if(typeof
 j==="number")switch(j){case
 0:var
-A=e(aK,bj(vi)),z=e($,0),a=i8(b,p,bq(0,bL(b,d5(0,g),z),q,0),A);c=1;d=1;f=1;break;case
+A=e(aC,bf(vu)),z=e(Y,0),a=jg(b,p,bc(0,bz(b,du(0,g),z),q,0),A);c=1;d=1;f=1;break;case
 3:var
-a=F(k[2],l[1]);c=1;d=1;f=1;break}else
+a=D(k[2],l[1]);c=1;d=1;f=1;break}else
 if(4===j[0]){var
 m=j[1];if(r)if(m){var
-B=e(nX,vj),a=i8(b,p,bq(0,bL(b,nY(r,b,l,k,t),0),q,0),B);c=1;d=1;f=1}else{var
+B=e(n9,vv),a=jg(b,p,bc(0,bz(b,n_(r,b,l,k,t),0),q,0),B);c=1;d=1;f=1}else{var
 a=m;c=1;d=1;f=1}else
 if(m){var
 a=0;c=1;d=1;f=1}else{var
-C=e(nX,vk),a=i8(b,p,bq(0,bL(b,nY(r,b,l,k,t),0),q,0),C);c=1;d=1;f=1}}if(!f)var
+C=e(n9,vw),a=jg(b,p,bc(0,bz(b,n_(r,b,l,k,t),0),q,0),C);c=1;d=1;f=1}}if(!f)var
 u=0}else
 var
 u=i;if(!d)var
@@ -5496,29 +5563,29 @@ v=h;if(!c){var
 w=v;s=1}}else{var
 w=g;s=1}if(s)var
 a=w;var
-y=a?vl:a}else
+y=a?vx:a}else
 var
 y=n;return y}return[0,n]}function
-n0(f,e,d,c,p,o,n){var
+oa(f,e,d,c,p,o,n){var
 b=p,g=o,a=n;for(;;)switch(a[0]){case
 0:var
-h=nZ(f,e,d,c,b,a[1],g);return h?S(h[1]):h;case
+h=n$(f,e,d,c,b,a[1],g);return h?Q(h[1]):h;case
 1:var
-i=nZ(f,e,d,c,b,a[1],g);if(i){var
-j=i[1],k=cU(a[2],b),l=n0(f,e,d,c,k[1],j,a[3]);if(l){var
+i=n$(f,e,d,c,b,a[1],g);if(i){var
+j=i[1],k=cU(a[2],b),l=oa(f,e,d,c,k[1],j,a[3]);if(l){var
 b=k[2],g=j,a=a[4];continue}var
 m=l}else
 var
 m=i;return m;default:return 0}}function
-i9(a){return b3(c(2,b),aF(a,b))}function
-el(i,a,e,w,v){var
-m=a?b:O(b),f=k(m),g=nW(a,e,vg),h=nW(a,e,vh),n=al(g,ek(a,e,f,g)),o=[0,C(al(h,ek(a,e,h,f)),n),0],p=al(f,ek(a,e,f,g)),q=[0,C(al(h,ek(a,e,g,h)),p),o],r=al(f,ek(a,e,h,f)),t=[0,C(al(g,ek(a,e,g,h)),r),q],u=a?e?k(c(2,b)):s(k(c(2,c(2,b))),gQ):k(c(2,c(2,b))),j=cP([0,u,t]),l=[0,d,cp(i)];return n0(a,i,j[1],j[2],[0,l,[0,l,[0,w,0]]],1,v)}function
-n1(a,g,b){if(I(g,i9(a))){if(b){var
+jh(a){return b4(c(2,b),aG(a,b))}function
+eo(i,a,e,w,v){var
+m=a?b:P(b),f=k(m),g=n8(a,e,vs),h=n8(a,e,vt),n=am(g,en(a,e,f,g)),o=[0,C(am(h,en(a,e,h,f)),n),0],p=am(f,en(a,e,f,g)),q=[0,C(am(h,en(a,e,g,h)),p),o],r=am(f,en(a,e,h,f)),t=[0,C(am(g,en(a,e,g,h)),r),q],u=a?e?k(c(2,b)):s(k(c(2,c(2,b))),gX):k(c(2,c(2,b))),j=cP([0,u,t]),l=[0,d,cp(i)];return oa(a,i,j[1],j[2],[0,l,[0,l,[0,w,0]]],1,v)}function
+ob(a,g,b){if(J(g,jh(a))){if(b){var
 c=b[2];if(c){var
 d=c[2];if(d){var
 e=d[2];if(e){if(e[2])return 0;var
-h=[0,g,i9(a)],v=cp(a),i=[0,i9(a),v],j=el(a,0,1,h,b[1]),k=j?el(a,0,0,i,c[1]):j;if(k){var
-l=el(a,1,1,h,d[1]);if(l)return el(a,1,0,i,e[1]);var
+h=[0,g,jh(a)],v=cp(a),i=[0,jh(a),v],j=eo(a,0,1,h,b[1]),k=j?eo(a,0,0,i,c[1]):j;if(k){var
+l=eo(a,1,1,h,d[1]);if(l)return eo(a,1,0,i,e[1]);var
 m=l}else
 var
 m=k;var
@@ -5535,294 +5602,299 @@ q=p}else
 var
 q=b;return q}if(b){var
 f=b[2];if(f){if(f[2])return 0;var
-r=[0,g,cp(a)],s=el(a,0,0,r,b[1]);if(s)return el(a,1,0,r,f[1]);var
+r=[0,g,cp(a)],s=eo(a,0,0,r,b[1]);if(s)return eo(a,1,0,r,f[1]);var
 t=s}else
 var
 t=f;var
 u=t}else
 var
 u=b;return u}function
-i_(a){var
-b=[1,[2,d]];return b4(function(b,a){return[1,[3,b,a]]},a,b)}function
-gS(a){return i_(e(function(a){return[1,[8,[1,[2,a]]]]},a))}function
-gT(a,c){return i_(e(function(a){var
-d=[0,a[2]],b=_(a[1],c);return[1,[7,[1,[8,i_(e(function(a){return[1,[6,[0,a[1]],[1,[2,a[2]]]]]},b))]],d]]},a))}function
-n2(e,d,c,b,a){if(0===a[0])return q(a[1],b,0);var
-f=a[1],g=bK(function(a){return n2(e,d,c,b,a)},f);return i(bL(e,d,c),g)}function
-n3(a){return a?I(d,a[1][2][1]):a}function
-vm(a){var
-b=p(g(a),vn);return b?ak(function(a){return S(J(a,d))},a):b}function
-n4(c,f,b,a){if(b)if(a)var
-d=b[1],g=t(c,Q(c,a[1]),f),h=n4(c,f,b[2],a[2]),i=d[3],j=A(d[2],g),e=[0,[0,A(d[1],g),j,i],h];else
+ji(a){var
+b=[1,[2,d]];return bL(function(b,a){return[1,[3,b,a]]},a,b)}function
+gZ(a){return ji(e(function(a){return[1,[8,[1,[2,a]]]]},a))}function
+g0(a,c){return ji(e(function(a){var
+d=[0,a[2]],b=$(a[1],c);return[1,[7,[1,[8,ji(e(function(a){return[1,[6,[0,a[1]],[1,[2,a[2]]]]]},b))]],d]]},a))}function
+oc(e,d,c,b,a){if(0===a[0])return q(a[1],b,0);var
+f=a[1],g=bM(function(a){return oc(e,d,c,b,a)},f);return i(bz(e,d,c),g)}function
+od(a){return a?J(d,a[1][2][1]):a}function
+vy(a){var
+b=p(g(a),vz);return b?ak(function(a){return Q(I(a,d))},a):b}function
+oe(c,f,b,a){if(b)if(a)var
+d=b[1],g=t(c,L(c,a[1]),f),h=oe(c,f,b[2],a[2]),i=d[3],j=A(d[2],g),e=[0,[0,A(d[1],g),j,i],h];else
 var
 e=a;else
 var
 e=b;return e}function
-n5(d,c){var
-a=E(c,d);if(a){var
-b=a[1],e=b[1];return S(J(b_(b),e))}return a}function
-gU(b,a){return eQ(eQ(b,0),a)}function
-i$(a){if(a){var
-b=a[2],c=a[1];if(b)return gU(c,[0,vp,i$(b)]);var
+of(d,c){var
+a=F(c,d);if(a){var
+b=a[1],e=b[1];return Q(I(b_(b),e))}return a}function
+g1(b,a){return eQ(eQ(b,0),a)}function
+jj(a){if(a){var
+b=a[2],c=a[1];if(b)return g1(c,[0,vB,jj(b)]);var
 d=c}else
 var
 d=a;return d}function
-G(a){return[0,vr,gU(i$(a),vq)]}function
-ag(a){return[0,vt,gU(i$(a),vs)]}function
-ar(a){return[0,vv,[0,a,vu]]}function
-n(b,a){return[0,a$(vx,a$(b,vw)),a]}function
-N(b,a){return ag([0,n(b,a),0])}function
+G(a){return[0,vD,g1(jj(a),vC)]}function
+ag(a){return[0,vF,g1(jj(a),vE)]}function
+ar(a){return[0,vH,[0,a,vG]]}function
+n(b,a){return[0,ba(vJ,ba(b,vI)),a]}function
+M(b,a){return ag([0,n(b,a),0])}function
 cF(d){var
-b=d,a=rR,e=0;for(;;){if(b){var
-c=kt(a),b=b[1],a=c;continue}return[0,eR(fN(a)),e]}}function
-ja(a){return[0,eR(fV(a)),0]}function
-fg(a){var
-c=aM(a),f=0,b=0===c?rX:0<c?[0,fV(a)]:[1,fV(O(a))];if(0===b[0])var
+b=d,a=r2,e=0;for(;;){if(b){var
+c=kE(a),b=b[1],a=c;continue}return[0,eR(fQ(a)),e]}}function
+jk(a){return[0,eR(fY(a)),0]}function
+fj(a){var
+c=aN(a),f=0,b=0===c?r8:0<c?[0,fY(a)]:[1,fY(P(a))];if(0===b[0])var
 d=eR(b[1]);else
 var
-e=eR(b[1]),d=a$(bG(1,45),e);return[0,d,f]}function
-fh(a){var
-b=0,c=0<aM(a)?fV(a):rV;return[0,eR(c),b]}function
-jb(a){switch(a[0]){case
-2:return vz;case
-3:return 2<=a[1]?vA:vB;case
-4:return vC;default:return vy}}function
-fi(b,a){function
-c(c,a){return Z(c,jb(a))?fi(b,a):[0,vI,f(fi(b,a),vH)]}switch(a[0]){case
+e=eR(b[1]),d=ba(bH(1,45),e);return[0,d,f]}function
+ep(a){var
+b=0,c=0<aN(a)?fY(a):r6;return[0,eR(c),b]}function
+jl(a){switch(a[0]){case
+2:return vL;case
+3:return 2<=a[1]?vM:vN;case
+4:return vO;default:return vK}}function
+fk(b,a){function
+c(c,a){return _(c,jl(a))?fk(b,a):[0,vU,f(fk(b,a),vT)]}switch(a[0]){case
 0:var
 e=a[2],g=a[1];if(typeof
-e==="number")return[0,bh(g),0];var
-h=[0,vJ,[0,bh(e),0]];return[0,bh(g),h];case
+e==="number")return[0,bj(g),0];var
+h=[0,vV,[0,bj(e),0]];return[0,bj(g),h];case
 1:return[0,i(b,a[1]),0];case
-2:return[0,vL,c(vK,a[1])];case
+2:return[0,vX,c(vW,a[1])];case
 3:var
-j=a[3],k=c([0,jb(a)],j);switch(a[1]){case
+j=a[3],k=c([0,jl(a)],j);switch(a[1]){case
 0:var
-d=vD;break;case
+d=vP;break;case
 1:var
-d=vE;break;case
+d=vQ;break;case
 2:var
-d=vF;break;default:var
-d=vG}var
-l=a[2];return f(c(jb(a),l),[0,d,k]);case
+d=vR;break;default:var
+d=vS}var
+l=a[2];return f(c(jl(a),l),[0,d,k]);case
 4:var
-m=[0,vM,ja(a[2])];return f(c(vN,a[1]),m);default:return[0,vP,f(fi(b,a[1]),vO)]}}function
-K(a){return[0,vS,f(fi(function(a){return 0===a[0]?a[1]:vR},a),vQ)]}function
-jc(a){return[0,vU,f(fi(function(a){return a},a),vT)]}function
+m=[0,vY,jk(a[2])];return f(c(vZ,a[1]),m);default:return[0,v1,f(fk(b,a[1]),v0)]}}function
+K(a){return[0,v4,f(fk(function(a){return 0===a[0]?a[1]:v3},a),v2)]}function
+jm(a){return[0,v6,f(fk(function(a){return a},a),v5)]}function
 cG(a){if(0===a[0])return K(a[1]);var
-b=[0,n(vV,K(a[2])),0];return ag([0,n(vW,K(a[1])),b])}function
-gV(b,a){var
+b=[0,n(v7,K(a[2])),0];return ag([0,n(v8,K(a[1])),b])}function
+g2(b,a){var
 c=[0,i(b,a[3]),0],d=[0,i(b,a[2]),c];return G([0,i(b,a[1]),d])}function
-vX(a){function
-b(a){return gV(cG,a)}switch(a[0]){case
+v9(a){function
+b(a){return g2(cG,a)}switch(a[0]){case
 0:var
-e=0,g=a[5]?vY:v6,h=[0,n(vZ,ar(g)),e],i=[0,n(v0,cG(a[4])),h],j=[0,n(v1,b(a[3])),i],k=[0,n(v2,b(a[2])),j],l=[0,n(v3,b(a[1])),k],c=[0,n(v5,ar(v4)),l];break;case
+e=0,g=a[5]?v_:wg,h=[0,n(v$,ar(g)),e],i=[0,n(wa,cG(a[4])),h],j=[0,n(wb,b(a[3])),i],k=[0,n(wc,b(a[2])),j],l=[0,n(wd,b(a[1])),k],c=[0,n(wf,ar(we)),l];break;case
 1:var
-d=a[3],m=d?[0,n(v7,b(d[1])),0]:d,o=[0,n(v8,b(a[2])),0],p=[0,n(v9,b(a[1])),o],c=f([0,n(v$,ar(v_)),p],m);break;default:var
-q=[0,n(wa,b(a[1])),0],c=[0,n(wc,ar(wb)),q]}return ag(c)}function
-wd(a){function
+d=a[3],m=d?[0,n(wh,b(d[1])),0]:d,o=[0,n(wi,b(a[2])),0],p=[0,n(wj,b(a[1])),o],c=f([0,n(wl,ar(wk)),p],m);break;default:var
+q=[0,n(wm,b(a[1])),0],c=[0,n(wo,ar(wn)),q]}return ag(c)}function
+wp(a){function
 b(a){return G(e(cG,a))}function
 d(a){var
-b=a?we:wg;return n(wf,ar(b))}switch(a[0]){case
+b=a?wq:ws;return n(wr,ar(b))}switch(a[0]){case
 0:var
-f=[0,d(a[5]),0],g=[0,n(wh,cG(a[4])),f],h=[0,n(wi,b(a[3])),g],i=[0,n(wj,b(a[2])),h],j=[0,n(wk,b(a[1])),i],c=[0,n(wm,ar(wl)),j];break;case
+f=[0,d(a[5]),0],g=[0,n(wt,cG(a[4])),f],h=[0,n(wu,b(a[3])),g],i=[0,n(wv,b(a[2])),h],j=[0,n(ww,b(a[1])),i],c=[0,n(wy,ar(wx)),j];break;case
 1:var
-k=[0,n(wn,b(a[2])),0],l=[0,n(wo,b(a[1])),k],c=[0,n(wq,ar(wp)),l];break;default:var
-m=[0,d(a[7]),0],o=[0,n(wr,cG(a[6])),m],p=[0,n(ws,cG(a[5])),o],q=[0,n(wt,b(a[4])),p],r=[0,n(wu,b(a[3])),q],s=[0,n(wv,b(a[2])),r],t=[0,n(ww,b(a[1])),s],c=[0,n(wy,ar(wx)),t]}return ag(c)}function
-jd(a){switch(a){case
-0:return wz;case
-1:return wA;case
-2:return wB;case
-3:return wC;case
-4:return wD;case
-5:return wE;case
-6:return wF;case
-7:return wG;case
-8:return wH;case
-9:return wI;case
-10:return wJ;case
-11:return wK;case
-12:return wL;case
-13:return wM;case
-14:return wN;case
-15:return wO;default:return wP}}function
-je(a){if(typeof
-a==="number")return wQ;else
+k=[0,n(wz,b(a[2])),0],l=[0,n(wA,b(a[1])),k],c=[0,n(wC,ar(wB)),l];break;default:var
+m=[0,d(a[7]),0],o=[0,n(wD,cG(a[6])),m],p=[0,n(wE,cG(a[5])),o],q=[0,n(wF,b(a[4])),p],r=[0,n(wG,b(a[3])),q],s=[0,n(wH,b(a[2])),r],t=[0,n(wI,b(a[1])),s],c=[0,n(wK,ar(wJ)),t]}return ag(c)}function
+jn(a){switch(a){case
+0:return wL;case
+1:return wM;case
+2:return wN;case
+3:return wO;case
+4:return wP;case
+5:return wQ;case
+6:return wR;case
+7:return wS;case
+8:return wT;case
+9:return wU;case
+10:return wV;case
+11:return wW;case
+12:return wX;case
+13:return wY;case
+14:return wZ;case
+15:return w0;default:return w1}}function
+jo(a){if(typeof
+a==="number")return w2;else
 switch(a[0]){case
-0:return wR;case
-1:return wS;default:return wT}}function
-fj(a){var
+0:return w3;case
+1:return w4;default:return w5}}function
+fl(a){var
 c=a[4];if(typeof
 c==="number")var
 d=0;else
 switch(c[0]){case
 0:var
-d=[0,n(wU,K(c[1])),0];break;case
+d=[0,n(w6,K(c[1])),0];break;case
 1:var
-d=[0,n(wV,K(c[1])),0];break;default:var
-o=[0,K(c[2]),0],d=[0,n(wW,G([0,K(c[1]),o])),0]}var
-p=[0,n(wX,ar(je(a[4]))),d],i=a[3];if(i){var
+d=[0,n(w7,K(c[1])),0];break;default:var
+o=[0,K(c[2]),0],d=[0,n(w8,G([0,K(c[1]),o])),0]}var
+p=[0,n(w9,ar(jo(a[4]))),d],i=a[3];if(i){var
 b=i[1];switch(b[0]){case
 0:var
-r=G([0,K(b[1]),0]),k=a[1],q=0,s=6===k?wY:12===k?w2:w3,g=[0,n(wZ,N(s,r)),q];break;case
+r=G([0,K(b[1]),0]),k=a[1],q=0,s=6===k?w_:12===k?xc:xd,g=[0,n(w$,M(s,r)),q];break;case
 1:var
-x=G(e(K,b[1])),m=a[1],w=0;if(14<=m)switch(m+p8|0){case
+x=G(e(K,b[1])),m=a[1],w=0;if(14<=m)switch(m+qi|0){case
 0:var
-h=w4;break;case
+h=xe;break;case
 1:var
-h=w6;break;default:var
-h=w7}else
+h=xg;break;default:var
+h=xh}else
 var
-h=w8;var
-g=[0,n(w5,N(h,x)),w];break;case
+h=xi;var
+g=[0,n(xf,M(h,x)),w];break;case
 2:var
-y=[0,n(w9,G([0,K(b[2]),0])),0],g=[0,n(w$,ag([0,n(w_,G([0,K(b[1]),0])),y])),0];break;default:var
-z=[0,n(xa,G([0,K(b[2]),0])),0],g=[0,n(xc,ag([0,n(xb,G([0,K(b[1]),0])),z])),0]}var
+y=[0,n(xj,G([0,K(b[2]),0])),0],g=[0,n(xl,ag([0,n(xk,G([0,K(b[1]),0])),y])),0];break;default:var
+z=[0,n(xm,G([0,K(b[2]),0])),0],g=[0,n(xo,ag([0,n(xn,G([0,K(b[1]),0])),z])),0]}var
 l=g}else
 var
 l=i;var
-t=f(l,p),j=a[2],u=j?[0,n(w0,cF(j[1])),0]:j,v=f(u,t);return ag([0,n(w1,ar(jd(a[1]))),v])}function
-n6(a){if(0===a[0]){var
-b=[0,n(xd,gV(K,a[2])),0];return N(xf,ag([0,n(xe,gV(K,a[1])),b]))}var
-c=[0,K(a[5]),0],d=[0,n(xg,G([0,K(a[4]),c])),0],e=[0,n(xh,K(a[3])),d],f=[0,K(a[2]),0];return N(xj,ag([0,n(xi,G([0,K(a[1]),f])),e]))}function
-n7(a){if(0===a[0]){var
-b=[0,n(xk,G(e(K,a[2]))),0];return N(xm,ag([0,n(xl,G(e(K,a[1]))),b]))}return n6([1,a[1],a[2],a[3],a[4],a[5]])}function
-n8(a){switch(a){case
-0:return xn;case
-1:return xo;default:return xp}}function
-xq(a){function
+t=f(l,p),j=a[2],u=j?[0,n(xa,cF(j[1])),0]:j,v=f(u,t);return ag([0,n(xb,ar(jn(a[1]))),v])}function
+og(a){if(0===a[0]){var
+b=[0,n(xp,g2(K,a[2])),0];return M(xr,ag([0,n(xq,g2(K,a[1])),b]))}var
+c=[0,K(a[5]),0],d=[0,n(xs,G([0,K(a[4]),c])),0],e=[0,n(xt,K(a[3])),d],f=[0,K(a[2]),0];return M(xv,ag([0,n(xu,G([0,K(a[1]),f])),e]))}function
+oh(a){if(0===a[0]){var
+b=[0,n(xw,G(e(K,a[2]))),0];return M(xy,ag([0,n(xx,G(e(K,a[1]))),b]))}return og([1,a[1],a[2],a[3],a[4],a[5]])}function
+oi(a){switch(a){case
+0:return xz;case
+1:return xA;default:return xB}}function
+xC(a){function
 b(a){return G(e(cG,a))}var
-c=[0,n(xr,b(a[2])),0],d=[0,n(xs,b(a[1])),c];return ag([0,n(xu,ar(xt)),d])}function
-n9(a){function
+c=[0,n(xD,b(a[2])),0],d=[0,n(xE,b(a[1])),c];return ag([0,n(xG,ar(xF)),d])}function
+oj(a){function
 b(b,a){var
 c=[0,K(a),0];return G([0,K(b),c])}switch(a[0]){case
-0:return N(xv,b(a[1],a[2]));case
+0:return M(xH,b(a[1],a[2]));case
 1:var
-c=a[3],d=a[2],e=a[1],f=[0,n(xw,b(c[1],c[2])),0],g=[0,n(xx,b(d[1],d[2])),f];return N(xz,ag([0,n(xy,b(e[1],e[2])),g]));case
-2:return N(xA,K(a[1]));default:var
-h=[0,n(xB,K(a[2])),0];return N(xD,ag([0,n(xC,K(a[1])),h]))}}function
-xE(a){function
-b(a){return gV(K,a)}if(0===a[0])var
-c=a[5],e=c?[0,n(xF,b(c[1])),0]:c,g=[0,K(a[4]),0],h=[0,n(xG,G([0,K(a[3]),g])),0],i=[0,n(xH,K(a[2])),h],j=[0,n(xI,cF(a[1])),i],d=f([0,n(xK,ar(xJ)),j],e);else
+c=a[3],d=a[2],e=a[1],f=[0,n(xI,b(c[1],c[2])),0],g=[0,n(xJ,b(d[1],d[2])),f];return M(xL,ag([0,n(xK,b(e[1],e[2])),g]));case
+2:return M(xM,K(a[1]));default:var
+h=[0,n(xN,K(a[2])),0];return M(xP,ag([0,n(xO,K(a[1])),h]))}}function
+xQ(a){function
+b(a){return g2(K,a)}if(0===a[0])var
+c=a[5],e=c?[0,n(xR,b(c[1])),0]:c,g=[0,K(a[4]),0],h=[0,n(xS,G([0,K(a[3]),g])),0],i=[0,n(xT,K(a[2])),h],j=[0,n(xU,cF(a[1])),i],d=f([0,n(xW,ar(xV)),j],e);else
 var
-k=[0,n(xL,K(a[4])),0],l=[0,n(xM,b(a[3])),k],m=[0,n(xN,b(a[2])),l],o=a[1]?xO:xQ,d=[0,n(xP,ar(o)),m];return ag(d)}function
-n_(a){var
-b=a?[0,n(xR,G(e(xE,a))),0]:a;return b}function
-jf(d,c,b,a){var
-g=[0,n(xS,G(e(fj,a))),0],h=f(n_(b),g),i=[0,n(xT,n6(c)),0];return ag(f([0,n(xV,N(xU,G(e(vX,d)))),i],h))}function
-xW(a){switch(a[0]){case
-0:return N(xX,jf(a[1],a[2],a[3],a[4]));case
+k=[0,n(xX,K(a[4])),0],l=[0,n(xY,b(a[3])),k],m=[0,n(xZ,b(a[2])),l],o=a[1]?x0:x2,d=[0,n(x1,ar(o)),m];return ag(d)}function
+ok(a){var
+b=a?[0,n(x3,G(e(xQ,a))),0]:a;return b}function
+jp(d,c,b,a){var
+g=[0,n(x4,G(e(fl,a))),0],h=f(ok(b),g),i=[0,n(x5,og(c)),0];return ag(f([0,n(x7,M(x6,G(e(v9,d)))),i],h))}function
+x8(a){switch(a[0]){case
+0:return M(x9,jp(a[1],a[2],a[3],a[4]));case
 1:var
-b=a[5],c=a[3],d=a[1],g=G(e(wd,a[2])),l=[0,n(xY,G(e(fj,a[6]))),0],m=b?[0,n(xZ,n9(b[1])),0]:b,o=f(m,l),k=0,p=[0,n(x0,n7(a[4])),o];if(typeof
+b=a[5],c=a[3],d=a[1],g=G(e(wp,a[2])),l=[0,n(x_,G(e(fl,a[6]))),0],m=b?[0,n(x$,oj(b[1])),0]:b,o=f(m,l),k=0,p=[0,n(ya,oh(a[4])),o];if(typeof
 d==="number")if(d)var
-h=x1;else{var
-i=N(x6,g);k=1}else
+h=yb;else{var
+i=M(yg,g);k=1}else
 var
-h=n8(d[1]);if(!k)var
-q=c?[0,n(x2,K(c[1])),0]:c,i=N(h,ag([0,n(x3,g),q]));return N(x5,ag([0,n(x4,i),p]));case
+h=oi(d[1]);if(!k)var
+q=c?[0,n(yc,K(c[1])),0]:c,i=M(h,ag([0,n(yd,g),q]));return M(yf,ag([0,n(ye,i),p]));case
 2:var
-r=[0,n(x7,G(e(fj,a[7]))),0],s=f(n_(a[6]),r),t=[0,n(x8,n9(a[5])),0],u=[0,n(x9,n7(a[4])),t],v=[0,n(x_,K(a[3])),0],w=ag([0,n(x$,G(e(xq,a[2]))),v]);return N(yb,ag(f([0,n(ya,N(n8(a[1]),w)),u],s)));case
+r=[0,n(yh,G(e(fl,a[7]))),0],s=f(ok(a[6]),r),t=[0,n(yi,oj(a[5])),0],u=[0,n(yj,oh(a[4])),t],v=[0,n(yk,K(a[3])),0],w=ag([0,n(yl,G(e(xC,a[2]))),v]);return M(yn,ag(f([0,n(ym,M(oi(a[1]),w)),u],s)));case
 3:var
-x=[0,n(yc,G(e(fj,a[7]))),0],y=[0,n(yd,G(e(K,a[6]))),0],z=[0,n(yg,N(yf,ag([0,n(ye,G(e(K,a[5]))),y]))),x],A=0,B=a[4],C=[0,n(yj,G(e(function(a){return 0===a[0]?N(yh,G(e(jc,a[1]))):N(yi,jc(a[1]))},B))),A],D=a[3],E=[0,n(yk,G(e(function(a){var
-b=[0,jc(a[2]),0];return G([0,ar(a[1]),b])},D))),C],F=a[2],H=[0,n(yl,G(e(function(a){var
-b=[0,cG(a[2]),0];return G([0,ar(a[1]),b])},F))),E];return N(yp,ag([0,n(yo,N(yn,ag([0,n(ym,G(e(ar,a[1]))),H]))),z]));case
+x=[0,n(yo,G(e(fl,a[7]))),0],y=[0,n(yp,G(e(K,a[6]))),0],z=[0,n(ys,M(yr,ag([0,n(yq,G(e(K,a[5]))),y]))),x],A=0,B=a[4],C=[0,n(yv,G(e(function(a){return 0===a[0]?M(yt,G(e(jm,a[1]))):M(yu,jm(a[1]))},B))),A],D=a[3],E=[0,n(yw,G(e(function(a){var
+b=[0,jm(a[2]),0];return G([0,ar(a[1]),b])},D))),C],F=a[2],H=[0,n(yx,G(e(function(a){var
+b=[0,cG(a[2]),0];return G([0,ar(a[1]),b])},F))),E];return M(yB,ag([0,n(yA,M(yz,ag([0,n(yy,G(e(ar,a[1]))),H]))),z]));case
 4:var
-I=[0,n(yq,G(e(fj,a[3]))),0],J=[0,n(yt,N(ys,ag([0,n(yr,K(a[2])),0]))),I];return N(yx,ag([0,n(yw,N(yv,ag([0,n(yu,K(a[1])),0]))),J]));case
+I=[0,n(yC,G(e(fl,a[3]))),0],J=[0,n(yF,M(yE,ag([0,n(yD,K(a[2])),0]))),I];return M(yJ,ag([0,n(yI,M(yH,ag([0,n(yG,K(a[1])),0]))),J]));case
 5:var
-L=[0,n(yy,K(a[5])),0];return N(yA,ag([0,n(yz,jf(a[1],[0,a[2],a[3]],0,a[4])),L]));case
+L=[0,n(yK,K(a[5])),0];return M(yM,ag([0,n(yL,jp(a[1],[0,a[2],a[3]],0,a[4])),L]));case
 6:var
-j=a[1],M=0,O=j?cG(j[1]):ar(yD);return N(yC,ag([0,n(yB,O),M]));default:var
-P=[0,n(yE,K(a[6])),0],Q=[0,n(yF,K(a[5])),P],R=[0,n(yG,jf(a[2],a[3],0,a[4])),Q],S=a[1];return N(yL,ag([0,n(yK,G(e(function(a){var
-b=[0,n(yH,K(a[2][2])),0],c=[0,n(yI,K(a[2][1])),b];return ag([0,n(yJ,ar(a[1])),c])},S))),R]))}}function
-em(a){return G(e(fg,a))}function
-fk(b,a){var
-c=[0,n(yM,fh(a)),0];return ag([0,n(yN,G(e(em,b))),c])}function
-en(a){switch(a[0]){case
+j=a[1],N=0,O=j?cG(j[1]):ar(yP);return M(yO,ag([0,n(yN,O),N]));default:var
+P=[0,n(yQ,K(a[6])),0],Q=[0,n(yR,K(a[5])),P],R=[0,n(yS,jp(a[2],a[3],0,a[4])),Q],S=a[1];return M(yX,ag([0,n(yW,G(e(function(a){var
+b=[0,n(yT,K(a[2][2])),0],c=[0,n(yU,K(a[2][1])),b];return ag([0,n(yV,ar(a[1])),c])},S))),R]))}}function
+dC(a){return G(e(fj,a))}function
+fm(b,a){var
+c=[0,n(yY,ep(a)),0];return ag([0,n(yZ,G(e(dC,b))),c])}function
+da(a){switch(a[0]){case
 0:return ar(a[1]);case
 1:var
-b=fk(a[2],a[3]);return N(a[1],b);case
+b=fm(a[2],a[3]);return M(a[1],b);case
 2:var
-c=a[1]?yO:yQ;return N(yP,ar(c));case
+c=a[1]?y0:y2;return M(y1,ar(c));case
 3:var
-d=[0,em(a[3]),0];return N(yR,G([0,fk(a[1],a[2]),d]));case
+d=[0,dC(a[3]),0];return M(y3,G([0,fm(a[1],a[2]),d]));case
 4:var
-f=[0,fh(a[4]),0],g=[0,fg(a[3]),f];return N(yS,G([0,fk(a[1],a[2]),g]));case
+f=[0,ep(a[4]),0],g=[0,fj(a[3]),f];return M(y4,G([0,fm(a[1],a[2]),g]));case
 5:var
-h=[0,fh(a[3]),0],i=[0,fg(a[2]),h];return N(yT,G([0,en(a[1]),i]));case
+h=[0,ep(a[3]),0],i=[0,fj(a[2]),h];return M(y5,G([0,da(a[1]),i]));case
 6:var
-j=[0,fh(a[3]),0],k=[0,fg(a[2]),j];return N(yU,G([0,en(a[1]),k]));case
-7:return N(yV,en(a[1]));case
+j=[0,ep(a[3]),0],k=[0,fj(a[2]),j];return M(y6,G([0,da(a[1]),k]));case
+7:return M(y7,da(a[1]));case
 8:var
-l=[0,G(e(em,a[3])),0],m=[0,ar(a[2]),l];return N(yW,G([0,en(a[1]),m]));default:var
-n=a[1];return N(yX,G(e(function(a){var
-b=a[1],c=b[1],d=[0,en(a[2]),0],e=[0,fh(b[2]),d],f=[0,fg(c[2]),e];return G([0,em(c[1]),f])},n)))}}function
-yY(a){var
-b=[0,en(a[2]),0];return G([0,cF(a[1]),b])}function
-n$(a){if(typeof
-a==="number")return 0===a?ar(yZ):ar(y0);else
+l=[0,G(e(dC,a[3])),0],m=[0,ar(a[2]),l];return M(y8,G([0,da(a[1]),m]));case
+9:var
+n=a[1];return M(y9,G(e(function(a){var
+b=a[1],c=b[1],d=[0,da(a[2]),0],e=[0,ep(b[2]),d],f=[0,fj(c[2]),e];return G([0,dC(c[1]),f])},n)));default:var
+o=[0,da(a[4]),0],p=[0,da(a[3]),o],q=[0,ep(a[2]),p];return M(y_,G([0,dC(a[1]),q]))}}function
+y$(a){var
+b=[0,da(a[2]),0];return G([0,cF(a[1]),b])}function
+ol(a){if(typeof
+a==="number")return 0===a?ar(za):ar(zb);else
 switch(a[0]){case
 0:var
-b=[0,G(e(em,a[2])),0];return N(y1,G([0,cF(a[1]),b]));case
+b=[0,G(e(dC,a[2])),0];return M(zc,G([0,cF(a[1]),b]));case
 1:var
-c=[0,cF(a[2]),0];return N(y2,G([0,cF(a[1]),c]));case
-2:return N(y3,G(e(K,a[1])));default:var
-d=[0,n(y4,fk(a[4],a[5])),0],f=[0,n(y5,G(e(K,a[3]))),d],g=[0,n(y6,G(e(K,a[2]))),f];return N(y8,ag([0,n(y7,cF(a[1])),g]))}}function
-y9(a){var
-b=a[4],h=b?[0,n(y_,em([0,b[1],b[2]])),0]:b,d=a[3],i=d?[0,n(y$,n$(d[1])),0]:d,j=f(i,h),g=a[2],k=g?[0,n(za,cF(g[1])),0]:g,l=f(k,j),c=a[1],m=c?[0,n(zb,G(e(yY,[0,c[1],c[2]]))),0]:c;return ag(f(m,l))}function
-oa(g,a,d){var
-h=[0,n(zc,G(e(y9,d))),0];if(a)var
-b=a[1],c=[0,n(zd,fk(b[1],b[2])),0];else
+c=[0,cF(a[2]),0];return M(zd,G([0,cF(a[1]),c]));case
+2:return M(ze,G(e(K,a[1])));default:var
+d=[0,n(zf,fm(a[4],a[5])),0],f=[0,n(zg,G(e(K,a[3]))),d],g=[0,n(zh,G(e(K,a[2]))),f];return M(zj,ag([0,n(zi,cF(a[1])),g]))}}function
+zk(a){var
+b=a[4],h=b?[0,n(zl,dC([0,b[1],b[2]])),0]:b,d=a[3],i=d?[0,n(zm,ol(d[1])),0]:d,j=f(i,h),g=a[2],k=g?[0,n(zn,cF(g[1])),0]:g,l=f(k,j),c=a[1],m=c?[0,n(zo,G(e(y$,[0,c[1],c[2]]))),0]:c;return ag(f(m,l))}function
+om(g,a,d){var
+h=[0,n(zp,G(e(zk,d))),0];if(a)var
+b=a[1],c=[0,n(zq,fm(b[1],b[2])),0];else
 var
 c=a;var
-i=f(c,h);return ag([0,n(ze,ja(g)),i])}function
-ob(d,c,a,b){var
-g=[0,n(zf,n$(b)),0],h=a?[0,n(zg,G(e(K,a))),0]:a,i=f(h,g),j=[0,n(zh,G(e(K,c))),0];return ag(f([0,n(zi,ja(d)),j],i))}function
-zj(a){if(typeof
-a==="number")return ar(zk);else
+i=f(c,h);return ag([0,n(zr,jk(g)),i])}function
+on(d,c,a,b){var
+g=[0,n(zs,ol(b)),0],h=a?[0,n(zt,G(e(K,a))),0]:a,i=f(h,g),j=[0,n(zu,G(e(K,c))),0];return ag(f([0,n(zv,jk(d)),j],i))}function
+zw(a){if(typeof
+a==="number")return ar(zx);else
 switch(a[0]){case
-0:return N(zl,cF(a[1]));case
-1:return N(zm,oa(a[1],a[2],a[3]));default:return N(zn,ob(a[1],a[2],a[3],a[4]))}}function
-gW(a){var
-b=hH(hG(au(a),function(b){return a1(a,b)}));return m(function(a){var
-b=S(34===a?1:0),c=b?S(92===a?1:0):b,d=c?Z(zC,fX(a)):c;return d?Z(fX(a),zD):d},b)}function
-oc(c){var
-a=c;for(;;)switch(a[0]){case
+0:return M(zy,cF(a[1]));case
+1:return M(zz,om(a[1],a[2],a[3]));default:return M(zA,on(a[1],a[2],a[3],a[4]))}}function
+g3(a){var
+b=hO(hN(au(a),function(b){return a1(a,b)}));return m(function(a){var
+b=Q(34===a?1:0),c=b?Q(92===a?1:0):b,d=c?_(zP,f0(a)):c;return d?_(f0(a),zQ):d},b)}function
+jq(d){var
+a=d;for(;;)switch(a[0]){case
 8:var
-b=gW(a[2]);if(b){var
+b=g3(a[2]);if(b){var
 a=a[1];continue}return b;case
 9:var
-d=a[1];return m(function(a){return oc(a[2])},d);case
+e=a[1];return m(function(a){return jq(a[2])},e);case
+10:var
+c=jq(a[3]);if(c){var
+a=a[4];continue}return c;case
 0:case
-1:return gW(a[1]);case
+1:return g3(a[1]);case
 5:case
 6:case
 7:var
 a=a[1];continue;default:return 1}}function
-fl(b){function
+fn(b){function
 c(f){var
-a=fX(f),b=Z(zE,a),c=b?Z(a,zF):b;if(c)var
+a=f0(f),b=_(zR,a),c=b?_(a,zS):b;if(c)var
 d=c;else{var
-e=Z(zG,a);if(e)return Z(a,zH);var
+e=_(zT,a);if(e)return _(a,zU);var
 d=e}return d}var
-a=hH(hG(au(b),function(a){return a1(b,a)}));if(a){var
+a=hO(hN(au(b),function(a){return a1(b,a)}));if(a){var
 d=a[2],e=c(a[1]),f=e?m(function(a){var
 b=c(a);if(b)var
 d=b;else
 var
-e=fX(a),f=Z(zI,e),h=f?Z(e,zJ):f,d=h;var
-g=d||(95===a?1:0);return g},d):e,h=f?Z(g(d),zK):f;if(h)return S(aw(b,zL));var
+e=f0(a),f=_(zV,e),h=f?_(e,zW):f,d=h;var
+g=d||(95===a?1:0);return g},d):e,h=f?_(g(d),zX):f;if(h)return Q(ax(b,zY));var
 i=h}else
 var
 i=a;return i}function
-jg(c){var
+jr(c){var
 a=c;for(;;)switch(a[0]){case
 0:return 1;case
-1:return fl(a[1]);case
+1:return fn(a[1]);case
 3:var
-b=jg(a[2]);if(b){var
+b=jr(a[2]);if(b){var
 a=a[3];continue}return b;default:var
 a=a[1];continue}}function
-fm(m){var
+fo(m){var
 a=m;for(;;)switch(a[0]){case
 0:var
 e=a[1];if(typeof
@@ -5833,40 +5905,40 @@ h=typeof
 e[1]==="number"?1:0,d=h?1:h;else
 var
 d=1;if(d){var
-f=fN(a[2]);if(typeof
+f=fQ(a[2]);if(typeof
 f!=="number"&&0===f[0])return 0;var
 g=1}else
 var
 g=d;return g;case
 1:return 1;case
 3:var
-i=fm(a[2]);if(i){var
+i=fo(a[2]);if(i){var
 a=a[3];continue}return i;case
 4:var
-j=a[2],k=fm(a[1]),l=k?fT(c(2,b),j):k;return l?fT(j,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):l;default:var
+j=a[2],k=fo(a[1]),l=k?fW(c(2,b),j):k;return l?fW(j,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):l;default:var
 a=a[1];continue}}function
-eo(a){return 0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
-bW(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-dw(a){return y(eo,bW(a))}function
-jh(a){switch(a[0]){case
+eq(a){return 0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
+bX(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+dD(a){return y(eq,bX(a))}function
+js(a){switch(a[0]){case
 0:var
-c=eo(a[4]),d=f(dw(a[3]),c),e=f(dw(a[2]),d);return f(dw(a[1]),e);case
+c=eq(a[4]),d=f(dD(a[3]),c),e=f(dD(a[2]),d);return f(dD(a[1]),e);case
 1:var
-b=a[3],g=b?dw(b[1]):b,h=f(dw(a[2]),g);return f(dw(a[1]),h);default:return dw(a[1])}}function
-zM(a){switch(a[0]){case
+b=a[3],g=b?dD(b[1]):b,h=f(dD(a[2]),g);return f(dD(a[1]),h);default:return dD(a[1])}}function
+zZ(a){switch(a[0]){case
 0:var
 c=f(a[3],[0,a[4],0]),d=f(a[2],c),b=f(a[1],d);break;case
 1:var
 b=f(a[1],a[2]);break;default:var
-e=f(a[4],[0,a[5],[0,a[6],0]]),g=f(a[3],e),h=f(a[2],g),b=f(a[1],h)}return y(eo,b)}function
-od(a){return 0===a[0]?f(a[1],a[2]):[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
-oe(a){if(0===a[0]){var
-b=bW(a[2]);return f(bW(a[1]),b)}return[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
-of(a){switch(a[0]){case
+e=f(a[4],[0,a[5],[0,a[6],0]]),g=f(a[3],e),h=f(a[2],g),b=f(a[1],h)}return y(eq,b)}function
+oo(a){return 0===a[0]?f(a[1],a[2]):[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
+op(a){if(0===a[0]){var
+b=bX(a[2]);return f(bX(a[1]),b)}return[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
+oq(a){switch(a[0]){case
 1:var
 b=a[3],c=a[2],d=a[1];return[0,d[1],[0,d[2],[0,c[1],[0,c[2],[0,b[1],[0,b[2],0]]]]]];case
 2:return[0,a[1],0];default:return[0,a[1],[0,a[2],0]]}}function
-dx(e){var
+dE(e){var
 a=e[4],h=typeof
 a==="number"?0:2===a[0]?[0,a[1],[0,a[2],0]]:[0,a[1],0],c=e[3];if(c){var
 b=c[1];switch(b[0]){case
@@ -5878,70 +5950,70 @@ d=[0,b[1],[0,b[2],0]]}var
 g=d}else
 var
 g=c;return f(g,h)}function
-og(a){if(0===a[0]){var
-b=a[5],c=b?bW(b[1]):b;return[0,a[2],[0,a[3],[0,a[4],c]]]}var
-d=[0,a[4],0],e=f(bW(a[3]),d);return f(bW(a[2]),e)}function
-oh(b,e){var
+or(a){if(0===a[0]){var
+b=a[5],c=b?bX(b[1]):b;return[0,a[2],[0,a[3],[0,a[4],c]]]}var
+d=[0,a[4],0],e=f(bX(a[3]),d);return f(bX(a[2]),e)}function
+os(b,e){var
 a=e;for(;;)switch(a[0]){case
 0:return 1;case
 1:var
 c=a[1];if(0===c[0]){var
-f=c[1];return ak(function(a){return aw(f,a)},b)}return 0;case
+f=c[1];return ak(function(a){return ax(f,a)},b)}return 0;case
 3:var
-d=oh(b,a[2]);if(d){var
+d=os(b,a[2]);if(d){var
 a=a[3];continue}return d;default:var
 a=a[1];continue}}function
-fn(c,a){return m(function(a){var
-b=fm(a);return b?oh(c,a):b},a)}function
-oi(a){if(typeof
+fp(c,a){return m(function(a){var
+b=fo(a);return b?os(c,a):b},a)}function
+ot(a){if(typeof
 a!=="number")switch(a[0]){case
 2:return a[1];case
 3:return f(a[2],a[3])}return 0}function
-oj(a){var
-d=fT(c(2,c(2,c(2,c(2,c(2,b))))),a);return d?fT(a,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b))))))))))):d}function
-ok(a,b){return b?[4,ok(a,b[1]),a]:a}function
+ou(a){var
+d=fW(c(2,c(2,c(2,c(2,c(2,b))))),a);return d?fW(a,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b))))))))))):d}function
+ov(a,b){return b?[4,ov(a,b[1]),a]:a}function
 j(a){switch(a[0]){case
 0:var
-i=a[2],k=c(2,r(c(2,c(2,b)))),l=function(a){return B(k,a)},m=fO(kr(i),l,b);return[0,kG(ks(fN(a[1]),i)),m];case
+i=a[2],k=c(2,r(c(2,c(2,b)))),l=function(a){return B(k,a)},m=fR(kC(i),l,b);return[0,kQ(kD(fQ(a[1]),i)),m];case
 1:var
 e=a[1];return 0===e[0]?[5,[0,b,b],[0,d,b]]:[1,e[1],e[2],e[3]];case
 2:var
-f=j(a[1]);return 0===f[0]?[0,O(f[1]),f[2]]:[3,[0,d,b],f];case
+f=j(a[1]);return 0===f[0]?[0,P(f[1]),f[2]]:[3,[0,d,b],f];case
 3:var
 g=j(a[2]),h=j(a[3]);switch(a[1]){case
 0:return[2,g,h];case
 1:return[3,g,h];case
 2:return[4,g,h];default:return[5,g,h]}case
 4:var
-n=bx(eO(a[2]));return ok(j(a[1]),n);default:return[6,j(a[1])]}}function
-bX(a){if(0===a[0]){var
+n=bx(eO(a[2]));return ov(j(a[1]),n);default:return[6,j(a[1])]}}function
+bY(a){if(0===a[0]){var
 b=j(a[1]);return[0,b,b]}var
 c=j(a[2]);return[0,j(a[1]),c]}function
-dy(a){var
-b=bX(a[3]),c=bX(a[2]);return[0,bX(a[1]),c,b]}function
-zN(a){switch(a[0]){case
+dF(a){var
+b=bY(a[3]),c=bY(a[2]);return[0,bY(a[1]),c,b]}function
+z0(a){switch(a[0]){case
 0:var
-b=a[5],c=bX(a[4]),d=dy(a[3]),e=dy(a[2]);return[0,[0,dy(a[1]),e,d,c,b]];case
+b=a[5],c=bY(a[4]),d=dF(a[3]),e=dF(a[2]);return[0,[0,dF(a[1]),e,d,c,b]];case
 1:var
-f=z(dy,a[3]),g=dy(a[2]);return[1,dy(a[1]),g,f];default:return[2,dy(a[1])]}}function
-ol(a){if(0===a[0]){var
+f=z(dF,a[3]),g=dF(a[2]);return[1,dF(a[1]),g,f];default:return[2,dF(a[1])]}}function
+ow(a){if(0===a[0]){var
 c=a[2],d=a[1],b=function(a){var
 b=j(i(a,c));return[0,j(i(a,d)),b]},e=b(function(a){return a[3]}),f=b(function(a){return a[2]});return[0,[0,b(function(a){return a[1]}),f,e]]}var
 g=j(a[5]),h=[0,j(a[4]),g],k=j(a[3]),l=j(a[2]);return[1,j(a[1]),l,k,h]}function
-ep(a){var
+er(a){var
 b=j(a[3]),c=j(a[2]);return[0,j(a[1]),c,b]}function
-da(a){if(0===a[0]){var
-c=a[5],h=c?ep(c[1]):[0,[0,d,b],[0,d,b],[0,d,b]],i=j(a[4]),k=j(a[3]),l=j(a[2]);return[0,bx(a[1]),l,k,i,h]}var
+db(a){if(0===a[0]){var
+c=a[5],h=c?er(c[1]):[0,[0,d,b],[0,d,b],[0,d,b]],i=j(a[4]),k=j(a[3]),l=j(a[2]);return[0,bx(a[1]),l,k,i,h]}var
 e=a[4],f=a[3],g=a[2];if(a[1]){var
-m=ep(f),n=ep(g);return[2,j(e),n,m]}var
-o=ep(f),p=ep(g);return[1,j(e),p,o]}function
-gX(b,a){if(a){var
-c=a[1],d=a[2],g=gX(f(b,[0,c,0]),d),h=e(function(a){return[0,c,a]},b);return f(bp(function(c){var
-a=c[2],b=c[1],d=0===b[0]?b[5]?0:0===a[0]?a[5]?0:p(b[1],a[1]):0:0===a[0]?0:cm(b[1],a[1]);return S(d)},h),g)}return a}function
-zO(b){if(b[1])return 0;var
+m=er(f),n=er(g);return[2,j(e),n,m]}var
+o=er(f),p=er(g);return[1,j(e),p,o]}function
+g4(b,a){if(a){var
+c=a[1],d=a[2],g=g4(f(b,[0,c,0]),d),h=e(function(a){return[0,c,a]},b);return f(bq(function(c){var
+a=c[2],b=c[1],d=0===b[0]?b[5]?0:0===a[0]?a[5]?0:p(b[1],a[1]):0:0===a[0]?0:cm(b[1],a[1]);return Q(d)},h),g)}return a}function
+z1(b){if(b[1])return 0;var
 a=b[4];if(typeof
 a!=="number"&&1===a[0])return[0,[0,j(a[1])],0];return 0}function
-zP(N,M,a){switch(a[1]){case
+z2(N,M,a){switch(a[1]){case
 0:var
 g=a[4];if(typeof
 g!=="number"&&0===g[0])return[0,[1,j(g[1])],0];return 0;case
@@ -5996,14 +6068,14 @@ b=j(W);return[13,a,j(X),b]}}if(K)return 0;break;case
 9:var
 u=a[4];if(typeof
 u!=="number"&&0===u[0]){var
-Y=u[1],Z=gX(0,M);return e(function(h){var
+Y=u[1],Z=g4(0,M);return e(function(h){var
 e=j(Y),a=h[2],c=h[1];if(0===c[0]){var
 f=c[1];if(0===a[0]){var
-g=function(a){return a?ep(a[1]):[0,[0,d,b],[0,d,b],[0,d,b]]};if(p(f,a[1])){var
+g=function(a){return a?er(a[1]):[0,[0,d,b],[0,d,b],[0,d,b]]};if(p(f,a[1])){var
 i=j(a[2]),k=[2,[2,j(c[2]),i],e],l=g(a[5]),m=g(c[5]);return[11,bx(f),m,l,k]}var
-n=da(a);return[10,da(c),n,e]}var
-o=da(a);return[10,da(c),o,e]}var
-q=da(a);return[10,da(c),q,e]},Z)}return 0;case
+n=db(a);return[10,db(c),n,e]}var
+o=db(a);return[10,db(c),o,e]}var
+q=db(a);return[10,db(c),q,e]},Z)}return 0;case
 10:var
 v=a[4],L=0;if(typeof
 v==="number"||!(1===v[0]))L=1;else{var
@@ -6013,15 +6085,15 @@ $=x[2],aa=x[1],c=function(a){var
 b=j(_),c=j($);return[12,a,j(aa),c,b]}}if(L)return 0;break;case
 11:var
 G=typeof
-a[4]==="number"?1:0,ab=G?zQ:G;return ab;case
+a[4]==="number"?1:0,ab=G?z3:G;return ab;case
 12:var
 y=a[4];if(typeof
 y!=="number"&&1===y[0]){var
 z=a[3];if(z){var
 H=z[1];if(0===H[0]){var
 ac=j(y[1]);return[0,[14,j(H[1]),ac],0]}return 0}return z}return 0;default:return 0}var
-B=a[2],P=B?[0,bx(B[1]),0]:aA(0,N);return e(c,P)}function
-zR(c,a){switch(a[1]){case
+B=a[2],P=B?[0,bx(B[1]),0]:aB(0,N);return e(c,P)}function
+z4(c,a){switch(a[1]){case
 0:var
 l=a[4];if(typeof
 l!=="number"&&2!==l[0])return a[2]?0:a[3]?0:1;return 0;case
@@ -6065,7 +6137,7 @@ z!=="number"&&0===z[0])return a[2]?0:a[3]?0:1;return 0;case
 N=0,A=a[4];if(typeof
 A==="number"||!(1===A[0]))N=1;else{var
 h=a[3];if(!h)return h;if(0!==h[1][0])return 0;var
-B=p(c,zT),O=0;if(B){var
+B=p(c,z6),O=0;if(B){var
 C=a[2];if(C){var
 b=C[1];O=1}else
 var
@@ -6091,19 +6163,19 @@ I=H;return I;case
 12:var
 J=a[4];if(typeof
 J!=="number"&&1===J[0]){if(a[2])return 0;var
-k=a[3];return k?0===k[1][0]?p(c,zU):0:k}return 0;default:return 0}var
-o=Z(zS,b);return o?Z(b,c):o}function
-om(d,c,b){var
-e=y(function(a){return zP(d,c,a)},b),a=y(zO,b),g=a?[0,a[1],a[2]]:zV;return f(g,e)}function
-ji(a,d,c,b){var
-f=om(g(a),c,b),h=ol(d);return[0,e(zN,a),h,f]}function
-on(b){if(b[1])return 0;var
+k=a[3];return k?0===k[1][0]?p(c,z7):0:k}return 0;default:return 0}var
+o=_(z5,b);return o?_(b,c):o}function
+ox(d,c,b){var
+e=y(function(a){return z2(d,c,a)},b),a=y(z1,b),g=a?[0,a[1],a[2]]:z8;return f(g,e)}function
+jt(a,d,c,b){var
+f=ox(g(a),c,b),h=ow(d);return[0,e(z0,a),h,f]}function
+oy(b){if(b[1])return 0;var
 a=b[4];if(typeof
 a!=="number"&&1===a[0])return[0,[0,j(a[1])],0];return 0}function
-oo(c){function
+oz(c){function
 a(a){return q(a,e(j,c),[0,d,b])}var
-f=a(zW),g=a(zX);return[0,a(0),g,f]}function
-jj(W,E,V,a){switch(a[1]){case
+f=a(z9),g=a(z_);return[0,a(0),g,f]}function
+ju(W,E,V,a){switch(a[1]){case
 0:var
 d=a[4];if(typeof
 d!=="number"&&0===d[0])return[0,[1,j(d[1])],0];return 0;case
@@ -6141,7 +6213,7 @@ l!=="number"&&0===l[0]){var
 H=l[1],m=a[3];if(m){var
 n=m[1];switch(n[0]){case
 0:var
-ad=j(H);return[0,[8,am(j(n[1]),E),ad],0];case
+ad=j(H);return[0,[8,al(j(n[1]),E),ad],0];case
 1:var
 ae=j(H);return[0,[8,e(j,n[1]),ae],0];default:var
 I=0}}else
@@ -6157,15 +6229,15 @@ b=j(af);return[7,a,j(ag),b]}}if(P)return 0;break;case
 9:var
 q=a[4];if(typeof
 q!=="number"&&0===q[0]){var
-ah=q[1],ai=gX(0,V);return e(function(a){var
-b=j(ah),c=da(a[2]);return[14,da(a[1]),c,b]},ai)}return 0;case
+ah=q[1],ai=g4(0,V);return e(function(a){var
+b=j(ah),c=db(a[2]);return[14,db(a[1]),c,b]},ai)}return 0;case
 10:var
 r=a[4],Q=0;if(typeof
 r==="number"||!(1===r[0]))Q=1;else{var
 s=a[3],aj=r[1];if(!s)return s;var
 t=s[1];if(2!==t[0])return 0;var
-ak=t[2],al=t[1],b=function(a){var
-b=j(aj),c=j(ak);return[15,a,j(al),c,b]}}if(Q)return 0;break;case
+ak=t[2],am=t[1],b=function(a){var
+b=j(aj),c=j(ak);return[15,a,j(am),c,b]}}if(Q)return 0;break;case
 12:var
 u=a[4];if(typeof
 u!=="number"&&1===u[0]){var
@@ -6183,14 +6255,14 @@ y==="number"||!(1===y[0]))S=1;else{var
 z=a[3],aq=y[1];if(!z)return z;var
 K=z[1];if(1!==K[0])return 0;var
 ar=K[1],b=function(a){var
-b=j(aq);return[13,a,0,oo(ar),b]}}if(S)return 0;break;case
+b=j(aq);return[13,a,0,oz(ar),b]}}if(S)return 0;break;case
 15:var
 A=a[4],T=0;if(typeof
 A==="number"||!(1===A[0]))T=1;else{var
 B=a[3],as=A[1];if(!B)return B;var
 L=B[1];if(1!==L[0])return 0;var
 at=L[1],b=function(a){var
-b=j(as);return[13,a,1,oo(at),b]}}if(T)return 0;break;case
+b=j(as);return[13,a,1,oz(at),b]}}if(T)return 0;break;case
 16:var
 C=a[4],U=0;if(typeof
 C==="number"||!(1===C[0]))U=1;else{var
@@ -6198,10 +6270,10 @@ D=a[3],au=C[1];if(!D)return D;var
 M=D[1];if(1!==M[0])return 0;var
 av=M[1],b=function(a){var
 b=j(au);return[17,a,e(j,av),b]}}if(U)return 0;break;default:return 0}var
-F=a[2],Y=F?[0,bx(F[1]),0]:aA(0,E);return e(b,Y)}function
-eq(e,d,c,b){var
-g=y(function(a){return jj(e,d,c,a)},b),a=y(on,b),h=a?[0,a[1],a[2]]:zY;return f(h,g)}function
-er(a){return 11===a[1]?1:0}function
+F=a[2],Y=F?[0,bx(F[1]),0]:aB(0,E);return e(b,Y)}function
+es(e,d,c,b){var
+g=y(function(a){return ju(e,d,c,a)},b),a=y(oy,b),h=a?[0,a[1],a[2]]:z$;return f(h,g)}function
+et(a){return 11===a[1]?1:0}function
 cd(n,m,a){var
 b=a[1];if(!(4<=b))switch(b){case
 0:var
@@ -6214,16 +6286,16 @@ e=1;l=1}if(!l)var
 e=0;var
 f=cm(n,e);if(f){var
 g=a[2];if(g){var
-h=g[1],i=Z(zZ,h);return i?Z(h,m):i}var
+h=g[1],i=_(Aa,h);return i?_(h,m):i}var
 j=1}else
 var
 j=f;return j;case
 3:var
 k=a[4];if(typeof
 k!=="number"&&1===k[0])return a[2]?0:a[3]?0:1;return 0}return 0}function
-bf(s,b,a){var
+bh(s,b,a){var
 d=a[2];if(d)var
-e=d[1],f=Z(z0,e),t=f?Z(e,b):f,c=t;else
+e=d[1],f=_(Ab,e),t=f?_(e,b):f,c=t;else
 var
 c=1;var
 h=a[1];if(!(9<=h))switch(h){case
@@ -6246,24 +6318,24 @@ o=n;return o;default:return cd(0,b,a)}}return cd(0,b,a)}return cd(0,b,a);case
 q=a[4];if(typeof
 q!=="number"&&1===q[0]){var
 r=a[3];return r?0===r[1][0]?c?p(b,s):c:cd(0,b,a):cd(0,b,a)}return cd(0,b,a)}return cd(0,b,a)}function
-aO(c,b,a){return 11===a[1]?typeof
-a[4]==="number"?a[2]?bf(c,b,a):a[3]?bf(c,b,a):1:bf(c,b,a):bf(c,b,a)}function
-op(f,c,b,a){var
+aP(c,b,a){return 11===a[1]?typeof
+a[4]==="number"?a[2]?bh(c,b,a):a[3]?bh(c,b,a):1:bh(c,b,a):bh(c,b,a)}function
+oA(f,c,b,a){var
 h=a[2];if(h)var
-i=h[1],j=Z(z2,i),A=j?Z(i,b):j,d=A;else
+i=h[1],j=_(Ad,i),A=j?_(i,b):j,d=A;else
 var
 d=1;switch(a[1]){case
-1:if(a[3])return bf(aW(c),b,a);if(d){var
+1:if(a[3])return bh(aW(c),b,a);if(d){var
 z=0,k=a[4];if(typeof
 k!=="number"&&2===k[0]){var
 l=1;z=1}if(!z)var
 l=0;return cm(f,l)}return d;case
 4:var
 m=a[4];if(typeof
-m!=="number"&&0===m[0])return a[3]?bf(aW(c),b,a):d;return bf(aW(c),b,a);case
+m!=="number"&&0===m[0])return a[3]?bh(aW(c),b,a):d;return bh(aW(c),b,a);case
 5:var
 n=a[4];if(typeof
-n!=="number"&&0===n[0]){if(a[3])return bf(aW(c),b,a);var
+n!=="number"&&0===n[0]){if(a[3])return bh(aW(c),b,a);var
 o=p(b,aW(c));if(o){var
 q=typeof
 c==="number"?1:0;if(q){if(a[2])return 0;var
@@ -6271,10 +6343,10 @@ e=1}else
 var
 e=q}else
 var
-e=o;return e}return bf(aW(c),b,a);case
+e=o;return e}return bh(aW(c),b,a);case
 13:var
 r=a[4];if(typeof
-r!=="number"&&1===r[0])return a[3]?bf(aW(c),b,a):d?S(f):d;return bf(aW(c),b,a);case
+r!=="number"&&1===r[0])return a[3]?bh(aW(c),b,a):d?Q(f):d;return bh(aW(c),b,a);case
 16:var
 s=a[4];if(typeof
 s!=="number"&&1===s[0]){var
@@ -6284,28 +6356,28 @@ v=d?p(b,aW(c)):d,w=v?p(g(u[1]),b):v;if(w)var
 x=typeof
 c==="number"?1:0,y=x?1:x;else
 var
-y=w;return y}return bf(aW(c),b,a)}return bf(aW(c),b,a)}return bf(aW(c),b,a);default:return bf(aW(c),b,a)}}function
-db(a){switch(a[0]){case
+y=w;return y}return bh(aW(c),b,a)}return bh(aW(c),b,a)}return bh(aW(c),b,a);default:return bh(aW(c),b,a)}}function
+dc(a){switch(a[0]){case
 0:return[0,j([0,a[1],a[2]])];case
 1:return[1,a[1]];case
-2:return[2,db(a[1])];case
+2:return[2,dc(a[1])];case
 3:var
-b=db(a[2]),c=db(a[3]);switch(a[1]){case
+b=dc(a[2]),c=dc(a[3]);switch(a[1]){case
 0:return[3,b,c];case
 1:return[4,b,c];case
 2:return[5,b,c];default:return[6,b,c]}case
 4:var
-d=a[2];return[7,db(a[1]),d];default:return[8,db(a[1])]}}function
-jk(i,h,f,b,d,c,a){var
-k=ak(er,a),l=eq(0,g(b),0,a),m=_(d,c),n=e(function(a){var
-b=j(a[2]);return[0,j(a[1]),b]},m),o=e(function(a){return 0===a[0]?[0,e(db,a[1])]:[1,db(a[1])]},b),p=e(function(a){var
-b=db(a[2]);return[0,a[1],b]},f);return[0,[0,i,e(function(a){var
-b=bX(a[2]);return[0,a[1],b]},h),p,o],n,l,k]}function
-jl(c){function
+d=a[2];return[7,dc(a[1]),d];default:return[8,dc(a[1])]}}function
+jv(i,h,f,b,d,c,a){var
+k=ak(et,a),l=es(0,g(b),0,a),m=$(d,c),n=e(function(a){var
+b=j(a[2]);return[0,j(a[1]),b]},m),o=e(function(a){return 0===a[0]?[0,e(dc,a[1])]:[1,dc(a[1])]},b),p=e(function(a){var
+b=dc(a[2]);return[0,a[1],b]},f);return[0,[0,i,e(function(a){var
+b=bY(a[2]);return[0,a[1],b]},h),p,o],n,l,k]}function
+jw(c){function
 a(e){var
 a=[0,d,b];return q(e,c,[0,a,a])}var
-e=a(z3),f=a(z4);return[0,a(0),f,e]}function
-dz(a){function
+e=a(Ae),f=a(Af);return[0,a(0),f,e]}function
+dG(a){function
 b(a){var
 b=j(a[2]);return[0,j(a[1]),b]}switch(a[0]){case
 0:return[0,b([0,a[1],a[2]])];case
@@ -6313,29 +6385,29 @@ b=j(a[2]);return[0,j(a[1]),b]}switch(a[0]){case
 c=b(a[3]),d=b(a[2]);return[1,b(a[1]),d,c];case
 2:return[2,j(a[1])];default:var
 e=j(a[2]);return[3,j(a[1]),e]}}function
-oq(a){if(0===a[0]){var
-b=_(a[1],a[2]);return[0,jl(e(function(a){var
-b=j(a[2]);return[0,j(a[1]),b]},b))]}return ol([1,a[1],a[2],a[3],a[4],a[5]])}function
-or(k,b,i,h,f,d,a){function
-c(a){return jl(e(bX,a))}var
-l=ak(er,a),m=eq(0,g(b),d,a),n=dz(f),o=oq(h),p=j(i);return[0,k,e(function(a){var
+oB(a){if(0===a[0]){var
+b=$(a[1],a[2]);return[0,jw(e(function(a){var
+b=j(a[2]);return[0,j(a[1]),b]},b))]}return ow([1,a[1],a[2],a[3],a[4],a[5]])}function
+oC(k,b,i,h,f,d,a){function
+c(a){return jw(e(bY,a))}var
+l=ak(et,a),m=es(0,g(b),d,a),n=dG(f),o=oB(h),p=j(i);return[0,k,e(function(a){var
 b=c(a[2]);return[0,c(a[1]),b]},b),p,o,n,m,l]}function
-gY(a){return ak(function(a){return 2===a[0]?1:0},a)}function
-os(k,a,c,i,h,f){var
-l=g(a),m=eq(gY(a),l,0,f),n=z(dz,h),o=oq(i),p=c?j(c[1]):[0,b,b];return[0,k,e(function(a){function
-c(a){return jl(e(bX,a))}switch(a[0]){case
+g5(a){return ak(function(a){return 2===a[0]?1:0},a)}function
+oD(k,a,c,i,h,f){var
+l=g(a),m=es(g5(a),l,0,f),n=z(dG,h),o=oB(i),p=c?j(c[1]):[0,b,b];return[0,k,e(function(a){function
+c(a){return jw(e(bY,a))}switch(a[0]){case
 0:var
-k=a[5],l=bX(a[4]),m=c(a[3]),n=c(a[2]);return[0,[0,[0,c(a[1]),n,m,l,k]]];case
+k=a[5],l=bY(a[4]),m=c(a[3]),n=c(a[2]);return[0,[0,[0,c(a[1]),n,m,l,k]]];case
 1:var
 o=c(a[2]);return[0,[1,c(a[1]),o,0]];default:var
 f=a[1];if(f)var
 g=c(f);else
 var
 h=[0,b,b],i=[0,d,b],j=[0,d,b],g=[0,[0,j,j],[0,i,i],[0,h,h]];var
-p=a[7],q=bX(a[6]),r=bX(a[5]),s=c(a[4]),t=c(a[3]);return[1,[0,g,c(a[2]),t,s,r,q,p]]}},a),p,o,n,m]}function
-ot(a){return a[1]?0:1}function
-ou(l){var
-b=bp(ot,l);if(b){var
+p=a[7],q=bY(a[6]),r=bY(a[5]),s=c(a[4]),t=c(a[3]);return[1,[0,g,c(a[2]),t,s,r,q,p]]}},a),p,o,n,m]}function
+oE(a){return a[1]?0:1}function
+oF(l){var
+b=bq(oE,l);if(b){var
 d=b[1];if(d[2])return 0;if(d[3])return 0;var
 c=d[4],a=b[2];if(typeof
 c!=="number")switch(c[0]){case
@@ -6356,46 +6428,46 @@ k=a;return k}var
 i=0}else
 var
 i=b;return i}function
-ov(a){var
-c=ot(a);if(c)return c;if(1===a[1]){var
+oG(a){var
+c=oE(a);if(c)return c;if(1===a[1]){var
 b=a[4];if(typeof
 b!=="number"&&0===b[0])return 1;return 0}return 0}function
-gZ(i,h,b){function
+g6(i,h,b){function
 c(b,a){return[3,1,b,a]}function
 a(b,a){return[3,3,b,a]}function
 d(b,a){return[3,2,b,a]}function
 e(b,a){return[3,0,b,a]}var
-f=c(g0,a(g0,b)),j=a(f,jm),k=i?f:a(c(b,g0),jm);function
-g(b){return a(b,[5,e(g0,d(jm,d(b,b)))])}var
+f=c(g7,a(g7,b)),j=a(f,jx),k=i?f:a(c(b,g7),jx);function
+g(b){return a(b,[5,e(g7,d(jx,d(b,b)))])}var
 l=g(k);return a(h,e(g(j),l))}function
-g1(f,e,d){function
+g8(f,e,d){function
 a(b,a){return[3,3,b,a]}function
 b(b,a){return[3,2,b,a]}var
-c=a([3,1,jn,a(jn,d)],ow),g=a(c,[5,[3,0,jn,b(ow,b(c,c))]]);return[2,b(gZ(f,e,d),g)]}function
-jo(e,g,a){function
+c=a([3,1,jy,a(jy,d)],oH),g=a(c,[5,[3,0,jy,b(oH,b(c,c))]]);return[2,b(g6(f,e,d),g)]}function
+jz(e,g,a){function
 f(b,a){return[3,1,b,a]}function
 b(b,a){return[3,3,b,a]}function
 c(b,a){return[3,2,b,a]}var
-h=f(g2,b(g2,a)),d=e?h:b(f(a,g2),ox),i=b(d,[5,[3,0,g2,c(ox,c(d,d))]]);return c(gZ(e,g,a),i)}function
-oy(c,g,b,a){function
+h=f(g9,b(g9,a)),d=e?h:b(f(a,g9),oI),i=b(d,[5,[3,0,g9,c(oI,c(d,d))]]);return c(g6(e,g,a),i)}function
+oJ(c,g,b,a){function
 d(b,a){return e(function(c){var
-d=p(b,c)?a:z5;return[0,d]},z7)}return e(function(e){var
-j=[0,gZ(c,b,a)],i=1,k=d(e,[2,g]);function
+d=p(b,c)?a:Ag;return[0,d]},Ai)}return e(function(e){var
+j=[0,g6(c,b,a)],i=1,k=d(e,[2,g]);function
 f(b,a){return[3,1,b,a]}var
-h=gZ(c,b,a),l=d(e,f(f(g1(c,b,a),g),h));return[0,d(e,z6),l,k,j,i]},z8)}function
-oz(c,b,a){var
-d=[0,jo(c,b,a),0],e=[0,jo(c,b,a),d],f=[0,jo(c,b,a),e],g=[0,g1(c,b,a),0],h=[0,g1(c,b,a),g];return[0,[0,g1(c,b,a),h],f]}function
-oA(o,e,a){if(e)if(a){var
+h=g6(c,b,a),l=d(e,f(f(g8(c,b,a),g),h));return[0,d(e,Ah),l,k,j,i]},Aj)}function
+oK(c,b,a){var
+d=[0,jz(c,b,a),0],e=[0,jz(c,b,a),d],f=[0,jz(c,b,a),e],g=[0,g8(c,b,a),0],h=[0,g8(c,b,a),g];return[0,[0,g8(c,b,a),h],f]}function
+oL(o,e,a){if(e)if(a){var
 g=e[1],h=a[1],k=cu(j(g[2][1]));if(k){var
 l=k[1],m=cu(j(g[2][2]));if(m)var
 p=m[1],n=function(a){function
 d(a){return c(2,a)}var
-e=[0,a,fO(h[2],d,b)];return dj(l,a2(dU(p,l),e))},q=n(D(h[1],b)),f=[0,n(h[1]),q];else
+e=[0,a,fR(h[2],d,b)];return dp(l,a2(dZ(p,l),e))},q=n(E(h[1],b)),f=[0,n(h[1]),q];else
 var
 f=[0,[0,d,b],[0,d,b]]}else
 var
 f=[0,[0,d,b],[0,d,b]];var
-r=oA([0,o],e[2],a[2]),i=[0,[0,g[1],[1,o,f[1],f[2]]],r]}else
+r=oL([0,o],e[2],a[2]),i=[0,[0,g[1],[1,o,f[1],f[2]]],r]}else
 var
 i=a;else
 var
@@ -6404,21 +6476,21 @@ at(b,a){switch(a[0]){case
 0:return[0,a[1],a[2]];case
 1:var
 c=a[1];if(0===c[0]){var
-e=c[1],d=kJ(function(a){return aw(e,a[1])},b);return d?[1,d[1][2]]:a}return a;case
+e=c[1],d=kT(function(a){return ax(e,a[1])},b);return d?[1,d[1][2]]:a}return a;case
 2:return[2,at(b,a[1])];case
 3:var
 f=at(b,a[3]),g=at(b,a[2]);return[3,a[1],g,f];case
 4:var
 h=a[2];return[4,at(b,a[1]),h];default:return[5,at(b,a[1])]}}function
-oB(b,a){if(0===a[0])return[0,at(b,a[1])];var
+oM(b,a){if(0===a[0])return[0,at(b,a[1])];var
 c=at(b,a[2]);return[1,at(b,a[1]),c]}function
-jp(b,a){var
+jA(b,a){var
 c=i(b,a[3]),d=i(b,a[2]);return[0,i(b,a[1]),d,c]}function
-jq(c,a){if(c)if(a){var
+jB(c,a){if(c)if(a){var
 g=a[2],b=a[1],h=c[1];if(typeof
 b!=="number"&&0===b[0]){var
-e=jq(h,g);if(e){var
-i=e[1],f=jq(h,i[2]);if(f)var
+e=jB(h,g);if(e){var
+i=e[1],f=jB(h,i[2]);if(f)var
 j=f[1],k=[0,[0,[0,b[1],i[1],j[1]],j[2]]];else
 var
 k=f;var
@@ -6430,92 +6502,97 @@ var
 d=a;else
 var
 d=c;return d}function
-jr(g,f,a){if(a){var
-e=a[1],h=a[2];if(f)return[0,e,jr(g,f[1],h)];var
-j=[0,e[2]],k=g?b:d,l=e[1],i=[0,[0,D(B(c(2,b),l),k),j],h]}else
+jC(g,f,a){if(a){var
+e=a[1],h=a[2];if(f)return[0,e,jC(g,f[1],h)];var
+j=[0,e[2]],k=g?b:d,l=e[1],i=[0,[0,E(B(c(2,b),l),k),j],h]}else
 var
 i=a;return i}function
-z9(a){if(typeof
+Ak(a){if(typeof
 a!=="number"&&1===a[0])return 1;return 0}function
-z_(a){if(typeof
+Al(a){if(typeof
 a!=="number"&&2===a[0])return 1;return 0}function
-g3(e,a){if(0===a[0]){var
-f=[0,b,c(2,b)],g=g3(e,a[3]);return a2(dj(g3(e,a[2]),g),f)}return i(e,a[1])?[0,b,b]:[0,d,b]}function
-oC(a){return 0===a[0]?ec(a[1][4]):0}function
-oD(a){switch(a[0]){case
+g_(e,a){if(0===a[0]){var
+f=[0,b,c(2,b)],g=g_(e,a[3]);return a2(dp(g_(e,a[2]),g),f)}return i(e,a[1])?[0,b,b]:[0,d,b]}function
+oN(a){return 0===a[0]?ef(a[1][4]):0}function
+oO(a){switch(a[0]){case
 0:var
-b=a[1],c=a7(b[3]);return f(a7(b[2]),c);case
+b=a[1],c=a8(b[3]);return f(a8(b[2]),c);case
 1:var
-d=a7(a[2]);return f(a7(a[1]),d);default:return 0}}function
-g4(a){switch(a[0]){case
-0:return bA(a7(a[1][1]));case
+d=a8(a[2]);return f(a8(a[1]),d);default:return 0}}function
+g$(a){switch(a[0]){case
+0:return bB(a8(a[1][1]));case
 1:var
-b=a[3];return b?bA(a7(b[1])):d;default:return bA(a7(a[1]))}}function
-g5(c){var
-a=y(oC,c),d=a?[0,a[1],a[2]]:y(oD,c);return D(b,bA(d))}function
-oE(d,a){if(d){if(a){var
-b=a[1],g=d[1],e=oE(d[2],a[2]);if(e){var
+b=a[3];return b?bB(a8(b[1])):d;default:return bB(a8(a[1]))}}function
+ha(c){var
+a=y(oN,c),d=a?[0,a[1],a[2]]:y(oO,c);return E(b,bB(d))}function
+oP(d,a){if(d){if(a){var
+b=a[1],g=d[1],e=oP(d[2],a[2]);if(e){var
 h=e[1],i=h[2],j=h[1];if(45===b)var
-c=z$;else
+c=Am;else
 if(43===b)var
-c=Aa;else
+c=An;else
 var
-f=48===b?1:0,n=f?Ab:f,c=n;if(c)return[0,[0,[0,[0,g,c[1]],j],i]];var
+f=48===b?1:0,n=f?Ao:f,c=n;if(c)return[0,[0,[0,[0,g,c[1]],j],i]];var
 k=49===b?1:0,o=k?[0,[0,j,[0,g,i]]]:k,l=o}else
 var
 l=e;var
 m=l}else
 var
-m=a;return m}return a?0:Ac}function
-es(b,c,a){switch(a[0]){case
+m=a;return m}return a?0:Ap}function
+dd(b,c,a){switch(a[0]){case
 0:var
-d=a[1];if(aw(d,Ad))return Ae;if(aw(d,Af))return Ag;if(aw(d,Ah))return Ai;if(aw(d,Aj))return Ak;if(aw(d,Al))return Am;var
-l=aw(d,An),x=l?Ao:l;return x;case
+d=a[1];if(ax(d,Aq))return Ar;if(ax(d,As))return At;if(ax(d,Au))return Av;if(ax(d,Aw))return Ax;if(ax(d,Ay))return Az;var
+n=ax(d,AA),B=n?AB:n;return B;case
 1:var
-e=a[3],f=a[2],g=a[1];if(aw(g,Ap))return[0,[0,e,f]];if(aw(g,Aq))return[0,[1,e,f]];if(aw(g,Ar))return[0,[2,e,f]];var
-m=aw(g,As),y=m?[0,[8,e,f]]:m;return y;case
+e=a[3],f=a[2],g=a[1];if(ax(g,AC))return[0,[0,e,f]];if(ax(g,AD))return[0,[1,e,f]];if(ax(g,AE))return[0,[2,e,f]];var
+o=ax(g,AF),C=o?[0,[8,e,f]]:o;return C;case
 2:return[0,[4,a[1]]];case
 3:return[0,[3,a[2],a[1],a[3]]];case
 4:return[0,[9,a[2],a[1],a[3],a[4]]];case
 5:var
-h=es(b,c,a[1]),A=h?[0,[5,h[1],a[2],a[3]]]:h;return A;case
+h=dd(b,c,a[1]),D=h?[0,[5,h[1],a[2],a[3]]]:h;return D;case
 6:var
-i=es(b,c,a[1]),B=i?[0,[7,i[1],a[2],a[3]]]:i;return B;case
+i=dd(b,c,a[1]),E=i?[0,[7,i[1],a[2],a[3]]]:i;return E;case
 7:var
-C=es(b,c,a[1]);return z(function(a){return[6,a]},C);case
+F=dd(b,c,a[1]);return z(function(a){return[6,a]},F);case
 8:if(b){var
-n=a[3],o=a[2],j=es(b,c,a[1]);if(j){var
-p=j[1],k=oE(b,hH(hG(au(o),function(a){return a1(o,a)})));if(k){var
-q=k[1],r=q[2],s=q[1];if(r)return[0,[11,c,r,[10,p,s,n]]];var
-t=[0,[10,p,s,n]]}else
+p=a[3],q=a[2],j=dd(b,c,a[1]);if(j){var
+r=j[1],k=oP(b,hO(hN(au(q),function(a){return a1(q,a)})));if(k){var
+s=k[1],t=s[2],u=s[1];if(t)return[0,[11,c,t,[10,r,u,p]]];var
+v=[0,[10,r,u,p]]}else
 var
-t=k;var
-u=t}else
+v=k;var
+w=v}else
 var
-u=j;var
-v=u}else
+w=j;var
+x=w}else
 var
-v=b;return v;default:var
-w=function(a){if(a){var
-f=a[1],d=es(b,c,f[2]);if(d)var
-e=w(a[2]),h=e?[0,[0,[0,f[1],d[1]],e[1]]]:e,g=h;else
+x=b;return x;case
+9:var
+y=function(a){if(a){var
+f=a[1],d=dd(b,c,f[2]);if(d)var
+e=y(a[2]),h=e?[0,[0,[0,f[1],d[1]],e[1]]]:e,g=h;else
 var
-g=d;return g}return At},D=w(a[1]);return z(function(a){return[12,a]},D)}}function
-oF(e,d,a){if(a){var
-f=a[1],b=es(e,d,f[2]);if(b)var
-c=oF(e,d,a[2]),h=c?[0,[0,[0,f[1],b[1]],c[1]]]:c,g=h;else
+g=d;return g}return AG},G=y(a[1]);return z(function(a){return[12,a]},G);default:var
+l=dd(b,c,a[3]);if(l)var
+m=dd(b,c,a[4]),H=m?[0,[13,a[2],a[1],l[1],m[1]]]:m,A=H;else
 var
-g=b;return g}return Au}function
-dA(b,g,f,e,d,a){if(d)if(a){var
+A=l;return A}}function
+oQ(e,d,a){if(a){var
+f=a[1],b=dd(e,d,f[2]);if(b)var
+c=oQ(e,d,a[2]),h=c?[0,[0,[0,f[1],b[1]],c[1]]]:c,g=h;else
+var
+g=b;return g}return AH}function
+dH(b,g,f,e,d,a){if(d)if(a){var
 c=a[1];if(c[3])return 0;if(c[4])return 0;var
-n=c[2],o=a[2],p=d[1],h=oF(f,e,c[1]);if(h){var
+n=c[2],o=a[2],p=d[1],h=oQ(f,e,c[1]);if(h){var
 i=h[1];if(n){var
-j=dA(b,g,f,e,p,o);if(j){var
-q=j[1],k=dA(b,g,f,e,p,q[2]);if(k){var
-r=k[1],s=r[1],t=q[1],l=n[1],y=r[2];if(aN(l,b))var
+j=dH(b,g,f,e,p,o);if(j){var
+q=j[1],k=dH(b,g,f,e,p,q[2]);if(k){var
+r=k[1],s=r[1],t=q[1],l=n[1],y=r[2];if(aH(l,b))var
 u=[0,[1,i,l,t,s]];else
 var
-x=E(g,dP(l,b)),u=z(function(a){return[2,i,a,t,s]},x);return z(function(a){return[0,a,y]},u)}var
+x=F(g,dU(l,b)),u=z(function(a){return[2,i,a,t,s]},x);return z(function(a){return[0,a,y]},u)}var
 v=k}else
 var
 v=j;return v}var
@@ -6527,63 +6604,63 @@ var
 m=a;else
 var
 m=d;return m}function
-js(i,h,f,e,d,a){if(d){if(a){var
-b=dA(i,h,f,e,g(a),a);if(b)var
-j=b[1],c=js(i,h,f,e,d[1],j[2]),l=c?[0,[0,j[1],c[1]]]:c,k=l;else
+jD(i,h,f,e,d,a){if(d){if(a){var
+b=dH(i,h,f,e,g(a),a);if(b)var
+j=b[1],c=jD(i,h,f,e,d[1],j[2]),l=c?[0,[0,j[1],c[1]]]:c,k=l;else
 var
-k=b;return k}return Av}return a?0:Aw}function
-oG(a){if(typeof
-a==="number")return 0===a?Ax:Ay;else
+k=b;return k}return AI}return a?0:AJ}function
+oR(a){if(typeof
+a==="number")return 0===a?AK:AL;else
 switch(a[0]){case
 0:return[0,[0,a[1],a[2]]];case
 1:return[0,[1,a[1],a[2]]];default:return 0}}function
-jt(e,d,a){if(d)if(a){var
+jE(e,d,a){if(d)if(a){var
 b=a[1];if(b[1])return 0;var
 j=b[4],c=b[3],k=b[2],l=a[2],m=d[1];if(k){if(c)return 0;if(j)return 0;var
-f=k[1],g=jt(e,m,l);if(g){var
-n=g[1],o=n[1],h=jt(e,m,n[2]);if(h){var
-p=h[1],q=p[2],r=p[1];if(aN(f,Az))return[0,[0,[1,f,o,r],q]];var
-t=E(e,dP(f,AA));return z(function(a){return[0,[2,a,o,r],q]},t)}var
+f=k[1],g=jE(e,m,l);if(g){var
+n=g[1],o=n[1],h=jE(e,m,n[2]);if(h){var
+p=h[1],q=p[2],r=p[1];if(aH(f,AM))return[0,[0,[1,f,o,r],q]];var
+t=F(e,dU(f,AN));return z(function(a){return[0,[2,a,o,r],q]},t)}var
 s=h}else
 var
 s=g;return s}if(c){var
-u=oG(c[1]);return z(function(a){return[0,[0,j,a],l]},u)}var
+u=oR(c[1]);return z(function(a){return[0,[0,j,a],l]},u)}var
 i=c}else
 var
 i=a;else
 var
 i=d;return i}function
-dc(b,a){return 0===b[0]?[0,j(b[1]),a]:a?[0,a[1],a[2]]:[0,j(b[1]),0]}function
-dB(a,e){var
-b=dc(a[1],e),c=dc(a[2],b[2]),d=dc(a[3],c[2]);return[0,[0,b[1],c[1],d[1]],d[2]]}function
-oH(d,c){if(d){var
+de(b,a){return 0===b[0]?[0,j(b[1]),a]:a?[0,a[1],a[2]]:[0,j(b[1]),0]}function
+dI(a,e){var
+b=de(a[1],e),c=de(a[2],b[2]),d=de(a[3],c[2]);return[0,[0,b[1],c[1],d[1]],d[2]]}function
+oS(d,c){if(d){var
 a=d[1];switch(a[0]){case
 0:var
-e=dB(a[1],c),f=dB(a[2],e[2]),g=dB(a[3],f[2]),h=dc(a[4],g[2]),b=[0,[0,e[1],f[1],g[1],h[1],a[5]],h[2]];break;case
+e=dI(a[1],c),f=dI(a[2],e[2]),g=dI(a[3],f[2]),h=de(a[4],g[2]),b=[0,[0,e[1],f[1],g[1],h[1],a[5]],h[2]];break;case
 1:var
-i=a[3],j=dB(a[1],c),k=j[1],l=dB(a[2],j[2]),m=l[2],n=l[1];if(i)var
-o=dB(i[1],m),b=[0,[1,k,n,[0,o[1]]],o[2]];else
+i=a[3],j=dI(a[1],c),k=j[1],l=dI(a[2],j[2]),m=l[2],n=l[1];if(i)var
+o=dI(i[1],m),b=[0,[1,k,n,[0,o[1]]],o[2]];else
 var
 b=[0,[1,k,n,0],m];break;default:var
-p=dB(a[1],c),b=[0,[2,p[1]],p[2]]}var
-q=oH(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
+p=dI(a[1],c),b=[0,[2,p[1]],p[2]]}var
+q=oS(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
 bw(a,b){if(a){var
-c=dc(a[1],b),d=bw(a[2],c[2]);return[0,[0,c[1],d[1]],d[2]]}return[0,0,b]}function
-a8(c){function
+c=de(a[1],b),d=bw(a[2],c[2]);return[0,[0,c[1],d[1]],d[2]]}return[0,0,b]}function
+a9(c){function
 a(a){return q(a,c,[0,d,b])}var
-e=a(AG),f=a(AH);return[0,a(0),f,e]}function
-oI(a,b){if(a){var
-c=a[1],d=bw(c[1],b),e=bw(c[2],d[2]),f=oI(a[2],e[2]),g=f[2],h=f[1],i=a8(e[1]);return[0,[0,[0,a8(d[1]),i],h],g]}return[0,0,b]}function
-oJ(f,c){if(f){var
+e=a(AT),f=a(AU);return[0,a(0),f,e]}function
+oT(a,b){if(a){var
+c=a[1],d=bw(c[1],b),e=bw(c[2],d[2]),f=oT(a[2],e[2]),g=f[2],h=f[1],i=a9(e[1]);return[0,[0,[0,a9(d[1]),i],h],g]}return[0,0,b]}function
+oU(f,c){if(f){var
 a=f[1];switch(a[0]){case
 0:var
-g=bw(a[1],c),h=bw(a[2],g[2]),i=bw(a[3],h[2]),j=dc(a[4],i[2]),u=j[2],v=a[5],w=j[1],x=a8(i[1]),y=a8(h[1]),e=[0,[0,[0,a8(g[1]),y,x,w,v]],u];break;case
+g=bw(a[1],c),h=bw(a[2],g[2]),i=bw(a[3],h[2]),j=de(a[4],i[2]),u=j[2],v=a[5],w=j[1],x=a9(i[1]),y=a9(h[1]),e=[0,[0,[0,a9(g[1]),y,x,w,v]],u];break;case
 1:var
-k=bw(a[1],c),l=bw(a[2],k[2]),z=l[2],A=a8(l[1]),e=[0,[0,[1,a8(k[1]),A,0]],z];break;default:var
-m=a[1],n=bw(m,c),o=bw(a[2],n[2]),p=bw(a[3],o[2]),q=bw(a[4],p[2]),r=dc(a[5],q[2]),s=dc(a[6],r[2]),B=m?a8(n[1]):[0,[0,d,b],[0,d,b],[0,b,b]],C=s[2],D=a[7],E=s[1],F=r[1],G=a8(q[1]),H=a8(p[1]),e=[0,[1,[0,B,a8(o[1]),H,G,F,E,D]],C]}var
-t=oJ(f[2],e[2]);return[0,[0,e[1],t[1]],t[2]]}return[0,0,c]}function
-dd(a){return k8(l,a)}function
-AI(a){if(typeof
+k=bw(a[1],c),l=bw(a[2],k[2]),z=l[2],A=a9(l[1]),e=[0,[0,[1,a9(k[1]),A,0]],z];break;default:var
+m=a[1],n=bw(m,c),o=bw(a[2],n[2]),p=bw(a[3],o[2]),q=bw(a[4],p[2]),r=de(a[5],q[2]),s=de(a[6],r[2]),B=m?a9(n[1]):[0,[0,d,b],[0,d,b],[0,b,b]],C=s[2],D=a[7],E=s[1],F=r[1],G=a9(q[1]),H=a9(p[1]),e=[0,[1,[0,B,a9(o[1]),H,G,F,E,D]],C]}var
+t=oU(f[2],e[2]);return[0,[0,e[1],t[1]],t[2]]}return[0,0,c]}function
+df(a){return lg(l,a)}function
+AV(a){if(typeof
 a==="number")return 1;else
 switch(a[0]){case
 5:return h(l,1,[3,a[1],[0,b,b]]);case
@@ -6600,11 +6677,11 @@ i=h(l,0,a[1]);return i?h(l,1,a[2]):i;case
 15:var
 j=[0,a[2],a[1]],k=1;return m(function(a){return h(l,k,a)},j);case
 2:case
-3:return dd(a[2]);case
+3:return df(a[2]);case
 4:case
 13:var
 c=h(l,1,a[2]);return c?h(l,1,a[3]):c;default:return h(l,1,a[1])}}function
-ju(a){if(typeof
+jF(a){if(typeof
 a==="number")return 1;else
 switch(a[0]){case
 4:var
@@ -6616,25 +6693,25 @@ B=[0,a[2],a[1]],C=1;return m(function(a){return h(l,C,a)},B);case
 11:var
 k=a[2],n=h(l,1,k);return n?h(l,0,[3,[0,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b))))))))),b],k]):n;case
 13:var
-o=a[4],p=nh(a[3]),q=p?h(l,1,o):p;return q?h(l,0,[3,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b],o]):q;case
+o=a[4],p=nt(a[3]),q=p?h(l,1,o):p;return q?h(l,0,[3,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b],o]):q;case
 14:return h(l,0,a[3]);case
 15:var
 s=h(l,0,a[2]),t=s?h(l,0,a[3]):s;return t?h(l,1,a[4]):t;case
 16:var
 u=a[3],v=h(l,0,a[1]),w=v?h(l,1,a[2]):v,x=w?h(l,1,u):w;return x?h(l,1,[3,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b],u]):x;case
 17:var
-y=a[2],z=m(dd,y),A=z?ak(function(a){return h(l,1,[4,a,a])},y):z;return A?h(l,1,a[3]):A;case
+y=a[2],z=m(df,y),A=z?ak(function(a){return h(l,1,[4,a,a])},y):z;return A?h(l,1,a[3]):A;case
 2:case
-3:return dd(a[2]);case
+3:return df(a[2]);case
 6:case
 7:case
 9:var
 j=h(l,1,a[2]);return j?h(l,1,a[3]):j;default:return h(l,1,a[1])}}function
-g6(d){var
+hb(d){var
 a=d;for(;;){if(a){var
-b=a[2],e=a[1],c=S(ak(function(d){return function(a){var
-h=jd(a[1]),e=aw(jd(d[1]),h);if(e)var
-i=je(a[4]),b=aw(je(d[4]),i);else
+b=a[2],e=a[1],c=Q(ak(function(d){return function(a){var
+h=jn(a[1]),e=ax(jn(d[1]),h);if(e)var
+i=jo(a[4]),b=ax(jo(d[4]),i);else
 var
 b=e;if(b){var
 f=d[2];if(f){var
@@ -6643,148 +6720,148 @@ g=1}else
 var
 g=b;return g}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-fo(a){if(0===a[0])return dd(j(a[1]));var
-b=a[2],c=a[1];if(!dY(j(c))&&!dY(j(b))){var
+fq(a){if(0===a[0])return df(j(a[1]));var
+b=a[2],c=a[1];if(!d3(j(c))&&!d3(j(b))){var
 e=j(c);return h(l,1,[3,j(b),e])}var
 d=j(b);return bs(l,j(c),d)}function
-dC(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-oK(a){switch(a[0]){case
+dJ(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+oV(a){switch(a[0]){case
 0:var
-c=[0,a[4],0],d=f(dC(a[3]),c),e=f(dC(a[2]),d);return f(dC(a[1]),e);case
+c=[0,a[4],0],d=f(dJ(a[3]),c),e=f(dJ(a[2]),d);return f(dJ(a[1]),e);case
 1:var
-b=a[3],g=b?dC(b[1]):b,h=f(dC(a[2]),g);return f(dC(a[1]),h);default:return dC(a[1])}}function
-oL(s,a,k){if(ak(function(a){return 9===a[1]?1:0},k)){var
-b=Z(g(a),AL),c=b?m(function(a){if(0===a[0]){var
+b=a[3],g=b?dJ(b[1]):b,h=f(dJ(a[2]),g);return f(dJ(a[1]),h);default:return dJ(a[1])}}function
+oW(s,a,k){if(ak(function(a){return 9===a[1]?1:0},k)){var
+b=_(g(a),AY),c=b?m(function(a){if(0===a[0]){var
 d=a[5],e=h(l,1,j(a[2])),g=e?h(l,0,j(a[3])):e,k=g?h(l,0,j(a[4])):g,c=0;if(k)if(d)var
-p=bW(d[1]),b=m(function(a){return dd(j(a))},p);else{var
+p=bX(d[1]),b=m(function(a){return df(j(a))},p);else{var
 n=1;c=1}else{var
 n=k;c=1}if(c)var
 b=n}else{var
 o=h(l,1,j(a[4]));if(o)var
-q=bW(a[3]),r=f(bW(a[2]),q),b=m(function(a){return dd(j(a))},r);else
+q=bX(a[3]),r=f(bX(a[2]),q),b=m(function(a){return df(j(a))},r);else
 var
 b=o}return b?i(s,a):b},a):b;if(c)var
-d=gX(0,a),n=d?1:d,e=n;else
+d=g4(0,a),n=d?1:d,e=n;else
 var
 e=c;return e}return a?0:1}function
-oM(a){return a?AM:AN}function
-jv(a){switch(a){case
-0:return AO;case
-1:return AP;default:return 0}}function
-de(a){var
+oX(a){return a?AZ:A0}function
+jG(a){switch(a){case
+0:return A1;case
+1:return A2;default:return 0}}function
+dg(a){var
 f=a[1],d=h(l,1,[2,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b],f]),e=d?bs(l,a[1],a[2]):d;if(e){var
 g=a[2];return h(l,1,[3,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b],g])}return e}function
-et(a){var
+eu(a){var
 e=bs(l,[0,d,b],a);return e?h(l,1,[3,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b],a]):e}function
-oN(c,b,a){if(0===a[0]){var
+oY(c,b,a){if(0===a[0]){var
 d=a[2],e=a[1],f=p(g(e),c),i=f?p(g(d),c):f;if(i){var
-n=_(e,d);return m(function(a){var
+n=$(e,d);return m(function(a){var
 b=j(a[2]);return bs(l,j(a[1]),b)},n)}return i}var
 k=b?h(l,1,j(a[3])):b;if(k){var
 o=j(a[5]);return bs(l,j(a[4]),o)}return k}function
-oO(a,e,F,E,t,s,f){function
+oZ(a,e,F,E,t,s,f){function
 u(b){var
-d=oM(a),c=p(g(b),d);return c?m(fo,b):c}var
+d=oX(a),c=p(g(b),d);return c?m(fq,b):c}var
 v=m(function(a){var
 b=u(a[1]);return b?u(a[2]):b},e);if(v)var
-G=g(e),n=Z(bt(a),G);else
+G=g(e),n=_(bt(a),G);else
 var
 n=v;var
-w=n?Z(g(e),AQ):n,x=w?h(l,1,j(F)):w;if(x)var
-H=1===a?1:0,o=oN(jv(a),H,E);else
+w=n?_(g(e),A3):n,x=w?h(l,1,j(F)):w;if(x)var
+H=1===a?1:0,o=oY(jG(a),H,E);else
 var
 o=x;if(o)if(a){var
-d=dz(t);switch(d[0]){case
+d=dG(t);switch(d[0]){case
 0:var
 i=0;break;case
 1:var
-A=de(d[1]),B=A?de(d[2]):A,i=B?de(d[3]):B;break;case
+A=dg(d[1]),B=A?dg(d[2]):A,i=B?dg(d[3]):B;break;case
 2:var
-i=et(d[1]);break;default:var
-C=et(d[1]),i=C?et(d[2]):C}var
+i=eu(d[1]);break;default:var
+C=eu(d[1]),i=C?eu(d[2]):C}var
 k=i}else
 var
-D=dz(t),J=0===D[0]?de(D[1]):0,k=J;else
+D=dG(t),J=0===D[0]?dg(D[1]):0,k=J;else
 var
 k=o;if(k)var
-I=g(e),q=oL(function(a){if(0===a[0]){var
-b=a[1],c=Z(AK,b),d=c?Z(b,I):c;if(d){if(a[5])return 0;var
+I=g(e),q=oW(function(a){if(0===a[0]){var
+b=a[1],c=_(AX,b),d=c?_(b,I):c;if(d){if(a[5])return 0;var
 e=1}else
 var
 e=d;return e}return 1},s,f);else
 var
 q=k;if(q)var
-b=g(e),c=bt(a),y=oM(a),r=m(function(a){var
+b=g(e),c=bt(a),y=oX(a),r=m(function(a){var
 e=a[2];if(e)var
-f=e[1],h=Z(z1,f),w=h?Z(f,b):h,d=w;else
+f=e[1],h=_(Ac,f),w=h?_(f,b):h,d=w;else
 var
 d=1;switch(a[1]){case
 9:var
 i=a[4];if(typeof
-i!=="number"&&0===i[0])return a[2]?aO(c,b,a):a[3]?aO(c,b,a):1;return aO(c,b,a);case
+i!=="number"&&0===i[0])return a[2]?aP(c,b,a):a[3]?aP(c,b,a):1;return aP(c,b,a);case
 10:var
 j=a[4];if(typeof
 j!=="number"&&1===j[0]){var
-k=a[3];return k?2===k[1][0]?d:aO(c,b,a):aO(c,b,a)}return aO(c,b,a);case
+k=a[3];return k?2===k[1][0]?d:aP(c,b,a):aP(c,b,a)}return aP(c,b,a);case
 12:var
 l=a[4];if(typeof
-l!=="number"&&1===l[0]){if(a[2])return aO(c,b,a);var
-m=a[3];return m?3===m[1][0]?p(b,c):aO(c,b,a):aO(c,b,a)}return aO(c,b,a);case
+l!=="number"&&1===l[0]){if(a[2])return aP(c,b,a);var
+m=a[3];return m?3===m[1][0]?p(b,c):aP(c,b,a):aP(c,b,a)}return aP(c,b,a);case
 14:var
 n=a[4];if(typeof
 n!=="number"&&1===n[0]){var
 o=a[3];if(o){var
 q=o[1];if(1===q[0]){var
-r=p(g(q[1]),y),x=r?d:r;return x}return aO(c,b,a)}return aO(c,b,a)}return aO(c,b,a);case
+r=p(g(q[1]),y),x=r?d:r;return x}return aP(c,b,a)}return aP(c,b,a)}return aP(c,b,a);case
 15:var
 s=a[4];if(typeof
 s!=="number"&&1===s[0]){var
 t=a[3];if(t){var
 u=t[1];if(1===u[0]){var
-v=p(g(u[1]),y),z=v?d:v;return z}return aO(c,b,a)}return aO(c,b,a)}return aO(c,b,a);default:return aO(c,b,a)}},f);else
+v=p(g(u[1]),y),z=v?d:v;return z}return aP(c,b,a)}return aP(c,b,a)}return aP(c,b,a);default:return aP(c,b,a)}},f);else
 var
 r=q;var
-z=r?g6(f):r;return z?m(ju,eq(0,g(e),s,f)):z}function
-oP(a){switch(a[0]){case
+z=r?hb(f):r;return z?m(jF,es(0,g(e),s,f)):z}function
+o0(a){switch(a[0]){case
 0:var
 b=f(a[3],[0,a[4],0]),c=f(a[2],b);return f(a[1],c);case
 1:return f(a[1],a[2]);default:var
 d=f(a[4],[0,a[5],[0,a[6],0]]),e=f(a[3],d),g=f(a[2],e);return f(a[1],g)}}function
-oQ(a,e,d,R,o,w,n){var
+o1(a,e,d,S,o,w,n){var
 q=typeof
 a==="number"?a?1:a:a[1]?0:1;function
 c(a){var
-b=q?AR:AS;return p(g(a),b)}var
-i=gY(e),x=m(function(b){switch(b[0]){case
+b=q?A4:A5;return p(g(a),b)}var
+i=g5(e),x=m(function(b){switch(b[0]){case
 0:var
-d=S(i),e=d?c(b[1]):d,f=e?c(b[2]):e;return f?c(b[3]):f;case
+d=Q(i),e=d?c(b[1]):d,f=e?c(b[2]):e;return f?c(b[3]):f;case
 1:var
-g=S(i),h=g?c(b[1]):g,j=h?c(b[2]):h;if(j)var
+g=Q(i),h=g?c(b[1]):g,j=h?c(b[2]):h;if(j)var
 k=typeof
 a==="number"?1:0,l=k?1:k;else
 var
 l=j;return l;default:var
 m=b[1],n=q?m?0:1:c(m),o=n?c(b[2]):n,p=o?c(b[3]):o;return p?c(b[4]):p}},e);if(x)var
-T=g(e),r=Z(aW(a),T);else
+T=g(e),r=_(aW(a),T);else
 var
 r=x;var
-A=r?Z(g(e),AT):r,B=A?m(fo,y(oP,e)):A;if(B){var
-Q=0;if(typeof
+A=r?_(g(e),A6):r,B=A?m(fq,y(o0,e)):A;if(B){var
+R=0;if(typeof
 a==="number"&&!a){var
-C=1;Q=1}if(!Q)var
+C=1;R=1}if(!R)var
 C=0;var
-U=q?AU:AV,s=oN(U,C,R)}else
+U=q?A7:A8,s=oY(U,C,S)}else
 var
 s=B;if(s)if(typeof
 a==="number")if(d)var
 b=0;else
 var
-V=z(dz,o)?0:1,b=V;else
+V=z(dG,o)?0:1,b=V;else
 switch(a[1]){case
 0:if(d){var
-t=z(dz,o);if(t){var
+t=z(dG,o);if(t){var
 F=t[1];if(0===F[0])var
-G=h(l,1,j(d[1])),H=G?de(F[1]):G;else
+G=h(l,1,j(d[1])),H=G?dg(F[1]):G;else
 var
 H=0;var
 I=H}else
@@ -6794,15 +6871,15 @@ b=I}else
 var
 b=d;break;case
 1:if(d){var
-u=d[1],v=z(dz,o);if(v){var
+u=d[1],v=z(dG,o);if(v){var
 f=v[1];switch(f[0]){case
 0:var
 k=0;break;case
 1:var
-K=h(l,1,j(u)),L=K?de(f[1]):K,M=L?de(f[2]):L,k=M?de(f[3]):M;break;case
+K=h(l,1,j(u)),L=K?dg(f[1]):K,M=L?dg(f[2]):L,k=M?dg(f[3]):M;break;case
 2:var
-N=h(l,1,j(u)),k=N?et(f[1]):N;break;default:var
-O=h(l,1,j(u)),P=O?et(f[1]):O,k=P?et(f[2]):P}var
+N=h(l,1,j(u)),k=N?eu(f[1]):N;break;default:var
+O=h(l,1,j(u)),P=O?eu(f[1]):O,k=P?eu(f[2]):P}var
 J=k}else
 var
 J=v;var
@@ -6813,108 +6890,108 @@ b=0}else
 var
 b=s;var
 D=b?m(function(b){var
-c=op(i,a,g(e),b);if(c)var
+c=oA(i,a,g(e),b);if(c)var
 d=c;else{var
-f=w?er(b):w;if(f)return aO(0,0,b);var
-d=f}return d},n):b,E=D?g6(n):D;return E?m(ju,eq(i,g(e),0,n)):E}function
-AW(a){switch(a[0]){case
-0:return gt(a[1][1]);case
+f=w?et(b):w;if(f)return aP(0,0,b);var
+d=f}return d},n):b,E=D?hb(n):D;return E?m(jF,es(i,g(e),0,n)):E}function
+A9(a){switch(a[0]){case
+0:return gA(a[1][1]);case
 1:var
-b=a[3];return b?gt(b[1]):1;default:return gt(a[1])}}function
-jw(a,k,b,d){var
-e=oL(function(g){if(0===g[0]){var
-c=g[1],d=Z(AJ,c);if(d){var
-b=E(a,bx(c));if(b){if(2===b[1][0])return 0;var
+b=a[3];return b?gA(b[1]):1;default:return gA(a[1])}}function
+jH(a,k,b,d){var
+e=oW(function(g){if(0===g[0]){var
+c=g[1],d=_(AW,c);if(d){var
+b=F(a,bx(c));if(b){if(2===b[1][0])return 0;var
 e=1}else
 var
 e=b;var
 f=e}else
 var
-f=d;return f}return 1},k,b),f=e?m(AW,d[1]):e,h=f?Z(AX,g(a)):f;if(h)var
-l=g(a),c=m(function(a){return zR(l,a)},b);else
+f=d;return f}return 1},k,b),f=e?m(A9,d[1]):e,h=f?_(A_,g(a)):f;if(h)var
+l=g(a),c=m(function(a){return z4(l,a)},b);else
 var
 c=h;var
-i=c?g6(b):c,j=i?m(fo,y(oK,a)):i;return j?m(AI,d[3]):j}function
-oR(k,j,a,i,h,b){var
+i=c?hb(b):c,j=i?m(fq,y(oV,a)):i;return j?m(AV,d[3]):j}function
+o2(k,j,a,i,h,b){var
 l=g(k),n=g(h),c=p(g(i),n),d=c?m(function(b){var
-c=aO(l,g(a),b);if(c){var
+c=aP(l,g(a),b);if(c){var
 d=b[1];if(1===d){var
-e=b[2],f=e?[0,bx(e[1]),0]:aA(0,g(a));return m(function(c){var
-b=E(a,c);return b?0===b[1][0]?0:1:b},f)}return 11===d?m(function(a){return 0===a[0]?0:1},a):1}return c},b):c,e=d?g6(b):d,f=e?m(function(a){return fo(a[2])},j):e;return f?m(ju,eq(0,g(a),0,b)):f}function
-oS(a){if(a){var
-b=a[1];if(er(b))return 0;var
-c=[0,b,oS(a[2])]}else
+e=b[2],f=e?[0,bx(e[1]),0]:aB(0,g(a));return m(function(c){var
+b=F(a,c);return b?0===b[1][0]?0:1:b},f)}return 11===d?m(function(a){return 0===a[0]?0:1},a):1}return c},b):c,e=d?hb(b):d,f=e?m(function(a){return fq(a[2])},j):e;return f?m(jF,es(0,g(a),0,b)):f}function
+o3(a){if(a){var
+b=a[1];if(et(b))return 0;var
+c=[0,b,o3(a[2])]}else
 var
 c=a;return c}function
-g7(i,h,f,d,b){var
-j=oS(b),k=y(function(a){return jj(i,f,d,a)},j),c=aq(P,0,e(function(a){return gq(l,h,a)},k)),a=y(on,b),m=a?[0,a[1],a[2]]:AY;return P(g(m),c)}function
-jx(a){return 2<=a?AZ:A0}function
-jy(m,l,k,j,f,i){var
-g=g7(m,l,k,j,f),c=oG(i);if(c){var
+hc(i,h,f,d,b){var
+j=o3(b),k=y(function(a){return ju(i,f,d,a)},j),c=aq(R,0,e(function(a){return gx(l,h,a)},k)),a=y(oy,b),m=a?[0,a[1],a[2]]:A$;return R(g(m),c)}function
+jI(a){return 2<=a?Ba:Bb}function
+jJ(m,l,k,j,f,i){var
+g=hc(m,l,k,j,f),c=oR(i);if(c){var
 a=c[1],e=0;if(typeof
 a==="number")var
 h=[0,a];else
 if(0===a[0]){var
 n=a[2],o=a[1],b=o,d=function(a){return[0,a,n]};e=1}else{var
-q=a[2],r=a[1],b=r,d=function(a){return[1,a,q]};e=1}if(e){if(!S(ak(er,f))&&!aN(b,g))return p(b,g)?0:[0,d(bx(b))];return[0,d(b)]}}else
+q=a[2],r=a[1],b=r,d=function(a){return[1,a,q]};e=1}if(e){if(!Q(ak(et,f))&&!aH(b,g))return p(b,g)?0:[0,d(bx(b))];return[0,d(b)]}}else
 var
 h=c;return h}function
-g8(b,a){var
-c=g(bp(function(a){return 0===a[0]?0:1},b));return p(g(a),c)}function
-g9(a){var
-b=_(aA(0,g(a)),a);return e(aB,bp(function(a){return ij(a[2])},b))}function
-oT(a){var
-b=a[1],c=e(g4,a[1]);return gk(g5(a[1]),c,b)}function
-jz(a){return g9(oT(a))}function
-oU(b,a){if(a){var
-c=a[1],d=a[2],g=oU(P(b,c[1]),d),h=c[2];return f(e(function(a){return aA(P(b,a),A1)},h),g)}return a}function
-oV(e,a){function
+hd(b,a){var
+c=g(bq(function(a){return 0===a[0]?0:1},b));return p(g(a),c)}function
+he(a){var
+b=$(aB(0,g(a)),a);return e(av,bq(function(a){return iu(a[2])},b))}function
+o4(a){var
+b=a[1],c=e(g$,a[1]);return gr(ha(a[1]),c,b)}function
+jK(a){return he(o4(a))}function
+o5(b,a){if(a){var
+c=a[1],d=a[2],g=o5(R(b,c[1]),d),h=c[2];return f(e(function(a){return aB(R(b,a),Bc)},h),g)}return a}function
+o6(e,a){function
 b(f){var
-a=E(e,f);if(a){var
-b=lN(a[1]);if(b)return J(b[1],d);var
+a=F(e,f);if(a){var
+b=lZ(a[1]);if(b)return I(b[1],d);var
 c=1}else
 var
 c=a;return c}var
-c=oU(0,a);return bp(function(a){return m(b,a)},c)}function
-oW(a){switch(a[0]){case
-0:return A2;case
-1:return a[3]?A3:A4;default:return A5}}function
-A6(a){return 0===a[0]?oW(a[1]):A7}function
-jA(a){if(a){var
+c=o5(0,a);return bq(function(a){return m(b,a)},c)}function
+o7(a){switch(a[0]){case
+0:return Bd;case
+1:return a[3]?Be:Bf;default:return Bg}}function
+Bh(a){return 0===a[0]?o7(a[1]):Bi}function
+jL(a){if(a){var
 b=a[1];return[0,b[2],b[1]]}return[0,d,0]}function
-oX(aC,Y,aB,X,W,b,aA,V){var
-a=ji(Y,aB,X,W),aD=g(V),aE=e(oW,a[1]),aF=oV(oT(a),aE),aG=aC?0:jz(a),B=dA(A8,jz(a),aG,aF,aD,V);if(B){var
+o8(aC,Y,aB,X,W,b,aA,V){var
+a=jt(Y,aB,X,W),aD=g(V),aE=e(o7,a[1]),aF=o6(o4(a),aE),aG=aC?0:jK(a),B=dH(Bj,jK(a),aG,aF,aD,V);if(B){var
 Z=B[1];if(Z[2])return 0;var
-_=jw(Y,X,W,a);if(_){var
-aI=Z[1],C=e(g4,a[1]),c=g5(a[1]),aJ=jA(aA),U=mc(l,a);if(U){var
-n=gk(c,C,a[1]),h=ig(c,C,a[1],0),ac=g(a[3]),ad=P(g(n),ac),K=[0,g(n),ad],ae=a[3],E=ak(function(a){if(typeof
+_=jH(Y,X,W,a);if(_){var
+aH=Z[1],C=e(g$,a[1]),c=ha(a[1]),aI=jL(aA),U=mo(l,a);if(U){var
+n=gr(c,C,a[1]),h=ir(c,C,a[1],0),ac=g(a[3]),ad=R(g(n),ac),K=[0,g(n),ad],ae=a[3],E=ak(function(a){if(typeof
 a!=="number"&&14===a[0])return 1;return 0},ae),af=E?y(function(a){var
-b=e(aY,gm(n,a[4]));return[0,a[4],b]},h):E,ag=f(ii(h,c,K,a[3]),af),ah=f(bP(lm(h)),ag),L=f(bP(eX(h)),ah),M=cP(L)[1],o=cO(M),N=m(function(a){var
-b=k(d);return aH(q(bb(o,a),o,b),a)},L);if(N){var
-O=ak(s0,a[3]);if(O){var
+b=e(aY,gt(n,a[4]));return[0,a[4],b]},h):E,ag=f(it(h,c,K,a[3]),af),ah=f(bQ(lv(h)),ag),L=f(bQ(eY(h)),ah),M=cP(L)[1],o=cO(M),N=m(function(a){var
+b=k(d);return aJ(q(bd(o,a),o,b),a)},L);if(N){var
+O=ak(ta,a[3]);if(O){var
 t=C,p=a[1];for(;;){if(p){var
-r=p[1],u=bJ(d,t);switch(r[0]){case
+r=p[1],u=bK(d,t);switch(r[0]){case
 0:var
-F=r[1],G=gn(b,F[1],u),D=0;if(G){var
+F=r[1],G=gu(b,F[1],u),D=0;if(G){var
 s=an(b,[0,F[4],c]);if(s)var
-j=I(d,s[1][1]);else{var
+j=J(d,s[1][1]);else{var
 H=s;D=1}}else{var
 H=G;D=1}if(D)var
 j=H;break;case
 1:var
-J=r[3],j=J?gn(b,J[1],u):1;break;default:var
-j=gn(b,r[1],u)}if(j){var
-ab=p[2],t=by(t),p=ab;continue}var
-Q=j}else
+I=r[3],j=I?gu(b,I[1],u):1;break;default:var
+j=gu(b,r[1],u)}if(j){var
+aa=p[2],t=by(t),p=aa;continue}var
+P=j}else
 var
-Q=1;var
-v=Q;break}}else
+P=1;var
+v=P;break}}else
 var
 v=O;if(v){var
-ai=a[3],aj=y(function(a){return dp(c,a)},ai),al=a[3],am=f(n,f(e(function(a){return bO(c,a)},al),aj)),w=aa(e(function(a){return an(b,a)},am));if(w){var
-ao=a5(ea(a[2]),c),x=aa(e(function(a){return an(b,a)},ao));if(x){var
-ap=a[3],z=aa(l1(b,aJ,function(a){return bb(o,a)},n,h,c,K,ap));if(z){var
-R=z[1],aq=ie(R),ar=x[1],as=a[2],at=function(a){return l2(b,as,c,a)},au=w[1],aw=0,ax=lm(h),ay=i(av(function(a){return bb(o,a)}),ax),az=eX(h);return fu(id(b,M,i(av(function(a){return bb(o,a)}),az),ay,aw,au,R,at),ar,aq,aI)}var
+ai=a[3],aj=y(function(a){return dv(c,a)},ai),al=a[3],am=f(n,f(e(function(a){return bP(c,a)},al),aj)),w=ab(e(function(a){return an(b,a)},am));if(w){var
+ao=a6(ed(a[2]),c),x=ab(e(function(a){return an(b,a)},ao));if(x){var
+ap=a[3],z=ab(mb(b,aI,function(a){return bd(o,a)},n,h,c,K,ap));if(z){var
+Q=z[1],aq=iq(Q),ar=x[1],as=a[2],at=function(a){return mc(b,as,c,a)},au=w[1],av=0,ax=lv(h),ay=i(aw(function(a){return bd(o,a)}),ax),az=eY(h);return fw(ip(b,M,i(aw(function(a){return bd(o,a)}),az),ay,av,au,Q,at),ar,aq,aH)}var
 S=z}else
 var
 S=x;var
@@ -6929,39 +7006,39 @@ A=N;return A}return U}var
 $=_}else
 var
 $=B;return $}function
-A9(a){if(0===a[0])return oC(a[1]);var
-b=a[1],c=ec(b[6]);return f(ec(b[5]),c)}function
-A_(a){if(0===a[0])return oD(a[1]);var
-b=a[1],c=a7(b[4]);return f(a7(b[3]),c)}function
-A$(a){if(0===a[0])return[0,g4(a[1]),d];var
-b=a[1],c=bA(a7(b[2]));return[0,bA(a7(b[1])),c]}function
-oY(P,aF,aE,aD,aC,aB,j,aA){var
-a=os(P,aF,aE,aD,aC,aB),aG=a[2],O=y(A9,aG),bc=O?[0,O[1],O[2]]:y(A_,aG),n=D(b,bA(bc)),Q=e(A$,a[2]),R=iU(n,Q,a[2]),bd=g(aA),be=oV(R,e(A6,a[2])),bf=g9(R),bg=g9(R),S=dA(aW(P),bg,bf,be,bd,aA);if(S){var
-aI=S[1];if(aI[2])return 0;var
-aJ=oQ(P,aF,aE,aD,aC,0,aB);if(aJ){var
-bh=aI[1],a_=e(uI,a[2]),ax=no(l,a[2],a_);if(ax)var
-a$=im(a[4]),M=bQ(l,a[4],a$);else
+Bk(a){if(0===a[0])return oN(a[1]);var
+b=a[1],c=ef(b[6]);return f(ef(b[5]),c)}function
+Bl(a){if(0===a[0])return oO(a[1]);var
+b=a[1],c=a8(b[4]);return f(a8(b[3]),c)}function
+Bm(a){if(0===a[0])return[0,g$(a[1]),d];var
+b=a[1],c=bB(a8(b[2]));return[0,bB(a8(b[1])),c]}function
+o9(P,aF,aE,aD,aC,aB,j,aA){var
+a=oD(P,aF,aE,aD,aC,aB),aG=a[2],O=y(Bk,aG),bb=O?[0,O[1],O[2]]:y(Bl,aG),n=E(b,bB(bb)),Q=e(Bm,a[2]),R=i4(n,Q,a[2]),bc=g(aA),be=o6(R,e(Bh,a[2])),bf=he(R),bg=he(R),S=dH(aW(P),bg,bf,be,bc,aA);if(S){var
+aH=S[1];if(aH[2])return 0;var
+aI=o1(P,aF,aE,aD,aC,0,aB);if(aI){var
+bh=aH[1],a_=e(uU,a[2]),ax=nA(l,a[2],a_);if(ax)var
+a$=ix(a[4]),M=bR(l,a[4],a$);else
 var
 M=ax;if(M){var
 ay=a[5];if(ay)var
-ba=gB(ay[1]),az=m(function(a){return e$(l,a)},ba);else
+ba=gI(ay[1]),az=m(function(a){return fc(l,a)},ba);else
 var
 az=1;var
 N=az}else
 var
 N=M;if(N){var
-c=a[1],aO=aW(c),u=a[6],B=iU(n,Q,a[2]),X=a[3],Y=[0,[0,X,X],n],Z=[0,g(B)],C=a[2],s=C?0===C[1][0]?0:1:C,aP=a[5],aQ=z(function(a){var
+c=a[1],aO=aW(c),u=a[6],B=i4(n,Q,a[2]),X=a[3],Y=[0,[0,X,X],n],Z=[0,g(B)],C=a[2],s=C?0===C[1][0]?0:1:C,aP=a[5],aQ=z(function(a){var
 b=typeof
-c==="number"?0:cD(c[1]);return mL(a,b)},aP),aR=a[2],o=nq(c,aQ,cZ(Y,g(B)),n,Q,aR,0),_=y(function(a){return a[7]},o),aS=f(_,c7(function(a,b){return nx(o,a,b)},s,n,Z,u)),aT=f(bP(fa(o)),aS),$=f(bP(eh(o)),aT),ab=cP($)[1],ac=cO(ab),t=function(a){return bb(ac,a)},ad=m(function(a){var
-b=k(d);return aH(q(t(a),ac,b),a)},$),ae=ad?ak(nz,u):ad;if(ae){var
+c==="number"?0:cD(c[1]);return mX(a,b)},aP),aR=a[2],o=nC(c,aQ,cZ(Y,g(B)),n,Q,aR,0),_=y(function(a){return a[7]},o),aS=f(_,c7(function(a,b){return nJ(o,a,b)},s,n,Z,u)),aT=f(bQ(fd(o)),aS),$=f(bQ(ek(o)),aT),aa=cP($)[1],ac=cO(aa),t=function(a){return bd(ac,a)},ad=m(function(a){var
+b=k(d);return aJ(q(t(a),ac,b),a)},$),ae=ad?ak(nL,u):ad;if(ae){var
 af=a[4];if(typeof
 c==="number")var
-ag=c?iQ(0,ea(af)):1;else
+ag=c?i0(0,ed(af)):1;else
 var
-aM=ea(af),ag=iQ(c[1],aM);var
-E=ag}else
+aM=ed(af),ag=i0(c[1],aM);var
+D=ag}else
 var
-E=ae;if(E){var
+D=ae;if(D){var
 U=a[1];if(typeof
 U==="number")var
 v=a[5]?0:1;else
@@ -6969,34 +7046,34 @@ if(2<=U[1])var
 v=0;else{var
 x=a[5],T=0;if(x){var
 V=h(j,1,a[3]);if(V)var
-aN=gB(x[1]),v=m(function(a){var
+aN=gI(x[1]),v=m(function(a){var
 b=c5(j,a[1]);return b?c5(j,a[2]):b},aN);else{var
 W=V;T=1}}else{var
 W=x;T=1}if(T)var
 v=W}var
 F=v}else
 var
-F=E;if(F)var
+F=D;if(F)var
 aU=a[2],G=m(function(a){var
 b=0===a[0]?0:1;return cm(b,s)},aU);else
 var
 G=F;if(G){var
-aV=f(B,[0,Y,0]),H=aa(e(function(a){return an(j,a)},aV));if(H){var
-aX=y(function(a){return e5(s,n,a)},u),I=aa(e(function(a){return iz(j,a)},aX));if(I){var
-r=ea(a[4]),aY=typeof
-c==="number"?c?[0,r[1],[0,r[2],0]]:[0,r[1],[0,r[2],[0,r[3],0]]]:ni(c[1],r),J=aa(e(function(a){return an(j,[0,a,n])},aY));if(J){var
+aV=f(B,[0,Y,0]),H=ab(e(function(a){return an(j,a)},aV));if(H){var
+aX=y(function(a){return e8(s,n,a)},u),I=ab(e(function(a){return iJ(j,a)},aX));if(I){var
+r=ed(a[4]),aY=typeof
+c==="number"?c?[0,r[1],[0,r[2],0]]:[0,r[1],[0,r[2],[0,r[3],0]]]:nu(c[1],r),J=ab(e(function(a){return an(j,[0,a,n])},aY));if(J){var
 ah=J[1],ai=a[5];if(ai)var
-aZ=mN(ai[1]),w=aa(e(function(a){return mP(j,a)},aZ));else
+aZ=mZ(ai[1]),w=ab(e(function(a){return m1(j,a)},aZ));else
 var
-w=uH;if(w){var
-aj=w[1],A=a[5],a0=A?mM(A[1]):A,K=aa(e(c4(j),a0));if(K){var
-L=aa(c7(function(a,b){return ny(j,t,o,s,n,a,b)},s,n,Z,u));if(L){var
+w=uT;if(w){var
+aj=w[1],A=a[5],a0=A?mY(A[1]):A,K=ab(e(c4(j),a0));if(K){var
+L=ab(c7(function(a,b){return nK(j,t,o,s,n,a,b)},s,n,Z,u));if(L){var
 al=L[1],am=p(g(f(ah,aj)),aO);if(am){var
-a1=ie(al),a2=f(ah,aj),aL=0,a3=a[4];if(typeof
+a1=iq(al),a2=f(ah,aj),aL=0,a3=a[4];if(typeof
 c==="number"&&!c){var
-ao=function(a){return l2(j,a3,n,a)};aL=1}if(!aL)var
+ao=function(a){return mc(j,a3,n,a)};aL=1}if(!aL)var
 ao=function(a){return 0};var
-a4=f(I[1],K[1]),a5=f(H[1],a4),a6=e(t,_),a7=fa(o),a8=i(av(t),a7),a9=eh(o);return fu(id(j,ab,i(av(t),a9),a8,a6,a5,al,ao),a2,a1,bh)}var
+a4=f(I[1],K[1]),a5=f(H[1],a4),a6=e(t,_),a7=fd(o),a8=i(aw(t),a7),a9=ek(o);return fw(ip(j,aa,i(aw(t),a9),a8,a6,a5,al,ao),a2,a1,bh)}var
 ap=am}else
 var
 ap=L;var
@@ -7015,29 +7092,29 @@ at=I;var
 au=at}else
 var
 au=H;var
-aw=au}else
+av=au}else
 var
-aw=G;return aw}return N}var
-aK=aJ}else
+av=G;return av}return N}var
+aK=aI}else
 var
 aK=S;return aK}function
-oZ(i,h,G,F,E,s,X,D,r){var
+o_(i,h,G,F,E,s,X,D,r){var
 H=typeof
-i==="number"?i?Ba:Bc:jv(i[1]),t=e(j,X),I=oJ(h,e(j,D));if(I[2])return 0;var
-Y=g(h),u=jy(gY(h),Bb,Y,0,s,r);if(u){var
-J=g8(y(oP,h),D),K=J?oQ(i,h,G,F,E,1,s):J;if(K)var
+i==="number"?i?Bn:Bp:jG(i[1]),t=e(j,X),I=oU(h,e(j,D));if(I[2])return 0;var
+Y=g(h),u=jJ(g5(h),Bo,Y,0,s,r);if(u){var
+J=hd(y(o0,h),D),K=J?o1(i,h,G,F,E,1,s):J;if(K)var
 Z=aW(i),v=p(g(t),Z);else
 var
 v=K;if(v){var
 M=0;if(typeof
 r==="number"&&r)var
-n=S(gY(h));else
+n=Q(g5(h));else
 M=1;if(M)var
 n=1}else
 var
 n=v;if(n){var
-_=u[1],a=aT(H,t),d=a8(aG(H,t)),k=I[1],f=os(i,h,G,F,E,s),B=no(l,f[2],k);if(B){var
-x=bQ(l,f[4],d),w=0;if(x){var
+_=u[1],a=aU(H,t),d=a9(aI(H,t)),k=I[1],f=oD(i,h,G,F,E,s),B=nA(l,f[2],k);if(B){var
+x=bR(l,f[4],d),w=0;if(x){var
 z=f[5];if(z)var
 o=cB(l,z[1],a);else
 if(a)var
@@ -7049,67 +7126,67 @@ q=o}else
 var
 q=B;if(q){var
 c=f[5],C=f[3],m=f[1],W=f[6],N=e(function(e){if(0===e[0])var
-h=bT(c,a,d,e),f=cz(e[1],h);else
+h=bU(c,a,d,e),f=cz(e[1],h);else
 var
-g=e[1],i=ix(g,bT(c,a,d,e)),j=g[4],k=bT(c,a,d,e),l=T(function(b,a){return[2,b,a]},k,j),f=T(function(b,a){return[3,b,a]},l,i);return[0,nm(m,f,ab([5,[0,b,b],C],dr(gJ(c,a,gI(e)),f)))]},k),O=y(function(b){if(0===b[0]){var
-f=bT(c,a,d,b),e=ik(b[1],f),g=e?[0,e[1],0]:e;return g}var
-h=bT(c,a,d,b);return[0,mq(b[1],h),0]},k),P=function(b){var
-e=gJ(c,a,b);return T(function(b,a){return[2,b,a]},d,e)},Q=0,R=e(function(g){var
-e=bT(c,a,d,g);if(0===g[0]){var
+g=e[1],i=iH(g,bU(c,a,d,e)),j=g[4],k=bU(c,a,d,e),l=T(function(b,a){return[2,b,a]},k,j),f=T(function(b,a){return[3,b,a]},l,i);return[0,ny(m,f,ac([5,[0,b,b],C],dx(gQ(c,a,gP(e)),f)))]},k),O=y(function(b){if(0===b[0]){var
+f=bU(c,a,d,b),e=iv(b[1],f),g=e?[0,e[1],0]:e;return g}var
+h=bU(c,a,d,b);return[0,mC(b[1],h),0]},k),P=function(b){var
+e=gQ(c,a,b);return T(function(b,a){return[2,b,a]},d,e)},R=0,S=e(function(g){var
+e=bU(c,a,d,g);if(0===g[0]){var
 b=g[1];if(0===b[0]){var
-i=b[4],j=b[3],k=b[2],h=b[1],n=cy(h,k,j,i,e),l=c1(b[5],n),o=ab(l,ax(h)),p=e3(h,k,j,e);return[0,[0,nn(m,T(function(b,a){return[2,b,a]},p,o)),l,i]]}return 0}var
-f=g[1],q=f[6],r=gs(f,e),s=ix(f,e),t=f[4],u=T(function(b,a){return[2,b,a]},e,t);return[0,[0,nn(m,T(function(b,a){return[3,b,a]},u,s)),r,q]]},k),U=e(function(b){if(0===b[0]){var
-f=bT(c,a,d,b);return[0,c2(b[1],f)]}var
-e=b[1],g=ms(e,bT(c,a,d,b));return[1,mr(e,bT(c,a,d,b)),g]},k),V=[0,e(function(e){if(0===e[0])var
-o=bT(c,a,d,e),g=ca(e[1],o);else
+i=b[4],j=b[3],k=b[2],h=b[1],n=cy(h,k,j,i,e),l=c1(b[5],n),o=ac(l,ay(h)),p=e6(h,k,j,e);return[0,[0,nz(m,T(function(b,a){return[2,b,a]},p,o)),l,i]]}return 0}var
+f=g[1],q=f[6],r=gz(f,e),s=iH(f,e),t=f[4],u=T(function(b,a){return[2,b,a]},e,t);return[0,[0,nz(m,T(function(b,a){return[3,b,a]},u,s)),r,q]]},k),U=e(function(b){if(0===b[0]){var
+f=bU(c,a,d,b);return[0,c2(b[1],f)]}var
+e=b[1],g=mE(e,bU(c,a,d,b));return[1,mD(e,bU(c,a,d,b)),g]},k),V=[0,e(function(e){if(0===e[0])var
+o=bU(c,a,d,e),g=ca(e[1],o);else
 var
-h=bT(c,a,d,e),f=e[1],i=ix(f,h),j=f[4],k=T(function(b,a){return[2,b,a]},h,j),l=T(function(b,a){return[3,b,a]},k,i),n=gs(f,h),g=ab([5,[0,b,b],[4,f[5],n]],l);return nm(m,g,ab([5,[0,b,b],C],dr(gJ(c,a,gI(e)),g)))},k),U,R,Q,P,O,N];return ip(l,un,aW(f[1]),V,W,_)}return q}var
+h=bU(c,a,d,e),f=e[1],i=iH(f,h),j=f[4],k=T(function(b,a){return[2,b,a]},h,j),l=T(function(b,a){return[3,b,a]},k,i),n=gz(f,h),g=ac([5,[0,b,b],[4,f[5],n]],l);return ny(m,g,ac([5,[0,b,b],C],dx(gQ(c,a,gP(e)),g)))},k),U,S,R,P,O,N];return iz(l,uz,aW(f[1]),V,W,_)}return q}var
 L=n}else
 var
 L=u;return L}function
-fp(a){if(a){var
+fr(a){if(a){var
 b=cu(j(a[1]));if(b){var
-c=fp(a[2]);if(c)var
-f=c[1],d=[0,[0,dk(b[1]),f]];else
+c=fr(a[2]);if(c)var
+f=c[1],d=[0,[0,dq(b[1]),f]];else
 var
 d=c;var
 e=d}else
 var
-e=b;return e}return Bd}function
-o0(f,k,j,a,i){var
+e=b;return e}return Bq}function
+o$(f,k,j,a,i){var
 l=g(f),h=p(g(a),l);if(h){var
-m=_(_(f,_(k,j)),a);return e(function(f){var
-g=f[1],h=g[2],j=dU(h[2],h[1]),a=aF(g[1],i),k=F(d,a)?kL(b3(c(2,b),a)):[0,b,dR(b3(c(2,b),O(a)))],l=dk(fY(a2([0,c(2,b),b],k),j)),m=f[2];return e(function(a){return dk(a2(kL(a),l))},m)},m)}return h}function
-o1(S,cg,bD,bC,R,bB,a){var
-i=ji(S,cg,bD,bC),bE=g8(y(oK,S),bB),U=bE?jw(S,bD,bC,i):bE;if(R){var
+m=$($(f,$(k,j)),a);return e(function(f){var
+g=f[1],h=g[2],j=dZ(h[2],h[1]),a=aG(g[1],i),k=D(d,a)?kV(b4(c(2,b),a)):[0,b,dW(b4(c(2,b),P(a)))],l=dq(f1(a2([0,c(2,b),b],k),j)),m=f[2];return e(function(a){return dq(a2(kV(a),l))},m)},m)}return h}function
+pa(S,cg,bD,bC,R,bB,a){var
+i=jt(S,cg,bD,bC),bE=hd(y(oV,S),bB),U=bE?jH(S,bD,bC,i):bE;if(R){var
 V=R[2];if(V){var
 W=V[2];if(W){if(W[2])return 0;var
-bF=W[1],bG=V[1],bH=R[1],bI=oH(S,e(j,bB));if(bI[2])return 0;var
+bF=W[1],bG=V[1],bH=R[1],bI=oS(S,e(j,bB));if(bI[2])return 0;var
 n=bI[1];if(typeof
 a!=="number"&&3===a[0]){var
-au=E(i[3],a[1]);if(au){var
+au=F(i[3],a[1]);if(au){var
 bN=au[1];if(typeof
 bN==="number"&&bN){var
-av=fp(a[2]);if(av){var
-s=av[1],aw=fp(a[3]);if(aw){var
+av=fr(a[2]);if(av){var
+s=av[1],aw=fr(a[3]);if(aw){var
 t=aw[1];if(U){var
-cl=o0([0,d,[0,d,[0,d,0]]],s,t,a[4],a[5]),cn=j(bF),co=j(bG),Y=[0,j(bH),co,cn];if(s){var
+cl=o$([0,d,[0,d,[0,d,0]]],s,t,a[4],a[5]),cn=j(bF),co=j(bG),Y=[0,j(bH),co,cn];if(s){var
 v=s[2];if(v){var
-w=v[2];if(w){if(w[2])return 0;if(t){var
+x=v[2];if(x){if(x[2])return 0;if(t){var
 A=t[2];if(A){var
 C=A[2];if(C){if(C[2])return 0;var
-aJ=C[1],aK=A[1],aL=t[1],aM=w[1],aN=v[1],aO=s[1],aP=[0,[1,0,aO,aL],[1,u1,aN,aK],[1,u0,aM,aJ]],aQ=go(l,i,n,Y);if(aQ)var
-b7=i[3],ac=ak(function(a){if(typeof
+aJ=C[1],aK=A[1],aL=t[1],aM=x[1],aN=v[1],aO=s[1],aP=[0,[1,0,aO,aL],[1,vb,aN,aK],[1,va,aM,aJ]],aQ=gv(l,i,n,Y);if(aQ)var
+b7=i[3],ab=ak(function(a){if(typeof
 a==="number"&&a)return 1;return 0},b7);else
 var
-ac=aQ;var
-aR=ac?nO(s,t):ac,aS=aR?nP(l,i[2],[0,[0,aO,aN],aM],[0,[0,aL,aK],aJ]):aR,aT=aS?i3(l,s,t,be(Y)):aS,aU=aT?m(function(b){var
-c=bV(nQ(b)),e=c?bV([0,c2(b,Y),0]):c;if(e){var
-f=ik(b,aP);if(f){var
-h=f[1],a=dZ(l,function(a,b,c){return nK(l,u2,a,b,c)},h);return a?I(d,a[1][2][1]):a}var
+ab=aQ;var
+aR=ab?n0(s,t):ab,aS=aR?n1(l,i[2],[0,[0,aO,aN],aM],[0,[0,aL,aK],aJ]):aR,aT=aS?jb(l,s,t,bg(Y)):aS,aU=aT?m(function(b){var
+c=bW(n2(b)),e=c?bW([0,c2(b,Y),0]):c;if(e){var
+f=iv(b,aP);if(f){var
+h=f[1],a=d4(l,function(a,b,c){return nW(l,vc,a,b,c)},h);return a?J(d,a[1][2][1]):a}var
 g=1}else
 var
-g=e;return g},n):aT;if(aU)return nN(l,e(function(a){var
+g=e;return g},n):aT;if(aU)return nZ(l,e(function(a){var
 b=c2(a,Y);return[3,c2(a,aP),b]},n),cl);var
 aW=aU}else
 var
@@ -7121,7 +7198,7 @@ ad=aX}else
 var
 ad=t}else
 var
-ad=w;var
+ad=x;var
 aY=ad}else
 var
 aY=v;var
@@ -7139,25 +7216,25 @@ var
 bQ=au;return bQ}var
 an=i[3];if(typeof
 a==="number")var
-k=0===a?AE:AF;else
+k=0===a?AR:AS;else
 switch(a[0]){case
 0:var
-ao=a[2],u=a[1],bc=E(an,u);if(bc){var
+ao=a[2],u=a[1],bc=F(an,u);if(bc){var
 bR=0,bd=bc[1];if(typeof
 bd==="number"||!(13===bd[0]))bR=1;else
 var
-aq=i[1],bb=g5(aq),o=e(function(a){var
+aq=i[1],bb=ha(aq),o=e(function(a){var
 f=g(aq);if(p(g(a),f)){var
-h=_(aq,a);return e(function(a){var
-e=a[2],f=F(d,bb),g=2===a[1][0]?1:0;return cm(g,f)?B(e,b3(c(2,b),ck(bb))):e},h)}return a},ao);if(bR)var
+h=$(aq,a);return e(function(a){var
+e=a[2],f=D(d,bb),g=2===a[1][0]?1:0;return cm(g,f)?B(e,b4(c(2,b),ck(bb))):e},h)}return a},ao);if(bR)var
 o=ao}else
 var
 o=ao;var
-ce=E(an,u),cf=i[1],ap=z(function(b){if(typeof
+ce=F(an,u),cf=i[1],ap=z(function(b){if(typeof
 b!=="number")switch(b[0]){case
-5:return AC;case
+5:return AP;case
 12:var
-a=E(cf,b[1]);if(a){if(2===a[1][0])return AD;var
+a=F(cf,b[1]);if(a){if(2===a[1][0])return AQ;var
 c=0}else
 var
 c=a;return c;case
@@ -7166,24 +7243,24 @@ c=a;return c;case
 4:case
 6:case
 7:case
-11:return 0}return AB},ce),ay=0;if(ap){var
-bf=ap[1];if(bf){var
-bg=bf[1];if(bg)if(bg[1])var
+11:return 0}return AO},ce),ax=0;if(ap){var
+be=ap[1];if(be){var
+bf=be[1];if(bf)if(bf[1])var
 k=0;else{var
 az=0;if(o){var
 G=o[1],aA=0;if(G){var
 H=G[2],aB=0;if(H){var
-J=H[2],aC=0;if(J)if(J[2]){var
+I=H[2],aC=0;if(I)if(I[2]){var
 k=0;az=1;aA=1;aB=1;aC=1}else{var
 K=o[2],bS=0;if(K){var
 L=K[1],bT=0;if(L){var
 M=L[2],bU=0;if(M){var
-N=M[2],bW=0;if(N)if(N[2]||K[2]){var
-k=0;az=1;aA=1;aB=1;aC=1;bS=1;bT=1;bU=1;bW=1}else
+N=M[2],bV=0;if(N)if(N[2]||K[2]){var
+k=0;az=1;aA=1;aB=1;aC=1;bS=1;bT=1;bU=1;bV=1}else
 var
-bh=[0,[0,u,[0,[0,G[1],H[1]],J[1]],[0,[0,L[1],M[1]],N[1]]]];else
+bh=[0,[0,u,[0,[0,G[1],H[1]],I[1]],[0,[0,L[1],M[1]],N[1]]]];else
 var
-bh=N;if(!bW)var
+bh=N;if(!bV)var
 bi=bh}else
 var
 bi=M;if(!bU)var
@@ -7195,7 +7272,7 @@ var
 bk=K;if(!bS)var
 bl=bk}else
 var
-bl=J;if(!aC)var
+bl=I;if(!aC)var
 bm=bl}else
 var
 bm=H;if(!aB)var
@@ -7227,69 +7304,69 @@ bv=o;if(!bX)var
 k=bv}}else
 if(o)var
 k=0;else{var
-bw=[0,[0,d,d],d],bx=[0,[0,u,bw,bw]];ay=1}}else{var
-bx=ap;ay=1}if(ay)var
+bw=[0,[0,d,d],d],bx=[0,[0,u,bw,bw]];ax=1}}else{var
+bx=ap;ax=1}if(ax)var
 k=bx;break;case
 1:var
-by=a[1],ar=E(an,by),aE=0;if(ar){var
+by=a[1],ar=F(an,by),aD=0;if(ar){var
 b1=0,bz=ar[1];if(typeof
 bz!=="number"&&1===bz[0]){var
 k=[0,[1,by,a[2]]];b1=1}if(!b1){var
-bA=0;aE=1}}else{var
-bA=ar;aE=1}if(aE)var
+bA=0;aD=1}}else{var
+bA=ar;aD=1}if(aD)var
 k=bA;break;default:var
 k=0}if(k){var
 ch=j(bF),ci=j(bG),f=[0,j(bH),ci,ch];if(U){var
-q=k[1],aG=go(l,i,n,f);if(aG)if(typeof
+q=k[1],aG=gv(l,i,n,f);if(aG)if(typeof
 q==="number")var
 r=0===q?ak(function(c){var
-a=ik(c,f);return a?h(l,0,[3,[0,d,b],a[1]]):a},n):lc(s2,e(function(b){var
+a=iv(c,f);return a?h(l,0,[3,[0,d,b],a[1]]):a},n):lm(tc,e(function(b){var
 a=cz(b,f);return[0,a[1],[0,a[2],[0,a[3],0]]]},n));else
 if(0===q[0]){var
-Z=E(i[3],q[1]);if(Z)var
-b2=Z[1],b4=l5(q[3]),r=ma(l,n,f,l5(q[2]),b4,b2);else
+Z=F(i[3],q[1]);if(Z)var
+b2=Z[1],b3=mf(q[3]),r=mm(l,n,f,mf(q[2]),b3,b2);else
 var
 r=Z}else{var
-$=E(i[3],q[1]),aF=0;if($){var
-aa=E(n,q[2]);if(aa)var
-aH=aa[1],b5=$[1],b6=ca(aH,f),r=ma(l,n,f,ca(aH,f),b6,b5);else{var
+_=F(i[3],q[1]),aF=0;if(_){var
+aa=F(n,q[2]);if(aa)var
+aH=aa[1],b5=_[1],b6=ca(aH,f),r=mm(l,n,f,ca(aH,f),b6,b5);else{var
 aI=aa;aF=1}}else{var
-aI=$;aF=1}if(aF)var
+aI=_;aF=1}if(aF)var
 r=aI}else
 var
 r=aG;if(r)var
 as=r;else{if(typeof
 a!=="number"&&0===a[0]){var
 X=a[2];if(X){if(X[2])return 0;var
-at=X[1],cj=a[1],a0=go(l,i,n,f),a1=a0?bV(be(f)):a0;if(a1){var
-ag=E(i[3],cj);if(ag){var
-D=ag[1];if(typeof
-D!=="number"&&14===D[0]){var
-a4=D[2],a5=D[1],ah=i7(aD(ej,a4));if(ah){var
-ai=ah[1],b$=gO(va,ai),cb=gO(vb,ai),aj=[0,gO(0,ai),cb,b$],a6=h(l,1,a4),a7=a6?h(l,0,a5):a6;if(a7)var
+at=X[1],cj=a[1],a0=gv(l,i,n,f),a1=a0?bW(bg(f)):a0;if(a1){var
+ag=F(i[3],cj);if(ag){var
+E=ag[1];if(typeof
+E!=="number"&&14===E[0]){var
+a4=E[2],a5=E[1],ah=jf(aE(em,a4));if(ah){var
+ai=ah[1],b$=gV(vm,ai),cb=gV(vn,ai),aj=[0,gV(0,ai),cb,b$],a6=h(l,1,a4),a7=a6?h(l,0,a5):a6;if(a7)var
 cc=g(i[1]),al=p(g(at),cc);else
 var
 al=a7;var
-a8=al?m(function(a){return bV(nQ(a))},n):al;if(a8){var
-cd=i[1],a9=i6(at,e(function(a){switch(a[0]){case
+a8=al?m(function(a){return bW(n2(a))},n):al;if(a8){var
+cd=i[1],a9=je(at,e(function(a){switch(a[0]){case
 0:var
-b=a[1],d=b[5],e=gP(b[4]),g=cE(b[3]),h=cE(b[2]),c=[0,cE(b[1]),h,g,e,d];break;case
+b=a[1],d=b[5],e=gW(b[4]),g=cE(b[3]),h=cE(b[2]),c=[0,cE(b[1]),h,g,e,d];break;case
 1:var
 i=z(cE,a[3]),j=cE(a[2]),c=[1,cE(a[1]),j,i];break;default:var
-c=[2,cE(a[1])]}return c2(c,f)},cd),a5),a_=bV(a9);if(a_){var
-am=_(_(n,a9),at),ae=function(k){var
+c=[2,cE(a[1])]}return c2(c,f)},cd),a5),a_=bW(a9);if(a_){var
+am=$($(n,a9),at),ae=function(k){var
 e=k[1][2],a=k[1][1];switch(a[0]){case
 0:var
-i=a[4],l=ab(e,ax(a[1])),m=aV(a[2],a[3],f),g=T(function(b,a){return[3,b,a]},m,l),n=ab([0,c(2,b),b],g);return[0,[3,x(g,g),[4,i,i]],n,[0,b,b]];case
+i=a[4],l=ac(e,ay(a[1])),m=aV(a[2],a[3],f),g=T(function(b,a){return[3,b,a]},m,l),n=ac([0,c(2,b),b],g);return[0,[3,w(g,g),[4,i,i]],n,[0,b,b]];case
 1:var
-h=aV(a[1],a[2],f),o=ab([0,c(2,b),b],h);return[0,[3,x(h,h),[4,e,e]],o,[0,b,b]];default:var
-j=a[1],p=ax(j);return[0,[3,x(ax(j),f),e],p,[0,d,b]]}},af=function(j){var
+h=aV(a[1],a[2],f),o=ac([0,c(2,b),b],h);return[0,[3,w(h,h),[4,e,e]],o,[0,b,b]];default:var
+j=a[1],p=ay(j);return[0,[3,w(ay(j),f),e],p,[0,d,b]]}},af=function(j){var
 d=j[1],e=d[2],a=d[1],c=j[2];switch(a[0]){case
 0:var
-g=a[3],h=a[2],i=a[1],k=aV(h,g,f),l=[3,x(ax(i),k),e],m=cy(i,h,g,a[4],f);return i5([5,[0,c,b],[2,c1(a[5],m),l]]);case
-1:return i5([5,[0,c,b],[2,e,c2(a,f)]]);default:return[0,c,b]}},b8=x(aj,aj),b9=[4,fe(function(a){var
-b=ae(a)[3];return[4,af(a),b]},am),b8],b_=x(ff(function(a){var
-b=ae(a)[2];return ab(af(a),b)},am),aj);return nS(l,vd,vc,[2,[2,fe(function(a){var
+g=a[3],h=a[2],i=a[1],k=aV(h,g,f),l=[3,w(ay(i),k),e],m=cy(i,h,g,a[4],f);return jd([5,[0,c,b],[2,c1(a[5],m),l]]);case
+1:return jd([5,[0,c,b],[2,e,c2(a,f)]]);default:return[0,c,b]}},b8=w(aj,aj),b9=[4,fh(function(a){var
+b=ae(a)[3];return[4,af(a),b]},am),b8],b_=w(fi(function(a){var
+b=ae(a)[2];return ac(af(a),b)},am),aj);return n4(l,vp,vo,[2,[2,fh(function(a){var
 b=ae(a)[1];return[4,af(a),b]},am),b_],b9])}var
 a$=a_}else
 var
@@ -7318,21 +7395,21 @@ bL=V;var
 bM=bL}else
 var
 bM=R;return bM}function
-o2(m,l,b,k,y,x){var
+pb(m,l,b,k,y,x){var
 f=y,d=x;for(;;){if(0===d[0]){var
-g=d[1],h=E(f,g),n=h?aN(h[1][2],Be):h;if(n)var
-A=d[2],i=o2(m,l,b,k,jr(0,g,f),A);else
+g=d[1],h=F(f,g),n=h?aH(h[1][2],Br):h;if(n)var
+A=d[2],i=pb(m,l,b,k,jC(0,g,f),A);else
 var
 i=n;if(i){var
-B=d[3],f=jr(1,g,f),d=B;continue}return i}var
-c=d[1],a=oA(0,m,f),o=e(function(b){function
-d(b){return oB(a,b)}function
-c(a){return jp(d,a)}switch(b[0]){case
+B=d[3],f=jC(1,g,f),d=B;continue}return i}var
+c=d[1],a=oL(0,m,f),o=e(function(b){function
+d(b){return oM(a,b)}function
+c(a){return jA(d,a)}switch(b[0]){case
 0:var
-e=b[5],f=oB(a,b[4]),g=c(b[3]),h=c(b[2]);return[0,c(b[1]),h,g,f,e];case
+e=b[5],f=oM(a,b[4]),g=c(b[3]),h=c(b[2]);return[0,c(b[1]),h,g,f,e];case
 1:var
 i=z(c,b[3]),j=c(b[2]);return[1,c(b[1]),j,i];default:return[2,c(b[1])]}},l);if(0===b[0])var
-q=b[2],r=jp(function(b){return at(a,b)},q),s=b[1],j=[0,jp(function(b){return at(a,b)},s),r];else
+q=b[2],r=jA(function(b){return at(a,b)},q),s=b[1],j=[0,jA(function(b){return at(a,b)},s),r];else
 var
 t=at(a,b[5]),u=at(a,b[4]),v=at(a,b[3]),w=at(a,b[2]),j=[1,at(a,b[1]),w,v,u,t];var
 p=e(function(g){var
@@ -7360,164 +7437,164 @@ i=h;return[0,g[1],g[2],i,d]},k);if(typeof
 c==="number")return 1;else
 switch(c[0]){case
 0:return 0;case
-1:return oX(1,o,j,0,p,c[1],c[2],c[3]);default:var
-C=c[4],D=c[3],F=e(function(b){return at(a,b)},D),G=c[2];return o1(o,j,0,p,e(function(b){return at(a,b)},G),F,C)}}}function
-o3(h,g){var
+1:return o8(1,o,j,0,p,c[1],c[2],c[3]);default:var
+C=c[4],D=c[3],E=e(function(b){return at(a,b)},D),G=c[2];return pa(o,j,0,p,e(function(b){return at(a,b)},G),E,C)}}}function
+pc(h,g){var
 a=cu(j(h));if(a){var
-c=a[1],e=ba([0,d,b],c);if(e)return ba(c,g);var
+c=a[1],e=bb([0,d,b],c);if(e)return bb(c,g);var
 f=e}else
 var
 f=a;return f}function
-Bl(u){var
-eP=gW(u[3]),eQ=eP?gW(u[4]):eP;if(eQ){var
+By(u){var
+eP=g3(u[3]),eQ=eP?g3(u[4]):eP;if(eQ){var
 W=u[1];switch(W[0]){case
 3:var
-eW=m(fl,W[1]);if(eW)var
-ja=W[2],cq=m(function(a){return fl(a[1])},ja);else
+eW=m(fn,W[1]);if(eW)var
+i5=W[2],cq=m(function(a){return fn(a[1])},i5);else
 var
 cq=eW;if(cq)var
-jb=W[3],cr=m(function(a){var
-b=fl(a[1]),c=b?jg(a[2]):b;return c?fm(a[2]):c},jb);else
+i8=W[3],cr=m(function(a){var
+b=fn(a[1]),c=b?jr(a[2]):b;return c?fo(a[2]):c},i8);else
 var
 cr=cq;if(cr)var
-jc=W[4],bf=m(function(a){var
+i$=W[4],bf=m(function(a){var
 b=0===a[0]?a[1]:[0,a[1],0];return m(function(a){var
-b=jg(a);return b?fm(a):b},b)},jc);else
+b=jr(a);return b?fo(a):b},b)},i$);else
 var
 bf=cr;break;case
 7:var
-jd=W[1],eY=m(function(a){var
-b=fl(a[1]);return b?fn(0,[0,a[2][1],[0,a[2][2],0]]):b},jd),bf=eY?fn(0,[0,W[5],[0,W[6],0]]):eY;break;default:var
+ja=W[1],eX=m(function(a){var
+b=fn(a[1]);return b?fp(0,[0,a[2][1],[0,a[2][2],0]]):b},ja),bf=eX?fp(0,[0,W[5],[0,W[6],0]]):eX;break;default:var
 bf=1}var
 cn=bf}else
 var
 cn=eQ;var
 c2=0;if(cn){var
-eR=u[1],co=7===eR[0]?e(aB,eR[1]):0,eS=function(c,b){var
-a=oj(c);return a?m(function(a){var
-e=a[1],b=m(function(a){return oc(a[2])},e);if(b){var
-c=a[3];if(c)return fn(co,oi(c[1]));var
+eR=u[1],co=7===eR[0]?e(av,eR[1]):0,eS=function(c,b){var
+a=ou(c);return a?m(function(a){var
+e=a[1],b=m(function(a){return jq(a[2])},e);if(b){var
+c=a[3];if(c)return fp(co,ot(c[1]));var
 d=1}else
 var
 d=b;return d},b):a},eT=function(e,d,c,b){var
-a=oj(e);return a?fn(co,f(d,f(c,oi(b)))):a},o=u[1];switch(o[0]){case
+a=ou(e);return a?fp(co,f(d,f(c,ot(b)))):a},o=u[1];switch(o[0]){case
 0:var
-iD=y(dx,o[4]),iE=f(y(og,o[3]),iD),iF=f(oe(o[2]),iE),X=f(y(jh,o[1]),iF);break;case
+iA=y(dE,o[4]),iB=f(y(or,o[3]),iA),iC=f(op(o[2]),iB),X=f(y(js,o[1]),iC);break;case
 1:var
-ck=o[5],cl=o[3],iG=y(dx,o[6]),iH=ck?of(ck[1]):ck,iI=f(iH,iG),iJ=f(od(o[4]),iI),iK=cl?[0,cl[1],0]:cl,iL=f(iK,iJ),X=f(y(zM,o[2]),iL);break;case
+ck=o[5],cl=o[3],iD=y(dE,o[6]),iE=ck?oq(ck[1]):ck,iF=f(iE,iD),iG=f(oo(o[4]),iF),iH=cl?[0,cl[1],0]:cl,iI=f(iH,iG),X=f(y(zZ,o[2]),iI);break;case
 2:var
-iM=y(dx,o[7]),iN=f(y(og,o[6]),iM),iO=f(of(o[5]),iN),iP=f(od(o[4]),iO),iQ=[0,o[3],iP],iS=o[2],X=f(y(function(a){return y(eo,f(a[1],a[2]))},iS),iQ);break;case
+iM=y(dE,o[7]),iN=f(y(or,o[6]),iM),iO=f(oq(o[5]),iN),iP=f(oo(o[4]),iO),iQ=[0,o[3],iP],iR=o[2],X=f(y(function(a){return y(eq,f(a[1],a[2]))},iR),iQ);break;case
 3:var
-iT=y(dx,o[7]),iU=f(o[6],iT),iV=f(o[5],iU),iY=o[2],X=f(y(function(a){return eo(a[2])},iY),iV);break;case
+iS=y(dE,o[7]),iT=f(o[6],iS),iU=f(o[5],iT),iV=o[2],X=f(y(function(a){return eq(a[2])},iV),iU);break;case
 4:var
-i1=y(dx,o[3]),X=[0,o[1],[0,o[2],i1]];break;case
+iW=y(dE,o[3]),X=[0,o[1],[0,o[2],iW]];break;case
 5:var
-i2=y(dx,o[4]),i3=f(bW(o[3]),i2),i4=f(bW(o[2]),i3),i8=f(y(jh,o[1]),i4),X=[0,o[5],i8];break;case
+iX=y(dE,o[4]),iY=f(bX(o[3]),iX),iZ=f(bX(o[2]),iY),i0=f(y(js,o[1]),iZ),X=[0,o[5],i0];break;case
 6:var
-cm=o[1],X=cm?eo(cm[1]):cm;break;default:var
-i9=y(dx,o[4]),i_=f(oe(o[3]),i9),X=f(y(jh,o[2]),i_)}var
-eU=fn(co,X);if(eU){var
-Y=u[2];switch(Y[0]){case
+cm=o[1],X=cm?eq(cm[1]):cm;break;default:var
+i2=y(dE,o[4]),i3=f(op(o[3]),i2),X=f(y(js,o[2]),i3)}var
+eU=fp(co,X);if(eU){var
+Z=u[2];switch(Z[0]){case
 0:var
-aV=eS(Y[1],Y[3]);break;case
+aV=eS(Z[1],Z[3]);break;case
 1:var
-aV=eT(Y[1],Y[2],Y[3],Y[4]);break;default:var
-i$=Y[1],aV=m(function(a){if(typeof
+aV=eT(Z[1],Z[2],Z[3],Z[4]);break;default:var
+i4=Z[1],aV=m(function(a){if(typeof
 a!=="number")switch(a[0]){case
 1:return eS(a[1],a[3]);case
-2:return eT(a[1],a[2],a[3],a[4])}return 1},i$)}}else{var
+2:return eT(a[1],a[2],a[3],a[4])}return 1},i4)}}else{var
 eV=eU;c2=1}}else{var
 eV=cn;c2=1}if(c2)var
 aV=eV;if(aV){var
 a=u[1];switch(a[0]){case
 0:var
-fs=a[4],ft=a[3],fv=a[2],fw=a[1],ah=u[2];switch(ah[0]){case
-0:return oX(0,fw,fv,ft,fs,ah[1],ah[2],ah[3]);case
-1:return o1(fw,fv,ft,fs,ah[2],ah[3],ah[4]);default:return 0}case
+fs=a[4],ft=a[3],fu=a[2],fv=a[1],ah=u[2];switch(ah[0]){case
+0:return o8(0,fv,fu,ft,fs,ah[1],ah[2],ah[3]);case
+1:return pa(fv,fu,ft,fs,ah[2],ah[3],ah[4]);default:return 0}case
 1:var
-fx=a[6],fy=a[5],fz=a[4],fA=a[3],fB=a[2],fC=a[1],az=u[2];switch(az[0]){case
-0:return oY(fC,fB,fA,fz,fy,fx,az[1],az[3]);case
-1:return oZ(fC,fB,fA,fz,fy,fx,az[2],az[3],az[4]);default:return 0}case
+fx=a[6],fy=a[5],fz=a[4],fA=a[3],fB=a[2],fC=a[1],aA=u[2];switch(aA[0]){case
+0:return o9(fC,fB,fA,fz,fy,fx,aA[1],aA[3]);case
+1:return o_(fC,fB,fA,fz,fy,fx,aA[2],aA[3],aA[4]);default:return 0}case
 2:var
-ai=a[7],aj=a[6],bj=a[5],bk=a[4],bl=a[3],K=a[2],L=a[1],al=u[2];switch(al[0]){case
+ai=a[7],aj=a[6],bk=a[5],bl=a[4],bm=a[3],K=a[2],M=a[1],am=u[2];switch(am[0]){case
 0:var
-fD=al[3],ac=or(L,K,bl,bk,bj,aj,ai),jE=ac[2],cy=D(b,bA(y(function(a){var
-b=a7(a[2]);return f(a7(a[1]),b)},jE))),jF=g(fD),jG=iR(cy,ac[2]),jH=iR(cy,ac[2]),cz=dA(bt(L),jH,jG,0,jF,fD);if(cz){var
+fD=am[3],aa=oC(M,K,bm,bl,bk,aj,ai),jw=aa[2],cy=E(b,bB(y(function(a){var
+b=a8(a[2]);return f(a8(a[1]),b)},jw))),jx=g(fD),jy=i1(cy,aa[2]),jz=i1(cy,aa[2]),cz=dH(bt(M),jz,jy,0,jx,fD);if(cz){var
 fE=cz[1];if(fE[2])return 0;var
-fF=oO(L,K,bl,bk,bj,aj,ai);if(fF){var
-jI=fE[1],jJ=g(K),jK=g7(0,jx(L),jJ,aj,ai),jL=jA(al[2]),jM=al[1],gL=ac[2],da=m(function(a){var
-b=nl(l,a[1]);return b?nl(l,a[2]):b},gL);if(da)var
-gN=im(ac[4]),by=bQ(l,ac[4],gN);else
+fF=oZ(M,K,bm,bl,bk,aj,ai);if(fF){var
+jA=fE[1],jC=g(K),jF=hc(0,jI(M),jC,aj,ai),jM=jL(am[2]),jN=am[1],gK=aa[2],da=m(function(a){var
+b=nx(l,a[1]);return b?nx(l,a[2]):b},gK);if(da)var
+gL=ix(aa[4]),by=bR(l,aa[4],gL);else
 var
 by=da;if(by)var
-gO=gB(ac[5]),bz=m(function(a){return e$(l,a)},gO);else
+gM=gI(aa[5]),bA=m(function(a){return fc(l,a)},gM);else
 var
-bz=by;return bz?uk(jM,jL,jK,ac,cy,jI):bz}var
+bA=by;return bA?uw(jN,jM,jF,aa,cy,jA):bA}var
 fG=fF}else
 var
 fG=cz;return fG;case
 1:var
-M=al[4],fH=al[3],ao=e(j,al[2]),G=jv(L),fI=oI(K,e(j,fH));if(fI[2])return 0;var
-w=fI[1],fJ=g8(y(function(a){return f(a[1],a[2])},K),fH),fK=fJ?oO(L,K,bl,bk,bj,aj,ai):fJ;if(fK){var
-n=or(L,K,bl,bk,bj,aj,ai);if(typeof
-M!=="number")switch(M[0]){case
+N=am[4],fH=am[3],ao=e(j,am[2]),G=jG(M),fI=oT(K,e(j,fH));if(fI[2])return 0;var
+v=fI[1],fJ=hd(y(function(a){return f(a[1],a[2])},K),fH),fK=fJ?oZ(M,K,bm,bl,bk,aj,ai):fJ;if(fK){var
+n=oC(M,K,bm,bl,bk,aj,ai);if(typeof
+N!=="number")switch(N[0]){case
 2:var
-fQ=e(j,M[1]),fR=aT(G,fQ),fS=a8(aG(G,fQ)),fT=aT(G,ao),fU=a8(aG(G,ao)),dl=e6(l,n[2],w);if(dl)var
-gP=bt(n[1]),bD=p(g(w),gP);else
+fQ=e(j,N[1]),fR=aU(G,fQ),fS=a9(aI(G,fQ)),fT=aU(G,ao),fU=a9(aI(G,ao)),dl=e9(l,n[2],v);if(dl)var
+gN=bt(n[1]),bE=p(g(v),gN);else
 var
-bD=dl;var
-dm=bD?bQ(l,n[4],fU):bD,dn=dm?bQ(l,n[4],fS):dm,dq=dn?cB(l,n[5],fT):dn,ds=dq?cB(l,n[5],fR):dq;if(ds){var
-dt=n[1],gQ=n[5],gR=n[3],db=function(g,f){var
-h=e(function(a){return iB(dt,gR,gQ,f,g,a)},w),i=bt(dt),a=nu(l,h);function
+bE=dl;var
+dm=bE?bR(l,n[4],fU):bE,dn=dm?bR(l,n[4],fS):dm,dp=dn?cB(l,n[5],fT):dn,dq=dp?cB(l,n[5],fR):dp;if(dq){var
+dr=n[1],gO=n[5],gP=n[3],db=function(g,f){var
+h=e(function(a){return iL(dr,gP,gO,f,g,a)},v),i=bt(dr),a=nG(l,h);function
 c(a,b){return t(l,a,b)}var
-d=Q(l,b);return z(function(a){return ns(v,d,H,c,i,a)},a)},bB=db(fU,fT);if(bB){var
-dc=bB[1],bC=db(fS,fR);if(bC){var
-de=bC[1],df=I(d,dc[1]),dg=df?I(de[2],d):df;if(dg)var
+d=L(l,b);return z(function(a){return nE(x,d,H,c,i,a)},a)},bC=db(fU,fT);if(bC){var
+dc=bC[1],bD=db(fS,fR);if(bD){var
+dd=bD[1],de=J(d,dc[1]),dg=de?J(dd[2],d):de;if(dg)var
 dh=dg;else{var
-dk=I(dc[2],d);if(dk)return I(d,de[1]);var
+dk=J(dc[2],d);if(dk)return J(d,dd[1]);var
 dh=dk}var
 di=dh}else
 var
-di=bC;var
+di=bD;var
 dj=di}else
 var
-dj=bB;return dj}return ds;case
+dj=bC;return dj}return dq;case
 3:var
-cG=fp(M[2]);if(cG){var
-fV=cG[1],cH=fp(M[3]);if(cH){var
-fW=cH[1],jO=n[2],jP=D(b,bA(y(function(a){var
-b=a7(a[2]);return f(a7(a[1]),b)},jO))),jQ=g(K),jR=g7(0,jx(L),jQ,aj,ai),fX=p(M[1],jR);if(fX){var
-jS=M[5],jT=M[4],jU=am(O(jP),dP(g(ao),G)),jV=o0(f(am(d,G),jU),fV,fW,jT,jS),jW=aT(G,ao);return u7(l,G,n,w,a8(aG(G,ao)),jW,fV,fW,jV)}var
+cG=fr(N[2]);if(cG){var
+fV=cG[1],cH=fr(N[3]);if(cH){var
+fW=cH[1],jP=n[2],jQ=E(b,bB(y(function(a){var
+b=a8(a[2]);return f(a8(a[1]),b)},jP))),jR=g(K),jS=hc(0,jI(M),jR,aj,ai),fX=p(N[1],jS);if(fX){var
+jT=N[5],jU=N[4],jV=al(P(jQ),dU(g(ao),G)),jW=o$(f(al(d,G),jV),fV,fW,jU,jT),jX=aU(G,ao);return vh(l,G,n,v,a9(aI(G,ao)),jX,fV,fW,jW)}var
 fY=fX}else
 var
 fY=cH;var
 fZ=fY}else
 var
 fZ=cG;return fZ}var
-jN=g(K),cC=jy(0,jx(L),jN,aj,ai,M);if(cC){var
-aW=cC[1],s=a8(aG(G,ao)),r=aT(G,ao),c6=e6(l,n[2],w),c8=c6?bQ(l,n[4],s):c6,c9=c8?cB(l,n[5],r):c8;if(c9)var
-R=n[5],c_=n[3],c$=n[1],gH=n[6],bx=function(a){var
-b=bR(R,r,s,a);return x(bR(R,r,s,a),b)},gz=e(function(a){return[0,iB(c$,c_,R,r,s,a)]},w),gA=e(bx,w),gC=function(a){var
-b=cA(R,r,a);return T(function(b,a){return[2,b,a]},s,b)},gD=e(function(a){var
-b=[6,bx(a)],c=bR(R,r,s,a),d=cA(R,r,a[2]);return[0,[0,[0,T(function(b,a){return[2,b,a]},s,d),c],b]]},w),gE=e(function(a){return 0},w),gF=e(function(a){return[0,[6,bx(a)]]},w),gG=[0,e(function(c){var
-a=ax(bR(R,r,s,c));return iA(c$,a,ab([5,[0,b,b],c_],dr(cA(R,r,c[2]),a)))},w),gF,gE,gD,gC,gA,gz],gI=bt(n[1]),gJ=2<=n[1]?td:te,cF=ip(l,gJ,gI,gG,gH,aW);else
+jO=g(K),cC=jJ(0,jI(M),jO,aj,ai,N);if(cC){var
+aW=cC[1],s=a9(aI(G,ao)),r=aU(G,ao),c6=e9(l,n[2],v),c8=c6?bR(l,n[4],s):c6,c9=c8?cB(l,n[5],r):c8;if(c9)var
+S=n[5],c_=n[3],c$=n[1],gG=n[6],bx=function(a){var
+b=bS(S,r,s,a);return w(bS(S,r,s,a),b)},gz=e(function(a){return[0,iL(c$,c_,S,r,s,a)]},v),gA=e(bx,v),gB=function(a){var
+b=cA(S,r,a);return T(function(b,a){return[2,b,a]},s,b)},gC=e(function(a){var
+b=[6,bx(a)],c=bS(S,r,s,a),d=cA(S,r,a[2]);return[0,[0,[0,T(function(b,a){return[2,b,a]},s,d),c],b]]},v),gD=e(function(a){return 0},v),gE=e(function(a){return[0,[6,bx(a)]]},v),gF=[0,e(function(c){var
+a=ay(bS(S,r,s,c));return iK(c$,a,ac([5,[0,b,b],c_],dx(cA(S,r,c[2]),a)))},v),gE,gD,gC,gB,gA,gz],gH=bt(n[1]),gJ=2<=n[1]?tp:tq,cF=iz(l,gJ,gH,gF,gG,aW);else
 var
 cF=c9;if(cF)var
 fL=cF;else{if(typeof
 aW!=="number"&&0===aW[0]){var
-bm=aW[2];if(bm){if(bm[2])return 0;var
-bn=bm[1],fO=aW[1],aN=n[1],d4=e6(l,n[2],w),d6=d4?bQ(l,n[4],s):d4,d7=d6?cB(l,n[5],r):d6,c3=0;if(d7){var
-hM=n[6],hN=2<=aN?uX:uY,b2=gr(l,hN,fO,hM),bu=0;if(b2){var
-ay=b2[1][1],bv=0;if(typeof
-ay!=="number"&&15===ay[0]){var
-b3=E(w,ay[1]);if(b3){var
-aO=mn(bn),d_=ay[3],a_=b3[1],a$=n[5],b4=n[3],hO=ay[4],hP=ay[2],dU=iB(aN,b4,a$,r,s,a_),dV=bR(a$,r,s,a_),b1=a6(aO,aO),dW=[4,[4,hP,[6,a6(dU,dU)]],b1],aL=bR(a$,r,s,a_),bZ=cA(a$,r,a_[2]),aM=ab([5,[0,b,b],b4],nJ(aN,aO)),hE=dr(aM,bZ),hF=nI(aN,aO),b0=T(function(b,a){return[2,b,a]},hF,hE),dT=x(aL,b0),hG=x(aM,aM),hH=[4,x(aL,bZ),hG],hI=x(bZ,aM),hJ=[3,[4,x(aL,aM),hI],hH],hK=[5,[4,dT,dT],x(aL,aL)],dX=[4,[4,d_,d_],[2,[3,x(b0,b0),hK],hJ]],dY=[4,[4,hO,b1],[6,x(dV,dV)]],hL=bt(aN),dZ=p(g(aO),hL),d0=dZ?h(l,1,b1):dZ,d1=d0?h(l,1,b4):d0,gy=0;if(d1){var
-d2=h(l,1,[3,[2,dW,dX],dY]);if(d2)var
-d3=d2;else{var
-aX=h(l,1,[3,[3,dW,dX],dY]);bu=1;bv=1;gy=1}}else
+bn=aW[2];if(bn){if(bn[2])return 0;var
+bo=bn[1],fO=aW[1],aN=n[1],d5=e9(l,n[2],v),d6=d5?bR(l,n[4],s):d5,d7=d6?cB(l,n[5],r):d6,c3=0;if(d7){var
+hM=n[6],hN=2<=aN?u9:u_,b2=gy(l,hN,fO,hM),bu=0;if(b2){var
+az=b2[1][1],bv=0;if(typeof
+az!=="number"&&15===az[0]){var
+b3=F(v,az[1]);if(b3){var
+aO=mz(bo),d_=az[3],a_=b3[1],a$=n[5],b4=n[3],hO=az[4],hP=az[2],dV=iL(aN,b4,a$,r,s,a_),dW=bS(a$,r,s,a_),b1=a7(aO,aO),dX=[4,[4,hP,[6,a7(dV,dV)]],b1],aL=bS(a$,r,s,a_),bZ=cA(a$,r,a_[2]),aM=ac([5,[0,b,b],b4],nV(aN,aO)),hE=dx(aM,bZ),hF=nU(aN,aO),b0=T(function(b,a){return[2,b,a]},hF,hE),dT=w(aL,b0),hG=w(aM,aM),hH=[4,w(aL,bZ),hG],hI=w(bZ,aM),hJ=[3,[4,w(aL,aM),hI],hH],hK=[5,[4,dT,dT],w(aL,aL)],dY=[4,[4,d_,d_],[2,[3,w(b0,b0),hK],hJ]],dZ=[4,[4,hO,b1],[6,w(dW,dW)]],hL=bt(aN),d0=p(g(aO),hL),d1=d0?h(l,1,b1):d0,d2=d1?h(l,1,b4):d1,gw=0;if(d2){var
+d3=h(l,1,[3,[2,dX,dY],dZ]);if(d3)var
+d4=d3;else{var
+aX=h(l,1,[3,[3,dX,dY],dZ]);bu=1;bv=1;gw=1}}else
 var
-d3=d1;if(!gy){var
-aX=d3;bu=1;bv=1}}else{var
+d4=d2;if(!gw){var
+aX=d4;bu=1;bv=1}}else{var
 aX=b3;bu=1;bv=1}}if(!bv)var
 d8=0}else
 var
@@ -7525,26 +7602,26 @@ d8=b2;if(!bu){var
 d9=d8;c3=1}}else{var
 d9=d7;c3=1}if(c3)var
 aX=d9;if(!aX){var
-af=n[1],aP=n[5],eb=e6(l,n[2],w),ec=eb?bQ(l,n[4],s):eb,ed=ec?cB(l,aP,r):ec,ee=ed?bV(be(s)):ed;if(ee){var
-h6=n[6],h7=2<=af?ve:vf,b7=gr(l,h7,fO,h6);if(b7){var
+af=n[1],aP=n[5],eb=e9(l,n[2],v),ec=eb?bR(l,n[4],s):eb,ed=ec?cB(l,aP,r):ec,ee=ed?bW(bg(s)):ed;if(ee){var
+h6=n[6],h7=2<=af?vq:vr,b7=gy(l,h7,fO,h6);if(b7){var
 aQ=b7[1][1];if(typeof
 aQ!=="number"&&16===aQ[0]){var
-b8=aQ[3],ek=aQ[2],el=aQ[1],b9=i7(aD(ej,ek));if(b9){var
-em=b9[1],b_=i7(i(c4(ej),b8));if(b_){var
-b$=b_[1],bc=nI(af,nT(af,em,b$)),U=nJ(af,nT(af,em,b$)),en=h(l,1,ek),ep=en?h(l,0,el):en,eq=ep?h(l,1,b8):ep,es=eq?c5(l,b8):eq,et=es?S(ba(b$,[0,d,b])):es;if(et)var
-h8=g(n[2]),ca=p(g(bn),h8);else
+b8=aQ[3],eh=aQ[2],ei=aQ[1],b9=jf(aE(em,eh));if(b9){var
+ej=b9[1],b_=jf(i(c4(em),b8));if(b_){var
+b$=b_[1],ba=nU(af,n5(af,ej,b$)),U=nV(af,n5(af,ej,b$)),en=h(l,1,eh),eo=en?h(l,0,ei):en,ep=eo?h(l,1,b8):eo,er=ep?c5(l,b8):ep,es=er?Q(bb(b$,[0,d,b])):er;if(es)var
+h8=g(n[2]),ca=p(g(bo),h8);else
 var
-ca=et;var
+ca=es;var
 eu=ca?m(function(a){var
-b=bV(be(a[1]));return b?bV(be(cA(aP,r,a[2]))):b},w):ca;if(eu){var
-h9=n[2],ev=i6(bn,e(function(a){var
-b=cE(a[2]);return nU(bR(aP,r,s,[0,cE(a[1]),b]))},h9),el),ew=bV(ev);if(ew){var
-h_=_(_(w,ev),bn),ag=e(function(e){var
-c=e[1],d=c[2],a=c[1],f=cA(aP,r,a[2]),g=a[1],h=T(function(b,a){return[3,b,a]},s,g),i=[2,d,nU(bR(aP,r,s,a))];return[0,i5([5,[0,e[2],b],i]),d,h,f]},h_),b5=[0,c(2,b),b],b6=function(b){return ff(function(a){var
-c=a[3],d=i(b,a[4]);return ab([4,a[1],d],c)},ag)},d$=fe(function(a){var
-b=x(a[3],a[4]);return[4,a[1],b]},ag),ea=x(U,U),hQ=b6(function(a){return a[3]}),hR=ab(U[3],hQ),hS=b6(function(a){return a[2]}),hT=ab(U[2],hS),hU=b6(function(a){return a[1]}),hV=ab(U[1],hU),hW=T(function(b,a){return[2,b,a]},hV,hT),hX=[4,ea,d$],hY=x(U,T(function(b,a){return[2,b,a]},hW,hR)),hZ=[3,[2,x(U,ff(function(a){var
-b=dr(a[4],a[3]);return ab(a[1],b)},ag)),hY],hX],h0=[2,[4,b5,d$],[4,[5,[0,c(2,c(2,b)),b],[2,[0,b,b],ea]],hZ]],h1=[4,b5,x(bc,mw(U,ff(function(a){return ab(a[1],a[4])},ag)))],h2=x(bc,bc),h3=[2,[4,fe(function(a){return a[1]},ag),h2],h1],h4=[4,b5,x(ff(function(a){return ab(a[1],a[3])},ag),bc)],h5=[2,[2,[2,fe(function(a){var
-b=[4,a[2],a[2]],c=x(a[4],a[4]),d=[3,[2,x(a[3],a[3]),c],b];return[4,a[1],d]},ag),h4],h3],h0],h$=cD(af);return nS(l,bt(af),h$,h5)}var
+b=bW(bg(a[1]));return b?bW(bg(cA(aP,r,a[2]))):b},v):ca;if(eu){var
+h9=n[2],ev=je(bo,e(function(a){var
+b=cE(a[2]);return n6(bS(aP,r,s,[0,cE(a[1]),b]))},h9),ei),ew=bW(ev);if(ew){var
+h_=$($(v,ev),bo),ag=e(function(e){var
+c=e[1],d=c[2],a=c[1],f=cA(aP,r,a[2]),g=a[1],h=T(function(b,a){return[3,b,a]},s,g),i=[2,d,n6(bS(aP,r,s,a))];return[0,jd([5,[0,e[2],b],i]),d,h,f]},h_),b5=[0,c(2,b),b],b6=function(b){return fi(function(a){var
+c=a[3],d=i(b,a[4]);return ac([4,a[1],d],c)},ag)},d$=fh(function(a){var
+b=w(a[3],a[4]);return[4,a[1],b]},ag),ea=w(U,U),hQ=b6(function(a){return a[3]}),hR=ac(U[3],hQ),hS=b6(function(a){return a[2]}),hT=ac(U[2],hS),hU=b6(function(a){return a[1]}),hV=ac(U[1],hU),hW=T(function(b,a){return[2,b,a]},hV,hT),hX=[4,ea,d$],hY=w(U,T(function(b,a){return[2,b,a]},hW,hR)),hZ=[3,[2,w(U,fi(function(a){var
+b=dx(a[4],a[3]);return ac(a[1],b)},ag)),hY],hX],h0=[2,[4,b5,d$],[4,[5,[0,c(2,c(2,b)),b],[2,[0,b,b],ea]],hZ]],h1=[4,b5,w(ba,mI(U,fi(function(a){return ac(a[1],a[4])},ag)))],h2=w(ba,ba),h3=[2,[4,fh(function(a){return a[1]},ag),h2],h1],h4=[4,b5,w(fi(function(a){return ac(a[1],a[3])},ag),ba)],h5=[2,[2,[2,fh(function(a){var
+b=[4,a[2],a[2]],c=w(a[4],a[4]),d=[3,[2,w(a[3],a[3]),c],b];return[4,a[1],d]},ag),h4],h3],h0],h$=cD(af);return n4(l,bt(af),h$,h5)}var
 ex=ew}else
 var
 ex=eu;var
@@ -7562,7 +7639,7 @@ var
 eg=ee;return eg}var
 fP=aX}else
 var
-fP=bm;return fP}var
+fP=bn;return fP}var
 fL=0}var
 fM=fL}else
 var
@@ -7573,148 +7650,148 @@ fN=fK;return fN;default:return 0}case
 3:var
 ap=a[7],aZ=a[6],a0=a[5],aq=a[4],cI=a[3],ar=a[2],aC=a[1],as=u[2];switch(as[0]){case
 0:var
-f0=as[3],jX=g(f0),jY=g9(i0(jk(aC,ar,cI,aq,a0,aZ,ap)[1])),cJ=dA(g(aC),jY,0,0,jX,f0);if(cJ){var
+f0=as[3],jY=g(f0),jZ=he(i_(jv(aC,ar,cI,aq,a0,aZ,ap)[1])),cJ=dH(g(aC),jZ,0,0,jY,f0);if(cJ){var
 f1=cJ[1];if(f1[2])return 0;var
-f2=oR(aC,ar,aq,a0,aZ,ap);if(f2){var
-jZ=f1[1],N=jk(aC,ar,cI,aq,a0,aZ,ap),j0=g7(0,Bm,g(aq),0,ap),f3=jA(as[2]),a1=as[1],dK=nF(N[1]);if(dK)var
-hp=N[1][2],bS=m(function(a){return bs(l,a[2][1],a[2][2])},hp);else
+f2=o2(aC,ar,aq,a0,aZ,ap);if(f2){var
+j0=f1[1],O=jv(aC,ar,cI,aq,a0,aZ,ap),j1=hc(0,Bz,g(aq),0,ap),f3=jL(as[2]),a1=as[1],dL=nR(O[1]);if(dL)var
+hp=O[1][2],bO=m(function(a){return bs(l,a[2][1],a[2][2])},hp);else
 var
-bS=dK;if(bS)var
-hq=N[2],bT=m(function(a){return bs(l,a[1],a[2])},hq);else
+bO=dL;if(bO)var
+hq=O[2],bT=m(function(a){return bs(l,a[1],a[2])},hq);else
 var
-bT=bS;if(bT){var
-B=N[1],bE=g(B[1]),a3=N[3],bF=g(B[2]),du=P(bF,g(fb(e(aY,B[3])))),gU=B[3],dv=nA(gM(B),gU,bF),ae=iZ(bE,dv,B[4],du),gV=iX(dv,B[4],du),gX=B[3],dw=f(iW(gM(B),gX,bF),gV),dy=g(i0(B)),gY=0,gZ=f(dw,c7(function(a,b){return nx(ae,a,b)},gY,d,dy,a3)),g0=f(bP(fa(ae)),gZ),dz=f(bP(eh(ae)),g0),bG=cP(dz)[1],g1=cO(bG),aw=function(a){return bb(g1,a)},dB=p(g(N[2]),bE);if(dB)var
-g2=B[4],bH=m(function(a){return 0===a[0]?p(g(a[1]),bE):1},g2);else
+bT=bO;if(bT){var
+B=O[1],bF=g(B[1]),a3=O[3],bG=g(B[2]),ds=R(bG,g(fe(e(aY,B[3])))),gQ=B[3],dt=nM(gT(B),gQ,bG),ae=i9(bF,dt,B[4],ds),gS=i7(dt,B[4],ds),gU=B[3],dw=f(i6(gT(B),gU,bG),gS),dy=g(i_(B)),gV=0,gW=f(dw,c7(function(a,b){return nJ(ae,a,b)},gV,d,dy,a3)),gX=f(bQ(fd(ae)),gW),dz=f(bQ(ek(ae)),gX),bH=cP(dz)[1],gY=cO(bH),ax=function(a){return bd(gY,a)},dA=p(g(O[2]),bF);if(dA)var
+g1=B[4],bI=m(function(a){return 0===a[0]?p(g(a[1]),bF):1},g1);else
 var
-bH=dB;var
-dC=bH?m(function(a){var
-b=k(d),c=cO(bG);return aH(q(aw(a),c,b),a)},dz):bH,dD=dC?ak(nz,a3):dC;if(dD){var
-dE=S(N[4]);if(dE)var
-a4=dE;else
+bI=dA;var
+dB=bI?m(function(a){var
+b=k(d),c=cO(bH);return aJ(q(ax(a),c,b),a)},dz):bI,dC=dB?ak(nL,a3):dB;if(dC){var
+dD=Q(O[4]);if(dD)var
+a4=dD;else
 var
 ho=B[4],a4=m(function(a){return 0===a[0]?0:1},ho)}else
 var
-a4=dD;if(a4){var
-g6=i0(B),bI=aa(e(function(a){return an(a1,a)},g6));if(bI){var
-g_=0,g$=y(function(a){return e5(g_,d,a)},a3),bJ=aa(e(function(a){return iz(a1,a)},g$));if(bJ){var
-ha=N[2],bK=aa(e(function(a){return an(a1,[0,a,d])},ha));if(bK){var
-hb=0,hc=0,bM=aa(c7(function(a,b){return ny(a1,aw,ae,hc,d,a,b)},hb,d,dy,a3));if(bM){var
-dF=bM[1];if(N[4])var
-hd=f3[2],he=f3[1],hf=fa(ae),bN=md(j0,dF,[8,i(av(aw),hf),he,hd]);else
+a4=dC;if(a4){var
+g2=i_(B),bJ=ab(e(function(a){return an(a1,a)},g2));if(bJ){var
+g4=0,g5=y(function(a){return e8(g4,d,a)},a3),bK=ab(e(function(a){return iJ(a1,a)},g5));if(bK){var
+g6=O[2],bL=ab(e(function(a){return an(a1,[0,a,d])},g6));if(bL){var
+g7=0,g8=0,bM=ab(c7(function(a,b){return nK(a1,ax,ae,g8,d,a,b)},g7,d,dy,a3));if(bM){var
+dF=bM[1];if(O[4])var
+g9=f3[2],hb=f3[1],hf=fd(ae),bN=mp(j1,dF,[8,i(aw(ax),hf),hb,g9]);else
 var
 bN=dF;var
-hg=ie(bN),hh=bK[1],hi=function(a){return 0},hj=f(bI[1],bJ[1]),hk=e(aw,dw),hl=fa(ae),hm=i(av(aw),hl),hn=eh(ae);return fu(id(a1,bG,i(av(aw),hn),hm,hk,hj,bN,hi),hh,hg,jZ)}var
+hg=iq(bN),hh=bL[1],hi=function(a){return 0},hj=f(bJ[1],bK[1]),hk=e(ax,dw),hl=fd(ae),hm=i(aw(ax),hl),hn=ek(ae);return fw(ip(a1,bH,i(aw(ax),hn),hm,hk,hj,bN,hi),hh,hg,j0)}var
 dG=bM}else
 var
-dG=bK;var
-dH=dG}else
+dG=bL;var
+dI=dG}else
 var
-dH=bJ;var
-dI=dH}else
-var
-dI=bI;var
+dI=bK;var
 dJ=dI}else
 var
-dJ=a4;return dJ}return bT}var
+dJ=bJ;var
+dK=dJ}else
+var
+dK=a4;return dK}return bT}var
 f4=f2}else
 var
 f4=cJ;return f4;case
 1:var
-f5=as[3],a2=jk(aC,ar,cI,aq,a0,aZ,ap),j1=e(j,f5),f6=bw(e(aY,ar),j1);if(f6[2])return 0;var
-j2=as[4],cK=jy(0,Bn,g(aq),0,ap,j2);if(cK){var
-f7=g8(e(aY,ar),f5),f8=f7?oR(aC,ar,aq,a0,aZ,ap):f7,f9=f8?nF(a2[1]):f8;if(f9)var
-j3=a2[2],cL=m(function(a){return bs(l,a[1],a[2])},j3);else
+f5=as[3],a2=jv(aC,ar,cI,aq,a0,aZ,ap),j2=e(j,f5),f6=bw(e(aY,ar),j2);if(f6[2])return 0;var
+j3=as[4],cK=jJ(0,BA,g(aq),0,ap,j3);if(cK){var
+f7=hd(e(aY,ar),f5),f8=f7?o2(aC,ar,aq,a0,aZ,ap):f7,f9=f8?nR(a2[1]):f8;if(f9)var
+j4=a2[2],cL=m(function(a){return bs(l,a[1],a[2])},j4);else
 var
 cL=f9;if(cL){var
-j4=cK[1],at=e(j,as[2]),f_=f6[1],C=a2[1],a9=g(C[1]),bU=g(C[2]),dL=P(bU,g(fb(e(aY,C[3])))),hx=C[3],dM=nA(gM(C),hx,bU),aJ=iZ(a9,dM,C[4],dL),hy=iX(dM,C[4],dL),hz=C[3],dN=f(iW(gM(C),hz,bU),hy),hA=y(gK,C[4]),hB=f(fb(e(aY,C[3])),hA),aK=f(f_,e(function(a){return a[1][1]},hB)),dO=nH(l,e(aY,C[2]),f_),dQ=dO?nH(l,a2[2],at):dO,dR=dQ?p(g(at),a9):dQ;if(dR)var
-hC=C[4],bY=m(function(a){return 0===a[0]?p(g(a[1]),a9):1},hC);else
+j5=cK[1],at=e(j,as[2]),f_=f6[1],C=a2[1],a5=g(C[1]),bU=g(C[2]),dM=R(bU,g(fe(e(aY,C[3])))),hx=C[3],dN=nM(gT(C),hx,bU),aH=i9(a5,dN,C[4],dM),hy=i7(dN,C[4],dM),hz=C[3],dO=f(i6(gT(C),hz,bU),hy),hA=y(gR,C[4]),hB=f(fe(e(aY,C[3])),hA),aK=f(f_,e(function(a){return a[1][1]},hB)),dP=nT(l,e(aY,C[2]),f_),dQ=dP?nT(l,a2[2],at):dP,dR=dQ?p(g(at),a5):dQ;if(dR)var
+hC=C[4],bV=m(function(a){return 0===a[0]?p(g(a[1]),a5):1},hC);else
 var
-bY=dR;var
-dS=bY?m(nG,f(y(uM,aJ),dN)):bY;if(dS){var
+bV=dR;var
+dS=bV?m(nS,f(y(uY,aH),dO)):bV;if(dS){var
 hD=a2[3],hr=e(function(a){var
-b=a[1];return[0,e(function(a){return ei(at,aK,a)},b)]},aJ),hs=y(function(c){var
+b=a[1];return[0,e(function(a){return el(at,aK,a)},b)]},aH),hs=y(function(c){var
 a=c[1];switch(a[0]){case
 7:var
-b=ei(at,aK,a[2]);return[0,[4,b,b],0];case
-9:return[0,ei(at,aK,a[1]),0];default:return 0}},dN),ht=function(a){return a},hu=0,hv=e(function(a){return 0},aJ),hw=e(function(b){var
+b=el(at,aK,a[2]);return[0,[4,b,b],0];case
+9:return[0,el(at,aK,a[1]),0];default:return 0}},dO),ht=function(a){return a},hu=0,hv=e(function(a){return 0},aH),hw=e(function(b){var
 a=b[4];if(typeof
-a!=="number"&&0===a[0])return[0,ei(at,aK,a[1])];return 0},aJ);return ip(l,uN,a9,[0,e(function(a){var
-b=a[3];return e(function(a){return ei(at,aK,a)},b)},aJ),hw,hv,hu,ht,hs,hr],hD,j4)}return dS}var
+a!=="number"&&0===a[0])return[0,el(at,aK,a[1])];return 0},aH);return iz(l,uZ,a5,[0,e(function(a){var
+b=a[3];return e(function(a){return el(at,aK,a)},b)},aH),hw,hv,hu,ht,hs,hr],hD,j5)}return dS}var
 f$=cL}else
 var
 f$=cK;return f$;default:return 0}case
 4:var
-au=a[3],aE=a[2],bo=a[1],aF=u[2];switch(aF[0]){case
+au=a[3],aD=a[2],bp=a[1],aF=u[2];switch(aF[0]){case
 0:var
-j5=aF[3],j6=aF[1],e4=dd(j(bo));if(e4){var
-ct=ou(au);if(ct){var
-e7=ct[1],aS=e7[2],e8=j(aS),e9=j(e7[1]),eD=h(l,1,j(aE)),eE=eD?h(l,1,[3,e8,[0,b,b]]):eD,eF=eE?h(l,1,e9):eE,e_=eF?h(l,0,[3,[5,[0,b,b],e8],e9]):eF;if(e_)var
-jm=0,jn=0,cv=m(function(a){return op(jn,jm,Bk,a)},au);else
+j6=aF[3],j7=aF[1],e3=df(j(bp));if(e3){var
+ct=oF(au);if(ct){var
+e4=ct[1],aS=e4[2],e6=j(aS),e7=j(e4[1]),eD=h(l,1,j(aD)),eE=eD?h(l,1,[3,e6,[0,b,b]]):eD,eF=eE?h(l,1,e7):eE,e_=eF?h(l,0,[3,[5,[0,b,b],e6],e7]):eF;if(e_)var
+jh=0,ji=0,cv=m(function(a){return oA(ji,jh,Bx,a)},au);else
 var
 cv=e_;var
-fc=cv?m(function(c){if(1===c[1]){var
+e$=cv?m(function(c){if(1===c[1]){var
 a=c[4];if(typeof
-a!=="number"&&0===a[0])return h(l,0,[3,[0,d,b],j(a[1])]);return 1}return 1},au):cv;if(fc){var
-cs=bp(function(a){return S(ov(a))},au);if(cs){var
-jo=[0,c(2,b),b],bg=h(l,0,[3,j(aS),jo]);if(bg)var
-cw=bg;else
+a!=="number"&&0===a[0])return h(l,0,[3,[0,d,b],j(a[1])]);return 1}return 1},au):cv;if(e$){var
+cs=bq(function(a){return Q(oG(a))},au);if(cs){var
+jj=[0,c(2,b),b],bh=h(l,0,[3,j(aS),jj]);if(bh)var
+cw=bh;else
 var
-ju=j(aS),cw=h(l,0,[3,[0,c(2,b),b],ju]);if(cw){var
-e3=y(function(a){var
-b=jj(0,Bg,0,a);return y(function(b){var
-c=gq(l,Bh,b);return am(S(ov(a)),c)},b)},au),jf=function(f){var
+jm=j(aS),cw=h(l,0,[3,[0,c(2,b),b],jm]);if(cw){var
+e2=y(function(a){var
+b=ju(0,Bt,0,a);return y(function(b){var
+c=gx(l,Bu,b);return al(Q(oG(a)),c)},b)},au),jc=function(f){var
 h=f[1];if(h){var
-i=h[1],j=q(i,e3,0);if(j)var
-l=aG(i,e3),k=[0,[0,g(bp(function(a){return a},l))]];else
+i=h[1],j=q(i,e2,0);if(j)var
+l=aI(i,e2),k=[0,[0,g(bq(function(a){return a},l))]];else
 var
 k=j;var
 a=k}else
 var
-a=Bj;if(a){var
+a=Bw;if(a){var
 c=a[1],e=f[2];switch(e[0]){case
 0:return[0,[0,c,[0,e[1]]],0];case
-2:return[0,[0,c,[1,Bi,[0,[0,b,[0,d,[0,d,0]]],[0,[0,d,[0,b,[0,d,0]]],[0,[0,d,[0,d,[0,b,0]]],0]]],d]],0];default:return[0,[0,c,e],0]}}return a},jl=e(function(a){var
-b=a[4],c=a[3],d=a[2];return[0,y(jf,a[1]),d,c,b]},j5),jp=[0,cs[1],cs[2]],jr=oz(bg,aE,aS);return oY(0,oy(bg,bo,aE,aS),0,jr,0,jp,j6,jl)}return cw}var
-fd=1}else
+2:return[0,[0,c,[1,Bv,[0,[0,b,[0,d,[0,d,0]]],[0,[0,d,[0,b,[0,d,0]]],[0,[0,d,[0,d,[0,b,0]]],0]]],d]],0];default:return[0,[0,c,e],0]}}return a},jg=e(function(a){var
+b=a[4],c=a[3],d=a[2];return[0,y(jc,a[1]),d,c,b]},j6),jk=[0,cs[1],cs[2]],jl=oK(bh,aD,aS);return o9(0,oJ(bh,bp,aD,aS),0,jl,0,jk,j7,jg)}return cw}var
+fa=1}else
 var
-fd=fc;var
-fg=fd}else
+fa=e$;var
+fb=fa}else
 var
-fg=ct;var
-fh=fg}else
+fb=ct;var
+ff=fb}else
 var
-fh=e4;return fh;case
+ff=e3;return ff;case
 1:var
-j7=aF[4],j8=aF[3],j9=aF[2],fi=dd(j(bo));if(fi){var
-cx=ou(au);if(cx){var
-aU=cx[1][2],jB=[0,c(2,b),b],bh=h(l,0,[3,j(aU),jB]),fj=h(l,1,j(aE)),fk=fj?h(l,1,[3,j(aU),[0,b,b]]):fj;if(fk)if(bh)var
-bi=bh;else
+j8=aF[4],j9=aF[3],j_=aF[2],fg=df(j(bp));if(fg){var
+cx=oF(au);if(cx){var
+aT=cx[1][2],jn=[0,c(2,b),b],bi=h(l,0,[3,j(aT),jn]),fj=h(l,1,j(aD)),fk=fj?h(l,1,[3,j(aT),[0,b,b]]):fj;if(fk)if(bi)var
+bj=bi;else
 var
-jD=j(aU),bi=h(l,0,[3,[0,c(2,b),b],jD]);else
+jp=j(aT),bj=h(l,0,[3,[0,c(2,b),b],jp]);else
 var
-bi=fk;if(bi){var
-jC=oz(bh,aE,aU);return oZ(0,oy(bh,bo,aE,aU),0,jC,0,au,j9,j8,j7)}var
-fq=bi}else
+bj=fk;if(bj){var
+jo=oK(bi,aD,aT);return o_(0,oJ(bi,bp,aD,aT),0,jo,0,au,j_,j9,j8)}var
+fl=bj}else
 var
-fq=cx;var
-fr=fq}else
+fl=cx;var
+fm=fl}else
 var
-fr=fi;return fr;default:return 0}case
+fm=fg;return fm;default:return 0}case
 5:var
 cM=a[4],ga=a[1],cN=u[2];if(0===cN[0]){var
-gb=cN[3],A=ji(ga,[0,a[2],a[3]],0,cM),j_=g(gb),cQ=jt(jz(A),j_,gb);if(cQ){var
+gb=cN[3],A=jt(ga,[0,a[2],a[3]],0,cM),j$=g(gb),cQ=jE(jK(A),j$,gb);if(cQ){var
 gc=cQ[1];if(gc[2])return 0;var
-gd=jw(ga,0,cM,A),ge=gd?S(ak(er,cM)):gd;if(ge){var
-gf=mc(l,A);if(gf){var
-j$=gc[1],gg=e(g4,A[1]),J=g5(A[1]),gh=j(a[5]),ad=cN[1],ce=gk(J,gg,A[1]),V=ig(J,gg,A[1],0),ij=g(A[3]),ik=P(g(ce),ij),bd=[0,g(ce),ik],il=ii(V,J,bd,A[3]),io=f(e(cT,V),il),eH=f(bP(eX(V)),io),eI=cP(eH)[1],cf=cO(eI),eJ=A[2];if(0===eJ[0]){var
+gd=jH(ga,0,cM,A),ge=gd?Q(ak(et,cM)):gd;if(ge){var
+gf=mo(l,A);if(gf){var
+ka=gc[1],gg=e(g$,A[1]),I=ha(A[1]),gh=j(a[5]),ad=cN[1],ce=gr(I,gg,A[1]),V=ir(I,gg,A[1],0),ie=g(A[3]),ig=R(g(ce),ie),be=[0,g(ce),ig],ih=it(V,I,be,A[3]),ii=f(e(cT,V),ih),eH=f(bQ(eY(V)),ii),eI=cP(eH)[1],cf=cO(eI),eJ=A[2];if(0===eJ[0]){var
 eK=m(function(a){var
-b=k(d);return aH(q(bb(cf,a),cf,b),a)},eH),eL=eK?h(l,1,gh):eK;if(eL){var
-iq=A[3],ir=y(function(a){return dp(J,a)},iq),is=A[3],it=f(ce,f(e(function(a){return bO(J,a)},is),ir)),cg=aa(e(function(a){return an(ad,a)},it));if(cg){var
-iu=a5(eJ[1],J),ch=aa(e(function(a){return an(ad,a)},iu));if(ch){var
-ci=cR(ad,J,[5,gh,[0,c(2,c(2,c(2,c(2,b)))),b]]);if(ci){var
-cj=A[3],iv=ch[1],iw=cg[1],ix=ci[1],aR=function(a){return bb(cf,a)},ib=aA(0,g(cj)),ic=e(function(k){var
-l=E(cj,k);if(l){var
-a=l[1],u=aG(k,cj),v=g(y(function(a){return dp(J,a)},u)),w=P(bd[2],v),j=[0,P(bd[1],k),w],r=eX(V),f=i(av(aR),r),c=[1,[8,[1,[1,j[1]]]]],d=gl(V,J,j,a),n=d?[0,[3,e(aR,[0,d[1],d[2]])]]:d,m=0;if(typeof
+b=k(d);return aJ(q(bd(cf,a),cf,b),a)},eH),eL=eK?h(l,1,gh):eK;if(eL){var
+ij=A[3],ik=y(function(a){return dv(I,a)},ij),il=A[3],im=f(ce,f(e(function(a){return bP(I,a)},il),ik)),cg=ab(e(function(a){return an(ad,a)},im));if(cg){var
+io=a6(eJ[1],I),ch=ab(e(function(a){return an(ad,a)},io));if(ch){var
+ci=cR(ad,I,[5,gh,[0,c(2,c(2,c(2,c(2,b)))),b]]);if(ci){var
+cj=A[3],is=ch[1],iu=cg[1],iv=ci[1],aR=function(a){return bd(cf,a)},ib=aB(0,g(cj)),ic=e(function(k){var
+l=F(cj,k);if(l){var
+a=l[1],u=aI(k,cj),v=g(y(function(a){return dv(I,a)},u)),w=R(be[2],v),j=[0,R(be[1],k),w],r=eY(V),f=i(aw(aR),r),c=[1,[8,[1,[1,j[1]]]]],d=gs(V,I,j,a),n=d?[0,[3,e(aR,[0,d[1],d[2]])]]:d,m=0;if(typeof
 a!=="number")switch(a[0]){case
 0:return[0,[0,f,c]];case
 1:return[0,[1,f,c]];case
@@ -7730,27 +7807,27 @@ q=c;m=1;break;case
 3:case
 6:case
 7:return n}if(m){var
-t=e2(V,J,j,a);return z(function(a){return[0,i(av(aR),a),q]},t)}return 0}return l},ib),ih=e(function(a){return aR(cT(a))},V),eG=e(function(a){return aR(a[2])},V),iy=A[3],iC=bd[1],cd=function(aC,aB,aA){var
+t=e5(V,I,j,a);return z(function(a){return[0,i(aw(aR),a),q]},t)}return 0}return l},ib),id=e(function(a){return aR(cT(a))},V),eG=e(function(a){return aR(a[2])},V),iw=A[3],iy=be[1],cd=function(aC,aB,aA){var
 k=aC,l=aB,f=aA;for(;;)switch(f[0]){case
 0:var
-v=f[1],_=p(g(v),vo),aa=_?m(function(a){var
-d=F(O(c(2,c(2,c(2,b)))),a);return d?F(a,c(2,c(2,c(2,b)))):d},v):_;if(aa){var
-ab=n4(ad,ix,d5(0,l),v),j=f[2],w=bq(0,bL(ad,ab,e($,k)),eI,0),aD=e($,k),M=function(a){return n3(n2(ad,ab,aD,w,a))};if(typeof
+v=f[1],$=p(g(v),vA),aa=$?m(function(a){var
+d=D(P(c(2,c(2,c(2,b)))),a);return d?D(a,c(2,c(2,c(2,b)))):d},v):$;if(aa){var
+ab=oe(ad,iv,du(0,l),v),j=f[2],w=bc(0,bz(ad,ab,e(Y,k)),eI,0),aD=e(Y,k),M=function(a){return od(oc(ad,ab,aD,w,a))};if(typeof
 j==="number")return 0===j?ak(function(b){var
-a=q(b,w,0);return a?F(a[1][2][2],d):a},eG):0;else{if(0===j[0]){var
-a=j[2],N=m(vm,a);if(N){var
+a=q(b,w,0);return a?D(a[1][2][2],d):a},eG):0;else{if(0===j[0]){var
+a=j[2],N=m(vy,a);if(N){var
 r=q(j[1],ic,0);if(r){var
 i=r[1];switch(i[0]){case
 0:var
 x=0;if(a)if(a[2])var
 h=0;else{var
-A=a[1],B=i[1],ap=gT(B,A),aq=gS(A),C=[0,[0,B,[0,[1,[4,[1,[6,i[2],aq]],ap]],0]]];x=1}else{var
+A=a[1],B=i[1],ap=g0(B,A),aq=gZ(A),C=[0,[0,B,[0,[1,[4,[1,[6,i[2],aq]],ap]],0]]];x=1}else{var
 C=a;x=1}if(x)var
 h=C;break;case
 1:var
 y=0;if(a)if(a[2])var
 h=0;else{var
-D=a[1],G=i[1],ar=gS(D),as=[1,[6,i[2],ar]],H=[0,[0,G,[0,[1,[4,gT(G,D),as]],0]]];y=1}else{var
+E=a[1],G=i[1],ar=gZ(E),as=[1,[6,i[2],ar]],H=[0,[0,G,[0,[1,[4,g0(G,E),as]],0]]];y=1}else{var
 H=a;y=1}if(y)var
 h=H;break;case
 2:var
@@ -7758,7 +7835,7 @@ z=0;if(a){var
 n=a[2],ao=0;if(n)if(n[2]){var
 h=0;ao=1}else
 var
-I=n[1],J=a[1],o=i[1],at=gS(J),au=[1,[6,gT(o,I),at]],av=[1,[6,i[2],au]],aw=gS(I),K=[0,[0,o,[0,[1,[4,[1,[6,gT(o,J),aw]],av]],0]]];else
+I=n[1],J=a[1],o=i[1],at=gZ(J),au=[1,[6,g0(o,I),at]],av=[1,[6,i[2],au]],aw=gZ(I),K=[0,[0,o,[0,[1,[4,[1,[6,g0(o,J),aw]],av]],0]]];else
 var
 K=n;if(!ao){var
 L=K;z=1}}else{var
@@ -7767,8 +7844,8 @@ h=L;break;default:if(a)var
 h=0;else
 var
 ax=i[1],h=[0,[0,0,e(function(a){return[1,[5,[0,a]]]},ax)]]}if(h){var
-Q=h[1],ay=Q[1],R=m(function(a){return n3(q(a[2],w,0))},ay);if(R)return m(M,Q[2]);var
-S=R}else
+O=h[1],ay=O[1],Q=m(function(a){return od(q(a[2],w,0))},ay);if(Q)return m(M,O[2]);var
+S=Q}else
 var
 S=h;var
 T=S}else
@@ -7777,31 +7854,31 @@ T=r;var
 U=T}else
 var
 U=N;return U}var
-V=j[2],W=j[1],s=E(iy,W);if(s){var
+V=j[2],W=j[1],s=F(iw,W);if(s){var
 X=s[1];if(typeof
 X!=="number"&&1===X[0]){var
-t=E(eG,V);if(t){var
-u=E(ih,V);if(u){var
-az=P(iC,W);return M([1,[4,[1,[8,[0,u[1]]]],[1,[6,[1,[8,[1,[1,az]]]],[0,t[1]]]]]])}var
-Z=u}else
+t=F(eG,V);if(t){var
+u=F(id,V);if(u){var
+az=R(iy,W);return M([1,[4,[1,[8,[0,u[1]]]],[1,[6,[1,[8,[1,[1,az]]]],[0,t[1]]]]]])}var
+_=u}else
 var
-Z=t;return Z}var
-Y=0}else
+_=t;return _}var
+Z=0}else
 var
-Y=s;return Y}}return aa;case
+Z=s;return Z}}return aa;case
 1:var
-ac=f[1],ae=n5(ac,l);if(ae){var
+ac=f[1],ae=of(ac,l);if(ae){var
 af=cU(ac,l),ag=cd(k,af[1],f[2]);if(ag){var
 l=af[2],f=f[3];continue}var
 ah=ag}else
 var
 ah=ae;return ah;default:var
-ai=f[1],aj=n5(ai,k);if(aj){var
+ai=f[1],aj=of(ai,k);if(aj){var
 al=cU(ai,k),am=cd(al[1],l,f[2]);if(am){var
 k=al[2],f=f[3];continue}var
 an=am}else
 var
-an=aj;return an}};return cd(iw,iv,j$)}var
+an=aj;return an}};return cd(iu,is,ka)}var
 eM=ci}else
 var
 eM=ch;var
@@ -7818,77 +7895,77 @@ gj=gi}else
 var
 gj=cQ;return gj}return 0;case
 6:var
-gm=a[1];if(gm){var
-gn=gm[1],cS=u[2];if(0===cS[0]){var
-cV=js(Bp,0,0,0,Bo,cS[3]);if(cV){var
-go=fo(gn);if(go){var
-ka=cV[1],gp=bX(gn)[2],br=cS[1],cb=cR(br,d,gp);if(cb){var
-cc=cR(br,d,[5,[0,b,b],gp]);if(cc){var
-ia=cb[1][1],eA=I(cp(br),ia);if(eA)return n1(br,cc[1][1],ka);var
+gk=a[1];if(gk){var
+gl=gk[1],cS=u[2];if(0===cS[0]){var
+cV=jD(BC,0,0,0,BB,cS[3]);if(cV){var
+gm=fq(gl);if(gm){var
+kb=cV[1],gn=bY(gl)[2],br=cS[1],cb=cR(br,d,gn);if(cb){var
+cc=cR(br,d,[5,[0,b,b],gn]);if(cc){var
+ia=cb[1][1],eA=J(cp(br),ia);if(eA)return ob(br,cc[1][1],kb);var
 eB=eA}else
 var
 eB=cc;var
 eC=eB}else
 var
 eC=cb;return eC}var
-gs=go}else
+go=gm}else
 var
-gs=cV;return gs}return 0}var
+go=cV;return go}return 0}var
 cW=u[2];if(0===cW[0]){var
-cX=js(Br,0,0,0,Bq,cW[3]);return cX?n1(cW[1],d,cX[1]):cX}return 0;default:var
-aI=a[1],gt=u[2];if(2===gt[0]){var
-gu=gt[1],cY=jq(g(gu),gu);if(cY){var
-gv=cY[1];if(gv[2])return 0;var
-cZ=gv[1],eZ=Z(Bf,g(aI)),e0=eZ?Z(g(aI),kV):eZ,e1=e0?nE(e(aB,aI)):e0,gw=e1?m(function(c){var
+cX=jD(BE,0,0,0,BD,cW[3]);return cX?ob(cW[1],d,cX[1]):cX}return 0;default:var
+aG=a[1],gp=u[2];if(2===gp[0]){var
+gq=gp[1],cY=jB(g(gq),gq);if(cY){var
+gt=cY[1];if(gt[2])return 0;var
+cZ=gt[1],eZ=_(Bs,g(aG)),e0=eZ?_(g(aG),k5):eZ,e1=e0?nQ(e(av,aG)):e0,gu=e1?m(function(c){var
 a=cu(j(c[2][1]));if(a){var
-b=cu(j(c[2][2]));if(b)return S(ba(b[1],a[1]));var
+b=cu(j(c[2][2]));if(b)return Q(bb(b[1],a[1]));var
 d=b}else
 var
-d=a;return d},aI):e1;if(gw)var
-kb=g3(z9,cZ),c0=o3(a[5],kb);else
+d=a;return d},aG):e1;if(gu)var
+kc=g_(Ak,cZ),c0=pc(a[5],kc);else
 var
-c0=gw;if(c0)var
-kc=g3(z_,cZ),c1=o3(a[6],kc);else
+c0=gu;if(c0)var
+kd=g_(Al,cZ),c1=pc(a[6],kd);else
 var
 c1=c0;if(c1){var
-je=e(function(a){return[0,d,0]},aI);return o2(aI,a[2],a[3],a[4],je,cZ)}var
-gx=c1}else
+jb=e(function(a){return[0,d,0]},aG);return pb(aG,a[2],a[3],a[4],jb,cZ)}var
+gv=c1}else
 var
-gx=cY;return gx}return 0}}return aV}var
-W=[a0,Bu,ro(0)],o4=[a0,Bv,ro(0)];function
-Bs(l,b){var
-f=[0,n(zs,ar(b[4])),0],g=[0,n(zu,ag([0,n(zt,ar(b[3])),f])),0],a=b[2];switch(a[0]){case
+gv=cY;return gv}return 0}}return aV}var
+W=[a0,BH,rz(0)],pd=[a0,BI,rz(0)];function
+BF(l,b){var
+f=[0,n(zF,ar(b[4])),0],g=[0,n(zH,ag([0,n(zG,ar(b[3])),f])),0],a=b[2];switch(a[0]){case
 0:var
-c=N(zo,oa(a[1],a[2],a[3]));break;case
+c=M(zB,om(a[1],a[2],a[3]));break;case
 1:var
-c=N(zp,ob(a[1],a[2],a[3],a[4]));break;default:var
-c=N(zq,G(e(zj,a[1])))}var
-h=[0,n(zv,c),g],i=1===b[2][0]?zB:zw,j=[0,n(zx,ar(i)),h],k=[0,n(zy,xW(b[1])),j],d=aw(kp(Bt,gU(ag([0,n(zA,ar(zz)),k]),zr)),l);return d?Bl(b):d}function
+c=M(zC,on(a[1],a[2],a[3],a[4]));break;default:var
+c=M(zD,G(e(zw,a[1])))}var
+h=[0,n(zI,c),g],i=1===b[2][0]?zO:zJ,j=[0,n(zK,ar(i)),h],k=[0,n(zL,x8(b[1])),j],d=ax(kA(BG,g1(ag([0,n(zN,ar(zM)),k]),zE)),l);return d?By(b):d}function
 ai(a){if(0===a[0])return a[1];throw W}function
-af(a){if(1===a[0])return a[1];throw W}function
+ae(a){if(1===a[0])return a[1];throw W}function
 aX(a){if(2===a[0])return a[1];throw W}function
-fq(a){if(3===a[0])return a[1];throw W}function
-a9(f,e){var
+fs(a){if(3===a[0])return a[1];throw W}function
+a_(f,e){var
 a=f;for(;;){if(a){var
-b=a[1],c=a[2],d=b[2];if(0===HN(b[1],e))return[0,d];var
+b=a[1],c=a[2],d=b[2];if(0===H3(b[1],e))return[0,d];var
 a=c;continue}return 0}}function
 u(c,b){var
-a=a9(c,b);if(a)return a[1];throw W}function
+a=a_(c,b);if(a)return a[1];throw W}function
 cH(b,a){var
 c=a?[0,i(b,a[1])]:a;return c}function
-dD(a){switch(a[0]){case
+dK(a){switch(a[0]){case
 0:var
 b=a[1];if(b&&!b[2]){var
 c=b[1];return[0,c[1],c[2]]}break;case
-2:return[0,a[1],Bw]}throw W}function
-fr(e,d){var
-a=Y(e,af(d));if(a){var
+2:return[0,a[1],BJ]}throw W}function
+ft(e,d){var
+a=Z(e,ae(d));if(a){var
 b=a[2];if(b){var
 c=b[2];if(c&&!c[2])return[0,a[1],b[1],c[1]]}}throw W}function
-g_(i){var
-f=eI(i),d=[0,0],e=hB(f)-1|0;if(!(e<0)){var
+hf(i){var
+f=eI(i),d=[0,0],e=hI(f)-1|0;if(!(e<0)){var
 c=e;for(;;){var
-a=d[1],g=j7(f,c)-48|0;if(9<g>>>0)throw W;switch(g){case
+a=d[1],g=kg(f,c)-48|0;if(9<g>>>0)throw W;switch(g){case
 0:var
 b=[0,a];break;case
 1:var
@@ -7910,48 +7987,48 @@ b=[8,a];break;default:var
 b=[9,a]}d[1]=b;var
 h=c-1|0;if(0!==c){var
 c=h;continue}break}}return d[1]}function
-fs(a){return kG(g_(a))}function
-eu(b){var
-a=fq(b);return 45===a1(a,0)?O(fs(dO(a,1,au(a)-1|0))):fs(a)}function
-o5(a){return dR(fs(fq(a)))}function
-dE(b){var
-a=fq(b);if(!(2<au(a))&&!(64<=hA(a)))return hM(fs(a));throw W}function
+fu(a){return kQ(hf(a))}function
+ev(b){var
+a=fs(b);return 45===a1(a,0)?P(fu(dT(a,1,au(a)-1|0))):fu(a)}function
+pe(a){return dW(fu(fs(a)))}function
+dh(b){var
+a=fs(b);if(!(2<au(a))&&!(64<=hH(a)))return hU(fu(a));throw W}function
 cI(c){var
-a=fq(c);if(6<au(a))throw W;function
-b(a){return 0<a?[0,b(a-1|0)]:0}return b(hA(a))}function
-o6(a){var
-b=97<=a?1:0,c=b?a<=q1?1:0:b;if(c)var
+a=fs(c);if(6<au(a))throw W;function
+b(a){return 0<a?[0,b(a-1|0)]:0}return b(hH(a))}function
+pf(a){var
+b=97<=a?1:0,c=b?a<=rb?1:0:b;if(c)var
 d=c;else
 var
 e=65<=a?1:0,d=e?a<=90?1:0:e;return d}function
-o7(y,b){var
+pg(y,b){var
 d=au(b),a=[0,0];function
 c(e){var
 c=a[1]<d?1:0,f=c?a1(b,a[1])===e?1:0:c;return f}function
 l(e){var
-c=a[1];for(;;){if(a[1]<d&&48<=a1(b,a[1])&&!(57<a1(b,a[1]))){a[1]++;continue}return dO(b,c,a[1]-c|0)}}function
+c=a[1];for(;;){if(a[1]<d&&48<=a1(b,a[1])&&!(57<a1(b,a[1]))){a[1]++;continue}return dT(b,c,a[1]-c|0)}}function
 m(b){a[1]++;var
 d=f(b+1|0);if(c(41)){a[1]++;return d}throw W}function
 h(j){if(64<j)throw W;if(c(45)){a[1]++;return[2,h(j+1|0)]}if(c(40))var
 e=m(j);else{var
-u=0;if((a[1]+5|0)<=d&&aw(dO(b,a[1],5),By)){a[1]=a[1]+4|0;var
+u=0;if((a[1]+5|0)<=d&&ax(dT(b,a[1],5),BL)){a[1]=a[1]+4|0;var
 e=[5,m(j)]}else
 u=1;if(u){var
-v=0;if(a[1]<d&&o6(a1(b,a[1]))){var
+v=0;if(a[1]<d&&pf(a1(b,a[1]))){var
 n=a[1];for(;;){if(a[1]<d){var
-w=0;if(!o6(a1(b,a[1]))&&95!==a1(b,a[1])&&(!(48<=a1(b,a[1]))||57<a1(b,a[1])))w=1;if(!w){a[1]++;continue}}var
-e=[1,i(y,dO(b,n,a[1]-n|0))];break}}else
+w=0;if(!pf(a1(b,a[1]))&&95!==a1(b,a[1])&&(!(48<=a1(b,a[1]))||57<a1(b,a[1])))w=1;if(!w){a[1]++;continue}}var
+e=[1,i(y,dT(b,n,a[1]-n|0))];break}}else
 v=1;if(v){var
-g=l(0),p=c(46),q=p?(a[1]++,[0,l(0)]):p,r=aw(g,Bz);if(r)var
+g=l(0),p=c(46),q=p?(a[1]++,[0,l(0)]):p,r=ax(g,BM);if(r)var
 s=r;else
 var
 t=1<au(g)?1:0,s=t?48===a1(g,0)?1:0:t;if(s)throw W;if(q){var
-k=q[1],x=0;if(aw(k,BA)||48===a1(k,au(k)-1|0))x=1;else
+k=q[1],x=0;if(ax(k,BN)||48===a1(k,au(k)-1|0))x=1;else
 var
-z=g_(k),e=[0,g_(g),z];if(x)throw W}else
+z=hf(k),e=[0,hf(g),z];if(x)throw W}else
 var
-e=[0,g_(g),0]}}}if(c(94)){a[1]++;var
-f=l(0);if(o(f,Bx)){if(!(2<au(f))&&2<=hA(f)&&!(64<hA(f)))return[4,e,dR(fs(f))];throw W}throw W}return e}function
+e=[0,hf(g),0]}}}if(c(94)){a[1]++;var
+f=l(0);if(o(f,BK)){if(!(2<au(f))&&2<=hH(f)&&!(64<hH(f)))return[4,e,dW(fu(f))];throw W}throw W}return e}function
 e(d){var
 b=h(d);for(;;){if(c(42)){a[1]++;var
 b=[3,2,b,h(d)];continue}if(c(47)){a[1]++;var
@@ -7961,46 +8038,46 @@ b=e(d);for(;;){if(c(43)){a[1]++;var
 b=[3,0,b,e(d)];continue}if(c(45)){a[1]++;var
 b=[3,1,b,e(d)];continue}return b}}var
 g=f(0);if(a[1]<d)throw W;return g}function
-g$(a){return o7(function(a){return[0,a]},a)}function
-jB(a){var
-b=aX(a);return o7(function(a){return a},b)}function
-U(a){return g$(aX(a))}function
-ce(a){if(2===a[0])return[0,g$(a[1])];var
-b=ai(a),c=U(u(b,BB));return[1,U(u(b,BC)),c]}function
-ac(a){throw[0,o4,a$(kp(BE,a),BD)]}function
-jC(c){var
-a=aX(c);if(o(a,BF)){var
-b=o(a,BG);if(b)throw W;return b}return 1}function
-BH(d){var
+hg(a){return pg(function(a){return[0,a]},a)}function
+jM(a){var
+b=aX(a);return pg(function(a){return a},b)}function
+U(a){return hg(aX(a))}function
+ce(a){if(2===a[0])return[0,hg(a[1])];var
+b=ai(a),c=U(u(b,BO));return[1,U(u(b,BP)),c]}function
+af(a){throw[0,pd,ba(kA(BR,a),BQ)]}function
+jN(c){var
+a=aX(c);if(o(a,BS)){var
+b=o(a,BT);if(b)throw W;return b}return 1}function
+BU(d){var
 b=ai(d);function
-a(a){return fr(ce,u(b,a))}var
-c=aX(u(b,BI));if(o(c,BJ)){if(o(c,BK)){if(o(c,BL))return ac([0,BN,[0,c,BM]]);var
-e=a9(b,BO),f=cH(function(a){return fr(ce,a)},e),g=a(BP);return[1,a(BQ),g,f]}var
-h=jC(u(b,BR)),i=ce(u(b,BS)),j=a(BT),k=a(BU);return[0,a(BV),k,j,i,h]}return[2,a(BW)]}function
-BX(d){var
+a(a){return ft(ce,u(b,a))}var
+c=aX(u(b,BV));if(o(c,BW)){if(o(c,BX)){if(o(c,BY))return af([0,B0,[0,c,BZ]]);var
+e=a_(b,B1),f=cH(function(a){return ft(ce,a)},e),g=a(B2);return[1,a(B3),g,f]}var
+h=jN(u(b,B4)),i=ce(u(b,B5)),j=a(B6),k=a(B7);return[0,a(B8),k,j,i,h]}return[2,a(B9)]}function
+B_(d){var
 a=ai(d);if(a){var
-b=a[1];if(!o(b[1],BY)){var
-c=b[2];if(2===c[0]&&!o(c[1],BZ))return 1}}return 0}function
-o8(e){var
+b=a[1];if(!o(b[1],B$)){var
+c=b[2];if(2===c[0]&&!o(c[1],Ca))return 1}}return 0}function
+ph(e){var
 b=ai(e);function
-a(a){return Y(ce,af(u(b,a)))}var
-c=aX(u(b,B0)),d=a9(b,B1);if(o(c,B2)){if(o(c,B3)){if(!o(c,B4)&&!d){var
-f=a(B7);return[1,a(B8),f]}}else
+a(a){return Z(ce,ae(u(b,a)))}var
+c=aX(u(b,Cb)),d=a_(b,Cc);if(o(c,Cd)){if(o(c,Ce)){if(!o(c,Cf)&&!d){var
+f=a(Ci);return[1,a(Cj),f]}}else
 if(!d){var
-g=jC(u(b,B9)),h=ce(u(b,B_)),i=a(B$),j=a(Ca);return[0,a(Cb),j,i,h,g]}}else
+g=jN(u(b,Ck)),h=ce(u(b,Cl)),i=a(Cm),j=a(Cn);return[0,a(Co),j,i,h,g]}}else
 if(!d){var
-k=jC(u(b,Cc)),l=ce(u(b,Cd)),m=ce(u(b,Ce)),n=a(Cf),p=a(Cg),q=a(Ch);return[2,a(Ci),q,p,n,m,l,k]}return ac([0,B6,[0,c,B5]])}function
-o9(d){var
+k=jN(u(b,Cp)),l=ce(u(b,Cq)),m=ce(u(b,Cr)),n=a(Cs),p=a(Ct),q=a(Cu);return[2,a(Cv),q,p,n,m,l,k]}return af([0,Ch,[0,c,Cg]])}function
+pi(d){var
 a=ai(d);if(a){var
-b=a[1];if(!o(b[1],Cj)){var
-c=b[2];if(2===c[0]&&!o(c[1],Ck))return 1}}return 0}function
-df(c,d){var
-a=af(d);if(a){var
+b=a[1];if(!o(b[1],Cw)){var
+c=b[2];if(2===c[0]&&!o(c[1],Cx))return 1}}return 0}function
+di(c,d){var
+a=ae(d);if(a){var
 b=a[2];if(b&&!b[2]){var
 e=i(c,b[1]);return[0,i(c,a[1]),e]}}throw W}function
-ev(g,p){var
-h=g?g[1]:g,c=ai(p),a=aX(u(c,Cl)),j=rB(a,Cm),f=0;if(0<=j)if(0<j)if(o(a,Cn))if(o(a,Co))if(o(a,Cp))if(o(a,Cq))if(o(a,Cr))if(o(a,Cs))if(o(a,Ct)){var
-k=o(a,Cu);if(k)f=1;else
+ew(g,p){var
+h=g?g[1]:g,c=ai(p),a=aX(u(c,Cy)),j=rM(a,Cz),f=0;if(0<=j)if(0<j)if(o(a,CA))if(o(a,CB))if(o(a,CC))if(o(a,CD))if(o(a,CE))if(o(a,CF))if(o(a,CG)){var
+k=o(a,CH);if(k)f=1;else
 var
 b=k}else
 var
@@ -8020,7 +8097,7 @@ var
 b=13;else
 var
 b=2;else
-if(o(a,CP))if(o(a,CQ))if(o(a,CR))if(o(a,CS))if(o(a,CT))if(o(a,CU))if(o(a,CV))if(o(a,CW))f=1;else
+if(o(a,C2))if(o(a,C3))if(o(a,C4))if(o(a,C5))if(o(a,C6))if(o(a,C7))if(o(a,C8))if(o(a,C9))f=1;else
 var
 b=1;else
 var
@@ -8038,12 +8115,12 @@ b=14;else
 f=1;else
 var
 b=12;var
-n=f?ac([0,Cw,[0,a,Cv]]):b;function
-i(a){return u(c,Cx)}var
-d=aX(u(c,Cy)),l=o(d,Cz);if(l)if(o(d,CA))if(o(d,CB))if(o(d,CC))var
-e=ac([0,CE,[0,d,CD]]);else
+n=f?af([0,CJ,[0,a,CI]]):b;function
+i(a){return u(c,CK)}var
+d=aX(u(c,CL)),l=o(d,CM);if(l)if(o(d,CN))if(o(d,CO))if(o(d,CP))var
+e=af([0,CR,[0,d,CQ]]);else
 var
-m=df(U,i(0)),e=[2,m[1],m[2]];else
+m=di(U,i(0)),e=[2,m[1],m[2]];else
 var
 e=[0,U(i(0))];else
 var
@@ -8053,104 +8130,104 @@ e=l;function
 q(H){var
 a=ai(H),b=0;switch(n){case
 6:if(a){var
-r=a[1];if(!o(r[1],CG)){var
+r=a[1];if(!o(r[1],CT)){var
 s=r[2];if(1===s[0]){var
 c=s[1],m=0;if(c&&!c[2])if(a[2])m=1;else{var
 e=c[1];b=1;m=1}if(!m&&!a[2]){var
 t=c;b=2}}}}break;case
 10:if(a){var
-u=a[1];if(!o(u[1],CH)){var
+u=a[1];if(!o(u[1],CU)){var
 v=u[2];if(1===v[0]){var
 f=v[1];if(f&&!f[2]){var
 g=a[2];if(g){var
-w=g[1];if(!o(w[1],CI)){var
+w=g[1];if(!o(w[1],CV)){var
 x=w[2];if(1===x[0]){var
 i=x[1];if(i&&!i[2]&&!g[2]){var
 I=U(i[1]);return[2,U(f[1]),I]}}}}}}}}break;case
 12:if(a){var
-y=a[1];if(!o(y[1],CJ)){var
+y=a[1];if(!o(y[1],CW)){var
 z=y[2];if(1===z[0]){var
 j=z[1];if(j&&!j[2]){var
 k=a[2],A=j[1];if(k){var
-B=k[1];if(!o(B[1],CK)){var
+B=k[1];if(!o(B[1],CX)){var
 C=B[2];if(1===C[0]){var
 l=C[1];if(l&&!l[2]&&!k[2]&&h){var
 J=U(l[1]);return[3,U(A),J]}}}}else{var
 e=A;b=1}}}}}break;case
 16:if(a){var
-F=a[1];if(!o(F[1],CM)){var
+F=a[1];if(!o(F[1],CZ)){var
 G=F[2];if(1===G[0]&&!a[2]){var
 t=G[1];b=2}}}break;case
 14:case
 15:if(a){var
-D=a[1];if(!o(D[1],CL)){var
-E=D[2];if(1===E[0]&&!a[2])return[1,Y(U,E[1])]}}break;case
+D=a[1];if(!o(D[1],CY)){var
+E=D[2];if(1===E[0]&&!a[2])return[1,Z(U,E[1])]}}break;case
 2:case
 8:if(a){var
-p=a[1];if(!o(p[1],CF)){var
+p=a[1];if(!o(p[1],CS)){var
 q=p[2];if(1===q[0]){var
 d=q[1];if(d&&!d[2]&&!a[2]){var
 e=d[1];b=1}}}}break}switch(b){case
 0:throw W;case
-1:return[0,U(e)];default:return[1,Y(U,t)]}}var
-r=cH(q,a9(c,CN));return[0,n,cH(cI,a9(c,CO)),r,e]}function
-o_(c){var
-d=ev(CZ,c),e=d[1];if(!(9<=e))switch(e){case
+1:return[0,U(e)];default:return[1,Z(U,t)]}}var
+r=cH(q,a_(c,C0));return[0,n,cH(cI,a_(c,C1)),r,e]}function
+pj(c){var
+d=ew(Da,c),e=d[1];if(!(9<=e))switch(e){case
 2:case
 6:case
 8:return d}var
-a=ev(CX,c),b=a[1];if(2!==b&&!(4<=b))return a;return ac(CY)}function
-o$(a){var
-b=ev(C0,a);return 11===b[1]?b:o_(a)}function
-C1(a){var
-b=ev(C2,a),c=b[1];if(9<=c)switch(c-9|0){case
+a=ew(C_,c),b=a[1];if(2!==b&&!(4<=b))return a;return af(C$)}function
+pk(a){var
+b=ew(Db,a);return 11===b[1]?b:pj(a)}function
+Dc(a){var
+b=ew(Dd,a),c=b[1];if(9<=c)switch(c-9|0){case
 2:case
 4:case
-7:break;default:return b}return o$(a)}function
-jD(a){var
-b=ev(C3,a);switch(b[1]){case
+7:break;default:return b}return pk(a)}function
+jO(a){var
+b=ew(De,a);switch(b[1]){case
 4:case
 5:case
 11:case
 13:case
-16:return b;default:return o_(a)}}function
-jE(b){var
-a=ai(b[2]);if(o(b[1],C_)){var
-c=df(U,u(a,C$)),d=df(U,u(a,Da)),e=d[2],f=d[1],g=U(u(a,Db));return[1,c[1],c[2],g,f,e]}var
-h=Y(U,af(u(a,Dc)));return[0,Y(U,af(u(a,Dd))),h]}function
-De(f){var
+16:return b;default:return pj(a)}}function
+jP(b){var
+a=ai(b[2]);if(o(b[1],Dl)){var
+c=di(U,u(a,Dm)),d=di(U,u(a,Dn)),e=d[2],f=d[1],g=U(u(a,Do));return[1,c[1],c[2],g,f,e]}var
+h=Z(U,ae(u(a,Dp)));return[0,Z(U,ae(u(a,Dq))),h]}function
+Dr(f){var
 a=ai(f);function
 d(b){return U(u(a,b))}function
-c(b){return fr(U,u(a,b))}var
-b=aX(u(a,Df));if(o(b,Dg)){if(!o(b,Dh)){var
-j=u(a,Dn),e=df(function(a){return a},j),k=a9(a,Do),l=cH(function(a){return c(Dp)},k),m=g$(aX(e[2])),n=g$(aX(e[1])),p=d(Dq);return[0,cI(u(a,Dr)),p,n,m,l]}if(o(b,Di))throw W}var
-g=d(Dj),h=c(Dk),i=c(Dl);return[1,aw(b,Dm),i,h,g]}function
-jF(an){var
-g=dD(an),h=g[1];if(o(h,Ds)){if(o(h,Dt)){if(o(h,Du)){if(o(h,Dv))return ac([0,Dx,[0,h,Dw]]);var
-w=u(ai(g[2]),Dy),ab=0;if(2===w[0]){var
-K=o(w[1],Dz);if(!K){var
+c(b){return ft(U,u(a,b))}var
+b=aX(u(a,Ds));if(o(b,Dt)){if(!o(b,Du)){var
+j=u(a,DA),e=di(function(a){return a},j),k=a_(a,DB),l=cH(function(a){return c(DC)},k),m=hg(aX(e[2])),n=hg(aX(e[1])),p=d(DD);return[0,cI(u(a,DE)),p,n,m,l]}if(o(b,Dv))throw W}var
+g=d(Dw),h=c(Dx),i=c(Dy);return[1,ax(b,Dz),i,h,g]}function
+jQ(an){var
+g=dK(an),h=g[1];if(o(h,DF)){if(o(h,DG)){if(o(h,DH)){if(o(h,DI))return af([0,DK,[0,h,DJ]]);var
+w=u(ai(g[2]),DL),ab=0;if(2===w[0]){var
+K=o(w[1],DM);if(!K){var
 J=K;ab=1}}if(!ab)var
 J=[0,ce(w)];return[6,J]}var
-L=ai(g[2]),j=jF([0,[0,[0,DB,u(L,DA)],0]]);if(0===j[0]){var
+L=ai(g[2]),j=jQ([0,[0,[0,DO,u(L,DN)],0]]);if(0===j[0]){var
 x=j[2];if(0===x[0]&&!j[3]){var
-ao=U(u(L,DD));return[5,j[1],x[1],x[2],j[4],ao]}}return ac(DC)}var
-a=ai(g[2]),y=a9(a,DE),z=y?Y(De,af(y[1])):y,n=function(b){var
-a=0!==z?1:0;return a?ac(DF):a},k=dD(u(a,DG)),b=dD(u(a,DH)),c=k[1];if(o(c,DI)&&o(c,DJ)&&o(c,DK)){if(0===a9(a,DL)){if(o(c,DM)){var
-ad=0;if(o(c,DN)){if(!o(c,DO)){var
-M=b[1],ae=0;if(o(M,DR)&&o(M,DS)){ad=1;ae=1}if(!ae){var
-A=af(k[2]),ap=af(u(a,DV)),N=Y(function(a){return ev(0,a)},ap);if(!az(BX,A)&&!az(function(a){var
+ao=U(u(L,DQ));return[5,j[1],x[1],x[2],j[4],ao]}}return af(DP)}var
+a=ai(g[2]),y=a_(a,DR),z=y?Z(Dr,ae(y[1])):y,n=function(b){var
+a=0!==z?1:0;return a?af(DS):a},k=dK(u(a,DT)),b=dK(u(a,DU)),c=k[1];if(o(c,DV)&&o(c,DW)&&o(c,DX)){if(0===a_(a,DY)){if(o(c,DZ)){var
+ac=0;if(o(c,D0)){if(!o(c,D1)){var
+M=b[1],ad=0;if(o(M,D4)&&o(M,D5)){ac=1;ad=1}if(!ad){var
+A=ae(k[2]),ap=ae(u(a,D8)),N=Z(function(a){return ew(0,a)},ap);if(!aA(B_,A)&&!aA(function(a){var
 b=13===a[1]?1:0,c=b||(16===a[1]?1:0);return c},N)){var
-as=Y(BH,A),f=ai(b[2]);if(o(b[1],C4))var
-H=df(U,u(f,C5)),I=df(U,u(f,C6)),aj=I[2],ak=I[1],al=U(u(f,C7)),O=[1,H[1],H[2],al,ak,aj];else
+as=Z(BU,A),f=ai(b[2]);if(o(b[1],Df))var
+H=di(U,u(f,Dg)),I=di(U,u(f,Dh)),aj=I[2],ak=I[1],al=U(u(f,Di)),O=[1,H[1],H[2],al,ak,aj];else
 var
-am=fr(U,u(f,C8)),O=[0,fr(U,u(f,C9)),am];return[0,as,O,z,N]}n(0);var
-aq=Y(jD,af(u(a,DW))),ar=jE(b);return[1,0,Y(o8,A),0,ar,0,aq]}}}else
-if(!o(b[1],DX)){n(0);var
-P=Y(jD,af(u(a,DY))),v=0,e=P;for(;;){if(e){var
+am=ft(U,u(f,Dj)),O=[0,ft(U,u(f,Dk)),am];return[0,as,O,z,N]}n(0);var
+aq=Z(jO,ae(u(a,D9))),ar=jP(b);return[1,0,Z(ph,A),0,ar,0,aq]}}}else
+if(!o(b[1],D_)){n(0);var
+P=Z(jO,ae(u(a,D$))),v=0,e=P;for(;;){if(e){var
 F=e[2],G=e[1];if(0===G[1]){var
 v=[0,G,v],e=F;continue}var
 e=F;continue}var
-m=ko(v),ag=0;if(m){var
+m=kz(v),ag=0;if(m){var
 d=0,Q=m[1][4];if(typeof
 Q==="number")d=1;else
 switch(Q[0]){case
@@ -8165,141 +8242,148 @@ C=m[2];if(C){var
 E=0,S=C[1][4];if(typeof
 S!=="number"&&0===S[0])if(C[2]){d=1;E=1}else
 E=1;if(!E)d=1}else
-d=1;break;default:d=1}if(!d)ag=1}if(!ag)ac(DZ);var
-at=U(u(ai(b[2]),D0));return[4,U(u(ai(k[2]),D1)),at,P]}}if(!ad)return ac([0,DQ,[0,c,DP]])}else
-if(!o(b[1],D2)){n(0);var
+d=1;break;default:d=1}if(!d)ag=1}if(!ag)af(Ea);var
+at=U(u(ai(b[2]),Eb));return[4,U(u(ai(k[2]),Ec)),at,P]}}if(!ac)return af([0,D3,[0,c,D2]])}else
+if(!o(b[1],Ed)){n(0);var
 p=ai(k[2]),T=ai(b[2]),V=function(c,a){var
-b=af(a);return Y(function(d){var
-a=af(d);if(a){var
+b=ae(a);return Z(function(d){var
+a=ae(d);if(a){var
 b=a[2];if(b&&!b[2]){var
 e=i(c,b[1]);return[0,aX(a[1]),e]}}throw W},b)},au=function(d){var
 a=ai(d);if(a){var
-b=a[1],c=b[1];if(o(c,D3)){if(!o(c,D4)&&!a[2])return[0,Y(jB,af(b[2]))]}else
-if(!a[2])return[1,jB(b[2])]}throw W},av=Y(o$,af(u(a,D5))),ax=Y(U,af(u(T,D6))),ay=Y(U,af(u(T,D7))),aA=Y(au,af(u(p,D8))),aB=V(jB,u(p,D9)),aC=V(ce,u(p,D_));return[3,Y(aX,af(u(p,D$))),aC,aB,aA,ay,ax,av]}return ac([0,DU,[0,b[1],DT]])}throw W}var
-X=ai(k[2]),q=cH(U,a9(X,Ea)),aD=function(f){var
-a=dD(f),b=a[1];if(o(b,Eb)){if(o(b,Ec)){if(o(b,Ed)){if(o(b,Ee))throw W;var
-d=a[2],g=U(u(ai(d),Ef));return[3,U(u(ai(d),Eg)),g]}var
-h=a[2],c=function(a){return df(U,u(ai(h),a))},i=c(Eh),j=c(Ei);return[1,c(Ej),j,i]}var
-e=df(U,a[2]);return[0,e[1],e[2]]}return[2,U(a[2])]},r=cH(aD,a9(a,Ek)),Z=o(c,El),_=Z?o(c,Em)?2:1:Z,s=af(u(X,En));if(q&&r&&hF(o9,s)){var
+b=a[1],c=b[1];if(o(c,Ee)){if(!o(c,Ef)&&!a[2])return[0,Z(jM,ae(b[2]))]}else
+if(!a[2])return[1,jM(b[2])]}throw W},av=Z(pk,ae(u(a,Eg))),aw=Z(U,ae(u(T,Eh))),ay=Z(U,ae(u(T,Ei))),az=Z(au,ae(u(p,Ej))),aB=V(jM,u(p,Ek)),aC=V(ce,u(p,El));return[3,Z(aX,ae(u(p,Em))),aC,aB,az,ay,aw,av]}return af([0,D7,[0,b[1],D6]])}throw W}var
+X=ai(k[2]),q=cH(U,a_(X,En)),aD=function(f){var
+a=dK(f),b=a[1];if(o(b,Eo)){if(o(b,Ep)){if(o(b,Eq)){if(o(b,Er))throw W;var
+d=a[2],g=U(u(ai(d),Es));return[3,U(u(ai(d),Et)),g]}var
+h=a[2],c=function(a){return di(U,u(ai(h),a))},i=c(Eu),j=c(Ev);return[1,c(Ew),j,i]}var
+e=di(U,a[2]);return[0,e[1],e[2]]}return[2,U(a[2])]},r=cH(aD,a_(a,Ex)),Y=o(c,Ey),_=Y?o(c,Ez)?2:1:Y,s=ae(u(X,EA));if(q&&r&&hM(pi,s)){var
 aE=function(c){var
 a=ai(c);function
-b(b){return Y(ce,af(u(a,b)))}if(0!==a9(a,Eo))ac(Ep);var
-d=b(Eq);return[0,b(Er),d]},aF=Y(C1,af(u(a,Es))),aG=r[1],aH=jE(b),aI=q[1];return[2,_,Y(aE,s),aI,aH,aG,z,aF]}n(0);var
-ah=0;if(!q&&aw(c,Ev)){var
+b(b){return Z(ce,ae(u(a,b)))}if(0!==a_(a,EB))af(EC);var
+d=b(ED);return[0,b(EE),d]},aF=Z(Dc,ae(u(a,EF))),aG=r[1],aH=jP(b),aI=q[1];return[2,_,Z(aE,s),aI,aH,aG,z,aF]}n(0);var
+ah=0;if(!q&&ax(c,EI)){var
 $=1;ah=1}if(!ah)var
 $=[0,_];var
-aa=0!==r?1:0,aJ=aa?az(o9,s):aa;if(aJ)ac(Et);var
-aK=Y(jD,af(u(a,Eu))),aL=jE(b);return[1,$,Y(o8,s),q,aL,r,aK]}var
+aa=0!==r?1:0,aJ=aa?aA(pi,s):aa;if(aJ)af(EG);var
+aK=Z(jO,ae(u(a,EH))),aL=jP(b);return[1,$,Z(ph,s),q,aL,r,aK]}var
 t=ai(g[2]);function
 aM(b){var
-a=ai(b),c=U(u(a,Ew)),d=[0,U(u(a,Ex)),c];return[0,aX(u(a,Ey)),d]}var
-l=jF([0,[0,[0,EA,u(t,Ez)],0]]);if(0===l[0]&&!l[3]){var
-aN=U(u(t,EC)),aO=U(u(t,ED)),aP=l[4],aQ=l[2],aR=l[1];return[7,Y(aM,af(u(t,EE))),aR,aQ,aP,aO,aN]}return ac(EB)}function
-ft(a){return Y(eu,af(a))}function
-jG(c,b){var
-a=ft(b);if(cl(a)!==c)throw W;return a}function
-pa(a,d){var
-b=ai(d),e=af(u(b,EH)),f=a[2],c=Y(function(a){return jG(f,a)},e),g=a[1];if(cl(c)!==g)throw W;return[0,c,dE(u(b,EI))]}function
-ew(au,i){var
+a=ai(b),c=U(u(a,EJ)),d=[0,U(u(a,EK)),c];return[0,aX(u(a,EL)),d]}var
+l=jQ([0,[0,[0,EN,u(t,EM)],0]]);if(0===l[0]&&!l[3]){var
+aN=U(u(t,EP)),aO=U(u(t,EQ)),aP=l[4],aQ=l[2],aR=l[1];return[7,Z(aM,ae(u(t,ER))),aR,aQ,aP,aO,aN]}return af(EO)}function
+fv(a){return Z(ev,ae(a))}function
+hh(c,b){var
+a=fv(b);if(cl(a)!==c)throw W;return a}function
+pl(a,d){var
+b=ai(d),e=ae(u(b,EU)),f=a[2],c=Z(function(a){return hh(f,a)},e),g=a[1];if(cl(c)!==g)throw W;return[0,c,dh(u(b,EV))]}function
+dj(au,i){var
 as=0;if(0===i[0]){var
-s=i[1];if(s){var
-S=s[1];if(!o(S[1],EJ)){var
-ah=S[2];if(0===ah[0]){var
-J=ah[1];if(J){var
-aj=J[1];if(!o(aj[1],E4)){var
+q=i[1];if(q){var
+U=q[1];if(!o(U[1],EW)){var
+ah=U[2];if(0===ah[0]){var
+L=ah[1];if(L){var
+aj=L[1];if(!o(aj[1],Fi)){var
 ak=aj[2];if(1===ak[0]){var
-K=ak[1];if(K){var
-al=K[1];if(1===al[0]){var
-am=al[1];if(am&&!am[2]&&!K[2]){var
-an=J[2];if(an&&!an[2]&&!s[2]){var
-f=E5;as=1}}}}}}}}}}}if(!as)var
+M=ak[1];if(M){var
+al=M[1];if(1===al[0]){var
+am=al[1];if(am&&!am[2]&&!M[2]){var
+an=L[2];if(an&&!an[2]&&!q[2]){var
+f=Fj;as=1}}}}}}}}}}}if(!as)var
 f=au;var
-T=f[2];switch(i[0]){case
+r=f[2];switch(i[0]){case
 0:var
-b=i[1];if(b){var
-e=b[1],c=e[1],U=rB(c,EK),a=0;if(0<=U)if(0<U)if(o(c,EL)){var
-g=0;if(o(c,EM)&&o(c,EN)&&o(c,EO))if(o(c,EP))g=1;else{var
-V=e[2];if(1===V[0]){var
-t=V[1];if(t){var
-v=t[2];if(v){var
-w=v[2];if(w&&!w[2]){if(!b[2]){var
-av=Y(ft,af(w[1])),aw=aX(v[1]);return[8,ew(f,t[1]),aw,av]}a=1;g=1}else
+c=i[1];if(c){var
+e=c[1],a=e[1],V=rM(a,EX),b=0;if(0<=V)if(0<V)if(o(a,EY)){var
+g=0;if(o(a,EZ)&&o(a,E0)&&o(a,E1))if(o(a,E2))g=1;else{var
+X=e[2];if(1===X[0]){var
+s=X[1];if(s){var
+t=s[2];if(t){var
+v=t[2];if(v&&!v[2]){if(!c[2]){var
+av=Z(fv,ae(v[1])),aw=aX(t[1]);return[8,dj(f,s[1]),aw,av]}b=1;g=1}else
 g=1}else
 g=1}else
 g=1}else
-g=1}if(!g)if(b[2])a=1;else{var
-ax=e[2],y=ax,x=function(b,a){return[1,c,b,a]};a=2}}else{var
-Z=e[2];if(1===Z[0]){var
-k=Z[1];if(k){var
-z=k[1],q=0;if(0===z[0]){var
-A=z[1];if(A&&!o(A[1][1],ES)&&!A[2]){var
-_=k[2];if(_){var
-$=_[2];if($&&!$[2]){if(!b[2])return ac(ET);a=1;q=1}else
-q=1}else
-q=1}}if(!q){var
-B=k[2];if(B){var
-C=B[2];if(C&&!C[2]){if(!b[2]){var
-ay=dE(C[1]),az=eu(B[1]);return[5,ew(f,z),az,ay]}a=1}}}}}}else{var
-aa=e[2];if(1===aa[0]){if(!b[2]){var
-aA=function(i){if(1===i[0]){var
-b=i[1];if(b){var
-c=b[2];if(c){var
-d=c[2];if(d){var
-a=d[2];if(a){var
-e=a[1],h=0;if(0===e[0]){var
-g=e[1];if(g&&!(o(g[1][1],EU)||g[2])){if(!a[2]){var
-j=ew(f,e),k=dE(d[1]),l=eu(c[1]);return[0,[0,[0,ft(b[1]),l],k],j]}}else
-h=1}else
-h=1;if(h&&!a[2])return ac(EV)}}}}}throw W};return[9,Y(aA,aa[1])]}a=1}}else
-if(o(c,EW))if(o(c,EX))if(o(c,EY))if(o(c,EZ)){if(!o(c,E0)){if(!b[2]){var
-ab=ai(e[2]),aB=af(u(ab,E1)),aC=T+1|0,ad=Y(function(a){return jG(aC,a)},aB);if(3===cl(ad))return[1,E3,ad,dE(u(ab,E2))];throw W}a=1}}else{if(!b[2]){var
-P=aX(e[2]),Q=o(P,EF);if(Q){if(o(P,EG))throw W;var
-R=1}else
+g=1}if(!g)if(c[2])b=1;else{var
+ax=e[2],x=ax,w=function(c,b){return[1,a,c,b]};b=2}}else{var
+_=e[2];if(1===_[0]){var
+y=_[1];if(y){var
+z=y[2];if(z){var
+A=z[2];if(A&&!A[2]){if(!c[2]){var
+ay=dh(A[1]),az=ev(z[1]);return[5,dj(f,y[1]),az,ay]}b=1}}}}}else{var
+$=e[2];if(1===$[0]){if(!c[2]){var
+aA=function(m){if(1===m[0]){var
+d=m[1];if(d){var
+e=d[2];if(e){var
+g=e[2];if(g){var
+h=g[2];if(h&&!h[2]){var
+n=h[1],a=n;for(;;){var
+i=0;switch(a[0]){case
+0:var
+b=a[1];if(b){var
+j=b[1],c=j[1];if(o(c,E5)){var
+p=0;if(o(c,E6)&&o(c,E7)&&o(c,E8))p=1;if(!p&&!b[2])i=1}else{var
+k=j[2];if(1===k[0]){var
+l=k[1];if(l&&!b[2]){var
+a=l[1];continue}}}}break;case
+2:if(!o(a[1],E9))i=1;break}var
+q=i?1:0;if(q){var
+r=dj(f,n),s=dh(g[1]),t=ev(e[1]);return[0,[0,[0,fv(d[1]),t],s],r]}return af(E_)}}}}}}throw W};return[9,Z(aA,$[1])]}b=1}}else
+if(o(a,E$))if(o(a,Fa))if(o(a,Fb))if(o(a,Fc))if(o(a,Fd)){if(!o(a,Fe)){if(!c[2]){var
+aa=ai(e[2]),aB=ae(u(aa,Ff)),aC=r+1|0,ab=Z(function(a){return hh(aC,a)},aB);if(3===cl(ab))return[1,Fh,ab,dh(u(aa,Fg))];throw W}b=1}}else{if(!c[2]){var
+R=aX(e[2]),S=o(R,ES);if(S){if(o(R,ET))throw W;var
+T=1}else
 var
-R=Q;return[2,R]}a=1}else{if(!b[2]){var
-l=e[2],r=0;switch(l[0]){case
+T=S;return[2,T]}b=1}else{if(!c[2]){var
+k=e[2],p=0;switch(k[0]){case
 0:var
-m=l[1];if(m){var
-ao=m[1],j=ao[1],d=0;if(o(j,E6)&&o(j,E7)&&o(j,E8)&&o(j,E9))if(o(j,E_))d=1;else{var
+l=k[1];if(l){var
+ao=l[1],j=ao[1],d=0;if(o(j,Fk)&&o(j,Fl)&&o(j,Fm)&&o(j,Fn))if(o(j,Fo))d=1;else{var
 ap=ao[2];if(1===ap[0]){var
-L=ap[1];if(L){var
-n=L[1],h=0;switch(n[0]){case
+N=ap[1];if(N){var
+m=N[1],h=0;switch(m[0]){case
 0:var
-M=n[1];if(M){var
-p=M[1][1],at=0;if(o(p,Fa)&&o(p,Fb)&&o(p,Fc)&&o(p,Fd)){d=1;h=1;at=1}if(!at&&M[2]){d=1;h=1}}else{d=1;h=1}break;case
+O=m[1];if(O){var
+n=O[1][1],at=0;if(o(n,Fq)&&o(n,Fr)&&o(n,Fs)&&o(n,Ft)){d=1;h=1;at=1}if(!at&&O[2]){d=1;h=1}}else{d=1;h=1}break;case
 2:var
-aq=n[1];if(o(aq,Fe)&&o(aq,Ff)){d=1;h=1}break;default:d=1;h=1}if(!h){var
-N=L[2];if(N){var
-O=N[2];if(O&&!(O[2]||m[2])){var
-aI=dE(O[1]),aJ=eu(N[1]),D=[6,ew(f,n),aJ,aI];r=2;d=1}else
+aq=m[1];if(o(aq,Fu)&&o(aq,Fv)){d=1;h=1}break;default:d=1;h=1}if(!h){var
+P=N[2];if(P){var
+Q=P[2];if(Q&&!(Q[2]||l[2])){var
+aL=dh(Q[1]),aM=ev(P[1]),B=[6,dj(f,m),aM,aL];p=2;d=1}else
 d=1}else
 d=1}}else
 d=1}else
-d=1}if(!d&&!m[2])r=1}break;case
+d=1}if(!d&&!l[2])p=1}break;case
 2:var
-ar=l[1];if(!o(ar,Fg)||!o(ar,Fh))r=1;break}switch(r){case
+ar=k[1];if(!o(ar,Fw)||!o(ar,Fx))p=1;break}switch(p){case
 0:var
-D=ac(E$);break;case
+B=af(Fp);break;case
 1:var
-D=ew(f,l);break}return[7,D]}a=1}else{var
-ae=e[2];if(1===ae[0]){var
-E=ae[1];if(E){var
-F=E[2];if(F&&!F[2])if(b[2])a=1;else{var
-aD=F[1],aE=E[1],y=aE,x=function(b,a){return[3,b,a,jG(T+1|0,aD)]};a=2}}}}else{var
+B=dj(f,k);break}return[7,B]}b=1}else{var
+ac=e[2];if(1===ac[0]){var
+C=ac[1];if(C){var
+D=C[2];if(D&&!D[2])if(c[2])b=1;else{var
+aD=D[1],aE=C[1],x=aE,w=function(b,a){return[3,b,a,hh(r+1|0,aD)]};b=2}}}}else{var
+ad=e[2];if(1===ad[0]){var
+E=ad[1];if(E){var
+F=E[2];if(F){var
+G=F[2];if(G){var
+H=G[2];if(H&&!H[2]){if(!c[2]){var
+aF=dj(f,H[1]),aG=dj(f,G[1]),aH=dh(F[1]);return[10,hh(r+1|0,E[1]),aH,aG,aF]}b=1}}}}}}else{var
 ag=e[2];if(1===ag[0]){var
-G=ag[1];if(G){var
-H=G[2];if(H){var
-I=H[2];if(I&&!I[2])if(b[2])a=1;else{var
-aF=I[1],aG=H[1],aH=G[1],y=aH,x=function(b,a){var
-c=dE(aF);return[4,b,a,eu(aG),c]};a=2}}}}}switch(a){case
-0:if(!b[2])return ac([0,ER,[0,c,EQ]]);break;case
+I=ag[1];if(I){var
+J=I[2];if(J){var
+K=J[2];if(K&&!K[2])if(c[2])b=1;else{var
+aI=K[1],aJ=J[1],aK=I[1],x=aK,w=function(b,a){var
+c=dh(aI);return[4,b,a,ev(aJ),c]};b=2}}}}}switch(b){case
+0:if(!c[2])return af([0,E4,[0,a,E3]]);break;case
 1:break;default:var
-X=pa(f,y);return x(X[1],X[2])}}break;case
+Y=pl(f,x);return w(Y[1],Y[2])}}break;case
 2:return[0,i[1]]}throw W}function
-pb(n){var
-b=dD(n),a=b[1];if(o(a,Fk))if(o(a,Fl)){var
-h=o(a,Fm);if(!h)return h;if(o(a,Fn)){if(!o(a,Fo)){var
-c=ai(b[2]),i=function(a){return Y(U,af(u(c,a)))},j=ai(u(c,Fs)),p=dE(u(j,Ft)),q=Y(ft,af(u(j,Fu))),r=i(Fv),s=i(Fw);return[3,cI(u(c,Fx)),s,r,q,p]}if(!o(a,Fp))return[2,Y(U,af(b[2]))]}else{var
+pm(n){var
+b=dK(n),a=b[1];if(o(a,FA))if(o(a,FB)){var
+h=o(a,FC);if(!h)return h;if(o(a,FD)){if(!o(a,FE)){var
+c=ai(b[2]),i=function(a){return Z(U,ae(u(c,a)))},j=ai(u(c,FI)),p=dh(u(j,FJ)),q=Z(fv,ae(u(j,FK))),r=i(FL),s=i(FM);return[3,cI(u(c,FN)),s,r,q,p]}if(!o(a,FF))return[2,Z(U,ae(b[2]))]}else{var
 k=b[2];if(1===k[0]){var
 d=k[1];if(d){var
 e=d[2];if(e&&!e[2]){var
@@ -8307,34 +8391,34 @@ t=cI(e[1]);return[1,cI(d[1]),t]}}}}}else{var
 l=b[2];if(1===l[0]){var
 f=l[1];if(f){var
 g=f[2];if(g&&!g[2]){var
-v=Y(ft,af(g[1]));return[0,cI(f[1]),v]}}}}else{var
-m=b[2];if(1===m[0]&&!m[1])return 1}return ac([0,Fr,[0,a,Fq]])}function
-pc(f,b){var
-a=ai(b),c=af(u(a,FC)),d=Y(function(g){var
+v=Z(fv,ae(g[1]));return[0,cI(f[1]),v]}}}}else{var
+m=b[2];if(1===m[0]&&!m[1])return 1}return af([0,FH,[0,a,FG]])}function
+pn(f,b){var
+a=ai(b),c=ae(u(a,FS)),d=Z(function(g){var
 a=ai(g);function
 b(d,c){var
-b=a9(a,c);return b?Y(d,af(b[1])):b}var
-c=b(eu,Fy),d=cH(pb,a9(a,Fz)),e=cH(cI,a9(a,FA));return[0,b(function(h){var
-b=af(h);if(b){var
+b=a_(a,c);return b?Z(d,ae(b[1])):b}var
+c=b(ev,FO),d=cH(pm,a_(a,FP)),e=cH(cI,a_(a,FQ));return[0,b(function(h){var
+b=ae(h);if(b){var
 a=b[2];if(a){var
-c=a[1],e=b[1],d=0;if(2===c[0]&&!o(c[1],Fi)){if(!a[2]){if(o(fq(e),Fj))throw W;d=1}}else
+c=a[1],e=b[1],d=0;if(2===c[0]&&!o(c[1],Fy)){if(!a[2]){if(o(fs(e),Fz))throw W;d=1}}else
 d=1;if(d&&!a[2]){var
-g=ew(f,c);return[0,cI(e),g]}}}throw W},FB),e,d,c]},c),e=a9(a,FD),g=cH(function(a){return pa(f,a)},e);return[0,o5(u(a,FE)),g,d]}function
-pd(c){var
-a=ai(c),b=a9(a,FF),d=b?Y(U,af(b[1])):b,e=pb(u(a,FG)),f=Y(U,af(u(a,FH)));return[0,o5(u(a,FI)),f,d,e]}function
-FS(c){var
+g=dj(f,c);return[0,cI(e),g]}}}throw W},FR),e,d,c]},c),e=a_(a,FT),g=cH(function(a){return pl(f,a)},e);return[0,pe(u(a,FU)),g,d]}function
+po(c){var
+a=ai(c),b=a_(a,FV),d=b?Z(U,ae(b[1])):b,e=pm(u(a,FW)),f=Z(U,ae(u(a,FX)));return[0,pe(u(a,FY)),f,d,e]}function
+F8(c){var
 a=c[1],b=0;if(10<=a){if(!(13<=a))b=1}else
 if(8===a)b=1;return b?1:0}function
-FT(b){var
+F9(b){var
 a=b[3];if(a&&1===a[1][0])return 1;return 0}function
-FU(b){var
-c=b[1],a=b[4];if(!(1<c+p8>>>0)&&typeof
-a!=="number"&&1===a[0])return 1-gG(j(a[1]));return 10===c?1:0}function
-FY(k){var
+F_(b){var
+c=b[1],a=b[4];if(!(1<c+qi>>>0)&&typeof
+a!=="number"&&1===a[0])return 1-gN(j(a[1]));return 10===c?1:0}function
+Gc(k){var
 n=au(k),c=[0,0];function
 p(a){if(c[1]<n)return a1(k,c[1]);throw W}function
 q(a){if(p(0)===a){c[1]++;return 0}throw W}function
-L(a,b){for(;;){if(c[1]<n&&i(b,a1(k,c[1]))){c[1]++;continue}return dO(k,a,c[1]-a|0)}}function
+L(a,b){for(;;){if(c[1]<n&&i(b,a1(k,c[1]))){c[1]++;continue}return dT(k,a,c[1]-a|0)}}function
 M(d){q(34);function
 a(a){var
 b=34!==a?1:0;if(b)var
@@ -8345,7 +8429,7 @@ b=L(c[1],a);q(34);return b}function
 N(e,a){if(p(0)===a){c[1]++;return 0}var
 b=0;for(;;){var
 d=[0,i(e,0),b];if(44===p(0)){c[1]++;var
-b=d;continue}q(a);return ko(d)}}function
+b=d;continue}q(a);return kz(d)}}function
 y(b,i){if(64<b)throw W;var
 a=p(0),d=0;if(48<=a){if(91===a){c[1]++;var
 e=93,f=b+1|0;return[1,N(function(a){return y(f,a)},e)]}if(123===a){c[1]++;var
@@ -8354,14 +8438,14 @@ a=M(0);q(58);return[0,a,y(b+1|0,0)]},g)]}if(!(58<=a))d=1}else{if(34===a)return[2
 h=c[1];c[1]++;return[3,L(h,function(a){var
 b=48<=a?1:0,c=b?a<=57?1:0:b;return c})]}throw W}var
 ar=y(0,0),O=c[1]<n?1:0,as=O?10===a1(k,c[1])?1:0:O;if(as)c[1]++;if(c[1]<n)throw W;var
-v=ai(ar);if(o(aX(u(v,FZ)),F0))throw W;var
-a=jF(u(v,F1)),H=0;switch(a[0]){case
+v=ai(ar);if(o(aX(u(v,Gd)),Ge))throw W;var
+a=jQ(u(v,Gf)),H=0;switch(a[0]){case
 1:var
-F=a[1],I=0;if(typeof
-F==="number")if(F)var
+E=a[1],I=0;if(typeof
+E==="number")if(E)var
 G=2;else
 I=1;else
-if(1===F[1])var
+if(1===E[1])var
 G=6;else
 I=1;if(I)var
 G=3;var
@@ -8375,24 +8459,24 @@ P=a[2];H=1;break;case
 0:case
 5:var
 P=a[1];H=1;break;default:var
-j=Go}if(H)var
+j=GE}if(H)var
 j=[0,cl(P),3];var
-r=dD(u(v,F2)),s=r[1];if(o(s,FN))if(o(s,FO))if(o(s,FP))var
-b=ac([0,FR,[0,s,FQ]]);else
+r=dK(u(v,Gg)),s=r[1];if(o(s,F3))if(o(s,F4))if(o(s,F5))var
+b=af([0,F7,[0,s,F6]]);else
 var
-t=pd(r[2]),b=[1,t[1],t[2],t[3],t[4]];else
+t=po(r[2]),b=[1,t[1],t[2],t[3],t[4]];else
 var
-z=pc(j,r[2]),b=[0,z[1],z[2],z[3]];else
+z=pn(j,r[2]),b=[0,z[1],z[2],z[3]];else
 var
-at=af(r[2]),b=[2,Y(function(f){var
-a=dD(f),b=a[1];if(o(b,FJ)){if(o(b,FK)){if(o(b,FL)){var
-e=o(b,FM);if(e)throw W;return e}return[0,cI(a[2])]}var
-c=pd(a[2]);return[2,c[1],c[2],c[3],c[4]]}var
-d=pc(j,a[2]);return[1,d[1],d[2],d[3]]},at)];function
+at=ae(r[2]),b=[2,Z(function(f){var
+a=dK(f),b=a[1];if(o(b,FZ)){if(o(b,F0)){if(o(b,F1)){var
+e=o(b,F2);if(e)throw W;return e}return[0,cI(a[2])]}var
+c=po(a[2]);return[2,c[1],c[2],c[3],c[4]]}var
+d=pn(j,a[2]);return[1,d[1],d[2],d[3]]},at)];function
 av(a){var
-b=a[1];return az(function(a){return 7<a[2][0]?1:0},b)}function
+b=a[1];return aA(function(a){return 7<a[2][0]?1:0},b)}function
 aw(a){return 0!==a[3]?1:0}function
-Q(a){return az(aw,a)}function
+Q(a){return aA(aw,a)}function
 R(a){if(typeof
 a!=="number"&&2===a[0])return 1;return 0}var
 d=0;switch(a[0]){case
@@ -8403,13 +8487,13 @@ T=a[4],S=a[1];d=6;break;case
 V=b[4];d=typeof
 V==="number"||!(3===V[0])?1:5;break;default:d=2}break;case
 1:var
-ae=0;if(0===b[0]){var
-aB=b[3];if(az(function(a){var
-b=a[1];return az(function(a){switch(a[2][0]){case
+ad=0;if(0===b[0]){var
+aB=b[3];if(aA(function(a){var
+b=a[1];return aA(function(a){switch(a[2][0]){case
 6:case
-7:return 1;default:return 0}},b)},aB)){ac(Ge);ae=1}}if(!ae){var
-aC=a[6];if(az(function(a){return 5===a[1]?1:0},aC)){var
-aD=a[2];if(az(function(a){return 1===a[0]?1:0},aD))ac(Gf);else
+7:return 1;default:return 0}},b)},aB)){af(Gu);ad=1}}if(!ad){var
+aC=a[6];if(aA(function(a){return 5===a[1]?1:0},aC)){var
+aD=a[2];if(aA(function(a){return 1===a[0]?1:0},aD))af(Gv);else
 d=1}else
 d=1}break;case
 2:var
@@ -8427,46 +8511,46 @@ g=0;if(!b[1]){var
 d=b[2];if(8===d[0]){var
 e=d[1];if(7===e[0]){var
 c=e[1],a=0;switch(c[0]){case
-1:if(o(c[1],Gg))a=1;break;case
+1:if(o(c[1],Gw))a=1;break;case
 6:var
-f=c[1];if(1!==f[0]||o(f[1],Gh))a=1;break;default:a=1}if(!a)return 1-D}}else
-g=1}if(!g&&8===b[2][0])return 1;return 0},aG=b[3],aK=0;if(az(function(a){return az(aF,a[1])},aG))ac(Gi);else{var
-ah=0;if(az(function(a){return 11===a[1]?1:0},_)){var
+f=c[1];if(1!==f[0]||o(f[1],Gx))a=1;break;default:a=1}if(!a)return 1-D}}else
+g=1}if(!g&&8===b[2][0])return 1;return 0},aG=b[3],aK=0;if(aA(function(a){return aA(aF,a[1])},aG))af(Gy);else{var
+ah=0;if(aA(function(a){return 11===a[1]?1:0},_)){var
 aj=0;if(1===C&&2===a[5][0]){var
 aa=0;aj=1}if(!aj)var
-aa=1;if(aa){ac(Gj);ah=1}}if(!ah){var
-aH=b[3];if(hF(function(a){var
-b=a[1];return hF(function(d){var
+aa=1;if(aa){af(Gz);ah=1}}if(!ah){var
+aH=b[3];if(hM(function(a){var
+b=a[1];return hM(function(d){var
 b=d[2],a=0;switch(b[0]){case
 0:var
-c=b[1];if(o(c,FV)){if(!o(c,FW))return az(FU,_)}else
+c=b[1];if(o(c,F$)){if(!o(c,Ga))return aA(F_,_)}else
 a=1;break;case
-1:if(!o(b[1],FX))a=1;break;case
+1:if(!o(b[1],Gb))a=1;break;case
 7:case
 8:a=1;break}return a?1:0},b)},aH)){d=3;aK=1}else
-ac(Gk)}}break;case
+af(GA)}}break;case
 1:var
 ak=0,ab=b[4];if(typeof
 ab==="number"||!(1<ab[0]))ak=1;else
 d=5;if(ak)d=1;break;default:d=2}break;case
 3:switch(b[0]){case
-0:if(az(av,b[3]))ac(Gl);else
+0:if(aA(av,b[3]))af(GB);else
 d=3;break;case
 2:d=2;break;default:d=1}break;case
 7:switch(b[0]){case
 2:var
-ad=b[1],al=0;if(az(function(a){if(typeof
+ac=b[1],al=0;if(aA(function(a){if(typeof
 a!=="number"&&2===a[0]){var
 b=a[4];if(typeof
-b!=="number"&&3===b[0])return 1}return 0},ad)){ac(Gm);al=1}else
-if(az(function(a){if(typeof
-a!=="number"&&2===a[0])return R(a[4]);return 0},ad)){ac(Gn);al=1}else
+b!=="number"&&3===b[0])return 1}return 0},ac)){af(GC);al=1}else
+if(aA(function(a){if(typeof
+a!=="number"&&2===a[0])return R(a[4]);return 0},ac)){af(GD);al=1}else
 d=4;break;case
 1:d=1;break;default:d=4}break;default:d=1}var
 h=0;switch(d){case
 1:if(1===b[0]){var
-am=0,Z=b[4];if(typeof
-Z!=="number"&&3===Z[0]){ac(Gd);am=1}if(!am)if(R(b[4]))ac(Gc);else
+am=0,Y=b[4];if(typeof
+Y!=="number"&&3===Y[0]){af(Gt);am=1}if(!am)if(R(b[4]))af(Gs);else
 h=3}else
 h=3;break;case
 4:h=3;break;case
@@ -8481,14 +8565,14 @@ f=0;switch(a[0]){case
 X=a[6];break;case
 4:var
 X=a[3];break;case
-5:if(az(FS,a[4])){ac(Ga);e=2;f=1}else
+5:if(aA(F8,a[4])){af(Gq);e=2;f=1}else
 if(0===b[0]){var
-aA=b[3];if(az(function(a){return 0!==a[1]?1:0},aA)){ac(Gb);e=2;f=1}else
+az=b[3];if(aA(function(a){return 0!==a[1]?1:0},az)){af(Gr);e=2;f=1}else
 f=1}else
 f=1;break;case
 6:f=1;break;case
 7:var
-T=a[4],S=a[2];e=3;f=1;break;default:e=1;f=1}if(!f)if(0===b[0]){if(az(function(a){return 11===a[1]?1:0},X)){ac(F$);e=2}}else
+T=a[4],S=a[2];e=3;f=1;break;default:e=1;f=1}if(!f)if(0===b[0]){if(aA(function(a){return 11===a[1]?1:0},X)){af(Gp);e=2}}else
 e=1;break;case
 0:e=2;break;case
 4:e=3;break;case
@@ -8496,48 +8580,48 @@ e=1;break;case
 w=0;switch(e){case
 2:break;case
 3:var
-an=0;if(az(function(a){return 10===a[1]?1:0},T)&&az(function(a){return 2===a[0]?1:0},S)){ac(F3);an=1}if(!an)w=2;break;case
+an=0;if(aA(function(a){return 10===a[1]?1:0},T)&&aA(function(a){return 2===a[0]?1:0},S)){af(Gh);an=1}if(!an)w=2;break;case
 0:w=2;break;default:w=1}var
 J=0;switch(w){case
 2:var
 l=0;switch(a[0]){case
 5:case
-7:if(az(FT,a[4])){ac(F9);l=1}else
+7:if(aA(F9,a[4])){af(Gn);l=1}else
 if(7===a[0])switch(b[0]){case
 2:var
 ay=function(a){if(typeof
-a!=="number"&&1===a[0])return Q(a[3]);return 0};if(az(ay,b[1]))ac(F_);l=1;break;case
+a!=="number"&&1===a[0])return Q(a[3]);return 0};if(aA(ay,b[1]))af(Go);l=1;break;case
 0:break;default:J=1;l=1}else
-l=1;break}if(!l)if(0===b[0]&&Q(b[3]))ac(F8);else
+l=1;break}if(!l)if(0===b[0]&&Q(b[3]))af(Gm);else
 J=1;break;case
 1:J=1;break}var
-U=ai(u(v,F4)),ax=aX(u(U,F5)),A=[0,a,b,aX(u(U,F6)),ax],x=A[1];if(7===x[0]){var
+U=ai(u(v,Gi)),ax=aX(u(U,Gj)),A=[0,a,b,aX(u(U,Gk)),ax],x=A[1];if(7===x[0]){var
 K=A[2],ao=x[4],ap=x[2];if(2===K[0])var
 aq=K[1],B=m(function(a){if(typeof
 a!=="number"&&2===a[0]){var
 b=a[4];if(typeof
 b!=="number"&&0===b[0]){var
-e=b[1],c=E(om(g(ap),0,ao),e);if(c){var
+e=b[1],c=F(ox(g(ap),0,ao),e);if(c){var
 d=c[1];if(typeof
 d!=="number"&&14===d[0])return 0;return 1}return 1}return 1}return 1},aq);else
 var
 B=1}else
 var
-B=1;return B?A:ac(F7)}function
-Gp(b){var
-c=au(b),g=64,h=H2(64,c)?g:c,a=0,i=h-18|0;for(;;){var
+B=1;return B?A:af(Gl)}function
+GF(b){var
+c=au(b),g=64,h=Ig(64,c)?g:c,a=0,i=h-18|0;for(;;){var
 d=a<=i?1:0;if(d){var
-e=aw(dO(b,a,18),Gq);if(!e){var
+e=ax(dT(b,a,18),GG);if(!e){var
 a=a+1|0;continue}var
 f=e}else
 var
-f=d;return f}}Il(function(b){try{if(Gp(b))var
-a=Gs;else{try{var
-e=0,d=FY(b);e=1}catch(a){a=rD(a);if(a[1]===o4)var
+f=d;return f}}IB(function(b){try{if(GF(b))var
+a=GI;else{try{var
+e=0,d=Gc(b);e=1}catch(a){a=rO(a);if(a[1]===pd)var
 c=[0,a[2]];else{if(a!==W)throw a;var
 c=2}}if(e)var
-c=Bs(b,d)?1===d[2][0]?1:0:2;var
-a=c}}catch(a){return Gr}if(typeof
+c=BF(b,d)?1===d[2][0]?1:0:2;var
+a=c}}catch(a){return GH}if(typeof
 a==="number")switch(a){case
-0:return Gt;case
-1:return Gu;default:return Gv}return a$(Gw,a[1])});kn(0);return}(globalThis));
+0:return GJ;case
+1:return GK;default:return GL}return ba(GM,a[1])});ky(0);return}(globalThis));

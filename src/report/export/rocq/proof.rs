@@ -57,7 +57,9 @@ fn covered(proof: &Proof, subject: &Subject<'_>) -> Exported<()> {
     let is_one_to_one = matches!(proof, Proof::Tree(_)) && requires(&["one_to_one"]);
     let what = match (subject.kind, proof) {
         (Kind::Formulas, _)
-            if has(&|by| matches!(by, Evidence::Tolerances(..) | Evidence::Fan(_))) =>
+            if has(&|by| {
+                matches!(by, Evidence::Tolerances(..) | Evidence::Fan(_) | Evidence::Between(..))
+            }) =>
         {
             "the evidence \"tolerances\" of such a mechanism"
         }
@@ -196,9 +198,6 @@ fn evidence(by: &Evidence) -> Exported<String> {
         Evidence::Tolerances(by, ends, directions) => {
             format!("Apart_ ({}) {} {}", evidence(by)?, quoted(ends), matrix(directions))
         }
-        Evidence::Inside(by, ..) if matches!(**by, Evidence::Rank(_)) => {
-            return not_covered("the evidence \"inside\" about \"rank\"")
-        }
         Evidence::Inside(by, n, places) => format!("Inside_ ({}) ({n}) {places}", evidence(by)?),
         Evidence::Control(by) => match &**by {
             Evidence::Turned(by, n, places) => {
@@ -208,18 +207,27 @@ fn evidence(by: &Evidence) -> Exported<String> {
         },
         Evidence::Turned(..) => return not_covered("the evidence \"turned\""),
         Evidence::Fan(parts) => format!("Fan_ {}", list(fan(parts)?)),
-        Evidence::Between(..) => return not_covered(format!("the evidence \"{}\"", by.name())),
+        Evidence::Between(mu, places, lower, upper) => {
+            let [lower, upper] = [evidence(lower)?, evidence(upper)?];
+            format!("Between_ {} {places}%N ({lower}) ({upper})", row(mu))
+        }
     })
 }
 
 fn fan(parts: &[Part]) -> Exported<Vec<String>> {
-    let part = |Part(c, n, places, by): &Part| match by {
-        Evidence::Tolerances(..) => {
-            Ok(format!("({}, ({n})%Z, {places}%N, {})", row(c), evidence(by)?))
-        }
-        _ => not_covered("the evidence \"fan\" without \"tolerances\""),
+    let part = |Part(c, n, places, by): &Part| match is_of_fan(by) {
+        true => Ok(format!("({}, ({n})%Z, {places}%N, {})", row(c), evidence(by)?)),
+        false => not_covered("this evidence \"fan\""),
     };
     parts.iter().map(part).collect()
+}
+
+fn is_of_fan(by: &Evidence) -> bool {
+    use Evidence::{Inside, Lower, Rank, Test, Tolerances};
+    match by {
+        Inside(by, ..) => is_of_fan(by),
+        by => matches!(by, Test | Lower(_) | Rank(_) | Tolerances(..)),
+    }
 }
 
 fn at_controls(by: &Evidence) -> Exported<String> {
