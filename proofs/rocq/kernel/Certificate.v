@@ -53,7 +53,8 @@ Inductive written_body :=
 (** Legs of machines whose claims are those of Legs.v, their vectors of as many numbers as there are: rods on arms, of all legs or none. *)
 Inductive written_driven :=
   | AnySlider_ (direction anchor platform : list quantity) (length : quantity) (mode : bool)
-  | AnyStrut_ (anchor platform : list quantity)
+  | AnyStrut_ (anchor platform : list quantity) (base_axis : option (list quantity))
+  | AnyPlanar_ (direction : list quantity)
   | AnyArm_ (axis reference anchor platform : list quantity) (arm rod : quantity) (mode : bool).
 
 Inductive about := Transmission | JointRange | Speed_ | Condition_ | Serial_ | Parallel_ | Stiffness_ | Constraint_ | Force_ | Clearance_ | Acceleration_ | OneToOne_ | Accuracy_ | LegAngle_ | BaseJoint_ | PlatformJoint_ | Load_.
@@ -212,7 +213,9 @@ Definition driven_text (l : written_driven) : text :=
   object match l with
   | AnySlider_ d a p len m => [field "drive" (quoted "slider"); field "direction" (vector d); field "anchor" (vector a);
       field "platform" (vector p); field "length" (quantity_text len); mode m]
-  | AnyStrut_ a p => [field "drive" (quoted "strut"); field "anchor" (vector a); field "platform" (vector p)]
+  | AnyStrut_ a p k => [field "drive" (quoted "strut"); field "anchor" (vector a); field "platform" (vector p)] ++
+      match k with Some k => [field "base_axis" (vector k)] | None => [] end
+  | AnyPlanar_ d => [field "drive" (quoted "planar"); field "direction" (vector d)]
   | AnyArm_ k x a p r len m => [field "drive" (quoted "arm"); field "axis" (vector k); field "reference" (vector x); field "anchor" (vector a);
       field "platform" (vector p); field "arm" (quantity_text r); field "length" (quantity_text len); mode m]
   end.
@@ -432,7 +435,8 @@ Definition in_leg (l : written_leg) : list expression :=
 Definition in_driven (l : written_driven) : list expression :=
   flat_map in_quantity match l with
   | AnySlider_ d a p len _ => d ++ a ++ p ++ [len]
-  | AnyStrut_ a p => a ++ p
+  | AnyStrut_ a p k => a ++ p ++ match k with Some k => k | None => [] end
+  | AnyPlanar_ d => d
   | AnyArm_ k x a p r len _ => k ++ x ++ a ++ p ++ [r; len]
   end%list.
 Definition in_place (w : written_place) : list expression :=
@@ -726,7 +730,8 @@ Definition any_drive_of (k : mobility) (l : written_driven) : any_drive :=
   let vector v := vector_of (map tolerance_of v) in
   match l with
   | AnySlider_ d a p len m => LinearDrive (SliderLeg (Slider (vector d) (vector a) (vector p) (tolerance_of len) m))
-  | AnyStrut_ a p => LinearDrive (StrutLeg (vector a) (vector p) None)
+  | AnyStrut_ a p k => LinearDrive (StrutLeg (vector a) (vector p) (option_map vector k))
+  | AnyPlanar_ d => LinearDrive (PlanarLeg (vector d))
   | AnyArm_ axis x a p r len m =>
       let turns := match axis with [] => Tolerances (exactly (0 // 1)) (exactly (0 // 1)) (exactly (1 // 1)) | _ => vector axis end in
       RotaryDrive (ArmDrive turns (vector x) (vector a) (vector p) (tolerance_of r) (tolerance_of len) m)
@@ -1157,7 +1162,12 @@ Definition take_driven (w : written_driven) (l : list Claim.number) : exact_driv
   | AnySlider_ d a p len m =>
       let (d, l) := take_list d l in let (a, l) := take_list a l in let (p, l) := take_list p l in let (len, l) := take len l in
       (XLinear (ExactSlider (numbers_of d) (numbers_of a) (numbers_of p) len m), l)
-  | AnyStrut_ a p => let (a, l) := take_list a l in let (p, l) := take_list p l in (XLinear (ExactStrut (numbers_of a) (numbers_of p) None), l)
+  | AnyStrut_ a p k => let (a, l) := take_list a l in let (p, l) := take_list p l in
+      match k with
+      | Some k => let (k, l) := take_list k l in (XLinear (ExactStrut (numbers_of a) (numbers_of p) (Some (numbers_of k))), l)
+      | None => (XLinear (ExactStrut (numbers_of a) (numbers_of p) None), l)
+      end
+  | AnyPlanar_ d => let (d, l) := take_list d l in (XLinear (ExactPlanar (numbers_of d)), l)
   | AnyArm_ k x a p r len m =>
       let (k', l) := take_list k l in let (x, l) := take_list x l in let (a, l) := take_list a l in let (p, l) := take_list p l in
       let (r, l) := take r l in let (len, l) := take len l in
@@ -1275,7 +1285,7 @@ Definition is_turning (k : motion) (ls : list (list quantity * list quantity)) (
   forallb is_demand_bound (demands false (length ls) bs rs).
 
 Definition quantities_of_driven (l : written_driven) : list quantity :=
-  match l with AnySlider_ d a p len _ => d ++ a ++ p ++ [len] | AnyStrut_ a p => a ++ p | AnyArm_ k x a p r len _ => k ++ x ++ a ++ p ++ [r; len] end%list.
+  match l with AnySlider_ d a p len _ => d ++ a ++ p ++ [len] | AnyStrut_ a p k => a ++ p ++ match k with Some k => k | None => [] end | AnyPlanar_ d => d | AnyArm_ k x a p r len _ => k ++ x ++ a ++ p ++ [r; len] end%list.
 Definition are_well_formed_legs (k : mobility) (ls : list written_driven) (ell : option expression) (w : written_place) (o : option written_orientation)
     (is_asked_of_two : bool) (rs : list written_requirement) : bool :=
   let flat := match k with TranslatesInPlane | Turns InPlane => true | _ => false end in
@@ -1283,7 +1293,9 @@ Definition are_well_formed_legs (k : mobility) (ls : list written_driven) (ell :
   let arms := has_arms ls in
   forallb (fun l => match l with
     | AnySlider_ d a p _ _ => negb arms && is_vector d && is_vector a && is_vector p
-    | AnyStrut_ a p => negb arms && is_vector a && is_vector p && match k with Turns _ => false | _ => true end
+    | AnyStrut_ a p axis => negb arms && is_vector a && is_vector p &&
+        match k, axis with Turns _, _ => false | Translates, Some axis => is_vector axis | _, Some _ => false | _, None => true end
+    | AnyPlanar_ d => negb arms && is_vector d && match k with Translates => true | _ => false end
     | AnyArm_ axis x a p _ _ _ => (if flat then match axis with [] => true | _ => false end else is_vector axis) && is_vector x && is_vector a && is_vector p
     end) ls &&
   Nat.leb (freedom k) (length ls) && Nat.leb (length ls) 12 && forallb is_range (flat_map quantities_of_driven ls) &&

@@ -228,6 +228,16 @@ Proof.
     exists a, b, c, d, e, f, g, h', i. reflexivity.
 Qed.
 
+Lemma square_replaced : forall (A : Type) n i (F : list A) rows, is_square n rows = true -> length F = n -> (i < n)%nat -> is_square n (replaced i F rows) = true.
+Proof.
+  intros A n i F rows h lF li. unfold is_square in *. apply andb_true_iff in h as [h h2]. apply andb_true_iff in h as [h h1]. apply Nat.eqb_eq in h1. rewrite h. cbn [andb].
+  apply andb_true_iff. split.
+  - unfold replaced. apply Nat.eqb_eq. rewrite app_length, firstn_length. cbn [length]. rewrite skipn_length. lia.
+  - rewrite forallb_forall in *. intros r ir. unfold replaced in ir. apply in_app_or in ir as [ir | [<- | ir]]; [| apply Nat.eqb_eq; exact lF |]; apply h2.
+    + rewrite <- (firstn_skipn i rows). apply in_or_app. left. exact ir.
+    + rewrite <- (firstn_skipn (S i) rows). apply in_or_app. right. exact ir.
+Qed.
+
 (** Cramer's rule. *)
 Lemma cramer : forall n rows F w, is_square n rows = true -> length F = n -> length w = n ->
   determinant rows * dot F w = dot (map (fun j => determinant (replaced j F rows)) (seq 0 n)) (map (fun r => dot r w) rows).
@@ -306,6 +316,45 @@ Definition is_wider (which : nat) (A a : numbers) (turned : numbers -> numbers) 
   | _, _, _ => false
   end.
 
+(** Rows of numbers, each enclosed once. *)
+Fixpoint all_enclosed (l : list number) : option (list fixed) :=
+  match l with [] => Some [] | x :: l' => match enclose bits x, all_enclosed l' with Some a, Some r => Some (a :: r) | _, _ => None end end.
+Fixpoint all_rows_enclosed (rows : list (list number)) : option (list (list fixed)) :=
+  match rows with [] => Some [] | r :: rows' => match all_enclosed r, all_rows_enclosed rows' with Some a, Some q => Some (a :: q) | _, _ => None end end.
+Definition fsquare (l : list fixed) : fixed := fold_right (fun a s => add (sqr bits a) s) zero l.
+Definition fdeterminant (rows : list (list fixed)) : fixed :=
+  let minor a b c d := sub (mul bits a d) (mul bits b c) in
+  match rows with
+  | [[a; b]; [c; d]] => minor a b c d
+  | [[a; b; c]; [d; e; f]; [g; h; i]] => add (sub (mul bits a (minor e f h i)) (mul bits b (minor d f g i))) (mul bits c (minor d e g h))
+  | _ => zero
+  end.
+Lemma all_rows_enclosed_sound : forall rows q, all_rows_enclosed rows = Some q -> Forall2 (Forall2 (contains bits)) q (map (map value) rows).
+Proof.
+  induction rows as [| r rows IH]; intros q e; cbn [all_rows_enclosed map] in *; [injection e as <-; constructor |].
+  destruct (all_enclosed r) as [b |] eqn:eb; [| discriminate]. destruct (all_rows_enclosed rows) as [q' |]; [| discriminate]. injection e as <-.
+  constructor; [| exact (IH q' eq_refl)]. clear - eb. revert b eb. induction r as [| x r IH]; intros b e; cbn [all_enclosed map] in *; [injection e as <-; constructor |].
+  destruct (enclose bits x) as [c |] eqn:ec; [| discriminate]. destruct (all_enclosed r) as [b' |]; [| discriminate]. injection e as <-.
+  constructor; [exact (enclose_sound bits x c ec) | exact (IH b' eq_refl)].
+Qed.
+Lemma fsquare_sound : forall l L, Forall2 (contains bits) l L -> contains bits (fsquare l) (dot L L).
+Proof.
+  induction 1 as [| a x l L h hs IH]; [apply zero_sound |]. cbn [fsquare fold_right dot]. replace (x * x) with (x ^ 2) by ring. apply add_sound; [apply sqr_sound, h | exact IH].
+Qed.
+Lemma fdeterminant_sound : forall n rows M, is_square n M = true -> Forall2 (Forall2 (contains bits)) rows M -> contains bits (fdeterminant rows) (determinant M).
+Proof.
+  intros n rows M sq h. destruct (square_cases n M sq) as [[_ [a [b [c [d ->]]]]] | [_ [a [b [c [d [e [f [g [k [i ->]]]]]]]]]]];
+    repeat match goal with H : Forall2 _ _ (_ :: _) |- _ => inversion H; clear H; subst | H : Forall2 _ _ [] |- _ => inversion H; clear H; subst end; cbn [fdeterminant determinant].
+  - apply sub_sound; apply mul_sound; assumption.
+  - repeat (apply add_sound || apply sub_sound || apply mul_sound); assumption.
+Qed.
+Lemma replaced_related : forall (A B : Type) (P : A -> B -> Prop) i a b l m, P a b -> Forall2 P l m -> Forall2 P (replaced i a l) (replaced i b m).
+Proof.
+  intros A B P i a b l m h hs. unfold replaced. revert i. induction hs as [| x y l m hxy hs IH]; intros [| i]; cbn [firstn skipn app]; try (constructor; [exact h | constructor]).
+  - constructor; [exact h | exact hs].
+  - constructor; [exact hxy | exact (IH i)].
+Qed.
+
 (** [vs]: directions, where the demand is about all; of what has several tests, [which]. *)
 Definition fails (n : nat) (c : nconfiguration) (which : nat) (vs : list (list number)) (d : demand) : bool :=
   let bound b u := Times (Times (Over (1 // 1) b) (Over (1 // 1) b)) (ndot u u) in
@@ -360,9 +409,12 @@ Definition fails (n : nat) (c : nconfiguration) (which : nat) (vs : list (list n
   (* tau_i = k det(rays with F for ray i)/det(rays) where row i is ray i over k; of which sign the former is, is told by the test *)
   | LoadMax i F b, [] => match all_rays (nrays c) with
       | Some rays => is_square n rays && Nat.eqb (length F) n && match nth_error rays i with
-          | Some ray => of_row i (fun row => let d := ndeterminant rays in let e := ndeterminant (replaced i F rays) in
-              certainly true b && certainly true (Times d d) && certainly true (if Nat.eqb which 0 then e else Minus (0 // 1) e) &&
-              certainly true (Minus (Times (Times e e) (ndot ray ray)) (Times (Times (Times b b) (Times d d)) (ndot row row))))
+          | Some ray => of_row i (fun row => match all_rows_enclosed rays, all_rows_enclosed [F; row; ray], enclose bits b with
+              | Some rs, Some [f; q; r], Some y => let d := sqr bits (fdeterminant rs) in let e := fdeterminant (replaced i f rs) in
+                  is_positive (Some y) && is_positive (Some d) && is_positive (Some (if Nat.eqb which 0 then e else neg e)) &&
+                  is_positive (Some (sub (mul bits (sqr bits e) (fsquare r)) (mul bits (mul bits (sqr bits y) d) (fsquare q))))
+              | _, _, _ => false
+              end)
           | None => false
           end
       | None => false
@@ -567,17 +619,29 @@ Proof.
   - destruct u as [| s [| t [| x [|]]]]; discriminate.
   - destruct (all_rays (nrays c)) as [rays |] eqn:er; [| discriminate]. apply andb_true_iff in h as [h h3]. apply andb_true_iff in h as [sq lP]. apply Nat.eqb_eq in lP.
     destruct (nth_error rays i) as [ray |] eqn:ey; [| discriminate]. destruct (nth_error (njacobian c) i) as [row |] eqn:ew; [| discriminate].
-    apply andb_true_iff in h3 as [_ h]. apply andb_true_iff in h as [h h4]. apply andb_true_iff in h as [h _]. apply andb_true_iff in h as [b0 d0].
-    apply positive_sound in b0, d0, h4. cbn [value] in d0, h4. rewrite !value_ndeterminant, !value_ndot, map_replaced in h4. rewrite value_ndeterminant in d0.
+    apply andb_true_iff in h3 as [_ h]. destruct (all_rows_enclosed rays) as [frs |] eqn:e1; [| discriminate]. destruct (all_rows_enclosed [P; row; ray]) as [[| fF [| fq [| fr [|]]]] |] eqn:e2; try discriminate.
+    destruct (enclose bits b) as [fb |] eqn:e3; [| discriminate]. apply andb_true_iff in h as [h h4]. apply andb_true_iff in h as [h _]. apply andb_true_iff in h as [b0 d0].
+    apply all_rows_enclosed_sound in e1, e2. apply enclose_sound in e3. rewrite <- (square_map _ _ value n rays) in sq. cbn [map] in e2.
+    assert (C3 : Forall2 (contains bits) fF (map value P) /\ Forall2 (contains bits) fq (map value row) /\ Forall2 (contains bits) fr (map value ray)).
+    { clear - e2. inversion e2 as [| ? ? ? ? c1 e2']. inversion e2' as [| ? ? ? ? c2 e2'']. inversion e2'' as [| ? ? ? ? c3 _]. subst. repeat split; assumption. }
+    destruct C3 as [c1 [c2 c3]].
+    assert (li : (i < n)%nat).
+    { assert (ln := sq). apply andb_true_iff in ln as [ln _]. apply andb_true_iff in ln as [_ ln]. apply Nat.eqb_eq in ln. rewrite map_length in ln. rewrite <- ln. apply nth_error_Some. congruence. }
+    pose proof (fdeterminant_sound _ _ _ sq e1) as Dc.
+    pose proof (fdeterminant_sound _ _ _ (square_replaced _ _ i (map value P) _ sq ltac:(rewrite map_length; exact lP) li) (replaced_related _ _ _ i _ _ _ _ c1 e1)) as Ec.
+    pose proof (is_positive_sound _ _ h4 (sub_sound bits _ _ _ _ (mul_sound bits _ _ _ _ (sqr_sound bits _ _ Ec) (fsquare_sound _ _ c3))
+      (mul_sound bits _ _ _ _ (mul_sound bits _ _ _ _ (sqr_sound bits _ _ e3) (sqr_sound bits _ _ Dc)) (fsquare_sound _ _ c2)))) as P4.
+    pose proof (is_positive_sound _ _ d0 (sqr_sound bits _ _ Dc)) as d1. pose proof (is_positive_sound _ _ b0 e3) as b1.
+    clear h4 d0 b0. rename P4 into h4, d1 into d0, b1 into b0.
     destruct (all_rays_sound _ _ _ er RY) as [ks [k1 [k2 k3]]].
     assert (lk : nth_error ks i <> None) by (apply nth_error_Some; rewrite k1; apply nth_error_Some; congruence). destruct (nth_error ks i) as [k0 |] eqn:ek; [clear lk | congruence].
     assert (nk : k0 <> 0) by (rewrite Forall_forall in k2; apply k2, (nth_error_In _ _ ek)).
     assert (er2 : map value row = map (Rmult k0) (map value ray)).
     { assert (E : nth_error (jacobian k) i = Some (map value row)) by (rewrite J, nth_error_map, ew; reflexivity). rewrite k3, nth_error_map in E.
       rewrite (nth_combined _ _ _ _ _ _ _ ek ey) in E. cbn [option_map fst snd] in E. rewrite map_map. congruence. }
-    rewrite er2, dot_map, (Solve.dot_commutes _ (map (Rmult k0) _)), dot_map in h4. rewrite <- (square_map _ _ value n rays) in sq.
+    rewrite er2, dot_map, (Solve.dot_commutes _ (map (Rmult k0) _)), dot_map in h4.
     set (A := map (map value) rays) in *. set (G := map value P) in *. assert (lG : length G = n) by (unfold G; rewrite map_length; exact lP). set (D := determinant A) in *.
-    assert (D0 : D <> 0) by (intro z; rewrite z in d0; lra). assert (lA : length A = n) by (apply andb_true_iff in sq as [sq _]; apply andb_true_iff in sq as [_ sq]; apply Nat.eqb_eq, sq).
+    assert (D0 : D <> 0) by (intro z; rewrite z in d0; replace (0 ^ 2) with 0 in d0 by ring; lra). assert (lA : length A = n) by (apply andb_true_iff in sq as [sq _]; apply andb_true_iff in sq as [_ sq]; apply Nat.eqb_eq, sq).
     set (us := map (fun j => determinant (replaced j G A)) (seq 0 n)). assert (lu : length us = length rays) by (unfold us; rewrite map_length, seq_length, <- lA; apply map_length).
     set (tau := map (fun p => fst p / (D * snd p)) (combine us ks)).
     assert (et : nth i tau 0 = determinant (replaced i G A) / (D * k0)).

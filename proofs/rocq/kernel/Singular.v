@@ -405,22 +405,13 @@ Definition is_strut_path (k : motion) (ell : R) (l : strut) (P : R -> vec) (Q : 
 Section Precision.
 Variable bits : positive.
 
-Fixpoint all_enclosed (l : list number) : option (list fixed) :=
-  match l with [] => Some [] | x :: l' => match enclose bits x, all_enclosed l' with Some a, Some r => Some (a :: r) | _, _ => None end end.
-Fixpoint all_rows_enclosed (rows : list (list number)) : option (list (list fixed)) :=
-  match rows with [] => Some [] | r :: rows' => match all_enclosed r, all_rows_enclosed rows' with Some a, Some q => Some (a :: q) | _, _ => None end end.
 Definition enclosed_determinant (n : nat) (rows : list (list number)) : option fixed :=
-  option_map (laplace fixed zero (Fixed.integer bits 1) sub (mul bits) n) (all_rows_enclosed rows).
+  option_map (laplace fixed zero (Fixed.integer bits 1) sub (mul bits) n) (all_rows_enclosed bits rows).
 
 Lemma enclosed_determinant_sound : forall n rows a, enclosed_determinant n rows = Some a -> contains bits a (detR n (map (map value) rows)).
 Proof.
-  intros n rows a h. unfold enclosed_determinant in h. destruct (all_rows_enclosed rows) as [q |] eqn:e; [| discriminate]. injection h as <-.
-  apply laplace_related; [apply zero_sound | apply Fixed.integer_sound | intros; apply sub_sound; assumption | intros; apply mul_sound; assumption |].
-  revert q e. induction rows as [| r rows IH]; intros q e; cbn [all_rows_enclosed map] in *; [injection e as <-; constructor |].
-  destruct (all_enclosed r) as [b |] eqn:eb; [| discriminate]. destruct (all_rows_enclosed rows) as [q' |]; [| discriminate]. injection e as <-.
-  constructor; [| exact (IH q' eq_refl)]. clear - eb. revert b eb. induction r as [| x r IH]; intros b e; cbn [all_enclosed map] in *; [injection e as <-; constructor |].
-  destruct (enclose bits x) as [c |] eqn:ec; [| discriminate]. destruct (all_enclosed r) as [b' |]; [| discriminate]. injection e as <-.
-  constructor; [exact (enclose_sound bits x c ec) | exact (IH b' eq_refl)].
+  intros n rows a h. unfold enclosed_determinant in h. destruct (all_rows_enclosed bits rows) as [q |] eqn:e; [| discriminate]. injection h as <-.
+  apply laplace_related; [apply zero_sound | apply Fixed.integer_sound | intros; apply sub_sound; assumption | intros; apply mul_sound; assumption | exact (all_rows_enclosed_sound bits _ _ e)].
 Qed.
 
 (** The determinants of the struts' rows, times their lengths, at two poses have opposite signs. *)

@@ -234,7 +234,7 @@ console.log("accelerations of three platforms that turn, and four with a stiffne
 let loads = 0, no_loads = 0;
 for (const [name, force, stated, edits] of [
   ["delta-parallel-margin", "10, 5, -100", 83, []], ["delta-parallel-margin", '10, "-5", 100', 83, [[/length = 333/g, 'length = "333 ± 0.1"'], [/direction = \[0, 0, 1\]/g, 'direction = ["0 ± 0.001", "0 ± 0.001", 1]']]],
-  ["upu-struts", '"sqrt(2)", -3, 9', 9.5, []], ["rotary-delta-speed", "0, 2, -10", 90, []], ["kernel/five-bar", "1, -3", 495, []], ["orthoglide-prototype", "0, 1, 3", 9, [["[requirements]", '[requirements]\ntransmission = { max = 2 }']]],
+  ["upu-struts", '"sqrt(2)", -3, 9', 9.5, []], ["tripteron", "1, 2, -3", 9, []], ["kernel/upu-base-axes", "1, -3, 9", 9.5, []], ["rotary-delta-speed", "0, 2, -10", 90, []], ["kernel/five-bar", "1, -3", 495, []], ["orthoglide-prototype", "0, 1, 3", 9, [["[requirements]", '[requirements]\ntransmission = { max = 2 }']]],
 ]) {
   const design = path.join(made, "load.toml"), file = path.join(made, "load.cert.json");
   const own_text = fs.readFileSync(path.join(__dirname, "../../../tests/designs", `${name}.toml`), "utf8").replace(/\[requirements\][^]*/, "[requirements]\n");
@@ -267,7 +267,7 @@ const refutations = [
   ["kernel/linear-delta-formulas", "joint_range = { max = 300 }", 900], ["kernel/linear-delta-formulas", "joint_force = { tool = 10, max = 1 }", 90], ["kernel/linear-delta-formulas", "joint_speed = { tool = 10, max = 1 }", 90],
   ["kernel/linear-delta-formulas", "stiffness = { joint = [3, 4, 5], min = 90 }", 0.01], ["kernel/agile-eye", "transmission = { max = 1.01 }", 9], ["kernel/agile-eye", "joint_force = { tool = 10, max = 1 }", 90],
   ["kernel/georg-v-type", "transmission = { max = 0.01 }", 9000],
-  ...["skew-guides", "upu-struts", "orthoglide-tolerance", "rotary-delta-speed"].map((name) => [name, "load = { force = [1, 2, -10], max = 1 }", 900]), ["kernel/five-bar", "load = { force = [1, -3], max = 1 }", 9000],
+  ...["skew-guides", "upu-struts", "tripteron", "orthoglide-tolerance", "rotary-delta-speed"].map((name) => [name, "load = { force = [1, 2, -10], max = 1 }", 900]), ["kernel/five-bar", "load = { force = [1, -3], max = 1 }", 9000],
   ...["planar-3-rpr", "hexapod-linuxcnc", "spherical-3-ups"].map((name) => [`kernel/${name}`, "joint_acceleration = { speed = 50, acceleration = 1000, max = 10 }", 90000]),
 ];
 let no_refutations = 0;
@@ -473,7 +473,7 @@ console.log(`parts: ${by_parts} bounds with one answer, and ${no_parts} refused`
     [written(sliders(at(0, "1")), box(3), [], [[0, rank(63, 2 ** 40)]]), "CERTIFIED"], [written(sliders(at(0, "1")), box(3), [], [[0, rank(64, 2 ** 40)]]), "REJECTED"],
     [written(sliders(at(0, "1")), round, [], [[0, { inside: [rank(1), 1, 10] }]]), "CERTIFIED", 'NOT COVERED: the evidence "inside" about "rank"'],
     [written({ planar: { legs: [strut(0), strut(1)] } }, box(2), [{ quantity: "parallel_margin", end: "min", bound: "0.9" }], [[0, { rank: unit(2, 1) }], [1, "test"]]), "CERTIFIED",
-      'NOT COVERED: "parallel_margin" of struts in the plane'],
+      'NOT COVERED: "parallel_margin" of struts in such a claim'],
   ]) {
     const answers = three_answers(text);
     if (answers[0] !== exact_answer || answers[1] !== answers[2] || !answers[1].startsWith(answer ?? exact_answer)) fail(`${answers}: ${text}`);

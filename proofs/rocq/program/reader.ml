@@ -155,9 +155,10 @@ let is_arm v = match members v with ("drive", String "arm") :: _ -> true | _ -> 
 let driven v =
   let l = members v in
   let vector key = List.map quantity (array (get l key)) in
-  match string (get l "drive"), find l "base_axis" with
+  match string (get l "drive"), optional (fun v -> List.map quantity (array v)) (find l "base_axis") with
   | "slider", None -> AnySlider_ (vector "direction", vector "anchor", vector "platform", quantity (get l "length"), mode (get l "mode"))
-  | "strut", None -> AnyStrut_ (vector "anchor", vector "platform")
+  | "strut", axis -> AnyStrut_ (vector "anchor", vector "platform", axis)
+  | "planar", None -> AnyPlanar_ (vector "direction")
   | "arm", None -> AnyArm_ (vector "axis", vector "reference", vector "anchor", vector "platform", quantity (get l "arm"), quantity (get l "length"), mode (get l "mode"))
   | drive, _ -> not_covered [ "the drive \""; drive; "\" of such a machine" ]
 let is_strut v = match members v with ("drive", String "strut") :: _ -> true | _ -> false
@@ -464,8 +465,8 @@ let certificate text =
      not_covered [ "this evidence \"tolerances\" of a platform that turns" ]
    | Legs_ _, Nodes (_, _, nodes) when List.exists (fun n -> List.exists (fun (_, s) -> match s with Turned_ _ | AtControls_ _ -> true | _ -> false) n.by_) nodes ->
      not_covered [ "this set of orientations with such drives" ]
-   | Legs_ (_, legs, _, _, _, rs), _ when List.exists (fun r -> r.about_ = Parallel_) rs && List.exists (function AnyStrut_ _ -> true | _ -> false) legs ->
-     not_covered [ "\"parallel_margin\" of struts in the plane" ]
+   | Legs_ (_, legs, _, _, _, rs), _ when List.exists (fun r -> r.about_ = Parallel_) rs && List.exists (function AnyStrut_ _ | AnyPlanar_ _ -> true | _ -> false) legs ->
+     not_covered [ "\"parallel_margin\" of struts in such a claim" ]
    | Turning_ (kind, _, _, _, orientation, _, rs), Nodes _ when List.exists (fun r -> r.about_ = OneToOne_) rs &&
        (match kind, orientation with InSpace, Angle_ _ -> false | _ -> true) -> not_covered [ "\"one_to_one\" of this set of orientations" ]
    | (Legs_ (_, _, _, _, _, rs) | Closed_ (_, _, rs)), Nodes _ when List.exists (fun r -> r.about_ = OneToOne_) rs -> not_covered [ "\"one_to_one\" of such a mechanism" ]

@@ -4,18 +4,18 @@ globalThis!=="object"&&(this?b():(a.defineProperty(a.prototype,"_T_",{configurab
 b(){var
 b=this||self;b.globalThis=b;delete
 a.prototype._T_}}(Object));(function(O){"use strict";var
-j4="spatial",rj="Invalid_argument",hu="precision",aM='"',j3=1255,ke="inside",qf="(",qg=0x800,ri="yaw",qc="range",qd="tree",qe="jsError",cf=0x8000,rh="sqrt(",qb=256,ht="obligation",rg="load",fJ="offset",bo="machine",qa="End_of_file",eF="strut",j2="center",fI="arm",j1="Failure",rf="serial_margin",hC="parameters",cK=0xff,re="bodies",rd="max_angle",kd="outside",hB="base_axis",j0="ENOENT",rc="singular",rb=122,p$="([^/]+)",ra="0",jZ=0xf,fH=128,p_=0xdc00,q_="Sys_blocked_io",q$="fd ",fz="given",p9="ENOTEMPTY",a0=248,hs="bound",p8="Division_by_zero",q8="by",q9=1027,p7="Sys_error",hA="slider",p6="torsion",q7="postulate",p5="proof",kc="joint_error",fG="refuted",ez="mechanism",hr="row",p4="EEXIST",q6="roll_pitch_yaw",fF="y",p3="cube",dk="lower",q5="within",p2="clearance",q4="turned",p1="control",hq="int_of_string",p0="between",q2="definitions",q3="dependent",fE=1024,pY="from",pZ="name",q1=" : flags Open_rdonly and Open_wronly are not compatible",pX="orthocert/2",q0="reach",pW=512,qY="base_joint",qZ="witness",fD="-",bi="platform",pV=0x7ff0,pU="pitch",kb=": Not a directory",bE="min",qW="trim",eE="workspace",qX=" : file already exists",hp="split",qU='the failure "singular" of such a mechanism',ka="legs",qV="claim",jY="joint",dO=0xffffff,pT="platform_joint",pS="formulas",pR="roll",ho="atlas",qR="greatest",qS="nodes",qT="Out_of_memory",pQ="psi_max",hz="orientation",hn=254,qQ="angle",j$="index out of bounds",pP="end",qP="one_to_one",hy="_bigarr02",pO=" : flags Open_text and Open_binary are not compatible",qO="inverse",b0="drive",pN="coordinates",qN="holds",pM="lower_divided",pL="speed",qL="cylinder",qM="joints",cJ=0xffff,qH="a leaf that fails",qI="acceleration",qJ="force",fB="certified",fC="chords",qK=12520,jX="on",qG="same",ey="accuracy",fA="axis",qF="no_cube",qE="parallel_margin",pK='the drive "',jW="Unix.Unix_error",hx="fails",hm="tool",jV="mkdir",qC="rho",qD="least",hw=1000,jU="translational",j_="tolerances",pJ="Stack_overflow",j9="characteristic_length",ad="",j8="^",hk="places",hl=": No such file or directory",pI="/static/",eD=0x3f,pG="stiffness",pH="Not_found",dN="planar",fy="mode",qB="joint_speed",qA="Match_failure",pF="transmission",bD="anchor",qz="at",pE="joint_force",eC="leg",pD="joint_acceleration",hv="+",jT="rmdir",qy=0xf0,qx="spherical",pC=1026,qv="REJECTED",qw="undecided",bF="max",cg="direction",pA="leg_angle",pB="orthoglide",eB="rank",qt="constraint_margin",qu="fan",fx="test",py="Pervasives.do_at_exit",pz="utf8",bZ=0x80,eA="conditioning",ex="length",px="Undefined_recursive_module",j7=")",pw="base",qs="quantity",pv="joint_range",hj="tilt",pu="Q2",qr='the failure "same" of such a mechanism',qq="reference",ps="this quantity in a claim that is refuted",pt="point",qo="corner",qp=0xe0,pr="version",j6="z",qm="to",qn=0xdfff,jS="compare: functional value",ql="Assert_failure",b2="/",qk="provenance",dM="radius",hi="side",qi=-14,b1="require",qj="format",pq="Q1",j5="ENOTDIR",pp="all",dL="box",qh=250;function
+j4="spatial",rk="Invalid_argument",hw="precision",aN='"',j3=1255,ke="inside",qg="(",qh=0x800,rj="yaw",qd="range",qe="tree",qf="jsError",ci=0x8000,ri="sqrt(",qc=256,hv="obligation",rh="load",fK="offset",bp="machine",qb="End_of_file",eF="strut",j2="center",fJ="arm",j1="Failure",rg="serial_margin",hD="parameters",cM=0xff,rf="bodies",re="max_angle",kd="outside",fI="base_axis",j0="ENOENT",rd="singular",rc=122,qa="([^/]+)",rb="0",jZ=0xf,fH=128,p$=0xdc00,q$="Sys_blocked_io",ra="fd ",fz="given",p_="ENOTEMPTY",a1=248,hu="bound",p9="Division_by_zero",q9="by",q_=1027,p8="Sys_error",hC="slider",p7="torsion",q8="postulate",p6="proof",kc="joint_error",fG="refuted",ez="mechanism",ht="row",p5="EEXIST",q7="roll_pitch_yaw",fF="y",p4="cube",dm="lower",q6="within",p3="clearance",q5="turned",p2="control",hs="int_of_string",p1="between",q3="definitions",q4="dependent",fE=1024,pZ="from",p0="name",q2=" : flags Open_rdonly and Open_wronly are not compatible",pY="orthocert/2",q1="reach",pX=512,qZ="base_joint",q0="witness",fD="-",bi="platform",pW=0x7ff0,pV="pitch",kb=": Not a directory",bF="min",qX="trim",eE="workspace",qY=" : file already exists",hr="split",qV='the failure "singular" of such a mechanism',ka="legs",qW="claim",jY="joint",dP=0xffffff,pU="platform_joint",pT="formulas",pS="roll",hq="atlas",qS="greatest",qT="nodes",qU="Out_of_memory",pR="psi_max",hB="orientation",hp=254,qR="angle",j$="index out of bounds",pQ="end",qQ="one_to_one",hA="_bigarr02",pP=" : flags Open_text and Open_binary are not compatible",qP="inverse",bE="drive",pO="coordinates",qO="holds",pN="lower_divided",pM="speed",qM="cylinder",qN="joints",cL=0xffff,qI="a leaf that fails",qJ="acceleration",qK="force",fB="certified",fC="chords",qL=12520,jX="on",qH="same",ey="accuracy",fA="axis",qG="no_cube",qF="parallel_margin",pL='the drive "',jW="Unix.Unix_error",hz="fails",ho="tool",jV="mkdir",qD="rho",qE="least",hy=1000,jU="translational",j_="tolerances",pK="Stack_overflow",j9="characteristic_length",ae="",j8="^",hm="places",hn=": No such file or directory",pJ="/static/",eD=0x3f,pH="stiffness",pI="Not_found",cK="planar",fy="mode",qC="joint_speed",qB="Match_failure",pG="transmission",bD="anchor",qA="at",pF="joint_force",eC="leg",pE="joint_acceleration",hx="+",jT="rmdir",qz=0xf0,qy="spherical",pD=1026,qw="REJECTED",qx="undecided",bH="max",bG="direction",pB="leg_angle",pC="orthoglide",eB="rank",qu="constraint_margin",qv="fan",fx="test",pz="Pervasives.do_at_exit",pA="utf8",b2=0x80,eA="conditioning",ex="length",py="Undefined_recursive_module",j7=")",px="base",qt="quantity",pw="joint_range",hl="tilt",pv="Q2",qs='the failure "same" of such a mechanism',qr="reference",pt="this quantity in a claim that is refuted",pu="point",qp="corner",qq=0xe0,ps="version",j6="z",qn="to",qo=0xdfff,jS="compare: functional value",qm="Assert_failure",b4="/",ql="provenance",dO="radius",hk="side",qj=-14,b3="require",qk="format",pr="Q1",j5="ENOTDIR",pq="all",dN="box",qi=250;function
 kq(c,b,a){var
 d=String.fromCharCode;if(b==0&&a<=4096&&a==c.length)return d.apply(null,c);var
-e=ad;for(;0<a;b+=fE,a-=fE)e+=d.apply(null,c.slice(b,b+Math.min(a,fE)));return e}function
-hE(b){if(O.Uint8Array)var
+e=ae;for(;0<a;b+=fE,a-=fE)e+=d.apply(null,c.slice(b,b+Math.min(a,fE)));return e}function
+hF(b){if(O.Uint8Array)var
 c=new(O.Uint8Array)(b.l);else
 var
 c=new
 Array(b.l);var
 e=b.c,d=e.length,a=0;for(;a<d;a++)c[a]=e.charCodeAt(a);for(d=b.l;a<d;a++)c[a]=0;b.c=c;b.t=4;return c}function
-fK(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?kq(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
-if(b.t==2&&f==b.c.length){b.c+=d.t==4?kq(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)hE(b);var
+fL(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?kq(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
+if(b.t==2&&f==b.c.length){b.c+=d.t==4?kq(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)hF(b);var
 g=d.c,h=b.c;if(d.t==4)if(f<=e)for(var
 a=0;a<c;a++)h[f+a]=g[e+a];else
 for(var
@@ -23,37 +23,37 @@ a=c-1;a>=0;a--)h[f+a]=g[e+a];else{var
 i=Math.min(c,g.length-e);for(var
 a=0;a<i;a++)h[f+a]=g.charCodeAt(e+a);for(;a<c;a++)h[f+a]=0}}return 0}function
 eI(a){return a}function
-eH(a,b,c,d,e){fK(eI(a),b,c,d,e);return 0}function
+eH(a,b,c,d,e){fL(eI(a),b,c,d,e);return 0}function
 kg(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
 0:return a.c.charCodeAt(b);case
 4:return a.c[b]}}function
-dm(c,a){if(c.fun)return dm(c.fun,a);if(typeof
+dp(c,a){if(c.fun)return dp(c.fun,a);if(typeof
 c!=="function")return c;var
 b=c.length|0;if(b===0)return c.apply(null,a);var
 e=a.length|0,d=b-e|0;if(d==0)return c.apply(null,a);else
-if(d<0)return dm(c.apply(null,a.slice(0,b)),a.slice(b));else
+if(d<0)return dp(c.apply(null,a.slice(0,b)),a.slice(b));else
 return function(){var
 e=arguments.length==0?1:arguments.length,d=new
 Array(a.length+e);for(var
 b=0;b<a.length;b++)d[b]=a[b];for(var
-b=0;b<arguments.length;b++)d[a.length+b]=arguments[b];return dm(c,d)}}function
-rL(b,a){if(b==0)return ad;if(a.repeat)return a.repeat(b);var
-d=ad,c=0;for(;;){if(b&1)d+=a;b>>=1;if(b==0)return d;a+=a;c++;if(c==9)a.slice(0,1)}}function
-eJ(a){if(a.t==2)a.c+=rL(a.l-a.c.length,"\0");else
+b=0;b<arguments.length;b++)d[a.length+b]=arguments[b];return dp(c,d)}}function
+rM(b,a){if(b==0)return ae;if(a.repeat)return a.repeat(b);var
+d=ae,c=0;for(;;){if(b&1)d+=a;b>>=1;if(b==0)return d;a+=a;c++;if(c==9)a.slice(0,1)}}function
+eJ(a){if(a.t==2)a.c+=rM(a.l-a.c.length,"\0");else
 a.c=kq(a.c,0,a.c.length);a.t=0}function
 eK(a){a.t&6&&eJ(a);return a.c}var
-Iz=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
-Iy(a){if(Iz)return Math.floor(Math.log2(a));var
+IG=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
+IF(a){if(IG)return Math.floor(Math.log2(a));var
 b=0;if(a==0)return-Infinity;if(a>=1)while(a>=2){a/=2;b++}else
 while(a<1){a*=2;b--}return b}function
 kj(c){var
 a=new(O.Float32Array)(1);a[0]=c;var
 b=new(O.Int32Array)(a.buffer);return b[0]|0}var
-rC=Math.pow(2,-24);function
-Ip(a){throw a}var
+rD=Math.pow(2,-24);function
+Iw(a){throw a}var
 az=[0];function
-rI(){Ip(az.Division_by_zero)}function
-N(b,c,a){this.lo=b&dO;this.mi=c&dO;this.hi=a&cJ}N.prototype.caml_custom="_j";N.prototype.copy=function(){return new
+rJ(){Iw(az.Division_by_zero)}function
+N(b,c,a){this.lo=b&dP;this.mi=c&dP;this.hi=a&cL}N.prototype.caml_custom="_j";N.prototype.copy=function(){return new
 N(this.lo,this.mi,this.hi)};N.prototype.ucompare=function(a){if(this.hi>a.hi)return 1;if(this.hi<a.hi)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};N.prototype.compare=function(a){var
 b=this.hi<<16,c=a.hi<<16;if(b>c)return 1;if(b<c)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};N.prototype.neg=function(){var
 a=-this.lo,b=-this.mi+(a>>24),c=-this.hi+(b>>24);return new
@@ -62,7 +62,7 @@ b=this.lo+a.lo,c=this.mi+a.mi+(b>>24),d=this.hi+a.hi+(c>>24);return new
 N(b,c,d)};N.prototype.sub=function(a){var
 b=this.lo-a.lo,c=this.mi-a.mi+(b>>24),d=this.hi-a.hi+(c>>24);return new
 N(b,c,d)};N.prototype.mul=function(a){var
-b=this.lo*a.lo,c=(b*rC|0)+this.mi*a.lo+this.lo*a.mi,d=(c*rC|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
+b=this.lo*a.lo,c=(b*rD|0)+this.mi*a.lo+this.lo*a.mi,d=(c*rD|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
 N(b,c,d)};N.prototype.isZero=function(){return(this.lo|this.mi|this.hi)==0};N.prototype.isNeg=function(){return this.hi<<16<0};N.prototype.and=function(a){return new
 N(this.lo&a.lo,this.mi&a.mi,this.hi&a.hi)};N.prototype.or=function(a){return new
 N(this.lo|a.lo,this.mi|a.mi,this.hi|a.hi)};N.prototype.xor=function(a){return new
@@ -76,27 +76,27 @@ N(this.hi>>a-48,0,0)};N.prototype.shift_right=function(a){a=a&63;if(a==0)return 
 c=this.hi<<16>>16;if(a<24)return new
 N(this.lo>>a|this.mi<<24-a,this.mi>>a|c<<24-a,this.hi<<16>>a>>>16);var
 b=this.hi<<16>>31;if(a<48)return new
-N(this.mi>>a-24|this.hi<<48-a,this.hi<<16>>a-24>>16,b&cJ);return new
-N(this.hi<<16>>a-32,b,b)};N.prototype.lsl1=function(){this.hi=this.hi<<1|this.mi>>23;this.mi=(this.mi<<1|this.lo>>23)&dO;this.lo=this.lo<<1&dO};N.prototype.lsr1=function(){this.lo=(this.lo>>>1|this.mi<<23)&dO;this.mi=(this.mi>>>1|this.hi<<23)&dO;this.hi=this.hi>>>1};N.prototype.udivmod=function(e){var
+N(this.mi>>a-24|this.hi<<48-a,this.hi<<16>>a-24>>16,b&cL);return new
+N(this.hi<<16>>a-32,b,b)};N.prototype.lsl1=function(){this.hi=this.hi<<1|this.mi>>23;this.mi=(this.mi<<1|this.lo>>23)&dP;this.lo=this.lo<<1&dP};N.prototype.lsr1=function(){this.lo=(this.lo>>>1|this.mi<<23)&dP;this.mi=(this.mi>>>1|this.hi<<23)&dP;this.hi=this.hi>>>1};N.prototype.udivmod=function(e){var
 c=0,b=this.copy(),a=e.copy(),d=new
 N(0,0,0);while(b.ucompare(a)>0){c++;a.lsl1()}while(c>=0){c--;d.lsl1();if(b.ucompare(a)>=0){d.lo++;b=b.sub(a)}a.lsr1()}return{quotient:d,modulus:b}};N.prototype.div=function(a){var
-b=this;if(a.isZero())rI();var
-d=b.hi^a.hi;if(b.hi&cf)b=b.neg();if(a.hi&cf)a=a.neg();var
-c=b.udivmod(a).quotient;if(d&cf)c=c.neg();return c};N.prototype.mod=function(b){var
-a=this;if(b.isZero())rI();var
-d=a.hi;if(a.hi&cf)a=a.neg();if(b.hi&cf)b=b.neg();var
-c=a.udivmod(b).modulus;if(d&cf)c=c.neg();return c};N.prototype.toInt=function(){return this.lo|this.mi<<24};N.prototype.toFloat=function(){return(this.hi<<16)*Math.pow(2,32)+this.mi*Math.pow(2,24)+this.lo};N.prototype.toArray=function(){return[this.hi>>8,this.hi&cK,this.mi>>16,this.mi>>8&cK,this.mi&cK,this.lo>>16,this.lo>>8&cK,this.lo&cK]};N.prototype.lo32=function(){return this.lo|(this.mi&cK)<<24};N.prototype.hi32=function(){return this.mi>>>8&cJ|this.hi<<16};function
-hG(b,c,a){return new
+b=this;if(a.isZero())rJ();var
+d=b.hi^a.hi;if(b.hi&ci)b=b.neg();if(a.hi&ci)a=a.neg();var
+c=b.udivmod(a).quotient;if(d&ci)c=c.neg();return c};N.prototype.mod=function(b){var
+a=this;if(b.isZero())rJ();var
+d=a.hi;if(a.hi&ci)a=a.neg();if(b.hi&ci)b=b.neg();var
+c=a.udivmod(b).modulus;if(d&ci)c=c.neg();return c};N.prototype.toInt=function(){return this.lo|this.mi<<24};N.prototype.toFloat=function(){return(this.hi<<16)*Math.pow(2,32)+this.mi*Math.pow(2,24)+this.lo};N.prototype.toArray=function(){return[this.hi>>8,this.hi&cM,this.mi>>16,this.mi>>8&cM,this.mi&cM,this.lo>>16,this.lo>>8&cM,this.lo&cM]};N.prototype.lo32=function(){return this.lo|(this.mi&cM)<<24};N.prototype.hi32=function(){return this.mi>>>8&cL|this.hi<<16};function
+hH(b,c,a){return new
 N(b,c,a)}function
-hF(a){if(!isFinite(a)){if(isNaN(a))return hG(1,0,pV);return a>0?hG(0,0,pV):hG(0,0,0xfff0)}var
-f=a==0&&1/a==-Infinity?cf:a>=0?0:cf;if(f)a=-a;var
-b=Iy(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-pC)}else{a/=Math.pow(2,b-q9);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
+hG(a){if(!isFinite(a)){if(isNaN(a))return hH(1,0,pW);return a>0?hH(0,0,pW):hH(0,0,0xfff0)}var
+f=a==0&&1/a==-Infinity?ci:a>=0?0:ci;if(f)a=-a;var
+b=IF(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-pD)}else{a/=Math.pow(2,b-q_);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
 d=Math.pow(2,24),c=a|0;a=(a-c)*d;var
 e=a|0;a=(a-e)*d;var
-g=a|0;c=c&jZ|f|b<<4;return hG(g,e,c)}function
-fN(a){return a.toArray()}function
-rq(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==hy)for(var
-a=0;a<b.dims.length;a++)if(b.dims[a]<cJ)c.write(16,b.dims[a]);else{c.write(16,cJ);c.write(32,0);c.write(32,b.dims[a])}else
+g=a|0;c=c&jZ|f|b<<4;return hH(g,e,c)}function
+fO(a){return a.toArray()}function
+rr(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==hA)for(var
+a=0;a<b.dims.length;a++)if(b.dims[a]<cL)c.write(16,b.dims[a]);else{c.write(16,cL);c.write(32,0);c.write(32,b.dims[a])}else
 for(var
 a=0;a<b.dims.length;a++)c.write(32,b.dims[a]);switch(b.kind){case
 2:case
@@ -113,11 +113,11 @@ a=0;a<b.data.length;a++)c.write(32,b.data[a]);break;case
 a=0;a<b.data.length;a++)c.write(32,b.data[a]);break;case
 7:for(var
 a=0;a<b.data.length/2;a++){var
-e=fN(b.get(a));for(var
+e=fO(b.get(a));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 1:for(var
 a=0;a<b.data.length;a++){var
-e=fN(hF(b.get(a)));for(var
+e=fO(hG(b.get(a)));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 0:for(var
 a=0;a<b.data.length;a++){var
@@ -127,37 +127,37 @@ a=0;a<b.data.length/2;a++){var
 d=b.get(a);c.write(32,kj(d[1]));c.write(32,kj(d[2]))}break;case
 11:for(var
 a=0;a<b.data.length/2;a++){var
-f=b.get(a),e=fN(hF(f[1]));for(var
+f=b.get(a),e=fO(hG(f[1]));for(var
 d=0;d<8;d++)c.write(8,e[d]);var
-e=fN(hF(f[2]));for(var
+e=fO(hG(f[2]));for(var
 d=0;d<8;d++)c.write(8,e[d])}break}g[0]=(4+b.dims.length)*4;g[1]=(4+b.dims.length)*8}function
-Ir(b,a){throw[0,b,a]}function
-rQ(a){if(a.length<24){for(var
+Iy(b,a){throw[0,b,a]}function
+rR(a){if(a.length<24){for(var
 b=0;b<a.length;b++)if(a.charCodeAt(b)>127)return false;return true}else
 return!/[^\x00-\x7f]/.test(a)}function
 kr(e){for(var
-j=ad,c=ad,g,f,h,a,b=0,i=e.length;b<i;b++){f=e.charCodeAt(b);if(f<bZ){for(var
-d=b+1;d<i&&(f=e.charCodeAt(d))<bZ;d++);if(d-b>pW){c.substr(0,1);j+=c;c=ad;j+=e.slice(b,d)}else
-c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==fH){g=h+(f<<6);if(f<qp){a=g-0x3080;if(a<bZ)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==fH){g=h+(g<<6);if(f<qy){a=g-0xe2080;if(a<qg||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==fH&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
-if(a>cJ)c+=String.fromCharCode(0xd7c0+(a>>10),p_+(a&0x3FF));else
-c+=String.fromCharCode(a);if(c.length>fE){c.substr(0,1);j+=c;c=ad}}return j+c}function
-ch(c,a,b){this.t=c;this.c=a;this.l=b}ch.prototype.toString=function(){switch(this.t){case
+j=ae,c=ae,g,f,h,a,b=0,i=e.length;b<i;b++){f=e.charCodeAt(b);if(f<b2){for(var
+d=b+1;d<i&&(f=e.charCodeAt(d))<b2;d++);if(d-b>pX){c.substr(0,1);j+=c;c=ae;j+=e.slice(b,d)}else
+c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==fH){g=h+(f<<6);if(f<qq){a=g-0x3080;if(a<b2)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==fH){g=h+(g<<6);if(f<qz){a=g-0xe2080;if(a<qh||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==fH&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
+if(a>cL)c+=String.fromCharCode(0xd7c0+(a>>10),p$+(a&0x3FF));else
+c+=String.fromCharCode(a);if(c.length>fE){c.substr(0,1);j+=c;c=ae}}return j+c}function
+cj(c,a,b){this.t=c;this.c=a;this.l=b}cj.prototype.toString=function(){switch(this.t){case
 9:return this.c;default:eJ(this);case
-0:if(rQ(this.c)){this.t=9;return this.c}this.t=8;case
-8:return this.c}};ch.prototype.toUtf16=function(){var
-a=this.toString();if(this.t==9)return a;return kr(a)};ch.prototype.slice=function(){var
+0:if(rR(this.c)){this.t=9;return this.c}this.t=8;case
+8:return this.c}};cj.prototype.toUtf16=function(){var
+a=this.toString();if(this.t==9)return a;return kr(a)};cj.prototype.slice=function(){var
 a=this.t==4?this.c.slice():this.c;return new
-ch(this.t,a,this.l)};function
-rt(a){return new
-ch(0,a,a.length)}function
-a(a){return rt(a)}function
-kp(c,b){Ir(c,a(b))}function
-aS(a){kp(az.Invalid_argument,a)}function
-ro(a){switch(a){case
+cj(this.t,a,this.l)};function
+ru(a){return new
+cj(0,a,a.length)}function
+a(a){return ru(a)}function
+kp(c,b){Iy(c,a(b))}function
+aT(a){kp(az.Invalid_argument,a)}function
+rp(a){switch(a){case
 7:case
 10:case
 11:return 2;default:return 1}}function
-HV(c,e){var
+H2(c,e){var
 b=O,a;switch(c){case
 0:a=b.Float32Array;break;case
 1:a=b.Float64Array;break;case
@@ -171,43 +171,43 @@ b=O,a;switch(c){case
 9:a=b.Int32Array;break;case
 10:a=b.Float32Array;break;case
 11:a=b.Float64Array;break;case
-12:a=b.Uint8Array;break}if(!a)aS("Bigarray.create: unsupported kind");var
+12:a=b.Uint8Array;break}if(!a)aT("Bigarray.create: unsupported kind");var
 d=new
-a(e*ro(c));return d}function
+a(e*rp(c));return d}function
 kk(c){var
 a=new(O.Int32Array)(1);a[0]=c;var
 b=new(O.Float32Array)(a.buffer);return b[0]}function
-fM(a){return new
+fN(a){return new
 N(a[7]<<0|a[6]<<8|a[5]<<16,a[4]<<0|a[3]<<8|a[2]<<16,a[1]<<0|a[0]<<8)}function
 kl(d){var
-f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&jZ)==0?b&cf?-Infinity:Infinity:NaN;var
-e=Math.pow(2,-24),a=(f*e+g)*e+(b&jZ);if(c>0){a+=16;a*=Math.pow(2,c-q9)}else
-a*=Math.pow(2,-pC);if(b&cf)a=-a;return a}function
+f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&jZ)==0?b&ci?-Infinity:Infinity:NaN;var
+e=Math.pow(2,-24),a=(f*e+g)*e+(b&jZ);if(c>0){a+=16;a*=Math.pow(2,c-q_)}else
+a*=Math.pow(2,-pD);if(b&ci)a=-a;return a}function
 kf(b){var
 d=b.length,c=1;for(var
-a=0;a<d;a++){if(b[a]<0)aS("Bigarray.create: negative dimension");c=c*b[a]}return c}function
-H$(b,a){return new
-N(b&dO,b>>>24&cK|(a&cJ)<<8,a>>>16&cJ)}function
+a=0;a<d;a++){if(b[a]<0)aT("Bigarray.create: negative dimension");c=c*b[a]}return c}function
+Ig(b,a){return new
+N(b&dP,b>>>24&cM|(a&cL)<<8,a>>>16&cL)}function
 km(a){return a.hi32()}function
 kn(a){return a.lo32()}function
-hD(){aS(j$)}var
-HW=hy;function
-dl(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}dl.prototype.caml_custom=HW;dl.prototype.offset=function(b){var
+hE(){aT(j$)}var
+H3=hA;function
+dn(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}dn.prototype.caml_custom=H3;dn.prototype.offset=function(b){var
 c=0;if(typeof
 b==="number")b=[b];if(!(b
 instanceof
-Array))aS("bigarray.js: invalid offset");if(this.dims.length!=b.length)aS("Bigarray.get/set: bad number of dimensions");if(this.layout==0)for(var
-a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])hD();c=c*this.dims[a]+b[a]}else
+Array))aT("bigarray.js: invalid offset");if(this.dims.length!=b.length)aT("Bigarray.get/set: bad number of dimensions");if(this.layout==0)for(var
+a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])hE();c=c*this.dims[a]+b[a]}else
 for(var
-a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])hD();c=c*this.dims[a]+(b[a]-1)}return c};dl.prototype.get=function(a){switch(this.kind){case
+a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])hE();c=c*this.dims[a]+(b[a]-1)}return c};dn.prototype.get=function(a){switch(this.kind){case
 7:var
-d=this.data[a*2+0],b=this.data[a*2+1];return H$(d,b);case
+d=this.data[a*2+0],b=this.data[a*2+1];return Ig(d,b);case
 10:case
 11:var
-e=this.data[a*2+0],c=this.data[a*2+1];return[hn,e,c];default:return this.data[a]}};dl.prototype.set=function(a,b){switch(this.kind){case
+e=this.data[a*2+0],c=this.data[a*2+1];return[hp,e,c];default:return this.data[a]}};dn.prototype.set=function(a,b){switch(this.kind){case
 7:this.data[a*2+0]=kn(b);this.data[a*2+1]=km(b);break;case
 10:case
-11:this.data[a*2+0]=b[1];this.data[a*2+1]=b[2];break;default:this.data[a]=b;break}return 0};dl.prototype.fill=function(b){switch(this.kind){case
+11:this.data[a*2+0]=b[1];this.data[a*2+1]=b[2];break;default:this.data[a]=b;break}return 0};dn.prototype.fill=function(b){switch(this.kind){case
 7:var
 c=kn(b),e=km(b);if(c==e)this.data.fill(c);else
 for(var
@@ -216,7 +216,7 @@ a=0;a<this.data.length;a++)this.data[a]=a%2==0?c:e;break;case
 11:var
 d=b[1],f=b[2];if(d==f)this.data.fill(d);else
 for(var
-a=0;a<this.data.length;a++)this.data[a]=a%2==0?d:f;break;default:this.data.fill(b);break}};dl.prototype.compare=function(b,g){if(this.layout!=b.layout||this.kind!=b.kind){var
+a=0;a<this.data.length;a++)this.data[a]=a%2==0?d:f;break;default:this.data.fill(b);break}};dn.prototype.compare=function(b,g){if(this.layout!=b.layout||this.kind!=b.kind){var
 e=this.kind|this.layout<<8,f=b.kind|b.layout<<8;return f-e}if(this.dims.length!=b.dims.length)return b.dims.length-this.dims.length;for(var
 a=0;a<this.dims.length;a++)if(this.dims[a]!=b.dims[a])return this.dims[a]<b.dims[a]?-1:1;switch(this.kind){case
 0:case
@@ -237,25 +237,25 @@ a=0;a<this.data.length;a+=2){if(this.data[a+1]<b.data[a+1])return-1;if(this.data
 12:for(var
 a=0;a<this.data.length;a++){if(this.data[a]<b.data[a])return-1;if(this.data[a]>b.data[a])return 1}break}return 0};function
 eG(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}eG.prototype=new
-dl();eG.prototype.offset=function(a){if(typeof
+dn();eG.prototype.offset=function(a){if(typeof
 a!=="number")if(a
 instanceof
 Array&&a.length==1)a=a[0];else
-aS("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])hD();return a};eG.prototype.get=function(a){return this.data[a]};eG.prototype.set=function(a,b){this.data[a]=b;return 0};eG.prototype.fill=function(a){this.data.fill(a);return 0};function
-rm(c,d,a,b){var
-e=ro(c);if(kf(a)*e!=b.length)aS("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
+aT("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])hE();return a};eG.prototype.get=function(a){return this.data[a]};eG.prototype.set=function(a,b){this.data[a]=b;return 0};eG.prototype.fill=function(a){this.data.fill(a);return 0};function
+rn(c,d,a,b){var
+e=rp(c);if(kf(a)*e!=b.length)aT("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
 eG(c,d,a,b);return new
-dl(c,d,a,b)}function
-b3(b){if(!az.Failure)az.Failure=[a0,a(j1),-3];kp(az.Failure,b)}function
-rn(b,v,r){var
-i=b.read32s();if(i<0||i>16)b3("input_value: wrong number of bigarray dimensions");var
-p=b.read32s(),j=p&cK,o=p>>8&1,h=[];if(r==hy)for(var
+dn(c,d,a,b)}function
+b5(b){if(!az.Failure)az.Failure=[a1,a(j1),-3];kp(az.Failure,b)}function
+ro(b,v,r){var
+i=b.read32s();if(i<0||i>16)b5("input_value: wrong number of bigarray dimensions");var
+p=b.read32s(),j=p&cM,o=p>>8&1,h=[];if(r==hA)for(var
 a=0;a<i;a++){var
-n=b.read16u();if(n==cJ){var
-t=b.read32u(),u=b.read32u();if(t!=0)b3("input_value: bigarray dimension overflow in 32bit");n=u}h.push(n)}else
+n=b.read16u();if(n==cL){var
+t=b.read32u(),u=b.read32u();if(t!=0)b5("input_value: bigarray dimension overflow in 32bit");n=u}h.push(n)}else
 for(var
 a=0;a<i;a++)h.push(b.read32u());var
-d=kf(h),f=HV(j,d),g=rm(j,o,h,f);switch(j){case
+d=kf(h),f=H2(j,d),g=rn(j,o,h,f);switch(j){case
 2:for(var
 a=0;a<d;a++)f[a]=b.read8s();break;case
 3:case
@@ -269,129 +269,129 @@ a=0;a<d;a++)f[a]=b.read16u();break;case
 a=0;a<d;a++)f[a]=b.read32s();break;case
 8:case
 9:var
-s=b.read8u();if(s)b3("input_value: cannot read bigarray with 64-bit OCaml ints");for(var
+s=b.read8u();if(s)b5("input_value: cannot read bigarray with 64-bit OCaml ints");for(var
 a=0;a<d;a++)f[a]=b.read32s();break;case
 7:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-q=fM(e);g.set(a,q)}break;case
+q=fN(e);g.set(a,q)}break;case
 1:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-k=kl(fM(e));g.set(a,k)}break;case
+k=kl(fN(e));g.set(a,k)}break;case
 0:for(var
 a=0;a<d;a++){var
 k=kk(b.read32s());g.set(a,k)}break;case
 10:for(var
 a=0;a<d;a++){var
-m=kk(b.read32s()),l=kk(b.read32s());g.set(a,[hn,m,l])}break;case
+m=kk(b.read32s()),l=kk(b.read32s());g.set(a,[hp,m,l])}break;case
 11:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-m=kl(fM(e));for(var
+m=kl(fN(e));for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-l=kl(fM(e));g.set(a,[hn,m,l])}break}v[0]=(4+i)*4;return rm(j,o,h,f)}function
-rl(a,b,c){return a.compare(b,c)}function
-rF(a,b){return Math.imul(a,b)}function
-cL(b,a){a=rF(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=rF(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
-H8(a,b){a=cL(a,kn(b));a=cL(a,km(b));return a}function
-rB(a,b){return H8(a,hF(b))}function
-rp(c){var
+l=kl(fN(e));g.set(a,[hp,m,l])}break}v[0]=(4+i)*4;return rn(j,o,h,f)}function
+rm(a,b,c){return a.compare(b,c)}function
+rG(a,b){return Math.imul(a,b)}function
+cN(b,a){a=rG(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=rG(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
+Id(a,b){a=cN(a,kn(b));a=cN(a,km(b));return a}function
+rC(a,b){return Id(a,hG(b))}function
+rq(c){var
 b=kf(c.dims),d=0;switch(c.kind){case
 2:case
 3:case
-12:if(b>qb)b=qb;var
-e=0,a=0;for(a=0;a+4<=c.data.length;a+=4){e=c.data[a+0]|c.data[a+1]<<8|c.data[a+2]<<16|c.data[a+3]<<24;d=cL(d,e)}e=0;switch(b&3){case
+12:if(b>qc)b=qc;var
+e=0,a=0;for(a=0;a+4<=c.data.length;a+=4){e=c.data[a+0]|c.data[a+1]<<8|c.data[a+2]<<16|c.data[a+3]<<24;d=cN(d,e)}e=0;switch(b&3){case
 3:e=c.data[a+2]<<16;case
 2:e|=c.data[a+1]<<8;case
-1:e|=c.data[a+0];d=cL(d,e)}break;case
+1:e|=c.data[a+0];d=cN(d,e)}break;case
 4:case
 5:if(b>fH)b=fH;var
-e=0,a=0;for(a=0;a+2<=c.data.length;a+=2){e=c.data[a+0]|c.data[a+1]<<16;d=cL(d,e)}if((b&1)!=0)d=cL(d,c.data[a]);break;case
+e=0,a=0;for(a=0;a+2<=c.data.length;a+=2){e=c.data[a+0]|c.data[a+1]<<16;d=cN(d,e)}if((b&1)!=0)d=cN(d,c.data[a]);break;case
 6:if(b>64)b=64;for(var
-a=0;a<b;a++)d=cL(d,c.data[a]);break;case
+a=0;a<b;a++)d=cN(d,c.data[a]);break;case
 8:case
 9:if(b>64)b=64;for(var
-a=0;a<b;a++)d=cL(d,c.data[a]);break;case
+a=0;a<b;a++)d=cN(d,c.data[a]);break;case
 7:if(b>32)b=32;b*=2;for(var
-a=0;a<b;a++)d=cL(d,c.data[a]);break;case
+a=0;a<b;a++)d=cN(d,c.data[a]);break;case
 10:b*=2;case
 0:if(b>64)b=64;for(var
-a=0;a<b;a++)d=rB(d,c.data[a]);break;case
+a=0;a<b;a++)d=rC(d,c.data[a]);break;case
 11:b*=2;case
 1:if(b>32)b=32;for(var
-a=0;a<b;a++)d=rB(d,c.data[a]);break}return d}function
-H9(a,b){b[0]=4;return a.read32s()}function
-Im(a,b){switch(a.read8u()){case
+a=0;a<b;a++)d=rC(d,c.data[a]);break}return d}function
+Ie(a,b){b[0]=4;return a.read32s()}function
+It(a,b){switch(a.read8u()){case
 1:b[0]=4;return a.read32s();case
-2:b3("input_value: native integer value too large");default:b3("input_value: ill-formed native integer")}}function
-Ic(c,d){var
+2:b5("input_value: native integer value too large");default:b5("input_value: ill-formed native integer")}}function
+Ij(c,d){var
 b=new
 Array(8);for(var
-a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return fM(b)}function
-Ib(e,d,b){var
-c=fN(d);for(var
+a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return fN(b)}function
+Ii(e,d,b){var
+c=fO(d);for(var
 a=0;a<8;a++)e.write(8,c[a]);b[0]=8;b[1]=8}function
-H_(a,b,c){return a.compare(b)}function
-Ia(a){return a.lo32()^a.hi32()}var
-rw={"_j":{deserialize:Ic,serialize:Ib,fixed_length:8,compare:H_,hash:Ia},"_i":{deserialize:H9,fixed_length:4},"_n":{deserialize:Im,fixed_length:4},"_bigarray":{deserialize:function(a,b){return rn(a,b,"_bigarray")},serialize:rq,compare:rl,hash:rp},"_bigarr02":{deserialize:function(a,b){return rn(a,b,hy)},serialize:rq,compare:rl,hash:rp}};function
-ki(a){return rw[a.caml_custom]&&rw[a.caml_custom].compare}function
-ru(f,c,d,e){var
+If(a,b,c){return a.compare(b)}function
+Ih(a){return a.lo32()^a.hi32()}var
+rx={"_j":{deserialize:Ij,serialize:Ii,fixed_length:8,compare:If,hash:Ih},"_i":{deserialize:Ie,fixed_length:4},"_n":{deserialize:It,fixed_length:4},"_bigarray":{deserialize:function(a,b){return ro(a,b,"_bigarray")},serialize:rr,compare:rm,hash:rq},"_bigarr02":{deserialize:function(a,b){return ro(a,b,hA)},serialize:rr,compare:rm,hash:rq}};function
+ki(a){return rx[a.caml_custom]&&rx[a.caml_custom].compare}function
+rv(f,c,d,e){var
 b=ki(c);if(b){var
 a=d>0?b(c,f,e):b(f,c,e);if(e&&a!=a)return d;if(+a!=+a)return+a;if((a|0)!=0)return a|0}return d}function
 ko(a){return a
 instanceof
-ch}function
-rD(a){return ko(a)}function
-rv(a){if(typeof
-a==="number")return hw;else
+cj}function
+rE(a){return ko(a)}function
+rw(a){if(typeof
+a==="number")return hy;else
 if(ko(a))return 252;else
-if(rD(a))return 1252;else
+if(rE(a))return 1252;else
 if(a
 instanceof
 Array&&a[0]===a[0]>>>0&&a[0]<=255){var
-b=a[0]|0;return b==hn?0:b}else
+b=a[0]|0;return b==hp?0:b}else
 if(a
 instanceof
-String)return qK;else
+String)return qL;else
 if(typeof
-a=="string")return qK;else
+a=="string")return qL;else
 if(a
 instanceof
-Number)return hw;else
+Number)return hy;else
 if(a&&a.caml_custom)return j3;else
 if(a&&a.compare)return 1256;else
 if(typeof
 a=="function")return 1247;else
 if(typeof
 a=="symbol")return 1251;return 1001}function
-Id(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
-rs(a,b){a.t&6&&eJ(a);b.t&6&&eJ(b);return a.c<b.c?-1:a.c>b.c?1:0}function
-rM(a,b){return rs(a,b)}function
+Ik(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
+rt(a,b){a.t&6&&eJ(a);b.t&6&&eJ(b);return a.c<b.c?-1:a.c>b.c?1:0}function
+rN(a,b){return rt(a,b)}function
 kh(a,b,d){var
 e=[];for(;;){if(!(d&&a===b)){var
-f=rv(a);if(f==qh){a=a[1];continue}var
-g=rv(b);if(g==qh){b=b[1];continue}if(f!==g){if(f==hw){if(g==j3)return ru(a,b,-1,d);return-1}if(g==hw){if(f==j3)return ru(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
-247:aS(jS);break;case
+f=rw(a);if(f==qi){a=a[1];continue}var
+g=rw(b);if(g==qi){b=b[1];continue}if(f!==g){if(f==hy){if(g==j3)return rv(a,b,-1,d);return-1}if(g==hy){if(f==j3)return rv(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
+247:aT(jS);break;case
 248:var
-c=Id(a[2],b[2]);if(c!=0)return c|0;break;case
-249:aS(jS);break;case
-250:aS("equal: got Forward_tag, should not happen");break;case
-251:aS("equal: abstract value");break;case
+c=Ik(a[2],b[2]);if(c!=0)return c|0;break;case
+249:aT(jS);break;case
+250:aT("equal: got Forward_tag, should not happen");break;case
+251:aT("equal: abstract value");break;case
 252:if(a!==b){var
-c=rs(a,b);if(c!=0)return c|0}break;case
-253:aS("equal: got Double_tag, should not happen");break;case
-254:aS("equal: got Double_array_tag, should not happen");break;case
-255:aS("equal: got Custom_tag, should not happen");break;case
-1247:aS(jS);break;case
+c=rt(a,b);if(c!=0)return c|0}break;case
+253:aT("equal: got Double_tag, should not happen");break;case
+254:aT("equal: got Double_array_tag, should not happen");break;case
+255:aT("equal: got Custom_tag, should not happen");break;case
+1247:aT(jS);break;case
 1255:var
-i=ki(a);if(i!=ki(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)aS("compare: abstract value");var
+i=ki(a);if(i!=ki(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)aT("compare: abstract value");var
 c=i(a,b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
 1256:var
 c=a.compare(b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
@@ -405,176 +405,176 @@ a=a.toString(),b=b.toString();if(a!==b){if(a<b)return-1;if(a>b)return 1}break;ca
 246:case
 254:default:if(a.length!=b.length)return a.length<b.length?-1:1;if(a.length>1)e.push(a,b,1);break}}if(e.length==0)return 0;var
 h=e.pop();b=e.pop();a=e.pop();if(h+1<a.length)e.push(a,b,h+1);a=a[h];b=b[h]}}function
-H3(a,b){return kh(a,b,true)}function
-cj(a){if(a<0)aS("Bytes.create");return new
-ch(a?2:9,ad,a)}function
-rx(a,b){return+(kh(a,b,false)==0)}function
-H5(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=ad;a.t=2}else{a.c=rL(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)hE(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}var
-In=0;function
-rz(){return In++}function
-If(a){return a.toUtf16()}function
-fO(){return typeof
+H_(a,b){return kh(a,b,true)}function
+cl(a){if(a<0)aT("Bytes.create");return new
+cj(a?2:9,ae,a)}function
+ry(a,b){return+(kh(a,b,false)==0)}function
+Ia(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=ae;a.t=2}else{a.c=rM(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)hF(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}var
+Iu=0;function
+rA(){return Iu++}function
+Im(a){return a.toUtf16()}function
+fP(){return typeof
 O.process!=="undefined"&&typeof
 O.process.versions!=="undefined"&&typeof
 O.process.versions.node!=="undefined"}function
-IA(){function
-a(a){if(a.charAt(0)===b2)return[ad,a.substring(1)];return}function
+IH(){function
+a(a){if(a.charAt(0)===b4)return[ae,a.substring(1)];return}function
 b(c){var
-g=/^([a-zA-Z]:|[\\/]{2}[^\\/]+[\\/]+[^\\/]+)?([\\/])?([\s\S]*?)$/,a=g.exec(c),b=a[1]||ad,e=Boolean(b&&b.charAt(1)!==":");if(Boolean(a[2]||e)){var
-d=a[1]||ad,f=a[2]||ad;return[d,c.substring(d.length+f.length)]}return}return fO()&&O.process&&O.process.platform?O.process.platform==="win32"?b:a:a}var
-kv=IA();function
-rN(a){return a.slice(-1)!==b2?a+b2:a}if(fO()&&O.process&&O.process.cwd)var
-fL=O.process.cwd().replace(/\\/g,b2);else
+g=/^([a-zA-Z]:|[\\/]{2}[^\\/]+[\\/]+[^\\/]+)?([\\/])?([\s\S]*?)$/,a=g.exec(c),b=a[1]||ae,e=Boolean(b&&b.charAt(1)!==":");if(Boolean(a[2]||e)){var
+d=a[1]||ae,f=a[2]||ae;return[d,c.substring(d.length+f.length)]}return}return fP()&&O.process&&O.process.platform?O.process.platform==="win32"?b:a:a}var
+kv=IH();function
+rO(a){return a.slice(-1)!==b4?a+b4:a}if(fP()&&O.process&&O.process.cwd)var
+fM=O.process.cwd().replace(/\\/g,b4);else
 var
-fL="/static";fL=rN(fL);function
-Ih(a){a=If(a);if(!kv(a))a=fL+a;var
-e=kv(a),d=e[1].split(b2),b=[];for(var
+fM="/static";fM=rO(fM);function
+Io(a){a=Im(a);if(!kv(a))a=fM+a;var
+e=kv(a),d=e[1].split(b4),b=[];for(var
 c=0;c<d.length;c++)switch(d[c]){case"..":if(b.length>1)b.pop();break;case".":break;default:b.push(d[c]);break}b.unshift(e[0]);b.orig=a;return b}function
-Iv(e){for(var
-f=ad,b=f,a,h,c=0,g=e.length;c<g;c++){a=e.charCodeAt(c);if(a<bZ){for(var
-d=c+1;d<g&&(a=e.charCodeAt(d))<bZ;d++);if(d-c>pW){b.substr(0,1);f+=b;b=ad;f+=e.slice(c,d)}else
-b+=e.slice(c,d);if(d==g)break;c=d}if(a<qg){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(bZ|a&eD)}else
-if(a<0xd800||a>=qn)b+=String.fromCharCode(qp|a>>12,bZ|a>>6&eD,bZ|a&eD);else
-if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<p_||h>qn)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(qy|a>>18,bZ|a>>12&eD,bZ|a>>6&eD,bZ|a&eD)}if(b.length>fE){b.substr(0,1);f+=b;b=ad}}return f+b}function
-H0(a){var
-b=9;if(!rQ(a))b=8,a=Iv(a);return new
-ch(b,a,a.length)}function
-eL(a){return H0(a)}var
-ID=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",p4,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",j0,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",j5,p9,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
-dS(d,f,e,a){var
-b=ID.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
-c=[b,eL(f||ad),eL(e||ad)];return c}var
-rG={};function
-dP(a){return rG[a]}function
-dQ(b,a){throw[0,b].concat(a)}function
-HZ(a){return new
-ch(4,a,a.length)}function
-ap(a){kp(az.Sys_error,a)}function
-Iq(a){ap(a+hl)}function
-rr(){aS(j$)}function
-HY(b,a){if(a>>>0>=b.l)rr();return kg(b,a)}function
-hI(a){return a.l}function
-rk(){}function
-aQ(a){this.data=a}aQ.prototype=new
-rk();aQ.prototype.truncate=function(a){var
-b=this.data;this.data=cj(a|0);fK(b,0,this.data,0,a)};aQ.prototype.length=function(){return hI(this.data)};aQ.prototype.write=function(b,d,g,a){var
+IC(e){for(var
+f=ae,b=f,a,h,c=0,g=e.length;c<g;c++){a=e.charCodeAt(c);if(a<b2){for(var
+d=c+1;d<g&&(a=e.charCodeAt(d))<b2;d++);if(d-c>pX){b.substr(0,1);f+=b;b=ae;f+=e.slice(c,d)}else
+b+=e.slice(c,d);if(d==g)break;c=d}if(a<qh){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(b2|a&eD)}else
+if(a<0xd800||a>=qo)b+=String.fromCharCode(qq|a>>12,b2|a>>6&eD,b2|a&eD);else
+if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<p$||h>qo)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(qz|a>>18,b2|a>>12&eD,b2|a>>6&eD,b2|a&eD)}if(b.length>fE){b.substr(0,1);f+=b;b=ae}}return f+b}function
+H7(a){var
+b=9;if(!rR(a))b=8,a=IC(a);return new
+cj(b,a,a.length)}function
+eL(a){return H7(a)}var
+IK=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",p5,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",j0,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",j5,p_,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
+dT(d,f,e,a){var
+b=IK.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
+c=[b,eL(f||ae),eL(e||ae)];return c}var
+rH={};function
+dQ(a){return rH[a]}function
+dR(b,a){throw[0,b].concat(a)}function
+H6(a){return new
+cj(4,a,a.length)}function
+ar(a){kp(az.Sys_error,a)}function
+Ix(a){ar(a+hn)}function
+rs(){aT(j$)}function
+H5(b,a){if(a>>>0>=b.l)rs();return kg(b,a)}function
+hJ(a){return a.l}function
+rl(){}function
+aR(a){this.data=a}aR.prototype=new
+rl();aR.prototype.truncate=function(a){var
+b=this.data;this.data=cl(a|0);fL(b,0,this.data,0,a)};aR.prototype.length=function(){return hJ(this.data)};aR.prototype.write=function(b,d,g,a){var
 c=this.length();if(b+a>=c){var
-e=cj(b+a),f=this.data;this.data=e;fK(f,0,this.data,0,c)}eH(d,g,this.data,b,a);return 0};aQ.prototype.read=function(c,a,d,b){var
-e=this.length();fK(this.data,c,a,d,b);return 0};aQ.prototype.read_one=function(a){return HY(this.data,a)};aQ.prototype.close=function(){};aQ.prototype.constructor=aQ;function
-a$(b,a){this.content={};this.root=b;this.lookupFun=a}a$.prototype.nm=function(a){return this.root+a};a$.prototype.create_dir_if_needed=function(d){var
-c=d.split(b2),b=ad;for(var
-a=0;a<c.length-1;a++){b+=c[a]+b2;if(this.content[b])continue;this.content[b]=Symbol("directory")}};a$.prototype.slash=function(a){return/\/$/.test(a)?a:a+b2};a$.prototype.lookup=function(b){if(!this.content[b]&&this.lookupFun){var
+e=cl(b+a),f=this.data;this.data=e;fL(f,0,this.data,0,c)}eH(d,g,this.data,b,a);return 0};aR.prototype.read=function(c,a,d,b){var
+e=this.length();fL(this.data,c,a,d,b);return 0};aR.prototype.read_one=function(a){return H5(this.data,a)};aR.prototype.close=function(){};aR.prototype.constructor=aR;function
+a_(b,a){this.content={};this.root=b;this.lookupFun=a}a_.prototype.nm=function(a){return this.root+a};a_.prototype.create_dir_if_needed=function(d){var
+c=d.split(b4),b=ae;for(var
+a=0;a<c.length-1;a++){b+=c[a]+b4;if(this.content[b])continue;this.content[b]=Symbol("directory")}};a_.prototype.slash=function(a){return/\/$/.test(a)?a:a+b4};a_.prototype.lookup=function(b){if(!this.content[b]&&this.lookupFun){var
 c=this.lookupFun(a(this.root),a(b));if(c!==0){this.create_dir_if_needed(b);this.content[b]=new
-aQ(eI(c[1]))}}};a$.prototype.exists=function(a){if(a==ad)return 1;var
-b=this.slash(a);if(this.content[b])return 1;this.lookup(a);return this.content[a]?1:0};a$.prototype.mkdir=function(c,e,d){var
-b=d&&dP(jW);if(this.exists(c))if(b)dQ(b,dS(p4,jV,this.nm(c)));else
-ap(c+": File exists");var
-a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||ad;if(!this.exists(a))if(b)dQ(b,dS(j0,jV,this.nm(a)));else
-ap(a+hl);if(!this.is_dir(a))if(b)dQ(b,dS(j5,jV,this.nm(a)));else
-ap(a+kb);this.create_dir_if_needed(this.slash(c))};a$.prototype.rmdir=function(a,f){var
-b=f&&dP(jW),c=a==ad?ad:this.slash(a),e=new
-RegExp(j8+c+p$);if(!this.exists(a))if(b)dQ(b,dS(j0,jT,this.nm(a)));else
-ap(a+hl);if(!this.is_dir(a))if(b)dQ(b,dS(j5,jT,this.nm(a)));else
-ap(a+kb);for(var
+aR(eI(c[1]))}}};a_.prototype.exists=function(a){if(a==ae)return 1;var
+b=this.slash(a);if(this.content[b])return 1;this.lookup(a);return this.content[a]?1:0};a_.prototype.mkdir=function(c,e,d){var
+b=d&&dQ(jW);if(this.exists(c))if(b)dR(b,dT(p5,jV,this.nm(c)));else
+ar(c+": File exists");var
+a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||ae;if(!this.exists(a))if(b)dR(b,dT(j0,jV,this.nm(a)));else
+ar(a+hn);if(!this.is_dir(a))if(b)dR(b,dT(j5,jV,this.nm(a)));else
+ar(a+kb);this.create_dir_if_needed(this.slash(c))};a_.prototype.rmdir=function(a,f){var
+b=f&&dQ(jW),c=a==ae?ae:this.slash(a),e=new
+RegExp(j8+c+qa);if(!this.exists(a))if(b)dR(b,dT(j0,jT,this.nm(a)));else
+ar(a+hn);if(!this.is_dir(a))if(b)dR(b,dT(j5,jT,this.nm(a)));else
+ar(a+kb);for(var
 d
 in
-this.content)if(d.match(e))if(b)dQ(b,dS(p9,jT,this.nm(a)));else
-ap(this.nm(a)+": Directory not empty");delete
-this.content[c]};a$.prototype.readdir=function(a){var
-f=a==ad?ad:this.slash(a);if(!this.exists(a))ap(a+hl);if(!this.is_dir(a))ap(a+kb);var
+this.content)if(d.match(e))if(b)dR(b,dT(p_,jT,this.nm(a)));else
+ar(this.nm(a)+": Directory not empty");delete
+this.content[c]};a_.prototype.readdir=function(a){var
+f=a==ae?ae:this.slash(a);if(!this.exists(a))ar(a+hn);if(!this.is_dir(a))ar(a+kb);var
 g=new
-RegExp(j8+f+p$),d={},c=[];for(var
+RegExp(j8+f+qa),d={},c=[];for(var
 e
 in
 this.content){var
-b=e.match(g);if(b&&!d[b[1]]){d[b[1]]=true;c.push(b[1])}}return c};a$.prototype.is_dir=function(a){if(a==ad)return true;var
-b=this.slash(a);return this.content[b]?1:0};a$.prototype.unlink=function(a){var
+b=e.match(g);if(b&&!d[b[1]]){d[b[1]]=true;c.push(b[1])}}return c};a_.prototype.is_dir=function(a){if(a==ae)return true;var
+b=this.slash(a);return this.content[b]?1:0};a_.prototype.unlink=function(a){var
 b=this.content[a]?true:false;delete
-this.content[a];return b};a$.prototype.open=function(a,b){if(b.rdonly&&b.wronly)ap(this.nm(a)+q1);if(b.text&&b.binary)ap(this.nm(a)+pO);this.lookup(a);if(this.content[a]){if(this.is_dir(a))ap(this.nm(a)+" : is a directory");if(b.create&&b.excl)ap(this.nm(a)+qX);var
+this.content[a];return b};a_.prototype.open=function(a,b){if(b.rdonly&&b.wronly)ar(this.nm(a)+q2);if(b.text&&b.binary)ar(this.nm(a)+pP);this.lookup(a);if(this.content[a]){if(this.is_dir(a))ar(this.nm(a)+" : is a directory");if(b.create&&b.excl)ar(this.nm(a)+qY);var
 c=this.content[a];if(b.truncate)c.truncate();return c}else
 if(b.create){this.create_dir_if_needed(a);this.content[a]=new
-aQ(cj(0));return this.content[a]}else
-Iq(this.nm(a))};a$.prototype.register=function(c,a){var
-b;if(this.content[c])ap(this.nm(c)+qX);if(ko(a))b=new
-aQ(a);if(rD(a))b=new
-aQ(eI(a));else
+aR(cl(0));return this.content[a]}else
+Ix(this.nm(a))};a_.prototype.register=function(c,a){var
+b;if(this.content[c])ar(this.nm(c)+qY);if(ko(a))b=new
+aR(a);if(rE(a))b=new
+aR(eI(a));else
 if(a
 instanceof
 Array)b=new
-aQ(HZ(a));else
+aR(H6(a));else
 if(typeof
 a==="string")b=new
-aQ(rt(a));else
+aR(ru(a));else
 if(a.toString){var
 d=eI(eL(a.toString()));b=new
-aQ(d)}if(b){this.create_dir_if_needed(c);this.content[c]=b}else
-ap(this.nm(c)+" : registering file with invalid content type")};a$.prototype.constructor=a$;function
-au(a){return hI(a)}function
-dR(b,a){return kg(b,a)}function
-HU(d){var
+aR(d)}if(b){this.create_dir_if_needed(c);this.content[c]=b}else
+ar(this.nm(c)+" : registering file with invalid content type")};a_.prototype.constructor=a_;function
+au(a){return hJ(a)}function
+dS(b,a){return kg(b,a)}function
+H1(d){var
 c=au(d),b=new
-Array(c),a=0;for(;a<c;a++)b[a]=dR(d,a);return b}function
-HT(a){if(a.t!=4)hE(a);return a.c}function
-H2(a,c,b){b&=cK;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}hE(a)}a.c[c]=b;return 0}function
-H1(b,a,c){if(a>>>0>=b.l)rr();return H2(b,a,c)}function
-ci(a){this.fs=require("fs");this.fd=a}ci.prototype=new
-rk();ci.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){ap(a.toString())}};ci.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){ap(a.toString())}};ci.prototype.write=function(f,b,c,e){var
-a=HU(b);if(!(a
+Array(c),a=0;for(;a<c;a++)b[a]=dS(d,a);return b}function
+H0(a){if(a.t!=4)hF(a);return a.c}function
+H9(a,c,b){b&=cM;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}hF(a)}a.c[c]=b;return 0}function
+H8(b,a,c){if(a>>>0>=b.l)rs();return H9(b,a,c)}function
+ck(a){this.fs=require("fs");this.fd=a}ck.prototype=new
+rl();ck.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){ar(a.toString())}};ck.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){ar(a.toString())}};ck.prototype.write=function(f,b,c,e){var
+a=H1(b);if(!(a
 instanceof
 O.Uint8Array))a=new(O.Uint8Array)(a);var
-d=O.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){ap(a.toString())}return 0};ci.prototype.read=function(g,d,c,f){var
-a=HT(d);if(!(a
+d=O.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){ar(a.toString())}return 0};ck.prototype.read=function(g,d,c,f){var
+a=H0(d);if(!(a
 instanceof
 O.Uint8Array))a=new(O.Uint8Array)(a);var
-e=O.Buffer.from(a);try{this.fs.readSync(this.fd,e,c,f,g)}catch(a){ap(a.toString())}for(var
-b=0;b<f;b++)H1(d,c+b,e[c+b]);return 0};ci.prototype.read_one=function(c){var
-b=new(O.Uint8Array)(1),a=O.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){ap(a.toString())}return a[0]};ci.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){ap(a.toString())}};ci.prototype.constructor=ci;function
-aR(a){this.fs=require("fs");this.root=a}aR.prototype.nm=function(a){return this.root+a};aR.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};aR.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};aR.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};aR.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};aR.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){ap(a.toString())}};aR.prototype.unlink=function(a,c){try{var
-b=this.fs.existsSync(this.nm(a))?1:0;this.fs.unlinkSync(this.nm(a));return b}catch(a){this.raise_nodejs_error(a,c)}};aR.prototype.open=function(f,c,g){var
+e=O.Buffer.from(a);try{this.fs.readSync(this.fd,e,c,f,g)}catch(a){ar(a.toString())}for(var
+b=0;b<f;b++)H8(d,c+b,e[c+b]);return 0};ck.prototype.read_one=function(c){var
+b=new(O.Uint8Array)(1),a=O.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){ar(a.toString())}return a[0]};ck.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){ar(a.toString())}};ck.prototype.constructor=ck;function
+aS(a){this.fs=require("fs");this.root=a}aS.prototype.nm=function(a){return this.root+a};aS.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};aS.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};aS.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};aS.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};aS.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){ar(a.toString())}};aS.prototype.unlink=function(a,c){try{var
+b=this.fs.existsSync(this.nm(a))?1:0;this.fs.unlinkSync(this.nm(a));return b}catch(a){this.raise_nodejs_error(a,c)}};aS.prototype.open=function(f,c,g){var
 a=require("constants"),b=0;for(var
 e
 in
 c)switch(e){case"rdonly":b|=a.O_RDONLY;break;case"wronly":b|=a.O_WRONLY;break;case"append":b|=a.O_WRONLY|a.O_APPEND;break;case"create":b|=a.O_CREAT;break;case"truncate":b|=a.O_TRUNC;break;case"excl":b|=a.O_EXCL;break;case"binary":b|=a.O_BINARY;break;case"text":b|=a.O_TEXT;break;case"nonblock":b|=a.O_NONBLOCK;break}try{var
 d=this.fs.openSync(this.nm(f),b);return new
-ci(d)}catch(a){this.raise_nodejs_error(a,g)}};aR.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};aR.prototype.stat=function(b,c){try{var
-a=this.fs.statSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aR.prototype.lstat=function(b,c){try{var
-a=this.fs.lstatSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aR.prototype.symlink=function(d,c,a,b){try{this.fs.symlinkSync(this.nm(c),this.nm(a),d?"dir":"file");return 0}catch(a){this.raise_nodejs_error(a,b)}};aR.prototype.readlink=function(b,c){try{var
-a=this.fs.readlinkSync(this.nm(b),pz);return eL(a)}catch(a){this.raise_nodejs_error(a,c)}};aR.prototype.raise_nodejs_error=function(a,d){var
-b=dP(jW);if(d&&b){var
-c=dS(a.code,a.syscall,a.path,a.errno);dQ(b,c)}else
-ap(a.toString())};aR.prototype.stats_from_js=function(a){var
+ck(d)}catch(a){this.raise_nodejs_error(a,g)}};aS.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};aS.prototype.stat=function(b,c){try{var
+a=this.fs.statSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aS.prototype.lstat=function(b,c){try{var
+a=this.fs.lstatSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aS.prototype.symlink=function(d,c,a,b){try{this.fs.symlinkSync(this.nm(c),this.nm(a),d?"dir":"file");return 0}catch(a){this.raise_nodejs_error(a,b)}};aS.prototype.readlink=function(b,c){try{var
+a=this.fs.readlinkSync(this.nm(b),pA);return eL(a)}catch(a){this.raise_nodejs_error(a,c)}};aS.prototype.raise_nodejs_error=function(a,d){var
+b=dQ(jW);if(d&&b){var
+c=dT(a.code,a.syscall,a.path,a.errno);dR(b,c)}else
+ar(a.toString())};aS.prototype.stats_from_js=function(a){var
 b;if(a.isFile())b=0;else
 if(a.isDirectory())b=1;else
 if(a.isCharacterDevice())b=2;else
 if(a.isBlockDevice())b=3;else
 if(a.isSymbolicLink())b=4;else
 if(a.isFIFO())b=5;else
-if(a.isSocket())b=6;return[0,a.dev,a.ino,b,a.mode,a.nlink,a.uid,a.gid,a.rdev,a.size,a.atimeMs,a.mtimeMs,a.ctimeMs]};aR.prototype.constructor=aR;function
-rA(b){var
-a=kv(b);if(!a)return;return a[0]+b2}var
-hJ=rA(fL)||b3("unable to compute caml_root"),eM=[];if(fO())eM.push({path:hJ,device:new
-aR(hJ)});else
-eM.push({path:hJ,device:new
-a$(hJ)});eM.push({path:pI,device:new
-a$(pI)});function
-rU(b){var
-g=Ih(b),b=g.join(b2),f=rN(b),c;for(var
+if(a.isSocket())b=6;return[0,a.dev,a.ino,b,a.mode,a.nlink,a.uid,a.gid,a.rdev,a.size,a.atimeMs,a.mtimeMs,a.ctimeMs]};aS.prototype.constructor=aS;function
+rB(b){var
+a=kv(b);if(!a)return;return a[0]+b4}var
+hK=rB(fM)||b5("unable to compute caml_root"),eM=[];if(fP())eM.push({path:hK,device:new
+aS(hK)});else
+eM.push({path:hK,device:new
+a_(hK)});eM.push({path:pJ,device:new
+a_(pJ)});function
+rV(b){var
+g=Io(b),b=g.join(b4),f=rO(b),c;for(var
 e=0;e<eM.length;e++){var
-a=eM[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&fO()){var
-d=rA(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
+a=eM[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&fP()){var
+d=rB(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
 a={path:d,device:new
-aR(d)};eM.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;ap("no device found for "+f)}function
-H4(c,b){var
-a=rU(c);if(!a.device.register)b3("cannot register file");a.device.register(a.rest,b);return 0}function
-rP(c,b){var
-c=a(c),b=a(b);return H4(c,b)}function
-H7(){var
+aS(d)};eM.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;ar("no device found for "+f)}function
+H$(c,b){var
+a=rV(c);if(!a.device.register)b5("cannot register file");a.device.register(a.rest,b);return 0}function
+rQ(c,b){var
+c=a(c),b=a(b);return H$(c,b)}function
+Ic(){var
 b=O.caml_fs_tmp;if(b)for(var
-a=0;a<b.length;a++)rP(b[a].name,b[a].content);O.jsoo_create_file=rP;O.caml_fs_tmp=[];return 0}function
-Io(c){var
-a=0,e=au(c),b=10,d=1;if(e>0)switch(dR(c,a)){case
+a=0;a<b.length;a++)rQ(b[a].name,b[a].content);O.jsoo_create_file=rQ;O.caml_fs_tmp=[];return 0}function
+Iv(c){var
+a=0,e=au(c),b=10,d=1;if(e>0)switch(dS(c,a)){case
 45:a++;d=-1;break;case
-43:a++;d=1;break}if(a+1<e&&dR(c,a)==48)switch(dR(c,a+1)){case
+43:a++;d=1;break}if(a+1<e&&dS(c,a)==48)switch(dS(c,a+1)){case
 120:case
 88:b=16;a+=2;break;case
 111:case
@@ -583,33 +583,33 @@ a=0,e=au(c),b=10,d=1;if(e>0)switch(dR(c,a)){case
 66:b=2;a+=2;break;case
 117:case
 85:a+=2;break}return[a,d,b]}function
-rH(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=rb)return a-87;return-1}function
-hH(f){var
-h=Io(f),c=h[0],i=h[1],d=h[2],g=au(f),j=-1>>>0,e=c<g?dR(f,c):0,b=rH(e);if(b<0||b>=d)b3(hq);var
-a=b;for(c++;c<g;c++){e=dR(f,c);if(e==95)continue;b=rH(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)b3(hq)}if(c!=g)b3(hq);a=i*a;if(d==10&&(a|0)!=a)b3(hq);return a|0}function
-Ig(a,b){return+(kh(a,b,false)<=0)}function
-Ii(a,d){if(a<0)hD();var
+rI(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=rc)return a-87;return-1}function
+hI(f){var
+h=Iv(f),c=h[0],i=h[1],d=h[2],g=au(f),j=-1>>>0,e=c<g?dS(f,c):0,b=rI(e);if(b<0||b>=d)b5(hs);var
+a=b;for(c++;c<g;c++){e=dS(f,c);if(e==95)continue;b=rI(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)b5(hs)}if(c!=g)b5(hs);a=i*a;if(d==10&&(a|0)!=a)b5(hs);return a|0}function
+In(a,b){return+(kh(a,b,false)<=0)}function
+Ip(a,d){if(a<0)hE();var
 a=a+1|0,b=new
 Array(a);b[0]=0;for(var
 c=1;c<a;c++)b[c]=d;return b}var
-cM=new
+cO=new
 Array();function
-Ij(c){var
-a=cM[c];if(!a.opened)ap("Cannot flush a closed channel");if(!a.buffer||a.buffer==ad)return 0;if(a.fd&&az.fds[a.fd]&&az.fds[a.fd].output){var
+Iq(c){var
+a=cO[c];if(!a.opened)ar("Cannot flush a closed channel");if(!a.buffer||a.buffer==ae)return 0;if(a.fd&&az.fds[a.fd]&&az.fds[a.fd].output){var
 b=az.fds[a.fd].output;switch(b.length){case
-2:b(c,a.buffer);break;default:b(a.buffer)}}a.buffer=ad;return 0}function
-rK(e,f){var
-b=cM[e],d=a(f),c=au(d);b.file.write(b.offset,d,0,c);b.offset+=c;return 0}function
-Iw(a){var
+2:b(c,a.buffer);break;default:b(a.buffer)}}a.buffer=ae;return 0}function
+rL(e,f){var
+b=cO[e],d=a(f),c=au(d);b.file.write(b.offset,d,0,c);b.offset+=c;return 0}function
+ID(a){var
 a=kr(a),b=O;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.error&&c.error(a)}}function
-Ix(a){var
+IE(a){var
 a=kr(a),b=O;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.log&&c.log(a)}}function
-hL(c,e,d,a){if(az.fds===undefined)az.fds=new
+hM(c,e,d,a){if(az.fds===undefined)az.fds=new
 Array();a=a?a:{};var
 b={};b.file=d;b.offset=a.append?d.length():0;b.flags=a;b.output=e;az.fds[c]=b;if(!az.fd_last_idx||c>az.fd_last_idx)az.fd_last_idx=c;return c}function
-IE(c,b,g){var
+IL(c,b,g){var
 a={};while(b){switch(b[1]){case
 0:a.rdonly=1;break;case
 1:a.wronly=1;break;case
@@ -619,109 +619,109 @@ a={};while(b){switch(b[1]){case
 5:a.excl=1;break;case
 6:a.binary=1;break;case
 7:a.text=1;break;case
-8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)ap(eK(c)+q1);if(a.text&&a.binary)ap(eK(c)+pO);var
-d=rU(c),e=d.device.open(d.rest,a),f=az.fd_last_idx?az.fd_last_idx:0;return hL(f+1,rK,e,a)}hL(0,rK,new
-aQ(cj(0)));hL(1,Ix,new
-aQ(cj(0)));hL(2,Iw,new
-aQ(cj(0)));function
-Ik(a){var
-c=az.fds[a];if(c.flags.wronly)ap(q$+a+" is writeonly");var
-d=null;if(a==0&&fO()){var
-e=require("fs");d=function(){return eL(e.readFileSync(0,pz))}}var
-b={file:c.file,offset:c.offset,fd:a,opened:true,out:false,refill:d};cM[b.fd]=b;return b.fd}function
-rE(c){var
-b=az.fds[c];if(b.flags.rdonly)ap(q$+c+" is readonly");var
-a={file:b.file,offset:b.offset,fd:c,opened:true,out:true,buffer:ad};cM[a.fd]=a;return a.fd}function
-Il(){var
+8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)ar(eK(c)+q2);if(a.text&&a.binary)ar(eK(c)+pP);var
+d=rV(c),e=d.device.open(d.rest,a),f=az.fd_last_idx?az.fd_last_idx:0;return hM(f+1,rL,e,a)}hM(0,rL,new
+aR(cl(0)));hM(1,IE,new
+aR(cl(0)));hM(2,ID,new
+aR(cl(0)));function
+Ir(a){var
+c=az.fds[a];if(c.flags.wronly)ar(ra+a+" is writeonly");var
+d=null;if(a==0&&fP()){var
+e=require("fs");d=function(){return eL(e.readFileSync(0,pA))}}var
+b={file:c.file,offset:c.offset,fd:a,opened:true,out:false,refill:d};cO[b.fd]=b;return b.fd}function
+rF(c){var
+b=az.fds[c];if(b.flags.rdonly)ar(ra+c+" is readonly");var
+a={file:b.file,offset:b.offset,fd:c,opened:true,out:true,buffer:ae};cO[a.fd]=a;return a.fd}function
+Is(){var
 b=0;for(var
-a=0;a<cM.length;a++)if(cM[a]&&cM[a].opened&&cM[a].out)b=[0,cM[a].fd,b];return b}function
-bG(b,c,a){if(a&&O.toplevelReloc)b=O.toplevelReloc(a);az[b+1]=c;if(a)az[a]=c}function
-Is(a,b){rG[eK(a)]=b;return 0}function
-HX(a,b){if(a===b)return 1;a.t&6&&eJ(a);b.t&6&&eJ(b);return a.c==b.c?1:0}function
-ax(a,b){return HX(a,b)}function
-Iu(){aS(j$)}function
-a1(b,a){if(a>>>0>=au(b))Iu();return dR(b,a)}function
+a=0;a<cO.length;a++)if(cO[a]&&cO[a].opened&&cO[a].out)b=[0,cO[a].fd,b];return b}function
+bI(b,c,a){if(a&&O.toplevelReloc)b=O.toplevelReloc(a);az[b+1]=c;if(a)az[a]=c}function
+Iz(a,b){rH[eK(a)]=b;return 0}function
+H4(a,b){if(a===b)return 1;a.t&6&&eJ(a);b.t&6&&eJ(b);return a.c==b.c?1:0}function
+ax(a,b){return H4(a,b)}function
+IB(){aT(j$)}function
+a2(b,a){if(a>>>0>=au(b))IB();return dS(b,a)}function
 o(a,b){return 1-ax(a,b)}function
-hK(a){return a}function
-rJ(a){return a}function
-rO(a){if(a
+hL(a){return a}function
+rK(a){return a}function
+rP(a){if(a
 instanceof
 Array)return a;if(O.RangeError&&a
 instanceof
-O.RangeError&&a.message&&a.message.match(/maximum call stack/i))return rJ(az.Stack_overflow);if(O.InternalError&&a
+O.RangeError&&a.message&&a.message.match(/maximum call stack/i))return rK(az.Stack_overflow);if(O.InternalError&&a
 instanceof
-O.InternalError&&a.message&&a.message.match(/too much recursion/i))return rJ(az.Stack_overflow);if(a
+O.InternalError&&a.message&&a.message.match(/too much recursion/i))return rK(az.Stack_overflow);if(a
 instanceof
-O.Error&&dP(qe))return[0,dP(qe),a];return[0,az.Failure,eL(String(a))]}function
-ck(a){return a<0?-a:a}function
-E(a,b){return a+b}function
+O.Error&&dQ(qf))return[0,dQ(qf),a];return[0,az.Failure,eL(String(a))]}function
+cm(a){return a<0?-a:a}function
+F(a,b){return a+b}function
 ks(a,b){return a<b?-1:a>b?1:0}function
-rR(c,b){var
-a=c%b;return a<0?a+ck(b):a}function
-kt(a,b){return(a-rR(a,b))/b}function
+rS(c,b){var
+a=c%b;return a<0?a+cm(b):a}function
+kt(a,b){return(a-rS(a,b))/b}function
 I(a,b){return a==b?1:0}function
-IB(c){O.orthocert_verify=function(b){return eK(dm(c,[a(b)]))}}function
+II(c){O.orthocert_verify=function(b){return eK(dp(c,[a(b)]))}}function
 D(a,b){return a<=b?1:0}function
 J(a,b){return a<b?1:0}function
 B(a,b){return a*b}function
-P(a){return-a}function
+Q(a){return-a}function
 aF(a){return O.BigInt(a)}function
-rS(a,b){return a<<O.BigInt(b)}function
-rT(a,b){return a>>O.BigInt(b)}function
-aN(a){return a<0?-1:a>0?1:0}function
-IC(a){if(a<0)throw new(O.Error)("a root of a negative number");if(a<2)return a;var
+rT(a,b){return a<<O.BigInt(b)}function
+rU(a,b){return a>>O.BigInt(b)}function
+aO(a){return a<0?-1:a>0?1:0}function
+IJ(a){if(a<0)throw new(O.Error)("a root of a negative number");if(a<2)return a;var
 d=O.BigInt(1),b=d<<O.BigInt((a.toString(16).length*4+1)/2|0),c;for(;;){c=b+a/b>>d;if(c>=b)return b;b=c}}function
 aG(a,b){return a-b}function
 ku(a){if(a>0x7fffffff||a<-0x80000000)throw new(O.Error)("a number of more than 32 bits");return O.Number(a)}function
-Ie(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
-H6(b){var
-a=ad;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&Ie(b[1]))var
+Il(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
+Ib(b){var
+a=ae;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&Il(b[1]))var
 e=b[2],f=1;else
 var
-f=2,e=b;a+=qf;for(var
+f=2,e=b;a+=qg;for(var
 d=f;d<e.length;d++){if(d>f)a+=", ";var
 c=e[d];if(typeof
 c=="number")a+=c.toString();else
 if(c
 instanceof
-ch)a+=aM+c.toString()+aM;else
+cj)a+=aN+c.toString()+aN;else
 if(typeof
-c=="string")a+=aM+c.toString()+aM;else
+c=="string")a+=aN+c.toString()+aN;else
 a+="_"}a+=j7}else
-if(b[0]==a0)a+=b[1];return a}function
-ry(a){if(a
+if(b[0]==a1)a+=b[1];return a}function
+rz(a){if(a
 instanceof
-Array&&(a[0]==0||a[0]==a0)){var
-c=dP("Printexc.handle_uncaught_exception");if(c)c(a,false);else{var
-d=H6(a),b=dP(py);if(b)b(0);O.console.error("Fatal error: exception "+d+"\n")}}else
+Array&&(a[0]==0||a[0]==a1)){var
+c=dQ("Printexc.handle_uncaught_exception");if(c)c(a,false);else{var
+d=Ib(a),b=dQ(pz);if(b)b(0);O.console.error("Fatal error: exception "+d+"\n")}}else
 throw a}function
-It(){var
-a=O;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){ry(b);a.process.exit(2)});else
-if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)ry(a.error)})}It();function
-i(a,b){return a.length==1?a(b):dm(a,[b])}function
-ao(a,b,c){return a.length==2?a(b,c):dm(a,[b,c])}function
-fw(a,b,c,d){return a.length==3?a(b,c,d):dm(a,[b,c,d])}function
-jR(a,b,c,d,e){return a.length==4?a(b,c,d,e):dm(a,[b,c,d,e])}H7();var
-kx=[a0,a(p7),-2],kw=[a0,a(rj),-4],GN=[0,[0,[0,[0,0]]]],GO=[0,0],GP=[0,0],GQ=[0,[0,0]],GR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GQ]]]]]]]]]]],g9=[0,[1,0],0],oI=[0,[2,0],0],jy=[0,[1,0],0],oH=[0,[2,0],0],g7=[0,[1,0],0],jx=[0,[2,0],0],GS=[0,[0,[0,[0,0]]]],GT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GS]]]]]]]]]]],GU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GT]]]]]]]]]]],GV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GU]]]]]]]]]]],GW=[0,[0,0]],GX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GW]]]]]]]]]]],GY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GX]]]]]]]]]]],GZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GY]]]]]]]]]]],G0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GZ]]]]]]]]]]],G1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],G2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G1]]]]]]]]]]],G3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G2]]]]]]]]]]],G4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G3]]]]]]]]]]],G5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G4]]]]]]]]]]],G6=[0,[0,0]],G7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G6]]]]]]]]]]],G8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G7]]]]]]]]]]],G9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G8]]]]]]]]]]],G_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G9]]]]]]]]]]],G$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G_]]]]]]]]]]],Ha=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G$]]]]]]]]]]],Hb=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ha]]]]]]]]]]],Hc=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],Hd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hc]]]]]]]]]]],He=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hd]]]]]]]]]]],Hf=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,He]]]]]]]]]]],Hg=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hf]]]]]]]]]]],Hh=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hg]]]]]]]]]]],Hi=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hh]]]]]]]]]]],Hj=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hi]]]]]]]]]]],Hk=[0,0],Hl=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hk]]]]]]]]]]],Hm=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hl]]]]]]]]]]],Hn=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hm]]]]]]]]]]],Ho=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hn]]]]]]]]]]],Hp=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ho]]]]]]]]]]],Hq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hp]]]]]]]]]]],Hr=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hq]]]]]]]]]]],Hs=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hr]]]]]]]]]]],Ht=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hs]]]]]]]]]]],Hu=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ht]]]]]]]]]]],Hv=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],Hw=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hv]]]]]]]]]]],Hx=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],Hy=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hx]]]]]]]]]]],Hz=[0,[0,[0,[0,[0,0]]]]],HA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hz]]]]]]]]]]],HB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HA]]]]]]]]]]],HC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HB]]]]]]]]]]],HD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HC]]]]]]]]]]],HE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HD]]]]]]]]]]],HF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HE]]]]]]]]]]],HG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HF]]]]]]]]]]],HH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HG]]]]]]]]]]],HI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HH]]]]]]]]]]],HJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HI]]]]]]]]]]],HK=[0,0],HL=[0,[0,0]],HM=[0,0],HN=[0,[0,[0,[0,[0,0]]]]],k5=[0,[0,[0,0]]],dt=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],gX=[0,[0,[0,[0,0]]]],HO=[0,[0,[0,[0,[0,0]]]]],HP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HO]]]]]]]]]]],HQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HP]]]]]]]]]]],HR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HQ]]]]]]]]]]],HS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HR]]]]]]]]]]];bG(11,[a0,a(px),-12],px);bG(10,[a0,a(ql),-11],ql);bG(9,[a0,a(q_),-10],q_);bG(8,[a0,a(pJ),-9],pJ);bG(7,[a0,a(qA),-8],qA);bG(6,[a0,a(pH),-7],pH);bG(5,[a0,a(p8),-6],p8);bG(4,[a0,a(qa),-5],qa);bG(3,kw,rj);bG(2,[a0,a(j1),-3],j1);bG(1,kx,p7);bG(0,[a0,a(qT),-1],qT);var
-rV=a("String.sub / Bytes.sub"),rX=a(ad),rW=a("String.concat"),rY=a("Array.init"),rZ=a("power"),sg=[0,0],sh=[0,0],sn=[0,0,0],so=[0,0,0],sp=[0,0],sL=[0,0],sM=[0,0],sP=[0,0],s_=[0,0],tb=[0,0],tf=[0,0],tg=[0,0],tu=[0,0],tv=[0,0],tY=[0,0],ug=[0,[0,[0,0]]],uK=[0,0],uL=[0,0],uM=[0,0],u$=[0,0],vB=a(","),vT=[0,a(j7),0],vU=a(qf),vV=a("."),vW=[0,[0,[0,0]]],vX=a(fD),vY=a(j8),vZ=[0,[0,[0,[0,[0,0]]]]],v0=[0,a(j7),0],v1=a(rh),y0=a(pu),y2=a(pq),y1=a(qo),y3=a(eA),y4=a(ey),y5=a(ke),y6=a(q4),y7=a(p1),y8=a(j_),y9=a(qu),y_=a(p0),Ap=[0,[0,0,0]],AG=[0,0],Aq=a(fx),Ar=[0,0],As=a("divided"),At=[0,1],Au=a("mirror"),Av=[0,3],Aw=a("negative"),Ax=[0,2],Ay=a(fC),Az=[0,5],AA=a(kd),AB=[0,4],AC=a(dk),AD=a(pM),AE=a(eB),AF=a(cg),AH=[0,0],AI=[0,0],AJ=[0,0],AM=[0,[0,[0,0]]],AN=[0,[0,[0,0]]],Bc=[0,[0,[0,0]]],Bq=[0,0],BG=a(ad),Bz=[0,0],BA=[0,0],BB=[0,[0,[0,[0,0]]]],BC=[0,[0,[0,0]]],BD=[0,[0,[0,[0,0]]]],BE=[0,[0,[0,0]]],Bx=[0,[0,[0,0]]],Bw=[0,0],Bv=a(eB),Bu=[0,0],Bt=[0,[0,[0,0]]],Bs=[0,0],Bn=[0,[0,0]],Bp=[0,[0,[0,0]]],Bo=[0,0],Bj=[0,[0,[0,0]]],Bi=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GN]]]]]]]]]],[0,0,[0,[0,[0,[0,0]]],0]]],Bd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],[0,0,0]],Be=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],[0,[0,[0,[0,[0,[0,[0,0]]]]]],0]],Bf=[0,[0,[0,[0,[0,[0,[0,0]]]]]],0],Bg=[0,[0,[0,[0,0]]],[0,0,0]],Ba=[0,0],Bb=[0,[0,0]],A$=[0,0,0],A_=[0,[0,[0,0]]],A4=[0,[0,0]],A5=[0,[0,[0,0]]],A6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GO]]]]]]]]]]],A7=[0,[0,0]],A8=[0,[0,[0,0]]],A3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GP]]]]]]]]]]],A1=[0,[0,0]],A2=[0,[0,[0,0]]],AZ=[0,[0,[0,0]]],A0=[0,[0,0]],AY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GR]]]]]]]]]]],AX=[0,0],AW=[0,0],AT=[0,[0,0]],AU=[0,0],AR=[0,0],AS=[0,1],AP=[0,[0,0]],AQ=[0,0],AO=[0,0],AK=[0,0],AL=[0,1],Am=[0,0],An=[0,1],Ao=[0,2],Ai=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],Ag=[0,[0,0],0],Ah=[0,[1,0],0],Aj=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],Ae=[0,[0,0]],Af=[0,0],Ad=[0,0],Ac=[0,0],Ab=[0,0],Aa=[0,0],z$=[0,0,0],z9=[0,[0,0]],z_=[0,0],z8=[0,0,0],z6=[0,[0,[0,0]]],z7=[0,[0,[0,0]]],z5=[0,0],z3=[0,1,0],zV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GV]]]]]]]]]]],zW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G0]]]]]]]]]]],zR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G5]]]]]]]]]]],zS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hb]]]]]]]]]]],zT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hj]]]]]]]]]]],zU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hu]]]]]]]]]]],zX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hw]]]]]]]]]]],zY=a("sqrt"),zP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hy]]]]]]]]]]],zQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HJ]]]]]]]]]]],zE=[0,a("\n"),0],zF=a(pr),zG=a(hm),zH=a(qk),zI=a(p5),zO=a(fG),zJ=a(fB),zK=a("verdict"),zL=a(qV),zM=a(pX),zN=a(qj),zB=a(qd),zC=a(qZ),zD=a(ho),zx=a(qw),zy=a(hp),zz=a(fB),zA=a(fG),zs=a(hx),zt=a(bo),zu=a(pt),zv=a(hu),zp=a(qS),zq=a(fC),zr=a(hu),zl=a(qz),zm=a(hx),zn=a(hp),zo=a(q8),za=a(q0),zb=a(q3),zc=a(ht),zd=a(hr),ze=a(rc),zf=a(qO),zg=a(qR),zh=a(qD),zi=a(ht),zj=a(qG),yY=a(hk),yZ=a(fF),yT=a(bF),yU=a(bE),yV=a(pZ),yt=a(hr),yu=a(qC),x9=a(bo),x_=a(b1),x$=a(hz),ya=a(eE),yb=a(dN),yg=a(jU),yc=a(j9),yd=a(ka),ye=a(ez),yf=a(bo),yh=a(b1),yi=a(hz),yj=a(eE),yk=a(j9),yl=a(ka),ym=a(ez),yn=a(bo),yo=a(b1),yp=a(bF),yq=a(bE),yr=a(dL),ys=a(eE),yv=a(qM),yw=a(q2),yx=a(hC),yy=a(pN),yz=a(pS),yA=a(ez),yB=a(bo),yC=a(b1),yD=a(hi),yE=a(p3),yF=a(eE),yG=a(fJ),yH=a(pB),yI=a(ez),yJ=a(bo),yK=a(hi),yL=a(bo),yM=a(qF),yP=a(pp),yN=a(pQ),yO=a(q7),yQ=a(fG),yR=a(fB),yS=a(bo),yW=a(hC),yX=a(ho),x4=a(b1),x5=a(eE),x6=a(jU),x7=a(ez),x3=a(re),xR=a(fJ),xS=a(qW),xT=a(dM),xU=a(eC),xV=a(eC),xW=a(jX),xX=a(dM),xY=a(qm),xZ=a(pY),x0=a(bi),x2=a(pw),x1=a(jX),xH=a(qc),xI=a(ri),xJ=a(pU),xK=a(pR),xL=a(q6),xM=a(qQ),xN=a(p6),xO=a(hj),xP=a(hj),xD=a(bi),xE=a(bD),xF=a(eF),xG=a(b0),xz=a(dN),xA=a(j4),xB=a(qx),xw=a(bF),xx=a(bE),xy=a(dL),xp=a(bF),xq=a(bE),xr=a(dL),xs=a(j6),xt=a(dM),xu=a(j2),xv=a(qL),w9=a(pP),xd=a(hm),xc=a(kc),w_=a(jY),w$=a(fz),xe=a(fA),xg=a(fA),xh=a(qJ),xi=a(jY),xf=a(fz),xj=a(pL),xk=a(qI),xl=a(fz),xm=a(rd),xn=a(kc),xo=a(fz),xa=a(eC),xb=a(qs),w6=a(hs),w7=a(hs),w8=a(hs),w2=a(qN),w3=a(bE),w4=a(bF),w5=a(q5),wL=a(pF),wM=a(pv),wN=a(qB),wO=a(eA),wP=a(rf),wQ=a(qE),wR=a(pG),wS=a(qt),wT=a(pE),wU=a(p2),wV=a(pD),wW=a(qP),wX=a(ey),wY=a(pA),wZ=a(qY),w0=a(pT),w1=a(rg),wq=a(hv),ws=a(fD),wr=a(fy),wt=a(ex),wu=a(bi),wv=a(bD),ww=a(cg),wx=a(hA),wy=a(b0),wz=a(bi),wA=a(bD),wB=a(eF),wC=a(b0),wD=a(ex),wE=a(fI),wF=a(bi),wG=a(bD),wH=a(qq),wI=a(fA),wJ=a(fI),wK=a(b0),v_=a(hv),wg=a(fD),v$=a(fy),wa=a(ex),wb=a(bi),wc=a(bD),wd=a(cg),we=a(hA),wf=a(b0),wh=a(hB),wi=a(bi),wj=a(bD),wk=a(eF),wl=a(b0),wm=a(cg),wn=a(dN),wo=a(b0),v7=a(bF),v8=a(bE),v5=[0,a(aM),0],v6=a(aM),v3=a(ad),v2=[0,a(aM),0],v4=a(aM),vP=a(hv),vQ=a(fD),vR=a("*"),vS=a(b2),vK=[0,[0,[0,[0,[0,0]]]]],vL=[0,[0,[0,0]]],vM=[0,[0,0]],vN=[0,0],vO=[0,[0,[0,[0,0]]]],vI=a('":'),vJ=a(aM),vG=[0,a(aM),0],vH=a(aM),vE=[0,a("}"),0],vF=a("{"),vC=[0,a("]"),0],vD=a("["),vA=[0,[0,[0,0]]],vz=[0,[0,[0,0]]],vx=[0,0],vu=[0,[0,[0,0]]],vv=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],vw=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],vs=[0,[0,0]],vt=[0,[0,[0,0]]],vq=[0,0],vr=[0,[0,0]],vm=[0,[0,0]],vn=[0,0],vo=[0,[0,[0,0]]],vp=[0,[0,[0,0]]],vi=[0,[0,[0,0]]],vk=[0,[0,[0,0]]],vj=[0,0],vf=[0,[0,0]],vg=[0,0],vd=[0,[0,0]],ve=[0,0],vc=[0,[0,[0,0]]],va=[0,[0,0]],vb=[0,0],u9=[0,0],u_=[0,[0,0]],u3=[0,[0,0]],u4=[0,[0,[0,[0,[0,0]]]]],u5=[0,[0,[0,[0,0]]]],u6=[0,[0,[0,0]]],u7=[0,[0,0]],u8=[0,0],u0=[0,0],u1=[0,[0,0]],u2=[0,0],uZ=[0,0],uV=[0,0],uW=[0,[0,[0,[0,[0,[0,0]]]]]],uX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HK]]]]]]]]]]],uT=[0,0],uQ=[0,0,0],uR=[0,0,0],uS=[0,0,0],uN=[0,[0,0]],uO=[0,[0,[0,0]]],uP=[0,0],uA=[0,[0,[0,[0,[0,[0,0]]]]]],uB=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],uC=[0,[0,[0,0]]],uD=[0,[0,[0,0]]],uE=[0,[0,[0,[0,[0,[0,0]]]]]],uF=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],uG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HL]]]]]]]]]]],uH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HM]]]]]]]]]]],uI=[0,[0,[0,0]]],uJ=[0,[0,[0,[0,[0,[0,0]]]]]],uz=[0,0],ux=[0,[0,0]],uy=[0,[0,[0,0]]],ut=[0,0,0],uu=[0,0,0],up=[0,0,0],uq=[0,0,0],ur=[0,0,0],us=[0,0,0],uo=[0,0],un=[0,0],um=[0,0],uk=[0,0],ul=[0,0],uj=[0,0],uh=[0,0],ui=[0,0],ua=[0,0],ub=[0,0],uc=[0,0],ud=[0,[0,[0,0]]],t$=[0,0],t6=[0,[0,[0,0]]],t7=[0,[0,0]],t4=[0,[0,0]],t5=[0,[0,[0,0]]],t3=[0,0],t1=[0,0],t2=[0,0],tZ=[0,0,0],tW=[0,[0,0]],tX=[0,0],tO=[0,[0,0]],tP=[0,0],tQ=[0,[0,0]],tR=[0,0],tS=[0,[0,0]],tT=[0,0],tU=[0,[0,0]],tV=[0,0],tM=[0,[0,0]],tN=[0,0],tK=[0,[0,0]],tL=[0,0],tG=[0,[0,0]],tH=[0,0],tI=[0,0],tJ=[0,[0,0]],tx=[0,[0,0]],ty=[0,0],tz=[0,[0,0]],tA=[0,0],tB=[0,0],tC=[0,[0,0]],tD=[0,[0,0]],tE=[0,[0,0]],tF=[0,0],tt=[0,0],ts=[0,0],tp=[0,0],tq=[0,[0,0]],to=[0,[0,[0,0]]],tn=[0,[0,[0,[0,[0,[0,0]]]]]],tl=[0,[0,0]],tm=[0,0],tk=[0,[0,0]],tj=[0,0],th=[0,0],ti=[0,[0,[0,0]]],td=[0,[0,0]],te=[0,[0,[0,0]]],tc=[0,[0,[0,0]]],s$=[0,[0,[0,0]]],s9=[0,[0,[0,0]]],s7=[0,[0,[0,[0,[0,[0,0]]]]]],s8=[0,[0,[0,[0,[0,[0,0]]]]]],s2=[0,[0,0]],s3=[0,0],s4=[0,[0,0]],s5=[0,[0,[0,0]]],s6=[0,[0,[0,0]]],sV=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],sW=[0,[0,[0,[0,[0,[0,0]]]]]],sX=[0,[0,[0,[0,[0,[0,0]]]]]],sY=[0,[0,[0,0]]],sZ=[0,[0,[0,[0,[0,[0,0]]]]]],s0=[0,[0,[0,0]]],s1=[0,[0,[0,0]]],sT=[0,[0,0]],sU=[0,0],sS=[0,0,0],sR=[0,0,0],sQ=[0,0,0],sO=[0,0,0],sN=[0,[0,[0,0]]],sH=[0,0],sI=[0,0],sJ=[0,0],sK=[0,0],sF=[0,0],sG=[0,0],sB=[0,[0,[0,0]]],sC=[0,[0,[0,0]]],sD=[0,[0,[0,0]]],sA=[0,[0,[0,[0,0]]]],sw=[0,[0,[0,0]]],sx=[0,[0,[0,0]]],sy=[0,[0,[0,0]]],sz=[0,[0,1,1],[0,[0,0,1],[0,[0,1,0],[0,[0,0,0],0]]]],su=[0,[0,0]],sv=[0,0],ss=[0,[0,0]],st=[0,0],sq=[0,[0,0]],sr=[0,0],sd=[0,0],se=[0,[0,0]],sb=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],sc=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HN]]]]]]]]]]],r$=[0,0,0],r_=a(ra),r9=a(ad),r8=[0,[0,0]],r6=[0,0],r3=[0,0],r5=[1,0],r4=[0,0],r2=[0,0],r0=[1,0],r1=[1,0],tr=[10,0,0,0,0],Br=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HS]]]]]]]]]]],EJ=a(bF),EK=a(bE),EL=a(pZ),EB=a(hB),EC=[0,a("a base axis of such a platform"),0],ED=a(bi),EE=a(bD),Eo=a(qQ),Ep=a(qc),Eq=a(q6),Er=a(hj),Es=a(p6),Et=a(hj),Eu=a(ri),Ev=a(pU),Ew=a(pR),Ee=a(qC),Ef=a(hr),DS=[0,a("such a machine with bodies"),0],DF=a(ho),DG=a(bo),DH=a(qF),DI=a(q7),DL=a(pQ),DM=a(pp),DN=a(bo),DO=a(bo),DQ=a(hi),DP=[0,a("a claim that no cube of such a machine fits"),0],DR=a(re),DT=a(ez),DU=a(eE),DV=a(dN),DW=a(j4),DX=a(qx),DY=a(hz),DZ=a(pS),D0=a(pB),D1=a(jU),D4=a(dL),D5=a(qL),D8=a(b1),D9=a(b1),D_=a(p3),D$=a(b1),Ea=[0,a("the closed design with other bounds on psi than one from below and one from above"),0],Eb=a(hi),Ec=a(fJ),Ed=a(dL),Eg=a(b1),Eh=a(bF),Ei=a(bE),Ej=a(qM),Ek=a(q2),El=a(hC),Em=a(pN),D2=[0,a(aM),0],D3=a('the mechanism "'),En=a(j9),Ex=a(hz),Ey=a(dN),Ez=a(j4),EA=a(ka),EF=a(b1),EI=a(dN),EG=[0,a("a platform that turns on struts and other drives"),0],EH=a(b1),D6=[0,a(aM),0],D7=a('the workspace "'),EM=a(bo),EN=a(bo),EP=a(fG),EQ=a(fB),ER=a(hC),EO=[0,a("an atlas of such a machine"),0],DJ=[0,a(aM),0],DK=a('a claim of the kind "'),E5=a(ke),E6=a(dk),E7=a(eB),E8=a(j_),E9=a(fx),E_=[0,a('this evidence "fan"'),0],EW=a(dk),Fi=a(fF),Fj=[0,1,1],EX=a(qu),E$=a(ey),Fa=a(p0),Fb=a(eA),Fc=a(p1),Fd=a(qo),Fe=a(cg),Ff=a(fF),Fg=a(hk),Fh=a(cg),EY=a(ke),EZ=a(dk),E0=a(pM),E1=a(eB),E2=a(j_),E3=[0,a(aM),0],E4=a('the evidence "'),Fk=a(ey),Fl=a(eA),Fm=a(dk),Fn=a(eB),Fo=a(q4),Fq=a(ey),Fr=a(eA),Fs=a(dk),Ft=a(eB),Fu=a(fC),Fv=a(fx),Fw=a(fC),Fx=a(fx),Fp=[0,a("this evidence at control points"),0],GG=a('"orthocert-paving/'),Gw=a(dk),Gx=a(dk),Gd=a(qj),Ge=a(pX),Gf=a(qV),GE=[0,3,3],Gg=a(p5),Gu=[0,a("this set of orientations with such drives"),0],Gv=[0,a('"parallel_margin" of struts in the plane'),0],Gy=[0,a('this evidence "tolerances" of a platform that turns'),0],Gz=[0,a('"one_to_one" of this set of orientations'),0],GA=[0,a("a step of a platform that turns that is not at control points"),0],GB=[0,a('the evidence "tolerances" of such a mechanism'),0],GC=[0,a(qr),0],GD=[0,a(qU),0],Gt=[0,a(qr),0],Gs=[0,a(qU),0],Gq=[0,a(ps),0],Gr=[0,a("a step in a proof that no cube fits"),0],Gp=[0,a('"one_to_one" of such a mechanism'),0],Gh=[0,a("the acceleration of a joint of a machine with a plane"),0],Gn=[0,a("a stiffness for each joint in such a claim"),0],Go=[0,a(qH),0],Gm=[0,a(qH),0],Gi=a(qk),Gj=a(pr),Gk=a(hm),Gl=[0,a(ps),0],F$=a(kd),Ga=a(fx),Gb=a(cg),F3=a(ho),F4=a(qd),F5=a(qZ),F6=[0,a(aM),0],F7=a('a proof of the kind "'),FZ=a(fB),F0=a(fG),F1=a(hp),F2=a(qw),FV=a(bo),FW=a(hx),FX=a(pt),FY=a(hu),FS=a(qS),FT=a(fC),FU=a(hu),FO=a(qz),FP=a(hx),FQ=a(hp),FR=a(q8),FA=a(q3),FB=a(ht),FC=a(q0),FD=a(hr),FE=a(qG),FF=a(rc),FI=a(qO),FJ=a(hk),FK=a(fF),FL=a(qR),FM=a(qD),FN=a(ht),FG=[0,a(aM),0],FH=a('the failure "'),Fy=a(kd),Fz=a(ra),EU=a(fF),EV=a(hk),ES=a(pq),ET=a(pu),DC=a(fJ),Ds=a(jX),Dt=a(pw),Du=a(eC),Dv=a(bi),DA=a(qW),DB=a(fJ),DD=a(dM),DE=a(eC),Dw=a(dM),Dx=a(qm),Dy=a(pY),Dz=a(bi),Dl=a(dL),Dp=a(bF),Dq=a(bE),Dm=a(j2),Dn=a(j6),Do=a(dM),Df=a(dL),Dj=a(bF),Dk=a(bE),Dg=a(j2),Dh=a(j6),Di=a(dM),De=[0,1],Dd=[0,1],Db=[0,1],Da=[0,1],C_=[0,1],C$=[0,a("this quantity of such a mechanism"),0],CT=a(jY),CU=a(qI),CV=a(pL),CW=a(kc),CX=a(rd),CZ=a(qJ),CY=a(fA),CS=a(hm),CK=a(hs),Cy=a(qs),Cz=a(qB),C2=a(ey),C3=a(qY),C4=a(p2),C5=a(eA),C6=a(qt),C7=a(pD),C8=a(pE),C9=a(pv),CA=a(pA),CB=a(rg),CC=a(qP),CD=a(qE),CE=a(pT),CF=a(rf),CG=a(pG),CH=a(pF),CI=[0,a(aM),0],CJ=a('the quantity "'),CL=a(pP),CM=a(qN),CN=a(bF),CO=a(bE),CP=a(q5),CQ=[0,a(aM),0],CR=a('a bound "'),C0=a(fz),C1=a(eC),Cw=a(b0),Cx=a(eF),Cb=a(b0),Cc=a(hB),Cd=a(fI),Ce=a(hA),Cf=a(eF),Ci=a(bi),Cj=a(bD),Ck=a(fy),Cl=a(ex),Cm=a(bi),Cn=a(bD),Co=a(cg),Cp=a(fy),Cq=a(ex),Cr=a(fI),Cs=a(bi),Ct=a(bD),Cu=a(qq),Cv=a(fA),Cg=[0,a('" of such a machine'),0],Ch=a(pK),B$=a(b0),Ca=a(fI),BV=a(b0),BW=a(dN),BX=a(hA),BY=a(eF),B1=a(hB),B2=a(bi),B3=a(bD),B4=a(fy),B5=a(ex),B6=a(bi),B7=a(bD),B8=a(cg),B9=a(cg),BZ=[0,a(aM),0],B0=a(pK),BS=a(hv),BT=a(fD),BQ=a(" is not covered by the verified checker"),BR=a(ad),BO=a(bF),BP=a(bE),BK=a(ad),BL=a(rh),BM=a(ad),BN=a(ad),BJ=[1,0],BH=a("Reader.Malformed"),BI=a("Reader.Not_covered"),GI=[0,a("a paving is checked by orthocert-verified")],GH=a(qv),GJ=a("CERTIFIED"),GK=a("REFUTED"),GL=a(qv),GM=a("NOT COVERED: ");function
-fP(a){throw[0,kw,a]}function
-ba(d,c){var
-a=au(d),e=au(c),b=cj(a+e|0);eH(d,0,b,0,a);eH(c,0,b,a,e);return hK(b)}Ik(0);rE(1);rE(2);function
+IA(){var
+a=O;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){rz(b);a.process.exit(2)});else
+if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)rz(a.error)})}IA();function
+i(a,b){return a.length==1?a(b):dp(a,[b])}function
+aq(a,b,c){return a.length==2?a(b,c):dp(a,[b,c])}function
+fw(a,b,c,d){return a.length==3?a(b,c,d):dp(a,[b,c,d])}function
+jR(a,b,c,d,e){return a.length==4?a(b,c,d,e):dp(a,[b,c,d,e])}Ic();var
+kx=[a1,a(p8),-2],kw=[a1,a(rk),-4],GU=[0,[0,[0,[0,0]]]],GV=[0,0],GW=[0,0],GX=[0,[0,0]],GY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GX]]]]]]]]]]],g$=[0,[1,0],0],oJ=[0,[2,0],0],jy=[0,[1,0],0],oI=[0,[2,0],0],g9=[0,[1,0],0],jx=[0,[2,0],0],GZ=[0,[0,[0,[0,0]]]],G0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GZ]]]]]]]]]]],G1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G0]]]]]]]]]]],G2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G1]]]]]]]]]]],G3=[0,[0,0]],G4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G3]]]]]]]]]]],G5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G4]]]]]]]]]]],G6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G5]]]]]]]]]]],G7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G6]]]]]]]]]]],G8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],G9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G8]]]]]]]]]]],G_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G9]]]]]]]]]]],G$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G_]]]]]]]]]]],Ha=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G$]]]]]]]]]]],Hb=[0,[0,0]],Hc=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hb]]]]]]]]]]],Hd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hc]]]]]]]]]]],He=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hd]]]]]]]]]]],Hf=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,He]]]]]]]]]]],Hg=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hf]]]]]]]]]]],Hh=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hg]]]]]]]]]]],Hi=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hh]]]]]]]]]]],Hj=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],Hk=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hj]]]]]]]]]]],Hl=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hk]]]]]]]]]]],Hm=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hl]]]]]]]]]]],Hn=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hm]]]]]]]]]]],Ho=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hn]]]]]]]]]]],Hp=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ho]]]]]]]]]]],Hq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hp]]]]]]]]]]],Hr=[0,0],Hs=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hr]]]]]]]]]]],Ht=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hs]]]]]]]]]]],Hu=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ht]]]]]]]]]]],Hv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hu]]]]]]]]]]],Hw=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hv]]]]]]]]]]],Hx=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hw]]]]]]]]]]],Hy=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hx]]]]]]]]]]],Hz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hy]]]]]]]]]]],HA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hz]]]]]]]]]]],HB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HA]]]]]]]]]]],HC=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],HD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HC]]]]]]]]]]],HE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],HF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HE]]]]]]]]]]],HG=[0,[0,[0,[0,[0,0]]]]],HH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HG]]]]]]]]]]],HI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HH]]]]]]]]]]],HJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HI]]]]]]]]]]],HK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HJ]]]]]]]]]]],HL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HK]]]]]]]]]]],HM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HL]]]]]]]]]]],HN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HM]]]]]]]]]]],HO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HN]]]]]]]]]]],HP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HO]]]]]]]]]]],HQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HP]]]]]]]]]]],HR=[0,0],HS=[0,[0,0]],HT=[0,0],HU=[0,[0,[0,[0,[0,0]]]]],k5=[0,[0,[0,0]]],dv=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],gZ=[0,[0,[0,[0,0]]]],HV=[0,[0,[0,[0,[0,0]]]]],HW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HV]]]]]]]]]]],HX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HW]]]]]]]]]]],HY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HX]]]]]]]]]]],HZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HY]]]]]]]]]]];bI(11,[a1,a(py),-12],py);bI(10,[a1,a(qm),-11],qm);bI(9,[a1,a(q$),-10],q$);bI(8,[a1,a(pK),-9],pK);bI(7,[a1,a(qB),-8],qB);bI(6,[a1,a(pI),-7],pI);bI(5,[a1,a(p9),-6],p9);bI(4,[a1,a(qb),-5],qb);bI(3,kw,rk);bI(2,[a1,a(j1),-3],j1);bI(1,kx,p8);bI(0,[a1,a(qU),-1],qU);var
+rW=a("String.sub / Bytes.sub"),rY=a(ae),rX=a("String.concat"),rZ=a("Array.init"),r0=a("power"),sh=[0,0],si=[0,0],so=[0,0,0],sp=[0,0,0],sq=[0,0],sM=[0,0],sN=[0,0],sQ=[0,0],s$=[0,0],tc=[0,0],tg=[0,0],th=[0,0],ti=[0,0],tj=[0,0],tx=[0,0],ty=[0,0],t1=[0,0],uj=[0,[0,[0,0]]],uN=[0,0],va=[0,0],vC=a(","),vU=[0,a(j7),0],vV=a(qg),vW=a("."),vX=[0,[0,[0,0]]],vY=a(fD),vZ=a(j8),v0=[0,[0,[0,[0,[0,0]]]]],v1=[0,a(j7),0],v2=a(ri),y5=a(pv),y7=a(pr),y6=a(qp),y8=a(eA),y9=a(ey),y_=a(ke),y$=a(q5),za=a(p2),zb=a(j_),zc=a(qv),zd=a(p1),Au=[0,[0,0,0]],AL=[0,0],Av=a(fx),Aw=[0,0],Ax=a("divided"),Ay=[0,1],Az=a("mirror"),AA=[0,3],AB=a("negative"),AC=[0,2],AD=a(fC),AE=[0,5],AF=a(kd),AG=[0,4],AH=a(dm),AI=a(pN),AJ=a(eB),AK=a(bG),AM=[0,0],AN=[0,0],AO=[0,0],AR=[0,[0,[0,0]]],AS=[0,[0,[0,0]]],Bh=[0,[0,[0,0]]],Bv=[0,0],BL=a(ae),BE=[0,0],BF=[0,0],BG=[0,[0,[0,[0,0]]]],BH=[0,[0,[0,0]]],BI=[0,[0,[0,[0,0]]]],BJ=[0,[0,[0,0]]],BC=[0,[0,[0,0]]],BB=[0,0],BA=a(eB),Bz=[0,0],By=[0,[0,[0,0]]],Bx=[0,0],Bs=[0,[0,0]],Bu=[0,[0,[0,0]]],Bt=[0,0],Bo=[0,[0,[0,0]]],Bn=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GU]]]]]]]]]],[0,0,[0,[0,[0,[0,0]]],0]]],Bi=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],[0,0,0]],Bj=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],[0,[0,[0,[0,[0,[0,[0,0]]]]]],0]],Bk=[0,[0,[0,[0,[0,[0,[0,0]]]]]],0],Bl=[0,[0,[0,[0,0]]],[0,0,0]],Bf=[0,0],Bg=[0,[0,0]],Be=[0,0,0],Bd=[0,[0,[0,0]]],A9=[0,[0,0]],A_=[0,[0,[0,0]]],A$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GV]]]]]]]]]]],Ba=[0,[0,0]],Bb=[0,[0,[0,0]]],A8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GW]]]]]]]]]]],A6=[0,[0,0]],A7=[0,[0,[0,0]]],A4=[0,[0,[0,0]]],A5=[0,[0,0]],A3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GY]]]]]]]]]]],A2=[0,0],A1=[0,0],AY=[0,[0,0]],AZ=[0,0],AW=[0,0],AX=[0,1],AU=[0,[0,0]],AV=[0,0],AT=[0,0],AP=[0,0],AQ=[0,1],Ar=[0,0],As=[0,1],At=[0,2],An=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],Al=[0,[0,0],0],Am=[0,[1,0],0],Ao=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],Aj=[0,[0,0]],Ak=[0,0],Ai=[0,0],Ah=[0,0],Ag=[0,0],Af=[0,0],Ae=[0,0,0],Ac=[0,[0,0]],Ad=[0,0],Ab=[0,0,0],z$=[0,[0,[0,0]]],Aa=[0,[0,[0,0]]],z_=[0,0],z8=[0,1,0],z0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G2]]]]]]]]]]],z1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G7]]]]]]]]]]],zW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ha]]]]]]]]]]],zX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hi]]]]]]]]]]],zY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hq]]]]]]]]]]],zZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HB]]]]]]]]]]],z2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HD]]]]]]]]]]],z3=a("sqrt"),zU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HF]]]]]]]]]]],zV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HQ]]]]]]]]]]],zJ=[0,a("\n"),0],zK=a(ps),zL=a(ho),zM=a(ql),zN=a(p6),zT=a(fG),zO=a(fB),zP=a("verdict"),zQ=a(qW),zR=a(pY),zS=a(qk),zG=a(qe),zH=a(q0),zI=a(hq),zC=a(qx),zD=a(hr),zE=a(fB),zF=a(fG),zx=a(hz),zy=a(bp),zz=a(pu),zA=a(hw),zu=a(qT),zv=a(fC),zw=a(hw),zq=a(qA),zr=a(hz),zs=a(hr),zt=a(q9),zf=a(q1),zg=a(q4),zh=a(hv),zi=a(ht),zj=a(rd),zk=a(qP),zl=a(qS),zm=a(qE),zn=a(hv),zo=a(qH),y3=a(hm),y4=a(fF),yY=a(bH),yZ=a(bF),y0=a(p0),yy=a(ht),yz=a(qD),yc=a(bp),yd=a(b3),ye=a(hB),yf=a(eE),yg=a(cK),yl=a(jU),yh=a(j9),yi=a(ka),yj=a(ez),yk=a(bp),ym=a(b3),yn=a(hB),yo=a(eE),yp=a(j9),yq=a(ka),yr=a(ez),ys=a(bp),yt=a(b3),yu=a(bH),yv=a(bF),yw=a(dN),yx=a(eE),yA=a(qN),yB=a(q3),yC=a(hD),yD=a(pO),yE=a(pT),yF=a(ez),yG=a(bp),yH=a(b3),yI=a(hk),yJ=a(p4),yK=a(eE),yL=a(fK),yM=a(pC),yN=a(ez),yO=a(bp),yP=a(hk),yQ=a(bp),yR=a(qG),yU=a(pq),yS=a(pR),yT=a(q8),yV=a(fG),yW=a(fB),yX=a(bp),y1=a(hD),y2=a(hq),x9=a(b3),x_=a(eE),x$=a(jU),ya=a(ez),x8=a(rf),xW=a(fK),xX=a(qX),xY=a(dO),xZ=a(eC),x0=a(eC),x1=a(jX),x2=a(dO),x3=a(qn),x4=a(pZ),x5=a(bi),x7=a(px),x6=a(jX),xM=a(qd),xN=a(rj),xO=a(pV),xP=a(pS),xQ=a(q7),xR=a(qR),xS=a(p7),xT=a(hl),xU=a(hl),xI=a(bi),xJ=a(bD),xK=a(eF),xL=a(bE),xE=a(cK),xF=a(j4),xG=a(qy),xB=a(bH),xC=a(bF),xD=a(dN),xu=a(bH),xv=a(bF),xw=a(dN),xx=a(j6),xy=a(dO),xz=a(j2),xA=a(qM),xc=a(pQ),xi=a(ho),xh=a(kc),xd=a(jY),xe=a(fz),xj=a(fA),xl=a(fA),xm=a(qK),xn=a(jY),xk=a(fz),xo=a(pM),xp=a(qJ),xq=a(fz),xr=a(re),xs=a(kc),xt=a(fz),xf=a(eC),xg=a(qt),w$=a(hu),xa=a(hu),xb=a(hu),w7=a(qO),w8=a(bF),w9=a(bH),w_=a(q6),wQ=a(pG),wR=a(pw),wS=a(qC),wT=a(eA),wU=a(rg),wV=a(qF),wW=a(pH),wX=a(qu),wY=a(pF),wZ=a(p3),w0=a(pE),w1=a(qQ),w2=a(ey),w3=a(pB),w4=a(qZ),w5=a(pU),w6=a(rh),wr=a(hx),wt=a(fD),ws=a(fy),wu=a(ex),wv=a(bi),ww=a(bD),wx=a(bG),wy=a(hC),wz=a(bE),wA=a(fI),wB=a(bi),wC=a(bD),wD=a(eF),wE=a(bE),wF=a(bG),wG=a(cK),wH=a(bE),wI=a(ex),wJ=a(fJ),wK=a(bi),wL=a(bD),wM=a(qr),wN=a(fA),wO=a(fJ),wP=a(bE),v$=a(hx),wh=a(fD),wa=a(fy),wb=a(ex),wc=a(bi),wd=a(bD),we=a(bG),wf=a(hC),wg=a(bE),wi=a(fI),wj=a(bi),wk=a(bD),wl=a(eF),wm=a(bE),wn=a(bG),wo=a(cK),wp=a(bE),v8=a(bH),v9=a(bF),v6=[0,a(aN),0],v7=a(aN),v4=a(ae),v3=[0,a(aN),0],v5=a(aN),vQ=a(hx),vR=a(fD),vS=a("*"),vT=a(b4),vL=[0,[0,[0,[0,[0,0]]]]],vM=[0,[0,[0,0]]],vN=[0,[0,0]],vO=[0,0],vP=[0,[0,[0,[0,0]]]],vJ=a('":'),vK=a(aN),vH=[0,a(aN),0],vI=a(aN),vF=[0,a("}"),0],vG=a("{"),vD=[0,a("]"),0],vE=a("["),vB=[0,[0,[0,0]]],vA=[0,[0,[0,0]]],vy=[0,0],vv=[0,[0,[0,0]]],vw=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],vx=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],vt=[0,[0,0]],vu=[0,[0,[0,0]]],vr=[0,0],vs=[0,[0,0]],vn=[0,[0,0]],vo=[0,0],vp=[0,[0,[0,0]]],vq=[0,[0,[0,0]]],vj=[0,[0,[0,0]]],vl=[0,[0,[0,0]]],vk=[0,0],vg=[0,[0,0]],vh=[0,0],ve=[0,[0,0]],vf=[0,0],vd=[0,[0,[0,0]]],vb=[0,[0,0]],vc=[0,0],u_=[0,0],u$=[0,[0,0]],u4=[0,[0,0]],u5=[0,[0,[0,[0,[0,0]]]]],u6=[0,[0,[0,[0,0]]]],u7=[0,[0,[0,0]]],u8=[0,[0,0]],u9=[0,0],u1=[0,0],u2=[0,[0,0]],u3=[0,0],u0=[0,0],uW=[0,0],uX=[0,[0,[0,[0,[0,[0,0]]]]]],uY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HR]]]]]]]]]]],uU=[0,0],uR=[0,0,0],uS=[0,0,0],uT=[0,0,0],uO=[0,[0,0]],uP=[0,[0,[0,0]]],uQ=[0,0],uD=[0,[0,[0,[0,[0,[0,0]]]]]],uE=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],uF=[0,[0,[0,0]]],uG=[0,[0,[0,0]]],uH=[0,[0,[0,[0,[0,[0,0]]]]]],uI=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],uJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HS]]]]]]]]]]],uK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HT]]]]]]]]]]],uL=[0,[0,[0,0]]],uM=[0,[0,[0,[0,[0,[0,0]]]]]],uC=[0,0],uA=[0,[0,0]],uB=[0,[0,[0,0]]],uw=[0,0,0],ux=[0,0,0],us=[0,0,0],ut=[0,0,0],uu=[0,0,0],uv=[0,0,0],ur=[0,0],uq=[0,0],up=[0,0],un=[0,0],uo=[0,0],um=[0,0],uk=[0,0],ul=[0,0],ud=[0,0],ue=[0,0],uf=[0,0],ug=[0,[0,[0,0]]],uc=[0,0],t9=[0,[0,[0,0]]],t_=[0,[0,0]],t7=[0,[0,0]],t8=[0,[0,[0,0]]],t6=[0,0],t4=[0,0],t5=[0,0],t2=[0,0,0],tZ=[0,[0,0]],t0=[0,0],tR=[0,[0,0]],tS=[0,0],tT=[0,[0,0]],tU=[0,0],tV=[0,[0,0]],tW=[0,0],tX=[0,[0,0]],tY=[0,0],tP=[0,[0,0]],tQ=[0,0],tN=[0,[0,0]],tO=[0,0],tJ=[0,[0,0]],tK=[0,0],tL=[0,0],tM=[0,[0,0]],tA=[0,[0,0]],tB=[0,0],tC=[0,[0,0]],tD=[0,0],tE=[0,0],tF=[0,[0,0]],tG=[0,[0,0]],tH=[0,[0,0]],tI=[0,0],tw=[0,0],tv=[0,0],ts=[0,0],tt=[0,[0,0]],tr=[0,[0,[0,0]]],tq=[0,[0,[0,[0,[0,[0,0]]]]]],to=[0,[0,0]],tp=[0,0],tn=[0,[0,0]],tm=[0,0],tk=[0,0],tl=[0,[0,[0,0]]],te=[0,[0,0]],tf=[0,[0,[0,0]]],td=[0,[0,[0,0]]],ta=[0,[0,[0,0]]],s_=[0,[0,[0,0]]],s8=[0,[0,[0,[0,[0,[0,0]]]]]],s9=[0,[0,[0,[0,[0,[0,0]]]]]],s3=[0,[0,0]],s4=[0,0],s5=[0,[0,0]],s6=[0,[0,[0,0]]],s7=[0,[0,[0,0]]],sW=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],sX=[0,[0,[0,[0,[0,[0,0]]]]]],sY=[0,[0,[0,[0,[0,[0,0]]]]]],sZ=[0,[0,[0,0]]],s0=[0,[0,[0,[0,[0,[0,0]]]]]],s1=[0,[0,[0,0]]],s2=[0,[0,[0,0]]],sU=[0,[0,0]],sV=[0,0],sT=[0,0,0],sS=[0,0,0],sR=[0,0,0],sP=[0,0,0],sO=[0,[0,[0,0]]],sI=[0,0],sJ=[0,0],sK=[0,0],sL=[0,0],sG=[0,0],sH=[0,0],sC=[0,[0,[0,0]]],sD=[0,[0,[0,0]]],sE=[0,[0,[0,0]]],sB=[0,[0,[0,[0,0]]]],sx=[0,[0,[0,0]]],sy=[0,[0,[0,0]]],sz=[0,[0,[0,0]]],sA=[0,[0,1,1],[0,[0,0,1],[0,[0,1,0],[0,[0,0,0],0]]]],sv=[0,[0,0]],sw=[0,0],st=[0,[0,0]],su=[0,0],sr=[0,[0,0]],ss=[0,0],se=[0,0],sf=[0,[0,0]],sc=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],sd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HU]]]]]]]]]]],sa=[0,0,0],r$=a(rb),r_=a(ae),r9=[0,[0,0]],r7=[0,0],r4=[0,0],r6=[1,0],r5=[0,0],r3=[0,0],r1=[1,0],r2=[1,0],tu=[10,0,0,0,0],Bw=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HZ]]]]]]]]]]],EQ=a(bH),ER=a(bF),ES=a(p0),EI=a(fI),EJ=[0,a("a base axis of such a platform"),0],EK=a(bi),EL=a(bD),Ev=a(qR),Ew=a(qd),Ex=a(q7),Ey=a(hl),Ez=a(p7),EA=a(hl),EB=a(rj),EC=a(pV),ED=a(pS),El=a(qD),Em=a(ht),DZ=[0,a("such a machine with bodies"),0],DM=a(hq),DN=a(bp),DO=a(qG),DP=a(q8),DS=a(pR),DT=a(pq),DU=a(bp),DV=a(bp),DX=a(hk),DW=[0,a("a claim that no cube of such a machine fits"),0],DY=a(rf),D0=a(ez),D1=a(eE),D2=a(cK),D3=a(j4),D4=a(qy),D5=a(hB),D6=a(pT),D7=a(pC),D8=a(jU),D$=a(dN),Ea=a(qM),Ed=a(b3),Ee=a(b3),Ef=a(p4),Eg=a(b3),Eh=[0,a("the closed design with other bounds on psi than one from below and one from above"),0],Ei=a(hk),Ej=a(fK),Ek=a(dN),En=a(b3),Eo=a(bH),Ep=a(bF),Eq=a(qN),Er=a(q3),Es=a(hD),Et=a(pO),D9=[0,a(aN),0],D_=a('the mechanism "'),Eu=a(j9),EE=a(hB),EF=a(cK),EG=a(j4),EH=a(ka),EM=a(b3),EP=a(cK),EN=[0,a("a platform that turns on struts and other drives"),0],EO=a(b3),Eb=[0,a(aN),0],Ec=a('the workspace "'),ET=a(bp),EU=a(bp),EW=a(fG),EX=a(fB),EY=a(hD),EV=[0,a("an atlas of such a machine"),0],DQ=[0,a(aN),0],DR=a('a claim of the kind "'),Fa=a(ke),Fb=a(dm),Fc=a(eB),Fd=a(j_),Fe=a(fx),Ff=[0,a('this evidence "fan"'),0],E3=a(dm),Fp=a(fF),Fq=[0,1,1],E4=a(qv),Fg=a(ey),Fh=a(p1),Fi=a(eA),Fj=a(p2),Fk=a(qp),Fl=a(bG),Fm=a(fF),Fn=a(hm),Fo=a(bG),E5=a(ke),E6=a(dm),E7=a(pN),E8=a(eB),E9=a(j_),E_=[0,a(aN),0],E$=a('the evidence "'),Fr=a(ey),Fs=a(eA),Ft=a(dm),Fu=a(eB),Fv=a(q5),Fx=a(ey),Fy=a(eA),Fz=a(dm),FA=a(eB),FB=a(fC),FC=a(fx),FD=a(fC),FE=a(fx),Fw=[0,a("this evidence at control points"),0],GN=a('"orthocert-paving/'),GD=a(dm),GE=a(dm),Gk=a(qk),Gl=a(pY),Gm=a(qW),GL=[0,3,3],Gn=a(p6),GB=[0,a("this set of orientations with such drives"),0],GC=[0,a('"parallel_margin" of struts in such a claim'),0],GF=[0,a('this evidence "tolerances" of a platform that turns'),0],GG=[0,a('"one_to_one" of this set of orientations'),0],GH=[0,a("a step of a platform that turns that is not at control points"),0],GI=[0,a('the evidence "tolerances" of such a mechanism'),0],GJ=[0,a(qs),0],GK=[0,a(qV),0],GA=[0,a(qs),0],Gz=[0,a(qV),0],Gx=[0,a(pt),0],Gy=[0,a("a step in a proof that no cube fits"),0],Gw=[0,a('"one_to_one" of such a mechanism'),0],Go=[0,a("the acceleration of a joint of a machine with a plane"),0],Gu=[0,a("a stiffness for each joint in such a claim"),0],Gv=[0,a(qI),0],Gt=[0,a(qI),0],Gp=a(ql),Gq=a(ps),Gr=a(ho),Gs=[0,a(pt),0],Gg=a(kd),Gh=a(fx),Gi=a(bG),F_=a(hq),F$=a(qe),Ga=a(q0),Gb=[0,a(aN),0],Gc=a('a proof of the kind "'),F6=a(fB),F7=a(fG),F8=a(hr),F9=a(qx),F2=a(bp),F3=a(hz),F4=a(pu),F5=a(hw),FZ=a(qT),F0=a(fC),F1=a(hw),FV=a(qA),FW=a(hz),FX=a(hr),FY=a(q9),FH=a(q4),FI=a(hv),FJ=a(q1),FK=a(ht),FL=a(qH),FM=a(rd),FP=a(qP),FQ=a(hm),FR=a(fF),FS=a(qS),FT=a(qE),FU=a(hv),FN=[0,a(aN),0],FO=a('the failure "'),FF=a(kd),FG=a(rb),E1=a(fF),E2=a(hm),EZ=a(pr),E0=a(pv),DJ=a(fK),Dz=a(jX),DA=a(px),DB=a(eC),DC=a(bi),DH=a(qX),DI=a(fK),DK=a(dO),DL=a(eC),DD=a(dO),DE=a(qn),DF=a(pZ),DG=a(bi),Ds=a(dN),Dw=a(bH),Dx=a(bF),Dt=a(j2),Du=a(j6),Dv=a(dO),Dm=a(dN),Dq=a(bH),Dr=a(bF),Dn=a(j2),Do=a(j6),Dp=a(dO),Dl=[0,1],Dk=[0,1],Di=[0,1],Dh=[0,1],Df=[0,1],Dg=[0,a("this quantity of such a mechanism"),0],C0=a(jY),C1=a(qJ),C2=a(pM),C3=a(kc),C4=a(re),C6=a(qK),C5=a(fA),CZ=a(ho),CR=a(hu),CF=a(qt),CG=a(qC),C9=a(ey),C_=a(qZ),C$=a(p3),Da=a(eA),Db=a(qu),Dc=a(pE),Dd=a(pF),De=a(pw),CH=a(pB),CI=a(rh),CJ=a(qQ),CK=a(qF),CL=a(pU),CM=a(rg),CN=a(pH),CO=a(pG),CP=[0,a(aN),0],CQ=a('the quantity "'),CS=a(pQ),CT=a(qO),CU=a(bH),CV=a(bF),CW=a(q6),CX=[0,a(aN),0],CY=a('a bound "'),C7=a(fz),C8=a(eC),CD=a(bE),CE=a(eF),Cg=a(bE),Ch=a(fI),Ci=a(fJ),Cj=a(cK),Ck=a(hC),Cl=a(eF),Co=a(bi),Cp=a(bD),Cq=a(fy),Cr=a(ex),Cs=a(bi),Ct=a(bD),Cu=a(bG),Cv=a(bG),Cw=a(fy),Cx=a(ex),Cy=a(fJ),Cz=a(bi),CA=a(bD),CB=a(qr),CC=a(fA),Cm=[0,a('" of such a machine'),0],Cn=a(pL),Ce=a(bE),Cf=a(fJ),B0=a(bE),B1=a(cK),B2=a(hC),B3=a(eF),B6=a(fI),B7=a(bi),B8=a(bD),B9=a(fy),B_=a(ex),B$=a(bi),Ca=a(bD),Cb=a(bG),Cc=a(bG),B4=[0,a(aN),0],B5=a(pL),BX=a(hx),BY=a(fD),BV=a(" is not covered by the verified checker"),BW=a(ae),BT=a(bH),BU=a(bF),BP=a(ae),BQ=a(ri),BR=a(ae),BS=a(ae),BO=[1,0],BM=a("Reader.Malformed"),BN=a("Reader.Not_covered"),GP=[0,a("a paving is checked by orthocert-verified")],GO=a(qw),GQ=a("CERTIFIED"),GR=a("REFUTED"),GS=a(qw),GT=a("NOT COVERED: ");function
+fQ(a){throw[0,kw,a]}function
+a$(d,c){var
+a=au(d),e=au(c),b=cl(a+e|0);eH(d,0,b,0,a);eH(c,0,b,a,e);return hL(b)}Ir(0);rF(1);rF(2);function
 ky(b){function
 a(b){var
 a=b;for(;;){if(a){var
-c=a[2],d=a[1];try{Ij(d)}catch(a){a=rO(a);if(a[1]!==kx)throw a;var
+c=a[2],d=a[1];try{Iq(d)}catch(a){a=rP(a);if(a[1]!==kx)throw a;var
 e=a}var
-a=c;continue}return 0}}return a(Il(0))}Is(a(py),ky);function
-cl(c){var
+a=c;continue}return 0}}return a(Is(0))}Iz(a(pz),ky);function
+cn(c){var
 b=0,a=c;for(;;){if(a){var
 b=b+1|0,a=a[2];continue}return b}}function
 kz(d){var
 a=d,b=0;for(;;){if(a){var
 c=[0,a[1],b],a=a[2],b=c;continue}return b}}function
-Z(b,a){if(a){var
-c=a[2],d=i(b,a[1]);return[0,d,Z(b,c)]}return 0}function
-hM(d,c){var
+Y(b,a){if(a){var
+c=a[2],d=i(b,a[1]);return[0,d,Y(b,c)]}return 0}function
+hN(d,c){var
 a=c;for(;;){if(a){var
 e=a[2],b=i(d,a[1]);if(b){var
 a=e;continue}return b}return 1}}function
@@ -729,45 +729,45 @@ aA(d,c){var
 a=c;for(;;){if(a){var
 e=a[2],b=i(d,a[1]);if(b)return b;var
 a=e;continue}return 0}}function
-bH(b,c){var
-a=cj(b);H5(a,0,b,c);return hK(a)}function
-dT(g,b,a){var
-d=eI(g),f=0;if(0<=b&&0<=a&&!((hI(d)-a|0)<b)){var
-c=cj(a);fK(d,b,c,0,a);var
+bJ(b,c){var
+a=cl(b);Ia(a,0,b,c);return hL(a)}function
+dU(g,b,a){var
+d=eI(g),f=0;if(0<=b&&0<=a&&!((hJ(d)-a|0)<b)){var
+c=cl(a);fL(d,b,c,0,a);var
 e=c;f=1}if(!f)var
-e=fP(rV);return hK(e)}function
+e=fQ(rW);return hL(e)}function
 kA(k,g){if(g){var
 h=au(k),c=0,b=g,p=0;for(;;){if(b){var
 i=b[1];if(b[2]){var
-j=(au(i)+h|0)+c|0,m=b[2],n=c<=j?j:fP(rW),c=n,b=m;continue}var
+j=(au(i)+h|0)+c|0,m=b[2],n=c<=j?j:fQ(rX),c=n,b=m;continue}var
 l=au(i)+c|0}else
 var
 l=c;var
-f=cj(l),e=p,d=g;for(;;){if(d){var
+f=cl(l),e=p,d=g;for(;;){if(d){var
 a=d[1];if(d[2]){var
 o=d[2];eH(a,0,f,e,au(a));eH(k,0,f,e+au(a)|0,h);var
-e=(e+au(a)|0)+h|0,d=o;continue}eH(a,0,f,e,au(a))}return hK(f)}}}return rX}function
-hN(b,c){if(0===b)return[0];if(0<=b){var
-d=Ii(b,i(c,0)),e=b-1|0,f=1;if(!(e<1)){var
+e=(e+au(a)|0)+h|0,d=o;continue}eH(a,0,f,e,au(a))}return hL(f)}}}return rY}function
+hO(b,c){if(0===b)return[0];if(0<=b){var
+d=Ip(b,i(c,0)),e=b-1|0,f=1;if(!(e<1)){var
 a=f;for(;;){d[1+a]=i(c,a);var
 g=a+1|0;if(e!==a){var
-a=g;continue}break}}return d}return fP(rY)}function
-hO(c){var
+a=g;continue}break}}return d}return fQ(rZ)}function
+hP(c){var
 a=c.length-1-1|0,b=0;for(;;){if(0<=a){var
 d=[0,c[1+a],b],a=a-1|0,b=d;continue}return b}}var
 d=aF(0),b=aF(1);function
-r(a){return E(a,b)}function
-kB(b,a){return E(aF(b),a)}function
+r(a){return F(a,b)}function
+kB(b,a){return F(aF(b),a)}function
 c(b,a){return B(aF(b),a)}function
-aT(b,a){return[0,kt(b,a),rR(b,a)]}function
-hP(b,a){return D(b,a)?b:a}function
-bp(b,a){return D(b,a)?a:b}function
+aU(b,a){return[0,kt(b,a),rS(b,a)]}function
+hQ(b,a){return D(b,a)?b:a}function
+bq(b,a){return D(b,a)?a:b}function
 eN(a){return eN}function
-Q(a){return a?0:1}function
+P(a){return a?0:1}function
 z(b,a){var
 c=a?[0,i(b,a[1])]:a;return c}function
 av(a){return a[1]}function
-aY(a){return a[2]}function
+aZ(a){return a[2]}function
 g(a){var
 b=a?[0,g(a[2])]:a;return b}function
 f(a,b){if(a){var
@@ -797,9 +797,9 @@ a=a[1],b=[7,b];continue;case
 8:var
 a=a[1],b=[8,b];continue;default:var
 a=a[1],b=[9,b];continue}}function
-fQ(a){return kD(a,0)}function
+fR(a){return kD(a,0)}function
 kE(a){if(typeof
-a==="number")return r0;else
+a==="number")return r1;else
 switch(a[0]){case
 0:return[1,a[1]];case
 1:return[2,a[1]];case
@@ -810,37 +810,37 @@ switch(a[0]){case
 6:return[7,a[1]];case
 7:return[8,a[1]];case
 8:return[9,a[1]];default:return[0,kE(a[1])]}}function
-bJ(a){if(typeof
-a==="number")return r1;else
+bL(a){if(typeof
+a==="number")return r2;else
 switch(a[0]){case
-0:return[1,bI(a[1])];case
-1:return[3,bI(a[1])];case
-2:return[5,bI(a[1])];case
-3:return[7,bI(a[1])];case
-4:return[9,bI(a[1])];case
-5:return[1,bJ(a[1])];case
-6:return[3,bJ(a[1])];case
-7:return[5,bJ(a[1])];case
-8:return[7,bJ(a[1])];default:return[9,bJ(a[1])]}}function
-bI(a){if(typeof
+0:return[1,bK(a[1])];case
+1:return[3,bK(a[1])];case
+2:return[5,bK(a[1])];case
+3:return[7,bK(a[1])];case
+4:return[9,bK(a[1])];case
+5:return[1,bL(a[1])];case
+6:return[3,bL(a[1])];case
+7:return[5,bL(a[1])];case
+8:return[7,bL(a[1])];default:return[9,bL(a[1])]}}function
+bK(a){if(typeof
 a==="number")return 0;else
 switch(a[0]){case
-0:return[0,bI(a[1])];case
-1:return[2,bI(a[1])];case
-2:return[4,bI(a[1])];case
-3:return[6,bI(a[1])];case
-4:return[8,bI(a[1])];case
-5:return[0,bJ(a[1])];case
-6:return[2,bJ(a[1])];case
-7:return[4,bJ(a[1])];case
-8:return[6,bJ(a[1])];default:return[8,bJ(a[1])]}}function
+0:return[0,bK(a[1])];case
+1:return[2,bK(a[1])];case
+2:return[4,bK(a[1])];case
+3:return[6,bK(a[1])];case
+4:return[8,bK(a[1])];case
+5:return[0,bL(a[1])];case
+6:return[2,bL(a[1])];case
+7:return[4,bL(a[1])];case
+8:return[6,bL(a[1])];default:return[8,bL(a[1])]}}function
 bx(a){return a?a[1]:a}function
 R(b,a){return b?[0,R(b[1],a)]:a}function
 kF(a,b){return a?R(b,kF(a[1],b)):a}function
-dU(d,c){var
+dV(d,c){var
 a=d,b=c;for(;;){if(a){if(b){var
 a=a[1],b=b[1];continue}return a}return a}}function
-cm(b,a){return b?a:a?0:1}function
+co(b,a){return b?a:a?0:1}function
 p(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return a?0:1}}function
@@ -852,135 +852,135 @@ kG(c){var
 a=c;for(;;){if(a){var
 b=a[1];if(b){var
 a=b[1];continue}return b}return 1}}function
-fR(c,b,a){return c?i(b,fR(c[1],b,a)):a}function
+fS(c,b,a){return c?i(b,fS(c[1],b,a)):a}function
 kH(a){if(a)var
 b=a[1],d=b?[0,kH(b[1])]:b,c=d;else
 var
 c=a;return c}function
-hQ(d,c){var
+hR(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return a?0:1}}function
 kI(a){if(D(a,b))return b;var
-e=aT(a,aF(2)),f=e[1];return I(e[2],d)?r(c(2,kI(f))):r(c(2,c(2,f)))}function
-kJ(c,a){return bp(b,aG(c,a))}function
-fS(a,j,h){var
+e=aU(a,aF(2)),f=e[1];return I(e[2],d)?r(c(2,kI(f))):r(c(2,c(2,f)))}function
+kJ(c,a){return bq(b,aG(c,a))}function
+fT(a,j,h){var
 c=j,f=h;for(;;){if(D(f,b))return i(a,c);var
-g=aT(f,aF(2)),e=g[1];if(I(g[2],d)){var
-c=fS(a,c,e),f=e;continue}return i(a,fS(a,fS(a,c,e),e))}}function
+g=aU(f,aF(2)),e=g[1];if(I(g[2],d)){var
+c=fT(a,c,e),f=e;continue}return i(a,fT(a,fT(a,c,e),e))}}function
 kK(a){function
-c(b){return B(a,b)}return function(a){return fS(c,b,a)}}function
-fT(a){if(D(a,b))return r3;var
-c=aT(a,aF(2)),e=c[1];return I(c[2],d)?[0,fT(e)]:[0,fT(e)]}function
-fU(a){if(D(a,b))return b;var
-c=aT(a,aF(2)),e=c[1];return I(c[2],d)?r(fU(e)):r(fU(e))}function
+c(b){return B(a,b)}return function(a){return fT(c,b,a)}}function
+fU(a){if(D(a,b))return r4;var
+c=aU(a,aF(2)),e=c[1];return I(c[2],d)?[0,fU(e)]:[0,fU(e)]}function
+fV(a){if(D(a,b))return b;var
+c=aU(a,aF(2)),e=c[1];return I(c[2],d)?r(fV(e)):r(fV(e))}function
 kL(c,b){var
 a=ks(c,b);return 0===a?0:0<=a?2:1}function
-fV(j,i){var
-c=j,a=i;for(;;){if(D(c,b))return D(a,b)?1:I(aT(a,aF(2))[2],d)?0:0;var
-g=aT(c,aF(2)),h=g[1];if(I(g[2],d)){if(D(a,b))return 0;var
-e=aT(a,aF(2)),k=e[1];if(I(e[2],d)){var
+fW(j,i){var
+c=j,a=i;for(;;){if(D(c,b))return D(a,b)?1:I(aU(a,aF(2))[2],d)?0:0;var
+g=aU(c,aF(2)),h=g[1];if(I(g[2],d)){if(D(a,b))return 0;var
+e=aU(a,aF(2)),k=e[1];if(I(e[2],d)){var
 c=h,a=k;continue}return 0}if(D(a,b))return 0;var
-f=aT(a,aF(2)),l=f[1];if(I(f[2],d))return 0;var
+f=aU(a,aF(2)),l=f[1];if(I(f[2],d))return 0;var
 c=h,a=l;continue}}function
-fW(b,a){return 2<=kL(b,a)?0:1}function
-dV(i,e,a){if(i){var
+fX(b,a){return 2<=kL(b,a)?0:1}function
+dW(i,e,a){if(i){var
 f=i[1];if(D(e,b))return[0,b,[0,b,a]];var
-w=aT(e,aF(2)),g=w[1];if(I(w[2],d)){if(D(a,b))return[0,b,[0,e,b]];var
-m=aT(a,aF(2)),A=m[1];if(I(m[2],d)){var
-j=dV(f,g,A),x=j[2];return[0,c(2,j[1]),x]}var
-k=dV(f,g,a),l=k[2],y=l[2],z=[0,c(2,l[1]),y];return[0,k[1],z]}if(D(a,b))return[0,b,[0,e,b]];var
-v=aT(a,aF(2)),h=v[1];if(I(v[2],d)){var
-n=dV(f,e,h),o=n[2],B=c(2,o[2]);return[0,n[1],[0,o[1],B]]}switch(kL(g,h)){case
+w=aU(e,aF(2)),g=w[1];if(I(w[2],d)){if(D(a,b))return[0,b,[0,e,b]];var
+m=aU(a,aF(2)),A=m[1];if(I(m[2],d)){var
+j=dW(f,g,A),x=j[2];return[0,c(2,j[1]),x]}var
+k=dW(f,g,a),l=k[2],y=l[2],z=[0,c(2,l[1]),y];return[0,k[1],z]}if(D(a,b))return[0,b,[0,e,b]];var
+v=aU(a,aF(2)),h=v[1];if(I(v[2],d)){var
+n=dW(f,e,h),o=n[2],B=c(2,o[2]);return[0,n[1],[0,o[1],B]]}switch(kL(g,h)){case
 0:return[0,e,[0,b,b]];case
 1:var
-p=dV(f,kJ(h,g),e),q=p[2],r=q[2],C=[0,r,E(r,c(2,q[1]))];return[0,p[1],C];default:var
-s=dV(f,kJ(g,h),a),t=s[2],u=t[2],F=[0,E(u,c(2,t[1])),u];return[0,s[1],F]}}return[0,b,[0,e,a]]}function
-fX(b,a){var
-c=fT(a);return dV(R(fT(b),c),b,a)}function
+p=dW(f,kJ(h,g),e),q=p[2],r=q[2],C=[0,r,F(r,c(2,q[1]))];return[0,p[1],C];default:var
+s=dW(f,kJ(g,h),a),t=s[2],u=t[2],E=[0,F(u,c(2,t[1])),u];return[0,s[1],E]}}return[0,b,[0,e,a]]}function
+fY(b,a){var
+c=fU(a);return dW(R(fU(b),c),b,a)}function
 kM(c,i,h){var
 e=i,a=h;for(;;){if(D(e,b))return a;var
-f=aT(e,aF(2)),g=f[1];if(I(f[2],d)){var
-e=g,a=ao(c,a,a);continue}return ao(c,a,kM(c,g,ao(c,a,a)))}}function
-eO(a){return kM(R,a,r4)}function
+f=aU(e,aF(2)),g=f[1];if(I(f[2],d)){var
+e=g,a=aq(c,a,a);continue}return aq(c,a,kM(c,g,aq(c,a,a)))}}function
+eO(a){return kM(R,a,r5)}function
 kN(a){return a?r(kN(a[1])):b}function
-cn(f,e){var
+cp(f,e){var
 a=f,d=e;for(;;)if(typeof
 a==="number")return d;else
 switch(a[0]){case
 0:var
 g=B(c(2,r(c(2,c(2,b)))),d),a=a[1],d=g;continue;case
 1:var
-h=E(b,B(c(2,r(c(2,c(2,b)))),d)),a=a[1],d=h;continue;case
+h=F(b,B(c(2,r(c(2,c(2,b)))),d)),a=a[1],d=h;continue;case
 2:var
-i=B(c(2,r(c(2,c(2,b)))),d),j=E(c(2,b),i),a=a[1],d=j;continue;case
+i=B(c(2,r(c(2,c(2,b)))),d),j=F(c(2,b),i),a=a[1],d=j;continue;case
 3:var
-k=B(c(2,r(c(2,c(2,b)))),d),l=E(r(c(2,b)),k),a=a[1],d=l;continue;case
+k=B(c(2,r(c(2,c(2,b)))),d),l=F(r(c(2,b)),k),a=a[1],d=l;continue;case
 4:var
-m=B(c(2,r(c(2,c(2,b)))),d),n=E(c(2,c(2,b)),m),a=a[1],d=n;continue;case
+m=B(c(2,r(c(2,c(2,b)))),d),n=F(c(2,c(2,b)),m),a=a[1],d=n;continue;case
 5:var
-o=B(c(2,r(c(2,c(2,b)))),d),p=E(r(c(2,c(2,b))),o),a=a[1],d=p;continue;case
+o=B(c(2,r(c(2,c(2,b)))),d),p=F(r(c(2,c(2,b))),o),a=a[1],d=p;continue;case
 6:var
-q=B(c(2,r(c(2,c(2,b)))),d),s=E(c(2,r(c(2,b))),q),a=a[1],d=s;continue;case
+q=B(c(2,r(c(2,c(2,b)))),d),s=F(c(2,r(c(2,b))),q),a=a[1],d=s;continue;case
 7:var
-t=B(c(2,r(c(2,c(2,b)))),d),u=E(r(c(2,r(c(2,b)))),t),a=a[1],d=u;continue;case
+t=B(c(2,r(c(2,c(2,b)))),d),u=F(r(c(2,r(c(2,b)))),t),a=a[1],d=u;continue;case
 8:var
-v=B(c(2,r(c(2,c(2,b)))),d),w=E(c(2,c(2,c(2,b))),v),a=a[1],d=w;continue;default:var
-x=B(c(2,r(c(2,c(2,b)))),d),y=E(r(c(2,c(2,c(2,b)))),x),a=a[1],d=y;continue}}function
-hR(a){if(D(a,b))return r5;var
-c=aT(a,aF(2)),e=c[1];return I(c[2],d)?bI(hR(e)):bJ(hR(e))}function
-fY(a){return fQ(hR(a))}function
+v=B(c(2,r(c(2,c(2,b)))),d),w=F(c(2,c(2,c(2,b))),v),a=a[1],d=w;continue;default:var
+x=B(c(2,r(c(2,c(2,b)))),d),y=F(r(c(2,c(2,c(2,b)))),x),a=a[1],d=y;continue}}function
+hS(a){if(D(a,b))return r6;var
+c=aU(a,aF(2)),e=c[1];return I(c[2],d)?bK(hS(e)):bL(hS(e))}function
+fZ(a){return fR(hS(a))}function
 kO(c,b){var
 a=ks(c,b);return 0===a?0:0<=a?2:1}function
-hS(b,a){return 1===kO(b,a)?1:0}var
-kP=E,r7=P;function
-b4(k,f){if(0<=aN(f)){var
+hT(b,a){return 1===kO(b,a)?1:0}var
+kP=F,r8=Q;function
+b6(k,f){if(0<=aO(f)){var
 g=ku(f);if(0<=g){var
 e=b,c=k,a=g;for(;;){if(0===a)return e;var
-h=a>>>1|0,i=B(c,c),j=1===(a&1)?B(e,c):e,e=j,c=i,a=h;continue}}return fP(rZ)}return d}function
-hT(c){var
-a=aN(c);return 0===a?d:0<a?b:P(b)}function
-hU(a){return 0<=aN(a)?a:d}function
-dW(a){var
-c=aN(a);return 0===c?b:0<c?a:b}function
+h=a>>>1|0,i=B(c,c),j=1===(a&1)?B(e,c):e,e=j,c=i,a=h;continue}}return fQ(r0)}return d}function
+hU(c){var
+a=aO(c);return 0===a?d:0<a?b:Q(b)}function
+hV(a){return 0<=aO(a)?a:d}function
+dX(a){var
+c=aO(a);return 0===c?b:0<c?a:b}function
 kQ(m){var
 a=m;for(;;)if(typeof
 a==="number")return d;else
 switch(a[0]){case
 0:var
 a=a[1];continue;case
-1:return cn(a[1],b);case
+1:return cp(a[1],b);case
 2:var
-e=c(2,b);return cn(a[1],e);case
+e=c(2,b);return cp(a[1],e);case
 3:var
-f=r(c(2,b));return cn(a[1],f);case
+f=r(c(2,b));return cp(a[1],f);case
 4:var
-g=c(2,c(2,b));return cn(a[1],g);case
+g=c(2,c(2,b));return cp(a[1],g);case
 5:var
-h=r(c(2,c(2,b)));return cn(a[1],h);case
+h=r(c(2,c(2,b)));return cp(a[1],h);case
 6:var
-i=c(2,r(c(2,b)));return cn(a[1],i);case
+i=c(2,r(c(2,b)));return cp(a[1],i);case
 7:var
-j=r(c(2,r(c(2,b))));return cn(a[1],j);case
+j=r(c(2,r(c(2,b))));return cp(a[1],j);case
 8:var
-k=c(2,c(2,c(2,b)));return cn(a[1],k);default:var
-l=r(c(2,c(2,c(2,b))));return cn(a[1],l)}}function
-co(b,a){var
-c=aN(a);return 0===c?d:1===c?kt(b,a):kB(-1,kt(kB(-1,b),a))}function
+k=c(2,c(2,c(2,b)));return cp(a[1],k);default:var
+l=r(c(2,c(2,c(2,b))));return cp(a[1],l)}}function
+cq(b,a){var
+c=aO(a);return 0===c?d:1===c?kt(b,a):kB(-1,kt(kB(-1,b),a))}function
 kR(a){var
-f=aN(a);if(0===f)return d;if(0<f){if(D(a,b))return d;var
-c=aT(a,aF(2)),e=c[1];return I(c[2],d)?fU(e):fU(e)}return d}function
-fZ(a){return 0<aN(a)?IC(a):d}function
+f=aO(a);if(0===f)return d;if(0<f){if(D(a,b))return d;var
+c=aU(a,aF(2)),e=c[1];return I(c[2],d)?fV(e):fV(e)}return d}function
+f0(a){return 0<aO(a)?IJ(a):d}function
 eP(b,c){var
-a=ku(c);return 0<=a?rS(b,a):rT(b,-a|0)}function
-dn(b,c){var
-a=ku(c);return 0<=a?rT(b,a):rS(b,-a|0)}function
-bK(b,a){return a?a[1]:b}function
+a=ku(c);return 0<=a?rT(b,a):rU(b,-a|0)}function
+dq(b,c){var
+a=ku(c);return 0<=a?rU(b,a):rT(b,-a|0)}function
+bM(b,a){return a?a[1]:b}function
 by(a){var
 b=a?a[2]:a;return b}function
 q(e,d,c){var
 b=e,a=d;for(;;){if(b){if(a){var
 b=b[1],a=a[2];continue}return c}return a?a[1]:c}}function
-F(d,c){var
+G(d,c){var
 a=d,b=c;for(;;){if(b){if(a){var
 a=a[2],b=b[1];continue}return a}var
 e=a?[0,a[1]]:a;return e}}function
@@ -989,11 +989,11 @@ b=[0,a[1],0];return f(kS(a[2]),b)}return a}function
 eQ(d,c){var
 a=d,b=c;for(;;){if(a){var
 e=[0,a[1],b],a=a[2],b=e;continue}return b}}function
-dX(a){if(a){var
-b=dX(a[2]);return f(a[1],b)}return a}function
-hV(g,f,e){var
+dY(a){if(a){var
+b=dY(a[2]);return f(a[1],b)}return a}function
+hW(g,f,e){var
 b=f,a=e;for(;;){if(b){if(a){var
-c=ao(g,b[1],a[1]);if(c){var
+c=aq(g,b[1],a[1]);if(c){var
 b=b[2],a=a[2];continue}var
 d=c}else
 var
@@ -1004,11 +1004,11 @@ var
 c=a;return c}function
 y(b,a){if(a){var
 c=y(b,a[2]);return f(i(b,a[1]),c)}return a}function
-bL(e,d,c){var
+bN(e,d,c){var
 a=d,b=c;for(;;){if(a){var
-f=ao(e,b,a[1]),a=a[2],b=f;continue}return b}}function
-aq(c,b,a){if(a){var
-d=aq(c,b,a[2]);return ao(c,a[1],d)}return b}function
+f=aq(e,b,a[1]),a=a[2],b=f;continue}return b}}function
+an(c,b,a){if(a){var
+d=an(c,b,a[2]);return aq(c,a[1],d)}return b}function
 ak(e,d){var
 a=d;for(;;){if(a){var
 b=i(e,a[1]);if(!b){var
@@ -1020,9 +1020,9 @@ m(d,c){var
 a=c;for(;;){if(a){var
 b=i(d,a[1]);if(b){var
 a=a[2];continue}return b}return 1}}function
-bq(b,e){var
+br(b,e){var
 a=e;for(;;){if(a){var
-c=a[2],d=a[1];if(i(b,d))return[0,d,bq(b,c)];var
+c=a[2],d=a[1];if(i(b,d))return[0,d,br(b,c)];var
 a=c;continue}return a}}function
 kT(d,c){var
 a=c;for(;;){if(a){var
@@ -1040,7 +1040,7 @@ var
 c=a;else
 var
 c=b;return c}function
-aU(d,c){var
+aV(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[2];continue}return a}return a}}function
 aB(b,a){var
@@ -1048,107 +1048,107 @@ c=a?[0,b,aB([0,b],a[1])]:a;return c}function
 al(b,a){var
 c=a?[0,b,al(b,a[1])]:a;return c}function
 kU(a){if(a){var
-e=kU(a[2]),f=B(c(2,b),e),g=a[1]?b:d;return E(g,f)}return d}function
-f0(j){function
+e=kU(a[2]),f=B(c(2,b),e),g=a[1]?b:d;return F(g,f)}return d}function
+f1(j){function
 a(a){return 0!==(j&1<<a)?1:0}var
-c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=kU([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<aN(b)?eO(b):0}function
+c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=kU([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<aO(b)?eO(b):0}function
 kV(a){return[0,a,b]}function
-dY(c,b){var
+dZ(c,b){var
 a=ks(B(c[1],b[2]),B(b[1],c[2])),d=0===a?0:0<=a?2:1;return d?0:1}function
-bb(b,a){return D(B(b[1],a[2]),B(a[1],b[2]))}function
-dp(b,a){return[0,E(B(b[1],a[2]),B(a[1],b[2])),B(b[2],a[2])]}function
-a2(b,a){return[0,B(b[1],a[1]),B(b[2],a[2])]}function
-hW(a){return[0,P(a[1]),a[2]]}function
-dZ(b,a){return dp(b,hW(a))}function
-f1(f,c){var
-a=c[1],e=aN(a),g=0===e?[0,d,b]:0<e?[0,c[2],a]:[0,P(c[2]),P(a)];return a2(f,g)}function
-dq(q){var
-a=q[2],b=q[1],o=aN(b);if(0===o)var
-c=[0,ck(a),[0,d,hT(a)]];else
+ba(b,a){return D(B(b[1],a[2]),B(a[1],b[2]))}function
+dr(b,a){return[0,F(B(b[1],a[2]),B(a[1],b[2])),B(b[2],a[2])]}function
+a3(b,a){return[0,B(b[1],a[1]),B(b[2],a[2])]}function
+hX(a){return[0,Q(a[1]),a[2]]}function
+d0(b,a){return dr(b,hX(a))}function
+f2(f,c){var
+a=c[1],e=aO(a),g=0===e?[0,d,b]:0<e?[0,c[2],a]:[0,Q(c[2]),Q(a)];return a3(f,g)}function
+ds(q){var
+a=q[2],b=q[1],o=aO(b);if(0===o)var
+c=[0,cm(a),[0,d,hU(a)]];else
 if(0<o){var
-n=aN(a);if(0===n)var
-c=[0,ck(b),[0,hT(b),d]];else
+n=aO(a);if(0===n)var
+c=[0,cm(b),[0,hU(b),d]];else
 if(0<n)var
-l=fX(b,a),m=l[2],c=[0,l[1],[0,m[1],m[2]]];else
+l=fY(b,a),m=l[2],c=[0,l[1],[0,m[1],m[2]]];else
 var
-j=fX(b,P(a)),k=j[2],c=[0,j[1],[0,k[1],P(k[2])]]}else{var
-p=P(b),i=aN(a);if(0===i)var
-c=[0,ck(b),[0,hT(b),d]];else
+j=fY(b,Q(a)),k=j[2],c=[0,j[1],[0,k[1],Q(k[2])]]}else{var
+p=Q(b),i=aO(a);if(0===i)var
+c=[0,cm(b),[0,hU(b),d]];else
 if(0<i)var
-g=fX(p,a),h=g[2],c=[0,g[1],[0,P(h[1]),h[2]]];else
+g=fY(p,a),h=g[2],c=[0,g[1],[0,Q(h[1]),h[2]]];else
 var
-e=fX(p,P(a)),f=e[2],c=[0,e[1],[0,P(f[1]),P(f[2])]]}var
-r=c[2],s=dW(r[2]);return[0,r[1],s]}function
+e=fY(p,Q(a)),f=e[2],c=[0,e[1],[0,Q(f[1]),Q(f[2])]]}var
+r=c[2],s=dX(r[2]);return[0,r[1],s]}function
 bj(a){if(typeof
-a==="number")return r9;else
+a==="number")return r_;else
 switch(a[0]){case
 0:var
-b=bj(a[1]);return ba(bH(1,48),b);case
+b=bj(a[1]);return a$(bJ(1,48),b);case
 1:var
-c=bj(a[1]);return ba(bH(1,49),c);case
+c=bj(a[1]);return a$(bJ(1,49),c);case
 2:var
-d=bj(a[1]);return ba(bH(1,50),d);case
+d=bj(a[1]);return a$(bJ(1,50),d);case
 3:var
-e=bj(a[1]);return ba(bH(1,51),e);case
+e=bj(a[1]);return a$(bJ(1,51),e);case
 4:var
-f=bj(a[1]);return ba(bH(1,52),f);case
+f=bj(a[1]);return a$(bJ(1,52),f);case
 5:var
-g=bj(a[1]);return ba(bH(1,53),g);case
+g=bj(a[1]);return a$(bJ(1,53),g);case
 6:var
-h=bj(a[1]);return ba(bH(1,54),h);case
+h=bj(a[1]);return a$(bJ(1,54),h);case
 7:var
-i=bj(a[1]);return ba(bH(1,55),i);case
+i=bj(a[1]);return a$(bJ(1,55),i);case
 8:var
-j=bj(a[1]);return ba(bH(1,56),j);default:var
-k=bj(a[1]);return ba(bH(1,57),k)}}function
+j=bj(a[1]);return a$(bJ(1,56),j);default:var
+k=bj(a[1]);return a$(bJ(1,57),k)}}function
 eR(a){return typeof
-a==="number"?r_:bj(a)}function
-cp(a){return b4(c(2,b),a)}function
-kW(b,a){return dn(a,b)}function
-kX(b,a){return P(dn(P(a),b))}function
-f2(b,a){return P(co(P(b),a))}function
+a==="number"?r$:bj(a)}function
+cr(a){return b6(c(2,b),a)}function
+kW(b,a){return dq(a,b)}function
+kX(b,a){return Q(dq(Q(a),b))}function
+f3(b,a){return Q(cq(Q(b),a))}function
 L(c,b){var
 a=eP(b,c);return[0,a,a]}function
 kY(d,c,a){var
-b=eP(c,d),e=f2(b,a);return[0,co(b,a),e]}function
-A(b,a){return[0,E(b[1],a[1]),E(b[2],a[2])]}function
-H(b,a){return[0,aG(b[1],a[2]),aG(b[2],a[1])]}function
-aa(a){return[0,P(a[2]),P(a[1])]}function
+b=eP(c,d),e=f3(b,a);return[0,cq(b,a),e]}function
+A(b,a){return[0,F(b[1],a[1]),F(b[2],a[2])]}function
+E(b,a){return[0,aG(b[1],a[2]),aG(b[2],a[1])]}function
+aa(a){return[0,Q(a[2]),Q(a[1])]}function
 kZ(e,c,b,a){if(D(d,e))return D(d,b)?[0,B(e,b),B(c,a)]:D(a,d)?[0,B(c,b),B(e,a)]:[0,B(c,b),B(c,a)];if(D(c,d))return D(d,b)?[0,B(e,a),B(c,b)]:D(a,d)?[0,B(c,a),B(e,b)]:[0,B(e,a),B(e,b)];if(D(d,b))return[0,B(e,a),B(c,a)];if(D(a,d))return[0,B(c,b),B(e,b)];var
-f=bp(B(e,b),B(c,a));return[0,hP(B(e,a),B(c,b)),f]}function
+f=bq(B(e,b),B(c,a));return[0,hQ(B(e,a),B(c,b)),f]}function
 t(c,b,a){var
 d=kZ(b[1],b[2],a[1],a[2]),e=kX(c,d[2]);return[0,kW(c,d[1]),e]}function
-X(b,a){var
-c=B(a[1],a[1]),e=B(a[2],a[2]),h=kX(b,bp(c,e)),g=0;if(J(a[1],d)&&J(d,a[2])){var
+S(b,a){var
+c=B(a[1],a[1]),e=B(a[2],a[2]),h=kX(b,bq(c,e)),g=0;if(J(a[1],d)&&J(d,a[2])){var
 f=d;g=1}if(!g)var
-f=kW(b,hP(c,e));return[0,f,h]}function
-hX(b,a){var
-c=eP(cp(b),b),d=f2(c,a[1]);return[0,co(c,a[2]),d]}function
-b5(b,a){if(J(d,a[1]))return[0,hX(b,a)];var
-c=J(a[2],d),e=c?[0,aa(hX(b,aa(a)))]:c;return e}function
-hY(c){var
-a=fZ(c);return I(B(a,a),c)?a:E(a,b)}function
-b6(b,a){var
+f=kW(b,hQ(c,e));return[0,f,h]}function
+hY(b,a){var
+c=eP(cr(b),b),d=f3(c,a[1]);return[0,cq(c,a[2]),d]}function
+b7(b,a){if(J(d,a[1]))return[0,hY(b,a)];var
+c=J(a[2],d),e=c?[0,aa(hY(b,aa(a)))]:c;return e}function
+hZ(c){var
+a=f0(c);return I(B(a,a),c)?a:F(a,b)}function
+b8(b,a){var
 c=J(d,a[1]);if(c)var
-f=hY(eP(a[2],b)),e=[0,[0,fZ(eP(a[1],b)),f]];else
+f=hZ(eP(a[2],b)),e=[0,[0,f0(eP(a[1],b)),f]];else
 var
 e=c;return e}function
-d0(a){return 0===a[0]?a[2]:a[1]}function
+d1(a){return 0===a[0]?a[2]:a[1]}function
 aK(f,d,c,b,a){if(b){if(a){var
-g=aK(f,d,c,b[2],a[2]);return[0,ao(c,b[1],a[1]),g]}return e(f,b)}return e(d,a)}function
-cN(b,a){return dn(b,a)}function
-aO(a,c,b){if(D(d,a)){var
-e=b[1],f=P(cN(P(B(a,b[2])),c));return[0,cN(B(a,e),c),f]}var
-g=b[2],h=P(cN(P(B(a,b[1])),c));return[0,cN(B(a,g),c),h]}function
+g=aK(f,d,c,b[2],a[2]);return[0,aq(c,b[1],a[1]),g]}return e(f,b)}return e(d,a)}function
+cP(b,a){return dq(b,a)}function
+aP(a,c,b){if(D(d,a)){var
+e=b[1],f=Q(cP(Q(B(a,b[2])),c));return[0,cP(B(a,e),c),f]}var
+g=b[2],h=Q(cP(Q(B(a,b[1])),c));return[0,cP(B(a,g),c),h]}function
 as(a){var
-c=P(dn(P(a[2]),b));return[0,dn(a[1],b),c]}function
-d1(c,b,a){var
-e=kZ(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=J(f,d)?a[2]:a[1],i=f2(f,h),j=J(g,d)?a[1]:a[2];return[0,co(g,j),i]}function
-b7(a){return bp(a[2],P(a[1]))}var
-x=[0,d,d];function
-b8(a){return[0,a[1],a[1]]}function
-cq(a){return[0,a[2],a[2]]}function
-bM(b,a){switch(a[0]){case
+c=Q(dq(Q(a[2]),b));return[0,dq(a[1],b),c]}function
+d2(c,b,a){var
+e=kZ(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=J(f,d)?a[2]:a[1],i=f3(f,h),j=J(g,d)?a[1]:a[2];return[0,cq(g,j),i]}function
+b9(a){return bq(a[2],Q(a[1]))}var
+u=[0,d,d];function
+b_(a){return[0,a[1],a[1]]}function
+cs(a){return[0,a[2],a[2]]}function
+bO(b,a){switch(a[0]){case
 0:return[0,a[1]];case
 1:return[1,a[1]];case
 2:return[2,a[1]];case
@@ -1188,7 +1188,7 @@ d=b[2],c=a[2];continue}return i}return 0;case
 d=b[1],c=a[1];continue}return 0;case
 9:if(9===a[0]){var
 d=b[1],c=a[1];continue}return 0;default:if(10===a[0]){var
-j=cm(b[1],a[1]);if(j){var
+j=co(b[1],a[1]);if(j){var
 k=aJ(b[2],a[2]);if(k){var
 l=aJ(b[3],a[3]);if(l){var
 d=b[4],c=a[4];continue}var
@@ -1197,40 +1197,40 @@ var
 e=k}else
 var
 e=j;return e}return 0}}}function
-f3(b){var
+f4(b){var
 a=b[1];return 2===a[0]?[0,a[1]]:0}function
-a3(c,b){var
-a=f3(b);return a?I(c,a[1]):a}function
-eS(a){return J(ck(a),c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b))))))))))))))))}function
+a4(c,b){var
+a=f4(b);return a?I(c,a[1]):a}function
+eS(a){return J(cm(a),c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b))))))))))))))))}function
 k(a){return[0,[2,a]]}function
-C(b,a){if(a3(d,b))return a;if(a3(d,a))return b;var
-c=f3(b);if(c){var
-e=c[1],f=f3(a);if(f){var
-g=f[1];if(eS(e)&&eS(g))return k(E(e,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
+C(b,a){if(a4(d,b))return a;if(a4(d,a))return b;var
+c=f4(b);if(c){var
+e=c[1],f=f4(a);if(f){var
+g=f[1];if(eS(e)&&eS(g))return k(F(e,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
 bk(a){var
 b=a[1];switch(b[0]){case
 2:var
-c=b[1];return eS(c)?k(P(c)):[0,[5,a]];case
+c=b[1];return eS(c)?k(Q(c)):[0,[5,a]];case
 5:return b[1];default:return[0,[5,a]]}}function
-v(b,a){if(a3(d,a))return b;if(a3(d,b))return bk(a);var
+w(b,a){if(a4(d,a))return b;if(a4(d,b))return bk(a);var
 c=b[1];if(0===c[0]){var
 e=a[1];return 0===e[0]?p(c[1],e[1])?k(d):[0,[4,b,a]]:[0,[4,b,a]]}return[0,[4,b,a]]}function
-S(a){var
-c=f3(a);if(c){var
+T(a){var
+c=f4(a);if(c){var
 b=c[1];return eS(b)?k(B(b,b)):[0,[8,a]]}return[0,[8,a]]}function
-s(a,c){if(!a3(d,a)&&!a3(b,c)){if(!a3(d,c)&&!a3(b,a))return aJ(a,c)?S(a):[0,[6,a,c]];return c}return a}function
-am(c,a){return a3(b,a)?c:[0,[7,c,a]]}function
-aD(a){return a3(b,a)?a:[0,[9,a]]}function
+s(a,c){if(!a4(d,a)&&!a4(b,c)){if(!a4(d,c)&&!a4(b,a))return aJ(a,c)?T(a):[0,[6,a,c]];return c}return a}function
+am(c,a){return a4(b,a)?c:[0,[7,c,a]]}function
+aE(a){return a4(b,a)?a:[0,[9,a]]}function
 k0(d,c,b,a){return[0,[10,d,c,b,a]]}function
-bc(f,e,d,c){var
+bb(f,e,d,c){var
 b=d,a=c;for(;;){if(b){var
-g=b[1],h=[0,i(e,bM(function(b){return function(a){return q(a,b,f)}}(a),g)),a],b=b[2],a=h;continue}return a}}function
+g=b[1],h=[0,i(e,bO(function(b){return function(a){return q(a,b,f)}}(a),g)),a],b=b[2],a=h;continue}return a}}function
 k1(d,f,k,j,h){var
 b=k,c=j,a=h;for(;;){if(c){var
 e=c[2],g=c[1];if(b){if(b[1]){var
-l=[0,i(f,bM(function(b){return function(a){return q(a,b,d)}}(a),g)),a],b=by(b),c=e,a=l;continue}var
+l=[0,i(f,bO(function(b){return function(a){return q(a,b,d)}}(a),g)),a],b=by(b),c=e,a=l;continue}var
 b=b[2],c=e,a=[0,d,a];continue}var
-m=[0,i(f,bM(function(b){return function(a){return q(a,b,d)}}(a),g)),a],b=by(b),c=e,a=m;continue}return a}}function
+m=[0,i(f,bO(function(b){return function(a){return q(a,b,d)}}(a),g)),a],b=by(b),c=e,a=m;continue}return a}}function
 eT(b,a){if(a){var
 c=a[2];if(b){var
 e=eT(b[1],c);return[0,a[1],e]}var
@@ -1245,42 +1245,42 @@ k2(a){switch(a[0]){case
 0:case
 1:case
 2:return 0;default:return[0,a[1],[0,a[2],0]]}}function
-f4(j,g){var
-k=0,l=aq(eT,e(function(a){return 0},g),j),c=eQ(g,0),b=l,a=k;for(;;){if(c){if(b){var
-d=b[2],f=b[1],h=[0,f,a],i=f?aq(eT,d,k2(c[1])):d,c=c[2],b=i,a=h;continue}return a}return a}}function
-cO(a){var
+f5(j,g){var
+k=0,l=an(eT,e(function(a){return 0},g),j),c=eQ(g,0),b=l,a=k;for(;;){if(c){if(b){var
+d=b[2],f=b[1],h=[0,f,a],i=f?an(eT,d,k2(c[1])):d,c=c[2],b=i,a=h;continue}return a}return a}}function
+cQ(a){var
 b=0;function
-c(a){return[0,a]}return bc(k(d),c,a,b)}function
-bd(d,c){var
+c(a){return[0,a]}return bb(k(d),c,a,b)}function
+bc(d,c){var
 a=d,b=0;for(;;){if(a){if(aJ(c,a[1]))return b;var
 a=a[2],b=[0,b];continue}return a}}function
-dr(d,b){var
+dt(d,b){var
 e=b[1];if(ak(function(a){return aJ(d,a)},e))return b;var
 a=d[1];switch(a[0]){case
 10:var
-j=dr(a[2],b),k=dr(a[3],j),c=dr(a[4],k);break;case
+j=dt(a[2],b),k=dt(a[3],j),c=dt(a[4],k);break;case
 5:case
 8:case
 9:var
-c=dr(a[1],b);break;case
+c=dt(a[1],b);break;case
 0:case
 1:case
 2:var
 c=b;break;default:var
-i=dr(a[1],b),c=dr(a[2],i)}var
-f=c[2],g=c[1],h=[0,bM(function(a){return bd(g,a)},a),f];return[0,[0,d,c[1]],h]}function
-cP(a){var
-b=bL(function(b,a){return dr(a,b)},a,r$),c=b[1],d=e(function(a){return bd(c,a)},a);return[0,kS(b[2]),d]}function
-f5(a){return aq(function(b,a){return E(b7(b),a)},d,a)}function
-cr(b,c,a){var
-d=f5(a),e=hP(c[2],E(b[2],d)),f=f5(a);return[0,b,[0,bp(c[1],aG(b[1],f)),e],a]}function
-Y(a){return[0,a,a,0]}function
-b9(b,a){var
+i=dt(a[1],b),c=dt(a[2],i)}var
+f=c[2],g=c[1],h=[0,bO(function(a){return bc(g,a)},a),f];return[0,[0,d,c[1]],h]}function
+cR(a){var
+b=bN(function(b,a){return dt(a,b)},a,sa),c=b[1],d=e(function(a){return bc(c,a)},a);return[0,kS(b[2]),d]}function
+f6(a){return an(function(b,a){return F(b9(b),a)},d,a)}function
+ct(b,c,a){var
+d=f6(a),e=hQ(c[2],F(b[2],d)),f=f6(a);return[0,b,[0,bq(c[1],aG(b[1],f)),e],a]}function
+Z(a){return[0,a,a,0]}function
+b$(b,a){var
 c=a[3],d=b[3];function
 e(a){return a}var
-f=aK(function(a){return a},e,A,d,c),g=A(b[2],a[2]);return cr(A(b[1],a[1]),g,f)}function
-br(b,a){var
-c=a[3],d=b[3],e=aK(function(a){return a},aa,H,d,c),f=H(b[2],a[2]);return cr(H(b[1],a[1]),f,e)}function
+f=aK(function(a){return a},e,A,d,c),g=A(b[2],a[2]);return ct(A(b[1],a[1]),g,f)}function
+bs(b,a){var
+c=a[3],d=b[3],e=aK(function(a){return a},aa,E,d,c),f=E(b[2],a[2]);return ct(E(b[1],a[1]),f,e)}function
 eU(a){var
 b=e(aa,a[3]),c=aa(a[2]);return[0,aa(a[1]),c,b]}function
 aL(a,c,b){var
@@ -1288,14 +1288,14 @@ d=A(b[2],b[1]),e=A(c[2],c[1]),f=b[3],g=c[3];function
 h(c,b){var
 f=t(a,e,b);return as(A(t(a,d,c),f))}function
 i(b){return as(t(a,e,b))}var
-j=aK(function(b){return as(t(a,d,b))},i,h,g,f),k=t(a,c[2],b[2]);return cr(t(a,c[1],b[1]),k,j)}function
+j=aK(function(b){return as(t(a,d,b))},i,h,g,f),k=t(a,c[2],b[2]);return ct(t(a,c[1],b[1]),k,j)}function
 eV(b,a){var
-c=a[3],d=A(a[2],a[1]),f=e(function(a){return t(b,d,a)},c),g=X(b,a[2]);return cr(X(b,a[1]),g,f)}function
-hZ(a,b){var
-c=b6(a,b[1]);if(c){var
-g=c[1],d=b6(a,b[2]);if(d){var
-h=d[1],f=b5(a,A(h,g));if(f)var
-l=b[3],m=f[1],i=[0,cr(g,h,e(function(b){return t(a,m,b)},l))];else
+c=a[3],d=A(a[2],a[1]),f=e(function(a){return t(b,d,a)},c),g=S(b,a[2]);return ct(S(b,a[1]),g,f)}function
+h0(a,b){var
+c=b8(a,b[1]);if(c){var
+g=c[1],d=b8(a,b[2]);if(d){var
+h=d[1],f=b7(a,A(h,g));if(f)var
+l=b[3],m=f[1],i=[0,ct(g,h,e(function(b){return t(a,m,b)},l))];else
 var
 i=f;var
 j=i}else
@@ -1304,207 +1304,207 @@ j=d;var
 k=j}else
 var
 k=c;return k}function
-d2(a,c,b){var
-d=b5(a,b[1]);if(d){var
-f=b5(a,b[2]);if(f)var
-h=f[1],g=t(a,c[1],d[1]),k=b[3],l=c[3],m=function(c,b){return H(c,t(a,g,b))},n=function(b){return aa(t(a,g,b))},o=aK(function(a){return a},n,m,l,k),p=e(function(b){return t(a,h,b)},o),i=[0,cr(g,t(a,c[2],h),p)];else
+d3(a,c,b){var
+d=b7(a,b[1]);if(d){var
+f=b7(a,b[2]);if(f)var
+h=f[1],g=t(a,c[1],d[1]),k=b[3],l=c[3],m=function(c,b){return E(c,t(a,g,b))},n=function(b){return aa(t(a,g,b))},o=aK(function(a){return a},n,m,l,k),p=e(function(b){return t(a,h,b)},o),i=[0,ct(g,t(a,c[2],h),p)];else
 var
 i=f;var
 j=i}else
 var
 j=d;return j}function
-cQ(b,a){return a?i(b,a[1]):a}function
-f6(a){var
-b=e(as,a[3]),c=as(A(a[2],a[1]));return cr(a[1],c,b)}function
+cS(b,a){return a?i(b,a[1]):a}function
+f7(a){var
+b=e(as,a[3]),c=as(A(a[2],a[1]));return ct(a[1],c,b)}function
 k3(a,k,j,r,c){var
-l=f6(k),m=f6(j),g=f6(c[1]),h=f6(c[2]),s=aL(a,l,h),u=br(aL(a,m,g),s),i=d2(a,Y(L(a,b)),u);if(i)var
-f=i[1],n=aL(a,br(l,g),f),o=aL(a,br(m,h),f),d=function(c,b){return aL(a,c,Y(b))},v=j[3],w=k[3],x=function(b,a){var
-c=d(o,a);return b9(d(n,b),c)},y=function(a){return d(o,a)},z=aK(function(a){return d(n,a)},y,x,w,v),A=r[3],B=function(b,a){return br(b,d(f,as(a)))[2]},C=function(a){return eU(d(f,as(a)))[2]},p=aK(function(a){return a[2]},C,B,z,A),D=g[2],E=e(function(b){return t(a,D,b)},p),F=cr(c[2][1],c[2][2],E),G=aa(h[2]),H=e(function(b){return t(a,G,b)},p),q=[0,[0,cr(c[1][1],c[1][2],H),F]];else
+l=f7(k),m=f7(j),g=f7(c[1]),h=f7(c[2]),s=aL(a,l,h),u=bs(aL(a,m,g),s),i=d3(a,Z(L(a,b)),u);if(i)var
+f=i[1],n=aL(a,bs(l,g),f),o=aL(a,bs(m,h),f),d=function(c,b){return aL(a,c,Z(b))},v=j[3],w=k[3],x=function(b,a){var
+c=d(o,a);return b$(d(n,b),c)},y=function(a){return d(o,a)},z=aK(function(a){return d(n,a)},y,x,w,v),A=r[3],B=function(b,a){return bs(b,d(f,as(a)))[2]},C=function(a){return eU(d(f,as(a)))[2]},p=aK(function(a){return a[2]},C,B,z,A),D=g[2],E=e(function(b){return t(a,D,b)},p),F=ct(c[2][1],c[2][2],E),G=aa(h[2]),H=e(function(b){return t(a,G,b)},p),q=[0,[0,ct(c[1][1],c[1][2],H),F]];else
 var
 q=i;return q}function
 k4(a,e,d,k){var
-p=eV(a,d),f=b9(eV(a,e),p),g=br(b9(f,Y(L(a,b))),k),l=aL(a,Y(L(a,c(2,b))),f),q=eV(a,g),h=hZ(a,br(aL(a,Y(L(a,c(2,c(2,b)))),f),q));if(h){var
-m=h[1],r=aL(a,m,d),i=d2(a,b9(aL(a,g,e),r),l);if(i)var
-s=aL(a,m,e),j=d2(a,br(aL(a,g,d),s),l),t=j?[0,[0,i[1],j[1]]]:j,n=t;else
+p=eV(a,d),f=b$(eV(a,e),p),g=bs(b$(f,Z(L(a,b))),k),l=aL(a,Z(L(a,c(2,b))),f),q=eV(a,g),h=h0(a,bs(aL(a,Z(L(a,c(2,c(2,b)))),f),q));if(h){var
+m=h[1],r=aL(a,m,d),i=d3(a,b$(aL(a,g,e),r),l);if(i)var
+s=aL(a,m,e),j=d3(a,bs(aL(a,g,d),s),l),t=j?[0,[0,i[1],j[1]]]:j,n=t;else
 var
 n=i;var
 o=n}else
 var
 o=h;var
-u=cQ(function(b){return k3(a,e,d,k,b)},o);return cQ(function(b){return k3(a,e,d,k,b)},u)}function
-cs(d,b,a){if(b){if(a)return ao(d,b[1],a[1]);var
+u=cS(function(b){return k3(a,e,d,k,b)},o);return cS(function(b){return k3(a,e,d,k,b)},u)}function
+cu(d,b,a){if(b){if(a)return aq(d,b[1],a[1]);var
 c=a}else
 var
 c=b;return c}function
 bz(b,j,i){var
-f=Y(x);return function(a){switch(a[0]){case
+f=Z(u);return function(a){switch(a[0]){case
 0:return[0,q(a[1],j,f)];case
 1:return[0,q(a[1],i,f)];case
-2:return[0,Y(L(b,a[1]))];case
+2:return[0,Z(L(b,a[1]))];case
 3:var
-k=a[2],l=a[1];return cs(function(b,a){return[0,b9(b,a)]},l,k);case
+k=a[2],l=a[1];return cu(function(b,a){return[0,b$(b,a)]},l,k);case
 4:var
-m=a[2],n=a[1];return cs(function(b,a){return[0,br(b,a)]},n,m);case
+m=a[2],n=a[1];return cu(function(b,a){return[0,bs(b,a)]},n,m);case
 5:var
-o=a[1];return cQ(function(a){return[0,eU(a)]},o);case
+o=a[1];return cS(function(a){return[0,eU(a)]},o);case
 6:var
-p=a[2],r=a[1];return cs(function(c,a){return[0,aL(b,c,a)]},r,p);case
+p=a[2],r=a[1];return cu(function(c,a){return[0,aL(b,c,a)]},r,p);case
 7:var
-s=a[2],t=a[1];return cs(function(a,c){return d2(b,a,c)},t,s);case
+s=a[2],t=a[1];return cu(function(a,c){return d3(b,a,c)},t,s);case
 8:var
-u=a[1];return cQ(function(a){return[0,eV(b,a)]},u);case
+u=a[1];return cS(function(a){return[0,eV(b,a)]},u);case
 9:var
-v=a[1];return cQ(function(a){return hZ(b,a)},v);default:var
+v=a[1];return cS(function(a){return h0(b,a)},v);default:var
 c=a[2];if(c){var
 d=a[3];if(d){var
 e=a[4];if(e){var
-w=k4(b,c[1],d[1],e[1]),x=a[1]?aY:av;return z(x,w)}var
+w=k4(b,c[1],d[1],e[1]),x=a[1]?aZ:av;return z(x,w)}var
 g=e}else
 var
 g=d;var
 h=g}else
 var
 h=c;return h}}}function
-d3(c){var
+d4(c){var
 a=c;for(;;)switch(a[0]){case
 0:return 0;case
 1:return 1;case
 6:var
 a=a[1];continue;default:var
-b=d3(a[1]);if(b)return b;var
+b=d4(a[1]);if(b)return b;var
 a=a[2];continue}}function
-ct(r,q){var
+cv(r,q){var
 b=r,a=q;for(;;)switch(b[0]){case
 0:if(0===a[0]){var
-c=I(b[1],a[1]);return c?fV(b[2],a[2]):c}return 0;case
+c=I(b[1],a[1]);return c?fW(b[2],a[2]):c}return 0;case
 1:var
 d=b[3],e=b[2];if(1===a[0]){var
-f=a[3],g=a[2],h=p(b[1],a[1]),i=h?I(e[1],g[1]):h,j=i?fV(e[2],g[2]):i,k=j?I(d[1],f[1]):j;return k?fV(d[2],f[2]):k}return 0;case
+f=a[3],g=a[2],h=p(b[1],a[1]),i=h?I(e[1],g[1]):h,j=i?fW(e[2],g[2]):i,k=j?I(d[1],f[1]):j;return k?fW(d[2],f[2]):k}return 0;case
 2:if(2===a[0]){var
-l=ct(b[1],a[1]);if(l){var
+l=cv(b[1],a[1]);if(l){var
 b=b[2],a=a[2];continue}return l}return 0;case
 3:if(3===a[0]){var
-m=ct(b[1],a[1]);if(m){var
+m=cv(b[1],a[1]);if(m){var
 b=b[2],a=a[2];continue}return m}return 0;case
 4:if(4===a[0]){var
-n=ct(b[1],a[1]);if(n){var
+n=cv(b[1],a[1]);if(n){var
 b=b[2],a=a[2];continue}return n}return 0;case
 5:if(5===a[0]){var
-o=ct(b[1],a[1]);if(o){var
+o=cv(b[1],a[1]);if(o){var
 b=b[2],a=a[2];continue}return o}return 0;default:if(6===a[0]){var
 b=b[1],a=a[1];continue}return 0}}function
 eW(c,a){switch(a[0]){case
 0:return[0,[0,a[1],a[2]]];case
 1:return 0;case
 2:var
-m=a[2],n=a[1],g=m,f=n,e=function(b,a){return[0,dp(b,a)]};break;case
+m=a[2],n=a[1],g=m,f=n,e=function(b,a){return[0,dr(b,a)]};break;case
 3:var
-o=a[2],p=a[1],g=o,f=p,e=function(b,a){return[0,dZ(b,a)]};break;case
+o=a[2],p=a[1],g=o,f=p,e=function(b,a){return[0,d0(b,a)]};break;case
 4:var
-q=a[2],r=a[1],g=q,f=r,e=function(b,a){return[0,a2(b,a)]};break;case
+q=a[2],r=a[1],g=q,f=r,e=function(b,a){return[0,a3(b,a)]};break;case
 5:var
-s=a[2],t=a[1],g=s,f=t,e=function(c,a){return dY(a,[0,d,b])?0:[0,f1(c,a)]};break;default:var
+s=a[2],t=a[1],g=s,f=t,e=function(c,a){return dZ(a,[0,d,b])?0:[0,f2(c,a)]};break;default:var
 k=eW(c,a[1]);return k?i(c,k[1]):k}var
 h=eW(c,f);if(h){var
 j=eW(c,g);if(j)return e(h[1],j[1]);var
 l=j}else
 var
 l=h;return l}function
-sa(a){return 0}function
-cu(a){return eW(sa,a)}function
-bN(a,c){switch(c[0]){case
+sb(a){return 0}function
+cw(a){return eW(sb,a)}function
+bP(a,c){switch(c[0]){case
 0:return[0,kY(a,c[1],c[2])];case
 1:return 0;case
 2:var
-g=bN(a,c[1]);if(g)var
-h=bN(a,c[2]),D=h?[0,A(g[1],h[1])]:h,r=D;else
+g=bP(a,c[1]);if(g)var
+h=bP(a,c[2]),D=h?[0,A(g[1],h[1])]:h,r=D;else
 var
 r=g;return r;case
 3:var
-i=bN(a,c[1]);if(i)var
-j=bN(a,c[2]),E=j?[0,H(i[1],j[1])]:j,s=E;else
+i=bP(a,c[1]);if(i)var
+j=bP(a,c[2]),F=j?[0,E(i[1],j[1])]:j,s=F;else
 var
 s=i;return s;case
 4:var
-k=bN(a,c[1]);if(k)var
-l=bN(a,c[2]),F=l?[0,t(a,k[1],l[1])]:l,u=F;else
+k=bP(a,c[1]);if(k)var
+l=bP(a,c[2]),G=l?[0,t(a,k[1],l[1])]:l,v=G;else
 var
-u=k;return u;case
+v=k;return v;case
 5:var
-m=bN(a,c[1]);if(m){var
-n=bN(a,c[2]);if(n)var
-o=b5(a,n[1]),G=o?[0,t(a,m[1],o[1])]:o,v=G;else
+m=bP(a,c[1]);if(m){var
+n=bP(a,c[2]);if(n)var
+o=b7(a,n[1]),H=o?[0,t(a,m[1],o[1])]:o,w=H;else
 var
-v=n;var
-w=v}else
+w=n;var
+x=w}else
 var
-w=m;return w;default:var
-y=c[1],p=bN(a,y);if(p){var
-e=p[1];if(J(d,e[1]))return b6(a,e);var
-f=cu(y),K=f?Q(bb([0,d,b],f[1])):f;if(K)return 0;if(J(d,e[2])){var
-B=b6(a,[0,e[2],e[2]]);return z(function(a){return[0,d,a[2]]},B)}var
-q=I(e[2],d),C=q?[0,x]:q;return C}return p}}function
-cv(b,a){return kY(b,a[1],a[2])}function
+x=m;return x;default:var
+y=c[1],p=bP(a,y);if(p){var
+e=p[1];if(J(d,e[1]))return b8(a,e);var
+f=cw(y),K=f?P(ba([0,d,b],f[1])):f;if(K)return 0;if(J(d,e[2])){var
+B=b8(a,[0,e[2],e[2]]);return z(function(a){return[0,d,a[2]]},B)}var
+q=I(e[2],d),C=q?[0,u]:q;return C}return p}}function
+cx(b,a){return kY(b,a[1],a[2])}function
 k6(a,g,e,d){var
-h=[0,b,c(2,b)],i=[0,cv(a,a2(dZ(d,e),h)),0],j=f(al(x,g),i),k=cv(a,d)[2],l=[0,cv(a,e)[1],k],m=[0,b,c(2,b)];return[0,cv(a,a2(dp(e,d),m)),l,j]}function
-d4(c,e,a){function
-b(a){return d4(c,e,a)}if(d3(a))switch(a[0]){case
+h=[0,b,c(2,b)],i=[0,cx(a,a3(d0(d,e),h)),0],j=f(al(u,g),i),k=cx(a,d)[2],l=[0,cx(a,e)[1],k],m=[0,b,c(2,b)];return[0,cx(a,a3(dr(e,d),m)),l,j]}function
+d5(c,e,a){function
+b(a){return d5(c,e,a)}if(d4(a))switch(a[0]){case
 0:return 0;case
 1:return fw(e,a[1],a[2],a[3]);case
 2:var
-g=b(a[2]),h=b(a[1]);return cs(function(b,a){return[0,b9(b,a)]},h,g);case
+g=b(a[2]),h=b(a[1]);return cu(function(b,a){return[0,b$(b,a)]},h,g);case
 3:var
-i=b(a[2]),j=b(a[1]);return cs(function(b,a){return[0,br(b,a)]},j,i);case
+i=b(a[2]),j=b(a[1]);return cu(function(b,a){return[0,bs(b,a)]},j,i);case
 4:var
-f=a[2],d=a[1];if(ct(d,f)){var
-k=b(d);return cQ(function(a){return[0,eV(c,a)]},k)}var
-l=b(f),m=b(d);return cs(function(b,a){return[0,aL(c,b,a)]},m,l);case
+f=a[2],d=a[1];if(cv(d,f)){var
+k=b(d);return cS(function(a){return[0,eV(c,a)]},k)}var
+l=b(f),m=b(d);return cu(function(b,a){return[0,aL(c,b,a)]},m,l);case
 5:var
-n=b(a[2]),o=b(a[1]);return cs(function(a,b){return d2(c,a,b)},o,n);default:var
-p=b(a[1]);return cQ(function(a){return hZ(c,a)},p)}return z(Y,bN(c,a))}function
-aE(b,a){if(d3(a)){var
-c=d4(b,function(d,c,a){var
-e=aH(d,k5),f=e?bb(c,a):e,g=f?[0,k6(b,d,c,a)]:f;return g},a);return z(function(a){return a[2]},c)}return bN(b,a)}function
-h0(a){var
-e=bp(P(a),d);return dW(E(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e))}function
-k7(a){return hU(E(h0(a),a))}function
+n=b(a[2]),o=b(a[1]);return cu(function(a,b){return d3(c,a,b)},o,n);default:var
+p=b(a[1]);return cS(function(a){return h0(c,a)},p)}return z(Z,bP(c,a))}function
+aC(b,a){if(d4(a)){var
+c=d5(b,function(d,c,a){var
+e=aH(d,k5),f=e?ba(c,a):e,g=f?[0,k6(b,d,c,a)]:f;return g},a);return z(function(a){return a[2]},c)}return bP(b,a)}function
+h1(a){var
+e=bq(Q(a),d);return dX(F(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e))}function
+k7(a){return hV(F(h1(a),a))}function
 k8(b,a){var
-c=k7(b),d=P(cN(P(a[2]),c)),e=k7(b);return[0,cN(a[1],e),d]}function
-cR(c,a,b){var
-d=aE(E(c,h0(a)),b);return z(function(b){return k8(a,b)},d)}function
-an(d,a){var
-b=cR(d,a[2],a[1][1]);if(b)var
-c=cR(d,a[2],a[1][2]),f=c?[0,[0,b[1][1],c[1][2]]]:c,e=f;else
+c=k7(b),d=Q(cP(Q(a[2]),c)),e=k7(b);return[0,cP(a[1],e),d]}function
+cT(c,a,b){var
+d=aC(F(c,h1(a)),b);return z(function(b){return k8(a,b)},d)}function
+ao(d,a){var
+b=cT(d,a[2],a[1][1]);if(b)var
+c=cT(d,a[2],a[1][2]),f=c?[0,[0,b[1][1],c[1][2]]]:c,e=f;else
 var
 e=b;return e}function
 k9(b,a){var
-c=P(cN(P(a[2]),b));return[0,cN(a[1],b),c]}function
-f7(b,a){var
-c=f2(b[2],a);return[0,co(b[1],a),c]}function
+c=Q(cP(Q(a[2]),b));return[0,cP(a[1],b),c]}function
+f8(b,a){var
+c=f3(b[2],a);return[0,cq(b[1],a),c]}function
 k_(h,g,d,b){var
-e=b[2],f=kN(d),i=c(2,f),j=B(kI(f),i),a=f7(t(h,b[1],g),j),k=kG(d)?H(e,a):A(e,a);return[0,a,k]}function
+e=b[2],f=kN(d),i=c(2,f),j=B(kI(f),i),a=f8(t(h,b[1],g),j),k=kG(d)?E(e,a):A(e,a);return[0,a,k]}function
 k$(a,d,c){if(c){var
 e=c[1];return k_(a,d,e,k$(a,d,e))}var
 f=L(a,b);return[0,L(a,b),f]}function
 la(e,g){var
-o=cp(e),p=B(c(2,c(2,b)),o),j=D(g[2],p);if(j){var
-n=eO(e),i=sb[1],d=n,f=0,a=i;for(;;){if(d){var
+o=cr(e),p=B(c(2,c(2,b)),o),j=D(g[2],p);if(j){var
+n=eO(e),i=sc[1],d=n,f=0,a=i;for(;;){if(d){var
 h=d[1];if(a){var
 d=h,a=a[1];continue}var
 d=h,f=[0,f],a=i;continue}var
-k=R(kF(se,R(sc,f)),sd),l=k$(e,g,k),q=k_(e,g,k,l)[2][2],m=[0,[0,l[2][1],q]];break}}else
+k=R(kF(sf,R(sd,f)),se),l=k$(e,g,k),q=k_(e,g,k,l)[2][2],m=[0,[0,l[2][1],q]];break}}else
 var
 m=j;return m}function
 lb(i){function
 a(h){var
-m=co(cp(i),h),g=eO(i),f=m,e=d,a=b;for(;;){if(g){var
-j=E(a,c(2,b)),k=E(e,co(f,a)),l=P(co(f,B(h,h))),g=g[1],f=l,e=k,a=j;continue}return e}}var
+m=cq(cr(i),h),g=eO(i),f=m,e=d,a=b;for(;;){if(g){var
+j=F(a,c(2,b)),k=F(e,cq(f,a)),l=Q(cq(f,B(h,h))),g=g[1],f=l,e=k,a=j;continue}return e}}var
 e=a(r(c(2,r(c(2,r(c(2,r(c(2,c(2,r(c(2,r(c(2,b)))))))))))))),f=B(c(2,c(2,b)),e),g=a(r(c(2,c(2,b))));return aG(B(c(2,c(2,c(2,c(2,b)))),g),f)}function
 lc(e,a){var
 f=D(d,a);if(f){var
-g=c(2,c(2,b));return la(e,f7(X(e,[0,a,a]),g))}return f}function
+g=c(2,c(2,b));return la(e,f8(S(e,[0,a,a]),g))}return f}function
 ld(a){var
-m=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),g=aG(lb(a),m),n=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),h=E(lb(a),n),e=lc(a,g);if(e){var
+m=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),g=aG(lb(a),m),n=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),h=F(lb(a),n),e=lc(a,g);if(e){var
 f=lc(a,h);if(f)var
 i=J(d,e[1][1]),j=i?J(f[1][2],d):i,k=j?[0,[0,g,h]]:j;else
 var
@@ -1513,76 +1513,76 @@ l=k}else
 var
 l=e;return l}function
 le(a,d){var
-c=X(a,d),e=L(a,b);return H(A(c,c),e)}function
-cS(f,j){var
-e=aE(E(f,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),j);if(e){var
-k=e[1],a=E(f,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),d=ld(a);if(d)var
-h=c(2,c(2,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))))),i=la(a,X(a,f7(t(a,k,d[1]),h))),g=z(function(b){return le(a,le(a,b))},i);else
+c=S(a,d),e=L(a,b);return E(A(c,c),e)}function
+cU(f,j){var
+e=aC(F(f,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),j);if(e){var
+k=e[1],a=F(f,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),d=ld(a);if(d)var
+h=c(2,c(2,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))))),i=la(a,S(a,f8(t(a,k,d[1]),h))),g=z(function(b){return le(a,le(a,b))},i);else
 var
 g=d;var
 l=c(2,c(2,c(2,c(2,c(2,c(2,b))))));return z(function(a){return k9(l,a)},g)}return e}function
 lf(a,d){var
-e=ld(E(a,c(2,c(2,c(2,c(2,c(2,c(2,b))))))));return z(function(e){var
-f=c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b))))))))));return f7(t(a,d,k9(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e)),f)},e)}function
-f8(d,a){return cS(d,[3,a,[0,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b))))))))),b]])}function
+e=ld(F(a,c(2,c(2,c(2,c(2,c(2,c(2,b))))))));return z(function(e){var
+f=c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b))))))))));return f8(t(a,d,k9(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e)),f)},e)}function
+f9(d,a){return cU(d,[3,a,[0,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b))))))))),b]])}function
 h(i,e,c){var
-f=cu(c);if(f){var
-g=f[1];return e?Q(bb(g,[0,d,b])):bb([0,d,b],g)}var
-a=aE(i,c);if(a){var
+f=cw(c);if(f){var
+g=f[1];return e?P(ba(g,[0,d,b])):ba([0,d,b],g)}var
+a=aC(i,c);if(a){var
 h=a[1];return e?J(d,h[1]):D(d,h[1])}return a}function
 lg(c,b){var
-a=aE(c,b),d=a?1:a;return d}function
-bs(c,a,b){var
-d=ct(a,b),e=d?lg(c,a):d;return e?e:h(c,0,[3,b,a])}function
-sf(c){var
-a=dq(c),g=dW(fZ(a[2])),b=[0,fZ(a[1]),g],e=J(d,a[1]),f=e?dY(a2(b,b),c):e,h=f?[0,b]:f;return h}function
+a=aC(c,b),d=a?1:a;return d}function
+bt(c,a,b){var
+d=cv(a,b),e=d?lg(c,a):d;return e?e:h(c,0,[3,b,a])}function
+sg(c){var
+a=ds(c),g=dX(f0(a[2])),b=[0,f0(a[1]),g],e=J(d,a[1]),f=e?dZ(a3(b,b),c):e,h=f?[0,b]:f;return h}function
 lh(a){if(a){var
-e=a[2],c=a[1];if(dY(bK([0,d,b],c),[0,d,b])){var
+e=a[2],c=a[1];if(dZ(bM([0,d,b],c),[0,d,b])){var
 g=lh(e);return z(function(a){return[0,a[1],[0,c,a[2]]]},g)}var
 f=[0,[0,c,e]]}else
 var
 f=a;return f}function
 li(c,a){var
-e=$(c,a),f=[0,d,b];return aq(function(a,b){return dq(dp(a2(a[1],a[2]),b))},f,e)}function
+e=$(c,a),f=[0,d,b];return an(function(a,b){return ds(dr(a3(a[1],a[2]),b))},f,e)}function
 lj(c,j){if(c){var
 f=c[1],g=lh(j);if(g){var
 h=g[1],a=h[1],k=function(c){var
-f=bK([0,d,b],a),g=f1(bK([0,d,b],c),f),h=by(a),i=$(by(c),h);return e(function(a){var
-b=a2(g,a[2]);return dq(dZ(a[1],b))},i)},l=lj(f,e(k,h[2]));return z(function(c){var
-e=bK([0,d,b],a);return[0,dq(f1(hW(li(by(a),c)),e)),c]},l)}var
+f=bM([0,d,b],a),g=f2(bM([0,d,b],c),f),h=by(a),i=$(by(c),h);return e(function(a){var
+b=a3(g,a[2]);return ds(d0(a[1],b))},i)},l=lj(f,e(k,h[2]));return z(function(c){var
+e=bM([0,d,b],a);return[0,ds(f2(hX(li(by(a),c)),e)),c]},l)}var
 i=[0,[0,[0,b,b],al([0,d,b],f)]]}else
 var
 i=c;return i}function
 lk(a){if(a){var
-b=eW(sf,a[1]);if(b)var
+b=eW(sg,a[1]);if(b)var
 c=lk(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return sg}function
+d=b;return d}return sh}function
 ll(a){if(a){var
 b=lk(a[1]);if(b)var
 c=ll(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return sh}function
+d=b;return d}return si}function
 lm(i,l){var
 a=ll(l);if(a){var
 j=a[1],c=lj(i,j);if(c){var
-e=c[1],f=p(g(e),i),h=f?ak(function(a){return Q(dY(a,[0,d,b]))},e):f;return h?m(function(a){return dY(li(a,e),[0,d,b])},j):h}var
+e=c[1],f=p(g(e),i),h=f?ak(function(a){return P(dZ(a,[0,d,b]))},e):f;return h?m(function(a){return dZ(li(a,e),[0,d,b])},j):h}var
 k=c}else
 var
 k=a;return k}function
-si(a){return a}function
 sj(a){return a}function
-sk(a,b){return aK(sj,si,A,a,b)}function
-sl(a){return a}function
+sk(a){return a}function
+sl(a,b){return aK(sk,sj,A,a,b)}function
 sm(a){return a}function
-be(a,b){return aK(sm,sl,sk,a,b)}function
-h1(a,f,c,d){if(c){var
-h=c[2],i=L(a,b),g=d1(c[1],i,f);if(d){var
-j=h1(a,f,h,d[2]),k=d[1],l=function(c,b){return H(c,t(a,g,b))},m=function(b){return aa(t(a,g,b))};return[0,aK(function(a){return a},m,l,k,c),j]}var
-n=h1(a,f,h,0);return[0,e(function(b){return aa(t(a,g,b))},c),n]}return d}function
-f9(h,a){if(a){var
+sn(a){return a}function
+bd(a,b){return aK(sn,sm,sl,a,b)}function
+h2(a,f,c,d){if(c){var
+h=c[2],i=L(a,b),g=d2(c[1],i,f);if(d){var
+j=h2(a,f,h,d[2]),k=d[1],l=function(c,b){return E(c,t(a,g,b))},m=function(b){return aa(t(a,g,b))};return[0,aK(function(a){return a},m,l,k,c),j]}var
+n=h2(a,f,h,0);return[0,e(function(b){return aa(t(a,g,b))},c),n]}return d}function
+f_(h,a){if(a){var
 b=a[1];if(b)var
-c=b[1],e=J(d,c[1]),i=e?[0,h1(h,c,b[2],a[2])]:e,f=i;else
+c=b[1],e=J(d,c[1]),i=e?[0,h2(h,c,b[2],a[2])]:e,f=i;else
 var
 f=b;var
 g=f}else
@@ -1590,13 +1590,13 @@ var
 g=a;return g}function
 ln(g,f,e){var
 a=f,b=e;for(;;){if(b){if(a){var
-c=f9(g,b);if(c){var
+c=f_(g,b);if(c){var
 a=a[1],b=c[1];continue}var
 d=c}else
 var
 d=a;return d}return 1}}function
 lo(d,b,a){if(b)if(a)var
-e=a[1],f=lo(d,b[2],a[2]),g=cm(d,b[1])?b8(e):cq(e),c=[0,g,f];else
+e=a[1],f=lo(d,b[2],a[2]),g=co(d,b[1])?b_(e):cs(e),c=[0,g,f];else
 var
 c=a;else
 var
@@ -1607,129 +1607,129 @@ var
 c=b;else
 var
 c=a;return c}function
-bf(a){if(a){var
-b=a[1],c=bf(b),d=e(function(a){return[0,1,a]},c),g=bf(b);return f(e(function(a){return[0,0,a]},g),d)}return sn}function
-d5(c,a){var
+be(a){if(a){var
+b=a[1],c=be(b),d=e(function(a){return[0,1,a]},c),g=be(b);return f(e(function(a){return[0,0,a]},g),d)}return so}function
+d6(c,a){var
 b=g(a);if(ln(c,b,a))return 1;var
-d=bf(bx(b));return m(function(d){return ln(c,b,lp([0,0,d],a))},d)}function
+d=be(bx(b));return m(function(d){return ln(c,b,lp([0,0,d],a))},d)}function
 aw(a){function
 b(b){var
 c=i(a,b[2]);return[0,e(a,b[1]),c]}return function(a){return e(b,a)}}function
-aC(h,e){var
+aD(h,e){var
 c=h,a=e[1],b=e[3];for(;;){if(c){if(b){var
-d=b[1],f=b[2],g=c[1]?A(a,d):H(a,d),c=c[2],a=g,b=f;continue}return a}return a}}function
-h2(c,b,a){var
-d=bf(c);return m(function(c){return i(a,i(aw(function(a){return aC(c,a)}),b))},d)}function
-h3(h,d,c){if(d)if(c)var
-i=c[2],e=c[1],j=d[2],f=d[1],a=function(c,a){return aO(c,E(h,b),a)},k=h3(h,j,i),l=function(c,b){var
+d=b[1],f=b[2],g=c[1]?A(a,d):E(a,d),c=c[2],a=g,b=f;continue}return a}return a}}function
+h3(c,b,a){var
+d=be(c);return m(function(c){return i(a,i(aw(function(a){return aD(c,a)}),b))},d)}function
+h4(h,d,c){if(d)if(c)var
+i=c[2],e=c[1],j=d[2],f=d[1],a=function(c,a){return aP(c,F(h,b),a)},k=h4(h,j,i),l=function(c,b){var
 d=a(b,e);return A(a(f,c),d)},m=function(b){return a(b,e)},n=aK(function(b){return a(f,b)},m,l,i,j),o=a(f,e),g=[0,[0,A(a(f,e),o),n],k];else
 var
 g=c;else
 var
 g=d;return g}function
-d6(b,d,a,c){function
+d7(b,d,a,c){function
 e(c,d){var
-e=aO(d,b,a);return H(A(c,c),e)}function
-f(c){return aa(aO(c,b,a))}return aK(function(a){return A(a,a)},f,e,d,c)}function
-f_(d,i,h,g){var
+e=aP(d,b,a);return E(A(c,c),e)}function
+f(c){return aa(aP(c,b,a))}return aK(function(a){return A(a,a)},f,e,d,c)}function
+f$(d,i,h,g){var
 c=i,b=h,a=g;for(;;){if(c){if(b){var
-e=b[1],f=c[1],j=cq(e[2]),k=be(a,h3(d,f,d6(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
-h4(b,a){return[0,[0,0,b],a]}function
+e=b[1],f=c[1],j=cs(e[2]),k=bd(a,h4(d,f,d7(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
+h5(b,a){return[0,[0,0,b],a]}function
 eX(i,b,c,h,f,a){function
 d(a){if(a){var
-j=al([0,aa(a[1][2]),0],b),c=f_(h,f,a[2],j),d=p(g(c),b);if(d)return d5(i,c);var
+j=al([0,aa(a[1][2]),0],b),c=f$(h,f,a[2],j),d=p(g(c),b);if(d)return d6(i,c);var
 e=d}else
 var
-e=a;return e}return h2(b,h4(c,a),d)}function
-f$(g,f,e){var
+e=a;return e}return h3(b,h5(c,a),d)}function
+ga(g,f,e){var
 a=f,b=e;for(;;){if(a){var
-d=a[1],h=d[1],c=f9(g,[0,[0,b8(d[2]),h],b]);if(c){var
+d=a[1],h=d[1],c=f_(g,[0,[0,b_(d[2]),h],b]);if(c){var
 a=a[2],b=c[1];continue}return c}return[0,b]}}function
-h5(d,b,c,a){function
+h6(d,b,c,a){function
 e(a){if(a){var
-j=al([0,a[1][2],0],b),c=f$(d,a[2],j);if(c){var
-e=c[1],f=p(g(e),b);if(f)return d5(d,e);var
+j=al([0,a[1][2],0],b),c=ga(d,a[2],j);if(c){var
+e=c[1],f=p(g(e),b);if(f)return d6(d,e);var
 h=f}else
 var
 h=c;var
 i=h}else
 var
-i=a;return i}return h2(b,h4(c,a),e)}function
+i=a;return i}return h3(b,h5(c,a),e)}function
 lq(h,g,a,f,d,c){var
-i=[0,x,x,0],b=e(function(a){return[0,a[1],i]},c),j=a?a[1]:[0,x,x,0];return eX(h,g,j,f,d,b)}function
-h6(b,a){var
-c=bf(b);return m(function(b){return J(d,aC(b,a)[1])},c)}function
-ga(c,b,a){var
-d=a[3],f=e(function(a){return aO(c,b,a)},d),g=a[2];return[0,aO(c,b,a[1]),g,f]}function
+i=[0,u,u,0],b=e(function(a){return[0,a[1],i]},c),j=a?a[1]:[0,u,u,0];return eX(h,g,j,f,d,b)}function
+h7(b,a){var
+c=be(b);return m(function(b){return J(d,aD(b,a)[1])},c)}function
+gb(c,b,a){var
+d=a[3],f=e(function(a){return aP(c,b,a)},d),g=a[2];return[0,aP(c,b,a[1]),g,f]}function
 lr(a,b){var
-c=b[3],d=a[3],e=aK(function(a){return a},aa,H,d,c),f=a[2];return[0,H(a[1],b[1]),f,e]}function
-bO(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+c=b[3],d=a[3],e=aK(function(a){return a},aa,E,d,c),f=a[2];return[0,E(a[1],b[1]),f,e]}function
+bQ(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
 ah(c,b,a){var
-d=ao(c,b[3],a[3]),e=ao(c,b[2],a[2]);return[0,ao(c,b[1],a[1]),e,d]}function
-aZ(b,a){var
+d=aq(c,b[3],a[3]),e=aq(c,b[2],a[2]);return[0,aq(c,b[1],a[1]),e,d]}function
+a0(b,a){var
 c=s(b,a[3]),d=s(b,a[2]);return[0,s(b,a[1]),d,c]}function
 bl(b,a){var
 c=am(b[3],a),d=am(b[2],a);return[0,am(b[1],a),d,c]}function
-V(b,a){var
+W(b,a){var
 c=s(b[3],a[3]),d=s(b[2],a[2]);return C(C(s(b[1],a[1]),d),c)}function
-ds(a){return bl(a,aD(V(a,a)))}function
-cT(a){var
-b=a[5];return b?b[1]:aD(a[2])}function
-gb(b,a){return b?a:bk(a)}function
+du(a){return bl(a,aE(W(a,a)))}function
+cV(a){var
+b=a[5];return b?b[1]:aE(a[2])}function
+gc(b,a){return b?a:bk(a)}function
 ls(e,a,i,d,h){var
-f=V(a,e),b=ah(v,e,aZ(f,a)),j=V(b,b),g=v(S(d),j),c=gb(h,aD(g)),k=v(f,c),l=ah(C,a,bl(b,c));return[0,ah(C,b,aZ(c,a)),g,l,k,[0,d],0,[0,i]]}function
+f=W(a,e),b=ah(w,e,a0(f,a)),j=W(b,b),g=w(T(d),j),c=gc(h,aE(g)),k=w(f,c),l=ah(C,a,bl(b,c));return[0,ah(C,b,a0(c,a)),g,l,k,[0,d],0,[0,i]]}function
 lt(a,e,d){var
-b=V(a,a),c=aD(b),f=[0,e],g=z(function(b){return ah(v,a,aZ(V(b,a),b))},d);return[0,a,b,bl(a,c),c,0,g,f]}function
+b=W(a,a),c=aE(b),f=[0,e],g=z(function(b){return ah(w,a,a0(W(b,a),b))},d);return[0,a,b,bl(a,c),c,0,g,f]}function
 lu(c,a){var
-d=V(a,c);return[0,a,k(b),a,d,0,0,0]}function
+d=W(a,c);return[0,a,k(b),a,d,0,0,0]}function
 eY(a){return e(function(a){var
-b=a[2];return[0,bO(a[1]),b]},a)}function
+b=a[2];return[0,bQ(a[1]),b]},a)}function
 lv(a){return e(function(a){var
-c=k(b);return[0,bO(a[3]),c]},a)}function
+c=k(b);return[0,bQ(a[3]),c]},a)}function
 lw(b,a){var
 c=i(b,a[3]),d=i(b,a[2]);return[0,i(b,a[1]),d,c]}function
 lx(c,b,a){var
-d=ao(c,b[3],a[3]),e=ao(c,b[2],a[2]);return[0,ao(c,b[1],a[1]),e,d]}function
-d7(d,a){var
-b=b6(d,[0,a[2],a[2]]);if(b){var
+d=aq(c,b[3],a[3]),e=aq(c,b[2],a[2]);return[0,aq(c,b[1],a[1]),e,d]}function
+d8(d,a){var
+b=b8(d,[0,a[2],a[2]]);if(b){var
 c=b[1];return[0,c[2],c[2]]}return[0,a[2],a[2]]}function
-gc(a,n,f,l,e,k,j){var
-o=lx(br,k,j),b=lx(function(b,c){return aL(a,b,c)},e,o),c=b[3],g=b[2],h=b[1],i=b9(b9(b9(Y(L(a,d)),h),g),c),p=bf(n);return m(function(c){var
-b=lw(function(b){return X(a,aC(c,b))},e),h=b[3],j=b[2],k=b[1],m=t(a,l,d7(a,A(A(A(L(a,d),k),j),h))),g=H(aC(c,i),m),n=f?H(g,aC(c,f[1])):g;return J(d,n[1])},p)}function
-b_(a){return dn(E(a[1],a[2]),b)}function
-d8(a){var
-b=b_(a);return aG(a[2],b)}function
-du(c,b){if(b)var
-a=b[1],e=du([0,c],b[2]),g=d8(a),h=[0,[0,d8(a),g],0],i=f(al(x,c),h),j=b_(a),d=[0,[0,[0,b_(a),j],a,i],e];else
+gd(a,n,f,l,e,k,j){var
+o=lx(bs,k,j),b=lx(function(b,c){return aL(a,b,c)},e,o),c=b[3],g=b[2],h=b[1],i=b$(b$(b$(Z(L(a,d)),h),g),c),p=be(n);return m(function(c){var
+b=lw(function(b){return S(a,aD(c,b))},e),h=b[3],j=b[2],k=b[1],m=t(a,l,d8(a,A(A(A(L(a,d),k),j),h))),g=E(aD(c,i),m),n=f?E(g,aD(c,f[1])):g;return J(d,n[1])},p)}function
+ca(a){return dq(F(a[1],a[2]),b)}function
+d9(a){var
+b=ca(a);return aG(a[2],b)}function
+dw(c,b){if(b)var
+a=b[1],e=dw([0,c],b[2]),g=d9(a),h=[0,[0,d9(a),g],0],i=f(al(u,c),h),j=ca(a),d=[0,[0,[0,ca(a),j],a,i],e];else
 var
 d=b;return d}function
-cU(d,b){if(b){var
+cW(d,b){if(b){var
 c=b[2],a=b[1];if(d){var
-e=cU(d[1],c);return[0,[0,a,e[1]],[0,a,e[2]]]}var
-f=a[2],g=[0,[0,b_(a),f],c],h=b_(a);return[0,[0,[0,a[1],h],c],g]}return so}function
+e=cW(d[1],c);return[0,[0,a,e[1]],[0,a,e[2]]]}var
+f=a[2],g=[0,[0,ca(a),f],c],h=ca(a);return[0,[0,[0,a[1],h],c],g]}return sp}function
 ly(d,c,a){if(c){if(a){var
-e=ly(d,c[2],a[2]);return A(aO(c[1],E(d,b),a[1]),e)}return x}return x}function
-d9(f,a){if(a)var
-g=a[1],c=g[2],d=g[1],h=a[2],b=function(a,b){return ly(f,a,b)},j=d9(f,h),k=e(function(a){var
+e=ly(d,c[2],a[2]);return A(aP(c[1],F(d,b),a[1]),e)}return u}return u}function
+d_(f,a){if(a)var
+g=a[1],c=g[2],d=g[1],h=a[2],b=function(a,b){return ly(f,a,b)},j=d_(f,h),k=e(function(a){var
 e=b(d,a[2]);return A(b(a[1],c),e)},h),l=b(d,c),i=[0,[0,A(b(d,c),l),k],j];else
 var
 i=a;return i}function
-d_(e,b,d,a){if(b)if(a)var
-f=b[1],g=d_(e,b[2],d,a[2]),c=[0,[0,f,d6(e,a[1][1],d,f)],g];else
+d$(e,b,d,a){if(b)if(a)var
+f=b[1],g=d$(e,b[2],d,a[2]),c=[0,[0,f,d7(e,a[1][1],d,f)],g];else
 var
 c=a;else
 var
 c=b;return c}function
-gd(f,d,c,b,a){if(a){var
+ge(f,d,c,b,a){if(a){var
 g=a[2];if(d){var
-i=gd(f,d[1],c,b,g);return[0,[0,H(x,b),0],i]}var
-j=e(function(a){return[0,H(x,b),0]},g),h=[0,[0,H(aa(t(f,c,cq(a[1][2]))),b),0],j]}else
+i=ge(f,d[1],c,b,g);return[0,[0,E(u,b),0],i]}var
+j=e(function(a){return[0,E(u,b),0]},g),h=[0,[0,E(aa(t(f,c,cs(a[1][2]))),b),0],j]}else
 var
 h=a;return h}function
-a4(d,c,a){var
-b=p(g(a),c);return b?d5(d,a):b}function
-ge(d,b,a){if(b)var
-c=b[1],g=ge([0,d],b[2],a),h=f(al(x,d),[0,a,0]),e=[0,[0,c,[0,aG(c[1],a[2]),E(c[2],a[2])],h],g];else
+a5(d,c,a){var
+b=p(g(a),c);return b?d6(d,a):b}function
+gf(d,b,a){if(b)var
+c=b[1],g=gf([0,d],b[2],a),h=f(al(u,d),[0,a,0]),e=[0,[0,c,[0,aG(c[1],a[2]),F(c[2],a[2])],h],g];else
 var
 e=b;return e}function
 lz(d){if(d){var
@@ -1742,49 +1742,49 @@ var
 e=b;var
 f=e}else
 var
-f=a;return f}return sp}function
-h7(a){return z(function(a){return z(eU,a)},a)}function
-cV(c,b,a){function
+f=a;return f}return sq}function
+h8(a){return z(function(a){return z(eU,a)},a)}function
+cX(c,b,a){function
 d(a){return aL(c,b,a)}return z(function(a){return z(d,a)},a)}function
-h8(c,b,a){function
-d(a){return d2(c,a,b)}return z(function(a){return cQ(d,a)},a)}function
-d$(b,a){var
+h9(c,b,a){function
+d(a){return d3(c,a,b)}return z(function(a){return cS(d,a)},a)}function
+ea(b,a){var
 c=$(b,a);return e(function(c){var
 a=c[2],b=c[1];if(b){if(a){var
-d=a[1],e=b[1];return[0,cs(function(b,a){return[0,b9(b,a)]},e,d)]}return b}return a},c)}function
-gf(a){return Y(L(a,c(2,b)))}function
-h9(a,au,at,K,c){var
-aw=bM(av,c),f=i(bz(a,au,at),aw);switch(c[0]){case
+d=a[1],e=b[1];return[0,cu(function(b,a){return[0,b$(b,a)]},e,d)]}return b}return a},c)}function
+gg(a){return Z(L(a,c(2,b)))}function
+h_(a,au,at,K,c){var
+aw=bO(av,c),f=i(bz(a,au,at),aw);switch(c[0]){case
 1:var
 O=c[1],d=e(function(d){var
-c=p(O,d),e=c?[0,[0,Y(L(a,b))]]:c;return e},K);break;case
+c=p(O,d),e=c?[0,[0,Z(L(a,b))]]:c;return e},K);break;case
 3:var
-d=d$(c[1][2],c[2][2]);break;case
+d=ea(c[1][2],c[2][2]);break;case
 4:var
-P=e(h7,c[2][2]),d=d$(c[1][2],P);break;case
+P=e(h8,c[2][2]),d=ea(c[1][2],P);break;case
 5:var
-d=e(h7,c[1][2]);break;case
+d=e(h8,c[1][2]);break;case
 6:var
 x=c[2],y=c[1],g=y[1],u=0;if(g){var
 h=x[1];if(h)var
-Q=x[2],R=g[1],S=e(function(b){return cV(a,R,b)},Q),T=y[2],U=h[1],d=d$(e(function(b){return cV(a,U,b)},T),S);else{var
+Q=x[2],R=g[1],S=e(function(b){return cX(a,R,b)},Q),T=y[2],U=h[1],d=ea(e(function(b){return cX(a,U,b)},T),S);else{var
 z=h;u=1}}else{var
 z=g;u=1}if(u)var
 d=z;break;case
 7:var
 v=0;if(f){var
 A=c[2],j=A[1];if(j)var
-V=A[2],W=eU(f[1]),X=e(function(b){return cV(a,W,b)},V),Z=d$(c[1][2],X),_=j[1],d=e(function(b){return h8(a,_,b)},Z);else{var
+V=A[2],W=eU(f[1]),X=e(function(b){return cX(a,W,b)},V),Y=ea(c[1][2],X),_=j[1],d=e(function(b){return h9(a,_,b)},Y);else{var
 B=j;v=1}}else{var
 B=f;v=1}if(v)var
 d=B;break;case
 8:var
 C=c[1],k=C[1];if(k)var
-$=C[2],aa=k[1],ab=aL(a,gf(a),aa),d=e(function(b){return cV(a,ab,b)},$);else
+$=C[2],aa=k[1],ab=aL(a,gg(a),aa),d=e(function(b){return cX(a,ab,b)},$);else
 var
 d=k;break;case
 9:if(f)var
-ac=c[1][2],ad=f[1],ae=aL(a,gf(a),ad),d=e(function(b){return h8(a,ae,b)},ac);else
+ac=c[1][2],ad=f[1],ae=aL(a,gg(a),ad),d=e(function(b){return h9(a,ae,b)},ac);else
 var
 d=f;break;case
 10:var
@@ -1792,7 +1792,7 @@ D=c[4],E=c[3],F=c[2],l=F[1],w=0;if(l){var
 m=l[1],n=E[1],M=0;if(n){var
 o=n[1],q=D[1],N=0;if(q){var
 r=k4(a,m,o,q[1]);if(r){var
-G=r[1],s=G[2],t=G[1],af=E[2],ag=br(o,s),ah=e(function(b){return cV(a,ag,b)},af),ai=F[2],aj=br(m,t),ak=d$(e(function(b){return cV(a,aj,b)},ai),ah),al=e(h7,D[2]),am=gf(a),an=d$(e(function(b){return cV(a,am,b)},ak),al),ao=c[1]?t:eU(s),ap=e(function(b){return cV(a,ao,b)},an),aq=aL(a,m,s),ar=br(aL(a,o,t),aq),as=aL(a,gf(a),ar),d=e(function(b){return h8(a,as,b)},ap);M=1;N=1}else
+G=r[1],s=G[2],t=G[1],af=E[2],ag=bs(o,s),ah=e(function(b){return cX(a,ag,b)},af),ai=F[2],aj=bs(m,t),ak=ea(e(function(b){return cX(a,aj,b)},ai),ah),al=e(h8,D[2]),am=gg(a),an=ea(e(function(b){return cX(a,am,b)},ak),al),ao=c[1]?t:eU(s),ap=e(function(b){return cX(a,ao,b)},an),aq=aL(a,m,s),ar=bs(aL(a,o,t),aq),as=aL(a,gg(a),ar),d=e(function(b){return h9(a,as,b)},ap);M=1;N=1}else
 var
 H=r}else
 var
@@ -1804,83 +1804,83 @@ J=I;w=1}}else{var
 J=l;w=1}if(w)var
 d=J;break;default:var
 d=e(function(a){return 0},K)}return[0,f,d]}function
-h_(b,c,a){if(a)var
-f=a[1],g=h_(b,c,a[2]),d=[0,e(function(a){return aa(t(b,t(b,c,f),a))},a),g];else
+h$(b,c,a){if(a)var
+f=a[1],g=h$(b,c,a[2]),d=[0,e(function(a){return aa(t(b,t(b,c,f),a))},a),g];else
 var
 d=a;return d}function
-h$(a){return m(function(a){var
+ia(a){return m(function(a){var
 b=I(a[1],d);return b?I(a[2],d):b},a)}function
-ia(c,b,a){var
-d=$(b,a);return aq(function(a,b){return A(t(c,a[1],a[2]),b)},x,d)}function
 ib(c,b,a){var
-d=b7(ia(c,a,b));return aq(function(b,a){return E(b7(b),a)},d,a)}function
-b$(a){return L(a,b)}function
+d=$(b,a);return an(function(a,b){return A(t(c,a[1],a[2]),b)},u,d)}function
+ic(c,b,a){var
+d=b9(ib(c,a,b));return an(function(b,a){return F(b9(b),a)},d,a)}function
+cb(a){return L(a,b)}function
 eZ(a,i,c,v,u){var
 f=v,e=u;for(;;){if(f){var
-j=f[1],n=0;if(!h$(c)&&!h$(j)){var
-h=ib(a,i,j),o=b$(a),p=ib(a,i,c),b=d1([0,ib(a,i,c),p],o,[0,h,h])[1],k=J(d,h),l=k?J(d,b):k;if(l)var
-q=as(hX(a,[0,b,b])),r=function(b){return function(d,c){return H(t(a,[0,b,b],d),c)}}(b),s=[0,b,b],m=[0,be(e,h_(a,q,aK(function(c){return function(b){return t(a,c,b)}}(s),aa,r,j,c)))];else
+j=f[1],n=0;if(!ia(c)&&!ia(j)){var
+h=ic(a,i,j),o=cb(a),p=ic(a,i,c),b=d2([0,ic(a,i,c),p],o,[0,h,h])[1],k=J(d,h),l=k?J(d,b):k;if(l)var
+q=as(hY(a,[0,b,b])),r=function(b){return function(d,c){return E(t(a,[0,b,b],d),c)}}(b),s=[0,b,b],m=[0,bd(e,h$(a,q,aK(function(c){return function(b){return t(a,c,b)}}(s),aa,r,j,c)))];else
 var
 m=l;var
 g=m;n=1}if(!n)var
 g=[0,e];if(g){var
 f=f[2],e=g[1];continue}return g}return[0,e]}}function
 lA(a){var
-b=a[2],c=e(function(a){return[0,a[1],x]},b);return[0,[0,a[1][1],x],c]}function
-ic(h,n,a,m,l,k){var
+b=a[2],c=e(function(a){return[0,a[1],u]},b);return[0,[0,a[1][1],u],c]}function
+id(h,n,a,m,l,k){var
 d=m,c=l,b=k;for(;;){if(d){if(c){var
-i=c[1],j=i[1],f=d[1],o=cq(j[2]),p=be(b,h3(a,f,d6(a,j[1],o,f))),q=i[2],r=e(function(c){return function(b){return e(as,d6(a,b[1],b[2],c))}}(f),q),g=eZ(h,n,e(function(b){return aO(b,a,b$(h))},f),r,p);if(g){var
+i=c[1],j=i[1],f=d[1],o=cs(j[2]),p=bd(b,h4(a,f,d7(a,j[1],o,f))),q=i[2],r=e(function(c){return function(b){return e(as,d7(a,b[1],b[2],c))}}(f),q),g=eZ(h,n,e(function(b){return aP(b,a,cb(h))},f),r,p);if(g){var
 d=d[2],c=c[2],b=g[1];continue}return g}return[0,b]}return[0,b]}}function
 lB(a,j,r,q){var
 c=r,f=q;for(;;){if(c){var
-k=c[1],l=k[1],g=l[2],h=l[1],m=k[2],n=[0,[0,b8(g),h],f];if(m){var
+k=c[1],l=k[1],g=l[2],h=l[1],m=k[2],n=[0,[0,b_(g),h],f];if(m){var
 o=J(d,g[1]);if(o)var
 s=e(function(a){var
-b=a[1];return[0,as(a[2]),b]},m),t=e(function(a){return x},h),u=[0,b$(a),t],v=b$(a),b=eZ(a,[0,aa(d1(ia(a,h,j),v,g)),j],u,s,n);else
+b=a[1];return[0,as(a[2]),b]},m),t=e(function(a){return u},h),v=[0,cb(a),t],w=cb(a),b=eZ(a,[0,aa(d2(ib(a,h,j),w,g)),j],v,s,n);else
 var
 b=o}else
 var
 b=[0,n];if(b){var
-i=f9(a,b[1]);if(i){var
+i=f_(a,b[1]);if(i){var
 c=c[2],f=i[1];continue}var
 p=i}else
 var
 p=b;return p}return[0,f]}}function
 lC(c,b,a){var
-d=aB(0,a);return e(function(a){return p(a,b)?b$(c):x},d)}function
+d=aB(0,a);return e(function(a){return p(a,b)?cb(c):u},d)}function
 lD(c,b,a){if(b){if(a){var
-d=lD(c,b[2],a[2]);return A(aO(b[1],c,a[1]),d)}return x}return x}function
+d=lD(c,b[2],a[2]);return A(aP(b[1],c,a[1]),d)}return u}return u}function
 lE(a,j){switch(j){case
 0:var
 d=aG(a[2],a[1]),e=a[1];return[0,[0,e,e],[0,[0,d,d],0]];case
 1:var
 f=aG(a[1],a[2]),g=a[2];return[0,[0,g,g],[0,[0,f,f],0]];default:var
-c=dn(E(a[1],a[2]),b),h=aG(c,a[2]),i=aG(a[2],c);return[0,[0,c,c],[0,[0,i,i],[0,[0,h,h],0]]]}}function
+c=dq(F(a[1],a[2]),b),h=aG(c,a[2]),i=aG(a[2],c);return[0,[0,c,c],[0,[0,i,i],[0,[0,h,h],0]]]}}function
 e0(d,c,a){if(a)var
-e=a[1],g=e0(d,[0,c],a[2]),b=z(aY,kT(function(a){return p(a[1],c)},d)),h=b?lE(e,b[1])[1]:e,f=[0,h,g];else
+e=a[1],g=e0(d,[0,c],a[2]),b=z(aZ,kT(function(a){return p(a[1],c)},d)),h=b?lE(e,b[1])[1]:e,f=[0,h,g];else
 var
 f=a;return f}function
-gg(a,b){return e(function(a){var
-c=a[2];return lE(q(a[1],b,x),c)[2]},a)}function
-gh(i,b,g,a){function
-d(a){return aC(b,a[1])}var
-h=0,j=Y(x);function
+gh(a,b){return e(function(a){var
+c=a[2];return lE(q(a[1],b,u),c)[2]},a)}function
+gi(i,b,g,a){function
+d(a){return aD(b,a[1])}var
+h=0,j=Z(u);function
 c(g,d,a,b){if(a){var
-h=function(a){return aC(g,q(d,a[2],j))},k=e(h,b[1]),l=h(b[2]),m=c(g,[0,d],a[2],b),n=a[1];return f(e(function(a){var
+h=function(a){return aD(g,q(d,a[2],j))},k=e(h,b[1]),l=h(b[2]),m=c(g,[0,d],a[2],b),n=a[1];return f(e(function(a){var
 b=t(i,a,l);return[0,e(function(b){return t(i,a,b)},k),b]},n),m)}return a}var
 k=c(b,h,g,a),l=d(a[2]);return[0,[0,e(d,a[1]),l],k]}var
-sE=Y(x);function
+sF=Z(u);function
 lF(e,d,c){if(d){var
-f=q(e,c[2],sF),a=f?f[1]:[0,sE];if(a)var
+f=q(e,c[2],sG),a=f?f[1]:[0,sF];if(a)var
 b=lF([0,e],d[2],c),h=b?[0,[0,a[1],b[1]]]:b,g=h;else
 var
-g=a;return g}return sG}function
+g=a;return g}return sH}function
 lG(a,c,h,p,o,g,n){var
-d=bf(c);return m(function(d){var
+d=be(c);return m(function(d){var
 f=i(n,d);if(f){var
-q=t(a,o,f[1]),j=H(L(a,b),q),r=h?H(j,aC(d,h[1])):j,k=function(b){function
-f(c){return t(a,b,aC(d,c))}var
-g=e(function(a){return e(f,a)},p);return a4(a,c,be(al([0,r,0],c),g))},l=k(as(g));if(l)return k(aa(as(g)));var
+q=t(a,o,f[1]),j=E(L(a,b),q),r=h?E(j,aD(d,h[1])):j,k=function(b){function
+f(c){return t(a,b,aD(d,c))}var
+g=e(function(a){return e(f,a)},p);return a5(a,c,bd(al([0,r,0],c),g))},l=k(as(g));if(l)return k(aa(as(g)));var
 m=l}else
 var
 m=f;return m},d)}function
@@ -1891,64 +1891,64 @@ e=[0,b,d]}else
 var
 e=a;return e}function
 e1(a,g){var
-b=bq(function(e){var
-c=q(e,a,x),b=D(c[1],d),f=b?D(d,c[2]):b;return Q(f)},g);if(b){if(b[2])return a;var
-f=b[1],c=q(f,a,x),e=J(d,c[1])?c[1]:c[2];return lH(f,[0,e,e],a)}return a}function
+b=br(function(e){var
+c=q(e,a,u),b=D(c[1],d),f=b?D(d,c[2]):b;return P(f)},g);if(b){if(b[2])return a;var
+f=b[1],c=q(f,a,u),e=J(d,c[1])?c[1]:c[2];return lH(f,[0,e,e],a)}return a}function
 lI(c,a){if(a)var
-b=a[2],f=lI(c,b),g=b?b[1]:e(r7,c),d=[0,[0,a[1],g],f];else
+b=a[2],f=lI(c,b),g=b?b[1]:e(r8,c),d=[0,[0,a[1],g],f];else
 var
 d=a;return d}function
 lJ(a){return a?lI(a[1],a):a}function
-cW(c,d,b,a){if(d){var
+cY(c,d,b,a){if(d){var
 e=d[1];if(a){var
-f=cW(c,e,b,a[2]);return[0,a[1],f]}return[0,c,cW(c,e,b,0)]}return a?[0,b,a[2]]:[0,b,0]}function
-gi(a,c,b){if(c)if(b)var
-g=b[2],e=b[1],h=c[2],d=c[1],i=gi(a,h,g),j=function(c,b){var
+f=cY(c,e,b,a[2]);return[0,a[1],f]}return[0,c,cY(c,e,b,0)]}return a?[0,b,a[2]]:[0,b,0]}function
+gj(a,c,b){if(c)if(b)var
+g=b[2],e=b[1],h=c[2],d=c[1],i=gj(a,h,g),j=function(c,b){var
 f=t(a,e,b);return A(t(a,d,c),f)},k=function(b){return t(a,e,b)},l=aK(function(b){return t(a,d,b)},k,j,g,h),f=[0,[0,t(a,A(d,d),e),l],i];else
 var
 f=b;else
 var
 f=c;return f}function
-cX(d,c,b,a){return cW(x,c,ia(d,a,b),a)}function
+cZ(d,c,b,a){return cY(u,c,ib(d,a,b),a)}function
 lK(a,f,e,b,d,c){var
-g=aB(0,b);return aq(function(g,c){var
-h=cX(a,f,e,lC(a,g,b));return be(c,h_(a,aa(d),h))},c,g)}function
+g=aB(0,b);return an(function(g,c){var
+h=cZ(a,f,e,lC(a,g,b));return bd(c,h$(a,aa(d),h))},c,g)}function
 lL(a,d,c,j,i,h,g,f){var
-k=cX(a,d,c,e(function(b){return L(a,B(h,b))},i));return be(f,gi(a,cX(a,d,c,e(function(c){return aO(c,E(g,b),b$(a))},j)),k))}function
+k=cZ(a,d,c,e(function(b){return L(a,B(h,b))},i));return bd(f,gj(a,cZ(a,d,c,e(function(c){return aP(c,F(g,b),cb(a))},j)),k))}function
 lM(a,h,g,q,f,p,o,n){var
 d=p,c=o,b=n;for(;;){if(d){if(c){var
-k=c[1],l=k[1],i=d[1],m=cX(a,h,g,e(function(b){return aO(b,f,b$(a))},i)),r=cq(l[2]),s=cX(a,h,g,d6(f,l[1],r,i)),t=be(b,gi(a,e(as,m),s)),u=k[2],j=eZ(a,q,m,e(function(c){return function(b){return cX(a,h,g,e(as,d6(f,b[1],b[2],c)))}}(i),u),t);if(j){var
+k=c[1],l=k[1],i=d[1],m=cZ(a,h,g,e(function(b){return aP(b,f,cb(a))},i)),r=cs(l[2]),s=cZ(a,h,g,d7(f,l[1],r,i)),t=bd(b,gj(a,e(as,m),s)),u=k[2],j=eZ(a,q,m,e(function(c){return function(b){return cZ(a,h,g,e(as,d7(f,b[1],b[2],c)))}}(i),u),t);if(j){var
 d=d[2],c=c[2],b=j[1];continue}return j}return[0,b]}return[0,b]}}function
 lN(g,b,f,a){if(a)var
-c=a[2],d=a[1],h=q(b,c,x),e=[0,d,cW(x,b,A(t(g,f,d),h),c)];else
+c=a[2],d=a[1],h=q(b,c,u),e=[0,d,cY(u,b,A(t(g,f,d),h),c)];else
 var
 e=a;return e}function
 lO(a,b,m,D,C,B){var
 i=C,h=B;for(;;){if(i){var
-n=i[1],o=n[1],j=o[2],p=n[2],c=cX(a,b,m,o[1]);if(p){var
+n=i[1],o=n[1],j=o[2],p=n[2],c=cZ(a,b,m,o[1]);if(p){var
 r=J(d,j[1]);if(r)var
-E=b$(a),f=b8(aa(d1(q(b,c,x),E,j))),k=b8(j),u=cW(x,b,f,0),v=q(b,c,x),w=be(h,gi(a,u,cW(x,b,A(as(t(a,f,k)),v),c))),y=q(b,c,x),z=[0,[0,k,cW(x,b,A(t(a,f,k),y),c)],w],F=e(function(e){return function(c){var
-d=cX(a,b,m,c[1]);return lN(a,b,e,[0,as(c[2]),d])}}(f),p),G=e(function(a){return x},c),g=eZ(a,[0,x,D],lN(a,b,f,[0,b$(a),G]),F,z);else
+E=cb(a),f=b_(aa(d2(q(b,c,u),E,j))),k=b_(j),v=cY(u,b,f,0),w=q(b,c,u),x=bd(h,gj(a,v,cY(u,b,A(as(t(a,f,k)),w),c))),y=q(b,c,u),z=[0,[0,k,cY(u,b,A(t(a,f,k),y),c)],x],F=e(function(e){return function(c){var
+d=cZ(a,b,m,c[1]);return lN(a,b,e,[0,as(c[2]),d])}}(f),p),G=e(function(a){return u},c),g=eZ(a,[0,u,D],lN(a,b,f,[0,cb(a),G]),F,z);else
 var
 g=r}else
 var
-g=[0,[0,[0,b8(j),c],h]];if(g){var
-l=f9(a,g[1]);if(l){var
+g=[0,[0,[0,b_(j),c],h]];if(g){var
+l=f_(a,g[1]);if(l){var
 i=i[2],h=l[1];continue}var
 s=l}else
 var
 s=g;return s}return[0,h]}}function
-id(f,d,c,b,a){var
-g=e(Y,c);return k1(0,bz(f,du(0,a),g),b,d,0)}function
+ie(f,d,c,b,a){var
+g=e(Z,c);return k1(0,bz(f,dw(0,a),g),b,d,0)}function
 ab(a){if(a){var
 b=a[1];if(b)var
 c=ab(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return sL}function
-gj(b,a){if(a){var
+d=b;return d}return sM}function
+gk(b,a){if(a){var
 h=a[1],n=h[1],c=ab(e(function(a){return q(a,b,0)},n));if(c){var
 f=q(h[2],b,0);if(f){var
-i=f[1],g=gj(b,a[2]);if(g)var
+i=f[1],g=gk(b,a[2]);if(g)var
 j=J(d,i[2][1]),k=j?[0,[0,[0,c[1],i],g[1]]]:j;else
 var
 k=g;var
@@ -1957,22 +1957,22 @@ var
 l=f;var
 m=l}else
 var
-m=c;return m}return sM}function
-cw(d,c,b){var
-a=gj(d,c);return a?i(b,a[1]):a}function
-cY(a,b){return m(function(c){var
+m=c;return m}return sN}function
+cy(d,c,b){var
+a=gk(d,c);return a?i(b,a[1]):a}function
+c0(a,b){return m(function(c){var
 a=q(c,b,0),d=a?1:a;return d},a)}function
-gk(b,a){if(b){var
+gl(b,a){if(b){var
 c=b[1],d=c[3],e=a[3],f=function(a){return a},g=aK(function(a){return a},f,A,e,d),h=a[2];return[0,A(a[1],c[1]),h,g]}return a}function
-ie(b,a){return b?lr(a,b[1]):a}function
-ig(h,g,b,f){var
+ig(b,a){return b?lr(a,b[1]):a}function
+ih(h,g,b,f){var
 a=q(f,h,0);if(a){var
 c=a[1];if(b){var
-i=lr(c,b[1]),e=bf(g);return m(function(a){return D(d,aC(a,i)[1])},e)}return D(d,c[2][1])}return a}function
-ih(f,d,a){function
-c(a){return aO(a,d,L(f,b))}if(a){var
-g=e(c,a[2]);return[0,c(a[1]),x,g]}return Y(x)}function
-gl(b,a){var
+i=lr(c,b[1]),e=be(g);return m(function(a){return D(d,aD(a,i)[1])},e)}return D(d,c[2][1])}return a}function
+ii(f,d,a){function
+c(a){return aP(a,d,L(f,b))}if(a){var
+g=e(c,a[2]);return[0,c(a[1]),u,g]}return Z(u)}function
+gm(b,a){var
 c=q(a[1],b,0);if(c){var
 d=q(a[2],b,0);if(d)var
 e=q(a[3],b,0),h=e?[0,[0,c[1],d[1],e[1]]]:e,f=h;else
@@ -1981,107 +1981,107 @@ f=d;var
 g=f}else
 var
 g=c;return g}function
-ii(b,a){return ab(e(function(a){return q(a,b,0)},a))}function
-e2(c,k,W,C,i,h,j,f,a){switch(f[0]){case
+ij(b,a){return ab(e(function(a){return q(a,b,0)},a))}function
+e2(c,k,X,C,i,h,j,f,a){switch(f[0]){case
 0:var
 s=f[1];if(typeof
 a!=="number")switch(a[0]){case
 0:var
-Z=cY(C,i);if(Z){var
-aE=a[2],aF=a[1],aH=gk(j,Y(s));return cw(i,k,function(a){return eX(c,h,aH,aF,aE,a)})}return Z;case
+Y=c0(C,i);if(Y){var
+aE=a[2],aF=a[1],aH=gl(j,Z(s));return cy(i,k,function(a){return eX(c,h,aH,aF,aE,a)})}return Y;case
 1:var
-_=cY(C,i);if(_){var
-aI=a[2],aJ=a[1],aK=gk(j,Y(s));return cw(i,W,function(a){return eX(c,h,aK,aJ,aI,a)})}return _;case
+_=c0(C,i);if(_){var
+aI=a[2],aJ=a[1],aK=gl(j,Z(s));return cy(i,X,function(a){return eX(c,h,aK,aJ,aI,a)})}return _;case
 2:var
-$=cY(C,i);if($){var
+$=c0(C,i);if($){var
 aa=I(s[1],d),ac=aa?I(s[2],d):aa;if(ac){var
-aL=a[2],aM=a[1];return cw(i,k,function(a){return lq(c,h,j,aM,aL,a)})}var
+aL=a[2],aM=a[1];return cy(i,k,function(a){return lq(c,h,j,aM,aL,a)})}var
 ad=ac}else
 var
 ad=$;return ad}return 0;case
 1:var
 ae=f[1];if(typeof
 a==="number"){if(1===a){var
-aN=ie(j,Y(ae));return cw(i,W,function(a){return h5(c,h,aN,a)})}if(!a){var
-aP=ie(j,Y(ae));return cw(i,k,function(a){return h5(c,h,aP,a)})}}return 0;case
+aN=ig(j,Z(ae));return cy(i,X,function(a){return h6(c,h,aN,a)})}if(!a){var
+aO=ig(j,Z(ae));return cy(i,k,function(a){return h6(c,h,aO,a)})}}return 0;case
 2:if(typeof
 a!=="number"&&3===a[0]){var
-af=a[1],l=ih(c,af,a[3]),ag=f[1],aQ=a[2];return cw(i,k,function(d){var
-a=h6(h,l),b=a?eX(c,h,gk(j,l),af,aQ,d):a;if(b){var
-f=l[3],g=e(function(a){return t(c,ag,a)},f),i=l[2];return h5(c,h,ie(j,[0,t(c,ag,l[1]),i,g]),d)}return b})}return 0;case
+af=a[1],l=ii(c,af,a[3]),ag=f[1],aQ=a[2];return cy(i,k,function(d){var
+a=h7(h,l),b=a?eX(c,h,gl(j,l),af,aQ,d):a;if(b){var
+f=l[3],g=e(function(a){return t(c,ag,a)},f),i=l[2];return h6(c,h,ig(j,[0,t(c,ag,l[1]),i,g]),d)}return b})}return 0;case
 3:if(typeof
-a==="number"&&!a)return ig(i,h,j,f[1]);return 0;case
+a==="number"&&!a)return ih(i,h,j,f[1]);return 0;case
 4:if(typeof
 a!=="number"&&0===a[0]){var
-aR=a[2],aS=a[1],aT=gk(j,Y(f[2])),aU=function(a){return eX(c,h,aT,aS,aR,a)};return cw(i,f[1],aU)}return 0;case
+aR=a[2],aS=a[1],aT=gl(j,Z(f[2])),aU=function(a){return eX(c,h,aT,aS,aR,a)};return cy(i,f[1],aU)}return 0;case
 5:if(typeof
 a==="number"&&!(3<=a))switch(a){case
-0:return ig(i,h,j,f[1]);case
-2:return ig(i,h,j,f[2])}return 0;case
+0:return ih(i,h,j,f[1]);case
+2:return ih(i,h,j,f[2])}return 0;case
 6:if(typeof
 a!=="number"&&8===a[0]){var
-D=gl(i,f[1]);if(D){var
-F=gl(i,f[2]);if(F){var
-G=gl(i,f[3]);if(G){var
-J=gl(i,f[4]);if(J){var
-ah=J[1],ai=G[1],aj=F[1],ak=D[1],n=a[2],u=f[5],aV=a[1];if(n){var
+D=gm(i,f[1]);if(D){var
+G=gm(i,f[2]);if(G){var
+H=gm(i,f[3]);if(H){var
+J=gm(i,f[4]);if(J){var
+ah=J[1],ai=H[1],aj=G[1],ak=D[1],n=a[2],v=f[5],aV=a[1];if(n){var
 o=n[2];if(o){var
 q=o[2];if(q){if(q[2])return 0;var
-aD=[0,n[1],o[1],q[1]],r=lw(function(f){function
-g(a){return aO(a,aV,L(c,b))}if(f){var
-a=e(g,f[2]),d=g(f[1]),h=f5(a),i=E(d[2],h),j=f5(a);return[0,d,[0,aG(d[1],j),i],a]}return Y(x)},aD),O=m(function(a){return p(g(a),[0,h])},n),P=O?gc(c,h,j,u,r,ak,ai):O,Q=P?gc(c,h,j,u,r,ak,ah):P,R=Q?gc(c,h,j,u,r,aj,ai):Q;if(R)return gc(c,h,j,u,r,aj,ah);var
-S=R}else
+aC=[0,n[1],o[1],q[1]],r=lw(function(f){function
+g(a){return aP(a,aV,L(c,b))}if(f){var
+a=e(g,f[2]),d=g(f[1]),h=f6(a),i=F(d[2],h),j=f6(a);return[0,d,[0,aG(d[1],j),i],a]}return Z(u)},aC),O=m(function(a){return p(g(a),[0,h])},n),P=O?gd(c,h,j,v,r,ak,ai):O,Q=P?gd(c,h,j,v,r,ak,ah):P,R=Q?gd(c,h,j,v,r,aj,ai):Q;if(R)return gd(c,h,j,v,r,aj,ah);var
+T=R}else
 var
-S=q;var
-T=S}else
-var
-T=o;var
+T=q;var
 U=T}else
 var
-U=n;return U}var
+U=o;var
+V=U}else
+var
+V=n;return V}var
 al=J}else
 var
-al=G;var
+al=H;var
 am=al}else
 var
-am=F;var
-an=am}else
+am=G;var
+ao=am}else
 var
-an=D;return an}return 0;case
+ao=D;return ao}return 0;case
 7:if(typeof
 a!=="number"&&0===a[0]){var
-ao=a[2],ap=a[1],aW=f[2],aX=f[1];return cw(i,k,function(e){var
-a=p(g(e),h),d=a?p(g(ao),h):a;if(d){var
+ap=a[2],aq=a[1],aW=f[2],aX=f[1];return cy(i,k,function(e){var
+a=p(g(e),h),d=a?p(g(ap),h):a;if(d){var
 f=function(a){if(a){var
 d=a[2],e=p(g(d),h);if(e){var
-i=d9(ap,d_(ap,ao,L(c,b),d));return a4(c,h,be(gd(c,aX,aW,a[1][2],d),i))}var
+i=d_(aq,d$(aq,ap,L(c,b),d));return a5(c,h,bd(ge(c,aX,aW,a[1][2],d),i))}var
 f=e}else
 var
-f=a;return f},i=j?j[1]:Y(x);return h2(h,h4(i,e),f)}return d})}return 0;case
+f=a;return f},i=j?j[1]:Z(u);return h3(h,h5(i,e),f)}return d})}return 0;case
 8:if(typeof
 a==="number"&&5<=a){var
-aY=f[3],aZ=f[2],a0=function(a){return lq(c,h,j,aZ,aY,a)};return cw(i,f[1],a0)}return 0;case
+aY=f[3],aZ=f[2],a0=function(a){return lq(c,h,j,aZ,aY,a)};return cy(i,f[1],a0)}return 0;case
 9:return 0;default:if(typeof
 a==="number"&&!a){var
-K=ii(i,f[1]);if(K){var
-a1=f[2],M=ab(e(function(a){return ii(i,a)},a1));if(M){var
-N=ii(i,[0,f[3],[0,f[4],[0,f[5],[0,f[6],0]]]]);if(N){var
-v=N[1];if(v){var
-w=v[2];if(w){var
-y=w[2];if(y){var
+K=ij(i,f[1]);if(K){var
+a1=f[2],M=ab(e(function(a){return ij(i,a)},a1));if(M){var
+N=ij(i,[0,f[3],[0,f[4],[0,f[5],[0,f[6],0]]]]);if(N){var
+w=N[1];if(w){var
+x=w[2];if(x){var
+y=x[2];if(y){var
 B=y[2];if(B){if(B[2])return 0;var
-ar=B[1],as=y[1][2],at=w[1][2],au=v[1][2],av=M[1],a2=K[1],V=lG(c,h,j,av,au,at,function(d){return[0,d7(c,aq(function(b,a){return A(X(c,aC(d,b)),a)},x,a2))]});return V?V:lG(c,h,j,av,au,at,function(f){var
-b=b8(ar[1]),a=b6(c,H(as,X(c,b)));if(a){var
-d=b5(c,a[1]),e=H(as,t(c,b,aC(f,ar)));return z(function(a){return t(c,e,a)},d)}return a})}var
+ar=B[1],as=y[1][2],at=x[1][2],au=w[1][2],av=M[1],a2=K[1],W=lG(c,h,j,av,au,at,function(d){return[0,d8(c,an(function(b,a){return A(S(c,aD(d,b)),a)},u,a2))]});return W?W:lG(c,h,j,av,au,at,function(f){var
+b=b_(ar[1]),a=b8(c,E(as,S(c,b)));if(a){var
+d=b7(c,a[1]),e=E(as,t(c,b,aD(f,ar)));return z(function(a){return t(c,e,a)},d)}return a})}var
 aw=B}else
 var
 aw=y;var
 ax=aw}else
 var
-ax=w;var
+ax=x;var
 ay=ax}else
 var
-ay=v;var
+ay=w;var
 az=ay}else
 var
 az=N;var
@@ -2094,34 +2094,34 @@ aB=K;return aB}return 0}}function
 lP(a,$,s,l,n,_,h,k,j,f,c){if(9===f[0]){var
 ac=f[2],ad=f[1];if(typeof
 c!=="number"&&9===c[0]){var
-M=c[2],u=c[1],ae=c[3];if(0<aN(c[4]))return e2(a,s,l,n,h,g(k),j,f,c);var
-U=e(Y,_),C=bc(0,bz(a,ge(0,k,ad),U),$,0),N=p(g(k),sN),O=N?cY(n,C):N;if(O){var
-v=gj(C,l);if(v){var
-w=gj(h,l);if(w){var
+M=c[2],v=c[1],ae=c[3];if(0<aO(c[4]))return e2(a,s,l,n,h,g(k),j,f,c);var
+V=e(Z,_),C=bb(0,bz(a,gf(0,k,ad),V),$,0),N=p(g(k),sO),O=N?c0(n,C):N;if(O){var
+w=gk(C,l);if(w){var
+x=gk(h,l);if(x){var
 y=ab(e(function(b){var
 c=q(b[1],h,0);if(c)var
 f=b[2][2],a=ab(e(function(a){var
 b=q(a[2],h,0);return z(function(b){return[0,a[1],b]},b)},f)),g=a?[0,[0,b[2][1],a[1]]]:a,d=g;else
 var
 d=c;return d},ac));if(y){var
-B=lz(v[1]);if(B){var
-P=w[1],af=y[1],ag=B[1],D=d7(a,aq(function(f,h){function
+B=lz(w[1]);if(B){var
+P=x[1],af=y[1],ag=B[1],D=d8(a,an(function(f,h){function
 b(b,d){var
-a=f[1],c=b?b[1]?f[2]:a[2]:a[1];return b7(q(d,c[3],x))}function
+a=f[1],c=b?b[1]?f[2]:a[2]:a[1];return b9(q(d,c[3],u))}function
 c(a){var
-b=i(a,sq),c=bp(i(a,sr),b);return bp(i(a,0),c)}var
+b=i(a,sr),c=bq(i(a,ss),b);return bq(i(a,0),c)}var
 d=c(function(a){var
-c=b(ss,a),d=b(st,a);return E(E(b(0,a),d),c)}),g=[0,d,d],e=c(function(a){var
-c=b(a,su),d=b(a,sv);return E(E(b(a,0),d),c)});return A(h,X(a,d7(a,t(a,[0,e,e],g))))},x,ag)),o=aO(ae,u,L(a,b)),F=J(d,H(o,D)[1]),G=F?p(g(M),sB):F,I=G?p(g(P),sC):G;if(I){var
-r=b5(a,o);if(r){var
-V=as(t(a,D,r[1])),W=H(L(a,b),V),Z=bf(sD);return m(function(h){var
+c=b(st,a),d=b(su,a);return F(F(b(0,a),d),c)}),g=[0,d,d],e=c(function(a){var
+c=b(a,sv),d=b(a,sw);return F(F(b(a,0),d),c)});return A(h,S(a,d8(a,t(a,[0,e,e],g))))},u,ag)),o=aP(ae,v,L(a,b)),G=J(d,E(o,D)[1]),H=G?p(g(M),sC):G,I=H?p(g(P),sD):H;if(I){var
+r=b7(a,o);if(r){var
+W=as(t(a,D,r[1])),X=E(L(a,b),W),Y=be(sE);return m(function(h){var
 g=e(function(b){var
-c=b[2],d=b[1];return cq(bL(function(d,b){var
-c=b7(aC(h,b[2]));return A(d,t(a,b[1],[0,c,c]))},c,d))},af),r=i(aw(function(a){return aC(h,a)}),P),E=j?aC(h,j[1]):x,N=X(a,W),s=X(a,o),q=d9(u,d_(u,M,L(a,b),r)),c=be(al([0,aa(E),0],sw),q);if(g){var
+c=b[2],d=b[1];return cs(bN(function(d,b){var
+c=b9(aD(h,b[2]));return A(d,t(a,b[1],[0,c,c]))},c,d))},af),r=i(aw(function(a){return aD(h,a)}),P),F=j?aD(h,j[1]):u,N=S(a,X),s=S(a,o),q=d_(v,d$(v,M,L(a,b),r)),c=bd(al([0,aa(F),0],sx),q);if(g){var
 d=g[2];if(d){var
 f=d[2];if(f){if(f[2])return 0;var
-B=d[1],C=g[1],I=f[1],k=a4(a,sy,be(al([0,aa(s),0],sx),c));if(k)return m(function(D){var
-J=H(N,E),K=D[2]?B:aa(B),L=D[1]?C:aa(C),o=0;if(c){var
+B=d[1],C=g[1],I=f[1],k=a5(a,sz,bd(al([0,aa(s),0],sy),c));if(k)return m(function(D){var
+J=E(N,F),K=D[2]?B:aa(B),L=D[1]?C:aa(C),o=0;if(c){var
 b=c[1],l=0;if(b){var
 d=b[2],m=0;if(d){var
 e=d[2],n=0;if(e)if(e[2]){var
@@ -2130,16 +2130,16 @@ f=c[2],p=0;if(f){var
 g=f[1],q=0;if(g){var
 h=g[2],r=0;if(h)if(h[2]){var
 k=0;l=1;m=1;n=1;p=1;q=1;r=1}else{var
-i=f[2],F=0;if(i){var
-j=i[1],G=0;if(j)if(j[2]||i[2]){var
-k=0;l=1;m=1;n=1;p=1;q=1;r=1;F=1;G=1}else
+i=f[2],G=0;if(i){var
+j=i[1],H=0;if(j)if(j[2]||i[2]){var
+k=0;l=1;m=1;n=1;p=1;q=1;r=1;G=1;H=1}else
 var
 s=[0,[0,b[1],[0,d[1],[0,e[1],[0,L,0]]]],[0,[0,g[1],[0,h[1],[0,K,0]]],[0,[0,j[1],[0,I,0]],[0,[0,J,0],0]]]];else
 var
-s=j;if(!G)var
+s=j;if(!H)var
 t=s}else
 var
-t=i;if(!F)var
+t=i;if(!G)var
 u=t}else
 var
 u=h;if(!r)var
@@ -2160,7 +2160,7 @@ var
 z=b;if(!l){var
 A=z;o=1}}else{var
 A=c;o=1}if(o)var
-k=A;return a4(a,sA,k)},sz);var
+k=A;return a5(a,sB,k)},sA);var
 l=k}else
 var
 l=f;var
@@ -2169,7 +2169,7 @@ var
 n=d;var
 p=n}else
 var
-p=g;return p},Z)}var
+p=g;return p},Y)}var
 K=r}else
 var
 K=I;return K}var
@@ -2178,31 +2178,31 @@ var
 Q=y;var
 R=Q}else
 var
-R=w;var
-S=R}else
+R=x;var
+T=R}else
 var
-S=v;var
-T=S}else
+T=w;var
+U=T}else
 var
-T=O;return T}return e2(a,s,l,n,h,g(k),j,f,c)}return e2(a,s,l,n,h,g(k),j,f,c)}function
-gm(d){var
+U=O;return U}return e2(a,s,l,n,h,g(k),j,f,c)}return e2(a,s,l,n,h,g(k),j,f,c)}function
+gn(d){var
 a=d;for(;;){if(a){var
-b=a[2],e=a[1],c=Q(ak(function(b){return function(a){return p(b,a)}}(e),b));if(c){var
+b=a[2],e=a[1],c=P(ak(function(b){return function(a){return p(b,a)}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-ij(j,i,h,g,a){var
+ik(j,i,h,g,a){var
 d=q(a,j,0);if(d){var
 b=q(a,i,0);if(b)var
-c=lF(0,g,q(a,h,sO)),k=c?[0,[0,b[1],c[1]]]:c,e=k;else
+c=lF(0,g,q(a,h,sP)),k=c?[0,[0,b[1],c[1]]]:c,e=k;else
 var
 e=b;var
 f=e}else
 var
 f=d;return f}function
-gn(j,b,a){if(a){var
+go(j,b,a){if(a){var
 k=a[1],l=k[2],c=ab(e(b,k[1]));if(c){var
 f=i(b,l);if(f){var
 g=q(l,j,0);if(g){var
-h=gn(j,b,a[2]);if(h)var
+h=go(j,b,a[2]);if(h)var
 m=J(d,g[1][2][1]),n=m?[0,[0,[0,c[1],f[1]],h[1]]]:m;else
 var
 n=h;var
@@ -2214,56 +2214,56 @@ var
 p=f;var
 r=p}else
 var
-r=c;return r}return sP}function
+r=c;return r}return sQ}function
 lQ(c,N,j,M,q,o,K,J,f,b,i,a){var
-h=g(K),O=du(0,K),aI=bc(0,bz(c,O,e(Y,e0(i,0,q))),N,0),aK=e(av,i),aJ=0,aL=e(Y,q),aM=bc(sQ,function(a){return h9(c,O,aL,aK,a)},N,aJ),aN=gg(i,q);function
-Q(a){return ij(o,aI,aM,i,a)}function
-v(a){return e(function(a){return L(c,a)},a)}var
-aO=J?J[1]:Y(x);function
-R(a){return a?a4(c,h,a[1]):a}function
+h=g(K),O=dw(0,K),aI=bb(0,bz(c,O,e(Z,e0(i,0,q))),N,0),aK=e(av,i),aJ=0,aL=e(Z,q),aM=bb(sR,function(a){return h_(c,O,aL,aK,a)},N,aJ),aN=gh(i,q);function
+P(a){return ik(o,aI,aM,i,a)}function
+w(a){return e(function(a){return L(c,a)},a)}var
+aO=J?J[1]:Z(u);function
+R(a){return a?a5(c,h,a[1]):a}function
 r(f,e,d,b,a){var
-g=al([0,aa(e),0],h);return R(ic(c,v(f),d,b,a,g))}function
+g=al([0,aa(e),0],h);return R(id(c,w(f),d,b,a,g))}function
 S(d,b,a){var
-e=al([0,b,0],h);return R(lB(c,v(d),a,e))}var
-aP=e(av,i),T=m(function(a){return aH(a,g(q))},aP),U=T?gm(e(av,i)):T,V=U?m(function(a){return p(g(a),h)},a):U;if(V){var
-u=0;switch(f[0]){case
+e=al([0,b,0],h);return R(lB(c,w(d),a,e))}var
+aP=e(av,i),T=m(function(a){return aH(a,g(q))},aP),U=T?gn(e(av,i)):T,V=U?m(function(a){return p(g(a),h)},a):U;if(V){var
+v=0;switch(f[0]){case
 0:var
-w=f[1],F=0;if(typeof
+x=f[1],G=0;if(typeof
 b!=="number")switch(b[0]){case
 0:var
 ar=0;if(a){if(a[2])return 0;var
-aQ=a[1],aR=b[2],aS=b[1],W=cY(M,o);if(W){var
+aQ=a[1],aR=b[2],aS=b[1],W=c0(M,o);if(W){var
 l=function(c,a){var
-b=A(w,a);return function(a){return r(aQ,b,aS,aR,a)}},k=j;F=1;ar=1}else
+b=A(x,a);return function(a){return r(aQ,b,aS,aR,a)}},k=j;G=1;ar=1}else
 var
 _=W}else
 var
 _=a;if(!ar)return _;break;case
 2:var
 at=0;if(a){if(a[2])return 0;var
-aU=a[1],aV=b[2],aW=b[1],ab=cY(M,o),au=0;if(ab){var
-ac=I(w[1],d),ad=ac?I(w[2],d):ac;if(ad){var
-l=function(c,b,a){return r(aU,b,aW,aV,e(lA,a))},k=j;F=1;at=1;au=1}else
+aU=a[1],aV=b[2],aW=b[1],ab=c0(M,o),au=0;if(ab){var
+ac=I(x[1],d),ad=ac?I(x[2],d):ac;if(ad){var
+l=function(c,b,a){return r(aU,b,aW,aV,e(lA,a))},k=j;G=1;at=1;au=1}else
 var
 ae=ad}else
 var
 ae=ab;if(!au)var
 af=ae}else
 var
-af=a;if(!at)return af;break}if(!F)return 0;break;case
+af=a;if(!at)return af;break}if(!G)return 0;break;case
 1:var
 aw=0,aX=f[1];if(typeof
 b==="number"&&!b){if(!a)return a;if(a[2])return 0;var
 aY=a[1],l=function(c,a){var
-b=H(aX,a);return function(a){return S(aY,b,a)}},k=j;aw=1}if(!aw)return 0;break;case
+b=E(aX,a);return function(a){return S(aY,b,a)}},k=j;aw=1}if(!aw)return 0;break;case
 2:var
 ax=0,aZ=f[1];if(typeof
 b==="number"||!(3===b[0]))ax=1;else{var
 ay=0;if(a){var
 s=a[2],az=0;if(s){if(s[2])return 0;var
-ag=b[1],a0=s[1],a1=a[1],a2=b[2],ah=ih(c,ag,b[3]),ai=h6(h,ah);if(ai){var
+ag=b[1],a0=s[1],a1=a[1],a2=b[2],ah=ii(c,ag,b[3]),ai=h7(h,ah);if(ai){var
 l=function(f,b,a){var
-d=aC(f,ah),e=r(a1,A(d,b),ag,a2,a);return e?S(a0,H(t(c,aZ,d),b),a):e},k=j;ay=1;az=1}else
+d=aD(f,ah),e=r(a1,A(d,b),ag,a2,a);return e?S(a0,E(t(c,aZ,d),b),a):e},k=j;ay=1;az=1}else
 var
 aj=ai}else
 var
@@ -2274,80 +2274,80 @@ ak=a;if(!ay)return ak}if(ax)return 0;break;case
 3:var
 aA=0;if(typeof
 b==="number"&&!b){if(a)return 0;var
-z=f[1];u=1}else
+z=f[1];v=1}else
 aA=1;if(aA)return 0;break;case
 4:var
-aD=0,a5=f[2];if(typeof
-b==="number"||!(0===b[0]))aD=1;else{if(!a)return a;if(a[2])return 0;var
+aC=0,a4=f[2];if(typeof
+b==="number"||!(0===b[0]))aC=1;else{if(!a)return a;if(a[2])return 0;var
 a6=a[1],a7=b[2],a8=b[1],a9=function(c,a){var
-b=A(a5,a);return function(a){return r(a6,b,a8,a7,a)}},l=a9,k=f[1]}if(aD)return 0;break;case
+b=A(a4,a);return function(a){return r(a6,b,a8,a7,a)}},l=a9,k=f[1]}if(aC)return 0;break;case
 5:var
-G=0;if(typeof
+H=0;if(typeof
 b==="number"&&!(3<=b))switch(b){case
 0:if(a)return 0;var
-z=f[1];u=1;break;case
+z=f[1];v=1;break;case
 2:if(a)return 0;var
-z=f[2];u=1;break;default:G=1}else
-G=1;if(G)return 0;break;case
+z=f[2];v=1;break;default:H=1}else
+H=1;if(H)return 0;break;case
 7:var
-am=f[2],an=f[1],aE=0;if(typeof
+am=f[2],ao=f[1],aE=0;if(typeof
 b==="number"||!(0===b[0]))aE=1;else{var
 aF=0;if(a){if(a[2])return 0;var
-n=b[2],C=b[1],a_=a[1],ao=p(g(j),h);if(ao){var
+n=b[2],C=b[1],a_=a[1],ap=p(g(j),h);if(ap){var
 l=function(a,x){var
-y=v(a_);return function(f){var
+y=w(a_);return function(f){var
 k=p(g(f),h),l=k?p(g(n),h):k;if(l){var
-s=e(av,f),u=d9(C,d_(C,n,b$(c),s)),v=be(gd(c,an,am,x,e(av,f)),u),a=0,b=f,i=v,w=g(n);for(;;){if(b){var
-o=b[1][2],q=p(a,an),r=e(function(f,h){return function(d){var
+s=e(av,f),u=d_(C,d$(C,n,cb(c),s)),v=bd(ge(c,ao,am,x,e(av,f)),u),a=0,b=f,i=v,w=g(n);for(;;){if(b){var
+o=b[1][2],q=p(a,ao),r=e(function(f,h){return function(d){var
 a=$(aB(0,g(n)),n);return e(function(a){var
-b=lD(C,a[2],d[1]);if(h&&p(a[1],f))return H(b,as(t(c,am,d[2])));return b},a)}}(a,q),o),j=eZ(c,y,lC(c,a,w),r,i);if(j){var
+b=lD(C,a[2],d[1]);if(h&&p(a[1],f))return E(b,as(t(c,am,d[2])));return b},a)}}(a,q),o),j=eZ(c,y,lC(c,a,w),r,i);if(j){var
 a=[0,a],b=b[2],i=j[1];continue}var
 d=j}else
 var
-d=[0,i];if(d)return a4(c,h,d[1]);var
+d=[0,i];if(d)return a5(c,h,d[1]);var
 m=d;break}}else
 var
 m=l;return m}},k=j;aF=1}else
 var
-ap=ao}else
+aq=ap}else
 var
-ap=a;if(!aF)return ap}if(aE)return 0;break;default:return 0}if(u){var
-B=Q(z);if(!B)return B;var
+aq=a;if(!aF)return aq}if(aE)return 0;break;default:return 0}if(v){var
+B=P(z);if(!B)return B;var
 a3=function(b,f,a){return m(function(a){var
-b=f[2],c=a[2],e=aq(function(b,a){return E(bp(d,P(b[2][1])),a)},d,c);return D(d,aG(aG(a[1][2][1],e),b))},a)},Z=a3,X=[0,[0,0,B[1]],0]}else{var
-y=gn(o,Q,k);if(!y)return y;var
-Z=l,X=y[1]}var
-aT=bf(h);return m(function(a){var
-b=e(function(b){return gh(c,a,aN,b)},X);return fw(Z,a,aC(a,aO),b)},aT)}return V}function
+b=f[2],c=a[2],e=an(function(b,a){return F(bq(d,Q(b[2][1])),a)},d,c);return D(d,aG(aG(a[1][2][1],e),b))},a)},Y=a3,X=[0,[0,0,B[1]],0]}else{var
+y=go(o,P,k);if(!y)return y;var
+Y=l,X=y[1]}var
+aT=be(h);return m(function(a){var
+b=e(function(b){return gi(c,a,aN,b)},X);return fw(Y,a,aD(a,aO),b)},aT)}return V}function
 lR(j,a){var
-f=aq(function(b,a){return bp(ck(b),a)},d,a);function
-g(a){if(a){if(I(ck(a[1]),f))return 0;var
+f=an(function(b,a){return bq(cm(b),a)},d,a);function
+g(a){if(a){if(I(cm(a[1]),f))return 0;var
 b=[0,g(a[2])]}else
 var
 b=a;return b}var
 h=g(a);if(I(f,d)){var
-k=e(function(a){return x},a),l=a?[0,b,a[2]]:a;return[0,[0,[0,0,l],d],k]}var
-i=hU(E(kR(f),b)),m=e(function(a){return x},a);return[0,[0,[0,h,a],i],cW(x,h,L(j,b4(c(2,b),i)),m)]}function
-go(f,K,t,J,n,l,G,F,k,a,h,al,E,ak,C,B){var
-i=g(G),M=du(0,G),am=bc(0,bz(f,M,e(Y,e0(h,0,n))),K,0),ap=e(av,h),an=0,aq=e(Y,n),ar=bc(sR,function(a){return h9(f,M,aq,ap,a)},K,an),as=gg(h,n);function
-at(a){return ij(l,am,ar,h,a)}var
-au=F?F[1]:Y(x),N=lR(f,al),O=N[1],P=O[1],u=P[2],j=P[1],R=N[2],aw=O[2],o=e(function(a){return aO(a,aw,L(f,b))},u);function
-S(a){return lL(f,j,o,E,ak,C,B,lK(f,j,o,i,a,0))}function
-T(a){return a?a4(f,i,a[1]):a}function
-v(d,c,b,a){return T(lM(f,j,o,R,c,b,a,S(aa(d))))}var
-ax=e(av,h),U=m(function(a){return aH(a,g(n))},ax),V=U?gm(e(av,h)):U,W=V?p(g(u),i):V,X=W?p(g(E),i):W,Z=X?D(d,C):X,_=Z?hS(B,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):Z,$=_?aH(j,i):_,ab=$?Q(I(q(j,u,d),d)):$;if(ab){switch(k[0]){case
+k=e(function(a){return u},a),l=a?[0,b,a[2]]:a;return[0,[0,[0,0,l],d],k]}var
+i=hV(F(kR(f),b)),m=e(function(a){return u},a);return[0,[0,[0,h,a],i],cY(u,h,L(j,b6(c(2,b),i)),m)]}function
+gp(f,K,t,J,n,l,H,G,k,a,h,al,F,ak,C,B){var
+i=g(H),M=dw(0,H),am=bb(0,bz(f,M,e(Z,e0(h,0,n))),K,0),ao=e(av,h),an=0,ap=e(Z,n),ar=bb(sS,function(a){return h_(f,M,ap,ao,a)},K,an),as=gh(h,n);function
+at(a){return ik(l,am,ar,h,a)}var
+au=G?G[1]:Z(u),N=lR(f,al),O=N[1],Q=O[1],v=Q[2],j=Q[1],R=N[2],aw=O[2],o=e(function(a){return aP(a,aw,L(f,b))},v);function
+S(a){return lL(f,j,o,F,ak,C,B,lK(f,j,o,i,a,0))}function
+T(a){return a?a5(f,i,a[1]):a}function
+w(d,c,b,a){return T(lM(f,j,o,R,c,b,a,S(aa(d))))}var
+ax=e(av,h),U=m(function(a){return aH(a,g(n))},ax),V=U?gn(e(av,h)):U,W=V?p(g(v),i):V,X=W?p(g(F),i):W,Y=X?D(d,C):X,_=Y?hT(B,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):Y,$=_?aH(j,i):_,ab=$?P(I(q(j,v,d),d)):$;if(ab){switch(k[0]){case
 0:var
-w=k[1],z=0;if(typeof
+x=k[1],z=0;if(typeof
 a==="number")z=1;else
 switch(a[0]){case
 0:var
-ay=a[2],az=a[1],ac=cY(J,l);if(!ac)return ac;var
+ay=a[2],az=a[1],ac=c0(J,l);if(!ac)return ac;var
 s=function(a){var
-b=A(w,a);return function(a){return v(b,az,ay,a)}},r=t;break;case
+b=A(x,a);return function(a){return w(b,az,ay,a)}},r=t;break;case
 2:var
-aD=a[2],aE=a[1],ad=cY(J,l),ah=0;if(ad){var
-ae=I(w[1],d),af=ae?I(w[2],d):ae;if(af){var
-s=function(b,a){return v(b,aE,aD,e(lA,a))},r=t;ah=1}else
+aC=a[2],aE=a[1],ad=c0(J,l),ah=0;if(ad){var
+ae=I(x[1],d),af=ae?I(x[2],d):ae;if(af){var
+s=function(b,a){return w(b,aE,aC,e(lA,a))},r=t;ah=1}else
 var
 ag=af}else
 var
@@ -2356,42 +2356,42 @@ ag=ad;if(!ah)return ag;break;default:z=1}if(z)return 0;break;case
 ai=0,aF=k[1];if(typeof
 a==="number"&&!a)var
 s=function(a){var
-b=H(aF,a);return function(a){return T(lO(f,j,o,R,a,S(b)))}},r=t;else
+b=E(aF,a);return function(a){return T(lO(f,j,o,R,a,S(b)))}},r=t;else
 ai=1;if(ai)return 0;break;case
 4:var
 aj=0,aG=k[2];if(typeof
 a==="number"||!(0===a[0]))aj=1;else
 var
 aI=a[2],aJ=a[1],aK=function(a){var
-b=A(aG,a);return function(a){return v(b,aJ,aI,a)}},s=aK,r=k[1];if(aj)return 0;break;default:return 0}var
-y=gn(l,at,r);if(y){var
-aA=y[1],aB=bf(i);return m(function(a){var
-b=e(function(b){return gh(f,a,as,b)},aA);return ao(s,aC(a,au),b)},aB)}return y}return ab}function
+b=A(aG,a);return function(a){return w(b,aJ,aI,a)}},s=aK,r=k[1];if(aj)return 0;break;default:return 0}var
+y=go(l,at,r);if(y){var
+aA=y[1],aB=be(i);return m(function(a){var
+b=e(function(b){return gi(f,a,as,b)},aA);return aq(s,aD(a,au),b)},aB)}return y}return ab}function
 lS(r,q,p,o,n,C,m,c,l,k,j,h,g,a){var
 v=e(function(a){return d},c),u=0;if(typeof
 a!=="number")switch(a[0]){case
 5:var
-E=a[1],F=function(a){return go(r,q,p,o,n,m,c,a,l,E,0,v,k,j,h,g)},x=F,w=a[3],s=a[2];u=1;break;case
+E=a[1],F=function(a){return gp(r,q,p,o,n,m,c,a,l,E,0,v,k,j,h,g)},x=F,w=a[3],s=a[2];u=1;break;case
 10:var
 b=a[3],A=a[2],f=a[1],B=0;if(typeof
 f!=="number"&&5===f[0]){if(!b)return b;if(b[2])return 0;var
-G=b[1],H=f[1],I=function(a){return go(r,q,p,o,n,m,c,a,l,H,A,G,k,j,h,g)},x=I,w=f[3],s=f[2];u=1;B=1}if(!B)return b?b[2]?0:go(r,q,p,o,n,m,c,0,l,f,A,b[1],k,j,h,g):b;break}if(u){var
+G=b[1],H=f[1],I=function(a){return gp(r,q,p,o,n,m,c,a,l,H,A,G,k,j,h,g)},x=I,w=f[3],s=f[2];u=1;B=1}if(!B)return b?b[2]?0:gp(r,q,p,o,n,m,c,0,l,f,A,b[1],k,j,h,g):b;break}if(u){var
 t=i(C,c);if(t){var
-y=D(d,s);if(y)return x([0,ga(s,w,t[1])]);var
+y=D(d,s);if(y)return x([0,gb(s,w,t[1])]);var
 z=y}else
 var
-z=t;return z}return go(r,q,p,o,n,m,c,0,l,a,0,v,k,j,h,g)}function
-lT(a,ai,aL,s,F,ah,r,o,ag,af,h){function
-k(aj,f,j,w){var
-h=g(r),z=du(0,r),aq=bc(0,bz(a,z,e(Y,e0(j,0,s))),ai,0),as=e(av,j),ar=0,at=e(Y,s),au=bc(sS,function(b){return h9(a,z,at,as,b)},ai,ar);function
-aw(a){return ij(ah,aq,au,j,a)}var
-ax=aj?aj[1]:Y(x);function
-k(b){return b?a4(a,h,b[1]):b}function
-B(b,a){return aa(A(aC(b,ag),a))}function
-C(d,c,b){return H(t(a,d,aC(c,ag)),b)}var
-ay=e(av,j),E=m(function(a){return aH(a,g(s))},ay),F=E?gm(e(av,j)):E,G=F?p(g(w),h):F;if(G){var
+z=t;return z}return gp(r,q,p,o,n,m,c,0,l,a,0,v,k,j,h,g)}function
+lT(a,ai,aL,s,G,ah,r,o,ag,af,h){function
+k(aj,f,j,x){var
+h=g(r),z=dw(0,r),aq=bb(0,bz(a,z,e(Z,e0(j,0,s))),ai,0),as=e(av,j),ar=0,at=e(Z,s),au=bb(sT,function(b){return h_(a,z,at,as,b)},ai,ar);function
+aw(a){return ik(ah,aq,au,j,a)}var
+ax=aj?aj[1]:Z(u);function
+k(b){return b?a5(a,h,b[1]):b}function
+B(b,a){return aa(A(aD(b,ag),a))}function
+C(d,c,b){return E(t(a,d,aD(c,ag)),b)}var
+ay=e(av,j),F=m(function(a){return aH(a,g(s))},ay),G=F?gn(e(av,j)):F,H=G?p(g(x),h):G;if(H){var
 ak=0;if(af){var
-J=af[1],K=J[1],M=K[1],N=M[1],O=K[2],P=J[2],az=M[2],R=lR(a,w),S=R[1],T=S[1],u=T[2],i=T[1],U=R[2],aA=S[2],l=e(function(c){return aO(c,aA,L(a,b))},u),V=function(b){return lL(a,i,l,N,az,O,P,lK(a,i,l,h,b,0))},W=p(g(u),h),X=W?p(g(N),h):W,Z=X?D(d,O):X,_=Z?hS(P,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):Z,$=_?aH(i,h):_,ab=$?Q(I(q(i,u,d),d)):$,y=0;if(ab)if(o){var
+J=af[1],K=J[1],M=K[1],N=M[1],O=K[2],Q=J[2],az=M[2],R=lR(a,x),S=R[1],T=S[1],v=T[2],i=T[1],U=R[2],aA=S[2],l=e(function(c){return aP(c,aA,L(a,b))},v),V=function(b){return lL(a,i,l,N,az,O,Q,lK(a,i,l,h,b,0))},W=p(g(v),h),X=W?p(g(N),h):W,Y=X?D(d,O):X,_=Y?hT(Q,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):Y,$=_?aH(i,h):_,ab=$?P(I(q(i,v,d),d)):$,y=0;if(ab)if(o){var
 am=0,aB=o[1];if(typeof
 f==="number"&&!f){var
 n=function(d,c,b){return k(lO(a,i,l,U,b,V(C(aB,d,c))))};y=1;am=1}if(!am)return 0}else{var
@@ -2401,46 +2401,46 @@ aF=f[2],aG=f[1],n=function(d,c,b){return k(lM(a,i,l,U,aG,aF,b,V(B(d,c))))};y=1;a
 ac=0}else
 var
 ac=ab;if(!y)return ac}else{var
-ad=e(function(b){return L(a,b)},w);if(o){var
+ad=e(function(b){return L(a,b)},x);if(o){var
 ao=0,aI=o[1];if(typeof
 f==="number"&&!f){var
 n=function(d,c,b){return k(lB(a,ad,b,al([0,C(aI,d,c),0],h)))};ao=1}if(!ao)return 0}else{var
 ap=0;if(typeof
 f==="number"||!(0===f[0]))ap=1;else
 var
-aJ=f[2],aK=f[1],n=function(d,c,b){return k(ic(a,ad,aK,aJ,b,al([0,B(d,c),0],h)))};if(ap){var
+aJ=f[2],aK=f[1],n=function(d,c,b){return k(id(a,ad,aK,aJ,b,al([0,B(d,c),0],h)))};if(ap){var
 ae=0;ak=1}}}if(!ak){var
-v=gn(ah,aw,aL);if(v){var
-aD=v[1],aE=bf(h);return m(function(b){var
-c=gg(j,s),d=e(function(d){return gh(a,b,c,d)},aD);return n(b,aC(b,ax),d)},aE)}return v}}else
+w=go(ah,aw,aL);if(w){var
+aC=w[1],aE=be(h);return m(function(b){var
+c=gh(j,s),d=e(function(d){return gi(a,b,c,d)},aC);return n(b,aD(b,ax),d)},aE)}return w}}else
 var
-ae=G;return ae}var
-w=e(function(a){return d},r),v=0;if(typeof
+ae=H;return ae}var
+x=e(function(a){return d},r),w=0;if(typeof
 h!=="number")switch(h[0]){case
 5:var
-G=h[1],J=function(a){return k(a,G,0,w)},z=J,y=h[3],l=h[2];v=1;break;case
+H=h[1],J=function(a){return k(a,H,0,x)},z=J,y=h[3],l=h[2];w=1;break;case
 10:var
-f=h[3],u=h[2],j=h[1],E=0;if(typeof
+f=h[3],v=h[2],j=h[1],F=0;if(typeof
 j!=="number")switch(j[0]){case
 5:if(!f)return f;if(f[2])return 0;var
-K=f[1],M=j[1],N=function(a){return k(a,M,u,K)},z=N,y=j[3],l=j[2];v=1;E=1;break;case
+K=f[1],M=j[1],N=function(a){return k(a,M,v,K)},z=N,y=j[3],l=j[2];w=1;F=1;break;case
 3:case
 7:case
 9:case
 10:case
 11:case
-13:return f?f[2]?0:k(0,j,u,f[1]):f}if(!E)return f?f[2]?0:k(0,j,u,f[1]):f;break}if(v){var
-n=i(F,r);if(n){var
-B=D(d,l);if(B)return z([0,ga(l,y,n[1])]);var
+13:return f?f[2]?0:k(0,j,v,f[1]):f}if(!F)return f?f[2]?0:k(0,j,v,f[1]):f;break}if(w){var
+n=i(G,r);if(n){var
+B=D(d,l);if(B)return z([0,gb(l,y,n[1])]);var
 C=B}else
 var
-C=n;return C}return k(0,h,0,w)}function
+C=n;return C}return k(0,h,0,x)}function
 lU(l,k,j,p,h,g,o,f,b,e,a){if(typeof
 a!=="number")switch(a[0]){case
 5:var
 q=a[2],m=i(o,b);if(m){var
 r=D(d,q);if(r){var
-y=a[1];return lP(l,k,j,p,h,g,f,b,[0,ga(q,a[3],m[1])],e,y)}var
+y=a[1];return lP(l,k,j,p,h,g,f,b,[0,gb(q,a[3],m[1])],e,y)}var
 s=r}else
 var
 s=m;return s;case
@@ -2449,13 +2449,13 @@ t=a[3],u=a[2],c=a[1];if(typeof
 c!=="number"&&5===c[0]){var
 v=c[2],n=i(o,b);if(n){var
 w=D(d,v);if(w){var
-z=c[1];return lQ(l,k,j,h,g,f,b,[0,ga(v,c[3],n[1])],e,z,u,t)}var
+z=c[1];return lQ(l,k,j,h,g,f,b,[0,gb(v,c[3],n[1])],e,z,u,t)}var
 x=w}else
 var
 x=n;return x}return lQ(l,k,j,h,g,f,b,0,e,c,u,t)}return lP(l,k,j,p,h,g,f,b,0,e,a)}function
-ik(a){return 9===a[0]?0:1}function
-ea(a){return y(function(a){return f(a[1],[0,a[2],0])},a)}function
-il(j,d,i,a,h){var
+il(a){return 9===a[0]?0:1}function
+eb(a){return y(function(a){return f(a[1],[0,a[2],0])},a)}function
+im(j,d,i,a,h){var
 b=h;for(;;){var
 c=0;if(typeof
 b==="number"){if(1!==b)c=1}else
@@ -2466,7 +2466,7 @@ b=b[3];continue;case
 5:case
 10:var
 b=b[1];continue;default:c=1}var
-k=c?0:1,l=k?d:j,g=ea(l);switch(a[0]){case
+k=c?0:1,l=k?d:j,g=eb(l);switch(a[0]){case
 0:return f(i,g);case
 3:return[0,a[1],0];case
 5:return[0,a[1],[0,a[2],0]];case
@@ -2474,18 +2474,18 @@ k=c?0:1,l=k?d:j,g=ea(l);switch(a[0]){case
 m=[0,a[1],[0,a[2],[0,a[3],[0,a[4],0]]]];return y(function(a){return[0,a[1],[0,a[2],[0,a[3],0]]]},m);case
 9:var
 n=a[2],o=y(function(a){var
-b=e(aY,a[2][2]);return[0,a[1],b]},n);return f(ea(d),o);case
+b=e(aZ,a[2][2]);return[0,a[1],b]},n);return f(eb(d),o);case
 10:var
-p=[0,a[3],[0,a[4],[0,a[5],[0,a[6],0]]]],q=f(dX(a[2]),p);return f(a[1],q);case
+p=[0,a[3],[0,a[4],[0,a[5],[0,a[6],0]]]],q=f(dY(a[2]),p);return f(a[1],q);case
 4:case
-8:return ea(a[1]);default:return g}}}function
-im(u,t,s,r,k,a,g,j){var
-h=ik(a),i=h?m(function(b){var
-a=q(b,bL(e1,g,k),x);return I(a[1],a[2])},j):h;return i?m(function(ao){switch(a[0]){case
+8:return eb(a[1]);default:return g}}}function
+io(v,t,s,r,k,a,g,j){var
+h=il(a),i=h?m(function(b){var
+a=q(b,bN(e1,g,k),u);return I(a[1],a[2])},j):h;return i?m(function(ao){switch(a[0]){case
 3:var
 g=[0,a[1],0];break;case
 4:var
-g=ea(a[1]);break;case
+g=eb(a[1]);break;case
 5:var
 g=[0,a[1],[0,a[2],0]];break;case
 6:case
@@ -2493,7 +2493,7 @@ g=[0,a[1],[0,a[2],0]];break;case
 9:case
 10:return 0;default:var
 g=0}var
-j=0,k=bc(0,function(a){switch(a[0]){case
+j=0,k=bb(0,function(a){switch(a[0]){case
 0:return[0,[0,d]];case
 1:var
 ad=a[1],ae=ak(function(a){return p(ad,a)},ao)?b:d;return[0,[0,ae]];case
@@ -2504,9 +2504,9 @@ e=a[2],j=a[1];if(j){var
 z=j[1];if(z){if(e){var
 A=e[1];if(A){var
 B=z[1],C=I(B,A[1]),ag=C?[0,[0,B]]:C;return ag}var
-F=j}else
+E=j}else
 var
-F=e;return F}return e}if(e){if(e[1])return 0;var
+E=e;return E}return e}if(e){if(e[1])return 0;var
 G=j}else
 var
 G=e;return G;case
@@ -2525,11 +2525,11 @@ N=f;return N;case
 6:var
 n=a[1];if(n){var
 O=n[1],g=a[2];if(O){if(g){var
-Q=g[1];if(Q)return[0,[0,E(O[1],Q[1])]];var
-R=sH}else
+P=g[1];if(P)return[0,[0,F(O[1],P[1])]];var
+R=sI}else
 var
 R=g;return R}var
-ai=g?sI:g,S=ai}else
+ai=g?sJ:g,S=ai}else
 var
 S=n;return S;case
 7:var
@@ -2538,26 +2538,26 @@ T=o[1],h=a[2];if(T){if(h)var
 q=h[1],aj=q?[0,[0,aG(T[1],q[1])]]:q,U=aj;else
 var
 U=h;return U}var
-al=h?sJ:h,V=al}else
+al=h?sK:h,V=al}else
 var
 V=o;return V;case
 8:var
 r=a[1];if(r){var
 W=r[1];if(W){var
-X=W[1];return[0,[0,E(X,X)]]}var
-Y=sK}else
+X=W[1];return[0,[0,F(X,X)]]}var
+Y=sL}else
 var
 Y=r;return Y;case
 9:var
 s=a[1];if(s){var
 t=s[1];if(t){var
-i=t[1],x=aN(i);if(0===x)var
+i=t[1],x=aO(i);if(0===x)var
 l=1;else
 if(0<x)var
-l=D(i,b)?0:I(aT(i,aF(2))[2],d)?1:0;else
+l=D(i,b)?0:I(aU(i,aF(2))[2],d)?1:0;else
 var
-y=P(i),l=D(y,b)?0:I(aT(y,aF(2))[2],d)?1:0;var
-am=l?[0,[0,co(i,c(2,b))]]:l,Z=am}else
+y=Q(i),l=D(y,b)?0:I(aU(y,aF(2))[2],d)?1:0;var
+am=l?[0,[0,cq(i,c(2,b))]]:l,Z=am}else
 var
 Z=t;var
 _=Z}else
@@ -2574,82 +2574,82 @@ var
 ab=v;var
 ac=ab}else
 var
-ac=u;return ac}},u,j);function
+ac=u;return ac}},v,j);function
 l(a){return a?a[1]:d}var
 h=e(function(a){return z(l,a)},k),i=m(function(c){var
 a=q(c,h,0),b=a?1:a;return b},r);if(i){var
-n=f(ea(s),g),o=f(ea(t),n);return m(function(c){var
+n=f(eb(s),g),o=f(eb(t),n);return m(function(c){var
 a=q(c,h,0);if(a){var
-b=aN(a[1]);return 0===b?1:0<b?0:0}return a},o)}return i},g):i}function
-io(j,a,i,h,g,f,e,d,c,b){var
-k=f4(il(i,h,g,c,b),a);return id(j,a,bL(e1,e,f),k,d)}function
+b=aO(a[1]);return 0===b?1:0<b?0:0}return a},o)}return i},g):i}function
+ip(j,a,i,h,g,f,e,d,c,b){var
+k=f5(im(i,h,g,c,b),a);return ie(j,a,bN(e1,e,f),k,d)}function
 lV(f,d,c,n,m,b,l,q,e,k,j,i,h,a){if(typeof
 a!=="number"&&11===a[0]){var
-o=a[3],g=a[1],p=im(d,c,n,m,b,k,g,a[2]);if(p){var
-r=io(f,d,c,n,m,b,g,e,k,o);return lT(f,d,c,bL(e1,g,b),l,r,e,j,i,h,o)}return p}return lT(f,d,c,b,l,q,e,j,i,h,a)}function
+o=a[3],g=a[1],p=io(d,c,n,m,b,k,g,a[2]);if(p){var
+r=ip(f,d,c,n,m,b,g,e,k,o);return lT(f,d,c,bN(e1,g,b),l,r,e,j,i,h,o)}return p}return lT(f,d,c,b,l,q,e,j,i,h,a)}function
 lW(r,q,o,n,l,k,j,i,h,f,d,c,a){if(typeof
 a!=="number"&&12===a[0]){var
-b=a[1],s=Q(p(g(b),0));if(s){var
+b=a[1],s=P(p(g(b),0));if(s){var
 t=$(lJ(e(function(a){return a[1][1][1]},b)),b);return m(function(a){var
 b=a[2],e=b[1];return lV(r,q,o,n,l,k,j,i,h,f,d,c,[0,[0,[0,[0,a[1][1],a[1][2]],e[1][2]],e[2]]],b[2])},t)}return s}return lV(r,q,o,n,l,k,j,i,h,f,d,c,0,a)}function
-gp(b,a){if(a){var
+gq(b,a){if(a){var
 c=a[2];if(b){var
-e=gp(b[1],c);return[0,a[1],e]}var
+e=gq(b[1],c);return[0,a[1],e]}var
 d=[0,0,c]}else
 var
 d=a;return d}function
 e3(j,a,f,l,c,t,n,h,b,W,o){switch(o[0]){case
 0:var
-ab=function(a){return m(Q,a)},I=ab,x=o[1];break;case
+ab=function(a){return m(P,a)},I=ab,x=o[1];break;case
 1:var
 ac=o[4],ad=o[3],ae=o[2],af=function(d){var
-e=cU(ae,b),g=e3(j,a,f,l,c,t,n,h,e[1],d,ad);return g?e3(j,a,f,l,c,t,n,h,e[2],d,ac):g},I=af,x=o[1];break;default:var
+e=cW(ae,b),g=e3(j,a,f,l,c,t,n,h,e[1],d,ad);return g?e3(j,a,f,l,c,t,n,h,e[2],d,ac):g},I=af,x=o[1];break;default:var
 ag=o[4],ah=o[3],ai=o[2],aj=function(d){var
 o=$(t,d),e=m(function(a){var
-b=ik(a[1]);return b?b:Q(a[2])},o);if(e){var
-g=cU(ai,h),i=e3(j,a,f,l,c,t,n,g[1],b,d,ah);if(i)return e3(j,a,f,l,c,t,n,g[2],b,d,ag);var
+b=il(a[1]);return b?b:P(a[2])},o);if(e){var
+g=cW(ai,h),i=e3(j,a,f,l,c,t,n,g[1],b,d,ah);if(i)return e3(j,a,f,l,c,t,n,g[2],b,d,ag);var
 k=i}else
 var
 k=e;return k},I=aj,x=o[1]}if(x){var
-z=id(j,a,h,f4(y(function(e){var
+z=ie(j,a,h,f5(y(function(e){var
 a=e[2],d=0;if(typeof
 a==="number"){if(4!==a)d=1}else
 if(11!==a[0])d=1;if(d){var
-b=F(t,e[1]);return b?il(f,l,c,b[1],a):b}return 0},x),a),b),w=x,u=W;for(;;){if(w){var
+b=G(t,e[1]);return b?im(f,l,c,b[1],a):b}return 0},x),a),b),w=x,u=W;for(;;){if(w){var
 R=w[1],k=R[2],E=R[1],S=w[2],X=0;if(typeof
 k==="number"&&4===k){var
 A=i(n,b);if(A)var
-Z=A[1],Y=bf(g(b)),G=m(function(b){return function(a){return J(aC(a,b)[2],d)}}(Z),Y);else
+Z=A[1],Y=be(g(b)),F=m(function(b){return function(a){return J(aD(a,b)[2],d)}}(Z),Y);else
 var
-G=A;if(G){var
+F=A;if(F){var
 w=S,u=e(function(a){return 0},u);continue}var
-v=G}else
+v=F}else
 X=1;if(X){var
 T=q(E,u,0);if(T){var
-H=F(t,E);if(H){var
+H=G(t,E);if(H){var
 r=H[1],K=0;if(typeof
 k==="number")K=1;else
 switch(k[0]){case
 11:var
-L=k[3],B=k[1],M=im(a,f,l,c,h,r,B,k[2]);if(M)var
-_=io(j,a,f,l,c,h,B,b,r,L),s=lU(j,a,f,l,c,bL(e1,B,h),n,_,b,r,L);else
+L=k[3],B=k[1],M=io(a,f,l,c,h,r,B,k[2]);if(M)var
+_=ip(j,a,f,l,c,h,B,b,r,L),s=lU(j,a,f,l,c,bN(e1,B,h),n,_,b,r,L);else
 var
 s=M;break;case
 12:var
-C=k[1],N=Q(p(g(C),0));if(N)var
+C=k[1],N=P(p(g(C),0));if(N)var
 aa=$(lJ(e(function(a){return a[1][1][1]},C)),C),s=m(function(g){return function(r){var
 s=r[2],e=r[1],k=s[1],m=k[1][2],o=k[2],d=s[2];if(typeof
 d!=="number"&&11===d[0]){var
-p=d[3],i=d[1],q=im(a,f,l,c,h,g,i,d[2]);if(q){var
-t=e[2],u=e[1],v=io(j,a,f,l,c,h,i,b,g,p);return lS(j,a,f,c,bL(e1,i,h),n,v,b,g,u,t,m,o,p)}return q}return lS(j,a,f,c,h,n,z,b,g,e[1],e[2],m,o,d)}}(r),aa);else
+p=d[3],i=d[1],q=io(a,f,l,c,h,g,i,d[2]);if(q){var
+t=e[2],u=e[1],v=ip(j,a,f,l,c,h,i,b,g,p);return lS(j,a,f,c,bN(e1,i,h),n,v,b,g,u,t,m,o,p)}return q}return lS(j,a,f,c,h,n,z,b,g,e[1],e[2],m,o,d)}}(r),aa);else
 var
 s=N;break;case
 13:if(2===r[0])var
-D=ih(j,k[1],k[2]),O=h6(g(b),D),P=O?lW(j,a,f,l,c,h,n,z,b,r,0,D,k[3]):O,s=P?lW(j,a,f,l,c,h,n,z,b,r,[0,r[1]],D,k[4]):P;else
+D=ii(j,k[1],k[2]),O=h7(g(b),D),Q=O?lW(j,a,f,l,c,h,n,z,b,r,0,D,k[3]):O,s=Q?lW(j,a,f,l,c,h,n,z,b,r,[0,r[1]],D,k[4]):Q;else
 var
 s=0;break;default:K=1}if(K)var
 s=lU(j,a,f,l,c,h,n,z,b,r,k);if(s){var
-w=S,u=gp(E,u);continue}var
+w=S,u=gq(E,u);continue}var
 U=s}else
 var
 U=H;var
@@ -2661,9 +2661,9 @@ var
 v=[0,u];break}}else
 var
 v=[0,W];return v?I(v[1]):v}function
-ip(h,g,f,e,d,c,b,a){return function(i,j,k){return e3(h,g,f,e,d,b,a,c,i,j,k)}}function
-iq(a){return e(function(a){return 1},a)}function
-eb(a,d,b,c){function
+iq(h,g,f,e,d,c,b,a){return function(i,j,k){return e3(h,g,f,e,d,b,a,c,i,j,k)}}function
+ir(a){return e(function(a){return 1},a)}function
+ec(a,d,b,c){function
 f(d,c){var
 f=$(a[1],b[1]);return e(function(a){var
 b=s(c,a[2]);return C(s(d,a[1]),b)},f)}if(aJ(a[2],b[2])){var
@@ -2671,34 +2671,34 @@ g=a[2];return[0,f(d,c),g]}var
 h=s(a[2],b[2]),i=s(c,a[2]);return[0,f(s(d,b[2]),i),h]}function
 lX(a){var
 c=k(b);return[0,e(function(a){return k(d)},a),c]}function
-a5(a,l){var
+a6(a,l){var
 f=l[1];switch(f[0]){case
 1:var
 u=f[1];if(ak(function(a){return p(u,a)},a)){var
 C=k(b);return[0,e(function(a){var
 c=p(a,u)?b:d;return k(c)},a),C]}return lX(a);case
 3:var
-D=k(b),E=a5(a,f[2]),F=k(b);return eb(a5(a,f[1]),F,E,D);case
+D=k(b),E=a6(a,f[2]),F=k(b);return ec(a6(a,f[1]),F,E,D);case
 4:var
-G=k(P(b)),H=a5(a,f[2]),I=k(b);return eb(a5(a,f[1]),I,H,G);case
+G=k(Q(b)),H=a6(a,f[2]),I=k(b);return ec(a6(a,f[1]),I,H,G);case
 5:var
-w=a5(a,f[1]),J=w[2];return[0,e(bk,w[1]),J];case
+v=a6(a,f[1]),J=v[2];return[0,e(bk,v[1]),J];case
 6:var
-x=f[2],y=f[1],K=a5(a,x);return eb(a5(a,y),x,K,y);case
+x=f[2],y=f[1],K=a6(a,x);return ec(a6(a,y),x,K,y);case
 7:var
-z=f[2],L=bk(l),M=a5(a,z),N=k(b),i=eb(a5(a,f[1]),N,M,L),O=i[1];if(m(function(a){return a3(d,a)},O))return i;var
-Q=s(i[2],z);return[0,i[1],Q];case
+z=f[2],L=bk(l),M=a6(a,z),N=k(b),i=ec(a6(a,f[1]),N,M,L),O=i[1];if(m(function(a){return a4(d,a)},O))return i;var
+P=s(i[2],z);return[0,i[1],P];case
 8:var
-A=f[1],B=a5(a,A),R=B[2],S=B[1],T=s(k(c(2,b)),A);return[0,e(function(a){return s(T,a)},S),R];case
+A=f[1],B=a6(a,A),R=B[2],S=B[1],T=s(k(c(2,b)),A);return[0,e(function(a){return s(T,a)},S),R];case
 9:var
-j=a5(a,f[1]),U=j[1];if(m(function(a){return a3(d,a)},U)){var
+j=a6(a,f[1]),U=j[1];if(m(function(a){return a4(d,a)},U)){var
 V=k(b);return[0,j[1],V]}var
 W=s(k(c(2,b)),l),X=s(j[2],W);return[0,j[1],X];case
 10:var
-n=f[4],g=f[3],h=f[2],o=[0,[10,0,h,g,n]],q=[0,[10,1,h,g,n]],Y=v(g,q),Z=a5(a,g),_=v(h,o),$=eb(a5(a,h),_,Z,Y),aa=k(P(b)),ab=a5(a,n),r=eb($,k(c(2,b)),ab,aa),ac=r[1],ad=f[1]?o:bk(q),t=e(function(a){return s(ad,a)},ac);if(m(function(a){return a3(d,a)},t))return[0,t,r[2]];var
-ae=s(h,q),af=v(s(g,o),ae),ag=s(k(c(2,b)),af);return[0,t,s(r[2],ag)];default:return lX(a)}}function
+n=f[4],g=f[3],h=f[2],o=[0,[10,0,h,g,n]],q=[0,[10,1,h,g,n]],Y=w(g,q),Z=a6(a,g),_=w(h,o),$=ec(a6(a,h),_,Z,Y),aa=k(Q(b)),ab=a6(a,n),r=ec($,k(c(2,b)),ab,aa),ac=r[1],ad=f[1]?o:bk(q),t=e(function(a){return s(ad,a)},ac);if(m(function(a){return a4(d,a)},t))return[0,t,r[2]];var
+ae=s(h,q),af=w(s(g,o),ae),ag=s(k(c(2,b)),af);return[0,t,s(r[2],ag)];default:return lX(a)}}function
 lY(c,a){var
-b=a5(c,a),f=b[1];return e(function(a){return a3(d,a)?a:am(a,b[2])},f)}function
+b=a6(c,a),f=b[1];return e(function(a){return a4(d,a)?a:am(a,b[2])},f)}function
 lZ(g){var
 h=g[1],c=h[2],e=h[1];if(0===e[0]){var
 i=e[2],a=e[1];if(D(i,b)){if(0===c[0]){var
@@ -2707,35 +2707,35 @@ k=I(a,m),l=k?eS(a):k;if(l)var
 n=I(g[2],d),f=n||I(a,d);else
 var
 f=l;var
-o=f?[0,a]:f;return o}return I(aT(j,aF(2))[2],d)?0:0}return 0}return I(aT(i,aF(2))[2],d)?0:0}return 0}function
-cZ(c,b){var
+o=f?[0,a]:f;return o}return I(aU(j,aF(2))[2],d)?0:0}return 0}return I(aU(i,aF(2))[2],d)?0:0}return 0}function
+c1(c,b){var
 a=lZ(c);return a?k(a[1]):[0,[1,b]]}function
-cx(b,a){if(a)var
-d=cx([0,b],a[2]),c=[0,cZ(a[1],b),d];else
+cz(b,a){if(a)var
+d=cz([0,b],a[2]),c=[0,c1(a[1],b),d];else
 var
 c=a;return c}function
-a6(b,a){return[0,[0,b[1],a],[0,[0,b[2],a],[0,[0,b[3],a],0]]]}function
-gq(b,d,a){switch(a[0]){case
+a7(b,a){return[0,[0,b[1],a],[0,[0,b[2],a],[0,[0,b[3],a],0]]]}function
+gr(b,d,a){switch(a[0]){case
 0:var
-c=a[1],g=[0,[0,c[4],b],0],h=f(a6(c[3],b),g),i=f(a6(c[2],b),h);return f(a6(c[1],d),i);case
+c=a[1],g=[0,[0,c[4],b],0],h=f(a7(c[3],b),g),i=f(a7(c[2],b),h);return f(a7(c[1],d),i);case
 1:var
-e=a[3],j=e?a6(e[1],d):e,k=f(a6(a[2],b),j);return f(a6(a[1],b),k);default:return a6(a[1],d)}}function
+e=a[3],j=e?a7(e[1],d):e,k=f(a7(a[2],b),j);return f(a7(a[1],b),k);default:return a7(a[1],d)}}function
 aj(b,a){var
-c=k(d),e=q(R(sT,a),b,c),f=k(d),g=q(R(sU,a),b,f);return[0,q(a,b,k(d)),g,e]}function
-l0(b,a){return ah(v,ah(C,dt,a),b)}function
-gr(c,b,a){if(a){var
-e=a[2],g=gr(c,by(b),e),h=a[1];return f(gq(c,bK(d,b),h),g)}return a}function
-ir(f,e,c,j){if(c){var
-b=c[1],v=R(j,g(gq(f,bK(d,e),b))),w=c[2],x=ir(f,by(e),w,v),a=cx(j,gq(f,bK(d,e),b));switch(b[0]){case
+c=k(d),e=q(R(sU,a),b,c),f=k(d),g=q(R(sV,a),b,f);return[0,q(a,b,k(d)),g,e]}function
+l0(b,a){return ah(w,ah(C,dv,a),b)}function
+gs(c,b,a){if(a){var
+e=a[2],g=gs(c,by(b),e),h=a[1];return f(gr(c,bM(d,b),h),g)}return a}function
+is(f,e,c,j){if(c){var
+b=c[1],v=R(j,g(gr(f,bM(d,e),b))),w=c[2],x=is(f,by(e),w,v),a=cz(j,gr(f,bM(d,e),b));switch(b[0]){case
 0:var
-m=b[1][5],n=q(sV,a,k(d)),o=ah(C,dt,aj(a,sW)),p=ds(aj(a,0)),r=aj(a,sX),h=ls(l0(aj(a,sY),r),p,o,n,m);break;case
+m=b[1][5],n=q(sW,a,k(d)),o=ah(C,dv,aj(a,sX)),p=du(aj(a,0)),r=aj(a,sY),h=ls(l0(aj(a,sZ),r),p,o,n,m);break;case
 1:var
-i=b[3],s=i?[0,ds(aj(a,sZ))]:i,t=ah(C,dt,aj(a,s0)),u=aj(a,s1),h=lt(l0(aj(a,0),u),t,s);break;default:var
-h=lu(dt,ds(aj(a,0)))}var
+i=b[3],s=i?[0,du(aj(a,s0))]:i,t=ah(C,dv,aj(a,s1)),u=aj(a,s2),h=lt(l0(aj(a,0),u),t,s);break;default:var
+h=lu(dv,du(aj(a,0)))}var
 l=[0,h,x]}else
 var
 l=c;return l}function
-bP(c,a){if(typeof
+bR(c,a){if(typeof
 a!=="number")switch(a[0]){case
 4:var
 h=[5,a[3],a[2]];return[0,[0,h,h],d];case
@@ -2744,7 +2744,7 @@ j=a[2];return[0,[0,j,j],d];case
 8:var
 k=[5,a[2],a[1]];return[0,[0,k,k],d];case
 10:var
-p=a[3],q=d0(a[2]),l=[2,[2,d0(a[1]),q],p];return[0,[0,l,l],c];case
+p=a[3],q=d1(a[2]),l=[2,[2,d1(a[1]),q],p];return[0,[0,l,l],c];case
 11:var
 m=a[4];return[0,[0,m,m],c];case
 12:var
@@ -2763,13 +2763,13 @@ i=a[1];return[0,[0,i,i],d]}var
 e=[0,d,b];return[0,[0,e,e],d]}function
 e4(b,a){var
 c=a[3],d=a[2],e=a[1];return[0,[0,[0,e,e],b],[0,[0,[0,d,d],b],[0,[0,[0,c,c],b],0]]]}function
-ec(c,a){if(0===a[0]){var
+ed(c,a){if(0===a[0]){var
 e=[0,d,b],i=f(e4(c,a[5]),[0,[0,[0,e,e],d],0]),g=a[4],h=a[3];return f([0,[0,[0,h,h],c],[0,[0,[0,g,g],c],0]],i)}var
 j=e4(c,a[3]);return f(e4(c,a[2]),j)}function
-dv(b,a){if(typeof
+dx(b,a){if(typeof
 a!=="number")switch(a[0]){case
 10:var
-h=ec(b,a[2]);return f(ec(b,a[1]),h);case
+h=ed(b,a[2]);return f(ed(b,a[1]),h);case
 11:var
 i=e4(b,a[3]);return f(e4(b,a[2]),i);case
 12:var
@@ -2778,48 +2778,48 @@ c=a[3],g=[5,[4,c,c],a[4]];return[0,[0,[0,g,g],b],0];case
 j=a[2],k=a[1];return e(function(b){var
 a=[5,j,b];return[0,[0,a,a],d]},k)}return 0}function
 l1(c,b,a){var
-d=g(dv(c,b)),e=R(a[2],d);return[0,[0,a[1]],e]}function
-is(c,b){if(aJ(b,c))return[0,k(d)];var
+d=g(dx(c,b)),e=R(a[2],d);return[0,[0,a[1]],e]}function
+it(c,b){if(aJ(b,c))return[0,k(d)];var
 a=b[1];if(4===a[0]){var
 e=aJ(a[1],c),f=e?[0,a[2]]:e;return f}return 0}function
 l2(y,p,a,o){switch(o[0]){case
 0:var
-h=F(y,o[1]);if(h){var
+h=G(y,o[1]);if(h){var
 j=h[1];if(j){var
-r=j[1],s=r[1],c=s[2],e=s[1],t=r[2],z=aj(a,s2),A=ah(C,ah(v,e,aZ(am(q(s3,a,k(d)),t),c)),z),B=aj(a,s4),f=am(q(0,a,k(d)),t),l=is(e[1],c[1]);if(l){var
-m=is(e[2],c[2]);if(m){var
-n=is(e[3],c[3]);if(n)var
-x=aZ(f,c),g=ah(C,[0,l[1],m[1],n[1]],x);else
+r=j[1],s=r[1],c=s[2],e=s[1],t=r[2],z=aj(a,s3),A=ah(C,ah(w,e,a0(am(q(s4,a,k(d)),t),c)),z),B=aj(a,s5),f=am(q(0,a,k(d)),t),l=it(e[1],c[1]);if(l){var
+m=it(e[2],c[2]);if(m){var
+n=it(e[3],c[3]);if(n)var
+x=a0(f,c),g=ah(C,[0,l[1],m[1],n[1]],x);else
 var
-g=ah(v,e,aZ(v(k(b),f),c))}else
+g=ah(w,e,a0(w(k(b),f),c))}else
 var
-g=ah(v,e,aZ(v(k(b),f),c))}else
+g=ah(w,e,a0(w(k(b),f),c))}else
 var
-g=ah(v,e,aZ(v(k(b),f),c));var
+g=ah(w,e,a0(w(k(b),f),c));var
 u=[0,[0,ah(C,g,B),A]]}else
 var
 u=j;var
-w=u}else
+v=u}else
 var
-w=h;return w;case
+v=h;return v;case
 1:var
-D=aj(a,s5);return[0,[0,aj(a,0),D]];default:var
-E=i(p,aj(a,s6));return[0,[0,i(p,aj(a,0)),E]]}}function
+D=aj(a,s6);return[0,[0,aj(a,0),D]];default:var
+E=i(p,aj(a,s7));return[0,[0,i(p,aj(a,0)),E]]}}function
 l3(e,d,c,h,g){var
-a=l2(e,d,aI(s7,c),h);if(a)var
-b=l2(e,d,aU(s8,c),g),i=b?[0,[0,a[1],b[1]]]:b,f=i;else
+a=l2(e,d,aI(s8,c),h);if(a)var
+b=l2(e,d,aV(s9,c),g),i=b?[0,[0,a[1],b[1]]]:b,f=i;else
 var
 f=a;return f}function
 l4(g,c,d,b,a){var
-h=ec(c,a),i=cx(d,f(ec(c,b),h));function
-j(a){return ah(C,dt,a)}return l3(e(function(a){var
+h=ed(c,a),i=cz(d,f(ed(c,b),h));function
+j(a){return ah(C,dv,a)}return l3(e(function(a){var
 b=a[7];return z(function(b){var
-c=cT(a);return[0,[0,b,a[1]],c]},b)},g),j,i,b,a)}function
-dw(d,c,b,a){var
-e=s(c,b);return v(s(d,a),e)}function
-bQ(a){return y(function(a){return f(a[1],[0,a[2],0])},a)}function
+c=cV(a);return[0,[0,b,a[1]],c]},b)},g),j,i,b,a)}function
+dy(d,c,b,a){var
+e=s(c,b);return w(s(d,a),e)}function
+bS(a){return y(function(a){return f(a[1],[0,a[2],0])},a)}function
 l5(b,a){if(b)if(a)var
-d=b[1],e=l5(b[2],a[2]),f=s(d[2],a[1]),c=[0,[0,bO(d[1]),f],e];else
+d=b[1],e=l5(b[2],a[2]),f=s(d[2],a[1]),c=[0,[0,bQ(d[1]),f],e];else
 var
 c=a;else
 var
@@ -2827,86 +2827,86 @@ c=b;return c}function
 l6(a){if(a){var
 b=a[1][6];if(b){var
 c=b[1],d=l6(a[2]);if(d)var
-g=d[1],h=V(c,c),e=[0,[0,[0,bO(c),h],g]];else
+g=d[1],h=W(c,c),e=[0,[0,[0,bQ(c),h],g]];else
 var
 e=d;var
 f=e}else
 var
-f=b;return f}return s_}function
+f=b;return f}return s$}function
 e5(b,d,c,a){if(typeof
 a!=="number")switch(a[0]){case
 8:var
-i=c[1],j=cZ(bP(d,a),i);return[0,e(function(a){var
-b=s(a[2],j);return[0,bO(a[1]),b]},b)];case
+i=c[1],j=c1(bR(d,a),i);return[0,e(function(a){var
+b=s(a[2],j);return[0,bQ(a[1]),b]},b)];case
 9:return l6(b);case
 15:var
 k=g(b),f=p(g(a[1]),k);if(f)var
-l=dv(d,a),h=[0,l5(b,cx(c[2],l))];else
+l=dx(d,a),h=[0,l5(b,cz(c[2],l))];else
 var
 h=f;return h}return 0}function
-gs(e,l,j,a){var
-P=j[1],c=cZ(bP(l,a),P),u=0;if(typeof
+gt(e,l,j,a){var
+P=j[1],c=c1(bR(l,a),P),u=0;if(typeof
 a==="number")u=1;else
 switch(a[0]){case
 2:var
-Q=function(a){return[0,v(a[4],c),0]},g=Q,f=a[1];break;case
+Q=function(a){return[0,w(a[4],c),0]},g=Q,f=a[1];break;case
 3:var
-R=function(a){return[0,v(c,a[4]),0]},g=R,f=a[1];break;case
+R=function(a){return[0,w(c,a[4]),0]},g=R,f=a[1];break;case
 4:var
-T=function(b){var
-a=b[1],d=S(a[3]),e=S(a[2]),f=S(a[1]),g=b[2];return[0,v(v(v(s(S(c),g),f),e),d),0]},g=T,f=a[1];break;case
+S=function(b){var
+a=b[1],d=T(a[3]),e=T(a[2]),f=T(a[1]),g=b[2];return[0,w(w(w(s(T(c),g),f),e),d),0]},g=S,f=a[1];break;case
 6:var
 U=function(b){var
 a=b[5];if(a)var
-e=S(a[1]),f=s(S(c),e),d=[0,v(b[2],f),0];else
+e=T(a[1]),f=s(T(c),e),d=[0,w(b[2],f),0];else
 var
 d=a;return d},g=U,f=a[1];break;case
 7:if(e){var
 m=e[2];if(m){var
 n=m[2];if(n){if(n[2])return 0;var
-x=n[1],z=m[1],A=e[1],h=x[1],i=z[1],p=A[1],K=dw(i[1],i[2],h[1],h[2]),L=s(p[3],K),M=dw(i[1],i[3],h[1],h[3]),N=s(p[2],M),O=dw(i[2],i[3],h[2],h[3]),w=C(v(s(p[1],O),N),L),W=cT(x),X=cT(z),B=s(s(s(c,cT(A)),X),W),Y=[0,bk(C(w,B)),0],D=[0,v(w,B),Y]}else
+x=n[1],z=m[1],A=e[1],h=x[1],i=z[1],p=A[1],K=dy(i[1],i[2],h[1],h[2]),L=s(p[3],K),M=dy(i[1],i[3],h[1],h[3]),N=s(p[2],M),O=dy(i[2],i[3],h[2],h[3]),v=C(w(s(p[1],O),N),L),V=cV(x),X=cV(z),B=s(s(s(c,cV(A)),X),V),Y=[0,bk(C(v,B)),0],D=[0,w(v,B),Y]}else
 var
 D=n;var
 E=D}else
 var
 E=m;var
-G=E}else
+F=E}else
 var
-G=e;return G;case
+F=e;return F;case
 10:var
 t=l4(e,l,j[2],a[1],a[2]);if(t){var
-H=t[1],I=H[2],J=H[1];return y(bO,[0,J[1],[0,J[2],[0,I[1],[0,I[2],0]]]])}return t;case
+H=t[1],I=H[2],J=H[1];return y(bQ,[0,J[1],[0,J[2],[0,I[1],[0,I[2],0]]]])}return t;case
 11:var
 Z=function(d){var
 e=d[7];if(e)var
-n=dv(l,a),f=cx(j[2],n),h=aj(f,s9),b=ah(v,aj(f,0),h),i=S(c),k=S(cT(d)),m=am(S(V(b,d[1])),k),g=[0,v(v(V(b,b),m),i),0];else
+n=dx(l,a),f=cz(j[2],n),h=aj(f,s_),b=ah(w,aj(f,0),h),i=T(c),k=T(cV(d)),m=am(T(W(b,d[1])),k),g=[0,w(w(W(b,b),m),i),0];else
 var
 g=e;return g},g=Z,f=a[1];break;case
 12:var
 _=function(e){var
-p=k(d),r=dv(l,a),t=q(0,cx(j[2],r),p),f=am(t,cT(e)),g=e[5];if(g){var
-m=aD(e[2]),h=am(g[1],m),n=s(h,C(c,s(f,S(h))));return[0,v(k(b),n),0]}var
-i=e[7],o=i?[0,v(v(k(b),c),f),0]:i;return o},g=_,f=a[1];break;case
+p=k(d),r=dx(l,a),t=q(0,cz(j[2],r),p),f=am(t,cV(e)),g=e[5];if(g){var
+m=aE(e[2]),h=am(g[1],m),n=s(h,C(c,s(f,T(h))));return[0,w(k(b),n),0]}var
+i=e[7],o=i?[0,w(w(k(b),c),f),0]:i;return o},g=_,f=a[1];break;case
 8:case
 9:case
 15:var
-r=e5(e,l,j,a);return r?bQ(r[1]):r;default:u=1}if(u)return 0;var
-o=F(e,f);return o?g(o[1]):o}function
-it(d,b,c,a){if(a){var
-e=a[1],g=a[2],h=it(d,b,l1(b,e,c),g);return f(gs(d,b,c,e),h)}return a}var
+r=e5(e,l,j,a);return r?bS(r[1]):r;default:u=1}if(u)return 0;var
+o=G(e,f);return o?g(o[1]):o}function
+iu(d,b,c,a){if(a){var
+e=a[1],g=a[2],h=iu(d,b,l1(b,e,c),g);return f(gt(d,b,c,e),h)}return a}var
 l7=[0,d,b],l8=[0,[0,l7,l7],d];function
-iu(a){return Q(ct(a[1][1],a[1][2]))}function
+iv(a){return P(cv(a[1][1],a[1][2]))}function
 l9(a){var
-b=aB(0,g(a));return bq(function(b){return iu(q(b,a,l8))},b)}function
-gt(a,b){var
-c=lY(l9(a),b),e=$(l9(a),c);return bq(function(a){return Q(a3(d,a[2]))},e)}function
+b=aB(0,g(a));return br(function(b){return iv(q(b,a,l8))},b)}function
+gu(a,b){var
+c=lY(l9(a),b),e=$(l9(a),c);return br(function(a){return P(a4(d,a[2]))},e)}function
 l_(b,a){var
 c=i(b,a[3]),d=i(b,a[2]);return[0,i(b,a[1]),d,c]}function
 l$(m,l,f,k,j,a){var
-d=gt(f,a);return ab(e(function(e){var
-a=q(e[1],f,l8),g=aG(a[2],k),h=[4,[0,c(2,b),b],j],d=[5,[3,a[1][2],a[1][1]],h],n=an(m,[0,[0,d,d],g]);return z(function(a){return[0,a,i(l,e[2])]},n)},d))}function
+d=gu(f,a);return ab(e(function(e){var
+a=q(e[1],f,l8),g=aG(a[2],k),h=[4,[0,c(2,b),b],j],d=[5,[3,a[1][2],a[1][1]],h],n=ao(m,[0,[0,d,d],g]);return z(function(a){return[0,a,i(l,e[2])]},n)},d))}function
 ma(g,f,n,m,l,e,c){var
-h=[5,l,e],a=an(g,[0,[0,h,h],d]);if(a){var
+h=[5,l,e],a=ao(g,[0,[0,h,h],d]);if(a){var
 b=l$(g,f,n,m,e,c);if(b)var
 o=[0,a[1],b[1]],j=[0,[0,i(f,c),o]];else
 var
@@ -2914,64 +2914,64 @@ j=b;var
 k=j}else
 var
 k=a;return k}function
-mb(c,G,l,al,k,j,n,s){if(s){var
-a=s[1],aH=s[2],aI=mb(c,G,l,al,k,j,l1(j,a,n),aH);if(typeof
+mb(c,F,l,al,k,j,n,s){if(s){var
+a=s[1],aH=s[2],aI=mb(c,F,l,al,k,j,l1(j,a,n),aH);if(typeof
 a==="number")if(0===a)var
-f=[0,[0,x]];else
+f=[0,[0,u]];else
 var
-ao=G[2],ap=G[1],aq=eY(k),f=[0,[8,i(aw(l),aq),ap,ao]];else
+an=F[2],ap=F[1],aq=eY(k),f=[0,[8,i(aw(l),aq),ap,an]];else
 switch(a[0]){case
 0:var
-ar=an(c,bP(j,a)),f=z(function(a){return[0,X(c,a)]},ar);break;case
+ar=ao(c,bR(j,a)),f=z(function(a){return[0,S(c,a)]},ar);break;case
 1:var
-as=an(c,bP(j,a)),f=z(function(a){return[1,X(c,a)]},as);break;case
+as=ao(c,bR(j,a)),f=z(function(a){return[1,S(c,a)]},as);break;case
 5:var
-au=an(c,bP(j,a)),f=z(function(a){return[2,X(c,a)]},au);break;case
+au=ao(c,bR(j,a)),f=z(function(a){return[2,S(c,a)]},au);break;case
 8:var
 av=e5(k,j,n,a),f=z(function(a){var
 d=L(c,b);return[4,i(aw(l),a),d]},av);break;case
 9:var
-v=e5(k,j,n,a);if(v){var
-w=an(c,bP(j,a));if(w)var
-ax=X(c,w[1]),ay=v[1],M=[0,[4,i(aw(l),ay),ax]];else
+w=e5(k,j,n,a);if(w){var
+x=ao(c,bR(j,a));if(x)var
+ax=S(c,x[1]),ay=w[1],M=[0,[4,i(aw(l),ay),ax]];else
 var
-M=w;var
+M=x;var
 N=M}else
 var
-N=v;var
+N=w;var
 f=N;break;case
 10:var
 y=l4(k,j,n[2],a[1],a[2]);if(y){var
-O=y[1],P=O[2],Q=O[1],A=an(c,bP(j,a));if(A){var
-R=A[1],S=D(d,R[1]);if(S)var
-q=function(a){return l_(l,a)},az=q(P[2]),aA=q(P[1]),aB=q(Q[2]),T=[0,[6,q(Q[1]),aB,aA,az,R]];else
+O=y[1],P=O[2],Q=O[1],A=ao(c,bR(j,a));if(A){var
+R=A[1],T=D(d,R[1]);if(T)var
+q=function(a){return l_(l,a)},az=q(P[2]),aA=q(P[1]),aB=q(Q[2]),U=[0,[6,q(Q[1]),aB,aA,az,R]];else
 var
-T=S;var
-U=T}else
-var
-U=A;var
+U=T;var
 V=U}else
 var
-V=y;var
-f=V;break;case
+V=A;var
+W=V}else
+var
+W=y;var
+f=W;break;case
 12:var
-r=gs(k,j,n,a),t=0;if(r)if(r[2])var
+r=gt(k,j,n,a),t=0;if(r)if(r[2])var
 f=0;else{var
-W=h(c,0,a[2]),Y=W?h(c,1,a[4]):W;if(Y){var
+X=h(c,0,a[2]),Y=X?h(c,1,a[4]):X;if(Y){var
 B=[0,[3,i(l,r[1])]];t=1}else{var
 B=Y;t=1}}else{var
 B=r;t=1}if(t)var
 f=B;break;case
 13:var
-Z=a[1],_=F(k,Z),H=0;if(_){var
+Z=a[1],_=G(k,Z),H=0;if(_){var
 $=h(c,1,a[2]),aa=$?h(c,1,a[3]):$;if(aa)var
-aC=an(c,bP(j,a)),f=z(function(a){return[7,Z,X(c,a)]},aC);else{var
+aC=ao(c,bR(j,a)),f=z(function(a){return[7,Z,S(c,a)]},aC);else{var
 ac=aa;H=1}}else{var
 ac=_;H=1}if(H)var
 f=ac;break;case
 14:var
-ad=a[2],ae=a[1],af=p(g(k),s$),ag=af?h(c,0,ae):af,ah=ag?h(c,1,ad):ag;if(ah){var
-C=an(c,bP(j,a));if(C)var
+ad=a[2],ae=a[1],af=p(g(k),ta),ag=af?h(c,0,ae):af,ah=ag?h(c,1,ad):ag;if(ah){var
+C=ao(c,bR(j,a));if(C)var
 E=ab(e(function(a){return ma(c,l,al,j,ae,ad,a[4])},k)),aD=E?[0,[9,C[1],E[1]]]:E,ai=aD;else
 var
 ai=C;var
@@ -2985,30 +2985,30 @@ aG=e5(k,j,n,a),f=z(function(a){var
 d=L(c,b);return[4,i(aw(l),a),d]},aG);else
 var
 f=ak;break;default:var
-o=gs(k,j,n,a),I=0;if(o){var
-u=o[2],J=o[1];if(u)if(u[2])var
+o=gt(k,j,n,a),I=0;if(o){var
+v=o[2],J=o[1];if(v)if(v[2])var
 f=0;else
 var
-at=i(l,u[1]),f=[0,[5,i(l,J),at]];else{var
+at=i(l,v[1]),f=[0,[5,i(l,J),at]];else{var
 K=[0,[3,i(l,J)]];I=1}}else{var
 K=o;I=1}if(I)var
 f=K}var
 am=[0,f,aI]}else
 var
 am=s;return am}function
-ta(a){var
+tb(a){var
 b=0;if(typeof
 a==="number"){if(0!==a)b=1}else
 if(0!==a[0])b=1;return b?0:1}function
-ed(a){if(0===a[0])return a[1];var
+ee(a){if(0===a[0])return a[1];var
 b=a[3],c=a[2],d=a[1];return[0,[0,[3,d,b],[2,d,b]],[0,[3,c,b],[2,c,b]],a[4]]}function
 mc(a,c,g,b){if(0===c[0])return 0;if(b){var
 d=b[2];if(d){var
 h=d[2];if(h){if(h[2])return 0;var
-e=d[1],f=b[1],i=cR(a,g,c[1]);if(i){var
-j=cR(a,g,c[2]);if(j){var
-k=cR(a,g,c[3]);if(k)var
-u=i[1],v=b_(f),l=H([0,b_(f),v],u),w=j[1],y=b_(e),m=H([0,b_(e),y],w),z=d8(e),B=[0,d8(e),z],C=[0,t(a,aa(A(m,m)),B),0],D=d8(f),E=[0,d8(f),D],F=[0,t(a,aa(A(l,l)),E),C],G=X(a,m),I=X(a,l),n=[0,[0,H(H(X(a,k[1]),I),G),x,F]];else
+e=d[1],f=b[1],i=cT(a,g,c[1]);if(i){var
+j=cT(a,g,c[2]);if(j){var
+k=cT(a,g,c[3]);if(k)var
+v=i[1],w=ca(f),l=E([0,ca(f),w],v),x=j[1],y=ca(e),m=E([0,ca(e),y],x),z=d9(e),B=[0,d9(e),z],C=[0,t(a,aa(A(m,m)),B),0],D=d9(f),F=[0,d9(f),D],G=[0,t(a,aa(A(l,l)),F),C],H=S(a,m),I=S(a,l),n=[0,[0,E(E(S(a,k[1]),I),H),u,G]];else
 var
 n=k;var
 o=n}else
@@ -3026,14 +3026,14 @@ r=d;var
 s=r}else
 var
 s=b;return s}function
-gu(a,p,o){var
-q=a6(p,o),b=e(function(b){return an(a,b)},q);if(b){var
+gv(a,p,o){var
+q=a7(p,o),b=e(function(b){return ao(a,b)},q);if(b){var
 g=b[1];if(g){var
 c=b[2];if(c){var
 h=c[1];if(h){var
 f=c[2];if(f){var
 i=f[1];if(i){if(f[2])return 0;var
-r=X(a,i[1]),s=X(a,h[1]);return J(d,A(A(X(a,g[1]),s),r)[1])}var
+r=S(a,i[1]),s=S(a,h[1]);return J(d,A(A(S(a,g[1]),s),r)[1])}var
 j=i}else
 var
 j=f;var
@@ -3049,33 +3049,33 @@ m=g;var
 n=m}else
 var
 n=b;return n}function
-T(c,b,a){var
-d=ao(c,b[3],a[3]),e=ao(c,b[2],a[2]);return[0,ao(c,b[1],a[1]),e,d]}function
+U(c,b,a){var
+d=aq(c,b[3],a[3]),e=aq(c,b[2],a[2]);return[0,aq(c,b[1],a[1]),e,d]}function
 ac(b,a){return[0,[4,b,a[1]],[4,b,a[2]],[4,b,a[3]]]}function
-w(b,a){return[2,[2,[4,b[1],a[1]],[4,b[2],a[2]]],[4,b[3],a[3]]]}function
-ay(a){return ac([5,[0,b,b],[6,w(a,a)]],a)}function
-c0(c,b,a){var
-d=bs(c,b[1],a);return d?bs(c,a,b[2]):d}function
+x(b,a){return[2,[2,[4,b[1],a[1]],[4,b[2],a[2]]],[4,b[3],a[3]]]}function
+ay(a){return ac([5,[0,b,b],[6,x(a,a)]],a)}function
+c2(c,b,a){var
+d=bt(c,b[1],a);return d?bt(c,a,b[2]):d}function
 bm(c,b,a){var
-d=c0(c,b[1],a[1]),e=d?c0(c,b[2],a[2]):d;return e?c0(c,b[3],a[3]):e}function
+d=c2(c,b[1],a[1]),e=d?c2(c,b[2],a[2]):d;return e?c2(c,b[3],a[3]):e}function
 md(b,c,a){switch(c[0]){case
 0:var
 d=c[1];if(0===a[0]){var
-j=a[4],f=a[1],k=bm(b,d[1],f),l=k?h(b,1,w(f,f)):k,m=l?bm(b,d[2],a[2]):l,n=m?bm(b,d[3],a[3]):m,o=n?c0(b,d[4],j):n,p=o?h(b,1,j):o;return p?cm(d[5],a[5]):p}return 0;case
+j=a[4],f=a[1],k=bm(b,d[1],f),l=k?h(b,1,x(f,f)):k,m=l?bm(b,d[2],a[2]):l,n=m?bm(b,d[3],a[3]):m,o=n?c2(b,d[4],j):n,p=o?h(b,1,j):o;return p?co(d[5],a[5]):p}return 0;case
 1:var
 q=c[3];if(1===a[0]){var
 e=a[3],r=bm(b,c[1],a[1]),s=r?bm(b,c[2],a[2]):r;if(s){if(q){if(e){var
-g=e[1],t=bm(b,q[1],g);if(t)return h(b,1,w(g,g));var
+g=e[1],t=bm(b,q[1],g);if(t)return h(b,1,x(g,g));var
 u=t}else
 var
 u=e;return u}if(e)return 0;var
 v=1}else
 var
 v=s;return v}return 0;default:if(2===a[0]){var
-i=a[1],x=bm(b,c[1],i);return x?h(b,1,w(i,i)):x}return 0}}function
-bR(c,a,b){if(0===a[0])return bm(c,a[1],b);var
-d=a[3],e=[3,b[1],a[1]],f=[3,b[2],a[2]],g=h(c,0,[3,[3,[4,d,d],[4,e,e]],[4,f,f]]),i=g?h(c,0,d):g;return i?c0(c,a[4],b[3]):i}function
-gv(g,f,i,h){var
+i=a[1],w=bm(b,c[1],i);return w?h(b,1,x(i,i)):w}return 0}}function
+bT(c,a,b){if(0===a[0])return bm(c,a[1],b);var
+d=a[3],e=[3,b[1],a[1]],f=[3,b[2],a[2]],g=h(c,0,[3,[3,[4,d,d],[4,e,e]],[4,f,f]]),i=g?h(c,0,d):g;return i?c2(c,a[4],b[3]):i}function
+gw(g,f,i,h){var
 b=f[1],a=i;for(;;){if(b){if(a){var
 d=md(g,b[1],a[1]);if(d){var
 b=b[2],a=a[2];continue}var
@@ -3084,46 +3084,46 @@ var
 e=a;var
 c=e}else
 var
-c=a?0:1;return c?bR(g,f[2],h):c}}function
-aV(c,b,a){var
-d=T(function(b,a){return[2,b,a]},a,b);return T(function(b,a){return[3,b,a]},d,c)}function
+c=a?0:1;return c?bT(g,f[2],h):c}}function
+aW(c,b,a){var
+d=U(function(b,a){return[2,b,a]},a,b);return U(function(b,a){return[3,b,a]},d,c)}function
 e6(a,e,d,c){var
-b=aV(e,d,c),f=ay(a),g=ac(w(ay(a),b),f);return T(function(b,a){return[3,b,a]},b,g)}function
-cy(f,e,d,a,c){var
-b=e6(f,e,d,c);return[3,[4,a,a],w(b,b)]}function
-c1(c,a){return c?[6,a]:[3,[0,d,b],[6,a]]}function
-ca(a,c){switch(a[0]){case
+b=aW(e,d,c),f=ay(a),g=ac(x(ay(a),b),f);return U(function(b,a){return[3,b,a]},b,g)}function
+cA(f,e,d,a,c){var
+b=e6(f,e,d,c);return[3,[4,a,a],x(b,b)]}function
+c3(c,a){return c?[6,a]:[3,[0,d,b],[6,a]]}function
+cc(a,c){switch(a[0]){case
 0:var
-e=a[3],f=a[2],d=a[1],g=e6(d,f,e,c),h=cy(d,f,e,a[4],c),i=ac([5,[0,b,b],c1(a[5],h)],g),j=ay(d);return T(function(b,a){return[2,b,a]},j,i);case
-1:return ay(aV(a[1],a[2],c));default:return ay(a[1])}}function
-cz(a,b){switch(a[0]){case
+e=a[3],f=a[2],d=a[1],g=e6(d,f,e,c),h=cA(d,f,e,a[4],c),i=ac([5,[0,b,b],c3(a[5],h)],g),j=ay(d);return U(function(b,a){return[2,b,a]},j,i);case
+1:return ay(aW(a[1],a[2],c));default:return ay(a[1])}}function
+cB(a,b){switch(a[0]){case
 0:var
-d=a[3],e=a[2],c=a[1],f=ay(c),g=cy(c,e,d,a[4],b),h=ac(c1(a[5],g),f),i=e6(c,e,d,b);return T(function(b,a){return[2,b,a]},i,h);case
-1:return aV(a[1],a[2],b);default:return ay(a[1])}}function
-c2(a,b){switch(a[0]){case
+d=a[3],e=a[2],c=a[1],f=ay(c),g=cA(c,e,d,a[4],b),h=ac(c3(a[5],g),f),i=e6(c,e,d,b);return U(function(b,a){return[2,b,a]},i,h);case
+1:return aW(a[1],a[2],b);default:return ay(a[1])}}function
+c4(a,b){switch(a[0]){case
 0:var
-c=a[3],d=a[2],e=a[1],h=cy(e,d,c,a[4],b),i=c1(a[5],h),j=aV(d,c,b);return[3,w(ay(e),j),i];case
+c=a[3],d=a[2],e=a[1],h=cA(e,d,c,a[4],b),i=c3(a[5],h),j=aW(d,c,b);return[3,x(ay(e),j),i];case
 1:var
-f=a[2],g=a[1],k=aV(g,f,b);return[6,w(aV(g,f,b),k)];default:return w(ay(a[1]),b)}}function
-iv(a,b){switch(a[0]){case
-0:return[0,cy(a[1],a[2],a[3],a[4],b)];case
+f=a[2],g=a[1],k=aW(g,f,b);return[6,x(aW(g,f,b),k)];default:return x(ay(a[1]),b)}}function
+iw(a,b){switch(a[0]){case
+0:return[0,cA(a[1],a[2],a[3],a[4],b)];case
 1:var
-c=a[2],d=a[1],e=aV(d,c,b);return[0,w(aV(d,c,b),e)];default:return 0}}function
+c=a[2],d=a[1],e=aW(d,c,b);return[0,x(aW(d,c,b),e)];default:return 0}}function
 e7(e,c,a){var
-f=[0,d,b];return aq(function(b,d){var
-e=w(ca(b,c),a);return[2,[4,w(ca(b,c),a),e],d]},f,e)}function
+f=[0,d,b];return an(function(b,d){var
+e=x(cc(b,c),a);return[2,[4,x(cc(b,c),a),e],d]},f,e)}function
 me(f,e,c,a){if(f){if(e){var
-g=e[1],h=me(f[2],e[2],c,a),i=w(ca(g,c),a),j=[4,w(ca(g,c),a),i];return[2,[4,f[1],j],h]}return[0,d,b]}return[0,d,b]}function
+g=e[1],h=me(f[2],e[2],c,a),i=x(cc(g,c),a),j=[4,x(cc(g,c),a),i];return[2,[4,f[1],j],h]}return[0,d,b]}return[0,d,b]}function
 mf(a){var
 c=a[1];return[0,[0,c[1],b],[0,c[2],b],[0,a[2],b]]}function
-iw(a,c){switch(a[0]){case
+ix(a,c){switch(a[0]){case
 0:return a[4];case
 1:var
-d=a[2],e=a[1],f=aV(e,d,c);return[6,w(aV(e,d,c),f)];default:return[0,b,b]}}function
+d=a[2],e=a[1],f=aW(e,d,c);return[6,x(aW(e,d,c),f)];default:return[0,b,b]}}function
 mg(d,i){if(d){var
 a=d[1];if(1===a[0]){var
 c=a[3];if(c)var
-f=c[1],g=aV(a[1],a[2],i),k=ay(f),l=ac(w(ay(f),g),k),h=[0,T(function(b,a){return[3,b,a]},g,l)];else
+f=c[1],g=aW(a[1],a[2],i),k=ay(f),l=ac(x(ay(f),g),k),h=[0,U(function(b,a){return[3,b,a]},g,l)];else
 var
 h=c;var
 b=h}else
@@ -3131,44 +3131,44 @@ var
 b=0;if(b)var
 e=mg(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
 var
-j=b;return j}return tb}function
-c3(a){return[0,a[1],a[2],a[3]]}function
+j=b;return j}return tc}function
+c5(a){return[0,a[1],a[2],a[3]]}function
 mh(a,b){switch(a[0]){case
 0:var
-f=a[4],c=a[3],g=a[2],d=a[1],i=ay(d),j=cy(d,g,c,f,b),k=ac(c1(a[5],j),i),l=e6(d,g,c,b),m=T(function(b,a){return[2,b,a]},l,k);return[0,[0,[0,T(function(b,a){return[2,b,a]},b,c),m],f]];case
+f=a[4],c=a[3],g=a[2],d=a[1],i=ay(d),j=cA(d,g,c,f,b),k=ac(c3(a[5],j),i),l=e6(d,g,c,b),m=U(function(b,a){return[2,b,a]},l,k);return[0,[0,[0,U(function(b,a){return[2,b,a]},b,c),m],f]];case
 1:var
-h=a[2],e=aV(a[1],h,b),n=[6,w(e,e)];return[0,[0,[0,T(function(b,a){return[2,b,a]},b,h),e],n]];default:return 0}}function
+h=a[2],e=aW(a[1],h,b),n=[6,x(e,e)];return[0,[0,[0,U(function(b,a){return[2,b,a]},b,h),e],n]];default:return 0}}function
 mi(m,e,a){switch(a[0]){case
 0:var
-n=a[5],c=F(m,a[1]);if(c){var
+n=a[5],c=G(m,a[1]);if(c){var
 d=c[1];if(d)var
 f=d[1],g=f[1],h=f[2],o=g[2],p=g[1],j=function(a){var
-b=c3(n),c=ac(a,o),d=T(function(b,a){return[3,b,a]},p,c);return T(function(b,a){return[2,b,a]},d,b)},q=j([5,a[4],h]),k=[0,[0,j([3,[0,b,b],[5,a[3],h]]),q]];else
+b=c5(n),c=ac(a,o),d=U(function(b,a){return[3,b,a]},p,c);return U(function(b,a){return[2,b,a]},d,b)},q=j([5,a[4],h]),k=[0,[0,j([3,[0,b,b],[5,a[3],h]]),q]];else
 var
 k=d;var
 l=k}else
 var
 l=c;return l;case
 1:var
-r=c3(a[3]);return[0,[0,c3(a[2]),r]];default:var
-s=i(e,c3(a[3]));return[0,[0,i(e,c3(a[2])),s]]}}function
+r=c5(a[3]);return[0,[0,c5(a[2]),r]];default:var
+s=i(e,c5(a[3]));return[0,[0,i(e,c5(a[2])),s]]}}function
 mj(d,a,c,b){var
-e=ac(a,b),f=ac([3,d,a],c);return T(function(b,a){return[2,b,a]},f,e)}function
+e=ac(a,b),f=ac([3,d,a],c);return U(function(b,a){return[2,b,a]},f,e)}function
 mk(a,l,c,k,j,y){var
 d=i(l,k);if(d){var
 m=d[1],e=i(l,j);if(e){var
-n=e[1],f=c[1],g=c[2],b=c[3],z=mj(b,g,n[1],n[2]),A=mj(b,f,m[1],m[2]),o=T(function(b,a){return[3,b,a]},A,z),B=d0(j),p=[4,b,[2,[2,d0(k),B],y]],q=h(a,1,b),r=q?h(a,0,f):q,s=r?h(a,0,[3,b,f]):r,t=s?h(a,0,g):s,u=t?h(a,0,[3,b,g]):t;if(u)return h(a,1,[3,[4,p,p],w(o,o)]);var
+n=e[1],f=c[1],g=c[2],b=c[3],z=mj(b,g,n[1],n[2]),A=mj(b,f,m[1],m[2]),o=U(function(b,a){return[3,b,a]},A,z),B=d1(j),p=[4,b,[2,[2,d1(k),B],y]],q=h(a,1,b),r=q?h(a,0,f):q,s=r?h(a,0,[3,b,f]):r,t=s?h(a,0,g):s,u=t?h(a,0,[3,b,g]):t;if(u)return h(a,1,[3,[4,p,p],x(o,o)]);var
 v=u}else
 var
 v=e;var
-x=v}else
+w=v}else
 var
-x=d;return x}function
+w=d;return w}function
 ml(d,c,b,a,i,g,f,e){var
 j=h(d,1,b),k=j?h(d,1,a):j;if(k){var
-l=ao(c,f,f),m=[4,[4,a,a],[4,ao(c,g,g),l]];return h(d,1,[3,[4,[4,[4,b,b],[4,i,i]],ao(c,e,e)],m])}return k}function
+l=aq(c,f,f),m=[4,[4,a,a],[4,aq(c,g,g),l]];return h(d,1,[3,[4,[4,[4,b,b],[4,i,i]],aq(c,e,e)],m])}return k}function
 mm(i,g,c,f,y,a){function
-R(a){return[4,[4,[5,[0,b,b],a],[5,[0,b,b],a]],w(f,f)]}var
+R(a){return[4,[4,[5,[0,b,b],a],[5,[0,b,b],a]],x(f,f)]}var
 N=0;if(typeof
 a==="number")N=1;else
 switch(a[0]){case
@@ -3177,25 +3177,25 @@ aG=e7(g,c,f);return h(i,1,[3,R(a[1]),aG]);case
 1:var
 aH=R(a[1]);return h(i,1,[3,e7(g,c,f),aH]);case
 2:var
-aI=a[2],aJ=function(a){return[3,aI,c2(a,c)]},A=aJ,z=a[1];break;case
+aI=a[2],aJ=function(a){return[3,aI,c4(a,c)]},A=aJ,z=a[1];break;case
 3:var
-aK=a[2],aL=function(a){return[3,c2(a,c),aK]},A=aL,z=a[1];break;case
+aK=a[2],aL=function(a){return[3,c4(a,c),aK]},A=aL,z=a[1];break;case
 4:var
-S=a[3],U=a[2],aM=function(a){var
-b=ca(a,c);return[3,[4,[4,U,U],w(ca(a,c),b)],[4,S,S]]},A=aM,z=a[1];break;case
+S=a[3],T=a[2],aM=function(a){var
+b=cc(a,c);return[3,[4,[4,T,T],x(cc(a,c),b)],[4,S,S]]},A=aM,z=a[1];break;case
 5:var
-V=a[1],aN=w(f,f),aO=[4,[4,V,V],[4,e7(g,c,y),aN]],aP=w(y,y);return h(i,1,[3,[4,e7(g,c,f),aP],aO]);case
+V=a[1],aN=x(f,f),aO=[4,[4,V,V],[4,e7(g,c,y),aN]],aP=x(y,y);return h(i,1,[3,[4,e7(g,c,f),aP],aO]);case
 6:var
-W=a[2],C=F(g,a[1]);if(C){var
+W=a[2],C=G(g,a[1]);if(C){var
 k=C[1];if(0===k[0]){var
-D=k[4],aQ=cy(k[1],k[2],k[3],D,c),X=c1(k[5],aQ);return h(i,1,[3,[4,[4,W,D],[4,W,D]],[4,X,X]])}var
+D=k[4],aQ=cA(k[1],k[2],k[3],D,c),X=c3(k[5],aQ);return h(i,1,[3,[4,[4,W,D],[4,W,D]],[4,X,X]])}var
 Y=0}else
 var
 Y=C;return Y;case
 7:if(g){var
 p=g[2];if(p){var
 q=p[2];if(q){if(q[2])return 0;var
-Z=q[1],_=p[1],$=g[1],aR=iw(Z,c),aS=iw(_,c),aT=iw($,c),aa=[4,[4,[4,a[1],aT],aS],aR],l=cz(Z,c),m=cz(_,c),aU=cz($,c),O=w(aU,[0,[3,[4,m[2],l[3]],[4,m[3],l[2]]],[3,[4,m[3],l[1]],[4,m[1],l[3]]],[3,[4,m[1],l[2]],[4,m[2],l[1]]]]),ab=h(i,1,[3,aa,O]);if(ab)return h(i,1,[2,aa,O]);var
+Z=q[1],_=p[1],$=g[1],aR=ix(Z,c),aS=ix(_,c),aT=ix($,c),aa=[4,[4,[4,a[1],aT],aS],aR],l=cB(Z,c),m=cB(_,c),aU=cB($,c),O=x(aU,[0,[3,[4,m[2],l[3]],[4,m[3],l[2]]],[3,[4,m[3],l[1]],[4,m[1],l[3]]],[3,[4,m[1],l[2]],[4,m[2],l[1]]]]),ab=h(i,1,[3,aa,O]);if(ab)return h(i,1,[2,aa,O]);var
 ad=ab}else
 var
 ad=q;var
@@ -3206,48 +3206,48 @@ af=ae}else
 var
 af=g;return af;case
 8:var
-aW=e7(g,c,f),aX=w(f,f);return h(i,1,[3,[4,[5,a[2],a[1]],aX],aW]);case
+aV=e7(g,c,f),aX=x(f,f);return h(i,1,[3,[4,[5,a[2],a[1]],aX],aV]);case
 9:var
 ag=a[1],E=mg(g,c);if(E){var
-aY=E[1],aA=[0,d,b],aB=aq(function(a,b){var
-c=w(ay(a),f);return[2,[4,w(ay(a),f),c],b]},aA,aY);return h(i,1,[3,[4,[4,ag,ag],w(f,f)],aB])}return E;case
+aY=E[1],aA=[0,d,b],aB=an(function(a,b){var
+c=x(ay(a),f);return[2,[4,x(ay(a),f),c],b]},aA,aY);return h(i,1,[3,[4,[4,ag,ag],x(f,f)],aB])}return E;case
 10:var
-aZ=a[3],a0=a[2],a1=a[1],aC=function(b,a){return[2,b,a]},aD=function(a){return T(aC,c,a)},aE=e(function(a){return mh(a,c)},g);return mk(i,function(a){return mi(aE,aD,a)},f,a1,a0,aZ);case
+aZ=a[3],a0=a[2],a1=a[1],aC=function(b,a){return[2,b,a]},aD=function(a){return U(aC,c,a)},aE=e(function(a){return mh(a,c)},g);return mk(i,function(a){return mi(aE,aD,a)},f,a1,a0,aZ);case
 11:var
-ah=a[4],G=F(g,a[1]);if(G){var
-H=mh(G[1],c);if(H){var
-n=H[1][1][2],a2=c3(a[3]),a3=c3(a[2]),r=T(function(b,a){return[3,b,a]},a3,a2),ai=h(i,1,w(n,n));if(ai){var
-a4=w(n,n),a5=w(r,n),a6=[5,[4,w(r,n),a5],a4];return h(i,1,[3,[4,ah,ah],[3,w(r,r),a6]])}var
+ah=a[4],F=G(g,a[1]);if(F){var
+H=mh(F[1],c);if(H){var
+n=H[1][1][2],a2=c5(a[3]),a3=c5(a[2]),r=U(function(b,a){return[3,b,a]},a3,a2),ai=h(i,1,x(n,n));if(ai){var
+a4=x(n,n),a5=x(r,n),a6=[5,[4,x(r,n),a5],a4];return h(i,1,[3,[4,ah,ah],[3,x(r,r),a6]])}var
 aj=ai}else
 var
 aj=H;var
 ak=aj}else
 var
-ak=G;return ak;case
+ak=F;return ak;case
 12:var
-o=a[3],s=a[2],I=F(g,a[1]);if(I){var
+o=a[3],s=a[2],I=G(g,a[1]);if(I){var
 j=I[1],al=h(i,0,s),am=al?h(i,0,o):al;if(am){var
 a7=a[4];switch(j[0]){case
 0:var
-v=j[4],x=[5,v,[6,cy(j[1],j[2],j[3],v,c)]],J=[4,x,[2,s,[4,[5,[4,o,o],v],[4,x,x]]]];break;case
+v=j[4],w=[5,v,[6,cA(j[1],j[2],j[3],v,c)]],J=[4,w,[2,s,[4,[5,[4,o,o],v],[4,w,w]]]];break;case
 1:var
-P=j[2],Q=j[1],aF=aV(Q,P,c),J=[2,s,[5,[4,o,o],[6,w(aV(Q,P,c),aF)]]];break;default:var
+P=j[2],Q=j[1],aF=aW(Q,P,c),J=[2,s,[5,[4,o,o],[6,x(aW(Q,P,c),aF)]]];break;default:var
 J=s}var
 K=h(i,1,[3,J,a7])}else
 var
-K=am;if(K){if(2===j[0])return h(i,1,w(f,f));var
-an=1}else
+K=am;if(K){if(2===j[0])return h(i,1,x(f,f));var
+ao=1}else
 var
-an=K;var
-ao=an}else
+ao=K;var
+ap=ao}else
 var
-ao=I;return ao;case
+ap=I;return ap;case
 13:if(g){var
 t=g[2];if(t){var
 u=t[2];if(u){if(u[2])return 0;var
-ap=u[1],ar=t[1],as=g[1],at=a[1],L=F([0,f[1],[0,f[2],[0,f[3],0]]],at);if(L){var
-M=F([0,as,[0,ar,[0,ap,0]]],at);if(M){var
-au=M[1],a8=cz(au,c),a9=ca(au,c),a_=cz(ap,c),a$=ac(f[3],a_),ba=cz(ar,c),bb=ac(f[2],ba),bc=cz(as,c),bd=ac(f[1],bc),be=T(function(b,a){return[2,b,a]},bd,bb),bf=T(function(b,a){return[2,b,a]},be,a$);return ml(i,w,a[2],a[3],L[1],bf,a9,a8)}var
+aq=u[1],ar=t[1],as=g[1],at=a[1],L=G([0,f[1],[0,f[2],[0,f[3],0]]],at);if(L){var
+M=G([0,as,[0,ar,[0,aq,0]]],at);if(M){var
+au=M[1],a8=cB(au,c),a9=cc(au,c),a_=cB(aq,c),a$=ac(f[3],a_),ba=cB(ar,c),bb=ac(f[2],ba),bc=cB(as,c),bd=ac(f[1],bc),be=U(function(b,a){return[2,b,a]},bd,bb),bf=U(function(b,a){return[2,b,a]},be,a$);return ml(i,x,a[2],a[3],L[1],bf,a9,a8)}var
 av=M}else
 var
 av=L;var
@@ -3261,59 +3261,44 @@ az=ax}else
 var
 az=g;return az;case
 15:var
-bg=me(a[1],g,c,f),bh=w(f,f);return h(i,1,[3,[4,a[2],bh],bg]);default:N=1}if(N)return 0;var
-B=F(g,z);return B?h(i,1,A(B[1])):B}function
+bg=me(a[1],g,c,f),bh=x(f,f);return h(i,1,[3,[4,a[2],bh],bg]);default:N=1}if(N)return 0;var
+B=G(g,z);return B?h(i,1,A(B[1])):B}function
 bA(a){return[0,a[1][1],a[2][1],a[3][1]]}function
 mn(a){switch(a[0]){case
 0:var
 b=a[1],c=b[5],d=b[4][1],e=bA(b[3]),f=bA(b[2]);return[0,bA(b[1]),f,e,d,c];case
 1:var
 g=z(bA,a[3]),h=bA(a[2]);return[1,bA(a[1]),h,g];default:return[2,bA(a[1])]}}function
-ix(a){return 0===a[0]?bA(a[1]):[0,a[1],a[2],a[4][1]]}function
+iy(a){return 0===a[0]?bA(a[1]):[0,a[1],a[2],a[4][1]]}function
 mo(b,a){var
-c=ix(a[2]);return gv(b,a,e(mn,a[1]),c)}function
+c=iy(a[2]);return gw(b,a,e(mn,a[1]),c)}function
 mp(b,a,c){var
-d=[0,c,aU(b,a)];return f(aI(b,a),d)}function
-a7(c,a){if(c){if(a){var
-e=a7(c[2],a[2]);return[2,[4,c[1],a[1]],e]}return[0,d,b]}return[0,d,b]}function
+d=[0,c,aV(b,a)];return f(aI(b,a),d)}function
+bn(c,a){if(c){if(a){var
+e=bn(c[2],a[2]);return[2,[4,c[1],a[1]],e]}return[0,d,b]}return[0,d,b]}function
 mq(e,c,a){if(e){if(c){var
-f=c[1],g=mq(e[2],c[2],a),h=a7(f,a),i=[4,a7(f,a),h];return[2,[4,e[1],i],g]}return[0,d,b]}return[0,d,b]}function
+f=c[1],g=mq(e[2],c[2],a),h=bn(f,a),i=[4,bn(f,a),h];return[2,[4,e[1],i],g]}return[0,d,b]}return[0,d,b]}function
 mr(b,a){if(b){if(a){var
 c=b[1],e=mr(b[2],a[2]),f=a[1],g=function(b,a){return[2,[4,c,b],a]},h=function(a){return a};return aK(function(a){return[4,c,a]},h,g,f,e)}var
 d=a}else
 var
 d=b;return d}function
-iy(e){function
-c(d,c,b,a){return[3,[4,d,a],[4,c,b]]}if(e){var
-f=e[1];if(f){var
-g=f[2];if(g){var
-h=g[2],r=g[1],s=f[1],a=e[2];if(h){if(h[2])return[0,d,b];if(a){var
-i=a[1];if(i){var
-j=i[2];if(j){var
-k=j[2];if(k){if(k[2])return[0,d,b];var
-l=a[2];if(l){var
-m=l[1];if(m){var
-n=m[2];if(n){var
-o=n[2];if(o){if(o[2])return[0,d,b];if(l[2])return[0,d,b];var
-t=o[1],u=n[1],v=m[1],w=k[1],x=j[1],y=i[1],z=c(y,x,v,u),A=[4,h[1],z],B=[4,r,c(y,w,v,t)];return[2,[3,[4,s,c(x,w,u,t)],B],A]}return[0,d,b]}return[0,d,b]}return[0,d,b]}return[0,d,b]}return[0,d,b]}return[0,d,b]}return[0,d,b]}return[0,d,b]}if(a){var
-p=a[1];if(p){var
-q=p[2];return q?q[2]?[0,d,b]:a[2]?[0,d,b]:c(s,r,p[1],q[1]):[0,d,b]}return[0,d,b]}return[0,d,b]}return[0,d,b]}return[0,d,b]}return[0,d,b]}function
 ms(b,c,a){var
-d=[0,c,aU([0,b],a)];return f(aI(b,a),d)}function
+d=[0,c,aV([0,b],a)];return f(aI(b,a),d)}function
 mt(a,b){var
-e=p(a,td),c=e||p(a,te),d=c?p(g(b),a):c;return d?m(function(b){return p(g(b),a)},b):d}function
+e=p(a,te),c=e||p(a,tf),d=c?p(g(b),a):c;return d?m(function(b){return p(g(b),a)},b):d}function
 mu(a){if(a){var
 b=a[1];if(b){var
-c=b[1],d=mu(a[2]);return z(function(a){return[0,c,a]},d)}return b}return tf}function
-gw(a){if(a){var
+c=b[1],d=mu(a[2]);return z(function(a){return[0,c,a]},d)}return b}return tg}function
+gx(a){if(a){var
 b=a[1];if(b){var
-c=b[1],d=gw(a[2]);return z(function(a){return[0,c,a]},d)}return b}return tg}function
+c=b[1],d=gx(a[2]);return z(function(a){return[0,c,a]},d)}return b}return th}function
 mv(a,l,k,f){var
-b=aE(a,l);if(b){var
-c=aE(a,k);if(c){var
-d=cS(a,f);if(d){var
-e=f8(a,f);if(e)var
-m=t(a,b[1],e[1]),g=[0,H(t(a,c[1],d[1]),m)];else
+b=aC(a,l);if(b){var
+c=aC(a,k);if(c){var
+d=cU(a,f);if(d){var
+e=f9(a,f);if(e)var
+m=t(a,b[1],e[1]),g=[0,E(t(a,c[1],d[1]),m)];else
 var
 g=e;var
 h=g}else
@@ -3326,92 +3311,119 @@ j=i}else
 var
 j=b;return j}function
 mw(a){return a?J(a[1][2],d):a}function
-ee(a){return a?J(d,a[1][1]):a}function
+cd(a){return a?J(d,a[1][1]):a}function
 mx(d,a){return h(d,0,[3,[0,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b))))))))),b],a])}function
-my(a,l,k,o,f,j){function
-aC(c,a){return[4,[4,[5,[0,b,b],c],[5,[0,b,b],c]],a7(a,a)]}var
-bm=k[1];function
-y(c){var
-a=[0,d,b];return aq(function(a,b){var
-d=a7(a,c);return[2,[4,a7(a,c),d],b]},a,bm)}function
-z(f,e){var
-a=F(k[1],f);if(a){var
-b=a[1],c=p(g(b),l);if(c)return i(e,b);var
+my(d,a){if(a){var
+b=aC(d,a[1]);if(b)var
+c=my(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
+var
+e=b;return e}return ti}function
+gy(d,a){if(a){var
+b=my(d,a[1]);if(b)var
+c=gy(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
+var
+e=b;return e}return tj}function
+mz(b,a){return an(function(c,a){return A(S(b,c),a)},u,a)}function
+mA(b,d){function
+c(e,d,c,a){var
+f=t(b,d,c);return E(t(b,e,a),f)}if(d){var
+e=d[1];if(e){var
+f=e[2];if(f){var
+g=f[2],q=f[1],r=e[1],a=d[2];if(g){if(g[2])return u;if(a){var
+h=a[1];if(h){var
+i=h[2];if(i){var
+j=i[2];if(j){if(j[2])return u;var
+k=a[2];if(k){var
+l=k[1];if(l){var
+m=l[2];if(m){var
+n=m[2];if(n){if(n[2])return u;if(k[2])return u;var
+s=n[1],v=m[1],w=l[1],x=j[1],y=i[1],z=h[1],B=c(z,y,w,v),C=t(b,g[1],B),D=t(b,q,c(z,x,w,s));return A(E(t(b,r,c(y,x,v,s)),D),C)}return u}return u}return u}return u}return u}return u}return u}return u}if(a){var
+o=a[1];if(o){var
+p=o[2];return p?p[2]?u:a[2]?u:c(r,q,o[1],p[1]):u}return u}return u}return u}return u}return u}function
+mB(a,o,l,s,f,j){function
+a1(c,a){return[4,[4,[5,[0,b,b],c],[5,[0,b,b],c]],bn(a,a)]}var
+bL=l[1];function
+B(c){var
+a=[0,d,b];return an(function(a,b){var
+d=bn(a,c);return[2,[4,bn(a,c),d],b]},a,bL)}function
+C(f,e){var
+a=G(l[1],f);if(a){var
+b=a[1],c=p(g(b),o);if(c)return i(e,b);var
 d=c}else
 var
 d=a;return d}var
-aD=m(function(c){var
+a2=m(function(c){var
 b=0;if(typeof
 j==="number")b=1;else
 switch(j[0]){case
 6:var
-a=th;break;case
+a=tk;break;case
 13:case
 14:var
-a=ti;break;default:b=1}if(b)var
-a=l;return p(g(c),a)},f);if(aD){var
-s=0;if(typeof
-j==="number")s=1;else
+a=tl;break;default:b=1}if(b)var
+a=o;return p(g(c),a)},f);if(a2){var
+v=0;if(typeof
+j==="number")v=1;else
 switch(j[0]){case
 0:if(f){if(f[2])return 0;var
-aG=f[1],bn=y(aG);return h(a,1,[3,aC(j[1],aG),bn])}return f;case
+a4=f[1],bM=B(a4);return h(a,1,[3,a1(j[1],a4),bM])}return f;case
 1:if(f){if(f[2])return 0;var
-aH=f[1],bo=aC(j[1],aH);return h(a,1,[3,y(aH),bo])}return f;case
+a5=f[1],bO=a1(j[1],a5);return h(a,1,[3,B(a5),bO])}return f;case
 2:if(f)return 0;var
-bp=j[2],bq=function(b){if(typeof
-b!=="number"&&0===b[0])return h(a,1,[3,bp,b[1]]);return 0},U=bq,S=j[1];break;case
+bP=j[2],bQ=function(b){if(typeof
+b!=="number"&&0===b[0])return h(a,1,[3,bP,b[1]]);return 0},ai=bQ,ah=j[1];break;case
 3:if(f)return 0;var
-br=j[2],bs=function(b){if(typeof
-b!=="number"&&0===b[0])return h(a,1,[3,b[1],br]);return 0},U=bs,S=j[1];break;case
+bR=j[2],bS=function(b){if(typeof
+b!=="number"&&0===b[0])return h(a,1,[3,b[1],bR]);return 0},ai=bS,ah=j[1];break;case
 4:if(f)return 0;var
-aI=j[3],aJ=j[2],bt=function(d){var
-i=p(o,0);if(typeof
+a6=j[3],a7=j[2],bT=function(d){var
+i=p(s,0);if(typeof
 d!=="number"&&1===d[0]){var
-e=d[2],f=d[1],g=h(a,0,[3,[2,aJ,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b]],aI]);return g?i?mw(mv(a,f,e,aJ)):ee(mv(a,f,e,aI)):g}return 0},U=bt,S=j[1];break;case
+e=d[2],f=d[1],g=h(a,0,[3,[2,a7,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b]],a6]);return g?i?mw(mv(a,f,e,a7)):cd(mv(a,f,e,a6)):g}return 0},ai=bT,ah=j[1];break;case
 5:if(f){var
-A=f[2];if(A){if(A[2])return 0;var
-W=A[1],Y=f[1],aK=j[1],bu=a7(Y,Y),bv=[4,[4,aK,aK],[4,y(W),bu]],bw=a7(W,W);return h(a,1,[3,[4,y(Y),bw],bv])}var
-aL=A}else
+D=f[2];if(D){if(D[2])return 0;var
+ak=D[1],al=f[1],a8=j[1],bU=bn(al,al),bV=[4,[4,a8,a8],[4,B(ak),bU]],bW=bn(ak,ak);return h(a,1,[3,[4,B(al),bW],bV])}var
+a9=D}else
 var
-aL=f;return aL;case
+a9=f;return a9;case
 6:var
-aM=j[2],bx=j[3],by=function(b){var
-c=[5,bx,aM],d=h(a,1,aM);return d?h(a,1,[3,a7(b,b),[4,c,c]]):d},aN=z(j[1],by);if(aN){if(k[4]){if(f){var
-B=f[1];if(B){if(B[2])return 0;if(f[2])return 0;var
-aO=B[1];return h(a,1,[4,aO,aO])}var
-aP=B}else
+a_=j[2],bX=j[3],bY=function(b){var
+c=[5,bX,a_],d=h(a,1,a_);return d?h(a,1,[3,bn(b,b),[4,c,c]]):d},a$=C(j[1],bY);if(a$){if(l[4]){if(f){var
+F=f[1];if(F){if(F[2])return 0;if(f[2])return 0;var
+ba=F[1];return h(a,1,[4,ba,ba])}var
+bb=F}else
 var
-aP=f;return aP}if(f)return 0;var
-aQ=1}else
+bb=f;return bb}if(f)return 0;var
+bc=1}else
 var
-aQ=aN;return aQ;case
+bc=a$;return bc;case
 7:if(f){if(f[2])return 0;var
-aR=f[1],Z=j[1],bz=j[3],bA=j[2],_=gw(k[7]);if(_){var
-C=_[1],$=F(aR,Z);if($){var
-bB=$[1],aS=p(g(C),l),aT=aS?m(function(a){return p(g(a),l)},C):aS;if(aT){var
-aa=F(C,Z);if(aa){var
-bC=aa[1];return z(Z,function(b){return ml(a,a7,bA,bz,bB,mr(aR,C),b,bC)})}var
-aU=aa}else
+bd=f[1],am=j[1],bZ=j[3],b0=j[2],ao=gx(l[7]);if(ao){var
+H=ao[1],ap=G(bd,am);if(ap){var
+b1=ap[1],be=p(g(H),o),bf=be?m(function(a){return p(g(a),o)},H):be;if(bf){var
+aq=G(H,am);if(aq){var
+b2=aq[1];return C(am,function(b){return ml(a,bn,b0,bZ,b1,mr(bd,H),b,b2)})}var
+bg=aq}else
 var
-aU=aT;var
-aV=aU}else
+bg=bf;var
+bh=bg}else
 var
-aV=$;var
-aW=aV}else
+bh=ap;var
+bi=bh}else
 var
-aW=_;var
-aX=aW}else
+bi=ao;var
+bj=bi}else
 var
-aX=f;return aX;case
+bj=f;return bj;case
 8:if(f){if(f[2])return 0;var
-ab=f[1],bD=mq(j[1],k[1],ab),bE=a7(ab,ab);return h(a,1,[3,[4,j[2],bE],bD])}return f;case
+ar=f[1],b3=mq(j[1],l[1],ar),b4=bn(ar,ar);return h(a,1,[3,[4,j[2],b4],b3])}return f;case
 9:if(f)return 0;var
-aY=j[3],aZ=j[2],bF=function(e){var
-f=h(a,1,aZ),g=f?h(a,0,aY):f;if(g){var
-b=aE(a,a7(e,e));if(b){var
-c=aE(a,[5,aY,aZ]);if(c){var
+bk=j[3],bl=j[2],b5=function(e){var
+f=h(a,1,bl),g=f?h(a,0,bk):f;if(g){var
+b=aC(a,bn(e,e));if(b){var
+c=aC(a,[5,bk,bl]);if(c){var
 d=lf(a,c[1]);if(d){var
-l=X(a,d[1]);return ee([0,H(b[1],l)])}var
+l=S(a,d[1]);return cd([0,E(b[1],l)])}var
 i=d}else
 var
 i=c;var
@@ -3420,17 +3432,17 @@ var
 j=b;var
 k=j}else
 var
-k=g;return k};return z(j[1],bF);case
+k=g;return k};return C(j[1],b5);case
 10:if(f)return 0;var
-bG=j[2],bH=function(b){var
-c=[4,bG,b[3]],d=h(a,1,c);return d?h(a,1,[3,[4,c,c],[4,b[2],b[2]]]):d},a1=bH,a0=j[1];s=2;break;case
+b6=j[2],b7=function(b){var
+c=[4,b6,b[3]],d=h(a,1,c);return d?h(a,1,[3,[4,c,c],[4,b[2],b[2]]]):d},bo=b7,bm=j[1];v=2;break;case
 11:if(f)return 0;var
-bI=j[2],bJ=function(e){var
-b=cS(a,bI);if(b){var
-c=aE(a,e[3]);if(c){var
-d=aE(a,e[2]);if(d){var
-f=t(a,b[1],c[1]),g=ee([0,f]);if(g){var
-k=X(a,d[1]);return ee([0,H(X(a,f),k)])}var
+b8=j[2],b9=function(e){var
+b=cU(a,b8);if(b){var
+c=aC(a,e[3]);if(c){var
+d=aC(a,e[2]);if(d){var
+f=t(a,b[1],c[1]),g=cd([0,f]);if(g){var
+k=S(a,d[1]);return cd([0,E(S(a,f),k)])}var
 h=g}else
 var
 h=d;var
@@ -3439,185 +3451,249 @@ var
 i=c;var
 j=i}else
 var
-j=b;return j},a1=bJ,a0=j[1];s=2;break;case
+j=b;return j},bo=b9,bm=j[1];v=2;break;case
 12:if(f)return 0;var
-ae=mu(k[3]);if(ae){var
-a3=ae[1],bK=j[1],a4=bL(function(b,a){return[4,b,a[3]]},a3,bK),a5=iy(e(function(a){return a[1]},a3)),a6=h(a,1,[3,a4,a5]);if(a6)return h(a,1,[2,a4,a5]);var
-a8=a6}else
+au=mu(l[3]);if(au){var
+bq=au[1],b_=j[1],br=bN(function(b,a){return[4,b,a[3]]},bq,b_),av=e(function(a){return a[1]},bq),w=function(d,c,b,a){return[3,[4,d,a],[4,c,b]]};if(av){var
+N=av[1];if(N){var
+O=N[2];if(O){var
+P=O[2],aD=O[1],aE=N[1],n=av[2];if(P)if(P[2]||!n)var
+k=[0,d,b];else{var
+Q=n[1];if(Q){var
+R=Q[2];if(R){var
+T=R[2];if(T&&!T[2]){var
+V=n[2];if(V){var
+W=V[1];if(W){var
+X=W[2];if(X){var
+Y=X[2];if(Y&&!(Y[2]||V[2]))var
+aF=Y[1],aG=X[1],aH=W[1],aI=T[1],aJ=R[1],aK=Q[1],bE=w(aK,aJ,aH,aG),bF=[4,P[1],bE],bG=[4,aD,w(aK,aI,aH,aF)],k=[2,[3,[4,aE,w(aJ,aI,aG,aF)],bG],bF];else
 var
-a8=ae;return a8;case
+k=[0,d,b]}else
+var
+k=[0,d,b]}else
+var
+k=[0,d,b]}else
+var
+k=[0,d,b]}else
+var
+k=[0,d,b]}else
+var
+k=[0,d,b]}else
+var
+k=[0,d,b]}else
+if(n){var
+Z=n[1];if(Z)var
+_=Z[2],k=_?_[2]?[0,d,b]:n[2]?[0,d,b]:w(aE,aD,Z[1],_[1]):[0,d,b];else
+var
+k=[0,d,b]}else
+var
+k=[0,d,b]}else
+var
+k=[0,d,b]}else
+var
+k=[0,d,b]}else
+var
+k=[0,d,b];var
+bs=h(a,1,[3,br,k]);if(bs)return h(a,1,[2,br,k]);var
+bt=bs}else
+var
+bt=au;return bt;case
 13:var
-bM=j[2],af=F(k[4],j[1]);if(af){var
-ag=af[1];if(ag){var
-a9=function(a){if(bM){var
-c=i(k[5],[0,[0,d,b],[0,d,b],[0,d,b]]),e=i(k[5],a);return T(function(b,a){return[3,b,a]},e,c)}return a},D=j[4],q=a9(c3(j[3])),E=ag[1][1][2],n=w(E,q);if(mx(a,D)){if(o){if(o[1])return 0;if(f){var
-u=f[1];if(u){var
-v=u[2];if(v){var
-x=v[2];if(x){if(x[2])return 0;if(f[2])return 0;var
-L=a9([0,u[1],v[1],x[1]]),al=w(E,L),am=h(a,1,n);if(am){var
-M=cS(a,D);if(M){var
-an=M[1],N=aE(a,[4,w(q,q),[4,al,al]]);if(N){var
-O=aE(a,[4,[4,n,n],w(L,L)]);if(O){var
-ao=ee([0,an]);if(ao){var
-bi=O[1],bj=N[1];return ee([0,H(t(a,X(a,an),bj),bi)])}var
-ap=ao}else
+b$=j[2],aw=G(l[4],j[1]);if(aw){var
+ax=aw[1];if(ax){var
+bu=function(a){if(b$){var
+c=i(l[5],[0,[0,d,b],[0,d,b],[0,d,b]]),e=i(l[5],a);return U(function(b,a){return[3,b,a]},e,c)}return a},I=j[4],u=bu(c5(j[3])),J=ax[1][1][2],q=x(J,u);if(mx(a,I)){if(s){if(s[1])return 0;if(f){var
+y=f[1];if(y){var
+z=y[2];if(z){var
+A=z[2];if(A){if(A[2])return 0;if(f[2])return 0;var
+$=bu([0,y[1],z[1],A[1]]),aL=x(J,$),aM=h(a,1,q);if(aM){var
+ab=cU(a,I);if(ab){var
+aN=ab[1],ac=aC(a,[4,x(u,u),[4,aL,aL]]);if(ac){var
+ad=aC(a,[4,[4,q,q],x($,$)]);if(ad){var
+aO=cd([0,aN]);if(aO){var
+bH=ad[1],bI=ac[1];return cd([0,E(t(a,S(a,aN),bI),bH)])}var
+aP=aO}else
 var
-ap=O;var
-ar=ap}else
+aP=ad;var
+aQ=aP}else
 var
-ar=N;var
-as=ar}else
+aQ=ac;var
+aR=aQ}else
 var
-as=M;var
-at=as}else
+aR=ab;var
+aS=aR}else
 var
-at=am;var
-au=at}else
+aS=aM;var
+aT=aS}else
 var
-au=x;var
-av=au}else
+aT=A;var
+aU=aT}else
 var
-av=v;var
-aw=av}else
+aU=z;var
+aV=aU}else
 var
-aw=u;var
-ax=aw}else
+aV=y;var
+aW=aV}else
 var
-ax=f;return ax}return f?0:h(a,1,[3,[0,d,b],n])}if(o)return 0;if(f)return 0;var
-ay=h(a,0,[3,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b],D]);if(ay){var
-P=cS(a,D);if(P){var
-Q=aE(a,n);if(Q){var
-bk=w(E,E),R=aE(a,[6,[4,w(q,q),bk]]);if(R){var
-bl=t(a,P[1],R[1]);return mw([0,H(Q[1],bl)])}var
-az=R}else
+aW=f;return aW}return f?0:h(a,1,[3,[0,d,b],q])}if(s)return 0;if(f)return 0;var
+aX=h(a,0,[3,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b],I]);if(aX){var
+ae=cU(a,I);if(ae){var
+af=aC(a,q);if(af){var
+bJ=x(J,J),ag=aC(a,[6,[4,x(u,u),bJ]]);if(ag){var
+bK=t(a,ae[1],ag[1]);return mw([0,E(af[1],bK)])}var
+aY=ag}else
 var
-az=Q;var
-aA=az}else
+aY=af;var
+aZ=aY}else
 var
-aA=P;var
-aB=aA}else
+aZ=ae;var
+a0=aZ}else
 var
-aB=ay;return aB}var
-a_=ag}else
+a0=aX;return a0}var
+bv=ax}else
 var
-a_=af;return a_;case
+bv=aw;return bv;case
 14:if(f){var
-G=f[1];if(G){var
-I=G[2];if(I){var
-J=I[2];if(J){if(J[2])return 0;if(f[2])return 0;var
-bN=j[3],bO=j[2],bP=j[1],bQ=[0,G[1],I[1],J[1]],bR=k[5],bS=k[4];return mk(a,function(a){return mi(bS,bR,a)},bQ,bP,bO,bN)}var
-a$=J}else
+K=f[1];if(K){var
+L=K[2];if(L){var
+M=L[2];if(M){if(M[2])return 0;if(f[2])return 0;var
+ca=j[3],cb=j[2],cc=j[1],ce=[0,K[1],L[1],M[1]],cf=l[5],cg=l[4];return mk(a,function(a){return mi(cg,cf,a)},ce,cc,cb,ca)}var
+bw=M}else
 var
-a$=I;var
-ba=a$}else
+bw=L;var
+bx=bw}else
 var
-ba=G;var
-bb=ba}else
+bx=K;var
+by=bx}else
 var
-bb=f;return bb;case
+by=f;return by;case
 17:if(f)return 0;var
-ah=j[3],bc=j[2],ai=j[1],aj=gw(k[7]);if(aj){var
-K=aj[1],bd=mt(l,K),be=bd?p(g(bc),l):bd;if(be){var
-ak=F(K,ai);if(ak){var
-bf=ak[1];return z(ai,function(g){var
-c=iy(K),e=iy(ms(ai,bc,K)),i=h(a,1,ah),j=i?h(a,1,[4,c,c]):i;if(j)var
-k=p(o,0)?e:[3,[0,d,b],e],f=h(a,1,k);else
+bz=j[2],ay=j[1],ch=j[3],az=gx(l[7]);if(az){var
+aA=az[1],bA=mt(o,aA),bB=bA?p(g(bz),o):bA;if(bB){var
+aB=G(aA,ay);if(aB){var
+ci=aB[1];return C(ay,function(x){var
+e=gy(a,aA);if(e){var
+j=e[1],f=gy(a,[0,bz,[0,x,[0,ci,0]]]);if(f){var
+b=f[1];if(b){var
+c=b[2];if(c){var
+d=c[2];if(d){if(d[2])return 0;var
+g=aC(a,ch);if(g){var
+k=g[1],l=S(a,mA(a,j)),h=mA(a,ms(ay,b[1],j)),m=cd([0,k]),n=m?cd([0,l]):m;if(n)var
+y=p(s,0)?h:aa(h),i=cd([0,y]);else
 var
-f=j;if(f){var
-l=[4,[4,[4,ah,ah],[4,c,c]],a7(g,g)];return h(a,1,[3,[4,[4,e,e],a7(bf,bf)],l])}return f})}var
-bg=ak}else
+i=n;if(i){var
+z=mz(a,c[1]),A=t(a,t(a,S(a,k),l),z),B=mz(a,d[1]);return cd([0,E(t(a,S(a,h),B),A)])}var
+o=i}else
 var
-bg=be;var
-bh=bg}else
+o=g;var
+q=o}else
 var
-bh=aj;return bh;default:s=1}switch(s){case
+q=d;var
+r=q}else
+var
+r=c;var
+u=r}else
+var
+u=b;var
+v=u}else
+var
+v=f;var
+w=v}else
+var
+w=e;return w})}var
+bC=aB}else
+var
+bC=bB;var
+bD=bC}else
+var
+bD=az;return bD;default:v=1}switch(v){case
 1:var
-aF=0;break;case
+a3=0;break;case
 2:var
-ac=F(k[3],a0);if(ac){var
-ad=ac[1];if(ad)return a1(ad[1]);var
-a2=ad}else
+as=G(l[3],bm);if(as){var
+at=as[1];if(at)return bo(at[1]);var
+bp=at}else
 var
-a2=ac;return a2;default:var
-V=F(k[2],S);return V?U(V[1]):V}}else
+bp=as;return bp;default:var
+aj=G(l[2],ah);return aj?ai(aj[1]):aj}}else
 var
-aF=aD;return aF}function
-gx(d,f,a){if(typeof
+a3=a2;return a3}function
+gz(d,f,a){if(typeof
 a!=="number")switch(a[0]){case
 13:var
-e=a[4];if(mx(d,e)&&Q(h(d,0,[3,e,[0,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b))))))))),b]])))return tl;return tm;case
+e=a[4];if(mx(d,e)&&P(h(d,0,[3,e,[0,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b))))))))),b]])))return to;return tp;case
 16:return f;case
 4:case
-17:return tk}return tj}function
-gy(e,d,g,f){var
+17:return tn}return tm}function
+gA(e,d,g,f){var
 b=g,a=f;for(;;){if(a){var
-c=a[1];if(aH(b,gx(e,d,c)))return[0,[0,c,b]];var
-h=a[2],b=dU(b,gx(e,d,c)),a=h;continue}return a}}function
-mz(a){return e(function(a){return[0,a,b]},a)}function
+c=a[1];if(aH(b,gz(e,d,c)))return[0,[0,c,b]];var
+h=a[2],b=dV(b,gz(e,d,c)),a=h;continue}return a}}function
+mC(a){return e(function(a){return[0,a,b]},a)}function
 iz(f,o,g,c,n,a){if(typeof
 a==="number"){if(0===a){var
 s=c[6];return ak(function(a){return h(f,0,[3,[0,d,b],a])},s)}var
-i=gw(c[7]);return i?lm(g,i[1]):i}else{if(0===a[0]){var
-j=gy(f,o,a[1],n);if(j){var
-p=j[1],t=p[1],u=e(mz,a[2]);return my(f,g,c,p[2],u,t)}return j}var
-k=gy(f,o,a[1],n);if(k){var
+i=gx(c[7]);return i?lm(g,i[1]):i}else{if(0===a[0]){var
+j=gA(f,o,a[1],n);if(j){var
+p=j[1],t=p[1],u=e(mC,a[2]);return mB(f,g,c,p[2],u,t)}return j}var
+k=gA(f,o,a[1],n);if(k){var
 q=k[1],l=q[1];if(typeof
 l!=="number"&&1===l[0]){var
-m=F(c[1],a[2]);return m?my(f,g,c,q[2],[0,m[1],0],[1,l[1]]):m}var
+m=G(c[1],a[2]);return m?mB(f,g,c,q[2],[0,m[1],0],[1,l[1]]):m}var
 r=0}else
 var
 r=k;return r}}function
 iA(a){var
-b=ay(a[1]),c=ac(w(b,a[2]),b),d=a[2];return T(function(b,a){return[3,b,a]},d,c)}function
+b=ay(a[1]),c=ac(x(b,a[2]),b),d=a[2];return U(function(b,a){return[3,b,a]},d,c)}function
 iB(a){return ay(iA(a))}function
-mA(c){var
+mD(c){var
 a=iB(c),b=ay(c[1]);return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
-iC(a,b){return aV(a[3],a[4],b)}function
+iC(a,b){return aW(a[3],a[4],b)}function
 iD(a,b){var
-c=iC(a,b);return w(iB(a),c)}function
+c=iC(a,b);return x(iB(a),c)}function
 iE(a,b){var
-c=iC(a,b);return w(mA(a),c)}function
-mB(a,b){var
-c=iC(a,b);return w(ay(a[1]),c)}function
+c=iC(a,b);return x(mD(a),c)}function
+mE(a,b){var
+c=iC(a,b);return x(ay(a[1]),c)}function
 iF(b,a){var
 c=iE(b,a),d=iD(b,a);return[2,[4,d,d],[4,c,c]]}function
 iG(a,d){var
-h=a[5],i=[4,[0,c(2,b),b],h],e=a[6],f=a[5],g=mB(a,d);return[5,[2,iF(a,d),[2,[4,g,g],[3,[4,f,f],[4,e,e]]]],i]}function
-mC(a,b){var
-f=a[5],c=[3,iG(a,b),f],d=mB(a,b),e=a[6];return[3,[3,[4,e,e],[4,d,d]],[4,c,c]]}function
-gz(a,b){var
-c=mC(a,b);return c1(a[7],c)}function
-mD(b,a){var
-c=iF(b,a),d=iE(b,a),e=[4,gz(b,a),d],f=iD(b,a);return[5,[2,[4,iG(b,a),f],e],c]}function
-mE(b,a){var
-c=iF(b,a),d=iD(b,a),e=[4,gz(b,a),d],f=iE(b,a);return[5,[3,[4,iG(b,a),f],e],c]}function
+h=a[5],i=[4,[0,c(2,b),b],h],e=a[6],f=a[5],g=mE(a,d);return[5,[2,iF(a,d),[2,[4,g,g],[3,[4,f,f],[4,e,e]]]],i]}function
+mF(a,b){var
+f=a[5],c=[3,iG(a,b),f],d=mE(a,b),e=a[6];return[3,[3,[4,e,e],[4,d,d]],[4,c,c]]}function
+gB(a,b){var
+c=mF(a,b);return c3(a[7],c)}function
+mG(b,a){var
+c=iF(b,a),d=iE(b,a),e=[4,gB(b,a),d],f=iD(b,a);return[5,[2,[4,iG(b,a),f],e],c]}function
+mH(b,a){var
+c=iF(b,a),d=iD(b,a),e=[4,gB(b,a),d],f=iE(b,a);return[5,[3,[4,iG(b,a),f],e],c]}function
 iH(a,b){var
-c=mA(a),d=ac(mE(a,b),c),e=iB(a),f=ac(mD(a,b),e),g=T(function(b,a){return[2,b,a]},f,d),h=ac(a[5],g),i=a[3];return T(function(b,a){return[2,b,a]},i,h)}function
-mF(a){return[5,[3,[0,b,b],[4,a,a]],[2,[0,b,b],[4,a,a]]]}function
-mG(a){return[5,[4,[0,c(2,b),b],a],[2,[0,b,b],[4,a,a]]]}function
+c=mD(a),d=ac(mH(a,b),c),e=iB(a),f=ac(mG(a,b),e),g=U(function(b,a){return[2,b,a]},f,d),h=ac(a[5],g),i=a[3];return U(function(b,a){return[2,b,a]},i,h)}function
+mI(a){return[5,[3,[0,b,b],[4,a,a]],[2,[0,b,b],[4,a,a]]]}function
+mJ(a){return[5,[4,[0,c(2,b),b],a],[2,[0,b,b],[4,a,a]]]}function
 iI(a,c,b){var
-d=[4,mF(a),b],e=[2,[4,mG(a),c],d],f=[4,mG(a),b];return[0,[3,[4,mF(a),c],f],e]}function
-mH(c,a){var
+d=[4,mI(a),b],e=[2,[4,mJ(a),c],d],f=[4,mJ(a),b];return[0,[3,[4,mI(a),c],f],e]}function
+mK(c,a){var
 b=iI(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
-dx(b,a){return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
-mI(a,d){var
-e=w(a,a),f=dx(a,d),g=ac([0,c(2,b),b],f),h=w(a,d),i=ac([4,[0,c(2,b),b],h],a),j=ac([3,[0,b,b],e],d),k=T(function(b,a){return[2,b,a]},j,i);return ac([5,[0,b,b],[2,[0,b,b],e]],T(function(b,a){return[2,b,a]},k,g))}function
-cA(j,b,a){switch(j[0]){case
-0:return b?b[2]?a:mH(b[1],a):a;case
+dz(b,a){return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
+mL(a,d){var
+e=x(a,a),f=dz(a,d),g=ac([0,c(2,b),b],f),h=x(a,d),i=ac([4,[0,c(2,b),b],h],a),j=ac([3,[0,b,b],e],d),k=U(function(b,a){return[2,b,a]},j,i);return ac([5,[0,b,b],[2,[0,b,b],e]],U(function(b,a){return[2,b,a]},k,g))}function
+cC(j,b,a){switch(j[0]){case
+0:return b?b[2]?a:mK(b[1],a):a;case
 1:if(b){var
 c=b[2];if(c){var
 d=c[2];if(d){if(d[2])return a;var
-g=iI(b[1],a[2],a[3]),i=g[1],h=iI(c[1],g[2],a[1]);return mH(d[1],[0,h[2],i,h[1]])}return a}return a}return a;default:if(b){var
+g=iI(b[1],a[2],a[3]),i=g[1],h=iI(c[1],g[2],a[1]);return mK(d[1],[0,h[2],i,h[1]])}return a}return a}return a;default:if(b){var
 e=b[2];if(e){var
-f=e[2];return f?f[2]?a:mI([0,b[1],e[1],f[1]],a):a}return a}return a}}function
-mJ(c){var
-a=cu(c);return a?dY(a[1],[0,d,b]):a}function
-mK(a,n,k,j){if(mJ(j)){var
+f=e[2];return f?f[2]?a:mL([0,b[1],e[1],f[1]],a):a}return a}return a}}function
+mM(c){var
+a=cw(c);return a?dZ(a[1],[0,d,b]):a}function
+mN(a,n,k,j){if(mM(j)){var
 q=n?[3,[0,d,b],k]:k;return h(a,0,q)}var
-f=aE(a,k);if(f){var
-g=cS(a,[5,j,[0,c(2,b),b]]);if(g){var
-i=f8(a,[5,j,[0,c(2,b),b]]);if(i)var
-p=t(a,f[1],g[1]),l=[0,H(i[1],p)];else
+f=aC(a,k);if(f){var
+g=cU(a,[5,j,[0,c(2,b),b]]);if(g){var
+i=f9(a,[5,j,[0,c(2,b),b]]);if(i)var
+p=t(a,f[1],g[1]),l=[0,E(i[1],p)];else
 var
 l=i;var
 m=l}else
@@ -3627,25 +3703,25 @@ e=m}else
 var
 e=f;if(e){var
 o=e[1];return n?D(d,o[1]):D(o[2],d)}return e}function
-dy(b,a,c){var
-d=bs(b,a[1],a[2]),e=d?mK(b,0,c,a[1]):d;return e?mK(b,1,c,a[2]):e}function
-mL(h,f,c){if(mJ(c))return[0,x];var
-a=E(h,h0(f)),d=cS(a,c);if(d){var
-e=f8(a,c);if(e){var
-i=e[1],j=d[1],k=b5(a,A(L(a,b),j));return z(function(b){return k8(f,t(a,i,b))},k)}var
+dA(b,a,c){var
+d=bt(b,a[1],a[2]),e=d?mN(b,0,c,a[1]):d;return e?mN(b,1,c,a[2]):e}function
+mO(h,f,c){if(mM(c))return[0,u];var
+a=F(h,h1(f)),d=cU(a,c);if(d){var
+e=f9(a,c);if(e){var
+i=e[1],j=d[1],k=b7(a,A(L(a,b),j));return z(function(b){return k8(f,t(a,i,b))},k)}var
 g=e}else
 var
 g=d;return g}function
-c4(a){return function(b){return mL(a,d,b)}}function
-c5(d,a){var
+c6(a){return function(b){return mO(a,d,b)}}function
+c7(d,a){var
 e=h(d,1,[2,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b],a]);return e?h(d,1,[3,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b],a]):e}function
-c6(a){return[0,[3,[0,d,b],a],a]}function
-mM(a,c,o,n){var
-h=bs(a,[0,d,b],c),j=h?c5(a,c):h;if(j){var
-e=i(c4(a),c);if(e){var
-f=aE(a,o);if(f){var
-g=aE(a,n);if(g){var
-p=f[1],q=g[1];return D(d,H(t(a,X(a,e[1]),q),p)[1])}var
+c8(a){return[0,[3,[0,d,b],a],a]}function
+mP(a,c,o,n){var
+h=bt(a,[0,d,b],c),j=h?c7(a,c):h;if(j){var
+e=i(c6(a),c);if(e){var
+f=aC(a,o);if(f){var
+g=aC(a,n);if(g){var
+p=f[1],q=g[1];return D(d,E(t(a,S(a,e[1]),q),p)[1])}var
 k=g}else
 var
 k=f;var
@@ -3655,12 +3731,12 @@ l=e;var
 m=l}else
 var
 m=j;return m}function
-cB(d,c,a){switch(c[0]){case
-0:return a?a[2]?0:dy(d,c[1],a[1]):a;case
+cD(d,c,a){switch(c[0]){case
+0:return a?a[2]?0:dA(d,c[1],a[1]):a;case
 1:if(a){var
 e=a[2];if(e){var
 f=e[2];if(f){if(f[2])return 0;var
-l=dy(d,c[1],a[1]),m=l?dy(d,c[2],e[1]):l;if(m)return dy(d,c[3],f[1]);var
+l=dA(d,c[1],a[1]),m=l?dA(d,c[2],e[1]):l;if(m)return dA(d,c[3],f[1]);var
 n=m}else
 var
 n=f;var
@@ -3673,7 +3749,7 @@ p=a;return p;case
 2:if(a){var
 g=a[2];if(g){var
 h=g[2];if(h){if(h[2])return 0;var
-q=h[1],r=g[1],s=a[1],C=w([0,s,r,q],[0,s,r,q]);return mM(d,c[1],C,[0,b,b])}var
+q=h[1],r=g[1],s=a[1],C=x([0,s,r,q],[0,s,r,q]);return mP(d,c[1],C,[0,b,b])}var
 t=h}else
 var
 t=g;var
@@ -3682,7 +3758,7 @@ var
 u=a;return u;default:if(a){var
 i=a[2];if(i){var
 j=i[2];if(j){if(j[2])return 0;var
-k=j[1],v=i[1],x=a[1],y=mM(d,c[1],[2,[4,x,x],[4,v,v]],[2,[0,b,b],[4,k,k]]);if(y)return dy(d,c6(c[2]),k);var
+k=j[1],v=i[1],w=a[1],y=mP(d,c[1],[2,[4,w,w],[4,v,v]],[2,[0,b,b],[4,k,k]]);if(y)return dA(d,c8(c[2]),k);var
 z=y}else
 var
 z=j;var
@@ -3694,26 +3770,26 @@ var
 B=a;return B}}var
 l=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))));function
 bB(b){var
-a=aq(function(f,e){var
-a=aE(l,f);if(a)var
-b=a[1],c=bp(ck(b[1]),ck(b[2]));else
+a=an(function(f,e){var
+a=aC(l,f);if(a)var
+b=a[1],c=bq(cm(b[1]),cm(b[2]));else
 var
-c=d;return bp(c,e)},d,b);return J(d,a)?aG(kR(a),l):d}function
+c=d;return bq(c,e)},d,b);return J(d,a)?aG(kR(a),l):d}function
 ef(a){return[0,a[1],[0,a[2],0]]}function
 a8(a){var
 b=ef(a[3]),c=f(ef(a[2]),b);return f(ef(a[1]),c)}function
-gA(a){return gu(l,a,bB(a8(a)))}function
-mN(b,a){if(a){var
-g=mN([0,b],a[2]),c=a[1];if(0===c[0])var
-d=c[1],e=cZ([0,[0,d,d],c[2]],b);else
+gC(a){return gv(l,a,bB(a8(a)))}function
+mQ(b,a){if(a){var
+g=mQ([0,b],a[2]),c=a[1];if(0===c[0])var
+d=c[1],e=c1([0,[0,d,d],c[2]],b);else
 var
 e=[0,[1,b]];var
 f=[0,e,g]}else
 var
 f=a;return f}function
-mO(c,b,a){var
-d=d0(b);return[2,[2,d0(c),d],a]}function
-gB(b,a){return b?P(a):d}function
+mR(c,b,a){var
+d=d1(b);return[2,[2,d1(c),d],a]}function
+gD(b,a){return b?Q(a):d}function
 e8(g,b,a){if(typeof
 a!=="number")switch(a[0]){case
 4:var
@@ -3721,44 +3797,44 @@ i=a[3],j=a[2];return[0,[2,j],[0,[3,j],[0,[2,i],[0,[3,i],0]]]];case
 6:return[0,[0,[5,a[3],a[2]],d],0];case
 8:var
 q=a[2],r=a[1];return e(function(a){var
-c=gB(g,b);return[0,[5,q,a],E(gB(g,b),c)]},r);case
-9:return[0,[1,[5,a[3],a[2]],P(b)],0];case
+c=gD(g,b);return[0,[5,q,a],F(gD(g,b),c)]},r);case
+9:return[0,[1,[5,a[3],a[2]],Q(b)],0];case
 10:return[0,[0,a[2],d],0];case
 11:return[0,[2,a[2]],0];case
 12:return[0,[0,a[1],d],0];case
 13:var
 c=a[3],h=bB([0,c[1],[0,c[2],[0,c[3],0]]]);return[0,[2,a[4]],[0,[0,c[1],h],[0,[0,c[2],h],[0,[0,c[3],h],0]]]];case
 14:var
-k=a[2],l=a[1],s=ec(b,k),t=f(ec(b,l),s),u=e(function(a){return[0,a[1][2],a[2]]},t);return[0,[0,mO(l,k,a[3]),b],u];case
+k=a[2],l=a[1],s=ed(b,k),t=f(ed(b,l),s),u=e(function(a){return[0,a[1][2],a[2]]},t);return[0,[0,mR(l,k,a[3]),b],u];case
 15:var
 m=a[4],n=a[3];return[0,[0,[5,a[2],m],d],[0,[0,[5,[4,n,n],m],b],0]];case
 16:var
 o=a[2],p=bB([0,o,0]);return[0,[4,a[3],aG(p,b)],[0,[0,o,p],0]];case
 17:var
-v=a[3],w=a[2];return e(function(a){return[0,[5,a,v],gB(g,b)]},w);case
+v=a[3],w=a[2];return e(function(a){return[0,[5,a,v],gD(g,b)]},w);case
 2:case
 3:return[0,[0,a[2],b],0]}return 0}function
-c7(h,c,b,e,a){if(a){var
-d=a[1],i=a[2],j=c7(h,c,b,R(e,g(e8(c,b,d))),i);return f(ao(h,mN(e,e8(c,b,d)),d),j)}return a}function
-gC(b,a){var
+c9(h,c,b,e,a){if(a){var
+d=a[1],i=a[2],j=c9(h,c,b,R(e,g(e8(c,b,d))),i);return f(aq(h,mQ(e,e8(c,b,d)),d),j)}return a}function
+gE(b,a){var
 c=$(b,a);return e(function(a){var
 b=s(a[1][2],a[2]);return[0,a[1][1],b]},c)}function
 iJ(b,a){switch(a[0]){case
 0:var
-d=a[1];return an(b,[0,[0,d,d],a[2]]);case
+d=a[1];return ao(b,[0,[0,d,d],a[2]]);case
 1:var
-e=a[1],c=an(b,[0,[0,e,e],a[2]]);return c?lf(b,c[1]):c;case
-2:return cS(b,a[1]);case
-3:return f8(b,a[1]);default:var
-f=a[1],g=c5(b,f);return g?mL(b,a[2],f):g}}function
-bt(a){return 1===a?tn:to}function
-bS(d,c,b,a){var
-e=a[1],f=cA(d,c,a[2]),g=T(function(b,a){return[2,b,a]},b,f);return T(function(b,a){return[3,b,a]},g,e)}function
+e=a[1],c=ao(b,[0,[0,e,e],a[2]]);return c?lf(b,c[1]):c;case
+2:return cU(b,a[1]);case
+3:return f9(b,a[1]);default:var
+f=a[1],g=c7(b,f);return g?mO(b,a[2],f):g}}function
+bu(a){return 1===a?tq:tr}function
+bU(d,c,b,a){var
+e=a[1],f=cC(d,c,a[2]),g=U(function(b,a){return[2,b,a]},b,f);return U(function(b,a){return[3,b,a]},g,e)}function
 iK(c,b,a){switch(c){case
 0:return[0,b[1],[0,b[2],[0,a[3],0]]];case
 1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}}function
 iL(h,g,d,c,f,a){var
-e=bS(d,c,f,a);return iK(h,e,ac([5,[0,b,b],g],dx(cA(d,c,a[2]),e)))}function
+e=bU(d,c,f,a);return iK(h,e,ac([5,[0,b,b],g],dz(cC(d,c,a[2]),e)))}function
 e9(c,j,i){var
 b=j,a=i;for(;;){if(b){if(a){var
 d=a[1],e=b[1],f=bm(c,e[1],d[1]),g=f?bm(c,e[2],d[2]):f;if(g){var
@@ -3766,14 +3842,14 @@ b=b[2],a=a[2];continue}var
 h=g}else
 var
 h=a;return h}return a?0:1}}function
-bu(b,d){var
+bv(b,d){var
 a=d[1];if(8===a[0]){var
-c=a[1][1];return 0===c[0]?[0,[0,R(b,c[1])]]:[0,bM(function(a){return bu(b,a)},a)]}return[0,bM(function(a){return bu(b,a)},a)]}function
-dz(d,b,h){var
+c=a[1][1];return 0===c[0]?[0,[0,R(b,c[1])]]:[0,bO(function(a){return bv(b,a)},a)]}return[0,bO(function(a){return bv(b,a)},a)]}function
+dB(d,b,h){var
 c=h;for(;;){var
 a=c[1];switch(a[0]){case
 0:var
-e=a[1],f=Q(p(e,b));return f?Q(p(e,R(d,b))):f;case
+e=a[1],f=P(p(e,b));return f?P(p(e,R(d,b))):f;case
 10:return 0;case
 1:case
 2:return 1;case
@@ -3781,7 +3857,7 @@ e=a[1],f=Q(p(e,b));return f?Q(p(e,R(d,b))):f;case
 8:case
 9:var
 c=a[1];continue;default:var
-g=dz(d,b,a[1]);if(g){var
+g=dB(d,b,a[1]);if(g){var
 c=a[2];continue}return g}}}function
 eg(c,b,m){var
 d=m;for(;;){var
@@ -3789,23 +3865,23 @@ a=d[1];switch(a[0]){case
 5:var
 d=a[1];continue;case
 6:var
-f=a[2],g=a[1],h=dz(c,b,g),i=h?eg(c,b,f):h;if(i)var
+f=a[2],g=a[1],h=dB(c,b,g),i=h?eg(c,b,f):h;if(i)var
 j=i;else{var
-k=eg(c,b,g);if(k)return dz(c,b,f);var
+k=eg(c,b,g);if(k)return dB(c,b,f);var
 j=k}return j;case
 7:var
-l=eg(c,b,a[1]);return l?dz(c,b,a[2]):l;case
+l=eg(c,b,a[1]);return l?dB(c,b,a[2]):l;case
 10:return 0;case
 3:case
 4:var
 e=eg(c,b,a[1]);if(e){var
 d=a[2];continue}return e;case
 8:case
-9:return dz(c,b,a[1]);default:return 1}}}function
-cC(c,e){var
+9:return dB(c,b,a[1]);default:return 1}}}function
+cE(c,e){var
 b=e;for(;;){var
 a=b[1];switch(a[0]){case
-0:return Q(p(a[1],c));case
+0:return P(p(a[1],c));case
 10:return 0;case
 1:case
 2:return 1;case
@@ -3813,19 +3889,19 @@ a=b[1];switch(a[0]){case
 8:case
 9:var
 b=a[1];continue;default:var
-d=cC(c,a[1]);if(d){var
+d=cE(c,a[1]);if(d){var
 b=a[2];continue}return d}}}function
-gD(d,b,m){var
+gF(d,b,m){var
 c=m;for(;;){var
 a=c[1];switch(a[0]){case
 3:var
-f=gD(d,b,a[1]);if(f){var
+f=gF(d,b,a[1]);if(f){var
 c=a[2];continue}return f;case
 4:var
-g=gD(d,b,a[1]);return g?cC(b,a[2]):g;case
+g=gF(d,b,a[1]);return g?cE(b,a[2]):g;case
 6:var
-h=a[2],i=a[1],j=cC(b,i);if(j){var
-k=cC(b,h);if(k)var
+h=a[2],i=a[1],j=cE(b,i);if(j){var
+k=cE(b,h);if(k)var
 e=k;else{var
 l=aJ(i,d);if(l){var
 c=h;continue}var
@@ -3834,8 +3910,8 @@ var
 e=j;return e;case
 0:case
 1:case
-2:return 1;default:return cC(b,c)}}}function
-gE(c,e){var
+2:return 1;default:return cE(b,c)}}}function
+gG(c,e){var
 b=e;for(;;){var
 a=b[1];switch(a[0]){case
 0:return aH(a[1],c);case
@@ -3846,81 +3922,81 @@ a=b[1];switch(a[0]){case
 8:case
 9:var
 b=a[1];continue;default:var
-d=gE(c,a[1]);if(d){var
+d=gG(c,a[1]);if(d){var
 b=a[2];continue}return d}}}function
-gF(a,b){if(a){var
+gH(a,b){if(a){var
 c=a[2],d=a[1];if(b){var
-e=b[2];return b[1]?[0,d,gF(c,aq(eT,e,k2(d)))]:[0,tr,gF(c,e)]}var
-f=[0,d,gF(c,0)]}else
+e=b[2];return b[1]?[0,d,gH(c,an(eT,e,k2(d)))]:[0,tu,gH(c,e)]}var
+f=[0,d,gH(c,0)]}else
 var
 f=a;return f}function
-c8(b,a){return a?i(b,a[1]):a}function
-c9(c,b,a){return c8(function(b){return c8(i(c,b),a)},b)}function
-mP(b,a){switch(a[0]){case
+c_(b,a){return a?i(b,a[1]):a}function
+c$(c,b,a){return c_(function(b){return c_(i(c,b),a)},b)}function
+mS(b,a){switch(a[0]){case
 0:return a;case
 1:return a[1];default:var
 c=a[3],d=a[2],e=a[1];switch(b){case
 0:return e;case
 1:return d;default:return c}}}function
-mQ(a){return 0===a[0]?a[1]:0}function
-mR(d,c){var
+mT(a){return 0===a[0]?a[1]:0}function
+mU(d,c){var
 b=d,a=c;for(;;){if(a){var
-e=a[2],b=mP(a[1],b),a=e;continue}return mQ(b)}}function
-cb(b,a){switch(a[0]){case
+e=a[2],b=mS(a[1],b),a=e;continue}return mT(b)}}function
+ce(b,a){switch(a[0]){case
 0:return[0,i(b,a[1])];case
-1:return[1,cb(b,a[1])];default:var
-c=cb(b,a[3]),d=cb(b,a[2]);return[2,cb(b,a[1]),d,c]}}function
-bn(b,c,a){switch(c[0]){case
-0:return cb(i(b,c[1]),a);case
+1:return[1,ce(b,a[1])];default:var
+c=ce(b,a[3]),d=ce(b,a[2]);return[2,ce(b,a[1]),d,c]}}function
+bo(b,c,a){switch(c[0]){case
+0:return ce(i(b,c[1]),a);case
 1:var
 d=c[1];switch(a[0]){case
 0:var
-k=a[1];return[1,cb(function(a){return ao(b,a,k)},d)];case
-1:return[1,bn(b,d,a[1])];default:var
-l=bn(b,d,a[3]),m=bn(b,d,a[2]);return[2,bn(b,d,a[1]),m,l]}default:var
+k=a[1];return[1,ce(function(a){return aq(b,a,k)},d)];case
+1:return[1,bo(b,d,a[1])];default:var
+l=bo(b,d,a[3]),m=bo(b,d,a[2]);return[2,bo(b,d,a[1]),m,l]}default:var
 e=c[3],f=c[2],g=c[1];switch(a[0]){case
 0:var
-n=a[1],o=function(a){return ao(b,a,n)},h=function(a){return cb(o,a)},p=h(e),q=h(f);return[2,h(g),q,p];case
+n=a[1],o=function(a){return aq(b,a,n)},h=function(a){return ce(o,a)},p=h(e),q=h(f);return[2,h(g),q,p];case
 1:var
-j=a[1],r=bn(b,e,j),s=bn(b,f,j);return[2,bn(b,g,j),s,r];default:var
-t=bn(b,e,a[3]),u=bn(b,f,a[2]);return[2,bn(b,g,a[1]),u,t]}}}function
+j=a[1],r=bo(b,e,j),s=bo(b,f,j);return[2,bo(b,g,j),s,r];default:var
+t=bo(b,e,a[3]),u=bo(b,f,a[2]);return[2,bo(b,g,a[1]),u,t]}}}function
 iM(c,f,a){if(a)var
 d=a[1],b=function(h){var
 a=[0,d[1],d[1]],b=[0,d[2],d[2]];switch(h){case
 0:var
-e=[0,a,X(c,a)];break;case
+e=[0,a,S(c,a)];break;case
 1:var
 g=t(c,a,b),e=[0,as(A(a,b)),g];break;default:var
-e=[0,b,X(c,b)]}return[0,[0,i(f,e)]]},h=iM(c,f,a[2]),j=e(function(a){return[1,a]},h),k=b(2),l=b(1),g=[0,[2,b(0),l,k],j];else
+e=[0,b,S(c,b)]}return[0,[0,i(f,e)]]},h=iM(c,f,a[2]),j=e(function(a){return[1,a]},h),k=b(2),l=b(1),g=[0,[2,b(0),l,k],j];else
 var
 g=a;return g}function
-iN(b,w,c,a){var
-e=iM(b,aY,a),d=0,y=f(iM(b,av,a),e);return bc(tt,function(a){switch(a[0]){case
-0:return q(a[1],y,[0,[0,x]]);case
-1:return[0,[0,q(a[1],w,x)]];case
+iN(b,x,c,a){var
+e=iM(b,aZ,a),d=0,y=f(iM(b,av,a),e);return bb(tw,function(a){switch(a[0]){case
+0:return q(a[1],y,[0,[0,u]]);case
+1:return[0,[0,q(a[1],x,u)]];case
 2:return[0,[0,L(b,a[1])]];case
 3:var
-c=a[2],d=a[1],e=function(b,a){return[0,A(b,a)]};return bn(function(a,b){return c9(e,a,b)},d,c);case
+c=a[2],d=a[1],e=function(b,a){return[0,A(b,a)]};return bo(function(a,b){return c$(e,a,b)},d,c);case
 4:var
-f=a[2],g=a[1],h=function(b,a){return[0,H(b,a)]};return bn(function(a,b){return c9(h,a,b)},g,f);case
+f=a[2],g=a[1],h=function(b,a){return[0,E(b,a)]};return bo(function(a,b){return c$(h,a,b)},g,f);case
 5:var
-i=a[1],j=function(a){return[0,aa(a)]};return cb(function(a){return c8(j,a)},i);case
+i=a[1],j=function(a){return[0,aa(a)]};return ce(function(a){return c_(j,a)},i);case
 6:var
-k=a[2],l=a[1],m=function(c,a){return[0,t(b,c,a)]};return bn(function(a,b){return c9(m,a,b)},l,k);case
+k=a[2],l=a[1],m=function(c,a){return[0,t(b,c,a)]};return bo(function(a,b){return c$(m,a,b)},l,k);case
 7:var
 n=a[2],o=a[1],p=function(c,a){var
-d=b5(b,a);return z(function(a){return t(b,c,a)},d)};return bn(function(a,b){return c9(p,a,b)},o,n);case
+d=b7(b,a);return z(function(a){return t(b,c,a)},d)};return bo(function(a,b){return c$(p,a,b)},o,n);case
 8:var
-r=a[1],s=function(a){return[0,X(b,a)]};return cb(function(a){return c8(s,a)},r);case
+r=a[1],s=function(a){return[0,S(b,a)]};return ce(function(a){return c_(s,a)},r);case
 9:var
-u=a[1],v=function(a){return b6(b,a)};return cb(function(a){return c8(v,a)},u);default:return ts}},c,d)}function
-gG(a){if(a){var
+v=a[1],w=function(a){return b8(b,a)};return ce(function(a){return c_(w,a)},v);default:return tv}},c,d)}function
+gI(a){if(a){var
 b=a[1];if(b)var
-c=gG(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+c=gI(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return tu}function
+d=b;return d}return tx}function
 eh(a){if(a){var
-g=a[1],b=g[2],c=gG(g[1]);if(c)if(b){var
+g=a[1],b=g[2],c=gI(g[1]);if(c)if(b){var
 h=b[1],e=eh(a[2]);if(e)var
 i=J(d,h[1]),j=i?[0,[0,[0,c[1],h],e[1]]]:i;else
 var
@@ -3929,56 +4005,56 @@ f=j}else
 var
 f=b;else
 var
-f=c;return f}return tv}function
+f=c;return f}return ty}function
 ei(b,a){var
 c=a[3],d=z(function(a){var
 c=a[2],d=a[1][2];return[0,[0,i(b,a[1][1]),d],c]},c),e=i(b,a[2]),f=a[1];return[0,i(aw(b),f),e,d]}function
 iO(c,g,f,b,a,e){if(b){var
 h=b[1],l=b[2],d=function(b,a){var
-d=jR(c,eN,eN,function(a){return mP(b,a)},e);return iO(c,g,bx(f),l,a,d)},i=d(0,aG(a,h));if(i){var
-j=d(2,E(a,h));if(j)return f?1:d(1,a);var
+d=jR(c,eN,eN,function(a){return mS(b,a)},e);return iO(c,g,bx(f),l,a,d)},i=d(0,aG(a,h));if(i){var
+j=d(2,F(a,h));if(j)return f?1:d(1,a);var
 k=j}else
 var
-k=i;return k}return ao(g,a,jR(c,eN,eN,mQ,e))}function
+k=i;return k}return aq(g,a,jR(c,eN,eN,mT,e))}function
 iP(e,c,b,a){var
 f=al(d,b);function
 g(b){return a}return function(a){return iO(e,g,c,f,d,a)}}function
-c_(a){if(a){var
-b=a[1],c=b[1],d=c[1],e=b[2],f=c[2];return z(function(a){return aO(f,e,a)},d)}return[0,x]}function
-mS(f,e,k,j,i,a){var
+da(a){if(a){var
+b=a[1],c=b[1],d=c[1],e=b[2],f=c[2];return z(function(a){return aP(f,e,a)},d)}return[0,u]}function
+mV(f,e,k,j,i,a){var
 b=eh(a[1]);if(b){var
 c=a[2];if(c){var
-d=c_(a[3]);if(d){var
-l=d[1],m=al([0,H(aa(t(f,i,c[1])),l),0],e);return a4(f,e,f_(k,j,b[1],m))}var
+d=da(a[3]);if(d){var
+l=d[1],m=al([0,E(aa(t(f,i,c[1])),l),0],e);return a5(f,e,f$(k,j,b[1],m))}var
 g=d}else
 var
 g=c;var
 h=g}else
 var
 h=b;return h}function
-mT(i,d,h,g,c){var
+mW(i,d,h,g,c){var
 a=eh(c[1]);if(a){var
-b=c_(c[3]);if(b){var
-j=al([0,H(x,b[1]),0],d),k=a[1];return a4(i,d,f_(h,g,e(function(a){return[0,a[1],x]},k),j))}var
+b=da(c[3]);if(b){var
+j=al([0,E(u,b[1]),0],d),k=a[1];return a5(i,d,f$(h,g,e(function(a){return[0,a[1],u]},k),j))}var
 f=b}else
 var
 f=a;return f}function
-mU(a,c,D,i){var
+mX(a,c,D,i){var
 j=eh(i[1]);if(j){var
 k=i[2];if(k){var
-l=c_(i[3]);if(l){var
-F=l[1],e=H(t(a,D,k[1]),F),b=j[1];if(b){var
+l=da(i[3]);if(l){var
+G=l[1],e=E(t(a,D,k[1]),G),b=j[1];if(b){var
 m=b[1],n=m[2];if(b[2]){var
-f=f$(a,b,al([0,e,0],c));if(f){var
-o=f[1],q=p(g(o),c);if(q)return d5(a,o);var
+f=ga(a,b,al([0,e,0],c));if(f){var
+o=f[1],q=p(g(o),c);if(q)return d6(a,o);var
 r=q}else
 var
 r=f;return r}var
 s=J(d,e[1]),u=s?J(d,n[1]):s;if(u){var
-A=B(e[1],n[1]),C=m[1];return J(aq(function(a,b){var
-c=b7(a);return E(B(b7(a),c),b)},d,C),A)}return u}var
-h=f$(a,b,al([0,e,0],c));if(h){var
-v=h[1],w=p(g(v),c);if(w)return d5(a,v);var
+A=B(e[1],n[1]),C=m[1];return J(an(function(a,b){var
+c=b9(a);return F(B(b9(a),c),b)},d,C),A)}return u}var
+h=ga(a,b,al([0,e,0],c));if(h){var
+v=h[1],w=p(g(v),c);if(w)return d6(a,v);var
 x=w}else
 var
 x=h;return x}var
@@ -3988,136 +4064,136 @@ y=k;var
 z=y}else
 var
 z=j;return z}function
-tw(c){var
+tz(c){var
 a=c[2];if(a){var
-b=c_(c[3]);if(b)return D(d,H(a[1],b[1])[1]);var
+b=da(c[3]);if(b)return D(d,E(a[1],b[1])[1]);var
 e=b}else
 var
 e=a;return e}function
 iQ(a){return y(function(a){return f(a[1],[0,a[2],0])},a)}function
-mV(a,c,b){var
+mY(a,c,b){var
 e=q(b,c,k(d)),f=aB(0,a);return m(function(b){return eg(a,b,e)},f)}function
 e_(a){var
-c=S(a);return C(k(b),c)}function
-gH(i,g){var
-h=e_(g),j=S(g),e=v(k(b),j),f=s(k(c(2,b)),g),a=k(d);return i?i[1]?[0,[0,e,bk(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,bk(f),a,e]]:[0,[0,h,a,a],[0,a,e,bk(f)],[0,a,f,e]]}function
+c=T(a);return C(k(b),c)}function
+gJ(i,g){var
+h=e_(g),j=T(g),e=w(k(b),j),f=s(k(c(2,b)),g),a=k(d);return i?i[1]?[0,[0,e,bk(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,bk(f),a,e]]:[0,[0,h,a,a],[0,a,e,bk(f)],[0,a,f,e]]}function
 e$(b,a){var
-c=V(b[3],a),d=V(b[2],a);return[0,V(b[1],a),d,c]}function
-mW(b,a){function
+c=W(b[3],a),d=W(b[2],a);return[0,W(b[1],a),d,c]}function
+mZ(b,a){function
 c(b){var
 c=i(b,a[3]),d=i(b,a[2]);return[0,i(b,a[1]),d,c]}function
 d(a){var
-b=V(a,c(function(a){return a[3]})),d=V(a,c(function(a){return a[2]}));return[0,V(a,c(function(a){return a[1]})),d,b]}var
+b=W(a,c(function(a){return a[3]})),d=W(a,c(function(a){return a[2]}));return[0,W(a,c(function(a){return a[1]})),d,b]}var
 e=d(b[3]),f=d(b[2]);return[0,d(b[1]),f,e]}function
-mX(w,u){function
-a(a){return[0,[0,R(u,a)]]}switch(w[0]){case
+m0(v,u){function
+a(a){return[0,[0,R(u,a)]]}switch(v[0]){case
 0:var
-x=e_(a(0));return[0,gH(tx,a(0)),x];case
+x=e_(a(0));return[0,gJ(tA,a(0)),x];case
 1:var
-y=e_(a(0)),z=s(e_(a(ty)),y),A=s(e_(a(tz)),z),B=gH(0,a(0)),D=mW(gH(tB,a(tA)),B);return[0,mW(gH(tD,a(tC)),D),A];default:var
-E=a(tE),F=a(tF),g=[0,a(0),F,E],G=V(g,g),H=C(k(b),G),j=V(g,g),d=g[1],e=g[2],f=g[3],i=function(a){var
-d=S(a),e=s(k(c(2,b)),d);return C(v(k(b),j),e)},h=function(f,e,d,a){var
-g=ao(f,s(e,d),a);return s(k(c(2,b)),g)},l=i(f),m=h(C,e,f,d),n=[0,h(v,d,f,e),m,l],o=h(v,e,f,d),p=i(e),q=[0,h(C,d,e,f),p,o],r=h(C,d,f,e),t=h(v,d,e,f);return[0,[0,[0,i(d),t,r],q,n],H]}}function
-mY(a){return 1<a[0]?[0,a[1],0]:0}function
-gI(a){switch(a[0]){case
+y=e_(a(0)),z=s(e_(a(tB)),y),A=s(e_(a(tC)),z),B=gJ(0,a(0)),D=mZ(gJ(tE,a(tD)),B);return[0,mZ(gJ(tG,a(tF)),D),A];default:var
+E=a(tH),F=a(tI),g=[0,a(0),F,E],G=W(g,g),H=C(k(b),G),j=W(g,g),d=g[1],e=g[2],f=g[3],i=function(a){var
+d=T(a),e=s(k(c(2,b)),d);return C(w(k(b),j),e)},h=function(f,e,d,a){var
+g=aq(f,s(e,d),a);return s(k(c(2,b)),g)},l=i(f),m=h(C,e,f,d),n=[0,h(w,d,f,e),m,l],o=h(w,e,f,d),p=i(e),q=[0,h(C,d,e,f),p,o],r=h(C,d,f,e),t=h(w,d,e,f);return[0,[0,[0,i(d),t,r],q,n],H]}}function
+m1(a){return 1<a[0]?[0,a[1],0]:0}function
+gK(a){switch(a[0]){case
 0:return[0,a[1],0];case
 1:return[0,a[1],[0,a[2],[0,a[3],0]]];case
-2:return[0,c6(a[1]),0];default:var
-b=[0,c6(a[2]),0];return[0,c6(a[1]),b]}}function
+2:return[0,c8(a[1]),0];default:var
+b=[0,c8(a[2]),0];return[0,c8(a[1]),b]}}function
 ej(a){return[0,[0,a[1]],[0,a[2]]]}function
-mZ(a){switch(a[0]){case
+m2(a){switch(a[0]){case
 0:return[0,ej(a[1]),0];case
 1:var
 f=[0,ej(a[3]),0],g=[0,ej(a[2]),f];return[0,ej(a[1]),g];case
 2:var
-b=ej(c6(a[1]));return[0,b,[0,b,[0,b,0]]];default:var
-c=a[2],d=a[1],e=[0,[1,c6(d)[1],c],[1,d,c]];return[0,e,[0,e,[0,ej(c6(c)),0]]]}}function
-m0(a,c){if(0===c[0]){var
-g=c[1];return i(c4(a),g)}var
-h=c[1],d=i(c4(a),h);if(d){var
-j=c[2],e=i(c4(a),j);if(e){var
-k=X(a,e[1]),l=b6(a,A(L(a,b),k)),m=d[1];return z(function(b){return t(a,m,b)},l)}var
+b=ej(c8(a[1]));return[0,b,[0,b,[0,b,0]]];default:var
+c=a[2],d=a[1],e=[0,[1,c8(d)[1],c],[1,d,c]];return[0,e,[0,e,[0,ej(c8(c)),0]]]}}function
+m3(a,c){if(0===c[0]){var
+g=c[1];return i(c6(a),g)}var
+h=c[1],d=i(c6(a),h);if(d){var
+j=c[2],e=i(c6(a),j);if(e){var
+k=S(a,e[1]),l=b8(a,A(L(a,b),k)),m=d[1];return z(function(b){return t(a,m,b)},l)}var
 f=e}else
 var
 f=d;return f}function
-m1(d,c){var
-a=m0(d,c[1]);if(a)var
-b=m0(d,c[2]),f=b?[0,[0,a[1][1],b[1][2]]]:b,e=f;else
+m4(d,c){var
+a=m3(d,c[1]);if(a)var
+b=m3(d,c[2]),f=b?[0,[0,a[1][1],b[1][2]]]:b,e=f;else
 var
 e=a;return e}function
-m2(a,e,c){var
+m5(a,e,c){var
 b=c[1];if(1===b[0]){var
 f=b[1];if(aH(f,a))return c;var
-g=k(d);return q(dU(f,a),e,g)}return[0,bM(function(b){return m2(a,e,b)},b)]}function
+g=k(d);return q(dV(f,a),e,g)}return[0,bO(function(b){return m5(a,e,b)},b)]}function
 iR(g,a,n,f,c){var
-h=g?[0,a,[0,[0,a],[0,[0,[0,a]],0]]]:[0,a,[0,[0,a],0]],i=lY(h,c),j=bO(f),b=e(function(b){return m2(a,j,b)},i),l=q(tK,b,k(d)),m=q(tL,b,k(d));return[0,q(0,b,k(d)),m,l]}function
-cc(b,a){var
-c=s(b[2],a[1]),d=v(s(b[1],a[2]),c),e=s(b[1],a[3]),f=v(s(b[3],a[1]),e),g=s(b[3],a[2]);return[0,v(s(b[2],a[3]),g),f,d]}function
-dA(b,a){return b?b[1]?a[3]:a[2]:a[1]}function
-m3(c){function
+h=g?[0,a,[0,[0,a],[0,[0,[0,a]],0]]]:[0,a,[0,[0,a],0]],i=lY(h,c),j=bQ(f),b=e(function(b){return m5(a,j,b)},i),l=q(tN,b,k(d)),m=q(tO,b,k(d));return[0,q(0,b,k(d)),m,l]}function
+cf(b,a){var
+c=s(b[2],a[1]),d=w(s(b[1],a[2]),c),e=s(b[1],a[3]),f=w(s(b[3],a[1]),e),g=s(b[3],a[2]);return[0,w(s(b[2],a[3]),g),f,d]}function
+dC(b,a){return b?b[1]?a[3]:a[2]:a[1]}function
+m6(c){function
 a(a){var
 e=p(c,a)?b:d;return k(e)}var
-e=a(tM),f=a(tN);return[0,a(0),f,e]}function
-m4(b,a){if(a)var
-d=m4(b,a[2]),c=[0,e(i(b,a[1]),a),d];else
+e=a(tP),f=a(tQ);return[0,a(0),f,e]}function
+m7(b,a){if(a)var
+d=m7(b,a[2]),c=[0,e(i(b,a[1]),a),d];else
 var
 c=a;return c}function
-gJ(c,b,a){switch(c){case
+gL(c,b,a){switch(c){case
 0:return[0,b[1],[0,b[2],[0,a[3],0]]];case
 1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}}function
-m5(b,c,a){return c?aU(b,a):aI(b,a)}function
-m6(a){if(a){var
-f=a[1],b=f[2],c=gG(f[1]);if(c)if(b)var
-d=m6(a[2]),g=d?[0,[0,[0,c[1],b[1]],d[1]]]:d,e=g;else
+m8(b,c,a){return c?aV(b,a):aI(b,a)}function
+m9(a){if(a){var
+f=a[1],b=f[2],c=gI(f[1]);if(c)if(b)var
+d=m9(a[2]),g=d?[0,[0,[0,c[1],b[1]],d[1]]]:d,e=g;else
 var
 e=b;else
 var
-e=c;return e}return tY}function
-m7(c,b,a){var
-d=$(b,a);return aq(function(a,d){var
-b=b7(a[2]);return A(t(c,a[1],[0,b,b]),d)},x,d)}function
-m8(a,h,e,f,d){if(e)if(d)var
-i=d[1],o=m8(a,h,e[2],f,d[2]),p=i[2],q=aU(h,i[1]),c=e[1],j=as(t(a,c[3],f)),k=c[3],l=A(as(d1(p,L(a,b),k)),j),m=t(a,c[2],l),n=t(a,c[1],f),g=[0,cq(A(A(as(m7(a,c[4],q)),n),m)),o];else
+e=c;return e}return t1}function
+m_(c,b,a){var
+d=$(b,a);return an(function(a,d){var
+b=b9(a[2]);return A(t(c,a[1],[0,b,b]),d)},u,d)}function
+m$(a,h,e,f,d){if(e)if(d)var
+i=d[1],o=m$(a,h,e[2],f,d[2]),p=i[2],q=aV(h,i[1]),c=e[1],j=as(t(a,c[3],f)),k=c[3],l=A(as(d2(p,L(a,b),k)),j),m=t(a,c[2],l),n=t(a,c[1],f),g=[0,cs(A(A(as(m_(a,c[4],q)),n),m)),o];else
 var
 g=d;else
 var
 g=e;return g}function
-t0(a){return[0,a[1][1],a[2][1][2][1],a[1][2],a[2][2]]}function
-m9(b,a){return ab(e(function(a){return q(a,b,0)},a))}function
-cD(a){switch(a){case
-0:return t4;case
-1:return t5;default:return 0}}function
-dB(a){switch(a){case
-0:return[0,t7,t6,k(d)];case
-1:return dt;default:var
+t3(a){return[0,a[1][1],a[2][1][2][1],a[1][2],a[2][2]]}function
+na(b,a){return ab(e(function(a){return q(a,b,0)},a))}function
+cF(a){switch(a){case
+0:return t7;case
+1:return t8;default:return 0}}function
+dD(a){switch(a){case
+0:return[0,t_,t9,k(d)];case
+1:return dv;default:var
 b=k(d),c=k(d);return[0,k(d),c,b]}}function
-gK(c,b,a){return bl(e$(c,a),b)}function
-m_(a){var
-d=V(a,a),e=C(k(b),d);return am(k(c(2,b)),e)}function
-m$(k,j,i,h,g,a){var
-e=gK(j,i,g),c=cc(a,e),f=ah(C,c,cc(a,c)),d=ah(C,e,aZ(m_(a),f)),b=ah(v,ah(C,dB(k),d),h);return[0,[0,d,b],aD(V(b,b))]}function
-bT(e,j){var
+gM(c,b,a){return bl(e$(c,a),b)}function
+nb(a){var
+d=W(a,a),e=C(k(b),d);return am(k(c(2,b)),e)}function
+nc(k,j,i,h,g,a){var
+e=gM(j,i,g),c=cf(a,e),f=ah(C,c,cf(a,c)),d=ah(C,e,a0(nb(a),f)),b=ah(w,ah(C,dD(k),d),h);return[0,[0,d,b],aE(W(b,b))]}function
+bV(e,j){var
 a=j[1];switch(a[0]){case
 1:var
 l=p(a[1],e)?b:d;return k(l);case
 3:var
-m=bT(e,a[2]);return C(bT(e,a[1]),m);case
+m=bV(e,a[2]);return C(bV(e,a[1]),m);case
 4:var
-n=bT(e,a[2]);return v(bT(e,a[1]),n);case
-5:return bk(bT(e,a[1]));case
+n=bV(e,a[2]);return w(bV(e,a[1]),n);case
+5:return bk(bV(e,a[1]));case
 6:var
-g=a[2],h=a[1],o=s(h,bT(e,g));return C(s(g,bT(e,h)),o);case
+g=a[2],h=a[1],o=s(h,bV(e,g));return C(s(g,bV(e,h)),o);case
 7:var
-f=bT(e,a[1]);return a3(d,f)?f:am(f,a[2]);case
+f=bV(e,a[1]);return a4(d,f)?f:am(f,a[2]);case
 8:var
-i=a[1],q=bT(e,i);return s(s(k(c(2,b)),i),q);default:return k(d)}}function
-gL(c,b,k){var
+i=a[1],q=bV(e,i);return s(s(k(c(2,b)),i),q);default:return k(d)}}function
+gN(c,b,k){var
 e=k;for(;;){var
 a=e[1];switch(a[0]){case
 7:var
-g=gL(c,b,a[1]);if(g){var
+g=gN(c,b,a[1]);if(g){var
 h=a[2][1];if(1===h[0]){var
-i=h[1],j=J(d,q(i,c,x)[1]);return j?Q(ak(function(a){return p(i,a)},b)):j}return 0}return g;case
+i=h[1],j=J(d,q(i,c,u)[1]);return j?P(ak(function(a){return p(i,a)},b)):j}return 0}return g;case
 5:case
 8:var
 e=a[1];continue;case
@@ -4126,9 +4202,9 @@ e=a[1];continue;case
 3:case
 4:case
 6:var
-f=gL(c,b,a[1]);if(f){var
+f=gN(c,b,a[1]);if(f){var
 e=a[2];continue}return f;default:return 1}}}function
-na(d){var
+nd(d){var
 b=d;for(;;){var
 a=b[1];switch(a[0]){case
 0:case
@@ -4139,40 +4215,40 @@ a=b[1];switch(a[0]){case
 8:case
 9:var
 b=a[1];continue;default:var
-c=na(a[1]);if(c){var
+c=nd(a[1]);if(c){var
 b=a[2];continue}return c}}}function
-nb(c,b,a){var
+ne(c,b,a){var
 d=e(b,a[2]);return[0,i(c,a[1]),d]}function
 iS(b,a,c){return e(function(c){var
-d=nb(b,a,c[2]),f=c[1];return[0,e(function(c){return nb(b,a,c)},f),d]},c)}function
-nc(b,a){return z(function(a){var
+d=ne(b,a,c[2]),f=c[1];return[0,e(function(c){return ne(b,a,c)},f),d]},c)}function
+nf(b,a){return z(function(a){var
 c=a[2],d=a[1][2];return[0,[0,i(b,a[1][1]),d],c]},a)}function
-t8(a,b){var
-c=nc(a,b[3]),d=i(a,b[2]);return[0,iS(a,a,b[1]),d,c]}function
-nd(c){var
+t$(a,b){var
+c=nf(a,b[3]),d=i(a,b[2]);return[0,iS(a,a,b[1]),d,c]}function
+ng(c){var
 a=c[1];if(a){var
-b=gG(c[2]);if(b)var
-g=e(Y,b[1]),d=[0,[0,Y(a[1]),g]];else
+b=gI(c[2]);if(b)var
+g=e(Z,b[1]),d=[0,[0,Z(a[1]),g]];else
 var
 d=b;var
 f=d}else
 var
 f=a;return f}function
-t9(c){var
-a=ab(e(nd,c[1]));if(a)var
-b=nd(c[2]),f=b?[0,[0,a[1],b[1]]]:b,d=f;else
+ua(c){var
+a=ab(e(ng,c[1]));if(a)var
+b=ng(c[2]),f=b?[0,[0,a[1],b[1]]]:b,d=f;else
 var
 d=a;return d}function
-t_(a){return Q(h$([0,a[2],a[1]]))}function
+ub(a){return P(ia([0,a[2],a[1]]))}function
 iT(a){return[0,a[1],a[2]]}function
-ne(b,c,a){var
-d=e(function(c){return bu(b,bT(c,a))},c);return[0,bu(b,a),d]}function
+nh(b,c,a){var
+d=e(function(c){return bv(b,bV(c,a))},c);return[0,bv(b,a),d]}function
 iU(b,e,a,d){var
 c=y(function(a){var
-b=iT(a[2]);return f(y(iT,a[1]),b)},d),g=a?[0,bu(b,a[1]),0]:a,h=f(g,c);return[0,bu(b,e),h]}function
-nf(c,f,b,a){var
-d=gL(f,b,a),e=d?gE(c,a):d;return e?m(function(b){return gE(c,bT(b,a))},b):e}function
-ng(a){switch(a[0]){case
+b=iT(a[2]);return f(y(iT,a[1]),b)},d),g=a?[0,bv(b,a[1]),0]:a,h=f(g,c);return[0,bv(b,e),h]}function
+ni(c,f,b,a){var
+d=gN(f,b,a),e=d?gG(c,a):d;return e?m(function(b){return gG(c,bV(b,a))},b):e}function
+nj(a){switch(a[0]){case
 3:var
 d=iQ(a[2]);return[0,a[3],d];case
 4:return[0,a[1],0];case
@@ -4180,31 +4256,31 @@ d=iQ(a[2]);return[0,a[3],d];case
 b=a[1],e=iQ(b[1]);return[0,b[2],e];case
 9:return 0;default:var
 c=iQ(a[1]);return[0,a[2],c]}}function
-nh(a,ax,br,k,n,R,aw,w,Q,j,h){switch(j[0]){case
+nk(a,ax,br,k,n,R,aw,x,Q,j,h){switch(j[0]){case
 0:var
-ay=j[4],S=j[3],az=j[2],aA=j[1],U=0;if(typeof
-h==="number")U=1;else
+ay=j[4],T=j[3],az=j[2],aA=j[1],V=0;if(typeof
+h==="number")V=1;else
 switch(h[0]){case
 0:var
-bs=h[2],bt=h[1],u=az,s=aA,r=function(b){return mS(a,n,bt,bs,S,b)},o=ay;break;case
+bs=h[2],bt=h[1],v=az,s=aA,r=function(b){return mV(a,n,bt,bs,T,b)},o=ay;break;case
 2:var
-aC=I(S[1],d),aD=aC?I(S[2],d):aC;if(!aD)return aD;var
-bw=h[2],by=h[1],u=az,s=aA,r=function(b){return mT(a,n,by,bw,b)},o=ay;break;default:U=1}if(U)return 0;break;case
+aC=I(T[1],d),aD=aC?I(T[2],d):aC;if(!aD)return aD;var
+bw=h[2],by=h[1],v=az,s=aA,r=function(b){return mW(a,n,by,bw,b)},o=ay;break;default:V=1}if(V)return 0;break;case
 1:var
 aR=0;if(typeof
 h==="number"&&!h)var
-bA=j[2],bB=j[1],bC=j[3],u=bA,s=bB,bD=0,r=function(b){return mU(a,n,bC,b)},o=bD;else
+bA=j[2],bB=j[1],bC=j[3],v=bA,s=bB,bD=0,r=function(b){return mX(a,n,bC,b)},o=bD;else
 aR=1;if(aR)return 0;break;case
 2:if(typeof
 h!=="number"&&3===h[0]){var
 B=h[3];if(B){var
 aE=B[2],aF=p(g(aE),k);if(aF){var
-bE=[0,j[1],j[2],Q],bF=ei(function(a){return q(a,w,ub)},bE),aG=h[1],bG=0,bH=B[1],bI=h[2],bJ=j[3],bK=function(w,i){var
+bE=[0,j[1],j[2],Q],bF=ei(function(a){return q(a,x,ue)},bE),aG=h[1],bG=0,bH=B[1],bI=h[2],bJ=j[3],bK=function(w,i){var
 c=eh(i[1]);if(c){var
 j=c[1],e=i[2];if(e){var
-f=c_(i[3]);if(f){var
-k=f[1],l=function(c){return aO(c,aG,L(a,b))},u=l(w),v=e[1],g=A(t(a,l(bH),v),u),m=J(d,g[1]),o=m?a4(a,n,f_(aG,bI,j,al([0,H(aa(g),k),0],n))):m;if(o){var
-h=f$(a,j,al([0,H(t(a,bJ,g),k),0],n));if(h)return a4(a,n,h[1]);var
+f=da(i[3]);if(f){var
+k=f[1],l=function(c){return aP(c,aG,L(a,b))},u=l(w),v=e[1],g=A(t(a,l(bH),v),u),m=J(d,g[1]),o=m?a5(a,n,f$(aG,bI,j,al([0,E(aa(g),k),0],n))):m;if(o){var
+h=ga(a,j,al([0,E(t(a,bJ,g),k),0],n));if(h)return a5(a,n,h[1]);var
 p=h}else
 var
 p=o;var
@@ -4227,9 +4303,9 @@ var
 aL=h[2],aM=h[1],bL=j[3],bM=j[2],bN=j[4],bO=j[1],bP=function(f){var
 b=eh(f[1]);if(b){var
 c=b[1],d=f[2];if(d){var
-e=c_(f[3]);if(e){var
+e=da(f[3]);if(e){var
 h=p(g(c),n),i=h?p(g(aL),n):h;if(i){var
-m=d9(aM,d_(aM,aL,d[1],c));return a4(a,n,be(gd(a,bO,bN,e[1],c),m))}var
+m=d_(aM,d$(aM,aL,d[1],c));return a5(a,n,bd(ge(a,bO,bN,e[1],c),m))}var
 j=i}else
 var
 j=e;var
@@ -4238,49 +4314,49 @@ var
 k=d;var
 l=k}else
 var
-l=b;return l},u=bL,s=bM,r=bP,o=j[5];if(aS)return 0;break;case
+l=b;return l},v=bL,s=bM,r=bP,o=j[5];if(aS)return 0;break;case
 4:var
 aT=0;if(typeof
 h==="number"&&!h)var
-u=j[1],s=0,r=tw,o=0;else
+v=j[1],s=0,r=tz,o=0;else
 aT=1;if(aT)return 0;break;case
 5:var
-aV=0;if(typeof
-h==="number"||!(0===h[0]))aV=1;else{var
+aU=0;if(typeof
+h==="number"||!(0===h[0]))aU=1;else{var
 C=h[2],aW=0;if(C){var
 D=C[1];if(D){if(D[2])return 0;if(C[2])return 0;var
-bQ=j[2],bR=j[1],bS=L(a,b),bT=[0,[0,D[1],0],0],bU=h[1],u=bQ,s=bR,bV=0,r=function(b){return mS(a,uc,bU,bT,bS,b)},o=bV;aW=1}else
+bQ=j[2],bR=j[1],bS=L(a,b),bT=[0,[0,D[1],0],0],bU=h[1],v=bQ,s=bR,bV=0,r=function(b){return mV(a,uf,bU,bT,bS,b)},o=bV;aW=1}else
 var
-aP=D}else
+aN=D}else
 var
-aP=C;if(!aW)return aP}if(aV)return 0;break;case
+aN=C;if(!aW)return aN}if(aU)return 0;break;case
 6:var
 aX=0;if(typeof
 h==="number"&&!h)var
-bW=j[2],bX=j[1],bY=L(a,b),u=bW,s=bX,bZ=0,r=function(b){return mU(a,ud,bY,b)},o=bZ;else
+bW=j[2],bX=j[1],bY=L(a,b),v=bW,s=bX,bZ=0,r=function(b){return mX(a,ug,bY,b)},o=bZ;else
 aX=1;if(aX)return 0;break;case
 7:var
 aY=0;if(typeof
 h==="number"&&5<=h)var
-b0=j[2],b1=j[1],b2=j[4],b3=j[3],u=b0,s=b1,b9=0,r=function(b){return mT(a,n,b3,b2,b)},o=b9;else
+b0=j[2],b1=j[1],b2=j[4],b3=j[3],v=b0,s=b1,b4=0,r=function(b){return mW(a,n,b3,b2,b)},o=b4;else
 aY=1;if(aY)return 0;break;case
 8:if(typeof
 h!=="number"&&9===h[0]){var
-E=h[4],aQ=h[2],T=h[1],l=j[1],v=l[9],b_=h[3],a3=l[5],a5=f4(f(dX(l[4]),a3),ax),a6=e(Y,br),y=l[9],a7=l[8],a8=l[7],a1=ge(y,al(x,dU(k,y)),a7),a2=f(e(Y,aU(y,R)),a1),W=k1(0,bz(a,f(ge(0,aI(y,R),a8),a2),a6),a5,ax,0),Z=0<aN(E)?0<aN(d)?fV(E,d):0:0<aN(d)?0:1;if(Z)var
-F=Z;else
+F=h[4],aQ=h[2],U=h[1],l=j[1],w=l[9],b5=h[3],a3=l[5],a4=f5(f(dY(l[4]),a3),ax),a6=e(Z,br),y=l[9],a7=l[8],a8=l[7],a1=gf(y,al(u,dV(k,y)),a7),a2=f(e(Z,aV(y,R)),a1),X=k1(0,bz(a,f(gf(0,aI(y,R),a8),a2),a6),a4,ax,0),Y=0<aO(F)?0<aO(d)?fW(F,d):0:0<aO(d)?0:1;if(Y)var
+G=Y;else
 var
-at=2<=kO(E,c(2,c(2,c(2,c(2,b)))))?0:1,au=at?aH(0,v):at,F=au?aH(v,k):au;var
-ac=F?_(v,k):F,ad=ac?p(g(R),k):ac,ae=ad?p(g(aQ),k):ad,af=ae?p(g(l[1]),k):ae,ag=af?p(g(l[6]),k):af,ah=ag?p(g(l[4]),k):ag;if(ah)var
-a9=l[4],G=m(function(a){return p(g(a),k)},a9);else
+at=2<=kO(F,c(2,c(2,c(2,c(2,b)))))?0:1,au=at?aH(0,w):at,G=au?aH(w,k):au;var
+ac=G?_(w,k):G,ad=ac?p(g(R),k):ac,ae=ad?p(g(aQ),k):ad,af=ae?p(g(l[1]),k):ae,ag=af?p(g(l[6]),k):af,ah=ag?p(g(l[4]),k):ag;if(ah)var
+a9=l[4],H=m(function(a){return p(g(a),k)},a9);else
 var
-G=ah;if(G){var
-a_=l[4],K=ab(e(function(a){return m9(W,a)},a_));if(K){var
-ai=m9(W,l[5]);if(ai){var
+H=ah;if(H){var
+a_=l[4],K=ab(e(function(a){return na(X,a)},a_));if(K){var
+ai=na(X,l[5]);if(ai){var
 a$=l[6],M=ab(e(function(j){var
 c=j[1],k=l[7],d=q(c[1],aw,0);if(d){var
 h=c[2][2],b=ab(e(function(a){var
 b=q(a[2],aw,0);return z(function(a){return a[2]},b)},h));if(b)var
-i=b[1],f=[0,cq(as(t(a,k,X(a,m7(a,e(av,c[2][2]),i)))))];else
+i=b[1],f=[0,cs(as(t(a,k,S(a,m_(a,e(av,c[2][2]),i)))))];else
 var
 f=b;var
 g=f}else
@@ -4288,39 +4364,39 @@ var
 g=d;return g},a$));if(M){var
 ba=l[1],bb=l[2],N=ab(e(function(m){function
 f(e){var
-g=al(e,k),c=mR(q(m[2],w,t1),g);if(c){var
-h=al(e,k),d=mR(q(bb,w,t2),h);if(d){var
-i=d[1],j=L(a,b);return b6(a,b8(d1(c[1],j,i)))}var
+g=al(e,k),c=mU(q(m[2],x,t4),g);if(c){var
+h=al(e,k),d=mU(q(bb,x,t5),h);if(d){var
+i=d[1],j=L(a,b);return b8(a,b_(d2(c[1],j,i)))}var
 f=d}else
 var
 f=c;return f}var
 c=f(0);if(c){var
 e=f(2);if(e)var
-g=b8(as(A(c[1],e[1]))),h=J(d,g[1]),l=h?[0,g]:h,i=l;else
+g=b_(as(A(c[1],e[1]))),h=J(d,g[1]),l=h?[0,g]:h,i=l;else
 var
 i=e;var
 j=i}else
 var
 j=c;return j},ba));if(N){var
-bc=K[1],V=d7(a,aq(function(i,h){var
+bc=K[1],W=d8(a,an(function(i,h){var
 o=e(function(b){var
-a=aB(0,k);return e(function(a){return b7(q(a,b[3],x))},a)},i);function
+a=aB(0,k);return e(function(a){return b9(q(a,b[3],u))},a)},i);function
 b(m,l){var
-n=m5(v,m,o),g=e(function(a){return m5(v,l,a)},n);function
-b(a){return aq(bp,d,a)}var
+n=m8(w,m,o),g=e(function(a){return m8(w,l,a)},n);function
+b(a){return an(bq,d,a)}var
 h=0;function
 i(a){return a}function
 j(a){return a}var
-c=b(aq(function(a,b){return aK(j,i,kP,a,b)},h,g)),k=[0,c,c],f=b(e(function(a){return aq(kP,d,a)},g));return d7(a,t(a,[0,f,f],k))}var
-c=b(1,1),f=b(1,0),g=b(0,1);return A(h,X(a,A(A(A(b(0,0),g),f),c)))},x,bc)),O=aO(b_,T,L(a,b)),aj=J(d,H(O,V)[1]);if(aj){var
-P=b5(a,O);if(P){var
-bd=as(t(a,V,P[1])),bg=H(L(a,b),bd),bh=[0,l[1],l[2],Q],bi=ei(function(a){return q(a,w,t3)},bh),bj=l[6],bk=e(t0,$($(M[1],N[1]),bj)),bl=X(a,bg),bm=X(a,O),bn=l[10],aZ=aB(0,k),a0=e(function(a){var
-d=bn?_(v,a):aH(a,v);return d?b:b4(c(2,b),E)},aZ),bo=function(r){var
-h=m6(r[1]);if(h){var
+c=b(an(function(a,b){return aK(j,i,kP,a,b)},h,g)),k=[0,c,c],f=b(e(function(a){return an(kP,d,a)},g));return d8(a,t(a,[0,f,f],k))}var
+c=b(1,1),f=b(1,0),g=b(0,1);return A(h,S(a,A(A(A(b(0,0),g),f),c)))},u,bc)),O=aP(b5,U,L(a,b)),aj=J(d,E(O,W)[1]);if(aj){var
+P=b7(a,O);if(P){var
+bf=as(t(a,W,P[1])),bg=E(L(a,b),bf),bh=[0,l[1],l[2],Q],bi=ei(function(a){return q(a,x,t6)},bh),bj=l[6],bk=e(t3,$($(M[1],N[1]),bj)),bl=S(a,bg),bm=S(a,O),bn=l[10],aZ=aB(0,k),a0=e(function(a){var
+d=bn?_(w,a):aH(a,w);return d?b:b6(c(2,b),F)},aZ),bo=function(r){var
+h=m9(r[1]);if(h){var
 v=h[1],i=r[2];if(i){var
-j=i[1],l=c_(r[3]);if(l){var
-w=l[1],x=m8(a,k,bk,j,v),n=e(function(a){var
-c=a[2],b=$(a0,a[1]);return[0,e(function(a){return aO(a[1],d,a[2])},b),c]},v),F=d9(T,d_(T,aQ,j,n)),o=be(al([0,aa(w),0],k),F),G=H(t(a,j,bl),w),y=p(g(n),k),z=y?p(g(x),k):y;if(z){var
+j=i[1],l=da(r[3]);if(l){var
+w=l[1],x=m$(a,k,bk,j,v),n=e(function(a){var
+c=a[2],b=$(a0,a[1]);return[0,e(function(a){return aP(a[1],d,a[2])},b),c]},v),G=d_(U,d$(U,aQ,j,n)),o=bd(al([0,aa(w),0],k),G),H=E(t(a,j,bl),w),y=p(g(n),k),z=y?p(g(x),k):y;if(z){var
 b=k,c=o;for(;;){if(c){if(b){var
 s=p(g(c[1]),b);if(s){var
 b=b[1],c=c[2];continue}var
@@ -4333,142 +4409,142 @@ A=b?0:1;var
 q=A;break}}else
 var
 q=z;var
-B=q?a4(a,k,be(e(function(b){return[0,aa(t(a,bm,b[2])),0]},n),o)):q;if(B){var
-I=bf(bx(k));return m(function(g){var
-d=$(f(g,tZ),x),b=[0,[0,G,0],0],c=$(o,e(function(a){return a[1]?aa(a[2]):a[2]},d));return a4(a,[0,k],f(e(function(a){return f(a[1],[0,a[2],0])},c),b))},I)}var
+B=q?a5(a,k,bd(e(function(b){return[0,aa(t(a,bm,b[2])),0]},n),o)):q;if(B){var
+I=be(bx(k));return m(function(g){var
+d=$(f(g,t2),x),b=[0,[0,H,0],0],c=$(o,e(function(a){return a[1]?aa(a[2]):a[2]},d));return a5(a,[0,k],f(e(function(a){return f(a[1],[0,a[2],0])},c),b))},I)}var
 C=B}else
 var
 C=l;var
 D=C}else
 var
 D=i;var
-E=D}else
+F=D}else
 var
-E=h;return E},bq=l[3];return i(iP(function(b,a){return ei},bq,k,bo),bi)}var
+F=h;return F},bp=l[3];return i(iP(function(b,a){return ei},bp,k,bo),bi)}var
 ak=P}else
 var
 ak=aj;var
 am=ak}else
 var
 am=N;var
-an=am}else
+ao=am}else
 var
-an=M;var
-ao=an}else
-var
-ao=ai;var
+ao=M;var
 ap=ao}else
 var
-ap=K;var
-ar=ap}else
+ap=ai;var
+aq=ap}else
 var
-ar=G;return ar}return 0;default:return 0}var
-bu=[0,s,u,Q],bv=ei(function(a){return q(a,w,ua)},bu);return i(iP(function(b,a){return ei},o,k,r),bv)}function
-ue(b,a){var
-c=hV(hQ,b[1],a[1]);return c?hQ(b[2],a[2]):c}function
-ni(i,r,q,h,o,k,A,z,y,j,n,g,a,e){if(typeof
+aq=K;var
+ar=aq}else
+var
+ar=H;return ar}return 0;default:return 0}var
+bu=[0,s,v,Q],bv=ei(function(a){return q(a,x,ud)},bu);return i(iP(function(b,a){return ei},o,k,r),bv)}function
+uh(b,a){var
+c=hW(hR,b[1],a[1]);return c?hR(b[2],a[2]):c}function
+nl(i,r,q,h,o,k,A,z,y,j,n,g,a,e){if(typeof
 e==="number"){if(0===e)return 9===a[0]?e2(i,0,0,0,g,h,0,a[1],e):0}else
 switch(e[0]){case
 6:var
 f=e[1];if(typeof
 f!=="number"&&7===f[0]){if(k){var
-s=f[3],t=f[2],u=D(d,t),v=u?hS(s,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):u;if(v)return nh(i,r,q,h,o,j,g,n,[0,[0,[0,k[1],t],s]],a,f[1]);var
+s=f[3],t=f[2],u=D(d,t),v=u?hT(s,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):u;if(v)return nk(i,r,q,h,o,j,g,n,[0,[0,[0,k[1],t],s]],a,f[1]);var
 w=v}else
 var
-w=k;return w}return nh(i,r,q,h,o,j,g,n,0,a,f);case
+w=k;return w}return nk(i,r,q,h,o,j,g,n,0,a,f);case
 8:return 9===a[0]?e2(i,0,0,0,g,h,0,a[1],e):0;case
 10:if(0===a[0]){var
-l=hV(ue,a[1],A),m=l?1:l,x=m?p(a[2],z):m;return x?jR(y,j,a[3],a[4],e):x}return 0}return 0}function
-nj(b){var
+l=hW(uh,a[1],A),m=l?1:l,x=m?p(a[2],z):m;return x?jR(y,j,a[3],a[4],e):x}return 0}return 0}function
+nm(b){var
 a=b[2];if(typeof
 a!=="number"&&6===a[0])return 1;return 0}function
-uf(c){var
+ui(c){var
 b=0,a=c[2];if(typeof
 a==="number"){if(0!==a)b=1}else
 switch(a[0]){case
 6:case
 8:break;default:b=1}return b?0:1}function
-fa(a,o,l,j,w,v,b,u,s,C,h,k,au,c){switch(c[0]){case
+fa(a,o,l,j,x,w,b,v,s,C,h,k,au,c){switch(c[0]){case
 0:var
-aw=function(a){return m(Q,a)},O=aw,p=c[1];break;case
+aw=function(a){return m(P,a)},O=aw,p=c[1];break;case
 1:var
 ax=c[4],ay=c[3],az=c[2],aA=function(c){var
-d=cU(az,k),e=fa(a,o,l,j,w,v,b,u,s,C,h,d[1],c,ay);return e?fa(a,o,l,j,w,v,b,u,s,C,h,d[2],c,ax):e},O=aA,p=c[1];break;default:var
+d=cW(az,k),e=fa(a,o,l,j,x,w,b,v,s,C,h,d[1],c,ay);return e?fa(a,o,l,j,x,w,b,v,s,C,h,d[2],c,ax):e},O=aA,p=c[1];break;default:var
 aB=c[4],aC=c[3],aD=c[2],aE=function(c){var
 i=$(j,c),d=m(function(b){var
 c=b[1];switch(c[0]){case
 8:var
 a=0;break;case
 9:var
-a=ik(c[1]);break;default:var
-a=1}return a?a:Q(b[2])},i);if(d){var
-e=cU(aD,h),f=fa(a,o,l,j,w,v,b,u,s,C,e[1],k,c,aC);if(f)return fa(a,o,l,j,w,v,b,u,s,C,e[2],k,c,aB);var
+a=il(c[1]);break;default:var
+a=1}return a?a:P(b[2])},i);if(d){var
+e=cW(aD,h),f=fa(a,o,l,j,x,w,b,v,s,C,e[1],k,c,aC);if(f)return fa(a,o,l,j,x,w,b,v,s,C,e[2],k,c,aB);var
 g=f}else
 var
 g=d;return g},O=aE,p=c[1]}var
-af=i(C,h),ac=ak(uf,p),ad=ac?id(a,l,h,f4(y(function(c){var
-a=F(j,c[1]);if(a){var
+af=i(C,h),ac=ak(ui,p),ad=ac?ie(a,l,h,f5(y(function(c){var
+a=G(j,c[1]);if(a){var
 b=a[1];switch(b[0]){case
 8:var
 d=b[1][6];return y(function(a){var
-b=e(aY,a[1][2][2]);return[0,a[1][1],b]},d);case
-9:return il(0,0,0,b[1],c[2]);default:return 0}}return a},p),l),k):ac,ae=ak(nj,p);if(ae)var
+b=e(aZ,a[1][2][2]);return[0,a[1][1],b]},d);case
+9:return im(0,0,0,b[1],c[2]);default:return 0}}return a},p),l),k):ac,ae=ak(nm,p);if(ae)var
 ar=y(function(b){var
-c=nj(b);if(c){var
-a=F(j,b[1]);if(a)return ng(a[1]);var
+c=nm(b);if(c){var
+a=G(j,b[1]);if(a)return nj(a[1]);var
 d=a}else
 var
-d=c;return d},p),as=b?[0,b[1],0]:b,at=f(as,ar),ai=0,aj=aq(eT,e(function(a){return 0},o),at),N=iN(a,h,eQ(gF(eQ(o,0),aj),ai),k);else
+d=c;return d},p),as=b?[0,b[1],0]:b,at=f(as,ar),ai=0,aj=an(eT,e(function(a){return 0},o),at),N=iN(a,h,eQ(gH(eQ(o,0),aj),ai),k);else
 var
 N=ae;var
 r=p,g=au;for(;;){if(r){var
-S=r[1],D=S[2],n=S[1],G=r[2];if(n){var
-T=q(n,g,0);if(T){var
-I=F(j,n);if(I){var
-U=ni(a,l,h,w,v,b,u,s,af,k,N,ad,I[1],D);if(U){var
-r=G,g=gp(n,g);continue}var
-V=U}else
-var
-V=I;var
+T=r[1],D=T[2],n=T[1],H=r[2];if(n){var
+U=q(n,g,0);if(U){var
+I=G(j,n);if(I){var
+V=nl(a,l,h,x,w,b,v,s,af,k,N,ad,I[1],D);if(V){var
+r=H,g=gq(n,g);continue}var
 W=V}else
 var
-W=T;var
-B=W}else{var
+W=I;var
+X=W}else
+var
+X=U;var
+B=X}else{var
 ag=0;if(typeof
 D==="number"&&4===D){var
 ah=0;if(b){var
-ap=0,P=e(function(b){return[0,b,X(a,b)]},k),am=e(aY,P),al=0,an=f(e(av,P),am),ao=bc(0,function(o){return function(b){switch(b[0]){case
-0:return[0,q(b[1],o,x)];case
-1:return[0,q(b[1],h,x)];case
+aq=0,Q=e(function(b){return[0,b,S(a,b)]},k),am=e(aZ,Q),al=0,ao=f(e(av,Q),am),ap=bb(0,function(o){return function(b){switch(b[0]){case
+0:return[0,q(b[1],o,u)];case
+1:return[0,q(b[1],h,u)];case
 2:return[0,L(a,b[1])];case
 3:var
-c=b[2],d=b[1];return c9(function(b,a){return[0,A(b,a)]},d,c);case
+c=b[2],d=b[1];return c$(function(b,a){return[0,A(b,a)]},d,c);case
 4:var
-e=b[2],f=b[1];return c9(function(b,a){return[0,H(b,a)]},f,e);case
+e=b[2],f=b[1];return c$(function(b,a){return[0,E(b,a)]},f,e);case
 5:var
-g=b[1];return c8(function(a){return[0,aa(a)]},g);case
+g=b[1];return c_(function(a){return[0,aa(a)]},g);case
 6:var
-i=b[2],j=b[1];return c9(function(c,b){return[0,t(a,c,b)]},j,i);case
+i=b[2],j=b[1];return c$(function(c,b){return[0,t(a,c,b)]},j,i);case
 7:var
-k=b[2],l=b[1];return c9(function(c,b){var
-d=b5(a,b);return z(function(b){return t(a,c,b)},d)},l,k);case
+k=b[2],l=b[1];return c$(function(c,b){var
+d=b7(a,b);return z(function(b){return t(a,c,b)},d)},l,k);case
 8:var
-m=b[1];return c8(function(b){return[0,X(a,b)]},m);case
+m=b[1];return c_(function(b){return[0,S(a,b)]},m);case
 9:var
-n=b[1];return c8(function(b){return b6(a,b)},n);default:return 0}}}(an),o,al),E=q(b[1],ao,ap);if(E){var
-K=J(E[1][2],d);ah=1}else
+n=b[1];return c_(function(b){return b8(a,b)},n);default:return 0}}}(ao),o,al),F=q(b[1],ap,aq);if(F){var
+K=J(F[1][2],d);ah=1}else
 var
-R=E}else
+R=F}else
 var
 R=b;if(!ah)var
 K=R;if(K){var
-r=G,g=e(function(a){return 0},g);continue}var
+r=H,g=e(function(a){return 0},g);continue}var
 B=K}else
 ag=1;if(ag){var
 Y=q(n,g,0);if(Y){var
-M=F(j,n);if(M){var
-Z=ni(a,l,h,w,v,b,u,s,af,k,N,ad,M[1],D);if(Z){var
-r=G,g=gp(n,g);continue}var
+M=G(j,n);if(M){var
+Z=nl(a,l,h,x,w,b,v,s,af,k,N,ad,M[1],D);if(Z){var
+r=H,g=gq(n,g);continue}var
 _=Z}else
 var
 _=M;var
@@ -4479,220 +4555,220 @@ B=ab}}}else
 var
 B=[0,g];return B?O(B[1]):B}}function
 iV(d,a){var
-e=S(a),f=s(s(k(c(2,b)),a),d);return C(v(S(d),f),e)}function
+e=T(a),f=s(s(k(c(2,b)),a),d);return C(w(T(d),f),e)}function
 iW(k,a,d,j,c,h){var
-e=ah(v,dB(k),j);if(h){var
+e=ah(w,dD(k),j);if(h){var
 b=function(b){var
-c=i(b,a[3]),d=i(b,a[2]);return[0,i(b,a[1]),d,c]},f=b(function(a){return a[3]}),g=b(function(a){return a[2]}),l=e$([0,b(function(a){return a[1]}),g,f],e);return ah(C,aZ(d,c),l)}var
-m=e$(a,c);return ah(C,aZ(d,e),m)}function
-nk(f,h,g,l,a,d){var
-e=dB(f),i=ah(v,e,a),j=e$(h,d),m=iV(e[3],a[3]),n=iV(e[2],a[2]),o=iV(e[1],a[1]),p=C(C(C(V(d,d),o),n),m),q=V(j,i),r=s(k(c(2,b)),q),t=C(s(g,p),r),u=bl(cc(j,i),l);return[0,gJ(f,iW(f,h,g,a,d,0),u),t]}function
-nl(d,c,b,a){var
-e=gK(c,b,a);return ah(C,dB(d),e)}function
-nm(g,f,e,d,c){var
-b=nl(g,f,e,c),a=ah(v,b,d);return[0,[0,b,a],aD(V(a,a))]}function
-gM(b,a){var
-c=a6(a[2],b);return f(a6(a[1],b),c)}function
+c=i(b,a[3]),d=i(b,a[2]);return[0,i(b,a[1]),d,c]},f=b(function(a){return a[3]}),g=b(function(a){return a[2]}),l=e$([0,b(function(a){return a[1]}),g,f],e);return ah(C,a0(d,c),l)}var
+m=e$(a,c);return ah(C,a0(d,e),m)}function
+nn(f,h,g,l,a,d){var
+e=dD(f),i=ah(w,e,a),j=e$(h,d),m=iV(e[3],a[3]),n=iV(e[2],a[2]),o=iV(e[1],a[1]),p=C(C(C(W(d,d),o),n),m),q=W(j,i),r=s(k(c(2,b)),q),t=C(s(g,p),r),u=bl(cf(j,i),l);return[0,gL(f,iW(f,h,g,a,d,0),u),t]}function
+no(d,c,b,a){var
+e=gM(c,b,a);return ah(C,dD(d),e)}function
+np(g,f,e,d,c){var
+b=no(g,f,e,c),a=ah(w,b,d);return[0,[0,b,a],aE(W(a,a))]}function
+gO(b,a){var
+c=a7(a[2],b);return f(a7(a[1],b),c)}function
 iX(d,b,a,c){if(a)var
-e=a[1],f=cx(c,gM(b,e)),i=R(c,g(gM(b,e))),j=iX(d,b,a[2],i),k=aj(f,ug),h=[0,ao(d,aj(f,0),k),j];else
+e=a[1],f=cz(c,gO(b,e)),i=R(c,g(gO(b,e))),j=iX(d,b,a[2],i),k=aj(f,uj),h=[0,aq(d,aj(f,0),k),j];else
 var
 h=a;return h}function
 iY(f,o,e,n,a){var
-g=s(S(q(0,n,k(d))),o);if(typeof
+g=s(T(q(0,n,k(d))),o);if(typeof
 a!=="number")switch(a[0]){case
 2:var
-b=F(e,a[1]);if(b)var
-i=h(f,0,a[2]),j=i?[0,v(b[1][1][2],g)]:i;else
+b=G(e,a[1]);if(b)var
+i=h(f,0,a[2]),j=i?[0,w(b[1][1][2],g)]:i;else
 var
 j=b;return j;case
 3:var
-c=F(e,a[1]);if(c)var
-l=h(f,0,a[2]),m=l?[0,v(g,c[1][1][2])]:l;else
+c=G(e,a[1]);if(c)var
+l=h(f,0,a[2]),m=l?[0,w(g,c[1][1][2])]:l;else
 var
 m=c;return m}return 0}function
-nn(c,b,a){if(typeof
+nq(c,b,a){if(typeof
 a!=="number"&&6===a[0]){var
-e=F(c,a[1]);return z(function(a){var
+e=G(c,a[1]);return z(function(a){var
 c=q(0,b,k(d)),e=i(a[2][2],c);return[0,a[2][1],e]},e)}return 0}function
-gN(a){return h(l,0,[3,[0,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b))))))))),b],a])}function
-no(a){var
-b=aj(a,uh),c=aD(V(aj(a,ui),b));return s(q(0,a,k(d)),c)}function
-np(b,a){var
-c=V(a,aj(b,uj));return[0,bO(aZ(no(b),a)),c]}function
-nq(e,d,a,c,b){var
-f=b[2],g=s(no(a),f),h=c?gK(e,d,aj(a,uk)):aj(a,ul);return v(V(b[1][2],h),g)}function
-nr(h,g,f,d,c,b,a){var
+gP(a){return h(l,0,[3,[0,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b))))))))),b],a])}function
+nr(a){var
+b=aj(a,uk),c=aE(W(aj(a,ul),b));return s(q(0,a,k(d)),c)}function
+ns(b,a){var
+c=W(a,aj(b,um));return[0,bQ(a0(nr(b),a)),c]}function
+nt(e,d,a,c,b){var
+f=b[2],g=s(nr(a),f),h=c?gM(e,d,aj(a,un)):aj(a,uo);return w(W(b[1][2],h),g)}function
+nu(h,g,f,d,c,b,a){var
 i=by(c);function
-j(a){return nl(h,g,f,a)}return l3(e(function(a){return[0,a[4]]},d),j,i,b,a)}function
+j(a){return no(h,g,f,a)}return l3(e(function(a){return[0,a[4]]},d),j,i,b,a)}function
 fb(a){var
-b=q(um,a,k(d));return am(q(0,a,k(d)),b)}function
+b=q(up,a,k(d));return am(q(0,a,k(d)),b)}function
 iZ(a){return a[4][2]}function
-ns(g,o,n,m,a){var
-p=a[1][2],q=e(aY,gt(n,a[1][2])),h=fb(m),i=s(s(k(c(2,b)),o),h),d=a[1][1],j=aU(cD(g),d),l=e(function(a){return s(a,i)},j);return[0,f(f(aI(cD(g),d),l),q),p]}function
-nt(a){var
-b=a[3],c=a[2],d=a[1];return gA([0,[0,d,d],[0,c,c],[0,b,b]])}function
-uv(a){if(typeof
+nv(g,o,n,m,a){var
+p=a[1][2],q=e(aZ,gu(n,a[1][2])),h=fb(m),i=s(s(k(c(2,b)),o),h),d=a[1][1],j=aV(cF(g),d),l=e(function(a){return s(a,i)},j);return[0,f(f(aI(cF(g),d),l),q),p]}function
+nw(a){var
+b=a[3],c=a[2],d=a[1];return gC([0,[0,d,d],[0,c,c],[0,b,b]])}function
+uy(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-nu(b,a){switch(b){case
+nx(b,a){switch(b){case
 0:return[0,a[1],[0,a[2],0]];case
 1:return[0,a[1],[0,a[2],[0,a[3],0]]];default:return 0}}function
-gO(a){var
-c=ct(a[1],[0,d,b]);return c?ct(a[2],[0,d,b]):c}function
+gQ(a){var
+c=cv(a[1],[0,d,b]);return c?cv(a[2],[0,d,b]):c}function
 i0(d,a){switch(d){case
-0:return gO(a[3]);case
+0:return gQ(a[3]);case
 1:return 1;default:var
-b=gO(a[1]),c=b?gO(a[2]):b;return c?gO(a[3]):c}}function
+b=gQ(a[1]),c=b?gQ(a[2]):b;return c?gQ(a[3]):c}}function
 i1(c,b){var
-a=y(function(a){return gM(c,a)},b),d=$(aB(0,g(a)),a);return e(av,bq(function(a){return iu(a[2])},d))}function
-nv(b){var
+a=y(function(a){return gO(c,a)},b),d=$(aB(0,g(a)),a);return e(av,br(function(a){return iv(a[2])},d))}function
+ny(b){var
 a=b[2];if(typeof
 a!=="number"&&10===a[0])return 1;return 0}function
-nw(c){var
-a=c;for(;;){if(0===a[0])return ak(nv,a[1]);var
-d=ak(nv,a[1]),b=d||nw(a[3]);if(b)return b;var
+nz(c){var
+a=c;for(;;){if(0===a[0])return ak(ny,a[1]);var
+d=ak(ny,a[1]),b=d||nz(a[3]);if(b)return b;var
 a=a[4];continue}}function
-uw(a,aQ,bE,A,B,aP){var
-n=A[1],j=bt(n),Y=A[6],bF=A[2],K=y(function(a){return gM(B,a)},bF),aR=A[3],P=[0,[0,aR,aR],B],$=[0,g(K)],bG=0,aS=y(function(a){return e8(bG,B,a)},Y),bH=cD(n),aT=mX(A[5],bH),o=aT[2],G=aT[1],J=cZ(P,g(K)),bJ=A[2],T=g(K),bI=0,w=iX(function(e,a){function
+uz(a,aQ,bE,A,B,aP){var
+n=A[1],j=bu(n),Y=A[6],bF=A[2],K=y(function(a){return gO(B,a)},bF),aR=A[3],Q=[0,[0,aR,aR],B],$=[0,g(K)],bG=0,aS=y(function(a){return e8(bG,B,a)},Y),bH=cF(n),aT=m0(A[5],bH),o=aT[2],H=aT[1],J=c1(Q,g(K)),bJ=A[2],U=g(K),bI=0,x=iX(function(e,a){function
 i(g){var
-c=bt(n);if(n)var
+c=bu(n);if(n)var
 b=[0,[0,[0,c]],[0,[0,[0,c]]],[0,[0,[0,[0,c]]]]];else
 var
 m=k(d),b=[0,k(d),m,[0,[0,c]]];var
-t=m$(n,G,o,e,a,b)[2],h=m$(n,G,o,e,a,b),i=h[1],j=bl(i[2],h[2]),l=cc(i[1],j),p=ah(C,l,cc(l,b)),f=aZ(m_(b),p),q=s(f[3],g),r=s(f[2],g);return[0,gJ(n,j,[0,s(f[1],g),r,q]),t]}function
+t=nc(n,H,o,e,a,b)[2],h=nc(n,H,o,e,a,b),i=h[1],j=bl(i[2],h[2]),l=cf(i[1],j),p=ah(C,l,cf(l,b)),f=a0(nb(b),p),q=s(f[3],g),r=s(f[2],g);return[0,gL(n,j,[0,s(f[1],g),r,q]),t]}function
 j(Y){var
-w=nm(n,G,o,e,a),x=w[1],W=ah(v,dB(n),e),y=w[2],r=x[1],X=x[2],g=gK(G,o,a),i=bl(X,y),N=am(V(g,i),J),O=S(J),P=am(V(a,a),O),Q=2<=n?d:b,R=C(k(Q),P);function
-h(a){return[0,m3(a),0]}function
-f(a){return[0,bl(cc(m3(a),g),J),[0,a]]}switch(n){case
+v=np(n,H,o,e,a),x=v[1],V=ah(w,dD(n),e),y=v[2],r=x[1],X=x[2],g=gM(H,o,a),i=bl(X,y),N=am(W(g,i),J),O=T(J),P=am(W(a,a),O),Q=2<=n?d:b,R=C(k(Q),P);function
+h(a){return[0,m6(a),0]}function
+f(a){return[0,bl(cf(m6(a),g),J),[0,a]]}switch(n){case
 0:var
-B=[0,f(tO),0],D=[0,h(tP),B],q=[0,h(0),D];break;case
+B=[0,f(tR),0],D=[0,h(tS),B],q=[0,h(0),D];break;case
 1:var
-E=[0,f(tQ),0],F=[0,f(tR),E],H=[0,f(0),F],I=[0,h(tS),H],K=[0,h(tT),I],q=[0,h(0),K];break;default:var
-L=[0,f(tU),0],M=[0,f(tV),L],q=[0,f(0),M]}var
-j=ah(v,[0,[0,[1,T]],[0,[1,[0,T]]],[0,[1,[0,[0,T]]]]],e),l=bl(j,aD(V(j,j)));if(n)var
-m=iR(n,T,e,r,l[3]);else
+E=[0,f(tT),0],F=[0,f(tU),E],G=[0,f(0),F],I=[0,h(tV),G],K=[0,h(tW),I],q=[0,h(0),K];break;default:var
+L=[0,f(tX),0],M=[0,f(tY),L],q=[0,f(0),M]}var
+j=ah(w,[0,[0,[1,U]],[0,[1,[0,U]]],[0,[1,[0,[0,U]]]]],e),l=bl(j,aE(W(j,j)));if(n)var
+m=iR(n,U,e,r,l[3]);else
 var
 z=k(d),A=k(d),m=[0,k(d),A,z];var
-t=iR(n,T,e,r,l[2]),u=iR(n,T,e,r,l[1]),U=m4(function(r,w){var
-e=w[1];function
+t=iR(n,U,e,r,l[2]),u=iR(n,U,e,r,l[1]),S=m7(function(r,v){var
+e=v[1];function
 a(b,a){var
-c=e[3],f=dA(a,m),g=s(C(b[3],f),c),h=e[2],i=dA(a,t),j=s(C(b[2],i),h),l=e[1],n=dA(a,u),o=s(C(b[1],n),l);return C(C(C(k(d),o),j),g)}var
-x=a(m,tW),y=a(t,tX),z=[0,a(u,0),y,x],f=V(r[1],z),l=r[2];if(l){var
-h=l[1],n=w[2];if(n){var
-j=n[1],A=dA(h,g),B=s(dA(j,i),A),D=dA(j,g),o=C(s(dA(h,i),D),B),E=S(J);if(p(h,j))var
-F=V(i,g),q=v(o,s(k(c(2,b)),F));else
+c=e[3],f=dC(a,m),g=s(C(b[3],f),c),h=e[2],i=dC(a,t),j=s(C(b[2],i),h),l=e[1],n=dC(a,u),o=s(C(b[1],n),l);return C(C(C(k(d),o),j),g)}var
+x=a(m,tZ),y=a(t,t0),z=[0,a(u,0),y,x],f=W(r[1],z),l=r[2];if(l){var
+h=l[1],n=v[2];if(n){var
+j=n[1],A=dC(h,g),B=s(dC(j,i),A),D=dC(j,g),o=C(s(dC(h,i),D),B),E=T(J);if(p(h,j))var
+F=W(i,g),q=w(o,s(k(c(2,b)),F));else
 var
-q=o;return C(f,am(q,E))}return f}return f},q);return[0,gJ(n,i,bl(cc(g,bl(W,y)),J)),U,R,N]}var
-l=nm(n,G,o,e,a);function
-m(b){return iW(n,G,o,e,a,b)}var
+q=o;return C(f,am(q,E))}return f}return f},q);return[0,gL(n,i,bl(cf(g,bl(V,y)),J)),S,R,N]}var
+l=np(n,H,o,e,a);function
+m(b){return iW(n,H,o,e,a,b)}var
 f=2<=n?d:b;function
 g(b){var
-c=S(J),d=k(f),e=s(v(S(b),d),c);return s(o,v(V(a,a),e))}var
-h=[0,V(iW(n,G,o,e,a,1),a),g];return[0,nk(n,G,o,J,e,a),h,m,l,j,i]},B,bJ,bI),U=e(function(a){return a[1]},w),bK=R($,g(aS)),bL=cD(n),bM=A[5];function
+c=T(J),d=k(f),e=s(w(T(b),d),c);return s(o,w(W(a,a),e))}var
+h=[0,W(iW(n,H,o,e,a,1),a),g];return[0,nn(n,H,o,J,e,a),h,m,l,j,i]},B,bJ,bI),V=e(function(a){return a[1]},x),bK=R($,g(aS)),bL=cF(n),bM=A[5];function
 O(a){return[0,[0,R(bL,a)]]}var
-aI=S([0,[1,bK]]);switch(bM[0]){case
+aI=T([0,[1,bK]]);switch(bM[0]){case
 2:var
-bs=O(tG),bv=O(tH),aK=[0,O(0),bv,bs],E=[0,v(aI,V(aK,aK))];break;case
+bs=O(tJ),bt=O(tK),aK=[0,O(0),bt,bs],F=[0,w(aI,W(aK,aK))];break;case
 3:var
-bw=S(O(tI)),bx=S(O(0)),by=S(O(tJ)),E=[0,v(v(s(aI,C(k(b),by)),bx),bw)];break;default:var
-E=0}var
+bw=T(O(tL)),bx=T(O(0)),by=T(O(tM)),F=[0,w(w(s(aI,C(k(b),by)),bx),bw)];break;default:var
+F=0}var
 aU=A[7];if(aU)var
-bN=0,bP=A[2],ao=iX(function(j,k){var
-a=nk(n,G,o,cZ(P,g(K)),j,k),c=a[1];if(c){var
+bN=0,bO=A[2],an=iX(function(j,k){var
+a=nn(n,H,o,c1(Q,g(K)),j,k),c=a[1];if(c){var
 d=c[2],b=c[1];if(d){var
 h=d[2],e=d[1];if(h){var
-i=h[1],f=cc(j,[0,b,e,i]);return[0,[0,b,[0,e,[0,i,[0,f[1],[0,f[2],[0,f[3],0]]]]]],a[2]]}return[0,[0,b,[0,e,0]],a[2]]}return[0,[0,b,0],a[2]]}return[0,0,a[2]]},B,bP,bN);else
+i=h[1],f=cf(j,[0,b,e,i]);return[0,[0,b,[0,e,[0,i,[0,f[1],[0,f[2],[0,f[3],0]]]]]],a[2]]}return[0,[0,b,[0,e,0]],a[2]]}return[0,[0,b,0],a[2]]}return[0,0,a[2]]},B,bO,bN);else
 var
-ao=aU;var
-bR=bQ(ao),bS=E?[0,E[1],0]:E,bT=f(bS,bR),bU=0,bV=f(K,[0,P,0]),bD=e(function(a){return a[1]},w),bW=[0,o,f(c7(function(c,b){if(typeof
+an=aU;var
+bP=bS(an),bR=F?[0,F[1],0]:F,bT=f(bR,bP),bU=0,bV=f(K,[0,Q,0]),bD=e(function(a){return a[1]},x),bW=[0,o,f(c9(function(c,b){if(typeof
 b!=="number")switch(b[0]){case
 6:var
-g=nn(w,c,b);if(g)var
+g=nq(x,c,b);if(g)var
 j=g[1],k=[0,j[1],[0,j[2],0]];else
 var
 k=g;return k;case
-8:return e(aY,gC(bD,c));case
+8:return e(aZ,gE(bD,c));case
 13:var
-h=F(w,b[1]);if(h){var
-l=gN(b[4]);if(l){var
-m=np(c,i(h[1][3],b[2]));return f(m[1],[0,m[2],0])}var
+h=G(x,b[1]);if(h){var
+l=gP(b[4]);if(l){var
+m=ns(c,i(h[1][3],b[2]));return f(m[1],[0,m[2],0])}var
 p=l}else
 var
 p=h;return p;case
-16:return y(function(a){return ns(n,J,bV,c,a)[1]},w)}var
-d=iY(a,o,w,c,b),q=d?[0,d[1],0]:d;return q},bU,B,$,Y),bT)],ap=f(bQ(U),bW),bX=0,bY=f(K,[0,P,0]),aV=c7(function(b,a){if(typeof
+16:return y(function(a){return nv(n,J,bV,c,a)[1]},x)}var
+d=iY(a,o,x,c,b),q=d?[0,d[1],0]:d;return q},bU,B,$,Y),bT)],ap=f(bS(V),bW),bX=0,bY=f(K,[0,Q,0]),aV=c9(function(b,a){if(typeof
 a!=="number")switch(a[0]){case
 13:var
-g=F(w,a[1]);if(g){if(gN(a[4]))return 0;var
-l=[0,nq(G,o,b,a[2],g[1][4]),0]}else
+g=G(x,a[1]);if(g){if(gP(a[4]))return 0;var
+l=[0,nt(H,o,b,a[2],g[1][4]),0]}else
 var
 l=g;return l;case
 14:var
-h=nr(n,G,o,w,b,a[1],a[2]);if(h){var
-m=h[1],p=m[2],r=m[1];return y(bO,[0,r[1],[0,r[2],[0,p[1],[0,p[2],0]]]])}return h;case
+h=nu(n,H,o,x,b,a[1],a[2]);if(h){var
+m=h[1],p=m[2],r=m[1];return y(bQ,[0,r[1],[0,r[2],[0,p[1],[0,p[2],0]]]])}return h;case
 15:var
-j=F(w,a[1]);if(j){var
-c=i(j[1][5],0),s=[0,c[3],[0,c[4],0]],t=[0,q(un,b,k(d)),s],u=[0,q(0,b,k(d)),t],v=f(dX(c[2]),u);return f(c[1],v)}return j;case
+j=G(x,a[1]);if(j){var
+c=i(j[1][5],0),s=[0,c[3],[0,c[4],0]],t=[0,q(uq,b,k(d)),s],u=[0,q(0,b,k(d)),t],v=f(dY(c[2]),u);return f(c[1],v)}return j;case
 16:var
-x=y(function(a){var
-b=e(aY,gt(bY,iZ(a)));return[0,iZ(a),b]},w);return f(y(function(a){var
-c=fb(b),d=[0,i(a[6],c)[2],0],e=fb(b);return f(i(a[6],e)[1],d)},w),x)}return 0},bX,B,$,Y),aW=cP(e(function(a){return bu(j,a)},ap))[1],aX=cP(aV)[1],Z=cO(aW),aq=cO(aX);function
-u(a){return bd(Z,bu(j,a))}function
-a0(i){if(0===A[4][0]){var
-s=z(u,E),t=u(o),e=cD(n),f=p(g(i),j);if(f)var
+w=y(function(a){var
+b=e(aZ,gu(bY,iZ(a)));return[0,iZ(a),b]},x);return f(y(function(a){var
+c=fb(b),d=[0,i(a[6],c)[2],0],e=fb(b);return f(i(a[6],e)[1],d)},x),w)}return 0},bX,B,$,Y),aW=cR(e(function(a){return bv(j,a)},ap))[1],aX=cR(aV)[1],Z=cQ(aW),aq=cQ(aX);function
+v(a){return bc(Z,bv(j,a))}function
+aY(i){if(0===A[4][0]){var
+s=z(v,F),t=v(o),e=cF(n),f=p(g(i),j);if(f)var
 h=z(function(a){return[0,[0,a,d],d]},s),a=function(a){return q(a,Z,k(d))},c=a(t),l=aB(0,e),b=m(function(b){var
-d=dz(j,b,c),e=d?m(function(d){var
+d=dB(j,b,c),e=d?m(function(d){var
 f=d[1],e=m(function(c){var
-d=a(c);return cC(R(j,b),d)},f);if(e){var
-g=a(d[2]);return gD(c,R(j,b),g)}return e},i):d;if(e){if(h){var
-g=a(h[1][1][1]);return cC(R(j,b),g)}var
+d=a(c);return cE(R(j,b),d)},f);if(e){var
+g=a(d[2]);return gF(c,R(j,b),g)}return e},i):d;if(e){if(h){var
+g=a(h[1][1][1]);return cE(R(j,b),g)}var
 f=1}else
 var
 f=e;return f},l);else
 var
 b=f;var
 r=b?e:b;return r}return 0}var
-W=a0(i(aw(u),U)),a1=m(function(a){var
-b=bu(j,a),c=k(d);return aJ(q(u(a),Z,c),b)},ap),a2=a1?m(function(a){return gE(j,a)},ap):a1,a3=a2?m(function(a){var
-b=k(d);return aJ(q(bd(aq,a),aq,b),a)},aV):a2,a5=a3?ak(uv,Y):a3;if(a5){var
-a6=Q(A[7]);if(a6)var
+X=aY(i(aw(v),V)),a1=m(function(a){var
+b=bv(j,a),c=k(d);return aJ(q(v(a),Z,c),b)},ap),a2=a1?m(function(a){return gG(j,a)},ap):a1,a3=a2?m(function(a){var
+b=k(d);return aJ(q(bc(aq,a),aq,b),a)},aV):a2,a4=a3?ak(uy,Y):a3;if(a4){var
+a6=P(A[7]);if(a6)var
 ac=a6;else{var
 bp=A[5];if(1===n&&2===bp[0])var
-bC=bp[1],br=h(a,1,[3,[0,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b))))))))),b],bC]);else
+bC=bp[1],bq=h(a,1,[3,[0,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b))))))))),b],bC]);else
 var
-br=0;var
-ac=br}}else
+bq=0;var
+ac=bq}}else
 var
-ac=a5;var
-a7=ac?i0(n,ed(A[4])):ac,a8=a7?h(a,1,A[3]):a7;if(a8)var
-bZ=gI(A[5]),ar=m(function(b){var
-c=c5(a,b[1]);return c?c5(a,b[2]):c},bZ);else
+ac=a4;var
+a7=ac?i0(n,ee(A[4])):ac,a8=a7?h(a,1,A[3]):a7;if(a8)var
+bZ=gK(A[5]),ar=m(function(b){var
+c=c7(a,b[1]);return c?c7(a,b[2]):c},bZ);else
 var
 ar=a8;if(ar){var
-b0=f(K,[0,P,0]),as=ab(e(function(b){return an(a,b)},b0));if(as){var
+b0=f(K,[0,Q,0]),as=ab(e(function(b){return ao(a,b)},b0));if(as){var
 at=ab(e(function(b){return iJ(a,b)},aS));if(at){var
-b1=nu(n,ed(A[4])),au=ab(e(function(b){return an(a,[0,b,B])},b1));if(au){var
-a9=au[1],b2=mZ(A[5]),ax=ab(e(function(b){return m1(a,b)},b2));if(ax){var
-a_=ax[1],b3=mY(A[5]),ay=ab(e(c4(a),b3));if(ay){var
-b4=0,I=function(a){return bd(aq,a)},az=f(K,[0,P,0]),aA=ab(c7(function(j,f){if(typeof
+b1=nx(n,ee(A[4])),au=ab(e(function(b){return ao(a,[0,b,B])},b1));if(au){var
+a9=au[1],b2=m2(A[5]),ax=ab(e(function(b){return m4(a,b)},b2));if(ax){var
+a_=ax[1],b3=m1(A[5]),ay=ab(e(c6(a),b3));if(ay){var
+b4=0,I=function(a){return bc(aq,a)},az=f(K,[0,Q,0]),aA=ab(c9(function(j,f){if(typeof
 f!=="number")switch(f[0]){case
 13:var
-E=f[4],aM=F(w,f[1]);if(aM){if(nt(f[3])&&h(a,0,E)&&h(a,0,[3,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b],E])){var
-aN=f[2],aO=aM[1];if(gN(E)){var
-aG=np(j,i(aO[3],aN)),U=aG[2];if(h(l,0,[3,E,[0,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b))))))))),b]]))var
+E=f[4],aM=G(x,f[1]);if(aM){if(nw(f[3])&&h(a,0,E)&&h(a,0,[3,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b],E])){var
+aN=f[2],aO=aM[1];if(gP(E)){var
+aG=ns(j,i(aO[3],aN)),V=aG[2];if(h(l,0,[3,E,[0,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b))))))))),b]]))var
 aH=0;else
 var
-be=u(U),bf=u(U),aH=[0,[6,[0,[0,e(u,aG[1]),bf],0],be],0];var
-aP=[0,[4,u(U)],aH]}else
+be=v(V),bf=v(V),aH=[0,[6,[0,[0,e(v,aG[1]),bf],0],be],0];var
+aP=[0,[4,v(V)],aH]}else
 var
-aP=[0,[9,[3,I(nq(G,o,j,aN,aO[4]))]],0];return e(function(a){return[0,a]},aP)}return ut}return uu;case
+aP=[0,[9,[3,I(nt(H,o,j,aN,aO[4]))]],0];return e(function(a){return[0,a]},aP)}return uw}return ux;case
 16:var
-Y=f[3],t=f[2],aQ=f[1],bg=bt(n);if(p(g(w),bg)&&h(a,0,aQ)&&h(a,1,t)&&h(a,1,Y)&&c5(a,Y)){var
-aI=an(a,[0,[0,t,t],B]);if(aI){var
-bh=aI[1],aJ=i(c4(a),Y);if(aJ){var
+Y=f[3],t=f[2],aQ=f[1],bg=bu(n);if(p(g(x),bg)&&h(a,0,aQ)&&h(a,1,t)&&h(a,1,Y)&&c7(a,Y)){var
+aI=ao(a,[0,[0,t,t],B]);if(aI){var
+bh=aI[1],aJ=i(c6(a),Y);if(aJ){var
 bi=aJ[1],aK=ab(e(function(f){var
 b=ma(a,I,az,B,aQ,t,iZ(f));if(b){var
-c=l$(a,u,az,B,t,f[1][2]);if(c){var
-g=gL(0,0,f[1][2]);if(g)var
+c=l$(a,v,az,B,t,f[1][2]);if(c){var
+g=gN(0,0,f[1][2]);if(g)var
 i=e(av,c[1]),d=[0,[0,b[1],i]];else
 var
 d=g}else
@@ -4700,34 +4776,34 @@ var
 d=c;var
 h=d}else
 var
-h=b;return h},w));if(aK){var
-bj=aK[1],bk=e(function(a){return ns(n,J,az,j,a)},w),aL=i(aw(u),bk),V=function(a){var
-b=cD(n),c=e(function(a){var
-b=fb(j);return I(i(a[6],b)[2])},w),d=e(function(a){var
-b=fb(j);return e(I,i(a[6],b)[1])},w),f=a0(aL);return[0,[8,[0,aL,u(o),f,d,c,bj,bh,bi,b,a]]]};if(2<=n)return[0,V(1),0];var
-bl=[0,V(1),0];return[0,V(0),bl]}return up}return uq}return ur}return us}var
-bm=0,v=e(function(a){return a[1]},w);function
-Z(c,b,a){return[0,c,b,a,W]}var
-H=0;if(typeof
+h=b;return h},x));if(aK){var
+bj=aK[1],bk=e(function(a){return nv(n,J,az,j,a)},x),aL=i(aw(v),bk),W=function(a){var
+b=cF(n),c=e(function(a){var
+b=fb(j);return I(i(a[6],b)[2])},x),d=e(function(a){var
+b=fb(j);return e(I,i(a[6],b)[1])},x),f=aY(aL);return[0,[8,[0,aL,v(o),f,d,c,bj,bh,bi,b,a]]]};if(2<=n)return[0,W(1),0];var
+bl=[0,W(1),0];return[0,W(0),bl]}return us}return ut}return uu}return uv}var
+bm=0,w=e(function(a){return a[1]},x);function
+Z(c,b,a){return[0,c,b,a,X]}var
+F=0;if(typeof
 f==="number")var
-aS=u(o),s=[0,Z(i(aw(u),v),aS,x)];else
+aS=v(o),s=[0,Z(i(aw(v),w),aS,u)];else
 switch(f[0]){case
 0:var
-y=[5,[0,b,b],f[1]],K=Z;H=1;break;case
+y=[5,[0,b,b],f[1]],K=Z;F=1;break;case
 1:var
-aU=[5,[0,b,b],f[1]],y=aU,K=function(c,b,a){return[1,c,b,a]};H=1;break;case
+aU=[5,[0,b,b],f[1]],y=aU,K=function(c,b,a){return[1,c,b,a]};F=1;break;case
 2:var
-aV=iY(a,o,w,j,f),s=z(function(a){return[4,u(a)]},aV);break;case
+aV=iY(a,o,x,j,f),s=z(function(a){return[4,v(a)]},aV);break;case
 3:var
-aW=iY(a,o,w,j,f),s=z(function(a){return[4,u(a)]},aW);break;case
+aW=iY(a,o,x,j,f),s=z(function(a){return[4,v(a)]},aW);break;case
 5:var
-_=f[1],aX=an(a,[0,[0,_,_],d]),s=z(function(b){var
-c=X(a,b),d=u(o);return[2,i(aw(u),v),d,c]},aX);break;case
+_=f[1],aX=ao(a,[0,[0,_,_],d]),s=z(function(b){var
+c=S(a,b),d=v(o);return[2,i(aw(v),w),d,c]},aX);break;case
 6:var
-M=F(w,f[1]);if(M){var
-N=nn(w,j,f);if(N){var
+M=G(x,f[1]);if(M){var
+N=nq(x,j,f);if(N){var
 $=N[1],aa=h(a,1,f[2]),ac=aa?h(a,1,f[3]):aa;if(ac)var
-aY=u($[2]),aZ=u(M[1][1][2]),ad=[0,[5,[0,[0,[0,u($[1]),0],aZ],0],aY]];else
+aZ=v($[2]),a0=v(M[1][1][2]),ad=[0,[5,[0,[0,[0,v($[1]),0],a0],0],aZ]];else
 var
 ad=ac;var
 ae=ad}else
@@ -4738,26 +4814,26 @@ var
 af=M;var
 s=af;break;case
 7:var
-ag=f[3],ah=f[2],ai=f[1],aj=F(w,ai),aR=0;if(aj){var
+ag=f[3],ah=f[2],ai=f[1],aj=G(x,ai),aR=0;if(aj){var
 ak=h(a,1,ah),al=ak?h(a,1,ag):ak;if(al){var
-a1=[5,ah,ag],y=a1,K=function(c,b,a){return[3,ai,c,b,a,W]};H=1;aR=1}else
+a1=[5,ah,ag],y=a1,K=function(c,b,a){return[3,ai,c,b,a,X]};F=1;aR=1}else
 var
 am=al}else
 var
 am=aj;if(!aR)var
 s=am;break;case
 8:var
-ao=h(a,1,f[2]);if(ao)var
+an=h(a,1,f[2]);if(an)var
 a2=f[1],a3=1,O=m(function(b){return h(a,a3,b)},a2);else
 var
-O=ao;if(O)var
-a4=L(a,b),a5=u(o),a6=gC(v,j),ap=[0,[0,i(aw(u),a6),a5,a4,0]];else
+O=an;if(O)var
+a4=L(a,b),a5=v(o),a6=gE(w,j),ap=[0,[0,i(aw(v),a6),a5,a4,0]];else
 var
 ap=O;var
 s=ap;break;case
 14:var
-aq=f[2],ar=f[1],P=nr(n,G,o,w,j,ar,aq);if(P){var
-as=P[1],at=as[2],au=as[1],ax=mO(ar,aq,f[3]),Q=an(a,[0,[0,ax,ax],B]);if(Q){var
+aq=f[2],ar=f[1],P=nu(n,H,o,x,j,ar,aq);if(P){var
+as=P[1],at=as[2],au=as[1],ax=mR(ar,aq,f[3]),Q=ao(a,[0,[0,ax,ax],B]);if(Q){var
 ay=Q[1],aA=D(d,ay[1]);if(aA)var
 A=function(a){return l_(I,a)},a7=A(at[2]),a8=A(at[1]),a9=A(au[2]),aB=[0,[9,[6,A(au[1]),a9,a8,a7,ay]]];else
 var
@@ -4770,42 +4846,42 @@ var
 aD=P;var
 s=aD;break;case
 15:var
-R=F(w,f[1]);if(R){var
+R=G(x,f[1]);if(R){var
 aE=h(a,1,f[4]);if(aE)var
-aF=h(a,0,f[2]),S=aF?h(a,0,f[3]):aF;else
+aF=h(a,0,f[2]),T=aF?h(a,0,f[3]):aF;else
 var
-S=aE;if(S)var
-C=i(R[1][5],0),a_=I(C[4]),a$=I(C[3]),ba=I(q(uo,j,k(d))),bb=I(q(0,j,k(d))),bc=C[2],bd=e(function(a){return e(I,a)},bc),T=[0,[9,[10,e(I,C[1]),bd,bb,ba,a$,a_]]];else
+T=aE;if(T)var
+C=i(R[1][5],0),a_=I(C[4]),a$=I(C[3]),ba=I(q(ur,j,k(d))),bb=I(q(0,j,k(d))),bc=C[2],bd=e(function(a){return e(I,a)},bc),U=[0,[9,[10,e(I,C[1]),bd,bb,ba,a$,a_]]];else
 var
-T=S}else
+U=T}else
 var
-T=R;var
-s=T;break;default:var
-s=0}if(H)var
-aT=an(a,[0,[0,y,y],d]),s=z(function(b){var
-c=X(a,b),d=u(o);return K(i(aw(u),v),d,c)},aT);return[0,s,bm]},b4,B,$,Y));if(aA){var
+U=R;var
+s=U;break;default:var
+s=0}if(F)var
+aT=ao(a,[0,[0,y,y],d]),s=z(function(b){var
+c=S(a,b),d=v(o);return K(i(aw(v),w),d,c)},aT);return[0,s,bm]},b4,B,$,Y));if(aA){var
 a$=aA[1];if(A[7])var
-b5=aQ[2],b6=aQ[1],b7=u(o),ad=mp(bE,a$,[7,i(aw(u),ao),b7,b6,b5]);else
+b5=aQ[2],b6=aQ[1],b7=v(o),ad=mp(bE,a$,[7,i(aw(v),an),b7,b6,b5]);else
 var
 ad=a$;var
 ba=p(g(f(a9,a_)),j),bb=ba?m(function(a){var
-b=ng(a);return m(function(a){return mV(j,Z,a)},b)},ad):ba,bc=bb?E?mV(j,Z,u(E[1])):1:bb;if(bc){var
-b8=f(at[1],ay[1]),aC=f(as[1],b8),M=nw(aP),N=i1(B,A[2]),_=M?e(function(a){var
-b=ne(j,N,a[2]),c=a[1];return[0,e(function(a){return ne(j,N,a)},c),b]},U):M,aE=M?cP(iU(j,o,E,_))[1]:M,aF=cO(aE),ae=function(a){return bd(aF,a)},b9=iS(ae,ae,_),b_=ae(bu(j,o)),aG=z(function(a){return ae(bu(j,a))},E),be=Q(M);if(be)var
+b=nj(a);return m(function(a){return mY(j,Z,a)},b)},ad):ba,bd=bb?F?mY(j,Z,v(F[1])):1:bb;if(bd){var
+b8=f(at[1],ay[1]),aC=f(as[1],b8),M=nz(aP),N=i1(B,A[2]),_=M?e(function(a){var
+b=nh(j,N,a[2]),c=a[1];return[0,e(function(a){return nh(j,N,a)},c),b]},V):M,aD=M?cR(iU(j,o,F,_))[1]:M,aF=cQ(aD),ae=function(a){return bc(aF,a)},b9=iS(ae,ae,_),b_=ae(bv(j,o)),aG=z(function(a){return ae(bv(j,a))},F),be=P(M);if(be)var
 af=be;else{var
-bo=p(g(U),j);if(bo){var
-bA=iU(j,o,E,_),aM=m(function(a){var
-b=k(d);return aJ(q(bd(aF,a),aF,b),a)},bA);if(aM)var
-bB=iU(j,o,E,_),ag=m(function(a){var
+bo=p(g(V),j);if(bo){var
+bA=iU(j,o,F,_),aM=m(function(a){var
+b=k(d);return aJ(q(bc(aF,a),aF,b),a)},bA);if(aM)var
+bB=iU(j,o,F,_),ag=m(function(a){var
 b=aB(0,j);return m(function(b){return eg(j,b,a)},b)},bB);else
 var
 ag=aM;if(ag){var
-aN=z(function(a){return bu(j,a)},E),ai=bu(j,o),aL=na(ai);if(aL)var
-bz=aB(0,W),aO=m(function(a){var
-b=dz(j,a,ai),c=b?m(function(b){var
-d=b[2][2],e=f(y(iT,b[1]),d),g=R(j,a),c=m(function(a){return cC(g,a)},e);if(c){var
-h=b[2][1];return gD(ai,R(j,a),h)}return c},_):b;if(c){if(aN){var
-e=aN[1];return cC(R(j,a),e)}var
+aN=z(function(a){return bv(j,a)},F),ai=bv(j,o),aL=nd(ai);if(aL)var
+bz=aB(0,X),aO=m(function(a){var
+b=dB(j,a,ai),c=b?m(function(b){var
+d=b[2][2],e=f(y(iT,b[1]),d),g=R(j,a),c=m(function(a){return cE(g,a)},e);if(c){var
+h=b[2][1];return gF(ai,R(j,a),h)}return c},_):b;if(c){if(aN){var
+e=aN[1];return cE(R(j,a),e)}var
 d=1}else
 var
 d=c;return d},bz);else
@@ -4814,39 +4890,39 @@ aO=aL;var
 aj=aO}else
 var
 aj=ag;var
-cf=aj?m(function(a){var
-c=a[1],b=m(function(a){return nf(j,aC,N,a)},c);return b?nf(j,aC,N,a[2]):b},U):aj,af=cf}else
+ce=aj?m(function(a){var
+c=a[1],b=m(function(a){return ni(j,aC,N,a)},c);return b?ni(j,aC,N,a[2]):b},V):aj,af=ce}else
 var
 af=bo}if(af){var
 b$=e(function(a){return 1},ad),ca=f(a9,a_),cb=function(l,P,ac,$,c){if(M){if(typeof
 c!=="number"&&10===c[0]){var
 h=c[3],o=c[2],r=c[1];if(typeof
 r!=="number"&&6===r[0]){if(h){if(h[2])return 0;var
-w=h[1],b=r[1],x=p($,W),y=x?aH(0,W):x;if(y)var
-v=hV(hQ,e(av,o),N),Y=v?1:v,s=Y;else
+w=h[1],b=r[1],x=p($,X),y=x?aH(0,X):x;if(y)var
+v=hW(hR,e(av,o),N),Y=v?1:v,s=Y;else
 var
 s=y;var
-z=s?gm(N):s,A=z?m(function(a){return aH(a,g(l))},N):z,B=A?p(g(w),j):A;if(B){var
+z=s?gn(N):s,A=z?m(function(a){return aH(a,g(l))},N):z,B=A?p(g(w),j):A;if(B){var
 u=0;if(typeof
 b!=="number")switch(b[0]){case
 0:var
-I=b[2],G=b[1],F=0;u=1;break;case
+I=b[2],H=b[1],G=0;u=1;break;case
 7:var
 J=b[2],k=b[1],Q=0;if(typeof
 k!=="number"&&0===k[0]){var
 R=0;if(aG){var
 K=D(d,J);if(K){var
-I=k[2],G=k[1],F=[0,[0,[0,aG[1],J],b[3]]];u=1;Q=1;R=1}else
+I=k[2],H=k[1],G=[0,[0,[0,aG[1],J],b[3]]];u=1;Q=1;R=1}else
 var
 O=K}else
 var
 O=aG;if(!R)return O}if(!Q)return 0;break}if(u){var
-S=iN(a,e0(o,0,l),aE,P),n=iN(a,l,aE,P),f=function(b,a){return q(a,b,t$)},T=nc(function(a){return f(n,a)},F),U=f(n,b_),V=function(a){return f(n,a)},X=[0,iS(function(a){return f(S,a)},V,b9),U,T],Z=gg(o,l),_=function(g){var
-b=ab(e(t9,g[1]));if(b){var
+S=iN(a,e0(o,0,l),aD,P),n=iN(a,l,aD,P),f=function(b,a){return q(a,b,uc)},T=nf(function(a){return f(n,a)},G),U=f(n,b_),V=function(a){return f(n,a)},W=[0,iS(function(a){return f(S,a)},V,b9),U,T],Z=gh(o,l),_=function(g){var
+b=ab(e(ua,g[1]));if(b){var
 c=g[2];if(c){var
-d=c_(g[3]);if(d){var
-l=d[1],m=al([0,H(aa(t(a,ac,c[1])),l),0],j),n=b[1],o=e(function(d){var
-b=gh(a,0,Z,d),c=bq(t_,b[2]);return[0,b[1],c]},n),f=ic(a,e(function(b){return L(a,b)},w),G,I,o,m);if(f)return a4(a,j,f[1]);var
+d=da(g[3]);if(d){var
+l=d[1],m=al([0,E(aa(t(a,ac,c[1])),l),0],j),n=b[1],o=e(function(d){var
+b=gi(a,0,Z,d),c=br(ub,b[2]);return[0,b[1],c]},n),f=id(a,e(function(b){return L(a,b)},w),H,I,o,m);if(f)return a5(a,j,f[1]);var
 h=f}else
 var
 h=d;var
@@ -4855,16 +4931,16 @@ var
 i=c;var
 k=i}else
 var
-k=b;return k};return i(iP(function(b,a){return t8},W,j,_),X)}var
+k=b;return k};return i(iP(function(b,a){return t$},X,j,_),W)}var
 C=0}else
 var
 C=B;var
-E=C}else
+F=C}else
 var
-E=h;return E}return 0}return 0}return M},cd=u(o),ce=i(aw(u),U);return fa(a,aW,aX,ad,j,j,z(u,E),ce,cd,cb,aC,ca,b$,aP)}var
+F=h;return F}return 0}return 0}return M},cc=v(o),cd=i(aw(v),V);return fa(a,aW,aX,ad,j,j,z(v,F),cd,cc,cb,aC,ca,b$,aP)}var
 bf=af}else
 var
-bf=bc;var
+bf=bd;var
 bg=bf}else
 var
 bg=aA;var
@@ -4886,84 +4962,74 @@ bm=as;var
 bn=bm}else
 var
 bn=ar;return bn}function
-fc(b,a){return bs(b,a[1],a[2])}function
-nx(b,a){var
+fc(b,a){return bt(b,a[1],a[2])}function
+nA(b,a){var
 c=fc(b,a[1]),d=c?fc(b,a[2]):c;return d?fc(b,a[3]):d}function
-aW(a){return typeof
-a==="number"?a?ux:uy:bt(a[1])}function
-ny(b,a,c){return typeof
+aX(a){return typeof
+a==="number"?a?uA:uB:bu(a[1])}function
+nB(b,a,c){return typeof
 b==="number"?b?[0,a[1],[0,a[2],0]]:[0,a[1],[0,a[2],[0,a[3],0]]]:iK(b[1],a,c)}function
-gP(a){if(0===a[0]){var
+gR(a){if(0===a[0]){var
 c=a[1];switch(c[0]){case
 0:return c[3];case
 1:return c[2];default:return[0,[0,d,b],[0,d,b],[0,d,b]]}}return a[1][4]}function
-gQ(b,c,a){return b?cA(b[1],c,a):a}function
-bU(d,c,b,a){var
-e=gP(a),f=gQ(d,c,gP(a)),g=T(function(b,a){return[2,b,a]},b,f);return T(function(b,a){return[3,b,a]},g,e)}function
-nz(b,a){var
+gS(b,c,a){return b?cC(b[1],c,a):a}function
+bW(d,c,b,a){var
+e=gR(a),f=gS(d,c,gR(a)),g=U(function(b,a){return[2,b,a]},b,f);return U(function(b,a){return[3,b,a]},g,e)}function
+nC(b,a){var
 c=typeof
 b==="number"?1:0;if(c){if(b)return[0,a[1],[0,a[2],0]];var
 d=[0,a[1],[0,a[2],[0,a[3],0]]]}else
 var
 d=c;return d}function
-nA(b,x,v){var
-e=x,d=v;for(;;){if(e){if(d){var
+nD(b,w,v){var
+e=w,d=v;for(;;){if(e){if(d){var
 f=d[1],j=e[1];if(0===j[0])var
 g=0===f[0]?md(b,j[1],f[1]):0;else
 if(0===f[0])var
 g=0;else{var
-a=f[1],c=j[1],k=bm(b,c[1],a[1]),l=k?bm(b,c[2],a[2]):k,m=l?bm(b,c[3],a[3]):l,n=m?bm(b,c[4],a[4]):m,o=n?c0(b,c[5],a[5]):n,p=o?c0(b,c[6],a[6]):o,q=p?h(b,1,a[5]):p,r=q?h(b,1,a[6]):q,s=r?h(b,1,w(a[1],a[1])):r;if(s)var
-u=iA(a),i=h(b,1,w(iA(a),u));else
+a=f[1],c=j[1],k=bm(b,c[1],a[1]),l=k?bm(b,c[2],a[2]):k,m=l?bm(b,c[3],a[3]):l,n=m?bm(b,c[4],a[4]):m,o=n?c2(b,c[5],a[5]):n,p=o?c2(b,c[6],a[6]):o,q=p?h(b,1,a[5]):p,r=q?h(b,1,a[6]):q,s=r?h(b,1,x(a[1],a[1])):r;if(s)var
+u=iA(a),i=h(b,1,x(iA(a),u));else
 var
 i=s;var
-g=i?cm(c[7],a[7]):i}if(g){var
+g=i?co(c[7],a[7]):i}if(g){var
 e=e[2],d=d[2];continue}var
 t=g}else
 var
 t=d;return t}return d?0:1}}function
-nB(a){return typeof
-a==="number"?a?dB(0):dt:dB(a[1])}function
-i2(b,d,c){if(0===c[0])return gq(b,d[1],c[1]);var
-a=c[1],e=[0,[0,a[5],b],[0,[0,a[6],b],0]],g=f(a6(a[4],b),e),h=f(a6(a[3],b),g),i=f(a6(a[2],d[2]),h);return f(a6(a[1],d[1]),i)}function
+nE(a){return typeof
+a==="number"?a?dD(0):dv:dD(a[1])}function
+i2(b,d,c){if(0===c[0])return gr(b,d[1],c[1]);var
+a=c[1],e=[0,[0,a[5],b],[0,[0,a[6],b],0]],g=f(a7(a[4],b),e),h=f(a7(a[3],b),g),i=f(a7(a[2],d[2]),h);return f(a7(a[1],d[1]),i)}function
 i3(b,a){if(b){var
 c=b[1],d=c[2];return bl(e$(c[1],a),d)}return a}function
-nC(f,t,al,J,ak,r,ai){if(r){var
-j=r[1],an=bK([0,d,d],ak),a=cx(ai,i2(J,an,j)),y=function(c,b){var
-d=aj(a,c);return ah(v,ah(C,nB(f),b),d)};if(0===j[0]){var
+nF(f,t,al,J,ak,r,ai){if(r){var
+j=r[1],an=bM([0,d,d],ak),a=cz(ai,i2(J,an,j)),y=function(c,b){var
+d=aj(a,c);return ah(w,ah(C,nE(f),b),d)};if(0===j[0]){var
 z=j[1];switch(z[0]){case
 0:var
-$=i3(t,aj(a,uA)),aE=z[1][5],A=q(uB,a,k(d)),B=aj(a,0),aa=y(uC,$),i=ls(aa,ds(B),aa,A,aE),ap=[0,aD(A),0],aq=[0,aD(V(B,B)),ap],l=[0,[0,i[1],i[2],i[3],[0,i[4]],[0,[0,i[2],A]],aq],$];break;case
+$=i3(t,aj(a,uD)),aD=z[1][5],A=q(uE,a,k(d)),B=aj(a,0),aa=y(uF,$),i=ls(aa,du(B),aa,A,aD),ap=[0,aE(A),0],aq=[0,aE(W(B,B)),ap],l=[0,[0,i[1],i[2],i[3],[0,i[4]],[0,[0,i[2],A]],aq],$];break;case
 1:var
-ab=i3(t,aj(a,uD)),ac=z[3],D=ac?[0,aj(a,uE)]:ac,ad=y(0,ab),m=lt(ad,ad,0);if(D)var
-K=D[1],L=[0,aD(V(K,K)),0];else
+ab=i3(t,aj(a,uG)),ac=z[3],D=ac?[0,aj(a,uH)]:ac,ad=y(0,ab),m=lt(ad,ad,0);if(D)var
+K=D[1],L=[0,aE(W(K,K)),0];else
 var
 L=D;var
 l=[0,[0,m[1],m[2],m[3],[0,m[4]],0,L],ab];break;default:var
-aF=k(d),aG=k(d),aH=[0,k(d),aG,aF],E=aj(a,0),aI=nB(f),n=lu(aI,ds(E)),ar=[0,aD(V(E,E)),0],l=[0,[0,n[1],n[2],n[3],[0,n[4]],0,ar],aH]}}else
+aF=k(d),aG=k(d),aH=[0,k(d),aG,aF],E=aj(a,0),aI=nE(f),n=lu(aI,du(E)),ar=[0,aE(W(E,E)),0],l=[0,[0,n[1],n[2],n[3],[0,n[4]],0,ar],aH]}}else
 var
-ae=i3(t,aj(a,uF)),F=j[1][7],G=q(uG,a,k(d)),e=q(uH,a,k(d)),af=aj(a,uI),H=aj(a,0),p=y(uJ,ae),o=ds(H),u=ah(v,af,aZ(V(o,af),o)),w=ds(u),M=cc(o,w),N=V(p,w),O=V(p,M),as=V(o,p),at=S(O),P=C(S(N),at),au=S(as),Q=v(S(G),au),av=s(k(c(2,b)),e),x=v(P,S(am(C(P,v(S(e),Q)),av))),aw=gb(F,s(e,aD(x))),T=am(N,e),U=gb(F,am(O,e)),W=am(Q,S(e)),X=k0(0,T,U,W),Y=gb(F,k0(1,T,U,W)),ax=aZ(Y,M),Z=ah(v,p,aZ(e,ah(C,aZ(X,w),ax))),ay=[0,aD(G),0],az=[0,aD(e),ay],aA=[0,aD(V(u,u)),az],aB=[0,aD(V(H,H)),aA],aC=bl(Z,aw),l=[0,[0,Z,s(S(e),x),aC,[1,X,Y],[0,[0,x,G]],aB],ae];var
-aP=R(ai,g(i2(J,an,j))),aQ=r[2],aR=nC(f,t,al,J,by(ak),aQ,aP),h=l[1],aS=l[2],ag=function(a){var
-b=bl(cc(aS,a),al);return typeof
-f==="number"?f?[0,a[1],[0,a[2],0]]:bO(a):gJ(f[1],a,b)},I=h[1],_=typeof
-f==="number"?1:0,aJ=h[6],aK=h[5],aL=_?f?[0,I[1],[0,I[2],0]]:bO(I):_,aM=h[4],aN=ag(h[3]),aO=h[2],ao=[0,[0,ag(h[1]),aO,aN,aM,aL,aK,aJ],aR]}else
+ae=i3(t,aj(a,uI)),F=j[1][7],G=q(uJ,a,k(d)),e=q(uK,a,k(d)),af=aj(a,uL),H=aj(a,0),p=y(uM,ae),o=du(H),u=ah(w,af,a0(W(o,af),o)),v=du(u),M=cf(o,v),N=W(p,v),O=W(p,M),as=W(o,p),at=T(O),P=C(T(N),at),au=T(as),Q=w(T(G),au),av=s(k(c(2,b)),e),x=w(P,T(am(C(P,w(T(e),Q)),av))),aw=gc(F,s(e,aE(x))),S=am(N,e),U=gc(F,am(O,e)),V=am(Q,T(e)),X=k0(0,S,U,V),Y=gc(F,k0(1,S,U,V)),ax=a0(Y,M),Z=ah(w,p,a0(e,ah(C,a0(X,v),ax))),ay=[0,aE(G),0],az=[0,aE(e),ay],aA=[0,aE(W(u,u)),az],aB=[0,aE(W(H,H)),aA],aC=bl(Z,aw),l=[0,[0,Z,s(T(e),x),aC,[1,X,Y],[0,[0,x,G]],aB],ae];var
+aP=R(ai,g(i2(J,an,j))),aQ=r[2],aR=nF(f,t,al,J,by(ak),aQ,aP),h=l[1],aS=l[2],ag=function(a){var
+b=bl(cf(aS,a),al);return typeof
+f==="number"?f?[0,a[1],[0,a[2],0]]:bQ(a):gL(f[1],a,b)},I=h[1],_=typeof
+f==="number"?1:0,aJ=h[6],aK=h[5],aL=_?f?[0,I[1],[0,I[2],0]]:bQ(I):_,aM=h[4],aN=ag(h[3]),aO=h[2],ao=[0,[0,ag(h[1]),aO,aN,aM,aL,aK,aJ],aR]}else
 var
 ao=r;return ao}function
 i4(c,b,a){if(a){var
-e=a[2],g=i4(c,by(b),e),h=a[1];return f(i2(c,bK([0,d,d],b),h),g)}return a}function
-nD(b,h,g,d,c,a){if(a){var
-j=a[2],k=a[1],l=nD(b,h,g,d,f(c,[0,k,0]),j),m=i(d,e(by,f(c,j)));return ao(h,ao(g,bK(b,k),m),l)}return b}function
-nE(a,f,e,d,c,b){if(c){var
-g=0,h=c[1];return nD(a,e,d,function(b){return nE(a,f,e,d,h,b)},g,b)}return b?a:f}function
-nF(d,a){if(a){var
-b=aE(d,a[1]);if(b)var
-c=nF(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
-var
-e=b;return e}return uK}function
-nG(d,a){if(a){var
-b=nF(d,a[1]);if(b)var
-c=nG(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
-var
-e=b;return e}return uL}function
+e=a[2],g=i4(c,by(b),e),h=a[1];return f(i2(c,bM([0,d,d],b),h),g)}return a}function
+nG(b,h,g,d,c,a){if(a){var
+j=a[2],k=a[1],l=nG(b,h,g,d,f(c,[0,k,0]),j),m=i(d,e(by,f(c,j)));return aq(h,aq(g,bM(b,k),m),l)}return b}function
+nH(a,f,e,d,c,b){if(c){var
+g=0,h=c[1];return nG(a,e,d,function(b){return nH(a,f,e,d,h,b)},g,b)}return b?a:f}function
 i5(b){if(b){var
 a=b[2],c=b[1];if(c){var
 e=c[2],q=c[1];if(e){var
@@ -4971,26 +5037,26 @@ f=e[2],r=e[1];if(f){if(f[2])return k(d);if(a){var
 g=a[2],h=a[1];if(h){var
 i=h[2],t=h[1];if(i){var
 j=i[2],u=i[1];if(j){var
-w=j[1];if(j[2])return k(d);if(g){var
+v=j[1];if(j[2])return k(d);if(g){var
 l=g[1];if(l){var
 m=l[2],x=l[1];if(m){var
 n=m[2],y=m[1];if(n){var
 z=n[1];if(n[2])return k(d);if(g[2])return k(d);var
-A=dw(t,u,x,y),B=s(f[1],A),D=s(r,dw(t,w,x,z));return C(v(s(q,dw(u,w,y,z)),D),B)}return k(d)}return k(d)}return k(d)}return k(d)}return k(d)}return k(d)}return k(d)}return k(d)}if(a){var
+A=dy(t,u,x,y),B=s(f[1],A),D=s(r,dy(t,v,x,z));return C(w(s(q,dy(u,v,y,z)),D),B)}return k(d)}return k(d)}return k(d)}return k(d)}return k(d)}return k(d)}return k(d)}return k(d)}if(a){var
 o=a[1];if(o){var
-p=o[2];return p?p[2]?k(d):a[2]?k(d):dw(q,r,o[1],p[1]):k(d)}return k(d)}return k(d)}return k(d)}return k(d)}return k(d)}function
-nH(a){if(a){var
+p=o[2];return p?p[2]?k(d):a[2]?k(d):dy(q,r,o[1],p[1]):k(d)}return k(d)}return k(d)}return k(d)}return k(d)}return k(d)}function
+nI(a){if(a){var
 b=a[1][6];if(b)var
-c=nH(a[2]),e=c?[0,[0,b[1][2],c[1]]]:c,d=e;else
+c=nI(a[2]),e=c?[0,[0,b[1][2],c[1]]]:c,d=e;else
 var
-d=b;return d}return uM}function
-nI(g,l,a){function
+d=b;return d}return uN}function
+nJ(g,l,a){function
 b(a){return q(a,l,k(d))}function
 m(a){var
-e=a[2],f=s(S(b(0)),e),c=0,d=0,g=a[1];return[0,[0,bL(function(b,a){return v(b,S(a))},g,f),d],c]}function
+e=a[2],f=s(T(b(0)),e),c=0,d=0,g=a[1];return[0,[0,bN(function(b,a){return w(b,T(a))},g,f),d],c]}function
 n(e){var
 a=e[6];if(a)var
-c=a[1],f=S(c[2]),g=s(S(b(0)),f),d=[0,[0,v(c[1],g),0],0];else
+c=a[1],f=T(c[2]),g=s(T(b(0)),f),d=[0,[0,w(c[1],g),0],0];else
 var
 d=a;return d}var
 j=0;if(typeof
@@ -5000,17 +5066,17 @@ switch(a[0]){case
 u=function(c){var
 a=c[4];if(typeof
 a!=="number"&&0===a[0]){var
-d=b(0);return[0,[0,v(a[1],d),0],0]}return 0},f=u,c=a[1];break;case
+d=b(0);return[0,[0,w(a[1],d),0],0]}return 0},f=u,c=a[1];break;case
 3:var
-w=function(c){var
+v=function(c){var
 a=c[4];if(typeof
 a!=="number"&&0===a[0]){var
-d=a[1];return[0,[0,v(b(0),d),0],0]}return 0},f=w,c=a[1];break;case
+d=a[1];return[0,[0,w(b(0),d),0],0]}return 0},f=v,c=a[1];break;case
 4:var
 x=function(e){var
 a=e[4];if(typeof
 a!=="number"&&1===a[0]){var
-c=a[2],d=a[1],f=s(b(uN),c),g=[0,[0,v(s(b(uO),d),f),0],0],h=s(d,b(uP));return[0,[0,v(s(c,b(0)),h),0],g]}return 0},f=x,c=a[1];break;case
+c=a[2],d=a[1],f=s(b(uO),c),g=[0,[0,w(s(b(uP),d),f),0],0],h=s(d,b(uQ));return[0,[0,w(s(c,b(0)),h),0],g]}return 0},f=x,c=a[1];break;case
 6:var
 y=function(a){var
 b=a[4];if(typeof
@@ -5026,71 +5092,71 @@ A=function(a){var
 b=a[4];if(typeof
 b!=="number"&&0===b[0])return n(a);return 0},f=A,c=a[1];break;case
 12:var
-i=nH(g);if(i)var
-B=b(0),o=bL(s,i[1],B),p=i5(e(function(a){return a[5]},g)),D=[0,bk(C(p,o)),0],r=[0,[0,v(p,o),D],0];else
+i=nI(g);if(i)var
+B=b(0),o=bN(s,i[1],B),p=i5(e(function(a){return a[5]},g)),D=[0,bk(C(p,o)),0],r=[0,[0,w(p,o),D],0];else
 var
 r=i;return r;case
 17:var
 t=a[1],f=function(d){var
 a=i5(e(function(a){return a[1]},g));function
 b(b){var
-c=[0,bk(C(a,b)),0];return[0,v(a,b),c]}var
-f=i5(ms(t,l,e(function(a){return a[1]},g))),c=s(aD(d[2]),f),h=[0,b(bk(c)),0];return[0,b(c),h]},c=t;break;default:j=1}if(j)return 0;var
-h=F(g,c);return h?f(h[1]):h}function
+c=[0,bk(C(a,b)),0];return[0,w(a,b),c]}var
+f=i5(ms(t,l,e(function(a){return a[1]},g))),c=s(aE(d[2]),f),h=[0,b(bk(c)),0];return[0,b(c),h]},c=t;break;default:j=1}if(j)return 0;var
+h=G(g,c);return h?f(h[1]):h}function
 ek(a){return e(function(a){return[0,a[1],a[2]]},a)}function
 fd(a){return e(function(a){var
 c=k(b);return[0,a[3],c]},a)}function
-nJ(c,b,a){if(typeof
-a!=="number"&&8===a[0])return bQ(gC(ek(c),b));return dX(nI(c,b,a))}function
-nK(f,l,k,K,J,t,a){if(typeof
-a==="number")return[0,[0,[0,x]],0];else
+nK(c,b,a){if(typeof
+a!=="number"&&8===a[0])return bS(gE(ek(c),b));return dY(nJ(c,b,a))}function
+nL(f,l,k,K,J,t,a){if(typeof
+a==="number")return[0,[0,[0,u]],0];else
 switch(a[0]){case
 0:var
 M=[5,[0,b,b],a[1]],n=M,o=function(a){return[0,a]};break;case
 1:var
 P=[5,[0,b,b],a[1]],n=P,o=function(a){return[1,a]};break;case
 5:var
-B=a[1],T=0,U=an(f,[0,[0,B,B],d]);return[0,z(function(a){return[2,X(f,a)]},U),T];case
+B=a[1],U=0,V=ao(f,[0,[0,B,B],d]);return[0,z(function(a){return[2,S(f,a)]},V),U];case
 7:var
-C=a[3],D=a[2],E=a[1];if(!F(k,E))return uS;var
+C=a[3],D=a[2],E=a[1];if(!G(k,E))return uT;var
 I=0;if(h(f,1,D)&&h(f,1,C))var
-V=[5,D,C],n=V,o=function(a){return[7,E,a]};else
-I=1;if(I)return uR;break;case
+W=[5,D,C],n=W,o=function(a){return[7,E,a]};else
+I=1;if(I)return uS;break;case
 8:var
-G=h(f,1,a[2]),W=0;if(G)var
+F=h(f,1,a[2]),X=0;if(F)var
 Y=a[1],Z=1,q=m(function(a){return h(f,Z,a)},Y);else
 var
-q=G;if(q)var
-_=L(f,b),$=gC(ek(k),t),H=[0,[4,i(aw(l),$),_]];else
+q=F;if(q)var
+_=L(f,b),$=gE(ek(k),t),H=[0,[4,i(aw(l),$),_]];else
 var
-H=q;return[0,H,W];default:var
+H=q;return[0,H,X];default:var
 s=0;if(typeof
 a==="number")s=1;else
 switch(a[0]){case
 4:var
-u=a[3],v=a[2],w=h(f,1,[3,u,v]),R=w?h(f,1,[3,[2,v,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b]],u]):w,j=R;break;case
+v=a[3],w=a[2],x=h(f,1,[3,v,w]),R=x?h(f,1,[3,[2,w,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b]],v]):x,j=R;break;case
 17:var
 A=h(f,1,a[3]);if(A)var
-S=e(function(a){return a[1]},k),j=mt(g(a[2]),S);else
+T=e(function(a){return a[1]},k),j=mt(g(a[2]),T);else
 var
 j=A;break;case
 6:case
 9:var
 y=h(f,1,a[2]),j=y?h(f,0,a[3]):y;break;default:s=1}if(s)var
 j=1;var
-p=j?nI(k,t,a):j;if(p){var
+p=j?nJ(k,t,a):j;if(p){var
 Q=[0,p[1],p[2]];return e(function(a){if(a){var
 b=a[2],c=a[1];if(b){if(b[2])return 0;var
 e=i(l,b[1]);return[0,[5,i(l,c),e]]}var
 d=[0,[3,i(l,c)]]}else
 var
-d=a;return d},Q)}return uQ}var
-N=0,O=an(f,[0,[0,n,n],gB(K,J)]);return[0,z(function(a){return o(X(f,a))},O),N]}function
-nL(a){if(typeof
+d=a;return d},Q)}return uR}var
+N=0,O=ao(f,[0,[0,n,n],gD(K,J)]);return[0,z(function(a){return o(S(f,a))},O),N]}function
+nM(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-uU(b){if(0===b[0])return[0,mn(b[1])];var
+uV(b){if(0===b[0])return[0,mn(b[1])];var
 a=b[1],c=a[7],d=a[6][1],e=a[5][1],f=bA(a[4]),g=bA(a[3]),h=bA(a[2]);return[1,[0,bA(a[1]),h,g,f,e,d,c]]}function
-bV(c){var
+bX(c){var
 a=c;for(;;)switch(a[0]){case
 0:var
 b=a[1];return[0,[0,[0,b,b],d],0];case
@@ -5099,64 +5165,64 @@ b=a[1];return[0,[0,[0,b,b],d],0];case
 7:case
 8:var
 a=a[1];continue;default:var
-e=bV(a[2]);return f(bV(a[1]),e)}}function
+e=bX(a[2]);return f(bX(a[1]),e)}}function
 bC(e,a,c){switch(a[0]){case
 0:var
-q=a[1];return cZ([0,[0,q,q],d],c);case
+q=a[1];return c1([0,[0,q,q],d],c);case
 1:var
 t=a[1],h=e,u=k(d);for(;;){if(h){var
-n=h[1];if(rx(n[1],t))return n[2];var
+n=h[1];if(ry(n[1],t))return n[2];var
 h=h[2];continue}return u}case
 2:return bk(bC(e,a[1],c));case
 3:var
 j=a[2],f=a[1],i=C;break;case
 4:var
-j=a[2],f=a[1],i=v;break;case
+j=a[2],f=a[1],i=w;break;case
 5:var
 j=a[2],f=a[1],i=s;break;case
 6:var
 j=a[2],f=a[1],i=am;break;case
 7:var
 l=eO(a[2]),m=bC(e,a[1],c);if(l){if(l[1]){var
-o=S(m),r=function(a){return s(a,o)},p=fR(bx(kH(l)),r,o);return kG(l)?p:s(p,m)}return m}return k(b);default:return aD(bC(e,a[1],c))}var
-w=bC(e,j,R(c,g(bV(f))));return i(bC(e,f,c),w)}function
-c$(c,h,b){var
+o=T(m),r=function(a){return s(a,o)},p=fS(bx(kH(l)),r,o);return kG(l)?p:s(p,m)}return m}return k(b);default:return aE(bC(e,a[1],c))}var
+v=bC(e,j,R(c,g(bX(f))));return i(bC(e,f,c),v)}function
+db(c,h,b){var
 a=h;for(;;)switch(a[0]){case
 6:var
-e=a[1],k=R(b,g(bV(e))),l=c$(c,a[2],k),m=f(c$(c,e,b),l);return[0,bC(c,a,b),m];case
+e=a[1],k=R(b,g(bX(e))),l=db(c,a[2],k),m=f(db(c,e,b),l);return[0,bC(c,a,b),m];case
 8:var
-n=c$(c,a[1],b);return[0,bC(c,a,b),n];case
+n=db(c,a[1],b);return[0,bC(c,a,b),n];case
 2:case
 7:var
 a=a[1];continue;case
 0:case
 1:return 0;default:var
-d=a[1],i=R(b,g(bV(d))),j=c$(c,a[2],i);return f(c$(c,d,b),j)}}function
-nM(i,h,f){var
+d=a[1],i=R(b,g(bX(d))),j=db(c,a[2],i);return f(db(c,d,b),j)}}function
+nN(i,h,f){var
 b=i,a=h,c=f;for(;;){if(a){var
-d=a[1],e=d[2],j=R(c,g(bV(e))),k=a[2],l=bC(b,e,c),b=[0,[0,d[1],l],b],a=k,c=j;continue}return b}}function
+d=a[1],e=d[2],j=R(c,g(bX(e))),k=a[2],l=bC(b,e,c),b=[0,[0,d[1],l],b],a=k,c=j;continue}return b}}function
 i6(c,a,b){if(a){var
-e=a[1],d=e[2],h=R(b,g(bV(d))),i=a[2],j=bC(c,d,b),k=i6([0,[0,e[1],j],c],i,h);return f(c$(c,d,b),k)}return a}function
-fe(a){return y(bV,a)}function
-nN(c,a,b){if(a)var
-d=a[1],f=R(b,g(bV(d))),h=nN(c,a[2],f),e=[0,bC(c,d,b),h];else
+e=a[1],d=e[2],h=R(b,g(bX(d))),i=a[2],j=bC(c,d,b),k=i6([0,[0,e[1],j],c],i,h);return f(db(c,d,b),k)}return a}function
+fe(a){return y(bX,a)}function
+nO(c,a,b){if(a)var
+d=a[1],f=R(b,g(bX(d))),h=nO(c,a[2],f),e=[0,bC(c,d,b),h];else
 var
 e=a;return e}function
-nO(c,a,b){if(a){var
-d=a[1],e=R(b,g(bV(d))),h=nO(c,a[2],e);return f(c$(c,d,b),h)}return a}function
-gR(a){return 0===a[0]?fe(a[1]):bV(a[1])}function
+nP(c,a,b){if(a){var
+d=a[1],e=R(b,g(bX(d))),h=nP(c,a[2],e);return f(db(c,d,b),h)}return a}function
+gT(a){return 0===a[0]?fe(a[1]):bX(a[1])}function
 i7(c,b,a){if(b){var
-d=b[1],j=R(a,g(gR(d))),k=i7(c,b[2],j);if(0===d[0])var
-h=nO(c,d[1],a);else
+d=b[1],j=R(a,g(gT(d))),k=i7(c,b[2],j);if(0===d[0])var
+h=nP(c,d[1],a);else
 var
-e=d[1],i=c$(c,e,a),h=[0,bC(c,e,a),i];return f(h,k)}return b}function
-gS(c){var
+e=d[1],i=db(c,e,a),h=[0,bC(c,e,a),i];return f(h,k)}return b}function
+gU(c){var
 a=c[1];switch(a[0]){case
 0:var
 b=[1,a[1]];break;case
 1:var
 b=[0,a[1]];break;default:var
-b=bM(gS,a)}return[0,b]}function
+b=bO(gU,a)}return[0,b]}function
 i8(c){var
 b=c;for(;;){var
 a=b[1];switch(a[0]){case
@@ -5164,20 +5230,20 @@ a=b[1];switch(a[0]){case
 b=a[1];continue;case
 6:var
 d=i8(a[2]);return s(i8(a[1]),d);case
-9:return a[1];default:return S(b)}}}function
+9:return a[1];default:return T(b)}}}function
 i9(n,h,a,f){if(a){var
-c=a[1],w=R(f,g(gR(c))),x=i9(n,h,a[2],w);if(0===c[0])var
-l=nN(h,c[1],f),o=[0,l,k(b),l,0,0,0,0];else
+c=a[1],w=R(f,g(gT(c))),x=i9(n,h,a[2],w);if(0===c[0])var
+l=nO(h,c[1],f),o=[0,l,k(b),l,0,0,0,0];else
 var
-m=bC(h,c[1],f),q=gS(m),i=a5(aB(0,n),q),d=gS(i[2]),j=e(gS,i[1]),r=0,s=0,t=0,u=[0,m],v=e(function(a){return aJ(a,d)?k(b):am(a,d)},j),o=[0,j,i8(d),v,u,t,s,r];var
+m=bC(h,c[1],f),q=gU(m),i=a6(aB(0,n),q),d=gU(i[2]),j=e(gU,i[1]),r=0,s=0,t=0,u=[0,m],v=e(function(a){return aJ(a,d)?k(b):am(a,d)},j),o=[0,j,i8(d),v,u,t,s,r];var
 p=[0,o,x]}else
 var
 p=a;return p}function
-nP(a){return e(function(a){return[0,a[2],d]},a)}function
+nQ(a){return e(function(a){return[0,a[2],d]},a)}function
 i_(a){var
-b=y(gR,a[4]),c=f(fe(e(aY,a[3])),b);return f(nP(a[2]),c)}function
-gT(a){var
-c=cx(0,nP(a[2])),d=aB(0,g(a[1])),h=e(function(a){return[0,[0,a]]},d),b=$(e(av,a[2]),c);return f($(a[1],h),b)}function
+b=y(gT,a[4]),c=f(fe(e(aZ,a[3])),b);return f(nQ(a[2]),c)}function
+gV(a){var
+c=cz(0,nQ(a[2])),d=aB(0,g(a[1])),h=e(function(a){return[0,[0,a]]},d),b=$(e(av,a[2]),c);return f($(a[1],h),b)}function
 i$(b,d){var
 a=d;for(;;)switch(a[0]){case
 0:return 1;case
@@ -5189,14 +5255,14 @@ e=a[1];return ak(function(a){return ax(e,a)},b);case
 a=a[1];continue;default:var
 c=i$(b,a[1]);if(c){var
 a=a[2];continue}return c}}function
-nQ(d){var
+nR(d){var
 a=d;for(;;){if(a){var
-b=a[2],e=a[1],c=Q(ak(function(b){return function(a){return rx(b,a)}}(e),b));if(c){var
+b=a[2],e=a[1],c=P(ak(function(b){return function(a){return ry(b,a)}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-nR(a){var
-u=e(av,a[2]),d=f(a[1],u),h=g(a[1]),o=_(uV,h),p=o?_(h,uW):o,q=p?_(h,g(a[4])):p,r=q?_(g(a[4]),uX):q,s=r?nQ(d):r;if(s){var
+nS(a){var
+u=e(av,a[2]),d=f(a[1],u),h=g(a[1]),o=_(uW,h),p=o?_(h,uX):o,q=p?_(h,g(a[4])):p,r=q?_(g(a[4]),uY):q,s=r?nR(d):r;if(s){var
 c=d,b=a[3];for(;;){if(b){var
-j=b[1],k=j[1],l=Q(ak(function(b){return function(a){return ax(b,a)}}(k),c)),n=l?i$(c,j[2]):l;if(n){var
+j=b[1],k=j[1],l=P(ak(function(b){return function(a){return ax(b,a)}}(k),c)),n=l?i$(c,j[2]):l;if(n){var
 c=[0,k,c],b=b[2];continue}var
 t=n}else
 var
@@ -5207,7 +5273,7 @@ i=s;if(i){var
 v=a[4];return m(function(b){var
 c=0===b[0]?b[1]:[0,b[1],0],g=f(e(av,a[3]),d);return m(function(a){return i$(g,a)},c)},v)}return i}function
 el(f,e,g){var
-h=g[1],a=bM(function(a){return el(f,e,a)},h);switch(a[0]){case
+h=g[1],a=bO(function(a){return el(f,e,a)},h);switch(a[0]){case
 0:return q(a[1],f,[0,d,b]);case
 1:return q(a[1],e,[0,d,b]);case
 2:return[0,a[1],b];case
@@ -5219,7 +5285,7 @@ h=g[1],a=bM(function(a){return el(f,e,a)},h);switch(a[0]){case
 8:var
 c=a[1];return[4,c,c];case
 9:return[6,a[1]];default:return[0,d,b]}}function
-nS(d){var
+nT(d){var
 b=d;for(;;){var
 a=b[1];switch(a[0]){case
 10:return 0;case
@@ -5230,83 +5296,83 @@ b=a[1];continue;case
 0:case
 1:case
 2:return 1;default:var
-c=nS(a[1]);if(c){var
+c=nT(a[1]);if(c){var
 b=a[2];continue}return c}}}function
-nT(g,f,e){var
+nU(g,f,e){var
 b=f,a=e;for(;;){if(b){if(a){var
-c=c0(g,b[1],a[1]);if(c){var
+c=c2(g,b[1],a[1]);if(c){var
 b=b[2],a=a[2];continue}var
 d=c}else
 var
 d=a;return d}return a?0:1}}function
-uY(a){var
+uZ(a){var
 b=a[4],d=0;if(typeof
 b!=="number"&&0===b[0]){var
 c=[0,b[1],0];d=1}if(!d)var
 c=0;var
 e=f(a[3],c);return f(a[1],e)}function
-nU(f,e){function
-a(a){return q(a,e,[0,d,b])}var
-c=[0,d,b];switch(f){case
-0:var
-g=a(u0);return[0,a(0),g,c];case
-1:var
-h=a(u1),i=a(u2);return[0,a(0),i,h];default:return[0,c,c,c]}}function
 nV(f,e){function
 a(a){return q(a,e,[0,d,b])}var
 c=[0,d,b];switch(f){case
-0:return[0,c,c,a(u3)];case
+0:var
+g=a(u1);return[0,a(0),g,c];case
 1:var
-g=a(u4),h=a(u5);return[0,a(u6),h,g];default:var
-i=a(u7),j=a(u8);return[0,a(0),j,i]}}function
-nW(c,j,d,b,a){var
-e=aH(d,j),g=e?bb(b,a):e;if(g)var
-k=cv(c,a)[2],h=[0,cv(c,b)[1],k],l=[0,cv(c,dZ(a,b)),0],i=[0,[0,h,h,f(al(x,d),l)]];else
+h=a(u2),i=a(u3);return[0,a(0),i,h];default:return[0,c,c,c]}}function
+nW(f,e){function
+a(a){return q(a,e,[0,d,b])}var
+c=[0,d,b];switch(f){case
+0:return[0,c,c,a(u4)];case
+1:var
+g=a(u5),h=a(u6);return[0,a(u7),h,g];default:var
+i=a(u8),j=a(u9);return[0,a(0),j,i]}}function
+nX(c,j,d,b,a){var
+e=aH(d,j),g=e?ba(b,a):e;if(g)var
+k=cx(c,a)[2],h=[0,cx(c,b)[1],k],l=[0,cx(c,d0(a,b)),0],i=[0,[0,h,h,f(al(u,d),l)]];else
 var
 i=g;return i}function
 ja(a){if(a){var
 b=a[1];if(b)var
 c=ja(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return u$}function
-nX(c,b,a){if(b){if(a){var
-d=b[1],f=nX(c,b[2],a[2]),g=a[1],h=function(b,a){return A(t(c,d,b),a)},i=function(a){return a};return aK(function(a){return t(c,d,a)},i,h,g,f)}var
+d=b;return d}return va}function
+nY(c,b,a){if(b){if(a){var
+d=b[1],f=nY(c,b[2],a[2]),g=a[1],h=function(b,a){return A(t(c,d,b),a)},i=function(a){return a};return aK(function(a){return t(c,d,a)},i,h,g,f)}var
 e=a}else
 var
 e=b;return e}function
-nY(c,b,a){if(b){if(a){var
-d=nY(c,b[2],a[2]);return A(t(c,b[1],a[1]),d)}return x}return x}function
-gU(a){return aq(function(d,a){var
-e=c(2,b);return E(b4(b7(d),e),a)},d,a)}function
-nZ(a,i,h){var
+nZ(c,b,a){if(b){if(a){var
+d=nZ(c,b[2],a[2]);return A(t(c,b[1],a[1]),d)}return u}return u}function
+gW(a){return an(function(d,a){var
+e=c(2,b);return F(b6(b9(d),e),a)},d,a)}function
+n0(a,i,h){var
 d=g(i);function
 t(g,e,f){var
-d=[0,b,c(2,b)];return[0,Y(cv(a,a2(dp(e,f),d)))]}var
-j=ja(e(function(b){return d4(a,t,b)},i));if(j){var
-u=j[1],v=function(b,c,e){return nW(a,d,b,c,e)},k=ja(e(function(b){return d4(a,v,b)},i));if(k){var
-w=function(b){return cv(a,b)},n=e(function(a){return e(w,a)},h),y=k[1],z=e(function(a){return a[3]},y),A=e(function(b){return nY(a,b,e(function(a){return a[2]},u))},n),C=$(aB(0,d),n),E=e(function(c){var
-i=nX(a,c[2],z),j=c[1],d=[0,L(a,b),0],e=f(al(x,j),d);function
-g(b,a){return H(b,as(a))}function
+d=[0,b,c(2,b)];return[0,Z(cx(a,a3(dr(e,f),d)))]}var
+j=ja(e(function(b){return d5(a,t,b)},i));if(j){var
+v=j[1],w=function(b,c,e){return nX(a,d,b,c,e)},k=ja(e(function(b){return d5(a,w,b)},i));if(k){var
+x=function(b){return cx(a,b)},n=e(function(a){return e(x,a)},h),y=k[1],z=e(function(a){return a[3]},y),A=e(function(b){return nZ(a,b,e(function(a){return a[2]},v))},n),C=$(aB(0,d),n),F=e(function(c){var
+i=nY(a,c[2],z),j=c[1],d=[0,L(a,b),0],e=f(al(u,j),d);function
+g(b,a){return E(b,as(a))}function
 h(a){return aa(as(a))}return aK(function(a){return a},h,g,e,i)},C),o=p(g(h),d),q=o?m(function(a){return p(g(a),d)},h):o;if(q)var
-F=c(2,b),G=b4(cp(a),F),I=gU(A),l=D(B(c(2,c(2,b)),I),G);else
+G=c(2,b),H=b6(cr(a),G),I=gW(A),l=D(B(c(2,c(2,b)),I),H);else
 var
 l=q;if(l){var
-J=c(2,b),K=b4(cp(a),J),M=gU(dX(E));return D(B(c(2,c(2,b)),M),K)}var
+J=c(2,b),K=b6(cr(a),J),M=gW(dY(F));return D(B(c(2,c(2,b)),M),K)}var
 r=l}else
 var
 r=k;var
 s=r}else
 var
 s=j;return s}function
-bW(a){return m(function(a){return Q(d3(a))},a)}function
-bg(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-bv(a){return[0,a[1],a[2]]}function
-n0(b,a){var
+bY(a){return m(function(a){return P(d4(a))},a)}function
+bf(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+bw(a){return[0,a[1],a[2]]}function
+n1(b,a){var
 d=g(a),c=p(g(b),d);if(c){var
-e=$(b,a);return m(function(a){return bb(a[1],a[2])},e)}return c}function
+e=$(b,a);return m(function(a){return ba(a[1],a[2])},e)}return c}function
 jb(e,k,j,i){var
 c=k,b=j,a=i;for(;;){if(c)if(b)if(a){var
-f=a[1],l=h(e,1,[3,bv(c[1]),f]),g=l||h(e,1,[3,f,bv(b[1])]);if(!g){var
+f=a[1],l=h(e,1,[3,bw(c[1]),f]),g=l||h(e,1,[3,f,bw(b[1])]);if(!g){var
 c=c[2],b=b[2],a=a[2];continue}var
 d=g}else
 var
@@ -5315,37 +5381,37 @@ var
 d=b;else
 var
 d=c;return d}}function
-n1(f,e,b,a){var
+n2(f,e,b,a){var
 c=a[1],d=b[1],g=c[2],h=a[2],i=d[2],j=b[2],k=[0,d[1],[0,c[1],0]];return m(function(a){var
 b=[0,i,[0,g,0]];return m(function(b){var
 c=[0,j,[0,h,0]];return m(function(c){var
-d=bv(c),g=bv(b);return bR(f,e,[0,bv(a),g,d])},c)},b)},k)}function
-n2(a){switch(a[0]){case
+d=bw(c),g=bw(b);return bT(f,e,[0,bw(a),g,d])},c)},b)},k)}function
+n3(a){switch(a[0]){case
 0:var
-c=[0,a[4],0],d=f(bg(a[3]),c),e=f(bg(a[2]),d);return f(bg(a[1]),e);case
+c=[0,a[4],0],d=f(bf(a[3]),c),e=f(bf(a[2]),d);return f(bf(a[1]),e);case
 1:var
-b=a[3],g=b?bg(b[1]):b,h=f(bg(a[2]),g);return f(bg(a[1]),h);default:return bg(a[1])}}function
+b=a[3],g=b?bf(b[1]):b,h=f(bf(a[2]),g);return f(bf(a[1]),h);default:return bf(a[1])}}function
 ff(b,a){var
-c=a2(a,a);return bb(a2(b,b),c)?a:b}function
+c=a3(a,a);return ba(a3(b,b),c)?a:b}function
 fg(b,a,e,d){var
-c=dy(b,a,bv(e));return c?dy(b,a,bv(d)):c}function
-n3(a){var
-c=q(vf,a,[0,d,b]),e=q(vg,a,[0,d,b]);return[0,[0,q(0,a,[0,d,b]),e],c]}function
+c=dA(b,a,bw(e));return c?dA(b,a,bw(d)):c}function
+n4(a){var
+c=q(vg,a,[0,d,b]),e=q(vh,a,[0,d,b]);return[0,[0,q(0,a,[0,d,b]),e],c]}function
 jc(d,c,b,a){var
-e=bS(d,c,b,a);return w(bS(d,c,b,a),e)}function
-vh(i,k,t,S,H,o,l,n,aR){var
-j=t[5],aJ=$(l,n),aK=$(aB(0,g(l)),aJ),ag=e(function(a){return[1,a[1],a[2][1],a[2][2]]},aK),ax=t[7],ay=ax?e9(i,t[2],S):ax,az=ay?bR(i,t[4],H):ay,aA=az?cB(i,j,o):az,aC=aA?_(k,vi):aA;if(aC)var
+e=bU(d,c,b,a);return x(bU(d,c,b,a),e)}function
+vi(i,k,t,S,H,o,l,n,aR){var
+j=t[5],aJ=$(l,n),aK=$(aB(0,g(l)),aJ),ag=e(function(a){return[1,a[1],a[2][1],a[2][2]]},aK),ax=t[7],ay=ax?e9(i,t[2],S):ax,az=ay?bT(i,t[4],H):ay,aA=az?cD(i,j,o):az,aC=aA?_(k,vj):aA;if(aC)var
 aS=R(k,g(o)),T=p(g(l),aS);else
 var
 T=aC;if(T)var
-aT=0===j[0]?vj:vk,U=p(g(o),aT);else
+aT=0===j[0]?vk:vl,U=p(g(o),aT);else
 var
 U=T;var
-aD=U?n0(l,n):U;if(aD)var
-aV=n3(aI(k,n)),aW=n3(aI(k,l)),V=n1(i,t[4],aW,aV);else
+aD=U?n1(l,n):U;if(aD)var
+aU=n4(aI(k,n)),aW=n4(aI(k,l)),V=n2(i,t[4],aW,aU);else
 var
 V=aD;if(V){var
-a=aU(k,n),c=aU(k,l);switch(j[0]){case
+a=aV(k,n),c=aV(k,l);switch(j[0]){case
 0:var
 X=0;if(c)if(c[2])var
 h=0;else
@@ -5392,7 +5458,7 @@ if(a){var
 B=a[2],ac=0;if(B){var
 C=B[2];if(C)if(C[2]){var
 h=0;K=1;L=1;ac=1}else{var
-aM=[0,bv(ff(A[1],C[1])),0],aN=[0,bv(ff(z[1],B[1])),aM],h=cB(i,j,[0,bv(ff(c[1],a[1])),aN]);K=1;L=1;ac=1}else
+aM=[0,bw(ff(A[1],C[1])),0],aN=[0,bw(ff(z[1],B[1])),aM],h=cD(i,j,[0,bw(ff(c[1],a[1])),aN]);K=1;L=1;ac=1}else
 var
 ao=C}else
 var
@@ -5416,12 +5482,12 @@ if(a){var
 F=a[2],ae=0;if(F){var
 G=F[2],af=0;if(G)if(G[2]){var
 h=0;M=1;N=1;ae=1;af=1}else{var
-r=G[1],s=E[1],aH=0,aO=0;if(bb(s,[0,d,b])&&bb([0,d,b],r))var
+r=G[1],s=E[1],aH=0,aO=0;if(ba(s,[0,d,b])&&ba([0,d,b],r))var
 ar=[0,d,b];else
 aH=1;if(aH)var
-aL=a2(r,r),ar=bb(a2(s,s),aL)?s:r;var
-aP=[0,bv(ar),aO],aQ=[0,bv(ff(D[1],F[1])),aP],as=cB(i,j,[0,bv(ff(c[1],a[1])),aQ]);if(as){var
-h=fg(i,c6(j[2]),s,r);M=1;N=1;ae=1;af=1}else
+aL=a3(r,r),ar=ba(a3(s,s),aL)?s:r;var
+aP=[0,bw(ar),aO],aQ=[0,bw(ff(D[1],F[1])),aP],as=cD(i,j,[0,bw(ff(c[1],a[1])),aQ]);if(as){var
+h=fg(i,c8(j[2]),s,r);M=1;N=1;ae=1;af=1}else
 var
 at=as}else
 var
@@ -5443,30 +5509,30 @@ h=aw}var
 W=h}else
 var
 W=V;if(W){var
-aX=aI(k,bg(H)),aY=aI(k,n),aE=jb(i,aI(k,l),aY,aX);if(aE)var
+aX=aI(k,bf(H)),aY=aI(k,n),aE=jb(i,aI(k,l),aY,aX);if(aE)var
 u=aE;else{var
 aG=1===j[0]?0:1;if(aG)var
-aZ=aU(k,n),u=jb(i,aU(k,l),aZ,o);else
+aZ=aV(k,n),u=jb(i,aV(k,l),aZ,o);else
 var
 u=aG}}else
 var
 u=W;var
 aF=u?m(function(a){var
-c=bg(a[2]),b=bW(f(bg(a[1]),c));return b?bW([0,jc(j,o,H,a),0]):b},S):u;return aF?nZ(i,e(function(c){var
-h=[6,jc(j,o,H,c)],a=aI(k,ag),e=q(vd,a,[0,d,b]),f=q(ve,a,[0,d,b]),g=[0,q(0,a,[0,d,b]),f,e];return[3,[6,jc(j,aU(k,ag),g,c)],h]},S),aR):aF}var
+c=bf(a[2]),b=bY(f(bf(a[1]),c));return b?bY([0,jc(j,o,H,a),0]):b},S):u;return aF?n0(i,e(function(c){var
+h=[6,jc(j,o,H,c)],a=aI(k,ag),e=q(ve,a,[0,d,b]),f=q(vf,a,[0,d,b]),g=[0,q(0,a,[0,d,b]),f,e];return[3,[6,jc(j,aV(k,ag),g,c)],h]},S),aR):aF}var
 em=c(2,c(2,c(2,c(2,c(2,r(c(2,b)))))));function
 jd(e){var
-a=aE(em,e);if(a){var
+a=aC(em,e);if(a){var
 f=i(kK(c(2,b)),em);return[0,a[1][2],f]}return[0,d,b]}var
-vl=[0,[0,d,b],[0,d,b],[0,d,b]];function
+vm=[0,[0,d,b],[0,d,b],[0,d,b]];function
 fh(c,a){var
-e=[0,d,b];return aq(function(b,a){return[2,i(c,b),a]},e,a)}function
-fi(b,a){return aq(function(c,a){var
-d=i(b,c);return T(function(b,a){return[2,b,a]},d,a)},vl,a)}function
-n4(d,h,c,e){var
-a=d4(d,function(c,e,f){var
-a=aH(c,h),b=a?bb(e,f):a,g=b?[0,k6(d,c,e,f)]:b;return g},e);if(a){var
-b=a[1],f=hY(gU(aU(c,b[3]))),g=P(E(hY(gU(aI(c,b[3]))),f));return J(b[1][2],g)}return a}function
+e=[0,d,b];return an(function(b,a){return[2,i(c,b),a]},e,a)}function
+fi(b,a){return an(function(c,a){var
+d=i(b,c);return U(function(b,a){return[2,b,a]},d,a)},vm,a)}function
+n5(d,h,c,e){var
+a=d5(d,function(c,e,f){var
+a=aH(c,h),b=a?ba(e,f):a,g=b?[0,k6(d,c,e,f)]:b;return g},e);if(a){var
+b=a[1],f=hZ(gW(aV(c,b[3]))),g=Q(F(hZ(gW(aI(c,b[3]))),f));return J(b[1][2],g)}return a}function
 je(b,a,c){if(b)if(a)var
 f=a[1],g=je(b[2],a[2],c),h=J(b[1],d)?[3,f,c]:[2,f,c],e=[0,h,g];else
 var
@@ -5475,27 +5541,27 @@ var
 e=b;return e}function
 jf(a){return z(function(a){var
 d=i(kK(c(2,b)),em);return[0,a[2],d]},a)}function
-gV(b,a){return[1,b,hW(a),a]}function
-gW(a){var
+gX(b,a){return[1,b,hX(a),a]}function
+gY(a){var
 d=[0,c(2,b),b];return[5,[2,a[1],a[2]],d]}function
-cE(a){var
-b=gW(a[3]),c=gW(a[2]);return[0,gW(a[1]),c,b]}function
-n5(a,d,c){var
-b=aB(0,bt(a));return e(function(b){var
-e=aH(b,cD(a))?d:c;return gV(b,e)},b)}function
-n6(a){return[6,w(a,a)]}var
-gY=v(k(b),gX);function
-n7(e){var
-a=S(gY);if(e)var
+cG(a){var
+b=gY(a[3]),c=gY(a[2]);return[0,gY(a[1]),c,b]}function
+n6(a,d,c){var
+b=aB(0,bu(a));return e(function(b){var
+e=aH(b,cF(a))?d:c;return gX(b,e)},b)}function
+n7(a){return[6,x(a,a)]}var
+g0=w(k(b),gZ);function
+n8(e){var
+a=T(g0);if(e)var
 f=s(k(c(2,b)),a),g=C(k(c(2,c(2,b))),f),h=s(k(c(2,b)),a),d=am(C(k(b),h),g);else
 var
-i=C(k(c(2,b)),a),j=S(gX),d=am(C(s(k(c(2,b)),j),a),i);return aD(d)}function
-n8(d,c,a){if(d){var
-e=n7(c),f=C(k(b),e),g=s(v(k(b),a),f);return v(k(b),g)}var
-h=k(b),i=n7(c),j=am(k(b),i);return v(s(a,C(k(b),j)),h)}function
+i=C(k(c(2,b)),a),j=T(gZ),d=am(C(s(k(c(2,b)),j),a),i);return aE(d)}function
+n9(d,c,a){if(d){var
+e=n8(c),f=C(k(b),e),g=s(w(k(b),a),f);return w(k(b),g)}var
+h=k(b),i=n8(c),j=am(k(b),i);return w(s(a,C(k(b),j)),h)}function
 en(f,e,d,a){var
-g=S(a),h=S(d),i=v(v(k(c(2,b)),h),g),j=f?e?gY:am(gY,s(k(c(2,b)),gX)):am(gY,k(c(2,b))),l=s(S(j),i);return aD(C(k(b),l))}function
-n9(g,d){var
+g=T(a),h=T(d),i=w(w(k(c(2,b)),h),g),j=f?e?g0:am(g0,s(k(c(2,b)),gZ)):am(g0,k(c(2,b))),l=s(T(j),i);return aE(C(k(b),l))}function
+n_(g,d){var
 c=g,a=d[1],b=d[3];for(;;){if(c){if(b){var
 e=b[2],f=c[1]?A(a,b[1]):a,c=c[2],a=f,b=e;continue}return a}return a}}function
 jg(w,v,u,t){var
@@ -5508,7 +5574,7 @@ h=c[1];if(h){var
 d=c[2];if(d){var
 j=d[1];if(j){if(d[2])return 0;var
 x=j[1],y=h[1],z=g[1],A=f[1];return m(function(a){var
-c=i(a,x),d=i(a,y),e=i(a,z),b=i(a,A);return d5(w,[0,[0,b,[0,e,[0,d,0]]],[0,[0,b,[0,c,0]],[0,[0,b,0],0]]])},t)}var
+c=i(a,x),d=i(a,y),e=i(a,z),b=i(a,A);return d6(w,[0,[0,b,[0,e,[0,d,0]]],[0,[0,b,[0,c,0]],[0,[0,b,0],0]]])},t)}var
 k=j}else
 var
 k=d;var
@@ -5530,12 +5596,12 @@ r=f;var
 s=r}else
 var
 s=a;return s}function
-n_(f,i,e,c,h){var
+n$(f,i,e,c,h){var
 j=f?b:d,a=L(i,j);function
 g(b){var
-c=f?b8(b):cq(b);return H(c,a)}var
-k=[0,Y(h),0],l=[0,[0,a,c,[0,x,[0,g(c),0]]],k];return[0,[0,a,e,[0,g(e),0]],l]}function
-n$(r,b,q,p,g,o,n){if(o){var
+c=f?b_(b):cs(b);return E(c,a)}var
+k=[0,Z(h),0],l=[0,[0,a,c,[0,u,[0,g(c),0]]],k];return[0,[0,a,e,[0,g(e),0]],l]}function
+oa(r,b,q,p,g,o,n){if(o){var
 x=o[1];if(x[1])return 0;if(o[2])return 0;if(n){var
 j=x[2],s=0;if(g){var
 h=g[2],c=0;if(h){var
@@ -5544,16 +5610,16 @@ a=0;c=1;d=1}else{var
 t=i[1],k=h[1],l=g[1],f=0;if(typeof
 j==="number")switch(j){case
 0:var
-A=e(aC,bf(vu)),z=e(Y,0),a=jg(b,p,bc(0,bz(b,du(0,g),z),q,0),A);c=1;d=1;f=1;break;case
+A=e(aD,be(vv)),z=e(Z,0),a=jg(b,p,bb(0,bz(b,dw(0,g),z),q,0),A);c=1;d=1;f=1;break;case
 3:var
 a=D(k[2],l[1]);c=1;d=1;f=1;break}else
 if(4===j[0]){var
 m=j[1];if(r)if(m){var
-B=e(n9,vv),a=jg(b,p,bc(0,bz(b,n_(r,b,l,k,t),0),q,0),B);c=1;d=1;f=1}else{var
+B=e(n_,vw),a=jg(b,p,bb(0,bz(b,n$(r,b,l,k,t),0),q,0),B);c=1;d=1;f=1}else{var
 a=m;c=1;d=1;f=1}else
 if(m){var
 a=0;c=1;d=1;f=1}else{var
-C=e(n9,vw),a=jg(b,p,bc(0,bz(b,n_(r,b,l,k,t),0),q,0),C);c=1;d=1;f=1}}if(!f)var
+C=e(n_,vx),a=jg(b,p,bb(0,bz(b,n$(r,b,l,k,t),0),q,0),C);c=1;d=1;f=1}}if(!f)var
 u=0}else
 var
 u=i;if(!d)var
@@ -5563,28 +5629,28 @@ v=h;if(!c){var
 w=v;s=1}}else{var
 w=g;s=1}if(s)var
 a=w;var
-y=a?vx:a}else
+y=a?vy:a}else
 var
 y=n;return y}return[0,n]}function
-oa(f,e,d,c,p,o,n){var
+ob(f,e,d,c,p,o,n){var
 b=p,g=o,a=n;for(;;)switch(a[0]){case
 0:var
-h=n$(f,e,d,c,b,a[1],g);return h?Q(h[1]):h;case
+h=oa(f,e,d,c,b,a[1],g);return h?P(h[1]):h;case
 1:var
-i=n$(f,e,d,c,b,a[1],g);if(i){var
-j=i[1],k=cU(a[2],b),l=oa(f,e,d,c,k[1],j,a[3]);if(l){var
+i=oa(f,e,d,c,b,a[1],g);if(i){var
+j=i[1],k=cW(a[2],b),l=ob(f,e,d,c,k[1],j,a[3]);if(l){var
 b=k[2],g=j,a=a[4];continue}var
 m=l}else
 var
 m=i;return m;default:return 0}}function
-jh(a){return b4(c(2,b),aG(a,b))}function
+jh(a){return b6(c(2,b),aG(a,b))}function
 eo(i,a,e,w,v){var
-m=a?b:P(b),f=k(m),g=n8(a,e,vs),h=n8(a,e,vt),n=am(g,en(a,e,f,g)),o=[0,C(am(h,en(a,e,h,f)),n),0],p=am(f,en(a,e,f,g)),q=[0,C(am(h,en(a,e,g,h)),p),o],r=am(f,en(a,e,h,f)),t=[0,C(am(g,en(a,e,g,h)),r),q],u=a?e?k(c(2,b)):s(k(c(2,c(2,b))),gX):k(c(2,c(2,b))),j=cP([0,u,t]),l=[0,d,cp(i)];return oa(a,i,j[1],j[2],[0,l,[0,l,[0,w,0]]],1,v)}function
-ob(a,g,b){if(J(g,jh(a))){if(b){var
+m=a?b:Q(b),f=k(m),g=n9(a,e,vt),h=n9(a,e,vu),n=am(g,en(a,e,f,g)),o=[0,C(am(h,en(a,e,h,f)),n),0],p=am(f,en(a,e,f,g)),q=[0,C(am(h,en(a,e,g,h)),p),o],r=am(f,en(a,e,h,f)),t=[0,C(am(g,en(a,e,g,h)),r),q],u=a?e?k(c(2,b)):s(k(c(2,c(2,b))),gZ):k(c(2,c(2,b))),j=cR([0,u,t]),l=[0,d,cr(i)];return ob(a,i,j[1],j[2],[0,l,[0,l,[0,w,0]]],1,v)}function
+oc(a,g,b){if(J(g,jh(a))){if(b){var
 c=b[2];if(c){var
 d=c[2];if(d){var
 e=d[2];if(e){if(e[2])return 0;var
-h=[0,g,jh(a)],v=cp(a),i=[0,jh(a),v],j=eo(a,0,1,h,b[1]),k=j?eo(a,0,0,i,c[1]):j;if(k){var
+h=[0,g,jh(a)],v=cr(a),i=[0,jh(a),v],j=eo(a,0,1,h,b[1]),k=j?eo(a,0,0,i,c[1]):j;if(k){var
 l=eo(a,1,1,h,d[1]);if(l)return eo(a,1,0,i,e[1]);var
 m=l}else
 var
@@ -5602,7 +5668,7 @@ q=p}else
 var
 q=b;return q}if(b){var
 f=b[2];if(f){if(f[2])return 0;var
-r=[0,g,cp(a)],s=eo(a,0,0,r,b[1]);if(s)return eo(a,1,0,r,f[1]);var
+r=[0,g,cr(a)],s=eo(a,0,0,r,b[1]);if(s)return eo(a,1,0,r,f[1]);var
 t=s}else
 var
 t=f;var
@@ -5610,254 +5676,256 @@ u=t}else
 var
 u=b;return u}function
 ji(a){var
-b=[1,[2,d]];return bL(function(b,a){return[1,[3,b,a]]},a,b)}function
-gZ(a){return ji(e(function(a){return[1,[8,[1,[2,a]]]]},a))}function
-g0(a,c){return ji(e(function(a){var
+b=[1,[2,d]];return bN(function(b,a){return[1,[3,b,a]]},a,b)}function
+g1(a){return ji(e(function(a){return[1,[8,[1,[2,a]]]]},a))}function
+g2(a,c){return ji(e(function(a){var
 d=[0,a[2]],b=$(a[1],c);return[1,[7,[1,[8,ji(e(function(a){return[1,[6,[0,a[1]],[1,[2,a[2]]]]]},b))]],d]]},a))}function
-oc(e,d,c,b,a){if(0===a[0])return q(a[1],b,0);var
-f=a[1],g=bM(function(a){return oc(e,d,c,b,a)},f);return i(bz(e,d,c),g)}function
-od(a){return a?J(d,a[1][2][1]):a}function
-vy(a){var
-b=p(g(a),vz);return b?ak(function(a){return Q(I(a,d))},a):b}function
-oe(c,f,b,a){if(b)if(a)var
-d=b[1],g=t(c,L(c,a[1]),f),h=oe(c,f,b[2],a[2]),i=d[3],j=A(d[2],g),e=[0,[0,A(d[1],g),j,i],h];else
+od(e,d,c,b,a){if(0===a[0])return q(a[1],b,0);var
+f=a[1],g=bO(function(a){return od(e,d,c,b,a)},f);return i(bz(e,d,c),g)}function
+oe(a){return a?J(d,a[1][2][1]):a}function
+vz(a){var
+b=p(g(a),vA);return b?ak(function(a){return P(I(a,d))},a):b}function
+of(c,f,b,a){if(b)if(a)var
+d=b[1],g=t(c,L(c,a[1]),f),h=of(c,f,b[2],a[2]),i=d[3],j=A(d[2],g),e=[0,[0,A(d[1],g),j,i],h];else
 var
 e=a;else
 var
 e=b;return e}function
-of(d,c){var
-a=F(c,d);if(a){var
-b=a[1],e=b[1];return Q(I(b_(b),e))}return a}function
-g1(b,a){return eQ(eQ(b,0),a)}function
+og(d,c){var
+a=G(c,d);if(a){var
+b=a[1],e=b[1];return P(I(ca(b),e))}return a}function
+g3(b,a){return eQ(eQ(b,0),a)}function
 jj(a){if(a){var
-b=a[2],c=a[1];if(b)return g1(c,[0,vB,jj(b)]);var
+b=a[2],c=a[1];if(b)return g3(c,[0,vC,jj(b)]);var
 d=c}else
 var
 d=a;return d}function
-G(a){return[0,vD,g1(jj(a),vC)]}function
-ag(a){return[0,vF,g1(jj(a),vE)]}function
-ar(a){return[0,vH,[0,a,vG]]}function
-n(b,a){return[0,ba(vJ,ba(b,vI)),a]}function
+H(a){return[0,vE,g3(jj(a),vD)]}function
+ag(a){return[0,vG,g3(jj(a),vF)]}function
+ap(a){return[0,vI,[0,a,vH]]}function
+n(b,a){return[0,a$(vK,a$(b,vJ)),a]}function
 M(b,a){return ag([0,n(b,a),0])}function
-cF(d){var
-b=d,a=r2,e=0;for(;;){if(b){var
-c=kE(a),b=b[1],a=c;continue}return[0,eR(fQ(a)),e]}}function
-jk(a){return[0,eR(fY(a)),0]}function
+cH(d){var
+b=d,a=r3,e=0;for(;;){if(b){var
+c=kE(a),b=b[1],a=c;continue}return[0,eR(fR(a)),e]}}function
+jk(a){return[0,eR(fZ(a)),0]}function
 fj(a){var
-c=aN(a),f=0,b=0===c?r8:0<c?[0,fY(a)]:[1,fY(P(a))];if(0===b[0])var
+c=aO(a),f=0,b=0===c?r9:0<c?[0,fZ(a)]:[1,fZ(Q(a))];if(0===b[0])var
 d=eR(b[1]);else
 var
-e=eR(b[1]),d=ba(bH(1,45),e);return[0,d,f]}function
+e=eR(b[1]),d=a$(bJ(1,45),e);return[0,d,f]}function
 ep(a){var
-b=0,c=0<aN(a)?fY(a):r6;return[0,eR(c),b]}function
+b=0,c=0<aO(a)?fZ(a):r7;return[0,eR(c),b]}function
 jl(a){switch(a[0]){case
-2:return vL;case
-3:return 2<=a[1]?vM:vN;case
-4:return vO;default:return vK}}function
+2:return vM;case
+3:return 2<=a[1]?vN:vO;case
+4:return vP;default:return vL}}function
 fk(b,a){function
-c(c,a){return _(c,jl(a))?fk(b,a):[0,vU,f(fk(b,a),vT)]}switch(a[0]){case
+c(c,a){return _(c,jl(a))?fk(b,a):[0,vV,f(fk(b,a),vU)]}switch(a[0]){case
 0:var
 e=a[2],g=a[1];if(typeof
 e==="number")return[0,bj(g),0];var
-h=[0,vV,[0,bj(e),0]];return[0,bj(g),h];case
+h=[0,vW,[0,bj(e),0]];return[0,bj(g),h];case
 1:return[0,i(b,a[1]),0];case
-2:return[0,vX,c(vW,a[1])];case
+2:return[0,vY,c(vX,a[1])];case
 3:var
 j=a[3],k=c([0,jl(a)],j);switch(a[1]){case
 0:var
-d=vP;break;case
-1:var
 d=vQ;break;case
+1:var
+d=vR;break;case
 2:var
-d=vR;break;default:var
-d=vS}var
+d=vS;break;default:var
+d=vT}var
 l=a[2];return f(c(jl(a),l),[0,d,k]);case
 4:var
-m=[0,vY,jk(a[2])];return f(c(vZ,a[1]),m);default:return[0,v1,f(fk(b,a[1]),v0)]}}function
-K(a){return[0,v4,f(fk(function(a){return 0===a[0]?a[1]:v3},a),v2)]}function
-jm(a){return[0,v6,f(fk(function(a){return a},a),v5)]}function
-cG(a){if(0===a[0])return K(a[1]);var
-b=[0,n(v7,K(a[2])),0];return ag([0,n(v8,K(a[1])),b])}function
-g2(b,a){var
-c=[0,i(b,a[3]),0],d=[0,i(b,a[2]),c];return G([0,i(b,a[1]),d])}function
-v9(a){function
-b(a){return g2(cG,a)}switch(a[0]){case
+m=[0,vZ,jk(a[2])];return f(c(v0,a[1]),m);default:return[0,v2,f(fk(b,a[1]),v1)]}}function
+K(a){return[0,v5,f(fk(function(a){return 0===a[0]?a[1]:v4},a),v3)]}function
+jm(a){return[0,v7,f(fk(function(a){return a},a),v6)]}function
+cI(a){if(0===a[0])return K(a[1]);var
+b=[0,n(v8,K(a[2])),0];return ag([0,n(v9,K(a[1])),b])}function
+g4(b,a){var
+c=[0,i(b,a[3]),0],d=[0,i(b,a[2]),c];return H([0,i(b,a[1]),d])}function
+v_(a){function
+b(a){return g4(cI,a)}switch(a[0]){case
 0:var
-e=0,g=a[5]?v_:wg,h=[0,n(v$,ar(g)),e],i=[0,n(wa,cG(a[4])),h],j=[0,n(wb,b(a[3])),i],k=[0,n(wc,b(a[2])),j],l=[0,n(wd,b(a[1])),k],c=[0,n(wf,ar(we)),l];break;case
+e=0,g=a[5]?v$:wh,h=[0,n(wa,ap(g)),e],i=[0,n(wb,cI(a[4])),h],j=[0,n(wc,b(a[3])),i],k=[0,n(wd,b(a[2])),j],l=[0,n(we,b(a[1])),k],c=[0,n(wg,ap(wf)),l];break;case
 1:var
-d=a[3],m=d?[0,n(wh,b(d[1])),0]:d,o=[0,n(wi,b(a[2])),0],p=[0,n(wj,b(a[1])),o],c=f([0,n(wl,ar(wk)),p],m);break;default:var
-q=[0,n(wm,b(a[1])),0],c=[0,n(wo,ar(wn)),q]}return ag(c)}function
-wp(a){function
-b(a){return G(e(cG,a))}function
-d(a){var
-b=a?wq:ws;return n(wr,ar(b))}switch(a[0]){case
+d=a[3],m=d?[0,n(wi,b(d[1])),0]:d,o=[0,n(wj,b(a[2])),0],p=[0,n(wk,b(a[1])),o],c=f([0,n(wm,ap(wl)),p],m);break;default:var
+q=[0,n(wn,b(a[1])),0],c=[0,n(wp,ap(wo)),q]}return ag(c)}function
+wq(a){function
+b(a){return H(e(cI,a))}function
+g(a){var
+b=a?wr:wt;return n(ws,ap(b))}switch(a[0]){case
 0:var
-f=[0,d(a[5]),0],g=[0,n(wt,cG(a[4])),f],h=[0,n(wu,b(a[3])),g],i=[0,n(wv,b(a[2])),h],j=[0,n(ww,b(a[1])),i],c=[0,n(wy,ar(wx)),j];break;case
+h=[0,g(a[5]),0],i=[0,n(wu,cI(a[4])),h],j=[0,n(wv,b(a[3])),i],k=[0,n(ww,b(a[2])),j],l=[0,n(wx,b(a[1])),k],c=[0,n(wz,ap(wy)),l];break;case
 1:var
-k=[0,n(wz,b(a[2])),0],l=[0,n(wA,b(a[1])),k],c=[0,n(wC,ar(wB)),l];break;default:var
-m=[0,d(a[7]),0],o=[0,n(wD,cG(a[6])),m],p=[0,n(wE,cG(a[5])),o],q=[0,n(wF,b(a[4])),p],r=[0,n(wG,b(a[3])),q],s=[0,n(wH,b(a[2])),r],t=[0,n(wI,b(a[1])),s],c=[0,n(wK,ar(wJ)),t]}return ag(c)}function
+d=a[3],m=d?[0,n(wA,b(d[1])),0]:d,o=[0,n(wB,b(a[2])),0],p=[0,n(wC,b(a[1])),o],c=f([0,n(wE,ap(wD)),p],m);break;case
+2:var
+q=[0,n(wF,b(a[1])),0],c=[0,n(wH,ap(wG)),q];break;default:var
+r=[0,g(a[7]),0],s=[0,n(wI,cI(a[6])),r],t=[0,n(wJ,cI(a[5])),s],u=[0,n(wK,b(a[4])),t],v=[0,n(wL,b(a[3])),u],w=[0,n(wM,b(a[2])),v],x=[0,n(wN,b(a[1])),w],c=[0,n(wP,ap(wO)),x]}return ag(c)}function
 jn(a){switch(a){case
-0:return wL;case
-1:return wM;case
-2:return wN;case
-3:return wO;case
-4:return wP;case
-5:return wQ;case
-6:return wR;case
-7:return wS;case
-8:return wT;case
-9:return wU;case
-10:return wV;case
-11:return wW;case
-12:return wX;case
-13:return wY;case
-14:return wZ;case
-15:return w0;default:return w1}}function
+0:return wQ;case
+1:return wR;case
+2:return wS;case
+3:return wT;case
+4:return wU;case
+5:return wV;case
+6:return wW;case
+7:return wX;case
+8:return wY;case
+9:return wZ;case
+10:return w0;case
+11:return w1;case
+12:return w2;case
+13:return w3;case
+14:return w4;case
+15:return w5;default:return w6}}function
 jo(a){if(typeof
-a==="number")return w2;else
+a==="number")return w7;else
 switch(a[0]){case
-0:return w3;case
-1:return w4;default:return w5}}function
+0:return w8;case
+1:return w9;default:return w_}}function
 fl(a){var
 c=a[4];if(typeof
 c==="number")var
 d=0;else
 switch(c[0]){case
 0:var
-d=[0,n(w6,K(c[1])),0];break;case
+d=[0,n(w$,K(c[1])),0];break;case
 1:var
-d=[0,n(w7,K(c[1])),0];break;default:var
-o=[0,K(c[2]),0],d=[0,n(w8,G([0,K(c[1]),o])),0]}var
-p=[0,n(w9,ar(jo(a[4]))),d],i=a[3];if(i){var
+d=[0,n(xa,K(c[1])),0];break;default:var
+o=[0,K(c[2]),0],d=[0,n(xb,H([0,K(c[1]),o])),0]}var
+p=[0,n(xc,ap(jo(a[4]))),d],i=a[3];if(i){var
 b=i[1];switch(b[0]){case
 0:var
-r=G([0,K(b[1]),0]),k=a[1],q=0,s=6===k?w_:12===k?xc:xd,g=[0,n(w$,M(s,r)),q];break;case
+r=H([0,K(b[1]),0]),k=a[1],q=0,s=6===k?xd:12===k?xh:xi,g=[0,n(xe,M(s,r)),q];break;case
 1:var
-x=G(e(K,b[1])),m=a[1],w=0;if(14<=m)switch(m+qi|0){case
+x=H(e(K,b[1])),m=a[1],w=0;if(14<=m)switch(m+qj|0){case
 0:var
-h=xe;break;case
+h=xj;break;case
 1:var
-h=xg;break;default:var
-h=xh}else
+h=xl;break;default:var
+h=xm}else
 var
-h=xi;var
-g=[0,n(xf,M(h,x)),w];break;case
+h=xn;var
+g=[0,n(xk,M(h,x)),w];break;case
 2:var
-y=[0,n(xj,G([0,K(b[2]),0])),0],g=[0,n(xl,ag([0,n(xk,G([0,K(b[1]),0])),y])),0];break;default:var
-z=[0,n(xm,G([0,K(b[2]),0])),0],g=[0,n(xo,ag([0,n(xn,G([0,K(b[1]),0])),z])),0]}var
+y=[0,n(xo,H([0,K(b[2]),0])),0],g=[0,n(xq,ag([0,n(xp,H([0,K(b[1]),0])),y])),0];break;default:var
+z=[0,n(xr,H([0,K(b[2]),0])),0],g=[0,n(xt,ag([0,n(xs,H([0,K(b[1]),0])),z])),0]}var
 l=g}else
 var
 l=i;var
-t=f(l,p),j=a[2],u=j?[0,n(xa,cF(j[1])),0]:j,v=f(u,t);return ag([0,n(xb,ar(jn(a[1]))),v])}function
-og(a){if(0===a[0]){var
-b=[0,n(xp,g2(K,a[2])),0];return M(xr,ag([0,n(xq,g2(K,a[1])),b]))}var
-c=[0,K(a[5]),0],d=[0,n(xs,G([0,K(a[4]),c])),0],e=[0,n(xt,K(a[3])),d],f=[0,K(a[2]),0];return M(xv,ag([0,n(xu,G([0,K(a[1]),f])),e]))}function
+t=f(l,p),j=a[2],u=j?[0,n(xf,cH(j[1])),0]:j,v=f(u,t);return ag([0,n(xg,ap(jn(a[1]))),v])}function
 oh(a){if(0===a[0]){var
-b=[0,n(xw,G(e(K,a[2]))),0];return M(xy,ag([0,n(xx,G(e(K,a[1]))),b]))}return og([1,a[1],a[2],a[3],a[4],a[5]])}function
-oi(a){switch(a){case
-0:return xz;case
-1:return xA;default:return xB}}function
-xC(a){function
-b(a){return G(e(cG,a))}var
-c=[0,n(xD,b(a[2])),0],d=[0,n(xE,b(a[1])),c];return ag([0,n(xG,ar(xF)),d])}function
-oj(a){function
+b=[0,n(xu,g4(K,a[2])),0];return M(xw,ag([0,n(xv,g4(K,a[1])),b]))}var
+c=[0,K(a[5]),0],d=[0,n(xx,H([0,K(a[4]),c])),0],e=[0,n(xy,K(a[3])),d],f=[0,K(a[2]),0];return M(xA,ag([0,n(xz,H([0,K(a[1]),f])),e]))}function
+oi(a){if(0===a[0]){var
+b=[0,n(xB,H(e(K,a[2]))),0];return M(xD,ag([0,n(xC,H(e(K,a[1]))),b]))}return oh([1,a[1],a[2],a[3],a[4],a[5]])}function
+oj(a){switch(a){case
+0:return xE;case
+1:return xF;default:return xG}}function
+xH(a){function
+b(a){return H(e(cI,a))}var
+c=[0,n(xI,b(a[2])),0],d=[0,n(xJ,b(a[1])),c];return ag([0,n(xL,ap(xK)),d])}function
+ok(a){function
 b(b,a){var
-c=[0,K(a),0];return G([0,K(b),c])}switch(a[0]){case
-0:return M(xH,b(a[1],a[2]));case
+c=[0,K(a),0];return H([0,K(b),c])}switch(a[0]){case
+0:return M(xM,b(a[1],a[2]));case
 1:var
-c=a[3],d=a[2],e=a[1],f=[0,n(xI,b(c[1],c[2])),0],g=[0,n(xJ,b(d[1],d[2])),f];return M(xL,ag([0,n(xK,b(e[1],e[2])),g]));case
-2:return M(xM,K(a[1]));default:var
-h=[0,n(xN,K(a[2])),0];return M(xP,ag([0,n(xO,K(a[1])),h]))}}function
-xQ(a){function
-b(a){return g2(K,a)}if(0===a[0])var
-c=a[5],e=c?[0,n(xR,b(c[1])),0]:c,g=[0,K(a[4]),0],h=[0,n(xS,G([0,K(a[3]),g])),0],i=[0,n(xT,K(a[2])),h],j=[0,n(xU,cF(a[1])),i],d=f([0,n(xW,ar(xV)),j],e);else
+c=a[3],d=a[2],e=a[1],f=[0,n(xN,b(c[1],c[2])),0],g=[0,n(xO,b(d[1],d[2])),f];return M(xQ,ag([0,n(xP,b(e[1],e[2])),g]));case
+2:return M(xR,K(a[1]));default:var
+h=[0,n(xS,K(a[2])),0];return M(xU,ag([0,n(xT,K(a[1])),h]))}}function
+xV(a){function
+b(a){return g4(K,a)}if(0===a[0])var
+c=a[5],e=c?[0,n(xW,b(c[1])),0]:c,g=[0,K(a[4]),0],h=[0,n(xX,H([0,K(a[3]),g])),0],i=[0,n(xY,K(a[2])),h],j=[0,n(xZ,cH(a[1])),i],d=f([0,n(x1,ap(x0)),j],e);else
 var
-k=[0,n(xX,K(a[4])),0],l=[0,n(xY,b(a[3])),k],m=[0,n(xZ,b(a[2])),l],o=a[1]?x0:x2,d=[0,n(x1,ar(o)),m];return ag(d)}function
-ok(a){var
-b=a?[0,n(x3,G(e(xQ,a))),0]:a;return b}function
+k=[0,n(x2,K(a[4])),0],l=[0,n(x3,b(a[3])),k],m=[0,n(x4,b(a[2])),l],o=a[1]?x5:x7,d=[0,n(x6,ap(o)),m];return ag(d)}function
+ol(a){var
+b=a?[0,n(x8,H(e(xV,a))),0]:a;return b}function
 jp(d,c,b,a){var
-g=[0,n(x4,G(e(fl,a))),0],h=f(ok(b),g),i=[0,n(x5,og(c)),0];return ag(f([0,n(x7,M(x6,G(e(v9,d)))),i],h))}function
-x8(a){switch(a[0]){case
-0:return M(x9,jp(a[1],a[2],a[3],a[4]));case
+g=[0,n(x9,H(e(fl,a))),0],h=f(ol(b),g),i=[0,n(x_,oh(c)),0];return ag(f([0,n(ya,M(x$,H(e(v_,d)))),i],h))}function
+yb(a){switch(a[0]){case
+0:return M(yc,jp(a[1],a[2],a[3],a[4]));case
 1:var
-b=a[5],c=a[3],d=a[1],g=G(e(wp,a[2])),l=[0,n(x_,G(e(fl,a[6]))),0],m=b?[0,n(x$,oj(b[1])),0]:b,o=f(m,l),k=0,p=[0,n(ya,oh(a[4])),o];if(typeof
+b=a[5],c=a[3],d=a[1],g=H(e(wq,a[2])),l=[0,n(yd,H(e(fl,a[6]))),0],m=b?[0,n(ye,ok(b[1])),0]:b,o=f(m,l),k=0,p=[0,n(yf,oi(a[4])),o];if(typeof
 d==="number")if(d)var
-h=yb;else{var
-i=M(yg,g);k=1}else
+h=yg;else{var
+i=M(yl,g);k=1}else
 var
-h=oi(d[1]);if(!k)var
-q=c?[0,n(yc,K(c[1])),0]:c,i=M(h,ag([0,n(yd,g),q]));return M(yf,ag([0,n(ye,i),p]));case
+h=oj(d[1]);if(!k)var
+q=c?[0,n(yh,K(c[1])),0]:c,i=M(h,ag([0,n(yi,g),q]));return M(yk,ag([0,n(yj,i),p]));case
 2:var
-r=[0,n(yh,G(e(fl,a[7]))),0],s=f(ok(a[6]),r),t=[0,n(yi,oj(a[5])),0],u=[0,n(yj,oh(a[4])),t],v=[0,n(yk,K(a[3])),0],w=ag([0,n(yl,G(e(xC,a[2]))),v]);return M(yn,ag(f([0,n(ym,M(oi(a[1]),w)),u],s)));case
+r=[0,n(ym,H(e(fl,a[7]))),0],s=f(ol(a[6]),r),t=[0,n(yn,ok(a[5])),0],u=[0,n(yo,oi(a[4])),t],v=[0,n(yp,K(a[3])),0],w=ag([0,n(yq,H(e(xH,a[2]))),v]);return M(ys,ag(f([0,n(yr,M(oj(a[1]),w)),u],s)));case
 3:var
-x=[0,n(yo,G(e(fl,a[7]))),0],y=[0,n(yp,G(e(K,a[6]))),0],z=[0,n(ys,M(yr,ag([0,n(yq,G(e(K,a[5]))),y]))),x],A=0,B=a[4],C=[0,n(yv,G(e(function(a){return 0===a[0]?M(yt,G(e(jm,a[1]))):M(yu,jm(a[1]))},B))),A],D=a[3],E=[0,n(yw,G(e(function(a){var
-b=[0,jm(a[2]),0];return G([0,ar(a[1]),b])},D))),C],F=a[2],H=[0,n(yx,G(e(function(a){var
-b=[0,cG(a[2]),0];return G([0,ar(a[1]),b])},F))),E];return M(yB,ag([0,n(yA,M(yz,ag([0,n(yy,G(e(ar,a[1]))),H]))),z]));case
+x=[0,n(yt,H(e(fl,a[7]))),0],y=[0,n(yu,H(e(K,a[6]))),0],z=[0,n(yx,M(yw,ag([0,n(yv,H(e(K,a[5]))),y]))),x],A=0,B=a[4],C=[0,n(yA,H(e(function(a){return 0===a[0]?M(yy,H(e(jm,a[1]))):M(yz,jm(a[1]))},B))),A],D=a[3],E=[0,n(yB,H(e(function(a){var
+b=[0,jm(a[2]),0];return H([0,ap(a[1]),b])},D))),C],F=a[2],G=[0,n(yC,H(e(function(a){var
+b=[0,cI(a[2]),0];return H([0,ap(a[1]),b])},F))),E];return M(yG,ag([0,n(yF,M(yE,ag([0,n(yD,H(e(ap,a[1]))),G]))),z]));case
 4:var
-I=[0,n(yC,G(e(fl,a[3]))),0],J=[0,n(yF,M(yE,ag([0,n(yD,K(a[2])),0]))),I];return M(yJ,ag([0,n(yI,M(yH,ag([0,n(yG,K(a[1])),0]))),J]));case
+I=[0,n(yH,H(e(fl,a[3]))),0],J=[0,n(yK,M(yJ,ag([0,n(yI,K(a[2])),0]))),I];return M(yO,ag([0,n(yN,M(yM,ag([0,n(yL,K(a[1])),0]))),J]));case
 5:var
-L=[0,n(yK,K(a[5])),0];return M(yM,ag([0,n(yL,jp(a[1],[0,a[2],a[3]],0,a[4])),L]));case
+L=[0,n(yP,K(a[5])),0];return M(yR,ag([0,n(yQ,jp(a[1],[0,a[2],a[3]],0,a[4])),L]));case
 6:var
-j=a[1],N=0,O=j?cG(j[1]):ar(yP);return M(yO,ag([0,n(yN,O),N]));default:var
-P=[0,n(yQ,K(a[6])),0],Q=[0,n(yR,K(a[5])),P],R=[0,n(yS,jp(a[2],a[3],0,a[4])),Q],S=a[1];return M(yX,ag([0,n(yW,G(e(function(a){var
-b=[0,n(yT,K(a[2][2])),0],c=[0,n(yU,K(a[2][1])),b];return ag([0,n(yV,ar(a[1])),c])},S))),R]))}}function
-dC(a){return G(e(fj,a))}function
+j=a[1],N=0,O=j?cI(j[1]):ap(yU);return M(yT,ag([0,n(yS,O),N]));default:var
+P=[0,n(yV,K(a[6])),0],Q=[0,n(yW,K(a[5])),P],R=[0,n(yX,jp(a[2],a[3],0,a[4])),Q],S=a[1];return M(y2,ag([0,n(y1,H(e(function(a){var
+b=[0,n(yY,K(a[2][2])),0],c=[0,n(yZ,K(a[2][1])),b];return ag([0,n(y0,ap(a[1])),c])},S))),R]))}}function
+dE(a){return H(e(fj,a))}function
 fm(b,a){var
-c=[0,n(yY,ep(a)),0];return ag([0,n(yZ,G(e(dC,b))),c])}function
-da(a){switch(a[0]){case
-0:return ar(a[1]);case
+c=[0,n(y3,ep(a)),0];return ag([0,n(y4,H(e(dE,b))),c])}function
+dc(a){switch(a[0]){case
+0:return ap(a[1]);case
 1:var
 b=fm(a[2],a[3]);return M(a[1],b);case
 2:var
-c=a[1]?y0:y2;return M(y1,ar(c));case
+c=a[1]?y5:y7;return M(y6,ap(c));case
 3:var
-d=[0,dC(a[3]),0];return M(y3,G([0,fm(a[1],a[2]),d]));case
+d=[0,dE(a[3]),0];return M(y8,H([0,fm(a[1],a[2]),d]));case
 4:var
-f=[0,ep(a[4]),0],g=[0,fj(a[3]),f];return M(y4,G([0,fm(a[1],a[2]),g]));case
+f=[0,ep(a[4]),0],g=[0,fj(a[3]),f];return M(y9,H([0,fm(a[1],a[2]),g]));case
 5:var
-h=[0,ep(a[3]),0],i=[0,fj(a[2]),h];return M(y5,G([0,da(a[1]),i]));case
+h=[0,ep(a[3]),0],i=[0,fj(a[2]),h];return M(y_,H([0,dc(a[1]),i]));case
 6:var
-j=[0,ep(a[3]),0],k=[0,fj(a[2]),j];return M(y6,G([0,da(a[1]),k]));case
-7:return M(y7,da(a[1]));case
+j=[0,ep(a[3]),0],k=[0,fj(a[2]),j];return M(y$,H([0,dc(a[1]),k]));case
+7:return M(za,dc(a[1]));case
 8:var
-l=[0,G(e(dC,a[3])),0],m=[0,ar(a[2]),l];return M(y8,G([0,da(a[1]),m]));case
+l=[0,H(e(dE,a[3])),0],m=[0,ap(a[2]),l];return M(zb,H([0,dc(a[1]),m]));case
 9:var
-n=a[1];return M(y9,G(e(function(a){var
-b=a[1],c=b[1],d=[0,da(a[2]),0],e=[0,ep(b[2]),d],f=[0,fj(c[2]),e];return G([0,dC(c[1]),f])},n)));default:var
-o=[0,da(a[4]),0],p=[0,da(a[3]),o],q=[0,ep(a[2]),p];return M(y_,G([0,dC(a[1]),q]))}}function
-y$(a){var
-b=[0,da(a[2]),0];return G([0,cF(a[1]),b])}function
-ol(a){if(typeof
-a==="number")return 0===a?ar(za):ar(zb);else
+n=a[1];return M(zc,H(e(function(a){var
+b=a[1],c=b[1],d=[0,dc(a[2]),0],e=[0,ep(b[2]),d],f=[0,fj(c[2]),e];return H([0,dE(c[1]),f])},n)));default:var
+o=[0,dc(a[4]),0],p=[0,dc(a[3]),o],q=[0,ep(a[2]),p];return M(zd,H([0,dE(a[1]),q]))}}function
+ze(a){var
+b=[0,dc(a[2]),0];return H([0,cH(a[1]),b])}function
+om(a){if(typeof
+a==="number")return 0===a?ap(zf):ap(zg);else
 switch(a[0]){case
 0:var
-b=[0,G(e(dC,a[2])),0];return M(zc,G([0,cF(a[1]),b]));case
+b=[0,H(e(dE,a[2])),0];return M(zh,H([0,cH(a[1]),b]));case
 1:var
-c=[0,cF(a[2]),0];return M(zd,G([0,cF(a[1]),c]));case
-2:return M(ze,G(e(K,a[1])));default:var
-d=[0,n(zf,fm(a[4],a[5])),0],f=[0,n(zg,G(e(K,a[3]))),d],g=[0,n(zh,G(e(K,a[2]))),f];return M(zj,ag([0,n(zi,cF(a[1])),g]))}}function
-zk(a){var
-b=a[4],h=b?[0,n(zl,dC([0,b[1],b[2]])),0]:b,d=a[3],i=d?[0,n(zm,ol(d[1])),0]:d,j=f(i,h),g=a[2],k=g?[0,n(zn,cF(g[1])),0]:g,l=f(k,j),c=a[1],m=c?[0,n(zo,G(e(y$,[0,c[1],c[2]]))),0]:c;return ag(f(m,l))}function
-om(g,a,d){var
-h=[0,n(zp,G(e(zk,d))),0];if(a)var
-b=a[1],c=[0,n(zq,fm(b[1],b[2])),0];else
+c=[0,cH(a[2]),0];return M(zi,H([0,cH(a[1]),c]));case
+2:return M(zj,H(e(K,a[1])));default:var
+d=[0,n(zk,fm(a[4],a[5])),0],f=[0,n(zl,H(e(K,a[3]))),d],g=[0,n(zm,H(e(K,a[2]))),f];return M(zo,ag([0,n(zn,cH(a[1])),g]))}}function
+zp(a){var
+b=a[4],h=b?[0,n(zq,dE([0,b[1],b[2]])),0]:b,d=a[3],i=d?[0,n(zr,om(d[1])),0]:d,j=f(i,h),g=a[2],k=g?[0,n(zs,cH(g[1])),0]:g,l=f(k,j),c=a[1],m=c?[0,n(zt,H(e(ze,[0,c[1],c[2]]))),0]:c;return ag(f(m,l))}function
+on(g,a,d){var
+h=[0,n(zu,H(e(zp,d))),0];if(a)var
+b=a[1],c=[0,n(zv,fm(b[1],b[2])),0];else
 var
 c=a;var
-i=f(c,h);return ag([0,n(zr,jk(g)),i])}function
-on(d,c,a,b){var
-g=[0,n(zs,ol(b)),0],h=a?[0,n(zt,G(e(K,a))),0]:a,i=f(h,g),j=[0,n(zu,G(e(K,c))),0];return ag(f([0,n(zv,jk(d)),j],i))}function
-zw(a){if(typeof
-a==="number")return ar(zx);else
+i=f(c,h);return ag([0,n(zw,jk(g)),i])}function
+oo(d,c,a,b){var
+g=[0,n(zx,om(b)),0],h=a?[0,n(zy,H(e(K,a))),0]:a,i=f(h,g),j=[0,n(zz,H(e(K,c))),0];return ag(f([0,n(zA,jk(d)),j],i))}function
+zB(a){if(typeof
+a==="number")return ap(zC);else
 switch(a[0]){case
-0:return M(zy,cF(a[1]));case
-1:return M(zz,om(a[1],a[2],a[3]));default:return M(zA,on(a[1],a[2],a[3],a[4]))}}function
-g3(a){var
-b=hO(hN(au(a),function(b){return a1(a,b)}));return m(function(a){var
-b=Q(34===a?1:0),c=b?Q(92===a?1:0):b,d=c?_(zP,f0(a)):c;return d?_(f0(a),zQ):d},b)}function
+0:return M(zD,cH(a[1]));case
+1:return M(zE,on(a[1],a[2],a[3]));default:return M(zF,oo(a[1],a[2],a[3],a[4]))}}function
+g5(a){var
+b=hP(hO(au(a),function(b){return a2(a,b)}));return m(function(a){var
+b=P(34===a?1:0),c=b?P(92===a?1:0):b,d=c?_(zU,f1(a)):c;return d?_(f1(a),zV):d},b)}function
 jq(d){var
 a=d;for(;;)switch(a[0]){case
 8:var
-b=g3(a[2]);if(b){var
+b=g5(a[2]);if(b){var
 a=a[1];continue}return b;case
 9:var
 e=a[1];return m(function(a){return jq(a[2])},e);case
@@ -5865,24 +5933,24 @@ e=a[1];return m(function(a){return jq(a[2])},e);case
 c=jq(a[3]);if(c){var
 a=a[4];continue}return c;case
 0:case
-1:return g3(a[1]);case
+1:return g5(a[1]);case
 5:case
 6:case
 7:var
 a=a[1];continue;default:return 1}}function
 fn(b){function
 c(f){var
-a=f0(f),b=_(zR,a),c=b?_(a,zS):b;if(c)var
+a=f1(f),b=_(zW,a),c=b?_(a,zX):b;if(c)var
 d=c;else{var
-e=_(zT,a);if(e)return _(a,zU);var
+e=_(zY,a);if(e)return _(a,zZ);var
 d=e}return d}var
-a=hO(hN(au(b),function(a){return a1(b,a)}));if(a){var
+a=hP(hO(au(b),function(a){return a2(b,a)}));if(a){var
 d=a[2],e=c(a[1]),f=e?m(function(a){var
 b=c(a);if(b)var
 d=b;else
 var
-e=f0(a),f=_(zV,e),h=f?_(e,zW):f,d=h;var
-g=d||(95===a?1:0);return g},d):e,h=f?_(g(d),zX):f;if(h)return Q(ax(b,zY));var
+e=f1(a),f=_(z0,e),h=f?_(e,z1):f,d=h;var
+g=d||(95===a?1:0);return g},d):e,h=f?_(g(d),z2):f;if(h)return P(ax(b,z3));var
 i=h}else
 var
 i=a;return i}function
@@ -5905,7 +5973,7 @@ h=typeof
 e[1]==="number"?1:0,d=h?1:h;else
 var
 d=1;if(d){var
-f=fQ(a[2]);if(typeof
+f=fR(a[2]);if(typeof
 f!=="number"&&0===f[0])return 0;var
 g=1}else
 var
@@ -5915,30 +5983,32 @@ g=d;return g;case
 i=fo(a[2]);if(i){var
 a=a[3];continue}return i;case
 4:var
-j=a[2],k=fo(a[1]),l=k?fW(c(2,b),j):k;return l?fW(j,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):l;default:var
+j=a[2],k=fo(a[1]),l=k?fX(c(2,b),j):k;return l?fX(j,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):l;default:var
 a=a[1];continue}}function
 eq(a){return 0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
-bX(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-dD(a){return y(eq,bX(a))}function
+bZ(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+dF(a){return y(eq,bZ(a))}function
 js(a){switch(a[0]){case
 0:var
-c=eq(a[4]),d=f(dD(a[3]),c),e=f(dD(a[2]),d);return f(dD(a[1]),e);case
+c=eq(a[4]),d=f(dF(a[3]),c),e=f(dF(a[2]),d);return f(dF(a[1]),e);case
 1:var
-b=a[3],g=b?dD(b[1]):b,h=f(dD(a[2]),g);return f(dD(a[1]),h);default:return dD(a[1])}}function
-zZ(a){switch(a[0]){case
+b=a[3],g=b?dF(b[1]):b,h=f(dF(a[2]),g);return f(dF(a[1]),h);default:return dF(a[1])}}function
+z4(a){switch(a[0]){case
 0:var
-c=f(a[3],[0,a[4],0]),d=f(a[2],c),b=f(a[1],d);break;case
+d=f(a[3],[0,a[4],0]),e=f(a[2],d),b=f(a[1],e);break;case
 1:var
-b=f(a[1],a[2]);break;default:var
-e=f(a[4],[0,a[5],[0,a[6],0]]),g=f(a[3],e),h=f(a[2],g),b=f(a[1],h)}return y(eq,b)}function
-oo(a){return 0===a[0]?f(a[1],a[2]):[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
-op(a){if(0===a[0]){var
-b=bX(a[2]);return f(bX(a[1]),b)}return[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
-oq(a){switch(a[0]){case
+c=a[3],g=c?c[1]:c,h=f(a[2],g),b=f(a[1],h);break;case
+2:var
+b=a[1];break;default:var
+i=f(a[4],[0,a[5],[0,a[6],0]]),j=f(a[3],i),k=f(a[2],j),b=f(a[1],k)}return y(eq,b)}function
+op(a){return 0===a[0]?f(a[1],a[2]):[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
+oq(a){if(0===a[0]){var
+b=bZ(a[2]);return f(bZ(a[1]),b)}return[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
+or(a){switch(a[0]){case
 1:var
 b=a[3],c=a[2],d=a[1];return[0,d[1],[0,d[2],[0,c[1],[0,c[2],[0,b[1],[0,b[2],0]]]]]];case
 2:return[0,a[1],0];default:return[0,a[1],[0,a[2],0]]}}function
-dE(e){var
+dG(e){var
 a=e[4],h=typeof
 a==="number"?0:2===a[0]?[0,a[1],[0,a[2],0]]:[0,a[1],0],c=e[3];if(c){var
 b=c[1];switch(b[0]){case
@@ -5950,70 +6020,70 @@ d=[0,b[1],[0,b[2],0]]}var
 g=d}else
 var
 g=c;return f(g,h)}function
-or(a){if(0===a[0]){var
-b=a[5],c=b?bX(b[1]):b;return[0,a[2],[0,a[3],[0,a[4],c]]]}var
-d=[0,a[4],0],e=f(bX(a[3]),d);return f(bX(a[2]),e)}function
-os(b,e){var
+os(a){if(0===a[0]){var
+b=a[5],c=b?bZ(b[1]):b;return[0,a[2],[0,a[3],[0,a[4],c]]]}var
+d=[0,a[4],0],e=f(bZ(a[3]),d);return f(bZ(a[2]),e)}function
+ot(b,e){var
 a=e;for(;;)switch(a[0]){case
 0:return 1;case
 1:var
 c=a[1];if(0===c[0]){var
 f=c[1];return ak(function(a){return ax(f,a)},b)}return 0;case
 3:var
-d=os(b,a[2]);if(d){var
+d=ot(b,a[2]);if(d){var
 a=a[3];continue}return d;default:var
 a=a[1];continue}}function
 fp(c,a){return m(function(a){var
-b=fo(a);return b?os(c,a):b},a)}function
-ot(a){if(typeof
+b=fo(a);return b?ot(c,a):b},a)}function
+ou(a){if(typeof
 a!=="number")switch(a[0]){case
 2:return a[1];case
 3:return f(a[2],a[3])}return 0}function
-ou(a){var
-d=fW(c(2,c(2,c(2,c(2,c(2,b))))),a);return d?fW(a,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b))))))))))):d}function
-ov(a,b){return b?[4,ov(a,b[1]),a]:a}function
+ov(a){var
+d=fX(c(2,c(2,c(2,c(2,c(2,b))))),a);return d?fX(a,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b))))))))))):d}function
+ow(a,b){return b?[4,ow(a,b[1]),a]:a}function
 j(a){switch(a[0]){case
 0:var
-i=a[2],k=c(2,r(c(2,c(2,b)))),l=function(a){return B(k,a)},m=fR(kC(i),l,b);return[0,kQ(kD(fQ(a[1]),i)),m];case
+i=a[2],k=c(2,r(c(2,c(2,b)))),l=function(a){return B(k,a)},m=fS(kC(i),l,b);return[0,kQ(kD(fR(a[1]),i)),m];case
 1:var
 e=a[1];return 0===e[0]?[5,[0,b,b],[0,d,b]]:[1,e[1],e[2],e[3]];case
 2:var
-f=j(a[1]);return 0===f[0]?[0,P(f[1]),f[2]]:[3,[0,d,b],f];case
+f=j(a[1]);return 0===f[0]?[0,Q(f[1]),f[2]]:[3,[0,d,b],f];case
 3:var
 g=j(a[2]),h=j(a[3]);switch(a[1]){case
 0:return[2,g,h];case
 1:return[3,g,h];case
 2:return[4,g,h];default:return[5,g,h]}case
 4:var
-n=bx(eO(a[2]));return ov(j(a[1]),n);default:return[6,j(a[1])]}}function
-bY(a){if(0===a[0]){var
+n=bx(eO(a[2]));return ow(j(a[1]),n);default:return[6,j(a[1])]}}function
+b0(a){if(0===a[0]){var
 b=j(a[1]);return[0,b,b]}var
 c=j(a[2]);return[0,j(a[1]),c]}function
-dF(a){var
-b=bY(a[3]),c=bY(a[2]);return[0,bY(a[1]),c,b]}function
-z0(a){switch(a[0]){case
+dH(a){var
+b=b0(a[3]),c=b0(a[2]);return[0,b0(a[1]),c,b]}function
+z5(a){switch(a[0]){case
 0:var
-b=a[5],c=bY(a[4]),d=dF(a[3]),e=dF(a[2]);return[0,[0,dF(a[1]),e,d,c,b]];case
+b=a[5],c=b0(a[4]),d=dH(a[3]),e=dH(a[2]);return[0,[0,dH(a[1]),e,d,c,b]];case
 1:var
-f=z(dF,a[3]),g=dF(a[2]);return[1,dF(a[1]),g,f];default:return[2,dF(a[1])]}}function
-ow(a){if(0===a[0]){var
+f=z(dH,a[3]),g=dH(a[2]);return[1,dH(a[1]),g,f];default:return[2,dH(a[1])]}}function
+ox(a){if(0===a[0]){var
 c=a[2],d=a[1],b=function(a){var
 b=j(i(a,c));return[0,j(i(a,d)),b]},e=b(function(a){return a[3]}),f=b(function(a){return a[2]});return[0,[0,b(function(a){return a[1]}),f,e]]}var
 g=j(a[5]),h=[0,j(a[4]),g],k=j(a[3]),l=j(a[2]);return[1,j(a[1]),l,k,h]}function
 er(a){var
 b=j(a[3]),c=j(a[2]);return[0,j(a[1]),c,b]}function
-db(a){if(0===a[0]){var
+dd(a){if(0===a[0]){var
 c=a[5],h=c?er(c[1]):[0,[0,d,b],[0,d,b],[0,d,b]],i=j(a[4]),k=j(a[3]),l=j(a[2]);return[0,bx(a[1]),l,k,i,h]}var
 e=a[4],f=a[3],g=a[2];if(a[1]){var
 m=er(f),n=er(g);return[2,j(e),n,m]}var
 o=er(f),p=er(g);return[1,j(e),p,o]}function
-g4(b,a){if(a){var
-c=a[1],d=a[2],g=g4(f(b,[0,c,0]),d),h=e(function(a){return[0,c,a]},b);return f(bq(function(c){var
-a=c[2],b=c[1],d=0===b[0]?b[5]?0:0===a[0]?a[5]?0:p(b[1],a[1]):0:0===a[0]?0:cm(b[1],a[1]);return Q(d)},h),g)}return a}function
-z1(b){if(b[1])return 0;var
+g6(b,a){if(a){var
+c=a[1],d=a[2],g=g6(f(b,[0,c,0]),d),h=e(function(a){return[0,c,a]},b);return f(br(function(c){var
+a=c[2],b=c[1],d=0===b[0]?b[5]?0:0===a[0]?a[5]?0:p(b[1],a[1]):0:0===a[0]?0:co(b[1],a[1]);return P(d)},h),g)}return a}function
+z6(b){if(b[1])return 0;var
 a=b[4];if(typeof
 a!=="number"&&1===a[0])return[0,[0,j(a[1])],0];return 0}function
-z2(N,M,a){switch(a[1]){case
+z7(N,M,a){switch(a[1]){case
 0:var
 g=a[4];if(typeof
 g!=="number"&&0===g[0])return[0,[1,j(g[1])],0];return 0;case
@@ -6068,14 +6138,14 @@ b=j(W);return[13,a,j(X),b]}}if(K)return 0;break;case
 9:var
 u=a[4];if(typeof
 u!=="number"&&0===u[0]){var
-Y=u[1],Z=g4(0,M);return e(function(h){var
+Y=u[1],Z=g6(0,M);return e(function(h){var
 e=j(Y),a=h[2],c=h[1];if(0===c[0]){var
 f=c[1];if(0===a[0]){var
 g=function(a){return a?er(a[1]):[0,[0,d,b],[0,d,b],[0,d,b]]};if(p(f,a[1])){var
 i=j(a[2]),k=[2,[2,j(c[2]),i],e],l=g(a[5]),m=g(c[5]);return[11,bx(f),m,l,k]}var
-n=db(a);return[10,db(c),n,e]}var
-o=db(a);return[10,db(c),o,e]}var
-q=db(a);return[10,db(c),q,e]},Z)}return 0;case
+n=dd(a);return[10,dd(c),n,e]}var
+o=dd(a);return[10,dd(c),o,e]}var
+q=dd(a);return[10,dd(c),q,e]},Z)}return 0;case
 10:var
 v=a[4],L=0;if(typeof
 v==="number"||!(1===v[0]))L=1;else{var
@@ -6085,7 +6155,7 @@ $=x[2],aa=x[1],c=function(a){var
 b=j(_),c=j($);return[12,a,j(aa),c,b]}}if(L)return 0;break;case
 11:var
 G=typeof
-a[4]==="number"?1:0,ab=G?z3:G;return ab;case
+a[4]==="number"?1:0,ab=G?z8:G;return ab;case
 12:var
 y=a[4];if(typeof
 y!=="number"&&1===y[0]){var
@@ -6093,7 +6163,7 @@ z=a[3];if(z){var
 H=z[1];if(0===H[0]){var
 ac=j(y[1]);return[0,[14,j(H[1]),ac],0]}return 0}return z}return 0;default:return 0}var
 B=a[2],P=B?[0,bx(B[1]),0]:aB(0,N);return e(c,P)}function
-z4(c,a){switch(a[1]){case
+z9(c,a){switch(a[1]){case
 0:var
 l=a[4];if(typeof
 l!=="number"&&2!==l[0])return a[2]?0:a[3]?0:1;return 0;case
@@ -6137,7 +6207,7 @@ z!=="number"&&0===z[0])return a[2]?0:a[3]?0:1;return 0;case
 N=0,A=a[4];if(typeof
 A==="number"||!(1===A[0]))N=1;else{var
 h=a[3];if(!h)return h;if(0!==h[1][0])return 0;var
-B=p(c,z6),O=0;if(B){var
+B=p(c,z$),O=0;if(B){var
 C=a[2];if(C){var
 b=C[1];O=1}else
 var
@@ -6163,18 +6233,18 @@ I=H;return I;case
 12:var
 J=a[4];if(typeof
 J!=="number"&&1===J[0]){if(a[2])return 0;var
-k=a[3];return k?0===k[1][0]?p(c,z7):0:k}return 0;default:return 0}var
-o=_(z5,b);return o?_(b,c):o}function
-ox(d,c,b){var
-e=y(function(a){return z2(d,c,a)},b),a=y(z1,b),g=a?[0,a[1],a[2]]:z8;return f(g,e)}function
+k=a[3];return k?0===k[1][0]?p(c,Aa):0:k}return 0;default:return 0}var
+o=_(z_,b);return o?_(b,c):o}function
+oy(d,c,b){var
+e=y(function(a){return z7(d,c,a)},b),a=y(z6,b),g=a?[0,a[1],a[2]]:Ab;return f(g,e)}function
 jt(a,d,c,b){var
-f=ox(g(a),c,b),h=ow(d);return[0,e(z0,a),h,f]}function
-oy(b){if(b[1])return 0;var
+f=oy(g(a),c,b),h=ox(d);return[0,e(z5,a),h,f]}function
+oz(b){if(b[1])return 0;var
 a=b[4];if(typeof
 a!=="number"&&1===a[0])return[0,[0,j(a[1])],0];return 0}function
-oz(c){function
+oA(c){function
 a(a){return q(a,e(j,c),[0,d,b])}var
-f=a(z9),g=a(z_);return[0,a(0),g,f]}function
+f=a(Ac),g=a(Ad);return[0,a(0),g,f]}function
 ju(W,E,V,a){switch(a[1]){case
 0:var
 d=a[4];if(typeof
@@ -6229,8 +6299,8 @@ b=j(af);return[7,a,j(ag),b]}}if(P)return 0;break;case
 9:var
 q=a[4];if(typeof
 q!=="number"&&0===q[0]){var
-ah=q[1],ai=g4(0,V);return e(function(a){var
-b=j(ah),c=db(a[2]);return[14,db(a[1]),c,b]},ai)}return 0;case
+ah=q[1],ai=g6(0,V);return e(function(a){var
+b=j(ah),c=dd(a[2]);return[14,dd(a[1]),c,b]},ai)}return 0;case
 10:var
 r=a[4],Q=0;if(typeof
 r==="number"||!(1===r[0]))Q=1;else{var
@@ -6255,14 +6325,14 @@ y==="number"||!(1===y[0]))S=1;else{var
 z=a[3],aq=y[1];if(!z)return z;var
 K=z[1];if(1!==K[0])return 0;var
 ar=K[1],b=function(a){var
-b=j(aq);return[13,a,0,oz(ar),b]}}if(S)return 0;break;case
+b=j(aq);return[13,a,0,oA(ar),b]}}if(S)return 0;break;case
 15:var
 A=a[4],T=0;if(typeof
 A==="number"||!(1===A[0]))T=1;else{var
 B=a[3],as=A[1];if(!B)return B;var
 L=B[1];if(1!==L[0])return 0;var
 at=L[1],b=function(a){var
-b=j(as);return[13,a,1,oz(at),b]}}if(T)return 0;break;case
+b=j(as);return[13,a,1,oA(at),b]}}if(T)return 0;break;case
 16:var
 C=a[4],U=0;if(typeof
 C==="number"||!(1===C[0]))U=1;else{var
@@ -6272,9 +6342,9 @@ av=M[1],b=function(a){var
 b=j(au);return[17,a,e(j,av),b]}}if(U)return 0;break;default:return 0}var
 F=a[2],Y=F?[0,bx(F[1]),0]:aB(0,E);return e(b,Y)}function
 es(e,d,c,b){var
-g=y(function(a){return ju(e,d,c,a)},b),a=y(oy,b),h=a?[0,a[1],a[2]]:z$;return f(h,g)}function
+g=y(function(a){return ju(e,d,c,a)},b),a=y(oz,b),h=a?[0,a[1],a[2]]:Ae;return f(h,g)}function
 et(a){return 11===a[1]?1:0}function
-cd(n,m,a){var
+cg(n,m,a){var
 b=a[1];if(!(4<=b))switch(b){case
 0:var
 c=a[4];if(typeof
@@ -6284,25 +6354,25 @@ l=0,d=a[4];if(typeof
 d!=="number"&&2===d[0]){var
 e=1;l=1}if(!l)var
 e=0;var
-f=cm(n,e);if(f){var
+f=co(n,e);if(f){var
 g=a[2];if(g){var
-h=g[1],i=_(Aa,h);return i?_(h,m):i}var
+h=g[1],i=_(Af,h);return i?_(h,m):i}var
 j=1}else
 var
 j=f;return j;case
 3:var
 k=a[4];if(typeof
 k!=="number"&&1===k[0])return a[2]?0:a[3]?0:1;return 0}return 0}function
-bh(s,b,a){var
+bg(s,b,a){var
 d=a[2];if(d)var
-e=d[1],f=_(Ab,e),t=f?_(e,b):f,c=t;else
+e=d[1],f=_(Ag,e),t=f?_(e,b):f,c=t;else
 var
 c=1;var
 h=a[1];if(!(9<=h))switch(h){case
 2:var
 i=a[4];if(typeof
 i!=="number"&&1===i[0]){var
-j=a[3];return j?0===j[1][0]?c:cd(0,b,a):cd(0,b,a)}return cd(0,b,a);case
+j=a[3];return j?0===j[1][0]?c:cg(0,b,a):cg(0,b,a)}return cg(0,b,a);case
 6:var
 k=a[4];if(typeof
 k!=="number"&&0===k[0]){var
@@ -6313,71 +6383,71 @@ m=l[1];switch(m[0]){case
 n=p(g(m[1]),b);if(n){if(a[2])return 0;var
 o=1}else
 var
-o=n;return o;default:return cd(0,b,a)}}return cd(0,b,a)}return cd(0,b,a);case
+o=n;return o;default:return cg(0,b,a)}}return cg(0,b,a)}return cg(0,b,a);case
 8:var
 q=a[4];if(typeof
 q!=="number"&&1===q[0]){var
-r=a[3];return r?0===r[1][0]?c?p(b,s):c:cd(0,b,a):cd(0,b,a)}return cd(0,b,a)}return cd(0,b,a)}function
-aP(c,b,a){return 11===a[1]?typeof
-a[4]==="number"?a[2]?bh(c,b,a):a[3]?bh(c,b,a):1:bh(c,b,a):bh(c,b,a)}function
-oA(f,c,b,a){var
+r=a[3];return r?0===r[1][0]?c?p(b,s):c:cg(0,b,a):cg(0,b,a)}return cg(0,b,a)}return cg(0,b,a)}function
+aQ(c,b,a){return 11===a[1]?typeof
+a[4]==="number"?a[2]?bg(c,b,a):a[3]?bg(c,b,a):1:bg(c,b,a):bg(c,b,a)}function
+oB(f,c,b,a){var
 h=a[2];if(h)var
-i=h[1],j=_(Ad,i),A=j?_(i,b):j,d=A;else
+i=h[1],j=_(Ai,i),A=j?_(i,b):j,d=A;else
 var
 d=1;switch(a[1]){case
-1:if(a[3])return bh(aW(c),b,a);if(d){var
+1:if(a[3])return bg(aX(c),b,a);if(d){var
 z=0,k=a[4];if(typeof
 k!=="number"&&2===k[0]){var
 l=1;z=1}if(!z)var
-l=0;return cm(f,l)}return d;case
+l=0;return co(f,l)}return d;case
 4:var
 m=a[4];if(typeof
-m!=="number"&&0===m[0])return a[3]?bh(aW(c),b,a):d;return bh(aW(c),b,a);case
+m!=="number"&&0===m[0])return a[3]?bg(aX(c),b,a):d;return bg(aX(c),b,a);case
 5:var
 n=a[4];if(typeof
-n!=="number"&&0===n[0]){if(a[3])return bh(aW(c),b,a);var
-o=p(b,aW(c));if(o){var
+n!=="number"&&0===n[0]){if(a[3])return bg(aX(c),b,a);var
+o=p(b,aX(c));if(o){var
 q=typeof
 c==="number"?1:0;if(q){if(a[2])return 0;var
 e=1}else
 var
 e=q}else
 var
-e=o;return e}return bh(aW(c),b,a);case
+e=o;return e}return bg(aX(c),b,a);case
 13:var
 r=a[4];if(typeof
-r!=="number"&&1===r[0])return a[3]?bh(aW(c),b,a):d?Q(f):d;return bh(aW(c),b,a);case
+r!=="number"&&1===r[0])return a[3]?bg(aX(c),b,a):d?P(f):d;return bg(aX(c),b,a);case
 16:var
 s=a[4];if(typeof
 s!=="number"&&1===s[0]){var
 t=a[3];if(t){var
 u=t[1];if(1===u[0]){var
-v=d?p(b,aW(c)):d,w=v?p(g(u[1]),b):v;if(w)var
+v=d?p(b,aX(c)):d,w=v?p(g(u[1]),b):v;if(w)var
 x=typeof
 c==="number"?1:0,y=x?1:x;else
 var
-y=w;return y}return bh(aW(c),b,a)}return bh(aW(c),b,a)}return bh(aW(c),b,a);default:return bh(aW(c),b,a)}}function
-dc(a){switch(a[0]){case
+y=w;return y}return bg(aX(c),b,a)}return bg(aX(c),b,a)}return bg(aX(c),b,a);default:return bg(aX(c),b,a)}}function
+de(a){switch(a[0]){case
 0:return[0,j([0,a[1],a[2]])];case
 1:return[1,a[1]];case
-2:return[2,dc(a[1])];case
+2:return[2,de(a[1])];case
 3:var
-b=dc(a[2]),c=dc(a[3]);switch(a[1]){case
+b=de(a[2]),c=de(a[3]);switch(a[1]){case
 0:return[3,b,c];case
 1:return[4,b,c];case
 2:return[5,b,c];default:return[6,b,c]}case
 4:var
-d=a[2];return[7,dc(a[1]),d];default:return[8,dc(a[1])]}}function
+d=a[2];return[7,de(a[1]),d];default:return[8,de(a[1])]}}function
 jv(i,h,f,b,d,c,a){var
 k=ak(et,a),l=es(0,g(b),0,a),m=$(d,c),n=e(function(a){var
-b=j(a[2]);return[0,j(a[1]),b]},m),o=e(function(a){return 0===a[0]?[0,e(dc,a[1])]:[1,dc(a[1])]},b),p=e(function(a){var
-b=dc(a[2]);return[0,a[1],b]},f);return[0,[0,i,e(function(a){var
-b=bY(a[2]);return[0,a[1],b]},h),p,o],n,l,k]}function
+b=j(a[2]);return[0,j(a[1]),b]},m),o=e(function(a){return 0===a[0]?[0,e(de,a[1])]:[1,de(a[1])]},b),p=e(function(a){var
+b=de(a[2]);return[0,a[1],b]},f);return[0,[0,i,e(function(a){var
+b=b0(a[2]);return[0,a[1],b]},h),p,o],n,l,k]}function
 jw(c){function
 a(e){var
 a=[0,d,b];return q(e,c,[0,a,a])}var
-e=a(Ae),f=a(Af);return[0,a(0),f,e]}function
-dG(a){function
+e=a(Aj),f=a(Ak);return[0,a(0),f,e]}function
+dI(a){function
 b(a){var
 b=j(a[2]);return[0,j(a[1]),b]}switch(a[0]){case
 0:return[0,b([0,a[1],a[2]])];case
@@ -6385,29 +6455,30 @@ b=j(a[2]);return[0,j(a[1]),b]}switch(a[0]){case
 c=b(a[3]),d=b(a[2]);return[1,b(a[1]),d,c];case
 2:return[2,j(a[1])];default:var
 e=j(a[2]);return[3,j(a[1]),e]}}function
-oB(a){if(0===a[0]){var
+oC(a){if(0===a[0]){var
 b=$(a[1],a[2]);return[0,jw(e(function(a){var
-b=j(a[2]);return[0,j(a[1]),b]},b))]}return ow([1,a[1],a[2],a[3],a[4],a[5]])}function
-oC(k,b,i,h,f,d,a){function
-c(a){return jw(e(bY,a))}var
-l=ak(et,a),m=es(0,g(b),d,a),n=dG(f),o=oB(h),p=j(i);return[0,k,e(function(a){var
+b=j(a[2]);return[0,j(a[1]),b]},b))]}return ox([1,a[1],a[2],a[3],a[4],a[5]])}function
+oD(k,b,i,h,f,d,a){function
+c(a){return jw(e(b0,a))}var
+l=ak(et,a),m=es(0,g(b),d,a),n=dI(f),o=oC(h),p=j(i);return[0,k,e(function(a){var
 b=c(a[2]);return[0,c(a[1]),b]},b),p,o,n,m,l]}function
-g5(a){return ak(function(a){return 2===a[0]?1:0},a)}function
-oD(k,a,c,i,h,f){var
-l=g(a),m=es(g5(a),l,0,f),n=z(dG,h),o=oB(i),p=c?j(c[1]):[0,b,b];return[0,k,e(function(a){function
-c(a){return jw(e(bY,a))}switch(a[0]){case
+g7(a){return ak(function(a){return 3===a[0]?1:0},a)}function
+oE(k,a,c,i,h,f){var
+l=g(a),m=es(g7(a),l,0,f),n=z(dI,h),o=oC(i),p=c?j(c[1]):[0,b,b];return[0,k,e(function(a){function
+c(a){return jw(e(b0,a))}switch(a[0]){case
 0:var
-k=a[5],l=bY(a[4]),m=c(a[3]),n=c(a[2]);return[0,[0,[0,c(a[1]),n,m,l,k]]];case
+k=a[5],l=b0(a[4]),m=c(a[3]),n=c(a[2]);return[0,[0,[0,c(a[1]),n,m,l,k]]];case
 1:var
-o=c(a[2]);return[0,[1,c(a[1]),o,0]];default:var
+o=z(c,a[3]),p=c(a[2]);return[0,[1,c(a[1]),p,o]];case
+2:return[0,[2,c(a[1])]];default:var
 f=a[1];if(f)var
 g=c(f);else
 var
 h=[0,b,b],i=[0,d,b],j=[0,d,b],g=[0,[0,j,j],[0,i,i],[0,h,h]];var
-p=a[7],q=bY(a[6]),r=bY(a[5]),s=c(a[4]),t=c(a[3]);return[1,[0,g,c(a[2]),t,s,r,q,p]]}},a),p,o,n,m]}function
-oE(a){return a[1]?0:1}function
-oF(l){var
-b=bq(oE,l);if(b){var
+q=a[7],r=b0(a[6]),s=b0(a[5]),t=c(a[4]),u=c(a[3]);return[1,[0,g,c(a[2]),u,t,s,r,q]]}},a),p,o,n,m]}function
+oF(a){return a[1]?0:1}function
+oG(l){var
+b=br(oF,l);if(b){var
 d=b[1];if(d[2])return 0;if(d[3])return 0;var
 c=d[4],a=b[2];if(typeof
 c!=="number")switch(c[0]){case
@@ -6428,46 +6499,46 @@ k=a;return k}var
 i=0}else
 var
 i=b;return i}function
-oG(a){var
-c=oE(a);if(c)return c;if(1===a[1]){var
+oH(a){var
+c=oF(a);if(c)return c;if(1===a[1]){var
 b=a[4];if(typeof
 b!=="number"&&0===b[0])return 1;return 0}return 0}function
-g6(i,h,b){function
+g8(i,h,b){function
 c(b,a){return[3,1,b,a]}function
 a(b,a){return[3,3,b,a]}function
 d(b,a){return[3,2,b,a]}function
 e(b,a){return[3,0,b,a]}var
-f=c(g7,a(g7,b)),j=a(f,jx),k=i?f:a(c(b,g7),jx);function
-g(b){return a(b,[5,e(g7,d(jx,d(b,b)))])}var
+f=c(g9,a(g9,b)),j=a(f,jx),k=i?f:a(c(b,g9),jx);function
+g(b){return a(b,[5,e(g9,d(jx,d(b,b)))])}var
 l=g(k);return a(h,e(g(j),l))}function
-g8(f,e,d){function
+g_(f,e,d){function
 a(b,a){return[3,3,b,a]}function
 b(b,a){return[3,2,b,a]}var
-c=a([3,1,jy,a(jy,d)],oH),g=a(c,[5,[3,0,jy,b(oH,b(c,c))]]);return[2,b(g6(f,e,d),g)]}function
+c=a([3,1,jy,a(jy,d)],oI),g=a(c,[5,[3,0,jy,b(oI,b(c,c))]]);return[2,b(g8(f,e,d),g)]}function
 jz(e,g,a){function
 f(b,a){return[3,1,b,a]}function
 b(b,a){return[3,3,b,a]}function
 c(b,a){return[3,2,b,a]}var
-h=f(g9,b(g9,a)),d=e?h:b(f(a,g9),oI),i=b(d,[5,[3,0,g9,c(oI,c(d,d))]]);return c(g6(e,g,a),i)}function
-oJ(c,g,b,a){function
+h=f(g$,b(g$,a)),d=e?h:b(f(a,g$),oJ),i=b(d,[5,[3,0,g$,c(oJ,c(d,d))]]);return c(g8(e,g,a),i)}function
+oK(c,g,b,a){function
 d(b,a){return e(function(c){var
-d=p(b,c)?a:Ag;return[0,d]},Ai)}return e(function(e){var
-j=[0,g6(c,b,a)],i=1,k=d(e,[2,g]);function
+d=p(b,c)?a:Al;return[0,d]},An)}return e(function(e){var
+j=[0,g8(c,b,a)],i=1,k=d(e,[2,g]);function
 f(b,a){return[3,1,b,a]}var
-h=g6(c,b,a),l=d(e,f(f(g8(c,b,a),g),h));return[0,d(e,Ah),l,k,j,i]},Aj)}function
-oK(c,b,a){var
-d=[0,jz(c,b,a),0],e=[0,jz(c,b,a),d],f=[0,jz(c,b,a),e],g=[0,g8(c,b,a),0],h=[0,g8(c,b,a),g];return[0,[0,g8(c,b,a),h],f]}function
-oL(o,e,a){if(e)if(a){var
-g=e[1],h=a[1],k=cu(j(g[2][1]));if(k){var
-l=k[1],m=cu(j(g[2][2]));if(m)var
+h=g8(c,b,a),l=d(e,f(f(g_(c,b,a),g),h));return[0,d(e,Am),l,k,j,i]},Ao)}function
+oL(c,b,a){var
+d=[0,jz(c,b,a),0],e=[0,jz(c,b,a),d],f=[0,jz(c,b,a),e],g=[0,g_(c,b,a),0],h=[0,g_(c,b,a),g];return[0,[0,g_(c,b,a),h],f]}function
+oM(o,e,a){if(e)if(a){var
+g=e[1],h=a[1],k=cw(j(g[2][1]));if(k){var
+l=k[1],m=cw(j(g[2][2]));if(m)var
 p=m[1],n=function(a){function
 d(a){return c(2,a)}var
-e=[0,a,fR(h[2],d,b)];return dp(l,a2(dZ(p,l),e))},q=n(E(h[1],b)),f=[0,n(h[1]),q];else
+e=[0,a,fS(h[2],d,b)];return dr(l,a3(d0(p,l),e))},q=n(F(h[1],b)),f=[0,n(h[1]),q];else
 var
 f=[0,[0,d,b],[0,d,b]]}else
 var
 f=[0,[0,d,b],[0,d,b]];var
-r=oL([0,o],e[2],a[2]),i=[0,[0,g[1],[1,o,f[1],f[2]]],r]}else
+r=oM([0,o],e[2],a[2]),i=[0,[0,g[1],[1,o,f[1],f[2]]],r]}else
 var
 i=a;else
 var
@@ -6482,7 +6553,7 @@ e=c[1],d=kT(function(a){return ax(e,a[1])},b);return d?[1,d[1][2]]:a}return a;ca
 f=at(b,a[3]),g=at(b,a[2]);return[3,a[1],g,f];case
 4:var
 h=a[2];return[4,at(b,a[1]),h];default:return[5,at(b,a[1])]}}function
-oM(b,a){if(0===a[0])return[0,at(b,a[1])];var
+oN(b,a){if(0===a[0])return[0,at(b,a[1])];var
 c=at(b,a[2]);return[1,at(b,a[1]),c]}function
 jA(b,a){var
 c=i(b,a[3]),d=i(b,a[2]);return[0,i(b,a[1]),d,c]}function
@@ -6504,60 +6575,60 @@ var
 d=c;return d}function
 jC(g,f,a){if(a){var
 e=a[1],h=a[2];if(f)return[0,e,jC(g,f[1],h)];var
-j=[0,e[2]],k=g?b:d,l=e[1],i=[0,[0,E(B(c(2,b),l),k),j],h]}else
+j=[0,e[2]],k=g?b:d,l=e[1],i=[0,[0,F(B(c(2,b),l),k),j],h]}else
 var
 i=a;return i}function
-Ak(a){if(typeof
+Ap(a){if(typeof
 a!=="number"&&1===a[0])return 1;return 0}function
-Al(a){if(typeof
+Aq(a){if(typeof
 a!=="number"&&2===a[0])return 1;return 0}function
-g_(e,a){if(0===a[0]){var
-f=[0,b,c(2,b)],g=g_(e,a[3]);return a2(dp(g_(e,a[2]),g),f)}return i(e,a[1])?[0,b,b]:[0,d,b]}function
-oN(a){return 0===a[0]?ef(a[1][4]):0}function
-oO(a){switch(a[0]){case
+ha(e,a){if(0===a[0]){var
+f=[0,b,c(2,b)],g=ha(e,a[3]);return a3(dr(ha(e,a[2]),g),f)}return i(e,a[1])?[0,b,b]:[0,d,b]}function
+oO(a){return 0===a[0]?ef(a[1][4]):0}function
+oP(a){switch(a[0]){case
 0:var
 b=a[1],c=a8(b[3]);return f(a8(b[2]),c);case
 1:var
 d=a8(a[2]);return f(a8(a[1]),d);default:return 0}}function
-g$(a){switch(a[0]){case
+hb(a){switch(a[0]){case
 0:return bB(a8(a[1][1]));case
 1:var
 b=a[3];return b?bB(a8(b[1])):d;default:return bB(a8(a[1]))}}function
-ha(c){var
-a=y(oN,c),d=a?[0,a[1],a[2]]:y(oO,c);return E(b,bB(d))}function
-oP(d,a){if(d){if(a){var
-b=a[1],g=d[1],e=oP(d[2],a[2]);if(e){var
+hc(c){var
+a=y(oO,c),d=a?[0,a[1],a[2]]:y(oP,c);return F(b,bB(d))}function
+oQ(d,a){if(d){if(a){var
+b=a[1],g=d[1],e=oQ(d[2],a[2]);if(e){var
 h=e[1],i=h[2],j=h[1];if(45===b)var
-c=Am;else
+c=Ar;else
 if(43===b)var
-c=An;else
+c=As;else
 var
-f=48===b?1:0,n=f?Ao:f,c=n;if(c)return[0,[0,[0,[0,g,c[1]],j],i]];var
+f=48===b?1:0,n=f?At:f,c=n;if(c)return[0,[0,[0,[0,g,c[1]],j],i]];var
 k=49===b?1:0,o=k?[0,[0,j,[0,g,i]]]:k,l=o}else
 var
 l=e;var
 m=l}else
 var
-m=a;return m}return a?0:Ap}function
-dd(b,c,a){switch(a[0]){case
+m=a;return m}return a?0:Au}function
+df(b,c,a){switch(a[0]){case
 0:var
-d=a[1];if(ax(d,Aq))return Ar;if(ax(d,As))return At;if(ax(d,Au))return Av;if(ax(d,Aw))return Ax;if(ax(d,Ay))return Az;var
-n=ax(d,AA),B=n?AB:n;return B;case
+d=a[1];if(ax(d,Av))return Aw;if(ax(d,Ax))return Ay;if(ax(d,Az))return AA;if(ax(d,AB))return AC;if(ax(d,AD))return AE;var
+n=ax(d,AF),B=n?AG:n;return B;case
 1:var
-e=a[3],f=a[2],g=a[1];if(ax(g,AC))return[0,[0,e,f]];if(ax(g,AD))return[0,[1,e,f]];if(ax(g,AE))return[0,[2,e,f]];var
-o=ax(g,AF),C=o?[0,[8,e,f]]:o;return C;case
+e=a[3],f=a[2],g=a[1];if(ax(g,AH))return[0,[0,e,f]];if(ax(g,AI))return[0,[1,e,f]];if(ax(g,AJ))return[0,[2,e,f]];var
+o=ax(g,AK),C=o?[0,[8,e,f]]:o;return C;case
 2:return[0,[4,a[1]]];case
 3:return[0,[3,a[2],a[1],a[3]]];case
 4:return[0,[9,a[2],a[1],a[3],a[4]]];case
 5:var
-h=dd(b,c,a[1]),D=h?[0,[5,h[1],a[2],a[3]]]:h;return D;case
+h=df(b,c,a[1]),D=h?[0,[5,h[1],a[2],a[3]]]:h;return D;case
 6:var
-i=dd(b,c,a[1]),E=i?[0,[7,i[1],a[2],a[3]]]:i;return E;case
+i=df(b,c,a[1]),E=i?[0,[7,i[1],a[2],a[3]]]:i;return E;case
 7:var
-F=dd(b,c,a[1]);return z(function(a){return[6,a]},F);case
+F=df(b,c,a[1]);return z(function(a){return[6,a]},F);case
 8:if(b){var
-p=a[3],q=a[2],j=dd(b,c,a[1]);if(j){var
-r=j[1],k=oP(b,hO(hN(au(q),function(a){return a1(q,a)})));if(k){var
+p=a[3],q=a[2],j=df(b,c,a[1]);if(j){var
+r=j[1],k=oQ(b,hP(hO(au(q),function(a){return a2(q,a)})));if(k){var
 s=k[1],t=s[2],u=s[1];if(t)return[0,[11,c,t,[10,r,u,p]]];var
 v=[0,[10,r,u,p]]}else
 var
@@ -6570,29 +6641,29 @@ var
 x=b;return x;case
 9:var
 y=function(a){if(a){var
-f=a[1],d=dd(b,c,f[2]);if(d)var
+f=a[1],d=df(b,c,f[2]);if(d)var
 e=y(a[2]),h=e?[0,[0,[0,f[1],d[1]],e[1]]]:e,g=h;else
 var
-g=d;return g}return AG},G=y(a[1]);return z(function(a){return[12,a]},G);default:var
-l=dd(b,c,a[3]);if(l)var
-m=dd(b,c,a[4]),H=m?[0,[13,a[2],a[1],l[1],m[1]]]:m,A=H;else
+g=d;return g}return AL},G=y(a[1]);return z(function(a){return[12,a]},G);default:var
+l=df(b,c,a[3]);if(l)var
+m=df(b,c,a[4]),H=m?[0,[13,a[2],a[1],l[1],m[1]]]:m,A=H;else
 var
 A=l;return A}}function
-oQ(e,d,a){if(a){var
-f=a[1],b=dd(e,d,f[2]);if(b)var
-c=oQ(e,d,a[2]),h=c?[0,[0,[0,f[1],b[1]],c[1]]]:c,g=h;else
+oR(e,d,a){if(a){var
+f=a[1],b=df(e,d,f[2]);if(b)var
+c=oR(e,d,a[2]),h=c?[0,[0,[0,f[1],b[1]],c[1]]]:c,g=h;else
 var
-g=b;return g}return AH}function
-dH(b,g,f,e,d,a){if(d)if(a){var
+g=b;return g}return AM}function
+dJ(b,g,f,e,d,a){if(d)if(a){var
 c=a[1];if(c[3])return 0;if(c[4])return 0;var
-n=c[2],o=a[2],p=d[1],h=oQ(f,e,c[1]);if(h){var
+n=c[2],o=a[2],p=d[1],h=oR(f,e,c[1]);if(h){var
 i=h[1];if(n){var
-j=dH(b,g,f,e,p,o);if(j){var
-q=j[1],k=dH(b,g,f,e,p,q[2]);if(k){var
+j=dJ(b,g,f,e,p,o);if(j){var
+q=j[1],k=dJ(b,g,f,e,p,q[2]);if(k){var
 r=k[1],s=r[1],t=q[1],l=n[1],y=r[2];if(aH(l,b))var
 u=[0,[1,i,l,t,s]];else
 var
-x=F(g,dU(l,b)),u=z(function(a){return[2,i,a,t,s]},x);return z(function(a){return[0,a,y]},u)}var
+x=G(g,dV(l,b)),u=z(function(a){return[2,i,a,t,s]},x);return z(function(a){return[0,a,y]},u)}var
 v=k}else
 var
 v=j;return v}var
@@ -6605,12 +6676,12 @@ m=a;else
 var
 m=d;return m}function
 jD(i,h,f,e,d,a){if(d){if(a){var
-b=dH(i,h,f,e,g(a),a);if(b)var
+b=dJ(i,h,f,e,g(a),a);if(b)var
 j=b[1],c=jD(i,h,f,e,d[1],j[2]),l=c?[0,[0,j[1],c[1]]]:c,k=l;else
 var
-k=b;return k}return AI}return a?0:AJ}function
-oR(a){if(typeof
-a==="number")return 0===a?AK:AL;else
+k=b;return k}return AN}return a?0:AO}function
+oS(a){if(typeof
+a==="number")return 0===a?AP:AQ;else
 switch(a[0]){case
 0:return[0,[0,a[1],a[2]]];case
 1:return[0,[1,a[1],a[2]]];default:return 0}}function
@@ -6619,48 +6690,53 @@ b=a[1];if(b[1])return 0;var
 j=b[4],c=b[3],k=b[2],l=a[2],m=d[1];if(k){if(c)return 0;if(j)return 0;var
 f=k[1],g=jE(e,m,l);if(g){var
 n=g[1],o=n[1],h=jE(e,m,n[2]);if(h){var
-p=h[1],q=p[2],r=p[1];if(aH(f,AM))return[0,[0,[1,f,o,r],q]];var
-t=F(e,dU(f,AN));return z(function(a){return[0,[2,a,o,r],q]},t)}var
+p=h[1],q=p[2],r=p[1];if(aH(f,AR))return[0,[0,[1,f,o,r],q]];var
+t=G(e,dV(f,AS));return z(function(a){return[0,[2,a,o,r],q]},t)}var
 s=h}else
 var
 s=g;return s}if(c){var
-u=oR(c[1]);return z(function(a){return[0,[0,j,a],l]},u)}var
+u=oS(c[1]);return z(function(a){return[0,[0,j,a],l]},u)}var
 i=c}else
 var
 i=a;else
 var
 i=d;return i}function
-de(b,a){return 0===b[0]?[0,j(b[1]),a]:a?[0,a[1],a[2]]:[0,j(b[1]),0]}function
-dI(a,e){var
-b=de(a[1],e),c=de(a[2],b[2]),d=de(a[3],c[2]);return[0,[0,b[1],c[1],d[1]],d[2]]}function
-oS(d,c){if(d){var
+dg(b,a){return 0===b[0]?[0,j(b[1]),a]:a?[0,a[1],a[2]]:[0,j(b[1]),0]}function
+dK(a,e){var
+b=dg(a[1],e),c=dg(a[2],b[2]),d=dg(a[3],c[2]);return[0,[0,b[1],c[1],d[1]],d[2]]}function
+oT(d,c){if(d){var
 a=d[1];switch(a[0]){case
 0:var
-e=dI(a[1],c),f=dI(a[2],e[2]),g=dI(a[3],f[2]),h=de(a[4],g[2]),b=[0,[0,e[1],f[1],g[1],h[1],a[5]],h[2]];break;case
+e=dK(a[1],c),f=dK(a[2],e[2]),g=dK(a[3],f[2]),h=dg(a[4],g[2]),b=[0,[0,e[1],f[1],g[1],h[1],a[5]],h[2]];break;case
 1:var
-i=a[3],j=dI(a[1],c),k=j[1],l=dI(a[2],j[2]),m=l[2],n=l[1];if(i)var
-o=dI(i[1],m),b=[0,[1,k,n,[0,o[1]]],o[2]];else
+i=a[3],j=dK(a[1],c),k=j[1],l=dK(a[2],j[2]),m=l[2],n=l[1];if(i)var
+o=dK(i[1],m),b=[0,[1,k,n,[0,o[1]]],o[2]];else
 var
 b=[0,[1,k,n,0],m];break;default:var
-p=dI(a[1],c),b=[0,[2,p[1]],p[2]]}var
-q=oS(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
-bw(a,b){if(a){var
-c=de(a[1],b),d=bw(a[2],c[2]);return[0,[0,c[1],d[1]],d[2]]}return[0,0,b]}function
-a9(c){function
+p=dK(a[1],c),b=[0,[2,p[1]],p[2]]}var
+q=oT(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
+bh(a,b){if(a){var
+c=dg(a[1],b),d=bh(a[2],c[2]);return[0,[0,c[1],d[1]],d[2]]}return[0,0,b]}function
+aM(c){function
 a(a){return q(a,c,[0,d,b])}var
-e=a(AT),f=a(AU);return[0,a(0),f,e]}function
-oT(a,b){if(a){var
-c=a[1],d=bw(c[1],b),e=bw(c[2],d[2]),f=oT(a[2],e[2]),g=f[2],h=f[1],i=a9(e[1]);return[0,[0,[0,a9(d[1]),i],h],g]}return[0,0,b]}function
-oU(f,c){if(f){var
+e=a(AY),f=a(AZ);return[0,a(0),f,e]}function
+oU(a,b){if(a){var
+c=a[1],d=bh(c[1],b),e=bh(c[2],d[2]),f=oU(a[2],e[2]),g=f[2],h=f[1],i=aM(e[1]);return[0,[0,[0,aM(d[1]),i],h],g]}return[0,0,b]}function
+oV(f,e){if(f){var
 a=f[1];switch(a[0]){case
 0:var
-g=bw(a[1],c),h=bw(a[2],g[2]),i=bw(a[3],h[2]),j=de(a[4],i[2]),u=j[2],v=a[5],w=j[1],x=a9(i[1]),y=a9(h[1]),e=[0,[0,[0,a9(g[1]),y,x,w,v]],u];break;case
+g=bh(a[1],e),h=bh(a[2],g[2]),i=bh(a[3],h[2]),j=dg(a[4],i[2]),A=j[2],B=a[5],C=j[1],D=aM(i[1]),E=aM(h[1]),c=[0,[0,[0,aM(g[1]),E,D,C,B]],A];break;case
 1:var
-k=bw(a[1],c),l=bw(a[2],k[2]),z=l[2],A=a9(l[1]),e=[0,[0,[1,a9(k[1]),A,0]],z];break;default:var
-m=a[1],n=bw(m,c),o=bw(a[2],n[2]),p=bw(a[3],o[2]),q=bw(a[4],p[2]),r=de(a[5],q[2]),s=de(a[6],r[2]),B=m?a9(n[1]):[0,[0,d,b],[0,d,b],[0,b,b]],C=s[2],D=a[7],E=s[1],F=r[1],G=a9(q[1]),H=a9(p[1]),e=[0,[1,[0,B,a9(o[1]),H,G,F,E,D]],C]}var
-t=oU(f[2],e[2]);return[0,[0,e[1],t[1]],t[2]]}return[0,0,c]}function
-df(a){return lg(l,a)}function
-AV(a){if(typeof
+k=a[3],l=bh(a[1],e),m=l[1],n=bh(a[2],l[2]),o=n[2],p=n[1];if(k)var
+q=bh(k[1],o),F=q[2],G=[0,aM(q[1])],H=aM(p),c=[0,[0,[1,aM(m),H,G]],F];else
+var
+I=aM(p),c=[0,[0,[1,aM(m),I,0]],o];break;case
+2:var
+r=bh(a[1],e),J=r[2],c=[0,[0,[2,aM(r[1])]],J];break;default:var
+s=a[1],t=bh(s,e),u=bh(a[2],t[2]),v=bh(a[3],u[2]),w=bh(a[4],v[2]),x=dg(a[5],w[2]),y=dg(a[6],x[2]),K=s?aM(t[1]):[0,[0,d,b],[0,d,b],[0,b,b]],L=y[2],M=a[7],N=y[1],O=x[1],P=aM(w[1]),Q=aM(v[1]),c=[0,[1,[0,K,aM(u[1]),Q,P,O,N,M]],L]}var
+z=oV(f[2],c[2]);return[0,[0,c[1],z[1]],z[2]]}return[0,0,e]}function
+dh(a){return lg(l,a)}function
+A0(a){if(typeof
 a==="number")return 1;else
 switch(a[0]){case
 5:return h(l,1,[3,a[1],[0,b,b]]);case
@@ -6677,7 +6753,7 @@ i=h(l,0,a[1]);return i?h(l,1,a[2]):i;case
 15:var
 j=[0,a[2],a[1]],k=1;return m(function(a){return h(l,k,a)},j);case
 2:case
-3:return df(a[2]);case
+3:return dh(a[2]);case
 4:case
 13:var
 c=h(l,1,a[2]);return c?h(l,1,a[3]):c;default:return h(l,1,a[1])}}function
@@ -6693,23 +6769,23 @@ B=[0,a[2],a[1]],C=1;return m(function(a){return h(l,C,a)},B);case
 11:var
 k=a[2],n=h(l,1,k);return n?h(l,0,[3,[0,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b))))))))),b],k]):n;case
 13:var
-o=a[4],p=nt(a[3]),q=p?h(l,1,o):p;return q?h(l,0,[3,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b],o]):q;case
+o=a[4],p=nw(a[3]),q=p?h(l,1,o):p;return q?h(l,0,[3,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b],o]):q;case
 14:return h(l,0,a[3]);case
 15:var
 s=h(l,0,a[2]),t=s?h(l,0,a[3]):s;return t?h(l,1,a[4]):t;case
 16:var
 u=a[3],v=h(l,0,a[1]),w=v?h(l,1,a[2]):v,x=w?h(l,1,u):w;return x?h(l,1,[3,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b],u]):x;case
 17:var
-y=a[2],z=m(df,y),A=z?ak(function(a){return h(l,1,[4,a,a])},y):z;return A?h(l,1,a[3]):A;case
+y=a[2],z=m(dh,y),A=z?ak(function(a){return h(l,1,[4,a,a])},y):z;return A?h(l,1,a[3]):A;case
 2:case
-3:return df(a[2]);case
-6:case
-7:case
-9:var
-j=h(l,1,a[2]);return j?h(l,1,a[3]):j;default:return h(l,1,a[1])}}function
-hb(d){var
+3:return dh(a[2]);case
+0:case
+1:case
+12:return h(l,1,a[1]);default:var
+j=h(l,1,a[2]);return j?h(l,1,a[3]):j}}function
+hd(d){var
 a=d;for(;;){if(a){var
-b=a[2],e=a[1],c=Q(ak(function(d){return function(a){var
+b=a[2],e=a[1],c=P(ak(function(d){return function(a){var
 h=jn(a[1]),e=ax(jn(d[1]),h);if(e)var
 i=jo(a[4]),b=ax(jo(d[4]),i);else
 var
@@ -6720,148 +6796,159 @@ g=1}else
 var
 g=b;return g}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-fq(a){if(0===a[0])return df(j(a[1]));var
-b=a[2],c=a[1];if(!d3(j(c))&&!d3(j(b))){var
+fq(a){if(0===a[0])return dh(j(a[1]));var
+b=a[2],c=a[1];if(!d4(j(c))&&!d4(j(b))){var
 e=j(c);return h(l,1,[3,j(b),e])}var
-d=j(b);return bs(l,j(c),d)}function
-dJ(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-oV(a){switch(a[0]){case
+d=j(b);return bt(l,j(c),d)}function
+dL(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+oW(a){switch(a[0]){case
 0:var
-c=[0,a[4],0],d=f(dJ(a[3]),c),e=f(dJ(a[2]),d);return f(dJ(a[1]),e);case
+c=[0,a[4],0],d=f(dL(a[3]),c),e=f(dL(a[2]),d);return f(dL(a[1]),e);case
 1:var
-b=a[3],g=b?dJ(b[1]):b,h=f(dJ(a[2]),g);return f(dJ(a[1]),h);default:return dJ(a[1])}}function
-oW(s,a,k){if(ak(function(a){return 9===a[1]?1:0},k)){var
-b=_(g(a),AY),c=b?m(function(a){if(0===a[0]){var
+b=a[3],g=b?dL(b[1]):b,h=f(dL(a[2]),g);return f(dL(a[1]),h);default:return dL(a[1])}}function
+oX(s,a,k){if(ak(function(a){return 9===a[1]?1:0},k)){var
+b=_(g(a),A3),c=b?m(function(a){if(0===a[0]){var
 d=a[5],e=h(l,1,j(a[2])),g=e?h(l,0,j(a[3])):e,k=g?h(l,0,j(a[4])):g,c=0;if(k)if(d)var
-p=bX(d[1]),b=m(function(a){return df(j(a))},p);else{var
+p=bZ(d[1]),b=m(function(a){return dh(j(a))},p);else{var
 n=1;c=1}else{var
 n=k;c=1}if(c)var
 b=n}else{var
 o=h(l,1,j(a[4]));if(o)var
-q=bX(a[3]),r=f(bX(a[2]),q),b=m(function(a){return df(j(a))},r);else
+q=bZ(a[3]),r=f(bZ(a[2]),q),b=m(function(a){return dh(j(a))},r);else
 var
 b=o}return b?i(s,a):b},a):b;if(c)var
-d=g4(0,a),n=d?1:d,e=n;else
+d=g6(0,a),n=d?1:d,e=n;else
 var
 e=c;return e}return a?0:1}function
-oX(a){return a?AZ:A0}function
+oY(a){return a?A4:A5}function
 jG(a){switch(a){case
-0:return A1;case
-1:return A2;default:return 0}}function
-dg(a){var
-f=a[1],d=h(l,1,[2,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b],f]),e=d?bs(l,a[1],a[2]):d;if(e){var
+0:return A6;case
+1:return A7;default:return 0}}function
+di(a){var
+f=a[1],d=h(l,1,[2,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b],f]),e=d?bt(l,a[1],a[2]):d;if(e){var
 g=a[2];return h(l,1,[3,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b],g])}return e}function
 eu(a){var
-e=bs(l,[0,d,b],a);return e?h(l,1,[3,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b],a]):e}function
-oY(c,b,a){if(0===a[0]){var
+e=bt(l,[0,d,b],a);return e?h(l,1,[3,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b],a]):e}function
+oZ(c,b,a){if(0===a[0]){var
 d=a[2],e=a[1],f=p(g(e),c),i=f?p(g(d),c):f;if(i){var
 n=$(e,d);return m(function(a){var
-b=j(a[2]);return bs(l,j(a[1]),b)},n)}return i}var
+b=j(a[2]);return bt(l,j(a[1]),b)},n)}return i}var
 k=b?h(l,1,j(a[3])):b;if(k){var
-o=j(a[5]);return bs(l,j(a[4]),o)}return k}function
-oZ(a,e,F,E,t,s,f){function
+o=j(a[5]);return bt(l,j(a[4]),o)}return k}function
+o0(a,e,F,E,t,s,f){function
 u(b){var
-d=oX(a),c=p(g(b),d);return c?m(fq,b):c}var
+d=oY(a),c=p(g(b),d);return c?m(fq,b):c}var
 v=m(function(a){var
 b=u(a[1]);return b?u(a[2]):b},e);if(v)var
-G=g(e),n=_(bt(a),G);else
+G=g(e),n=_(bu(a),G);else
 var
 n=v;var
-w=n?_(g(e),A3):n,x=w?h(l,1,j(F)):w;if(x)var
-H=1===a?1:0,o=oY(jG(a),H,E);else
+w=n?_(g(e),A8):n,x=w?h(l,1,j(F)):w;if(x)var
+H=1===a?1:0,o=oZ(jG(a),H,E);else
 var
 o=x;if(o)if(a){var
-d=dG(t);switch(d[0]){case
+d=dI(t);switch(d[0]){case
 0:var
 i=0;break;case
 1:var
-A=dg(d[1]),B=A?dg(d[2]):A,i=B?dg(d[3]):B;break;case
+A=di(d[1]),B=A?di(d[2]):A,i=B?di(d[3]):B;break;case
 2:var
 i=eu(d[1]);break;default:var
 C=eu(d[1]),i=C?eu(d[2]):C}var
 k=i}else
 var
-D=dG(t),J=0===D[0]?dg(D[1]):0,k=J;else
+D=dI(t),J=0===D[0]?di(D[1]):0,k=J;else
 var
 k=o;if(k)var
-I=g(e),q=oW(function(a){if(0===a[0]){var
-b=a[1],c=_(AX,b),d=c?_(b,I):c;if(d){if(a[5])return 0;var
+I=g(e),q=oX(function(a){if(0===a[0]){var
+b=a[1],c=_(A2,b),d=c?_(b,I):c;if(d){if(a[5])return 0;var
 e=1}else
 var
 e=d;return e}return 1},s,f);else
 var
 q=k;if(q)var
-b=g(e),c=bt(a),y=oX(a),r=m(function(a){var
+b=g(e),c=bu(a),y=oY(a),r=m(function(a){var
 e=a[2];if(e)var
-f=e[1],h=_(Ac,f),w=h?_(f,b):h,d=w;else
+f=e[1],h=_(Ah,f),w=h?_(f,b):h,d=w;else
 var
 d=1;switch(a[1]){case
 9:var
 i=a[4];if(typeof
-i!=="number"&&0===i[0])return a[2]?aP(c,b,a):a[3]?aP(c,b,a):1;return aP(c,b,a);case
+i!=="number"&&0===i[0])return a[2]?aQ(c,b,a):a[3]?aQ(c,b,a):1;return aQ(c,b,a);case
 10:var
 j=a[4];if(typeof
 j!=="number"&&1===j[0]){var
-k=a[3];return k?2===k[1][0]?d:aP(c,b,a):aP(c,b,a)}return aP(c,b,a);case
+k=a[3];return k?2===k[1][0]?d:aQ(c,b,a):aQ(c,b,a)}return aQ(c,b,a);case
 12:var
 l=a[4];if(typeof
-l!=="number"&&1===l[0]){if(a[2])return aP(c,b,a);var
-m=a[3];return m?3===m[1][0]?p(b,c):aP(c,b,a):aP(c,b,a)}return aP(c,b,a);case
+l!=="number"&&1===l[0]){if(a[2])return aQ(c,b,a);var
+m=a[3];return m?3===m[1][0]?p(b,c):aQ(c,b,a):aQ(c,b,a)}return aQ(c,b,a);case
 14:var
 n=a[4];if(typeof
 n!=="number"&&1===n[0]){var
 o=a[3];if(o){var
 q=o[1];if(1===q[0]){var
-r=p(g(q[1]),y),x=r?d:r;return x}return aP(c,b,a)}return aP(c,b,a)}return aP(c,b,a);case
+r=p(g(q[1]),y),x=r?d:r;return x}return aQ(c,b,a)}return aQ(c,b,a)}return aQ(c,b,a);case
 15:var
 s=a[4];if(typeof
 s!=="number"&&1===s[0]){var
 t=a[3];if(t){var
 u=t[1];if(1===u[0]){var
-v=p(g(u[1]),y),z=v?d:v;return z}return aP(c,b,a)}return aP(c,b,a)}return aP(c,b,a);default:return aP(c,b,a)}},f);else
+v=p(g(u[1]),y),z=v?d:v;return z}return aQ(c,b,a)}return aQ(c,b,a)}return aQ(c,b,a);default:return aQ(c,b,a)}},f);else
 var
 r=q;var
-z=r?hb(f):r;return z?m(jF,es(0,g(e),s,f)):z}function
-o0(a){switch(a[0]){case
+z=r?hd(f):r;return z?m(jF,es(0,g(e),s,f)):z}function
+o1(a){switch(a[0]){case
 0:var
-b=f(a[3],[0,a[4],0]),c=f(a[2],b);return f(a[1],c);case
-1:return f(a[1],a[2]);default:var
-d=f(a[4],[0,a[5],[0,a[6],0]]),e=f(a[3],d),g=f(a[2],e);return f(a[1],g)}}function
-o1(a,e,d,S,o,w,n){var
+c=f(a[3],[0,a[4],0]),d=f(a[2],c);return f(a[1],d);case
+1:var
+b=a[3],e=b?b[1]:b,g=f(a[2],e);return f(a[1],g);case
+2:return a[1];default:var
+h=f(a[4],[0,a[5],[0,a[6],0]]),i=f(a[3],h),j=f(a[2],i);return f(a[1],j)}}function
+o2(a,e,d,S,o,w,n){var
 q=typeof
 a==="number"?a?1:a:a[1]?0:1;function
 c(a){var
-b=q?A4:A5;return p(g(a),b)}var
-i=g5(e),x=m(function(b){switch(b[0]){case
+b=q?A9:A_;return p(g(a),b)}var
+i=g7(e),x=m(function(b){switch(b[0]){case
 0:var
-d=Q(i),e=d?c(b[1]):d,f=e?c(b[2]):e;return f?c(b[3]):f;case
+f=P(i),g=f?c(b[1]):f,h=g?c(b[2]):g;return h?c(b[3]):h;case
 1:var
-g=Q(i),h=g?c(b[1]):g,j=h?c(b[2]):h;if(j)var
-k=typeof
-a==="number"?1:0,l=k?1:k;else
+d=b[3],j=P(i),k=j?c(b[1]):j,l=k?c(b[2]):k;if(l){var
+m=typeof
+a==="number"?1:0;if(m){if(a)return d?0:1;if(d)return c(d[1]);var
+e=1}else
 var
-l=j;return l;default:var
-m=b[1],n=q?m?0:1:c(m),o=n?c(b[2]):n,p=o?c(b[3]):o;return p?c(b[4]):p}},e);if(x)var
-T=g(e),r=_(aW(a),T);else
+e=m}else
+var
+e=l;return e;case
+2:var
+n=P(i),o=n?c(b[1]):n;if(o){if(typeof
+a==="number"&&!a)return 1;var
+p=0}else
+var
+p=o;return p;default:var
+r=b[1],s=q?r?0:1:c(r),t=s?c(b[2]):s,u=t?c(b[3]):t;return u?c(b[4]):u}},e);if(x)var
+T=g(e),r=_(aX(a),T);else
 var
 r=x;var
-A=r?_(g(e),A6):r,B=A?m(fq,y(o0,e)):A;if(B){var
+A=r?_(g(e),A$):r,B=A?m(fq,y(o1,e)):A;if(B){var
 R=0;if(typeof
 a==="number"&&!a){var
 C=1;R=1}if(!R)var
 C=0;var
-U=q?A7:A8,s=oY(U,C,S)}else
+U=q?Ba:Bb,s=oZ(U,C,S)}else
 var
 s=B;if(s)if(typeof
 a==="number")if(d)var
 b=0;else
 var
-V=z(dG,o)?0:1,b=V;else
+V=z(dI,o)?0:1,b=V;else
 switch(a[1]){case
 0:if(d){var
-t=z(dG,o);if(t){var
+t=z(dI,o);if(t){var
 F=t[1];if(0===F[0])var
-G=h(l,1,j(d[1])),H=G?dg(F[1]):G;else
+G=h(l,1,j(d[1])),H=G?di(F[1]):G;else
 var
 H=0;var
 I=H}else
@@ -6871,15 +6958,15 @@ b=I}else
 var
 b=d;break;case
 1:if(d){var
-u=d[1],v=z(dG,o);if(v){var
+u=d[1],v=z(dI,o);if(v){var
 f=v[1];switch(f[0]){case
 0:var
 k=0;break;case
 1:var
-K=h(l,1,j(u)),L=K?dg(f[1]):K,M=L?dg(f[2]):L,k=M?dg(f[3]):M;break;case
+K=h(l,1,j(u)),L=K?di(f[1]):K,M=L?di(f[2]):L,k=M?di(f[3]):M;break;case
 2:var
 N=h(l,1,j(u)),k=N?eu(f[1]):N;break;default:var
-O=h(l,1,j(u)),P=O?eu(f[1]):O,k=P?eu(f[2]):P}var
+O=h(l,1,j(u)),Q=O?eu(f[1]):O,k=Q?eu(f[2]):Q}var
 J=k}else
 var
 J=v;var
@@ -6890,97 +6977,97 @@ b=0}else
 var
 b=s;var
 D=b?m(function(b){var
-c=oA(i,a,g(e),b);if(c)var
+c=oB(i,a,g(e),b);if(c)var
 d=c;else{var
-f=w?et(b):w;if(f)return aP(0,0,b);var
-d=f}return d},n):b,E=D?hb(n):D;return E?m(jF,es(i,g(e),0,n)):E}function
-A9(a){switch(a[0]){case
-0:return gA(a[1][1]);case
+f=w?et(b):w;if(f)return aQ(0,0,b);var
+d=f}return d},n):b,E=D?hd(n):D;return E?m(jF,es(i,g(e),0,n)):E}function
+Bc(a){switch(a[0]){case
+0:return gC(a[1][1]);case
 1:var
-b=a[3];return b?gA(b[1]):1;default:return gA(a[1])}}function
+b=a[3];return b?gC(b[1]):1;default:return gC(a[1])}}function
 jH(a,k,b,d){var
-e=oW(function(g){if(0===g[0]){var
-c=g[1],d=_(AW,c);if(d){var
-b=F(a,bx(c));if(b){if(2===b[1][0])return 0;var
+e=oX(function(g){if(0===g[0]){var
+c=g[1],d=_(A1,c);if(d){var
+b=G(a,bx(c));if(b){if(2===b[1][0])return 0;var
 e=1}else
 var
 e=b;var
 f=e}else
 var
-f=d;return f}return 1},k,b),f=e?m(A9,d[1]):e,h=f?_(A_,g(a)):f;if(h)var
-l=g(a),c=m(function(a){return z4(l,a)},b);else
+f=d;return f}return 1},k,b),f=e?m(Bc,d[1]):e,h=f?_(Bd,g(a)):f;if(h)var
+l=g(a),c=m(function(a){return z9(l,a)},b);else
 var
 c=h;var
-i=c?hb(b):c,j=i?m(fq,y(oV,a)):i;return j?m(AV,d[3]):j}function
-o2(k,j,a,i,h,b){var
+i=c?hd(b):c,j=i?m(fq,y(oW,a)):i;return j?m(A0,d[3]):j}function
+o3(k,j,a,i,h,b){var
 l=g(k),n=g(h),c=p(g(i),n),d=c?m(function(b){var
-c=aP(l,g(a),b);if(c){var
+c=aQ(l,g(a),b);if(c){var
 d=b[1];if(1===d){var
 e=b[2],f=e?[0,bx(e[1]),0]:aB(0,g(a));return m(function(c){var
-b=F(a,c);return b?0===b[1][0]?0:1:b},f)}return 11===d?m(function(a){return 0===a[0]?0:1},a):1}return c},b):c,e=d?hb(b):d,f=e?m(function(a){return fq(a[2])},j):e;return f?m(jF,es(0,g(a),0,b)):f}function
-o3(a){if(a){var
+b=G(a,c);return b?0===b[1][0]?0:1:b},f)}return 11===d?m(function(a){return 0===a[0]?0:1},a):1}return c},b):c,e=d?hd(b):d,f=e?m(function(a){return fq(a[2])},j):e;return f?m(jF,es(0,g(a),0,b)):f}function
+o4(a){if(a){var
 b=a[1];if(et(b))return 0;var
-c=[0,b,o3(a[2])]}else
+c=[0,b,o4(a[2])]}else
 var
 c=a;return c}function
-hc(i,h,f,d,b){var
-j=o3(b),k=y(function(a){return ju(i,f,d,a)},j),c=aq(R,0,e(function(a){return gx(l,h,a)},k)),a=y(oy,b),m=a?[0,a[1],a[2]]:A$;return R(g(m),c)}function
-jI(a){return 2<=a?Ba:Bb}function
+he(i,h,f,d,b){var
+j=o4(b),k=y(function(a){return ju(i,f,d,a)},j),c=an(R,0,e(function(a){return gz(l,h,a)},k)),a=y(oz,b),m=a?[0,a[1],a[2]]:Be;return R(g(m),c)}function
+jI(a){return 2<=a?Bf:Bg}function
 jJ(m,l,k,j,f,i){var
-g=hc(m,l,k,j,f),c=oR(i);if(c){var
+g=he(m,l,k,j,f),c=oS(i);if(c){var
 a=c[1],e=0;if(typeof
 a==="number")var
 h=[0,a];else
 if(0===a[0]){var
 n=a[2],o=a[1],b=o,d=function(a){return[0,a,n]};e=1}else{var
-q=a[2],r=a[1],b=r,d=function(a){return[1,a,q]};e=1}if(e){if(!Q(ak(et,f))&&!aH(b,g))return p(b,g)?0:[0,d(bx(b))];return[0,d(b)]}}else
+q=a[2],r=a[1],b=r,d=function(a){return[1,a,q]};e=1}if(e){if(!P(ak(et,f))&&!aH(b,g))return p(b,g)?0:[0,d(bx(b))];return[0,d(b)]}}else
 var
 h=c;return h}function
-hd(b,a){var
-c=g(bq(function(a){return 0===a[0]?0:1},b));return p(g(a),c)}function
-he(a){var
-b=$(aB(0,g(a)),a);return e(av,bq(function(a){return iu(a[2])},b))}function
-o4(a){var
-b=a[1],c=e(g$,a[1]);return gr(ha(a[1]),c,b)}function
-jK(a){return he(o4(a))}function
-o5(b,a){if(a){var
-c=a[1],d=a[2],g=o5(R(b,c[1]),d),h=c[2];return f(e(function(a){return aB(R(b,a),Bc)},h),g)}return a}function
-o6(e,a){function
+hf(b,a){var
+c=g(br(function(a){return 0===a[0]?0:1},b));return p(g(a),c)}function
+hg(a){var
+b=$(aB(0,g(a)),a);return e(av,br(function(a){return iv(a[2])},b))}function
+o5(a){var
+b=a[1],c=e(hb,a[1]);return gs(hc(a[1]),c,b)}function
+jK(a){return hg(o5(a))}function
+o6(b,a){if(a){var
+c=a[1],d=a[2],g=o6(R(b,c[1]),d),h=c[2];return f(e(function(a){return aB(R(b,a),Bh)},h),g)}return a}function
+o7(e,a){function
 b(f){var
-a=F(e,f);if(a){var
+a=G(e,f);if(a){var
 b=lZ(a[1]);if(b)return I(b[1],d);var
 c=1}else
 var
 c=a;return c}var
-c=o5(0,a);return bq(function(a){return m(b,a)},c)}function
-o7(a){switch(a[0]){case
-0:return Bd;case
-1:return a[3]?Be:Bf;default:return Bg}}function
-Bh(a){return 0===a[0]?o7(a[1]):Bi}function
+c=o6(0,a);return br(function(a){return m(b,a)},c)}function
+o8(a){switch(a[0]){case
+0:return Bi;case
+1:return a[3]?Bj:Bk;default:return Bl}}function
+Bm(a){return 0===a[0]?o8(a[1]):Bn}function
 jL(a){if(a){var
 b=a[1];return[0,b[2],b[1]]}return[0,d,0]}function
-o8(aC,Y,aB,X,W,b,aA,V){var
-a=jt(Y,aB,X,W),aD=g(V),aE=e(o7,a[1]),aF=o6(o4(a),aE),aG=aC?0:jK(a),B=dH(Bj,jK(a),aG,aF,aD,V);if(B){var
+o9(aC,Y,aB,X,W,b,aA,V){var
+a=jt(Y,aB,X,W),aD=g(V),aE=e(o8,a[1]),aF=o7(o5(a),aE),aG=aC?0:jK(a),B=dJ(Bo,jK(a),aG,aF,aD,V);if(B){var
 Z=B[1];if(Z[2])return 0;var
 _=jH(Y,X,W,a);if(_){var
-aH=Z[1],C=e(g$,a[1]),c=ha(a[1]),aI=jL(aA),U=mo(l,a);if(U){var
-n=gr(c,C,a[1]),h=ir(c,C,a[1],0),ac=g(a[3]),ad=R(g(n),ac),K=[0,g(n),ad],ae=a[3],E=ak(function(a){if(typeof
+aH=Z[1],C=e(hb,a[1]),c=hc(a[1]),aI=jL(aA),U=mo(l,a);if(U){var
+n=gs(c,C,a[1]),h=is(c,C,a[1],0),ac=g(a[3]),ad=R(g(n),ac),K=[0,g(n),ad],ae=a[3],E=ak(function(a){if(typeof
 a!=="number"&&14===a[0])return 1;return 0},ae),af=E?y(function(a){var
-b=e(aY,gt(n,a[4]));return[0,a[4],b]},h):E,ag=f(it(h,c,K,a[3]),af),ah=f(bQ(lv(h)),ag),L=f(bQ(eY(h)),ah),M=cP(L)[1],o=cO(M),N=m(function(a){var
-b=k(d);return aJ(q(bd(o,a),o,b),a)},L);if(N){var
-O=ak(ta,a[3]);if(O){var
+b=e(aZ,gu(n,a[4]));return[0,a[4],b]},h):E,ag=f(iu(h,c,K,a[3]),af),ah=f(bS(lv(h)),ag),L=f(bS(eY(h)),ah),M=cR(L)[1],o=cQ(M),N=m(function(a){var
+b=k(d);return aJ(q(bc(o,a),o,b),a)},L);if(N){var
+O=ak(tb,a[3]);if(O){var
 t=C,p=a[1];for(;;){if(p){var
-r=p[1],u=bK(d,t);switch(r[0]){case
+r=p[1],u=bM(d,t);switch(r[0]){case
 0:var
-F=r[1],G=gu(b,F[1],u),D=0;if(G){var
-s=an(b,[0,F[4],c]);if(s)var
+F=r[1],G=gv(b,F[1],u),D=0;if(G){var
+s=ao(b,[0,F[4],c]);if(s)var
 j=J(d,s[1][1]);else{var
 H=s;D=1}}else{var
 H=G;D=1}if(D)var
 j=H;break;case
 1:var
-I=r[3],j=I?gu(b,I[1],u):1;break;default:var
-j=gu(b,r[1],u)}if(j){var
+I=r[3],j=I?gv(b,I[1],u):1;break;default:var
+j=gv(b,r[1],u)}if(j){var
 aa=p[2],t=by(t),p=aa;continue}var
 P=j}else
 var
@@ -6988,10 +7075,10 @@ P=1;var
 v=P;break}}else
 var
 v=O;if(v){var
-ai=a[3],aj=y(function(a){return dv(c,a)},ai),al=a[3],am=f(n,f(e(function(a){return bP(c,a)},al),aj)),w=ab(e(function(a){return an(b,a)},am));if(w){var
-ao=a6(ed(a[2]),c),x=ab(e(function(a){return an(b,a)},ao));if(x){var
-ap=a[3],z=ab(mb(b,aI,function(a){return bd(o,a)},n,h,c,K,ap));if(z){var
-Q=z[1],aq=iq(Q),ar=x[1],as=a[2],at=function(a){return mc(b,as,c,a)},au=w[1],av=0,ax=lv(h),ay=i(aw(function(a){return bd(o,a)}),ax),az=eY(h);return fw(ip(b,M,i(aw(function(a){return bd(o,a)}),az),ay,av,au,Q,at),ar,aq,aH)}var
+ai=a[3],aj=y(function(a){return dx(c,a)},ai),al=a[3],am=f(n,f(e(function(a){return bR(c,a)},al),aj)),w=ab(e(function(a){return ao(b,a)},am));if(w){var
+an=a7(ee(a[2]),c),x=ab(e(function(a){return ao(b,a)},an));if(x){var
+ap=a[3],z=ab(mb(b,aI,function(a){return bc(o,a)},n,h,c,K,ap));if(z){var
+Q=z[1],aq=ir(Q),ar=x[1],as=a[2],at=function(a){return mc(b,as,c,a)},au=w[1],av=0,ax=lv(h),ay=i(aw(function(a){return bc(o,a)}),ax),az=eY(h);return fw(iq(b,M,i(aw(function(a){return bc(o,a)}),az),ay,av,au,Q,at),ar,aq,aH)}var
 S=z}else
 var
 S=x;var
@@ -7006,36 +7093,36 @@ A=N;return A}return U}var
 $=_}else
 var
 $=B;return $}function
-Bk(a){if(0===a[0])return oN(a[1]);var
+Bp(a){if(0===a[0])return oO(a[1]);var
 b=a[1],c=ef(b[6]);return f(ef(b[5]),c)}function
-Bl(a){if(0===a[0])return oO(a[1]);var
+Bq(a){if(0===a[0])return oP(a[1]);var
 b=a[1],c=a8(b[4]);return f(a8(b[3]),c)}function
-Bm(a){if(0===a[0])return[0,g$(a[1]),d];var
+Br(a){if(0===a[0])return[0,hb(a[1]),d];var
 b=a[1],c=bB(a8(b[2]));return[0,bB(a8(b[1])),c]}function
-o9(P,aF,aE,aD,aC,aB,j,aA){var
-a=oD(P,aF,aE,aD,aC,aB),aG=a[2],O=y(Bk,aG),bb=O?[0,O[1],O[2]]:y(Bl,aG),n=E(b,bB(bb)),Q=e(Bm,a[2]),R=i4(n,Q,a[2]),bc=g(aA),be=o6(R,e(Bh,a[2])),bf=he(R),bg=he(R),S=dH(aW(P),bg,bf,be,bc,aA);if(S){var
+o_(P,aF,aE,aD,aC,aB,j,aA){var
+a=oE(P,aF,aE,aD,aC,aB),aG=a[2],O=y(Bp,aG),bb=O?[0,O[1],O[2]]:y(Bq,aG),n=F(b,bB(bb)),Q=e(Br,a[2]),R=i4(n,Q,a[2]),bd=g(aA),be=o7(R,e(Bm,a[2])),bf=hg(R),bg=hg(R),S=dJ(aX(P),bg,bf,be,bd,aA);if(S){var
 aH=S[1];if(aH[2])return 0;var
-aI=o1(P,aF,aE,aD,aC,0,aB);if(aI){var
-bh=aH[1],a_=e(uU,a[2]),ax=nA(l,a[2],a_);if(ax)var
-a$=ix(a[4]),M=bR(l,a[4],a$);else
+aI=o2(P,aF,aE,aD,aC,0,aB);if(aI){var
+bh=aH[1],a_=e(uV,a[2]),ax=nD(l,a[2],a_);if(ax)var
+a$=iy(a[4]),M=bT(l,a[4],a$);else
 var
 M=ax;if(M){var
 ay=a[5];if(ay)var
-ba=gI(ay[1]),az=m(function(a){return fc(l,a)},ba);else
+ba=gK(ay[1]),az=m(function(a){return fc(l,a)},ba);else
 var
 az=1;var
 N=az}else
 var
 N=M;if(N){var
-c=a[1],aO=aW(c),u=a[6],B=i4(n,Q,a[2]),X=a[3],Y=[0,[0,X,X],n],Z=[0,g(B)],C=a[2],s=C?0===C[1][0]?0:1:C,aP=a[5],aQ=z(function(a){var
+c=a[1],aO=aX(c),u=a[6],B=i4(n,Q,a[2]),X=a[3],Y=[0,[0,X,X],n],Z=[0,g(B)],C=a[2],s=C?0===C[1][0]?0:1:C,aP=a[5],aQ=z(function(a){var
 b=typeof
-c==="number"?0:cD(c[1]);return mX(a,b)},aP),aR=a[2],o=nC(c,aQ,cZ(Y,g(B)),n,Q,aR,0),_=y(function(a){return a[7]},o),aS=f(_,c7(function(a,b){return nJ(o,a,b)},s,n,Z,u)),aT=f(bQ(fd(o)),aS),$=f(bQ(ek(o)),aT),aa=cP($)[1],ac=cO(aa),t=function(a){return bd(ac,a)},ad=m(function(a){var
-b=k(d);return aJ(q(t(a),ac,b),a)},$),ae=ad?ak(nL,u):ad;if(ae){var
+c==="number"?0:cF(c[1]);return m0(a,b)},aP),aR=a[2],o=nF(c,aQ,c1(Y,g(B)),n,Q,aR,0),_=y(function(a){return a[7]},o),aS=f(_,c9(function(a,b){return nK(o,a,b)},s,n,Z,u)),aT=f(bS(fd(o)),aS),$=f(bS(ek(o)),aT),aa=cR($)[1],ac=cQ(aa),t=function(a){return bc(ac,a)},ad=m(function(a){var
+b=k(d);return aJ(q(t(a),ac,b),a)},$),ae=ad?ak(nM,u):ad;if(ae){var
 af=a[4];if(typeof
 c==="number")var
-ag=c?i0(0,ed(af)):1;else
+ag=c?i0(0,ee(af)):1;else
 var
-aM=ed(af),ag=i0(c[1],aM);var
+aM=ee(af),ag=i0(c[1],aM);var
 D=ag}else
 var
 D=ae;if(D){var
@@ -7046,34 +7133,34 @@ if(2<=U[1])var
 v=0;else{var
 x=a[5],T=0;if(x){var
 V=h(j,1,a[3]);if(V)var
-aN=gI(x[1]),v=m(function(a){var
-b=c5(j,a[1]);return b?c5(j,a[2]):b},aN);else{var
+aN=gK(x[1]),v=m(function(a){var
+b=c7(j,a[1]);return b?c7(j,a[2]):b},aN);else{var
 W=V;T=1}}else{var
 W=x;T=1}if(T)var
 v=W}var
-F=v}else
+E=v}else
 var
-F=D;if(F)var
+E=D;if(E)var
 aU=a[2],G=m(function(a){var
-b=0===a[0]?0:1;return cm(b,s)},aU);else
+b=0===a[0]?0:1;return co(b,s)},aU);else
 var
-G=F;if(G){var
-aV=f(B,[0,Y,0]),H=ab(e(function(a){return an(j,a)},aV));if(H){var
-aX=y(function(a){return e8(s,n,a)},u),I=ab(e(function(a){return iJ(j,a)},aX));if(I){var
-r=ed(a[4]),aY=typeof
-c==="number"?c?[0,r[1],[0,r[2],0]]:[0,r[1],[0,r[2],[0,r[3],0]]]:nu(c[1],r),J=ab(e(function(a){return an(j,[0,a,n])},aY));if(J){var
+G=E;if(G){var
+aV=f(B,[0,Y,0]),H=ab(e(function(a){return ao(j,a)},aV));if(H){var
+aW=y(function(a){return e8(s,n,a)},u),I=ab(e(function(a){return iJ(j,a)},aW));if(I){var
+r=ee(a[4]),aY=typeof
+c==="number"?c?[0,r[1],[0,r[2],0]]:[0,r[1],[0,r[2],[0,r[3],0]]]:nx(c[1],r),J=ab(e(function(a){return ao(j,[0,a,n])},aY));if(J){var
 ah=J[1],ai=a[5];if(ai)var
-aZ=mZ(ai[1]),w=ab(e(function(a){return m1(j,a)},aZ));else
+aZ=m2(ai[1]),w=ab(e(function(a){return m4(j,a)},aZ));else
 var
-w=uT;if(w){var
-aj=w[1],A=a[5],a0=A?mY(A[1]):A,K=ab(e(c4(j),a0));if(K){var
-L=ab(c7(function(a,b){return nK(j,t,o,s,n,a,b)},s,n,Z,u));if(L){var
+w=uU;if(w){var
+aj=w[1],A=a[5],a0=A?m1(A[1]):A,K=ab(e(c6(j),a0));if(K){var
+L=ab(c9(function(a,b){return nL(j,t,o,s,n,a,b)},s,n,Z,u));if(L){var
 al=L[1],am=p(g(f(ah,aj)),aO);if(am){var
-a1=iq(al),a2=f(ah,aj),aL=0,a3=a[4];if(typeof
+a1=ir(al),a2=f(ah,aj),aL=0,a3=a[4];if(typeof
 c==="number"&&!c){var
-ao=function(a){return mc(j,a3,n,a)};aL=1}if(!aL)var
-ao=function(a){return 0};var
-a4=f(I[1],K[1]),a5=f(H[1],a4),a6=e(t,_),a7=fd(o),a8=i(aw(t),a7),a9=ek(o);return fw(ip(j,aa,i(aw(t),a9),a8,a6,a5,al,ao),a2,a1,bh)}var
+an=function(a){return mc(j,a3,n,a)};aL=1}if(!aL)var
+an=function(a){return 0};var
+a4=f(I[1],K[1]),a5=f(H[1],a4),a6=e(t,_),a7=fd(o),a8=i(aw(t),a7),a9=ek(o);return fw(iq(j,aa,i(aw(t),a9),a8,a6,a5,al,an),a2,a1,bh)}var
 ap=am}else
 var
 ap=L;var
@@ -7098,25 +7185,25 @@ av=G;return av}return N}var
 aK=aI}else
 var
 aK=S;return aK}function
-o_(i,h,G,F,E,s,X,D,r){var
+o$(i,h,G,F,E,s,X,D,r){var
 H=typeof
-i==="number"?i?Bn:Bp:jG(i[1]),t=e(j,X),I=oU(h,e(j,D));if(I[2])return 0;var
-Y=g(h),u=jJ(g5(h),Bo,Y,0,s,r);if(u){var
-J=hd(y(o0,h),D),K=J?o1(i,h,G,F,E,1,s):J;if(K)var
-Z=aW(i),v=p(g(t),Z);else
+i==="number"?i?Bs:Bu:jG(i[1]),t=e(j,X),I=oV(h,e(j,D));if(I[2])return 0;var
+Y=g(h),u=jJ(g7(h),Bt,Y,0,s,r);if(u){var
+J=hf(y(o1,h),D),K=J?o2(i,h,G,F,E,1,s):J;if(K)var
+Z=aX(i),v=p(g(t),Z);else
 var
 v=K;if(v){var
 M=0;if(typeof
 r==="number"&&r)var
-n=Q(g5(h));else
+n=P(g7(h));else
 M=1;if(M)var
 n=1}else
 var
 n=v;if(n){var
-_=u[1],a=aU(H,t),d=a9(aI(H,t)),k=I[1],f=oD(i,h,G,F,E,s),B=nA(l,f[2],k);if(B){var
-x=bR(l,f[4],d),w=0;if(x){var
+_=u[1],a=aV(H,t),d=aM(aI(H,t)),k=I[1],f=oE(i,h,G,F,E,s),B=nD(l,f[2],k);if(B){var
+x=bT(l,f[4],d),w=0;if(x){var
 z=f[5];if(z)var
-o=cB(l,z[1],a);else
+o=cD(l,z[1],a);else
 if(a)var
 o=0;else{var
 A=1;w=1}}else{var
@@ -7126,86 +7213,86 @@ q=o}else
 var
 q=B;if(q){var
 c=f[5],C=f[3],m=f[1],W=f[6],N=e(function(e){if(0===e[0])var
-h=bU(c,a,d,e),f=cz(e[1],h);else
+h=bW(c,a,d,e),f=cB(e[1],h);else
 var
-g=e[1],i=iH(g,bU(c,a,d,e)),j=g[4],k=bU(c,a,d,e),l=T(function(b,a){return[2,b,a]},k,j),f=T(function(b,a){return[3,b,a]},l,i);return[0,ny(m,f,ac([5,[0,b,b],C],dx(gQ(c,a,gP(e)),f)))]},k),O=y(function(b){if(0===b[0]){var
-f=bU(c,a,d,b),e=iv(b[1],f),g=e?[0,e[1],0]:e;return g}var
-h=bU(c,a,d,b);return[0,mC(b[1],h),0]},k),P=function(b){var
-e=gQ(c,a,b);return T(function(b,a){return[2,b,a]},d,e)},R=0,S=e(function(g){var
-e=bU(c,a,d,g);if(0===g[0]){var
+g=e[1],i=iH(g,bW(c,a,d,e)),j=g[4],k=bW(c,a,d,e),l=U(function(b,a){return[2,b,a]},k,j),f=U(function(b,a){return[3,b,a]},l,i);return[0,nB(m,f,ac([5,[0,b,b],C],dz(gS(c,a,gR(e)),f)))]},k),O=y(function(b){if(0===b[0]){var
+f=bW(c,a,d,b),e=iw(b[1],f),g=e?[0,e[1],0]:e;return g}var
+h=bW(c,a,d,b);return[0,mF(b[1],h),0]},k),Q=function(b){var
+e=gS(c,a,b);return U(function(b,a){return[2,b,a]},d,e)},R=0,S=e(function(g){var
+e=bW(c,a,d,g);if(0===g[0]){var
 b=g[1];if(0===b[0]){var
-i=b[4],j=b[3],k=b[2],h=b[1],n=cy(h,k,j,i,e),l=c1(b[5],n),o=ac(l,ay(h)),p=e6(h,k,j,e);return[0,[0,nz(m,T(function(b,a){return[2,b,a]},p,o)),l,i]]}return 0}var
-f=g[1],q=f[6],r=gz(f,e),s=iH(f,e),t=f[4],u=T(function(b,a){return[2,b,a]},e,t);return[0,[0,nz(m,T(function(b,a){return[3,b,a]},u,s)),r,q]]},k),U=e(function(b){if(0===b[0]){var
-f=bU(c,a,d,b);return[0,c2(b[1],f)]}var
-e=b[1],g=mE(e,bU(c,a,d,b));return[1,mD(e,bU(c,a,d,b)),g]},k),V=[0,e(function(e){if(0===e[0])var
-o=bU(c,a,d,e),g=ca(e[1],o);else
+i=b[4],j=b[3],k=b[2],h=b[1],n=cA(h,k,j,i,e),l=c3(b[5],n),o=ac(l,ay(h)),p=e6(h,k,j,e);return[0,[0,nC(m,U(function(b,a){return[2,b,a]},p,o)),l,i]]}return 0}var
+f=g[1],q=f[6],r=gB(f,e),s=iH(f,e),t=f[4],u=U(function(b,a){return[2,b,a]},e,t);return[0,[0,nC(m,U(function(b,a){return[3,b,a]},u,s)),r,q]]},k),T=e(function(b){if(0===b[0]){var
+f=bW(c,a,d,b);return[0,c4(b[1],f)]}var
+e=b[1],g=mH(e,bW(c,a,d,b));return[1,mG(e,bW(c,a,d,b)),g]},k),V=[0,e(function(e){if(0===e[0])var
+o=bW(c,a,d,e),g=cc(e[1],o);else
 var
-h=bU(c,a,d,e),f=e[1],i=iH(f,h),j=f[4],k=T(function(b,a){return[2,b,a]},h,j),l=T(function(b,a){return[3,b,a]},k,i),n=gz(f,h),g=ac([5,[0,b,b],[4,f[5],n]],l);return ny(m,g,ac([5,[0,b,b],C],dx(gQ(c,a,gP(e)),g)))},k),U,S,R,P,O,N];return iz(l,uz,aW(f[1]),V,W,_)}return q}var
+h=bW(c,a,d,e),f=e[1],i=iH(f,h),j=f[4],k=U(function(b,a){return[2,b,a]},h,j),l=U(function(b,a){return[3,b,a]},k,i),n=gB(f,h),g=ac([5,[0,b,b],[4,f[5],n]],l);return nB(m,g,ac([5,[0,b,b],C],dz(gS(c,a,gR(e)),g)))},k),T,S,R,Q,O,N];return iz(l,uC,aX(f[1]),V,W,_)}return q}var
 L=n}else
 var
 L=u;return L}function
 fr(a){if(a){var
-b=cu(j(a[1]));if(b){var
+b=cw(j(a[1]));if(b){var
 c=fr(a[2]);if(c)var
-f=c[1],d=[0,[0,dq(b[1]),f]];else
+f=c[1],d=[0,[0,ds(b[1]),f]];else
 var
 d=c;var
 e=d}else
 var
-e=b;return e}return Bq}function
-o$(f,k,j,a,i){var
+e=b;return e}return Bv}function
+pa(f,k,j,a,i){var
 l=g(f),h=p(g(a),l);if(h){var
 m=$($(f,$(k,j)),a);return e(function(f){var
-g=f[1],h=g[2],j=dZ(h[2],h[1]),a=aG(g[1],i),k=D(d,a)?kV(b4(c(2,b),a)):[0,b,dW(b4(c(2,b),P(a)))],l=dq(f1(a2([0,c(2,b),b],k),j)),m=f[2];return e(function(a){return dq(a2(kV(a),l))},m)},m)}return h}function
-pa(S,cg,bD,bC,R,bB,a){var
-i=jt(S,cg,bD,bC),bE=hd(y(oV,S),bB),U=bE?jH(S,bD,bC,i):bE;if(R){var
+g=f[1],h=g[2],j=d0(h[2],h[1]),a=aG(g[1],i),k=D(d,a)?kV(b6(c(2,b),a)):[0,b,dX(b6(c(2,b),Q(a)))],l=ds(f2(a3([0,c(2,b),b],k),j)),m=f[2];return e(function(a){return ds(a3(kV(a),l))},m)},m)}return h}function
+pb(S,cg,bD,bC,R,bB,a){var
+i=jt(S,cg,bD,bC),bE=hf(y(oW,S),bB),T=bE?jH(S,bD,bC,i):bE;if(R){var
 V=R[2];if(V){var
 W=V[2];if(W){if(W[2])return 0;var
-bF=W[1],bG=V[1],bH=R[1],bI=oS(S,e(j,bB));if(bI[2])return 0;var
+bF=W[1],bG=V[1],bH=R[1],bI=oT(S,e(j,bB));if(bI[2])return 0;var
 n=bI[1];if(typeof
 a!=="number"&&3===a[0]){var
-au=F(i[3],a[1]);if(au){var
+au=G(i[3],a[1]);if(au){var
 bN=au[1];if(typeof
 bN==="number"&&bN){var
 av=fr(a[2]);if(av){var
 s=av[1],aw=fr(a[3]);if(aw){var
-t=aw[1];if(U){var
-cl=o$([0,d,[0,d,[0,d,0]]],s,t,a[4],a[5]),cn=j(bF),co=j(bG),Y=[0,j(bH),co,cn];if(s){var
+t=aw[1];if(T){var
+ck=pa([0,d,[0,d,[0,d,0]]],s,t,a[4],a[5]),cl=j(bF),cn=j(bG),Y=[0,j(bH),cn,cl];if(s){var
 v=s[2];if(v){var
-x=v[2];if(x){if(x[2])return 0;if(t){var
+w=v[2];if(w){if(w[2])return 0;if(t){var
 A=t[2];if(A){var
 C=A[2];if(C){if(C[2])return 0;var
-aJ=C[1],aK=A[1],aL=t[1],aM=x[1],aN=v[1],aO=s[1],aP=[0,[1,0,aO,aL],[1,vb,aN,aK],[1,va,aM,aJ]],aQ=gv(l,i,n,Y);if(aQ)var
+aJ=C[1],aK=A[1],aL=t[1],aM=w[1],aN=v[1],aO=s[1],aP=[0,[1,0,aO,aL],[1,vc,aN,aK],[1,vb,aM,aJ]],aQ=gw(l,i,n,Y);if(aQ)var
 b7=i[3],ab=ak(function(a){if(typeof
 a==="number"&&a)return 1;return 0},b7);else
 var
 ab=aQ;var
-aR=ab?n0(s,t):ab,aS=aR?n1(l,i[2],[0,[0,aO,aN],aM],[0,[0,aL,aK],aJ]):aR,aT=aS?jb(l,s,t,bg(Y)):aS,aU=aT?m(function(b){var
-c=bW(n2(b)),e=c?bW([0,c2(b,Y),0]):c;if(e){var
-f=iv(b,aP);if(f){var
-h=f[1],a=d4(l,function(a,b,c){return nW(l,vc,a,b,c)},h);return a?J(d,a[1][2][1]):a}var
+aR=ab?n1(s,t):ab,aS=aR?n2(l,i[2],[0,[0,aO,aN],aM],[0,[0,aL,aK],aJ]):aR,aT=aS?jb(l,s,t,bf(Y)):aS,aU=aT?m(function(b){var
+c=bY(n3(b)),e=c?bY([0,c4(b,Y),0]):c;if(e){var
+f=iw(b,aP);if(f){var
+h=f[1],a=d5(l,function(a,b,c){return nX(l,vd,a,b,c)},h);return a?J(d,a[1][2][1]):a}var
 g=1}else
 var
-g=e;return g},n):aT;if(aU)return nZ(l,e(function(a){var
-b=c2(a,Y);return[3,c2(a,aP),b]},n),cl);var
-aW=aU}else
+g=e;return g},n):aT;if(aU)return n0(l,e(function(a){var
+b=c4(a,Y);return[3,c4(a,aP),b]},n),ck);var
+aV=aU}else
 var
-aW=C;var
-aX=aW}else
+aV=C;var
+aX=aV}else
 var
 aX=A;var
 ad=aX}else
 var
 ad=t}else
 var
-ad=x;var
+ad=w;var
 aY=ad}else
 var
 aY=v;var
 aZ=aY}else
 var
 aZ=s;return aZ}var
-bO=U}else
+bO=T}else
 var
 bO=aw;var
 bP=bO}else
@@ -7216,25 +7303,25 @@ var
 bQ=au;return bQ}var
 an=i[3];if(typeof
 a==="number")var
-k=0===a?AR:AS;else
+k=0===a?AW:AX;else
 switch(a[0]){case
 0:var
-ao=a[2],u=a[1],bc=F(an,u);if(bc){var
+ao=a[2],u=a[1],bc=G(an,u);if(bc){var
 bR=0,bd=bc[1];if(typeof
 bd==="number"||!(13===bd[0]))bR=1;else
 var
-aq=i[1],bb=ha(aq),o=e(function(a){var
+aq=i[1],bb=hc(aq),o=e(function(a){var
 f=g(aq);if(p(g(a),f)){var
 h=$(aq,a);return e(function(a){var
-e=a[2],f=D(d,bb),g=2===a[1][0]?1:0;return cm(g,f)?B(e,b4(c(2,b),ck(bb))):e},h)}return a},ao);if(bR)var
+e=a[2],f=D(d,bb),g=2===a[1][0]?1:0;return co(g,f)?B(e,b6(c(2,b),cm(bb))):e},h)}return a},ao);if(bR)var
 o=ao}else
 var
 o=ao;var
-ce=F(an,u),cf=i[1],ap=z(function(b){if(typeof
+ce=G(an,u),cf=i[1],ap=z(function(b){if(typeof
 b!=="number")switch(b[0]){case
-5:return AP;case
+5:return AU;case
 12:var
-a=F(cf,b[1]);if(a){if(2===a[1][0])return AQ;var
+a=G(cf,b[1]);if(a){if(2===a[1][0])return AV;var
 c=0}else
 var
 c=a;return c;case
@@ -7243,22 +7330,22 @@ c=a;return c;case
 4:case
 6:case
 7:case
-11:return 0}return AO},ce),ax=0;if(ap){var
+11:return 0}return AT},ce),ax=0;if(ap){var
 be=ap[1];if(be){var
-bf=be[1];if(bf)if(bf[1])var
+bg=be[1];if(bg)if(bg[1])var
 k=0;else{var
 az=0;if(o){var
-G=o[1],aA=0;if(G){var
-H=G[2],aB=0;if(H){var
-I=H[2],aC=0;if(I)if(I[2]){var
-k=0;az=1;aA=1;aB=1;aC=1}else{var
+F=o[1],aA=0;if(F){var
+H=F[2],aB=0;if(H){var
+I=H[2],aD=0;if(I)if(I[2]){var
+k=0;az=1;aA=1;aB=1;aD=1}else{var
 K=o[2],bS=0;if(K){var
 L=K[1],bT=0;if(L){var
 M=L[2],bU=0;if(M){var
 N=M[2],bV=0;if(N)if(N[2]||K[2]){var
-k=0;az=1;aA=1;aB=1;aC=1;bS=1;bT=1;bU=1;bV=1}else
+k=0;az=1;aA=1;aB=1;aD=1;bS=1;bT=1;bU=1;bV=1}else
 var
-bh=[0,[0,u,[0,[0,G[1],H[1]],I[1]],[0,[0,L[1],M[1]],N[1]]]];else
+bh=[0,[0,u,[0,[0,F[1],H[1]],I[1]],[0,[0,L[1],M[1]],N[1]]]];else
 var
 bh=N;if(!bV)var
 bi=bh}else
@@ -7272,22 +7359,22 @@ var
 bk=K;if(!bS)var
 bl=bk}else
 var
-bl=I;if(!aC)var
+bl=I;if(!aD)var
 bm=bl}else
 var
 bm=H;if(!aB)var
 bn=bm}else
 var
-bn=G;if(!aA)var
+bn=F;if(!aA)var
 bo=bn}else
 var
 bo=o;if(!az)var
 k=bo}else{var
-bX=0;if(o){var
-O=o[1],bY=0;if(O){var
+bW=0;if(o){var
+O=o[1],bX=0;if(O){var
 P=O[2],bZ=0;if(P){var
 Q=P[2],b0=0;if(Q)if(Q[2]||o[2]){var
-k=0;bX=1;bY=1;bZ=1;b0=1}else
+k=0;bW=1;bX=1;bZ=1;b0=1}else
 var
 bp=Q[1],bq=P[1],br=O[1],bs=[0,[0,u,[0,[0,br,bq],bp],[0,[0,br,bq],bp]]];else
 var
@@ -7297,10 +7384,10 @@ var
 bt=P;if(!bZ)var
 bu=bt}else
 var
-bu=O;if(!bY)var
+bu=O;if(!bX)var
 bv=bu}else
 var
-bv=o;if(!bX)var
+bv=o;if(!bW)var
 k=bv}}else
 if(o)var
 k=0;else{var
@@ -7308,28 +7395,28 @@ bw=[0,[0,d,d],d],bx=[0,[0,u,bw,bw]];ax=1}}else{var
 bx=ap;ax=1}if(ax)var
 k=bx;break;case
 1:var
-by=a[1],ar=F(an,by),aD=0;if(ar){var
+by=a[1],ar=G(an,by),aE=0;if(ar){var
 b1=0,bz=ar[1];if(typeof
 bz!=="number"&&1===bz[0]){var
 k=[0,[1,by,a[2]]];b1=1}if(!b1){var
-bA=0;aD=1}}else{var
-bA=ar;aD=1}if(aD)var
+bA=0;aE=1}}else{var
+bA=ar;aE=1}if(aE)var
 k=bA;break;default:var
 k=0}if(k){var
-ch=j(bF),ci=j(bG),f=[0,j(bH),ci,ch];if(U){var
-q=k[1],aG=gv(l,i,n,f);if(aG)if(typeof
+ch=j(bF),ci=j(bG),f=[0,j(bH),ci,ch];if(T){var
+q=k[1],aG=gw(l,i,n,f);if(aG)if(typeof
 q==="number")var
 r=0===q?ak(function(c){var
-a=iv(c,f);return a?h(l,0,[3,[0,d,b],a[1]]):a},n):lm(tc,e(function(b){var
-a=cz(b,f);return[0,a[1],[0,a[2],[0,a[3],0]]]},n));else
+a=iw(c,f);return a?h(l,0,[3,[0,d,b],a[1]]):a},n):lm(td,e(function(b){var
+a=cB(b,f);return[0,a[1],[0,a[2],[0,a[3],0]]]},n));else
 if(0===q[0]){var
-Z=F(i[3],q[1]);if(Z)var
+Z=G(i[3],q[1]);if(Z)var
 b2=Z[1],b3=mf(q[3]),r=mm(l,n,f,mf(q[2]),b3,b2);else
 var
 r=Z}else{var
-_=F(i[3],q[1]),aF=0;if(_){var
-aa=F(n,q[2]);if(aa)var
-aH=aa[1],b5=_[1],b6=ca(aH,f),r=mm(l,n,f,ca(aH,f),b6,b5);else{var
+_=G(i[3],q[1]),aF=0;if(_){var
+aa=G(n,q[2]);if(aa)var
+aH=aa[1],b4=_[1],b5=cc(aH,f),r=mm(l,n,f,cc(aH,f),b5,b4);else{var
 aI=aa;aF=1}}else{var
 aI=_;aF=1}if(aF)var
 r=aI}else
@@ -7338,35 +7425,35 @@ r=aG;if(r)var
 as=r;else{if(typeof
 a!=="number"&&0===a[0]){var
 X=a[2];if(X){if(X[2])return 0;var
-at=X[1],cj=a[1],a0=gv(l,i,n,f),a1=a0?bW(bg(f)):a0;if(a1){var
-ag=F(i[3],cj);if(ag){var
+at=X[1],cj=a[1],a0=gw(l,i,n,f),a1=a0?bY(bf(f)):a0;if(a1){var
+ag=G(i[3],cj);if(ag){var
 E=ag[1];if(typeof
 E!=="number"&&14===E[0]){var
-a4=E[2],a5=E[1],ah=jf(aE(em,a4));if(ah){var
-ai=ah[1],b$=gV(vm,ai),cb=gV(vn,ai),aj=[0,gV(0,ai),cb,b$],a6=h(l,1,a4),a7=a6?h(l,0,a5):a6;if(a7)var
-cc=g(i[1]),al=p(g(at),cc);else
+a4=E[2],a5=E[1],ah=jf(aC(em,a4));if(ah){var
+ai=ah[1],b$=gX(vn,ai),ca=gX(vo,ai),aj=[0,gX(0,ai),ca,b$],a6=h(l,1,a4),a7=a6?h(l,0,a5):a6;if(a7)var
+cb=g(i[1]),al=p(g(at),cb);else
 var
 al=a7;var
-a8=al?m(function(a){return bW(n2(a))},n):al;if(a8){var
+a8=al?m(function(a){return bY(n3(a))},n):al;if(a8){var
 cd=i[1],a9=je(at,e(function(a){switch(a[0]){case
 0:var
-b=a[1],d=b[5],e=gW(b[4]),g=cE(b[3]),h=cE(b[2]),c=[0,cE(b[1]),h,g,e,d];break;case
+b=a[1],d=b[5],e=gY(b[4]),g=cG(b[3]),h=cG(b[2]),c=[0,cG(b[1]),h,g,e,d];break;case
 1:var
-i=z(cE,a[3]),j=cE(a[2]),c=[1,cE(a[1]),j,i];break;default:var
-c=[2,cE(a[1])]}return c2(c,f)},cd),a5),a_=bW(a9);if(a_){var
+i=z(cG,a[3]),j=cG(a[2]),c=[1,cG(a[1]),j,i];break;default:var
+c=[2,cG(a[1])]}return c4(c,f)},cd),a5),a_=bY(a9);if(a_){var
 am=$($(n,a9),at),ae=function(k){var
 e=k[1][2],a=k[1][1];switch(a[0]){case
 0:var
-i=a[4],l=ac(e,ay(a[1])),m=aV(a[2],a[3],f),g=T(function(b,a){return[3,b,a]},m,l),n=ac([0,c(2,b),b],g);return[0,[3,w(g,g),[4,i,i]],n,[0,b,b]];case
+i=a[4],l=ac(e,ay(a[1])),m=aW(a[2],a[3],f),g=U(function(b,a){return[3,b,a]},m,l),n=ac([0,c(2,b),b],g);return[0,[3,x(g,g),[4,i,i]],n,[0,b,b]];case
 1:var
-h=aV(a[1],a[2],f),o=ac([0,c(2,b),b],h);return[0,[3,w(h,h),[4,e,e]],o,[0,b,b]];default:var
-j=a[1],p=ay(j);return[0,[3,w(ay(j),f),e],p,[0,d,b]]}},af=function(j){var
+h=aW(a[1],a[2],f),o=ac([0,c(2,b),b],h);return[0,[3,x(h,h),[4,e,e]],o,[0,b,b]];default:var
+j=a[1],p=ay(j);return[0,[3,x(ay(j),f),e],p,[0,d,b]]}},af=function(j){var
 d=j[1],e=d[2],a=d[1],c=j[2];switch(a[0]){case
 0:var
-g=a[3],h=a[2],i=a[1],k=aV(h,g,f),l=[3,w(ay(i),k),e],m=cy(i,h,g,a[4],f);return jd([5,[0,c,b],[2,c1(a[5],m),l]]);case
-1:return jd([5,[0,c,b],[2,e,c2(a,f)]]);default:return[0,c,b]}},b8=w(aj,aj),b9=[4,fh(function(a){var
-b=ae(a)[3];return[4,af(a),b]},am),b8],b_=w(fi(function(a){var
-b=ae(a)[2];return ac(af(a),b)},am),aj);return n4(l,vp,vo,[2,[2,fh(function(a){var
+g=a[3],h=a[2],i=a[1],k=aW(h,g,f),l=[3,x(ay(i),k),e],m=cA(i,h,g,a[4],f);return jd([5,[0,c,b],[2,c3(a[5],m),l]]);case
+1:return jd([5,[0,c,b],[2,e,c4(a,f)]]);default:return[0,c,b]}},b8=x(aj,aj),b9=[4,fh(function(a){var
+b=ae(a)[3];return[4,af(a),b]},am),b8],b_=x(fi(function(a){var
+b=ae(a)[2];return ac(af(a),b)},am),aj);return n5(l,vq,vp,[2,[2,fh(function(a){var
 b=ae(a)[1];return[4,af(a),b]},am),b_],b9])}var
 a$=a_}else
 var
@@ -7382,7 +7469,7 @@ var
 a3=a1;return a3}return X}var
 as=0}}else
 var
-as=U;var
+as=T;var
 bJ=as}else
 var
 bJ=k;var
@@ -7395,18 +7482,18 @@ bL=V;var
 bM=bL}else
 var
 bM=R;return bM}function
-pb(m,l,b,k,y,x){var
+pc(m,l,b,k,y,x){var
 f=y,d=x;for(;;){if(0===d[0]){var
-g=d[1],h=F(f,g),n=h?aH(h[1][2],Br):h;if(n)var
-A=d[2],i=pb(m,l,b,k,jC(0,g,f),A);else
+g=d[1],h=G(f,g),n=h?aH(h[1][2],Bw):h;if(n)var
+A=d[2],i=pc(m,l,b,k,jC(0,g,f),A);else
 var
 i=n;if(i){var
 B=d[3],f=jC(1,g,f),d=B;continue}return i}var
-c=d[1],a=oL(0,m,f),o=e(function(b){function
-d(b){return oM(a,b)}function
+c=d[1],a=oM(0,m,f),o=e(function(b){function
+d(b){return oN(a,b)}function
 c(a){return jA(d,a)}switch(b[0]){case
 0:var
-e=b[5],f=oM(a,b[4]),g=c(b[3]),h=c(b[2]);return[0,c(b[1]),h,g,f,e];case
+e=b[5],f=oN(a,b[4]),g=c(b[3]),h=c(b[2]);return[0,c(b[1]),h,g,f,e];case
 1:var
 i=z(c,b[3]),j=c(b[2]);return[1,c(b[1]),j,i];default:return[2,c(b[1])]}},l);if(0===b[0])var
 q=b[2],r=jA(function(b){return at(a,b)},q),s=b[1],j=[0,jA(function(b){return at(a,b)},s),r];else
@@ -7437,191 +7524,191 @@ i=h;return[0,g[1],g[2],i,d]},k);if(typeof
 c==="number")return 1;else
 switch(c[0]){case
 0:return 0;case
-1:return o8(1,o,j,0,p,c[1],c[2],c[3]);default:var
-C=c[4],D=c[3],E=e(function(b){return at(a,b)},D),G=c[2];return pa(o,j,0,p,e(function(b){return at(a,b)},G),E,C)}}}function
-pc(h,g){var
-a=cu(j(h));if(a){var
-c=a[1],e=bb([0,d,b],c);if(e)return bb(c,g);var
+1:return o9(1,o,j,0,p,c[1],c[2],c[3]);default:var
+C=c[4],D=c[3],E=e(function(b){return at(a,b)},D),F=c[2];return pb(o,j,0,p,e(function(b){return at(a,b)},F),E,C)}}}function
+pd(h,g){var
+a=cw(j(h));if(a){var
+c=a[1],e=ba([0,d,b],c);if(e)return ba(c,g);var
 f=e}else
 var
 f=a;return f}function
-By(u){var
-eP=g3(u[3]),eQ=eP?g3(u[4]):eP;if(eQ){var
-W=u[1];switch(W[0]){case
+BD(v){var
+eP=g5(v[3]),eQ=eP?g5(v[4]):eP;if(eQ){var
+W=v[1];switch(W[0]){case
 3:var
 eW=m(fn,W[1]);if(eW)var
-i5=W[2],cq=m(function(a){return fn(a[1])},i5);else
+i8=W[2],cp=m(function(a){return fn(a[1])},i8);else
 var
-cq=eW;if(cq)var
-i8=W[3],cr=m(function(a){var
-b=fn(a[1]),c=b?jr(a[2]):b;return c?fo(a[2]):c},i8);else
+cp=eW;if(cp)var
+i$=W[3],cq=m(function(a){var
+b=fn(a[1]),c=b?jr(a[2]):b;return c?fo(a[2]):c},i$);else
 var
-cr=cq;if(cr)var
-i$=W[4],bf=m(function(a){var
+cq=cp;if(cq)var
+ja=W[4],be=m(function(a){var
 b=0===a[0]?a[1]:[0,a[1],0];return m(function(a){var
-b=jr(a);return b?fo(a):b},b)},i$);else
+b=jr(a);return b?fo(a):b},b)},ja);else
 var
-bf=cr;break;case
+be=cq;break;case
 7:var
-ja=W[1],eX=m(function(a){var
-b=fn(a[1]);return b?fp(0,[0,a[2][1],[0,a[2][2],0]]):b},ja),bf=eX?fp(0,[0,W[5],[0,W[6],0]]):eX;break;default:var
-bf=1}var
-cn=bf}else
+jb=W[1],eX=m(function(a){var
+b=fn(a[1]);return b?fp(0,[0,a[2][1],[0,a[2][2],0]]):b},jb),be=eX?fp(0,[0,W[5],[0,W[6],0]]):eX;break;default:var
+be=1}var
+cn=be}else
 var
 cn=eQ;var
 c2=0;if(cn){var
-eR=u[1],co=7===eR[0]?e(av,eR[1]):0,eS=function(c,b){var
-a=ou(c);return a?m(function(a){var
+eR=v[1],co=7===eR[0]?e(av,eR[1]):0,eS=function(c,b){var
+a=ov(c);return a?m(function(a){var
 e=a[1],b=m(function(a){return jq(a[2])},e);if(b){var
-c=a[3];if(c)return fp(co,ot(c[1]));var
+c=a[3];if(c)return fp(co,ou(c[1]));var
 d=1}else
 var
 d=b;return d},b):a},eT=function(e,d,c,b){var
-a=ou(e);return a?fp(co,f(d,f(c,ot(b)))):a},o=u[1];switch(o[0]){case
+a=ov(e);return a?fp(co,f(d,f(c,ou(b)))):a},o=v[1];switch(o[0]){case
 0:var
-iA=y(dE,o[4]),iB=f(y(or,o[3]),iA),iC=f(op(o[2]),iB),X=f(y(js,o[1]),iC);break;case
+iB=y(dG,o[4]),iC=f(y(os,o[3]),iB),iD=f(oq(o[2]),iC),X=f(y(js,o[1]),iD);break;case
 1:var
-ck=o[5],cl=o[3],iD=y(dE,o[6]),iE=ck?oq(ck[1]):ck,iF=f(iE,iD),iG=f(oo(o[4]),iF),iH=cl?[0,cl[1],0]:cl,iI=f(iH,iG),X=f(y(zZ,o[2]),iI);break;case
+ck=o[5],cl=o[3],iE=y(dG,o[6]),iF=ck?or(ck[1]):ck,iG=f(iF,iE),iH=f(op(o[4]),iG),iI=cl?[0,cl[1],0]:cl,iM=f(iI,iH),X=f(y(z4,o[2]),iM);break;case
 2:var
-iM=y(dE,o[7]),iN=f(y(or,o[6]),iM),iO=f(oq(o[5]),iN),iP=f(oo(o[4]),iO),iQ=[0,o[3],iP],iR=o[2],X=f(y(function(a){return y(eq,f(a[1],a[2]))},iR),iQ);break;case
+iN=y(dG,o[7]),iO=f(y(os,o[6]),iN),iP=f(or(o[5]),iO),iQ=f(op(o[4]),iP),iR=[0,o[3],iQ],iS=o[2],X=f(y(function(a){return y(eq,f(a[1],a[2]))},iS),iR);break;case
 3:var
-iS=y(dE,o[7]),iT=f(o[6],iS),iU=f(o[5],iT),iV=o[2],X=f(y(function(a){return eq(a[2])},iV),iU);break;case
+iT=y(dG,o[7]),iU=f(o[6],iT),iV=f(o[5],iU),iW=o[2],X=f(y(function(a){return eq(a[2])},iW),iV);break;case
 4:var
-iW=y(dE,o[3]),X=[0,o[1],[0,o[2],iW]];break;case
+iX=y(dG,o[3]),X=[0,o[1],[0,o[2],iX]];break;case
 5:var
-iX=y(dE,o[4]),iY=f(bX(o[3]),iX),iZ=f(bX(o[2]),iY),i0=f(y(js,o[1]),iZ),X=[0,o[5],i0];break;case
+iY=y(dG,o[4]),iZ=f(bZ(o[3]),iY),i0=f(bZ(o[2]),iZ),i2=f(y(js,o[1]),i0),X=[0,o[5],i2];break;case
 6:var
 cm=o[1],X=cm?eq(cm[1]):cm;break;default:var
-i2=y(dE,o[4]),i3=f(op(o[3]),i2),X=f(y(js,o[2]),i3)}var
+i3=y(dG,o[4]),i4=f(oq(o[3]),i3),X=f(y(js,o[2]),i4)}var
 eU=fp(co,X);if(eU){var
-Z=u[2];switch(Z[0]){case
+Y=v[2];switch(Y[0]){case
 0:var
-aV=eS(Z[1],Z[3]);break;case
+aW=eS(Y[1],Y[3]);break;case
 1:var
-aV=eT(Z[1],Z[2],Z[3],Z[4]);break;default:var
-i4=Z[1],aV=m(function(a){if(typeof
+aW=eT(Y[1],Y[2],Y[3],Y[4]);break;default:var
+i5=Y[1],aW=m(function(a){if(typeof
 a!=="number")switch(a[0]){case
 1:return eS(a[1],a[3]);case
-2:return eT(a[1],a[2],a[3],a[4])}return 1},i4)}}else{var
+2:return eT(a[1],a[2],a[3],a[4])}return 1},i5)}}else{var
 eV=eU;c2=1}}else{var
 eV=cn;c2=1}if(c2)var
-aV=eV;if(aV){var
-a=u[1];switch(a[0]){case
+aW=eV;if(aW){var
+a=v[1];switch(a[0]){case
 0:var
-fs=a[4],ft=a[3],fu=a[2],fv=a[1],ah=u[2];switch(ah[0]){case
-0:return o8(0,fv,fu,ft,fs,ah[1],ah[2],ah[3]);case
-1:return pa(fv,fu,ft,fs,ah[2],ah[3],ah[4]);default:return 0}case
+fs=a[4],ft=a[3],fu=a[2],fv=a[1],ah=v[2];switch(ah[0]){case
+0:return o9(0,fv,fu,ft,fs,ah[1],ah[2],ah[3]);case
+1:return pb(fv,fu,ft,fs,ah[2],ah[3],ah[4]);default:return 0}case
 1:var
-fx=a[6],fy=a[5],fz=a[4],fA=a[3],fB=a[2],fC=a[1],aA=u[2];switch(aA[0]){case
-0:return o9(fC,fB,fA,fz,fy,fx,aA[1],aA[3]);case
-1:return o_(fC,fB,fA,fz,fy,fx,aA[2],aA[3],aA[4]);default:return 0}case
+fx=a[6],fy=a[5],fz=a[4],fA=a[3],fB=a[2],fC=a[1],aA=v[2];switch(aA[0]){case
+0:return o_(fC,fB,fA,fz,fy,fx,aA[1],aA[3]);case
+1:return o$(fC,fB,fA,fz,fy,fx,aA[2],aA[3],aA[4]);default:return 0}case
 2:var
-ai=a[7],aj=a[6],bk=a[5],bl=a[4],bm=a[3],K=a[2],M=a[1],am=u[2];switch(am[0]){case
+ai=a[7],aj=a[6],bk=a[5],bl=a[4],bm=a[3],K=a[2],M=a[1],am=v[2];switch(am[0]){case
 0:var
-fD=am[3],aa=oC(M,K,bm,bl,bk,aj,ai),jw=aa[2],cy=E(b,bB(y(function(a){var
-b=a8(a[2]);return f(a8(a[1]),b)},jw))),jx=g(fD),jy=i1(cy,aa[2]),jz=i1(cy,aa[2]),cz=dH(bt(M),jz,jy,0,jx,fD);if(cz){var
+fD=am[3],aa=oD(M,K,bm,bl,bk,aj,ai),jx=aa[2],cy=F(b,bB(y(function(a){var
+b=a8(a[2]);return f(a8(a[1]),b)},jx))),jy=g(fD),jz=i1(cy,aa[2]),jA=i1(cy,aa[2]),cz=dJ(bu(M),jA,jz,0,jy,fD);if(cz){var
 fE=cz[1];if(fE[2])return 0;var
-fF=oZ(M,K,bm,bl,bk,aj,ai);if(fF){var
-jA=fE[1],jC=g(K),jF=hc(0,jI(M),jC,aj,ai),jM=jL(am[2]),jN=am[1],gK=aa[2],da=m(function(a){var
-b=nx(l,a[1]);return b?nx(l,a[2]):b},gK);if(da)var
-gL=ix(aa[4]),by=bR(l,aa[4],gL);else
+fF=o0(M,K,bm,bl,bk,aj,ai);if(fF){var
+jC=fE[1],jF=g(K),jM=he(0,jI(M),jF,aj,ai),jN=jL(am[2]),jO=am[1],gL=aa[2],da=m(function(a){var
+b=nA(l,a[1]);return b?nA(l,a[2]):b},gL);if(da)var
+gM=iy(aa[4]),by=bT(l,aa[4],gM);else
 var
 by=da;if(by)var
-gM=gI(aa[5]),bA=m(function(a){return fc(l,a)},gM);else
+gN=gK(aa[5]),bA=m(function(a){return fc(l,a)},gN);else
 var
-bA=by;return bA?uw(jN,jM,jF,aa,cy,jA):bA}var
+bA=by;return bA?uz(jO,jN,jM,aa,cy,jC):bA}var
 fG=fF}else
 var
 fG=cz;return fG;case
 1:var
-N=am[4],fH=am[3],ao=e(j,am[2]),G=jG(M),fI=oT(K,e(j,fH));if(fI[2])return 0;var
-v=fI[1],fJ=hd(y(function(a){return f(a[1],a[2])},K),fH),fK=fJ?oZ(M,K,bm,bl,bk,aj,ai):fJ;if(fK){var
-n=oC(M,K,bm,bl,bk,aj,ai);if(typeof
+N=am[4],fH=am[3],an=e(j,am[2]),H=jG(M),fI=oU(K,e(j,fH));if(fI[2])return 0;var
+w=fI[1],fJ=hf(y(function(a){return f(a[1],a[2])},K),fH),fK=fJ?o0(M,K,bm,bl,bk,aj,ai):fJ;if(fK){var
+n=oD(M,K,bm,bl,bk,aj,ai);if(typeof
 N!=="number")switch(N[0]){case
 2:var
-fQ=e(j,N[1]),fR=aU(G,fQ),fS=a9(aI(G,fQ)),fT=aU(G,ao),fU=a9(aI(G,ao)),dl=e9(l,n[2],v);if(dl)var
-gN=bt(n[1]),bE=p(g(v),gN);else
+fQ=e(j,N[1]),fR=aV(H,fQ),fS=aM(aI(H,fQ)),fT=aV(H,an),fU=aM(aI(H,an)),dl=e9(l,n[2],w);if(dl)var
+gO=bu(n[1]),bE=p(g(w),gO);else
 var
 bE=dl;var
-dm=bE?bR(l,n[4],fU):bE,dn=dm?bR(l,n[4],fS):dm,dp=dn?cB(l,n[5],fT):dn,dq=dp?cB(l,n[5],fR):dp;if(dq){var
-dr=n[1],gO=n[5],gP=n[3],db=function(g,f){var
-h=e(function(a){return iL(dr,gP,gO,f,g,a)},v),i=bt(dr),a=nG(l,h);function
+dm=bE?bT(l,n[4],fU):bE,dn=dm?bT(l,n[4],fS):dm,dp=dn?cD(l,n[5],fT):dn,dq=dp?cD(l,n[5],fR):dp;if(dq){var
+dr=n[1],gP=n[5],gQ=n[3],db=function(g,f){var
+h=e(function(a){return iL(dr,gQ,gP,f,g,a)},w),i=bu(dr),a=gy(l,h);function
 c(a,b){return t(l,a,b)}var
-d=L(l,b);return z(function(a){return nE(x,d,H,c,i,a)},a)},bC=db(fU,fT);if(bC){var
+d=L(l,b);return z(function(a){return nH(u,d,E,c,i,a)},a)},bC=db(fU,fT);if(bC){var
 dc=bC[1],bD=db(fS,fR);if(bD){var
-dd=bD[1],de=J(d,dc[1]),dg=de?J(dd[2],d):de;if(dg)var
-dh=dg;else{var
+dd=bD[1],de=J(d,dc[1]),df=de?J(dd[2],d):de;if(df)var
+dg=df;else{var
 dk=J(dc[2],d);if(dk)return J(d,dd[1]);var
-dh=dk}var
-di=dh}else
+dg=dk}var
+di=dg}else
 var
 di=bD;var
 dj=di}else
 var
 dj=bC;return dj}return dq;case
 3:var
-cG=fr(N[2]);if(cG){var
-fV=cG[1],cH=fr(N[3]);if(cH){var
-fW=cH[1],jP=n[2],jQ=E(b,bB(y(function(a){var
-b=a8(a[2]);return f(a8(a[1]),b)},jP))),jR=g(K),jS=hc(0,jI(M),jR,aj,ai),fX=p(N[1],jS);if(fX){var
-jT=N[5],jU=N[4],jV=al(P(jQ),dU(g(ao),G)),jW=o$(f(al(d,G),jV),fV,fW,jU,jT),jX=aU(G,ao);return vh(l,G,n,v,a9(aI(G,ao)),jX,fV,fW,jW)}var
+cE=fr(N[2]);if(cE){var
+fV=cE[1],cH=fr(N[3]);if(cH){var
+fW=cH[1],jQ=n[2],jR=F(b,bB(y(function(a){var
+b=a8(a[2]);return f(a8(a[1]),b)},jQ))),jS=g(K),jT=he(0,jI(M),jS,aj,ai),fX=p(N[1],jT);if(fX){var
+jU=N[5],jV=N[4],jW=al(Q(jR),dV(g(an),H)),jX=pa(f(al(d,H),jW),fV,fW,jV,jU),jY=aV(H,an);return vi(l,H,n,w,aM(aI(H,an)),jY,fV,fW,jX)}var
 fY=fX}else
 var
 fY=cH;var
 fZ=fY}else
 var
-fZ=cG;return fZ}var
-jO=g(K),cC=jJ(0,jI(M),jO,aj,ai,N);if(cC){var
-aW=cC[1],s=a9(aI(G,ao)),r=aU(G,ao),c6=e9(l,n[2],v),c8=c6?bR(l,n[4],s):c6,c9=c8?cB(l,n[5],r):c8;if(c9)var
-S=n[5],c_=n[3],c$=n[1],gG=n[6],bx=function(a){var
-b=bS(S,r,s,a);return w(bS(S,r,s,a),b)},gz=e(function(a){return[0,iL(c$,c_,S,r,s,a)]},v),gA=e(bx,v),gB=function(a){var
-b=cA(S,r,a);return T(function(b,a){return[2,b,a]},s,b)},gC=e(function(a){var
-b=[6,bx(a)],c=bS(S,r,s,a),d=cA(S,r,a[2]);return[0,[0,[0,T(function(b,a){return[2,b,a]},s,d),c],b]]},v),gD=e(function(a){return 0},v),gE=e(function(a){return[0,[6,bx(a)]]},v),gF=[0,e(function(c){var
-a=ay(bS(S,r,s,c));return iK(c$,a,ac([5,[0,b,b],c_],dx(cA(S,r,c[2]),a)))},v),gE,gD,gC,gB,gA,gz],gH=bt(n[1]),gJ=2<=n[1]?tp:tq,cF=iz(l,gJ,gH,gF,gG,aW);else
+fZ=cE;return fZ}var
+jP=g(K),cA=jJ(0,jI(M),jP,aj,ai,N);if(cA){var
+aX=cA[1],s=aM(aI(H,an)),r=aV(H,an),c4=e9(l,n[2],w),c5=c4?bT(l,n[4],s):c4,c8=c5?cD(l,n[5],r):c5;if(c8)var
+S=n[5],c_=n[3],c$=n[1],gH=n[6],bx=function(a){var
+b=bU(S,r,s,a);return x(bU(S,r,s,a),b)},gx=e(function(a){return[0,iL(c$,c_,S,r,s,a)]},w),gB=e(bx,w),gC=function(a){var
+b=cC(S,r,a);return U(function(b,a){return[2,b,a]},s,b)},gD=e(function(a){var
+b=[6,bx(a)],c=bU(S,r,s,a),d=cC(S,r,a[2]);return[0,[0,[0,U(function(b,a){return[2,b,a]},s,d),c],b]]},w),gE=e(function(a){return 0},w),gF=e(function(a){return[0,[6,bx(a)]]},w),gG=[0,e(function(c){var
+a=ay(bU(S,r,s,c));return iK(c$,a,ac([5,[0,b,b],c_],dz(cC(S,r,c[2]),a)))},w),gF,gE,gD,gC,gB,gx],gI=bu(n[1]),gJ=2<=n[1]?ts:tt,cB=iz(l,gJ,gI,gG,gH,aX);else
 var
-cF=c9;if(cF)var
-fL=cF;else{if(typeof
-aW!=="number"&&0===aW[0]){var
-bn=aW[2];if(bn){if(bn[2])return 0;var
-bo=bn[1],fO=aW[1],aN=n[1],d5=e9(l,n[2],v),d6=d5?bR(l,n[4],s):d5,d7=d6?cB(l,n[5],r):d6,c3=0;if(d7){var
-hM=n[6],hN=2<=aN?u9:u_,b2=gy(l,hN,fO,hM),bu=0;if(b2){var
-az=b2[1][1],bv=0;if(typeof
+cB=c8;if(cB)var
+fL=cB;else{if(typeof
+aX!=="number"&&0===aX[0]){var
+bo=aX[2];if(bo){if(bo[2])return 0;var
+bp=bo[1],fO=aX[1],aO=n[1],d5=e9(l,n[2],w),d6=d5?bT(l,n[4],s):d5,d7=d6?cD(l,n[5],r):d6,c3=0;if(d7){var
+hN=n[6],hO=2<=aO?u_:u$,b2=gA(l,hO,fO,hN),bv=0;if(b2){var
+az=b2[1][1],bw=0;if(typeof
 az!=="number"&&15===az[0]){var
-b3=F(v,az[1]);if(b3){var
-aO=mz(bo),d_=az[3],a_=b3[1],a$=n[5],b4=n[3],hO=az[4],hP=az[2],dV=iL(aN,b4,a$,r,s,a_),dW=bS(a$,r,s,a_),b1=a7(aO,aO),dX=[4,[4,hP,[6,a7(dV,dV)]],b1],aL=bS(a$,r,s,a_),bZ=cA(a$,r,a_[2]),aM=ac([5,[0,b,b],b4],nV(aN,aO)),hE=dx(aM,bZ),hF=nU(aN,aO),b0=T(function(b,a){return[2,b,a]},hF,hE),dT=w(aL,b0),hG=w(aM,aM),hH=[4,w(aL,bZ),hG],hI=w(bZ,aM),hJ=[3,[4,w(aL,aM),hI],hH],hK=[5,[4,dT,dT],w(aL,aL)],dY=[4,[4,d_,d_],[2,[3,w(b0,b0),hK],hJ]],dZ=[4,[4,hO,b1],[6,w(dW,dW)]],hL=bt(aN),d0=p(g(aO),hL),d1=d0?h(l,1,b1):d0,d2=d1?h(l,1,b4):d1,gw=0;if(d2){var
+b3=G(w,az[1]);if(b3){var
+aP=mC(bp),d_=az[3],a9=b3[1],a_=n[5],b4=n[3],hP=az[4],hQ=az[2],dU=iL(aO,b4,a_,r,s,a9),dW=bU(a_,r,s,a9),b1=bn(aP,aP),dX=[4,[4,hQ,[6,bn(dU,dU)]],b1],aL=bU(a_,r,s,a9),bW=cC(a_,r,a9[2]),aN=ac([5,[0,b,b],b4],nW(aO,aP)),hF=dz(aN,bW),hG=nV(aO,aP),bX=U(function(b,a){return[2,b,a]},hG,hF),dT=x(aL,bX),hH=x(aN,aN),hI=[4,x(aL,bW),hH],hJ=x(bW,aN),hK=[3,[4,x(aL,aN),hJ],hI],hL=[5,[4,dT,dT],x(aL,aL)],dY=[4,[4,d_,d_],[2,[3,x(bX,bX),hL],hK]],dZ=[4,[4,hP,b1],[6,x(dW,dW)]],hM=bu(aO),d0=p(g(aP),hM),d1=d0?h(l,1,b1):d0,d2=d1?h(l,1,b4):d1,gw=0;if(d2){var
 d3=h(l,1,[3,[2,dX,dY],dZ]);if(d3)var
 d4=d3;else{var
-aX=h(l,1,[3,[3,dX,dY],dZ]);bu=1;bv=1;gw=1}}else
+aY=h(l,1,[3,[3,dX,dY],dZ]);bv=1;bw=1;gw=1}}else
 var
 d4=d2;if(!gw){var
-aX=d4;bu=1;bv=1}}else{var
-aX=b3;bu=1;bv=1}}if(!bv)var
+aY=d4;bv=1;bw=1}}else{var
+aY=b3;bv=1;bw=1}}if(!bw)var
 d8=0}else
 var
-d8=b2;if(!bu){var
+d8=b2;if(!bv){var
 d9=d8;c3=1}}else{var
 d9=d7;c3=1}if(c3)var
-aX=d9;if(!aX){var
-af=n[1],aP=n[5],eb=e9(l,n[2],v),ec=eb?bR(l,n[4],s):eb,ed=ec?cB(l,aP,r):ec,ee=ed?bW(bg(s)):ed;if(ee){var
-h6=n[6],h7=2<=af?vq:vr,b7=gy(l,h7,fO,h6);if(b7){var
-aQ=b7[1][1];if(typeof
-aQ!=="number"&&16===aQ[0]){var
-b8=aQ[3],eh=aQ[2],ei=aQ[1],b9=jf(aE(em,eh));if(b9){var
-ej=b9[1],b_=jf(i(c4(em),b8));if(b_){var
-b$=b_[1],ba=nU(af,n5(af,ej,b$)),U=nV(af,n5(af,ej,b$)),en=h(l,1,eh),eo=en?h(l,0,ei):en,ep=eo?h(l,1,b8):eo,er=ep?c5(l,b8):ep,es=er?Q(bb(b$,[0,d,b])):er;if(es)var
-h8=g(n[2]),ca=p(g(bo),h8);else
+aY=d9;if(!aY){var
+af=n[1],aQ=n[5],eb=e9(l,n[2],w),ec=eb?bT(l,n[4],s):eb,ed=ec?cD(l,aQ,r):ec,ee=ed?bY(bf(s)):ed;if(ee){var
+h7=n[6],h8=2<=af?vr:vs,b7=gA(l,h8,fO,h7);if(b7){var
+aR=b7[1][1];if(typeof
+aR!=="number"&&16===aR[0]){var
+b8=aR[3],eh=aR[2],ei=aR[1],b9=jf(aC(em,eh));if(b9){var
+ej=b9[1],b_=jf(i(c6(em),b8));if(b_){var
+b$=b_[1],a$=nV(af,n6(af,ej,b$)),T=nW(af,n6(af,ej,b$)),en=h(l,1,eh),eo=en?h(l,0,ei):en,ep=eo?h(l,1,b8):eo,er=ep?c7(l,b8):ep,es=er?P(ba(b$,[0,d,b])):er;if(es)var
+h9=g(n[2]),ca=p(g(bp),h9);else
 var
 ca=es;var
 eu=ca?m(function(a){var
-b=bW(bg(a[1]));return b?bW(bg(cA(aP,r,a[2]))):b},v):ca;if(eu){var
-h9=n[2],ev=je(bo,e(function(a){var
-b=cE(a[2]);return n6(bS(aP,r,s,[0,cE(a[1]),b]))},h9),ei),ew=bW(ev);if(ew){var
-h_=$($(v,ev),bo),ag=e(function(e){var
-c=e[1],d=c[2],a=c[1],f=cA(aP,r,a[2]),g=a[1],h=T(function(b,a){return[3,b,a]},s,g),i=[2,d,n6(bS(aP,r,s,a))];return[0,jd([5,[0,e[2],b],i]),d,h,f]},h_),b5=[0,c(2,b),b],b6=function(b){return fi(function(a){var
+b=bY(bf(a[1]));return b?bY(bf(cC(aQ,r,a[2]))):b},w):ca;if(eu){var
+h_=n[2],ev=je(bp,e(function(a){var
+b=cG(a[2]);return n7(bU(aQ,r,s,[0,cG(a[1]),b]))},h_),ei),ew=bY(ev);if(ew){var
+h$=$($(w,ev),bp),ag=e(function(e){var
+c=e[1],d=c[2],a=c[1],f=cC(aQ,r,a[2]),g=a[1],h=U(function(b,a){return[3,b,a]},s,g),i=[2,d,n7(bU(aQ,r,s,a))];return[0,jd([5,[0,e[2],b],i]),d,h,f]},h$),b5=[0,c(2,b),b],b6=function(b){return fi(function(a){var
 c=a[3],d=i(b,a[4]);return ac([4,a[1],d],c)},ag)},d$=fh(function(a){var
-b=w(a[3],a[4]);return[4,a[1],b]},ag),ea=w(U,U),hQ=b6(function(a){return a[3]}),hR=ac(U[3],hQ),hS=b6(function(a){return a[2]}),hT=ac(U[2],hS),hU=b6(function(a){return a[1]}),hV=ac(U[1],hU),hW=T(function(b,a){return[2,b,a]},hV,hT),hX=[4,ea,d$],hY=w(U,T(function(b,a){return[2,b,a]},hW,hR)),hZ=[3,[2,w(U,fi(function(a){var
-b=dx(a[4],a[3]);return ac(a[1],b)},ag)),hY],hX],h0=[2,[4,b5,d$],[4,[5,[0,c(2,c(2,b)),b],[2,[0,b,b],ea]],hZ]],h1=[4,b5,w(ba,mI(U,fi(function(a){return ac(a[1],a[4])},ag)))],h2=w(ba,ba),h3=[2,[4,fh(function(a){return a[1]},ag),h2],h1],h4=[4,b5,w(fi(function(a){return ac(a[1],a[3])},ag),ba)],h5=[2,[2,[2,fh(function(a){var
-b=[4,a[2],a[2]],c=w(a[4],a[4]),d=[3,[2,w(a[3],a[3]),c],b];return[4,a[1],d]},ag),h4],h3],h0],h$=cD(af);return n4(l,bt(af),h$,h5)}var
+b=x(a[3],a[4]);return[4,a[1],b]},ag),ea=x(T,T),hR=b6(function(a){return a[3]}),hS=ac(T[3],hR),hT=b6(function(a){return a[2]}),hU=ac(T[2],hT),hV=b6(function(a){return a[1]}),hW=ac(T[1],hV),hX=U(function(b,a){return[2,b,a]},hW,hU),hY=[4,ea,d$],hZ=x(T,U(function(b,a){return[2,b,a]},hX,hS)),h0=[3,[2,x(T,fi(function(a){var
+b=dz(a[4],a[3]);return ac(a[1],b)},ag)),hZ],hY],h1=[2,[4,b5,d$],[4,[5,[0,c(2,c(2,b)),b],[2,[0,b,b],ea]],h0]],h2=[4,b5,x(a$,mL(T,fi(function(a){return ac(a[1],a[4])},ag)))],h3=x(a$,a$),h4=[2,[4,fh(function(a){return a[1]},ag),h3],h2],h5=[4,b5,x(fi(function(a){return ac(a[1],a[3])},ag),a$)],h6=[2,[2,[2,fh(function(a){var
+b=[4,a[2],a[2]],c=x(a[4],a[4]),d=[3,[2,x(a[3],a[3]),c],b];return[4,a[1],d]},ag),h5],h4],h1],ia=cF(af);return n5(l,bu(af),ia,h6)}var
 ex=ew}else
 var
 ex=eu;var
@@ -7637,121 +7724,121 @@ ef=b7;var
 eg=ef}else
 var
 eg=ee;return eg}var
-fP=aX}else
+fP=aY}else
 var
-fP=bn;return fP}var
+fP=bo;return fP}var
 fL=0}var
 fM=fL}else
 var
-fM=cC;var
+fM=cA;var
 fN=fM}else
 var
 fN=fK;return fN;default:return 0}case
 3:var
-ap=a[7],aZ=a[6],a0=a[5],aq=a[4],cI=a[3],ar=a[2],aC=a[1],as=u[2];switch(as[0]){case
+ap=a[7],a0=a[6],a1=a[5],aq=a[4],cI=a[3],ar=a[2],aD=a[1],as=v[2];switch(as[0]){case
 0:var
-f0=as[3],jY=g(f0),jZ=he(i_(jv(aC,ar,cI,aq,a0,aZ,ap)[1])),cJ=dH(g(aC),jZ,0,0,jY,f0);if(cJ){var
+f0=as[3],jZ=g(f0),j0=hg(i_(jv(aD,ar,cI,aq,a1,a0,ap)[1])),cJ=dJ(g(aD),j0,0,0,jZ,f0);if(cJ){var
 f1=cJ[1];if(f1[2])return 0;var
-f2=o2(aC,ar,aq,a0,aZ,ap);if(f2){var
-j0=f1[1],O=jv(aC,ar,cI,aq,a0,aZ,ap),j1=hc(0,Bz,g(aq),0,ap),f3=jL(as[2]),a1=as[1],dL=nR(O[1]);if(dL)var
-hp=O[1][2],bO=m(function(a){return bs(l,a[2][1],a[2][2])},hp);else
+f2=o3(aD,ar,aq,a1,a0,ap);if(f2){var
+j1=f1[1],O=jv(aD,ar,cI,aq,a1,a0,ap),j2=he(0,BE,g(aq),0,ap),f3=jL(as[2]),a2=as[1],dL=nS(O[1]);if(dL)var
+hq=O[1][2],bO=m(function(a){return bt(l,a[2][1],a[2][2])},hq);else
 var
 bO=dL;if(bO)var
-hq=O[2],bT=m(function(a){return bs(l,a[1],a[2])},hq);else
+hr=O[2],bP=m(function(a){return bt(l,a[1],a[2])},hr);else
 var
-bT=bO;if(bT){var
-B=O[1],bF=g(B[1]),a3=O[3],bG=g(B[2]),ds=R(bG,g(fe(e(aY,B[3])))),gQ=B[3],dt=nM(gT(B),gQ,bG),ae=i9(bF,dt,B[4],ds),gS=i7(dt,B[4],ds),gU=B[3],dw=f(i6(gT(B),gU,bG),gS),dy=g(i_(B)),gV=0,gW=f(dw,c7(function(a,b){return nJ(ae,a,b)},gV,d,dy,a3)),gX=f(bQ(fd(ae)),gW),dz=f(bQ(ek(ae)),gX),bH=cP(dz)[1],gY=cO(bH),ax=function(a){return bd(gY,a)},dA=p(g(O[2]),bF);if(dA)var
-g1=B[4],bI=m(function(a){return 0===a[0]?p(g(a[1]),bF):1},g1);else
+bP=bO;if(bP){var
+B=O[1],bF=g(B[1]),a4=O[3],bG=g(B[2]),ds=R(bG,g(fe(e(aZ,B[3])))),gR=B[3],dt=nN(gV(B),gR,bG),ae=i9(bF,dt,B[4],ds),gS=i7(dt,B[4],ds),gU=B[3],du=f(i6(gV(B),gU,bG),gS),dv=g(i_(B)),gW=0,gX=f(du,c9(function(a,b){return nK(ae,a,b)},gW,d,dv,a4)),gY=f(bS(fd(ae)),gX),dy=f(bS(ek(ae)),gY),bH=cR(dy)[1],gZ=cQ(bH),ax=function(a){return bc(gZ,a)},dA=p(g(O[2]),bF);if(dA)var
+g0=B[4],bI=m(function(a){return 0===a[0]?p(g(a[1]),bF):1},g0);else
 var
 bI=dA;var
 dB=bI?m(function(a){var
-b=k(d),c=cO(bH);return aJ(q(ax(a),c,b),a)},dz):bI,dC=dB?ak(nL,a3):dB;if(dC){var
-dD=Q(O[4]);if(dD)var
-a4=dD;else
+b=k(d),c=cQ(bH);return aJ(q(ax(a),c,b),a)},dy):bI,dC=dB?ak(nM,a4):dB;if(dC){var
+dD=P(O[4]);if(dD)var
+a5=dD;else
 var
-ho=B[4],a4=m(function(a){return 0===a[0]?0:1},ho)}else
+hp=B[4],a5=m(function(a){return 0===a[0]?0:1},hp)}else
 var
-a4=dC;if(a4){var
-g2=i_(B),bJ=ab(e(function(a){return an(a1,a)},g2));if(bJ){var
-g4=0,g5=y(function(a){return e8(g4,d,a)},a3),bK=ab(e(function(a){return iJ(a1,a)},g5));if(bK){var
-g6=O[2],bL=ab(e(function(a){return an(a1,[0,a,d])},g6));if(bL){var
-g7=0,g8=0,bM=ab(c7(function(a,b){return nK(a1,ax,ae,g8,d,a,b)},g7,d,dy,a3));if(bM){var
-dF=bM[1];if(O[4])var
-g9=f3[2],hb=f3[1],hf=fd(ae),bN=mp(j1,dF,[8,i(aw(ax),hf),hb,g9]);else
+a5=dC;if(a5){var
+g3=i_(B),bJ=ab(e(function(a){return ao(a2,a)},g3));if(bJ){var
+g4=0,g6=y(function(a){return e8(g4,d,a)},a4),bK=ab(e(function(a){return iJ(a2,a)},g6));if(bK){var
+g7=O[2],bL=ab(e(function(a){return ao(a2,[0,a,d])},g7));if(bL){var
+g8=0,g9=0,bM=ab(c9(function(a,b){return nL(a2,ax,ae,g9,d,a,b)},g8,d,dv,a4));if(bM){var
+dE=bM[1];if(O[4])var
+g_=f3[2],g$=f3[1],hd=fd(ae),bN=mp(j2,dE,[8,i(aw(ax),hd),g$,g_]);else
 var
-bN=dF;var
-hg=iq(bN),hh=bL[1],hi=function(a){return 0},hj=f(bJ[1],bK[1]),hk=e(ax,dw),hl=fd(ae),hm=i(aw(ax),hl),hn=ek(ae);return fw(ip(a1,bH,i(aw(ax),hn),hm,hk,hj,bN,hi),hh,hg,j0)}var
-dG=bM}else
+bN=dE;var
+hh=ir(bN),hi=bL[1],hj=function(a){return 0},hk=f(bJ[1],bK[1]),hl=e(ax,du),hm=fd(ae),hn=i(aw(ax),hm),ho=ek(ae);return fw(iq(a2,bH,i(aw(ax),ho),hn,hl,hk,bN,hj),hi,hh,j1)}var
+dF=bM}else
 var
-dG=bL;var
-dI=dG}else
+dF=bL;var
+dH=dF}else
 var
-dI=bK;var
-dJ=dI}else
+dH=bK;var
+dI=dH}else
 var
-dJ=bJ;var
-dK=dJ}else
+dI=bJ;var
+dK=dI}else
 var
-dK=a4;return dK}return bT}var
+dK=a5;return dK}return bP}var
 f4=f2}else
 var
 f4=cJ;return f4;case
 1:var
-f5=as[3],a2=jv(aC,ar,cI,aq,a0,aZ,ap),j2=e(j,f5),f6=bw(e(aY,ar),j2);if(f6[2])return 0;var
-j3=as[4],cK=jJ(0,BA,g(aq),0,ap,j3);if(cK){var
-f7=hd(e(aY,ar),f5),f8=f7?o2(aC,ar,aq,a0,aZ,ap):f7,f9=f8?nR(a2[1]):f8;if(f9)var
-j4=a2[2],cL=m(function(a){return bs(l,a[1],a[2])},j4);else
+f5=as[3],a3=jv(aD,ar,cI,aq,a1,a0,ap),j3=e(j,f5),f6=bh(e(aZ,ar),j3);if(f6[2])return 0;var
+j4=as[4],cK=jJ(0,BF,g(aq),0,ap,j4);if(cK){var
+f7=hf(e(aZ,ar),f5),f8=f7?o3(aD,ar,aq,a1,a0,ap):f7,f9=f8?nS(a3[1]):f8;if(f9)var
+j5=a3[2],cL=m(function(a){return bt(l,a[1],a[2])},j5);else
 var
 cL=f9;if(cL){var
-j5=cK[1],at=e(j,as[2]),f_=f6[1],C=a2[1],a5=g(C[1]),bU=g(C[2]),dM=R(bU,g(fe(e(aY,C[3])))),hx=C[3],dN=nM(gT(C),hx,bU),aH=i9(a5,dN,C[4],dM),hy=i7(dN,C[4],dM),hz=C[3],dO=f(i6(gT(C),hz,bU),hy),hA=y(gR,C[4]),hB=f(fe(e(aY,C[3])),hA),aK=f(f_,e(function(a){return a[1][1]},hB)),dP=nT(l,e(aY,C[2]),f_),dQ=dP?nT(l,a2[2],at):dP,dR=dQ?p(g(at),a5):dQ;if(dR)var
-hC=C[4],bV=m(function(a){return 0===a[0]?p(g(a[1]),a5):1},hC);else
+j6=cK[1],at=e(j,as[2]),f_=f6[1],C=a3[1],a6=g(C[1]),bQ=g(C[2]),dM=R(bQ,g(fe(e(aZ,C[3])))),hy=C[3],dN=nN(gV(C),hy,bQ),aH=i9(a6,dN,C[4],dM),hz=i7(dN,C[4],dM),hA=C[3],dO=f(i6(gV(C),hA,bQ),hz),hB=y(gT,C[4]),hC=f(fe(e(aZ,C[3])),hB),aK=f(f_,e(function(a){return a[1][1]},hC)),dP=nU(l,e(aZ,C[2]),f_),dQ=dP?nU(l,a3[2],at):dP,dR=dQ?p(g(at),a6):dQ;if(dR)var
+hD=C[4],bV=m(function(a){return 0===a[0]?p(g(a[1]),a6):1},hD);else
 var
 bV=dR;var
-dS=bV?m(nS,f(y(uY,aH),dO)):bV;if(dS){var
-hD=a2[3],hr=e(function(a){var
-b=a[1];return[0,e(function(a){return el(at,aK,a)},b)]},aH),hs=y(function(c){var
+dS=bV?m(nT,f(y(uZ,aH),dO)):bV;if(dS){var
+hE=a3[3],hs=e(function(a){var
+b=a[1];return[0,e(function(a){return el(at,aK,a)},b)]},aH),ht=y(function(c){var
 a=c[1];switch(a[0]){case
 7:var
 b=el(at,aK,a[2]);return[0,[4,b,b],0];case
-9:return[0,el(at,aK,a[1]),0];default:return 0}},dO),ht=function(a){return a},hu=0,hv=e(function(a){return 0},aH),hw=e(function(b){var
+9:return[0,el(at,aK,a[1]),0];default:return 0}},dO),hu=function(a){return a},hv=0,hw=e(function(a){return 0},aH),hx=e(function(b){var
 a=b[4];if(typeof
-a!=="number"&&0===a[0])return[0,el(at,aK,a[1])];return 0},aH);return iz(l,uZ,a5,[0,e(function(a){var
-b=a[3];return e(function(a){return el(at,aK,a)},b)},aH),hw,hv,hu,ht,hs,hr],hD,j5)}return dS}var
+a!=="number"&&0===a[0])return[0,el(at,aK,a[1])];return 0},aH);return iz(l,u0,a6,[0,e(function(a){var
+b=a[3];return e(function(a){return el(at,aK,a)},b)},aH),hx,hw,hv,hu,ht,hs],hE,j6)}return dS}var
 f$=cL}else
 var
 f$=cK;return f$;default:return 0}case
 4:var
-au=a[3],aD=a[2],bp=a[1],aF=u[2];switch(aF[0]){case
+au=a[3],aE=a[2],bq=a[1],aF=v[2];switch(aF[0]){case
 0:var
-j6=aF[3],j7=aF[1],e3=df(j(bp));if(e3){var
-ct=oF(au);if(ct){var
-e4=ct[1],aS=e4[2],e6=j(aS),e7=j(e4[1]),eD=h(l,1,j(aD)),eE=eD?h(l,1,[3,e6,[0,b,b]]):eD,eF=eE?h(l,1,e7):eE,e_=eF?h(l,0,[3,[5,[0,b,b],e6],e7]):eF;if(e_)var
-jh=0,ji=0,cv=m(function(a){return oA(ji,jh,Bx,a)},au);else
+j7=aF[3],j8=aF[1],e3=dh(j(bq));if(e3){var
+ct=oG(au);if(ct){var
+e4=ct[1],aT=e4[2],e6=j(aT),e7=j(e4[1]),eD=h(l,1,j(aE)),eE=eD?h(l,1,[3,e6,[0,b,b]]):eD,eF=eE?h(l,1,e7):eE,e_=eF?h(l,0,[3,[5,[0,b,b],e6],e7]):eF;if(e_)var
+ji=0,jj=0,cu=m(function(a){return oB(jj,ji,BC,a)},au);else
 var
-cv=e_;var
-e$=cv?m(function(c){if(1===c[1]){var
+cu=e_;var
+e$=cu?m(function(c){if(1===c[1]){var
 a=c[4];if(typeof
-a!=="number"&&0===a[0])return h(l,0,[3,[0,d,b],j(a[1])]);return 1}return 1},au):cv;if(e$){var
-cs=bq(function(a){return Q(oG(a))},au);if(cs){var
-jj=[0,c(2,b),b],bh=h(l,0,[3,j(aS),jj]);if(bh)var
-cw=bh;else
+a!=="number"&&0===a[0])return h(l,0,[3,[0,d,b],j(a[1])]);return 1}return 1},au):cu;if(e$){var
+cs=br(function(a){return P(oH(a))},au);if(cs){var
+jk=[0,c(2,b),b],bg=h(l,0,[3,j(aT),jk]);if(bg)var
+cv=bg;else
 var
-jm=j(aS),cw=h(l,0,[3,[0,c(2,b),b],jm]);if(cw){var
+jn=j(aT),cv=h(l,0,[3,[0,c(2,b),b],jn]);if(cv){var
 e2=y(function(a){var
-b=ju(0,Bt,0,a);return y(function(b){var
-c=gx(l,Bu,b);return al(Q(oG(a)),c)},b)},au),jc=function(f){var
+b=ju(0,By,0,a);return y(function(b){var
+c=gz(l,Bz,b);return al(P(oH(a)),c)},b)},au),jg=function(f){var
 h=f[1];if(h){var
 i=h[1],j=q(i,e2,0);if(j)var
-l=aI(i,e2),k=[0,[0,g(bq(function(a){return a},l))]];else
+l=aI(i,e2),k=[0,[0,g(br(function(a){return a},l))]];else
 var
 k=j;var
 a=k}else
 var
-a=Bw;if(a){var
+a=BB;if(a){var
 c=a[1],e=f[2];switch(e[0]){case
 0:return[0,[0,c,[0,e[1]]],0];case
-2:return[0,[0,c,[1,Bv,[0,[0,b,[0,d,[0,d,0]]],[0,[0,d,[0,b,[0,d,0]]],[0,[0,d,[0,d,[0,b,0]]],0]]],d]],0];default:return[0,[0,c,e],0]}}return a},jg=e(function(a){var
-b=a[4],c=a[3],d=a[2];return[0,y(jc,a[1]),d,c,b]},j6),jk=[0,cs[1],cs[2]],jl=oK(bh,aD,aS);return o9(0,oJ(bh,bp,aD,aS),0,jl,0,jk,j7,jg)}return cw}var
+2:return[0,[0,c,[1,BA,[0,[0,b,[0,d,[0,d,0]]],[0,[0,d,[0,b,[0,d,0]]],[0,[0,d,[0,d,[0,b,0]]],0]]],d]],0];default:return[0,[0,c,e],0]}}return a},jh=e(function(a){var
+b=a[4],c=a[3],d=a[2];return[0,y(jg,a[1]),d,c,b]},j7),jl=[0,cs[1],cs[2]],jm=oL(bg,aE,aT);return o_(0,oK(bg,bq,aE,aT),0,jm,0,jl,j8,jh)}return cv}var
 fa=1}else
 var
 fa=e$;var
@@ -7762,15 +7849,15 @@ ff=fb}else
 var
 ff=e3;return ff;case
 1:var
-j8=aF[4],j9=aF[3],j_=aF[2],fg=df(j(bp));if(fg){var
-cx=oF(au);if(cx){var
-aT=cx[1][2],jn=[0,c(2,b),b],bi=h(l,0,[3,j(aT),jn]),fj=h(l,1,j(aD)),fk=fj?h(l,1,[3,j(aT),[0,b,b]]):fj;if(fk)if(bi)var
+j9=aF[4],j_=aF[3],j$=aF[2],fg=dh(j(bq));if(fg){var
+cx=oG(au);if(cx){var
+aU=cx[1][2],jo=[0,c(2,b),b],bi=h(l,0,[3,j(aU),jo]),fj=h(l,1,j(aE)),fk=fj?h(l,1,[3,j(aU),[0,b,b]]):fj;if(fk)if(bi)var
 bj=bi;else
 var
-jp=j(aT),bj=h(l,0,[3,[0,c(2,b),b],jp]);else
+jw=j(aU),bj=h(l,0,[3,[0,c(2,b),b],jw]);else
 var
 bj=fk;if(bj){var
-jo=oK(bi,aD,aT);return o_(0,oJ(bi,bp,aD,aT),0,jo,0,au,j_,j9,j8)}var
+jp=oL(bi,aE,aU);return o$(0,oK(bi,bq,aE,aU),0,jp,0,au,j$,j_,j9)}var
 fl=bj}else
 var
 fl=cx;var
@@ -7778,20 +7865,20 @@ fm=fl}else
 var
 fm=fg;return fm;default:return 0}case
 5:var
-cM=a[4],ga=a[1],cN=u[2];if(0===cN[0]){var
-gb=cN[3],A=jt(ga,[0,a[2],a[3]],0,cM),j$=g(gb),cQ=jE(jK(A),j$,gb);if(cQ){var
-gc=cQ[1];if(gc[2])return 0;var
-gd=jH(ga,0,cM,A),ge=gd?Q(ak(et,cM)):gd;if(ge){var
+cM=a[4],ga=a[1],cN=v[2];if(0===cN[0]){var
+gb=cN[3],A=jt(ga,[0,a[2],a[3]],0,cM),ka=g(gb),cO=jE(jK(A),ka,gb);if(cO){var
+gc=cO[1];if(gc[2])return 0;var
+gd=jH(ga,0,cM,A),ge=gd?P(ak(et,cM)):gd;if(ge){var
 gf=mo(l,A);if(gf){var
-ka=gc[1],gg=e(g$,A[1]),I=ha(A[1]),gh=j(a[5]),ad=cN[1],ce=gr(I,gg,A[1]),V=ir(I,gg,A[1],0),ie=g(A[3]),ig=R(g(ce),ie),be=[0,g(ce),ig],ih=it(V,I,be,A[3]),ii=f(e(cT,V),ih),eH=f(bQ(eY(V)),ii),eI=cP(eH)[1],cf=cO(eI),eJ=A[2];if(0===eJ[0]){var
+kb=gc[1],gg=e(hb,A[1]),I=hc(A[1]),gh=j(a[5]),ad=cN[1],ce=gs(I,gg,A[1]),V=is(I,gg,A[1],0),ig=g(A[3]),ih=R(g(ce),ig),bd=[0,g(ce),ih],ii=iu(V,I,bd,A[3]),ij=f(e(cV,V),ii),eH=f(bS(eY(V)),ij),eI=cR(eH)[1],cf=cQ(eI),eJ=A[2];if(0===eJ[0]){var
 eK=m(function(a){var
-b=k(d);return aJ(q(bd(cf,a),cf,b),a)},eH),eL=eK?h(l,1,gh):eK;if(eL){var
-ij=A[3],ik=y(function(a){return dv(I,a)},ij),il=A[3],im=f(ce,f(e(function(a){return bP(I,a)},il),ik)),cg=ab(e(function(a){return an(ad,a)},im));if(cg){var
-io=a6(eJ[1],I),ch=ab(e(function(a){return an(ad,a)},io));if(ch){var
-ci=cR(ad,I,[5,gh,[0,c(2,c(2,c(2,c(2,b)))),b]]);if(ci){var
-cj=A[3],is=ch[1],iu=cg[1],iv=ci[1],aR=function(a){return bd(cf,a)},ib=aB(0,g(cj)),ic=e(function(k){var
-l=F(cj,k);if(l){var
-a=l[1],u=aI(k,cj),v=g(y(function(a){return dv(I,a)},u)),w=R(be[2],v),j=[0,R(be[1],k),w],r=eY(V),f=i(aw(aR),r),c=[1,[8,[1,[1,j[1]]]]],d=gs(V,I,j,a),n=d?[0,[3,e(aR,[0,d[1],d[2]])]]:d,m=0;if(typeof
+b=k(d);return aJ(q(bc(cf,a),cf,b),a)},eH),eL=eK?h(l,1,gh):eK;if(eL){var
+ik=A[3],il=y(function(a){return dx(I,a)},ik),im=A[3],io=f(ce,f(e(function(a){return bR(I,a)},im),il)),cg=ab(e(function(a){return ao(ad,a)},io));if(cg){var
+ip=a7(eJ[1],I),ch=ab(e(function(a){return ao(ad,a)},ip));if(ch){var
+ci=cT(ad,I,[5,gh,[0,c(2,c(2,c(2,c(2,b)))),b]]);if(ci){var
+cj=A[3],it=ch[1],iv=cg[1],iw=ci[1],aS=function(a){return bc(cf,a)},ic=aB(0,g(cj)),id=e(function(k){var
+l=G(cj,k);if(l){var
+a=l[1],u=aI(k,cj),v=g(y(function(a){return dx(I,a)},u)),w=R(bd[2],v),j=[0,R(bd[1],k),w],r=eY(V),f=i(aw(aS),r),c=[1,[8,[1,[1,j[1]]]]],d=gt(V,I,j,a),n=d?[0,[3,e(aS,[0,d[1],d[2]])]]:d,m=0;if(typeof
 a!=="number")switch(a[0]){case
 0:return[0,[0,f,c]];case
 1:return[0,[1,f,c]];case
@@ -7807,27 +7894,27 @@ q=c;m=1;break;case
 3:case
 6:case
 7:return n}if(m){var
-t=e5(V,I,j,a);return z(function(a){return[0,i(aw(aR),a),q]},t)}return 0}return l},ib),id=e(function(a){return aR(cT(a))},V),eG=e(function(a){return aR(a[2])},V),iw=A[3],iy=be[1],cd=function(aC,aB,aA){var
+t=e5(V,I,j,a);return z(function(a){return[0,i(aw(aS),a),q]},t)}return 0}return l},ic),ie=e(function(a){return aS(cV(a))},V),eG=e(function(a){return aS(a[2])},V),ix=A[3],iA=bd[1],cd=function(aC,aB,aA){var
 k=aC,l=aB,f=aA;for(;;)switch(f[0]){case
 0:var
-v=f[1],$=p(g(v),vA),aa=$?m(function(a){var
-d=D(P(c(2,c(2,c(2,b)))),a);return d?D(a,c(2,c(2,c(2,b)))):d},v):$;if(aa){var
-ab=oe(ad,iv,du(0,l),v),j=f[2],w=bc(0,bz(ad,ab,e(Y,k)),eI,0),aD=e(Y,k),M=function(a){return od(oc(ad,ab,aD,w,a))};if(typeof
+v=f[1],$=p(g(v),vB),aa=$?m(function(a){var
+d=D(Q(c(2,c(2,c(2,b)))),a);return d?D(a,c(2,c(2,c(2,b)))):d},v):$;if(aa){var
+ab=of(ad,iw,dw(0,l),v),j=f[2],w=bb(0,bz(ad,ab,e(Z,k)),eI,0),aD=e(Z,k),M=function(a){return oe(od(ad,ab,aD,w,a))};if(typeof
 j==="number")return 0===j?ak(function(b){var
 a=q(b,w,0);return a?D(a[1][2][2],d):a},eG):0;else{if(0===j[0]){var
-a=j[2],N=m(vy,a);if(N){var
-r=q(j[1],ic,0);if(r){var
+a=j[2],N=m(vz,a);if(N){var
+r=q(j[1],id,0);if(r){var
 i=r[1];switch(i[0]){case
 0:var
 x=0;if(a)if(a[2])var
 h=0;else{var
-A=a[1],B=i[1],ap=g0(B,A),aq=gZ(A),C=[0,[0,B,[0,[1,[4,[1,[6,i[2],aq]],ap]],0]]];x=1}else{var
+A=a[1],B=i[1],ap=g2(B,A),aq=g1(A),C=[0,[0,B,[0,[1,[4,[1,[6,i[2],aq]],ap]],0]]];x=1}else{var
 C=a;x=1}if(x)var
 h=C;break;case
 1:var
 y=0;if(a)if(a[2])var
 h=0;else{var
-E=a[1],G=i[1],ar=gZ(E),as=[1,[6,i[2],ar]],H=[0,[0,G,[0,[1,[4,g0(G,E),as]],0]]];y=1}else{var
+E=a[1],F=i[1],ar=g1(E),as=[1,[6,i[2],ar]],H=[0,[0,F,[0,[1,[4,g2(F,E),as]],0]]];y=1}else{var
 H=a;y=1}if(y)var
 h=H;break;case
 2:var
@@ -7835,7 +7922,7 @@ z=0;if(a){var
 n=a[2],ao=0;if(n)if(n[2]){var
 h=0;ao=1}else
 var
-I=n[1],J=a[1],o=i[1],at=gZ(J),au=[1,[6,g0(o,I),at]],av=[1,[6,i[2],au]],aw=gZ(I),K=[0,[0,o,[0,[1,[4,[1,[6,g0(o,J),aw]],av]],0]]];else
+I=n[1],J=a[1],o=i[1],at=g1(J),au=[1,[6,g2(o,I),at]],av=[1,[6,i[2],au]],aw=g1(I),K=[0,[0,o,[0,[1,[4,[1,[6,g2(o,J),aw]],av]],0]]];else
 var
 K=n;if(!ao){var
 L=K;z=1}}else{var
@@ -7844,8 +7931,8 @@ h=L;break;default:if(a)var
 h=0;else
 var
 ax=i[1],h=[0,[0,0,e(function(a){return[1,[5,[0,a]]]},ax)]]}if(h){var
-O=h[1],ay=O[1],Q=m(function(a){return od(q(a[2],w,0))},ay);if(Q)return m(M,O[2]);var
-S=Q}else
+O=h[1],ay=O[1],P=m(function(a){return oe(q(a[2],w,0))},ay);if(P)return m(M,O[2]);var
+S=P}else
 var
 S=h;var
 T=S}else
@@ -7854,31 +7941,31 @@ T=r;var
 U=T}else
 var
 U=N;return U}var
-V=j[2],W=j[1],s=F(iw,W);if(s){var
+V=j[2],W=j[1],s=G(ix,W);if(s){var
 X=s[1];if(typeof
 X!=="number"&&1===X[0]){var
-t=F(eG,V);if(t){var
-u=F(id,V);if(u){var
-az=R(iy,W);return M([1,[4,[1,[8,[0,u[1]]]],[1,[6,[1,[8,[1,[1,az]]]],[0,t[1]]]]]])}var
+t=G(eG,V);if(t){var
+u=G(ie,V);if(u){var
+az=R(iA,W);return M([1,[4,[1,[8,[0,u[1]]]],[1,[6,[1,[8,[1,[1,az]]]],[0,t[1]]]]]])}var
 _=u}else
 var
 _=t;return _}var
-Z=0}else
+Y=0}else
 var
-Z=s;return Z}}return aa;case
+Y=s;return Y}}return aa;case
 1:var
-ac=f[1],ae=of(ac,l);if(ae){var
-af=cU(ac,l),ag=cd(k,af[1],f[2]);if(ag){var
+ac=f[1],ae=og(ac,l);if(ae){var
+af=cW(ac,l),ag=cd(k,af[1],f[2]);if(ag){var
 l=af[2],f=f[3];continue}var
 ah=ag}else
 var
 ah=ae;return ah;default:var
-ai=f[1],aj=of(ai,k);if(aj){var
-al=cU(ai,k),am=cd(al[1],l,f[2]);if(am){var
+ai=f[1],aj=og(ai,k);if(aj){var
+al=cW(ai,k),am=cd(al[1],l,f[2]);if(am){var
 k=al[2],f=f[3];continue}var
 an=am}else
 var
-an=aj;return an}};return cd(iu,is,ka)}var
+an=aj;return an}};return cd(iv,it,kb)}var
 eM=ci}else
 var
 eM=ch;var
@@ -7893,15 +7980,15 @@ var
 gi=ge;var
 gj=gi}else
 var
-gj=cQ;return gj}return 0;case
+gj=cO;return gj}return 0;case
 6:var
 gk=a[1];if(gk){var
-gl=gk[1],cS=u[2];if(0===cS[0]){var
-cV=jD(BC,0,0,0,BB,cS[3]);if(cV){var
+gl=gk[1],cP=v[2];if(0===cP[0]){var
+cS=jD(BH,0,0,0,BG,cP[3]);if(cS){var
 gm=fq(gl);if(gm){var
-kb=cV[1],gn=bY(gl)[2],br=cS[1],cb=cR(br,d,gn);if(cb){var
-cc=cR(br,d,[5,[0,b,b],gn]);if(cc){var
-ia=cb[1][1],eA=J(cp(br),ia);if(eA)return ob(br,cc[1][1],kb);var
+kc=cS[1],gn=b0(gl)[2],bs=cP[1],cb=cT(bs,d,gn);if(cb){var
+cc=cT(bs,d,[5,[0,b,b],gn]);if(cc){var
+ib=cb[1][1],eA=J(cr(bs),ib);if(eA)return oc(bs,cc[1][1],kc);var
 eB=eA}else
 var
 eB=cc;var
@@ -7910,62 +7997,62 @@ var
 eC=cb;return eC}var
 go=gm}else
 var
-go=cV;return go}return 0}var
-cW=u[2];if(0===cW[0]){var
-cX=jD(BE,0,0,0,BD,cW[3]);return cX?ob(cW[1],d,cX[1]):cX}return 0;default:var
-aG=a[1],gp=u[2];if(2===gp[0]){var
+go=cS;return go}return 0}var
+cU=v[2];if(0===cU[0]){var
+cX=jD(BJ,0,0,0,BI,cU[3]);return cX?oc(cU[1],d,cX[1]):cX}return 0;default:var
+aG=a[1],gp=v[2];if(2===gp[0]){var
 gq=gp[1],cY=jB(g(gq),gq);if(cY){var
-gt=cY[1];if(gt[2])return 0;var
-cZ=gt[1],eZ=_(Bs,g(aG)),e0=eZ?_(g(aG),k5):eZ,e1=e0?nQ(e(av,aG)):e0,gu=e1?m(function(c){var
-a=cu(j(c[2][1]));if(a){var
-b=cu(j(c[2][2]));if(b)return Q(bb(b[1],a[1]));var
+gr=cY[1];if(gr[2])return 0;var
+cZ=gr[1],eZ=_(Bx,g(aG)),e0=eZ?_(g(aG),k5):eZ,e1=e0?nR(e(av,aG)):e0,gu=e1?m(function(c){var
+a=cw(j(c[2][1]));if(a){var
+b=cw(j(c[2][2]));if(b)return P(ba(b[1],a[1]));var
 d=b}else
 var
 d=a;return d},aG):e1;if(gu)var
-kc=g_(Ak,cZ),c0=pc(a[5],kc);else
+kd=ha(Ap,cZ),c0=pd(a[5],kd);else
 var
 c0=gu;if(c0)var
-kd=g_(Al,cZ),c1=pc(a[6],kd);else
+ke=ha(Aq,cZ),c1=pd(a[6],ke);else
 var
 c1=c0;if(c1){var
-jb=e(function(a){return[0,d,0]},aG);return pb(aG,a[2],a[3],a[4],jb,cZ)}var
+jc=e(function(a){return[0,d,0]},aG);return pc(aG,a[2],a[3],a[4],jc,cZ)}var
 gv=c1}else
 var
-gv=cY;return gv}return 0}}return aV}var
-W=[a0,BH,rz(0)],pd=[a0,BI,rz(0)];function
-BF(l,b){var
-f=[0,n(zF,ar(b[4])),0],g=[0,n(zH,ag([0,n(zG,ar(b[3])),f])),0],a=b[2];switch(a[0]){case
+gv=cY;return gv}return 0}}return aW}var
+X=[a1,BM,rA(0)],pe=[a1,BN,rA(0)];function
+BK(l,b){var
+f=[0,n(zK,ap(b[4])),0],g=[0,n(zM,ag([0,n(zL,ap(b[3])),f])),0],a=b[2];switch(a[0]){case
 0:var
-c=M(zB,om(a[1],a[2],a[3]));break;case
+c=M(zG,on(a[1],a[2],a[3]));break;case
 1:var
-c=M(zC,on(a[1],a[2],a[3],a[4]));break;default:var
-c=M(zD,G(e(zw,a[1])))}var
-h=[0,n(zI,c),g],i=1===b[2][0]?zO:zJ,j=[0,n(zK,ar(i)),h],k=[0,n(zL,x8(b[1])),j],d=ax(kA(BG,g1(ag([0,n(zN,ar(zM)),k]),zE)),l);return d?By(b):d}function
-ai(a){if(0===a[0])return a[1];throw W}function
-ae(a){if(1===a[0])return a[1];throw W}function
-aX(a){if(2===a[0])return a[1];throw W}function
-fs(a){if(3===a[0])return a[1];throw W}function
-a_(f,e){var
+c=M(zH,oo(a[1],a[2],a[3],a[4]));break;default:var
+c=M(zI,H(e(zB,a[1])))}var
+h=[0,n(zN,c),g],i=1===b[2][0]?zT:zO,j=[0,n(zP,ap(i)),h],k=[0,n(zQ,yb(b[1])),j],d=ax(kA(BL,g3(ag([0,n(zS,ap(zR)),k]),zJ)),l);return d?BD(b):d}function
+ai(a){if(0===a[0])return a[1];throw X}function
+ad(a){if(1===a[0])return a[1];throw X}function
+aY(a){if(2===a[0])return a[1];throw X}function
+fs(a){if(3===a[0])return a[1];throw X}function
+a9(f,e){var
 a=f;for(;;){if(a){var
-b=a[1],c=a[2],d=b[2];if(0===H3(b[1],e))return[0,d];var
+b=a[1],c=a[2],d=b[2];if(0===H_(b[1],e))return[0,d];var
 a=c;continue}return 0}}function
-u(c,b){var
-a=a_(c,b);if(a)return a[1];throw W}function
-cH(b,a){var
+v(c,b){var
+a=a9(c,b);if(a)return a[1];throw X}function
+ch(b,a){var
 c=a?[0,i(b,a[1])]:a;return c}function
-dK(a){switch(a[0]){case
+dM(a){switch(a[0]){case
 0:var
 b=a[1];if(b&&!b[2]){var
 c=b[1];return[0,c[1],c[2]]}break;case
-2:return[0,a[1],BJ]}throw W}function
+2:return[0,a[1],BO]}throw X}function
 ft(e,d){var
-a=Z(e,ae(d));if(a){var
+a=Y(e,ad(d));if(a){var
 b=a[2];if(b){var
-c=b[2];if(c&&!c[2])return[0,a[1],b[1],c[1]]}}throw W}function
-hf(i){var
-f=eI(i),d=[0,0],e=hI(f)-1|0;if(!(e<0)){var
+c=b[2];if(c&&!c[2])return[0,a[1],b[1],c[1]]}}throw X}function
+hh(i){var
+f=eI(i),d=[0,0],e=hJ(f)-1|0;if(!(e<0)){var
 c=e;for(;;){var
-a=d[1],g=kg(f,c)-48|0;if(9<g>>>0)throw W;switch(g){case
+a=d[1],g=kg(f,c)-48|0;if(9<g>>>0)throw X;switch(g){case
 0:var
 b=[0,a];break;case
 1:var
@@ -7987,97 +8074,98 @@ b=[8,a];break;default:var
 b=[9,a]}d[1]=b;var
 h=c-1|0;if(0!==c){var
 c=h;continue}break}}return d[1]}function
-fu(a){return kQ(hf(a))}function
+fu(a){return kQ(hh(a))}function
 ev(b){var
-a=fs(b);return 45===a1(a,0)?P(fu(dT(a,1,au(a)-1|0))):fu(a)}function
-pe(a){return dW(fu(fs(a)))}function
-dh(b){var
-a=fs(b);if(!(2<au(a))&&!(64<=hH(a)))return hU(fu(a));throw W}function
-cI(c){var
-a=fs(c);if(6<au(a))throw W;function
-b(a){return 0<a?[0,b(a-1|0)]:0}return b(hH(a))}function
-pf(a){var
-b=97<=a?1:0,c=b?a<=rb?1:0:b;if(c)var
+a=fs(b);return 45===a2(a,0)?Q(fu(dU(a,1,au(a)-1|0))):fu(a)}function
+pf(a){return dX(fu(fs(a)))}function
+dj(b){var
+a=fs(b);if(!(2<au(a))&&!(64<=hI(a)))return hV(fu(a));throw X}function
+cJ(c){var
+a=fs(c);if(6<au(a))throw X;function
+b(a){return 0<a?[0,b(a-1|0)]:0}return b(hI(a))}function
+pg(a){var
+b=97<=a?1:0,c=b?a<=rc?1:0:b;if(c)var
 d=c;else
 var
 e=65<=a?1:0,d=e?a<=90?1:0:e;return d}function
-pg(y,b){var
+ph(y,b){var
 d=au(b),a=[0,0];function
 c(e){var
-c=a[1]<d?1:0,f=c?a1(b,a[1])===e?1:0:c;return f}function
+c=a[1]<d?1:0,f=c?a2(b,a[1])===e?1:0:c;return f}function
 l(e){var
-c=a[1];for(;;){if(a[1]<d&&48<=a1(b,a[1])&&!(57<a1(b,a[1]))){a[1]++;continue}return dT(b,c,a[1]-c|0)}}function
+c=a[1];for(;;){if(a[1]<d&&48<=a2(b,a[1])&&!(57<a2(b,a[1]))){a[1]++;continue}return dU(b,c,a[1]-c|0)}}function
 m(b){a[1]++;var
-d=f(b+1|0);if(c(41)){a[1]++;return d}throw W}function
-h(j){if(64<j)throw W;if(c(45)){a[1]++;return[2,h(j+1|0)]}if(c(40))var
+d=f(b+1|0);if(c(41)){a[1]++;return d}throw X}function
+h(j){if(64<j)throw X;if(c(45)){a[1]++;return[2,h(j+1|0)]}if(c(40))var
 e=m(j);else{var
-u=0;if((a[1]+5|0)<=d&&ax(dT(b,a[1],5),BL)){a[1]=a[1]+4|0;var
+u=0;if((a[1]+5|0)<=d&&ax(dU(b,a[1],5),BQ)){a[1]=a[1]+4|0;var
 e=[5,m(j)]}else
 u=1;if(u){var
-v=0;if(a[1]<d&&pf(a1(b,a[1]))){var
+v=0;if(a[1]<d&&pg(a2(b,a[1]))){var
 n=a[1];for(;;){if(a[1]<d){var
-w=0;if(!pf(a1(b,a[1]))&&95!==a1(b,a[1])&&(!(48<=a1(b,a[1]))||57<a1(b,a[1])))w=1;if(!w){a[1]++;continue}}var
-e=[1,i(y,dT(b,n,a[1]-n|0))];break}}else
+w=0;if(!pg(a2(b,a[1]))&&95!==a2(b,a[1])&&(!(48<=a2(b,a[1]))||57<a2(b,a[1])))w=1;if(!w){a[1]++;continue}}var
+e=[1,i(y,dU(b,n,a[1]-n|0))];break}}else
 v=1;if(v){var
-g=l(0),p=c(46),q=p?(a[1]++,[0,l(0)]):p,r=ax(g,BM);if(r)var
+g=l(0),p=c(46),q=p?(a[1]++,[0,l(0)]):p,r=ax(g,BR);if(r)var
 s=r;else
 var
-t=1<au(g)?1:0,s=t?48===a1(g,0)?1:0:t;if(s)throw W;if(q){var
-k=q[1],x=0;if(ax(k,BN)||48===a1(k,au(k)-1|0))x=1;else
+t=1<au(g)?1:0,s=t?48===a2(g,0)?1:0:t;if(s)throw X;if(q){var
+k=q[1],x=0;if(ax(k,BS)||48===a2(k,au(k)-1|0))x=1;else
 var
-z=hf(k),e=[0,hf(g),z];if(x)throw W}else
+z=hh(k),e=[0,hh(g),z];if(x)throw X}else
 var
-e=[0,hf(g),0]}}}if(c(94)){a[1]++;var
-f=l(0);if(o(f,BK)){if(!(2<au(f))&&2<=hH(f)&&!(64<hH(f)))return[4,e,dW(fu(f))];throw W}throw W}return e}function
+e=[0,hh(g),0]}}}if(c(94)){a[1]++;var
+f=l(0);if(o(f,BP)){if(!(2<au(f))&&2<=hI(f)&&!(64<hI(f)))return[4,e,dX(fu(f))];throw X}throw X}return e}function
 e(d){var
 b=h(d);for(;;){if(c(42)){a[1]++;var
 b=[3,2,b,h(d)];continue}if(c(47)){a[1]++;var
 b=[3,3,b,h(d)];continue}return b}}function
-f(d){if(64<d)throw W;var
+f(d){if(64<d)throw X;var
 b=e(d);for(;;){if(c(43)){a[1]++;var
 b=[3,0,b,e(d)];continue}if(c(45)){a[1]++;var
 b=[3,1,b,e(d)];continue}return b}}var
-g=f(0);if(a[1]<d)throw W;return g}function
-hg(a){return pg(function(a){return[0,a]},a)}function
+g=f(0);if(a[1]<d)throw X;return g}function
+hi(a){return ph(function(a){return[0,a]},a)}function
 jM(a){var
-b=aX(a);return pg(function(a){return a},b)}function
-U(a){return hg(aX(a))}function
-ce(a){if(2===a[0])return[0,hg(a[1])];var
-b=ai(a),c=U(u(b,BO));return[1,U(u(b,BP)),c]}function
-af(a){throw[0,pd,ba(kA(BR,a),BQ)]}function
+b=aY(a);return ph(function(a){return a},b)}function
+V(a){return hi(aY(a))}function
+b1(a){if(2===a[0])return[0,hi(a[1])];var
+b=ai(a),c=V(v(b,BT));return[1,V(v(b,BU)),c]}function
+af(a){throw[0,pe,a$(kA(BW,a),BV)]}function
 jN(c){var
-a=aX(c);if(o(a,BS)){var
-b=o(a,BT);if(b)throw W;return b}return 1}function
-BU(d){var
+a=aY(c);if(o(a,BX)){var
+b=o(a,BY);if(b)throw X;return b}return 1}function
+BZ(d){var
 b=ai(d);function
-a(a){return ft(ce,u(b,a))}var
-c=aX(u(b,BV));if(o(c,BW)){if(o(c,BX)){if(o(c,BY))return af([0,B0,[0,c,BZ]]);var
-e=a_(b,B1),f=cH(function(a){return ft(ce,a)},e),g=a(B2);return[1,a(B3),g,f]}var
-h=jN(u(b,B4)),i=ce(u(b,B5)),j=a(B6),k=a(B7);return[0,a(B8),k,j,i,h]}return[2,a(B9)]}function
-B_(d){var
+a(a){return ft(b1,v(b,a))}var
+c=aY(v(b,B0));if(o(c,B1)){if(o(c,B2)){if(o(c,B3))return af([0,B5,[0,c,B4]]);var
+e=a9(b,B6),f=ch(function(a){return ft(b1,a)},e),g=a(B7);return[1,a(B8),g,f]}var
+h=jN(v(b,B9)),i=b1(v(b,B_)),j=a(B$),k=a(Ca);return[0,a(Cb),k,j,i,h]}return[2,a(Cc)]}function
+Cd(d){var
 a=ai(d);if(a){var
-b=a[1];if(!o(b[1],B$)){var
-c=b[2];if(2===c[0]&&!o(c[1],Ca))return 1}}return 0}function
-ph(e){var
+b=a[1];if(!o(b[1],Ce)){var
+c=b[2];if(2===c[0]&&!o(c[1],Cf))return 1}}return 0}function
+pi(e){var
 b=ai(e);function
-a(a){return Z(ce,ae(u(b,a)))}var
-c=aX(u(b,Cb)),d=a_(b,Cc);if(o(c,Cd)){if(o(c,Ce)){if(!o(c,Cf)&&!d){var
-f=a(Ci);return[1,a(Cj),f]}}else
+a(a){return Y(b1,ad(v(b,a)))}var
+c=aY(v(b,Cg)),f=a9(b,Ch),d=ch(function(a){return Y(b1,ad(a))},f);if(o(c,Ci)){if(o(c,Cj)){if(o(c,Ck)){if(!o(c,Cl)){var
+g=a(Co);return[1,a(Cp),g,d]}}else
 if(!d){var
-g=jN(u(b,Ck)),h=ce(u(b,Cl)),i=a(Cm),j=a(Cn);return[0,a(Co),j,i,h,g]}}else
+h=jN(v(b,Cq)),i=b1(v(b,Cr)),j=a(Cs),k=a(Ct);return[0,a(Cu),k,j,i,h]}}else
+if(!d)return[2,a(Cv)]}else
 if(!d){var
-k=jN(u(b,Cp)),l=ce(u(b,Cq)),m=ce(u(b,Cr)),n=a(Cs),p=a(Ct),q=a(Cu);return[2,a(Cv),q,p,n,m,l,k]}return af([0,Ch,[0,c,Cg]])}function
-pi(d){var
+l=jN(v(b,Cw)),m=b1(v(b,Cx)),n=b1(v(b,Cy)),p=a(Cz),q=a(CA),r=a(CB);return[3,a(CC),r,q,p,n,m,l]}return af([0,Cn,[0,c,Cm]])}function
+pj(d){var
 a=ai(d);if(a){var
-b=a[1];if(!o(b[1],Cw)){var
-c=b[2];if(2===c[0]&&!o(c[1],Cx))return 1}}return 0}function
-di(c,d){var
-a=ae(d);if(a){var
+b=a[1];if(!o(b[1],CD)){var
+c=b[2];if(2===c[0]&&!o(c[1],CE))return 1}}return 0}function
+dk(c,d){var
+a=ad(d);if(a){var
 b=a[2];if(b&&!b[2]){var
-e=i(c,b[1]);return[0,i(c,a[1]),e]}}throw W}function
+e=i(c,b[1]);return[0,i(c,a[1]),e]}}throw X}function
 ew(g,p){var
-h=g?g[1]:g,c=ai(p),a=aX(u(c,Cy)),j=rM(a,Cz),f=0;if(0<=j)if(0<j)if(o(a,CA))if(o(a,CB))if(o(a,CC))if(o(a,CD))if(o(a,CE))if(o(a,CF))if(o(a,CG)){var
-k=o(a,CH);if(k)f=1;else
+h=g?g[1]:g,c=ai(p),a=aY(v(c,CF)),j=rN(a,CG),f=0;if(0<=j)if(0<j)if(o(a,CH))if(o(a,CI))if(o(a,CJ))if(o(a,CK))if(o(a,CL))if(o(a,CM))if(o(a,CN)){var
+k=o(a,CO);if(k)f=1;else
 var
 b=k}else
 var
@@ -8097,7 +8185,7 @@ var
 b=13;else
 var
 b=2;else
-if(o(a,C2))if(o(a,C3))if(o(a,C4))if(o(a,C5))if(o(a,C6))if(o(a,C7))if(o(a,C8))if(o(a,C9))f=1;else
+if(o(a,C9))if(o(a,C_))if(o(a,C$))if(o(a,Da))if(o(a,Db))if(o(a,Dc))if(o(a,Dd))if(o(a,De))f=1;else
 var
 b=1;else
 var
@@ -8115,119 +8203,119 @@ b=14;else
 f=1;else
 var
 b=12;var
-n=f?af([0,CJ,[0,a,CI]]):b;function
-i(a){return u(c,CK)}var
-d=aX(u(c,CL)),l=o(d,CM);if(l)if(o(d,CN))if(o(d,CO))if(o(d,CP))var
-e=af([0,CR,[0,d,CQ]]);else
+n=f?af([0,CQ,[0,a,CP]]):b;function
+i(a){return v(c,CR)}var
+d=aY(v(c,CS)),l=o(d,CT);if(l)if(o(d,CU))if(o(d,CV))if(o(d,CW))var
+e=af([0,CY,[0,d,CX]]);else
 var
-m=di(U,i(0)),e=[2,m[1],m[2]];else
+m=dk(V,i(0)),e=[2,m[1],m[2]];else
 var
-e=[0,U(i(0))];else
+e=[0,V(i(0))];else
 var
-e=[1,U(i(0))];else
+e=[1,V(i(0))];else
 var
 e=l;function
 q(H){var
 a=ai(H),b=0;switch(n){case
 6:if(a){var
-r=a[1];if(!o(r[1],CT)){var
+r=a[1];if(!o(r[1],C0)){var
 s=r[2];if(1===s[0]){var
 c=s[1],m=0;if(c&&!c[2])if(a[2])m=1;else{var
 e=c[1];b=1;m=1}if(!m&&!a[2]){var
 t=c;b=2}}}}break;case
 10:if(a){var
-u=a[1];if(!o(u[1],CU)){var
+u=a[1];if(!o(u[1],C1)){var
 v=u[2];if(1===v[0]){var
 f=v[1];if(f&&!f[2]){var
 g=a[2];if(g){var
-w=g[1];if(!o(w[1],CV)){var
+w=g[1];if(!o(w[1],C2)){var
 x=w[2];if(1===x[0]){var
 i=x[1];if(i&&!i[2]&&!g[2]){var
-I=U(i[1]);return[2,U(f[1]),I]}}}}}}}}break;case
+I=V(i[1]);return[2,V(f[1]),I]}}}}}}}}break;case
 12:if(a){var
-y=a[1];if(!o(y[1],CW)){var
+y=a[1];if(!o(y[1],C3)){var
 z=y[2];if(1===z[0]){var
 j=z[1];if(j&&!j[2]){var
 k=a[2],A=j[1];if(k){var
-B=k[1];if(!o(B[1],CX)){var
+B=k[1];if(!o(B[1],C4)){var
 C=B[2];if(1===C[0]){var
 l=C[1];if(l&&!l[2]&&!k[2]&&h){var
-J=U(l[1]);return[3,U(A),J]}}}}else{var
+J=V(l[1]);return[3,V(A),J]}}}}else{var
 e=A;b=1}}}}}break;case
 16:if(a){var
-F=a[1];if(!o(F[1],CZ)){var
+F=a[1];if(!o(F[1],C6)){var
 G=F[2];if(1===G[0]&&!a[2]){var
 t=G[1];b=2}}}break;case
 14:case
 15:if(a){var
-D=a[1];if(!o(D[1],CY)){var
-E=D[2];if(1===E[0]&&!a[2])return[1,Z(U,E[1])]}}break;case
+D=a[1];if(!o(D[1],C5)){var
+E=D[2];if(1===E[0]&&!a[2])return[1,Y(V,E[1])]}}break;case
 2:case
 8:if(a){var
-p=a[1];if(!o(p[1],CS)){var
+p=a[1];if(!o(p[1],CZ)){var
 q=p[2];if(1===q[0]){var
 d=q[1];if(d&&!d[2]&&!a[2]){var
 e=d[1];b=1}}}}break}switch(b){case
-0:throw W;case
-1:return[0,U(e)];default:return[1,Z(U,t)]}}var
-r=cH(q,a_(c,C0));return[0,n,cH(cI,a_(c,C1)),r,e]}function
-pj(c){var
-d=ew(Da,c),e=d[1];if(!(9<=e))switch(e){case
+0:throw X;case
+1:return[0,V(e)];default:return[1,Y(V,t)]}}var
+r=ch(q,a9(c,C7));return[0,n,ch(cJ,a9(c,C8)),r,e]}function
+pk(c){var
+d=ew(Dh,c),e=d[1];if(!(9<=e))switch(e){case
 2:case
 6:case
 8:return d}var
-a=ew(C_,c),b=a[1];if(2!==b&&!(4<=b))return a;return af(C$)}function
-pk(a){var
-b=ew(Db,a);return 11===b[1]?b:pj(a)}function
-Dc(a){var
-b=ew(Dd,a),c=b[1];if(9<=c)switch(c-9|0){case
+a=ew(Df,c),b=a[1];if(2!==b&&!(4<=b))return a;return af(Dg)}function
+pl(a){var
+b=ew(Di,a);return 11===b[1]?b:pk(a)}function
+Dj(a){var
+b=ew(Dk,a),c=b[1];if(9<=c)switch(c-9|0){case
 2:case
 4:case
-7:break;default:return b}return pk(a)}function
+7:break;default:return b}return pl(a)}function
 jO(a){var
-b=ew(De,a);switch(b[1]){case
+b=ew(Dl,a);switch(b[1]){case
 4:case
 5:case
 11:case
 13:case
-16:return b;default:return pj(a)}}function
+16:return b;default:return pk(a)}}function
 jP(b){var
-a=ai(b[2]);if(o(b[1],Dl)){var
-c=di(U,u(a,Dm)),d=di(U,u(a,Dn)),e=d[2],f=d[1],g=U(u(a,Do));return[1,c[1],c[2],g,f,e]}var
-h=Z(U,ae(u(a,Dp)));return[0,Z(U,ae(u(a,Dq))),h]}function
-Dr(f){var
+a=ai(b[2]);if(o(b[1],Ds)){var
+c=dk(V,v(a,Dt)),d=dk(V,v(a,Du)),e=d[2],f=d[1],g=V(v(a,Dv));return[1,c[1],c[2],g,f,e]}var
+h=Y(V,ad(v(a,Dw)));return[0,Y(V,ad(v(a,Dx))),h]}function
+Dy(f){var
 a=ai(f);function
-d(b){return U(u(a,b))}function
-c(b){return ft(U,u(a,b))}var
-b=aX(u(a,Ds));if(o(b,Dt)){if(!o(b,Du)){var
-j=u(a,DA),e=di(function(a){return a},j),k=a_(a,DB),l=cH(function(a){return c(DC)},k),m=hg(aX(e[2])),n=hg(aX(e[1])),p=d(DD);return[0,cI(u(a,DE)),p,n,m,l]}if(o(b,Dv))throw W}var
-g=d(Dw),h=c(Dx),i=c(Dy);return[1,ax(b,Dz),i,h,g]}function
+d(b){return V(v(a,b))}function
+c(b){return ft(V,v(a,b))}var
+b=aY(v(a,Dz));if(o(b,DA)){if(!o(b,DB)){var
+j=v(a,DH),e=dk(function(a){return a},j),k=a9(a,DI),l=ch(function(a){return c(DJ)},k),m=hi(aY(e[2])),n=hi(aY(e[1])),p=d(DK);return[0,cJ(v(a,DL)),p,n,m,l]}if(o(b,DC))throw X}var
+g=d(DD),h=c(DE),i=c(DF);return[1,ax(b,DG),i,h,g]}function
 jQ(an){var
-g=dK(an),h=g[1];if(o(h,DF)){if(o(h,DG)){if(o(h,DH)){if(o(h,DI))return af([0,DK,[0,h,DJ]]);var
-w=u(ai(g[2]),DL),ab=0;if(2===w[0]){var
-K=o(w[1],DM);if(!K){var
+g=dM(an),h=g[1];if(o(h,DM)){if(o(h,DN)){if(o(h,DO)){if(o(h,DP))return af([0,DR,[0,h,DQ]]);var
+w=v(ai(g[2]),DS),ab=0;if(2===w[0]){var
+K=o(w[1],DT);if(!K){var
 J=K;ab=1}}if(!ab)var
-J=[0,ce(w)];return[6,J]}var
-L=ai(g[2]),j=jQ([0,[0,[0,DO,u(L,DN)],0]]);if(0===j[0]){var
+J=[0,b1(w)];return[6,J]}var
+L=ai(g[2]),j=jQ([0,[0,[0,DV,v(L,DU)],0]]);if(0===j[0]){var
 x=j[2];if(0===x[0]&&!j[3]){var
-ao=U(u(L,DQ));return[5,j[1],x[1],x[2],j[4],ao]}}return af(DP)}var
-a=ai(g[2]),y=a_(a,DR),z=y?Z(Dr,ae(y[1])):y,n=function(b){var
-a=0!==z?1:0;return a?af(DS):a},k=dK(u(a,DT)),b=dK(u(a,DU)),c=k[1];if(o(c,DV)&&o(c,DW)&&o(c,DX)){if(0===a_(a,DY)){if(o(c,DZ)){var
-ac=0;if(o(c,D0)){if(!o(c,D1)){var
-M=b[1],ad=0;if(o(M,D4)&&o(M,D5)){ac=1;ad=1}if(!ad){var
-A=ae(k[2]),ap=ae(u(a,D8)),N=Z(function(a){return ew(0,a)},ap);if(!aA(B_,A)&&!aA(function(a){var
+ao=V(v(L,DX));return[5,j[1],x[1],x[2],j[4],ao]}}return af(DW)}var
+a=ai(g[2]),y=a9(a,DY),z=y?Y(Dy,ad(y[1])):y,n=function(b){var
+a=0!==z?1:0;return a?af(DZ):a},k=dM(v(a,D0)),b=dM(v(a,D1)),c=k[1];if(o(c,D2)&&o(c,D3)&&o(c,D4)){if(0===a9(a,D5)){if(o(c,D6)){var
+ac=0;if(o(c,D7)){if(!o(c,D8)){var
+M=b[1],ae=0;if(o(M,D$)&&o(M,Ea)){ac=1;ae=1}if(!ae){var
+A=ad(k[2]),ap=ad(v(a,Ed)),N=Y(function(a){return ew(0,a)},ap);if(!aA(Cd,A)&&!aA(function(a){var
 b=13===a[1]?1:0,c=b||(16===a[1]?1:0);return c},N)){var
-as=Z(BU,A),f=ai(b[2]);if(o(b[1],Df))var
-H=di(U,u(f,Dg)),I=di(U,u(f,Dh)),aj=I[2],ak=I[1],al=U(u(f,Di)),O=[1,H[1],H[2],al,ak,aj];else
+as=Y(BZ,A),f=ai(b[2]);if(o(b[1],Dm))var
+H=dk(V,v(f,Dn)),I=dk(V,v(f,Do)),aj=I[2],ak=I[1],al=V(v(f,Dp)),O=[1,H[1],H[2],al,ak,aj];else
 var
-am=ft(U,u(f,Dj)),O=[0,ft(U,u(f,Dk)),am];return[0,as,O,z,N]}n(0);var
-aq=Z(jO,ae(u(a,D9))),ar=jP(b);return[1,0,Z(ph,A),0,ar,0,aq]}}}else
-if(!o(b[1],D_)){n(0);var
-P=Z(jO,ae(u(a,D$))),v=0,e=P;for(;;){if(e){var
+am=ft(V,v(f,Dq)),O=[0,ft(V,v(f,Dr)),am];return[0,as,O,z,N]}n(0);var
+aq=Y(jO,ad(v(a,Ee))),ar=jP(b);return[1,0,Y(pi,A),0,ar,0,aq]}}}else
+if(!o(b[1],Ef)){n(0);var
+P=Y(jO,ad(v(a,Eg))),u=0,e=P;for(;;){if(e){var
 F=e[2],G=e[1];if(0===G[1]){var
-v=[0,G,v],e=F;continue}var
+u=[0,G,u],e=F;continue}var
 e=F;continue}var
-m=kz(v),ag=0;if(m){var
+m=kz(u),ag=0;if(m){var
 d=0,Q=m[1][4];if(typeof
 Q==="number")d=1;else
 switch(Q[0]){case
@@ -8242,65 +8330,65 @@ C=m[2];if(C){var
 E=0,S=C[1][4];if(typeof
 S!=="number"&&0===S[0])if(C[2]){d=1;E=1}else
 E=1;if(!E)d=1}else
-d=1;break;default:d=1}if(!d)ag=1}if(!ag)af(Ea);var
-at=U(u(ai(b[2]),Eb));return[4,U(u(ai(k[2]),Ec)),at,P]}}if(!ac)return af([0,D3,[0,c,D2]])}else
-if(!o(b[1],Ed)){n(0);var
-p=ai(k[2]),T=ai(b[2]),V=function(c,a){var
-b=ae(a);return Z(function(d){var
-a=ae(d);if(a){var
+d=1;break;default:d=1}if(!d)ag=1}if(!ag)af(Eh);var
+at=V(v(ai(b[2]),Ei));return[4,V(v(ai(k[2]),Ej)),at,P]}}if(!ac)return af([0,D_,[0,c,D9]])}else
+if(!o(b[1],Ek)){n(0);var
+p=ai(k[2]),T=ai(b[2]),U=function(c,a){var
+b=ad(a);return Y(function(d){var
+a=ad(d);if(a){var
 b=a[2];if(b&&!b[2]){var
-e=i(c,b[1]);return[0,aX(a[1]),e]}}throw W},b)},au=function(d){var
+e=i(c,b[1]);return[0,aY(a[1]),e]}}throw X},b)},au=function(d){var
 a=ai(d);if(a){var
-b=a[1],c=b[1];if(o(c,Ee)){if(!o(c,Ef)&&!a[2])return[0,Z(jM,ae(b[2]))]}else
-if(!a[2])return[1,jM(b[2])]}throw W},av=Z(pk,ae(u(a,Eg))),aw=Z(U,ae(u(T,Eh))),ay=Z(U,ae(u(T,Ei))),az=Z(au,ae(u(p,Ej))),aB=V(jM,u(p,Ek)),aC=V(ce,u(p,El));return[3,Z(aX,ae(u(p,Em))),aC,aB,az,ay,aw,av]}return af([0,D7,[0,b[1],D6]])}throw W}var
-X=ai(k[2]),q=cH(U,a_(X,En)),aD=function(f){var
-a=dK(f),b=a[1];if(o(b,Eo)){if(o(b,Ep)){if(o(b,Eq)){if(o(b,Er))throw W;var
-d=a[2],g=U(u(ai(d),Es));return[3,U(u(ai(d),Et)),g]}var
-h=a[2],c=function(a){return di(U,u(ai(h),a))},i=c(Eu),j=c(Ev);return[1,c(Ew),j,i]}var
-e=di(U,a[2]);return[0,e[1],e[2]]}return[2,U(a[2])]},r=cH(aD,a_(a,Ex)),Y=o(c,Ey),_=Y?o(c,Ez)?2:1:Y,s=ae(u(X,EA));if(q&&r&&hM(pi,s)){var
+b=a[1],c=b[1];if(o(c,El)){if(!o(c,Em)&&!a[2])return[0,Y(jM,ad(b[2]))]}else
+if(!a[2])return[1,jM(b[2])]}throw X},av=Y(pl,ad(v(a,En))),aw=Y(V,ad(v(T,Eo))),ay=Y(V,ad(v(T,Ep))),az=Y(au,ad(v(p,Eq))),aB=U(jM,v(p,Er)),aC=U(b1,v(p,Es));return[3,Y(aY,ad(v(p,Et))),aC,aB,az,ay,aw,av]}return af([0,Ec,[0,b[1],Eb]])}throw X}var
+W=ai(k[2]),q=ch(V,a9(W,Eu)),aD=function(f){var
+a=dM(f),b=a[1];if(o(b,Ev)){if(o(b,Ew)){if(o(b,Ex)){if(o(b,Ey))throw X;var
+d=a[2],g=V(v(ai(d),Ez));return[3,V(v(ai(d),EA)),g]}var
+h=a[2],c=function(a){return dk(V,v(ai(h),a))},i=c(EB),j=c(EC);return[1,c(ED),j,i]}var
+e=dk(V,a[2]);return[0,e[1],e[2]]}return[2,V(a[2])]},r=ch(aD,a9(a,EE)),Z=o(c,EF),_=Z?o(c,EG)?2:1:Z,s=ad(v(W,EH));if(q&&r&&hN(pj,s)){var
 aE=function(c){var
 a=ai(c);function
-b(b){return Z(ce,ae(u(a,b)))}if(0!==a_(a,EB))af(EC);var
-d=b(ED);return[0,b(EE),d]},aF=Z(Dc,ae(u(a,EF))),aG=r[1],aH=jP(b),aI=q[1];return[2,_,Z(aE,s),aI,aH,aG,z,aF]}n(0);var
-ah=0;if(!q&&ax(c,EI)){var
+b(b){return Y(b1,ad(v(a,b)))}if(0!==a9(a,EI))af(EJ);var
+d=b(EK);return[0,b(EL),d]},aF=Y(Dj,ad(v(a,EM))),aG=r[1],aH=jP(b),aI=q[1];return[2,_,Y(aE,s),aI,aH,aG,z,aF]}n(0);var
+ah=0;if(!q&&ax(c,EP)){var
 $=1;ah=1}if(!ah)var
 $=[0,_];var
-aa=0!==r?1:0,aJ=aa?aA(pi,s):aa;if(aJ)af(EG);var
-aK=Z(jO,ae(u(a,EH))),aL=jP(b);return[1,$,Z(ph,s),q,aL,r,aK]}var
+aa=0!==r?1:0,aJ=aa?aA(pj,s):aa;if(aJ)af(EN);var
+aK=Y(jO,ad(v(a,EO))),aL=jP(b);return[1,$,Y(pi,s),q,aL,r,aK]}var
 t=ai(g[2]);function
 aM(b){var
-a=ai(b),c=U(u(a,EJ)),d=[0,U(u(a,EK)),c];return[0,aX(u(a,EL)),d]}var
-l=jQ([0,[0,[0,EN,u(t,EM)],0]]);if(0===l[0]&&!l[3]){var
-aN=U(u(t,EP)),aO=U(u(t,EQ)),aP=l[4],aQ=l[2],aR=l[1];return[7,Z(aM,ae(u(t,ER))),aR,aQ,aP,aO,aN]}return af(EO)}function
-fv(a){return Z(ev,ae(a))}function
-hh(c,b){var
-a=fv(b);if(cl(a)!==c)throw W;return a}function
-pl(a,d){var
-b=ai(d),e=ae(u(b,EU)),f=a[2],c=Z(function(a){return hh(f,a)},e),g=a[1];if(cl(c)!==g)throw W;return[0,c,dh(u(b,EV))]}function
-dj(au,i){var
+a=ai(b),c=V(v(a,EQ)),d=[0,V(v(a,ER)),c];return[0,aY(v(a,ES)),d]}var
+l=jQ([0,[0,[0,EU,v(t,ET)],0]]);if(0===l[0]&&!l[3]){var
+aN=V(v(t,EW)),aO=V(v(t,EX)),aP=l[4],aQ=l[2],aR=l[1];return[7,Y(aM,ad(v(t,EY))),aR,aQ,aP,aO,aN]}return af(EV)}function
+fv(a){return Y(ev,ad(a))}function
+hj(c,b){var
+a=fv(b);if(cn(a)!==c)throw X;return a}function
+pm(a,d){var
+b=ai(d),e=ad(v(b,E1)),f=a[2],c=Y(function(a){return hj(f,a)},e),g=a[1];if(cn(c)!==g)throw X;return[0,c,dj(v(b,E2))]}function
+dl(au,i){var
 as=0;if(0===i[0]){var
 q=i[1];if(q){var
-U=q[1];if(!o(U[1],EW)){var
+U=q[1];if(!o(U[1],E3)){var
 ah=U[2];if(0===ah[0]){var
 L=ah[1];if(L){var
-aj=L[1];if(!o(aj[1],Fi)){var
+aj=L[1];if(!o(aj[1],Fp)){var
 ak=aj[2];if(1===ak[0]){var
 M=ak[1];if(M){var
 al=M[1];if(1===al[0]){var
 am=al[1];if(am&&!am[2]&&!M[2]){var
 an=L[2];if(an&&!an[2]&&!q[2]){var
-f=Fj;as=1}}}}}}}}}}}if(!as)var
+f=Fq;as=1}}}}}}}}}}}if(!as)var
 f=au;var
 r=f[2];switch(i[0]){case
 0:var
 c=i[1];if(c){var
-e=c[1],a=e[1],V=rM(a,EX),b=0;if(0<=V)if(0<V)if(o(a,EY)){var
-g=0;if(o(a,EZ)&&o(a,E0)&&o(a,E1))if(o(a,E2))g=1;else{var
-X=e[2];if(1===X[0]){var
-s=X[1];if(s){var
+e=c[1],a=e[1],V=rN(a,E4),b=0;if(0<=V)if(0<V)if(o(a,E5)){var
+g=0;if(o(a,E6)&&o(a,E7)&&o(a,E8))if(o(a,E9))g=1;else{var
+W=e[2];if(1===W[0]){var
+s=W[1];if(s){var
 t=s[2];if(t){var
-v=t[2];if(v&&!v[2]){if(!c[2]){var
-av=Z(fv,ae(v[1])),aw=aX(t[1]);return[8,dj(f,s[1]),aw,av]}b=1;g=1}else
+u=t[2];if(u&&!u[2]){if(!c[2]){var
+av=Y(fv,ad(u[1])),aw=aY(t[1]);return[8,dl(f,s[1]),aw,av]}b=1;g=1}else
 g=1}else
 g=1}else
 g=1}else
@@ -8310,7 +8398,7 @@ _=e[2];if(1===_[0]){var
 y=_[1];if(y){var
 z=y[2];if(z){var
 A=z[2];if(A&&!A[2]){if(!c[2]){var
-ay=dh(A[1]),az=ev(z[1]);return[5,dj(f,y[1]),az,ay]}b=1}}}}}else{var
+ay=dj(A[1]),az=ev(z[1]);return[5,dl(f,y[1]),az,ay]}b=1}}}}}else{var
 $=e[2];if(1===$[0]){if(!c[2]){var
 aA=function(m){if(1===m[0]){var
 d=m[1];if(d){var
@@ -8321,104 +8409,104 @@ n=h[1],a=n;for(;;){var
 i=0;switch(a[0]){case
 0:var
 b=a[1];if(b){var
-j=b[1],c=j[1];if(o(c,E5)){var
-p=0;if(o(c,E6)&&o(c,E7)&&o(c,E8))p=1;if(!p&&!b[2])i=1}else{var
+j=b[1],c=j[1];if(o(c,Fa)){var
+p=0;if(o(c,Fb)&&o(c,Fc)&&o(c,Fd))p=1;if(!p&&!b[2])i=1}else{var
 k=j[2];if(1===k[0]){var
 l=k[1];if(l&&!b[2]){var
 a=l[1];continue}}}}break;case
-2:if(!o(a[1],E9))i=1;break}var
+2:if(!o(a[1],Fe))i=1;break}var
 q=i?1:0;if(q){var
-r=dj(f,n),s=dh(g[1]),t=ev(e[1]);return[0,[0,[0,fv(d[1]),t],s],r]}return af(E_)}}}}}}throw W};return[9,Z(aA,$[1])]}b=1}}else
-if(o(a,E$))if(o(a,Fa))if(o(a,Fb))if(o(a,Fc))if(o(a,Fd)){if(!o(a,Fe)){if(!c[2]){var
-aa=ai(e[2]),aB=ae(u(aa,Ff)),aC=r+1|0,ab=Z(function(a){return hh(aC,a)},aB);if(3===cl(ab))return[1,Fh,ab,dh(u(aa,Fg))];throw W}b=1}}else{if(!c[2]){var
-R=aX(e[2]),S=o(R,ES);if(S){if(o(R,ET))throw W;var
+r=dl(f,n),s=dj(g[1]),t=ev(e[1]);return[0,[0,[0,fv(d[1]),t],s],r]}return af(Ff)}}}}}}throw X};return[9,Y(aA,$[1])]}b=1}}else
+if(o(a,Fg))if(o(a,Fh))if(o(a,Fi))if(o(a,Fj))if(o(a,Fk)){if(!o(a,Fl)){if(!c[2]){var
+aa=ai(e[2]),aB=ad(v(aa,Fm)),aC=r+1|0,ab=Y(function(a){return hj(aC,a)},aB);if(3===cn(ab))return[1,Fo,ab,dj(v(aa,Fn))];throw X}b=1}}else{if(!c[2]){var
+R=aY(e[2]),S=o(R,EZ);if(S){if(o(R,E0))throw X;var
 T=1}else
 var
 T=S;return[2,T]}b=1}else{if(!c[2]){var
 k=e[2],p=0;switch(k[0]){case
 0:var
 l=k[1];if(l){var
-ao=l[1],j=ao[1],d=0;if(o(j,Fk)&&o(j,Fl)&&o(j,Fm)&&o(j,Fn))if(o(j,Fo))d=1;else{var
+ao=l[1],j=ao[1],d=0;if(o(j,Fr)&&o(j,Fs)&&o(j,Ft)&&o(j,Fu))if(o(j,Fv))d=1;else{var
 ap=ao[2];if(1===ap[0]){var
 N=ap[1];if(N){var
 m=N[1],h=0;switch(m[0]){case
 0:var
 O=m[1];if(O){var
-n=O[1][1],at=0;if(o(n,Fq)&&o(n,Fr)&&o(n,Fs)&&o(n,Ft)){d=1;h=1;at=1}if(!at&&O[2]){d=1;h=1}}else{d=1;h=1}break;case
+n=O[1][1],at=0;if(o(n,Fx)&&o(n,Fy)&&o(n,Fz)&&o(n,FA)){d=1;h=1;at=1}if(!at&&O[2]){d=1;h=1}}else{d=1;h=1}break;case
 2:var
-aq=m[1];if(o(aq,Fu)&&o(aq,Fv)){d=1;h=1}break;default:d=1;h=1}if(!h){var
+aq=m[1];if(o(aq,FB)&&o(aq,FC)){d=1;h=1}break;default:d=1;h=1}if(!h){var
 P=N[2];if(P){var
 Q=P[2];if(Q&&!(Q[2]||l[2])){var
-aL=dh(Q[1]),aM=ev(P[1]),B=[6,dj(f,m),aM,aL];p=2;d=1}else
+aL=dj(Q[1]),aM=ev(P[1]),B=[6,dl(f,m),aM,aL];p=2;d=1}else
 d=1}else
 d=1}}else
 d=1}else
 d=1}if(!d&&!l[2])p=1}break;case
 2:var
-ar=k[1];if(!o(ar,Fw)||!o(ar,Fx))p=1;break}switch(p){case
+ar=k[1];if(!o(ar,FD)||!o(ar,FE))p=1;break}switch(p){case
 0:var
-B=af(Fp);break;case
+B=af(Fw);break;case
 1:var
-B=dj(f,k);break}return[7,B]}b=1}else{var
+B=dl(f,k);break}return[7,B]}b=1}else{var
 ac=e[2];if(1===ac[0]){var
 C=ac[1];if(C){var
 D=C[2];if(D&&!D[2])if(c[2])b=1;else{var
-aD=D[1],aE=C[1],x=aE,w=function(b,a){return[3,b,a,hh(r+1|0,aD)]};b=2}}}}else{var
-ad=e[2];if(1===ad[0]){var
-E=ad[1];if(E){var
+aD=D[1],aE=C[1],x=aE,w=function(b,a){return[3,b,a,hj(r+1|0,aD)]};b=2}}}}else{var
+ae=e[2];if(1===ae[0]){var
+E=ae[1];if(E){var
 F=E[2];if(F){var
 G=F[2];if(G){var
 H=G[2];if(H&&!H[2]){if(!c[2]){var
-aF=dj(f,H[1]),aG=dj(f,G[1]),aH=dh(F[1]);return[10,hh(r+1|0,E[1]),aH,aG,aF]}b=1}}}}}}else{var
+aF=dl(f,H[1]),aG=dl(f,G[1]),aH=dj(F[1]);return[10,hj(r+1|0,E[1]),aH,aG,aF]}b=1}}}}}}else{var
 ag=e[2];if(1===ag[0]){var
 I=ag[1];if(I){var
 J=I[2];if(J){var
 K=J[2];if(K&&!K[2])if(c[2])b=1;else{var
 aI=K[1],aJ=J[1],aK=I[1],x=aK,w=function(b,a){var
-c=dh(aI);return[4,b,a,ev(aJ),c]};b=2}}}}}switch(b){case
-0:if(!c[2])return af([0,E4,[0,a,E3]]);break;case
+c=dj(aI);return[4,b,a,ev(aJ),c]};b=2}}}}}switch(b){case
+0:if(!c[2])return af([0,E$,[0,a,E_]]);break;case
 1:break;default:var
-Y=pl(f,x);return w(Y[1],Y[2])}}break;case
-2:return[0,i[1]]}throw W}function
-pm(n){var
-b=dK(n),a=b[1];if(o(a,FA))if(o(a,FB)){var
-h=o(a,FC);if(!h)return h;if(o(a,FD)){if(!o(a,FE)){var
-c=ai(b[2]),i=function(a){return Z(U,ae(u(c,a)))},j=ai(u(c,FI)),p=dh(u(j,FJ)),q=Z(fv,ae(u(j,FK))),r=i(FL),s=i(FM);return[3,cI(u(c,FN)),s,r,q,p]}if(!o(a,FF))return[2,Z(U,ae(b[2]))]}else{var
+Z=pm(f,x);return w(Z[1],Z[2])}}break;case
+2:return[0,i[1]]}throw X}function
+pn(n){var
+b=dM(n),a=b[1];if(o(a,FH))if(o(a,FI)){var
+h=o(a,FJ);if(!h)return h;if(o(a,FK)){if(!o(a,FL)){var
+c=ai(b[2]),i=function(a){return Y(V,ad(v(c,a)))},j=ai(v(c,FP)),p=dj(v(j,FQ)),q=Y(fv,ad(v(j,FR))),r=i(FS),s=i(FT);return[3,cJ(v(c,FU)),s,r,q,p]}if(!o(a,FM))return[2,Y(V,ad(b[2]))]}else{var
 k=b[2];if(1===k[0]){var
 d=k[1];if(d){var
 e=d[2];if(e&&!e[2]){var
-t=cI(e[1]);return[1,cI(d[1]),t]}}}}}else{var
+t=cJ(e[1]);return[1,cJ(d[1]),t]}}}}}else{var
 l=b[2];if(1===l[0]){var
 f=l[1];if(f){var
 g=f[2];if(g&&!g[2]){var
-v=Z(fv,ae(g[1]));return[0,cI(f[1]),v]}}}}else{var
-m=b[2];if(1===m[0]&&!m[1])return 1}return af([0,FH,[0,a,FG]])}function
-pn(f,b){var
-a=ai(b),c=ae(u(a,FS)),d=Z(function(g){var
+u=Y(fv,ad(g[1]));return[0,cJ(f[1]),u]}}}}else{var
+m=b[2];if(1===m[0]&&!m[1])return 1}return af([0,FO,[0,a,FN]])}function
+po(f,b){var
+a=ai(b),c=ad(v(a,FZ)),d=Y(function(g){var
 a=ai(g);function
 b(d,c){var
-b=a_(a,c);return b?Z(d,ae(b[1])):b}var
-c=b(ev,FO),d=cH(pm,a_(a,FP)),e=cH(cI,a_(a,FQ));return[0,b(function(h){var
-b=ae(h);if(b){var
+b=a9(a,c);return b?Y(d,ad(b[1])):b}var
+c=b(ev,FV),d=ch(pn,a9(a,FW)),e=ch(cJ,a9(a,FX));return[0,b(function(h){var
+b=ad(h);if(b){var
 a=b[2];if(a){var
-c=a[1],e=b[1],d=0;if(2===c[0]&&!o(c[1],Fy)){if(!a[2]){if(o(fs(e),Fz))throw W;d=1}}else
+c=a[1],e=b[1],d=0;if(2===c[0]&&!o(c[1],FF)){if(!a[2]){if(o(fs(e),FG))throw X;d=1}}else
 d=1;if(d&&!a[2]){var
-g=dj(f,c);return[0,cI(e),g]}}}throw W},FR),e,d,c]},c),e=a_(a,FT),g=cH(function(a){return pl(f,a)},e);return[0,pe(u(a,FU)),g,d]}function
-po(c){var
-a=ai(c),b=a_(a,FV),d=b?Z(U,ae(b[1])):b,e=pm(u(a,FW)),f=Z(U,ae(u(a,FX)));return[0,pe(u(a,FY)),f,d,e]}function
-F8(c){var
+g=dl(f,c);return[0,cJ(e),g]}}}throw X},FY),e,d,c]},c),e=a9(a,F0),g=ch(function(a){return pm(f,a)},e);return[0,pf(v(a,F1)),g,d]}function
+pp(c){var
+a=ai(c),b=a9(a,F2),d=b?Y(V,ad(b[1])):b,e=pn(v(a,F3)),f=Y(V,ad(v(a,F4)));return[0,pf(v(a,F5)),f,d,e]}function
+Gd(c){var
 a=c[1],b=0;if(10<=a){if(!(13<=a))b=1}else
 if(8===a)b=1;return b?1:0}function
-F9(b){var
+Ge(b){var
 a=b[3];if(a&&1===a[1][0])return 1;return 0}function
-F_(b){var
-c=b[1],a=b[4];if(!(1<c+qi>>>0)&&typeof
-a!=="number"&&1===a[0])return 1-gN(j(a[1]));return 10===c?1:0}function
-Gc(k){var
+Gf(b){var
+c=b[1],a=b[4];if(!(1<c+qj>>>0)&&typeof
+a!=="number"&&1===a[0])return 1-gP(j(a[1]));return 10===c?1:0}function
+Gj(k){var
 n=au(k),c=[0,0];function
-p(a){if(c[1]<n)return a1(k,c[1]);throw W}function
-q(a){if(p(0)===a){c[1]++;return 0}throw W}function
-L(a,b){for(;;){if(c[1]<n&&i(b,a1(k,c[1]))){c[1]++;continue}return dT(k,a,c[1]-a|0)}}function
+p(a){if(c[1]<n)return a2(k,c[1]);throw X}function
+q(a){if(p(0)===a){c[1]++;return 0}throw X}function
+L(a,b){for(;;){if(c[1]<n&&i(b,a2(k,c[1]))){c[1]++;continue}return dU(k,a,c[1]-a|0)}}function
 M(d){q(34);function
 a(a){var
 b=34!==a?1:0;if(b)var
@@ -8430,49 +8518,49 @@ N(e,a){if(p(0)===a){c[1]++;return 0}var
 b=0;for(;;){var
 d=[0,i(e,0),b];if(44===p(0)){c[1]++;var
 b=d;continue}q(a);return kz(d)}}function
-y(b,i){if(64<b)throw W;var
+y(b,i){if(64<b)throw X;var
 a=p(0),d=0;if(48<=a){if(91===a){c[1]++;var
 e=93,f=b+1|0;return[1,N(function(a){return y(f,a)},e)]}if(123===a){c[1]++;var
 g=125;return[0,N(function(c){var
 a=M(0);q(58);return[0,a,y(b+1|0,0)]},g)]}if(!(58<=a))d=1}else{if(34===a)return[2,M(0)];if(45===a)d=1}if(d){var
 h=c[1];c[1]++;return[3,L(h,function(a){var
-b=48<=a?1:0,c=b?a<=57?1:0:b;return c})]}throw W}var
-ar=y(0,0),O=c[1]<n?1:0,as=O?10===a1(k,c[1])?1:0:O;if(as)c[1]++;if(c[1]<n)throw W;var
-v=ai(ar);if(o(aX(u(v,Gd)),Ge))throw W;var
-a=jQ(u(v,Gf)),H=0;switch(a[0]){case
+b=48<=a?1:0,c=b?a<=57?1:0:b;return c})]}throw X}var
+ar=y(0,0),O=c[1]<n?1:0,as=O?10===a2(k,c[1])?1:0:O;if(as)c[1]++;if(c[1]<n)throw X;var
+u=ai(ar);if(o(aY(v(u,Gk)),Gl))throw X;var
+a=jQ(v(u,Gm)),H=0;switch(a[0]){case
 1:var
 E=a[1],I=0;if(typeof
 E==="number")if(E)var
-G=2;else
+F=2;else
 I=1;else
 if(1===E[1])var
-G=6;else
+F=6;else
 I=1;if(I)var
-G=3;var
-j=[0,cl(a[2]),G];break;case
+F=3;var
+j=[0,cn(a[2]),F];break;case
 2:var
-aI=1===a[1]?6:3,j=[0,cl(a[2]),aI];break;case
+aI=1===a[1]?6:3,j=[0,cn(a[2]),aI];break;case
 3:var
-aJ=cl(a[1]),j=[0,cl(a[4]),aJ];break;case
+aJ=cn(a[1]),j=[0,cn(a[4]),aJ];break;case
 7:var
 P=a[2];H=1;break;case
 0:case
 5:var
 P=a[1];H=1;break;default:var
-j=GE}if(H)var
-j=[0,cl(P),3];var
-r=dK(u(v,Gg)),s=r[1];if(o(s,F3))if(o(s,F4))if(o(s,F5))var
-b=af([0,F7,[0,s,F6]]);else
+j=GL}if(H)var
+j=[0,cn(P),3];var
+r=dM(v(u,Gn)),s=r[1];if(o(s,F_))if(o(s,F$))if(o(s,Ga))var
+b=af([0,Gc,[0,s,Gb]]);else
 var
-t=po(r[2]),b=[1,t[1],t[2],t[3],t[4]];else
+t=pp(r[2]),b=[1,t[1],t[2],t[3],t[4]];else
 var
-z=pn(j,r[2]),b=[0,z[1],z[2],z[3]];else
+z=po(j,r[2]),b=[0,z[1],z[2],z[3]];else
 var
-at=ae(r[2]),b=[2,Z(function(f){var
-a=dK(f),b=a[1];if(o(b,FZ)){if(o(b,F0)){if(o(b,F1)){var
-e=o(b,F2);if(e)throw W;return e}return[0,cI(a[2])]}var
-c=po(a[2]);return[2,c[1],c[2],c[3],c[4]]}var
-d=pn(j,a[2]);return[1,d[1],d[2],d[3]]},at)];function
+at=ad(r[2]),b=[2,Y(function(f){var
+a=dM(f),b=a[1];if(o(b,F6)){if(o(b,F7)){if(o(b,F8)){var
+e=o(b,F9);if(e)throw X;return e}return[0,cJ(a[2])]}var
+c=pp(a[2]);return[2,c[1],c[2],c[3],c[4]]}var
+d=po(j,a[2]);return[1,d[1],d[2],d[3]]},at)];function
 av(a){var
 b=a[1];return aA(function(a){return 7<a[2][0]?1:0},b)}function
 aw(a){return 0!==a[3]?1:0}function
@@ -8487,19 +8575,21 @@ T=a[4],S=a[1];d=6;break;case
 V=b[4];d=typeof
 V==="number"||!(3===V[0])?1:5;break;default:d=2}break;case
 1:var
-ad=0;if(0===b[0]){var
+ae=0;if(0===b[0]){var
 aB=b[3];if(aA(function(a){var
 b=a[1];return aA(function(a){switch(a[2][0]){case
 6:case
-7:return 1;default:return 0}},b)},aB)){af(Gu);ad=1}}if(!ad){var
+7:return 1;default:return 0}},b)},aB)){af(GB);ae=1}}if(!ae){var
 aC=a[6];if(aA(function(a){return 5===a[1]?1:0},aC)){var
-aD=a[2];if(aA(function(a){return 1===a[0]?1:0},aD))af(Gv);else
+aD=a[2];if(aA(function(a){switch(a[0]){case
+0:case
+3:return 0;default:return 1}},aD))af(GC);else
 d=1}else
 d=1}break;case
 2:var
 _=a[7],C=a[1];switch(b[0]){case
 0:var
-aE=1===C?6:3,$=cl(a[2])===aE?1:0;if($){var
+aE=1===C?6:3,$=cn(a[2])===aE?1:0;if($){var
 ag=0;if(2<=C||!(0===a[4][0]))ag=1;else
 var
 D=1;if(ag)var
@@ -8511,30 +8601,30 @@ g=0;if(!b[1]){var
 d=b[2];if(8===d[0]){var
 e=d[1];if(7===e[0]){var
 c=e[1],a=0;switch(c[0]){case
-1:if(o(c[1],Gw))a=1;break;case
+1:if(o(c[1],GD))a=1;break;case
 6:var
-f=c[1];if(1!==f[0]||o(f[1],Gx))a=1;break;default:a=1}if(!a)return 1-D}}else
-g=1}if(!g&&8===b[2][0])return 1;return 0},aG=b[3],aK=0;if(aA(function(a){return aA(aF,a[1])},aG))af(Gy);else{var
+f=c[1];if(1!==f[0]||o(f[1],GE))a=1;break;default:a=1}if(!a)return 1-D}}else
+g=1}if(!g&&8===b[2][0])return 1;return 0},aG=b[3],aK=0;if(aA(function(a){return aA(aF,a[1])},aG))af(GF);else{var
 ah=0;if(aA(function(a){return 11===a[1]?1:0},_)){var
 aj=0;if(1===C&&2===a[5][0]){var
 aa=0;aj=1}if(!aj)var
-aa=1;if(aa){af(Gz);ah=1}}if(!ah){var
-aH=b[3];if(hM(function(a){var
-b=a[1];return hM(function(d){var
+aa=1;if(aa){af(GG);ah=1}}if(!ah){var
+aH=b[3];if(hN(function(a){var
+b=a[1];return hN(function(d){var
 b=d[2],a=0;switch(b[0]){case
 0:var
-c=b[1];if(o(c,F$)){if(!o(c,Ga))return aA(F_,_)}else
+c=b[1];if(o(c,Gg)){if(!o(c,Gh))return aA(Gf,_)}else
 a=1;break;case
-1:if(!o(b[1],Gb))a=1;break;case
+1:if(!o(b[1],Gi))a=1;break;case
 7:case
 8:a=1;break}return a?1:0},b)},aH)){d=3;aK=1}else
-af(GA)}}break;case
+af(GH)}}break;case
 1:var
 ak=0,ab=b[4];if(typeof
 ab==="number"||!(1<ab[0]))ak=1;else
 d=5;if(ak)d=1;break;default:d=2}break;case
 3:switch(b[0]){case
-0:if(aA(av,b[3]))af(GB);else
+0:if(aA(av,b[3]))af(GI);else
 d=3;break;case
 2:d=2;break;default:d=1}break;case
 7:switch(b[0]){case
@@ -8542,15 +8632,15 @@ d=3;break;case
 ac=b[1],al=0;if(aA(function(a){if(typeof
 a!=="number"&&2===a[0]){var
 b=a[4];if(typeof
-b!=="number"&&3===b[0])return 1}return 0},ac)){af(GC);al=1}else
+b!=="number"&&3===b[0])return 1}return 0},ac)){af(GJ);al=1}else
 if(aA(function(a){if(typeof
-a!=="number"&&2===a[0])return R(a[4]);return 0},ac)){af(GD);al=1}else
+a!=="number"&&2===a[0])return R(a[4]);return 0},ac)){af(GK);al=1}else
 d=4;break;case
 1:d=1;break;default:d=4}break;default:d=1}var
 h=0;switch(d){case
 1:if(1===b[0]){var
-am=0,Y=b[4];if(typeof
-Y!=="number"&&3===Y[0]){af(Gt);am=1}if(!am)if(R(b[4]))af(Gs);else
+am=0,Z=b[4];if(typeof
+Z!=="number"&&3===Z[0]){af(GA);am=1}if(!am)if(R(b[4]))af(Gz);else
 h=3}else
 h=3;break;case
 4:h=3;break;case
@@ -8562,17 +8652,17 @@ e=0;switch(h){case
 3:var
 f=0;switch(a[0]){case
 1:var
-X=a[6];break;case
+W=a[6];break;case
 4:var
-X=a[3];break;case
-5:if(aA(F8,a[4])){af(Gq);e=2;f=1}else
+W=a[3];break;case
+5:if(aA(Gd,a[4])){af(Gx);e=2;f=1}else
 if(0===b[0]){var
-az=b[3];if(aA(function(a){return 0!==a[1]?1:0},az)){af(Gr);e=2;f=1}else
+az=b[3];if(aA(function(a){return 0!==a[1]?1:0},az)){af(Gy);e=2;f=1}else
 f=1}else
 f=1;break;case
 6:f=1;break;case
 7:var
-T=a[4],S=a[2];e=3;f=1;break;default:e=1;f=1}if(!f)if(0===b[0]){if(aA(function(a){return 11===a[1]?1:0},X)){af(Gp);e=2}}else
+T=a[4],S=a[2];e=3;f=1;break;default:e=1;f=1}if(!f)if(0===b[0]){if(aA(function(a){return 11===a[1]?1:0},W)){af(Gw);e=2}}else
 e=1;break;case
 0:e=2;break;case
 4:e=3;break;case
@@ -8580,48 +8670,48 @@ e=1;break;case
 w=0;switch(e){case
 2:break;case
 3:var
-an=0;if(aA(function(a){return 10===a[1]?1:0},T)&&aA(function(a){return 2===a[0]?1:0},S)){af(Gh);an=1}if(!an)w=2;break;case
+an=0;if(aA(function(a){return 10===a[1]?1:0},T)&&aA(function(a){return 2===a[0]?1:0},S)){af(Go);an=1}if(!an)w=2;break;case
 0:w=2;break;default:w=1}var
 J=0;switch(w){case
 2:var
 l=0;switch(a[0]){case
 5:case
-7:if(aA(F9,a[4])){af(Gn);l=1}else
+7:if(aA(Ge,a[4])){af(Gu);l=1}else
 if(7===a[0])switch(b[0]){case
 2:var
 ay=function(a){if(typeof
-a!=="number"&&1===a[0])return Q(a[3]);return 0};if(aA(ay,b[1]))af(Go);l=1;break;case
+a!=="number"&&1===a[0])return Q(a[3]);return 0};if(aA(ay,b[1]))af(Gv);l=1;break;case
 0:break;default:J=1;l=1}else
-l=1;break}if(!l)if(0===b[0]&&Q(b[3]))af(Gm);else
+l=1;break}if(!l)if(0===b[0]&&Q(b[3]))af(Gt);else
 J=1;break;case
 1:J=1;break}var
-U=ai(u(v,Gi)),ax=aX(u(U,Gj)),A=[0,a,b,aX(u(U,Gk)),ax],x=A[1];if(7===x[0]){var
+U=ai(v(u,Gp)),ax=aY(v(U,Gq)),A=[0,a,b,aY(v(U,Gr)),ax],x=A[1];if(7===x[0]){var
 K=A[2],ao=x[4],ap=x[2];if(2===K[0])var
 aq=K[1],B=m(function(a){if(typeof
 a!=="number"&&2===a[0]){var
 b=a[4];if(typeof
 b!=="number"&&0===b[0]){var
-e=b[1],c=F(ox(g(ap),0,ao),e);if(c){var
+e=b[1],c=G(oy(g(ap),0,ao),e);if(c){var
 d=c[1];if(typeof
 d!=="number"&&14===d[0])return 0;return 1}return 1}return 1}return 1},aq);else
 var
 B=1}else
 var
-B=1;return B?A:af(Gl)}function
-GF(b){var
-c=au(b),g=64,h=Ig(64,c)?g:c,a=0,i=h-18|0;for(;;){var
+B=1;return B?A:af(Gs)}function
+GM(b){var
+c=au(b),g=64,h=In(64,c)?g:c,a=0,i=h-18|0;for(;;){var
 d=a<=i?1:0;if(d){var
-e=ax(dT(b,a,18),GG);if(!e){var
+e=ax(dU(b,a,18),GN);if(!e){var
 a=a+1|0;continue}var
 f=e}else
 var
-f=d;return f}}IB(function(b){try{if(GF(b))var
-a=GI;else{try{var
-e=0,d=Gc(b);e=1}catch(a){a=rO(a);if(a[1]===pd)var
-c=[0,a[2]];else{if(a!==W)throw a;var
+f=d;return f}}II(function(b){try{if(GM(b))var
+a=GP;else{try{var
+e=0,d=Gj(b);e=1}catch(a){a=rP(a);if(a[1]===pe)var
+c=[0,a[2]];else{if(a!==X)throw a;var
 c=2}}if(e)var
-c=BF(b,d)?1===d[2][0]?1:0:2;var
-a=c}}catch(a){return GH}if(typeof
+c=BK(b,d)?1===d[2][0]?1:0:2;var
+a=c}}catch(a){return GO}if(typeof
 a==="number")switch(a){case
-0:return GJ;case
-1:return GK;default:return GL}return ba(GM,a[1])});ky(0);return}(globalThis));
+0:return GQ;case
+1:return GR;default:return GS}return a$(GT,a[1])});ky(0);return}(globalThis));

@@ -398,14 +398,11 @@ fn leg(leg: &Leg, shape: Shape) -> Exported<String> {
             &shape.constructor("Slider"),
             [v(direction)?, v(anchor)?, v(platform)?, quantity(length), sign(mode)],
         ),
-        (Leg::Strut { anchor, platform, base_axis }, Shape::Three) => {
+        (Leg::Strut { anchor, platform, base_axis }, shape) => {
             let axis = optional(base_axis.as_deref().map(v).transpose()?);
-            apply("Strut_", [v(anchor)?, v(platform)?, axis])
+            apply(&shape.constructor("Strut"), [v(anchor)?, v(platform)?, axis])
         }
-        (Leg::Strut { anchor, platform, base_axis: None }, Shape::Any) => {
-            apply("AnyStrut_", [v(anchor)?, v(platform)?])
-        }
-        (Leg::Planar { direction }, Shape::Three) => apply("Planar_", [v(direction)?]),
+        (Leg::Planar { direction }, shape) => apply(&shape.constructor("Planar"), [v(direction)?]),
         (Leg::Arm { axis, reference, anchor, platform, arm, length, mode }, _) => apply(
             "AnyArm_",
             [
@@ -418,8 +415,6 @@ fn leg(leg: &Leg, shape: Shape) -> Exported<String> {
                 sign(mode),
             ],
         ),
-        (Leg::Strut { .. }, _) => return not_covered("the drive \"strut\" of such a machine"),
-        (Leg::Planar { .. }, _) => return not_covered("the drive \"planar\" of such a machine"),
     })
 }
 

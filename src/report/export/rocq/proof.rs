@@ -71,9 +71,12 @@ fn covered(proof: &Proof, subject: &Subject<'_>) -> Exported<()> {
         }
         (Kind::Legs, _)
             if requires(&["parallel_margin"])
-                && subject.legs.iter().any(|leg| matches!(leg, Leg::Strut { .. })) =>
+                && subject
+                    .legs
+                    .iter()
+                    .any(|l| matches!(l, Leg::Strut { .. } | Leg::Planar { .. })) =>
         {
-            "\"parallel_margin\" of struts in the plane"
+            "\"parallel_margin\" of struts in such a claim"
         }
         (Kind::Turning, _) if is_one_to_one && !subject.is_about_any_axis => {
             "\"one_to_one\" of this set of orientations"
