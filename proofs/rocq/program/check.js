@@ -437,6 +437,8 @@ let by_parts = 0, no_parts = 0;
     ].map(with_), `between, ${name}`);
     refused([steps_of(text, (e) => is_conditioned(e) ? one_part(e) : e), steps_of(text, (e) => is_conditioned(e) ? one_part(halves(e)) : e)], `fan about conditioning, ${name}`);
   }
+  const signed = three_answers(conditions.replace(/"by":\[\[\d+/, '"by":[[-'));
+  if (signed.some((answer) => answer !== "REJECTED")) fail(`a sign alone: ${signed}`);
   const bounded = design_of("linear-delta-klipper-cylinder", 'transmission = { min = "0.3", max = 9 }\nstiffness = { joint = 3, min = "0.001" }');
   const is_of_form = (e) => e === "test" || e.lower || e.rank || e.inside?.[0].lower || e.inside?.[0] === "test" || e.inside?.[0].rank;
   for (const [i, part] of [one_part, two_parts(1, 12)].entries()) {

@@ -38,7 +38,7 @@ let parse text =
     | '-' | '0' .. '9' ->
       let from = !at in
       incr at;
-      Integer (span from (fun c -> c >= '0' && c <= '9'))
+      (match span from (fun c -> c >= '0' && c <= '9') with "-" -> raise Malformed | s -> Integer s)
     | _ -> raise Malformed in
   let v = value 0 () in
   if !at < n && text.[!at] = '\n' then incr at;

@@ -4,7 +4,7 @@ globalThis!=="object"&&(this?b():(a.defineProperty(a.prototype,"_T_",{configurab
 b(){var
 b=this||self;b.globalThis=b;delete
 a.prototype._T_}}(Object));(function(O){"use strict";var
-j4="spatial",rk="Invalid_argument",hw="precision",aN='"',j3=1255,ke="inside",qg="(",qh=0x800,rj="yaw",qd="range",qe="tree",qf="jsError",ci=0x8000,ri="sqrt(",qc=256,hv="obligation",rh="load",fK="offset",bp="machine",qb="End_of_file",eF="strut",j2="center",fJ="arm",j1="Failure",rg="serial_margin",hD="parameters",cM=0xff,rf="bodies",re="max_angle",kd="outside",fI="base_axis",j0="ENOENT",rd="singular",rc=122,qa="([^/]+)",rb="0",jZ=0xf,fH=128,p$=0xdc00,q$="Sys_blocked_io",ra="fd ",fz="given",p_="ENOTEMPTY",a1=248,hu="bound",p9="Division_by_zero",q9="by",q_=1027,p8="Sys_error",hC="slider",p7="torsion",q8="postulate",p6="proof",kc="joint_error",fG="refuted",ez="mechanism",ht="row",p5="EEXIST",q7="roll_pitch_yaw",fF="y",p4="cube",dm="lower",q6="within",p3="clearance",q5="turned",p2="control",hs="int_of_string",p1="between",q3="definitions",q4="dependent",fE=1024,pZ="from",p0="name",q2=" : flags Open_rdonly and Open_wronly are not compatible",pY="orthocert/2",q1="reach",pX=512,qZ="base_joint",q0="witness",fD="-",bi="platform",pW=0x7ff0,pV="pitch",kb=": Not a directory",bF="min",qX="trim",eE="workspace",qY=" : file already exists",hr="split",qV='the failure "singular" of such a mechanism',ka="legs",qW="claim",jY="joint",dP=0xffffff,pU="platform_joint",pT="formulas",pS="roll",hq="atlas",qS="greatest",qT="nodes",qU="Out_of_memory",pR="psi_max",hB="orientation",hp=254,qR="angle",j$="index out of bounds",pQ="end",qQ="one_to_one",hA="_bigarr02",pP=" : flags Open_text and Open_binary are not compatible",qP="inverse",bE="drive",pO="coordinates",qO="holds",pN="lower_divided",pM="speed",qM="cylinder",qN="joints",cL=0xffff,qI="a leaf that fails",qJ="acceleration",qK="force",fB="certified",fC="chords",qL=12520,jX="on",qH="same",ey="accuracy",fA="axis",qG="no_cube",qF="parallel_margin",pL='the drive "',jW="Unix.Unix_error",hz="fails",ho="tool",jV="mkdir",qD="rho",qE="least",hy=1000,jU="translational",j_="tolerances",pK="Stack_overflow",j9="characteristic_length",ae="",j8="^",hm="places",hn=": No such file or directory",pJ="/static/",eD=0x3f,pH="stiffness",pI="Not_found",cK="planar",fy="mode",qC="joint_speed",qB="Match_failure",pG="transmission",bD="anchor",qA="at",pF="joint_force",eC="leg",pE="joint_acceleration",hx="+",jT="rmdir",qz=0xf0,qy="spherical",pD=1026,qw="REJECTED",qx="undecided",bH="max",bG="direction",pB="leg_angle",pC="orthoglide",eB="rank",qu="constraint_margin",qv="fan",fx="test",pz="Pervasives.do_at_exit",pA="utf8",b2=0x80,eA="conditioning",ex="length",py="Undefined_recursive_module",j7=")",px="base",qt="quantity",pw="joint_range",hl="tilt",pv="Q2",qs='the failure "same" of such a mechanism',qr="reference",pt="this quantity in a claim that is refuted",pu="point",qp="corner",qq=0xe0,ps="version",j6="z",qn="to",qo=0xdfff,jS="compare: functional value",qm="Assert_failure",b4="/",ql="provenance",dO="radius",hk="side",qj=-14,b3="require",qk="format",pr="Q1",j5="ENOTDIR",pq="all",dN="box",qi=250;function
+j4="spatial",rk="Invalid_argument",hw="precision",aN='"',j3=1255,ke="inside",qg="(",qh=0x800,rj="yaw",qd="range",qe="tree",qf="jsError",ci=0x8000,ri="sqrt(",qc=256,hv="obligation",rh="load",fK="offset",bp="machine",qb="End_of_file",eG="strut",j2="center",fJ="arm",j1="Failure",rg="serial_margin",hD="parameters",cM=0xff,rf="bodies",re="max_angle",kd="outside",fI="base_axis",j0="ENOENT",rd="singular",rc=122,qa="([^/]+)",rb="0",jZ=0xf,fH=128,p$=0xdc00,q$="Sys_blocked_io",ra="fd ",fA="given",p_="ENOTEMPTY",a1=248,hu="bound",p9="Division_by_zero",q9="by",q_=1027,p8="Sys_error",hC="slider",p7="torsion",q8="postulate",p6="proof",kc="joint_error",fG="refuted",ez="mechanism",ht="row",p5="EEXIST",q7="roll_pitch_yaw",fF="y",p4="cube",dm="lower",q6="within",p3="clearance",q5="turned",p2="control",hs="int_of_string",p1="between",q3="definitions",q4="dependent",fE=1024,pZ="from",p0="name",q2=" : flags Open_rdonly and Open_wronly are not compatible",pY="orthocert/2",q1="reach",pX=512,qZ="base_joint",q0="witness",eF="-",bi="platform",pW=0x7ff0,pV="pitch",kb=": Not a directory",bF="min",qX="trim",eE="workspace",qY=" : file already exists",hr="split",qV='the failure "singular" of such a mechanism',ka="legs",qW="claim",jY="joint",dP=0xffffff,pU="platform_joint",pT="formulas",pS="roll",hq="atlas",qS="greatest",qT="nodes",qU="Out_of_memory",pR="psi_max",hB="orientation",hp=254,qR="angle",j$="index out of bounds",pQ="end",qQ="one_to_one",hA="_bigarr02",pP=" : flags Open_text and Open_binary are not compatible",qP="inverse",bE="drive",pO="coordinates",qO="holds",pN="lower_divided",pM="speed",qM="cylinder",qN="joints",cL=0xffff,qI="a leaf that fails",qJ="acceleration",qK="force",fC="certified",fD="chords",qL=12520,jX="on",qH="same",ey="accuracy",fB="axis",qG="no_cube",qF="parallel_margin",pL='the drive "',jW="Unix.Unix_error",hz="fails",ho="tool",jV="mkdir",qD="rho",qE="least",hy=1000,jU="translational",j_="tolerances",pK="Stack_overflow",j9="characteristic_length",ae="",j8="^",hm="places",hn=": No such file or directory",pJ="/static/",eD=0x3f,pH="stiffness",pI="Not_found",cK="planar",fz="mode",qC="joint_speed",qB="Match_failure",pG="transmission",bD="anchor",qA="at",pF="joint_force",eC="leg",pE="joint_acceleration",hx="+",jT="rmdir",qz=0xf0,qy="spherical",pD=1026,qw="REJECTED",qx="undecided",bH="max",bG="direction",pB="leg_angle",pC="orthoglide",eB="rank",qu="constraint_margin",qv="fan",fy="test",pz="Pervasives.do_at_exit",pA="utf8",b2=0x80,eA="conditioning",ex="length",py="Undefined_recursive_module",j7=")",px="base",qt="quantity",pw="joint_range",hl="tilt",pv="Q2",qs='the failure "same" of such a mechanism',qr="reference",pt="this quantity in a claim that is refuted",pu="point",qp="corner",qq=0xe0,ps="version",j6="z",qn="to",qo=0xdfff,jS="compare: functional value",qm="Assert_failure",b4="/",ql="provenance",dO="radius",hk="side",qj=-14,b3="require",qk="format",pr="Q1",j5="ENOTDIR",pq="all",dN="box",qi=250;function
 kq(c,b,a){var
 d=String.fromCharCode;if(b==0&&a<=4096&&a==c.length)return d.apply(null,c);var
 e=ae;for(;0<a;b+=fE,a-=fE)e+=d.apply(null,c.slice(b,b+Math.min(a,fE)));return e}function
@@ -22,8 +22,8 @@ for(var
 a=c-1;a>=0;a--)h[f+a]=g[e+a];else{var
 i=Math.min(c,g.length-e);for(var
 a=0;a<i;a++)h[f+a]=g.charCodeAt(e+a);for(;a<c;a++)h[f+a]=0}}return 0}function
-eI(a){return a}function
-eH(a,b,c,d,e){fL(eI(a),b,c,d,e);return 0}function
+eJ(a){return a}function
+eI(a,b,c,d,e){fL(eJ(a),b,c,d,e);return 0}function
 kg(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
 0:return a.c.charCodeAt(b);case
 4:return a.c[b]}}function
@@ -39,20 +39,20 @@ b=0;b<a.length;b++)d[b]=a[b];for(var
 b=0;b<arguments.length;b++)d[a.length+b]=arguments[b];return dp(c,d)}}function
 rM(b,a){if(b==0)return ae;if(a.repeat)return a.repeat(b);var
 d=ae,c=0;for(;;){if(b&1)d+=a;b>>=1;if(b==0)return d;a+=a;c++;if(c==9)a.slice(0,1)}}function
-eJ(a){if(a.t==2)a.c+=rM(a.l-a.c.length,"\0");else
+eK(a){if(a.t==2)a.c+=rM(a.l-a.c.length,"\0");else
 a.c=kq(a.c,0,a.c.length);a.t=0}function
-eK(a){a.t&6&&eJ(a);return a.c}var
-IG=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
-IF(a){if(IG)return Math.floor(Math.log2(a));var
+eL(a){a.t&6&&eK(a);return a.c}var
+IH=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
+IG(a){if(IH)return Math.floor(Math.log2(a));var
 b=0;if(a==0)return-Infinity;if(a>=1)while(a>=2){a/=2;b++}else
 while(a<1){a*=2;b--}return b}function
 kj(c){var
 a=new(O.Float32Array)(1);a[0]=c;var
 b=new(O.Int32Array)(a.buffer);return b[0]|0}var
 rD=Math.pow(2,-24);function
-Iw(a){throw a}var
+Ix(a){throw a}var
 az=[0];function
-rJ(){Iw(az.Division_by_zero)}function
+rJ(){Ix(az.Division_by_zero)}function
 N(b,c,a){this.lo=b&dP;this.mi=c&dP;this.hi=a&cL}N.prototype.caml_custom="_j";N.prototype.copy=function(){return new
 N(this.lo,this.mi,this.hi)};N.prototype.ucompare=function(a){if(this.hi>a.hi)return 1;if(this.hi<a.hi)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};N.prototype.compare=function(a){var
 b=this.hi<<16,c=a.hi<<16;if(b>c)return 1;if(b<c)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};N.prototype.neg=function(){var
@@ -90,7 +90,7 @@ hH(b,c,a){return new
 N(b,c,a)}function
 hG(a){if(!isFinite(a)){if(isNaN(a))return hH(1,0,pW);return a>0?hH(0,0,pW):hH(0,0,0xfff0)}var
 f=a==0&&1/a==-Infinity?ci:a>=0?0:ci;if(f)a=-a;var
-b=IF(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-pD)}else{a/=Math.pow(2,b-q_);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
+b=IG(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-pD)}else{a/=Math.pow(2,b-q_);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
 d=Math.pow(2,24),c=a|0;a=(a-c)*d;var
 e=a|0;a=(a-e)*d;var
 g=a|0;c=c&jZ|f|b<<4;return hH(g,e,c)}function
@@ -131,7 +131,7 @@ f=b.get(a),e=fO(hG(f[1]));for(var
 d=0;d<8;d++)c.write(8,e[d]);var
 e=fO(hG(f[2]));for(var
 d=0;d<8;d++)c.write(8,e[d])}break}g[0]=(4+b.dims.length)*4;g[1]=(4+b.dims.length)*8}function
-Iy(b,a){throw[0,b,a]}function
+Iz(b,a){throw[0,b,a]}function
 rR(a){if(a.length<24){for(var
 b=0;b<a.length;b++)if(a.charCodeAt(b)>127)return false;return true}else
 return!/[^\x00-\x7f]/.test(a)}function
@@ -142,7 +142,7 @@ c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==fH){g
 if(a>cL)c+=String.fromCharCode(0xd7c0+(a>>10),p$+(a&0x3FF));else
 c+=String.fromCharCode(a);if(c.length>fE){c.substr(0,1);j+=c;c=ae}}return j+c}function
 cj(c,a,b){this.t=c;this.c=a;this.l=b}cj.prototype.toString=function(){switch(this.t){case
-9:return this.c;default:eJ(this);case
+9:return this.c;default:eK(this);case
 0:if(rR(this.c)){this.t=9;return this.c}this.t=8;case
 8:return this.c}};cj.prototype.toUtf16=function(){var
 a=this.toString();if(this.t==9)return a;return kr(a)};cj.prototype.slice=function(){var
@@ -151,13 +151,13 @@ cj(this.t,a,this.l)};function
 ru(a){return new
 cj(0,a,a.length)}function
 a(a){return ru(a)}function
-kp(c,b){Iy(c,a(b))}function
+kp(c,b){Iz(c,a(b))}function
 aT(a){kp(az.Invalid_argument,a)}function
 rp(a){switch(a){case
 7:case
 10:case
 11:return 2;default:return 1}}function
-H2(c,e){var
+H3(c,e){var
 b=O,a;switch(c){case
 0:a=b.Float32Array;break;case
 1:a=b.Float64Array;break;case
@@ -186,13 +186,13 @@ a*=Math.pow(2,-pD);if(b&ci)a=-a;return a}function
 kf(b){var
 d=b.length,c=1;for(var
 a=0;a<d;a++){if(b[a]<0)aT("Bigarray.create: negative dimension");c=c*b[a]}return c}function
-Ig(b,a){return new
+Ih(b,a){return new
 N(b&dP,b>>>24&cM|(a&cL)<<8,a>>>16&cL)}function
 km(a){return a.hi32()}function
 kn(a){return a.lo32()}function
 hE(){aT(j$)}var
-H3=hA;function
-dn(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}dn.prototype.caml_custom=H3;dn.prototype.offset=function(b){var
+H4=hA;function
+dn(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}dn.prototype.caml_custom=H4;dn.prototype.offset=function(b){var
 c=0;if(typeof
 b==="number")b=[b];if(!(b
 instanceof
@@ -201,7 +201,7 @@ a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])hE();c=c*this.dims[a]+
 for(var
 a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])hE();c=c*this.dims[a]+(b[a]-1)}return c};dn.prototype.get=function(a){switch(this.kind){case
 7:var
-d=this.data[a*2+0],b=this.data[a*2+1];return Ig(d,b);case
+d=this.data[a*2+0],b=this.data[a*2+1];return Ih(d,b);case
 10:case
 11:var
 e=this.data[a*2+0],c=this.data[a*2+1];return[hp,e,c];default:return this.data[a]}};dn.prototype.set=function(a,b){switch(this.kind){case
@@ -236,15 +236,15 @@ a=0;a<this.data.length;a+=2){if(this.data[a+1]<b.data[a+1])return-1;if(this.data
 9:case
 12:for(var
 a=0;a<this.data.length;a++){if(this.data[a]<b.data[a])return-1;if(this.data[a]>b.data[a])return 1}break}return 0};function
-eG(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}eG.prototype=new
-dn();eG.prototype.offset=function(a){if(typeof
+eH(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}eH.prototype=new
+dn();eH.prototype.offset=function(a){if(typeof
 a!=="number")if(a
 instanceof
 Array&&a.length==1)a=a[0];else
-aT("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])hE();return a};eG.prototype.get=function(a){return this.data[a]};eG.prototype.set=function(a,b){this.data[a]=b;return 0};eG.prototype.fill=function(a){this.data.fill(a);return 0};function
+aT("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])hE();return a};eH.prototype.get=function(a){return this.data[a]};eH.prototype.set=function(a,b){this.data[a]=b;return 0};eH.prototype.fill=function(a){this.data.fill(a);return 0};function
 rn(c,d,a,b){var
 e=rp(c);if(kf(a)*e!=b.length)aT("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
-eG(c,d,a,b);return new
+eH(c,d,a,b);return new
 dn(c,d,a,b)}function
 b5(b){if(!az.Failure)az.Failure=[a1,a(j1),-3];kp(az.Failure,b)}function
 ro(b,v,r){var
@@ -255,7 +255,7 @@ n=b.read16u();if(n==cL){var
 t=b.read32u(),u=b.read32u();if(t!=0)b5("input_value: bigarray dimension overflow in 32bit");n=u}h.push(n)}else
 for(var
 a=0;a<i;a++)h.push(b.read32u());var
-d=kf(h),f=H2(j,d),g=rn(j,o,h,f);switch(j){case
+d=kf(h),f=H3(j,d),g=rn(j,o,h,f);switch(j){case
 2:for(var
 a=0;a<d;a++)f[a]=b.read8s();break;case
 3:case
@@ -300,8 +300,8 @@ l=kl(fN(e));g.set(a,[hp,m,l])}break}v[0]=(4+i)*4;return rn(j,o,h,f)}function
 rm(a,b,c){return a.compare(b,c)}function
 rG(a,b){return Math.imul(a,b)}function
 cN(b,a){a=rG(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=rG(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
-Id(a,b){a=cN(a,kn(b));a=cN(a,km(b));return a}function
-rC(a,b){return Id(a,hG(b))}function
+Ie(a,b){a=cN(a,kn(b));a=cN(a,km(b));return a}function
+rC(a,b){return Ie(a,hG(b))}function
 rq(c){var
 b=kf(c.dims),d=0;switch(c.kind){case
 2:case
@@ -327,20 +327,20 @@ a=0;a<b;a++)d=rC(d,c.data[a]);break;case
 11:b*=2;case
 1:if(b>32)b=32;for(var
 a=0;a<b;a++)d=rC(d,c.data[a]);break}return d}function
-Ie(a,b){b[0]=4;return a.read32s()}function
-It(a,b){switch(a.read8u()){case
+If(a,b){b[0]=4;return a.read32s()}function
+Iu(a,b){switch(a.read8u()){case
 1:b[0]=4;return a.read32s();case
 2:b5("input_value: native integer value too large");default:b5("input_value: ill-formed native integer")}}function
-Ij(c,d){var
+Ik(c,d){var
 b=new
 Array(8);for(var
 a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return fN(b)}function
-Ii(e,d,b){var
+Ij(e,d,b){var
 c=fO(d);for(var
 a=0;a<8;a++)e.write(8,c[a]);b[0]=8;b[1]=8}function
-If(a,b,c){return a.compare(b)}function
-Ih(a){return a.lo32()^a.hi32()}var
-rx={"_j":{deserialize:Ij,serialize:Ii,fixed_length:8,compare:If,hash:Ih},"_i":{deserialize:Ie,fixed_length:4},"_n":{deserialize:It,fixed_length:4},"_bigarray":{deserialize:function(a,b){return ro(a,b,"_bigarray")},serialize:rr,compare:rm,hash:rq},"_bigarr02":{deserialize:function(a,b){return ro(a,b,hA)},serialize:rr,compare:rm,hash:rq}};function
+Ig(a,b,c){return a.compare(b)}function
+Ii(a){return a.lo32()^a.hi32()}var
+rx={"_j":{deserialize:Ik,serialize:Ij,fixed_length:8,compare:Ig,hash:Ii},"_i":{deserialize:If,fixed_length:4},"_n":{deserialize:Iu,fixed_length:4},"_bigarray":{deserialize:function(a,b){return ro(a,b,"_bigarray")},serialize:rr,compare:rm,hash:rq},"_bigarr02":{deserialize:function(a,b){return ro(a,b,hA)},serialize:rr,compare:rm,hash:rq}};function
 ki(a){return rx[a.caml_custom]&&rx[a.caml_custom].compare}function
 rv(f,c,d,e){var
 b=ki(c);if(b){var
@@ -371,8 +371,8 @@ if(typeof
 a=="function")return 1247;else
 if(typeof
 a=="symbol")return 1251;return 1001}function
-Ik(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
-rt(a,b){a.t&6&&eJ(a);b.t&6&&eJ(b);return a.c<b.c?-1:a.c>b.c?1:0}function
+Il(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
+rt(a,b){a.t&6&&eK(a);b.t&6&&eK(b);return a.c<b.c?-1:a.c>b.c?1:0}function
 rN(a,b){return rt(a,b)}function
 kh(a,b,d){var
 e=[];for(;;){if(!(d&&a===b)){var
@@ -380,7 +380,7 @@ f=rw(a);if(f==qi){a=a[1];continue}var
 g=rw(b);if(g==qi){b=b[1];continue}if(f!==g){if(f==hy){if(g==j3)return rv(a,b,-1,d);return-1}if(g==hy){if(f==j3)return rv(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
 247:aT(jS);break;case
 248:var
-c=Ik(a[2],b[2]);if(c!=0)return c|0;break;case
+c=Il(a[2],b[2]);if(c!=0)return c|0;break;case
 249:aT(jS);break;case
 250:aT("equal: got Forward_tag, should not happen");break;case
 251:aT("equal: abstract value");break;case
@@ -399,73 +399,73 @@ c=a.compare(b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;
 1001:if(a<b)return-1;if(a>b)return 1;if(a!=b){if(!d)return NaN;if(a==a)return 1;if(b==b)return-1}break;case
 1251:if(a!==b){if(!d)return NaN;return 1}break;case
 1252:var
-a=eK(a),b=eK(b);if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
+a=eL(a),b=eL(b);if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
 12520:var
 a=a.toString(),b=b.toString();if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
 246:case
 254:default:if(a.length!=b.length)return a.length<b.length?-1:1;if(a.length>1)e.push(a,b,1);break}}if(e.length==0)return 0;var
 h=e.pop();b=e.pop();a=e.pop();if(h+1<a.length)e.push(a,b,h+1);a=a[h];b=b[h]}}function
-H_(a,b){return kh(a,b,true)}function
+H$(a,b){return kh(a,b,true)}function
 cl(a){if(a<0)aT("Bytes.create");return new
 cj(a?2:9,ae,a)}function
 ry(a,b){return+(kh(a,b,false)==0)}function
-Ia(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=ae;a.t=2}else{a.c=rM(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)hF(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}var
-Iu=0;function
-rA(){return Iu++}function
-Im(a){return a.toUtf16()}function
+Ib(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=ae;a.t=2}else{a.c=rM(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)hF(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}var
+Iv=0;function
+rA(){return Iv++}function
+In(a){return a.toUtf16()}function
 fP(){return typeof
 O.process!=="undefined"&&typeof
 O.process.versions!=="undefined"&&typeof
 O.process.versions.node!=="undefined"}function
-IH(){function
+II(){function
 a(a){if(a.charAt(0)===b4)return[ae,a.substring(1)];return}function
 b(c){var
 g=/^([a-zA-Z]:|[\\/]{2}[^\\/]+[\\/]+[^\\/]+)?([\\/])?([\s\S]*?)$/,a=g.exec(c),b=a[1]||ae,e=Boolean(b&&b.charAt(1)!==":");if(Boolean(a[2]||e)){var
 d=a[1]||ae,f=a[2]||ae;return[d,c.substring(d.length+f.length)]}return}return fP()&&O.process&&O.process.platform?O.process.platform==="win32"?b:a:a}var
-kv=IH();function
+kv=II();function
 rO(a){return a.slice(-1)!==b4?a+b4:a}if(fP()&&O.process&&O.process.cwd)var
 fM=O.process.cwd().replace(/\\/g,b4);else
 var
 fM="/static";fM=rO(fM);function
-Io(a){a=Im(a);if(!kv(a))a=fM+a;var
+Ip(a){a=In(a);if(!kv(a))a=fM+a;var
 e=kv(a),d=e[1].split(b4),b=[];for(var
 c=0;c<d.length;c++)switch(d[c]){case"..":if(b.length>1)b.pop();break;case".":break;default:b.push(d[c]);break}b.unshift(e[0]);b.orig=a;return b}function
-IC(e){for(var
+ID(e){for(var
 f=ae,b=f,a,h,c=0,g=e.length;c<g;c++){a=e.charCodeAt(c);if(a<b2){for(var
 d=c+1;d<g&&(a=e.charCodeAt(d))<b2;d++);if(d-c>pX){b.substr(0,1);f+=b;b=ae;f+=e.slice(c,d)}else
 b+=e.slice(c,d);if(d==g)break;c=d}if(a<qh){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(b2|a&eD)}else
 if(a<0xd800||a>=qo)b+=String.fromCharCode(qq|a>>12,b2|a>>6&eD,b2|a&eD);else
 if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<p$||h>qo)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(qz|a>>18,b2|a>>12&eD,b2|a>>6&eD,b2|a&eD)}if(b.length>fE){b.substr(0,1);f+=b;b=ae}}return f+b}function
-H7(a){var
-b=9;if(!rR(a))b=8,a=IC(a);return new
+H8(a){var
+b=9;if(!rR(a))b=8,a=ID(a);return new
 cj(b,a,a.length)}function
-eL(a){return H7(a)}var
-IK=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",p5,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",j0,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",j5,p_,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
+eM(a){return H8(a)}var
+IL=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",p5,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",j0,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",j5,p_,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
 dT(d,f,e,a){var
-b=IK.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
-c=[b,eL(f||ae),eL(e||ae)];return c}var
+b=IL.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
+c=[b,eM(f||ae),eM(e||ae)];return c}var
 rH={};function
 dQ(a){return rH[a]}function
 dR(b,a){throw[0,b].concat(a)}function
-H6(a){return new
+H7(a){return new
 cj(4,a,a.length)}function
 ar(a){kp(az.Sys_error,a)}function
-Ix(a){ar(a+hn)}function
+Iy(a){ar(a+hn)}function
 rs(){aT(j$)}function
-H5(b,a){if(a>>>0>=b.l)rs();return kg(b,a)}function
+H6(b,a){if(a>>>0>=b.l)rs();return kg(b,a)}function
 hJ(a){return a.l}function
 rl(){}function
 aR(a){this.data=a}aR.prototype=new
 rl();aR.prototype.truncate=function(a){var
 b=this.data;this.data=cl(a|0);fL(b,0,this.data,0,a)};aR.prototype.length=function(){return hJ(this.data)};aR.prototype.write=function(b,d,g,a){var
 c=this.length();if(b+a>=c){var
-e=cl(b+a),f=this.data;this.data=e;fL(f,0,this.data,0,c)}eH(d,g,this.data,b,a);return 0};aR.prototype.read=function(c,a,d,b){var
-e=this.length();fL(this.data,c,a,d,b);return 0};aR.prototype.read_one=function(a){return H5(this.data,a)};aR.prototype.close=function(){};aR.prototype.constructor=aR;function
+e=cl(b+a),f=this.data;this.data=e;fL(f,0,this.data,0,c)}eI(d,g,this.data,b,a);return 0};aR.prototype.read=function(c,a,d,b){var
+e=this.length();fL(this.data,c,a,d,b);return 0};aR.prototype.read_one=function(a){return H6(this.data,a)};aR.prototype.close=function(){};aR.prototype.constructor=aR;function
 a_(b,a){this.content={};this.root=b;this.lookupFun=a}a_.prototype.nm=function(a){return this.root+a};a_.prototype.create_dir_if_needed=function(d){var
 c=d.split(b4),b=ae;for(var
 a=0;a<c.length-1;a++){b+=c[a]+b4;if(this.content[b])continue;this.content[b]=Symbol("directory")}};a_.prototype.slash=function(a){return/\/$/.test(a)?a:a+b4};a_.prototype.lookup=function(b){if(!this.content[b]&&this.lookupFun){var
 c=this.lookupFun(a(this.root),a(b));if(c!==0){this.create_dir_if_needed(b);this.content[b]=new
-aR(eI(c[1]))}}};a_.prototype.exists=function(a){if(a==ae)return 1;var
+aR(eJ(c[1]))}}};a_.prototype.exists=function(a){if(a==ae)return 1;var
 b=this.slash(a);if(this.content[b])return 1;this.lookup(a);return this.content[a]?1:0};a_.prototype.mkdir=function(c,e,d){var
 b=d&&dQ(jW);if(this.exists(c))if(b)dR(b,dT(p5,jV,this.nm(c)));else
 ar(c+": File exists");var
@@ -494,40 +494,40 @@ this.content[a];return b};a_.prototype.open=function(a,b){if(b.rdonly&&b.wronly)
 c=this.content[a];if(b.truncate)c.truncate();return c}else
 if(b.create){this.create_dir_if_needed(a);this.content[a]=new
 aR(cl(0));return this.content[a]}else
-Ix(this.nm(a))};a_.prototype.register=function(c,a){var
+Iy(this.nm(a))};a_.prototype.register=function(c,a){var
 b;if(this.content[c])ar(this.nm(c)+qY);if(ko(a))b=new
 aR(a);if(rE(a))b=new
-aR(eI(a));else
+aR(eJ(a));else
 if(a
 instanceof
 Array)b=new
-aR(H6(a));else
+aR(H7(a));else
 if(typeof
 a==="string")b=new
 aR(ru(a));else
 if(a.toString){var
-d=eI(eL(a.toString()));b=new
+d=eJ(eM(a.toString()));b=new
 aR(d)}if(b){this.create_dir_if_needed(c);this.content[c]=b}else
 ar(this.nm(c)+" : registering file with invalid content type")};a_.prototype.constructor=a_;function
 au(a){return hJ(a)}function
 dS(b,a){return kg(b,a)}function
-H1(d){var
+H2(d){var
 c=au(d),b=new
 Array(c),a=0;for(;a<c;a++)b[a]=dS(d,a);return b}function
-H0(a){if(a.t!=4)hF(a);return a.c}function
-H9(a,c,b){b&=cM;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}hF(a)}a.c[c]=b;return 0}function
-H8(b,a,c){if(a>>>0>=b.l)rs();return H9(b,a,c)}function
+H1(a){if(a.t!=4)hF(a);return a.c}function
+H_(a,c,b){b&=cM;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}hF(a)}a.c[c]=b;return 0}function
+H9(b,a,c){if(a>>>0>=b.l)rs();return H_(b,a,c)}function
 ck(a){this.fs=require("fs");this.fd=a}ck.prototype=new
 rl();ck.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){ar(a.toString())}};ck.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){ar(a.toString())}};ck.prototype.write=function(f,b,c,e){var
-a=H1(b);if(!(a
+a=H2(b);if(!(a
 instanceof
 O.Uint8Array))a=new(O.Uint8Array)(a);var
 d=O.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){ar(a.toString())}return 0};ck.prototype.read=function(g,d,c,f){var
-a=H0(d);if(!(a
+a=H1(d);if(!(a
 instanceof
 O.Uint8Array))a=new(O.Uint8Array)(a);var
 e=O.Buffer.from(a);try{this.fs.readSync(this.fd,e,c,f,g)}catch(a){ar(a.toString())}for(var
-b=0;b<f;b++)H8(d,c+b,e[c+b]);return 0};ck.prototype.read_one=function(c){var
+b=0;b<f;b++)H9(d,c+b,e[c+b]);return 0};ck.prototype.read_one=function(c){var
 b=new(O.Uint8Array)(1),a=O.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){ar(a.toString())}return a[0]};ck.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){ar(a.toString())}};ck.prototype.constructor=ck;function
 aS(a){this.fs=require("fs");this.root=a}aS.prototype.nm=function(a){return this.root+a};aS.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};aS.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};aS.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};aS.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};aS.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){ar(a.toString())}};aS.prototype.unlink=function(a,c){try{var
 b=this.fs.existsSync(this.nm(a))?1:0;this.fs.unlinkSync(this.nm(a));return b}catch(a){this.raise_nodejs_error(a,c)}};aS.prototype.open=function(f,c,g){var
@@ -539,7 +539,7 @@ d=this.fs.openSync(this.nm(f),b);return new
 ck(d)}catch(a){this.raise_nodejs_error(a,g)}};aS.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};aS.prototype.stat=function(b,c){try{var
 a=this.fs.statSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aS.prototype.lstat=function(b,c){try{var
 a=this.fs.lstatSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aS.prototype.symlink=function(d,c,a,b){try{this.fs.symlinkSync(this.nm(c),this.nm(a),d?"dir":"file");return 0}catch(a){this.raise_nodejs_error(a,b)}};aS.prototype.readlink=function(b,c){try{var
-a=this.fs.readlinkSync(this.nm(b),pA);return eL(a)}catch(a){this.raise_nodejs_error(a,c)}};aS.prototype.raise_nodejs_error=function(a,d){var
+a=this.fs.readlinkSync(this.nm(b),pA);return eM(a)}catch(a){this.raise_nodejs_error(a,c)}};aS.prototype.raise_nodejs_error=function(a,d){var
 b=dQ(jW);if(d&&b){var
 c=dT(a.code,a.syscall,a.path,a.errno);dR(b,c)}else
 ar(a.toString())};aS.prototype.stats_from_js=function(a){var
@@ -552,26 +552,26 @@ if(a.isFIFO())b=5;else
 if(a.isSocket())b=6;return[0,a.dev,a.ino,b,a.mode,a.nlink,a.uid,a.gid,a.rdev,a.size,a.atimeMs,a.mtimeMs,a.ctimeMs]};aS.prototype.constructor=aS;function
 rB(b){var
 a=kv(b);if(!a)return;return a[0]+b4}var
-hK=rB(fM)||b5("unable to compute caml_root"),eM=[];if(fP())eM.push({path:hK,device:new
+hK=rB(fM)||b5("unable to compute caml_root"),eN=[];if(fP())eN.push({path:hK,device:new
 aS(hK)});else
-eM.push({path:hK,device:new
-a_(hK)});eM.push({path:pJ,device:new
+eN.push({path:hK,device:new
+a_(hK)});eN.push({path:pJ,device:new
 a_(pJ)});function
 rV(b){var
-g=Io(b),b=g.join(b4),f=rO(b),c;for(var
-e=0;e<eM.length;e++){var
-a=eM[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&fP()){var
+g=Ip(b),b=g.join(b4),f=rO(b),c;for(var
+e=0;e<eN.length;e++){var
+a=eN[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&fP()){var
 d=rB(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
 a={path:d,device:new
-aS(d)};eM.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;ar("no device found for "+f)}function
-H$(c,b){var
+aS(d)};eN.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;ar("no device found for "+f)}function
+Ia(c,b){var
 a=rV(c);if(!a.device.register)b5("cannot register file");a.device.register(a.rest,b);return 0}function
 rQ(c,b){var
-c=a(c),b=a(b);return H$(c,b)}function
-Ic(){var
+c=a(c),b=a(b);return Ia(c,b)}function
+Id(){var
 b=O.caml_fs_tmp;if(b)for(var
 a=0;a<b.length;a++)rQ(b[a].name,b[a].content);O.jsoo_create_file=rQ;O.caml_fs_tmp=[];return 0}function
-Iv(c){var
+Iw(c){var
 a=0,e=au(c),b=10,d=1;if(e>0)switch(dS(c,a)){case
 45:a++;d=-1;break;case
 43:a++;d=1;break}if(a+1<e&&dS(c,a)==48)switch(dS(c,a+1)){case
@@ -585,31 +585,31 @@ a=0,e=au(c),b=10,d=1;if(e>0)switch(dS(c,a)){case
 85:a+=2;break}return[a,d,b]}function
 rI(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=rc)return a-87;return-1}function
 hI(f){var
-h=Iv(f),c=h[0],i=h[1],d=h[2],g=au(f),j=-1>>>0,e=c<g?dS(f,c):0,b=rI(e);if(b<0||b>=d)b5(hs);var
+h=Iw(f),c=h[0],i=h[1],d=h[2],g=au(f),j=-1>>>0,e=c<g?dS(f,c):0,b=rI(e);if(b<0||b>=d)b5(hs);var
 a=b;for(c++;c<g;c++){e=dS(f,c);if(e==95)continue;b=rI(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)b5(hs)}if(c!=g)b5(hs);a=i*a;if(d==10&&(a|0)!=a)b5(hs);return a|0}function
-In(a,b){return+(kh(a,b,false)<=0)}function
-Ip(a,d){if(a<0)hE();var
+Io(a,b){return+(kh(a,b,false)<=0)}function
+Iq(a,d){if(a<0)hE();var
 a=a+1|0,b=new
 Array(a);b[0]=0;for(var
 c=1;c<a;c++)b[c]=d;return b}var
 cO=new
 Array();function
-Iq(c){var
+Ir(c){var
 a=cO[c];if(!a.opened)ar("Cannot flush a closed channel");if(!a.buffer||a.buffer==ae)return 0;if(a.fd&&az.fds[a.fd]&&az.fds[a.fd].output){var
 b=az.fds[a.fd].output;switch(b.length){case
 2:b(c,a.buffer);break;default:b(a.buffer)}}a.buffer=ae;return 0}function
 rL(e,f){var
 b=cO[e],d=a(f),c=au(d);b.file.write(b.offset,d,0,c);b.offset+=c;return 0}function
-ID(a){var
+IE(a){var
 a=kr(a),b=O;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.error&&c.error(a)}}function
-IE(a){var
+IF(a){var
 a=kr(a),b=O;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.log&&c.log(a)}}function
 hM(c,e,d,a){if(az.fds===undefined)az.fds=new
 Array();a=a?a:{};var
 b={};b.file=d;b.offset=a.append?d.length():0;b.flags=a;b.output=e;az.fds[c]=b;if(!az.fd_last_idx||c>az.fd_last_idx)az.fd_last_idx=c;return c}function
-IL(c,b,g){var
+IM(c,b,g){var
 a={};while(b){switch(b[1]){case
 0:a.rdonly=1;break;case
 1:a.wronly=1;break;case
@@ -619,28 +619,28 @@ a={};while(b){switch(b[1]){case
 5:a.excl=1;break;case
 6:a.binary=1;break;case
 7:a.text=1;break;case
-8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)ar(eK(c)+q2);if(a.text&&a.binary)ar(eK(c)+pP);var
+8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)ar(eL(c)+q2);if(a.text&&a.binary)ar(eL(c)+pP);var
 d=rV(c),e=d.device.open(d.rest,a),f=az.fd_last_idx?az.fd_last_idx:0;return hM(f+1,rL,e,a)}hM(0,rL,new
-aR(cl(0)));hM(1,IE,new
-aR(cl(0)));hM(2,ID,new
+aR(cl(0)));hM(1,IF,new
+aR(cl(0)));hM(2,IE,new
 aR(cl(0)));function
-Ir(a){var
+Is(a){var
 c=az.fds[a];if(c.flags.wronly)ar(ra+a+" is writeonly");var
 d=null;if(a==0&&fP()){var
-e=require("fs");d=function(){return eL(e.readFileSync(0,pA))}}var
+e=require("fs");d=function(){return eM(e.readFileSync(0,pA))}}var
 b={file:c.file,offset:c.offset,fd:a,opened:true,out:false,refill:d};cO[b.fd]=b;return b.fd}function
 rF(c){var
 b=az.fds[c];if(b.flags.rdonly)ar(ra+c+" is readonly");var
 a={file:b.file,offset:b.offset,fd:c,opened:true,out:true,buffer:ae};cO[a.fd]=a;return a.fd}function
-Is(){var
+It(){var
 b=0;for(var
 a=0;a<cO.length;a++)if(cO[a]&&cO[a].opened&&cO[a].out)b=[0,cO[a].fd,b];return b}function
 bI(b,c,a){if(a&&O.toplevelReloc)b=O.toplevelReloc(a);az[b+1]=c;if(a)az[a]=c}function
-Iz(a,b){rH[eK(a)]=b;return 0}function
-H4(a,b){if(a===b)return 1;a.t&6&&eJ(a);b.t&6&&eJ(b);return a.c==b.c?1:0}function
-ax(a,b){return H4(a,b)}function
-IB(){aT(j$)}function
-a2(b,a){if(a>>>0>=au(b))IB();return dS(b,a)}function
+IA(a,b){rH[eL(a)]=b;return 0}function
+H5(a,b){if(a===b)return 1;a.t&6&&eK(a);b.t&6&&eK(b);return a.c==b.c?1:0}function
+ax(a,b){return H5(a,b)}function
+IC(){aT(j$)}function
+a2(b,a){if(a>>>0>=au(b))IC();return dS(b,a)}function
 o(a,b){return 1-ax(a,b)}function
 hL(a){return a}function
 rK(a){return a}function
@@ -652,7 +652,7 @@ O.RangeError&&a.message&&a.message.match(/maximum call stack/i))return rK(az.Sta
 instanceof
 O.InternalError&&a.message&&a.message.match(/too much recursion/i))return rK(az.Stack_overflow);if(a
 instanceof
-O.Error&&dQ(qf))return[0,dQ(qf),a];return[0,az.Failure,eL(String(a))]}function
+O.Error&&dQ(qf))return[0,dQ(qf),a];return[0,az.Failure,eM(String(a))]}function
 cm(a){return a<0?-a:a}function
 F(a,b){return a+b}function
 ks(a,b){return a<b?-1:a>b?1:0}function
@@ -660,7 +660,7 @@ rS(c,b){var
 a=c%b;return a<0?a+cm(b):a}function
 kt(a,b){return(a-rS(a,b))/b}function
 I(a,b){return a==b?1:0}function
-II(c){O.orthocert_verify=function(b){return eK(dp(c,[a(b)]))}}function
+IJ(c){O.orthocert_verify=function(b){return eL(dp(c,[a(b)]))}}function
 D(a,b){return a<=b?1:0}function
 J(a,b){return a<b?1:0}function
 B(a,b){return a*b}function
@@ -669,13 +669,13 @@ aF(a){return O.BigInt(a)}function
 rT(a,b){return a<<O.BigInt(b)}function
 rU(a,b){return a>>O.BigInt(b)}function
 aO(a){return a<0?-1:a>0?1:0}function
-IJ(a){if(a<0)throw new(O.Error)("a root of a negative number");if(a<2)return a;var
+IK(a){if(a<0)throw new(O.Error)("a root of a negative number");if(a<2)return a;var
 d=O.BigInt(1),b=d<<O.BigInt((a.toString(16).length*4+1)/2|0),c;for(;;){c=b+a/b>>d;if(c>=b)return b;b=c}}function
 aG(a,b){return a-b}function
 ku(a){if(a>0x7fffffff||a<-0x80000000)throw new(O.Error)("a number of more than 32 bits");return O.Number(a)}function
-Il(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
-Ib(b){var
-a=ae;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&Il(b[1]))var
+Im(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
+Ic(b){var
+a=ae;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&Im(b[1]))var
 e=b[2],f=1;else
 var
 f=2,e=b;a+=qg;for(var
@@ -693,26 +693,26 @@ rz(a){if(a
 instanceof
 Array&&(a[0]==0||a[0]==a1)){var
 c=dQ("Printexc.handle_uncaught_exception");if(c)c(a,false);else{var
-d=Ib(a),b=dQ(pz);if(b)b(0);O.console.error("Fatal error: exception "+d+"\n")}}else
+d=Ic(a),b=dQ(pz);if(b)b(0);O.console.error("Fatal error: exception "+d+"\n")}}else
 throw a}function
-IA(){var
+IB(){var
 a=O;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){rz(b);a.process.exit(2)});else
-if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)rz(a.error)})}IA();function
+if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)rz(a.error)})}IB();function
 i(a,b){return a.length==1?a(b):dp(a,[b])}function
 aq(a,b,c){return a.length==2?a(b,c):dp(a,[b,c])}function
-fw(a,b,c,d){return a.length==3?a(b,c,d):dp(a,[b,c,d])}function
-jR(a,b,c,d,e){return a.length==4?a(b,c,d,e):dp(a,[b,c,d,e])}Ic();var
-kx=[a1,a(p8),-2],kw=[a1,a(rk),-4],GU=[0,[0,[0,[0,0]]]],GV=[0,0],GW=[0,0],GX=[0,[0,0]],GY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GX]]]]]]]]]]],g$=[0,[1,0],0],oJ=[0,[2,0],0],jy=[0,[1,0],0],oI=[0,[2,0],0],g9=[0,[1,0],0],jx=[0,[2,0],0],GZ=[0,[0,[0,[0,0]]]],G0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GZ]]]]]]]]]]],G1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G0]]]]]]]]]]],G2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G1]]]]]]]]]]],G3=[0,[0,0]],G4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G3]]]]]]]]]]],G5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G4]]]]]]]]]]],G6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G5]]]]]]]]]]],G7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G6]]]]]]]]]]],G8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],G9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G8]]]]]]]]]]],G_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G9]]]]]]]]]]],G$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G_]]]]]]]]]]],Ha=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G$]]]]]]]]]]],Hb=[0,[0,0]],Hc=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hb]]]]]]]]]]],Hd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hc]]]]]]]]]]],He=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hd]]]]]]]]]]],Hf=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,He]]]]]]]]]]],Hg=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hf]]]]]]]]]]],Hh=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hg]]]]]]]]]]],Hi=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hh]]]]]]]]]]],Hj=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],Hk=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hj]]]]]]]]]]],Hl=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hk]]]]]]]]]]],Hm=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hl]]]]]]]]]]],Hn=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hm]]]]]]]]]]],Ho=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hn]]]]]]]]]]],Hp=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ho]]]]]]]]]]],Hq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hp]]]]]]]]]]],Hr=[0,0],Hs=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hr]]]]]]]]]]],Ht=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hs]]]]]]]]]]],Hu=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ht]]]]]]]]]]],Hv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hu]]]]]]]]]]],Hw=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hv]]]]]]]]]]],Hx=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hw]]]]]]]]]]],Hy=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hx]]]]]]]]]]],Hz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hy]]]]]]]]]]],HA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hz]]]]]]]]]]],HB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HA]]]]]]]]]]],HC=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],HD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HC]]]]]]]]]]],HE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],HF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HE]]]]]]]]]]],HG=[0,[0,[0,[0,[0,0]]]]],HH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HG]]]]]]]]]]],HI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HH]]]]]]]]]]],HJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HI]]]]]]]]]]],HK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HJ]]]]]]]]]]],HL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HK]]]]]]]]]]],HM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HL]]]]]]]]]]],HN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HM]]]]]]]]]]],HO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HN]]]]]]]]]]],HP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HO]]]]]]]]]]],HQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HP]]]]]]]]]]],HR=[0,0],HS=[0,[0,0]],HT=[0,0],HU=[0,[0,[0,[0,[0,0]]]]],k5=[0,[0,[0,0]]],dv=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],gZ=[0,[0,[0,[0,0]]]],HV=[0,[0,[0,[0,[0,0]]]]],HW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HV]]]]]]]]]]],HX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HW]]]]]]]]]]],HY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HX]]]]]]]]]]],HZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HY]]]]]]]]]]];bI(11,[a1,a(py),-12],py);bI(10,[a1,a(qm),-11],qm);bI(9,[a1,a(q$),-10],q$);bI(8,[a1,a(pK),-9],pK);bI(7,[a1,a(qB),-8],qB);bI(6,[a1,a(pI),-7],pI);bI(5,[a1,a(p9),-6],p9);bI(4,[a1,a(qb),-5],qb);bI(3,kw,rk);bI(2,[a1,a(j1),-3],j1);bI(1,kx,p8);bI(0,[a1,a(qU),-1],qU);var
-rW=a("String.sub / Bytes.sub"),rY=a(ae),rX=a("String.concat"),rZ=a("Array.init"),r0=a("power"),sh=[0,0],si=[0,0],so=[0,0,0],sp=[0,0,0],sq=[0,0],sM=[0,0],sN=[0,0],sQ=[0,0],s$=[0,0],tc=[0,0],tg=[0,0],th=[0,0],ti=[0,0],tj=[0,0],tx=[0,0],ty=[0,0],t1=[0,0],uj=[0,[0,[0,0]]],uN=[0,0],va=[0,0],vC=a(","),vU=[0,a(j7),0],vV=a(qg),vW=a("."),vX=[0,[0,[0,0]]],vY=a(fD),vZ=a(j8),v0=[0,[0,[0,[0,[0,0]]]]],v1=[0,a(j7),0],v2=a(ri),y5=a(pv),y7=a(pr),y6=a(qp),y8=a(eA),y9=a(ey),y_=a(ke),y$=a(q5),za=a(p2),zb=a(j_),zc=a(qv),zd=a(p1),Au=[0,[0,0,0]],AL=[0,0],Av=a(fx),Aw=[0,0],Ax=a("divided"),Ay=[0,1],Az=a("mirror"),AA=[0,3],AB=a("negative"),AC=[0,2],AD=a(fC),AE=[0,5],AF=a(kd),AG=[0,4],AH=a(dm),AI=a(pN),AJ=a(eB),AK=a(bG),AM=[0,0],AN=[0,0],AO=[0,0],AR=[0,[0,[0,0]]],AS=[0,[0,[0,0]]],Bh=[0,[0,[0,0]]],Bv=[0,0],BL=a(ae),BE=[0,0],BF=[0,0],BG=[0,[0,[0,[0,0]]]],BH=[0,[0,[0,0]]],BI=[0,[0,[0,[0,0]]]],BJ=[0,[0,[0,0]]],BC=[0,[0,[0,0]]],BB=[0,0],BA=a(eB),Bz=[0,0],By=[0,[0,[0,0]]],Bx=[0,0],Bs=[0,[0,0]],Bu=[0,[0,[0,0]]],Bt=[0,0],Bo=[0,[0,[0,0]]],Bn=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GU]]]]]]]]]],[0,0,[0,[0,[0,[0,0]]],0]]],Bi=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],[0,0,0]],Bj=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],[0,[0,[0,[0,[0,[0,[0,0]]]]]],0]],Bk=[0,[0,[0,[0,[0,[0,[0,0]]]]]],0],Bl=[0,[0,[0,[0,0]]],[0,0,0]],Bf=[0,0],Bg=[0,[0,0]],Be=[0,0,0],Bd=[0,[0,[0,0]]],A9=[0,[0,0]],A_=[0,[0,[0,0]]],A$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GV]]]]]]]]]]],Ba=[0,[0,0]],Bb=[0,[0,[0,0]]],A8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GW]]]]]]]]]]],A6=[0,[0,0]],A7=[0,[0,[0,0]]],A4=[0,[0,[0,0]]],A5=[0,[0,0]],A3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GY]]]]]]]]]]],A2=[0,0],A1=[0,0],AY=[0,[0,0]],AZ=[0,0],AW=[0,0],AX=[0,1],AU=[0,[0,0]],AV=[0,0],AT=[0,0],AP=[0,0],AQ=[0,1],Ar=[0,0],As=[0,1],At=[0,2],An=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],Al=[0,[0,0],0],Am=[0,[1,0],0],Ao=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],Aj=[0,[0,0]],Ak=[0,0],Ai=[0,0],Ah=[0,0],Ag=[0,0],Af=[0,0],Ae=[0,0,0],Ac=[0,[0,0]],Ad=[0,0],Ab=[0,0,0],z$=[0,[0,[0,0]]],Aa=[0,[0,[0,0]]],z_=[0,0],z8=[0,1,0],z0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G2]]]]]]]]]]],z1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G7]]]]]]]]]]],zW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ha]]]]]]]]]]],zX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hi]]]]]]]]]]],zY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hq]]]]]]]]]]],zZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HB]]]]]]]]]]],z2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HD]]]]]]]]]]],z3=a("sqrt"),zU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HF]]]]]]]]]]],zV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HQ]]]]]]]]]]],zJ=[0,a("\n"),0],zK=a(ps),zL=a(ho),zM=a(ql),zN=a(p6),zT=a(fG),zO=a(fB),zP=a("verdict"),zQ=a(qW),zR=a(pY),zS=a(qk),zG=a(qe),zH=a(q0),zI=a(hq),zC=a(qx),zD=a(hr),zE=a(fB),zF=a(fG),zx=a(hz),zy=a(bp),zz=a(pu),zA=a(hw),zu=a(qT),zv=a(fC),zw=a(hw),zq=a(qA),zr=a(hz),zs=a(hr),zt=a(q9),zf=a(q1),zg=a(q4),zh=a(hv),zi=a(ht),zj=a(rd),zk=a(qP),zl=a(qS),zm=a(qE),zn=a(hv),zo=a(qH),y3=a(hm),y4=a(fF),yY=a(bH),yZ=a(bF),y0=a(p0),yy=a(ht),yz=a(qD),yc=a(bp),yd=a(b3),ye=a(hB),yf=a(eE),yg=a(cK),yl=a(jU),yh=a(j9),yi=a(ka),yj=a(ez),yk=a(bp),ym=a(b3),yn=a(hB),yo=a(eE),yp=a(j9),yq=a(ka),yr=a(ez),ys=a(bp),yt=a(b3),yu=a(bH),yv=a(bF),yw=a(dN),yx=a(eE),yA=a(qN),yB=a(q3),yC=a(hD),yD=a(pO),yE=a(pT),yF=a(ez),yG=a(bp),yH=a(b3),yI=a(hk),yJ=a(p4),yK=a(eE),yL=a(fK),yM=a(pC),yN=a(ez),yO=a(bp),yP=a(hk),yQ=a(bp),yR=a(qG),yU=a(pq),yS=a(pR),yT=a(q8),yV=a(fG),yW=a(fB),yX=a(bp),y1=a(hD),y2=a(hq),x9=a(b3),x_=a(eE),x$=a(jU),ya=a(ez),x8=a(rf),xW=a(fK),xX=a(qX),xY=a(dO),xZ=a(eC),x0=a(eC),x1=a(jX),x2=a(dO),x3=a(qn),x4=a(pZ),x5=a(bi),x7=a(px),x6=a(jX),xM=a(qd),xN=a(rj),xO=a(pV),xP=a(pS),xQ=a(q7),xR=a(qR),xS=a(p7),xT=a(hl),xU=a(hl),xI=a(bi),xJ=a(bD),xK=a(eF),xL=a(bE),xE=a(cK),xF=a(j4),xG=a(qy),xB=a(bH),xC=a(bF),xD=a(dN),xu=a(bH),xv=a(bF),xw=a(dN),xx=a(j6),xy=a(dO),xz=a(j2),xA=a(qM),xc=a(pQ),xi=a(ho),xh=a(kc),xd=a(jY),xe=a(fz),xj=a(fA),xl=a(fA),xm=a(qK),xn=a(jY),xk=a(fz),xo=a(pM),xp=a(qJ),xq=a(fz),xr=a(re),xs=a(kc),xt=a(fz),xf=a(eC),xg=a(qt),w$=a(hu),xa=a(hu),xb=a(hu),w7=a(qO),w8=a(bF),w9=a(bH),w_=a(q6),wQ=a(pG),wR=a(pw),wS=a(qC),wT=a(eA),wU=a(rg),wV=a(qF),wW=a(pH),wX=a(qu),wY=a(pF),wZ=a(p3),w0=a(pE),w1=a(qQ),w2=a(ey),w3=a(pB),w4=a(qZ),w5=a(pU),w6=a(rh),wr=a(hx),wt=a(fD),ws=a(fy),wu=a(ex),wv=a(bi),ww=a(bD),wx=a(bG),wy=a(hC),wz=a(bE),wA=a(fI),wB=a(bi),wC=a(bD),wD=a(eF),wE=a(bE),wF=a(bG),wG=a(cK),wH=a(bE),wI=a(ex),wJ=a(fJ),wK=a(bi),wL=a(bD),wM=a(qr),wN=a(fA),wO=a(fJ),wP=a(bE),v$=a(hx),wh=a(fD),wa=a(fy),wb=a(ex),wc=a(bi),wd=a(bD),we=a(bG),wf=a(hC),wg=a(bE),wi=a(fI),wj=a(bi),wk=a(bD),wl=a(eF),wm=a(bE),wn=a(bG),wo=a(cK),wp=a(bE),v8=a(bH),v9=a(bF),v6=[0,a(aN),0],v7=a(aN),v4=a(ae),v3=[0,a(aN),0],v5=a(aN),vQ=a(hx),vR=a(fD),vS=a("*"),vT=a(b4),vL=[0,[0,[0,[0,[0,0]]]]],vM=[0,[0,[0,0]]],vN=[0,[0,0]],vO=[0,0],vP=[0,[0,[0,[0,0]]]],vJ=a('":'),vK=a(aN),vH=[0,a(aN),0],vI=a(aN),vF=[0,a("}"),0],vG=a("{"),vD=[0,a("]"),0],vE=a("["),vB=[0,[0,[0,0]]],vA=[0,[0,[0,0]]],vy=[0,0],vv=[0,[0,[0,0]]],vw=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],vx=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],vt=[0,[0,0]],vu=[0,[0,[0,0]]],vr=[0,0],vs=[0,[0,0]],vn=[0,[0,0]],vo=[0,0],vp=[0,[0,[0,0]]],vq=[0,[0,[0,0]]],vj=[0,[0,[0,0]]],vl=[0,[0,[0,0]]],vk=[0,0],vg=[0,[0,0]],vh=[0,0],ve=[0,[0,0]],vf=[0,0],vd=[0,[0,[0,0]]],vb=[0,[0,0]],vc=[0,0],u_=[0,0],u$=[0,[0,0]],u4=[0,[0,0]],u5=[0,[0,[0,[0,[0,0]]]]],u6=[0,[0,[0,[0,0]]]],u7=[0,[0,[0,0]]],u8=[0,[0,0]],u9=[0,0],u1=[0,0],u2=[0,[0,0]],u3=[0,0],u0=[0,0],uW=[0,0],uX=[0,[0,[0,[0,[0,[0,0]]]]]],uY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HR]]]]]]]]]]],uU=[0,0],uR=[0,0,0],uS=[0,0,0],uT=[0,0,0],uO=[0,[0,0]],uP=[0,[0,[0,0]]],uQ=[0,0],uD=[0,[0,[0,[0,[0,[0,0]]]]]],uE=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],uF=[0,[0,[0,0]]],uG=[0,[0,[0,0]]],uH=[0,[0,[0,[0,[0,[0,0]]]]]],uI=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],uJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HS]]]]]]]]]]],uK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HT]]]]]]]]]]],uL=[0,[0,[0,0]]],uM=[0,[0,[0,[0,[0,[0,0]]]]]],uC=[0,0],uA=[0,[0,0]],uB=[0,[0,[0,0]]],uw=[0,0,0],ux=[0,0,0],us=[0,0,0],ut=[0,0,0],uu=[0,0,0],uv=[0,0,0],ur=[0,0],uq=[0,0],up=[0,0],un=[0,0],uo=[0,0],um=[0,0],uk=[0,0],ul=[0,0],ud=[0,0],ue=[0,0],uf=[0,0],ug=[0,[0,[0,0]]],uc=[0,0],t9=[0,[0,[0,0]]],t_=[0,[0,0]],t7=[0,[0,0]],t8=[0,[0,[0,0]]],t6=[0,0],t4=[0,0],t5=[0,0],t2=[0,0,0],tZ=[0,[0,0]],t0=[0,0],tR=[0,[0,0]],tS=[0,0],tT=[0,[0,0]],tU=[0,0],tV=[0,[0,0]],tW=[0,0],tX=[0,[0,0]],tY=[0,0],tP=[0,[0,0]],tQ=[0,0],tN=[0,[0,0]],tO=[0,0],tJ=[0,[0,0]],tK=[0,0],tL=[0,0],tM=[0,[0,0]],tA=[0,[0,0]],tB=[0,0],tC=[0,[0,0]],tD=[0,0],tE=[0,0],tF=[0,[0,0]],tG=[0,[0,0]],tH=[0,[0,0]],tI=[0,0],tw=[0,0],tv=[0,0],ts=[0,0],tt=[0,[0,0]],tr=[0,[0,[0,0]]],tq=[0,[0,[0,[0,[0,[0,0]]]]]],to=[0,[0,0]],tp=[0,0],tn=[0,[0,0]],tm=[0,0],tk=[0,0],tl=[0,[0,[0,0]]],te=[0,[0,0]],tf=[0,[0,[0,0]]],td=[0,[0,[0,0]]],ta=[0,[0,[0,0]]],s_=[0,[0,[0,0]]],s8=[0,[0,[0,[0,[0,[0,0]]]]]],s9=[0,[0,[0,[0,[0,[0,0]]]]]],s3=[0,[0,0]],s4=[0,0],s5=[0,[0,0]],s6=[0,[0,[0,0]]],s7=[0,[0,[0,0]]],sW=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],sX=[0,[0,[0,[0,[0,[0,0]]]]]],sY=[0,[0,[0,[0,[0,[0,0]]]]]],sZ=[0,[0,[0,0]]],s0=[0,[0,[0,[0,[0,[0,0]]]]]],s1=[0,[0,[0,0]]],s2=[0,[0,[0,0]]],sU=[0,[0,0]],sV=[0,0],sT=[0,0,0],sS=[0,0,0],sR=[0,0,0],sP=[0,0,0],sO=[0,[0,[0,0]]],sI=[0,0],sJ=[0,0],sK=[0,0],sL=[0,0],sG=[0,0],sH=[0,0],sC=[0,[0,[0,0]]],sD=[0,[0,[0,0]]],sE=[0,[0,[0,0]]],sB=[0,[0,[0,[0,0]]]],sx=[0,[0,[0,0]]],sy=[0,[0,[0,0]]],sz=[0,[0,[0,0]]],sA=[0,[0,1,1],[0,[0,0,1],[0,[0,1,0],[0,[0,0,0],0]]]],sv=[0,[0,0]],sw=[0,0],st=[0,[0,0]],su=[0,0],sr=[0,[0,0]],ss=[0,0],se=[0,0],sf=[0,[0,0]],sc=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],sd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HU]]]]]]]]]]],sa=[0,0,0],r$=a(rb),r_=a(ae),r9=[0,[0,0]],r7=[0,0],r4=[0,0],r6=[1,0],r5=[0,0],r3=[0,0],r1=[1,0],r2=[1,0],tu=[10,0,0,0,0],Bw=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HZ]]]]]]]]]]],EQ=a(bH),ER=a(bF),ES=a(p0),EI=a(fI),EJ=[0,a("a base axis of such a platform"),0],EK=a(bi),EL=a(bD),Ev=a(qR),Ew=a(qd),Ex=a(q7),Ey=a(hl),Ez=a(p7),EA=a(hl),EB=a(rj),EC=a(pV),ED=a(pS),El=a(qD),Em=a(ht),DZ=[0,a("such a machine with bodies"),0],DM=a(hq),DN=a(bp),DO=a(qG),DP=a(q8),DS=a(pR),DT=a(pq),DU=a(bp),DV=a(bp),DX=a(hk),DW=[0,a("a claim that no cube of such a machine fits"),0],DY=a(rf),D0=a(ez),D1=a(eE),D2=a(cK),D3=a(j4),D4=a(qy),D5=a(hB),D6=a(pT),D7=a(pC),D8=a(jU),D$=a(dN),Ea=a(qM),Ed=a(b3),Ee=a(b3),Ef=a(p4),Eg=a(b3),Eh=[0,a("the closed design with other bounds on psi than one from below and one from above"),0],Ei=a(hk),Ej=a(fK),Ek=a(dN),En=a(b3),Eo=a(bH),Ep=a(bF),Eq=a(qN),Er=a(q3),Es=a(hD),Et=a(pO),D9=[0,a(aN),0],D_=a('the mechanism "'),Eu=a(j9),EE=a(hB),EF=a(cK),EG=a(j4),EH=a(ka),EM=a(b3),EP=a(cK),EN=[0,a("a platform that turns on struts and other drives"),0],EO=a(b3),Eb=[0,a(aN),0],Ec=a('the workspace "'),ET=a(bp),EU=a(bp),EW=a(fG),EX=a(fB),EY=a(hD),EV=[0,a("an atlas of such a machine"),0],DQ=[0,a(aN),0],DR=a('a claim of the kind "'),Fa=a(ke),Fb=a(dm),Fc=a(eB),Fd=a(j_),Fe=a(fx),Ff=[0,a('this evidence "fan"'),0],E3=a(dm),Fp=a(fF),Fq=[0,1,1],E4=a(qv),Fg=a(ey),Fh=a(p1),Fi=a(eA),Fj=a(p2),Fk=a(qp),Fl=a(bG),Fm=a(fF),Fn=a(hm),Fo=a(bG),E5=a(ke),E6=a(dm),E7=a(pN),E8=a(eB),E9=a(j_),E_=[0,a(aN),0],E$=a('the evidence "'),Fr=a(ey),Fs=a(eA),Ft=a(dm),Fu=a(eB),Fv=a(q5),Fx=a(ey),Fy=a(eA),Fz=a(dm),FA=a(eB),FB=a(fC),FC=a(fx),FD=a(fC),FE=a(fx),Fw=[0,a("this evidence at control points"),0],GN=a('"orthocert-paving/'),GD=a(dm),GE=a(dm),Gk=a(qk),Gl=a(pY),Gm=a(qW),GL=[0,3,3],Gn=a(p6),GB=[0,a("this set of orientations with such drives"),0],GC=[0,a('"parallel_margin" of struts in such a claim'),0],GF=[0,a('this evidence "tolerances" of a platform that turns'),0],GG=[0,a('"one_to_one" of this set of orientations'),0],GH=[0,a("a step of a platform that turns that is not at control points"),0],GI=[0,a('the evidence "tolerances" of such a mechanism'),0],GJ=[0,a(qs),0],GK=[0,a(qV),0],GA=[0,a(qs),0],Gz=[0,a(qV),0],Gx=[0,a(pt),0],Gy=[0,a("a step in a proof that no cube fits"),0],Gw=[0,a('"one_to_one" of such a mechanism'),0],Go=[0,a("the acceleration of a joint of a machine with a plane"),0],Gu=[0,a("a stiffness for each joint in such a claim"),0],Gv=[0,a(qI),0],Gt=[0,a(qI),0],Gp=a(ql),Gq=a(ps),Gr=a(ho),Gs=[0,a(pt),0],Gg=a(kd),Gh=a(fx),Gi=a(bG),F_=a(hq),F$=a(qe),Ga=a(q0),Gb=[0,a(aN),0],Gc=a('a proof of the kind "'),F6=a(fB),F7=a(fG),F8=a(hr),F9=a(qx),F2=a(bp),F3=a(hz),F4=a(pu),F5=a(hw),FZ=a(qT),F0=a(fC),F1=a(hw),FV=a(qA),FW=a(hz),FX=a(hr),FY=a(q9),FH=a(q4),FI=a(hv),FJ=a(q1),FK=a(ht),FL=a(qH),FM=a(rd),FP=a(qP),FQ=a(hm),FR=a(fF),FS=a(qS),FT=a(qE),FU=a(hv),FN=[0,a(aN),0],FO=a('the failure "'),FF=a(kd),FG=a(rb),E1=a(fF),E2=a(hm),EZ=a(pr),E0=a(pv),DJ=a(fK),Dz=a(jX),DA=a(px),DB=a(eC),DC=a(bi),DH=a(qX),DI=a(fK),DK=a(dO),DL=a(eC),DD=a(dO),DE=a(qn),DF=a(pZ),DG=a(bi),Ds=a(dN),Dw=a(bH),Dx=a(bF),Dt=a(j2),Du=a(j6),Dv=a(dO),Dm=a(dN),Dq=a(bH),Dr=a(bF),Dn=a(j2),Do=a(j6),Dp=a(dO),Dl=[0,1],Dk=[0,1],Di=[0,1],Dh=[0,1],Df=[0,1],Dg=[0,a("this quantity of such a mechanism"),0],C0=a(jY),C1=a(qJ),C2=a(pM),C3=a(kc),C4=a(re),C6=a(qK),C5=a(fA),CZ=a(ho),CR=a(hu),CF=a(qt),CG=a(qC),C9=a(ey),C_=a(qZ),C$=a(p3),Da=a(eA),Db=a(qu),Dc=a(pE),Dd=a(pF),De=a(pw),CH=a(pB),CI=a(rh),CJ=a(qQ),CK=a(qF),CL=a(pU),CM=a(rg),CN=a(pH),CO=a(pG),CP=[0,a(aN),0],CQ=a('the quantity "'),CS=a(pQ),CT=a(qO),CU=a(bH),CV=a(bF),CW=a(q6),CX=[0,a(aN),0],CY=a('a bound "'),C7=a(fz),C8=a(eC),CD=a(bE),CE=a(eF),Cg=a(bE),Ch=a(fI),Ci=a(fJ),Cj=a(cK),Ck=a(hC),Cl=a(eF),Co=a(bi),Cp=a(bD),Cq=a(fy),Cr=a(ex),Cs=a(bi),Ct=a(bD),Cu=a(bG),Cv=a(bG),Cw=a(fy),Cx=a(ex),Cy=a(fJ),Cz=a(bi),CA=a(bD),CB=a(qr),CC=a(fA),Cm=[0,a('" of such a machine'),0],Cn=a(pL),Ce=a(bE),Cf=a(fJ),B0=a(bE),B1=a(cK),B2=a(hC),B3=a(eF),B6=a(fI),B7=a(bi),B8=a(bD),B9=a(fy),B_=a(ex),B$=a(bi),Ca=a(bD),Cb=a(bG),Cc=a(bG),B4=[0,a(aN),0],B5=a(pL),BX=a(hx),BY=a(fD),BV=a(" is not covered by the verified checker"),BW=a(ae),BT=a(bH),BU=a(bF),BP=a(ae),BQ=a(ri),BR=a(ae),BS=a(ae),BO=[1,0],BM=a("Reader.Malformed"),BN=a("Reader.Not_covered"),GP=[0,a("a paving is checked by orthocert-verified")],GO=a(qw),GQ=a("CERTIFIED"),GR=a("REFUTED"),GS=a(qw),GT=a("NOT COVERED: ");function
+fx(a,b,c,d){return a.length==3?a(b,c,d):dp(a,[b,c,d])}function
+jR(a,b,c,d,e){return a.length==4?a(b,c,d,e):dp(a,[b,c,d,e])}Id();var
+kx=[a1,a(p8),-2],kw=[a1,a(rk),-4],GV=[0,[0,[0,[0,0]]]],GW=[0,0],GX=[0,0],GY=[0,[0,0]],GZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GY]]]]]]]]]]],g$=[0,[1,0],0],oJ=[0,[2,0],0],jy=[0,[1,0],0],oI=[0,[2,0],0],g9=[0,[1,0],0],jx=[0,[2,0],0],G0=[0,[0,[0,[0,0]]]],G1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G0]]]]]]]]]]],G2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G1]]]]]]]]]]],G3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G2]]]]]]]]]]],G4=[0,[0,0]],G5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G4]]]]]]]]]]],G6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G5]]]]]]]]]]],G7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G6]]]]]]]]]]],G8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G7]]]]]]]]]]],G9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],G_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G9]]]]]]]]]]],G$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G_]]]]]]]]]]],Ha=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G$]]]]]]]]]]],Hb=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ha]]]]]]]]]]],Hc=[0,[0,0]],Hd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hc]]]]]]]]]]],He=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hd]]]]]]]]]]],Hf=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,He]]]]]]]]]]],Hg=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hf]]]]]]]]]]],Hh=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hg]]]]]]]]]]],Hi=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hh]]]]]]]]]]],Hj=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hi]]]]]]]]]]],Hk=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],Hl=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hk]]]]]]]]]]],Hm=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hl]]]]]]]]]]],Hn=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hm]]]]]]]]]]],Ho=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hn]]]]]]]]]]],Hp=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ho]]]]]]]]]]],Hq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hp]]]]]]]]]]],Hr=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hq]]]]]]]]]]],Hs=[0,0],Ht=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hs]]]]]]]]]]],Hu=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ht]]]]]]]]]]],Hv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hu]]]]]]]]]]],Hw=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hv]]]]]]]]]]],Hx=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hw]]]]]]]]]]],Hy=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hx]]]]]]]]]]],Hz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hy]]]]]]]]]]],HA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hz]]]]]]]]]]],HB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HA]]]]]]]]]]],HC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HB]]]]]]]]]]],HD=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],HE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HD]]]]]]]]]]],HF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],HG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HF]]]]]]]]]]],HH=[0,[0,[0,[0,[0,0]]]]],HI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HH]]]]]]]]]]],HJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HI]]]]]]]]]]],HK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HJ]]]]]]]]]]],HL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HK]]]]]]]]]]],HM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HL]]]]]]]]]]],HN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HM]]]]]]]]]]],HO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HN]]]]]]]]]]],HP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HO]]]]]]]]]]],HQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HP]]]]]]]]]]],HR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HQ]]]]]]]]]]],HS=[0,0],HT=[0,[0,0]],HU=[0,0],HV=[0,[0,[0,[0,[0,0]]]]],k5=[0,[0,[0,0]]],dv=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],gZ=[0,[0,[0,[0,0]]]],HW=[0,[0,[0,[0,[0,0]]]]],HX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HW]]]]]]]]]]],HY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HX]]]]]]]]]]],HZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HY]]]]]]]]]]],H0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HZ]]]]]]]]]]];bI(11,[a1,a(py),-12],py);bI(10,[a1,a(qm),-11],qm);bI(9,[a1,a(q$),-10],q$);bI(8,[a1,a(pK),-9],pK);bI(7,[a1,a(qB),-8],qB);bI(6,[a1,a(pI),-7],pI);bI(5,[a1,a(p9),-6],p9);bI(4,[a1,a(qb),-5],qb);bI(3,kw,rk);bI(2,[a1,a(j1),-3],j1);bI(1,kx,p8);bI(0,[a1,a(qU),-1],qU);var
+rW=a("String.sub / Bytes.sub"),rY=a(ae),rX=a("String.concat"),rZ=a("Array.init"),r0=a("power"),sh=[0,0],si=[0,0],so=[0,0,0],sp=[0,0,0],sq=[0,0],sM=[0,0],sN=[0,0],sQ=[0,0],s$=[0,0],tc=[0,0],tg=[0,0],th=[0,0],ti=[0,0],tj=[0,0],tx=[0,0],ty=[0,0],t1=[0,0],uj=[0,[0,[0,0]]],uN=[0,0],va=[0,0],vC=a(","),vU=[0,a(j7),0],vV=a(qg),vW=a("."),vX=[0,[0,[0,0]]],vY=a(eF),vZ=a(j8),v0=[0,[0,[0,[0,[0,0]]]]],v1=[0,a(j7),0],v2=a(ri),y5=a(pv),y7=a(pr),y6=a(qp),y8=a(eA),y9=a(ey),y_=a(ke),y$=a(q5),za=a(p2),zb=a(j_),zc=a(qv),zd=a(p1),Au=[0,[0,0,0]],AL=[0,0],Av=a(fy),Aw=[0,0],Ax=a("divided"),Ay=[0,1],Az=a("mirror"),AA=[0,3],AB=a("negative"),AC=[0,2],AD=a(fD),AE=[0,5],AF=a(kd),AG=[0,4],AH=a(dm),AI=a(pN),AJ=a(eB),AK=a(bG),AM=[0,0],AN=[0,0],AO=[0,0],AR=[0,[0,[0,0]]],AS=[0,[0,[0,0]]],Bh=[0,[0,[0,0]]],Bv=[0,0],BL=a(ae),BE=[0,0],BF=[0,0],BG=[0,[0,[0,[0,0]]]],BH=[0,[0,[0,0]]],BI=[0,[0,[0,[0,0]]]],BJ=[0,[0,[0,0]]],BC=[0,[0,[0,0]]],BB=[0,0],BA=a(eB),Bz=[0,0],By=[0,[0,[0,0]]],Bx=[0,0],Bs=[0,[0,0]],Bu=[0,[0,[0,0]]],Bt=[0,0],Bo=[0,[0,[0,0]]],Bn=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GV]]]]]]]]]],[0,0,[0,[0,[0,[0,0]]],0]]],Bi=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],[0,0,0]],Bj=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],[0,[0,[0,[0,[0,[0,[0,0]]]]]],0]],Bk=[0,[0,[0,[0,[0,[0,[0,0]]]]]],0],Bl=[0,[0,[0,[0,0]]],[0,0,0]],Bf=[0,0],Bg=[0,[0,0]],Be=[0,0,0],Bd=[0,[0,[0,0]]],A9=[0,[0,0]],A_=[0,[0,[0,0]]],A$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GW]]]]]]]]]]],Ba=[0,[0,0]],Bb=[0,[0,[0,0]]],A8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GX]]]]]]]]]]],A6=[0,[0,0]],A7=[0,[0,[0,0]]],A4=[0,[0,[0,0]]],A5=[0,[0,0]],A3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GZ]]]]]]]]]]],A2=[0,0],A1=[0,0],AY=[0,[0,0]],AZ=[0,0],AW=[0,0],AX=[0,1],AU=[0,[0,0]],AV=[0,0],AT=[0,0],AP=[0,0],AQ=[0,1],Ar=[0,0],As=[0,1],At=[0,2],An=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],Al=[0,[0,0],0],Am=[0,[1,0],0],Ao=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],Aj=[0,[0,0]],Ak=[0,0],Ai=[0,0],Ah=[0,0],Ag=[0,0],Af=[0,0],Ae=[0,0,0],Ac=[0,[0,0]],Ad=[0,0],Ab=[0,0,0],z$=[0,[0,[0,0]]],Aa=[0,[0,[0,0]]],z_=[0,0],z8=[0,1,0],z0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G3]]]]]]]]]]],z1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G8]]]]]]]]]]],zW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hb]]]]]]]]]]],zX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hj]]]]]]]]]]],zY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hr]]]]]]]]]]],zZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HC]]]]]]]]]]],z2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HE]]]]]]]]]]],z3=a("sqrt"),zU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HG]]]]]]]]]]],zV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HR]]]]]]]]]]],zJ=[0,a("\n"),0],zK=a(ps),zL=a(ho),zM=a(ql),zN=a(p6),zT=a(fG),zO=a(fC),zP=a("verdict"),zQ=a(qW),zR=a(pY),zS=a(qk),zG=a(qe),zH=a(q0),zI=a(hq),zC=a(qx),zD=a(hr),zE=a(fC),zF=a(fG),zx=a(hz),zy=a(bp),zz=a(pu),zA=a(hw),zu=a(qT),zv=a(fD),zw=a(hw),zq=a(qA),zr=a(hz),zs=a(hr),zt=a(q9),zf=a(q1),zg=a(q4),zh=a(hv),zi=a(ht),zj=a(rd),zk=a(qP),zl=a(qS),zm=a(qE),zn=a(hv),zo=a(qH),y3=a(hm),y4=a(fF),yY=a(bH),yZ=a(bF),y0=a(p0),yy=a(ht),yz=a(qD),yc=a(bp),yd=a(b3),ye=a(hB),yf=a(eE),yg=a(cK),yl=a(jU),yh=a(j9),yi=a(ka),yj=a(ez),yk=a(bp),ym=a(b3),yn=a(hB),yo=a(eE),yp=a(j9),yq=a(ka),yr=a(ez),ys=a(bp),yt=a(b3),yu=a(bH),yv=a(bF),yw=a(dN),yx=a(eE),yA=a(qN),yB=a(q3),yC=a(hD),yD=a(pO),yE=a(pT),yF=a(ez),yG=a(bp),yH=a(b3),yI=a(hk),yJ=a(p4),yK=a(eE),yL=a(fK),yM=a(pC),yN=a(ez),yO=a(bp),yP=a(hk),yQ=a(bp),yR=a(qG),yU=a(pq),yS=a(pR),yT=a(q8),yV=a(fG),yW=a(fC),yX=a(bp),y1=a(hD),y2=a(hq),x9=a(b3),x_=a(eE),x$=a(jU),ya=a(ez),x8=a(rf),xW=a(fK),xX=a(qX),xY=a(dO),xZ=a(eC),x0=a(eC),x1=a(jX),x2=a(dO),x3=a(qn),x4=a(pZ),x5=a(bi),x7=a(px),x6=a(jX),xM=a(qd),xN=a(rj),xO=a(pV),xP=a(pS),xQ=a(q7),xR=a(qR),xS=a(p7),xT=a(hl),xU=a(hl),xI=a(bi),xJ=a(bD),xK=a(eG),xL=a(bE),xE=a(cK),xF=a(j4),xG=a(qy),xB=a(bH),xC=a(bF),xD=a(dN),xu=a(bH),xv=a(bF),xw=a(dN),xx=a(j6),xy=a(dO),xz=a(j2),xA=a(qM),xc=a(pQ),xi=a(ho),xh=a(kc),xd=a(jY),xe=a(fA),xj=a(fB),xl=a(fB),xm=a(qK),xn=a(jY),xk=a(fA),xo=a(pM),xp=a(qJ),xq=a(fA),xr=a(re),xs=a(kc),xt=a(fA),xf=a(eC),xg=a(qt),w$=a(hu),xa=a(hu),xb=a(hu),w7=a(qO),w8=a(bF),w9=a(bH),w_=a(q6),wQ=a(pG),wR=a(pw),wS=a(qC),wT=a(eA),wU=a(rg),wV=a(qF),wW=a(pH),wX=a(qu),wY=a(pF),wZ=a(p3),w0=a(pE),w1=a(qQ),w2=a(ey),w3=a(pB),w4=a(qZ),w5=a(pU),w6=a(rh),wr=a(hx),wt=a(eF),ws=a(fz),wu=a(ex),wv=a(bi),ww=a(bD),wx=a(bG),wy=a(hC),wz=a(bE),wA=a(fI),wB=a(bi),wC=a(bD),wD=a(eG),wE=a(bE),wF=a(bG),wG=a(cK),wH=a(bE),wI=a(ex),wJ=a(fJ),wK=a(bi),wL=a(bD),wM=a(qr),wN=a(fB),wO=a(fJ),wP=a(bE),v$=a(hx),wh=a(eF),wa=a(fz),wb=a(ex),wc=a(bi),wd=a(bD),we=a(bG),wf=a(hC),wg=a(bE),wi=a(fI),wj=a(bi),wk=a(bD),wl=a(eG),wm=a(bE),wn=a(bG),wo=a(cK),wp=a(bE),v8=a(bH),v9=a(bF),v6=[0,a(aN),0],v7=a(aN),v4=a(ae),v3=[0,a(aN),0],v5=a(aN),vQ=a(hx),vR=a(eF),vS=a("*"),vT=a(b4),vL=[0,[0,[0,[0,[0,0]]]]],vM=[0,[0,[0,0]]],vN=[0,[0,0]],vO=[0,0],vP=[0,[0,[0,[0,0]]]],vJ=a('":'),vK=a(aN),vH=[0,a(aN),0],vI=a(aN),vF=[0,a("}"),0],vG=a("{"),vD=[0,a("]"),0],vE=a("["),vB=[0,[0,[0,0]]],vA=[0,[0,[0,0]]],vy=[0,0],vv=[0,[0,[0,0]]],vw=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],vx=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],vt=[0,[0,0]],vu=[0,[0,[0,0]]],vr=[0,0],vs=[0,[0,0]],vn=[0,[0,0]],vo=[0,0],vp=[0,[0,[0,0]]],vq=[0,[0,[0,0]]],vj=[0,[0,[0,0]]],vl=[0,[0,[0,0]]],vk=[0,0],vg=[0,[0,0]],vh=[0,0],ve=[0,[0,0]],vf=[0,0],vd=[0,[0,[0,0]]],vb=[0,[0,0]],vc=[0,0],u_=[0,0],u$=[0,[0,0]],u4=[0,[0,0]],u5=[0,[0,[0,[0,[0,0]]]]],u6=[0,[0,[0,[0,0]]]],u7=[0,[0,[0,0]]],u8=[0,[0,0]],u9=[0,0],u1=[0,0],u2=[0,[0,0]],u3=[0,0],u0=[0,0],uW=[0,0],uX=[0,[0,[0,[0,[0,[0,0]]]]]],uY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HS]]]]]]]]]]],uU=[0,0],uR=[0,0,0],uS=[0,0,0],uT=[0,0,0],uO=[0,[0,0]],uP=[0,[0,[0,0]]],uQ=[0,0],uD=[0,[0,[0,[0,[0,[0,0]]]]]],uE=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],uF=[0,[0,[0,0]]],uG=[0,[0,[0,0]]],uH=[0,[0,[0,[0,[0,[0,0]]]]]],uI=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],uJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HT]]]]]]]]]]],uK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HU]]]]]]]]]]],uL=[0,[0,[0,0]]],uM=[0,[0,[0,[0,[0,[0,0]]]]]],uC=[0,0],uA=[0,[0,0]],uB=[0,[0,[0,0]]],uw=[0,0,0],ux=[0,0,0],us=[0,0,0],ut=[0,0,0],uu=[0,0,0],uv=[0,0,0],ur=[0,0],uq=[0,0],up=[0,0],un=[0,0],uo=[0,0],um=[0,0],uk=[0,0],ul=[0,0],ud=[0,0],ue=[0,0],uf=[0,0],ug=[0,[0,[0,0]]],uc=[0,0],t9=[0,[0,[0,0]]],t_=[0,[0,0]],t7=[0,[0,0]],t8=[0,[0,[0,0]]],t6=[0,0],t4=[0,0],t5=[0,0],t2=[0,0,0],tZ=[0,[0,0]],t0=[0,0],tR=[0,[0,0]],tS=[0,0],tT=[0,[0,0]],tU=[0,0],tV=[0,[0,0]],tW=[0,0],tX=[0,[0,0]],tY=[0,0],tP=[0,[0,0]],tQ=[0,0],tN=[0,[0,0]],tO=[0,0],tJ=[0,[0,0]],tK=[0,0],tL=[0,0],tM=[0,[0,0]],tA=[0,[0,0]],tB=[0,0],tC=[0,[0,0]],tD=[0,0],tE=[0,0],tF=[0,[0,0]],tG=[0,[0,0]],tH=[0,[0,0]],tI=[0,0],tw=[0,0],tv=[0,0],ts=[0,0],tt=[0,[0,0]],tr=[0,[0,[0,0]]],tq=[0,[0,[0,[0,[0,[0,0]]]]]],to=[0,[0,0]],tp=[0,0],tn=[0,[0,0]],tm=[0,0],tk=[0,0],tl=[0,[0,[0,0]]],te=[0,[0,0]],tf=[0,[0,[0,0]]],td=[0,[0,[0,0]]],ta=[0,[0,[0,0]]],s_=[0,[0,[0,0]]],s8=[0,[0,[0,[0,[0,[0,0]]]]]],s9=[0,[0,[0,[0,[0,[0,0]]]]]],s3=[0,[0,0]],s4=[0,0],s5=[0,[0,0]],s6=[0,[0,[0,0]]],s7=[0,[0,[0,0]]],sW=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],sX=[0,[0,[0,[0,[0,[0,0]]]]]],sY=[0,[0,[0,[0,[0,[0,0]]]]]],sZ=[0,[0,[0,0]]],s0=[0,[0,[0,[0,[0,[0,0]]]]]],s1=[0,[0,[0,0]]],s2=[0,[0,[0,0]]],sU=[0,[0,0]],sV=[0,0],sT=[0,0,0],sS=[0,0,0],sR=[0,0,0],sP=[0,0,0],sO=[0,[0,[0,0]]],sI=[0,0],sJ=[0,0],sK=[0,0],sL=[0,0],sG=[0,0],sH=[0,0],sC=[0,[0,[0,0]]],sD=[0,[0,[0,0]]],sE=[0,[0,[0,0]]],sB=[0,[0,[0,[0,0]]]],sx=[0,[0,[0,0]]],sy=[0,[0,[0,0]]],sz=[0,[0,[0,0]]],sA=[0,[0,1,1],[0,[0,0,1],[0,[0,1,0],[0,[0,0,0],0]]]],sv=[0,[0,0]],sw=[0,0],st=[0,[0,0]],su=[0,0],sr=[0,[0,0]],ss=[0,0],se=[0,0],sf=[0,[0,0]],sc=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],sd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HV]]]]]]]]]]],sa=[0,0,0],r$=a(rb),r_=a(ae),r9=[0,[0,0]],r7=[0,0],r4=[0,0],r6=[1,0],r5=[0,0],r3=[0,0],r1=[1,0],r2=[1,0],tu=[10,0,0,0,0],Bw=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H0]]]]]]]]]]],ER=a(bH),ES=a(bF),ET=a(p0),EJ=a(fI),EK=[0,a("a base axis of such a platform"),0],EL=a(bi),EM=a(bD),Ew=a(qR),Ex=a(qd),Ey=a(q7),Ez=a(hl),EA=a(p7),EB=a(hl),EC=a(rj),ED=a(pV),EE=a(pS),Em=a(qD),En=a(ht),D0=[0,a("such a machine with bodies"),0],DN=a(hq),DO=a(bp),DP=a(qG),DQ=a(q8),DT=a(pR),DU=a(pq),DV=a(bp),DW=a(bp),DY=a(hk),DX=[0,a("a claim that no cube of such a machine fits"),0],DZ=a(rf),D1=a(ez),D2=a(eE),D3=a(cK),D4=a(j4),D5=a(qy),D6=a(hB),D7=a(pT),D8=a(pC),D9=a(jU),Ea=a(dN),Eb=a(qM),Ee=a(b3),Ef=a(b3),Eg=a(p4),Eh=a(b3),Ei=[0,a("the closed design with other bounds on psi than one from below and one from above"),0],Ej=a(hk),Ek=a(fK),El=a(dN),Eo=a(b3),Ep=a(bH),Eq=a(bF),Er=a(qN),Es=a(q3),Et=a(hD),Eu=a(pO),D_=[0,a(aN),0],D$=a('the mechanism "'),Ev=a(j9),EF=a(hB),EG=a(cK),EH=a(j4),EI=a(ka),EN=a(b3),EQ=a(cK),EO=[0,a("a platform that turns on struts and other drives"),0],EP=a(b3),Ec=[0,a(aN),0],Ed=a('the workspace "'),EU=a(bp),EV=a(bp),EX=a(fG),EY=a(fC),EZ=a(hD),EW=[0,a("an atlas of such a machine"),0],DR=[0,a(aN),0],DS=a('a claim of the kind "'),Fb=a(ke),Fc=a(dm),Fd=a(eB),Fe=a(j_),Ff=a(fy),Fg=[0,a('this evidence "fan"'),0],E4=a(dm),Fq=a(fF),Fr=[0,1,1],E5=a(qv),Fh=a(ey),Fi=a(p1),Fj=a(eA),Fk=a(p2),Fl=a(qp),Fm=a(bG),Fn=a(fF),Fo=a(hm),Fp=a(bG),E6=a(ke),E7=a(dm),E8=a(pN),E9=a(eB),E_=a(j_),E$=[0,a(aN),0],Fa=a('the evidence "'),Fs=a(ey),Ft=a(eA),Fu=a(dm),Fv=a(eB),Fw=a(q5),Fy=a(ey),Fz=a(eA),FA=a(dm),FB=a(eB),FC=a(fD),FD=a(fy),FE=a(fD),FF=a(fy),Fx=[0,a("this evidence at control points"),0],GO=a('"orthocert-paving/'),GE=a(dm),GF=a(dm),Gl=a(qk),Gm=a(pY),Gn=a(qW),GM=[0,3,3],Go=a(p6),GC=[0,a("this set of orientations with such drives"),0],GD=[0,a('"parallel_margin" of struts in such a claim'),0],GG=[0,a('this evidence "tolerances" of a platform that turns'),0],GH=[0,a('"one_to_one" of this set of orientations'),0],GI=[0,a("a step of a platform that turns that is not at control points"),0],GJ=[0,a('the evidence "tolerances" of such a mechanism'),0],GK=[0,a(qs),0],GL=[0,a(qV),0],GB=[0,a(qs),0],GA=[0,a(qV),0],Gy=[0,a(pt),0],Gz=[0,a("a step in a proof that no cube fits"),0],Gx=[0,a('"one_to_one" of such a mechanism'),0],Gp=[0,a("the acceleration of a joint of a machine with a plane"),0],Gv=[0,a("a stiffness for each joint in such a claim"),0],Gw=[0,a(qI),0],Gu=[0,a(qI),0],Gq=a(ql),Gr=a(ps),Gs=a(ho),Gt=[0,a(pt),0],Gh=a(kd),Gi=a(fy),Gj=a(bG),F$=a(hq),Ga=a(qe),Gb=a(q0),Gc=[0,a(aN),0],Gd=a('a proof of the kind "'),F7=a(fC),F8=a(fG),F9=a(hr),F_=a(qx),F3=a(bp),F4=a(hz),F5=a(pu),F6=a(hw),F0=a(qT),F1=a(fD),F2=a(hw),FW=a(qA),FX=a(hz),FY=a(hr),FZ=a(q9),FI=a(q4),FJ=a(hv),FK=a(q1),FL=a(ht),FM=a(qH),FN=a(rd),FQ=a(qP),FR=a(hm),FS=a(fF),FT=a(qS),FU=a(qE),FV=a(hv),FO=[0,a(aN),0],FP=a('the failure "'),FG=a(kd),FH=a(rb),E2=a(fF),E3=a(hm),E0=a(pr),E1=a(pv),DK=a(fK),DA=a(jX),DB=a(px),DC=a(eC),DD=a(bi),DI=a(qX),DJ=a(fK),DL=a(dO),DM=a(eC),DE=a(dO),DF=a(qn),DG=a(pZ),DH=a(bi),Dt=a(dN),Dx=a(bH),Dy=a(bF),Du=a(j2),Dv=a(j6),Dw=a(dO),Dn=a(dN),Dr=a(bH),Ds=a(bF),Do=a(j2),Dp=a(j6),Dq=a(dO),Dm=[0,1],Dl=[0,1],Dj=[0,1],Di=[0,1],Dg=[0,1],Dh=[0,a("this quantity of such a mechanism"),0],C1=a(jY),C2=a(qJ),C3=a(pM),C4=a(kc),C5=a(re),C7=a(qK),C6=a(fB),C0=a(ho),CS=a(hu),CG=a(qt),CH=a(qC),C_=a(ey),C$=a(qZ),Da=a(p3),Db=a(eA),Dc=a(qu),Dd=a(pE),De=a(pF),Df=a(pw),CI=a(pB),CJ=a(rh),CK=a(qQ),CL=a(qF),CM=a(pU),CN=a(rg),CO=a(pH),CP=a(pG),CQ=[0,a(aN),0],CR=a('the quantity "'),CT=a(pQ),CU=a(qO),CV=a(bH),CW=a(bF),CX=a(q6),CY=[0,a(aN),0],CZ=a('a bound "'),C8=a(fA),C9=a(eC),CE=a(bE),CF=a(eG),Ch=a(bE),Ci=a(fI),Cj=a(fJ),Ck=a(cK),Cl=a(hC),Cm=a(eG),Cp=a(bi),Cq=a(bD),Cr=a(fz),Cs=a(ex),Ct=a(bi),Cu=a(bD),Cv=a(bG),Cw=a(bG),Cx=a(fz),Cy=a(ex),Cz=a(fJ),CA=a(bi),CB=a(bD),CC=a(qr),CD=a(fB),Cn=[0,a('" of such a machine'),0],Co=a(pL),Cf=a(bE),Cg=a(fJ),B1=a(bE),B2=a(cK),B3=a(hC),B4=a(eG),B7=a(fI),B8=a(bi),B9=a(bD),B_=a(fz),B$=a(ex),Ca=a(bi),Cb=a(bD),Cc=a(bG),Cd=a(bG),B5=[0,a(aN),0],B6=a(pL),BY=a(hx),BZ=a(eF),BW=a(" is not covered by the verified checker"),BX=a(ae),BU=a(bH),BV=a(bF),BQ=a(ae),BR=a(ri),BS=a(ae),BT=a(ae),BP=[1,0],BO=a(eF),BM=a("Reader.Malformed"),BN=a("Reader.Not_covered"),GQ=[0,a("a paving is checked by orthocert-verified")],GP=a(qw),GR=a("CERTIFIED"),GS=a("REFUTED"),GT=a(qw),GU=a("NOT COVERED: ");function
 fQ(a){throw[0,kw,a]}function
 a$(d,c){var
-a=au(d),e=au(c),b=cl(a+e|0);eH(d,0,b,0,a);eH(c,0,b,a,e);return hL(b)}Ir(0);rF(1);rF(2);function
+a=au(d),e=au(c),b=cl(a+e|0);eI(d,0,b,0,a);eI(c,0,b,a,e);return hL(b)}Is(0);rF(1);rF(2);function
 ky(b){function
 a(b){var
 a=b;for(;;){if(a){var
-c=a[2],d=a[1];try{Iq(d)}catch(a){a=rP(a);if(a[1]!==kx)throw a;var
+c=a[2],d=a[1];try{Ir(d)}catch(a){a=rP(a);if(a[1]!==kx)throw a;var
 e=a}var
-a=c;continue}return 0}}return a(Is(0))}Iz(a(pz),ky);function
+a=c;continue}return 0}}return a(It(0))}IA(a(pz),ky);function
 cn(c){var
 b=0,a=c;for(;;){if(a){var
 b=b+1|0,a=a[2];continue}return b}}function
@@ -730,9 +730,9 @@ a=c;for(;;){if(a){var
 e=a[2],b=i(d,a[1]);if(b)return b;var
 a=e;continue}return 0}}function
 bJ(b,c){var
-a=cl(b);Ia(a,0,b,c);return hL(a)}function
+a=cl(b);Ib(a,0,b,c);return hL(a)}function
 dU(g,b,a){var
-d=eI(g),f=0;if(0<=b&&0<=a&&!((hJ(d)-a|0)<b)){var
+d=eJ(g),f=0;if(0<=b&&0<=a&&!((hJ(d)-a|0)<b)){var
 c=cl(a);fL(d,b,c,0,a);var
 e=c;f=1}if(!f)var
 e=fQ(rW);return hL(e)}function
@@ -745,10 +745,10 @@ var
 l=c;var
 f=cl(l),e=p,d=g;for(;;){if(d){var
 a=d[1];if(d[2]){var
-o=d[2];eH(a,0,f,e,au(a));eH(k,0,f,e+au(a)|0,h);var
-e=(e+au(a)|0)+h|0,d=o;continue}eH(a,0,f,e,au(a))}return hL(f)}}}return rY}function
+o=d[2];eI(a,0,f,e,au(a));eI(k,0,f,e+au(a)|0,h);var
+e=(e+au(a)|0)+h|0,d=o;continue}eI(a,0,f,e,au(a))}return hL(f)}}}return rY}function
 hO(b,c){if(0===b)return[0];if(0<=b){var
-d=Ip(b,i(c,0)),e=b-1|0,f=1;if(!(e<1)){var
+d=Iq(b,i(c,0)),e=b-1|0,f=1;if(!(e<1)){var
 a=f;for(;;){d[1+a]=i(c,a);var
 g=a+1|0;if(e!==a){var
 a=g;continue}break}}return d}return fQ(rZ)}function
@@ -762,7 +762,7 @@ c(b,a){return B(aF(b),a)}function
 aU(b,a){return[0,kt(b,a),rS(b,a)]}function
 hQ(b,a){return D(b,a)?b:a}function
 bq(b,a){return D(b,a)?a:b}function
-eN(a){return eN}function
+eO(a){return eO}function
 P(a){return a?0:1}function
 z(b,a){var
 c=a?[0,i(b,a[1])]:a;return c}function
@@ -901,7 +901,7 @@ kM(c,i,h){var
 e=i,a=h;for(;;){if(D(e,b))return a;var
 f=aU(e,aF(2)),g=f[1];if(I(f[2],d)){var
 e=g,a=aq(c,a,a);continue}return aq(c,a,kM(c,g,aq(c,a,a)))}}function
-eO(a){return kM(R,a,r5)}function
+eP(a){return kM(R,a,r5)}function
 kN(a){return a?r(kN(a[1])):b}function
 cp(f,e){var
 a=f,d=e;for(;;)if(typeof
@@ -969,8 +969,8 @@ c=aO(a);return 0===c?d:1===c?kt(b,a):kB(-1,kt(kB(-1,b),a))}function
 kR(a){var
 f=aO(a);if(0===f)return d;if(0<f){if(D(a,b))return d;var
 c=aU(a,aF(2)),e=c[1];return I(c[2],d)?fV(e):fV(e)}return d}function
-f0(a){return 0<aO(a)?IJ(a):d}function
-eP(b,c){var
+f0(a){return 0<aO(a)?IK(a):d}function
+eQ(b,c){var
 a=ku(c);return 0<=a?rT(b,a):rU(b,-a|0)}function
 dq(b,c){var
 a=ku(c);return 0<=a?rU(b,a):rT(b,-a|0)}function
@@ -986,7 +986,7 @@ a=a[2],b=b[1];continue}return a}var
 e=a?[0,a[1]]:a;return e}}function
 kS(a){if(a){var
 b=[0,a[1],0];return f(kS(a[2]),b)}return a}function
-eQ(d,c){var
+eR(d,c){var
 a=d,b=c;for(;;){if(a){var
 e=[0,a[1],b],a=a[2],b=e;continue}return b}}function
 dY(a){if(a){var
@@ -1051,7 +1051,7 @@ kU(a){if(a){var
 e=kU(a[2]),f=B(c(2,b),e),g=a[1]?b:d;return F(g,f)}return d}function
 f1(j){function
 a(a){return 0!==(j&1<<a)?1:0}var
-c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=kU([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<aO(b)?eO(b):0}function
+c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=kU([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<aO(b)?eP(b):0}function
 kV(a){return[0,a,b]}function
 dZ(c,b){var
 a=ks(B(c[1],b[2]),B(b[1],c[2])),d=0===a?0:0<=a?2:1;return d?0:1}function
@@ -1101,16 +1101,16 @@ i=bj(a[1]);return a$(bJ(1,55),i);case
 8:var
 j=bj(a[1]);return a$(bJ(1,56),j);default:var
 k=bj(a[1]);return a$(bJ(1,57),k)}}function
-eR(a){return typeof
+eS(a){return typeof
 a==="number"?r$:bj(a)}function
 cr(a){return b6(c(2,b),a)}function
 kW(b,a){return dq(a,b)}function
 kX(b,a){return Q(dq(Q(a),b))}function
 f3(b,a){return Q(cq(Q(b),a))}function
 L(c,b){var
-a=eP(b,c);return[0,a,a]}function
+a=eQ(b,c);return[0,a,a]}function
 kY(d,c,a){var
-b=eP(c,d),e=f3(b,a);return[0,cq(b,a),e]}function
+b=eQ(c,d),e=f3(b,a);return[0,cq(b,a),e]}function
 A(b,a){return[0,F(b[1],a[1]),F(b[2],a[2])]}function
 E(b,a){return[0,aG(b[1],a[2]),aG(b[2],a[1])]}function
 aa(a){return[0,Q(a[2]),Q(a[1])]}function
@@ -1123,14 +1123,14 @@ c=B(a[1],a[1]),e=B(a[2],a[2]),h=kX(b,bq(c,e)),g=0;if(J(a[1],d)&&J(d,a[2])){var
 f=d;g=1}if(!g)var
 f=kW(b,hQ(c,e));return[0,f,h]}function
 hY(b,a){var
-c=eP(cr(b),b),d=f3(c,a[1]);return[0,cq(c,a[2]),d]}function
+c=eQ(cr(b),b),d=f3(c,a[1]);return[0,cq(c,a[2]),d]}function
 b7(b,a){if(J(d,a[1]))return[0,hY(b,a)];var
 c=J(a[2],d),e=c?[0,aa(hY(b,aa(a)))]:c;return e}function
 hZ(c){var
 a=f0(c);return I(B(a,a),c)?a:F(a,b)}function
 b8(b,a){var
 c=J(d,a[1]);if(c)var
-f=hZ(eP(a[2],b)),e=[0,[0,f0(eP(a[1],b)),f]];else
+f=hZ(eQ(a[2],b)),e=[0,[0,f0(eQ(a[1],b)),f]];else
 var
 e=c;return e}function
 d1(a){return 0===a[0]?a[2]:a[1]}function
@@ -1201,23 +1201,23 @@ f4(b){var
 a=b[1];return 2===a[0]?[0,a[1]]:0}function
 a4(c,b){var
 a=f4(b);return a?I(c,a[1]):a}function
-eS(a){return J(cm(a),c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b))))))))))))))))}function
+eT(a){return J(cm(a),c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b))))))))))))))))}function
 k(a){return[0,[2,a]]}function
 C(b,a){if(a4(d,b))return a;if(a4(d,a))return b;var
 c=f4(b);if(c){var
 e=c[1],f=f4(a);if(f){var
-g=f[1];if(eS(e)&&eS(g))return k(F(e,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
+g=f[1];if(eT(e)&&eT(g))return k(F(e,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
 bk(a){var
 b=a[1];switch(b[0]){case
 2:var
-c=b[1];return eS(c)?k(Q(c)):[0,[5,a]];case
+c=b[1];return eT(c)?k(Q(c)):[0,[5,a]];case
 5:return b[1];default:return[0,[5,a]]}}function
 w(b,a){if(a4(d,a))return b;if(a4(d,b))return bk(a);var
 c=b[1];if(0===c[0]){var
 e=a[1];return 0===e[0]?p(c[1],e[1])?k(d):[0,[4,b,a]]:[0,[4,b,a]]}return[0,[4,b,a]]}function
 T(a){var
 c=f4(a);if(c){var
-b=c[1];return eS(b)?k(B(b,b)):[0,[8,a]]}return[0,[8,a]]}function
+b=c[1];return eT(b)?k(B(b,b)):[0,[8,a]]}return[0,[8,a]]}function
 s(a,c){if(!a4(d,a)&&!a4(b,c)){if(!a4(d,c)&&!a4(b,a))return aJ(a,c)?T(a):[0,[6,a,c]];return c}return a}function
 am(c,a){return a4(b,a)?c:[0,[7,c,a]]}function
 aE(a){return a4(b,a)?a:[0,[9,a]]}function
@@ -1231,9 +1231,9 @@ e=c[2],g=c[1];if(b){if(b[1]){var
 l=[0,i(f,bO(function(b){return function(a){return q(a,b,d)}}(a),g)),a],b=by(b),c=e,a=l;continue}var
 b=b[2],c=e,a=[0,d,a];continue}var
 m=[0,i(f,bO(function(b){return function(a){return q(a,b,d)}}(a),g)),a],b=by(b),c=e,a=m;continue}return a}}function
-eT(b,a){if(a){var
+eU(b,a){if(a){var
 c=a[2];if(b){var
-e=eT(b[1],c);return[0,a[1],e]}var
+e=eU(b[1],c);return[0,a[1],e]}var
 d=[0,1,c]}else
 var
 d=a;return d}function
@@ -1246,8 +1246,8 @@ k2(a){switch(a[0]){case
 1:case
 2:return 0;default:return[0,a[1],[0,a[2],0]]}}function
 f5(j,g){var
-k=0,l=an(eT,e(function(a){return 0},g),j),c=eQ(g,0),b=l,a=k;for(;;){if(c){if(b){var
-d=b[2],f=b[1],h=[0,f,a],i=f?an(eT,d,k2(c[1])):d,c=c[2],b=i,a=h;continue}return a}return a}}function
+k=0,l=an(eU,e(function(a){return 0},g),j),c=eR(g,0),b=l,a=k;for(;;){if(c){if(b){var
+d=b[2],f=b[1],h=[0,f,a],i=f?an(eU,d,k2(c[1])):d,c=c[2],b=i,a=h;continue}return a}return a}}function
 cQ(a){var
 b=0;function
 c(a){return[0,a]}return bb(k(d),c,a,b)}function
@@ -1281,7 +1281,7 @@ e(a){return a}var
 f=aK(function(a){return a},e,A,d,c),g=A(b[2],a[2]);return ct(A(b[1],a[1]),g,f)}function
 bs(b,a){var
 c=a[3],d=b[3],e=aK(function(a){return a},aa,E,d,c),f=E(b[2],a[2]);return ct(E(b[1],a[1]),f,e)}function
-eU(a){var
+eV(a){var
 b=e(aa,a[3]),c=aa(a[2]);return[0,aa(a[1]),c,b]}function
 aL(a,c,b){var
 d=A(b[2],b[1]),e=A(c[2],c[1]),f=b[3],g=c[3];function
@@ -1289,7 +1289,7 @@ h(c,b){var
 f=t(a,e,b);return as(A(t(a,d,c),f))}function
 i(b){return as(t(a,e,b))}var
 j=aK(function(b){return as(t(a,d,b))},i,h,g,f),k=t(a,c[2],b[2]);return ct(t(a,c[1],b[1]),k,j)}function
-eV(b,a){var
+eW(b,a){var
 c=a[3],d=A(a[2],a[1]),f=e(function(a){return t(b,d,a)},c),g=S(b,a[2]);return ct(S(b,a[1]),g,f)}function
 h0(a,b){var
 c=b8(a,b[1]);if(c){var
@@ -1319,11 +1319,11 @@ b=e(as,a[3]),c=as(A(a[2],a[1]));return ct(a[1],c,b)}function
 k3(a,k,j,r,c){var
 l=f7(k),m=f7(j),g=f7(c[1]),h=f7(c[2]),s=aL(a,l,h),u=bs(aL(a,m,g),s),i=d3(a,Z(L(a,b)),u);if(i)var
 f=i[1],n=aL(a,bs(l,g),f),o=aL(a,bs(m,h),f),d=function(c,b){return aL(a,c,Z(b))},v=j[3],w=k[3],x=function(b,a){var
-c=d(o,a);return b$(d(n,b),c)},y=function(a){return d(o,a)},z=aK(function(a){return d(n,a)},y,x,w,v),A=r[3],B=function(b,a){return bs(b,d(f,as(a)))[2]},C=function(a){return eU(d(f,as(a)))[2]},p=aK(function(a){return a[2]},C,B,z,A),D=g[2],E=e(function(b){return t(a,D,b)},p),F=ct(c[2][1],c[2][2],E),G=aa(h[2]),H=e(function(b){return t(a,G,b)},p),q=[0,[0,ct(c[1][1],c[1][2],H),F]];else
+c=d(o,a);return b$(d(n,b),c)},y=function(a){return d(o,a)},z=aK(function(a){return d(n,a)},y,x,w,v),A=r[3],B=function(b,a){return bs(b,d(f,as(a)))[2]},C=function(a){return eV(d(f,as(a)))[2]},p=aK(function(a){return a[2]},C,B,z,A),D=g[2],E=e(function(b){return t(a,D,b)},p),F=ct(c[2][1],c[2][2],E),G=aa(h[2]),H=e(function(b){return t(a,G,b)},p),q=[0,[0,ct(c[1][1],c[1][2],H),F]];else
 var
 q=i;return q}function
 k4(a,e,d,k){var
-p=eV(a,d),f=b$(eV(a,e),p),g=bs(b$(f,Z(L(a,b))),k),l=aL(a,Z(L(a,c(2,b))),f),q=eV(a,g),h=h0(a,bs(aL(a,Z(L(a,c(2,c(2,b)))),f),q));if(h){var
+p=eW(a,d),f=b$(eW(a,e),p),g=bs(b$(f,Z(L(a,b))),k),l=aL(a,Z(L(a,c(2,b))),f),q=eW(a,g),h=h0(a,bs(aL(a,Z(L(a,c(2,c(2,b)))),f),q));if(h){var
 m=h[1],r=aL(a,m,d),i=d3(a,b$(aL(a,g,e),r),l);if(i)var
 s=aL(a,m,e),j=d3(a,bs(aL(a,g,d),s),l),t=j?[0,[0,i[1],j[1]]]:j,n=t;else
 var
@@ -1346,13 +1346,13 @@ k=a[2],l=a[1];return cu(function(b,a){return[0,b$(b,a)]},l,k);case
 4:var
 m=a[2],n=a[1];return cu(function(b,a){return[0,bs(b,a)]},n,m);case
 5:var
-o=a[1];return cS(function(a){return[0,eU(a)]},o);case
+o=a[1];return cS(function(a){return[0,eV(a)]},o);case
 6:var
 p=a[2],r=a[1];return cu(function(c,a){return[0,aL(b,c,a)]},r,p);case
 7:var
 s=a[2],t=a[1];return cu(function(a,c){return d3(b,a,c)},t,s);case
 8:var
-u=a[1];return cS(function(a){return[0,eV(b,a)]},u);case
+u=a[1];return cS(function(a){return[0,eW(b,a)]},u);case
 9:var
 v=a[1];return cS(function(a){return h0(b,a)},v);default:var
 c=a[2];if(c){var
@@ -1393,7 +1393,7 @@ b=b[2],a=a[2];continue}return n}return 0;case
 o=cv(b[1],a[1]);if(o){var
 b=b[2],a=a[2];continue}return o}return 0;default:if(6===a[0]){var
 b=b[1],a=a[1];continue}return 0}}function
-eW(c,a){switch(a[0]){case
+eX(c,a){switch(a[0]){case
 0:return[0,[0,a[1],a[2]]];case
 1:return 0;case
 2:var
@@ -1404,14 +1404,14 @@ o=a[2],p=a[1],g=o,f=p,e=function(b,a){return[0,d0(b,a)]};break;case
 q=a[2],r=a[1],g=q,f=r,e=function(b,a){return[0,a3(b,a)]};break;case
 5:var
 s=a[2],t=a[1],g=s,f=t,e=function(c,a){return dZ(a,[0,d,b])?0:[0,f2(c,a)]};break;default:var
-k=eW(c,a[1]);return k?i(c,k[1]):k}var
-h=eW(c,f);if(h){var
-j=eW(c,g);if(j)return e(h[1],j[1]);var
+k=eX(c,a[1]);return k?i(c,k[1]):k}var
+h=eX(c,f);if(h){var
+j=eX(c,g);if(j)return e(h[1],j[1]);var
 l=j}else
 var
 l=h;return l}function
 sb(a){return 0}function
-cw(a){return eW(sb,a)}function
+cw(a){return eX(sb,a)}function
 bP(a,c){switch(c[0]){case
 0:return[0,kY(a,c[1],c[2])];case
 1:return 0;case
@@ -1450,14 +1450,14 @@ h=[0,b,c(2,b)],i=[0,cx(a,a3(d0(d,e),h)),0],j=f(al(u,g),i),k=cx(a,d)[2],l=[0,cx(a
 d5(c,e,a){function
 b(a){return d5(c,e,a)}if(d4(a))switch(a[0]){case
 0:return 0;case
-1:return fw(e,a[1],a[2],a[3]);case
+1:return fx(e,a[1],a[2],a[3]);case
 2:var
 g=b(a[2]),h=b(a[1]);return cu(function(b,a){return[0,b$(b,a)]},h,g);case
 3:var
 i=b(a[2]),j=b(a[1]);return cu(function(b,a){return[0,bs(b,a)]},j,i);case
 4:var
 f=a[2],d=a[1];if(cv(d,f)){var
-k=b(d);return cS(function(a){return[0,eV(c,a)]},k)}var
+k=b(d);return cS(function(a){return[0,eW(c,a)]},k)}var
 l=b(f),m=b(d);return cu(function(b,a){return[0,aL(c,b,a)]},m,l);case
 5:var
 n=b(a[2]),o=b(a[1]);return cu(function(a,b){return d3(c,a,b)},o,n);default:var
@@ -1488,7 +1488,7 @@ e=c[1];return k_(a,d,e,k$(a,d,e))}var
 f=L(a,b);return[0,L(a,b),f]}function
 la(e,g){var
 o=cr(e),p=B(c(2,c(2,b)),o),j=D(g[2],p);if(j){var
-n=eO(e),i=sc[1],d=n,f=0,a=i;for(;;){if(d){var
+n=eP(e),i=sc[1],d=n,f=0,a=i;for(;;){if(d){var
 h=d[1];if(a){var
 d=h,a=a[1];continue}var
 d=h,f=[0,f],a=i;continue}var
@@ -1497,7 +1497,7 @@ var
 m=j;return m}function
 lb(i){function
 a(h){var
-m=cq(cr(i),h),g=eO(i),f=m,e=d,a=b;for(;;){if(g){var
+m=cq(cr(i),h),g=eP(i),f=m,e=d,a=b;for(;;){if(g){var
 j=F(a,c(2,b)),k=F(e,cq(f,a)),l=Q(cq(f,B(h,h))),g=g[1],f=l,e=k,a=j;continue}return e}}var
 e=a(r(c(2,r(c(2,r(c(2,r(c(2,c(2,r(c(2,r(c(2,b)))))))))))))),f=B(c(2,c(2,b)),e),g=a(r(c(2,c(2,b))));return aG(B(c(2,c(2,c(2,c(2,b)))),g),f)}function
 lc(e,a){var
@@ -1554,7 +1554,7 @@ i=[0,[0,[0,b,b],al([0,d,b],f)]]}else
 var
 i=c;return i}function
 lk(a){if(a){var
-b=eW(sg,a[1]);if(b)var
+b=eX(sg,a[1]);if(b)var
 c=lk(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
 d=b;return d}return sh}function
@@ -1635,7 +1635,7 @@ f$(d,i,h,g){var
 c=i,b=h,a=g;for(;;){if(c){if(b){var
 e=b[1],f=c[1],j=cs(e[2]),k=bd(a,h4(d,f,d7(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
 h5(b,a){return[0,[0,0,b],a]}function
-eX(i,b,c,h,f,a){function
+eY(i,b,c,h,f,a){function
 d(a){if(a){var
 j=al([0,aa(a[1][2]),0],b),c=f$(h,f,a[2],j),d=p(g(c),b);if(d)return d6(i,c);var
 e=d}else
@@ -1656,7 +1656,7 @@ i=h}else
 var
 i=a;return i}return h3(b,h5(c,a),e)}function
 lq(h,g,a,f,d,c){var
-i=[0,u,u,0],b=e(function(a){return[0,a[1],i]},c),j=a?a[1]:[0,u,u,0];return eX(h,g,j,f,d,b)}function
+i=[0,u,u,0],b=e(function(a){return[0,a[1],i]},c),j=a?a[1]:[0,u,u,0];return eY(h,g,j,f,d,b)}function
 h7(b,a){var
 c=be(b);return m(function(b){return J(d,aD(b,a)[1])},c)}function
 gb(c,b,a){var
@@ -1670,19 +1670,19 @@ a0(b,a){var
 c=s(b,a[3]),d=s(b,a[2]);return[0,s(b,a[1]),d,c]}function
 bl(b,a){var
 c=am(b[3],a),d=am(b[2],a);return[0,am(b[1],a),d,c]}function
-W(b,a){var
+X(b,a){var
 c=s(b[3],a[3]),d=s(b[2],a[2]);return C(C(s(b[1],a[1]),d),c)}function
-du(a){return bl(a,aE(W(a,a)))}function
+du(a){return bl(a,aE(X(a,a)))}function
 cV(a){var
 b=a[5];return b?b[1]:aE(a[2])}function
 gc(b,a){return b?a:bk(a)}function
 ls(e,a,i,d,h){var
-f=W(a,e),b=ah(w,e,a0(f,a)),j=W(b,b),g=w(T(d),j),c=gc(h,aE(g)),k=w(f,c),l=ah(C,a,bl(b,c));return[0,ah(C,b,a0(c,a)),g,l,k,[0,d],0,[0,i]]}function
+f=X(a,e),b=ah(w,e,a0(f,a)),j=X(b,b),g=w(T(d),j),c=gc(h,aE(g)),k=w(f,c),l=ah(C,a,bl(b,c));return[0,ah(C,b,a0(c,a)),g,l,k,[0,d],0,[0,i]]}function
 lt(a,e,d){var
-b=W(a,a),c=aE(b),f=[0,e],g=z(function(b){return ah(w,a,a0(W(b,a),b))},d);return[0,a,b,bl(a,c),c,0,g,f]}function
+b=X(a,a),c=aE(b),f=[0,e],g=z(function(b){return ah(w,a,a0(X(b,a),b))},d);return[0,a,b,bl(a,c),c,0,g,f]}function
 lu(c,a){var
-d=W(a,c);return[0,a,k(b),a,d,0,0,0]}function
-eY(a){return e(function(a){var
+d=X(a,c);return[0,a,k(b),a,d,0,0,0]}function
+eZ(a){return e(function(a){var
 b=a[2];return[0,bQ(a[1]),b]},a)}function
 lv(a){return e(function(a){var
 c=k(b);return[0,bQ(a[3]),c]},a)}function
@@ -1743,7 +1743,7 @@ e=b;var
 f=e}else
 var
 f=a;return f}return sq}function
-h8(a){return z(function(a){return z(eU,a)},a)}function
+h8(a){return z(function(a){return z(eV,a)},a)}function
 cX(c,b,a){function
 d(a){return aL(c,b,a)}return z(function(a){return z(d,a)},a)}function
 h9(c,b,a){function
@@ -1774,7 +1774,7 @@ d=z;break;case
 7:var
 v=0;if(f){var
 A=c[2],j=A[1];if(j)var
-V=A[2],W=eU(f[1]),X=e(function(b){return cX(a,W,b)},V),Y=ea(c[1][2],X),_=j[1],d=e(function(b){return h9(a,_,b)},Y);else{var
+V=A[2],W=eV(f[1]),X=e(function(b){return cX(a,W,b)},V),Y=ea(c[1][2],X),_=j[1],d=e(function(b){return h9(a,_,b)},Y);else{var
 B=j;v=1}}else{var
 B=f;v=1}if(v)var
 d=B;break;case
@@ -1792,7 +1792,7 @@ D=c[4],E=c[3],F=c[2],l=F[1],w=0;if(l){var
 m=l[1],n=E[1],M=0;if(n){var
 o=n[1],q=D[1],N=0;if(q){var
 r=k4(a,m,o,q[1]);if(r){var
-G=r[1],s=G[2],t=G[1],af=E[2],ag=bs(o,s),ah=e(function(b){return cX(a,ag,b)},af),ai=F[2],aj=bs(m,t),ak=ea(e(function(b){return cX(a,aj,b)},ai),ah),al=e(h8,D[2]),am=gg(a),an=ea(e(function(b){return cX(a,am,b)},ak),al),ao=c[1]?t:eU(s),ap=e(function(b){return cX(a,ao,b)},an),aq=aL(a,m,s),ar=bs(aL(a,o,t),aq),as=aL(a,gg(a),ar),d=e(function(b){return h9(a,as,b)},ap);M=1;N=1}else
+G=r[1],s=G[2],t=G[1],af=E[2],ag=bs(o,s),ah=e(function(b){return cX(a,ag,b)},af),ai=F[2],aj=bs(m,t),ak=ea(e(function(b){return cX(a,aj,b)},ai),ah),al=e(h8,D[2]),am=gg(a),an=ea(e(function(b){return cX(a,am,b)},ak),al),ao=c[1]?t:eV(s),ap=e(function(b){return cX(a,ao,b)},an),aq=aL(a,m,s),ar=bs(aL(a,o,t),aq),as=aL(a,gg(a),ar),d=e(function(b){return h9(a,as,b)},ap);M=1;N=1}else
 var
 H=r}else
 var
@@ -1815,7 +1815,7 @@ d=$(b,a);return an(function(a,b){return A(t(c,a[1],a[2]),b)},u,d)}function
 ic(c,b,a){var
 d=b9(ib(c,a,b));return an(function(b,a){return F(b9(b),a)},d,a)}function
 cb(a){return L(a,b)}function
-eZ(a,i,c,v,u){var
+e0(a,i,c,v,u){var
 f=v,e=u;for(;;){if(f){var
 j=f[1],n=0;if(!ia(c)&&!ia(j)){var
 h=ic(a,i,j),o=cb(a),p=ic(a,i,c),b=d2([0,ic(a,i,c),p],o,[0,h,h])[1],k=J(d,h),l=k?J(d,b):k;if(l)var
@@ -1829,14 +1829,14 @@ lA(a){var
 b=a[2],c=e(function(a){return[0,a[1],u]},b);return[0,[0,a[1][1],u],c]}function
 id(h,n,a,m,l,k){var
 d=m,c=l,b=k;for(;;){if(d){if(c){var
-i=c[1],j=i[1],f=d[1],o=cs(j[2]),p=bd(b,h4(a,f,d7(a,j[1],o,f))),q=i[2],r=e(function(c){return function(b){return e(as,d7(a,b[1],b[2],c))}}(f),q),g=eZ(h,n,e(function(b){return aP(b,a,cb(h))},f),r,p);if(g){var
+i=c[1],j=i[1],f=d[1],o=cs(j[2]),p=bd(b,h4(a,f,d7(a,j[1],o,f))),q=i[2],r=e(function(c){return function(b){return e(as,d7(a,b[1],b[2],c))}}(f),q),g=e0(h,n,e(function(b){return aP(b,a,cb(h))},f),r,p);if(g){var
 d=d[2],c=c[2],b=g[1];continue}return g}return[0,b]}return[0,b]}}function
 lB(a,j,r,q){var
 c=r,f=q;for(;;){if(c){var
 k=c[1],l=k[1],g=l[2],h=l[1],m=k[2],n=[0,[0,b_(g),h],f];if(m){var
 o=J(d,g[1]);if(o)var
 s=e(function(a){var
-b=a[1];return[0,as(a[2]),b]},m),t=e(function(a){return u},h),v=[0,cb(a),t],w=cb(a),b=eZ(a,[0,aa(d2(ib(a,h,j),w,g)),j],v,s,n);else
+b=a[1];return[0,as(a[2]),b]},m),t=e(function(a){return u},h),v=[0,cb(a),t],w=cb(a),b=e0(a,[0,aa(d2(ib(a,h,j),w,g)),j],v,s,n);else
 var
 b=o}else
 var
@@ -1856,8 +1856,8 @@ d=aG(a[2],a[1]),e=a[1];return[0,[0,e,e],[0,[0,d,d],0]];case
 1:var
 f=aG(a[1],a[2]),g=a[2];return[0,[0,g,g],[0,[0,f,f],0]];default:var
 c=dq(F(a[1],a[2]),b),h=aG(c,a[2]),i=aG(a[2],c);return[0,[0,c,c],[0,[0,i,i],[0,[0,h,h],0]]]}}function
-e0(d,c,a){if(a)var
-e=a[1],g=e0(d,[0,c],a[2]),b=z(aZ,kT(function(a){return p(a[1],c)},d)),h=b?lE(e,b[1])[1]:e,f=[0,h,g];else
+e1(d,c,a){if(a)var
+e=a[1],g=e1(d,[0,c],a[2]),b=z(aZ,kT(function(a){return p(a[1],c)},d)),h=b?lE(e,b[1])[1]:e,f=[0,h,g];else
 var
 f=a;return f}function
 gh(a,b){return e(function(a){var
@@ -1890,7 +1890,7 @@ f=lH(c[1],b,d);return[0,a[1],f]}var
 e=[0,b,d]}else
 var
 e=a;return e}function
-e1(a,g){var
+e2(a,g){var
 b=br(function(e){var
 c=q(e,a,u),b=D(c[1],d),f=b?D(d,c[2]):b;return P(f)},g);if(b){if(b[2])return a;var
 f=b[1],c=q(f,a,u),e=J(d,c[1])?c[1]:c[2];return lH(f,[0,e,e],a)}return a}function
@@ -1917,7 +1917,7 @@ lL(a,d,c,j,i,h,g,f){var
 k=cZ(a,d,c,e(function(b){return L(a,B(h,b))},i));return bd(f,gj(a,cZ(a,d,c,e(function(c){return aP(c,F(g,b),cb(a))},j)),k))}function
 lM(a,h,g,q,f,p,o,n){var
 d=p,c=o,b=n;for(;;){if(d){if(c){var
-k=c[1],l=k[1],i=d[1],m=cZ(a,h,g,e(function(b){return aP(b,f,cb(a))},i)),r=cs(l[2]),s=cZ(a,h,g,d7(f,l[1],r,i)),t=bd(b,gj(a,e(as,m),s)),u=k[2],j=eZ(a,q,m,e(function(c){return function(b){return cZ(a,h,g,e(as,d7(f,b[1],b[2],c)))}}(i),u),t);if(j){var
+k=c[1],l=k[1],i=d[1],m=cZ(a,h,g,e(function(b){return aP(b,f,cb(a))},i)),r=cs(l[2]),s=cZ(a,h,g,d7(f,l[1],r,i)),t=bd(b,gj(a,e(as,m),s)),u=k[2],j=e0(a,q,m,e(function(c){return function(b){return cZ(a,h,g,e(as,d7(f,b[1],b[2],c)))}}(i),u),t);if(j){var
 d=d[2],c=c[2],b=j[1];continue}return j}return[0,b]}return[0,b]}}function
 lN(g,b,f,a){if(a)var
 c=a[2],d=a[1],h=q(b,c,u),e=[0,d,cY(u,b,A(t(g,f,d),h),c)];else
@@ -1928,7 +1928,7 @@ i=C,h=B;for(;;){if(i){var
 n=i[1],o=n[1],j=o[2],p=n[2],c=cZ(a,b,m,o[1]);if(p){var
 r=J(d,j[1]);if(r)var
 E=cb(a),f=b_(aa(d2(q(b,c,u),E,j))),k=b_(j),v=cY(u,b,f,0),w=q(b,c,u),x=bd(h,gj(a,v,cY(u,b,A(as(t(a,f,k)),w),c))),y=q(b,c,u),z=[0,[0,k,cY(u,b,A(t(a,f,k),y),c)],x],F=e(function(e){return function(c){var
-d=cZ(a,b,m,c[1]);return lN(a,b,e,[0,as(c[2]),d])}}(f),p),G=e(function(a){return u},c),g=eZ(a,[0,u,D],lN(a,b,f,[0,cb(a),G]),F,z);else
+d=cZ(a,b,m,c[1]);return lN(a,b,e,[0,as(c[2]),d])}}(f),p),G=e(function(a){return u},c),g=e0(a,[0,u,D],lN(a,b,f,[0,cb(a),G]),F,z);else
 var
 g=r}else
 var
@@ -1982,16 +1982,16 @@ g=f}else
 var
 g=c;return g}function
 ij(b,a){return ab(e(function(a){return q(a,b,0)},a))}function
-e2(c,k,X,C,i,h,j,f,a){switch(f[0]){case
+e3(c,k,X,C,i,h,j,f,a){switch(f[0]){case
 0:var
 s=f[1];if(typeof
 a!=="number")switch(a[0]){case
 0:var
 Y=c0(C,i);if(Y){var
-aE=a[2],aF=a[1],aH=gl(j,Z(s));return cy(i,k,function(a){return eX(c,h,aH,aF,aE,a)})}return Y;case
+aE=a[2],aF=a[1],aH=gl(j,Z(s));return cy(i,k,function(a){return eY(c,h,aH,aF,aE,a)})}return Y;case
 1:var
 _=c0(C,i);if(_){var
-aI=a[2],aJ=a[1],aK=gl(j,Z(s));return cy(i,X,function(a){return eX(c,h,aK,aJ,aI,a)})}return _;case
+aI=a[2],aJ=a[1],aK=gl(j,Z(s));return cy(i,X,function(a){return eY(c,h,aK,aJ,aI,a)})}return _;case
 2:var
 $=c0(C,i);if($){var
 aa=I(s[1],d),ac=aa?I(s[2],d):aa;if(ac){var
@@ -2007,13 +2007,13 @@ aO=ig(j,Z(ae));return cy(i,k,function(a){return h6(c,h,aO,a)})}}return 0;case
 2:if(typeof
 a!=="number"&&3===a[0]){var
 af=a[1],l=ii(c,af,a[3]),ag=f[1],aQ=a[2];return cy(i,k,function(d){var
-a=h7(h,l),b=a?eX(c,h,gl(j,l),af,aQ,d):a;if(b){var
+a=h7(h,l),b=a?eY(c,h,gl(j,l),af,aQ,d):a;if(b){var
 f=l[3],g=e(function(a){return t(c,ag,a)},f),i=l[2];return h6(c,h,ig(j,[0,t(c,ag,l[1]),i,g]),d)}return b})}return 0;case
 3:if(typeof
 a==="number"&&!a)return ih(i,h,j,f[1]);return 0;case
 4:if(typeof
 a!=="number"&&0===a[0]){var
-aR=a[2],aS=a[1],aT=gl(j,Z(f[2])),aU=function(a){return eX(c,h,aT,aS,aR,a)};return cy(i,f[1],aU)}return 0;case
+aR=a[2],aS=a[1],aT=gl(j,Z(f[2])),aU=function(a){return eY(c,h,aT,aS,aR,a)};return cy(i,f[1],aU)}return 0;case
 5:if(typeof
 a==="number"&&!(3<=a))switch(a){case
 0:return ih(i,h,j,f[1]);case
@@ -2094,7 +2094,7 @@ aB=K;return aB}return 0}}function
 lP(a,$,s,l,n,_,h,k,j,f,c){if(9===f[0]){var
 ac=f[2],ad=f[1];if(typeof
 c!=="number"&&9===c[0]){var
-M=c[2],v=c[1],ae=c[3];if(0<aO(c[4]))return e2(a,s,l,n,h,g(k),j,f,c);var
+M=c[2],v=c[1],ae=c[3];if(0<aO(c[4]))return e3(a,s,l,n,h,g(k),j,f,c);var
 V=e(Z,_),C=bb(0,bz(a,gf(0,k,ad),V),$,0),N=p(g(k),sO),O=N?c0(n,C):N;if(O){var
 w=gk(C,l);if(w){var
 x=gk(h,l);if(x){var
@@ -2184,7 +2184,7 @@ var
 T=w;var
 U=T}else
 var
-U=O;return U}return e2(a,s,l,n,h,g(k),j,f,c)}return e2(a,s,l,n,h,g(k),j,f,c)}function
+U=O;return U}return e3(a,s,l,n,h,g(k),j,f,c)}return e3(a,s,l,n,h,g(k),j,f,c)}function
 gn(d){var
 a=d;for(;;){if(a){var
 b=a[2],e=a[1],c=P(ak(function(b){return function(a){return p(b,a)}}(e),b));if(c){var
@@ -2216,7 +2216,7 @@ r=p}else
 var
 r=c;return r}return sQ}function
 lQ(c,N,j,M,q,o,K,J,f,b,i,a){var
-h=g(K),O=dw(0,K),aI=bb(0,bz(c,O,e(Z,e0(i,0,q))),N,0),aK=e(av,i),aJ=0,aL=e(Z,q),aM=bb(sR,function(a){return h_(c,O,aL,aK,a)},N,aJ),aN=gh(i,q);function
+h=g(K),O=dw(0,K),aI=bb(0,bz(c,O,e(Z,e1(i,0,q))),N,0),aK=e(av,i),aJ=0,aL=e(Z,q),aM=bb(sR,function(a){return h_(c,O,aL,aK,a)},N,aJ),aN=gh(i,q);function
 P(a){return ik(o,aI,aM,i,a)}function
 w(a){return e(function(a){return L(c,a)},a)}var
 aO=J?J[1]:Z(u);function
@@ -2300,7 +2300,7 @@ k=p(g(f),h),l=k?p(g(n),h):k;if(l){var
 s=e(av,f),u=d_(C,d$(C,n,cb(c),s)),v=bd(ge(c,ao,am,x,e(av,f)),u),a=0,b=f,i=v,w=g(n);for(;;){if(b){var
 o=b[1][2],q=p(a,ao),r=e(function(f,h){return function(d){var
 a=$(aB(0,g(n)),n);return e(function(a){var
-b=lD(C,a[2],d[1]);if(h&&p(a[1],f))return E(b,as(t(c,am,d[2])));return b},a)}}(a,q),o),j=eZ(c,y,lC(c,a,w),r,i);if(j){var
+b=lD(C,a[2],d[1]);if(h&&p(a[1],f))return E(b,as(t(c,am,d[2])));return b},a)}}(a,q),o),j=e0(c,y,lC(c,a,w),r,i);if(j){var
 a=[0,a],b=b[2],i=j[1];continue}var
 d=j}else
 var
@@ -2318,7 +2318,7 @@ b=f[2],c=a[2],e=an(function(b,a){return F(bq(d,Q(b[2][1])),a)},d,c);return D(d,a
 y=go(o,P,k);if(!y)return y;var
 Y=l,X=y[1]}var
 aT=be(h);return m(function(a){var
-b=e(function(b){return gi(c,a,aN,b)},X);return fw(Y,a,aD(a,aO),b)},aT)}return V}function
+b=e(function(b){return gi(c,a,aN,b)},X);return fx(Y,a,aD(a,aO),b)},aT)}return V}function
 lR(j,a){var
 f=an(function(b,a){return bq(cm(b),a)},d,a);function
 g(a){if(a){if(I(cm(a[1]),f))return 0;var
@@ -2329,7 +2329,7 @@ h=g(a);if(I(f,d)){var
 k=e(function(a){return u},a),l=a?[0,b,a[2]]:a;return[0,[0,[0,0,l],d],k]}var
 i=hV(F(kR(f),b)),m=e(function(a){return u},a);return[0,[0,[0,h,a],i],cY(u,h,L(j,b6(c(2,b),i)),m)]}function
 gp(f,K,t,J,n,l,H,G,k,a,h,al,F,ak,C,B){var
-i=g(H),M=dw(0,H),am=bb(0,bz(f,M,e(Z,e0(h,0,n))),K,0),ao=e(av,h),an=0,ap=e(Z,n),ar=bb(sS,function(a){return h_(f,M,ap,ao,a)},K,an),as=gh(h,n);function
+i=g(H),M=dw(0,H),am=bb(0,bz(f,M,e(Z,e1(h,0,n))),K,0),ao=e(av,h),an=0,ap=e(Z,n),ar=bb(sS,function(a){return h_(f,M,ap,ao,a)},K,an),as=gh(h,n);function
 at(a){return ik(l,am,ar,h,a)}var
 au=G?G[1]:Z(u),N=lR(f,al),O=N[1],Q=O[1],v=Q[2],j=Q[1],R=N[2],aw=O[2],o=e(function(a){return aP(a,aw,L(f,b))},v);function
 S(a){return lL(f,j,o,F,ak,C,B,lK(f,j,o,i,a,0))}function
@@ -2383,7 +2383,7 @@ var
 z=t;return z}return gp(r,q,p,o,n,m,c,0,l,a,0,v,k,j,h,g)}function
 lT(a,ai,aL,s,G,ah,r,o,ag,af,h){function
 k(aj,f,j,x){var
-h=g(r),z=dw(0,r),aq=bb(0,bz(a,z,e(Z,e0(j,0,s))),ai,0),as=e(av,j),ar=0,at=e(Z,s),au=bb(sT,function(b){return h_(a,z,at,as,b)},ai,ar);function
+h=g(r),z=dw(0,r),aq=bb(0,bz(a,z,e(Z,e1(j,0,s))),ai,0),as=e(av,j),ar=0,at=e(Z,s),au=bb(sT,function(b){return h_(a,z,at,as,b)},ai,ar);function
 aw(a){return ik(ah,aq,au,j,a)}var
 ax=aj?aj[1]:Z(u);function
 k(b){return b?a5(a,h,b[1]):b}function
@@ -2481,7 +2481,7 @@ p=[0,a[3],[0,a[4],[0,a[5],[0,a[6],0]]]],q=f(dY(a[2]),p);return f(a[1],q);case
 8:return eb(a[1]);default:return g}}}function
 io(v,t,s,r,k,a,g,j){var
 h=il(a),i=h?m(function(b){var
-a=q(b,bN(e1,g,k),u);return I(a[1],a[2])},j):h;return i?m(function(ao){switch(a[0]){case
+a=q(b,bN(e2,g,k),u);return I(a[1],a[2])},j):h;return i?m(function(ao){switch(a[0]){case
 3:var
 g=[0,a[1],0];break;case
 4:var
@@ -2582,11 +2582,11 @@ n=f(eb(s),g),o=f(eb(t),n);return m(function(c){var
 a=q(c,h,0);if(a){var
 b=aO(a[1]);return 0===b?1:0<b?0:0}return a},o)}return i},g):i}function
 ip(j,a,i,h,g,f,e,d,c,b){var
-k=f5(im(i,h,g,c,b),a);return ie(j,a,bN(e1,e,f),k,d)}function
+k=f5(im(i,h,g,c,b),a);return ie(j,a,bN(e2,e,f),k,d)}function
 lV(f,d,c,n,m,b,l,q,e,k,j,i,h,a){if(typeof
 a!=="number"&&11===a[0]){var
 o=a[3],g=a[1],p=io(d,c,n,m,b,k,g,a[2]);if(p){var
-r=ip(f,d,c,n,m,b,g,e,k,o);return lT(f,d,c,bN(e1,g,b),l,r,e,j,i,h,o)}return p}return lT(f,d,c,b,l,q,e,j,i,h,a)}function
+r=ip(f,d,c,n,m,b,g,e,k,o);return lT(f,d,c,bN(e2,g,b),l,r,e,j,i,h,o)}return p}return lT(f,d,c,b,l,q,e,j,i,h,a)}function
 lW(r,q,o,n,l,k,j,i,h,f,d,c,a){if(typeof
 a!=="number"&&12===a[0]){var
 b=a[1],s=P(p(g(b),0));if(s){var
@@ -2598,16 +2598,16 @@ e=gq(b[1],c);return[0,a[1],e]}var
 d=[0,0,c]}else
 var
 d=a;return d}function
-e3(j,a,f,l,c,t,n,h,b,W,o){switch(o[0]){case
+e4(j,a,f,l,c,t,n,h,b,W,o){switch(o[0]){case
 0:var
 ab=function(a){return m(P,a)},I=ab,x=o[1];break;case
 1:var
 ac=o[4],ad=o[3],ae=o[2],af=function(d){var
-e=cW(ae,b),g=e3(j,a,f,l,c,t,n,h,e[1],d,ad);return g?e3(j,a,f,l,c,t,n,h,e[2],d,ac):g},I=af,x=o[1];break;default:var
+e=cW(ae,b),g=e4(j,a,f,l,c,t,n,h,e[1],d,ad);return g?e4(j,a,f,l,c,t,n,h,e[2],d,ac):g},I=af,x=o[1];break;default:var
 ag=o[4],ah=o[3],ai=o[2],aj=function(d){var
 o=$(t,d),e=m(function(a){var
 b=il(a[1]);return b?b:P(a[2])},o);if(e){var
-g=cW(ai,h),i=e3(j,a,f,l,c,t,n,g[1],b,d,ah);if(i)return e3(j,a,f,l,c,t,n,g[2],b,d,ag);var
+g=cW(ai,h),i=e4(j,a,f,l,c,t,n,g[1],b,d,ah);if(i)return e4(j,a,f,l,c,t,n,g[2],b,d,ag);var
 k=i}else
 var
 k=e;return k},I=aj,x=o[1]}if(x){var
@@ -2632,7 +2632,7 @@ k==="number")K=1;else
 switch(k[0]){case
 11:var
 L=k[3],B=k[1],M=io(a,f,l,c,h,r,B,k[2]);if(M)var
-_=ip(j,a,f,l,c,h,B,b,r,L),s=lU(j,a,f,l,c,bN(e1,B,h),n,_,b,r,L);else
+_=ip(j,a,f,l,c,h,B,b,r,L),s=lU(j,a,f,l,c,bN(e2,B,h),n,_,b,r,L);else
 var
 s=M;break;case
 12:var
@@ -2641,7 +2641,7 @@ aa=$(lJ(e(function(a){return a[1][1][1]},C)),C),s=m(function(g){return function(
 s=r[2],e=r[1],k=s[1],m=k[1][2],o=k[2],d=s[2];if(typeof
 d!=="number"&&11===d[0]){var
 p=d[3],i=d[1],q=io(a,f,l,c,h,g,i,d[2]);if(q){var
-t=e[2],u=e[1],v=ip(j,a,f,l,c,h,i,b,g,p);return lS(j,a,f,c,bN(e1,i,h),n,v,b,g,u,t,m,o,p)}return q}return lS(j,a,f,c,h,n,z,b,g,e[1],e[2],m,o,d)}}(r),aa);else
+t=e[2],u=e[1],v=ip(j,a,f,l,c,h,i,b,g,p);return lS(j,a,f,c,bN(e2,i,h),n,v,b,g,u,t,m,o,p)}return q}return lS(j,a,f,c,h,n,z,b,g,e[1],e[2],m,o,d)}}(r),aa);else
 var
 s=N;break;case
 13:if(2===r[0])var
@@ -2661,7 +2661,7 @@ var
 v=[0,u];break}}else
 var
 v=[0,W];return v?I(v[1]):v}function
-iq(h,g,f,e,d,c,b,a){return function(i,j,k){return e3(h,g,f,e,d,b,a,c,i,j,k)}}function
+iq(h,g,f,e,d,c,b,a){return function(i,j,k){return e4(h,g,f,e,d,b,a,c,i,j,k)}}function
 ir(a){return e(function(a){return 1},a)}function
 ec(a,d,b,c){function
 f(d,c){var
@@ -2703,7 +2703,7 @@ lZ(g){var
 h=g[1],c=h[2],e=h[1];if(0===e[0]){var
 i=e[2],a=e[1];if(D(i,b)){if(0===c[0]){var
 j=c[2],m=c[1];if(D(j,b)){var
-k=I(a,m),l=k?eS(a):k;if(l)var
+k=I(a,m),l=k?eT(a):k;if(l)var
 n=I(g[2],d),f=n||I(a,d);else
 var
 f=l;var
@@ -2761,17 +2761,17 @@ f=[5,[0,b,b],a[1]];return[0,[0,f,f],d];case
 g=a[2];return[0,[0,g,g],c];default:var
 i=a[1];return[0,[0,i,i],d]}var
 e=[0,d,b];return[0,[0,e,e],d]}function
-e4(b,a){var
+e5(b,a){var
 c=a[3],d=a[2],e=a[1];return[0,[0,[0,e,e],b],[0,[0,[0,d,d],b],[0,[0,[0,c,c],b],0]]]}function
 ed(c,a){if(0===a[0]){var
-e=[0,d,b],i=f(e4(c,a[5]),[0,[0,[0,e,e],d],0]),g=a[4],h=a[3];return f([0,[0,[0,h,h],c],[0,[0,[0,g,g],c],0]],i)}var
-j=e4(c,a[3]);return f(e4(c,a[2]),j)}function
+e=[0,d,b],i=f(e5(c,a[5]),[0,[0,[0,e,e],d],0]),g=a[4],h=a[3];return f([0,[0,[0,h,h],c],[0,[0,[0,g,g],c],0]],i)}var
+j=e5(c,a[3]);return f(e5(c,a[2]),j)}function
 dx(b,a){if(typeof
 a!=="number")switch(a[0]){case
 10:var
 h=ed(b,a[2]);return f(ed(b,a[1]),h);case
 11:var
-i=e4(b,a[3]);return f(e4(b,a[2]),i);case
+i=e5(b,a[3]);return f(e5(b,a[2]),i);case
 12:var
 c=a[3],g=[5,[4,c,c],a[4]];return[0,[0,[0,g,g],b],0];case
 15:var
@@ -2827,13 +2827,13 @@ c=b;return c}function
 l6(a){if(a){var
 b=a[1][6];if(b){var
 c=b[1],d=l6(a[2]);if(d)var
-g=d[1],h=W(c,c),e=[0,[0,[0,bQ(c),h],g]];else
+g=d[1],h=X(c,c),e=[0,[0,[0,bQ(c),h],g]];else
 var
 e=d;var
 f=e}else
 var
 f=b;return f}return s$}function
-e5(b,d,c,a){if(typeof
+e6(b,d,c,a){if(typeof
 a!=="number")switch(a[0]){case
 8:var
 i=c[1],j=c1(bR(d,a),i);return[0,e(function(a){var
@@ -2864,7 +2864,7 @@ d=a;return d},g=U,f=a[1];break;case
 7:if(e){var
 m=e[2];if(m){var
 n=m[2];if(n){if(n[2])return 0;var
-x=n[1],z=m[1],A=e[1],h=x[1],i=z[1],p=A[1],K=dy(i[1],i[2],h[1],h[2]),L=s(p[3],K),M=dy(i[1],i[3],h[1],h[3]),N=s(p[2],M),O=dy(i[2],i[3],h[2],h[3]),v=C(w(s(p[1],O),N),L),V=cV(x),X=cV(z),B=s(s(s(c,cV(A)),X),V),Y=[0,bk(C(v,B)),0],D=[0,w(v,B),Y]}else
+x=n[1],z=m[1],A=e[1],h=x[1],i=z[1],p=A[1],K=dy(i[1],i[2],h[1],h[2]),L=s(p[3],K),M=dy(i[1],i[3],h[1],h[3]),N=s(p[2],M),O=dy(i[2],i[3],h[2],h[3]),v=C(w(s(p[1],O),N),L),V=cV(x),W=cV(z),B=s(s(s(c,cV(A)),W),V),Y=[0,bk(C(v,B)),0],D=[0,w(v,B),Y]}else
 var
 D=n;var
 E=D}else
@@ -2879,7 +2879,7 @@ H=t[1],I=H[2],J=H[1];return y(bQ,[0,J[1],[0,J[2],[0,I[1],[0,I[2],0]]]])}return t
 11:var
 Z=function(d){var
 e=d[7];if(e)var
-n=dx(l,a),f=cz(j[2],n),h=aj(f,s_),b=ah(w,aj(f,0),h),i=T(c),k=T(cV(d)),m=am(T(W(b,d[1])),k),g=[0,w(w(W(b,b),m),i),0];else
+n=dx(l,a),f=cz(j[2],n),h=aj(f,s_),b=ah(w,aj(f,0),h),i=T(c),k=T(cV(d)),m=am(T(X(b,d[1])),k),g=[0,w(w(X(b,b),m),i),0];else
 var
 g=e;return g},g=Z,f=a[1];break;case
 12:var
@@ -2890,7 +2890,7 @@ i=e[7],o=i?[0,w(w(k(b),c),f),0]:i;return o},g=_,f=a[1];break;case
 8:case
 9:case
 15:var
-r=e5(e,l,j,a);return r?bS(r[1]):r;default:u=1}if(u)return 0;var
+r=e6(e,l,j,a);return r?bS(r[1]):r;default:u=1}if(u)return 0;var
 o=G(e,f);return o?g(o[1]):o}function
 iu(d,b,c,a){if(a){var
 e=a[1],g=a[2],h=iu(d,b,l1(b,e,c),g);return f(gt(d,b,c,e),h)}return a}var
@@ -2919,7 +2919,7 @@ a=s[1],aH=s[2],aI=mb(c,F,l,al,k,j,l1(j,a,n),aH);if(typeof
 a==="number")if(0===a)var
 f=[0,[0,u]];else
 var
-an=F[2],ap=F[1],aq=eY(k),f=[0,[8,i(aw(l),aq),ap,an]];else
+an=F[2],ap=F[1],aq=eZ(k),f=[0,[8,i(aw(l),aq),ap,an]];else
 switch(a[0]){case
 0:var
 ar=ao(c,bR(j,a)),f=z(function(a){return[0,S(c,a)]},ar);break;case
@@ -2928,10 +2928,10 @@ as=ao(c,bR(j,a)),f=z(function(a){return[1,S(c,a)]},as);break;case
 5:var
 au=ao(c,bR(j,a)),f=z(function(a){return[2,S(c,a)]},au);break;case
 8:var
-av=e5(k,j,n,a),f=z(function(a){var
+av=e6(k,j,n,a),f=z(function(a){var
 d=L(c,b);return[4,i(aw(l),a),d]},av);break;case
 9:var
-w=e5(k,j,n,a);if(w){var
+w=e6(k,j,n,a);if(w){var
 x=ao(c,bR(j,a));if(x)var
 ax=S(c,x[1]),ay=w[1],M=[0,[4,i(aw(l),ay),ax]];else
 var
@@ -2981,7 +2981,7 @@ aj=ah;var
 f=aj;break;case
 15:var
 aE=[0,a[2],a[1]],aF=1,ak=m(function(a){return h(c,aF,a)},aE);if(ak)var
-aG=e5(k,j,n,a),f=z(function(a){var
+aG=e6(k,j,n,a),f=z(function(a){var
 d=L(c,b);return[4,i(aw(l),a),d]},aG);else
 var
 f=ak;break;default:var
@@ -3087,18 +3087,18 @@ var
 c=a?0:1;return c?bT(g,f[2],h):c}}function
 aW(c,b,a){var
 d=U(function(b,a){return[2,b,a]},a,b);return U(function(b,a){return[3,b,a]},d,c)}function
-e6(a,e,d,c){var
+e7(a,e,d,c){var
 b=aW(e,d,c),f=ay(a),g=ac(x(ay(a),b),f);return U(function(b,a){return[3,b,a]},b,g)}function
 cA(f,e,d,a,c){var
-b=e6(f,e,d,c);return[3,[4,a,a],x(b,b)]}function
+b=e7(f,e,d,c);return[3,[4,a,a],x(b,b)]}function
 c3(c,a){return c?[6,a]:[3,[0,d,b],[6,a]]}function
 cc(a,c){switch(a[0]){case
 0:var
-e=a[3],f=a[2],d=a[1],g=e6(d,f,e,c),h=cA(d,f,e,a[4],c),i=ac([5,[0,b,b],c3(a[5],h)],g),j=ay(d);return U(function(b,a){return[2,b,a]},j,i);case
+e=a[3],f=a[2],d=a[1],g=e7(d,f,e,c),h=cA(d,f,e,a[4],c),i=ac([5,[0,b,b],c3(a[5],h)],g),j=ay(d);return U(function(b,a){return[2,b,a]},j,i);case
 1:return ay(aW(a[1],a[2],c));default:return ay(a[1])}}function
 cB(a,b){switch(a[0]){case
 0:var
-d=a[3],e=a[2],c=a[1],f=ay(c),g=cA(c,e,d,a[4],b),h=ac(c3(a[5],g),f),i=e6(c,e,d,b);return U(function(b,a){return[2,b,a]},i,h);case
+d=a[3],e=a[2],c=a[1],f=ay(c),g=cA(c,e,d,a[4],b),h=ac(c3(a[5],g),f),i=e7(c,e,d,b);return U(function(b,a){return[2,b,a]},i,h);case
 1:return aW(a[1],a[2],b);default:return ay(a[1])}}function
 c4(a,b){switch(a[0]){case
 0:var
@@ -3109,7 +3109,7 @@ iw(a,b){switch(a[0]){case
 0:return[0,cA(a[1],a[2],a[3],a[4],b)];case
 1:var
 c=a[2],d=a[1],e=aW(d,c,b);return[0,x(aW(d,c,b),e)];default:return 0}}function
-e7(e,c,a){var
+e8(e,c,a){var
 f=[0,d,b];return an(function(b,d){var
 e=x(cc(b,c),a);return[2,[4,x(cc(b,c),a),e],d]},f,e)}function
 me(f,e,c,a){if(f){if(e){var
@@ -3135,7 +3135,7 @@ j=b;return j}return tc}function
 c5(a){return[0,a[1],a[2],a[3]]}function
 mh(a,b){switch(a[0]){case
 0:var
-f=a[4],c=a[3],g=a[2],d=a[1],i=ay(d),j=cA(d,g,c,f,b),k=ac(c3(a[5],j),i),l=e6(d,g,c,b),m=U(function(b,a){return[2,b,a]},l,k);return[0,[0,[0,U(function(b,a){return[2,b,a]},b,c),m],f]];case
+f=a[4],c=a[3],g=a[2],d=a[1],i=ay(d),j=cA(d,g,c,f,b),k=ac(c3(a[5],j),i),l=e7(d,g,c,b),m=U(function(b,a){return[2,b,a]},l,k);return[0,[0,[0,U(function(b,a){return[2,b,a]},b,c),m],f]];case
 1:var
 h=a[2],e=aW(a[1],h,b),n=[6,x(e,e)];return[0,[0,[0,U(function(b,a){return[2,b,a]},b,h),e],n]];default:return 0}}function
 mi(m,e,a){switch(a[0]){case
@@ -3173,9 +3173,9 @@ N=0;if(typeof
 a==="number")N=1;else
 switch(a[0]){case
 0:var
-aG=e7(g,c,f);return h(i,1,[3,R(a[1]),aG]);case
+aG=e8(g,c,f);return h(i,1,[3,R(a[1]),aG]);case
 1:var
-aH=R(a[1]);return h(i,1,[3,e7(g,c,f),aH]);case
+aH=R(a[1]);return h(i,1,[3,e8(g,c,f),aH]);case
 2:var
 aI=a[2],aJ=function(a){return[3,aI,c4(a,c)]},A=aJ,z=a[1];break;case
 3:var
@@ -3184,7 +3184,7 @@ aK=a[2],aL=function(a){return[3,c4(a,c),aK]},A=aL,z=a[1];break;case
 S=a[3],T=a[2],aM=function(a){var
 b=cc(a,c);return[3,[4,[4,T,T],x(cc(a,c),b)],[4,S,S]]},A=aM,z=a[1];break;case
 5:var
-V=a[1],aN=x(f,f),aO=[4,[4,V,V],[4,e7(g,c,y),aN]],aP=x(y,y);return h(i,1,[3,[4,e7(g,c,f),aP],aO]);case
+V=a[1],aN=x(f,f),aO=[4,[4,V,V],[4,e8(g,c,y),aN]],aP=x(y,y);return h(i,1,[3,[4,e8(g,c,f),aP],aO]);case
 6:var
 W=a[2],C=G(g,a[1]);if(C){var
 k=C[1];if(0===k[0]){var
@@ -3206,7 +3206,7 @@ af=ae}else
 var
 af=g;return af;case
 8:var
-aV=e7(g,c,f),aX=x(f,f);return h(i,1,[3,[4,[5,a[2],a[1]],aX],aV]);case
+aV=e8(g,c,f),aX=x(f,f);return h(i,1,[3,[4,[5,a[2],a[1]],aX],aV]);case
 9:var
 ag=a[1],E=mg(g,c);if(E){var
 aY=E[1],aA=[0,d,b],aB=an(function(a,b){var
@@ -3790,7 +3790,7 @@ f=a;return f}function
 mR(c,b,a){var
 d=d1(b);return[2,[2,d1(c),d],a]}function
 gD(b,a){return b?Q(a):d}function
-e8(g,b,a){if(typeof
+e9(g,b,a){if(typeof
 a!=="number")switch(a[0]){case
 4:var
 i=a[3],j=a[2];return[0,[2,j],[0,[3,j],[0,[2,i],[0,[3,i],0]]]];case
@@ -3815,7 +3815,7 @@ v=a[3],w=a[2];return e(function(a){return[0,[5,a,v],gD(g,b)]},w);case
 2:case
 3:return[0,[0,a[2],b],0]}return 0}function
 c9(h,c,b,e,a){if(a){var
-d=a[1],i=a[2],j=c9(h,c,b,R(e,g(e8(c,b,d))),i);return f(aq(h,mQ(e,e8(c,b,d)),d),j)}return a}function
+d=a[1],i=a[2],j=c9(h,c,b,R(e,g(e9(c,b,d))),i);return f(aq(h,mQ(e,e9(c,b,d)),d),j)}return a}function
 gE(b,a){var
 c=$(b,a);return e(function(a){var
 b=s(a[1][2],a[2]);return[0,a[1][1],b]},c)}function
@@ -3835,7 +3835,7 @@ iK(c,b,a){switch(c){case
 1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}}function
 iL(h,g,d,c,f,a){var
 e=bU(d,c,f,a);return iK(h,e,ac([5,[0,b,b],g],dz(cC(d,c,a[2]),e)))}function
-e9(c,j,i){var
+e_(c,j,i){var
 b=j,a=i;for(;;){if(b){if(a){var
 d=a[1],e=b[1],f=bm(c,e[1],d[1]),g=f?bm(c,e[2],d[2]):f;if(g){var
 b=b[2],a=a[2];continue}var
@@ -3926,7 +3926,7 @@ d=gG(c,a[1]);if(d){var
 b=a[2];continue}return d}}}function
 gH(a,b){if(a){var
 c=a[2],d=a[1];if(b){var
-e=b[2];return b[1]?[0,d,gH(c,an(eT,e,k2(d)))]:[0,tu,gH(c,e)]}var
+e=b[2];return b[1]?[0,d,gH(c,an(eU,e,k2(d)))]:[0,tu,gH(c,e)]}var
 f=[0,d,gH(c,0)]}else
 var
 f=a;return f}function
@@ -4011,11 +4011,11 @@ c=a[3],d=z(function(a){var
 c=a[2],d=a[1][2];return[0,[0,i(b,a[1][1]),d],c]},c),e=i(b,a[2]),f=a[1];return[0,i(aw(b),f),e,d]}function
 iO(c,g,f,b,a,e){if(b){var
 h=b[1],l=b[2],d=function(b,a){var
-d=jR(c,eN,eN,function(a){return mS(b,a)},e);return iO(c,g,bx(f),l,a,d)},i=d(0,aG(a,h));if(i){var
+d=jR(c,eO,eO,function(a){return mS(b,a)},e);return iO(c,g,bx(f),l,a,d)},i=d(0,aG(a,h));if(i){var
 j=d(2,F(a,h));if(j)return f?1:d(1,a);var
 k=j}else
 var
-k=i;return k}return aq(g,a,jR(c,eN,eN,mT,e))}function
+k=i;return k}return aq(g,a,jR(c,eO,eO,mT,e))}function
 iP(e,c,b,a){var
 f=al(d,b);function
 g(b){return a}return function(a){return iO(e,g,c,f,d,a)}}function
@@ -4073,25 +4073,25 @@ e=a;return e}function
 iQ(a){return y(function(a){return f(a[1],[0,a[2],0])},a)}function
 mY(a,c,b){var
 e=q(b,c,k(d)),f=aB(0,a);return m(function(b){return eg(a,b,e)},f)}function
-e_(a){var
+e$(a){var
 c=T(a);return C(k(b),c)}function
 gJ(i,g){var
-h=e_(g),j=T(g),e=w(k(b),j),f=s(k(c(2,b)),g),a=k(d);return i?i[1]?[0,[0,e,bk(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,bk(f),a,e]]:[0,[0,h,a,a],[0,a,e,bk(f)],[0,a,f,e]]}function
-e$(b,a){var
-c=W(b[3],a),d=W(b[2],a);return[0,W(b[1],a),d,c]}function
+h=e$(g),j=T(g),e=w(k(b),j),f=s(k(c(2,b)),g),a=k(d);return i?i[1]?[0,[0,e,bk(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,bk(f),a,e]]:[0,[0,h,a,a],[0,a,e,bk(f)],[0,a,f,e]]}function
+fa(b,a){var
+c=X(b[3],a),d=X(b[2],a);return[0,X(b[1],a),d,c]}function
 mZ(b,a){function
 c(b){var
 c=i(b,a[3]),d=i(b,a[2]);return[0,i(b,a[1]),d,c]}function
 d(a){var
-b=W(a,c(function(a){return a[3]})),d=W(a,c(function(a){return a[2]}));return[0,W(a,c(function(a){return a[1]})),d,b]}var
+b=X(a,c(function(a){return a[3]})),d=X(a,c(function(a){return a[2]}));return[0,X(a,c(function(a){return a[1]})),d,b]}var
 e=d(b[3]),f=d(b[2]);return[0,d(b[1]),f,e]}function
 m0(v,u){function
 a(a){return[0,[0,R(u,a)]]}switch(v[0]){case
 0:var
-x=e_(a(0));return[0,gJ(tA,a(0)),x];case
+x=e$(a(0));return[0,gJ(tA,a(0)),x];case
 1:var
-y=e_(a(0)),z=s(e_(a(tB)),y),A=s(e_(a(tC)),z),B=gJ(0,a(0)),D=mZ(gJ(tE,a(tD)),B);return[0,mZ(gJ(tG,a(tF)),D),A];default:var
-E=a(tH),F=a(tI),g=[0,a(0),F,E],G=W(g,g),H=C(k(b),G),j=W(g,g),d=g[1],e=g[2],f=g[3],i=function(a){var
+y=e$(a(0)),z=s(e$(a(tB)),y),A=s(e$(a(tC)),z),B=gJ(0,a(0)),D=mZ(gJ(tE,a(tD)),B);return[0,mZ(gJ(tG,a(tF)),D),A];default:var
+E=a(tH),F=a(tI),g=[0,a(0),F,E],G=X(g,g),H=C(k(b),G),j=X(g,g),d=g[1],e=g[2],f=g[3],i=function(a){var
 d=T(a),e=s(k(c(2,b)),d);return C(w(k(b),j),e)},h=function(f,e,d,a){var
 g=aq(f,s(e,d),a);return s(k(c(2,b)),g)},l=i(f),m=h(C,e,f,d),n=[0,h(w,d,f,e),m,l],o=h(w,e,f,d),p=i(e),q=[0,h(C,d,e,f),p,o],r=h(C,d,f,e),t=h(w,d,e,f);return[0,[0,[0,i(d),t,r],q,n],H]}}function
 m1(a){return 1<a[0]?[0,a[1],0]:0}function
@@ -4167,11 +4167,11 @@ dD(a){switch(a){case
 0:return[0,t_,t9,k(d)];case
 1:return dv;default:var
 b=k(d),c=k(d);return[0,k(d),c,b]}}function
-gM(c,b,a){return bl(e$(c,a),b)}function
+gM(c,b,a){return bl(fa(c,a),b)}function
 nb(a){var
-d=W(a,a),e=C(k(b),d);return am(k(c(2,b)),e)}function
+d=X(a,a),e=C(k(b),d);return am(k(c(2,b)),e)}function
 nc(k,j,i,h,g,a){var
-e=gM(j,i,g),c=cf(a,e),f=ah(C,c,cf(a,c)),d=ah(C,e,a0(nb(a),f)),b=ah(w,ah(C,dD(k),d),h);return[0,[0,d,b],aE(W(b,b))]}function
+e=gM(j,i,g),c=cf(a,e),f=ah(C,c,cf(a,c)),d=ah(C,e,a0(nb(a),f)),b=ah(w,ah(C,dD(k),d),h);return[0,[0,d,b],aE(X(b,b))]}function
 bV(e,j){var
 a=j[1];switch(a[0]){case
 1:var
@@ -4443,7 +4443,7 @@ bu=[0,s,v,Q],bv=ei(function(a){return q(a,x,ud)},bu);return i(iP(function(b,a){r
 uh(b,a){var
 c=hW(hR,b[1],a[1]);return c?hR(b[2],a[2]):c}function
 nl(i,r,q,h,o,k,A,z,y,j,n,g,a,e){if(typeof
-e==="number"){if(0===e)return 9===a[0]?e2(i,0,0,0,g,h,0,a[1],e):0}else
+e==="number"){if(0===e)return 9===a[0]?e3(i,0,0,0,g,h,0,a[1],e):0}else
 switch(e[0]){case
 6:var
 f=e[1];if(typeof
@@ -4452,7 +4452,7 @@ s=f[3],t=f[2],u=D(d,t),v=u?hT(s,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):u;if(v)return n
 w=v}else
 var
 w=k;return w}return nk(i,r,q,h,o,j,g,n,0,a,f);case
-8:return 9===a[0]?e2(i,0,0,0,g,h,0,a[1],e):0;case
+8:return 9===a[0]?e3(i,0,0,0,g,h,0,a[1],e):0;case
 10:if(0===a[0]){var
 l=hW(uh,a[1],A),m=l?1:l,x=m?p(a[2],z):m;return x?jR(y,j,a[3],a[4],e):x}return 0}return 0}function
 nm(b){var
@@ -4464,12 +4464,12 @@ a==="number"){if(0!==a)b=1}else
 switch(a[0]){case
 6:case
 8:break;default:b=1}return b?0:1}function
-fa(a,o,l,j,x,w,b,v,s,C,h,k,au,c){switch(c[0]){case
+fb(a,o,l,j,x,w,b,v,s,C,h,k,au,c){switch(c[0]){case
 0:var
 aw=function(a){return m(P,a)},O=aw,p=c[1];break;case
 1:var
 ax=c[4],ay=c[3],az=c[2],aA=function(c){var
-d=cW(az,k),e=fa(a,o,l,j,x,w,b,v,s,C,h,d[1],c,ay);return e?fa(a,o,l,j,x,w,b,v,s,C,h,d[2],c,ax):e},O=aA,p=c[1];break;default:var
+d=cW(az,k),e=fb(a,o,l,j,x,w,b,v,s,C,h,d[1],c,ay);return e?fb(a,o,l,j,x,w,b,v,s,C,h,d[2],c,ax):e},O=aA,p=c[1];break;default:var
 aB=c[4],aC=c[3],aD=c[2],aE=function(c){var
 i=$(j,c),d=m(function(b){var
 c=b[1];switch(c[0]){case
@@ -4478,7 +4478,7 @@ a=0;break;case
 9:var
 a=il(c[1]);break;default:var
 a=1}return a?a:P(b[2])},i);if(d){var
-e=cW(aD,h),f=fa(a,o,l,j,x,w,b,v,s,C,e[1],k,c,aC);if(f)return fa(a,o,l,j,x,w,b,v,s,C,e[2],k,c,aB);var
+e=cW(aD,h),f=fb(a,o,l,j,x,w,b,v,s,C,e[1],k,c,aC);if(f)return fb(a,o,l,j,x,w,b,v,s,C,e[2],k,c,aB);var
 g=f}else
 var
 g=d;return g},O=aE,p=c[1]}var
@@ -4494,7 +4494,7 @@ c=nm(b);if(c){var
 a=G(j,b[1]);if(a)return nj(a[1]);var
 d=a}else
 var
-d=c;return d},p),as=b?[0,b[1],0]:b,at=f(as,ar),ai=0,aj=an(eT,e(function(a){return 0},o),at),N=iN(a,h,eQ(gH(eQ(o,0),aj),ai),k);else
+d=c;return d},p),as=b?[0,b[1],0]:b,at=f(as,ar),ai=0,aj=an(eU,e(function(a){return 0},o),at),N=iN(a,h,eR(gH(eR(o,0),aj),ai),k);else
 var
 N=ae;var
 r=p,g=au;for(;;){if(r){var
@@ -4559,14 +4559,14 @@ e=T(a),f=s(s(k(c(2,b)),a),d);return C(w(T(d),f),e)}function
 iW(k,a,d,j,c,h){var
 e=ah(w,dD(k),j);if(h){var
 b=function(b){var
-c=i(b,a[3]),d=i(b,a[2]);return[0,i(b,a[1]),d,c]},f=b(function(a){return a[3]}),g=b(function(a){return a[2]}),l=e$([0,b(function(a){return a[1]}),g,f],e);return ah(C,a0(d,c),l)}var
-m=e$(a,c);return ah(C,a0(d,e),m)}function
+c=i(b,a[3]),d=i(b,a[2]);return[0,i(b,a[1]),d,c]},f=b(function(a){return a[3]}),g=b(function(a){return a[2]}),l=fa([0,b(function(a){return a[1]}),g,f],e);return ah(C,a0(d,c),l)}var
+m=fa(a,c);return ah(C,a0(d,e),m)}function
 nn(f,h,g,l,a,d){var
-e=dD(f),i=ah(w,e,a),j=e$(h,d),m=iV(e[3],a[3]),n=iV(e[2],a[2]),o=iV(e[1],a[1]),p=C(C(C(W(d,d),o),n),m),q=W(j,i),r=s(k(c(2,b)),q),t=C(s(g,p),r),u=bl(cf(j,i),l);return[0,gL(f,iW(f,h,g,a,d,0),u),t]}function
+e=dD(f),i=ah(w,e,a),j=fa(h,d),m=iV(e[3],a[3]),n=iV(e[2],a[2]),o=iV(e[1],a[1]),p=C(C(C(X(d,d),o),n),m),q=X(j,i),r=s(k(c(2,b)),q),t=C(s(g,p),r),u=bl(cf(j,i),l);return[0,gL(f,iW(f,h,g,a,d,0),u),t]}function
 no(d,c,b,a){var
 e=gM(c,b,a);return ah(C,dD(d),e)}function
 np(g,f,e,d,c){var
-b=no(g,f,e,c),a=ah(w,b,d);return[0,[0,b,a],aE(W(a,a))]}function
+b=no(g,f,e,c),a=ah(w,b,d);return[0,[0,b,a],aE(X(a,a))]}function
 gO(b,a){var
 c=a7(a[2],b);return f(a7(a[1],b),c)}function
 iX(d,b,a,c){if(a)var
@@ -4592,19 +4592,19 @@ e=G(c,a[1]);return z(function(a){var
 c=q(0,b,k(d)),e=i(a[2][2],c);return[0,a[2][1],e]},e)}return 0}function
 gP(a){return h(l,0,[3,[0,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b))))))))),b],a])}function
 nr(a){var
-b=aj(a,uk),c=aE(W(aj(a,ul),b));return s(q(0,a,k(d)),c)}function
+b=aj(a,uk),c=aE(X(aj(a,ul),b));return s(q(0,a,k(d)),c)}function
 ns(b,a){var
-c=W(a,aj(b,um));return[0,bQ(a0(nr(b),a)),c]}function
+c=X(a,aj(b,um));return[0,bQ(a0(nr(b),a)),c]}function
 nt(e,d,a,c,b){var
-f=b[2],g=s(nr(a),f),h=c?gM(e,d,aj(a,un)):aj(a,uo);return w(W(b[1][2],h),g)}function
+f=b[2],g=s(nr(a),f),h=c?gM(e,d,aj(a,un)):aj(a,uo);return w(X(b[1][2],h),g)}function
 nu(h,g,f,d,c,b,a){var
 i=by(c);function
 j(a){return no(h,g,f,a)}return l3(e(function(a){return[0,a[4]]},d),j,i,b,a)}function
-fb(a){var
+fc(a){var
 b=q(up,a,k(d));return am(q(0,a,k(d)),b)}function
 iZ(a){return a[4][2]}function
 nv(g,o,n,m,a){var
-p=a[1][2],q=e(aZ,gu(n,a[1][2])),h=fb(m),i=s(s(k(c(2,b)),o),h),d=a[1][1],j=aV(cF(g),d),l=e(function(a){return s(a,i)},j);return[0,f(f(aI(cF(g),d),l),q),p]}function
+p=a[1][2],q=e(aZ,gu(n,a[1][2])),h=fc(m),i=s(s(k(c(2,b)),o),h),d=a[1][1],j=aV(cF(g),d),l=e(function(a){return s(a,i)},j);return[0,f(f(aI(cF(g),d),l),q),p]}function
 nw(a){var
 b=a[3],c=a[2],d=a[1];return gC([0,[0,d,d],[0,c,c],[0,b,b]])}function
 uy(a){if(typeof
@@ -4628,7 +4628,7 @@ a=c;for(;;){if(0===a[0])return ak(ny,a[1]);var
 d=ak(ny,a[1]),b=d||nz(a[3]);if(b)return b;var
 a=a[4];continue}}function
 uz(a,aQ,bE,A,B,aP){var
-n=A[1],j=bu(n),Y=A[6],bF=A[2],K=y(function(a){return gO(B,a)},bF),aR=A[3],Q=[0,[0,aR,aR],B],$=[0,g(K)],bG=0,aS=y(function(a){return e8(bG,B,a)},Y),bH=cF(n),aT=m0(A[5],bH),o=aT[2],H=aT[1],J=c1(Q,g(K)),bJ=A[2],U=g(K),bI=0,x=iX(function(e,a){function
+n=A[1],j=bu(n),Y=A[6],bF=A[2],K=y(function(a){return gO(B,a)},bF),aR=A[3],Q=[0,[0,aR,aR],B],$=[0,g(K)],bG=0,aS=y(function(a){return e9(bG,B,a)},Y),bH=cF(n),aT=m0(A[5],bH),o=aT[2],H=aT[1],J=c1(Q,g(K)),bJ=A[2],U=g(K),bI=0,x=iX(function(e,a){function
 i(g){var
 c=bu(n);if(n)var
 b=[0,[0,[0,c]],[0,[0,[0,c]]],[0,[0,[0,[0,c]]]]];else
@@ -4636,7 +4636,7 @@ var
 m=k(d),b=[0,k(d),m,[0,[0,c]]];var
 t=nc(n,H,o,e,a,b)[2],h=nc(n,H,o,e,a,b),i=h[1],j=bl(i[2],h[2]),l=cf(i[1],j),p=ah(C,l,cf(l,b)),f=a0(nb(b),p),q=s(f[3],g),r=s(f[2],g);return[0,gL(n,j,[0,s(f[1],g),r,q]),t]}function
 j(Y){var
-v=np(n,H,o,e,a),x=v[1],V=ah(w,dD(n),e),y=v[2],r=x[1],X=x[2],g=gM(H,o,a),i=bl(X,y),N=am(W(g,i),J),O=T(J),P=am(W(a,a),O),Q=2<=n?d:b,R=C(k(Q),P);function
+v=np(n,H,o,e,a),x=v[1],V=ah(w,dD(n),e),y=v[2],r=x[1],W=x[2],g=gM(H,o,a),i=bl(W,y),N=am(X(g,i),J),O=T(J),P=am(X(a,a),O),Q=2<=n?d:b,R=C(k(Q),P);function
 h(a){return[0,m6(a),0]}function
 f(a){return[0,bl(cf(m6(a),g),J),[0,a]]}switch(n){case
 0:var
@@ -4644,7 +4644,7 @@ B=[0,f(tR),0],D=[0,h(tS),B],q=[0,h(0),D];break;case
 1:var
 E=[0,f(tT),0],F=[0,f(tU),E],G=[0,f(0),F],I=[0,h(tV),G],K=[0,h(tW),I],q=[0,h(0),K];break;default:var
 L=[0,f(tX),0],M=[0,f(tY),L],q=[0,f(0),M]}var
-j=ah(w,[0,[0,[1,U]],[0,[1,[0,U]]],[0,[1,[0,[0,U]]]]],e),l=bl(j,aE(W(j,j)));if(n)var
+j=ah(w,[0,[0,[1,U]],[0,[1,[0,U]]],[0,[1,[0,[0,U]]]]],e),l=bl(j,aE(X(j,j)));if(n)var
 m=iR(n,U,e,r,l[3]);else
 var
 z=k(d),A=k(d),m=[0,k(d),A,z];var
@@ -4652,22 +4652,22 @@ t=iR(n,U,e,r,l[2]),u=iR(n,U,e,r,l[1]),S=m7(function(r,v){var
 e=v[1];function
 a(b,a){var
 c=e[3],f=dC(a,m),g=s(C(b[3],f),c),h=e[2],i=dC(a,t),j=s(C(b[2],i),h),l=e[1],n=dC(a,u),o=s(C(b[1],n),l);return C(C(C(k(d),o),j),g)}var
-x=a(m,tZ),y=a(t,t0),z=[0,a(u,0),y,x],f=W(r[1],z),l=r[2];if(l){var
+x=a(m,tZ),y=a(t,t0),z=[0,a(u,0),y,x],f=X(r[1],z),l=r[2];if(l){var
 h=l[1],n=v[2];if(n){var
 j=n[1],A=dC(h,g),B=s(dC(j,i),A),D=dC(j,g),o=C(s(dC(h,i),D),B),E=T(J);if(p(h,j))var
-F=W(i,g),q=w(o,s(k(c(2,b)),F));else
+F=X(i,g),q=w(o,s(k(c(2,b)),F));else
 var
 q=o;return C(f,am(q,E))}return f}return f},q);return[0,gL(n,i,bl(cf(g,bl(V,y)),J)),S,R,N]}var
 l=np(n,H,o,e,a);function
 m(b){return iW(n,H,o,e,a,b)}var
 f=2<=n?d:b;function
 g(b){var
-c=T(J),d=k(f),e=s(w(T(b),d),c);return s(o,w(W(a,a),e))}var
-h=[0,W(iW(n,H,o,e,a,1),a),g];return[0,nn(n,H,o,J,e,a),h,m,l,j,i]},B,bJ,bI),V=e(function(a){return a[1]},x),bK=R($,g(aS)),bL=cF(n),bM=A[5];function
+c=T(J),d=k(f),e=s(w(T(b),d),c);return s(o,w(X(a,a),e))}var
+h=[0,X(iW(n,H,o,e,a,1),a),g];return[0,nn(n,H,o,J,e,a),h,m,l,j,i]},B,bJ,bI),V=e(function(a){return a[1]},x),bK=R($,g(aS)),bL=cF(n),bM=A[5];function
 O(a){return[0,[0,R(bL,a)]]}var
 aI=T([0,[1,bK]]);switch(bM[0]){case
 2:var
-bs=O(tJ),bt=O(tK),aK=[0,O(0),bt,bs],F=[0,w(aI,W(aK,aK))];break;case
+bs=O(tJ),bt=O(tK),aK=[0,O(0),bt,bs],F=[0,w(aI,X(aK,aK))];break;case
 3:var
 bw=T(O(tL)),bx=T(O(0)),by=T(O(tM)),F=[0,w(w(s(aI,C(k(b),by)),bx),bw)];break;default:var
 F=0}var
@@ -4711,7 +4711,7 @@ c=i(j[1][5],0),s=[0,c[3],[0,c[4],0]],t=[0,q(uq,b,k(d)),s],u=[0,q(0,b,k(d)),t],v=
 16:var
 w=y(function(a){var
 b=e(aZ,gu(bY,iZ(a)));return[0,iZ(a),b]},x);return f(y(function(a){var
-c=fb(b),d=[0,i(a[6],c)[2],0],e=fb(b);return f(i(a[6],e)[1],d)},x),w)}return 0},bX,B,$,Y),aW=cR(e(function(a){return bv(j,a)},ap))[1],aX=cR(aV)[1],Z=cQ(aW),aq=cQ(aX);function
+c=fc(b),d=[0,i(a[6],c)[2],0],e=fc(b);return f(i(a[6],e)[1],d)},x),w)}return 0},bX,B,$,Y),aW=cR(e(function(a){return bv(j,a)},ap))[1],aX=cR(aV)[1],Z=cQ(aW),aq=cQ(aX);function
 v(a){return bc(Z,bv(j,a))}function
 aY(i){if(0===A[4][0]){var
 s=z(v,F),t=v(o),e=cF(n),f=p(g(i),j);if(f)var
@@ -4727,7 +4727,7 @@ f=e;return f},l);else
 var
 b=f;var
 r=b?e:b;return r}return 0}var
-X=aY(i(aw(v),V)),a1=m(function(a){var
+W=aY(i(aw(v),V)),a1=m(function(a){var
 b=bv(j,a),c=k(d);return aJ(q(v(a),Z,c),b)},ap),a2=a1?m(function(a){return gG(j,a)},ap):a1,a3=a2?m(function(a){var
 b=k(d);return aJ(q(bc(aq,a),aq,b),a)},aV):a2,a4=a3?ak(uy,Y):a3;if(a4){var
 a6=P(A[7]);if(a6)var
@@ -4777,13 +4777,13 @@ d=c;var
 h=d}else
 var
 h=b;return h},x));if(aK){var
-bj=aK[1],bk=e(function(a){return nv(n,J,az,j,a)},x),aL=i(aw(v),bk),W=function(a){var
+bj=aK[1],bk=e(function(a){return nv(n,J,az,j,a)},x),aL=i(aw(v),bk),X=function(a){var
 b=cF(n),c=e(function(a){var
-b=fb(j);return I(i(a[6],b)[2])},x),d=e(function(a){var
-b=fb(j);return e(I,i(a[6],b)[1])},x),f=aY(aL);return[0,[8,[0,aL,v(o),f,d,c,bj,bh,bi,b,a]]]};if(2<=n)return[0,W(1),0];var
-bl=[0,W(1),0];return[0,W(0),bl]}return us}return ut}return uu}return uv}var
+b=fc(j);return I(i(a[6],b)[2])},x),d=e(function(a){var
+b=fc(j);return e(I,i(a[6],b)[1])},x),f=aY(aL);return[0,[8,[0,aL,v(o),f,d,c,bj,bh,bi,b,a]]]};if(2<=n)return[0,X(1),0];var
+bl=[0,X(1),0];return[0,X(0),bl]}return us}return ut}return uu}return uv}var
 bm=0,w=e(function(a){return a[1]},x);function
-Z(c,b,a){return[0,c,b,a,X]}var
+Z(c,b,a){return[0,c,b,a,W]}var
 F=0;if(typeof
 f==="number")var
 aS=v(o),s=[0,Z(i(aw(v),w),aS,u)];else
@@ -4816,7 +4816,7 @@ s=af;break;case
 7:var
 ag=f[3],ah=f[2],ai=f[1],aj=G(x,ai),aR=0;if(aj){var
 ak=h(a,1,ah),al=ak?h(a,1,ag):ak;if(al){var
-a1=[5,ah,ag],y=a1,K=function(c,b,a){return[3,ai,c,b,a,X]};F=1;aR=1}else
+a1=[5,ah,ag],y=a1,K=function(c,b,a){return[3,ai,c,b,a,W]};F=1;aR=1}else
 var
 am=al}else
 var
@@ -4877,7 +4877,7 @@ b=aB(0,j);return m(function(b){return eg(j,b,a)},b)},bB);else
 var
 ag=aM;if(ag){var
 aN=z(function(a){return bv(j,a)},F),ai=bv(j,o),aL=nd(ai);if(aL)var
-bz=aB(0,X),aO=m(function(a){var
+bz=aB(0,W),aO=m(function(a){var
 b=dB(j,a,ai),c=b?m(function(b){var
 d=b[2][2],e=f(y(iT,b[1]),d),g=R(j,a),c=m(function(a){return cE(g,a)},e);if(c){var
 h=b[2][1];return gF(ai,R(j,a),h)}return c},_):b;if(c){if(aN){var
@@ -4898,7 +4898,7 @@ b$=e(function(a){return 1},ad),ca=f(a9,a_),cb=function(l,P,ac,$,c){if(M){if(type
 c!=="number"&&10===c[0]){var
 h=c[3],o=c[2],r=c[1];if(typeof
 r!=="number"&&6===r[0]){if(h){if(h[2])return 0;var
-w=h[1],b=r[1],x=p($,X),y=x?aH(0,X):x;if(y)var
+w=h[1],b=r[1],x=p($,W),y=x?aH(0,W):x;if(y)var
 v=hW(hR,e(av,o),N),Y=v?1:v,s=Y;else
 var
 s=y;var
@@ -4917,7 +4917,7 @@ var
 O=K}else
 var
 O=aG;if(!R)return O}if(!Q)return 0;break}if(u){var
-S=iN(a,e0(o,0,l),aD,P),n=iN(a,l,aD,P),f=function(b,a){return q(a,b,uc)},T=nf(function(a){return f(n,a)},G),U=f(n,b_),V=function(a){return f(n,a)},W=[0,iS(function(a){return f(S,a)},V,b9),U,T],Z=gh(o,l),_=function(g){var
+S=iN(a,e1(o,0,l),aD,P),n=iN(a,l,aD,P),f=function(b,a){return q(a,b,uc)},T=nf(function(a){return f(n,a)},G),U=f(n,b_),V=function(a){return f(n,a)},X=[0,iS(function(a){return f(S,a)},V,b9),U,T],Z=gh(o,l),_=function(g){var
 b=ab(e(ua,g[1]));if(b){var
 c=g[2];if(c){var
 d=da(g[3]);if(d){var
@@ -4931,13 +4931,13 @@ var
 i=c;var
 k=i}else
 var
-k=b;return k};return i(iP(function(b,a){return t$},X,j,_),W)}var
+k=b;return k};return i(iP(function(b,a){return t$},W,j,_),X)}var
 C=0}else
 var
 C=B;var
 F=C}else
 var
-F=h;return F}return 0}return 0}return M},cc=v(o),cd=i(aw(v),V);return fa(a,aW,aX,ad,j,j,z(v,F),cd,cc,cb,aC,ca,b$,aP)}var
+F=h;return F}return 0}return 0}return M},cc=v(o),cd=i(aw(v),V);return fb(a,aW,aX,ad,j,j,z(v,F),cd,cc,cb,aC,ca,b$,aP)}var
 bf=af}else
 var
 bf=bd;var
@@ -4962,9 +4962,9 @@ bm=as;var
 bn=bm}else
 var
 bn=ar;return bn}function
-fc(b,a){return bt(b,a[1],a[2])}function
+fd(b,a){return bt(b,a[1],a[2])}function
 nA(b,a){var
-c=fc(b,a[1]),d=c?fc(b,a[2]):c;return d?fc(b,a[3]):d}function
+c=fd(b,a[1]),d=c?fd(b,a[2]):c;return d?fd(b,a[3]):d}function
 aX(a){return typeof
 a==="number"?a?uA:uB:bu(a[1])}function
 nB(b,a,c){return typeof
@@ -5002,22 +5002,22 @@ a==="number"?a?dD(0):dv:dD(a[1])}function
 i2(b,d,c){if(0===c[0])return gr(b,d[1],c[1]);var
 a=c[1],e=[0,[0,a[5],b],[0,[0,a[6],b],0]],g=f(a7(a[4],b),e),h=f(a7(a[3],b),g),i=f(a7(a[2],d[2]),h);return f(a7(a[1],d[1]),i)}function
 i3(b,a){if(b){var
-c=b[1],d=c[2];return bl(e$(c[1],a),d)}return a}function
+c=b[1],d=c[2];return bl(fa(c[1],a),d)}return a}function
 nF(f,t,al,J,ak,r,ai){if(r){var
 j=r[1],an=bM([0,d,d],ak),a=cz(ai,i2(J,an,j)),y=function(c,b){var
 d=aj(a,c);return ah(w,ah(C,nE(f),b),d)};if(0===j[0]){var
 z=j[1];switch(z[0]){case
 0:var
-$=i3(t,aj(a,uD)),aD=z[1][5],A=q(uE,a,k(d)),B=aj(a,0),aa=y(uF,$),i=ls(aa,du(B),aa,A,aD),ap=[0,aE(A),0],aq=[0,aE(W(B,B)),ap],l=[0,[0,i[1],i[2],i[3],[0,i[4]],[0,[0,i[2],A]],aq],$];break;case
+$=i3(t,aj(a,uD)),aD=z[1][5],A=q(uE,a,k(d)),B=aj(a,0),aa=y(uF,$),i=ls(aa,du(B),aa,A,aD),ap=[0,aE(A),0],aq=[0,aE(X(B,B)),ap],l=[0,[0,i[1],i[2],i[3],[0,i[4]],[0,[0,i[2],A]],aq],$];break;case
 1:var
 ab=i3(t,aj(a,uG)),ac=z[3],D=ac?[0,aj(a,uH)]:ac,ad=y(0,ab),m=lt(ad,ad,0);if(D)var
-K=D[1],L=[0,aE(W(K,K)),0];else
+K=D[1],L=[0,aE(X(K,K)),0];else
 var
 L=D;var
 l=[0,[0,m[1],m[2],m[3],[0,m[4]],0,L],ab];break;default:var
-aF=k(d),aG=k(d),aH=[0,k(d),aG,aF],E=aj(a,0),aI=nE(f),n=lu(aI,du(E)),ar=[0,aE(W(E,E)),0],l=[0,[0,n[1],n[2],n[3],[0,n[4]],0,ar],aH]}}else
+aF=k(d),aG=k(d),aH=[0,k(d),aG,aF],E=aj(a,0),aI=nE(f),n=lu(aI,du(E)),ar=[0,aE(X(E,E)),0],l=[0,[0,n[1],n[2],n[3],[0,n[4]],0,ar],aH]}}else
 var
-ae=i3(t,aj(a,uI)),F=j[1][7],G=q(uJ,a,k(d)),e=q(uK,a,k(d)),af=aj(a,uL),H=aj(a,0),p=y(uM,ae),o=du(H),u=ah(w,af,a0(W(o,af),o)),v=du(u),M=cf(o,v),N=W(p,v),O=W(p,M),as=W(o,p),at=T(O),P=C(T(N),at),au=T(as),Q=w(T(G),au),av=s(k(c(2,b)),e),x=w(P,T(am(C(P,w(T(e),Q)),av))),aw=gc(F,s(e,aE(x))),S=am(N,e),U=gc(F,am(O,e)),V=am(Q,T(e)),X=k0(0,S,U,V),Y=gc(F,k0(1,S,U,V)),ax=a0(Y,M),Z=ah(w,p,a0(e,ah(C,a0(X,v),ax))),ay=[0,aE(G),0],az=[0,aE(e),ay],aA=[0,aE(W(u,u)),az],aB=[0,aE(W(H,H)),aA],aC=bl(Z,aw),l=[0,[0,Z,s(T(e),x),aC,[1,X,Y],[0,[0,x,G]],aB],ae];var
+ae=i3(t,aj(a,uI)),F=j[1][7],G=q(uJ,a,k(d)),e=q(uK,a,k(d)),af=aj(a,uL),H=aj(a,0),p=y(uM,ae),o=du(H),u=ah(w,af,a0(X(o,af),o)),v=du(u),M=cf(o,v),N=X(p,v),O=X(p,M),as=X(o,p),at=T(O),P=C(T(N),at),au=T(as),Q=w(T(G),au),av=s(k(c(2,b)),e),x=w(P,T(am(C(P,w(T(e),Q)),av))),aw=gc(F,s(e,aE(x))),S=am(N,e),U=gc(F,am(O,e)),V=am(Q,T(e)),W=k0(0,S,U,V),Y=gc(F,k0(1,S,U,V)),ax=a0(Y,M),Z=ah(w,p,a0(e,ah(C,a0(W,v),ax))),ay=[0,aE(G),0],az=[0,aE(e),ay],aA=[0,aE(X(u,u)),az],aB=[0,aE(X(H,H)),aA],aC=bl(Z,aw),l=[0,[0,Z,s(T(e),x),aC,[1,W,Y],[0,[0,x,G]],aB],ae];var
 aP=R(ai,g(i2(J,an,j))),aQ=r[2],aR=nF(f,t,al,J,by(ak),aQ,aP),h=l[1],aS=l[2],ag=function(a){var
 b=bl(cf(aS,a),al);return typeof
 f==="number"?f?[0,a[1],[0,a[2],0]]:bQ(a):gL(f[1],a,b)},I=h[1],_=typeof
@@ -5104,7 +5104,7 @@ c=[0,bk(C(a,b)),0];return[0,w(a,b),c]}var
 f=i5(ms(t,l,e(function(a){return a[1]},g))),c=s(aE(d[2]),f),h=[0,b(bk(c)),0];return[0,b(c),h]},c=t;break;default:j=1}if(j)return 0;var
 h=G(g,c);return h?f(h[1]):h}function
 ek(a){return e(function(a){return[0,a[1],a[2]]},a)}function
-fd(a){return e(function(a){var
+fe(a){return e(function(a){var
 c=k(b);return[0,a[3],c]},a)}function
 nK(c,b,a){if(typeof
 a!=="number"&&8===a[0])return bS(gE(ek(c),b));return dY(nJ(c,b,a))}function
@@ -5183,7 +5183,7 @@ j=a[2],f=a[1],i=s;break;case
 6:var
 j=a[2],f=a[1],i=am;break;case
 7:var
-l=eO(a[2]),m=bC(e,a[1],c);if(l){if(l[1]){var
+l=eP(a[2]),m=bC(e,a[1],c);if(l){if(l[1]){var
 o=T(m),r=function(a){return s(a,o)},p=fS(bx(kH(l)),r,o);return kG(l)?p:s(p,m)}return m}return k(b);default:return aE(bC(e,a[1],c))}var
 v=bC(e,j,R(c,g(bX(f))));return i(bC(e,f,c),v)}function
 db(c,h,b){var
@@ -5203,14 +5203,14 @@ b=i,a=h,c=f;for(;;){if(a){var
 d=a[1],e=d[2],j=R(c,g(bX(e))),k=a[2],l=bC(b,e,c),b=[0,[0,d[1],l],b],a=k,c=j;continue}return b}}function
 i6(c,a,b){if(a){var
 e=a[1],d=e[2],h=R(b,g(bX(d))),i=a[2],j=bC(c,d,b),k=i6([0,[0,e[1],j],c],i,h);return f(db(c,d,b),k)}return a}function
-fe(a){return y(bX,a)}function
+ff(a){return y(bX,a)}function
 nO(c,a,b){if(a)var
 d=a[1],f=R(b,g(bX(d))),h=nO(c,a[2],f),e=[0,bC(c,d,b),h];else
 var
 e=a;return e}function
 nP(c,a,b){if(a){var
 d=a[1],e=R(b,g(bX(d))),h=nP(c,a[2],e);return f(db(c,d,b),h)}return a}function
-gT(a){return 0===a[0]?fe(a[1]):bX(a[1])}function
+gT(a){return 0===a[0]?ff(a[1]):bX(a[1])}function
 i7(c,b,a){if(b){var
 d=b[1],j=R(a,g(gT(d))),k=i7(c,b[2],j);if(0===d[0])var
 h=nP(c,d[1],a);else
@@ -5241,7 +5241,7 @@ var
 p=a;return p}function
 nQ(a){return e(function(a){return[0,a[2],d]},a)}function
 i_(a){var
-b=y(gT,a[4]),c=f(fe(e(aZ,a[3])),b);return f(nQ(a[2]),c)}function
+b=y(gT,a[4]),c=f(ff(e(aZ,a[3])),b);return f(nQ(a[2]),c)}function
 gV(a){var
 c=cz(0,nQ(a[2])),d=aB(0,g(a[1])),h=e(function(a){return[0,[0,a]]},d),b=$(e(av,a[2]),c);return f($(a[1],h),b)}function
 i$(b,d){var
@@ -5391,16 +5391,16 @@ n3(a){switch(a[0]){case
 c=[0,a[4],0],d=f(bf(a[3]),c),e=f(bf(a[2]),d);return f(bf(a[1]),e);case
 1:var
 b=a[3],g=b?bf(b[1]):b,h=f(bf(a[2]),g);return f(bf(a[1]),h);default:return bf(a[1])}}function
-ff(b,a){var
+fg(b,a){var
 c=a3(a,a);return ba(a3(b,b),c)?a:b}function
-fg(b,a,e,d){var
+fh(b,a,e,d){var
 c=dA(b,a,bw(e));return c?dA(b,a,bw(d)):c}function
 n4(a){var
 c=q(vg,a,[0,d,b]),e=q(vh,a,[0,d,b]);return[0,[0,q(0,a,[0,d,b]),e],c]}function
 jc(d,c,b,a){var
 e=bU(d,c,b,a);return x(bU(d,c,b,a),e)}function
 vi(i,k,t,S,H,o,l,n,aR){var
-j=t[5],aJ=$(l,n),aK=$(aB(0,g(l)),aJ),ag=e(function(a){return[1,a[1],a[2][1],a[2][2]]},aK),ax=t[7],ay=ax?e9(i,t[2],S):ax,az=ay?bT(i,t[4],H):ay,aA=az?cD(i,j,o):az,aC=aA?_(k,vj):aA;if(aC)var
+j=t[5],aJ=$(l,n),aK=$(aB(0,g(l)),aJ),ag=e(function(a){return[1,a[1],a[2][1],a[2][2]]},aK),ax=t[7],ay=ax?e_(i,t[2],S):ax,az=ay?bT(i,t[4],H):ay,aA=az?cD(i,j,o):az,aC=aA?_(k,vj):aA;if(aC)var
 aS=R(k,g(o)),T=p(g(l),aS);else
 var
 T=aC;if(T)var
@@ -5416,7 +5416,7 @@ a=aV(k,n),c=aV(k,l);switch(j[0]){case
 X=0;if(c)if(c[2])var
 h=0;else
 if(a)var
-h=a[2]?0:fg(i,j[1],c[1],a[1]);else{var
+h=a[2]?0:fh(i,j[1],c[1],a[1]);else{var
 ah=a;X=1}else{var
 ah=c;X=1}if(X)var
 h=ah;break;case
@@ -5429,8 +5429,8 @@ if(a){var
 x=a[2],Z=0;if(x){var
 y=x[2],aa=0;if(y)if(y[2]){var
 h=0;I=1;J=1;Z=1;aa=1}else{var
-ai=fg(i,j[1],c[1],a[1]),aj=ai?fg(i,j[2],v[1],x[1]):ai;if(aj){var
-h=fg(i,j[3],w[1],y[1]);I=1;J=1;Z=1;aa=1}else
+ai=fh(i,j[1],c[1],a[1]),aj=ai?fh(i,j[2],v[1],x[1]):ai;if(aj){var
+h=fh(i,j[3],w[1],y[1]);I=1;J=1;Z=1;aa=1}else
 var
 ak=aj}else
 var
@@ -5458,7 +5458,7 @@ if(a){var
 B=a[2],ac=0;if(B){var
 C=B[2];if(C)if(C[2]){var
 h=0;K=1;L=1;ac=1}else{var
-aM=[0,bw(ff(A[1],C[1])),0],aN=[0,bw(ff(z[1],B[1])),aM],h=cD(i,j,[0,bw(ff(c[1],a[1])),aN]);K=1;L=1;ac=1}else
+aM=[0,bw(fg(A[1],C[1])),0],aN=[0,bw(fg(z[1],B[1])),aM],h=cD(i,j,[0,bw(fg(c[1],a[1])),aN]);K=1;L=1;ac=1}else
 var
 ao=C}else
 var
@@ -5486,8 +5486,8 @@ r=G[1],s=E[1],aH=0,aO=0;if(ba(s,[0,d,b])&&ba([0,d,b],r))var
 ar=[0,d,b];else
 aH=1;if(aH)var
 aL=a3(r,r),ar=ba(a3(s,s),aL)?s:r;var
-aP=[0,bw(ar),aO],aQ=[0,bw(ff(D[1],F[1])),aP],as=cD(i,j,[0,bw(ff(c[1],a[1])),aQ]);if(as){var
-h=fg(i,c8(j[2]),s,r);M=1;N=1;ae=1;af=1}else
+aP=[0,bw(ar),aO],aQ=[0,bw(fg(D[1],F[1])),aP],as=cD(i,j,[0,bw(fg(c[1],a[1])),aQ]);if(as){var
+h=fh(i,c8(j[2]),s,r);M=1;N=1;ae=1;af=1}else
 var
 at=as}else
 var
@@ -5525,9 +5525,9 @@ jd(e){var
 a=aC(em,e);if(a){var
 f=i(kK(c(2,b)),em);return[0,a[1][2],f]}return[0,d,b]}var
 vm=[0,[0,d,b],[0,d,b],[0,d,b]];function
-fh(c,a){var
+fi(c,a){var
 e=[0,d,b];return an(function(b,a){return[2,i(c,b),a]},e,a)}function
-fi(b,a){return an(function(c,a){var
+fj(b,a){return an(function(c,a){var
 d=i(b,c);return U(function(b,a){return[2,b,a]},d,a)},vm,a)}function
 n5(d,h,c,e){var
 a=d5(d,function(c,e,f){var
@@ -5694,7 +5694,7 @@ e=b;return e}function
 og(d,c){var
 a=G(c,d);if(a){var
 b=a[1],e=b[1];return P(I(ca(b),e))}return a}function
-g3(b,a){return eQ(eQ(b,0),a)}function
+g3(b,a){return eR(eR(b,0),a)}function
 jj(a){if(a){var
 b=a[2],c=a[1];if(b)return g3(c,[0,vC,jj(b)]);var
 d=c}else
@@ -5707,21 +5707,21 @@ n(b,a){return[0,a$(vK,a$(b,vJ)),a]}function
 M(b,a){return ag([0,n(b,a),0])}function
 cH(d){var
 b=d,a=r3,e=0;for(;;){if(b){var
-c=kE(a),b=b[1],a=c;continue}return[0,eR(fR(a)),e]}}function
-jk(a){return[0,eR(fZ(a)),0]}function
-fj(a){var
+c=kE(a),b=b[1],a=c;continue}return[0,eS(fR(a)),e]}}function
+jk(a){return[0,eS(fZ(a)),0]}function
+fk(a){var
 c=aO(a),f=0,b=0===c?r9:0<c?[0,fZ(a)]:[1,fZ(Q(a))];if(0===b[0])var
-d=eR(b[1]);else
+d=eS(b[1]);else
 var
-e=eR(b[1]),d=a$(bJ(1,45),e);return[0,d,f]}function
+e=eS(b[1]),d=a$(bJ(1,45),e);return[0,d,f]}function
 ep(a){var
-b=0,c=0<aO(a)?fZ(a):r7;return[0,eR(c),b]}function
+b=0,c=0<aO(a)?fZ(a):r7;return[0,eS(c),b]}function
 jl(a){switch(a[0]){case
 2:return vM;case
 3:return 2<=a[1]?vN:vO;case
 4:return vP;default:return vL}}function
-fk(b,a){function
-c(c,a){return _(c,jl(a))?fk(b,a):[0,vV,f(fk(b,a),vU)]}switch(a[0]){case
+fl(b,a){function
+c(c,a){return _(c,jl(a))?fl(b,a):[0,vV,f(fl(b,a),vU)]}switch(a[0]){case
 0:var
 e=a[2],g=a[1];if(typeof
 e==="number")return[0,bj(g),0];var
@@ -5739,9 +5739,9 @@ d=vS;break;default:var
 d=vT}var
 l=a[2];return f(c(jl(a),l),[0,d,k]);case
 4:var
-m=[0,vZ,jk(a[2])];return f(c(v0,a[1]),m);default:return[0,v2,f(fk(b,a[1]),v1)]}}function
-K(a){return[0,v5,f(fk(function(a){return 0===a[0]?a[1]:v4},a),v3)]}function
-jm(a){return[0,v7,f(fk(function(a){return a},a),v6)]}function
+m=[0,vZ,jk(a[2])];return f(c(v0,a[1]),m);default:return[0,v2,f(fl(b,a[1]),v1)]}}function
+K(a){return[0,v5,f(fl(function(a){return 0===a[0]?a[1]:v4},a),v3)]}function
+jm(a){return[0,v7,f(fl(function(a){return a},a),v6)]}function
 cI(a){if(0===a[0])return K(a[1]);var
 b=[0,n(v8,K(a[2])),0];return ag([0,n(v9,K(a[1])),b])}function
 g4(b,a){var
@@ -5786,7 +5786,7 @@ a==="number")return w7;else
 switch(a[0]){case
 0:return w8;case
 1:return w9;default:return w_}}function
-fl(a){var
+fm(a){var
 c=a[4];if(typeof
 c==="number")var
 d=0;else
@@ -5844,11 +5844,11 @@ k=[0,n(x2,K(a[4])),0],l=[0,n(x3,b(a[3])),k],m=[0,n(x4,b(a[2])),l],o=a[1]?x5:x7,d
 ol(a){var
 b=a?[0,n(x8,H(e(xV,a))),0]:a;return b}function
 jp(d,c,b,a){var
-g=[0,n(x9,H(e(fl,a))),0],h=f(ol(b),g),i=[0,n(x_,oh(c)),0];return ag(f([0,n(ya,M(x$,H(e(v_,d)))),i],h))}function
+g=[0,n(x9,H(e(fm,a))),0],h=f(ol(b),g),i=[0,n(x_,oh(c)),0];return ag(f([0,n(ya,M(x$,H(e(v_,d)))),i],h))}function
 yb(a){switch(a[0]){case
 0:return M(yc,jp(a[1],a[2],a[3],a[4]));case
 1:var
-b=a[5],c=a[3],d=a[1],g=H(e(wq,a[2])),l=[0,n(yd,H(e(fl,a[6]))),0],m=b?[0,n(ye,ok(b[1])),0]:b,o=f(m,l),k=0,p=[0,n(yf,oi(a[4])),o];if(typeof
+b=a[5],c=a[3],d=a[1],g=H(e(wq,a[2])),l=[0,n(yd,H(e(fm,a[6]))),0],m=b?[0,n(ye,ok(b[1])),0]:b,o=f(m,l),k=0,p=[0,n(yf,oi(a[4])),o];if(typeof
 d==="number")if(d)var
 h=yg;else{var
 i=M(yl,g);k=1}else
@@ -5856,42 +5856,42 @@ var
 h=oj(d[1]);if(!k)var
 q=c?[0,n(yh,K(c[1])),0]:c,i=M(h,ag([0,n(yi,g),q]));return M(yk,ag([0,n(yj,i),p]));case
 2:var
-r=[0,n(ym,H(e(fl,a[7]))),0],s=f(ol(a[6]),r),t=[0,n(yn,ok(a[5])),0],u=[0,n(yo,oi(a[4])),t],v=[0,n(yp,K(a[3])),0],w=ag([0,n(yq,H(e(xH,a[2]))),v]);return M(ys,ag(f([0,n(yr,M(oj(a[1]),w)),u],s)));case
+r=[0,n(ym,H(e(fm,a[7]))),0],s=f(ol(a[6]),r),t=[0,n(yn,ok(a[5])),0],u=[0,n(yo,oi(a[4])),t],v=[0,n(yp,K(a[3])),0],w=ag([0,n(yq,H(e(xH,a[2]))),v]);return M(ys,ag(f([0,n(yr,M(oj(a[1]),w)),u],s)));case
 3:var
-x=[0,n(yt,H(e(fl,a[7]))),0],y=[0,n(yu,H(e(K,a[6]))),0],z=[0,n(yx,M(yw,ag([0,n(yv,H(e(K,a[5]))),y]))),x],A=0,B=a[4],C=[0,n(yA,H(e(function(a){return 0===a[0]?M(yy,H(e(jm,a[1]))):M(yz,jm(a[1]))},B))),A],D=a[3],E=[0,n(yB,H(e(function(a){var
+x=[0,n(yt,H(e(fm,a[7]))),0],y=[0,n(yu,H(e(K,a[6]))),0],z=[0,n(yx,M(yw,ag([0,n(yv,H(e(K,a[5]))),y]))),x],A=0,B=a[4],C=[0,n(yA,H(e(function(a){return 0===a[0]?M(yy,H(e(jm,a[1]))):M(yz,jm(a[1]))},B))),A],D=a[3],E=[0,n(yB,H(e(function(a){var
 b=[0,jm(a[2]),0];return H([0,ap(a[1]),b])},D))),C],F=a[2],G=[0,n(yC,H(e(function(a){var
 b=[0,cI(a[2]),0];return H([0,ap(a[1]),b])},F))),E];return M(yG,ag([0,n(yF,M(yE,ag([0,n(yD,H(e(ap,a[1]))),G]))),z]));case
 4:var
-I=[0,n(yH,H(e(fl,a[3]))),0],J=[0,n(yK,M(yJ,ag([0,n(yI,K(a[2])),0]))),I];return M(yO,ag([0,n(yN,M(yM,ag([0,n(yL,K(a[1])),0]))),J]));case
+I=[0,n(yH,H(e(fm,a[3]))),0],J=[0,n(yK,M(yJ,ag([0,n(yI,K(a[2])),0]))),I];return M(yO,ag([0,n(yN,M(yM,ag([0,n(yL,K(a[1])),0]))),J]));case
 5:var
 L=[0,n(yP,K(a[5])),0];return M(yR,ag([0,n(yQ,jp(a[1],[0,a[2],a[3]],0,a[4])),L]));case
 6:var
 j=a[1],N=0,O=j?cI(j[1]):ap(yU);return M(yT,ag([0,n(yS,O),N]));default:var
 P=[0,n(yV,K(a[6])),0],Q=[0,n(yW,K(a[5])),P],R=[0,n(yX,jp(a[2],a[3],0,a[4])),Q],S=a[1];return M(y2,ag([0,n(y1,H(e(function(a){var
 b=[0,n(yY,K(a[2][2])),0],c=[0,n(yZ,K(a[2][1])),b];return ag([0,n(y0,ap(a[1])),c])},S))),R]))}}function
-dE(a){return H(e(fj,a))}function
-fm(b,a){var
+dE(a){return H(e(fk,a))}function
+fn(b,a){var
 c=[0,n(y3,ep(a)),0];return ag([0,n(y4,H(e(dE,b))),c])}function
 dc(a){switch(a[0]){case
 0:return ap(a[1]);case
 1:var
-b=fm(a[2],a[3]);return M(a[1],b);case
+b=fn(a[2],a[3]);return M(a[1],b);case
 2:var
 c=a[1]?y5:y7;return M(y6,ap(c));case
 3:var
-d=[0,dE(a[3]),0];return M(y8,H([0,fm(a[1],a[2]),d]));case
+d=[0,dE(a[3]),0];return M(y8,H([0,fn(a[1],a[2]),d]));case
 4:var
-f=[0,ep(a[4]),0],g=[0,fj(a[3]),f];return M(y9,H([0,fm(a[1],a[2]),g]));case
+f=[0,ep(a[4]),0],g=[0,fk(a[3]),f];return M(y9,H([0,fn(a[1],a[2]),g]));case
 5:var
-h=[0,ep(a[3]),0],i=[0,fj(a[2]),h];return M(y_,H([0,dc(a[1]),i]));case
+h=[0,ep(a[3]),0],i=[0,fk(a[2]),h];return M(y_,H([0,dc(a[1]),i]));case
 6:var
-j=[0,ep(a[3]),0],k=[0,fj(a[2]),j];return M(y$,H([0,dc(a[1]),k]));case
+j=[0,ep(a[3]),0],k=[0,fk(a[2]),j];return M(y$,H([0,dc(a[1]),k]));case
 7:return M(za,dc(a[1]));case
 8:var
 l=[0,H(e(dE,a[3])),0],m=[0,ap(a[2]),l];return M(zb,H([0,dc(a[1]),m]));case
 9:var
 n=a[1];return M(zc,H(e(function(a){var
-b=a[1],c=b[1],d=[0,dc(a[2]),0],e=[0,ep(b[2]),d],f=[0,fj(c[2]),e];return H([0,dE(c[1]),f])},n)));default:var
+b=a[1],c=b[1],d=[0,dc(a[2]),0],e=[0,ep(b[2]),d],f=[0,fk(c[2]),e];return H([0,dE(c[1]),f])},n)));default:var
 o=[0,dc(a[4]),0],p=[0,dc(a[3]),o],q=[0,ep(a[2]),p];return M(zd,H([0,dE(a[1]),q]))}}function
 ze(a){var
 b=[0,dc(a[2]),0];return H([0,cH(a[1]),b])}function
@@ -5903,12 +5903,12 @@ b=[0,H(e(dE,a[2])),0];return M(zh,H([0,cH(a[1]),b]));case
 1:var
 c=[0,cH(a[2]),0];return M(zi,H([0,cH(a[1]),c]));case
 2:return M(zj,H(e(K,a[1])));default:var
-d=[0,n(zk,fm(a[4],a[5])),0],f=[0,n(zl,H(e(K,a[3]))),d],g=[0,n(zm,H(e(K,a[2]))),f];return M(zo,ag([0,n(zn,cH(a[1])),g]))}}function
+d=[0,n(zk,fn(a[4],a[5])),0],f=[0,n(zl,H(e(K,a[3]))),d],g=[0,n(zm,H(e(K,a[2]))),f];return M(zo,ag([0,n(zn,cH(a[1])),g]))}}function
 zp(a){var
 b=a[4],h=b?[0,n(zq,dE([0,b[1],b[2]])),0]:b,d=a[3],i=d?[0,n(zr,om(d[1])),0]:d,j=f(i,h),g=a[2],k=g?[0,n(zs,cH(g[1])),0]:g,l=f(k,j),c=a[1],m=c?[0,n(zt,H(e(ze,[0,c[1],c[2]]))),0]:c;return ag(f(m,l))}function
 on(g,a,d){var
 h=[0,n(zu,H(e(zp,d))),0];if(a)var
-b=a[1],c=[0,n(zv,fm(b[1],b[2])),0];else
+b=a[1],c=[0,n(zv,fn(b[1],b[2])),0];else
 var
 c=a;var
 i=f(c,h);return ag([0,n(zw,jk(g)),i])}function
@@ -5938,7 +5938,7 @@ a=a[4];continue}return c;case
 6:case
 7:var
 a=a[1];continue;default:return 1}}function
-fn(b){function
+fo(b){function
 c(f){var
 a=f1(f),b=_(zW,a),c=b?_(a,zX):b;if(c)var
 d=c;else{var
@@ -5957,12 +5957,12 @@ i=a;return i}function
 jr(c){var
 a=c;for(;;)switch(a[0]){case
 0:return 1;case
-1:return fn(a[1]);case
+1:return fo(a[1]);case
 3:var
 b=jr(a[2]);if(b){var
 a=a[3];continue}return b;default:var
 a=a[1];continue}}function
-fo(m){var
+fp(m){var
 a=m;for(;;)switch(a[0]){case
 0:var
 e=a[1];if(typeof
@@ -5980,10 +5980,10 @@ var
 g=d;return g;case
 1:return 1;case
 3:var
-i=fo(a[2]);if(i){var
+i=fp(a[2]);if(i){var
 a=a[3];continue}return i;case
 4:var
-j=a[2],k=fo(a[1]),l=k?fX(c(2,b),j):k;return l?fX(j,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):l;default:var
+j=a[2],k=fp(a[1]),l=k?fX(c(2,b),j):k;return l?fX(j,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):l;default:var
 a=a[1];continue}}function
 eq(a){return 0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
 bZ(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
@@ -6033,8 +6033,8 @@ f=c[1];return ak(function(a){return ax(f,a)},b)}return 0;case
 d=ot(b,a[2]);if(d){var
 a=a[3];continue}return d;default:var
 a=a[1];continue}}function
-fp(c,a){return m(function(a){var
-b=fo(a);return b?ot(c,a):b},a)}function
+fq(c,a){return m(function(a){var
+b=fp(a);return b?ot(c,a):b},a)}function
 ou(a){if(typeof
 a!=="number")switch(a[0]){case
 2:return a[1];case
@@ -6055,7 +6055,7 @@ g=j(a[2]),h=j(a[3]);switch(a[1]){case
 1:return[3,g,h];case
 2:return[4,g,h];default:return[5,g,h]}case
 4:var
-n=bx(eO(a[2]));return ow(j(a[1]),n);default:return[6,j(a[1])]}}function
+n=bx(eP(a[2]));return ow(j(a[1]),n);default:return[6,j(a[1])]}}function
 b0(a){if(0===a[0]){var
 b=j(a[1]);return[0,b,b]}var
 c=j(a[2]);return[0,j(a[1]),c]}function
@@ -6796,7 +6796,7 @@ g=1}else
 var
 g=b;return g}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-fq(a){if(0===a[0])return dh(j(a[1]));var
+fr(a){if(0===a[0])return dh(j(a[1]));var
 b=a[2],c=a[1];if(!d4(j(c))&&!d4(j(b))){var
 e=j(c);return h(l,1,[3,j(b),e])}var
 d=j(b);return bt(l,j(c),d)}function
@@ -6837,7 +6837,7 @@ k=b?h(l,1,j(a[3])):b;if(k){var
 o=j(a[5]);return bt(l,j(a[4]),o)}return k}function
 o0(a,e,F,E,t,s,f){function
 u(b){var
-d=oY(a),c=p(g(b),d);return c?m(fq,b):c}var
+d=oY(a),c=p(g(b),d);return c?m(fr,b):c}var
 v=m(function(a){var
 b=u(a[1]);return b?u(a[2]):b},e);if(v)var
 G=g(e),n=_(bu(a),G);else
@@ -6932,7 +6932,7 @@ r=b[1],s=q?r?0:1:c(r),t=s?c(b[2]):s,u=t?c(b[3]):t;return u?c(b[4]):u}},e);if(x)v
 T=g(e),r=_(aX(a),T);else
 var
 r=x;var
-A=r?_(g(e),A$):r,B=A?m(fq,y(o1,e)):A;if(B){var
+A=r?_(g(e),A$):r,B=A?m(fr,y(o1,e)):A;if(B){var
 R=0;if(typeof
 a==="number"&&!a){var
 C=1;R=1}if(!R)var
@@ -6998,13 +6998,13 @@ f=d;return f}return 1},k,b),f=e?m(Bc,d[1]):e,h=f?_(Bd,g(a)):f;if(h)var
 l=g(a),c=m(function(a){return z9(l,a)},b);else
 var
 c=h;var
-i=c?hd(b):c,j=i?m(fq,y(oW,a)):i;return j?m(A0,d[3]):j}function
+i=c?hd(b):c,j=i?m(fr,y(oW,a)):i;return j?m(A0,d[3]):j}function
 o3(k,j,a,i,h,b){var
 l=g(k),n=g(h),c=p(g(i),n),d=c?m(function(b){var
 c=aQ(l,g(a),b);if(c){var
 d=b[1];if(1===d){var
 e=b[2],f=e?[0,bx(e[1]),0]:aB(0,g(a));return m(function(c){var
-b=G(a,c);return b?0===b[1][0]?0:1:b},f)}return 11===d?m(function(a){return 0===a[0]?0:1},a):1}return c},b):c,e=d?hd(b):d,f=e?m(function(a){return fq(a[2])},j):e;return f?m(jF,es(0,g(a),0,b)):f}function
+b=G(a,c);return b?0===b[1][0]?0:1:b},f)}return 11===d?m(function(a){return 0===a[0]?0:1},a):1}return c},b):c,e=d?hd(b):d,f=e?m(function(a){return fr(a[2])},j):e;return f?m(jF,es(0,g(a),0,b)):f}function
 o4(a){if(a){var
 b=a[1];if(et(b))return 0;var
 c=[0,b,o4(a[2])]}else
@@ -7053,7 +7053,7 @@ _=jH(Y,X,W,a);if(_){var
 aH=Z[1],C=e(hb,a[1]),c=hc(a[1]),aI=jL(aA),U=mo(l,a);if(U){var
 n=gs(c,C,a[1]),h=is(c,C,a[1],0),ac=g(a[3]),ad=R(g(n),ac),K=[0,g(n),ad],ae=a[3],E=ak(function(a){if(typeof
 a!=="number"&&14===a[0])return 1;return 0},ae),af=E?y(function(a){var
-b=e(aZ,gu(n,a[4]));return[0,a[4],b]},h):E,ag=f(iu(h,c,K,a[3]),af),ah=f(bS(lv(h)),ag),L=f(bS(eY(h)),ah),M=cR(L)[1],o=cQ(M),N=m(function(a){var
+b=e(aZ,gu(n,a[4]));return[0,a[4],b]},h):E,ag=f(iu(h,c,K,a[3]),af),ah=f(bS(lv(h)),ag),L=f(bS(eZ(h)),ah),M=cR(L)[1],o=cQ(M),N=m(function(a){var
 b=k(d);return aJ(q(bc(o,a),o,b),a)},L);if(N){var
 O=ak(tb,a[3]);if(O){var
 t=C,p=a[1];for(;;){if(p){var
@@ -7078,7 +7078,7 @@ v=O;if(v){var
 ai=a[3],aj=y(function(a){return dx(c,a)},ai),al=a[3],am=f(n,f(e(function(a){return bR(c,a)},al),aj)),w=ab(e(function(a){return ao(b,a)},am));if(w){var
 an=a7(ee(a[2]),c),x=ab(e(function(a){return ao(b,a)},an));if(x){var
 ap=a[3],z=ab(mb(b,aI,function(a){return bc(o,a)},n,h,c,K,ap));if(z){var
-Q=z[1],aq=ir(Q),ar=x[1],as=a[2],at=function(a){return mc(b,as,c,a)},au=w[1],av=0,ax=lv(h),ay=i(aw(function(a){return bc(o,a)}),ax),az=eY(h);return fw(iq(b,M,i(aw(function(a){return bc(o,a)}),az),ay,av,au,Q,at),ar,aq,aH)}var
+Q=z[1],aq=ir(Q),ar=x[1],as=a[2],at=function(a){return mc(b,as,c,a)},au=w[1],av=0,ax=lv(h),ay=i(aw(function(a){return bc(o,a)}),ax),az=eZ(h);return fx(iq(b,M,i(aw(function(a){return bc(o,a)}),az),ay,av,au,Q,at),ar,aq,aH)}var
 S=z}else
 var
 S=x;var
@@ -7108,7 +7108,7 @@ a$=iy(a[4]),M=bT(l,a[4],a$);else
 var
 M=ax;if(M){var
 ay=a[5];if(ay)var
-ba=gK(ay[1]),az=m(function(a){return fc(l,a)},ba);else
+ba=gK(ay[1]),az=m(function(a){return fd(l,a)},ba);else
 var
 az=1;var
 N=az}else
@@ -7116,7 +7116,7 @@ var
 N=M;if(N){var
 c=a[1],aO=aX(c),u=a[6],B=i4(n,Q,a[2]),X=a[3],Y=[0,[0,X,X],n],Z=[0,g(B)],C=a[2],s=C?0===C[1][0]?0:1:C,aP=a[5],aQ=z(function(a){var
 b=typeof
-c==="number"?0:cF(c[1]);return m0(a,b)},aP),aR=a[2],o=nF(c,aQ,c1(Y,g(B)),n,Q,aR,0),_=y(function(a){return a[7]},o),aS=f(_,c9(function(a,b){return nK(o,a,b)},s,n,Z,u)),aT=f(bS(fd(o)),aS),$=f(bS(ek(o)),aT),aa=cR($)[1],ac=cQ(aa),t=function(a){return bc(ac,a)},ad=m(function(a){var
+c==="number"?0:cF(c[1]);return m0(a,b)},aP),aR=a[2],o=nF(c,aQ,c1(Y,g(B)),n,Q,aR,0),_=y(function(a){return a[7]},o),aS=f(_,c9(function(a,b){return nK(o,a,b)},s,n,Z,u)),aT=f(bS(fe(o)),aS),$=f(bS(ek(o)),aT),aa=cR($)[1],ac=cQ(aa),t=function(a){return bc(ac,a)},ad=m(function(a){var
 b=k(d);return aJ(q(t(a),ac,b),a)},$),ae=ad?ak(nM,u):ad;if(ae){var
 af=a[4];if(typeof
 c==="number")var
@@ -7146,7 +7146,7 @@ b=0===a[0]?0:1;return co(b,s)},aU);else
 var
 G=E;if(G){var
 aV=f(B,[0,Y,0]),H=ab(e(function(a){return ao(j,a)},aV));if(H){var
-aW=y(function(a){return e8(s,n,a)},u),I=ab(e(function(a){return iJ(j,a)},aW));if(I){var
+aW=y(function(a){return e9(s,n,a)},u),I=ab(e(function(a){return iJ(j,a)},aW));if(I){var
 r=ee(a[4]),aY=typeof
 c==="number"?c?[0,r[1],[0,r[2],0]]:[0,r[1],[0,r[2],[0,r[3],0]]]:nx(c[1],r),J=ab(e(function(a){return ao(j,[0,a,n])},aY));if(J){var
 ah=J[1],ai=a[5];if(ai)var
@@ -7160,7 +7160,7 @@ a1=ir(al),a2=f(ah,aj),aL=0,a3=a[4];if(typeof
 c==="number"&&!c){var
 an=function(a){return mc(j,a3,n,a)};aL=1}if(!aL)var
 an=function(a){return 0};var
-a4=f(I[1],K[1]),a5=f(H[1],a4),a6=e(t,_),a7=fd(o),a8=i(aw(t),a7),a9=ek(o);return fw(iq(j,aa,i(aw(t),a9),a8,a6,a5,al,an),a2,a1,bh)}var
+a4=f(I[1],K[1]),a5=f(H[1],a4),a6=e(t,_),a7=fe(o),a8=i(aw(t),a7),a9=ek(o);return fx(iq(j,aa,i(aw(t),a9),a8,a6,a5,al,an),a2,a1,bh)}var
 ap=am}else
 var
 ap=L;var
@@ -7221,7 +7221,7 @@ h=bW(c,a,d,b);return[0,mF(b[1],h),0]},k),Q=function(b){var
 e=gS(c,a,b);return U(function(b,a){return[2,b,a]},d,e)},R=0,S=e(function(g){var
 e=bW(c,a,d,g);if(0===g[0]){var
 b=g[1];if(0===b[0]){var
-i=b[4],j=b[3],k=b[2],h=b[1],n=cA(h,k,j,i,e),l=c3(b[5],n),o=ac(l,ay(h)),p=e6(h,k,j,e);return[0,[0,nC(m,U(function(b,a){return[2,b,a]},p,o)),l,i]]}return 0}var
+i=b[4],j=b[3],k=b[2],h=b[1],n=cA(h,k,j,i,e),l=c3(b[5],n),o=ac(l,ay(h)),p=e7(h,k,j,e);return[0,[0,nC(m,U(function(b,a){return[2,b,a]},p,o)),l,i]]}return 0}var
 f=g[1],q=f[6],r=gB(f,e),s=iH(f,e),t=f[4],u=U(function(b,a){return[2,b,a]},e,t);return[0,[0,nC(m,U(function(b,a){return[3,b,a]},u,s)),r,q]]},k),T=e(function(b){if(0===b[0]){var
 f=bW(c,a,d,b);return[0,c4(b[1],f)]}var
 e=b[1],g=mH(e,bW(c,a,d,b));return[1,mG(e,bW(c,a,d,b)),g]},k),V=[0,e(function(e){if(0===e[0])var
@@ -7231,9 +7231,9 @@ h=bW(c,a,d,e),f=e[1],i=iH(f,h),j=f[4],k=U(function(b,a){return[2,b,a]},h,j),l=U(
 L=n}else
 var
 L=u;return L}function
-fr(a){if(a){var
+fs(a){if(a){var
 b=cw(j(a[1]));if(b){var
-c=fr(a[2]);if(c)var
+c=fs(a[2]);if(c)var
 f=c[1],d=[0,[0,ds(b[1]),f]];else
 var
 d=c;var
@@ -7254,8 +7254,8 @@ a!=="number"&&3===a[0]){var
 au=G(i[3],a[1]);if(au){var
 bN=au[1];if(typeof
 bN==="number"&&bN){var
-av=fr(a[2]);if(av){var
-s=av[1],aw=fr(a[3]);if(aw){var
+av=fs(a[2]);if(av){var
+s=av[1],aw=fs(a[3]);if(aw){var
 t=aw[1];if(T){var
 ck=pa([0,d,[0,d,[0,d,0]]],s,t,a[4],a[5]),cl=j(bF),cn=j(bG),Y=[0,j(bH),cn,cl];if(s){var
 v=s[2];if(v){var
@@ -7451,9 +7451,9 @@ j=a[1],p=ay(j);return[0,[3,x(ay(j),f),e],p,[0,d,b]]}},af=function(j){var
 d=j[1],e=d[2],a=d[1],c=j[2];switch(a[0]){case
 0:var
 g=a[3],h=a[2],i=a[1],k=aW(h,g,f),l=[3,x(ay(i),k),e],m=cA(i,h,g,a[4],f);return jd([5,[0,c,b],[2,c3(a[5],m),l]]);case
-1:return jd([5,[0,c,b],[2,e,c4(a,f)]]);default:return[0,c,b]}},b8=x(aj,aj),b9=[4,fh(function(a){var
-b=ae(a)[3];return[4,af(a),b]},am),b8],b_=x(fi(function(a){var
-b=ae(a)[2];return ac(af(a),b)},am),aj);return n5(l,vq,vp,[2,[2,fh(function(a){var
+1:return jd([5,[0,c,b],[2,e,c4(a,f)]]);default:return[0,c,b]}},b8=x(aj,aj),b9=[4,fi(function(a){var
+b=ae(a)[3];return[4,af(a),b]},am),b8],b_=x(fj(function(a){var
+b=ae(a)[2];return ac(af(a),b)},am),aj);return n5(l,vq,vp,[2,[2,fi(function(a){var
 b=ae(a)[1];return[4,af(a),b]},am),b_],b9])}var
 a$=a_}else
 var
@@ -7536,22 +7536,22 @@ BD(v){var
 eP=g5(v[3]),eQ=eP?g5(v[4]):eP;if(eQ){var
 W=v[1];switch(W[0]){case
 3:var
-eW=m(fn,W[1]);if(eW)var
-i8=W[2],cp=m(function(a){return fn(a[1])},i8);else
+eW=m(fo,W[1]);if(eW)var
+i8=W[2],cp=m(function(a){return fo(a[1])},i8);else
 var
 cp=eW;if(cp)var
 i$=W[3],cq=m(function(a){var
-b=fn(a[1]),c=b?jr(a[2]):b;return c?fo(a[2]):c},i$);else
+b=fo(a[1]),c=b?jr(a[2]):b;return c?fp(a[2]):c},i$);else
 var
 cq=cp;if(cq)var
 ja=W[4],be=m(function(a){var
 b=0===a[0]?a[1]:[0,a[1],0];return m(function(a){var
-b=jr(a);return b?fo(a):b},b)},ja);else
+b=jr(a);return b?fp(a):b},b)},ja);else
 var
 be=cq;break;case
 7:var
 jb=W[1],eX=m(function(a){var
-b=fn(a[1]);return b?fp(0,[0,a[2][1],[0,a[2][2],0]]):b},jb),be=eX?fp(0,[0,W[5],[0,W[6],0]]):eX;break;default:var
+b=fo(a[1]);return b?fq(0,[0,a[2][1],[0,a[2][2],0]]):b},jb),be=eX?fq(0,[0,W[5],[0,W[6],0]]):eX;break;default:var
 be=1}var
 cn=be}else
 var
@@ -7560,11 +7560,11 @@ c2=0;if(cn){var
 eR=v[1],co=7===eR[0]?e(av,eR[1]):0,eS=function(c,b){var
 a=ov(c);return a?m(function(a){var
 e=a[1],b=m(function(a){return jq(a[2])},e);if(b){var
-c=a[3];if(c)return fp(co,ou(c[1]));var
+c=a[3];if(c)return fq(co,ou(c[1]));var
 d=1}else
 var
 d=b;return d},b):a},eT=function(e,d,c,b){var
-a=ov(e);return a?fp(co,f(d,f(c,ou(b)))):a},o=v[1];switch(o[0]){case
+a=ov(e);return a?fq(co,f(d,f(c,ou(b)))):a},o=v[1];switch(o[0]){case
 0:var
 iB=y(dG,o[4]),iC=f(y(os,o[3]),iB),iD=f(oq(o[2]),iC),X=f(y(js,o[1]),iD);break;case
 1:var
@@ -7580,7 +7580,7 @@ iY=y(dG,o[4]),iZ=f(bZ(o[3]),iY),i0=f(bZ(o[2]),iZ),i2=f(y(js,o[1]),i0),X=[0,o[5],
 6:var
 cm=o[1],X=cm?eq(cm[1]):cm;break;default:var
 i3=y(dG,o[4]),i4=f(oq(o[3]),i3),X=f(y(js,o[2]),i4)}var
-eU=fp(co,X);if(eU){var
+eU=fq(co,X);if(eU){var
 Y=v[2];switch(Y[0]){case
 0:var
 aW=eS(Y[1],Y[3]);break;case
@@ -7595,13 +7595,13 @@ eV=cn;c2=1}if(c2)var
 aW=eV;if(aW){var
 a=v[1];switch(a[0]){case
 0:var
-fs=a[4],ft=a[3],fu=a[2],fv=a[1],ah=v[2];switch(ah[0]){case
-0:return o9(0,fv,fu,ft,fs,ah[1],ah[2],ah[3]);case
-1:return pb(fv,fu,ft,fs,ah[2],ah[3],ah[4]);default:return 0}case
+fn=a[4],ft=a[3],fu=a[2],fv=a[1],ah=v[2];switch(ah[0]){case
+0:return o9(0,fv,fu,ft,fn,ah[1],ah[2],ah[3]);case
+1:return pb(fv,fu,ft,fn,ah[2],ah[3],ah[4]);default:return 0}case
 1:var
-fx=a[6],fy=a[5],fz=a[4],fA=a[3],fB=a[2],fC=a[1],aA=v[2];switch(aA[0]){case
-0:return o_(fC,fB,fA,fz,fy,fx,aA[1],aA[3]);case
-1:return o$(fC,fB,fA,fz,fy,fx,aA[2],aA[3],aA[4]);default:return 0}case
+fw=a[6],fy=a[5],fz=a[4],fA=a[3],fB=a[2],fC=a[1],aA=v[2];switch(aA[0]){case
+0:return o_(fC,fB,fA,fz,fy,fw,aA[1],aA[3]);case
+1:return o$(fC,fB,fA,fz,fy,fw,aA[2],aA[3],aA[4]);default:return 0}case
 2:var
 ai=a[7],aj=a[6],bk=a[5],bl=a[4],bm=a[3],K=a[2],M=a[1],am=v[2];switch(am[0]){case
 0:var
@@ -7614,7 +7614,7 @@ b=nA(l,a[1]);return b?nA(l,a[2]):b},gL);if(da)var
 gM=iy(aa[4]),by=bT(l,aa[4],gM);else
 var
 by=da;if(by)var
-gN=gK(aa[5]),bA=m(function(a){return fc(l,a)},gN);else
+gN=gK(aa[5]),bA=m(function(a){return fd(l,a)},gN);else
 var
 bA=by;return bA?uz(jO,jN,jM,aa,cy,jC):bA}var
 fG=fF}else
@@ -7626,7 +7626,7 @@ w=fI[1],fJ=hf(y(function(a){return f(a[1],a[2])},K),fH),fK=fJ?o0(M,K,bm,bl,bk,aj
 n=oD(M,K,bm,bl,bk,aj,ai);if(typeof
 N!=="number")switch(N[0]){case
 2:var
-fQ=e(j,N[1]),fR=aV(H,fQ),fS=aM(aI(H,fQ)),fT=aV(H,an),fU=aM(aI(H,an)),dl=e9(l,n[2],w);if(dl)var
+fQ=e(j,N[1]),fR=aV(H,fQ),fS=aM(aI(H,fQ)),fT=aV(H,an),fU=aM(aI(H,an)),dl=e_(l,n[2],w);if(dl)var
 gO=bu(n[1]),bE=p(g(w),gO);else
 var
 bE=dl;var
@@ -7647,8 +7647,8 @@ dj=di}else
 var
 dj=bC;return dj}return dq;case
 3:var
-cE=fr(N[2]);if(cE){var
-fV=cE[1],cH=fr(N[3]);if(cH){var
+cE=fs(N[2]);if(cE){var
+fV=cE[1],cH=fs(N[3]);if(cH){var
 fW=cH[1],jQ=n[2],jR=F(b,bB(y(function(a){var
 b=a8(a[2]);return f(a8(a[1]),b)},jQ))),jS=g(K),jT=he(0,jI(M),jS,aj,ai),fX=p(N[1],jT);if(fX){var
 jU=N[5],jV=N[4],jW=al(Q(jR),dV(g(an),H)),jX=pa(f(al(d,H),jW),fV,fW,jV,jU),jY=aV(H,an);return vi(l,H,n,w,aM(aI(H,an)),jY,fV,fW,jX)}var
@@ -7659,7 +7659,7 @@ fZ=fY}else
 var
 fZ=cE;return fZ}var
 jP=g(K),cA=jJ(0,jI(M),jP,aj,ai,N);if(cA){var
-aX=cA[1],s=aM(aI(H,an)),r=aV(H,an),c4=e9(l,n[2],w),c5=c4?bT(l,n[4],s):c4,c8=c5?cD(l,n[5],r):c5;if(c8)var
+aX=cA[1],s=aM(aI(H,an)),r=aV(H,an),c4=e_(l,n[2],w),c5=c4?bT(l,n[4],s):c4,c8=c5?cD(l,n[5],r):c5;if(c8)var
 S=n[5],c_=n[3],c$=n[1],gH=n[6],bx=function(a){var
 b=bU(S,r,s,a);return x(bU(S,r,s,a),b)},gx=e(function(a){return[0,iL(c$,c_,S,r,s,a)]},w),gB=e(bx,w),gC=function(a){var
 b=cC(S,r,a);return U(function(b,a){return[2,b,a]},s,b)},gD=e(function(a){var
@@ -7670,7 +7670,7 @@ cB=c8;if(cB)var
 fL=cB;else{if(typeof
 aX!=="number"&&0===aX[0]){var
 bo=aX[2];if(bo){if(bo[2])return 0;var
-bp=bo[1],fO=aX[1],aO=n[1],d5=e9(l,n[2],w),d6=d5?bT(l,n[4],s):d5,d7=d6?cD(l,n[5],r):d6,c3=0;if(d7){var
+bp=bo[1],fO=aX[1],aO=n[1],d5=e_(l,n[2],w),d6=d5?bT(l,n[4],s):d5,d7=d6?cD(l,n[5],r):d6,c3=0;if(d7){var
 hN=n[6],hO=2<=aO?u_:u$,b2=gA(l,hO,fO,hN),bv=0;if(b2){var
 az=b2[1][1],bw=0;if(typeof
 az!=="number"&&15===az[0]){var
@@ -7689,7 +7689,7 @@ d8=b2;if(!bv){var
 d9=d8;c3=1}}else{var
 d9=d7;c3=1}if(c3)var
 aY=d9;if(!aY){var
-af=n[1],aQ=n[5],eb=e9(l,n[2],w),ec=eb?bT(l,n[4],s):eb,ed=ec?cD(l,aQ,r):ec,ee=ed?bY(bf(s)):ed;if(ee){var
+af=n[1],aQ=n[5],eb=e_(l,n[2],w),ec=eb?bT(l,n[4],s):eb,ed=ec?cD(l,aQ,r):ec,ee=ed?bY(bf(s)):ed;if(ee){var
 h7=n[6],h8=2<=af?vr:vs,b7=gA(l,h8,fO,h7);if(b7){var
 aR=b7[1][1];if(typeof
 aR!=="number"&&16===aR[0]){var
@@ -7704,10 +7704,10 @@ b=bY(bf(a[1]));return b?bY(bf(cC(aQ,r,a[2]))):b},w):ca;if(eu){var
 h_=n[2],ev=je(bp,e(function(a){var
 b=cG(a[2]);return n7(bU(aQ,r,s,[0,cG(a[1]),b]))},h_),ei),ew=bY(ev);if(ew){var
 h$=$($(w,ev),bp),ag=e(function(e){var
-c=e[1],d=c[2],a=c[1],f=cC(aQ,r,a[2]),g=a[1],h=U(function(b,a){return[3,b,a]},s,g),i=[2,d,n7(bU(aQ,r,s,a))];return[0,jd([5,[0,e[2],b],i]),d,h,f]},h$),b5=[0,c(2,b),b],b6=function(b){return fi(function(a){var
-c=a[3],d=i(b,a[4]);return ac([4,a[1],d],c)},ag)},d$=fh(function(a){var
-b=x(a[3],a[4]);return[4,a[1],b]},ag),ea=x(T,T),hR=b6(function(a){return a[3]}),hS=ac(T[3],hR),hT=b6(function(a){return a[2]}),hU=ac(T[2],hT),hV=b6(function(a){return a[1]}),hW=ac(T[1],hV),hX=U(function(b,a){return[2,b,a]},hW,hU),hY=[4,ea,d$],hZ=x(T,U(function(b,a){return[2,b,a]},hX,hS)),h0=[3,[2,x(T,fi(function(a){var
-b=dz(a[4],a[3]);return ac(a[1],b)},ag)),hZ],hY],h1=[2,[4,b5,d$],[4,[5,[0,c(2,c(2,b)),b],[2,[0,b,b],ea]],h0]],h2=[4,b5,x(a$,mL(T,fi(function(a){return ac(a[1],a[4])},ag)))],h3=x(a$,a$),h4=[2,[4,fh(function(a){return a[1]},ag),h3],h2],h5=[4,b5,x(fi(function(a){return ac(a[1],a[3])},ag),a$)],h6=[2,[2,[2,fh(function(a){var
+c=e[1],d=c[2],a=c[1],f=cC(aQ,r,a[2]),g=a[1],h=U(function(b,a){return[3,b,a]},s,g),i=[2,d,n7(bU(aQ,r,s,a))];return[0,jd([5,[0,e[2],b],i]),d,h,f]},h$),b5=[0,c(2,b),b],b6=function(b){return fj(function(a){var
+c=a[3],d=i(b,a[4]);return ac([4,a[1],d],c)},ag)},d$=fi(function(a){var
+b=x(a[3],a[4]);return[4,a[1],b]},ag),ea=x(T,T),hR=b6(function(a){return a[3]}),hS=ac(T[3],hR),hT=b6(function(a){return a[2]}),hU=ac(T[2],hT),hV=b6(function(a){return a[1]}),hW=ac(T[1],hV),hX=U(function(b,a){return[2,b,a]},hW,hU),hY=[4,ea,d$],hZ=x(T,U(function(b,a){return[2,b,a]},hX,hS)),h0=[3,[2,x(T,fj(function(a){var
+b=dz(a[4],a[3]);return ac(a[1],b)},ag)),hZ],hY],h1=[2,[4,b5,d$],[4,[5,[0,c(2,c(2,b)),b],[2,[0,b,b],ea]],h0]],h2=[4,b5,x(a$,mL(T,fj(function(a){return ac(a[1],a[4])},ag)))],h3=x(a$,a$),h4=[2,[4,fi(function(a){return a[1]},ag),h3],h2],h5=[4,b5,x(fj(function(a){return ac(a[1],a[3])},ag),a$)],h6=[2,[2,[2,fi(function(a){var
 b=[4,a[2],a[2]],c=x(a[4],a[4]),d=[3,[2,x(a[3],a[3]),c],b];return[4,a[1],d]},ag),h5],h4],h1],ia=cF(af);return n5(l,bu(af),ia,h6)}var
 ex=ew}else
 var
@@ -7747,7 +7747,7 @@ bO=dL;if(bO)var
 hr=O[2],bP=m(function(a){return bt(l,a[1],a[2])},hr);else
 var
 bP=bO;if(bP){var
-B=O[1],bF=g(B[1]),a4=O[3],bG=g(B[2]),ds=R(bG,g(fe(e(aZ,B[3])))),gR=B[3],dt=nN(gV(B),gR,bG),ae=i9(bF,dt,B[4],ds),gS=i7(dt,B[4],ds),gU=B[3],du=f(i6(gV(B),gU,bG),gS),dv=g(i_(B)),gW=0,gX=f(du,c9(function(a,b){return nK(ae,a,b)},gW,d,dv,a4)),gY=f(bS(fd(ae)),gX),dy=f(bS(ek(ae)),gY),bH=cR(dy)[1],gZ=cQ(bH),ax=function(a){return bc(gZ,a)},dA=p(g(O[2]),bF);if(dA)var
+B=O[1],bF=g(B[1]),a4=O[3],bG=g(B[2]),ds=R(bG,g(ff(e(aZ,B[3])))),gR=B[3],dt=nN(gV(B),gR,bG),ae=i9(bF,dt,B[4],ds),gS=i7(dt,B[4],ds),gU=B[3],du=f(i6(gV(B),gU,bG),gS),dv=g(i_(B)),gW=0,gX=f(du,c9(function(a,b){return nK(ae,a,b)},gW,d,dv,a4)),gY=f(bS(fe(ae)),gX),dy=f(bS(ek(ae)),gY),bH=cR(dy)[1],gZ=cQ(bH),ax=function(a){return bc(gZ,a)},dA=p(g(O[2]),bF);if(dA)var
 g0=B[4],bI=m(function(a){return 0===a[0]?p(g(a[1]),bF):1},g0);else
 var
 bI=dA;var
@@ -7760,14 +7760,14 @@ hp=B[4],a5=m(function(a){return 0===a[0]?0:1},hp)}else
 var
 a5=dC;if(a5){var
 g3=i_(B),bJ=ab(e(function(a){return ao(a2,a)},g3));if(bJ){var
-g4=0,g6=y(function(a){return e8(g4,d,a)},a4),bK=ab(e(function(a){return iJ(a2,a)},g6));if(bK){var
+g4=0,g6=y(function(a){return e9(g4,d,a)},a4),bK=ab(e(function(a){return iJ(a2,a)},g6));if(bK){var
 g7=O[2],bL=ab(e(function(a){return ao(a2,[0,a,d])},g7));if(bL){var
 g8=0,g9=0,bM=ab(c9(function(a,b){return nL(a2,ax,ae,g9,d,a,b)},g8,d,dv,a4));if(bM){var
 dE=bM[1];if(O[4])var
-g_=f3[2],g$=f3[1],hd=fd(ae),bN=mp(j2,dE,[8,i(aw(ax),hd),g$,g_]);else
+g_=f3[2],g$=f3[1],hd=fe(ae),bN=mp(j2,dE,[8,i(aw(ax),hd),g$,g_]);else
 var
 bN=dE;var
-hh=ir(bN),hi=bL[1],hj=function(a){return 0},hk=f(bJ[1],bK[1]),hl=e(ax,du),hm=fd(ae),hn=i(aw(ax),hm),ho=ek(ae);return fw(iq(a2,bH,i(aw(ax),ho),hn,hl,hk,bN,hj),hi,hh,j1)}var
+hh=ir(bN),hi=bL[1],hj=function(a){return 0},hk=f(bJ[1],bK[1]),hl=e(ax,du),hm=fe(ae),hn=i(aw(ax),hm),ho=ek(ae);return fx(iq(a2,bH,i(aw(ax),ho),hn,hl,hk,bN,hj),hi,hh,j1)}var
 dF=bM}else
 var
 dF=bL;var
@@ -7790,7 +7790,7 @@ f7=hf(e(aZ,ar),f5),f8=f7?o3(aD,ar,aq,a1,a0,ap):f7,f9=f8?nS(a3[1]):f8;if(f9)var
 j5=a3[2],cL=m(function(a){return bt(l,a[1],a[2])},j5);else
 var
 cL=f9;if(cL){var
-j6=cK[1],at=e(j,as[2]),f_=f6[1],C=a3[1],a6=g(C[1]),bQ=g(C[2]),dM=R(bQ,g(fe(e(aZ,C[3])))),hy=C[3],dN=nN(gV(C),hy,bQ),aH=i9(a6,dN,C[4],dM),hz=i7(dN,C[4],dM),hA=C[3],dO=f(i6(gV(C),hA,bQ),hz),hB=y(gT,C[4]),hC=f(fe(e(aZ,C[3])),hB),aK=f(f_,e(function(a){return a[1][1]},hC)),dP=nU(l,e(aZ,C[2]),f_),dQ=dP?nU(l,a3[2],at):dP,dR=dQ?p(g(at),a6):dQ;if(dR)var
+j6=cK[1],at=e(j,as[2]),f_=f6[1],C=a3[1],a6=g(C[1]),bQ=g(C[2]),dM=R(bQ,g(ff(e(aZ,C[3])))),hy=C[3],dN=nN(gV(C),hy,bQ),aH=i9(a6,dN,C[4],dM),hz=i7(dN,C[4],dM),hA=C[3],dO=f(i6(gV(C),hA,bQ),hz),hB=y(gT,C[4]),hC=f(ff(e(aZ,C[3])),hB),aK=f(f_,e(function(a){return a[1][1]},hC)),dP=nU(l,e(aZ,C[2]),f_),dQ=dP?nU(l,a3[2],at):dP,dR=dQ?p(g(at),a6):dQ;if(dR)var
 hD=C[4],bV=m(function(a){return 0===a[0]?p(g(a[1]),a6):1},hD);else
 var
 bV=dR;var
@@ -7812,10 +7812,10 @@ au=a[3],aE=a[2],bq=a[1],aF=v[2];switch(aF[0]){case
 0:var
 j7=aF[3],j8=aF[1],e3=dh(j(bq));if(e3){var
 ct=oG(au);if(ct){var
-e4=ct[1],aT=e4[2],e6=j(aT),e7=j(e4[1]),eD=h(l,1,j(aE)),eE=eD?h(l,1,[3,e6,[0,b,b]]):eD,eF=eE?h(l,1,e7):eE,e_=eF?h(l,0,[3,[5,[0,b,b],e6],e7]):eF;if(e_)var
+e4=ct[1],aT=e4[2],e5=j(aT),e7=j(e4[1]),eD=h(l,1,j(aE)),eE=eD?h(l,1,[3,e5,[0,b,b]]):eD,eF=eE?h(l,1,e7):eE,e8=eF?h(l,0,[3,[5,[0,b,b],e5],e7]):eF;if(e8)var
 ji=0,jj=0,cu=m(function(a){return oB(jj,ji,BC,a)},au);else
 var
-cu=e_;var
+cu=e8;var
 e$=cu?m(function(c){if(1===c[1]){var
 a=c[4];if(typeof
 a!=="number"&&0===a[0])return h(l,0,[3,[0,d,b],j(a[1])]);return 1}return 1},au):cu;if(e$){var
@@ -7845,13 +7845,13 @@ fa=e$;var
 fb=fa}else
 var
 fb=ct;var
-ff=fb}else
+fc=fb}else
 var
-ff=e3;return ff;case
+fc=e3;return fc;case
 1:var
 j9=aF[4],j_=aF[3],j$=aF[2],fg=dh(j(bq));if(fg){var
 cx=oG(au);if(cx){var
-aU=cx[1][2],jo=[0,c(2,b),b],bi=h(l,0,[3,j(aU),jo]),fj=h(l,1,j(aE)),fk=fj?h(l,1,[3,j(aU),[0,b,b]]):fj;if(fk)if(bi)var
+aU=cx[1][2],jo=[0,c(2,b),b],bi=h(l,0,[3,j(aU),jo]),fh=h(l,1,j(aE)),fk=fh?h(l,1,[3,j(aU),[0,b,b]]):fh;if(fk)if(bi)var
 bj=bi;else
 var
 jw=j(aU),bj=h(l,0,[3,[0,c(2,b),b],jw]);else
@@ -7870,7 +7870,7 @@ gb=cN[3],A=jt(ga,[0,a[2],a[3]],0,cM),ka=g(gb),cO=jE(jK(A),ka,gb);if(cO){var
 gc=cO[1];if(gc[2])return 0;var
 gd=jH(ga,0,cM,A),ge=gd?P(ak(et,cM)):gd;if(ge){var
 gf=mo(l,A);if(gf){var
-kb=gc[1],gg=e(hb,A[1]),I=hc(A[1]),gh=j(a[5]),ad=cN[1],ce=gs(I,gg,A[1]),V=is(I,gg,A[1],0),ig=g(A[3]),ih=R(g(ce),ig),bd=[0,g(ce),ih],ii=iu(V,I,bd,A[3]),ij=f(e(cV,V),ii),eH=f(bS(eY(V)),ij),eI=cR(eH)[1],cf=cQ(eI),eJ=A[2];if(0===eJ[0]){var
+kb=gc[1],gg=e(hb,A[1]),I=hc(A[1]),gh=j(a[5]),ad=cN[1],ce=gs(I,gg,A[1]),V=is(I,gg,A[1],0),ig=g(A[3]),ih=R(g(ce),ig),bd=[0,g(ce),ih],ii=iu(V,I,bd,A[3]),ij=f(e(cV,V),ii),eH=f(bS(eZ(V)),ij),eI=cR(eH)[1],cf=cQ(eI),eJ=A[2];if(0===eJ[0]){var
 eK=m(function(a){var
 b=k(d);return aJ(q(bc(cf,a),cf,b),a)},eH),eL=eK?h(l,1,gh):eK;if(eL){var
 ik=A[3],il=y(function(a){return dx(I,a)},ik),im=A[3],io=f(ce,f(e(function(a){return bR(I,a)},im),il)),cg=ab(e(function(a){return ao(ad,a)},io));if(cg){var
@@ -7878,7 +7878,7 @@ ip=a7(eJ[1],I),ch=ab(e(function(a){return ao(ad,a)},ip));if(ch){var
 ci=cT(ad,I,[5,gh,[0,c(2,c(2,c(2,c(2,b)))),b]]);if(ci){var
 cj=A[3],it=ch[1],iv=cg[1],iw=ci[1],aS=function(a){return bc(cf,a)},ic=aB(0,g(cj)),id=e(function(k){var
 l=G(cj,k);if(l){var
-a=l[1],u=aI(k,cj),v=g(y(function(a){return dx(I,a)},u)),w=R(bd[2],v),j=[0,R(bd[1],k),w],r=eY(V),f=i(aw(aS),r),c=[1,[8,[1,[1,j[1]]]]],d=gt(V,I,j,a),n=d?[0,[3,e(aS,[0,d[1],d[2]])]]:d,m=0;if(typeof
+a=l[1],u=aI(k,cj),v=g(y(function(a){return dx(I,a)},u)),w=R(bd[2],v),j=[0,R(bd[1],k),w],r=eZ(V),f=i(aw(aS),r),c=[1,[8,[1,[1,j[1]]]]],d=gt(V,I,j,a),n=d?[0,[3,e(aS,[0,d[1],d[2]])]]:d,m=0;if(typeof
 a!=="number")switch(a[0]){case
 0:return[0,[0,f,c]];case
 1:return[0,[1,f,c]];case
@@ -7894,7 +7894,7 @@ q=c;m=1;break;case
 3:case
 6:case
 7:return n}if(m){var
-t=e5(V,I,j,a);return z(function(a){return[0,i(aw(aS),a),q]},t)}return 0}return l},ic),ie=e(function(a){return aS(cV(a))},V),eG=e(function(a){return aS(a[2])},V),ix=A[3],iA=bd[1],cd=function(aC,aB,aA){var
+t=e6(V,I,j,a);return z(function(a){return[0,i(aw(aS),a),q]},t)}return 0}return l},ic),ie=e(function(a){return aS(cV(a))},V),eG=e(function(a){return aS(a[2])},V),ix=A[3],iA=bd[1],cd=function(aC,aB,aA){var
 k=aC,l=aB,f=aA;for(;;)switch(f[0]){case
 0:var
 v=f[1],$=p(g(v),vB),aa=$?m(function(a){var
@@ -7985,7 +7985,7 @@ gj=cO;return gj}return 0;case
 gk=a[1];if(gk){var
 gl=gk[1],cP=v[2];if(0===cP[0]){var
 cS=jD(BH,0,0,0,BG,cP[3]);if(cS){var
-gm=fq(gl);if(gm){var
+gm=fr(gl);if(gm){var
 kc=cS[1],gn=b0(gl)[2],bs=cP[1],cb=cT(bs,d,gn);if(cb){var
 cc=cT(bs,d,[5,[0,b,b],gn]);if(cc){var
 ib=cb[1][1],eA=J(cr(bs),ib);if(eA)return oc(bs,cc[1][1],kc);var
@@ -8003,7 +8003,7 @@ cX=jD(BJ,0,0,0,BI,cU[3]);return cX?oc(cU[1],d,cX[1]):cX}return 0;default:var
 aG=a[1],gp=v[2];if(2===gp[0]){var
 gq=gp[1],cY=jB(g(gq),gq);if(cY){var
 gr=cY[1];if(gr[2])return 0;var
-cZ=gr[1],eZ=_(Bx,g(aG)),e0=eZ?_(g(aG),k5):eZ,e1=e0?nR(e(av,aG)):e0,gu=e1?m(function(c){var
+cZ=gr[1],eY=_(Bx,g(aG)),e0=eY?_(g(aG),k5):eY,e1=e0?nR(e(av,aG)):e0,gu=e1?m(function(c){var
 a=cw(j(c[2][1]));if(a){var
 b=cw(j(c[2][2]));if(b)return P(ba(b[1],a[1]));var
 d=b}else
@@ -8019,7 +8019,7 @@ jc=e(function(a){return[0,d,0]},aG);return pc(aG,a[2],a[3],a[4],jc,cZ)}var
 gv=c1}else
 var
 gv=cY;return gv}return 0}}return aW}var
-X=[a1,BM,rA(0)],pe=[a1,BN,rA(0)];function
+V=[a1,BM,rA(0)],pe=[a1,BN,rA(0)];function
 BK(l,b){var
 f=[0,n(zK,ap(b[4])),0],g=[0,n(zM,ag([0,n(zL,ap(b[3])),f])),0],a=b[2];switch(a[0]){case
 0:var
@@ -8028,31 +8028,31 @@ c=M(zG,on(a[1],a[2],a[3]));break;case
 c=M(zH,oo(a[1],a[2],a[3],a[4]));break;default:var
 c=M(zI,H(e(zB,a[1])))}var
 h=[0,n(zN,c),g],i=1===b[2][0]?zT:zO,j=[0,n(zP,ap(i)),h],k=[0,n(zQ,yb(b[1])),j],d=ax(kA(BL,g3(ag([0,n(zS,ap(zR)),k]),zJ)),l);return d?BD(b):d}function
-ai(a){if(0===a[0])return a[1];throw X}function
-ad(a){if(1===a[0])return a[1];throw X}function
-aY(a){if(2===a[0])return a[1];throw X}function
-fs(a){if(3===a[0])return a[1];throw X}function
+ai(a){if(0===a[0])return a[1];throw V}function
+ad(a){if(1===a[0])return a[1];throw V}function
+aY(a){if(2===a[0])return a[1];throw V}function
+ft(a){if(3===a[0])return a[1];throw V}function
 a9(f,e){var
 a=f;for(;;){if(a){var
-b=a[1],c=a[2],d=b[2];if(0===H_(b[1],e))return[0,d];var
+b=a[1],c=a[2],d=b[2];if(0===H$(b[1],e))return[0,d];var
 a=c;continue}return 0}}function
 v(c,b){var
-a=a9(c,b);if(a)return a[1];throw X}function
+a=a9(c,b);if(a)return a[1];throw V}function
 ch(b,a){var
 c=a?[0,i(b,a[1])]:a;return c}function
 dM(a){switch(a[0]){case
 0:var
 b=a[1];if(b&&!b[2]){var
 c=b[1];return[0,c[1],c[2]]}break;case
-2:return[0,a[1],BO]}throw X}function
-ft(e,d){var
+2:return[0,a[1],BP]}throw V}function
+fu(e,d){var
 a=Y(e,ad(d));if(a){var
 b=a[2];if(b){var
-c=b[2];if(c&&!c[2])return[0,a[1],b[1],c[1]]}}throw X}function
+c=b[2];if(c&&!c[2])return[0,a[1],b[1],c[1]]}}throw V}function
 hh(i){var
-f=eI(i),d=[0,0],e=hJ(f)-1|0;if(!(e<0)){var
+f=eJ(i),d=[0,0],e=hJ(f)-1|0;if(!(e<0)){var
 c=e;for(;;){var
-a=d[1],g=kg(f,c)-48|0;if(9<g>>>0)throw X;switch(g){case
+a=d[1],g=kg(f,c)-48|0;if(9<g>>>0)throw V;switch(g){case
 0:var
 b=[0,a];break;case
 1:var
@@ -8074,14 +8074,14 @@ b=[8,a];break;default:var
 b=[9,a]}d[1]=b;var
 h=c-1|0;if(0!==c){var
 c=h;continue}break}}return d[1]}function
-fu(a){return kQ(hh(a))}function
+fv(a){return kQ(hh(a))}function
 ev(b){var
-a=fs(b);return 45===a2(a,0)?Q(fu(dU(a,1,au(a)-1|0))):fu(a)}function
-pf(a){return dX(fu(fs(a)))}function
+a=ft(b);return 45===a2(a,0)?Q(fv(dU(a,1,au(a)-1|0))):fv(a)}function
+pf(a){return dX(fv(ft(a)))}function
 dj(b){var
-a=fs(b);if(!(2<au(a))&&!(64<=hI(a)))return hV(fu(a));throw X}function
+a=ft(b);if(!(2<au(a))&&!(64<=hI(a)))return hV(fv(a));throw V}function
 cJ(c){var
-a=fs(c);if(6<au(a))throw X;function
+a=ft(c);if(6<au(a))throw V;function
 b(a){return 0<a?[0,b(a-1|0)]:0}return b(hI(a))}function
 pg(a){var
 b=97<=a?1:0,c=b?a<=rc?1:0:b;if(c)var
@@ -8095,10 +8095,10 @@ c=a[1]<d?1:0,f=c?a2(b,a[1])===e?1:0:c;return f}function
 l(e){var
 c=a[1];for(;;){if(a[1]<d&&48<=a2(b,a[1])&&!(57<a2(b,a[1]))){a[1]++;continue}return dU(b,c,a[1]-c|0)}}function
 m(b){a[1]++;var
-d=f(b+1|0);if(c(41)){a[1]++;return d}throw X}function
-h(j){if(64<j)throw X;if(c(45)){a[1]++;return[2,h(j+1|0)]}if(c(40))var
+d=f(b+1|0);if(c(41)){a[1]++;return d}throw V}function
+h(j){if(64<j)throw V;if(c(45)){a[1]++;return[2,h(j+1|0)]}if(c(40))var
 e=m(j);else{var
-u=0;if((a[1]+5|0)<=d&&ax(dU(b,a[1],5),BQ)){a[1]=a[1]+4|0;var
+u=0;if((a[1]+5|0)<=d&&ax(dU(b,a[1],5),BR)){a[1]=a[1]+4|0;var
 e=[5,m(j)]}else
 u=1;if(u){var
 v=0;if(a[1]<d&&pg(a2(b,a[1]))){var
@@ -8106,66 +8106,66 @@ n=a[1];for(;;){if(a[1]<d){var
 w=0;if(!pg(a2(b,a[1]))&&95!==a2(b,a[1])&&(!(48<=a2(b,a[1]))||57<a2(b,a[1])))w=1;if(!w){a[1]++;continue}}var
 e=[1,i(y,dU(b,n,a[1]-n|0))];break}}else
 v=1;if(v){var
-g=l(0),p=c(46),q=p?(a[1]++,[0,l(0)]):p,r=ax(g,BR);if(r)var
+g=l(0),p=c(46),q=p?(a[1]++,[0,l(0)]):p,r=ax(g,BS);if(r)var
 s=r;else
 var
-t=1<au(g)?1:0,s=t?48===a2(g,0)?1:0:t;if(s)throw X;if(q){var
-k=q[1],x=0;if(ax(k,BS)||48===a2(k,au(k)-1|0))x=1;else
+t=1<au(g)?1:0,s=t?48===a2(g,0)?1:0:t;if(s)throw V;if(q){var
+k=q[1],x=0;if(ax(k,BT)||48===a2(k,au(k)-1|0))x=1;else
 var
-z=hh(k),e=[0,hh(g),z];if(x)throw X}else
+z=hh(k),e=[0,hh(g),z];if(x)throw V}else
 var
 e=[0,hh(g),0]}}}if(c(94)){a[1]++;var
-f=l(0);if(o(f,BP)){if(!(2<au(f))&&2<=hI(f)&&!(64<hI(f)))return[4,e,dX(fu(f))];throw X}throw X}return e}function
+f=l(0);if(o(f,BQ)){if(!(2<au(f))&&2<=hI(f)&&!(64<hI(f)))return[4,e,dX(fv(f))];throw V}throw V}return e}function
 e(d){var
 b=h(d);for(;;){if(c(42)){a[1]++;var
 b=[3,2,b,h(d)];continue}if(c(47)){a[1]++;var
 b=[3,3,b,h(d)];continue}return b}}function
-f(d){if(64<d)throw X;var
+f(d){if(64<d)throw V;var
 b=e(d);for(;;){if(c(43)){a[1]++;var
 b=[3,0,b,e(d)];continue}if(c(45)){a[1]++;var
 b=[3,1,b,e(d)];continue}return b}}var
-g=f(0);if(a[1]<d)throw X;return g}function
+g=f(0);if(a[1]<d)throw V;return g}function
 hi(a){return ph(function(a){return[0,a]},a)}function
 jM(a){var
 b=aY(a);return ph(function(a){return a},b)}function
-V(a){return hi(aY(a))}function
+W(a){return hi(aY(a))}function
 b1(a){if(2===a[0])return[0,hi(a[1])];var
-b=ai(a),c=V(v(b,BT));return[1,V(v(b,BU)),c]}function
-af(a){throw[0,pe,a$(kA(BW,a),BV)]}function
+b=ai(a),c=W(v(b,BU));return[1,W(v(b,BV)),c]}function
+af(a){throw[0,pe,a$(kA(BX,a),BW)]}function
 jN(c){var
-a=aY(c);if(o(a,BX)){var
-b=o(a,BY);if(b)throw X;return b}return 1}function
-BZ(d){var
+a=aY(c);if(o(a,BY)){var
+b=o(a,BZ);if(b)throw V;return b}return 1}function
+B0(d){var
 b=ai(d);function
-a(a){return ft(b1,v(b,a))}var
-c=aY(v(b,B0));if(o(c,B1)){if(o(c,B2)){if(o(c,B3))return af([0,B5,[0,c,B4]]);var
-e=a9(b,B6),f=ch(function(a){return ft(b1,a)},e),g=a(B7);return[1,a(B8),g,f]}var
-h=jN(v(b,B9)),i=b1(v(b,B_)),j=a(B$),k=a(Ca);return[0,a(Cb),k,j,i,h]}return[2,a(Cc)]}function
-Cd(d){var
+a(a){return fu(b1,v(b,a))}var
+c=aY(v(b,B1));if(o(c,B2)){if(o(c,B3)){if(o(c,B4))return af([0,B6,[0,c,B5]]);var
+e=a9(b,B7),f=ch(function(a){return fu(b1,a)},e),g=a(B8);return[1,a(B9),g,f]}var
+h=jN(v(b,B_)),i=b1(v(b,B$)),j=a(Ca),k=a(Cb);return[0,a(Cc),k,j,i,h]}return[2,a(Cd)]}function
+Ce(d){var
 a=ai(d);if(a){var
-b=a[1];if(!o(b[1],Ce)){var
-c=b[2];if(2===c[0]&&!o(c[1],Cf))return 1}}return 0}function
+b=a[1];if(!o(b[1],Cf)){var
+c=b[2];if(2===c[0]&&!o(c[1],Cg))return 1}}return 0}function
 pi(e){var
 b=ai(e);function
 a(a){return Y(b1,ad(v(b,a)))}var
-c=aY(v(b,Cg)),f=a9(b,Ch),d=ch(function(a){return Y(b1,ad(a))},f);if(o(c,Ci)){if(o(c,Cj)){if(o(c,Ck)){if(!o(c,Cl)){var
-g=a(Co);return[1,a(Cp),g,d]}}else
+c=aY(v(b,Ch)),f=a9(b,Ci),d=ch(function(a){return Y(b1,ad(a))},f);if(o(c,Cj)){if(o(c,Ck)){if(o(c,Cl)){if(!o(c,Cm)){var
+g=a(Cp);return[1,a(Cq),g,d]}}else
 if(!d){var
-h=jN(v(b,Cq)),i=b1(v(b,Cr)),j=a(Cs),k=a(Ct);return[0,a(Cu),k,j,i,h]}}else
-if(!d)return[2,a(Cv)]}else
+h=jN(v(b,Cr)),i=b1(v(b,Cs)),j=a(Ct),k=a(Cu);return[0,a(Cv),k,j,i,h]}}else
+if(!d)return[2,a(Cw)]}else
 if(!d){var
-l=jN(v(b,Cw)),m=b1(v(b,Cx)),n=b1(v(b,Cy)),p=a(Cz),q=a(CA),r=a(CB);return[3,a(CC),r,q,p,n,m,l]}return af([0,Cn,[0,c,Cm]])}function
+l=jN(v(b,Cx)),m=b1(v(b,Cy)),n=b1(v(b,Cz)),p=a(CA),q=a(CB),r=a(CC);return[3,a(CD),r,q,p,n,m,l]}return af([0,Co,[0,c,Cn]])}function
 pj(d){var
 a=ai(d);if(a){var
-b=a[1];if(!o(b[1],CD)){var
-c=b[2];if(2===c[0]&&!o(c[1],CE))return 1}}return 0}function
+b=a[1];if(!o(b[1],CE)){var
+c=b[2];if(2===c[0]&&!o(c[1],CF))return 1}}return 0}function
 dk(c,d){var
 a=ad(d);if(a){var
 b=a[2];if(b&&!b[2]){var
-e=i(c,b[1]);return[0,i(c,a[1]),e]}}throw X}function
+e=i(c,b[1]);return[0,i(c,a[1]),e]}}throw V}function
 ew(g,p){var
-h=g?g[1]:g,c=ai(p),a=aY(v(c,CF)),j=rN(a,CG),f=0;if(0<=j)if(0<j)if(o(a,CH))if(o(a,CI))if(o(a,CJ))if(o(a,CK))if(o(a,CL))if(o(a,CM))if(o(a,CN)){var
-k=o(a,CO);if(k)f=1;else
+h=g?g[1]:g,c=ai(p),a=aY(v(c,CG)),j=rN(a,CH),f=0;if(0<=j)if(0<j)if(o(a,CI))if(o(a,CJ))if(o(a,CK))if(o(a,CL))if(o(a,CM))if(o(a,CN))if(o(a,CO)){var
+k=o(a,CP);if(k)f=1;else
 var
 b=k}else
 var
@@ -8185,7 +8185,7 @@ var
 b=13;else
 var
 b=2;else
-if(o(a,C9))if(o(a,C_))if(o(a,C$))if(o(a,Da))if(o(a,Db))if(o(a,Dc))if(o(a,Dd))if(o(a,De))f=1;else
+if(o(a,C_))if(o(a,C$))if(o(a,Da))if(o(a,Db))if(o(a,Dc))if(o(a,Dd))if(o(a,De))if(o(a,Df))f=1;else
 var
 b=1;else
 var
@@ -8203,115 +8203,115 @@ b=14;else
 f=1;else
 var
 b=12;var
-n=f?af([0,CQ,[0,a,CP]]):b;function
-i(a){return v(c,CR)}var
-d=aY(v(c,CS)),l=o(d,CT);if(l)if(o(d,CU))if(o(d,CV))if(o(d,CW))var
-e=af([0,CY,[0,d,CX]]);else
+n=f?af([0,CR,[0,a,CQ]]):b;function
+i(a){return v(c,CS)}var
+d=aY(v(c,CT)),l=o(d,CU);if(l)if(o(d,CV))if(o(d,CW))if(o(d,CX))var
+e=af([0,CZ,[0,d,CY]]);else
 var
-m=dk(V,i(0)),e=[2,m[1],m[2]];else
+m=dk(W,i(0)),e=[2,m[1],m[2]];else
 var
-e=[0,V(i(0))];else
+e=[0,W(i(0))];else
 var
-e=[1,V(i(0))];else
+e=[1,W(i(0))];else
 var
 e=l;function
 q(H){var
 a=ai(H),b=0;switch(n){case
 6:if(a){var
-r=a[1];if(!o(r[1],C0)){var
+r=a[1];if(!o(r[1],C1)){var
 s=r[2];if(1===s[0]){var
 c=s[1],m=0;if(c&&!c[2])if(a[2])m=1;else{var
 e=c[1];b=1;m=1}if(!m&&!a[2]){var
 t=c;b=2}}}}break;case
 10:if(a){var
-u=a[1];if(!o(u[1],C1)){var
+u=a[1];if(!o(u[1],C2)){var
 v=u[2];if(1===v[0]){var
 f=v[1];if(f&&!f[2]){var
 g=a[2];if(g){var
-w=g[1];if(!o(w[1],C2)){var
+w=g[1];if(!o(w[1],C3)){var
 x=w[2];if(1===x[0]){var
 i=x[1];if(i&&!i[2]&&!g[2]){var
-I=V(i[1]);return[2,V(f[1]),I]}}}}}}}}break;case
+I=W(i[1]);return[2,W(f[1]),I]}}}}}}}}break;case
 12:if(a){var
-y=a[1];if(!o(y[1],C3)){var
+y=a[1];if(!o(y[1],C4)){var
 z=y[2];if(1===z[0]){var
 j=z[1];if(j&&!j[2]){var
 k=a[2],A=j[1];if(k){var
-B=k[1];if(!o(B[1],C4)){var
+B=k[1];if(!o(B[1],C5)){var
 C=B[2];if(1===C[0]){var
 l=C[1];if(l&&!l[2]&&!k[2]&&h){var
-J=V(l[1]);return[3,V(A),J]}}}}else{var
+J=W(l[1]);return[3,W(A),J]}}}}else{var
 e=A;b=1}}}}}break;case
 16:if(a){var
-F=a[1];if(!o(F[1],C6)){var
+F=a[1];if(!o(F[1],C7)){var
 G=F[2];if(1===G[0]&&!a[2]){var
 t=G[1];b=2}}}break;case
 14:case
 15:if(a){var
-D=a[1];if(!o(D[1],C5)){var
-E=D[2];if(1===E[0]&&!a[2])return[1,Y(V,E[1])]}}break;case
+D=a[1];if(!o(D[1],C6)){var
+E=D[2];if(1===E[0]&&!a[2])return[1,Y(W,E[1])]}}break;case
 2:case
 8:if(a){var
-p=a[1];if(!o(p[1],CZ)){var
+p=a[1];if(!o(p[1],C0)){var
 q=p[2];if(1===q[0]){var
 d=q[1];if(d&&!d[2]&&!a[2]){var
 e=d[1];b=1}}}}break}switch(b){case
-0:throw X;case
-1:return[0,V(e)];default:return[1,Y(V,t)]}}var
-r=ch(q,a9(c,C7));return[0,n,ch(cJ,a9(c,C8)),r,e]}function
+0:throw V;case
+1:return[0,W(e)];default:return[1,Y(W,t)]}}var
+r=ch(q,a9(c,C8));return[0,n,ch(cJ,a9(c,C9)),r,e]}function
 pk(c){var
-d=ew(Dh,c),e=d[1];if(!(9<=e))switch(e){case
+d=ew(Di,c),e=d[1];if(!(9<=e))switch(e){case
 2:case
 6:case
 8:return d}var
-a=ew(Df,c),b=a[1];if(2!==b&&!(4<=b))return a;return af(Dg)}function
+a=ew(Dg,c),b=a[1];if(2!==b&&!(4<=b))return a;return af(Dh)}function
 pl(a){var
-b=ew(Di,a);return 11===b[1]?b:pk(a)}function
-Dj(a){var
-b=ew(Dk,a),c=b[1];if(9<=c)switch(c-9|0){case
+b=ew(Dj,a);return 11===b[1]?b:pk(a)}function
+Dk(a){var
+b=ew(Dl,a),c=b[1];if(9<=c)switch(c-9|0){case
 2:case
 4:case
 7:break;default:return b}return pl(a)}function
 jO(a){var
-b=ew(Dl,a);switch(b[1]){case
+b=ew(Dm,a);switch(b[1]){case
 4:case
 5:case
 11:case
 13:case
 16:return b;default:return pk(a)}}function
 jP(b){var
-a=ai(b[2]);if(o(b[1],Ds)){var
-c=dk(V,v(a,Dt)),d=dk(V,v(a,Du)),e=d[2],f=d[1],g=V(v(a,Dv));return[1,c[1],c[2],g,f,e]}var
-h=Y(V,ad(v(a,Dw)));return[0,Y(V,ad(v(a,Dx))),h]}function
-Dy(f){var
+a=ai(b[2]);if(o(b[1],Dt)){var
+c=dk(W,v(a,Du)),d=dk(W,v(a,Dv)),e=d[2],f=d[1],g=W(v(a,Dw));return[1,c[1],c[2],g,f,e]}var
+h=Y(W,ad(v(a,Dx)));return[0,Y(W,ad(v(a,Dy))),h]}function
+Dz(f){var
 a=ai(f);function
-d(b){return V(v(a,b))}function
-c(b){return ft(V,v(a,b))}var
-b=aY(v(a,Dz));if(o(b,DA)){if(!o(b,DB)){var
-j=v(a,DH),e=dk(function(a){return a},j),k=a9(a,DI),l=ch(function(a){return c(DJ)},k),m=hi(aY(e[2])),n=hi(aY(e[1])),p=d(DK);return[0,cJ(v(a,DL)),p,n,m,l]}if(o(b,DC))throw X}var
-g=d(DD),h=c(DE),i=c(DF);return[1,ax(b,DG),i,h,g]}function
+d(b){return W(v(a,b))}function
+c(b){return fu(W,v(a,b))}var
+b=aY(v(a,DA));if(o(b,DB)){if(!o(b,DC)){var
+j=v(a,DI),e=dk(function(a){return a},j),k=a9(a,DJ),l=ch(function(a){return c(DK)},k),m=hi(aY(e[2])),n=hi(aY(e[1])),p=d(DL);return[0,cJ(v(a,DM)),p,n,m,l]}if(o(b,DD))throw V}var
+g=d(DE),h=c(DF),i=c(DG);return[1,ax(b,DH),i,h,g]}function
 jQ(an){var
-g=dM(an),h=g[1];if(o(h,DM)){if(o(h,DN)){if(o(h,DO)){if(o(h,DP))return af([0,DR,[0,h,DQ]]);var
-w=v(ai(g[2]),DS),ab=0;if(2===w[0]){var
-K=o(w[1],DT);if(!K){var
+g=dM(an),h=g[1];if(o(h,DN)){if(o(h,DO)){if(o(h,DP)){if(o(h,DQ))return af([0,DS,[0,h,DR]]);var
+w=v(ai(g[2]),DT),ab=0;if(2===w[0]){var
+K=o(w[1],DU);if(!K){var
 J=K;ab=1}}if(!ab)var
 J=[0,b1(w)];return[6,J]}var
-L=ai(g[2]),j=jQ([0,[0,[0,DV,v(L,DU)],0]]);if(0===j[0]){var
+L=ai(g[2]),j=jQ([0,[0,[0,DW,v(L,DV)],0]]);if(0===j[0]){var
 x=j[2];if(0===x[0]&&!j[3]){var
-ao=V(v(L,DX));return[5,j[1],x[1],x[2],j[4],ao]}}return af(DW)}var
-a=ai(g[2]),y=a9(a,DY),z=y?Y(Dy,ad(y[1])):y,n=function(b){var
-a=0!==z?1:0;return a?af(DZ):a},k=dM(v(a,D0)),b=dM(v(a,D1)),c=k[1];if(o(c,D2)&&o(c,D3)&&o(c,D4)){if(0===a9(a,D5)){if(o(c,D6)){var
-ac=0;if(o(c,D7)){if(!o(c,D8)){var
-M=b[1],ae=0;if(o(M,D$)&&o(M,Ea)){ac=1;ae=1}if(!ae){var
-A=ad(k[2]),ap=ad(v(a,Ed)),N=Y(function(a){return ew(0,a)},ap);if(!aA(Cd,A)&&!aA(function(a){var
+ao=W(v(L,DY));return[5,j[1],x[1],x[2],j[4],ao]}}return af(DX)}var
+a=ai(g[2]),y=a9(a,DZ),z=y?Y(Dz,ad(y[1])):y,n=function(b){var
+a=0!==z?1:0;return a?af(D0):a},k=dM(v(a,D1)),b=dM(v(a,D2)),c=k[1];if(o(c,D3)&&o(c,D4)&&o(c,D5)){if(0===a9(a,D6)){if(o(c,D7)){var
+ac=0;if(o(c,D8)){if(!o(c,D9)){var
+M=b[1],ae=0;if(o(M,Ea)&&o(M,Eb)){ac=1;ae=1}if(!ae){var
+A=ad(k[2]),ap=ad(v(a,Ee)),N=Y(function(a){return ew(0,a)},ap);if(!aA(Ce,A)&&!aA(function(a){var
 b=13===a[1]?1:0,c=b||(16===a[1]?1:0);return c},N)){var
-as=Y(BZ,A),f=ai(b[2]);if(o(b[1],Dm))var
-H=dk(V,v(f,Dn)),I=dk(V,v(f,Do)),aj=I[2],ak=I[1],al=V(v(f,Dp)),O=[1,H[1],H[2],al,ak,aj];else
+as=Y(B0,A),f=ai(b[2]);if(o(b[1],Dn))var
+H=dk(W,v(f,Do)),I=dk(W,v(f,Dp)),aj=I[2],ak=I[1],al=W(v(f,Dq)),O=[1,H[1],H[2],al,ak,aj];else
 var
-am=ft(V,v(f,Dq)),O=[0,ft(V,v(f,Dr)),am];return[0,as,O,z,N]}n(0);var
-aq=Y(jO,ad(v(a,Ee))),ar=jP(b);return[1,0,Y(pi,A),0,ar,0,aq]}}}else
-if(!o(b[1],Ef)){n(0);var
-P=Y(jO,ad(v(a,Eg))),u=0,e=P;for(;;){if(e){var
+am=fu(W,v(f,Dr)),O=[0,fu(W,v(f,Ds)),am];return[0,as,O,z,N]}n(0);var
+aq=Y(jO,ad(v(a,Ef))),ar=jP(b);return[1,0,Y(pi,A),0,ar,0,aq]}}}else
+if(!o(b[1],Eg)){n(0);var
+P=Y(jO,ad(v(a,Eh))),u=0,e=P;for(;;){if(e){var
 F=e[2],G=e[1];if(0===G[1]){var
 u=[0,G,u],e=F;continue}var
 e=F;continue}var
@@ -8330,65 +8330,65 @@ C=m[2];if(C){var
 E=0,S=C[1][4];if(typeof
 S!=="number"&&0===S[0])if(C[2]){d=1;E=1}else
 E=1;if(!E)d=1}else
-d=1;break;default:d=1}if(!d)ag=1}if(!ag)af(Eh);var
-at=V(v(ai(b[2]),Ei));return[4,V(v(ai(k[2]),Ej)),at,P]}}if(!ac)return af([0,D_,[0,c,D9]])}else
-if(!o(b[1],Ek)){n(0);var
+d=1;break;default:d=1}if(!d)ag=1}if(!ag)af(Ei);var
+at=W(v(ai(b[2]),Ej));return[4,W(v(ai(k[2]),Ek)),at,P]}}if(!ac)return af([0,D$,[0,c,D_]])}else
+if(!o(b[1],El)){n(0);var
 p=ai(k[2]),T=ai(b[2]),U=function(c,a){var
 b=ad(a);return Y(function(d){var
 a=ad(d);if(a){var
 b=a[2];if(b&&!b[2]){var
-e=i(c,b[1]);return[0,aY(a[1]),e]}}throw X},b)},au=function(d){var
+e=i(c,b[1]);return[0,aY(a[1]),e]}}throw V},b)},au=function(d){var
 a=ai(d);if(a){var
-b=a[1],c=b[1];if(o(c,El)){if(!o(c,Em)&&!a[2])return[0,Y(jM,ad(b[2]))]}else
-if(!a[2])return[1,jM(b[2])]}throw X},av=Y(pl,ad(v(a,En))),aw=Y(V,ad(v(T,Eo))),ay=Y(V,ad(v(T,Ep))),az=Y(au,ad(v(p,Eq))),aB=U(jM,v(p,Er)),aC=U(b1,v(p,Es));return[3,Y(aY,ad(v(p,Et))),aC,aB,az,ay,aw,av]}return af([0,Ec,[0,b[1],Eb]])}throw X}var
-W=ai(k[2]),q=ch(V,a9(W,Eu)),aD=function(f){var
-a=dM(f),b=a[1];if(o(b,Ev)){if(o(b,Ew)){if(o(b,Ex)){if(o(b,Ey))throw X;var
-d=a[2],g=V(v(ai(d),Ez));return[3,V(v(ai(d),EA)),g]}var
-h=a[2],c=function(a){return dk(V,v(ai(h),a))},i=c(EB),j=c(EC);return[1,c(ED),j,i]}var
-e=dk(V,a[2]);return[0,e[1],e[2]]}return[2,V(a[2])]},r=ch(aD,a9(a,EE)),Z=o(c,EF),_=Z?o(c,EG)?2:1:Z,s=ad(v(W,EH));if(q&&r&&hN(pj,s)){var
+b=a[1],c=b[1];if(o(c,Em)){if(!o(c,En)&&!a[2])return[0,Y(jM,ad(b[2]))]}else
+if(!a[2])return[1,jM(b[2])]}throw V},av=Y(pl,ad(v(a,Eo))),aw=Y(W,ad(v(T,Ep))),ay=Y(W,ad(v(T,Eq))),az=Y(au,ad(v(p,Er))),aB=U(jM,v(p,Es)),aC=U(b1,v(p,Et));return[3,Y(aY,ad(v(p,Eu))),aC,aB,az,ay,aw,av]}return af([0,Ed,[0,b[1],Ec]])}throw V}var
+X=ai(k[2]),q=ch(W,a9(X,Ev)),aD=function(f){var
+a=dM(f),b=a[1];if(o(b,Ew)){if(o(b,Ex)){if(o(b,Ey)){if(o(b,Ez))throw V;var
+d=a[2],g=W(v(ai(d),EA));return[3,W(v(ai(d),EB)),g]}var
+h=a[2],c=function(a){return dk(W,v(ai(h),a))},i=c(EC),j=c(ED);return[1,c(EE),j,i]}var
+e=dk(W,a[2]);return[0,e[1],e[2]]}return[2,W(a[2])]},r=ch(aD,a9(a,EF)),Z=o(c,EG),_=Z?o(c,EH)?2:1:Z,s=ad(v(X,EI));if(q&&r&&hN(pj,s)){var
 aE=function(c){var
 a=ai(c);function
-b(b){return Y(b1,ad(v(a,b)))}if(0!==a9(a,EI))af(EJ);var
-d=b(EK);return[0,b(EL),d]},aF=Y(Dj,ad(v(a,EM))),aG=r[1],aH=jP(b),aI=q[1];return[2,_,Y(aE,s),aI,aH,aG,z,aF]}n(0);var
-ah=0;if(!q&&ax(c,EP)){var
+b(b){return Y(b1,ad(v(a,b)))}if(0!==a9(a,EJ))af(EK);var
+d=b(EL);return[0,b(EM),d]},aF=Y(Dk,ad(v(a,EN))),aG=r[1],aH=jP(b),aI=q[1];return[2,_,Y(aE,s),aI,aH,aG,z,aF]}n(0);var
+ah=0;if(!q&&ax(c,EQ)){var
 $=1;ah=1}if(!ah)var
 $=[0,_];var
-aa=0!==r?1:0,aJ=aa?aA(pj,s):aa;if(aJ)af(EN);var
-aK=Y(jO,ad(v(a,EO))),aL=jP(b);return[1,$,Y(pi,s),q,aL,r,aK]}var
+aa=0!==r?1:0,aJ=aa?aA(pj,s):aa;if(aJ)af(EO);var
+aK=Y(jO,ad(v(a,EP))),aL=jP(b);return[1,$,Y(pi,s),q,aL,r,aK]}var
 t=ai(g[2]);function
 aM(b){var
-a=ai(b),c=V(v(a,EQ)),d=[0,V(v(a,ER)),c];return[0,aY(v(a,ES)),d]}var
-l=jQ([0,[0,[0,EU,v(t,ET)],0]]);if(0===l[0]&&!l[3]){var
-aN=V(v(t,EW)),aO=V(v(t,EX)),aP=l[4],aQ=l[2],aR=l[1];return[7,Y(aM,ad(v(t,EY))),aR,aQ,aP,aO,aN]}return af(EV)}function
-fv(a){return Y(ev,ad(a))}function
+a=ai(b),c=W(v(a,ER)),d=[0,W(v(a,ES)),c];return[0,aY(v(a,ET)),d]}var
+l=jQ([0,[0,[0,EV,v(t,EU)],0]]);if(0===l[0]&&!l[3]){var
+aN=W(v(t,EX)),aO=W(v(t,EY)),aP=l[4],aQ=l[2],aR=l[1];return[7,Y(aM,ad(v(t,EZ))),aR,aQ,aP,aO,aN]}return af(EW)}function
+fw(a){return Y(ev,ad(a))}function
 hj(c,b){var
-a=fv(b);if(cn(a)!==c)throw X;return a}function
+a=fw(b);if(cn(a)!==c)throw V;return a}function
 pm(a,d){var
-b=ai(d),e=ad(v(b,E1)),f=a[2],c=Y(function(a){return hj(f,a)},e),g=a[1];if(cn(c)!==g)throw X;return[0,c,dj(v(b,E2))]}function
+b=ai(d),e=ad(v(b,E2)),f=a[2],c=Y(function(a){return hj(f,a)},e),g=a[1];if(cn(c)!==g)throw V;return[0,c,dj(v(b,E3))]}function
 dl(au,i){var
 as=0;if(0===i[0]){var
 q=i[1];if(q){var
-U=q[1];if(!o(U[1],E3)){var
+U=q[1];if(!o(U[1],E4)){var
 ah=U[2];if(0===ah[0]){var
 L=ah[1];if(L){var
-aj=L[1];if(!o(aj[1],Fp)){var
+aj=L[1];if(!o(aj[1],Fq)){var
 ak=aj[2];if(1===ak[0]){var
 M=ak[1];if(M){var
 al=M[1];if(1===al[0]){var
 am=al[1];if(am&&!am[2]&&!M[2]){var
 an=L[2];if(an&&!an[2]&&!q[2]){var
-f=Fq;as=1}}}}}}}}}}}if(!as)var
+f=Fr;as=1}}}}}}}}}}}if(!as)var
 f=au;var
 r=f[2];switch(i[0]){case
 0:var
 c=i[1];if(c){var
-e=c[1],a=e[1],V=rN(a,E4),b=0;if(0<=V)if(0<V)if(o(a,E5)){var
-g=0;if(o(a,E6)&&o(a,E7)&&o(a,E8))if(o(a,E9))g=1;else{var
-W=e[2];if(1===W[0]){var
-s=W[1];if(s){var
+e=c[1],a=e[1],W=rN(a,E5),b=0;if(0<=W)if(0<W)if(o(a,E6)){var
+g=0;if(o(a,E7)&&o(a,E8)&&o(a,E9))if(o(a,E_))g=1;else{var
+X=e[2];if(1===X[0]){var
+s=X[1];if(s){var
 t=s[2];if(t){var
 u=t[2];if(u&&!u[2]){if(!c[2]){var
-av=Y(fv,ad(u[1])),aw=aY(t[1]);return[8,dl(f,s[1]),aw,av]}b=1;g=1}else
+av=Y(fw,ad(u[1])),aw=aY(t[1]);return[8,dl(f,s[1]),aw,av]}b=1;g=1}else
 g=1}else
 g=1}else
 g=1}else
@@ -8409,32 +8409,32 @@ n=h[1],a=n;for(;;){var
 i=0;switch(a[0]){case
 0:var
 b=a[1];if(b){var
-j=b[1],c=j[1];if(o(c,Fa)){var
-p=0;if(o(c,Fb)&&o(c,Fc)&&o(c,Fd))p=1;if(!p&&!b[2])i=1}else{var
+j=b[1],c=j[1];if(o(c,Fb)){var
+p=0;if(o(c,Fc)&&o(c,Fd)&&o(c,Fe))p=1;if(!p&&!b[2])i=1}else{var
 k=j[2];if(1===k[0]){var
 l=k[1];if(l&&!b[2]){var
 a=l[1];continue}}}}break;case
-2:if(!o(a[1],Fe))i=1;break}var
+2:if(!o(a[1],Ff))i=1;break}var
 q=i?1:0;if(q){var
-r=dl(f,n),s=dj(g[1]),t=ev(e[1]);return[0,[0,[0,fv(d[1]),t],s],r]}return af(Ff)}}}}}}throw X};return[9,Y(aA,$[1])]}b=1}}else
-if(o(a,Fg))if(o(a,Fh))if(o(a,Fi))if(o(a,Fj))if(o(a,Fk)){if(!o(a,Fl)){if(!c[2]){var
-aa=ai(e[2]),aB=ad(v(aa,Fm)),aC=r+1|0,ab=Y(function(a){return hj(aC,a)},aB);if(3===cn(ab))return[1,Fo,ab,dj(v(aa,Fn))];throw X}b=1}}else{if(!c[2]){var
-R=aY(e[2]),S=o(R,EZ);if(S){if(o(R,E0))throw X;var
+r=dl(f,n),s=dj(g[1]),t=ev(e[1]);return[0,[0,[0,fw(d[1]),t],s],r]}return af(Fg)}}}}}}throw V};return[9,Y(aA,$[1])]}b=1}}else
+if(o(a,Fh))if(o(a,Fi))if(o(a,Fj))if(o(a,Fk))if(o(a,Fl)){if(!o(a,Fm)){if(!c[2]){var
+aa=ai(e[2]),aB=ad(v(aa,Fn)),aC=r+1|0,ab=Y(function(a){return hj(aC,a)},aB);if(3===cn(ab))return[1,Fp,ab,dj(v(aa,Fo))];throw V}b=1}}else{if(!c[2]){var
+R=aY(e[2]),S=o(R,E0);if(S){if(o(R,E1))throw V;var
 T=1}else
 var
 T=S;return[2,T]}b=1}else{if(!c[2]){var
 k=e[2],p=0;switch(k[0]){case
 0:var
 l=k[1];if(l){var
-ao=l[1],j=ao[1],d=0;if(o(j,Fr)&&o(j,Fs)&&o(j,Ft)&&o(j,Fu))if(o(j,Fv))d=1;else{var
+ao=l[1],j=ao[1],d=0;if(o(j,Fs)&&o(j,Ft)&&o(j,Fu)&&o(j,Fv))if(o(j,Fw))d=1;else{var
 ap=ao[2];if(1===ap[0]){var
 N=ap[1];if(N){var
 m=N[1],h=0;switch(m[0]){case
 0:var
 O=m[1];if(O){var
-n=O[1][1],at=0;if(o(n,Fx)&&o(n,Fy)&&o(n,Fz)&&o(n,FA)){d=1;h=1;at=1}if(!at&&O[2]){d=1;h=1}}else{d=1;h=1}break;case
+n=O[1][1],at=0;if(o(n,Fy)&&o(n,Fz)&&o(n,FA)&&o(n,FB)){d=1;h=1;at=1}if(!at&&O[2]){d=1;h=1}}else{d=1;h=1}break;case
 2:var
-aq=m[1];if(o(aq,FB)&&o(aq,FC)){d=1;h=1}break;default:d=1;h=1}if(!h){var
+aq=m[1];if(o(aq,FC)&&o(aq,FD)){d=1;h=1}break;default:d=1;h=1}if(!h){var
 P=N[2];if(P){var
 Q=P[2];if(Q&&!(Q[2]||l[2])){var
 aL=dj(Q[1]),aM=ev(P[1]),B=[6,dl(f,m),aM,aL];p=2;d=1}else
@@ -8443,9 +8443,9 @@ d=1}}else
 d=1}else
 d=1}if(!d&&!l[2])p=1}break;case
 2:var
-ar=k[1];if(!o(ar,FD)||!o(ar,FE))p=1;break}switch(p){case
+ar=k[1];if(!o(ar,FE)||!o(ar,FF))p=1;break}switch(p){case
 0:var
-B=af(Fw);break;case
+B=af(Fx);break;case
 1:var
 B=dl(f,k);break}return[7,B]}b=1}else{var
 ac=e[2];if(1===ac[0]){var
@@ -8464,14 +8464,14 @@ J=I[2];if(J){var
 K=J[2];if(K&&!K[2])if(c[2])b=1;else{var
 aI=K[1],aJ=J[1],aK=I[1],x=aK,w=function(b,a){var
 c=dj(aI);return[4,b,a,ev(aJ),c]};b=2}}}}}switch(b){case
-0:if(!c[2])return af([0,E$,[0,a,E_]]);break;case
+0:if(!c[2])return af([0,Fa,[0,a,E$]]);break;case
 1:break;default:var
 Z=pm(f,x);return w(Z[1],Z[2])}}break;case
-2:return[0,i[1]]}throw X}function
+2:return[0,i[1]]}throw V}function
 pn(n){var
-b=dM(n),a=b[1];if(o(a,FH))if(o(a,FI)){var
-h=o(a,FJ);if(!h)return h;if(o(a,FK)){if(!o(a,FL)){var
-c=ai(b[2]),i=function(a){return Y(V,ad(v(c,a)))},j=ai(v(c,FP)),p=dj(v(j,FQ)),q=Y(fv,ad(v(j,FR))),r=i(FS),s=i(FT);return[3,cJ(v(c,FU)),s,r,q,p]}if(!o(a,FM))return[2,Y(V,ad(b[2]))]}else{var
+b=dM(n),a=b[1];if(o(a,FI))if(o(a,FJ)){var
+h=o(a,FK);if(!h)return h;if(o(a,FL)){if(!o(a,FM)){var
+c=ai(b[2]),i=function(a){return Y(W,ad(v(c,a)))},j=ai(v(c,FQ)),p=dj(v(j,FR)),q=Y(fw,ad(v(j,FS))),r=i(FT),s=i(FU);return[3,cJ(v(c,FV)),s,r,q,p]}if(!o(a,FN))return[2,Y(W,ad(b[2]))]}else{var
 k=b[2];if(1===k[0]){var
 d=k[1];if(d){var
 e=d[2];if(e&&!e[2]){var
@@ -8479,33 +8479,33 @@ t=cJ(e[1]);return[1,cJ(d[1]),t]}}}}}else{var
 l=b[2];if(1===l[0]){var
 f=l[1];if(f){var
 g=f[2];if(g&&!g[2]){var
-u=Y(fv,ad(g[1]));return[0,cJ(f[1]),u]}}}}else{var
-m=b[2];if(1===m[0]&&!m[1])return 1}return af([0,FO,[0,a,FN]])}function
+u=Y(fw,ad(g[1]));return[0,cJ(f[1]),u]}}}}else{var
+m=b[2];if(1===m[0]&&!m[1])return 1}return af([0,FP,[0,a,FO]])}function
 po(f,b){var
-a=ai(b),c=ad(v(a,FZ)),d=Y(function(g){var
+a=ai(b),c=ad(v(a,F0)),d=Y(function(g){var
 a=ai(g);function
 b(d,c){var
 b=a9(a,c);return b?Y(d,ad(b[1])):b}var
-c=b(ev,FV),d=ch(pn,a9(a,FW)),e=ch(cJ,a9(a,FX));return[0,b(function(h){var
+c=b(ev,FW),d=ch(pn,a9(a,FX)),e=ch(cJ,a9(a,FY));return[0,b(function(h){var
 b=ad(h);if(b){var
 a=b[2];if(a){var
-c=a[1],e=b[1],d=0;if(2===c[0]&&!o(c[1],FF)){if(!a[2]){if(o(fs(e),FG))throw X;d=1}}else
+c=a[1],e=b[1],d=0;if(2===c[0]&&!o(c[1],FG)){if(!a[2]){if(o(ft(e),FH))throw V;d=1}}else
 d=1;if(d&&!a[2]){var
-g=dl(f,c);return[0,cJ(e),g]}}}throw X},FY),e,d,c]},c),e=a9(a,F0),g=ch(function(a){return pm(f,a)},e);return[0,pf(v(a,F1)),g,d]}function
+g=dl(f,c);return[0,cJ(e),g]}}}throw V},FZ),e,d,c]},c),e=a9(a,F1),g=ch(function(a){return pm(f,a)},e);return[0,pf(v(a,F2)),g,d]}function
 pp(c){var
-a=ai(c),b=a9(a,F2),d=b?Y(V,ad(b[1])):b,e=pn(v(a,F3)),f=Y(V,ad(v(a,F4)));return[0,pf(v(a,F5)),f,d,e]}function
-Gd(c){var
+a=ai(c),b=a9(a,F3),d=b?Y(W,ad(b[1])):b,e=pn(v(a,F4)),f=Y(W,ad(v(a,F5)));return[0,pf(v(a,F6)),f,d,e]}function
+Ge(c){var
 a=c[1],b=0;if(10<=a){if(!(13<=a))b=1}else
 if(8===a)b=1;return b?1:0}function
-Ge(b){var
-a=b[3];if(a&&1===a[1][0])return 1;return 0}function
 Gf(b){var
+a=b[3];if(a&&1===a[1][0])return 1;return 0}function
+Gg(b){var
 c=b[1],a=b[4];if(!(1<c+qj>>>0)&&typeof
 a!=="number"&&1===a[0])return 1-gP(j(a[1]));return 10===c?1:0}function
-Gj(k){var
+Gk(k){var
 n=au(k),c=[0,0];function
-p(a){if(c[1]<n)return a2(k,c[1]);throw X}function
-q(a){if(p(0)===a){c[1]++;return 0}throw X}function
+p(a){if(c[1]<n)return a2(k,c[1]);throw V}function
+q(a){if(p(0)===a){c[1]++;return 0}throw V}function
 L(a,b){for(;;){if(c[1]<n&&i(b,a2(k,c[1]))){c[1]++;continue}return dU(k,a,c[1]-a|0)}}function
 M(d){q(34);function
 a(a){var
@@ -8518,16 +8518,17 @@ N(e,a){if(p(0)===a){c[1]++;return 0}var
 b=0;for(;;){var
 d=[0,i(e,0),b];if(44===p(0)){c[1]++;var
 b=d;continue}q(a);return kz(d)}}function
-y(b,i){if(64<b)throw X;var
+y(b,j){if(64<b)throw V;var
 a=p(0),d=0;if(48<=a){if(91===a){c[1]++;var
-e=93,f=b+1|0;return[1,N(function(a){return y(f,a)},e)]}if(123===a){c[1]++;var
-g=125;return[0,N(function(c){var
-a=M(0);q(58);return[0,a,y(b+1|0,0)]},g)]}if(!(58<=a))d=1}else{if(34===a)return[2,M(0)];if(45===a)d=1}if(d){var
-h=c[1];c[1]++;return[3,L(h,function(a){var
-b=48<=a?1:0,c=b?a<=57?1:0:b;return c})]}throw X}var
-ar=y(0,0),O=c[1]<n?1:0,as=O?10===a2(k,c[1])?1:0:O;if(as)c[1]++;if(c[1]<n)throw X;var
-u=ai(ar);if(o(aY(v(u,Gk)),Gl))throw X;var
-a=jQ(v(u,Gm)),H=0;switch(a[0]){case
+f=93,g=b+1|0;return[1,N(function(a){return y(g,a)},f)]}if(123===a){c[1]++;var
+h=125;return[0,N(function(c){var
+a=M(0);q(58);return[0,a,y(b+1|0,0)]},h)]}if(!(58<=a))d=1}else{if(34===a)return[2,M(0)];if(45===a)d=1}if(d){var
+i=c[1];c[1]++;var
+e=L(i,function(a){var
+b=48<=a?1:0,c=b?a<=57?1:0:b;return c});if(o(e,BO))return[3,e];throw V}throw V}var
+ar=y(0,0),O=c[1]<n?1:0,as=O?10===a2(k,c[1])?1:0:O;if(as)c[1]++;if(c[1]<n)throw V;var
+u=ai(ar);if(o(aY(v(u,Gl)),Gm))throw V;var
+a=jQ(v(u,Gn)),H=0;switch(a[0]){case
 1:var
 E=a[1],I=0;if(typeof
 E==="number")if(E)var
@@ -8547,18 +8548,18 @@ P=a[2];H=1;break;case
 0:case
 5:var
 P=a[1];H=1;break;default:var
-j=GL}if(H)var
+j=GM}if(H)var
 j=[0,cn(P),3];var
-r=dM(v(u,Gn)),s=r[1];if(o(s,F_))if(o(s,F$))if(o(s,Ga))var
-b=af([0,Gc,[0,s,Gb]]);else
+r=dM(v(u,Go)),s=r[1];if(o(s,F$))if(o(s,Ga))if(o(s,Gb))var
+b=af([0,Gd,[0,s,Gc]]);else
 var
 t=pp(r[2]),b=[1,t[1],t[2],t[3],t[4]];else
 var
 z=po(j,r[2]),b=[0,z[1],z[2],z[3]];else
 var
 at=ad(r[2]),b=[2,Y(function(f){var
-a=dM(f),b=a[1];if(o(b,F6)){if(o(b,F7)){if(o(b,F8)){var
-e=o(b,F9);if(e)throw X;return e}return[0,cJ(a[2])]}var
+a=dM(f),b=a[1];if(o(b,F7)){if(o(b,F8)){if(o(b,F9)){var
+e=o(b,F_);if(e)throw V;return e}return[0,cJ(a[2])]}var
 c=pp(a[2]);return[2,c[1],c[2],c[3],c[4]]}var
 d=po(j,a[2]);return[1,d[1],d[2],d[3]]},at)];function
 av(a){var
@@ -8572,18 +8573,18 @@ d=0;switch(a[0]){case
 0:var
 T=a[4],S=a[1];d=6;break;case
 1:var
-V=b[4];d=typeof
-V==="number"||!(3===V[0])?1:5;break;default:d=2}break;case
+W=b[4];d=typeof
+W==="number"||!(3===W[0])?1:5;break;default:d=2}break;case
 1:var
 ae=0;if(0===b[0]){var
 aB=b[3];if(aA(function(a){var
 b=a[1];return aA(function(a){switch(a[2][0]){case
 6:case
-7:return 1;default:return 0}},b)},aB)){af(GB);ae=1}}if(!ae){var
+7:return 1;default:return 0}},b)},aB)){af(GC);ae=1}}if(!ae){var
 aC=a[6];if(aA(function(a){return 5===a[1]?1:0},aC)){var
 aD=a[2];if(aA(function(a){switch(a[0]){case
 0:case
-3:return 0;default:return 1}},aD))af(GC);else
+3:return 0;default:return 1}},aD))af(GD);else
 d=1}else
 d=1}break;case
 2:var
@@ -8601,30 +8602,30 @@ g=0;if(!b[1]){var
 d=b[2];if(8===d[0]){var
 e=d[1];if(7===e[0]){var
 c=e[1],a=0;switch(c[0]){case
-1:if(o(c[1],GD))a=1;break;case
+1:if(o(c[1],GE))a=1;break;case
 6:var
-f=c[1];if(1!==f[0]||o(f[1],GE))a=1;break;default:a=1}if(!a)return 1-D}}else
-g=1}if(!g&&8===b[2][0])return 1;return 0},aG=b[3],aK=0;if(aA(function(a){return aA(aF,a[1])},aG))af(GF);else{var
+f=c[1];if(1!==f[0]||o(f[1],GF))a=1;break;default:a=1}if(!a)return 1-D}}else
+g=1}if(!g&&8===b[2][0])return 1;return 0},aG=b[3],aK=0;if(aA(function(a){return aA(aF,a[1])},aG))af(GG);else{var
 ah=0;if(aA(function(a){return 11===a[1]?1:0},_)){var
 aj=0;if(1===C&&2===a[5][0]){var
 aa=0;aj=1}if(!aj)var
-aa=1;if(aa){af(GG);ah=1}}if(!ah){var
+aa=1;if(aa){af(GH);ah=1}}if(!ah){var
 aH=b[3];if(hN(function(a){var
 b=a[1];return hN(function(d){var
 b=d[2],a=0;switch(b[0]){case
 0:var
-c=b[1];if(o(c,Gg)){if(!o(c,Gh))return aA(Gf,_)}else
+c=b[1];if(o(c,Gh)){if(!o(c,Gi))return aA(Gg,_)}else
 a=1;break;case
-1:if(!o(b[1],Gi))a=1;break;case
+1:if(!o(b[1],Gj))a=1;break;case
 7:case
 8:a=1;break}return a?1:0},b)},aH)){d=3;aK=1}else
-af(GH)}}break;case
+af(GI)}}break;case
 1:var
 ak=0,ab=b[4];if(typeof
 ab==="number"||!(1<ab[0]))ak=1;else
 d=5;if(ak)d=1;break;default:d=2}break;case
 3:switch(b[0]){case
-0:if(aA(av,b[3]))af(GI);else
+0:if(aA(av,b[3]))af(GJ);else
 d=3;break;case
 2:d=2;break;default:d=1}break;case
 7:switch(b[0]){case
@@ -8632,15 +8633,15 @@ d=3;break;case
 ac=b[1],al=0;if(aA(function(a){if(typeof
 a!=="number"&&2===a[0]){var
 b=a[4];if(typeof
-b!=="number"&&3===b[0])return 1}return 0},ac)){af(GJ);al=1}else
+b!=="number"&&3===b[0])return 1}return 0},ac)){af(GK);al=1}else
 if(aA(function(a){if(typeof
-a!=="number"&&2===a[0])return R(a[4]);return 0},ac)){af(GK);al=1}else
+a!=="number"&&2===a[0])return R(a[4]);return 0},ac)){af(GL);al=1}else
 d=4;break;case
 1:d=1;break;default:d=4}break;default:d=1}var
 h=0;switch(d){case
 1:if(1===b[0]){var
 am=0,Z=b[4];if(typeof
-Z!=="number"&&3===Z[0]){af(GA);am=1}if(!am)if(R(b[4]))af(Gz);else
+Z!=="number"&&3===Z[0]){af(GB);am=1}if(!am)if(R(b[4]))af(GA);else
 h=3}else
 h=3;break;case
 4:h=3;break;case
@@ -8652,17 +8653,17 @@ e=0;switch(h){case
 3:var
 f=0;switch(a[0]){case
 1:var
-W=a[6];break;case
+X=a[6];break;case
 4:var
-W=a[3];break;case
-5:if(aA(Gd,a[4])){af(Gx);e=2;f=1}else
+X=a[3];break;case
+5:if(aA(Ge,a[4])){af(Gy);e=2;f=1}else
 if(0===b[0]){var
-az=b[3];if(aA(function(a){return 0!==a[1]?1:0},az)){af(Gy);e=2;f=1}else
+az=b[3];if(aA(function(a){return 0!==a[1]?1:0},az)){af(Gz);e=2;f=1}else
 f=1}else
 f=1;break;case
 6:f=1;break;case
 7:var
-T=a[4],S=a[2];e=3;f=1;break;default:e=1;f=1}if(!f)if(0===b[0]){if(aA(function(a){return 11===a[1]?1:0},W)){af(Gw);e=2}}else
+T=a[4],S=a[2];e=3;f=1;break;default:e=1;f=1}if(!f)if(0===b[0]){if(aA(function(a){return 11===a[1]?1:0},X)){af(Gx);e=2}}else
 e=1;break;case
 0:e=2;break;case
 4:e=3;break;case
@@ -8670,22 +8671,22 @@ e=1;break;case
 w=0;switch(e){case
 2:break;case
 3:var
-an=0;if(aA(function(a){return 10===a[1]?1:0},T)&&aA(function(a){return 2===a[0]?1:0},S)){af(Go);an=1}if(!an)w=2;break;case
+an=0;if(aA(function(a){return 10===a[1]?1:0},T)&&aA(function(a){return 2===a[0]?1:0},S)){af(Gp);an=1}if(!an)w=2;break;case
 0:w=2;break;default:w=1}var
 J=0;switch(w){case
 2:var
 l=0;switch(a[0]){case
 5:case
-7:if(aA(Ge,a[4])){af(Gu);l=1}else
+7:if(aA(Gf,a[4])){af(Gv);l=1}else
 if(7===a[0])switch(b[0]){case
 2:var
 ay=function(a){if(typeof
-a!=="number"&&1===a[0])return Q(a[3]);return 0};if(aA(ay,b[1]))af(Gv);l=1;break;case
+a!=="number"&&1===a[0])return Q(a[3]);return 0};if(aA(ay,b[1]))af(Gw);l=1;break;case
 0:break;default:J=1;l=1}else
-l=1;break}if(!l)if(0===b[0]&&Q(b[3]))af(Gt);else
+l=1;break}if(!l)if(0===b[0]&&Q(b[3]))af(Gu);else
 J=1;break;case
 1:J=1;break}var
-U=ai(v(u,Gp)),ax=aY(v(U,Gq)),A=[0,a,b,aY(v(U,Gr)),ax],x=A[1];if(7===x[0]){var
+U=ai(v(u,Gq)),ax=aY(v(U,Gr)),A=[0,a,b,aY(v(U,Gs)),ax],x=A[1];if(7===x[0]){var
 K=A[2],ao=x[4],ap=x[2];if(2===K[0])var
 aq=K[1],B=m(function(a){if(typeof
 a!=="number"&&2===a[0]){var
@@ -8697,21 +8698,21 @@ d!=="number"&&14===d[0])return 0;return 1}return 1}return 1}return 1},aq);else
 var
 B=1}else
 var
-B=1;return B?A:af(Gs)}function
-GM(b){var
-c=au(b),g=64,h=In(64,c)?g:c,a=0,i=h-18|0;for(;;){var
+B=1;return B?A:af(Gt)}function
+GN(b){var
+c=au(b),g=64,h=Io(64,c)?g:c,a=0,i=h-18|0;for(;;){var
 d=a<=i?1:0;if(d){var
-e=ax(dU(b,a,18),GN);if(!e){var
+e=ax(dU(b,a,18),GO);if(!e){var
 a=a+1|0;continue}var
 f=e}else
 var
-f=d;return f}}II(function(b){try{if(GM(b))var
-a=GP;else{try{var
-e=0,d=Gj(b);e=1}catch(a){a=rP(a);if(a[1]===pe)var
-c=[0,a[2]];else{if(a!==X)throw a;var
+f=d;return f}}IJ(function(b){try{if(GN(b))var
+a=GQ;else{try{var
+e=0,d=Gk(b);e=1}catch(a){a=rP(a);if(a[1]===pe)var
+c=[0,a[2]];else{if(a!==V)throw a;var
 c=2}}if(e)var
 c=BK(b,d)?1===d[2][0]?1:0:2;var
-a=c}}catch(a){return GO}if(typeof
+a=c}}catch(a){return GP}if(typeof
 a==="number")switch(a){case
-0:return GQ;case
-1:return GR;default:return GS}return a$(GT,a[1])});ky(0);return}(globalThis));
+0:return GR;case
+1:return GS;default:return GT}return a$(GU,a[1])});ky(0);return}(globalThis));
