@@ -101,6 +101,8 @@ Check kernel.Legs.driven_velocity.
 Check kernel.Legs.refute_driven_sound.
 Check kernel.Load.load_bounded.
 Check kernel.Driven.check_driven_sound.
+Check kernel.HalfTurn.never_half_a_turn.
+Check kernel.Poses.poses_differ.
 Check kernel.Written.check_written_sound.
 Check kernel.AtPoint.refute_written_sound.
 Check kernel.Orientation.rotation_about_rotates.
@@ -108,6 +110,8 @@ Check kernel.Orientation.rotation_about_axes.
 Check kernel.Turning.length_velocity.
 Check kernel.Turning.refute_turning_sound.
 Check kernel.Singular.refute_between_sound.
+Check @kernel.Between.refute_between_driven_sound.
+Check @kernel.Between.refute_between_legs_sound.
 Check kernel.Same.fits_sound.
 Check @kernel.Twins.refute_same_sound.
 Check @kernel.Twins.refute_same_pose_sound.
@@ -152,10 +156,12 @@ Definition all_of_them :=
    @kernel.Witness.refute_sound, @kernel.NoCube.check_no_cube_sound,
    @kernel.Closed.check_closed_sound, @kernel.Trig.cosine_sound, @kernel.Arm.rod_closes,
    @kernel.Arm.angle_velocity, @kernel.Legs.driven_velocity, @kernel.Legs.refute_driven_sound,
-   @kernel.Load.load_bounded, @kernel.Driven.check_driven_sound, @kernel.Written.check_written_sound,
+   @kernel.Load.load_bounded, @kernel.Driven.check_driven_sound,
+   @kernel.HalfTurn.never_half_a_turn, @kernel.Poses.poses_differ, @kernel.Written.check_written_sound,
    @kernel.AtPoint.refute_written_sound, @kernel.Orientation.rotation_about_rotates,
    @kernel.Orientation.rotation_about_axes, @kernel.Turning.length_velocity,
    @kernel.Turning.refute_turning_sound, @kernel.Singular.refute_between_sound,
+   @kernel.Between.refute_between_driven_sound, @kernel.Between.refute_between_legs_sound,
    @kernel.Same.fits_sound, @kernel.Twins.refute_same_sound,
    @kernel.Twins.refute_same_pose_sound, @kernel.Accelerated.refute_accelerated_sound,
    @kernel.Far.refute_far_sound, @kernel.Far.refute_far_pose_sound, @kernel.Control.controls_decide,

@@ -9,7 +9,7 @@
 
 From Coq Require Import ZArith QArith Reals Lra List Bool String Ascii DecimalString.
 From Orthocert Require Import Vec3 SingularValues Kinematics Diagonal Postulate Claim.
-From Orthocert.kernel Require Import Configuration Arm Written AtPoint Orientation Turning Accelerated Singular Twins Far Legs Inputs Pose Driven.
+From Orthocert.kernel Require Import Configuration Arm Written AtPoint Orientation Turning Accelerated Singular Between Twins Far Legs Inputs Pose Driven.
 From Orthocert.kernel Require Tolerances.
 From Orthocert.kernel Require Import Statement Check Number Problem Faces Witness Closed Cubes NoCube.
 Import ListNotations.
@@ -740,7 +740,7 @@ Definition has_arms (ls : list written_driven) : bool := existsb (fun l => match
 Definition driven_claim_of (k : mobility) (ls : list written_driven) (ell : option expression) (w : written_place) (o : option written_orientation)
     (rs : list written_requirement) : driven_claim :=
   MakeDrivenClaim k (map (any_drive_of k) ls) (match ell with Some x => denoted x | None => 1 // 1 end) (place_in w) (option_map orientation_of o)
-    (demands (has_arms ls) (length ls) [] rs).
+    (demands (has_arms ls) (length ls) [] rs) (existsb is_of_two_points rs).
 
 (** *** The closed design *)
 
@@ -1287,7 +1287,7 @@ Definition is_turning (k : motion) (ls : list (list quantity * list quantity)) (
 Definition quantities_of_driven (l : written_driven) : list quantity :=
   match l with AnySlider_ d a p len _ => d ++ a ++ p ++ [len] | AnyStrut_ a p k => a ++ p ++ match k with Some k => k | None => [] end | AnyPlanar_ d => d | AnyArm_ k x a p r len _ => k ++ x ++ a ++ p ++ [r; len] end%list.
 Definition are_well_formed_legs (k : mobility) (ls : list written_driven) (ell : option expression) (w : written_place) (o : option written_orientation)
-    (is_asked_of_two : bool) (rs : list written_requirement) : bool :=
+    (rs : list written_requirement) : bool :=
   let flat := match k with TranslatesInPlane | Turns InPlane => true | _ => false end in
   let is_vector (v : list quantity) := Nat.eqb (length v) (if flat then 2 else 3) in
   let arms := has_arms ls in
@@ -1308,7 +1308,7 @@ Definition are_well_formed_legs (k : mobility) (ls : list written_driven) (ell :
   | Turns InSpace, Some x, Some (Tilted a b) => certainly exact_bits true (denoted x) && is_less_than_half_turn a && is_less_than_half_turn b
   | _, _, _ => false
   end &&
-  forallb (fun r => is_driven_demand arms k (length ls) r || is_asked_of_two && is_of_two_points r && is_asked 0 0 r) rs && is_each_once rs && forallb is_demand_bound (demands arms (length ls) [] rs).
+  forallb (fun r => is_driven_demand arms k (length ls) r || is_of_two_points r && is_asked 0 0 r) rs && is_each_once rs && forallb is_demand_bound (demands arms (length ls) [] rs).
 
 (** No machine within the tolerances has a direction that is zero. *)
 Definition has_direction (d : drive) : bool :=
@@ -1382,23 +1382,28 @@ Definition any_length_order (ds : list any_drive) : Z := (1 + order_of match fla
 Definition any_direction_orders (d : any_drive) : Z * Z :=
   match d with LinearDrive d => (direction_order d, 0%Z) | RotaryDrive a => (order_of (ends3 (axis_within a)), order_of (ends3 (reference_within a))) end.
 Definition accept_driven_tree (k : mobility) (ls : list written_driven) (ell : option expression) (w : written_place) (o : option written_orientation)
-    (rs : list written_requirement) (bits : positive) (nodes : list node) : bool :=
+    (rs : list written_requirement) (bits : positive) (chords : option (list (list Z) * N)) (nodes : list node) : bool :=
   let c := driven_claim_of k ls ell w o rs in
   let s := any_length_order (drives c) in let ds := map any_direction_orders (drives c) in
   let ps := Drives.driven_layouts s ds (drives c) in
   match tree_of (freedom k) (with_two_ends ps) (with_two_ends ps) (groups_of ps (map any_places_of_directions (drives c))) (length nodes) nodes with
-  | Some (t, []) => are_well_formed_legs k ls ell w o false rs && certify_driven exact_bits bits c s ds t
+  | Some (t, []) => are_well_formed_legs k ls ell w o rs &&
+      certify_driven exact_bits bits (matrix_of chords) (place_of_two_points (has_arms ls) 1 (length ls) [] rs) c s ds t
   | _ => false
   end.
 Definition accept_driven_witness (k : mobility) (ls : list written_driven) (ell : option expression) (w : written_place) (o : option written_orientation)
     (rs : list written_requirement) (point machine : list expression) (how : violation) : bool :=
   let n := match k with Translates => 3 | TranslatesInPlane => 2 | Turns m => places_of_point m end in
-  let point := map denoted point in
-  match take_all_driven ls (map denoted machine), failure_at (has_arms ls) 1 (length ls) [] rs how with
-  | (m, []), Some f => is_one_each (flat_map quantities_of_driven ls) machine && are_well_formed_legs k ls ell w o true rs && Nat.eqb (length point) (freedom k) &&
-      match how with Dependent_ => negb (has_arms ls) | _ => true end &&
-      refute_driven exact_bits (driven_claim_of k ls ell w o rs) m (numbers_of (firstn n point)) (skipn n point) f
-  | _, _ => false
+  let point := map denoted point in let c := driven_claim_of k ls ell w o rs in
+  match take_all_driven ls (map denoted machine) with
+  | (m, []) => is_one_each (flat_map quantities_of_driven ls) machine && are_well_formed_legs k ls ell w o rs && Nat.eqb (length point) (freedom k) &&
+      match how, failure_at (has_arms ls) 1 (length ls) [] rs how with
+      | Singular_ other, _ => let other := map denoted other in
+          refute_between_driven exact_bits c m (numbers_of (firstn n point)) (skipn n point) (numbers_of (firstn n other)) (skipn n other) && Nat.eqb (length other) (freedom k)
+      | _, Some f => refute_driven exact_bits c m (numbers_of (firstn n point)) (skipn n point) f && match how with Dependent_ => negb (has_arms ls) | _ => true end
+      | _, None => false
+      end
+  | _ => false
   end.
 (** Of two points: ends of the box, and the matrix of Same.v, of coordinates in the units 2^scales, those of joints 2^s. *)
 Fixpoint all_rational (l : list expression) : option (list Q) :=
@@ -1421,6 +1426,8 @@ Definition accept_witness (ls : list written_leg) (w : written_region) (bs : lis
           refute_same exact_bits k m (Numbers (denoted x) (denoted y) (denoted z)) a b (inverse_of [0; 0; 0]%Z a b c places)
       | _, _, _ => false
       end
+  | [x; y; z], (m, []), Singular_ [x'; y'; z'] => is_right &&
+      refute_between_legs exact_bits k m (Numbers (denoted x) (denoted y) (denoted z)) (Numbers (denoted x') (denoted y') (denoted z'))
   | [x; y; z], (m, []), how =>
       match failure_of k how with
       | Some f => let P := Numbers (denoted x) (denoted y) (denoted z) in
@@ -1454,7 +1461,7 @@ Definition is_share (x : expression) (found : Q) : bool :=
 
 (** Of the tree of a closed design, what it says of the rest; about a tight corner M has full rank, which is asked there. *)
 Definition closed_nodes (rs : list written_requirement) (nodes : list node) : list node :=
-  let left := flat_map (fun r => flat_map (fun d => repeat (negb (is_by_theorem r)) (Configuration.tests_of exact_bits 1 d)) (demand_of false 3 [] r)) rs in
+  let left := flat_map (fun r => if is_of_two_points r then [true] else flat_map (fun d => repeat (negb (is_by_theorem r)) (Configuration.tests_of exact_bits 1 d)) (demand_of false 3 [] r)) rs in
   let number_of i := match i with
     | O => Some O
     | S j => if nth j left false then Some (S (length (filter (fun x => x) (firstn j left)))) else None
@@ -1465,15 +1472,15 @@ Definition closed_nodes (rs : list written_requirement) (nodes : list node) : li
     | None, _ => []
     end in
   map (fun n => Node (flat_map step_of (by_ n)) (split_ n) (fails_ n) (offset_ n)) nodes.
-Definition accept_closed (offset side : expression) (rs : list written_requirement) (bits : positive) (nodes : list node) : bool :=
+Definition accept_closed (offset side : expression) (rs : list written_requirement) (bits : positive) (chords : option (list (list Z) * N)) (nodes : list node) : bool :=
   is_number (denoted offset) && match closed_bounds rs with
-  | Some (least, greatest) => check_closed exact_bits (denoted side) (denoted least) (denoted greatest) && forallb (is_driven_demand false Translates 3) rs &&
+  | Some (least, greatest) => check_closed exact_bits (denoted side) (denoted least) (denoted greatest) && forallb (fun r => is_driven_demand false Translates 3 r || is_of_two_points r && is_asked 0 0 r) rs &&
       forallb (fun r => match about_ r, end_ r with JointRange, AtLeast_ b => certainly exact_bits false (Minus (0 // 1) (denoted b)) | _, _ => true end) rs &&
       match closed_rest rs with
       | [] => true
       | rest => let above := certainly exact_bits false (Minus (denoted greatest) (2 // 1)) in
           (above || certainly exact_bits false (Minus (2 // 1) (denoted greatest))) &&
-          accept_driven_tree Translates (closed_legs above offset side greatest) None (closed_cube above side greatest) None rest bits (closed_nodes rs nodes)
+          accept_driven_tree Translates (closed_legs above offset side greatest) None (closed_cube above side greatest) None rest bits chords (closed_nodes rs nodes)
       end
   | None => false
   end.
@@ -1505,7 +1512,7 @@ Definition accept (c : certificate) : bool :=
           (is_inhabited exact_bits k && check_no_cube bits exact_bits k (denoted side) (length_order (legs k)) (map direction_order (legs k)) t)
       | _ => false
       end
-  | Legs_ k ls ell w o rs, Nodes bits _ nodes => accept_driven_tree k ls ell w o rs bits nodes
+  | Legs_ k ls ell w o rs, Nodes bits chords nodes => accept_driven_tree k ls ell w o rs bits chords nodes
   | Legs_ k ls ell w o rs, ByWitness _ point machine how => accept_driven_witness k ls ell w o rs point machine how
   | Turning_ k ls ell w o bs rs, ByWitness bits point machine how =>
       let point := map denoted point in
@@ -1551,7 +1558,7 @@ Definition accept (c : certificate) : bool :=
           forallb (fun t => below exact_bits (least t) (greatest t)) (box_of c) && refute_written exact_bits c thetas (map denoted point) f
       | _, _ => false
       end
-  | Closed_ offset side rs, Nodes bits _ nodes => accept_closed offset side rs bits nodes
+  | Closed_ offset side rs, Nodes bits chords nodes => accept_closed offset side rs bits chords nodes
   | Closed_ offset side rs, ByWitness _ point machine how => accept_closed_witness offset side rs point machine how
   | Postulate_ None, Nodes bits _ nodes => match trees_of 3 [] [] [] 4 nodes with Some ts => check_postulate bits ts | None => false end
   | Postulate_ (Some q), Nodes bits _ nodes =>
@@ -1571,7 +1578,10 @@ Lemma accept_witness_sound : forall (names : naming) ls w bs rs point machine ho
 Proof.
   intros names ls w bs rs point machine how h. unfold accept_witness in h. destruct point as [| x [| y [| z [|]]]]; try discriminate.
   cbv zeta in h. destruct (take_legs _ _) as [m [|]]; [| destruct how; discriminate].
-  destruct how; try (destruct (failure_of _ _) as [f |]; [| discriminate]; apply andb_true_iff in h as [_ h]; apply orb_true_iff in h as [h | h]; [exact (@refute_sound names _ _ _ _ _ h) | try discriminate]).
+  assert (B : forall other, how = Singular_ other -> exists P', refute_between_legs exact_bits (claim_of ls w bs rs) m (Numbers (denoted x) (denoted y) (denoted z)) P' = true \/ failure_of (claim_of ls w bs rs) how <> None).
+  { intros other ->. destruct other as [| x' [| y' [| z' [|]]]]; cbn [failure_of nfailure_of] in h; try discriminate. apply andb_true_iff in h as [_ h]. eexists. left. exact h. }
+  destruct how; try (destruct (B _ eq_refl) as [P' [h' | n]]; [exact (refute_between_legs_sound exact_bits _ _ _ _ h') | contradiction n; reflexivity]); clear B;
+    try (destruct (failure_of _ _) as [f |]; [| discriminate]; apply andb_true_iff in h as [_ h]; apply orb_true_iff in h as [h | h]; [exact (@refute_sound names _ _ _ _ _ h) | try discriminate]).
   { destruct directions as [| v [|]]; try discriminate. exact (@refute_far_sound _ names _ _ _ _ _ h). }
   destruct (nth_error _ _) as [[] |]; try discriminate. destruct (all_rational least) as [a |]; [| discriminate]. destruct (all_rational greatest) as [b |]; [| discriminate].
   apply andb_true_iff in h as [_ h]. exact (@refute_same_sound names _ _ _ _ _ _ _ h).
@@ -1592,18 +1602,20 @@ Proof.
   apply andb_true_iff in h as [_ h]. rewrite (rational_sound _ _ e). apply Qreals.Qle_Rle, Qle_bool_iff, h.
 Qed.
 
-Lemma accept_driven_tree_sound : forall k ls ell w o rs bits nodes, accept_driven_tree k ls ell w o rs bits nodes = true ->
+Lemma accept_driven_tree_sound : forall k ls ell w o rs bits chords nodes, accept_driven_tree k ls ell w o rs bits chords nodes = true ->
   let c := driven_claim_of k ls ell w o rs in driven_holds c /\ exists m P Q, is_about_driven c m P Q.
 Proof.
-  intros k ls ell w o rs bits nodes h. unfold accept_driven_tree in h. cbv zeta in h. destruct (tree_of _ _ _ _ _ nodes) as [[tr [|]] |]; try discriminate.
-  apply andb_true_iff in h as [_ h]. exact (certify_driven_sound _ _ _ _ _ _ h).
+  intros k ls ell w o rs bits chords nodes h. unfold accept_driven_tree in h. cbv zeta in h. destruct (tree_of _ _ _ _ _ nodes) as [[tr [|]] |]; try discriminate.
+  apply andb_true_iff in h as [_ h]. exact (certify_driven_sound _ _ _ _ _ _ _ _ h).
 Qed.
 
 Lemma accept_driven_witness_sound : forall k ls ell w o rs point machine how, accept_driven_witness k ls ell w o rs point machine how = true ->
   let c := driven_claim_of k ls ell w o rs in exists m P Q, Forall well_formed_driven m /\ is_about_driven c m P Q /\ ~ meets_driven c m P Q.
 Proof.
   intros k ls ell w o rs point machine how h. unfold accept_driven_witness in h. cbv zeta in h. destruct (take_all_driven _ _) as [m [|]]; [| discriminate].
-  destruct (failure_at _ _ _ _ _ how); [| discriminate]. apply andb_true_iff in h as [_ h]. exact (refute_driven_sound _ _ _ _ _ _ h).
+  apply andb_true_iff in h as [_ h].
+  destruct how; try (apply andb_true_iff in h as [h _]; exact (refute_between_driven_sound _ _ _ _ _ _ _ h));
+    (destruct (failure_at _ _ _ _ _ _); [| discriminate]; apply andb_true_iff in h as [h _]; exact (refute_driven_sound _ _ _ _ _ _ h)).
 Qed.
 
 Lemma accept_closed_witness_sound : forall offset side rs bits point machine how tool version, accept_closed_witness offset side rs point machine how = true ->
@@ -1617,7 +1629,7 @@ Proof.
   apply Compare.nonneg_sound in ha. cbn [value] in ha. lra.
 Qed.
 
-Lemma accept_closed_sound : forall offset side rs bits chords nodes tool version, accept_closed offset side rs bits nodes = true ->
+Lemma accept_closed_sound : forall offset side rs bits chords nodes tool version, accept_closed offset side rs bits chords nodes = true ->
   means (Certificate (Closed_ offset side rs) (Nodes bits chords nodes) tool version).
 Proof.
   intros offset side rs bits chords nodes tool version h. unfold means. cbn [subject_ proof_]. unfold accept_closed in h. apply andb_true_iff in h as [_ h].
@@ -1626,7 +1638,7 @@ Proof.
   - apply Forall_forall. intros r i. rewrite forallb_forall in hm. specialize (hm r i). destruct (about_ r); try exact I. destruct (end_ r); try exact I.
     apply Compare.nonneg_sound in hm. cbn [value] in hm. lra.
   - destruct (closed_rest rs) as [| r0 rest]; [left; reflexivity |]. right. cbv zeta in hr. apply andb_true_iff in hr as [ha hr].
-    set (above := certainly exact_bits false (Minus (denoted b) (2 // 1))) in *. exists above. split; [| exact (accept_driven_tree_sound _ _ _ _ _ _ _ _ hr)].
+    set (above := certainly exact_bits false (Minus (denoted b) (2 // 1))) in *. exists above. split; [| exact (accept_driven_tree_sound _ _ _ _ _ _ _ _ _ hr)].
     unfold check_closed in h. apply andb_true_iff in h as [h _]. apply andb_true_iff in h as [h _]. apply andb_true_iff in h as [h1 h2].
     apply Compare.positive_sound in h1, h2. cbn [value] in h2. apply closed_numbers; [exact h1 | lra |].
     destruct above eqn:e; [unfold above in e | cbn [orb] in ha]; [apply Compare.nonneg_sound in e; cbn [value] in e; lra |].
@@ -1640,7 +1652,7 @@ Proof.
     p as [bits chords nodes | bits point machine how | cells]; try discriminate.
   - exact (accept_tree_sound _ _ _ _ _ _ _ _ _ h).
   - exact (accept_witness_sound _ _ _ _ _ _ _ _ h).
-  - exact (accept_driven_tree_sound _ _ _ _ _ _ _ _ h).
+  - exact (accept_driven_tree_sound _ _ _ _ _ _ _ _ _ h).
   - exact (accept_driven_witness_sound _ _ _ _ _ _ _ _ _ h).
   - cbv zeta in h. destruct (tree_of _ _ _ _ _ nodes) as [[tr [|]] |]; try discriminate. apply andb_true_iff in h as [_ h].
     exact (certify_turning_sound _ _ _ _ _ _ _ h).

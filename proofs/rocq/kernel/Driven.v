@@ -2,7 +2,7 @@
 
 From Coq Require Import ZArith Reals Lra Lia List Bool.
 From Orthocert Require Import Vec3 SingularValues Kinematics Fixed Claim.
-From Orthocert.kernel Require Import Statement Linear Arithmetic Slope Test Cell Check Number Trig Formula Machine Problem Witness Orientation Turning Control Chart Configuration Inputs Onward Pose Arm Legs Drives.
+From Orthocert.kernel Require Import Statement Linear Arithmetic Slope Test Cell Check Number Trig Formula Machine Problem Witness Orientation Turning Control Chart Configuration Inputs Onward Poses Pose Arm Legs Drives.
 From Orthocert.kernel Require Solve Load.
 Import ListNotations.
 Local Open Scope R_scope.
@@ -100,6 +100,11 @@ Definition is_oriented (c : driven_claim) : bool :=
   | _, _ => false
   end.
 
+Definition is_with_end (d : any_drive) : bool := match d with LinearDrive (PlanarLeg _) => false | _ => true end.
+
+(** Of claims that no two poses have the same joint coordinates: the one matrix, and before which other test this is counted. *)
+Variables (one_matrix : N * list (list Z)) (one_place : nat).
+
 Definition curve_angles (c : driven_claim) : list number := match turned_by c with Some o => curved o | None => [] end.
 
 Definition check_driven (c : driven_claim) (s : Z) (ds : list (Z * Z)) (t : tree) : bool :=
@@ -108,18 +113,20 @@ Definition check_driven (c : driven_claim) (s : Z) (ds : list (Z * Z)) (t : tree
   let j := S (length lay) in let angular := are_angular (drives c) in
   let turn := option_map (fun o => chart o (first_of k)) (turned_by c) in
   let fs := all_driven k turn (quantity ell (length lay)) s ds (drives c) 0 in
-  let built := flat_map d_built fs in
-  let wanted := entries (pose_rows fs) ++ entries (pose_divided fs) ++ built ++ of_each (own_of fs) angular s j demands in
+  let built := flat_map d_built fs in let about := if only_pose c then map (fun f => (d_origin f, d_D f)) fs else [] in
+  let wanted := entries (pose_rows fs) ++ entries (pose_divided fs) ++ built ++ of_each (own_of fs) angular s j demands ++ entries about in
   let tape := fst (compile wanted) in
   let all := formulas tape in let place := place all in
   forallb (fun e => same (nth (place e) all (integer 0)) e) wanted && existsb rules_out demands && is_flat_region k (place_of c) && is_oriented c &&
   forallb (fun d => Bool.eqb (is_angular_drive d) angular) (drives c) &&
+  (negb (only_pose c) || turns_less bits k (turned_by c) && forallb is_with_end (drives c)) &&
   match all_some (map (enclose_parameter bits) (lay ++ [ell])), all_some (map (enclose_input bits) (flat_map (inputs_of angular s) demands)),
         all_some (map (fun t => enclose_parameter bits (t, s)) (position_edges k (place_of c))),
         match turned_by c with Some o => all_some (map (end_box bits) (chart_ends o)) | None => Some [] end,
         all_some (map (enclose_tangent bits) (curve_angles c)),
         all_some (of_each (tests_for place fs angular s) angular s j demands) with
   | Some params, Some inputs, Some box, Some angles, Some tangents, Some tests =>
+      let tests := if only_pose c then inserted one_place tests (Chords (map_rows place about) (fst one_matrix) (snd one_matrix)) else tests in
       Nat.eqb (length (box ++ angles)) n &&
       check bits tape (map_rows place (pose_rows fs)) (map_rows place (pose_divided fs)) (map place built) (params ++ inputs ++ tangents) tests
         (inside_region k (place_of c) s) (box ++ angles) (all_open tests) t
@@ -572,21 +579,27 @@ Proof. intros [| | m] w P h p; [exact I | |]; exact (flat_position _ _ P h (hull
 Lemma entries_found : forall tape (fs : list formula) r, (forall e, In e (entries r) -> In e fs) -> (forall e, In e fs -> formula_at tape (place (formulas tape) e) = e) ->
   forall e, In e (entries r) -> formula_at tape (place (formulas tape) e) = e.
 Proof. intros tape fs r h k e i. apply k, h, i. Qed.
-Theorem check_driven_sound : forall bits c s ds t, check_driven bits c s ds t = true -> driven_holds c.
+Lemma flat_pose : forall k w P, is_flat_region k w = true -> in_region w P -> is_place k P.
+Proof. intros [| | []] w P h p; exact (flat_place _ w P h p). Qed.
+
+Theorem check_driven_sound : forall bits one_matrix one_place c s ds t, check_driven bits one_matrix one_place c s ds t = true -> driven_holds c.
 Proof.
-  intros bits c s ds t h m P Q [hm [hP hQ]]. unfold check_driven in h. cbv zeta in h.
+  intros bits one_matrix one_place c s ds t h m P Q [hm hPQ]. unfold check_driven in h. cbv zeta in h.
   set (k := mobility_of c) in *. set (demands := driven_demands c) in *. set (lay := driven_layouts s ds (drives c)) in *. set (pl := (exactly (length_of c), s)) in *.
   set (angular := are_angular (drives c)) in *. set (turn := option_map (fun o => chart o (first_of k)) (turned_by c)) in *. set (ell := quantity pl (length lay)) in *.
-  set (fs := all_driven k turn ell s ds (drives c) 0) in *. set (built := flat_map d_built fs) in *. set (j := S (length lay)) in *.
-  set (own := of_each (own_of fs) angular s j demands) in *. set (wanted := entries (pose_rows fs) ++ entries (pose_divided fs) ++ built ++ own) in *.
+  set (fs := all_driven k turn ell s ds (drives c) 0) in *. set (built := flat_map d_built fs) in *.
+  set (about := if only_pose c then map (fun f => (d_origin f, d_D f)) fs else []) in *. set (j := S (length lay)) in *.
+  set (own := of_each (own_of fs) angular s j demands) in *. set (wanted := entries (pose_rows fs) ++ entries (pose_divided fs) ++ built ++ own ++ entries about) in *.
   set (tape := fst (compile wanted)) in *. set (place := place (formulas tape)) in *.
-  apply andb_true_iff in h as [h C]. apply andb_true_iff in h as [h kinds]. apply andb_true_iff in h as [h oriented]. apply andb_true_iff in h as [h flat]. apply andb_true_iff in h as [found ex].
+  apply andb_true_iff in h as [h C]. apply andb_true_iff in h as [h one]. apply andb_true_iff in h as [h kinds]. apply andb_true_iff in h as [h oriented]. apply andb_true_iff in h as [h flat]. apply andb_true_iff in h as [found ex].
   destruct (all_some (map (enclose_parameter bits) _)) as [params |] eqn:ep; [| discriminate].
   destruct (all_some (map (enclose_input bits) _)) as [inputs |] eqn:ei; [| discriminate].
   destruct (all_some (map _ (position_edges _ _))) as [box |] eqn:eb; [| discriminate].
   destruct (match turned_by c with Some o => _ | None => _ end) as [angles |] eqn:ea; [| discriminate].
   destruct (all_some (map (enclose_tangent bits) _)) as [tangents |] eqn:eg; [| discriminate].
   destruct (all_some (of_each _ _ _ _ _)) as [tests |] eqn:et; [| discriminate].
+  cbv zeta in C. set (all_tests := if only_pose c then inserted _ _ _ else tests) in C.
+  assert (Sub : forall u, In u tests -> In u all_tests) by (intros u iu; unfold all_tests; destruct (only_pose c); [apply inserted_in; right |]; exact iu).
   apply andb_true_iff in C as [len C]. apply Nat.eqb_eq in len.
   assert (Found : forall e, In e wanted -> formula_at tape (place e) = e) by (rewrite forallb_forall in found; intros e i; apply same_sound, found, i).
   destruct (legs_stand s (drives c) m hm ds) as [th [TH ST]]. set (ins := flat_map (inputs_of angular s) demands) in *.
@@ -603,6 +616,27 @@ Proof.
     - exact (inputs_enclosed bits _ _ ei).
     - unfold tt, curve_angles in *. destruct (turned_by c) as [o |] eqn:eo; [| injection eg as <-; constructor].
       apply (tangents_in bits); [intros a i; exact (curved_angles _ a (proj1 (AOK o eq_refl)) i) | exact eg]. }
+  (* at one pose *)
+  set (posed := fun P Q => map (fun l => (about_origin k (/ two_to s) (as_strut P Q l) P Q, 0)) m).
+  enough (At : forall P Q, is_pose c P Q -> Forall well_formed_driven m /\ meets_driven c m P Q /\ (only_pose c = true ->
+    forall v, length v = freedom k -> nonzero v -> 0 < form (lower_weights (fst one_matrix) (snd one_matrix) v) (posed P Q) v)).
+  { destruct (At P Q hPQ) as [A1 [A2 A3]]. split; [exact A1 |]. split; [exact A2 |]. intros o P' Q' hPQ' same. destruct (At P' Q' hPQ') as [_ [B2 B3]].
+    specialize (A3 o). specialize (B3 o). rewrite o in one. cbn [negb orb] in one. apply andb_true_iff in one as [less ends].
+    destruct (turns_less_sound _ bits k (turned_by c) Q Q' less (proj2 hPQ) (proj2 hPQ')) as [v [tv mv]].
+    assert (E : posed P' Q' = map (fun l => (about_origin k (/ two_to s) l P' Q', 0)) (map (as_strut P Q) m) /\
+      Forall (fun l => strut_length l P' Q' = strut_length l P Q) (map (as_strut P Q) m)).
+    { destruct A2 as [R1 _], B2 as [R2 _]. cbn [reached legs_at] in R1, R2. rewrite forallb_forall in ends.
+      assert (NP : Forall (fun l => ~ is_plane l) m).
+      { clear - hm ends. induction hm as [| d l drs m' hd_ hs IH]; constructor; [| apply IH; intros y i; apply ends; right; exact i].
+        specialize (ends d (or_introl eq_refl)). destruct d as [[] |], l as [[] |]; cbn in *; tauto || discriminate. }
+      unfold posed. clear - A1 R1 R2 same NP. induction m as [| l m' IH]; [split; constructor |]. inversion A1; inversion R1; inversion R2; inversion same; inversion NP; subst.
+      destruct IH as [I1 I2]; try assumption. destruct (same_strut l P Q P' Q') as [S1 S2]; try assumption. cbn [map]. rewrite S1, I1. split; [reflexivity | constructor; assumption]. }
+    destruct E as [E1 E2]. rewrite E1 in B3. unfold posed in A3. rewrite <- (map_map (as_strut P Q) (fun l => (about_origin k (/ two_to s) l P Q, 0))) in A3.
+    refine (poses_differ k (/ two_to s) _ _ _ P Q P' Q' v _ tv _ _ mv A3 B3 E2).
+    - apply Rinv_neq_0_compat, Rgt_not_eq, two_to_pos.
+    - exact (flat_pose k _ P flat (proj1 hPQ)).
+    - exact (flat_pose k _ P' flat (proj1 hPQ')). }
+  clear P Q hPQ. intros P Q [hP hQ].
   (* coordinates *)
   pose proof (flat_place k _ P flat hP) as flatP. pose proof (hull_sound _ _ hP) as hH.
   set (places := match k with Translates => coordinates P | TranslatesInPlane => [vx P; vy P] | Turns m => position_list m P end).
@@ -638,7 +672,7 @@ Proof.
   specialize (ST x [] ([Claim.value (length_of c) / two_to s] ++ map input_value ins ++ tt) k turn ell (Claim.value (length_of c)) P Q). cbv zeta in ST. cbn [app length] in ST.
   specialize (ST V1 V2 V3). change (Forall2 (stands_in x theta s k (Claim.value (length_of c)) P Q) fs m) in ST.
   assert (X : Forall2 (contains bits) (box ++ angles) x) by (apply Forall2_app; assumption).
-  pose proof (check_all_open bits tape (map_rows place (pose_rows fs)) (map_rows place (pose_divided fs)) (map place built) (params ++ inputs ++ tangents) tests (inside_region bits k (place_of c) s) theta T
+  pose proof (check_all_open bits tape (map_rows place (pose_rows fs)) (map_rows place (pose_divided fs)) (map place built) (params ++ inputs ++ tangents) all_tests (inside_region bits k (place_of c) s) theta T
     (fun y => y = x)) as H.
   specialize (H ltac:(intros cell lambda y q e l a d; cbv beta in a; rewrite a in d; unfold inside_region in e; destruct k as [| | mo] eqn:ek; try discriminate;
     assert (cs = []) by (unfold is_oriented in oriented; fold k in oriented; rewrite ek in oriented; destruct (turned_by c); [discriminate |]; injection ea as <-; inversion AX; reflexivity); subst cs;
@@ -649,8 +683,8 @@ Proof.
       Check.holds bits tape (map_rows place (pose_rows fs)) (map_rows place (pose_divided fs)) (map place built) (params ++ inputs ++ tangents) theta (freedom k) x t)).
   { intros d id. destruct (of_each_at angular s demands d x (th ++ [Claim.value (length_of c) / two_to s]) tt id) as [q [q1 q2]]. cbv zeta in q1. fold ins in q1.
     rewrite <- app_assoc in q1. fold theta in q1. rewrite app_length, lt, Nat.add_1_r in q2. fold j in q2. exists q. split; [exact q1 |]. split.
-    - intros f i. apply Found. unfold wanted. do 3 (apply in_or_app; right). exact (q2 _ _ _ i).
-    - intros o i. destruct (all_some_in _ _ _ _ et (q2 _ (tests_for bits place fs angular s) o i)) as [u [e iu]]. exists u. split; [exact e | exact (H u iu)]. }
+    - intros f i. apply Found. unfold wanted. do 3 (apply in_or_app; right). apply in_or_app. left. exact (q2 _ _ _ i).
+    - intros o i. destruct (all_some_in _ _ _ _ et (q2 _ (tests_for bits place fs angular s) o i)) as [u [e iu]]. exists u. split; [exact e | exact (H u (Sub u iu))]. }
   (* legs that can be built *)
   assert (Low : exists low c0, contains bits low c0 /\ 0 <= c0 /\ Check.holds bits tape (map_rows place (pose_rows fs)) (map_rows place (pose_divided fs)) (map place built) (params ++ inputs ++ tangents) theta (freedom k) x (SigmaMin low)).
   { apply existsb_exists in ex as [d [id e]]. destruct (HT d id) as [q [_ [_ q3]]]. destruct d; try discriminate; cbn [tests_for] in q3; destruct (q3 _ ltac:(left; reflexivity)) as [u [e1 hu]].
@@ -675,16 +709,33 @@ Proof.
     destruct (h wl) as [h1 [h2 [h3 h4]]]. unfold is_good, look. cbv zeta. cbn [seen_row seen_joint seen_rod seen_reach]. rewrite <- kl.
     split; [unfold driven_row; cbv zeta; destruct k as [| | []]; reflexivity |]. split.
     { destruct l as [l | l]; cbn [own_joint rate_unit own_reach well_formed_driven] in *; [reflexivity |]. split; [reflexivity | intro re; exact (proj1 (angle_splits l _ wl re))]. }
-    split; [exact h1 |]. split; [exact h2 |]. split; [intro d; exact (h3 d V4) | exact h4]. }
+    split; [exact h1 |]. split; [exact h2 |]. split; [intro d; exact (h3 d V4) |]. intro re. destruct (h4 re) as [x1 [x2 [x3 [x4 _]]]]. auto. }
   assert (W1 : forall e, In e (entries (pose_rows fs)) -> formula_at tape (place e) = e) by (intros e i; apply Found, in_or_app; left; exact i).
   assert (W2 : forall e, In e (entries (pose_divided fs)) -> formula_at tape (place e) = e) by (intros e i; apply Found, in_or_app; right; apply in_or_app; left; exact i).
   destruct (of_rows_energy x theta s (freedom k) angular fs (map look m) (fun b => vadd P (mulv Q b)) tape good W1 W2 _ LOW) as [RE _].
   pose proof (low_sees bits x theta s (freedom k) angular fs (map look m) (fun b => vadd P (mulv Q b)) tape (params ++ inputs ++ tangents) (map place built) good W1 W2 low c0 hc0 c00 (conj BU LOW)) as SEES.
   assert (EJ : map seen_row (map look m) = jacobian (legs_at k L m P Q)) by (rewrite map_map; reflexivity).
-  unfold meets_driven. fold k demands L. split; [rewrite Forall_map in RE; exact RE |]. split; [unfold Configuration.injective in *; cbn [jacobian] in SEES; rewrite EJ in SEES; exact SEES |].
-  apply Forall_forall. intros d id. destruct (HT d id) as [q [q1 [q2 q3]]].
-  pose proof (demand_met bits x theta s (freedom k) angular fs (map look m) (fun b => vadd P (mulv Q b)) tape (params ++ inputs ++ tangents) (map place built) good W1 W2 RE q d q1 q2 q3 SEES) as met.
-  rewrite !map_map in met. exact (reached_aside _ _ _ _ _ _ _ _ _ _ _ met).
+  unfold meets_driven. fold k demands L. 
+  assert (RP : Forall (fun l => own_reach l (carried l P Q)) m) by (rewrite Forall_map in RE; exact RE).
+  split; [split; [exact RP |]; split |].
+  3: { intros o v lv nz. assert (IA : In (Chords (map_rows place about) (fst one_matrix) (snd one_matrix)) all_tests) by (unfold all_tests; rewrite o; apply inserted_in; left; reflexivity).
+    pose proof (H _ IA) as K. cbn [Check.holds] in K. 
+    assert (RF : map_rows (formula_at tape) (map_rows place about) = about) by (apply rows_found; intros e' i; apply Found; unfold wanted; do 4 (apply in_or_app; right); exact i). rewrite RF in K. destruct K as [_ K]. specialize (K v lv nz).
+    rewrite o in one. cbn [negb orb] in one. apply andb_true_iff in one as [_ ends]. rewrite forallb_forall in ends.
+    assert (E : map (fun p => (fst p, 0)) (map_rows (Formula.value x theta) about) = map (fun p => (map (Rmult (/ two_to s)) (fst p), 0)) (posed P Q)).
+    { unfold about, posed. rewrite o. clear - ST WF RP hm ends. revert hm ends. generalize (drives c). induction ST as [| f l fs' m' [_ h] hs IH]; intros drs hm ends; [reflexivity |].
+      inversion WF; inversion RP; inversion hm as [| d ? drs' ? hd_]; subst. cbn [map]. rewrite map_rows_cons. cbn [map fst snd].
+      rewrite (IH ltac:(assumption) ltac:(assumption) drs' ltac:(assumption) ltac:(intros y i; apply ends; right; exact i)). f_equal. f_equal.
+      destruct (h ltac:(assumption)) as [_ [_ [_ h4]]]. destruct (h4 ltac:(assumption)) as [_ [_ [_ [_ [p | e]]]]]; [| exact e]. exfalso.
+      specialize (ends d (or_introl eq_refl)). destruct d as [[] |], l as [[] |]; cbn in *; tauto || discriminate. }
+    rewrite E in K. pose proof (Rinv_0_lt_compat _ (two_to_pos s)) as u0. apply Rmult_lt_reg_l with (/ two_to s); [exact u0 |]. rewrite Rmult_0_r.
+    match type of K with 0 < ?y => replace (/ two_to s * _) with y; [exact K |] end.
+    clear. generalize (lower_weights (fst one_matrix) (snd one_matrix) v). unfold posed. induction m as [| l m' IH]; intros [| [y z] ws]; cbn [map form fst]; try ring.
+    rewrite IH, dot_map. ring. }
+  - unfold Configuration.injective in *. cbn [jacobian] in SEES. rewrite EJ in SEES. exact SEES.
+  - apply Forall_forall. intros d id. destruct (HT d id) as [q [q1 [q2 q3]]].
+    pose proof (demand_met bits x theta s (freedom k) angular fs (map look m) (fun b => vadd P (mulv Q b)) tape (params ++ inputs ++ tangents) (map place built) good W1 W2 RE q d q1 q2 q3 SEES) as met.
+    rewrite !map_map in met. exact (reached_aside _ _ _ _ _ _ _ _ _ _ _ met).
 Qed.
 
 (** ** Claims that are about something *)
@@ -695,15 +746,15 @@ Definition least_driven (d : any_drive) : exact_driven :=
   | RotaryDrive a => XRotary (ExactArm (leasts (axis_within a)) (leasts (reference_within a)) (leasts (anchor_within a)) (leasts (platform_within a))
       (least (arm_within a)) (least (rod_within a)) (is_positive_mode a))
   end.
-Definition certify_driven (exact bits : positive) (c : driven_claim) (s : Z) (ds : list (Z * Z)) (t : tree) : bool :=
+Definition certify_driven (exact bits : positive) (one_matrix : N * list (list Z)) (one_place : nat) (c : driven_claim) (s : Z) (ds : list (Z * Z)) (t : tree) : bool :=
   all_exact exact (drives c) (map least_driven (drives c)) && is_in exact (place_of c) (some_point (place_of c)) &&
-  match turned_by c with Some o => forallb (is_met exact) (angles_of o) | None => true end && check_driven bits c s ds t.
+  match turned_by c with Some o => forallb (is_met exact) (angles_of o) | None => true end && check_driven bits one_matrix one_place c s ds t.
 
-Theorem certify_driven_sound : forall exact bits c s ds t, certify_driven exact bits c s ds t = true ->
+Theorem certify_driven_sound : forall exact bits one_matrix one_place c s ds t, certify_driven exact bits one_matrix one_place c s ds t = true ->
   driven_holds c /\ exists m P Q, is_about_driven c m P Q.
 Proof.
-  intros exact bits c s ds t h. apply andb_true_iff in h as [h k]. apply andb_true_iff in h as [h o]. apply andb_true_iff in h as [l p].
-  split; [exact (check_driven_sound bits c s ds t k) |]. destruct (all_exact_sound exact _ _ l) as [m _]. apply (is_in_sound exact) in p.
+  intros exact bits one_matrix one_place c s ds t h. apply andb_true_iff in h as [h k]. apply andb_true_iff in h as [h o]. apply andb_true_iff in h as [l p].
+  split; [exact (check_driven_sound bits one_matrix one_place c s ds t k) |]. destruct (all_exact_sound exact _ _ l) as [m _]. apply (is_in_sound exact) in p.
   assert (T : exists Q, match turned_by c with Some o => in_orientations o Q | None => Q = midentity end)
     by (destruct (turned_by c) as [a |]; [exact (some_orientation exact _ o) | exists midentity; reflexivity]).
   destruct T as [Q hQ]. eexists; eexists; exists Q. split; [exact m | split; [exact p | exact hQ]].

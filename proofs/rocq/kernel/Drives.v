@@ -5,7 +5,7 @@
 
 From Coq Require Import ZArith Reals Lra Lia List Bool.
 From Orthocert Require Import Vec3 SingularValues Kinematics Fixed Claim.
-From Orthocert.kernel Require Import Elbow Statement Linear Test Number Formula Machine Problem Witness Orientation Turning Control Chart Bend Onward Pose Configuration Arm Legs.
+From Orthocert.kernel Require Import Elbow Statement Linear Test Number Formula Machine Problem Witness Orientation Turning Control Chart Bend Onward Pose Configuration Arm Legs Poses.
 Import ListNotations.
 Local Open Scope R_scope.
 Local Notation length := Datatypes.length.
@@ -81,7 +81,7 @@ Definition drives_as (b : drive_formulas) (l : driven) (C : vec) : Prop :=
       match b_rod b with
       | Some (e2, len) => exists A eta L, own_rod l C = Some (A, eta, L) /\ value e2 = (u * eta) ^ 2 /\ value len = u * L /\ val3 (b_A b) = vscale u A
       | None => True
-      end)).
+      end /\ (is_plane l \/ val3 (b_A b) = vscale u (vsub (vadd C (offset l)) (driven_end l C))))).
 
 Lemma u_pos : 0 < u.
 Proof. apply Rinv_0_lt_compat, two_to_pos. Qed.
@@ -118,7 +118,7 @@ Proof.
     { rewrite D. unfold eta. rewrite !Rpow_mult_distr, (s_squared l C reach), hm. destruct mode; ring. }
     assert (A : val3 (map2 plus er (Machine.scaled ee n)) = vscale u (leg_vector l C)).
     { rewrite val3_plus, val3_scaled, R, E, hn, leg_vector_eq. unfold vadd, vscale. cbn [vx vy vz]. f_equal; ring. }
-    split; [| split; [| split]].
+    split; [| split; [| split; [| split; [| right; exact A]]]].
     + exists (u * eta l C). split; [symmetry; exact Sq |]. rewrite A, leg_vector_eq. unfold Jinv_row. generalize (r l C) (axis l). intros p q.
       unfold vadd, vscale. cbn [vx vy vz]. f_equal; field; exact e0.
     + rewrite val3_plus, val3_divided, R, E, hn. unfold Jinv_row. generalize (r l C) (axis l). intros p q. unfold vadd, vscale. cbn [vx vy vz]. f_equal; field; split; try exact e0; lra.
@@ -143,7 +143,7 @@ Proof.
   - cbn [divided_by ex]. intro h. apply defined_over in h. rewrite L in h. destruct (norm2_nonneg (span base platform C)) as [p | z]; [exact p |].
     exfalso. apply h. rewrite <- z, sqrt_0. ring.
   - intro reach. pose proof (sqrt_lt_R0 _ reach) as s0. assert (S : sqrt (norm2 (span base platform C)) ^ 2 = norm2 (span base platform C)) by (rewrite <- Rsqr_pow2; apply Rsqr_sqrt; lra).
-    split; [| split; [| split; [exact L | exact I]]].
+    split; [| split; [| split; [exact L | split; [exact I | right; exact hw]]]].
     + exists (u * sqrt (norm2 (span base platform C))). split; [rewrite D, Rpow_mult_distr, S; reflexivity |]. rewrite hw. unfold normalised. set (h := span base platform C) in *. clearbody h. unfold vscale. cbn [vx vy vz]. f_equal; field; lra.
     + rewrite val3_divided, L, hw. unfold normalised. set (h := span base platform C) in *. clearbody h. unfold vscale. cbn [vx vy vz]. f_equal; field; lra.
 Qed.
@@ -156,7 +156,7 @@ Proof.
   - intros h z. subst n. inversion h as [| ? ? h1 _]; subst. apply defined_root' in h1. rewrite value_dot, hd in h1. unfold Vec3.dot, vscale, vzero in h1. cbn in h1. lra.
   - intros _. cbn. lra.
   - intros _. split; [exists 1; split; [cbn; ring |]; rewrite hn; unfold vscale; destruct (normalised n) as [n1 n2 n3]; cbn [vx vy vz]; f_equal; ring |].
-    split; [rewrite hn; unfold vscale; destruct (normalised n) as [n1 n2 n3]; cbn [vx vy vz]; f_equal; ring |]. split; [| exact I].
+    split; [rewrite hn; unfold vscale; destruct (normalised n) as [n1 n2 n3]; cbn [vx vy vz]; f_equal; ring |]. split; [| split; [exact I | left; exact I]].
     cbn [joint_is]. rewrite value_dot, hn, hw. unfold Vec3.dot, vscale. cbn [vx vy vz]. ring.
 Qed.
 
@@ -240,7 +240,7 @@ Proof.
       { unfold A. rewrite val3_minus, val3_scaled, val3_plus, !val3_scaled, Vc, Vsn, hw, Ee, Ef, hr.
         unfold Arm.rod, Arm.elbow, from_motor. generalize (motor_zero l) (quarter l). intros a0 b0. unfold vsub, vadd, vscale. cbn [vx vy vz]. f_equal; ring. }
       assert (UT : two_to s = / u) by (unfold u; rewrite Rinv_inv; reflexivity).
-      split; [| split; [| split]].
+      split; [| split; [| split; [| split; [| right; exact VA]]]].
       * exists (u ^ 2 * (arm_length l * arm_eta l C)). split; [rewrite VD, <- E2; ring |]. rewrite VA, UT. unfold arm_row, vscale. cbn [vx vy vz]. f_equal; field; repeat split; try exact h0; lra.
       * rewrite val3_divided, VA, Vs, UT. unfold arm_row, vscale. cbn [vx vy vz]. f_equal; field; repeat split; try exact h0; lra.
       * cbn [joint_is]. split; [exact Vc | exact Vsn].
@@ -263,8 +263,9 @@ Definition driven_layout (s : Z) (d : Z * Z) (dr : any_drive) : list parameter :
       [(arm_within a, s); (rod_within a, s)]
   end.
 
+(** [d_origin]: of a leg's vector, with its moment about the origin. *)
 Record pose_formulas := PoseFormulas { d_A : list formula; d_D : formula; d_divided : list formula; d_joint : ejoint;
-  d_vector : list formula; d_rod : option (formula * formula); d_built : list formula }.
+  d_vector : list formula; d_rod : option (formula * formula); d_built : list formula; d_origin : list formula }.
 
 Section Formulas.
 Variables (k : mobility) (turn : option (emat * formula)) (ell : formula) (s : Z).
@@ -282,7 +283,8 @@ Definition drive_at (dr : any_drive) (q : list formula) : drive_formulas * evec 
   end.
 Definition pose_of (b : drive_formulas) (r : evec) : pose_formulas :=
   let row a := evelocities k a (divided_by (ecross r a) ell) in
-  PoseFormulas (row (b_A b)) (b_D b) (row (b_divided b)) (b_joint b) (ecomponents k (b_A b)) (b_rod b) (b_built b).
+  PoseFormulas (row (b_A b)) (b_D b) (row (b_divided b)) (b_joint b) (ecomponents k (b_A b)) (b_rod b) (b_built b)
+    (evelocities k (b_A b) (ecross (map2 plus (eplace k) r) (b_A b))).
 Fixpoint all_driven (ds : list (Z * Z)) (drs : list any_drive) (j : nat) : list pose_formulas :=
   match drs with
   | [] => []
@@ -306,7 +308,7 @@ Definition stands_in (x theta : list R) (s : Z) (k : mobility) (L : R) (P : vec)
       match d_rod f with
       | Some (e2, len) => exists q, driven_rod k P Q l = Some q /\ value e2 = (u * rod_eta q) ^ 2 /\ value len = u * rod_size q /\ map value (d_vector f) = map (Rmult u) (rod_vector q)
       | None => True
-      end)).
+      end /\ (is_plane l \/ map value (d_origin f) = map (Rmult u) (about_origin k u (as_strut P Q l) P Q)))).
 
 Section Values.
 Variables x theta : list R.
@@ -340,14 +342,27 @@ Proof.
   - rewrite twist_values, ha, (T m eq_refl). apply twist_scaled.
 Qed.
 
+Lemma origin_is : forall a r l, val3 a = vscale u (vsub (vadd (carried l P Q) (offset l)) (driven_end l (carried l P Q))) -> val3 r = vscale u (mulv Q (offset l)) ->
+  map value (evelocities k a (ecross (map2 plus (eplace k) r) a)) = map (Rmult u) (about_origin k u (as_strut P Q l) P Q).
+Proof.
+  intros a r l ha hr. rewrite <- as_strut_vector in ha. set (S := as_strut P Q l) in *.
+  assert (M : val3 (ecross (map2 plus (eplace k) r) a) = vscale u (vscale u (cross (strut_base S) (strut_vector S P Q)))).
+  { rewrite val3_cross, val3_plus, place_is, hr, ha. unfold strut_vector, arm_of_joint. change (strut_joint S) with (offset l). generalize (mulv Q (offset l)) (strut_base S). intros [b1 b2 b3] [e1 e2 e3].
+    destruct P as [p1 p2 p3]. unfold vscale, cross, vadd, vsub. cbn [vx vy vz]. f_equal; ring. }
+  unfold about_origin. cbv zeta. set (A := strut_vector S P Q) in *. set (B := cross (strut_base S) A) in *. clearbody A B.
+  assert (E : forall v w, map value (evelocities k v w) = velocities k (val3 v) (val3 w)) by (intros v w; destruct k as [| | []]; reflexivity).
+  rewrite E, ha, M. destruct k as [| | []]; reflexivity.
+Qed.
+
 Lemma pose_stands : forall b r l, drives_as x theta s b l (carried l P Q) -> val3 r = vscale u (mulv Q (offset l)) ->
   stands_in x theta s k L P Q (pose_of k ell b r) l.
 Proof.
-  intros b r l [B H] hr. unfold stands_in. cbv zeta. cbn [pose_of d_A d_D d_divided d_joint d_vector d_rod d_built].
+  intros b r l [B H] hr. unfold stands_in. cbv zeta. cbn [pose_of d_A d_D d_divided d_joint d_vector d_rod d_built d_origin].
   split; [exact B |]. intro ok. destruct (H ok) as [H1 [H2 [H3 H4]]]. split; [exact H1 |]. split; [exact H2 |]. split.
   - intros D nk. apply H3. destruct k as [| | []]; cbn [evelocities etwist list_of] in D; try (inversion D; assumption). contradiction nk; reflexivity.
-  - intro reach. destruct (H4 reach) as [[q [q2 qA]] [D [J R0]]]. split; [exists q; split; [exact q2 | exact (row_is _ _ _ _ qA hr)] |].
-    split; [exact (row_is _ _ _ _ D hr) |]. split; [exact J |]. destruct (b_rod b) as [[e2 len] |]; [| exact I].
+  - intro reach. destruct (H4 reach) as [[q [q2 qA]] [D [J [R0 O]]]]. split; [exists q; split; [exact q2 | exact (row_is _ _ _ _ qA hr)] |].
+    split; [exact (row_is _ _ _ _ D hr) |]. split; [exact J |]. split; [| destruct O as [O | O]; [left; exact O | right; exact (origin_is _ _ _ O hr)]].
+    destruct (b_rod b) as [[e2 len] |]; [| exact I].
     destruct R0 as [A [eta [size [o [v1 [v2 v3]]]]]]. exists (Rod (components k A) eta size). split; [unfold driven_rod; rewrite o; reflexivity |].
     cbn [rod_eta rod_size rod_vector]. split; [exact v1 |]. split; [exact v2 |]. unfold Chart.val3, vscale in v3. injection v3 as a1 a2 a3.
     destruct k; cbn [ecomponents components list_of map coordinates]; rewrite ?a1, ?a2, ?a3; reflexivity.

@@ -37,6 +37,9 @@ Definition own_row (l : driven) (C : vec) : vec := match l with Linear k => row 
 Definition own_joint (l : driven) (C : vec) : coordinate :=
   match l with Linear k => Length (joint k C) | Rotary k => Angle (arm_cosine k C) (arm_sine k C) end.
 Definition own_reach (l : driven) (C : vec) : Prop := match l with Linear k => reaches C k | Rotary k => arm_reaches k C end.
+(** Where the driven end is, of planes nowhere. *)
+Definition driven_end (l : driven) (C : vec) : vec :=
+  match l with Linear (Guided k) => B_point k C | Linear (Extensible a _ _) => a | Linear (Plane _) => vzero | Rotary k => elbow k C end.
 (** The vector of a leg of fixed length, eta, and its length. *)
 Definition own_rod (l : driven) (C : vec) : option (vec * R * R) :=
   match l with
@@ -96,9 +99,11 @@ Inductive any_drive := LinearDrive (d : drive) | RotaryDrive (d : arm_drive).
 Definition is_driven (d : any_drive) (l : driven) : Prop :=
   match d, l with LinearDrive d, Linear l => is_leg_of d l | RotaryDrive d, Rotary l => is_arm d l | _, _ => False end.
 
-(** In the plane z is 0 of all points; about a fixed point, the platform's is the origin. *)
+(** In the plane z is 0 of all points; about a fixed point, the platform's is the origin. [only_pose]: no two poses of the workspace have the
+    same joint coordinates. *)
 Record driven_claim := MakeDrivenClaim {
-  mobility_of : mobility; drives : list any_drive; length_of : number; place_of : region; turned_by : option orientations; driven_demands : list demand
+  mobility_of : mobility; drives : list any_drive; length_of : number; place_of : region; turned_by : option orientations; driven_demands : list demand;
+  only_pose : bool
 }.
 Definition is_pose (c : driven_claim) (P : vec) (Q : mat) : Prop :=
   in_region (place_of c) P /\ match turned_by c with Some o => in_orientations o Q | None => Q = midentity end.
@@ -107,7 +112,8 @@ Definition meets_driven (c : driven_claim) (m : list driven) (P : vec) (Q : mat)
   Configuration.meets (freedom (mobility_of c)) (legs_at (mobility_of c) (value (length_of c)) m P Q) (driven_demands c).
 
 (** Every machine of the claim can be built, and meets it in every pose. *)
-Definition driven_holds (c : driven_claim) : Prop := forall m P Q, is_about_driven c m P Q -> Forall well_formed_driven m /\ meets_driven c m P Q.
+Definition driven_holds (c : driven_claim) : Prop := forall m P Q, is_about_driven c m P Q -> Forall well_formed_driven m /\ meets_driven c m P Q /\
+  (only_pose c = true -> forall P' Q', is_pose c P' Q' -> Forall (fun l => own_joint l (carried l P' Q') = own_joint l (carried l P Q)) m -> P' = P /\ Q' = Q).
 
 (** ** A machine and a pose in exact numbers *)
 

@@ -377,11 +377,12 @@ Definition eplaced (k : motion) (N : emat) (w : formula) (b : evec) : evec := ma
 Definition limb (k : motion) (N : emat) (w : formula) (a b : evec) : evec * evec * formula :=
   let tip := eplaced k N w b in let A := map2 minus tip a in (tip, A, root (Machine.product A A)).
 
-(** [A, a x A]: of a strut in space, its vector w A with its moment about the origin, of which a is the base end. *)
-Definition origin_row (a : evec) (row : list formula * formula) : list formula * formula :=
-  match fst row with
-  | x :: y :: z :: _ => let m := ecross a (EVec x y z) in ([x; y; z; ex m; ey m; ez m], snd row)
-  | A => (A, snd row)
+(** [A, a x A]: of a strut its vector w A with its moment about the origin, of which a is the base end; about a fixed point that is its row. *)
+Definition origin_row (k : motion) (a : evec) (row : list formula * formula) : list formula * formula :=
+  match k, fst row with
+  | InPlane, x :: y :: _ => ([x; y; ez (ecross a (EVec x y (integer 0)))], snd row)
+  | InSpace, x :: y :: z :: _ => let m := ecross a (EVec x y z) in ([x; y; z; ex m; ey m; ez m], snd row)
+  | _, A => (A, snd row)
   end.
 
 (** ** What they stand for *)
@@ -564,17 +565,22 @@ Proof.
   rewrite value_root, value_dot, A, <- norm2_dot, norm2_scale, sqrt_resized by exact r0. reflexivity.
 Qed.
 
-Lemma origin_row_values : k = InSpace -> map (Formula.value x theta) (fst (origin_row a (scaled_row k N we le a b))) = map (Rmult (W * r)) (about_origin r l P Q).
+Definition origin_scale : R := match k with AboutPoint => W / L | _ => W * r end.
+Lemma origin_scale_pos : 0 < origin_scale.
+Proof. clear - r0 W0 L0. unfold origin_scale. destruct k; [exact (Rmult_lt_0_compat _ _ W0 r0) | exact (Rmult_lt_0_compat _ _ W0 r0) | exact (Rdiv_lt_0_compat _ _ W0 L0)]. Qed.
+Lemma origin_row_values : is_position k P ->
+  map (Formula.value x theta) (fst (origin_row k a (scaled_row k N we le a b))) = map (Rmult origin_scale) (about_origin (Legs.Turns k) r l P Q).
 Proof.
-  intro hk. pose proof scaled_row_values as S. rewrite hk in *. unfold scaled_row in *. cbv zeta in *. destruct S as [_ S].
-  set (A := way _ _ _ _ _ _) in *. cbn [etwist twist map fst origin_row] in *. set (q := strut_vector l P Q) in *.
-  pose proof (f_equal (fun u => nth 0 u 0) S) as s1. pose proof (f_equal (fun u => nth 1 u 0) S) as s2. pose proof (f_equal (fun u => nth 2 u 0) S) as s3.
-  cbn [nth map] in s1, s2, s3. clear S.
-  assert (V : val3 x theta (EVec (ex A) (ey A) (ez A)) = vscale (W * r) q) by (unfold val3, vscale; cbn [ex ey ez]; rewrite s1, s2, s3; reflexivity).
-  pose proof (val3_cross x theta a (EVec (ex A) (ey A) (ez A))) as M. rewrite V, ha in M. unfold about_origin. fold q.
-  pose proof (f_equal vx M) as m1. pose proof (f_equal vy M) as m2. pose proof (f_equal vz M) as m3. cbn [vx vy vz val3] in m1, m2, m3.
-  cbv zeta. unfold coordinates. cbn [map app vx vy vz vscale]. rewrite s1, s2, s3, m1, m2, m3.
-  generalize (strut_base l) q. clear. intros [b1 b2 b3] [q1 q2 q3]. unfold cross, vscale. cbn [vx vy vz]. repeat (f_equal; try ring).
+  intro place. pose proof scaled_row_values as S. unfold origin_scale, about_origin. cbv zeta. unfold scaled_row in *. cbv zeta in *. destruct S as [_ S].
+  set (A := way _ _ _ _ _ _) in *. remember (strut_vector l P Q) as q eqn:Eq. unfold strut_vector in Eq. remember (arm_of_joint l Q) as n eqn:En. clear En. clearbody A. set (B := divided_by _ _) in *. clearbody B. destruct k; cbn [etwist twist map fst origin_row is_position Legs.velocities] in *; injection S as s1 s2 s3.
+  - pose proof (val3_cross x theta a (EVec (ex A) (ey A) (integer 0))) as M. rewrite ha in M. apply (f_equal vz) in M. cbn [vz val3 ex ey ez] in M. rewrite M. unfold val3. cbn [ex ey ez]. rewrite s1, s2.
+    clear. generalize (strut_base l) q. intros [b1 b2 b3] [q1 q2 q3]. unfold cross, vscale. cbn [vx vy vz]. repeat (f_equal; try ring).
+  - assert (V : val3 x theta (EVec (ex A) (ey A) (ez A)) = vscale (W * r) q) by (unfold val3, vscale; cbn [ex ey ez]; rewrite s1, s2, s3; reflexivity).
+    pose proof (val3_cross x theta a (EVec (ex A) (ey A) (ez A))) as M. rewrite V, ha in M.
+    pose proof (f_equal vx M) as m1. pose proof (f_equal vy M) as m2. pose proof (f_equal vz M) as m3. cbn [vx vy vz val3] in m1, m2, m3.
+    rewrite s1, s2, s3, m1, m2, m3. clear. generalize (strut_base l) q. intros [b1 b2 b3] [q1 q2 q3]. unfold cross, vscale. cbn [vx vy vz]. repeat (f_equal; try ring).
+  - rewrite s1, s2, s3. rewrite Eq, place. clear - L0. generalize (strut_base l) n. intros [b1 b2 b3] [q1 q2 q3].
+    unfold cross, vscale, vsub, vadd, vzero. cbn [vx vy vz]. repeat (apply f_equal2; [field; lra |]). reflexivity.
 Qed.
 End Row.
 
@@ -600,10 +606,6 @@ Section Precision.
 Variable bits : positive.
 (** Of claims that no two poses have the same lengths: the one matrix, and before which other test this is counted. *)
 Variables (one_matrix : N * list (list Z)) (one_place : nat).
-(** In space, of turns about any axis that are less than 90 degrees: two of them differ by less than half a turn. *)
-Definition is_less_than_quarter (k : motion) (o : orientations) : bool :=
-  match k, o with InSpace, TurnedUpTo a => certainly bits true (Minus (90 // 1) a) | _, _ => false end.
-
 (** Of a pose, with the formulas of its struts. *)
 Section Asked.
 Variables (s : Z) (k : motion) (N : emat) (w : formula) (zs : list posed_strut) (ell : formula) (ps : list parameter).
@@ -759,7 +761,7 @@ Definition check_turning (c : turning_claim) (s : Z) (t : tree) : bool :=
   let (N, w) := chart (turned c) (first_angle k) in let ell := quantity pl (length lay) in
   let zs := each_strut (formulas_of k N w ell (length lay)) s (struts c) 0 in let rows := map z_row zs in
   let g := curve (turned c) (first_angle k) (j + length ins) in
-  let about := if one_pose c then each_strut (fun a b => origin_row a (scaled_row k N w (quantity pl (length lay)) a b)) s (struts c) 0 else [] in
+  let about := if one_pose c then each_strut (fun a b => origin_row k a (scaled_row k N w (quantity pl (length lay)) a b)) s (struts c) 0 else [] in
   let wanted := entries rows ++ w :: of_each (own_formulas k w zs ell (lay ++ [pl])) false s j ds ++ match g with Some g => [g] | None => [] end ++ entries about in
   let others := of_each (plain_formulas k N w zs (lay ++ [pl])) false s j ds in
   let tape := fst (compile (map (image m) wanted)) in let plain := fst (compile others) in
@@ -768,7 +770,7 @@ Definition check_turning (c : turning_claim) (s : Z) (t : tree) : bool :=
   let ends_for r := match positions c with Box _ => ends_of fs m k r (place w) (option_map place g) | _ => O end in let ends := ends_for (map_rows place rows) in
   forallb (fun f => Formula.same (nth (place f) fs (integer 0)) (image m f)) wanted && forallb (is_below m) wanted &&
   forallb (fun f => Formula.same (nth (Formula.place plain_fs f) plain_fs (integer 0)) f) others &&
-  existsb excludes ds && (negb (one_pose c) || is_less_than_quarter k (turned c)) && is_flat k (hull (positions c)) && certainly bits true (characteristic_length c) &&
+  existsb excludes ds && (negb (one_pose c) || turns_less bits (Legs.Turns k) (Some (turned c))) && is_flat k (hull (positions c)) && certainly bits true (characteristic_length c) &&
   forallb (fun t => is_angle_number bits (least t) && is_angle_number bits (greatest t)) (angles_of (turned c)) &&
   match all_some (map (enclose_parameter bits) (lay ++ [pl])), all_some (map (enclose_input bits) ins),
         all_some (map (fun t => enclose_parameter bits (t, s)) (position_tolerances k (hull (positions c)))),
@@ -1029,12 +1031,12 @@ Proof.
   set (pl := (exactly (characteristic_length c), s)) in *. set (j := S (length lay)) in *. set (ell := quantity pl (length lay)) in *. set (ins := flat_map (inputs_of false s) ds) in *.
   set (zs := each_strut (formulas_of k N w ell (length lay)) s ts 0) in *. set (rows := map z_row zs) in *.
   set (g := curve (turned c) (first_angle k) (j + length ins)) in *. set (gs := match g with Some g => [g] | None => [] end) in *.
-  set (about := if one_pose c then each_strut (fun a b => origin_row a (scaled_row k N w ell a b)) s ts 0 else []) in *.
+  set (about := if one_pose c then each_strut (fun a b => origin_row k a (scaled_row k N w ell a b)) s ts 0 else []) in *.
   set (wanted := entries rows ++ w :: of_each (own_formulas k w zs ell (lay ++ [pl])) false s j ds ++ gs ++ entries about) in *. set (others := of_each (plain_formulas k N w zs (lay ++ [pl])) false s j ds) in *.
   set (tape := fst (compile (map (image (dimension k)) wanted))) in *. set (place := fun f => Formula.place (formulas tape) (image (dimension k) f)) in *.
   set (plain := fst (compile others)) in *. set (plain_place := Formula.place (formulas plain)) in *.
   apply andb_true_iff in h as [h C]. apply andb_true_iff in h as [h ang]. apply andb_true_iff in h as [h L0].
-  apply andb_true_iff in h as [h flat]. apply andb_true_iff in h as [h quarter]. apply andb_true_iff in h as [h ex]. apply andb_true_iff in h as [h there]. apply andb_true_iff in h as [found below_].
+  apply andb_true_iff in h as [h flat]. apply andb_true_iff in h as [h below_half]. apply andb_true_iff in h as [h ex]. apply andb_true_iff in h as [h there]. apply andb_true_iff in h as [found below_].
   destruct (all_some (map (enclose_parameter bits) _)) as [params |] eqn:ep; [| discriminate].
   destruct (all_some (map (enclose_input bits) _)) as [inputs |] eqn:ei; [| discriminate].
   destruct (all_some (map _ (position_tolerances _ _))) as [box |] eqn:eb; [| discriminate].
@@ -1065,11 +1067,13 @@ Proof.
     rewrite app_nth2_plus. unfold ts_. destruct (turned c); cbn [curved] in *; try contradiction; destruct i as [-> | []]; reflexivity. }
   (* at one pose *)
   enough (At : forall P Q, in_region (positions c) P /\ in_orientations (turned c) Q -> meets_turning c m P Q /\ (one_pose c = true ->
-    exists u, rodrigues u = mscale (1 + norm2 u) Q /\ norm2 u < 1 /\
-      forall v, length v = 6%nat -> nonzero v -> 0 < form (lower_weights (fst one_matrix) (snd one_matrix) v) (map (fun l => (about_origin (/ two_to s) l P Q, 0)) m) v)).
-  { split; [exact (proj1 (At P Q hPQ)) |]. intros o P' Q' hP' hQ' same. destruct (proj2 (At P Q hPQ) o) as [u [u1 [u2 u3]]].
-    destruct (proj2 (At P' Q' (conj hP' hQ')) o) as [v [v1 [v2 v3]]].
-    apply (poses_differ (/ two_to s) (fst one_matrix) (snd one_matrix) m P Q u P' Q' v); try assumption. apply Rinv_neq_0_compat, Rgt_not_eq, two_to_pos. }
+    forall v, length v = dimension k -> nonzero v -> 0 < form (lower_weights (fst one_matrix) (snd one_matrix) v) (map (fun l => (about_origin (Legs.Turns k) (/ two_to s) l P Q, 0)) m) v)).
+  { split; [exact (proj1 (At P Q hPQ)) |]. intros o P' Q' hP' hQ' same. rewrite o in below_half. destruct hPQ as [hP hQ].
+    destruct (turns_less_sound _ bits _ _ Q Q' below_half hQ hQ') as [v [tv mv]].
+    apply (poses_differ (Legs.Turns k) (/ two_to s) (fst one_matrix) (snd one_matrix) m P Q P' Q' v); try assumption; try exact (proj2 (At P Q (conj hP hQ)) o); try exact (proj2 (At P' Q' (conj hP' hQ')) o).
+    - apply Rinv_neq_0_compat, Rgt_not_eq, two_to_pos.
+    - exact (flat_position k _ P flat (hull_sound _ _ hP)).
+    - exact (flat_position k _ P' flat (hull_sound _ _ hP')). }
   clear P Q hPQ. intros P Q [hP hQ]. apply hull_sound in hP. destruct (chart_sound _ _ hQ ok) as [cs [W [hcs [W0 CH]]]].
   set (x := map (Rmult (/ two_to s)) (position_list k P) ++ cs).
   assert (X : Forall2 (contains bits) (box ++ angles) x) by (apply Forall2_app; [exact (position_boxes k _ P s box hP eb) | exact (box_sound bits _ cs angles ok hcs ea)]).
@@ -1099,11 +1103,12 @@ Proof.
     exact (bend_accelerates x theta (length lay) k l P Q ratio L ell a b _ C A len_ _ r0 L0 hn ha' Da hl hr (eq_sym e2) (eq_sym e3) (eq_sym e4) reach_). }
   assert (ST : Forall2 (stands x theta k P Q W ratio L) rows m)
     by (unfold rows; clear - ZS; induction ZS as [| z l zs' m' [h _] hs IH]; constructor; assumption).
-  assert (ORIGIN : k = InSpace -> map (fun row => map (Formula.value x theta) (fst row)) (each_strut (fun a b => origin_row a (scaled_row k N w ell a b)) s ts 0) =
-    map (fun l => map (Rmult (W * ratio)) (about_origin ratio l P Q)) m).
-  { intro hk. assert (F : Forall2 (fun row l => map (Formula.value x theta) (fst row) = map (Rmult (W * ratio)) (about_origin ratio l P Q)) (each_strut (fun a b => origin_row a (scaled_row k N w ell a b)) s ts 0) m).
+  set (scale := origin_scale k W ratio L). assert (scale0 : 0 < scale) by exact (origin_scale_pos k W ratio L r0 W0 L0).
+  assert (ORIGIN : map (fun row => map (Formula.value x theta) (fst row)) (each_strut (fun a b => origin_row k a (scaled_row k N w ell a b)) s ts 0) =
+    map (fun l => map (Rmult scale) (about_origin (Legs.Turns k) ratio l P Q)) m).
+  { assert (F : Forall2 (fun row l => map (Formula.value x theta) (fst row) = map (Rmult scale) (about_origin (Legs.Turns k) ratio l P Q)) (each_strut (fun a b => origin_row k a (scaled_row k N w ell a b)) s ts 0) m).
     { apply (RS _ _ _ []). intros a b l [Ha _] [Hb _]. cbn [app] in Ha, Hb. pose proof (Ha x ([ratio * L] ++ map input_value ins ++ ts_)) as hsa. pose proof (Hb x ([ratio * L] ++ map input_value ins ++ ts_)) as hsb. fold theta in hsa, hsb.
-      exact (origin_row_values x theta k P Q W ratio L N a b w ell l r0 L0 keeps hPv hN hw hl hsa hsb hk). }
+      exact (origin_row_values x theta k P Q W ratio L N a b w ell l r0 L0 keeps hPv hN hw hl hsa hsb (flat_position k _ P flat hP)). }
     clear - F. induction F as [| row l rs m' h hs IH]; [reflexivity |]. cbn [map]. rewrite h, IH. reflexivity. }
   (* the tape *)
   rewrite forallb_forall in found, below_, there.
@@ -1216,30 +1221,16 @@ Proof.
   assert (INJ : Configuration.injective (dimension k) conf).
   { intros v lv nv. specialize (low_ v lv nv). unfold nonzero in nv. assert (0 <= kappa * Linear.dot v v) by (apply Rmult_le_pos; lra). lra. }
   split.
-  2: { intro o. rewrite o in quarter. cbn [negb orb] in quarter. unfold is_less_than_quarter in quarter.
-    destruct k eqn:ek; try discriminate. destruct (turned c) as [| | a |] eqn:et'; try discriminate. apply positive_sound in quarter. cbn [Claim.value] in quarter.
-    cbn [chart] in ch. injection ch as chN chw. set (u' := EVec (F (Coord (first_angle InSpace + 0))) (F (Coord (first_angle InSpace + 1))) (F (Coord (first_angle InSpace + 2)))) in *.
-    set (u := val3 x theta u'). assert (EW : W = 1 + norm2 u).
-    { rewrite <- hw, <- chw, value_plus, value_dot. fold u. rewrite <- norm2_dot. reflexivity. }
-    exists u. rewrite <- EW. split; [rewrite <- hN, <- chN, valm_rodrigues; reflexivity |]. split.
-    - pose proof (hg _ eq_refl) as G. rewrite value_minus, Formula.value_square, value_dot, <- norm2_dot in G. change (val3 x theta (EVec _ _ _)) with u in G.
-      specialize (tangent_at a (or_introl eq_refl)). cbn [Formula.value map_op real_op] in G. rewrite tangent_at in G.
-      destruct hQ as [e [b [_ [ab _]]]]. inversion ok as [| ? ? [_ ia] _]; subst. cbn [either_way greatest] in ia. destruct (tangent_is _ ia) as [CO _].
-      assert (CP : 0 < cos (in_degrees (Claim.value a))) by (pose proof PI_RGT_0; apply cos_gt_0; unfold in_degrees; nra).
-      set (t2 := tangent (Claim.value a) ^ 2) in *. assert (t0 : 0 <= t2) by apply pow2_ge_0. rewrite CO in CP.
-      enough (t2 < 1) by lra. apply Rnot_le_lt. intro n. assert ((1 - t2) / (1 + t2) <= 0); [| lra].
-      unfold Rdiv. rewrite <- (Rmult_0_l (/ (1 + t2))). apply Rmult_le_compat_r; [apply Rlt_le, Rinv_0_lt_compat; lra | lra].
-    - intros v lv nz. assert (IA : In (ChordsOf (map_rows place about) (place w) (fst one_matrix) (snd one_matrix)) all_tests)
+  2: { intros o v lv nz. assert (IA : In (ChordsOf (map_rows place about) (place w) (fst one_matrix) (snd one_matrix)) all_tests)
         by (unfold all_tests; rewrite o; apply inserted_in; left; reflexivity).
       pose proof (HT0 _ IA) as K. cbn [test_holds] in K. specialize (K v lv nz).
       rewrite RowsOf in K by (intros f i; apply in_or_app; right; right; do 2 (apply in_or_app; right); exact i).
-      specialize (ORIGIN eq_refl). assert (EA : map (fun p => (fst p, 0)) (map_rows (Formula.value x theta) about) =
-        map (fun l => (map (Rmult (W * ratio)) (about_origin (ratio) l P Q), 0)) m).
+      assert (EA : map (fun p => (fst p, 0)) (map_rows (Formula.value x theta) about) =
+        map (fun l => (map (Rmult scale) (about_origin (Legs.Turns k) ratio l P Q), 0)) m).
       { unfold map_rows. rewrite map_map. cbn [fst]. unfold about. rewrite o.
-        rewrite <- (map_map (fun l => map (Rmult (W * ratio)) (about_origin (ratio) l P Q)) (fun A => (A, 0))), <- (map_map (fun p => map (Formula.value x theta) (fst p)) (fun A => (A, 0))).
+        rewrite <- (map_map (fun l => map (Rmult scale) (about_origin (Legs.Turns k) ratio l P Q)) (fun A => (A, 0))), <- (map_map (fun p => map (Formula.value x theta) (fst p)) (fun A => (A, 0))).
         f_equal. exact ORIGIN. }
-      rewrite EA in K. set (q := W * ratio) in *. assert (q0 : 0 < q) by (apply Rmult_lt_0_compat; [exact W0 | exact r0]).
-      apply Rmult_lt_reg_l with q; [exact q0 |]. rewrite Rmult_0_r. match type of K with 0 < ?y => replace (q * _) with y; [exact K |] end.
+      rewrite EA in K. apply Rmult_lt_reg_l with scale; [exact scale0 |]. rewrite Rmult_0_r. match type of K with 0 < ?y => replace (scale * _) with y; [exact K |] end.
       clear. generalize (lower_weights (fst one_matrix) (snd one_matrix) v). induction m as [| l m' IH]; intros [| [y z] ws]; cbn [map form]; try ring.
       rewrite IH, dot_map. ring. }
   unfold meets_turning. fold k L ds conf. split; [exact reach_ |]. split; [exact INJ |]. apply Forall_forall. intros d id.

@@ -414,17 +414,28 @@ Proof.
   apply laplace_related; [apply zero_sound | apply Fixed.integer_sound | intros; apply sub_sound; assumption | intros; apply mul_sound; assumption | exact (all_rows_enclosed_sound bits _ _ e)].
 Qed.
 
-(** The determinants of the struts' rows, times their lengths, at two poses have opposite signs. *)
-Definition are_opposite (k : motion) (ell : number) (o : orientations) (ls : list exact_strut) (P : numbers) (c : list number) (P' : numbers) (c' : list number) : bool :=
-  let det P c := enclosed_determinant (dimension k) (map (xstrut_ray k ell o c P) ls) in
-  match det P c, det P' c' with
+Definition opposite (n : nat) (rows rows' : list (list number)) : bool :=
+  match enclosed_determinant n rows, enclosed_determinant n rows' with
   | Some a, Some b => (0 <? lo a)%Z && (hi b <? 0)%Z || (hi a <? 0)%Z && (0 <? lo b)%Z
   | _, _ => false
   end.
+Lemma opposite_sound : forall n rows rows', opposite n rows rows' = true -> detR n (map (map value) rows) * detR n (map (map value) rows') < 0.
+Proof.
+  intros n rows rows' opp. unfold opposite in opp.
+  destruct (enclosed_determinant _ rows) as [a |] eqn:ea; [| discriminate]. destruct (enclosed_determinant _ rows') as [b |] eqn:eb; [| discriminate].
+  apply enclosed_determinant_sound in ea, eb. set (x := detR _ _) in *. set (y := detR n (map (map value) rows')) in *.
+  assert (N : forall a x, (hi a <? 0)%Z = true -> contains bits a x -> x < 0).
+  { intros f z l [_ g]. apply Z.ltb_lt, IZR_lt in l. pose proof (unit_R_pos bits). nra. }
+  assert (Y : forall a x, (0 <? lo a)%Z = true -> contains bits a x -> 0 < x) by (intros f z l g; apply Z.ltb_lt in l; exact (contains_positive bits f z l g)).
+  apply orb_true_iff in opp as [q | q]; apply andb_true_iff in q as [q1 q2].
+  - pose proof (Y _ _ q1 ea). pose proof (N _ _ q2 eb). nra.
+  - pose proof (N _ _ q1 ea). pose proof (Y _ _ q2 eb). nra.
+Qed.
+
 Definition refute_between (c : turning_claim) (ls : list exact_strut) (P : numbers) (t : list number) (P' : numbers) (t' : list number) : bool :=
   all_struts bits (struts c) ls && Nat.eqb (length ls) (dimension (motion_of c)) && is_in bits (positions c) P && is_in bits (positions c) P' &&
   is_orientation bits (turned c) t && is_orientation bits (turned c) t' &&
-  are_opposite (motion_of c) (characteristic_length c) (turned c) ls P t P' t'.
+  let rays P t := map (xstrut_ray (motion_of c) (characteristic_length c) (turned c) t P) ls in opposite (dimension (motion_of c)) (rays P t) (rays P' t').
 
 Lemma ray_values : forall k ell o c P l, is_coordinate o (map value c) ->
   map value (xstrut_ray k ell o c P l) = strut_ray k (value ell) (strut_of l) (values P) (orientation_at o (map value c)).
@@ -459,18 +470,8 @@ Proof.
     { apply flows_scale; [apply flow_constant |]. apply flows_cross; [apply flow | exact W]. }
     destruct W as [? [? ?]], M as [? [? ?]]. unfold is_strut_path. cbv zeta. destruct k; repeat constructor; assumption.
   - unfold rows, m. rewrite !map_length. exact n.
-  - rewrite !V, A0, A1. unfold Q. rewrite e0, e1. unfold m. rewrite !map_map. unfold are_opposite in opp. cbv zeta in opp.
-    destruct (enclosed_determinant _ _) as [a |] eqn:ea in opp; [| discriminate]. destruct (enclosed_determinant _ _) as [b |] eqn:eb in opp; [| discriminate].
-    apply enclosed_determinant_sound in ea, eb. rewrite map_map in ea, eb.
-    rewrite (map_ext _ _ (fun l => ray_values k (characteristic_length c) _ _ P l o)) in ea.
-    rewrite (map_ext _ _ (fun l => ray_values k (characteristic_length c) _ _ P' l o')) in eb. fold ell in ea, eb.
-    set (x := detR _ _) in *. set (y := detR (dimension k) _) in *.
-    assert (N : forall a x, (hi a <? 0)%Z = true -> contains bits a x -> x < 0).
-    { intros f z l [_ g]. apply Z.ltb_lt, IZR_lt in l. pose proof (unit_R_pos bits). nra. }
-    assert (Y : forall a x, (0 <? lo a)%Z = true -> contains bits a x -> 0 < x) by (intros f z l g; apply Z.ltb_lt in l; exact (contains_positive bits f z l g)).
-    apply orb_true_iff in opp as [q | q]; apply andb_true_iff in q as [q1 q2].
-    + pose proof (Y _ _ q1 ea). pose proof (N _ _ q2 eb). nra.
-    + pose proof (N _ _ q1 ea). pose proof (Y _ _ q2 eb). nra.
+  - rewrite !V, A0, A1. unfold Q. rewrite e0, e1. unfold m. cbv zeta in opp. apply opposite_sound in opp. rewrite !map_map in opp |- *.
+    rewrite (map_ext _ _ (fun l => ray_values k (characteristic_length c) _ _ P l o)), (map_ext _ _ (fun l => ray_values k (characteristic_length c) _ _ P' l o')) in opp. fold ell in opp. lra.
   - exists m, (at_ u), (Q u). split.
     + split; [exact (all_struts_sound bits _ _ s) | split; [apply region_convex; assumption | apply is_coordinate_sound, on, hu]].
     + intros [_ [inj _]]. specialize (inj v lv nz). rewrite V, Forall_map in hv. apply Rlt_not_le in inj. apply inj. clear inj.

@@ -295,9 +295,9 @@ Qed.
 
 Definition of_joint (n : nat) (env : environment formula) (j : written_joint) (i : nat) : pose_formulas :=
   match j with
-  | ByRow es => let r := row_of env es i in PoseFormulas r (integer 1) r EUnknown [] None []
+  | ByRow es => let r := row_of env es i in PoseFormulas r (integer 1) r EUnknown [] None [] []
   | ByCoordinate e => let f := formula_of env e i in let (N, E) := coordinate_gradient n f in
-      PoseFormulas N (without_roots E) (map (fun a => if same a E then integer 1 else over a E) N) (ELength f) [] None []
+      PoseFormulas N (without_roots E) (map (fun a => if same a E then integer 1 else over a E) N) (ELength f) [] None [] []
   end.
 Fixpoint all_joints (n : nat) (env : environment formula) (js : list written_joint) (i : nat) : list pose_formulas :=
   match js with [] => [] | j :: js' => of_joint n env j i :: all_joints n env js' (i + length (joint_literals j)) end.

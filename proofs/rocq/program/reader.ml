@@ -467,12 +467,11 @@ let certificate text =
      not_covered [ "this set of orientations with such drives" ]
    | Legs_ (_, legs, _, _, _, rs), _ when List.exists (fun r -> r.about_ = Parallel_) rs && List.exists (function AnyStrut_ _ | AnyPlanar_ _ -> true | _ -> false) legs ->
      not_covered [ "\"parallel_margin\" of struts in such a claim" ]
-   | Turning_ (kind, _, _, _, orientation, _, rs), Nodes _ when List.exists (fun r -> r.about_ = OneToOne_) rs &&
-       (match kind, orientation with InSpace, Angle_ _ -> false | _ -> true) -> not_covered [ "\"one_to_one\" of this set of orientations" ]
-   | (Legs_ (_, _, _, _, _, rs) | Closed_ (_, _, rs)), Nodes _ when List.exists (fun r -> r.about_ = OneToOne_) rs -> not_covered [ "\"one_to_one\" of such a mechanism" ]
+   | Legs_ (_, legs, _, _, _, rs), Nodes _ when List.exists (fun r -> r.about_ = OneToOne_) rs && List.exists (function AnyPlanar_ _ -> true | _ -> false) legs ->
+     not_covered [ "\"one_to_one\" of planes in such a claim" ]
    | Turning_ (_, _, _, _, _, _, rs), Nodes (_, _, nodes) when not (List.for_all (fun n -> List.for_all (is_pose_step rs) n.by_) nodes) ->
      not_covered [ "a step of a platform that turns that is not at control points" ]
-   | Turning_ _, ByWitness (_, _, _, (Singular_ _ | Same_ _)) | Machine_ _, ByWitness (_, _, _, Same_ _) -> ()
+   | Turning_ _, ByWitness (_, _, _, (Singular_ _ | Same_ _)) | Machine_ _, ByWitness (_, _, _, (Singular_ _ | Same_ _)) | (Legs_ _ | Closed_ _), ByWitness (_, _, _, Singular_ _) -> ()
    | _, ByWitness (_, _, _, Same_ _) -> not_covered [ "the failure \"same\" of such a mechanism" ]
    | Atlas_ _, Cells cells when List.exists (function Disproved (_, _, _, Same_ _) -> true | _ -> false) cells -> not_covered [ "the failure \"same\" of such a mechanism" ]
    | _, ByWitness (_, _, _, how) when is_singular how -> not_covered [ "the failure \"singular\" of such a mechanism" ]

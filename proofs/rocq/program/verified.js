@@ -3,19 +3,19 @@
 globalThis!=="object"&&(this?b():(a.defineProperty(a.prototype,"_T_",{configurable:true,get:b}),_T_));function
 b(){var
 b=this||self;b.globalThis=b;delete
-a.prototype._T_}}(Object));(function(O){"use strict";var
-j4="spatial",rk="Invalid_argument",hw="precision",aN='"',j3=1255,ke="inside",qg="(",qh=0x800,rj="yaw",qd="range",qe="tree",qf="jsError",ci=0x8000,ri="sqrt(",qc=256,hv="obligation",rh="load",fK="offset",bp="machine",qb="End_of_file",eG="strut",j2="center",fJ="arm",j1="Failure",rg="serial_margin",hD="parameters",cM=0xff,rf="bodies",re="max_angle",kd="outside",fI="base_axis",j0="ENOENT",rd="singular",rc=122,qa="([^/]+)",rb="0",jZ=0xf,fH=128,p$=0xdc00,q$="Sys_blocked_io",ra="fd ",fA="given",p_="ENOTEMPTY",a1=248,hu="bound",p9="Division_by_zero",q9="by",q_=1027,p8="Sys_error",hC="slider",p7="torsion",q8="postulate",p6="proof",kc="joint_error",fG="refuted",ez="mechanism",ht="row",p5="EEXIST",q7="roll_pitch_yaw",fF="y",p4="cube",dm="lower",q6="within",p3="clearance",q5="turned",p2="control",hs="int_of_string",p1="between",q3="definitions",q4="dependent",fE=1024,pZ="from",p0="name",q2=" : flags Open_rdonly and Open_wronly are not compatible",pY="orthocert/2",q1="reach",pX=512,qZ="base_joint",q0="witness",eF="-",bi="platform",pW=0x7ff0,pV="pitch",kb=": Not a directory",bF="min",qX="trim",eE="workspace",qY=" : file already exists",hr="split",qV='the failure "singular" of such a mechanism',ka="legs",qW="claim",jY="joint",dP=0xffffff,pU="platform_joint",pT="formulas",pS="roll",hq="atlas",qS="greatest",qT="nodes",qU="Out_of_memory",pR="psi_max",hB="orientation",hp=254,qR="angle",j$="index out of bounds",pQ="end",qQ="one_to_one",hA="_bigarr02",pP=" : flags Open_text and Open_binary are not compatible",qP="inverse",bE="drive",pO="coordinates",qO="holds",pN="lower_divided",pM="speed",qM="cylinder",qN="joints",cL=0xffff,qI="a leaf that fails",qJ="acceleration",qK="force",fC="certified",fD="chords",qL=12520,jX="on",qH="same",ey="accuracy",fB="axis",qG="no_cube",qF="parallel_margin",pL='the drive "',jW="Unix.Unix_error",hz="fails",ho="tool",jV="mkdir",qD="rho",qE="least",hy=1000,jU="translational",j_="tolerances",pK="Stack_overflow",j9="characteristic_length",ae="",j8="^",hm="places",hn=": No such file or directory",pJ="/static/",eD=0x3f,pH="stiffness",pI="Not_found",cK="planar",fz="mode",qC="joint_speed",qB="Match_failure",pG="transmission",bD="anchor",qA="at",pF="joint_force",eC="leg",pE="joint_acceleration",hx="+",jT="rmdir",qz=0xf0,qy="spherical",pD=1026,qw="REJECTED",qx="undecided",bH="max",bG="direction",pB="leg_angle",pC="orthoglide",eB="rank",qu="constraint_margin",qv="fan",fy="test",pz="Pervasives.do_at_exit",pA="utf8",b2=0x80,eA="conditioning",ex="length",py="Undefined_recursive_module",j7=")",px="base",qt="quantity",pw="joint_range",hl="tilt",pv="Q2",qs='the failure "same" of such a mechanism',qr="reference",pt="this quantity in a claim that is refuted",pu="point",qp="corner",qq=0xe0,ps="version",j6="z",qn="to",qo=0xdfff,jS="compare: functional value",qm="Assert_failure",b4="/",ql="provenance",dO="radius",hk="side",qj=-14,b3="require",qk="format",pr="Q1",j5="ENOTDIR",pq="all",dN="box",qi=250;function
-kq(c,b,a){var
+a.prototype._T_}}(Object));(function(P){"use strict";var
+ka="spatial",ru="Invalid_argument",hG="precision",aQ='"',j$=1255,km="inside",qq="(",qr=0x800,rt="yaw",qn="range",qo="tree",qp="jsError",ck=0x8000,rs="sqrt(",qm=256,hF="obligation",rr="load",fT="offset",bq="machine",ql="End_of_file",eG="strut",j_="center",fS="arm",j9="Failure",rq="serial_margin",hN="parameters",cN=0xff,rp="bodies",ro="max_angle",kl="outside",fR="base_axis",j8="ENOENT",rn="singular",rm=122,qk="([^/]+)",rl="0",j7=0xf,fQ=128,qj=0xdc00,rj="Sys_blocked_io",rk="fd ",fJ="given",qi="ENOTEMPTY",a1=248,hE="bound",qh="Division_by_zero",rh="by",ri=1027,qg="Sys_error",hM="slider",qf="torsion",rg="postulate",qe="proof",kk="joint_error",fP="refuted",ez="mechanism",hD="row",qd="EEXIST",rf="roll_pitch_yaw",fO="y",qc="cube",dp="lower",re="within",qb="clearance",rd="turned",qa="control",hC="int_of_string",p$="between",rb="definitions",rc="dependent",fN=1024,p9="from",p_="name",ra=" : flags Open_rdonly and Open_wronly are not compatible",p8="orthocert/2",q$="reach",p7=512,q9="base_joint",q_="witness",eF="-",bi="platform",p6=0x7ff0,p5="pitch",kj=": Not a directory",bJ="min",q7="trim",eE="workspace",q8=" : file already exists",hB="split",q5='the failure "singular" of such a mechanism',ki="legs",q6="claim",j6="joint",dQ=0xffffff,p4="platform_joint",p3="formulas",p2="roll",hA="atlas",q2="greatest",q3="nodes",q4="Out_of_memory",p1="psi_max",hL="orientation",hz=254,q1="angle",kh="index out of bounds",p0="end",q0="one_to_one",hK="_bigarr02",pZ=" : flags Open_text and Open_binary are not compatible",qZ="inverse",bI="drive",pY="coordinates",qY="holds",pX="lower_divided",pW="speed",qW="cylinder",qX="joints",cM=0xffff,qS="a leaf that fails",qT="acceleration",qU="force",fL="certified",fM="chords",qV=12520,j5="on",qR="same",ey="accuracy",fK="axis",qQ="no_cube",qP="parallel_margin",pV='the drive "',j4="Unix.Unix_error",hJ="fails",hy="tool",j3="mkdir",qN="rho",qO="least",hI=1000,j2="translational",kg="tolerances",pU="Stack_overflow",kf="characteristic_length",ae="",ke="^",hw="places",hx=": No such file or directory",pT="/static/",eD=0x3f,pR="stiffness",pS="Not_found",cL="planar",fI="mode",qM="joint_speed",qL="Match_failure",pQ="transmission",bH="anchor",qK="at",pP="joint_force",eC="leg",pO="joint_acceleration",hH="+",j1="rmdir",qJ=0xf0,qI="spherical",pN=1026,qG="REJECTED",qH="undecided",bL="max",bK="direction",pL="leg_angle",pM="orthoglide",eB="rank",qE="constraint_margin",qF="fan",fH="test",pJ="Pervasives.do_at_exit",pK="utf8",b3=0x80,eA="conditioning",ex="length",pI="Undefined_recursive_module",kd=")",pH="base",qD="quantity",pG="joint_range",hv="tilt",pF="Q2",qC='the failure "same" of such a mechanism',qB="reference",pD="this quantity in a claim that is refuted",pE="point",qz="corner",qA=0xe0,pC="version",kc="z",qx="to",qy=0xdfff,j0="compare: functional value",qw="Assert_failure",b5="/",qv="provenance",dP="radius",hu="side",qt=-14,b4="require",qu="format",pB="Q1",kb="ENOTDIR",pA="all",dO="box",qs=250;function
+ky(c,b,a){var
 d=String.fromCharCode;if(b==0&&a<=4096&&a==c.length)return d.apply(null,c);var
-e=ae;for(;0<a;b+=fE,a-=fE)e+=d.apply(null,c.slice(b,b+Math.min(a,fE)));return e}function
-hF(b){if(O.Uint8Array)var
-c=new(O.Uint8Array)(b.l);else
+e=ae;for(;0<a;b+=fN,a-=fN)e+=d.apply(null,c.slice(b,b+Math.min(a,fN)));return e}function
+hP(b){if(P.Uint8Array)var
+c=new(P.Uint8Array)(b.l);else
 var
 c=new
 Array(b.l);var
 e=b.c,d=e.length,a=0;for(;a<d;a++)c[a]=e.charCodeAt(a);for(d=b.l;a<d;a++)c[a]=0;b.c=c;b.t=4;return c}function
-fL(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?kq(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
-if(b.t==2&&f==b.c.length){b.c+=d.t==4?kq(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)hF(b);var
+fU(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?ky(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
+if(b.t==2&&f==b.c.length){b.c+=d.t==4?ky(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)hP(b);var
 g=d.c,h=b.c;if(d.t==4)if(f<=e)for(var
 a=0;a<c;a++)h[f+a]=g[e+a];else
 for(var
@@ -23,80 +23,80 @@ a=c-1;a>=0;a--)h[f+a]=g[e+a];else{var
 i=Math.min(c,g.length-e);for(var
 a=0;a<i;a++)h[f+a]=g.charCodeAt(e+a);for(;a<c;a++)h[f+a]=0}}return 0}function
 eJ(a){return a}function
-eI(a,b,c,d,e){fL(eJ(a),b,c,d,e);return 0}function
-kg(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
+eI(a,b,c,d,e){fU(eJ(a),b,c,d,e);return 0}function
+ko(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
 0:return a.c.charCodeAt(b);case
 4:return a.c[b]}}function
-dp(c,a){if(c.fun)return dp(c.fun,a);if(typeof
+dr(c,a){if(c.fun)return dr(c.fun,a);if(typeof
 c!=="function")return c;var
 b=c.length|0;if(b===0)return c.apply(null,a);var
 e=a.length|0,d=b-e|0;if(d==0)return c.apply(null,a);else
-if(d<0)return dp(c.apply(null,a.slice(0,b)),a.slice(b));else
+if(d<0)return dr(c.apply(null,a.slice(0,b)),a.slice(b));else
 return function(){var
 e=arguments.length==0?1:arguments.length,d=new
 Array(a.length+e);for(var
 b=0;b<a.length;b++)d[b]=a[b];for(var
-b=0;b<arguments.length;b++)d[a.length+b]=arguments[b];return dp(c,d)}}function
-rM(b,a){if(b==0)return ae;if(a.repeat)return a.repeat(b);var
+b=0;b<arguments.length;b++)d[a.length+b]=arguments[b];return dr(c,d)}}function
+rW(b,a){if(b==0)return ae;if(a.repeat)return a.repeat(b);var
 d=ae,c=0;for(;;){if(b&1)d+=a;b>>=1;if(b==0)return d;a+=a;c++;if(c==9)a.slice(0,1)}}function
-eK(a){if(a.t==2)a.c+=rM(a.l-a.c.length,"\0");else
-a.c=kq(a.c,0,a.c.length);a.t=0}function
+eK(a){if(a.t==2)a.c+=rW(a.l-a.c.length,"\0");else
+a.c=ky(a.c,0,a.c.length);a.t=0}function
 eL(a){a.t&6&&eK(a);return a.c}var
-IH=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
-IG(a){if(IH)return Math.floor(Math.log2(a));var
+IU=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
+IT(a){if(IU)return Math.floor(Math.log2(a));var
 b=0;if(a==0)return-Infinity;if(a>=1)while(a>=2){a/=2;b++}else
 while(a<1){a*=2;b--}return b}function
-kj(c){var
-a=new(O.Float32Array)(1);a[0]=c;var
-b=new(O.Int32Array)(a.buffer);return b[0]|0}var
-rD=Math.pow(2,-24);function
-Ix(a){throw a}var
+kr(c){var
+a=new(P.Float32Array)(1);a[0]=c;var
+b=new(P.Int32Array)(a.buffer);return b[0]|0}var
+rN=Math.pow(2,-24);function
+IK(a){throw a}var
 az=[0];function
-rJ(){Ix(az.Division_by_zero)}function
-N(b,c,a){this.lo=b&dP;this.mi=c&dP;this.hi=a&cL}N.prototype.caml_custom="_j";N.prototype.copy=function(){return new
-N(this.lo,this.mi,this.hi)};N.prototype.ucompare=function(a){if(this.hi>a.hi)return 1;if(this.hi<a.hi)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};N.prototype.compare=function(a){var
-b=this.hi<<16,c=a.hi<<16;if(b>c)return 1;if(b<c)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};N.prototype.neg=function(){var
+rT(){IK(az.Division_by_zero)}function
+O(b,c,a){this.lo=b&dQ;this.mi=c&dQ;this.hi=a&cM}O.prototype.caml_custom="_j";O.prototype.copy=function(){return new
+O(this.lo,this.mi,this.hi)};O.prototype.ucompare=function(a){if(this.hi>a.hi)return 1;if(this.hi<a.hi)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};O.prototype.compare=function(a){var
+b=this.hi<<16,c=a.hi<<16;if(b>c)return 1;if(b<c)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};O.prototype.neg=function(){var
 a=-this.lo,b=-this.mi+(a>>24),c=-this.hi+(b>>24);return new
-N(a,b,c)};N.prototype.add=function(a){var
+O(a,b,c)};O.prototype.add=function(a){var
 b=this.lo+a.lo,c=this.mi+a.mi+(b>>24),d=this.hi+a.hi+(c>>24);return new
-N(b,c,d)};N.prototype.sub=function(a){var
+O(b,c,d)};O.prototype.sub=function(a){var
 b=this.lo-a.lo,c=this.mi-a.mi+(b>>24),d=this.hi-a.hi+(c>>24);return new
-N(b,c,d)};N.prototype.mul=function(a){var
-b=this.lo*a.lo,c=(b*rD|0)+this.mi*a.lo+this.lo*a.mi,d=(c*rD|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
-N(b,c,d)};N.prototype.isZero=function(){return(this.lo|this.mi|this.hi)==0};N.prototype.isNeg=function(){return this.hi<<16<0};N.prototype.and=function(a){return new
-N(this.lo&a.lo,this.mi&a.mi,this.hi&a.hi)};N.prototype.or=function(a){return new
-N(this.lo|a.lo,this.mi|a.mi,this.hi|a.hi)};N.prototype.xor=function(a){return new
-N(this.lo^a.lo,this.mi^a.mi,this.hi^a.hi)};N.prototype.shift_left=function(a){a=a&63;if(a==0)return this;if(a<24)return new
-N(this.lo<<a,this.mi<<a|this.lo>>24-a,this.hi<<a|this.mi>>24-a);if(a<48)return new
-N(0,this.lo<<a-24,this.mi<<a-24|this.lo>>48-a);return new
-N(0,0,this.lo<<a-48)};N.prototype.shift_right_unsigned=function(a){a=a&63;if(a==0)return this;if(a<24)return new
-N(this.lo>>a|this.mi<<24-a,this.mi>>a|this.hi<<24-a,this.hi>>a);if(a<48)return new
-N(this.mi>>a-24|this.hi<<48-a,this.hi>>a-24,0);return new
-N(this.hi>>a-48,0,0)};N.prototype.shift_right=function(a){a=a&63;if(a==0)return this;var
+O(b,c,d)};O.prototype.mul=function(a){var
+b=this.lo*a.lo,c=(b*rN|0)+this.mi*a.lo+this.lo*a.mi,d=(c*rN|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
+O(b,c,d)};O.prototype.isZero=function(){return(this.lo|this.mi|this.hi)==0};O.prototype.isNeg=function(){return this.hi<<16<0};O.prototype.and=function(a){return new
+O(this.lo&a.lo,this.mi&a.mi,this.hi&a.hi)};O.prototype.or=function(a){return new
+O(this.lo|a.lo,this.mi|a.mi,this.hi|a.hi)};O.prototype.xor=function(a){return new
+O(this.lo^a.lo,this.mi^a.mi,this.hi^a.hi)};O.prototype.shift_left=function(a){a=a&63;if(a==0)return this;if(a<24)return new
+O(this.lo<<a,this.mi<<a|this.lo>>24-a,this.hi<<a|this.mi>>24-a);if(a<48)return new
+O(0,this.lo<<a-24,this.mi<<a-24|this.lo>>48-a);return new
+O(0,0,this.lo<<a-48)};O.prototype.shift_right_unsigned=function(a){a=a&63;if(a==0)return this;if(a<24)return new
+O(this.lo>>a|this.mi<<24-a,this.mi>>a|this.hi<<24-a,this.hi>>a);if(a<48)return new
+O(this.mi>>a-24|this.hi<<48-a,this.hi>>a-24,0);return new
+O(this.hi>>a-48,0,0)};O.prototype.shift_right=function(a){a=a&63;if(a==0)return this;var
 c=this.hi<<16>>16;if(a<24)return new
-N(this.lo>>a|this.mi<<24-a,this.mi>>a|c<<24-a,this.hi<<16>>a>>>16);var
+O(this.lo>>a|this.mi<<24-a,this.mi>>a|c<<24-a,this.hi<<16>>a>>>16);var
 b=this.hi<<16>>31;if(a<48)return new
-N(this.mi>>a-24|this.hi<<48-a,this.hi<<16>>a-24>>16,b&cL);return new
-N(this.hi<<16>>a-32,b,b)};N.prototype.lsl1=function(){this.hi=this.hi<<1|this.mi>>23;this.mi=(this.mi<<1|this.lo>>23)&dP;this.lo=this.lo<<1&dP};N.prototype.lsr1=function(){this.lo=(this.lo>>>1|this.mi<<23)&dP;this.mi=(this.mi>>>1|this.hi<<23)&dP;this.hi=this.hi>>>1};N.prototype.udivmod=function(e){var
+O(this.mi>>a-24|this.hi<<48-a,this.hi<<16>>a-24>>16,b&cM);return new
+O(this.hi<<16>>a-32,b,b)};O.prototype.lsl1=function(){this.hi=this.hi<<1|this.mi>>23;this.mi=(this.mi<<1|this.lo>>23)&dQ;this.lo=this.lo<<1&dQ};O.prototype.lsr1=function(){this.lo=(this.lo>>>1|this.mi<<23)&dQ;this.mi=(this.mi>>>1|this.hi<<23)&dQ;this.hi=this.hi>>>1};O.prototype.udivmod=function(e){var
 c=0,b=this.copy(),a=e.copy(),d=new
-N(0,0,0);while(b.ucompare(a)>0){c++;a.lsl1()}while(c>=0){c--;d.lsl1();if(b.ucompare(a)>=0){d.lo++;b=b.sub(a)}a.lsr1()}return{quotient:d,modulus:b}};N.prototype.div=function(a){var
-b=this;if(a.isZero())rJ();var
-d=b.hi^a.hi;if(b.hi&ci)b=b.neg();if(a.hi&ci)a=a.neg();var
-c=b.udivmod(a).quotient;if(d&ci)c=c.neg();return c};N.prototype.mod=function(b){var
-a=this;if(b.isZero())rJ();var
-d=a.hi;if(a.hi&ci)a=a.neg();if(b.hi&ci)b=b.neg();var
-c=a.udivmod(b).modulus;if(d&ci)c=c.neg();return c};N.prototype.toInt=function(){return this.lo|this.mi<<24};N.prototype.toFloat=function(){return(this.hi<<16)*Math.pow(2,32)+this.mi*Math.pow(2,24)+this.lo};N.prototype.toArray=function(){return[this.hi>>8,this.hi&cM,this.mi>>16,this.mi>>8&cM,this.mi&cM,this.lo>>16,this.lo>>8&cM,this.lo&cM]};N.prototype.lo32=function(){return this.lo|(this.mi&cM)<<24};N.prototype.hi32=function(){return this.mi>>>8&cL|this.hi<<16};function
-hH(b,c,a){return new
-N(b,c,a)}function
-hG(a){if(!isFinite(a)){if(isNaN(a))return hH(1,0,pW);return a>0?hH(0,0,pW):hH(0,0,0xfff0)}var
-f=a==0&&1/a==-Infinity?ci:a>=0?0:ci;if(f)a=-a;var
-b=IG(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-pD)}else{a/=Math.pow(2,b-q_);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
+O(0,0,0);while(b.ucompare(a)>0){c++;a.lsl1()}while(c>=0){c--;d.lsl1();if(b.ucompare(a)>=0){d.lo++;b=b.sub(a)}a.lsr1()}return{quotient:d,modulus:b}};O.prototype.div=function(a){var
+b=this;if(a.isZero())rT();var
+d=b.hi^a.hi;if(b.hi&ck)b=b.neg();if(a.hi&ck)a=a.neg();var
+c=b.udivmod(a).quotient;if(d&ck)c=c.neg();return c};O.prototype.mod=function(b){var
+a=this;if(b.isZero())rT();var
+d=a.hi;if(a.hi&ck)a=a.neg();if(b.hi&ck)b=b.neg();var
+c=a.udivmod(b).modulus;if(d&ck)c=c.neg();return c};O.prototype.toInt=function(){return this.lo|this.mi<<24};O.prototype.toFloat=function(){return(this.hi<<16)*Math.pow(2,32)+this.mi*Math.pow(2,24)+this.lo};O.prototype.toArray=function(){return[this.hi>>8,this.hi&cN,this.mi>>16,this.mi>>8&cN,this.mi&cN,this.lo>>16,this.lo>>8&cN,this.lo&cN]};O.prototype.lo32=function(){return this.lo|(this.mi&cN)<<24};O.prototype.hi32=function(){return this.mi>>>8&cM|this.hi<<16};function
+hR(b,c,a){return new
+O(b,c,a)}function
+hQ(a){if(!isFinite(a)){if(isNaN(a))return hR(1,0,p6);return a>0?hR(0,0,p6):hR(0,0,0xfff0)}var
+f=a==0&&1/a==-Infinity?ck:a>=0?0:ck;if(f)a=-a;var
+b=IT(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-pN)}else{a/=Math.pow(2,b-ri);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
 d=Math.pow(2,24),c=a|0;a=(a-c)*d;var
 e=a|0;a=(a-e)*d;var
-g=a|0;c=c&jZ|f|b<<4;return hH(g,e,c)}function
-fO(a){return a.toArray()}function
-rr(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==hA)for(var
-a=0;a<b.dims.length;a++)if(b.dims[a]<cL)c.write(16,b.dims[a]);else{c.write(16,cL);c.write(32,0);c.write(32,b.dims[a])}else
+g=a|0;c=c&j7|f|b<<4;return hR(g,e,c)}function
+fX(a){return a.toArray()}function
+rB(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==hK)for(var
+a=0;a<b.dims.length;a++)if(b.dims[a]<cM)c.write(16,b.dims[a]);else{c.write(16,cM);c.write(32,0);c.write(32,b.dims[a])}else
 for(var
 a=0;a<b.dims.length;a++)c.write(32,b.dims[a]);switch(b.kind){case
 2:case
@@ -113,52 +113,52 @@ a=0;a<b.data.length;a++)c.write(32,b.data[a]);break;case
 a=0;a<b.data.length;a++)c.write(32,b.data[a]);break;case
 7:for(var
 a=0;a<b.data.length/2;a++){var
-e=fO(b.get(a));for(var
+e=fX(b.get(a));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 1:for(var
 a=0;a<b.data.length;a++){var
-e=fO(hG(b.get(a)));for(var
+e=fX(hQ(b.get(a)));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 0:for(var
 a=0;a<b.data.length;a++){var
-e=kj(b.get(a));c.write(32,e)}break;case
+e=kr(b.get(a));c.write(32,e)}break;case
 10:for(var
 a=0;a<b.data.length/2;a++){var
-d=b.get(a);c.write(32,kj(d[1]));c.write(32,kj(d[2]))}break;case
+d=b.get(a);c.write(32,kr(d[1]));c.write(32,kr(d[2]))}break;case
 11:for(var
 a=0;a<b.data.length/2;a++){var
-f=b.get(a),e=fO(hG(f[1]));for(var
+f=b.get(a),e=fX(hQ(f[1]));for(var
 d=0;d<8;d++)c.write(8,e[d]);var
-e=fO(hG(f[2]));for(var
+e=fX(hQ(f[2]));for(var
 d=0;d<8;d++)c.write(8,e[d])}break}g[0]=(4+b.dims.length)*4;g[1]=(4+b.dims.length)*8}function
-Iz(b,a){throw[0,b,a]}function
-rR(a){if(a.length<24){for(var
+IM(b,a){throw[0,b,a]}function
+r1(a){if(a.length<24){for(var
 b=0;b<a.length;b++)if(a.charCodeAt(b)>127)return false;return true}else
 return!/[^\x00-\x7f]/.test(a)}function
-kr(e){for(var
-j=ae,c=ae,g,f,h,a,b=0,i=e.length;b<i;b++){f=e.charCodeAt(b);if(f<b2){for(var
-d=b+1;d<i&&(f=e.charCodeAt(d))<b2;d++);if(d-b>pX){c.substr(0,1);j+=c;c=ae;j+=e.slice(b,d)}else
-c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==fH){g=h+(f<<6);if(f<qq){a=g-0x3080;if(a<b2)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==fH){g=h+(g<<6);if(f<qz){a=g-0xe2080;if(a<qh||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==fH&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
-if(a>cL)c+=String.fromCharCode(0xd7c0+(a>>10),p$+(a&0x3FF));else
-c+=String.fromCharCode(a);if(c.length>fE){c.substr(0,1);j+=c;c=ae}}return j+c}function
-cj(c,a,b){this.t=c;this.c=a;this.l=b}cj.prototype.toString=function(){switch(this.t){case
+kz(e){for(var
+j=ae,c=ae,g,f,h,a,b=0,i=e.length;b<i;b++){f=e.charCodeAt(b);if(f<b3){for(var
+d=b+1;d<i&&(f=e.charCodeAt(d))<b3;d++);if(d-b>p7){c.substr(0,1);j+=c;c=ae;j+=e.slice(b,d)}else
+c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==fQ){g=h+(f<<6);if(f<qA){a=g-0x3080;if(a<b3)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==fQ){g=h+(g<<6);if(f<qJ){a=g-0xe2080;if(a<qr||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==fQ&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
+if(a>cM)c+=String.fromCharCode(0xd7c0+(a>>10),qj+(a&0x3FF));else
+c+=String.fromCharCode(a);if(c.length>fN){c.substr(0,1);j+=c;c=ae}}return j+c}function
+cl(c,a,b){this.t=c;this.c=a;this.l=b}cl.prototype.toString=function(){switch(this.t){case
 9:return this.c;default:eK(this);case
-0:if(rR(this.c)){this.t=9;return this.c}this.t=8;case
-8:return this.c}};cj.prototype.toUtf16=function(){var
-a=this.toString();if(this.t==9)return a;return kr(a)};cj.prototype.slice=function(){var
+0:if(r1(this.c)){this.t=9;return this.c}this.t=8;case
+8:return this.c}};cl.prototype.toUtf16=function(){var
+a=this.toString();if(this.t==9)return a;return kz(a)};cl.prototype.slice=function(){var
 a=this.t==4?this.c.slice():this.c;return new
-cj(this.t,a,this.l)};function
-ru(a){return new
-cj(0,a,a.length)}function
-a(a){return ru(a)}function
-kp(c,b){Iz(c,a(b))}function
-aT(a){kp(az.Invalid_argument,a)}function
-rp(a){switch(a){case
+cl(this.t,a,this.l)};function
+rE(a){return new
+cl(0,a,a.length)}function
+a(a){return rE(a)}function
+kx(c,b){IM(c,a(b))}function
+aV(a){kx(az.Invalid_argument,a)}function
+rz(a){switch(a){case
 7:case
 10:case
 11:return 2;default:return 1}}function
-H3(c,e){var
-b=O,a;switch(c){case
+Ie(c,e){var
+b=P,a;switch(c){case
 0:a=b.Float32Array;break;case
 1:a=b.Float64Array;break;case
 2:a=b.Int8Array;break;case
@@ -171,52 +171,52 @@ b=O,a;switch(c){case
 9:a=b.Int32Array;break;case
 10:a=b.Float32Array;break;case
 11:a=b.Float64Array;break;case
-12:a=b.Uint8Array;break}if(!a)aT("Bigarray.create: unsupported kind");var
+12:a=b.Uint8Array;break}if(!a)aV("Bigarray.create: unsupported kind");var
 d=new
-a(e*rp(c));return d}function
-kk(c){var
-a=new(O.Int32Array)(1);a[0]=c;var
-b=new(O.Float32Array)(a.buffer);return b[0]}function
-fN(a){return new
-N(a[7]<<0|a[6]<<8|a[5]<<16,a[4]<<0|a[3]<<8|a[2]<<16,a[1]<<0|a[0]<<8)}function
-kl(d){var
-f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&jZ)==0?b&ci?-Infinity:Infinity:NaN;var
-e=Math.pow(2,-24),a=(f*e+g)*e+(b&jZ);if(c>0){a+=16;a*=Math.pow(2,c-q_)}else
-a*=Math.pow(2,-pD);if(b&ci)a=-a;return a}function
-kf(b){var
+a(e*rz(c));return d}function
+ks(c){var
+a=new(P.Int32Array)(1);a[0]=c;var
+b=new(P.Float32Array)(a.buffer);return b[0]}function
+fW(a){return new
+O(a[7]<<0|a[6]<<8|a[5]<<16,a[4]<<0|a[3]<<8|a[2]<<16,a[1]<<0|a[0]<<8)}function
+kt(d){var
+f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&j7)==0?b&ck?-Infinity:Infinity:NaN;var
+e=Math.pow(2,-24),a=(f*e+g)*e+(b&j7);if(c>0){a+=16;a*=Math.pow(2,c-ri)}else
+a*=Math.pow(2,-pN);if(b&ck)a=-a;return a}function
+kn(b){var
 d=b.length,c=1;for(var
-a=0;a<d;a++){if(b[a]<0)aT("Bigarray.create: negative dimension");c=c*b[a]}return c}function
-Ih(b,a){return new
-N(b&dP,b>>>24&cM|(a&cL)<<8,a>>>16&cL)}function
-km(a){return a.hi32()}function
-kn(a){return a.lo32()}function
-hE(){aT(j$)}var
-H4=hA;function
-dn(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}dn.prototype.caml_custom=H4;dn.prototype.offset=function(b){var
+a=0;a<d;a++){if(b[a]<0)aV("Bigarray.create: negative dimension");c=c*b[a]}return c}function
+Iu(b,a){return new
+O(b&dQ,b>>>24&cN|(a&cM)<<8,a>>>16&cM)}function
+ku(a){return a.hi32()}function
+kv(a){return a.lo32()}function
+hO(){aV(kh)}var
+If=hK;function
+dq(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}dq.prototype.caml_custom=If;dq.prototype.offset=function(b){var
 c=0;if(typeof
 b==="number")b=[b];if(!(b
 instanceof
-Array))aT("bigarray.js: invalid offset");if(this.dims.length!=b.length)aT("Bigarray.get/set: bad number of dimensions");if(this.layout==0)for(var
-a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])hE();c=c*this.dims[a]+b[a]}else
+Array))aV("bigarray.js: invalid offset");if(this.dims.length!=b.length)aV("Bigarray.get/set: bad number of dimensions");if(this.layout==0)for(var
+a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])hO();c=c*this.dims[a]+b[a]}else
 for(var
-a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])hE();c=c*this.dims[a]+(b[a]-1)}return c};dn.prototype.get=function(a){switch(this.kind){case
+a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])hO();c=c*this.dims[a]+(b[a]-1)}return c};dq.prototype.get=function(a){switch(this.kind){case
 7:var
-d=this.data[a*2+0],b=this.data[a*2+1];return Ih(d,b);case
+d=this.data[a*2+0],b=this.data[a*2+1];return Iu(d,b);case
 10:case
 11:var
-e=this.data[a*2+0],c=this.data[a*2+1];return[hp,e,c];default:return this.data[a]}};dn.prototype.set=function(a,b){switch(this.kind){case
-7:this.data[a*2+0]=kn(b);this.data[a*2+1]=km(b);break;case
+e=this.data[a*2+0],c=this.data[a*2+1];return[hz,e,c];default:return this.data[a]}};dq.prototype.set=function(a,b){switch(this.kind){case
+7:this.data[a*2+0]=kv(b);this.data[a*2+1]=ku(b);break;case
 10:case
-11:this.data[a*2+0]=b[1];this.data[a*2+1]=b[2];break;default:this.data[a]=b;break}return 0};dn.prototype.fill=function(b){switch(this.kind){case
+11:this.data[a*2+0]=b[1];this.data[a*2+1]=b[2];break;default:this.data[a]=b;break}return 0};dq.prototype.fill=function(b){switch(this.kind){case
 7:var
-c=kn(b),e=km(b);if(c==e)this.data.fill(c);else
+c=kv(b),e=ku(b);if(c==e)this.data.fill(c);else
 for(var
 a=0;a<this.data.length;a++)this.data[a]=a%2==0?c:e;break;case
 10:case
 11:var
 d=b[1],f=b[2];if(d==f)this.data.fill(d);else
 for(var
-a=0;a<this.data.length;a++)this.data[a]=a%2==0?d:f;break;default:this.data.fill(b);break}};dn.prototype.compare=function(b,g){if(this.layout!=b.layout||this.kind!=b.kind){var
+a=0;a<this.data.length;a++)this.data[a]=a%2==0?d:f;break;default:this.data.fill(b);break}};dq.prototype.compare=function(b,g){if(this.layout!=b.layout||this.kind!=b.kind){var
 e=this.kind|this.layout<<8,f=b.kind|b.layout<<8;return f-e}if(this.dims.length!=b.dims.length)return b.dims.length-this.dims.length;for(var
 a=0;a<this.dims.length;a++)if(this.dims[a]!=b.dims[a])return this.dims[a]<b.dims[a]?-1:1;switch(this.kind){case
 0:case
@@ -237,25 +237,25 @@ a=0;a<this.data.length;a+=2){if(this.data[a+1]<b.data[a+1])return-1;if(this.data
 12:for(var
 a=0;a<this.data.length;a++){if(this.data[a]<b.data[a])return-1;if(this.data[a]>b.data[a])return 1}break}return 0};function
 eH(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}eH.prototype=new
-dn();eH.prototype.offset=function(a){if(typeof
+dq();eH.prototype.offset=function(a){if(typeof
 a!=="number")if(a
 instanceof
 Array&&a.length==1)a=a[0];else
-aT("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])hE();return a};eH.prototype.get=function(a){return this.data[a]};eH.prototype.set=function(a,b){this.data[a]=b;return 0};eH.prototype.fill=function(a){this.data.fill(a);return 0};function
-rn(c,d,a,b){var
-e=rp(c);if(kf(a)*e!=b.length)aT("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
+aV("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])hO();return a};eH.prototype.get=function(a){return this.data[a]};eH.prototype.set=function(a,b){this.data[a]=b;return 0};eH.prototype.fill=function(a){this.data.fill(a);return 0};function
+rx(c,d,a,b){var
+e=rz(c);if(kn(a)*e!=b.length)aV("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
 eH(c,d,a,b);return new
-dn(c,d,a,b)}function
-b5(b){if(!az.Failure)az.Failure=[a1,a(j1),-3];kp(az.Failure,b)}function
-ro(b,v,r){var
-i=b.read32s();if(i<0||i>16)b5("input_value: wrong number of bigarray dimensions");var
-p=b.read32s(),j=p&cM,o=p>>8&1,h=[];if(r==hA)for(var
+dq(c,d,a,b)}function
+b6(b){if(!az.Failure)az.Failure=[a1,a(j9),-3];kx(az.Failure,b)}function
+ry(b,v,r){var
+i=b.read32s();if(i<0||i>16)b6("input_value: wrong number of bigarray dimensions");var
+p=b.read32s(),j=p&cN,o=p>>8&1,h=[];if(r==hK)for(var
 a=0;a<i;a++){var
-n=b.read16u();if(n==cL){var
-t=b.read32u(),u=b.read32u();if(t!=0)b5("input_value: bigarray dimension overflow in 32bit");n=u}h.push(n)}else
+n=b.read16u();if(n==cM){var
+t=b.read32u(),u=b.read32u();if(t!=0)b6("input_value: bigarray dimension overflow in 32bit");n=u}h.push(n)}else
 for(var
 a=0;a<i;a++)h.push(b.read32u());var
-d=kf(h),f=H3(j,d),g=rn(j,o,h,f);switch(j){case
+d=kn(h),f=Ie(j,d),g=rx(j,o,h,f);switch(j){case
 2:for(var
 a=0;a<d;a++)f[a]=b.read8s();break;case
 3:case
@@ -269,129 +269,129 @@ a=0;a<d;a++)f[a]=b.read16u();break;case
 a=0;a<d;a++)f[a]=b.read32s();break;case
 8:case
 9:var
-s=b.read8u();if(s)b5("input_value: cannot read bigarray with 64-bit OCaml ints");for(var
+s=b.read8u();if(s)b6("input_value: cannot read bigarray with 64-bit OCaml ints");for(var
 a=0;a<d;a++)f[a]=b.read32s();break;case
 7:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-q=fN(e);g.set(a,q)}break;case
+q=fW(e);g.set(a,q)}break;case
 1:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-k=kl(fN(e));g.set(a,k)}break;case
+k=kt(fW(e));g.set(a,k)}break;case
 0:for(var
 a=0;a<d;a++){var
-k=kk(b.read32s());g.set(a,k)}break;case
+k=ks(b.read32s());g.set(a,k)}break;case
 10:for(var
 a=0;a<d;a++){var
-m=kk(b.read32s()),l=kk(b.read32s());g.set(a,[hp,m,l])}break;case
+m=ks(b.read32s()),l=ks(b.read32s());g.set(a,[hz,m,l])}break;case
 11:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-m=kl(fN(e));for(var
+m=kt(fW(e));for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-l=kl(fN(e));g.set(a,[hp,m,l])}break}v[0]=(4+i)*4;return rn(j,o,h,f)}function
-rm(a,b,c){return a.compare(b,c)}function
-rG(a,b){return Math.imul(a,b)}function
-cN(b,a){a=rG(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=rG(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
-Ie(a,b){a=cN(a,kn(b));a=cN(a,km(b));return a}function
-rC(a,b){return Ie(a,hG(b))}function
-rq(c){var
-b=kf(c.dims),d=0;switch(c.kind){case
+l=kt(fW(e));g.set(a,[hz,m,l])}break}v[0]=(4+i)*4;return rx(j,o,h,f)}function
+rw(a,b,c){return a.compare(b,c)}function
+rQ(a,b){return Math.imul(a,b)}function
+cO(b,a){a=rQ(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=rQ(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
+Ir(a,b){a=cO(a,kv(b));a=cO(a,ku(b));return a}function
+rM(a,b){return Ir(a,hQ(b))}function
+rA(c){var
+b=kn(c.dims),d=0;switch(c.kind){case
 2:case
 3:case
-12:if(b>qc)b=qc;var
-e=0,a=0;for(a=0;a+4<=c.data.length;a+=4){e=c.data[a+0]|c.data[a+1]<<8|c.data[a+2]<<16|c.data[a+3]<<24;d=cN(d,e)}e=0;switch(b&3){case
+12:if(b>qm)b=qm;var
+e=0,a=0;for(a=0;a+4<=c.data.length;a+=4){e=c.data[a+0]|c.data[a+1]<<8|c.data[a+2]<<16|c.data[a+3]<<24;d=cO(d,e)}e=0;switch(b&3){case
 3:e=c.data[a+2]<<16;case
 2:e|=c.data[a+1]<<8;case
-1:e|=c.data[a+0];d=cN(d,e)}break;case
+1:e|=c.data[a+0];d=cO(d,e)}break;case
 4:case
-5:if(b>fH)b=fH;var
-e=0,a=0;for(a=0;a+2<=c.data.length;a+=2){e=c.data[a+0]|c.data[a+1]<<16;d=cN(d,e)}if((b&1)!=0)d=cN(d,c.data[a]);break;case
+5:if(b>fQ)b=fQ;var
+e=0,a=0;for(a=0;a+2<=c.data.length;a+=2){e=c.data[a+0]|c.data[a+1]<<16;d=cO(d,e)}if((b&1)!=0)d=cO(d,c.data[a]);break;case
 6:if(b>64)b=64;for(var
-a=0;a<b;a++)d=cN(d,c.data[a]);break;case
+a=0;a<b;a++)d=cO(d,c.data[a]);break;case
 8:case
 9:if(b>64)b=64;for(var
-a=0;a<b;a++)d=cN(d,c.data[a]);break;case
+a=0;a<b;a++)d=cO(d,c.data[a]);break;case
 7:if(b>32)b=32;b*=2;for(var
-a=0;a<b;a++)d=cN(d,c.data[a]);break;case
+a=0;a<b;a++)d=cO(d,c.data[a]);break;case
 10:b*=2;case
 0:if(b>64)b=64;for(var
-a=0;a<b;a++)d=rC(d,c.data[a]);break;case
+a=0;a<b;a++)d=rM(d,c.data[a]);break;case
 11:b*=2;case
 1:if(b>32)b=32;for(var
-a=0;a<b;a++)d=rC(d,c.data[a]);break}return d}function
-If(a,b){b[0]=4;return a.read32s()}function
-Iu(a,b){switch(a.read8u()){case
+a=0;a<b;a++)d=rM(d,c.data[a]);break}return d}function
+Is(a,b){b[0]=4;return a.read32s()}function
+IH(a,b){switch(a.read8u()){case
 1:b[0]=4;return a.read32s();case
-2:b5("input_value: native integer value too large");default:b5("input_value: ill-formed native integer")}}function
-Ik(c,d){var
+2:b6("input_value: native integer value too large");default:b6("input_value: ill-formed native integer")}}function
+Ix(c,d){var
 b=new
 Array(8);for(var
-a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return fN(b)}function
-Ij(e,d,b){var
-c=fO(d);for(var
+a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return fW(b)}function
+Iw(e,d,b){var
+c=fX(d);for(var
 a=0;a<8;a++)e.write(8,c[a]);b[0]=8;b[1]=8}function
-Ig(a,b,c){return a.compare(b)}function
-Ii(a){return a.lo32()^a.hi32()}var
-rx={"_j":{deserialize:Ik,serialize:Ij,fixed_length:8,compare:Ig,hash:Ii},"_i":{deserialize:If,fixed_length:4},"_n":{deserialize:Iu,fixed_length:4},"_bigarray":{deserialize:function(a,b){return ro(a,b,"_bigarray")},serialize:rr,compare:rm,hash:rq},"_bigarr02":{deserialize:function(a,b){return ro(a,b,hA)},serialize:rr,compare:rm,hash:rq}};function
-ki(a){return rx[a.caml_custom]&&rx[a.caml_custom].compare}function
-rv(f,c,d,e){var
-b=ki(c);if(b){var
+It(a,b,c){return a.compare(b)}function
+Iv(a){return a.lo32()^a.hi32()}var
+rH={"_j":{deserialize:Ix,serialize:Iw,fixed_length:8,compare:It,hash:Iv},"_i":{deserialize:Is,fixed_length:4},"_n":{deserialize:IH,fixed_length:4},"_bigarray":{deserialize:function(a,b){return ry(a,b,"_bigarray")},serialize:rB,compare:rw,hash:rA},"_bigarr02":{deserialize:function(a,b){return ry(a,b,hK)},serialize:rB,compare:rw,hash:rA}};function
+kq(a){return rH[a.caml_custom]&&rH[a.caml_custom].compare}function
+rF(f,c,d,e){var
+b=kq(c);if(b){var
 a=d>0?b(c,f,e):b(f,c,e);if(e&&a!=a)return d;if(+a!=+a)return+a;if((a|0)!=0)return a|0}return d}function
-ko(a){return a
+kw(a){return a
 instanceof
-cj}function
-rE(a){return ko(a)}function
-rw(a){if(typeof
-a==="number")return hy;else
-if(ko(a))return 252;else
-if(rE(a))return 1252;else
+cl}function
+rO(a){return kw(a)}function
+rG(a){if(typeof
+a==="number")return hI;else
+if(kw(a))return 252;else
+if(rO(a))return 1252;else
 if(a
 instanceof
 Array&&a[0]===a[0]>>>0&&a[0]<=255){var
-b=a[0]|0;return b==hp?0:b}else
+b=a[0]|0;return b==hz?0:b}else
 if(a
 instanceof
-String)return qL;else
+String)return qV;else
 if(typeof
-a=="string")return qL;else
+a=="string")return qV;else
 if(a
 instanceof
-Number)return hy;else
-if(a&&a.caml_custom)return j3;else
+Number)return hI;else
+if(a&&a.caml_custom)return j$;else
 if(a&&a.compare)return 1256;else
 if(typeof
 a=="function")return 1247;else
 if(typeof
 a=="symbol")return 1251;return 1001}function
-Il(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
-rt(a,b){a.t&6&&eK(a);b.t&6&&eK(b);return a.c<b.c?-1:a.c>b.c?1:0}function
-rN(a,b){return rt(a,b)}function
-kh(a,b,d){var
+Iy(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
+rD(a,b){a.t&6&&eK(a);b.t&6&&eK(b);return a.c<b.c?-1:a.c>b.c?1:0}function
+rX(a,b){return rD(a,b)}function
+kp(a,b,d){var
 e=[];for(;;){if(!(d&&a===b)){var
-f=rw(a);if(f==qi){a=a[1];continue}var
-g=rw(b);if(g==qi){b=b[1];continue}if(f!==g){if(f==hy){if(g==j3)return rv(a,b,-1,d);return-1}if(g==hy){if(f==j3)return rv(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
-247:aT(jS);break;case
+f=rG(a);if(f==qs){a=a[1];continue}var
+g=rG(b);if(g==qs){b=b[1];continue}if(f!==g){if(f==hI){if(g==j$)return rF(a,b,-1,d);return-1}if(g==hI){if(f==j$)return rF(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
+247:aV(j0);break;case
 248:var
-c=Il(a[2],b[2]);if(c!=0)return c|0;break;case
-249:aT(jS);break;case
-250:aT("equal: got Forward_tag, should not happen");break;case
-251:aT("equal: abstract value");break;case
+c=Iy(a[2],b[2]);if(c!=0)return c|0;break;case
+249:aV(j0);break;case
+250:aV("equal: got Forward_tag, should not happen");break;case
+251:aV("equal: abstract value");break;case
 252:if(a!==b){var
-c=rt(a,b);if(c!=0)return c|0}break;case
-253:aT("equal: got Double_tag, should not happen");break;case
-254:aT("equal: got Double_array_tag, should not happen");break;case
-255:aT("equal: got Custom_tag, should not happen");break;case
-1247:aT(jS);break;case
+c=rD(a,b);if(c!=0)return c|0}break;case
+253:aV("equal: got Double_tag, should not happen");break;case
+254:aV("equal: got Double_array_tag, should not happen");break;case
+255:aV("equal: got Custom_tag, should not happen");break;case
+1247:aV(j0);break;case
 1255:var
-i=ki(a);if(i!=ki(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)aT("compare: abstract value");var
+i=kq(a);if(i!=kq(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)aV("compare: abstract value");var
 c=i(a,b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
 1256:var
 c=a.compare(b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
@@ -405,176 +405,176 @@ a=a.toString(),b=b.toString();if(a!==b){if(a<b)return-1;if(a>b)return 1}break;ca
 246:case
 254:default:if(a.length!=b.length)return a.length<b.length?-1:1;if(a.length>1)e.push(a,b,1);break}}if(e.length==0)return 0;var
 h=e.pop();b=e.pop();a=e.pop();if(h+1<a.length)e.push(a,b,h+1);a=a[h];b=b[h]}}function
-H$(a,b){return kh(a,b,true)}function
-cl(a){if(a<0)aT("Bytes.create");return new
-cj(a?2:9,ae,a)}function
-ry(a,b){return+(kh(a,b,false)==0)}function
-Ib(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=ae;a.t=2}else{a.c=rM(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)hF(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}var
-Iv=0;function
-rA(){return Iv++}function
-In(a){return a.toUtf16()}function
-fP(){return typeof
-O.process!=="undefined"&&typeof
-O.process.versions!=="undefined"&&typeof
-O.process.versions.node!=="undefined"}function
-II(){function
-a(a){if(a.charAt(0)===b4)return[ae,a.substring(1)];return}function
+Im(a,b){return kp(a,b,true)}function
+cn(a){if(a<0)aV("Bytes.create");return new
+cl(a?2:9,ae,a)}function
+rI(a,b){return+(kp(a,b,false)==0)}function
+Io(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=ae;a.t=2}else{a.c=rW(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)hP(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}var
+II=0;function
+rK(){return II++}function
+IA(a){return a.toUtf16()}function
+fY(){return typeof
+P.process!=="undefined"&&typeof
+P.process.versions!=="undefined"&&typeof
+P.process.versions.node!=="undefined"}function
+IV(){function
+a(a){if(a.charAt(0)===b5)return[ae,a.substring(1)];return}function
 b(c){var
 g=/^([a-zA-Z]:|[\\/]{2}[^\\/]+[\\/]+[^\\/]+)?([\\/])?([\s\S]*?)$/,a=g.exec(c),b=a[1]||ae,e=Boolean(b&&b.charAt(1)!==":");if(Boolean(a[2]||e)){var
-d=a[1]||ae,f=a[2]||ae;return[d,c.substring(d.length+f.length)]}return}return fP()&&O.process&&O.process.platform?O.process.platform==="win32"?b:a:a}var
-kv=II();function
-rO(a){return a.slice(-1)!==b4?a+b4:a}if(fP()&&O.process&&O.process.cwd)var
-fM=O.process.cwd().replace(/\\/g,b4);else
+d=a[1]||ae,f=a[2]||ae;return[d,c.substring(d.length+f.length)]}return}return fY()&&P.process&&P.process.platform?P.process.platform==="win32"?b:a:a}var
+kD=IV();function
+rY(a){return a.slice(-1)!==b5?a+b5:a}if(fY()&&P.process&&P.process.cwd)var
+fV=P.process.cwd().replace(/\\/g,b5);else
 var
-fM="/static";fM=rO(fM);function
-Ip(a){a=In(a);if(!kv(a))a=fM+a;var
-e=kv(a),d=e[1].split(b4),b=[];for(var
+fV="/static";fV=rY(fV);function
+IC(a){a=IA(a);if(!kD(a))a=fV+a;var
+e=kD(a),d=e[1].split(b5),b=[];for(var
 c=0;c<d.length;c++)switch(d[c]){case"..":if(b.length>1)b.pop();break;case".":break;default:b.push(d[c]);break}b.unshift(e[0]);b.orig=a;return b}function
-ID(e){for(var
-f=ae,b=f,a,h,c=0,g=e.length;c<g;c++){a=e.charCodeAt(c);if(a<b2){for(var
-d=c+1;d<g&&(a=e.charCodeAt(d))<b2;d++);if(d-c>pX){b.substr(0,1);f+=b;b=ae;f+=e.slice(c,d)}else
-b+=e.slice(c,d);if(d==g)break;c=d}if(a<qh){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(b2|a&eD)}else
-if(a<0xd800||a>=qo)b+=String.fromCharCode(qq|a>>12,b2|a>>6&eD,b2|a&eD);else
-if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<p$||h>qo)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(qz|a>>18,b2|a>>12&eD,b2|a>>6&eD,b2|a&eD)}if(b.length>fE){b.substr(0,1);f+=b;b=ae}}return f+b}function
-H8(a){var
-b=9;if(!rR(a))b=8,a=ID(a);return new
-cj(b,a,a.length)}function
-eM(a){return H8(a)}var
-IL=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",p5,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",j0,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",j5,p_,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
-dT(d,f,e,a){var
-b=IL.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
+IQ(e){for(var
+f=ae,b=f,a,h,c=0,g=e.length;c<g;c++){a=e.charCodeAt(c);if(a<b3){for(var
+d=c+1;d<g&&(a=e.charCodeAt(d))<b3;d++);if(d-c>p7){b.substr(0,1);f+=b;b=ae;f+=e.slice(c,d)}else
+b+=e.slice(c,d);if(d==g)break;c=d}if(a<qr){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(b3|a&eD)}else
+if(a<0xd800||a>=qy)b+=String.fromCharCode(qA|a>>12,b3|a>>6&eD,b3|a&eD);else
+if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<qj||h>qy)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(qJ|a>>18,b3|a>>12&eD,b3|a>>6&eD,b3|a&eD)}if(b.length>fN){b.substr(0,1);f+=b;b=ae}}return f+b}function
+Ij(a){var
+b=9;if(!r1(a))b=8,a=IQ(a);return new
+cl(b,a,a.length)}function
+eM(a){return Ij(a)}var
+IY=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",qd,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",j8,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",kb,qi,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
+dU(d,f,e,a){var
+b=IY.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
 c=[b,eM(f||ae),eM(e||ae)];return c}var
-rH={};function
-dQ(a){return rH[a]}function
-dR(b,a){throw[0,b].concat(a)}function
-H7(a){return new
-cj(4,a,a.length)}function
-ar(a){kp(az.Sys_error,a)}function
-Iy(a){ar(a+hn)}function
-rs(){aT(j$)}function
-H6(b,a){if(a>>>0>=b.l)rs();return kg(b,a)}function
-hJ(a){return a.l}function
-rl(){}function
-aR(a){this.data=a}aR.prototype=new
-rl();aR.prototype.truncate=function(a){var
-b=this.data;this.data=cl(a|0);fL(b,0,this.data,0,a)};aR.prototype.length=function(){return hJ(this.data)};aR.prototype.write=function(b,d,g,a){var
+rR={};function
+dR(a){return rR[a]}function
+dS(b,a){throw[0,b].concat(a)}function
+Ii(a){return new
+cl(4,a,a.length)}function
+ar(a){kx(az.Sys_error,a)}function
+IL(a){ar(a+hx)}function
+rC(){aV(kh)}function
+Ih(b,a){if(a>>>0>=b.l)rC();return ko(b,a)}function
+hT(a){return a.l}function
+rv(){}function
+aT(a){this.data=a}aT.prototype=new
+rv();aT.prototype.truncate=function(a){var
+b=this.data;this.data=cn(a|0);fU(b,0,this.data,0,a)};aT.prototype.length=function(){return hT(this.data)};aT.prototype.write=function(b,d,g,a){var
 c=this.length();if(b+a>=c){var
-e=cl(b+a),f=this.data;this.data=e;fL(f,0,this.data,0,c)}eI(d,g,this.data,b,a);return 0};aR.prototype.read=function(c,a,d,b){var
-e=this.length();fL(this.data,c,a,d,b);return 0};aR.prototype.read_one=function(a){return H6(this.data,a)};aR.prototype.close=function(){};aR.prototype.constructor=aR;function
+e=cn(b+a),f=this.data;this.data=e;fU(f,0,this.data,0,c)}eI(d,g,this.data,b,a);return 0};aT.prototype.read=function(c,a,d,b){var
+e=this.length();fU(this.data,c,a,d,b);return 0};aT.prototype.read_one=function(a){return Ih(this.data,a)};aT.prototype.close=function(){};aT.prototype.constructor=aT;function
 a_(b,a){this.content={};this.root=b;this.lookupFun=a}a_.prototype.nm=function(a){return this.root+a};a_.prototype.create_dir_if_needed=function(d){var
-c=d.split(b4),b=ae;for(var
-a=0;a<c.length-1;a++){b+=c[a]+b4;if(this.content[b])continue;this.content[b]=Symbol("directory")}};a_.prototype.slash=function(a){return/\/$/.test(a)?a:a+b4};a_.prototype.lookup=function(b){if(!this.content[b]&&this.lookupFun){var
+c=d.split(b5),b=ae;for(var
+a=0;a<c.length-1;a++){b+=c[a]+b5;if(this.content[b])continue;this.content[b]=Symbol("directory")}};a_.prototype.slash=function(a){return/\/$/.test(a)?a:a+b5};a_.prototype.lookup=function(b){if(!this.content[b]&&this.lookupFun){var
 c=this.lookupFun(a(this.root),a(b));if(c!==0){this.create_dir_if_needed(b);this.content[b]=new
-aR(eJ(c[1]))}}};a_.prototype.exists=function(a){if(a==ae)return 1;var
+aT(eJ(c[1]))}}};a_.prototype.exists=function(a){if(a==ae)return 1;var
 b=this.slash(a);if(this.content[b])return 1;this.lookup(a);return this.content[a]?1:0};a_.prototype.mkdir=function(c,e,d){var
-b=d&&dQ(jW);if(this.exists(c))if(b)dR(b,dT(p5,jV,this.nm(c)));else
+b=d&&dR(j4);if(this.exists(c))if(b)dS(b,dU(qd,j3,this.nm(c)));else
 ar(c+": File exists");var
-a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||ae;if(!this.exists(a))if(b)dR(b,dT(j0,jV,this.nm(a)));else
-ar(a+hn);if(!this.is_dir(a))if(b)dR(b,dT(j5,jV,this.nm(a)));else
-ar(a+kb);this.create_dir_if_needed(this.slash(c))};a_.prototype.rmdir=function(a,f){var
-b=f&&dQ(jW),c=a==ae?ae:this.slash(a),e=new
-RegExp(j8+c+qa);if(!this.exists(a))if(b)dR(b,dT(j0,jT,this.nm(a)));else
-ar(a+hn);if(!this.is_dir(a))if(b)dR(b,dT(j5,jT,this.nm(a)));else
-ar(a+kb);for(var
+a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||ae;if(!this.exists(a))if(b)dS(b,dU(j8,j3,this.nm(a)));else
+ar(a+hx);if(!this.is_dir(a))if(b)dS(b,dU(kb,j3,this.nm(a)));else
+ar(a+kj);this.create_dir_if_needed(this.slash(c))};a_.prototype.rmdir=function(a,f){var
+b=f&&dR(j4),c=a==ae?ae:this.slash(a),e=new
+RegExp(ke+c+qk);if(!this.exists(a))if(b)dS(b,dU(j8,j1,this.nm(a)));else
+ar(a+hx);if(!this.is_dir(a))if(b)dS(b,dU(kb,j1,this.nm(a)));else
+ar(a+kj);for(var
 d
 in
-this.content)if(d.match(e))if(b)dR(b,dT(p_,jT,this.nm(a)));else
+this.content)if(d.match(e))if(b)dS(b,dU(qi,j1,this.nm(a)));else
 ar(this.nm(a)+": Directory not empty");delete
 this.content[c]};a_.prototype.readdir=function(a){var
-f=a==ae?ae:this.slash(a);if(!this.exists(a))ar(a+hn);if(!this.is_dir(a))ar(a+kb);var
+f=a==ae?ae:this.slash(a);if(!this.exists(a))ar(a+hx);if(!this.is_dir(a))ar(a+kj);var
 g=new
-RegExp(j8+f+qa),d={},c=[];for(var
+RegExp(ke+f+qk),d={},c=[];for(var
 e
 in
 this.content){var
 b=e.match(g);if(b&&!d[b[1]]){d[b[1]]=true;c.push(b[1])}}return c};a_.prototype.is_dir=function(a){if(a==ae)return true;var
 b=this.slash(a);return this.content[b]?1:0};a_.prototype.unlink=function(a){var
 b=this.content[a]?true:false;delete
-this.content[a];return b};a_.prototype.open=function(a,b){if(b.rdonly&&b.wronly)ar(this.nm(a)+q2);if(b.text&&b.binary)ar(this.nm(a)+pP);this.lookup(a);if(this.content[a]){if(this.is_dir(a))ar(this.nm(a)+" : is a directory");if(b.create&&b.excl)ar(this.nm(a)+qY);var
+this.content[a];return b};a_.prototype.open=function(a,b){if(b.rdonly&&b.wronly)ar(this.nm(a)+ra);if(b.text&&b.binary)ar(this.nm(a)+pZ);this.lookup(a);if(this.content[a]){if(this.is_dir(a))ar(this.nm(a)+" : is a directory");if(b.create&&b.excl)ar(this.nm(a)+q8);var
 c=this.content[a];if(b.truncate)c.truncate();return c}else
 if(b.create){this.create_dir_if_needed(a);this.content[a]=new
-aR(cl(0));return this.content[a]}else
-Iy(this.nm(a))};a_.prototype.register=function(c,a){var
-b;if(this.content[c])ar(this.nm(c)+qY);if(ko(a))b=new
-aR(a);if(rE(a))b=new
-aR(eJ(a));else
+aT(cn(0));return this.content[a]}else
+IL(this.nm(a))};a_.prototype.register=function(c,a){var
+b;if(this.content[c])ar(this.nm(c)+q8);if(kw(a))b=new
+aT(a);if(rO(a))b=new
+aT(eJ(a));else
 if(a
 instanceof
 Array)b=new
-aR(H7(a));else
+aT(Ii(a));else
 if(typeof
 a==="string")b=new
-aR(ru(a));else
+aT(rE(a));else
 if(a.toString){var
 d=eJ(eM(a.toString()));b=new
-aR(d)}if(b){this.create_dir_if_needed(c);this.content[c]=b}else
+aT(d)}if(b){this.create_dir_if_needed(c);this.content[c]=b}else
 ar(this.nm(c)+" : registering file with invalid content type")};a_.prototype.constructor=a_;function
-au(a){return hJ(a)}function
-dS(b,a){return kg(b,a)}function
-H2(d){var
-c=au(d),b=new
-Array(c),a=0;for(;a<c;a++)b[a]=dS(d,a);return b}function
-H1(a){if(a.t!=4)hF(a);return a.c}function
-H_(a,c,b){b&=cM;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}hF(a)}a.c[c]=b;return 0}function
-H9(b,a,c){if(a>>>0>=b.l)rs();return H_(b,a,c)}function
-ck(a){this.fs=require("fs");this.fd=a}ck.prototype=new
-rl();ck.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){ar(a.toString())}};ck.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){ar(a.toString())}};ck.prototype.write=function(f,b,c,e){var
-a=H2(b);if(!(a
+av(a){return hT(a)}function
+dT(b,a){return ko(b,a)}function
+Id(d){var
+c=av(d),b=new
+Array(c),a=0;for(;a<c;a++)b[a]=dT(d,a);return b}function
+Ic(a){if(a.t!=4)hP(a);return a.c}function
+Il(a,c,b){b&=cN;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}hP(a)}a.c[c]=b;return 0}function
+Ik(b,a,c){if(a>>>0>=b.l)rC();return Il(b,a,c)}function
+cm(a){this.fs=require("fs");this.fd=a}cm.prototype=new
+rv();cm.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){ar(a.toString())}};cm.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){ar(a.toString())}};cm.prototype.write=function(f,b,c,e){var
+a=Id(b);if(!(a
 instanceof
-O.Uint8Array))a=new(O.Uint8Array)(a);var
-d=O.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){ar(a.toString())}return 0};ck.prototype.read=function(g,d,c,f){var
-a=H1(d);if(!(a
+P.Uint8Array))a=new(P.Uint8Array)(a);var
+d=P.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){ar(a.toString())}return 0};cm.prototype.read=function(g,d,c,f){var
+a=Ic(d);if(!(a
 instanceof
-O.Uint8Array))a=new(O.Uint8Array)(a);var
-e=O.Buffer.from(a);try{this.fs.readSync(this.fd,e,c,f,g)}catch(a){ar(a.toString())}for(var
-b=0;b<f;b++)H9(d,c+b,e[c+b]);return 0};ck.prototype.read_one=function(c){var
-b=new(O.Uint8Array)(1),a=O.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){ar(a.toString())}return a[0]};ck.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){ar(a.toString())}};ck.prototype.constructor=ck;function
-aS(a){this.fs=require("fs");this.root=a}aS.prototype.nm=function(a){return this.root+a};aS.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};aS.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};aS.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};aS.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};aS.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){ar(a.toString())}};aS.prototype.unlink=function(a,c){try{var
-b=this.fs.existsSync(this.nm(a))?1:0;this.fs.unlinkSync(this.nm(a));return b}catch(a){this.raise_nodejs_error(a,c)}};aS.prototype.open=function(f,c,g){var
+P.Uint8Array))a=new(P.Uint8Array)(a);var
+e=P.Buffer.from(a);try{this.fs.readSync(this.fd,e,c,f,g)}catch(a){ar(a.toString())}for(var
+b=0;b<f;b++)Ik(d,c+b,e[c+b]);return 0};cm.prototype.read_one=function(c){var
+b=new(P.Uint8Array)(1),a=P.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){ar(a.toString())}return a[0]};cm.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){ar(a.toString())}};cm.prototype.constructor=cm;function
+aU(a){this.fs=require("fs");this.root=a}aU.prototype.nm=function(a){return this.root+a};aU.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};aU.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};aU.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};aU.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};aU.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){ar(a.toString())}};aU.prototype.unlink=function(a,c){try{var
+b=this.fs.existsSync(this.nm(a))?1:0;this.fs.unlinkSync(this.nm(a));return b}catch(a){this.raise_nodejs_error(a,c)}};aU.prototype.open=function(f,c,g){var
 a=require("constants"),b=0;for(var
 e
 in
 c)switch(e){case"rdonly":b|=a.O_RDONLY;break;case"wronly":b|=a.O_WRONLY;break;case"append":b|=a.O_WRONLY|a.O_APPEND;break;case"create":b|=a.O_CREAT;break;case"truncate":b|=a.O_TRUNC;break;case"excl":b|=a.O_EXCL;break;case"binary":b|=a.O_BINARY;break;case"text":b|=a.O_TEXT;break;case"nonblock":b|=a.O_NONBLOCK;break}try{var
 d=this.fs.openSync(this.nm(f),b);return new
-ck(d)}catch(a){this.raise_nodejs_error(a,g)}};aS.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};aS.prototype.stat=function(b,c){try{var
-a=this.fs.statSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aS.prototype.lstat=function(b,c){try{var
-a=this.fs.lstatSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aS.prototype.symlink=function(d,c,a,b){try{this.fs.symlinkSync(this.nm(c),this.nm(a),d?"dir":"file");return 0}catch(a){this.raise_nodejs_error(a,b)}};aS.prototype.readlink=function(b,c){try{var
-a=this.fs.readlinkSync(this.nm(b),pA);return eM(a)}catch(a){this.raise_nodejs_error(a,c)}};aS.prototype.raise_nodejs_error=function(a,d){var
-b=dQ(jW);if(d&&b){var
-c=dT(a.code,a.syscall,a.path,a.errno);dR(b,c)}else
-ar(a.toString())};aS.prototype.stats_from_js=function(a){var
+cm(d)}catch(a){this.raise_nodejs_error(a,g)}};aU.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};aU.prototype.stat=function(b,c){try{var
+a=this.fs.statSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aU.prototype.lstat=function(b,c){try{var
+a=this.fs.lstatSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aU.prototype.symlink=function(d,c,a,b){try{this.fs.symlinkSync(this.nm(c),this.nm(a),d?"dir":"file");return 0}catch(a){this.raise_nodejs_error(a,b)}};aU.prototype.readlink=function(b,c){try{var
+a=this.fs.readlinkSync(this.nm(b),pK);return eM(a)}catch(a){this.raise_nodejs_error(a,c)}};aU.prototype.raise_nodejs_error=function(a,d){var
+b=dR(j4);if(d&&b){var
+c=dU(a.code,a.syscall,a.path,a.errno);dS(b,c)}else
+ar(a.toString())};aU.prototype.stats_from_js=function(a){var
 b;if(a.isFile())b=0;else
 if(a.isDirectory())b=1;else
 if(a.isCharacterDevice())b=2;else
 if(a.isBlockDevice())b=3;else
 if(a.isSymbolicLink())b=4;else
 if(a.isFIFO())b=5;else
-if(a.isSocket())b=6;return[0,a.dev,a.ino,b,a.mode,a.nlink,a.uid,a.gid,a.rdev,a.size,a.atimeMs,a.mtimeMs,a.ctimeMs]};aS.prototype.constructor=aS;function
-rB(b){var
-a=kv(b);if(!a)return;return a[0]+b4}var
-hK=rB(fM)||b5("unable to compute caml_root"),eN=[];if(fP())eN.push({path:hK,device:new
-aS(hK)});else
-eN.push({path:hK,device:new
-a_(hK)});eN.push({path:pJ,device:new
-a_(pJ)});function
-rV(b){var
-g=Ip(b),b=g.join(b4),f=rO(b),c;for(var
+if(a.isSocket())b=6;return[0,a.dev,a.ino,b,a.mode,a.nlink,a.uid,a.gid,a.rdev,a.size,a.atimeMs,a.mtimeMs,a.ctimeMs]};aU.prototype.constructor=aU;function
+rL(b){var
+a=kD(b);if(!a)return;return a[0]+b5}var
+hU=rL(fV)||b6("unable to compute caml_root"),eN=[];if(fY())eN.push({path:hU,device:new
+aU(hU)});else
+eN.push({path:hU,device:new
+a_(hU)});eN.push({path:pT,device:new
+a_(pT)});function
+r5(b){var
+g=IC(b),b=g.join(b5),f=rY(b),c;for(var
 e=0;e<eN.length;e++){var
-a=eN[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&fP()){var
-d=rB(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
+a=eN[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&fY()){var
+d=rL(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
 a={path:d,device:new
-aS(d)};eN.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;ar("no device found for "+f)}function
-Ia(c,b){var
-a=rV(c);if(!a.device.register)b5("cannot register file");a.device.register(a.rest,b);return 0}function
-rQ(c,b){var
-c=a(c),b=a(b);return Ia(c,b)}function
-Id(){var
-b=O.caml_fs_tmp;if(b)for(var
-a=0;a<b.length;a++)rQ(b[a].name,b[a].content);O.jsoo_create_file=rQ;O.caml_fs_tmp=[];return 0}function
-Iw(c){var
-a=0,e=au(c),b=10,d=1;if(e>0)switch(dS(c,a)){case
+aU(d)};eN.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;ar("no device found for "+f)}function
+In(c,b){var
+a=r5(c);if(!a.device.register)b6("cannot register file");a.device.register(a.rest,b);return 0}function
+r0(c,b){var
+c=a(c),b=a(b);return In(c,b)}function
+Iq(){var
+b=P.caml_fs_tmp;if(b)for(var
+a=0;a<b.length;a++)r0(b[a].name,b[a].content);P.jsoo_create_file=r0;P.caml_fs_tmp=[];return 0}function
+IJ(c){var
+a=0,e=av(c),b=10,d=1;if(e>0)switch(dT(c,a)){case
 45:a++;d=-1;break;case
-43:a++;d=1;break}if(a+1<e&&dS(c,a)==48)switch(dS(c,a+1)){case
+43:a++;d=1;break}if(a+1<e&&dT(c,a)==48)switch(dT(c,a+1)){case
 120:case
 88:b=16;a+=2;break;case
 111:case
@@ -583,33 +583,33 @@ a=0,e=au(c),b=10,d=1;if(e>0)switch(dS(c,a)){case
 66:b=2;a+=2;break;case
 117:case
 85:a+=2;break}return[a,d,b]}function
-rI(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=rc)return a-87;return-1}function
-hI(f){var
-h=Iw(f),c=h[0],i=h[1],d=h[2],g=au(f),j=-1>>>0,e=c<g?dS(f,c):0,b=rI(e);if(b<0||b>=d)b5(hs);var
-a=b;for(c++;c<g;c++){e=dS(f,c);if(e==95)continue;b=rI(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)b5(hs)}if(c!=g)b5(hs);a=i*a;if(d==10&&(a|0)!=a)b5(hs);return a|0}function
-Io(a,b){return+(kh(a,b,false)<=0)}function
-Iq(a,d){if(a<0)hE();var
+rS(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=rm)return a-87;return-1}function
+hS(f){var
+h=IJ(f),c=h[0],i=h[1],d=h[2],g=av(f),j=-1>>>0,e=c<g?dT(f,c):0,b=rS(e);if(b<0||b>=d)b6(hC);var
+a=b;for(c++;c<g;c++){e=dT(f,c);if(e==95)continue;b=rS(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)b6(hC)}if(c!=g)b6(hC);a=i*a;if(d==10&&(a|0)!=a)b6(hC);return a|0}function
+IB(a,b){return+(kp(a,b,false)<=0)}function
+ID(a,d){if(a<0)hO();var
 a=a+1|0,b=new
 Array(a);b[0]=0;for(var
 c=1;c<a;c++)b[c]=d;return b}var
-cO=new
+cP=new
 Array();function
-Ir(c){var
-a=cO[c];if(!a.opened)ar("Cannot flush a closed channel");if(!a.buffer||a.buffer==ae)return 0;if(a.fd&&az.fds[a.fd]&&az.fds[a.fd].output){var
+IE(c){var
+a=cP[c];if(!a.opened)ar("Cannot flush a closed channel");if(!a.buffer||a.buffer==ae)return 0;if(a.fd&&az.fds[a.fd]&&az.fds[a.fd].output){var
 b=az.fds[a.fd].output;switch(b.length){case
 2:b(c,a.buffer);break;default:b(a.buffer)}}a.buffer=ae;return 0}function
-rL(e,f){var
-b=cO[e],d=a(f),c=au(d);b.file.write(b.offset,d,0,c);b.offset+=c;return 0}function
-IE(a){var
-a=kr(a),b=O;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+rV(e,f){var
+b=cP[e],d=a(f),c=av(d);b.file.write(b.offset,d,0,c);b.offset+=c;return 0}function
+IR(a){var
+a=kz(a),b=P;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.error&&c.error(a)}}function
-IF(a){var
-a=kr(a),b=O;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+IS(a){var
+a=kz(a),b=P;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.log&&c.log(a)}}function
-hM(c,e,d,a){if(az.fds===undefined)az.fds=new
+hW(c,e,d,a){if(az.fds===undefined)az.fds=new
 Array();a=a?a:{};var
 b={};b.file=d;b.offset=a.append?d.length():0;b.flags=a;b.output=e;az.fds[c]=b;if(!az.fd_last_idx||c>az.fd_last_idx)az.fd_last_idx=c;return c}function
-IM(c,b,g){var
+IZ(c,b,g){var
 a={};while(b){switch(b[1]){case
 0:a.rdonly=1;break;case
 1:a.wronly=1;break;case
@@ -619,162 +619,162 @@ a={};while(b){switch(b[1]){case
 5:a.excl=1;break;case
 6:a.binary=1;break;case
 7:a.text=1;break;case
-8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)ar(eL(c)+q2);if(a.text&&a.binary)ar(eL(c)+pP);var
-d=rV(c),e=d.device.open(d.rest,a),f=az.fd_last_idx?az.fd_last_idx:0;return hM(f+1,rL,e,a)}hM(0,rL,new
-aR(cl(0)));hM(1,IF,new
-aR(cl(0)));hM(2,IE,new
-aR(cl(0)));function
-Is(a){var
-c=az.fds[a];if(c.flags.wronly)ar(ra+a+" is writeonly");var
-d=null;if(a==0&&fP()){var
-e=require("fs");d=function(){return eM(e.readFileSync(0,pA))}}var
-b={file:c.file,offset:c.offset,fd:a,opened:true,out:false,refill:d};cO[b.fd]=b;return b.fd}function
-rF(c){var
-b=az.fds[c];if(b.flags.rdonly)ar(ra+c+" is readonly");var
-a={file:b.file,offset:b.offset,fd:c,opened:true,out:true,buffer:ae};cO[a.fd]=a;return a.fd}function
-It(){var
+8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)ar(eL(c)+ra);if(a.text&&a.binary)ar(eL(c)+pZ);var
+d=r5(c),e=d.device.open(d.rest,a),f=az.fd_last_idx?az.fd_last_idx:0;return hW(f+1,rV,e,a)}hW(0,rV,new
+aT(cn(0)));hW(1,IS,new
+aT(cn(0)));hW(2,IR,new
+aT(cn(0)));function
+IF(a){var
+c=az.fds[a];if(c.flags.wronly)ar(rk+a+" is writeonly");var
+d=null;if(a==0&&fY()){var
+e=require("fs");d=function(){return eM(e.readFileSync(0,pK))}}var
+b={file:c.file,offset:c.offset,fd:a,opened:true,out:false,refill:d};cP[b.fd]=b;return b.fd}function
+rP(c){var
+b=az.fds[c];if(b.flags.rdonly)ar(rk+c+" is readonly");var
+a={file:b.file,offset:b.offset,fd:c,opened:true,out:true,buffer:ae};cP[a.fd]=a;return a.fd}function
+IG(){var
 b=0;for(var
-a=0;a<cO.length;a++)if(cO[a]&&cO[a].opened&&cO[a].out)b=[0,cO[a].fd,b];return b}function
-bI(b,c,a){if(a&&O.toplevelReloc)b=O.toplevelReloc(a);az[b+1]=c;if(a)az[a]=c}function
-IA(a,b){rH[eL(a)]=b;return 0}function
-H5(a,b){if(a===b)return 1;a.t&6&&eK(a);b.t&6&&eK(b);return a.c==b.c?1:0}function
-ax(a,b){return H5(a,b)}function
-IC(){aT(j$)}function
-a2(b,a){if(a>>>0>=au(b))IC();return dS(b,a)}function
+a=0;a<cP.length;a++)if(cP[a]&&cP[a].opened&&cP[a].out)b=[0,cP[a].fd,b];return b}function
+bM(b,c,a){if(a&&P.toplevelReloc)b=P.toplevelReloc(a);az[b+1]=c;if(a)az[a]=c}function
+IN(a,b){rR[eL(a)]=b;return 0}function
+Ig(a,b){if(a===b)return 1;a.t&6&&eK(a);b.t&6&&eK(b);return a.c==b.c?1:0}function
+ax(a,b){return Ig(a,b)}function
+IP(){aV(kh)}function
+a2(b,a){if(a>>>0>=av(b))IP();return dT(b,a)}function
 o(a,b){return 1-ax(a,b)}function
-hL(a){return a}function
-rK(a){return a}function
-rP(a){if(a
+hV(a){return a}function
+rU(a){return a}function
+rZ(a){if(a
 instanceof
-Array)return a;if(O.RangeError&&a
+Array)return a;if(P.RangeError&&a
 instanceof
-O.RangeError&&a.message&&a.message.match(/maximum call stack/i))return rK(az.Stack_overflow);if(O.InternalError&&a
+P.RangeError&&a.message&&a.message.match(/maximum call stack/i))return rU(az.Stack_overflow);if(P.InternalError&&a
 instanceof
-O.InternalError&&a.message&&a.message.match(/too much recursion/i))return rK(az.Stack_overflow);if(a
+P.InternalError&&a.message&&a.message.match(/too much recursion/i))return rU(az.Stack_overflow);if(a
 instanceof
-O.Error&&dQ(qf))return[0,dQ(qf),a];return[0,az.Failure,eM(String(a))]}function
-cm(a){return a<0?-a:a}function
+P.Error&&dR(qp))return[0,dR(qp),a];return[0,az.Failure,eM(String(a))]}function
+co(a){return a<0?-a:a}function
 F(a,b){return a+b}function
-ks(a,b){return a<b?-1:a>b?1:0}function
-rS(c,b){var
-a=c%b;return a<0?a+cm(b):a}function
-kt(a,b){return(a-rS(a,b))/b}function
+kA(a,b){return a<b?-1:a>b?1:0}function
+r2(c,b){var
+a=c%b;return a<0?a+co(b):a}function
+kB(a,b){return(a-r2(a,b))/b}function
 I(a,b){return a==b?1:0}function
-IJ(c){O.orthocert_verify=function(b){return eL(dp(c,[a(b)]))}}function
+IW(c){P.orthocert_verify=function(b){return eL(dr(c,[a(b)]))}}function
 D(a,b){return a<=b?1:0}function
 J(a,b){return a<b?1:0}function
-B(a,b){return a*b}function
+C(a,b){return a*b}function
 Q(a){return-a}function
-aF(a){return O.BigInt(a)}function
-rT(a,b){return a<<O.BigInt(b)}function
-rU(a,b){return a>>O.BigInt(b)}function
-aO(a){return a<0?-1:a>0?1:0}function
-IK(a){if(a<0)throw new(O.Error)("a root of a negative number");if(a<2)return a;var
-d=O.BigInt(1),b=d<<O.BigInt((a.toString(16).length*4+1)/2|0),c;for(;;){c=b+a/b>>d;if(c>=b)return b;b=c}}function
-aG(a,b){return a-b}function
-ku(a){if(a>0x7fffffff||a<-0x80000000)throw new(O.Error)("a number of more than 32 bits");return O.Number(a)}function
-Im(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
-Ic(b){var
-a=ae;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&Im(b[1]))var
+aH(a){return P.BigInt(a)}function
+r3(a,b){return a<<P.BigInt(b)}function
+r4(a,b){return a>>P.BigInt(b)}function
+aR(a){return a<0?-1:a>0?1:0}function
+IX(a){if(a<0)throw new(P.Error)("a root of a negative number");if(a<2)return a;var
+d=P.BigInt(1),b=d<<P.BigInt((a.toString(16).length*4+1)/2|0),c;for(;;){c=b+a/b>>d;if(c>=b)return b;b=c}}function
+aI(a,b){return a-b}function
+kC(a){if(a>0x7fffffff||a<-0x80000000)throw new(P.Error)("a number of more than 32 bits");return P.Number(a)}function
+Iz(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
+Ip(b){var
+a=ae;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&Iz(b[1]))var
 e=b[2],f=1;else
 var
-f=2,e=b;a+=qg;for(var
+f=2,e=b;a+=qq;for(var
 d=f;d<e.length;d++){if(d>f)a+=", ";var
 c=e[d];if(typeof
 c=="number")a+=c.toString();else
 if(c
 instanceof
-cj)a+=aN+c.toString()+aN;else
+cl)a+=aQ+c.toString()+aQ;else
 if(typeof
-c=="string")a+=aN+c.toString()+aN;else
-a+="_"}a+=j7}else
+c=="string")a+=aQ+c.toString()+aQ;else
+a+="_"}a+=kd}else
 if(b[0]==a1)a+=b[1];return a}function
-rz(a){if(a
+rJ(a){if(a
 instanceof
 Array&&(a[0]==0||a[0]==a1)){var
-c=dQ("Printexc.handle_uncaught_exception");if(c)c(a,false);else{var
-d=Ic(a),b=dQ(pz);if(b)b(0);O.console.error("Fatal error: exception "+d+"\n")}}else
+c=dR("Printexc.handle_uncaught_exception");if(c)c(a,false);else{var
+d=Ip(a),b=dR(pJ);if(b)b(0);P.console.error("Fatal error: exception "+d+"\n")}}else
 throw a}function
-IB(){var
-a=O;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){rz(b);a.process.exit(2)});else
-if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)rz(a.error)})}IB();function
-i(a,b){return a.length==1?a(b):dp(a,[b])}function
-aq(a,b,c){return a.length==2?a(b,c):dp(a,[b,c])}function
-fx(a,b,c,d){return a.length==3?a(b,c,d):dp(a,[b,c,d])}function
-jR(a,b,c,d,e){return a.length==4?a(b,c,d,e):dp(a,[b,c,d,e])}Id();var
-kx=[a1,a(p8),-2],kw=[a1,a(rk),-4],GV=[0,[0,[0,[0,0]]]],GW=[0,0],GX=[0,0],GY=[0,[0,0]],GZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GY]]]]]]]]]]],g$=[0,[1,0],0],oJ=[0,[2,0],0],jy=[0,[1,0],0],oI=[0,[2,0],0],g9=[0,[1,0],0],jx=[0,[2,0],0],G0=[0,[0,[0,[0,0]]]],G1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G0]]]]]]]]]]],G2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G1]]]]]]]]]]],G3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G2]]]]]]]]]]],G4=[0,[0,0]],G5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G4]]]]]]]]]]],G6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G5]]]]]]]]]]],G7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G6]]]]]]]]]]],G8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G7]]]]]]]]]]],G9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],G_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G9]]]]]]]]]]],G$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G_]]]]]]]]]]],Ha=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G$]]]]]]]]]]],Hb=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ha]]]]]]]]]]],Hc=[0,[0,0]],Hd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hc]]]]]]]]]]],He=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hd]]]]]]]]]]],Hf=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,He]]]]]]]]]]],Hg=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hf]]]]]]]]]]],Hh=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hg]]]]]]]]]]],Hi=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hh]]]]]]]]]]],Hj=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hi]]]]]]]]]]],Hk=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],Hl=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hk]]]]]]]]]]],Hm=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hl]]]]]]]]]]],Hn=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hm]]]]]]]]]]],Ho=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hn]]]]]]]]]]],Hp=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ho]]]]]]]]]]],Hq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hp]]]]]]]]]]],Hr=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hq]]]]]]]]]]],Hs=[0,0],Ht=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hs]]]]]]]]]]],Hu=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ht]]]]]]]]]]],Hv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hu]]]]]]]]]]],Hw=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hv]]]]]]]]]]],Hx=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hw]]]]]]]]]]],Hy=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hx]]]]]]]]]]],Hz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hy]]]]]]]]]]],HA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hz]]]]]]]]]]],HB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HA]]]]]]]]]]],HC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HB]]]]]]]]]]],HD=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],HE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HD]]]]]]]]]]],HF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],HG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HF]]]]]]]]]]],HH=[0,[0,[0,[0,[0,0]]]]],HI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HH]]]]]]]]]]],HJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HI]]]]]]]]]]],HK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HJ]]]]]]]]]]],HL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HK]]]]]]]]]]],HM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HL]]]]]]]]]]],HN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HM]]]]]]]]]]],HO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HN]]]]]]]]]]],HP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HO]]]]]]]]]]],HQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HP]]]]]]]]]]],HR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HQ]]]]]]]]]]],HS=[0,0],HT=[0,[0,0]],HU=[0,0],HV=[0,[0,[0,[0,[0,0]]]]],k5=[0,[0,[0,0]]],dv=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],gZ=[0,[0,[0,[0,0]]]],HW=[0,[0,[0,[0,[0,0]]]]],HX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HW]]]]]]]]]]],HY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HX]]]]]]]]]]],HZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HY]]]]]]]]]]],H0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HZ]]]]]]]]]]];bI(11,[a1,a(py),-12],py);bI(10,[a1,a(qm),-11],qm);bI(9,[a1,a(q$),-10],q$);bI(8,[a1,a(pK),-9],pK);bI(7,[a1,a(qB),-8],qB);bI(6,[a1,a(pI),-7],pI);bI(5,[a1,a(p9),-6],p9);bI(4,[a1,a(qb),-5],qb);bI(3,kw,rk);bI(2,[a1,a(j1),-3],j1);bI(1,kx,p8);bI(0,[a1,a(qU),-1],qU);var
-rW=a("String.sub / Bytes.sub"),rY=a(ae),rX=a("String.concat"),rZ=a("Array.init"),r0=a("power"),sh=[0,0],si=[0,0],so=[0,0,0],sp=[0,0,0],sq=[0,0],sM=[0,0],sN=[0,0],sQ=[0,0],s$=[0,0],tc=[0,0],tg=[0,0],th=[0,0],ti=[0,0],tj=[0,0],tx=[0,0],ty=[0,0],t1=[0,0],uj=[0,[0,[0,0]]],uN=[0,0],va=[0,0],vC=a(","),vU=[0,a(j7),0],vV=a(qg),vW=a("."),vX=[0,[0,[0,0]]],vY=a(eF),vZ=a(j8),v0=[0,[0,[0,[0,[0,0]]]]],v1=[0,a(j7),0],v2=a(ri),y5=a(pv),y7=a(pr),y6=a(qp),y8=a(eA),y9=a(ey),y_=a(ke),y$=a(q5),za=a(p2),zb=a(j_),zc=a(qv),zd=a(p1),Au=[0,[0,0,0]],AL=[0,0],Av=a(fy),Aw=[0,0],Ax=a("divided"),Ay=[0,1],Az=a("mirror"),AA=[0,3],AB=a("negative"),AC=[0,2],AD=a(fD),AE=[0,5],AF=a(kd),AG=[0,4],AH=a(dm),AI=a(pN),AJ=a(eB),AK=a(bG),AM=[0,0],AN=[0,0],AO=[0,0],AR=[0,[0,[0,0]]],AS=[0,[0,[0,0]]],Bh=[0,[0,[0,0]]],Bv=[0,0],BL=a(ae),BE=[0,0],BF=[0,0],BG=[0,[0,[0,[0,0]]]],BH=[0,[0,[0,0]]],BI=[0,[0,[0,[0,0]]]],BJ=[0,[0,[0,0]]],BC=[0,[0,[0,0]]],BB=[0,0],BA=a(eB),Bz=[0,0],By=[0,[0,[0,0]]],Bx=[0,0],Bs=[0,[0,0]],Bu=[0,[0,[0,0]]],Bt=[0,0],Bo=[0,[0,[0,0]]],Bn=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GV]]]]]]]]]],[0,0,[0,[0,[0,[0,0]]],0]]],Bi=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],[0,0,0]],Bj=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],[0,[0,[0,[0,[0,[0,[0,0]]]]]],0]],Bk=[0,[0,[0,[0,[0,[0,[0,0]]]]]],0],Bl=[0,[0,[0,[0,0]]],[0,0,0]],Bf=[0,0],Bg=[0,[0,0]],Be=[0,0,0],Bd=[0,[0,[0,0]]],A9=[0,[0,0]],A_=[0,[0,[0,0]]],A$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GW]]]]]]]]]]],Ba=[0,[0,0]],Bb=[0,[0,[0,0]]],A8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GX]]]]]]]]]]],A6=[0,[0,0]],A7=[0,[0,[0,0]]],A4=[0,[0,[0,0]]],A5=[0,[0,0]],A3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GZ]]]]]]]]]]],A2=[0,0],A1=[0,0],AY=[0,[0,0]],AZ=[0,0],AW=[0,0],AX=[0,1],AU=[0,[0,0]],AV=[0,0],AT=[0,0],AP=[0,0],AQ=[0,1],Ar=[0,0],As=[0,1],At=[0,2],An=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],Al=[0,[0,0],0],Am=[0,[1,0],0],Ao=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],Aj=[0,[0,0]],Ak=[0,0],Ai=[0,0],Ah=[0,0],Ag=[0,0],Af=[0,0],Ae=[0,0,0],Ac=[0,[0,0]],Ad=[0,0],Ab=[0,0,0],z$=[0,[0,[0,0]]],Aa=[0,[0,[0,0]]],z_=[0,0],z8=[0,1,0],z0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G3]]]]]]]]]]],z1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G8]]]]]]]]]]],zW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hb]]]]]]]]]]],zX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hj]]]]]]]]]]],zY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hr]]]]]]]]]]],zZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HC]]]]]]]]]]],z2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HE]]]]]]]]]]],z3=a("sqrt"),zU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HG]]]]]]]]]]],zV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HR]]]]]]]]]]],zJ=[0,a("\n"),0],zK=a(ps),zL=a(ho),zM=a(ql),zN=a(p6),zT=a(fG),zO=a(fC),zP=a("verdict"),zQ=a(qW),zR=a(pY),zS=a(qk),zG=a(qe),zH=a(q0),zI=a(hq),zC=a(qx),zD=a(hr),zE=a(fC),zF=a(fG),zx=a(hz),zy=a(bp),zz=a(pu),zA=a(hw),zu=a(qT),zv=a(fD),zw=a(hw),zq=a(qA),zr=a(hz),zs=a(hr),zt=a(q9),zf=a(q1),zg=a(q4),zh=a(hv),zi=a(ht),zj=a(rd),zk=a(qP),zl=a(qS),zm=a(qE),zn=a(hv),zo=a(qH),y3=a(hm),y4=a(fF),yY=a(bH),yZ=a(bF),y0=a(p0),yy=a(ht),yz=a(qD),yc=a(bp),yd=a(b3),ye=a(hB),yf=a(eE),yg=a(cK),yl=a(jU),yh=a(j9),yi=a(ka),yj=a(ez),yk=a(bp),ym=a(b3),yn=a(hB),yo=a(eE),yp=a(j9),yq=a(ka),yr=a(ez),ys=a(bp),yt=a(b3),yu=a(bH),yv=a(bF),yw=a(dN),yx=a(eE),yA=a(qN),yB=a(q3),yC=a(hD),yD=a(pO),yE=a(pT),yF=a(ez),yG=a(bp),yH=a(b3),yI=a(hk),yJ=a(p4),yK=a(eE),yL=a(fK),yM=a(pC),yN=a(ez),yO=a(bp),yP=a(hk),yQ=a(bp),yR=a(qG),yU=a(pq),yS=a(pR),yT=a(q8),yV=a(fG),yW=a(fC),yX=a(bp),y1=a(hD),y2=a(hq),x9=a(b3),x_=a(eE),x$=a(jU),ya=a(ez),x8=a(rf),xW=a(fK),xX=a(qX),xY=a(dO),xZ=a(eC),x0=a(eC),x1=a(jX),x2=a(dO),x3=a(qn),x4=a(pZ),x5=a(bi),x7=a(px),x6=a(jX),xM=a(qd),xN=a(rj),xO=a(pV),xP=a(pS),xQ=a(q7),xR=a(qR),xS=a(p7),xT=a(hl),xU=a(hl),xI=a(bi),xJ=a(bD),xK=a(eG),xL=a(bE),xE=a(cK),xF=a(j4),xG=a(qy),xB=a(bH),xC=a(bF),xD=a(dN),xu=a(bH),xv=a(bF),xw=a(dN),xx=a(j6),xy=a(dO),xz=a(j2),xA=a(qM),xc=a(pQ),xi=a(ho),xh=a(kc),xd=a(jY),xe=a(fA),xj=a(fB),xl=a(fB),xm=a(qK),xn=a(jY),xk=a(fA),xo=a(pM),xp=a(qJ),xq=a(fA),xr=a(re),xs=a(kc),xt=a(fA),xf=a(eC),xg=a(qt),w$=a(hu),xa=a(hu),xb=a(hu),w7=a(qO),w8=a(bF),w9=a(bH),w_=a(q6),wQ=a(pG),wR=a(pw),wS=a(qC),wT=a(eA),wU=a(rg),wV=a(qF),wW=a(pH),wX=a(qu),wY=a(pF),wZ=a(p3),w0=a(pE),w1=a(qQ),w2=a(ey),w3=a(pB),w4=a(qZ),w5=a(pU),w6=a(rh),wr=a(hx),wt=a(eF),ws=a(fz),wu=a(ex),wv=a(bi),ww=a(bD),wx=a(bG),wy=a(hC),wz=a(bE),wA=a(fI),wB=a(bi),wC=a(bD),wD=a(eG),wE=a(bE),wF=a(bG),wG=a(cK),wH=a(bE),wI=a(ex),wJ=a(fJ),wK=a(bi),wL=a(bD),wM=a(qr),wN=a(fB),wO=a(fJ),wP=a(bE),v$=a(hx),wh=a(eF),wa=a(fz),wb=a(ex),wc=a(bi),wd=a(bD),we=a(bG),wf=a(hC),wg=a(bE),wi=a(fI),wj=a(bi),wk=a(bD),wl=a(eG),wm=a(bE),wn=a(bG),wo=a(cK),wp=a(bE),v8=a(bH),v9=a(bF),v6=[0,a(aN),0],v7=a(aN),v4=a(ae),v3=[0,a(aN),0],v5=a(aN),vQ=a(hx),vR=a(eF),vS=a("*"),vT=a(b4),vL=[0,[0,[0,[0,[0,0]]]]],vM=[0,[0,[0,0]]],vN=[0,[0,0]],vO=[0,0],vP=[0,[0,[0,[0,0]]]],vJ=a('":'),vK=a(aN),vH=[0,a(aN),0],vI=a(aN),vF=[0,a("}"),0],vG=a("{"),vD=[0,a("]"),0],vE=a("["),vB=[0,[0,[0,0]]],vA=[0,[0,[0,0]]],vy=[0,0],vv=[0,[0,[0,0]]],vw=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],vx=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],vt=[0,[0,0]],vu=[0,[0,[0,0]]],vr=[0,0],vs=[0,[0,0]],vn=[0,[0,0]],vo=[0,0],vp=[0,[0,[0,0]]],vq=[0,[0,[0,0]]],vj=[0,[0,[0,0]]],vl=[0,[0,[0,0]]],vk=[0,0],vg=[0,[0,0]],vh=[0,0],ve=[0,[0,0]],vf=[0,0],vd=[0,[0,[0,0]]],vb=[0,[0,0]],vc=[0,0],u_=[0,0],u$=[0,[0,0]],u4=[0,[0,0]],u5=[0,[0,[0,[0,[0,0]]]]],u6=[0,[0,[0,[0,0]]]],u7=[0,[0,[0,0]]],u8=[0,[0,0]],u9=[0,0],u1=[0,0],u2=[0,[0,0]],u3=[0,0],u0=[0,0],uW=[0,0],uX=[0,[0,[0,[0,[0,[0,0]]]]]],uY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HS]]]]]]]]]]],uU=[0,0],uR=[0,0,0],uS=[0,0,0],uT=[0,0,0],uO=[0,[0,0]],uP=[0,[0,[0,0]]],uQ=[0,0],uD=[0,[0,[0,[0,[0,[0,0]]]]]],uE=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],uF=[0,[0,[0,0]]],uG=[0,[0,[0,0]]],uH=[0,[0,[0,[0,[0,[0,0]]]]]],uI=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],uJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HT]]]]]]]]]]],uK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HU]]]]]]]]]]],uL=[0,[0,[0,0]]],uM=[0,[0,[0,[0,[0,[0,0]]]]]],uC=[0,0],uA=[0,[0,0]],uB=[0,[0,[0,0]]],uw=[0,0,0],ux=[0,0,0],us=[0,0,0],ut=[0,0,0],uu=[0,0,0],uv=[0,0,0],ur=[0,0],uq=[0,0],up=[0,0],un=[0,0],uo=[0,0],um=[0,0],uk=[0,0],ul=[0,0],ud=[0,0],ue=[0,0],uf=[0,0],ug=[0,[0,[0,0]]],uc=[0,0],t9=[0,[0,[0,0]]],t_=[0,[0,0]],t7=[0,[0,0]],t8=[0,[0,[0,0]]],t6=[0,0],t4=[0,0],t5=[0,0],t2=[0,0,0],tZ=[0,[0,0]],t0=[0,0],tR=[0,[0,0]],tS=[0,0],tT=[0,[0,0]],tU=[0,0],tV=[0,[0,0]],tW=[0,0],tX=[0,[0,0]],tY=[0,0],tP=[0,[0,0]],tQ=[0,0],tN=[0,[0,0]],tO=[0,0],tJ=[0,[0,0]],tK=[0,0],tL=[0,0],tM=[0,[0,0]],tA=[0,[0,0]],tB=[0,0],tC=[0,[0,0]],tD=[0,0],tE=[0,0],tF=[0,[0,0]],tG=[0,[0,0]],tH=[0,[0,0]],tI=[0,0],tw=[0,0],tv=[0,0],ts=[0,0],tt=[0,[0,0]],tr=[0,[0,[0,0]]],tq=[0,[0,[0,[0,[0,[0,0]]]]]],to=[0,[0,0]],tp=[0,0],tn=[0,[0,0]],tm=[0,0],tk=[0,0],tl=[0,[0,[0,0]]],te=[0,[0,0]],tf=[0,[0,[0,0]]],td=[0,[0,[0,0]]],ta=[0,[0,[0,0]]],s_=[0,[0,[0,0]]],s8=[0,[0,[0,[0,[0,[0,0]]]]]],s9=[0,[0,[0,[0,[0,[0,0]]]]]],s3=[0,[0,0]],s4=[0,0],s5=[0,[0,0]],s6=[0,[0,[0,0]]],s7=[0,[0,[0,0]]],sW=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],sX=[0,[0,[0,[0,[0,[0,0]]]]]],sY=[0,[0,[0,[0,[0,[0,0]]]]]],sZ=[0,[0,[0,0]]],s0=[0,[0,[0,[0,[0,[0,0]]]]]],s1=[0,[0,[0,0]]],s2=[0,[0,[0,0]]],sU=[0,[0,0]],sV=[0,0],sT=[0,0,0],sS=[0,0,0],sR=[0,0,0],sP=[0,0,0],sO=[0,[0,[0,0]]],sI=[0,0],sJ=[0,0],sK=[0,0],sL=[0,0],sG=[0,0],sH=[0,0],sC=[0,[0,[0,0]]],sD=[0,[0,[0,0]]],sE=[0,[0,[0,0]]],sB=[0,[0,[0,[0,0]]]],sx=[0,[0,[0,0]]],sy=[0,[0,[0,0]]],sz=[0,[0,[0,0]]],sA=[0,[0,1,1],[0,[0,0,1],[0,[0,1,0],[0,[0,0,0],0]]]],sv=[0,[0,0]],sw=[0,0],st=[0,[0,0]],su=[0,0],sr=[0,[0,0]],ss=[0,0],se=[0,0],sf=[0,[0,0]],sc=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],sd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HV]]]]]]]]]]],sa=[0,0,0],r$=a(rb),r_=a(ae),r9=[0,[0,0]],r7=[0,0],r4=[0,0],r6=[1,0],r5=[0,0],r3=[0,0],r1=[1,0],r2=[1,0],tu=[10,0,0,0,0],Bw=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H0]]]]]]]]]]],ER=a(bH),ES=a(bF),ET=a(p0),EJ=a(fI),EK=[0,a("a base axis of such a platform"),0],EL=a(bi),EM=a(bD),Ew=a(qR),Ex=a(qd),Ey=a(q7),Ez=a(hl),EA=a(p7),EB=a(hl),EC=a(rj),ED=a(pV),EE=a(pS),Em=a(qD),En=a(ht),D0=[0,a("such a machine with bodies"),0],DN=a(hq),DO=a(bp),DP=a(qG),DQ=a(q8),DT=a(pR),DU=a(pq),DV=a(bp),DW=a(bp),DY=a(hk),DX=[0,a("a claim that no cube of such a machine fits"),0],DZ=a(rf),D1=a(ez),D2=a(eE),D3=a(cK),D4=a(j4),D5=a(qy),D6=a(hB),D7=a(pT),D8=a(pC),D9=a(jU),Ea=a(dN),Eb=a(qM),Ee=a(b3),Ef=a(b3),Eg=a(p4),Eh=a(b3),Ei=[0,a("the closed design with other bounds on psi than one from below and one from above"),0],Ej=a(hk),Ek=a(fK),El=a(dN),Eo=a(b3),Ep=a(bH),Eq=a(bF),Er=a(qN),Es=a(q3),Et=a(hD),Eu=a(pO),D_=[0,a(aN),0],D$=a('the mechanism "'),Ev=a(j9),EF=a(hB),EG=a(cK),EH=a(j4),EI=a(ka),EN=a(b3),EQ=a(cK),EO=[0,a("a platform that turns on struts and other drives"),0],EP=a(b3),Ec=[0,a(aN),0],Ed=a('the workspace "'),EU=a(bp),EV=a(bp),EX=a(fG),EY=a(fC),EZ=a(hD),EW=[0,a("an atlas of such a machine"),0],DR=[0,a(aN),0],DS=a('a claim of the kind "'),Fb=a(ke),Fc=a(dm),Fd=a(eB),Fe=a(j_),Ff=a(fy),Fg=[0,a('this evidence "fan"'),0],E4=a(dm),Fq=a(fF),Fr=[0,1,1],E5=a(qv),Fh=a(ey),Fi=a(p1),Fj=a(eA),Fk=a(p2),Fl=a(qp),Fm=a(bG),Fn=a(fF),Fo=a(hm),Fp=a(bG),E6=a(ke),E7=a(dm),E8=a(pN),E9=a(eB),E_=a(j_),E$=[0,a(aN),0],Fa=a('the evidence "'),Fs=a(ey),Ft=a(eA),Fu=a(dm),Fv=a(eB),Fw=a(q5),Fy=a(ey),Fz=a(eA),FA=a(dm),FB=a(eB),FC=a(fD),FD=a(fy),FE=a(fD),FF=a(fy),Fx=[0,a("this evidence at control points"),0],GO=a('"orthocert-paving/'),GE=a(dm),GF=a(dm),Gl=a(qk),Gm=a(pY),Gn=a(qW),GM=[0,3,3],Go=a(p6),GC=[0,a("this set of orientations with such drives"),0],GD=[0,a('"parallel_margin" of struts in such a claim'),0],GG=[0,a('this evidence "tolerances" of a platform that turns'),0],GH=[0,a('"one_to_one" of this set of orientations'),0],GI=[0,a("a step of a platform that turns that is not at control points"),0],GJ=[0,a('the evidence "tolerances" of such a mechanism'),0],GK=[0,a(qs),0],GL=[0,a(qV),0],GB=[0,a(qs),0],GA=[0,a(qV),0],Gy=[0,a(pt),0],Gz=[0,a("a step in a proof that no cube fits"),0],Gx=[0,a('"one_to_one" of such a mechanism'),0],Gp=[0,a("the acceleration of a joint of a machine with a plane"),0],Gv=[0,a("a stiffness for each joint in such a claim"),0],Gw=[0,a(qI),0],Gu=[0,a(qI),0],Gq=a(ql),Gr=a(ps),Gs=a(ho),Gt=[0,a(pt),0],Gh=a(kd),Gi=a(fy),Gj=a(bG),F$=a(hq),Ga=a(qe),Gb=a(q0),Gc=[0,a(aN),0],Gd=a('a proof of the kind "'),F7=a(fC),F8=a(fG),F9=a(hr),F_=a(qx),F3=a(bp),F4=a(hz),F5=a(pu),F6=a(hw),F0=a(qT),F1=a(fD),F2=a(hw),FW=a(qA),FX=a(hz),FY=a(hr),FZ=a(q9),FI=a(q4),FJ=a(hv),FK=a(q1),FL=a(ht),FM=a(qH),FN=a(rd),FQ=a(qP),FR=a(hm),FS=a(fF),FT=a(qS),FU=a(qE),FV=a(hv),FO=[0,a(aN),0],FP=a('the failure "'),FG=a(kd),FH=a(rb),E2=a(fF),E3=a(hm),E0=a(pr),E1=a(pv),DK=a(fK),DA=a(jX),DB=a(px),DC=a(eC),DD=a(bi),DI=a(qX),DJ=a(fK),DL=a(dO),DM=a(eC),DE=a(dO),DF=a(qn),DG=a(pZ),DH=a(bi),Dt=a(dN),Dx=a(bH),Dy=a(bF),Du=a(j2),Dv=a(j6),Dw=a(dO),Dn=a(dN),Dr=a(bH),Ds=a(bF),Do=a(j2),Dp=a(j6),Dq=a(dO),Dm=[0,1],Dl=[0,1],Dj=[0,1],Di=[0,1],Dg=[0,1],Dh=[0,a("this quantity of such a mechanism"),0],C1=a(jY),C2=a(qJ),C3=a(pM),C4=a(kc),C5=a(re),C7=a(qK),C6=a(fB),C0=a(ho),CS=a(hu),CG=a(qt),CH=a(qC),C_=a(ey),C$=a(qZ),Da=a(p3),Db=a(eA),Dc=a(qu),Dd=a(pE),De=a(pF),Df=a(pw),CI=a(pB),CJ=a(rh),CK=a(qQ),CL=a(qF),CM=a(pU),CN=a(rg),CO=a(pH),CP=a(pG),CQ=[0,a(aN),0],CR=a('the quantity "'),CT=a(pQ),CU=a(qO),CV=a(bH),CW=a(bF),CX=a(q6),CY=[0,a(aN),0],CZ=a('a bound "'),C8=a(fA),C9=a(eC),CE=a(bE),CF=a(eG),Ch=a(bE),Ci=a(fI),Cj=a(fJ),Ck=a(cK),Cl=a(hC),Cm=a(eG),Cp=a(bi),Cq=a(bD),Cr=a(fz),Cs=a(ex),Ct=a(bi),Cu=a(bD),Cv=a(bG),Cw=a(bG),Cx=a(fz),Cy=a(ex),Cz=a(fJ),CA=a(bi),CB=a(bD),CC=a(qr),CD=a(fB),Cn=[0,a('" of such a machine'),0],Co=a(pL),Cf=a(bE),Cg=a(fJ),B1=a(bE),B2=a(cK),B3=a(hC),B4=a(eG),B7=a(fI),B8=a(bi),B9=a(bD),B_=a(fz),B$=a(ex),Ca=a(bi),Cb=a(bD),Cc=a(bG),Cd=a(bG),B5=[0,a(aN),0],B6=a(pL),BY=a(hx),BZ=a(eF),BW=a(" is not covered by the verified checker"),BX=a(ae),BU=a(bH),BV=a(bF),BQ=a(ae),BR=a(ri),BS=a(ae),BT=a(ae),BP=[1,0],BO=a(eF),BM=a("Reader.Malformed"),BN=a("Reader.Not_covered"),GQ=[0,a("a paving is checked by orthocert-verified")],GP=a(qw),GR=a("CERTIFIED"),GS=a("REFUTED"),GT=a(qw),GU=a("NOT COVERED: ");function
-fQ(a){throw[0,kw,a]}function
+IO(){var
+a=P;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){rJ(b);a.process.exit(2)});else
+if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)rJ(a.error)})}IO();function
+j(a,b){return a.length==1?a(b):dr(a,[b])}function
+aq(a,b,c){return a.length==2?a(b,c):dr(a,[b,c])}function
+fG(a,b,c,d){return a.length==3?a(b,c,d):dr(a,[b,c,d])}function
+jZ(a,b,c,d,e){return a.length==4?a(b,c,d,e):dr(a,[b,c,d,e])}Iq();var
+kF=[a1,a(qg),-2],kE=[a1,a(ru),-4],G8=[0,[0,[0,[0,0]]]],G9=[0,0],G_=[0,0],G$=[0,[0,0]],Ha=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G$]]]]]]]]]]],hj=[0,[1,0],0],oT=[0,[2,0],0],jH=[0,[1,0],0],oS=[0,[2,0],0],hh=[0,[1,0],0],jG=[0,[2,0],0],Hb=[0,[0,[0,[0,0]]]],Hc=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hb]]]]]]]]]]],Hd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hc]]]]]]]]]]],He=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hd]]]]]]]]]]],Hf=[0,[0,0]],Hg=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hf]]]]]]]]]]],Hh=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hg]]]]]]]]]]],Hi=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hh]]]]]]]]]]],Hj=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hi]]]]]]]]]]],Hk=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],Hl=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hk]]]]]]]]]]],Hm=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hl]]]]]]]]]]],Hn=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hm]]]]]]]]]]],Ho=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hn]]]]]]]]]]],Hp=[0,[0,0]],Hq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hp]]]]]]]]]]],Hr=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hq]]]]]]]]]]],Hs=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hr]]]]]]]]]]],Ht=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hs]]]]]]]]]]],Hu=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ht]]]]]]]]]]],Hv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hu]]]]]]]]]]],Hw=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hv]]]]]]]]]]],Hx=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],Hy=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hx]]]]]]]]]]],Hz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hy]]]]]]]]]]],HA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hz]]]]]]]]]]],HB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HA]]]]]]]]]]],HC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HB]]]]]]]]]]],HD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HC]]]]]]]]]]],HE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HD]]]]]]]]]]],HF=[0,0],HG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HF]]]]]]]]]]],HH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HG]]]]]]]]]]],HI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HH]]]]]]]]]]],HJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HI]]]]]]]]]]],HK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HJ]]]]]]]]]]],HL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HK]]]]]]]]]]],HM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HL]]]]]]]]]]],HN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HM]]]]]]]]]]],HO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HN]]]]]]]]]]],HP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HO]]]]]]]]]]],HQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],HR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HQ]]]]]]]]]]],HS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],HT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HS]]]]]]]]]]],HU=[0,[0,[0,[0,[0,0]]]]],HV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HU]]]]]]]]]]],HW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HV]]]]]]]]]]],HX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HW]]]]]]]]]]],HY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HX]]]]]]]]]]],HZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HY]]]]]]]]]]],H0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HZ]]]]]]]]]]],H1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H0]]]]]]]]]]],H2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H1]]]]]]]]]]],H3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H2]]]]]]]]]]],H4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H3]]]]]]]]]]],H5=[0,0],H6=[0,[0,0]],H7=[0,0],H8=[0,[0,[0,[0,[0,0]]]]],lb=[0,[0,[0,0]]],dx=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],g_=[0,[0,[0,[0,0]]]],H9=[0,[0,[0,[0,[0,0]]]]],H_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H9]]]]]]]]]]],H$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H_]]]]]]]]]]],Ia=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H$]]]]]]]]]]],Ib=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ia]]]]]]]]]]];bM(11,[a1,a(pI),-12],pI);bM(10,[a1,a(qw),-11],qw);bM(9,[a1,a(rj),-10],rj);bM(8,[a1,a(pU),-9],pU);bM(7,[a1,a(qL),-8],qL);bM(6,[a1,a(pS),-7],pS);bM(5,[a1,a(qh),-6],qh);bM(4,[a1,a(ql),-5],ql);bM(3,kE,ru);bM(2,[a1,a(j9),-3],j9);bM(1,kF,qg);bM(0,[a1,a(q4),-1],q4);var
+r6=a("String.sub / Bytes.sub"),r8=a(ae),r7=a("String.concat"),r9=a("Array.init"),r_=a("power"),sr=[0,0],ss=[0,0],sy=[0,0,0],sz=[0,0,0],sA=[0,0],sW=[0,0],sX=[0,0],s0=[0,0],tj=[0,0],tm=[0,0],tq=[0,0],tr=[0,0],ts=[0,0],tt=[0,0],tH=[0,0],tI=[0,0],t$=[0,0],uw=[0,[0,[0,0]]],uX=[0,0],vm=[0,0],vO=a(","),v6=[0,a(kd),0],v7=a(qq),v8=a("."),v9=[0,[0,[0,0]]],v_=a(eF),v$=a(ke),wa=[0,[0,[0,[0,[0,0]]]]],wb=[0,a(kd),0],wc=a(rs),zf=a(pF),zh=a(pB),zg=a(qz),zi=a(eA),zj=a(ey),zk=a(km),zl=a(rd),zm=a(qa),zn=a(kg),zo=a(qF),zp=a(p$),AG=[0,[0,0,0]],AX=[0,0],AH=a(fH),AI=[0,0],AJ=a("divided"),AK=[0,1],AL=a("mirror"),AM=[0,3],AN=a("negative"),AO=[0,2],AP=a(fM),AQ=[0,5],AR=a(kl),AS=[0,4],AT=a(dp),AU=a(pX),AV=a(eB),AW=a(bK),AY=[0,0],AZ=[0,0],A0=[0,0],A3=[0,[0,[0,0]]],A4=[0,[0,[0,0]]],Bt=[0,[0,[0,0]]],BI=[0,0],BZ=a(ae),BS=[0,0],BT=[0,0],BU=[0,[0,[0,[0,0]]]],BV=[0,[0,[0,0]]],BW=[0,[0,[0,[0,0]]]],BX=[0,[0,[0,0]]],BQ=[0,[0,[0,0]]],BP=[0,0],BO=a(eB),BN=[0,0],BL=[0,1,0],BM=[0,[0,[0,0]]],BK=[0,0],BF=[0,[0,0]],BH=[0,[0,[0,0]]],BG=[0,0],BE=[0,0],BA=[0,[0,[0,0]]],Bz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G8]]]]]]]]]],[0,0,[0,[0,[0,[0,0]]],0]]],Bu=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],[0,0,0]],Bv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],[0,[0,[0,[0,[0,[0,[0,0]]]]]],0]],Bw=[0,[0,[0,[0,[0,[0,[0,0]]]]]],0],Bx=[0,[0,[0,[0,0]]],[0,0,0]],Br=[0,0],Bs=[0,[0,0]],Bq=[0,0,0],Bp=[0,[0,[0,0]]],Bj=[0,[0,0]],Bk=[0,[0,[0,0]]],Bl=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G9]]]]]]]]]]],Bm=[0,[0,0]],Bn=[0,[0,[0,0]]],Bi=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G_]]]]]]]]]]],Bg=[0,[0,0]],Bh=[0,[0,[0,0]]],Be=[0,[0,[0,0]]],Bf=[0,[0,0]],Bd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ha]]]]]]]]]]],Bc=[0,0],Bb=[0,0],A_=[0,[0,0]],A$=[0,0],A8=[0,0],A9=[0,1],A6=[0,[0,0]],A7=[0,0],A5=[0,0],A1=[0,0],A2=[0,1],AD=[0,0],AE=[0,1],AF=[0,2],Az=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],Ax=[0,[0,0],0],Ay=[0,[1,0],0],AA=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],Av=[0,[0,0]],Aw=[0,0],Au=[0,0],At=[0,0],As=[0,0],Ar=[0,0],Aq=[0,0,0],Ao=[0,[0,0]],Ap=[0,0],An=[0,0,0],Al=[0,[0,[0,0]]],Am=[0,[0,[0,0]]],Ak=[0,0],Ai=[0,1,0],Aa=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,He]]]]]]]]]]],Ab=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hj]]]]]]]]]]],z8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ho]]]]]]]]]]],z9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hw]]]]]]]]]]],z_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HE]]]]]]]]]]],z$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HP]]]]]]]]]]],Ac=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HR]]]]]]]]]]],Ad=a("sqrt"),z6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HT]]]]]]]]]]],z7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H4]]]]]]]]]]],zV=[0,a("\n"),0],zW=a(pC),zX=a(hy),zY=a(qv),zZ=a(qe),z5=a(fP),z0=a(fL),z1=a("verdict"),z2=a(q6),z3=a(p8),z4=a(qu),zS=a(qo),zT=a(q_),zU=a(hA),zO=a(qH),zP=a(hB),zQ=a(fL),zR=a(fP),zJ=a(hJ),zK=a(bq),zL=a(pE),zM=a(hG),zG=a(q3),zH=a(fM),zI=a(hG),zC=a(qK),zD=a(hJ),zE=a(hB),zF=a(rh),zr=a(q$),zs=a(rc),zt=a(hF),zu=a(hD),zv=a(rn),zw=a(qZ),zx=a(q2),zy=a(qO),zz=a(hF),zA=a(qR),zd=a(hw),ze=a(fO),y_=a(bL),y$=a(bJ),za=a(p_),yK=a(hD),yL=a(qN),yo=a(bq),yp=a(b4),yq=a(hL),yr=a(eE),ys=a(cL),yx=a(j2),yt=a(kf),yu=a(ki),yv=a(ez),yw=a(bq),yy=a(b4),yz=a(hL),yA=a(eE),yB=a(kf),yC=a(ki),yD=a(ez),yE=a(bq),yF=a(b4),yG=a(bL),yH=a(bJ),yI=a(dO),yJ=a(eE),yM=a(qX),yN=a(rb),yO=a(hN),yP=a(pY),yQ=a(p3),yR=a(ez),yS=a(bq),yT=a(b4),yU=a(hu),yV=a(qc),yW=a(eE),yX=a(fT),yY=a(pM),yZ=a(ez),y0=a(bq),y1=a(hu),y2=a(bq),y3=a(qQ),y6=a(pA),y4=a(p1),y5=a(rg),y7=a(fP),y8=a(fL),y9=a(bq),zb=a(hN),zc=a(hA),yj=a(b4),yk=a(eE),yl=a(j2),ym=a(ez),yi=a(rp),x8=a(fT),x9=a(q7),x_=a(dP),x$=a(eC),ya=a(eC),yb=a(j5),yc=a(dP),yd=a(qx),ye=a(p9),yf=a(bi),yh=a(pH),yg=a(j5),xY=a(qn),xZ=a(rt),x0=a(p5),x1=a(p2),x2=a(rf),x3=a(q1),x4=a(qf),x5=a(hv),x6=a(hv),xU=a(bi),xV=a(bH),xW=a(eG),xX=a(bI),xQ=a(cL),xR=a(ka),xS=a(qI),xN=a(bL),xO=a(bJ),xP=a(dO),xG=a(bL),xH=a(bJ),xI=a(dO),xJ=a(kc),xK=a(dP),xL=a(j_),xM=a(qW),xo=a(p0),xu=a(hy),xt=a(kk),xp=a(j6),xq=a(fJ),xv=a(fK),xx=a(fK),xy=a(qU),xz=a(j6),xw=a(fJ),xA=a(pW),xB=a(qT),xC=a(fJ),xD=a(ro),xE=a(kk),xF=a(fJ),xr=a(eC),xs=a(qD),xl=a(hE),xm=a(hE),xn=a(hE),xh=a(qY),xi=a(bJ),xj=a(bL),xk=a(re),w2=a(pQ),w3=a(pG),w4=a(qM),w5=a(eA),w6=a(rq),w7=a(qP),w8=a(pR),w9=a(qE),w_=a(pP),w$=a(qb),xa=a(pO),xb=a(q0),xc=a(ey),xd=a(pL),xe=a(q9),xf=a(p4),xg=a(rr),wD=a(hH),wF=a(eF),wE=a(fI),wG=a(ex),wH=a(bi),wI=a(bH),wJ=a(bK),wK=a(hM),wL=a(bI),wM=a(fR),wN=a(bi),wO=a(bH),wP=a(eG),wQ=a(bI),wR=a(bK),wS=a(cL),wT=a(bI),wU=a(ex),wV=a(fS),wW=a(bi),wX=a(bH),wY=a(qB),wZ=a(fK),w0=a(fS),w1=a(bI),wl=a(hH),wt=a(eF),wm=a(fI),wn=a(ex),wo=a(bi),wp=a(bH),wq=a(bK),wr=a(hM),ws=a(bI),wu=a(fR),wv=a(bi),ww=a(bH),wx=a(eG),wy=a(bI),wz=a(bK),wA=a(cL),wB=a(bI),wi=a(bL),wj=a(bJ),wg=[0,a(aQ),0],wh=a(aQ),we=a(ae),wd=[0,a(aQ),0],wf=a(aQ),v2=a(hH),v3=a(eF),v4=a("*"),v5=a(b5),vX=[0,[0,[0,[0,[0,0]]]]],vY=[0,[0,[0,0]]],vZ=[0,[0,0]],v0=[0,0],v1=[0,[0,[0,[0,0]]]],vV=a('":'),vW=a(aQ),vT=[0,a(aQ),0],vU=a(aQ),vR=[0,a("}"),0],vS=a("{"),vP=[0,a("]"),0],vQ=a("["),vN=[0,[0,[0,0]]],vM=[0,[0,[0,0]]],vK=[0,0],vH=[0,[0,[0,0]]],vI=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],vJ=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],vF=[0,[0,0]],vG=[0,[0,[0,0]]],vD=[0,0],vE=[0,[0,0]],vz=[0,[0,0]],vA=[0,0],vB=[0,[0,[0,0]]],vC=[0,[0,[0,0]]],vv=[0,[0,[0,0]]],vx=[0,[0,[0,0]]],vw=[0,0],vs=[0,[0,0]],vt=[0,0],vq=[0,[0,0]],vr=[0,0],vp=[0,[0,[0,0]]],vn=[0,[0,0]],vo=[0,0],vk=[0,0],vl=[0,[0,0]],ve=[0,[0,0]],vf=[0,[0,[0,[0,[0,0]]]]],vg=[0,[0,[0,[0,0]]]],vh=[0,[0,[0,0]]],vi=[0,[0,0]],vj=[0,0],vb=[0,0],vc=[0,[0,0]],vd=[0,0],va=[0,0],u8=[0,0],u9=[0,[0,[0,[0,[0,[0,0]]]]]],u_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H5]]]]]]]]]]],u6=[0,0],u1=[0,0,0],u2=[0,0,0],u3=[0,0,0],uY=[0,[0,0]],uZ=[0,[0,[0,0]]],u0=[0,0],uN=[0,[0,[0,[0,[0,[0,0]]]]]],uO=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],uP=[0,[0,[0,0]]],uQ=[0,[0,[0,0]]],uR=[0,[0,[0,[0,[0,[0,0]]]]]],uS=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],uT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H6]]]]]]]]]]],uU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H7]]]]]]]]]]],uV=[0,[0,[0,0]]],uW=[0,[0,[0,[0,[0,[0,0]]]]]],uJ=[0,0,0],uK=[0,0,0],uF=[0,0,0],uG=[0,0,0],uH=[0,0,0],uI=[0,0,0],uE=[0,0],uD=[0,0],uC=[0,0],uA=[0,0],uB=[0,0],uz=[0,0],ux=[0,0],uy=[0,0],uq=[0,0],ur=[0,0],us=[0,0],ut=[0,[0,[0,0]]],up=[0,0],ul=[0,0],uj=[0,[0,0]],uk=[0,[0,[0,0]]],uh=[0,[0,[0,0]]],ui=[0,[0,0]],uf=[0,[0,0]],ug=[0,[0,[0,0]]],ue=[0,0],uc=[0,0],ud=[0,0],ua=[0,0,0],t9=[0,[0,0]],t_=[0,0],t1=[0,[0,0]],t2=[0,0],t3=[0,[0,0]],t4=[0,0],t5=[0,[0,0]],t6=[0,0],t7=[0,[0,0]],t8=[0,0],tZ=[0,[0,0]],t0=[0,0],tX=[0,[0,0]],tY=[0,0],tT=[0,[0,0]],tU=[0,0],tV=[0,0],tW=[0,[0,0]],tK=[0,[0,0]],tL=[0,0],tM=[0,[0,0]],tN=[0,0],tO=[0,0],tP=[0,[0,0]],tQ=[0,[0,0]],tR=[0,[0,0]],tS=[0,0],tG=[0,0],tF=[0,0],tC=[0,0],tD=[0,[0,0]],tB=[0,[0,[0,0]]],tA=[0,[0,[0,[0,[0,[0,0]]]]]],ty=[0,[0,0]],tz=[0,0],tx=[0,[0,0]],tw=[0,0],tu=[0,0],tv=[0,[0,[0,0]]],to=[0,[0,0]],tp=[0,[0,[0,0]]],tn=[0,[0,[0,0]]],tk=[0,[0,[0,0]]],ti=[0,[0,[0,0]]],tg=[0,[0,[0,[0,[0,[0,0]]]]]],th=[0,[0,[0,[0,[0,[0,0]]]]]],tb=[0,[0,0]],tc=[0,0],td=[0,[0,0]],te=[0,[0,[0,0]]],tf=[0,[0,[0,0]]],s6=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],s7=[0,[0,[0,[0,[0,[0,0]]]]]],s8=[0,[0,[0,[0,[0,[0,0]]]]]],s9=[0,[0,[0,0]]],s_=[0,[0,[0,[0,[0,[0,0]]]]]],s$=[0,[0,[0,0]]],ta=[0,[0,[0,0]]],s4=[0,[0,0]],s5=[0,0],s3=[0,0,0],s2=[0,0,0],s1=[0,0,0],sZ=[0,0,0],sY=[0,[0,[0,0]]],sS=[0,0],sT=[0,0],sU=[0,0],sV=[0,0],sQ=[0,0],sR=[0,0],sM=[0,[0,[0,0]]],sN=[0,[0,[0,0]]],sO=[0,[0,[0,0]]],sL=[0,[0,[0,[0,0]]]],sH=[0,[0,[0,0]]],sI=[0,[0,[0,0]]],sJ=[0,[0,[0,0]]],sK=[0,[0,1,1],[0,[0,0,1],[0,[0,1,0],[0,[0,0,0],0]]]],sF=[0,[0,0]],sG=[0,0],sD=[0,[0,0]],sE=[0,0],sB=[0,[0,0]],sC=[0,0],so=[0,0],sp=[0,[0,0]],sm=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],sn=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H8]]]]]]]]]]],sk=[0,0,0],sj=a(rl),si=a(ae),sh=[0,[0,0]],sf=[0,0],sc=[0,0],se=[1,0],sd=[0,0],sb=[0,0],r$=[1,0],sa=[1,0],tE=[10,0,0,0,0],BJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ib]]]]]]]]]]],E5=a(bL),E6=a(bJ),E7=a(p_),EX=a(fR),EY=[0,a("a base axis of such a platform"),0],EZ=a(bi),E0=a(bH),EK=a(q1),EL=a(qn),EM=a(rf),EN=a(hv),EO=a(qf),EP=a(hv),EQ=a(rt),ER=a(p5),ES=a(p2),EA=a(qN),EB=a(hD),Ec=[0,a("such a machine with bodies"),0],D1=a(hA),D2=a(bq),D3=a(qQ),D4=a(rg),D7=a(p1),D8=a(pA),D9=a(bq),D_=a(bq),Ea=a(hu),D$=[0,a("a claim that no cube of such a machine fits"),0],Eb=a(rp),Ed=a(ez),Ee=a(eE),Ef=a(cL),Eg=a(ka),Eh=a(qI),Ei=a(hL),Ej=a(p3),Ek=a(pM),El=a(j2),Eo=a(dO),Ep=a(qW),Es=a(b4),Et=a(b4),Eu=a(qc),Ev=a(b4),Ew=[0,a("the closed design with other bounds on psi than one from below and one from above"),0],Ex=a(hu),Ey=a(fT),Ez=a(dO),EC=a(b4),ED=a(bL),EE=a(bJ),EF=a(qX),EG=a(rb),EH=a(hN),EI=a(pY),Em=[0,a(aQ),0],En=a('the mechanism "'),EJ=a(kf),ET=a(hL),EU=a(cL),EV=a(ka),EW=a(ki),E1=a(b4),E4=a(cL),E2=[0,a("a platform that turns on struts and other drives"),0],E3=a(b4),Eq=[0,a(aQ),0],Er=a('the workspace "'),E8=a(bq),E9=a(bq),E$=a(fP),Fa=a(fL),Fb=a(hN),E_=[0,a("an atlas of such a machine"),0],D5=[0,a(aQ),0],D6=a('a claim of the kind "'),Fp=a(km),Fq=a(dp),Fr=a(eB),Fs=a(kg),Ft=a(fH),Fu=[0,a('this evidence "fan"'),0],Fg=a(dp),FE=a(fO),FF=[0,1,1],Fh=a(qF),Fv=a(ey),Fw=a(p$),Fx=a(eA),Fy=a(qa),Fz=a(qz),FA=a(bK),FB=a(fO),FC=a(hw),FD=a(bK),Fi=a(km),Fj=a(dp),Fk=a(pX),Fl=a(eB),Fm=a(kg),Fn=[0,a(aQ),0],Fo=a('the evidence "'),FG=a(ey),FH=a(eA),FI=a(dp),FJ=a(eB),FK=a(rd),FM=a(ey),FN=a(eA),FO=a(dp),FP=a(eB),FQ=a(fM),FR=a(fH),FS=a(fM),FT=a(fH),FL=[0,a("this evidence at control points"),0],G1=a('"orthocert-paving/'),GS=a(dp),GT=a(dp),Gz=a(qu),GA=a(p8),GB=a(q6),GZ=[0,3,3],GC=a(qe),GO=[0,a("this set of orientations with such drives"),0],GP=[0,a('"parallel_margin" of struts in such a claim'),0],GQ=[0,a('"one_to_one" of planes in such a claim'),0],GU=[0,a('this evidence "tolerances" of a platform that turns'),0],GV=[0,a("a step of a platform that turns that is not at control points"),0],GW=[0,a('the evidence "tolerances" of such a mechanism'),0],GX=[0,a(qC),0],GY=[0,a(q5),0],GR=[0,a(qC),0],GN=[0,a(q5),0],GL=[0,a(pD),0],GM=[0,a("a step in a proof that no cube fits"),0],GD=[0,a("the acceleration of a joint of a machine with a plane"),0],GJ=[0,a("a stiffness for each joint in such a claim"),0],GK=[0,a(qS),0],GI=[0,a(qS),0],GE=a(qv),GF=a(pC),GG=a(hy),GH=[0,a(pD),0],Gv=a(kl),Gw=a(fH),Gx=a(bK),Gn=a(hA),Go=a(qo),Gp=a(q_),Gq=[0,a(aQ),0],Gr=a('a proof of the kind "'),Gj=a(fL),Gk=a(fP),Gl=a(hB),Gm=a(qH),Gf=a(bq),Gg=a(hJ),Gh=a(pE),Gi=a(hG),Gc=a(q3),Gd=a(fM),Ge=a(hG),F_=a(qK),F$=a(hJ),Ga=a(hB),Gb=a(rh),FW=a(rc),FX=a(hF),FY=a(q$),FZ=a(hD),F0=a(qR),F1=a(rn),F4=a(qZ),F5=a(hw),F6=a(fO),F7=a(q2),F8=a(qO),F9=a(hF),F2=[0,a(aQ),0],F3=a('the failure "'),FU=a(kl),FV=a(rl),Fe=a(fO),Ff=a(hw),Fc=a(pB),Fd=a(pF),DY=a(fT),DO=a(j5),DP=a(pH),DQ=a(eC),DR=a(bi),DW=a(q7),DX=a(fT),DZ=a(dP),D0=a(eC),DS=a(dP),DT=a(qx),DU=a(p9),DV=a(bi),DH=a(dO),DL=a(bL),DM=a(bJ),DI=a(j_),DJ=a(kc),DK=a(dP),DB=a(dO),DF=a(bL),DG=a(bJ),DC=a(j_),DD=a(kc),DE=a(dP),DA=[0,1],Dz=[0,1],Dx=[0,1],Dw=[0,1],Du=[0,1],Dv=[0,a("this quantity of such a mechanism"),0],Dd=a(j6),De=a(qT),Df=a(pW),Dg=a(kk),Dh=a(ro),Dj=a(qU),Di=a(fK),Dc=a(hy),C6=a(hE),CU=a(qD),CV=a(qM),Dm=a(ey),Dn=a(q9),Do=a(qb),Dp=a(eA),Dq=a(qE),Dr=a(pO),Ds=a(pP),Dt=a(pG),CW=a(pL),CX=a(rr),CY=a(q0),CZ=a(qP),C0=a(p4),C1=a(rq),C2=a(pR),C3=a(pQ),C4=[0,a(aQ),0],C5=a('the quantity "'),C7=a(p0),C8=a(qY),C9=a(bL),C_=a(bJ),C$=a(re),Da=[0,a(aQ),0],Db=a('a bound "'),Dk=a(fJ),Dl=a(eC),CS=a(bI),CT=a(eG),Cv=a(bI),Cw=a(fR),Cx=a(fS),Cy=a(cL),Cz=a(hM),CA=a(eG),CD=a(bi),CE=a(bH),CF=a(fI),CG=a(ex),CH=a(bi),CI=a(bH),CJ=a(bK),CK=a(bK),CL=a(fI),CM=a(ex),CN=a(fS),CO=a(bi),CP=a(bH),CQ=a(qB),CR=a(fK),CB=[0,a('" of such a machine'),0],CC=a(pV),Ct=a(bI),Cu=a(fS),Cd=a(bI),Ce=a(cL),Cf=a(hM),Cg=a(eG),Cj=a(fR),Ck=a(bi),Cl=a(bH),Cm=a(fI),Cn=a(ex),Co=a(bi),Cp=a(bH),Cq=a(bK),Cr=a(bK),Ch=[0,a(aQ),0],Ci=a(pV),Ca=a(hH),Cb=a(eF),B_=a(" is not covered by the verified checker"),B$=a(ae),B8=a(bL),B9=a(bJ),B4=a(ae),B5=a(rs),B6=a(ae),B7=a(ae),B3=[1,0],B2=a(eF),B0=a("Reader.Malformed"),B1=a("Reader.Not_covered"),G3=[0,a("a paving is checked by orthocert-verified")],G2=a(qG),G4=a("CERTIFIED"),G5=a("REFUTED"),G6=a(qG),G7=a("NOT COVERED: ");function
+fZ(a){throw[0,kE,a]}function
 a$(d,c){var
-a=au(d),e=au(c),b=cl(a+e|0);eI(d,0,b,0,a);eI(c,0,b,a,e);return hL(b)}Is(0);rF(1);rF(2);function
-ky(b){function
+a=av(d),e=av(c),b=cn(a+e|0);eI(d,0,b,0,a);eI(c,0,b,a,e);return hV(b)}IF(0);rP(1);rP(2);function
+kG(b){function
 a(b){var
 a=b;for(;;){if(a){var
-c=a[2],d=a[1];try{Ir(d)}catch(a){a=rP(a);if(a[1]!==kx)throw a;var
+c=a[2],d=a[1];try{IE(d)}catch(a){a=rZ(a);if(a[1]!==kF)throw a;var
 e=a}var
-a=c;continue}return 0}}return a(It(0))}IA(a(pz),ky);function
-cn(c){var
+a=c;continue}return 0}}return a(IG(0))}IN(a(pJ),kG);function
+cp(c){var
 b=0,a=c;for(;;){if(a){var
 b=b+1|0,a=a[2];continue}return b}}function
-kz(d){var
+kH(d){var
 a=d,b=0;for(;;){if(a){var
 c=[0,a[1],b],a=a[2],b=c;continue}return b}}function
-Y(b,a){if(a){var
-c=a[2],d=i(b,a[1]);return[0,d,Y(b,c)]}return 0}function
-hN(d,c){var
+Z(b,a){if(a){var
+c=a[2],d=j(b,a[1]);return[0,d,Z(b,c)]}return 0}function
+hX(d,c){var
 a=c;for(;;){if(a){var
-e=a[2],b=i(d,a[1]);if(b){var
+e=a[2],b=j(d,a[1]);if(b){var
 a=e;continue}return b}return 1}}function
 aA(d,c){var
 a=c;for(;;){if(a){var
-e=a[2],b=i(d,a[1]);if(b)return b;var
+e=a[2],b=j(d,a[1]);if(b)return b;var
 a=e;continue}return 0}}function
-bJ(b,c){var
-a=cl(b);Ib(a,0,b,c);return hL(a)}function
-dU(g,b,a){var
-d=eJ(g),f=0;if(0<=b&&0<=a&&!((hJ(d)-a|0)<b)){var
-c=cl(a);fL(d,b,c,0,a);var
+bN(b,c){var
+a=cn(b);Io(a,0,b,c);return hV(a)}function
+dV(g,b,a){var
+d=eJ(g),f=0;if(0<=b&&0<=a&&!((hT(d)-a|0)<b)){var
+c=cn(a);fU(d,b,c,0,a);var
 e=c;f=1}if(!f)var
-e=fQ(rW);return hL(e)}function
-kA(k,g){if(g){var
-h=au(k),c=0,b=g,p=0;for(;;){if(b){var
+e=fZ(r6);return hV(e)}function
+kI(k,g){if(g){var
+h=av(k),c=0,b=g,p=0;for(;;){if(b){var
 i=b[1];if(b[2]){var
-j=(au(i)+h|0)+c|0,m=b[2],n=c<=j?j:fQ(rX),c=n,b=m;continue}var
-l=au(i)+c|0}else
+j=(av(i)+h|0)+c|0,m=b[2],n=c<=j?j:fZ(r7),c=n,b=m;continue}var
+l=av(i)+c|0}else
 var
 l=c;var
-f=cl(l),e=p,d=g;for(;;){if(d){var
+f=cn(l),e=p,d=g;for(;;){if(d){var
 a=d[1];if(d[2]){var
-o=d[2];eI(a,0,f,e,au(a));eI(k,0,f,e+au(a)|0,h);var
-e=(e+au(a)|0)+h|0,d=o;continue}eI(a,0,f,e,au(a))}return hL(f)}}}return rY}function
-hO(b,c){if(0===b)return[0];if(0<=b){var
-d=Iq(b,i(c,0)),e=b-1|0,f=1;if(!(e<1)){var
-a=f;for(;;){d[1+a]=i(c,a);var
+o=d[2];eI(a,0,f,e,av(a));eI(k,0,f,e+av(a)|0,h);var
+e=(e+av(a)|0)+h|0,d=o;continue}eI(a,0,f,e,av(a))}return hV(f)}}}return r8}function
+hY(b,c){if(0===b)return[0];if(0<=b){var
+d=ID(b,j(c,0)),e=b-1|0,f=1;if(!(e<1)){var
+a=f;for(;;){d[1+a]=j(c,a);var
 g=a+1|0;if(e!==a){var
-a=g;continue}break}}return d}return fQ(rZ)}function
-hP(c){var
+a=g;continue}break}}return d}return fZ(r9)}function
+hZ(c){var
 a=c.length-1-1|0,b=0;for(;;){if(0<=a){var
 d=[0,c[1+a],b],a=a-1|0,b=d;continue}return b}}var
-d=aF(0),b=aF(1);function
-r(a){return F(a,b)}function
-kB(b,a){return F(aF(b),a)}function
-c(b,a){return B(aF(b),a)}function
-aU(b,a){return[0,kt(b,a),rS(b,a)]}function
-hQ(b,a){return D(b,a)?b:a}function
-bq(b,a){return D(b,a)?a:b}function
+d=aH(0),b=aH(1);function
+p(a){return F(a,b)}function
+kJ(b,a){return F(aH(b),a)}function
+c(b,a){return C(aH(b),a)}function
+aW(b,a){return[0,kB(b,a),r2(b,a)]}function
+h0(b,a){return D(b,a)?b:a}function
+br(b,a){return D(b,a)?a:b}function
 eO(a){return eO}function
-P(a){return a?0:1}function
+L(a){return a?0:1}function
 z(b,a){var
-c=a?[0,i(b,a[1])]:a;return c}function
-av(a){return a[1]}function
+c=a?[0,j(b,a[1])]:a;return c}function
+aw(a){return a[1]}function
 aZ(a){return a[2]}function
 g(a){var
 b=a?[0,g(a[2])]:a;return b}function
 f(a,b){if(a){var
 c=f(a[2],b);return[0,a[1],c]}return b}function
-kC(a){return typeof
-a==="number"?0:[0,kC(a[1])]}function
-kD(d,c){var
+kK(a){return typeof
+a==="number"?0:[0,kK(a[1])]}function
+kL(d,c){var
 a=d,b=c;for(;;)if(typeof
 a==="number")return b;else
 switch(a[0]){case
@@ -797,9 +797,9 @@ a=a[1],b=[7,b];continue;case
 8:var
 a=a[1],b=[8,b];continue;default:var
 a=a[1],b=[9,b];continue}}function
-fR(a){return kD(a,0)}function
-kE(a){if(typeof
-a==="number")return r1;else
+f0(a){return kL(a,0)}function
+kM(a){if(typeof
+a==="number")return r$;else
 switch(a[0]){case
 0:return[1,a[1]];case
 1:return[2,a[1]];case
@@ -809,189 +809,189 @@ switch(a[0]){case
 5:return[6,a[1]];case
 6:return[7,a[1]];case
 7:return[8,a[1]];case
-8:return[9,a[1]];default:return[0,kE(a[1])]}}function
-bL(a){if(typeof
-a==="number")return r2;else
+8:return[9,a[1]];default:return[0,kM(a[1])]}}function
+bP(a){if(typeof
+a==="number")return sa;else
 switch(a[0]){case
-0:return[1,bK(a[1])];case
-1:return[3,bK(a[1])];case
-2:return[5,bK(a[1])];case
-3:return[7,bK(a[1])];case
-4:return[9,bK(a[1])];case
-5:return[1,bL(a[1])];case
-6:return[3,bL(a[1])];case
-7:return[5,bL(a[1])];case
-8:return[7,bL(a[1])];default:return[9,bL(a[1])]}}function
-bK(a){if(typeof
+0:return[1,bO(a[1])];case
+1:return[3,bO(a[1])];case
+2:return[5,bO(a[1])];case
+3:return[7,bO(a[1])];case
+4:return[9,bO(a[1])];case
+5:return[1,bP(a[1])];case
+6:return[3,bP(a[1])];case
+7:return[5,bP(a[1])];case
+8:return[7,bP(a[1])];default:return[9,bP(a[1])]}}function
+bO(a){if(typeof
 a==="number")return 0;else
 switch(a[0]){case
-0:return[0,bK(a[1])];case
-1:return[2,bK(a[1])];case
-2:return[4,bK(a[1])];case
-3:return[6,bK(a[1])];case
-4:return[8,bK(a[1])];case
-5:return[0,bL(a[1])];case
-6:return[2,bL(a[1])];case
-7:return[4,bL(a[1])];case
-8:return[6,bL(a[1])];default:return[8,bL(a[1])]}}function
-bx(a){return a?a[1]:a}function
+0:return[0,bO(a[1])];case
+1:return[2,bO(a[1])];case
+2:return[4,bO(a[1])];case
+3:return[6,bO(a[1])];case
+4:return[8,bO(a[1])];case
+5:return[0,bP(a[1])];case
+6:return[2,bP(a[1])];case
+7:return[4,bP(a[1])];case
+8:return[6,bP(a[1])];default:return[8,bP(a[1])]}}function
+by(a){return a?a[1]:a}function
 R(b,a){return b?[0,R(b[1],a)]:a}function
-kF(a,b){return a?R(b,kF(a[1],b)):a}function
-dV(d,c){var
+kN(a,b){return a?R(b,kN(a[1],b)):a}function
+dW(d,c){var
 a=d,b=c;for(;;){if(a){if(b){var
 a=a[1],b=b[1];continue}return a}return a}}function
-co(b,a){return b?a:a?0:1}function
-p(d,c){var
+cq(b,a){return b?a:a?0:1}function
+q(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return a?0:1}}function
-_(d,c){var
+$(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return 1}}function
-aH(b,a){return _([0,b],a)}function
-kG(c){var
+aJ(b,a){return $([0,b],a)}function
+kO(c){var
 a=c;for(;;){if(a){var
 b=a[1];if(b){var
 a=b[1];continue}return b}return 1}}function
-fS(c,b,a){return c?i(b,fS(c[1],b,a)):a}function
-kH(a){if(a)var
-b=a[1],d=b?[0,kH(b[1])]:b,c=d;else
+f1(c,b,a){return c?j(b,f1(c[1],b,a)):a}function
+kP(a){if(a)var
+b=a[1],d=b?[0,kP(b[1])]:b,c=d;else
 var
 c=a;return c}function
-hR(d,c){var
+h1(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return a?0:1}}function
-kI(a){if(D(a,b))return b;var
-e=aU(a,aF(2)),f=e[1];return I(e[2],d)?r(c(2,kI(f))):r(c(2,c(2,f)))}function
-kJ(c,a){return bq(b,aG(c,a))}function
-fT(a,j,h){var
-c=j,f=h;for(;;){if(D(f,b))return i(a,c);var
-g=aU(f,aF(2)),e=g[1];if(I(g[2],d)){var
-c=fT(a,c,e),f=e;continue}return i(a,fT(a,fT(a,c,e),e))}}function
-kK(a){function
-c(b){return B(a,b)}return function(a){return fT(c,b,a)}}function
-fU(a){if(D(a,b))return r4;var
-c=aU(a,aF(2)),e=c[1];return I(c[2],d)?[0,fU(e)]:[0,fU(e)]}function
-fV(a){if(D(a,b))return b;var
-c=aU(a,aF(2)),e=c[1];return I(c[2],d)?r(fV(e)):r(fV(e))}function
-kL(c,b){var
-a=ks(c,b);return 0===a?0:0<=a?2:1}function
-fW(j,i){var
-c=j,a=i;for(;;){if(D(c,b))return D(a,b)?1:I(aU(a,aF(2))[2],d)?0:0;var
-g=aU(c,aF(2)),h=g[1];if(I(g[2],d)){if(D(a,b))return 0;var
-e=aU(a,aF(2)),k=e[1];if(I(e[2],d)){var
+kQ(a){if(D(a,b))return b;var
+e=aW(a,aH(2)),f=e[1];return I(e[2],d)?p(c(2,kQ(f))):p(c(2,c(2,f)))}function
+kR(c,a){return br(b,aI(c,a))}function
+f2(a,i,h){var
+c=i,f=h;for(;;){if(D(f,b))return j(a,c);var
+g=aW(f,aH(2)),e=g[1];if(I(g[2],d)){var
+c=f2(a,c,e),f=e;continue}return j(a,f2(a,f2(a,c,e),e))}}function
+kS(a){function
+c(b){return C(a,b)}return function(a){return f2(c,b,a)}}function
+f3(a){if(D(a,b))return sc;var
+c=aW(a,aH(2)),e=c[1];return I(c[2],d)?[0,f3(e)]:[0,f3(e)]}function
+f4(a){if(D(a,b))return b;var
+c=aW(a,aH(2)),e=c[1];return I(c[2],d)?p(f4(e)):p(f4(e))}function
+kT(c,b){var
+a=kA(c,b);return 0===a?0:0<=a?2:1}function
+f5(j,i){var
+c=j,a=i;for(;;){if(D(c,b))return D(a,b)?1:I(aW(a,aH(2))[2],d)?0:0;var
+g=aW(c,aH(2)),h=g[1];if(I(g[2],d)){if(D(a,b))return 0;var
+e=aW(a,aH(2)),k=e[1];if(I(e[2],d)){var
 c=h,a=k;continue}return 0}if(D(a,b))return 0;var
-f=aU(a,aF(2)),l=f[1];if(I(f[2],d))return 0;var
+f=aW(a,aH(2)),l=f[1];if(I(f[2],d))return 0;var
 c=h,a=l;continue}}function
-fX(b,a){return 2<=kL(b,a)?0:1}function
-dW(i,e,a){if(i){var
+f6(b,a){return 2<=kT(b,a)?0:1}function
+dX(i,e,a){if(i){var
 f=i[1];if(D(e,b))return[0,b,[0,b,a]];var
-w=aU(e,aF(2)),g=w[1];if(I(w[2],d)){if(D(a,b))return[0,b,[0,e,b]];var
-m=aU(a,aF(2)),A=m[1];if(I(m[2],d)){var
-j=dW(f,g,A),x=j[2];return[0,c(2,j[1]),x]}var
-k=dW(f,g,a),l=k[2],y=l[2],z=[0,c(2,l[1]),y];return[0,k[1],z]}if(D(a,b))return[0,b,[0,e,b]];var
-v=aU(a,aF(2)),h=v[1];if(I(v[2],d)){var
-n=dW(f,e,h),o=n[2],B=c(2,o[2]);return[0,n[1],[0,o[1],B]]}switch(kL(g,h)){case
+w=aW(e,aH(2)),g=w[1];if(I(w[2],d)){if(D(a,b))return[0,b,[0,e,b]];var
+m=aW(a,aH(2)),A=m[1];if(I(m[2],d)){var
+j=dX(f,g,A),x=j[2];return[0,c(2,j[1]),x]}var
+k=dX(f,g,a),l=k[2],y=l[2],z=[0,c(2,l[1]),y];return[0,k[1],z]}if(D(a,b))return[0,b,[0,e,b]];var
+v=aW(a,aH(2)),h=v[1];if(I(v[2],d)){var
+n=dX(f,e,h),o=n[2],B=c(2,o[2]);return[0,n[1],[0,o[1],B]]}switch(kT(g,h)){case
 0:return[0,e,[0,b,b]];case
 1:var
-p=dW(f,kJ(h,g),e),q=p[2],r=q[2],C=[0,r,F(r,c(2,q[1]))];return[0,p[1],C];default:var
-s=dW(f,kJ(g,h),a),t=s[2],u=t[2],E=[0,F(u,c(2,t[1])),u];return[0,s[1],E]}}return[0,b,[0,e,a]]}function
-fY(b,a){var
-c=fU(a);return dW(R(fU(b),c),b,a)}function
-kM(c,i,h){var
+p=dX(f,kR(h,g),e),q=p[2],r=q[2],C=[0,r,F(r,c(2,q[1]))];return[0,p[1],C];default:var
+s=dX(f,kR(g,h),a),t=s[2],u=t[2],E=[0,F(u,c(2,t[1])),u];return[0,s[1],E]}}return[0,b,[0,e,a]]}function
+f7(b,a){var
+c=f3(a);return dX(R(f3(b),c),b,a)}function
+kU(c,i,h){var
 e=i,a=h;for(;;){if(D(e,b))return a;var
-f=aU(e,aF(2)),g=f[1];if(I(f[2],d)){var
-e=g,a=aq(c,a,a);continue}return aq(c,a,kM(c,g,aq(c,a,a)))}}function
-eP(a){return kM(R,a,r5)}function
-kN(a){return a?r(kN(a[1])):b}function
-cp(f,e){var
+f=aW(e,aH(2)),g=f[1];if(I(f[2],d)){var
+e=g,a=aq(c,a,a);continue}return aq(c,a,kU(c,g,aq(c,a,a)))}}function
+eP(a){return kU(R,a,sd)}function
+kV(a){return a?p(kV(a[1])):b}function
+cr(f,e){var
 a=f,d=e;for(;;)if(typeof
 a==="number")return d;else
 switch(a[0]){case
 0:var
-g=B(c(2,r(c(2,c(2,b)))),d),a=a[1],d=g;continue;case
+g=C(c(2,p(c(2,c(2,b)))),d),a=a[1],d=g;continue;case
 1:var
-h=F(b,B(c(2,r(c(2,c(2,b)))),d)),a=a[1],d=h;continue;case
+h=F(b,C(c(2,p(c(2,c(2,b)))),d)),a=a[1],d=h;continue;case
 2:var
-i=B(c(2,r(c(2,c(2,b)))),d),j=F(c(2,b),i),a=a[1],d=j;continue;case
+i=C(c(2,p(c(2,c(2,b)))),d),j=F(c(2,b),i),a=a[1],d=j;continue;case
 3:var
-k=B(c(2,r(c(2,c(2,b)))),d),l=F(r(c(2,b)),k),a=a[1],d=l;continue;case
+k=C(c(2,p(c(2,c(2,b)))),d),l=F(p(c(2,b)),k),a=a[1],d=l;continue;case
 4:var
-m=B(c(2,r(c(2,c(2,b)))),d),n=F(c(2,c(2,b)),m),a=a[1],d=n;continue;case
+m=C(c(2,p(c(2,c(2,b)))),d),n=F(c(2,c(2,b)),m),a=a[1],d=n;continue;case
 5:var
-o=B(c(2,r(c(2,c(2,b)))),d),p=F(r(c(2,c(2,b))),o),a=a[1],d=p;continue;case
+o=C(c(2,p(c(2,c(2,b)))),d),q=F(p(c(2,c(2,b))),o),a=a[1],d=q;continue;case
 6:var
-q=B(c(2,r(c(2,c(2,b)))),d),s=F(c(2,r(c(2,b))),q),a=a[1],d=s;continue;case
+r=C(c(2,p(c(2,c(2,b)))),d),s=F(c(2,p(c(2,b))),r),a=a[1],d=s;continue;case
 7:var
-t=B(c(2,r(c(2,c(2,b)))),d),u=F(r(c(2,r(c(2,b)))),t),a=a[1],d=u;continue;case
+t=C(c(2,p(c(2,c(2,b)))),d),u=F(p(c(2,p(c(2,b)))),t),a=a[1],d=u;continue;case
 8:var
-v=B(c(2,r(c(2,c(2,b)))),d),w=F(c(2,c(2,c(2,b))),v),a=a[1],d=w;continue;default:var
-x=B(c(2,r(c(2,c(2,b)))),d),y=F(r(c(2,c(2,c(2,b)))),x),a=a[1],d=y;continue}}function
-hS(a){if(D(a,b))return r6;var
-c=aU(a,aF(2)),e=c[1];return I(c[2],d)?bK(hS(e)):bL(hS(e))}function
-fZ(a){return fR(hS(a))}function
-kO(c,b){var
-a=ks(c,b);return 0===a?0:0<=a?2:1}function
-hT(b,a){return 1===kO(b,a)?1:0}var
-kP=F,r8=Q;function
-b6(k,f){if(0<=aO(f)){var
-g=ku(f);if(0<=g){var
+v=C(c(2,p(c(2,c(2,b)))),d),w=F(c(2,c(2,c(2,b))),v),a=a[1],d=w;continue;default:var
+x=C(c(2,p(c(2,c(2,b)))),d),y=F(p(c(2,c(2,c(2,b)))),x),a=a[1],d=y;continue}}function
+h2(a){if(D(a,b))return se;var
+c=aW(a,aH(2)),e=c[1];return I(c[2],d)?bO(h2(e)):bP(h2(e))}function
+f8(a){return f0(h2(a))}function
+kW(c,b){var
+a=kA(c,b);return 0===a?0:0<=a?2:1}function
+h3(b,a){return 1===kW(b,a)?1:0}var
+kX=F,sg=Q;function
+b7(k,f){if(0<=aR(f)){var
+g=kC(f);if(0<=g){var
 e=b,c=k,a=g;for(;;){if(0===a)return e;var
-h=a>>>1|0,i=B(c,c),j=1===(a&1)?B(e,c):e,e=j,c=i,a=h;continue}}return fQ(r0)}return d}function
-hU(c){var
-a=aO(c);return 0===a?d:0<a?b:Q(b)}function
-hV(a){return 0<=aO(a)?a:d}function
-dX(a){var
-c=aO(a);return 0===c?b:0<c?a:b}function
-kQ(m){var
+h=a>>>1|0,i=C(c,c),j=1===(a&1)?C(e,c):e,e=j,c=i,a=h;continue}}return fZ(r_)}return d}function
+h4(c){var
+a=aR(c);return 0===a?d:0<a?b:Q(b)}function
+h5(a){return 0<=aR(a)?a:d}function
+dY(a){var
+c=aR(a);return 0===c?b:0<c?a:b}function
+kY(m){var
 a=m;for(;;)if(typeof
 a==="number")return d;else
 switch(a[0]){case
 0:var
 a=a[1];continue;case
-1:return cp(a[1],b);case
+1:return cr(a[1],b);case
 2:var
-e=c(2,b);return cp(a[1],e);case
+e=c(2,b);return cr(a[1],e);case
 3:var
-f=r(c(2,b));return cp(a[1],f);case
+f=p(c(2,b));return cr(a[1],f);case
 4:var
-g=c(2,c(2,b));return cp(a[1],g);case
+g=c(2,c(2,b));return cr(a[1],g);case
 5:var
-h=r(c(2,c(2,b)));return cp(a[1],h);case
+h=p(c(2,c(2,b)));return cr(a[1],h);case
 6:var
-i=c(2,r(c(2,b)));return cp(a[1],i);case
+i=c(2,p(c(2,b)));return cr(a[1],i);case
 7:var
-j=r(c(2,r(c(2,b))));return cp(a[1],j);case
+j=p(c(2,p(c(2,b))));return cr(a[1],j);case
 8:var
-k=c(2,c(2,c(2,b)));return cp(a[1],k);default:var
-l=r(c(2,c(2,c(2,b))));return cp(a[1],l)}}function
-cq(b,a){var
-c=aO(a);return 0===c?d:1===c?kt(b,a):kB(-1,kt(kB(-1,b),a))}function
-kR(a){var
-f=aO(a);if(0===f)return d;if(0<f){if(D(a,b))return d;var
-c=aU(a,aF(2)),e=c[1];return I(c[2],d)?fV(e):fV(e)}return d}function
-f0(a){return 0<aO(a)?IK(a):d}function
+k=c(2,c(2,c(2,b)));return cr(a[1],k);default:var
+l=p(c(2,c(2,c(2,b))));return cr(a[1],l)}}function
+cs(b,a){var
+c=aR(a);return 0===c?d:1===c?kB(b,a):kJ(-1,kB(kJ(-1,b),a))}function
+kZ(a){var
+f=aR(a);if(0===f)return d;if(0<f){if(D(a,b))return d;var
+c=aW(a,aH(2)),e=c[1];return I(c[2],d)?f4(e):f4(e)}return d}function
+f9(a){return 0<aR(a)?IX(a):d}function
 eQ(b,c){var
-a=ku(c);return 0<=a?rT(b,a):rU(b,-a|0)}function
-dq(b,c){var
-a=ku(c);return 0<=a?rU(b,a):rT(b,-a|0)}function
-bM(b,a){return a?a[1]:b}function
-by(a){var
+a=kC(c);return 0<=a?r3(b,a):r4(b,-a|0)}function
+ds(b,c){var
+a=kC(c);return 0<=a?r4(b,a):r3(b,-a|0)}function
+bQ(b,a){return a?a[1]:b}function
+bz(a){var
 b=a?a[2]:a;return b}function
-q(e,d,c){var
+r(e,d,c){var
 b=e,a=d;for(;;){if(b){if(a){var
 b=b[1],a=a[2];continue}return c}return a?a[1]:c}}function
 G(d,c){var
 a=d,b=c;for(;;){if(b){if(a){var
 a=a[2],b=b[1];continue}return a}var
 e=a?[0,a[1]]:a;return e}}function
-kS(a){if(a){var
-b=[0,a[1],0];return f(kS(a[2]),b)}return a}function
+k0(a){if(a){var
+b=[0,a[1],0];return f(k0(a[2]),b)}return a}function
 eR(d,c){var
 a=d,b=c;for(;;){if(a){var
 e=[0,a[1],b],a=a[2],b=e;continue}return b}}function
-dY(a){if(a){var
-b=dY(a[2]);return f(a[1],b)}return a}function
-hW(g,f,e){var
+dZ(a){if(a){var
+b=dZ(a[2]);return f(a[1],b)}return a}function
+h6(g,f,e){var
 b=f,a=e;for(;;){if(b){if(a){var
 c=aq(g,b[1],a[1]);if(c){var
 b=b[2],a=a[2];continue}var
@@ -999,245 +999,245 @@ d=c}else
 var
 d=a;return d}return a?0:1}}function
 e(b,a){if(a)var
-d=e(b,a[2]),c=[0,i(b,a[1]),d];else
+d=e(b,a[2]),c=[0,j(b,a[1]),d];else
 var
 c=a;return c}function
 y(b,a){if(a){var
-c=y(b,a[2]);return f(i(b,a[1]),c)}return a}function
-bN(e,d,c){var
+c=y(b,a[2]);return f(j(b,a[1]),c)}return a}function
+bR(e,d,c){var
 a=d,b=c;for(;;){if(a){var
 f=aq(e,b,a[1]),a=a[2],b=f;continue}return b}}function
 an(c,b,a){if(a){var
 d=an(c,b,a[2]);return aq(c,a[1],d)}return b}function
-ak(e,d){var
+aj(e,d){var
 a=d;for(;;){if(a){var
-b=i(e,a[1]);if(!b){var
+b=j(e,a[1]);if(!b){var
 a=a[2];continue}var
 c=b}else
 var
 c=a;return c}}function
 m(d,c){var
 a=c;for(;;){if(a){var
-b=i(d,a[1]);if(b){var
+b=j(d,a[1]);if(b){var
 a=a[2];continue}return b}return 1}}function
-br(b,e){var
+bs(b,e){var
 a=e;for(;;){if(a){var
-c=a[2],d=a[1];if(i(b,d))return[0,d,br(b,c)];var
+c=a[2],d=a[1];if(j(b,d))return[0,d,bs(b,c)];var
 a=c;continue}return a}}function
-kT(d,c){var
+k1(d,c){var
 a=c;for(;;){if(a){var
-b=a[1];if(i(d,b))return[0,b];var
+b=a[1];if(j(d,b))return[0,b];var
 a=a[2];continue}return a}}function
-$(b,a){if(b)if(a)var
-d=$(b[2],a[2]),c=[0,[0,b[1],a[1]],d];else
+aa(b,a){if(b)if(a)var
+d=aa(b[2],a[2]),c=[0,[0,b[1],a[1]],d];else
 var
 c=a;else
 var
 c=b;return c}function
-aI(b,a){if(b)if(a)var
-d=aI(b[1],a[2]),c=[0,a[1],d];else
+aB(b,a){if(b)if(a)var
+d=aB(b[1],a[2]),c=[0,a[1],d];else
 var
 c=a;else
 var
 c=b;return c}function
-aV(d,c){var
+aM(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[2];continue}return a}return a}}function
-aB(b,a){var
-c=a?[0,b,aB([0,b],a[1])]:a;return c}function
+aC(b,a){var
+c=a?[0,b,aC([0,b],a[1])]:a;return c}function
 al(b,a){var
 c=a?[0,b,al(b,a[1])]:a;return c}function
-kU(a){if(a){var
-e=kU(a[2]),f=B(c(2,b),e),g=a[1]?b:d;return F(g,f)}return d}function
-f1(j){function
+k2(a){if(a){var
+e=k2(a[2]),f=C(c(2,b),e),g=a[1]?b:d;return F(g,f)}return d}function
+f_(j){function
 a(a){return 0!==(j&1<<a)?1:0}var
-c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=kU([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<aO(b)?eP(b):0}function
-kV(a){return[0,a,b]}function
-dZ(c,b){var
-a=ks(B(c[1],b[2]),B(b[1],c[2])),d=0===a?0:0<=a?2:1;return d?0:1}function
-ba(b,a){return D(B(b[1],a[2]),B(a[1],b[2]))}function
-dr(b,a){return[0,F(B(b[1],a[2]),B(a[1],b[2])),B(b[2],a[2])]}function
-a3(b,a){return[0,B(b[1],a[1]),B(b[2],a[2])]}function
-hX(a){return[0,Q(a[1]),a[2]]}function
-d0(b,a){return dr(b,hX(a))}function
-f2(f,c){var
-a=c[1],e=aO(a),g=0===e?[0,d,b]:0<e?[0,c[2],a]:[0,Q(c[2]),Q(a)];return a3(f,g)}function
-ds(q){var
-a=q[2],b=q[1],o=aO(b);if(0===o)var
-c=[0,cm(a),[0,d,hU(a)]];else
+c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=k2([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<aR(b)?eP(b):0}function
+k3(a){return[0,a,b]}function
+d0(c,b){var
+a=kA(C(c[1],b[2]),C(b[1],c[2])),d=0===a?0:0<=a?2:1;return d?0:1}function
+ba(b,a){return D(C(b[1],a[2]),C(a[1],b[2]))}function
+dt(b,a){return[0,F(C(b[1],a[2]),C(a[1],b[2])),C(b[2],a[2])]}function
+a3(b,a){return[0,C(b[1],a[1]),C(b[2],a[2])]}function
+h7(a){return[0,Q(a[1]),a[2]]}function
+d1(b,a){return dt(b,h7(a))}function
+f$(f,c){var
+a=c[1],e=aR(a),g=0===e?[0,d,b]:0<e?[0,c[2],a]:[0,Q(c[2]),Q(a)];return a3(f,g)}function
+du(q){var
+a=q[2],b=q[1],o=aR(b);if(0===o)var
+c=[0,co(a),[0,d,h4(a)]];else
 if(0<o){var
-n=aO(a);if(0===n)var
-c=[0,cm(b),[0,hU(b),d]];else
+n=aR(a);if(0===n)var
+c=[0,co(b),[0,h4(b),d]];else
 if(0<n)var
-l=fY(b,a),m=l[2],c=[0,l[1],[0,m[1],m[2]]];else
+l=f7(b,a),m=l[2],c=[0,l[1],[0,m[1],m[2]]];else
 var
-j=fY(b,Q(a)),k=j[2],c=[0,j[1],[0,k[1],Q(k[2])]]}else{var
-p=Q(b),i=aO(a);if(0===i)var
-c=[0,cm(b),[0,hU(b),d]];else
+j=f7(b,Q(a)),k=j[2],c=[0,j[1],[0,k[1],Q(k[2])]]}else{var
+p=Q(b),i=aR(a);if(0===i)var
+c=[0,co(b),[0,h4(b),d]];else
 if(0<i)var
-g=fY(p,a),h=g[2],c=[0,g[1],[0,Q(h[1]),h[2]]];else
+g=f7(p,a),h=g[2],c=[0,g[1],[0,Q(h[1]),h[2]]];else
 var
-e=fY(p,Q(a)),f=e[2],c=[0,e[1],[0,Q(f[1]),Q(f[2])]]}var
-r=c[2],s=dX(r[2]);return[0,r[1],s]}function
+e=f7(p,Q(a)),f=e[2],c=[0,e[1],[0,Q(f[1]),Q(f[2])]]}var
+r=c[2],s=dY(r[2]);return[0,r[1],s]}function
 bj(a){if(typeof
-a==="number")return r_;else
+a==="number")return si;else
 switch(a[0]){case
 0:var
-b=bj(a[1]);return a$(bJ(1,48),b);case
+b=bj(a[1]);return a$(bN(1,48),b);case
 1:var
-c=bj(a[1]);return a$(bJ(1,49),c);case
+c=bj(a[1]);return a$(bN(1,49),c);case
 2:var
-d=bj(a[1]);return a$(bJ(1,50),d);case
+d=bj(a[1]);return a$(bN(1,50),d);case
 3:var
-e=bj(a[1]);return a$(bJ(1,51),e);case
+e=bj(a[1]);return a$(bN(1,51),e);case
 4:var
-f=bj(a[1]);return a$(bJ(1,52),f);case
+f=bj(a[1]);return a$(bN(1,52),f);case
 5:var
-g=bj(a[1]);return a$(bJ(1,53),g);case
+g=bj(a[1]);return a$(bN(1,53),g);case
 6:var
-h=bj(a[1]);return a$(bJ(1,54),h);case
+h=bj(a[1]);return a$(bN(1,54),h);case
 7:var
-i=bj(a[1]);return a$(bJ(1,55),i);case
+i=bj(a[1]);return a$(bN(1,55),i);case
 8:var
-j=bj(a[1]);return a$(bJ(1,56),j);default:var
-k=bj(a[1]);return a$(bJ(1,57),k)}}function
+j=bj(a[1]);return a$(bN(1,56),j);default:var
+k=bj(a[1]);return a$(bN(1,57),k)}}function
 eS(a){return typeof
-a==="number"?r$:bj(a)}function
-cr(a){return b6(c(2,b),a)}function
-kW(b,a){return dq(a,b)}function
-kX(b,a){return Q(dq(Q(a),b))}function
-f3(b,a){return Q(cq(Q(b),a))}function
-L(c,b){var
+a==="number"?sj:bj(a)}function
+ct(a){return b7(c(2,b),a)}function
+k4(b,a){return ds(a,b)}function
+k5(b,a){return Q(ds(Q(a),b))}function
+ga(b,a){return Q(cs(Q(b),a))}function
+M(c,b){var
 a=eQ(b,c);return[0,a,a]}function
-kY(d,c,a){var
-b=eQ(c,d),e=f3(b,a);return[0,cq(b,a),e]}function
+k6(d,c,a){var
+b=eQ(c,d),e=ga(b,a);return[0,cs(b,a),e]}function
 A(b,a){return[0,F(b[1],a[1]),F(b[2],a[2])]}function
-E(b,a){return[0,aG(b[1],a[2]),aG(b[2],a[1])]}function
-aa(a){return[0,Q(a[2]),Q(a[1])]}function
-kZ(e,c,b,a){if(D(d,e))return D(d,b)?[0,B(e,b),B(c,a)]:D(a,d)?[0,B(c,b),B(e,a)]:[0,B(c,b),B(c,a)];if(D(c,d))return D(d,b)?[0,B(e,a),B(c,b)]:D(a,d)?[0,B(c,a),B(e,b)]:[0,B(e,a),B(e,b)];if(D(d,b))return[0,B(e,a),B(c,a)];if(D(a,d))return[0,B(c,b),B(e,b)];var
-f=bq(B(e,b),B(c,a));return[0,hQ(B(e,a),B(c,b)),f]}function
+E(b,a){return[0,aI(b[1],a[2]),aI(b[2],a[1])]}function
+ab(a){return[0,Q(a[2]),Q(a[1])]}function
+k7(e,c,b,a){if(D(d,e))return D(d,b)?[0,C(e,b),C(c,a)]:D(a,d)?[0,C(c,b),C(e,a)]:[0,C(c,b),C(c,a)];if(D(c,d))return D(d,b)?[0,C(e,a),C(c,b)]:D(a,d)?[0,C(c,a),C(e,b)]:[0,C(e,a),C(e,b)];if(D(d,b))return[0,C(e,a),C(c,a)];if(D(a,d))return[0,C(c,b),C(e,b)];var
+f=br(C(e,b),C(c,a));return[0,h0(C(e,a),C(c,b)),f]}function
 t(c,b,a){var
-d=kZ(b[1],b[2],a[1],a[2]),e=kX(c,d[2]);return[0,kW(c,d[1]),e]}function
+d=k7(b[1],b[2],a[1],a[2]),e=k5(c,d[2]);return[0,k4(c,d[1]),e]}function
 S(b,a){var
-c=B(a[1],a[1]),e=B(a[2],a[2]),h=kX(b,bq(c,e)),g=0;if(J(a[1],d)&&J(d,a[2])){var
+c=C(a[1],a[1]),e=C(a[2],a[2]),h=k5(b,br(c,e)),g=0;if(J(a[1],d)&&J(d,a[2])){var
 f=d;g=1}if(!g)var
-f=kW(b,hQ(c,e));return[0,f,h]}function
-hY(b,a){var
-c=eQ(cr(b),b),d=f3(c,a[1]);return[0,cq(c,a[2]),d]}function
-b7(b,a){if(J(d,a[1]))return[0,hY(b,a)];var
-c=J(a[2],d),e=c?[0,aa(hY(b,aa(a)))]:c;return e}function
-hZ(c){var
-a=f0(c);return I(B(a,a),c)?a:F(a,b)}function
-b8(b,a){var
+f=k4(b,h0(c,e));return[0,f,h]}function
+h8(b,a){var
+c=eQ(ct(b),b),d=ga(c,a[1]);return[0,cs(c,a[2]),d]}function
+b8(b,a){if(J(d,a[1]))return[0,h8(b,a)];var
+c=J(a[2],d),e=c?[0,ab(h8(b,ab(a)))]:c;return e}function
+h9(c){var
+a=f9(c);return I(C(a,a),c)?a:F(a,b)}function
+b9(b,a){var
 c=J(d,a[1]);if(c)var
-f=hZ(eQ(a[2],b)),e=[0,[0,f0(eQ(a[1],b)),f]];else
+f=h9(eQ(a[2],b)),e=[0,[0,f9(eQ(a[1],b)),f]];else
 var
 e=c;return e}function
-d1(a){return 0===a[0]?a[2]:a[1]}function
-aK(f,d,c,b,a){if(b){if(a){var
-g=aK(f,d,c,b[2],a[2]);return[0,aq(c,b[1],a[1]),g]}return e(f,b)}return e(d,a)}function
-cP(b,a){return dq(b,a)}function
-aP(a,c,b){if(D(d,a)){var
-e=b[1],f=Q(cP(Q(B(a,b[2])),c));return[0,cP(B(a,e),c),f]}var
-g=b[2],h=Q(cP(Q(B(a,b[1])),c));return[0,cP(B(a,g),c),h]}function
+d2(a){return 0===a[0]?a[2]:a[1]}function
+aN(f,d,c,b,a){if(b){if(a){var
+g=aN(f,d,c,b[2],a[2]);return[0,aq(c,b[1],a[1]),g]}return e(f,b)}return e(d,a)}function
+cQ(b,a){return ds(b,a)}function
+aS(a,c,b){if(D(d,a)){var
+e=b[1],f=Q(cQ(Q(C(a,b[2])),c));return[0,cQ(C(a,e),c),f]}var
+g=b[2],h=Q(cQ(Q(C(a,b[1])),c));return[0,cQ(C(a,g),c),h]}function
 as(a){var
-c=Q(dq(Q(a[2]),b));return[0,dq(a[1],b),c]}function
-d2(c,b,a){var
-e=kZ(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=J(f,d)?a[2]:a[1],i=f3(f,h),j=J(g,d)?a[1]:a[2];return[0,cq(g,j),i]}function
-b9(a){return bq(a[2],Q(a[1]))}var
+c=Q(ds(Q(a[2]),b));return[0,ds(a[1],b),c]}function
+d3(c,b,a){var
+e=k7(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=J(f,d)?a[2]:a[1],i=ga(f,h),j=J(g,d)?a[1]:a[2];return[0,cs(g,j),i]}function
+b_(a){return br(a[2],Q(a[1]))}var
 u=[0,d,d];function
-b_(a){return[0,a[1],a[1]]}function
-cs(a){return[0,a[2],a[2]]}function
-bO(b,a){switch(a[0]){case
+b$(a){return[0,a[1],a[1]]}function
+cu(a){return[0,a[2],a[2]]}function
+bS(b,a){switch(a[0]){case
 0:return[0,a[1]];case
 1:return[1,a[1]];case
 2:return[2,a[1]];case
 3:var
-c=i(b,a[2]);return[3,i(b,a[1]),c];case
+c=j(b,a[2]);return[3,j(b,a[1]),c];case
 4:var
-d=i(b,a[2]);return[4,i(b,a[1]),d];case
-5:return[5,i(b,a[1])];case
+d=j(b,a[2]);return[4,j(b,a[1]),d];case
+5:return[5,j(b,a[1])];case
 6:var
-e=i(b,a[2]);return[6,i(b,a[1]),e];case
+e=j(b,a[2]);return[6,j(b,a[1]),e];case
 7:var
-f=i(b,a[2]);return[7,i(b,a[1]),f];case
-8:return[8,i(b,a[1])];case
-9:return[9,i(b,a[1])];default:var
-g=i(b,a[4]),h=i(b,a[3]),j=i(b,a[2]);return[10,a[1],j,h,g]}}function
-aJ(n,m){var
+f=j(b,a[2]);return[7,j(b,a[1]),f];case
+8:return[8,j(b,a[1])];case
+9:return[9,j(b,a[1])];default:var
+g=j(b,a[4]),h=j(b,a[3]),i=j(b,a[2]);return[10,a[1],i,h,g]}}function
+aK(n,m){var
 d=n,c=m;for(;;){var
 a=c[1],b=d[1];switch(b[0]){case
-0:return 0===a[0]?p(b[1],a[1]):0;case
-1:return 1===a[0]?p(b[1],a[1]):0;case
+0:return 0===a[0]?q(b[1],a[1]):0;case
+1:return 1===a[0]?q(b[1],a[1]):0;case
 2:return 2===a[0]?I(b[1],a[1]):0;case
 3:if(3===a[0]){var
-f=aJ(b[1],a[1]);if(f){var
+f=aK(b[1],a[1]);if(f){var
 d=b[2],c=a[2];continue}return f}return 0;case
 4:if(4===a[0]){var
-g=aJ(b[1],a[1]);if(g){var
+g=aK(b[1],a[1]);if(g){var
 d=b[2],c=a[2];continue}return g}return 0;case
 5:if(5===a[0]){var
 d=b[1],c=a[1];continue}return 0;case
 6:if(6===a[0]){var
-h=aJ(b[1],a[1]);if(h){var
+h=aK(b[1],a[1]);if(h){var
 d=b[2],c=a[2];continue}return h}return 0;case
 7:if(7===a[0]){var
-i=aJ(b[1],a[1]);if(i){var
+i=aK(b[1],a[1]);if(i){var
 d=b[2],c=a[2];continue}return i}return 0;case
 8:if(8===a[0]){var
 d=b[1],c=a[1];continue}return 0;case
 9:if(9===a[0]){var
 d=b[1],c=a[1];continue}return 0;default:if(10===a[0]){var
-j=co(b[1],a[1]);if(j){var
-k=aJ(b[2],a[2]);if(k){var
-l=aJ(b[3],a[3]);if(l){var
+j=cq(b[1],a[1]);if(j){var
+k=aK(b[2],a[2]);if(k){var
+l=aK(b[3],a[3]);if(l){var
 d=b[4],c=a[4];continue}var
 e=l}else
 var
 e=k}else
 var
 e=j;return e}return 0}}}function
-f4(b){var
+gb(b){var
 a=b[1];return 2===a[0]?[0,a[1]]:0}function
 a4(c,b){var
-a=f4(b);return a?I(c,a[1]):a}function
-eT(a){return J(cm(a),c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b))))))))))))))))}function
-k(a){return[0,[2,a]]}function
-C(b,a){if(a4(d,b))return a;if(a4(d,a))return b;var
-c=f4(b);if(c){var
-e=c[1],f=f4(a);if(f){var
-g=f[1];if(eT(e)&&eT(g))return k(F(e,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
+a=gb(b);return a?I(c,a[1]):a}function
+eT(a){return J(co(a),c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b))))))))))))))))}function
+l(a){return[0,[2,a]]}function
+B(b,a){if(a4(d,b))return a;if(a4(d,a))return b;var
+c=gb(b);if(c){var
+e=c[1],f=gb(a);if(f){var
+g=f[1];if(eT(e)&&eT(g))return l(F(e,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
 bk(a){var
 b=a[1];switch(b[0]){case
 2:var
-c=b[1];return eT(c)?k(Q(c)):[0,[5,a]];case
+c=b[1];return eT(c)?l(Q(c)):[0,[5,a]];case
 5:return b[1];default:return[0,[5,a]]}}function
 w(b,a){if(a4(d,a))return b;if(a4(d,b))return bk(a);var
 c=b[1];if(0===c[0]){var
-e=a[1];return 0===e[0]?p(c[1],e[1])?k(d):[0,[4,b,a]]:[0,[4,b,a]]}return[0,[4,b,a]]}function
+e=a[1];return 0===e[0]?q(c[1],e[1])?l(d):[0,[4,b,a]]:[0,[4,b,a]]}return[0,[4,b,a]]}function
 T(a){var
-c=f4(a);if(c){var
-b=c[1];return eT(b)?k(B(b,b)):[0,[8,a]]}return[0,[8,a]]}function
-s(a,c){if(!a4(d,a)&&!a4(b,c)){if(!a4(d,c)&&!a4(b,a))return aJ(a,c)?T(a):[0,[6,a,c]];return c}return a}function
+c=gb(a);if(c){var
+b=c[1];return eT(b)?l(C(b,b)):[0,[8,a]]}return[0,[8,a]]}function
+s(a,c){if(!a4(d,a)&&!a4(b,c)){if(!a4(d,c)&&!a4(b,a))return aK(a,c)?T(a):[0,[6,a,c]];return c}return a}function
 am(c,a){return a4(b,a)?c:[0,[7,c,a]]}function
-aE(a){return a4(b,a)?a:[0,[9,a]]}function
-k0(d,c,b,a){return[0,[10,d,c,b,a]]}function
+aF(a){return a4(b,a)?a:[0,[9,a]]}function
+k8(d,c,b,a){return[0,[10,d,c,b,a]]}function
 bb(f,e,d,c){var
 b=d,a=c;for(;;){if(b){var
-g=b[1],h=[0,i(e,bO(function(b){return function(a){return q(a,b,f)}}(a),g)),a],b=b[2],a=h;continue}return a}}function
-k1(d,f,k,j,h){var
-b=k,c=j,a=h;for(;;){if(c){var
+g=b[1],h=[0,j(e,bS(function(b){return function(a){return r(a,b,f)}}(a),g)),a],b=b[2],a=h;continue}return a}}function
+k9(d,f,k,i,h){var
+b=k,c=i,a=h;for(;;){if(c){var
 e=c[2],g=c[1];if(b){if(b[1]){var
-l=[0,i(f,bO(function(b){return function(a){return q(a,b,d)}}(a),g)),a],b=by(b),c=e,a=l;continue}var
+l=[0,j(f,bS(function(b){return function(a){return r(a,b,d)}}(a),g)),a],b=bz(b),c=e,a=l;continue}var
 b=b[2],c=e,a=[0,d,a];continue}var
-m=[0,i(f,bO(function(b){return function(a){return q(a,b,d)}}(a),g)),a],b=by(b),c=e,a=m;continue}return a}}function
+m=[0,j(f,bS(function(b){return function(a){return r(a,b,d)}}(a),g)),a],b=bz(b),c=e,a=m;continue}return a}}function
 eU(b,a){if(a){var
 c=a[2];if(b){var
 e=eU(b[1],c);return[0,a[1],e]}var
 d=[0,1,c]}else
 var
 d=a;return d}function
-k2(a){switch(a[0]){case
+k_(a){switch(a[0]){case
 10:return[0,a[2],[0,a[3],[0,a[4],0]]];case
 5:case
 8:case
@@ -1245,57 +1245,57 @@ k2(a){switch(a[0]){case
 0:case
 1:case
 2:return 0;default:return[0,a[1],[0,a[2],0]]}}function
-f5(j,g){var
+gc(j,g){var
 k=0,l=an(eU,e(function(a){return 0},g),j),c=eR(g,0),b=l,a=k;for(;;){if(c){if(b){var
-d=b[2],f=b[1],h=[0,f,a],i=f?an(eU,d,k2(c[1])):d,c=c[2],b=i,a=h;continue}return a}return a}}function
-cQ(a){var
+d=b[2],f=b[1],h=[0,f,a],i=f?an(eU,d,k_(c[1])):d,c=c[2],b=i,a=h;continue}return a}return a}}function
+cR(a){var
 b=0;function
-c(a){return[0,a]}return bb(k(d),c,a,b)}function
+c(a){return[0,a]}return bb(l(d),c,a,b)}function
 bc(d,c){var
-a=d,b=0;for(;;){if(a){if(aJ(c,a[1]))return b;var
+a=d,b=0;for(;;){if(a){if(aK(c,a[1]))return b;var
 a=a[2],b=[0,b];continue}return a}}function
-dt(d,b){var
-e=b[1];if(ak(function(a){return aJ(d,a)},e))return b;var
+dv(d,b){var
+e=b[1];if(aj(function(a){return aK(d,a)},e))return b;var
 a=d[1];switch(a[0]){case
 10:var
-j=dt(a[2],b),k=dt(a[3],j),c=dt(a[4],k);break;case
+j=dv(a[2],b),k=dv(a[3],j),c=dv(a[4],k);break;case
 5:case
 8:case
 9:var
-c=dt(a[1],b);break;case
+c=dv(a[1],b);break;case
 0:case
 1:case
 2:var
 c=b;break;default:var
-i=dt(a[1],b),c=dt(a[2],i)}var
-f=c[2],g=c[1],h=[0,bO(function(a){return bc(g,a)},a),f];return[0,[0,d,c[1]],h]}function
-cR(a){var
-b=bN(function(b,a){return dt(a,b)},a,sa),c=b[1],d=e(function(a){return bc(c,a)},a);return[0,kS(b[2]),d]}function
-f6(a){return an(function(b,a){return F(b9(b),a)},d,a)}function
-ct(b,c,a){var
-d=f6(a),e=hQ(c[2],F(b[2],d)),f=f6(a);return[0,b,[0,bq(c[1],aG(b[1],f)),e],a]}function
-Z(a){return[0,a,a,0]}function
-b$(b,a){var
+i=dv(a[1],b),c=dv(a[2],i)}var
+f=c[2],g=c[1],h=[0,bS(function(a){return bc(g,a)},a),f];return[0,[0,d,c[1]],h]}function
+cS(a){var
+b=bR(function(b,a){return dv(a,b)},a,sk),c=b[1],d=e(function(a){return bc(c,a)},a);return[0,k0(b[2]),d]}function
+gd(a){return an(function(b,a){return F(b_(b),a)},d,a)}function
+cv(b,c,a){var
+d=gd(a),e=h0(c[2],F(b[2],d)),f=gd(a);return[0,b,[0,br(c[1],aI(b[1],f)),e],a]}function
+_(a){return[0,a,a,0]}function
+ca(b,a){var
 c=a[3],d=b[3];function
 e(a){return a}var
-f=aK(function(a){return a},e,A,d,c),g=A(b[2],a[2]);return ct(A(b[1],a[1]),g,f)}function
-bs(b,a){var
-c=a[3],d=b[3],e=aK(function(a){return a},aa,E,d,c),f=E(b[2],a[2]);return ct(E(b[1],a[1]),f,e)}function
+f=aN(function(a){return a},e,A,d,c),g=A(b[2],a[2]);return cv(A(b[1],a[1]),g,f)}function
+bt(b,a){var
+c=a[3],d=b[3],e=aN(function(a){return a},ab,E,d,c),f=E(b[2],a[2]);return cv(E(b[1],a[1]),f,e)}function
 eV(a){var
-b=e(aa,a[3]),c=aa(a[2]);return[0,aa(a[1]),c,b]}function
-aL(a,c,b){var
+b=e(ab,a[3]),c=ab(a[2]);return[0,ab(a[1]),c,b]}function
+aO(a,c,b){var
 d=A(b[2],b[1]),e=A(c[2],c[1]),f=b[3],g=c[3];function
 h(c,b){var
 f=t(a,e,b);return as(A(t(a,d,c),f))}function
 i(b){return as(t(a,e,b))}var
-j=aK(function(b){return as(t(a,d,b))},i,h,g,f),k=t(a,c[2],b[2]);return ct(t(a,c[1],b[1]),k,j)}function
+j=aN(function(b){return as(t(a,d,b))},i,h,g,f),k=t(a,c[2],b[2]);return cv(t(a,c[1],b[1]),k,j)}function
 eW(b,a){var
-c=a[3],d=A(a[2],a[1]),f=e(function(a){return t(b,d,a)},c),g=S(b,a[2]);return ct(S(b,a[1]),g,f)}function
-h0(a,b){var
-c=b8(a,b[1]);if(c){var
-g=c[1],d=b8(a,b[2]);if(d){var
-h=d[1],f=b7(a,A(h,g));if(f)var
-l=b[3],m=f[1],i=[0,ct(g,h,e(function(b){return t(a,m,b)},l))];else
+c=a[3],d=A(a[2],a[1]),f=e(function(a){return t(b,d,a)},c),g=S(b,a[2]);return cv(S(b,a[1]),g,f)}function
+h_(a,b){var
+c=b9(a,b[1]);if(c){var
+g=c[1],d=b9(a,b[2]);if(d){var
+h=d[1],f=b8(a,A(h,g));if(f)var
+l=b[3],m=f[1],i=[0,cv(g,h,e(function(b){return t(a,m,b)},l))];else
 var
 i=f;var
 j=i}else
@@ -1304,651 +1304,651 @@ j=d;var
 k=j}else
 var
 k=c;return k}function
-d3(a,c,b){var
-d=b7(a,b[1]);if(d){var
-f=b7(a,b[2]);if(f)var
-h=f[1],g=t(a,c[1],d[1]),k=b[3],l=c[3],m=function(c,b){return E(c,t(a,g,b))},n=function(b){return aa(t(a,g,b))},o=aK(function(a){return a},n,m,l,k),p=e(function(b){return t(a,h,b)},o),i=[0,ct(g,t(a,c[2],h),p)];else
+d4(a,c,b){var
+d=b8(a,b[1]);if(d){var
+f=b8(a,b[2]);if(f)var
+h=f[1],g=t(a,c[1],d[1]),k=b[3],l=c[3],m=function(c,b){return E(c,t(a,g,b))},n=function(b){return ab(t(a,g,b))},o=aN(function(a){return a},n,m,l,k),p=e(function(b){return t(a,h,b)},o),i=[0,cv(g,t(a,c[2],h),p)];else
 var
 i=f;var
 j=i}else
 var
 j=d;return j}function
-cS(b,a){return a?i(b,a[1]):a}function
-f7(a){var
-b=e(as,a[3]),c=as(A(a[2],a[1]));return ct(a[1],c,b)}function
-k3(a,k,j,r,c){var
-l=f7(k),m=f7(j),g=f7(c[1]),h=f7(c[2]),s=aL(a,l,h),u=bs(aL(a,m,g),s),i=d3(a,Z(L(a,b)),u);if(i)var
-f=i[1],n=aL(a,bs(l,g),f),o=aL(a,bs(m,h),f),d=function(c,b){return aL(a,c,Z(b))},v=j[3],w=k[3],x=function(b,a){var
-c=d(o,a);return b$(d(n,b),c)},y=function(a){return d(o,a)},z=aK(function(a){return d(n,a)},y,x,w,v),A=r[3],B=function(b,a){return bs(b,d(f,as(a)))[2]},C=function(a){return eV(d(f,as(a)))[2]},p=aK(function(a){return a[2]},C,B,z,A),D=g[2],E=e(function(b){return t(a,D,b)},p),F=ct(c[2][1],c[2][2],E),G=aa(h[2]),H=e(function(b){return t(a,G,b)},p),q=[0,[0,ct(c[1][1],c[1][2],H),F]];else
+cT(b,a){return a?j(b,a[1]):a}function
+ge(a){var
+b=e(as,a[3]),c=as(A(a[2],a[1]));return cv(a[1],c,b)}function
+k$(a,k,j,r,c){var
+l=ge(k),m=ge(j),g=ge(c[1]),h=ge(c[2]),s=aO(a,l,h),u=bt(aO(a,m,g),s),i=d4(a,_(M(a,b)),u);if(i)var
+f=i[1],n=aO(a,bt(l,g),f),o=aO(a,bt(m,h),f),d=function(c,b){return aO(a,c,_(b))},v=j[3],w=k[3],x=function(b,a){var
+c=d(o,a);return ca(d(n,b),c)},y=function(a){return d(o,a)},z=aN(function(a){return d(n,a)},y,x,w,v),A=r[3],B=function(b,a){return bt(b,d(f,as(a)))[2]},C=function(a){return eV(d(f,as(a)))[2]},p=aN(function(a){return a[2]},C,B,z,A),D=g[2],E=e(function(b){return t(a,D,b)},p),F=cv(c[2][1],c[2][2],E),G=ab(h[2]),H=e(function(b){return t(a,G,b)},p),q=[0,[0,cv(c[1][1],c[1][2],H),F]];else
 var
 q=i;return q}function
-k4(a,e,d,k){var
-p=eW(a,d),f=b$(eW(a,e),p),g=bs(b$(f,Z(L(a,b))),k),l=aL(a,Z(L(a,c(2,b))),f),q=eW(a,g),h=h0(a,bs(aL(a,Z(L(a,c(2,c(2,b)))),f),q));if(h){var
-m=h[1],r=aL(a,m,d),i=d3(a,b$(aL(a,g,e),r),l);if(i)var
-s=aL(a,m,e),j=d3(a,bs(aL(a,g,d),s),l),t=j?[0,[0,i[1],j[1]]]:j,n=t;else
+la(a,e,d,k){var
+p=eW(a,d),f=ca(eW(a,e),p),g=bt(ca(f,_(M(a,b))),k),l=aO(a,_(M(a,c(2,b))),f),q=eW(a,g),h=h_(a,bt(aO(a,_(M(a,c(2,c(2,b)))),f),q));if(h){var
+m=h[1],r=aO(a,m,d),i=d4(a,ca(aO(a,g,e),r),l);if(i)var
+s=aO(a,m,e),j=d4(a,bt(aO(a,g,d),s),l),t=j?[0,[0,i[1],j[1]]]:j,n=t;else
 var
 n=i;var
 o=n}else
 var
 o=h;var
-u=cS(function(b){return k3(a,e,d,k,b)},o);return cS(function(b){return k3(a,e,d,k,b)},u)}function
-cu(d,b,a){if(b){if(a)return aq(d,b[1],a[1]);var
+u=cT(function(b){return k$(a,e,d,k,b)},o);return cT(function(b){return k$(a,e,d,k,b)},u)}function
+cw(d,b,a){if(b){if(a)return aq(d,b[1],a[1]);var
 c=a}else
 var
 c=b;return c}function
-bz(b,j,i){var
-f=Z(u);return function(a){switch(a[0]){case
-0:return[0,q(a[1],j,f)];case
-1:return[0,q(a[1],i,f)];case
-2:return[0,Z(L(b,a[1]))];case
+bA(b,j,i){var
+f=_(u);return function(a){switch(a[0]){case
+0:return[0,r(a[1],j,f)];case
+1:return[0,r(a[1],i,f)];case
+2:return[0,_(M(b,a[1]))];case
 3:var
-k=a[2],l=a[1];return cu(function(b,a){return[0,b$(b,a)]},l,k);case
+k=a[2],l=a[1];return cw(function(b,a){return[0,ca(b,a)]},l,k);case
 4:var
-m=a[2],n=a[1];return cu(function(b,a){return[0,bs(b,a)]},n,m);case
+m=a[2],n=a[1];return cw(function(b,a){return[0,bt(b,a)]},n,m);case
 5:var
-o=a[1];return cS(function(a){return[0,eV(a)]},o);case
+o=a[1];return cT(function(a){return[0,eV(a)]},o);case
 6:var
-p=a[2],r=a[1];return cu(function(c,a){return[0,aL(b,c,a)]},r,p);case
+p=a[2],q=a[1];return cw(function(c,a){return[0,aO(b,c,a)]},q,p);case
 7:var
-s=a[2],t=a[1];return cu(function(a,c){return d3(b,a,c)},t,s);case
+s=a[2],t=a[1];return cw(function(a,c){return d4(b,a,c)},t,s);case
 8:var
-u=a[1];return cS(function(a){return[0,eW(b,a)]},u);case
+u=a[1];return cT(function(a){return[0,eW(b,a)]},u);case
 9:var
-v=a[1];return cS(function(a){return h0(b,a)},v);default:var
+v=a[1];return cT(function(a){return h_(b,a)},v);default:var
 c=a[2];if(c){var
 d=a[3];if(d){var
 e=a[4];if(e){var
-w=k4(b,c[1],d[1],e[1]),x=a[1]?aZ:av;return z(x,w)}var
+w=la(b,c[1],d[1],e[1]),x=a[1]?aZ:aw;return z(x,w)}var
 g=e}else
 var
 g=d;var
 h=g}else
 var
 h=c;return h}}}function
-d4(c){var
+d5(c){var
 a=c;for(;;)switch(a[0]){case
 0:return 0;case
 1:return 1;case
 6:var
 a=a[1];continue;default:var
-b=d4(a[1]);if(b)return b;var
+b=d5(a[1]);if(b)return b;var
 a=a[2];continue}}function
-cv(r,q){var
-b=r,a=q;for(;;)switch(b[0]){case
+cx(r,p){var
+b=r,a=p;for(;;)switch(b[0]){case
 0:if(0===a[0]){var
-c=I(b[1],a[1]);return c?fW(b[2],a[2]):c}return 0;case
+c=I(b[1],a[1]);return c?f5(b[2],a[2]):c}return 0;case
 1:var
 d=b[3],e=b[2];if(1===a[0]){var
-f=a[3],g=a[2],h=p(b[1],a[1]),i=h?I(e[1],g[1]):h,j=i?fW(e[2],g[2]):i,k=j?I(d[1],f[1]):j;return k?fW(d[2],f[2]):k}return 0;case
+f=a[3],g=a[2],h=q(b[1],a[1]),i=h?I(e[1],g[1]):h,j=i?f5(e[2],g[2]):i,k=j?I(d[1],f[1]):j;return k?f5(d[2],f[2]):k}return 0;case
 2:if(2===a[0]){var
-l=cv(b[1],a[1]);if(l){var
+l=cx(b[1],a[1]);if(l){var
 b=b[2],a=a[2];continue}return l}return 0;case
 3:if(3===a[0]){var
-m=cv(b[1],a[1]);if(m){var
+m=cx(b[1],a[1]);if(m){var
 b=b[2],a=a[2];continue}return m}return 0;case
 4:if(4===a[0]){var
-n=cv(b[1],a[1]);if(n){var
+n=cx(b[1],a[1]);if(n){var
 b=b[2],a=a[2];continue}return n}return 0;case
 5:if(5===a[0]){var
-o=cv(b[1],a[1]);if(o){var
+o=cx(b[1],a[1]);if(o){var
 b=b[2],a=a[2];continue}return o}return 0;default:if(6===a[0]){var
 b=b[1],a=a[1];continue}return 0}}function
 eX(c,a){switch(a[0]){case
 0:return[0,[0,a[1],a[2]]];case
 1:return 0;case
 2:var
-m=a[2],n=a[1],g=m,f=n,e=function(b,a){return[0,dr(b,a)]};break;case
+m=a[2],n=a[1],g=m,f=n,e=function(b,a){return[0,dt(b,a)]};break;case
 3:var
-o=a[2],p=a[1],g=o,f=p,e=function(b,a){return[0,d0(b,a)]};break;case
+o=a[2],p=a[1],g=o,f=p,e=function(b,a){return[0,d1(b,a)]};break;case
 4:var
 q=a[2],r=a[1],g=q,f=r,e=function(b,a){return[0,a3(b,a)]};break;case
 5:var
-s=a[2],t=a[1],g=s,f=t,e=function(c,a){return dZ(a,[0,d,b])?0:[0,f2(c,a)]};break;default:var
-k=eX(c,a[1]);return k?i(c,k[1]):k}var
+s=a[2],t=a[1],g=s,f=t,e=function(c,a){return d0(a,[0,d,b])?0:[0,f$(c,a)]};break;default:var
+k=eX(c,a[1]);return k?j(c,k[1]):k}var
 h=eX(c,f);if(h){var
-j=eX(c,g);if(j)return e(h[1],j[1]);var
-l=j}else
+i=eX(c,g);if(i)return e(h[1],i[1]);var
+l=i}else
 var
 l=h;return l}function
-sb(a){return 0}function
-cw(a){return eX(sb,a)}function
-bP(a,c){switch(c[0]){case
-0:return[0,kY(a,c[1],c[2])];case
+sl(a){return 0}function
+cy(a){return eX(sl,a)}function
+bT(a,c){switch(c[0]){case
+0:return[0,k6(a,c[1],c[2])];case
 1:return 0;case
 2:var
-g=bP(a,c[1]);if(g)var
-h=bP(a,c[2]),D=h?[0,A(g[1],h[1])]:h,r=D;else
+g=bT(a,c[1]);if(g)var
+h=bT(a,c[2]),D=h?[0,A(g[1],h[1])]:h,r=D;else
 var
 r=g;return r;case
 3:var
-i=bP(a,c[1]);if(i)var
-j=bP(a,c[2]),F=j?[0,E(i[1],j[1])]:j,s=F;else
+i=bT(a,c[1]);if(i)var
+j=bT(a,c[2]),F=j?[0,E(i[1],j[1])]:j,s=F;else
 var
 s=i;return s;case
 4:var
-k=bP(a,c[1]);if(k)var
-l=bP(a,c[2]),G=l?[0,t(a,k[1],l[1])]:l,v=G;else
+k=bT(a,c[1]);if(k)var
+l=bT(a,c[2]),G=l?[0,t(a,k[1],l[1])]:l,v=G;else
 var
 v=k;return v;case
 5:var
-m=bP(a,c[1]);if(m){var
-n=bP(a,c[2]);if(n)var
-o=b7(a,n[1]),H=o?[0,t(a,m[1],o[1])]:o,w=H;else
+m=bT(a,c[1]);if(m){var
+n=bT(a,c[2]);if(n)var
+o=b8(a,n[1]),H=o?[0,t(a,m[1],o[1])]:o,w=H;else
 var
 w=n;var
 x=w}else
 var
 x=m;return x;default:var
-y=c[1],p=bP(a,y);if(p){var
-e=p[1];if(J(d,e[1]))return b8(a,e);var
-f=cw(y),K=f?P(ba([0,d,b],f[1])):f;if(K)return 0;if(J(d,e[2])){var
-B=b8(a,[0,e[2],e[2]]);return z(function(a){return[0,d,a[2]]},B)}var
+y=c[1],p=bT(a,y);if(p){var
+e=p[1];if(J(d,e[1]))return b9(a,e);var
+f=cy(y),K=f?L(ba([0,d,b],f[1])):f;if(K)return 0;if(J(d,e[2])){var
+B=b9(a,[0,e[2],e[2]]);return z(function(a){return[0,d,a[2]]},B)}var
 q=I(e[2],d),C=q?[0,u]:q;return C}return p}}function
-cx(b,a){return kY(b,a[1],a[2])}function
-k6(a,g,e,d){var
-h=[0,b,c(2,b)],i=[0,cx(a,a3(d0(d,e),h)),0],j=f(al(u,g),i),k=cx(a,d)[2],l=[0,cx(a,e)[1],k],m=[0,b,c(2,b)];return[0,cx(a,a3(dr(e,d),m)),l,j]}function
-d5(c,e,a){function
-b(a){return d5(c,e,a)}if(d4(a))switch(a[0]){case
+cz(b,a){return k6(b,a[1],a[2])}function
+lc(a,g,e,d){var
+h=[0,b,c(2,b)],i=[0,cz(a,a3(d1(d,e),h)),0],j=f(al(u,g),i),k=cz(a,d)[2],l=[0,cz(a,e)[1],k],m=[0,b,c(2,b)];return[0,cz(a,a3(dt(e,d),m)),l,j]}function
+d6(c,e,a){function
+b(a){return d6(c,e,a)}if(d5(a))switch(a[0]){case
 0:return 0;case
-1:return fx(e,a[1],a[2],a[3]);case
+1:return fG(e,a[1],a[2],a[3]);case
 2:var
-g=b(a[2]),h=b(a[1]);return cu(function(b,a){return[0,b$(b,a)]},h,g);case
+g=b(a[2]),h=b(a[1]);return cw(function(b,a){return[0,ca(b,a)]},h,g);case
 3:var
-i=b(a[2]),j=b(a[1]);return cu(function(b,a){return[0,bs(b,a)]},j,i);case
+i=b(a[2]),j=b(a[1]);return cw(function(b,a){return[0,bt(b,a)]},j,i);case
 4:var
-f=a[2],d=a[1];if(cv(d,f)){var
-k=b(d);return cS(function(a){return[0,eW(c,a)]},k)}var
-l=b(f),m=b(d);return cu(function(b,a){return[0,aL(c,b,a)]},m,l);case
+f=a[2],d=a[1];if(cx(d,f)){var
+k=b(d);return cT(function(a){return[0,eW(c,a)]},k)}var
+l=b(f),m=b(d);return cw(function(b,a){return[0,aO(c,b,a)]},m,l);case
 5:var
-n=b(a[2]),o=b(a[1]);return cu(function(a,b){return d3(c,a,b)},o,n);default:var
-p=b(a[1]);return cS(function(a){return h0(c,a)},p)}return z(Z,bP(c,a))}function
-aC(b,a){if(d4(a)){var
-c=d5(b,function(d,c,a){var
-e=aH(d,k5),f=e?ba(c,a):e,g=f?[0,k6(b,d,c,a)]:f;return g},a);return z(function(a){return a[2]},c)}return bP(b,a)}function
-h1(a){var
-e=bq(Q(a),d);return dX(F(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e))}function
-k7(a){return hV(F(h1(a),a))}function
-k8(b,a){var
-c=k7(b),d=Q(cP(Q(a[2]),c)),e=k7(b);return[0,cP(a[1],e),d]}function
-cT(c,a,b){var
-d=aC(F(c,h1(a)),b);return z(function(b){return k8(a,b)},d)}function
+n=b(a[2]),o=b(a[1]);return cw(function(a,b){return d4(c,a,b)},o,n);default:var
+p=b(a[1]);return cT(function(a){return h_(c,a)},p)}return z(_,bT(c,a))}function
+aD(b,a){if(d5(a)){var
+c=d6(b,function(d,c,a){var
+e=aJ(d,lb),f=e?ba(c,a):e,g=f?[0,lc(b,d,c,a)]:f;return g},a);return z(function(a){return a[2]},c)}return bT(b,a)}function
+h$(a){var
+e=br(Q(a),d);return dY(F(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e))}function
+ld(a){return h5(F(h$(a),a))}function
+le(b,a){var
+c=ld(b),d=Q(cQ(Q(a[2]),c)),e=ld(b);return[0,cQ(a[1],e),d]}function
+cU(c,a,b){var
+d=aD(F(c,h$(a)),b);return z(function(b){return le(a,b)},d)}function
 ao(d,a){var
-b=cT(d,a[2],a[1][1]);if(b)var
-c=cT(d,a[2],a[1][2]),f=c?[0,[0,b[1][1],c[1][2]]]:c,e=f;else
+b=cU(d,a[2],a[1][1]);if(b)var
+c=cU(d,a[2],a[1][2]),f=c?[0,[0,b[1][1],c[1][2]]]:c,e=f;else
 var
 e=b;return e}function
-k9(b,a){var
-c=Q(cP(Q(a[2]),b));return[0,cP(a[1],b),c]}function
-f8(b,a){var
-c=f3(b[2],a);return[0,cq(b[1],a),c]}function
-k_(h,g,d,b){var
-e=b[2],f=kN(d),i=c(2,f),j=B(kI(f),i),a=f8(t(h,b[1],g),j),k=kG(d)?E(e,a):A(e,a);return[0,a,k]}function
-k$(a,d,c){if(c){var
-e=c[1];return k_(a,d,e,k$(a,d,e))}var
-f=L(a,b);return[0,L(a,b),f]}function
-la(e,g){var
-o=cr(e),p=B(c(2,c(2,b)),o),j=D(g[2],p);if(j){var
-n=eP(e),i=sc[1],d=n,f=0,a=i;for(;;){if(d){var
+lf(b,a){var
+c=Q(cQ(Q(a[2]),b));return[0,cQ(a[1],b),c]}function
+gf(b,a){var
+c=ga(b[2],a);return[0,cs(b[1],a),c]}function
+lg(h,g,d,b){var
+e=b[2],f=kV(d),i=c(2,f),j=C(kQ(f),i),a=gf(t(h,b[1],g),j),k=kO(d)?E(e,a):A(e,a);return[0,a,k]}function
+lh(a,d,c){if(c){var
+e=c[1];return lg(a,d,e,lh(a,d,e))}var
+f=M(a,b);return[0,M(a,b),f]}function
+li(e,g){var
+o=ct(e),p=C(c(2,c(2,b)),o),j=D(g[2],p);if(j){var
+n=eP(e),i=sm[1],d=n,f=0,a=i;for(;;){if(d){var
 h=d[1];if(a){var
 d=h,a=a[1];continue}var
 d=h,f=[0,f],a=i;continue}var
-k=R(kF(sf,R(sd,f)),se),l=k$(e,g,k),q=k_(e,g,k,l)[2][2],m=[0,[0,l[2][1],q]];break}}else
+k=R(kN(sp,R(sn,f)),so),l=lh(e,g,k),q=lg(e,g,k,l)[2][2],m=[0,[0,l[2][1],q]];break}}else
 var
 m=j;return m}function
-lb(i){function
+lj(i){function
 a(h){var
-m=cq(cr(i),h),g=eP(i),f=m,e=d,a=b;for(;;){if(g){var
-j=F(a,c(2,b)),k=F(e,cq(f,a)),l=Q(cq(f,B(h,h))),g=g[1],f=l,e=k,a=j;continue}return e}}var
-e=a(r(c(2,r(c(2,r(c(2,r(c(2,c(2,r(c(2,r(c(2,b)))))))))))))),f=B(c(2,c(2,b)),e),g=a(r(c(2,c(2,b))));return aG(B(c(2,c(2,c(2,c(2,b)))),g),f)}function
-lc(e,a){var
+m=cs(ct(i),h),g=eP(i),f=m,e=d,a=b;for(;;){if(g){var
+j=F(a,c(2,b)),k=F(e,cs(f,a)),l=Q(cs(f,C(h,h))),g=g[1],f=l,e=k,a=j;continue}return e}}var
+e=a(p(c(2,p(c(2,p(c(2,p(c(2,c(2,p(c(2,p(c(2,b)))))))))))))),f=C(c(2,c(2,b)),e),g=a(p(c(2,c(2,b))));return aI(C(c(2,c(2,c(2,c(2,b)))),g),f)}function
+lk(e,a){var
 f=D(d,a);if(f){var
-g=c(2,c(2,b));return la(e,f8(S(e,[0,a,a]),g))}return f}function
-ld(a){var
-m=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),g=aG(lb(a),m),n=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),h=F(lb(a),n),e=lc(a,g);if(e){var
-f=lc(a,h);if(f)var
+g=c(2,c(2,b));return li(e,gf(S(e,[0,a,a]),g))}return f}function
+ll(a){var
+m=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),g=aI(lj(a),m),n=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),h=F(lj(a),n),e=lk(a,g);if(e){var
+f=lk(a,h);if(f)var
 i=J(d,e[1][1]),j=i?J(f[1][2],d):i,k=j?[0,[0,g,h]]:j;else
 var
 k=f;var
 l=k}else
 var
 l=e;return l}function
-le(a,d){var
-c=S(a,d),e=L(a,b);return E(A(c,c),e)}function
-cU(f,j){var
-e=aC(F(f,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),j);if(e){var
-k=e[1],a=F(f,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),d=ld(a);if(d)var
-h=c(2,c(2,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))))),i=la(a,S(a,f8(t(a,k,d[1]),h))),g=z(function(b){return le(a,le(a,b))},i);else
+lm(a,d){var
+c=S(a,d),e=M(a,b);return E(A(c,c),e)}function
+cV(f,j){var
+e=aD(F(f,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),j);if(e){var
+k=e[1],a=F(f,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),d=ll(a);if(d)var
+h=c(2,c(2,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b)))))))))))),i=li(a,S(a,gf(t(a,k,d[1]),h))),g=z(function(b){return lm(a,lm(a,b))},i);else
 var
 g=d;var
-l=c(2,c(2,c(2,c(2,c(2,c(2,b))))));return z(function(a){return k9(l,a)},g)}return e}function
-lf(a,d){var
-e=ld(F(a,c(2,c(2,c(2,c(2,c(2,c(2,b))))))));return z(function(e){var
-f=c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b))))))))));return f8(t(a,d,k9(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e)),f)},e)}function
-f9(d,a){return cU(d,[3,a,[0,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b))))))))),b]])}function
+l=c(2,c(2,c(2,c(2,c(2,c(2,b))))));return z(function(a){return lf(l,a)},g)}return e}function
+ln(a,d){var
+e=ll(F(a,c(2,c(2,c(2,c(2,c(2,c(2,b))))))));return z(function(e){var
+f=c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b))))))))));return gf(t(a,d,lf(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e)),f)},e)}function
+gg(d,a){return cV(d,[3,a,[0,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b))))))))),b]])}function
 h(i,e,c){var
-f=cw(c);if(f){var
-g=f[1];return e?P(ba(g,[0,d,b])):ba([0,d,b],g)}var
-a=aC(i,c);if(a){var
+f=cy(c);if(f){var
+g=f[1];return e?L(ba(g,[0,d,b])):ba([0,d,b],g)}var
+a=aD(i,c);if(a){var
 h=a[1];return e?J(d,h[1]):D(d,h[1])}return a}function
-lg(c,b){var
-a=aC(c,b),d=a?1:a;return d}function
-bt(c,a,b){var
-d=cv(a,b),e=d?lg(c,a):d;return e?e:h(c,0,[3,b,a])}function
-sg(c){var
-a=ds(c),g=dX(f0(a[2])),b=[0,f0(a[1]),g],e=J(d,a[1]),f=e?dZ(a3(b,b),c):e,h=f?[0,b]:f;return h}function
-lh(a){if(a){var
-e=a[2],c=a[1];if(dZ(bM([0,d,b],c),[0,d,b])){var
-g=lh(e);return z(function(a){return[0,a[1],[0,c,a[2]]]},g)}var
+lo(c,b){var
+a=aD(c,b),d=a?1:a;return d}function
+bu(c,a,b){var
+d=cx(a,b),e=d?lo(c,a):d;return e?e:h(c,0,[3,b,a])}function
+sq(c){var
+a=du(c),g=dY(f9(a[2])),b=[0,f9(a[1]),g],e=J(d,a[1]),f=e?d0(a3(b,b),c):e,h=f?[0,b]:f;return h}function
+lp(a){if(a){var
+e=a[2],c=a[1];if(d0(bQ([0,d,b],c),[0,d,b])){var
+g=lp(e);return z(function(a){return[0,a[1],[0,c,a[2]]]},g)}var
 f=[0,[0,c,e]]}else
 var
 f=a;return f}function
-li(c,a){var
-e=$(c,a),f=[0,d,b];return an(function(a,b){return ds(dr(a3(a[1],a[2]),b))},f,e)}function
-lj(c,j){if(c){var
-f=c[1],g=lh(j);if(g){var
+lq(c,a){var
+e=aa(c,a),f=[0,d,b];return an(function(a,b){return du(dt(a3(a[1],a[2]),b))},f,e)}function
+lr(c,j){if(c){var
+f=c[1],g=lp(j);if(g){var
 h=g[1],a=h[1],k=function(c){var
-f=bM([0,d,b],a),g=f2(bM([0,d,b],c),f),h=by(a),i=$(by(c),h);return e(function(a){var
-b=a3(g,a[2]);return ds(d0(a[1],b))},i)},l=lj(f,e(k,h[2]));return z(function(c){var
-e=bM([0,d,b],a);return[0,ds(f2(hX(li(by(a),c)),e)),c]},l)}var
+f=bQ([0,d,b],a),g=f$(bQ([0,d,b],c),f),h=bz(a),i=aa(bz(c),h);return e(function(a){var
+b=a3(g,a[2]);return du(d1(a[1],b))},i)},l=lr(f,e(k,h[2]));return z(function(c){var
+e=bQ([0,d,b],a);return[0,du(f$(h7(lq(bz(a),c)),e)),c]},l)}var
 i=[0,[0,[0,b,b],al([0,d,b],f)]]}else
 var
 i=c;return i}function
-lk(a){if(a){var
-b=eX(sg,a[1]);if(b)var
-c=lk(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+ls(a){if(a){var
+b=eX(sq,a[1]);if(b)var
+c=ls(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return sh}function
-ll(a){if(a){var
-b=lk(a[1]);if(b)var
-c=ll(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+d=b;return d}return sr}function
+lt(a){if(a){var
+b=ls(a[1]);if(b)var
+c=lt(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return si}function
-lm(i,l){var
-a=ll(l);if(a){var
-j=a[1],c=lj(i,j);if(c){var
-e=c[1],f=p(g(e),i),h=f?ak(function(a){return P(dZ(a,[0,d,b]))},e):f;return h?m(function(a){return dZ(li(a,e),[0,d,b])},j):h}var
+d=b;return d}return ss}function
+lu(i,l){var
+a=lt(l);if(a){var
+j=a[1],c=lr(i,j);if(c){var
+e=c[1],f=q(g(e),i),h=f?aj(function(a){return L(d0(a,[0,d,b]))},e):f;return h?m(function(a){return d0(lq(a,e),[0,d,b])},j):h}var
 k=c}else
 var
 k=a;return k}function
-sj(a){return a}function
-sk(a){return a}function
-sl(a,b){return aK(sk,sj,A,a,b)}function
-sm(a){return a}function
-sn(a){return a}function
-bd(a,b){return aK(sn,sm,sl,a,b)}function
-h2(a,f,c,d){if(c){var
-h=c[2],i=L(a,b),g=d2(c[1],i,f);if(d){var
-j=h2(a,f,h,d[2]),k=d[1],l=function(c,b){return E(c,t(a,g,b))},m=function(b){return aa(t(a,g,b))};return[0,aK(function(a){return a},m,l,k,c),j]}var
-n=h2(a,f,h,0);return[0,e(function(b){return aa(t(a,g,b))},c),n]}return d}function
-f_(h,a){if(a){var
+st(a){return a}function
+su(a){return a}function
+sv(a,b){return aN(su,st,A,a,b)}function
+sw(a){return a}function
+sx(a){return a}function
+bd(a,b){return aN(sx,sw,sv,a,b)}function
+ia(a,f,c,d){if(c){var
+h=c[2],i=M(a,b),g=d3(c[1],i,f);if(d){var
+j=ia(a,f,h,d[2]),k=d[1],l=function(c,b){return E(c,t(a,g,b))},m=function(b){return ab(t(a,g,b))};return[0,aN(function(a){return a},m,l,k,c),j]}var
+n=ia(a,f,h,0);return[0,e(function(b){return ab(t(a,g,b))},c),n]}return d}function
+gh(h,a){if(a){var
 b=a[1];if(b)var
-c=b[1],e=J(d,c[1]),i=e?[0,h2(h,c,b[2],a[2])]:e,f=i;else
+c=b[1],e=J(d,c[1]),i=e?[0,ia(h,c,b[2],a[2])]:e,f=i;else
 var
 f=b;var
 g=f}else
 var
 g=a;return g}function
-ln(g,f,e){var
+lv(g,f,e){var
 a=f,b=e;for(;;){if(b){if(a){var
-c=f_(g,b);if(c){var
+c=gh(g,b);if(c){var
 a=a[1],b=c[1];continue}var
 d=c}else
 var
 d=a;return d}return 1}}function
-lo(d,b,a){if(b)if(a)var
-e=a[1],f=lo(d,b[2],a[2]),g=co(d,b[1])?b_(e):cs(e),c=[0,g,f];else
+lw(d,b,a){if(b)if(a)var
+e=a[1],f=lw(d,b[2],a[2]),g=cq(d,b[1])?b$(e):cu(e),c=[0,g,f];else
 var
 c=a;else
 var
 c=b;return c}function
-lp(a,b){if(a)if(b)var
-d=lp(a[2],b[2]),c=[0,lo(a[1],a,b[1]),d];else
+lx(a,b){if(a)if(b)var
+d=lx(a[2],b[2]),c=[0,lw(a[1],a,b[1]),d];else
 var
 c=b;else
 var
 c=a;return c}function
 be(a){if(a){var
-b=a[1],c=be(b),d=e(function(a){return[0,1,a]},c),g=be(b);return f(e(function(a){return[0,0,a]},g),d)}return so}function
-d6(c,a){var
-b=g(a);if(ln(c,b,a))return 1;var
-d=be(bx(b));return m(function(d){return ln(c,b,lp([0,0,d],a))},d)}function
-aw(a){function
+b=a[1],c=be(b),d=e(function(a){return[0,1,a]},c),g=be(b);return f(e(function(a){return[0,0,a]},g),d)}return sy}function
+d7(c,a){var
+b=g(a);if(lv(c,b,a))return 1;var
+d=be(by(b));return m(function(d){return lv(c,b,lx([0,0,d],a))},d)}function
+au(a){function
 b(b){var
-c=i(a,b[2]);return[0,e(a,b[1]),c]}return function(a){return e(b,a)}}function
-aD(h,e){var
+c=j(a,b[2]);return[0,e(a,b[1]),c]}return function(a){return e(b,a)}}function
+aE(h,e){var
 c=h,a=e[1],b=e[3];for(;;){if(c){if(b){var
 d=b[1],f=b[2],g=c[1]?A(a,d):E(a,d),c=c[2],a=g,b=f;continue}return a}return a}}function
-h3(c,b,a){var
-d=be(c);return m(function(c){return i(a,i(aw(function(a){return aD(c,a)}),b))},d)}function
-h4(h,d,c){if(d)if(c)var
-i=c[2],e=c[1],j=d[2],f=d[1],a=function(c,a){return aP(c,F(h,b),a)},k=h4(h,j,i),l=function(c,b){var
-d=a(b,e);return A(a(f,c),d)},m=function(b){return a(b,e)},n=aK(function(b){return a(f,b)},m,l,i,j),o=a(f,e),g=[0,[0,A(a(f,e),o),n],k];else
+ib(c,b,a){var
+d=be(c);return m(function(c){return j(a,j(au(function(a){return aE(c,a)}),b))},d)}function
+ic(h,d,c){if(d)if(c)var
+i=c[2],e=c[1],j=d[2],f=d[1],a=function(c,a){return aS(c,F(h,b),a)},k=ic(h,j,i),l=function(c,b){var
+d=a(b,e);return A(a(f,c),d)},m=function(b){return a(b,e)},n=aN(function(b){return a(f,b)},m,l,i,j),o=a(f,e),g=[0,[0,A(a(f,e),o),n],k];else
 var
 g=c;else
 var
 g=d;return g}function
-d7(b,d,a,c){function
+d8(b,d,a,c){function
 e(c,d){var
-e=aP(d,b,a);return E(A(c,c),e)}function
-f(c){return aa(aP(c,b,a))}return aK(function(a){return A(a,a)},f,e,d,c)}function
-f$(d,i,h,g){var
+e=aS(d,b,a);return E(A(c,c),e)}function
+f(c){return ab(aS(c,b,a))}return aN(function(a){return A(a,a)},f,e,d,c)}function
+gi(d,i,h,g){var
 c=i,b=h,a=g;for(;;){if(c){if(b){var
-e=b[1],f=c[1],j=cs(e[2]),k=bd(a,h4(d,f,d7(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
-h5(b,a){return[0,[0,0,b],a]}function
+e=b[1],f=c[1],j=cu(e[2]),k=bd(a,ic(d,f,d8(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
+id(b,a){return[0,[0,0,b],a]}function
 eY(i,b,c,h,f,a){function
 d(a){if(a){var
-j=al([0,aa(a[1][2]),0],b),c=f$(h,f,a[2],j),d=p(g(c),b);if(d)return d6(i,c);var
+j=al([0,ab(a[1][2]),0],b),c=gi(h,f,a[2],j),d=q(g(c),b);if(d)return d7(i,c);var
 e=d}else
 var
-e=a;return e}return h3(b,h5(c,a),d)}function
-ga(g,f,e){var
+e=a;return e}return ib(b,id(c,a),d)}function
+gj(g,f,e){var
 a=f,b=e;for(;;){if(a){var
-d=a[1],h=d[1],c=f_(g,[0,[0,b_(d[2]),h],b]);if(c){var
+d=a[1],h=d[1],c=gh(g,[0,[0,b$(d[2]),h],b]);if(c){var
 a=a[2],b=c[1];continue}return c}return[0,b]}}function
-h6(d,b,c,a){function
+ie(d,b,c,a){function
 e(a){if(a){var
-j=al([0,a[1][2],0],b),c=ga(d,a[2],j);if(c){var
-e=c[1],f=p(g(e),b);if(f)return d6(d,e);var
+j=al([0,a[1][2],0],b),c=gj(d,a[2],j);if(c){var
+e=c[1],f=q(g(e),b);if(f)return d7(d,e);var
 h=f}else
 var
 h=c;var
 i=h}else
 var
-i=a;return i}return h3(b,h5(c,a),e)}function
-lq(h,g,a,f,d,c){var
+i=a;return i}return ib(b,id(c,a),e)}function
+ly(h,g,a,f,d,c){var
 i=[0,u,u,0],b=e(function(a){return[0,a[1],i]},c),j=a?a[1]:[0,u,u,0];return eY(h,g,j,f,d,b)}function
-h7(b,a){var
-c=be(b);return m(function(b){return J(d,aD(b,a)[1])},c)}function
-gb(c,b,a){var
-d=a[3],f=e(function(a){return aP(c,b,a)},d),g=a[2];return[0,aP(c,b,a[1]),g,f]}function
-lr(a,b){var
-c=b[3],d=a[3],e=aK(function(a){return a},aa,E,d,c),f=a[2];return[0,E(a[1],b[1]),f,e]}function
-bQ(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-ah(c,b,a){var
+ig(b,a){var
+c=be(b);return m(function(b){return J(d,aE(b,a)[1])},c)}function
+gk(c,b,a){var
+d=a[3],f=e(function(a){return aS(c,b,a)},d),g=a[2];return[0,aS(c,b,a[1]),g,f]}function
+lz(a,b){var
+c=b[3],d=a[3],e=aN(function(a){return a},ab,E,d,c),f=a[2];return[0,E(a[1],b[1]),f,e]}function
+bU(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+af(c,b,a){var
 d=aq(c,b[3],a[3]),e=aq(c,b[2],a[2]);return[0,aq(c,b[1],a[1]),e,d]}function
 a0(b,a){var
 c=s(b,a[3]),d=s(b,a[2]);return[0,s(b,a[1]),d,c]}function
 bl(b,a){var
 c=am(b[3],a),d=am(b[2],a);return[0,am(b[1],a),d,c]}function
-X(b,a){var
-c=s(b[3],a[3]),d=s(b[2],a[2]);return C(C(s(b[1],a[1]),d),c)}function
-du(a){return bl(a,aE(X(a,a)))}function
-cV(a){var
-b=a[5];return b?b[1]:aE(a[2])}function
-gc(b,a){return b?a:bk(a)}function
-ls(e,a,i,d,h){var
-f=X(a,e),b=ah(w,e,a0(f,a)),j=X(b,b),g=w(T(d),j),c=gc(h,aE(g)),k=w(f,c),l=ah(C,a,bl(b,c));return[0,ah(C,b,a0(c,a)),g,l,k,[0,d],0,[0,i]]}function
-lt(a,e,d){var
-b=X(a,a),c=aE(b),f=[0,e],g=z(function(b){return ah(w,a,a0(X(b,a),b))},d);return[0,a,b,bl(a,c),c,0,g,f]}function
-lu(c,a){var
-d=X(a,c);return[0,a,k(b),a,d,0,0,0]}function
+Y(b,a){var
+c=s(b[3],a[3]),d=s(b[2],a[2]);return B(B(s(b[1],a[1]),d),c)}function
+dw(a){return bl(a,aF(Y(a,a)))}function
+cW(a){var
+b=a[5];return b?b[1]:aF(a[2])}function
+gl(b,a){return b?a:bk(a)}function
+lA(e,a,i,d,h){var
+f=Y(a,e),b=af(w,e,a0(f,a)),j=Y(b,b),g=w(T(d),j),c=gl(h,aF(g)),k=w(f,c),l=af(B,a,bl(b,c));return[0,af(B,b,a0(c,a)),g,l,k,[0,d],0,[0,i]]}function
+lB(a,e,d){var
+b=Y(a,a),c=aF(b),f=[0,e],g=z(function(b){return af(w,a,a0(Y(b,a),b))},d);return[0,a,b,bl(a,c),c,0,g,f]}function
+lC(c,a){var
+d=Y(a,c);return[0,a,l(b),a,d,0,0,0]}function
 eZ(a){return e(function(a){var
-b=a[2];return[0,bQ(a[1]),b]},a)}function
-lv(a){return e(function(a){var
-c=k(b);return[0,bQ(a[3]),c]},a)}function
-lw(b,a){var
-c=i(b,a[3]),d=i(b,a[2]);return[0,i(b,a[1]),d,c]}function
-lx(c,b,a){var
+b=a[2];return[0,bU(a[1]),b]},a)}function
+lD(a){return e(function(a){var
+c=l(b);return[0,bU(a[3]),c]},a)}function
+lE(b,a){var
+c=j(b,a[3]),d=j(b,a[2]);return[0,j(b,a[1]),d,c]}function
+lF(c,b,a){var
 d=aq(c,b[3],a[3]),e=aq(c,b[2],a[2]);return[0,aq(c,b[1],a[1]),e,d]}function
-d8(d,a){var
-b=b8(d,[0,a[2],a[2]]);if(b){var
+d9(d,a){var
+b=b9(d,[0,a[2],a[2]]);if(b){var
 c=b[1];return[0,c[2],c[2]]}return[0,a[2],a[2]]}function
-gd(a,n,f,l,e,k,j){var
-o=lx(bs,k,j),b=lx(function(b,c){return aL(a,b,c)},e,o),c=b[3],g=b[2],h=b[1],i=b$(b$(b$(Z(L(a,d)),h),g),c),p=be(n);return m(function(c){var
-b=lw(function(b){return S(a,aD(c,b))},e),h=b[3],j=b[2],k=b[1],m=t(a,l,d8(a,A(A(A(L(a,d),k),j),h))),g=E(aD(c,i),m),n=f?E(g,aD(c,f[1])):g;return J(d,n[1])},p)}function
-ca(a){return dq(F(a[1],a[2]),b)}function
-d9(a){var
-b=ca(a);return aG(a[2],b)}function
-dw(c,b){if(b)var
-a=b[1],e=dw([0,c],b[2]),g=d9(a),h=[0,[0,d9(a),g],0],i=f(al(u,c),h),j=ca(a),d=[0,[0,[0,ca(a),j],a,i],e];else
+gm(a,n,f,l,e,k,j){var
+o=lF(bt,k,j),b=lF(function(b,c){return aO(a,b,c)},e,o),c=b[3],g=b[2],h=b[1],i=ca(ca(ca(_(M(a,d)),h),g),c),p=be(n);return m(function(c){var
+b=lE(function(b){return S(a,aE(c,b))},e),h=b[3],j=b[2],k=b[1],m=t(a,l,d9(a,A(A(A(M(a,d),k),j),h))),g=E(aE(c,i),m),n=f?E(g,aE(c,f[1])):g;return J(d,n[1])},p)}function
+cb(a){return ds(F(a[1],a[2]),b)}function
+d_(a){var
+b=cb(a);return aI(a[2],b)}function
+dy(c,b){if(b)var
+a=b[1],e=dy([0,c],b[2]),g=d_(a),h=[0,[0,d_(a),g],0],i=f(al(u,c),h),j=cb(a),d=[0,[0,[0,cb(a),j],a,i],e];else
 var
 d=b;return d}function
-cW(d,b){if(b){var
+cX(d,b){if(b){var
 c=b[2],a=b[1];if(d){var
-e=cW(d[1],c);return[0,[0,a,e[1]],[0,a,e[2]]]}var
-f=a[2],g=[0,[0,ca(a),f],c],h=ca(a);return[0,[0,[0,a[1],h],c],g]}return sp}function
-ly(d,c,a){if(c){if(a){var
-e=ly(d,c[2],a[2]);return A(aP(c[1],F(d,b),a[1]),e)}return u}return u}function
-d_(f,a){if(a)var
-g=a[1],c=g[2],d=g[1],h=a[2],b=function(a,b){return ly(f,a,b)},j=d_(f,h),k=e(function(a){var
+e=cX(d[1],c);return[0,[0,a,e[1]],[0,a,e[2]]]}var
+f=a[2],g=[0,[0,cb(a),f],c],h=cb(a);return[0,[0,[0,a[1],h],c],g]}return sz}function
+lG(d,c,a){if(c){if(a){var
+e=lG(d,c[2],a[2]);return A(aS(c[1],F(d,b),a[1]),e)}return u}return u}function
+d$(f,a){if(a)var
+g=a[1],c=g[2],d=g[1],h=a[2],b=function(a,b){return lG(f,a,b)},j=d$(f,h),k=e(function(a){var
 e=b(d,a[2]);return A(b(a[1],c),e)},h),l=b(d,c),i=[0,[0,A(b(d,c),l),k],j];else
 var
 i=a;return i}function
-d$(e,b,d,a){if(b)if(a)var
-f=b[1],g=d$(e,b[2],d,a[2]),c=[0,[0,f,d7(e,a[1][1],d,f)],g];else
+ea(e,b,d,a){if(b)if(a)var
+f=b[1],g=ea(e,b[2],d,a[2]),c=[0,[0,f,d8(e,a[1][1],d,f)],g];else
 var
 c=a;else
 var
 c=b;return c}function
-ge(f,d,c,b,a){if(a){var
+gn(f,d,c,b,a){if(a){var
 g=a[2];if(d){var
-i=ge(f,d[1],c,b,g);return[0,[0,E(u,b),0],i]}var
-j=e(function(a){return[0,E(u,b),0]},g),h=[0,[0,E(aa(t(f,c,cs(a[1][2]))),b),0],j]}else
+i=gn(f,d[1],c,b,g);return[0,[0,E(u,b),0],i]}var
+j=e(function(a){return[0,E(u,b),0]},g),h=[0,[0,E(ab(t(f,c,cu(a[1][2]))),b),0],j]}else
 var
 h=a;return h}function
 a5(d,c,a){var
-b=p(g(a),c);return b?d6(d,a):b}function
-gf(d,b,a){if(b)var
-c=b[1],g=gf([0,d],b[2],a),h=f(al(u,d),[0,a,0]),e=[0,[0,c,[0,aG(c[1],a[2]),F(c[2],a[2])],h],g];else
+b=q(g(a),c);return b?d7(d,a):b}function
+go(d,b,a){if(b)var
+c=b[1],g=go([0,d],b[2],a),h=f(al(u,d),[0,a,0]),e=[0,[0,c,[0,aI(c[1],a[2]),F(c[2],a[2])],h],g];else
 var
 e=b;return e}function
-lz(d){if(d){var
+lH(d){if(d){var
 a=d[1][1];if(a){var
 b=a[2];if(b){var
 c=b[2];if(c){if(c[2])return 0;var
-g=c[1],h=b[1],i=a[1],j=lz(d[2]);return z(function(a){return[0,[0,[0,i,h],g],a]},j)}var
+g=c[1],h=b[1],i=a[1],j=lH(d[2]);return z(function(a){return[0,[0,[0,i,h],g],a]},j)}var
 e=c}else
 var
 e=b;var
 f=e}else
 var
-f=a;return f}return sq}function
-h8(a){return z(function(a){return z(eV,a)},a)}function
-cX(c,b,a){function
-d(a){return aL(c,b,a)}return z(function(a){return z(d,a)},a)}function
-h9(c,b,a){function
-d(a){return d3(c,a,b)}return z(function(a){return cS(d,a)},a)}function
-ea(b,a){var
-c=$(b,a);return e(function(c){var
+f=a;return f}return sA}function
+ih(a){return z(function(a){return z(eV,a)},a)}function
+cY(c,b,a){function
+d(a){return aO(c,b,a)}return z(function(a){return z(d,a)},a)}function
+ii(c,b,a){function
+d(a){return d4(c,a,b)}return z(function(a){return cT(d,a)},a)}function
+eb(b,a){var
+c=aa(b,a);return e(function(c){var
 a=c[2],b=c[1];if(b){if(a){var
-d=a[1],e=b[1];return[0,cu(function(b,a){return[0,b$(b,a)]},e,d)]}return b}return a},c)}function
-gg(a){return Z(L(a,c(2,b)))}function
-h_(a,au,at,K,c){var
-aw=bO(av,c),f=i(bz(a,au,at),aw);switch(c[0]){case
+d=a[1],e=b[1];return[0,cw(function(b,a){return[0,ca(b,a)]},e,d)]}return b}return a},c)}function
+gp(a){return _(M(a,c(2,b)))}function
+ij(a,au,at,K,c){var
+av=bS(aw,c),f=j(bA(a,au,at),av);switch(c[0]){case
 1:var
 O=c[1],d=e(function(d){var
-c=p(O,d),e=c?[0,[0,Z(L(a,b))]]:c;return e},K);break;case
+c=q(O,d),e=c?[0,[0,_(M(a,b))]]:c;return e},K);break;case
 3:var
-d=ea(c[1][2],c[2][2]);break;case
+d=eb(c[1][2],c[2][2]);break;case
 4:var
-P=e(h8,c[2][2]),d=ea(c[1][2],P);break;case
+P=e(ih,c[2][2]),d=eb(c[1][2],P);break;case
 5:var
-d=e(h8,c[1][2]);break;case
+d=e(ih,c[1][2]);break;case
 6:var
 x=c[2],y=c[1],g=y[1],u=0;if(g){var
 h=x[1];if(h)var
-Q=x[2],R=g[1],S=e(function(b){return cX(a,R,b)},Q),T=y[2],U=h[1],d=ea(e(function(b){return cX(a,U,b)},T),S);else{var
+Q=x[2],R=g[1],S=e(function(b){return cY(a,R,b)},Q),T=y[2],U=h[1],d=eb(e(function(b){return cY(a,U,b)},T),S);else{var
 z=h;u=1}}else{var
 z=g;u=1}if(u)var
 d=z;break;case
 7:var
 v=0;if(f){var
-A=c[2],j=A[1];if(j)var
-V=A[2],W=eV(f[1]),X=e(function(b){return cX(a,W,b)},V),Y=ea(c[1][2],X),_=j[1],d=e(function(b){return h9(a,_,b)},Y);else{var
-B=j;v=1}}else{var
+A=c[2],i=A[1];if(i)var
+V=A[2],W=eV(f[1]),X=e(function(b){return cY(a,W,b)},V),Y=eb(c[1][2],X),Z=i[1],d=e(function(b){return ii(a,Z,b)},Y);else{var
+B=i;v=1}}else{var
 B=f;v=1}if(v)var
 d=B;break;case
 8:var
 C=c[1],k=C[1];if(k)var
-$=C[2],aa=k[1],ab=aL(a,gg(a),aa),d=e(function(b){return cX(a,ab,b)},$);else
+$=C[2],aa=k[1],ab=aO(a,gp(a),aa),d=e(function(b){return cY(a,ab,b)},$);else
 var
 d=k;break;case
 9:if(f)var
-ac=c[1][2],ad=f[1],ae=aL(a,gg(a),ad),d=e(function(b){return h9(a,ae,b)},ac);else
+ac=c[1][2],ad=f[1],ae=aO(a,gp(a),ad),d=e(function(b){return ii(a,ae,b)},ac);else
 var
 d=f;break;case
 10:var
 D=c[4],E=c[3],F=c[2],l=F[1],w=0;if(l){var
-m=l[1],n=E[1],M=0;if(n){var
-o=n[1],q=D[1],N=0;if(q){var
-r=k4(a,m,o,q[1]);if(r){var
-G=r[1],s=G[2],t=G[1],af=E[2],ag=bs(o,s),ah=e(function(b){return cX(a,ag,b)},af),ai=F[2],aj=bs(m,t),ak=ea(e(function(b){return cX(a,aj,b)},ai),ah),al=e(h8,D[2]),am=gg(a),an=ea(e(function(b){return cX(a,am,b)},ak),al),ao=c[1]?t:eV(s),ap=e(function(b){return cX(a,ao,b)},an),aq=aL(a,m,s),ar=bs(aL(a,o,t),aq),as=aL(a,gg(a),ar),d=e(function(b){return h9(a,as,b)},ap);M=1;N=1}else
+m=l[1],n=E[1],L=0;if(n){var
+o=n[1],p=D[1],N=0;if(p){var
+r=la(a,m,o,p[1]);if(r){var
+G=r[1],s=G[2],t=G[1],af=E[2],ag=bt(o,s),ah=e(function(b){return cY(a,ag,b)},af),ai=F[2],aj=bt(m,t),ak=eb(e(function(b){return cY(a,aj,b)},ai),ah),al=e(ih,D[2]),am=gp(a),an=eb(e(function(b){return cY(a,am,b)},ak),al),ao=c[1]?t:eV(s),ap=e(function(b){return cY(a,ao,b)},an),aq=aO(a,m,s),ar=bt(aO(a,o,t),aq),as=aO(a,gp(a),ar),d=e(function(b){return ii(a,as,b)},ap);L=1;N=1}else
 var
 H=r}else
 var
-H=q;if(!N)var
+H=p;if(!N)var
 I=H}else
 var
-I=n;if(!M){var
+I=n;if(!L){var
 J=I;w=1}}else{var
 J=l;w=1}if(w)var
 d=J;break;default:var
 d=e(function(a){return 0},K)}return[0,f,d]}function
-h$(b,c,a){if(a)var
-f=a[1],g=h$(b,c,a[2]),d=[0,e(function(a){return aa(t(b,t(b,c,f),a))},a),g];else
+ik(b,c,a){if(a)var
+f=a[1],g=ik(b,c,a[2]),d=[0,e(function(a){return ab(t(b,t(b,c,f),a))},a),g];else
 var
 d=a;return d}function
-ia(a){return m(function(a){var
+il(a){return m(function(a){var
 b=I(a[1],d);return b?I(a[2],d):b},a)}function
-ib(c,b,a){var
-d=$(b,a);return an(function(a,b){return A(t(c,a[1],a[2]),b)},u,d)}function
-ic(c,b,a){var
-d=b9(ib(c,a,b));return an(function(b,a){return F(b9(b),a)},d,a)}function
-cb(a){return L(a,b)}function
+im(c,b,a){var
+d=aa(b,a);return an(function(a,b){return A(t(c,a[1],a[2]),b)},u,d)}function
+io(c,b,a){var
+d=b_(im(c,a,b));return an(function(b,a){return F(b_(b),a)},d,a)}function
+cc(a){return M(a,b)}function
 e0(a,i,c,v,u){var
 f=v,e=u;for(;;){if(f){var
-j=f[1],n=0;if(!ia(c)&&!ia(j)){var
-h=ic(a,i,j),o=cb(a),p=ic(a,i,c),b=d2([0,ic(a,i,c),p],o,[0,h,h])[1],k=J(d,h),l=k?J(d,b):k;if(l)var
-q=as(hY(a,[0,b,b])),r=function(b){return function(d,c){return E(t(a,[0,b,b],d),c)}}(b),s=[0,b,b],m=[0,bd(e,h$(a,q,aK(function(c){return function(b){return t(a,c,b)}}(s),aa,r,j,c)))];else
+j=f[1],n=0;if(!il(c)&&!il(j)){var
+h=io(a,i,j),o=cc(a),p=io(a,i,c),b=d3([0,io(a,i,c),p],o,[0,h,h])[1],k=J(d,h),l=k?J(d,b):k;if(l)var
+q=as(h8(a,[0,b,b])),r=function(b){return function(d,c){return E(t(a,[0,b,b],d),c)}}(b),s=[0,b,b],m=[0,bd(e,ik(a,q,aN(function(c){return function(b){return t(a,c,b)}}(s),ab,r,j,c)))];else
 var
 m=l;var
 g=m;n=1}if(!n)var
 g=[0,e];if(g){var
 f=f[2],e=g[1];continue}return g}return[0,e]}}function
-lA(a){var
+lI(a){var
 b=a[2],c=e(function(a){return[0,a[1],u]},b);return[0,[0,a[1][1],u],c]}function
-id(h,n,a,m,l,k){var
+ip(h,n,a,m,l,k){var
 d=m,c=l,b=k;for(;;){if(d){if(c){var
-i=c[1],j=i[1],f=d[1],o=cs(j[2]),p=bd(b,h4(a,f,d7(a,j[1],o,f))),q=i[2],r=e(function(c){return function(b){return e(as,d7(a,b[1],b[2],c))}}(f),q),g=e0(h,n,e(function(b){return aP(b,a,cb(h))},f),r,p);if(g){var
+i=c[1],j=i[1],f=d[1],o=cu(j[2]),p=bd(b,ic(a,f,d8(a,j[1],o,f))),q=i[2],r=e(function(c){return function(b){return e(as,d8(a,b[1],b[2],c))}}(f),q),g=e0(h,n,e(function(b){return aS(b,a,cc(h))},f),r,p);if(g){var
 d=d[2],c=c[2],b=g[1];continue}return g}return[0,b]}return[0,b]}}function
-lB(a,j,r,q){var
+lJ(a,j,r,q){var
 c=r,f=q;for(;;){if(c){var
-k=c[1],l=k[1],g=l[2],h=l[1],m=k[2],n=[0,[0,b_(g),h],f];if(m){var
+k=c[1],l=k[1],g=l[2],h=l[1],m=k[2],n=[0,[0,b$(g),h],f];if(m){var
 o=J(d,g[1]);if(o)var
 s=e(function(a){var
-b=a[1];return[0,as(a[2]),b]},m),t=e(function(a){return u},h),v=[0,cb(a),t],w=cb(a),b=e0(a,[0,aa(d2(ib(a,h,j),w,g)),j],v,s,n);else
+b=a[1];return[0,as(a[2]),b]},m),t=e(function(a){return u},h),v=[0,cc(a),t],w=cc(a),b=e0(a,[0,ab(d3(im(a,h,j),w,g)),j],v,s,n);else
 var
 b=o}else
 var
 b=[0,n];if(b){var
-i=f_(a,b[1]);if(i){var
+i=gh(a,b[1]);if(i){var
 c=c[2],f=i[1];continue}var
 p=i}else
 var
 p=b;return p}return[0,f]}}function
-lC(c,b,a){var
-d=aB(0,a);return e(function(a){return p(a,b)?cb(c):u},d)}function
-lD(c,b,a){if(b){if(a){var
-d=lD(c,b[2],a[2]);return A(aP(b[1],c,a[1]),d)}return u}return u}function
-lE(a,j){switch(j){case
+lK(c,b,a){var
+d=aC(0,a);return e(function(a){return q(a,b)?cc(c):u},d)}function
+lL(c,b,a){if(b){if(a){var
+d=lL(c,b[2],a[2]);return A(aS(b[1],c,a[1]),d)}return u}return u}function
+lM(a,j){switch(j){case
 0:var
-d=aG(a[2],a[1]),e=a[1];return[0,[0,e,e],[0,[0,d,d],0]];case
+d=aI(a[2],a[1]),e=a[1];return[0,[0,e,e],[0,[0,d,d],0]];case
 1:var
-f=aG(a[1],a[2]),g=a[2];return[0,[0,g,g],[0,[0,f,f],0]];default:var
-c=dq(F(a[1],a[2]),b),h=aG(c,a[2]),i=aG(a[2],c);return[0,[0,c,c],[0,[0,i,i],[0,[0,h,h],0]]]}}function
+f=aI(a[1],a[2]),g=a[2];return[0,[0,g,g],[0,[0,f,f],0]];default:var
+c=ds(F(a[1],a[2]),b),h=aI(c,a[2]),i=aI(a[2],c);return[0,[0,c,c],[0,[0,i,i],[0,[0,h,h],0]]]}}function
 e1(d,c,a){if(a)var
-e=a[1],g=e1(d,[0,c],a[2]),b=z(aZ,kT(function(a){return p(a[1],c)},d)),h=b?lE(e,b[1])[1]:e,f=[0,h,g];else
+e=a[1],g=e1(d,[0,c],a[2]),b=z(aZ,k1(function(a){return q(a[1],c)},d)),h=b?lM(e,b[1])[1]:e,f=[0,h,g];else
 var
 f=a;return f}function
-gh(a,b){return e(function(a){var
-c=a[2];return lE(q(a[1],b,u),c)[2]},a)}function
-gi(i,b,g,a){function
-d(a){return aD(b,a[1])}var
-h=0,j=Z(u);function
+gq(a,b){return e(function(a){var
+c=a[2];return lM(r(a[1],b,u),c)[2]},a)}function
+gr(i,b,g,a){function
+d(a){return aE(b,a[1])}var
+h=0,j=_(u);function
 c(g,d,a,b){if(a){var
-h=function(a){return aD(g,q(d,a[2],j))},k=e(h,b[1]),l=h(b[2]),m=c(g,[0,d],a[2],b),n=a[1];return f(e(function(a){var
+h=function(a){return aE(g,r(d,a[2],j))},k=e(h,b[1]),l=h(b[2]),m=c(g,[0,d],a[2],b),n=a[1];return f(e(function(a){var
 b=t(i,a,l);return[0,e(function(b){return t(i,a,b)},k),b]},n),m)}return a}var
 k=c(b,h,g,a),l=d(a[2]);return[0,[0,e(d,a[1]),l],k]}var
-sF=Z(u);function
-lF(e,d,c){if(d){var
-f=q(e,c[2],sG),a=f?f[1]:[0,sF];if(a)var
-b=lF([0,e],d[2],c),h=b?[0,[0,a[1],b[1]]]:b,g=h;else
+sP=_(u);function
+lN(e,d,c){if(d){var
+f=r(e,c[2],sQ),a=f?f[1]:[0,sP];if(a)var
+b=lN([0,e],d[2],c),h=b?[0,[0,a[1],b[1]]]:b,g=h;else
 var
-g=a;return g}return sH}function
-lG(a,c,h,p,o,g,n){var
+g=a;return g}return sR}function
+lO(a,c,h,p,o,g,n){var
 d=be(c);return m(function(d){var
-f=i(n,d);if(f){var
-q=t(a,o,f[1]),j=E(L(a,b),q),r=h?E(j,aD(d,h[1])):j,k=function(b){function
-f(c){return t(a,b,aD(d,c))}var
-g=e(function(a){return e(f,a)},p);return a5(a,c,bd(al([0,r,0],c),g))},l=k(as(g));if(l)return k(aa(as(g)));var
+f=j(n,d);if(f){var
+q=t(a,o,f[1]),i=E(M(a,b),q),r=h?E(i,aE(d,h[1])):i,k=function(b){function
+f(c){return t(a,b,aE(d,c))}var
+g=e(function(a){return e(f,a)},p);return a5(a,c,bd(al([0,r,0],c),g))},l=k(as(g));if(l)return k(ab(as(g)));var
 m=l}else
 var
 m=f;return m},d)}function
-lH(c,b,a){if(a){var
+lP(c,b,a){if(a){var
 d=a[2];if(c){var
-f=lH(c[1],b,d);return[0,a[1],f]}var
+f=lP(c[1],b,d);return[0,a[1],f]}var
 e=[0,b,d]}else
 var
 e=a;return e}function
 e2(a,g){var
-b=br(function(e){var
-c=q(e,a,u),b=D(c[1],d),f=b?D(d,c[2]):b;return P(f)},g);if(b){if(b[2])return a;var
-f=b[1],c=q(f,a,u),e=J(d,c[1])?c[1]:c[2];return lH(f,[0,e,e],a)}return a}function
-lI(c,a){if(a)var
-b=a[2],f=lI(c,b),g=b?b[1]:e(r8,c),d=[0,[0,a[1],g],f];else
+b=bs(function(e){var
+c=r(e,a,u),b=D(c[1],d),f=b?D(d,c[2]):b;return L(f)},g);if(b){if(b[2])return a;var
+f=b[1],c=r(f,a,u),e=J(d,c[1])?c[1]:c[2];return lP(f,[0,e,e],a)}return a}function
+lQ(c,a){if(a)var
+b=a[2],f=lQ(c,b),g=b?b[1]:e(sg,c),d=[0,[0,a[1],g],f];else
 var
 d=a;return d}function
-lJ(a){return a?lI(a[1],a):a}function
-cY(c,d,b,a){if(d){var
+lR(a){return a?lQ(a[1],a):a}function
+cZ(c,d,b,a){if(d){var
 e=d[1];if(a){var
-f=cY(c,e,b,a[2]);return[0,a[1],f]}return[0,c,cY(c,e,b,0)]}return a?[0,b,a[2]]:[0,b,0]}function
-gj(a,c,b){if(c)if(b)var
-g=b[2],e=b[1],h=c[2],d=c[1],i=gj(a,h,g),j=function(c,b){var
-f=t(a,e,b);return A(t(a,d,c),f)},k=function(b){return t(a,e,b)},l=aK(function(b){return t(a,d,b)},k,j,g,h),f=[0,[0,t(a,A(d,d),e),l],i];else
+f=cZ(c,e,b,a[2]);return[0,a[1],f]}return[0,c,cZ(c,e,b,0)]}return a?[0,b,a[2]]:[0,b,0]}function
+gs(a,c,b){if(c)if(b)var
+g=b[2],e=b[1],h=c[2],d=c[1],i=gs(a,h,g),j=function(c,b){var
+f=t(a,e,b);return A(t(a,d,c),f)},k=function(b){return t(a,e,b)},l=aN(function(b){return t(a,d,b)},k,j,g,h),f=[0,[0,t(a,A(d,d),e),l],i];else
 var
 f=b;else
 var
 f=c;return f}function
-cZ(d,c,b,a){return cY(u,c,ib(d,a,b),a)}function
-lK(a,f,e,b,d,c){var
-g=aB(0,b);return an(function(g,c){var
-h=cZ(a,f,e,lC(a,g,b));return bd(c,h$(a,aa(d),h))},c,g)}function
-lL(a,d,c,j,i,h,g,f){var
-k=cZ(a,d,c,e(function(b){return L(a,B(h,b))},i));return bd(f,gj(a,cZ(a,d,c,e(function(c){return aP(c,F(g,b),cb(a))},j)),k))}function
-lM(a,h,g,q,f,p,o,n){var
+c0(d,c,b,a){return cZ(u,c,im(d,a,b),a)}function
+lS(a,f,e,b,d,c){var
+g=aC(0,b);return an(function(g,c){var
+h=c0(a,f,e,lK(a,g,b));return bd(c,ik(a,ab(d),h))},c,g)}function
+lT(a,d,c,j,i,h,g,f){var
+k=c0(a,d,c,e(function(b){return M(a,C(h,b))},i));return bd(f,gs(a,c0(a,d,c,e(function(c){return aS(c,F(g,b),cc(a))},j)),k))}function
+lU(a,h,g,q,f,p,o,n){var
 d=p,c=o,b=n;for(;;){if(d){if(c){var
-k=c[1],l=k[1],i=d[1],m=cZ(a,h,g,e(function(b){return aP(b,f,cb(a))},i)),r=cs(l[2]),s=cZ(a,h,g,d7(f,l[1],r,i)),t=bd(b,gj(a,e(as,m),s)),u=k[2],j=e0(a,q,m,e(function(c){return function(b){return cZ(a,h,g,e(as,d7(f,b[1],b[2],c)))}}(i),u),t);if(j){var
+k=c[1],l=k[1],i=d[1],m=c0(a,h,g,e(function(b){return aS(b,f,cc(a))},i)),r=cu(l[2]),s=c0(a,h,g,d8(f,l[1],r,i)),t=bd(b,gs(a,e(as,m),s)),u=k[2],j=e0(a,q,m,e(function(c){return function(b){return c0(a,h,g,e(as,d8(f,b[1],b[2],c)))}}(i),u),t);if(j){var
 d=d[2],c=c[2],b=j[1];continue}return j}return[0,b]}return[0,b]}}function
-lN(g,b,f,a){if(a)var
-c=a[2],d=a[1],h=q(b,c,u),e=[0,d,cY(u,b,A(t(g,f,d),h),c)];else
+lV(g,b,f,a){if(a)var
+c=a[2],d=a[1],h=r(b,c,u),e=[0,d,cZ(u,b,A(t(g,f,d),h),c)];else
 var
 e=a;return e}function
-lO(a,b,m,D,C,B){var
+lW(a,b,m,D,C,B){var
 i=C,h=B;for(;;){if(i){var
-n=i[1],o=n[1],j=o[2],p=n[2],c=cZ(a,b,m,o[1]);if(p){var
-r=J(d,j[1]);if(r)var
-E=cb(a),f=b_(aa(d2(q(b,c,u),E,j))),k=b_(j),v=cY(u,b,f,0),w=q(b,c,u),x=bd(h,gj(a,v,cY(u,b,A(as(t(a,f,k)),w),c))),y=q(b,c,u),z=[0,[0,k,cY(u,b,A(t(a,f,k),y),c)],x],F=e(function(e){return function(c){var
-d=cZ(a,b,m,c[1]);return lN(a,b,e,[0,as(c[2]),d])}}(f),p),G=e(function(a){return u},c),g=e0(a,[0,u,D],lN(a,b,f,[0,cb(a),G]),F,z);else
+n=i[1],o=n[1],j=o[2],p=n[2],c=c0(a,b,m,o[1]);if(p){var
+q=J(d,j[1]);if(q)var
+E=cc(a),f=b$(ab(d3(r(b,c,u),E,j))),k=b$(j),v=cZ(u,b,f,0),w=r(b,c,u),x=bd(h,gs(a,v,cZ(u,b,A(as(t(a,f,k)),w),c))),y=r(b,c,u),z=[0,[0,k,cZ(u,b,A(t(a,f,k),y),c)],x],F=e(function(e){return function(c){var
+d=c0(a,b,m,c[1]);return lV(a,b,e,[0,as(c[2]),d])}}(f),p),G=e(function(a){return u},c),g=e0(a,[0,u,D],lV(a,b,f,[0,cc(a),G]),F,z);else
 var
-g=r}else
+g=q}else
 var
-g=[0,[0,[0,b_(j),c],h]];if(g){var
-l=f_(a,g[1]);if(l){var
+g=[0,[0,[0,b$(j),c],h]];if(g){var
+l=gh(a,g[1]);if(l){var
 i=i[2],h=l[1];continue}var
 s=l}else
 var
 s=g;return s}return[0,h]}}function
-ie(f,d,c,b,a){var
-g=e(Z,c);return k1(0,bz(f,dw(0,a),g),b,d,0)}function
-ab(a){if(a){var
+iq(f,d,c,b,a){var
+g=e(_,c);return k9(0,bA(f,dy(0,a),g),b,d,0)}function
+ac(a){if(a){var
 b=a[1];if(b)var
-c=ab(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+c=ac(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return sM}function
-gk(b,a){if(a){var
-h=a[1],n=h[1],c=ab(e(function(a){return q(a,b,0)},n));if(c){var
-f=q(h[2],b,0);if(f){var
-i=f[1],g=gk(b,a[2]);if(g)var
+d=b;return d}return sW}function
+gt(b,a){if(a){var
+h=a[1],n=h[1],c=ac(e(function(a){return r(a,b,0)},n));if(c){var
+f=r(h[2],b,0);if(f){var
+i=f[1],g=gt(b,a[2]);if(g)var
 j=J(d,i[2][1]),k=j?[0,[0,[0,c[1],i],g[1]]]:j;else
 var
 k=g;var
@@ -1957,82 +1957,82 @@ var
 l=f;var
 m=l}else
 var
-m=c;return m}return sN}function
-cy(d,c,b){var
-a=gk(d,c);return a?i(b,a[1]):a}function
-c0(a,b){return m(function(c){var
-a=q(c,b,0),d=a?1:a;return d},a)}function
-gl(b,a){if(b){var
-c=b[1],d=c[3],e=a[3],f=function(a){return a},g=aK(function(a){return a},f,A,e,d),h=a[2];return[0,A(a[1],c[1]),h,g]}return a}function
-ig(b,a){return b?lr(a,b[1]):a}function
-ih(h,g,b,f){var
-a=q(f,h,0);if(a){var
+m=c;return m}return sX}function
+cA(d,c,b){var
+a=gt(d,c);return a?j(b,a[1]):a}function
+c1(a,b){return m(function(c){var
+a=r(c,b,0),d=a?1:a;return d},a)}function
+gu(b,a){if(b){var
+c=b[1],d=c[3],e=a[3],f=function(a){return a},g=aN(function(a){return a},f,A,e,d),h=a[2];return[0,A(a[1],c[1]),h,g]}return a}function
+ir(b,a){return b?lz(a,b[1]):a}function
+is(h,g,b,f){var
+a=r(f,h,0);if(a){var
 c=a[1];if(b){var
-i=lr(c,b[1]),e=be(g);return m(function(a){return D(d,aD(a,i)[1])},e)}return D(d,c[2][1])}return a}function
-ii(f,d,a){function
-c(a){return aP(a,d,L(f,b))}if(a){var
-g=e(c,a[2]);return[0,c(a[1]),u,g]}return Z(u)}function
-gm(b,a){var
-c=q(a[1],b,0);if(c){var
-d=q(a[2],b,0);if(d)var
-e=q(a[3],b,0),h=e?[0,[0,c[1],d[1],e[1]]]:e,f=h;else
+i=lz(c,b[1]),e=be(g);return m(function(a){return D(d,aE(a,i)[1])},e)}return D(d,c[2][1])}return a}function
+it(f,d,a){function
+c(a){return aS(a,d,M(f,b))}if(a){var
+g=e(c,a[2]);return[0,c(a[1]),u,g]}return _(u)}function
+gv(b,a){var
+c=r(a[1],b,0);if(c){var
+d=r(a[2],b,0);if(d)var
+e=r(a[3],b,0),h=e?[0,[0,c[1],d[1],e[1]]]:e,f=h;else
 var
 f=d;var
 g=f}else
 var
 g=c;return g}function
-ij(b,a){return ab(e(function(a){return q(a,b,0)},a))}function
+iu(b,a){return ac(e(function(a){return r(a,b,0)},a))}function
 e3(c,k,X,C,i,h,j,f,a){switch(f[0]){case
 0:var
 s=f[1];if(typeof
 a!=="number")switch(a[0]){case
 0:var
-Y=c0(C,i);if(Y){var
-aE=a[2],aF=a[1],aH=gl(j,Z(s));return cy(i,k,function(a){return eY(c,h,aH,aF,aE,a)})}return Y;case
+Y=c1(C,i);if(Y){var
+aD=a[2],aF=a[1],aG=gu(j,_(s));return cA(i,k,function(a){return eY(c,h,aG,aF,aD,a)})}return Y;case
 1:var
-_=c0(C,i);if(_){var
-aI=a[2],aJ=a[1],aK=gl(j,Z(s));return cy(i,X,function(a){return eY(c,h,aK,aJ,aI,a)})}return _;case
+Z=c1(C,i);if(Z){var
+aH=a[2],aJ=a[1],aK=gu(j,_(s));return cA(i,X,function(a){return eY(c,h,aK,aJ,aH,a)})}return Z;case
 2:var
-$=c0(C,i);if($){var
-aa=I(s[1],d),ac=aa?I(s[2],d):aa;if(ac){var
-aL=a[2],aM=a[1];return cy(i,k,function(a){return lq(c,h,j,aM,aL,a)})}var
-ad=ac}else
+$=c1(C,i);if($){var
+aa=I(s[1],d),ab=aa?I(s[2],d):aa;if(ab){var
+aL=a[2],aM=a[1];return cA(i,k,function(a){return ly(c,h,j,aM,aL,a)})}var
+ad=ab}else
 var
 ad=$;return ad}return 0;case
 1:var
 ae=f[1];if(typeof
 a==="number"){if(1===a){var
-aN=ig(j,Z(ae));return cy(i,X,function(a){return h6(c,h,aN,a)})}if(!a){var
-aO=ig(j,Z(ae));return cy(i,k,function(a){return h6(c,h,aO,a)})}}return 0;case
+aN=ir(j,_(ae));return cA(i,X,function(a){return ie(c,h,aN,a)})}if(!a){var
+aO=ir(j,_(ae));return cA(i,k,function(a){return ie(c,h,aO,a)})}}return 0;case
 2:if(typeof
 a!=="number"&&3===a[0]){var
-af=a[1],l=ii(c,af,a[3]),ag=f[1],aQ=a[2];return cy(i,k,function(d){var
-a=h7(h,l),b=a?eY(c,h,gl(j,l),af,aQ,d):a;if(b){var
-f=l[3],g=e(function(a){return t(c,ag,a)},f),i=l[2];return h6(c,h,ig(j,[0,t(c,ag,l[1]),i,g]),d)}return b})}return 0;case
+af=a[1],l=it(c,af,a[3]),ag=f[1],aP=a[2];return cA(i,k,function(d){var
+a=ig(h,l),b=a?eY(c,h,gu(j,l),af,aP,d):a;if(b){var
+f=l[3],g=e(function(a){return t(c,ag,a)},f),i=l[2];return ie(c,h,ir(j,[0,t(c,ag,l[1]),i,g]),d)}return b})}return 0;case
 3:if(typeof
-a==="number"&&!a)return ih(i,h,j,f[1]);return 0;case
+a==="number"&&!a)return is(i,h,j,f[1]);return 0;case
 4:if(typeof
 a!=="number"&&0===a[0]){var
-aR=a[2],aS=a[1],aT=gl(j,Z(f[2])),aU=function(a){return eY(c,h,aT,aS,aR,a)};return cy(i,f[1],aU)}return 0;case
+aQ=a[2],aR=a[1],aT=gu(j,_(f[2])),aU=function(a){return eY(c,h,aT,aR,aQ,a)};return cA(i,f[1],aU)}return 0;case
 5:if(typeof
 a==="number"&&!(3<=a))switch(a){case
-0:return ih(i,h,j,f[1]);case
-2:return ih(i,h,j,f[2])}return 0;case
+0:return is(i,h,j,f[1]);case
+2:return is(i,h,j,f[2])}return 0;case
 6:if(typeof
 a!=="number"&&8===a[0]){var
-D=gm(i,f[1]);if(D){var
-G=gm(i,f[2]);if(G){var
-H=gm(i,f[3]);if(H){var
-J=gm(i,f[4]);if(J){var
+D=gv(i,f[1]);if(D){var
+G=gv(i,f[2]);if(G){var
+H=gv(i,f[3]);if(H){var
+J=gv(i,f[4]);if(J){var
 ah=J[1],ai=H[1],aj=G[1],ak=D[1],n=a[2],v=f[5],aV=a[1];if(n){var
 o=n[2];if(o){var
-q=o[2];if(q){if(q[2])return 0;var
-aC=[0,n[1],o[1],q[1]],r=lw(function(f){function
-g(a){return aP(a,aV,L(c,b))}if(f){var
-a=e(g,f[2]),d=g(f[1]),h=f6(a),i=F(d[2],h),j=f6(a);return[0,d,[0,aG(d[1],j),i],a]}return Z(u)},aC),O=m(function(a){return p(g(a),[0,h])},n),P=O?gd(c,h,j,v,r,ak,ai):O,Q=P?gd(c,h,j,v,r,ak,ah):P,R=Q?gd(c,h,j,v,r,aj,ai):Q;if(R)return gd(c,h,j,v,r,aj,ah);var
+p=o[2];if(p){if(p[2])return 0;var
+aC=[0,n[1],o[1],p[1]],r=lE(function(f){function
+g(a){return aS(a,aV,M(c,b))}if(f){var
+a=e(g,f[2]),d=g(f[1]),h=gd(a),i=F(d[2],h),j=gd(a);return[0,d,[0,aI(d[1],j),i],a]}return _(u)},aC),O=m(function(a){return q(g(a),[0,h])},n),P=O?gm(c,h,j,v,r,ak,ai):O,Q=P?gm(c,h,j,v,r,ak,ah):P,R=Q?gm(c,h,j,v,r,aj,ai):Q;if(R)return gm(c,h,j,v,r,aj,ah);var
 T=R}else
 var
-T=q;var
+T=p;var
 U=T}else
 var
 U=o;var
@@ -2050,29 +2050,29 @@ var
 ao=D;return ao}return 0;case
 7:if(typeof
 a!=="number"&&0===a[0]){var
-ap=a[2],aq=a[1],aW=f[2],aX=f[1];return cy(i,k,function(e){var
-a=p(g(e),h),d=a?p(g(ap),h):a;if(d){var
+ap=a[2],aq=a[1],aW=f[2],aX=f[1];return cA(i,k,function(e){var
+a=q(g(e),h),d=a?q(g(ap),h):a;if(d){var
 f=function(a){if(a){var
-d=a[2],e=p(g(d),h);if(e){var
-i=d_(aq,d$(aq,ap,L(c,b),d));return a5(c,h,bd(ge(c,aX,aW,a[1][2],d),i))}var
+d=a[2],e=q(g(d),h);if(e){var
+i=d$(aq,ea(aq,ap,M(c,b),d));return a5(c,h,bd(gn(c,aX,aW,a[1][2],d),i))}var
 f=e}else
 var
-f=a;return f},i=j?j[1]:Z(u);return h3(h,h5(i,e),f)}return d})}return 0;case
+f=a;return f},i=j?j[1]:_(u);return ib(h,id(i,e),f)}return d})}return 0;case
 8:if(typeof
 a==="number"&&5<=a){var
-aY=f[3],aZ=f[2],a0=function(a){return lq(c,h,j,aZ,aY,a)};return cy(i,f[1],a0)}return 0;case
+aY=f[3],aZ=f[2],a0=function(a){return ly(c,h,j,aZ,aY,a)};return cA(i,f[1],a0)}return 0;case
 9:return 0;default:if(typeof
 a==="number"&&!a){var
-K=ij(i,f[1]);if(K){var
-a1=f[2],M=ab(e(function(a){return ij(i,a)},a1));if(M){var
-N=ij(i,[0,f[3],[0,f[4],[0,f[5],[0,f[6],0]]]]);if(N){var
+K=iu(i,f[1]);if(K){var
+a1=f[2],L=ac(e(function(a){return iu(i,a)},a1));if(L){var
+N=iu(i,[0,f[3],[0,f[4],[0,f[5],[0,f[6],0]]]]);if(N){var
 w=N[1];if(w){var
 x=w[2];if(x){var
 y=x[2];if(y){var
 B=y[2];if(B){if(B[2])return 0;var
-ar=B[1],as=y[1][2],at=x[1][2],au=w[1][2],av=M[1],a2=K[1],W=lG(c,h,j,av,au,at,function(d){return[0,d8(c,an(function(b,a){return A(S(c,aD(d,b)),a)},u,a2))]});return W?W:lG(c,h,j,av,au,at,function(f){var
-b=b_(ar[1]),a=b8(c,E(as,S(c,b)));if(a){var
-d=b7(c,a[1]),e=E(as,t(c,b,aD(f,ar)));return z(function(a){return t(c,e,a)},d)}return a})}var
+ar=B[1],as=y[1][2],at=x[1][2],au=w[1][2],av=L[1],a2=K[1],W=lO(c,h,j,av,au,at,function(d){return[0,d9(c,an(function(b,a){return A(S(c,aE(d,b)),a)},u,a2))]});return W?W:lO(c,h,j,av,au,at,function(f){var
+b=b$(ar[1]),a=b9(c,E(as,S(c,b)));if(a){var
+d=b8(c,a[1]),e=E(as,t(c,b,aE(f,ar)));return z(function(a){return t(c,e,a)},d)}return a})}var
 aw=B}else
 var
 aw=y;var
@@ -2087,41 +2087,41 @@ var
 az=N;var
 aA=az}else
 var
-aA=M;var
+aA=L;var
 aB=aA}else
 var
 aB=K;return aB}return 0}}function
-lP(a,$,s,l,n,_,h,k,j,f,c){if(9===f[0]){var
-ac=f[2],ad=f[1];if(typeof
+lX(a,$,s,l,n,Z,h,k,i,f,c){if(9===f[0]){var
+aa=f[2],ad=f[1];if(typeof
 c!=="number"&&9===c[0]){var
-M=c[2],v=c[1],ae=c[3];if(0<aO(c[4]))return e3(a,s,l,n,h,g(k),j,f,c);var
-V=e(Z,_),C=bb(0,bz(a,gf(0,k,ad),V),$,0),N=p(g(k),sO),O=N?c0(n,C):N;if(O){var
-w=gk(C,l);if(w){var
-x=gk(h,l);if(x){var
-y=ab(e(function(b){var
-c=q(b[1],h,0);if(c)var
-f=b[2][2],a=ab(e(function(a){var
-b=q(a[2],h,0);return z(function(b){return[0,a[1],b]},b)},f)),g=a?[0,[0,b[2][1],a[1]]]:a,d=g;else
+L=c[2],v=c[1],ae=c[3];if(0<aR(c[4]))return e3(a,s,l,n,h,g(k),i,f,c);var
+V=e(_,Z),C=bb(0,bA(a,go(0,k,ad),V),$,0),N=q(g(k),sY),O=N?c1(n,C):N;if(O){var
+w=gt(C,l);if(w){var
+x=gt(h,l);if(x){var
+y=ac(e(function(b){var
+c=r(b[1],h,0);if(c)var
+f=b[2][2],a=ac(e(function(a){var
+b=r(a[2],h,0);return z(function(b){return[0,a[1],b]},b)},f)),g=a?[0,[0,b[2][1],a[1]]]:a,d=g;else
 var
-d=c;return d},ac));if(y){var
-B=lz(w[1]);if(B){var
-P=x[1],af=y[1],ag=B[1],D=d8(a,an(function(f,h){function
+d=c;return d},aa));if(y){var
+B=lH(w[1]);if(B){var
+P=x[1],af=y[1],ag=B[1],D=d9(a,an(function(f,h){function
 b(b,d){var
-a=f[1],c=b?b[1]?f[2]:a[2]:a[1];return b9(q(d,c[3],u))}function
+a=f[1],c=b?b[1]?f[2]:a[2]:a[1];return b_(r(d,c[3],u))}function
 c(a){var
-b=i(a,sr),c=bq(i(a,ss),b);return bq(i(a,0),c)}var
+b=j(a,sB),c=br(j(a,sC),b);return br(j(a,0),c)}var
 d=c(function(a){var
-c=b(st,a),d=b(su,a);return F(F(b(0,a),d),c)}),g=[0,d,d],e=c(function(a){var
-c=b(a,sv),d=b(a,sw);return F(F(b(a,0),d),c)});return A(h,S(a,d8(a,t(a,[0,e,e],g))))},u,ag)),o=aP(ae,v,L(a,b)),G=J(d,E(o,D)[1]),H=G?p(g(M),sC):G,I=H?p(g(P),sD):H;if(I){var
-r=b7(a,o);if(r){var
-W=as(t(a,D,r[1])),X=E(L(a,b),W),Y=be(sE);return m(function(h){var
+c=b(sD,a),d=b(sE,a);return F(F(b(0,a),d),c)}),g=[0,d,d],e=c(function(a){var
+c=b(a,sF),d=b(a,sG);return F(F(b(a,0),d),c)});return A(h,S(a,d9(a,t(a,[0,e,e],g))))},u,ag)),o=aS(ae,v,M(a,b)),G=J(d,E(o,D)[1]),H=G?q(g(L),sM):G,I=H?q(g(P),sN):H;if(I){var
+p=b8(a,o);if(p){var
+W=as(t(a,D,p[1])),X=E(M(a,b),W),Y=be(sO);return m(function(h){var
 g=e(function(b){var
-c=b[2],d=b[1];return cs(bN(function(d,b){var
-c=b9(aD(h,b[2]));return A(d,t(a,b[1],[0,c,c]))},c,d))},af),r=i(aw(function(a){return aD(h,a)}),P),F=j?aD(h,j[1]):u,N=S(a,X),s=S(a,o),q=d_(v,d$(v,M,L(a,b),r)),c=bd(al([0,aa(F),0],sx),q);if(g){var
+c=b[2],d=b[1];return cu(bR(function(d,b){var
+c=b_(aE(h,b[2]));return A(d,t(a,b[1],[0,c,c]))},c,d))},af),r=j(au(function(a){return aE(h,a)}),P),F=i?aE(h,i[1]):u,N=S(a,X),s=S(a,o),q=d$(v,ea(v,L,M(a,b),r)),c=bd(al([0,ab(F),0],sH),q);if(g){var
 d=g[2];if(d){var
 f=d[2];if(f){if(f[2])return 0;var
-B=d[1],C=g[1],I=f[1],k=a5(a,sz,bd(al([0,aa(s),0],sy),c));if(k)return m(function(D){var
-J=E(N,F),K=D[2]?B:aa(B),L=D[1]?C:aa(C),o=0;if(c){var
+B=d[1],C=g[1],I=f[1],k=a5(a,sJ,bd(al([0,ab(s),0],sI),c));if(k)return m(function(D){var
+J=E(N,F),K=D[2]?B:ab(B),L=D[1]?C:ab(C),o=0;if(c){var
 b=c[1],l=0;if(b){var
 d=b[2],m=0;if(d){var
 e=d[2],n=0;if(e)if(e[2]){var
@@ -2160,7 +2160,7 @@ var
 z=b;if(!l){var
 A=z;o=1}}else{var
 A=c;o=1}if(o)var
-k=A;return a5(a,sB,k)},sA);var
+k=A;return a5(a,sL,k)},sK);var
 l=k}else
 var
 l=f;var
@@ -2170,7 +2170,7 @@ n=d;var
 p=n}else
 var
 p=g;return p},Y)}var
-K=r}else
+K=p}else
 var
 K=I;return K}var
 Q=B}else
@@ -2184,25 +2184,25 @@ var
 T=w;var
 U=T}else
 var
-U=O;return U}return e3(a,s,l,n,h,g(k),j,f,c)}return e3(a,s,l,n,h,g(k),j,f,c)}function
-gn(d){var
+U=O;return U}return e3(a,s,l,n,h,g(k),i,f,c)}return e3(a,s,l,n,h,g(k),i,f,c)}function
+gw(d){var
 a=d;for(;;){if(a){var
-b=a[2],e=a[1],c=P(ak(function(b){return function(a){return p(b,a)}}(e),b));if(c){var
+b=a[2],e=a[1],c=L(aj(function(b){return function(a){return q(b,a)}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-ik(j,i,h,g,a){var
-d=q(a,j,0);if(d){var
-b=q(a,i,0);if(b)var
-c=lF(0,g,q(a,h,sP)),k=c?[0,[0,b[1],c[1]]]:c,e=k;else
+iv(j,i,h,g,a){var
+d=r(a,j,0);if(d){var
+b=r(a,i,0);if(b)var
+c=lN(0,g,r(a,h,sZ)),k=c?[0,[0,b[1],c[1]]]:c,e=k;else
 var
 e=b;var
 f=e}else
 var
 f=d;return f}function
-go(j,b,a){if(a){var
-k=a[1],l=k[2],c=ab(e(b,k[1]));if(c){var
-f=i(b,l);if(f){var
-g=q(l,j,0);if(g){var
-h=go(j,b,a[2]);if(h)var
+gx(i,b,a){if(a){var
+k=a[1],l=k[2],c=ac(e(b,k[1]));if(c){var
+f=j(b,l);if(f){var
+g=r(l,i,0);if(g){var
+h=gx(i,b,a[2]);if(h)var
 m=J(d,g[1][2][1]),n=m?[0,[0,[0,c[1],f[1]],h[1]]]:m;else
 var
 n=h;var
@@ -2212,58 +2212,58 @@ o=g;var
 p=o}else
 var
 p=f;var
-r=p}else
+q=p}else
 var
-r=c;return r}return sQ}function
-lQ(c,N,j,M,q,o,K,J,f,b,i,a){var
-h=g(K),O=dw(0,K),aI=bb(0,bz(c,O,e(Z,e1(i,0,q))),N,0),aK=e(av,i),aJ=0,aL=e(Z,q),aM=bb(sR,function(a){return h_(c,O,aL,aK,a)},N,aJ),aN=gh(i,q);function
-P(a){return ik(o,aI,aM,i,a)}function
-w(a){return e(function(a){return L(c,a)},a)}var
-aO=J?J[1]:Z(u);function
+q=c;return q}return s0}function
+lY(c,N,j,L,p,o,K,J,f,b,i,a){var
+h=g(K),O=dy(0,K),aG=bb(0,bA(c,O,e(_,e1(i,0,p))),N,0),aK=e(aw,i),aH=0,aL=e(_,p),aM=bb(s1,function(a){return ij(c,O,aL,aK,a)},N,aH),aN=gq(i,p);function
+P(a){return iv(o,aG,aM,i,a)}function
+w(a){return e(function(a){return M(c,a)},a)}var
+aO=J?J[1]:_(u);function
 R(a){return a?a5(c,h,a[1]):a}function
 r(f,e,d,b,a){var
-g=al([0,aa(e),0],h);return R(id(c,w(f),d,b,a,g))}function
+g=al([0,ab(e),0],h);return R(ip(c,w(f),d,b,a,g))}function
 S(d,b,a){var
-e=al([0,b,0],h);return R(lB(c,w(d),a,e))}var
-aP=e(av,i),T=m(function(a){return aH(a,g(q))},aP),U=T?gn(e(av,i)):T,V=U?m(function(a){return p(g(a),h)},a):U;if(V){var
+e=al([0,b,0],h);return R(lJ(c,w(d),a,e))}var
+aP=e(aw,i),T=m(function(a){return aJ(a,g(p))},aP),U=T?gw(e(aw,i)):T,V=U?m(function(a){return q(g(a),h)},a):U;if(V){var
 v=0;switch(f[0]){case
 0:var
 x=f[1],G=0;if(typeof
 b!=="number")switch(b[0]){case
 0:var
 ar=0;if(a){if(a[2])return 0;var
-aQ=a[1],aR=b[2],aS=b[1],W=c0(M,o);if(W){var
+aQ=a[1],aR=b[2],aS=b[1],W=c1(L,o);if(W){var
 l=function(c,a){var
 b=A(x,a);return function(a){return r(aQ,b,aS,aR,a)}},k=j;G=1;ar=1}else
 var
-_=W}else
+Z=W}else
 var
-_=a;if(!ar)return _;break;case
+Z=a;if(!ar)return Z;break;case
 2:var
 at=0;if(a){if(a[2])return 0;var
-aU=a[1],aV=b[2],aW=b[1],ab=c0(M,o),au=0;if(ab){var
+aU=a[1],aV=b[2],aW=b[1],$=c1(L,o),au=0;if($){var
 ac=I(x[1],d),ad=ac?I(x[2],d):ac;if(ad){var
-l=function(c,b,a){return r(aU,b,aW,aV,e(lA,a))},k=j;G=1;at=1;au=1}else
+l=function(c,b,a){return r(aU,b,aW,aV,e(lI,a))},k=j;G=1;at=1;au=1}else
 var
 ae=ad}else
 var
-ae=ab;if(!au)var
+ae=$;if(!au)var
 af=ae}else
 var
 af=a;if(!at)return af;break}if(!G)return 0;break;case
 1:var
-aw=0,aX=f[1];if(typeof
+av=0,aX=f[1];if(typeof
 b==="number"&&!b){if(!a)return a;if(a[2])return 0;var
 aY=a[1],l=function(c,a){var
-b=E(aX,a);return function(a){return S(aY,b,a)}},k=j;aw=1}if(!aw)return 0;break;case
+b=E(aX,a);return function(a){return S(aY,b,a)}},k=j;av=1}if(!av)return 0;break;case
 2:var
 ax=0,aZ=f[1];if(typeof
 b==="number"||!(3===b[0]))ax=1;else{var
 ay=0;if(a){var
 s=a[2],az=0;if(s){if(s[2])return 0;var
-ag=b[1],a0=s[1],a1=a[1],a2=b[2],ah=ii(c,ag,b[3]),ai=h7(h,ah);if(ai){var
+ag=b[1],a0=s[1],a1=a[1],a2=b[2],ah=it(c,ag,b[3]),ai=ig(h,ah);if(ai){var
 l=function(f,b,a){var
-d=aD(f,ah),e=r(a1,A(d,b),ag,a2,a);return e?S(a0,E(t(c,aZ,d),b),a):e},k=j;ay=1;az=1}else
+d=aE(f,ah),e=r(a1,A(d,b),ag,a2,a);return e?S(a0,E(t(c,aZ,d),b),a):e},k=j;ay=1;az=1}else
 var
 aj=ai}else
 var
@@ -2277,10 +2277,10 @@ b==="number"&&!b){if(a)return 0;var
 z=f[1];v=1}else
 aA=1;if(aA)return 0;break;case
 4:var
-aC=0,a4=f[2];if(typeof
-b==="number"||!(0===b[0]))aC=1;else{if(!a)return a;if(a[2])return 0;var
+aB=0,a4=f[2];if(typeof
+b==="number"||!(0===b[0]))aB=1;else{if(!a)return a;if(a[2])return 0;var
 a6=a[1],a7=b[2],a8=b[1],a9=function(c,a){var
-b=A(a4,a);return function(a){return r(a6,b,a8,a7,a)}},l=a9,k=f[1]}if(aC)return 0;break;case
+b=A(a4,a);return function(a){return r(a6,b,a8,a7,a)}},l=a9,k=f[1]}if(aB)return 0;break;case
 5:var
 H=0;if(typeof
 b==="number"&&!(3<=b))switch(b){case
@@ -2290,17 +2290,17 @@ z=f[1];v=1;break;case
 z=f[2];v=1;break;default:H=1}else
 H=1;if(H)return 0;break;case
 7:var
-am=f[2],ao=f[1],aE=0;if(typeof
-b==="number"||!(0===b[0]))aE=1;else{var
+am=f[2],ao=f[1],aD=0;if(typeof
+b==="number"||!(0===b[0]))aD=1;else{var
 aF=0;if(a){if(a[2])return 0;var
-n=b[2],C=b[1],a_=a[1],ap=p(g(j),h);if(ap){var
+n=b[2],C=b[1],a_=a[1],ap=q(g(j),h);if(ap){var
 l=function(a,x){var
 y=w(a_);return function(f){var
-k=p(g(f),h),l=k?p(g(n),h):k;if(l){var
-s=e(av,f),u=d_(C,d$(C,n,cb(c),s)),v=bd(ge(c,ao,am,x,e(av,f)),u),a=0,b=f,i=v,w=g(n);for(;;){if(b){var
-o=b[1][2],q=p(a,ao),r=e(function(f,h){return function(d){var
-a=$(aB(0,g(n)),n);return e(function(a){var
-b=lD(C,a[2],d[1]);if(h&&p(a[1],f))return E(b,as(t(c,am,d[2])));return b},a)}}(a,q),o),j=e0(c,y,lC(c,a,w),r,i);if(j){var
+k=q(g(f),h),l=k?q(g(n),h):k;if(l){var
+s=e(aw,f),u=d$(C,ea(C,n,cc(c),s)),v=bd(gn(c,ao,am,x,e(aw,f)),u),a=0,b=f,i=v,w=g(n);for(;;){if(b){var
+o=b[1][2],p=q(a,ao),r=e(function(f,h){return function(d){var
+a=aa(aC(0,g(n)),n);return e(function(a){var
+b=lL(C,a[2],d[1]);if(h&&q(a[1],f))return E(b,as(t(c,am,d[2])));return b},a)}}(a,p),o),j=e0(c,y,lK(c,a,w),r,i);if(j){var
 a=[0,a],b=b[2],i=j[1];continue}var
 d=j}else
 var
@@ -2311,43 +2311,43 @@ m=l;return m}},k=j;aF=1}else
 var
 aq=ap}else
 var
-aq=a;if(!aF)return aq}if(aE)return 0;break;default:return 0}if(v){var
+aq=a;if(!aF)return aq}if(aD)return 0;break;default:return 0}if(v){var
 B=P(z);if(!B)return B;var
 a3=function(b,f,a){return m(function(a){var
-b=f[2],c=a[2],e=an(function(b,a){return F(bq(d,Q(b[2][1])),a)},d,c);return D(d,aG(aG(a[1][2][1],e),b))},a)},Y=a3,X=[0,[0,0,B[1]],0]}else{var
-y=go(o,P,k);if(!y)return y;var
+b=f[2],c=a[2],e=an(function(b,a){return F(br(d,Q(b[2][1])),a)},d,c);return D(d,aI(aI(a[1][2][1],e),b))},a)},Y=a3,X=[0,[0,0,B[1]],0]}else{var
+y=gx(o,P,k);if(!y)return y;var
 Y=l,X=y[1]}var
 aT=be(h);return m(function(a){var
-b=e(function(b){return gi(c,a,aN,b)},X);return fx(Y,a,aD(a,aO),b)},aT)}return V}function
-lR(j,a){var
-f=an(function(b,a){return bq(cm(b),a)},d,a);function
-g(a){if(a){if(I(cm(a[1]),f))return 0;var
+b=e(function(b){return gr(c,a,aN,b)},X);return fG(Y,a,aE(a,aO),b)},aT)}return V}function
+lZ(j,a){var
+f=an(function(b,a){return br(co(b),a)},d,a);function
+g(a){if(a){if(I(co(a[1]),f))return 0;var
 b=[0,g(a[2])]}else
 var
 b=a;return b}var
 h=g(a);if(I(f,d)){var
 k=e(function(a){return u},a),l=a?[0,b,a[2]]:a;return[0,[0,[0,0,l],d],k]}var
-i=hV(F(kR(f),b)),m=e(function(a){return u},a);return[0,[0,[0,h,a],i],cY(u,h,L(j,b6(c(2,b),i)),m)]}function
-gp(f,K,t,J,n,l,H,G,k,a,h,al,F,ak,C,B){var
-i=g(H),M=dw(0,H),am=bb(0,bz(f,M,e(Z,e1(h,0,n))),K,0),ao=e(av,h),an=0,ap=e(Z,n),ar=bb(sS,function(a){return h_(f,M,ap,ao,a)},K,an),as=gh(h,n);function
-at(a){return ik(l,am,ar,h,a)}var
-au=G?G[1]:Z(u),N=lR(f,al),O=N[1],Q=O[1],v=Q[2],j=Q[1],R=N[2],aw=O[2],o=e(function(a){return aP(a,aw,L(f,b))},v);function
-S(a){return lL(f,j,o,F,ak,C,B,lK(f,j,o,i,a,0))}function
+i=h5(F(kZ(f),b)),m=e(function(a){return u},a);return[0,[0,[0,h,a],i],cZ(u,h,M(j,b7(c(2,b),i)),m)]}function
+gy(f,K,t,J,n,l,H,G,k,a,h,al,F,ak,C,B){var
+i=g(H),N=dy(0,H),am=bb(0,bA(f,N,e(_,e1(h,0,n))),K,0),ao=e(aw,h),an=0,ap=e(_,n),ar=bb(s2,function(a){return ij(f,N,ap,ao,a)},K,an),as=gq(h,n);function
+at(a){return iv(l,am,ar,h,a)}var
+au=G?G[1]:_(u),O=lZ(f,al),P=O[1],Q=P[1],v=Q[2],j=Q[1],R=O[2],av=P[2],o=e(function(a){return aS(a,av,M(f,b))},v);function
+S(a){return lT(f,j,o,F,ak,C,B,lS(f,j,o,i,a,0))}function
 T(a){return a?a5(f,i,a[1]):a}function
-w(d,c,b,a){return T(lM(f,j,o,R,c,b,a,S(aa(d))))}var
-ax=e(av,h),U=m(function(a){return aH(a,g(n))},ax),V=U?gn(e(av,h)):U,W=V?p(g(v),i):V,X=W?p(g(F),i):W,Y=X?D(d,C):X,_=Y?hT(B,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):Y,$=_?aH(j,i):_,ab=$?P(I(q(j,v,d),d)):$;if(ab){switch(k[0]){case
+w(d,c,b,a){return T(lU(f,j,o,R,c,b,a,S(ab(d))))}var
+ax=e(aw,h),U=m(function(a){return aJ(a,g(n))},ax),V=U?gw(e(aw,h)):U,W=V?q(g(v),i):V,X=W?q(g(F),i):W,Y=X?D(d,C):X,Z=Y?h3(B,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):Y,$=Z?aJ(j,i):Z,aa=$?L(I(r(j,v,d),d)):$;if(aa){switch(k[0]){case
 0:var
 x=k[1],z=0;if(typeof
 a==="number")z=1;else
 switch(a[0]){case
 0:var
-ay=a[2],az=a[1],ac=c0(J,l);if(!ac)return ac;var
+ay=a[2],az=a[1],ac=c1(J,l);if(!ac)return ac;var
 s=function(a){var
-b=A(x,a);return function(a){return w(b,az,ay,a)}},r=t;break;case
+b=A(x,a);return function(a){return w(b,az,ay,a)}},p=t;break;case
 2:var
-aC=a[2],aE=a[1],ad=c0(J,l),ah=0;if(ad){var
+aC=a[2],aD=a[1],ad=c1(J,l),ah=0;if(ad){var
 ae=I(x[1],d),af=ae?I(x[2],d):ae;if(af){var
-s=function(b,a){return w(b,aE,aC,e(lA,a))},r=t;ah=1}else
+s=function(b,a){return w(b,aD,aC,e(lI,a))},p=t;ah=1}else
 var
 ag=af}else
 var
@@ -2356,106 +2356,106 @@ ag=ad;if(!ah)return ag;break;default:z=1}if(z)return 0;break;case
 ai=0,aF=k[1];if(typeof
 a==="number"&&!a)var
 s=function(a){var
-b=E(aF,a);return function(a){return T(lO(f,j,o,R,a,S(b)))}},r=t;else
+b=E(aF,a);return function(a){return T(lW(f,j,o,R,a,S(b)))}},p=t;else
 ai=1;if(ai)return 0;break;case
 4:var
 aj=0,aG=k[2];if(typeof
 a==="number"||!(0===a[0]))aj=1;else
 var
-aI=a[2],aJ=a[1],aK=function(a){var
-b=A(aG,a);return function(a){return w(b,aJ,aI,a)}},s=aK,r=k[1];if(aj)return 0;break;default:return 0}var
-y=go(l,at,r);if(y){var
+aH=a[2],aI=a[1],aK=function(a){var
+b=A(aG,a);return function(a){return w(b,aI,aH,a)}},s=aK,p=k[1];if(aj)return 0;break;default:return 0}var
+y=gx(l,at,p);if(y){var
 aA=y[1],aB=be(i);return m(function(a){var
-b=e(function(b){return gi(f,a,as,b)},aA);return aq(s,aD(a,au),b)},aB)}return y}return ab}function
-lS(r,q,p,o,n,C,m,c,l,k,j,h,g,a){var
+b=e(function(b){return gr(f,a,as,b)},aA);return aq(s,aE(a,au),b)},aB)}return y}return aa}function
+l0(r,q,p,o,n,C,m,c,l,k,i,h,g,a){var
 v=e(function(a){return d},c),u=0;if(typeof
 a!=="number")switch(a[0]){case
 5:var
-E=a[1],F=function(a){return gp(r,q,p,o,n,m,c,a,l,E,0,v,k,j,h,g)},x=F,w=a[3],s=a[2];u=1;break;case
+E=a[1],F=function(a){return gy(r,q,p,o,n,m,c,a,l,E,0,v,k,i,h,g)},x=F,w=a[3],s=a[2];u=1;break;case
 10:var
 b=a[3],A=a[2],f=a[1],B=0;if(typeof
 f!=="number"&&5===f[0]){if(!b)return b;if(b[2])return 0;var
-G=b[1],H=f[1],I=function(a){return gp(r,q,p,o,n,m,c,a,l,H,A,G,k,j,h,g)},x=I,w=f[3],s=f[2];u=1;B=1}if(!B)return b?b[2]?0:gp(r,q,p,o,n,m,c,0,l,f,A,b[1],k,j,h,g):b;break}if(u){var
-t=i(C,c);if(t){var
-y=D(d,s);if(y)return x([0,gb(s,w,t[1])]);var
+G=b[1],H=f[1],I=function(a){return gy(r,q,p,o,n,m,c,a,l,H,A,G,k,i,h,g)},x=I,w=f[3],s=f[2];u=1;B=1}if(!B)return b?b[2]?0:gy(r,q,p,o,n,m,c,0,l,f,A,b[1],k,i,h,g):b;break}if(u){var
+t=j(C,c);if(t){var
+y=D(d,s);if(y)return x([0,gk(s,w,t[1])]);var
 z=y}else
 var
-z=t;return z}return gp(r,q,p,o,n,m,c,0,l,a,0,v,k,j,h,g)}function
-lT(a,ai,aL,s,G,ah,r,o,ag,af,h){function
+z=t;return z}return gy(r,q,p,o,n,m,c,0,l,a,0,v,k,i,h,g)}function
+l1(a,ai,aL,s,G,ah,p,o,ag,af,h){function
 k(aj,f,j,x){var
-h=g(r),z=dw(0,r),aq=bb(0,bz(a,z,e(Z,e1(j,0,s))),ai,0),as=e(av,j),ar=0,at=e(Z,s),au=bb(sT,function(b){return h_(a,z,at,as,b)},ai,ar);function
-aw(a){return ik(ah,aq,au,j,a)}var
-ax=aj?aj[1]:Z(u);function
+h=g(p),z=dy(0,p),aq=bb(0,bA(a,z,e(_,e1(j,0,s))),ai,0),as=e(aw,j),ar=0,at=e(_,s),au=bb(s3,function(b){return ij(a,z,at,as,b)},ai,ar);function
+av(a){return iv(ah,aq,au,j,a)}var
+ax=aj?aj[1]:_(u);function
 k(b){return b?a5(a,h,b[1]):b}function
-B(b,a){return aa(A(aD(b,ag),a))}function
-C(d,c,b){return E(t(a,d,aD(c,ag)),b)}var
-ay=e(av,j),F=m(function(a){return aH(a,g(s))},ay),G=F?gn(e(av,j)):F,H=G?p(g(x),h):G;if(H){var
+B(b,a){return ab(A(aE(b,ag),a))}function
+C(d,c,b){return E(t(a,d,aE(c,ag)),b)}var
+ay=e(aw,j),F=m(function(a){return aJ(a,g(s))},ay),G=F?gw(e(aw,j)):F,H=G?q(g(x),h):G;if(H){var
 ak=0;if(af){var
-J=af[1],K=J[1],M=K[1],N=M[1],O=K[2],Q=J[2],az=M[2],R=lR(a,x),S=R[1],T=S[1],v=T[2],i=T[1],U=R[2],aA=S[2],l=e(function(c){return aP(c,aA,L(a,b))},v),V=function(b){return lL(a,i,l,N,az,O,Q,lK(a,i,l,h,b,0))},W=p(g(v),h),X=W?p(g(N),h):W,Y=X?D(d,O):X,_=Y?hT(Q,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):Y,$=_?aH(i,h):_,ab=$?P(I(q(i,v,d),d)):$,y=0;if(ab)if(o){var
+J=af[1],K=J[1],N=K[1],O=N[1],P=K[2],Q=J[2],az=N[2],R=lZ(a,x),S=R[1],T=S[1],v=T[2],i=T[1],U=R[2],aA=S[2],l=e(function(c){return aS(c,aA,M(a,b))},v),V=function(b){return lT(a,i,l,O,az,P,Q,lS(a,i,l,h,b,0))},W=q(g(v),h),X=W?q(g(O),h):W,Y=X?D(d,P):X,Z=Y?h3(Q,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):Y,$=Z?aJ(i,h):Z,aa=$?L(I(r(i,v,d),d)):$,y=0;if(aa)if(o){var
 am=0,aB=o[1];if(typeof
 f==="number"&&!f){var
-n=function(d,c,b){return k(lO(a,i,l,U,b,V(C(aB,d,c))))};y=1;am=1}if(!am)return 0}else{var
+n=function(d,c,b){return k(lW(a,i,l,U,b,V(C(aB,d,c))))};y=1;am=1}if(!am)return 0}else{var
 an=0;if(typeof
 f!=="number"&&0===f[0]){var
-aF=f[2],aG=f[1],n=function(d,c,b){return k(lM(a,i,l,U,aG,aF,b,V(B(d,c))))};y=1;an=1}if(!an)var
+aF=f[2],aG=f[1],n=function(d,c,b){return k(lU(a,i,l,U,aG,aF,b,V(B(d,c))))};y=1;an=1}if(!an)var
 ac=0}else
 var
-ac=ab;if(!y)return ac}else{var
-ad=e(function(b){return L(a,b)},x);if(o){var
-ao=0,aI=o[1];if(typeof
+ac=aa;if(!y)return ac}else{var
+ad=e(function(b){return M(a,b)},x);if(o){var
+ao=0,aH=o[1];if(typeof
 f==="number"&&!f){var
-n=function(d,c,b){return k(lB(a,ad,b,al([0,C(aI,d,c),0],h)))};ao=1}if(!ao)return 0}else{var
+n=function(d,c,b){return k(lJ(a,ad,b,al([0,C(aH,d,c),0],h)))};ao=1}if(!ao)return 0}else{var
 ap=0;if(typeof
 f==="number"||!(0===f[0]))ap=1;else
 var
-aJ=f[2],aK=f[1],n=function(d,c,b){return k(id(a,ad,aK,aJ,b,al([0,B(d,c),0],h)))};if(ap){var
+aI=f[2],aK=f[1],n=function(d,c,b){return k(ip(a,ad,aK,aI,b,al([0,B(d,c),0],h)))};if(ap){var
 ae=0;ak=1}}}if(!ak){var
-w=go(ah,aw,aL);if(w){var
-aC=w[1],aE=be(h);return m(function(b){var
-c=gh(j,s),d=e(function(d){return gi(a,b,c,d)},aC);return n(b,aD(b,ax),d)},aE)}return w}}else
+w=gx(ah,av,aL);if(w){var
+aC=w[1],aD=be(h);return m(function(b){var
+c=gq(j,s),d=e(function(d){return gr(a,b,c,d)},aC);return n(b,aE(b,ax),d)},aD)}return w}}else
 var
 ae=H;return ae}var
-x=e(function(a){return d},r),w=0;if(typeof
+x=e(function(a){return d},p),w=0;if(typeof
 h!=="number")switch(h[0]){case
 5:var
 H=h[1],J=function(a){return k(a,H,0,x)},z=J,y=h[3],l=h[2];w=1;break;case
 10:var
-f=h[3],v=h[2],j=h[1],F=0;if(typeof
-j!=="number")switch(j[0]){case
+f=h[3],v=h[2],i=h[1],F=0;if(typeof
+i!=="number")switch(i[0]){case
 5:if(!f)return f;if(f[2])return 0;var
-K=f[1],M=j[1],N=function(a){return k(a,M,v,K)},z=N,y=j[3],l=j[2];w=1;F=1;break;case
+K=f[1],N=i[1],O=function(a){return k(a,N,v,K)},z=O,y=i[3],l=i[2];w=1;F=1;break;case
 3:case
 7:case
 9:case
 10:case
 11:case
-13:return f?f[2]?0:k(0,j,v,f[1]):f}if(!F)return f?f[2]?0:k(0,j,v,f[1]):f;break}if(w){var
-n=i(G,r);if(n){var
-B=D(d,l);if(B)return z([0,gb(l,y,n[1])]);var
+13:return f?f[2]?0:k(0,i,v,f[1]):f}if(!F)return f?f[2]?0:k(0,i,v,f[1]):f;break}if(w){var
+n=j(G,p);if(n){var
+B=D(d,l);if(B)return z([0,gk(l,y,n[1])]);var
 C=B}else
 var
 C=n;return C}return k(0,h,0,x)}function
-lU(l,k,j,p,h,g,o,f,b,e,a){if(typeof
+l2(l,k,i,p,h,g,o,f,b,e,a){if(typeof
 a!=="number")switch(a[0]){case
 5:var
-q=a[2],m=i(o,b);if(m){var
+q=a[2],m=j(o,b);if(m){var
 r=D(d,q);if(r){var
-y=a[1];return lP(l,k,j,p,h,g,f,b,[0,gb(q,a[3],m[1])],e,y)}var
+y=a[1];return lX(l,k,i,p,h,g,f,b,[0,gk(q,a[3],m[1])],e,y)}var
 s=r}else
 var
 s=m;return s;case
 10:var
 t=a[3],u=a[2],c=a[1];if(typeof
 c!=="number"&&5===c[0]){var
-v=c[2],n=i(o,b);if(n){var
+v=c[2],n=j(o,b);if(n){var
 w=D(d,v);if(w){var
-z=c[1];return lQ(l,k,j,h,g,f,b,[0,gb(v,c[3],n[1])],e,z,u,t)}var
+z=c[1];return lY(l,k,i,h,g,f,b,[0,gk(v,c[3],n[1])],e,z,u,t)}var
 x=w}else
 var
-x=n;return x}return lQ(l,k,j,h,g,f,b,0,e,c,u,t)}return lP(l,k,j,p,h,g,f,b,0,e,a)}function
-il(a){return 9===a[0]?0:1}function
-eb(a){return y(function(a){return f(a[1],[0,a[2],0])},a)}function
-im(j,d,i,a,h){var
+x=n;return x}return lY(l,k,i,h,g,f,b,0,e,c,u,t)}return lX(l,k,i,p,h,g,f,b,0,e,a)}function
+iw(a){return 9===a[0]?0:1}function
+ec(a){return y(function(a){return f(a[1],[0,a[2],0])},a)}function
+ix(j,d,i,a,h){var
 b=h;for(;;){var
 c=0;if(typeof
 b==="number"){if(1!==b)c=1}else
@@ -2466,7 +2466,7 @@ b=b[3];continue;case
 5:case
 10:var
 b=b[1];continue;default:c=1}var
-k=c?0:1,l=k?d:j,g=eb(l);switch(a[0]){case
+k=c?0:1,l=k?d:j,g=ec(l);switch(a[0]){case
 0:return f(i,g);case
 3:return[0,a[1],0];case
 5:return[0,a[1],[0,a[2],0]];case
@@ -2474,18 +2474,18 @@ k=c?0:1,l=k?d:j,g=eb(l);switch(a[0]){case
 m=[0,a[1],[0,a[2],[0,a[3],[0,a[4],0]]]];return y(function(a){return[0,a[1],[0,a[2],[0,a[3],0]]]},m);case
 9:var
 n=a[2],o=y(function(a){var
-b=e(aZ,a[2][2]);return[0,a[1],b]},n);return f(eb(d),o);case
+b=e(aZ,a[2][2]);return[0,a[1],b]},n);return f(ec(d),o);case
 10:var
-p=[0,a[3],[0,a[4],[0,a[5],[0,a[6],0]]]],q=f(dY(a[2]),p);return f(a[1],q);case
+p=[0,a[3],[0,a[4],[0,a[5],[0,a[6],0]]]],q=f(dZ(a[2]),p);return f(a[1],q);case
 4:case
-8:return eb(a[1]);default:return g}}}function
-io(v,t,s,r,k,a,g,j){var
-h=il(a),i=h?m(function(b){var
-a=q(b,bN(e2,g,k),u);return I(a[1],a[2])},j):h;return i?m(function(ao){switch(a[0]){case
+8:return ec(a[1]);default:return g}}}function
+iy(v,t,s,p,k,a,g,j){var
+h=iw(a),i=h?m(function(b){var
+a=r(b,bR(e2,g,k),u);return I(a[1],a[2])},j):h;return i?m(function(ao){switch(a[0]){case
 3:var
 g=[0,a[1],0];break;case
 4:var
-g=eb(a[1]);break;case
+g=ec(a[1]);break;case
 5:var
 g=[0,a[1],[0,a[2],0]];break;case
 6:case
@@ -2496,7 +2496,7 @@ g=0}var
 j=0,k=bb(0,function(a){switch(a[0]){case
 0:return[0,[0,d]];case
 1:var
-ad=a[1],ae=ak(function(a){return p(ad,a)},ao)?b:d;return[0,[0,ae]];case
+ad=a[1],ae=aj(function(a){return q(ad,a)},ao)?b:d;return[0,[0,ae]];case
 2:var
 af=I(a[1],d)?0:[0,d];return[0,af];case
 3:var
@@ -2526,38 +2526,38 @@ N=f;return N;case
 n=a[1];if(n){var
 O=n[1],g=a[2];if(O){if(g){var
 P=g[1];if(P)return[0,[0,F(O[1],P[1])]];var
-R=sI}else
+R=sS}else
 var
 R=g;return R}var
-ai=g?sJ:g,S=ai}else
+ai=g?sT:g,S=ai}else
 var
 S=n;return S;case
 7:var
 o=a[1];if(o){var
 T=o[1],h=a[2];if(T){if(h)var
-q=h[1],aj=q?[0,[0,aG(T[1],q[1])]]:q,U=aj;else
+p=h[1],ak=p?[0,[0,aI(T[1],p[1])]]:p,U=ak;else
 var
 U=h;return U}var
-al=h?sK:h,V=al}else
+al=h?sU:h,V=al}else
 var
 V=o;return V;case
 8:var
 r=a[1];if(r){var
 W=r[1];if(W){var
 X=W[1];return[0,[0,F(X,X)]]}var
-Y=sL}else
+Y=sV}else
 var
 Y=r;return Y;case
 9:var
 s=a[1];if(s){var
 t=s[1];if(t){var
-i=t[1],x=aO(i);if(0===x)var
+i=t[1],x=aR(i);if(0===x)var
 l=1;else
 if(0<x)var
-l=D(i,b)?0:I(aU(i,aF(2))[2],d)?1:0;else
+l=D(i,b)?0:I(aW(i,aH(2))[2],d)?1:0;else
 var
-y=Q(i),l=D(y,b)?0:I(aU(y,aF(2))[2],d)?1:0;var
-am=l?[0,[0,cq(i,c(2,b))]]:l,Z=am}else
+y=Q(i),l=D(y,b)?0:I(aW(y,aH(2))[2],d)?1:0;var
+am=l?[0,[0,cs(i,c(2,b))]]:l,Z=am}else
 var
 Z=t;var
 _=Z}else
@@ -2577,79 +2577,79 @@ var
 ac=u;return ac}},v,j);function
 l(a){return a?a[1]:d}var
 h=e(function(a){return z(l,a)},k),i=m(function(c){var
-a=q(c,h,0),b=a?1:a;return b},r);if(i){var
-n=f(eb(s),g),o=f(eb(t),n);return m(function(c){var
-a=q(c,h,0);if(a){var
-b=aO(a[1]);return 0===b?1:0<b?0:0}return a},o)}return i},g):i}function
-ip(j,a,i,h,g,f,e,d,c,b){var
-k=f5(im(i,h,g,c,b),a);return ie(j,a,bN(e2,e,f),k,d)}function
-lV(f,d,c,n,m,b,l,q,e,k,j,i,h,a){if(typeof
+a=r(c,h,0),b=a?1:a;return b},p);if(i){var
+n=f(ec(s),g),o=f(ec(t),n);return m(function(c){var
+a=r(c,h,0);if(a){var
+b=aR(a[1]);return 0===b?1:0<b?0:0}return a},o)}return i},g):i}function
+iz(j,a,i,h,g,f,e,d,c,b){var
+k=gc(ix(i,h,g,c,b),a);return iq(j,a,bR(e2,e,f),k,d)}function
+l3(f,d,c,n,m,b,l,q,e,k,j,i,h,a){if(typeof
 a!=="number"&&11===a[0]){var
-o=a[3],g=a[1],p=io(d,c,n,m,b,k,g,a[2]);if(p){var
-r=ip(f,d,c,n,m,b,g,e,k,o);return lT(f,d,c,bN(e2,g,b),l,r,e,j,i,h,o)}return p}return lT(f,d,c,b,l,q,e,j,i,h,a)}function
-lW(r,q,o,n,l,k,j,i,h,f,d,c,a){if(typeof
+o=a[3],g=a[1],p=iy(d,c,n,m,b,k,g,a[2]);if(p){var
+r=iz(f,d,c,n,m,b,g,e,k,o);return l1(f,d,c,bR(e2,g,b),l,r,e,j,i,h,o)}return p}return l1(f,d,c,b,l,q,e,j,i,h,a)}function
+l4(r,p,o,n,l,k,j,i,h,f,d,c,a){if(typeof
 a!=="number"&&12===a[0]){var
-b=a[1],s=P(p(g(b),0));if(s){var
-t=$(lJ(e(function(a){return a[1][1][1]},b)),b);return m(function(a){var
-b=a[2],e=b[1];return lV(r,q,o,n,l,k,j,i,h,f,d,c,[0,[0,[0,[0,a[1][1],a[1][2]],e[1][2]],e[2]]],b[2])},t)}return s}return lV(r,q,o,n,l,k,j,i,h,f,d,c,0,a)}function
-gq(b,a){if(a){var
+b=a[1],s=L(q(g(b),0));if(s){var
+t=aa(lR(e(function(a){return a[1][1][1]},b)),b);return m(function(a){var
+b=a[2],e=b[1];return l3(r,p,o,n,l,k,j,i,h,f,d,c,[0,[0,[0,[0,a[1][1],a[1][2]],e[1][2]],e[2]]],b[2])},t)}return s}return l3(r,p,o,n,l,k,j,i,h,f,d,c,0,a)}function
+gz(b,a){if(a){var
 c=a[2];if(b){var
-e=gq(b[1],c);return[0,a[1],e]}var
+e=gz(b[1],c);return[0,a[1],e]}var
 d=[0,0,c]}else
 var
 d=a;return d}function
-e4(j,a,f,l,c,t,n,h,b,W,o){switch(o[0]){case
+e4(i,a,f,l,c,t,n,h,b,W,o){switch(o[0]){case
 0:var
-ab=function(a){return m(P,a)},I=ab,x=o[1];break;case
+ab=function(a){return m(L,a)},I=ab,x=o[1];break;case
 1:var
 ac=o[4],ad=o[3],ae=o[2],af=function(d){var
-e=cW(ae,b),g=e4(j,a,f,l,c,t,n,h,e[1],d,ad);return g?e4(j,a,f,l,c,t,n,h,e[2],d,ac):g},I=af,x=o[1];break;default:var
+e=cX(ae,b),g=e4(i,a,f,l,c,t,n,h,e[1],d,ad);return g?e4(i,a,f,l,c,t,n,h,e[2],d,ac):g},I=af,x=o[1];break;default:var
 ag=o[4],ah=o[3],ai=o[2],aj=function(d){var
-o=$(t,d),e=m(function(a){var
-b=il(a[1]);return b?b:P(a[2])},o);if(e){var
-g=cW(ai,h),i=e4(j,a,f,l,c,t,n,g[1],b,d,ah);if(i)return e4(j,a,f,l,c,t,n,g[2],b,d,ag);var
-k=i}else
+o=aa(t,d),e=m(function(a){var
+b=iw(a[1]);return b?b:L(a[2])},o);if(e){var
+g=cX(ai,h),j=e4(i,a,f,l,c,t,n,g[1],b,d,ah);if(j)return e4(i,a,f,l,c,t,n,g[2],b,d,ag);var
+k=j}else
 var
 k=e;return k},I=aj,x=o[1]}if(x){var
-z=ie(j,a,h,f5(y(function(e){var
+z=iq(i,a,h,gc(y(function(e){var
 a=e[2],d=0;if(typeof
 a==="number"){if(4!==a)d=1}else
 if(11!==a[0])d=1;if(d){var
-b=G(t,e[1]);return b?im(f,l,c,b[1],a):b}return 0},x),a),b),w=x,u=W;for(;;){if(w){var
+b=G(t,e[1]);return b?ix(f,l,c,b[1],a):b}return 0},x),a),b),w=x,u=W;for(;;){if(w){var
 R=w[1],k=R[2],E=R[1],S=w[2],X=0;if(typeof
 k==="number"&&4===k){var
-A=i(n,b);if(A)var
-Z=A[1],Y=be(g(b)),F=m(function(b){return function(a){return J(aD(a,b)[2],d)}}(Z),Y);else
+A=j(n,b);if(A)var
+Z=A[1],Y=be(g(b)),F=m(function(b){return function(a){return J(aE(a,b)[2],d)}}(Z),Y);else
 var
 F=A;if(F){var
 w=S,u=e(function(a){return 0},u);continue}var
 v=F}else
 X=1;if(X){var
-T=q(E,u,0);if(T){var
+T=r(E,u,0);if(T){var
 H=G(t,E);if(H){var
-r=H[1],K=0;if(typeof
+p=H[1],K=0;if(typeof
 k==="number")K=1;else
 switch(k[0]){case
 11:var
-L=k[3],B=k[1],M=io(a,f,l,c,h,r,B,k[2]);if(M)var
-_=ip(j,a,f,l,c,h,B,b,r,L),s=lU(j,a,f,l,c,bN(e2,B,h),n,_,b,r,L);else
-var
-s=M;break;case
-12:var
-C=k[1],N=P(p(g(C),0));if(N)var
-aa=$(lJ(e(function(a){return a[1][1][1]},C)),C),s=m(function(g){return function(r){var
-s=r[2],e=r[1],k=s[1],m=k[1][2],o=k[2],d=s[2];if(typeof
-d!=="number"&&11===d[0]){var
-p=d[3],i=d[1],q=io(a,f,l,c,h,g,i,d[2]);if(q){var
-t=e[2],u=e[1],v=ip(j,a,f,l,c,h,i,b,g,p);return lS(j,a,f,c,bN(e2,i,h),n,v,b,g,u,t,m,o,p)}return q}return lS(j,a,f,c,h,n,z,b,g,e[1],e[2],m,o,d)}}(r),aa);else
+M=k[3],B=k[1],N=iy(a,f,l,c,h,p,B,k[2]);if(N)var
+_=iz(i,a,f,l,c,h,B,b,p,M),s=l2(i,a,f,l,c,bR(e2,B,h),n,_,b,p,M);else
 var
 s=N;break;case
-13:if(2===r[0])var
-D=ii(j,k[1],k[2]),O=h7(g(b),D),Q=O?lW(j,a,f,l,c,h,n,z,b,r,0,D,k[3]):O,s=Q?lW(j,a,f,l,c,h,n,z,b,r,[0,r[1]],D,k[4]):Q;else
+12:var
+C=k[1],O=L(q(g(C),0));if(O)var
+$=aa(lR(e(function(a){return a[1][1][1]},C)),C),s=m(function(g){return function(r){var
+s=r[2],e=r[1],k=s[1],m=k[1][2],o=k[2],d=s[2];if(typeof
+d!=="number"&&11===d[0]){var
+p=d[3],j=d[1],q=iy(a,f,l,c,h,g,j,d[2]);if(q){var
+t=e[2],u=e[1],v=iz(i,a,f,l,c,h,j,b,g,p);return l0(i,a,f,c,bR(e2,j,h),n,v,b,g,u,t,m,o,p)}return q}return l0(i,a,f,c,h,n,z,b,g,e[1],e[2],m,o,d)}}(p),$);else
+var
+s=O;break;case
+13:if(2===p[0])var
+D=it(i,k[1],k[2]),P=ig(g(b),D),Q=P?l4(i,a,f,l,c,h,n,z,b,p,0,D,k[3]):P,s=Q?l4(i,a,f,l,c,h,n,z,b,p,[0,p[1]],D,k[4]):Q;else
 var
 s=0;break;default:K=1}if(K)var
-s=lU(j,a,f,l,c,h,n,z,b,r,k);if(s){var
-w=S,u=gq(E,u);continue}var
+s=l2(i,a,f,l,c,h,n,z,b,p,k);if(s){var
+w=S,u=gz(E,u);continue}var
 U=s}else
 var
 U=H;var
@@ -2661,45 +2661,45 @@ var
 v=[0,u];break}}else
 var
 v=[0,W];return v?I(v[1]):v}function
-iq(h,g,f,e,d,c,b,a){return function(i,j,k){return e4(h,g,f,e,d,b,a,c,i,j,k)}}function
-ir(a){return e(function(a){return 1},a)}function
-ec(a,d,b,c){function
+iA(h,g,f,e,d,c,b,a){return function(i,j,k){return e4(h,g,f,e,d,b,a,c,i,j,k)}}function
+iB(a){return e(function(a){return 1},a)}function
+ed(a,d,b,c){function
 f(d,c){var
-f=$(a[1],b[1]);return e(function(a){var
-b=s(c,a[2]);return C(s(d,a[1]),b)},f)}if(aJ(a[2],b[2])){var
+f=aa(a[1],b[1]);return e(function(a){var
+b=s(c,a[2]);return B(s(d,a[1]),b)},f)}if(aK(a[2],b[2])){var
 g=a[2];return[0,f(d,c),g]}var
 h=s(a[2],b[2]),i=s(c,a[2]);return[0,f(s(d,b[2]),i),h]}function
-lX(a){var
-c=k(b);return[0,e(function(a){return k(d)},a),c]}function
-a6(a,l){var
-f=l[1];switch(f[0]){case
+l5(a){var
+c=l(b);return[0,e(function(a){return l(d)},a),c]}function
+a6(a,k){var
+f=k[1];switch(f[0]){case
 1:var
-u=f[1];if(ak(function(a){return p(u,a)},a)){var
-C=k(b);return[0,e(function(a){var
-c=p(a,u)?b:d;return k(c)},a),C]}return lX(a);case
+u=f[1];if(aj(function(a){return q(u,a)},a)){var
+C=l(b);return[0,e(function(a){var
+c=q(a,u)?b:d;return l(c)},a),C]}return l5(a);case
 3:var
-D=k(b),E=a6(a,f[2]),F=k(b);return ec(a6(a,f[1]),F,E,D);case
+D=l(b),E=a6(a,f[2]),F=l(b);return ed(a6(a,f[1]),F,E,D);case
 4:var
-G=k(Q(b)),H=a6(a,f[2]),I=k(b);return ec(a6(a,f[1]),I,H,G);case
+G=l(Q(b)),H=a6(a,f[2]),I=l(b);return ed(a6(a,f[1]),I,H,G);case
 5:var
 v=a6(a,f[1]),J=v[2];return[0,e(bk,v[1]),J];case
 6:var
-x=f[2],y=f[1],K=a6(a,x);return ec(a6(a,y),x,K,y);case
+x=f[2],y=f[1],K=a6(a,x);return ed(a6(a,y),x,K,y);case
 7:var
-z=f[2],L=bk(l),M=a6(a,z),N=k(b),i=ec(a6(a,f[1]),N,M,L),O=i[1];if(m(function(a){return a4(d,a)},O))return i;var
+z=f[2],L=bk(k),M=a6(a,z),N=l(b),i=ed(a6(a,f[1]),N,M,L),O=i[1];if(m(function(a){return a4(d,a)},O))return i;var
 P=s(i[2],z);return[0,i[1],P];case
 8:var
-A=f[1],B=a6(a,A),R=B[2],S=B[1],T=s(k(c(2,b)),A);return[0,e(function(a){return s(T,a)},S),R];case
+A=f[1],B=a6(a,A),R=B[2],S=B[1],T=s(l(c(2,b)),A);return[0,e(function(a){return s(T,a)},S),R];case
 9:var
 j=a6(a,f[1]),U=j[1];if(m(function(a){return a4(d,a)},U)){var
-V=k(b);return[0,j[1],V]}var
-W=s(k(c(2,b)),l),X=s(j[2],W);return[0,j[1],X];case
+V=l(b);return[0,j[1],V]}var
+W=s(l(c(2,b)),k),X=s(j[2],W);return[0,j[1],X];case
 10:var
-n=f[4],g=f[3],h=f[2],o=[0,[10,0,h,g,n]],q=[0,[10,1,h,g,n]],Y=w(g,q),Z=a6(a,g),_=w(h,o),$=ec(a6(a,h),_,Z,Y),aa=k(Q(b)),ab=a6(a,n),r=ec($,k(c(2,b)),ab,aa),ac=r[1],ad=f[1]?o:bk(q),t=e(function(a){return s(ad,a)},ac);if(m(function(a){return a4(d,a)},t))return[0,t,r[2]];var
-ae=s(h,q),af=w(s(g,o),ae),ag=s(k(c(2,b)),af);return[0,t,s(r[2],ag)];default:return lX(a)}}function
-lY(c,a){var
+n=f[4],g=f[3],h=f[2],o=[0,[10,0,h,g,n]],p=[0,[10,1,h,g,n]],Y=w(g,p),Z=a6(a,g),_=w(h,o),$=ed(a6(a,h),_,Z,Y),aa=l(Q(b)),ab=a6(a,n),r=ed($,l(c(2,b)),ab,aa),ac=r[1],ad=f[1]?o:bk(p),t=e(function(a){return s(ad,a)},ac);if(m(function(a){return a4(d,a)},t))return[0,t,r[2]];var
+ae=s(h,p),af=w(s(g,o),ae),ag=s(l(c(2,b)),af);return[0,t,s(r[2],ag)];default:return l5(a)}}function
+l6(c,a){var
 b=a6(c,a),f=b[1];return e(function(a){return a4(d,a)?a:am(a,b[2])},f)}function
-lZ(g){var
+l7(g){var
 h=g[1],c=h[2],e=h[1];if(0===e[0]){var
 i=e[2],a=e[1];if(D(i,b)){if(0===c[0]){var
 j=c[2],m=c[1];if(D(j,b)){var
@@ -2707,35 +2707,35 @@ k=I(a,m),l=k?eT(a):k;if(l)var
 n=I(g[2],d),f=n||I(a,d);else
 var
 f=l;var
-o=f?[0,a]:f;return o}return I(aU(j,aF(2))[2],d)?0:0}return 0}return I(aU(i,aF(2))[2],d)?0:0}return 0}function
-c1(c,b){var
-a=lZ(c);return a?k(a[1]):[0,[1,b]]}function
-cz(b,a){if(a)var
-d=cz([0,b],a[2]),c=[0,c1(a[1],b),d];else
+o=f?[0,a]:f;return o}return I(aW(j,aH(2))[2],d)?0:0}return 0}return I(aW(i,aH(2))[2],d)?0:0}return 0}function
+c2(c,b){var
+a=l7(c);return a?l(a[1]):[0,[1,b]]}function
+cB(b,a){if(a)var
+d=cB([0,b],a[2]),c=[0,c2(a[1],b),d];else
 var
 c=a;return c}function
 a7(b,a){return[0,[0,b[1],a],[0,[0,b[2],a],[0,[0,b[3],a],0]]]}function
-gr(b,d,a){switch(a[0]){case
+gA(b,d,a){switch(a[0]){case
 0:var
 c=a[1],g=[0,[0,c[4],b],0],h=f(a7(c[3],b),g),i=f(a7(c[2],b),h);return f(a7(c[1],d),i);case
 1:var
 e=a[3],j=e?a7(e[1],d):e,k=f(a7(a[2],b),j);return f(a7(a[1],b),k);default:return a7(a[1],d)}}function
-aj(b,a){var
-c=k(d),e=q(R(sU,a),b,c),f=k(d),g=q(R(sV,a),b,f);return[0,q(a,b,k(d)),g,e]}function
-l0(b,a){return ah(w,ah(C,dv,a),b)}function
-gs(c,b,a){if(a){var
-e=a[2],g=gs(c,by(b),e),h=a[1];return f(gr(c,bM(d,b),h),g)}return a}function
-is(f,e,c,j){if(c){var
-b=c[1],v=R(j,g(gr(f,bM(d,e),b))),w=c[2],x=is(f,by(e),w,v),a=cz(j,gr(f,bM(d,e),b));switch(b[0]){case
+ak(b,a){var
+c=l(d),e=r(R(s4,a),b,c),f=l(d),g=r(R(s5,a),b,f);return[0,r(a,b,l(d)),g,e]}function
+l8(b,a){return af(w,af(B,dx,a),b)}function
+gB(c,b,a){if(a){var
+e=a[2],g=gB(c,bz(b),e),h=a[1];return f(gA(c,bQ(d,b),h),g)}return a}function
+iC(f,e,c,j){if(c){var
+b=c[1],v=R(j,g(gA(f,bQ(d,e),b))),w=c[2],x=iC(f,bz(e),w,v),a=cB(j,gA(f,bQ(d,e),b));switch(b[0]){case
 0:var
-m=b[1][5],n=q(sW,a,k(d)),o=ah(C,dv,aj(a,sX)),p=du(aj(a,0)),r=aj(a,sY),h=ls(l0(aj(a,sZ),r),p,o,n,m);break;case
+m=b[1][5],n=r(s6,a,l(d)),o=af(B,dx,ak(a,s7)),p=dw(ak(a,0)),q=ak(a,s8),h=lA(l8(ak(a,s9),q),p,o,n,m);break;case
 1:var
-i=b[3],s=i?[0,du(aj(a,s0))]:i,t=ah(C,dv,aj(a,s1)),u=aj(a,s2),h=lt(l0(aj(a,0),u),t,s);break;default:var
-h=lu(dv,du(aj(a,0)))}var
-l=[0,h,x]}else
+i=b[3],s=i?[0,dw(ak(a,s_))]:i,t=af(B,dx,ak(a,s$)),u=ak(a,ta),h=lB(l8(ak(a,0),u),t,s);break;default:var
+h=lC(dx,dw(ak(a,0)))}var
+k=[0,h,x]}else
 var
-l=c;return l}function
-bR(c,a){if(typeof
+k=c;return k}function
+bV(c,a){if(typeof
 a!=="number")switch(a[0]){case
 4:var
 h=[5,a[3],a[2]];return[0,[0,h,h],d];case
@@ -2744,7 +2744,7 @@ j=a[2];return[0,[0,j,j],d];case
 8:var
 k=[5,a[2],a[1]];return[0,[0,k,k],d];case
 10:var
-p=a[3],q=d1(a[2]),l=[2,[2,d1(a[1]),q],p];return[0,[0,l,l],c];case
+p=a[3],q=d2(a[2]),l=[2,[2,d2(a[1]),q],p];return[0,[0,l,l],c];case
 11:var
 m=a[4];return[0,[0,m,m],c];case
 12:var
@@ -2763,13 +2763,13 @@ i=a[1];return[0,[0,i,i],d]}var
 e=[0,d,b];return[0,[0,e,e],d]}function
 e5(b,a){var
 c=a[3],d=a[2],e=a[1];return[0,[0,[0,e,e],b],[0,[0,[0,d,d],b],[0,[0,[0,c,c],b],0]]]}function
-ed(c,a){if(0===a[0]){var
+ee(c,a){if(0===a[0]){var
 e=[0,d,b],i=f(e5(c,a[5]),[0,[0,[0,e,e],d],0]),g=a[4],h=a[3];return f([0,[0,[0,h,h],c],[0,[0,[0,g,g],c],0]],i)}var
 j=e5(c,a[3]);return f(e5(c,a[2]),j)}function
-dx(b,a){if(typeof
+dz(b,a){if(typeof
 a!=="number")switch(a[0]){case
 10:var
-h=ed(b,a[2]);return f(ed(b,a[1]),h);case
+h=ee(b,a[2]);return f(ee(b,a[1]),h);case
 11:var
 i=e5(b,a[3]);return f(e5(b,a[2]),i);case
 12:var
@@ -2777,75 +2777,75 @@ c=a[3],g=[5,[4,c,c],a[4]];return[0,[0,[0,g,g],b],0];case
 15:var
 j=a[2],k=a[1];return e(function(b){var
 a=[5,j,b];return[0,[0,a,a],d]},k)}return 0}function
-l1(c,b,a){var
-d=g(dx(c,b)),e=R(a[2],d);return[0,[0,a[1]],e]}function
-it(c,b){if(aJ(b,c))return[0,k(d)];var
+l9(c,b,a){var
+d=g(dz(c,b)),e=R(a[2],d);return[0,[0,a[1]],e]}function
+iD(c,b){if(aK(b,c))return[0,l(d)];var
 a=b[1];if(4===a[0]){var
-e=aJ(a[1],c),f=e?[0,a[2]]:e;return f}return 0}function
-l2(y,p,a,o){switch(o[0]){case
+e=aK(a[1],c),f=e?[0,a[2]]:e;return f}return 0}function
+l_(y,p,a,o){switch(o[0]){case
 0:var
 h=G(y,o[1]);if(h){var
-j=h[1];if(j){var
-r=j[1],s=r[1],c=s[2],e=s[1],t=r[2],z=aj(a,s3),A=ah(C,ah(w,e,a0(am(q(s4,a,k(d)),t),c)),z),B=aj(a,s5),f=am(q(0,a,k(d)),t),l=it(e[1],c[1]);if(l){var
-m=it(e[2],c[2]);if(m){var
-n=it(e[3],c[3]);if(n)var
-x=a0(f,c),g=ah(C,[0,l[1],m[1],n[1]],x);else
+i=h[1];if(i){var
+q=i[1],s=q[1],c=s[2],e=s[1],t=q[2],z=ak(a,tb),A=af(B,af(w,e,a0(am(r(tc,a,l(d)),t),c)),z),C=ak(a,td),f=am(r(0,a,l(d)),t),k=iD(e[1],c[1]);if(k){var
+m=iD(e[2],c[2]);if(m){var
+n=iD(e[3],c[3]);if(n)var
+x=a0(f,c),g=af(B,[0,k[1],m[1],n[1]],x);else
 var
-g=ah(w,e,a0(w(k(b),f),c))}else
+g=af(w,e,a0(w(l(b),f),c))}else
 var
-g=ah(w,e,a0(w(k(b),f),c))}else
+g=af(w,e,a0(w(l(b),f),c))}else
 var
-g=ah(w,e,a0(w(k(b),f),c));var
-u=[0,[0,ah(C,g,B),A]]}else
+g=af(w,e,a0(w(l(b),f),c));var
+u=[0,[0,af(B,g,C),A]]}else
 var
-u=j;var
+u=i;var
 v=u}else
 var
 v=h;return v;case
 1:var
-D=aj(a,s6);return[0,[0,aj(a,0),D]];default:var
-E=i(p,aj(a,s7));return[0,[0,i(p,aj(a,0)),E]]}}function
-l3(e,d,c,h,g){var
-a=l2(e,d,aI(s8,c),h);if(a)var
-b=l2(e,d,aV(s9,c),g),i=b?[0,[0,a[1],b[1]]]:b,f=i;else
+D=ak(a,te);return[0,[0,ak(a,0),D]];default:var
+E=j(p,ak(a,tf));return[0,[0,j(p,ak(a,0)),E]]}}function
+l$(e,d,c,h,g){var
+a=l_(e,d,aB(tg,c),h);if(a)var
+b=l_(e,d,aM(th,c),g),i=b?[0,[0,a[1],b[1]]]:b,f=i;else
 var
 f=a;return f}function
-l4(g,c,d,b,a){var
-h=ed(c,a),i=cz(d,f(ed(c,b),h));function
-j(a){return ah(C,dv,a)}return l3(e(function(a){var
+ma(g,c,d,b,a){var
+h=ee(c,a),i=cB(d,f(ee(c,b),h));function
+j(a){return af(B,dx,a)}return l$(e(function(a){var
 b=a[7];return z(function(b){var
-c=cV(a);return[0,[0,b,a[1]],c]},b)},g),j,i,b,a)}function
-dy(d,c,b,a){var
+c=cW(a);return[0,[0,b,a[1]],c]},b)},g),j,i,b,a)}function
+dA(d,c,b,a){var
 e=s(c,b);return w(s(d,a),e)}function
-bS(a){return y(function(a){return f(a[1],[0,a[2],0])},a)}function
-l5(b,a){if(b)if(a)var
-d=b[1],e=l5(b[2],a[2]),f=s(d[2],a[1]),c=[0,[0,bQ(d[1]),f],e];else
+bB(a){return y(function(a){return f(a[1],[0,a[2],0])},a)}function
+mb(b,a){if(b)if(a)var
+d=b[1],e=mb(b[2],a[2]),f=s(d[2],a[1]),c=[0,[0,bU(d[1]),f],e];else
 var
 c=a;else
 var
 c=b;return c}function
-l6(a){if(a){var
+mc(a){if(a){var
 b=a[1][6];if(b){var
-c=b[1],d=l6(a[2]);if(d)var
-g=d[1],h=X(c,c),e=[0,[0,[0,bQ(c),h],g]];else
+c=b[1],d=mc(a[2]);if(d)var
+g=d[1],h=Y(c,c),e=[0,[0,[0,bU(c),h],g]];else
 var
 e=d;var
 f=e}else
 var
-f=b;return f}return s$}function
+f=b;return f}return tj}function
 e6(b,d,c,a){if(typeof
 a!=="number")switch(a[0]){case
 8:var
-i=c[1],j=c1(bR(d,a),i);return[0,e(function(a){var
-b=s(a[2],j);return[0,bQ(a[1]),b]},b)];case
-9:return l6(b);case
+i=c[1],j=c2(bV(d,a),i);return[0,e(function(a){var
+b=s(a[2],j);return[0,bU(a[1]),b]},b)];case
+9:return mc(b);case
 15:var
-k=g(b),f=p(g(a[1]),k);if(f)var
-l=dx(d,a),h=[0,l5(b,cz(c[2],l))];else
+k=g(b),f=q(g(a[1]),k);if(f)var
+l=dz(d,a),h=[0,mb(b,cB(c[2],l))];else
 var
 h=f;return h}return 0}function
-gt(e,l,j,a){var
-P=j[1],c=c1(bR(l,a),P),u=0;if(typeof
+gC(e,k,j,a){var
+P=j[1],c=c2(bV(k,a),P),u=0;if(typeof
 a==="number")u=1;else
 switch(a[0]){case
 2:var
@@ -2864,7 +2864,7 @@ d=a;return d},g=U,f=a[1];break;case
 7:if(e){var
 m=e[2];if(m){var
 n=m[2];if(n){if(n[2])return 0;var
-x=n[1],z=m[1],A=e[1],h=x[1],i=z[1],p=A[1],K=dy(i[1],i[2],h[1],h[2]),L=s(p[3],K),M=dy(i[1],i[3],h[1],h[3]),N=s(p[2],M),O=dy(i[2],i[3],h[2],h[3]),v=C(w(s(p[1],O),N),L),V=cV(x),W=cV(z),B=s(s(s(c,cV(A)),W),V),Y=[0,bk(C(v,B)),0],D=[0,w(v,B),Y]}else
+x=n[1],z=m[1],A=e[1],h=x[1],i=z[1],p=A[1],K=dA(i[1],i[2],h[1],h[2]),L=s(p[3],K),M=dA(i[1],i[3],h[1],h[3]),N=s(p[2],M),O=dA(i[2],i[3],h[2],h[3]),v=B(w(s(p[1],O),N),L),V=cW(x),W=cW(z),C=s(s(s(c,cW(A)),W),V),X=[0,bk(B(v,C)),0],D=[0,w(v,C),X]}else
 var
 D=n;var
 E=D}else
@@ -2874,77 +2874,77 @@ F=E}else
 var
 F=e;return F;case
 10:var
-t=l4(e,l,j[2],a[1],a[2]);if(t){var
-H=t[1],I=H[2],J=H[1];return y(bQ,[0,J[1],[0,J[2],[0,I[1],[0,I[2],0]]]])}return t;case
+t=ma(e,k,j[2],a[1],a[2]);if(t){var
+H=t[1],I=H[2],J=H[1];return y(bU,[0,J[1],[0,J[2],[0,I[1],[0,I[2],0]]]])}return t;case
 11:var
 Z=function(d){var
 e=d[7];if(e)var
-n=dx(l,a),f=cz(j[2],n),h=aj(f,s_),b=ah(w,aj(f,0),h),i=T(c),k=T(cV(d)),m=am(T(X(b,d[1])),k),g=[0,w(w(X(b,b),m),i),0];else
+n=dz(k,a),f=cB(j[2],n),h=ak(f,ti),b=af(w,ak(f,0),h),i=T(c),l=T(cW(d)),m=am(T(Y(b,d[1])),l),g=[0,w(w(Y(b,b),m),i),0];else
 var
 g=e;return g},g=Z,f=a[1];break;case
 12:var
 _=function(e){var
-p=k(d),r=dx(l,a),t=q(0,cz(j[2],r),p),f=am(t,cV(e)),g=e[5];if(g){var
-m=aE(e[2]),h=am(g[1],m),n=s(h,C(c,s(f,T(h))));return[0,w(k(b),n),0]}var
-i=e[7],o=i?[0,w(w(k(b),c),f),0]:i;return o},g=_,f=a[1];break;case
+p=l(d),q=dz(k,a),t=r(0,cB(j[2],q),p),f=am(t,cW(e)),g=e[5];if(g){var
+m=aF(e[2]),h=am(g[1],m),n=s(h,B(c,s(f,T(h))));return[0,w(l(b),n),0]}var
+i=e[7],o=i?[0,w(w(l(b),c),f),0]:i;return o},g=_,f=a[1];break;case
 8:case
 9:case
 15:var
-r=e6(e,l,j,a);return r?bS(r[1]):r;default:u=1}if(u)return 0;var
+q=e6(e,k,j,a);return q?bB(q[1]):q;default:u=1}if(u)return 0;var
 o=G(e,f);return o?g(o[1]):o}function
-iu(d,b,c,a){if(a){var
-e=a[1],g=a[2],h=iu(d,b,l1(b,e,c),g);return f(gt(d,b,c,e),h)}return a}var
-l7=[0,d,b],l8=[0,[0,l7,l7],d];function
-iv(a){return P(cv(a[1][1],a[1][2]))}function
-l9(a){var
-b=aB(0,g(a));return br(function(b){return iv(q(b,a,l8))},b)}function
-gu(a,b){var
-c=lY(l9(a),b),e=$(l9(a),c);return br(function(a){return P(a4(d,a[2]))},e)}function
-l_(b,a){var
-c=i(b,a[3]),d=i(b,a[2]);return[0,i(b,a[1]),d,c]}function
-l$(m,l,f,k,j,a){var
-d=gu(f,a);return ab(e(function(e){var
-a=q(e[1],f,l8),g=aG(a[2],k),h=[4,[0,c(2,b),b],j],d=[5,[3,a[1][2],a[1][1]],h],n=ao(m,[0,[0,d,d],g]);return z(function(a){return[0,a,i(l,e[2])]},n)},d))}function
-ma(g,f,n,m,l,e,c){var
+iE(d,b,c,a){if(a){var
+e=a[1],g=a[2],h=iE(d,b,l9(b,e,c),g);return f(gC(d,b,c,e),h)}return a}var
+md=[0,d,b],me=[0,[0,md,md],d];function
+iF(a){return L(cx(a[1][1],a[1][2]))}function
+mf(a){var
+b=aC(0,g(a));return bs(function(b){return iF(r(b,a,me))},b)}function
+gD(a,b){var
+c=l6(mf(a),b),e=aa(mf(a),c);return bs(function(a){return L(a4(d,a[2]))},e)}function
+mg(b,a){var
+c=j(b,a[3]),d=j(b,a[2]);return[0,j(b,a[1]),d,c]}function
+mh(m,l,f,k,i,a){var
+d=gD(f,a);return ac(e(function(e){var
+a=r(e[1],f,me),g=aI(a[2],k),h=[4,[0,c(2,b),b],i],d=[5,[3,a[1][2],a[1][1]],h],n=ao(m,[0,[0,d,d],g]);return z(function(a){return[0,a,j(l,e[2])]},n)},d))}function
+mi(g,f,n,m,l,e,c){var
 h=[5,l,e],a=ao(g,[0,[0,h,h],d]);if(a){var
-b=l$(g,f,n,m,e,c);if(b)var
-o=[0,a[1],b[1]],j=[0,[0,i(f,c),o]];else
+b=mh(g,f,n,m,e,c);if(b)var
+o=[0,a[1],b[1]],i=[0,[0,j(f,c),o]];else
 var
-j=b;var
-k=j}else
+i=b;var
+k=i}else
 var
 k=a;return k}function
-mb(c,F,l,al,k,j,n,s){if(s){var
-a=s[1],aH=s[2],aI=mb(c,F,l,al,k,j,l1(j,a,n),aH);if(typeof
+mj(c,F,l,al,k,i,n,s){if(s){var
+a=s[1],aH=s[2],aI=mj(c,F,l,al,k,i,l9(i,a,n),aH);if(typeof
 a==="number")if(0===a)var
 f=[0,[0,u]];else
 var
-an=F[2],ap=F[1],aq=eZ(k),f=[0,[8,i(aw(l),aq),ap,an]];else
+an=F[2],ap=F[1],aq=eZ(k),f=[0,[8,j(au(l),aq),ap,an]];else
 switch(a[0]){case
 0:var
-ar=ao(c,bR(j,a)),f=z(function(a){return[0,S(c,a)]},ar);break;case
+ar=ao(c,bV(i,a)),f=z(function(a){return[0,S(c,a)]},ar);break;case
 1:var
-as=ao(c,bR(j,a)),f=z(function(a){return[1,S(c,a)]},as);break;case
+as=ao(c,bV(i,a)),f=z(function(a){return[1,S(c,a)]},as);break;case
 5:var
-au=ao(c,bR(j,a)),f=z(function(a){return[2,S(c,a)]},au);break;case
+av=ao(c,bV(i,a)),f=z(function(a){return[2,S(c,a)]},av);break;case
 8:var
-av=e6(k,j,n,a),f=z(function(a){var
-d=L(c,b);return[4,i(aw(l),a),d]},av);break;case
+aw=e6(k,i,n,a),f=z(function(a){var
+d=M(c,b);return[4,j(au(l),a),d]},aw);break;case
 9:var
-w=e6(k,j,n,a);if(w){var
-x=ao(c,bR(j,a));if(x)var
-ax=S(c,x[1]),ay=w[1],M=[0,[4,i(aw(l),ay),ax]];else
+w=e6(k,i,n,a);if(w){var
+x=ao(c,bV(i,a));if(x)var
+ax=S(c,x[1]),ay=w[1],L=[0,[4,j(au(l),ay),ax]];else
 var
-M=x;var
-N=M}else
+L=x;var
+N=L}else
 var
 N=w;var
 f=N;break;case
 10:var
-y=l4(k,j,n[2],a[1],a[2]);if(y){var
-O=y[1],P=O[2],Q=O[1],A=ao(c,bR(j,a));if(A){var
+y=ma(k,i,n[2],a[1],a[2]);if(y){var
+O=y[1],P=O[2],Q=O[1],A=ao(c,bV(i,a));if(A){var
 R=A[1],T=D(d,R[1]);if(T)var
-q=function(a){return l_(l,a)},az=q(P[2]),aA=q(P[1]),aB=q(Q[2]),U=[0,[6,q(Q[1]),aB,aA,az,R]];else
+p=function(a){return mg(l,a)},az=p(P[2]),aA=p(P[1]),aB=p(Q[2]),U=[0,[6,p(Q[1]),aB,aA,az,R]];else
 var
 U=T;var
 V=U}else
@@ -2955,24 +2955,24 @@ var
 W=y;var
 f=W;break;case
 12:var
-r=gt(k,j,n,a),t=0;if(r)if(r[2])var
+r=gC(k,i,n,a),t=0;if(r)if(r[2])var
 f=0;else{var
 X=h(c,0,a[2]),Y=X?h(c,1,a[4]):X;if(Y){var
-B=[0,[3,i(l,r[1])]];t=1}else{var
+B=[0,[3,j(l,r[1])]];t=1}else{var
 B=Y;t=1}}else{var
 B=r;t=1}if(t)var
 f=B;break;case
 13:var
 Z=a[1],_=G(k,Z),H=0;if(_){var
 $=h(c,1,a[2]),aa=$?h(c,1,a[3]):$;if(aa)var
-aC=ao(c,bR(j,a)),f=z(function(a){return[7,Z,S(c,a)]},aC);else{var
-ac=aa;H=1}}else{var
-ac=_;H=1}if(H)var
-f=ac;break;case
+aC=ao(c,bV(i,a)),f=z(function(a){return[7,Z,S(c,a)]},aC);else{var
+ab=aa;H=1}}else{var
+ab=_;H=1}if(H)var
+f=ab;break;case
 14:var
-ad=a[2],ae=a[1],af=p(g(k),ta),ag=af?h(c,0,ae):af,ah=ag?h(c,1,ad):ag;if(ah){var
-C=ao(c,bR(j,a));if(C)var
-E=ab(e(function(a){return ma(c,l,al,j,ae,ad,a[4])},k)),aD=E?[0,[9,C[1],E[1]]]:E,ai=aD;else
+ad=a[2],ae=a[1],af=q(g(k),tk),ag=af?h(c,0,ae):af,ah=ag?h(c,1,ad):ag;if(ah){var
+C=ao(c,bV(i,a));if(C)var
+E=ac(e(function(a){return mi(c,l,al,i,ae,ad,a[4])},k)),aD=E?[0,[9,C[1],E[1]]]:E,ai=aD;else
 var
 ai=C;var
 aj=ai}else
@@ -2981,34 +2981,34 @@ aj=ah;var
 f=aj;break;case
 15:var
 aE=[0,a[2],a[1]],aF=1,ak=m(function(a){return h(c,aF,a)},aE);if(ak)var
-aG=e6(k,j,n,a),f=z(function(a){var
-d=L(c,b);return[4,i(aw(l),a),d]},aG);else
+aG=e6(k,i,n,a),f=z(function(a){var
+d=M(c,b);return[4,j(au(l),a),d]},aG);else
 var
 f=ak;break;default:var
-o=gt(k,j,n,a),I=0;if(o){var
+o=gC(k,i,n,a),I=0;if(o){var
 v=o[2],J=o[1];if(v)if(v[2])var
 f=0;else
 var
-at=i(l,v[1]),f=[0,[5,i(l,J),at]];else{var
-K=[0,[3,i(l,J)]];I=1}}else{var
+at=j(l,v[1]),f=[0,[5,j(l,J),at]];else{var
+K=[0,[3,j(l,J)]];I=1}}else{var
 K=o;I=1}if(I)var
 f=K}var
 am=[0,f,aI]}else
 var
 am=s;return am}function
-tb(a){var
+tl(a){var
 b=0;if(typeof
 a==="number"){if(0!==a)b=1}else
 if(0!==a[0])b=1;return b?0:1}function
-ee(a){if(0===a[0])return a[1];var
+ef(a){if(0===a[0])return a[1];var
 b=a[3],c=a[2],d=a[1];return[0,[0,[3,d,b],[2,d,b]],[0,[3,c,b],[2,c,b]],a[4]]}function
-mc(a,c,g,b){if(0===c[0])return 0;if(b){var
+mk(a,c,g,b){if(0===c[0])return 0;if(b){var
 d=b[2];if(d){var
 h=d[2];if(h){if(h[2])return 0;var
-e=d[1],f=b[1],i=cT(a,g,c[1]);if(i){var
-j=cT(a,g,c[2]);if(j){var
-k=cT(a,g,c[3]);if(k)var
-v=i[1],w=ca(f),l=E([0,ca(f),w],v),x=j[1],y=ca(e),m=E([0,ca(e),y],x),z=d9(e),B=[0,d9(e),z],C=[0,t(a,aa(A(m,m)),B),0],D=d9(f),F=[0,d9(f),D],G=[0,t(a,aa(A(l,l)),F),C],H=S(a,m),I=S(a,l),n=[0,[0,E(E(S(a,k[1]),I),H),u,G]];else
+e=d[1],f=b[1],i=cU(a,g,c[1]);if(i){var
+j=cU(a,g,c[2]);if(j){var
+k=cU(a,g,c[3]);if(k)var
+v=i[1],w=cb(f),l=E([0,cb(f),w],v),x=j[1],y=cb(e),m=E([0,cb(e),y],x),z=d_(e),B=[0,d_(e),z],C=[0,t(a,ab(A(m,m)),B),0],D=d_(f),F=[0,d_(f),D],G=[0,t(a,ab(A(l,l)),F),C],H=S(a,m),I=S(a,l),n=[0,[0,E(E(S(a,k[1]),I),H),u,G]];else
 var
 n=k;var
 o=n}else
@@ -3026,7 +3026,7 @@ r=d;var
 s=r}else
 var
 s=b;return s}function
-gv(a,p,o){var
+gE(a,p,o){var
 q=a7(p,o),b=e(function(b){return ao(a,b)},q);if(b){var
 g=b[1];if(g){var
 c=b[2];if(c){var
@@ -3051,17 +3051,17 @@ var
 n=b;return n}function
 U(c,b,a){var
 d=aq(c,b[3],a[3]),e=aq(c,b[2],a[2]);return[0,aq(c,b[1],a[1]),e,d]}function
-ac(b,a){return[0,[4,b,a[1]],[4,b,a[2]],[4,b,a[3]]]}function
+V(b,a){return[0,[4,b,a[1]],[4,b,a[2]],[4,b,a[3]]]}function
 x(b,a){return[2,[2,[4,b[1],a[1]],[4,b[2],a[2]]],[4,b[3],a[3]]]}function
-ay(a){return ac([5,[0,b,b],[6,x(a,a)]],a)}function
-c2(c,b,a){var
-d=bt(c,b[1],a);return d?bt(c,a,b[2]):d}function
+ay(a){return V([5,[0,b,b],[6,x(a,a)]],a)}function
+c3(c,b,a){var
+d=bu(c,b[1],a);return d?bu(c,a,b[2]):d}function
 bm(c,b,a){var
-d=c2(c,b[1],a[1]),e=d?c2(c,b[2],a[2]):d;return e?c2(c,b[3],a[3]):e}function
-md(b,c,a){switch(c[0]){case
+d=c3(c,b[1],a[1]),e=d?c3(c,b[2],a[2]):d;return e?c3(c,b[3],a[3]):e}function
+ml(b,c,a){switch(c[0]){case
 0:var
 d=c[1];if(0===a[0]){var
-j=a[4],f=a[1],k=bm(b,d[1],f),l=k?h(b,1,x(f,f)):k,m=l?bm(b,d[2],a[2]):l,n=m?bm(b,d[3],a[3]):m,o=n?c2(b,d[4],j):n,p=o?h(b,1,j):o;return p?co(d[5],a[5]):p}return 0;case
+j=a[4],f=a[1],k=bm(b,d[1],f),l=k?h(b,1,x(f,f)):k,m=l?bm(b,d[2],a[2]):l,n=m?bm(b,d[3],a[3]):m,o=n?c3(b,d[4],j):n,p=o?h(b,1,j):o;return p?cq(d[5],a[5]):p}return 0;case
 1:var
 q=c[3];if(1===a[0]){var
 e=a[3],r=bm(b,c[1],a[1]),s=r?bm(b,c[2],a[2]):r;if(s){if(q){if(e){var
@@ -3073,130 +3073,130 @@ v=1}else
 var
 v=s;return v}return 0;default:if(2===a[0]){var
 i=a[1],w=bm(b,c[1],i);return w?h(b,1,x(i,i)):w}return 0}}function
-bT(c,a,b){if(0===a[0])return bm(c,a[1],b);var
-d=a[3],e=[3,b[1],a[1]],f=[3,b[2],a[2]],g=h(c,0,[3,[3,[4,d,d],[4,e,e]],[4,f,f]]),i=g?h(c,0,d):g;return i?c2(c,a[4],b[3]):i}function
-gw(g,f,i,h){var
+bn(c,a,b){if(0===a[0])return bm(c,a[1],b);var
+d=a[3],e=[3,b[1],a[1]],f=[3,b[2],a[2]],g=h(c,0,[3,[3,[4,d,d],[4,e,e]],[4,f,f]]),i=g?h(c,0,d):g;return i?c3(c,a[4],b[3]):i}function
+e7(g,f,i,h){var
 b=f[1],a=i;for(;;){if(b){if(a){var
-d=md(g,b[1],a[1]);if(d){var
+d=ml(g,b[1],a[1]);if(d){var
 b=b[2],a=a[2];continue}var
 e=d}else
 var
 e=a;var
 c=e}else
 var
-c=a?0:1;return c?bT(g,f[2],h):c}}function
-aW(c,b,a){var
+c=a?0:1;return c?bn(g,f[2],h):c}}function
+aX(c,b,a){var
 d=U(function(b,a){return[2,b,a]},a,b);return U(function(b,a){return[3,b,a]},d,c)}function
-e7(a,e,d,c){var
-b=aW(e,d,c),f=ay(a),g=ac(x(ay(a),b),f);return U(function(b,a){return[3,b,a]},b,g)}function
-cA(f,e,d,a,c){var
-b=e7(f,e,d,c);return[3,[4,a,a],x(b,b)]}function
-c3(c,a){return c?[6,a]:[3,[0,d,b],[6,a]]}function
-cc(a,c){switch(a[0]){case
+e8(a,e,d,c){var
+b=aX(e,d,c),f=ay(a),g=V(x(ay(a),b),f);return U(function(b,a){return[3,b,a]},b,g)}function
+cC(f,e,d,a,c){var
+b=e8(f,e,d,c);return[3,[4,a,a],x(b,b)]}function
+c4(c,a){return c?[6,a]:[3,[0,d,b],[6,a]]}function
+cd(a,c){switch(a[0]){case
 0:var
-e=a[3],f=a[2],d=a[1],g=e7(d,f,e,c),h=cA(d,f,e,a[4],c),i=ac([5,[0,b,b],c3(a[5],h)],g),j=ay(d);return U(function(b,a){return[2,b,a]},j,i);case
-1:return ay(aW(a[1],a[2],c));default:return ay(a[1])}}function
-cB(a,b){switch(a[0]){case
+e=a[3],f=a[2],d=a[1],g=e8(d,f,e,c),h=cC(d,f,e,a[4],c),i=V([5,[0,b,b],c4(a[5],h)],g),j=ay(d);return U(function(b,a){return[2,b,a]},j,i);case
+1:return ay(aX(a[1],a[2],c));default:return ay(a[1])}}function
+ce(a,b){switch(a[0]){case
 0:var
-d=a[3],e=a[2],c=a[1],f=ay(c),g=cA(c,e,d,a[4],b),h=ac(c3(a[5],g),f),i=e7(c,e,d,b);return U(function(b,a){return[2,b,a]},i,h);case
-1:return aW(a[1],a[2],b);default:return ay(a[1])}}function
-c4(a,b){switch(a[0]){case
+d=a[3],e=a[2],c=a[1],f=ay(c),g=cC(c,e,d,a[4],b),h=V(c4(a[5],g),f),i=e8(c,e,d,b);return U(function(b,a){return[2,b,a]},i,h);case
+1:return aX(a[1],a[2],b);default:return ay(a[1])}}function
+c5(a,b){switch(a[0]){case
 0:var
-c=a[3],d=a[2],e=a[1],h=cA(e,d,c,a[4],b),i=c3(a[5],h),j=aW(d,c,b);return[3,x(ay(e),j),i];case
+c=a[3],d=a[2],e=a[1],h=cC(e,d,c,a[4],b),i=c4(a[5],h),j=aX(d,c,b);return[3,x(ay(e),j),i];case
 1:var
-f=a[2],g=a[1],k=aW(g,f,b);return[6,x(aW(g,f,b),k)];default:return x(ay(a[1]),b)}}function
-iw(a,b){switch(a[0]){case
-0:return[0,cA(a[1],a[2],a[3],a[4],b)];case
+f=a[2],g=a[1],k=aX(g,f,b);return[6,x(aX(g,f,b),k)];default:return x(ay(a[1]),b)}}function
+iG(a,b){switch(a[0]){case
+0:return[0,cC(a[1],a[2],a[3],a[4],b)];case
 1:var
-c=a[2],d=a[1],e=aW(d,c,b);return[0,x(aW(d,c,b),e)];default:return 0}}function
-e8(e,c,a){var
+c=a[2],d=a[1],e=aX(d,c,b);return[0,x(aX(d,c,b),e)];default:return 0}}function
+e9(e,c,a){var
 f=[0,d,b];return an(function(b,d){var
-e=x(cc(b,c),a);return[2,[4,x(cc(b,c),a),e],d]},f,e)}function
-me(f,e,c,a){if(f){if(e){var
-g=e[1],h=me(f[2],e[2],c,a),i=x(cc(g,c),a),j=[4,x(cc(g,c),a),i];return[2,[4,f[1],j],h]}return[0,d,b]}return[0,d,b]}function
-mf(a){var
+e=x(cd(b,c),a);return[2,[4,x(cd(b,c),a),e],d]},f,e)}function
+mm(f,e,c,a){if(f){if(e){var
+g=e[1],h=mm(f[2],e[2],c,a),i=x(cd(g,c),a),j=[4,x(cd(g,c),a),i];return[2,[4,f[1],j],h]}return[0,d,b]}return[0,d,b]}function
+mn(a){var
 c=a[1];return[0,[0,c[1],b],[0,c[2],b],[0,a[2],b]]}function
-ix(a,c){switch(a[0]){case
+iH(a,c){switch(a[0]){case
 0:return a[4];case
 1:var
-d=a[2],e=a[1],f=aW(e,d,c);return[6,x(aW(e,d,c),f)];default:return[0,b,b]}}function
-mg(d,i){if(d){var
+d=a[2],e=a[1],f=aX(e,d,c);return[6,x(aX(e,d,c),f)];default:return[0,b,b]}}function
+mo(d,i){if(d){var
 a=d[1];if(1===a[0]){var
 c=a[3];if(c)var
-f=c[1],g=aW(a[1],a[2],i),k=ay(f),l=ac(x(ay(f),g),k),h=[0,U(function(b,a){return[3,b,a]},g,l)];else
+f=c[1],g=aX(a[1],a[2],i),k=ay(f),l=V(x(ay(f),g),k),h=[0,U(function(b,a){return[3,b,a]},g,l)];else
 var
 h=c;var
 b=h}else
 var
 b=0;if(b)var
-e=mg(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
+e=mo(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
 var
-j=b;return j}return tc}function
-c5(a){return[0,a[1],a[2],a[3]]}function
-mh(a,b){switch(a[0]){case
+j=b;return j}return tm}function
+c6(a){return[0,a[1],a[2],a[3]]}function
+mp(a,b){switch(a[0]){case
 0:var
-f=a[4],c=a[3],g=a[2],d=a[1],i=ay(d),j=cA(d,g,c,f,b),k=ac(c3(a[5],j),i),l=e7(d,g,c,b),m=U(function(b,a){return[2,b,a]},l,k);return[0,[0,[0,U(function(b,a){return[2,b,a]},b,c),m],f]];case
+f=a[4],c=a[3],g=a[2],d=a[1],i=ay(d),j=cC(d,g,c,f,b),k=V(c4(a[5],j),i),l=e8(d,g,c,b),m=U(function(b,a){return[2,b,a]},l,k);return[0,[0,[0,U(function(b,a){return[2,b,a]},b,c),m],f]];case
 1:var
-h=a[2],e=aW(a[1],h,b),n=[6,x(e,e)];return[0,[0,[0,U(function(b,a){return[2,b,a]},b,h),e],n]];default:return 0}}function
-mi(m,e,a){switch(a[0]){case
+h=a[2],e=aX(a[1],h,b),n=[6,x(e,e)];return[0,[0,[0,U(function(b,a){return[2,b,a]},b,h),e],n]];default:return 0}}function
+mq(m,e,a){switch(a[0]){case
 0:var
 n=a[5],c=G(m,a[1]);if(c){var
 d=c[1];if(d)var
-f=d[1],g=f[1],h=f[2],o=g[2],p=g[1],j=function(a){var
-b=c5(n),c=ac(a,o),d=U(function(b,a){return[3,b,a]},p,c);return U(function(b,a){return[2,b,a]},d,b)},q=j([5,a[4],h]),k=[0,[0,j([3,[0,b,b],[5,a[3],h]]),q]];else
+f=d[1],g=f[1],h=f[2],o=g[2],p=g[1],i=function(a){var
+b=c6(n),c=V(a,o),d=U(function(b,a){return[3,b,a]},p,c);return U(function(b,a){return[2,b,a]},d,b)},q=i([5,a[4],h]),k=[0,[0,i([3,[0,b,b],[5,a[3],h]]),q]];else
 var
 k=d;var
 l=k}else
 var
 l=c;return l;case
 1:var
-r=c5(a[3]);return[0,[0,c5(a[2]),r]];default:var
-s=i(e,c5(a[3]));return[0,[0,i(e,c5(a[2])),s]]}}function
-mj(d,a,c,b){var
-e=ac(a,b),f=ac([3,d,a],c);return U(function(b,a){return[2,b,a]},f,e)}function
-mk(a,l,c,k,j,y){var
-d=i(l,k);if(d){var
-m=d[1],e=i(l,j);if(e){var
-n=e[1],f=c[1],g=c[2],b=c[3],z=mj(b,g,n[1],n[2]),A=mj(b,f,m[1],m[2]),o=U(function(b,a){return[3,b,a]},A,z),B=d1(j),p=[4,b,[2,[2,d1(k),B],y]],q=h(a,1,b),r=q?h(a,0,f):q,s=r?h(a,0,[3,b,f]):r,t=s?h(a,0,g):s,u=t?h(a,0,[3,b,g]):t;if(u)return h(a,1,[3,[4,p,p],x(o,o)]);var
+r=c6(a[3]);return[0,[0,c6(a[2]),r]];default:var
+s=j(e,c6(a[3]));return[0,[0,j(e,c6(a[2])),s]]}}function
+mr(d,a,c,b){var
+e=V(a,b),f=V([3,d,a],c);return U(function(b,a){return[2,b,a]},f,e)}function
+ms(a,l,c,k,i,y){var
+d=j(l,k);if(d){var
+m=d[1],e=j(l,i);if(e){var
+n=e[1],f=c[1],g=c[2],b=c[3],z=mr(b,g,n[1],n[2]),A=mr(b,f,m[1],m[2]),o=U(function(b,a){return[3,b,a]},A,z),B=d2(i),p=[4,b,[2,[2,d2(k),B],y]],q=h(a,1,b),r=q?h(a,0,f):q,s=r?h(a,0,[3,b,f]):r,t=s?h(a,0,g):s,u=t?h(a,0,[3,b,g]):t;if(u)return h(a,1,[3,[4,p,p],x(o,o)]);var
 v=u}else
 var
 v=e;var
 w=v}else
 var
 w=d;return w}function
-ml(d,c,b,a,i,g,f,e){var
+mt(d,c,b,a,i,g,f,e){var
 j=h(d,1,b),k=j?h(d,1,a):j;if(k){var
 l=aq(c,f,f),m=[4,[4,a,a],[4,aq(c,g,g),l]];return h(d,1,[3,[4,[4,[4,b,b],[4,i,i]],aq(c,e,e)],m])}return k}function
-mm(i,g,c,f,y,a){function
+mu(i,g,c,f,y,a){function
 R(a){return[4,[4,[5,[0,b,b],a],[5,[0,b,b],a]],x(f,f)]}var
 N=0;if(typeof
 a==="number")N=1;else
 switch(a[0]){case
 0:var
-aG=e8(g,c,f);return h(i,1,[3,R(a[1]),aG]);case
+aG=e9(g,c,f);return h(i,1,[3,R(a[1]),aG]);case
 1:var
-aH=R(a[1]);return h(i,1,[3,e8(g,c,f),aH]);case
+aH=R(a[1]);return h(i,1,[3,e9(g,c,f),aH]);case
 2:var
-aI=a[2],aJ=function(a){return[3,aI,c4(a,c)]},A=aJ,z=a[1];break;case
+aI=a[2],aJ=function(a){return[3,aI,c5(a,c)]},A=aJ,z=a[1];break;case
 3:var
-aK=a[2],aL=function(a){return[3,c4(a,c),aK]},A=aL,z=a[1];break;case
+aK=a[2],aL=function(a){return[3,c5(a,c),aK]},A=aL,z=a[1];break;case
 4:var
 S=a[3],T=a[2],aM=function(a){var
-b=cc(a,c);return[3,[4,[4,T,T],x(cc(a,c),b)],[4,S,S]]},A=aM,z=a[1];break;case
+b=cd(a,c);return[3,[4,[4,T,T],x(cd(a,c),b)],[4,S,S]]},A=aM,z=a[1];break;case
 5:var
-V=a[1],aN=x(f,f),aO=[4,[4,V,V],[4,e8(g,c,y),aN]],aP=x(y,y);return h(i,1,[3,[4,e8(g,c,f),aP],aO]);case
+W=a[1],aN=x(f,f),aO=[4,[4,W,W],[4,e9(g,c,y),aN]],aP=x(y,y);return h(i,1,[3,[4,e9(g,c,f),aP],aO]);case
 6:var
-W=a[2],C=G(g,a[1]);if(C){var
+X=a[2],C=G(g,a[1]);if(C){var
 k=C[1];if(0===k[0]){var
-D=k[4],aQ=cA(k[1],k[2],k[3],D,c),X=c3(k[5],aQ);return h(i,1,[3,[4,[4,W,D],[4,W,D]],[4,X,X]])}var
-Y=0}else
+D=k[4],aQ=cC(k[1],k[2],k[3],D,c),Y=c4(k[5],aQ);return h(i,1,[3,[4,[4,X,D],[4,X,D]],[4,Y,Y]])}var
+Z=0}else
 var
-Y=C;return Y;case
+Z=C;return Z;case
 7:if(g){var
 p=g[2];if(p){var
 q=p[2];if(q){if(q[2])return 0;var
-Z=q[1],_=p[1],$=g[1],aR=ix(Z,c),aS=ix(_,c),aT=ix($,c),aa=[4,[4,[4,a[1],aT],aS],aR],l=cB(Z,c),m=cB(_,c),aU=cB($,c),O=x(aU,[0,[3,[4,m[2],l[3]],[4,m[3],l[2]]],[3,[4,m[3],l[1]],[4,m[1],l[3]]],[3,[4,m[1],l[2]],[4,m[2],l[1]]]]),ab=h(i,1,[3,aa,O]);if(ab)return h(i,1,[2,aa,O]);var
-ad=ab}else
+_=q[1],$=p[1],aa=g[1],aR=iH(_,c),aS=iH($,c),aT=iH(aa,c),ab=[4,[4,[4,a[1],aT],aS],aR],l=ce(_,c),m=ce($,c),aU=ce(aa,c),O=x(aU,[0,[3,[4,m[2],l[3]],[4,m[3],l[2]]],[3,[4,m[3],l[1]],[4,m[1],l[3]]],[3,[4,m[1],l[2]],[4,m[2],l[1]]]]),ac=h(i,1,[3,ab,O]);if(ac)return h(i,1,[2,ab,O]);var
+ad=ac}else
 var
 ad=q;var
 ae=ad}else
@@ -3206,17 +3206,17 @@ af=ae}else
 var
 af=g;return af;case
 8:var
-aV=e8(g,c,f),aX=x(f,f);return h(i,1,[3,[4,[5,a[2],a[1]],aX],aV]);case
+aV=e9(g,c,f),aW=x(f,f);return h(i,1,[3,[4,[5,a[2],a[1]],aW],aV]);case
 9:var
-ag=a[1],E=mg(g,c);if(E){var
+ag=a[1],E=mo(g,c);if(E){var
 aY=E[1],aA=[0,d,b],aB=an(function(a,b){var
 c=x(ay(a),f);return[2,[4,x(ay(a),f),c],b]},aA,aY);return h(i,1,[3,[4,[4,ag,ag],x(f,f)],aB])}return E;case
 10:var
-aZ=a[3],a0=a[2],a1=a[1],aC=function(b,a){return[2,b,a]},aD=function(a){return U(aC,c,a)},aE=e(function(a){return mh(a,c)},g);return mk(i,function(a){return mi(aE,aD,a)},f,a1,a0,aZ);case
+aZ=a[3],a0=a[2],a1=a[1],aC=function(b,a){return[2,b,a]},aD=function(a){return U(aC,c,a)},aE=e(function(a){return mp(a,c)},g);return ms(i,function(a){return mq(aE,aD,a)},f,a1,a0,aZ);case
 11:var
 ah=a[4],F=G(g,a[1]);if(F){var
-H=mh(F[1],c);if(H){var
-n=H[1][1][2],a2=c5(a[3]),a3=c5(a[2]),r=U(function(b,a){return[3,b,a]},a3,a2),ai=h(i,1,x(n,n));if(ai){var
+H=mp(F[1],c);if(H){var
+n=H[1][1][2],a2=c6(a[3]),a3=c6(a[2]),r=U(function(b,a){return[3,b,a]},a3,a2),ai=h(i,1,x(n,n));if(ai){var
 a4=x(n,n),a5=x(r,n),a6=[5,[4,x(r,n),a5],a4];return h(i,1,[3,[4,ah,ah],[3,x(r,r),a6]])}var
 aj=ai}else
 var
@@ -3229,9 +3229,9 @@ o=a[3],s=a[2],I=G(g,a[1]);if(I){var
 j=I[1],al=h(i,0,s),am=al?h(i,0,o):al;if(am){var
 a7=a[4];switch(j[0]){case
 0:var
-v=j[4],w=[5,v,[6,cA(j[1],j[2],j[3],v,c)]],J=[4,w,[2,s,[4,[5,[4,o,o],v],[4,w,w]]]];break;case
+v=j[4],w=[5,v,[6,cC(j[1],j[2],j[3],v,c)]],J=[4,w,[2,s,[4,[5,[4,o,o],v],[4,w,w]]]];break;case
 1:var
-P=j[2],Q=j[1],aF=aW(Q,P,c),J=[2,s,[5,[4,o,o],[6,x(aW(Q,P,c),aF)]]];break;default:var
+P=j[2],Q=j[1],aF=aX(Q,P,c),J=[2,s,[5,[4,o,o],[6,x(aX(Q,P,c),aF)]]];break;default:var
 J=s}var
 K=h(i,1,[3,J,a7])}else
 var
@@ -3247,7 +3247,7 @@ t=g[2];if(t){var
 u=t[2];if(u){if(u[2])return 0;var
 aq=u[1],ar=t[1],as=g[1],at=a[1],L=G([0,f[1],[0,f[2],[0,f[3],0]]],at);if(L){var
 M=G([0,as,[0,ar,[0,aq,0]]],at);if(M){var
-au=M[1],a8=cB(au,c),a9=cc(au,c),a_=cB(aq,c),a$=ac(f[3],a_),ba=cB(ar,c),bb=ac(f[2],ba),bc=cB(as,c),bd=ac(f[1],bc),be=U(function(b,a){return[2,b,a]},bd,bb),bf=U(function(b,a){return[2,b,a]},be,a$);return ml(i,x,a[2],a[3],L[1],bf,a9,a8)}var
+au=M[1],a8=ce(au,c),a9=cd(au,c),a_=ce(aq,c),a$=V(f[3],a_),ba=ce(ar,c),bb=V(f[2],ba),bc=ce(as,c),bd=V(f[1],bc),be=U(function(b,a){return[2,b,a]},bd,bb),bf=U(function(b,a){return[2,b,a]},be,a$);return mt(i,x,a[2],a[3],L[1],bf,a9,a8)}var
 av=M}else
 var
 av=L;var
@@ -3261,43 +3261,56 @@ az=ax}else
 var
 az=g;return az;case
 15:var
-bg=me(a[1],g,c,f),bh=x(f,f);return h(i,1,[3,[4,a[2],bh],bg]);default:N=1}if(N)return 0;var
+bg=mm(a[1],g,c,f),bh=x(f,f);return h(i,1,[3,[4,a[2],bh],bg]);default:N=1}if(N)return 0;var
 B=G(g,z);return B?h(i,1,A(B[1])):B}function
-bA(a){return[0,a[1][1],a[2][1],a[3][1]]}function
-mn(a){switch(a[0]){case
+e_(g,i,f,c,a){var
+m=e7(g,i,f,c);if(m)if(typeof
+a==="number")return 0===a?aj(function(e){var
+a=iG(e,c);return a?h(g,0,[3,[0,d,b],a[1]]):a},f):lu(tn,e(function(b){var
+a=ce(b,c);return[0,a[1],[0,a[2],[0,a[3],0]]]},f));else{if(0===a[0]){var
+j=G(i[3],a[1]);if(j){var
+p=j[1],q=mn(a[3]);return mu(g,f,c,mn(a[2]),q,p)}return j}var
+k=G(i[3],a[1]);if(k){var
+l=G(f,a[2]);if(l){var
+n=l[1],r=k[1],s=cd(n,c);return mu(g,f,c,cd(n,c),s,r)}var
+o=l}else
+var
+o=k;return o}return m}function
+bC(a){return[0,a[1][1],a[2][1],a[3][1]]}function
+mv(a){switch(a[0]){case
 0:var
-b=a[1],c=b[5],d=b[4][1],e=bA(b[3]),f=bA(b[2]);return[0,bA(b[1]),f,e,d,c];case
+b=a[1],c=b[5],d=b[4][1],e=bC(b[3]),f=bC(b[2]);return[0,bC(b[1]),f,e,d,c];case
 1:var
-g=z(bA,a[3]),h=bA(a[2]);return[1,bA(a[1]),h,g];default:return[2,bA(a[1])]}}function
-iy(a){return 0===a[0]?bA(a[1]):[0,a[1],a[2],a[4][1]]}function
-mo(b,a){var
-c=iy(a[2]);return gw(b,a,e(mn,a[1]),c)}function
-mp(b,a,c){var
-d=[0,c,aV(b,a)];return f(aI(b,a),d)}function
-bn(c,a){if(c){if(a){var
-e=bn(c[2],a[2]);return[2,[4,c[1],a[1]],e]}return[0,d,b]}return[0,d,b]}function
-mq(e,c,a){if(e){if(c){var
-f=c[1],g=mq(e[2],c[2],a),h=bn(f,a),i=[4,bn(f,a),h];return[2,[4,e[1],i],g]}return[0,d,b]}return[0,d,b]}function
-mr(b,a){if(b){if(a){var
-c=b[1],e=mr(b[2],a[2]),f=a[1],g=function(b,a){return[2,[4,c,b],a]},h=function(a){return a};return aK(function(a){return[4,c,a]},h,g,f,e)}var
+g=z(bC,a[3]),h=bC(a[2]);return[1,bC(a[1]),h,g];default:return[2,bC(a[1])]}}function
+iI(a){return 0===a[0]?bC(a[1]):[0,a[1],a[2],a[4][1]]}function
+mw(b,a){var
+c=iI(a[2]);return e7(b,a,e(mv,a[1]),c)}function
+iJ(b,a,c){var
+d=[0,c,aM(b,a)];return f(aB(b,a),d)}function
+bo(c,a){if(c){if(a){var
+e=bo(c[2],a[2]);return[2,[4,c[1],a[1]],e]}return[0,d,b]}return[0,d,b]}function
+mx(e,c,a){if(e){if(c){var
+f=c[1],g=mx(e[2],c[2],a),h=bo(f,a),i=[4,bo(f,a),h];return[2,[4,e[1],i],g]}return[0,d,b]}return[0,d,b]}function
+my(b,a){if(b){if(a){var
+c=b[1],e=my(b[2],a[2]),f=a[1],g=function(b,a){return[2,[4,c,b],a]},h=function(a){return a};return aN(function(a){return[4,c,a]},h,g,f,e)}var
 d=a}else
 var
 d=b;return d}function
-ms(b,c,a){var
-d=[0,c,aV([0,b],a)];return f(aI(b,a),d)}function
-mt(a,b){var
-e=p(a,te),c=e||p(a,tf),d=c?p(g(b),a):c;return d?m(function(b){return p(g(b),a)},b):d}function
-mu(a){if(a){var
+mz(b,c,a){var
+d=[0,c,aM([0,b],a)];return f(aB(b,a),d)}function
+mA(a,b){var
+e=q(a,to),c=e||q(a,tp),d=c?q(g(b),a):c;return d?m(function(b){return q(g(b),a)},b):d}function
+mB(a){if(a){var
 b=a[1];if(b){var
-c=b[1],d=mu(a[2]);return z(function(a){return[0,c,a]},d)}return b}return tg}function
-gx(a){if(a){var
+c=b[1],d=mB(a[2]);return z(function(a){return[0,c,a]},d)}return b}return tq}function
+gF(a){if(a){var
 b=a[1];if(b){var
-c=b[1],d=gx(a[2]);return z(function(a){return[0,c,a]},d)}return b}return th}function
-mv(a,l,k,f){var
-b=aC(a,l);if(b){var
-c=aC(a,k);if(c){var
-d=cU(a,f);if(d){var
-e=f9(a,f);if(e)var
+c=b[1],d=gF(a[2]);return z(function(a){return[0,c,a]},d)}return b}return tr}function
+mC(a,l,k,f){var
+b=aD(a,l);if(b){var
+c=aD(a,k);if(c){var
+d=cV(a,f);if(d){var
+e=gg(a,f);if(e)var
 m=t(a,b[1],e[1]),g=[0,E(t(a,c[1],d[1]),m)];else
 var
 g=e;var
@@ -3310,21 +3323,21 @@ i=c;var
 j=i}else
 var
 j=b;return j}function
-mw(a){return a?J(a[1][2],d):a}function
-cd(a){return a?J(d,a[1][1]):a}function
-mx(d,a){return h(d,0,[3,[0,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b))))))))),b],a])}function
-my(d,a){if(a){var
-b=aC(d,a[1]);if(b)var
-c=my(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
+mD(a){return a?J(a[1][2],d):a}function
+cf(a){return a?J(d,a[1][1]):a}function
+mE(d,a){return h(d,0,[3,[0,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b))))))))),b],a])}function
+mF(d,a){if(a){var
+b=aD(d,a[1]);if(b)var
+c=mF(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
 var
-e=b;return e}return ti}function
-gy(d,a){if(a){var
-b=my(d,a[1]);if(b)var
-c=gy(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
+e=b;return e}return ts}function
+gG(d,a){if(a){var
+b=mF(d,a[1]);if(b)var
+c=gG(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
 var
-e=b;return e}return tj}function
-mz(b,a){return an(function(c,a){return A(S(b,c),a)},u,a)}function
-mA(b,d){function
+e=b;return e}return tt}function
+mG(b,a){return an(function(c,a){return A(S(b,c),a)},u,a)}function
+mH(b,d){function
 c(e,d,c,a){var
 f=t(b,d,c);return E(t(b,e,a),f)}if(d){var
 e=d[1];if(e){var
@@ -3340,55 +3353,55 @@ n=m[2];if(n){if(n[2])return u;if(k[2])return u;var
 s=n[1],v=m[1],w=l[1],x=j[1],y=i[1],z=h[1],B=c(z,y,w,v),C=t(b,g[1],B),D=t(b,q,c(z,x,w,s));return A(E(t(b,r,c(y,x,v,s)),D),C)}return u}return u}return u}return u}return u}return u}return u}return u}if(a){var
 o=a[1];if(o){var
 p=o[2];return p?p[2]?u:a[2]?u:c(r,q,o[1],p[1]):u}return u}return u}return u}return u}return u}function
-mB(a,o,l,s,f,j){function
-a1(c,a){return[4,[4,[5,[0,b,b],c],[5,[0,b,b],c]],bn(a,a)]}var
+mI(a,o,l,s,f,i){function
+a1(c,a){return[4,[4,[5,[0,b,b],c],[5,[0,b,b],c]],bo(a,a)]}var
 bL=l[1];function
 B(c){var
 a=[0,d,b];return an(function(a,b){var
-d=bn(a,c);return[2,[4,bn(a,c),d],b]},a,bL)}function
+d=bo(a,c);return[2,[4,bo(a,c),d],b]},a,bL)}function
 C(f,e){var
 a=G(l[1],f);if(a){var
-b=a[1],c=p(g(b),o);if(c)return i(e,b);var
+b=a[1],c=q(g(b),o);if(c)return j(e,b);var
 d=c}else
 var
 d=a;return d}var
 a2=m(function(c){var
 b=0;if(typeof
-j==="number")b=1;else
-switch(j[0]){case
+i==="number")b=1;else
+switch(i[0]){case
 6:var
-a=tk;break;case
+a=tu;break;case
 13:case
 14:var
-a=tl;break;default:b=1}if(b)var
-a=o;return p(g(c),a)},f);if(a2){var
+a=tv;break;default:b=1}if(b)var
+a=o;return q(g(c),a)},f);if(a2){var
 v=0;if(typeof
-j==="number")v=1;else
-switch(j[0]){case
+i==="number")v=1;else
+switch(i[0]){case
 0:if(f){if(f[2])return 0;var
-a4=f[1],bM=B(a4);return h(a,1,[3,a1(j[1],a4),bM])}return f;case
+a4=f[1],bM=B(a4);return h(a,1,[3,a1(i[1],a4),bM])}return f;case
 1:if(f){if(f[2])return 0;var
-a5=f[1],bO=a1(j[1],a5);return h(a,1,[3,B(a5),bO])}return f;case
+a5=f[1],bN=a1(i[1],a5);return h(a,1,[3,B(a5),bN])}return f;case
 2:if(f)return 0;var
-bP=j[2],bQ=function(b){if(typeof
-b!=="number"&&0===b[0])return h(a,1,[3,bP,b[1]]);return 0},ai=bQ,ah=j[1];break;case
+bO=i[2],bP=function(b){if(typeof
+b!=="number"&&0===b[0])return h(a,1,[3,bO,b[1]]);return 0},ai=bP,ah=i[1];break;case
 3:if(f)return 0;var
-bR=j[2],bS=function(b){if(typeof
-b!=="number"&&0===b[0])return h(a,1,[3,b[1],bR]);return 0},ai=bS,ah=j[1];break;case
+bQ=i[2],bS=function(b){if(typeof
+b!=="number"&&0===b[0])return h(a,1,[3,b[1],bQ]);return 0},ai=bS,ah=i[1];break;case
 4:if(f)return 0;var
-a6=j[3],a7=j[2],bT=function(d){var
-i=p(s,0);if(typeof
+a6=i[3],a7=i[2],bT=function(d){var
+i=q(s,0);if(typeof
 d!=="number"&&1===d[0]){var
-e=d[2],f=d[1],g=h(a,0,[3,[2,a7,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b]],a6]);return g?i?mw(mv(a,f,e,a7)):cd(mv(a,f,e,a6)):g}return 0},ai=bT,ah=j[1];break;case
+e=d[2],f=d[1],g=h(a,0,[3,[2,a7,[0,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b)))))))))),b]],a6]);return g?i?mD(mC(a,f,e,a7)):cf(mC(a,f,e,a6)):g}return 0},ai=bT,ah=i[1];break;case
 5:if(f){var
 D=f[2];if(D){if(D[2])return 0;var
-ak=D[1],al=f[1],a8=j[1],bU=bn(al,al),bV=[4,[4,a8,a8],[4,B(ak),bU]],bW=bn(ak,ak);return h(a,1,[3,[4,B(al),bW],bV])}var
+ak=D[1],al=f[1],a8=i[1],bU=bo(al,al),bV=[4,[4,a8,a8],[4,B(ak),bU]],bW=bo(ak,ak);return h(a,1,[3,[4,B(al),bW],bV])}var
 a9=D}else
 var
 a9=f;return a9;case
 6:var
-a_=j[2],bX=j[3],bY=function(b){var
-c=[5,bX,a_],d=h(a,1,a_);return d?h(a,1,[3,bn(b,b),[4,c,c]]):d},a$=C(j[1],bY);if(a$){if(l[4]){if(f){var
+a_=i[2],bX=i[3],bY=function(b){var
+c=[5,bX,a_],d=h(a,1,a_);return d?h(a,1,[3,bo(b,b),[4,c,c]]):d},a$=C(i[1],bY);if(a$){if(l[4]){if(f){var
 F=f[1];if(F){if(F[2])return 0;if(f[2])return 0;var
 ba=F[1];return h(a,1,[4,ba,ba])}var
 bb=F}else
@@ -3398,11 +3411,11 @@ bc=1}else
 var
 bc=a$;return bc;case
 7:if(f){if(f[2])return 0;var
-bd=f[1],am=j[1],bZ=j[3],b0=j[2],ao=gx(l[7]);if(ao){var
+bd=f[1],am=i[1],bZ=i[3],b0=i[2],ao=gF(l[7]);if(ao){var
 H=ao[1],ap=G(bd,am);if(ap){var
-b1=ap[1],be=p(g(H),o),bf=be?m(function(a){return p(g(a),o)},H):be;if(bf){var
+b1=ap[1],be=q(g(H),o),bf=be?m(function(a){return q(g(a),o)},H):be;if(bf){var
 aq=G(H,am);if(aq){var
-b2=aq[1];return C(am,function(b){return ml(a,bn,b0,bZ,b1,mr(bd,H),b,b2)})}var
+b2=aq[1];return C(am,function(b){return mt(a,bo,b0,bZ,b1,my(bd,H),b,b2)})}var
 bg=aq}else
 var
 bg=bf;var
@@ -3416,14 +3429,14 @@ bj=bi}else
 var
 bj=f;return bj;case
 8:if(f){if(f[2])return 0;var
-ar=f[1],b3=mq(j[1],l[1],ar),b4=bn(ar,ar);return h(a,1,[3,[4,j[2],b4],b3])}return f;case
+ar=f[1],b3=mx(i[1],l[1],ar),b4=bo(ar,ar);return h(a,1,[3,[4,i[2],b4],b3])}return f;case
 9:if(f)return 0;var
-bk=j[3],bl=j[2],b5=function(e){var
+bk=i[3],bl=i[2],b5=function(e){var
 f=h(a,1,bl),g=f?h(a,0,bk):f;if(g){var
-b=aC(a,bn(e,e));if(b){var
-c=aC(a,[5,bk,bl]);if(c){var
-d=lf(a,c[1]);if(d){var
-l=S(a,d[1]);return cd([0,E(b[1],l)])}var
+b=aD(a,bo(e,e));if(b){var
+c=aD(a,[5,bk,bl]);if(c){var
+d=ln(a,c[1]);if(d){var
+l=S(a,d[1]);return cf([0,E(b[1],l)])}var
 i=d}else
 var
 i=c;var
@@ -3432,17 +3445,17 @@ var
 j=b;var
 k=j}else
 var
-k=g;return k};return C(j[1],b5);case
+k=g;return k};return C(i[1],b5);case
 10:if(f)return 0;var
-b6=j[2],b7=function(b){var
-c=[4,b6,b[3]],d=h(a,1,c);return d?h(a,1,[3,[4,c,c],[4,b[2],b[2]]]):d},bo=b7,bm=j[1];v=2;break;case
+b6=i[2],b7=function(b){var
+c=[4,b6,b[3]],d=h(a,1,c);return d?h(a,1,[3,[4,c,c],[4,b[2],b[2]]]):d},bn=b7,bm=i[1];v=2;break;case
 11:if(f)return 0;var
-b8=j[2],b9=function(e){var
-b=cU(a,b8);if(b){var
-c=aC(a,e[3]);if(c){var
-d=aC(a,e[2]);if(d){var
-f=t(a,b[1],c[1]),g=cd([0,f]);if(g){var
-k=S(a,d[1]);return cd([0,E(S(a,f),k)])}var
+b8=i[2],b9=function(e){var
+b=cV(a,b8);if(b){var
+c=aD(a,e[3]);if(c){var
+d=aD(a,e[2]);if(d){var
+f=t(a,b[1],c[1]),g=cf([0,f]);if(g){var
+k=S(a,d[1]);return cf([0,E(S(a,f),k)])}var
 h=g}else
 var
 h=d;var
@@ -3451,13 +3464,13 @@ var
 i=c;var
 j=i}else
 var
-j=b;return j},bo=b9,bm=j[1];v=2;break;case
+j=b;return j},bn=b9,bm=i[1];v=2;break;case
 12:if(f)return 0;var
-au=mu(l[3]);if(au){var
-bq=au[1],b_=j[1],br=bN(function(b,a){return[4,b,a[3]]},bq,b_),av=e(function(a){return a[1]},bq),w=function(d,c,b,a){return[3,[4,d,a],[4,c,b]]};if(av){var
+au=mB(l[3]);if(au){var
+bq=au[1],b_=i[1],br=bR(function(b,a){return[4,b,a[3]]},bq,b_),av=e(function(a){return a[1]},bq),w=function(d,c,b,a){return[3,[4,d,a],[4,c,b]]};if(av){var
 N=av[1];if(N){var
 O=N[2];if(O){var
-P=O[2],aD=O[1],aE=N[1],n=av[2];if(P)if(P[2]||!n)var
+P=O[2],aC=O[1],aE=N[1],n=av[2];if(P)if(P[2]||!n)var
 k=[0,d,b];else{var
 Q=n[1];if(Q){var
 R=Q[2];if(R){var
@@ -3466,7 +3479,7 @@ V=n[2];if(V){var
 W=V[1];if(W){var
 X=W[2];if(X){var
 Y=X[2];if(Y&&!(Y[2]||V[2]))var
-aF=Y[1],aG=X[1],aH=W[1],aI=T[1],aJ=R[1],aK=Q[1],bE=w(aK,aJ,aH,aG),bF=[4,P[1],bE],bG=[4,aD,w(aK,aI,aH,aF)],k=[2,[3,[4,aE,w(aJ,aI,aG,aF)],bG],bF];else
+aF=Y[1],aG=X[1],aH=W[1],aI=T[1],aJ=R[1],aK=Q[1],bE=w(aK,aJ,aH,aG),bF=[4,P[1],bE],bG=[4,aC,w(aK,aI,aH,aF)],k=[2,[3,[4,aE,w(aJ,aI,aG,aF)],bG],bF];else
 var
 k=[0,d,b]}else
 var
@@ -3483,7 +3496,7 @@ var
 k=[0,d,b]}else
 if(n){var
 Z=n[1];if(Z)var
-_=Z[2],k=_?_[2]?[0,d,b]:n[2]?[0,d,b]:w(aE,aD,Z[1],_[1]):[0,d,b];else
+_=Z[2],k=_?_[2]?[0,d,b]:n[2]?[0,d,b]:w(aE,aC,Z[1],_[1]):[0,d,b];else
 var
 k=[0,d,b]}else
 var
@@ -3499,19 +3512,19 @@ bt=bs}else
 var
 bt=au;return bt;case
 13:var
-b$=j[2],aw=G(l[4],j[1]);if(aw){var
+b$=i[2],aw=G(l[4],i[1]);if(aw){var
 ax=aw[1];if(ax){var
 bu=function(a){if(b$){var
-c=i(l[5],[0,[0,d,b],[0,d,b],[0,d,b]]),e=i(l[5],a);return U(function(b,a){return[3,b,a]},e,c)}return a},I=j[4],u=bu(c5(j[3])),J=ax[1][1][2],q=x(J,u);if(mx(a,I)){if(s){if(s[1])return 0;if(f){var
+c=j(l[5],[0,[0,d,b],[0,d,b],[0,d,b]]),e=j(l[5],a);return U(function(b,a){return[3,b,a]},e,c)}return a},I=i[4],u=bu(c6(i[3])),J=ax[1][1][2],r=x(J,u);if(mE(a,I)){if(s){if(s[1])return 0;if(f){var
 y=f[1];if(y){var
 z=y[2];if(z){var
 A=z[2];if(A){if(A[2])return 0;if(f[2])return 0;var
-$=bu([0,y[1],z[1],A[1]]),aL=x(J,$),aM=h(a,1,q);if(aM){var
-ab=cU(a,I);if(ab){var
-aN=ab[1],ac=aC(a,[4,x(u,u),[4,aL,aL]]);if(ac){var
-ad=aC(a,[4,[4,q,q],x($,$)]);if(ad){var
-aO=cd([0,aN]);if(aO){var
-bH=ad[1],bI=ac[1];return cd([0,E(t(a,S(a,aN),bI),bH)])}var
+$=bu([0,y[1],z[1],A[1]]),aL=x(J,$),aM=h(a,1,r);if(aM){var
+aa=cV(a,I);if(aa){var
+aN=aa[1],ac=aD(a,[4,x(u,u),[4,aL,aL]]);if(ac){var
+ad=aD(a,[4,[4,r,r],x($,$)]);if(ad){var
+aO=cf([0,aN]);if(aO){var
+bH=ad[1],bI=ac[1];return cf([0,E(t(a,S(a,aN),bI),bH)])}var
 aP=aO}else
 var
 aP=ad;var
@@ -3520,7 +3533,7 @@ var
 aQ=ac;var
 aR=aQ}else
 var
-aR=ab;var
+aR=aa;var
 aS=aR}else
 var
 aS=aM;var
@@ -3535,12 +3548,12 @@ var
 aV=y;var
 aW=aV}else
 var
-aW=f;return aW}return f?0:h(a,1,[3,[0,d,b],q])}if(s)return 0;if(f)return 0;var
-aX=h(a,0,[3,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b],I]);if(aX){var
-ae=cU(a,I);if(ae){var
-af=aC(a,q);if(af){var
-bJ=x(J,J),ag=aC(a,[6,[4,x(u,u),bJ]]);if(ag){var
-bK=t(a,ae[1],ag[1]);return mw([0,E(af[1],bK)])}var
+aW=f;return aW}return f?0:h(a,1,[3,[0,d,b],r])}if(s)return 0;if(f)return 0;var
+aX=h(a,0,[3,[0,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b)))))))))),b],I]);if(aX){var
+ae=cV(a,I);if(ae){var
+af=aD(a,r);if(af){var
+bJ=x(J,J),ag=aD(a,[6,[4,x(u,u),bJ]]);if(ag){var
+bK=t(a,ae[1],ag[1]);return mD([0,E(af[1],bK)])}var
 aY=ag}else
 var
 aY=af;var
@@ -3557,7 +3570,7 @@ bv=aw;return bv;case
 K=f[1];if(K){var
 L=K[2];if(L){var
 M=L[2];if(M){if(M[2])return 0;if(f[2])return 0;var
-ca=j[3],cb=j[2],cc=j[1],ce=[0,K[1],L[1],M[1]],cf=l[5],cg=l[4];return mk(a,function(a){return mi(cg,cf,a)},ce,cc,cb,ca)}var
+ca=i[3],cb=i[2],cc=i[1],cd=[0,K[1],L[1],M[1]],ce=l[5],cg=l[4];return ms(a,function(a){return mq(cg,ce,a)},cd,cc,cb,ca)}var
 bw=M}else
 var
 bw=L;var
@@ -3568,28 +3581,28 @@ by=bx}else
 var
 by=f;return by;case
 17:if(f)return 0;var
-bz=j[2],ay=j[1],ch=j[3],az=gx(l[7]);if(az){var
-aA=az[1],bA=mt(o,aA),bB=bA?p(g(bz),o):bA;if(bB){var
+bz=i[2],ay=i[1],ch=i[3],az=gF(l[7]);if(az){var
+aA=az[1],bA=mA(o,aA),bB=bA?q(g(bz),o):bA;if(bB){var
 aB=G(aA,ay);if(aB){var
 ci=aB[1];return C(ay,function(x){var
-e=gy(a,aA);if(e){var
-j=e[1],f=gy(a,[0,bz,[0,x,[0,ci,0]]]);if(f){var
+e=gG(a,aA);if(e){var
+j=e[1],f=gG(a,[0,bz,[0,x,[0,ci,0]]]);if(f){var
 b=f[1];if(b){var
 c=b[2];if(c){var
 d=c[2];if(d){if(d[2])return 0;var
-g=aC(a,ch);if(g){var
-k=g[1],l=S(a,mA(a,j)),h=mA(a,ms(ay,b[1],j)),m=cd([0,k]),n=m?cd([0,l]):m;if(n)var
-y=p(s,0)?h:aa(h),i=cd([0,y]);else
+g=aD(a,ch);if(g){var
+k=g[1],l=S(a,mH(a,j)),h=mH(a,mz(ay,b[1],j)),m=cf([0,k]),n=m?cf([0,l]):m;if(n)var
+y=q(s,0)?h:ab(h),i=cf([0,y]);else
 var
 i=n;if(i){var
-z=mz(a,c[1]),A=t(a,t(a,S(a,k),l),z),B=mz(a,d[1]);return cd([0,E(t(a,S(a,h),B),A)])}var
+z=mG(a,c[1]),A=t(a,t(a,S(a,k),l),z),B=mG(a,d[1]);return cf([0,E(t(a,S(a,h),B),A)])}var
 o=i}else
 var
 o=g;var
-q=o}else
+p=o}else
 var
-q=d;var
-r=q}else
+p=d;var
+r=p}else
 var
 r=c;var
 u=r}else
@@ -3611,88 +3624,88 @@ bD=az;return bD;default:v=1}switch(v){case
 a3=0;break;case
 2:var
 as=G(l[3],bm);if(as){var
-at=as[1];if(at)return bo(at[1]);var
+at=as[1];if(at)return bn(at[1]);var
 bp=at}else
 var
 bp=as;return bp;default:var
 aj=G(l[2],ah);return aj?ai(aj[1]):aj}}else
 var
 a3=a2;return a3}function
-gz(d,f,a){if(typeof
+gH(d,f,a){if(typeof
 a!=="number")switch(a[0]){case
 13:var
-e=a[4];if(mx(d,e)&&P(h(d,0,[3,e,[0,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b))))))))),b]])))return to;return tp;case
+e=a[4];if(mE(d,e)&&L(h(d,0,[3,e,[0,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b))))))))),b]])))return ty;return tz;case
 16:return f;case
 4:case
-17:return tn}return tm}function
-gA(e,d,g,f){var
+17:return tx}return tw}function
+gI(e,d,g,f){var
 b=g,a=f;for(;;){if(a){var
-c=a[1];if(aH(b,gz(e,d,c)))return[0,[0,c,b]];var
-h=a[2],b=dV(b,gz(e,d,c)),a=h;continue}return a}}function
-mC(a){return e(function(a){return[0,a,b]},a)}function
-iz(f,o,g,c,n,a){if(typeof
+c=a[1];if(aJ(b,gH(e,d,c)))return[0,[0,c,b]];var
+h=a[2],b=dW(b,gH(e,d,c)),a=h;continue}return a}}function
+mJ(a){return e(function(a){return[0,a,b]},a)}function
+iK(f,o,g,c,n,a){if(typeof
 a==="number"){if(0===a){var
-s=c[6];return ak(function(a){return h(f,0,[3,[0,d,b],a])},s)}var
-i=gx(c[7]);return i?lm(g,i[1]):i}else{if(0===a[0]){var
-j=gA(f,o,a[1],n);if(j){var
-p=j[1],t=p[1],u=e(mC,a[2]);return mB(f,g,c,p[2],u,t)}return j}var
-k=gA(f,o,a[1],n);if(k){var
+s=c[6];return aj(function(a){return h(f,0,[3,[0,d,b],a])},s)}var
+i=gF(c[7]);return i?lu(g,i[1]):i}else{if(0===a[0]){var
+j=gI(f,o,a[1],n);if(j){var
+p=j[1],t=p[1],u=e(mJ,a[2]);return mI(f,g,c,p[2],u,t)}return j}var
+k=gI(f,o,a[1],n);if(k){var
 q=k[1],l=q[1];if(typeof
 l!=="number"&&1===l[0]){var
-m=G(c[1],a[2]);return m?mB(f,g,c,q[2],[0,m[1],0],[1,l[1]]):m}var
+m=G(c[1],a[2]);return m?mI(f,g,c,q[2],[0,m[1],0],[1,l[1]]):m}var
 r=0}else
 var
 r=k;return r}}function
-iA(a){var
-b=ay(a[1]),c=ac(x(b,a[2]),b),d=a[2];return U(function(b,a){return[3,b,a]},d,c)}function
-iB(a){return ay(iA(a))}function
-mD(c){var
-a=iB(c),b=ay(c[1]);return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
-iC(a,b){return aW(a[3],a[4],b)}function
-iD(a,b){var
-c=iC(a,b);return x(iB(a),c)}function
-iE(a,b){var
-c=iC(a,b);return x(mD(a),c)}function
-mE(a,b){var
-c=iC(a,b);return x(ay(a[1]),c)}function
-iF(b,a){var
-c=iE(b,a),d=iD(b,a);return[2,[4,d,d],[4,c,c]]}function
-iG(a,d){var
-h=a[5],i=[4,[0,c(2,b),b],h],e=a[6],f=a[5],g=mE(a,d);return[5,[2,iF(a,d),[2,[4,g,g],[3,[4,f,f],[4,e,e]]]],i]}function
-mF(a,b){var
-f=a[5],c=[3,iG(a,b),f],d=mE(a,b),e=a[6];return[3,[3,[4,e,e],[4,d,d]],[4,c,c]]}function
-gB(a,b){var
-c=mF(a,b);return c3(a[7],c)}function
-mG(b,a){var
-c=iF(b,a),d=iE(b,a),e=[4,gB(b,a),d],f=iD(b,a);return[5,[2,[4,iG(b,a),f],e],c]}function
-mH(b,a){var
-c=iF(b,a),d=iD(b,a),e=[4,gB(b,a),d],f=iE(b,a);return[5,[3,[4,iG(b,a),f],e],c]}function
-iH(a,b){var
-c=mD(a),d=ac(mH(a,b),c),e=iB(a),f=ac(mG(a,b),e),g=U(function(b,a){return[2,b,a]},f,d),h=ac(a[5],g),i=a[3];return U(function(b,a){return[2,b,a]},i,h)}function
-mI(a){return[5,[3,[0,b,b],[4,a,a]],[2,[0,b,b],[4,a,a]]]}function
-mJ(a){return[5,[4,[0,c(2,b),b],a],[2,[0,b,b],[4,a,a]]]}function
-iI(a,c,b){var
-d=[4,mI(a),b],e=[2,[4,mJ(a),c],d],f=[4,mJ(a),b];return[0,[3,[4,mI(a),c],f],e]}function
-mK(c,a){var
-b=iI(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
-dz(b,a){return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
-mL(a,d){var
-e=x(a,a),f=dz(a,d),g=ac([0,c(2,b),b],f),h=x(a,d),i=ac([4,[0,c(2,b),b],h],a),j=ac([3,[0,b,b],e],d),k=U(function(b,a){return[2,b,a]},j,i);return ac([5,[0,b,b],[2,[0,b,b],e]],U(function(b,a){return[2,b,a]},k,g))}function
-cC(j,b,a){switch(j[0]){case
-0:return b?b[2]?a:mK(b[1],a):a;case
+iL(a){var
+b=ay(a[1]),c=V(x(b,a[2]),b),d=a[2];return U(function(b,a){return[3,b,a]},d,c)}function
+gJ(a){return ay(iL(a))}function
+iM(c){var
+a=gJ(c),b=ay(c[1]);return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
+gK(a,b){return aX(a[3],a[4],b)}function
+gL(a,b){var
+c=gK(a,b);return x(gJ(a),c)}function
+gM(a,b){var
+c=gK(a,b);return x(iM(a),c)}function
+mK(a,b){var
+c=gK(a,b);return x(ay(a[1]),c)}function
+gN(b,a){var
+c=gM(b,a),d=gL(b,a);return[2,[4,d,d],[4,c,c]]}function
+gO(a,d){var
+h=a[5],i=[4,[0,c(2,b),b],h],e=a[6],f=a[5],g=mK(a,d);return[5,[2,gN(a,d),[2,[4,g,g],[3,[4,f,f],[4,e,e]]]],i]}function
+mL(a,b){var
+f=a[5],c=[3,gO(a,b),f],d=mK(a,b),e=a[6];return[3,[3,[4,e,e],[4,d,d]],[4,c,c]]}function
+e$(a,b){var
+c=mL(a,b);return c4(a[7],c)}function
+mM(b,a){var
+c=gN(b,a),d=gM(b,a),e=[4,e$(b,a),d],f=gL(b,a);return[5,[2,[4,gO(b,a),f],e],c]}function
+mN(b,a){var
+c=gN(b,a),d=gL(b,a),e=[4,e$(b,a),d],f=gM(b,a);return[5,[3,[4,gO(b,a),f],e],c]}function
+iN(a,b){var
+c=iM(a),d=V(mN(a,b),c),e=gJ(a),f=V(mM(a,b),e),g=U(function(b,a){return[2,b,a]},f,d),h=V(a[5],g),i=a[3];return U(function(b,a){return[2,b,a]},i,h)}function
+mO(a){return[5,[3,[0,b,b],[4,a,a]],[2,[0,b,b],[4,a,a]]]}function
+mP(a){return[5,[4,[0,c(2,b),b],a],[2,[0,b,b],[4,a,a]]]}function
+iO(a,c,b){var
+d=[4,mO(a),b],e=[2,[4,mP(a),c],d],f=[4,mP(a),b];return[0,[3,[4,mO(a),c],f],e]}function
+mQ(c,a){var
+b=iO(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
+c7(b,a){return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
+mR(a,d){var
+e=x(a,a),f=c7(a,d),g=V([0,c(2,b),b],f),h=x(a,d),i=V([4,[0,c(2,b),b],h],a),j=V([3,[0,b,b],e],d),k=U(function(b,a){return[2,b,a]},j,i);return V([5,[0,b,b],[2,[0,b,b],e]],U(function(b,a){return[2,b,a]},k,g))}function
+cD(j,b,a){switch(j[0]){case
+0:return b?b[2]?a:mQ(b[1],a):a;case
 1:if(b){var
 c=b[2];if(c){var
 d=c[2];if(d){if(d[2])return a;var
-g=iI(b[1],a[2],a[3]),i=g[1],h=iI(c[1],g[2],a[1]);return mK(d[1],[0,h[2],i,h[1]])}return a}return a}return a;default:if(b){var
+g=iO(b[1],a[2],a[3]),i=g[1],h=iO(c[1],g[2],a[1]);return mQ(d[1],[0,h[2],i,h[1]])}return a}return a}return a;default:if(b){var
 e=b[2];if(e){var
-f=e[2];return f?f[2]?a:mL([0,b[1],e[1],f[1]],a):a}return a}return a}}function
-mM(c){var
-a=cw(c);return a?dZ(a[1],[0,d,b]):a}function
-mN(a,n,k,j){if(mM(j)){var
+f=e[2];return f?f[2]?a:mR([0,b[1],e[1],f[1]],a):a}return a}return a}}function
+mS(c){var
+a=cy(c);return a?d0(a[1],[0,d,b]):a}function
+mT(a,n,k,j){if(mS(j)){var
 q=n?[3,[0,d,b],k]:k;return h(a,0,q)}var
-f=aC(a,k);if(f){var
-g=cU(a,[5,j,[0,c(2,b),b]]);if(g){var
-i=f9(a,[5,j,[0,c(2,b),b]]);if(i)var
+f=aD(a,k);if(f){var
+g=cV(a,[5,j,[0,c(2,b),b]]);if(g){var
+i=gg(a,[5,j,[0,c(2,b),b]]);if(i)var
 p=t(a,f[1],g[1]),l=[0,E(i[1],p)];else
 var
 l=i;var
@@ -3703,24 +3716,24 @@ e=m}else
 var
 e=f;if(e){var
 o=e[1];return n?D(d,o[1]):D(o[2],d)}return e}function
-dA(b,a,c){var
-d=bt(b,a[1],a[2]),e=d?mN(b,0,c,a[1]):d;return e?mN(b,1,c,a[2]):e}function
-mO(h,f,c){if(mM(c))return[0,u];var
-a=F(h,h1(f)),d=cU(a,c);if(d){var
-e=f9(a,c);if(e){var
-i=e[1],j=d[1],k=b7(a,A(L(a,b),j));return z(function(b){return k8(f,t(a,i,b))},k)}var
+dB(b,a,c){var
+d=bu(b,a[1],a[2]),e=d?mT(b,0,c,a[1]):d;return e?mT(b,1,c,a[2]):e}function
+mU(h,f,c){if(mS(c))return[0,u];var
+a=F(h,h$(f)),d=cV(a,c);if(d){var
+e=gg(a,c);if(e){var
+i=e[1],j=d[1],k=b8(a,A(M(a,b),j));return z(function(b){return le(f,t(a,i,b))},k)}var
 g=e}else
 var
 g=d;return g}function
-c6(a){return function(b){return mO(a,d,b)}}function
-c7(d,a){var
-e=h(d,1,[2,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b],a]);return e?h(d,1,[3,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b],a]):e}function
-c8(a){return[0,[3,[0,d,b],a],a]}function
-mP(a,c,o,n){var
-h=bt(a,[0,d,b],c),j=h?c7(a,c):h;if(j){var
-e=i(c6(a),c);if(e){var
-f=aC(a,o);if(f){var
-g=aC(a,n);if(g){var
+c8(a){return function(b){return mU(a,d,b)}}function
+c9(d,a){var
+e=h(d,1,[2,[0,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b)))))))))),b],a]);return e?h(d,1,[3,[0,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b)))))))))),b],a]):e}function
+c_(a){return[0,[3,[0,d,b],a],a]}function
+mV(a,c,o,n){var
+h=bu(a,[0,d,b],c),i=h?c9(a,c):h;if(i){var
+e=j(c8(a),c);if(e){var
+f=aD(a,o);if(f){var
+g=aD(a,n);if(g){var
 p=f[1],q=g[1];return D(d,E(t(a,S(a,e[1]),q),p)[1])}var
 k=g}else
 var
@@ -3730,13 +3743,13 @@ var
 l=e;var
 m=l}else
 var
-m=j;return m}function
-cD(d,c,a){switch(c[0]){case
-0:return a?a[2]?0:dA(d,c[1],a[1]):a;case
+m=i;return m}function
+cg(d,c,a){switch(c[0]){case
+0:return a?a[2]?0:dB(d,c[1],a[1]):a;case
 1:if(a){var
 e=a[2];if(e){var
 f=e[2];if(f){if(f[2])return 0;var
-l=dA(d,c[1],a[1]),m=l?dA(d,c[2],e[1]):l;if(m)return dA(d,c[3],f[1]);var
+l=dB(d,c[1],a[1]),m=l?dB(d,c[2],e[1]):l;if(m)return dB(d,c[3],f[1]);var
 n=m}else
 var
 n=f;var
@@ -3749,7 +3762,7 @@ p=a;return p;case
 2:if(a){var
 g=a[2];if(g){var
 h=g[2];if(h){if(h[2])return 0;var
-q=h[1],r=g[1],s=a[1],C=x([0,s,r,q],[0,s,r,q]);return mP(d,c[1],C,[0,b,b])}var
+q=h[1],r=g[1],s=a[1],C=x([0,s,r,q],[0,s,r,q]);return mV(d,c[1],C,[0,b,b])}var
 t=h}else
 var
 t=g;var
@@ -3758,7 +3771,7 @@ var
 u=a;return u;default:if(a){var
 i=a[2];if(i){var
 j=i[2];if(j){if(j[2])return 0;var
-k=j[1],v=i[1],w=a[1],y=mP(d,c[1],[2,[4,w,w],[4,v,v]],[2,[0,b,b],[4,k,k]]);if(y)return dA(d,c8(c[2]),k);var
+k=j[1],v=i[1],w=a[1],y=mV(d,c[1],[2,[4,w,w],[4,v,v]],[2,[0,b,b],[4,k,k]]);if(y)return dB(d,c_(c[2]),k);var
 z=y}else
 var
 z=j;var
@@ -3768,88 +3781,88 @@ A=i;var
 B=A}else
 var
 B=a;return B}}var
-l=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))));function
-bB(b){var
+k=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))));function
+bD(b){var
 a=an(function(f,e){var
-a=aC(l,f);if(a)var
-b=a[1],c=bq(cm(b[1]),cm(b[2]));else
+a=aD(k,f);if(a)var
+b=a[1],c=br(co(b[1]),co(b[2]));else
 var
-c=d;return bq(c,e)},d,b);return J(d,a)?aG(kR(a),l):d}function
-ef(a){return[0,a[1],[0,a[2],0]]}function
+c=d;return br(c,e)},d,b);return J(d,a)?aI(kZ(a),k):d}function
+eg(a){return[0,a[1],[0,a[2],0]]}function
 a8(a){var
-b=ef(a[3]),c=f(ef(a[2]),b);return f(ef(a[1]),c)}function
-gC(a){return gv(l,a,bB(a8(a)))}function
-mQ(b,a){if(a){var
-g=mQ([0,b],a[2]),c=a[1];if(0===c[0])var
-d=c[1],e=c1([0,[0,d,d],c[2]],b);else
+b=eg(a[3]),c=f(eg(a[2]),b);return f(eg(a[1]),c)}function
+gP(a){return gE(k,a,bD(a8(a)))}function
+mW(b,a){if(a){var
+g=mW([0,b],a[2]),c=a[1];if(0===c[0])var
+d=c[1],e=c2([0,[0,d,d],c[2]],b);else
 var
 e=[0,[1,b]];var
 f=[0,e,g]}else
 var
 f=a;return f}function
-mR(c,b,a){var
-d=d1(b);return[2,[2,d1(c),d],a]}function
-gD(b,a){return b?Q(a):d}function
-e9(g,b,a){if(typeof
+mX(c,b,a){var
+d=d2(b);return[2,[2,d2(c),d],a]}function
+gQ(b,a){return b?Q(a):d}function
+fa(g,b,a){if(typeof
 a!=="number")switch(a[0]){case
 4:var
 i=a[3],j=a[2];return[0,[2,j],[0,[3,j],[0,[2,i],[0,[3,i],0]]]];case
 6:return[0,[0,[5,a[3],a[2]],d],0];case
 8:var
 q=a[2],r=a[1];return e(function(a){var
-c=gD(g,b);return[0,[5,q,a],F(gD(g,b),c)]},r);case
+c=gQ(g,b);return[0,[5,q,a],F(gQ(g,b),c)]},r);case
 9:return[0,[1,[5,a[3],a[2]],Q(b)],0];case
 10:return[0,[0,a[2],d],0];case
 11:return[0,[2,a[2]],0];case
 12:return[0,[0,a[1],d],0];case
 13:var
-c=a[3],h=bB([0,c[1],[0,c[2],[0,c[3],0]]]);return[0,[2,a[4]],[0,[0,c[1],h],[0,[0,c[2],h],[0,[0,c[3],h],0]]]];case
+c=a[3],h=bD([0,c[1],[0,c[2],[0,c[3],0]]]);return[0,[2,a[4]],[0,[0,c[1],h],[0,[0,c[2],h],[0,[0,c[3],h],0]]]];case
 14:var
-k=a[2],l=a[1],s=ed(b,k),t=f(ed(b,l),s),u=e(function(a){return[0,a[1][2],a[2]]},t);return[0,[0,mR(l,k,a[3]),b],u];case
+k=a[2],l=a[1],s=ee(b,k),t=f(ee(b,l),s),u=e(function(a){return[0,a[1][2],a[2]]},t);return[0,[0,mX(l,k,a[3]),b],u];case
 15:var
 m=a[4],n=a[3];return[0,[0,[5,a[2],m],d],[0,[0,[5,[4,n,n],m],b],0]];case
 16:var
-o=a[2],p=bB([0,o,0]);return[0,[4,a[3],aG(p,b)],[0,[0,o,p],0]];case
+o=a[2],p=bD([0,o,0]);return[0,[4,a[3],aI(p,b)],[0,[0,o,p],0]];case
 17:var
-v=a[3],w=a[2];return e(function(a){return[0,[5,a,v],gD(g,b)]},w);case
+v=a[3],w=a[2];return e(function(a){return[0,[5,a,v],gQ(g,b)]},w);case
 2:case
 3:return[0,[0,a[2],b],0]}return 0}function
-c9(h,c,b,e,a){if(a){var
-d=a[1],i=a[2],j=c9(h,c,b,R(e,g(e9(c,b,d))),i);return f(aq(h,mQ(e,e9(c,b,d)),d),j)}return a}function
-gE(b,a){var
-c=$(b,a);return e(function(a){var
+c$(h,c,b,e,a){if(a){var
+d=a[1],i=a[2],j=c$(h,c,b,R(e,g(fa(c,b,d))),i);return f(aq(h,mW(e,fa(c,b,d)),d),j)}return a}function
+gR(b,a){var
+c=aa(b,a);return e(function(a){var
 b=s(a[1][2],a[2]);return[0,a[1][1],b]},c)}function
-iJ(b,a){switch(a[0]){case
+iP(b,a){switch(a[0]){case
 0:var
 d=a[1];return ao(b,[0,[0,d,d],a[2]]);case
 1:var
-e=a[1],c=ao(b,[0,[0,e,e],a[2]]);return c?lf(b,c[1]):c;case
-2:return cU(b,a[1]);case
-3:return f9(b,a[1]);default:var
-f=a[1],g=c7(b,f);return g?mO(b,a[2],f):g}}function
-bu(a){return 1===a?tq:tr}function
-bU(d,c,b,a){var
-e=a[1],f=cC(d,c,a[2]),g=U(function(b,a){return[2,b,a]},b,f);return U(function(b,a){return[3,b,a]},g,e)}function
-iK(c,b,a){switch(c){case
+e=a[1],c=ao(b,[0,[0,e,e],a[2]]);return c?ln(b,c[1]):c;case
+2:return cV(b,a[1]);case
+3:return gg(b,a[1]);default:var
+f=a[1],g=c9(b,f);return g?mU(b,a[2],f):g}}function
+bv(a){return 1===a?tA:tB}function
+bW(d,c,b,a){var
+e=a[1],f=cD(d,c,a[2]),g=U(function(b,a){return[2,b,a]},b,f);return U(function(b,a){return[3,b,a]},g,e)}function
+iQ(c,b,a){switch(c){case
 0:return[0,b[1],[0,b[2],[0,a[3],0]]];case
 1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}}function
-iL(h,g,d,c,f,a){var
-e=bU(d,c,f,a);return iK(h,e,ac([5,[0,b,b],g],dz(cC(d,c,a[2]),e)))}function
-e_(c,j,i){var
+iR(h,g,d,c,f,a){var
+e=bW(d,c,f,a);return iQ(h,e,V([5,[0,b,b],g],c7(cD(d,c,a[2]),e)))}function
+fb(c,j,i){var
 b=j,a=i;for(;;){if(b){if(a){var
 d=a[1],e=b[1],f=bm(c,e[1],d[1]),g=f?bm(c,e[2],d[2]):f;if(g){var
 b=b[2],a=a[2];continue}var
 h=g}else
 var
 h=a;return h}return a?0:1}}function
-bv(b,d){var
+bw(b,d){var
 a=d[1];if(8===a[0]){var
-c=a[1][1];return 0===c[0]?[0,[0,R(b,c[1])]]:[0,bO(function(a){return bv(b,a)},a)]}return[0,bO(function(a){return bv(b,a)},a)]}function
-dB(d,b,h){var
+c=a[1][1];return 0===c[0]?[0,[0,R(b,c[1])]]:[0,bS(function(a){return bw(b,a)},a)]}return[0,bS(function(a){return bw(b,a)},a)]}function
+dC(d,b,h){var
 c=h;for(;;){var
 a=c[1];switch(a[0]){case
 0:var
-e=a[1],f=P(p(e,b));return f?P(p(e,R(d,b))):f;case
+e=a[1],f=L(q(e,b));return f?L(q(e,R(d,b))):f;case
 10:return 0;case
 1:case
 2:return 1;case
@@ -3857,31 +3870,31 @@ e=a[1],f=P(p(e,b));return f?P(p(e,R(d,b))):f;case
 8:case
 9:var
 c=a[1];continue;default:var
-g=dB(d,b,a[1]);if(g){var
+g=dC(d,b,a[1]);if(g){var
 c=a[2];continue}return g}}}function
-eg(c,b,m){var
+eh(c,b,m){var
 d=m;for(;;){var
 a=d[1];switch(a[0]){case
 5:var
 d=a[1];continue;case
 6:var
-f=a[2],g=a[1],h=dB(c,b,g),i=h?eg(c,b,f):h;if(i)var
+f=a[2],g=a[1],h=dC(c,b,g),i=h?eh(c,b,f):h;if(i)var
 j=i;else{var
-k=eg(c,b,g);if(k)return dB(c,b,f);var
+k=eh(c,b,g);if(k)return dC(c,b,f);var
 j=k}return j;case
 7:var
-l=eg(c,b,a[1]);return l?dB(c,b,a[2]):l;case
+l=eh(c,b,a[1]);return l?dC(c,b,a[2]):l;case
 10:return 0;case
 3:case
 4:var
-e=eg(c,b,a[1]);if(e){var
+e=eh(c,b,a[1]);if(e){var
 d=a[2];continue}return e;case
 8:case
-9:return dB(c,b,a[1]);default:return 1}}}function
+9:return dC(c,b,a[1]);default:return 1}}}function
 cE(c,e){var
 b=e;for(;;){var
 a=b[1];switch(a[0]){case
-0:return P(p(a[1],c));case
+0:return L(q(a[1],c));case
 10:return 0;case
 1:case
 2:return 1;case
@@ -3891,19 +3904,19 @@ a=b[1];switch(a[0]){case
 b=a[1];continue;default:var
 d=cE(c,a[1]);if(d){var
 b=a[2];continue}return d}}}function
-gF(d,b,m){var
+gS(d,b,m){var
 c=m;for(;;){var
 a=c[1];switch(a[0]){case
 3:var
-f=gF(d,b,a[1]);if(f){var
+f=gS(d,b,a[1]);if(f){var
 c=a[2];continue}return f;case
 4:var
-g=gF(d,b,a[1]);return g?cE(b,a[2]):g;case
+g=gS(d,b,a[1]);return g?cE(b,a[2]):g;case
 6:var
 h=a[2],i=a[1],j=cE(b,i);if(j){var
 k=cE(b,h);if(k)var
 e=k;else{var
-l=aJ(i,d);if(l){var
+l=aK(i,d);if(l){var
 c=h;continue}var
 e=l}}else
 var
@@ -3911,10 +3924,10 @@ e=j;return e;case
 0:case
 1:case
 2:return 1;default:return cE(b,c)}}}function
-gG(c,e){var
+gT(c,e){var
 b=e;for(;;){var
 a=b[1];switch(a[0]){case
-0:return aH(a[1],c);case
+0:return aJ(a[1],c);case
 10:return 0;case
 1:case
 2:return 1;case
@@ -3922,82 +3935,82 @@ a=b[1];switch(a[0]){case
 8:case
 9:var
 b=a[1];continue;default:var
-d=gG(c,a[1]);if(d){var
+d=gT(c,a[1]);if(d){var
 b=a[2];continue}return d}}}function
-gH(a,b){if(a){var
+gU(a,b){if(a){var
 c=a[2],d=a[1];if(b){var
-e=b[2];return b[1]?[0,d,gH(c,an(eU,e,k2(d)))]:[0,tu,gH(c,e)]}var
-f=[0,d,gH(c,0)]}else
+e=b[2];return b[1]?[0,d,gU(c,an(eU,e,k_(d)))]:[0,tE,gU(c,e)]}var
+f=[0,d,gU(c,0)]}else
 var
 f=a;return f}function
-c_(b,a){return a?i(b,a[1]):a}function
-c$(c,b,a){return c_(function(b){return c_(i(c,b),a)},b)}function
-mS(b,a){switch(a[0]){case
+da(b,a){return a?j(b,a[1]):a}function
+db(c,b,a){return da(function(b){return da(j(c,b),a)},b)}function
+mY(b,a){switch(a[0]){case
 0:return a;case
 1:return a[1];default:var
 c=a[3],d=a[2],e=a[1];switch(b){case
 0:return e;case
 1:return d;default:return c}}}function
-mT(a){return 0===a[0]?a[1]:0}function
-mU(d,c){var
+mZ(a){return 0===a[0]?a[1]:0}function
+m0(d,c){var
 b=d,a=c;for(;;){if(a){var
-e=a[2],b=mS(a[1],b),a=e;continue}return mT(b)}}function
-ce(b,a){switch(a[0]){case
-0:return[0,i(b,a[1])];case
-1:return[1,ce(b,a[1])];default:var
-c=ce(b,a[3]),d=ce(b,a[2]);return[2,ce(b,a[1]),d,c]}}function
-bo(b,c,a){switch(c[0]){case
-0:return ce(i(b,c[1]),a);case
+e=a[2],b=mY(a[1],b),a=e;continue}return mZ(b)}}function
+ch(b,a){switch(a[0]){case
+0:return[0,j(b,a[1])];case
+1:return[1,ch(b,a[1])];default:var
+c=ch(b,a[3]),d=ch(b,a[2]);return[2,ch(b,a[1]),d,c]}}function
+bp(b,c,a){switch(c[0]){case
+0:return ch(j(b,c[1]),a);case
 1:var
 d=c[1];switch(a[0]){case
 0:var
-k=a[1];return[1,ce(function(a){return aq(b,a,k)},d)];case
-1:return[1,bo(b,d,a[1])];default:var
-l=bo(b,d,a[3]),m=bo(b,d,a[2]);return[2,bo(b,d,a[1]),m,l]}default:var
+k=a[1];return[1,ch(function(a){return aq(b,a,k)},d)];case
+1:return[1,bp(b,d,a[1])];default:var
+l=bp(b,d,a[3]),m=bp(b,d,a[2]);return[2,bp(b,d,a[1]),m,l]}default:var
 e=c[3],f=c[2],g=c[1];switch(a[0]){case
 0:var
-n=a[1],o=function(a){return aq(b,a,n)},h=function(a){return ce(o,a)},p=h(e),q=h(f);return[2,h(g),q,p];case
+n=a[1],o=function(a){return aq(b,a,n)},h=function(a){return ch(o,a)},p=h(e),q=h(f);return[2,h(g),q,p];case
 1:var
-j=a[1],r=bo(b,e,j),s=bo(b,f,j);return[2,bo(b,g,j),s,r];default:var
-t=bo(b,e,a[3]),u=bo(b,f,a[2]);return[2,bo(b,g,a[1]),u,t]}}}function
-iM(c,f,a){if(a)var
+i=a[1],r=bp(b,e,i),s=bp(b,f,i);return[2,bp(b,g,i),s,r];default:var
+t=bp(b,e,a[3]),u=bp(b,f,a[2]);return[2,bp(b,g,a[1]),u,t]}}}function
+iS(c,f,a){if(a)var
 d=a[1],b=function(h){var
 a=[0,d[1],d[1]],b=[0,d[2],d[2]];switch(h){case
 0:var
 e=[0,a,S(c,a)];break;case
 1:var
 g=t(c,a,b),e=[0,as(A(a,b)),g];break;default:var
-e=[0,b,S(c,b)]}return[0,[0,i(f,e)]]},h=iM(c,f,a[2]),j=e(function(a){return[1,a]},h),k=b(2),l=b(1),g=[0,[2,b(0),l,k],j];else
+e=[0,b,S(c,b)]}return[0,[0,j(f,e)]]},h=iS(c,f,a[2]),i=e(function(a){return[1,a]},h),k=b(2),l=b(1),g=[0,[2,b(0),l,k],i];else
 var
 g=a;return g}function
-iN(b,x,c,a){var
-e=iM(b,aZ,a),d=0,y=f(iM(b,av,a),e);return bb(tw,function(a){switch(a[0]){case
-0:return q(a[1],y,[0,[0,u]]);case
-1:return[0,[0,q(a[1],x,u)]];case
-2:return[0,[0,L(b,a[1])]];case
+iT(b,x,c,a){var
+e=iS(b,aZ,a),d=0,y=f(iS(b,aw,a),e);return bb(tG,function(a){switch(a[0]){case
+0:return r(a[1],y,[0,[0,u]]);case
+1:return[0,[0,r(a[1],x,u)]];case
+2:return[0,[0,M(b,a[1])]];case
 3:var
-c=a[2],d=a[1],e=function(b,a){return[0,A(b,a)]};return bo(function(a,b){return c$(e,a,b)},d,c);case
+c=a[2],d=a[1],e=function(b,a){return[0,A(b,a)]};return bp(function(a,b){return db(e,a,b)},d,c);case
 4:var
-f=a[2],g=a[1],h=function(b,a){return[0,E(b,a)]};return bo(function(a,b){return c$(h,a,b)},g,f);case
+f=a[2],g=a[1],h=function(b,a){return[0,E(b,a)]};return bp(function(a,b){return db(h,a,b)},g,f);case
 5:var
-i=a[1],j=function(a){return[0,aa(a)]};return ce(function(a){return c_(j,a)},i);case
+i=a[1],j=function(a){return[0,ab(a)]};return ch(function(a){return da(j,a)},i);case
 6:var
-k=a[2],l=a[1],m=function(c,a){return[0,t(b,c,a)]};return bo(function(a,b){return c$(m,a,b)},l,k);case
+k=a[2],l=a[1],m=function(c,a){return[0,t(b,c,a)]};return bp(function(a,b){return db(m,a,b)},l,k);case
 7:var
 n=a[2],o=a[1],p=function(c,a){var
-d=b7(b,a);return z(function(a){return t(b,c,a)},d)};return bo(function(a,b){return c$(p,a,b)},o,n);case
+d=b8(b,a);return z(function(a){return t(b,c,a)},d)};return bp(function(a,b){return db(p,a,b)},o,n);case
 8:var
-r=a[1],s=function(a){return[0,S(b,a)]};return ce(function(a){return c_(s,a)},r);case
+q=a[1],s=function(a){return[0,S(b,a)]};return ch(function(a){return da(s,a)},q);case
 9:var
-v=a[1],w=function(a){return b8(b,a)};return ce(function(a){return c_(w,a)},v);default:return tv}},c,d)}function
-gI(a){if(a){var
+v=a[1],w=function(a){return b9(b,a)};return ch(function(a){return da(w,a)},v);default:return tF}},c,d)}function
+gV(a){if(a){var
 b=a[1];if(b)var
-c=gI(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+c=gV(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return tx}function
-eh(a){if(a){var
-g=a[1],b=g[2],c=gI(g[1]);if(c)if(b){var
-h=b[1],e=eh(a[2]);if(e)var
+d=b;return d}return tH}function
+ei(a){if(a){var
+g=a[1],b=g[2],c=gV(g[1]);if(c)if(b){var
+h=b[1],e=ei(a[2]);if(e)var
 i=J(d,h[1]),j=i?[0,[0,[0,c[1],h],e[1]]]:i;else
 var
 j=e;var
@@ -4005,56 +4018,56 @@ f=j}else
 var
 f=b;else
 var
-f=c;return f}return ty}function
-ei(b,a){var
+f=c;return f}return tI}function
+ej(b,a){var
 c=a[3],d=z(function(a){var
-c=a[2],d=a[1][2];return[0,[0,i(b,a[1][1]),d],c]},c),e=i(b,a[2]),f=a[1];return[0,i(aw(b),f),e,d]}function
-iO(c,g,f,b,a,e){if(b){var
+c=a[2],d=a[1][2];return[0,[0,j(b,a[1][1]),d],c]},c),e=j(b,a[2]),f=a[1];return[0,j(au(b),f),e,d]}function
+iU(c,g,f,b,a,e){if(b){var
 h=b[1],l=b[2],d=function(b,a){var
-d=jR(c,eO,eO,function(a){return mS(b,a)},e);return iO(c,g,bx(f),l,a,d)},i=d(0,aG(a,h));if(i){var
+d=jZ(c,eO,eO,function(a){return mY(b,a)},e);return iU(c,g,by(f),l,a,d)},i=d(0,aI(a,h));if(i){var
 j=d(2,F(a,h));if(j)return f?1:d(1,a);var
 k=j}else
 var
-k=i;return k}return aq(g,a,jR(c,eO,eO,mT,e))}function
-iP(e,c,b,a){var
+k=i;return k}return aq(g,a,jZ(c,eO,eO,mZ,e))}function
+iV(e,c,b,a){var
 f=al(d,b);function
-g(b){return a}return function(a){return iO(e,g,c,f,d,a)}}function
-da(a){if(a){var
-b=a[1],c=b[1],d=c[1],e=b[2],f=c[2];return z(function(a){return aP(f,e,a)},d)}return[0,u]}function
-mV(f,e,k,j,i,a){var
-b=eh(a[1]);if(b){var
+g(b){return a}return function(a){return iU(e,g,c,f,d,a)}}function
+dc(a){if(a){var
+b=a[1],c=b[1],d=c[1],e=b[2],f=c[2];return z(function(a){return aS(f,e,a)},d)}return[0,u]}function
+m1(f,e,k,j,i,a){var
+b=ei(a[1]);if(b){var
 c=a[2];if(c){var
-d=da(a[3]);if(d){var
-l=d[1],m=al([0,E(aa(t(f,i,c[1])),l),0],e);return a5(f,e,f$(k,j,b[1],m))}var
+d=dc(a[3]);if(d){var
+l=d[1],m=al([0,E(ab(t(f,i,c[1])),l),0],e);return a5(f,e,gi(k,j,b[1],m))}var
 g=d}else
 var
 g=c;var
 h=g}else
 var
 h=b;return h}function
-mW(i,d,h,g,c){var
-a=eh(c[1]);if(a){var
-b=da(c[3]);if(b){var
-j=al([0,E(u,b[1]),0],d),k=a[1];return a5(i,d,f$(h,g,e(function(a){return[0,a[1],u]},k),j))}var
+m2(i,d,h,g,c){var
+a=ei(c[1]);if(a){var
+b=dc(c[3]);if(b){var
+j=al([0,E(u,b[1]),0],d),k=a[1];return a5(i,d,gi(h,g,e(function(a){return[0,a[1],u]},k),j))}var
 f=b}else
 var
 f=a;return f}function
-mX(a,c,D,i){var
-j=eh(i[1]);if(j){var
+m3(a,c,D,i){var
+j=ei(i[1]);if(j){var
 k=i[2];if(k){var
-l=da(i[3]);if(l){var
+l=dc(i[3]);if(l){var
 G=l[1],e=E(t(a,D,k[1]),G),b=j[1];if(b){var
 m=b[1],n=m[2];if(b[2]){var
-f=ga(a,b,al([0,e,0],c));if(f){var
-o=f[1],q=p(g(o),c);if(q)return d6(a,o);var
-r=q}else
+f=gj(a,b,al([0,e,0],c));if(f){var
+o=f[1],p=q(g(o),c);if(p)return d7(a,o);var
+r=p}else
 var
 r=f;return r}var
 s=J(d,e[1]),u=s?J(d,n[1]):s;if(u){var
-A=B(e[1],n[1]),C=m[1];return J(an(function(a,b){var
-c=b9(a);return F(B(b9(a),c),b)},d,C),A)}return u}var
-h=ga(a,b,al([0,e,0],c));if(h){var
-v=h[1],w=p(g(v),c);if(w)return d6(a,v);var
+A=C(e[1],n[1]),B=m[1];return J(an(function(a,b){var
+c=b_(a);return F(C(b_(a),c),b)},d,B),A)}return u}var
+h=gj(a,b,al([0,e,0],c));if(h){var
+v=h[1],w=q(g(v),c);if(w)return d7(a,v);var
 x=w}else
 var
 x=h;return x}var
@@ -4064,136 +4077,184 @@ y=k;var
 z=y}else
 var
 z=j;return z}function
-tz(c){var
+tJ(c){var
 a=c[2];if(a){var
-b=da(c[3]);if(b)return D(d,E(a[1],b[1])[1]);var
+b=dc(c[3]);if(b)return D(d,E(a[1],b[1])[1]);var
 e=b}else
 var
 e=a;return e}function
-iQ(a){return y(function(a){return f(a[1],[0,a[2],0])},a)}function
-mY(a,c,b){var
-e=q(b,c,k(d)),f=aB(0,a);return m(function(b){return eg(a,b,e)},f)}function
-e$(a){var
-c=T(a);return C(k(b),c)}function
-gJ(i,g){var
-h=e$(g),j=T(g),e=w(k(b),j),f=s(k(c(2,b)),g),a=k(d);return i?i[1]?[0,[0,e,bk(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,bk(f),a,e]]:[0,[0,h,a,a],[0,a,e,bk(f)],[0,a,f,e]]}function
-fa(b,a){var
-c=X(b[3],a),d=X(b[2],a);return[0,X(b[1],a),d,c]}function
-mZ(b,a){function
+iW(a){return y(function(a){return f(a[1],[0,a[2],0])},a)}function
+m4(a,c,b){var
+e=r(b,c,l(d)),f=aC(0,a);return m(function(b){return eh(a,b,e)},f)}function
+fc(a){var
+c=T(a);return B(l(b),c)}function
+gW(i,g){var
+h=fc(g),j=T(g),e=w(l(b),j),f=s(l(c(2,b)),g),a=l(d);return i?i[1]?[0,[0,e,bk(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,bk(f),a,e]]:[0,[0,h,a,a],[0,a,e,bk(f)],[0,a,f,e]]}function
+fd(b,a){var
+c=Y(b[3],a),d=Y(b[2],a);return[0,Y(b[1],a),d,c]}function
+m5(b,a){function
 c(b){var
-c=i(b,a[3]),d=i(b,a[2]);return[0,i(b,a[1]),d,c]}function
+c=j(b,a[3]),d=j(b,a[2]);return[0,j(b,a[1]),d,c]}function
 d(a){var
-b=X(a,c(function(a){return a[3]})),d=X(a,c(function(a){return a[2]}));return[0,X(a,c(function(a){return a[1]})),d,b]}var
+b=Y(a,c(function(a){return a[3]})),d=Y(a,c(function(a){return a[2]}));return[0,Y(a,c(function(a){return a[1]})),d,b]}var
 e=d(b[3]),f=d(b[2]);return[0,d(b[1]),f,e]}function
-m0(v,u){function
+m6(v,u){function
 a(a){return[0,[0,R(u,a)]]}switch(v[0]){case
 0:var
-x=e$(a(0));return[0,gJ(tA,a(0)),x];case
+x=fc(a(0));return[0,gW(tK,a(0)),x];case
 1:var
-y=e$(a(0)),z=s(e$(a(tB)),y),A=s(e$(a(tC)),z),B=gJ(0,a(0)),D=mZ(gJ(tE,a(tD)),B);return[0,mZ(gJ(tG,a(tF)),D),A];default:var
-E=a(tH),F=a(tI),g=[0,a(0),F,E],G=X(g,g),H=C(k(b),G),j=X(g,g),d=g[1],e=g[2],f=g[3],i=function(a){var
-d=T(a),e=s(k(c(2,b)),d);return C(w(k(b),j),e)},h=function(f,e,d,a){var
-g=aq(f,s(e,d),a);return s(k(c(2,b)),g)},l=i(f),m=h(C,e,f,d),n=[0,h(w,d,f,e),m,l],o=h(w,e,f,d),p=i(e),q=[0,h(C,d,e,f),p,o],r=h(C,d,f,e),t=h(w,d,e,f);return[0,[0,[0,i(d),t,r],q,n],H]}}function
-m1(a){return 1<a[0]?[0,a[1],0]:0}function
-gK(a){switch(a[0]){case
+y=fc(a(0)),z=s(fc(a(tL)),y),A=s(fc(a(tM)),z),C=gW(0,a(0)),D=m5(gW(tO,a(tN)),C);return[0,m5(gW(tQ,a(tP)),D),A];default:var
+E=a(tR),F=a(tS),g=[0,a(0),F,E],G=Y(g,g),H=B(l(b),G),j=Y(g,g),d=g[1],e=g[2],f=g[3],i=function(a){var
+d=T(a),e=s(l(c(2,b)),d);return B(w(l(b),j),e)},h=function(f,e,d,a){var
+g=aq(f,s(e,d),a);return s(l(c(2,b)),g)},k=i(f),m=h(B,e,f,d),n=[0,h(w,d,f,e),m,k],o=h(w,e,f,d),p=i(e),q=[0,h(B,d,e,f),p,o],r=h(B,d,f,e),t=h(w,d,e,f);return[0,[0,[0,i(d),t,r],q,n],H]}}function
+m7(a){return 1<a[0]?[0,a[1],0]:0}function
+gX(a){switch(a[0]){case
 0:return[0,a[1],0];case
 1:return[0,a[1],[0,a[2],[0,a[3],0]]];case
-2:return[0,c8(a[1]),0];default:var
-b=[0,c8(a[2]),0];return[0,c8(a[1]),b]}}function
-ej(a){return[0,[0,a[1]],[0,a[2]]]}function
-m2(a){switch(a[0]){case
-0:return[0,ej(a[1]),0];case
+2:return[0,c_(a[1]),0];default:var
+b=[0,c_(a[2]),0];return[0,c_(a[1]),b]}}function
+ek(a){return[0,[0,a[1]],[0,a[2]]]}function
+m8(a){switch(a[0]){case
+0:return[0,ek(a[1]),0];case
 1:var
-f=[0,ej(a[3]),0],g=[0,ej(a[2]),f];return[0,ej(a[1]),g];case
+f=[0,ek(a[3]),0],g=[0,ek(a[2]),f];return[0,ek(a[1]),g];case
 2:var
-b=ej(c8(a[1]));return[0,b,[0,b,[0,b,0]]];default:var
-c=a[2],d=a[1],e=[0,[1,c8(d)[1],c],[1,d,c]];return[0,e,[0,e,[0,ej(c8(c)),0]]]}}function
-m3(a,c){if(0===c[0]){var
-g=c[1];return i(c6(a),g)}var
-h=c[1],d=i(c6(a),h);if(d){var
-j=c[2],e=i(c6(a),j);if(e){var
-k=S(a,e[1]),l=b8(a,A(L(a,b),k)),m=d[1];return z(function(b){return t(a,m,b)},l)}var
+b=ek(c_(a[1]));return[0,b,[0,b,[0,b,0]]];default:var
+c=a[2],d=a[1],e=[0,[1,c_(d)[1],c],[1,d,c]];return[0,e,[0,e,[0,ek(c_(c)),0]]]}}function
+m9(a,c){if(0===c[0]){var
+g=c[1];return j(c8(a),g)}var
+h=c[1],d=j(c8(a),h);if(d){var
+i=c[2],e=j(c8(a),i);if(e){var
+k=S(a,e[1]),l=b9(a,A(M(a,b),k)),m=d[1];return z(function(b){return t(a,m,b)},l)}var
 f=e}else
 var
 f=d;return f}function
-m4(d,c){var
-a=m3(d,c[1]);if(a)var
-b=m3(d,c[2]),f=b?[0,[0,a[1][1],b[1][2]]]:b,e=f;else
+m_(d,c){var
+a=m9(d,c[1]);if(a)var
+b=m9(d,c[2]),f=b?[0,[0,a[1][1],b[1][2]]]:b,e=f;else
 var
 e=a;return e}function
-m5(a,e,c){var
+m$(a,e,c){var
 b=c[1];if(1===b[0]){var
-f=b[1];if(aH(f,a))return c;var
-g=k(d);return q(dV(f,a),e,g)}return[0,bO(function(b){return m5(a,e,b)},b)]}function
-iR(g,a,n,f,c){var
-h=g?[0,a,[0,[0,a],[0,[0,[0,a]],0]]]:[0,a,[0,[0,a],0]],i=lY(h,c),j=bQ(f),b=e(function(b){return m5(a,j,b)},i),l=q(tN,b,k(d)),m=q(tO,b,k(d));return[0,q(0,b,k(d)),m,l]}function
-cf(b,a){var
+f=b[1];if(aJ(f,a))return c;var
+g=l(d);return r(dW(f,a),e,g)}return[0,bS(function(b){return m$(a,e,b)},b)]}function
+iX(g,a,n,f,c){var
+h=g?[0,a,[0,[0,a],[0,[0,[0,a]],0]]]:[0,a,[0,[0,a],0]],i=l6(h,c),j=bU(f),b=e(function(b){return m$(a,j,b)},i),k=r(tX,b,l(d)),m=r(tY,b,l(d));return[0,r(0,b,l(d)),m,k]}function
+bE(b,a){var
 c=s(b[2],a[1]),d=w(s(b[1],a[2]),c),e=s(b[1],a[3]),f=w(s(b[3],a[1]),e),g=s(b[3],a[2]);return[0,w(s(b[2],a[3]),g),f,d]}function
-dC(b,a){return b?b[1]?a[3]:a[2]:a[1]}function
-m6(c){function
+dD(b,a){return b?b[1]?a[3]:a[2]:a[1]}function
+na(c){function
 a(a){var
-e=p(c,a)?b:d;return k(e)}var
-e=a(tP),f=a(tQ);return[0,a(0),f,e]}function
-m7(b,a){if(a)var
-d=m7(b,a[2]),c=[0,e(i(b,a[1]),a),d];else
+e=q(c,a)?b:d;return l(e)}var
+e=a(tZ),f=a(t0);return[0,a(0),f,e]}function
+nb(b,a){if(a)var
+d=nb(b,a[2]),c=[0,e(j(b,a[1]),a),d];else
 var
 c=a;return c}function
-gL(c,b,a){switch(c){case
+gY(c,b,a){switch(c){case
 0:return[0,b[1],[0,b[2],[0,a[3],0]]];case
 1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}}function
-m8(b,c,a){return c?aV(b,a):aI(b,a)}function
-m9(a){if(a){var
-f=a[1],b=f[2],c=gI(f[1]);if(c)if(b)var
-d=m9(a[2]),g=d?[0,[0,[0,c[1],b[1]],d[1]]]:d,e=g;else
+nc(b,c,a){return c?aM(b,a):aB(b,a)}function
+nd(a){if(a){var
+f=a[1],b=f[2],c=gV(f[1]);if(c)if(b)var
+d=nd(a[2]),g=d?[0,[0,[0,c[1],b[1]],d[1]]]:d,e=g;else
 var
 e=b;else
 var
-e=c;return e}return t1}function
-m_(c,b,a){var
-d=$(b,a);return an(function(a,d){var
-b=b9(a[2]);return A(t(c,a[1],[0,b,b]),d)},u,d)}function
-m$(a,h,e,f,d){if(e)if(d)var
-i=d[1],o=m$(a,h,e[2],f,d[2]),p=i[2],q=aV(h,i[1]),c=e[1],j=as(t(a,c[3],f)),k=c[3],l=A(as(d2(p,L(a,b),k)),j),m=t(a,c[2],l),n=t(a,c[1],f),g=[0,cs(A(A(as(m_(a,c[4],q)),n),m)),o];else
+e=c;return e}return t$}function
+ne(c,b,a){var
+d=aa(b,a);return an(function(a,d){var
+b=b_(a[2]);return A(t(c,a[1],[0,b,b]),d)},u,d)}function
+nf(a,h,e,f,d){if(e)if(d)var
+i=d[1],o=nf(a,h,e[2],f,d[2]),p=i[2],q=aM(h,i[1]),c=e[1],j=as(t(a,c[3],f)),k=c[3],l=A(as(d3(p,M(a,b),k)),j),m=t(a,c[2],l),n=t(a,c[1],f),g=[0,cu(A(A(as(ne(a,c[4],q)),n),m)),o];else
 var
 g=d;else
 var
 g=e;return g}function
-t3(a){return[0,a[1][1],a[2][1][2][1],a[1][2],a[2][2]]}function
-na(b,a){return ab(e(function(a){return q(a,b,0)},a))}function
+ub(a){return[0,a[1][1],a[2][1][2][1],a[1][2],a[2][2]]}function
+ng(b,a){return ac(e(function(a){return r(a,b,0)},a))}function
 cF(a){switch(a){case
-0:return t7;case
-1:return t8;default:return 0}}function
-dD(a){switch(a){case
-0:return[0,t_,t9,k(d)];case
-1:return dv;default:var
-b=k(d),c=k(d);return[0,k(d),c,b]}}function
-gM(c,b,a){return bl(fa(c,a),b)}function
-nb(a){var
-d=X(a,a),e=C(k(b),d);return am(k(c(2,b)),e)}function
-nc(k,j,i,h,g,a){var
-e=gM(j,i,g),c=cf(a,e),f=ah(C,c,cf(a,c)),d=ah(C,e,a0(nb(a),f)),b=ah(w,ah(C,dD(k),d),h);return[0,[0,d,b],aE(X(b,b))]}function
-bV(e,j){var
+0:return uf;case
+1:return ug;default:return 0}}function
+dE(a){switch(a){case
+0:return[0,ui,uh,l(d)];case
+1:return dx;default:var
+b=l(d),c=l(d);return[0,l(d),c,b]}}function
+gZ(c,b,a){return bl(fd(c,a),b)}function
+nh(a){var
+d=Y(a,a),e=B(l(b),d);return am(l(c(2,b)),e)}function
+ni(k,j,i,h,g,a){var
+e=gZ(j,i,g),c=bE(a,e),f=af(B,c,bE(a,c)),d=af(B,e,a0(nh(a),f)),b=af(w,af(B,dE(k),d),h);return[0,[0,d,b],aF(Y(b,b))]}function
+aL(a){return typeof
+a==="number"?a?uj:uk:bv(a[1])}function
+iY(b,a,c){return typeof
+b==="number"?b?[0,a[1],[0,a[2],0]]:[0,a[1],[0,a[2],[0,a[3],0]]]:iQ(b[1],a,c)}function
+fe(a){if(0===a[0]){var
+c=a[1];switch(c[0]){case
+0:return c[3];case
+1:return c[2];default:return[0,[0,d,b],[0,d,b],[0,d,b]]}}return a[1][4]}function
+ff(b,c,a){return b?cD(b[1],c,a):a}function
+bF(d,c,b,a){var
+e=fe(a),f=ff(d,c,fe(a)),g=U(function(b,a){return[2,b,a]},b,f);return U(function(b,a){return[3,b,a]},g,e)}function
+nj(b,a){var
+c=typeof
+b==="number"?1:0;if(c){if(b)return[0,a[1],[0,a[2],0]];var
+d=[0,a[1],[0,a[2],[0,a[3],0]]]}else
+var
+d=c;return d}function
+iZ(b,w,v){var
+e=w,d=v;for(;;){if(e){if(d){var
+f=d[1],j=e[1];if(0===j[0])var
+g=0===f[0]?ml(b,j[1],f[1]):0;else
+if(0===f[0])var
+g=0;else{var
+a=f[1],c=j[1],k=bm(b,c[1],a[1]),l=k?bm(b,c[2],a[2]):k,m=l?bm(b,c[3],a[3]):l,n=m?bm(b,c[4],a[4]):m,o=n?c3(b,c[5],a[5]):n,p=o?c3(b,c[6],a[6]):o,q=p?h(b,1,a[5]):p,r=q?h(b,1,a[6]):q,s=r?h(b,1,x(a[1],a[1])):r;if(s)var
+u=iL(a),i=h(b,1,x(iL(a),u));else
+var
+i=s;var
+g=i?cq(c[7],a[7]):i}if(g){var
+e=e[2],d=d[2];continue}var
+t=g}else
+var
+t=d;return t}return d?0:1}}function
+nk(v,m,l){if(l){var
+a=l[1],e=function(c,a){return h(v,1,[3,[0,a,b],c])},g=function(a){return[3,a[2],a[1]]};switch(a[0]){case
+0:var
+n=c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b)))))))))),f=e(g(a[1]),n);break;case
+1:var
+j=a[2],o=c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b))))))))),k=e([3,[0,d,b],j[1]],o);if(k)var
+q=c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b))))))))),i=e(j[2],q);else
+var
+i=k;if(i)var
+r=c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b)))))))))),s=g(a[3]),f=e([2,g(a[1]),s],r);else
+var
+f=i;break;case
+2:var
+t=c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b))))))))),f=e(a[1],t);break;default:var
+u=c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b))))))))),f=e([2,a[1],a[2]],u)}return f?typeof
+m==="number"?0:m[1]?1:0===a[0]?1:0:f}return 1}function
+bX(e,j){var
 a=j[1];switch(a[0]){case
 1:var
-l=p(a[1],e)?b:d;return k(l);case
+k=q(a[1],e)?b:d;return l(k);case
 3:var
-m=bV(e,a[2]);return C(bV(e,a[1]),m);case
+m=bX(e,a[2]);return B(bX(e,a[1]),m);case
 4:var
-n=bV(e,a[2]);return w(bV(e,a[1]),n);case
-5:return bk(bV(e,a[1]));case
+n=bX(e,a[2]);return w(bX(e,a[1]),n);case
+5:return bk(bX(e,a[1]));case
 6:var
-g=a[2],h=a[1],o=s(h,bV(e,g));return C(s(g,bV(e,h)),o);case
+g=a[2],h=a[1],o=s(h,bX(e,g));return B(s(g,bX(e,h)),o);case
 7:var
-f=bV(e,a[1]);return a4(d,f)?f:am(f,a[2]);case
+f=bX(e,a[1]);return a4(d,f)?f:am(f,a[2]);case
 8:var
-i=a[1],q=bV(e,i);return s(s(k(c(2,b)),i),q);default:return k(d)}}function
-gN(c,b,k){var
+i=a[1],p=bX(e,i);return s(s(l(c(2,b)),i),p);default:return l(d)}}function
+g0(c,b,k){var
 e=k;for(;;){var
 a=e[1];switch(a[0]){case
 7:var
-g=gN(c,b,a[1]);if(g){var
+g=g0(c,b,a[1]);if(g){var
 h=a[2][1];if(1===h[0]){var
-i=h[1],j=J(d,q(i,c,u)[1]);return j?P(ak(function(a){return p(i,a)},b)):j}return 0}return g;case
+i=h[1],j=J(d,r(i,c,u)[1]);return j?L(aj(function(a){return q(i,a)},b)):j}return 0}return g;case
 5:case
 8:var
 e=a[1];continue;case
@@ -4202,9 +4263,9 @@ e=a[1];continue;case
 3:case
 4:case
 6:var
-f=gN(c,b,a[1]);if(f){var
+f=g0(c,b,a[1]);if(f){var
 e=a[2];continue}return f;default:return 1}}}function
-nd(d){var
+nl(d){var
 b=d;for(;;){var
 a=b[1];switch(a[0]){case
 0:case
@@ -4215,72 +4276,72 @@ a=b[1];switch(a[0]){case
 8:case
 9:var
 b=a[1];continue;default:var
-c=nd(a[1]);if(c){var
+c=nl(a[1]);if(c){var
 b=a[2];continue}return c}}}function
-ne(c,b,a){var
-d=e(b,a[2]);return[0,i(c,a[1]),d]}function
-iS(b,a,c){return e(function(c){var
-d=ne(b,a,c[2]),f=c[1];return[0,e(function(c){return ne(b,a,c)},f),d]},c)}function
-nf(b,a){return z(function(a){var
-c=a[2],d=a[1][2];return[0,[0,i(b,a[1][1]),d],c]},a)}function
-t$(a,b){var
-c=nf(a,b[3]),d=i(a,b[2]);return[0,iS(a,a,b[1]),d,c]}function
-ng(c){var
+nm(c,b,a){var
+d=e(b,a[2]);return[0,j(c,a[1]),d]}function
+i0(b,a,c){return e(function(c){var
+d=nm(b,a,c[2]),f=c[1];return[0,e(function(c){return nm(b,a,c)},f),d]},c)}function
+nn(b,a){return z(function(a){var
+c=a[2],d=a[1][2];return[0,[0,j(b,a[1][1]),d],c]},a)}function
+um(a,b){var
+c=nn(a,b[3]),d=j(a,b[2]);return[0,i0(a,a,b[1]),d,c]}function
+no(c){var
 a=c[1];if(a){var
-b=gI(c[2]);if(b)var
-g=e(Z,b[1]),d=[0,[0,Z(a[1]),g]];else
+b=gV(c[2]);if(b)var
+g=e(_,b[1]),d=[0,[0,_(a[1]),g]];else
 var
 d=b;var
 f=d}else
 var
 f=a;return f}function
-ua(c){var
-a=ab(e(ng,c[1]));if(a)var
-b=ng(c[2]),f=b?[0,[0,a[1],b[1]]]:b,d=f;else
+un(c){var
+a=ac(e(no,c[1]));if(a)var
+b=no(c[2]),f=b?[0,[0,a[1],b[1]]]:b,d=f;else
 var
 d=a;return d}function
-ub(a){return P(ia([0,a[2],a[1]]))}function
-iT(a){return[0,a[1],a[2]]}function
-nh(b,c,a){var
-d=e(function(c){return bv(b,bV(c,a))},c);return[0,bv(b,a),d]}function
-iU(b,e,a,d){var
+uo(a){return L(il([0,a[2],a[1]]))}function
+i1(a){return[0,a[1],a[2]]}function
+np(b,c,a){var
+d=e(function(c){return bw(b,bX(c,a))},c);return[0,bw(b,a),d]}function
+i2(b,e,a,d){var
 c=y(function(a){var
-b=iT(a[2]);return f(y(iT,a[1]),b)},d),g=a?[0,bv(b,a[1]),0]:a,h=f(g,c);return[0,bv(b,e),h]}function
-ni(c,f,b,a){var
-d=gN(f,b,a),e=d?gG(c,a):d;return e?m(function(b){return gG(c,bV(b,a))},b):e}function
-nj(a){switch(a[0]){case
+b=i1(a[2]);return f(y(i1,a[1]),b)},d),g=a?[0,bw(b,a[1]),0]:a,h=f(g,c);return[0,bw(b,e),h]}function
+nq(c,f,b,a){var
+d=g0(f,b,a),e=d?gT(c,a):d;return e?m(function(b){return gT(c,bX(b,a))},b):e}function
+nr(a){switch(a[0]){case
 3:var
-d=iQ(a[2]);return[0,a[3],d];case
+d=iW(a[2]);return[0,a[3],d];case
 4:return[0,a[1],0];case
 8:var
-b=a[1],e=iQ(b[1]);return[0,b[2],e];case
+b=a[1],e=iW(b[1]);return[0,b[2],e];case
 9:return 0;default:var
-c=iQ(a[1]);return[0,a[2],c]}}function
-nk(a,ax,br,k,n,R,aw,x,Q,j,h){switch(j[0]){case
+c=iW(a[1]);return[0,a[2],c]}}function
+ns(a,ax,bq,k,n,R,av,x,Q,i,h){switch(i[0]){case
 0:var
-ay=j[4],T=j[3],az=j[2],aA=j[1],V=0;if(typeof
+ay=i[4],T=i[3],az=i[2],aA=i[1],V=0;if(typeof
 h==="number")V=1;else
 switch(h[0]){case
 0:var
-bs=h[2],bt=h[1],v=az,s=aA,r=function(b){return mV(a,n,bt,bs,T,b)},o=ay;break;case
+bs=h[2],bt=h[1],v=az,s=aA,p=function(b){return m1(a,n,bt,bs,T,b)},o=ay;break;case
 2:var
-aC=I(T[1],d),aD=aC?I(T[2],d):aC;if(!aD)return aD;var
-bw=h[2],by=h[1],v=az,s=aA,r=function(b){return mW(a,n,by,bw,b)},o=ay;break;default:V=1}if(V)return 0;break;case
+aD=I(T[1],d),aE=aD?I(T[2],d):aD;if(!aE)return aE;var
+bw=h[2],bx=h[1],v=az,s=aA,p=function(b){return m2(a,n,bx,bw,b)},o=ay;break;default:V=1}if(V)return 0;break;case
 1:var
-aR=0;if(typeof
+aQ=0;if(typeof
 h==="number"&&!h)var
-bA=j[2],bB=j[1],bC=j[3],v=bA,s=bB,bD=0,r=function(b){return mX(a,n,bC,b)},o=bD;else
-aR=1;if(aR)return 0;break;case
+bz=i[2],bB=i[1],bC=i[3],v=bz,s=bB,bD=0,p=function(b){return m3(a,n,bC,b)},o=bD;else
+aQ=1;if(aQ)return 0;break;case
 2:if(typeof
 h!=="number"&&3===h[0]){var
 B=h[3];if(B){var
-aE=B[2],aF=p(g(aE),k);if(aF){var
-bE=[0,j[1],j[2],Q],bF=ei(function(a){return q(a,x,ue)},bE),aG=h[1],bG=0,bH=B[1],bI=h[2],bJ=j[3],bK=function(w,i){var
-c=eh(i[1]);if(c){var
+aF=B[2],aG=q(g(aF),k);if(aG){var
+bE=[0,i[1],i[2],Q],bF=ej(function(a){return r(a,x,ur)},bE),aH=h[1],bG=0,bH=B[1],bI=h[2],bJ=i[3],bK=function(w,i){var
+c=ei(i[1]);if(c){var
 j=c[1],e=i[2];if(e){var
-f=da(i[3]);if(f){var
-k=f[1],l=function(c){return aP(c,aG,L(a,b))},u=l(w),v=e[1],g=A(t(a,l(bH),v),u),m=J(d,g[1]),o=m?a5(a,n,f$(aG,bI,j,al([0,E(aa(g),k),0],n))):m;if(o){var
-h=ga(a,j,al([0,E(t(a,bJ,g),k),0],n));if(h)return a5(a,n,h[1]);var
+f=dc(i[3]);if(f){var
+k=f[1],l=function(c){return aS(c,aH,M(a,b))},u=l(w),v=e[1],g=A(t(a,l(bH),v),u),m=J(d,g[1]),o=m?a5(a,n,gi(aH,bI,j,al([0,E(ab(g),k),0],n))):m;if(o){var
+h=gj(a,j,al([0,E(t(a,bJ,g),k),0],n));if(h)return a5(a,n,h[1]);var
 p=h}else
 var
 p=o;var
@@ -4292,20 +4353,20 @@ var
 r=e;var
 s=r}else
 var
-s=c;return s};return iO(function(b,a){return ei},bK,bG,aE,d,bF)}var
-aJ=aF}else
+s=c;return s};return iU(function(b,a){return ej},bK,bG,aF,d,bF)}var
+aI=aG}else
 var
-aJ=B;return aJ}return 0;case
+aI=B;return aI}return 0;case
 3:var
-aS=0;if(typeof
-h==="number"||!(0===h[0]))aS=1;else
+aT=0;if(typeof
+h==="number"||!(0===h[0]))aT=1;else
 var
-aL=h[2],aM=h[1],bL=j[3],bM=j[2],bN=j[4],bO=j[1],bP=function(f){var
-b=eh(f[1]);if(b){var
+aK=h[2],aL=h[1],bL=i[3],bM=i[2],bN=i[4],bO=i[1],bP=function(f){var
+b=ei(f[1]);if(b){var
 c=b[1],d=f[2];if(d){var
-e=da(f[3]);if(e){var
-h=p(g(c),n),i=h?p(g(aL),n):h;if(i){var
-m=d_(aM,d$(aM,aL,d[1],c));return a5(a,n,bd(ge(a,bO,bN,e[1],c),m))}var
+e=dc(f[3]);if(e){var
+h=q(g(c),n),i=h?q(g(aK),n):h;if(i){var
+m=d$(aL,ea(aL,aK,d[1],c));return a5(a,n,bd(gn(a,bO,bN,e[1],c),m))}var
 j=i}else
 var
 j=e;var
@@ -4314,91 +4375,91 @@ var
 k=d;var
 l=k}else
 var
-l=b;return l},v=bL,s=bM,r=bP,o=j[5];if(aS)return 0;break;case
+l=b;return l},v=bL,s=bM,p=bP,o=i[5];if(aT)return 0;break;case
 4:var
-aT=0;if(typeof
-h==="number"&&!h)var
-v=j[1],s=0,r=tz,o=0;else
-aT=1;if(aT)return 0;break;case
-5:var
 aU=0;if(typeof
-h==="number"||!(0===h[0]))aU=1;else{var
+h==="number"&&!h)var
+v=i[1],s=0,p=tJ,o=0;else
+aU=1;if(aU)return 0;break;case
+5:var
+aV=0;if(typeof
+h==="number"||!(0===h[0]))aV=1;else{var
 C=h[2],aW=0;if(C){var
 D=C[1];if(D){if(D[2])return 0;if(C[2])return 0;var
-bQ=j[2],bR=j[1],bS=L(a,b),bT=[0,[0,D[1],0],0],bU=h[1],v=bQ,s=bR,bV=0,r=function(b){return mV(a,uf,bU,bT,bS,b)},o=bV;aW=1}else
+bQ=i[2],bR=i[1],bS=M(a,b),bT=[0,[0,D[1],0],0],bU=h[1],v=bQ,s=bR,bV=0,p=function(b){return m1(a,us,bU,bT,bS,b)},o=bV;aW=1}else
 var
-aN=D}else
+aO=D}else
 var
-aN=C;if(!aW)return aN}if(aU)return 0;break;case
+aO=C;if(!aW)return aO}if(aV)return 0;break;case
 6:var
 aX=0;if(typeof
 h==="number"&&!h)var
-bW=j[2],bX=j[1],bY=L(a,b),v=bW,s=bX,bZ=0,r=function(b){return mX(a,ug,bY,b)},o=bZ;else
+bW=i[2],bX=i[1],bY=M(a,b),v=bW,s=bX,bZ=0,p=function(b){return m3(a,ut,bY,b)},o=bZ;else
 aX=1;if(aX)return 0;break;case
 7:var
 aY=0;if(typeof
 h==="number"&&5<=h)var
-b0=j[2],b1=j[1],b2=j[4],b3=j[3],v=b0,s=b1,b4=0,r=function(b){return mW(a,n,b3,b2,b)},o=b4;else
+b0=i[2],b1=i[1],b2=i[4],b3=i[3],v=b0,s=b1,b4=0,p=function(b){return m2(a,n,b3,b2,b)},o=b4;else
 aY=1;if(aY)return 0;break;case
 8:if(typeof
 h!=="number"&&9===h[0]){var
-F=h[4],aQ=h[2],U=h[1],l=j[1],w=l[9],b5=h[3],a3=l[5],a4=f5(f(dY(l[4]),a3),ax),a6=e(Z,br),y=l[9],a7=l[8],a8=l[7],a1=gf(y,al(u,dV(k,y)),a7),a2=f(e(Z,aV(y,R)),a1),X=k1(0,bz(a,f(gf(0,aI(y,R),a8),a2),a6),a4,ax,0),Y=0<aO(F)?0<aO(d)?fW(F,d):0:0<aO(d)?0:1;if(Y)var
+F=h[4],aP=h[2],U=h[1],l=i[1],w=l[9],b5=h[3],a3=l[5],a4=gc(f(dZ(l[4]),a3),ax),a6=e(_,bq),y=l[9],a7=l[8],a8=l[7],a1=go(y,al(u,dW(k,y)),a7),a2=f(e(_,aM(y,R)),a1),X=k9(0,bA(a,f(go(0,aB(y,R),a8),a2),a6),a4,ax,0),Y=0<aR(F)?0<aR(d)?f5(F,d):0:0<aR(d)?0:1;if(Y)var
 G=Y;else
 var
-at=2<=kO(F,c(2,c(2,c(2,c(2,b)))))?0:1,au=at?aH(0,w):at,G=au?aH(w,k):au;var
-ac=G?_(w,k):G,ad=ac?p(g(R),k):ac,ae=ad?p(g(aQ),k):ad,af=ae?p(g(l[1]),k):ae,ag=af?p(g(l[6]),k):af,ah=ag?p(g(l[4]),k):ag;if(ah)var
-a9=l[4],H=m(function(a){return p(g(a),k)},a9);else
+at=2<=kW(F,c(2,c(2,c(2,c(2,b)))))?0:1,au=at?aJ(0,w):at,G=au?aJ(w,k):au;var
+Z=G?$(w,k):G,ad=Z?q(g(R),k):Z,ae=ad?q(g(aP),k):ad,af=ae?q(g(l[1]),k):ae,ag=af?q(g(l[6]),k):af,ah=ag?q(g(l[4]),k):ag;if(ah)var
+a9=l[4],H=m(function(a){return q(g(a),k)},a9);else
 var
 H=ah;if(H){var
-a_=l[4],K=ab(e(function(a){return na(X,a)},a_));if(K){var
-ai=na(X,l[5]);if(ai){var
-a$=l[6],M=ab(e(function(j){var
-c=j[1],k=l[7],d=q(c[1],aw,0);if(d){var
-h=c[2][2],b=ab(e(function(a){var
-b=q(a[2],aw,0);return z(function(a){return a[2]},b)},h));if(b)var
-i=b[1],f=[0,cs(as(t(a,k,S(a,m_(a,e(av,c[2][2]),i)))))];else
+a_=l[4],K=ac(e(function(a){return ng(X,a)},a_));if(K){var
+ai=ng(X,l[5]);if(ai){var
+a$=l[6],L=ac(e(function(j){var
+c=j[1],k=l[7],d=r(c[1],av,0);if(d){var
+h=c[2][2],b=ac(e(function(a){var
+b=r(a[2],av,0);return z(function(a){return a[2]},b)},h));if(b)var
+i=b[1],f=[0,cu(as(t(a,k,S(a,ne(a,e(aw,c[2][2]),i)))))];else
 var
 f=b;var
 g=f}else
 var
-g=d;return g},a$));if(M){var
-ba=l[1],bb=l[2],N=ab(e(function(m){function
+g=d;return g},a$));if(L){var
+ba=l[1],bb=l[2],N=ac(e(function(m){function
 f(e){var
-g=al(e,k),c=mU(q(m[2],x,t4),g);if(c){var
-h=al(e,k),d=mU(q(bb,x,t5),h);if(d){var
-i=d[1],j=L(a,b);return b8(a,b_(d2(c[1],j,i)))}var
+g=al(e,k),c=m0(r(m[2],x,uc),g);if(c){var
+h=al(e,k),d=m0(r(bb,x,ud),h);if(d){var
+i=d[1],j=M(a,b);return b9(a,b$(d3(c[1],j,i)))}var
 f=d}else
 var
 f=c;return f}var
 c=f(0);if(c){var
 e=f(2);if(e)var
-g=b_(as(A(c[1],e[1]))),h=J(d,g[1]),l=h?[0,g]:h,i=l;else
+g=b$(as(A(c[1],e[1]))),h=J(d,g[1]),l=h?[0,g]:h,i=l;else
 var
 i=e;var
 j=i}else
 var
 j=c;return j},ba));if(N){var
-bc=K[1],W=d8(a,an(function(i,h){var
+bc=K[1],W=d9(a,an(function(i,h){var
 o=e(function(b){var
-a=aB(0,k);return e(function(a){return b9(q(a,b[3],u))},a)},i);function
+a=aC(0,k);return e(function(a){return b_(r(a,b[3],u))},a)},i);function
 b(m,l){var
-n=m8(w,m,o),g=e(function(a){return m8(w,l,a)},n);function
-b(a){return an(bq,d,a)}var
+n=nc(w,m,o),g=e(function(a){return nc(w,l,a)},n);function
+b(a){return an(br,d,a)}var
 h=0;function
 i(a){return a}function
 j(a){return a}var
-c=b(an(function(a,b){return aK(j,i,kP,a,b)},h,g)),k=[0,c,c],f=b(e(function(a){return an(kP,d,a)},g));return d8(a,t(a,[0,f,f],k))}var
-c=b(1,1),f=b(1,0),g=b(0,1);return A(h,S(a,A(A(A(b(0,0),g),f),c)))},u,bc)),O=aP(b5,U,L(a,b)),aj=J(d,E(O,W)[1]);if(aj){var
-P=b7(a,O);if(P){var
-bf=as(t(a,W,P[1])),bg=E(L(a,b),bf),bh=[0,l[1],l[2],Q],bi=ei(function(a){return q(a,x,t6)},bh),bj=l[6],bk=e(t3,$($(M[1],N[1]),bj)),bl=S(a,bg),bm=S(a,O),bn=l[10],aZ=aB(0,k),a0=e(function(a){var
-d=bn?_(w,a):aH(a,w);return d?b:b6(c(2,b),F)},aZ),bo=function(r){var
-h=m9(r[1]);if(h){var
+c=b(an(function(a,b){return aN(j,i,kX,a,b)},h,g)),k=[0,c,c],f=b(e(function(a){return an(kX,d,a)},g));return d9(a,t(a,[0,f,f],k))}var
+c=b(1,1),f=b(1,0),g=b(0,1);return A(h,S(a,A(A(A(b(0,0),g),f),c)))},u,bc)),O=aS(b5,U,M(a,b)),aj=J(d,E(O,W)[1]);if(aj){var
+P=b8(a,O);if(P){var
+bf=as(t(a,W,P[1])),bg=E(M(a,b),bf),bh=[0,l[1],l[2],Q],bi=ej(function(a){return r(a,x,ue)},bh),bj=l[6],bk=e(ub,aa(aa(L[1],N[1]),bj)),bl=S(a,bg),bm=S(a,O),bn=l[10],aZ=aC(0,k),a0=e(function(a){var
+d=bn?$(w,a):aJ(a,w);return d?b:b7(c(2,b),F)},aZ),bo=function(r){var
+h=nd(r[1]);if(h){var
 v=h[1],i=r[2];if(i){var
-j=i[1],l=da(r[3]);if(l){var
-w=l[1],x=m$(a,k,bk,j,v),n=e(function(a){var
-c=a[2],b=$(a0,a[1]);return[0,e(function(a){return aP(a[1],d,a[2])},b),c]},v),G=d_(U,d$(U,aQ,j,n)),o=bd(al([0,aa(w),0],k),G),H=E(t(a,j,bl),w),y=p(g(n),k),z=y?p(g(x),k):y;if(z){var
+j=i[1],l=dc(r[3]);if(l){var
+w=l[1],x=nf(a,k,bk,j,v),n=e(function(a){var
+c=a[2],b=aa(a0,a[1]);return[0,e(function(a){return aS(a[1],d,a[2])},b),c]},v),G=d$(U,ea(U,aP,j,n)),o=bd(al([0,ab(w),0],k),G),H=E(t(a,j,bl),w),y=q(g(n),k),z=y?q(g(x),k):y;if(z){var
 b=k,c=o;for(;;){if(c){if(b){var
-s=p(g(c[1]),b);if(s){var
+s=q(g(c[1]),b);if(s){var
 b=b[1],c=c[2];continue}var
 u=s}else
 var
@@ -4406,12 +4467,12 @@ u=b;var
 A=u}else
 var
 A=b?0:1;var
-q=A;break}}else
+p=A;break}}else
 var
-q=z;var
-B=q?a5(a,k,bd(e(function(b){return[0,aa(t(a,bm,b[2])),0]},n),o)):q;if(B){var
-I=be(bx(k));return m(function(g){var
-d=$(f(g,t2),x),b=[0,[0,H,0],0],c=$(o,e(function(a){return a[1]?aa(a[2]):a[2]},d));return a5(a,[0,k],f(e(function(a){return f(a[1],[0,a[2],0])},c),b))},I)}var
+p=z;var
+B=p?a5(a,k,bd(e(function(b){return[0,ab(t(a,bm,b[2])),0]},n),o)):p;if(B){var
+I=be(by(k));return m(function(g){var
+d=aa(f(g,ua),x),b=[0,[0,H,0],0],c=aa(o,e(function(a){return a[1]?ab(a[2]):a[2]},d));return a5(a,[0,k],f(e(function(a){return f(a[1],[0,a[2],0])},c),b))},I)}var
 C=B}else
 var
 C=l;var
@@ -4420,7 +4481,7 @@ var
 D=i;var
 F=D}else
 var
-F=h;return F},bp=l[3];return i(iP(function(b,a){return ei},bp,k,bo),bi)}var
+F=h;return F},bp=l[3];return j(iV(function(b,a){return ej},bp,k,bo),bi)}var
 ak=P}else
 var
 ak=aj;var
@@ -4429,7 +4490,7 @@ var
 am=N;var
 ao=am}else
 var
-ao=M;var
+ao=L;var
 ap=ao}else
 var
 ap=ai;var
@@ -4439,70 +4500,70 @@ aq=K;var
 ar=aq}else
 var
 ar=H;return ar}return 0;default:return 0}var
-bu=[0,s,v,Q],bv=ei(function(a){return q(a,x,ud)},bu);return i(iP(function(b,a){return ei},o,k,r),bv)}function
-uh(b,a){var
-c=hW(hR,b[1],a[1]);return c?hR(b[2],a[2]):c}function
-nl(i,r,q,h,o,k,A,z,y,j,n,g,a,e){if(typeof
+bu=[0,s,v,Q],bv=ej(function(a){return r(a,x,uq)},bu);return j(iV(function(b,a){return ej},o,k,p),bv)}function
+uu(b,a){var
+c=h6(h1,b[1],a[1]);return c?h1(b[2],a[2]):c}function
+nt(i,r,p,h,o,k,A,z,y,j,n,g,a,e){if(typeof
 e==="number"){if(0===e)return 9===a[0]?e3(i,0,0,0,g,h,0,a[1],e):0}else
 switch(e[0]){case
 6:var
 f=e[1];if(typeof
 f!=="number"&&7===f[0]){if(k){var
-s=f[3],t=f[2],u=D(d,t),v=u?hT(s,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):u;if(v)return nk(i,r,q,h,o,j,g,n,[0,[0,[0,k[1],t],s]],a,f[1]);var
+s=f[3],t=f[2],u=D(d,t),v=u?h3(s,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):u;if(v)return ns(i,r,p,h,o,j,g,n,[0,[0,[0,k[1],t],s]],a,f[1]);var
 w=v}else
 var
-w=k;return w}return nk(i,r,q,h,o,j,g,n,0,a,f);case
+w=k;return w}return ns(i,r,p,h,o,j,g,n,0,a,f);case
 8:return 9===a[0]?e3(i,0,0,0,g,h,0,a[1],e):0;case
 10:if(0===a[0]){var
-l=hW(uh,a[1],A),m=l?1:l,x=m?p(a[2],z):m;return x?jR(y,j,a[3],a[4],e):x}return 0}return 0}function
-nm(b){var
+l=h6(uu,a[1],A),m=l?1:l,x=m?q(a[2],z):m;return x?jZ(y,j,a[3],a[4],e):x}return 0}return 0}function
+nu(b){var
 a=b[2];if(typeof
 a!=="number"&&6===a[0])return 1;return 0}function
-ui(c){var
+uv(c){var
 b=0,a=c[2];if(typeof
 a==="number"){if(0!==a)b=1}else
 switch(a[0]){case
 6:case
 8:break;default:b=1}return b?0:1}function
-fb(a,o,l,j,x,w,b,v,s,C,h,k,au,c){switch(c[0]){case
+fg(a,o,l,i,x,w,b,v,s,C,h,k,au,c){switch(c[0]){case
 0:var
-aw=function(a){return m(P,a)},O=aw,p=c[1];break;case
+av=function(a){return m(L,a)},P=av,p=c[1];break;case
 1:var
 ax=c[4],ay=c[3],az=c[2],aA=function(c){var
-d=cW(az,k),e=fb(a,o,l,j,x,w,b,v,s,C,h,d[1],c,ay);return e?fb(a,o,l,j,x,w,b,v,s,C,h,d[2],c,ax):e},O=aA,p=c[1];break;default:var
+d=cX(az,k),e=fg(a,o,l,i,x,w,b,v,s,C,h,d[1],c,ay);return e?fg(a,o,l,i,x,w,b,v,s,C,h,d[2],c,ax):e},P=aA,p=c[1];break;default:var
 aB=c[4],aC=c[3],aD=c[2],aE=function(c){var
-i=$(j,c),d=m(function(b){var
+j=aa(i,c),d=m(function(b){var
 c=b[1];switch(c[0]){case
 8:var
 a=0;break;case
 9:var
-a=il(c[1]);break;default:var
-a=1}return a?a:P(b[2])},i);if(d){var
-e=cW(aD,h),f=fb(a,o,l,j,x,w,b,v,s,C,e[1],k,c,aC);if(f)return fb(a,o,l,j,x,w,b,v,s,C,e[2],k,c,aB);var
+a=iw(c[1]);break;default:var
+a=1}return a?a:L(b[2])},j);if(d){var
+e=cX(aD,h),f=fg(a,o,l,i,x,w,b,v,s,C,e[1],k,c,aC);if(f)return fg(a,o,l,i,x,w,b,v,s,C,e[2],k,c,aB);var
 g=f}else
 var
-g=d;return g},O=aE,p=c[1]}var
-af=i(C,h),ac=ak(ui,p),ad=ac?ie(a,l,h,f5(y(function(c){var
-a=G(j,c[1]);if(a){var
+g=d;return g},P=aE,p=c[1]}var
+af=j(C,h),ac=aj(uv,p),ad=ac?iq(a,l,h,gc(y(function(c){var
+a=G(i,c[1]);if(a){var
 b=a[1];switch(b[0]){case
 8:var
 d=b[1][6];return y(function(a){var
 b=e(aZ,a[1][2][2]);return[0,a[1][1],b]},d);case
-9:return im(0,0,0,b[1],c[2]);default:return 0}}return a},p),l),k):ac,ae=ak(nm,p);if(ae)var
+9:return ix(0,0,0,b[1],c[2]);default:return 0}}return a},p),l),k):ac,ae=aj(nu,p);if(ae)var
 ar=y(function(b){var
-c=nm(b);if(c){var
-a=G(j,b[1]);if(a)return nj(a[1]);var
+c=nu(b);if(c){var
+a=G(i,b[1]);if(a)return nr(a[1]);var
 d=a}else
 var
-d=c;return d},p),as=b?[0,b[1],0]:b,at=f(as,ar),ai=0,aj=an(eU,e(function(a){return 0},o),at),N=iN(a,h,eR(gH(eR(o,0),aj),ai),k);else
+d=c;return d},p),as=b?[0,b[1],0]:b,at=f(as,ar),ai=0,ak=an(eU,e(function(a){return 0},o),at),O=iT(a,h,eR(gU(eR(o,0),ak),ai),k);else
 var
-N=ae;var
-r=p,g=au;for(;;){if(r){var
-T=r[1],D=T[2],n=T[1],H=r[2];if(n){var
-U=q(n,g,0);if(U){var
-I=G(j,n);if(I){var
-V=nl(a,l,h,x,w,b,v,s,af,k,N,ad,I[1],D);if(V){var
-r=H,g=gq(n,g);continue}var
+O=ae;var
+q=p,g=au;for(;;){if(q){var
+T=q[1],D=T[2],n=T[1],H=q[2];if(n){var
+U=r(n,g,0);if(U){var
+I=G(i,n);if(I){var
+V=nt(a,l,h,x,w,b,v,s,af,k,O,ad,I[1],D);if(V){var
+q=H,g=gz(n,g);continue}var
 W=V}else
 var
 W=I;var
@@ -4513,68 +4574,68 @@ B=X}else{var
 ag=0;if(typeof
 D==="number"&&4===D){var
 ah=0;if(b){var
-aq=0,Q=e(function(b){return[0,b,S(a,b)]},k),am=e(aZ,Q),al=0,ao=f(e(av,Q),am),ap=bb(0,function(o){return function(b){switch(b[0]){case
-0:return[0,q(b[1],o,u)];case
-1:return[0,q(b[1],h,u)];case
-2:return[0,L(a,b[1])];case
+aq=0,Q=e(function(b){return[0,b,S(a,b)]},k),am=e(aZ,Q),al=0,ao=f(e(aw,Q),am),ap=bb(0,function(o){return function(b){switch(b[0]){case
+0:return[0,r(b[1],o,u)];case
+1:return[0,r(b[1],h,u)];case
+2:return[0,M(a,b[1])];case
 3:var
-c=b[2],d=b[1];return c$(function(b,a){return[0,A(b,a)]},d,c);case
+c=b[2],d=b[1];return db(function(b,a){return[0,A(b,a)]},d,c);case
 4:var
-e=b[2],f=b[1];return c$(function(b,a){return[0,E(b,a)]},f,e);case
+e=b[2],f=b[1];return db(function(b,a){return[0,E(b,a)]},f,e);case
 5:var
-g=b[1];return c_(function(a){return[0,aa(a)]},g);case
+g=b[1];return da(function(a){return[0,ab(a)]},g);case
 6:var
-i=b[2],j=b[1];return c$(function(c,b){return[0,t(a,c,b)]},j,i);case
+i=b[2],j=b[1];return db(function(c,b){return[0,t(a,c,b)]},j,i);case
 7:var
-k=b[2],l=b[1];return c$(function(c,b){var
-d=b7(a,b);return z(function(b){return t(a,c,b)},d)},l,k);case
+k=b[2],l=b[1];return db(function(c,b){var
+d=b8(a,b);return z(function(b){return t(a,c,b)},d)},l,k);case
 8:var
-m=b[1];return c_(function(b){return[0,S(a,b)]},m);case
+m=b[1];return da(function(b){return[0,S(a,b)]},m);case
 9:var
-n=b[1];return c_(function(b){return b8(a,b)},n);default:return 0}}}(ao),o,al),F=q(b[1],ap,aq);if(F){var
+n=b[1];return da(function(b){return b9(a,b)},n);default:return 0}}}(ao),o,al),F=r(b[1],ap,aq);if(F){var
 K=J(F[1][2],d);ah=1}else
 var
 R=F}else
 var
 R=b;if(!ah)var
 K=R;if(K){var
-r=H,g=e(function(a){return 0},g);continue}var
+q=H,g=e(function(a){return 0},g);continue}var
 B=K}else
 ag=1;if(ag){var
-Y=q(n,g,0);if(Y){var
-M=G(j,n);if(M){var
-Z=nl(a,l,h,x,w,b,v,s,af,k,N,ad,M[1],D);if(Z){var
-r=H,g=gq(n,g);continue}var
+Y=r(n,g,0);if(Y){var
+N=G(i,n);if(N){var
+Z=nt(a,l,h,x,w,b,v,s,af,k,O,ad,N[1],D);if(Z){var
+q=H,g=gz(n,g);continue}var
 _=Z}else
 var
-_=M;var
-ab=_}else
+_=N;var
+$=_}else
 var
-ab=Y;var
-B=ab}}}else
+$=Y;var
+B=$}}}else
 var
-B=[0,g];return B?O(B[1]):B}}function
-iV(d,a){var
-e=T(a),f=s(s(k(c(2,b)),a),d);return C(w(T(d),f),e)}function
-iW(k,a,d,j,c,h){var
-e=ah(w,dD(k),j);if(h){var
+B=[0,g];return B?P(B[1]):B}}function
+i3(d,a){var
+e=T(a),f=s(s(l(c(2,b)),a),d);return B(w(T(d),f),e)}function
+i4(k,a,d,i,c,h){var
+e=af(w,dE(k),i);if(h){var
 b=function(b){var
-c=i(b,a[3]),d=i(b,a[2]);return[0,i(b,a[1]),d,c]},f=b(function(a){return a[3]}),g=b(function(a){return a[2]}),l=fa([0,b(function(a){return a[1]}),g,f],e);return ah(C,a0(d,c),l)}var
-m=fa(a,c);return ah(C,a0(d,e),m)}function
-nn(f,h,g,l,a,d){var
-e=dD(f),i=ah(w,e,a),j=fa(h,d),m=iV(e[3],a[3]),n=iV(e[2],a[2]),o=iV(e[1],a[1]),p=C(C(C(X(d,d),o),n),m),q=X(j,i),r=s(k(c(2,b)),q),t=C(s(g,p),r),u=bl(cf(j,i),l);return[0,gL(f,iW(f,h,g,a,d,0),u),t]}function
-no(d,c,b,a){var
-e=gM(c,b,a);return ah(C,dD(d),e)}function
-np(g,f,e,d,c){var
-b=no(g,f,e,c),a=ah(w,b,d);return[0,[0,b,a],aE(X(a,a))]}function
-gO(b,a){var
+c=j(b,a[3]),d=j(b,a[2]);return[0,j(b,a[1]),d,c]},f=b(function(a){return a[3]}),g=b(function(a){return a[2]}),l=fd([0,b(function(a){return a[1]}),g,f],e);return af(B,a0(d,c),l)}var
+m=fd(a,c);return af(B,a0(d,e),m)}function
+nv(f,h,g,k,a,d){var
+e=dE(f),i=af(w,e,a),j=fd(h,d),m=i3(e[3],a[3]),n=i3(e[2],a[2]),o=i3(e[1],a[1]),p=B(B(B(Y(d,d),o),n),m),q=Y(j,i),r=s(l(c(2,b)),q),t=B(s(g,p),r),u=bl(bE(j,i),k);return[0,gY(f,i4(f,h,g,a,d,0),u),t]}function
+nw(d,c,b,a){var
+e=gZ(c,b,a);return af(B,dE(d),e)}function
+nx(g,f,e,d,c){var
+b=nw(g,f,e,c),a=af(w,b,d);return[0,[0,b,a],aF(Y(a,a))]}function
+g1(b,a){var
 c=a7(a[2],b);return f(a7(a[1],b),c)}function
-iX(d,b,a,c){if(a)var
-e=a[1],f=cz(c,gO(b,e)),i=R(c,g(gO(b,e))),j=iX(d,b,a[2],i),k=aj(f,uj),h=[0,aq(d,aj(f,0),k),j];else
+i5(d,b,a,c){if(a)var
+e=a[1],f=cB(c,g1(b,e)),i=R(c,g(g1(b,e))),j=i5(d,b,a[2],i),k=ak(f,uw),h=[0,aq(d,ak(f,0),k),j];else
 var
 h=a;return h}function
-iY(f,o,e,n,a){var
-g=s(T(q(0,n,k(d))),o);if(typeof
+i6(f,o,e,n,a){var
+g=s(T(r(0,n,l(d))),o);if(typeof
 a!=="number")switch(a[0]){case
 2:var
 b=G(e,a[1]);if(b)var
@@ -4583,193 +4644,193 @@ var
 j=b;return j;case
 3:var
 c=G(e,a[1]);if(c)var
-l=h(f,0,a[2]),m=l?[0,w(g,c[1][1][2])]:l;else
+k=h(f,0,a[2]),m=k?[0,w(g,c[1][1][2])]:k;else
 var
 m=c;return m}return 0}function
-nq(c,b,a){if(typeof
+ny(c,b,a){if(typeof
 a!=="number"&&6===a[0]){var
 e=G(c,a[1]);return z(function(a){var
-c=q(0,b,k(d)),e=i(a[2][2],c);return[0,a[2][1],e]},e)}return 0}function
-gP(a){return h(l,0,[3,[0,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b))))))))),b],a])}function
-nr(a){var
-b=aj(a,uk),c=aE(X(aj(a,ul),b));return s(q(0,a,k(d)),c)}function
-ns(b,a){var
-c=X(a,aj(b,um));return[0,bQ(a0(nr(b),a)),c]}function
-nt(e,d,a,c,b){var
-f=b[2],g=s(nr(a),f),h=c?gM(e,d,aj(a,un)):aj(a,uo);return w(X(b[1][2],h),g)}function
-nu(h,g,f,d,c,b,a){var
-i=by(c);function
-j(a){return no(h,g,f,a)}return l3(e(function(a){return[0,a[4]]},d),j,i,b,a)}function
-fc(a){var
-b=q(up,a,k(d));return am(q(0,a,k(d)),b)}function
-iZ(a){return a[4][2]}function
-nv(g,o,n,m,a){var
-p=a[1][2],q=e(aZ,gu(n,a[1][2])),h=fc(m),i=s(s(k(c(2,b)),o),h),d=a[1][1],j=aV(cF(g),d),l=e(function(a){return s(a,i)},j);return[0,f(f(aI(cF(g),d),l),q),p]}function
-nw(a){var
-b=a[3],c=a[2],d=a[1];return gC([0,[0,d,d],[0,c,c],[0,b,b]])}function
-uy(a){if(typeof
+c=r(0,b,l(d)),e=j(a[2][2],c);return[0,a[2][1],e]},e)}return 0}function
+g2(a){return h(k,0,[3,[0,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b))))))))),b],a])}function
+nz(a){var
+b=ak(a,ux),c=aF(Y(ak(a,uy),b));return s(r(0,a,l(d)),c)}function
+nA(b,a){var
+c=Y(a,ak(b,uz));return[0,bU(a0(nz(b),a)),c]}function
+nB(e,d,a,c,b){var
+f=b[2],g=s(nz(a),f),h=c?gZ(e,d,ak(a,uA)):ak(a,uB);return w(Y(b[1][2],h),g)}function
+nC(h,g,f,d,c,b,a){var
+i=bz(c);function
+j(a){return nw(h,g,f,a)}return l$(e(function(a){return[0,a[4]]},d),j,i,b,a)}function
+fh(a){var
+b=r(uC,a,l(d));return am(r(0,a,l(d)),b)}function
+i7(a){return a[4][2]}function
+nD(g,o,n,m,a){var
+p=a[1][2],q=e(aZ,gD(n,a[1][2])),h=fh(m),i=s(s(l(c(2,b)),o),h),d=a[1][1],j=aM(cF(g),d),k=e(function(a){return s(a,i)},j);return[0,f(f(aB(cF(g),d),k),q),p]}function
+nE(a){var
+b=a[3],c=a[2],d=a[1];return gP([0,[0,d,d],[0,c,c],[0,b,b]])}function
+uL(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-nx(b,a){switch(b){case
+nF(b,a){switch(b){case
 0:return[0,a[1],[0,a[2],0]];case
 1:return[0,a[1],[0,a[2],[0,a[3],0]]];default:return 0}}function
-gQ(a){var
-c=cv(a[1],[0,d,b]);return c?cv(a[2],[0,d,b]):c}function
-i0(d,a){switch(d){case
-0:return gQ(a[3]);case
+g3(a){var
+c=cx(a[1],[0,d,b]);return c?cx(a[2],[0,d,b]):c}function
+i8(d,a){switch(d){case
+0:return g3(a[3]);case
 1:return 1;default:var
-b=gQ(a[1]),c=b?gQ(a[2]):b;return c?gQ(a[3]):c}}function
-i1(c,b){var
-a=y(function(a){return gO(c,a)},b),d=$(aB(0,g(a)),a);return e(av,br(function(a){return iv(a[2])},d))}function
-ny(b){var
+b=g3(a[1]),c=b?g3(a[2]):b;return c?g3(a[3]):c}}function
+i9(c,b){var
+a=y(function(a){return g1(c,a)},b),d=aa(aC(0,g(a)),a);return e(aw,bs(function(a){return iF(a[2])},d))}function
+nG(b){var
 a=b[2];if(typeof
 a!=="number"&&10===a[0])return 1;return 0}function
-nz(c){var
-a=c;for(;;){if(0===a[0])return ak(ny,a[1]);var
-d=ak(ny,a[1]),b=d||nz(a[3]);if(b)return b;var
+nH(c){var
+a=c;for(;;){if(0===a[0])return aj(nG,a[1]);var
+d=aj(nG,a[1]),b=d||nH(a[3]);if(b)return b;var
 a=a[4];continue}}function
-uz(a,aQ,bE,A,B,aP){var
-n=A[1],j=bu(n),Y=A[6],bF=A[2],K=y(function(a){return gO(B,a)},bF),aR=A[3],Q=[0,[0,aR,aR],B],$=[0,g(K)],bG=0,aS=y(function(a){return e9(bG,B,a)},Y),bH=cF(n),aT=m0(A[5],bH),o=aT[2],H=aT[1],J=c1(Q,g(K)),bJ=A[2],U=g(K),bI=0,x=iX(function(e,a){function
+uM(a,aQ,bA,A,C,aP){var
+n=A[1],i=bv(n),X=A[6],bC=A[2],K=y(function(a){return g1(C,a)},bC),aR=A[3],Q=[0,[0,aR,aR],C],$=[0,g(K)],bD=0,aS=y(function(a){return fa(bD,C,a)},X),bF=cF(n),aT=m6(A[5],bF),o=aT[2],H=aT[1],J=c2(Q,g(K)),bH=A[2],U=g(K),bG=0,x=i5(function(e,a){function
 i(g){var
-c=bu(n);if(n)var
+c=bv(n);if(n)var
 b=[0,[0,[0,c]],[0,[0,[0,c]]],[0,[0,[0,[0,c]]]]];else
 var
-m=k(d),b=[0,k(d),m,[0,[0,c]]];var
-t=nc(n,H,o,e,a,b)[2],h=nc(n,H,o,e,a,b),i=h[1],j=bl(i[2],h[2]),l=cf(i[1],j),p=ah(C,l,cf(l,b)),f=a0(nb(b),p),q=s(f[3],g),r=s(f[2],g);return[0,gL(n,j,[0,s(f[1],g),r,q]),t]}function
-j(Y){var
-v=np(n,H,o,e,a),x=v[1],V=ah(w,dD(n),e),y=v[2],r=x[1],W=x[2],g=gM(H,o,a),i=bl(W,y),N=am(X(g,i),J),O=T(J),P=am(X(a,a),O),Q=2<=n?d:b,R=C(k(Q),P);function
-h(a){return[0,m6(a),0]}function
-f(a){return[0,bl(cf(m6(a),g),J),[0,a]]}switch(n){case
+m=l(d),b=[0,l(d),m,[0,[0,c]]];var
+t=ni(n,H,o,e,a,b)[2],h=ni(n,H,o,e,a,b),i=h[1],j=bl(i[2],h[2]),k=bE(i[1],j),p=af(B,k,bE(k,b)),f=a0(nh(b),p),q=s(f[3],g),r=s(f[2],g);return[0,gY(n,j,[0,s(f[1],g),r,q]),t]}function
+j(X){var
+v=nx(n,H,o,e,a),x=v[1],V=af(w,dE(n),e),y=v[2],r=x[1],W=x[2],g=gZ(H,o,a),i=bl(W,y),N=am(Y(g,i),J),O=T(J),P=am(Y(a,a),O),Q=2<=n?d:b,R=B(l(Q),P);function
+h(a){return[0,na(a),0]}function
+f(a){return[0,bl(bE(na(a),g),J),[0,a]]}switch(n){case
 0:var
-B=[0,f(tR),0],D=[0,h(tS),B],q=[0,h(0),D];break;case
+C=[0,f(t1),0],D=[0,h(t2),C],p=[0,h(0),D];break;case
 1:var
-E=[0,f(tT),0],F=[0,f(tU),E],G=[0,f(0),F],I=[0,h(tV),G],K=[0,h(tW),I],q=[0,h(0),K];break;default:var
-L=[0,f(tX),0],M=[0,f(tY),L],q=[0,f(0),M]}var
-j=ah(w,[0,[0,[1,U]],[0,[1,[0,U]]],[0,[1,[0,[0,U]]]]],e),l=bl(j,aE(X(j,j)));if(n)var
-m=iR(n,U,e,r,l[3]);else
+E=[0,f(t3),0],F=[0,f(t4),E],G=[0,f(0),F],I=[0,h(t5),G],K=[0,h(t6),I],p=[0,h(0),K];break;default:var
+L=[0,f(t7),0],M=[0,f(t8),L],p=[0,f(0),M]}var
+j=af(w,[0,[0,[1,U]],[0,[1,[0,U]]],[0,[1,[0,[0,U]]]]],e),k=bl(j,aF(Y(j,j)));if(n)var
+m=iX(n,U,e,r,k[3]);else
 var
-z=k(d),A=k(d),m=[0,k(d),A,z];var
-t=iR(n,U,e,r,l[2]),u=iR(n,U,e,r,l[1]),S=m7(function(r,v){var
+z=l(d),A=l(d),m=[0,l(d),A,z];var
+t=iX(n,U,e,r,k[2]),u=iX(n,U,e,r,k[1]),S=nb(function(r,v){var
 e=v[1];function
 a(b,a){var
-c=e[3],f=dC(a,m),g=s(C(b[3],f),c),h=e[2],i=dC(a,t),j=s(C(b[2],i),h),l=e[1],n=dC(a,u),o=s(C(b[1],n),l);return C(C(C(k(d),o),j),g)}var
-x=a(m,tZ),y=a(t,t0),z=[0,a(u,0),y,x],f=X(r[1],z),l=r[2];if(l){var
-h=l[1],n=v[2];if(n){var
-j=n[1],A=dC(h,g),B=s(dC(j,i),A),D=dC(j,g),o=C(s(dC(h,i),D),B),E=T(J);if(p(h,j))var
-F=X(i,g),q=w(o,s(k(c(2,b)),F));else
+c=e[3],f=dD(a,m),g=s(B(b[3],f),c),h=e[2],i=dD(a,t),j=s(B(b[2],i),h),k=e[1],n=dD(a,u),o=s(B(b[1],n),k);return B(B(B(l(d),o),j),g)}var
+x=a(m,t9),y=a(t,t_),z=[0,a(u,0),y,x],f=Y(r[1],z),k=r[2];if(k){var
+h=k[1],n=v[2];if(n){var
+j=n[1],A=dD(h,g),C=s(dD(j,i),A),D=dD(j,g),o=B(s(dD(h,i),D),C),E=T(J);if(q(h,j))var
+F=Y(i,g),p=w(o,s(l(c(2,b)),F));else
 var
-q=o;return C(f,am(q,E))}return f}return f},q);return[0,gL(n,i,bl(cf(g,bl(V,y)),J)),S,R,N]}var
-l=np(n,H,o,e,a);function
-m(b){return iW(n,H,o,e,a,b)}var
+p=o;return B(f,am(p,E))}return f}return f},p);return[0,gY(n,i,bl(bE(g,bl(V,y)),J)),S,R,N]}var
+k=nx(n,H,o,e,a);function
+m(b){return i4(n,H,o,e,a,b)}var
 f=2<=n?d:b;function
 g(b){var
-c=T(J),d=k(f),e=s(w(T(b),d),c);return s(o,w(X(a,a),e))}var
-h=[0,X(iW(n,H,o,e,a,1),a),g];return[0,nn(n,H,o,J,e,a),h,m,l,j,i]},B,bJ,bI),V=e(function(a){return a[1]},x),bK=R($,g(aS)),bL=cF(n),bM=A[5];function
-O(a){return[0,[0,R(bL,a)]]}var
-aI=T([0,[1,bK]]);switch(bM[0]){case
+c=T(J),d=l(f),e=s(w(T(b),d),c);return s(o,w(Y(a,a),e))}var
+h=[0,Y(i4(n,H,o,e,a,1),a),g];return[0,nv(n,H,o,J,e,a),h,m,k,j,i]},C,bH,bG),V=e(function(a){return a[1]},x),bI=R($,g(aS)),bJ=cF(n),bK=A[5];function
+P(a){return[0,[0,R(bJ,a)]]}var
+aH=T([0,[1,bI]]);switch(bK[0]){case
 2:var
-bs=O(tJ),bt=O(tK),aK=[0,O(0),bt,bs],F=[0,w(aI,X(aK,aK))];break;case
+bo=P(tT),bp=P(tU),aI=[0,P(0),bp,bo],F=[0,w(aH,Y(aI,aI))];break;case
 3:var
-bw=T(O(tL)),bx=T(O(0)),by=T(O(tM)),F=[0,w(w(s(aI,C(k(b),by)),bx),bw)];break;default:var
+bq=T(P(tV)),br=T(P(0)),bt=T(P(tW)),F=[0,w(w(s(aH,B(l(b),bt)),br),bq)];break;default:var
 F=0}var
 aU=A[7];if(aU)var
-bN=0,bO=A[2],an=iX(function(j,k){var
-a=nn(n,H,o,c1(Q,g(K)),j,k),c=a[1];if(c){var
-d=c[2],b=c[1];if(d){var
-h=d[2],e=d[1];if(h){var
-i=h[1],f=cf(j,[0,b,e,i]);return[0,[0,b,[0,e,[0,i,[0,f[1],[0,f[2],[0,f[3],0]]]]]],a[2]]}return[0,[0,b,[0,e,0]],a[2]]}return[0,[0,b,0],a[2]]}return[0,0,a[2]]},B,bO,bN);else
+bL=0,bM=A[2],ak=i5(function(k,t){var
+a=nv(n,H,o,c2(Q,g(K)),k,t);switch(n){case
+0:var
+c=a[1];if(c){var
+m=c[2],e=c[1];if(m){var
+p=m[1],s=a[2];return[0,[0,e,[0,p,[0,bE(k,[0,e,p,l(d)])[3],0]]],s]}return[0,[0,e,0],a[2]]}return[0,0,a[2]];case
+1:var
+f=a[1];if(f){var
+h=f[2],b=f[1];if(h){var
+q=h[2],i=h[1];if(q){var
+r=q[1],j=bE(k,[0,b,i,r]);return[0,[0,b,[0,i,[0,r,[0,j[1],[0,j[2],[0,j[3],0]]]]]],a[2]]}return[0,[0,b,[0,i,0]],a[2]]}return[0,[0,b,0],a[2]]}return[0,0,a[2]];default:return[0,a[1],a[2]]}},C,bM,bL);else
 var
-an=aU;var
-bP=bS(an),bR=F?[0,F[1],0]:F,bT=f(bR,bP),bU=0,bV=f(K,[0,Q,0]),bD=e(function(a){return a[1]},x),bW=[0,o,f(c9(function(c,b){if(typeof
+ak=aU;var
+bN=bB(ak),bO=F?[0,F[1],0]:F,bP=f(bO,bN),bQ=0,bR=f(K,[0,Q,0]),bz=e(function(a){return a[1]},x),bS=[0,o,f(c$(function(c,b){if(typeof
 b!=="number")switch(b[0]){case
 6:var
-g=nq(x,c,b);if(g)var
-j=g[1],k=[0,j[1],[0,j[2],0]];else
+g=ny(x,c,b);if(g)var
+i=g[1],k=[0,i[1],[0,i[2],0]];else
 var
 k=g;return k;case
-8:return e(aZ,gE(bD,c));case
+8:return e(aZ,gR(bz,c));case
 13:var
 h=G(x,b[1]);if(h){var
-l=gP(b[4]);if(l){var
-m=ns(c,i(h[1][3],b[2]));return f(m[1],[0,m[2],0])}var
+l=g2(b[4]);if(l){var
+m=nA(c,j(h[1][3],b[2]));return f(m[1],[0,m[2],0])}var
 p=l}else
 var
 p=h;return p;case
-16:return y(function(a){return nv(n,J,bV,c,a)[1]},x)}var
-d=iY(a,o,x,c,b),q=d?[0,d[1],0]:d;return q},bU,B,$,Y),bT)],ap=f(bS(V),bW),bX=0,bY=f(K,[0,Q,0]),aV=c9(function(b,a){if(typeof
+16:return y(function(a){return nD(n,J,bR,c,a)[1]},x)}var
+d=i6(a,o,x,c,b),q=d?[0,d[1],0]:d;return q},bQ,C,$,X),bP)],an=f(bB(V),bS),bT=0,bV=f(K,[0,Q,0]),aV=c$(function(b,a){if(typeof
 a!=="number")switch(a[0]){case
 13:var
-g=G(x,a[1]);if(g){if(gP(a[4]))return 0;var
-l=[0,nt(H,o,b,a[2],g[1][4]),0]}else
+g=G(x,a[1]);if(g){if(g2(a[4]))return 0;var
+k=[0,nB(H,o,b,a[2],g[1][4]),0]}else
 var
-l=g;return l;case
+k=g;return k;case
 14:var
-h=nu(n,H,o,x,b,a[1],a[2]);if(h){var
-m=h[1],p=m[2],r=m[1];return y(bQ,[0,r[1],[0,r[2],[0,p[1],[0,p[2],0]]]])}return h;case
+h=nC(n,H,o,x,b,a[1],a[2]);if(h){var
+m=h[1],p=m[2],q=m[1];return y(bU,[0,q[1],[0,q[2],[0,p[1],[0,p[2],0]]]])}return h;case
 15:var
-j=G(x,a[1]);if(j){var
-c=i(j[1][5],0),s=[0,c[3],[0,c[4],0]],t=[0,q(uq,b,k(d)),s],u=[0,q(0,b,k(d)),t],v=f(dY(c[2]),u);return f(c[1],v)}return j;case
+i=G(x,a[1]);if(i){var
+c=j(i[1][5],0),s=[0,c[3],[0,c[4],0]],t=[0,r(uD,b,l(d)),s],u=[0,r(0,b,l(d)),t],v=f(dZ(c[2]),u);return f(c[1],v)}return i;case
 16:var
 w=y(function(a){var
-b=e(aZ,gu(bY,iZ(a)));return[0,iZ(a),b]},x);return f(y(function(a){var
-c=fc(b),d=[0,i(a[6],c)[2],0],e=fc(b);return f(i(a[6],e)[1],d)},x),w)}return 0},bX,B,$,Y),aW=cR(e(function(a){return bv(j,a)},ap))[1],aX=cR(aV)[1],Z=cQ(aW),aq=cQ(aX);function
-v(a){return bc(Z,bv(j,a))}function
-aY(i){if(0===A[4][0]){var
-s=z(v,F),t=v(o),e=cF(n),f=p(g(i),j);if(f)var
-h=z(function(a){return[0,[0,a,d],d]},s),a=function(a){return q(a,Z,k(d))},c=a(t),l=aB(0,e),b=m(function(b){var
-d=dB(j,b,c),e=d?m(function(d){var
+b=e(aZ,gD(bV,i7(a)));return[0,i7(a),b]},x);return f(y(function(a){var
+c=fh(b),d=[0,j(a[6],c)[2],0],e=fh(b);return f(j(a[6],e)[1],d)},x),w)}return 0},bT,C,$,X),aW=cS(e(function(a){return bw(i,a)},an))[1],aX=cS(aV)[1],Z=cR(aW),ap=cR(aX);function
+v(a){return bc(Z,bw(i,a))}function
+aY(j){if(0===A[4][0]){var
+s=z(v,F),t=v(o),e=cF(n),f=q(g(j),i);if(f)var
+h=z(function(a){return[0,[0,a,d],d]},s),a=function(a){return r(a,Z,l(d))},c=a(t),k=aC(0,e),b=m(function(b){var
+d=dC(i,b,c),e=d?m(function(d){var
 f=d[1],e=m(function(c){var
-d=a(c);return cE(R(j,b),d)},f);if(e){var
-g=a(d[2]);return gF(c,R(j,b),g)}return e},i):d;if(e){if(h){var
-g=a(h[1][1][1]);return cE(R(j,b),g)}var
+d=a(c);return cE(R(i,b),d)},f);if(e){var
+g=a(d[2]);return gS(c,R(i,b),g)}return e},j):d;if(e){if(h){var
+g=a(h[1][1][1]);return cE(R(i,b),g)}var
 f=1}else
 var
-f=e;return f},l);else
+f=e;return f},k);else
 var
 b=f;var
-r=b?e:b;return r}return 0}var
-W=aY(i(aw(v),V)),a1=m(function(a){var
-b=bv(j,a),c=k(d);return aJ(q(v(a),Z,c),b)},ap),a2=a1?m(function(a){return gG(j,a)},ap):a1,a3=a2?m(function(a){var
-b=k(d);return aJ(q(bc(aq,a),aq,b),a)},aV):a2,a4=a3?ak(uy,Y):a3;if(a4){var
-a6=P(A[7]);if(a6)var
-ac=a6;else{var
-bp=A[5];if(1===n&&2===bp[0])var
-bC=bp[1],bq=h(a,1,[3,[0,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b))))))))),b],bC]);else
+p=b?e:b;return p}return 0}var
+W=aY(j(au(v),V)),a1=m(function(a){var
+b=bw(i,a),c=l(d);return aK(r(v(a),Z,c),b)},an),a2=a1?m(function(a){return gT(i,a)},an):a1,a3=a2?m(function(a){var
+b=l(d);return aK(r(bc(ap,a),ap,b),a)},aV):a2,a4=a3?aj(uL,X):a3;if(a4)var
+bW=L(A[7]),aq=bW||nk(a,[0,n],[0,A[5]]);else
 var
-bq=0;var
-ac=bq}}else
+aq=a4;var
+a6=aq?i8(n,ef(A[4])):aq,a7=a6?h(a,1,A[3]):a6;if(a7)var
+bX=gX(A[5]),ar=m(function(b){var
+c=c9(a,b[1]);return c?c9(a,b[2]):c},bX);else
 var
-ac=a4;var
-a7=ac?i0(n,ee(A[4])):ac,a8=a7?h(a,1,A[3]):a7;if(a8)var
-bZ=gK(A[5]),ar=m(function(b){var
-c=c7(a,b[1]);return c?c7(a,b[2]):c},bZ);else
-var
-ar=a8;if(ar){var
-b0=f(K,[0,Q,0]),as=ab(e(function(b){return ao(a,b)},b0));if(as){var
-at=ab(e(function(b){return iJ(a,b)},aS));if(at){var
-b1=nx(n,ee(A[4])),au=ab(e(function(b){return ao(a,[0,b,B])},b1));if(au){var
-a9=au[1],b2=m2(A[5]),ax=ab(e(function(b){return m4(a,b)},b2));if(ax){var
-a_=ax[1],b3=m1(A[5]),ay=ab(e(c6(a),b3));if(ay){var
-b4=0,I=function(a){return bc(aq,a)},az=f(K,[0,Q,0]),aA=ab(c9(function(j,f){if(typeof
+ar=a7;if(ar){var
+bY=f(K,[0,Q,0]),as=ac(e(function(b){return ao(a,b)},bY));if(as){var
+at=ac(e(function(b){return iP(a,b)},aS));if(at){var
+bZ=nF(n,ef(A[4])),av=ac(e(function(b){return ao(a,[0,b,C])},bZ));if(av){var
+a8=av[1],b0=m8(A[5]),ax=ac(e(function(b){return m_(a,b)},b0));if(ax){var
+a9=ax[1],b1=m7(A[5]),ay=ac(e(c8(a),b1));if(ay){var
+b2=0,I=function(a){return bc(ap,a)},az=f(K,[0,Q,0]),aA=ac(c$(function(i,f){if(typeof
 f!=="number")switch(f[0]){case
 13:var
-E=f[4],aM=G(x,f[1]);if(aM){if(nw(f[3])&&h(a,0,E)&&h(a,0,[3,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b],E])){var
-aN=f[2],aO=aM[1];if(gP(E)){var
-aG=ns(j,i(aO[3],aN)),V=aG[2];if(h(l,0,[3,E,[0,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b))))))))),b]]))var
+E=f[4],aM=G(x,f[1]);if(aM){if(nE(f[3])&&h(a,0,E)&&h(a,0,[3,[0,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b)))))))))),b],E])){var
+aN=f[2],aO=aM[1];if(g2(E)){var
+aG=nA(i,j(aO[3],aN)),V=aG[2];if(h(k,0,[3,E,[0,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b))))))))),b]]))var
 aH=0;else
 var
 be=v(V),bf=v(V),aH=[0,[6,[0,[0,e(v,aG[1]),bf],0],be],0];var
 aP=[0,[4,v(V)],aH]}else
 var
-aP=[0,[9,[3,I(nt(H,o,j,aN,aO[4]))]],0];return e(function(a){return[0,a]},aP)}return uw}return ux;case
+aP=[0,[9,[3,I(nB(H,o,i,aN,aO[4]))]],0];return e(function(a){return[0,a]},aP)}return uJ}return uK;case
 16:var
-Y=f[3],t=f[2],aQ=f[1],bg=bu(n);if(p(g(x),bg)&&h(a,0,aQ)&&h(a,1,t)&&h(a,1,Y)&&c7(a,Y)){var
-aI=ao(a,[0,[0,t,t],B]);if(aI){var
-bh=aI[1],aJ=i(c6(a),Y);if(aJ){var
-bi=aJ[1],aK=ab(e(function(f){var
-b=ma(a,I,az,B,aQ,t,iZ(f));if(b){var
-c=l$(a,v,az,B,t,f[1][2]);if(c){var
-g=gN(0,0,f[1][2]);if(g)var
-i=e(av,c[1]),d=[0,[0,b[1],i]];else
+Y=f[3],t=f[2],aQ=f[1],bg=bv(n);if(q(g(x),bg)&&h(a,0,aQ)&&h(a,1,t)&&h(a,1,Y)&&c9(a,Y)){var
+aI=ao(a,[0,[0,t,t],C]);if(aI){var
+bh=aI[1],aJ=j(c8(a),Y);if(aJ){var
+bi=aJ[1],aK=ac(e(function(f){var
+b=mi(a,I,az,C,aQ,t,i7(f));if(b){var
+c=mh(a,v,az,C,t,f[1][2]);if(c){var
+g=g0(0,0,f[1][2]);if(g)var
+i=e(aw,c[1]),d=[0,[0,b[1],i]];else
 var
 d=g}else
 var
@@ -4777,41 +4838,41 @@ d=c;var
 h=d}else
 var
 h=b;return h},x));if(aK){var
-bj=aK[1],bk=e(function(a){return nv(n,J,az,j,a)},x),aL=i(aw(v),bk),X=function(a){var
+bj=aK[1],bk=e(function(a){return nD(n,J,az,i,a)},x),aL=j(au(v),bk),X=function(a){var
 b=cF(n),c=e(function(a){var
-b=fc(j);return I(i(a[6],b)[2])},x),d=e(function(a){var
-b=fc(j);return e(I,i(a[6],b)[1])},x),f=aY(aL);return[0,[8,[0,aL,v(o),f,d,c,bj,bh,bi,b,a]]]};if(2<=n)return[0,X(1),0];var
-bl=[0,X(1),0];return[0,X(0),bl]}return us}return ut}return uu}return uv}var
+b=fh(i);return I(j(a[6],b)[2])},x),d=e(function(a){var
+b=fh(i);return e(I,j(a[6],b)[1])},x),f=aY(aL);return[0,[8,[0,aL,v(o),f,d,c,bj,bh,bi,b,a]]]};if(2<=n)return[0,X(1),0];var
+bl=[0,X(1),0];return[0,X(0),bl]}return uF}return uG}return uH}return uI}var
 bm=0,w=e(function(a){return a[1]},x);function
 Z(c,b,a){return[0,c,b,a,W]}var
 F=0;if(typeof
 f==="number")var
-aS=v(o),s=[0,Z(i(aw(v),w),aS,u)];else
+aS=v(o),s=[0,Z(j(au(v),w),aS,u)];else
 switch(f[0]){case
 0:var
 y=[5,[0,b,b],f[1]],K=Z;F=1;break;case
 1:var
 aU=[5,[0,b,b],f[1]],y=aU,K=function(c,b,a){return[1,c,b,a]};F=1;break;case
 2:var
-aV=iY(a,o,x,j,f),s=z(function(a){return[4,v(a)]},aV);break;case
+aV=i6(a,o,x,i,f),s=z(function(a){return[4,v(a)]},aV);break;case
 3:var
-aW=iY(a,o,x,j,f),s=z(function(a){return[4,v(a)]},aW);break;case
+aW=i6(a,o,x,i,f),s=z(function(a){return[4,v(a)]},aW);break;case
 5:var
 _=f[1],aX=ao(a,[0,[0,_,_],d]),s=z(function(b){var
-c=S(a,b),d=v(o);return[2,i(aw(v),w),d,c]},aX);break;case
+c=S(a,b),d=v(o);return[2,j(au(v),w),d,c]},aX);break;case
 6:var
-M=G(x,f[1]);if(M){var
-N=nq(x,j,f);if(N){var
-$=N[1],aa=h(a,1,f[2]),ac=aa?h(a,1,f[3]):aa;if(ac)var
-aZ=v($[2]),a0=v(M[1][1][2]),ad=[0,[5,[0,[0,[0,v($[1]),0],a0],0],aZ]];else
+L=G(x,f[1]);if(L){var
+N=ny(x,i,f);if(N){var
+$=N[1],aa=h(a,1,f[2]),ab=aa?h(a,1,f[3]):aa;if(ab)var
+aZ=v($[2]),a0=v(L[1][1][2]),ad=[0,[5,[0,[0,[0,v($[1]),0],a0],0],aZ]];else
 var
-ad=ac;var
+ad=ab;var
 ae=ad}else
 var
 ae=N;var
 af=ae}else
 var
-af=M;var
+af=L;var
 s=af;break;case
 7:var
 ag=f[3],ah=f[2],ai=f[1],aj=G(x,ai),aR=0;if(aj){var
@@ -4827,15 +4888,15 @@ an=h(a,1,f[2]);if(an)var
 a2=f[1],a3=1,O=m(function(b){return h(a,a3,b)},a2);else
 var
 O=an;if(O)var
-a4=L(a,b),a5=v(o),a6=gE(w,j),ap=[0,[0,i(aw(v),a6),a5,a4,0]];else
+a4=M(a,b),a5=v(o),a6=gR(w,i),ap=[0,[0,j(au(v),a6),a5,a4,0]];else
 var
 ap=O;var
 s=ap;break;case
 14:var
-aq=f[2],ar=f[1],P=nu(n,H,o,x,j,ar,aq);if(P){var
-as=P[1],at=as[2],au=as[1],ax=mR(ar,aq,f[3]),Q=ao(a,[0,[0,ax,ax],B]);if(Q){var
+aq=f[2],ar=f[1],P=nC(n,H,o,x,i,ar,aq);if(P){var
+as=P[1],at=as[2],av=as[1],ax=mX(ar,aq,f[3]),Q=ao(a,[0,[0,ax,ax],C]);if(Q){var
 ay=Q[1],aA=D(d,ay[1]);if(aA)var
-A=function(a){return l_(I,a)},a7=A(at[2]),a8=A(at[1]),a9=A(au[2]),aB=[0,[9,[6,A(au[1]),a9,a8,a7,ay]]];else
+A=function(a){return mg(I,a)},a7=A(at[2]),a8=A(at[1]),a9=A(av[2]),aB=[0,[9,[6,A(av[1]),a9,a8,a7,ay]]];else
 var
 aB=aA;var
 aC=aB}else
@@ -4851,7 +4912,7 @@ aE=h(a,1,f[4]);if(aE)var
 aF=h(a,0,f[2]),T=aF?h(a,0,f[3]):aF;else
 var
 T=aE;if(T)var
-C=i(R[1][5],0),a_=I(C[4]),a$=I(C[3]),ba=I(q(ur,j,k(d))),bb=I(q(0,j,k(d))),bc=C[2],bd=e(function(a){return e(I,a)},bc),U=[0,[9,[10,e(I,C[1]),bd,bb,ba,a$,a_]]];else
+B=j(R[1][5],0),a_=I(B[4]),a$=I(B[3]),ba=I(r(uE,i,l(d))),bb=I(r(0,i,l(d))),bc=B[2],bd=e(function(a){return e(I,a)},bc),U=[0,[9,[10,e(I,B[1]),bd,bb,ba,a$,a_]]];else
 var
 U=T}else
 var
@@ -4859,50 +4920,50 @@ U=R;var
 s=U;break;default:var
 s=0}if(F)var
 aT=ao(a,[0,[0,y,y],d]),s=z(function(b){var
-c=S(a,b),d=v(o);return K(i(aw(v),w),d,c)},aT);return[0,s,bm]},b4,B,$,Y));if(aA){var
-a$=aA[1];if(A[7])var
-b5=aQ[2],b6=aQ[1],b7=v(o),ad=mp(bE,a$,[7,i(aw(v),an),b7,b6,b5]);else
+c=S(a,b),d=v(o);return K(j(au(v),w),d,c)},aT);return[0,s,bm]},b2,C,$,X));if(aA){var
+a_=aA[1];if(A[7])var
+b3=aQ[2],b4=aQ[1],b5=v(o),aa=iJ(bA,a_,[7,j(au(v),ak),b5,b4,b3]);else
 var
-ad=a$;var
-ba=p(g(f(a9,a_)),j),bb=ba?m(function(a){var
-b=nj(a);return m(function(a){return mY(j,Z,a)},b)},ad):ba,bd=bb?F?mY(j,Z,v(F[1])):1:bb;if(bd){var
-b8=f(at[1],ay[1]),aC=f(as[1],b8),M=nz(aP),N=i1(B,A[2]),_=M?e(function(a){var
-b=nh(j,N,a[2]),c=a[1];return[0,e(function(a){return nh(j,N,a)},c),b]},V):M,aD=M?cR(iU(j,o,F,_))[1]:M,aF=cQ(aD),ae=function(a){return bc(aF,a)},b9=iS(ae,ae,_),b_=ae(bv(j,o)),aG=z(function(a){return ae(bv(j,a))},F),be=P(M);if(be)var
-af=be;else{var
-bo=p(g(V),j);if(bo){var
-bA=iU(j,o,F,_),aM=m(function(a){var
-b=k(d);return aJ(q(bc(aF,a),aF,b),a)},bA);if(aM)var
-bB=iU(j,o,F,_),ag=m(function(a){var
-b=aB(0,j);return m(function(b){return eg(j,b,a)},b)},bB);else
+aa=a_;var
+a$=q(g(f(a8,a9)),i),ba=a$?m(function(a){var
+b=nr(a);return m(function(a){return m4(i,Z,a)},b)},aa):a$,bb=ba?F?m4(i,Z,v(F[1])):1:ba;if(bb){var
+b6=f(at[1],ay[1]),aB=f(as[1],b6),N=nH(aP),O=i9(C,A[2]),_=N?e(function(a){var
+b=np(i,O,a[2]),c=a[1];return[0,e(function(a){return np(i,O,a)},c),b]},V):N,aD=N?cS(i2(i,o,F,_))[1]:N,aE=cR(aD),ad=function(a){return bc(aE,a)},b7=i0(ad,ad,_),b8=ad(bw(i,o)),aG=z(function(a){return ad(bw(i,a))},F),bd=L(N);if(bd)var
+ae=bd;else{var
+bn=q(g(V),i);if(bn){var
+bx=i2(i,o,F,_),aM=m(function(a){var
+b=l(d);return aK(r(bc(aE,a),aE,b),a)},bx);if(aM)var
+by=i2(i,o,F,_),ag=m(function(a){var
+b=aC(0,i);return m(function(b){return eh(i,b,a)},b)},by);else
 var
 ag=aM;if(ag){var
-aN=z(function(a){return bv(j,a)},F),ai=bv(j,o),aL=nd(ai);if(aL)var
-bz=aB(0,W),aO=m(function(a){var
-b=dB(j,a,ai),c=b?m(function(b){var
-d=b[2][2],e=f(y(iT,b[1]),d),g=R(j,a),c=m(function(a){return cE(g,a)},e);if(c){var
-h=b[2][1];return gF(ai,R(j,a),h)}return c},_):b;if(c){if(aN){var
-e=aN[1];return cE(R(j,a),e)}var
+aN=z(function(a){return bw(i,a)},F),ah=bw(i,o),aL=nl(ah);if(aL)var
+bu=aC(0,W),aO=m(function(a){var
+b=dC(i,a,ah),c=b?m(function(b){var
+d=b[2][2],e=f(y(i1,b[1]),d),g=R(i,a),c=m(function(a){return cE(g,a)},e);if(c){var
+h=b[2][1];return gS(ah,R(i,a),h)}return c},_):b;if(c){if(aN){var
+e=aN[1];return cE(R(i,a),e)}var
 d=1}else
 var
-d=c;return d},bz);else
+d=c;return d},bu);else
 var
 aO=aL;var
-aj=aO}else
+ai=aO}else
 var
-aj=ag;var
-ce=aj?m(function(a){var
-c=a[1],b=m(function(a){return ni(j,aC,N,a)},c);return b?ni(j,aC,N,a[2]):b},V):aj,af=ce}else
+ai=ag;var
+cc=ai?m(function(a){var
+c=a[1],b=m(function(a){return nq(i,aB,O,a)},c);return b?nq(i,aB,O,a[2]):b},V):ai,ae=cc}else
 var
-af=bo}if(af){var
-b$=e(function(a){return 1},ad),ca=f(a9,a_),cb=function(l,P,ac,$,c){if(M){if(typeof
+ae=bn}if(ae){var
+b9=e(function(a){return 1},aa),b_=f(a8,a9),b$=function(l,P,aa,$,c){if(N){if(typeof
 c!=="number"&&10===c[0]){var
-h=c[3],o=c[2],r=c[1];if(typeof
-r!=="number"&&6===r[0]){if(h){if(h[2])return 0;var
-w=h[1],b=r[1],x=p($,W),y=x?aH(0,W):x;if(y)var
-v=hW(hR,e(av,o),N),Y=v?1:v,s=Y;else
+h=c[3],o=c[2],p=c[1];if(typeof
+p!=="number"&&6===p[0]){if(h){if(h[2])return 0;var
+w=h[1],b=p[1],x=q($,W),y=x?aJ(0,W):x;if(y)var
+v=h6(h1,e(aw,o),O),Y=v?1:v,s=Y;else
 var
 s=y;var
-z=s?gn(N):s,A=z?m(function(a){return aH(a,g(l))},N):z,B=A?p(g(w),j):A;if(B){var
+z=s?gw(O):s,A=z?m(function(a){return aJ(a,g(l))},O):z,B=A?q(g(w),i):A;if(B){var
 u=0;if(typeof
 b!=="number")switch(b[0]){case
 0:var
@@ -4914,146 +4975,131 @@ R=0;if(aG){var
 K=D(d,J);if(K){var
 I=k[2],H=k[1],G=[0,[0,[0,aG[1],J],b[3]]];u=1;Q=1;R=1}else
 var
-O=K}else
+L=K}else
 var
-O=aG;if(!R)return O}if(!Q)return 0;break}if(u){var
-S=iN(a,e1(o,0,l),aD,P),n=iN(a,l,aD,P),f=function(b,a){return q(a,b,uc)},T=nf(function(a){return f(n,a)},G),U=f(n,b_),V=function(a){return f(n,a)},X=[0,iS(function(a){return f(S,a)},V,b9),U,T],Z=gh(o,l),_=function(g){var
-b=ab(e(ua,g[1]));if(b){var
+L=aG;if(!R)return L}if(!Q)return 0;break}if(u){var
+S=iT(a,e1(o,0,l),aD,P),n=iT(a,l,aD,P),f=function(b,a){return r(a,b,up)},T=nn(function(a){return f(n,a)},G),U=f(n,b8),V=function(a){return f(n,a)},X=[0,i0(function(a){return f(S,a)},V,b7),U,T],Z=gq(o,l),_=function(g){var
+b=ac(e(un,g[1]));if(b){var
 c=g[2];if(c){var
-d=da(g[3]);if(d){var
-l=d[1],m=al([0,E(aa(t(a,ac,c[1])),l),0],j),n=b[1],o=e(function(d){var
-b=gi(a,0,Z,d),c=br(ub,b[2]);return[0,b[1],c]},n),f=id(a,e(function(b){return L(a,b)},w),H,I,o,m);if(f)return a5(a,j,f[1]);var
+d=dc(g[3]);if(d){var
+l=d[1],m=al([0,E(ab(t(a,aa,c[1])),l),0],i),n=b[1],o=e(function(d){var
+b=gr(a,0,Z,d),c=bs(uo,b[2]);return[0,b[1],c]},n),f=ip(a,e(function(b){return M(a,b)},w),H,I,o,m);if(f)return a5(a,i,f[1]);var
 h=f}else
 var
 h=d;var
-i=h}else
+j=h}else
 var
-i=c;var
-k=i}else
+j=c;var
+k=j}else
 var
-k=b;return k};return i(iP(function(b,a){return t$},W,j,_),X)}var
+k=b;return k};return j(iV(function(b,a){return um},W,i,_),X)}var
 C=0}else
 var
 C=B;var
 F=C}else
 var
-F=h;return F}return 0}return 0}return M},cc=v(o),cd=i(aw(v),V);return fb(a,aW,aX,ad,j,j,z(v,F),cd,cc,cb,aC,ca,b$,aP)}var
-bf=af}else
+F=h;return F}return 0}return 0}return N},ca=v(o),cb=j(au(v),V);return fg(a,aW,aX,aa,i,i,z(v,F),cb,ca,b$,aB,b_,b9,aP)}var
+be=ae}else
 var
-bf=bd;var
+be=bb;var
+bf=be}else
+var
+bf=aA;var
 bg=bf}else
 var
-bg=aA;var
+bg=ay;var
 bh=bg}else
 var
-bh=ay;var
+bh=ax;var
 bi=bh}else
 var
-bi=ax;var
+bi=av;var
 bj=bi}else
 var
-bj=au;var
+bj=at;var
 bk=bj}else
 var
-bk=at;var
+bk=as;var
 bm=bk}else
 var
-bm=as;var
-bn=bm}else
-var
-bn=ar;return bn}function
-fd(b,a){return bt(b,a[1],a[2])}function
-nA(b,a){var
-c=fd(b,a[1]),d=c?fd(b,a[2]):c;return d?fd(b,a[3]):d}function
-aX(a){return typeof
-a==="number"?a?uA:uB:bu(a[1])}function
-nB(b,a,c){return typeof
-b==="number"?b?[0,a[1],[0,a[2],0]]:[0,a[1],[0,a[2],[0,a[3],0]]]:iK(b[1],a,c)}function
-gR(a){if(0===a[0]){var
-c=a[1];switch(c[0]){case
-0:return c[3];case
-1:return c[2];default:return[0,[0,d,b],[0,d,b],[0,d,b]]}}return a[1][4]}function
-gS(b,c,a){return b?cC(b[1],c,a):a}function
-bW(d,c,b,a){var
-e=gR(a),f=gS(d,c,gR(a)),g=U(function(b,a){return[2,b,a]},b,f);return U(function(b,a){return[3,b,a]},g,e)}function
-nC(b,a){var
-c=typeof
-b==="number"?1:0;if(c){if(b)return[0,a[1],[0,a[2],0]];var
-d=[0,a[1],[0,a[2],[0,a[3],0]]]}else
-var
-d=c;return d}function
-nD(b,w,v){var
-e=w,d=v;for(;;){if(e){if(d){var
-f=d[1],j=e[1];if(0===j[0])var
-g=0===f[0]?md(b,j[1],f[1]):0;else
-if(0===f[0])var
-g=0;else{var
-a=f[1],c=j[1],k=bm(b,c[1],a[1]),l=k?bm(b,c[2],a[2]):k,m=l?bm(b,c[3],a[3]):l,n=m?bm(b,c[4],a[4]):m,o=n?c2(b,c[5],a[5]):n,p=o?c2(b,c[6],a[6]):o,q=p?h(b,1,a[5]):p,r=q?h(b,1,a[6]):q,s=r?h(b,1,x(a[1],a[1])):r;if(s)var
-u=iA(a),i=h(b,1,x(iA(a),u));else
-var
-i=s;var
-g=i?co(c[7],a[7]):i}if(g){var
-e=e[2],d=d[2];continue}var
-t=g}else
-var
-t=d;return t}return d?0:1}}function
-nE(a){return typeof
-a==="number"?a?dD(0):dv:dD(a[1])}function
-i2(b,d,c){if(0===c[0])return gr(b,d[1],c[1]);var
+bm=ar;return bm}function
+fi(b,a){return bu(b,a[1],a[2])}function
+nI(b,a){var
+c=fi(b,a[1]),d=c?fi(b,a[2]):c;return d?fi(b,a[3]):d}function
+i_(a){return typeof
+a==="number"?a?dE(0):dx:dE(a[1])}function
+nJ(b,a,c){return typeof
+b==="number"?b?[0,a[1],[0,a[2],0]]:bU(a):gY(b[1],a,c)}function
+i$(b,d,c){if(0===c[0])return gA(b,d[1],c[1]);var
 a=c[1],e=[0,[0,a[5],b],[0,[0,a[6],b],0]],g=f(a7(a[4],b),e),h=f(a7(a[3],b),g),i=f(a7(a[2],d[2]),h);return f(a7(a[1],d[1]),i)}function
-i3(b,a){if(b){var
-c=b[1],d=c[2];return bl(fa(c[1],a),d)}return a}function
-nF(f,t,al,J,ak,r,ai){if(r){var
-j=r[1],an=bM([0,d,d],ak),a=cz(ai,i2(J,an,j)),y=function(c,b){var
-d=aj(a,c);return ah(w,ah(C,nE(f),b),d)};if(0===j[0]){var
+ja(b,a){if(b){var
+c=b[1],d=c[2];return bl(fd(c[1],a),d)}return a}function
+nK(h,t,al,J,aj,q,ai){if(q){var
+j=q[1],an=bQ([0,d,d],aj),a=cB(ai,i$(J,an,j)),y=function(c,b){var
+d=ak(a,c);return af(w,af(B,i_(h),b),d)};if(0===j[0]){var
 z=j[1];switch(z[0]){case
 0:var
-$=i3(t,aj(a,uD)),aD=z[1][5],A=q(uE,a,k(d)),B=aj(a,0),aa=y(uF,$),i=ls(aa,du(B),aa,A,aD),ap=[0,aE(A),0],aq=[0,aE(X(B,B)),ap],l=[0,[0,i[1],i[2],i[3],[0,i[4]],[0,[0,i[2],A]],aq],$];break;case
+$=ja(t,ak(a,uN)),aE=z[1][5],A=r(uO,a,l(d)),C=ak(a,0),aa=y(uP,$),i=lA(aa,dw(C),aa,A,aE),aq=[0,aF(A),0],ar=[0,aF(Y(C,C)),aq],k=[0,[0,i[1],i[2],i[3],[0,i[4]],[0,[0,i[2],A]],ar],$];break;case
 1:var
-ab=i3(t,aj(a,uG)),ac=z[3],D=ac?[0,aj(a,uH)]:ac,ad=y(0,ab),m=lt(ad,ad,0);if(D)var
-K=D[1],L=[0,aE(X(K,K)),0];else
+ab=ja(t,ak(a,uQ)),ac=z[3],D=ac?[0,ak(a,uR)]:ac,ad=y(0,ab),m=lB(ad,ad,0);if(D)var
+K=D[1],L=[0,aF(Y(K,K)),0];else
 var
 L=D;var
-l=[0,[0,m[1],m[2],m[3],[0,m[4]],0,L],ab];break;default:var
-aF=k(d),aG=k(d),aH=[0,k(d),aG,aF],E=aj(a,0),aI=nE(f),n=lu(aI,du(E)),ar=[0,aE(X(E,E)),0],l=[0,[0,n[1],n[2],n[3],[0,n[4]],0,ar],aH]}}else
+k=[0,[0,m[1],m[2],m[3],[0,m[4]],0,L],ab];break;default:var
+aG=l(d),aH=l(d),aI=[0,l(d),aH,aG],E=ak(a,0),aJ=i_(h),n=lC(aJ,dw(E)),as=[0,aF(Y(E,E)),0],k=[0,[0,n[1],n[2],n[3],[0,n[4]],0,as],aI]}}else
 var
-ae=i3(t,aj(a,uI)),F=j[1][7],G=q(uJ,a,k(d)),e=q(uK,a,k(d)),af=aj(a,uL),H=aj(a,0),p=y(uM,ae),o=du(H),u=ah(w,af,a0(X(o,af),o)),v=du(u),M=cf(o,v),N=X(p,v),O=X(p,M),as=X(o,p),at=T(O),P=C(T(N),at),au=T(as),Q=w(T(G),au),av=s(k(c(2,b)),e),x=w(P,T(am(C(P,w(T(e),Q)),av))),aw=gc(F,s(e,aE(x))),S=am(N,e),U=gc(F,am(O,e)),V=am(Q,T(e)),W=k0(0,S,U,V),Y=gc(F,k0(1,S,U,V)),ax=a0(Y,M),Z=ah(w,p,a0(e,ah(C,a0(W,v),ax))),ay=[0,aE(G),0],az=[0,aE(e),ay],aA=[0,aE(X(u,u)),az],aB=[0,aE(X(H,H)),aA],aC=bl(Z,aw),l=[0,[0,Z,s(T(e),x),aC,[1,W,Y],[0,[0,x,G]],aB],ae];var
-aP=R(ai,g(i2(J,an,j))),aQ=r[2],aR=nF(f,t,al,J,by(ak),aQ,aP),h=l[1],aS=l[2],ag=function(a){var
-b=bl(cf(aS,a),al);return typeof
-f==="number"?f?[0,a[1],[0,a[2],0]]:bQ(a):gL(f[1],a,b)},I=h[1],_=typeof
-f==="number"?1:0,aJ=h[6],aK=h[5],aL=_?f?[0,I[1],[0,I[2],0]]:bQ(I):_,aM=h[4],aN=ag(h[3]),aO=h[2],ao=[0,[0,ag(h[1]),aO,aN,aM,aL,aK,aJ],aR]}else
+ae=ja(t,ak(a,uS)),F=j[1][7],G=r(uT,a,l(d)),e=r(uU,a,l(d)),ag=ak(a,uV),H=ak(a,0),p=y(uW,ae),o=dw(H),u=af(w,ag,a0(Y(o,ag),o)),v=dw(u),M=bE(o,v),N=Y(p,v),O=Y(p,M),at=Y(o,p),au=T(O),P=B(T(N),au),av=T(at),Q=w(T(G),av),aw=s(l(c(2,b)),e),x=w(P,T(am(B(P,w(T(e),Q)),aw))),ax=gl(F,s(e,aF(x))),S=am(N,e),U=gl(F,am(O,e)),V=am(Q,T(e)),W=k8(0,S,U,V),X=gl(F,k8(1,S,U,V)),ay=a0(X,M),Z=af(w,p,a0(e,af(B,a0(W,v),ay))),az=[0,aF(G),0],aA=[0,aF(e),az],aB=[0,aF(Y(u,u)),aA],aC=[0,aF(Y(H,H)),aB],aD=bl(Z,ax),k=[0,[0,Z,s(T(e),x),aD,[1,W,X],[0,[0,x,G]],aC],ae];var
+aT=R(ai,g(i$(J,an,j))),aU=q[2],aV=nK(h,t,al,J,bz(aj),aU,aT),ao=k[2],f=k[1],ah=function(a){return nJ(h,a,bl(bE(ao,a),al))},aK=f[1],aL=bE(af(B,i_(h),ao),aK),aM=nJ(h,f[1],aL),I=f[1],_=typeof
+h==="number"?1:0,aN=f[6],aO=f[5],aP=_?h?[0,I[1],[0,I[2],0]]:bU(I):_,aQ=f[4],aR=ah(f[3]),aS=f[2],ap=[0,[0,ah(f[1]),aS,aR,aQ,aP,aO,aN,aM],aV]}else
 var
-ao=r;return ao}function
-i4(c,b,a){if(a){var
-e=a[2],g=i4(c,by(b),e),h=a[1];return f(i2(c,bM([0,d,d],b),h),g)}return a}function
-nG(b,h,g,d,c,a){if(a){var
-j=a[2],k=a[1],l=nG(b,h,g,d,f(c,[0,k,0]),j),m=i(d,e(by,f(c,j)));return aq(h,aq(g,bM(b,k),m),l)}return b}function
-nH(a,f,e,d,c,b){if(c){var
-g=0,h=c[1];return nG(a,e,d,function(b){return nH(a,f,e,d,h,b)},g,b)}return b?a:f}function
-i5(b){if(b){var
+ap=q;return ap}function
+jb(c,b,a){if(a){var
+e=a[2],g=jb(c,bz(b),e),h=a[1];return f(i$(c,bQ([0,d,d],b),h),g)}return a}function
+nL(b,h,g,d,c,a){if(a){var
+i=a[2],k=a[1],l=nL(b,h,g,d,f(c,[0,k,0]),i),m=j(d,e(bz,f(c,i)));return aq(h,aq(g,bQ(b,k),m),l)}return b}function
+nM(a,f,e,d,c,b){if(c){var
+g=0,h=c[1];return nL(a,e,d,function(b){return nM(a,f,e,d,h,b)},g,b)}return b?a:f}function
+nN(a,d,c){var
+e=gG(a,c);function
+f(b,c){return t(a,b,c)}var
+g=M(a,b);return z(function(a){return nM(u,g,E,f,d,a)},e)}function
+nO(e,c,o,n){var
+a=nN(e,c,o);if(a){var
+f=a[1],b=nN(e,c,n);if(b){var
+g=b[1],h=J(d,f[1]),i=h?J(g[2],d):h;if(i)var
+j=i;else{var
+m=J(f[2],d);if(m)return J(d,g[1]);var
+j=m}var
+k=j}else
+var
+k=b;var
+l=k}else
+var
+l=a;return l}function
+jc(b){if(b){var
 a=b[2],c=b[1];if(c){var
 e=c[2],q=c[1];if(e){var
-f=e[2],r=e[1];if(f){if(f[2])return k(d);if(a){var
+f=e[2],r=e[1];if(f){if(f[2])return l(d);if(a){var
 g=a[2],h=a[1];if(h){var
 i=h[2],t=h[1];if(i){var
 j=i[2],u=i[1];if(j){var
-v=j[1];if(j[2])return k(d);if(g){var
-l=g[1];if(l){var
-m=l[2],x=l[1];if(m){var
+v=j[1];if(j[2])return l(d);if(g){var
+k=g[1];if(k){var
+m=k[2],x=k[1];if(m){var
 n=m[2],y=m[1];if(n){var
-z=n[1];if(n[2])return k(d);if(g[2])return k(d);var
-A=dy(t,u,x,y),B=s(f[1],A),D=s(r,dy(t,v,x,z));return C(w(s(q,dy(u,v,y,z)),D),B)}return k(d)}return k(d)}return k(d)}return k(d)}return k(d)}return k(d)}return k(d)}return k(d)}if(a){var
+z=n[1];if(n[2])return l(d);if(g[2])return l(d);var
+A=dA(t,u,x,y),C=s(f[1],A),D=s(r,dA(t,v,x,z));return B(w(s(q,dA(u,v,y,z)),D),C)}return l(d)}return l(d)}return l(d)}return l(d)}return l(d)}return l(d)}return l(d)}return l(d)}if(a){var
 o=a[1];if(o){var
-p=o[2];return p?p[2]?k(d):a[2]?k(d):dy(q,r,o[1],p[1]):k(d)}return k(d)}return k(d)}return k(d)}return k(d)}return k(d)}function
-nI(a){if(a){var
+p=o[2];return p?p[2]?l(d):a[2]?l(d):dA(q,r,o[1],p[1]):l(d)}return l(d)}return l(d)}return l(d)}return l(d)}return l(d)}function
+nP(a){if(a){var
 b=a[1][6];if(b)var
-c=nI(a[2]),e=c?[0,[0,b[1][2],c[1]]]:c,d=e;else
+c=nP(a[2]),e=c?[0,[0,b[1][2],c[1]]]:c,d=e;else
 var
-d=b;return d}return uN}function
-nJ(g,l,a){function
-b(a){return q(a,l,k(d))}function
+d=b;return d}return uX}function
+nQ(g,k,a){function
+b(a){return r(a,k,l(d))}function
 m(a){var
-e=a[2],f=s(T(b(0)),e),c=0,d=0,g=a[1];return[0,[0,bN(function(b,a){return w(b,T(a))},g,f),d],c]}function
+e=a[2],f=s(T(b(0)),e),c=0,d=0,g=a[1];return[0,[0,bR(function(b,a){return w(b,T(a))},g,f),d],c]}function
 n(e){var
 a=e[6];if(a)var
 c=a[1],f=T(c[2]),g=s(T(b(0)),f),d=[0,[0,w(c[1],g),0],0];else
@@ -5076,7 +5122,7 @@ d=a[1];return[0,[0,w(b(0),d),0],0]}return 0},f=v,c=a[1];break;case
 x=function(e){var
 a=e[4];if(typeof
 a!=="number"&&1===a[0]){var
-c=a[2],d=a[1],f=s(b(uO),c),g=[0,[0,w(s(b(uP),d),f),0],0],h=s(d,b(uQ));return[0,[0,w(s(c,b(0)),h),0],g]}return 0},f=x,c=a[1];break;case
+c=a[2],d=a[1],f=s(b(uY),c),g=[0,[0,w(s(b(uZ),d),f),0],0],h=s(d,b(u0));return[0,[0,w(s(c,b(0)),h),0],g]}return 0},f=x,c=a[1];break;case
 6:var
 y=function(a){var
 b=a[4];if(typeof
@@ -5092,71 +5138,153 @@ A=function(a){var
 b=a[4];if(typeof
 b!=="number"&&0===b[0])return n(a);return 0},f=A,c=a[1];break;case
 12:var
-i=nI(g);if(i)var
-B=b(0),o=bN(s,i[1],B),p=i5(e(function(a){return a[5]},g)),D=[0,bk(C(p,o)),0],r=[0,[0,w(p,o),D],0];else
+i=nP(g);if(i)var
+C=b(0),o=bR(s,i[1],C),p=jc(e(function(a){return a[5]},g)),D=[0,bk(B(p,o)),0],q=[0,[0,w(p,o),D],0];else
 var
-r=i;return r;case
+q=i;return q;case
 17:var
 t=a[1],f=function(d){var
-a=i5(e(function(a){return a[1]},g));function
+a=jc(e(function(a){return a[1]},g));function
 b(b){var
-c=[0,bk(C(a,b)),0];return[0,w(a,b),c]}var
-f=i5(ms(t,l,e(function(a){return a[1]},g))),c=s(aE(d[2]),f),h=[0,b(bk(c)),0];return[0,b(c),h]},c=t;break;default:j=1}if(j)return 0;var
+c=[0,bk(B(a,b)),0];return[0,w(a,b),c]}var
+f=jc(mz(t,k,e(function(a){return a[1]},g))),c=s(aF(d[2]),f),h=[0,b(bk(c)),0];return[0,b(c),h]},c=t;break;default:j=1}if(j)return 0;var
 h=G(g,c);return h?f(h[1]):h}function
-ek(a){return e(function(a){return[0,a[1],a[2]]},a)}function
-fe(a){return e(function(a){var
-c=k(b);return[0,a[3],c]},a)}function
-nK(c,b,a){if(typeof
-a!=="number"&&8===a[0])return bS(gE(ek(c),b));return dY(nJ(c,b,a))}function
-nL(f,l,k,K,J,t,a){if(typeof
+el(a){return e(function(a){return[0,a[1],a[2]]},a)}function
+fj(a){return e(function(a){var
+c=l(b);return[0,a[3],c]},a)}function
+nR(c,b,a){if(typeof
+a!=="number"&&8===a[0])return bB(gR(el(c),b));return dZ(nQ(c,b,a))}function
+nS(f,l,k,K,J,t,a){if(typeof
 a==="number")return[0,[0,[0,u]],0];else
 switch(a[0]){case
 0:var
-M=[5,[0,b,b],a[1]],n=M,o=function(a){return[0,a]};break;case
+L=[5,[0,b,b],a[1]],n=L,o=function(a){return[0,a]};break;case
 1:var
 P=[5,[0,b,b],a[1]],n=P,o=function(a){return[1,a]};break;case
 5:var
 B=a[1],U=0,V=ao(f,[0,[0,B,B],d]);return[0,z(function(a){return[2,S(f,a)]},V),U];case
 7:var
-C=a[3],D=a[2],E=a[1];if(!G(k,E))return uT;var
+C=a[3],D=a[2],E=a[1];if(!G(k,E))return u3;var
 I=0;if(h(f,1,D)&&h(f,1,C))var
 W=[5,D,C],n=W,o=function(a){return[7,E,a]};else
-I=1;if(I)return uS;break;case
+I=1;if(I)return u2;break;case
 8:var
 F=h(f,1,a[2]),X=0;if(F)var
-Y=a[1],Z=1,q=m(function(a){return h(f,Z,a)},Y);else
+Y=a[1],Z=1,r=m(function(a){return h(f,Z,a)},Y);else
 var
-q=F;if(q)var
-_=L(f,b),$=gE(ek(k),t),H=[0,[4,i(aw(l),$),_]];else
+r=F;if(r)var
+_=M(f,b),$=gR(el(k),t),H=[0,[4,j(au(l),$),_]];else
 var
-H=q;return[0,H,X];default:var
+H=r;return[0,H,X];default:var
 s=0;if(typeof
 a==="number")s=1;else
 switch(a[0]){case
 4:var
-v=a[3],w=a[2],x=h(f,1,[3,v,w]),R=x?h(f,1,[3,[2,w,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b]],v]):x,j=R;break;case
+v=a[3],w=a[2],x=h(f,1,[3,v,w]),R=x?h(f,1,[3,[2,w,[0,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b)))))))))),b]],v]):x,i=R;break;case
 17:var
 A=h(f,1,a[3]);if(A)var
-T=e(function(a){return a[1]},k),j=mt(g(a[2]),T);else
+T=e(function(a){return a[1]},k),i=mA(g(a[2]),T);else
 var
-j=A;break;case
+i=A;break;case
 6:case
 9:var
-y=h(f,1,a[2]),j=y?h(f,0,a[3]):y;break;default:s=1}if(s)var
-j=1;var
-p=j?nJ(k,t,a):j;if(p){var
-Q=[0,p[1],p[2]];return e(function(a){if(a){var
+y=h(f,1,a[2]),i=y?h(f,0,a[3]):y;break;default:s=1}if(s)var
+i=1;var
+q=i?nQ(k,t,a):i;if(q){var
+Q=[0,q[1],q[2]];return e(function(a){if(a){var
 b=a[2],c=a[1];if(b){if(b[2])return 0;var
-e=i(l,b[1]);return[0,[5,i(l,c),e]]}var
-d=[0,[3,i(l,c)]]}else
+e=j(l,b[1]);return[0,[5,j(l,c),e]]}var
+d=[0,[3,j(l,c)]]}else
 var
-d=a;return d},Q)}return uR}var
-N=0,O=ao(f,[0,[0,n,n],gD(K,J)]);return[0,z(function(a){return o(S(f,a))},O),N]}function
-nM(a){if(typeof
+d=a;return d},Q)}return u1}var
+N=0,O=ao(f,[0,[0,n,n],gQ(K,J)]);return[0,z(function(a){return o(S(f,a))},O),N]}function
+nT(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-uV(b){if(0===b[0])return[0,mn(b[1])];var
-a=b[1],c=a[7],d=a[6][1],e=a[5][1],f=bA(a[4]),g=bA(a[3]),h=bA(a[2]);return[1,[0,bA(a[1]),h,g,f,e,d,c]]}function
-bX(c){var
+u4(a){return 0===a[0]?2===a[1][0]?0:1:1}function
+u5(c,R,aA,a,i,Q,az){var
+b=a[1],aB=aL(b),s=a[6],A=jb(i,Q,a[2]),S=a[3],T=[0,[0,S,S],i],U=[0,g(A)],B=a[2],p=B?0===B[1][0]?0:1:B,aC=a[5],aD=z(function(a){var
+c=typeof
+b==="number"?0:cF(b[1]);return m6(a,c)},aC),aE=a[2],k=nK(b,aD,c2(T,g(A)),i,Q,aE,0),V=y(function(a){return a[7]},k),W=a[7],X=W?e(function(a){return[0,a[8],a[2]]},k):W,aF=bB(X),aG=f(V,f(c$(function(a,b){return nR(k,a,b)},p,i,U,s),aF)),aH=f(bB(fj(k)),aG),Y=f(bB(el(k)),aH),Z=cS(Y)[1],_=cR(Z);function
+o(a){return bc(_,a)}var
+$=m(function(a){var
+b=l(d);return aK(r(o(a),_,b),a)},Y),aa=$?aj(nT,s):$;if(aa){var
+ab=a[4];if(typeof
+b==="number")var
+ad=b?i8(0,ef(ab)):1;else
+var
+ax=ef(ab),ad=i8(b[1],ax);var
+C=ad}else
+var
+C=aa;if(C){var
+N=a[1];if(typeof
+N==="number")var
+t=a[5]?0:1;else
+if(2<=N[1])var
+t=0;else{var
+w=a[5],M=0;if(w){var
+O=h(c,1,a[3]);if(O)var
+ay=gX(w[1]),t=m(function(a){var
+b=c9(c,a[1]);return b?c9(c,a[2]):b},ay);else{var
+P=O;M=1}}else{var
+P=w;M=1}if(M)var
+t=P}var
+D=t}else
+var
+D=C;if(D)var
+aI=a[2],E=m(function(a){var
+b=0===a[0]?0:1;return cq(b,p)},aI);else
+var
+E=D;if(E){var
+ae=L(a[7]);if(ae)var
+u=ae;else
+var
+av=nk(c,b,a[5]),u=av?m(u4,a[2]):av}else
+var
+u=E;if(u){var
+aJ=f(A,[0,T,0]),F=ac(e(function(a){return ao(c,a)},aJ));if(F){var
+aM=y(function(a){return fa(p,i,a)},s),G=ac(e(function(a){return iP(c,a)},aM));if(G){var
+n=ef(a[4]),aN=typeof
+b==="number"?b?[0,n[1],[0,n[2],0]]:[0,n[1],[0,n[2],[0,n[3],0]]]:nF(b[1],n),H=ac(e(function(a){return ao(c,[0,a,i])},aN));if(H){var
+af=H[1],ag=a[5];if(ag)var
+aO=m8(ag[1]),v=ac(e(function(a){return m_(c,a)},aO));else
+var
+v=u6;if(v){var
+ah=v[1],x=a[5],aP=x?m7(x[1]):x,I=ac(e(c8(c),aP));if(I){var
+J=ac(c$(function(a,b){return nS(c,o,k,p,i,a,b)},p,i,U,s));if(J){var
+ai=J[1];if(a[7])var
+aQ=R[2],aR=R[1],K=iJ(aA,ai,[8,j(au(o),X),aR,aQ]);else
+var
+K=ai;var
+ak=q(g(f(af,ah)),aB);if(ak){var
+aS=iB(K),aT=f(af,ah),aw=0,aU=a[4];if(typeof
+b==="number"&&!b){var
+al=function(a){return mk(c,aU,i,a)};aw=1}if(!aw)var
+al=function(a){return 0};var
+aV=f(G[1],I[1]),aW=f(F[1],aV),aX=e(o,V),aY=fj(k),aZ=j(au(o),aY),a0=el(k);return fG(iA(c,Z,j(au(o),a0),aZ,aX,aW,K,al),aT,aS,az)}var
+am=ak}else
+var
+am=J;var
+an=am}else
+var
+an=I;var
+ap=an}else
+var
+ap=v;var
+aq=ap}else
+var
+aq=H;var
+ar=aq}else
+var
+ar=G;var
+as=ar}else
+var
+as=F;var
+at=as}else
+var
+at=u;return at}function
+u7(b){if(0===b[0])return[0,mv(b[1])];var
+a=b[1],c=a[7],d=a[6][1],e=a[5][1],f=bC(a[4]),g=bC(a[3]),h=bC(a[2]);return[1,[0,bC(a[1]),h,g,f,e,d,c]]}function
+bY(c){var
 a=c;for(;;)switch(a[0]){case
 0:var
 b=a[1];return[0,[0,[0,b,b],d],0];case
@@ -5165,17 +5293,17 @@ b=a[1];return[0,[0,[0,b,b],d],0];case
 7:case
 8:var
 a=a[1];continue;default:var
-e=bX(a[2]);return f(bX(a[1]),e)}}function
-bC(e,a,c){switch(a[0]){case
+e=bY(a[2]);return f(bY(a[1]),e)}}function
+bG(e,a,c){switch(a[0]){case
 0:var
-q=a[1];return c1([0,[0,q,q],d],c);case
+q=a[1];return c2([0,[0,q,q],d],c);case
 1:var
-t=a[1],h=e,u=k(d);for(;;){if(h){var
-n=h[1];if(ry(n[1],t))return n[2];var
+t=a[1],h=e,u=l(d);for(;;){if(h){var
+n=h[1];if(rI(n[1],t))return n[2];var
 h=h[2];continue}return u}case
-2:return bk(bC(e,a[1],c));case
+2:return bk(bG(e,a[1],c));case
 3:var
-j=a[2],f=a[1],i=C;break;case
+j=a[2],f=a[1],i=B;break;case
 4:var
 j=a[2],f=a[1],i=w;break;case
 5:var
@@ -5183,86 +5311,86 @@ j=a[2],f=a[1],i=s;break;case
 6:var
 j=a[2],f=a[1],i=am;break;case
 7:var
-l=eP(a[2]),m=bC(e,a[1],c);if(l){if(l[1]){var
-o=T(m),r=function(a){return s(a,o)},p=fS(bx(kH(l)),r,o);return kG(l)?p:s(p,m)}return m}return k(b);default:return aE(bC(e,a[1],c))}var
-v=bC(e,j,R(c,g(bX(f))));return i(bC(e,f,c),v)}function
-db(c,h,b){var
+k=eP(a[2]),m=bG(e,a[1],c);if(k){if(k[1]){var
+o=T(m),r=function(a){return s(a,o)},p=f1(by(kP(k)),r,o);return kO(k)?p:s(p,m)}return m}return l(b);default:return aF(bG(e,a[1],c))}var
+v=bG(e,j,R(c,g(bY(f))));return i(bG(e,f,c),v)}function
+dd(c,h,b){var
 a=h;for(;;)switch(a[0]){case
 6:var
-e=a[1],k=R(b,g(bX(e))),l=db(c,a[2],k),m=f(db(c,e,b),l);return[0,bC(c,a,b),m];case
+e=a[1],k=R(b,g(bY(e))),l=dd(c,a[2],k),m=f(dd(c,e,b),l);return[0,bG(c,a,b),m];case
 8:var
-n=db(c,a[1],b);return[0,bC(c,a,b),n];case
+n=dd(c,a[1],b);return[0,bG(c,a,b),n];case
 2:case
 7:var
 a=a[1];continue;case
 0:case
 1:return 0;default:var
-d=a[1],i=R(b,g(bX(d))),j=db(c,a[2],i);return f(db(c,d,b),j)}}function
-nN(i,h,f){var
+d=a[1],i=R(b,g(bY(d))),j=dd(c,a[2],i);return f(dd(c,d,b),j)}}function
+nU(i,h,f){var
 b=i,a=h,c=f;for(;;){if(a){var
-d=a[1],e=d[2],j=R(c,g(bX(e))),k=a[2],l=bC(b,e,c),b=[0,[0,d[1],l],b],a=k,c=j;continue}return b}}function
-i6(c,a,b){if(a){var
-e=a[1],d=e[2],h=R(b,g(bX(d))),i=a[2],j=bC(c,d,b),k=i6([0,[0,e[1],j],c],i,h);return f(db(c,d,b),k)}return a}function
-ff(a){return y(bX,a)}function
-nO(c,a,b){if(a)var
-d=a[1],f=R(b,g(bX(d))),h=nO(c,a[2],f),e=[0,bC(c,d,b),h];else
+d=a[1],e=d[2],j=R(c,g(bY(e))),k=a[2],l=bG(b,e,c),b=[0,[0,d[1],l],b],a=k,c=j;continue}return b}}function
+jd(c,a,b){if(a){var
+e=a[1],d=e[2],h=R(b,g(bY(d))),i=a[2],j=bG(c,d,b),k=jd([0,[0,e[1],j],c],i,h);return f(dd(c,d,b),k)}return a}function
+fk(a){return y(bY,a)}function
+nV(c,a,b){if(a)var
+d=a[1],f=R(b,g(bY(d))),h=nV(c,a[2],f),e=[0,bG(c,d,b),h];else
 var
 e=a;return e}function
-nP(c,a,b){if(a){var
-d=a[1],e=R(b,g(bX(d))),h=nP(c,a[2],e);return f(db(c,d,b),h)}return a}function
-gT(a){return 0===a[0]?ff(a[1]):bX(a[1])}function
-i7(c,b,a){if(b){var
-d=b[1],j=R(a,g(gT(d))),k=i7(c,b[2],j);if(0===d[0])var
-h=nP(c,d[1],a);else
+nW(c,a,b){if(a){var
+d=a[1],e=R(b,g(bY(d))),h=nW(c,a[2],e);return f(dd(c,d,b),h)}return a}function
+g4(a){return 0===a[0]?fk(a[1]):bY(a[1])}function
+je(c,b,a){if(b){var
+d=b[1],j=R(a,g(g4(d))),k=je(c,b[2],j);if(0===d[0])var
+h=nW(c,d[1],a);else
 var
-e=d[1],i=db(c,e,a),h=[0,bC(c,e,a),i];return f(h,k)}return b}function
-gU(c){var
+e=d[1],i=dd(c,e,a),h=[0,bG(c,e,a),i];return f(h,k)}return b}function
+g5(c){var
 a=c[1];switch(a[0]){case
 0:var
 b=[1,a[1]];break;case
 1:var
 b=[0,a[1]];break;default:var
-b=bO(gU,a)}return[0,b]}function
-i8(c){var
+b=bS(g5,a)}return[0,b]}function
+jf(c){var
 b=c;for(;;){var
 a=b[1];switch(a[0]){case
 5:var
 b=a[1];continue;case
 6:var
-d=i8(a[2]);return s(i8(a[1]),d);case
+d=jf(a[2]);return s(jf(a[1]),d);case
 9:return a[1];default:return T(b)}}}function
-i9(n,h,a,f){if(a){var
-c=a[1],w=R(f,g(gT(c))),x=i9(n,h,a[2],w);if(0===c[0])var
-l=nO(h,c[1],f),o=[0,l,k(b),l,0,0,0,0];else
+jg(n,h,a,f){if(a){var
+c=a[1],x=R(f,g(g4(c))),y=jg(n,h,a[2],x);if(0===c[0])var
+k=nV(h,c[1],f),o=[0,k,l(b),k,0,0,0,0,0];else
 var
-m=bC(h,c[1],f),q=gU(m),i=a6(aB(0,n),q),d=gU(i[2]),j=e(gU,i[1]),r=0,s=0,t=0,u=[0,m],v=e(function(a){return aJ(a,d)?k(b):am(a,d)},j),o=[0,j,i8(d),v,u,t,s,r];var
-p=[0,o,x]}else
+m=bG(h,c[1],f),q=g5(m),i=a6(aC(0,n),q),d=g5(i[2]),j=e(g5,i[1]),r=0,s=0,t=0,u=0,v=[0,m],w=e(function(a){return aK(a,d)?l(b):am(a,d)},j),o=[0,j,jf(d),w,v,u,t,s,r];var
+p=[0,o,y]}else
 var
 p=a;return p}function
-nQ(a){return e(function(a){return[0,a[2],d]},a)}function
-i_(a){var
-b=y(gT,a[4]),c=f(ff(e(aZ,a[3])),b);return f(nQ(a[2]),c)}function
-gV(a){var
-c=cz(0,nQ(a[2])),d=aB(0,g(a[1])),h=e(function(a){return[0,[0,a]]},d),b=$(e(av,a[2]),c);return f($(a[1],h),b)}function
-i$(b,d){var
+nX(a){return e(function(a){return[0,a[2],d]},a)}function
+jh(a){var
+b=y(g4,a[4]),c=f(fk(e(aZ,a[3])),b);return f(nX(a[2]),c)}function
+g6(a){var
+c=cB(0,nX(a[2])),d=aC(0,g(a[1])),h=e(function(a){return[0,[0,a]]},d),b=aa(e(aw,a[2]),c);return f(aa(a[1],h),b)}function
+ji(b,d){var
 a=d;for(;;)switch(a[0]){case
 0:return 1;case
 1:var
-e=a[1];return ak(function(a){return ax(e,a)},b);case
+e=a[1];return aj(function(a){return ax(e,a)},b);case
 2:case
 7:case
 8:var
 a=a[1];continue;default:var
-c=i$(b,a[1]);if(c){var
+c=ji(b,a[1]);if(c){var
 a=a[2];continue}return c}}function
-nR(d){var
+nY(d){var
 a=d;for(;;){if(a){var
-b=a[2],e=a[1],c=P(ak(function(b){return function(a){return ry(b,a)}}(e),b));if(c){var
+b=a[2],e=a[1],c=L(aj(function(b){return function(a){return rI(b,a)}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-nS(a){var
-u=e(av,a[2]),d=f(a[1],u),h=g(a[1]),o=_(uW,h),p=o?_(h,uX):o,q=p?_(h,g(a[4])):p,r=q?_(g(a[4]),uY):q,s=r?nR(d):r;if(s){var
+nZ(a){var
+u=e(aw,a[2]),d=f(a[1],u),h=g(a[1]),o=$(u8,h),p=o?$(h,u9):o,q=p?$(h,g(a[4])):p,r=q?$(g(a[4]),u_):q,s=r?nY(d):r;if(s){var
 c=d,b=a[3];for(;;){if(b){var
-j=b[1],k=j[1],l=P(ak(function(b){return function(a){return ax(b,a)}}(k),c)),n=l?i$(c,j[2]):l;if(n){var
+j=b[1],k=j[1],l=L(aj(function(b){return function(a){return ax(b,a)}}(k),c)),n=l?ji(c,j[2]):l;if(n){var
 c=[0,k,c],b=b[2];continue}var
 t=n}else
 var
@@ -5271,11 +5399,11 @@ i=t;break}}else
 var
 i=s;if(i){var
 v=a[4];return m(function(b){var
-c=0===b[0]?b[1]:[0,b[1],0],g=f(e(av,a[3]),d);return m(function(a){return i$(g,a)},c)},v)}return i}function
-el(f,e,g){var
-h=g[1],a=bO(function(a){return el(f,e,a)},h);switch(a[0]){case
-0:return q(a[1],f,[0,d,b]);case
-1:return q(a[1],e,[0,d,b]);case
+c=0===b[0]?b[1]:[0,b[1],0],g=f(e(aw,a[3]),d);return m(function(a){return ji(g,a)},c)},v)}return i}function
+em(f,e,g){var
+h=g[1],a=bS(function(a){return em(f,e,a)},h);switch(a[0]){case
+0:return r(a[1],f,[0,d,b]);case
+1:return r(a[1],e,[0,d,b]);case
 2:return[0,a[1],b];case
 3:return[2,a[1],a[2]];case
 4:return[3,a[1],a[2]];case
@@ -5285,7 +5413,7 @@ h=g[1],a=bO(function(a){return el(f,e,a)},h);switch(a[0]){case
 8:var
 c=a[1];return[4,c,c];case
 9:return[6,a[1]];default:return[0,d,b]}}function
-nT(d){var
+n0(d){var
 b=d;for(;;){var
 a=b[1];switch(a[0]){case
 10:return 0;case
@@ -5296,83 +5424,92 @@ b=a[1];continue;case
 0:case
 1:case
 2:return 1;default:var
-c=nT(a[1]);if(c){var
+c=n0(a[1]);if(c){var
 b=a[2];continue}return c}}}function
-nU(g,f,e){var
+n1(g,f,e){var
 b=f,a=e;for(;;){if(b){if(a){var
-c=c2(g,b[1],a[1]);if(c){var
+c=c3(g,b[1],a[1]);if(c){var
 b=b[2],a=a[2];continue}var
 d=c}else
 var
 d=a;return d}return a?0:1}}function
-uZ(a){var
+u$(a){var
 b=a[4],d=0;if(typeof
 b!=="number"&&0===b[0]){var
 c=[0,b[1],0];d=1}if(!d)var
 c=0;var
 e=f(a[3],c);return f(a[1],e)}function
-nV(f,e){function
-a(a){return q(a,e,[0,d,b])}var
+n2(f,e){function
+a(a){return r(a,e,[0,d,b])}var
 c=[0,d,b];switch(f){case
 0:var
-g=a(u1);return[0,a(0),g,c];case
+g=a(vb);return[0,a(0),g,c];case
 1:var
-h=a(u2),i=a(u3);return[0,a(0),i,h];default:return[0,c,c,c]}}function
-nW(f,e){function
-a(a){return q(a,e,[0,d,b])}var
+h=a(vc),i=a(vd);return[0,a(0),i,h];default:return[0,c,c,c]}}function
+n3(f,e){function
+a(a){return r(a,e,[0,d,b])}var
 c=[0,d,b];switch(f){case
-0:return[0,c,c,a(u4)];case
+0:return[0,c,c,a(ve)];case
 1:var
-g=a(u5),h=a(u6);return[0,a(u7),h,g];default:var
-i=a(u8),j=a(u9);return[0,a(0),j,i]}}function
-nX(c,j,d,b,a){var
-e=aH(d,j),g=e?ba(b,a):e;if(g)var
-k=cx(c,a)[2],h=[0,cx(c,b)[1],k],l=[0,cx(c,d0(a,b)),0],i=[0,[0,h,h,f(al(u,d),l)]];else
+g=a(vf),h=a(vg);return[0,a(vh),h,g];default:var
+i=a(vi),j=a(vj);return[0,a(0),j,i]}}function
+n4(t,s,k,j,r,d){var
+c=bF(k,j,r,d);if(0===d[0])var
+e=ce(d[1],c);else
+var
+a=d[1],f=gL(a,c),g=gM(a,c),h=gO(a,c),i=e$(a,c),l=V([3,[4,h,g],[4,i,f]],iM(a)),m=V([2,[4,h,f],[4,i,g]],gJ(a)),n=U(function(b,a){return[2,b,a]},m,l),o=V(a[5],n),p=gK(a,c),q=V(gN(a,c),p),e=U(function(b,a){return[3,b,a]},q,o);return iY(t,e,V([5,[0,b,b],s],c7(ff(k,j,fe(d)),e)))}function
+n5(c,b,a){return b?cg(c,b[1],a):a?0:1}function
+n6(d,b,i,a,c,n,h,m,f){var
+o=aL(b),j=q(g(c),o),k=j?n5(d,a,h):j,l=k?n5(d,a,f):k;if(l){var
+p=e(function(c){return n4(b,i,a,f,m,c)},c),r=e(function(c){return n4(b,i,a,h,n,c)},c);return nO(d,aL(b),r,p)}return l}function
+n7(c,j,d,b,a){var
+e=aJ(d,j),g=e?ba(b,a):e;if(g)var
+k=cz(c,a)[2],h=[0,cz(c,b)[1],k],l=[0,cz(c,d1(a,b)),0],i=[0,[0,h,h,f(al(u,d),l)]];else
 var
 i=g;return i}function
-ja(a){if(a){var
+jj(a){if(a){var
 b=a[1];if(b)var
-c=ja(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+c=jj(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return va}function
-nY(c,b,a){if(b){if(a){var
-d=b[1],f=nY(c,b[2],a[2]),g=a[1],h=function(b,a){return A(t(c,d,b),a)},i=function(a){return a};return aK(function(a){return t(c,d,a)},i,h,g,f)}var
+d=b;return d}return vm}function
+n8(c,b,a){if(b){if(a){var
+d=b[1],f=n8(c,b[2],a[2]),g=a[1],h=function(b,a){return A(t(c,d,b),a)},i=function(a){return a};return aN(function(a){return t(c,d,a)},i,h,g,f)}var
 e=a}else
 var
 e=b;return e}function
-nZ(c,b,a){if(b){if(a){var
-d=nZ(c,b[2],a[2]);return A(t(c,b[1],a[1]),d)}return u}return u}function
-gW(a){return an(function(d,a){var
-e=c(2,b);return F(b6(b9(d),e),a)},d,a)}function
-n0(a,i,h){var
+n9(c,b,a){if(b){if(a){var
+d=n9(c,b[2],a[2]);return A(t(c,b[1],a[1]),d)}return u}return u}function
+g7(a){return an(function(d,a){var
+e=c(2,b);return F(b7(b_(d),e),a)},d,a)}function
+n_(a,i,h){var
 d=g(i);function
 t(g,e,f){var
-d=[0,b,c(2,b)];return[0,Z(cx(a,a3(dr(e,f),d)))]}var
-j=ja(e(function(b){return d5(a,t,b)},i));if(j){var
-v=j[1],w=function(b,c,e){return nX(a,d,b,c,e)},k=ja(e(function(b){return d5(a,w,b)},i));if(k){var
-x=function(b){return cx(a,b)},n=e(function(a){return e(x,a)},h),y=k[1],z=e(function(a){return a[3]},y),A=e(function(b){return nZ(a,b,e(function(a){return a[2]},v))},n),C=$(aB(0,d),n),F=e(function(c){var
-i=nY(a,c[2],z),j=c[1],d=[0,L(a,b),0],e=f(al(u,j),d);function
+d=[0,b,c(2,b)];return[0,_(cz(a,a3(dt(e,f),d)))]}var
+j=jj(e(function(b){return d6(a,t,b)},i));if(j){var
+v=j[1],w=function(b,c,e){return n7(a,d,b,c,e)},k=jj(e(function(b){return d6(a,w,b)},i));if(k){var
+x=function(b){return cz(a,b)},n=e(function(a){return e(x,a)},h),y=k[1],z=e(function(a){return a[3]},y),A=e(function(b){return n9(a,b,e(function(a){return a[2]},v))},n),B=aa(aC(0,d),n),F=e(function(c){var
+i=n8(a,c[2],z),j=c[1],d=[0,M(a,b),0],e=f(al(u,j),d);function
 g(b,a){return E(b,as(a))}function
-h(a){return aa(as(a))}return aK(function(a){return a},h,g,e,i)},C),o=p(g(h),d),q=o?m(function(a){return p(g(a),d)},h):o;if(q)var
-G=c(2,b),H=b6(cr(a),G),I=gW(A),l=D(B(c(2,c(2,b)),I),H);else
+h(a){return ab(as(a))}return aN(function(a){return a},h,g,e,i)},B),o=q(g(h),d),p=o?m(function(a){return q(g(a),d)},h):o;if(p)var
+G=c(2,b),H=b7(ct(a),G),I=g7(A),l=D(C(c(2,c(2,b)),I),H);else
 var
-l=q;if(l){var
-J=c(2,b),K=b6(cr(a),J),M=gW(dY(F));return D(B(c(2,c(2,b)),M),K)}var
+l=p;if(l){var
+J=c(2,b),K=b7(ct(a),J),L=g7(dZ(F));return D(C(c(2,c(2,b)),L),K)}var
 r=l}else
 var
 r=k;var
 s=r}else
 var
 s=j;return s}function
-bY(a){return m(function(a){return P(d4(a))},a)}function
+bZ(a){return m(function(a){return L(d5(a))},a)}function
 bf(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-bw(a){return[0,a[1],a[2]]}function
-n1(b,a){var
-d=g(a),c=p(g(b),d);if(c){var
-e=$(b,a);return m(function(a){return ba(a[1],a[2])},e)}return c}function
-jb(e,k,j,i){var
+bx(a){return[0,a[1],a[2]]}function
+n$(b,a){var
+d=g(a),c=q(g(b),d);if(c){var
+e=aa(b,a);return m(function(a){return ba(a[1],a[2])},e)}return c}function
+jk(e,k,j,i){var
 c=k,b=j,a=i;for(;;){if(c)if(b)if(a){var
-f=a[1],l=h(e,1,[3,bw(c[1]),f]),g=l||h(e,1,[3,f,bw(b[1])]);if(!g){var
+f=a[1],l=h(e,1,[3,bx(c[1]),f]),g=l||h(e,1,[3,f,bx(b[1])]);if(!g){var
 c=c[2],b=b[2],a=a[2];continue}var
 d=g}else
 var
@@ -5381,42 +5518,42 @@ var
 d=b;else
 var
 d=c;return d}}function
-n2(f,e,b,a){var
+oa(f,e,b,a){var
 c=a[1],d=b[1],g=c[2],h=a[2],i=d[2],j=b[2],k=[0,d[1],[0,c[1],0]];return m(function(a){var
 b=[0,i,[0,g,0]];return m(function(b){var
 c=[0,j,[0,h,0]];return m(function(c){var
-d=bw(c),g=bw(b);return bT(f,e,[0,bw(a),g,d])},c)},b)},k)}function
-n3(a){switch(a[0]){case
+d=bx(c),g=bx(b);return bn(f,e,[0,bx(a),g,d])},c)},b)},k)}function
+ob(a){switch(a[0]){case
 0:var
 c=[0,a[4],0],d=f(bf(a[3]),c),e=f(bf(a[2]),d);return f(bf(a[1]),e);case
 1:var
 b=a[3],g=b?bf(b[1]):b,h=f(bf(a[2]),g);return f(bf(a[1]),h);default:return bf(a[1])}}function
-fg(b,a){var
+fl(b,a){var
 c=a3(a,a);return ba(a3(b,b),c)?a:b}function
-fh(b,a,e,d){var
-c=dA(b,a,bw(e));return c?dA(b,a,bw(d)):c}function
-n4(a){var
-c=q(vg,a,[0,d,b]),e=q(vh,a,[0,d,b]);return[0,[0,q(0,a,[0,d,b]),e],c]}function
-jc(d,c,b,a){var
-e=bU(d,c,b,a);return x(bU(d,c,b,a),e)}function
-vi(i,k,t,S,H,o,l,n,aR){var
-j=t[5],aJ=$(l,n),aK=$(aB(0,g(l)),aJ),ag=e(function(a){return[1,a[1],a[2][1],a[2][2]]},aK),ax=t[7],ay=ax?e_(i,t[2],S):ax,az=ay?bT(i,t[4],H):ay,aA=az?cD(i,j,o):az,aC=aA?_(k,vj):aA;if(aC)var
-aS=R(k,g(o)),T=p(g(l),aS);else
+fm(b,a,e,d){var
+c=dB(b,a,bx(e));return c?dB(b,a,bx(d)):c}function
+oc(a){var
+c=r(vs,a,[0,d,b]),e=r(vt,a,[0,d,b]);return[0,[0,r(0,a,[0,d,b]),e],c]}function
+jl(d,c,b,a){var
+e=bW(d,c,b,a);return x(bW(d,c,b,a),e)}function
+vu(i,k,t,S,H,o,l,n,aS){var
+j=t[5],aJ=aa(l,n),aK=aa(aC(0,g(l)),aJ),ag=e(function(a){return[1,a[1],a[2][1],a[2][2]]},aK),ax=t[7],ay=ax?fb(i,t[2],S):ax,az=ay?bn(i,t[4],H):ay,aA=az?cg(i,j,o):az,aD=aA?$(k,vv):aA;if(aD)var
+aT=R(k,g(o)),T=q(g(l),aT);else
 var
-T=aC;if(T)var
-aT=0===j[0]?vk:vl,U=p(g(o),aT);else
+T=aD;if(T)var
+aU=0===j[0]?vw:vx,U=q(g(o),aU);else
 var
 U=T;var
-aD=U?n1(l,n):U;if(aD)var
-aU=n4(aI(k,n)),aW=n4(aI(k,l)),V=n2(i,t[4],aW,aU);else
+aE=U?n$(l,n):U;if(aE)var
+aV=oc(aB(k,n)),aW=oc(aB(k,l)),V=oa(i,t[4],aW,aV);else
 var
-V=aD;if(V){var
-a=aV(k,n),c=aV(k,l);switch(j[0]){case
+V=aE;if(V){var
+a=aM(k,n),c=aM(k,l);switch(j[0]){case
 0:var
 X=0;if(c)if(c[2])var
 h=0;else
 if(a)var
-h=a[2]?0:fh(i,j[1],c[1],a[1]);else{var
+h=a[2]?0:fm(i,j[1],c[1],a[1]);else{var
 ah=a;X=1}else{var
 ah=c;X=1}if(X)var
 h=ah;break;case
@@ -5427,14 +5564,14 @@ w=v[2],J=0;if(w)if(w[2]){var
 h=0;I=1;J=1}else
 if(a){var
 x=a[2],Z=0;if(x){var
-y=x[2],aa=0;if(y)if(y[2]){var
-h=0;I=1;J=1;Z=1;aa=1}else{var
-ai=fh(i,j[1],c[1],a[1]),aj=ai?fh(i,j[2],v[1],x[1]):ai;if(aj){var
-h=fh(i,j[3],w[1],y[1]);I=1;J=1;Z=1;aa=1}else
+y=x[2],_=0;if(y)if(y[2]){var
+h=0;I=1;J=1;Z=1;_=1}else{var
+ai=fm(i,j[1],c[1],a[1]),aj=ai?fm(i,j[2],v[1],x[1]):ai;if(aj){var
+h=fm(i,j[3],w[1],y[1]);I=1;J=1;Z=1;_=1}else
 var
 ak=aj}else
 var
-ak=y;if(!aa)var
+ak=y;if(!_)var
 al=ak}else
 var
 al=x;if(!Z)var
@@ -5458,7 +5595,7 @@ if(a){var
 B=a[2],ac=0;if(B){var
 C=B[2];if(C)if(C[2]){var
 h=0;K=1;L=1;ac=1}else{var
-aM=[0,bw(fg(A[1],C[1])),0],aN=[0,bw(fg(z[1],B[1])),aM],h=cD(i,j,[0,bw(fg(c[1],a[1])),aN]);K=1;L=1;ac=1}else
+aN=[0,bx(fl(A[1],C[1])),0],aO=[0,bx(fl(z[1],B[1])),aN],h=cg(i,j,[0,bx(fl(c[1],a[1])),aO]);K=1;L=1;ac=1}else
 var
 ao=C}else
 var
@@ -5482,12 +5619,12 @@ if(a){var
 F=a[2],ae=0;if(F){var
 G=F[2],af=0;if(G)if(G[2]){var
 h=0;M=1;N=1;ae=1;af=1}else{var
-r=G[1],s=E[1],aH=0,aO=0;if(ba(s,[0,d,b])&&ba([0,d,b],r))var
+p=G[1],s=E[1],aI=0,aP=0;if(ba(s,[0,d,b])&&ba([0,d,b],p))var
 ar=[0,d,b];else
-aH=1;if(aH)var
-aL=a3(r,r),ar=ba(a3(s,s),aL)?s:r;var
-aP=[0,bw(ar),aO],aQ=[0,bw(fg(D[1],F[1])),aP],as=cD(i,j,[0,bw(fg(c[1],a[1])),aQ]);if(as){var
-h=fh(i,c8(j[2]),s,r);M=1;N=1;ae=1;af=1}else
+aI=1;if(aI)var
+aL=a3(p,p),ar=ba(a3(s,s),aL)?s:p;var
+aQ=[0,bx(ar),aP],aR=[0,bx(fl(D[1],F[1])),aQ],as=cg(i,j,[0,bx(fl(c[1],a[1])),aR]);if(as){var
+h=fm(i,c_(j[2]),s,p);M=1;N=1;ae=1;af=1}else
 var
 at=as}else
 var
@@ -5509,73 +5646,116 @@ h=aw}var
 W=h}else
 var
 W=V;if(W){var
-aX=aI(k,bf(H)),aY=aI(k,n),aE=jb(i,aI(k,l),aY,aX);if(aE)var
-u=aE;else{var
-aG=1===j[0]?0:1;if(aG)var
-aZ=aV(k,n),u=jb(i,aV(k,l),aZ,o);else
+aX=aB(k,bf(H)),aY=aB(k,n),aF=jk(i,aB(k,l),aY,aX);if(aF)var
+u=aF;else{var
+aH=1===j[0]?0:1;if(aH)var
+aZ=aM(k,n),u=jk(i,aM(k,l),aZ,o);else
 var
-u=aG}}else
+u=aH}}else
 var
 u=W;var
-aF=u?m(function(a){var
-c=bf(a[2]),b=bY(f(bf(a[1]),c));return b?bY([0,jc(j,o,H,a),0]):b},S):u;return aF?n0(i,e(function(c){var
-h=[6,jc(j,o,H,c)],a=aI(k,ag),e=q(ve,a,[0,d,b]),f=q(vf,a,[0,d,b]),g=[0,q(0,a,[0,d,b]),f,e];return[3,[6,jc(j,aV(k,ag),g,c)],h]},S),aR):aF}var
-em=c(2,c(2,c(2,c(2,c(2,r(c(2,b)))))));function
-jd(e){var
-a=aC(em,e);if(a){var
-f=i(kK(c(2,b)),em);return[0,a[1][2],f]}return[0,d,b]}var
-vm=[0,[0,d,b],[0,d,b],[0,d,b]];function
-fi(c,a){var
-e=[0,d,b];return an(function(b,a){return[2,i(c,b),a]},e,a)}function
-fj(b,a){return an(function(c,a){var
-d=i(b,c);return U(function(b,a){return[2,b,a]},d,a)},vm,a)}function
-n5(d,h,c,e){var
-a=d5(d,function(c,e,f){var
-a=aH(c,h),b=a?ba(e,f):a,g=b?[0,k6(d,c,e,f)]:b;return g},e);if(a){var
-b=a[1],f=hZ(gW(aV(c,b[3]))),g=Q(F(hZ(gW(aI(c,b[3]))),f));return J(b[1][2],g)}return a}function
-je(b,a,c){if(b)if(a)var
-f=a[1],g=je(b[2],a[2],c),h=J(b[1],d)?[3,f,c]:[2,f,c],e=[0,h,g];else
+aG=u?m(function(a){var
+c=bf(a[2]),b=bZ(f(bf(a[1]),c));return b?bZ([0,jl(j,o,H,a),0]):b},S):u;return aG?n_(i,e(function(c){var
+h=[6,jl(j,o,H,c)],a=aB(k,ag),e=r(vq,a,[0,d,b]),f=r(vr,a,[0,d,b]),g=[0,r(0,a,[0,d,b]),f,e];return[3,[6,jl(j,aM(k,ag),g,c)],h]},S),aS):aG}var
+en=c(2,c(2,c(2,c(2,c(2,p(c(2,b)))))));function
+jm(e){var
+a=aD(en,e);if(a){var
+f=j(kS(c(2,b)),en);return[0,a[1][2],f]}return[0,d,b]}var
+vy=[0,[0,d,b],[0,d,b],[0,d,b]];function
+fn(c,a){var
+e=[0,d,b];return an(function(b,a){return[2,j(c,b),a]},e,a)}function
+fo(b,a){return an(function(c,a){var
+d=j(b,c);return U(function(b,a){return[2,b,a]},d,a)},vy,a)}function
+od(d,h,c,e){var
+a=d6(d,function(c,e,f){var
+a=aJ(c,h),b=a?ba(e,f):a,g=b?[0,lc(d,c,e,f)]:b;return g},e);if(a){var
+b=a[1],f=h9(g7(aM(c,b[3]))),g=Q(F(h9(g7(aB(c,b[3]))),f));return J(b[1][2],g)}return a}function
+jn(b,a,c){if(b)if(a)var
+f=a[1],g=jn(b[2],a[2],c),h=J(b[1],d)?[3,f,c]:[2,f,c],e=[0,h,g];else
 var
 e=a;else
 var
 e=b;return e}function
-jf(a){return z(function(a){var
-d=i(kK(c(2,b)),em);return[0,a[2],d]},a)}function
-gX(b,a){return[1,b,hX(a),a]}function
-gY(a){var
+jo(a){return z(function(a){var
+d=j(kS(c(2,b)),en);return[0,a[2],d]},a)}function
+g8(b,a){return[1,b,h7(a),a]}function
+g9(a){var
 d=[0,c(2,b),b];return[5,[2,a[1],a[2]],d]}function
 cG(a){var
-b=gY(a[3]),c=gY(a[2]);return[0,gY(a[1]),c,b]}function
-n6(a,d,c){var
-b=aB(0,bu(a));return e(function(b){var
-e=aH(b,cF(a))?d:c;return gX(b,e)},b)}function
-n7(a){return[6,x(a,a)]}var
-g0=w(k(b),gZ);function
-n8(e){var
-a=T(g0);if(e)var
-f=s(k(c(2,b)),a),g=C(k(c(2,c(2,b))),f),h=s(k(c(2,b)),a),d=am(C(k(b),h),g);else
+b=g9(a[3]),c=g9(a[2]);return[0,g9(a[1]),c,b]}function
+fp(i,f,o,a,P,n){var
+w=e7(i,f,o,a),y=w?bZ(bf(a)):w;if(y){var
+p=G(f[3],P);if(p){var
+j=p[1];if(typeof
+j!=="number"&&14===j[0]){var
+C=j[2],D=j[1],r=jo(aD(en,C));if(r){var
+s=r[1],Q=g8(vz,s),R=g8(vA,s),t=[0,g8(0,s),R,Q],E=h(i,1,C),F=E?h(i,0,D):E;if(F)var
+S=g(f[1]),u=q(g(n),S);else
 var
-i=C(k(c(2,b)),a),j=T(gZ),d=am(C(s(k(c(2,b)),j),a),i);return aE(d)}function
-n9(d,c,a){if(d){var
-e=n8(c),f=C(k(b),e),g=s(w(k(b),a),f);return w(k(b),g)}var
-h=k(b),i=n8(c),j=am(k(b),i);return w(s(a,C(k(b),j)),h)}function
-en(f,e,d,a){var
-g=T(a),h=T(d),i=w(w(k(c(2,b)),h),g),j=f?e?g0:am(g0,s(k(c(2,b)),gZ)):am(g0,k(c(2,b))),l=s(T(j),i);return aE(C(k(b),l))}function
-n_(g,d){var
+u=F;var
+H=u?m(function(a){return bZ(ob(a))},o):u;if(H){var
+T=f[1],I=jn(n,e(function(b){switch(b[0]){case
+0:var
+c=b[1],e=c[5],f=g9(c[4]),g=cG(c[3]),h=cG(c[2]),d=[0,cG(c[1]),h,g,f,e];break;case
+1:var
+i=z(cG,b[3]),j=cG(b[2]),d=[1,cG(b[1]),j,i];break;default:var
+d=[2,cG(b[1])]}return c5(d,a)},T),D),J=bZ(I);if(J){var
+v=aa(aa(o,I),n),k=function(k){var
+f=k[1][2],e=k[1][1];switch(e[0]){case
+0:var
+i=e[4],l=V(f,ay(e[1])),m=aX(e[2],e[3],a),g=U(function(b,a){return[3,b,a]},m,l),n=V([0,c(2,b),b],g);return[0,[3,x(g,g),[4,i,i]],n,[0,b,b]];case
+1:var
+h=aX(e[1],e[2],a),o=V([0,c(2,b),b],h);return[0,[3,x(h,h),[4,f,f]],o,[0,b,b]];default:var
+j=e[1],p=ay(j);return[0,[3,x(ay(j),a),f],p,[0,d,b]]}},l=function(j){var
+e=j[1],f=e[2],c=e[1],d=j[2];switch(c[0]){case
+0:var
+g=c[3],h=c[2],i=c[1],k=aX(h,g,a),l=[3,x(ay(i),k),f],m=cC(i,h,g,c[4],a);return jm([5,[0,d,b],[2,c4(c[5],m),l]]);case
+1:return jm([5,[0,d,b],[2,f,c5(c,a)]]);default:return[0,d,b]}},M=x(t,t),N=[4,fn(function(a){var
+b=k(a)[3];return[4,l(a),b]},v),M],O=x(fo(function(a){var
+b=k(a)[2];return V(l(a),b)},v),t);return od(i,vC,vB,[2,[2,fn(function(a){var
+b=k(a)[1];return[4,l(a),b]},v),O],N])}var
+K=J}else
+var
+K=H;var
+L=K}else
+var
+L=r;return L}var
+A=0}else
+var
+A=p;var
+B=A}else
+var
+B=y;return B}function
+oe(a,d,c){var
+b=aC(0,bv(a));return e(function(b){var
+e=aJ(b,cF(a))?d:c;return g8(b,e)},b)}function
+of(a){return[6,x(a,a)]}var
+g$=w(l(b),g_);function
+og(e){var
+a=T(g$);if(e)var
+f=s(l(c(2,b)),a),g=B(l(c(2,c(2,b))),f),h=s(l(c(2,b)),a),d=am(B(l(b),h),g);else
+var
+i=B(l(c(2,b)),a),j=T(g_),d=am(B(s(l(c(2,b)),j),a),i);return aF(d)}function
+oh(d,c,a){if(d){var
+e=og(c),f=B(l(b),e),g=s(w(l(b),a),f);return w(l(b),g)}var
+h=l(b),i=og(c),j=am(l(b),i);return w(s(a,B(l(b),j)),h)}function
+eo(f,e,d,a){var
+g=T(a),h=T(d),i=w(w(l(c(2,b)),h),g),j=f?e?g$:am(g$,s(l(c(2,b)),g_)):am(g$,l(c(2,b))),k=s(T(j),i);return aF(B(l(b),k))}function
+oi(g,d){var
 c=g,a=d[1],b=d[3];for(;;){if(c){if(b){var
 e=b[2],f=c[1]?A(a,b[1]):a,c=c[2],a=f,b=e;continue}return a}return a}}function
-jg(w,v,u,t){var
-a=e(function(a){return q(a,u,0)},v);if(a){var
+jp(w,v,u,t){var
+a=e(function(a){return r(a,u,0)},v);if(a){var
 f=a[1];if(f){var
 b=a[2];if(b){var
 g=b[1];if(g){var
 c=b[2];if(c){var
 h=c[1];if(h){var
 d=c[2];if(d){var
-j=d[1];if(j){if(d[2])return 0;var
-x=j[1],y=h[1],z=g[1],A=f[1];return m(function(a){var
-c=i(a,x),d=i(a,y),e=i(a,z),b=i(a,A);return d6(w,[0,[0,b,[0,e,[0,d,0]]],[0,[0,b,[0,c,0]],[0,[0,b,0],0]]])},t)}var
-k=j}else
+i=d[1];if(i){if(d[2])return 0;var
+x=i[1],y=h[1],z=g[1],A=f[1];return m(function(a){var
+c=j(a,x),d=j(a,y),e=j(a,z),b=j(a,A);return d7(w,[0,[0,b,[0,e,[0,d,0]]],[0,[0,b,[0,c,0]],[0,[0,b,0],0]]])},t)}var
+k=i}else
 var
 k=d;var
 l=k}else
@@ -5590,18 +5770,18 @@ o=g;var
 p=o}else
 var
 p=b;var
-r=p}else
+q=p}else
 var
-r=f;var
-s=r}else
+q=f;var
+s=q}else
 var
 s=a;return s}function
-n$(f,i,e,c,h){var
-j=f?b:d,a=L(i,j);function
+oj(f,i,e,c,h){var
+j=f?b:d,a=M(i,j);function
 g(b){var
-c=f?b_(b):cs(b);return E(c,a)}var
-k=[0,Z(h),0],l=[0,[0,a,c,[0,u,[0,g(c),0]]],k];return[0,[0,a,e,[0,g(e),0]],l]}function
-oa(r,b,q,p,g,o,n){if(o){var
+c=f?b$(b):cu(b);return E(c,a)}var
+k=[0,_(h),0],l=[0,[0,a,c,[0,u,[0,g(c),0]]],k];return[0,[0,a,e,[0,g(e),0]],l]}function
+ok(r,b,q,p,g,o,n){if(o){var
 x=o[1];if(x[1])return 0;if(o[2])return 0;if(n){var
 j=x[2],s=0;if(g){var
 h=g[2],c=0;if(h){var
@@ -5610,16 +5790,16 @@ a=0;c=1;d=1}else{var
 t=i[1],k=h[1],l=g[1],f=0;if(typeof
 j==="number")switch(j){case
 0:var
-A=e(aD,be(vv)),z=e(Z,0),a=jg(b,p,bb(0,bz(b,dw(0,g),z),q,0),A);c=1;d=1;f=1;break;case
+A=e(aE,be(vH)),z=e(_,0),a=jp(b,p,bb(0,bA(b,dy(0,g),z),q,0),A);c=1;d=1;f=1;break;case
 3:var
 a=D(k[2],l[1]);c=1;d=1;f=1;break}else
 if(4===j[0]){var
 m=j[1];if(r)if(m){var
-B=e(n_,vw),a=jg(b,p,bb(0,bz(b,n$(r,b,l,k,t),0),q,0),B);c=1;d=1;f=1}else{var
+B=e(oi,vI),a=jp(b,p,bb(0,bA(b,oj(r,b,l,k,t),0),q,0),B);c=1;d=1;f=1}else{var
 a=m;c=1;d=1;f=1}else
 if(m){var
 a=0;c=1;d=1;f=1}else{var
-C=e(n_,vx),a=jg(b,p,bb(0,bz(b,n$(r,b,l,k,t),0),q,0),C);c=1;d=1;f=1}}if(!f)var
+C=e(oi,vJ),a=jp(b,p,bb(0,bA(b,oj(r,b,l,k,t),0),q,0),C);c=1;d=1;f=1}}if(!f)var
 u=0}else
 var
 u=i;if(!d)var
@@ -5629,29 +5809,29 @@ v=h;if(!c){var
 w=v;s=1}}else{var
 w=g;s=1}if(s)var
 a=w;var
-y=a?vy:a}else
+y=a?vK:a}else
 var
 y=n;return y}return[0,n]}function
-ob(f,e,d,c,p,o,n){var
+ol(f,e,d,c,p,o,n){var
 b=p,g=o,a=n;for(;;)switch(a[0]){case
 0:var
-h=oa(f,e,d,c,b,a[1],g);return h?P(h[1]):h;case
+h=ok(f,e,d,c,b,a[1],g);return h?L(h[1]):h;case
 1:var
-i=oa(f,e,d,c,b,a[1],g);if(i){var
-j=i[1],k=cW(a[2],b),l=ob(f,e,d,c,k[1],j,a[3]);if(l){var
+i=ok(f,e,d,c,b,a[1],g);if(i){var
+j=i[1],k=cX(a[2],b),l=ol(f,e,d,c,k[1],j,a[3]);if(l){var
 b=k[2],g=j,a=a[4];continue}var
 m=l}else
 var
 m=i;return m;default:return 0}}function
-jh(a){return b6(c(2,b),aG(a,b))}function
-eo(i,a,e,w,v){var
-m=a?b:Q(b),f=k(m),g=n9(a,e,vt),h=n9(a,e,vu),n=am(g,en(a,e,f,g)),o=[0,C(am(h,en(a,e,h,f)),n),0],p=am(f,en(a,e,f,g)),q=[0,C(am(h,en(a,e,g,h)),p),o],r=am(f,en(a,e,h,f)),t=[0,C(am(g,en(a,e,g,h)),r),q],u=a?e?k(c(2,b)):s(k(c(2,c(2,b))),gZ):k(c(2,c(2,b))),j=cR([0,u,t]),l=[0,d,cr(i)];return ob(a,i,j[1],j[2],[0,l,[0,l,[0,w,0]]],1,v)}function
-oc(a,g,b){if(J(g,jh(a))){if(b){var
+jq(a){return b7(c(2,b),aI(a,b))}function
+ep(i,a,e,w,v){var
+m=a?b:Q(b),f=l(m),g=oh(a,e,vF),h=oh(a,e,vG),n=am(g,eo(a,e,f,g)),o=[0,B(am(h,eo(a,e,h,f)),n),0],p=am(f,eo(a,e,f,g)),q=[0,B(am(h,eo(a,e,g,h)),p),o],r=am(f,eo(a,e,h,f)),t=[0,B(am(g,eo(a,e,g,h)),r),q],u=a?e?l(c(2,b)):s(l(c(2,c(2,b))),g_):l(c(2,c(2,b))),j=cS([0,u,t]),k=[0,d,ct(i)];return ol(a,i,j[1],j[2],[0,k,[0,k,[0,w,0]]],1,v)}function
+om(a,g,b){if(J(g,jq(a))){if(b){var
 c=b[2];if(c){var
 d=c[2];if(d){var
 e=d[2];if(e){if(e[2])return 0;var
-h=[0,g,jh(a)],v=cr(a),i=[0,jh(a),v],j=eo(a,0,1,h,b[1]),k=j?eo(a,0,0,i,c[1]):j;if(k){var
-l=eo(a,1,1,h,d[1]);if(l)return eo(a,1,0,i,e[1]);var
+h=[0,g,jq(a)],v=ct(a),i=[0,jq(a),v],j=ep(a,0,1,h,b[1]),k=j?ep(a,0,0,i,c[1]):j;if(k){var
+l=ep(a,1,1,h,d[1]);if(l)return ep(a,1,0,i,e[1]);var
 m=l}else
 var
 m=k;var
@@ -5668,301 +5848,301 @@ q=p}else
 var
 q=b;return q}if(b){var
 f=b[2];if(f){if(f[2])return 0;var
-r=[0,g,cr(a)],s=eo(a,0,0,r,b[1]);if(s)return eo(a,1,0,r,f[1]);var
+r=[0,g,ct(a)],s=ep(a,0,0,r,b[1]);if(s)return ep(a,1,0,r,f[1]);var
 t=s}else
 var
 t=f;var
 u=t}else
 var
 u=b;return u}function
-ji(a){var
-b=[1,[2,d]];return bN(function(b,a){return[1,[3,b,a]]},a,b)}function
-g1(a){return ji(e(function(a){return[1,[8,[1,[2,a]]]]},a))}function
-g2(a,c){return ji(e(function(a){var
-d=[0,a[2]],b=$(a[1],c);return[1,[7,[1,[8,ji(e(function(a){return[1,[6,[0,a[1]],[1,[2,a[2]]]]]},b))]],d]]},a))}function
-od(e,d,c,b,a){if(0===a[0])return q(a[1],b,0);var
-f=a[1],g=bO(function(a){return od(e,d,c,b,a)},f);return i(bz(e,d,c),g)}function
-oe(a){return a?J(d,a[1][2][1]):a}function
-vz(a){var
-b=p(g(a),vA);return b?ak(function(a){return P(I(a,d))},a):b}function
-of(c,f,b,a){if(b)if(a)var
-d=b[1],g=t(c,L(c,a[1]),f),h=of(c,f,b[2],a[2]),i=d[3],j=A(d[2],g),e=[0,[0,A(d[1],g),j,i],h];else
+jr(a){var
+b=[1,[2,d]];return bR(function(b,a){return[1,[3,b,a]]},a,b)}function
+ha(a){return jr(e(function(a){return[1,[8,[1,[2,a]]]]},a))}function
+hb(a,c){return jr(e(function(a){var
+d=[0,a[2]],b=aa(a[1],c);return[1,[7,[1,[8,jr(e(function(a){return[1,[6,[0,a[1]],[1,[2,a[2]]]]]},b))]],d]]},a))}function
+on(e,d,c,b,a){if(0===a[0])return r(a[1],b,0);var
+f=a[1],g=bS(function(a){return on(e,d,c,b,a)},f);return j(bA(e,d,c),g)}function
+oo(a){return a?J(d,a[1][2][1]):a}function
+vL(a){var
+b=q(g(a),vM);return b?aj(function(a){return L(I(a,d))},a):b}function
+op(c,f,b,a){if(b)if(a)var
+d=b[1],g=t(c,M(c,a[1]),f),h=op(c,f,b[2],a[2]),i=d[3],j=A(d[2],g),e=[0,[0,A(d[1],g),j,i],h];else
 var
 e=a;else
 var
 e=b;return e}function
-og(d,c){var
+oq(d,c){var
 a=G(c,d);if(a){var
-b=a[1],e=b[1];return P(I(ca(b),e))}return a}function
-g3(b,a){return eR(eR(b,0),a)}function
-jj(a){if(a){var
-b=a[2],c=a[1];if(b)return g3(c,[0,vC,jj(b)]);var
+b=a[1],e=b[1];return L(I(cb(b),e))}return a}function
+hc(b,a){return eR(eR(b,0),a)}function
+js(a){if(a){var
+b=a[2],c=a[1];if(b)return hc(c,[0,vO,js(b)]);var
 d=c}else
 var
 d=a;return d}function
-H(a){return[0,vE,g3(jj(a),vD)]}function
-ag(a){return[0,vG,g3(jj(a),vF)]}function
-ap(a){return[0,vI,[0,a,vH]]}function
-n(b,a){return[0,a$(vK,a$(b,vJ)),a]}function
-M(b,a){return ag([0,n(b,a),0])}function
+H(a){return[0,vQ,hc(js(a),vP)]}function
+ag(a){return[0,vS,hc(js(a),vR)]}function
+ap(a){return[0,vU,[0,a,vT]]}function
+n(b,a){return[0,a$(vW,a$(b,vV)),a]}function
+N(b,a){return ag([0,n(b,a),0])}function
 cH(d){var
-b=d,a=r3,e=0;for(;;){if(b){var
-c=kE(a),b=b[1],a=c;continue}return[0,eS(fR(a)),e]}}function
-jk(a){return[0,eS(fZ(a)),0]}function
-fk(a){var
-c=aO(a),f=0,b=0===c?r9:0<c?[0,fZ(a)]:[1,fZ(Q(a))];if(0===b[0])var
+b=d,a=sb,e=0;for(;;){if(b){var
+c=kM(a),b=b[1],a=c;continue}return[0,eS(f0(a)),e]}}function
+jt(a){return[0,eS(f8(a)),0]}function
+fq(a){var
+c=aR(a),f=0,b=0===c?sh:0<c?[0,f8(a)]:[1,f8(Q(a))];if(0===b[0])var
 d=eS(b[1]);else
 var
-e=eS(b[1]),d=a$(bJ(1,45),e);return[0,d,f]}function
-ep(a){var
-b=0,c=0<aO(a)?fZ(a):r7;return[0,eS(c),b]}function
-jl(a){switch(a[0]){case
-2:return vM;case
-3:return 2<=a[1]?vN:vO;case
-4:return vP;default:return vL}}function
-fl(b,a){function
-c(c,a){return _(c,jl(a))?fl(b,a):[0,vV,f(fl(b,a),vU)]}switch(a[0]){case
+e=eS(b[1]),d=a$(bN(1,45),e);return[0,d,f]}function
+eq(a){var
+b=0,c=0<aR(a)?f8(a):sf;return[0,eS(c),b]}function
+ju(a){switch(a[0]){case
+2:return vY;case
+3:return 2<=a[1]?vZ:v0;case
+4:return v1;default:return vX}}function
+fr(b,a){function
+c(c,a){return $(c,ju(a))?fr(b,a):[0,v7,f(fr(b,a),v6)]}switch(a[0]){case
 0:var
 e=a[2],g=a[1];if(typeof
 e==="number")return[0,bj(g),0];var
-h=[0,vW,[0,bj(e),0]];return[0,bj(g),h];case
-1:return[0,i(b,a[1]),0];case
-2:return[0,vY,c(vX,a[1])];case
+h=[0,v8,[0,bj(e),0]];return[0,bj(g),h];case
+1:return[0,j(b,a[1]),0];case
+2:return[0,v_,c(v9,a[1])];case
 3:var
-j=a[3],k=c([0,jl(a)],j);switch(a[1]){case
+i=a[3],k=c([0,ju(a)],i);switch(a[1]){case
 0:var
-d=vQ;break;case
+d=v2;break;case
 1:var
-d=vR;break;case
+d=v3;break;case
 2:var
-d=vS;break;default:var
-d=vT}var
-l=a[2];return f(c(jl(a),l),[0,d,k]);case
+d=v4;break;default:var
+d=v5}var
+l=a[2];return f(c(ju(a),l),[0,d,k]);case
 4:var
-m=[0,vZ,jk(a[2])];return f(c(v0,a[1]),m);default:return[0,v2,f(fl(b,a[1]),v1)]}}function
-K(a){return[0,v5,f(fl(function(a){return 0===a[0]?a[1]:v4},a),v3)]}function
-jm(a){return[0,v7,f(fl(function(a){return a},a),v6)]}function
+m=[0,v$,jt(a[2])];return f(c(wa,a[1]),m);default:return[0,wc,f(fr(b,a[1]),wb)]}}function
+K(a){return[0,wf,f(fr(function(a){return 0===a[0]?a[1]:we},a),wd)]}function
+jv(a){return[0,wh,f(fr(function(a){return a},a),wg)]}function
 cI(a){if(0===a[0])return K(a[1]);var
-b=[0,n(v8,K(a[2])),0];return ag([0,n(v9,K(a[1])),b])}function
-g4(b,a){var
-c=[0,i(b,a[3]),0],d=[0,i(b,a[2]),c];return H([0,i(b,a[1]),d])}function
-v_(a){function
-b(a){return g4(cI,a)}switch(a[0]){case
+b=[0,n(wi,K(a[2])),0];return ag([0,n(wj,K(a[1])),b])}function
+hd(b,a){var
+c=[0,j(b,a[3]),0],d=[0,j(b,a[2]),c];return H([0,j(b,a[1]),d])}function
+wk(a){function
+b(a){return hd(cI,a)}switch(a[0]){case
 0:var
-e=0,g=a[5]?v$:wh,h=[0,n(wa,ap(g)),e],i=[0,n(wb,cI(a[4])),h],j=[0,n(wc,b(a[3])),i],k=[0,n(wd,b(a[2])),j],l=[0,n(we,b(a[1])),k],c=[0,n(wg,ap(wf)),l];break;case
+e=0,g=a[5]?wl:wt,h=[0,n(wm,ap(g)),e],i=[0,n(wn,cI(a[4])),h],j=[0,n(wo,b(a[3])),i],k=[0,n(wp,b(a[2])),j],l=[0,n(wq,b(a[1])),k],c=[0,n(ws,ap(wr)),l];break;case
 1:var
-d=a[3],m=d?[0,n(wi,b(d[1])),0]:d,o=[0,n(wj,b(a[2])),0],p=[0,n(wk,b(a[1])),o],c=f([0,n(wm,ap(wl)),p],m);break;default:var
-q=[0,n(wn,b(a[1])),0],c=[0,n(wp,ap(wo)),q]}return ag(c)}function
-wq(a){function
+d=a[3],m=d?[0,n(wu,b(d[1])),0]:d,o=[0,n(wv,b(a[2])),0],p=[0,n(ww,b(a[1])),o],c=f([0,n(wy,ap(wx)),p],m);break;default:var
+q=[0,n(wz,b(a[1])),0],c=[0,n(wB,ap(wA)),q]}return ag(c)}function
+wC(a){function
 b(a){return H(e(cI,a))}function
 g(a){var
-b=a?wr:wt;return n(ws,ap(b))}switch(a[0]){case
+b=a?wD:wF;return n(wE,ap(b))}switch(a[0]){case
 0:var
-h=[0,g(a[5]),0],i=[0,n(wu,cI(a[4])),h],j=[0,n(wv,b(a[3])),i],k=[0,n(ww,b(a[2])),j],l=[0,n(wx,b(a[1])),k],c=[0,n(wz,ap(wy)),l];break;case
+h=[0,g(a[5]),0],i=[0,n(wG,cI(a[4])),h],j=[0,n(wH,b(a[3])),i],k=[0,n(wI,b(a[2])),j],l=[0,n(wJ,b(a[1])),k],c=[0,n(wL,ap(wK)),l];break;case
 1:var
-d=a[3],m=d?[0,n(wA,b(d[1])),0]:d,o=[0,n(wB,b(a[2])),0],p=[0,n(wC,b(a[1])),o],c=f([0,n(wE,ap(wD)),p],m);break;case
+d=a[3],m=d?[0,n(wM,b(d[1])),0]:d,o=[0,n(wN,b(a[2])),0],p=[0,n(wO,b(a[1])),o],c=f([0,n(wQ,ap(wP)),p],m);break;case
 2:var
-q=[0,n(wF,b(a[1])),0],c=[0,n(wH,ap(wG)),q];break;default:var
-r=[0,g(a[7]),0],s=[0,n(wI,cI(a[6])),r],t=[0,n(wJ,cI(a[5])),s],u=[0,n(wK,b(a[4])),t],v=[0,n(wL,b(a[3])),u],w=[0,n(wM,b(a[2])),v],x=[0,n(wN,b(a[1])),w],c=[0,n(wP,ap(wO)),x]}return ag(c)}function
-jn(a){switch(a){case
-0:return wQ;case
-1:return wR;case
-2:return wS;case
-3:return wT;case
-4:return wU;case
-5:return wV;case
-6:return wW;case
-7:return wX;case
-8:return wY;case
-9:return wZ;case
-10:return w0;case
-11:return w1;case
-12:return w2;case
-13:return w3;case
-14:return w4;case
-15:return w5;default:return w6}}function
-jo(a){if(typeof
-a==="number")return w7;else
+q=[0,n(wR,b(a[1])),0],c=[0,n(wT,ap(wS)),q];break;default:var
+r=[0,g(a[7]),0],s=[0,n(wU,cI(a[6])),r],t=[0,n(wV,cI(a[5])),s],u=[0,n(wW,b(a[4])),t],v=[0,n(wX,b(a[3])),u],w=[0,n(wY,b(a[2])),v],x=[0,n(wZ,b(a[1])),w],c=[0,n(w1,ap(w0)),x]}return ag(c)}function
+jw(a){switch(a){case
+0:return w2;case
+1:return w3;case
+2:return w4;case
+3:return w5;case
+4:return w6;case
+5:return w7;case
+6:return w8;case
+7:return w9;case
+8:return w_;case
+9:return w$;case
+10:return xa;case
+11:return xb;case
+12:return xc;case
+13:return xd;case
+14:return xe;case
+15:return xf;default:return xg}}function
+jx(a){if(typeof
+a==="number")return xh;else
 switch(a[0]){case
-0:return w8;case
-1:return w9;default:return w_}}function
-fm(a){var
+0:return xi;case
+1:return xj;default:return xk}}function
+fs(a){var
 c=a[4];if(typeof
 c==="number")var
 d=0;else
 switch(c[0]){case
 0:var
-d=[0,n(w$,K(c[1])),0];break;case
+d=[0,n(xl,K(c[1])),0];break;case
 1:var
-d=[0,n(xa,K(c[1])),0];break;default:var
-o=[0,K(c[2]),0],d=[0,n(xb,H([0,K(c[1]),o])),0]}var
-p=[0,n(xc,ap(jo(a[4]))),d],i=a[3];if(i){var
+d=[0,n(xm,K(c[1])),0];break;default:var
+o=[0,K(c[2]),0],d=[0,n(xn,H([0,K(c[1]),o])),0]}var
+p=[0,n(xo,ap(jx(a[4]))),d],i=a[3];if(i){var
 b=i[1];switch(b[0]){case
 0:var
-r=H([0,K(b[1]),0]),k=a[1],q=0,s=6===k?xd:12===k?xh:xi,g=[0,n(xe,M(s,r)),q];break;case
+r=H([0,K(b[1]),0]),k=a[1],q=0,s=6===k?xp:12===k?xt:xu,g=[0,n(xq,N(s,r)),q];break;case
 1:var
-x=H(e(K,b[1])),m=a[1],w=0;if(14<=m)switch(m+qj|0){case
+x=H(e(K,b[1])),m=a[1],w=0;if(14<=m)switch(m+qt|0){case
 0:var
-h=xj;break;case
+h=xv;break;case
 1:var
-h=xl;break;default:var
-h=xm}else
+h=xx;break;default:var
+h=xy}else
 var
-h=xn;var
-g=[0,n(xk,M(h,x)),w];break;case
+h=xz;var
+g=[0,n(xw,N(h,x)),w];break;case
 2:var
-y=[0,n(xo,H([0,K(b[2]),0])),0],g=[0,n(xq,ag([0,n(xp,H([0,K(b[1]),0])),y])),0];break;default:var
-z=[0,n(xr,H([0,K(b[2]),0])),0],g=[0,n(xt,ag([0,n(xs,H([0,K(b[1]),0])),z])),0]}var
+y=[0,n(xA,H([0,K(b[2]),0])),0],g=[0,n(xC,ag([0,n(xB,H([0,K(b[1]),0])),y])),0];break;default:var
+z=[0,n(xD,H([0,K(b[2]),0])),0],g=[0,n(xF,ag([0,n(xE,H([0,K(b[1]),0])),z])),0]}var
 l=g}else
 var
 l=i;var
-t=f(l,p),j=a[2],u=j?[0,n(xf,cH(j[1])),0]:j,v=f(u,t);return ag([0,n(xg,ap(jn(a[1]))),v])}function
-oh(a){if(0===a[0]){var
-b=[0,n(xu,g4(K,a[2])),0];return M(xw,ag([0,n(xv,g4(K,a[1])),b]))}var
-c=[0,K(a[5]),0],d=[0,n(xx,H([0,K(a[4]),c])),0],e=[0,n(xy,K(a[3])),d],f=[0,K(a[2]),0];return M(xA,ag([0,n(xz,H([0,K(a[1]),f])),e]))}function
-oi(a){if(0===a[0]){var
-b=[0,n(xB,H(e(K,a[2]))),0];return M(xD,ag([0,n(xC,H(e(K,a[1]))),b]))}return oh([1,a[1],a[2],a[3],a[4],a[5]])}function
-oj(a){switch(a){case
-0:return xE;case
-1:return xF;default:return xG}}function
-xH(a){function
+t=f(l,p),j=a[2],u=j?[0,n(xr,cH(j[1])),0]:j,v=f(u,t);return ag([0,n(xs,ap(jw(a[1]))),v])}function
+or(a){if(0===a[0]){var
+b=[0,n(xG,hd(K,a[2])),0];return N(xI,ag([0,n(xH,hd(K,a[1])),b]))}var
+c=[0,K(a[5]),0],d=[0,n(xJ,H([0,K(a[4]),c])),0],e=[0,n(xK,K(a[3])),d],f=[0,K(a[2]),0];return N(xM,ag([0,n(xL,H([0,K(a[1]),f])),e]))}function
+os(a){if(0===a[0]){var
+b=[0,n(xN,H(e(K,a[2]))),0];return N(xP,ag([0,n(xO,H(e(K,a[1]))),b]))}return or([1,a[1],a[2],a[3],a[4],a[5]])}function
+ot(a){switch(a){case
+0:return xQ;case
+1:return xR;default:return xS}}function
+xT(a){function
 b(a){return H(e(cI,a))}var
-c=[0,n(xI,b(a[2])),0],d=[0,n(xJ,b(a[1])),c];return ag([0,n(xL,ap(xK)),d])}function
-ok(a){function
+c=[0,n(xU,b(a[2])),0],d=[0,n(xV,b(a[1])),c];return ag([0,n(xX,ap(xW)),d])}function
+ou(a){function
 b(b,a){var
 c=[0,K(a),0];return H([0,K(b),c])}switch(a[0]){case
-0:return M(xM,b(a[1],a[2]));case
+0:return N(xY,b(a[1],a[2]));case
 1:var
-c=a[3],d=a[2],e=a[1],f=[0,n(xN,b(c[1],c[2])),0],g=[0,n(xO,b(d[1],d[2])),f];return M(xQ,ag([0,n(xP,b(e[1],e[2])),g]));case
-2:return M(xR,K(a[1]));default:var
-h=[0,n(xS,K(a[2])),0];return M(xU,ag([0,n(xT,K(a[1])),h]))}}function
-xV(a){function
-b(a){return g4(K,a)}if(0===a[0])var
-c=a[5],e=c?[0,n(xW,b(c[1])),0]:c,g=[0,K(a[4]),0],h=[0,n(xX,H([0,K(a[3]),g])),0],i=[0,n(xY,K(a[2])),h],j=[0,n(xZ,cH(a[1])),i],d=f([0,n(x1,ap(x0)),j],e);else
+c=a[3],d=a[2],e=a[1],f=[0,n(xZ,b(c[1],c[2])),0],g=[0,n(x0,b(d[1],d[2])),f];return N(x2,ag([0,n(x1,b(e[1],e[2])),g]));case
+2:return N(x3,K(a[1]));default:var
+h=[0,n(x4,K(a[2])),0];return N(x6,ag([0,n(x5,K(a[1])),h]))}}function
+x7(a){function
+b(a){return hd(K,a)}if(0===a[0])var
+c=a[5],e=c?[0,n(x8,b(c[1])),0]:c,g=[0,K(a[4]),0],h=[0,n(x9,H([0,K(a[3]),g])),0],i=[0,n(x_,K(a[2])),h],j=[0,n(x$,cH(a[1])),i],d=f([0,n(yb,ap(ya)),j],e);else
 var
-k=[0,n(x2,K(a[4])),0],l=[0,n(x3,b(a[3])),k],m=[0,n(x4,b(a[2])),l],o=a[1]?x5:x7,d=[0,n(x6,ap(o)),m];return ag(d)}function
-ol(a){var
-b=a?[0,n(x8,H(e(xV,a))),0]:a;return b}function
-jp(d,c,b,a){var
-g=[0,n(x9,H(e(fm,a))),0],h=f(ol(b),g),i=[0,n(x_,oh(c)),0];return ag(f([0,n(ya,M(x$,H(e(v_,d)))),i],h))}function
-yb(a){switch(a[0]){case
-0:return M(yc,jp(a[1],a[2],a[3],a[4]));case
+k=[0,n(yc,K(a[4])),0],l=[0,n(yd,b(a[3])),k],m=[0,n(ye,b(a[2])),l],o=a[1]?yf:yh,d=[0,n(yg,ap(o)),m];return ag(d)}function
+ov(a){var
+b=a?[0,n(yi,H(e(x7,a))),0]:a;return b}function
+jy(d,c,b,a){var
+g=[0,n(yj,H(e(fs,a))),0],h=f(ov(b),g),i=[0,n(yk,or(c)),0];return ag(f([0,n(ym,N(yl,H(e(wk,d)))),i],h))}function
+yn(a){switch(a[0]){case
+0:return N(yo,jy(a[1],a[2],a[3],a[4]));case
 1:var
-b=a[5],c=a[3],d=a[1],g=H(e(wq,a[2])),l=[0,n(yd,H(e(fm,a[6]))),0],m=b?[0,n(ye,ok(b[1])),0]:b,o=f(m,l),k=0,p=[0,n(yf,oi(a[4])),o];if(typeof
+b=a[5],c=a[3],d=a[1],g=H(e(wC,a[2])),l=[0,n(yp,H(e(fs,a[6]))),0],m=b?[0,n(yq,ou(b[1])),0]:b,o=f(m,l),k=0,p=[0,n(yr,os(a[4])),o];if(typeof
 d==="number")if(d)var
-h=yg;else{var
-i=M(yl,g);k=1}else
+h=ys;else{var
+i=N(yx,g);k=1}else
 var
-h=oj(d[1]);if(!k)var
-q=c?[0,n(yh,K(c[1])),0]:c,i=M(h,ag([0,n(yi,g),q]));return M(yk,ag([0,n(yj,i),p]));case
+h=ot(d[1]);if(!k)var
+q=c?[0,n(yt,K(c[1])),0]:c,i=N(h,ag([0,n(yu,g),q]));return N(yw,ag([0,n(yv,i),p]));case
 2:var
-r=[0,n(ym,H(e(fm,a[7]))),0],s=f(ol(a[6]),r),t=[0,n(yn,ok(a[5])),0],u=[0,n(yo,oi(a[4])),t],v=[0,n(yp,K(a[3])),0],w=ag([0,n(yq,H(e(xH,a[2]))),v]);return M(ys,ag(f([0,n(yr,M(oj(a[1]),w)),u],s)));case
+r=[0,n(yy,H(e(fs,a[7]))),0],s=f(ov(a[6]),r),t=[0,n(yz,ou(a[5])),0],u=[0,n(yA,os(a[4])),t],v=[0,n(yB,K(a[3])),0],w=ag([0,n(yC,H(e(xT,a[2]))),v]);return N(yE,ag(f([0,n(yD,N(ot(a[1]),w)),u],s)));case
 3:var
-x=[0,n(yt,H(e(fm,a[7]))),0],y=[0,n(yu,H(e(K,a[6]))),0],z=[0,n(yx,M(yw,ag([0,n(yv,H(e(K,a[5]))),y]))),x],A=0,B=a[4],C=[0,n(yA,H(e(function(a){return 0===a[0]?M(yy,H(e(jm,a[1]))):M(yz,jm(a[1]))},B))),A],D=a[3],E=[0,n(yB,H(e(function(a){var
-b=[0,jm(a[2]),0];return H([0,ap(a[1]),b])},D))),C],F=a[2],G=[0,n(yC,H(e(function(a){var
-b=[0,cI(a[2]),0];return H([0,ap(a[1]),b])},F))),E];return M(yG,ag([0,n(yF,M(yE,ag([0,n(yD,H(e(ap,a[1]))),G]))),z]));case
+x=[0,n(yF,H(e(fs,a[7]))),0],y=[0,n(yG,H(e(K,a[6]))),0],z=[0,n(yJ,N(yI,ag([0,n(yH,H(e(K,a[5]))),y]))),x],A=0,B=a[4],C=[0,n(yM,H(e(function(a){return 0===a[0]?N(yK,H(e(jv,a[1]))):N(yL,jv(a[1]))},B))),A],D=a[3],E=[0,n(yN,H(e(function(a){var
+b=[0,jv(a[2]),0];return H([0,ap(a[1]),b])},D))),C],F=a[2],G=[0,n(yO,H(e(function(a){var
+b=[0,cI(a[2]),0];return H([0,ap(a[1]),b])},F))),E];return N(yS,ag([0,n(yR,N(yQ,ag([0,n(yP,H(e(ap,a[1]))),G]))),z]));case
 4:var
-I=[0,n(yH,H(e(fm,a[3]))),0],J=[0,n(yK,M(yJ,ag([0,n(yI,K(a[2])),0]))),I];return M(yO,ag([0,n(yN,M(yM,ag([0,n(yL,K(a[1])),0]))),J]));case
+I=[0,n(yT,H(e(fs,a[3]))),0],J=[0,n(yW,N(yV,ag([0,n(yU,K(a[2])),0]))),I];return N(y0,ag([0,n(yZ,N(yY,ag([0,n(yX,K(a[1])),0]))),J]));case
 5:var
-L=[0,n(yP,K(a[5])),0];return M(yR,ag([0,n(yQ,jp(a[1],[0,a[2],a[3]],0,a[4])),L]));case
+L=[0,n(y1,K(a[5])),0];return N(y3,ag([0,n(y2,jy(a[1],[0,a[2],a[3]],0,a[4])),L]));case
 6:var
-j=a[1],N=0,O=j?cI(j[1]):ap(yU);return M(yT,ag([0,n(yS,O),N]));default:var
-P=[0,n(yV,K(a[6])),0],Q=[0,n(yW,K(a[5])),P],R=[0,n(yX,jp(a[2],a[3],0,a[4])),Q],S=a[1];return M(y2,ag([0,n(y1,H(e(function(a){var
-b=[0,n(yY,K(a[2][2])),0],c=[0,n(yZ,K(a[2][1])),b];return ag([0,n(y0,ap(a[1])),c])},S))),R]))}}function
-dE(a){return H(e(fk,a))}function
-fn(b,a){var
-c=[0,n(y3,ep(a)),0];return ag([0,n(y4,H(e(dE,b))),c])}function
-dc(a){switch(a[0]){case
+j=a[1],M=0,O=j?cI(j[1]):ap(y6);return N(y5,ag([0,n(y4,O),M]));default:var
+P=[0,n(y7,K(a[6])),0],Q=[0,n(y8,K(a[5])),P],R=[0,n(y9,jy(a[2],a[3],0,a[4])),Q],S=a[1];return N(zc,ag([0,n(zb,H(e(function(a){var
+b=[0,n(y_,K(a[2][2])),0],c=[0,n(y$,K(a[2][1])),b];return ag([0,n(za,ap(a[1])),c])},S))),R]))}}function
+dF(a){return H(e(fq,a))}function
+ft(b,a){var
+c=[0,n(zd,eq(a)),0];return ag([0,n(ze,H(e(dF,b))),c])}function
+de(a){switch(a[0]){case
 0:return ap(a[1]);case
 1:var
-b=fn(a[2],a[3]);return M(a[1],b);case
+b=ft(a[2],a[3]);return N(a[1],b);case
 2:var
-c=a[1]?y5:y7;return M(y6,ap(c));case
+c=a[1]?zf:zh;return N(zg,ap(c));case
 3:var
-d=[0,dE(a[3]),0];return M(y8,H([0,fn(a[1],a[2]),d]));case
+d=[0,dF(a[3]),0];return N(zi,H([0,ft(a[1],a[2]),d]));case
 4:var
-f=[0,ep(a[4]),0],g=[0,fk(a[3]),f];return M(y9,H([0,fn(a[1],a[2]),g]));case
+f=[0,eq(a[4]),0],g=[0,fq(a[3]),f];return N(zj,H([0,ft(a[1],a[2]),g]));case
 5:var
-h=[0,ep(a[3]),0],i=[0,fk(a[2]),h];return M(y_,H([0,dc(a[1]),i]));case
+h=[0,eq(a[3]),0],i=[0,fq(a[2]),h];return N(zk,H([0,de(a[1]),i]));case
 6:var
-j=[0,ep(a[3]),0],k=[0,fk(a[2]),j];return M(y$,H([0,dc(a[1]),k]));case
-7:return M(za,dc(a[1]));case
+j=[0,eq(a[3]),0],k=[0,fq(a[2]),j];return N(zl,H([0,de(a[1]),k]));case
+7:return N(zm,de(a[1]));case
 8:var
-l=[0,H(e(dE,a[3])),0],m=[0,ap(a[2]),l];return M(zb,H([0,dc(a[1]),m]));case
+l=[0,H(e(dF,a[3])),0],m=[0,ap(a[2]),l];return N(zn,H([0,de(a[1]),m]));case
 9:var
-n=a[1];return M(zc,H(e(function(a){var
-b=a[1],c=b[1],d=[0,dc(a[2]),0],e=[0,ep(b[2]),d],f=[0,fk(c[2]),e];return H([0,dE(c[1]),f])},n)));default:var
-o=[0,dc(a[4]),0],p=[0,dc(a[3]),o],q=[0,ep(a[2]),p];return M(zd,H([0,dE(a[1]),q]))}}function
-ze(a){var
-b=[0,dc(a[2]),0];return H([0,cH(a[1]),b])}function
-om(a){if(typeof
-a==="number")return 0===a?ap(zf):ap(zg);else
+n=a[1];return N(zo,H(e(function(a){var
+b=a[1],c=b[1],d=[0,de(a[2]),0],e=[0,eq(b[2]),d],f=[0,fq(c[2]),e];return H([0,dF(c[1]),f])},n)));default:var
+o=[0,de(a[4]),0],p=[0,de(a[3]),o],q=[0,eq(a[2]),p];return N(zp,H([0,dF(a[1]),q]))}}function
+zq(a){var
+b=[0,de(a[2]),0];return H([0,cH(a[1]),b])}function
+ow(a){if(typeof
+a==="number")return 0===a?ap(zr):ap(zs);else
 switch(a[0]){case
 0:var
-b=[0,H(e(dE,a[2])),0];return M(zh,H([0,cH(a[1]),b]));case
+b=[0,H(e(dF,a[2])),0];return N(zt,H([0,cH(a[1]),b]));case
 1:var
-c=[0,cH(a[2]),0];return M(zi,H([0,cH(a[1]),c]));case
-2:return M(zj,H(e(K,a[1])));default:var
-d=[0,n(zk,fn(a[4],a[5])),0],f=[0,n(zl,H(e(K,a[3]))),d],g=[0,n(zm,H(e(K,a[2]))),f];return M(zo,ag([0,n(zn,cH(a[1])),g]))}}function
-zp(a){var
-b=a[4],h=b?[0,n(zq,dE([0,b[1],b[2]])),0]:b,d=a[3],i=d?[0,n(zr,om(d[1])),0]:d,j=f(i,h),g=a[2],k=g?[0,n(zs,cH(g[1])),0]:g,l=f(k,j),c=a[1],m=c?[0,n(zt,H(e(ze,[0,c[1],c[2]]))),0]:c;return ag(f(m,l))}function
-on(g,a,d){var
-h=[0,n(zu,H(e(zp,d))),0];if(a)var
-b=a[1],c=[0,n(zv,fn(b[1],b[2])),0];else
+c=[0,cH(a[2]),0];return N(zu,H([0,cH(a[1]),c]));case
+2:return N(zv,H(e(K,a[1])));default:var
+d=[0,n(zw,ft(a[4],a[5])),0],f=[0,n(zx,H(e(K,a[3]))),d],g=[0,n(zy,H(e(K,a[2]))),f];return N(zA,ag([0,n(zz,cH(a[1])),g]))}}function
+zB(a){var
+b=a[4],h=b?[0,n(zC,dF([0,b[1],b[2]])),0]:b,d=a[3],i=d?[0,n(zD,ow(d[1])),0]:d,j=f(i,h),g=a[2],k=g?[0,n(zE,cH(g[1])),0]:g,l=f(k,j),c=a[1],m=c?[0,n(zF,H(e(zq,[0,c[1],c[2]]))),0]:c;return ag(f(m,l))}function
+ox(g,a,d){var
+h=[0,n(zG,H(e(zB,d))),0];if(a)var
+b=a[1],c=[0,n(zH,ft(b[1],b[2])),0];else
 var
 c=a;var
-i=f(c,h);return ag([0,n(zw,jk(g)),i])}function
-oo(d,c,a,b){var
-g=[0,n(zx,om(b)),0],h=a?[0,n(zy,H(e(K,a))),0]:a,i=f(h,g),j=[0,n(zz,H(e(K,c))),0];return ag(f([0,n(zA,jk(d)),j],i))}function
-zB(a){if(typeof
-a==="number")return ap(zC);else
+i=f(c,h);return ag([0,n(zI,jt(g)),i])}function
+oy(d,c,a,b){var
+g=[0,n(zJ,ow(b)),0],h=a?[0,n(zK,H(e(K,a))),0]:a,i=f(h,g),j=[0,n(zL,H(e(K,c))),0];return ag(f([0,n(zM,jt(d)),j],i))}function
+zN(a){if(typeof
+a==="number")return ap(zO);else
 switch(a[0]){case
-0:return M(zD,cH(a[1]));case
-1:return M(zE,on(a[1],a[2],a[3]));default:return M(zF,oo(a[1],a[2],a[3],a[4]))}}function
-g5(a){var
-b=hP(hO(au(a),function(b){return a2(a,b)}));return m(function(a){var
-b=P(34===a?1:0),c=b?P(92===a?1:0):b,d=c?_(zU,f1(a)):c;return d?_(f1(a),zV):d},b)}function
-jq(d){var
+0:return N(zP,cH(a[1]));case
+1:return N(zQ,ox(a[1],a[2],a[3]));default:return N(zR,oy(a[1],a[2],a[3],a[4]))}}function
+he(a){var
+b=hZ(hY(av(a),function(b){return a2(a,b)}));return m(function(a){var
+b=L(34===a?1:0),c=b?L(92===a?1:0):b,d=c?$(z6,f_(a)):c;return d?$(f_(a),z7):d},b)}function
+jz(d){var
 a=d;for(;;)switch(a[0]){case
 8:var
-b=g5(a[2]);if(b){var
+b=he(a[2]);if(b){var
 a=a[1];continue}return b;case
 9:var
-e=a[1];return m(function(a){return jq(a[2])},e);case
+e=a[1];return m(function(a){return jz(a[2])},e);case
 10:var
-c=jq(a[3]);if(c){var
+c=jz(a[3]);if(c){var
 a=a[4];continue}return c;case
 0:case
-1:return g5(a[1]);case
+1:return he(a[1]);case
 5:case
 6:case
 7:var
 a=a[1];continue;default:return 1}}function
-fo(b){function
+fu(b){function
 c(f){var
-a=f1(f),b=_(zW,a),c=b?_(a,zX):b;if(c)var
+a=f_(f),b=$(z8,a),c=b?$(a,z9):b;if(c)var
 d=c;else{var
-e=_(zY,a);if(e)return _(a,zZ);var
+e=$(z_,a);if(e)return $(a,z$);var
 d=e}return d}var
-a=hP(hO(au(b),function(a){return a2(b,a)}));if(a){var
+a=hZ(hY(av(b),function(a){return a2(b,a)}));if(a){var
 d=a[2],e=c(a[1]),f=e?m(function(a){var
 b=c(a);if(b)var
 d=b;else
 var
-e=f1(a),f=_(z0,e),h=f?_(e,z1):f,d=h;var
-g=d||(95===a?1:0);return g},d):e,h=f?_(g(d),z2):f;if(h)return P(ax(b,z3));var
+e=f_(a),f=$(Aa,e),h=f?$(e,Ab):f,d=h;var
+g=d||(95===a?1:0);return g},d):e,h=f?$(g(d),Ac):f;if(h)return L(ax(b,Ad));var
 i=h}else
 var
 i=a;return i}function
-jr(c){var
+jA(c){var
 a=c;for(;;)switch(a[0]){case
 0:return 1;case
-1:return fo(a[1]);case
+1:return fu(a[1]);case
 3:var
-b=jr(a[2]);if(b){var
+b=jA(a[2]);if(b){var
 a=a[3];continue}return b;default:var
 a=a[1];continue}}function
-fp(m){var
+fv(m){var
 a=m;for(;;)switch(a[0]){case
 0:var
 e=a[1];if(typeof
@@ -5973,42 +6153,42 @@ h=typeof
 e[1]==="number"?1:0,d=h?1:h;else
 var
 d=1;if(d){var
-f=fR(a[2]);if(typeof
+f=f0(a[2]);if(typeof
 f!=="number"&&0===f[0])return 0;var
 g=1}else
 var
 g=d;return g;case
 1:return 1;case
 3:var
-i=fp(a[2]);if(i){var
+i=fv(a[2]);if(i){var
 a=a[3];continue}return i;case
 4:var
-j=a[2],k=fp(a[1]),l=k?fX(c(2,b),j):k;return l?fX(j,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):l;default:var
+j=a[2],k=fv(a[1]),l=k?f6(c(2,b),j):k;return l?f6(j,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):l;default:var
 a=a[1];continue}}function
-eq(a){return 0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
-bZ(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-dF(a){return y(eq,bZ(a))}function
-js(a){switch(a[0]){case
+er(a){return 0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
+b0(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+dG(a){return y(er,b0(a))}function
+jB(a){switch(a[0]){case
 0:var
-c=eq(a[4]),d=f(dF(a[3]),c),e=f(dF(a[2]),d);return f(dF(a[1]),e);case
+c=er(a[4]),d=f(dG(a[3]),c),e=f(dG(a[2]),d);return f(dG(a[1]),e);case
 1:var
-b=a[3],g=b?dF(b[1]):b,h=f(dF(a[2]),g);return f(dF(a[1]),h);default:return dF(a[1])}}function
-z4(a){switch(a[0]){case
+b=a[3],g=b?dG(b[1]):b,h=f(dG(a[2]),g);return f(dG(a[1]),h);default:return dG(a[1])}}function
+Ae(a){switch(a[0]){case
 0:var
 d=f(a[3],[0,a[4],0]),e=f(a[2],d),b=f(a[1],e);break;case
 1:var
 c=a[3],g=c?c[1]:c,h=f(a[2],g),b=f(a[1],h);break;case
 2:var
 b=a[1];break;default:var
-i=f(a[4],[0,a[5],[0,a[6],0]]),j=f(a[3],i),k=f(a[2],j),b=f(a[1],k)}return y(eq,b)}function
-op(a){return 0===a[0]?f(a[1],a[2]):[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
-oq(a){if(0===a[0]){var
-b=bZ(a[2]);return f(bZ(a[1]),b)}return[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
-or(a){switch(a[0]){case
+i=f(a[4],[0,a[5],[0,a[6],0]]),j=f(a[3],i),k=f(a[2],j),b=f(a[1],k)}return y(er,b)}function
+oz(a){return 0===a[0]?f(a[1],a[2]):[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
+oA(a){if(0===a[0]){var
+b=b0(a[2]);return f(b0(a[1]),b)}return[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
+oB(a){switch(a[0]){case
 1:var
 b=a[3],c=a[2],d=a[1];return[0,d[1],[0,d[2],[0,c[1],[0,c[2],[0,b[1],[0,b[2],0]]]]]];case
 2:return[0,a[1],0];default:return[0,a[1],[0,a[2],0]]}}function
-dG(e){var
+dH(e){var
 a=e[4],h=typeof
 a==="number"?0:2===a[0]?[0,a[1],[0,a[2],0]]:[0,a[1],0],c=e[3];if(c){var
 b=c[1];switch(b[0]){case
@@ -6020,150 +6200,150 @@ d=[0,b[1],[0,b[2],0]]}var
 g=d}else
 var
 g=c;return f(g,h)}function
-os(a){if(0===a[0]){var
-b=a[5],c=b?bZ(b[1]):b;return[0,a[2],[0,a[3],[0,a[4],c]]]}var
-d=[0,a[4],0],e=f(bZ(a[3]),d);return f(bZ(a[2]),e)}function
-ot(b,e){var
+oC(a){if(0===a[0]){var
+b=a[5],c=b?b0(b[1]):b;return[0,a[2],[0,a[3],[0,a[4],c]]]}var
+d=[0,a[4],0],e=f(b0(a[3]),d);return f(b0(a[2]),e)}function
+oD(b,e){var
 a=e;for(;;)switch(a[0]){case
 0:return 1;case
 1:var
 c=a[1];if(0===c[0]){var
-f=c[1];return ak(function(a){return ax(f,a)},b)}return 0;case
+f=c[1];return aj(function(a){return ax(f,a)},b)}return 0;case
 3:var
-d=ot(b,a[2]);if(d){var
+d=oD(b,a[2]);if(d){var
 a=a[3];continue}return d;default:var
 a=a[1];continue}}function
-fq(c,a){return m(function(a){var
-b=fp(a);return b?ot(c,a):b},a)}function
-ou(a){if(typeof
+fw(c,a){return m(function(a){var
+b=fv(a);return b?oD(c,a):b},a)}function
+oE(a){if(typeof
 a!=="number")switch(a[0]){case
 2:return a[1];case
 3:return f(a[2],a[3])}return 0}function
-ov(a){var
-d=fX(c(2,c(2,c(2,c(2,c(2,b))))),a);return d?fX(a,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b))))))))))):d}function
-ow(a,b){return b?[4,ow(a,b[1]),a]:a}function
-j(a){switch(a[0]){case
+oF(a){var
+d=f6(c(2,c(2,c(2,c(2,c(2,b))))),a);return d?f6(a,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b))))))))))):d}function
+oG(a,b){return b?[4,oG(a,b[1]),a]:a}function
+i(a){switch(a[0]){case
 0:var
-i=a[2],k=c(2,r(c(2,c(2,b)))),l=function(a){return B(k,a)},m=fS(kC(i),l,b);return[0,kQ(kD(fR(a[1]),i)),m];case
+j=a[2],k=c(2,p(c(2,c(2,b)))),l=function(a){return C(k,a)},m=f1(kK(j),l,b);return[0,kY(kL(f0(a[1]),j)),m];case
 1:var
 e=a[1];return 0===e[0]?[5,[0,b,b],[0,d,b]]:[1,e[1],e[2],e[3]];case
 2:var
-f=j(a[1]);return 0===f[0]?[0,Q(f[1]),f[2]]:[3,[0,d,b],f];case
+f=i(a[1]);return 0===f[0]?[0,Q(f[1]),f[2]]:[3,[0,d,b],f];case
 3:var
-g=j(a[2]),h=j(a[3]);switch(a[1]){case
+g=i(a[2]),h=i(a[3]);switch(a[1]){case
 0:return[2,g,h];case
 1:return[3,g,h];case
 2:return[4,g,h];default:return[5,g,h]}case
 4:var
-n=bx(eP(a[2]));return ow(j(a[1]),n);default:return[6,j(a[1])]}}function
-b0(a){if(0===a[0]){var
-b=j(a[1]);return[0,b,b]}var
-c=j(a[2]);return[0,j(a[1]),c]}function
-dH(a){var
-b=b0(a[3]),c=b0(a[2]);return[0,b0(a[1]),c,b]}function
-z5(a){switch(a[0]){case
+n=by(eP(a[2]));return oG(i(a[1]),n);default:return[6,i(a[1])]}}function
+b1(a){if(0===a[0]){var
+b=i(a[1]);return[0,b,b]}var
+c=i(a[2]);return[0,i(a[1]),c]}function
+dI(a){var
+b=b1(a[3]),c=b1(a[2]);return[0,b1(a[1]),c,b]}function
+Af(a){switch(a[0]){case
 0:var
-b=a[5],c=b0(a[4]),d=dH(a[3]),e=dH(a[2]);return[0,[0,dH(a[1]),e,d,c,b]];case
+b=a[5],c=b1(a[4]),d=dI(a[3]),e=dI(a[2]);return[0,[0,dI(a[1]),e,d,c,b]];case
 1:var
-f=z(dH,a[3]),g=dH(a[2]);return[1,dH(a[1]),g,f];default:return[2,dH(a[1])]}}function
-ox(a){if(0===a[0]){var
+f=z(dI,a[3]),g=dI(a[2]);return[1,dI(a[1]),g,f];default:return[2,dI(a[1])]}}function
+oH(a){if(0===a[0]){var
 c=a[2],d=a[1],b=function(a){var
-b=j(i(a,c));return[0,j(i(a,d)),b]},e=b(function(a){return a[3]}),f=b(function(a){return a[2]});return[0,[0,b(function(a){return a[1]}),f,e]]}var
-g=j(a[5]),h=[0,j(a[4]),g],k=j(a[3]),l=j(a[2]);return[1,j(a[1]),l,k,h]}function
-er(a){var
-b=j(a[3]),c=j(a[2]);return[0,j(a[1]),c,b]}function
-dd(a){if(0===a[0]){var
-c=a[5],h=c?er(c[1]):[0,[0,d,b],[0,d,b],[0,d,b]],i=j(a[4]),k=j(a[3]),l=j(a[2]);return[0,bx(a[1]),l,k,i,h]}var
+b=i(j(a,c));return[0,i(j(a,d)),b]},e=b(function(a){return a[3]}),f=b(function(a){return a[2]});return[0,[0,b(function(a){return a[1]}),f,e]]}var
+g=i(a[5]),h=[0,i(a[4]),g],k=i(a[3]),l=i(a[2]);return[1,i(a[1]),l,k,h]}function
+es(a){var
+b=i(a[3]),c=i(a[2]);return[0,i(a[1]),c,b]}function
+df(a){if(0===a[0]){var
+c=a[5],h=c?es(c[1]):[0,[0,d,b],[0,d,b],[0,d,b]],j=i(a[4]),k=i(a[3]),l=i(a[2]);return[0,by(a[1]),l,k,j,h]}var
 e=a[4],f=a[3],g=a[2];if(a[1]){var
-m=er(f),n=er(g);return[2,j(e),n,m]}var
-o=er(f),p=er(g);return[1,j(e),p,o]}function
-g6(b,a){if(a){var
-c=a[1],d=a[2],g=g6(f(b,[0,c,0]),d),h=e(function(a){return[0,c,a]},b);return f(br(function(c){var
-a=c[2],b=c[1],d=0===b[0]?b[5]?0:0===a[0]?a[5]?0:p(b[1],a[1]):0:0===a[0]?0:co(b[1],a[1]);return P(d)},h),g)}return a}function
-z6(b){if(b[1])return 0;var
+m=es(f),n=es(g);return[2,i(e),n,m]}var
+o=es(f),p=es(g);return[1,i(e),p,o]}function
+hf(b,a){if(a){var
+c=a[1],d=a[2],g=hf(f(b,[0,c,0]),d),h=e(function(a){return[0,c,a]},b);return f(bs(function(c){var
+a=c[2],b=c[1],d=0===b[0]?b[5]?0:0===a[0]?a[5]?0:q(b[1],a[1]):0:0===a[0]?0:cq(b[1],a[1]);return L(d)},h),g)}return a}function
+Ag(b){if(b[1])return 0;var
 a=b[4];if(typeof
-a!=="number"&&1===a[0])return[0,[0,j(a[1])],0];return 0}function
-z7(N,M,a){switch(a[1]){case
+a!=="number"&&1===a[0])return[0,[0,i(a[1])],0];return 0}function
+Ah(N,M,a){switch(a[1]){case
 0:var
 g=a[4];if(typeof
-g!=="number"&&0===g[0])return[0,[1,j(g[1])],0];return 0;case
+g!=="number"&&0===g[0])return[0,[1,i(g[1])],0];return 0;case
 1:var
 f=a[4],A=0;if(typeof
 f==="number")A=1;else
 switch(f[0]){case
 0:var
-O=f[1],c=function(a){return[2,a,j(O)]};break;case
+O=f[1],c=function(a){return[2,a,i(O)]};break;case
 1:var
-Q=f[1],c=function(a){return[3,a,j(Q)]};break;default:A=1}if(A)return 0;break;case
+Q=f[1],c=function(a){return[3,a,i(Q)]};break;default:A=1}if(A)return 0;break;case
 2:var
 h=a[4],I=0;if(typeof
 h==="number"||!(1===h[0]))I=1;else{var
-i=a[3],R=h[1];if(!i)return i;var
-C=i[1];if(0!==C[0])return 0;var
+j=a[3],R=h[1];if(!j)return j;var
+C=j[1];if(0!==C[0])return 0;var
 S=C[1],c=function(a){var
-b=j(R);return[4,a,j(S),b]}}if(I)return 0;break;case
+b=i(R);return[4,a,i(S),b]}}if(I)return 0;break;case
 3:var
 k=a[4];if(typeof
-k!=="number"&&1===k[0])return[0,[5,j(k[1])],0];return 0;case
+k!=="number"&&1===k[0])return[0,[5,i(k[1])],0];return 0;case
 4:var
 l=a[4],J=0;if(typeof
 l==="number"||!(0===l[0]))J=1;else
 var
-T=l[1],c=function(a){return[6,a,j(T)]};if(J)return 0;break;case
+T=l[1],c=function(a){return[6,a,i(T)]};if(J)return 0;break;case
 5:var
 m=a[4];if(typeof
-m!=="number"&&0===m[0])return[0,[7,j(m[1])],0];return 0;case
+m!=="number"&&0===m[0])return[0,[7,i(m[1])],0];return 0;case
 6:var
 n=a[4];if(typeof
 n!=="number"&&0===n[0]){var
 D=n[1],o=a[3];if(o){var
-q=o[1];switch(q[0]){case
+p=o[1];switch(p[0]){case
 0:var
-U=j(D);return[0,[8,j(q[1]),U],0];case
+U=i(D);return[0,[8,i(p[1]),U],0];case
 1:var
-V=j(D);return[0,[15,e(j,q[1]),V],0];default:var
+V=i(D);return[0,[15,e(i,p[1]),V],0];default:var
 E=0}}else
 var
 E=o;return E}return 0;case
 7:var
 r=a[4];if(typeof
-r!=="number"&&0===r[0])return[0,[9,j(r[1])],0];return 0;case
+r!=="number"&&0===r[0])return[0,[9,i(r[1])],0];return 0;case
 8:var
 s=a[4],K=0;if(typeof
 s==="number"||!(1===s[0]))K=1;else{var
 t=a[3],W=s[1];if(!t)return t;var
 F=t[1];if(0!==F[0])return 0;var
 X=F[1],c=function(a){var
-b=j(W);return[13,a,j(X),b]}}if(K)return 0;break;case
+b=i(W);return[13,a,i(X),b]}}if(K)return 0;break;case
 9:var
 u=a[4];if(typeof
 u!=="number"&&0===u[0]){var
-Y=u[1],Z=g6(0,M);return e(function(h){var
-e=j(Y),a=h[2],c=h[1];if(0===c[0]){var
+Y=u[1],Z=hf(0,M);return e(function(h){var
+e=i(Y),a=h[2],c=h[1];if(0===c[0]){var
 f=c[1];if(0===a[0]){var
-g=function(a){return a?er(a[1]):[0,[0,d,b],[0,d,b],[0,d,b]]};if(p(f,a[1])){var
-i=j(a[2]),k=[2,[2,j(c[2]),i],e],l=g(a[5]),m=g(c[5]);return[11,bx(f),m,l,k]}var
-n=dd(a);return[10,dd(c),n,e]}var
-o=dd(a);return[10,dd(c),o,e]}var
-q=dd(a);return[10,dd(c),q,e]},Z)}return 0;case
+g=function(a){return a?es(a[1]):[0,[0,d,b],[0,d,b],[0,d,b]]};if(q(f,a[1])){var
+j=i(a[2]),k=[2,[2,i(c[2]),j],e],l=g(a[5]),m=g(c[5]);return[11,by(f),m,l,k]}var
+n=df(a);return[10,df(c),n,e]}var
+o=df(a);return[10,df(c),o,e]}var
+p=df(a);return[10,df(c),p,e]},Z)}return 0;case
 10:var
 v=a[4],L=0;if(typeof
 v==="number"||!(1===v[0]))L=1;else{var
 w=a[3],_=v[1];if(!w)return w;var
 x=w[1];if(2!==x[0])return 0;var
 $=x[2],aa=x[1],c=function(a){var
-b=j(_),c=j($);return[12,a,j(aa),c,b]}}if(L)return 0;break;case
+b=i(_),c=i($);return[12,a,i(aa),c,b]}}if(L)return 0;break;case
 11:var
 G=typeof
-a[4]==="number"?1:0,ab=G?z8:G;return ab;case
+a[4]==="number"?1:0,ab=G?Ai:G;return ab;case
 12:var
 y=a[4];if(typeof
 y!=="number"&&1===y[0]){var
 z=a[3];if(z){var
 H=z[1];if(0===H[0]){var
-ac=j(y[1]);return[0,[14,j(H[1]),ac],0]}return 0}return z}return 0;default:return 0}var
-B=a[2],P=B?[0,bx(B[1]),0]:aB(0,N);return e(c,P)}function
-z9(c,a){switch(a[1]){case
+ac=i(y[1]);return[0,[14,i(H[1]),ac],0]}return 0}return z}return 0;default:return 0}var
+B=a[2],P=B?[0,by(B[1]),0]:aC(0,N);return e(c,P)}function
+Aj(c,a){switch(a[1]){case
 0:var
 l=a[4];if(typeof
 l!=="number"&&2!==l[0])return a[2]?0:a[3]?0:1;return 0;case
@@ -6173,8 +6353,8 @@ m==="number"||2===m[0])K=1;else{var
 n=a[2];if(!n)return a[3]?0:1;if(a[3])return 0;var
 b=n[1]}if(K)return 0;break;case
 2:var
-L=0,q=a[4];if(typeof
-q==="number"||!(1===q[0]))L=1;else{var
+L=0,p=a[4];if(typeof
+p==="number"||!(1===p[0]))L=1;else{var
 r=a[2];if(!r){var
 e=a[3];return e?0===e[1][0]?1:0:e}var
 d=a[3];if(!d)return d;if(0!==d[1][0])return 0;var
@@ -6196,7 +6376,7 @@ w!=="number"&&0===w[0]){if(a[2])return 0;var
 f=a[3];if(f){var
 x=f[1];switch(x[0]){case
 0:return 1;case
-1:return p(g(x[1]),c);default:var
+1:return q(g(x[1]),c);default:var
 y=0}}else
 var
 y=f;return y}return 0;case
@@ -6207,7 +6387,7 @@ z!=="number"&&0===z[0])return a[2]?0:a[3]?0:1;return 0;case
 N=0,A=a[4];if(typeof
 A==="number"||!(1===A[0]))N=1;else{var
 h=a[3];if(!h)return h;if(0!==h[1][0])return 0;var
-B=p(c,z$),O=0;if(B){var
+B=q(c,Al),O=0;if(B){var
 C=a[2];if(C){var
 b=C[1];O=1}else
 var
@@ -6233,59 +6413,59 @@ I=H;return I;case
 12:var
 J=a[4];if(typeof
 J!=="number"&&1===J[0]){if(a[2])return 0;var
-k=a[3];return k?0===k[1][0]?p(c,Aa):0:k}return 0;default:return 0}var
-o=_(z_,b);return o?_(b,c):o}function
-oy(d,c,b){var
-e=y(function(a){return z7(d,c,a)},b),a=y(z6,b),g=a?[0,a[1],a[2]]:Ab;return f(g,e)}function
-jt(a,d,c,b){var
-f=oy(g(a),c,b),h=ox(d);return[0,e(z5,a),h,f]}function
-oz(b){if(b[1])return 0;var
+k=a[3];return k?0===k[1][0]?q(c,Am):0:k}return 0;default:return 0}var
+o=$(Ak,b);return o?$(b,c):o}function
+oI(d,c,b){var
+e=y(function(a){return Ah(d,c,a)},b),a=y(Ag,b),g=a?[0,a[1],a[2]]:An;return f(g,e)}function
+jC(a,d,c,b){var
+f=oI(g(a),c,b),h=oH(d);return[0,e(Af,a),h,f]}function
+oJ(b){if(b[1])return 0;var
 a=b[4];if(typeof
-a!=="number"&&1===a[0])return[0,[0,j(a[1])],0];return 0}function
-oA(c){function
-a(a){return q(a,e(j,c),[0,d,b])}var
-f=a(Ac),g=a(Ad);return[0,a(0),g,f]}function
-ju(W,E,V,a){switch(a[1]){case
+a!=="number"&&1===a[0])return[0,[0,i(a[1])],0];return 0}function
+oK(c){function
+a(a){return r(a,e(i,c),[0,d,b])}var
+f=a(Ao),g=a(Ap);return[0,a(0),g,f]}function
+jD(W,E,V,a){switch(a[1]){case
 0:var
 d=a[4];if(typeof
-d!=="number"&&0===d[0])return[0,[1,j(d[1])],0];return 0;case
+d!=="number"&&0===d[0])return[0,[1,i(d[1])],0];return 0;case
 1:var
 c=a[4];if(typeof
 c==="number")return 0;else
 switch(c[0]){case
 0:var
-X=c[1],b=function(a){return[2,a,j(X)]};break;case
+X=c[1],b=function(a){return[2,a,i(X)]};break;case
 1:var
-Z=c[1],b=function(a){return[3,a,j(Z)]};break;default:var
+Z=c[1],b=function(a){return[3,a,i(Z)]};break;default:var
 _=c[2],$=c[1],b=function(a){var
-b=j(_);return[4,a,j($),b]}}break;case
+b=i(_);return[4,a,i($),b]}}break;case
 2:var
 f=a[4],N=0;if(typeof
 f==="number"||!(1===f[0]))N=1;else{var
 g=a[3],aa=f[1];if(!g)return g;var
 G=g[1];if(0!==G[0])return 0;var
 ab=G[1],b=function(a){var
-b=j(ab),c=j(aa);return W?[9,a,b,c]:[6,a,b,c]}}if(N)return 0;break;case
+b=i(ab),c=i(aa);return W?[9,a,b,c]:[6,a,b,c]}}if(N)return 0;break;case
 3:var
 h=a[4];if(typeof
-h!=="number"&&1===h[0])return[0,[5,j(h[1])],0];return 0;case
+h!=="number"&&1===h[0])return[0,[5,i(h[1])],0];return 0;case
 4:var
-i=a[4],O=0;if(typeof
-i==="number"||!(0===i[0]))O=1;else
+j=a[4],O=0;if(typeof
+j==="number"||!(0===j[0]))O=1;else
 var
-ac=i[1],b=function(a){return[10,a,j(ac)]};if(O)return 0;break;case
+ac=j[1],b=function(a){return[10,a,i(ac)]};if(O)return 0;break;case
 5:var
 k=a[4];if(typeof
-k!=="number"&&0===k[0])return[0,[12,j(k[1])],0];return 0;case
+k!=="number"&&0===k[0])return[0,[12,i(k[1])],0];return 0;case
 6:var
 l=a[4];if(typeof
 l!=="number"&&0===l[0]){var
 H=l[1],m=a[3];if(m){var
 n=m[1];switch(n[0]){case
 0:var
-ad=j(H);return[0,[8,al(j(n[1]),E),ad],0];case
+ad=i(H);return[0,[8,al(i(n[1]),E),ad],0];case
 1:var
-ae=j(H);return[0,[8,e(j,n[1]),ae],0];default:var
+ae=i(H);return[0,[8,e(i,n[1]),ae],0];default:var
 I=0}}else
 var
 I=m;return I}return 0;case
@@ -6295,56 +6475,56 @@ o==="number"||!(1===o[0]))P=1;else{var
 p=a[3],af=o[1];if(!p)return p;var
 J=p[1];if(0!==J[0])return 0;var
 ag=J[1],b=function(a){var
-b=j(af);return[7,a,j(ag),b]}}if(P)return 0;break;case
+b=i(af);return[7,a,i(ag),b]}}if(P)return 0;break;case
 9:var
 q=a[4];if(typeof
 q!=="number"&&0===q[0]){var
-ah=q[1],ai=g6(0,V);return e(function(a){var
-b=j(ah),c=dd(a[2]);return[14,dd(a[1]),c,b]},ai)}return 0;case
+ah=q[1],ai=hf(0,V);return e(function(a){var
+b=i(ah),c=df(a[2]);return[14,df(a[1]),c,b]},ai)}return 0;case
 10:var
 r=a[4],Q=0;if(typeof
 r==="number"||!(1===r[0]))Q=1;else{var
 s=a[3],aj=r[1];if(!s)return s;var
 t=s[1];if(2!==t[0])return 0;var
 ak=t[2],am=t[1],b=function(a){var
-b=j(aj),c=j(ak);return[15,a,j(am),c,b]}}if(Q)return 0;break;case
+b=i(aj),c=i(ak);return[15,a,i(am),c,b]}}if(Q)return 0;break;case
 12:var
 u=a[4];if(typeof
 u!=="number"&&1===u[0]){var
 v=a[3];if(v){var
 w=v[1];if(3===w[0]){var
-an=j(w[2]),ao=j(u[1]);return[0,[16,j(w[1]),ao,an],0]}return 0}return v}return 0;case
+an=i(w[2]),ao=i(u[1]);return[0,[16,i(w[1]),ao,an],0]}return 0}return v}return 0;case
 13:var
 x=a[4],R=0;if(typeof
 x==="number"||!(1===x[0]))R=1;else
 var
-ap=x[1],b=function(a){return[11,a,j(ap)]};if(R)return 0;break;case
+ap=x[1],b=function(a){return[11,a,i(ap)]};if(R)return 0;break;case
 14:var
 y=a[4],S=0;if(typeof
 y==="number"||!(1===y[0]))S=1;else{var
 z=a[3],aq=y[1];if(!z)return z;var
 K=z[1];if(1!==K[0])return 0;var
 ar=K[1],b=function(a){var
-b=j(aq);return[13,a,0,oA(ar),b]}}if(S)return 0;break;case
+b=i(aq);return[13,a,0,oK(ar),b]}}if(S)return 0;break;case
 15:var
 A=a[4],T=0;if(typeof
 A==="number"||!(1===A[0]))T=1;else{var
 B=a[3],as=A[1];if(!B)return B;var
 L=B[1];if(1!==L[0])return 0;var
 at=L[1],b=function(a){var
-b=j(as);return[13,a,1,oA(at),b]}}if(T)return 0;break;case
+b=i(as);return[13,a,1,oK(at),b]}}if(T)return 0;break;case
 16:var
 C=a[4],U=0;if(typeof
 C==="number"||!(1===C[0]))U=1;else{var
 D=a[3],au=C[1];if(!D)return D;var
 M=D[1];if(1!==M[0])return 0;var
 av=M[1],b=function(a){var
-b=j(au);return[17,a,e(j,av),b]}}if(U)return 0;break;default:return 0}var
-F=a[2],Y=F?[0,bx(F[1]),0]:aB(0,E);return e(b,Y)}function
-es(e,d,c,b){var
-g=y(function(a){return ju(e,d,c,a)},b),a=y(oz,b),h=a?[0,a[1],a[2]]:Ae;return f(h,g)}function
-et(a){return 11===a[1]?1:0}function
-cg(n,m,a){var
+b=i(au);return[17,a,e(i,av),b]}}if(U)return 0;break;default:return 0}var
+F=a[2],Y=F?[0,by(F[1]),0]:aC(0,E);return e(b,Y)}function
+et(e,d,c,b){var
+g=y(function(a){return jD(e,d,c,a)},b),a=y(oJ,b),h=a?[0,a[1],a[2]]:Aq;return f(h,g)}function
+cJ(a){return 11===a[1]?1:0}function
+ci(n,m,a){var
 b=a[1];if(!(4<=b))switch(b){case
 0:var
 c=a[4];if(typeof
@@ -6354,9 +6534,9 @@ l=0,d=a[4];if(typeof
 d!=="number"&&2===d[0]){var
 e=1;l=1}if(!l)var
 e=0;var
-f=co(n,e);if(f){var
+f=cq(n,e);if(f){var
 g=a[2];if(g){var
-h=g[1],i=_(Af,h);return i?_(h,m):i}var
+h=g[1],i=$(Ar,h);return i?$(h,m):i}var
 j=1}else
 var
 j=f;return j;case
@@ -6365,14 +6545,14 @@ k=a[4];if(typeof
 k!=="number"&&1===k[0])return a[2]?0:a[3]?0:1;return 0}return 0}function
 bg(s,b,a){var
 d=a[2];if(d)var
-e=d[1],f=_(Ag,e),t=f?_(e,b):f,c=t;else
+e=d[1],f=$(As,e),t=f?$(e,b):f,c=t;else
 var
 c=1;var
 h=a[1];if(!(9<=h))switch(h){case
 2:var
 i=a[4];if(typeof
 i!=="number"&&1===i[0]){var
-j=a[3];return j?0===j[1][0]?c:cg(0,b,a):cg(0,b,a)}return cg(0,b,a);case
+j=a[3];return j?0===j[1][0]?c:ci(0,b,a):ci(0,b,a)}return ci(0,b,a);case
 6:var
 k=a[4];if(typeof
 k!=="number"&&0===k[0]){var
@@ -6380,94 +6560,94 @@ l=a[3];if(l){var
 m=l[1];switch(m[0]){case
 0:return a[2]?0:1;case
 1:var
-n=p(g(m[1]),b);if(n){if(a[2])return 0;var
+n=q(g(m[1]),b);if(n){if(a[2])return 0;var
 o=1}else
 var
-o=n;return o;default:return cg(0,b,a)}}return cg(0,b,a)}return cg(0,b,a);case
+o=n;return o;default:return ci(0,b,a)}}return ci(0,b,a)}return ci(0,b,a);case
 8:var
-q=a[4];if(typeof
-q!=="number"&&1===q[0]){var
-r=a[3];return r?0===r[1][0]?c?p(b,s):c:cg(0,b,a):cg(0,b,a)}return cg(0,b,a)}return cg(0,b,a)}function
-aQ(c,b,a){return 11===a[1]?typeof
+p=a[4];if(typeof
+p!=="number"&&1===p[0]){var
+r=a[3];return r?0===r[1][0]?c?q(b,s):c:ci(0,b,a):ci(0,b,a)}return ci(0,b,a)}return ci(0,b,a)}function
+aP(c,b,a){return 11===a[1]?typeof
 a[4]==="number"?a[2]?bg(c,b,a):a[3]?bg(c,b,a):1:bg(c,b,a):bg(c,b,a)}function
-oB(f,c,b,a){var
+oL(f,c,b,a){var
 h=a[2];if(h)var
-i=h[1],j=_(Ai,i),A=j?_(i,b):j,d=A;else
+i=h[1],j=$(Au,i),A=j?$(i,b):j,d=A;else
 var
 d=1;switch(a[1]){case
-1:if(a[3])return bg(aX(c),b,a);if(d){var
+1:if(a[3])return bg(aL(c),b,a);if(d){var
 z=0,k=a[4];if(typeof
 k!=="number"&&2===k[0]){var
 l=1;z=1}if(!z)var
-l=0;return co(f,l)}return d;case
+l=0;return cq(f,l)}return d;case
 4:var
 m=a[4];if(typeof
-m!=="number"&&0===m[0])return a[3]?bg(aX(c),b,a):d;return bg(aX(c),b,a);case
+m!=="number"&&0===m[0])return a[3]?bg(aL(c),b,a):d;return bg(aL(c),b,a);case
 5:var
 n=a[4];if(typeof
-n!=="number"&&0===n[0]){if(a[3])return bg(aX(c),b,a);var
-o=p(b,aX(c));if(o){var
-q=typeof
-c==="number"?1:0;if(q){if(a[2])return 0;var
+n!=="number"&&0===n[0]){if(a[3])return bg(aL(c),b,a);var
+o=q(b,aL(c));if(o){var
+p=typeof
+c==="number"?1:0;if(p){if(a[2])return 0;var
 e=1}else
 var
-e=q}else
+e=p}else
 var
-e=o;return e}return bg(aX(c),b,a);case
+e=o;return e}return bg(aL(c),b,a);case
 13:var
 r=a[4];if(typeof
-r!=="number"&&1===r[0])return a[3]?bg(aX(c),b,a):d?P(f):d;return bg(aX(c),b,a);case
+r!=="number"&&1===r[0])return a[3]?bg(aL(c),b,a):d?L(f):d;return bg(aL(c),b,a);case
 16:var
 s=a[4];if(typeof
 s!=="number"&&1===s[0]){var
 t=a[3];if(t){var
 u=t[1];if(1===u[0]){var
-v=d?p(b,aX(c)):d,w=v?p(g(u[1]),b):v;if(w)var
+v=d?q(b,aL(c)):d,w=v?q(g(u[1]),b):v;if(w)var
 x=typeof
 c==="number"?1:0,y=x?1:x;else
 var
-y=w;return y}return bg(aX(c),b,a)}return bg(aX(c),b,a)}return bg(aX(c),b,a);default:return bg(aX(c),b,a)}}function
-de(a){switch(a[0]){case
-0:return[0,j([0,a[1],a[2]])];case
+y=w;return y}return bg(aL(c),b,a)}return bg(aL(c),b,a)}return bg(aL(c),b,a);default:return bg(aL(c),b,a)}}function
+dg(a){switch(a[0]){case
+0:return[0,i([0,a[1],a[2]])];case
 1:return[1,a[1]];case
-2:return[2,de(a[1])];case
+2:return[2,dg(a[1])];case
 3:var
-b=de(a[2]),c=de(a[3]);switch(a[1]){case
+b=dg(a[2]),c=dg(a[3]);switch(a[1]){case
 0:return[3,b,c];case
 1:return[4,b,c];case
 2:return[5,b,c];default:return[6,b,c]}case
 4:var
-d=a[2];return[7,de(a[1]),d];default:return[8,de(a[1])]}}function
-jv(i,h,f,b,d,c,a){var
-k=ak(et,a),l=es(0,g(b),0,a),m=$(d,c),n=e(function(a){var
-b=j(a[2]);return[0,j(a[1]),b]},m),o=e(function(a){return 0===a[0]?[0,e(de,a[1])]:[1,de(a[1])]},b),p=e(function(a){var
-b=de(a[2]);return[0,a[1],b]},f);return[0,[0,i,e(function(a){var
-b=b0(a[2]);return[0,a[1],b]},h),p,o],n,l,k]}function
-jw(c){function
+d=a[2];return[7,dg(a[1]),d];default:return[8,dg(a[1])]}}function
+jE(j,h,f,b,d,c,a){var
+k=aj(cJ,a),l=et(0,g(b),0,a),m=aa(d,c),n=e(function(a){var
+b=i(a[2]);return[0,i(a[1]),b]},m),o=e(function(a){return 0===a[0]?[0,e(dg,a[1])]:[1,dg(a[1])]},b),p=e(function(a){var
+b=dg(a[2]);return[0,a[1],b]},f);return[0,[0,j,e(function(a){var
+b=b1(a[2]);return[0,a[1],b]},h),p,o],n,l,k]}function
+jF(c){function
 a(e){var
-a=[0,d,b];return q(e,c,[0,a,a])}var
-e=a(Aj),f=a(Ak);return[0,a(0),f,e]}function
-dI(a){function
+a=[0,d,b];return r(e,c,[0,a,a])}var
+e=a(Av),f=a(Aw);return[0,a(0),f,e]}function
+dJ(a){function
 b(a){var
-b=j(a[2]);return[0,j(a[1]),b]}switch(a[0]){case
+b=i(a[2]);return[0,i(a[1]),b]}switch(a[0]){case
 0:return[0,b([0,a[1],a[2]])];case
 1:var
 c=b(a[3]),d=b(a[2]);return[1,b(a[1]),d,c];case
-2:return[2,j(a[1])];default:var
-e=j(a[2]);return[3,j(a[1]),e]}}function
-oC(a){if(0===a[0]){var
-b=$(a[1],a[2]);return[0,jw(e(function(a){var
-b=j(a[2]);return[0,j(a[1]),b]},b))]}return ox([1,a[1],a[2],a[3],a[4],a[5]])}function
-oD(k,b,i,h,f,d,a){function
-c(a){return jw(e(b0,a))}var
-l=ak(et,a),m=es(0,g(b),d,a),n=dI(f),o=oC(h),p=j(i);return[0,k,e(function(a){var
+2:return[2,i(a[1])];default:var
+e=i(a[2]);return[3,i(a[1]),e]}}function
+oM(a){if(0===a[0]){var
+b=aa(a[1],a[2]);return[0,jF(e(function(a){var
+b=i(a[2]);return[0,i(a[1]),b]},b))]}return oH([1,a[1],a[2],a[3],a[4],a[5]])}function
+oN(k,b,j,h,f,d,a){function
+c(a){return jF(e(b1,a))}var
+l=aj(cJ,a),m=et(0,g(b),d,a),n=dJ(f),o=oM(h),p=i(j);return[0,k,e(function(a){var
 b=c(a[2]);return[0,c(a[1]),b]},b),p,o,n,m,l]}function
-g7(a){return ak(function(a){return 3===a[0]?1:0},a)}function
-oE(k,a,c,i,h,f){var
-l=g(a),m=es(g7(a),l,0,f),n=z(dI,h),o=oC(i),p=c?j(c[1]):[0,b,b];return[0,k,e(function(a){function
-c(a){return jw(e(b0,a))}switch(a[0]){case
+fx(a){return aj(function(a){return 3===a[0]?1:0},a)}function
+oO(k,a,f,j,h,c){var
+l=aj(cJ,c),m=g(a),n=et(fx(a),m,0,c),o=z(dJ,h),p=oM(j),q=f?i(f[1]):[0,b,b];return[0,k,e(function(a){function
+c(a){return jF(e(b1,a))}switch(a[0]){case
 0:var
-k=a[5],l=b0(a[4]),m=c(a[3]),n=c(a[2]);return[0,[0,[0,c(a[1]),n,m,l,k]]];case
+k=a[5],l=b1(a[4]),m=c(a[3]),n=c(a[2]);return[0,[0,[0,c(a[1]),n,m,l,k]]];case
 1:var
 o=z(c,a[3]),p=c(a[2]);return[0,[1,c(a[1]),p,o]];case
 2:return[0,[2,c(a[1])]];default:var
@@ -6475,10 +6655,10 @@ f=a[1];if(f)var
 g=c(f);else
 var
 h=[0,b,b],i=[0,d,b],j=[0,d,b],g=[0,[0,j,j],[0,i,i],[0,h,h]];var
-q=a[7],r=b0(a[6]),s=b0(a[5]),t=c(a[4]),u=c(a[3]);return[1,[0,g,c(a[2]),u,t,s,r,q]]}},a),p,o,n,m]}function
-oF(a){return a[1]?0:1}function
-oG(l){var
-b=br(oF,l);if(b){var
+q=a[7],r=b1(a[6]),s=b1(a[5]),t=c(a[4]),u=c(a[3]);return[1,[0,g,c(a[2]),u,t,s,r,q]]}},a),q,p,o,n,l]}function
+oP(a){return a[1]?0:1}function
+oQ(l){var
+b=bs(oP,l);if(b){var
 d=b[1];if(d[2])return 0;if(d[3])return 0;var
 c=d[4],a=b[2];if(typeof
 c!=="number")switch(c[0]){case
@@ -6499,69 +6679,69 @@ k=a;return k}var
 i=0}else
 var
 i=b;return i}function
-oH(a){var
-c=oF(a);if(c)return c;if(1===a[1]){var
+oR(a){var
+c=oP(a);if(c)return c;if(1===a[1]){var
 b=a[4];if(typeof
 b!=="number"&&0===b[0])return 1;return 0}return 0}function
-g8(i,h,b){function
+hg(i,h,b){function
 c(b,a){return[3,1,b,a]}function
 a(b,a){return[3,3,b,a]}function
 d(b,a){return[3,2,b,a]}function
 e(b,a){return[3,0,b,a]}var
-f=c(g9,a(g9,b)),j=a(f,jx),k=i?f:a(c(b,g9),jx);function
-g(b){return a(b,[5,e(g9,d(jx,d(b,b)))])}var
+f=c(hh,a(hh,b)),j=a(f,jG),k=i?f:a(c(b,hh),jG);function
+g(b){return a(b,[5,e(hh,d(jG,d(b,b)))])}var
 l=g(k);return a(h,e(g(j),l))}function
-g_(f,e,d){function
+hi(f,e,d){function
 a(b,a){return[3,3,b,a]}function
 b(b,a){return[3,2,b,a]}var
-c=a([3,1,jy,a(jy,d)],oI),g=a(c,[5,[3,0,jy,b(oI,b(c,c))]]);return[2,b(g8(f,e,d),g)]}function
-jz(e,g,a){function
+c=a([3,1,jH,a(jH,d)],oS),g=a(c,[5,[3,0,jH,b(oS,b(c,c))]]);return[2,b(hg(f,e,d),g)]}function
+jI(e,g,a){function
 f(b,a){return[3,1,b,a]}function
 b(b,a){return[3,3,b,a]}function
 c(b,a){return[3,2,b,a]}var
-h=f(g$,b(g$,a)),d=e?h:b(f(a,g$),oJ),i=b(d,[5,[3,0,g$,c(oJ,c(d,d))]]);return c(g8(e,g,a),i)}function
-oK(c,g,b,a){function
+h=f(hj,b(hj,a)),d=e?h:b(f(a,hj),oT),i=b(d,[5,[3,0,hj,c(oT,c(d,d))]]);return c(hg(e,g,a),i)}function
+oU(c,g,b,a){function
 d(b,a){return e(function(c){var
-d=p(b,c)?a:Al;return[0,d]},An)}return e(function(e){var
-j=[0,g8(c,b,a)],i=1,k=d(e,[2,g]);function
+d=q(b,c)?a:Ax;return[0,d]},Az)}return e(function(e){var
+j=[0,hg(c,b,a)],i=1,k=d(e,[2,g]);function
 f(b,a){return[3,1,b,a]}var
-h=g8(c,b,a),l=d(e,f(f(g_(c,b,a),g),h));return[0,d(e,Am),l,k,j,i]},Ao)}function
-oL(c,b,a){var
-d=[0,jz(c,b,a),0],e=[0,jz(c,b,a),d],f=[0,jz(c,b,a),e],g=[0,g_(c,b,a),0],h=[0,g_(c,b,a),g];return[0,[0,g_(c,b,a),h],f]}function
-oM(o,e,a){if(e)if(a){var
-g=e[1],h=a[1],k=cw(j(g[2][1]));if(k){var
-l=k[1],m=cw(j(g[2][2]));if(m)var
+h=hg(c,b,a),l=d(e,f(f(hi(c,b,a),g),h));return[0,d(e,Ay),l,k,j,i]},AA)}function
+oV(c,b,a){var
+d=[0,jI(c,b,a),0],e=[0,jI(c,b,a),d],f=[0,jI(c,b,a),e],g=[0,hi(c,b,a),0],h=[0,hi(c,b,a),g];return[0,[0,hi(c,b,a),h],f]}function
+oW(o,e,a){if(e)if(a){var
+g=e[1],h=a[1],k=cy(i(g[2][1]));if(k){var
+l=k[1],m=cy(i(g[2][2]));if(m)var
 p=m[1],n=function(a){function
 d(a){return c(2,a)}var
-e=[0,a,fS(h[2],d,b)];return dr(l,a3(d0(p,l),e))},q=n(F(h[1],b)),f=[0,n(h[1]),q];else
+e=[0,a,f1(h[2],d,b)];return dt(l,a3(d1(p,l),e))},q=n(F(h[1],b)),f=[0,n(h[1]),q];else
 var
 f=[0,[0,d,b],[0,d,b]]}else
 var
 f=[0,[0,d,b],[0,d,b]];var
-r=oM([0,o],e[2],a[2]),i=[0,[0,g[1],[1,o,f[1],f[2]]],r]}else
+r=oW([0,o],e[2],a[2]),j=[0,[0,g[1],[1,o,f[1],f[2]]],r]}else
 var
-i=a;else
+j=a;else
 var
-i=e;return i}function
+j=e;return j}function
 at(b,a){switch(a[0]){case
 0:return[0,a[1],a[2]];case
 1:var
 c=a[1];if(0===c[0]){var
-e=c[1],d=kT(function(a){return ax(e,a[1])},b);return d?[1,d[1][2]]:a}return a;case
+e=c[1],d=k1(function(a){return ax(e,a[1])},b);return d?[1,d[1][2]]:a}return a;case
 2:return[2,at(b,a[1])];case
 3:var
 f=at(b,a[3]),g=at(b,a[2]);return[3,a[1],g,f];case
 4:var
 h=a[2];return[4,at(b,a[1]),h];default:return[5,at(b,a[1])]}}function
-oN(b,a){if(0===a[0])return[0,at(b,a[1])];var
+oX(b,a){if(0===a[0])return[0,at(b,a[1])];var
 c=at(b,a[2]);return[1,at(b,a[1]),c]}function
-jA(b,a){var
-c=i(b,a[3]),d=i(b,a[2]);return[0,i(b,a[1]),d,c]}function
-jB(c,a){if(c)if(a){var
+jJ(b,a){var
+c=j(b,a[3]),d=j(b,a[2]);return[0,j(b,a[1]),d,c]}function
+jK(c,a){if(c)if(a){var
 g=a[2],b=a[1],h=c[1];if(typeof
 b!=="number"&&0===b[0]){var
-e=jB(h,g);if(e){var
-i=e[1],f=jB(h,i[2]);if(f)var
+e=jK(h,g);if(e){var
+i=e[1],f=jK(h,i[2]);if(f)var
 j=f[1],k=[0,[0,[0,b[1],i[1],j[1]],j[2]]];else
 var
 k=f;var
@@ -6573,62 +6753,62 @@ var
 d=a;else
 var
 d=c;return d}function
-jC(g,f,a){if(a){var
-e=a[1],h=a[2];if(f)return[0,e,jC(g,f[1],h)];var
-j=[0,e[2]],k=g?b:d,l=e[1],i=[0,[0,F(B(c(2,b),l),k),j],h]}else
+jL(g,f,a){if(a){var
+e=a[1],h=a[2];if(f)return[0,e,jL(g,f[1],h)];var
+j=[0,e[2]],k=g?b:d,l=e[1],i=[0,[0,F(C(c(2,b),l),k),j],h]}else
 var
 i=a;return i}function
-Ap(a){if(typeof
+AB(a){if(typeof
 a!=="number"&&1===a[0])return 1;return 0}function
-Aq(a){if(typeof
+AC(a){if(typeof
 a!=="number"&&2===a[0])return 1;return 0}function
-ha(e,a){if(0===a[0]){var
-f=[0,b,c(2,b)],g=ha(e,a[3]);return a3(dr(ha(e,a[2]),g),f)}return i(e,a[1])?[0,b,b]:[0,d,b]}function
-oO(a){return 0===a[0]?ef(a[1][4]):0}function
-oP(a){switch(a[0]){case
+hk(e,a){if(0===a[0]){var
+f=[0,b,c(2,b)],g=hk(e,a[3]);return a3(dt(hk(e,a[2]),g),f)}return j(e,a[1])?[0,b,b]:[0,d,b]}function
+oY(a){return 0===a[0]?eg(a[1][4]):0}function
+oZ(a){switch(a[0]){case
 0:var
 b=a[1],c=a8(b[3]);return f(a8(b[2]),c);case
 1:var
 d=a8(a[2]);return f(a8(a[1]),d);default:return 0}}function
-hb(a){switch(a[0]){case
-0:return bB(a8(a[1][1]));case
+hl(a){switch(a[0]){case
+0:return bD(a8(a[1][1]));case
 1:var
-b=a[3];return b?bB(a8(b[1])):d;default:return bB(a8(a[1]))}}function
-hc(c){var
-a=y(oO,c),d=a?[0,a[1],a[2]]:y(oP,c);return F(b,bB(d))}function
-oQ(d,a){if(d){if(a){var
-b=a[1],g=d[1],e=oQ(d[2],a[2]);if(e){var
+b=a[3];return b?bD(a8(b[1])):d;default:return bD(a8(a[1]))}}function
+hm(c){var
+a=y(oY,c),d=a?[0,a[1],a[2]]:y(oZ,c);return F(b,bD(d))}function
+o0(d,a){if(d){if(a){var
+b=a[1],g=d[1],e=o0(d[2],a[2]);if(e){var
 h=e[1],i=h[2],j=h[1];if(45===b)var
-c=Ar;else
+c=AD;else
 if(43===b)var
-c=As;else
+c=AE;else
 var
-f=48===b?1:0,n=f?At:f,c=n;if(c)return[0,[0,[0,[0,g,c[1]],j],i]];var
+f=48===b?1:0,n=f?AF:f,c=n;if(c)return[0,[0,[0,[0,g,c[1]],j],i]];var
 k=49===b?1:0,o=k?[0,[0,j,[0,g,i]]]:k,l=o}else
 var
 l=e;var
 m=l}else
 var
-m=a;return m}return a?0:Au}function
-df(b,c,a){switch(a[0]){case
+m=a;return m}return a?0:AG}function
+dh(b,c,a){switch(a[0]){case
 0:var
-d=a[1];if(ax(d,Av))return Aw;if(ax(d,Ax))return Ay;if(ax(d,Az))return AA;if(ax(d,AB))return AC;if(ax(d,AD))return AE;var
-n=ax(d,AF),B=n?AG:n;return B;case
+d=a[1];if(ax(d,AH))return AI;if(ax(d,AJ))return AK;if(ax(d,AL))return AM;if(ax(d,AN))return AO;if(ax(d,AP))return AQ;var
+n=ax(d,AR),B=n?AS:n;return B;case
 1:var
-e=a[3],f=a[2],g=a[1];if(ax(g,AH))return[0,[0,e,f]];if(ax(g,AI))return[0,[1,e,f]];if(ax(g,AJ))return[0,[2,e,f]];var
-o=ax(g,AK),C=o?[0,[8,e,f]]:o;return C;case
+e=a[3],f=a[2],g=a[1];if(ax(g,AT))return[0,[0,e,f]];if(ax(g,AU))return[0,[1,e,f]];if(ax(g,AV))return[0,[2,e,f]];var
+o=ax(g,AW),C=o?[0,[8,e,f]]:o;return C;case
 2:return[0,[4,a[1]]];case
 3:return[0,[3,a[2],a[1],a[3]]];case
 4:return[0,[9,a[2],a[1],a[3],a[4]]];case
 5:var
-h=df(b,c,a[1]),D=h?[0,[5,h[1],a[2],a[3]]]:h;return D;case
+h=dh(b,c,a[1]),D=h?[0,[5,h[1],a[2],a[3]]]:h;return D;case
 6:var
-i=df(b,c,a[1]),E=i?[0,[7,i[1],a[2],a[3]]]:i;return E;case
+i=dh(b,c,a[1]),E=i?[0,[7,i[1],a[2],a[3]]]:i;return E;case
 7:var
-F=df(b,c,a[1]);return z(function(a){return[6,a]},F);case
+F=dh(b,c,a[1]);return z(function(a){return[6,a]},F);case
 8:if(b){var
-p=a[3],q=a[2],j=df(b,c,a[1]);if(j){var
-r=j[1],k=oQ(b,hP(hO(au(q),function(a){return a2(q,a)})));if(k){var
+p=a[3],q=a[2],j=dh(b,c,a[1]);if(j){var
+r=j[1],k=o0(b,hZ(hY(av(q),function(a){return a2(q,a)})));if(k){var
 s=k[1],t=s[2],u=s[1];if(t)return[0,[11,c,t,[10,r,u,p]]];var
 v=[0,[10,r,u,p]]}else
 var
@@ -6641,29 +6821,29 @@ var
 x=b;return x;case
 9:var
 y=function(a){if(a){var
-f=a[1],d=df(b,c,f[2]);if(d)var
+f=a[1],d=dh(b,c,f[2]);if(d)var
 e=y(a[2]),h=e?[0,[0,[0,f[1],d[1]],e[1]]]:e,g=h;else
 var
-g=d;return g}return AL},G=y(a[1]);return z(function(a){return[12,a]},G);default:var
-l=df(b,c,a[3]);if(l)var
-m=df(b,c,a[4]),H=m?[0,[13,a[2],a[1],l[1],m[1]]]:m,A=H;else
+g=d;return g}return AX},G=y(a[1]);return z(function(a){return[12,a]},G);default:var
+l=dh(b,c,a[3]);if(l)var
+m=dh(b,c,a[4]),H=m?[0,[13,a[2],a[1],l[1],m[1]]]:m,A=H;else
 var
 A=l;return A}}function
-oR(e,d,a){if(a){var
-f=a[1],b=df(e,d,f[2]);if(b)var
-c=oR(e,d,a[2]),h=c?[0,[0,[0,f[1],b[1]],c[1]]]:c,g=h;else
+o1(e,d,a){if(a){var
+f=a[1],b=dh(e,d,f[2]);if(b)var
+c=o1(e,d,a[2]),h=c?[0,[0,[0,f[1],b[1]],c[1]]]:c,g=h;else
 var
-g=b;return g}return AM}function
-dJ(b,g,f,e,d,a){if(d)if(a){var
+g=b;return g}return AY}function
+dK(b,g,f,e,d,a){if(d)if(a){var
 c=a[1];if(c[3])return 0;if(c[4])return 0;var
-n=c[2],o=a[2],p=d[1],h=oR(f,e,c[1]);if(h){var
+n=c[2],o=a[2],p=d[1],h=o1(f,e,c[1]);if(h){var
 i=h[1];if(n){var
-j=dJ(b,g,f,e,p,o);if(j){var
-q=j[1],k=dJ(b,g,f,e,p,q[2]);if(k){var
-r=k[1],s=r[1],t=q[1],l=n[1],y=r[2];if(aH(l,b))var
+j=dK(b,g,f,e,p,o);if(j){var
+q=j[1],k=dK(b,g,f,e,p,q[2]);if(k){var
+r=k[1],s=r[1],t=q[1],l=n[1],y=r[2];if(aJ(l,b))var
 u=[0,[1,i,l,t,s]];else
 var
-x=G(g,dV(l,b)),u=z(function(a){return[2,i,a,t,s]},x);return z(function(a){return[0,a,y]},u)}var
+x=G(g,dW(l,b)),u=z(function(a){return[2,i,a,t,s]},x);return z(function(a){return[0,a,y]},u)}var
 v=k}else
 var
 v=j;return v}var
@@ -6675,246 +6855,334 @@ var
 m=a;else
 var
 m=d;return m}function
-jD(i,h,f,e,d,a){if(d){if(a){var
-b=dJ(i,h,f,e,g(a),a);if(b)var
-j=b[1],c=jD(i,h,f,e,d[1],j[2]),l=c?[0,[0,j[1],c[1]]]:c,k=l;else
+jM(i,h,f,e,d,a){if(d){if(a){var
+b=dK(i,h,f,e,g(a),a);if(b)var
+j=b[1],c=jM(i,h,f,e,d[1],j[2]),l=c?[0,[0,j[1],c[1]]]:c,k=l;else
 var
-k=b;return k}return AN}return a?0:AO}function
-oS(a){if(typeof
-a==="number")return 0===a?AP:AQ;else
+k=b;return k}return AZ}return a?0:A0}function
+o2(a){if(typeof
+a==="number")return 0===a?A1:A2;else
 switch(a[0]){case
 0:return[0,[0,a[1],a[2]]];case
 1:return[0,[1,a[1],a[2]]];default:return 0}}function
-jE(e,d,a){if(d)if(a){var
+jN(e,d,a){if(d)if(a){var
 b=a[1];if(b[1])return 0;var
 j=b[4],c=b[3],k=b[2],l=a[2],m=d[1];if(k){if(c)return 0;if(j)return 0;var
-f=k[1],g=jE(e,m,l);if(g){var
-n=g[1],o=n[1],h=jE(e,m,n[2]);if(h){var
-p=h[1],q=p[2],r=p[1];if(aH(f,AR))return[0,[0,[1,f,o,r],q]];var
-t=G(e,dV(f,AS));return z(function(a){return[0,[2,a,o,r],q]},t)}var
+f=k[1],g=jN(e,m,l);if(g){var
+n=g[1],o=n[1],h=jN(e,m,n[2]);if(h){var
+p=h[1],q=p[2],r=p[1];if(aJ(f,A3))return[0,[0,[1,f,o,r],q]];var
+t=G(e,dW(f,A4));return z(function(a){return[0,[2,a,o,r],q]},t)}var
 s=h}else
 var
 s=g;return s}if(c){var
-u=oS(c[1]);return z(function(a){return[0,[0,j,a],l]},u)}var
+u=o2(c[1]);return z(function(a){return[0,[0,j,a],l]},u)}var
 i=c}else
 var
 i=a;else
 var
 i=d;return i}function
-dg(b,a){return 0===b[0]?[0,j(b[1]),a]:a?[0,a[1],a[2]]:[0,j(b[1]),0]}function
-dK(a,e){var
-b=dg(a[1],e),c=dg(a[2],b[2]),d=dg(a[3],c[2]);return[0,[0,b[1],c[1],d[1]],d[2]]}function
-oT(d,c){if(d){var
+di(b,a){return 0===b[0]?[0,i(b[1]),a]:a?[0,a[1],a[2]]:[0,i(b[1]),0]}function
+dL(a,e){var
+b=di(a[1],e),c=di(a[2],b[2]),d=di(a[3],c[2]);return[0,[0,b[1],c[1],d[1]],d[2]]}function
+o3(d,c){if(d){var
 a=d[1];switch(a[0]){case
 0:var
-e=dK(a[1],c),f=dK(a[2],e[2]),g=dK(a[3],f[2]),h=dg(a[4],g[2]),b=[0,[0,e[1],f[1],g[1],h[1],a[5]],h[2]];break;case
+e=dL(a[1],c),f=dL(a[2],e[2]),g=dL(a[3],f[2]),h=di(a[4],g[2]),b=[0,[0,e[1],f[1],g[1],h[1],a[5]],h[2]];break;case
 1:var
-i=a[3],j=dK(a[1],c),k=j[1],l=dK(a[2],j[2]),m=l[2],n=l[1];if(i)var
-o=dK(i[1],m),b=[0,[1,k,n,[0,o[1]]],o[2]];else
+i=a[3],j=dL(a[1],c),k=j[1],l=dL(a[2],j[2]),m=l[2],n=l[1];if(i)var
+o=dL(i[1],m),b=[0,[1,k,n,[0,o[1]]],o[2]];else
 var
 b=[0,[1,k,n,0],m];break;default:var
-p=dK(a[1],c),b=[0,[2,p[1]],p[2]]}var
-q=oT(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
+p=dL(a[1],c),b=[0,[2,p[1]],p[2]]}var
+q=o3(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
+fy(t,f){var
+u=t[3];if(typeof
+f==="number")return 0===f?A8:A9;else
+switch(f[0]){case
+0:var
+v=f[2],h=f[1],B=G(u,h);if(B){var
+ab=0,E=B[1];if(typeof
+E==="number"||!(13===E[0]))ab=1;else
+var
+x=t[1],A=hm(x),a=e(function(a){var
+f=g(x);if(q(g(a),f)){var
+h=aa(x,a);return e(function(a){var
+e=a[2],f=D(d,A),g=2===a[1][0]?1:0;return cq(g,f)?C(e,b7(c(2,b),co(A))):e},h)}return a},v);if(ab)var
+a=v}else
+var
+a=v;var
+ac=G(u,h),ad=t[1],w=z(function(b){if(typeof
+b!=="number")switch(b[0]){case
+5:return A6;case
+12:var
+a=G(ad,b[1]);if(a){if(2===a[1][0])return A7;var
+c=0}else
+var
+c=a;return c;case
+2:case
+3:case
+4:case
+6:case
+7:case
+11:return 0}return A5},ac);if(w){var
+F=w[1];if(F){var
+H=F[1];if(H){if(H[1])return 0;if(a){var
+i=a[1];if(i){var
+j=i[2];if(j){var
+k=j[2];if(k){if(k[2])return 0;var
+l=a[2];if(l){var
+m=l[1];if(m){var
+n=m[2];if(n){var
+o=n[2];if(o){if(o[2])return 0;if(l[2])return 0;var
+I=[0,[0,h,[0,[0,i[1],j[1]],k[1]],[0,[0,m[1],n[1]],o[1]]]]}else
+var
+I=o;var
+J=I}else
+var
+J=n;var
+K=J}else
+var
+K=m;var
+L=K}else
+var
+L=l;var
+M=L}else
+var
+M=k;var
+N=M}else
+var
+N=j;var
+O=N}else
+var
+O=i;var
+P=O}else
+var
+P=a;return P}if(a){var
+p=a[1];if(p){var
+r=p[2];if(r){var
+s=r[2];if(s){if(s[2])return 0;if(a[2])return 0;var
+Q=s[1],R=r[1],S=p[1],T=[0,[0,h,[0,[0,S,R],Q],[0,[0,S,R],Q]]]}else
+var
+T=s;var
+U=T}else
+var
+U=r;var
+V=U}else
+var
+V=p;var
+W=V}else
+var
+W=a;return W}if(a)return 0;var
+X=[0,[0,d,d],d],Y=[0,[0,h,X,X]]}else
+var
+Y=w;return Y;case
+1:var
+Z=f[1],y=G(u,Z);if(y){var
+_=y[1];if(typeof
+_!=="number"&&1===_[0])return[0,[1,Z,f[2]]];var
+$=0}else
+var
+$=y;return $;default:return 0}}function
 bh(a,b){if(a){var
-c=dg(a[1],b),d=bh(a[2],c[2]);return[0,[0,c[1],d[1]],d[2]]}return[0,0,b]}function
-aM(c){function
-a(a){return q(a,c,[0,d,b])}var
-e=a(AY),f=a(AZ);return[0,a(0),f,e]}function
-oU(a,b){if(a){var
-c=a[1],d=bh(c[1],b),e=bh(c[2],d[2]),f=oU(a[2],e[2]),g=f[2],h=f[1],i=aM(e[1]);return[0,[0,[0,aM(d[1]),i],h],g]}return[0,0,b]}function
-oV(f,e){if(f){var
+c=di(a[1],b),d=bh(a[2],c[2]);return[0,[0,c[1],d[1]],d[2]]}return[0,0,b]}function
+aG(c){function
+a(a){return r(a,c,[0,d,b])}var
+e=a(A_),f=a(A$);return[0,a(0),f,e]}function
+o4(a,b){if(a){var
+c=a[1],d=bh(c[1],b),e=bh(c[2],d[2]),f=o4(a[2],e[2]),g=f[2],h=f[1],i=aG(e[1]);return[0,[0,[0,aG(d[1]),i],h],g]}return[0,0,b]}function
+o5(f,e){if(f){var
 a=f[1];switch(a[0]){case
 0:var
-g=bh(a[1],e),h=bh(a[2],g[2]),i=bh(a[3],h[2]),j=dg(a[4],i[2]),A=j[2],B=a[5],C=j[1],D=aM(i[1]),E=aM(h[1]),c=[0,[0,[0,aM(g[1]),E,D,C,B]],A];break;case
+g=bh(a[1],e),h=bh(a[2],g[2]),i=bh(a[3],h[2]),j=di(a[4],i[2]),A=j[2],B=a[5],C=j[1],D=aG(i[1]),E=aG(h[1]),c=[0,[0,[0,aG(g[1]),E,D,C,B]],A];break;case
 1:var
 k=a[3],l=bh(a[1],e),m=l[1],n=bh(a[2],l[2]),o=n[2],p=n[1];if(k)var
-q=bh(k[1],o),F=q[2],G=[0,aM(q[1])],H=aM(p),c=[0,[0,[1,aM(m),H,G]],F];else
+q=bh(k[1],o),F=q[2],G=[0,aG(q[1])],H=aG(p),c=[0,[0,[1,aG(m),H,G]],F];else
 var
-I=aM(p),c=[0,[0,[1,aM(m),I,0]],o];break;case
+I=aG(p),c=[0,[0,[1,aG(m),I,0]],o];break;case
 2:var
-r=bh(a[1],e),J=r[2],c=[0,[0,[2,aM(r[1])]],J];break;default:var
-s=a[1],t=bh(s,e),u=bh(a[2],t[2]),v=bh(a[3],u[2]),w=bh(a[4],v[2]),x=dg(a[5],w[2]),y=dg(a[6],x[2]),K=s?aM(t[1]):[0,[0,d,b],[0,d,b],[0,b,b]],L=y[2],M=a[7],N=y[1],O=x[1],P=aM(w[1]),Q=aM(v[1]),c=[0,[1,[0,K,aM(u[1]),Q,P,O,N,M]],L]}var
-z=oV(f[2],c[2]);return[0,[0,c[1],z[1]],z[2]]}return[0,0,e]}function
-dh(a){return lg(l,a)}function
-A0(a){if(typeof
+r=bh(a[1],e),J=r[2],c=[0,[0,[2,aG(r[1])]],J];break;default:var
+s=a[1],t=bh(s,e),u=bh(a[2],t[2]),v=bh(a[3],u[2]),w=bh(a[4],v[2]),x=di(a[5],w[2]),y=di(a[6],x[2]),K=s?aG(t[1]):[0,[0,d,b],[0,d,b],[0,b,b]],L=y[2],M=a[7],N=y[1],O=x[1],P=aG(w[1]),Q=aG(v[1]),c=[0,[1,[0,K,aG(u[1]),Q,P,O,N,M]],L]}var
+z=o5(f[2],c[2]);return[0,[0,c[1],z[1]],z[2]]}return[0,0,e]}function
+dj(a){return lo(k,a)}function
+Ba(a){if(typeof
 a==="number")return 1;else
 switch(a[0]){case
-5:return h(l,1,[3,a[1],[0,b,b]]);case
-6:return h(l,1,a[2]);case
+5:return h(k,1,[3,a[1],[0,b,b]]);case
+6:return h(k,1,a[2]);case
 8:var
-d=h(l,1,a[1]);return d?h(l,1,a[2]):d;case
-10:return h(l,0,a[3]);case
+d=h(k,1,a[1]);return d?h(k,1,a[2]):d;case
+10:return h(k,0,a[3]);case
 11:var
-e=a[4];return 2===e[0]?h(l,0,e[2]):0;case
+e=a[4];return 2===e[0]?h(k,0,e[2]):0;case
 12:var
-f=h(l,0,a[2]),g=f?h(l,0,a[3]):f;return g?h(l,1,a[4]):g;case
+f=h(k,0,a[2]),g=f?h(k,0,a[3]):f;return g?h(k,1,a[4]):g;case
 14:var
-i=h(l,0,a[1]);return i?h(l,1,a[2]):i;case
+i=h(k,0,a[1]);return i?h(k,1,a[2]):i;case
 15:var
-j=[0,a[2],a[1]],k=1;return m(function(a){return h(l,k,a)},j);case
+j=[0,a[2],a[1]],l=1;return m(function(a){return h(k,l,a)},j);case
 2:case
-3:return dh(a[2]);case
+3:return dj(a[2]);case
 4:case
 13:var
-c=h(l,1,a[2]);return c?h(l,1,a[3]):c;default:return h(l,1,a[1])}}function
-jF(a){if(typeof
+c=h(k,1,a[2]);return c?h(k,1,a[3]):c;default:return h(k,1,a[1])}}function
+jO(a){if(typeof
 a==="number")return 1;else
 switch(a[0]){case
 4:var
-d=a[3],e=a[2],f=h(l,1,[3,d,e]),g=f?h(l,1,[3,[2,e,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b]],d]):f,i=g?h(l,0,[2,e,[0,c(2,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b))))))))))),b]]):g;return i?h(l,0,[3,[0,c(2,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b))))))))))),b],d]):i;case
-5:return h(l,1,[3,a[1],[0,b,b]]);case
+d=a[3],e=a[2],f=h(k,1,[3,d,e]),g=f?h(k,1,[3,[2,e,[0,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b)))))))))),b]],d]):f,i=g?h(k,0,[2,e,[0,c(2,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b))))))))))),b]]):g;return i?h(k,0,[3,[0,c(2,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b))))))))))),b],d]):i;case
+5:return h(k,1,[3,a[1],[0,b,b]]);case
 8:var
-B=[0,a[2],a[1]],C=1;return m(function(a){return h(l,C,a)},B);case
-10:return h(l,1,a[2]);case
+B=[0,a[2],a[1]],C=1;return m(function(a){return h(k,C,a)},B);case
+10:return h(k,1,a[2]);case
 11:var
-k=a[2],n=h(l,1,k);return n?h(l,0,[3,[0,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b))))))))),b],k]):n;case
+l=a[2],n=h(k,1,l);return n?h(k,0,[3,[0,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b))))))))),b],l]):n;case
 13:var
-o=a[4],p=nw(a[3]),q=p?h(l,1,o):p;return q?h(l,0,[3,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b],o]):q;case
-14:return h(l,0,a[3]);case
+o=a[4],q=nE(a[3]),r=q?h(k,1,o):q;return r?h(k,0,[3,[0,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b)))))))))),b],o]):r;case
+14:return h(k,0,a[3]);case
 15:var
-s=h(l,0,a[2]),t=s?h(l,0,a[3]):s;return t?h(l,1,a[4]):t;case
+s=h(k,0,a[2]),t=s?h(k,0,a[3]):s;return t?h(k,1,a[4]):t;case
 16:var
-u=a[3],v=h(l,0,a[1]),w=v?h(l,1,a[2]):v,x=w?h(l,1,u):w;return x?h(l,1,[3,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b],u]):x;case
+u=a[3],v=h(k,0,a[1]),w=v?h(k,1,a[2]):v,x=w?h(k,1,u):w;return x?h(k,1,[3,[0,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b)))))))))),b],u]):x;case
 17:var
-y=a[2],z=m(dh,y),A=z?ak(function(a){return h(l,1,[4,a,a])},y):z;return A?h(l,1,a[3]):A;case
+y=a[2],z=m(dj,y),A=z?aj(function(a){return h(k,1,[4,a,a])},y):z;return A?h(k,1,a[3]):A;case
 2:case
-3:return dh(a[2]);case
-0:case
-1:case
-12:return h(l,1,a[1]);default:var
-j=h(l,1,a[2]);return j?h(l,1,a[3]):j}}function
-hd(d){var
+3:return dj(a[2]);case
+6:case
+7:case
+9:var
+j=h(k,1,a[2]);return j?h(k,1,a[3]):j;default:return h(k,1,a[1])}}function
+hn(d){var
 a=d;for(;;){if(a){var
-b=a[2],e=a[1],c=P(ak(function(d){return function(a){var
-h=jn(a[1]),e=ax(jn(d[1]),h);if(e)var
-i=jo(a[4]),b=ax(jo(d[4]),i);else
+b=a[2],e=a[1],c=L(aj(function(d){return function(a){var
+h=jw(a[1]),e=ax(jw(d[1]),h);if(e)var
+i=jx(a[4]),b=ax(jx(d[4]),i);else
 var
 b=e;if(b){var
 f=d[2];if(f){var
-c=a[2];return c?p(f[1],c[1]):c}if(a[2])return 0;var
+c=a[2];return c?q(f[1],c[1]):c}if(a[2])return 0;var
 g=1}else
 var
 g=b;return g}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-fr(a){if(0===a[0])return dh(j(a[1]));var
-b=a[2],c=a[1];if(!d4(j(c))&&!d4(j(b))){var
-e=j(c);return h(l,1,[3,j(b),e])}var
-d=j(b);return bt(l,j(c),d)}function
-dL(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-oW(a){switch(a[0]){case
+fz(a){if(0===a[0])return dj(i(a[1]));var
+b=a[2],c=a[1];if(!d5(i(c))&&!d5(i(b))){var
+e=i(c);return h(k,1,[3,i(b),e])}var
+d=i(b);return bu(k,i(c),d)}function
+dM(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+o6(a){switch(a[0]){case
 0:var
-c=[0,a[4],0],d=f(dL(a[3]),c),e=f(dL(a[2]),d);return f(dL(a[1]),e);case
+c=[0,a[4],0],d=f(dM(a[3]),c),e=f(dM(a[2]),d);return f(dM(a[1]),e);case
 1:var
-b=a[3],g=b?dL(b[1]):b,h=f(dL(a[2]),g);return f(dL(a[1]),h);default:return dL(a[1])}}function
-oX(s,a,k){if(ak(function(a){return 9===a[1]?1:0},k)){var
-b=_(g(a),A3),c=b?m(function(a){if(0===a[0]){var
-d=a[5],e=h(l,1,j(a[2])),g=e?h(l,0,j(a[3])):e,k=g?h(l,0,j(a[4])):g,c=0;if(k)if(d)var
-p=bZ(d[1]),b=m(function(a){return dh(j(a))},p);else{var
+b=a[3],g=b?dM(b[1]):b,h=f(dM(a[2]),g);return f(dM(a[1]),h);default:return dM(a[1])}}function
+o7(s,a,l){if(aj(function(a){return 9===a[1]?1:0},l)){var
+b=$(g(a),Bd),c=b?m(function(a){if(0===a[0]){var
+d=a[5],e=h(k,1,i(a[2])),g=e?h(k,0,i(a[3])):e,l=g?h(k,0,i(a[4])):g,c=0;if(l)if(d)var
+p=b0(d[1]),b=m(function(a){return dj(i(a))},p);else{var
 n=1;c=1}else{var
-n=k;c=1}if(c)var
+n=l;c=1}if(c)var
 b=n}else{var
-o=h(l,1,j(a[4]));if(o)var
-q=bZ(a[3]),r=f(bZ(a[2]),q),b=m(function(a){return dh(j(a))},r);else
+o=h(k,1,i(a[4]));if(o)var
+q=b0(a[3]),r=f(b0(a[2]),q),b=m(function(a){return dj(i(a))},r);else
 var
-b=o}return b?i(s,a):b},a):b;if(c)var
-d=g6(0,a),n=d?1:d,e=n;else
+b=o}return b?j(s,a):b},a):b;if(c)var
+d=hf(0,a),n=d?1:d,e=n;else
 var
 e=c;return e}return a?0:1}function
-oY(a){return a?A4:A5}function
-jG(a){switch(a){case
-0:return A6;case
-1:return A7;default:return 0}}function
-di(a){var
-f=a[1],d=h(l,1,[2,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b],f]),e=d?bt(l,a[1],a[2]):d;if(e){var
-g=a[2];return h(l,1,[3,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b],g])}return e}function
+o8(a){return a?Be:Bf}function
+jP(a){switch(a){case
+0:return Bg;case
+1:return Bh;default:return 0}}function
+dk(a){var
+f=a[1],d=h(k,1,[2,[0,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b)))))))))),b],f]),e=d?bu(k,a[1],a[2]):d;if(e){var
+g=a[2];return h(k,1,[3,[0,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b)))))))))),b],g])}return e}function
 eu(a){var
-e=bt(l,[0,d,b],a);return e?h(l,1,[3,[0,c(2,c(2,r(c(2,c(2,r(c(2,r(c(2,c(2,b)))))))))),b],a]):e}function
-oZ(c,b,a){if(0===a[0]){var
-d=a[2],e=a[1],f=p(g(e),c),i=f?p(g(d),c):f;if(i){var
-n=$(e,d);return m(function(a){var
-b=j(a[2]);return bt(l,j(a[1]),b)},n)}return i}var
-k=b?h(l,1,j(a[3])):b;if(k){var
-o=j(a[5]);return bt(l,j(a[4]),o)}return k}function
-o0(a,e,F,E,t,s,f){function
+e=bu(k,[0,d,b],a);return e?h(k,1,[3,[0,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b)))))))))),b],a]):e}function
+o9(c,b,a){if(0===a[0]){var
+d=a[2],e=a[1],f=q(g(e),c),j=f?q(g(d),c):f;if(j){var
+n=aa(e,d);return m(function(a){var
+b=i(a[2]);return bu(k,i(a[1]),b)},n)}return j}var
+l=b?h(k,1,i(a[3])):b;if(l){var
+o=i(a[5]);return bu(k,i(a[4]),o)}return l}function
+o_(a,e,F,E,t,s,f){function
 u(b){var
-d=oY(a),c=p(g(b),d);return c?m(fr,b):c}var
+d=o8(a),c=q(g(b),d);return c?m(fz,b):c}var
 v=m(function(a){var
 b=u(a[1]);return b?u(a[2]):b},e);if(v)var
-G=g(e),n=_(bu(a),G);else
+G=g(e),n=$(bv(a),G);else
 var
 n=v;var
-w=n?_(g(e),A8):n,x=w?h(l,1,j(F)):w;if(x)var
-H=1===a?1:0,o=oZ(jG(a),H,E);else
+w=n?$(g(e),Bi):n,x=w?h(k,1,i(F)):w;if(x)var
+H=1===a?1:0,o=o9(jP(a),H,E);else
 var
 o=x;if(o)if(a){var
-d=dI(t);switch(d[0]){case
+d=dJ(t);switch(d[0]){case
 0:var
-i=0;break;case
+j=0;break;case
 1:var
-A=di(d[1]),B=A?di(d[2]):A,i=B?di(d[3]):B;break;case
+A=dk(d[1]),B=A?dk(d[2]):A,j=B?dk(d[3]):B;break;case
 2:var
-i=eu(d[1]);break;default:var
-C=eu(d[1]),i=C?eu(d[2]):C}var
-k=i}else
+j=eu(d[1]);break;default:var
+C=eu(d[1]),j=C?eu(d[2]):C}var
+l=j}else
 var
-D=dI(t),J=0===D[0]?di(D[1]):0,k=J;else
+D=dJ(t),J=0===D[0]?dk(D[1]):0,l=J;else
 var
-k=o;if(k)var
-I=g(e),q=oX(function(a){if(0===a[0]){var
-b=a[1],c=_(A2,b),d=c?_(b,I):c;if(d){if(a[5])return 0;var
+l=o;if(l)var
+I=g(e),p=o7(function(a){if(0===a[0]){var
+b=a[1],c=$(Bc,b),d=c?$(b,I):c;if(d){if(a[5])return 0;var
 e=1}else
 var
 e=d;return e}return 1},s,f);else
 var
-q=k;if(q)var
-b=g(e),c=bu(a),y=oY(a),r=m(function(a){var
+p=l;if(p)var
+b=g(e),c=bv(a),y=o8(a),r=m(function(a){var
 e=a[2];if(e)var
-f=e[1],h=_(Ah,f),w=h?_(f,b):h,d=w;else
+f=e[1],h=$(At,f),w=h?$(f,b):h,d=w;else
 var
 d=1;switch(a[1]){case
 9:var
 i=a[4];if(typeof
-i!=="number"&&0===i[0])return a[2]?aQ(c,b,a):a[3]?aQ(c,b,a):1;return aQ(c,b,a);case
+i!=="number"&&0===i[0])return a[2]?aP(c,b,a):a[3]?aP(c,b,a):1;return aP(c,b,a);case
 10:var
 j=a[4];if(typeof
 j!=="number"&&1===j[0]){var
-k=a[3];return k?2===k[1][0]?d:aQ(c,b,a):aQ(c,b,a)}return aQ(c,b,a);case
+k=a[3];return k?2===k[1][0]?d:aP(c,b,a):aP(c,b,a)}return aP(c,b,a);case
 12:var
 l=a[4];if(typeof
-l!=="number"&&1===l[0]){if(a[2])return aQ(c,b,a);var
-m=a[3];return m?3===m[1][0]?p(b,c):aQ(c,b,a):aQ(c,b,a)}return aQ(c,b,a);case
+l!=="number"&&1===l[0]){if(a[2])return aP(c,b,a);var
+m=a[3];return m?3===m[1][0]?q(b,c):aP(c,b,a):aP(c,b,a)}return aP(c,b,a);case
 14:var
 n=a[4];if(typeof
 n!=="number"&&1===n[0]){var
 o=a[3];if(o){var
-q=o[1];if(1===q[0]){var
-r=p(g(q[1]),y),x=r?d:r;return x}return aQ(c,b,a)}return aQ(c,b,a)}return aQ(c,b,a);case
+p=o[1];if(1===p[0]){var
+r=q(g(p[1]),y),x=r?d:r;return x}return aP(c,b,a)}return aP(c,b,a)}return aP(c,b,a);case
 15:var
 s=a[4];if(typeof
 s!=="number"&&1===s[0]){var
 t=a[3];if(t){var
 u=t[1];if(1===u[0]){var
-v=p(g(u[1]),y),z=v?d:v;return z}return aQ(c,b,a)}return aQ(c,b,a)}return aQ(c,b,a);default:return aQ(c,b,a)}},f);else
+v=q(g(u[1]),y),z=v?d:v;return z}return aP(c,b,a)}return aP(c,b,a)}return aP(c,b,a);default:return aP(c,b,a)}},f);else
 var
-r=q;var
-z=r?hd(f):r;return z?m(jF,es(0,g(e),s,f)):z}function
-o1(a){switch(a[0]){case
+r=p;var
+z=r?hn(f):r;return z?m(jO,et(0,g(e),s,f)):z}function
+o$(a){switch(a[0]){case
 0:var
 c=f(a[3],[0,a[4],0]),d=f(a[2],c);return f(a[1],d);case
 1:var
 b=a[3],e=b?b[1]:b,g=f(a[2],e);return f(a[1],g);case
 2:return a[1];default:var
 h=f(a[4],[0,a[5],[0,a[6],0]]),i=f(a[3],h),j=f(a[2],i);return f(a[1],j)}}function
-o2(a,e,d,S,o,w,n){var
-q=typeof
+pa(a,e,d,R,o,n){var
+p=typeof
 a==="number"?a?1:a:a[1]?0:1;function
 c(a){var
-b=q?A9:A_;return p(g(a),b)}var
-i=g7(e),x=m(function(b){switch(b[0]){case
+b=p?Bj:Bk;return q(g(a),b)}var
+j=fx(e),w=m(function(b){switch(b[0]){case
 0:var
-f=P(i),g=f?c(b[1]):f,h=g?c(b[2]):g;return h?c(b[3]):h;case
+f=L(j),g=f?c(b[1]):f,h=g?c(b[2]):g;return h?c(b[3]):h;case
 1:var
-d=b[3],j=P(i),k=j?c(b[1]):j,l=k?c(b[2]):k;if(l){var
+d=b[3],i=L(j),k=i?c(b[1]):i,l=k?c(b[2]):k;if(l){var
 m=typeof
 a==="number"?1:0;if(m){if(a)return d?0:1;if(d)return c(d[1]);var
 e=1}else
@@ -6923,162 +7191,162 @@ e=m}else
 var
 e=l;return e;case
 2:var
-n=P(i),o=n?c(b[1]):n;if(o){if(typeof
+n=L(j),o=n?c(b[1]):n;if(o){if(typeof
 a==="number"&&!a)return 1;var
-p=0}else
+q=0}else
 var
-p=o;return p;default:var
-r=b[1],s=q?r?0:1:c(r),t=s?c(b[2]):s,u=t?c(b[3]):t;return u?c(b[4]):u}},e);if(x)var
-T=g(e),r=_(aX(a),T);else
+q=o;return q;default:var
+r=b[1],s=p?r?0:1:c(r),t=s?c(b[2]):s,u=t?c(b[3]):t;return u?c(b[4]):u}},e);if(w)var
+S=g(e),r=$(aL(a),S);else
 var
-r=x;var
-A=r?_(g(e),A$):r,B=A?m(fr,y(o1,e)):A;if(B){var
-R=0;if(typeof
+r=w;var
+x=r?$(g(e),Bl):r,A=x?m(fz,y(o$,e)):x;if(A){var
+Q=0;if(typeof
 a==="number"&&!a){var
-C=1;R=1}if(!R)var
-C=0;var
-U=q?Ba:Bb,s=oZ(U,C,S)}else
+B=1;Q=1}if(!Q)var
+B=0;var
+T=p?Bm:Bn,s=o9(T,B,R)}else
 var
-s=B;if(s)if(typeof
+s=A;if(s)if(typeof
 a==="number")if(d)var
 b=0;else
 var
-V=z(dI,o)?0:1,b=V;else
+U=z(dJ,o)?0:1,b=U;else
 switch(a[1]){case
 0:if(d){var
-t=z(dI,o);if(t){var
-F=t[1];if(0===F[0])var
-G=h(l,1,j(d[1])),H=G?di(F[1]):G;else
+t=z(dJ,o);if(t){var
+E=t[1];if(0===E[0])var
+F=h(k,1,i(d[1])),G=F?dk(E[1]):F;else
 var
-H=0;var
-I=H}else
+G=0;var
+H=G}else
 var
-I=t;var
-b=I}else
+H=t;var
+b=H}else
 var
 b=d;break;case
 1:if(d){var
-u=d[1],v=z(dI,o);if(v){var
+u=d[1],v=z(dJ,o);if(v){var
 f=v[1];switch(f[0]){case
 0:var
-k=0;break;case
+l=0;break;case
 1:var
-K=h(l,1,j(u)),L=K?di(f[1]):K,M=L?di(f[2]):L,k=M?di(f[3]):M;break;case
+J=h(k,1,i(u)),K=J?dk(f[1]):J,M=K?dk(f[2]):K,l=M?dk(f[3]):M;break;case
 2:var
-N=h(l,1,j(u)),k=N?eu(f[1]):N;break;default:var
-O=h(l,1,j(u)),Q=O?eu(f[1]):O,k=Q?eu(f[2]):Q}var
-J=k}else
+N=h(k,1,i(u)),l=N?eu(f[1]):N;break;default:var
+O=h(k,1,i(u)),P=O?eu(f[1]):O,l=P?eu(f[2]):P}var
+I=l}else
 var
-J=v;var
-b=J}else
+I=v;var
+b=I}else
 var
 b=d;break;default:var
 b=0}else
 var
 b=s;var
-D=b?m(function(b){var
-c=oB(i,a,g(e),b);if(c)var
+C=b?m(function(b){var
+c=oL(j,a,g(e),b);if(c)var
 d=c;else{var
-f=w?et(b):w;if(f)return aQ(0,0,b);var
-d=f}return d},n):b,E=D?hd(n):D;return E?m(jF,es(i,g(e),0,n)):E}function
-Bc(a){switch(a[0]){case
-0:return gC(a[1][1]);case
+f=cJ(b);if(f)return aP(0,0,b);var
+d=f}return d},n):b,D=C?hn(n):C;return D?m(jO,et(j,g(e),0,n)):D}function
+Bo(a){switch(a[0]){case
+0:return gP(a[1][1]);case
 1:var
-b=a[3];return b?gC(b[1]):1;default:return gC(a[1])}}function
-jH(a,k,b,d){var
-e=oX(function(g){if(0===g[0]){var
-c=g[1],d=_(A1,c);if(d){var
-b=G(a,bx(c));if(b){if(2===b[1][0])return 0;var
+b=a[3];return b?gP(b[1]):1;default:return gP(a[1])}}function
+jQ(a,k,b,d){var
+e=o7(function(g){if(0===g[0]){var
+c=g[1],d=$(Bb,c);if(d){var
+b=G(a,by(c));if(b){if(2===b[1][0])return 0;var
 e=1}else
 var
 e=b;var
 f=e}else
 var
-f=d;return f}return 1},k,b),f=e?m(Bc,d[1]):e,h=f?_(Bd,g(a)):f;if(h)var
-l=g(a),c=m(function(a){return z9(l,a)},b);else
+f=d;return f}return 1},k,b),f=e?m(Bo,d[1]):e,h=f?$(Bp,g(a)):f;if(h)var
+l=g(a),c=m(function(a){return Aj(l,a)},b);else
 var
 c=h;var
-i=c?hd(b):c,j=i?m(fr,y(oW,a)):i;return j?m(A0,d[3]):j}function
-o3(k,j,a,i,h,b){var
-l=g(k),n=g(h),c=p(g(i),n),d=c?m(function(b){var
-c=aQ(l,g(a),b);if(c){var
+i=c?hn(b):c,j=i?m(fz,y(o6,a)):i;return j?m(Ba,d[3]):j}function
+pb(k,j,a,i,h,b){var
+l=g(k),n=g(h),c=q(g(i),n),d=c?m(function(b){var
+c=aP(l,g(a),b);if(c){var
 d=b[1];if(1===d){var
-e=b[2],f=e?[0,bx(e[1]),0]:aB(0,g(a));return m(function(c){var
-b=G(a,c);return b?0===b[1][0]?0:1:b},f)}return 11===d?m(function(a){return 0===a[0]?0:1},a):1}return c},b):c,e=d?hd(b):d,f=e?m(function(a){return fr(a[2])},j):e;return f?m(jF,es(0,g(a),0,b)):f}function
-o4(a){if(a){var
-b=a[1];if(et(b))return 0;var
-c=[0,b,o4(a[2])]}else
+e=b[2],f=e?[0,by(e[1]),0]:aC(0,g(a));return m(function(c){var
+b=G(a,c);return b?0===b[1][0]?0:1:b},f)}return 11===d?m(function(a){return 0===a[0]?0:1},a):1}return c},b):c,e=d?hn(b):d,f=e?m(function(a){return fz(a[2])},j):e;return f?m(jO,et(0,g(a),0,b)):f}function
+pc(a){if(a){var
+b=a[1];if(cJ(b))return 0;var
+c=[0,b,pc(a[2])]}else
 var
 c=a;return c}function
-he(i,h,f,d,b){var
-j=o4(b),k=y(function(a){return ju(i,f,d,a)},j),c=an(R,0,e(function(a){return gz(l,h,a)},k)),a=y(oz,b),m=a?[0,a[1],a[2]]:Be;return R(g(m),c)}function
-jI(a){return 2<=a?Bf:Bg}function
-jJ(m,l,k,j,f,i){var
-g=he(m,l,k,j,f),c=oS(i);if(c){var
+fA(i,h,f,d,b){var
+j=pc(b),l=y(function(a){return jD(i,f,d,a)},j),c=an(R,0,e(function(a){return gH(k,h,a)},l)),a=y(oJ,b),m=a?[0,a[1],a[2]]:Bq;return R(g(m),c)}function
+jR(a){return 2<=a?Br:Bs}function
+jS(m,l,k,j,f,i){var
+g=fA(m,l,k,j,f),c=o2(i);if(c){var
 a=c[1],e=0;if(typeof
 a==="number")var
 h=[0,a];else
 if(0===a[0]){var
 n=a[2],o=a[1],b=o,d=function(a){return[0,a,n]};e=1}else{var
-q=a[2],r=a[1],b=r,d=function(a){return[1,a,q]};e=1}if(e){if(!P(ak(et,f))&&!aH(b,g))return p(b,g)?0:[0,d(bx(b))];return[0,d(b)]}}else
+p=a[2],r=a[1],b=r,d=function(a){return[1,a,p]};e=1}if(e){if(!L(aj(cJ,f))&&!aJ(b,g))return q(b,g)?0:[0,d(by(b))];return[0,d(b)]}}else
 var
 h=c;return h}function
-hf(b,a){var
-c=g(br(function(a){return 0===a[0]?0:1},b));return p(g(a),c)}function
-hg(a){var
-b=$(aB(0,g(a)),a);return e(av,br(function(a){return iv(a[2])},b))}function
-o5(a){var
-b=a[1],c=e(hb,a[1]);return gs(hc(a[1]),c,b)}function
-jK(a){return hg(o5(a))}function
-o6(b,a){if(a){var
-c=a[1],d=a[2],g=o6(R(b,c[1]),d),h=c[2];return f(e(function(a){return aB(R(b,a),Bh)},h),g)}return a}function
-o7(e,a){function
+ho(b,a){var
+c=g(bs(function(a){return 0===a[0]?0:1},b));return q(g(a),c)}function
+hp(a){var
+b=aa(aC(0,g(a)),a);return e(aw,bs(function(a){return iF(a[2])},b))}function
+pd(a){var
+b=a[1],c=e(hl,a[1]);return gB(hm(a[1]),c,b)}function
+jT(a){return hp(pd(a))}function
+pe(b,a){if(a){var
+c=a[1],d=a[2],g=pe(R(b,c[1]),d),h=c[2];return f(e(function(a){return aC(R(b,a),Bt)},h),g)}return a}function
+pf(e,a){function
 b(f){var
 a=G(e,f);if(a){var
-b=lZ(a[1]);if(b)return I(b[1],d);var
+b=l7(a[1]);if(b)return I(b[1],d);var
 c=1}else
 var
 c=a;return c}var
-c=o6(0,a);return br(function(a){return m(b,a)},c)}function
-o8(a){switch(a[0]){case
-0:return Bi;case
-1:return a[3]?Bj:Bk;default:return Bl}}function
-Bm(a){return 0===a[0]?o8(a[1]):Bn}function
-jL(a){if(a){var
+c=pe(0,a);return bs(function(a){return m(b,a)},c)}function
+pg(a){switch(a[0]){case
+0:return Bu;case
+1:return a[3]?Bv:Bw;default:return Bx}}function
+By(a){return 0===a[0]?pg(a[1]):Bz}function
+hq(a){if(a){var
 b=a[1];return[0,b[2],b[1]]}return[0,d,0]}function
-o9(aC,Y,aB,X,W,b,aA,V){var
-a=jt(Y,aB,X,W),aD=g(V),aE=e(o8,a[1]),aF=o7(o5(a),aE),aG=aC?0:jK(a),B=dJ(Bo,jK(a),aG,aF,aD,V);if(B){var
+ph(aC,Y,aB,X,W,b,aA,V){var
+a=jC(Y,aB,X,W),aD=g(V),aE=e(pg,a[1]),aF=pf(pd(a),aE),aG=aC?0:jT(a),B=dK(BA,jT(a),aG,aF,aD,V);if(B){var
 Z=B[1];if(Z[2])return 0;var
-_=jH(Y,X,W,a);if(_){var
-aH=Z[1],C=e(hb,a[1]),c=hc(a[1]),aI=jL(aA),U=mo(l,a);if(U){var
-n=gs(c,C,a[1]),h=is(c,C,a[1],0),ac=g(a[3]),ad=R(g(n),ac),K=[0,g(n),ad],ae=a[3],E=ak(function(a){if(typeof
+_=jQ(Y,X,W,a);if(_){var
+aH=Z[1],C=e(hl,a[1]),c=hm(a[1]),aI=hq(aA),U=mw(k,a);if(U){var
+n=gB(c,C,a[1]),h=iC(c,C,a[1],0),ab=g(a[3]),ad=R(g(n),ab),K=[0,g(n),ad],ae=a[3],E=aj(function(a){if(typeof
 a!=="number"&&14===a[0])return 1;return 0},ae),af=E?y(function(a){var
-b=e(aZ,gu(n,a[4]));return[0,a[4],b]},h):E,ag=f(iu(h,c,K,a[3]),af),ah=f(bS(lv(h)),ag),L=f(bS(eZ(h)),ah),M=cR(L)[1],o=cQ(M),N=m(function(a){var
-b=k(d);return aJ(q(bc(o,a),o,b),a)},L);if(N){var
-O=ak(tb,a[3]);if(O){var
+b=e(aZ,gD(n,a[4]));return[0,a[4],b]},h):E,ag=f(iE(h,c,K,a[3]),af),ah=f(bB(lD(h)),ag),L=f(bB(eZ(h)),ah),M=cS(L)[1],o=cR(M),N=m(function(a){var
+b=l(d);return aK(r(bc(o,a),o,b),a)},L);if(N){var
+O=aj(tl,a[3]);if(O){var
 t=C,p=a[1];for(;;){if(p){var
-r=p[1],u=bM(d,t);switch(r[0]){case
+q=p[1],u=bQ(d,t);switch(q[0]){case
 0:var
-F=r[1],G=gv(b,F[1],u),D=0;if(G){var
+F=q[1],G=gE(b,F[1],u),D=0;if(G){var
 s=ao(b,[0,F[4],c]);if(s)var
-j=J(d,s[1][1]);else{var
+i=J(d,s[1][1]);else{var
 H=s;D=1}}else{var
 H=G;D=1}if(D)var
-j=H;break;case
+i=H;break;case
 1:var
-I=r[3],j=I?gv(b,I[1],u):1;break;default:var
-j=gv(b,r[1],u)}if(j){var
-aa=p[2],t=by(t),p=aa;continue}var
-P=j}else
+I=q[3],i=I?gE(b,I[1],u):1;break;default:var
+i=gE(b,q[1],u)}if(i){var
+aa=p[2],t=bz(t),p=aa;continue}var
+P=i}else
 var
 P=1;var
 v=P;break}}else
 var
 v=O;if(v){var
-ai=a[3],aj=y(function(a){return dx(c,a)},ai),al=a[3],am=f(n,f(e(function(a){return bR(c,a)},al),aj)),w=ab(e(function(a){return ao(b,a)},am));if(w){var
-an=a7(ee(a[2]),c),x=ab(e(function(a){return ao(b,a)},an));if(x){var
-ap=a[3],z=ab(mb(b,aI,function(a){return bc(o,a)},n,h,c,K,ap));if(z){var
-Q=z[1],aq=ir(Q),ar=x[1],as=a[2],at=function(a){return mc(b,as,c,a)},au=w[1],av=0,ax=lv(h),ay=i(aw(function(a){return bc(o,a)}),ax),az=eZ(h);return fx(iq(b,M,i(aw(function(a){return bc(o,a)}),az),ay,av,au,Q,at),ar,aq,aH)}var
+ai=a[3],ak=y(function(a){return dz(c,a)},ai),al=a[3],am=f(n,f(e(function(a){return bV(c,a)},al),ak)),w=ac(e(function(a){return ao(b,a)},am));if(w){var
+an=a7(ef(a[2]),c),x=ac(e(function(a){return ao(b,a)},an));if(x){var
+ap=a[3],z=ac(mj(b,aI,function(a){return bc(o,a)},n,h,c,K,ap));if(z){var
+Q=z[1],aq=iB(Q),ar=x[1],as=a[2],at=function(a){return mk(b,as,c,a)},av=w[1],aw=0,ax=lD(h),ay=j(au(function(a){return bc(o,a)}),ax),az=eZ(h);return fG(iA(b,M,j(au(function(a){return bc(o,a)}),az),ay,aw,av,Q,at),ar,aq,aH)}var
 S=z}else
 var
 S=x;var
@@ -7093,410 +7361,241 @@ A=N;return A}return U}var
 $=_}else
 var
 $=B;return $}function
-Bp(a){if(0===a[0])return oO(a[1]);var
-b=a[1],c=ef(b[6]);return f(ef(b[5]),c)}function
-Bq(a){if(0===a[0])return oP(a[1]);var
+BB(a){if(0===a[0])return oY(a[1]);var
+b=a[1],c=eg(b[6]);return f(eg(b[5]),c)}function
+BC(a){if(0===a[0])return oZ(a[1]);var
 b=a[1],c=a8(b[4]);return f(a8(b[3]),c)}function
-Br(a){if(0===a[0])return[0,hb(a[1]),d];var
-b=a[1],c=bB(a8(b[2]));return[0,bB(a8(b[1])),c]}function
-o_(P,aF,aE,aD,aC,aB,j,aA){var
-a=oE(P,aF,aE,aD,aC,aB),aG=a[2],O=y(Bp,aG),bb=O?[0,O[1],O[2]]:y(Bq,aG),n=F(b,bB(bb)),Q=e(Br,a[2]),R=i4(n,Q,a[2]),bd=g(aA),be=o7(R,e(Bm,a[2])),bf=hg(R),bg=hg(R),S=dJ(aX(P),bg,bf,be,bd,aA);if(S){var
-aH=S[1];if(aH[2])return 0;var
-aI=o2(P,aF,aE,aD,aC,0,aB);if(aI){var
-bh=aH[1],a_=e(uV,a[2]),ax=nD(l,a[2],a_);if(ax)var
-a$=iy(a[4]),M=bT(l,a[4],a$);else
+BD(a){if(0===a[0])return[0,hl(a[1]),d];var
+b=a[1],c=bD(a8(b[2]));return[0,bD(a8(b[1])),c]}function
+pi(j,c,v,u,t,i,I,H,s){var
+a=oO(j,c,v,u,t,i),w=a[2],h=y(BB,w),G=h?[0,h[1],h[2]]:y(BC,w),r=F(b,bD(G)),x=e(BD,a[2]),l=jb(r,x,a[2]),J=g(s),K=pf(l,e(By,a[2])),L=hp(l),M=hp(l),n=dK(aL(j),M,L,K,J,s);if(n){var
+z=n[1];if(z[2])return 0;var
+A=pa(j,c,v,u,t,i);if(A){var
+N=z[1],O=g(c),P=fA(fx(c),BE,O,0,i),Q=hq(H),C=e(u7,a[2]),o=iZ(k,a[2],C);if(o)var
+D=iI(a[4]),d=bn(k,a[4],D);else
 var
-M=ax;if(M){var
-ay=a[5];if(ay)var
-ba=gK(ay[1]),az=m(function(a){return fd(l,a)},ba);else
+d=o;if(d){var
+p=a[5];if(p)var
+E=gX(p[1]),q=m(function(a){return fi(k,a)},E);else
 var
-az=1;var
-N=az}else
+q=1;var
+f=q}else
 var
-N=M;if(N){var
-c=a[1],aO=aX(c),u=a[6],B=i4(n,Q,a[2]),X=a[3],Y=[0,[0,X,X],n],Z=[0,g(B)],C=a[2],s=C?0===C[1][0]?0:1:C,aP=a[5],aQ=z(function(a){var
-b=typeof
-c==="number"?0:cF(c[1]);return m0(a,b)},aP),aR=a[2],o=nF(c,aQ,c1(Y,g(B)),n,Q,aR,0),_=y(function(a){return a[7]},o),aS=f(_,c9(function(a,b){return nK(o,a,b)},s,n,Z,u)),aT=f(bS(fe(o)),aS),$=f(bS(ek(o)),aT),aa=cR($)[1],ac=cQ(aa),t=function(a){return bc(ac,a)},ad=m(function(a){var
-b=k(d);return aJ(q(t(a),ac,b),a)},$),ae=ad?ak(nM,u):ad;if(ae){var
-af=a[4];if(typeof
-c==="number")var
-ag=c?i0(0,ee(af)):1;else
+f=d;return f?u5(I,Q,P,a,r,x,N):f}var
+B=A}else
 var
-aM=ee(af),ag=i0(c[1],aM);var
-D=ag}else
+B=n;return B}function
+pj(l,j,N,M,K,t,ad,J,m){var
+n=typeof
+l==="number"?l?BF:BH:jP(l[1]),o=e(i,ad),d=oO(l,j,N,M,K,t),O=o5(j,e(i,J));if(O[2])return 0;var
+h=O[1],P=ho(y(o$,j),J),Q=P?pa(l,j,N,M,K,t):P;if(Q)var
+ae=aL(l),u=q(g(o),ae);else
 var
-D=ae;if(D){var
-U=a[1];if(typeof
-U==="number")var
-v=a[5]?0:1;else
-if(2<=U[1])var
-v=0;else{var
-x=a[5],T=0;if(x){var
-V=h(j,1,a[3]);if(V)var
-aN=gK(x[1]),v=m(function(a){var
-b=c7(j,a[1]);return b?c7(j,a[2]):b},aN);else{var
-W=V;T=1}}else{var
-W=x;T=1}if(T)var
-v=W}var
-E=v}else
-var
-E=D;if(E)var
-aU=a[2],G=m(function(a){var
-b=0===a[0]?0:1;return co(b,s)},aU);else
-var
-G=E;if(G){var
-aV=f(B,[0,Y,0]),H=ab(e(function(a){return ao(j,a)},aV));if(H){var
-aW=y(function(a){return e9(s,n,a)},u),I=ab(e(function(a){return iJ(j,a)},aW));if(I){var
-r=ee(a[4]),aY=typeof
-c==="number"?c?[0,r[1],[0,r[2],0]]:[0,r[1],[0,r[2],[0,r[3],0]]]:nx(c[1],r),J=ab(e(function(a){return ao(j,[0,a,n])},aY));if(J){var
-ah=J[1],ai=a[5];if(ai)var
-aZ=m2(ai[1]),w=ab(e(function(a){return m4(j,a)},aZ));else
-var
-w=uU;if(w){var
-aj=w[1],A=a[5],a0=A?m1(A[1]):A,K=ab(e(c6(j),a0));if(K){var
-L=ab(c9(function(a,b){return nL(j,t,o,s,n,a,b)},s,n,Z,u));if(L){var
-al=L[1],am=p(g(f(ah,aj)),aO);if(am){var
-a1=ir(al),a2=f(ah,aj),aL=0,a3=a[4];if(typeof
-c==="number"&&!c){var
-an=function(a){return mc(j,a3,n,a)};aL=1}if(!aL)var
-an=function(a){return 0};var
-a4=f(I[1],K[1]),a5=f(H[1],a4),a6=e(t,_),a7=fe(o),a8=i(aw(t),a7),a9=ek(o);return fx(iq(j,aa,i(aw(t),a9),a8,a6,a5,al,an),a2,a1,bh)}var
-ap=am}else
-var
-ap=L;var
-aq=ap}else
-var
-aq=K;var
-ar=aq}else
-var
-ar=w;var
-as=ar}else
-var
-as=J;var
-at=as}else
-var
-at=I;var
-au=at}else
-var
-au=H;var
-av=au}else
-var
-av=G;return av}return N}var
-aK=aI}else
-var
-aK=S;return aK}function
-o$(i,h,G,F,E,s,X,D,r){var
-H=typeof
-i==="number"?i?Bs:Bu:jG(i[1]),t=e(j,X),I=oV(h,e(j,D));if(I[2])return 0;var
-Y=g(h),u=jJ(g7(h),Bt,Y,0,s,r);if(u){var
-J=hf(y(o1,h),D),K=J?o2(i,h,G,F,E,1,s):J;if(K)var
-Z=aX(i),v=p(g(t),Z);else
-var
-v=K;if(v){var
-M=0;if(typeof
-r==="number"&&r)var
-n=P(g7(h));else
-M=1;if(M)var
-n=1}else
-var
-n=v;if(n){var
-_=u[1],a=aV(H,t),d=aM(aI(H,t)),k=I[1],f=oE(i,h,G,F,E,s),B=nD(l,f[2],k);if(B){var
-x=bT(l,f[4],d),w=0;if(x){var
-z=f[5];if(z)var
-o=cD(l,z[1],a);else
+u=Q;if(u){if(typeof
+m!=="number"&&2===m[0]){var
+z=e(i,m[1]),ah=aM(n,z),S=aG(aB(n,z)),ai=aM(n,o),T=aG(aB(n,o)),G=iZ(k,d[2],h),H=G?bn(k,d[4],T):G,I=H?bn(k,d[4],S):H,W=I?n6(k,d[1],d[3],d[5],h,T,ai,S,ah):I;if(W){var
+aj=aL(l);return q(g(z),aj)}return W}var
+af=g(j),v=jS(fx(j),BG,af,0,t,m);if(v){var
+ag=v[1],a=aM(n,o),f=aG(aB(n,o)),E=iZ(k,d[2],h);if(E){var
+B=bn(k,d[4],f),A=0;if(B){var
+C=d[5];if(C)var
+r=cg(k,C[1],a);else
 if(a)var
-o=0;else{var
-A=1;w=1}}else{var
-A=x;w=1}if(w)var
-o=A;var
-q=o}else
+r=0;else{var
+D=1;A=1}}else{var
+D=B;A=1}if(A)var
+r=D;var
+s=r}else
 var
-q=B;if(q){var
-c=f[5],C=f[3],m=f[1],W=f[6],N=e(function(e){if(0===e[0])var
-h=bW(c,a,d,e),f=cB(e[1],h);else
+s=E;if(s)var
+c=d[5],F=d[3],p=d[1],ac=d[6],X=e(function(d){if(0===d[0])var
+h=bF(c,a,f,d),e=ce(d[1],h);else
 var
-g=e[1],i=iH(g,bW(c,a,d,e)),j=g[4],k=bW(c,a,d,e),l=U(function(b,a){return[2,b,a]},k,j),f=U(function(b,a){return[3,b,a]},l,i);return[0,nB(m,f,ac([5,[0,b,b],C],dz(gS(c,a,gR(e)),f)))]},k),O=y(function(b){if(0===b[0]){var
-f=bW(c,a,d,b),e=iw(b[1],f),g=e?[0,e[1],0]:e;return g}var
-h=bW(c,a,d,b);return[0,mF(b[1],h),0]},k),Q=function(b){var
-e=gS(c,a,b);return U(function(b,a){return[2,b,a]},d,e)},R=0,S=e(function(g){var
-e=bW(c,a,d,g);if(0===g[0]){var
+g=d[1],i=iN(g,bF(c,a,f,d)),j=g[4],k=bF(c,a,f,d),l=U(function(b,a){return[2,b,a]},k,j),e=U(function(b,a){return[3,b,a]},l,i);return[0,iY(p,e,V([5,[0,b,b],F],c7(ff(c,a,fe(d)),e)))]},h),Y=y(function(b){if(0===b[0]){var
+e=bF(c,a,f,b),d=iG(b[1],e),g=d?[0,d[1],0]:d;return g}var
+h=bF(c,a,f,b);return[0,mL(b[1],h),0]},h),Z=function(b){var
+d=ff(c,a,b);return U(function(b,a){return[2,b,a]},f,d)},_=0,$=e(function(g){var
+d=bF(c,a,f,g);if(0===g[0]){var
 b=g[1];if(0===b[0]){var
-i=b[4],j=b[3],k=b[2],h=b[1],n=cA(h,k,j,i,e),l=c3(b[5],n),o=ac(l,ay(h)),p=e7(h,k,j,e);return[0,[0,nC(m,U(function(b,a){return[2,b,a]},p,o)),l,i]]}return 0}var
-f=g[1],q=f[6],r=gB(f,e),s=iH(f,e),t=f[4],u=U(function(b,a){return[2,b,a]},e,t);return[0,[0,nC(m,U(function(b,a){return[3,b,a]},u,s)),r,q]]},k),T=e(function(b){if(0===b[0]){var
-f=bW(c,a,d,b);return[0,c4(b[1],f)]}var
-e=b[1],g=mH(e,bW(c,a,d,b));return[1,mG(e,bW(c,a,d,b)),g]},k),V=[0,e(function(e){if(0===e[0])var
-o=bW(c,a,d,e),g=cc(e[1],o);else
+i=b[4],j=b[3],k=b[2],h=b[1],m=cC(h,k,j,i,d),l=c4(b[5],m),n=V(l,ay(h)),o=e8(h,k,j,d);return[0,[0,nj(p,U(function(b,a){return[2,b,a]},o,n)),l,i]]}return 0}var
+e=g[1],q=e[6],r=e$(e,d),s=iN(e,d),t=e[4],u=U(function(b,a){return[2,b,a]},d,t);return[0,[0,nj(p,U(function(b,a){return[3,b,a]},u,s)),r,q]]},h),aa=e(function(b){if(0===b[0]){var
+e=bF(c,a,f,b);return[0,c5(b[1],e)]}var
+d=b[1],g=mN(d,bF(c,a,f,b));return[1,mM(d,bF(c,a,f,b)),g]},h),ab=[0,e(function(d){if(0===d[0])var
+n=bF(c,a,f,d),g=cd(d[1],n);else
 var
-h=bW(c,a,d,e),f=e[1],i=iH(f,h),j=f[4],k=U(function(b,a){return[2,b,a]},h,j),l=U(function(b,a){return[3,b,a]},k,i),n=gB(f,h),g=ac([5,[0,b,b],[4,f[5],n]],l);return nB(m,g,ac([5,[0,b,b],C],dz(gS(c,a,gR(e)),g)))},k),T,S,R,Q,O,N];return iz(l,uC,aX(f[1]),V,W,_)}return q}var
-L=n}else
+h=bF(c,a,f,d),e=d[1],i=iN(e,h),j=e[4],k=U(function(b,a){return[2,b,a]},h,j),l=U(function(b,a){return[3,b,a]},k,i),m=e$(e,h),g=V([5,[0,b,b],[4,e[5],m]],l);return iY(p,g,V([5,[0,b,b],F],c7(ff(c,a,fe(d)),g)))},h),aa,$,_,Z,Y,X],w=iK(k,ul,aL(d[1]),ab,ac,ag);else
 var
-L=u;return L}function
-fs(a){if(a){var
-b=cw(j(a[1]));if(b){var
-c=fs(a[2]);if(c)var
-f=c[1],d=[0,[0,ds(b[1]),f]];else
+w=s;if(w){if(typeof
+m==="number"&&m)return L(fx(j));var
+x=1}else
+var
+x=w}else
+var
+x=v;var
+R=x}else
+var
+R=u;return R}function
+fB(a){if(a){var
+b=cy(i(a[1]));if(b){var
+c=fB(a[2]);if(c)var
+f=c[1],d=[0,[0,du(b[1]),f]];else
 var
 d=c;var
 e=d}else
 var
-e=b;return e}return Bv}function
-pa(f,k,j,a,i){var
-l=g(f),h=p(g(a),l);if(h){var
-m=$($(f,$(k,j)),a);return e(function(f){var
-g=f[1],h=g[2],j=d0(h[2],h[1]),a=aG(g[1],i),k=D(d,a)?kV(b6(c(2,b),a)):[0,b,dX(b6(c(2,b),Q(a)))],l=ds(f2(a3([0,c(2,b),b],k),j)),m=f[2];return e(function(a){return ds(a3(kV(a),l))},m)},m)}return h}function
-pb(S,cg,bD,bC,R,bB,a){var
-i=jt(S,cg,bD,bC),bE=hf(y(oW,S),bB),T=bE?jH(S,bD,bC,i):bE;if(R){var
-V=R[2];if(V){var
-W=V[2];if(W){if(W[2])return 0;var
-bF=W[1],bG=V[1],bH=R[1],bI=oT(S,e(j,bB));if(bI[2])return 0;var
-n=bI[1];if(typeof
-a!=="number"&&3===a[0]){var
-au=G(i[3],a[1]);if(au){var
-bN=au[1];if(typeof
-bN==="number"&&bN){var
-av=fs(a[2]);if(av){var
-s=av[1],aw=fs(a[3]);if(aw){var
-t=aw[1];if(T){var
-ck=pa([0,d,[0,d,[0,d,0]]],s,t,a[4],a[5]),cl=j(bF),cn=j(bG),Y=[0,j(bH),cn,cl];if(s){var
-v=s[2];if(v){var
-w=v[2];if(w){if(w[2])return 0;if(t){var
-A=t[2];if(A){var
-C=A[2];if(C){if(C[2])return 0;var
-aJ=C[1],aK=A[1],aL=t[1],aM=w[1],aN=v[1],aO=s[1],aP=[0,[1,0,aO,aL],[1,vc,aN,aK],[1,vb,aM,aJ]],aQ=gw(l,i,n,Y);if(aQ)var
-b7=i[3],ab=ak(function(a){if(typeof
-a==="number"&&a)return 1;return 0},b7);else
+e=b;return e}return BI}function
+pk(f,k,j,a,i){var
+l=g(f),h=q(g(a),l);if(h){var
+m=aa(aa(f,aa(k,j)),a);return e(function(f){var
+g=f[1],h=g[2],j=d1(h[2],h[1]),a=aI(g[1],i),k=D(d,a)?k3(b7(c(2,b),a)):[0,b,dY(b7(c(2,b),Q(a)))],l=du(f$(a3([0,c(2,b),b],k),j)),m=f[2];return e(function(a){return du(a3(k3(a),l))},m)},m)}return h}function
+pl(u,aV,ar,aq,t,ap,a){var
+c=jC(u,aV,ar,aq),as=ho(y(o6,u),ap),g=as?jQ(u,ar,aq,c):as;if(t){var
+v=t[2];if(v){var
+w=v[2];if(w){if(w[2])return 0;var
+h=w[1],j=v[1],l=t[1],at=o3(u,e(i,ap));if(at[2])return 0;var
+f=at[1];if(typeof
+a!=="number")switch(a[0]){case
+2:var
+K=a[1];if(K){var
+L=K[2];if(L){var
+M=L[2];if(M){if(M[2]){var
+N=fy(c,a);if(N){var
+aY=i(h),aZ=i(j),aA=[0,i(l),aZ,aY];if(g){var
+aB=e_(k,c,f,aA,N[1]);if(aB)var
+O=aB;else{if(typeof
+a!=="number"&&0===a[0]){var
+z=a[2];return z?z[2]?0:fp(k,c,f,aA,a[1],z[1]):z}var
+O=0}}else
 var
-ab=aQ;var
-aR=ab?n1(s,t):ab,aS=aR?n2(l,i[2],[0,[0,aO,aN],aM],[0,[0,aL,aK],aJ]):aR,aT=aS?jb(l,s,t,bf(Y)):aS,aU=aT?m(function(b){var
-c=bY(n3(b)),e=c?bY([0,c4(b,Y),0]):c;if(e){var
-f=iw(b,aP);if(f){var
-h=f[1],a=d5(l,function(a,b,c){return nX(l,vd,a,b,c)},h);return a?J(d,a[1][2][1]):a}var
+O=g;var
+aC=O}else
+var
+aC=N;return aC}if(g){var
+a0=i(M[1]),a1=i(L[1]),aD=[0,i(K[1]),a1,a0],a2=i(h),a3=i(j),aE=[0,i(l),a3,a2],Y=e7(k,c,f,aE),Z=Y?bn(k,c[2],aD):Y;if(Z){var
+aS=0,aT=0;return n6(k,0,[0,b,b],0,e(function(a){return[0,a]},f),aE,aT,aD,aS)}return Z}return g}var
+P=fy(c,a);if(P){var
+a4=i(h),a5=i(j),aF=[0,i(l),a5,a4];if(g){var
+aG=e_(k,c,f,aF,P[1]);if(aG)var
+Q=aG;else{if(typeof
+a!=="number"&&0===a[0]){var
+A=a[2];return A?A[2]?0:fp(k,c,f,aF,a[1],A[1]):A}var
+Q=0}}else
+var
+Q=g;var
+aH=Q}else
+var
+aH=P;return aH}var
+R=fy(c,a);if(R){var
+a6=i(h),a7=i(j),aI=[0,i(l),a7,a6];if(g){var
+aJ=e_(k,c,f,aI,R[1]);if(aJ)var
+S=aJ;else{if(typeof
+a!=="number"&&0===a[0]){var
+B=a[2];return B?B[2]?0:fp(k,c,f,aI,a[1],B[1]):B}var
+S=0}}else
+var
+S=g;var
+aK=S}else
+var
+aK=R;return aK}var
+T=fy(c,a);if(T){var
+a8=i(h),a9=i(j),aL=[0,i(l),a9,a8];if(g){var
+aM=e_(k,c,f,aL,T[1]);if(aM)var
+U=aM;else{if(typeof
+a!=="number"&&0===a[0]){var
+C=a[2];return C?C[2]?0:fp(k,c,f,aL,a[1],C[1]):C}var
+U=0}}else
+var
+U=g;var
+aN=U}else
+var
+aN=T;return aN;case
+3:var
+V=G(c[3],a[1]);if(V){var
+aO=V[1];if(typeof
+aO==="number"&&aO){var
+W=fB(a[2]);if(W){var
+n=W[1],X=fB(a[3]);if(X){var
+o=X[1];if(g){var
+a_=pk([0,d,[0,d,[0,d,0]]],n,o,a[4],a[5]),a$=i(h),ba=i(j),D=[0,i(l),ba,a$];if(n){var
+p=n[2];if(p){var
+q=p[2];if(q){if(q[2])return 0;if(o){var
+r=o[2];if(r){var
+s=r[2];if(s){if(s[2])return 0;var
+_=s[1],$=r[1],aa=o[1],ab=q[1],ac=p[1],ad=n[1],ae=[0,[1,0,ad,aa],[1,vo,ac,$],[1,vn,ab,_]],af=e7(k,c,f,D);if(af)var
+aU=c[3],E=aj(function(a){if(typeof
+a==="number"&&a)return 1;return 0},aU);else
+var
+E=af;var
+ag=E?n$(n,o):E,ah=ag?oa(k,c[2],[0,[0,ad,ac],ab],[0,[0,aa,$],_]):ag,ai=ah?jk(k,n,o,bf(D)):ah,ak=ai?m(function(b){var
+c=bZ(ob(b)),e=c?bZ([0,c5(b,D),0]):c;if(e){var
+f=iG(b,ae);if(f){var
+h=f[1],a=d6(k,function(a,b,c){return n7(k,vp,a,b,c)},h);return a?J(d,a[1][2][1]):a}var
 g=1}else
 var
-g=e;return g},n):aT;if(aU)return n0(l,e(function(a){var
-b=c4(a,Y);return[3,c4(a,aP),b]},n),ck);var
-aV=aU}else
+g=e;return g},f):ai;if(ak)return n_(k,e(function(a){var
+b=c5(a,D);return[3,c5(a,ae),b]},f),a_);var
+al=ak}else
 var
-aV=C;var
-aX=aV}else
+al=s;var
+am=al}else
 var
-aX=A;var
-ad=aX}else
+am=r;var
+F=am}else
 var
-ad=t}else
+F=o}else
 var
-ad=w;var
-aY=ad}else
+F=q;var
+an=F}else
 var
-aY=v;var
-aZ=aY}else
+an=p;var
+ao=an}else
 var
-aZ=s;return aZ}var
-bO=T}else
+ao=n;return ao}var
+aP=g}else
 var
-bO=aw;var
-bP=bO}else
+aP=X;var
+aQ=aP}else
 var
-bP=av;return bP}var
-bQ=0}else
+aQ=W;return aQ}var
+aR=0}else
 var
-bQ=au;return bQ}var
-an=i[3];if(typeof
-a==="number")var
-k=0===a?AW:AX;else
-switch(a[0]){case
-0:var
-ao=a[2],u=a[1],bc=G(an,u);if(bc){var
-bR=0,bd=bc[1];if(typeof
-bd==="number"||!(13===bd[0]))bR=1;else
-var
-aq=i[1],bb=hc(aq),o=e(function(a){var
-f=g(aq);if(p(g(a),f)){var
-h=$(aq,a);return e(function(a){var
-e=a[2],f=D(d,bb),g=2===a[1][0]?1:0;return co(g,f)?B(e,b6(c(2,b),cm(bb))):e},h)}return a},ao);if(bR)var
-o=ao}else
-var
-o=ao;var
-ce=G(an,u),cf=i[1],ap=z(function(b){if(typeof
-b!=="number")switch(b[0]){case
-5:return AU;case
-12:var
-a=G(cf,b[1]);if(a){if(2===a[1][0])return AV;var
-c=0}else
-var
-c=a;return c;case
-2:case
-3:case
-4:case
-6:case
-7:case
-11:return 0}return AT},ce),ax=0;if(ap){var
-be=ap[1];if(be){var
-bg=be[1];if(bg)if(bg[1])var
-k=0;else{var
-az=0;if(o){var
-F=o[1],aA=0;if(F){var
-H=F[2],aB=0;if(H){var
-I=H[2],aD=0;if(I)if(I[2]){var
-k=0;az=1;aA=1;aB=1;aD=1}else{var
-K=o[2],bS=0;if(K){var
-L=K[1],bT=0;if(L){var
-M=L[2],bU=0;if(M){var
-N=M[2],bV=0;if(N)if(N[2]||K[2]){var
-k=0;az=1;aA=1;aB=1;aD=1;bS=1;bT=1;bU=1;bV=1}else
-var
-bh=[0,[0,u,[0,[0,F[1],H[1]],I[1]],[0,[0,L[1],M[1]],N[1]]]];else
-var
-bh=N;if(!bV)var
-bi=bh}else
-var
-bi=M;if(!bU)var
-bj=bi}else
-var
-bj=L;if(!bT)var
-bk=bj}else
-var
-bk=K;if(!bS)var
-bl=bk}else
-var
-bl=I;if(!aD)var
-bm=bl}else
-var
-bm=H;if(!aB)var
-bn=bm}else
-var
-bn=F;if(!aA)var
-bo=bn}else
-var
-bo=o;if(!az)var
-k=bo}else{var
-bW=0;if(o){var
-O=o[1],bX=0;if(O){var
-P=O[2],bZ=0;if(P){var
-Q=P[2],b0=0;if(Q)if(Q[2]||o[2]){var
-k=0;bW=1;bX=1;bZ=1;b0=1}else
-var
-bp=Q[1],bq=P[1],br=O[1],bs=[0,[0,u,[0,[0,br,bq],bp],[0,[0,br,bq],bp]]];else
-var
-bs=Q;if(!b0)var
-bt=bs}else
-var
-bt=P;if(!bZ)var
-bu=bt}else
-var
-bu=O;if(!bX)var
-bv=bu}else
-var
-bv=o;if(!bW)var
-k=bv}}else
-if(o)var
-k=0;else{var
-bw=[0,[0,d,d],d],bx=[0,[0,u,bw,bw]];ax=1}}else{var
-bx=ap;ax=1}if(ax)var
-k=bx;break;case
-1:var
-by=a[1],ar=G(an,by),aE=0;if(ar){var
-b1=0,bz=ar[1];if(typeof
-bz!=="number"&&1===bz[0]){var
-k=[0,[1,by,a[2]]];b1=1}if(!b1){var
-bA=0;aE=1}}else{var
-bA=ar;aE=1}if(aE)var
-k=bA;break;default:var
-k=0}if(k){var
-ch=j(bF),ci=j(bG),f=[0,j(bH),ci,ch];if(T){var
-q=k[1],aG=gw(l,i,n,f);if(aG)if(typeof
-q==="number")var
-r=0===q?ak(function(c){var
-a=iw(c,f);return a?h(l,0,[3,[0,d,b],a[1]]):a},n):lm(td,e(function(b){var
-a=cB(b,f);return[0,a[1],[0,a[2],[0,a[3],0]]]},n));else
-if(0===q[0]){var
-Z=G(i[3],q[1]);if(Z)var
-b2=Z[1],b3=mf(q[3]),r=mm(l,n,f,mf(q[2]),b3,b2);else
-var
-r=Z}else{var
-_=G(i[3],q[1]),aF=0;if(_){var
-aa=G(n,q[2]);if(aa)var
-aH=aa[1],b4=_[1],b5=cc(aH,f),r=mm(l,n,f,cc(aH,f),b5,b4);else{var
-aI=aa;aF=1}}else{var
-aI=_;aF=1}if(aF)var
-r=aI}else
-var
-r=aG;if(r)var
-as=r;else{if(typeof
+aR=V;return aR}var
+H=fy(c,a);if(H){var
+aW=i(h),aX=i(j),au=[0,i(l),aX,aW];if(g){var
+av=e_(k,c,f,au,H[1]);if(av)var
+I=av;else{if(typeof
 a!=="number"&&0===a[0]){var
-X=a[2];if(X){if(X[2])return 0;var
-at=X[1],cj=a[1],a0=gw(l,i,n,f),a1=a0?bY(bf(f)):a0;if(a1){var
-ag=G(i[3],cj);if(ag){var
-E=ag[1];if(typeof
-E!=="number"&&14===E[0]){var
-a4=E[2],a5=E[1],ah=jf(aC(em,a4));if(ah){var
-ai=ah[1],b$=gX(vn,ai),ca=gX(vo,ai),aj=[0,gX(0,ai),ca,b$],a6=h(l,1,a4),a7=a6?h(l,0,a5):a6;if(a7)var
-cb=g(i[1]),al=p(g(at),cb);else
+x=a[2];return x?x[2]?0:fp(k,c,f,au,a[1],x[1]):x}var
+I=0}}else
 var
-al=a7;var
-a8=al?m(function(a){return bY(n3(a))},n):al;if(a8){var
-cd=i[1],a9=je(at,e(function(a){switch(a[0]){case
-0:var
-b=a[1],d=b[5],e=gY(b[4]),g=cG(b[3]),h=cG(b[2]),c=[0,cG(b[1]),h,g,e,d];break;case
-1:var
-i=z(cG,a[3]),j=cG(a[2]),c=[1,cG(a[1]),j,i];break;default:var
-c=[2,cG(a[1])]}return c4(c,f)},cd),a5),a_=bY(a9);if(a_){var
-am=$($(n,a9),at),ae=function(k){var
-e=k[1][2],a=k[1][1];switch(a[0]){case
-0:var
-i=a[4],l=ac(e,ay(a[1])),m=aW(a[2],a[3],f),g=U(function(b,a){return[3,b,a]},m,l),n=ac([0,c(2,b),b],g);return[0,[3,x(g,g),[4,i,i]],n,[0,b,b]];case
-1:var
-h=aW(a[1],a[2],f),o=ac([0,c(2,b),b],h);return[0,[3,x(h,h),[4,e,e]],o,[0,b,b]];default:var
-j=a[1],p=ay(j);return[0,[3,x(ay(j),f),e],p,[0,d,b]]}},af=function(j){var
-d=j[1],e=d[2],a=d[1],c=j[2];switch(a[0]){case
-0:var
-g=a[3],h=a[2],i=a[1],k=aW(h,g,f),l=[3,x(ay(i),k),e],m=cA(i,h,g,a[4],f);return jd([5,[0,c,b],[2,c3(a[5],m),l]]);case
-1:return jd([5,[0,c,b],[2,e,c4(a,f)]]);default:return[0,c,b]}},b8=x(aj,aj),b9=[4,fi(function(a){var
-b=ae(a)[3];return[4,af(a),b]},am),b8],b_=x(fj(function(a){var
-b=ae(a)[2];return ac(af(a),b)},am),aj);return n5(l,vq,vp,[2,[2,fi(function(a){var
-b=ae(a)[1];return[4,af(a),b]},am),b_],b9])}var
-a$=a_}else
+I=g;var
+aw=I}else
 var
-a$=a8;var
-ba=a$}else
+aw=H;var
+ax=aw}else
 var
-ba=ah;return ba}var
-a2=0}else
+ax=w;var
+ay=ax}else
 var
-a2=ag;var
-a3=a2}else
+ay=v;var
+az=ay}else
 var
-a3=a1;return a3}return X}var
-as=0}}else
-var
-as=T;var
-bJ=as}else
-var
-bJ=k;var
-bK=bJ}else
-var
-bK=W;var
-bL=bK}else
-var
-bL=V;var
-bM=bL}else
-var
-bM=R;return bM}function
-pc(m,l,b,k,y,x){var
+az=t;return az}function
+pm(m,l,b,k,y,x){var
 f=y,d=x;for(;;){if(0===d[0]){var
-g=d[1],h=G(f,g),n=h?aH(h[1][2],Bw):h;if(n)var
-A=d[2],i=pc(m,l,b,k,jC(0,g,f),A);else
+g=d[1],h=G(f,g),n=h?aJ(h[1][2],BJ):h;if(n)var
+A=d[2],i=pm(m,l,b,k,jL(0,g,f),A);else
 var
 i=n;if(i){var
-B=d[3],f=jC(1,g,f),d=B;continue}return i}var
-c=d[1],a=oM(0,m,f),o=e(function(b){function
-d(b){return oN(a,b)}function
-c(a){return jA(d,a)}switch(b[0]){case
+B=d[3],f=jL(1,g,f),d=B;continue}return i}var
+c=d[1],a=oW(0,m,f),o=e(function(b){function
+d(b){return oX(a,b)}function
+c(a){return jJ(d,a)}switch(b[0]){case
 0:var
-e=b[5],f=oN(a,b[4]),g=c(b[3]),h=c(b[2]);return[0,c(b[1]),h,g,f,e];case
+e=b[5],f=oX(a,b[4]),g=c(b[3]),h=c(b[2]);return[0,c(b[1]),h,g,f,e];case
 1:var
 i=z(c,b[3]),j=c(b[2]);return[1,c(b[1]),j,i];default:return[2,c(b[1])]}},l);if(0===b[0])var
-q=b[2],r=jA(function(b){return at(a,b)},q),s=b[1],j=[0,jA(function(b){return at(a,b)},s),r];else
+q=b[2],r=jJ(function(b){return at(a,b)},q),s=b[1],j=[0,jJ(function(b){return at(a,b)},s),r];else
 var
 t=at(a,b[5]),u=at(a,b[4]),v=at(a,b[3]),w=at(a,b[2]),j=[1,at(a,b[1]),w,v,u,t];var
 p=e(function(g){var
@@ -7524,369 +7623,356 @@ i=h;return[0,g[1],g[2],i,d]},k);if(typeof
 c==="number")return 1;else
 switch(c[0]){case
 0:return 0;case
-1:return o9(1,o,j,0,p,c[1],c[2],c[3]);default:var
-C=c[4],D=c[3],E=e(function(b){return at(a,b)},D),F=c[2];return pb(o,j,0,p,e(function(b){return at(a,b)},F),E,C)}}}function
-pd(h,g){var
-a=cw(j(h));if(a){var
+1:return ph(1,o,j,0,p,c[1],c[2],c[3]);default:var
+C=c[4],D=c[3],E=e(function(b){return at(a,b)},D),F=c[2];return pl(o,j,0,p,e(function(b){return at(a,b)},F),E,C)}}}function
+pn(h,g){var
+a=cy(i(h));if(a){var
 c=a[1],e=ba([0,d,b],c);if(e)return ba(c,g);var
 f=e}else
 var
 f=a;return f}function
-BD(v){var
-eP=g5(v[3]),eQ=eP?g5(v[4]):eP;if(eQ){var
-W=v[1];switch(W[0]){case
+BR(t){var
+eA=he(t[3]),eB=eA?he(t[4]):eA;if(eB){var
+P=t[1];switch(P[0]){case
 3:var
-eW=m(fo,W[1]);if(eW)var
-i8=W[2],cp=m(function(a){return fo(a[1])},i8);else
+eH=m(fu,P[1]);if(eH)var
+iS=P[2],cl=m(function(a){return fu(a[1])},iS);else
 var
-cp=eW;if(cp)var
-i$=W[3],cq=m(function(a){var
-b=fo(a[1]),c=b?jr(a[2]):b;return c?fp(a[2]):c},i$);else
+cl=eH;if(cl)var
+iT=P[3],cm=m(function(a){var
+b=fu(a[1]),c=b?jA(a[2]):b;return c?fv(a[2]):c},iT);else
 var
-cq=cp;if(cq)var
-ja=W[4],be=m(function(a){var
+cm=cl;if(cm)var
+iU=P[4],a_=m(function(a){var
 b=0===a[0]?a[1]:[0,a[1],0];return m(function(a){var
-b=jr(a);return b?fp(a):b},b)},ja);else
+b=jA(a);return b?fv(a):b},b)},iU);else
 var
-be=cq;break;case
+a_=cm;break;case
 7:var
-jb=W[1],eX=m(function(a){var
-b=fo(a[1]);return b?fq(0,[0,a[2][1],[0,a[2][2],0]]):b},jb),be=eX?fq(0,[0,W[5],[0,W[6],0]]):eX;break;default:var
-be=1}var
-cn=be}else
+iV=P[1],eI=m(function(a){var
+b=fu(a[1]);return b?fw(0,[0,a[2][1],[0,a[2][2],0]]):b},iV),a_=eI?fw(0,[0,P[5],[0,P[6],0]]):eI;break;default:var
+a_=1}var
+cj=a_}else
 var
-cn=eQ;var
-c2=0;if(cn){var
-eR=v[1],co=7===eR[0]?e(av,eR[1]):0,eS=function(c,b){var
-a=ov(c);return a?m(function(a){var
-e=a[1],b=m(function(a){return jq(a[2])},e);if(b){var
-c=a[3];if(c)return fq(co,ou(c[1]));var
+cj=eB;var
+cV=0;if(cj){var
+eC=t[1],ck=7===eC[0]?e(aw,eC[1]):0,eD=function(c,b){var
+a=oF(c);return a?m(function(a){var
+e=a[1],b=m(function(a){return jz(a[2])},e);if(b){var
+c=a[3];if(c)return fw(ck,oE(c[1]));var
 d=1}else
 var
-d=b;return d},b):a},eT=function(e,d,c,b){var
-a=ov(e);return a?fq(co,f(d,f(c,ou(b)))):a},o=v[1];switch(o[0]){case
+d=b;return d},b):a},eE=function(e,d,c,b){var
+a=oF(e);return a?fw(ck,f(d,f(c,oE(b)))):a},o=t[1];switch(o[0]){case
 0:var
-iB=y(dG,o[4]),iC=f(y(os,o[3]),iB),iD=f(oq(o[2]),iC),X=f(y(js,o[1]),iD);break;case
+ig=y(dH,o[4]),ih=f(y(oC,o[3]),ig),ii=f(oA(o[2]),ih),S=f(y(jB,o[1]),ii);break;case
 1:var
-ck=o[5],cl=o[3],iE=y(dG,o[6]),iF=ck?or(ck[1]):ck,iG=f(iF,iE),iH=f(op(o[4]),iG),iI=cl?[0,cl[1],0]:cl,iM=f(iI,iH),X=f(y(z4,o[2]),iM);break;case
+cf=o[5],ch=o[3],ij=y(dH,o[6]),ik=cf?oB(cf[1]):cf,il=f(ik,ij),im=f(oz(o[4]),il),io=ch?[0,ch[1],0]:ch,ip=f(io,im),S=f(y(Ae,o[2]),ip);break;case
 2:var
-iN=y(dG,o[7]),iO=f(y(os,o[6]),iN),iP=f(or(o[5]),iO),iQ=f(op(o[4]),iP),iR=[0,o[3],iQ],iS=o[2],X=f(y(function(a){return y(eq,f(a[1],a[2]))},iS),iR);break;case
+iq=y(dH,o[7]),ir=f(y(oC,o[6]),iq),is=f(oB(o[5]),ir),it=f(oz(o[4]),is),iu=[0,o[3],it],iv=o[2],S=f(y(function(a){return y(er,f(a[1],a[2]))},iv),iu);break;case
 3:var
-iT=y(dG,o[7]),iU=f(o[6],iT),iV=f(o[5],iU),iW=o[2],X=f(y(function(a){return eq(a[2])},iW),iV);break;case
+iw=y(dH,o[7]),ix=f(o[6],iw),iy=f(o[5],ix),iz=o[2],S=f(y(function(a){return er(a[2])},iz),iy);break;case
 4:var
-iX=y(dG,o[3]),X=[0,o[1],[0,o[2],iX]];break;case
+iD=y(dH,o[3]),S=[0,o[1],[0,o[2],iD]];break;case
 5:var
-iY=y(dG,o[4]),iZ=f(bZ(o[3]),iY),i0=f(bZ(o[2]),iZ),i2=f(y(js,o[1]),i0),X=[0,o[5],i2];break;case
+iF=y(dH,o[4]),iG=f(b0(o[3]),iF),iH=f(b0(o[2]),iG),iL=f(y(jB,o[1]),iH),S=[0,o[5],iL];break;case
 6:var
-cm=o[1],X=cm?eq(cm[1]):cm;break;default:var
-i3=y(dG,o[4]),i4=f(oq(o[3]),i3),X=f(y(js,o[2]),i4)}var
-eU=fq(co,X);if(eU){var
-Y=v[2];switch(Y[0]){case
+ci=o[1],S=ci?er(ci[1]):ci;break;default:var
+iM=y(dH,o[4]),iN=f(oA(o[3]),iM),S=f(y(jB,o[2]),iN)}var
+eF=fw(ck,S);if(eF){var
+T=t[2];switch(T[0]){case
 0:var
-aW=eS(Y[1],Y[3]);break;case
+aT=eD(T[1],T[3]);break;case
 1:var
-aW=eT(Y[1],Y[2],Y[3],Y[4]);break;default:var
-i5=Y[1],aW=m(function(a){if(typeof
+aT=eE(T[1],T[2],T[3],T[4]);break;default:var
+iO=T[1],aT=m(function(a){if(typeof
 a!=="number")switch(a[0]){case
-1:return eS(a[1],a[3]);case
-2:return eT(a[1],a[2],a[3],a[4])}return 1},i5)}}else{var
-eV=eU;c2=1}}else{var
-eV=cn;c2=1}if(c2)var
-aW=eV;if(aW){var
-a=v[1];switch(a[0]){case
+1:return eD(a[1],a[3]);case
+2:return eE(a[1],a[2],a[3],a[4])}return 1},iO)}}else{var
+eG=eF;cV=1}}else{var
+eG=cj;cV=1}if(cV)var
+aT=eG;if(aT){var
+a=t[1];switch(a[0]){case
 0:var
-fn=a[4],ft=a[3],fu=a[2],fv=a[1],ah=v[2];switch(ah[0]){case
-0:return o9(0,fv,fu,ft,fn,ah[1],ah[2],ah[3]);case
-1:return pb(fv,fu,ft,fn,ah[2],ah[3],ah[4]);default:return 0}case
+e3=a[4],e4=a[3],e5=a[2],e7=a[1],ad=t[2];switch(ad[0]){case
+0:return ph(0,e7,e5,e4,e3,ad[1],ad[2],ad[3]);case
+1:return pl(e7,e5,e4,e3,ad[2],ad[3],ad[4]);default:return 0}case
 1:var
-fw=a[6],fy=a[5],fz=a[4],fA=a[3],fB=a[2],fC=a[1],aA=v[2];switch(aA[0]){case
-0:return o_(fC,fB,fA,fz,fy,fw,aA[1],aA[3]);case
-1:return o$(fC,fB,fA,fz,fy,fw,aA[2],aA[3],aA[4]);default:return 0}case
+e8=a[6],e9=a[5],e_=a[4],e$=a[3],fc=a[2],fd=a[1],ae=t[2];switch(ae[0]){case
+0:return pi(fd,fc,e$,e_,e9,e8,ae[1],ae[2],ae[3]);case
+1:return pj(fd,fc,e$,e_,e9,e8,ae[2],ae[3],ae[4]);default:return 0}case
 2:var
-ai=a[7],aj=a[6],bk=a[5],bl=a[4],bm=a[3],K=a[2],M=a[1],am=v[2];switch(am[0]){case
+af=a[7],ag=a[6],bg=a[5],bi=a[4],bj=a[3],E=a[2],H=a[1],ah=t[2];switch(ah[0]){case
 0:var
-fD=am[3],aa=oD(M,K,bm,bl,bk,aj,ai),jx=aa[2],cy=F(b,bB(y(function(a){var
-b=a8(a[2]);return f(a8(a[1]),b)},jx))),jy=g(fD),jz=i1(cy,aa[2]),jA=i1(cy,aa[2]),cz=dJ(bu(M),jA,jz,0,jy,fD);if(cz){var
-fE=cz[1];if(fE[2])return 0;var
-fF=o0(M,K,bm,bl,bk,aj,ai);if(fF){var
-jC=fE[1],jF=g(K),jM=he(0,jI(M),jF,aj,ai),jN=jL(am[2]),jO=am[1],gL=aa[2],da=m(function(a){var
-b=nA(l,a[1]);return b?nA(l,a[2]):b},gL);if(da)var
-gM=iy(aa[4]),by=bT(l,aa[4],gM);else
+fe=ah[3],W=oN(H,E,bj,bi,bg,ag,af),i6=W[2],cr=F(b,bD(y(function(a){var
+b=a8(a[2]);return f(a8(a[1]),b)},i6))),i7=g(fe),i8=i9(cr,W[2]),i_=i9(cr,W[2]),cs=dK(bv(H),i_,i8,0,i7,fe);if(cs){var
+ff=cs[1];if(ff[2])return 0;var
+fg=o_(H,E,bj,bi,bg,ag,af);if(fg){var
+i$=ff[1],ja=g(E),jb=fA(0,jR(H),ja,ag,af),jc=hq(ah[2]),jf=ah[1],gs=W[2],c4=m(function(a){var
+b=nI(k,a[1]);return b?nI(k,a[2]):b},gs);if(c4)var
+gt=iI(W[4]),bw=bn(k,W[4],gt);else
 var
-by=da;if(by)var
-gN=gK(aa[5]),bA=m(function(a){return fd(l,a)},gN);else
+bw=c4;if(bw)var
+gu=gX(W[5]),bx=m(function(a){return fi(k,a)},gu);else
 var
-bA=by;return bA?uz(jO,jN,jM,aa,cy,jC):bA}var
-fG=fF}else
+bx=bw;return bx?uM(jf,jc,jb,W,cr,i$):bx}var
+fh=fg}else
 var
-fG=cz;return fG;case
+fh=cs;return fh;case
 1:var
-N=am[4],fH=am[3],an=e(j,am[2]),H=jG(M),fI=oU(K,e(j,fH));if(fI[2])return 0;var
-w=fI[1],fJ=hf(y(function(a){return f(a[1],a[2])},K),fH),fK=fJ?o0(M,K,bm,bl,bk,aj,ai):fJ;if(fK){var
-n=oD(M,K,bm,bl,bk,aj,ai);if(typeof
-N!=="number")switch(N[0]){case
+I=ah[4],fl=ah[3],ai=e(i,ah[2]),B=jP(H),fm=o4(E,e(i,fl));if(fm[2])return 0;var
+u=fm[1],fp=ho(y(function(a){return f(a[1],a[2])},E),fl),fq=fp?o_(H,E,bj,bi,bg,ag,af):fp;if(fq){var
+n=oN(H,E,bj,bi,bg,ag,af);if(typeof
+I!=="number")switch(I[0]){case
 2:var
-fQ=e(j,N[1]),fR=aV(H,fQ),fS=aM(aI(H,fQ)),fT=aV(H,an),fU=aM(aI(H,an)),dl=e_(l,n[2],w);if(dl)var
-gO=bu(n[1]),bE=p(g(w),gO);else
+fC=e(i,I[1]),fD=aM(B,fC),fE=aG(aB(B,fC)),fF=aM(B,ai),fH=aG(aB(B,ai)),c5=fb(k,n[2],u);if(c5)var
+gv=bv(n[1]),by=q(g(u),gv);else
 var
-bE=dl;var
-dm=bE?bT(l,n[4],fU):bE,dn=dm?bT(l,n[4],fS):dm,dp=dn?cD(l,n[5],fT):dn,dq=dp?cD(l,n[5],fR):dp;if(dq){var
-dr=n[1],gP=n[5],gQ=n[3],db=function(g,f){var
-h=e(function(a){return iL(dr,gQ,gP,f,g,a)},w),i=bu(dr),a=gy(l,h);function
-c(a,b){return t(l,a,b)}var
-d=L(l,b);return z(function(a){return nH(u,d,E,c,i,a)},a)},bC=db(fU,fT);if(bC){var
-dc=bC[1],bD=db(fS,fR);if(bD){var
-dd=bD[1],de=J(d,dc[1]),df=de?J(dd[2],d):de;if(df)var
-dg=df;else{var
-dk=J(dc[2],d);if(dk)return J(d,dd[1]);var
-dg=dk}var
-di=dg}else
-var
-di=bD;var
-dj=di}else
-var
-dj=bC;return dj}return dq;case
+by=c5;var
+c6=by?bn(k,n[4],fH):by,c_=c6?bn(k,n[4],fE):c6,da=c_?cg(k,n[5],fF):c_,db=da?cg(k,n[5],fD):da;if(db){var
+dc=function(b,a){var
+c=n[5],d=n[3],f=n[1];return e(function(e){return iR(f,d,c,a,b,e)},u)},gw=dc(fE,fD),gx=dc(fH,fF);return nO(k,bv(n[1]),gx,gw)}return db;case
 3:var
-cE=fs(N[2]);if(cE){var
-fV=cE[1],cH=fs(N[3]);if(cH){var
-fW=cH[1],jQ=n[2],jR=F(b,bB(y(function(a){var
-b=a8(a[2]);return f(a8(a[1]),b)},jQ))),jS=g(K),jT=he(0,jI(M),jS,aj,ai),fX=p(N[1],jT);if(fX){var
-jU=N[5],jV=N[4],jW=al(Q(jR),dV(g(an),H)),jX=pa(f(al(d,H),jW),fV,fW,jV,jU),jY=aV(H,an);return vi(l,H,n,w,aM(aI(H,an)),jY,fV,fW,jX)}var
-fY=fX}else
+cw=fB(I[2]);if(cw){var
+fI=cw[1],cx=fB(I[3]);if(cx){var
+fJ=cx[1],jj=n[2],jk=F(b,bD(y(function(a){var
+b=a8(a[2]);return f(a8(a[1]),b)},jj))),jl=g(E),jp=fA(0,jR(H),jl,ag,af),fK=q(I[1],jp);if(fK){var
+jq=I[5],jr=I[4],js=al(Q(jk),dW(g(ai),B)),jt=pk(f(al(d,B),js),fI,fJ,jr,jq),ju=aM(B,ai);return vu(k,B,n,u,aG(aB(B,ai)),ju,fI,fJ,jt)}var
+fL=fK}else
 var
-fY=cH;var
-fZ=fY}else
-var
-fZ=cE;return fZ}var
-jP=g(K),cA=jJ(0,jI(M),jP,aj,ai,N);if(cA){var
-aX=cA[1],s=aM(aI(H,an)),r=aV(H,an),c4=e_(l,n[2],w),c5=c4?bT(l,n[4],s):c4,c8=c5?cD(l,n[5],r):c5;if(c8)var
-S=n[5],c_=n[3],c$=n[1],gH=n[6],bx=function(a){var
-b=bU(S,r,s,a);return x(bU(S,r,s,a),b)},gx=e(function(a){return[0,iL(c$,c_,S,r,s,a)]},w),gB=e(bx,w),gC=function(a){var
-b=cC(S,r,a);return U(function(b,a){return[2,b,a]},s,b)},gD=e(function(a){var
-b=[6,bx(a)],c=bU(S,r,s,a),d=cC(S,r,a[2]);return[0,[0,[0,U(function(b,a){return[2,b,a]},s,d),c],b]]},w),gE=e(function(a){return 0},w),gF=e(function(a){return[0,[6,bx(a)]]},w),gG=[0,e(function(c){var
-a=ay(bU(S,r,s,c));return iK(c$,a,ac([5,[0,b,b],c_],dz(cC(S,r,c[2]),a)))},w),gF,gE,gD,gC,gB,gx],gI=bu(n[1]),gJ=2<=n[1]?ts:tt,cB=iz(l,gJ,gI,gG,gH,aX);else
-var
-cB=c8;if(cB)var
-fL=cB;else{if(typeof
-aX!=="number"&&0===aX[0]){var
-bo=aX[2];if(bo){if(bo[2])return 0;var
-bp=bo[1],fO=aX[1],aO=n[1],d5=e_(l,n[2],w),d6=d5?bT(l,n[4],s):d5,d7=d6?cD(l,n[5],r):d6,c3=0;if(d7){var
-hN=n[6],hO=2<=aO?u_:u$,b2=gA(l,hO,fO,hN),bv=0;if(b2){var
-az=b2[1][1],bw=0;if(typeof
-az!=="number"&&15===az[0]){var
-b3=G(w,az[1]);if(b3){var
-aP=mC(bp),d_=az[3],a9=b3[1],a_=n[5],b4=n[3],hP=az[4],hQ=az[2],dU=iL(aO,b4,a_,r,s,a9),dW=bU(a_,r,s,a9),b1=bn(aP,aP),dX=[4,[4,hQ,[6,bn(dU,dU)]],b1],aL=bU(a_,r,s,a9),bW=cC(a_,r,a9[2]),aN=ac([5,[0,b,b],b4],nW(aO,aP)),hF=dz(aN,bW),hG=nV(aO,aP),bX=U(function(b,a){return[2,b,a]},hG,hF),dT=x(aL,bX),hH=x(aN,aN),hI=[4,x(aL,bW),hH],hJ=x(bW,aN),hK=[3,[4,x(aL,aN),hJ],hI],hL=[5,[4,dT,dT],x(aL,aL)],dY=[4,[4,d_,d_],[2,[3,x(bX,bX),hL],hK]],dZ=[4,[4,hP,b1],[6,x(dW,dW)]],hM=bu(aO),d0=p(g(aP),hM),d1=d0?h(l,1,b1):d0,d2=d1?h(l,1,b4):d1,gw=0;if(d2){var
-d3=h(l,1,[3,[2,dX,dY],dZ]);if(d3)var
-d4=d3;else{var
-aY=h(l,1,[3,[3,dX,dY],dZ]);bv=1;bw=1;gw=1}}else
-var
-d4=d2;if(!gw){var
-aY=d4;bv=1;bw=1}}else{var
-aY=b3;bv=1;bw=1}}if(!bw)var
-d8=0}else
-var
-d8=b2;if(!bv){var
-d9=d8;c3=1}}else{var
-d9=d7;c3=1}if(c3)var
-aY=d9;if(!aY){var
-af=n[1],aQ=n[5],eb=e_(l,n[2],w),ec=eb?bT(l,n[4],s):eb,ed=ec?cD(l,aQ,r):ec,ee=ed?bY(bf(s)):ed;if(ee){var
-h7=n[6],h8=2<=af?vr:vs,b7=gA(l,h8,fO,h7);if(b7){var
-aR=b7[1][1];if(typeof
-aR!=="number"&&16===aR[0]){var
-b8=aR[3],eh=aR[2],ei=aR[1],b9=jf(aC(em,eh));if(b9){var
-ej=b9[1],b_=jf(i(c6(em),b8));if(b_){var
-b$=b_[1],a$=nV(af,n6(af,ej,b$)),T=nW(af,n6(af,ej,b$)),en=h(l,1,eh),eo=en?h(l,0,ei):en,ep=eo?h(l,1,b8):eo,er=ep?c7(l,b8):ep,es=er?P(ba(b$,[0,d,b])):er;if(es)var
-h9=g(n[2]),ca=p(g(bp),h9);else
-var
-ca=es;var
-eu=ca?m(function(a){var
-b=bY(bf(a[1]));return b?bY(bf(cC(aQ,r,a[2]))):b},w):ca;if(eu){var
-h_=n[2],ev=je(bp,e(function(a){var
-b=cG(a[2]);return n7(bU(aQ,r,s,[0,cG(a[1]),b]))},h_),ei),ew=bY(ev);if(ew){var
-h$=$($(w,ev),bp),ag=e(function(e){var
-c=e[1],d=c[2],a=c[1],f=cC(aQ,r,a[2]),g=a[1],h=U(function(b,a){return[3,b,a]},s,g),i=[2,d,n7(bU(aQ,r,s,a))];return[0,jd([5,[0,e[2],b],i]),d,h,f]},h$),b5=[0,c(2,b),b],b6=function(b){return fj(function(a){var
-c=a[3],d=i(b,a[4]);return ac([4,a[1],d],c)},ag)},d$=fi(function(a){var
-b=x(a[3],a[4]);return[4,a[1],b]},ag),ea=x(T,T),hR=b6(function(a){return a[3]}),hS=ac(T[3],hR),hT=b6(function(a){return a[2]}),hU=ac(T[2],hT),hV=b6(function(a){return a[1]}),hW=ac(T[1],hV),hX=U(function(b,a){return[2,b,a]},hW,hU),hY=[4,ea,d$],hZ=x(T,U(function(b,a){return[2,b,a]},hX,hS)),h0=[3,[2,x(T,fj(function(a){var
-b=dz(a[4],a[3]);return ac(a[1],b)},ag)),hZ],hY],h1=[2,[4,b5,d$],[4,[5,[0,c(2,c(2,b)),b],[2,[0,b,b],ea]],h0]],h2=[4,b5,x(a$,mL(T,fj(function(a){return ac(a[1],a[4])},ag)))],h3=x(a$,a$),h4=[2,[4,fi(function(a){return a[1]},ag),h3],h2],h5=[4,b5,x(fj(function(a){return ac(a[1],a[3])},ag),a$)],h6=[2,[2,[2,fi(function(a){var
-b=[4,a[2],a[2]],c=x(a[4],a[4]),d=[3,[2,x(a[3],a[3]),c],b];return[4,a[1],d]},ag),h5],h4],h1],ia=cF(af);return n5(l,bu(af),ia,h6)}var
-ex=ew}else
-var
-ex=eu;var
-ey=ex}else
-var
-ey=b_;var
-ez=ey}else
-var
-ez=b9;return ez}var
-ef=0}else
-var
-ef=b7;var
-eg=ef}else
-var
-eg=ee;return eg}var
-fP=aY}else
-var
-fP=bo;return fP}var
-fL=0}var
+fL=cx;var
 fM=fL}else
 var
-fM=cA;var
-fN=fM}else
+fM=cw;return fM}var
+ji=g(E),cu=jS(0,jR(H),ji,ag,af,I);if(cu){var
+aU=cu[1],s=aG(aB(B,ai)),p=aM(B,ai),cZ=fb(k,n[2],u),c0=cZ?bn(k,n[4],s):cZ,c1=c0?cg(k,n[5],p):c0;if(c1)var
+M=n[5],c2=n[3],c3=n[1],gp=n[6],bt=function(a){var
+b=bW(M,p,s,a);return x(bW(M,p,s,a),b)},gi=e(function(a){return[0,iR(c3,c2,M,p,s,a)]},u),gj=e(bt,u),gk=function(a){var
+b=cD(M,p,a);return U(function(b,a){return[2,b,a]},s,b)},gl=e(function(a){var
+b=[6,bt(a)],c=bW(M,p,s,a),d=cD(M,p,a[2]);return[0,[0,[0,U(function(b,a){return[2,b,a]},s,d),c],b]]},u),gm=e(function(a){return 0},u),gn=e(function(a){return[0,[6,bt(a)]]},u),go=[0,e(function(c){var
+a=ay(bW(M,p,s,c));return iQ(c3,a,V([5,[0,b,b],c2],c7(cD(M,p,c[2]),a)))},u),gn,gm,gl,gk,gj,gi],gq=bv(n[1]),gr=2<=n[1]?tC:tD,cv=iK(k,gr,gq,go,gp,aU);else
 var
-fN=fK;return fN;default:return 0}case
+cv=c1;if(cv)var
+fr=cv;else{if(typeof
+aU!=="number"&&0===aU[0]){var
+bk=aU[2];if(bk){if(bk[2])return 0;var
+bl=bk[1],fx=aU[1],aJ=n[1],dQ=fb(k,n[2],u),dR=dQ?bn(k,n[4],s):dQ,dS=dR?cg(k,n[5],p):dR,cY=0;if(dS){var
+hz=n[6],hA=2<=aJ?vk:vl,bS=gI(k,hA,fx,hz),bq=0;if(bS){var
+av=bS[1][1],br=0;if(typeof
+av!=="number"&&15===av[0]){var
+bT=G(u,av[1]);if(bT){var
+aL=mJ(bl),dV=av[3],a4=bT[1],a5=n[5],bU=n[3],hB=av[4],hC=av[2],dE=iR(aJ,bU,a5,p,s,a4),dF=bW(a5,p,s,a4),bR=bo(aL,aL),dG=[4,[4,hC,[6,bo(dE,dE)]],bR],aH=bW(a5,p,s,a4),bP=cD(a5,p,a4[2]),aI=V([5,[0,b,b],bU],n3(aJ,aL)),hr=c7(aI,bP),hs=n2(aJ,aL),bQ=U(function(b,a){return[2,b,a]},hs,hr),dD=x(aH,bQ),ht=x(aI,aI),hu=[4,x(aH,bP),ht],hv=x(bP,aI),hw=[3,[4,x(aH,aI),hv],hu],hx=[5,[4,dD,dD],x(aH,aH)],dI=[4,[4,dV,dV],[2,[3,x(bQ,bQ),hx],hw]],dJ=[4,[4,hB,bR],[6,x(dF,dF)]],hy=bv(aJ),dL=q(g(aL),hy),dM=dL?h(k,1,bR):dL,dN=dM?h(k,1,bU):dM,gh=0;if(dN){var
+dO=h(k,1,[3,[2,dG,dI],dJ]);if(dO)var
+dP=dO;else{var
+aV=h(k,1,[3,[3,dG,dI],dJ]);bq=1;br=1;gh=1}}else
+var
+dP=dN;if(!gh){var
+aV=dP;bq=1;br=1}}else{var
+aV=bT;bq=1;br=1}}if(!br)var
+dT=0}else
+var
+dT=bS;if(!bq){var
+dU=dT;cY=1}}else{var
+dU=dS;cY=1}if(cY)var
+aV=dU;if(!aV){var
+Z=n[1],aN=n[5],dZ=fb(k,n[2],u),d0=dZ?bn(k,n[4],s):dZ,d1=d0?cg(k,aN,p):d0,d2=d1?bZ(bf(s)):d1;if(d2){var
+hT=n[6],hU=2<=Z?vD:vE,b2=gI(k,hU,fx,hT);if(b2){var
+aO=b2[1][1];if(typeof
+aO!=="number"&&16===aO[0]){var
+b3=aO[3],d5=aO[2],d6=aO[1],b4=jo(aD(en,d5));if(b4){var
+d7=b4[1],b5=jo(j(c8(en),b3));if(b5){var
+b6=b5[1],a6=n2(Z,oe(Z,d7,b6)),N=n3(Z,oe(Z,d7,b6)),d8=h(k,1,d5),d9=d8?h(k,0,d6):d8,d_=d9?h(k,1,b3):d9,d$=d_?c9(k,b3):d_,ea=d$?L(ba(b6,[0,d,b])):d$;if(ea)var
+hV=g(n[2]),b7=q(g(bl),hV);else
+var
+b7=ea;var
+eb=b7?m(function(a){var
+b=bZ(bf(a[1]));return b?bZ(bf(cD(aN,p,a[2]))):b},u):b7;if(eb){var
+hW=n[2],ec=jn(bl,e(function(a){var
+b=cG(a[2]);return of(bW(aN,p,s,[0,cG(a[1]),b]))},hW),d6),ed=bZ(ec);if(ed){var
+hX=aa(aa(u,ec),bl),ab=e(function(e){var
+c=e[1],d=c[2],a=c[1],f=cD(aN,p,a[2]),g=a[1],h=U(function(b,a){return[3,b,a]},s,g),i=[2,d,of(bW(aN,p,s,a))];return[0,jm([5,[0,e[2],b],i]),d,h,f]},hX),bX=[0,c(2,b),b],bY=function(b){return fo(function(a){var
+c=a[3],d=j(b,a[4]);return V([4,a[1],d],c)},ab)},dX=fn(function(a){var
+b=x(a[3],a[4]);return[4,a[1],b]},ab),dY=x(N,N),hD=bY(function(a){return a[3]}),hE=V(N[3],hD),hF=bY(function(a){return a[2]}),hG=V(N[2],hF),hH=bY(function(a){return a[1]}),hI=V(N[1],hH),hJ=U(function(b,a){return[2,b,a]},hI,hG),hK=[4,dY,dX],hL=x(N,U(function(b,a){return[2,b,a]},hJ,hE)),hM=[3,[2,x(N,fo(function(a){var
+b=c7(a[4],a[3]);return V(a[1],b)},ab)),hL],hK],hN=[2,[4,bX,dX],[4,[5,[0,c(2,c(2,b)),b],[2,[0,b,b],dY]],hM]],hO=[4,bX,x(a6,mR(N,fo(function(a){return V(a[1],a[4])},ab)))],hP=x(a6,a6),hQ=[2,[4,fn(function(a){return a[1]},ab),hP],hO],hR=[4,bX,x(fo(function(a){return V(a[1],a[3])},ab),a6)],hS=[2,[2,[2,fn(function(a){var
+b=[4,a[2],a[2]],c=x(a[4],a[4]),d=[3,[2,x(a[3],a[3]),c],b];return[4,a[1],d]},ab),hR],hQ],hN],hY=cF(Z);return od(k,bv(Z),hY,hS)}var
+ee=ed}else
+var
+ee=eb;var
+ef=ee}else
+var
+ef=b5;var
+eg=ef}else
+var
+eg=b4;return eg}var
+d3=0}else
+var
+d3=b2;var
+d4=d3}else
+var
+d4=d2;return d4}var
+fy=aV}else
+var
+fy=bk;return fy}var
+fr=0}var
+fs=fr}else
+var
+fs=cu;var
+ft=fs}else
+var
+ft=fq;return ft;default:return 0}case
 3:var
-ap=a[7],a0=a[6],a1=a[5],aq=a[4],cI=a[3],ar=a[2],aD=a[1],as=v[2];switch(as[0]){case
+ak=a[7],aW=a[6],aX=a[5],am=a[4],cz=a[3],an=a[2],ax=a[1],ap=t[2];switch(ap[0]){case
 0:var
-f0=as[3],jZ=g(f0),j0=hg(i_(jv(aD,ar,cI,aq,a1,a0,ap)[1])),cJ=dJ(g(aD),j0,0,0,jZ,f0);if(cJ){var
-f1=cJ[1];if(f1[2])return 0;var
-f2=o3(aD,ar,aq,a1,a0,ap);if(f2){var
-j1=f1[1],O=jv(aD,ar,cI,aq,a1,a0,ap),j2=he(0,BE,g(aq),0,ap),f3=jL(as[2]),a2=as[1],dL=nS(O[1]);if(dL)var
-hq=O[1][2],bO=m(function(a){return bt(l,a[2][1],a[2][2])},hq);else
+fN=ap[3],jv=g(fN),jw=hp(jh(jE(ax,an,cz,am,aX,aW,ak)[1])),cA=dK(g(ax),jw,0,0,jv,fN);if(cA){var
+fO=cA[1];if(fO[2])return 0;var
+fP=pb(ax,an,am,aX,aW,ak);if(fP){var
+jx=fO[1],K=jE(ax,an,cz,am,aX,aW,ak),jy=fA(0,BS,g(am),0,ak),fQ=hq(ap[2]),aY=ap[1],dt=nZ(K[1]);if(dt)var
+g3=K[1][2],bL=m(function(a){return bu(k,a[2][1],a[2][2])},g3);else
 var
-bO=dL;if(bO)var
-hr=O[2],bP=m(function(a){return bt(l,a[1],a[2])},hr);else
+bL=dt;if(bL)var
+g5=K[2],bM=m(function(a){return bu(k,a[1],a[2])},g5);else
 var
-bP=bO;if(bP){var
-B=O[1],bF=g(B[1]),a4=O[3],bG=g(B[2]),ds=R(bG,g(ff(e(aZ,B[3])))),gR=B[3],dt=nN(gV(B),gR,bG),ae=i9(bF,dt,B[4],ds),gS=i7(dt,B[4],ds),gU=B[3],du=f(i6(gV(B),gU,bG),gS),dv=g(i_(B)),gW=0,gX=f(du,c9(function(a,b){return nK(ae,a,b)},gW,d,dv,a4)),gY=f(bS(fe(ae)),gX),dy=f(bS(ek(ae)),gY),bH=cR(dy)[1],gZ=cQ(bH),ax=function(a){return bc(gZ,a)},dA=p(g(O[2]),bF);if(dA)var
-g0=B[4],bI=m(function(a){return 0===a[0]?p(g(a[1]),bF):1},g0);else
+bM=bL;if(bM){var
+w=K[1],bz=g(w[1]),a1=K[3],bC=g(w[2]),dd=R(bC,g(fk(e(aZ,w[3])))),gy=w[3],de=nU(g6(w),gy,bC),Y=jg(bz,de,w[4],dd),gz=je(de,w[4],dd),gA=w[3],df=f(jd(g6(w),gA,bC),gz),dg=g(jh(w)),gD=0,gE=f(df,c$(function(a,b){return nR(Y,a,b)},gD,d,dg,a1)),gF=f(bB(fj(Y)),gE),dh=f(bB(el(Y)),gF),bE=cS(dh)[1],gG=cR(bE),at=function(a){return bc(gG,a)},di=q(g(K[2]),bz);if(di)var
+gJ=w[4],bF=m(function(a){return 0===a[0]?q(g(a[1]),bz):1},gJ);else
 var
-bI=dA;var
-dB=bI?m(function(a){var
-b=k(d),c=cQ(bH);return aJ(q(ax(a),c,b),a)},dy):bI,dC=dB?ak(nM,a4):dB;if(dC){var
-dD=P(O[4]);if(dD)var
-a5=dD;else
+bF=di;var
+dk=bF?m(function(a){var
+b=l(d),c=cR(bE);return aK(r(at(a),c,b),a)},dh):bF,dl=dk?aj(nT,a1):dk;if(dl){var
+dm=L(K[4]);if(dm)var
+a2=dm;else
 var
-hp=B[4],a5=m(function(a){return 0===a[0]?0:1},hp)}else
+g2=w[4],a2=m(function(a){return 0===a[0]?0:1},g2)}else
 var
-a5=dC;if(a5){var
-g3=i_(B),bJ=ab(e(function(a){return ao(a2,a)},g3));if(bJ){var
-g4=0,g6=y(function(a){return e9(g4,d,a)},a4),bK=ab(e(function(a){return iJ(a2,a)},g6));if(bK){var
-g7=O[2],bL=ab(e(function(a){return ao(a2,[0,a,d])},g7));if(bL){var
-g8=0,g9=0,bM=ab(c9(function(a,b){return nL(a2,ax,ae,g9,d,a,b)},g8,d,dv,a4));if(bM){var
-dE=bM[1];if(O[4])var
-g_=f3[2],g$=f3[1],hd=fe(ae),bN=mp(j2,dE,[8,i(aw(ax),hd),g$,g_]);else
+a2=dl;if(a2){var
+gK=jh(w),bG=ac(e(function(a){return ao(aY,a)},gK));if(bG){var
+gL=0,gM=y(function(a){return fa(gL,d,a)},a1),bH=ac(e(function(a){return iP(aY,a)},gM));if(bH){var
+gN=K[2],bI=ac(e(function(a){return ao(aY,[0,a,d])},gN));if(bI){var
+gO=0,gP=0,bJ=ac(c$(function(a,b){return nS(aY,at,Y,gP,d,a,b)},gO,d,dg,a1));if(bJ){var
+dn=bJ[1];if(K[4])var
+gQ=fQ[2],gR=fQ[1],gS=fj(Y),bK=iJ(jy,dn,[8,j(au(at),gS),gR,gQ]);else
 var
-bN=dE;var
-hh=ir(bN),hi=bL[1],hj=function(a){return 0},hk=f(bJ[1],bK[1]),hl=e(ax,du),hm=fe(ae),hn=i(aw(ax),hm),ho=ek(ae);return fx(iq(a2,bH,i(aw(ax),ho),hn,hl,hk,bN,hj),hi,hh,j1)}var
-dF=bM}else
+bK=dn;var
+gT=iB(bK),gU=bI[1],gV=function(a){return 0},gW=f(bG[1],bH[1]),gY=e(at,df),gZ=fj(Y),g0=j(au(at),gZ),g1=el(Y);return fG(iA(aY,bE,j(au(at),g1),g0,gY,gW,bK,gV),gU,gT,jx)}var
+dp=bJ}else
 var
-dF=bL;var
-dH=dF}else
+dp=bI;var
+dq=dp}else
 var
-dH=bK;var
-dI=dH}else
+dq=bH;var
+dr=dq}else
 var
-dI=bJ;var
-dK=dI}else
+dr=bG;var
+ds=dr}else
 var
-dK=a5;return dK}return bP}var
-f4=f2}else
+ds=a2;return ds}return bM}var
+fR=fP}else
 var
-f4=cJ;return f4;case
+fR=cA;return fR;case
 1:var
-f5=as[3],a3=jv(aD,ar,cI,aq,a1,a0,ap),j3=e(j,f5),f6=bh(e(aZ,ar),j3);if(f6[2])return 0;var
-j4=as[4],cK=jJ(0,BF,g(aq),0,ap,j4);if(cK){var
-f7=hf(e(aZ,ar),f5),f8=f7?o3(aD,ar,aq,a1,a0,ap):f7,f9=f8?nS(a3[1]):f8;if(f9)var
-j5=a3[2],cL=m(function(a){return bt(l,a[1],a[2])},j5);else
+fS=ap[3],a0=jE(ax,an,cz,am,aX,aW,ak),jF=e(i,fS),fT=bh(e(aZ,an),jF);if(fT[2])return 0;var
+jG=ap[4],cB=jS(0,BT,g(am),0,ak,jG);if(cB){var
+fU=ho(e(aZ,an),fS),fV=fU?pb(ax,an,am,aX,aW,ak):fU,fW=fV?nZ(a0[1]):fV;if(fW)var
+jH=a0[2],cC=m(function(a){return bu(k,a[1],a[2])},jH);else
 var
-cL=f9;if(cL){var
-j6=cK[1],at=e(j,as[2]),f_=f6[1],C=a3[1],a6=g(C[1]),bQ=g(C[2]),dM=R(bQ,g(ff(e(aZ,C[3])))),hy=C[3],dN=nN(gV(C),hy,bQ),aH=i9(a6,dN,C[4],dM),hz=i7(dN,C[4],dM),hA=C[3],dO=f(i6(gV(C),hA,bQ),hz),hB=y(gT,C[4]),hC=f(ff(e(aZ,C[3])),hB),aK=f(f_,e(function(a){return a[1][1]},hC)),dP=nU(l,e(aZ,C[2]),f_),dQ=dP?nU(l,a3[2],at):dP,dR=dQ?p(g(at),a6):dQ;if(dR)var
-hD=C[4],bV=m(function(a){return 0===a[0]?p(g(a[1]),a6):1},hD);else
+cC=fW;if(cC){var
+jI=cB[1],aq=e(i,ap[2]),fX=fT[1],A=a0[1],a3=g(A[1]),bN=g(A[2]),du=R(bN,g(fk(e(aZ,A[3])))),hd=A[3],dv=nU(g6(A),hd,bN),aE=jg(a3,dv,A[4],du),hf=je(dv,A[4],du),hg=A[3],dw=f(jd(g6(A),hg,bN),hf),hh=y(g4,A[4]),hi=f(fk(e(aZ,A[3])),hh),aF=f(fX,e(function(a){return a[1][1]},hi)),dx=n1(k,e(aZ,A[2]),fX),dA=dx?n1(k,a0[2],aq):dx,dB=dA?q(g(aq),a3):dA;if(dB)var
+hj=A[4],bO=m(function(a){return 0===a[0]?q(g(a[1]),a3):1},hj);else
 var
-bV=dR;var
-dS=bV?m(nT,f(y(uZ,aH),dO)):bV;if(dS){var
-hE=a3[3],hs=e(function(a){var
-b=a[1];return[0,e(function(a){return el(at,aK,a)},b)]},aH),ht=y(function(c){var
+bO=dB;var
+dC=bO?m(n0,f(y(u$,aE),dw)):bO;if(dC){var
+hn=a0[3],g7=e(function(a){var
+b=a[1];return[0,e(function(a){return em(aq,aF,a)},b)]},aE),g8=y(function(c){var
 a=c[1];switch(a[0]){case
 7:var
-b=el(at,aK,a[2]);return[0,[4,b,b],0];case
-9:return[0,el(at,aK,a[1]),0];default:return 0}},dO),hu=function(a){return a},hv=0,hw=e(function(a){return 0},aH),hx=e(function(b){var
+b=em(aq,aF,a[2]);return[0,[4,b,b],0];case
+9:return[0,em(aq,aF,a[1]),0];default:return 0}},dw),g9=function(a){return a},g_=0,g$=e(function(a){return 0},aE),hc=e(function(b){var
 a=b[4];if(typeof
-a!=="number"&&0===a[0])return[0,el(at,aK,a[1])];return 0},aH);return iz(l,u0,a6,[0,e(function(a){var
-b=a[3];return e(function(a){return el(at,aK,a)},b)},aH),hx,hw,hv,hu,ht,hs],hE,j6)}return dS}var
-f$=cL}else
+a!=="number"&&0===a[0])return[0,em(aq,aF,a[1])];return 0},aE);return iK(k,va,a3,[0,e(function(a){var
+b=a[3];return e(function(a){return em(aq,aF,a)},b)},aE),hc,g$,g_,g9,g8,g7],hn,jI)}return dC}var
+fY=cC}else
 var
-f$=cK;return f$;default:return 0}case
+fY=cB;return fY;default:return 0}case
 4:var
-au=a[3],aE=a[2],bq=a[1],aF=v[2];switch(aF[0]){case
+ar=a[3],az=a[2],bm=a[1],as=t[2];switch(as[0]){case
 0:var
-j7=aF[3],j8=aF[1],e3=dh(j(bq));if(e3){var
-ct=oG(au);if(ct){var
-e4=ct[1],aT=e4[2],e5=j(aT),e7=j(e4[1]),eD=h(l,1,j(aE)),eE=eD?h(l,1,[3,e5,[0,b,b]]):eD,eF=eE?h(l,1,e7):eE,e8=eF?h(l,0,[3,[5,[0,b,b],e5],e7]):eF;if(e8)var
-ji=0,jj=0,cu=m(function(a){return oB(jj,ji,BC,a)},au);else
-var
-cu=e8;var
-e$=cu?m(function(c){if(1===c[1]){var
+jJ=as[3],jL=as[2],jO=as[1],eN=dj(i(bm));if(eN){var
+co=oQ(ar);if(co){var
+eO=co[1],aR=eO[2],eP=i(aR),eQ=i(eO[1]),ek=h(k,1,i(az)),eo=ek?h(k,1,[3,eP,[0,b,b]]):ek,ep=eo?h(k,1,eQ):eo,eR=ep?h(k,0,[3,[5,[0,b,b],eP],eQ]):ep,eS=eR?m(function(a){var
+b=oL(0,0,BQ,a);if(b)var
+c=b;else{var
+d=cJ(a);if(d)return aP(0,0,a);var
+c=d}return c},ar):eR,eT=eS?m(function(c){if(1===c[1]){var
 a=c[4];if(typeof
-a!=="number"&&0===a[0])return h(l,0,[3,[0,d,b],j(a[1])]);return 1}return 1},au):cu;if(e$){var
-cs=br(function(a){return P(oH(a))},au);if(cs){var
-jk=[0,c(2,b),b],bg=h(l,0,[3,j(aT),jk]);if(bg)var
-cv=bg;else
+a!=="number"&&0===a[0])return h(k,0,[3,[0,d,b],i(a[1])]);return 1}return 1},ar):eS;if(eT){var
+cn=bs(function(a){return L(oR(a))},ar);if(cn){var
+iZ=[0,c(2,b),b],a$=h(k,0,[3,i(aR),iZ]);if(a$)var
+cp=a$;else
 var
-jn=j(aT),cv=h(l,0,[3,[0,c(2,b),b],jn]);if(cv){var
-e2=y(function(a){var
-b=ju(0,By,0,a);return y(function(b){var
-c=gz(l,Bz,b);return al(P(oH(a)),c)},b)},au),jg=function(f){var
+i2=i(aR),cp=h(k,0,[3,[0,c(2,b),b],i2]);if(cp){var
+eM=y(function(a){if(cJ(a))return BL;var
+b=jD(0,BM,0,a);return y(function(b){var
+c=gH(k,BN,b);return al(L(oR(a)),c)},b)},ar),iX=function(f){var
 h=f[1];if(h){var
-i=h[1],j=q(i,e2,0);if(j)var
-l=aI(i,e2),k=[0,[0,g(br(function(a){return a},l))]];else
+i=h[1],j=r(i,eM,0);if(j)var
+l=aB(i,eM),k=[0,[0,g(bs(function(a){return a},l))]];else
 var
 k=j;var
 a=k}else
 var
-a=BB;if(a){var
+a=BP;if(a){var
 c=a[1],e=f[2];switch(e[0]){case
 0:return[0,[0,c,[0,e[1]]],0];case
-2:return[0,[0,c,[1,BA,[0,[0,b,[0,d,[0,d,0]]],[0,[0,d,[0,b,[0,d,0]]],[0,[0,d,[0,d,[0,b,0]]],0]]],d]],0];default:return[0,[0,c,e],0]}}return a},jh=e(function(a){var
-b=a[4],c=a[3],d=a[2];return[0,y(jg,a[1]),d,c,b]},j7),jl=[0,cs[1],cs[2]],jm=oL(bg,aE,aT);return o_(0,oK(bg,bq,aE,aT),0,jm,0,jl,j8,jh)}return cv}var
-fa=1}else
+2:return[0,[0,c,[1,BO,[0,[0,b,[0,d,[0,d,0]]],[0,[0,d,[0,b,[0,d,0]]],[0,[0,d,[0,d,[0,b,0]]],0]]],d]],0];default:return[0,[0,c,e],0]}}return a},iY=e(function(a){var
+b=a[4],c=a[3],d=a[2];return[0,y(iX,a[1]),d,c,b]},jJ),i0=[0,cn[1],cn[2]],i1=oV(a$,az,aR);return pi(0,oU(a$,bm,az,aR),0,i1,0,i0,jO,jL,iY)}return cp}var
+eU=1}else
 var
-fa=e$;var
-fb=fa}else
+eU=eT;var
+eV=eU}else
 var
-fb=ct;var
-fc=fb}else
+eV=co;var
+eW=eV}else
 var
-fc=e3;return fc;case
+eW=eN;return eW;case
 1:var
-j9=aF[4],j_=aF[3],j$=aF[2],fg=dh(j(bq));if(fg){var
-cx=oG(au);if(cx){var
-aU=cx[1][2],jo=[0,c(2,b),b],bi=h(l,0,[3,j(aU),jo]),fh=h(l,1,j(aE)),fk=fh?h(l,1,[3,j(aU),[0,b,b]]):fh;if(fk)if(bi)var
-bj=bi;else
+jU=as[4],jV=as[3],jW=as[2],eX=dj(i(bm));if(eX){var
+cq=oQ(ar);if(cq){var
+aS=cq[1][2],i3=[0,c(2,b),b],bd=h(k,0,[3,i(aS),i3]),eY=h(k,1,i(az)),e0=eY?h(k,1,[3,i(aS),[0,b,b]]):eY;if(e0)if(bd)var
+be=bd;else
 var
-jw=j(aU),bj=h(l,0,[3,[0,c(2,b),b],jw]);else
+i5=i(aS),be=h(k,0,[3,[0,c(2,b),b],i5]);else
 var
-bj=fk;if(bj){var
-jp=oL(bi,aE,aU);return o$(0,oK(bi,bq,aE,aU),0,jp,0,au,j$,j_,j9)}var
-fl=bj}else
+be=e0;if(be){var
+i4=oV(bd,az,aS);return pj(0,oU(bd,bm,az,aS),0,i4,0,ar,jW,jV,jU)}var
+e1=be}else
 var
-fl=cx;var
-fm=fl}else
+e1=cq;var
+e2=e1}else
 var
-fm=fg;return fm;default:return 0}case
+e2=eX;return e2;default:return 0}case
 5:var
-cM=a[4],ga=a[1],cN=v[2];if(0===cN[0]){var
-gb=cN[3],A=jt(ga,[0,a[2],a[3]],0,cM),ka=g(gb),cO=jE(jK(A),ka,gb);if(cO){var
-gc=cO[1];if(gc[2])return 0;var
-gd=jH(ga,0,cM,A),ge=gd?P(ak(et,cM)):gd;if(ge){var
-gf=mo(l,A);if(gf){var
-kb=gc[1],gg=e(hb,A[1]),I=hc(A[1]),gh=j(a[5]),ad=cN[1],ce=gs(I,gg,A[1]),V=is(I,gg,A[1],0),ig=g(A[3]),ih=R(g(ce),ig),bd=[0,g(ce),ih],ii=iu(V,I,bd,A[3]),ij=f(e(cV,V),ii),eH=f(bS(eZ(V)),ij),eI=cR(eH)[1],cf=cQ(eI),eJ=A[2];if(0===eJ[0]){var
-eK=m(function(a){var
-b=k(d);return aJ(q(bc(cf,a),cf,b),a)},eH),eL=eK?h(l,1,gh):eK;if(eL){var
-ik=A[3],il=y(function(a){return dx(I,a)},ik),im=A[3],io=f(ce,f(e(function(a){return bR(I,a)},im),il)),cg=ab(e(function(a){return ao(ad,a)},io));if(cg){var
-ip=a7(eJ[1],I),ch=ab(e(function(a){return ao(ad,a)},ip));if(ch){var
-ci=cT(ad,I,[5,gh,[0,c(2,c(2,c(2,c(2,b)))),b]]);if(ci){var
-cj=A[3],it=ch[1],iv=cg[1],iw=ci[1],aS=function(a){return bc(cf,a)},ic=aB(0,g(cj)),id=e(function(k){var
-l=G(cj,k);if(l){var
-a=l[1],u=aI(k,cj),v=g(y(function(a){return dx(I,a)},u)),w=R(bd[2],v),j=[0,R(bd[1],k),w],r=eZ(V),f=i(aw(aS),r),c=[1,[8,[1,[1,j[1]]]]],d=gt(V,I,j,a),n=d?[0,[3,e(aS,[0,d[1],d[2]])]]:d,m=0;if(typeof
+cE=a[4],fZ=a[1],cH=t[2];if(0===cH[0]){var
+f0=cH[3],v=jC(fZ,[0,a[2],a[3]],0,cE),jX=g(f0),cI=jN(jT(v),jX,f0);if(cI){var
+f1=cI[1];if(f1[2])return 0;var
+f2=jQ(fZ,0,cE,v),f3=f2?L(aj(cJ,cE)):f2;if(f3){var
+f4=mw(k,v);if(f4){var
+jY=f1[1],f5=e(hl,v[1]),C=hm(v[1]),f6=i(a[5]),X=cH[1],b$=gB(C,f5,v[1]),O=iC(C,f5,v[1],0),h3=g(v[3]),h4=R(g(b$),h3),a9=[0,g(b$),h4],h5=iE(O,C,a9,v[3]),h6=f(e(cW,O),h5),es=f(bB(eZ(O)),h6),et=cS(es)[1],ca=cR(et),eu=v[2];if(0===eu[0]){var
+ev=m(function(a){var
+b=l(d);return aK(r(bc(ca,a),ca,b),a)},es),ew=ev?h(k,1,f6):ev;if(ew){var
+h7=v[3],h8=y(function(a){return dz(C,a)},h7),h9=v[3],h_=f(b$,f(e(function(a){return bV(C,a)},h9),h8)),cb=ac(e(function(a){return ao(X,a)},h_));if(cb){var
+h$=a7(eu[1],C),cc=ac(e(function(a){return ao(X,a)},h$));if(cc){var
+cd=cU(X,C,[5,f6,[0,c(2,c(2,c(2,c(2,b)))),b]]);if(cd){var
+ce=v[3],ia=cc[1],ib=cb[1],ic=cd[1],aQ=function(a){return bc(ca,a)},h0=aC(0,g(ce)),h1=e(function(k){var
+l=G(ce,k);if(l){var
+a=l[1],u=aB(k,ce),v=g(y(function(a){return dz(C,a)},u)),w=R(a9[2],v),i=[0,R(a9[1],k),w],r=eZ(O),f=j(au(aQ),r),c=[1,[8,[1,[1,i[1]]]]],d=gC(O,C,i,a),n=d?[0,[3,e(aQ,[0,d[1],d[2]])]]:d,m=0;if(typeof
 a!=="number")switch(a[0]){case
 0:return[0,[0,f,c]];case
 1:return[0,[1,f,c]];case
 4:var
-o=h(ad,1,a[2]),s=o?n:o;return s;case
+o=h(X,1,a[2]),s=o?n:o;return s;case
 5:return[0,[2,f,c]];case
 8:var
-p=h(ad,1,[5,a[2],a[1]]);if(!p)return p;var
+p=h(X,1,[5,a[2],a[1]]);if(!p)return p;var
 q=[1,[2,b]];m=1;break;case
 9:var
 q=c;m=1;break;case
@@ -7894,27 +7980,27 @@ q=c;m=1;break;case
 3:case
 6:case
 7:return n}if(m){var
-t=e6(V,I,j,a);return z(function(a){return[0,i(aw(aS),a),q]},t)}return 0}return l},ic),ie=e(function(a){return aS(cV(a))},V),eG=e(function(a){return aS(a[2])},V),ix=A[3],iA=bd[1],cd=function(aC,aB,aA){var
+t=e6(O,C,i,a);return z(function(a){return[0,j(au(aQ),a),q]},t)}return 0}return l},h0),h2=e(function(a){return aQ(cW(a))},O),eq=e(function(a){return aQ(a[2])},O),id=v[3],ie=a9[1],b_=function(aC,aB,aA){var
 k=aC,l=aB,f=aA;for(;;)switch(f[0]){case
 0:var
-v=f[1],$=p(g(v),vB),aa=$?m(function(a){var
-d=D(Q(c(2,c(2,c(2,b)))),a);return d?D(a,c(2,c(2,c(2,b)))):d},v):$;if(aa){var
-ab=of(ad,iw,dw(0,l),v),j=f[2],w=bb(0,bz(ad,ab,e(Z,k)),eI,0),aD=e(Z,k),M=function(a){return oe(od(ad,ab,aD,w,a))};if(typeof
-j==="number")return 0===j?ak(function(b){var
-a=q(b,w,0);return a?D(a[1][2][2],d):a},eG):0;else{if(0===j[0]){var
-a=j[2],N=m(vz,a);if(N){var
-r=q(j[1],id,0);if(r){var
-i=r[1];switch(i[0]){case
+v=f[1],aa=q(g(v),vN),ab=aa?m(function(a){var
+d=D(Q(c(2,c(2,c(2,b)))),a);return d?D(a,c(2,c(2,c(2,b)))):d},v):aa;if(ab){var
+ac=op(X,ic,dy(0,l),v),j=f[2],w=bb(0,bA(X,ac,e(_,k)),et,0),aD=e(_,k),M=function(a){return oo(on(X,ac,aD,w,a))};if(typeof
+j==="number")return 0===j?aj(function(b){var
+a=r(b,w,0);return a?D(a[1][2][2],d):a},eq):0;else{if(0===j[0]){var
+a=j[2],N=m(vL,a);if(N){var
+p=r(j[1],h1,0);if(p){var
+i=p[1];switch(i[0]){case
 0:var
 x=0;if(a)if(a[2])var
 h=0;else{var
-A=a[1],B=i[1],ap=g2(B,A),aq=g1(A),C=[0,[0,B,[0,[1,[4,[1,[6,i[2],aq]],ap]],0]]];x=1}else{var
+A=a[1],B=i[1],ap=hb(B,A),aq=ha(A),C=[0,[0,B,[0,[1,[4,[1,[6,i[2],aq]],ap]],0]]];x=1}else{var
 C=a;x=1}if(x)var
 h=C;break;case
 1:var
 y=0;if(a)if(a[2])var
 h=0;else{var
-E=a[1],F=i[1],ar=g1(E),as=[1,[6,i[2],ar]],H=[0,[0,F,[0,[1,[4,g2(F,E),as]],0]]];y=1}else{var
+E=a[1],F=i[1],ar=ha(E),as=[1,[6,i[2],ar]],H=[0,[0,F,[0,[1,[4,hb(F,E),as]],0]]];y=1}else{var
 H=a;y=1}if(y)var
 h=H;break;case
 2:var
@@ -7922,7 +8008,7 @@ z=0;if(a){var
 n=a[2],ao=0;if(n)if(n[2]){var
 h=0;ao=1}else
 var
-I=n[1],J=a[1],o=i[1],at=g1(J),au=[1,[6,g2(o,I),at]],av=[1,[6,i[2],au]],aw=g1(I),K=[0,[0,o,[0,[1,[4,[1,[6,g2(o,J),aw]],av]],0]]];else
+I=n[1],J=a[1],o=i[1],at=ha(J),au=[1,[6,hb(o,I),at]],av=[1,[6,i[2],au]],aw=ha(I),K=[0,[0,o,[0,[1,[4,[1,[6,hb(o,J),aw]],av]],0]]];else
 var
 K=n;if(!ao){var
 L=K;z=1}}else{var
@@ -7931,128 +8017,128 @@ h=L;break;default:if(a)var
 h=0;else
 var
 ax=i[1],h=[0,[0,0,e(function(a){return[1,[5,[0,a]]]},ax)]]}if(h){var
-O=h[1],ay=O[1],P=m(function(a){return oe(q(a[2],w,0))},ay);if(P)return m(M,O[2]);var
+O=h[1],ay=O[1],P=m(function(a){return oo(r(a[2],w,0))},ay);if(P)return m(M,O[2]);var
 S=P}else
 var
 S=h;var
 T=S}else
 var
-T=r;var
+T=p;var
 U=T}else
 var
 U=N;return U}var
-V=j[2],W=j[1],s=G(ix,W);if(s){var
-X=s[1];if(typeof
-X!=="number"&&1===X[0]){var
-t=G(eG,V);if(t){var
-u=G(ie,V);if(u){var
-az=R(iA,W);return M([1,[4,[1,[8,[0,u[1]]]],[1,[6,[1,[8,[1,[1,az]]]],[0,t[1]]]]]])}var
-_=u}else
+V=j[2],W=j[1],s=G(id,W);if(s){var
+Y=s[1];if(typeof
+Y!=="number"&&1===Y[0]){var
+t=G(eq,V);if(t){var
+u=G(h2,V);if(u){var
+az=R(ie,W);return M([1,[4,[1,[8,[0,u[1]]]],[1,[6,[1,[8,[1,[1,az]]]],[0,t[1]]]]]])}var
+$=u}else
 var
-_=t;return _}var
-Y=0}else
+$=t;return $}var
+Z=0}else
 var
-Y=s;return Y}}return aa;case
+Z=s;return Z}}return ab;case
 1:var
-ac=f[1],ae=og(ac,l);if(ae){var
-af=cW(ac,l),ag=cd(k,af[1],f[2]);if(ag){var
+ad=f[1],ae=oq(ad,l);if(ae){var
+af=cX(ad,l),ag=b_(k,af[1],f[2]);if(ag){var
 l=af[2],f=f[3];continue}var
 ah=ag}else
 var
 ah=ae;return ah;default:var
-ai=f[1],aj=og(ai,k);if(aj){var
-al=cW(ai,k),am=cd(al[1],l,f[2]);if(am){var
+ai=f[1],ak=oq(ai,k);if(ak){var
+al=cX(ai,k),am=b_(al[1],l,f[2]);if(am){var
 k=al[2],f=f[3];continue}var
 an=am}else
 var
-an=aj;return an}};return cd(iv,it,kb)}var
-eM=ci}else
+an=ak;return an}};return b_(ib,ia,jY)}var
+ex=cd}else
 var
-eM=ch;var
-eN=eM}else
+ex=cc;var
+ey=ex}else
 var
-eN=cg;var
-eO=eN}else
+ey=cb;var
+ez=ey}else
 var
-eO=eL;return eO}return 0}var
-gi=gf}else
+ez=ew;return ez}return 0}var
+f7=f4}else
 var
-gi=ge;var
-gj=gi}else
+f7=f3;var
+f8=f7}else
 var
-gj=cO;return gj}return 0;case
+f8=cI;return f8}return 0;case
 6:var
-gk=a[1];if(gk){var
-gl=gk[1],cP=v[2];if(0===cP[0]){var
-cS=jD(BH,0,0,0,BG,cP[3]);if(cS){var
-gm=fr(gl);if(gm){var
-kc=cS[1],gn=b0(gl)[2],bs=cP[1],cb=cT(bs,d,gn);if(cb){var
-cc=cT(bs,d,[5,[0,b,b],gn]);if(cc){var
-ib=cb[1][1],eA=J(cr(bs),ib);if(eA)return oc(bs,cc[1][1],kc);var
-eB=eA}else
+f9=a[1];if(f9){var
+f_=f9[1],cK=t[2];if(0===cK[0]){var
+cL=jM(BV,0,0,0,BU,cK[3]);if(cL){var
+f$=fz(f_);if(f$){var
+jZ=cL[1],ga=b1(f_)[2],bp=cK[1],b8=cU(bp,d,ga);if(b8){var
+b9=cU(bp,d,[5,[0,b,b],ga]);if(b9){var
+hZ=b8[1][1],eh=J(ct(bp),hZ);if(eh)return om(bp,b9[1][1],jZ);var
+ei=eh}else
 var
-eB=cc;var
-eC=eB}else
+ei=b9;var
+ej=ei}else
 var
-eC=cb;return eC}var
-go=gm}else
+ej=b8;return ej}var
+gb=f$}else
 var
-go=cS;return go}return 0}var
-cU=v[2];if(0===cU[0]){var
-cX=jD(BJ,0,0,0,BI,cU[3]);return cX?oc(cU[1],d,cX[1]):cX}return 0;default:var
-aG=a[1],gp=v[2];if(2===gp[0]){var
-gq=gp[1],cY=jB(g(gq),gq);if(cY){var
-gr=cY[1];if(gr[2])return 0;var
-cZ=gr[1],eY=_(Bx,g(aG)),e0=eY?_(g(aG),k5):eY,e1=e0?nR(e(av,aG)):e0,gu=e1?m(function(c){var
-a=cw(j(c[2][1]));if(a){var
-b=cw(j(c[2][2]));if(b)return P(ba(b[1],a[1]));var
+gb=cL;return gb}return 0}var
+cM=t[2];if(0===cM[0]){var
+cN=jM(BX,0,0,0,BW,cM[3]);return cN?om(cM[1],d,cN[1]):cN}return 0;default:var
+aA=a[1],gc=t[2];if(2===gc[0]){var
+gd=gc[1],cO=jK(g(gd),gd);if(cO){var
+ge=cO[1];if(ge[2])return 0;var
+cP=ge[1],eJ=$(BK,g(aA)),eK=eJ?$(g(aA),lb):eJ,eL=eK?nY(e(aw,aA)):eK,gf=eL?m(function(c){var
+a=cy(i(c[2][1]));if(a){var
+b=cy(i(c[2][2]));if(b)return L(ba(b[1],a[1]));var
 d=b}else
 var
-d=a;return d},aG):e1;if(gu)var
-kd=ha(Ap,cZ),c0=pd(a[5],kd);else
+d=a;return d},aA):eL;if(gf)var
+j0=hk(AB,cP),cQ=pn(a[5],j0);else
 var
-c0=gu;if(c0)var
-ke=ha(Aq,cZ),c1=pd(a[6],ke);else
+cQ=gf;if(cQ)var
+j1=hk(AC,cP),cT=pn(a[6],j1);else
 var
-c1=c0;if(c1){var
-jc=e(function(a){return[0,d,0]},aG);return pc(aG,a[2],a[3],a[4],jc,cZ)}var
-gv=c1}else
+cT=cQ;if(cT){var
+iW=e(function(a){return[0,d,0]},aA);return pm(aA,a[2],a[3],a[4],iW,cP)}var
+gg=cT}else
 var
-gv=cY;return gv}return 0}}return aW}var
-V=[a1,BM,rA(0)],pe=[a1,BN,rA(0)];function
-BK(l,b){var
-f=[0,n(zK,ap(b[4])),0],g=[0,n(zM,ag([0,n(zL,ap(b[3])),f])),0],a=b[2];switch(a[0]){case
+gg=cO;return gg}return 0}}return aT}var
+W=[a1,B0,rK(0)],po=[a1,B1,rK(0)];function
+BY(l,b){var
+f=[0,n(zW,ap(b[4])),0],g=[0,n(zY,ag([0,n(zX,ap(b[3])),f])),0],a=b[2];switch(a[0]){case
 0:var
-c=M(zG,on(a[1],a[2],a[3]));break;case
+c=N(zS,ox(a[1],a[2],a[3]));break;case
 1:var
-c=M(zH,oo(a[1],a[2],a[3],a[4]));break;default:var
-c=M(zI,H(e(zB,a[1])))}var
-h=[0,n(zN,c),g],i=1===b[2][0]?zT:zO,j=[0,n(zP,ap(i)),h],k=[0,n(zQ,yb(b[1])),j],d=ax(kA(BL,g3(ag([0,n(zS,ap(zR)),k]),zJ)),l);return d?BD(b):d}function
-ai(a){if(0===a[0])return a[1];throw V}function
-ad(a){if(1===a[0])return a[1];throw V}function
-aY(a){if(2===a[0])return a[1];throw V}function
-ft(a){if(3===a[0])return a[1];throw V}function
+c=N(zT,oy(a[1],a[2],a[3],a[4]));break;default:var
+c=N(zU,H(e(zN,a[1])))}var
+h=[0,n(zZ,c),g],i=1===b[2][0]?z5:z0,j=[0,n(z1,ap(i)),h],k=[0,n(z2,yn(b[1])),j],d=ax(kI(BZ,hc(ag([0,n(z4,ap(z3)),k]),zV)),l);return d?BR(b):d}function
+ai(a){if(0===a[0])return a[1];throw W}function
+ad(a){if(1===a[0])return a[1];throw W}function
+aY(a){if(2===a[0])return a[1];throw W}function
+fC(a){if(3===a[0])return a[1];throw W}function
 a9(f,e){var
 a=f;for(;;){if(a){var
-b=a[1],c=a[2],d=b[2];if(0===H$(b[1],e))return[0,d];var
+b=a[1],c=a[2],d=b[2];if(0===Im(b[1],e))return[0,d];var
 a=c;continue}return 0}}function
 v(c,b){var
-a=a9(c,b);if(a)return a[1];throw V}function
-ch(b,a){var
-c=a?[0,i(b,a[1])]:a;return c}function
-dM(a){switch(a[0]){case
+a=a9(c,b);if(a)return a[1];throw W}function
+cj(b,a){var
+c=a?[0,j(b,a[1])]:a;return c}function
+dN(a){switch(a[0]){case
 0:var
 b=a[1];if(b&&!b[2]){var
 c=b[1];return[0,c[1],c[2]]}break;case
-2:return[0,a[1],BP]}throw V}function
-fu(e,d){var
-a=Y(e,ad(d));if(a){var
+2:return[0,a[1],B3]}throw W}function
+fD(e,d){var
+a=Z(e,ad(d));if(a){var
 b=a[2];if(b){var
-c=b[2];if(c&&!c[2])return[0,a[1],b[1],c[1]]}}throw V}function
-hh(i){var
-f=eJ(i),d=[0,0],e=hJ(f)-1|0;if(!(e<0)){var
+c=b[2];if(c&&!c[2])return[0,a[1],b[1],c[1]]}}throw W}function
+hr(i){var
+f=eJ(i),d=[0,0],e=hT(f)-1|0;if(!(e<0)){var
 c=e;for(;;){var
-a=d[1],g=kg(f,c)-48|0;if(9<g>>>0)throw V;switch(g){case
+a=d[1],g=ko(f,c)-48|0;if(9<g>>>0)throw W;switch(g){case
 0:var
 b=[0,a];break;case
 1:var
@@ -8074,98 +8160,98 @@ b=[8,a];break;default:var
 b=[9,a]}d[1]=b;var
 h=c-1|0;if(0!==c){var
 c=h;continue}break}}return d[1]}function
-fv(a){return kQ(hh(a))}function
+fE(a){return kY(hr(a))}function
 ev(b){var
-a=ft(b);return 45===a2(a,0)?Q(fv(dU(a,1,au(a)-1|0))):fv(a)}function
-pf(a){return dX(fv(ft(a)))}function
-dj(b){var
-a=ft(b);if(!(2<au(a))&&!(64<=hI(a)))return hV(fv(a));throw V}function
-cJ(c){var
-a=ft(c);if(6<au(a))throw V;function
-b(a){return 0<a?[0,b(a-1|0)]:0}return b(hI(a))}function
-pg(a){var
-b=97<=a?1:0,c=b?a<=rc?1:0:b;if(c)var
+a=fC(b);return 45===a2(a,0)?Q(fE(dV(a,1,av(a)-1|0))):fE(a)}function
+pp(a){return dY(fE(fC(a)))}function
+dl(b){var
+a=fC(b);if(!(2<av(a))&&!(64<=hS(a)))return h5(fE(a));throw W}function
+cK(c){var
+a=fC(c);if(6<av(a))throw W;function
+b(a){return 0<a?[0,b(a-1|0)]:0}return b(hS(a))}function
+pq(a){var
+b=97<=a?1:0,c=b?a<=rm?1:0:b;if(c)var
 d=c;else
 var
 e=65<=a?1:0,d=e?a<=90?1:0:e;return d}function
-ph(y,b){var
-d=au(b),a=[0,0];function
+pr(y,b){var
+d=av(b),a=[0,0];function
 c(e){var
 c=a[1]<d?1:0,f=c?a2(b,a[1])===e?1:0:c;return f}function
 l(e){var
-c=a[1];for(;;){if(a[1]<d&&48<=a2(b,a[1])&&!(57<a2(b,a[1]))){a[1]++;continue}return dU(b,c,a[1]-c|0)}}function
+c=a[1];for(;;){if(a[1]<d&&48<=a2(b,a[1])&&!(57<a2(b,a[1]))){a[1]++;continue}return dV(b,c,a[1]-c|0)}}function
 m(b){a[1]++;var
-d=f(b+1|0);if(c(41)){a[1]++;return d}throw V}function
-h(j){if(64<j)throw V;if(c(45)){a[1]++;return[2,h(j+1|0)]}if(c(40))var
-e=m(j);else{var
-u=0;if((a[1]+5|0)<=d&&ax(dU(b,a[1],5),BR)){a[1]=a[1]+4|0;var
-e=[5,m(j)]}else
+d=f(b+1|0);if(c(41)){a[1]++;return d}throw W}function
+h(i){if(64<i)throw W;if(c(45)){a[1]++;return[2,h(i+1|0)]}if(c(40))var
+e=m(i);else{var
+u=0;if((a[1]+5|0)<=d&&ax(dV(b,a[1],5),B5)){a[1]=a[1]+4|0;var
+e=[5,m(i)]}else
 u=1;if(u){var
-v=0;if(a[1]<d&&pg(a2(b,a[1]))){var
+v=0;if(a[1]<d&&pq(a2(b,a[1]))){var
 n=a[1];for(;;){if(a[1]<d){var
-w=0;if(!pg(a2(b,a[1]))&&95!==a2(b,a[1])&&(!(48<=a2(b,a[1]))||57<a2(b,a[1])))w=1;if(!w){a[1]++;continue}}var
-e=[1,i(y,dU(b,n,a[1]-n|0))];break}}else
+w=0;if(!pq(a2(b,a[1]))&&95!==a2(b,a[1])&&(!(48<=a2(b,a[1]))||57<a2(b,a[1])))w=1;if(!w){a[1]++;continue}}var
+e=[1,j(y,dV(b,n,a[1]-n|0))];break}}else
 v=1;if(v){var
-g=l(0),p=c(46),q=p?(a[1]++,[0,l(0)]):p,r=ax(g,BS);if(r)var
+g=l(0),p=c(46),q=p?(a[1]++,[0,l(0)]):p,r=ax(g,B6);if(r)var
 s=r;else
 var
-t=1<au(g)?1:0,s=t?48===a2(g,0)?1:0:t;if(s)throw V;if(q){var
-k=q[1],x=0;if(ax(k,BT)||48===a2(k,au(k)-1|0))x=1;else
+t=1<av(g)?1:0,s=t?48===a2(g,0)?1:0:t;if(s)throw W;if(q){var
+k=q[1],x=0;if(ax(k,B7)||48===a2(k,av(k)-1|0))x=1;else
 var
-z=hh(k),e=[0,hh(g),z];if(x)throw V}else
+z=hr(k),e=[0,hr(g),z];if(x)throw W}else
 var
-e=[0,hh(g),0]}}}if(c(94)){a[1]++;var
-f=l(0);if(o(f,BQ)){if(!(2<au(f))&&2<=hI(f)&&!(64<hI(f)))return[4,e,dX(fv(f))];throw V}throw V}return e}function
+e=[0,hr(g),0]}}}if(c(94)){a[1]++;var
+f=l(0);if(o(f,B4)){if(!(2<av(f))&&2<=hS(f)&&!(64<hS(f)))return[4,e,dY(fE(f))];throw W}throw W}return e}function
 e(d){var
 b=h(d);for(;;){if(c(42)){a[1]++;var
 b=[3,2,b,h(d)];continue}if(c(47)){a[1]++;var
 b=[3,3,b,h(d)];continue}return b}}function
-f(d){if(64<d)throw V;var
+f(d){if(64<d)throw W;var
 b=e(d);for(;;){if(c(43)){a[1]++;var
 b=[3,0,b,e(d)];continue}if(c(45)){a[1]++;var
 b=[3,1,b,e(d)];continue}return b}}var
-g=f(0);if(a[1]<d)throw V;return g}function
-hi(a){return ph(function(a){return[0,a]},a)}function
-jM(a){var
-b=aY(a);return ph(function(a){return a},b)}function
-W(a){return hi(aY(a))}function
-b1(a){if(2===a[0])return[0,hi(a[1])];var
-b=ai(a),c=W(v(b,BU));return[1,W(v(b,BV)),c]}function
-af(a){throw[0,pe,a$(kA(BX,a),BW)]}function
-jN(c){var
-a=aY(c);if(o(a,BY)){var
-b=o(a,BZ);if(b)throw V;return b}return 1}function
-B0(d){var
+g=f(0);if(a[1]<d)throw W;return g}function
+hs(a){return pr(function(a){return[0,a]},a)}function
+jU(a){var
+b=aY(a);return pr(function(a){return a},b)}function
+X(a){return hs(aY(a))}function
+b2(a){if(2===a[0])return[0,hs(a[1])];var
+b=ai(a),c=X(v(b,B8));return[1,X(v(b,B9)),c]}function
+ah(a){throw[0,po,a$(kI(B$,a),B_)]}function
+jV(c){var
+a=aY(c);if(o(a,Ca)){var
+b=o(a,Cb);if(b)throw W;return b}return 1}function
+Cc(d){var
 b=ai(d);function
-a(a){return fu(b1,v(b,a))}var
-c=aY(v(b,B1));if(o(c,B2)){if(o(c,B3)){if(o(c,B4))return af([0,B6,[0,c,B5]]);var
-e=a9(b,B7),f=ch(function(a){return fu(b1,a)},e),g=a(B8);return[1,a(B9),g,f]}var
-h=jN(v(b,B_)),i=b1(v(b,B$)),j=a(Ca),k=a(Cb);return[0,a(Cc),k,j,i,h]}return[2,a(Cd)]}function
-Ce(d){var
+a(a){return fD(b2,v(b,a))}var
+c=aY(v(b,Cd));if(o(c,Ce)){if(o(c,Cf)){if(o(c,Cg))return ah([0,Ci,[0,c,Ch]]);var
+e=a9(b,Cj),f=cj(function(a){return fD(b2,a)},e),g=a(Ck);return[1,a(Cl),g,f]}var
+h=jV(v(b,Cm)),i=b2(v(b,Cn)),j=a(Co),k=a(Cp);return[0,a(Cq),k,j,i,h]}return[2,a(Cr)]}function
+Cs(d){var
 a=ai(d);if(a){var
-b=a[1];if(!o(b[1],Cf)){var
-c=b[2];if(2===c[0]&&!o(c[1],Cg))return 1}}return 0}function
-pi(e){var
+b=a[1];if(!o(b[1],Ct)){var
+c=b[2];if(2===c[0]&&!o(c[1],Cu))return 1}}return 0}function
+ps(e){var
 b=ai(e);function
-a(a){return Y(b1,ad(v(b,a)))}var
-c=aY(v(b,Ch)),f=a9(b,Ci),d=ch(function(a){return Y(b1,ad(a))},f);if(o(c,Cj)){if(o(c,Ck)){if(o(c,Cl)){if(!o(c,Cm)){var
-g=a(Cp);return[1,a(Cq),g,d]}}else
+a(a){return Z(b2,ad(v(b,a)))}var
+c=aY(v(b,Cv)),f=a9(b,Cw),d=cj(function(a){return Z(b2,ad(a))},f);if(o(c,Cx)){if(o(c,Cy)){if(o(c,Cz)){if(!o(c,CA)){var
+g=a(CD);return[1,a(CE),g,d]}}else
 if(!d){var
-h=jN(v(b,Cr)),i=b1(v(b,Cs)),j=a(Ct),k=a(Cu);return[0,a(Cv),k,j,i,h]}}else
-if(!d)return[2,a(Cw)]}else
+h=jV(v(b,CF)),i=b2(v(b,CG)),j=a(CH),k=a(CI);return[0,a(CJ),k,j,i,h]}}else
+if(!d)return[2,a(CK)]}else
 if(!d){var
-l=jN(v(b,Cx)),m=b1(v(b,Cy)),n=b1(v(b,Cz)),p=a(CA),q=a(CB),r=a(CC);return[3,a(CD),r,q,p,n,m,l]}return af([0,Co,[0,c,Cn]])}function
-pj(d){var
+l=jV(v(b,CL)),m=b2(v(b,CM)),n=b2(v(b,CN)),p=a(CO),q=a(CP),r=a(CQ);return[3,a(CR),r,q,p,n,m,l]}return ah([0,CC,[0,c,CB]])}function
+pt(d){var
 a=ai(d);if(a){var
-b=a[1];if(!o(b[1],CE)){var
-c=b[2];if(2===c[0]&&!o(c[1],CF))return 1}}return 0}function
-dk(c,d){var
+b=a[1];if(!o(b[1],CS)){var
+c=b[2];if(2===c[0]&&!o(c[1],CT))return 1}}return 0}function
+dm(c,d){var
 a=ad(d);if(a){var
 b=a[2];if(b&&!b[2]){var
-e=i(c,b[1]);return[0,i(c,a[1]),e]}}throw V}function
+e=j(c,b[1]);return[0,j(c,a[1]),e]}}throw W}function
 ew(g,p){var
-h=g?g[1]:g,c=ai(p),a=aY(v(c,CG)),j=rN(a,CH),f=0;if(0<=j)if(0<j)if(o(a,CI))if(o(a,CJ))if(o(a,CK))if(o(a,CL))if(o(a,CM))if(o(a,CN))if(o(a,CO)){var
-k=o(a,CP);if(k)f=1;else
+h=g?g[1]:g,c=ai(p),a=aY(v(c,CU)),j=rX(a,CV),f=0;if(0<=j)if(0<j)if(o(a,CW))if(o(a,CX))if(o(a,CY))if(o(a,CZ))if(o(a,C0))if(o(a,C1))if(o(a,C2)){var
+k=o(a,C3);if(k)f=1;else
 var
 b=k}else
 var
@@ -8185,7 +8271,7 @@ var
 b=13;else
 var
 b=2;else
-if(o(a,C_))if(o(a,C$))if(o(a,Da))if(o(a,Db))if(o(a,Dc))if(o(a,Dd))if(o(a,De))if(o(a,Df))f=1;else
+if(o(a,Dm))if(o(a,Dn))if(o(a,Do))if(o(a,Dp))if(o(a,Dq))if(o(a,Dr))if(o(a,Ds))if(o(a,Dt))f=1;else
 var
 b=1;else
 var
@@ -8203,119 +8289,119 @@ b=14;else
 f=1;else
 var
 b=12;var
-n=f?af([0,CR,[0,a,CQ]]):b;function
-i(a){return v(c,CS)}var
-d=aY(v(c,CT)),l=o(d,CU);if(l)if(o(d,CV))if(o(d,CW))if(o(d,CX))var
-e=af([0,CZ,[0,d,CY]]);else
+n=f?ah([0,C5,[0,a,C4]]):b;function
+i(a){return v(c,C6)}var
+d=aY(v(c,C7)),l=o(d,C8);if(l)if(o(d,C9))if(o(d,C_))if(o(d,C$))var
+e=ah([0,Db,[0,d,Da]]);else
 var
-m=dk(W,i(0)),e=[2,m[1],m[2]];else
+m=dm(X,i(0)),e=[2,m[1],m[2]];else
 var
-e=[0,W(i(0))];else
+e=[0,X(i(0))];else
 var
-e=[1,W(i(0))];else
+e=[1,X(i(0))];else
 var
 e=l;function
 q(H){var
 a=ai(H),b=0;switch(n){case
 6:if(a){var
-r=a[1];if(!o(r[1],C1)){var
+r=a[1];if(!o(r[1],Dd)){var
 s=r[2];if(1===s[0]){var
 c=s[1],m=0;if(c&&!c[2])if(a[2])m=1;else{var
 e=c[1];b=1;m=1}if(!m&&!a[2]){var
 t=c;b=2}}}}break;case
 10:if(a){var
-u=a[1];if(!o(u[1],C2)){var
+u=a[1];if(!o(u[1],De)){var
 v=u[2];if(1===v[0]){var
 f=v[1];if(f&&!f[2]){var
 g=a[2];if(g){var
-w=g[1];if(!o(w[1],C3)){var
+w=g[1];if(!o(w[1],Df)){var
 x=w[2];if(1===x[0]){var
 i=x[1];if(i&&!i[2]&&!g[2]){var
-I=W(i[1]);return[2,W(f[1]),I]}}}}}}}}break;case
+I=X(i[1]);return[2,X(f[1]),I]}}}}}}}}break;case
 12:if(a){var
-y=a[1];if(!o(y[1],C4)){var
+y=a[1];if(!o(y[1],Dg)){var
 z=y[2];if(1===z[0]){var
 j=z[1];if(j&&!j[2]){var
 k=a[2],A=j[1];if(k){var
-B=k[1];if(!o(B[1],C5)){var
+B=k[1];if(!o(B[1],Dh)){var
 C=B[2];if(1===C[0]){var
 l=C[1];if(l&&!l[2]&&!k[2]&&h){var
-J=W(l[1]);return[3,W(A),J]}}}}else{var
+J=X(l[1]);return[3,X(A),J]}}}}else{var
 e=A;b=1}}}}}break;case
 16:if(a){var
-F=a[1];if(!o(F[1],C7)){var
+F=a[1];if(!o(F[1],Dj)){var
 G=F[2];if(1===G[0]&&!a[2]){var
 t=G[1];b=2}}}break;case
 14:case
 15:if(a){var
-D=a[1];if(!o(D[1],C6)){var
-E=D[2];if(1===E[0]&&!a[2])return[1,Y(W,E[1])]}}break;case
+D=a[1];if(!o(D[1],Di)){var
+E=D[2];if(1===E[0]&&!a[2])return[1,Z(X,E[1])]}}break;case
 2:case
 8:if(a){var
-p=a[1];if(!o(p[1],C0)){var
+p=a[1];if(!o(p[1],Dc)){var
 q=p[2];if(1===q[0]){var
 d=q[1];if(d&&!d[2]&&!a[2]){var
 e=d[1];b=1}}}}break}switch(b){case
-0:throw V;case
-1:return[0,W(e)];default:return[1,Y(W,t)]}}var
-r=ch(q,a9(c,C8));return[0,n,ch(cJ,a9(c,C9)),r,e]}function
-pk(c){var
-d=ew(Di,c),e=d[1];if(!(9<=e))switch(e){case
+0:throw W;case
+1:return[0,X(e)];default:return[1,Z(X,t)]}}var
+r=cj(q,a9(c,Dk));return[0,n,cj(cK,a9(c,Dl)),r,e]}function
+pu(c){var
+d=ew(Dw,c),e=d[1];if(!(9<=e))switch(e){case
 2:case
 6:case
 8:return d}var
-a=ew(Dg,c),b=a[1];if(2!==b&&!(4<=b))return a;return af(Dh)}function
-pl(a){var
-b=ew(Dj,a);return 11===b[1]?b:pk(a)}function
-Dk(a){var
-b=ew(Dl,a),c=b[1];if(9<=c)switch(c-9|0){case
+a=ew(Du,c),b=a[1];if(2!==b&&!(4<=b))return a;return ah(Dv)}function
+pv(a){var
+b=ew(Dx,a);return 11===b[1]?b:pu(a)}function
+Dy(a){var
+b=ew(Dz,a),c=b[1];if(9<=c)switch(c-9|0){case
 2:case
 4:case
-7:break;default:return b}return pl(a)}function
-jO(a){var
-b=ew(Dm,a);switch(b[1]){case
+7:break;default:return b}return pv(a)}function
+jW(a){var
+b=ew(DA,a);switch(b[1]){case
 4:case
 5:case
 11:case
 13:case
-16:return b;default:return pk(a)}}function
-jP(b){var
-a=ai(b[2]);if(o(b[1],Dt)){var
-c=dk(W,v(a,Du)),d=dk(W,v(a,Dv)),e=d[2],f=d[1],g=W(v(a,Dw));return[1,c[1],c[2],g,f,e]}var
-h=Y(W,ad(v(a,Dx)));return[0,Y(W,ad(v(a,Dy))),h]}function
-Dz(f){var
+16:return b;default:return pu(a)}}function
+jX(b){var
+a=ai(b[2]);if(o(b[1],DH)){var
+c=dm(X,v(a,DI)),d=dm(X,v(a,DJ)),e=d[2],f=d[1],g=X(v(a,DK));return[1,c[1],c[2],g,f,e]}var
+h=Z(X,ad(v(a,DL)));return[0,Z(X,ad(v(a,DM))),h]}function
+DN(f){var
 a=ai(f);function
-d(b){return W(v(a,b))}function
-c(b){return fu(W,v(a,b))}var
-b=aY(v(a,DA));if(o(b,DB)){if(!o(b,DC)){var
-j=v(a,DI),e=dk(function(a){return a},j),k=a9(a,DJ),l=ch(function(a){return c(DK)},k),m=hi(aY(e[2])),n=hi(aY(e[1])),p=d(DL);return[0,cJ(v(a,DM)),p,n,m,l]}if(o(b,DD))throw V}var
-g=d(DE),h=c(DF),i=c(DG);return[1,ax(b,DH),i,h,g]}function
-jQ(an){var
-g=dM(an),h=g[1];if(o(h,DN)){if(o(h,DO)){if(o(h,DP)){if(o(h,DQ))return af([0,DS,[0,h,DR]]);var
-w=v(ai(g[2]),DT),ab=0;if(2===w[0]){var
-K=o(w[1],DU);if(!K){var
+d(b){return X(v(a,b))}function
+c(b){return fD(X,v(a,b))}var
+b=aY(v(a,DO));if(o(b,DP)){if(!o(b,DQ)){var
+j=v(a,DW),e=dm(function(a){return a},j),k=a9(a,DX),l=cj(function(a){return c(DY)},k),m=hs(aY(e[2])),n=hs(aY(e[1])),p=d(DZ);return[0,cK(v(a,D0)),p,n,m,l]}if(o(b,DR))throw W}var
+g=d(DS),h=c(DT),i=c(DU);return[1,ax(b,DV),i,h,g]}function
+jY(an){var
+g=dN(an),h=g[1];if(o(h,D1)){if(o(h,D2)){if(o(h,D3)){if(o(h,D4))return ah([0,D6,[0,h,D5]]);var
+w=v(ai(g[2]),D7),ab=0;if(2===w[0]){var
+K=o(w[1],D8);if(!K){var
 J=K;ab=1}}if(!ab)var
-J=[0,b1(w)];return[6,J]}var
-L=ai(g[2]),j=jQ([0,[0,[0,DW,v(L,DV)],0]]);if(0===j[0]){var
-x=j[2];if(0===x[0]&&!j[3]){var
-ao=W(v(L,DY));return[5,j[1],x[1],x[2],j[4],ao]}}return af(DX)}var
-a=ai(g[2]),y=a9(a,DZ),z=y?Y(Dz,ad(y[1])):y,n=function(b){var
-a=0!==z?1:0;return a?af(D0):a},k=dM(v(a,D1)),b=dM(v(a,D2)),c=k[1];if(o(c,D3)&&o(c,D4)&&o(c,D5)){if(0===a9(a,D6)){if(o(c,D7)){var
-ac=0;if(o(c,D8)){if(!o(c,D9)){var
-M=b[1],ae=0;if(o(M,Ea)&&o(M,Eb)){ac=1;ae=1}if(!ae){var
-A=ad(k[2]),ap=ad(v(a,Ee)),N=Y(function(a){return ew(0,a)},ap);if(!aA(Ce,A)&&!aA(function(a){var
+J=[0,b2(w)];return[6,J]}var
+L=ai(g[2]),i=jY([0,[0,[0,D_,v(L,D9)],0]]);if(0===i[0]){var
+x=i[2];if(0===x[0]&&!i[3]){var
+ao=X(v(L,Ea));return[5,i[1],x[1],x[2],i[4],ao]}}return ah(D$)}var
+a=ai(g[2]),y=a9(a,Eb),z=y?Z(DN,ad(y[1])):y,n=function(b){var
+a=0!==z?1:0;return a?ah(Ec):a},k=dN(v(a,Ed)),b=dN(v(a,Ee)),c=k[1];if(o(c,Ef)&&o(c,Eg)&&o(c,Eh)){if(0===a9(a,Ei)){if(o(c,Ej)){var
+ac=0;if(o(c,Ek)){if(!o(c,El)){var
+M=b[1],ae=0;if(o(M,Eo)&&o(M,Ep)){ac=1;ae=1}if(!ae){var
+A=ad(k[2]),ap=ad(v(a,Es)),N=Z(function(a){return ew(0,a)},ap);if(!aA(Cs,A)&&!aA(function(a){var
 b=13===a[1]?1:0,c=b||(16===a[1]?1:0);return c},N)){var
-as=Y(B0,A),f=ai(b[2]);if(o(b[1],Dn))var
-H=dk(W,v(f,Do)),I=dk(W,v(f,Dp)),aj=I[2],ak=I[1],al=W(v(f,Dq)),O=[1,H[1],H[2],al,ak,aj];else
+as=Z(Cc,A),f=ai(b[2]);if(o(b[1],DB))var
+H=dm(X,v(f,DC)),I=dm(X,v(f,DD)),aj=I[2],ak=I[1],al=X(v(f,DE)),O=[1,H[1],H[2],al,ak,aj];else
 var
-am=fu(W,v(f,Dr)),O=[0,fu(W,v(f,Ds)),am];return[0,as,O,z,N]}n(0);var
-aq=Y(jO,ad(v(a,Ef))),ar=jP(b);return[1,0,Y(pi,A),0,ar,0,aq]}}}else
-if(!o(b[1],Eg)){n(0);var
-P=Y(jO,ad(v(a,Eh))),u=0,e=P;for(;;){if(e){var
+am=fD(X,v(f,DF)),O=[0,fD(X,v(f,DG)),am];return[0,as,O,z,N]}n(0);var
+aq=Z(jW,ad(v(a,Et))),ar=jX(b);return[1,0,Z(ps,A),0,ar,0,aq]}}}else
+if(!o(b[1],Eu)){n(0);var
+P=Z(jW,ad(v(a,Ev))),u=0,e=P;for(;;){if(e){var
 F=e[2],G=e[1];if(0===G[1]){var
 u=[0,G,u],e=F;continue}var
 e=F;continue}var
-m=kz(u),ag=0;if(m){var
+m=kH(u),af=0;if(m){var
 d=0,Q=m[1][4];if(typeof
 Q==="number")d=1;else
 switch(Q[0]){case
@@ -8330,65 +8416,65 @@ C=m[2];if(C){var
 E=0,S=C[1][4];if(typeof
 S!=="number"&&0===S[0])if(C[2]){d=1;E=1}else
 E=1;if(!E)d=1}else
-d=1;break;default:d=1}if(!d)ag=1}if(!ag)af(Ei);var
-at=W(v(ai(b[2]),Ej));return[4,W(v(ai(k[2]),Ek)),at,P]}}if(!ac)return af([0,D$,[0,c,D_]])}else
-if(!o(b[1],El)){n(0);var
+d=1;break;default:d=1}if(!d)af=1}if(!af)ah(Ew);var
+at=X(v(ai(b[2]),Ex));return[4,X(v(ai(k[2]),Ey)),at,P]}}if(!ac)return ah([0,En,[0,c,Em]])}else
+if(!o(b[1],Ez)){n(0);var
 p=ai(k[2]),T=ai(b[2]),U=function(c,a){var
-b=ad(a);return Y(function(d){var
+b=ad(a);return Z(function(d){var
 a=ad(d);if(a){var
 b=a[2];if(b&&!b[2]){var
-e=i(c,b[1]);return[0,aY(a[1]),e]}}throw V},b)},au=function(d){var
+e=j(c,b[1]);return[0,aY(a[1]),e]}}throw W},b)},au=function(d){var
 a=ai(d);if(a){var
-b=a[1],c=b[1];if(o(c,Em)){if(!o(c,En)&&!a[2])return[0,Y(jM,ad(b[2]))]}else
-if(!a[2])return[1,jM(b[2])]}throw V},av=Y(pl,ad(v(a,Eo))),aw=Y(W,ad(v(T,Ep))),ay=Y(W,ad(v(T,Eq))),az=Y(au,ad(v(p,Er))),aB=U(jM,v(p,Es)),aC=U(b1,v(p,Et));return[3,Y(aY,ad(v(p,Eu))),aC,aB,az,ay,aw,av]}return af([0,Ed,[0,b[1],Ec]])}throw V}var
-X=ai(k[2]),q=ch(W,a9(X,Ev)),aD=function(f){var
-a=dM(f),b=a[1];if(o(b,Ew)){if(o(b,Ex)){if(o(b,Ey)){if(o(b,Ez))throw V;var
-d=a[2],g=W(v(ai(d),EA));return[3,W(v(ai(d),EB)),g]}var
-h=a[2],c=function(a){return dk(W,v(ai(h),a))},i=c(EC),j=c(ED);return[1,c(EE),j,i]}var
-e=dk(W,a[2]);return[0,e[1],e[2]]}return[2,W(a[2])]},r=ch(aD,a9(a,EF)),Z=o(c,EG),_=Z?o(c,EH)?2:1:Z,s=ad(v(X,EI));if(q&&r&&hN(pj,s)){var
+b=a[1],c=b[1];if(o(c,EA)){if(!o(c,EB)&&!a[2])return[0,Z(jU,ad(b[2]))]}else
+if(!a[2])return[1,jU(b[2])]}throw W},av=Z(pv,ad(v(a,EC))),aw=Z(X,ad(v(T,ED))),ay=Z(X,ad(v(T,EE))),az=Z(au,ad(v(p,EF))),aB=U(jU,v(p,EG)),aC=U(b2,v(p,EH));return[3,Z(aY,ad(v(p,EI))),aC,aB,az,ay,aw,av]}return ah([0,Er,[0,b[1],Eq]])}throw W}var
+V=ai(k[2]),q=cj(X,a9(V,EJ)),aD=function(f){var
+a=dN(f),b=a[1];if(o(b,EK)){if(o(b,EL)){if(o(b,EM)){if(o(b,EN))throw W;var
+d=a[2],g=X(v(ai(d),EO));return[3,X(v(ai(d),EP)),g]}var
+h=a[2],c=function(a){return dm(X,v(ai(h),a))},i=c(EQ),j=c(ER);return[1,c(ES),j,i]}var
+e=dm(X,a[2]);return[0,e[1],e[2]]}return[2,X(a[2])]},r=cj(aD,a9(a,ET)),Y=o(c,EU),_=Y?o(c,EV)?2:1:Y,s=ad(v(V,EW));if(q&&r&&hX(pt,s)){var
 aE=function(c){var
 a=ai(c);function
-b(b){return Y(b1,ad(v(a,b)))}if(0!==a9(a,EJ))af(EK);var
-d=b(EL);return[0,b(EM),d]},aF=Y(Dk,ad(v(a,EN))),aG=r[1],aH=jP(b),aI=q[1];return[2,_,Y(aE,s),aI,aH,aG,z,aF]}n(0);var
-ah=0;if(!q&&ax(c,EQ)){var
-$=1;ah=1}if(!ah)var
+b(b){return Z(b2,ad(v(a,b)))}if(0!==a9(a,EX))ah(EY);var
+d=b(EZ);return[0,b(E0),d]},aF=Z(Dy,ad(v(a,E1))),aG=r[1],aH=jX(b),aI=q[1];return[2,_,Z(aE,s),aI,aH,aG,z,aF]}n(0);var
+ag=0;if(!q&&ax(c,E4)){var
+$=1;ag=1}if(!ag)var
 $=[0,_];var
-aa=0!==r?1:0,aJ=aa?aA(pj,s):aa;if(aJ)af(EO);var
-aK=Y(jO,ad(v(a,EP))),aL=jP(b);return[1,$,Y(pi,s),q,aL,r,aK]}var
+aa=0!==r?1:0,aJ=aa?aA(pt,s):aa;if(aJ)ah(E2);var
+aK=Z(jW,ad(v(a,E3))),aL=jX(b);return[1,$,Z(ps,s),q,aL,r,aK]}var
 t=ai(g[2]);function
 aM(b){var
-a=ai(b),c=W(v(a,ER)),d=[0,W(v(a,ES)),c];return[0,aY(v(a,ET)),d]}var
-l=jQ([0,[0,[0,EV,v(t,EU)],0]]);if(0===l[0]&&!l[3]){var
-aN=W(v(t,EX)),aO=W(v(t,EY)),aP=l[4],aQ=l[2],aR=l[1];return[7,Y(aM,ad(v(t,EZ))),aR,aQ,aP,aO,aN]}return af(EW)}function
-fw(a){return Y(ev,ad(a))}function
-hj(c,b){var
-a=fw(b);if(cn(a)!==c)throw V;return a}function
-pm(a,d){var
-b=ai(d),e=ad(v(b,E2)),f=a[2],c=Y(function(a){return hj(f,a)},e),g=a[1];if(cn(c)!==g)throw V;return[0,c,dj(v(b,E3))]}function
-dl(au,i){var
+a=ai(b),c=X(v(a,E5)),d=[0,X(v(a,E6)),c];return[0,aY(v(a,E7)),d]}var
+l=jY([0,[0,[0,E9,v(t,E8)],0]]);if(0===l[0]&&!l[3]){var
+aN=X(v(t,E$)),aO=X(v(t,Fa)),aP=l[4],aQ=l[2],aR=l[1];return[7,Z(aM,ad(v(t,Fb))),aR,aQ,aP,aO,aN]}return ah(E_)}function
+fF(a){return Z(ev,ad(a))}function
+ht(c,b){var
+a=fF(b);if(cp(a)!==c)throw W;return a}function
+pw(a,d){var
+b=ai(d),e=ad(v(b,Fe)),f=a[2],c=Z(function(a){return ht(f,a)},e),g=a[1];if(cp(c)!==g)throw W;return[0,c,dl(v(b,Ff))]}function
+dn(au,i){var
 as=0;if(0===i[0]){var
 q=i[1];if(q){var
-U=q[1];if(!o(U[1],E4)){var
-ah=U[2];if(0===ah[0]){var
-L=ah[1];if(L){var
-aj=L[1];if(!o(aj[1],Fq)){var
+U=q[1];if(!o(U[1],Fg)){var
+ag=U[2];if(0===ag[0]){var
+L=ag[1];if(L){var
+aj=L[1];if(!o(aj[1],FE)){var
 ak=aj[2];if(1===ak[0]){var
 M=ak[1];if(M){var
 al=M[1];if(1===al[0]){var
 am=al[1];if(am&&!am[2]&&!M[2]){var
 an=L[2];if(an&&!an[2]&&!q[2]){var
-f=Fr;as=1}}}}}}}}}}}if(!as)var
+f=FF;as=1}}}}}}}}}}}if(!as)var
 f=au;var
 r=f[2];switch(i[0]){case
 0:var
 c=i[1];if(c){var
-e=c[1],a=e[1],W=rN(a,E5),b=0;if(0<=W)if(0<W)if(o(a,E6)){var
-g=0;if(o(a,E7)&&o(a,E8)&&o(a,E9))if(o(a,E_))g=1;else{var
+e=c[1],a=e[1],V=rX(a,Fh),b=0;if(0<=V)if(0<V)if(o(a,Fi)){var
+g=0;if(o(a,Fj)&&o(a,Fk)&&o(a,Fl))if(o(a,Fm))g=1;else{var
 X=e[2];if(1===X[0]){var
 s=X[1];if(s){var
 t=s[2];if(t){var
 u=t[2];if(u&&!u[2]){if(!c[2]){var
-av=Y(fw,ad(u[1])),aw=aY(t[1]);return[8,dl(f,s[1]),aw,av]}b=1;g=1}else
+av=Z(fF,ad(u[1])),aw=aY(t[1]);return[8,dn(f,s[1]),aw,av]}b=1;g=1}else
 g=1}else
 g=1}else
 g=1}else
@@ -8398,7 +8484,7 @@ _=e[2];if(1===_[0]){var
 y=_[1];if(y){var
 z=y[2];if(z){var
 A=z[2];if(A&&!A[2]){if(!c[2]){var
-ay=dj(A[1]),az=ev(z[1]);return[5,dl(f,y[1]),az,ay]}b=1}}}}}else{var
+ay=dl(A[1]),az=ev(z[1]);return[5,dn(f,y[1]),az,ay]}b=1}}}}}else{var
 $=e[2];if(1===$[0]){if(!c[2]){var
 aA=function(m){if(1===m[0]){var
 d=m[1];if(d){var
@@ -8409,128 +8495,128 @@ n=h[1],a=n;for(;;){var
 i=0;switch(a[0]){case
 0:var
 b=a[1];if(b){var
-j=b[1],c=j[1];if(o(c,Fb)){var
-p=0;if(o(c,Fc)&&o(c,Fd)&&o(c,Fe))p=1;if(!p&&!b[2])i=1}else{var
+j=b[1],c=j[1];if(o(c,Fp)){var
+p=0;if(o(c,Fq)&&o(c,Fr)&&o(c,Fs))p=1;if(!p&&!b[2])i=1}else{var
 k=j[2];if(1===k[0]){var
 l=k[1];if(l&&!b[2]){var
 a=l[1];continue}}}}break;case
-2:if(!o(a[1],Ff))i=1;break}var
+2:if(!o(a[1],Ft))i=1;break}var
 q=i?1:0;if(q){var
-r=dl(f,n),s=dj(g[1]),t=ev(e[1]);return[0,[0,[0,fw(d[1]),t],s],r]}return af(Fg)}}}}}}throw V};return[9,Y(aA,$[1])]}b=1}}else
-if(o(a,Fh))if(o(a,Fi))if(o(a,Fj))if(o(a,Fk))if(o(a,Fl)){if(!o(a,Fm)){if(!c[2]){var
-aa=ai(e[2]),aB=ad(v(aa,Fn)),aC=r+1|0,ab=Y(function(a){return hj(aC,a)},aB);if(3===cn(ab))return[1,Fp,ab,dj(v(aa,Fo))];throw V}b=1}}else{if(!c[2]){var
-R=aY(e[2]),S=o(R,E0);if(S){if(o(R,E1))throw V;var
+r=dn(f,n),s=dl(g[1]),t=ev(e[1]);return[0,[0,[0,fF(d[1]),t],s],r]}return ah(Fu)}}}}}}throw W};return[9,Z(aA,$[1])]}b=1}}else
+if(o(a,Fv))if(o(a,Fw))if(o(a,Fx))if(o(a,Fy))if(o(a,Fz)){if(!o(a,FA)){if(!c[2]){var
+aa=ai(e[2]),aB=ad(v(aa,FB)),aC=r+1|0,ab=Z(function(a){return ht(aC,a)},aB);if(3===cp(ab))return[1,FD,ab,dl(v(aa,FC))];throw W}b=1}}else{if(!c[2]){var
+R=aY(e[2]),S=o(R,Fc);if(S){if(o(R,Fd))throw W;var
 T=1}else
 var
 T=S;return[2,T]}b=1}else{if(!c[2]){var
 k=e[2],p=0;switch(k[0]){case
 0:var
 l=k[1];if(l){var
-ao=l[1],j=ao[1],d=0;if(o(j,Fs)&&o(j,Ft)&&o(j,Fu)&&o(j,Fv))if(o(j,Fw))d=1;else{var
+ao=l[1],j=ao[1],d=0;if(o(j,FG)&&o(j,FH)&&o(j,FI)&&o(j,FJ))if(o(j,FK))d=1;else{var
 ap=ao[2];if(1===ap[0]){var
 N=ap[1];if(N){var
 m=N[1],h=0;switch(m[0]){case
 0:var
 O=m[1];if(O){var
-n=O[1][1],at=0;if(o(n,Fy)&&o(n,Fz)&&o(n,FA)&&o(n,FB)){d=1;h=1;at=1}if(!at&&O[2]){d=1;h=1}}else{d=1;h=1}break;case
+n=O[1][1],at=0;if(o(n,FM)&&o(n,FN)&&o(n,FO)&&o(n,FP)){d=1;h=1;at=1}if(!at&&O[2]){d=1;h=1}}else{d=1;h=1}break;case
 2:var
-aq=m[1];if(o(aq,FC)&&o(aq,FD)){d=1;h=1}break;default:d=1;h=1}if(!h){var
+aq=m[1];if(o(aq,FQ)&&o(aq,FR)){d=1;h=1}break;default:d=1;h=1}if(!h){var
 P=N[2];if(P){var
 Q=P[2];if(Q&&!(Q[2]||l[2])){var
-aL=dj(Q[1]),aM=ev(P[1]),B=[6,dl(f,m),aM,aL];p=2;d=1}else
+aL=dl(Q[1]),aM=ev(P[1]),B=[6,dn(f,m),aM,aL];p=2;d=1}else
 d=1}else
 d=1}}else
 d=1}else
 d=1}if(!d&&!l[2])p=1}break;case
 2:var
-ar=k[1];if(!o(ar,FE)||!o(ar,FF))p=1;break}switch(p){case
+ar=k[1];if(!o(ar,FS)||!o(ar,FT))p=1;break}switch(p){case
 0:var
-B=af(Fx);break;case
+B=ah(FL);break;case
 1:var
-B=dl(f,k);break}return[7,B]}b=1}else{var
+B=dn(f,k);break}return[7,B]}b=1}else{var
 ac=e[2];if(1===ac[0]){var
 C=ac[1];if(C){var
 D=C[2];if(D&&!D[2])if(c[2])b=1;else{var
-aD=D[1],aE=C[1],x=aE,w=function(b,a){return[3,b,a,hj(r+1|0,aD)]};b=2}}}}else{var
+aD=D[1],aE=C[1],x=aE,w=function(b,a){return[3,b,a,ht(r+1|0,aD)]};b=2}}}}else{var
 ae=e[2];if(1===ae[0]){var
 E=ae[1];if(E){var
 F=E[2];if(F){var
 G=F[2];if(G){var
 H=G[2];if(H&&!H[2]){if(!c[2]){var
-aF=dl(f,H[1]),aG=dl(f,G[1]),aH=dj(F[1]);return[10,hj(r+1|0,E[1]),aH,aG,aF]}b=1}}}}}}else{var
-ag=e[2];if(1===ag[0]){var
-I=ag[1];if(I){var
+aF=dn(f,H[1]),aG=dn(f,G[1]),aH=dl(F[1]);return[10,ht(r+1|0,E[1]),aH,aG,aF]}b=1}}}}}}else{var
+af=e[2];if(1===af[0]){var
+I=af[1];if(I){var
 J=I[2];if(J){var
 K=J[2];if(K&&!K[2])if(c[2])b=1;else{var
 aI=K[1],aJ=J[1],aK=I[1],x=aK,w=function(b,a){var
-c=dj(aI);return[4,b,a,ev(aJ),c]};b=2}}}}}switch(b){case
-0:if(!c[2])return af([0,Fa,[0,a,E$]]);break;case
+c=dl(aI);return[4,b,a,ev(aJ),c]};b=2}}}}}switch(b){case
+0:if(!c[2])return ah([0,Fo,[0,a,Fn]]);break;case
 1:break;default:var
-Z=pm(f,x);return w(Z[1],Z[2])}}break;case
-2:return[0,i[1]]}throw V}function
-pn(n){var
-b=dM(n),a=b[1];if(o(a,FI))if(o(a,FJ)){var
-h=o(a,FK);if(!h)return h;if(o(a,FL)){if(!o(a,FM)){var
-c=ai(b[2]),i=function(a){return Y(W,ad(v(c,a)))},j=ai(v(c,FQ)),p=dj(v(j,FR)),q=Y(fw,ad(v(j,FS))),r=i(FT),s=i(FU);return[3,cJ(v(c,FV)),s,r,q,p]}if(!o(a,FN))return[2,Y(W,ad(b[2]))]}else{var
+Y=pw(f,x);return w(Y[1],Y[2])}}break;case
+2:return[0,i[1]]}throw W}function
+px(n){var
+b=dN(n),a=b[1];if(o(a,FW))if(o(a,FX)){var
+h=o(a,FY);if(!h)return h;if(o(a,FZ)){if(!o(a,F0)){var
+c=ai(b[2]),i=function(a){return Z(X,ad(v(c,a)))},j=ai(v(c,F4)),p=dl(v(j,F5)),q=Z(fF,ad(v(j,F6))),r=i(F7),s=i(F8);return[3,cK(v(c,F9)),s,r,q,p]}if(!o(a,F1))return[2,Z(X,ad(b[2]))]}else{var
 k=b[2];if(1===k[0]){var
 d=k[1];if(d){var
 e=d[2];if(e&&!e[2]){var
-t=cJ(e[1]);return[1,cJ(d[1]),t]}}}}}else{var
+t=cK(e[1]);return[1,cK(d[1]),t]}}}}}else{var
 l=b[2];if(1===l[0]){var
 f=l[1];if(f){var
 g=f[2];if(g&&!g[2]){var
-u=Y(fw,ad(g[1]));return[0,cJ(f[1]),u]}}}}else{var
-m=b[2];if(1===m[0]&&!m[1])return 1}return af([0,FP,[0,a,FO]])}function
-po(f,b){var
-a=ai(b),c=ad(v(a,F0)),d=Y(function(g){var
+u=Z(fF,ad(g[1]));return[0,cK(f[1]),u]}}}}else{var
+m=b[2];if(1===m[0]&&!m[1])return 1}return ah([0,F3,[0,a,F2]])}function
+py(f,b){var
+a=ai(b),c=ad(v(a,Gc)),d=Z(function(g){var
 a=ai(g);function
 b(d,c){var
-b=a9(a,c);return b?Y(d,ad(b[1])):b}var
-c=b(ev,FW),d=ch(pn,a9(a,FX)),e=ch(cJ,a9(a,FY));return[0,b(function(h){var
+b=a9(a,c);return b?Z(d,ad(b[1])):b}var
+c=b(ev,F_),d=cj(px,a9(a,F$)),e=cj(cK,a9(a,Ga));return[0,b(function(h){var
 b=ad(h);if(b){var
 a=b[2];if(a){var
-c=a[1],e=b[1],d=0;if(2===c[0]&&!o(c[1],FG)){if(!a[2]){if(o(ft(e),FH))throw V;d=1}}else
+c=a[1],e=b[1],d=0;if(2===c[0]&&!o(c[1],FU)){if(!a[2]){if(o(fC(e),FV))throw W;d=1}}else
 d=1;if(d&&!a[2]){var
-g=dl(f,c);return[0,cJ(e),g]}}}throw V},FZ),e,d,c]},c),e=a9(a,F1),g=ch(function(a){return pm(f,a)},e);return[0,pf(v(a,F2)),g,d]}function
-pp(c){var
-a=ai(c),b=a9(a,F3),d=b?Y(W,ad(b[1])):b,e=pn(v(a,F4)),f=Y(W,ad(v(a,F5)));return[0,pf(v(a,F6)),f,d,e]}function
-Ge(c){var
+g=dn(f,c);return[0,cK(e),g]}}}throw W},Gb),e,d,c]},c),e=a9(a,Gd),g=cj(function(a){return pw(f,a)},e);return[0,pp(v(a,Ge)),g,d]}function
+pz(c){var
+a=ai(c),b=a9(a,Gf),d=b?Z(X,ad(b[1])):b,e=px(v(a,Gg)),f=Z(X,ad(v(a,Gh)));return[0,pp(v(a,Gi)),f,d,e]}function
+Gs(c){var
 a=c[1],b=0;if(10<=a){if(!(13<=a))b=1}else
 if(8===a)b=1;return b?1:0}function
-Gf(b){var
+Gt(b){var
 a=b[3];if(a&&1===a[1][0])return 1;return 0}function
-Gg(b){var
-c=b[1],a=b[4];if(!(1<c+qj>>>0)&&typeof
-a!=="number"&&1===a[0])return 1-gP(j(a[1]));return 10===c?1:0}function
-Gk(k){var
-n=au(k),c=[0,0];function
-p(a){if(c[1]<n)return a2(k,c[1]);throw V}function
-q(a){if(p(0)===a){c[1]++;return 0}throw V}function
-L(a,b){for(;;){if(c[1]<n&&i(b,a2(k,c[1]))){c[1]++;continue}return dU(k,a,c[1]-a|0)}}function
-M(d){q(34);function
+Gu(b){var
+c=b[1],a=b[4];if(!(1<c+qt>>>0)&&typeof
+a!=="number"&&1===a[0])return 1-g2(i(a[1]));return 10===c?1:0}function
+Gy(l){var
+p=av(l),c=[0,0];function
+q(a){if(c[1]<p)return a2(l,c[1]);throw W}function
+r(a){if(q(0)===a){c[1]++;return 0}throw W}function
+N(a,b){for(;;){if(c[1]<p&&j(b,a2(l,c[1]))){c[1]++;continue}return dV(l,a,c[1]-a|0)}}function
+O(d){r(34);function
 a(a){var
 b=34!==a?1:0;if(b)var
 c=92!==a?1:0,d=c?32<=a?1:0:c;else
 var
 d=b;return d}var
-b=L(c[1],a);q(34);return b}function
-N(e,a){if(p(0)===a){c[1]++;return 0}var
+b=N(c[1],a);r(34);return b}function
+P(e,a){if(q(0)===a){c[1]++;return 0}var
 b=0;for(;;){var
-d=[0,i(e,0),b];if(44===p(0)){c[1]++;var
-b=d;continue}q(a);return kz(d)}}function
-y(b,j){if(64<b)throw V;var
-a=p(0),d=0;if(48<=a){if(91===a){c[1]++;var
-f=93,g=b+1|0;return[1,N(function(a){return y(g,a)},f)]}if(123===a){c[1]++;var
-h=125;return[0,N(function(c){var
-a=M(0);q(58);return[0,a,y(b+1|0,0)]},h)]}if(!(58<=a))d=1}else{if(34===a)return[2,M(0)];if(45===a)d=1}if(d){var
+d=[0,j(e,0),b];if(44===q(0)){c[1]++;var
+b=d;continue}r(a);return kH(d)}}function
+z(b,j){if(64<b)throw W;var
+a=q(0),d=0;if(48<=a){if(91===a){c[1]++;var
+f=93,g=b+1|0;return[1,P(function(a){return z(g,a)},f)]}if(123===a){c[1]++;var
+h=125;return[0,P(function(c){var
+a=O(0);r(58);return[0,a,z(b+1|0,0)]},h)]}if(!(58<=a))d=1}else{if(34===a)return[2,O(0)];if(45===a)d=1}if(d){var
 i=c[1];c[1]++;var
-e=L(i,function(a){var
-b=48<=a?1:0,c=b?a<=57?1:0:b;return c});if(o(e,BO))return[3,e];throw V}throw V}var
-ar=y(0,0),O=c[1]<n?1:0,as=O?10===a2(k,c[1])?1:0:O;if(as)c[1]++;if(c[1]<n)throw V;var
-u=ai(ar);if(o(aY(v(u,Gl)),Gm))throw V;var
-a=jQ(v(u,Gn)),H=0;switch(a[0]){case
+e=N(i,function(a){var
+b=48<=a?1:0,c=b?a<=57?1:0:b;return c});if(o(e,B2))return[3,e];throw W}throw W}var
+as=z(0,0),Q=c[1]<p?1:0,at=Q?10===a2(l,c[1])?1:0:Q;if(at)c[1]++;if(c[1]<p)throw W;var
+w=ai(as);if(o(aY(v(w,Gz)),GA))throw W;var
+b=jY(v(w,GB)),H=0;switch(b[0]){case
 1:var
-E=a[1],I=0;if(typeof
+E=b[1],I=0;if(typeof
 E==="number")if(E)var
 F=2;else
 I=1;else
@@ -8538,181 +8624,196 @@ if(1===E[1])var
 F=6;else
 I=1;if(I)var
 F=3;var
-j=[0,cn(a[2]),F];break;case
+i=[0,cp(b[2]),F];break;case
 2:var
-aI=1===a[1]?6:3,j=[0,cn(a[2]),aI];break;case
+aI=1===b[1]?6:3,i=[0,cp(b[2]),aI];break;case
 3:var
-aJ=cn(a[1]),j=[0,cn(a[4]),aJ];break;case
+aJ=cp(b[1]),i=[0,cp(b[4]),aJ];break;case
 7:var
-P=a[2];H=1;break;case
+R=b[2];H=1;break;case
 0:case
 5:var
-P=a[1];H=1;break;default:var
-j=GM}if(H)var
-j=[0,cn(P),3];var
-r=dM(v(u,Go)),s=r[1];if(o(s,F$))if(o(s,Ga))if(o(s,Gb))var
-b=af([0,Gd,[0,s,Gc]]);else
+R=b[1];H=1;break;default:var
+i=GZ}if(H)var
+i=[0,cp(R),3];var
+s=dN(v(w,GC)),t=s[1];if(o(t,Gn))if(o(t,Go))if(o(t,Gp))var
+a=ah([0,Gr,[0,t,Gq]]);else
 var
-t=pp(r[2]),b=[1,t[1],t[2],t[3],t[4]];else
+u=pz(s[2]),a=[1,u[1],u[2],u[3],u[4]];else
 var
-z=po(j,r[2]),b=[0,z[1],z[2],z[3]];else
+A=py(i,s[2]),a=[0,A[1],A[2],A[3]];else
 var
-at=ad(r[2]),b=[2,Y(function(f){var
-a=dM(f),b=a[1];if(o(b,F7)){if(o(b,F8)){if(o(b,F9)){var
-e=o(b,F_);if(e)throw V;return e}return[0,cJ(a[2])]}var
-c=pp(a[2]);return[2,c[1],c[2],c[3],c[4]]}var
-d=po(j,a[2]);return[1,d[1],d[2],d[3]]},at)];function
-av(a){var
+au=ad(s[2]),a=[2,Z(function(f){var
+a=dN(f),b=a[1];if(o(b,Gj)){if(o(b,Gk)){if(o(b,Gl)){var
+e=o(b,Gm);if(e)throw W;return e}return[0,cK(a[2])]}var
+c=pz(a[2]);return[2,c[1],c[2],c[3],c[4]]}var
+d=py(i,a[2]);return[1,d[1],d[2],d[3]]},au)];function
+aw(a){var
 b=a[1];return aA(function(a){return 7<a[2][0]?1:0},b)}function
-aw(a){return 0!==a[3]?1:0}function
-Q(a){return aA(aw,a)}function
-R(a){if(typeof
+ax(a){return 0!==a[3]?1:0}function
+S(a){return aA(ax,a)}function
+T(a){if(typeof
 a!=="number"&&2===a[0])return 1;return 0}var
-d=0;switch(a[0]){case
-0:switch(b[0]){case
+d=0;switch(b[0]){case
+0:switch(a[0]){case
 0:var
-T=a[4],S=a[1];d=6;break;case
+V=b[4],U=b[1];d=8;break;case
 1:var
-W=b[4];d=typeof
-W==="number"||!(3===W[0])?1:5;break;default:d=2}break;case
+Y=a[4];d=typeof
+Y==="number"||!(1<Y[0])?3:7;break;default:d=1}break;case
 1:var
-ae=0;if(0===b[0]){var
-aB=b[3];if(aA(function(a){var
+_=b[6],$=b[2],J=0;if(0===a[0]){var
+aC=a[3];if(aA(function(a){var
 b=a[1];return aA(function(a){switch(a[2][0]){case
 6:case
-7:return 1;default:return 0}},b)},aB)){af(GC);ae=1}}if(!ae){var
-aC=a[6];if(aA(function(a){return 5===a[1]?1:0},aC)){var
-aD=a[2];if(aA(function(a){switch(a[0]){case
+7:return 1;default:return 0}},b)},aC))ah(GO);else
+J=1}else
+J=1;var
+K=0;if(J){var
+aj=0;if(aA(function(a){return 5===a[1]?1:0},_)&&aA(function(a){switch(a[0]){case
 0:case
-3:return 0;default:return 1}},aD))af(GD);else
-d=1}else
-d=1}break;case
-2:var
-_=a[7],C=a[1];switch(b[0]){case
+3:return 0;default:return 1}},$)){ah(GP);aj=1}if(!aj)switch(a[0]){case
 0:var
-aE=1===C?6:3,$=cn(a[2])===aE?1:0;if($){var
-ag=0;if(2<=C||!(0===a[4][0]))ag=1;else
+ak=0;if(aA(function(a){return 11===a[1]?1:0},_)&&aA(function(a){return 2===a[0]?1:0},$)){ah(GQ);ak=1}if(!ak){d=4;K=1}break;case
+1:d=5;K=1;break;default:d=4;K=1}}break;case
+2:var
+ac=b[1],aD=b[7];switch(a[0]){case
+0:var
+aE=1===ac?6:3,ae=cp(b[2])===aE?1:0;if(ae){var
+al=0;if(2<=ac||!(0===b[4][0]))al=1;else
 var
-D=1;if(ag)var
+D=1;if(al)var
 D=0}else
 var
-D=$;var
+D=ae;var
 aF=function(b){var
 g=0;if(!b[1]){var
 d=b[2];if(8===d[0]){var
 e=d[1];if(7===e[0]){var
 c=e[1],a=0;switch(c[0]){case
-1:if(o(c[1],GE))a=1;break;case
+1:if(o(c[1],GS))a=1;break;case
 6:var
-f=c[1];if(1!==f[0]||o(f[1],GF))a=1;break;default:a=1}if(!a)return 1-D}}else
-g=1}if(!g&&8===b[2][0])return 1;return 0},aG=b[3],aK=0;if(aA(function(a){return aA(aF,a[1])},aG))af(GG);else{var
-ah=0;if(aA(function(a){return 11===a[1]?1:0},_)){var
-aj=0;if(1===C&&2===a[5][0]){var
-aa=0;aj=1}if(!aj)var
-aa=1;if(aa){af(GH);ah=1}}if(!ah){var
-aH=b[3];if(hN(function(a){var
-b=a[1];return hN(function(d){var
+f=c[1];if(1!==f[0]||o(f[1],GT))a=1;break;default:a=1}if(!a)return 1-D}}else
+g=1}if(!g&&8===b[2][0])return 1;return 0},aG=a[3],aK=0;if(aA(function(a){return aA(aF,a[1])},aG))ah(GU);else{var
+aH=a[3];if(hX(function(a){var
+b=a[1];return hX(function(d){var
 b=d[2],a=0;switch(b[0]){case
 0:var
-c=b[1];if(o(c,Gh)){if(!o(c,Gi))return aA(Gg,_)}else
+c=b[1];if(o(c,Gv)){if(!o(c,Gw))return aA(Gu,aD)}else
 a=1;break;case
-1:if(!o(b[1],Gj))a=1;break;case
+1:if(!o(b[1],Gx))a=1;break;case
 7:case
-8:a=1;break}return a?1:0},b)},aH)){d=3;aK=1}else
-af(GI)}}break;case
+8:a=1;break}return a?1:0},b)},aH)){d=2;aK=1}else
+ah(GV)}break;case
 1:var
-ak=0,ab=b[4];if(typeof
-ab==="number"||!(1<ab[0]))ak=1;else
-d=5;if(ak)d=1;break;default:d=2}break;case
-3:switch(b[0]){case
-0:if(aA(av,b[3]))af(GJ);else
-d=3;break;case
-2:d=2;break;default:d=1}break;case
-7:switch(b[0]){case
+am=0,af=a[4];if(typeof
+af==="number"||!(1<af[0]))am=1;else
+d=7;if(am)d=3;break;default:d=1}break;case
+3:switch(a[0]){case
+0:if(aA(aw,a[3]))ah(GW);else
+d=2;break;case
+2:d=1;break;default:d=5}break;case
+7:switch(a[0]){case
 2:var
-ac=b[1],al=0;if(aA(function(a){if(typeof
+ag=a[1],an=0;if(aA(function(a){if(typeof
 a!=="number"&&2===a[0]){var
 b=a[4];if(typeof
-b!=="number"&&3===b[0])return 1}return 0},ac)){af(GK);al=1}else
+b!=="number"&&3===b[0])return 1}return 0},ag)){ah(GX);an=1}else
 if(aA(function(a){if(typeof
-a!=="number"&&2===a[0])return R(a[4]);return 0},ac)){af(GL);al=1}else
-d=4;break;case
-1:d=1;break;default:d=4}break;default:d=1}var
-h=0;switch(d){case
-1:if(1===b[0]){var
-am=0,Z=b[4];if(typeof
-Z!=="number"&&3===Z[0]){af(GB);am=1}if(!am)if(R(b[4]))af(GA);else
-h=3}else
-h=3;break;case
-4:h=3;break;case
-5:break;case
-0:break;case
-6:h=4;break;case
-3:h=1;break;default:h=2}var
-e=0;switch(h){case
-3:var
-f=0;switch(a[0]){case
-1:var
-X=a[6];break;case
-4:var
-X=a[3];break;case
-5:if(aA(Ge,a[4])){af(Gy);e=2;f=1}else
-if(0===b[0]){var
-az=b[3];if(aA(function(a){return 0!==a[1]?1:0},az)){af(Gz);e=2;f=1}else
-f=1}else
-f=1;break;case
-6:f=1;break;case
-7:var
-T=a[4],S=a[2];e=3;f=1;break;default:e=1;f=1}if(!f)if(0===b[0]){if(aA(function(a){return 11===a[1]?1:0},X)){af(Gx);e=2}}else
-e=1;break;case
-0:e=2;break;case
+a!=="number"&&2===a[0])return T(a[4]);return 0},ag)){ah(GY);an=1}else
+d=6;break;case
+1:d=5;break;default:d=6}break;default:d=5}var
+e=0;switch(d){case
+5:if(1===a[0]){var
+ab=a[4];if(typeof
+ab==="number"||!(3===ab[0]))e=3;else
+ah(GR)}else
+e=3;break;case
 4:e=3;break;case
-1:break;default:e=1}var
-w=0;switch(e){case
+3:e=4;break;case
+6:e=5;break;case
+7:e=6;break;case
+0:break;case
+8:e=7;break;case
+2:e=1;break;default:e=2}var
+f=0;switch(e){case
+3:switch(b[0]){case
+1:case
+4:switch(a[0]){case
+0:break;case
+1:var
+aa=a[4];f=typeof
+aa==="number"||!(2===aa[0])?3:5;break;default:f=1}break;default:f=3}break;case
+4:f=3;break;case
+5:f=4;break;case
+6:f=5;break;case
+0:f=2;break;case
+7:f=6;break;case
+1:break;default:f=1}var
+k=0;switch(f){case
+3:if(1===a[0]&&T(a[4]))ah(GN);else
+k=3;break;case
+4:k=3;break;case
+5:break;case
+2:break;case
+6:k=4;break;case
+0:k=1;break;default:k=2}var
+h=0;switch(k){case
+3:switch(b[0]){case
+5:if(aA(Gs,b[4])){ah(GL);h=2}else
+if(0===a[0]){var
+aB=a[3];if(aA(function(a){return 0!==a[1]?1:0},aB)){ah(GM);h=2}}break;case
+6:break;case
+7:var
+V=b[4],U=b[2];h=3;break;default:h=1}break;case
+0:h=2;break;case
+4:h=3;break;case
+1:break;default:h=1}var
+x=0;switch(h){case
 2:break;case
 3:var
-an=0;if(aA(function(a){return 10===a[1]?1:0},T)&&aA(function(a){return 2===a[0]?1:0},S)){af(Gp);an=1}if(!an)w=2;break;case
-0:w=2;break;default:w=1}var
-J=0;switch(w){case
+ao=0;if(aA(function(a){return 10===a[1]?1:0},V)&&aA(function(a){return 2===a[0]?1:0},U)){ah(GD);ao=1}if(!ao)x=2;break;case
+0:x=2;break;default:x=1}var
+L=0;switch(x){case
 2:var
-l=0;switch(a[0]){case
+n=0;switch(b[0]){case
 5:case
-7:if(aA(Gf,a[4])){af(Gv);l=1}else
-if(7===a[0])switch(b[0]){case
+7:if(aA(Gt,b[4])){ah(GJ);n=1}else
+if(7===b[0])switch(a[0]){case
 2:var
-ay=function(a){if(typeof
-a!=="number"&&1===a[0])return Q(a[3]);return 0};if(aA(ay,b[1]))af(Gw);l=1;break;case
-0:break;default:J=1;l=1}else
-l=1;break}if(!l)if(0===b[0]&&Q(b[3]))af(Gu);else
-J=1;break;case
-1:J=1;break}var
-U=ai(v(u,Gq)),ax=aY(v(U,Gr)),A=[0,a,b,aY(v(U,Gs)),ax],x=A[1];if(7===x[0]){var
-K=A[2],ao=x[4],ap=x[2];if(2===K[0])var
-aq=K[1],B=m(function(a){if(typeof
+az=function(a){if(typeof
+a!=="number"&&1===a[0])return S(a[3]);return 0};if(aA(az,a[1]))ah(GK);n=1;break;case
+0:break;default:L=1;n=1}else
+n=1;break}if(!n)if(0===a[0]&&S(a[3]))ah(GI);else
+L=1;break;case
+1:L=1;break}var
+X=ai(v(w,GE)),ay=aY(v(X,GF)),B=[0,b,a,aY(v(X,GG)),ay],y=B[1];if(7===y[0]){var
+M=B[2],ap=y[4],aq=y[2];if(2===M[0])var
+ar=M[1],C=m(function(a){if(typeof
 a!=="number"&&2===a[0]){var
 b=a[4];if(typeof
 b!=="number"&&0===b[0]){var
-e=b[1],c=G(oy(g(ap),0,ao),e);if(c){var
+e=b[1],c=G(oI(g(aq),0,ap),e);if(c){var
 d=c[1];if(typeof
-d!=="number"&&14===d[0])return 0;return 1}return 1}return 1}return 1},aq);else
+d!=="number"&&14===d[0])return 0;return 1}return 1}return 1}return 1},ar);else
 var
-B=1}else
+C=1}else
 var
-B=1;return B?A:af(Gt)}function
-GN(b){var
-c=au(b),g=64,h=Io(64,c)?g:c,a=0,i=h-18|0;for(;;){var
+C=1;return C?B:ah(GH)}function
+G0(b){var
+c=av(b),g=64,h=IB(64,c)?g:c,a=0,i=h-18|0;for(;;){var
 d=a<=i?1:0;if(d){var
-e=ax(dU(b,a,18),GO);if(!e){var
+e=ax(dV(b,a,18),G1);if(!e){var
 a=a+1|0;continue}var
 f=e}else
 var
-f=d;return f}}IJ(function(b){try{if(GN(b))var
-a=GQ;else{try{var
-e=0,d=Gk(b);e=1}catch(a){a=rP(a);if(a[1]===pe)var
-c=[0,a[2]];else{if(a!==V)throw a;var
+f=d;return f}}IW(function(b){try{if(G0(b))var
+a=G3;else{try{var
+e=0,d=Gy(b);e=1}catch(a){a=rZ(a);if(a[1]===po)var
+c=[0,a[2]];else{if(a!==W)throw a;var
 c=2}}if(e)var
-c=BK(b,d)?1===d[2][0]?1:0:2;var
-a=c}}catch(a){return GP}if(typeof
+c=BY(b,d)?1===d[2][0]?1:0:2;var
+a=c}}catch(a){return G2}if(typeof
 a==="number")switch(a){case
-0:return GR;case
-1:return GS;default:return GT}return a$(GU,a[1])});ky(0);return}(globalThis));
+0:return G4;case
+1:return G5;default:return G6}return a$(G7,a[1])});kG(0);return}(globalThis));

@@ -34,8 +34,6 @@ pub struct Subject<'a> {
     pub requirements: &'a [Requirement],
     /// Over a box, of as many legs as there are coordinates, of place and of orientation.
     pub is_square_over_box: bool,
-    /// Of struts of a platform that turns up to some angle about any axis.
-    pub is_about_any_axis: bool,
     /// What is claimed of a machine, if that is a claim by itself or of parts of an atlas.
     pub claim_of_machine: Option<&'a MachineClaim>,
 }
@@ -151,7 +149,6 @@ pub fn subject(claim: &Claim) -> Exported<Subject<'_>> {
                 legs: &[],
                 requirements: &[],
                 is_square_over_box: false,
-                is_about_any_axis: false,
                 claim_of_machine: None,
             })
         }
@@ -257,19 +254,9 @@ fn machine(claim: &MachineClaim) -> Exported<Subject<'_>> {
     };
     let is_square_over_box =
         coordinates == Some(legs.len()) && matches!(workspace, Workspace::Box { .. });
-    let is_about_any_axis = matches!(mechanism, Mechanism::Spatial(_))
-        && matches!(claim.orientation, Some(Orientation::Angle(_)));
     let claim_of_machine = Some(claim);
     let requirements = require;
-    Ok(Subject {
-        kind,
-        arguments,
-        legs,
-        requirements,
-        is_square_over_box,
-        is_about_any_axis,
-        claim_of_machine,
-    })
+    Ok(Subject { kind, arguments, legs, requirements, is_square_over_box, claim_of_machine })
 }
 
 fn without_bodies(claim: &MachineClaim) -> Exported<()> {

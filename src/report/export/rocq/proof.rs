@@ -54,7 +54,6 @@ fn covered(proof: &Proof, subject: &Subject<'_>) -> Exported<()> {
     let is_of_two_points = |kind, proof: &Proof| {
         matches!((kind, proof), (Kind::Machine | Kind::Turning, Proof::Witness(_)))
     };
-    let is_one_to_one = matches!(proof, Proof::Tree(_)) && requires(&["one_to_one"]);
     let what = match (subject.kind, proof) {
         (Kind::Formulas, _)
             if has(&|by| {
@@ -78,16 +77,18 @@ fn covered(proof: &Proof, subject: &Subject<'_>) -> Exported<()> {
         {
             "\"parallel_margin\" of struts in such a claim"
         }
-        (Kind::Turning, _) if is_one_to_one && !subject.is_about_any_axis => {
-            "\"one_to_one\" of this set of orientations"
+        (Kind::Legs, Proof::Tree(_))
+            if requires(&["one_to_one"])
+                && subject.legs.iter().any(|l| matches!(l, Leg::Planar { .. })) =>
+        {
+            "\"one_to_one\" of planes in such a claim"
         }
-        (Kind::Legs | Kind::Closed, _) if is_one_to_one => "\"one_to_one\" of such a mechanism",
         (Kind::Turning, _)
             if has(&|by| is_no_step_of_pose(by) || (*by == Evidence::Test && !has_sign)) =>
         {
             "a step of a platform that turns that is not at control points"
         }
-        (kind, _) if is_singular && kind != Kind::Turning => {
+        (Kind::Formulas | Kind::Atlas, _) if is_singular => {
             "the failure \"singular\" of such a mechanism"
         }
         (kind, proof) if is_same && !is_of_two_points(kind, proof) => {
