@@ -5,7 +5,7 @@
 
 From Coq Require Import Reals.
 From Orthocert Require Import Vec3 SingularValues Kinematics Velocity Diagonal CubeLower Scaling
-  Postulate Extremes Design TightCorner AllPsi Claim.
+  Postulate Extremes Design TightCorner AllPsi Claim Paper.
 From Orthocert.kernel Require Apart Solve Tolerances Check Machine Acceleration Accuracy Gradient Near Problem Faces Witness Cubes NoCube Closed Trig Arm Written AtPoint Turning Same Twins Accelerated Far Singular Legs Control Pose Drives Driven Certificate PavingText.
 From Orthocert.instances Require OrthoglideTolerance LinearDelta PostulateAll PostulateUpTo2 FourSliders StrutsAndPlane DeltaSpeed DeltaMargin UpuAxes
   FiveBar PlanarPlatform FiveBarFormulas Prototype DeltaTooFast NoCube Atlas.
@@ -28,6 +28,8 @@ Check tight_at_Q_1.
 Check tight_at_Q_2_lower.
 Check tight_at_Q_2_upper.
 Check tight_only_at_Q1_Q2.
+Check joints_apart.
+Check one_to_one.
 
 (** ** Any diagonal cube *)
 
@@ -36,6 +38,7 @@ Check min_sigma_min.
 Check max_sigma_max.
 Check corners_suffice.
 Check largest_cube.
+Check paper.
 
 (** ** The design of the paper *)
 
@@ -140,7 +143,7 @@ Check kernel.PavingText.verify_paving_sound.
 Definition all_of_them :=
   (@Jinv_velocity, @Jinv_is_derivative, @rho_unique, @orthoglide_Jinv_mm, @q1q2_postulate,
    @velocity_transmission, @transmission_factors, @tight_at_Q_1, @tight_at_Q_2_lower,
-   @tight_at_Q_2_upper, @tight_only_at_Q1_Q2, @cube_regular, @min_sigma_min, @max_sigma_max,
+   @tight_at_Q_2_upper, @tight_only_at_Q1_Q2, @joints_apart, @one_to_one, @paper, @cube_regular, @min_sigma_min, @max_sigma_max,
    @corners_suffice, @largest_cube, @prescribed_side, @numbers_200, @orthoglide_200,
    @L_310_too_short, @joint_range, @joint_range_reached, @rho_max_200, @symmetric_part,
    @tight_corner_rule, @tight_corner_semidefinite, @faces_suffice, @two_faces_suffice, @blow_up,

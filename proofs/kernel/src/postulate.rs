@@ -34,6 +34,12 @@
 //! `pi` of the coordinates, the faces `x = q_1` and `x = q_2` stand for all six. So a proof for one
 //! `psi_max` is one for every lesser one.
 //!
+//! **One to one.** What is shown is `sym(M) >= kappa I`, on a cube, which is convex. Rows of `M` are the derivatives of
+//! the joint coordinates `rho`: for two of its points `P` and `P + x`, by the mean value theorem,
+//! `x . (rho(P + x) - rho(P)) = x . M x >= kappa |x|^2` with `M` somewhere between them, and so
+//! `|rho(P + x) - rho(P)| >= kappa |x|`. ∎ At most `|x|/kappa` it is as `sigma_max(M) <= 1/kappa` (with the direction of the
+//! difference in the place of `x`).
+//!
 //! **By hand.** The same, without trees and without computation. Let `max |P_i| <= c`,
 //! `c = t/sqrt(1 + 2 t^2)`, `eta = P/c`, `S_i` with this `t`, `sigma_i = 1/S_i`, `g = (1 - kappa)/t`.
 //! Then `|eta_i| <= 1`, `0 < sigma_i <= 1`, and
@@ -295,7 +301,9 @@ t2 = 1 - kappa if kappa <= 1/2 and (1/kappa - 1)/2 otherwise,
 q1 = -L t1/sqrt(1 + 2 t1^2) and q2 = L t2/sqrt(1 + 2 t2^2):
 at every point P of the cube [q1, q2]^3, every leg reaches P without a serial
 singularity, P is no parallel singularity, and the velocity transmission factors
-psi_i satisfy 1/psi_max <= psi_i <= psi_max.
+psi_i satisfy 1/psi_max <= psi_i <= psi_max. The joint coordinates at two points
+of the cube that are d apart are from d/psi_max to psi_max d apart, so that no
+two points have the same.
 "
     )
 }

@@ -8,7 +8,7 @@
     Cubes.v, Closed.v and Kinematics.v. *)
 
 From Coq Require Import ZArith QArith Reals Lra List Bool String Ascii DecimalString.
-From Orthocert Require Import Vec3 SingularValues Kinematics Diagonal Postulate Claim.
+From Orthocert Require Import Vec3 SingularValues Kinematics Diagonal Scaling Postulate Paper Claim.
 From Orthocert.kernel Require Import Configuration Arm Written AtPoint Orientation Turning Accelerated Singular Between Twins Far Legs Inputs Pose Driven.
 From Orthocert.kernel Require Tolerances.
 From Orthocert.kernel Require Import Statement Check Number Problem Faces Witness Closed Cubes NoCube.
@@ -911,9 +911,8 @@ Fixpoint is_atlas (ps : parameters_) (ls : list written_leg) (w : written_region
   | Whole (Cut _ | Undecided) => True
   end.
 
-Definition postulate_for (psi : R) : Prop := forall L a e, 0 < L -> forall P, in_cube L psi P ->
-  Kinematics.regular (orthoglide L a e) P /\
-  forall v, (1 / psi) ^ 2 * norm2 v <= norm2 (mulv (Jinv (orthoglide L a e) P) v) <= psi ^ 2 * norm2 v.
+Definition postulate_for (psi : R) : Prop := forall L a e, 0 < L -> let m := orthoglide L a e in forall P, in_cube L psi P ->
+  transmission_within psi m P /\ forall Q, in_cube L psi Q -> Paper.joints m Q = Paper.joints m P -> Q = P.
 
 Definition means (c : certificate) : Prop :=
   match subject_ c, proof_ c with
@@ -1670,9 +1669,10 @@ Proof.
   - cbv zeta in h. destruct (failing_tree_of _ _ nodes) as [[tr [|]] |]; try discriminate. apply andb_true_iff in h as [_ h].
     exact (check_no_cube_certified _ _ _ _ _ _ _ h).
   - destruct (trees_of 3 [] [] [] 4 nodes) as [ts |]; [| discriminate]. apply andb_true_iff in h as [_ h]. split; [exact (check_postulate_greatest _ _ _ h) |].
-    intros psi h1 [_ h2] L a e hL P hP. exact (check_postulate_up_to_sound _ _ _ h L a e hL psi (conj h1 h2) P hP).
-  - destruct (trees_of 3 [] [] [] 4 nodes) as [ts |]; [| discriminate]. intros psi h1 L a e hL P hP.
-    exact (check_postulate_sound _ _ h L a e hL psi h1 P hP).
+    intros psi h1 [_ h2] L a e hL m P hP. split; [exact (check_postulate_up_to_sound _ _ _ h L a e hL psi (conj h1 h2) P hP) |].
+    intros Q hQ. exact (Paper.one_to_one L a e psi hL h1 Q P hQ hP).
+  - destruct (trees_of 3 [] [] [] 4 nodes) as [ts |]; [| discriminate]. intros psi h1 L a e hL m P hP.
+    split; [exact (check_postulate_sound _ _ h L a e hL psi h1 P hP) |]. intros Q hQ. exact (Paper.one_to_one L a e psi hL h1 Q P hQ hP).
   - destruct (atlas_of _ cells) as [[t' [|]] |]; try discriminate. apply andb_true_iff in h as [h hc]. apply andb_true_iff in h as [h hr].
     apply andb_true_iff in h as [_ hs]. split; [exact (accept_cells_sound _ _ _ _ _ _ hc) |]. split; apply is_share_sound; assumption.
 Qed.

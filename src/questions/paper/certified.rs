@@ -97,7 +97,7 @@ fn the_postulate() -> Result<Finding, NotEstablished> {
         place: "Step 1",
         says:
             "if the bounds hold at Q1 and Q2 they hold on the cube; interval analysis can show it",
-        proved: "the bounds hold on the cube for every psi_max > 1",
+        proved: "the bounds hold on the cube for every psi_max > 1, and no two points of it have the same joint coordinates",
         agreement: Agreement::Holds,
         values: Vec::new(),
         basis: Basis::Certificates(vec![("paper-postulate", postulate(id)?)]),
