@@ -113,7 +113,7 @@ Example of_another_machine : accepts LinearDelta.the_claim certificate = false. 
 Example in_halves : accepts (between (1 // 2) (2 // 1)) (Parts [] 9 certificate certificate) = true. Proof. vm_cast_no_check (eq_refl true). Qed.
 Example lower_half_left_out : accepts (between (1 // 2) (2 // 1)) (Parts [] 9 (without_last certificate) certificate) = false. Proof. vm_cast_no_check (eq_refl false). Qed.
 Example upper_half_left_out : accepts (between (1 // 2) (2 // 1)) (Parts [] 9 certificate (Leaf [])) = false. Proof. vm_cast_no_check (eq_refl false). Qed.
-Example accuracy_in_halves : may_part [Accurate zero []] [true] = false /\ may_part [Accurate zero []; AtLeast 0] [false; true] = true. Proof. split; reflexivity. Qed.
+Example accuracy_in_halves : may_part is_of_each [Accurate zero []] [true] = false /\ may_part is_of_each [Accurate zero []; AtLeast 0] [false; true] = true. Proof. split; reflexivity. Qed.
 End Tolerance.
 
 Module Margin.

@@ -172,7 +172,7 @@ Qed.
 
 Definition refute_accelerated (c : turning_claim) (ls : list exact_strut) (P : numbers) (t : list number) (test : nat) (v : list Z) : bool :=
   let k := motion_of c in
-  all_struts bits (struts c) ls && is_in bits (positions c) P && is_orientation bits (turned c) t &&
+  is_about_exactly bits c ls P t &&
   match test_at bits (match k with AboutPoint => 1 | _ => 2 end) test (turning_demands c) with
   | Some (AccelerationMax i p q b, _) => match nth_error ls i with
       | Some l => is_accelerated k (characteristic_length c) (turned c) t P l p q b (integers_of v)
@@ -184,9 +184,8 @@ Definition refute_accelerated (c : turning_claim) (ls : list exact_strut) (P : n
 Theorem refute_accelerated_sound : forall c ls P t test v, refute_accelerated c ls P t test v = true ->
   exists m P Q, is_about_struts c m P Q /\ ~ meets_turning c m P Q.
 Proof.
-  intros c ls P t test v h. unfold refute_accelerated in h. cbv zeta in h. apply andb_true_iff in h as [h r]. apply andb_true_iff in h as [h o]. apply andb_true_iff in h as [h p].
-  destruct (is_orientation_sound bits _ _ o) as [Q [hQ turnQ]]. exists (map strut_of ls), (values P), Q.
-  split; [split; [apply (all_struts_sound bits), h | split; [exact (is_in_sound bits _ _ p) | exact hQ]] |].
+  intros c ls P t test v h. unfold refute_accelerated in h. cbv zeta in h. apply andb_true_iff in h as [h r].
+  destruct (is_about_exactly_sound bits _ _ _ _ h) as [Q [about turnQ]]. exists (map strut_of ls), (values P), Q. split; [exact about |].
   intros [reached [_ met]]. destruct (test_at _ _ _ _) as [[d which] |] eqn:e; [| discriminate]. destruct d; try discriminate. apply test_at_in in e. rewrite Forall_forall in met. specialize (met _ e).
   destruct (nth_error ls joint) as [l |] eqn:el; [| discriminate]. cbn [fulfils struts_at accelerates] in met. cbn [struts_at Configuration.reached] in reached.
   rewrite Forall_map, Forall_forall in reached. specialize (reached l (nth_error_In _ _ el)).

@@ -239,7 +239,7 @@ Proof.
     destruct g as [_ [_ [_ [_ [_ g]]]]]. destruct (g I) as [_ [g' _]]. cbn [Inputs.rate seen_row] in g'. rewrite one in g'. rewrite map_map.
     replace (snd p) with (map (Rmult 1) (snd p)) by (rewrite <- (map_id (snd p)) at 2; apply map_ext; intro; ring). rewrite <- g'.
     apply map_ext_in. intros e ie. symmetry. rewrite Forall_forall in h. apply h. unfold own_formulas. apply in_or_app. right. apply in_or_app. left. exact ie.
-  - rewrite E2 at 1. rewrite map_map. clear - Own one. induction Own as [| q p l ps [h g] hs IH]; [reflexivity |]. cbn [map]. rewrite IH. f_equal.
+  - unfold joint_values. rewrite E2 at 1. rewrite map_map. clear - Own one. induction Own as [| q p l ps [h g] hs IH]; [reflexivity |]. cbn [map]. rewrite IH. f_equal.
     destruct g as [_ [_ [_ [_ [_ g]]]]]. destruct (g I) as [_ [_ [g' _]]]. cbn [seen_joint] in g'. unfold own_formulas in h. unfold coordinate_at in g'.
     destruct (fst p) as [es | e], (d_joint q) as [a | |]; cbn [joint_is joint_number coordinate_of] in *; try contradiction; [reflexivity |].
     rewrite one in g'. f_equal. rewrite Forall_forall in h. rewrite (h a) by (apply in_or_app; right; apply in_or_app; right; left; reflexivity). lra.

@@ -9,7 +9,7 @@
 
 From Coq Require Import ZArith QArith Reals Lra List Bool String Ascii DecimalString.
 From Orthocert Require Import Vec3 SingularValues Kinematics Diagonal Scaling Postulate Paper Claim.
-From Orthocert.kernel Require Import Configuration Arm Written AtPoint Orientation Turning Accelerated Singular Between Twins Far Legs Inputs Pose Driven.
+From Orthocert.kernel Require Import Configuration Arm Written AtPoint Orientation Turning Accelerated Singular Between Twins Far FarWritten Legs Inputs Pose Driven.
 From Orthocert.kernel Require Tolerances.
 From Orthocert.kernel Require Import Statement Check Number Problem Faces Witness Closed Cubes NoCube.
 Import ListNotations.
@@ -635,7 +635,7 @@ Definition demand_of (are_angles : bool) (legs : nat) (bs : list written_body) (
   | PlatformJoint_, AtMost_ b => match given_ r with Some (Each_ xs) => each (fun i => JointAngleMax i true (axis_of xs) (denoted b)) | _ => [] end
   | Clearance_, AtLeast_ b => map (fun p => Clear (body_of (fst p)) (body_of (snd p)) (denoted b)) (pairs_of [] bs)
   | Load_, AtMost_ b => match given_ r with Some (Each_ force) => each (fun i => LoadMax i (map denoted force) (denoted b)) | _ => [] end
-  | Accuracy_, AtMost_ b => match given_ r with Some (Near_ e a) => [OnePose (denoted e) (denoted b) (denoted a)] | _ => [] end
+  | Accuracy_, AtMost_ b => match given_ r with Some (Near_ e a) => [OnePose (denoted e) (denoted b) (denoted a)] | Some (Given_ e) => [OnePose (denoted e) (denoted b) (0 // 1)] | _ => [] end
   | Acceleration_, AtMost_ b => match given_ r with Some (Motion_ a v) => each (fun i => AccelerationMax i (denoted a) (denoted v) (denoted b)) | _ => [] end
   | _, _ => []
   end.
@@ -685,6 +685,7 @@ Definition is_driven_demand (are_angles : bool) (k : mobility) (legs : nat) (r :
   | Parallel_, AtLeast_ _, None => Nat.eqb legs (freedom k) && match k, leg_ r with Turns _, _ | _, Some _ => false | _, None => true end
   | JointRange, e, None => is_leg && Bool.eqb are_angles match e with Within_ _ _ => true | _ => false end
   | Load_, AtMost_ _, Some (Each_ force) => is_leg && Nat.eqb legs (freedom k) && Nat.eqb (length force) legs && match k with Turns _ => false | _ => true end
+  | Accuracy_, AtMost_ _, Some given => Nat.eqb legs (freedom k) && match k, leg_ r, given with Turns _, None, Near_ _ _ | (Translates | TranslatesInPlane), None, Given_ _ => true | _, _, _ => false end
   | _, _, _ => is_turning_demand (freedom k) legs r
   end.
 
@@ -1212,7 +1213,7 @@ Definition is_demand_bound (d : demand) : bool :=
   | Clear _ _ b => certainly exact_bits false b
   | AccelerationMax _ a v b => certainly exact_bits false a && certainly exact_bits false v && certainly exact_bits true b
   | LoadMax _ force b => forallb is_number force && existsb (fun x => certainly exact_bits true (Times x x)) force && certainly exact_bits true b
-  | OnePose e b a => certainly exact_bits false e && certainly exact_bits true b && certainly exact_bits true a && certainly exact_bits true (Minus (180 // 1) a)
+  | OnePose e b a => certainly exact_bits false e && certainly exact_bits true b && certainly exact_bits false a && certainly exact_bits true (Minus (180 // 1) a)
   | Nonsingular => true
   end.
 (** A quantity, leg and end stand once. *)
@@ -1321,10 +1322,11 @@ Definition are_well_formed_formulas (xs : list string) (ps : list (string * quan
   let has_coordinate r := match about_ r with
     | JointRange => forallb (fun j => match nth_error rows j with Some (Rho_ _) => true | _ => false end)
         match leg_ r with Some k => [pred k] | None => seq 0 (length rows) end
-    | OneToOne_ => forallb (fun j => match j with Rho_ _ => true | _ => false end) rows
+    | OneToOne_ | Accuracy_ => forallb (fun j => match j with Rho_ _ => true | _ => false end) rows
     | _ => true
     end in
-  Nat.eqb (length a) (length b) && forallb (fun r => is_asked n (length rows) r && has_coordinate r) rs && is_each_once rs &&
+  let is_asked_here r := match about_ r, end_ r, leg_ r, given_ r with Accuracy_, AtMost_ _, None, Some (Given_ _) => Nat.eqb n (length rows) | _, _, _, _ => is_asked n (length rows) r end in
+  Nat.eqb (length a) (length b) && forallb (fun r => is_asked_here r && has_coordinate r) rs && is_each_once rs &&
   forallb (fun p => is_range (snd p)) ps && forallb is_demand_bound (demands false (length rows) [] rs).
 
 (** How many tests are before that of two points. *)
@@ -1396,10 +1398,11 @@ Definition accept_driven_witness (k : mobility) (ls : list written_driven) (ell 
   let point := map denoted point in let c := driven_claim_of k ls ell w o rs in
   match take_all_driven ls (map denoted machine) with
   | (m, []) => is_one_each (flat_map quantities_of_driven ls) machine && are_well_formed_legs k ls ell w o rs && Nat.eqb (length point) (freedom k) &&
-      match how, failure_at (has_arms ls) 1 (length ls) [] rs how with
+      match how, failure_at (has_arms ls) (parts_near k) (length ls) [] rs how with
       | Singular_ other, _ => let other := map denoted other in
           refute_between_driven exact_bits c m (numbers_of (firstn n point)) (skipn n point) (numbers_of (firstn n other)) (skipn n other) && Nat.eqb (length other) (freedom k)
-      | _, Some f => refute_driven exact_bits c m (numbers_of (firstn n point)) (skipn n point) f && match how with Dependent_ => negb (has_arms ls) | _ => true end
+      | _, Some f => let P := numbers_of (firstn n point) in let t := skipn n point in match how with Dependent_ => negb (has_arms ls) | _ => true end &&
+          (refute_driven exact_bits c m P t f || match f with NFails i [v] => refute_far_driven exact_bits c m P t i v | _ => false end)
       | _, None => false
       end
   | _ => false
@@ -1554,7 +1557,8 @@ Definition accept (c : certificate) : bool :=
       let c := written_claim_of xs ps ds rows a b rs in
       match take_list (map snd ps) (map denoted machine), failure_at false 1 (length rows) [] rs how with
       | (thetas, []), Some f => is_one_each (map snd ps) machine && are_well_formed_formulas xs ps rows a b rs && is_mechanism (by_formulas c) &&
-          forallb (fun t => below exact_bits (least t) (greatest t)) (box_of c) && refute_written exact_bits c thetas (map denoted point) f
+          forallb (fun t => below exact_bits (least t) (greatest t)) (box_of c) &&
+          (refute_written exact_bits c thetas (map denoted point) f || match f with NFails i [v] => refute_far_written exact_bits c thetas (map denoted point) i v | _ => false end)
       | _, _ => false
       end
   | Closed_ offset side rs, Nodes bits chords nodes => accept_closed offset side rs bits chords nodes
@@ -1614,7 +1618,8 @@ Proof.
   intros k ls ell w o rs point machine how h. unfold accept_driven_witness in h. cbv zeta in h. destruct (take_all_driven _ _) as [m [|]]; [| discriminate].
   apply andb_true_iff in h as [_ h].
   destruct how; try (apply andb_true_iff in h as [h _]; exact (refute_between_driven_sound _ _ _ _ _ _ _ h));
-    (destruct (failure_at _ _ _ _ _ _); [| discriminate]; apply andb_true_iff in h as [h _]; exact (refute_driven_sound _ _ _ _ _ _ h)).
+    (destruct (failure_at _ _ _ _ _ _) as [f |]; [| discriminate]; apply andb_true_iff in h as [_ h]; apply orb_true_iff in h as [h | h]; [exact (refute_driven_sound _ _ _ _ _ _ h) |];
+     destruct f as [| i [| v [|]] | |]; try discriminate; exact (refute_far_driven_sound _ _ _ _ _ _ _ h)).
 Qed.
 
 Lemma accept_closed_witness_sound : forall offset side rs bits point machine how tool version, accept_closed_witness offset side rs point machine how = true ->
@@ -1662,8 +1667,8 @@ Proof.
        apply orb_true_iff in h as [h | h]; [exact (refute_accelerated_sound _ _ _ _ _ _ _ h) | exact (refute_far_pose_sound _ _ _ _ _ _ _ h)]).
   - destruct (tree_of _ _ _ _ _ nodes) as [[tr [|]] |]; try discriminate. apply andb_true_iff in h as [_ h].
     exact (certify_written_sound _ _ _ _ _ _ h).
-  - cbv zeta in h. destruct (take_list _ _) as [thetas [|]]; [| discriminate]. destruct (failure_at _ _ _ _ _ how); [| discriminate].
-    apply andb_true_iff in h as [_ h]. exact (refute_written_sound _ _ _ _ _ h).
+  - cbv zeta in h. destruct (take_list _ _) as [thetas [|]]; [| discriminate]. destruct (failure_at _ _ _ _ _ how) as [f |]; [| discriminate].
+    apply andb_true_iff in h as [_ h]. apply orb_true_iff in h as [h | h]; [exact (refute_written_sound _ _ _ _ _ h) |]. destruct f as [| i [| v' [|]] | |]; try discriminate. exact (refute_far_written_sound _ _ _ _ _ _ h).
   - exact (accept_closed_sound offset side rs bits chords nodes t v h).
   - exact (accept_closed_witness_sound offset side rs bits point machine how t v h).
   - cbv zeta in h. destruct (failing_tree_of _ _ nodes) as [[tr [|]] |]; try discriminate. apply andb_true_iff in h as [_ h].
@@ -1676,16 +1681,6 @@ Proof.
   - destruct (atlas_of _ cells) as [[t' [|]] |]; try discriminate. apply andb_true_iff in h as [h hc]. apply andb_true_iff in h as [h hr].
     apply andb_true_iff in h as [_ hs]. split; [exact (accept_cells_sound _ _ _ _ _ _ hc) |]. split; apply is_share_sound; assumption.
 Qed.
-
-(** Whether a failure is one that has a theorem: for who reads, to say what is not covered. *)
-Definition is_of_known_failure (c : certificate) : bool :=
-  match subject_ c, proof_ c with
-  | Atlas_ _ ls _ rs _ _, Cells cells => forallb (fun x => match x with
-      | Disproved _ _ _ (Obligation i _) => match nth_error (obligations (length ls) [] rs) i with Some (Accuracy _ _) => false | _ => true end
-      | _ => true
-      end) cells
-  | _, _ => true
-  end.
 
 (** A text, and what was read from it. *)
 Definition verify (t : string) (c : certificate) : bool := String.eqb (String.concat "" (print c)) t && accept c.

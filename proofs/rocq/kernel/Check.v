@@ -1653,6 +1653,13 @@ Proof.
   - injection n as ->. subst b. left. reflexivity.
   - right. exact (IH t i open n o).
 Qed.
+(** No test is open that is about more machines than one. *)
+Definition may_part {A : Type} (is_of_each : A -> bool) (tests : list A) (open : list bool) : bool := forallb (fun p => is_of_each (fst p) || negb (snd p)) (combine tests open).
+Lemma may_part_sound : forall (A : Type) (is_of_each : A -> bool) tests open i t, may_part is_of_each tests open = true -> nth_error tests i = Some t -> nth i open false = true -> is_of_each t = true.
+Proof.
+  unfold may_part. intros A is_of_each tests open i t h n o. rewrite forallb_forall in h. specialize (h (t, true) (open_with _ tests t i open n o)). cbn [fst snd] in h.
+  rewrite orb_false_r in h. exact h.
+Qed.
 
 Section Tree.
 Variable bits : positive.
@@ -1664,16 +1671,13 @@ Variable all : list fixed.
 Variable tests : list test.
 Variable inside : list fixed -> option slope.
 
-(** No test is open that is about more machines than one. *)
-Definition may_part (open : list bool) : bool := forallb (fun p => is_of_each (fst p) || negb (snd p)) (combine tests open).
-
 Fixpoint check_for (params cell : list fixed) (open : list bool) (t : tree) : bool :=
   let then_ steps holds := match steps_on bits tape whole divided partial params tests inside cell steps open with Some last => holds last | None => false end in
   match t with
   | Leaf steps => then_ steps (forallb negb)
   | Split steps k lower upper => then_ steps (fun last =>
       let (a, b) := halves k cell in if check_for params a last lower then check_for params b last upper else false)
-  | Parts steps j lower upper => then_ steps (fun last => if may_part last then
+  | Parts steps j lower upper => then_ steps (fun last => if may_part is_of_each tests last then
       let (a, b) := halves j params in if check_for a cell last lower then check_for b cell last upper else false else false)
   end.
 Definition check : list fixed -> list bool -> tree -> bool := check_for all.
@@ -1685,12 +1689,6 @@ Hypothesis inside_sound : forall cell lambda x tangent, inside cell = Some tange
   Forall2 (fun a p => snd p - centre_of bits a = IZR (half a) / unit_R bits * fst p) cell (combine lambda x) -> exists d, entry_in bits tangent d /\ 0 <= at_lambda lambda d.
 
 Local Notation holds := (holds bits tape whole divided partial all theta).
-
-Lemma may_part_sound : forall open i t, may_part open = true -> nth_error tests i = Some t -> nth i open false = true -> is_of_each t = true.
-Proof.
-  unfold may_part. intros open i t h n o. rewrite forallb_forall in h. specialize (h (t, true) (open_with _ tests t i open n o)). cbn [fst snd] in h.
-  rewrite orb_false_r in h. exact h.
-Qed.
 
 (** Soundness: where the tree is accepted, every test holds at every point of the cell. *)
 Theorem check_for_sound : forall tr params cell x open, check_for params cell open tr = true -> Forall2 contains params theta -> Forall2 contains cell x -> allowed x ->
@@ -1711,9 +1709,9 @@ Proof.
     destruct c as [c | c].
     + rewrite <- La in *. exact (IHl params a x rest ha hp c ok W' D' t ht).
     + rewrite <- Lb in *. exact (IHu params b x rest h hp c ok W' D' t ht).
-  - destruct (may_part rest) eqn:e; [| discriminate]. pose proof (halves_sound bits k params theta hp) as c. destruct (halves k params) as [a b]. cbn [fst snd] in *.
+  - destruct (may_part is_of_each tests rest) eqn:e; [| discriminate]. pose proof (halves_sound bits k params theta hp) as c. destruct (halves k params) as [a b]. cbn [fst snd] in *.
     assert (W' : forall ps i t, nth_error tests i = Some t -> nth i rest false = true -> Check.holds bits tape whole divided partial ps theta (length cell) x t -> holds (length cell) x t)
-      by (intros ps i u n o; exact (holds_of_each bits tape whole divided partial ps theta all _ x u (may_part_sound rest i u e n o))).
+      by (intros ps i u n o; exact (holds_of_each bits tape whole divided partial ps theta all _ x u (may_part_sound _ _ _ rest i u e n o))).
     destruct (check_for a cell rest lower) eqn:ha; [| discriminate].
     destruct c as [c | c].
     + exact (IHl a cell x rest ha c hx ok (W' a) D' t ht).

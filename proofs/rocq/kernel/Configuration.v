@@ -45,6 +45,14 @@ Proof.
   assert (0 <= k * dot row v ^ 2) by (apply Rmult_le_pos; [lra | apply pow2_ge_0]). lra.
 Qed.
 
+(** Off by the error at most, of angles in degrees. *)
+Definition is_off (error : R) (nominal other : coordinate) : Prop :=
+  match nominal, other with
+  | Length a, Length b => Rabs (b - a) <= error
+  | Angle c s, Angle c' s' => exists d, Rabs d <= error /\ c' = c * cos (in_degrees d) - s * sin (in_degrees d) /\ s' = s * cos (in_degrees d) + c * sin (in_degrees d)
+  | _, _ => False
+  end.
+
 (** Joints are counted from zero. *)
 Inductive demand :=
   | Nonsingular
@@ -64,7 +72,7 @@ Inductive demand :=
   | Clear (one other : body) (b : number)
   (* of no motion of the platform with this acceleration and speed at most *)
   | AccelerationMax (joint : nat) (acceleration speed b : number)
-  (* of platforms that turn: the one pose within b, turned by at most so many degrees, where joints are off by [error] at most *)
+  (* the one pose within b, of platforms that turn turned by at most so many degrees, where joints are off by [error] at most *)
   | OnePose (error b angle : number)
   (* a joint's static force at this one force on the platform *)
   | LoadMax (joint : nat) (force : list number) (b : number).

@@ -187,8 +187,9 @@ Proof.
   - reflexivity.
 Qed.
 
-Lemma reached_aside : forall n J X T l p a r A B d, Configuration.fulfils n (Configuration J X T l p a r A) d -> Configuration.fulfils n (Configuration J X T l p a r B) d.
-Proof. intros n J X T l p a r A B [] h; exact h. Qed.
+(** Accelerations and accuracy are shown of none. *)
+Lemma reached_aside : forall n J X T l p a r A B d, Configuration.fulfils n (Configuration J X T l p (fun _ _ _ _ => False) (fun _ _ _ => False) A) d -> Configuration.fulfils n (Configuration J X T l p a r B) d.
+Proof. intros n J X T l p a r A B [] h; try exact h; cbn in *; [| destruct h]. intros v w lv lw hv hw. destruct (h v w lv lw hv hw) as [y [[] _]]. Qed.
 
 (** What is asked of a joint at a point: its row of M, its coordinate, the leg, and where it is reached. *)
 Record seen := Seen { seen_row : list R; seen_joint : coordinate; seen_rod : option Configuration.rod; seen_reach : Prop }.
@@ -714,7 +715,7 @@ Proof.
   assert (W2 : forall e, In e (entries (pose_divided fs)) -> formula_at tape (place e) = e) by (intros e i; apply Found, in_or_app; right; apply in_or_app; left; exact i).
   destruct (of_rows_energy x theta s (freedom k) angular fs (map look m) (fun b => vadd P (mulv Q b)) tape good W1 W2 _ LOW) as [RE _].
   pose proof (low_sees bits x theta s (freedom k) angular fs (map look m) (fun b => vadd P (mulv Q b)) tape (params ++ inputs ++ tangents) (map place built) good W1 W2 low c0 hc0 c00 (conj BU LOW)) as SEES.
-  assert (EJ : map seen_row (map look m) = jacobian (legs_at k L m P Q)) by (rewrite map_map; reflexivity).
+  assert (EJ : map seen_row (map look m) = jacobian (legs_at k L (map nominal_driven (drives c)) m P Q)) by (rewrite map_map; reflexivity).
   unfold meets_driven. fold k demands L. 
   assert (RP : Forall (fun l => own_reach l (carried l P Q)) m) by (rewrite Forall_map in RE; exact RE).
   split; [split; [exact RP |]; split |].

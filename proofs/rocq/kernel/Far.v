@@ -2,11 +2,12 @@
 
     Polynomials h_i in what a pose is off by are zero where it has given joint coordinates.  The sum of them, with
     weights, is one polynomial, whose coefficients are sums: where its slopes tell that it is negative at all u of the
-    ball, |u_t| <= 1 and |u_c| <= 1, no pose within the bound has these coordinates: nominal ones with the worst errors. *)
+    ball, |u_t| <= 1 and |u_c| <= 1, no pose within the bound has these coordinates: nominal ones with the worst errors.
+    In a cell of an atlas its parameters are coordinates of the slopes, too. *)
 
 From Coq Require Import ZArith QArith Qreals Reals Lra Lia List Bool.
 From Orthocert Require Import Vec3 SingularValues Kinematics Velocity Fixed Claim.
-From Orthocert.kernel Require Import Statement Arithmetic Number Machine Witness Orientation Turning Configuration Singular Onward Accelerated Same Twins.
+From Orthocert.kernel Require Import Statement Arithmetic Number Trig Machine Witness Arm Orientation Turning Legs Configuration Singular Onward Accelerated Same Twins.
 From Orthocert.kernel Require Linear Solve Slope Twofold.
 Import ListNotations.
 Local Open Scope R_scope.
@@ -99,6 +100,30 @@ Proof.
 Qed.
 End Meant.
 
+(** Parameters of an atlas first, and then what a pose is off by. *)
+Definition along_beside (names : naming) (u : list R) (k : nat) : R := if Nat.ltb k most_parameters then @Claim.along names k else part_at u (k - most_parameters).
+Lemma beside_within : forall names u k, 0 <= along_beside names u k <= 1.
+Proof. intros names u k. unfold along_beside. destruct (Nat.ltb k most_parameters); [apply Claim.along_within | apply part_within]. Qed.
+Definition beside (names : naming) (u : list R) : naming := {| Claim.along := along_beside names u; Claim.along_within := beside_within names u |}.
+
+Fixpoint is_named_number (x : number) : bool :=
+  match x with
+  | Ratio _ _ => true
+  | Varying k _ _ => Nat.ltb k most_parameters
+  | Plus x y | Minus x y | Times x y | Over x y => is_named_number x && is_named_number y
+  | Root x => is_named_number x
+  end.
+Definition is_named (l : list number) : bool := forallb is_named_number l.
+Lemma named_agrees : forall names u l, is_named l = true -> @agrees names (beside names u) l.
+Proof.
+  intros names u l h. unfold is_named in h. rewrite forallb_forall in h. apply Forall_forall. intros x ix. specialize (h x ix). clear ix.
+  induction x as [n d | k p q | x hx y hy | x hx y hy | x hx y hy | x hx y hy | x hx]; cbn [is_named_number value] in *; try (apply andb_true_iff in h as [h1 h2]; rewrite hx, hy by assumption); try reflexivity.
+  - cbn [Claim.along beside]. unfold along_beside. rewrite h. reflexivity.
+  - rewrite hx by exact h. reflexivity.
+Qed.
+Lemma named_values : forall names u l, is_named l = true -> map (@value (beside names u)) l = map (@value names) l.
+Proof. intros names u l h. pose proof (named_agrees names u l h) as A. induction A as [| x l hx hl IH]; [reflexivity |]. cbn [map]. rewrite hx, IH; [reflexivity |]. cbn [is_named forallb] in h. apply andb_true_iff in h. apply h. Qed.
+
 Section Precision.
 Variable bits : positive.
 Local Notation contains := (contains bits).
@@ -121,26 +146,12 @@ Section Off.
 (** Of so many coordinates, the first [f] of place. *)
 Variables n f : nat.
 
-Definition around (k : nat) (a b : Q) : option Slope.slope := if Nat.ltb k n && Qle_bool a b then Some (Number.coordinate bits k a b) else None.
-Definition deviations (u : list R) : list R := map (fun k => 2 * part_at u k - 1) (seq 0 n).
-Lemma deviations_within : forall u, Forall (fun t => -1 <= t <= 1) (deviations u).
-Proof. intro u. apply Forall_map, Forall_forall. intros k _. pose proof (part_within u k). lra. Qed.
-Lemma around_holds : forall u k a b s, around k a b = Some s -> Slope.holds bits (deviations u) s (@value halfway (Varying k a b)) (@value (spot u) (Varying k a b)).
+Definition around (k : nat) (a b : Q) : option Slope.slope := if Nat.ltb k (most_parameters + n) && Qle_bool a b then Some (Number.coordinate bits k a b) else None.
+Definition deviations (names : naming) (u : list R) : list R := @Number.lambdas_of (beside names u) (most_parameters + n).
+Lemma around_holds : forall names u k a b s, around k a b = Some s -> Slope.holds bits (deviations names u) s (@value halfway (Varying k a b)) (@value (beside names u) (Varying k a b)).
 Proof.
-  intros u k a b s h. unfold around in h. destruct (Nat.ltb k n) eqn:hk; [| discriminate]. destruct (Qle_bool a b) eqn:le; [| discriminate]. cbn [andb] in h. injection h as <-.
-  apply Nat.ltb_lt in hk. apply Qle_bool_iff, Qreals.Qle_Rle in le. pose proof (part_within u k) as W. pose proof (unit_R_pos bits) as p.
-  cbn [value Claim.along halfway spot]. split; [| split]; unfold Number.coordinate; cbn [Slope.at_c Slope.range Slope.slopes].
-  - replace (Q2R a + 1 / 2 * (Q2R b - Q2R a)) with (Q2R ((a + b) * (1 # 2))); [apply ratio_of_sound |].
-    rewrite Qreals.Q2R_mult, Qreals.Q2R_plus. unfold Q2R at 3. cbn. field.
-  - pose proof (ratio_of_sound bits a) as [l _]. pose proof (ratio_of_sound bits b) as [_ r].
-    assert (Q2R a <= Q2R a + part_at u k * (Q2R b - Q2R a) <= Q2R b) as [g1 g2] by nra.
-    apply (Rmult_le_compat_r (unit_R bits)) in g1, g2; try lra. unfold Fixed.contains. cbn [lo hi]. lra.
-  - exists (repeat 0 k ++ [Q2R ((b - a) * (1 # 2))]). split.
-    + apply Forall2_app; [clear; induction k; cbn; constructor; auto using zero_sound | constructor; [apply ratio_of_sound | constructor]].
-    + rewrite Cell.dot_unit. replace (nth k (deviations u) 0) with (2 * part_at u k - 1).
-      * rewrite Qreals.Q2R_mult, Qreals.Q2R_minus. replace (Q2R (1 # 2)) with (/ 2) by (unfold Q2R; cbn; lra). lra.
-      * unfold deviations. rewrite (nth_indep _ 0 (2 * part_at u 0 - 1)) by (rewrite map_length, seq_length; exact hk).
-        rewrite (map_nth (fun k => 2 * part_at u k - 1)), seq_nth by exact hk. reflexivity.
+  intros names u k a b s h. unfold around in h. destruct (Nat.ltb k (most_parameters + n)) eqn:hk; [| discriminate]. destruct (Qle_bool a b) eqn:le; [| discriminate]. injection h as <-.
+  apply (@Number.coordinate_holds (beside names u)); [apply Nat.ltb_lt, hk | apply Qreals.Qle_Rle, Qle_bool_iff, le].
 Qed.
 Definition is_near_centre (u : list R) : Prop := length u = n /\ Twofold.size (firstn f u) <= 1 /\ Twofold.size (skipn f u) <= 1.
 Lemma part_near : forall u k, is_near_centre u -> part_at u k = (1 + nth k u 0) / 2.
@@ -148,31 +159,39 @@ Proof.
   intros u k [_ [h1 h2]]. pose proof (Twofold.norm_entry f u k) as e. assert (N : Twofold.norm f u <= 1) by (apply Twofold.norm_below; intros []; assumption).
   pose proof (Rle_abs (nth k u 0)). pose proof (Rle_abs (- nth k u 0)) as a. rewrite Rabs_Ropp in a. unfold part_at. rewrite Rmin_right, Rmax_right; lra.
 Qed.
-Lemma deviations_are : forall u, is_near_centre u -> deviations u = u.
+Lemma deviations_are : forall names u, is_near_centre u -> skipn most_parameters (deviations names u) = u /\ Forall (fun t => -1 <= t <= 1) (firstn most_parameters (deviations names u)).
 Proof.
-  intros u h. assert (l : length u = n) by apply h. apply Twofold.same_entries; [unfold deviations; rewrite map_length, seq_length; congruence |]. intro k. unfold deviations. destruct (Nat.lt_ge_cases k n) as [hk | hk].
-  - rewrite (nth_indep _ 0 (2 * part_at u 0 - 1)) by (rewrite map_length, seq_length; exact hk). rewrite (map_nth (fun k => 2 * part_at u k - 1)), seq_nth by exact hk. cbn [Nat.add]. rewrite (part_near u k h). field.
-  - rewrite !nth_overflow; [reflexivity | lia | rewrite map_length, seq_length; exact hk].
+  intros names u h. assert (l : length u = n) by apply h. assert (W : Forall (fun t => -1 <= t <= 1) (deviations names u)) by apply Number.lambdas_within. split.
+  - apply Twofold.same_entries; [unfold deviations, Number.lambdas_of; rewrite skipn_length, map_length, seq_length, l; lia |]. intro k. rewrite <- (firstn_skipn most_parameters (deviations names u)) in W.
+    destruct (Nat.lt_ge_cases k n) as [hk | hk]; [| rewrite !nth_overflow; [reflexivity | lia | unfold deviations, Number.lambdas_of; rewrite skipn_length, map_length, seq_length; lia]].
+    assert (E : nth k (skipn most_parameters (deviations names u)) 0 = nth (most_parameters + k) (deviations names u) 0).
+    { rewrite <- (firstn_skipn most_parameters (deviations names u)) at 2. rewrite app_nth2; rewrite firstn_length_le by (unfold deviations, Number.lambdas_of; rewrite map_length, seq_length; lia); [f_equal; lia | lia]. }
+    rewrite E. unfold deviations, Number.lambdas_of. set (g := fun k => 2 * Claim.along k - 1). rewrite (nth_indep _ 0 (g 0%nat)) by (rewrite map_length, seq_length; lia). rewrite map_nth, seq_nth by lia. unfold g.
+    cbn [Claim.along beside]. unfold along_beside. replace (Nat.ltb (0 + (most_parameters + k)) most_parameters) with false by (symmetry; apply Nat.ltb_ge; lia).
+    replace (0 + (most_parameters + k) - most_parameters)%nat with k by lia. rewrite (part_near u k h). field.
+  - rewrite <- (firstn_skipn most_parameters (deviations names u)) in W. apply Forall_app in W. apply W.
 Qed.
 
 Definition stays_below (g : number) : bool :=
   match sloped_by bits around g with
-  | Some s => (hi (Slope.at_c s) <? - (sqrt_ceil (squares (firstn f (Slope.slopes s))) + sqrt_ceil (squares (skipn f (Slope.slopes s)))))%Z
+  | Some s => let rest := skipn most_parameters (Slope.slopes s) in
+      (hi (Slope.at_c s) <? - (Slope.reach (firstn most_parameters (Slope.slopes s)) + sqrt_ceil (squares (firstn f rest)) + sqrt_ceil (squares (skipn f rest))))%Z
   | None => false
   end.
-Lemma stays_below_sound : forall g u, stays_below g = true -> is_near_centre u -> @value (spot u) g < 0.
+Lemma stays_below_sound : forall names g u, stays_below g = true -> is_near_centre u -> @value (beside names u) g < 0.
 Proof.
-  intros g u h near. unfold stays_below in h. destruct (sloped_by bits around g) as [s |] eqn:e; [| discriminate]. apply Z.ltb_lt, IZR_lt in h. rewrite opp_IZR, plus_IZR in h.
-  destruct (sloped_by_sound bits around (deviations u) halfway (spot u) (deviations_within u) (around_holds u) g s e) as [[_ c] [_ [r [R E]]]].
-  rewrite (deviations_are u near), (Twofold.dot_parts f r u) in E. destruct near as [_ [n1 n2]]. pose proof (unit_R_pos bits) as p.
+  intros names g u h near. unfold stays_below in h. destruct (sloped_by bits around g) as [s |] eqn:e; [| discriminate]. cbv zeta in h. apply Z.ltb_lt, IZR_lt in h. rewrite opp_IZR, !plus_IZR in h.
+  destruct (sloped_by_sound bits around (deviations names u) halfway (beside names u) (@Number.lambdas_within (beside names u) _) (around_holds names u) g s e) as [[_ c] [_ [r [R E]]]].
+  destruct (deviations_are names u near) as [D1 D2]. rewrite (Twofold.dot_parts most_parameters r (deviations names u)), D1, (Twofold.dot_parts f (skipn most_parameters r) u) in E. destruct near as [_ [n1 n2]]. pose proof (unit_R_pos bits) as p.
   assert (K : forall a b l, Twofold.size b <= 1 -> Forall2 contains l a -> Linear.dot a b * unit_R bits <= IZR (sqrt_ceil (squares l))).
   { intros a b l nb hl. apply Rle_trans with (2 := size_above l a hl). apply Rmult_le_compat_r; [lra |]. apply Rle_trans with (1 := Twofold.dot_sizes a b).
     pose proof (Twofold.size_nonneg a). rewrite <- (Rmult_1_r (Twofold.size a)) at 2. apply Rmult_le_compat_l; assumption. }
-  assert (Parts : forall l a, Forall2 contains l a -> Forall2 contains (firstn f l) (firstn f a) /\ Forall2 contains (skipn f l) (skipn f a)).
+  assert (Parts : forall f l a, Forall2 contains l a -> Forall2 contains (firstn f l) (firstn f a) /\ Forall2 contains (skipn f l) (skipn f a)).
   { clear. induction f as [| m IH]; intros l a h; [split; [constructor | exact h] |]. destruct h as [| x y l a hx h]; [split; constructor |]. destruct (IH l a h). cbn [firstn skipn]. split; [constructor; assumption | assumption]. }
-  destruct (Parts _ _ R) as [R1 R2]. pose proof (K _ _ _ n1 R1). pose proof (K _ _ _ n2 R2). apply Rmult_lt_reg_r with (unit_R bits); [exact p |].
-  set (y := Linear.dot (firstn f r) (firstn f u)) in *. set (z := Linear.dot (skipn f r) (skipn f u)) in *. set (b := @value (spot u) g) in *. set (a := @value halfway g) in *.
-  replace (b * unit_R bits) with (a * unit_R bits + y * unit_R bits + z * unit_R bits) by (replace b with (a + (y + z)) by lra; ring). lra.
+  destruct (Parts most_parameters _ _ R) as [R0 R']. destruct (Parts f _ _ R') as [R1 R2]. pose proof (K _ _ _ n1 R1). pose proof (K _ _ _ n2 R2). destruct (Slope.reach_sound bits _ D2 _ _ (ex_intro _ _ (conj R0 eq_refl))) as [_ K0]. apply Rmult_lt_reg_r with (unit_R bits); [exact p |].
+  set (x := Linear.dot (firstn most_parameters r) (firstn most_parameters (deviations names u))) in *. set (y := Linear.dot (firstn f (skipn most_parameters r)) (firstn f u)) in *. set (z := Linear.dot (skipn f (skipn most_parameters r)) (skipn f u)) in *.
+  set (b := @value (beside names u) g) in *. set (a := @value halfway g) in *.
+  replace (b * unit_R bits) with (a * unit_R bits + x * unit_R bits + y * unit_R bits + z * unit_R bits) by (replace b with (a + (x + (y + z))) by lra; ring). lra.
 Qed.
 End Off.
 
@@ -189,12 +208,12 @@ Proof.
   destruct (z <? 0)%Z; cbn [value]; [replace (value a - value e - value a) with (- value e) by ring; rewrite Rabs_Ropp | replace (value a + value e - value a) with (value e) by ring]; rewrite Rabs_pos_eq; lra.
 Qed.
 (** What is zero of each leg, where the coordinate is the one that is asked for, is in any sum. *)
-Lemma asked_zero : forall (A : Type) (H : A -> R -> Prop) u (zero : A -> number -> R) (weight : A * number * Z -> R) ls rhos v, is_steady rhos = true -> Forall2 H ls (map value rhos) ->
-  (forall l r, In l ls -> @value (spot u) r = value r -> H l (value r) -> zero l r = 0) ->
+Lemma asked_zero : forall (A : Type) (H : A -> R -> Prop) u (zero : A -> number -> R) (weight : A * number * Z -> R) ls rhos v, is_named rhos = true -> Forall2 H ls (map value rhos) ->
+  (forall l r, In l ls -> @value (beside names u) r = value r -> H l (value r) -> zero l r = 0) ->
   fold_right (fun p sum => weight p * zero (fst (fst p)) (snd (fst p)) + sum) 0 (combine (combine ls rhos) v) = 0.
 Proof.
   intros A H u zero weight ls. induction ls as [| l ls IH]; intros [| r rhos] [| z v] s h k; try reflexivity; inversion h as [| ? ? ? ? h1 h2]; subst. cbn [combine fold_right fst snd].
-  rewrite IH, (k l r); [ring | left; reflexivity | exact (f_equal (hd 0) (steady_values _ s (spot u))) | exact h1 | cbn [is_steady forallb] in s; apply andb_true_iff in s; apply s | exact h2 | intros; apply k; [right |..]; assumption].
+  rewrite IH, (k l r); [ring | left; reflexivity | exact (f_equal (hd 0) (named_values names u _ s)) | exact h1 | cbn [is_named forallb] in s; apply andb_true_iff in s; apply s | exact h2 | intros; apply k; [right |..]; assumption].
 Qed.
 
 (** Not less than it. *)
@@ -204,14 +223,17 @@ Proof.
   intros a x q h k. destruct a as [b |]; [| discriminate]. assert (E : q = hi b # 2 ^ few_bits) by (unfold above, option_map in h; congruence). rewrite E. clear h E. destruct (k b eq_refl) as [_ u].
   unfold Q2R. cbn [Qnum Qden]. rewrite Pos2Z.inj_pow. change (IZR (2 ^ Z.pos few_bits)) with (unit_R few_bits). pose proof (unit_R_pos few_bits) as p. apply Rmult_le_reg_r with (unit_R few_bits); [exact p |]. rewrite Rmult_assoc, Rinv_l by lra. lra.
 Qed.
-Definition off (k : nat) (d : Q) : number := Varying k (- d)%Q d.
-Lemma off_is : forall n f u k d, is_near_centre n f u -> @value (spot u) (off k d) = Q2R d * nth k u 0.
-Proof. intros n f u k d h. unfold off. cbn [value Claim.along spot]. rewrite (part_near n f u k h), Qreals.Q2R_opp. field. Qed.
+Definition off (k : nat) (d : Q) : number := Varying (most_parameters + k) (- d)%Q d.
+Lemma off_is : forall n f u k d, is_near_centre n f u -> @value (beside names u) (off k d) = Q2R d * nth k u 0.
+Proof. intros n f u k d h. unfold off. cbn [value Claim.along beside]. unfold along_beside. replace (Nat.ltb (most_parameters + k) most_parameters) with false by (symmetry; apply Nat.ltb_ge; lia).
+  replace (most_parameters + k - most_parameters)%nat with k by lia. rewrite (part_near n f u k h), Qreals.Q2R_opp. field. Qed.
 
-Definition nmiddle (t : tolerance) : number := Over (Plus (least t) (greatest t)) (2 // 1).
+Definition nmiddle (t : tolerance) : number := if same (least t) (greatest t) then least t else Over (Plus (least t) (greatest t)) (2 // 1).
 Definition nmiddles (t : tolerances) : numbers := Numbers (nmiddle (tx t)) (nmiddle (ty t)) (nmiddle (tz t)).
 Lemma middle_is : forall t, value (nmiddle t) = middle t.
-Proof. intro t. unfold nmiddle, middle. cbn [value]. unfold Rdiv. rewrite Rinv_1, Rmult_1_r. reflexivity. Qed.
+Proof.
+  intro t. unfold nmiddle, middle. destruct (same _ _) eqn:e; [apply same_sound in e; rewrite <- e; field |]. cbn [value]. unfold Rdiv. rewrite Rinv_1, Rmult_1_r. reflexivity.
+Qed.
 Lemma middles_are : forall t, values (nmiddles t) = middles t.
 Proof. intro t. unfold nmiddles, values, middles. cbn [nx ny nz]. rewrite !middle_is. reflexivity. Qed.
 
@@ -227,12 +249,12 @@ Lemma nominal_is : forall d, leg_of (nominal_exact d) = nominal_leg d.
 Proof. intros [c | a p [k |] | n]; cbn [nominal_exact leg_of nominal_leg option_map]; rewrite ?middles_are, ?middle_is; reflexivity. Qed.
 
 Definition refute_far (c : claim) (ls : list exact_leg) (P : numbers) (i : nat) (v : list Z) : bool :=
-  admits bits c ls P && is_steady (in_numbers P) &&
+  admits bits c ls P && is_named (in_numbers P) &&
   match nth_error (require c) i with
   | Some (Accuracy e b) => match above (enclose few_bits b) with
       | Some d => let U := Numbers (off 0 d) (off 1 d) (off 2 d) in
-          certainly bits true b && certainly bits false e && Nat.eqb (length v) (length (legs c)) && forallb (fun l => is_steady (leg_numbers l)) ls &&
-          let rhos := asked_for v (map (fun d => njoint (nominal_exact d) P) (legs c)) e in is_steady rhos &&
+          certainly bits true b && certainly bits false e && Nat.eqb (length v) (length (legs c)) && forallb (fun l => is_named (leg_numbers l)) ls &&
+          let rhos := asked_for v (map (fun d => njoint (nominal_exact d) P) (legs c)) e in is_named rhos &&
           stays_below 3 3 (whole_form P U (combine (combine ls rhos) v))
       | None => false
       end
@@ -257,27 +279,120 @@ Proof.
   { split; [reflexivity |]. cbn [u coordinates firstn skipn]. split; [| unfold Twofold.size; cbn [Linear.dot]; rewrite sqrt_0; lra]. apply Twofold.size_below; [lra |].
     apply Rle_trans with (norm2 (vscale (/ Q2R d) (vsub P' (values P)))); [right; unfold norm2; cbn [Linear.dot vscale vx vy vz]; ring |]. rewrite norm2_scale.
     assert (I : 0 < / Q2R d) by (apply Rinv_0_lt_compat; lra). apply Rle_trans with ((/ Q2R d) ^ 2 * Q2R d ^ 2); [apply Rmult_le_compat_l; [apply pow2_ge_0 |]; nra | right; field; lra]. }
-  assert (XU : vadd (@values (spot u) P) (@values (spot u) U) = P').
-  { rewrite (steady_numbers _ place (spot u)). unfold U. unfold values at 2. cbn [nx ny nz]. rewrite !(off_is 3 3 u _ d N). cbn [u coordinates nth vscale vx vy vz].
+  assert (XU : vadd (@values (beside names u) P) (@values (beside names u) U) = P').
+  { rewrite (numbers_agree _ _ (named_agrees names u _ place)). unfold U. unfold values at 2. cbn [nx ny nz]. rewrite !(off_is 3 3 u _ d N). cbn [u coordinates nth vscale vx vy vz].
     destruct P' as [x y z]. destruct (values P) as [p q r]. unfold vadd, vsub. cbn [vx vy vz]. f_equal; field; lra. }
-  pose proof (stays_below_sound 3 3 _ u far N) as below. rewrite (@whole_form_is (spot u)) in below. destruct is_about_it as [_ [formed _]]. rewrite Forall_map, Forall_forall in formed.
-  pose proof (asked_zero _ (fun l r => reaches P' (leg_of l) /\ joint (leg_of l) P' = r) u (fun l r => @form_value (spot u) (form_of P l r) (@values (spot u) U)) (fun q => @value (spot u) (weight_of P q)) ls rhos v same) as none.
+  pose proof (stays_below_sound 3 3 names _ u far N) as below. rewrite (@whole_form_is (beside names u)) in below. destruct is_about_it as [_ [formed _]]. rewrite Forall_map, Forall_forall in formed.
+  pose proof (asked_zero _ (fun l r => reaches P' (leg_of l) /\ joint (leg_of l) P' = r) u (fun l r => @form_value (beside names u) (form_of P l r) (@values (beside names u) U)) (fun q => @value (beside names u) (weight_of P q)) ls rhos v same) as none.
   rewrite none in below; [lra | |].
   - clear - is_at. revert is_at. generalize (map value rhos). induction ls as [| l ls IH]; intros s h; inversion h; subst; constructor; auto.
-  - intros l r il es [re ej]. apply (@form_zero (spot u)); rewrite ?XU, (steady_leg l (steady l il) (spot u)); [exact (formed l il) | exact re | rewrite es; exact ej].
+  - intros l r il es [re ej]. apply (@form_zero (beside names u)); rewrite ?XU, (leg_agrees l _ (named_agrees names u _ (steady l il))); [exact (formed l il) | exact re | rewrite es; exact ej].
 Qed.
 
-(** ** Struts of platforms that turn *)
+(** ** Levers, of which some would not close *)
+
+Definition closes (q : lever) (U : vec) (S : mat) : Prop := norm2 (vadd (vadd (values (D_of q)) U) (mulv S (values (r_of q)))) = value (length_of q) ^ 2.
+Definition is_named_lever (q : lever) : bool := is_named (in_numbers (D_of q)) && is_named (in_numbers (r_of q)) && is_named [length_of q].
 
 Definition offs (k : motion) (d tau : Q) : list number := map (fun i => off i (if Nat.ltb i (first_angle k) then d else tau)) (seq 0 (dimension k)).
+Definition first_turn (k : mobility) : nat := match k with Turns k => first_angle k | _ => freedom k end.
+(** By so much a pose is off: the platform's place, and half tangents along its axis. *)
+Definition moved_by (k : mobility) (d tau : Q) : numbers * numbers :=
+  match k with
+  | Translates => (Numbers (off 0 d) (off 1 d) (off 2 d), nowhere)
+  | TranslatesInPlane => (Numbers (off 0 d) (off 1 d) (0 // 1), nowhere)
+  | Turns k => (nshift k (offs k d tau), nspin k (offs k d tau))
+  end.
 Lemma offs_are : forall k d tau u, is_near_centre (dimension k) (first_angle k) u ->
-  @values (spot u) (nshift k (offs k d tau)) = vscale (Q2R d) (shift_of k u) /\ @values (spot u) (nspin k (offs k d tau)) = vscale (Q2R tau) (spin_of k u).
+  @values (beside names u) (nshift k (offs k d tau)) = vscale (Q2R d) (shift_of k u) /\ @values (beside names u) (nspin k (offs k d tau)) = vscale (Q2R tau) (spin_of k u).
 Proof.
-  intros k d tau u h. assert (O : forall i q, @value (spot u) (off i q) = Q2R q * nth i u 0) by (intros i q; exact (off_is _ _ u i q h)).
+  intros k d tau u h. assert (O : forall i q, @value (beside names u) (off i q) = Q2R q * nth i u 0) by (intros i q; exact (off_is _ _ u i q h)).
   assert (Z : forall other, @value other (0 // 1) = 0) by (intro; cbn; lra).
   destruct k; cbn [offs dimension first_angle seq map Nat.ltb Nat.leb nshift nspin shift_of spin_of nth]; unfold values, vscale, vzero; cbn [nx ny nz vx vy vz];
     rewrite ?O, ?Z; split; f_equal; ring.
 Qed.
+
+Lemma scaled_below : forall x y q, 0 < q -> 0 <= y -> y <= q -> norm2 x <= y ^ 2 -> sqrt (norm2 (vscale (/ q) x)) <= 1.
+Proof.
+  intros x y q q0 y0 yq hx. rewrite norm2_scale. rewrite <- sqrt_1. apply sqrt_le_1_alt. apply Rle_trans with ((/ q) ^ 2 * q ^ 2); [apply Rmult_le_compat_l; [apply pow2_ge_0 | apply Rle_trans with (1 := hx), pow_incr; lra] | right; field; lra].
+Qed.
+Lemma scaled_back : forall q x, 0 < q -> vscale q (vscale (/ q) x) = x.
+Proof. intros q [x1 x2 x3] q0. unfold vscale. cbn [vx vy vz]. f_equal; field; lra. Qed.
+
+Lemma identity_mulm : forall Q, mulm midentity Q = Q.
+Proof. intro Q. unfold_vec. f_equal; f_equal; ring. Qed.
+
+Lemma size_of_vector : forall w, Twofold.size [vx w; vy w; vz w] = sqrt (norm2 w).
+Proof. intro w. unfold Twofold.size, norm2. cbn. f_equal. ring. Qed.
+Lemma size_flat : forall w, vz w = 0 -> Twofold.size [vx w; vy w] = sqrt (norm2 w).
+Proof. intros w h. unfold Twofold.size, norm2. cbn. rewrite h. f_equal. ring. Qed.
+
+(** A pose near another one is off by some [u]. *)
+Lemma is_moved : forall k b angle d tau P Q P' Q', 0 < value b <= Q2R d ->
+  match k with Turns _ => 0 < value angle /\ is_angle (value angle) /\ 0 < Q2R tau /\ tangent (value angle) <= Q2R tau | _ => True end -> is_near_to k b angle P Q P' Q' ->
+  exists u y S, is_near_centre (freedom k) (first_turn k) u /\ Q' = mulm S Q /\ rodrigues y = mscale (1 + norm2 y) S /\ (forall v, norm2 (mulv S v) = norm2 v) /\
+    @values (beside names u) (fst (moved_by k d tau)) = vsub P' P /\ @values (beside names u) (snd (moved_by k d tau)) = y.
+Proof.
+  intros k b angle d tau P Q P' Q' [b0 bd] turn near. assert (d0 : 0 < Q2R d) by lra.
+  assert (Z : forall other, @value other (0 // 1) = 0) by (intro; cbn; lra). assert (N : forall other, @values other nowhere = vzero) by (intro; apply nowhere_is).
+  assert (I : rodrigues vzero = mscale (1 + norm2 vzero) midentity) by (unfold rodrigues, mscale, vscale, norm2, midentity, vzero; cbn; f_equal; f_equal; ring).
+  destruct k as [| | k]; cbn [is_near_to freedom first_turn moved_by fst snd] in *.
+  - destruct near as [near ->]. set (w := vscale (/ Q2R d) (vsub P' P)).
+    assert (C : is_near_centre 3 3 [vx w; vy w; vz w]).
+    { split; [reflexivity |]. cbn [firstn skipn]. split; [| unfold Twofold.size; cbn [Linear.dot]; rewrite sqrt_0; lra].
+      rewrite size_of_vector. exact (scaled_below _ _ _ d0 (Rlt_le _ _ b0) bd near). }
+    exists [vx w; vy w; vz w], vzero, midentity. split; [exact C |]. split; [symmetry; apply identity_mulm |].
+    split; [exact I |]. split; [intro; rewrite mulv_identity; reflexivity |]. split; [| apply N]. unfold values at 1. cbn [nx ny nz]. rewrite !(off_is 3 3 _ _ d C). cbn [nth].
+    transitivity (vscale (Q2R d) w); [reflexivity | apply scaled_back, d0].
+  - destruct near as [flat [near ->]]. set (w := vscale (/ Q2R d) (vsub P' P)). assert (wz : vz w = 0) by (unfold w, vscale, vsub; cbn [vz]; rewrite flat; ring).
+    assert (C : is_near_centre 2 2 [vx w; vy w]).
+    { split; [reflexivity |]. cbn [firstn skipn]. split; [| unfold Twofold.size; cbn [Linear.dot]; rewrite sqrt_0; lra].
+      rewrite (size_flat w wz). exact (scaled_below _ _ _ d0 (Rlt_le _ _ b0) bd near). }
+    exists [vx w; vy w], vzero, midentity. split; [exact C |]. split; [symmetry; apply identity_mulm |].
+    split; [exact I |]. split; [intro; rewrite mulv_identity; reflexivity |]. split; [| apply N]. unfold values at 1. cbn [nx ny nz]. rewrite !(off_is 2 2 _ _ d C), Z. cbn [nth].
+    transitivity (Vec (Q2R d * vx w) (Q2R d * vy w) (Q2R d * vz w)); [rewrite wz, Rmult_0_r; reflexivity | exact (scaled_back _ _ d0)].
+  - destruct turn as [a0 [ia [t0 ad]]]. pose proof (tangent_nonneg _ (Rlt_le _ _ a0) ia) as tn. destruct near as [own [near [S [hS ->]]]].
+    destruct (turned_coordinates _ _ _ a0 ia hS) as [y [may [hy small]]].
+    destruct (parts_exist k (vscale (/ Q2R d) (vsub P' P)) (vscale (/ Q2R tau) y)) as [u [lu [su tu]]].
+    { clear - own. destruct k; cbn [is_of] in *; [destruct own as [z _]; cbn [vscale vz vx vy vzero]; rewrite z; repeat split; ring | exact I | rewrite own; unfold vscale, vzero; cbn; f_equal; ring]. }
+    { clear - may. destruct k; cbn [may_turn] in *; try exact I. destruct may as [e1 e2]. cbn [vscale vx vy]. rewrite e1, e2. split; ring. }
+    assert (C : is_near_centre (dimension k) (first_angle k) u).
+    { destruct (parts_sizes k u lu) as [s1 s2]. cbn [Twofold.part] in s1, s2. split; [exact lu |]. rewrite s1, s2, su, tu. split; [exact (scaled_below _ (value b) _ d0 (Rlt_le _ _ b0) bd near) | exact (scaled_below _ _ _ t0 tn ad small)]. }
+    destruct (offs_are k d tau u C) as [O1 O2]. rewrite su, scaled_back in O1 by exact d0. rewrite tu, scaled_back in O2 by exact t0.
+    exists u, y, S. split; [exact C |]. split; [reflexivity |]. split; [exact hy |]. split; [exact (orientation_keeps _ _ hS) |]. split; [exact O1 | exact O2].
+Qed.
+
+(** Near no pose all of these close. *)
+Definition some_open (k : mobility) (b angle : number) (l : list lever) : bool :=
+  match above (enclose few_bits b), match k with Turns _ => above (enclose_tangent few_bits angle) | _ => Some 1%Q end with
+  | Some d, Some tau => certainly bits true b && match k with Turns _ => certainly bits true angle && is_angle_number bits angle && negb (Qle_bool tau 0) | _ => true end &&
+      forallb is_named_lever l && stays_below (freedom k) (first_turn k) (whole_pose (fst (moved_by k d tau)) (snd (moved_by k d tau)) l)
+  | _, _ => false
+  end.
+Lemma some_open_sound : forall k b angle l P Q P' Q', some_open k b angle l = true -> is_near_to k b angle P Q P' Q' ->
+  exists S, Q' = mulm S Q /\ ~ Forall (fun q => closes q (vsub P' P) S) l.
+Proof.
+  intros k b angle l P Q P' Q' h near. unfold some_open in h. destruct (above (enclose few_bits b)) as [d |] eqn:ed; [| discriminate].
+  set (tangent_of := match k with Turns _ => _ | _ => _ end) in h. destruct tangent_of as [tau |] eqn:et; [| discriminate]. unfold tangent_of in et. clear tangent_of.
+  apply andb_true_iff in h as [h far]. apply andb_true_iff in h as [h steady]. apply andb_true_iff in h as [b0 turn]. apply (positive_sound bits) in b0. rewrite forallb_forall in steady.
+  pose proof (above_sound _ (value b) d ed ltac:(intros q hq; apply enclose_sound, hq)) as bd.
+  destruct (is_moved k b angle d tau P Q P' Q') as [u [y [S [C [eQ [hy [keeps [O1 O2]]]]]]]]; [split; assumption | | exact near |].
+  { destruct k as [| | k]; try exact I. apply andb_true_iff in turn as [turn tau0]. apply andb_true_iff in turn as [a0 ia]. apply (positive_sound bits) in a0. apply (is_angle_number_sound bits) in ia.
+    split; [exact a0 |]. split; [exact ia |]. split; [| exact (above_sound _ (tangent (value angle)) tau et ltac:(intros q hq; exact (enclose_tangent_sound few_bits _ _ hq ia)))].
+    apply Rnot_le_lt. intro n. apply negb_true_iff in tau0. assert (Qle_bool tau 0 = true) by (apply Qle_bool_iff, Qreals.Rle_Qle; unfold Q2R at 2; cbn; lra). congruence. }
+  exists S. split; [exact eQ |]. intro all. pose proof (stays_below_sound _ _ names _ u far C) as below.
+  rewrite (@whole_pose_is (beside names u) _ _ _ S) in below; [| rewrite O2; symmetry; exact (along_axis_is y S hy) | | exact keeps].
+  - rewrite O1 in below. assert (none : fold_right (fun q sum => @value (beside names u) (weight q) * (norm2 (vadd (vadd (@values (beside names u) (D_of q)) (vsub P' P)) (mulv S (@values (beside names u) (r_of q)))) - @value (beside names u) (length_of q) ^ 2) + sum) 0 l = 0).
+    { clear - all steady. induction all as [| q l hq hl IH]; cbn [fold_right]; [reflexivity |]. rewrite IH by (intros z i; apply steady; right; exact i).
+      specialize (steady q (or_introl eq_refl)). apply andb_true_iff in steady as [steady s3]. apply andb_true_iff in steady as [s1 s2].
+      rewrite (numbers_agree _ _ (named_agrees names u _ s1)), (numbers_agree _ _ (named_agrees names u _ s2)). pose proof (f_equal (hd 0) (named_values names u _ s3)) as E. cbn [map hd] in E. rewrite E, hq. ring. }
+    lra.
+  - intro v. set (w := snd (moved_by k d tau)) in *. transitivity (mulv (along_axis (@values (beside names u) w)) (@values (beside names u) v)).
+    + destruct w as [w1 w2 w3]. exact (@values_turned (beside names u) (TurnedUpTo (0 // 1)) [w1; w2; w3] v).
+    + rewrite O2, (along_axis_is y S hy). reflexivity.
+Qed.
+
+(** ** Struts of platforms that turn *)
 
 Definition strut_number (w : numbers) : number := Root (product w w).
 Definition nominal_exact_strut (t : tolerances * tolerances) : exact_strut := StrutNumbers (nmiddles (fst t)) (nmiddles (snd t)).
@@ -289,16 +404,10 @@ Definition lever_of (o : orientations) (t : list number) (P : numbers) (q : exac
 
 Definition refute_far_pose (c : turning_claim) (ls : list exact_strut) (P : numbers) (t : list number) (test : nat) (v : list Z) : bool :=
   let k := motion_of c in let o := turned c in
-  all_struts bits (struts c) ls && is_in bits (positions c) P && is_orientation bits o t && is_steady (in_numbers P) &&
+  is_about_exactly bits c ls P t &&
   match test_at bits (match k with AboutPoint => 1 | _ => 2 end) test (turning_demands c) with
-  | Some (OnePose e b angle, _) => match above (enclose few_bits b), above (enclose_tangent few_bits angle) with
-      | Some d, Some tau => let U := nshift k (offs k d tau) in let w := nspin k (offs k d tau) in
-          certainly bits true b && certainly bits false e && certainly bits true angle && is_angle_number bits angle && negb (Qle_bool tau 0) && Nat.eqb (length v) (length (struts c)) &&
-          forallb (fun l => is_steady (in_numbers (xbase l)) && is_steady (in_numbers (turn o t (xjoint l)))) ls &&
-          let rhos := asked_for v (map (fun q => strut_number (xvector o t P (nominal_exact_strut q))) (struts c)) e in is_steady rhos &&
-          stays_below (dimension k) (first_angle k) (whole_pose U w (map (lever_of o t P) (combine (combine ls rhos) v)))
-      | _, _ => false
-      end
+  | Some (OnePose e b angle, _) => certainly bits false e && Nat.eqb (length v) (length (struts c)) &&
+      some_open (Turns k) b angle (map (lever_of o t P) (combine (combine ls (asked_for v (map (fun q => strut_number (xvector o t P (nominal_exact_strut q))) (struts c)) e)) v))
   | _ => false
   end.
 
@@ -306,19 +415,9 @@ Theorem refute_far_pose_sound : forall c ls P t test v, refute_far_pose c ls P t
   exists m P Q, is_about_struts c m P Q /\ ~ meets_turning c m P Q.
 Proof.
   intros c ls P t test v h. unfold refute_far_pose in h. cbv zeta in h. set (k := motion_of c) in *. set (o := turned c) in *.
-  apply andb_true_iff in h as [h rest]. apply andb_true_iff in h as [h place]. apply andb_true_iff in h as [h ori]. apply andb_true_iff in h as [h p].
-  destruct (is_orientation_sound bits _ _ ori) as [Q [hQ turnQ]]. exists (map strut_of ls), (values P), Q.
-  split; [split; [apply (all_struts_sound bits), h | split; [exact (is_in_sound bits _ _ p) | exact hQ]] |].
+  apply andb_true_iff in h as [h rest]. destruct (is_about_exactly_sound bits _ _ _ _ h) as [Q [about turnQ]]. fold o in turnQ. exists (map strut_of ls), (values P), Q. split; [exact about |].
   intros [_ [_ met]]. destruct (test_at _ _ _ _) as [[q which] |] eqn:e; [| discriminate]. destruct q; try discriminate. apply test_at_in in e. rewrite Forall_forall in met. specialize (met _ e).
-  destruct (above (enclose few_bits b)) as [d |] eqn:ed; [| discriminate]. destruct (above (enclose_tangent few_bits angle)) as [tau |] eqn:et; [| discriminate]. set (U := nshift k _) in *. set (w := nspin k _) in *.
-  apply andb_true_iff in rest as [rest far]. apply andb_true_iff in far as [same far]. apply andb_true_iff in rest as [rest steady]. apply andb_true_iff in rest as [rest l2]. apply andb_true_iff in rest as [rest tau0].
-  apply andb_true_iff in rest as [rest ia]. apply andb_true_iff in rest as [rest a0]. apply andb_true_iff in rest as [b0 e0].
-  apply Nat.eqb_eq in l2. apply (positive_sound bits) in b0, a0. apply (nonneg_sound bits) in e0. apply (is_angle_number_sound bits) in ia. rewrite forallb_forall in steady.
-  pose proof (above_sound _ (value b) d ed ltac:(intros q hq; apply enclose_sound, hq)) as bd.
-  pose proof (above_sound _ (tangent (value angle)) tau et ltac:(intros q hq; exact (enclose_tangent_sound few_bits _ _ hq ia))) as ad.
-  assert (t0 : 0 < Q2R tau).
-  { apply Rnot_le_lt. intro l. apply negb_true_iff in tau0. assert (Qle_bool tau 0 = true) by (apply Qle_bool_iff, Qreals.Rle_Qle; unfold Q2R at 2; cbn; lra). congruence. }
-  pose proof (tangent_nonneg _ (Rlt_le _ _ a0) ia) as tn.
+  apply andb_true_iff in rest as [rest far]. apply andb_true_iff in rest as [e0 l2]. apply Nat.eqb_eq in l2. apply (nonneg_sound bits) in e0.
   cbn [Configuration.fulfils struts_at recovers] in met. rewrite <- nominal_struts_are in met.
   set (nominal := map (fun q => strut_number (xvector o t P (nominal_exact_strut q))) (struts c)) in *.
   assert (Own : forall l, value (strut_number (xvector o t P l)) = strut_length (strut_of l) (values P) Q).
@@ -328,37 +427,163 @@ Proof.
   set (rhos := asked_for v nominal error) in *. destruct (met (map value rhos)) as [P' [Q' [[near is_at] _]]].
   { pose proof (asked_near v nominal error e0 ltac:(unfold nominal; rewrite map_length; exact l2)) as A. fold rhos in A. rewrite EN in A. clear - A. revert A. generalize (map value rhos).
     induction (map strut_of (map nominal_exact_strut (struts c))) as [| q l IH]; intros s A; inversion A; subst; constructor; auto. }
-  destruct near as [own [near [S [hS ->]]]]. destruct (turned_coordinates _ _ _ a0 ia hS) as [y [may [hy small]]]. fold k in own, may.
-  assert (d0 : 0 < Q2R d) by lra.
-  destruct (parts_exist k (vscale (/ Q2R d) (vsub P' (values P))) (vscale (/ Q2R tau) y)) as [u [lu [su tu]]].
-  { clear - own. destruct k; cbn [is_of] in *; [destruct own as [z _]; cbn [vscale vz vx vy vzero]; rewrite z; repeat split; ring | exact I | rewrite own; unfold vscale, vzero; cbn; f_equal; ring]. }
-  { clear - may. destruct k; cbn [may_turn] in *; try exact I. destruct may as [e1 e2]. cbn [vscale vx vy]. rewrite e1, e2. split; ring. }
-  assert (Below : forall x y q, 0 < q -> 0 <= y -> y <= q -> norm2 x <= y ^ 2 -> sqrt (norm2 (vscale (/ q) x)) <= 1).
-  { intros x z q q0 z0 zq hx. rewrite norm2_scale. rewrite <- sqrt_1. apply sqrt_le_1_alt. apply Rle_trans with ((/ q) ^ 2 * q ^ 2); [apply Rmult_le_compat_l; [apply pow2_ge_0 | apply Rle_trans with (1 := hx), pow_incr; lra] | right; field; lra]. }
-  assert (N : is_near_centre (dimension k) (first_angle k) u).
-  { destruct (parts_sizes k u lu) as [s1 s2]. cbn [Twofold.part] in s1, s2. split; [exact lu |]. rewrite s1, s2, su, tu. split; [exact (Below _ (value b) _ d0 (Rlt_le _ _ b0) bd near) | exact (Below _ _ _ t0 tn ad small)]. }
-  destruct (offs_are k d tau u N) as [O1 O2]. rewrite su in O1. rewrite tu in O2.
-  assert (Back : forall q x, 0 < q -> vscale q (vscale (/ q) x) = x) by (intros q [x1 x2 x3] q0; unfold vscale; cbn [vx vy vz]; f_equal; field; lra). rewrite Back in O1, O2 by assumption.
-  assert (XU : vadd (@values (spot u) P) (@values (spot u) U) = P').
-  { rewrite (steady_numbers _ place (spot u)). unfold U. rewrite O1. destruct P' as [p1 p2 p3]. destruct (values P) as [r1 r2 r3]. unfold vadd, vsub. cbn [vx vy vz]. f_equal; ring. }
-  pose proof (stays_below_sound (dimension k) (first_angle k) _ u far N) as below.
-  rewrite (@whole_pose_is (spot u) U w _ S) in below; [| unfold w; rewrite O2; symmetry; exact (along_axis_is y S hy) | |].
-  - assert (Each : forall l, fold_right (fun q sum => @value (spot u) (weight q) * (norm2 (vadd (vadd (@values (spot u) (D_of q)) (@values (spot u) U)) (mulv S (@values (spot u) (r_of q)))) - @value (spot u) (length_of q) ^ 2) + sum) 0 (map (lever_of o t P) l) =
-      fold_right (fun p sum => @value (spot u) (weight (lever_of o t P p)) * (norm2 (vadd (vadd (@values (spot u) (each2 Minus P (xbase (fst (fst p))))) (@values (spot u) U)) (mulv S (@values (spot u) (turn o t (xjoint (fst (fst p))))))) - @value (spot u) (snd (fst p)) ^ 2) + sum) 0 l)
-      by (induction l as [| [[l r] z] rest IH]; cbn [map fold_right fst snd]; [reflexivity | rewrite IH; reflexivity]).
-    rewrite Each in below. clear Each.
-    pose proof (asked_zero _ (fun l r => strut_length (strut_of l) P' (mulm S Q) = r) u
-      (fun l r => norm2 (vadd (vadd (@values (spot u) (each2 Minus P (xbase l))) (@values (spot u) U)) (mulv S (@values (spot u) (turn o t (xjoint l))))) - @value (spot u) r ^ 2) (fun p => @value (spot u) (weight (lever_of o t P p))) ls rhos v same) as none.
-    rewrite none in below; [lra | |].
-    + clear - is_at. revert is_at. generalize (map value rhos). induction ls as [| l ls IH]; intros s h; inversion h as [| ? ? ? ? [_ h1] h2]; subst; constructor; auto.
-    + intros l r il er ej. specialize (steady l il). apply andb_true_iff in steady as [k1 k2]. rewrite (@values_minus (spot u)), er, <- ej, (steady_numbers _ k1 (spot u)), (steady_numbers _ k2 (spot u)), turnQ, <- XU.
-      unfold strut_length. replace (sqrt _ ^ 2) with (norm2 (strut_vector (strut_of l) (vadd (@values (spot u) P) (@values (spot u) U)) (mulm S Q))) by (rewrite <- Rsqr_pow2; symmetry; apply Rsqr_sqrt, norm2_nonneg).
-      apply Rminus_diag_eq. f_equal. unfold strut_vector, arm_of_joint. cbn [strut_of strut_base strut_joint]. rewrite mulv_mulm. generalize (@values (spot u) P) (@values (spot u) U) (mulv S (mulv Q (values (xjoint l)))) (values (xbase l)).
-      clear. intros [x1 x2 x3] [y1 y2 y3] [z1 z2 z3] [a1 a2 a3]. unfold vadd, vsub. cbn [vx vy vz]. f_equal; ring.
-  - intro b'. unfold w. transitivity (mulv (along_axis (@values (spot u) (nspin k (offs k d tau)))) (@values (spot u) b')).
-    + destruct (nspin k _) as [w1 w2 w3]. exact (@values_turned (spot u) (TurnedUpTo (0 // 1)) [w1; w2; w3] b').
-    + rewrite O2, (along_axis_is y S hy). reflexivity.
-  - exact (orientation_keeps _ _ hS).
+  destruct (some_open_sound (Turns k) b angle _ (values P) Q P' Q' far near) as [S [eQ none]]. apply none. rewrite eQ in is_at. clearbody rhos. clear - is_at turnQ. revert rhos is_at v.
+  induction ls as [| l ls IH]; intros [| r rhos] is_at [| z v]; cbn [combine map]; try constructor; inversion is_at as [| ? ? ? ? [_ h1] h2]; subst; [| exact (IH rhos h2 v)].
+  unfold closes, lever_of. cbn [D_of r_of length_of]. rewrite values_minus, turnQ, <- h1. unfold strut_length.
+  replace (sqrt _ ^ 2) with (norm2 (strut_vector (strut_of l) P' (mulm S Q))) by (rewrite <- Rsqr_pow2; symmetry; apply Rsqr_sqrt, norm2_nonneg). f_equal.
+  unfold strut_vector, arm_of_joint. cbn [strut_of strut_base strut_joint]. rewrite mulv_mulm. generalize (mulv S (mulv Q (values (xjoint l)))) (values (xbase l)) (values P).
+  clear. intros [z1 z2 z3] [a1 a2 a3] [x1 x2 x3]. destruct P' as [y1 y2 y3]. unfold vadd, vsub. cbn [vx vy vz]. f_equal; ring.
+Qed.
+
+(** ** Legs in any motion *)
+
+Definition nominal_exact_driven (d : any_drive) : exact_driven :=
+  match d with
+  | LinearDrive d => XLinear (nominal_exact d)
+  | RotaryDrive d => XRotary (ExactArm (nmiddles (axis_within d)) (nmiddles (reference_within d)) (nmiddles (anchor_within d)) (nmiddles (platform_within d)) (nmiddle (arm_within d)) (nmiddle (rod_within d)) (is_positive_mode d))
+  end.
+Lemma nominal_driven_is : forall d, driven_of (nominal_exact_driven d) = nominal_driven d.
+Proof.
+  intros [d | d]; cbn [nominal_exact_driven driven_of nominal_driven]; [rewrite nominal_is; reflexivity |]. unfold arm_of. rewrite values_xpart. cbn [xaxis xreference xanchor xplatform xarm xrod xmode].
+  rewrite !middles_are, !middle_is. reflexivity.
+Qed.
+
+(** An angle is off by the one with this tangent of its half, which is not more than the error. *)
+Definition below (x : option fixed) : Q := match x with Some a => Z.max 0 (lo a) # 2 ^ few_bits | None => 0 end.
+Lemma below_sound : forall e, 0 <= value e -> is_angle (value e) -> 0 <= Q2R (below (enclose_tangent few_bits e)) <= tangent (value e).
+Proof.
+  intros e e0 ie. pose proof (tangent_nonneg _ e0 ie) as t0. unfold below. destruct (enclose_tangent few_bits e) as [a |] eqn:h; [| unfold Q2R; cbn; lra].
+  destruct (enclose_tangent_sound few_bits _ _ h ie) as [l _]. unfold Q2R. cbn [Qnum Qden]. rewrite Pos2Z.inj_pow. change (IZR (2 ^ Z.pos few_bits)) with (unit_R few_bits). pose proof (unit_R_pos few_bits) as p.
+  assert (M : 0 <= IZR (Z.max 0 (lo a)) <= tangent (value e) * unit_R few_bits).
+  { split; [apply IZR_le; lia |]. destruct (Z.max_spec 0 (lo a)) as [[_ ->] | [_ ->]]; [exact l | apply Rmult_le_pos; lra]. }
+  split; apply Rmult_le_reg_r with (unit_R few_bits); try exact p; rewrite Rmult_assoc, Rinv_l by lra; lra.
+Qed.
+Definition asked (e : number) (h : Q) (z : Z) (x : ncoordinate) : ncoordinate :=
+  match x with
+  | NLength a => NLength (if (z <? 0)%Z then Minus a e else Plus a e)
+  | NAngle c s => let t := of_Q (if (z <? 0)%Z then - h else h) in NAngle (Minus (Times c (tcosine t)) (Times s (tsine t))) (Plus (Times s (tcosine t)) (Times c (tsine t)))
+  | NUnknown => NUnknown
+  end.
+Definition is_given (x : ncoordinate) : bool := match x with NUnknown => false | _ => true end.
+Lemma asked_off : forall e h z x, 0 <= value e -> (forall c s, x = NAngle c s -> is_angle (value e) /\ 0 <= Q2R h <= tangent (value e)) -> is_given x = true -> is_off (value e) (coordinate_of x) (coordinate_of (asked e h z x)).
+Proof.
+  intros e h z [a | c s |] e0 ang given; [| | discriminate]; cbn [asked coordinate_of is_off].
+  - destruct (z <? 0)%Z; cbn [value]; [replace (value a - value e - value a) with (- value e) by ring; rewrite Rabs_Ropp | replace (value a + value e - value a) with (value e) by ring]; rewrite Rabs_pos_eq; lra.
+  - destruct (ang c s eq_refl) as [ie hh]. destruct (half_tangent_up_to (Q2R h) (value e) e0 ie hh) as [d [hd td]].
+    assert (D : exists d', Rabs d' <= value e /\ is_half_tangent (@value names (of_Q (if (z <? 0)%Z then - h else h))) d').
+    { rewrite of_Q_value. destruct (z <? 0)%Z; [exists (- d); rewrite Rabs_Ropp | exists d]; (split; [rewrite Rabs_pos_eq; lra |]); [| exact td].
+      rewrite Qreals.Q2R_opp. destruct td as [tc ts]. unfold is_half_tangent. replace (in_degrees (- d)) with (- in_degrees d) by (unfold in_degrees; field). rewrite cos_neg, sin_neg, tc, ts.
+      assert (0 < 1 + Q2R h ^ 2) by (pose proof (pow2_ge_0 (Q2R h)); lra). split; field; nra. }
+    destruct D as [d' [le t]]. exists d'. split; [exact le |]. cbn [value]. rewrite (value_tcosine _ _ t), (value_tsine _ _ t). split; reflexivity.
+Qed.
+
+(** An angle that is nearly the one that is asked for, by a rational tangent of its half: of [c] and [s], elbows would have dozens. *)
+Definition settled (e : number) (h : Q) (z : Z) (x : ncoordinate) : ncoordinate :=
+  match x, asked e (h * (1 - (1 # 2 ^ 40)))%Q z x with
+  | NAngle c s, NAngle c' s' =>
+      let t := rounded (Over s' (Plus (1 // 1) c')) in let C := Plus (Times c (tcosine t)) (Times s (tsine t)) in let S := Minus (Times c (tsine t)) (Times s (tcosine t)) in
+      let most := Times (of_Q h) (Plus (1 // 1) C) in
+      if certainly bits true (Plus (1 // 1) C) && certainly bits false (Minus most S) && certainly bits false (Plus most S) then NAngle (tcosine t) (tsine t) else asked e h z x
+  | _, _ => asked e h z x
+  end.
+Lemma settled_off : forall e h z x, 0 <= value e -> (forall c s, x = NAngle c s -> is_angle (value e) /\ 0 <= Q2R h <= tangent (value e) /\ value c ^ 2 + value s ^ 2 = 1) -> is_given x = true ->
+  is_off (value e) (coordinate_of x) (coordinate_of (settled e h z x)).
+Proof.
+  intros e h z x e0 ang given. assert (A : is_off (value e) (coordinate_of x) (coordinate_of (asked e h z x))).
+  { apply asked_off; [exact e0 | | exact given]. intros c s k. destruct (ang c s k) as [h1 [h2 _]]. split; assumption. }
+  unfold settled. destruct x as [a | c s |]; try exact A. destruct (asked e (h * (1 - (1 # 2 ^ 40))) z (NAngle c s)) as [| c' s' |]; try exact A. cbv zeta.
+  set (t := rounded _). set (C := Plus (Times c (tcosine t)) (Times s (tsine t))). set (S := Minus (Times c (tsine t)) (Times s (tcosine t))). assert (E : value (of_Q h) = Q2R h) by apply of_Q_value. revert E. generalize (of_Q h). intros most E. destruct (_ && _) eqn:k; [| exact A]. clear A. destruct (ang c s eq_refl) as [ie [hh one]].
+  apply andb_true_iff in k as [k k3]. apply andb_true_iff in k as [k1 k2]. apply (positive_sound bits) in k1. apply (nonneg_sound bits) in k2, k3. cbn [value] in k1, k2, k3. rewrite E in k2, k3. clear E most.
+  assert (U : value (tcosine t) ^ 2 + value (tsine t) ^ 2 = 1) by (unfold tcosine, tsine; cbn [value]; field; pose proof (pow2_ge_0 (value t)); nra).
+  assert (EC : value C = value c * value (tcosine t) + value s * value (tsine t)) by reflexivity. assert (ES : value S = value c * value (tsine t) - value s * value (tcosine t)) by reflexivity.
+  generalize dependent (value C). generalize dependent (value S). clear C S. intros S ES C k1 k2 k3 EC. replace (1 / 1) with 1 in * by field.
+  cbn [coordinate_of is_off]. generalize dependent (value (tcosine t)). generalize dependent (value (tsine t)). clear t. intros q p U ES' EC'.
+  assert (CS : C ^ 2 + S ^ 2 = 1) by (rewrite EC', ES'; replace ((value c * p + value s * q) ^ 2 + (value c * q - value s * p) ^ 2) with ((value c ^ 2 + value s ^ 2) * (p ^ 2 + q ^ 2)) by ring; rewrite one, U; ring).
+  set (w := S / (1 + C)). assert (W : S = w * (1 + C)) by (unfold w; field; lra). assert (Two : (1 + w ^ 2) * (1 + C) = 2) by (apply Rmult_eq_reg_r with (1 + C); [| lra]; replace ((1 + w ^ 2) * (1 + C) * (1 + C)) with ((1 + C) ^ 2 + (w * (1 + C)) ^ 2) by ring; rewrite <- W; lra).
+  assert (B : exists d, Rabs d <= value e /\ is_half_tangent w d).
+  { destruct (Rle_dec 0 w) as [w0 | w0].
+    - destruct (half_tangent_up_to w (value e) e0 ie) as [d [hd td]]; [split; [exact w0 | apply Rmult_le_reg_r with (1 + C); [lra | rewrite <- W; nra]] |]. exists d. split; [rewrite Rabs_pos_eq; lra | exact td].
+    - destruct (half_tangent_up_to (- w) (value e) e0 ie) as [d [hd [tc ts]]]; [split; [lra | apply Rmult_le_reg_r with (1 + C); [lra | nra]] |]. exists (- d). split; [rewrite Rabs_Ropp, Rabs_pos_eq; lra |].
+      unfold is_half_tangent. replace (in_degrees (- d)) with (- in_degrees d) by (unfold in_degrees; field). rewrite cos_neg, sin_neg, tc, ts. pose proof (pow2_ge_0 w). split; field; nra. }
+  destruct B as [d [hd [tc ts]]]. assert (w2 : 0 < 1 + w ^ 2) by (pose proof (pow2_ge_0 w); lra).
+  assert (Ec : cos (in_degrees d) = C) by (rewrite tc; apply Rmult_eq_reg_r with (1 + w ^ 2); [| lra]; unfold Rdiv; rewrite Rmult_assoc, Rinv_l by lra; lra).
+  assert (Es : sin (in_degrees d) = S) by (rewrite ts, W; apply Rmult_eq_reg_r with (1 + w ^ 2); [| lra]; unfold Rdiv; rewrite Rmult_assoc, Rinv_l by lra; nra).
+  exists d. split; [exact hd |]. rewrite Ec, Es, EC', ES'. split.
+  - replace (value c * (value c * p + value s * q) - value s * (value c * q - value s * p)) with (p * (value c ^ 2 + value s ^ 2)) by ring. rewrite one. ring.
+  - replace (value s * (value c * p + value s * q) + value c * (value c * q - value s * p)) with (q * (value c ^ 2 + value s ^ 2)) by ring. rewrite one. ring.
+Qed.
+
+(** With its joint coordinate a leg is a lever; the derivative by the coordinate is nearly the weight's over [v]. *)
+Definition levers_of (k : mobility) (o : option orientations) (t : list number) (P : numbers) (q : exact_driven * ncoordinate * Z) : list lever :=
+  let '(l, x, v) := q in let r := nturn o t (xoffset l) in let C := xcarried o t P l in
+  match l, x with
+  | XLinear (ExactSlider d a p len m), NLength rho =>
+      [Lever (rounded (Over (v // 1) (Plus (signed_root m (clearance2 d a p len C)) (Minus (product (unit_of d) (nspan a p C)) rho)))) len (each2 Minus (each2 Minus P a) (scaled rho (unit_of d))) r]
+  | XLinear (ExactStrut a p _ as l), NLength rho => [Lever (rounded (Over (v // 1) (Plus rho (njoint l C)))) rho (each2 Minus P a) r]
+  | XRotary i, NAngle c s =>
+      let across := Minus (Times c (xacross i C)) (Times s (xalong i C)) in
+      [Lever (rounded (Over (v // 1) (Times (xarm i) (Plus (xeta i C) across)))) (xrod i) (each2 Minus P (each2 Plus (xanchor i) (scaled (xarm i) (each2 Plus (scaled c (xzero i)) (scaled s (xquarter i)))))) r]
+  | _, _ => []
+  end.
+Lemma levers_close : forall k o t P Q l x v P' S, (forall b, values (nturn o t b) = mulv Q (values b)) -> well_formed_driven (driven_of l) ->
+  own_reach (driven_of l) (carried (driven_of l) P' (mulm S Q)) -> own_joint (driven_of l) (carried (driven_of l) P' (mulm S Q)) = coordinate_of x ->
+  Forall (fun q => closes q (vsub P' (values P)) S) (levers_of k o t P (l, x, v)).
+Proof.
+  intros k o t P Q l x v P' S turnQ ok re e. unfold levers_of.
+  destruct l as [[d a p len m | a p b | d] | i], x as [rho | c s |]; try (constructor; fail); (constructor; [| constructor]); unfold closes; cbn [D_of r_of length_of driven_of own_reach own_joint well_formed_driven coordinate_of xoffset] in *; rewrite turnQ.
+  - pose proof (leg_vector_length _ _ ok re) as L. assert (J : joint (leg_of (ExactSlider d a p len m)) (carried (Linear (leg_of (ExactSlider d a p len m))) P' (mulm S Q)) = value rho) by congruence.
+    cbn [leg_of joint] in J. unfold leg_vector, C_point, B_point, A_point in L. cbn [leg_of axis base_point platform_offset leg_length] in L. rewrite J in L. rewrite <- L. unfold carried. cbn [leg_of offset platform_offset].
+    rewrite !values_minus, values_scaled, values_unit, mulv_mulm. generalize (normalised (values d)) (values P) (values a) (values p) (value rho) (mulv S (mulv Q (values p))). clear. intros [n1 n2 n3] [x1 x2 x3] [a1 a2 a3] [p1 p2 p3] q [r1 r2 r3]. destruct P' as [y1 y2 y3].
+    unfold norm2, Vec3.dot, vadd, vsub, vscale. cbn [vx vy vz]. ring.
+  - assert (J : joint (leg_of (ExactStrut a p b)) (carried (Linear (leg_of (ExactStrut a p b))) P' (mulm S Q)) = value rho) by congruence. cbn [leg_of joint] in J. rewrite <- J.
+    replace (sqrt _ ^ 2) with (norm2 (span (values a) (values p) (carried (Linear (leg_of (ExactStrut a p b))) P' (mulm S Q)))) by (rewrite <- Rsqr_pow2; symmetry; apply Rsqr_sqrt, norm2_nonneg). f_equal.
+    unfold span, carried. cbn [leg_of offset]. rewrite values_minus, mulv_mulm. generalize (values P) (values a) (values p) (mulv S (mulv Q (values p))). clear. intros [x1 x2 x3] [a1 a2 a3] [p1 p2 p3] [r1 r2 r3]. destruct P' as [y1 y2 y3].
+    unfold vadd, vsub. cbn [vx vy vz]. f_equal; ring.
+  - destruct (rod_closes _ _ ok re) as [L _]. unfold Arm.rod, elbow in L. injection e as ec es. rewrite ec, es in L. cbn [arm_of rod_length arm_length motor arm_offset] in L. rewrite <- L. f_equal.
+    rewrite !values_minus, values_plus, values_scaled, values_plus, !values_scaled, values_xzero, values_xquarter. unfold carried. cbn [offset arm_of arm_offset]. rewrite mulv_mulm.
+    generalize (values P) (vadd (values (xanchor i)) (vscale (value (xarm i)) (vadd (vscale (value c) (motor_zero (arm_of i))) (vscale (value s) (quarter (arm_of i)))))) (values (xplatform i)) (mulv S (mulv Q (values (xplatform i)))).
+    clear. intros [x1 x2 x3] [a1 a2 a3] [p1 p2 p3] [r1 r2 r3]. destruct P' as [y1 y2 y3]. unfold vadd, vsub. cbn [vx vy vz]. f_equal; ring.
+Qed.
+
+Definition refute_far_driven (c : driven_claim) (ls : list exact_driven) (P : numbers) (t : list number) (test : nat) (v : list Z) : bool :=
+  let k := mobility_of c in let o := turned_by c in
+  all_exact bits (drives c) ls && is_exact_pose bits c P t &&
+  match test_at bits (parts_near k) test (driven_demands c) with
+  | Some (OnePose e b angle, _) =>
+      let nominal := map (fun d => let l := nominal_exact_driven d in xdriven_joint o t P l) (drives c) in let h := below (enclose_tangent few_bits e) in
+      certainly bits false e && forallb (fun d => match nominal_exact_driven d with
+        | XRotary i as l => is_angle_number bits e && is_exact_driven bits d l && certainly bits true (xclearance i (xcarried o t P l))
+        | _ => true
+        end) (drives c) && Nat.eqb (length v) (length (drives c)) &&
+      some_open k b angle (flat_map (levers_of k o t P) (combine (combine ls (map (fun p => settled e h (fst p) (snd p)) (combine v nominal))) v))
+  | _ => false
+  end.
+
+Theorem refute_far_driven_sound : forall c ls P t test v, refute_far_driven c ls P t test v = true ->
+  exists m P Q, Forall well_formed_driven m /\ is_about_driven c m P Q /\ ~ meets_driven c m P Q.
+Proof.
+  intros c ls P t test v h. unfold refute_far_driven in h. cbv zeta in h. set (k := mobility_of c) in *. set (o := turned_by c) in *.
+  apply andb_true_iff in h as [h rest]. apply andb_true_iff in h as [h p]. destruct (all_exact_sound bits _ _ h) as [h1 h2].
+  destruct (is_exact_pose_sound bits _ _ _ p) as [Q [hQ turnQ]]. fold o in turnQ. exists (map driven_of ls), (values P), Q. split; [exact h2 |]. split; [split; assumption |].
+  intros [_ [_ met]]. destruct (test_at _ _ _ _) as [[q which] |] eqn:e; [| discriminate]. destruct q; try discriminate. apply test_at_in in e. rewrite Forall_forall in met. specialize (met _ e).
+  apply andb_true_iff in rest as [rest far]. apply andb_true_iff in rest as [rest l2]. apply andb_true_iff in rest as [e0 angles]. apply Nat.eqb_eq in l2. apply (nonneg_sound bits) in e0.
+  cbn [Configuration.fulfils legs_at recovers] in met. fold k in met. set (nominal := map _ (drives c)) in *. set (g := below (enclose_tangent few_bits error)) in *.
+  set (rhos := map (fun p => settled error g (fst p) (snd p)) (combine v nominal)) in *.
+  assert (Own : forall l, own_joint (driven_of l) (carried (driven_of l) (values P) Q) = coordinate_of (xdriven_joint o t P l)).
+  { intro l. rewrite <- (values_carried o t P Q turnQ). destruct l as [i | i]; cbn [own_joint driven_of xdriven_joint coordinate_of]; [rewrite value_joint | rewrite value_xcosine, value_xsine]; reflexivity. }
+  destruct (met (map coordinate_of rhos)) as [P' [Q' [[near is_at] _]]].
+  { rewrite forallb_forall in angles. assert (A : forall x, In x nominal -> forall z, is_off (value error) (coordinate_of x) (coordinate_of (settled error g z x))).
+    { intros x ix z. unfold nominal in ix. apply in_map_iff in ix as [d [ed id]]. specialize (angles d id). apply settled_off; [exact e0 | | rewrite <- ed; destruct (nominal_exact_driven d); reflexivity].
+      intros q s ex. rewrite ex in ed. clear ex. unfold xdriven_joint in ed. destruct (nominal_exact_driven d) as [| i] eqn:en; [discriminate |]. injection ed as <- <-.
+      apply andb_true_iff in angles as [angles reach]. apply andb_true_iff in angles as [ie made]. apply (is_angle_number_sound bits) in ie. apply (positive_sound bits) in reach. rewrite value_xclearance in reach.
+      split; [exact ie |]. split; [exact (below_sound error e0 ie) |]. destruct d as [d | d]; [discriminate |]. cbn [is_exact_driven] in made. destruct (is_exact_arm_sound bits _ _ made) as [_ ok].
+      rewrite value_xcosine, value_xsine. exact (proj1 (angle_splits _ _ ok reach)). }
+    unfold rhos. clear - A l2 Own. unfold nominal in *. clear nominal. revert v l2 A. induction (drives c) as [| d ds IH]; intros [| z v] l2 A; try discriminate; cbn [map combine]; constructor.
+    - rewrite <- nominal_driven_is, Own. cbn [fst snd]. apply A. left. reflexivity.
+    - apply IH; [cbn in l2; congruence |]. intros x ix. apply A. right. exact ix. }
+  destruct (some_open_sound k b angle _ (values P) Q P' Q' far near) as [S [eQ none]]. apply none. rewrite eQ in is_at. clearbody rhos. clear - is_at turnQ h2. revert rhos is_at v.
+  induction ls as [| l ls IH]; intros [| r rhos] is_at v; cbn [combine flat_map map] in *; try constructor; inversion is_at as [| ? ? ? ? [r1 r2] r3]; subst. inversion h2 as [| ? ? w1 w2]; subst.
+  destruct v as [| z v]; [constructor |]. cbn [combine flat_map]. apply Forall_app. split; [exact (levers_close k o t P Q l r z P' S turnQ w1 r1 r2) | exact (IH w2 rhos r3 v)].
 Qed.
 End Named.
 End Precision.

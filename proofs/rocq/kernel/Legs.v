@@ -56,8 +56,20 @@ Definition components (k : mobility) (a : vec) : list R :=
   match k with Translates => coordinates a | TranslatesInPlane => [vx a; vy a] | Turns _ => [] end.
 Definition driven_rod (k : mobility) (P : vec) (Q : mat) (l : driven) : option Configuration.rod :=
   option_map (fun q => let '(a, eta, len) := q in Rod (components k a) eta len) (own_rod l (carried l P Q)).
-Definition legs_at (k : mobility) (ell : R) (m : list driven) (P : vec) (Q : mat) : configuration :=
-  Configuration (map (driven_row k ell P Q) m) (map (fun l => own_joint l (carried l P Q)) m) (map (driven_rod k P Q) m) [] (fun b => vadd P (mulv Q b)) (fun _ _ _ _ => False) (fun _ _ _ => False)
+(** Poses near another one; where the platform turns, as [is_near] says. *)
+Definition is_near_to (k : mobility) (b angle : number) (P : vec) (Q : mat) (P' : vec) (Q' : mat) : Prop :=
+  match k with
+  | Translates => norm2 (vsub P' P) <= value b ^ 2 /\ Q' = Q
+  | TranslatesInPlane => vz P' = vz P /\ norm2 (vsub P' P) <= value b ^ 2 /\ Q' = Q
+  | Turns k => is_near k b angle P Q P' Q'
+  end.
+(** Joint coordinates off by the error at most from those of the nominal legs are those of exactly one pose so near. Angles are what their cosine and sine say. *)
+Definition legs_recover (k : mobility) (nominal m : list driven) (P : vec) (Q : mat) (error b angle : number) : Prop :=
+  forall rho, Forall2 (fun l r => is_off (value error) (own_joint l (carried l P Q)) r) nominal rho ->
+  let is_at P' Q' := is_near_to k b angle P Q P' Q' /\ Forall2 (fun l r => own_reach l (carried l P' Q') /\ own_joint l (carried l P' Q') = r) m rho in
+  exists P' Q', is_at P' Q' /\ forall P'' Q'', is_at P'' Q'' -> P'' = P' /\ Q'' = Q'.
+Definition legs_at (k : mobility) (ell : R) (nominal m : list driven) (P : vec) (Q : mat) : configuration :=
+  Configuration (map (driven_row k ell P Q) m) (map (fun l => own_joint l (carried l P Q)) m) (map (driven_rod k P Q) m) [] (fun b => vadd P (mulv Q b)) (fun _ _ _ _ => False) (legs_recover k nominal m P Q)
     (Forall (fun l => own_reach l (carried l P Q)) m).
 
 Definition well_formed_driven (l : driven) : Prop := match l with Linear k => well_formed_leg k | Rotary k => well_formed_arm k end.
@@ -99,6 +111,15 @@ Inductive any_drive := LinearDrive (d : drive) | RotaryDrive (d : arm_drive).
 Definition is_driven (d : any_drive) (l : driven) : Prop :=
   match d, l with LinearDrive d, Linear l => is_leg_of d l | RotaryDrive d, Rotary l => is_arm d l | _, _ => False end.
 
+(** In the middle of the tolerances. *)
+Definition nominal_driven (d : any_drive) : driven :=
+  match d with
+  | LinearDrive d => Linear (nominal_leg d)
+  | RotaryDrive d => let k := normalised (middles (axis_within d)) in
+      Rotary (Arm k (normalised (orthogonal_part k (middles (reference_within d)))) (middles (anchor_within d)) (middles (platform_within d)) (middle (arm_within d)) (middle (rod_within d))
+        (if is_positive_mode d then 1 else -1))
+  end.
+
 (** In the plane z is 0 of all points; about a fixed point, the platform's is the origin. [only_pose]: no two poses of the workspace have the
     same joint coordinates. *)
 Record driven_claim := MakeDrivenClaim {
@@ -109,7 +130,7 @@ Definition is_pose (c : driven_claim) (P : vec) (Q : mat) : Prop :=
   in_region (place_of c) P /\ match turned_by c with Some o => in_orientations o Q | None => Q = midentity end.
 Definition is_about_driven (c : driven_claim) (m : list driven) (P : vec) (Q : mat) : Prop := Forall2 is_driven (drives c) m /\ is_pose c P Q.
 Definition meets_driven (c : driven_claim) (m : list driven) (P : vec) (Q : mat) : Prop :=
-  Configuration.meets (freedom (mobility_of c)) (legs_at (mobility_of c) (value (length_of c)) m P Q) (driven_demands c).
+  Configuration.meets (freedom (mobility_of c)) (legs_at (mobility_of c) (value (length_of c)) (map nominal_driven (drives c)) m P Q) (driven_demands c).
 
 (** Every machine of the claim can be built, and meets it in every pose. *)
 Definition driven_holds (c : driven_claim) : Prop := forall m P Q, is_about_driven c m P Q -> Forall well_formed_driven m /\ meets_driven c m P Q /\
@@ -166,13 +187,13 @@ Proof.
   unfold xcarried, carried. rewrite values_minus, values_plus, is_turn, O. reflexivity.
 Qed.
 
-Lemma exact_legs_stand : forall ls, Forall well_formed_driven (map driven_of ls) -> stands_for (exact_legs_at ls) (legs_at k (value ell) (map driven_of ls) (values P) Q).
+Lemma exact_legs_stand : forall nominal ls, Forall well_formed_driven (map driven_of ls) -> stands_for (exact_legs_at ls) (legs_at k (value ell) nominal (map driven_of ls) (values P) Q).
 Proof.
   assert (O : forall l, values (xoffset l) = offset (driven_of l)).
   { intros [[d a p len m | a p q | d] | i]; try reflexivity. unfold values. cbn. unfold vzero. f_equal; lra. }
   assert (Elbow : forall i C, values (each2 Minus (each2 Plus C (xplatform i)) (xelbow i C)) = Arm.rod (arm_of i) (values C)).
   { intros. unfold Arm.rod, elbow, xelbow. rewrite !values_minus, !values_plus, values_scaled, values_plus, !values_scaled, values_xzero, values_xquarter, value_xcosine, value_xsine. reflexivity. }
-  intros ls ok. split; [| split; [| split; [| split; [| split]]]]; cbn [jacobian joints rods limbs placed reached njacobian njoints nrods nlimbs nplaced reserves nrays exact_legs_at legs_at]; rewrite ?map_map.
+  intros nominal ls ok. split; [| split; [| split; [| split; [| split]]]]; cbn [jacobian joints rods limbs placed reached njacobian njoints nrods nlimbs nplaced reserves nrays exact_legs_at legs_at]; rewrite ?map_map.
   - apply map_ext. intro l. unfold driven_row, xdriven_row. cbv zeta. rewrite <- values_carried.
     assert (U : own_row (driven_of l) (values (xcarried l)) = values (match l with XLinear i => nrow i (xcarried l) | XRotary i => xrow i (xcarried l) end))
       by (destruct l as [i | i]; cbn [own_row driven_of]; [rewrite values_row | rewrite values_xrow]; reflexivity).
@@ -232,9 +253,11 @@ Proof.
   - exists midentity. split; [split; [exact (is_in_sound bits _ _ p) | reflexivity] |]. intro b. rewrite mulv_identity. reflexivity.
 Qed.
 
+(** Poses near another one have a test of each part. *)
+Definition parts_near (k : mobility) : nat := match k with Turns (InPlane | InSpace) => 2 | _ => 1 end.
 Definition refute_driven (c : driven_claim) (ls : list exact_driven) (P : numbers) (t : list number) (f : nfailure) : bool :=
   all_exact (drives c) ls && is_exact_pose c P t &&
-  refutes bits 1 (freedom (mobility_of c)) (exact_legs_at (mobility_of c) (length_of c) (turned_by c) t P ls) (driven_demands c) f.
+  refutes bits (parts_near (mobility_of c)) (freedom (mobility_of c)) (exact_legs_at (mobility_of c) (length_of c) (turned_by c) t P ls) (driven_demands c) f.
 
 (** A machine of the claim that can be built does not meet it in some pose of the workspace. *)
 Theorem refute_driven_sound : forall c ls P t f, refute_driven c ls P t f = true ->
@@ -242,7 +265,7 @@ Theorem refute_driven_sound : forall c ls P t f, refute_driven c ls P t f = true
 Proof.
   intros c ls P t f h. apply andb_true_iff in h as [h r]. apply andb_true_iff in h as [h p]. destruct (all_exact_sound _ _ h) as [h1 h2].
   destruct (is_exact_pose_sound _ _ _ p) as [Q [q1 q2]]. exists (map driven_of ls), (values P), Q. split; [exact h2 |]. split; [split; assumption |].
-  exact (refutes_sound bits _ _ _ _ _ _ (exact_legs_stand _ _ _ _ _ Q q2 ls h2) r).
+  exact (refutes_sound bits _ _ _ _ _ _ (exact_legs_stand _ _ _ _ _ Q q2 _ ls h2) r).
 Qed.
 End Precision.
 End Named.

@@ -168,10 +168,11 @@ Definition enclose (x : number) : option fixed := if varies x then option_map Sl
 
 Definition halfway : naming.
 Proof. refine {| along := fun _ => 1 / 2 |}. intros _. lra. Defined.
-Definition lambdas : list R := map (fun k => 2 * along k - 1) (seq 0 most_parameters).
+Definition lambdas_of (n : nat) : list R := map (fun k => 2 * along k - 1) (seq 0 n).
+Definition lambdas : list R := lambdas_of most_parameters.
 
-Lemma lambdas_within : Forall (fun t => -1 <= t <= 1) lambdas.
-Proof. apply Forall_map, Forall_forall. intros k _. pose proof (along_within k). lra. Qed.
+Lemma lambdas_within : forall n, Forall (fun t => -1 <= t <= 1) (lambdas_of n).
+Proof. intro n. apply Forall_map, Forall_forall. intros k _. pose proof (along_within k). lra. Qed.
 
 Lemma steady_value : forall x other, varies x = false -> @value other x = @value names x.
 Proof.
@@ -182,10 +183,10 @@ Qed.
 Lemma ratio_of_sound : forall q, contains (ratio_of q) (Q2R q).
 Proof. intros [n d]. apply Fixed.ratio_sound. Qed.
 
-Lemma coordinate_holds : forall k a b, (k < most_parameters)%nat -> Q2R a <= Q2R b ->
-  Slope.holds bits lambdas (coordinate k a b) (@value halfway (Varying k a b)) (value (Varying k a b)).
+Lemma coordinate_holds : forall n k a b, (k < n)%nat -> Q2R a <= Q2R b ->
+  Slope.holds bits (lambdas_of n) (coordinate k a b) (@value halfway (Varying k a b)) (value (Varying k a b)).
 Proof.
-  intros k a b hk le. pose proof (along_within k) as W. cbn [value along halfway]. split; [| split]; unfold coordinate; cbn [Slope.at_c Slope.range Slope.slopes].
+  intros n k a b hk le. pose proof (along_within k) as W. cbn [value along halfway]. split; [| split]; unfold coordinate; cbn [Slope.at_c Slope.range Slope.slopes].
   - replace (Q2R a + 1 / 2 * (Q2R b - Q2R a)) with (Q2R ((a + b) * (1 # 2))); [apply ratio_of_sound |].
     rewrite Qreals.Q2R_mult, Qreals.Q2R_plus. unfold Q2R at 3. cbn. field.
   - pose proof (ratio_of_sound a) as [l _]. pose proof (ratio_of_sound b) as [_ u]. pose proof (unit_R_pos bits) as p.
@@ -194,9 +195,9 @@ Proof.
   - exists (repeat 0 k ++ [Q2R ((b - a) * (1 # 2))]). split.
     + apply Forall2_app; [clear; induction k; cbn; constructor; auto using zero_sound | constructor; [apply ratio_of_sound | constructor]].
     + assert (D : forall j h l, Linear.dot (repeat 0 j ++ [h]) l = h * nth j l 0) by (induction j as [| j IH]; intros h [| t l]; cbn [repeat app Linear.dot nth]; try rewrite IH; ring).
-      rewrite D. replace (nth k lambdas 0) with (2 * along k - 1).
+      rewrite D. replace (nth k (lambdas_of n) 0) with (2 * along k - 1).
       * rewrite Qreals.Q2R_mult, Qreals.Q2R_minus. replace (Q2R (1 # 2)) with (/ 2) by (unfold Q2R; cbn; lra). lra.
-      * unfold lambdas. rewrite (nth_indep _ 0 (2 * along 0%nat - 1)) by (rewrite map_length, seq_length; exact hk).
+      * unfold lambdas_of. rewrite (nth_indep _ 0 (2 * along 0%nat - 1)) by (rewrite map_length, seq_length; exact hk).
         rewrite (map_nth (fun k => 2 * along k - 1)), seq_nth by exact hk. reflexivity.
 Qed.
 
@@ -230,7 +231,7 @@ Qed.
 
 Lemma sloped_sound : forall x s, sloped x = Some s -> Slope.holds bits lambdas s (@value halfway x) (value x).
 Proof.
-  apply sloped_by_sound; [exact lambdas_within |]. intros k a b s h. destruct (Nat.ltb k most_parameters) eqn:hk; [| discriminate]. destruct (Qle_bool a b) eqn:le; [| discriminate].
+  apply sloped_by_sound; [exact (lambdas_within _) |]. intros k a b s h. destruct (Nat.ltb k most_parameters) eqn:hk; [| discriminate]. destruct (Qle_bool a b) eqn:le; [| discriminate].
   injection h as <-. apply coordinate_holds; [apply Nat.ltb_lt, hk | apply Qreals.Qle_Rle, Qle_bool_iff, le].
 Qed.
 

@@ -277,14 +277,13 @@ Variables m n : nat.
 Variable g : option nat.
 Variables (main : rows nat) (main_w : nat) (varied : list fixed -> list fixed -> fixed -> nat -> evidence -> bool).
 
-Definition may_part_poses (open : list bool) : bool := forallb (fun p => is_of_each_pose (fst p) || negb (snd p)) (combine tests open).
 Fixpoint check_for (params cell : list fixed) (open : list bool) (t : tree) : bool :=
   let then_ steps good := match steps_at bits tape plain params tests m n g main main_w (varied params) cell steps open with Some last => good last | None => false end in
   match t with
   | Leaf steps => then_ steps (forallb negb)
   | Split steps k lower upper => then_ steps (fun last =>
       let (a, b) := halves k cell in if check_for params a last lower then check_for params b last upper else false)
-  | Parts steps j lower upper => then_ steps (fun last => if may_part_poses last then
+  | Parts steps j lower upper => then_ steps (fun last => if may_part is_of_each_pose tests last then
       let (a, b) := halves j params in if check_for a cell last lower then check_for b cell last upper else false else false)
   end.
 Definition check_poses : list fixed -> list bool -> tree -> bool := check_for all.
@@ -308,11 +307,6 @@ Lemma holds_of_each_pose : forall params x t, is_of_each_pose t = true -> test_h
 Proof.
   intros params x t e h. destruct t; try exact h; [discriminate |]. exact (holds_of_each bits plain [] [] [] params theta all m x _ e h).
 Qed.
-Lemma may_part_poses_sound : forall open i t, may_part_poses open = true -> nth_error tests i = Some t -> nth i open false = true -> is_of_each_pose t = true.
-Proof.
-  unfold may_part_poses. intros open i t h k o. rewrite forallb_forall in h. specialize (h (t, true) (open_with _ tests t i open k o)). cbn [fst snd] in h.
-  rewrite orb_false_r in h. exact h.
-Qed.
 
 Theorem check_for_sound : forall tr params cell x open, check_for params cell open tr = true -> Forall2 (contains bits) params theta -> are_above all params ->
   Forall2 (contains bits) cell x -> length cell = m -> is_turned x ->
@@ -330,9 +324,9 @@ Proof.
     pose proof (halves_sound bits k cell x hx) as c. destruct (halves_length k cell) as [La Lb]. destruct (halves k cell) as [a b]. cbn [fst snd] in *.
     destruct (check_for params a rest lower) eqn:ha; [| discriminate].
     destruct c as [c | c]; [exact (IHl params a x rest ha hp hr c ltac:(congruence) ht W' D' t it) | exact (IHu params b x rest h hp hr c ltac:(congruence) ht W' D' t it)].
-  - destruct (may_part_poses rest) eqn:e; [| discriminate].
+  - destruct (may_part is_of_each_pose tests rest) eqn:e; [| discriminate].
     assert (W' : forall ps i t, nth_error tests i = Some t -> nth i rest false = true -> test_holds_for ps x t -> test_holds x t)
-      by (intros ps i u q o; exact (holds_of_each_pose ps x u (may_part_poses_sound rest i u e q o))).
+      by (intros ps i u q o; exact (holds_of_each_pose ps x u (may_part_sound _ _ _ rest i u e q o))).
     destruct (above_halved bits k params theta hp all hr) as [r1 r2]. pose proof (halves_sound bits k params theta hp) as c. destruct (halves k params) as [a b]. cbn [fst snd] in *.
     destruct (check_for a cell rest lower) eqn:ha; [| discriminate].
     destruct c as [c | c]; [exact (IHl a cell x rest ha c r1 hx len ht (W' a) D' t it) | exact (IHu b cell x rest h c r2 hx len ht (W' b) D' t it)].

@@ -195,17 +195,25 @@ Proof.
   - apply andb_true_iff in h as [_ h]. apply IH, h.
 Qed.
 
+(** The claim is about these struts in this pose. *)
+Definition is_about_exactly (c : turning_claim) (ls : list exact_strut) (P : numbers) (t : list number) : bool :=
+  all_struts (struts c) ls && is_in bits (positions c) P && is_orientation bits (turned c) t.
+Lemma is_about_exactly_sound : forall c ls P t, is_about_exactly c ls P t = true ->
+  exists Q, is_about_struts c (map strut_of ls) (values P) Q /\ forall b, values (turn (turned c) t b) = mulv Q (values b).
+Proof.
+  intros c ls P t h. apply andb_true_iff in h as [h o]. apply andb_true_iff in h as [h p]. destruct (is_orientation_sound bits _ _ o) as [Q [hQ turnQ]].
+  exists Q. split; [split; [apply all_struts_sound, h | split; [exact (is_in_sound bits _ _ p) | exact hQ]] | exact turnQ].
+Qed.
+
 Definition refute_turning (c : turning_claim) (ls : list exact_strut) (P : numbers) (t : list number) (f : nfailure) : bool :=
-  all_struts (struts c) ls && is_in bits (positions c) P && is_orientation bits (turned c) t &&
+  is_about_exactly c ls P t &&
   refutes bits (match motion_of c with AboutPoint => 1 | _ => 2 end) (dimension (motion_of c)) (exact_struts_at (motion_of c) (characteristic_length c) (turned c) t P ls) (turning_demands c) f.
 
 (** A machine of the claim does not meet it in some pose of the workspace. *)
 Theorem refute_turning_sound : forall c ls P t f, refute_turning c ls P t f = true ->
   exists m P Q, is_about_struts c m P Q /\ ~ meets_turning c m P Q.
 Proof.
-  intros c ls P t f h. apply andb_true_iff in h as [h r]. apply andb_true_iff in h as [h o]. apply andb_true_iff in h as [h p].
-  destruct (is_orientation_sound bits _ _ o) as [Q [hQ turnQ]]. exists (map strut_of ls), (values P), Q.
-  split; [split; [apply all_struts_sound, h | split; [exact (is_in_sound bits _ _ p) | exact hQ]] |].
+  intros c ls P t f h. apply andb_true_iff in h as [h r]. destruct (is_about_exactly_sound _ _ _ _ h) as [Q [about turnQ]]. exists (map strut_of ls), (values P), Q. split; [exact about |].
   exact (refutes_sound bits _ _ _ _ _ _ (exact_struts_stand _ _ Q turnQ _ _ _ _ _) r).
 Qed.
 End Precision.

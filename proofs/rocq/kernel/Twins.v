@@ -48,12 +48,14 @@ Proof.
   intros l h other. apply map_ext_in. intros x ix. unfold is_steady in h. rewrite forallb_forall in h. specialize (h x ix). apply steady_value. destruct (varies x); [discriminate | reflexivity].
 Qed.
 Definition in_numbers (a : numbers) : list number := [nx a; ny a; nz a].
+(** Numbers that are the same with other names. *)
+Definition agrees (other : naming) (l : list number) : Prop := Forall (fun x => @value other x = @value names x) l.
+Lemma numbers_agree : forall a other, agrees other (in_numbers a) -> @values other a = @values names a.
+Proof. intros a other h. inversion h as [| ? ? h1 h']; subst. inversion h' as [| ? ? h2 h'']; subst. inversion h'' as [| ? ? h3]; subst. unfold values. rewrite h1, h2, h3. reflexivity. Qed.
+Lemma steady_agrees : forall l, is_steady l = true -> forall other, agrees other l.
+Proof. intros l h other. apply Forall_forall. intros x ix. unfold is_steady in h. rewrite forallb_forall in h. specialize (h x ix). apply steady_value. destruct (varies x); [discriminate | reflexivity]. Qed.
 Lemma steady_numbers : forall a, is_steady (in_numbers a) = true -> forall other, @values other a = @values names a.
-Proof.
-  intros a h other. assert (K : forall x, In x (in_numbers a) -> @value other x = @value names x).
-  { intros x ix. unfold is_steady in h. rewrite forallb_forall in h. specialize (h x ix). apply steady_value. destruct (varies x); [discriminate | reflexivity]. }
-  unfold values. rewrite !K by (unfold in_numbers; cbn; auto). reflexivity.
-Qed.
+Proof. intros a h other. apply numbers_agree, steady_agrees, h. Qed.
 Lemma steady_app : forall a b, is_steady (a ++ b) = true -> is_steady a = true /\ is_steady b = true.
 Proof. intros a b h. unfold is_steady in *. rewrite forallb_app in h. apply andb_true_iff in h. exact h. Qed.
 
@@ -126,14 +128,16 @@ Definition leg_numbers (l : exact_leg) : list number :=
   | ExactStrut a p k => in_numbers a ++ in_numbers p ++ match k with Some k => in_numbers k | None => [] end
   | ExactPlanar d => in_numbers d
   end.
-Lemma steady_leg : forall l, is_steady (leg_numbers l) = true -> forall other, @leg_of other l = @leg_of names l.
+Lemma leg_agrees : forall l other, agrees other (leg_numbers l) -> @leg_of other l = @leg_of names l.
 Proof.
-  intros [d a p len m | a p k | d] h other; cbn [leg_numbers leg_of] in *.
-  - apply steady_app in h as [h1 h]. apply steady_app in h as [h2 h]. apply steady_app in h as [h3 h4]. pose proof (f_equal (hd 0) (steady_values _ h4 other)) as E. cbn [map hd] in E. rewrite E.
-    rewrite (steady_numbers _ h1), (steady_numbers _ h2), (steady_numbers _ h3). reflexivity.
-  - apply steady_app in h as [h1 h]. apply steady_app in h as [h2 h]. rewrite (steady_numbers _ h1), (steady_numbers _ h2). destruct k as [k |]; [| reflexivity]. cbn [option_map]. rewrite (steady_numbers _ h). reflexivity.
-  - rewrite (steady_numbers _ h). reflexivity.
+  intros [d a p len m | a p k | d] other h; cbn [leg_numbers leg_of] in *.
+  - apply Forall_app in h as [h1 h]. apply Forall_app in h as [h2 h]. apply Forall_app in h as [h3 h4]. inversion h4 as [| ? ? E]; subst.
+    rewrite E, (numbers_agree _ _ h1), (numbers_agree _ _ h2), (numbers_agree _ _ h3). reflexivity.
+  - apply Forall_app in h as [h1 h]. apply Forall_app in h as [h2 h]. rewrite (numbers_agree _ _ h1), (numbers_agree _ _ h2). destruct k as [k |]; [| reflexivity]. cbn [option_map]. rewrite (numbers_agree _ _ h). reflexivity.
+  - rewrite (numbers_agree _ _ h). reflexivity.
 Qed.
+Lemma steady_leg : forall l, is_steady (leg_numbers l) = true -> forall other, @leg_of other l = @leg_of names l.
+Proof. intros l h other. apply leg_agrees, steady_agrees, h. Qed.
 
 Definition refute_same (c : claim) (ls : list exact_leg) (P : numbers) (least greatest : list Q) (C : list (list Q)) : bool :=
   match least, greatest with

@@ -6,8 +6,8 @@
 From Coq Require Import ZArith Reals Lra Lia List Bool String.
 From Orthocert Require Import Velocity Fixed Claim.
 From Orthocert Require MeanValue.
-From Orthocert.kernel Require Import Linear Arithmetic Slope Test Cell Check Number Formula Problem Witness Configuration Inputs Drives Driven.
-From Orthocert.kernel Require Gradient.
+From Orthocert.kernel Require Import Statement Linear Arithmetic Slope Test Cell Check Number Formula Problem Witness Configuration Inputs Drives Driven.
+From Orthocert.kernel Require Gradient Twofold.
 Import ListNotations.
 Local Open Scope list_scope.
 Local Open Scope R_scope.
@@ -82,15 +82,22 @@ Definition is_row (c : mechanism) (theta x : list R) (j : written_joint) (row : 
       (forall k, derivable_pt_lim (fun t => nth k (path t) 0) 0 (nth k v 0)) ->
       derivable_pt_lim (fun t => meaning (environment_at c theta (path t)) e) 0 (Linear.dot row v)
   end.
+(** Joint coordinates, of joints that have one. *)
+Definition joint_values (c : mechanism) (theta x : list R) : list coordinate :=
+  map (fun j => match j with ByRow _ => Unknown | ByCoordinate e => Length (meaning (environment_at c theta x) e) end) (joint_forms c).
+(** Everything that is written is defined. *)
+Definition is_reached (c : mechanism) (theta x : list R) : Prop :=
+  all_defined (given c x theta) (definitions c) /\
+  Forall (fun j => match j with ByRow es => Forall (is_defined (environment_at c theta x)) es | ByCoordinate e => is_defined (environment_at c theta x) e end) (joint_forms c).
+(** Joint coordinates off by the error at most from those with the parameters in the middle are those of exactly one point so near. *)
+Definition forms_recover (c : mechanism) (theta x : list R) (error b _ : number) : Prop :=
+  let nominal := map (fun p => middle (snd p)) (parameters c) in
+  forall rho, Forall2 (is_off (Claim.value error)) (joint_values c nominal x) rho ->
+  let is_at y := length y = length x /\ Linear.dot (Twofold.less y x) (Twofold.less y x) <= Claim.value b ^ 2 /\ is_reached c theta y /\ joint_values c theta y = rho in
+  exists y, is_at y /\ forall z, is_at z -> z = y.
 (** The machine with the parameters [theta] at the coordinates [x], with these rows. *)
 Definition machine_at (c : mechanism) (theta x : list R) (M : list (list R)) : configuration :=
-  let env := environment_at c theta x in
-  Configuration M (map (fun j => match j with ByRow _ => Unknown | ByCoordinate e => Length (meaning env e) end) (joint_forms c)) (map (fun _ => None) (joint_forms c)) [] (fun b => b) (fun _ _ _ _ => False) (fun _ _ _ => False)
-    (all_defined (given c x theta) (definitions c) /\
-     Forall (fun j => match j with ByRow es => Forall (is_defined env) es | ByCoordinate e => is_defined env e end) (joint_forms c)).
-
-(** Joint coordinates, of joints that have one. *)
-Definition joint_values (c : mechanism) (theta x : list R) : list coordinate := joints (machine_at c theta x []).
+  Configuration M (joint_values c theta x) (map (fun _ => None) (joint_forms c)) [] (fun b => b) (fun _ _ _ _ => False) (forms_recover c theta x) (is_reached c theta x).
 
 Definition is_about_written (c : written_claim) (theta x : list R) : Prop :=
   Forall2 (fun p y => within (snd p) y) (parameters (by_formulas c)) theta /\ Forall2 within (box_of c) x.
@@ -489,7 +496,7 @@ Definition rho_of (c : mechanism) (theta x : list R) (j : written_joint) : R :=
 Lemma same_values : forall c theta x y, joint_values c theta y = joint_values c theta x ->
   map (rho_of c theta y) (joint_forms c) = map (rho_of c theta x) (joint_forms c).
 Proof.
-  intros c theta x y. unfold joint_values, machine_at, rho_of. cbn [joints]. induction (joint_forms c) as [| [es | e] js IH]; cbn [map]; intro h; [reflexivity | |];
+  intros c theta x y. unfold joint_values, rho_of. induction (joint_forms c) as [| [es | e] js IH]; cbn [map]; intro h; [reflexivity | |];
     injection h; intros; f_equal; auto.
 Qed.
 

@@ -3,100 +3,100 @@
 globalThis!=="object"&&(this?b():(a.defineProperty(a.prototype,"_T_",{configurable:true,get:b}),_T_));function
 b(){var
 b=this||self;b.globalThis=b;delete
-a.prototype._T_}}(Object));(function(P){"use strict";var
-ka="spatial",ru="Invalid_argument",hG="precision",aQ='"',j$=1255,km="inside",qq="(",qr=0x800,rt="yaw",qn="range",qo="tree",qp="jsError",ck=0x8000,rs="sqrt(",qm=256,hF="obligation",rr="load",fT="offset",bq="machine",ql="End_of_file",eG="strut",j_="center",fS="arm",j9="Failure",rq="serial_margin",hN="parameters",cN=0xff,rp="bodies",ro="max_angle",kl="outside",fR="base_axis",j8="ENOENT",rn="singular",rm=122,qk="([^/]+)",rl="0",j7=0xf,fQ=128,qj=0xdc00,rj="Sys_blocked_io",rk="fd ",fJ="given",qi="ENOTEMPTY",a1=248,hE="bound",qh="Division_by_zero",rh="by",ri=1027,qg="Sys_error",hM="slider",qf="torsion",rg="postulate",qe="proof",kk="joint_error",fP="refuted",ez="mechanism",hD="row",qd="EEXIST",rf="roll_pitch_yaw",fO="y",qc="cube",dp="lower",re="within",qb="clearance",rd="turned",qa="control",hC="int_of_string",p$="between",rb="definitions",rc="dependent",fN=1024,p9="from",p_="name",ra=" : flags Open_rdonly and Open_wronly are not compatible",p8="orthocert/2",q$="reach",p7=512,q9="base_joint",q_="witness",eF="-",bi="platform",p6=0x7ff0,p5="pitch",kj=": Not a directory",bJ="min",q7="trim",eE="workspace",q8=" : file already exists",hB="split",q5='the failure "singular" of such a mechanism',ki="legs",q6="claim",j6="joint",dQ=0xffffff,p4="platform_joint",p3="formulas",p2="roll",hA="atlas",q2="greatest",q3="nodes",q4="Out_of_memory",p1="psi_max",hL="orientation",hz=254,q1="angle",kh="index out of bounds",p0="end",q0="one_to_one",hK="_bigarr02",pZ=" : flags Open_text and Open_binary are not compatible",qZ="inverse",bI="drive",pY="coordinates",qY="holds",pX="lower_divided",pW="speed",qW="cylinder",qX="joints",cM=0xffff,qS="a leaf that fails",qT="acceleration",qU="force",fL="certified",fM="chords",qV=12520,j5="on",qR="same",ey="accuracy",fK="axis",qQ="no_cube",qP="parallel_margin",pV='the drive "',j4="Unix.Unix_error",hJ="fails",hy="tool",j3="mkdir",qN="rho",qO="least",hI=1000,j2="translational",kg="tolerances",pU="Stack_overflow",kf="characteristic_length",ae="",ke="^",hw="places",hx=": No such file or directory",pT="/static/",eD=0x3f,pR="stiffness",pS="Not_found",cL="planar",fI="mode",qM="joint_speed",qL="Match_failure",pQ="transmission",bH="anchor",qK="at",pP="joint_force",eC="leg",pO="joint_acceleration",hH="+",j1="rmdir",qJ=0xf0,qI="spherical",pN=1026,qG="REJECTED",qH="undecided",bL="max",bK="direction",pL="leg_angle",pM="orthoglide",eB="rank",qE="constraint_margin",qF="fan",fH="test",pJ="Pervasives.do_at_exit",pK="utf8",b3=0x80,eA="conditioning",ex="length",pI="Undefined_recursive_module",kd=")",pH="base",qD="quantity",pG="joint_range",hv="tilt",pF="Q2",qC='the failure "same" of such a mechanism',qB="reference",pD="this quantity in a claim that is refuted",pE="point",qz="corner",qA=0xe0,pC="version",kc="z",qx="to",qy=0xdfff,j0="compare: functional value",qw="Assert_failure",b5="/",qv="provenance",dP="radius",hu="side",qt=-14,b4="require",qu="format",pB="Q1",kb="ENOTDIR",pA="all",dO="box",qs=250;function
-ky(c,b,a){var
+a.prototype._T_}}(Object));(function(S){"use strict";var
+kp="spatial",rN="Invalid_argument",hT="precision",aQ='"',ko=1255,kB="inside",qJ="(",qK=0x800,rM="yaw",qG="range",qH="tree",qI="jsError",cn=0x8000,rL="sqrt(",qF=256,hS="obligation",rK="load",f4="offset",bt="machine",qE="End_of_file",eS="strut",kn="center",f3="arm",km="Failure",rJ="serial_margin",h0="parameters",cR=0xff,rI="bodies",rH="max_angle",kA="outside",f2="base_axis",kl="ENOENT",rG="singular",rF=122,qD="([^/]+)",rE="0",kk=0xf,f1=128,qC=0xdc00,rC="Sys_blocked_io",rD="fd ",fU="given",qB="ENOTEMPTY",a3=248,hR="bound",qA="Division_by_zero",rA="by",rB=1027,qz="Sys_error",hZ="slider",qy="torsion",rz="postulate",qx="proof",kz="joint_error",f0="refuted",eL="mechanism",hQ="row",qw="EEXIST",ry="roll_pitch_yaw",fZ="y",qv="cube",ds="lower",rx="within",qu="clearance",rw="turned",qt="control",hP="int_of_string",qs="between",ru="definitions",rv="dependent",fY=1024,qq="from",qr="name",rt=" : flags Open_rdonly and Open_wronly are not compatible",qp="orthocert/2",rs="reach",qo=512,rq="base_joint",rr="witness",eR="-",bi="platform",qn=0x7ff0,qm="pitch",ky=": Not a directory",bL="min",ro="trim",eQ="workspace",rp=" : file already exists",hO="split",rm='the failure "singular" of such a mechanism',kx="legs",rn="claim",kj="joint",d1=0xffffff,ql="platform_joint",qk="formulas",qj="roll",hN="atlas",rj="greatest",rk="nodes",rl="Out_of_memory",qi="psi_max",hY="orientation",hM=254,ri="angle",kw="index out of bounds",qh="end",rh="one_to_one",hX="_bigarr02",qg=" : flags Open_text and Open_binary are not compatible",rg="inverse",bK="drive",qf="coordinates",rf="holds",qe="lower_divided",qd="speed",rd="cylinder",re="joints",cQ=0xffff,q$="a leaf that fails",ra="acceleration",rb="force",fW="certified",fX="chords",rc=12520,ki="on",q_="same",eK="accuracy",fV="axis",q9="no_cube",q8="parallel_margin",qc='the drive "',kh="Unix.Unix_error",hW="fails",hL="tool",kg="mkdir",q6="rho",q7="least",hV=1000,kf="translational",kv="tolerances",qb="Stack_overflow",ku="characteristic_length",ae="",kt="^",hJ="places",hK=": No such file or directory",qa="/static/",eP=0x3f,p_="stiffness",p$="Not_found",cP="planar",fT="mode",q5="joint_speed",q4="Match_failure",p9="transmission",bJ="anchor",q3="at",p8="joint_force",eO="leg",p7="joint_acceleration",hU="+",ke="rmdir",q2=0xf0,q1="spherical",p6=1026,qZ="REJECTED",q0="undecided",bN="max",bM="direction",p4="leg_angle",p5="orthoglide",eN="rank",qX="constraint_margin",qY="fan",fS="test",p2="Pervasives.do_at_exit",p3="utf8",b4=0x80,eM="conditioning",eJ="length",p1="Undefined_recursive_module",ks=")",p0="base",qW="quantity",pZ="joint_range",hI="tilt",pY="Q2",qV='the failure "same" of such a mechanism',qU="reference",pX="point",qS="corner",qT=0xe0,pW="version",kr="z",qQ="to",qR=0xdfff,kd="compare: functional value",qP="Assert_failure",b6="/",qO="provenance",d0="radius",hH="side",qM=-14,b5="require",qN="format",pV="Q1",kq="ENOTDIR",pU="all",dZ="box",qL=250;function
+kN(c,b,a){var
 d=String.fromCharCode;if(b==0&&a<=4096&&a==c.length)return d.apply(null,c);var
-e=ae;for(;0<a;b+=fN,a-=fN)e+=d.apply(null,c.slice(b,b+Math.min(a,fN)));return e}function
-hP(b){if(P.Uint8Array)var
-c=new(P.Uint8Array)(b.l);else
+e=ae;for(;0<a;b+=fY,a-=fY)e+=d.apply(null,c.slice(b,b+Math.min(a,fY)));return e}function
+h2(b){if(S.Uint8Array)var
+c=new(S.Uint8Array)(b.l);else
 var
 c=new
 Array(b.l);var
 e=b.c,d=e.length,a=0;for(;a<d;a++)c[a]=e.charCodeAt(a);for(d=b.l;a<d;a++)c[a]=0;b.c=c;b.t=4;return c}function
-fU(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?ky(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
-if(b.t==2&&f==b.c.length){b.c+=d.t==4?ky(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)hP(b);var
+f5(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?kN(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
+if(b.t==2&&f==b.c.length){b.c+=d.t==4?kN(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)h2(b);var
 g=d.c,h=b.c;if(d.t==4)if(f<=e)for(var
 a=0;a<c;a++)h[f+a]=g[e+a];else
 for(var
 a=c-1;a>=0;a--)h[f+a]=g[e+a];else{var
 i=Math.min(c,g.length-e);for(var
 a=0;a<i;a++)h[f+a]=g.charCodeAt(e+a);for(;a<c;a++)h[f+a]=0}}return 0}function
-eJ(a){return a}function
-eI(a,b,c,d,e){fU(eJ(a),b,c,d,e);return 0}function
-ko(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
+eV(a){return a}function
+eU(a,b,c,d,e){f5(eV(a),b,c,d,e);return 0}function
+kD(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
 0:return a.c.charCodeAt(b);case
 4:return a.c[b]}}function
-dr(c,a){if(c.fun)return dr(c.fun,a);if(typeof
+du(c,a){if(c.fun)return du(c.fun,a);if(typeof
 c!=="function")return c;var
 b=c.length|0;if(b===0)return c.apply(null,a);var
 e=a.length|0,d=b-e|0;if(d==0)return c.apply(null,a);else
-if(d<0)return dr(c.apply(null,a.slice(0,b)),a.slice(b));else
+if(d<0)return du(c.apply(null,a.slice(0,b)),a.slice(b));else
 return function(){var
 e=arguments.length==0?1:arguments.length,d=new
 Array(a.length+e);for(var
 b=0;b<a.length;b++)d[b]=a[b];for(var
-b=0;b<arguments.length;b++)d[a.length+b]=arguments[b];return dr(c,d)}}function
-rW(b,a){if(b==0)return ae;if(a.repeat)return a.repeat(b);var
+b=0;b<arguments.length;b++)d[a.length+b]=arguments[b];return du(c,d)}}function
+sd(b,a){if(b==0)return ae;if(a.repeat)return a.repeat(b);var
 d=ae,c=0;for(;;){if(b&1)d+=a;b>>=1;if(b==0)return d;a+=a;c++;if(c==9)a.slice(0,1)}}function
-eK(a){if(a.t==2)a.c+=rW(a.l-a.c.length,"\0");else
-a.c=ky(a.c,0,a.c.length);a.t=0}function
-eL(a){a.t&6&&eK(a);return a.c}var
-IU=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
-IT(a){if(IU)return Math.floor(Math.log2(a));var
+eW(a){if(a.t==2)a.c+=sd(a.l-a.c.length,"\0");else
+a.c=kN(a.c,0,a.c.length);a.t=0}function
+eX(a){a.t&6&&eW(a);return a.c}var
+Jk=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
+Jj(a){if(Jk)return Math.floor(Math.log2(a));var
 b=0;if(a==0)return-Infinity;if(a>=1)while(a>=2){a/=2;b++}else
 while(a<1){a*=2;b--}return b}function
-kr(c){var
-a=new(P.Float32Array)(1);a[0]=c;var
-b=new(P.Int32Array)(a.buffer);return b[0]|0}var
-rN=Math.pow(2,-24);function
-IK(a){throw a}var
-az=[0];function
-rT(){IK(az.Division_by_zero)}function
-O(b,c,a){this.lo=b&dQ;this.mi=c&dQ;this.hi=a&cM}O.prototype.caml_custom="_j";O.prototype.copy=function(){return new
-O(this.lo,this.mi,this.hi)};O.prototype.ucompare=function(a){if(this.hi>a.hi)return 1;if(this.hi<a.hi)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};O.prototype.compare=function(a){var
-b=this.hi<<16,c=a.hi<<16;if(b>c)return 1;if(b<c)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};O.prototype.neg=function(){var
+kG(c){var
+a=new(S.Float32Array)(1);a[0]=c;var
+b=new(S.Int32Array)(a.buffer);return b[0]|0}var
+r6=Math.pow(2,-24);function
+Ja(a){throw a}var
+aF=[0];function
+sa(){Ja(aF.Division_by_zero)}function
+R(b,c,a){this.lo=b&d1;this.mi=c&d1;this.hi=a&cQ}R.prototype.caml_custom="_j";R.prototype.copy=function(){return new
+R(this.lo,this.mi,this.hi)};R.prototype.ucompare=function(a){if(this.hi>a.hi)return 1;if(this.hi<a.hi)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};R.prototype.compare=function(a){var
+b=this.hi<<16,c=a.hi<<16;if(b>c)return 1;if(b<c)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};R.prototype.neg=function(){var
 a=-this.lo,b=-this.mi+(a>>24),c=-this.hi+(b>>24);return new
-O(a,b,c)};O.prototype.add=function(a){var
+R(a,b,c)};R.prototype.add=function(a){var
 b=this.lo+a.lo,c=this.mi+a.mi+(b>>24),d=this.hi+a.hi+(c>>24);return new
-O(b,c,d)};O.prototype.sub=function(a){var
+R(b,c,d)};R.prototype.sub=function(a){var
 b=this.lo-a.lo,c=this.mi-a.mi+(b>>24),d=this.hi-a.hi+(c>>24);return new
-O(b,c,d)};O.prototype.mul=function(a){var
-b=this.lo*a.lo,c=(b*rN|0)+this.mi*a.lo+this.lo*a.mi,d=(c*rN|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
-O(b,c,d)};O.prototype.isZero=function(){return(this.lo|this.mi|this.hi)==0};O.prototype.isNeg=function(){return this.hi<<16<0};O.prototype.and=function(a){return new
-O(this.lo&a.lo,this.mi&a.mi,this.hi&a.hi)};O.prototype.or=function(a){return new
-O(this.lo|a.lo,this.mi|a.mi,this.hi|a.hi)};O.prototype.xor=function(a){return new
-O(this.lo^a.lo,this.mi^a.mi,this.hi^a.hi)};O.prototype.shift_left=function(a){a=a&63;if(a==0)return this;if(a<24)return new
-O(this.lo<<a,this.mi<<a|this.lo>>24-a,this.hi<<a|this.mi>>24-a);if(a<48)return new
-O(0,this.lo<<a-24,this.mi<<a-24|this.lo>>48-a);return new
-O(0,0,this.lo<<a-48)};O.prototype.shift_right_unsigned=function(a){a=a&63;if(a==0)return this;if(a<24)return new
-O(this.lo>>a|this.mi<<24-a,this.mi>>a|this.hi<<24-a,this.hi>>a);if(a<48)return new
-O(this.mi>>a-24|this.hi<<48-a,this.hi>>a-24,0);return new
-O(this.hi>>a-48,0,0)};O.prototype.shift_right=function(a){a=a&63;if(a==0)return this;var
+R(b,c,d)};R.prototype.mul=function(a){var
+b=this.lo*a.lo,c=(b*r6|0)+this.mi*a.lo+this.lo*a.mi,d=(c*r6|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
+R(b,c,d)};R.prototype.isZero=function(){return(this.lo|this.mi|this.hi)==0};R.prototype.isNeg=function(){return this.hi<<16<0};R.prototype.and=function(a){return new
+R(this.lo&a.lo,this.mi&a.mi,this.hi&a.hi)};R.prototype.or=function(a){return new
+R(this.lo|a.lo,this.mi|a.mi,this.hi|a.hi)};R.prototype.xor=function(a){return new
+R(this.lo^a.lo,this.mi^a.mi,this.hi^a.hi)};R.prototype.shift_left=function(a){a=a&63;if(a==0)return this;if(a<24)return new
+R(this.lo<<a,this.mi<<a|this.lo>>24-a,this.hi<<a|this.mi>>24-a);if(a<48)return new
+R(0,this.lo<<a-24,this.mi<<a-24|this.lo>>48-a);return new
+R(0,0,this.lo<<a-48)};R.prototype.shift_right_unsigned=function(a){a=a&63;if(a==0)return this;if(a<24)return new
+R(this.lo>>a|this.mi<<24-a,this.mi>>a|this.hi<<24-a,this.hi>>a);if(a<48)return new
+R(this.mi>>a-24|this.hi<<48-a,this.hi>>a-24,0);return new
+R(this.hi>>a-48,0,0)};R.prototype.shift_right=function(a){a=a&63;if(a==0)return this;var
 c=this.hi<<16>>16;if(a<24)return new
-O(this.lo>>a|this.mi<<24-a,this.mi>>a|c<<24-a,this.hi<<16>>a>>>16);var
+R(this.lo>>a|this.mi<<24-a,this.mi>>a|c<<24-a,this.hi<<16>>a>>>16);var
 b=this.hi<<16>>31;if(a<48)return new
-O(this.mi>>a-24|this.hi<<48-a,this.hi<<16>>a-24>>16,b&cM);return new
-O(this.hi<<16>>a-32,b,b)};O.prototype.lsl1=function(){this.hi=this.hi<<1|this.mi>>23;this.mi=(this.mi<<1|this.lo>>23)&dQ;this.lo=this.lo<<1&dQ};O.prototype.lsr1=function(){this.lo=(this.lo>>>1|this.mi<<23)&dQ;this.mi=(this.mi>>>1|this.hi<<23)&dQ;this.hi=this.hi>>>1};O.prototype.udivmod=function(e){var
+R(this.mi>>a-24|this.hi<<48-a,this.hi<<16>>a-24>>16,b&cQ);return new
+R(this.hi<<16>>a-32,b,b)};R.prototype.lsl1=function(){this.hi=this.hi<<1|this.mi>>23;this.mi=(this.mi<<1|this.lo>>23)&d1;this.lo=this.lo<<1&d1};R.prototype.lsr1=function(){this.lo=(this.lo>>>1|this.mi<<23)&d1;this.mi=(this.mi>>>1|this.hi<<23)&d1;this.hi=this.hi>>>1};R.prototype.udivmod=function(e){var
 c=0,b=this.copy(),a=e.copy(),d=new
-O(0,0,0);while(b.ucompare(a)>0){c++;a.lsl1()}while(c>=0){c--;d.lsl1();if(b.ucompare(a)>=0){d.lo++;b=b.sub(a)}a.lsr1()}return{quotient:d,modulus:b}};O.prototype.div=function(a){var
-b=this;if(a.isZero())rT();var
-d=b.hi^a.hi;if(b.hi&ck)b=b.neg();if(a.hi&ck)a=a.neg();var
-c=b.udivmod(a).quotient;if(d&ck)c=c.neg();return c};O.prototype.mod=function(b){var
-a=this;if(b.isZero())rT();var
-d=a.hi;if(a.hi&ck)a=a.neg();if(b.hi&ck)b=b.neg();var
-c=a.udivmod(b).modulus;if(d&ck)c=c.neg();return c};O.prototype.toInt=function(){return this.lo|this.mi<<24};O.prototype.toFloat=function(){return(this.hi<<16)*Math.pow(2,32)+this.mi*Math.pow(2,24)+this.lo};O.prototype.toArray=function(){return[this.hi>>8,this.hi&cN,this.mi>>16,this.mi>>8&cN,this.mi&cN,this.lo>>16,this.lo>>8&cN,this.lo&cN]};O.prototype.lo32=function(){return this.lo|(this.mi&cN)<<24};O.prototype.hi32=function(){return this.mi>>>8&cM|this.hi<<16};function
-hR(b,c,a){return new
-O(b,c,a)}function
-hQ(a){if(!isFinite(a)){if(isNaN(a))return hR(1,0,p6);return a>0?hR(0,0,p6):hR(0,0,0xfff0)}var
-f=a==0&&1/a==-Infinity?ck:a>=0?0:ck;if(f)a=-a;var
-b=IT(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-pN)}else{a/=Math.pow(2,b-ri);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
+R(0,0,0);while(b.ucompare(a)>0){c++;a.lsl1()}while(c>=0){c--;d.lsl1();if(b.ucompare(a)>=0){d.lo++;b=b.sub(a)}a.lsr1()}return{quotient:d,modulus:b}};R.prototype.div=function(a){var
+b=this;if(a.isZero())sa();var
+d=b.hi^a.hi;if(b.hi&cn)b=b.neg();if(a.hi&cn)a=a.neg();var
+c=b.udivmod(a).quotient;if(d&cn)c=c.neg();return c};R.prototype.mod=function(b){var
+a=this;if(b.isZero())sa();var
+d=a.hi;if(a.hi&cn)a=a.neg();if(b.hi&cn)b=b.neg();var
+c=a.udivmod(b).modulus;if(d&cn)c=c.neg();return c};R.prototype.toInt=function(){return this.lo|this.mi<<24};R.prototype.toFloat=function(){return(this.hi<<16)*Math.pow(2,32)+this.mi*Math.pow(2,24)+this.lo};R.prototype.toArray=function(){return[this.hi>>8,this.hi&cR,this.mi>>16,this.mi>>8&cR,this.mi&cR,this.lo>>16,this.lo>>8&cR,this.lo&cR]};R.prototype.lo32=function(){return this.lo|(this.mi&cR)<<24};R.prototype.hi32=function(){return this.mi>>>8&cQ|this.hi<<16};function
+h4(b,c,a){return new
+R(b,c,a)}function
+h3(a){if(!isFinite(a)){if(isNaN(a))return h4(1,0,qn);return a>0?h4(0,0,qn):h4(0,0,0xfff0)}var
+f=a==0&&1/a==-Infinity?cn:a>=0?0:cn;if(f)a=-a;var
+b=Jj(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-p6)}else{a/=Math.pow(2,b-rB);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
 d=Math.pow(2,24),c=a|0;a=(a-c)*d;var
 e=a|0;a=(a-e)*d;var
-g=a|0;c=c&j7|f|b<<4;return hR(g,e,c)}function
-fX(a){return a.toArray()}function
-rB(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==hK)for(var
-a=0;a<b.dims.length;a++)if(b.dims[a]<cM)c.write(16,b.dims[a]);else{c.write(16,cM);c.write(32,0);c.write(32,b.dims[a])}else
+g=a|0;c=c&kk|f|b<<4;return h4(g,e,c)}function
+f8(a){return a.toArray()}function
+rU(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==hX)for(var
+a=0;a<b.dims.length;a++)if(b.dims[a]<cQ)c.write(16,b.dims[a]);else{c.write(16,cQ);c.write(32,0);c.write(32,b.dims[a])}else
 for(var
 a=0;a<b.dims.length;a++)c.write(32,b.dims[a]);switch(b.kind){case
 2:case
@@ -113,52 +113,52 @@ a=0;a<b.data.length;a++)c.write(32,b.data[a]);break;case
 a=0;a<b.data.length;a++)c.write(32,b.data[a]);break;case
 7:for(var
 a=0;a<b.data.length/2;a++){var
-e=fX(b.get(a));for(var
+e=f8(b.get(a));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 1:for(var
 a=0;a<b.data.length;a++){var
-e=fX(hQ(b.get(a)));for(var
+e=f8(h3(b.get(a)));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 0:for(var
 a=0;a<b.data.length;a++){var
-e=kr(b.get(a));c.write(32,e)}break;case
+e=kG(b.get(a));c.write(32,e)}break;case
 10:for(var
 a=0;a<b.data.length/2;a++){var
-d=b.get(a);c.write(32,kr(d[1]));c.write(32,kr(d[2]))}break;case
+d=b.get(a);c.write(32,kG(d[1]));c.write(32,kG(d[2]))}break;case
 11:for(var
 a=0;a<b.data.length/2;a++){var
-f=b.get(a),e=fX(hQ(f[1]));for(var
+f=b.get(a),e=f8(h3(f[1]));for(var
 d=0;d<8;d++)c.write(8,e[d]);var
-e=fX(hQ(f[2]));for(var
+e=f8(h3(f[2]));for(var
 d=0;d<8;d++)c.write(8,e[d])}break}g[0]=(4+b.dims.length)*4;g[1]=(4+b.dims.length)*8}function
-IM(b,a){throw[0,b,a]}function
-r1(a){if(a.length<24){for(var
+Jc(b,a){throw[0,b,a]}function
+si(a){if(a.length<24){for(var
 b=0;b<a.length;b++)if(a.charCodeAt(b)>127)return false;return true}else
 return!/[^\x00-\x7f]/.test(a)}function
-kz(e){for(var
-j=ae,c=ae,g,f,h,a,b=0,i=e.length;b<i;b++){f=e.charCodeAt(b);if(f<b3){for(var
-d=b+1;d<i&&(f=e.charCodeAt(d))<b3;d++);if(d-b>p7){c.substr(0,1);j+=c;c=ae;j+=e.slice(b,d)}else
-c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==fQ){g=h+(f<<6);if(f<qA){a=g-0x3080;if(a<b3)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==fQ){g=h+(g<<6);if(f<qJ){a=g-0xe2080;if(a<qr||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==fQ&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
-if(a>cM)c+=String.fromCharCode(0xd7c0+(a>>10),qj+(a&0x3FF));else
-c+=String.fromCharCode(a);if(c.length>fN){c.substr(0,1);j+=c;c=ae}}return j+c}function
-cl(c,a,b){this.t=c;this.c=a;this.l=b}cl.prototype.toString=function(){switch(this.t){case
-9:return this.c;default:eK(this);case
-0:if(r1(this.c)){this.t=9;return this.c}this.t=8;case
-8:return this.c}};cl.prototype.toUtf16=function(){var
-a=this.toString();if(this.t==9)return a;return kz(a)};cl.prototype.slice=function(){var
+kO(e){for(var
+j=ae,c=ae,g,f,h,a,b=0,i=e.length;b<i;b++){f=e.charCodeAt(b);if(f<b4){for(var
+d=b+1;d<i&&(f=e.charCodeAt(d))<b4;d++);if(d-b>qo){c.substr(0,1);j+=c;c=ae;j+=e.slice(b,d)}else
+c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==f1){g=h+(f<<6);if(f<qT){a=g-0x3080;if(a<b4)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==f1){g=h+(g<<6);if(f<q2){a=g-0xe2080;if(a<qK||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==f1&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
+if(a>cQ)c+=String.fromCharCode(0xd7c0+(a>>10),qC+(a&0x3FF));else
+c+=String.fromCharCode(a);if(c.length>fY){c.substr(0,1);j+=c;c=ae}}return j+c}function
+co(c,a,b){this.t=c;this.c=a;this.l=b}co.prototype.toString=function(){switch(this.t){case
+9:return this.c;default:eW(this);case
+0:if(si(this.c)){this.t=9;return this.c}this.t=8;case
+8:return this.c}};co.prototype.toUtf16=function(){var
+a=this.toString();if(this.t==9)return a;return kO(a)};co.prototype.slice=function(){var
 a=this.t==4?this.c.slice():this.c;return new
-cl(this.t,a,this.l)};function
-rE(a){return new
-cl(0,a,a.length)}function
-a(a){return rE(a)}function
-kx(c,b){IM(c,a(b))}function
-aV(a){kx(az.Invalid_argument,a)}function
-rz(a){switch(a){case
+co(this.t,a,this.l)};function
+rX(a){return new
+co(0,a,a.length)}function
+a(a){return rX(a)}function
+kM(c,b){Jc(c,a(b))}function
+aX(a){kM(aF.Invalid_argument,a)}function
+rS(a){switch(a){case
 7:case
 10:case
 11:return 2;default:return 1}}function
-Ie(c,e){var
-b=P,a;switch(c){case
+IG(c,e){var
+b=S,a;switch(c){case
 0:a=b.Float32Array;break;case
 1:a=b.Float64Array;break;case
 2:a=b.Int8Array;break;case
@@ -171,52 +171,52 @@ b=P,a;switch(c){case
 9:a=b.Int32Array;break;case
 10:a=b.Float32Array;break;case
 11:a=b.Float64Array;break;case
-12:a=b.Uint8Array;break}if(!a)aV("Bigarray.create: unsupported kind");var
+12:a=b.Uint8Array;break}if(!a)aX("Bigarray.create: unsupported kind");var
 d=new
-a(e*rz(c));return d}function
-ks(c){var
-a=new(P.Int32Array)(1);a[0]=c;var
-b=new(P.Float32Array)(a.buffer);return b[0]}function
-fW(a){return new
-O(a[7]<<0|a[6]<<8|a[5]<<16,a[4]<<0|a[3]<<8|a[2]<<16,a[1]<<0|a[0]<<8)}function
-kt(d){var
-f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&j7)==0?b&ck?-Infinity:Infinity:NaN;var
-e=Math.pow(2,-24),a=(f*e+g)*e+(b&j7);if(c>0){a+=16;a*=Math.pow(2,c-ri)}else
-a*=Math.pow(2,-pN);if(b&ck)a=-a;return a}function
-kn(b){var
+a(e*rS(c));return d}function
+kH(c){var
+a=new(S.Int32Array)(1);a[0]=c;var
+b=new(S.Float32Array)(a.buffer);return b[0]}function
+f7(a){return new
+R(a[7]<<0|a[6]<<8|a[5]<<16,a[4]<<0|a[3]<<8|a[2]<<16,a[1]<<0|a[0]<<8)}function
+kI(d){var
+f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&kk)==0?b&cn?-Infinity:Infinity:NaN;var
+e=Math.pow(2,-24),a=(f*e+g)*e+(b&kk);if(c>0){a+=16;a*=Math.pow(2,c-rB)}else
+a*=Math.pow(2,-p6);if(b&cn)a=-a;return a}function
+kC(b){var
 d=b.length,c=1;for(var
-a=0;a<d;a++){if(b[a]<0)aV("Bigarray.create: negative dimension");c=c*b[a]}return c}function
-Iu(b,a){return new
-O(b&dQ,b>>>24&cN|(a&cM)<<8,a>>>16&cM)}function
-ku(a){return a.hi32()}function
-kv(a){return a.lo32()}function
-hO(){aV(kh)}var
-If=hK;function
-dq(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}dq.prototype.caml_custom=If;dq.prototype.offset=function(b){var
+a=0;a<d;a++){if(b[a]<0)aX("Bigarray.create: negative dimension");c=c*b[a]}return c}function
+IW(b,a){return new
+R(b&d1,b>>>24&cR|(a&cQ)<<8,a>>>16&cQ)}function
+kJ(a){return a.hi32()}function
+kK(a){return a.lo32()}function
+h1(){aX(kw)}var
+IH=hX;function
+dt(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}dt.prototype.caml_custom=IH;dt.prototype.offset=function(b){var
 c=0;if(typeof
 b==="number")b=[b];if(!(b
 instanceof
-Array))aV("bigarray.js: invalid offset");if(this.dims.length!=b.length)aV("Bigarray.get/set: bad number of dimensions");if(this.layout==0)for(var
-a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])hO();c=c*this.dims[a]+b[a]}else
+Array))aX("bigarray.js: invalid offset");if(this.dims.length!=b.length)aX("Bigarray.get/set: bad number of dimensions");if(this.layout==0)for(var
+a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])h1();c=c*this.dims[a]+b[a]}else
 for(var
-a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])hO();c=c*this.dims[a]+(b[a]-1)}return c};dq.prototype.get=function(a){switch(this.kind){case
+a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])h1();c=c*this.dims[a]+(b[a]-1)}return c};dt.prototype.get=function(a){switch(this.kind){case
 7:var
-d=this.data[a*2+0],b=this.data[a*2+1];return Iu(d,b);case
+d=this.data[a*2+0],b=this.data[a*2+1];return IW(d,b);case
 10:case
 11:var
-e=this.data[a*2+0],c=this.data[a*2+1];return[hz,e,c];default:return this.data[a]}};dq.prototype.set=function(a,b){switch(this.kind){case
-7:this.data[a*2+0]=kv(b);this.data[a*2+1]=ku(b);break;case
+e=this.data[a*2+0],c=this.data[a*2+1];return[hM,e,c];default:return this.data[a]}};dt.prototype.set=function(a,b){switch(this.kind){case
+7:this.data[a*2+0]=kK(b);this.data[a*2+1]=kJ(b);break;case
 10:case
-11:this.data[a*2+0]=b[1];this.data[a*2+1]=b[2];break;default:this.data[a]=b;break}return 0};dq.prototype.fill=function(b){switch(this.kind){case
+11:this.data[a*2+0]=b[1];this.data[a*2+1]=b[2];break;default:this.data[a]=b;break}return 0};dt.prototype.fill=function(b){switch(this.kind){case
 7:var
-c=kv(b),e=ku(b);if(c==e)this.data.fill(c);else
+c=kK(b),e=kJ(b);if(c==e)this.data.fill(c);else
 for(var
 a=0;a<this.data.length;a++)this.data[a]=a%2==0?c:e;break;case
 10:case
 11:var
 d=b[1],f=b[2];if(d==f)this.data.fill(d);else
 for(var
-a=0;a<this.data.length;a++)this.data[a]=a%2==0?d:f;break;default:this.data.fill(b);break}};dq.prototype.compare=function(b,g){if(this.layout!=b.layout||this.kind!=b.kind){var
+a=0;a<this.data.length;a++)this.data[a]=a%2==0?d:f;break;default:this.data.fill(b);break}};dt.prototype.compare=function(b,g){if(this.layout!=b.layout||this.kind!=b.kind){var
 e=this.kind|this.layout<<8,f=b.kind|b.layout<<8;return f-e}if(this.dims.length!=b.dims.length)return b.dims.length-this.dims.length;for(var
 a=0;a<this.dims.length;a++)if(this.dims[a]!=b.dims[a])return this.dims[a]<b.dims[a]?-1:1;switch(this.kind){case
 0:case
@@ -236,26 +236,26 @@ a=0;a<this.data.length;a+=2){if(this.data[a+1]<b.data[a+1])return-1;if(this.data
 9:case
 12:for(var
 a=0;a<this.data.length;a++){if(this.data[a]<b.data[a])return-1;if(this.data[a]>b.data[a])return 1}break}return 0};function
-eH(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}eH.prototype=new
-dq();eH.prototype.offset=function(a){if(typeof
+eT(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}eT.prototype=new
+dt();eT.prototype.offset=function(a){if(typeof
 a!=="number")if(a
 instanceof
 Array&&a.length==1)a=a[0];else
-aV("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])hO();return a};eH.prototype.get=function(a){return this.data[a]};eH.prototype.set=function(a,b){this.data[a]=b;return 0};eH.prototype.fill=function(a){this.data.fill(a);return 0};function
-rx(c,d,a,b){var
-e=rz(c);if(kn(a)*e!=b.length)aV("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
-eH(c,d,a,b);return new
-dq(c,d,a,b)}function
-b6(b){if(!az.Failure)az.Failure=[a1,a(j9),-3];kx(az.Failure,b)}function
-ry(b,v,r){var
-i=b.read32s();if(i<0||i>16)b6("input_value: wrong number of bigarray dimensions");var
-p=b.read32s(),j=p&cN,o=p>>8&1,h=[];if(r==hK)for(var
+aX("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])h1();return a};eT.prototype.get=function(a){return this.data[a]};eT.prototype.set=function(a,b){this.data[a]=b;return 0};eT.prototype.fill=function(a){this.data.fill(a);return 0};function
+rQ(c,d,a,b){var
+e=rS(c);if(kC(a)*e!=b.length)aX("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
+eT(c,d,a,b);return new
+dt(c,d,a,b)}function
+b7(b){if(!aF.Failure)aF.Failure=[a3,a(km),-3];kM(aF.Failure,b)}function
+rR(b,v,r){var
+i=b.read32s();if(i<0||i>16)b7("input_value: wrong number of bigarray dimensions");var
+p=b.read32s(),j=p&cR,o=p>>8&1,h=[];if(r==hX)for(var
 a=0;a<i;a++){var
-n=b.read16u();if(n==cM){var
-t=b.read32u(),u=b.read32u();if(t!=0)b6("input_value: bigarray dimension overflow in 32bit");n=u}h.push(n)}else
+n=b.read16u();if(n==cQ){var
+t=b.read32u(),u=b.read32u();if(t!=0)b7("input_value: bigarray dimension overflow in 32bit");n=u}h.push(n)}else
 for(var
 a=0;a<i;a++)h.push(b.read32u());var
-d=kn(h),f=Ie(j,d),g=rx(j,o,h,f);switch(j){case
+d=kC(h),f=IG(j,d),g=rQ(j,o,h,f);switch(j){case
 2:for(var
 a=0;a<d;a++)f[a]=b.read8s();break;case
 3:case
@@ -269,129 +269,129 @@ a=0;a<d;a++)f[a]=b.read16u();break;case
 a=0;a<d;a++)f[a]=b.read32s();break;case
 8:case
 9:var
-s=b.read8u();if(s)b6("input_value: cannot read bigarray with 64-bit OCaml ints");for(var
+s=b.read8u();if(s)b7("input_value: cannot read bigarray with 64-bit OCaml ints");for(var
 a=0;a<d;a++)f[a]=b.read32s();break;case
 7:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-q=fW(e);g.set(a,q)}break;case
+q=f7(e);g.set(a,q)}break;case
 1:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-k=kt(fW(e));g.set(a,k)}break;case
+k=kI(f7(e));g.set(a,k)}break;case
 0:for(var
 a=0;a<d;a++){var
-k=ks(b.read32s());g.set(a,k)}break;case
+k=kH(b.read32s());g.set(a,k)}break;case
 10:for(var
 a=0;a<d;a++){var
-m=ks(b.read32s()),l=ks(b.read32s());g.set(a,[hz,m,l])}break;case
+m=kH(b.read32s()),l=kH(b.read32s());g.set(a,[hM,m,l])}break;case
 11:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-m=kt(fW(e));for(var
+m=kI(f7(e));for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-l=kt(fW(e));g.set(a,[hz,m,l])}break}v[0]=(4+i)*4;return rx(j,o,h,f)}function
-rw(a,b,c){return a.compare(b,c)}function
-rQ(a,b){return Math.imul(a,b)}function
-cO(b,a){a=rQ(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=rQ(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
-Ir(a,b){a=cO(a,kv(b));a=cO(a,ku(b));return a}function
-rM(a,b){return Ir(a,hQ(b))}function
-rA(c){var
-b=kn(c.dims),d=0;switch(c.kind){case
+l=kI(f7(e));g.set(a,[hM,m,l])}break}v[0]=(4+i)*4;return rQ(j,o,h,f)}function
+rP(a,b,c){return a.compare(b,c)}function
+r9(a,b){return Math.imul(a,b)}function
+cS(b,a){a=r9(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=r9(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
+IT(a,b){a=cS(a,kK(b));a=cS(a,kJ(b));return a}function
+r5(a,b){return IT(a,h3(b))}function
+rT(c){var
+b=kC(c.dims),d=0;switch(c.kind){case
 2:case
 3:case
-12:if(b>qm)b=qm;var
-e=0,a=0;for(a=0;a+4<=c.data.length;a+=4){e=c.data[a+0]|c.data[a+1]<<8|c.data[a+2]<<16|c.data[a+3]<<24;d=cO(d,e)}e=0;switch(b&3){case
+12:if(b>qF)b=qF;var
+e=0,a=0;for(a=0;a+4<=c.data.length;a+=4){e=c.data[a+0]|c.data[a+1]<<8|c.data[a+2]<<16|c.data[a+3]<<24;d=cS(d,e)}e=0;switch(b&3){case
 3:e=c.data[a+2]<<16;case
 2:e|=c.data[a+1]<<8;case
-1:e|=c.data[a+0];d=cO(d,e)}break;case
+1:e|=c.data[a+0];d=cS(d,e)}break;case
 4:case
-5:if(b>fQ)b=fQ;var
-e=0,a=0;for(a=0;a+2<=c.data.length;a+=2){e=c.data[a+0]|c.data[a+1]<<16;d=cO(d,e)}if((b&1)!=0)d=cO(d,c.data[a]);break;case
+5:if(b>f1)b=f1;var
+e=0,a=0;for(a=0;a+2<=c.data.length;a+=2){e=c.data[a+0]|c.data[a+1]<<16;d=cS(d,e)}if((b&1)!=0)d=cS(d,c.data[a]);break;case
 6:if(b>64)b=64;for(var
-a=0;a<b;a++)d=cO(d,c.data[a]);break;case
+a=0;a<b;a++)d=cS(d,c.data[a]);break;case
 8:case
 9:if(b>64)b=64;for(var
-a=0;a<b;a++)d=cO(d,c.data[a]);break;case
+a=0;a<b;a++)d=cS(d,c.data[a]);break;case
 7:if(b>32)b=32;b*=2;for(var
-a=0;a<b;a++)d=cO(d,c.data[a]);break;case
+a=0;a<b;a++)d=cS(d,c.data[a]);break;case
 10:b*=2;case
 0:if(b>64)b=64;for(var
-a=0;a<b;a++)d=rM(d,c.data[a]);break;case
+a=0;a<b;a++)d=r5(d,c.data[a]);break;case
 11:b*=2;case
 1:if(b>32)b=32;for(var
-a=0;a<b;a++)d=rM(d,c.data[a]);break}return d}function
-Is(a,b){b[0]=4;return a.read32s()}function
-IH(a,b){switch(a.read8u()){case
+a=0;a<b;a++)d=r5(d,c.data[a]);break}return d}function
+IU(a,b){b[0]=4;return a.read32s()}function
+I9(a,b){switch(a.read8u()){case
 1:b[0]=4;return a.read32s();case
-2:b6("input_value: native integer value too large");default:b6("input_value: ill-formed native integer")}}function
-Ix(c,d){var
+2:b7("input_value: native integer value too large");default:b7("input_value: ill-formed native integer")}}function
+IZ(c,d){var
 b=new
 Array(8);for(var
-a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return fW(b)}function
-Iw(e,d,b){var
-c=fX(d);for(var
+a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return f7(b)}function
+IY(e,d,b){var
+c=f8(d);for(var
 a=0;a<8;a++)e.write(8,c[a]);b[0]=8;b[1]=8}function
-It(a,b,c){return a.compare(b)}function
-Iv(a){return a.lo32()^a.hi32()}var
-rH={"_j":{deserialize:Ix,serialize:Iw,fixed_length:8,compare:It,hash:Iv},"_i":{deserialize:Is,fixed_length:4},"_n":{deserialize:IH,fixed_length:4},"_bigarray":{deserialize:function(a,b){return ry(a,b,"_bigarray")},serialize:rB,compare:rw,hash:rA},"_bigarr02":{deserialize:function(a,b){return ry(a,b,hK)},serialize:rB,compare:rw,hash:rA}};function
-kq(a){return rH[a.caml_custom]&&rH[a.caml_custom].compare}function
-rF(f,c,d,e){var
-b=kq(c);if(b){var
+IV(a,b,c){return a.compare(b)}function
+IX(a){return a.lo32()^a.hi32()}var
+r0={"_j":{deserialize:IZ,serialize:IY,fixed_length:8,compare:IV,hash:IX},"_i":{deserialize:IU,fixed_length:4},"_n":{deserialize:I9,fixed_length:4},"_bigarray":{deserialize:function(a,b){return rR(a,b,"_bigarray")},serialize:rU,compare:rP,hash:rT},"_bigarr02":{deserialize:function(a,b){return rR(a,b,hX)},serialize:rU,compare:rP,hash:rT}};function
+kF(a){return r0[a.caml_custom]&&r0[a.caml_custom].compare}function
+rY(f,c,d,e){var
+b=kF(c);if(b){var
 a=d>0?b(c,f,e):b(f,c,e);if(e&&a!=a)return d;if(+a!=+a)return+a;if((a|0)!=0)return a|0}return d}function
-kw(a){return a
+kL(a){return a
 instanceof
-cl}function
-rO(a){return kw(a)}function
-rG(a){if(typeof
-a==="number")return hI;else
-if(kw(a))return 252;else
-if(rO(a))return 1252;else
+co}function
+r7(a){return kL(a)}function
+rZ(a){if(typeof
+a==="number")return hV;else
+if(kL(a))return 252;else
+if(r7(a))return 1252;else
 if(a
 instanceof
 Array&&a[0]===a[0]>>>0&&a[0]<=255){var
-b=a[0]|0;return b==hz?0:b}else
+b=a[0]|0;return b==hM?0:b}else
 if(a
 instanceof
-String)return qV;else
+String)return rc;else
 if(typeof
-a=="string")return qV;else
+a=="string")return rc;else
 if(a
 instanceof
-Number)return hI;else
-if(a&&a.caml_custom)return j$;else
+Number)return hV;else
+if(a&&a.caml_custom)return ko;else
 if(a&&a.compare)return 1256;else
 if(typeof
 a=="function")return 1247;else
 if(typeof
 a=="symbol")return 1251;return 1001}function
-Iy(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
-rD(a,b){a.t&6&&eK(a);b.t&6&&eK(b);return a.c<b.c?-1:a.c>b.c?1:0}function
-rX(a,b){return rD(a,b)}function
-kp(a,b,d){var
+I0(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
+rW(a,b){a.t&6&&eW(a);b.t&6&&eW(b);return a.c<b.c?-1:a.c>b.c?1:0}function
+se(a,b){return rW(a,b)}function
+kE(a,b,d){var
 e=[];for(;;){if(!(d&&a===b)){var
-f=rG(a);if(f==qs){a=a[1];continue}var
-g=rG(b);if(g==qs){b=b[1];continue}if(f!==g){if(f==hI){if(g==j$)return rF(a,b,-1,d);return-1}if(g==hI){if(f==j$)return rF(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
-247:aV(j0);break;case
+f=rZ(a);if(f==qL){a=a[1];continue}var
+g=rZ(b);if(g==qL){b=b[1];continue}if(f!==g){if(f==hV){if(g==ko)return rY(a,b,-1,d);return-1}if(g==hV){if(f==ko)return rY(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
+247:aX(kd);break;case
 248:var
-c=Iy(a[2],b[2]);if(c!=0)return c|0;break;case
-249:aV(j0);break;case
-250:aV("equal: got Forward_tag, should not happen");break;case
-251:aV("equal: abstract value");break;case
+c=I0(a[2],b[2]);if(c!=0)return c|0;break;case
+249:aX(kd);break;case
+250:aX("equal: got Forward_tag, should not happen");break;case
+251:aX("equal: abstract value");break;case
 252:if(a!==b){var
-c=rD(a,b);if(c!=0)return c|0}break;case
-253:aV("equal: got Double_tag, should not happen");break;case
-254:aV("equal: got Double_array_tag, should not happen");break;case
-255:aV("equal: got Custom_tag, should not happen");break;case
-1247:aV(j0);break;case
+c=rW(a,b);if(c!=0)return c|0}break;case
+253:aX("equal: got Double_tag, should not happen");break;case
+254:aX("equal: got Double_array_tag, should not happen");break;case
+255:aX("equal: got Custom_tag, should not happen");break;case
+1247:aX(kd);break;case
 1255:var
-i=kq(a);if(i!=kq(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)aV("compare: abstract value");var
+i=kF(a);if(i!=kF(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)aX("compare: abstract value");var
 c=i(a,b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
 1256:var
 c=a.compare(b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
@@ -399,182 +399,182 @@ c=a.compare(b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;
 1001:if(a<b)return-1;if(a>b)return 1;if(a!=b){if(!d)return NaN;if(a==a)return 1;if(b==b)return-1}break;case
 1251:if(a!==b){if(!d)return NaN;return 1}break;case
 1252:var
-a=eL(a),b=eL(b);if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
+a=eX(a),b=eX(b);if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
 12520:var
 a=a.toString(),b=b.toString();if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
 246:case
 254:default:if(a.length!=b.length)return a.length<b.length?-1:1;if(a.length>1)e.push(a,b,1);break}}if(e.length==0)return 0;var
 h=e.pop();b=e.pop();a=e.pop();if(h+1<a.length)e.push(a,b,h+1);a=a[h];b=b[h]}}function
-Im(a,b){return kp(a,b,true)}function
-cn(a){if(a<0)aV("Bytes.create");return new
-cl(a?2:9,ae,a)}function
-rI(a,b){return+(kp(a,b,false)==0)}function
-Io(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=ae;a.t=2}else{a.c=rW(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)hP(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}var
-II=0;function
-rK(){return II++}function
-IA(a){return a.toUtf16()}function
-fY(){return typeof
-P.process!=="undefined"&&typeof
-P.process.versions!=="undefined"&&typeof
-P.process.versions.node!=="undefined"}function
-IV(){function
-a(a){if(a.charAt(0)===b5)return[ae,a.substring(1)];return}function
+IO(a,b){return kE(a,b,true)}function
+cq(a){if(a<0)aX("Bytes.create");return new
+co(a?2:9,ae,a)}function
+r1(a,b){return+(kE(a,b,false)==0)}function
+IQ(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=ae;a.t=2}else{a.c=sd(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)h2(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}var
+I_=0;function
+r3(){return I_++}function
+I2(a){return a.toUtf16()}function
+f9(){return typeof
+S.process!=="undefined"&&typeof
+S.process.versions!=="undefined"&&typeof
+S.process.versions.node!=="undefined"}function
+Jl(){function
+a(a){if(a.charAt(0)===b6)return[ae,a.substring(1)];return}function
 b(c){var
 g=/^([a-zA-Z]:|[\\/]{2}[^\\/]+[\\/]+[^\\/]+)?([\\/])?([\s\S]*?)$/,a=g.exec(c),b=a[1]||ae,e=Boolean(b&&b.charAt(1)!==":");if(Boolean(a[2]||e)){var
-d=a[1]||ae,f=a[2]||ae;return[d,c.substring(d.length+f.length)]}return}return fY()&&P.process&&P.process.platform?P.process.platform==="win32"?b:a:a}var
-kD=IV();function
-rY(a){return a.slice(-1)!==b5?a+b5:a}if(fY()&&P.process&&P.process.cwd)var
-fV=P.process.cwd().replace(/\\/g,b5);else
+d=a[1]||ae,f=a[2]||ae;return[d,c.substring(d.length+f.length)]}return}return f9()&&S.process&&S.process.platform?S.process.platform==="win32"?b:a:a}var
+kS=Jl();function
+sf(a){return a.slice(-1)!==b6?a+b6:a}if(f9()&&S.process&&S.process.cwd)var
+f6=S.process.cwd().replace(/\\/g,b6);else
 var
-fV="/static";fV=rY(fV);function
-IC(a){a=IA(a);if(!kD(a))a=fV+a;var
-e=kD(a),d=e[1].split(b5),b=[];for(var
+f6="/static";f6=sf(f6);function
+I4(a){a=I2(a);if(!kS(a))a=f6+a;var
+e=kS(a),d=e[1].split(b6),b=[];for(var
 c=0;c<d.length;c++)switch(d[c]){case"..":if(b.length>1)b.pop();break;case".":break;default:b.push(d[c]);break}b.unshift(e[0]);b.orig=a;return b}function
-IQ(e){for(var
-f=ae,b=f,a,h,c=0,g=e.length;c<g;c++){a=e.charCodeAt(c);if(a<b3){for(var
-d=c+1;d<g&&(a=e.charCodeAt(d))<b3;d++);if(d-c>p7){b.substr(0,1);f+=b;b=ae;f+=e.slice(c,d)}else
-b+=e.slice(c,d);if(d==g)break;c=d}if(a<qr){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(b3|a&eD)}else
-if(a<0xd800||a>=qy)b+=String.fromCharCode(qA|a>>12,b3|a>>6&eD,b3|a&eD);else
-if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<qj||h>qy)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(qJ|a>>18,b3|a>>12&eD,b3|a>>6&eD,b3|a&eD)}if(b.length>fN){b.substr(0,1);f+=b;b=ae}}return f+b}function
-Ij(a){var
-b=9;if(!r1(a))b=8,a=IQ(a);return new
-cl(b,a,a.length)}function
-eM(a){return Ij(a)}var
-IY=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",qd,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",j8,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",kb,qi,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
-dU(d,f,e,a){var
-b=IY.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
-c=[b,eM(f||ae),eM(e||ae)];return c}var
-rR={};function
-dR(a){return rR[a]}function
-dS(b,a){throw[0,b].concat(a)}function
-Ii(a){return new
-cl(4,a,a.length)}function
-ar(a){kx(az.Sys_error,a)}function
-IL(a){ar(a+hx)}function
-rC(){aV(kh)}function
-Ih(b,a){if(a>>>0>=b.l)rC();return ko(b,a)}function
-hT(a){return a.l}function
-rv(){}function
-aT(a){this.data=a}aT.prototype=new
-rv();aT.prototype.truncate=function(a){var
-b=this.data;this.data=cn(a|0);fU(b,0,this.data,0,a)};aT.prototype.length=function(){return hT(this.data)};aT.prototype.write=function(b,d,g,a){var
+Jg(e){for(var
+f=ae,b=f,a,h,c=0,g=e.length;c<g;c++){a=e.charCodeAt(c);if(a<b4){for(var
+d=c+1;d<g&&(a=e.charCodeAt(d))<b4;d++);if(d-c>qo){b.substr(0,1);f+=b;b=ae;f+=e.slice(c,d)}else
+b+=e.slice(c,d);if(d==g)break;c=d}if(a<qK){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(b4|a&eP)}else
+if(a<0xd800||a>=qR)b+=String.fromCharCode(qT|a>>12,b4|a>>6&eP,b4|a&eP);else
+if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<qC||h>qR)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(q2|a>>18,b4|a>>12&eP,b4|a>>6&eP,b4|a&eP)}if(b.length>fY){b.substr(0,1);f+=b;b=ae}}return f+b}function
+IL(a){var
+b=9;if(!si(a))b=8,a=Jg(a);return new
+co(b,a,a.length)}function
+eY(a){return IL(a)}var
+Jo=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",qw,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",kl,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",kq,qB,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
+d5(d,f,e,a){var
+b=Jo.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
+c=[b,eY(f||ae),eY(e||ae)];return c}var
+r_={};function
+d2(a){return r_[a]}function
+d3(b,a){throw[0,b].concat(a)}function
+IK(a){return new
+co(4,a,a.length)}function
+ar(a){kM(aF.Sys_error,a)}function
+Jb(a){ar(a+hK)}function
+rV(){aX(kw)}function
+IJ(b,a){if(a>>>0>=b.l)rV();return kD(b,a)}function
+h6(a){return a.l}function
+rO(){}function
+aV(a){this.data=a}aV.prototype=new
+rO();aV.prototype.truncate=function(a){var
+b=this.data;this.data=cq(a|0);f5(b,0,this.data,0,a)};aV.prototype.length=function(){return h6(this.data)};aV.prototype.write=function(b,d,g,a){var
 c=this.length();if(b+a>=c){var
-e=cn(b+a),f=this.data;this.data=e;fU(f,0,this.data,0,c)}eI(d,g,this.data,b,a);return 0};aT.prototype.read=function(c,a,d,b){var
-e=this.length();fU(this.data,c,a,d,b);return 0};aT.prototype.read_one=function(a){return Ih(this.data,a)};aT.prototype.close=function(){};aT.prototype.constructor=aT;function
-a_(b,a){this.content={};this.root=b;this.lookupFun=a}a_.prototype.nm=function(a){return this.root+a};a_.prototype.create_dir_if_needed=function(d){var
-c=d.split(b5),b=ae;for(var
-a=0;a<c.length-1;a++){b+=c[a]+b5;if(this.content[b])continue;this.content[b]=Symbol("directory")}};a_.prototype.slash=function(a){return/\/$/.test(a)?a:a+b5};a_.prototype.lookup=function(b){if(!this.content[b]&&this.lookupFun){var
+e=cq(b+a),f=this.data;this.data=e;f5(f,0,this.data,0,c)}eU(d,g,this.data,b,a);return 0};aV.prototype.read=function(c,a,d,b){var
+e=this.length();f5(this.data,c,a,d,b);return 0};aV.prototype.read_one=function(a){return IJ(this.data,a)};aV.prototype.close=function(){};aV.prototype.constructor=aV;function
+a$(b,a){this.content={};this.root=b;this.lookupFun=a}a$.prototype.nm=function(a){return this.root+a};a$.prototype.create_dir_if_needed=function(d){var
+c=d.split(b6),b=ae;for(var
+a=0;a<c.length-1;a++){b+=c[a]+b6;if(this.content[b])continue;this.content[b]=Symbol("directory")}};a$.prototype.slash=function(a){return/\/$/.test(a)?a:a+b6};a$.prototype.lookup=function(b){if(!this.content[b]&&this.lookupFun){var
 c=this.lookupFun(a(this.root),a(b));if(c!==0){this.create_dir_if_needed(b);this.content[b]=new
-aT(eJ(c[1]))}}};a_.prototype.exists=function(a){if(a==ae)return 1;var
-b=this.slash(a);if(this.content[b])return 1;this.lookup(a);return this.content[a]?1:0};a_.prototype.mkdir=function(c,e,d){var
-b=d&&dR(j4);if(this.exists(c))if(b)dS(b,dU(qd,j3,this.nm(c)));else
+aV(eV(c[1]))}}};a$.prototype.exists=function(a){if(a==ae)return 1;var
+b=this.slash(a);if(this.content[b])return 1;this.lookup(a);return this.content[a]?1:0};a$.prototype.mkdir=function(c,e,d){var
+b=d&&d2(kh);if(this.exists(c))if(b)d3(b,d5(qw,kg,this.nm(c)));else
 ar(c+": File exists");var
-a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||ae;if(!this.exists(a))if(b)dS(b,dU(j8,j3,this.nm(a)));else
-ar(a+hx);if(!this.is_dir(a))if(b)dS(b,dU(kb,j3,this.nm(a)));else
-ar(a+kj);this.create_dir_if_needed(this.slash(c))};a_.prototype.rmdir=function(a,f){var
-b=f&&dR(j4),c=a==ae?ae:this.slash(a),e=new
-RegExp(ke+c+qk);if(!this.exists(a))if(b)dS(b,dU(j8,j1,this.nm(a)));else
-ar(a+hx);if(!this.is_dir(a))if(b)dS(b,dU(kb,j1,this.nm(a)));else
-ar(a+kj);for(var
+a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||ae;if(!this.exists(a))if(b)d3(b,d5(kl,kg,this.nm(a)));else
+ar(a+hK);if(!this.is_dir(a))if(b)d3(b,d5(kq,kg,this.nm(a)));else
+ar(a+ky);this.create_dir_if_needed(this.slash(c))};a$.prototype.rmdir=function(a,f){var
+b=f&&d2(kh),c=a==ae?ae:this.slash(a),e=new
+RegExp(kt+c+qD);if(!this.exists(a))if(b)d3(b,d5(kl,ke,this.nm(a)));else
+ar(a+hK);if(!this.is_dir(a))if(b)d3(b,d5(kq,ke,this.nm(a)));else
+ar(a+ky);for(var
 d
 in
-this.content)if(d.match(e))if(b)dS(b,dU(qi,j1,this.nm(a)));else
+this.content)if(d.match(e))if(b)d3(b,d5(qB,ke,this.nm(a)));else
 ar(this.nm(a)+": Directory not empty");delete
-this.content[c]};a_.prototype.readdir=function(a){var
-f=a==ae?ae:this.slash(a);if(!this.exists(a))ar(a+hx);if(!this.is_dir(a))ar(a+kj);var
+this.content[c]};a$.prototype.readdir=function(a){var
+f=a==ae?ae:this.slash(a);if(!this.exists(a))ar(a+hK);if(!this.is_dir(a))ar(a+ky);var
 g=new
-RegExp(ke+f+qk),d={},c=[];for(var
+RegExp(kt+f+qD),d={},c=[];for(var
 e
 in
 this.content){var
-b=e.match(g);if(b&&!d[b[1]]){d[b[1]]=true;c.push(b[1])}}return c};a_.prototype.is_dir=function(a){if(a==ae)return true;var
-b=this.slash(a);return this.content[b]?1:0};a_.prototype.unlink=function(a){var
+b=e.match(g);if(b&&!d[b[1]]){d[b[1]]=true;c.push(b[1])}}return c};a$.prototype.is_dir=function(a){if(a==ae)return true;var
+b=this.slash(a);return this.content[b]?1:0};a$.prototype.unlink=function(a){var
 b=this.content[a]?true:false;delete
-this.content[a];return b};a_.prototype.open=function(a,b){if(b.rdonly&&b.wronly)ar(this.nm(a)+ra);if(b.text&&b.binary)ar(this.nm(a)+pZ);this.lookup(a);if(this.content[a]){if(this.is_dir(a))ar(this.nm(a)+" : is a directory");if(b.create&&b.excl)ar(this.nm(a)+q8);var
+this.content[a];return b};a$.prototype.open=function(a,b){if(b.rdonly&&b.wronly)ar(this.nm(a)+rt);if(b.text&&b.binary)ar(this.nm(a)+qg);this.lookup(a);if(this.content[a]){if(this.is_dir(a))ar(this.nm(a)+" : is a directory");if(b.create&&b.excl)ar(this.nm(a)+rp);var
 c=this.content[a];if(b.truncate)c.truncate();return c}else
 if(b.create){this.create_dir_if_needed(a);this.content[a]=new
-aT(cn(0));return this.content[a]}else
-IL(this.nm(a))};a_.prototype.register=function(c,a){var
-b;if(this.content[c])ar(this.nm(c)+q8);if(kw(a))b=new
-aT(a);if(rO(a))b=new
-aT(eJ(a));else
+aV(cq(0));return this.content[a]}else
+Jb(this.nm(a))};a$.prototype.register=function(c,a){var
+b;if(this.content[c])ar(this.nm(c)+rp);if(kL(a))b=new
+aV(a);if(r7(a))b=new
+aV(eV(a));else
 if(a
 instanceof
 Array)b=new
-aT(Ii(a));else
+aV(IK(a));else
 if(typeof
 a==="string")b=new
-aT(rE(a));else
+aV(rX(a));else
 if(a.toString){var
-d=eJ(eM(a.toString()));b=new
-aT(d)}if(b){this.create_dir_if_needed(c);this.content[c]=b}else
-ar(this.nm(c)+" : registering file with invalid content type")};a_.prototype.constructor=a_;function
-av(a){return hT(a)}function
-dT(b,a){return ko(b,a)}function
-Id(d){var
-c=av(d),b=new
-Array(c),a=0;for(;a<c;a++)b[a]=dT(d,a);return b}function
-Ic(a){if(a.t!=4)hP(a);return a.c}function
-Il(a,c,b){b&=cN;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}hP(a)}a.c[c]=b;return 0}function
-Ik(b,a,c){if(a>>>0>=b.l)rC();return Il(b,a,c)}function
-cm(a){this.fs=require("fs");this.fd=a}cm.prototype=new
-rv();cm.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){ar(a.toString())}};cm.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){ar(a.toString())}};cm.prototype.write=function(f,b,c,e){var
-a=Id(b);if(!(a
+d=eV(eY(a.toString()));b=new
+aV(d)}if(b){this.create_dir_if_needed(c);this.content[c]=b}else
+ar(this.nm(c)+" : registering file with invalid content type")};a$.prototype.constructor=a$;function
+ax(a){return h6(a)}function
+d4(b,a){return kD(b,a)}function
+IF(d){var
+c=ax(d),b=new
+Array(c),a=0;for(;a<c;a++)b[a]=d4(d,a);return b}function
+IE(a){if(a.t!=4)h2(a);return a.c}function
+IN(a,c,b){b&=cR;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}h2(a)}a.c[c]=b;return 0}function
+IM(b,a,c){if(a>>>0>=b.l)rV();return IN(b,a,c)}function
+cp(a){this.fs=require("fs");this.fd=a}cp.prototype=new
+rO();cp.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){ar(a.toString())}};cp.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){ar(a.toString())}};cp.prototype.write=function(f,b,c,e){var
+a=IF(b);if(!(a
 instanceof
-P.Uint8Array))a=new(P.Uint8Array)(a);var
-d=P.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){ar(a.toString())}return 0};cm.prototype.read=function(g,d,c,f){var
-a=Ic(d);if(!(a
+S.Uint8Array))a=new(S.Uint8Array)(a);var
+d=S.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){ar(a.toString())}return 0};cp.prototype.read=function(g,d,c,f){var
+a=IE(d);if(!(a
 instanceof
-P.Uint8Array))a=new(P.Uint8Array)(a);var
-e=P.Buffer.from(a);try{this.fs.readSync(this.fd,e,c,f,g)}catch(a){ar(a.toString())}for(var
-b=0;b<f;b++)Ik(d,c+b,e[c+b]);return 0};cm.prototype.read_one=function(c){var
-b=new(P.Uint8Array)(1),a=P.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){ar(a.toString())}return a[0]};cm.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){ar(a.toString())}};cm.prototype.constructor=cm;function
-aU(a){this.fs=require("fs");this.root=a}aU.prototype.nm=function(a){return this.root+a};aU.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};aU.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};aU.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};aU.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};aU.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){ar(a.toString())}};aU.prototype.unlink=function(a,c){try{var
-b=this.fs.existsSync(this.nm(a))?1:0;this.fs.unlinkSync(this.nm(a));return b}catch(a){this.raise_nodejs_error(a,c)}};aU.prototype.open=function(f,c,g){var
+S.Uint8Array))a=new(S.Uint8Array)(a);var
+e=S.Buffer.from(a);try{this.fs.readSync(this.fd,e,c,f,g)}catch(a){ar(a.toString())}for(var
+b=0;b<f;b++)IM(d,c+b,e[c+b]);return 0};cp.prototype.read_one=function(c){var
+b=new(S.Uint8Array)(1),a=S.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){ar(a.toString())}return a[0]};cp.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){ar(a.toString())}};cp.prototype.constructor=cp;function
+aW(a){this.fs=require("fs");this.root=a}aW.prototype.nm=function(a){return this.root+a};aW.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};aW.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};aW.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};aW.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};aW.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){ar(a.toString())}};aW.prototype.unlink=function(a,c){try{var
+b=this.fs.existsSync(this.nm(a))?1:0;this.fs.unlinkSync(this.nm(a));return b}catch(a){this.raise_nodejs_error(a,c)}};aW.prototype.open=function(f,c,g){var
 a=require("constants"),b=0;for(var
 e
 in
 c)switch(e){case"rdonly":b|=a.O_RDONLY;break;case"wronly":b|=a.O_WRONLY;break;case"append":b|=a.O_WRONLY|a.O_APPEND;break;case"create":b|=a.O_CREAT;break;case"truncate":b|=a.O_TRUNC;break;case"excl":b|=a.O_EXCL;break;case"binary":b|=a.O_BINARY;break;case"text":b|=a.O_TEXT;break;case"nonblock":b|=a.O_NONBLOCK;break}try{var
 d=this.fs.openSync(this.nm(f),b);return new
-cm(d)}catch(a){this.raise_nodejs_error(a,g)}};aU.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};aU.prototype.stat=function(b,c){try{var
-a=this.fs.statSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aU.prototype.lstat=function(b,c){try{var
-a=this.fs.lstatSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aU.prototype.symlink=function(d,c,a,b){try{this.fs.symlinkSync(this.nm(c),this.nm(a),d?"dir":"file");return 0}catch(a){this.raise_nodejs_error(a,b)}};aU.prototype.readlink=function(b,c){try{var
-a=this.fs.readlinkSync(this.nm(b),pK);return eM(a)}catch(a){this.raise_nodejs_error(a,c)}};aU.prototype.raise_nodejs_error=function(a,d){var
-b=dR(j4);if(d&&b){var
-c=dU(a.code,a.syscall,a.path,a.errno);dS(b,c)}else
-ar(a.toString())};aU.prototype.stats_from_js=function(a){var
+cp(d)}catch(a){this.raise_nodejs_error(a,g)}};aW.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};aW.prototype.stat=function(b,c){try{var
+a=this.fs.statSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aW.prototype.lstat=function(b,c){try{var
+a=this.fs.lstatSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aW.prototype.symlink=function(d,c,a,b){try{this.fs.symlinkSync(this.nm(c),this.nm(a),d?"dir":"file");return 0}catch(a){this.raise_nodejs_error(a,b)}};aW.prototype.readlink=function(b,c){try{var
+a=this.fs.readlinkSync(this.nm(b),p3);return eY(a)}catch(a){this.raise_nodejs_error(a,c)}};aW.prototype.raise_nodejs_error=function(a,d){var
+b=d2(kh);if(d&&b){var
+c=d5(a.code,a.syscall,a.path,a.errno);d3(b,c)}else
+ar(a.toString())};aW.prototype.stats_from_js=function(a){var
 b;if(a.isFile())b=0;else
 if(a.isDirectory())b=1;else
 if(a.isCharacterDevice())b=2;else
 if(a.isBlockDevice())b=3;else
 if(a.isSymbolicLink())b=4;else
 if(a.isFIFO())b=5;else
-if(a.isSocket())b=6;return[0,a.dev,a.ino,b,a.mode,a.nlink,a.uid,a.gid,a.rdev,a.size,a.atimeMs,a.mtimeMs,a.ctimeMs]};aU.prototype.constructor=aU;function
-rL(b){var
-a=kD(b);if(!a)return;return a[0]+b5}var
-hU=rL(fV)||b6("unable to compute caml_root"),eN=[];if(fY())eN.push({path:hU,device:new
-aU(hU)});else
-eN.push({path:hU,device:new
-a_(hU)});eN.push({path:pT,device:new
-a_(pT)});function
-r5(b){var
-g=IC(b),b=g.join(b5),f=rY(b),c;for(var
-e=0;e<eN.length;e++){var
-a=eN[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&fY()){var
-d=rL(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
+if(a.isSocket())b=6;return[0,a.dev,a.ino,b,a.mode,a.nlink,a.uid,a.gid,a.rdev,a.size,a.atimeMs,a.mtimeMs,a.ctimeMs]};aW.prototype.constructor=aW;function
+r4(b){var
+a=kS(b);if(!a)return;return a[0]+b6}var
+h7=r4(f6)||b7("unable to compute caml_root"),eZ=[];if(f9())eZ.push({path:h7,device:new
+aW(h7)});else
+eZ.push({path:h7,device:new
+a$(h7)});eZ.push({path:qa,device:new
+a$(qa)});function
+sm(b){var
+g=I4(b),b=g.join(b6),f=sf(b),c;for(var
+e=0;e<eZ.length;e++){var
+a=eZ[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&f9()){var
+d=r4(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
 a={path:d,device:new
-aU(d)};eN.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;ar("no device found for "+f)}function
-In(c,b){var
-a=r5(c);if(!a.device.register)b6("cannot register file");a.device.register(a.rest,b);return 0}function
-r0(c,b){var
-c=a(c),b=a(b);return In(c,b)}function
-Iq(){var
-b=P.caml_fs_tmp;if(b)for(var
-a=0;a<b.length;a++)r0(b[a].name,b[a].content);P.jsoo_create_file=r0;P.caml_fs_tmp=[];return 0}function
-IJ(c){var
-a=0,e=av(c),b=10,d=1;if(e>0)switch(dT(c,a)){case
+aW(d)};eZ.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;ar("no device found for "+f)}function
+IP(c,b){var
+a=sm(c);if(!a.device.register)b7("cannot register file");a.device.register(a.rest,b);return 0}function
+sh(c,b){var
+c=a(c),b=a(b);return IP(c,b)}function
+IS(){var
+b=S.caml_fs_tmp;if(b)for(var
+a=0;a<b.length;a++)sh(b[a].name,b[a].content);S.jsoo_create_file=sh;S.caml_fs_tmp=[];return 0}function
+I$(c){var
+a=0,e=ax(c),b=10,d=1;if(e>0)switch(d4(c,a)){case
 45:a++;d=-1;break;case
-43:a++;d=1;break}if(a+1<e&&dT(c,a)==48)switch(dT(c,a+1)){case
+43:a++;d=1;break}if(a+1<e&&d4(c,a)==48)switch(d4(c,a+1)){case
 120:case
 88:b=16;a+=2;break;case
 111:case
@@ -583,33 +583,33 @@ a=0,e=av(c),b=10,d=1;if(e>0)switch(dT(c,a)){case
 66:b=2;a+=2;break;case
 117:case
 85:a+=2;break}return[a,d,b]}function
-rS(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=rm)return a-87;return-1}function
-hS(f){var
-h=IJ(f),c=h[0],i=h[1],d=h[2],g=av(f),j=-1>>>0,e=c<g?dT(f,c):0,b=rS(e);if(b<0||b>=d)b6(hC);var
-a=b;for(c++;c<g;c++){e=dT(f,c);if(e==95)continue;b=rS(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)b6(hC)}if(c!=g)b6(hC);a=i*a;if(d==10&&(a|0)!=a)b6(hC);return a|0}function
-IB(a,b){return+(kp(a,b,false)<=0)}function
-ID(a,d){if(a<0)hO();var
+r$(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=rF)return a-87;return-1}function
+h5(f){var
+h=I$(f),c=h[0],i=h[1],d=h[2],g=ax(f),j=-1>>>0,e=c<g?d4(f,c):0,b=r$(e);if(b<0||b>=d)b7(hP);var
+a=b;for(c++;c<g;c++){e=d4(f,c);if(e==95)continue;b=r$(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)b7(hP)}if(c!=g)b7(hP);a=i*a;if(d==10&&(a|0)!=a)b7(hP);return a|0}function
+I3(a,b){return+(kE(a,b,false)<=0)}function
+I5(a,d){if(a<0)h1();var
 a=a+1|0,b=new
 Array(a);b[0]=0;for(var
 c=1;c<a;c++)b[c]=d;return b}var
-cP=new
+cT=new
 Array();function
-IE(c){var
-a=cP[c];if(!a.opened)ar("Cannot flush a closed channel");if(!a.buffer||a.buffer==ae)return 0;if(a.fd&&az.fds[a.fd]&&az.fds[a.fd].output){var
-b=az.fds[a.fd].output;switch(b.length){case
+I6(c){var
+a=cT[c];if(!a.opened)ar("Cannot flush a closed channel");if(!a.buffer||a.buffer==ae)return 0;if(a.fd&&aF.fds[a.fd]&&aF.fds[a.fd].output){var
+b=aF.fds[a.fd].output;switch(b.length){case
 2:b(c,a.buffer);break;default:b(a.buffer)}}a.buffer=ae;return 0}function
-rV(e,f){var
-b=cP[e],d=a(f),c=av(d);b.file.write(b.offset,d,0,c);b.offset+=c;return 0}function
-IR(a){var
-a=kz(a),b=P;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+sc(e,f){var
+b=cT[e],d=a(f),c=ax(d);b.file.write(b.offset,d,0,c);b.offset+=c;return 0}function
+Jh(a){var
+a=kO(a),b=S;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.error&&c.error(a)}}function
-IS(a){var
-a=kz(a),b=P;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+Ji(a){var
+a=kO(a),b=S;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.log&&c.log(a)}}function
-hW(c,e,d,a){if(az.fds===undefined)az.fds=new
+h9(c,e,d,a){if(aF.fds===undefined)aF.fds=new
 Array();a=a?a:{};var
-b={};b.file=d;b.offset=a.append?d.length():0;b.flags=a;b.output=e;az.fds[c]=b;if(!az.fd_last_idx||c>az.fd_last_idx)az.fd_last_idx=c;return c}function
-IZ(c,b,g){var
+b={};b.file=d;b.offset=a.append?d.length():0;b.flags=a;b.output=e;aF.fds[c]=b;if(!aF.fd_last_idx||c>aF.fd_last_idx)aF.fd_last_idx=c;return c}function
+Jp(c,b,g){var
 a={};while(b){switch(b[1]){case
 0:a.rdonly=1;break;case
 1:a.wronly=1;break;case
@@ -619,109 +619,109 @@ a={};while(b){switch(b[1]){case
 5:a.excl=1;break;case
 6:a.binary=1;break;case
 7:a.text=1;break;case
-8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)ar(eL(c)+ra);if(a.text&&a.binary)ar(eL(c)+pZ);var
-d=r5(c),e=d.device.open(d.rest,a),f=az.fd_last_idx?az.fd_last_idx:0;return hW(f+1,rV,e,a)}hW(0,rV,new
-aT(cn(0)));hW(1,IS,new
-aT(cn(0)));hW(2,IR,new
-aT(cn(0)));function
-IF(a){var
-c=az.fds[a];if(c.flags.wronly)ar(rk+a+" is writeonly");var
-d=null;if(a==0&&fY()){var
-e=require("fs");d=function(){return eM(e.readFileSync(0,pK))}}var
-b={file:c.file,offset:c.offset,fd:a,opened:true,out:false,refill:d};cP[b.fd]=b;return b.fd}function
-rP(c){var
-b=az.fds[c];if(b.flags.rdonly)ar(rk+c+" is readonly");var
-a={file:b.file,offset:b.offset,fd:c,opened:true,out:true,buffer:ae};cP[a.fd]=a;return a.fd}function
-IG(){var
+8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)ar(eX(c)+rt);if(a.text&&a.binary)ar(eX(c)+qg);var
+d=sm(c),e=d.device.open(d.rest,a),f=aF.fd_last_idx?aF.fd_last_idx:0;return h9(f+1,sc,e,a)}h9(0,sc,new
+aV(cq(0)));h9(1,Ji,new
+aV(cq(0)));h9(2,Jh,new
+aV(cq(0)));function
+I7(a){var
+c=aF.fds[a];if(c.flags.wronly)ar(rD+a+" is writeonly");var
+d=null;if(a==0&&f9()){var
+e=require("fs");d=function(){return eY(e.readFileSync(0,p3))}}var
+b={file:c.file,offset:c.offset,fd:a,opened:true,out:false,refill:d};cT[b.fd]=b;return b.fd}function
+r8(c){var
+b=aF.fds[c];if(b.flags.rdonly)ar(rD+c+" is readonly");var
+a={file:b.file,offset:b.offset,fd:c,opened:true,out:true,buffer:ae};cT[a.fd]=a;return a.fd}function
+I8(){var
 b=0;for(var
-a=0;a<cP.length;a++)if(cP[a]&&cP[a].opened&&cP[a].out)b=[0,cP[a].fd,b];return b}function
-bM(b,c,a){if(a&&P.toplevelReloc)b=P.toplevelReloc(a);az[b+1]=c;if(a)az[a]=c}function
-IN(a,b){rR[eL(a)]=b;return 0}function
-Ig(a,b){if(a===b)return 1;a.t&6&&eK(a);b.t&6&&eK(b);return a.c==b.c?1:0}function
-ax(a,b){return Ig(a,b)}function
-IP(){aV(kh)}function
-a2(b,a){if(a>>>0>=av(b))IP();return dT(b,a)}function
-o(a,b){return 1-ax(a,b)}function
-hV(a){return a}function
-rU(a){return a}function
-rZ(a){if(a
+a=0;a<cT.length;a++)if(cT[a]&&cT[a].opened&&cT[a].out)b=[0,cT[a].fd,b];return b}function
+bO(b,c,a){if(a&&S.toplevelReloc)b=S.toplevelReloc(a);aF[b+1]=c;if(a)aF[a]=c}function
+Jd(a,b){r_[eX(a)]=b;return 0}function
+II(a,b){if(a===b)return 1;a.t&6&&eW(a);b.t&6&&eW(b);return a.c==b.c?1:0}function
+az(a,b){return II(a,b)}function
+Jf(){aX(kw)}function
+a4(b,a){if(a>>>0>=ax(b))Jf();return d4(b,a)}function
+p(a,b){return 1-az(a,b)}function
+h8(a){return a}function
+sb(a){return a}function
+sg(a){if(a
 instanceof
-Array)return a;if(P.RangeError&&a
+Array)return a;if(S.RangeError&&a
 instanceof
-P.RangeError&&a.message&&a.message.match(/maximum call stack/i))return rU(az.Stack_overflow);if(P.InternalError&&a
+S.RangeError&&a.message&&a.message.match(/maximum call stack/i))return sb(aF.Stack_overflow);if(S.InternalError&&a
 instanceof
-P.InternalError&&a.message&&a.message.match(/too much recursion/i))return rU(az.Stack_overflow);if(a
+S.InternalError&&a.message&&a.message.match(/too much recursion/i))return sb(aF.Stack_overflow);if(a
 instanceof
-P.Error&&dR(qp))return[0,dR(qp),a];return[0,az.Failure,eM(String(a))]}function
-co(a){return a<0?-a:a}function
-F(a,b){return a+b}function
-kA(a,b){return a<b?-1:a>b?1:0}function
-r2(c,b){var
-a=c%b;return a<0?a+co(b):a}function
-kB(a,b){return(a-r2(a,b))/b}function
-I(a,b){return a==b?1:0}function
-IW(c){P.orthocert_verify=function(b){return eL(dr(c,[a(b)]))}}function
+S.Error&&d2(qI))return[0,d2(qI),a];return[0,aF.Failure,eY(String(a))]}function
+cr(a){return a<0?-a:a}function
+E(a,b){return a+b}function
+kP(a,b){return a<b?-1:a>b?1:0}function
+sj(c,b){var
+a=c%b;return a<0?a+cr(b):a}function
+kQ(a,b){return(a-sj(a,b))/b}function
+K(a,b){return a==b?1:0}function
+Jm(c){S.orthocert_verify=function(b){return eX(du(c,[a(b)]))}}function
 D(a,b){return a<=b?1:0}function
-J(a,b){return a<b?1:0}function
+I(a,b){return a<b?1:0}function
 C(a,b){return a*b}function
-Q(a){return-a}function
-aH(a){return P.BigInt(a)}function
-r3(a,b){return a<<P.BigInt(b)}function
-r4(a,b){return a>>P.BigInt(b)}function
+T(a){return-a}function
+aH(a){return S.BigInt(a)}function
+sk(a,b){return a<<S.BigInt(b)}function
+sl(a,b){return a>>S.BigInt(b)}function
 aR(a){return a<0?-1:a>0?1:0}function
-IX(a){if(a<0)throw new(P.Error)("a root of a negative number");if(a<2)return a;var
-d=P.BigInt(1),b=d<<P.BigInt((a.toString(16).length*4+1)/2|0),c;for(;;){c=b+a/b>>d;if(c>=b)return b;b=c}}function
-aI(a,b){return a-b}function
-kC(a){if(a>0x7fffffff||a<-0x80000000)throw new(P.Error)("a number of more than 32 bits");return P.Number(a)}function
-Iz(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
-Ip(b){var
-a=ae;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&Iz(b[1]))var
+Jn(a){if(a<0)throw new(S.Error)("a root of a negative number");if(a<2)return a;var
+d=S.BigInt(1),b=d<<S.BigInt((a.toString(16).length*4+1)/2|0),c;for(;;){c=b+a/b>>d;if(c>=b)return b;b=c}}function
+aL(a,b){return a-b}function
+kR(a){if(a>0x7fffffff||a<-0x80000000)throw new(S.Error)("a number of more than 32 bits");return S.Number(a)}function
+I1(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
+IR(b){var
+a=ae;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&I1(b[1]))var
 e=b[2],f=1;else
 var
-f=2,e=b;a+=qq;for(var
+f=2,e=b;a+=qJ;for(var
 d=f;d<e.length;d++){if(d>f)a+=", ";var
 c=e[d];if(typeof
 c=="number")a+=c.toString();else
 if(c
 instanceof
-cl)a+=aQ+c.toString()+aQ;else
+co)a+=aQ+c.toString()+aQ;else
 if(typeof
 c=="string")a+=aQ+c.toString()+aQ;else
-a+="_"}a+=kd}else
-if(b[0]==a1)a+=b[1];return a}function
-rJ(a){if(a
+a+="_"}a+=ks}else
+if(b[0]==a3)a+=b[1];return a}function
+r2(a){if(a
 instanceof
-Array&&(a[0]==0||a[0]==a1)){var
-c=dR("Printexc.handle_uncaught_exception");if(c)c(a,false);else{var
-d=Ip(a),b=dR(pJ);if(b)b(0);P.console.error("Fatal error: exception "+d+"\n")}}else
+Array&&(a[0]==0||a[0]==a3)){var
+c=d2("Printexc.handle_uncaught_exception");if(c)c(a,false);else{var
+d=IR(a),b=d2(p2);if(b)b(0);S.console.error("Fatal error: exception "+d+"\n")}}else
 throw a}function
-IO(){var
-a=P;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){rJ(b);a.process.exit(2)});else
-if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)rJ(a.error)})}IO();function
-j(a,b){return a.length==1?a(b):dr(a,[b])}function
-aq(a,b,c){return a.length==2?a(b,c):dr(a,[b,c])}function
-fG(a,b,c,d){return a.length==3?a(b,c,d):dr(a,[b,c,d])}function
-jZ(a,b,c,d,e){return a.length==4?a(b,c,d,e):dr(a,[b,c,d,e])}Iq();var
-kF=[a1,a(qg),-2],kE=[a1,a(ru),-4],G8=[0,[0,[0,[0,0]]]],G9=[0,0],G_=[0,0],G$=[0,[0,0]],Ha=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G$]]]]]]]]]]],hj=[0,[1,0],0],oT=[0,[2,0],0],jH=[0,[1,0],0],oS=[0,[2,0],0],hh=[0,[1,0],0],jG=[0,[2,0],0],Hb=[0,[0,[0,[0,0]]]],Hc=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hb]]]]]]]]]]],Hd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hc]]]]]]]]]]],He=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hd]]]]]]]]]]],Hf=[0,[0,0]],Hg=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hf]]]]]]]]]]],Hh=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hg]]]]]]]]]]],Hi=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hh]]]]]]]]]]],Hj=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hi]]]]]]]]]]],Hk=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],Hl=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hk]]]]]]]]]]],Hm=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hl]]]]]]]]]]],Hn=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hm]]]]]]]]]]],Ho=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hn]]]]]]]]]]],Hp=[0,[0,0]],Hq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hp]]]]]]]]]]],Hr=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hq]]]]]]]]]]],Hs=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hr]]]]]]]]]]],Ht=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hs]]]]]]]]]]],Hu=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ht]]]]]]]]]]],Hv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hu]]]]]]]]]]],Hw=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hv]]]]]]]]]]],Hx=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],Hy=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hx]]]]]]]]]]],Hz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hy]]]]]]]]]]],HA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hz]]]]]]]]]]],HB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HA]]]]]]]]]]],HC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HB]]]]]]]]]]],HD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HC]]]]]]]]]]],HE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HD]]]]]]]]]]],HF=[0,0],HG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HF]]]]]]]]]]],HH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HG]]]]]]]]]]],HI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HH]]]]]]]]]]],HJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HI]]]]]]]]]]],HK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HJ]]]]]]]]]]],HL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HK]]]]]]]]]]],HM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HL]]]]]]]]]]],HN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HM]]]]]]]]]]],HO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HN]]]]]]]]]]],HP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HO]]]]]]]]]]],HQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],HR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HQ]]]]]]]]]]],HS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],HT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HS]]]]]]]]]]],HU=[0,[0,[0,[0,[0,0]]]]],HV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HU]]]]]]]]]]],HW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HV]]]]]]]]]]],HX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HW]]]]]]]]]]],HY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HX]]]]]]]]]]],HZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HY]]]]]]]]]]],H0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HZ]]]]]]]]]]],H1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H0]]]]]]]]]]],H2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H1]]]]]]]]]]],H3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H2]]]]]]]]]]],H4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H3]]]]]]]]]]],H5=[0,0],H6=[0,[0,0]],H7=[0,0],H8=[0,[0,[0,[0,[0,0]]]]],lb=[0,[0,[0,0]]],dx=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],g_=[0,[0,[0,[0,0]]]],H9=[0,[0,[0,[0,[0,0]]]]],H_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H9]]]]]]]]]]],H$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H_]]]]]]]]]]],Ia=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H$]]]]]]]]]]],Ib=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ia]]]]]]]]]]];bM(11,[a1,a(pI),-12],pI);bM(10,[a1,a(qw),-11],qw);bM(9,[a1,a(rj),-10],rj);bM(8,[a1,a(pU),-9],pU);bM(7,[a1,a(qL),-8],qL);bM(6,[a1,a(pS),-7],pS);bM(5,[a1,a(qh),-6],qh);bM(4,[a1,a(ql),-5],ql);bM(3,kE,ru);bM(2,[a1,a(j9),-3],j9);bM(1,kF,qg);bM(0,[a1,a(q4),-1],q4);var
-r6=a("String.sub / Bytes.sub"),r8=a(ae),r7=a("String.concat"),r9=a("Array.init"),r_=a("power"),sr=[0,0],ss=[0,0],sy=[0,0,0],sz=[0,0,0],sA=[0,0],sW=[0,0],sX=[0,0],s0=[0,0],tj=[0,0],tm=[0,0],tq=[0,0],tr=[0,0],ts=[0,0],tt=[0,0],tH=[0,0],tI=[0,0],t$=[0,0],uw=[0,[0,[0,0]]],uX=[0,0],vm=[0,0],vO=a(","),v6=[0,a(kd),0],v7=a(qq),v8=a("."),v9=[0,[0,[0,0]]],v_=a(eF),v$=a(ke),wa=[0,[0,[0,[0,[0,0]]]]],wb=[0,a(kd),0],wc=a(rs),zf=a(pF),zh=a(pB),zg=a(qz),zi=a(eA),zj=a(ey),zk=a(km),zl=a(rd),zm=a(qa),zn=a(kg),zo=a(qF),zp=a(p$),AG=[0,[0,0,0]],AX=[0,0],AH=a(fH),AI=[0,0],AJ=a("divided"),AK=[0,1],AL=a("mirror"),AM=[0,3],AN=a("negative"),AO=[0,2],AP=a(fM),AQ=[0,5],AR=a(kl),AS=[0,4],AT=a(dp),AU=a(pX),AV=a(eB),AW=a(bK),AY=[0,0],AZ=[0,0],A0=[0,0],A3=[0,[0,[0,0]]],A4=[0,[0,[0,0]]],Bt=[0,[0,[0,0]]],BI=[0,0],BZ=a(ae),BS=[0,0],BT=[0,0],BU=[0,[0,[0,[0,0]]]],BV=[0,[0,[0,0]]],BW=[0,[0,[0,[0,0]]]],BX=[0,[0,[0,0]]],BQ=[0,[0,[0,0]]],BP=[0,0],BO=a(eB),BN=[0,0],BL=[0,1,0],BM=[0,[0,[0,0]]],BK=[0,0],BF=[0,[0,0]],BH=[0,[0,[0,0]]],BG=[0,0],BE=[0,0],BA=[0,[0,[0,0]]],Bz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G8]]]]]]]]]],[0,0,[0,[0,[0,[0,0]]],0]]],Bu=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],[0,0,0]],Bv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],[0,[0,[0,[0,[0,[0,[0,0]]]]]],0]],Bw=[0,[0,[0,[0,[0,[0,[0,0]]]]]],0],Bx=[0,[0,[0,[0,0]]],[0,0,0]],Br=[0,0],Bs=[0,[0,0]],Bq=[0,0,0],Bp=[0,[0,[0,0]]],Bj=[0,[0,0]],Bk=[0,[0,[0,0]]],Bl=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G9]]]]]]]]]]],Bm=[0,[0,0]],Bn=[0,[0,[0,0]]],Bi=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,G_]]]]]]]]]]],Bg=[0,[0,0]],Bh=[0,[0,[0,0]]],Be=[0,[0,[0,0]]],Bf=[0,[0,0]],Bd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ha]]]]]]]]]]],Bc=[0,0],Bb=[0,0],A_=[0,[0,0]],A$=[0,0],A8=[0,0],A9=[0,1],A6=[0,[0,0]],A7=[0,0],A5=[0,0],A1=[0,0],A2=[0,1],AD=[0,0],AE=[0,1],AF=[0,2],Az=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],Ax=[0,[0,0],0],Ay=[0,[1,0],0],AA=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],Av=[0,[0,0]],Aw=[0,0],Au=[0,0],At=[0,0],As=[0,0],Ar=[0,0],Aq=[0,0,0],Ao=[0,[0,0]],Ap=[0,0],An=[0,0,0],Al=[0,[0,[0,0]]],Am=[0,[0,[0,0]]],Ak=[0,0],Ai=[0,1,0],Aa=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,He]]]]]]]]]]],Ab=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hj]]]]]]]]]]],z8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ho]]]]]]]]]]],z9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hw]]]]]]]]]]],z_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HE]]]]]]]]]]],z$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HP]]]]]]]]]]],Ac=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HR]]]]]]]]]]],Ad=a("sqrt"),z6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HT]]]]]]]]]]],z7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H4]]]]]]]]]]],zV=[0,a("\n"),0],zW=a(pC),zX=a(hy),zY=a(qv),zZ=a(qe),z5=a(fP),z0=a(fL),z1=a("verdict"),z2=a(q6),z3=a(p8),z4=a(qu),zS=a(qo),zT=a(q_),zU=a(hA),zO=a(qH),zP=a(hB),zQ=a(fL),zR=a(fP),zJ=a(hJ),zK=a(bq),zL=a(pE),zM=a(hG),zG=a(q3),zH=a(fM),zI=a(hG),zC=a(qK),zD=a(hJ),zE=a(hB),zF=a(rh),zr=a(q$),zs=a(rc),zt=a(hF),zu=a(hD),zv=a(rn),zw=a(qZ),zx=a(q2),zy=a(qO),zz=a(hF),zA=a(qR),zd=a(hw),ze=a(fO),y_=a(bL),y$=a(bJ),za=a(p_),yK=a(hD),yL=a(qN),yo=a(bq),yp=a(b4),yq=a(hL),yr=a(eE),ys=a(cL),yx=a(j2),yt=a(kf),yu=a(ki),yv=a(ez),yw=a(bq),yy=a(b4),yz=a(hL),yA=a(eE),yB=a(kf),yC=a(ki),yD=a(ez),yE=a(bq),yF=a(b4),yG=a(bL),yH=a(bJ),yI=a(dO),yJ=a(eE),yM=a(qX),yN=a(rb),yO=a(hN),yP=a(pY),yQ=a(p3),yR=a(ez),yS=a(bq),yT=a(b4),yU=a(hu),yV=a(qc),yW=a(eE),yX=a(fT),yY=a(pM),yZ=a(ez),y0=a(bq),y1=a(hu),y2=a(bq),y3=a(qQ),y6=a(pA),y4=a(p1),y5=a(rg),y7=a(fP),y8=a(fL),y9=a(bq),zb=a(hN),zc=a(hA),yj=a(b4),yk=a(eE),yl=a(j2),ym=a(ez),yi=a(rp),x8=a(fT),x9=a(q7),x_=a(dP),x$=a(eC),ya=a(eC),yb=a(j5),yc=a(dP),yd=a(qx),ye=a(p9),yf=a(bi),yh=a(pH),yg=a(j5),xY=a(qn),xZ=a(rt),x0=a(p5),x1=a(p2),x2=a(rf),x3=a(q1),x4=a(qf),x5=a(hv),x6=a(hv),xU=a(bi),xV=a(bH),xW=a(eG),xX=a(bI),xQ=a(cL),xR=a(ka),xS=a(qI),xN=a(bL),xO=a(bJ),xP=a(dO),xG=a(bL),xH=a(bJ),xI=a(dO),xJ=a(kc),xK=a(dP),xL=a(j_),xM=a(qW),xo=a(p0),xu=a(hy),xt=a(kk),xp=a(j6),xq=a(fJ),xv=a(fK),xx=a(fK),xy=a(qU),xz=a(j6),xw=a(fJ),xA=a(pW),xB=a(qT),xC=a(fJ),xD=a(ro),xE=a(kk),xF=a(fJ),xr=a(eC),xs=a(qD),xl=a(hE),xm=a(hE),xn=a(hE),xh=a(qY),xi=a(bJ),xj=a(bL),xk=a(re),w2=a(pQ),w3=a(pG),w4=a(qM),w5=a(eA),w6=a(rq),w7=a(qP),w8=a(pR),w9=a(qE),w_=a(pP),w$=a(qb),xa=a(pO),xb=a(q0),xc=a(ey),xd=a(pL),xe=a(q9),xf=a(p4),xg=a(rr),wD=a(hH),wF=a(eF),wE=a(fI),wG=a(ex),wH=a(bi),wI=a(bH),wJ=a(bK),wK=a(hM),wL=a(bI),wM=a(fR),wN=a(bi),wO=a(bH),wP=a(eG),wQ=a(bI),wR=a(bK),wS=a(cL),wT=a(bI),wU=a(ex),wV=a(fS),wW=a(bi),wX=a(bH),wY=a(qB),wZ=a(fK),w0=a(fS),w1=a(bI),wl=a(hH),wt=a(eF),wm=a(fI),wn=a(ex),wo=a(bi),wp=a(bH),wq=a(bK),wr=a(hM),ws=a(bI),wu=a(fR),wv=a(bi),ww=a(bH),wx=a(eG),wy=a(bI),wz=a(bK),wA=a(cL),wB=a(bI),wi=a(bL),wj=a(bJ),wg=[0,a(aQ),0],wh=a(aQ),we=a(ae),wd=[0,a(aQ),0],wf=a(aQ),v2=a(hH),v3=a(eF),v4=a("*"),v5=a(b5),vX=[0,[0,[0,[0,[0,0]]]]],vY=[0,[0,[0,0]]],vZ=[0,[0,0]],v0=[0,0],v1=[0,[0,[0,[0,0]]]],vV=a('":'),vW=a(aQ),vT=[0,a(aQ),0],vU=a(aQ),vR=[0,a("}"),0],vS=a("{"),vP=[0,a("]"),0],vQ=a("["),vN=[0,[0,[0,0]]],vM=[0,[0,[0,0]]],vK=[0,0],vH=[0,[0,[0,0]]],vI=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],vJ=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],vF=[0,[0,0]],vG=[0,[0,[0,0]]],vD=[0,0],vE=[0,[0,0]],vz=[0,[0,0]],vA=[0,0],vB=[0,[0,[0,0]]],vC=[0,[0,[0,0]]],vv=[0,[0,[0,0]]],vx=[0,[0,[0,0]]],vw=[0,0],vs=[0,[0,0]],vt=[0,0],vq=[0,[0,0]],vr=[0,0],vp=[0,[0,[0,0]]],vn=[0,[0,0]],vo=[0,0],vk=[0,0],vl=[0,[0,0]],ve=[0,[0,0]],vf=[0,[0,[0,[0,[0,0]]]]],vg=[0,[0,[0,[0,0]]]],vh=[0,[0,[0,0]]],vi=[0,[0,0]],vj=[0,0],vb=[0,0],vc=[0,[0,0]],vd=[0,0],va=[0,0],u8=[0,0],u9=[0,[0,[0,[0,[0,[0,0]]]]]],u_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H5]]]]]]]]]]],u6=[0,0],u1=[0,0,0],u2=[0,0,0],u3=[0,0,0],uY=[0,[0,0]],uZ=[0,[0,[0,0]]],u0=[0,0],uN=[0,[0,[0,[0,[0,[0,0]]]]]],uO=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],uP=[0,[0,[0,0]]],uQ=[0,[0,[0,0]]],uR=[0,[0,[0,[0,[0,[0,0]]]]]],uS=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],uT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H6]]]]]]]]]]],uU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H7]]]]]]]]]]],uV=[0,[0,[0,0]]],uW=[0,[0,[0,[0,[0,[0,0]]]]]],uJ=[0,0,0],uK=[0,0,0],uF=[0,0,0],uG=[0,0,0],uH=[0,0,0],uI=[0,0,0],uE=[0,0],uD=[0,0],uC=[0,0],uA=[0,0],uB=[0,0],uz=[0,0],ux=[0,0],uy=[0,0],uq=[0,0],ur=[0,0],us=[0,0],ut=[0,[0,[0,0]]],up=[0,0],ul=[0,0],uj=[0,[0,0]],uk=[0,[0,[0,0]]],uh=[0,[0,[0,0]]],ui=[0,[0,0]],uf=[0,[0,0]],ug=[0,[0,[0,0]]],ue=[0,0],uc=[0,0],ud=[0,0],ua=[0,0,0],t9=[0,[0,0]],t_=[0,0],t1=[0,[0,0]],t2=[0,0],t3=[0,[0,0]],t4=[0,0],t5=[0,[0,0]],t6=[0,0],t7=[0,[0,0]],t8=[0,0],tZ=[0,[0,0]],t0=[0,0],tX=[0,[0,0]],tY=[0,0],tT=[0,[0,0]],tU=[0,0],tV=[0,0],tW=[0,[0,0]],tK=[0,[0,0]],tL=[0,0],tM=[0,[0,0]],tN=[0,0],tO=[0,0],tP=[0,[0,0]],tQ=[0,[0,0]],tR=[0,[0,0]],tS=[0,0],tG=[0,0],tF=[0,0],tC=[0,0],tD=[0,[0,0]],tB=[0,[0,[0,0]]],tA=[0,[0,[0,[0,[0,[0,0]]]]]],ty=[0,[0,0]],tz=[0,0],tx=[0,[0,0]],tw=[0,0],tu=[0,0],tv=[0,[0,[0,0]]],to=[0,[0,0]],tp=[0,[0,[0,0]]],tn=[0,[0,[0,0]]],tk=[0,[0,[0,0]]],ti=[0,[0,[0,0]]],tg=[0,[0,[0,[0,[0,[0,0]]]]]],th=[0,[0,[0,[0,[0,[0,0]]]]]],tb=[0,[0,0]],tc=[0,0],td=[0,[0,0]],te=[0,[0,[0,0]]],tf=[0,[0,[0,0]]],s6=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],s7=[0,[0,[0,[0,[0,[0,0]]]]]],s8=[0,[0,[0,[0,[0,[0,0]]]]]],s9=[0,[0,[0,0]]],s_=[0,[0,[0,[0,[0,[0,0]]]]]],s$=[0,[0,[0,0]]],ta=[0,[0,[0,0]]],s4=[0,[0,0]],s5=[0,0],s3=[0,0,0],s2=[0,0,0],s1=[0,0,0],sZ=[0,0,0],sY=[0,[0,[0,0]]],sS=[0,0],sT=[0,0],sU=[0,0],sV=[0,0],sQ=[0,0],sR=[0,0],sM=[0,[0,[0,0]]],sN=[0,[0,[0,0]]],sO=[0,[0,[0,0]]],sL=[0,[0,[0,[0,0]]]],sH=[0,[0,[0,0]]],sI=[0,[0,[0,0]]],sJ=[0,[0,[0,0]]],sK=[0,[0,1,1],[0,[0,0,1],[0,[0,1,0],[0,[0,0,0],0]]]],sF=[0,[0,0]],sG=[0,0],sD=[0,[0,0]],sE=[0,0],sB=[0,[0,0]],sC=[0,0],so=[0,0],sp=[0,[0,0]],sm=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],sn=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H8]]]]]]]]]]],sk=[0,0,0],sj=a(rl),si=a(ae),sh=[0,[0,0]],sf=[0,0],sc=[0,0],se=[1,0],sd=[0,0],sb=[0,0],r$=[1,0],sa=[1,0],tE=[10,0,0,0,0],BJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ib]]]]]]]]]]],E5=a(bL),E6=a(bJ),E7=a(p_),EX=a(fR),EY=[0,a("a base axis of such a platform"),0],EZ=a(bi),E0=a(bH),EK=a(q1),EL=a(qn),EM=a(rf),EN=a(hv),EO=a(qf),EP=a(hv),EQ=a(rt),ER=a(p5),ES=a(p2),EA=a(qN),EB=a(hD),Ec=[0,a("such a machine with bodies"),0],D1=a(hA),D2=a(bq),D3=a(qQ),D4=a(rg),D7=a(p1),D8=a(pA),D9=a(bq),D_=a(bq),Ea=a(hu),D$=[0,a("a claim that no cube of such a machine fits"),0],Eb=a(rp),Ed=a(ez),Ee=a(eE),Ef=a(cL),Eg=a(ka),Eh=a(qI),Ei=a(hL),Ej=a(p3),Ek=a(pM),El=a(j2),Eo=a(dO),Ep=a(qW),Es=a(b4),Et=a(b4),Eu=a(qc),Ev=a(b4),Ew=[0,a("the closed design with other bounds on psi than one from below and one from above"),0],Ex=a(hu),Ey=a(fT),Ez=a(dO),EC=a(b4),ED=a(bL),EE=a(bJ),EF=a(qX),EG=a(rb),EH=a(hN),EI=a(pY),Em=[0,a(aQ),0],En=a('the mechanism "'),EJ=a(kf),ET=a(hL),EU=a(cL),EV=a(ka),EW=a(ki),E1=a(b4),E4=a(cL),E2=[0,a("a platform that turns on struts and other drives"),0],E3=a(b4),Eq=[0,a(aQ),0],Er=a('the workspace "'),E8=a(bq),E9=a(bq),E$=a(fP),Fa=a(fL),Fb=a(hN),E_=[0,a("an atlas of such a machine"),0],D5=[0,a(aQ),0],D6=a('a claim of the kind "'),Fp=a(km),Fq=a(dp),Fr=a(eB),Fs=a(kg),Ft=a(fH),Fu=[0,a('this evidence "fan"'),0],Fg=a(dp),FE=a(fO),FF=[0,1,1],Fh=a(qF),Fv=a(ey),Fw=a(p$),Fx=a(eA),Fy=a(qa),Fz=a(qz),FA=a(bK),FB=a(fO),FC=a(hw),FD=a(bK),Fi=a(km),Fj=a(dp),Fk=a(pX),Fl=a(eB),Fm=a(kg),Fn=[0,a(aQ),0],Fo=a('the evidence "'),FG=a(ey),FH=a(eA),FI=a(dp),FJ=a(eB),FK=a(rd),FM=a(ey),FN=a(eA),FO=a(dp),FP=a(eB),FQ=a(fM),FR=a(fH),FS=a(fM),FT=a(fH),FL=[0,a("this evidence at control points"),0],G1=a('"orthocert-paving/'),GS=a(dp),GT=a(dp),Gz=a(qu),GA=a(p8),GB=a(q6),GZ=[0,3,3],GC=a(qe),GO=[0,a("this set of orientations with such drives"),0],GP=[0,a('"parallel_margin" of struts in such a claim'),0],GQ=[0,a('"one_to_one" of planes in such a claim'),0],GU=[0,a('this evidence "tolerances" of a platform that turns'),0],GV=[0,a("a step of a platform that turns that is not at control points"),0],GW=[0,a('the evidence "tolerances" of such a mechanism'),0],GX=[0,a(qC),0],GY=[0,a(q5),0],GR=[0,a(qC),0],GN=[0,a(q5),0],GL=[0,a(pD),0],GM=[0,a("a step in a proof that no cube fits"),0],GD=[0,a("the acceleration of a joint of a machine with a plane"),0],GJ=[0,a("a stiffness for each joint in such a claim"),0],GK=[0,a(qS),0],GI=[0,a(qS),0],GE=a(qv),GF=a(pC),GG=a(hy),GH=[0,a(pD),0],Gv=a(kl),Gw=a(fH),Gx=a(bK),Gn=a(hA),Go=a(qo),Gp=a(q_),Gq=[0,a(aQ),0],Gr=a('a proof of the kind "'),Gj=a(fL),Gk=a(fP),Gl=a(hB),Gm=a(qH),Gf=a(bq),Gg=a(hJ),Gh=a(pE),Gi=a(hG),Gc=a(q3),Gd=a(fM),Ge=a(hG),F_=a(qK),F$=a(hJ),Ga=a(hB),Gb=a(rh),FW=a(rc),FX=a(hF),FY=a(q$),FZ=a(hD),F0=a(qR),F1=a(rn),F4=a(qZ),F5=a(hw),F6=a(fO),F7=a(q2),F8=a(qO),F9=a(hF),F2=[0,a(aQ),0],F3=a('the failure "'),FU=a(kl),FV=a(rl),Fe=a(fO),Ff=a(hw),Fc=a(pB),Fd=a(pF),DY=a(fT),DO=a(j5),DP=a(pH),DQ=a(eC),DR=a(bi),DW=a(q7),DX=a(fT),DZ=a(dP),D0=a(eC),DS=a(dP),DT=a(qx),DU=a(p9),DV=a(bi),DH=a(dO),DL=a(bL),DM=a(bJ),DI=a(j_),DJ=a(kc),DK=a(dP),DB=a(dO),DF=a(bL),DG=a(bJ),DC=a(j_),DD=a(kc),DE=a(dP),DA=[0,1],Dz=[0,1],Dx=[0,1],Dw=[0,1],Du=[0,1],Dv=[0,a("this quantity of such a mechanism"),0],Dd=a(j6),De=a(qT),Df=a(pW),Dg=a(kk),Dh=a(ro),Dj=a(qU),Di=a(fK),Dc=a(hy),C6=a(hE),CU=a(qD),CV=a(qM),Dm=a(ey),Dn=a(q9),Do=a(qb),Dp=a(eA),Dq=a(qE),Dr=a(pO),Ds=a(pP),Dt=a(pG),CW=a(pL),CX=a(rr),CY=a(q0),CZ=a(qP),C0=a(p4),C1=a(rq),C2=a(pR),C3=a(pQ),C4=[0,a(aQ),0],C5=a('the quantity "'),C7=a(p0),C8=a(qY),C9=a(bL),C_=a(bJ),C$=a(re),Da=[0,a(aQ),0],Db=a('a bound "'),Dk=a(fJ),Dl=a(eC),CS=a(bI),CT=a(eG),Cv=a(bI),Cw=a(fR),Cx=a(fS),Cy=a(cL),Cz=a(hM),CA=a(eG),CD=a(bi),CE=a(bH),CF=a(fI),CG=a(ex),CH=a(bi),CI=a(bH),CJ=a(bK),CK=a(bK),CL=a(fI),CM=a(ex),CN=a(fS),CO=a(bi),CP=a(bH),CQ=a(qB),CR=a(fK),CB=[0,a('" of such a machine'),0],CC=a(pV),Ct=a(bI),Cu=a(fS),Cd=a(bI),Ce=a(cL),Cf=a(hM),Cg=a(eG),Cj=a(fR),Ck=a(bi),Cl=a(bH),Cm=a(fI),Cn=a(ex),Co=a(bi),Cp=a(bH),Cq=a(bK),Cr=a(bK),Ch=[0,a(aQ),0],Ci=a(pV),Ca=a(hH),Cb=a(eF),B_=a(" is not covered by the verified checker"),B$=a(ae),B8=a(bL),B9=a(bJ),B4=a(ae),B5=a(rs),B6=a(ae),B7=a(ae),B3=[1,0],B2=a(eF),B0=a("Reader.Malformed"),B1=a("Reader.Not_covered"),G3=[0,a("a paving is checked by orthocert-verified")],G2=a(qG),G4=a("CERTIFIED"),G5=a("REFUTED"),G6=a(qG),G7=a("NOT COVERED: ");function
-fZ(a){throw[0,kE,a]}function
-a$(d,c){var
-a=av(d),e=av(c),b=cn(a+e|0);eI(d,0,b,0,a);eI(c,0,b,a,e);return hV(b)}IF(0);rP(1);rP(2);function
-kG(b){function
+Je(){var
+a=S;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){r2(b);a.process.exit(2)});else
+if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)r2(a.error)})}Je();function
+j(a,b){return a.length==1?a(b):du(a,[b])}function
+aq(a,b,c){return a.length==2?a(b,c):du(a,[b,c])}function
+fR(a,b,c,d){return a.length==3?a(b,c,d):du(a,[b,c,d])}function
+kc(a,b,c,d,e){return a.length==4?a(b,c,d,e):du(a,[b,c,d,e])}IS();var
+kU=[a3,a(qz),-2],kT=[a3,a(rN),-4],Hy=[0,[0,[0,[0,0]]]],Hz=[0,0],HA=[0,0],HB=[0,[0,0]],HC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HB]]]]]]]]]]],hw=[0,[1,0],0],pb=[0,[2,0],0],jW=[0,[1,0],0],pa=[0,[2,0],0],hu=[0,[1,0],0],jV=[0,[2,0],0],HD=[0,[0,[0,[0,0]]]],HE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HD]]]]]]]]]]],HF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HE]]]]]]]]]]],HG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HF]]]]]]]]]]],HH=[0,[0,0]],HI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HH]]]]]]]]]]],HJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HI]]]]]]]]]]],HK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HJ]]]]]]]]]]],HL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HK]]]]]]]]]]],HM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],HN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HM]]]]]]]]]]],HO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HN]]]]]]]]]]],HP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HO]]]]]]]]]]],HQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HP]]]]]]]]]]],HR=[0,[0,0]],HS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HR]]]]]]]]]]],HT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HS]]]]]]]]]]],HU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HT]]]]]]]]]]],HV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HU]]]]]]]]]]],HW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HV]]]]]]]]]]],HX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HW]]]]]]]]]]],HY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HX]]]]]]]]]]],HZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],H0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HZ]]]]]]]]]]],H1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H0]]]]]]]]]]],H2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H1]]]]]]]]]]],H3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H2]]]]]]]]]]],H4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H3]]]]]]]]]]],H5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H4]]]]]]]]]]],H6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H5]]]]]]]]]]],H7=[0,0],H8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H7]]]]]]]]]]],H9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H8]]]]]]]]]]],H_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H9]]]]]]]]]]],H$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H_]]]]]]]]]]],Ia=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H$]]]]]]]]]]],Ib=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ia]]]]]]]]]]],Ic=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ib]]]]]]]]]]],Id=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ic]]]]]]]]]]],Ie=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Id]]]]]]]]]]],If=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ie]]]]]]]]]]],Ig=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],Ih=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ig]]]]]]]]]]],Ii=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],Ij=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ii]]]]]]]]]]],Ik=[0,[0,[0,[0,[0,0]]]]],Il=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ik]]]]]]]]]]],Im=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Il]]]]]]]]]]],In=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Im]]]]]]]]]]],Io=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,In]]]]]]]]]]],Ip=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Io]]]]]]]]]]],Iq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ip]]]]]]]]]]],Ir=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Iq]]]]]]]]]]],Is=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ir]]]]]]]]]]],It=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Is]]]]]]]]]]],Iu=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,It]]]]]]]]]]],Iv=[0,0],Iw=[0,[0,0]],Ix=[0,0],Iy=[0,[0,[0,[0,[0,0]]]]],dB=[0,[0,[0,0]]],dD=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],hl=[0,[0,[0,[0,0]]]],Iz=[0,[0,[0,[0,[0,0]]]]],IA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Iz]]]]]]]]]]],IB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IA]]]]]]]]]]],IC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IB]]]]]]]]]]],ID=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IC]]]]]]]]]]];bO(11,[a3,a(p1),-12],p1);bO(10,[a3,a(qP),-11],qP);bO(9,[a3,a(rC),-10],rC);bO(8,[a3,a(qb),-9],qb);bO(7,[a3,a(q4),-8],q4);bO(6,[a3,a(p$),-7],p$);bO(5,[a3,a(qA),-6],qA);bO(4,[a3,a(qE),-5],qE);bO(3,kT,rN);bO(2,[a3,a(km),-3],km);bO(1,kU,qz);bO(0,[a3,a(rl),-1],rl);var
+sn=a("String.sub / Bytes.sub"),sp=a(ae),so=a("String.concat"),sq=a("Array.init"),sr=a("power"),sK=[0,0],sL=[0,0],sR=[0,0,0],sS=[0,0,0],sT=[0,0],td=[0,0],te=[0,0],th=[0,0],tC=[0,0],tF=[0,0],tJ=[0,0],tK=[0,0],tL=[0,0],tM=[0,0],t0=[0,0],t1=[0,0],us=[0,0],uS=[0,[0,[0,0]]],vh=[0,0],vI=[0,0],v4=[0,0],wd=a(","),wv=[0,a(ks),0],ww=a(qJ),wx=a("."),wy=[0,[0,[0,0]]],wz=a(eR),wA=a(kt),wB=[0,[0,[0,[0,[0,0]]]]],wC=[0,a(ks),0],wD=a(rL),zG=a(pY),zI=a(pV),zH=a(qS),zJ=a(eM),zK=a(eK),zL=a(kB),zM=a(rw),zN=a(qt),zO=a(kv),zP=a(qY),zQ=a(qs),A7=[0,[0,0,0]],Bm=[0,0],A8=a(fS),A9=[0,0],A_=a("divided"),A$=[0,1],Ba=a("mirror"),Bb=[0,3],Bc=a("negative"),Bd=[0,2],Be=a(fX),Bf=[0,5],Bg=a(kA),Bh=[0,4],Bi=a(ds),Bj=a(qe),Bk=a(eN),Bl=a(bM),Bn=[0,0],Bo=[0,0],Bp=[0,0],Bs=[0,[0,[0,0]]],Bt=[0,[0,[0,0]]],BU=[0,[0,[0,0]]],B8=[0,0],Cn=a(ae),Cg=[0,0],Ch=[0,0],Ci=[0,[0,[0,[0,0]]]],Cj=[0,[0,[0,0]]],Ck=[0,[0,[0,[0,0]]]],Cl=[0,[0,[0,0]]],Ce=[0,[0,[0,0]]],Cd=[0,0],Cc=a(eN),Cb=[0,0],B$=[0,1,0],Ca=[0,[0,[0,0]]],B_=[0,0],B6=[0,[0,0]],B7=[0,[0,[0,0]]],B5=[0,0],B1=[0,[0,[0,0]]],B0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hy]]]]]]]]]],[0,0,[0,[0,[0,[0,0]]],0]]],BV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],[0,0,0]],BW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],[0,[0,[0,[0,[0,[0,[0,0]]]]]],0]],BX=[0,[0,[0,[0,[0,[0,[0,0]]]]]],0],BY=[0,[0,[0,[0,0]]],[0,0,0]],BS=[0,0],BT=[0,[0,0]],BR=[0,0,0],BQ=[0,[0,[0,0]]],BK=[0,[0,0]],BL=[0,[0,[0,0]]],BM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hz]]]]]]]]]]],BN=[0,[0,0]],BO=[0,[0,[0,0]]],BJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HA]]]]]]]]]]],BH=[0,[0,0]],BI=[0,[0,[0,0]]],BF=[0,[0,[0,0]]],BG=[0,[0,0]],BE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HC]]]]]]]]]]],BD=[0,0],BC=[0,0],Bz=[0,[0,0]],BA=[0,0],Bx=[0,0],By=[0,1],Bv=[0,[0,0]],Bw=[0,0],Bu=[0,0],Bq=[0,0],Br=[0,1],A4=[0,0],A5=[0,1],A6=[0,2],A0=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],AY=[0,[0,0],0],AZ=[0,[1,0],0],A1=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],AW=[0,[0,0]],AX=[0,0],AV=[0,0],AU=[0,0],AT=[0,0],AS=[0,0],AR=[0,0,0],AP=[0,[0,0]],AQ=[0,0],AO=[0,0,0],AM=[0,[0,[0,0]]],AN=[0,[0,[0,0]]],AL=[0,0],AJ=[0,1,0],AB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HG]]]]]]]]]]],AC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HL]]]]]]]]]]],Ax=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HQ]]]]]]]]]]],Ay=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HY]]]]]]]]]]],Az=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H6]]]]]]]]]]],AA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,If]]]]]]]]]]],AD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ih]]]]]]]]]]],AE=a("sqrt"),Av=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ij]]]]]]]]]]],Aw=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Iu]]]]]]]]]]],Ak=[0,a("\n"),0],Al=a(pW),Am=a(hL),An=a(qO),Ao=a(qx),Au=a(f0),Ap=a(fW),Aq=a("verdict"),Ar=a(rn),As=a(qp),At=a(qN),Ah=a(qH),Ai=a(rr),Aj=a(hN),Ad=a(q0),Ae=a(hO),Af=a(fW),Ag=a(f0),z_=a(hW),z$=a(bt),Aa=a(pX),Ab=a(hT),z7=a(rk),z8=a(fX),z9=a(hT),z3=a(q3),z4=a(hW),z5=a(hO),z6=a(rA),zS=a(rs),zT=a(rv),zU=a(hS),zV=a(hQ),zW=a(rG),zX=a(rg),zY=a(rj),zZ=a(q7),z0=a(hS),z1=a(q_),zE=a(hJ),zF=a(fZ),zz=a(bN),zA=a(bL),zB=a(qr),y$=a(hQ),za=a(q6),yP=a(bt),yQ=a(b5),yR=a(hY),yS=a(eQ),yT=a(cP),yY=a(kf),yU=a(ku),yV=a(kx),yW=a(eL),yX=a(bt),yZ=a(b5),y0=a(hY),y1=a(eQ),y2=a(ku),y3=a(kx),y4=a(eL),y5=a(bt),y6=a(b5),y7=a(bN),y8=a(bL),y9=a(dZ),y_=a(eQ),zb=a(re),zc=a(ru),zd=a(h0),ze=a(qf),zf=a(qk),zg=a(eL),zh=a(bt),zi=a(b5),zj=a(hH),zk=a(qv),zl=a(eQ),zm=a(f4),zn=a(p5),zo=a(eL),zp=a(bt),zq=a(hH),zr=a(bt),zs=a(q9),zv=a(pU),zt=a(qi),zu=a(rz),zw=a(f0),zx=a(fW),zy=a(bt),zC=a(h0),zD=a(hN),yK=a(b5),yL=a(eQ),yM=a(kf),yN=a(eL),yJ=a(rI),yx=a(f4),yy=a(ro),yz=a(d0),yA=a(eO),yB=a(eO),yC=a(ki),yD=a(d0),yE=a(qQ),yF=a(qq),yG=a(bi),yI=a(p0),yH=a(ki),yn=a(qG),yo=a(rM),yp=a(qm),yq=a(qj),yr=a(ry),ys=a(ri),yt=a(qy),yu=a(hI),yv=a(hI),yj=a(bi),yk=a(bJ),yl=a(eS),ym=a(bK),yf=a(cP),yg=a(kp),yh=a(q1),yc=a(bN),yd=a(bL),ye=a(dZ),x7=a(bN),x8=a(bL),x9=a(dZ),x_=a(kr),x$=a(d0),ya=a(kn),yb=a(rd),xP=a(qh),xV=a(hL),xU=a(kz),xQ=a(kj),xR=a(fU),xW=a(fV),xY=a(fV),xZ=a(rb),x0=a(kj),xX=a(fU),x1=a(qd),x2=a(ra),x3=a(fU),x4=a(rH),x5=a(kz),x6=a(fU),xS=a(eO),xT=a(qW),xM=a(hR),xN=a(hR),xO=a(hR),xI=a(rf),xJ=a(bL),xK=a(bN),xL=a(rx),xr=a(p9),xs=a(pZ),xt=a(q5),xu=a(eM),xv=a(rJ),xw=a(q8),xx=a(p_),xy=a(qX),xz=a(p8),xA=a(qu),xB=a(p7),xC=a(rh),xD=a(eK),xE=a(p4),xF=a(rq),xG=a(ql),xH=a(rK),w4=a(hU),w6=a(eR),w5=a(fT),w7=a(eJ),w8=a(bi),w9=a(bJ),w_=a(bM),w$=a(hZ),xa=a(bK),xb=a(f2),xc=a(bi),xd=a(bJ),xe=a(eS),xf=a(bK),xg=a(bM),xh=a(cP),xi=a(bK),xj=a(eJ),xk=a(f3),xl=a(bi),xm=a(bJ),xn=a(qU),xo=a(fV),xp=a(f3),xq=a(bK),wM=a(hU),wU=a(eR),wN=a(fT),wO=a(eJ),wP=a(bi),wQ=a(bJ),wR=a(bM),wS=a(hZ),wT=a(bK),wV=a(f2),wW=a(bi),wX=a(bJ),wY=a(eS),wZ=a(bK),w0=a(bM),w1=a(cP),w2=a(bK),wJ=a(bN),wK=a(bL),wH=[0,a(aQ),0],wI=a(aQ),wF=a(ae),wE=[0,a(aQ),0],wG=a(aQ),wr=a(hU),ws=a(eR),wt=a("*"),wu=a(b6),wm=[0,[0,[0,[0,[0,0]]]]],wn=[0,[0,[0,0]]],wo=[0,[0,0]],wp=[0,0],wq=[0,[0,[0,[0,0]]]],wk=a('":'),wl=a(aQ),wi=[0,a(aQ),0],wj=a(aQ),wg=[0,a("}"),0],wh=a("{"),we=[0,a("]"),0],wf=a("["),wc=[0,[0,[0,0]]],wb=[0,[0,[0,0]]],v$=[0,0],v8=[0,[0,[0,0]]],v9=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],v_=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],v6=[0,[0,0]],v7=[0,[0,[0,0]]],v5=[0,0],v2=[0,0],v3=[0,[0,0]],vZ=[0,0],v0=[0,[0,0]],v1=[0,0],vU=[0,[0,0]],vV=[0,0],vW=[0,[0,[0,0]]],vX=[0,[0,[0,0]]],vR=[0,[0,[0,0]]],vT=[0,[0,[0,0]]],vS=[0,0],vO=[0,[0,0]],vP=[0,0],vM=[0,[0,0]],vN=[0,0],vL=[0,[0,[0,0]]],vJ=[0,[0,0]],vK=[0,0],vG=[0,0],vH=[0,[0,0]],vA=[0,[0,0]],vB=[0,[0,[0,[0,[0,0]]]]],vC=[0,[0,[0,[0,0]]]],vD=[0,[0,[0,0]]],vE=[0,[0,0]],vF=[0,0],vx=[0,0],vy=[0,[0,0]],vz=[0,0],vw=[0,0],vs=[0,0],vt=[0,[0,[0,[0,[0,[0,0]]]]]],vu=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Iv]]]]]]]]]]],vq=[0,0],vl=[0,0,0],vm=[0,0,0],vn=[0,0,0],vi=[0,[0,0]],vj=[0,[0,[0,0]]],vk=[0,0],u9=[0,[0,[0,[0,[0,[0,0]]]]]],u_=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],u$=[0,[0,[0,0]]],va=[0,[0,[0,0]]],vb=[0,[0,[0,[0,[0,[0,0]]]]]],vc=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],vd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Iw]]]]]]]]]]],ve=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ix]]]]]]]]]]],vf=[0,[0,[0,0]]],vg=[0,[0,[0,[0,[0,[0,0]]]]]],u5=[0,0,0],u6=[0,0,0],u1=[0,0,0],u2=[0,0,0],u3=[0,0,0],u4=[0,0,0],u0=[0,0],uZ=[0,0],uY=[0,0],uW=[0,0],uX=[0,0],uV=[0,0],uT=[0,0],uU=[0,0],uL=[0,0],uM=[0,0],uN=[0,0],uO=[0,[0,[0,0]]],uK=[0,0],uE=[0,0],uF=[0,0],uG=[0,[0,0]],uC=[0,[0,0]],uD=[0,[0,[0,0]]],uA=[0,[0,[0,0]]],uB=[0,[0,0]],uy=[0,[0,0]],uz=[0,[0,[0,0]]],ux=[0,0],uv=[0,0],uw=[0,0],ut=[0,0,0],uq=[0,[0,0]],ur=[0,0],ui=[0,[0,0]],uj=[0,0],uk=[0,[0,0]],ul=[0,0],um=[0,[0,0]],un=[0,0],uo=[0,[0,0]],up=[0,0],ug=[0,[0,0]],uh=[0,0],ue=[0,[0,0]],uf=[0,0],ua=[0,[0,0]],ub=[0,0],uc=[0,0],ud=[0,[0,0]],t3=[0,[0,0]],t4=[0,0],t5=[0,[0,0]],t6=[0,0],t7=[0,0],t8=[0,[0,0]],t9=[0,[0,0]],t_=[0,[0,0]],t$=[0,0],tZ=[0,0],tY=[0,0],tV=[0,0],tW=[0,[0,0]],tU=[0,[0,[0,0]]],tT=[0,[0,[0,[0,[0,[0,0]]]]]],tR=[0,[0,0]],tS=[0,0],tQ=[0,[0,0]],tP=[0,0],tN=[0,0],tO=[0,[0,[0,0]]],tH=[0,[0,0]],tI=[0,[0,[0,0]]],tG=[0,[0,[0,0]]],tD=[0,[0,[0,0]]],tB=[0,[0,[0,0]]],tz=[0,[0,[0,[0,[0,[0,0]]]]]],tA=[0,[0,[0,[0,[0,[0,0]]]]]],tu=[0,[0,0]],tv=[0,0],tw=[0,[0,0]],tx=[0,[0,[0,0]]],ty=[0,[0,[0,0]]],tn=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],to=[0,[0,[0,[0,[0,[0,0]]]]]],tp=[0,[0,[0,[0,[0,[0,0]]]]]],tq=[0,[0,[0,0]]],tr=[0,[0,[0,[0,[0,[0,0]]]]]],ts=[0,[0,[0,0]]],tt=[0,[0,[0,0]]],tl=[0,[0,0]],tm=[0,0],tk=[0,0,0],tj=[0,0,0],ti=[0,0,0],tg=[0,0,0],tf=[0,[0,[0,0]]],s$=[0,0],ta=[0,0],tb=[0,0],tc=[0,0],s9=[0,0],s_=[0,0],s5=[0,[0,[0,0]]],s6=[0,[0,[0,0]]],s7=[0,[0,[0,0]]],s4=[0,[0,[0,[0,0]]]],s0=[0,[0,[0,0]]],s1=[0,[0,[0,0]]],s2=[0,[0,[0,0]]],s3=[0,[0,1,1],[0,[0,0,1],[0,[0,1,0],[0,[0,0,0],0]]]],sY=[0,[0,0]],sZ=[0,0],sW=[0,[0,0]],sX=[0,0],sU=[0,[0,0]],sV=[0,0],sH=[0,0],sI=[0,[0,0]],sF=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],sG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Iy]]]]]]]]]]],sD=[0,0,0],sC=a(rE),sB=a(ae),sA=[0,[0,0]],sy=[0,0],sv=[0,0],sx=[1,0],sw=[0,0],su=[0,0],ss=[1,0],st=[1,0],tX=[10,0,0,0,0],B9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,ID]]]]]]]]]]],Fv=a(bN),Fw=a(bL),Fx=a(qr),Fn=a(f2),Fo=[0,a("a base axis of such a platform"),0],Fp=a(bi),Fq=a(bJ),Fa=a(ri),Fb=a(qG),Fc=a(ry),Fd=a(hI),Fe=a(qy),Ff=a(hI),Fg=a(rM),Fh=a(qm),Fi=a(qj),E2=a(q6),E3=a(hQ),EE=[0,a("such a machine with bodies"),0],Er=a(hN),Es=a(bt),Et=a(q9),Eu=a(rz),Ex=a(qi),Ey=a(pU),Ez=a(bt),EA=a(bt),EC=a(hH),EB=[0,a("a claim that no cube of such a machine fits"),0],ED=a(rI),EF=a(eL),EG=a(eQ),EH=a(cP),EI=a(kp),EJ=a(q1),EK=a(hY),EL=a(qk),EM=a(p5),EN=a(kf),EQ=a(dZ),ER=a(rd),EU=a(b5),EV=a(b5),EW=a(qv),EX=a(b5),EY=[0,a("the closed design with other bounds on psi than one from below and one from above"),0],EZ=a(hH),E0=a(f4),E1=a(dZ),E4=a(b5),E5=a(bN),E6=a(bL),E7=a(re),E8=a(ru),E9=a(h0),E_=a(qf),EO=[0,a(aQ),0],EP=a('the mechanism "'),E$=a(ku),Fj=a(hY),Fk=a(cP),Fl=a(kp),Fm=a(kx),Fr=a(b5),Fu=a(cP),Fs=[0,a("a platform that turns on struts and other drives"),0],Ft=a(b5),ES=[0,a(aQ),0],ET=a('the workspace "'),Fy=a(bt),Fz=a(bt),FB=a(f0),FC=a(fW),FD=a(h0),FA=[0,a("an atlas of such a machine"),0],Ev=[0,a(aQ),0],Ew=a('a claim of the kind "'),FR=a(kB),FS=a(ds),FT=a(eN),FU=a(kv),FV=a(fS),FW=[0,a('this evidence "fan"'),0],FI=a(ds),F6=a(fZ),F7=[0,1,1],FJ=a(qY),FX=a(eK),FY=a(qs),FZ=a(eM),F0=a(qt),F1=a(qS),F2=a(bM),F3=a(fZ),F4=a(hJ),F5=a(bM),FK=a(kB),FL=a(ds),FM=a(qe),FN=a(eN),FO=a(kv),FP=[0,a(aQ),0],FQ=a('the evidence "'),F8=a(eK),F9=a(eM),F_=a(ds),F$=a(eN),Ga=a(rw),Gc=a(eK),Gd=a(eM),Ge=a(ds),Gf=a(eN),Gg=a(fX),Gh=a(fS),Gi=a(fX),Gj=a(fS),Gb=[0,a("this evidence at control points"),0],Hr=a('"orthocert-paving/'),Hi=a(ds),Hj=a(ds),G1=a(qN),G2=a(qp),G3=a(rn),Hp=[0,3,3],G4=a(qx),Hd=[0,a("this set of orientations with such drives"),0],He=[0,a('"parallel_margin" of struts in such a claim'),0],Hf=[0,a('"one_to_one" of planes in such a claim'),0],Hk=[0,a('this evidence "tolerances" of a platform that turns'),0],Hl=[0,a("a step of a platform that turns that is not at control points"),0],Hm=[0,a('the evidence "tolerances" of such a mechanism'),0],Hn=[0,a(qV),0],Ho=[0,a(rm),0],Hh=[0,a(qV),0],Hg=[0,a('"accuracy" of such a mechanism'),0],Hc=[0,a(rm),0],Ha=[0,a("this quantity in a claim that is refuted"),0],Hb=[0,a("a step in a proof that no cube fits"),0],G5=[0,a("the acceleration of a joint of a machine with a plane"),0],G_=[0,a("a stiffness for each joint in such a claim"),0],G$=[0,a(q$),0],G9=[0,a(q$),0],G6=a(qO),G7=a(pW),G8=a(hL),GX=a(kA),GY=a(fS),GZ=a(bM),GP=a(hN),GQ=a(qH),GR=a(rr),GS=[0,a(aQ),0],GT=a('a proof of the kind "'),GL=a(fW),GM=a(f0),GN=a(hO),GO=a(q0),GH=a(bt),GI=a(hW),GJ=a(pX),GK=a(hT),GE=a(rk),GF=a(fX),GG=a(hT),GA=a(q3),GB=a(hW),GC=a(hO),GD=a(rA),Gm=a(rv),Gn=a(hS),Go=a(rs),Gp=a(hQ),Gq=a(q_),Gr=a(rG),Gu=a(rg),Gv=a(hJ),Gw=a(fZ),Gx=a(rj),Gy=a(q7),Gz=a(hS),Gs=[0,a(aQ),0],Gt=a('the failure "'),Gk=a(kA),Gl=a(rE),FG=a(fZ),FH=a(hJ),FE=a(pV),FF=a(pY),Eo=a(f4),Ee=a(ki),Ef=a(p0),Eg=a(eO),Eh=a(bi),Em=a(ro),En=a(f4),Ep=a(d0),Eq=a(eO),Ei=a(d0),Ej=a(qQ),Ek=a(qq),El=a(bi),D9=a(dZ),Eb=a(bN),Ec=a(bL),D_=a(kn),D$=a(kr),Ea=a(d0),D3=a(dZ),D7=a(bN),D8=a(bL),D4=a(kn),D5=a(kr),D6=a(d0),D2=[0,1],D1=[0,1],DZ=[0,1],DX=[0,1],DW=[0,1],DU=[0,1],DV=[0,a("this quantity of such a mechanism"),0],DD=a(kj),DE=a(ra),DF=a(qd),DG=a(kz),DH=a(rH),DJ=a(rb),DI=a(fV),DC=a(hL),Du=a(hR),Di=a(qW),Dj=a(q5),DM=a(eK),DN=a(rq),DO=a(qu),DP=a(eM),DQ=a(qX),DR=a(p7),DS=a(p8),DT=a(pZ),Dk=a(p4),Dl=a(rK),Dm=a(rh),Dn=a(q8),Do=a(ql),Dp=a(rJ),Dq=a(p_),Dr=a(p9),Ds=[0,a(aQ),0],Dt=a('the quantity "'),Dv=a(qh),Dw=a(rf),Dx=a(bN),Dy=a(bL),Dz=a(rx),DA=[0,a(aQ),0],DB=a('a bound "'),DK=a(fU),DL=a(eO),Dg=a(bK),Dh=a(eS),CV=a(bK),CW=a(f2),CX=a(f3),CY=a(cP),CZ=a(hZ),C0=a(eS),C3=a(bi),C4=a(bJ),C5=a(fT),C6=a(eJ),C7=a(bi),C8=a(bJ),C9=a(bM),C_=a(bM),C$=a(fT),Da=a(eJ),Db=a(f3),Dc=a(bi),Dd=a(bJ),De=a(qU),Df=a(fV),C1=[0,a('" of such a machine'),0],C2=a(qc),CT=a(bK),CU=a(f3),CD=a(bK),CE=a(cP),CF=a(hZ),CG=a(eS),CJ=a(f2),CK=a(bi),CL=a(bJ),CM=a(fT),CN=a(eJ),CO=a(bi),CP=a(bJ),CQ=a(bM),CR=a(bM),CH=[0,a(aQ),0],CI=a(qc),CA=a(hU),CB=a(eR),Cy=a(" is not covered by the verified checker"),Cz=a(ae),Cw=a(bN),Cx=a(bL),Cs=a(ae),Ct=a(rL),Cu=a(ae),Cv=a(ae),Cr=[1,0],Cq=a(eR),Co=a("Reader.Malformed"),Cp=a("Reader.Not_covered"),Ht=[0,a("a paving is checked by orthocert-verified")],Hs=a(qZ),Hu=a("CERTIFIED"),Hv=a("REFUTED"),Hw=a(qZ),Hx=a("NOT COVERED: ");function
+f_(a){throw[0,kT,a]}function
+ba(d,c){var
+a=ax(d),e=ax(c),b=cq(a+e|0);eU(d,0,b,0,a);eU(c,0,b,a,e);return h8(b)}I7(0);r8(1);r8(2);function
+kV(b){function
 a(b){var
 a=b;for(;;){if(a){var
-c=a[2],d=a[1];try{IE(d)}catch(a){a=rZ(a);if(a[1]!==kF)throw a;var
+c=a[2],d=a[1];try{I6(d)}catch(a){a=sg(a);if(a[1]!==kU)throw a;var
 e=a}var
-a=c;continue}return 0}}return a(IG(0))}IN(a(pJ),kG);function
-cp(c){var
+a=c;continue}return 0}}return a(I8(0))}Jd(a(p2),kV);function
+cs(c){var
 b=0,a=c;for(;;){if(a){var
 b=b+1|0,a=a[2];continue}return b}}function
-kH(d){var
+kW(d){var
 a=d,b=0;for(;;){if(a){var
 c=[0,a[1],b],a=a[2],b=c;continue}return b}}function
-Z(b,a){if(a){var
-c=a[2],d=j(b,a[1]);return[0,d,Z(b,c)]}return 0}function
-hX(d,c){var
+_(b,a){if(a){var
+c=a[2],d=j(b,a[1]);return[0,d,_(b,c)]}return 0}function
+h_(d,c){var
 a=c;for(;;){if(a){var
 e=a[2],b=j(d,a[1]);if(b){var
 a=e;continue}return b}return 1}}function
@@ -729,52 +729,52 @@ aA(d,c){var
 a=c;for(;;){if(a){var
 e=a[2],b=j(d,a[1]);if(b)return b;var
 a=e;continue}return 0}}function
-bN(b,c){var
-a=cn(b);Io(a,0,b,c);return hV(a)}function
-dV(g,b,a){var
-d=eJ(g),f=0;if(0<=b&&0<=a&&!((hT(d)-a|0)<b)){var
-c=cn(a);fU(d,b,c,0,a);var
+bP(b,c){var
+a=cq(b);IQ(a,0,b,c);return h8(a)}function
+d6(g,b,a){var
+d=eV(g),f=0;if(0<=b&&0<=a&&!((h6(d)-a|0)<b)){var
+c=cq(a);f5(d,b,c,0,a);var
 e=c;f=1}if(!f)var
-e=fZ(r6);return hV(e)}function
-kI(k,g){if(g){var
-h=av(k),c=0,b=g,p=0;for(;;){if(b){var
+e=f_(sn);return h8(e)}function
+kX(k,g){if(g){var
+h=ax(k),c=0,b=g,p=0;for(;;){if(b){var
 i=b[1];if(b[2]){var
-j=(av(i)+h|0)+c|0,m=b[2],n=c<=j?j:fZ(r7),c=n,b=m;continue}var
-l=av(i)+c|0}else
+j=(ax(i)+h|0)+c|0,m=b[2],n=c<=j?j:f_(so),c=n,b=m;continue}var
+l=ax(i)+c|0}else
 var
 l=c;var
-f=cn(l),e=p,d=g;for(;;){if(d){var
+f=cq(l),e=p,d=g;for(;;){if(d){var
 a=d[1];if(d[2]){var
-o=d[2];eI(a,0,f,e,av(a));eI(k,0,f,e+av(a)|0,h);var
-e=(e+av(a)|0)+h|0,d=o;continue}eI(a,0,f,e,av(a))}return hV(f)}}}return r8}function
-hY(b,c){if(0===b)return[0];if(0<=b){var
-d=ID(b,j(c,0)),e=b-1|0,f=1;if(!(e<1)){var
+o=d[2];eU(a,0,f,e,ax(a));eU(k,0,f,e+ax(a)|0,h);var
+e=(e+ax(a)|0)+h|0,d=o;continue}eU(a,0,f,e,ax(a))}return h8(f)}}}return sp}function
+h$(b,c){if(0===b)return[0];if(0<=b){var
+d=I5(b,j(c,0)),e=b-1|0,f=1;if(!(e<1)){var
 a=f;for(;;){d[1+a]=j(c,a);var
 g=a+1|0;if(e!==a){var
-a=g;continue}break}}return d}return fZ(r9)}function
-hZ(c){var
+a=g;continue}break}}return d}return f_(sq)}function
+ia(c){var
 a=c.length-1-1|0,b=0;for(;;){if(0<=a){var
 d=[0,c[1+a],b],a=a-1|0,b=d;continue}return b}}var
 d=aH(0),b=aH(1);function
-p(a){return F(a,b)}function
-kJ(b,a){return F(aH(b),a)}function
+q(a){return E(a,b)}function
+kY(b,a){return E(aH(b),a)}function
 c(b,a){return C(aH(b),a)}function
-aW(b,a){return[0,kB(b,a),r2(b,a)]}function
-h0(b,a){return D(b,a)?b:a}function
-br(b,a){return D(b,a)?a:b}function
-eO(a){return eO}function
-L(a){return a?0:1}function
+aS(b,a){return[0,kQ(b,a),sj(b,a)]}function
+ib(b,a){return D(b,a)?b:a}function
+bj(b,a){return D(b,a)?a:b}function
+e0(a){return e0}function
+M(a){return a?0:1}function
 z(b,a){var
 c=a?[0,j(b,a[1])]:a;return c}function
-aw(a){return a[1]}function
-aZ(a){return a[2]}function
+ay(a){return a[1]}function
+aY(a){return a[2]}function
 g(a){var
 b=a?[0,g(a[2])]:a;return b}function
 f(a,b){if(a){var
 c=f(a[2],b);return[0,a[1],c]}return b}function
-kK(a){return typeof
-a==="number"?0:[0,kK(a[1])]}function
-kL(d,c){var
+kZ(a){return typeof
+a==="number"?0:[0,kZ(a[1])]}function
+k0(d,c){var
 a=d,b=c;for(;;)if(typeof
 a==="number")return b;else
 switch(a[0]){case
@@ -797,9 +797,9 @@ a=a[1],b=[7,b];continue;case
 8:var
 a=a[1],b=[8,b];continue;default:var
 a=a[1],b=[9,b];continue}}function
-f0(a){return kL(a,0)}function
-kM(a){if(typeof
-a==="number")return r$;else
+f$(a){return k0(a,0)}function
+k1(a){if(typeof
+a==="number")return ss;else
 switch(a[0]){case
 0:return[1,a[1]];case
 1:return[2,a[1]];case
@@ -809,189 +809,189 @@ switch(a[0]){case
 5:return[6,a[1]];case
 6:return[7,a[1]];case
 7:return[8,a[1]];case
-8:return[9,a[1]];default:return[0,kM(a[1])]}}function
-bP(a){if(typeof
-a==="number")return sa;else
+8:return[9,a[1]];default:return[0,k1(a[1])]}}function
+bR(a){if(typeof
+a==="number")return st;else
 switch(a[0]){case
-0:return[1,bO(a[1])];case
-1:return[3,bO(a[1])];case
-2:return[5,bO(a[1])];case
-3:return[7,bO(a[1])];case
-4:return[9,bO(a[1])];case
-5:return[1,bP(a[1])];case
-6:return[3,bP(a[1])];case
-7:return[5,bP(a[1])];case
-8:return[7,bP(a[1])];default:return[9,bP(a[1])]}}function
-bO(a){if(typeof
+0:return[1,bQ(a[1])];case
+1:return[3,bQ(a[1])];case
+2:return[5,bQ(a[1])];case
+3:return[7,bQ(a[1])];case
+4:return[9,bQ(a[1])];case
+5:return[1,bR(a[1])];case
+6:return[3,bR(a[1])];case
+7:return[5,bR(a[1])];case
+8:return[7,bR(a[1])];default:return[9,bR(a[1])]}}function
+bQ(a){if(typeof
 a==="number")return 0;else
 switch(a[0]){case
-0:return[0,bO(a[1])];case
-1:return[2,bO(a[1])];case
-2:return[4,bO(a[1])];case
-3:return[6,bO(a[1])];case
-4:return[8,bO(a[1])];case
-5:return[0,bP(a[1])];case
-6:return[2,bP(a[1])];case
-7:return[4,bP(a[1])];case
-8:return[6,bP(a[1])];default:return[8,bP(a[1])]}}function
-by(a){return a?a[1]:a}function
-R(b,a){return b?[0,R(b[1],a)]:a}function
-kN(a,b){return a?R(b,kN(a[1],b)):a}function
-dW(d,c){var
+0:return[0,bQ(a[1])];case
+1:return[2,bQ(a[1])];case
+2:return[4,bQ(a[1])];case
+3:return[6,bQ(a[1])];case
+4:return[8,bQ(a[1])];case
+5:return[0,bR(a[1])];case
+6:return[2,bR(a[1])];case
+7:return[4,bR(a[1])];case
+8:return[6,bR(a[1])];default:return[8,bR(a[1])]}}function
+bz(a){return a?a[1]:a}function
+N(b,a){return b?[0,N(b[1],a)]:a}function
+k2(a,b){return a?N(b,k2(a[1],b)):a}function
+d7(d,c){var
 a=d,b=c;for(;;){if(a){if(b){var
 a=a[1],b=b[1];continue}return a}return a}}function
-cq(b,a){return b?a:a?0:1}function
-q(d,c){var
+ct(b,a){return b?a:a?0:1}function
+o(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return a?0:1}}function
-$(d,c){var
+aa(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return 1}}function
-aJ(b,a){return $([0,b],a)}function
-kO(c){var
+aI(b,a){return aa([0,b],a)}function
+k3(c){var
 a=c;for(;;){if(a){var
 b=a[1];if(b){var
 a=b[1];continue}return b}return 1}}function
-f1(c,b,a){return c?j(b,f1(c[1],b,a)):a}function
-kP(a){if(a)var
-b=a[1],d=b?[0,kP(b[1])]:b,c=d;else
+ga(c,b,a){return c?j(b,ga(c[1],b,a)):a}function
+k4(a){if(a)var
+b=a[1],d=b?[0,k4(b[1])]:b,c=d;else
 var
 c=a;return c}function
-h1(d,c){var
+ic(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return a?0:1}}function
-kQ(a){if(D(a,b))return b;var
-e=aW(a,aH(2)),f=e[1];return I(e[2],d)?p(c(2,kQ(f))):p(c(2,c(2,f)))}function
-kR(c,a){return br(b,aI(c,a))}function
-f2(a,i,h){var
+k5(a){if(D(a,b))return b;var
+e=aS(a,aH(2)),f=e[1];return K(e[2],d)?q(c(2,k5(f))):q(c(2,c(2,f)))}function
+k6(c,a){return bj(b,aL(c,a))}function
+gb(a,i,h){var
 c=i,f=h;for(;;){if(D(f,b))return j(a,c);var
-g=aW(f,aH(2)),e=g[1];if(I(g[2],d)){var
-c=f2(a,c,e),f=e;continue}return j(a,f2(a,f2(a,c,e),e))}}function
-kS(a){function
-c(b){return C(a,b)}return function(a){return f2(c,b,a)}}function
-f3(a){if(D(a,b))return sc;var
-c=aW(a,aH(2)),e=c[1];return I(c[2],d)?[0,f3(e)]:[0,f3(e)]}function
-f4(a){if(D(a,b))return b;var
-c=aW(a,aH(2)),e=c[1];return I(c[2],d)?p(f4(e)):p(f4(e))}function
-kT(c,b){var
-a=kA(c,b);return 0===a?0:0<=a?2:1}function
-f5(j,i){var
-c=j,a=i;for(;;){if(D(c,b))return D(a,b)?1:I(aW(a,aH(2))[2],d)?0:0;var
-g=aW(c,aH(2)),h=g[1];if(I(g[2],d)){if(D(a,b))return 0;var
-e=aW(a,aH(2)),k=e[1];if(I(e[2],d)){var
+g=aS(f,aH(2)),e=g[1];if(K(g[2],d)){var
+c=gb(a,c,e),f=e;continue}return j(a,gb(a,gb(a,c,e),e))}}function
+gc(a){function
+c(b){return C(a,b)}return function(a){return gb(c,b,a)}}function
+gd(a){if(D(a,b))return sv;var
+c=aS(a,aH(2)),e=c[1];return K(c[2],d)?[0,gd(e)]:[0,gd(e)]}function
+ge(a){if(D(a,b))return b;var
+c=aS(a,aH(2)),e=c[1];return K(c[2],d)?q(ge(e)):q(ge(e))}function
+k7(c,b){var
+a=kP(c,b);return 0===a?0:0<=a?2:1}function
+gf(j,i){var
+c=j,a=i;for(;;){if(D(c,b))return D(a,b)?1:K(aS(a,aH(2))[2],d)?0:0;var
+g=aS(c,aH(2)),h=g[1];if(K(g[2],d)){if(D(a,b))return 0;var
+e=aS(a,aH(2)),k=e[1];if(K(e[2],d)){var
 c=h,a=k;continue}return 0}if(D(a,b))return 0;var
-f=aW(a,aH(2)),l=f[1];if(I(f[2],d))return 0;var
+f=aS(a,aH(2)),l=f[1];if(K(f[2],d))return 0;var
 c=h,a=l;continue}}function
-f6(b,a){return 2<=kT(b,a)?0:1}function
-dX(i,e,a){if(i){var
+gg(b,a){return 2<=k7(b,a)?0:1}function
+d8(i,e,a){if(i){var
 f=i[1];if(D(e,b))return[0,b,[0,b,a]];var
-w=aW(e,aH(2)),g=w[1];if(I(w[2],d)){if(D(a,b))return[0,b,[0,e,b]];var
-m=aW(a,aH(2)),A=m[1];if(I(m[2],d)){var
-j=dX(f,g,A),x=j[2];return[0,c(2,j[1]),x]}var
-k=dX(f,g,a),l=k[2],y=l[2],z=[0,c(2,l[1]),y];return[0,k[1],z]}if(D(a,b))return[0,b,[0,e,b]];var
-v=aW(a,aH(2)),h=v[1];if(I(v[2],d)){var
-n=dX(f,e,h),o=n[2],B=c(2,o[2]);return[0,n[1],[0,o[1],B]]}switch(kT(g,h)){case
+w=aS(e,aH(2)),g=w[1];if(K(w[2],d)){if(D(a,b))return[0,b,[0,e,b]];var
+m=aS(a,aH(2)),A=m[1];if(K(m[2],d)){var
+j=d8(f,g,A),x=j[2];return[0,c(2,j[1]),x]}var
+k=d8(f,g,a),l=k[2],y=l[2],z=[0,c(2,l[1]),y];return[0,k[1],z]}if(D(a,b))return[0,b,[0,e,b]];var
+v=aS(a,aH(2)),h=v[1];if(K(v[2],d)){var
+n=d8(f,e,h),o=n[2],B=c(2,o[2]);return[0,n[1],[0,o[1],B]]}switch(k7(g,h)){case
 0:return[0,e,[0,b,b]];case
 1:var
-p=dX(f,kR(h,g),e),q=p[2],r=q[2],C=[0,r,F(r,c(2,q[1]))];return[0,p[1],C];default:var
-s=dX(f,kR(g,h),a),t=s[2],u=t[2],E=[0,F(u,c(2,t[1])),u];return[0,s[1],E]}}return[0,b,[0,e,a]]}function
-f7(b,a){var
-c=f3(a);return dX(R(f3(b),c),b,a)}function
-kU(c,i,h){var
+p=d8(f,k6(h,g),e),q=p[2],r=q[2],C=[0,r,E(r,c(2,q[1]))];return[0,p[1],C];default:var
+s=d8(f,k6(g,h),a),t=s[2],u=t[2],F=[0,E(u,c(2,t[1])),u];return[0,s[1],F]}}return[0,b,[0,e,a]]}function
+gh(b,a){var
+c=gd(a);return d8(N(gd(b),c),b,a)}function
+k8(c,i,h){var
 e=i,a=h;for(;;){if(D(e,b))return a;var
-f=aW(e,aH(2)),g=f[1];if(I(f[2],d)){var
-e=g,a=aq(c,a,a);continue}return aq(c,a,kU(c,g,aq(c,a,a)))}}function
-eP(a){return kU(R,a,sd)}function
-kV(a){return a?p(kV(a[1])):b}function
-cr(f,e){var
+f=aS(e,aH(2)),g=f[1];if(K(f[2],d)){var
+e=g,a=aq(c,a,a);continue}return aq(c,a,k8(c,g,aq(c,a,a)))}}function
+e1(a){return k8(N,a,sw)}function
+k9(a){return a?q(k9(a[1])):b}function
+cu(f,e){var
 a=f,d=e;for(;;)if(typeof
 a==="number")return d;else
 switch(a[0]){case
 0:var
-g=C(c(2,p(c(2,c(2,b)))),d),a=a[1],d=g;continue;case
+g=C(c(2,q(c(2,c(2,b)))),d),a=a[1],d=g;continue;case
 1:var
-h=F(b,C(c(2,p(c(2,c(2,b)))),d)),a=a[1],d=h;continue;case
+h=E(b,C(c(2,q(c(2,c(2,b)))),d)),a=a[1],d=h;continue;case
 2:var
-i=C(c(2,p(c(2,c(2,b)))),d),j=F(c(2,b),i),a=a[1],d=j;continue;case
+i=C(c(2,q(c(2,c(2,b)))),d),j=E(c(2,b),i),a=a[1],d=j;continue;case
 3:var
-k=C(c(2,p(c(2,c(2,b)))),d),l=F(p(c(2,b)),k),a=a[1],d=l;continue;case
+k=C(c(2,q(c(2,c(2,b)))),d),l=E(q(c(2,b)),k),a=a[1],d=l;continue;case
 4:var
-m=C(c(2,p(c(2,c(2,b)))),d),n=F(c(2,c(2,b)),m),a=a[1],d=n;continue;case
+m=C(c(2,q(c(2,c(2,b)))),d),n=E(c(2,c(2,b)),m),a=a[1],d=n;continue;case
 5:var
-o=C(c(2,p(c(2,c(2,b)))),d),q=F(p(c(2,c(2,b))),o),a=a[1],d=q;continue;case
+o=C(c(2,q(c(2,c(2,b)))),d),p=E(q(c(2,c(2,b))),o),a=a[1],d=p;continue;case
 6:var
-r=C(c(2,p(c(2,c(2,b)))),d),s=F(c(2,p(c(2,b))),r),a=a[1],d=s;continue;case
+r=C(c(2,q(c(2,c(2,b)))),d),s=E(c(2,q(c(2,b))),r),a=a[1],d=s;continue;case
 7:var
-t=C(c(2,p(c(2,c(2,b)))),d),u=F(p(c(2,p(c(2,b)))),t),a=a[1],d=u;continue;case
+t=C(c(2,q(c(2,c(2,b)))),d),u=E(q(c(2,q(c(2,b)))),t),a=a[1],d=u;continue;case
 8:var
-v=C(c(2,p(c(2,c(2,b)))),d),w=F(c(2,c(2,c(2,b))),v),a=a[1],d=w;continue;default:var
-x=C(c(2,p(c(2,c(2,b)))),d),y=F(p(c(2,c(2,c(2,b)))),x),a=a[1],d=y;continue}}function
-h2(a){if(D(a,b))return se;var
-c=aW(a,aH(2)),e=c[1];return I(c[2],d)?bO(h2(e)):bP(h2(e))}function
-f8(a){return f0(h2(a))}function
-kW(c,b){var
-a=kA(c,b);return 0===a?0:0<=a?2:1}function
-h3(b,a){return 1===kW(b,a)?1:0}var
-kX=F,sg=Q;function
-b7(k,f){if(0<=aR(f)){var
-g=kC(f);if(0<=g){var
+v=C(c(2,q(c(2,c(2,b)))),d),w=E(c(2,c(2,c(2,b))),v),a=a[1],d=w;continue;default:var
+x=C(c(2,q(c(2,c(2,b)))),d),y=E(q(c(2,c(2,c(2,b)))),x),a=a[1],d=y;continue}}function
+id(a){if(D(a,b))return sx;var
+c=aS(a,aH(2)),e=c[1];return K(c[2],d)?bQ(id(e)):bR(id(e))}function
+gi(a){return f$(id(a))}function
+k_(c,b){var
+a=kP(c,b);return 0===a?0:0<=a?2:1}function
+ie(b,a){return 1===k_(b,a)?1:0}var
+k$=E,sz=T;function
+b8(k,f){if(0<=aR(f)){var
+g=kR(f);if(0<=g){var
 e=b,c=k,a=g;for(;;){if(0===a)return e;var
-h=a>>>1|0,i=C(c,c),j=1===(a&1)?C(e,c):e,e=j,c=i,a=h;continue}}return fZ(r_)}return d}function
-h4(c){var
-a=aR(c);return 0===a?d:0<a?b:Q(b)}function
-h5(a){return 0<=aR(a)?a:d}function
-dY(a){var
+h=a>>>1|0,i=C(c,c),j=1===(a&1)?C(e,c):e,e=j,c=i,a=h;continue}}return f_(sr)}return d}function
+ig(c){var
+a=aR(c);return 0===a?d:0<a?b:T(b)}function
+ih(a){return 0<=aR(a)?a:d}function
+d9(a){var
 c=aR(a);return 0===c?b:0<c?a:b}function
-kY(m){var
+la(m){var
 a=m;for(;;)if(typeof
 a==="number")return d;else
 switch(a[0]){case
 0:var
 a=a[1];continue;case
-1:return cr(a[1],b);case
+1:return cu(a[1],b);case
 2:var
-e=c(2,b);return cr(a[1],e);case
+e=c(2,b);return cu(a[1],e);case
 3:var
-f=p(c(2,b));return cr(a[1],f);case
+f=q(c(2,b));return cu(a[1],f);case
 4:var
-g=c(2,c(2,b));return cr(a[1],g);case
+g=c(2,c(2,b));return cu(a[1],g);case
 5:var
-h=p(c(2,c(2,b)));return cr(a[1],h);case
+h=q(c(2,c(2,b)));return cu(a[1],h);case
 6:var
-i=c(2,p(c(2,b)));return cr(a[1],i);case
+i=c(2,q(c(2,b)));return cu(a[1],i);case
 7:var
-j=p(c(2,p(c(2,b))));return cr(a[1],j);case
+j=q(c(2,q(c(2,b))));return cu(a[1],j);case
 8:var
-k=c(2,c(2,c(2,b)));return cr(a[1],k);default:var
-l=p(c(2,c(2,c(2,b))));return cr(a[1],l)}}function
-cs(b,a){var
-c=aR(a);return 0===c?d:1===c?kB(b,a):kJ(-1,kB(kJ(-1,b),a))}function
-kZ(a){var
+k=c(2,c(2,c(2,b)));return cu(a[1],k);default:var
+l=q(c(2,c(2,c(2,b))));return cu(a[1],l)}}function
+cv(b,a){var
+c=aR(a);return 0===c?d:1===c?kQ(b,a):kY(-1,kQ(kY(-1,b),a))}function
+lb(a){var
 f=aR(a);if(0===f)return d;if(0<f){if(D(a,b))return d;var
-c=aW(a,aH(2)),e=c[1];return I(c[2],d)?f4(e):f4(e)}return d}function
-f9(a){return 0<aR(a)?IX(a):d}function
-eQ(b,c){var
-a=kC(c);return 0<=a?r3(b,a):r4(b,-a|0)}function
-ds(b,c){var
-a=kC(c);return 0<=a?r4(b,a):r3(b,-a|0)}function
-bQ(b,a){return a?a[1]:b}function
-bz(a){var
+c=aS(a,aH(2)),e=c[1];return K(c[2],d)?ge(e):ge(e)}return d}function
+gj(a){return 0<aR(a)?Jn(a):d}function
+e2(b,c){var
+a=kR(c);return 0<=a?sk(b,a):sl(b,-a|0)}function
+dv(b,c){var
+a=kR(c);return 0<=a?sl(b,a):sk(b,-a|0)}function
+bS(b,a){return a?a[1]:b}function
+bA(a){var
 b=a?a[2]:a;return b}function
 r(e,d,c){var
 b=e,a=d;for(;;){if(b){if(a){var
 b=b[1],a=a[2];continue}return c}return a?a[1]:c}}function
-G(d,c){var
+H(d,c){var
 a=d,b=c;for(;;){if(b){if(a){var
 a=a[2],b=b[1];continue}return a}var
 e=a?[0,a[1]]:a;return e}}function
-k0(a){if(a){var
-b=[0,a[1],0];return f(k0(a[2]),b)}return a}function
-eR(d,c){var
+lc(a){if(a){var
+b=[0,a[1],0];return f(lc(a[2]),b)}return a}function
+e3(d,c){var
 a=d,b=c;for(;;){if(a){var
 e=[0,a[1],b],a=a[2],b=e;continue}return b}}function
-dZ(a){if(a){var
-b=dZ(a[2]);return f(a[1],b)}return a}function
-h6(g,f,e){var
+d_(a){if(a){var
+b=d_(a[2]);return f(a[1],b)}return a}function
+ii(g,f,e){var
 b=f,a=e;for(;;){if(b){if(a){var
 c=aq(g,b[1],a[1]);if(c){var
 b=b[2],a=a[2];continue}var
@@ -1004,7 +1004,7 @@ var
 c=a;return c}function
 y(b,a){if(a){var
 c=y(b,a[2]);return f(j(b,a[1]),c)}return a}function
-bR(e,d,c){var
+bT(e,d,c){var
 a=d,b=c;for(;;){if(a){var
 f=aq(e,b,a[1]),a=a[2],b=f;continue}return b}}function
 an(c,b,a){if(a){var
@@ -1020,16 +1020,16 @@ m(d,c){var
 a=c;for(;;){if(a){var
 b=j(d,a[1]);if(b){var
 a=a[2];continue}return b}return 1}}function
-bs(b,e){var
+bu(b,e){var
 a=e;for(;;){if(a){var
-c=a[2],d=a[1];if(j(b,d))return[0,d,bs(b,c)];var
+c=a[2],d=a[1];if(j(b,d))return[0,d,bu(b,c)];var
 a=c;continue}return a}}function
-k1(d,c){var
+ld(d,c){var
 a=c;for(;;){if(a){var
 b=a[1];if(j(d,b))return[0,b];var
 a=a[2];continue}return a}}function
-aa(b,a){if(b)if(a)var
-d=aa(b[2],a[2]),c=[0,[0,b[1],a[1]],d];else
+W(b,a){if(b)if(a)var
+d=W(b[2],a[2]),c=[0,[0,b[1],a[1]],d];else
 var
 c=a;else
 var
@@ -1047,108 +1047,108 @@ aC(b,a){var
 c=a?[0,b,aC([0,b],a[1])]:a;return c}function
 al(b,a){var
 c=a?[0,b,al(b,a[1])]:a;return c}function
-k2(a){if(a){var
-e=k2(a[2]),f=C(c(2,b),e),g=a[1]?b:d;return F(g,f)}return d}function
-f_(j){function
+le(a){if(a){var
+e=le(a[2]),f=C(c(2,b),e),g=a[1]?b:d;return E(g,f)}return d}function
+gk(j){function
 a(a){return 0!==(j&1<<a)?1:0}var
-c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=k2([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<aR(b)?eP(b):0}function
-k3(a){return[0,a,b]}function
-d0(c,b){var
-a=kA(C(c[1],b[2]),C(b[1],c[2])),d=0===a?0:0<=a?2:1;return d?0:1}function
-ba(b,a){return D(C(b[1],a[2]),C(a[1],b[2]))}function
-dt(b,a){return[0,F(C(b[1],a[2]),C(a[1],b[2])),C(b[2],a[2])]}function
-a3(b,a){return[0,C(b[1],a[1]),C(b[2],a[2])]}function
-h7(a){return[0,Q(a[1]),a[2]]}function
-d1(b,a){return dt(b,h7(a))}function
-f$(f,c){var
-a=c[1],e=aR(a),g=0===e?[0,d,b]:0<e?[0,c[2],a]:[0,Q(c[2]),Q(a)];return a3(f,g)}function
-du(q){var
+c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=le([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<aR(b)?e1(b):0}function
+lf(a){return[0,a,b]}function
+d$(c,b){var
+a=kP(C(c[1],b[2]),C(b[1],c[2])),d=0===a?0:0<=a?2:1;return d?0:1}function
+bb(b,a){return D(C(b[1],a[2]),C(a[1],b[2]))}function
+dw(b,a){return[0,E(C(b[1],a[2]),C(a[1],b[2])),C(b[2],a[2])]}function
+a0(b,a){return[0,C(b[1],a[1]),C(b[2],a[2])]}function
+gl(a){return[0,T(a[1]),a[2]]}function
+dx(b,a){return dw(b,gl(a))}function
+gm(f,c){var
+a=c[1],e=aR(a),g=0===e?[0,d,b]:0<e?[0,c[2],a]:[0,T(c[2]),T(a)];return a0(f,g)}function
+dy(q){var
 a=q[2],b=q[1],o=aR(b);if(0===o)var
-c=[0,co(a),[0,d,h4(a)]];else
+c=[0,cr(a),[0,d,ig(a)]];else
 if(0<o){var
 n=aR(a);if(0===n)var
-c=[0,co(b),[0,h4(b),d]];else
+c=[0,cr(b),[0,ig(b),d]];else
 if(0<n)var
-l=f7(b,a),m=l[2],c=[0,l[1],[0,m[1],m[2]]];else
+l=gh(b,a),m=l[2],c=[0,l[1],[0,m[1],m[2]]];else
 var
-j=f7(b,Q(a)),k=j[2],c=[0,j[1],[0,k[1],Q(k[2])]]}else{var
-p=Q(b),i=aR(a);if(0===i)var
-c=[0,co(b),[0,h4(b),d]];else
+j=gh(b,T(a)),k=j[2],c=[0,j[1],[0,k[1],T(k[2])]]}else{var
+p=T(b),i=aR(a);if(0===i)var
+c=[0,cr(b),[0,ig(b),d]];else
 if(0<i)var
-g=f7(p,a),h=g[2],c=[0,g[1],[0,Q(h[1]),h[2]]];else
+g=gh(p,a),h=g[2],c=[0,g[1],[0,T(h[1]),h[2]]];else
 var
-e=f7(p,Q(a)),f=e[2],c=[0,e[1],[0,Q(f[1]),Q(f[2])]]}var
-r=c[2],s=dY(r[2]);return[0,r[1],s]}function
-bj(a){if(typeof
-a==="number")return si;else
+e=gh(p,T(a)),f=e[2],c=[0,e[1],[0,T(f[1]),T(f[2])]]}var
+r=c[2],s=d9(r[2]);return[0,r[1],s]}function
+bk(a){if(typeof
+a==="number")return sB;else
 switch(a[0]){case
 0:var
-b=bj(a[1]);return a$(bN(1,48),b);case
+b=bk(a[1]);return ba(bP(1,48),b);case
 1:var
-c=bj(a[1]);return a$(bN(1,49),c);case
+c=bk(a[1]);return ba(bP(1,49),c);case
 2:var
-d=bj(a[1]);return a$(bN(1,50),d);case
+d=bk(a[1]);return ba(bP(1,50),d);case
 3:var
-e=bj(a[1]);return a$(bN(1,51),e);case
+e=bk(a[1]);return ba(bP(1,51),e);case
 4:var
-f=bj(a[1]);return a$(bN(1,52),f);case
+f=bk(a[1]);return ba(bP(1,52),f);case
 5:var
-g=bj(a[1]);return a$(bN(1,53),g);case
+g=bk(a[1]);return ba(bP(1,53),g);case
 6:var
-h=bj(a[1]);return a$(bN(1,54),h);case
+h=bk(a[1]);return ba(bP(1,54),h);case
 7:var
-i=bj(a[1]);return a$(bN(1,55),i);case
+i=bk(a[1]);return ba(bP(1,55),i);case
 8:var
-j=bj(a[1]);return a$(bN(1,56),j);default:var
-k=bj(a[1]);return a$(bN(1,57),k)}}function
-eS(a){return typeof
-a==="number"?sj:bj(a)}function
-ct(a){return b7(c(2,b),a)}function
-k4(b,a){return ds(a,b)}function
-k5(b,a){return Q(ds(Q(a),b))}function
-ga(b,a){return Q(cs(Q(b),a))}function
-M(c,b){var
-a=eQ(b,c);return[0,a,a]}function
-k6(d,c,a){var
-b=eQ(c,d),e=ga(b,a);return[0,cs(b,a),e]}function
-A(b,a){return[0,F(b[1],a[1]),F(b[2],a[2])]}function
-E(b,a){return[0,aI(b[1],a[2]),aI(b[2],a[1])]}function
-ab(a){return[0,Q(a[2]),Q(a[1])]}function
-k7(e,c,b,a){if(D(d,e))return D(d,b)?[0,C(e,b),C(c,a)]:D(a,d)?[0,C(c,b),C(e,a)]:[0,C(c,b),C(c,a)];if(D(c,d))return D(d,b)?[0,C(e,a),C(c,b)]:D(a,d)?[0,C(c,a),C(e,b)]:[0,C(e,a),C(e,b)];if(D(d,b))return[0,C(e,a),C(c,a)];if(D(a,d))return[0,C(c,b),C(e,b)];var
-f=br(C(e,b),C(c,a));return[0,h0(C(e,a),C(c,b)),f]}function
+j=bk(a[1]);return ba(bP(1,56),j);default:var
+k=bk(a[1]);return ba(bP(1,57),k)}}function
+e4(a){return typeof
+a==="number"?sC:bk(a)}function
+cw(a){return b8(c(2,b),a)}function
+lg(b,a){return dv(a,b)}function
+lh(b,a){return T(dv(T(a),b))}function
+gn(b,a){return T(cv(T(b),a))}function
+O(c,b){var
+a=e2(b,c);return[0,a,a]}function
+li(d,c,a){var
+b=e2(c,d),e=gn(b,a);return[0,cv(b,a),e]}function
+A(b,a){return[0,E(b[1],a[1]),E(b[2],a[2])]}function
+F(b,a){return[0,aL(b[1],a[2]),aL(b[2],a[1])]}function
+ab(a){return[0,T(a[2]),T(a[1])]}function
+lj(e,c,b,a){if(D(d,e))return D(d,b)?[0,C(e,b),C(c,a)]:D(a,d)?[0,C(c,b),C(e,a)]:[0,C(c,b),C(c,a)];if(D(c,d))return D(d,b)?[0,C(e,a),C(c,b)]:D(a,d)?[0,C(c,a),C(e,b)]:[0,C(e,a),C(e,b)];if(D(d,b))return[0,C(e,a),C(c,a)];if(D(a,d))return[0,C(c,b),C(e,b)];var
+f=bj(C(e,b),C(c,a));return[0,ib(C(e,a),C(c,b)),f]}function
 t(c,b,a){var
-d=k7(b[1],b[2],a[1],a[2]),e=k5(c,d[2]);return[0,k4(c,d[1]),e]}function
-S(b,a){var
-c=C(a[1],a[1]),e=C(a[2],a[2]),h=k5(b,br(c,e)),g=0;if(J(a[1],d)&&J(d,a[2])){var
+d=lj(b[1],b[2],a[1],a[2]),e=lh(c,d[2]);return[0,lg(c,d[1]),e]}function
+U(b,a){var
+c=C(a[1],a[1]),e=C(a[2],a[2]),h=lh(b,bj(c,e)),g=0;if(I(a[1],d)&&I(d,a[2])){var
 f=d;g=1}if(!g)var
-f=k4(b,h0(c,e));return[0,f,h]}function
-h8(b,a){var
-c=eQ(ct(b),b),d=ga(c,a[1]);return[0,cs(c,a[2]),d]}function
-b8(b,a){if(J(d,a[1]))return[0,h8(b,a)];var
-c=J(a[2],d),e=c?[0,ab(h8(b,ab(a)))]:c;return e}function
-h9(c){var
-a=f9(c);return I(C(a,a),c)?a:F(a,b)}function
-b9(b,a){var
-c=J(d,a[1]);if(c)var
-f=h9(eQ(a[2],b)),e=[0,[0,f9(eQ(a[1],b)),f]];else
+f=lg(b,ib(c,e));return[0,f,h]}function
+ij(b,a){var
+c=e2(cw(b),b),d=gn(c,a[1]);return[0,cv(c,a[2]),d]}function
+b9(b,a){if(I(d,a[1]))return[0,ij(b,a)];var
+c=I(a[2],d),e=c?[0,ab(ij(b,ab(a)))]:c;return e}function
+ik(c){var
+a=gj(c);return K(C(a,a),c)?a:E(a,b)}function
+b_(b,a){var
+c=I(d,a[1]);if(c)var
+f=ik(e2(a[2],b)),e=[0,[0,gj(e2(a[1],b)),f]];else
 var
 e=c;return e}function
-d2(a){return 0===a[0]?a[2]:a[1]}function
-aN(f,d,c,b,a){if(b){if(a){var
-g=aN(f,d,c,b[2],a[2]);return[0,aq(c,b[1],a[1]),g]}return e(f,b)}return e(d,a)}function
-cQ(b,a){return ds(b,a)}function
-aS(a,c,b){if(D(d,a)){var
-e=b[1],f=Q(cQ(Q(C(a,b[2])),c));return[0,cQ(C(a,e),c),f]}var
-g=b[2],h=Q(cQ(Q(C(a,b[1])),c));return[0,cQ(C(a,g),c),h]}function
+ea(a){return 0===a[0]?a[2]:a[1]}function
+aO(f,d,c,b,a){if(b){if(a){var
+g=aO(f,d,c,b[2],a[2]);return[0,aq(c,b[1],a[1]),g]}return e(f,b)}return e(d,a)}function
+cU(b,a){return dv(b,a)}function
+aT(a,c,b){if(D(d,a)){var
+e=b[1],f=T(cU(T(C(a,b[2])),c));return[0,cU(C(a,e),c),f]}var
+g=b[2],h=T(cU(T(C(a,b[1])),c));return[0,cU(C(a,g),c),h]}function
 as(a){var
-c=Q(ds(Q(a[2]),b));return[0,ds(a[1],b),c]}function
-d3(c,b,a){var
-e=k7(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=J(f,d)?a[2]:a[1],i=ga(f,h),j=J(g,d)?a[1]:a[2];return[0,cs(g,j),i]}function
-b_(a){return br(a[2],Q(a[1]))}var
+c=T(dv(T(a[2]),b));return[0,dv(a[1],b),c]}function
+eb(c,b,a){var
+e=lj(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=I(f,d)?a[2]:a[1],i=gn(f,h),j=I(g,d)?a[1]:a[2];return[0,cv(g,j),i]}function
+b$(a){return bj(a[2],T(a[1]))}var
 u=[0,d,d];function
-b$(a){return[0,a[1],a[1]]}function
-cu(a){return[0,a[2],a[2]]}function
-bS(b,a){switch(a[0]){case
+ca(a){return[0,a[1],a[1]]}function
+cx(a){return[0,a[2],a[2]]}function
+bU(b,a){switch(a[0]){case
 0:return[0,a[1]];case
 1:return[1,a[1]];case
 2:return[2,a[1]];case
@@ -1164,80 +1164,80 @@ f=j(b,a[2]);return[7,j(b,a[1]),f];case
 8:return[8,j(b,a[1])];case
 9:return[9,j(b,a[1])];default:var
 g=j(b,a[4]),h=j(b,a[3]),i=j(b,a[2]);return[10,a[1],i,h,g]}}function
-aK(n,m){var
+aN(n,m){var
 d=n,c=m;for(;;){var
 a=c[1],b=d[1];switch(b[0]){case
-0:return 0===a[0]?q(b[1],a[1]):0;case
-1:return 1===a[0]?q(b[1],a[1]):0;case
-2:return 2===a[0]?I(b[1],a[1]):0;case
+0:return 0===a[0]?o(b[1],a[1]):0;case
+1:return 1===a[0]?o(b[1],a[1]):0;case
+2:return 2===a[0]?K(b[1],a[1]):0;case
 3:if(3===a[0]){var
-f=aK(b[1],a[1]);if(f){var
+f=aN(b[1],a[1]);if(f){var
 d=b[2],c=a[2];continue}return f}return 0;case
 4:if(4===a[0]){var
-g=aK(b[1],a[1]);if(g){var
+g=aN(b[1],a[1]);if(g){var
 d=b[2],c=a[2];continue}return g}return 0;case
 5:if(5===a[0]){var
 d=b[1],c=a[1];continue}return 0;case
 6:if(6===a[0]){var
-h=aK(b[1],a[1]);if(h){var
+h=aN(b[1],a[1]);if(h){var
 d=b[2],c=a[2];continue}return h}return 0;case
 7:if(7===a[0]){var
-i=aK(b[1],a[1]);if(i){var
+i=aN(b[1],a[1]);if(i){var
 d=b[2],c=a[2];continue}return i}return 0;case
 8:if(8===a[0]){var
 d=b[1],c=a[1];continue}return 0;case
 9:if(9===a[0]){var
 d=b[1],c=a[1];continue}return 0;default:if(10===a[0]){var
-j=cq(b[1],a[1]);if(j){var
-k=aK(b[2],a[2]);if(k){var
-l=aK(b[3],a[3]);if(l){var
+j=ct(b[1],a[1]);if(j){var
+k=aN(b[2],a[2]);if(k){var
+l=aN(b[3],a[3]);if(l){var
 d=b[4],c=a[4];continue}var
 e=l}else
 var
 e=k}else
 var
 e=j;return e}return 0}}}function
-gb(b){var
+go(b){var
 a=b[1];return 2===a[0]?[0,a[1]]:0}function
-a4(c,b){var
-a=gb(b);return a?I(c,a[1]):a}function
-eT(a){return J(co(a),c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b))))))))))))))))}function
+a5(c,b){var
+a=go(b);return a?K(c,a[1]):a}function
+e5(a){return I(cr(a),c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b))))))))))))))))}function
 l(a){return[0,[2,a]]}function
-B(b,a){if(a4(d,b))return a;if(a4(d,a))return b;var
-c=gb(b);if(c){var
-e=c[1],f=gb(a);if(f){var
-g=f[1];if(eT(e)&&eT(g))return l(F(e,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
-bk(a){var
+B(b,a){if(a5(d,b))return a;if(a5(d,a))return b;var
+c=go(b);if(c){var
+e=c[1],f=go(a);if(f){var
+g=f[1];if(e5(e)&&e5(g))return l(E(e,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
+bl(a){var
 b=a[1];switch(b[0]){case
 2:var
-c=b[1];return eT(c)?l(Q(c)):[0,[5,a]];case
+c=b[1];return e5(c)?l(T(c)):[0,[5,a]];case
 5:return b[1];default:return[0,[5,a]]}}function
-w(b,a){if(a4(d,a))return b;if(a4(d,b))return bk(a);var
+x(b,a){if(a5(d,a))return b;if(a5(d,b))return bl(a);var
 c=b[1];if(0===c[0]){var
-e=a[1];return 0===e[0]?q(c[1],e[1])?l(d):[0,[4,b,a]]:[0,[4,b,a]]}return[0,[4,b,a]]}function
-T(a){var
-c=gb(a);if(c){var
-b=c[1];return eT(b)?l(C(b,b)):[0,[8,a]]}return[0,[8,a]]}function
-s(a,c){if(!a4(d,a)&&!a4(b,c)){if(!a4(d,c)&&!a4(b,a))return aK(a,c)?T(a):[0,[6,a,c]];return c}return a}function
-am(c,a){return a4(b,a)?c:[0,[7,c,a]]}function
-aF(a){return a4(b,a)?a:[0,[9,a]]}function
-k8(d,c,b,a){return[0,[10,d,c,b,a]]}function
-bb(f,e,d,c){var
+e=a[1];return 0===e[0]?o(c[1],e[1])?l(d):[0,[4,b,a]]:[0,[4,b,a]]}return[0,[4,b,a]]}function
+V(a){var
+c=go(a);if(c){var
+b=c[1];return e5(b)?l(C(b,b)):[0,[8,a]]}return[0,[8,a]]}function
+s(a,c){if(!a5(d,a)&&!a5(b,c)){if(!a5(d,c)&&!a5(b,a))return aN(a,c)?V(a):[0,[6,a,c]];return c}return a}function
+am(c,a){return a5(b,a)?c:[0,[7,c,a]]}function
+aJ(a){return a5(b,a)?a:[0,[9,a]]}function
+lk(d,c,b,a){return[0,[10,d,c,b,a]]}function
+bc(f,e,d,c){var
 b=d,a=c;for(;;){if(b){var
-g=b[1],h=[0,j(e,bS(function(b){return function(a){return r(a,b,f)}}(a),g)),a],b=b[2],a=h;continue}return a}}function
-k9(d,f,k,i,h){var
+g=b[1],h=[0,j(e,bU(function(b){return function(a){return r(a,b,f)}}(a),g)),a],b=b[2],a=h;continue}return a}}function
+ll(d,f,k,i,h){var
 b=k,c=i,a=h;for(;;){if(c){var
 e=c[2],g=c[1];if(b){if(b[1]){var
-l=[0,j(f,bS(function(b){return function(a){return r(a,b,d)}}(a),g)),a],b=bz(b),c=e,a=l;continue}var
+l=[0,j(f,bU(function(b){return function(a){return r(a,b,d)}}(a),g)),a],b=bA(b),c=e,a=l;continue}var
 b=b[2],c=e,a=[0,d,a];continue}var
-m=[0,j(f,bS(function(b){return function(a){return r(a,b,d)}}(a),g)),a],b=bz(b),c=e,a=m;continue}return a}}function
-eU(b,a){if(a){var
+m=[0,j(f,bU(function(b){return function(a){return r(a,b,d)}}(a),g)),a],b=bA(b),c=e,a=m;continue}return a}}function
+e6(b,a){if(a){var
 c=a[2];if(b){var
-e=eU(b[1],c);return[0,a[1],e]}var
+e=e6(b[1],c);return[0,a[1],e]}var
 d=[0,1,c]}else
 var
 d=a;return d}function
-k_(a){switch(a[0]){case
+lm(a){switch(a[0]){case
 10:return[0,a[2],[0,a[3],[0,a[4],0]]];case
 5:case
 8:case
@@ -1245,57 +1245,57 @@ k_(a){switch(a[0]){case
 0:case
 1:case
 2:return 0;default:return[0,a[1],[0,a[2],0]]}}function
-gc(j,g){var
-k=0,l=an(eU,e(function(a){return 0},g),j),c=eR(g,0),b=l,a=k;for(;;){if(c){if(b){var
-d=b[2],f=b[1],h=[0,f,a],i=f?an(eU,d,k_(c[1])):d,c=c[2],b=i,a=h;continue}return a}return a}}function
-cR(a){var
+gp(j,g){var
+k=0,l=an(e6,e(function(a){return 0},g),j),c=e3(g,0),b=l,a=k;for(;;){if(c){if(b){var
+d=b[2],f=b[1],h=[0,f,a],i=f?an(e6,d,lm(c[1])):d,c=c[2],b=i,a=h;continue}return a}return a}}function
+cV(a){var
 b=0;function
-c(a){return[0,a]}return bb(l(d),c,a,b)}function
-bc(d,c){var
-a=d,b=0;for(;;){if(a){if(aK(c,a[1]))return b;var
+c(a){return[0,a]}return bc(l(d),c,a,b)}function
+bd(d,c){var
+a=d,b=0;for(;;){if(a){if(aN(c,a[1]))return b;var
 a=a[2],b=[0,b];continue}return a}}function
-dv(d,b){var
-e=b[1];if(aj(function(a){return aK(d,a)},e))return b;var
+dz(d,b){var
+e=b[1];if(aj(function(a){return aN(d,a)},e))return b;var
 a=d[1];switch(a[0]){case
 10:var
-j=dv(a[2],b),k=dv(a[3],j),c=dv(a[4],k);break;case
+j=dz(a[2],b),k=dz(a[3],j),c=dz(a[4],k);break;case
 5:case
 8:case
 9:var
-c=dv(a[1],b);break;case
+c=dz(a[1],b);break;case
 0:case
 1:case
 2:var
 c=b;break;default:var
-i=dv(a[1],b),c=dv(a[2],i)}var
-f=c[2],g=c[1],h=[0,bS(function(a){return bc(g,a)},a),f];return[0,[0,d,c[1]],h]}function
-cS(a){var
-b=bR(function(b,a){return dv(a,b)},a,sk),c=b[1],d=e(function(a){return bc(c,a)},a);return[0,k0(b[2]),d]}function
-gd(a){return an(function(b,a){return F(b_(b),a)},d,a)}function
-cv(b,c,a){var
-d=gd(a),e=h0(c[2],F(b[2],d)),f=gd(a);return[0,b,[0,br(c[1],aI(b[1],f)),e],a]}function
-_(a){return[0,a,a,0]}function
-ca(b,a){var
+i=dz(a[1],b),c=dz(a[2],i)}var
+f=c[2],g=c[1],h=[0,bU(function(a){return bd(g,a)},a),f];return[0,[0,d,c[1]],h]}function
+cW(a){var
+b=bT(function(b,a){return dz(a,b)},a,sD),c=b[1],d=e(function(a){return bd(c,a)},a);return[0,lc(b[2]),d]}function
+e7(a){return an(function(b,a){return E(b$(b),a)},d,a)}function
+cy(b,c,a){var
+d=e7(a),e=ib(c[2],E(b[2],d)),f=e7(a);return[0,b,[0,bj(c[1],aL(b[1],f)),e],a]}function
+$(a){return[0,a,a,0]}function
+cb(b,a){var
 c=a[3],d=b[3];function
 e(a){return a}var
-f=aN(function(a){return a},e,A,d,c),g=A(b[2],a[2]);return cv(A(b[1],a[1]),g,f)}function
-bt(b,a){var
-c=a[3],d=b[3],e=aN(function(a){return a},ab,E,d,c),f=E(b[2],a[2]);return cv(E(b[1],a[1]),f,e)}function
-eV(a){var
+f=aO(function(a){return a},e,A,d,c),g=A(b[2],a[2]);return cy(A(b[1],a[1]),g,f)}function
+bv(b,a){var
+c=a[3],d=b[3],e=aO(function(a){return a},ab,F,d,c),f=F(b[2],a[2]);return cy(F(b[1],a[1]),f,e)}function
+e8(a){var
 b=e(ab,a[3]),c=ab(a[2]);return[0,ab(a[1]),c,b]}function
-aO(a,c,b){var
+aP(a,c,b){var
 d=A(b[2],b[1]),e=A(c[2],c[1]),f=b[3],g=c[3];function
 h(c,b){var
 f=t(a,e,b);return as(A(t(a,d,c),f))}function
 i(b){return as(t(a,e,b))}var
-j=aN(function(b){return as(t(a,d,b))},i,h,g,f),k=t(a,c[2],b[2]);return cv(t(a,c[1],b[1]),k,j)}function
-eW(b,a){var
-c=a[3],d=A(a[2],a[1]),f=e(function(a){return t(b,d,a)},c),g=S(b,a[2]);return cv(S(b,a[1]),g,f)}function
-h_(a,b){var
-c=b9(a,b[1]);if(c){var
-g=c[1],d=b9(a,b[2]);if(d){var
-h=d[1],f=b8(a,A(h,g));if(f)var
-l=b[3],m=f[1],i=[0,cv(g,h,e(function(b){return t(a,m,b)},l))];else
+j=aO(function(b){return as(t(a,d,b))},i,h,g,f),k=t(a,c[2],b[2]);return cy(t(a,c[1],b[1]),k,j)}function
+e9(b,a){var
+c=a[3],d=A(a[2],a[1]),f=e(function(a){return t(b,d,a)},c),g=U(b,a[2]);return cy(U(b,a[1]),g,f)}function
+il(a,b){var
+c=b_(a,b[1]);if(c){var
+g=c[1],d=b_(a,b[2]);if(d){var
+h=d[1],f=b9(a,A(h,g));if(f)var
+l=b[3],m=f[1],i=[0,cy(g,h,e(function(b){return t(a,m,b)},l))];else
 var
 i=f;var
 j=i}else
@@ -1304,499 +1304,499 @@ j=d;var
 k=j}else
 var
 k=c;return k}function
-d4(a,c,b){var
-d=b8(a,b[1]);if(d){var
-f=b8(a,b[2]);if(f)var
-h=f[1],g=t(a,c[1],d[1]),k=b[3],l=c[3],m=function(c,b){return E(c,t(a,g,b))},n=function(b){return ab(t(a,g,b))},o=aN(function(a){return a},n,m,l,k),p=e(function(b){return t(a,h,b)},o),i=[0,cv(g,t(a,c[2],h),p)];else
+ec(a,c,b){var
+d=b9(a,b[1]);if(d){var
+f=b9(a,b[2]);if(f)var
+h=f[1],g=t(a,c[1],d[1]),k=b[3],l=c[3],m=function(c,b){return F(c,t(a,g,b))},n=function(b){return ab(t(a,g,b))},o=aO(function(a){return a},n,m,l,k),p=e(function(b){return t(a,h,b)},o),i=[0,cy(g,t(a,c[2],h),p)];else
 var
 i=f;var
 j=i}else
 var
 j=d;return j}function
-cT(b,a){return a?j(b,a[1]):a}function
-ge(a){var
-b=e(as,a[3]),c=as(A(a[2],a[1]));return cv(a[1],c,b)}function
-k$(a,k,j,r,c){var
-l=ge(k),m=ge(j),g=ge(c[1]),h=ge(c[2]),s=aO(a,l,h),u=bt(aO(a,m,g),s),i=d4(a,_(M(a,b)),u);if(i)var
-f=i[1],n=aO(a,bt(l,g),f),o=aO(a,bt(m,h),f),d=function(c,b){return aO(a,c,_(b))},v=j[3],w=k[3],x=function(b,a){var
-c=d(o,a);return ca(d(n,b),c)},y=function(a){return d(o,a)},z=aN(function(a){return d(n,a)},y,x,w,v),A=r[3],B=function(b,a){return bt(b,d(f,as(a)))[2]},C=function(a){return eV(d(f,as(a)))[2]},p=aN(function(a){return a[2]},C,B,z,A),D=g[2],E=e(function(b){return t(a,D,b)},p),F=cv(c[2][1],c[2][2],E),G=ab(h[2]),H=e(function(b){return t(a,G,b)},p),q=[0,[0,cv(c[1][1],c[1][2],H),F]];else
+cX(b,a){return a?j(b,a[1]):a}function
+gq(a){var
+b=e(as,a[3]),c=as(A(a[2],a[1]));return cy(a[1],c,b)}function
+ln(a,k,j,r,c){var
+l=gq(k),m=gq(j),g=gq(c[1]),h=gq(c[2]),s=aP(a,l,h),u=bv(aP(a,m,g),s),i=ec(a,$(O(a,b)),u);if(i)var
+f=i[1],n=aP(a,bv(l,g),f),o=aP(a,bv(m,h),f),d=function(c,b){return aP(a,c,$(b))},v=j[3],w=k[3],x=function(b,a){var
+c=d(o,a);return cb(d(n,b),c)},y=function(a){return d(o,a)},z=aO(function(a){return d(n,a)},y,x,w,v),A=r[3],B=function(b,a){return bv(b,d(f,as(a)))[2]},C=function(a){return e8(d(f,as(a)))[2]},p=aO(function(a){return a[2]},C,B,z,A),D=g[2],E=e(function(b){return t(a,D,b)},p),F=cy(c[2][1],c[2][2],E),G=ab(h[2]),H=e(function(b){return t(a,G,b)},p),q=[0,[0,cy(c[1][1],c[1][2],H),F]];else
 var
 q=i;return q}function
-la(a,e,d,k){var
-p=eW(a,d),f=ca(eW(a,e),p),g=bt(ca(f,_(M(a,b))),k),l=aO(a,_(M(a,c(2,b))),f),q=eW(a,g),h=h_(a,bt(aO(a,_(M(a,c(2,c(2,b)))),f),q));if(h){var
-m=h[1],r=aO(a,m,d),i=d4(a,ca(aO(a,g,e),r),l);if(i)var
-s=aO(a,m,e),j=d4(a,bt(aO(a,g,d),s),l),t=j?[0,[0,i[1],j[1]]]:j,n=t;else
+lo(a,e,d,k){var
+p=e9(a,d),f=cb(e9(a,e),p),g=bv(cb(f,$(O(a,b))),k),l=aP(a,$(O(a,c(2,b))),f),q=e9(a,g),h=il(a,bv(aP(a,$(O(a,c(2,c(2,b)))),f),q));if(h){var
+m=h[1],r=aP(a,m,d),i=ec(a,cb(aP(a,g,e),r),l);if(i)var
+s=aP(a,m,e),j=ec(a,bv(aP(a,g,d),s),l),t=j?[0,[0,i[1],j[1]]]:j,n=t;else
 var
 n=i;var
 o=n}else
 var
 o=h;var
-u=cT(function(b){return k$(a,e,d,k,b)},o);return cT(function(b){return k$(a,e,d,k,b)},u)}function
-cw(d,b,a){if(b){if(a)return aq(d,b[1],a[1]);var
+u=cX(function(b){return ln(a,e,d,k,b)},o);return cX(function(b){return ln(a,e,d,k,b)},u)}function
+cz(d,b,a){if(b){if(a)return aq(d,b[1],a[1]);var
 c=a}else
 var
 c=b;return c}function
-bA(b,j,i){var
-f=_(u);return function(a){switch(a[0]){case
+bB(b,j,i){var
+f=$(u);return function(a){switch(a[0]){case
 0:return[0,r(a[1],j,f)];case
 1:return[0,r(a[1],i,f)];case
-2:return[0,_(M(b,a[1]))];case
+2:return[0,$(O(b,a[1]))];case
 3:var
-k=a[2],l=a[1];return cw(function(b,a){return[0,ca(b,a)]},l,k);case
+k=a[2],l=a[1];return cz(function(b,a){return[0,cb(b,a)]},l,k);case
 4:var
-m=a[2],n=a[1];return cw(function(b,a){return[0,bt(b,a)]},n,m);case
+m=a[2],n=a[1];return cz(function(b,a){return[0,bv(b,a)]},n,m);case
 5:var
-o=a[1];return cT(function(a){return[0,eV(a)]},o);case
+o=a[1];return cX(function(a){return[0,e8(a)]},o);case
 6:var
-p=a[2],q=a[1];return cw(function(c,a){return[0,aO(b,c,a)]},q,p);case
+p=a[2],q=a[1];return cz(function(c,a){return[0,aP(b,c,a)]},q,p);case
 7:var
-s=a[2],t=a[1];return cw(function(a,c){return d4(b,a,c)},t,s);case
+s=a[2],t=a[1];return cz(function(a,c){return ec(b,a,c)},t,s);case
 8:var
-u=a[1];return cT(function(a){return[0,eW(b,a)]},u);case
+u=a[1];return cX(function(a){return[0,e9(b,a)]},u);case
 9:var
-v=a[1];return cT(function(a){return h_(b,a)},v);default:var
+v=a[1];return cX(function(a){return il(b,a)},v);default:var
 c=a[2];if(c){var
 d=a[3];if(d){var
 e=a[4];if(e){var
-w=la(b,c[1],d[1],e[1]),x=a[1]?aZ:aw;return z(x,w)}var
+w=lo(b,c[1],d[1],e[1]),x=a[1]?aY:ay;return z(x,w)}var
 g=e}else
 var
 g=d;var
 h=g}else
 var
 h=c;return h}}}function
-d5(c){var
+dA(c){var
 a=c;for(;;)switch(a[0]){case
 0:return 0;case
 1:return 1;case
 6:var
 a=a[1];continue;default:var
-b=d5(a[1]);if(b)return b;var
+b=dA(a[1]);if(b)return b;var
 a=a[2];continue}}function
-cx(r,p){var
-b=r,a=p;for(;;)switch(b[0]){case
+cc(r,q){var
+b=r,a=q;for(;;)switch(b[0]){case
 0:if(0===a[0]){var
-c=I(b[1],a[1]);return c?f5(b[2],a[2]):c}return 0;case
+c=K(b[1],a[1]);return c?gf(b[2],a[2]):c}return 0;case
 1:var
 d=b[3],e=b[2];if(1===a[0]){var
-f=a[3],g=a[2],h=q(b[1],a[1]),i=h?I(e[1],g[1]):h,j=i?f5(e[2],g[2]):i,k=j?I(d[1],f[1]):j;return k?f5(d[2],f[2]):k}return 0;case
+f=a[3],g=a[2],h=o(b[1],a[1]),i=h?K(e[1],g[1]):h,j=i?gf(e[2],g[2]):i,k=j?K(d[1],f[1]):j;return k?gf(d[2],f[2]):k}return 0;case
 2:if(2===a[0]){var
-l=cx(b[1],a[1]);if(l){var
+l=cc(b[1],a[1]);if(l){var
 b=b[2],a=a[2];continue}return l}return 0;case
 3:if(3===a[0]){var
-m=cx(b[1],a[1]);if(m){var
+m=cc(b[1],a[1]);if(m){var
 b=b[2],a=a[2];continue}return m}return 0;case
 4:if(4===a[0]){var
-n=cx(b[1],a[1]);if(n){var
+n=cc(b[1],a[1]);if(n){var
 b=b[2],a=a[2];continue}return n}return 0;case
 5:if(5===a[0]){var
-o=cx(b[1],a[1]);if(o){var
-b=b[2],a=a[2];continue}return o}return 0;default:if(6===a[0]){var
+p=cc(b[1],a[1]);if(p){var
+b=b[2],a=a[2];continue}return p}return 0;default:if(6===a[0]){var
 b=b[1],a=a[1];continue}return 0}}function
-eX(c,a){switch(a[0]){case
+e_(c,a){switch(a[0]){case
 0:return[0,[0,a[1],a[2]]];case
 1:return 0;case
 2:var
-m=a[2],n=a[1],g=m,f=n,e=function(b,a){return[0,dt(b,a)]};break;case
+m=a[2],n=a[1],g=m,f=n,e=function(b,a){return[0,dw(b,a)]};break;case
 3:var
-o=a[2],p=a[1],g=o,f=p,e=function(b,a){return[0,d1(b,a)]};break;case
+o=a[2],p=a[1],g=o,f=p,e=function(b,a){return[0,dx(b,a)]};break;case
 4:var
-q=a[2],r=a[1],g=q,f=r,e=function(b,a){return[0,a3(b,a)]};break;case
+q=a[2],r=a[1],g=q,f=r,e=function(b,a){return[0,a0(b,a)]};break;case
 5:var
-s=a[2],t=a[1],g=s,f=t,e=function(c,a){return d0(a,[0,d,b])?0:[0,f$(c,a)]};break;default:var
-k=eX(c,a[1]);return k?j(c,k[1]):k}var
-h=eX(c,f);if(h){var
-i=eX(c,g);if(i)return e(h[1],i[1]);var
+s=a[2],t=a[1],g=s,f=t,e=function(c,a){return d$(a,[0,d,b])?0:[0,gm(c,a)]};break;default:var
+k=e_(c,a[1]);return k?j(c,k[1]):k}var
+h=e_(c,f);if(h){var
+i=e_(c,g);if(i)return e(h[1],i[1]);var
 l=i}else
 var
 l=h;return l}function
-sl(a){return 0}function
-cy(a){return eX(sl,a)}function
-bT(a,c){switch(c[0]){case
-0:return[0,k6(a,c[1],c[2])];case
+sE(a){return 0}function
+cA(a){return e_(sE,a)}function
+bV(a,c){switch(c[0]){case
+0:return[0,li(a,c[1],c[2])];case
 1:return 0;case
 2:var
-g=bT(a,c[1]);if(g)var
-h=bT(a,c[2]),D=h?[0,A(g[1],h[1])]:h,r=D;else
+g=bV(a,c[1]);if(g)var
+h=bV(a,c[2]),D=h?[0,A(g[1],h[1])]:h,r=D;else
 var
 r=g;return r;case
 3:var
-i=bT(a,c[1]);if(i)var
-j=bT(a,c[2]),F=j?[0,E(i[1],j[1])]:j,s=F;else
+i=bV(a,c[1]);if(i)var
+j=bV(a,c[2]),E=j?[0,F(i[1],j[1])]:j,s=E;else
 var
 s=i;return s;case
 4:var
-k=bT(a,c[1]);if(k)var
-l=bT(a,c[2]),G=l?[0,t(a,k[1],l[1])]:l,v=G;else
+k=bV(a,c[1]);if(k)var
+l=bV(a,c[2]),G=l?[0,t(a,k[1],l[1])]:l,v=G;else
 var
 v=k;return v;case
 5:var
-m=bT(a,c[1]);if(m){var
-n=bT(a,c[2]);if(n)var
-o=b8(a,n[1]),H=o?[0,t(a,m[1],o[1])]:o,w=H;else
+m=bV(a,c[1]);if(m){var
+n=bV(a,c[2]);if(n)var
+o=b9(a,n[1]),H=o?[0,t(a,m[1],o[1])]:o,w=H;else
 var
 w=n;var
 x=w}else
 var
 x=m;return x;default:var
-y=c[1],p=bT(a,y);if(p){var
-e=p[1];if(J(d,e[1]))return b9(a,e);var
-f=cy(y),K=f?L(ba([0,d,b],f[1])):f;if(K)return 0;if(J(d,e[2])){var
-B=b9(a,[0,e[2],e[2]]);return z(function(a){return[0,d,a[2]]},B)}var
-q=I(e[2],d),C=q?[0,u]:q;return C}return p}}function
-cz(b,a){return k6(b,a[1],a[2])}function
-lc(a,g,e,d){var
-h=[0,b,c(2,b)],i=[0,cz(a,a3(d1(d,e),h)),0],j=f(al(u,g),i),k=cz(a,d)[2],l=[0,cz(a,e)[1],k],m=[0,b,c(2,b)];return[0,cz(a,a3(dt(e,d),m)),l,j]}function
-d6(c,e,a){function
-b(a){return d6(c,e,a)}if(d5(a))switch(a[0]){case
+y=c[1],p=bV(a,y);if(p){var
+e=p[1];if(I(d,e[1]))return b_(a,e);var
+f=cA(y),J=f?M(bb([0,d,b],f[1])):f;if(J)return 0;if(I(d,e[2])){var
+B=b_(a,[0,e[2],e[2]]);return z(function(a){return[0,d,a[2]]},B)}var
+q=K(e[2],d),C=q?[0,u]:q;return C}return p}}function
+cB(b,a){return li(b,a[1],a[2])}function
+lp(a,g,e,d){var
+h=[0,b,c(2,b)],i=[0,cB(a,a0(dx(d,e),h)),0],j=f(al(u,g),i),k=cB(a,d)[2],l=[0,cB(a,e)[1],k],m=[0,b,c(2,b)];return[0,cB(a,a0(dw(e,d),m)),l,j]}function
+ed(c,e,a){function
+b(a){return ed(c,e,a)}if(dA(a))switch(a[0]){case
 0:return 0;case
-1:return fG(e,a[1],a[2],a[3]);case
+1:return fR(e,a[1],a[2],a[3]);case
 2:var
-g=b(a[2]),h=b(a[1]);return cw(function(b,a){return[0,ca(b,a)]},h,g);case
+g=b(a[2]),h=b(a[1]);return cz(function(b,a){return[0,cb(b,a)]},h,g);case
 3:var
-i=b(a[2]),j=b(a[1]);return cw(function(b,a){return[0,bt(b,a)]},j,i);case
+i=b(a[2]),j=b(a[1]);return cz(function(b,a){return[0,bv(b,a)]},j,i);case
 4:var
-f=a[2],d=a[1];if(cx(d,f)){var
-k=b(d);return cT(function(a){return[0,eW(c,a)]},k)}var
-l=b(f),m=b(d);return cw(function(b,a){return[0,aO(c,b,a)]},m,l);case
+f=a[2],d=a[1];if(cc(d,f)){var
+k=b(d);return cX(function(a){return[0,e9(c,a)]},k)}var
+l=b(f),m=b(d);return cz(function(b,a){return[0,aP(c,b,a)]},m,l);case
 5:var
-n=b(a[2]),o=b(a[1]);return cw(function(a,b){return d4(c,a,b)},o,n);default:var
-p=b(a[1]);return cT(function(a){return h_(c,a)},p)}return z(_,bT(c,a))}function
-aD(b,a){if(d5(a)){var
-c=d6(b,function(d,c,a){var
-e=aJ(d,lb),f=e?ba(c,a):e,g=f?[0,lc(b,d,c,a)]:f;return g},a);return z(function(a){return a[2]},c)}return bT(b,a)}function
-h$(a){var
-e=br(Q(a),d);return dY(F(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e))}function
-ld(a){return h5(F(h$(a),a))}function
-le(b,a){var
-c=ld(b),d=Q(cQ(Q(a[2]),c)),e=ld(b);return[0,cQ(a[1],e),d]}function
-cU(c,a,b){var
-d=aD(F(c,h$(a)),b);return z(function(b){return le(a,b)},d)}function
+n=b(a[2]),o=b(a[1]);return cz(function(a,b){return ec(c,a,b)},o,n);default:var
+p=b(a[1]);return cX(function(a){return il(c,a)},p)}return z($,bV(c,a))}function
+aD(b,a){if(dA(a)){var
+c=ed(b,function(d,c,a){var
+e=aI(d,dB),f=e?bb(c,a):e,g=f?[0,lp(b,d,c,a)]:f;return g},a);return z(function(a){return a[2]},c)}return bV(b,a)}function
+im(a){var
+e=bj(T(a),d);return d9(E(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e))}function
+lq(a){return ih(E(im(a),a))}function
+lr(b,a){var
+c=lq(b),d=T(cU(T(a[2]),c)),e=lq(b);return[0,cU(a[1],e),d]}function
+cY(c,a,b){var
+d=aD(E(c,im(a)),b);return z(function(b){return lr(a,b)},d)}function
 ao(d,a){var
-b=cU(d,a[2],a[1][1]);if(b)var
-c=cU(d,a[2],a[1][2]),f=c?[0,[0,b[1][1],c[1][2]]]:c,e=f;else
+b=cY(d,a[2],a[1][1]);if(b)var
+c=cY(d,a[2],a[1][2]),f=c?[0,[0,b[1][1],c[1][2]]]:c,e=f;else
 var
 e=b;return e}function
-lf(b,a){var
-c=Q(cQ(Q(a[2]),b));return[0,cQ(a[1],b),c]}function
-gf(b,a){var
-c=ga(b[2],a);return[0,cs(b[1],a),c]}function
-lg(h,g,d,b){var
-e=b[2],f=kV(d),i=c(2,f),j=C(kQ(f),i),a=gf(t(h,b[1],g),j),k=kO(d)?E(e,a):A(e,a);return[0,a,k]}function
-lh(a,d,c){if(c){var
-e=c[1];return lg(a,d,e,lh(a,d,e))}var
-f=M(a,b);return[0,M(a,b),f]}function
-li(e,g){var
-o=ct(e),p=C(c(2,c(2,b)),o),j=D(g[2],p);if(j){var
-n=eP(e),i=sm[1],d=n,f=0,a=i;for(;;){if(d){var
+ls(b,a){var
+c=T(cU(T(a[2]),b));return[0,cU(a[1],b),c]}function
+gr(b,a){var
+c=gn(b[2],a);return[0,cv(b[1],a),c]}function
+lt(h,g,d,b){var
+e=b[2],f=k9(d),i=c(2,f),j=C(k5(f),i),a=gr(t(h,b[1],g),j),k=k3(d)?F(e,a):A(e,a);return[0,a,k]}function
+lu(a,d,c){if(c){var
+e=c[1];return lt(a,d,e,lu(a,d,e))}var
+f=O(a,b);return[0,O(a,b),f]}function
+lv(e,g){var
+o=cw(e),p=C(c(2,c(2,b)),o),j=D(g[2],p);if(j){var
+n=e1(e),i=sF[1],d=n,f=0,a=i;for(;;){if(d){var
 h=d[1];if(a){var
 d=h,a=a[1];continue}var
 d=h,f=[0,f],a=i;continue}var
-k=R(kN(sp,R(sn,f)),so),l=lh(e,g,k),q=lg(e,g,k,l)[2][2],m=[0,[0,l[2][1],q]];break}}else
+k=N(k2(sI,N(sG,f)),sH),l=lu(e,g,k),q=lt(e,g,k,l)[2][2],m=[0,[0,l[2][1],q]];break}}else
 var
 m=j;return m}function
-lj(i){function
+lw(i){function
 a(h){var
-m=cs(ct(i),h),g=eP(i),f=m,e=d,a=b;for(;;){if(g){var
-j=F(a,c(2,b)),k=F(e,cs(f,a)),l=Q(cs(f,C(h,h))),g=g[1],f=l,e=k,a=j;continue}return e}}var
-e=a(p(c(2,p(c(2,p(c(2,p(c(2,c(2,p(c(2,p(c(2,b)))))))))))))),f=C(c(2,c(2,b)),e),g=a(p(c(2,c(2,b))));return aI(C(c(2,c(2,c(2,c(2,b)))),g),f)}function
-lk(e,a){var
+m=cv(cw(i),h),g=e1(i),f=m,e=d,a=b;for(;;){if(g){var
+j=E(a,c(2,b)),k=E(e,cv(f,a)),l=T(cv(f,C(h,h))),g=g[1],f=l,e=k,a=j;continue}return e}}var
+e=a(q(c(2,q(c(2,q(c(2,q(c(2,c(2,q(c(2,q(c(2,b)))))))))))))),f=C(c(2,c(2,b)),e),g=a(q(c(2,c(2,b))));return aL(C(c(2,c(2,c(2,c(2,b)))),g),f)}function
+lx(e,a){var
 f=D(d,a);if(f){var
-g=c(2,c(2,b));return li(e,gf(S(e,[0,a,a]),g))}return f}function
-ll(a){var
-m=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),g=aI(lj(a),m),n=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),h=F(lj(a),n),e=lk(a,g);if(e){var
-f=lk(a,h);if(f)var
-i=J(d,e[1][1]),j=i?J(f[1][2],d):i,k=j?[0,[0,g,h]]:j;else
+g=c(2,c(2,b));return lv(e,gr(U(e,[0,a,a]),g))}return f}function
+ly(a){var
+m=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),g=aL(lw(a),m),n=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),h=E(lw(a),n),e=lx(a,g);if(e){var
+f=lx(a,h);if(f)var
+i=I(d,e[1][1]),j=i?I(f[1][2],d):i,k=j?[0,[0,g,h]]:j;else
 var
 k=f;var
 l=k}else
 var
 l=e;return l}function
-lm(a,d){var
-c=S(a,d),e=M(a,b);return E(A(c,c),e)}function
-cV(f,j){var
-e=aD(F(f,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),j);if(e){var
-k=e[1],a=F(f,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),d=ll(a);if(d)var
-h=c(2,c(2,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b)))))))))))),i=li(a,S(a,gf(t(a,k,d[1]),h))),g=z(function(b){return lm(a,lm(a,b))},i);else
+lz(a,d){var
+c=U(a,d),e=O(a,b);return F(A(c,c),e)}function
+cZ(f,j){var
+e=aD(E(f,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),j);if(e){var
+k=e[1],a=E(f,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),d=ly(a);if(d)var
+h=c(2,c(2,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))))),i=lv(a,U(a,gr(t(a,k,d[1]),h))),g=z(function(b){return lz(a,lz(a,b))},i);else
 var
 g=d;var
-l=c(2,c(2,c(2,c(2,c(2,c(2,b))))));return z(function(a){return lf(l,a)},g)}return e}function
-ln(a,d){var
-e=ll(F(a,c(2,c(2,c(2,c(2,c(2,c(2,b))))))));return z(function(e){var
-f=c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b))))))))));return gf(t(a,d,lf(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e)),f)},e)}function
-gg(d,a){return cV(d,[3,a,[0,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b))))))))),b]])}function
+l=c(2,c(2,c(2,c(2,c(2,c(2,b))))));return z(function(a){return ls(l,a)},g)}return e}function
+lA(a,d){var
+e=ly(E(a,c(2,c(2,c(2,c(2,c(2,c(2,b))))))));return z(function(e){var
+f=c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))));return gr(t(a,d,ls(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e)),f)},e)}function
+gs(d,a){return cZ(d,[3,a,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b]])}function
 h(i,e,c){var
-f=cy(c);if(f){var
-g=f[1];return e?L(ba(g,[0,d,b])):ba([0,d,b],g)}var
+f=cA(c);if(f){var
+g=f[1];return e?M(bb(g,[0,d,b])):bb([0,d,b],g)}var
 a=aD(i,c);if(a){var
-h=a[1];return e?J(d,h[1]):D(d,h[1])}return a}function
-lo(c,b){var
+h=a[1];return e?I(d,h[1]):D(d,h[1])}return a}function
+lB(c,b){var
 a=aD(c,b),d=a?1:a;return d}function
-bu(c,a,b){var
-d=cx(a,b),e=d?lo(c,a):d;return e?e:h(c,0,[3,b,a])}function
-sq(c){var
-a=du(c),g=dY(f9(a[2])),b=[0,f9(a[1]),g],e=J(d,a[1]),f=e?d0(a3(b,b),c):e,h=f?[0,b]:f;return h}function
-lp(a){if(a){var
-e=a[2],c=a[1];if(d0(bQ([0,d,b],c),[0,d,b])){var
-g=lp(e);return z(function(a){return[0,a[1],[0,c,a[2]]]},g)}var
+bw(c,a,b){var
+d=cc(a,b),e=d?lB(c,a):d;return e?e:h(c,0,[3,b,a])}function
+sJ(c){var
+a=dy(c),g=d9(gj(a[2])),b=[0,gj(a[1]),g],e=I(d,a[1]),f=e?d$(a0(b,b),c):e,h=f?[0,b]:f;return h}function
+lC(a){if(a){var
+e=a[2],c=a[1];if(d$(bS([0,d,b],c),[0,d,b])){var
+g=lC(e);return z(function(a){return[0,a[1],[0,c,a[2]]]},g)}var
 f=[0,[0,c,e]]}else
 var
 f=a;return f}function
-lq(c,a){var
-e=aa(c,a),f=[0,d,b];return an(function(a,b){return du(dt(a3(a[1],a[2]),b))},f,e)}function
-lr(c,j){if(c){var
-f=c[1],g=lp(j);if(g){var
+lD(c,a){var
+e=W(c,a),f=[0,d,b];return an(function(a,b){return dy(dw(a0(a[1],a[2]),b))},f,e)}function
+lE(c,j){if(c){var
+f=c[1],g=lC(j);if(g){var
 h=g[1],a=h[1],k=function(c){var
-f=bQ([0,d,b],a),g=f$(bQ([0,d,b],c),f),h=bz(a),i=aa(bz(c),h);return e(function(a){var
-b=a3(g,a[2]);return du(d1(a[1],b))},i)},l=lr(f,e(k,h[2]));return z(function(c){var
-e=bQ([0,d,b],a);return[0,du(f$(h7(lq(bz(a),c)),e)),c]},l)}var
+f=bS([0,d,b],a),g=gm(bS([0,d,b],c),f),h=bA(a),i=W(bA(c),h);return e(function(a){var
+b=a0(g,a[2]);return dy(dx(a[1],b))},i)},l=lE(f,e(k,h[2]));return z(function(c){var
+e=bS([0,d,b],a);return[0,dy(gm(gl(lD(bA(a),c)),e)),c]},l)}var
 i=[0,[0,[0,b,b],al([0,d,b],f)]]}else
 var
 i=c;return i}function
-ls(a){if(a){var
-b=eX(sq,a[1]);if(b)var
-c=ls(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+lF(a){if(a){var
+b=e_(sJ,a[1]);if(b)var
+c=lF(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return sr}function
-lt(a){if(a){var
-b=ls(a[1]);if(b)var
-c=lt(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+d=b;return d}return sK}function
+lG(a){if(a){var
+b=lF(a[1]);if(b)var
+c=lG(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return ss}function
-lu(i,l){var
-a=lt(l);if(a){var
-j=a[1],c=lr(i,j);if(c){var
-e=c[1],f=q(g(e),i),h=f?aj(function(a){return L(d0(a,[0,d,b]))},e):f;return h?m(function(a){return d0(lq(a,e),[0,d,b])},j):h}var
+d=b;return d}return sL}function
+lH(i,l){var
+a=lG(l);if(a){var
+j=a[1],c=lE(i,j);if(c){var
+e=c[1],f=o(g(e),i),h=f?aj(function(a){return M(d$(a,[0,d,b]))},e):f;return h?m(function(a){return d$(lD(a,e),[0,d,b])},j):h}var
 k=c}else
 var
 k=a;return k}function
-st(a){return a}function
-su(a){return a}function
-sv(a,b){return aN(su,st,A,a,b)}function
-sw(a){return a}function
-sx(a){return a}function
-bd(a,b){return aN(sx,sw,sv,a,b)}function
-ia(a,f,c,d){if(c){var
-h=c[2],i=M(a,b),g=d3(c[1],i,f);if(d){var
-j=ia(a,f,h,d[2]),k=d[1],l=function(c,b){return E(c,t(a,g,b))},m=function(b){return ab(t(a,g,b))};return[0,aN(function(a){return a},m,l,k,c),j]}var
-n=ia(a,f,h,0);return[0,e(function(b){return ab(t(a,g,b))},c),n]}return d}function
-gh(h,a){if(a){var
+sM(a){return a}function
+sN(a){return a}function
+sO(a,b){return aO(sN,sM,A,a,b)}function
+sP(a){return a}function
+sQ(a){return a}function
+be(a,b){return aO(sQ,sP,sO,a,b)}function
+io(a,f,c,d){if(c){var
+h=c[2],i=O(a,b),g=eb(c[1],i,f);if(d){var
+j=io(a,f,h,d[2]),k=d[1],l=function(c,b){return F(c,t(a,g,b))},m=function(b){return ab(t(a,g,b))};return[0,aO(function(a){return a},m,l,k,c),j]}var
+n=io(a,f,h,0);return[0,e(function(b){return ab(t(a,g,b))},c),n]}return d}function
+gt(h,a){if(a){var
 b=a[1];if(b)var
-c=b[1],e=J(d,c[1]),i=e?[0,ia(h,c,b[2],a[2])]:e,f=i;else
+c=b[1],e=I(d,c[1]),i=e?[0,io(h,c,b[2],a[2])]:e,f=i;else
 var
 f=b;var
 g=f}else
 var
 g=a;return g}function
-lv(g,f,e){var
+lI(g,f,e){var
 a=f,b=e;for(;;){if(b){if(a){var
-c=gh(g,b);if(c){var
+c=gt(g,b);if(c){var
 a=a[1],b=c[1];continue}var
 d=c}else
 var
 d=a;return d}return 1}}function
-lw(d,b,a){if(b)if(a)var
-e=a[1],f=lw(d,b[2],a[2]),g=cq(d,b[1])?b$(e):cu(e),c=[0,g,f];else
+lJ(d,b,a){if(b)if(a)var
+e=a[1],f=lJ(d,b[2],a[2]),g=ct(d,b[1])?ca(e):cx(e),c=[0,g,f];else
 var
 c=a;else
 var
 c=b;return c}function
-lx(a,b){if(a)if(b)var
-d=lx(a[2],b[2]),c=[0,lw(a[1],a,b[1]),d];else
+lK(a,b){if(a)if(b)var
+d=lK(a[2],b[2]),c=[0,lJ(a[1],a,b[1]),d];else
 var
 c=b;else
 var
 c=a;return c}function
-be(a){if(a){var
-b=a[1],c=be(b),d=e(function(a){return[0,1,a]},c),g=be(b);return f(e(function(a){return[0,0,a]},g),d)}return sy}function
-d7(c,a){var
-b=g(a);if(lv(c,b,a))return 1;var
-d=be(by(b));return m(function(d){return lv(c,b,lx([0,0,d],a))},d)}function
+bf(a){if(a){var
+b=a[1],c=bf(b),d=e(function(a){return[0,1,a]},c),g=bf(b);return f(e(function(a){return[0,0,a]},g),d)}return sR}function
+ee(c,a){var
+b=g(a);if(lI(c,b,a))return 1;var
+d=bf(bz(b));return m(function(d){return lI(c,b,lK([0,0,d],a))},d)}function
 au(a){function
 b(b){var
 c=j(a,b[2]);return[0,e(a,b[1]),c]}return function(a){return e(b,a)}}function
-aE(h,e){var
+aG(h,e){var
 c=h,a=e[1],b=e[3];for(;;){if(c){if(b){var
-d=b[1],f=b[2],g=c[1]?A(a,d):E(a,d),c=c[2],a=g,b=f;continue}return a}return a}}function
-ib(c,b,a){var
-d=be(c);return m(function(c){return j(a,j(au(function(a){return aE(c,a)}),b))},d)}function
-ic(h,d,c){if(d)if(c)var
-i=c[2],e=c[1],j=d[2],f=d[1],a=function(c,a){return aS(c,F(h,b),a)},k=ic(h,j,i),l=function(c,b){var
-d=a(b,e);return A(a(f,c),d)},m=function(b){return a(b,e)},n=aN(function(b){return a(f,b)},m,l,i,j),o=a(f,e),g=[0,[0,A(a(f,e),o),n],k];else
+d=b[1],f=b[2],g=c[1]?A(a,d):F(a,d),c=c[2],a=g,b=f;continue}return a}return a}}function
+ip(c,b,a){var
+d=bf(c);return m(function(c){return j(a,j(au(function(a){return aG(c,a)}),b))},d)}function
+iq(h,d,c){if(d)if(c)var
+i=c[2],e=c[1],j=d[2],f=d[1],a=function(c,a){return aT(c,E(h,b),a)},k=iq(h,j,i),l=function(c,b){var
+d=a(b,e);return A(a(f,c),d)},m=function(b){return a(b,e)},n=aO(function(b){return a(f,b)},m,l,i,j),o=a(f,e),g=[0,[0,A(a(f,e),o),n],k];else
 var
 g=c;else
 var
 g=d;return g}function
-d8(b,d,a,c){function
+ef(b,d,a,c){function
 e(c,d){var
-e=aS(d,b,a);return E(A(c,c),e)}function
-f(c){return ab(aS(c,b,a))}return aN(function(a){return A(a,a)},f,e,d,c)}function
-gi(d,i,h,g){var
+e=aT(d,b,a);return F(A(c,c),e)}function
+f(c){return ab(aT(c,b,a))}return aO(function(a){return A(a,a)},f,e,d,c)}function
+gu(d,i,h,g){var
 c=i,b=h,a=g;for(;;){if(c){if(b){var
-e=b[1],f=c[1],j=cu(e[2]),k=bd(a,ic(d,f,d8(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
-id(b,a){return[0,[0,0,b],a]}function
-eY(i,b,c,h,f,a){function
+e=b[1],f=c[1],j=cx(e[2]),k=be(a,iq(d,f,ef(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
+ir(b,a){return[0,[0,0,b],a]}function
+e$(i,b,c,h,f,a){function
 d(a){if(a){var
-j=al([0,ab(a[1][2]),0],b),c=gi(h,f,a[2],j),d=q(g(c),b);if(d)return d7(i,c);var
+j=al([0,ab(a[1][2]),0],b),c=gu(h,f,a[2],j),d=o(g(c),b);if(d)return ee(i,c);var
 e=d}else
 var
-e=a;return e}return ib(b,id(c,a),d)}function
-gj(g,f,e){var
+e=a;return e}return ip(b,ir(c,a),d)}function
+gv(g,f,e){var
 a=f,b=e;for(;;){if(a){var
-d=a[1],h=d[1],c=gh(g,[0,[0,b$(d[2]),h],b]);if(c){var
+d=a[1],h=d[1],c=gt(g,[0,[0,ca(d[2]),h],b]);if(c){var
 a=a[2],b=c[1];continue}return c}return[0,b]}}function
-ie(d,b,c,a){function
+is(d,b,c,a){function
 e(a){if(a){var
-j=al([0,a[1][2],0],b),c=gj(d,a[2],j);if(c){var
-e=c[1],f=q(g(e),b);if(f)return d7(d,e);var
+j=al([0,a[1][2],0],b),c=gv(d,a[2],j);if(c){var
+e=c[1],f=o(g(e),b);if(f)return ee(d,e);var
 h=f}else
 var
 h=c;var
 i=h}else
 var
-i=a;return i}return ib(b,id(c,a),e)}function
-ly(h,g,a,f,d,c){var
-i=[0,u,u,0],b=e(function(a){return[0,a[1],i]},c),j=a?a[1]:[0,u,u,0];return eY(h,g,j,f,d,b)}function
-ig(b,a){var
-c=be(b);return m(function(b){return J(d,aE(b,a)[1])},c)}function
-gk(c,b,a){var
-d=a[3],f=e(function(a){return aS(c,b,a)},d),g=a[2];return[0,aS(c,b,a[1]),g,f]}function
-lz(a,b){var
-c=b[3],d=a[3],e=aN(function(a){return a},ab,E,d,c),f=a[2];return[0,E(a[1],b[1]),f,e]}function
-bU(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+i=a;return i}return ip(b,ir(c,a),e)}function
+lL(h,g,a,f,d,c){var
+i=[0,u,u,0],b=e(function(a){return[0,a[1],i]},c),j=a?a[1]:[0,u,u,0];return e$(h,g,j,f,d,b)}function
+it(b,a){var
+c=bf(b);return m(function(b){return I(d,aG(b,a)[1])},c)}function
+gw(c,b,a){var
+d=a[3],f=e(function(a){return aT(c,b,a)},d),g=a[2];return[0,aT(c,b,a[1]),g,f]}function
+lM(a,b){var
+c=b[3],d=a[3],e=aO(function(a){return a},ab,F,d,c),f=a[2];return[0,F(a[1],b[1]),f,e]}function
+bW(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
 af(c,b,a){var
 d=aq(c,b[3],a[3]),e=aq(c,b[2],a[2]);return[0,aq(c,b[1],a[1]),e,d]}function
-a0(b,a){var
+a1(b,a){var
 c=s(b,a[3]),d=s(b,a[2]);return[0,s(b,a[1]),d,c]}function
-bl(b,a){var
+bm(b,a){var
 c=am(b[3],a),d=am(b[2],a);return[0,am(b[1],a),d,c]}function
-Y(b,a){var
+Z(b,a){var
 c=s(b[3],a[3]),d=s(b[2],a[2]);return B(B(s(b[1],a[1]),d),c)}function
-dw(a){return bl(a,aF(Y(a,a)))}function
-cW(a){var
-b=a[5];return b?b[1]:aF(a[2])}function
-gl(b,a){return b?a:bk(a)}function
-lA(e,a,i,d,h){var
-f=Y(a,e),b=af(w,e,a0(f,a)),j=Y(b,b),g=w(T(d),j),c=gl(h,aF(g)),k=w(f,c),l=af(B,a,bl(b,c));return[0,af(B,b,a0(c,a)),g,l,k,[0,d],0,[0,i]]}function
-lB(a,e,d){var
-b=Y(a,a),c=aF(b),f=[0,e],g=z(function(b){return af(w,a,a0(Y(b,a),b))},d);return[0,a,b,bl(a,c),c,0,g,f]}function
-lC(c,a){var
-d=Y(a,c);return[0,a,l(b),a,d,0,0,0]}function
-eZ(a){return e(function(a){var
-b=a[2];return[0,bU(a[1]),b]},a)}function
-lD(a){return e(function(a){var
-c=l(b);return[0,bU(a[3]),c]},a)}function
-lE(b,a){var
+dC(a){return bm(a,aJ(Z(a,a)))}function
+c0(a){var
+b=a[5];return b?b[1]:aJ(a[2])}function
+gx(b,a){return b?a:bl(a)}function
+lN(e,a,i,d,h){var
+f=Z(a,e),b=af(x,e,a1(f,a)),j=Z(b,b),g=x(V(d),j),c=gx(h,aJ(g)),k=x(f,c),l=af(B,a,bm(b,c));return[0,af(B,b,a1(c,a)),g,l,k,[0,d],0,[0,i]]}function
+lO(a,e,d){var
+b=Z(a,a),c=aJ(b),f=[0,e],g=z(function(b){return af(x,a,a1(Z(b,a),b))},d);return[0,a,b,bm(a,c),c,0,g,f]}function
+lP(c,a){var
+d=Z(a,c);return[0,a,l(b),a,d,0,0,0]}function
+fa(a){return e(function(a){var
+b=a[2];return[0,bW(a[1]),b]},a)}function
+lQ(a){return e(function(a){var
+c=l(b);return[0,bW(a[3]),c]},a)}function
+lR(b,a){var
 c=j(b,a[3]),d=j(b,a[2]);return[0,j(b,a[1]),d,c]}function
-lF(c,b,a){var
+lS(c,b,a){var
 d=aq(c,b[3],a[3]),e=aq(c,b[2],a[2]);return[0,aq(c,b[1],a[1]),e,d]}function
-d9(d,a){var
-b=b9(d,[0,a[2],a[2]]);if(b){var
+eg(d,a){var
+b=b_(d,[0,a[2],a[2]]);if(b){var
 c=b[1];return[0,c[2],c[2]]}return[0,a[2],a[2]]}function
-gm(a,n,f,l,e,k,j){var
-o=lF(bt,k,j),b=lF(function(b,c){return aO(a,b,c)},e,o),c=b[3],g=b[2],h=b[1],i=ca(ca(ca(_(M(a,d)),h),g),c),p=be(n);return m(function(c){var
-b=lE(function(b){return S(a,aE(c,b))},e),h=b[3],j=b[2],k=b[1],m=t(a,l,d9(a,A(A(A(M(a,d),k),j),h))),g=E(aE(c,i),m),n=f?E(g,aE(c,f[1])):g;return J(d,n[1])},p)}function
-cb(a){return ds(F(a[1],a[2]),b)}function
-d_(a){var
-b=cb(a);return aI(a[2],b)}function
-dy(c,b){if(b)var
-a=b[1],e=dy([0,c],b[2]),g=d_(a),h=[0,[0,d_(a),g],0],i=f(al(u,c),h),j=cb(a),d=[0,[0,[0,cb(a),j],a,i],e];else
+gy(a,n,f,l,e,k,j){var
+o=lS(bv,k,j),b=lS(function(b,c){return aP(a,b,c)},e,o),c=b[3],g=b[2],h=b[1],i=cb(cb(cb($(O(a,d)),h),g),c),p=bf(n);return m(function(c){var
+b=lR(function(b){return U(a,aG(c,b))},e),h=b[3],j=b[2],k=b[1],m=t(a,l,eg(a,A(A(A(O(a,d),k),j),h))),g=F(aG(c,i),m),n=f?F(g,aG(c,f[1])):g;return I(d,n[1])},p)}function
+cd(a){return dv(E(a[1],a[2]),b)}function
+eh(a){var
+b=cd(a);return aL(a[2],b)}function
+dE(c,b){if(b)var
+a=b[1],e=dE([0,c],b[2]),g=eh(a),h=[0,[0,eh(a),g],0],i=f(al(u,c),h),j=cd(a),d=[0,[0,[0,cd(a),j],a,i],e];else
 var
 d=b;return d}function
-cX(d,b){if(b){var
+c1(d,b){if(b){var
 c=b[2],a=b[1];if(d){var
-e=cX(d[1],c);return[0,[0,a,e[1]],[0,a,e[2]]]}var
-f=a[2],g=[0,[0,cb(a),f],c],h=cb(a);return[0,[0,[0,a[1],h],c],g]}return sz}function
-lG(d,c,a){if(c){if(a){var
-e=lG(d,c[2],a[2]);return A(aS(c[1],F(d,b),a[1]),e)}return u}return u}function
-d$(f,a){if(a)var
-g=a[1],c=g[2],d=g[1],h=a[2],b=function(a,b){return lG(f,a,b)},j=d$(f,h),k=e(function(a){var
+e=c1(d[1],c);return[0,[0,a,e[1]],[0,a,e[2]]]}var
+f=a[2],g=[0,[0,cd(a),f],c],h=cd(a);return[0,[0,[0,a[1],h],c],g]}return sS}function
+lT(d,c,a){if(c){if(a){var
+e=lT(d,c[2],a[2]);return A(aT(c[1],E(d,b),a[1]),e)}return u}return u}function
+ei(f,a){if(a)var
+g=a[1],c=g[2],d=g[1],h=a[2],b=function(a,b){return lT(f,a,b)},j=ei(f,h),k=e(function(a){var
 e=b(d,a[2]);return A(b(a[1],c),e)},h),l=b(d,c),i=[0,[0,A(b(d,c),l),k],j];else
 var
 i=a;return i}function
-ea(e,b,d,a){if(b)if(a)var
-f=b[1],g=ea(e,b[2],d,a[2]),c=[0,[0,f,d8(e,a[1][1],d,f)],g];else
+ej(e,b,d,a){if(b)if(a)var
+f=b[1],g=ej(e,b[2],d,a[2]),c=[0,[0,f,ef(e,a[1][1],d,f)],g];else
 var
 c=a;else
 var
 c=b;return c}function
-gn(f,d,c,b,a){if(a){var
+gz(f,d,c,b,a){if(a){var
 g=a[2];if(d){var
-i=gn(f,d[1],c,b,g);return[0,[0,E(u,b),0],i]}var
-j=e(function(a){return[0,E(u,b),0]},g),h=[0,[0,E(ab(t(f,c,cu(a[1][2]))),b),0],j]}else
+i=gz(f,d[1],c,b,g);return[0,[0,F(u,b),0],i]}var
+j=e(function(a){return[0,F(u,b),0]},g),h=[0,[0,F(ab(t(f,c,cx(a[1][2]))),b),0],j]}else
 var
 h=a;return h}function
-a5(d,c,a){var
-b=q(g(a),c);return b?d7(d,a):b}function
-go(d,b,a){if(b)var
-c=b[1],g=go([0,d],b[2],a),h=f(al(u,d),[0,a,0]),e=[0,[0,c,[0,aI(c[1],a[2]),F(c[2],a[2])],h],g];else
+a6(d,c,a){var
+b=o(g(a),c);return b?ee(d,a):b}function
+gA(d,b,a){if(b)var
+c=b[1],g=gA([0,d],b[2],a),h=f(al(u,d),[0,a,0]),e=[0,[0,c,[0,aL(c[1],a[2]),E(c[2],a[2])],h],g];else
 var
 e=b;return e}function
-lH(d){if(d){var
+lU(d){if(d){var
 a=d[1][1];if(a){var
 b=a[2];if(b){var
 c=b[2];if(c){if(c[2])return 0;var
-g=c[1],h=b[1],i=a[1],j=lH(d[2]);return z(function(a){return[0,[0,[0,i,h],g],a]},j)}var
+g=c[1],h=b[1],i=a[1],j=lU(d[2]);return z(function(a){return[0,[0,[0,i,h],g],a]},j)}var
 e=c}else
 var
 e=b;var
 f=e}else
 var
-f=a;return f}return sA}function
-ih(a){return z(function(a){return z(eV,a)},a)}function
-cY(c,b,a){function
-d(a){return aO(c,b,a)}return z(function(a){return z(d,a)},a)}function
-ii(c,b,a){function
-d(a){return d4(c,a,b)}return z(function(a){return cT(d,a)},a)}function
-eb(b,a){var
-c=aa(b,a);return e(function(c){var
+f=a;return f}return sT}function
+iu(a){return z(function(a){return z(e8,a)},a)}function
+c2(c,b,a){function
+d(a){return aP(c,b,a)}return z(function(a){return z(d,a)},a)}function
+iv(c,b,a){function
+d(a){return ec(c,a,b)}return z(function(a){return cX(d,a)},a)}function
+ek(b,a){var
+c=W(b,a);return e(function(c){var
 a=c[2],b=c[1];if(b){if(a){var
-d=a[1],e=b[1];return[0,cw(function(b,a){return[0,ca(b,a)]},e,d)]}return b}return a},c)}function
-gp(a){return _(M(a,c(2,b)))}function
-ij(a,au,at,K,c){var
-av=bS(aw,c),f=j(bA(a,au,at),av);switch(c[0]){case
+d=a[1],e=b[1];return[0,cz(function(b,a){return[0,cb(b,a)]},e,d)]}return b}return a},c)}function
+gB(a){return $(O(a,c(2,b)))}function
+iw(a,au,at,K,c){var
+av=bU(ay,c),f=j(bB(a,au,at),av);switch(c[0]){case
 1:var
-O=c[1],d=e(function(d){var
-c=q(O,d),e=c?[0,[0,_(M(a,b))]]:c;return e},K);break;case
+N=c[1],d=e(function(d){var
+c=o(N,d),e=c?[0,[0,$(O(a,b))]]:c;return e},K);break;case
 3:var
-d=eb(c[1][2],c[2][2]);break;case
+d=ek(c[1][2],c[2][2]);break;case
 4:var
-P=e(ih,c[2][2]),d=eb(c[1][2],P);break;case
+P=e(iu,c[2][2]),d=ek(c[1][2],P);break;case
 5:var
-d=e(ih,c[1][2]);break;case
+d=e(iu,c[1][2]);break;case
 6:var
 x=c[2],y=c[1],g=y[1],u=0;if(g){var
 h=x[1];if(h)var
-Q=x[2],R=g[1],S=e(function(b){return cY(a,R,b)},Q),T=y[2],U=h[1],d=eb(e(function(b){return cY(a,U,b)},T),S);else{var
+Q=x[2],R=g[1],S=e(function(b){return c2(a,R,b)},Q),T=y[2],U=h[1],d=ek(e(function(b){return c2(a,U,b)},T),S);else{var
 z=h;u=1}}else{var
 z=g;u=1}if(u)var
 d=z;break;case
 7:var
 v=0;if(f){var
 A=c[2],i=A[1];if(i)var
-V=A[2],W=eV(f[1]),X=e(function(b){return cY(a,W,b)},V),Y=eb(c[1][2],X),Z=i[1],d=e(function(b){return ii(a,Z,b)},Y);else{var
+V=A[2],W=e8(f[1]),X=e(function(b){return c2(a,W,b)},V),Y=ek(c[1][2],X),Z=i[1],d=e(function(b){return iv(a,Z,b)},Y);else{var
 B=i;v=1}}else{var
 B=f;v=1}if(v)var
 d=B;break;case
 8:var
 C=c[1],k=C[1];if(k)var
-$=C[2],aa=k[1],ab=aO(a,gp(a),aa),d=e(function(b){return cY(a,ab,b)},$);else
+_=C[2],aa=k[1],ab=aP(a,gB(a),aa),d=e(function(b){return c2(a,ab,b)},_);else
 var
 d=k;break;case
 9:if(f)var
-ac=c[1][2],ad=f[1],ae=aO(a,gp(a),ad),d=e(function(b){return ii(a,ae,b)},ac);else
+ac=c[1][2],ad=f[1],ae=aP(a,gB(a),ad),d=e(function(b){return iv(a,ae,b)},ac);else
 var
 d=f;break;case
 10:var
 D=c[4],E=c[3],F=c[2],l=F[1],w=0;if(l){var
 m=l[1],n=E[1],L=0;if(n){var
-o=n[1],p=D[1],N=0;if(p){var
-r=la(a,m,o,p[1]);if(r){var
-G=r[1],s=G[2],t=G[1],af=E[2],ag=bt(o,s),ah=e(function(b){return cY(a,ag,b)},af),ai=F[2],aj=bt(m,t),ak=eb(e(function(b){return cY(a,aj,b)},ai),ah),al=e(ih,D[2]),am=gp(a),an=eb(e(function(b){return cY(a,am,b)},ak),al),ao=c[1]?t:eV(s),ap=e(function(b){return cY(a,ao,b)},an),aq=aO(a,m,s),ar=bt(aO(a,o,t),aq),as=aO(a,gp(a),ar),d=e(function(b){return ii(a,as,b)},ap);L=1;N=1}else
+p=n[1],q=D[1],M=0;if(q){var
+r=lo(a,m,p,q[1]);if(r){var
+G=r[1],s=G[2],t=G[1],af=E[2],ag=bv(p,s),ah=e(function(b){return c2(a,ag,b)},af),ai=F[2],aj=bv(m,t),ak=ek(e(function(b){return c2(a,aj,b)},ai),ah),al=e(iu,D[2]),am=gB(a),an=ek(e(function(b){return c2(a,am,b)},ak),al),ao=c[1]?t:e8(s),ap=e(function(b){return c2(a,ao,b)},an),aq=aP(a,m,s),ar=bv(aP(a,p,t),aq),as=aP(a,gB(a),ar),d=e(function(b){return iv(a,as,b)},ap);L=1;M=1}else
 var
 H=r}else
 var
-H=p;if(!N)var
+H=q;if(!M)var
 I=H}else
 var
 I=n;if(!L){var
@@ -1804,152 +1804,152 @@ J=I;w=1}}else{var
 J=l;w=1}if(w)var
 d=J;break;default:var
 d=e(function(a){return 0},K)}return[0,f,d]}function
-ik(b,c,a){if(a)var
-f=a[1],g=ik(b,c,a[2]),d=[0,e(function(a){return ab(t(b,t(b,c,f),a))},a),g];else
+ix(b,c,a){if(a)var
+f=a[1],g=ix(b,c,a[2]),d=[0,e(function(a){return ab(t(b,t(b,c,f),a))},a),g];else
 var
 d=a;return d}function
-il(a){return m(function(a){var
-b=I(a[1],d);return b?I(a[2],d):b},a)}function
-im(c,b,a){var
-d=aa(b,a);return an(function(a,b){return A(t(c,a[1],a[2]),b)},u,d)}function
-io(c,b,a){var
-d=b_(im(c,a,b));return an(function(b,a){return F(b_(b),a)},d,a)}function
-cc(a){return M(a,b)}function
-e0(a,i,c,v,u){var
+iy(a){return m(function(a){var
+b=K(a[1],d);return b?K(a[2],d):b},a)}function
+iz(c,b,a){var
+d=W(b,a);return an(function(a,b){return A(t(c,a[1],a[2]),b)},u,d)}function
+iA(c,b,a){var
+d=b$(iz(c,a,b));return an(function(b,a){return E(b$(b),a)},d,a)}function
+ce(a){return O(a,b)}function
+fb(a,i,c,v,u){var
 f=v,e=u;for(;;){if(f){var
-j=f[1],n=0;if(!il(c)&&!il(j)){var
-h=io(a,i,j),o=cc(a),p=io(a,i,c),b=d3([0,io(a,i,c),p],o,[0,h,h])[1],k=J(d,h),l=k?J(d,b):k;if(l)var
-q=as(h8(a,[0,b,b])),r=function(b){return function(d,c){return E(t(a,[0,b,b],d),c)}}(b),s=[0,b,b],m=[0,bd(e,ik(a,q,aN(function(c){return function(b){return t(a,c,b)}}(s),ab,r,j,c)))];else
+j=f[1],n=0;if(!iy(c)&&!iy(j)){var
+h=iA(a,i,j),o=ce(a),p=iA(a,i,c),b=eb([0,iA(a,i,c),p],o,[0,h,h])[1],k=I(d,h),l=k?I(d,b):k;if(l)var
+q=as(ij(a,[0,b,b])),r=function(b){return function(d,c){return F(t(a,[0,b,b],d),c)}}(b),s=[0,b,b],m=[0,be(e,ix(a,q,aO(function(c){return function(b){return t(a,c,b)}}(s),ab,r,j,c)))];else
 var
 m=l;var
 g=m;n=1}if(!n)var
 g=[0,e];if(g){var
 f=f[2],e=g[1];continue}return g}return[0,e]}}function
-lI(a){var
+lV(a){var
 b=a[2],c=e(function(a){return[0,a[1],u]},b);return[0,[0,a[1][1],u],c]}function
-ip(h,n,a,m,l,k){var
+iB(h,n,a,m,l,k){var
 d=m,c=l,b=k;for(;;){if(d){if(c){var
-i=c[1],j=i[1],f=d[1],o=cu(j[2]),p=bd(b,ic(a,f,d8(a,j[1],o,f))),q=i[2],r=e(function(c){return function(b){return e(as,d8(a,b[1],b[2],c))}}(f),q),g=e0(h,n,e(function(b){return aS(b,a,cc(h))},f),r,p);if(g){var
+i=c[1],j=i[1],f=d[1],o=cx(j[2]),p=be(b,iq(a,f,ef(a,j[1],o,f))),q=i[2],r=e(function(c){return function(b){return e(as,ef(a,b[1],b[2],c))}}(f),q),g=fb(h,n,e(function(b){return aT(b,a,ce(h))},f),r,p);if(g){var
 d=d[2],c=c[2],b=g[1];continue}return g}return[0,b]}return[0,b]}}function
-lJ(a,j,r,q){var
+lW(a,j,r,q){var
 c=r,f=q;for(;;){if(c){var
-k=c[1],l=k[1],g=l[2],h=l[1],m=k[2],n=[0,[0,b$(g),h],f];if(m){var
-o=J(d,g[1]);if(o)var
+k=c[1],l=k[1],g=l[2],h=l[1],m=k[2],n=[0,[0,ca(g),h],f];if(m){var
+o=I(d,g[1]);if(o)var
 s=e(function(a){var
-b=a[1];return[0,as(a[2]),b]},m),t=e(function(a){return u},h),v=[0,cc(a),t],w=cc(a),b=e0(a,[0,ab(d3(im(a,h,j),w,g)),j],v,s,n);else
+b=a[1];return[0,as(a[2]),b]},m),t=e(function(a){return u},h),v=[0,ce(a),t],w=ce(a),b=fb(a,[0,ab(eb(iz(a,h,j),w,g)),j],v,s,n);else
 var
 b=o}else
 var
 b=[0,n];if(b){var
-i=gh(a,b[1]);if(i){var
+i=gt(a,b[1]);if(i){var
 c=c[2],f=i[1];continue}var
 p=i}else
 var
 p=b;return p}return[0,f]}}function
-lK(c,b,a){var
-d=aC(0,a);return e(function(a){return q(a,b)?cc(c):u},d)}function
-lL(c,b,a){if(b){if(a){var
-d=lL(c,b[2],a[2]);return A(aS(b[1],c,a[1]),d)}return u}return u}function
-lM(a,j){switch(j){case
+lX(c,b,a){var
+d=aC(0,a);return e(function(a){return o(a,b)?ce(c):u},d)}function
+lY(c,b,a){if(b){if(a){var
+d=lY(c,b[2],a[2]);return A(aT(b[1],c,a[1]),d)}return u}return u}function
+lZ(a,j){switch(j){case
 0:var
-d=aI(a[2],a[1]),e=a[1];return[0,[0,e,e],[0,[0,d,d],0]];case
+d=aL(a[2],a[1]),e=a[1];return[0,[0,e,e],[0,[0,d,d],0]];case
 1:var
-f=aI(a[1],a[2]),g=a[2];return[0,[0,g,g],[0,[0,f,f],0]];default:var
-c=ds(F(a[1],a[2]),b),h=aI(c,a[2]),i=aI(a[2],c);return[0,[0,c,c],[0,[0,i,i],[0,[0,h,h],0]]]}}function
-e1(d,c,a){if(a)var
-e=a[1],g=e1(d,[0,c],a[2]),b=z(aZ,k1(function(a){return q(a[1],c)},d)),h=b?lM(e,b[1])[1]:e,f=[0,h,g];else
+f=aL(a[1],a[2]),g=a[2];return[0,[0,g,g],[0,[0,f,f],0]];default:var
+c=dv(E(a[1],a[2]),b),h=aL(c,a[2]),i=aL(a[2],c);return[0,[0,c,c],[0,[0,i,i],[0,[0,h,h],0]]]}}function
+fc(d,c,a){if(a)var
+e=a[1],g=fc(d,[0,c],a[2]),b=z(aY,ld(function(a){return o(a[1],c)},d)),h=b?lZ(e,b[1])[1]:e,f=[0,h,g];else
 var
 f=a;return f}function
-gq(a,b){return e(function(a){var
-c=a[2];return lM(r(a[1],b,u),c)[2]},a)}function
-gr(i,b,g,a){function
-d(a){return aE(b,a[1])}var
-h=0,j=_(u);function
+gC(a,b){return e(function(a){var
+c=a[2];return lZ(r(a[1],b,u),c)[2]},a)}function
+gD(i,b,g,a){function
+d(a){return aG(b,a[1])}var
+h=0,j=$(u);function
 c(g,d,a,b){if(a){var
-h=function(a){return aE(g,r(d,a[2],j))},k=e(h,b[1]),l=h(b[2]),m=c(g,[0,d],a[2],b),n=a[1];return f(e(function(a){var
+h=function(a){return aG(g,r(d,a[2],j))},k=e(h,b[1]),l=h(b[2]),m=c(g,[0,d],a[2],b),n=a[1];return f(e(function(a){var
 b=t(i,a,l);return[0,e(function(b){return t(i,a,b)},k),b]},n),m)}return a}var
 k=c(b,h,g,a),l=d(a[2]);return[0,[0,e(d,a[1]),l],k]}var
-sP=_(u);function
-lN(e,d,c){if(d){var
-f=r(e,c[2],sQ),a=f?f[1]:[0,sP];if(a)var
-b=lN([0,e],d[2],c),h=b?[0,[0,a[1],b[1]]]:b,g=h;else
+s8=$(u);function
+l0(e,d,c){if(d){var
+f=r(e,c[2],s9),a=f?f[1]:[0,s8];if(a)var
+b=l0([0,e],d[2],c),h=b?[0,[0,a[1],b[1]]]:b,g=h;else
 var
-g=a;return g}return sR}function
-lO(a,c,h,p,o,g,n){var
-d=be(c);return m(function(d){var
+g=a;return g}return s_}function
+l1(a,c,h,p,o,g,n){var
+d=bf(c);return m(function(d){var
 f=j(n,d);if(f){var
-q=t(a,o,f[1]),i=E(M(a,b),q),r=h?E(i,aE(d,h[1])):i,k=function(b){function
-f(c){return t(a,b,aE(d,c))}var
-g=e(function(a){return e(f,a)},p);return a5(a,c,bd(al([0,r,0],c),g))},l=k(as(g));if(l)return k(ab(as(g)));var
+q=t(a,o,f[1]),i=F(O(a,b),q),r=h?F(i,aG(d,h[1])):i,k=function(b){function
+f(c){return t(a,b,aG(d,c))}var
+g=e(function(a){return e(f,a)},p);return a6(a,c,be(al([0,r,0],c),g))},l=k(as(g));if(l)return k(ab(as(g)));var
 m=l}else
 var
 m=f;return m},d)}function
-lP(c,b,a){if(a){var
+l2(c,b,a){if(a){var
 d=a[2];if(c){var
-f=lP(c[1],b,d);return[0,a[1],f]}var
+f=l2(c[1],b,d);return[0,a[1],f]}var
 e=[0,b,d]}else
 var
 e=a;return e}function
-e2(a,g){var
-b=bs(function(e){var
-c=r(e,a,u),b=D(c[1],d),f=b?D(d,c[2]):b;return L(f)},g);if(b){if(b[2])return a;var
-f=b[1],c=r(f,a,u),e=J(d,c[1])?c[1]:c[2];return lP(f,[0,e,e],a)}return a}function
-lQ(c,a){if(a)var
-b=a[2],f=lQ(c,b),g=b?b[1]:e(sg,c),d=[0,[0,a[1],g],f];else
+fd(a,g){var
+b=bu(function(e){var
+c=r(e,a,u),b=D(c[1],d),f=b?D(d,c[2]):b;return M(f)},g);if(b){if(b[2])return a;var
+f=b[1],c=r(f,a,u),e=I(d,c[1])?c[1]:c[2];return l2(f,[0,e,e],a)}return a}function
+l3(c,a){if(a)var
+b=a[2],f=l3(c,b),g=b?b[1]:e(sz,c),d=[0,[0,a[1],g],f];else
 var
 d=a;return d}function
-lR(a){return a?lQ(a[1],a):a}function
-cZ(c,d,b,a){if(d){var
+l4(a){return a?l3(a[1],a):a}function
+c3(c,d,b,a){if(d){var
 e=d[1];if(a){var
-f=cZ(c,e,b,a[2]);return[0,a[1],f]}return[0,c,cZ(c,e,b,0)]}return a?[0,b,a[2]]:[0,b,0]}function
-gs(a,c,b){if(c)if(b)var
-g=b[2],e=b[1],h=c[2],d=c[1],i=gs(a,h,g),j=function(c,b){var
-f=t(a,e,b);return A(t(a,d,c),f)},k=function(b){return t(a,e,b)},l=aN(function(b){return t(a,d,b)},k,j,g,h),f=[0,[0,t(a,A(d,d),e),l],i];else
+f=c3(c,e,b,a[2]);return[0,a[1],f]}return[0,c,c3(c,e,b,0)]}return a?[0,b,a[2]]:[0,b,0]}function
+gE(a,c,b){if(c)if(b)var
+g=b[2],e=b[1],h=c[2],d=c[1],i=gE(a,h,g),j=function(c,b){var
+f=t(a,e,b);return A(t(a,d,c),f)},k=function(b){return t(a,e,b)},l=aO(function(b){return t(a,d,b)},k,j,g,h),f=[0,[0,t(a,A(d,d),e),l],i];else
 var
 f=b;else
 var
 f=c;return f}function
-c0(d,c,b,a){return cZ(u,c,im(d,a,b),a)}function
-lS(a,f,e,b,d,c){var
+c4(d,c,b,a){return c3(u,c,iz(d,a,b),a)}function
+l5(a,f,e,b,d,c){var
 g=aC(0,b);return an(function(g,c){var
-h=c0(a,f,e,lK(a,g,b));return bd(c,ik(a,ab(d),h))},c,g)}function
-lT(a,d,c,j,i,h,g,f){var
-k=c0(a,d,c,e(function(b){return M(a,C(h,b))},i));return bd(f,gs(a,c0(a,d,c,e(function(c){return aS(c,F(g,b),cc(a))},j)),k))}function
-lU(a,h,g,q,f,p,o,n){var
+h=c4(a,f,e,lX(a,g,b));return be(c,ix(a,ab(d),h))},c,g)}function
+l6(a,d,c,j,i,h,g,f){var
+k=c4(a,d,c,e(function(b){return O(a,C(h,b))},i));return be(f,gE(a,c4(a,d,c,e(function(c){return aT(c,E(g,b),ce(a))},j)),k))}function
+l7(a,h,g,q,f,p,o,n){var
 d=p,c=o,b=n;for(;;){if(d){if(c){var
-k=c[1],l=k[1],i=d[1],m=c0(a,h,g,e(function(b){return aS(b,f,cc(a))},i)),r=cu(l[2]),s=c0(a,h,g,d8(f,l[1],r,i)),t=bd(b,gs(a,e(as,m),s)),u=k[2],j=e0(a,q,m,e(function(c){return function(b){return c0(a,h,g,e(as,d8(f,b[1],b[2],c)))}}(i),u),t);if(j){var
+k=c[1],l=k[1],i=d[1],m=c4(a,h,g,e(function(b){return aT(b,f,ce(a))},i)),r=cx(l[2]),s=c4(a,h,g,ef(f,l[1],r,i)),t=be(b,gE(a,e(as,m),s)),u=k[2],j=fb(a,q,m,e(function(c){return function(b){return c4(a,h,g,e(as,ef(f,b[1],b[2],c)))}}(i),u),t);if(j){var
 d=d[2],c=c[2],b=j[1];continue}return j}return[0,b]}return[0,b]}}function
-lV(g,b,f,a){if(a)var
-c=a[2],d=a[1],h=r(b,c,u),e=[0,d,cZ(u,b,A(t(g,f,d),h),c)];else
+l8(g,b,f,a){if(a)var
+c=a[2],d=a[1],h=r(b,c,u),e=[0,d,c3(u,b,A(t(g,f,d),h),c)];else
 var
 e=a;return e}function
-lW(a,b,m,D,C,B){var
+l9(a,b,m,D,C,B){var
 i=C,h=B;for(;;){if(i){var
-n=i[1],o=n[1],j=o[2],p=n[2],c=c0(a,b,m,o[1]);if(p){var
-q=J(d,j[1]);if(q)var
-E=cc(a),f=b$(ab(d3(r(b,c,u),E,j))),k=b$(j),v=cZ(u,b,f,0),w=r(b,c,u),x=bd(h,gs(a,v,cZ(u,b,A(as(t(a,f,k)),w),c))),y=r(b,c,u),z=[0,[0,k,cZ(u,b,A(t(a,f,k),y),c)],x],F=e(function(e){return function(c){var
-d=c0(a,b,m,c[1]);return lV(a,b,e,[0,as(c[2]),d])}}(f),p),G=e(function(a){return u},c),g=e0(a,[0,u,D],lV(a,b,f,[0,cc(a),G]),F,z);else
+n=i[1],o=n[1],j=o[2],p=n[2],c=c4(a,b,m,o[1]);if(p){var
+q=I(d,j[1]);if(q)var
+E=ce(a),f=ca(ab(eb(r(b,c,u),E,j))),k=ca(j),v=c3(u,b,f,0),w=r(b,c,u),x=be(h,gE(a,v,c3(u,b,A(as(t(a,f,k)),w),c))),y=r(b,c,u),z=[0,[0,k,c3(u,b,A(t(a,f,k),y),c)],x],F=e(function(e){return function(c){var
+d=c4(a,b,m,c[1]);return l8(a,b,e,[0,as(c[2]),d])}}(f),p),G=e(function(a){return u},c),g=fb(a,[0,u,D],l8(a,b,f,[0,ce(a),G]),F,z);else
 var
 g=q}else
 var
-g=[0,[0,[0,b$(j),c],h]];if(g){var
-l=gh(a,g[1]);if(l){var
+g=[0,[0,[0,ca(j),c],h]];if(g){var
+l=gt(a,g[1]);if(l){var
 i=i[2],h=l[1];continue}var
 s=l}else
 var
 s=g;return s}return[0,h]}}function
-iq(f,d,c,b,a){var
-g=e(_,c);return k9(0,bA(f,dy(0,a),g),b,d,0)}function
+iC(f,d,c,b,a){var
+g=e($,c);return ll(0,bB(f,dE(0,a),g),b,d,0)}function
 ac(a){if(a){var
 b=a[1];if(b)var
 c=ac(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return sW}function
-gt(b,a){if(a){var
+d=b;return d}return td}function
+gF(b,a){if(a){var
 h=a[1],n=h[1],c=ac(e(function(a){return r(a,b,0)},n));if(c){var
 f=r(h[2],b,0);if(f){var
-i=f[1],g=gt(b,a[2]);if(g)var
-j=J(d,i[2][1]),k=j?[0,[0,[0,c[1],i],g[1]]]:j;else
+i=f[1],g=gF(b,a[2]);if(g)var
+j=I(d,i[2][1]),k=j?[0,[0,[0,c[1],i],g[1]]]:j;else
 var
 k=g;var
 l=k}else
@@ -1957,22 +1957,22 @@ var
 l=f;var
 m=l}else
 var
-m=c;return m}return sX}function
-cA(d,c,b){var
-a=gt(d,c);return a?j(b,a[1]):a}function
-c1(a,b){return m(function(c){var
+m=c;return m}return te}function
+cC(d,c,b){var
+a=gF(d,c);return a?j(b,a[1]):a}function
+c5(a,b){return m(function(c){var
 a=r(c,b,0),d=a?1:a;return d},a)}function
-gu(b,a){if(b){var
-c=b[1],d=c[3],e=a[3],f=function(a){return a},g=aN(function(a){return a},f,A,e,d),h=a[2];return[0,A(a[1],c[1]),h,g]}return a}function
-ir(b,a){return b?lz(a,b[1]):a}function
-is(h,g,b,f){var
+gG(b,a){if(b){var
+c=b[1],d=c[3],e=a[3],f=function(a){return a},g=aO(function(a){return a},f,A,e,d),h=a[2];return[0,A(a[1],c[1]),h,g]}return a}function
+iD(b,a){return b?lM(a,b[1]):a}function
+iE(h,g,b,f){var
 a=r(f,h,0);if(a){var
 c=a[1];if(b){var
-i=lz(c,b[1]),e=be(g);return m(function(a){return D(d,aE(a,i)[1])},e)}return D(d,c[2][1])}return a}function
-it(f,d,a){function
-c(a){return aS(a,d,M(f,b))}if(a){var
-g=e(c,a[2]);return[0,c(a[1]),u,g]}return _(u)}function
-gv(b,a){var
+i=lM(c,b[1]),e=bf(g);return m(function(a){return D(d,aG(a,i)[1])},e)}return D(d,c[2][1])}return a}function
+iF(f,d,a){function
+c(a){return aT(a,d,O(f,b))}if(a){var
+g=e(c,a[2]);return[0,c(a[1]),u,g]}return $(u)}function
+gH(b,a){var
 c=r(a[1],b,0);if(c){var
 d=r(a[2],b,0);if(d)var
 e=r(a[3],b,0),h=e?[0,[0,c[1],d[1],e[1]]]:e,f=h;else
@@ -1981,65 +1981,65 @@ f=d;var
 g=f}else
 var
 g=c;return g}function
-iu(b,a){return ac(e(function(a){return r(a,b,0)},a))}function
-e3(c,k,X,C,i,h,j,f,a){switch(f[0]){case
+iG(b,a){return ac(e(function(a){return r(a,b,0)},a))}function
+fe(c,k,X,C,i,h,j,f,a){switch(f[0]){case
 0:var
 s=f[1];if(typeof
 a!=="number")switch(a[0]){case
 0:var
-Y=c1(C,i);if(Y){var
-aD=a[2],aF=a[1],aG=gu(j,_(s));return cA(i,k,function(a){return eY(c,h,aG,aF,aD,a)})}return Y;case
+Y=c5(C,i);if(Y){var
+aD=a[2],aE=a[1],aF=gG(j,$(s));return cC(i,k,function(a){return e$(c,h,aF,aE,aD,a)})}return Y;case
 1:var
-Z=c1(C,i);if(Z){var
-aH=a[2],aJ=a[1],aK=gu(j,_(s));return cA(i,X,function(a){return eY(c,h,aK,aJ,aH,a)})}return Z;case
+Z=c5(C,i);if(Z){var
+aH=a[2],aI=a[1],aJ=gG(j,$(s));return cC(i,X,function(a){return e$(c,h,aJ,aI,aH,a)})}return Z;case
 2:var
-$=c1(C,i);if($){var
-aa=I(s[1],d),ab=aa?I(s[2],d):aa;if(ab){var
-aL=a[2],aM=a[1];return cA(i,k,function(a){return ly(c,h,j,aM,aL,a)})}var
+_=c5(C,i);if(_){var
+aa=K(s[1],d),ab=aa?K(s[2],d):aa;if(ab){var
+aK=a[2],aM=a[1];return cC(i,k,function(a){return lL(c,h,j,aM,aK,a)})}var
 ad=ab}else
 var
-ad=$;return ad}return 0;case
+ad=_;return ad}return 0;case
 1:var
 ae=f[1];if(typeof
 a==="number"){if(1===a){var
-aN=ir(j,_(ae));return cA(i,X,function(a){return ie(c,h,aN,a)})}if(!a){var
-aO=ir(j,_(ae));return cA(i,k,function(a){return ie(c,h,aO,a)})}}return 0;case
+aN=iD(j,$(ae));return cC(i,X,function(a){return is(c,h,aN,a)})}if(!a){var
+aO=iD(j,$(ae));return cC(i,k,function(a){return is(c,h,aO,a)})}}return 0;case
 2:if(typeof
 a!=="number"&&3===a[0]){var
-af=a[1],l=it(c,af,a[3]),ag=f[1],aP=a[2];return cA(i,k,function(d){var
-a=ig(h,l),b=a?eY(c,h,gu(j,l),af,aP,d):a;if(b){var
-f=l[3],g=e(function(a){return t(c,ag,a)},f),i=l[2];return ie(c,h,ir(j,[0,t(c,ag,l[1]),i,g]),d)}return b})}return 0;case
+af=a[1],l=iF(c,af,a[3]),ag=f[1],aP=a[2];return cC(i,k,function(d){var
+a=it(h,l),b=a?e$(c,h,gG(j,l),af,aP,d):a;if(b){var
+f=l[3],g=e(function(a){return t(c,ag,a)},f),i=l[2];return is(c,h,iD(j,[0,t(c,ag,l[1]),i,g]),d)}return b})}return 0;case
 3:if(typeof
-a==="number"&&!a)return is(i,h,j,f[1]);return 0;case
+a==="number"&&!a)return iE(i,h,j,f[1]);return 0;case
 4:if(typeof
 a!=="number"&&0===a[0]){var
-aQ=a[2],aR=a[1],aT=gu(j,_(f[2])),aU=function(a){return eY(c,h,aT,aR,aQ,a)};return cA(i,f[1],aU)}return 0;case
+aQ=a[2],aR=a[1],aS=gG(j,$(f[2])),aU=function(a){return e$(c,h,aS,aR,aQ,a)};return cC(i,f[1],aU)}return 0;case
 5:if(typeof
 a==="number"&&!(3<=a))switch(a){case
-0:return is(i,h,j,f[1]);case
-2:return is(i,h,j,f[2])}return 0;case
+0:return iE(i,h,j,f[1]);case
+2:return iE(i,h,j,f[2])}return 0;case
 6:if(typeof
 a!=="number"&&8===a[0]){var
-D=gv(i,f[1]);if(D){var
-G=gv(i,f[2]);if(G){var
-H=gv(i,f[3]);if(H){var
-J=gv(i,f[4]);if(J){var
-ah=J[1],ai=H[1],aj=G[1],ak=D[1],n=a[2],v=f[5],aV=a[1];if(n){var
-o=n[2];if(o){var
-p=o[2];if(p){if(p[2])return 0;var
-aC=[0,n[1],o[1],p[1]],r=lE(function(f){function
-g(a){return aS(a,aV,M(c,b))}if(f){var
-a=e(g,f[2]),d=g(f[1]),h=gd(a),i=F(d[2],h),j=gd(a);return[0,d,[0,aI(d[1],j),i],a]}return _(u)},aC),O=m(function(a){return q(g(a),[0,h])},n),P=O?gm(c,h,j,v,r,ak,ai):O,Q=P?gm(c,h,j,v,r,ak,ah):P,R=Q?gm(c,h,j,v,r,aj,ai):Q;if(R)return gm(c,h,j,v,r,aj,ah);var
-T=R}else
+D=gH(i,f[1]);if(D){var
+G=gH(i,f[2]);if(G){var
+H=gH(i,f[3]);if(H){var
+I=gH(i,f[4]);if(I){var
+ah=I[1],ai=H[1],aj=G[1],ak=D[1],n=a[2],v=f[5],aV=a[1];if(n){var
+p=n[2];if(p){var
+q=p[2];if(q){if(q[2])return 0;var
+aC=[0,n[1],p[1],q[1]],r=lR(function(f){function
+g(a){return aT(a,aV,O(c,b))}if(f){var
+a=e(g,f[2]),d=g(f[1]),h=e7(a),i=E(d[2],h),j=e7(a);return[0,d,[0,aL(d[1],j),i],a]}return $(u)},aC),N=m(function(a){return o(g(a),[0,h])},n),P=N?gy(c,h,j,v,r,ak,ai):N,Q=P?gy(c,h,j,v,r,ak,ah):P,R=Q?gy(c,h,j,v,r,aj,ai):Q;if(R)return gy(c,h,j,v,r,aj,ah);var
+S=R}else
+var
+S=q;var
+T=S}else
 var
 T=p;var
-U=T}else
-var
-U=o;var
-V=U}else
+V=T}else
 var
 V=n;return V}var
-al=J}else
+al=I}else
 var
 al=H;var
 am=al}else
@@ -2050,29 +2050,29 @@ var
 ao=D;return ao}return 0;case
 7:if(typeof
 a!=="number"&&0===a[0]){var
-ap=a[2],aq=a[1],aW=f[2],aX=f[1];return cA(i,k,function(e){var
-a=q(g(e),h),d=a?q(g(ap),h):a;if(d){var
+ap=a[2],aq=a[1],aW=f[2],aX=f[1];return cC(i,k,function(e){var
+a=o(g(e),h),d=a?o(g(ap),h):a;if(d){var
 f=function(a){if(a){var
-d=a[2],e=q(g(d),h);if(e){var
-i=d$(aq,ea(aq,ap,M(c,b),d));return a5(c,h,bd(gn(c,aX,aW,a[1][2],d),i))}var
+d=a[2],e=o(g(d),h);if(e){var
+i=ei(aq,ej(aq,ap,O(c,b),d));return a6(c,h,be(gz(c,aX,aW,a[1][2],d),i))}var
 f=e}else
 var
-f=a;return f},i=j?j[1]:_(u);return ib(h,id(i,e),f)}return d})}return 0;case
+f=a;return f},i=j?j[1]:$(u);return ip(h,ir(i,e),f)}return d})}return 0;case
 8:if(typeof
 a==="number"&&5<=a){var
-aY=f[3],aZ=f[2],a0=function(a){return ly(c,h,j,aZ,aY,a)};return cA(i,f[1],a0)}return 0;case
+aY=f[3],aZ=f[2],a0=function(a){return lL(c,h,j,aZ,aY,a)};return cC(i,f[1],a0)}return 0;case
 9:return 0;default:if(typeof
 a==="number"&&!a){var
-K=iu(i,f[1]);if(K){var
-a1=f[2],L=ac(e(function(a){return iu(i,a)},a1));if(L){var
-N=iu(i,[0,f[3],[0,f[4],[0,f[5],[0,f[6],0]]]]);if(N){var
-w=N[1];if(w){var
+J=iG(i,f[1]);if(J){var
+a1=f[2],L=ac(e(function(a){return iG(i,a)},a1));if(L){var
+M=iG(i,[0,f[3],[0,f[4],[0,f[5],[0,f[6],0]]]]);if(M){var
+w=M[1];if(w){var
 x=w[2];if(x){var
 y=x[2];if(y){var
 B=y[2];if(B){if(B[2])return 0;var
-ar=B[1],as=y[1][2],at=x[1][2],au=w[1][2],av=L[1],a2=K[1],W=lO(c,h,j,av,au,at,function(d){return[0,d9(c,an(function(b,a){return A(S(c,aE(d,b)),a)},u,a2))]});return W?W:lO(c,h,j,av,au,at,function(f){var
-b=b$(ar[1]),a=b9(c,E(as,S(c,b)));if(a){var
-d=b8(c,a[1]),e=E(as,t(c,b,aE(f,ar)));return z(function(a){return t(c,e,a)},d)}return a})}var
+ar=B[1],as=y[1][2],at=x[1][2],au=w[1][2],av=L[1],a2=J[1],W=l1(c,h,j,av,au,at,function(d){return[0,eg(c,an(function(b,a){return A(U(c,aG(d,b)),a)},u,a2))]});return W?W:l1(c,h,j,av,au,at,function(f){var
+b=ca(ar[1]),a=b_(c,F(as,U(c,b)));if(a){var
+d=b9(c,a[1]),e=F(as,t(c,b,aG(f,ar)));return z(function(a){return t(c,e,a)},d)}return a})}var
 aw=B}else
 var
 aw=y;var
@@ -2084,44 +2084,44 @@ var
 ay=w;var
 az=ay}else
 var
-az=N;var
+az=M;var
 aA=az}else
 var
 aA=L;var
 aB=aA}else
 var
-aB=K;return aB}return 0}}function
-lX(a,$,s,l,n,Z,h,k,i,f,c){if(9===f[0]){var
+aB=J;return aB}return 0}}function
+l_(a,_,s,l,n,Z,h,k,i,f,c){if(9===f[0]){var
 aa=f[2],ad=f[1];if(typeof
 c!=="number"&&9===c[0]){var
-L=c[2],v=c[1],ae=c[3];if(0<aR(c[4]))return e3(a,s,l,n,h,g(k),i,f,c);var
-V=e(_,Z),C=bb(0,bA(a,go(0,k,ad),V),$,0),N=q(g(k),sY),O=N?c1(n,C):N;if(O){var
-w=gt(C,l);if(w){var
-x=gt(h,l);if(x){var
+L=c[2],v=c[1],ae=c[3];if(0<aR(c[4]))return fe(a,s,l,n,h,g(k),i,f,c);var
+V=e($,Z),C=bc(0,bB(a,gA(0,k,ad),V),_,0),M=o(g(k),tf),N=M?c5(n,C):M;if(N){var
+w=gF(C,l);if(w){var
+x=gF(h,l);if(x){var
 y=ac(e(function(b){var
 c=r(b[1],h,0);if(c)var
 f=b[2][2],a=ac(e(function(a){var
 b=r(a[2],h,0);return z(function(b){return[0,a[1],b]},b)},f)),g=a?[0,[0,b[2][1],a[1]]]:a,d=g;else
 var
 d=c;return d},aa));if(y){var
-B=lH(w[1]);if(B){var
-P=x[1],af=y[1],ag=B[1],D=d9(a,an(function(f,h){function
+B=lU(w[1]);if(B){var
+P=x[1],af=y[1],ag=B[1],D=eg(a,an(function(f,h){function
 b(b,d){var
-a=f[1],c=b?b[1]?f[2]:a[2]:a[1];return b_(r(d,c[3],u))}function
+a=f[1],c=b?b[1]?f[2]:a[2]:a[1];return b$(r(d,c[3],u))}function
 c(a){var
-b=j(a,sB),c=br(j(a,sC),b);return br(j(a,0),c)}var
+b=j(a,sU),c=bj(j(a,sV),b);return bj(j(a,0),c)}var
 d=c(function(a){var
-c=b(sD,a),d=b(sE,a);return F(F(b(0,a),d),c)}),g=[0,d,d],e=c(function(a){var
-c=b(a,sF),d=b(a,sG);return F(F(b(a,0),d),c)});return A(h,S(a,d9(a,t(a,[0,e,e],g))))},u,ag)),o=aS(ae,v,M(a,b)),G=J(d,E(o,D)[1]),H=G?q(g(L),sM):G,I=H?q(g(P),sN):H;if(I){var
-p=b8(a,o);if(p){var
-W=as(t(a,D,p[1])),X=E(M(a,b),W),Y=be(sO);return m(function(h){var
+c=b(sW,a),d=b(sX,a);return E(E(b(0,a),d),c)}),g=[0,d,d],e=c(function(a){var
+c=b(a,sY),d=b(a,sZ);return E(E(b(a,0),d),c)});return A(h,U(a,eg(a,t(a,[0,e,e],g))))},u,ag)),p=aT(ae,v,O(a,b)),G=I(d,F(p,D)[1]),H=G?o(g(L),s5):G,J=H?o(g(P),s6):H;if(J){var
+q=b9(a,p);if(q){var
+W=as(t(a,D,q[1])),X=F(O(a,b),W),Y=bf(s7);return m(function(h){var
 g=e(function(b){var
-c=b[2],d=b[1];return cu(bR(function(d,b){var
-c=b_(aE(h,b[2]));return A(d,t(a,b[1],[0,c,c]))},c,d))},af),r=j(au(function(a){return aE(h,a)}),P),F=i?aE(h,i[1]):u,N=S(a,X),s=S(a,o),q=d$(v,ea(v,L,M(a,b),r)),c=bd(al([0,ab(F),0],sH),q);if(g){var
+c=b[2],d=b[1];return cx(bT(function(d,b){var
+c=b$(aG(h,b[2]));return A(d,t(a,b[1],[0,c,c]))},c,d))},af),r=j(au(function(a){return aG(h,a)}),P),E=i?aG(h,i[1]):u,M=U(a,X),s=U(a,p),q=ei(v,ej(v,L,O(a,b),r)),c=be(al([0,ab(E),0],s0),q);if(g){var
 d=g[2];if(d){var
 f=d[2];if(f){if(f[2])return 0;var
-B=d[1],C=g[1],I=f[1],k=a5(a,sJ,bd(al([0,ab(s),0],sI),c));if(k)return m(function(D){var
-J=E(N,F),K=D[2]?B:ab(B),L=D[1]?C:ab(C),o=0;if(c){var
+B=d[1],C=g[1],I=f[1],k=a6(a,s2,be(al([0,ab(s),0],s1),c));if(k)return m(function(D){var
+J=F(M,E),K=D[2]?B:ab(B),L=D[1]?C:ab(C),o=0;if(c){var
 b=c[1],l=0;if(b){var
 d=b[2],m=0;if(d){var
 e=d[2],n=0;if(e)if(e[2]){var
@@ -2160,50 +2160,50 @@ var
 z=b;if(!l){var
 A=z;o=1}}else{var
 A=c;o=1}if(o)var
-k=A;return a5(a,sL,k)},sK);var
+k=A;return a6(a,s4,k)},s3);var
 l=k}else
 var
 l=f;var
 n=l}else
 var
 n=d;var
-p=n}else
+o=n}else
 var
-p=g;return p},Y)}var
-K=p}else
+o=g;return o},Y)}var
+K=q}else
 var
-K=I;return K}var
+K=J;return K}var
 Q=B}else
 var
 Q=y;var
 R=Q}else
 var
 R=x;var
-T=R}else
+S=R}else
 var
-T=w;var
-U=T}else
+S=w;var
+T=S}else
 var
-U=O;return U}return e3(a,s,l,n,h,g(k),i,f,c)}return e3(a,s,l,n,h,g(k),i,f,c)}function
-gw(d){var
+T=N;return T}return fe(a,s,l,n,h,g(k),i,f,c)}return fe(a,s,l,n,h,g(k),i,f,c)}function
+gI(d){var
 a=d;for(;;){if(a){var
-b=a[2],e=a[1],c=L(aj(function(b){return function(a){return q(b,a)}}(e),b));if(c){var
+b=a[2],e=a[1],c=M(aj(function(b){return function(a){return o(b,a)}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-iv(j,i,h,g,a){var
+iH(j,i,h,g,a){var
 d=r(a,j,0);if(d){var
 b=r(a,i,0);if(b)var
-c=lN(0,g,r(a,h,sZ)),k=c?[0,[0,b[1],c[1]]]:c,e=k;else
+c=l0(0,g,r(a,h,tg)),k=c?[0,[0,b[1],c[1]]]:c,e=k;else
 var
 e=b;var
 f=e}else
 var
 f=d;return f}function
-gx(i,b,a){if(a){var
+gJ(i,b,a){if(a){var
 k=a[1],l=k[2],c=ac(e(b,k[1]));if(c){var
 f=j(b,l);if(f){var
 g=r(l,i,0);if(g){var
-h=gx(i,b,a[2]);if(h)var
-m=J(d,g[1][2][1]),n=m?[0,[0,[0,c[1],f[1]],h[1]]]:m;else
+h=gJ(i,b,a[2]);if(h)var
+m=I(d,g[1][2][1]),n=m?[0,[0,[0,c[1],f[1]],h[1]]]:m;else
 var
 n=h;var
 o=n}else
@@ -2214,40 +2214,40 @@ var
 p=f;var
 q=p}else
 var
-q=c;return q}return s0}function
-lY(c,N,j,L,p,o,K,J,f,b,i,a){var
-h=g(K),O=dy(0,K),aG=bb(0,bA(c,O,e(_,e1(i,0,p))),N,0),aK=e(aw,i),aH=0,aL=e(_,p),aM=bb(s1,function(a){return ij(c,O,aL,aK,a)},N,aH),aN=gq(i,p);function
-P(a){return iv(o,aG,aM,i,a)}function
-w(a){return e(function(a){return M(c,a)},a)}var
-aO=J?J[1]:_(u);function
-R(a){return a?a5(c,h,a[1]):a}function
+q=c;return q}return th}function
+l$(c,M,j,L,q,p,J,I,f,b,i,a){var
+h=g(J),N=dE(0,J),aF=bc(0,bB(c,N,e($,fc(i,0,q))),M,0),aJ=e(ay,i),aH=0,aK=e($,q),aM=bc(ti,function(a){return iw(c,N,aK,aJ,a)},M,aH),aN=gC(i,q);function
+P(a){return iH(p,aF,aM,i,a)}function
+w(a){return e(function(a){return O(c,a)},a)}var
+aO=I?I[1]:$(u);function
+Q(a){return a?a6(c,h,a[1]):a}function
 r(f,e,d,b,a){var
-g=al([0,ab(e),0],h);return R(ip(c,w(f),d,b,a,g))}function
-S(d,b,a){var
-e=al([0,b,0],h);return R(lJ(c,w(d),a,e))}var
-aP=e(aw,i),T=m(function(a){return aJ(a,g(p))},aP),U=T?gw(e(aw,i)):T,V=U?m(function(a){return q(g(a),h)},a):U;if(V){var
+g=al([0,ab(e),0],h);return Q(iB(c,w(f),d,b,a,g))}function
+R(d,b,a){var
+e=al([0,b,0],h);return Q(lW(c,w(d),a,e))}var
+aP=e(ay,i),S=m(function(a){return aI(a,g(q))},aP),U=S?gI(e(ay,i)):S,V=U?m(function(a){return o(g(a),h)},a):U;if(V){var
 v=0;switch(f[0]){case
 0:var
 x=f[1],G=0;if(typeof
 b!=="number")switch(b[0]){case
 0:var
 ar=0;if(a){if(a[2])return 0;var
-aQ=a[1],aR=b[2],aS=b[1],W=c1(L,o);if(W){var
+aQ=a[1],aR=b[2],aS=b[1],X=c5(L,p);if(X){var
 l=function(c,a){var
 b=A(x,a);return function(a){return r(aQ,b,aS,aR,a)}},k=j;G=1;ar=1}else
 var
-Z=W}else
+_=X}else
 var
-Z=a;if(!ar)return Z;break;case
+_=a;if(!ar)return _;break;case
 2:var
 at=0;if(a){if(a[2])return 0;var
-aU=a[1],aV=b[2],aW=b[1],$=c1(L,o),au=0;if($){var
-ac=I(x[1],d),ad=ac?I(x[2],d):ac;if(ad){var
-l=function(c,b,a){return r(aU,b,aW,aV,e(lI,a))},k=j;G=1;at=1;au=1}else
+aU=a[1],aV=b[2],aW=b[1],aa=c5(L,p),au=0;if(aa){var
+ac=K(x[1],d),ad=ac?K(x[2],d):ac;if(ad){var
+l=function(c,b,a){return r(aU,b,aW,aV,e(lV,a))},k=j;G=1;at=1;au=1}else
 var
 ae=ad}else
 var
-ae=$;if(!au)var
+ae=aa;if(!au)var
 af=ae}else
 var
 af=a;if(!at)return af;break}if(!G)return 0;break;case
@@ -2255,22 +2255,22 @@ af=a;if(!at)return af;break}if(!G)return 0;break;case
 av=0,aX=f[1];if(typeof
 b==="number"&&!b){if(!a)return a;if(a[2])return 0;var
 aY=a[1],l=function(c,a){var
-b=E(aX,a);return function(a){return S(aY,b,a)}},k=j;av=1}if(!av)return 0;break;case
+b=F(aX,a);return function(a){return R(aY,b,a)}},k=j;av=1}if(!av)return 0;break;case
 2:var
-ax=0,aZ=f[1];if(typeof
-b==="number"||!(3===b[0]))ax=1;else{var
-ay=0;if(a){var
+aw=0,aZ=f[1];if(typeof
+b==="number"||!(3===b[0]))aw=1;else{var
+ax=0;if(a){var
 s=a[2],az=0;if(s){if(s[2])return 0;var
-ag=b[1],a0=s[1],a1=a[1],a2=b[2],ah=it(c,ag,b[3]),ai=ig(h,ah);if(ai){var
+ag=b[1],a0=s[1],a1=a[1],a2=b[2],ah=iF(c,ag,b[3]),ai=it(h,ah);if(ai){var
 l=function(f,b,a){var
-d=aE(f,ah),e=r(a1,A(d,b),ag,a2,a);return e?S(a0,E(t(c,aZ,d),b),a):e},k=j;ay=1;az=1}else
+d=aG(f,ah),e=r(a1,A(d,b),ag,a2,a);return e?R(a0,F(t(c,aZ,d),b),a):e},k=j;ax=1;az=1}else
 var
 aj=ai}else
 var
 aj=s;if(!az)var
 ak=aj}else
 var
-ak=a;if(!ay)return ak}if(ax)return 0;break;case
+ak=a;if(!ax)return ak}if(aw)return 0;break;case
 3:var
 aA=0;if(typeof
 b==="number"&&!b){if(a)return 0;var
@@ -2279,8 +2279,8 @@ aA=1;if(aA)return 0;break;case
 4:var
 aB=0,a4=f[2];if(typeof
 b==="number"||!(0===b[0]))aB=1;else{if(!a)return a;if(a[2])return 0;var
-a6=a[1],a7=b[2],a8=b[1],a9=function(c,a){var
-b=A(a4,a);return function(a){return r(a6,b,a8,a7,a)}},l=a9,k=f[1]}if(aB)return 0;break;case
+a5=a[1],a7=b[2],a8=b[1],a9=function(c,a){var
+b=A(a4,a);return function(a){return r(a5,b,a8,a7,a)}},l=a9,k=f[1]}if(aB)return 0;break;case
 5:var
 H=0;if(typeof
 b==="number"&&!(3<=b))switch(b){case
@@ -2292,155 +2292,155 @@ H=1;if(H)return 0;break;case
 7:var
 am=f[2],ao=f[1],aD=0;if(typeof
 b==="number"||!(0===b[0]))aD=1;else{var
-aF=0;if(a){if(a[2])return 0;var
-n=b[2],C=b[1],a_=a[1],ap=q(g(j),h);if(ap){var
+aE=0;if(a){if(a[2])return 0;var
+n=b[2],C=b[1],a_=a[1],ap=o(g(j),h);if(ap){var
 l=function(a,x){var
 y=w(a_);return function(f){var
-k=q(g(f),h),l=k?q(g(n),h):k;if(l){var
-s=e(aw,f),u=d$(C,ea(C,n,cc(c),s)),v=bd(gn(c,ao,am,x,e(aw,f)),u),a=0,b=f,i=v,w=g(n);for(;;){if(b){var
-o=b[1][2],p=q(a,ao),r=e(function(f,h){return function(d){var
-a=aa(aC(0,g(n)),n);return e(function(a){var
-b=lL(C,a[2],d[1]);if(h&&q(a[1],f))return E(b,as(t(c,am,d[2])));return b},a)}}(a,p),o),j=e0(c,y,lK(c,a,w),r,i);if(j){var
+k=o(g(f),h),l=k?o(g(n),h):k;if(l){var
+s=e(ay,f),u=ei(C,ej(C,n,ce(c),s)),v=be(gz(c,ao,am,x,e(ay,f)),u),a=0,b=f,i=v,w=g(n);for(;;){if(b){var
+p=b[1][2],q=o(a,ao),r=e(function(f,h){return function(d){var
+a=W(aC(0,g(n)),n);return e(function(a){var
+b=lY(C,a[2],d[1]);if(h&&o(a[1],f))return F(b,as(t(c,am,d[2])));return b},a)}}(a,q),p),j=fb(c,y,lX(c,a,w),r,i);if(j){var
 a=[0,a],b=b[2],i=j[1];continue}var
 d=j}else
 var
-d=[0,i];if(d)return a5(c,h,d[1]);var
+d=[0,i];if(d)return a6(c,h,d[1]);var
 m=d;break}}else
 var
-m=l;return m}},k=j;aF=1}else
+m=l;return m}},k=j;aE=1}else
 var
 aq=ap}else
 var
-aq=a;if(!aF)return aq}if(aD)return 0;break;default:return 0}if(v){var
+aq=a;if(!aE)return aq}if(aD)return 0;break;default:return 0}if(v){var
 B=P(z);if(!B)return B;var
 a3=function(b,f,a){return m(function(a){var
-b=f[2],c=a[2],e=an(function(b,a){return F(br(d,Q(b[2][1])),a)},d,c);return D(d,aI(aI(a[1][2][1],e),b))},a)},Y=a3,X=[0,[0,0,B[1]],0]}else{var
-y=gx(o,P,k);if(!y)return y;var
-Y=l,X=y[1]}var
-aT=be(h);return m(function(a){var
-b=e(function(b){return gr(c,a,aN,b)},X);return fG(Y,a,aE(a,aO),b)},aT)}return V}function
-lZ(j,a){var
-f=an(function(b,a){return br(co(b),a)},d,a);function
-g(a){if(a){if(I(co(a[1]),f))return 0;var
+b=f[2],c=a[2],e=an(function(b,a){return E(bj(d,T(b[2][1])),a)},d,c);return D(d,aL(aL(a[1][2][1],e),b))},a)},Z=a3,Y=[0,[0,0,B[1]],0]}else{var
+y=gJ(p,P,k);if(!y)return y;var
+Z=l,Y=y[1]}var
+aT=bf(h);return m(function(a){var
+b=e(function(b){return gD(c,a,aN,b)},Y);return fR(Z,a,aG(a,aO),b)},aT)}return V}function
+ma(j,a){var
+f=an(function(b,a){return bj(cr(b),a)},d,a);function
+g(a){if(a){if(K(cr(a[1]),f))return 0;var
 b=[0,g(a[2])]}else
 var
 b=a;return b}var
-h=g(a);if(I(f,d)){var
+h=g(a);if(K(f,d)){var
 k=e(function(a){return u},a),l=a?[0,b,a[2]]:a;return[0,[0,[0,0,l],d],k]}var
-i=h5(F(kZ(f),b)),m=e(function(a){return u},a);return[0,[0,[0,h,a],i],cZ(u,h,M(j,b7(c(2,b),i)),m)]}function
-gy(f,K,t,J,n,l,H,G,k,a,h,al,F,ak,C,B){var
-i=g(H),N=dy(0,H),am=bb(0,bA(f,N,e(_,e1(h,0,n))),K,0),ao=e(aw,h),an=0,ap=e(_,n),ar=bb(s2,function(a){return ij(f,N,ap,ao,a)},K,an),as=gq(h,n);function
-at(a){return iv(l,am,ar,h,a)}var
-au=G?G[1]:_(u),O=lZ(f,al),P=O[1],Q=P[1],v=Q[2],j=Q[1],R=O[2],av=P[2],o=e(function(a){return aS(a,av,M(f,b))},v);function
-S(a){return lT(f,j,o,F,ak,C,B,lS(f,j,o,i,a,0))}function
-T(a){return a?a5(f,i,a[1]):a}function
-w(d,c,b,a){return T(lU(f,j,o,R,c,b,a,S(ab(d))))}var
-ax=e(aw,h),U=m(function(a){return aJ(a,g(n))},ax),V=U?gw(e(aw,h)):U,W=V?q(g(v),i):V,X=W?q(g(F),i):W,Y=X?D(d,C):X,Z=Y?h3(B,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):Y,$=Z?aJ(j,i):Z,aa=$?L(I(r(j,v,d),d)):$;if(aa){switch(k[0]){case
+i=ih(E(lb(f),b)),m=e(function(a){return u},a);return[0,[0,[0,h,a],i],c3(u,h,O(j,b8(c(2,b),i)),m)]}function
+gK(f,J,t,I,n,l,H,G,k,a,h,al,E,ak,C,B){var
+i=g(H),L=dE(0,H),am=bc(0,bB(f,L,e($,fc(h,0,n))),J,0),ao=e(ay,h),an=0,ap=e($,n),ar=bc(tj,function(a){return iw(f,L,ap,ao,a)},J,an),as=gC(h,n);function
+at(a){return iH(l,am,ar,h,a)}var
+au=G?G[1]:$(u),N=ma(f,al),P=N[1],Q=P[1],v=Q[2],j=Q[1],R=N[2],av=P[2],p=e(function(a){return aT(a,av,O(f,b))},v);function
+S(a){return l6(f,j,p,E,ak,C,B,l5(f,j,p,i,a,0))}function
+T(a){return a?a6(f,i,a[1]):a}function
+w(d,c,b,a){return T(l7(f,j,p,R,c,b,a,S(ab(d))))}var
+aw=e(ay,h),U=m(function(a){return aI(a,g(n))},aw),V=U?gI(e(ay,h)):U,W=V?o(g(v),i):V,X=W?o(g(E),i):W,Y=X?D(d,C):X,Z=Y?ie(B,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):Y,_=Z?aI(j,i):Z,aa=_?M(K(r(j,v,d),d)):_;if(aa){switch(k[0]){case
 0:var
 x=k[1],z=0;if(typeof
 a==="number")z=1;else
 switch(a[0]){case
 0:var
-ay=a[2],az=a[1],ac=c1(J,l);if(!ac)return ac;var
+ax=a[2],az=a[1],ac=c5(I,l);if(!ac)return ac;var
 s=function(a){var
-b=A(x,a);return function(a){return w(b,az,ay,a)}},p=t;break;case
+b=A(x,a);return function(a){return w(b,az,ax,a)}},q=t;break;case
 2:var
-aC=a[2],aD=a[1],ad=c1(J,l),ah=0;if(ad){var
-ae=I(x[1],d),af=ae?I(x[2],d):ae;if(af){var
-s=function(b,a){return w(b,aD,aC,e(lI,a))},p=t;ah=1}else
+aC=a[2],aD=a[1],ad=c5(I,l),ah=0;if(ad){var
+ae=K(x[1],d),af=ae?K(x[2],d):ae;if(af){var
+s=function(b,a){return w(b,aD,aC,e(lV,a))},q=t;ah=1}else
 var
 ag=af}else
 var
 ag=ad;if(!ah)return ag;break;default:z=1}if(z)return 0;break;case
 1:var
-ai=0,aF=k[1];if(typeof
+ai=0,aE=k[1];if(typeof
 a==="number"&&!a)var
 s=function(a){var
-b=E(aF,a);return function(a){return T(lW(f,j,o,R,a,S(b)))}},p=t;else
+b=F(aE,a);return function(a){return T(l9(f,j,p,R,a,S(b)))}},q=t;else
 ai=1;if(ai)return 0;break;case
 4:var
-aj=0,aG=k[2];if(typeof
+aj=0,aF=k[2];if(typeof
 a==="number"||!(0===a[0]))aj=1;else
 var
-aH=a[2],aI=a[1],aK=function(a){var
-b=A(aG,a);return function(a){return w(b,aI,aH,a)}},s=aK,p=k[1];if(aj)return 0;break;default:return 0}var
-y=gx(l,at,p);if(y){var
-aA=y[1],aB=be(i);return m(function(a){var
-b=e(function(b){return gr(f,a,as,b)},aA);return aq(s,aE(a,au),b)},aB)}return y}return aa}function
-l0(r,q,p,o,n,C,m,c,l,k,i,h,g,a){var
+aH=a[2],aJ=a[1],aK=function(a){var
+b=A(aF,a);return function(a){return w(b,aJ,aH,a)}},s=aK,q=k[1];if(aj)return 0;break;default:return 0}var
+y=gJ(l,at,q);if(y){var
+aA=y[1],aB=bf(i);return m(function(a){var
+b=e(function(b){return gD(f,a,as,b)},aA);return aq(s,aG(a,au),b)},aB)}return y}return aa}function
+mb(r,q,p,o,n,C,m,c,l,k,i,h,g,a){var
 v=e(function(a){return d},c),u=0;if(typeof
 a!=="number")switch(a[0]){case
 5:var
-E=a[1],F=function(a){return gy(r,q,p,o,n,m,c,a,l,E,0,v,k,i,h,g)},x=F,w=a[3],s=a[2];u=1;break;case
+E=a[1],F=function(a){return gK(r,q,p,o,n,m,c,a,l,E,0,v,k,i,h,g)},x=F,w=a[3],s=a[2];u=1;break;case
 10:var
 b=a[3],A=a[2],f=a[1],B=0;if(typeof
 f!=="number"&&5===f[0]){if(!b)return b;if(b[2])return 0;var
-G=b[1],H=f[1],I=function(a){return gy(r,q,p,o,n,m,c,a,l,H,A,G,k,i,h,g)},x=I,w=f[3],s=f[2];u=1;B=1}if(!B)return b?b[2]?0:gy(r,q,p,o,n,m,c,0,l,f,A,b[1],k,i,h,g):b;break}if(u){var
+G=b[1],H=f[1],I=function(a){return gK(r,q,p,o,n,m,c,a,l,H,A,G,k,i,h,g)},x=I,w=f[3],s=f[2];u=1;B=1}if(!B)return b?b[2]?0:gK(r,q,p,o,n,m,c,0,l,f,A,b[1],k,i,h,g):b;break}if(u){var
 t=j(C,c);if(t){var
-y=D(d,s);if(y)return x([0,gk(s,w,t[1])]);var
+y=D(d,s);if(y)return x([0,gw(s,w,t[1])]);var
 z=y}else
 var
-z=t;return z}return gy(r,q,p,o,n,m,c,0,l,a,0,v,k,i,h,g)}function
-l1(a,ai,aL,s,G,ah,p,o,ag,af,h){function
+z=t;return z}return gK(r,q,p,o,n,m,c,0,l,a,0,v,k,i,h,g)}function
+mc(a,ai,aL,s,G,ah,q,p,ag,af,h){function
 k(aj,f,j,x){var
-h=g(p),z=dy(0,p),aq=bb(0,bA(a,z,e(_,e1(j,0,s))),ai,0),as=e(aw,j),ar=0,at=e(_,s),au=bb(s3,function(b){return ij(a,z,at,as,b)},ai,ar);function
-av(a){return iv(ah,aq,au,j,a)}var
-ax=aj?aj[1]:_(u);function
-k(b){return b?a5(a,h,b[1]):b}function
-B(b,a){return ab(A(aE(b,ag),a))}function
-C(d,c,b){return E(t(a,d,aE(c,ag)),b)}var
-ay=e(aw,j),F=m(function(a){return aJ(a,g(s))},ay),G=F?gw(e(aw,j)):F,H=G?q(g(x),h):G;if(H){var
+h=g(q),z=dE(0,q),aq=bc(0,bB(a,z,e($,fc(j,0,s))),ai,0),as=e(ay,j),ar=0,at=e($,s),au=bc(tk,function(b){return iw(a,z,at,as,b)},ai,ar);function
+av(a){return iH(ah,aq,au,j,a)}var
+aw=aj?aj[1]:$(u);function
+k(b){return b?a6(a,h,b[1]):b}function
+B(b,a){return ab(A(aG(b,ag),a))}function
+C(d,c,b){return F(t(a,d,aG(c,ag)),b)}var
+ax=e(ay,j),E=m(function(a){return aI(a,g(s))},ax),G=E?gI(e(ay,j)):E,H=G?o(g(x),h):G;if(H){var
 ak=0;if(af){var
-J=af[1],K=J[1],N=K[1],O=N[1],P=K[2],Q=J[2],az=N[2],R=lZ(a,x),S=R[1],T=S[1],v=T[2],i=T[1],U=R[2],aA=S[2],l=e(function(c){return aS(c,aA,M(a,b))},v),V=function(b){return lT(a,i,l,O,az,P,Q,lS(a,i,l,h,b,0))},W=q(g(v),h),X=W?q(g(O),h):W,Y=X?D(d,P):X,Z=Y?h3(Q,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):Y,$=Z?aJ(i,h):Z,aa=$?L(I(r(i,v,d),d)):$,y=0;if(aa)if(o){var
-am=0,aB=o[1];if(typeof
+I=af[1],J=I[1],L=J[1],N=L[1],P=J[2],Q=I[2],az=L[2],R=ma(a,x),S=R[1],T=S[1],v=T[2],i=T[1],U=R[2],aA=S[2],l=e(function(c){return aT(c,aA,O(a,b))},v),V=function(b){return l6(a,i,l,N,az,P,Q,l5(a,i,l,h,b,0))},W=o(g(v),h),X=W?o(g(N),h):W,Y=X?D(d,P):X,Z=Y?ie(Q,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):Y,_=Z?aI(i,h):Z,aa=_?M(K(r(i,v,d),d)):_,y=0;if(aa)if(p){var
+am=0,aB=p[1];if(typeof
 f==="number"&&!f){var
-n=function(d,c,b){return k(lW(a,i,l,U,b,V(C(aB,d,c))))};y=1;am=1}if(!am)return 0}else{var
+n=function(d,c,b){return k(l9(a,i,l,U,b,V(C(aB,d,c))))};y=1;am=1}if(!am)return 0}else{var
 an=0;if(typeof
 f!=="number"&&0===f[0]){var
-aF=f[2],aG=f[1],n=function(d,c,b){return k(lU(a,i,l,U,aG,aF,b,V(B(d,c))))};y=1;an=1}if(!an)var
+aE=f[2],aF=f[1],n=function(d,c,b){return k(l7(a,i,l,U,aF,aE,b,V(B(d,c))))};y=1;an=1}if(!an)var
 ac=0}else
 var
 ac=aa;if(!y)return ac}else{var
-ad=e(function(b){return M(a,b)},x);if(o){var
-ao=0,aH=o[1];if(typeof
+ad=e(function(b){return O(a,b)},x);if(p){var
+ao=0,aH=p[1];if(typeof
 f==="number"&&!f){var
-n=function(d,c,b){return k(lJ(a,ad,b,al([0,C(aH,d,c),0],h)))};ao=1}if(!ao)return 0}else{var
+n=function(d,c,b){return k(lW(a,ad,b,al([0,C(aH,d,c),0],h)))};ao=1}if(!ao)return 0}else{var
 ap=0;if(typeof
 f==="number"||!(0===f[0]))ap=1;else
 var
-aI=f[2],aK=f[1],n=function(d,c,b){return k(ip(a,ad,aK,aI,b,al([0,B(d,c),0],h)))};if(ap){var
+aJ=f[2],aK=f[1],n=function(d,c,b){return k(iB(a,ad,aK,aJ,b,al([0,B(d,c),0],h)))};if(ap){var
 ae=0;ak=1}}}if(!ak){var
-w=gx(ah,av,aL);if(w){var
-aC=w[1],aD=be(h);return m(function(b){var
-c=gq(j,s),d=e(function(d){return gr(a,b,c,d)},aC);return n(b,aE(b,ax),d)},aD)}return w}}else
+w=gJ(ah,av,aL);if(w){var
+aC=w[1],aD=bf(h);return m(function(b){var
+c=gC(j,s),d=e(function(d){return gD(a,b,c,d)},aC);return n(b,aG(b,aw),d)},aD)}return w}}else
 var
 ae=H;return ae}var
-x=e(function(a){return d},p),w=0;if(typeof
+x=e(function(a){return d},q),w=0;if(typeof
 h!=="number")switch(h[0]){case
 5:var
-H=h[1],J=function(a){return k(a,H,0,x)},z=J,y=h[3],l=h[2];w=1;break;case
+H=h[1],I=function(a){return k(a,H,0,x)},z=I,y=h[3],l=h[2];w=1;break;case
 10:var
-f=h[3],v=h[2],i=h[1],F=0;if(typeof
+f=h[3],v=h[2],i=h[1],E=0;if(typeof
 i!=="number")switch(i[0]){case
 5:if(!f)return f;if(f[2])return 0;var
-K=f[1],N=i[1],O=function(a){return k(a,N,v,K)},z=O,y=i[3],l=i[2];w=1;F=1;break;case
+J=f[1],L=i[1],N=function(a){return k(a,L,v,J)},z=N,y=i[3],l=i[2];w=1;E=1;break;case
 3:case
 7:case
 9:case
 10:case
 11:case
-13:return f?f[2]?0:k(0,i,v,f[1]):f}if(!F)return f?f[2]?0:k(0,i,v,f[1]):f;break}if(w){var
-n=j(G,p);if(n){var
-B=D(d,l);if(B)return z([0,gk(l,y,n[1])]);var
+13:return f?f[2]?0:k(0,i,v,f[1]):f}if(!E)return f?f[2]?0:k(0,i,v,f[1]):f;break}if(w){var
+n=j(G,q);if(n){var
+B=D(d,l);if(B)return z([0,gw(l,y,n[1])]);var
 C=B}else
 var
 C=n;return C}return k(0,h,0,x)}function
-l2(l,k,i,p,h,g,o,f,b,e,a){if(typeof
+md(l,k,i,p,h,g,o,f,b,e,a){if(typeof
 a!=="number")switch(a[0]){case
 5:var
 q=a[2],m=j(o,b);if(m){var
 r=D(d,q);if(r){var
-y=a[1];return lX(l,k,i,p,h,g,f,b,[0,gk(q,a[3],m[1])],e,y)}var
+y=a[1];return l_(l,k,i,p,h,g,f,b,[0,gw(q,a[3],m[1])],e,y)}var
 s=r}else
 var
 s=m;return s;case
@@ -2449,13 +2449,13 @@ t=a[3],u=a[2],c=a[1];if(typeof
 c!=="number"&&5===c[0]){var
 v=c[2],n=j(o,b);if(n){var
 w=D(d,v);if(w){var
-z=c[1];return lY(l,k,i,h,g,f,b,[0,gk(v,c[3],n[1])],e,z,u,t)}var
+z=c[1];return l$(l,k,i,h,g,f,b,[0,gw(v,c[3],n[1])],e,z,u,t)}var
 x=w}else
 var
-x=n;return x}return lY(l,k,i,h,g,f,b,0,e,c,u,t)}return lX(l,k,i,p,h,g,f,b,0,e,a)}function
-iw(a){return 9===a[0]?0:1}function
-ec(a){return y(function(a){return f(a[1],[0,a[2],0])},a)}function
-ix(j,d,i,a,h){var
+x=n;return x}return l$(l,k,i,h,g,f,b,0,e,c,u,t)}return l_(l,k,i,p,h,g,f,b,0,e,a)}function
+iI(a){return 9===a[0]?0:1}function
+el(a){return y(function(a){return f(a[1],[0,a[2],0])},a)}function
+iJ(j,d,i,a,h){var
 b=h;for(;;){var
 c=0;if(typeof
 b==="number"){if(1!==b)c=1}else
@@ -2466,7 +2466,7 @@ b=b[3];continue;case
 5:case
 10:var
 b=b[1];continue;default:c=1}var
-k=c?0:1,l=k?d:j,g=ec(l);switch(a[0]){case
+k=c?0:1,l=k?d:j,g=el(l);switch(a[0]){case
 0:return f(i,g);case
 3:return[0,a[1],0];case
 5:return[0,a[1],[0,a[2],0]];case
@@ -2474,18 +2474,18 @@ k=c?0:1,l=k?d:j,g=ec(l);switch(a[0]){case
 m=[0,a[1],[0,a[2],[0,a[3],[0,a[4],0]]]];return y(function(a){return[0,a[1],[0,a[2],[0,a[3],0]]]},m);case
 9:var
 n=a[2],o=y(function(a){var
-b=e(aZ,a[2][2]);return[0,a[1],b]},n);return f(ec(d),o);case
+b=e(aY,a[2][2]);return[0,a[1],b]},n);return f(el(d),o);case
 10:var
-p=[0,a[3],[0,a[4],[0,a[5],[0,a[6],0]]]],q=f(dZ(a[2]),p);return f(a[1],q);case
+p=[0,a[3],[0,a[4],[0,a[5],[0,a[6],0]]]],q=f(d_(a[2]),p);return f(a[1],q);case
 4:case
-8:return ec(a[1]);default:return g}}}function
-iy(v,t,s,p,k,a,g,j){var
-h=iw(a),i=h?m(function(b){var
-a=r(b,bR(e2,g,k),u);return I(a[1],a[2])},j):h;return i?m(function(ao){switch(a[0]){case
+8:return el(a[1]);default:return g}}}function
+iK(v,t,s,q,k,a,g,j){var
+h=iI(a),i=h?m(function(b){var
+a=r(b,bT(fd,g,k),u);return K(a[1],a[2])},j):h;return i?m(function(ao){switch(a[0]){case
 3:var
 g=[0,a[1],0];break;case
 4:var
-g=ec(a[1]);break;case
+g=el(a[1]);break;case
 5:var
 g=[0,a[1],[0,a[2],0]];break;case
 6:case
@@ -2493,28 +2493,28 @@ g=[0,a[1],[0,a[2],0]];break;case
 9:case
 10:return 0;default:var
 g=0}var
-j=0,k=bb(0,function(a){switch(a[0]){case
+j=0,k=bc(0,function(a){switch(a[0]){case
 0:return[0,[0,d]];case
 1:var
-ad=a[1],ae=aj(function(a){return q(ad,a)},ao)?b:d;return[0,[0,ae]];case
+ad=a[1],ae=aj(function(a){return o(ad,a)},ao)?b:d;return[0,[0,ae]];case
 2:var
-af=I(a[1],d)?0:[0,d];return[0,af];case
+af=K(a[1],d)?0:[0,d];return[0,af];case
 3:var
 e=a[2],j=a[1];if(j){var
 z=j[1];if(z){if(e){var
 A=e[1];if(A){var
-B=z[1],C=I(B,A[1]),ag=C?[0,[0,B]]:C;return ag}var
-E=j}else
+B=z[1],C=K(B,A[1]),ag=C?[0,[0,B]]:C;return ag}var
+F=j}else
 var
-E=e;return E}return e}if(e){if(e[1])return 0;var
+F=e;return F}return e}if(e){if(e[1])return 0;var
 G=j}else
 var
 G=e;return G;case
 4:var
 f=a[2],k=a[1];if(k){var
 H=k[1];if(H){if(f){var
-J=f[1];if(J){var
-K=H[1],L=I(K,J[1]),ah=L?[0,[0,K]]:L;return ah}var
+I=f[1];if(I){var
+J=H[1],L=K(J,I[1]),ah=L?[0,[0,J]]:L;return ah}var
 M=k}else
 var
 M=f;return M}return f}if(f){if(f[1])return 0;var
@@ -2525,27 +2525,27 @@ N=f;return N;case
 6:var
 n=a[1];if(n){var
 O=n[1],g=a[2];if(O){if(g){var
-P=g[1];if(P)return[0,[0,F(O[1],P[1])]];var
-R=sS}else
+P=g[1];if(P)return[0,[0,E(O[1],P[1])]];var
+Q=s$}else
 var
-R=g;return R}var
-ai=g?sT:g,S=ai}else
+Q=g;return Q}var
+ai=g?ta:g,R=ai}else
 var
-S=n;return S;case
+R=n;return R;case
 7:var
-o=a[1];if(o){var
-T=o[1],h=a[2];if(T){if(h)var
-p=h[1],ak=p?[0,[0,aI(T[1],p[1])]]:p,U=ak;else
+p=a[1];if(p){var
+S=p[1],h=a[2];if(S){if(h)var
+q=h[1],ak=q?[0,[0,aL(S[1],q[1])]]:q,U=ak;else
 var
 U=h;return U}var
-al=h?sU:h,V=al}else
+al=h?tb:h,V=al}else
 var
-V=o;return V;case
+V=p;return V;case
 8:var
 r=a[1];if(r){var
 W=r[1];if(W){var
-X=W[1];return[0,[0,F(X,X)]]}var
-Y=sV}else
+X=W[1];return[0,[0,E(X,X)]]}var
+Y=tc}else
 var
 Y=r;return Y;case
 9:var
@@ -2554,10 +2554,10 @@ t=s[1];if(t){var
 i=t[1],x=aR(i);if(0===x)var
 l=1;else
 if(0<x)var
-l=D(i,b)?0:I(aW(i,aH(2))[2],d)?1:0;else
+l=D(i,b)?0:K(aS(i,aH(2))[2],d)?1:0;else
 var
-y=Q(i),l=D(y,b)?0:I(aW(y,aH(2))[2],d)?1:0;var
-am=l?[0,[0,cs(i,c(2,b))]]:l,Z=am}else
+y=T(i),l=D(y,b)?0:K(aS(y,aH(2))[2],d)?1:0;var
+am=l?[0,[0,cv(i,c(2,b))]]:l,Z=am}else
 var
 Z=t;var
 _=Z}else
@@ -2566,7 +2566,7 @@ _=s;return _;default:var
 u=a[2];if(u){var
 v=a[3];if(v){var
 w=a[4];if(w)var
-an=[0,u[1],[0,v[1],[0,w[1],0]]],$=m(function(a){return a?I(a[1],d):1},an),aa=$?[0,[0,d]]:$;else
+an=[0,u[1],[0,v[1],[0,w[1],0]]],$=m(function(a){return a?K(a[1],d):1},an),aa=$?[0,[0,d]]:$;else
 var
 aa=w;var
 ab=aa}else
@@ -2577,82 +2577,84 @@ var
 ac=u;return ac}},v,j);function
 l(a){return a?a[1]:d}var
 h=e(function(a){return z(l,a)},k),i=m(function(c){var
-a=r(c,h,0),b=a?1:a;return b},p);if(i){var
-n=f(ec(s),g),o=f(ec(t),n);return m(function(c){var
+a=r(c,h,0),b=a?1:a;return b},q);if(i){var
+n=f(el(s),g),p=f(el(t),n);return m(function(c){var
 a=r(c,h,0);if(a){var
-b=aR(a[1]);return 0===b?1:0<b?0:0}return a},o)}return i},g):i}function
-iz(j,a,i,h,g,f,e,d,c,b){var
-k=gc(ix(i,h,g,c,b),a);return iq(j,a,bR(e2,e,f),k,d)}function
-l3(f,d,c,n,m,b,l,q,e,k,j,i,h,a){if(typeof
+b=aR(a[1]);return 0===b?1:0<b?0:0}return a},p)}return i},g):i}function
+iL(j,a,i,h,g,f,e,d,c,b){var
+k=gp(iJ(i,h,g,c,b),a);return iC(j,a,bT(fd,e,f),k,d)}function
+me(f,d,c,n,m,b,l,q,e,k,j,i,h,a){if(typeof
 a!=="number"&&11===a[0]){var
-o=a[3],g=a[1],p=iy(d,c,n,m,b,k,g,a[2]);if(p){var
-r=iz(f,d,c,n,m,b,g,e,k,o);return l1(f,d,c,bR(e2,g,b),l,r,e,j,i,h,o)}return p}return l1(f,d,c,b,l,q,e,j,i,h,a)}function
-l4(r,p,o,n,l,k,j,i,h,f,d,c,a){if(typeof
+o=a[3],g=a[1],p=iK(d,c,n,m,b,k,g,a[2]);if(p){var
+r=iL(f,d,c,n,m,b,g,e,k,o);return mc(f,d,c,bT(fd,g,b),l,r,e,j,i,h,o)}return p}return mc(f,d,c,b,l,q,e,j,i,h,a)}function
+mf(r,q,p,n,l,k,j,i,h,f,d,c,a){if(typeof
 a!=="number"&&12===a[0]){var
-b=a[1],s=L(q(g(b),0));if(s){var
-t=aa(lR(e(function(a){return a[1][1][1]},b)),b);return m(function(a){var
-b=a[2],e=b[1];return l3(r,p,o,n,l,k,j,i,h,f,d,c,[0,[0,[0,[0,a[1][1],a[1][2]],e[1][2]],e[2]]],b[2])},t)}return s}return l3(r,p,o,n,l,k,j,i,h,f,d,c,0,a)}function
-gz(b,a){if(a){var
+b=a[1],s=M(o(g(b),0));if(s){var
+t=W(l4(e(function(a){return a[1][1][1]},b)),b);return m(function(a){var
+b=a[2],e=b[1];return me(r,q,p,n,l,k,j,i,h,f,d,c,[0,[0,[0,[0,a[1][1],a[1][2]],e[1][2]],e[2]]],b[2])},t)}return s}return me(r,q,p,n,l,k,j,i,h,f,d,c,0,a)}function
+gL(b,a){if(a){var
 c=a[2];if(b){var
-e=gz(b[1],c);return[0,a[1],e]}var
+e=gL(b[1],c);return[0,a[1],e]}var
 d=[0,0,c]}else
 var
 d=a;return d}function
-e4(i,a,f,l,c,t,n,h,b,W,o){switch(o[0]){case
+mg(c,b,a){var
+d=W(b,a);return m(function(a){var
+b=j(c,a[1]);return b?b:M(a[2])},d)}function
+ff(i,a,f,l,c,t,n,h,b,X,p){switch(p[0]){case
 0:var
-ab=function(a){return m(L,a)},I=ab,x=o[1];break;case
+ab=function(a){return m(M,a)},J=ab,x=p[1];break;case
 1:var
-ac=o[4],ad=o[3],ae=o[2],af=function(d){var
-e=cX(ae,b),g=e4(i,a,f,l,c,t,n,h,e[1],d,ad);return g?e4(i,a,f,l,c,t,n,h,e[2],d,ac):g},I=af,x=o[1];break;default:var
-ag=o[4],ah=o[3],ai=o[2],aj=function(d){var
-o=aa(t,d),e=m(function(a){var
-b=iw(a[1]);return b?b:L(a[2])},o);if(e){var
-g=cX(ai,h),j=e4(i,a,f,l,c,t,n,g[1],b,d,ah);if(j)return e4(i,a,f,l,c,t,n,g[2],b,d,ag);var
+ac=p[4],ad=p[3],ae=p[2],af=function(d){var
+e=c1(ae,b),g=ff(i,a,f,l,c,t,n,h,e[1],d,ad);return g?ff(i,a,f,l,c,t,n,h,e[2],d,ac):g},J=af,x=p[1];break;default:var
+ag=p[4],ah=p[3],ai=p[2],aj=function(d){var
+e=mg(iI,t,d);if(e){var
+g=c1(ai,h),j=ff(i,a,f,l,c,t,n,g[1],b,d,ah);if(j)return ff(i,a,f,l,c,t,n,g[2],b,d,ag);var
 k=j}else
 var
-k=e;return k},I=aj,x=o[1]}if(x){var
-z=iq(i,a,h,gc(y(function(e){var
+k=e;return k},J=aj,x=p[1]}if(x){var
+z=iC(i,a,h,gp(y(function(e){var
 a=e[2],d=0;if(typeof
 a==="number"){if(4!==a)d=1}else
 if(11!==a[0])d=1;if(d){var
-b=G(t,e[1]);return b?ix(f,l,c,b[1],a):b}return 0},x),a),b),w=x,u=W;for(;;){if(w){var
-R=w[1],k=R[2],E=R[1],S=w[2],X=0;if(typeof
+b=H(t,e[1]);return b?iJ(f,l,c,b[1],a):b}return 0},x),a),b),w=x,u=X;for(;;){if(w){var
+R=w[1],k=R[2],E=R[1],S=w[2],Y=0;if(typeof
 k==="number"&&4===k){var
 A=j(n,b);if(A)var
-Z=A[1],Y=be(g(b)),F=m(function(b){return function(a){return J(aE(a,b)[2],d)}}(Z),Y);else
+_=A[1],Z=bf(g(b)),F=m(function(b){return function(a){return I(aG(a,b)[2],d)}}(_),Z);else
 var
 F=A;if(F){var
 w=S,u=e(function(a){return 0},u);continue}var
 v=F}else
-X=1;if(X){var
+Y=1;if(Y){var
 T=r(E,u,0);if(T){var
-H=G(t,E);if(H){var
-p=H[1],K=0;if(typeof
+G=H(t,E);if(G){var
+q=G[1],K=0;if(typeof
 k==="number")K=1;else
 switch(k[0]){case
 11:var
-M=k[3],B=k[1],N=iy(a,f,l,c,h,p,B,k[2]);if(N)var
-_=iz(i,a,f,l,c,h,B,b,p,M),s=l2(i,a,f,l,c,bR(e2,B,h),n,_,b,p,M);else
+L=k[3],B=k[1],N=iK(a,f,l,c,h,q,B,k[2]);if(N)var
+$=iL(i,a,f,l,c,h,B,b,q,L),s=md(i,a,f,l,c,bT(fd,B,h),n,$,b,q,L);else
 var
 s=N;break;case
 12:var
-C=k[1],O=L(q(g(C),0));if(O)var
-$=aa(lR(e(function(a){return a[1][1][1]},C)),C),s=m(function(g){return function(r){var
+C=k[1],O=M(o(g(C),0));if(O)var
+aa=W(l4(e(function(a){return a[1][1][1]},C)),C),s=m(function(g){return function(r){var
 s=r[2],e=r[1],k=s[1],m=k[1][2],o=k[2],d=s[2];if(typeof
 d!=="number"&&11===d[0]){var
-p=d[3],j=d[1],q=iy(a,f,l,c,h,g,j,d[2]);if(q){var
-t=e[2],u=e[1],v=iz(i,a,f,l,c,h,j,b,g,p);return l0(i,a,f,c,bR(e2,j,h),n,v,b,g,u,t,m,o,p)}return q}return l0(i,a,f,c,h,n,z,b,g,e[1],e[2],m,o,d)}}(p),$);else
+p=d[3],j=d[1],q=iK(a,f,l,c,h,g,j,d[2]);if(q){var
+t=e[2],u=e[1],v=iL(i,a,f,l,c,h,j,b,g,p);return mb(i,a,f,c,bT(fd,j,h),n,v,b,g,u,t,m,o,p)}return q}return mb(i,a,f,c,h,n,z,b,g,e[1],e[2],m,o,d)}}(q),aa);else
 var
 s=O;break;case
-13:if(2===p[0])var
-D=it(i,k[1],k[2]),P=ig(g(b),D),Q=P?l4(i,a,f,l,c,h,n,z,b,p,0,D,k[3]):P,s=Q?l4(i,a,f,l,c,h,n,z,b,p,[0,p[1]],D,k[4]):Q;else
+13:if(2===q[0])var
+D=iF(i,k[1],k[2]),P=it(g(b),D),Q=P?mf(i,a,f,l,c,h,n,z,b,q,0,D,k[3]):P,s=Q?mf(i,a,f,l,c,h,n,z,b,q,[0,q[1]],D,k[4]):Q;else
 var
 s=0;break;default:K=1}if(K)var
-s=l2(i,a,f,l,c,h,n,z,b,p,k);if(s){var
-w=S,u=gz(E,u);continue}var
+s=md(i,a,f,l,c,h,n,z,b,q,k);if(s){var
+w=S,u=gL(E,u);continue}var
 U=s}else
 var
-U=H;var
+U=G;var
 V=U}else
 var
 V=T;var
@@ -2660,82 +2662,82 @@ v=V}}else
 var
 v=[0,u];break}}else
 var
-v=[0,W];return v?I(v[1]):v}function
-iA(h,g,f,e,d,c,b,a){return function(i,j,k){return e4(h,g,f,e,d,b,a,c,i,j,k)}}function
-iB(a){return e(function(a){return 1},a)}function
-ed(a,d,b,c){function
+v=[0,X];return v?J(v[1]):v}function
+iM(h,g,f,e,d,c,b,a){return function(i,j,k){return ff(h,g,f,e,d,b,a,c,i,j,k)}}function
+iN(a){return e(function(a){return 1},a)}function
+em(a,d,b,c){function
 f(d,c){var
-f=aa(a[1],b[1]);return e(function(a){var
-b=s(c,a[2]);return B(s(d,a[1]),b)},f)}if(aK(a[2],b[2])){var
+f=W(a[1],b[1]);return e(function(a){var
+b=s(c,a[2]);return B(s(d,a[1]),b)},f)}if(aN(a[2],b[2])){var
 g=a[2];return[0,f(d,c),g]}var
 h=s(a[2],b[2]),i=s(c,a[2]);return[0,f(s(d,b[2]),i),h]}function
-l5(a){var
+mh(a){var
 c=l(b);return[0,e(function(a){return l(d)},a),c]}function
-a6(a,k){var
+a7(a,k){var
 f=k[1];switch(f[0]){case
 1:var
-u=f[1];if(aj(function(a){return q(u,a)},a)){var
+u=f[1];if(aj(function(a){return o(u,a)},a)){var
 C=l(b);return[0,e(function(a){var
-c=q(a,u)?b:d;return l(c)},a),C]}return l5(a);case
+c=o(a,u)?b:d;return l(c)},a),C]}return mh(a);case
 3:var
-D=l(b),E=a6(a,f[2]),F=l(b);return ed(a6(a,f[1]),F,E,D);case
+D=l(b),E=a7(a,f[2]),F=l(b);return em(a7(a,f[1]),F,E,D);case
 4:var
-G=l(Q(b)),H=a6(a,f[2]),I=l(b);return ed(a6(a,f[1]),I,H,G);case
+G=l(T(b)),H=a7(a,f[2]),I=l(b);return em(a7(a,f[1]),I,H,G);case
 5:var
-v=a6(a,f[1]),J=v[2];return[0,e(bk,v[1]),J];case
+v=a7(a,f[1]),J=v[2];return[0,e(bl,v[1]),J];case
 6:var
-x=f[2],y=f[1],K=a6(a,x);return ed(a6(a,y),x,K,y);case
+w=f[2],y=f[1],K=a7(a,w);return em(a7(a,y),w,K,y);case
 7:var
-z=f[2],L=bk(k),M=a6(a,z),N=l(b),i=ed(a6(a,f[1]),N,M,L),O=i[1];if(m(function(a){return a4(d,a)},O))return i;var
+z=f[2],L=bl(k),M=a7(a,z),N=l(b),i=em(a7(a,f[1]),N,M,L),O=i[1];if(m(function(a){return a5(d,a)},O))return i;var
 P=s(i[2],z);return[0,i[1],P];case
 8:var
-A=f[1],B=a6(a,A),R=B[2],S=B[1],T=s(l(c(2,b)),A);return[0,e(function(a){return s(T,a)},S),R];case
+A=f[1],B=a7(a,A),Q=B[2],R=B[1],S=s(l(c(2,b)),A);return[0,e(function(a){return s(S,a)},R),Q];case
 9:var
-j=a6(a,f[1]),U=j[1];if(m(function(a){return a4(d,a)},U)){var
+j=a7(a,f[1]),U=j[1];if(m(function(a){return a5(d,a)},U)){var
 V=l(b);return[0,j[1],V]}var
 W=s(l(c(2,b)),k),X=s(j[2],W);return[0,j[1],X];case
 10:var
-n=f[4],g=f[3],h=f[2],o=[0,[10,0,h,g,n]],p=[0,[10,1,h,g,n]],Y=w(g,p),Z=a6(a,g),_=w(h,o),$=ed(a6(a,h),_,Z,Y),aa=l(Q(b)),ab=a6(a,n),r=ed($,l(c(2,b)),ab,aa),ac=r[1],ad=f[1]?o:bk(p),t=e(function(a){return s(ad,a)},ac);if(m(function(a){return a4(d,a)},t))return[0,t,r[2]];var
-ae=s(h,p),af=w(s(g,o),ae),ag=s(l(c(2,b)),af);return[0,t,s(r[2],ag)];default:return l5(a)}}function
-l6(c,a){var
-b=a6(c,a),f=b[1];return e(function(a){return a4(d,a)?a:am(a,b[2])},f)}function
-l7(g){var
+n=f[4],g=f[3],h=f[2],p=[0,[10,0,h,g,n]],q=[0,[10,1,h,g,n]],Y=x(g,q),Z=a7(a,g),_=x(h,p),$=em(a7(a,h),_,Z,Y),aa=l(T(b)),ab=a7(a,n),r=em($,l(c(2,b)),ab,aa),ac=r[1],ad=f[1]?p:bl(q),t=e(function(a){return s(ad,a)},ac);if(m(function(a){return a5(d,a)},t))return[0,t,r[2]];var
+ae=s(h,q),af=x(s(g,p),ae),ag=s(l(c(2,b)),af);return[0,t,s(r[2],ag)];default:return mh(a)}}function
+mi(c,a){var
+b=a7(c,a),f=b[1];return e(function(a){return a5(d,a)?a:am(a,b[2])},f)}function
+mj(g){var
 h=g[1],c=h[2],e=h[1];if(0===e[0]){var
 i=e[2],a=e[1];if(D(i,b)){if(0===c[0]){var
 j=c[2],m=c[1];if(D(j,b)){var
-k=I(a,m),l=k?eT(a):k;if(l)var
-n=I(g[2],d),f=n||I(a,d);else
+k=K(a,m),l=k?e5(a):k;if(l)var
+n=K(g[2],d),f=n||K(a,d);else
 var
 f=l;var
-o=f?[0,a]:f;return o}return I(aW(j,aH(2))[2],d)?0:0}return 0}return I(aW(i,aH(2))[2],d)?0:0}return 0}function
-c2(c,b){var
-a=l7(c);return a?l(a[1]):[0,[1,b]]}function
-cB(b,a){if(a)var
-d=cB([0,b],a[2]),c=[0,c2(a[1],b),d];else
+o=f?[0,a]:f;return o}return K(aS(j,aH(2))[2],d)?0:0}return 0}return K(aS(i,aH(2))[2],d)?0:0}return 0}function
+c6(c,b){var
+a=mj(c);return a?l(a[1]):[0,[1,b]]}function
+cD(b,a){if(a)var
+d=cD([0,b],a[2]),c=[0,c6(a[1],b),d];else
 var
 c=a;return c}function
-a7(b,a){return[0,[0,b[1],a],[0,[0,b[2],a],[0,[0,b[3],a],0]]]}function
-gA(b,d,a){switch(a[0]){case
+a8(b,a){return[0,[0,b[1],a],[0,[0,b[2],a],[0,[0,b[3],a],0]]]}function
+gM(b,d,a){switch(a[0]){case
 0:var
-c=a[1],g=[0,[0,c[4],b],0],h=f(a7(c[3],b),g),i=f(a7(c[2],b),h);return f(a7(c[1],d),i);case
+c=a[1],g=[0,[0,c[4],b],0],h=f(a8(c[3],b),g),i=f(a8(c[2],b),h);return f(a8(c[1],d),i);case
 1:var
-e=a[3],j=e?a7(e[1],d):e,k=f(a7(a[2],b),j);return f(a7(a[1],b),k);default:return a7(a[1],d)}}function
+e=a[3],j=e?a8(e[1],d):e,k=f(a8(a[2],b),j);return f(a8(a[1],b),k);default:return a8(a[1],d)}}function
 ak(b,a){var
-c=l(d),e=r(R(s4,a),b,c),f=l(d),g=r(R(s5,a),b,f);return[0,r(a,b,l(d)),g,e]}function
-l8(b,a){return af(w,af(B,dx,a),b)}function
-gB(c,b,a){if(a){var
-e=a[2],g=gB(c,bz(b),e),h=a[1];return f(gA(c,bQ(d,b),h),g)}return a}function
-iC(f,e,c,j){if(c){var
-b=c[1],v=R(j,g(gA(f,bQ(d,e),b))),w=c[2],x=iC(f,bz(e),w,v),a=cB(j,gA(f,bQ(d,e),b));switch(b[0]){case
+c=l(d),e=r(N(tl,a),b,c),f=l(d),g=r(N(tm,a),b,f);return[0,r(a,b,l(d)),g,e]}function
+mk(b,a){return af(x,af(B,dD,a),b)}function
+gN(c,b,a){if(a){var
+e=a[2],g=gN(c,bA(b),e),h=a[1];return f(gM(c,bS(d,b),h),g)}return a}function
+iO(f,e,c,j){if(c){var
+b=c[1],v=N(j,g(gM(f,bS(d,e),b))),w=c[2],x=iO(f,bA(e),w,v),a=cD(j,gM(f,bS(d,e),b));switch(b[0]){case
 0:var
-m=b[1][5],n=r(s6,a,l(d)),o=af(B,dx,ak(a,s7)),p=dw(ak(a,0)),q=ak(a,s8),h=lA(l8(ak(a,s9),q),p,o,n,m);break;case
+m=b[1][5],n=r(tn,a,l(d)),o=af(B,dD,ak(a,to)),p=dC(ak(a,0)),q=ak(a,tp),h=lN(mk(ak(a,tq),q),p,o,n,m);break;case
 1:var
-i=b[3],s=i?[0,dw(ak(a,s_))]:i,t=af(B,dx,ak(a,s$)),u=ak(a,ta),h=lB(l8(ak(a,0),u),t,s);break;default:var
-h=lC(dx,dw(ak(a,0)))}var
+i=b[3],s=i?[0,dC(ak(a,tr))]:i,t=af(B,dD,ak(a,ts)),u=ak(a,tt),h=lO(mk(ak(a,0),u),t,s);break;default:var
+h=lP(dD,dC(ak(a,0)))}var
 k=[0,h,x]}else
 var
 k=c;return k}function
-bV(c,a){if(typeof
+bX(c,a){if(typeof
 a!=="number")switch(a[0]){case
 4:var
 h=[5,a[3],a[2]];return[0,[0,h,h],d];case
@@ -2744,7 +2746,7 @@ j=a[2];return[0,[0,j,j],d];case
 8:var
 k=[5,a[2],a[1]];return[0,[0,k,k],d];case
 10:var
-p=a[3],q=d2(a[2]),l=[2,[2,d2(a[1]),q],p];return[0,[0,l,l],c];case
+p=a[3],q=ea(a[2]),l=[2,[2,ea(a[1]),q],p];return[0,[0,l,l],c];case
 11:var
 m=a[4];return[0,[0,m,m],c];case
 12:var
@@ -2761,41 +2763,41 @@ f=[5,[0,b,b],a[1]];return[0,[0,f,f],d];case
 g=a[2];return[0,[0,g,g],c];default:var
 i=a[1];return[0,[0,i,i],d]}var
 e=[0,d,b];return[0,[0,e,e],d]}function
-e5(b,a){var
+fg(b,a){var
 c=a[3],d=a[2],e=a[1];return[0,[0,[0,e,e],b],[0,[0,[0,d,d],b],[0,[0,[0,c,c],b],0]]]}function
-ee(c,a){if(0===a[0]){var
-e=[0,d,b],i=f(e5(c,a[5]),[0,[0,[0,e,e],d],0]),g=a[4],h=a[3];return f([0,[0,[0,h,h],c],[0,[0,[0,g,g],c],0]],i)}var
-j=e5(c,a[3]);return f(e5(c,a[2]),j)}function
-dz(b,a){if(typeof
+en(c,a){if(0===a[0]){var
+e=[0,d,b],i=f(fg(c,a[5]),[0,[0,[0,e,e],d],0]),g=a[4],h=a[3];return f([0,[0,[0,h,h],c],[0,[0,[0,g,g],c],0]],i)}var
+j=fg(c,a[3]);return f(fg(c,a[2]),j)}function
+dF(b,a){if(typeof
 a!=="number")switch(a[0]){case
 10:var
-h=ee(b,a[2]);return f(ee(b,a[1]),h);case
+h=en(b,a[2]);return f(en(b,a[1]),h);case
 11:var
-i=e5(b,a[3]);return f(e5(b,a[2]),i);case
+i=fg(b,a[3]);return f(fg(b,a[2]),i);case
 12:var
 c=a[3],g=[5,[4,c,c],a[4]];return[0,[0,[0,g,g],b],0];case
 15:var
 j=a[2],k=a[1];return e(function(b){var
 a=[5,j,b];return[0,[0,a,a],d]},k)}return 0}function
-l9(c,b,a){var
-d=g(dz(c,b)),e=R(a[2],d);return[0,[0,a[1]],e]}function
-iD(c,b){if(aK(b,c))return[0,l(d)];var
+ml(c,b,a){var
+d=g(dF(c,b)),e=N(a[2],d);return[0,[0,a[1]],e]}function
+iP(c,b){if(aN(b,c))return[0,l(d)];var
 a=b[1];if(4===a[0]){var
-e=aK(a[1],c),f=e?[0,a[2]]:e;return f}return 0}function
-l_(y,p,a,o){switch(o[0]){case
+e=aN(a[1],c),f=e?[0,a[2]]:e;return f}return 0}function
+mm(y,p,a,o){switch(o[0]){case
 0:var
-h=G(y,o[1]);if(h){var
+h=H(y,o[1]);if(h){var
 i=h[1];if(i){var
-q=i[1],s=q[1],c=s[2],e=s[1],t=q[2],z=ak(a,tb),A=af(B,af(w,e,a0(am(r(tc,a,l(d)),t),c)),z),C=ak(a,td),f=am(r(0,a,l(d)),t),k=iD(e[1],c[1]);if(k){var
-m=iD(e[2],c[2]);if(m){var
-n=iD(e[3],c[3]);if(n)var
-x=a0(f,c),g=af(B,[0,k[1],m[1],n[1]],x);else
+q=i[1],s=q[1],c=s[2],e=s[1],t=q[2],z=ak(a,tu),A=af(B,af(x,e,a1(am(r(tv,a,l(d)),t),c)),z),C=ak(a,tw),f=am(r(0,a,l(d)),t),k=iP(e[1],c[1]);if(k){var
+m=iP(e[2],c[2]);if(m){var
+n=iP(e[3],c[3]);if(n)var
+w=a1(f,c),g=af(B,[0,k[1],m[1],n[1]],w);else
 var
-g=af(w,e,a0(w(l(b),f),c))}else
+g=af(x,e,a1(x(l(b),f),c))}else
 var
-g=af(w,e,a0(w(l(b),f),c))}else
+g=af(x,e,a1(x(l(b),f),c))}else
 var
-g=af(w,e,a0(w(l(b),f),c));var
+g=af(x,e,a1(x(l(b),f),c));var
 u=[0,[0,af(B,g,C),A]]}else
 var
 u=i;var
@@ -2803,68 +2805,68 @@ v=u}else
 var
 v=h;return v;case
 1:var
-D=ak(a,te);return[0,[0,ak(a,0),D]];default:var
-E=j(p,ak(a,tf));return[0,[0,j(p,ak(a,0)),E]]}}function
-l$(e,d,c,h,g){var
-a=l_(e,d,aB(tg,c),h);if(a)var
-b=l_(e,d,aM(th,c),g),i=b?[0,[0,a[1],b[1]]]:b,f=i;else
+D=ak(a,tx);return[0,[0,ak(a,0),D]];default:var
+E=j(p,ak(a,ty));return[0,[0,j(p,ak(a,0)),E]]}}function
+mn(e,d,c,h,g){var
+a=mm(e,d,aB(tz,c),h);if(a)var
+b=mm(e,d,aM(tA,c),g),i=b?[0,[0,a[1],b[1]]]:b,f=i;else
 var
 f=a;return f}function
-ma(g,c,d,b,a){var
-h=ee(c,a),i=cB(d,f(ee(c,b),h));function
-j(a){return af(B,dx,a)}return l$(e(function(a){var
+mo(g,c,d,b,a){var
+h=en(c,a),i=cD(d,f(en(c,b),h));function
+j(a){return af(B,dD,a)}return mn(e(function(a){var
 b=a[7];return z(function(b){var
-c=cW(a);return[0,[0,b,a[1]],c]},b)},g),j,i,b,a)}function
-dA(d,c,b,a){var
-e=s(c,b);return w(s(d,a),e)}function
-bB(a){return y(function(a){return f(a[1],[0,a[2],0])},a)}function
-mb(b,a){if(b)if(a)var
-d=b[1],e=mb(b[2],a[2]),f=s(d[2],a[1]),c=[0,[0,bU(d[1]),f],e];else
+c=c0(a);return[0,[0,b,a[1]],c]},b)},g),j,i,b,a)}function
+dG(d,c,b,a){var
+e=s(c,b);return x(s(d,a),e)}function
+bC(a){return y(function(a){return f(a[1],[0,a[2],0])},a)}function
+mp(b,a){if(b)if(a)var
+d=b[1],e=mp(b[2],a[2]),f=s(d[2],a[1]),c=[0,[0,bW(d[1]),f],e];else
 var
 c=a;else
 var
 c=b;return c}function
-mc(a){if(a){var
+mq(a){if(a){var
 b=a[1][6];if(b){var
-c=b[1],d=mc(a[2]);if(d)var
-g=d[1],h=Y(c,c),e=[0,[0,[0,bU(c),h],g]];else
+c=b[1],d=mq(a[2]);if(d)var
+g=d[1],h=Z(c,c),e=[0,[0,[0,bW(c),h],g]];else
 var
 e=d;var
 f=e}else
 var
-f=b;return f}return tj}function
-e6(b,d,c,a){if(typeof
+f=b;return f}return tC}function
+fh(b,d,c,a){if(typeof
 a!=="number")switch(a[0]){case
 8:var
-i=c[1],j=c2(bV(d,a),i);return[0,e(function(a){var
-b=s(a[2],j);return[0,bU(a[1]),b]},b)];case
-9:return mc(b);case
+i=c[1],j=c6(bX(d,a),i);return[0,e(function(a){var
+b=s(a[2],j);return[0,bW(a[1]),b]},b)];case
+9:return mq(b);case
 15:var
-k=g(b),f=q(g(a[1]),k);if(f)var
-l=dz(d,a),h=[0,mb(b,cB(c[2],l))];else
+k=g(b),f=o(g(a[1]),k);if(f)var
+l=dF(d,a),h=[0,mp(b,cD(c[2],l))];else
 var
 h=f;return h}return 0}function
-gC(e,k,j,a){var
-P=j[1],c=c2(bV(k,a),P),u=0;if(typeof
+gO(e,k,j,a){var
+P=j[1],c=c6(bX(k,a),P),u=0;if(typeof
 a==="number")u=1;else
 switch(a[0]){case
 2:var
-Q=function(a){return[0,w(a[4],c),0]},g=Q,f=a[1];break;case
+Q=function(a){return[0,x(a[4],c),0]},g=Q,f=a[1];break;case
 3:var
-R=function(a){return[0,w(c,a[4]),0]},g=R,f=a[1];break;case
+R=function(a){return[0,x(c,a[4]),0]},g=R,f=a[1];break;case
 4:var
 S=function(b){var
-a=b[1],d=T(a[3]),e=T(a[2]),f=T(a[1]),g=b[2];return[0,w(w(w(s(T(c),g),f),e),d),0]},g=S,f=a[1];break;case
+a=b[1],d=V(a[3]),e=V(a[2]),f=V(a[1]),g=b[2];return[0,x(x(x(s(V(c),g),f),e),d),0]},g=S,f=a[1];break;case
 6:var
-U=function(b){var
+T=function(b){var
 a=b[5];if(a)var
-e=T(a[1]),f=s(T(c),e),d=[0,w(b[2],f),0];else
+e=V(a[1]),f=s(V(c),e),d=[0,x(b[2],f),0];else
 var
-d=a;return d},g=U,f=a[1];break;case
+d=a;return d},g=T,f=a[1];break;case
 7:if(e){var
 m=e[2];if(m){var
 n=m[2];if(n){if(n[2])return 0;var
-x=n[1],z=m[1],A=e[1],h=x[1],i=z[1],p=A[1],K=dA(i[1],i[2],h[1],h[2]),L=s(p[3],K),M=dA(i[1],i[3],h[1],h[3]),N=s(p[2],M),O=dA(i[2],i[3],h[2],h[3]),v=B(w(s(p[1],O),N),L),V=cW(x),W=cW(z),C=s(s(s(c,cW(A)),W),V),X=[0,bk(B(v,C)),0],D=[0,w(v,C),X]}else
+w=n[1],z=m[1],A=e[1],h=w[1],i=z[1],p=A[1],K=dG(i[1],i[2],h[1],h[2]),L=s(p[3],K),M=dG(i[1],i[3],h[1],h[3]),N=s(p[2],M),O=dG(i[2],i[3],h[2],h[3]),v=B(x(s(p[1],O),N),L),U=c0(w),W=c0(z),C=s(s(s(c,c0(A)),W),U),X=[0,bl(B(v,C)),0],D=[0,x(v,C),X]}else
 var
 D=n;var
 E=D}else
@@ -2874,80 +2876,80 @@ F=E}else
 var
 F=e;return F;case
 10:var
-t=ma(e,k,j[2],a[1],a[2]);if(t){var
-H=t[1],I=H[2],J=H[1];return y(bU,[0,J[1],[0,J[2],[0,I[1],[0,I[2],0]]]])}return t;case
+t=mo(e,k,j[2],a[1],a[2]);if(t){var
+G=t[1],I=G[2],J=G[1];return y(bW,[0,J[1],[0,J[2],[0,I[1],[0,I[2],0]]]])}return t;case
 11:var
-Z=function(d){var
+Y=function(d){var
 e=d[7];if(e)var
-n=dz(k,a),f=cB(j[2],n),h=ak(f,ti),b=af(w,ak(f,0),h),i=T(c),l=T(cW(d)),m=am(T(Y(b,d[1])),l),g=[0,w(w(Y(b,b),m),i),0];else
+n=dF(k,a),f=cD(j[2],n),h=ak(f,tB),b=af(x,ak(f,0),h),i=V(c),l=V(c0(d)),m=am(V(Z(b,d[1])),l),g=[0,x(x(Z(b,b),m),i),0];else
 var
-g=e;return g},g=Z,f=a[1];break;case
+g=e;return g},g=Y,f=a[1];break;case
 12:var
 _=function(e){var
-p=l(d),q=dz(k,a),t=r(0,cB(j[2],q),p),f=am(t,cW(e)),g=e[5];if(g){var
-m=aF(e[2]),h=am(g[1],m),n=s(h,B(c,s(f,T(h))));return[0,w(l(b),n),0]}var
-i=e[7],o=i?[0,w(w(l(b),c),f),0]:i;return o},g=_,f=a[1];break;case
+p=l(d),q=dF(k,a),t=r(0,cD(j[2],q),p),f=am(t,c0(e)),g=e[5];if(g){var
+m=aJ(e[2]),h=am(g[1],m),n=s(h,B(c,s(f,V(h))));return[0,x(l(b),n),0]}var
+i=e[7],o=i?[0,x(x(l(b),c),f),0]:i;return o},g=_,f=a[1];break;case
 8:case
 9:case
 15:var
-q=e6(e,k,j,a);return q?bB(q[1]):q;default:u=1}if(u)return 0;var
-o=G(e,f);return o?g(o[1]):o}function
-iE(d,b,c,a){if(a){var
-e=a[1],g=a[2],h=iE(d,b,l9(b,e,c),g);return f(gC(d,b,c,e),h)}return a}var
-md=[0,d,b],me=[0,[0,md,md],d];function
-iF(a){return L(cx(a[1][1],a[1][2]))}function
-mf(a){var
-b=aC(0,g(a));return bs(function(b){return iF(r(b,a,me))},b)}function
-gD(a,b){var
-c=l6(mf(a),b),e=aa(mf(a),c);return bs(function(a){return L(a4(d,a[2]))},e)}function
-mg(b,a){var
+q=fh(e,k,j,a);return q?bC(q[1]):q;default:u=1}if(u)return 0;var
+o=H(e,f);return o?g(o[1]):o}function
+iQ(d,b,c,a){if(a){var
+e=a[1],g=a[2],h=iQ(d,b,ml(b,e,c),g);return f(gO(d,b,c,e),h)}return a}var
+mr=[0,d,b],ms=[0,[0,mr,mr],d];function
+iR(a){return M(cc(a[1][1],a[1][2]))}function
+mt(a){var
+b=aC(0,g(a));return bu(function(b){return iR(r(b,a,ms))},b)}function
+gP(a,b){var
+c=mi(mt(a),b),e=W(mt(a),c);return bu(function(a){return M(a5(d,a[2]))},e)}function
+mu(b,a){var
 c=j(b,a[3]),d=j(b,a[2]);return[0,j(b,a[1]),d,c]}function
-mh(m,l,f,k,i,a){var
-d=gD(f,a);return ac(e(function(e){var
-a=r(e[1],f,me),g=aI(a[2],k),h=[4,[0,c(2,b),b],i],d=[5,[3,a[1][2],a[1][1]],h],n=ao(m,[0,[0,d,d],g]);return z(function(a){return[0,a,j(l,e[2])]},n)},d))}function
-mi(g,f,n,m,l,e,c){var
+mv(m,l,f,k,i,a){var
+d=gP(f,a);return ac(e(function(e){var
+a=r(e[1],f,ms),g=aL(a[2],k),h=[4,[0,c(2,b),b],i],d=[5,[3,a[1][2],a[1][1]],h],n=ao(m,[0,[0,d,d],g]);return z(function(a){return[0,a,j(l,e[2])]},n)},d))}function
+mw(g,f,n,m,l,e,c){var
 h=[5,l,e],a=ao(g,[0,[0,h,h],d]);if(a){var
-b=mh(g,f,n,m,e,c);if(b)var
+b=mv(g,f,n,m,e,c);if(b)var
 o=[0,a[1],b[1]],i=[0,[0,j(f,c),o]];else
 var
 i=b;var
 k=i}else
 var
 k=a;return k}function
-mj(c,F,l,al,k,i,n,s){if(s){var
-a=s[1],aH=s[2],aI=mj(c,F,l,al,k,i,l9(i,a,n),aH);if(typeof
+mx(c,F,l,al,k,i,n,s){if(s){var
+a=s[1],aH=s[2],aI=mx(c,F,l,al,k,i,ml(i,a,n),aH);if(typeof
 a==="number")if(0===a)var
 f=[0,[0,u]];else
 var
-an=F[2],ap=F[1],aq=eZ(k),f=[0,[8,j(au(l),aq),ap,an]];else
+an=F[2],ap=F[1],aq=fa(k),f=[0,[8,j(au(l),aq),ap,an]];else
 switch(a[0]){case
 0:var
-ar=ao(c,bV(i,a)),f=z(function(a){return[0,S(c,a)]},ar);break;case
+ar=ao(c,bX(i,a)),f=z(function(a){return[0,U(c,a)]},ar);break;case
 1:var
-as=ao(c,bV(i,a)),f=z(function(a){return[1,S(c,a)]},as);break;case
+as=ao(c,bX(i,a)),f=z(function(a){return[1,U(c,a)]},as);break;case
 5:var
-av=ao(c,bV(i,a)),f=z(function(a){return[2,S(c,a)]},av);break;case
+av=ao(c,bX(i,a)),f=z(function(a){return[2,U(c,a)]},av);break;case
 8:var
-aw=e6(k,i,n,a),f=z(function(a){var
-d=M(c,b);return[4,j(au(l),a),d]},aw);break;case
+aw=fh(k,i,n,a),f=z(function(a){var
+d=O(c,b);return[4,j(au(l),a),d]},aw);break;case
 9:var
-w=e6(k,i,n,a);if(w){var
-x=ao(c,bV(i,a));if(x)var
-ax=S(c,x[1]),ay=w[1],L=[0,[4,j(au(l),ay),ax]];else
+w=fh(k,i,n,a);if(w){var
+x=ao(c,bX(i,a));if(x)var
+ax=U(c,x[1]),ay=w[1],L=[0,[4,j(au(l),ay),ax]];else
 var
 L=x;var
-N=L}else
+M=L}else
 var
-N=w;var
-f=N;break;case
+M=w;var
+f=M;break;case
 10:var
-y=ma(k,i,n[2],a[1],a[2]);if(y){var
-O=y[1],P=O[2],Q=O[1],A=ao(c,bV(i,a));if(A){var
-R=A[1],T=D(d,R[1]);if(T)var
-p=function(a){return mg(l,a)},az=p(P[2]),aA=p(P[1]),aB=p(Q[2]),U=[0,[6,p(Q[1]),aB,aA,az,R]];else
+y=mo(k,i,n[2],a[1],a[2]);if(y){var
+N=y[1],P=N[2],Q=N[1],A=ao(c,bX(i,a));if(A){var
+R=A[1],S=D(d,R[1]);if(S)var
+q=function(a){return mu(l,a)},az=q(P[2]),aA=q(P[1]),aB=q(Q[2]),T=[0,[6,q(Q[1]),aB,aA,az,R]];else
 var
-U=T;var
-V=U}else
+T=S;var
+V=T}else
 var
 V=A;var
 W=V}else
@@ -2955,7 +2957,7 @@ var
 W=y;var
 f=W;break;case
 12:var
-r=gC(k,i,n,a),t=0;if(r)if(r[2])var
+r=gO(k,i,n,a),t=0;if(r)if(r[2])var
 f=0;else{var
 X=h(c,0,a[2]),Y=X?h(c,1,a[4]):X;if(Y){var
 B=[0,[3,j(l,r[1])]];t=1}else{var
@@ -2963,16 +2965,16 @@ B=Y;t=1}}else{var
 B=r;t=1}if(t)var
 f=B;break;case
 13:var
-Z=a[1],_=G(k,Z),H=0;if(_){var
+Z=a[1],_=H(k,Z),G=0;if(_){var
 $=h(c,1,a[2]),aa=$?h(c,1,a[3]):$;if(aa)var
-aC=ao(c,bV(i,a)),f=z(function(a){return[7,Z,S(c,a)]},aC);else{var
-ab=aa;H=1}}else{var
-ab=_;H=1}if(H)var
+aC=ao(c,bX(i,a)),f=z(function(a){return[7,Z,U(c,a)]},aC);else{var
+ab=aa;G=1}}else{var
+ab=_;G=1}if(G)var
 f=ab;break;case
 14:var
-ad=a[2],ae=a[1],af=q(g(k),tk),ag=af?h(c,0,ae):af,ah=ag?h(c,1,ad):ag;if(ah){var
-C=ao(c,bV(i,a));if(C)var
-E=ac(e(function(a){return mi(c,l,al,i,ae,ad,a[4])},k)),aD=E?[0,[9,C[1],E[1]]]:E,ai=aD;else
+ad=a[2],ae=a[1],af=o(g(k),tD),ag=af?h(c,0,ae):af,ah=ag?h(c,1,ad):ag;if(ah){var
+C=ao(c,bX(i,a));if(C)var
+E=ac(e(function(a){return mw(c,l,al,i,ae,ad,a[4])},k)),aD=E?[0,[9,C[1],E[1]]]:E,ai=aD;else
 var
 ai=C;var
 aj=ai}else
@@ -2981,34 +2983,34 @@ aj=ah;var
 f=aj;break;case
 15:var
 aE=[0,a[2],a[1]],aF=1,ak=m(function(a){return h(c,aF,a)},aE);if(ak)var
-aG=e6(k,i,n,a),f=z(function(a){var
-d=M(c,b);return[4,j(au(l),a),d]},aG);else
+aG=fh(k,i,n,a),f=z(function(a){var
+d=O(c,b);return[4,j(au(l),a),d]},aG);else
 var
 f=ak;break;default:var
-o=gC(k,i,n,a),I=0;if(o){var
-v=o[2],J=o[1];if(v)if(v[2])var
+p=gO(k,i,n,a),I=0;if(p){var
+v=p[2],J=p[1];if(v)if(v[2])var
 f=0;else
 var
 at=j(l,v[1]),f=[0,[5,j(l,J),at]];else{var
 K=[0,[3,j(l,J)]];I=1}}else{var
-K=o;I=1}if(I)var
+K=p;I=1}if(I)var
 f=K}var
 am=[0,f,aI]}else
 var
 am=s;return am}function
-tl(a){var
+tE(a){var
 b=0;if(typeof
 a==="number"){if(0!==a)b=1}else
 if(0!==a[0])b=1;return b?0:1}function
-ef(a){if(0===a[0])return a[1];var
+eo(a){if(0===a[0])return a[1];var
 b=a[3],c=a[2],d=a[1];return[0,[0,[3,d,b],[2,d,b]],[0,[3,c,b],[2,c,b]],a[4]]}function
-mk(a,c,g,b){if(0===c[0])return 0;if(b){var
+my(a,c,g,b){if(0===c[0])return 0;if(b){var
 d=b[2];if(d){var
 h=d[2];if(h){if(h[2])return 0;var
-e=d[1],f=b[1],i=cU(a,g,c[1]);if(i){var
-j=cU(a,g,c[2]);if(j){var
-k=cU(a,g,c[3]);if(k)var
-v=i[1],w=cb(f),l=E([0,cb(f),w],v),x=j[1],y=cb(e),m=E([0,cb(e),y],x),z=d_(e),B=[0,d_(e),z],C=[0,t(a,ab(A(m,m)),B),0],D=d_(f),F=[0,d_(f),D],G=[0,t(a,ab(A(l,l)),F),C],H=S(a,m),I=S(a,l),n=[0,[0,E(E(S(a,k[1]),I),H),u,G]];else
+e=d[1],f=b[1],i=cY(a,g,c[1]);if(i){var
+j=cY(a,g,c[2]);if(j){var
+k=cY(a,g,c[3]);if(k)var
+v=i[1],w=cd(f),l=F([0,cd(f),w],v),x=j[1],y=cd(e),m=F([0,cd(e),y],x),z=eh(e),B=[0,eh(e),z],C=[0,t(a,ab(A(m,m)),B),0],D=eh(f),E=[0,eh(f),D],G=[0,t(a,ab(A(l,l)),E),C],H=U(a,m),I=U(a,l),n=[0,[0,F(F(U(a,k[1]),I),H),u,G]];else
 var
 n=k;var
 o=n}else
@@ -3026,14 +3028,14 @@ r=d;var
 s=r}else
 var
 s=b;return s}function
-gE(a,p,o){var
-q=a7(p,o),b=e(function(b){return ao(a,b)},q);if(b){var
+gQ(a,p,o){var
+q=a8(p,o),b=e(function(b){return ao(a,b)},q);if(b){var
 g=b[1];if(g){var
 c=b[2];if(c){var
 h=c[1];if(h){var
 f=c[2];if(f){var
 i=f[1];if(i){if(f[2])return 0;var
-r=S(a,i[1]),s=S(a,h[1]);return J(d,A(A(S(a,g[1]),s),r)[1])}var
+r=U(a,i[1]),s=U(a,h[1]);return I(d,A(A(U(a,g[1]),s),r)[1])}var
 j=i}else
 var
 j=f;var
@@ -3049,153 +3051,153 @@ m=g;var
 n=m}else
 var
 n=b;return n}function
-U(c,b,a){var
+J(c,b,a){var
 d=aq(c,b[3],a[3]),e=aq(c,b[2],a[2]);return[0,aq(c,b[1],a[1]),e,d]}function
-V(b,a){return[0,[4,b,a[1]],[4,b,a[2]],[4,b,a[3]]]}function
-x(b,a){return[2,[2,[4,b[1],a[1]],[4,b[2],a[2]]],[4,b[3],a[3]]]}function
-ay(a){return V([5,[0,b,b],[6,x(a,a)]],a)}function
-c3(c,b,a){var
-d=bu(c,b[1],a);return d?bu(c,a,b[2]):d}function
-bm(c,b,a){var
-d=c3(c,b[1],a[1]),e=d?c3(c,b[2],a[2]):d;return e?c3(c,b[3],a[3]):e}function
-ml(b,c,a){switch(c[0]){case
+P(b,a){return[0,[4,b,a[1]],[4,b,a[2]],[4,b,a[3]]]}function
+w(b,a){return[2,[2,[4,b[1],a[1]],[4,b[2],a[2]]],[4,b[3],a[3]]]}function
+av(a){return P([5,[0,b,b],[6,w(a,a)]],a)}function
+c7(c,b,a){var
+d=bw(c,b[1],a);return d?bw(c,a,b[2]):d}function
+bn(c,b,a){var
+d=c7(c,b[1],a[1]),e=d?c7(c,b[2],a[2]):d;return e?c7(c,b[3],a[3]):e}function
+mz(b,c,a){switch(c[0]){case
 0:var
 d=c[1];if(0===a[0]){var
-j=a[4],f=a[1],k=bm(b,d[1],f),l=k?h(b,1,x(f,f)):k,m=l?bm(b,d[2],a[2]):l,n=m?bm(b,d[3],a[3]):m,o=n?c3(b,d[4],j):n,p=o?h(b,1,j):o;return p?cq(d[5],a[5]):p}return 0;case
+j=a[4],f=a[1],k=bn(b,d[1],f),l=k?h(b,1,w(f,f)):k,m=l?bn(b,d[2],a[2]):l,n=m?bn(b,d[3],a[3]):m,o=n?c7(b,d[4],j):n,p=o?h(b,1,j):o;return p?ct(d[5],a[5]):p}return 0;case
 1:var
 q=c[3];if(1===a[0]){var
-e=a[3],r=bm(b,c[1],a[1]),s=r?bm(b,c[2],a[2]):r;if(s){if(q){if(e){var
-g=e[1],t=bm(b,q[1],g);if(t)return h(b,1,x(g,g));var
+e=a[3],r=bn(b,c[1],a[1]),s=r?bn(b,c[2],a[2]):r;if(s){if(q){if(e){var
+g=e[1],t=bn(b,q[1],g);if(t)return h(b,1,w(g,g));var
 u=t}else
 var
 u=e;return u}if(e)return 0;var
 v=1}else
 var
 v=s;return v}return 0;default:if(2===a[0]){var
-i=a[1],w=bm(b,c[1],i);return w?h(b,1,x(i,i)):w}return 0}}function
-bn(c,a,b){if(0===a[0])return bm(c,a[1],b);var
-d=a[3],e=[3,b[1],a[1]],f=[3,b[2],a[2]],g=h(c,0,[3,[3,[4,d,d],[4,e,e]],[4,f,f]]),i=g?h(c,0,d):g;return i?c3(c,a[4],b[3]):i}function
-e7(g,f,i,h){var
+i=a[1],x=bn(b,c[1],i);return x?h(b,1,w(i,i)):x}return 0}}function
+bD(c,a,b){if(0===a[0])return bn(c,a[1],b);var
+d=a[3],e=[3,b[1],a[1]],f=[3,b[2],a[2]],g=h(c,0,[3,[3,[4,d,d],[4,e,e]],[4,f,f]]),i=g?h(c,0,d):g;return i?c7(c,a[4],b[3]):i}function
+fi(g,f,i,h){var
 b=f[1],a=i;for(;;){if(b){if(a){var
-d=ml(g,b[1],a[1]);if(d){var
+d=mz(g,b[1],a[1]);if(d){var
 b=b[2],a=a[2];continue}var
 e=d}else
 var
 e=a;var
 c=e}else
 var
-c=a?0:1;return c?bn(g,f[2],h):c}}function
-aX(c,b,a){var
-d=U(function(b,a){return[2,b,a]},a,b);return U(function(b,a){return[3,b,a]},d,c)}function
-e8(a,e,d,c){var
-b=aX(e,d,c),f=ay(a),g=V(x(ay(a),b),f);return U(function(b,a){return[3,b,a]},b,g)}function
-cC(f,e,d,a,c){var
-b=e8(f,e,d,c);return[3,[4,a,a],x(b,b)]}function
-c4(c,a){return c?[6,a]:[3,[0,d,b],[6,a]]}function
-cd(a,c){switch(a[0]){case
+c=a?0:1;return c?bD(g,f[2],h):c}}function
+aU(c,b,a){var
+d=J(function(b,a){return[2,b,a]},a,b);return J(function(b,a){return[3,b,a]},d,c)}function
+fj(a,e,d,c){var
+b=aU(e,d,c),f=av(a),g=P(w(av(a),b),f);return J(function(b,a){return[3,b,a]},b,g)}function
+cf(f,e,d,a,c){var
+b=fj(f,e,d,c);return[3,[4,a,a],w(b,b)]}function
+cE(c,a){return c?[6,a]:[3,[0,d,b],[6,a]]}function
+cg(a,c){switch(a[0]){case
 0:var
-e=a[3],f=a[2],d=a[1],g=e8(d,f,e,c),h=cC(d,f,e,a[4],c),i=V([5,[0,b,b],c4(a[5],h)],g),j=ay(d);return U(function(b,a){return[2,b,a]},j,i);case
-1:return ay(aX(a[1],a[2],c));default:return ay(a[1])}}function
-ce(a,b){switch(a[0]){case
+e=a[3],f=a[2],d=a[1],g=fj(d,f,e,c),h=cf(d,f,e,a[4],c),i=P([5,[0,b,b],cE(a[5],h)],g),j=av(d);return J(function(b,a){return[2,b,a]},j,i);case
+1:return av(aU(a[1],a[2],c));default:return av(a[1])}}function
+ch(a,b){switch(a[0]){case
 0:var
-d=a[3],e=a[2],c=a[1],f=ay(c),g=cC(c,e,d,a[4],b),h=V(c4(a[5],g),f),i=e8(c,e,d,b);return U(function(b,a){return[2,b,a]},i,h);case
-1:return aX(a[1],a[2],b);default:return ay(a[1])}}function
-c5(a,b){switch(a[0]){case
+d=a[3],e=a[2],c=a[1],f=av(c),g=cf(c,e,d,a[4],b),h=P(cE(a[5],g),f),i=fj(c,e,d,b);return J(function(b,a){return[2,b,a]},i,h);case
+1:return aU(a[1],a[2],b);default:return av(a[1])}}function
+cF(a,b){switch(a[0]){case
 0:var
-c=a[3],d=a[2],e=a[1],h=cC(e,d,c,a[4],b),i=c4(a[5],h),j=aX(d,c,b);return[3,x(ay(e),j),i];case
+c=a[3],d=a[2],e=a[1],h=cf(e,d,c,a[4],b),i=cE(a[5],h),j=aU(d,c,b);return[3,w(av(e),j),i];case
 1:var
-f=a[2],g=a[1],k=aX(g,f,b);return[6,x(aX(g,f,b),k)];default:return x(ay(a[1]),b)}}function
-iG(a,b){switch(a[0]){case
-0:return[0,cC(a[1],a[2],a[3],a[4],b)];case
+f=a[2],g=a[1],k=aU(g,f,b);return[6,w(aU(g,f,b),k)];default:return w(av(a[1]),b)}}function
+iS(a,b){switch(a[0]){case
+0:return[0,cf(a[1],a[2],a[3],a[4],b)];case
 1:var
-c=a[2],d=a[1],e=aX(d,c,b);return[0,x(aX(d,c,b),e)];default:return 0}}function
-e9(e,c,a){var
+c=a[2],d=a[1],e=aU(d,c,b);return[0,w(aU(d,c,b),e)];default:return 0}}function
+fk(e,c,a){var
 f=[0,d,b];return an(function(b,d){var
-e=x(cd(b,c),a);return[2,[4,x(cd(b,c),a),e],d]},f,e)}function
-mm(f,e,c,a){if(f){if(e){var
-g=e[1],h=mm(f[2],e[2],c,a),i=x(cd(g,c),a),j=[4,x(cd(g,c),a),i];return[2,[4,f[1],j],h]}return[0,d,b]}return[0,d,b]}function
-mn(a){var
+e=w(cg(b,c),a);return[2,[4,w(cg(b,c),a),e],d]},f,e)}function
+mA(f,e,c,a){if(f){if(e){var
+g=e[1],h=mA(f[2],e[2],c,a),i=w(cg(g,c),a),j=[4,w(cg(g,c),a),i];return[2,[4,f[1],j],h]}return[0,d,b]}return[0,d,b]}function
+mB(a){var
 c=a[1];return[0,[0,c[1],b],[0,c[2],b],[0,a[2],b]]}function
-iH(a,c){switch(a[0]){case
+iT(a,c){switch(a[0]){case
 0:return a[4];case
 1:var
-d=a[2],e=a[1],f=aX(e,d,c);return[6,x(aX(e,d,c),f)];default:return[0,b,b]}}function
-mo(d,i){if(d){var
+d=a[2],e=a[1],f=aU(e,d,c);return[6,w(aU(e,d,c),f)];default:return[0,b,b]}}function
+mC(d,i){if(d){var
 a=d[1];if(1===a[0]){var
 c=a[3];if(c)var
-f=c[1],g=aX(a[1],a[2],i),k=ay(f),l=V(x(ay(f),g),k),h=[0,U(function(b,a){return[3,b,a]},g,l)];else
+f=c[1],g=aU(a[1],a[2],i),k=av(f),l=P(w(av(f),g),k),h=[0,J(function(b,a){return[3,b,a]},g,l)];else
 var
 h=c;var
 b=h}else
 var
 b=0;if(b)var
-e=mo(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
+e=mC(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
 var
-j=b;return j}return tm}function
-c6(a){return[0,a[1],a[2],a[3]]}function
-mp(a,b){switch(a[0]){case
+j=b;return j}return tF}function
+c8(a){return[0,a[1],a[2],a[3]]}function
+mD(a,b){switch(a[0]){case
 0:var
-f=a[4],c=a[3],g=a[2],d=a[1],i=ay(d),j=cC(d,g,c,f,b),k=V(c4(a[5],j),i),l=e8(d,g,c,b),m=U(function(b,a){return[2,b,a]},l,k);return[0,[0,[0,U(function(b,a){return[2,b,a]},b,c),m],f]];case
+f=a[4],c=a[3],g=a[2],d=a[1],i=av(d),j=cf(d,g,c,f,b),k=P(cE(a[5],j),i),l=fj(d,g,c,b),m=J(function(b,a){return[2,b,a]},l,k);return[0,[0,[0,J(function(b,a){return[2,b,a]},b,c),m],f]];case
 1:var
-h=a[2],e=aX(a[1],h,b),n=[6,x(e,e)];return[0,[0,[0,U(function(b,a){return[2,b,a]},b,h),e],n]];default:return 0}}function
-mq(m,e,a){switch(a[0]){case
+h=a[2],e=aU(a[1],h,b),n=[6,w(e,e)];return[0,[0,[0,J(function(b,a){return[2,b,a]},b,h),e],n]];default:return 0}}function
+mE(m,e,a){switch(a[0]){case
 0:var
-n=a[5],c=G(m,a[1]);if(c){var
+n=a[5],c=H(m,a[1]);if(c){var
 d=c[1];if(d)var
 f=d[1],g=f[1],h=f[2],o=g[2],p=g[1],i=function(a){var
-b=c6(n),c=V(a,o),d=U(function(b,a){return[3,b,a]},p,c);return U(function(b,a){return[2,b,a]},d,b)},q=i([5,a[4],h]),k=[0,[0,i([3,[0,b,b],[5,a[3],h]]),q]];else
+b=c8(n),c=P(a,o),d=J(function(b,a){return[3,b,a]},p,c);return J(function(b,a){return[2,b,a]},d,b)},q=i([5,a[4],h]),k=[0,[0,i([3,[0,b,b],[5,a[3],h]]),q]];else
 var
 k=d;var
 l=k}else
 var
 l=c;return l;case
 1:var
-r=c6(a[3]);return[0,[0,c6(a[2]),r]];default:var
-s=j(e,c6(a[3]));return[0,[0,j(e,c6(a[2])),s]]}}function
-mr(d,a,c,b){var
-e=V(a,b),f=V([3,d,a],c);return U(function(b,a){return[2,b,a]},f,e)}function
-ms(a,l,c,k,i,y){var
+r=c8(a[3]);return[0,[0,c8(a[2]),r]];default:var
+s=j(e,c8(a[3]));return[0,[0,j(e,c8(a[2])),s]]}}function
+mF(d,a,c,b){var
+e=P(a,b),f=P([3,d,a],c);return J(function(b,a){return[2,b,a]},f,e)}function
+mG(a,l,c,k,i,y){var
 d=j(l,k);if(d){var
 m=d[1],e=j(l,i);if(e){var
-n=e[1],f=c[1],g=c[2],b=c[3],z=mr(b,g,n[1],n[2]),A=mr(b,f,m[1],m[2]),o=U(function(b,a){return[3,b,a]},A,z),B=d2(i),p=[4,b,[2,[2,d2(k),B],y]],q=h(a,1,b),r=q?h(a,0,f):q,s=r?h(a,0,[3,b,f]):r,t=s?h(a,0,g):s,u=t?h(a,0,[3,b,g]):t;if(u)return h(a,1,[3,[4,p,p],x(o,o)]);var
+n=e[1],f=c[1],g=c[2],b=c[3],z=mF(b,g,n[1],n[2]),A=mF(b,f,m[1],m[2]),o=J(function(b,a){return[3,b,a]},A,z),B=ea(i),p=[4,b,[2,[2,ea(k),B],y]],q=h(a,1,b),r=q?h(a,0,f):q,s=r?h(a,0,[3,b,f]):r,t=s?h(a,0,g):s,u=t?h(a,0,[3,b,g]):t;if(u)return h(a,1,[3,[4,p,p],w(o,o)]);var
 v=u}else
 var
 v=e;var
-w=v}else
+x=v}else
 var
-w=d;return w}function
-mt(d,c,b,a,i,g,f,e){var
+x=d;return x}function
+mH(d,c,b,a,i,g,f,e){var
 j=h(d,1,b),k=j?h(d,1,a):j;if(k){var
 l=aq(c,f,f),m=[4,[4,a,a],[4,aq(c,g,g),l]];return h(d,1,[3,[4,[4,[4,b,b],[4,i,i]],aq(c,e,e)],m])}return k}function
-mu(i,g,c,f,y,a){function
-R(a){return[4,[4,[5,[0,b,b],a],[5,[0,b,b],a]],x(f,f)]}var
-N=0;if(typeof
-a==="number")N=1;else
+mI(i,g,c,f,y,a){function
+T(a){return[4,[4,[5,[0,b,b],a],[5,[0,b,b],a]],w(f,f)]}var
+O=0;if(typeof
+a==="number")O=1;else
 switch(a[0]){case
 0:var
-aG=e9(g,c,f);return h(i,1,[3,R(a[1]),aG]);case
+aG=fk(g,c,f);return h(i,1,[3,T(a[1]),aG]);case
 1:var
-aH=R(a[1]);return h(i,1,[3,e9(g,c,f),aH]);case
+aH=T(a[1]);return h(i,1,[3,fk(g,c,f),aH]);case
 2:var
-aI=a[2],aJ=function(a){return[3,aI,c5(a,c)]},A=aJ,z=a[1];break;case
+aI=a[2],aJ=function(a){return[3,aI,cF(a,c)]},A=aJ,z=a[1];break;case
 3:var
-aK=a[2],aL=function(a){return[3,c5(a,c),aK]},A=aL,z=a[1];break;case
+aK=a[2],aL=function(a){return[3,cF(a,c),aK]},A=aL,z=a[1];break;case
 4:var
-S=a[3],T=a[2],aM=function(a){var
-b=cd(a,c);return[3,[4,[4,T,T],x(cd(a,c),b)],[4,S,S]]},A=aM,z=a[1];break;case
+U=a[3],V=a[2],aM=function(a){var
+b=cg(a,c);return[3,[4,[4,V,V],w(cg(a,c),b)],[4,U,U]]},A=aM,z=a[1];break;case
 5:var
-W=a[1],aN=x(f,f),aO=[4,[4,W,W],[4,e9(g,c,y),aN]],aP=x(y,y);return h(i,1,[3,[4,e9(g,c,f),aP],aO]);case
+W=a[1],aN=w(f,f),aO=[4,[4,W,W],[4,fk(g,c,y),aN]],aP=w(y,y);return h(i,1,[3,[4,fk(g,c,f),aP],aO]);case
 6:var
-X=a[2],C=G(g,a[1]);if(C){var
+X=a[2],C=H(g,a[1]);if(C){var
 k=C[1];if(0===k[0]){var
-D=k[4],aQ=cC(k[1],k[2],k[3],D,c),Y=c4(k[5],aQ);return h(i,1,[3,[4,[4,X,D],[4,X,D]],[4,Y,Y]])}var
+D=k[4],aQ=cf(k[1],k[2],k[3],D,c),Y=cE(k[5],aQ);return h(i,1,[3,[4,[4,X,D],[4,X,D]],[4,Y,Y]])}var
 Z=0}else
 var
 Z=C;return Z;case
 7:if(g){var
 p=g[2];if(p){var
 q=p[2];if(q){if(q[2])return 0;var
-_=q[1],$=p[1],aa=g[1],aR=iH(_,c),aS=iH($,c),aT=iH(aa,c),ab=[4,[4,[4,a[1],aT],aS],aR],l=ce(_,c),m=ce($,c),aU=ce(aa,c),O=x(aU,[0,[3,[4,m[2],l[3]],[4,m[3],l[2]]],[3,[4,m[3],l[1]],[4,m[1],l[3]]],[3,[4,m[1],l[2]],[4,m[2],l[1]]]]),ac=h(i,1,[3,ab,O]);if(ac)return h(i,1,[2,ab,O]);var
+_=q[1],$=p[1],aa=g[1],aR=iT(_,c),aS=iT($,c),aT=iT(aa,c),ab=[4,[4,[4,a[1],aT],aS],aR],l=ch(_,c),m=ch($,c),aV=ch(aa,c),Q=w(aV,[0,[3,[4,m[2],l[3]],[4,m[3],l[2]]],[3,[4,m[3],l[1]],[4,m[1],l[3]]],[3,[4,m[1],l[2]],[4,m[2],l[1]]]]),ac=h(i,1,[3,ab,Q]);if(ac)return h(i,1,[2,ab,Q]);var
 ad=ac}else
 var
 ad=q;var
@@ -3206,112 +3208,112 @@ af=ae}else
 var
 af=g;return af;case
 8:var
-aV=e9(g,c,f),aW=x(f,f);return h(i,1,[3,[4,[5,a[2],a[1]],aW],aV]);case
+aW=fk(g,c,f),aX=w(f,f);return h(i,1,[3,[4,[5,a[2],a[1]],aX],aW]);case
 9:var
-ag=a[1],E=mo(g,c);if(E){var
+ag=a[1],E=mC(g,c);if(E){var
 aY=E[1],aA=[0,d,b],aB=an(function(a,b){var
-c=x(ay(a),f);return[2,[4,x(ay(a),f),c],b]},aA,aY);return h(i,1,[3,[4,[4,ag,ag],x(f,f)],aB])}return E;case
+c=w(av(a),f);return[2,[4,w(av(a),f),c],b]},aA,aY);return h(i,1,[3,[4,[4,ag,ag],w(f,f)],aB])}return E;case
 10:var
-aZ=a[3],a0=a[2],a1=a[1],aC=function(b,a){return[2,b,a]},aD=function(a){return U(aC,c,a)},aE=e(function(a){return mp(a,c)},g);return ms(i,function(a){return mq(aE,aD,a)},f,a1,a0,aZ);case
+aZ=a[3],a0=a[2],a1=a[1],aC=function(b,a){return[2,b,a]},aD=function(a){return J(aC,c,a)},aE=e(function(a){return mD(a,c)},g);return mG(i,function(a){return mE(aE,aD,a)},f,a1,a0,aZ);case
 11:var
-ah=a[4],F=G(g,a[1]);if(F){var
-H=mp(F[1],c);if(H){var
-n=H[1][1][2],a2=c6(a[3]),a3=c6(a[2]),r=U(function(b,a){return[3,b,a]},a3,a2),ai=h(i,1,x(n,n));if(ai){var
-a4=x(n,n),a5=x(r,n),a6=[5,[4,x(r,n),a5],a4];return h(i,1,[3,[4,ah,ah],[3,x(r,r),a6]])}var
+ah=a[4],F=H(g,a[1]);if(F){var
+G=mD(F[1],c);if(G){var
+n=G[1][1][2],a2=c8(a[3]),a3=c8(a[2]),r=J(function(b,a){return[3,b,a]},a3,a2),ai=h(i,1,w(n,n));if(ai){var
+a4=w(n,n),a5=w(r,n),a6=[5,[4,w(r,n),a5],a4];return h(i,1,[3,[4,ah,ah],[3,w(r,r),a6]])}var
 aj=ai}else
 var
-aj=H;var
+aj=G;var
 ak=aj}else
 var
 ak=F;return ak;case
 12:var
-o=a[3],s=a[2],I=G(g,a[1]);if(I){var
+o=a[3],s=a[2],I=H(g,a[1]);if(I){var
 j=I[1],al=h(i,0,s),am=al?h(i,0,o):al;if(am){var
 a7=a[4];switch(j[0]){case
 0:var
-v=j[4],w=[5,v,[6,cC(j[1],j[2],j[3],v,c)]],J=[4,w,[2,s,[4,[5,[4,o,o],v],[4,w,w]]]];break;case
+v=j[4],x=[5,v,[6,cf(j[1],j[2],j[3],v,c)]],K=[4,x,[2,s,[4,[5,[4,o,o],v],[4,x,x]]]];break;case
 1:var
-P=j[2],Q=j[1],aF=aX(Q,P,c),J=[2,s,[5,[4,o,o],[6,x(aX(Q,P,c),aF)]]];break;default:var
-J=s}var
-K=h(i,1,[3,J,a7])}else
+R=j[2],S=j[1],aF=aU(S,R,c),K=[2,s,[5,[4,o,o],[6,w(aU(S,R,c),aF)]]];break;default:var
+K=s}var
+L=h(i,1,[3,K,a7])}else
 var
-K=am;if(K){if(2===j[0])return h(i,1,x(f,f));var
+L=am;if(L){if(2===j[0])return h(i,1,w(f,f));var
 ao=1}else
 var
-ao=K;var
+ao=L;var
 ap=ao}else
 var
 ap=I;return ap;case
 13:if(g){var
 t=g[2];if(t){var
 u=t[2];if(u){if(u[2])return 0;var
-aq=u[1],ar=t[1],as=g[1],at=a[1],L=G([0,f[1],[0,f[2],[0,f[3],0]]],at);if(L){var
-M=G([0,as,[0,ar,[0,aq,0]]],at);if(M){var
-au=M[1],a8=ce(au,c),a9=cd(au,c),a_=ce(aq,c),a$=V(f[3],a_),ba=ce(ar,c),bb=V(f[2],ba),bc=ce(as,c),bd=V(f[1],bc),be=U(function(b,a){return[2,b,a]},bd,bb),bf=U(function(b,a){return[2,b,a]},be,a$);return mt(i,x,a[2],a[3],L[1],bf,a9,a8)}var
-av=M}else
+aq=u[1],ar=t[1],as=g[1],at=a[1],M=H([0,f[1],[0,f[2],[0,f[3],0]]],at);if(M){var
+N=H([0,as,[0,ar,[0,aq,0]]],at);if(N){var
+au=N[1],a8=ch(au,c),a9=cg(au,c),a_=ch(aq,c),a$=P(f[3],a_),ba=ch(ar,c),bb=P(f[2],ba),bc=ch(as,c),bd=P(f[1],bc),be=J(function(b,a){return[2,b,a]},bd,bb),bf=J(function(b,a){return[2,b,a]},be,a$);return mH(i,w,a[2],a[3],M[1],bf,a9,a8)}var
+aw=N}else
 var
-av=L;var
-aw=av}else
-var
-aw=u;var
+aw=M;var
 ax=aw}else
 var
-ax=t;var
-az=ax}else
+ax=u;var
+ay=ax}else
+var
+ay=t;var
+az=ay}else
 var
 az=g;return az;case
 15:var
-bg=mm(a[1],g,c,f),bh=x(f,f);return h(i,1,[3,[4,a[2],bh],bg]);default:N=1}if(N)return 0;var
-B=G(g,z);return B?h(i,1,A(B[1])):B}function
-e_(g,i,f,c,a){var
-m=e7(g,i,f,c);if(m)if(typeof
+bg=mA(a[1],g,c,f),bh=w(f,f);return h(i,1,[3,[4,a[2],bh],bg]);default:O=1}if(O)return 0;var
+B=H(g,z);return B?h(i,1,A(B[1])):B}function
+fl(g,i,f,c,a){var
+m=fi(g,i,f,c);if(m)if(typeof
 a==="number")return 0===a?aj(function(e){var
-a=iG(e,c);return a?h(g,0,[3,[0,d,b],a[1]]):a},f):lu(tn,e(function(b){var
-a=ce(b,c);return[0,a[1],[0,a[2],[0,a[3],0]]]},f));else{if(0===a[0]){var
-j=G(i[3],a[1]);if(j){var
-p=j[1],q=mn(a[3]);return mu(g,f,c,mn(a[2]),q,p)}return j}var
-k=G(i[3],a[1]);if(k){var
-l=G(f,a[2]);if(l){var
-n=l[1],r=k[1],s=cd(n,c);return mu(g,f,c,cd(n,c),s,r)}var
+a=iS(e,c);return a?h(g,0,[3,[0,d,b],a[1]]):a},f):lH(tG,e(function(b){var
+a=ch(b,c);return[0,a[1],[0,a[2],[0,a[3],0]]]},f));else{if(0===a[0]){var
+j=H(i[3],a[1]);if(j){var
+p=j[1],q=mB(a[3]);return mI(g,f,c,mB(a[2]),q,p)}return j}var
+k=H(i[3],a[1]);if(k){var
+l=H(f,a[2]);if(l){var
+n=l[1],r=k[1],s=cg(n,c);return mI(g,f,c,cg(n,c),s,r)}var
 o=l}else
 var
 o=k;return o}return m}function
-bC(a){return[0,a[1][1],a[2][1],a[3][1]]}function
-mv(a){switch(a[0]){case
+bE(a){return[0,a[1][1],a[2][1],a[3][1]]}function
+mJ(a){switch(a[0]){case
 0:var
-b=a[1],c=b[5],d=b[4][1],e=bC(b[3]),f=bC(b[2]);return[0,bC(b[1]),f,e,d,c];case
+b=a[1],c=b[5],d=b[4][1],e=bE(b[3]),f=bE(b[2]);return[0,bE(b[1]),f,e,d,c];case
 1:var
-g=z(bC,a[3]),h=bC(a[2]);return[1,bC(a[1]),h,g];default:return[2,bC(a[1])]}}function
-iI(a){return 0===a[0]?bC(a[1]):[0,a[1],a[2],a[4][1]]}function
-mw(b,a){var
-c=iI(a[2]);return e7(b,a,e(mv,a[1]),c)}function
-iJ(b,a,c){var
+g=z(bE,a[3]),h=bE(a[2]);return[1,bE(a[1]),h,g];default:return[2,bE(a[1])]}}function
+iU(a){return 0===a[0]?bE(a[1]):[0,a[1],a[2],a[4][1]]}function
+mK(b,a){var
+c=iU(a[2]);return fi(b,a,e(mJ,a[1]),c)}function
+iV(b,a,c){var
 d=[0,c,aM(b,a)];return f(aB(b,a),d)}function
 bo(c,a){if(c){if(a){var
 e=bo(c[2],a[2]);return[2,[4,c[1],a[1]],e]}return[0,d,b]}return[0,d,b]}function
-mx(e,c,a){if(e){if(c){var
-f=c[1],g=mx(e[2],c[2],a),h=bo(f,a),i=[4,bo(f,a),h];return[2,[4,e[1],i],g]}return[0,d,b]}return[0,d,b]}function
-my(b,a){if(b){if(a){var
-c=b[1],e=my(b[2],a[2]),f=a[1],g=function(b,a){return[2,[4,c,b],a]},h=function(a){return a};return aN(function(a){return[4,c,a]},h,g,f,e)}var
+mL(e,c,a){if(e){if(c){var
+f=c[1],g=mL(e[2],c[2],a),h=bo(f,a),i=[4,bo(f,a),h];return[2,[4,e[1],i],g]}return[0,d,b]}return[0,d,b]}function
+mM(b,a){if(b){if(a){var
+c=b[1],e=mM(b[2],a[2]),f=a[1],g=function(b,a){return[2,[4,c,b],a]},h=function(a){return a};return aO(function(a){return[4,c,a]},h,g,f,e)}var
 d=a}else
 var
 d=b;return d}function
-mz(b,c,a){var
+mN(b,c,a){var
 d=[0,c,aM([0,b],a)];return f(aB(b,a),d)}function
-mA(a,b){var
-e=q(a,to),c=e||q(a,tp),d=c?q(g(b),a):c;return d?m(function(b){return q(g(b),a)},b):d}function
-mB(a){if(a){var
+mO(a,b){var
+e=o(a,tH),c=e||o(a,tI),d=c?o(g(b),a):c;return d?m(function(b){return o(g(b),a)},b):d}function
+mP(a){if(a){var
 b=a[1];if(b){var
-c=b[1],d=mB(a[2]);return z(function(a){return[0,c,a]},d)}return b}return tq}function
-gF(a){if(a){var
+c=b[1],d=mP(a[2]);return z(function(a){return[0,c,a]},d)}return b}return tJ}function
+gR(a){if(a){var
 b=a[1];if(b){var
-c=b[1],d=gF(a[2]);return z(function(a){return[0,c,a]},d)}return b}return tr}function
-mC(a,l,k,f){var
+c=b[1],d=gR(a[2]);return z(function(a){return[0,c,a]},d)}return b}return tK}function
+mQ(a,l,k,f){var
 b=aD(a,l);if(b){var
 c=aD(a,k);if(c){var
-d=cV(a,f);if(d){var
-e=gg(a,f);if(e)var
-m=t(a,b[1],e[1]),g=[0,E(t(a,c[1],d[1]),m)];else
+d=cZ(a,f);if(d){var
+e=gs(a,f);if(e)var
+m=t(a,b[1],e[1]),g=[0,F(t(a,c[1],d[1]),m)];else
 var
 g=e;var
 h=g}else
@@ -3323,23 +3325,23 @@ i=c;var
 j=i}else
 var
 j=b;return j}function
-mD(a){return a?J(a[1][2],d):a}function
-cf(a){return a?J(d,a[1][1]):a}function
-mE(d,a){return h(d,0,[3,[0,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b))))))))),b],a])}function
-mF(d,a){if(a){var
+mR(a){return a?I(a[1][2],d):a}function
+ci(a){return a?I(d,a[1][1]):a}function
+mS(d,a){return h(d,0,[3,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b],a])}function
+mT(d,a){if(a){var
 b=aD(d,a[1]);if(b)var
-c=mF(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
+c=mT(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
 var
-e=b;return e}return ts}function
-gG(d,a){if(a){var
-b=mF(d,a[1]);if(b)var
-c=gG(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
+e=b;return e}return tL}function
+gS(d,a){if(a){var
+b=mT(d,a[1]);if(b)var
+c=gS(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
 var
-e=b;return e}return tt}function
-mG(b,a){return an(function(c,a){return A(S(b,c),a)},u,a)}function
-mH(b,d){function
+e=b;return e}return tM}function
+mU(b,a){return an(function(c,a){return A(U(b,c),a)},u,a)}function
+mV(b,d){function
 c(e,d,c,a){var
-f=t(b,d,c);return E(t(b,e,a),f)}if(d){var
+f=t(b,d,c);return F(t(b,e,a),f)}if(d){var
 e=d[1];if(e){var
 f=e[2];if(f){var
 g=f[2],q=f[1],r=e[1],a=d[2];if(g){if(g[2])return u;if(a){var
@@ -3350,18 +3352,18 @@ k=a[2];if(k){var
 l=k[1];if(l){var
 m=l[2];if(m){var
 n=m[2];if(n){if(n[2])return u;if(k[2])return u;var
-s=n[1],v=m[1],w=l[1],x=j[1],y=i[1],z=h[1],B=c(z,y,w,v),C=t(b,g[1],B),D=t(b,q,c(z,x,w,s));return A(E(t(b,r,c(y,x,v,s)),D),C)}return u}return u}return u}return u}return u}return u}return u}return u}if(a){var
+s=n[1],v=m[1],w=l[1],x=j[1],y=i[1],z=h[1],B=c(z,y,w,v),C=t(b,g[1],B),D=t(b,q,c(z,x,w,s));return A(F(t(b,r,c(y,x,v,s)),D),C)}return u}return u}return u}return u}return u}return u}return u}return u}if(a){var
 o=a[1];if(o){var
 p=o[2];return p?p[2]?u:a[2]?u:c(r,q,o[1],p[1]):u}return u}return u}return u}return u}return u}function
-mI(a,o,l,s,f,i){function
+mW(a,p,l,s,f,i){function
 a1(c,a){return[4,[4,[5,[0,b,b],c],[5,[0,b,b],c]],bo(a,a)]}var
 bL=l[1];function
 B(c){var
 a=[0,d,b];return an(function(a,b){var
 d=bo(a,c);return[2,[4,bo(a,c),d],b]},a,bL)}function
 C(f,e){var
-a=G(l[1],f);if(a){var
-b=a[1],c=q(g(b),o);if(c)return j(e,b);var
+a=H(l[1],f);if(a){var
+b=a[1],c=o(g(b),p);if(c)return j(e,b);var
 d=c}else
 var
 d=a;return d}var
@@ -3370,11 +3372,11 @@ b=0;if(typeof
 i==="number")b=1;else
 switch(i[0]){case
 6:var
-a=tu;break;case
+a=tN;break;case
 13:case
 14:var
-a=tv;break;default:b=1}if(b)var
-a=o;return q(g(c),a)},f);if(a2){var
+a=tO;break;default:b=1}if(b)var
+a=p;return o(g(c),a)},f);if(a2){var
 v=0;if(typeof
 i==="number")v=1;else
 switch(i[0]){case
@@ -3386,13 +3388,13 @@ a5=f[1],bN=a1(i[1],a5);return h(a,1,[3,B(a5),bN])}return f;case
 bO=i[2],bP=function(b){if(typeof
 b!=="number"&&0===b[0])return h(a,1,[3,bO,b[1]]);return 0},ai=bP,ah=i[1];break;case
 3:if(f)return 0;var
-bQ=i[2],bS=function(b){if(typeof
-b!=="number"&&0===b[0])return h(a,1,[3,b[1],bQ]);return 0},ai=bS,ah=i[1];break;case
+bQ=i[2],bR=function(b){if(typeof
+b!=="number"&&0===b[0])return h(a,1,[3,b[1],bQ]);return 0},ai=bR,ah=i[1];break;case
 4:if(f)return 0;var
-a6=i[3],a7=i[2],bT=function(d){var
-i=q(s,0);if(typeof
+a6=i[3],a7=i[2],bS=function(d){var
+i=o(s,0);if(typeof
 d!=="number"&&1===d[0]){var
-e=d[2],f=d[1],g=h(a,0,[3,[2,a7,[0,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b)))))))))),b]],a6]);return g?i?mD(mC(a,f,e,a7)):cf(mC(a,f,e,a6)):g}return 0},ai=bT,ah=i[1];break;case
+e=d[2],f=d[1],g=h(a,0,[3,[2,a7,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b]],a6]);return g?i?mR(mQ(a,f,e,a7)):ci(mQ(a,f,e,a6)):g}return 0},ai=bS,ah=i[1];break;case
 5:if(f){var
 D=f[2];if(D){if(D[2])return 0;var
 ak=D[1],al=f[1],a8=i[1],bU=bo(al,al),bV=[4,[4,a8,a8],[4,B(ak),bU]],bW=bo(ak,ak);return h(a,1,[3,[4,B(al),bW],bV])}var
@@ -3402,20 +3404,20 @@ a9=f;return a9;case
 6:var
 a_=i[2],bX=i[3],bY=function(b){var
 c=[5,bX,a_],d=h(a,1,a_);return d?h(a,1,[3,bo(b,b),[4,c,c]]):d},a$=C(i[1],bY);if(a$){if(l[4]){if(f){var
-F=f[1];if(F){if(F[2])return 0;if(f[2])return 0;var
-ba=F[1];return h(a,1,[4,ba,ba])}var
-bb=F}else
+E=f[1];if(E){if(E[2])return 0;if(f[2])return 0;var
+ba=E[1];return h(a,1,[4,ba,ba])}var
+bb=E}else
 var
 bb=f;return bb}if(f)return 0;var
 bc=1}else
 var
 bc=a$;return bc;case
 7:if(f){if(f[2])return 0;var
-bd=f[1],am=i[1],bZ=i[3],b0=i[2],ao=gF(l[7]);if(ao){var
-H=ao[1],ap=G(bd,am);if(ap){var
-b1=ap[1],be=q(g(H),o),bf=be?m(function(a){return q(g(a),o)},H):be;if(bf){var
-aq=G(H,am);if(aq){var
-b2=aq[1];return C(am,function(b){return mt(a,bo,b0,bZ,b1,my(bd,H),b,b2)})}var
+bd=f[1],am=i[1],bZ=i[3],b0=i[2],ao=gR(l[7]);if(ao){var
+G=ao[1],ap=H(bd,am);if(ap){var
+b1=ap[1],be=o(g(G),p),bf=be?m(function(a){return o(g(a),p)},G):be;if(bf){var
+aq=H(G,am);if(aq){var
+b2=aq[1];return C(am,function(b){return mH(a,bo,b0,bZ,b1,mM(bd,G),b,b2)})}var
 bg=aq}else
 var
 bg=bf;var
@@ -3429,14 +3431,14 @@ bj=bi}else
 var
 bj=f;return bj;case
 8:if(f){if(f[2])return 0;var
-ar=f[1],b3=mx(i[1],l[1],ar),b4=bo(ar,ar);return h(a,1,[3,[4,i[2],b4],b3])}return f;case
+ar=f[1],b3=mL(i[1],l[1],ar),b4=bo(ar,ar);return h(a,1,[3,[4,i[2],b4],b3])}return f;case
 9:if(f)return 0;var
 bk=i[3],bl=i[2],b5=function(e){var
 f=h(a,1,bl),g=f?h(a,0,bk):f;if(g){var
 b=aD(a,bo(e,e));if(b){var
 c=aD(a,[5,bk,bl]);if(c){var
-d=ln(a,c[1]);if(d){var
-l=S(a,d[1]);return cf([0,E(b[1],l)])}var
+d=lA(a,c[1]);if(d){var
+l=U(a,d[1]);return ci([0,F(b[1],l)])}var
 i=d}else
 var
 i=c;var
@@ -3451,11 +3453,11 @@ b6=i[2],b7=function(b){var
 c=[4,b6,b[3]],d=h(a,1,c);return d?h(a,1,[3,[4,c,c],[4,b[2],b[2]]]):d},bn=b7,bm=i[1];v=2;break;case
 11:if(f)return 0;var
 b8=i[2],b9=function(e){var
-b=cV(a,b8);if(b){var
+b=cZ(a,b8);if(b){var
 c=aD(a,e[3]);if(c){var
 d=aD(a,e[2]);if(d){var
-f=t(a,b[1],c[1]),g=cf([0,f]);if(g){var
-k=S(a,d[1]);return cf([0,E(S(a,f),k)])}var
+f=t(a,b[1],c[1]),g=ci([0,f]);if(g){var
+k=U(a,d[1]);return ci([0,F(U(a,f),k)])}var
 h=g}else
 var
 h=d;var
@@ -3466,20 +3468,20 @@ j=i}else
 var
 j=b;return j},bn=b9,bm=i[1];v=2;break;case
 12:if(f)return 0;var
-au=mB(l[3]);if(au){var
-bq=au[1],b_=i[1],br=bR(function(b,a){return[4,b,a[3]]},bq,b_),av=e(function(a){return a[1]},bq),w=function(d,c,b,a){return[3,[4,d,a],[4,c,b]]};if(av){var
-N=av[1];if(N){var
-O=N[2];if(O){var
-P=O[2],aC=O[1],aE=N[1],n=av[2];if(P)if(P[2]||!n)var
+au=mP(l[3]);if(au){var
+bq=au[1],b_=i[1],br=bT(function(b,a){return[4,b,a[3]]},bq,b_),av=e(function(a){return a[1]},bq),x=function(d,c,b,a){return[3,[4,d,a],[4,c,b]]};if(av){var
+O=av[1];if(O){var
+P=O[2];if(P){var
+Q=P[2],aC=P[1],aE=O[1],n=av[2];if(Q)if(Q[2]||!n)var
 k=[0,d,b];else{var
-Q=n[1];if(Q){var
-R=Q[2];if(R){var
-T=R[2];if(T&&!T[2]){var
+R=n[1];if(R){var
+S=R[2];if(S){var
+T=S[2];if(T&&!T[2]){var
 V=n[2];if(V){var
 W=V[1];if(W){var
 X=W[2];if(X){var
 Y=X[2];if(Y&&!(Y[2]||V[2]))var
-aF=Y[1],aG=X[1],aH=W[1],aI=T[1],aJ=R[1],aK=Q[1],bE=w(aK,aJ,aH,aG),bF=[4,P[1],bE],bG=[4,aC,w(aK,aI,aH,aF)],k=[2,[3,[4,aE,w(aJ,aI,aG,aF)],bG],bF];else
+aF=Y[1],aG=X[1],aH=W[1],aI=T[1],aJ=S[1],aK=R[1],bE=x(aK,aJ,aH,aG),bF=[4,Q[1],bE],bG=[4,aC,x(aK,aI,aH,aF)],k=[2,[3,[4,aE,x(aJ,aI,aG,aF)],bG],bF];else
 var
 k=[0,d,b]}else
 var
@@ -3496,7 +3498,7 @@ var
 k=[0,d,b]}else
 if(n){var
 Z=n[1];if(Z)var
-_=Z[2],k=_?_[2]?[0,d,b]:n[2]?[0,d,b]:w(aE,aC,Z[1],_[1]):[0,d,b];else
+_=Z[2],k=_?_[2]?[0,d,b]:n[2]?[0,d,b]:x(aE,aC,Z[1],_[1]):[0,d,b];else
 var
 k=[0,d,b]}else
 var
@@ -3512,19 +3514,19 @@ bt=bs}else
 var
 bt=au;return bt;case
 13:var
-b$=i[2],aw=G(l[4],i[1]);if(aw){var
+b$=i[2],aw=H(l[4],i[1]);if(aw){var
 ax=aw[1];if(ax){var
 bu=function(a){if(b$){var
-c=j(l[5],[0,[0,d,b],[0,d,b],[0,d,b]]),e=j(l[5],a);return U(function(b,a){return[3,b,a]},e,c)}return a},I=i[4],u=bu(c6(i[3])),J=ax[1][1][2],r=x(J,u);if(mE(a,I)){if(s){if(s[1])return 0;if(f){var
+c=j(l[5],[0,[0,d,b],[0,d,b],[0,d,b]]),e=j(l[5],a);return J(function(b,a){return[3,b,a]},e,c)}return a},I=i[4],u=bu(c8(i[3])),K=ax[1][1][2],r=w(K,u);if(mS(a,I)){if(s){if(s[1])return 0;if(f){var
 y=f[1];if(y){var
 z=y[2];if(z){var
 A=z[2];if(A){if(A[2])return 0;if(f[2])return 0;var
-$=bu([0,y[1],z[1],A[1]]),aL=x(J,$),aM=h(a,1,r);if(aM){var
-aa=cV(a,I);if(aa){var
-aN=aa[1],ac=aD(a,[4,x(u,u),[4,aL,aL]]);if(ac){var
-ad=aD(a,[4,[4,r,r],x($,$)]);if(ad){var
-aO=cf([0,aN]);if(aO){var
-bH=ad[1],bI=ac[1];return cf([0,E(t(a,S(a,aN),bI),bH)])}var
+$=bu([0,y[1],z[1],A[1]]),aL=w(K,$),aM=h(a,1,r);if(aM){var
+aa=cZ(a,I);if(aa){var
+aN=aa[1],ac=aD(a,[4,w(u,u),[4,aL,aL]]);if(ac){var
+ad=aD(a,[4,[4,r,r],w($,$)]);if(ad){var
+aO=ci([0,aN]);if(aO){var
+bH=ad[1],bI=ac[1];return ci([0,F(t(a,U(a,aN),bI),bH)])}var
 aP=aO}else
 var
 aP=ad;var
@@ -3549,11 +3551,11 @@ aV=y;var
 aW=aV}else
 var
 aW=f;return aW}return f?0:h(a,1,[3,[0,d,b],r])}if(s)return 0;if(f)return 0;var
-aX=h(a,0,[3,[0,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b)))))))))),b],I]);if(aX){var
-ae=cV(a,I);if(ae){var
+aX=h(a,0,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],I]);if(aX){var
+ae=cZ(a,I);if(ae){var
 af=aD(a,r);if(af){var
-bJ=x(J,J),ag=aD(a,[6,[4,x(u,u),bJ]]);if(ag){var
-bK=t(a,ae[1],ag[1]);return mD([0,E(af[1],bK)])}var
+bJ=w(K,K),ag=aD(a,[6,[4,w(u,u),bJ]]);if(ag){var
+bK=t(a,ae[1],ag[1]);return mR([0,F(af[1],bK)])}var
 aY=ag}else
 var
 aY=af;var
@@ -3567,42 +3569,42 @@ bv=ax}else
 var
 bv=aw;return bv;case
 14:if(f){var
-K=f[1];if(K){var
-L=K[2];if(L){var
-M=L[2];if(M){if(M[2])return 0;if(f[2])return 0;var
-ca=i[3],cb=i[2],cc=i[1],cd=[0,K[1],L[1],M[1]],ce=l[5],cg=l[4];return ms(a,function(a){return mq(cg,ce,a)},cd,cc,cb,ca)}var
-bw=M}else
+L=f[1];if(L){var
+M=L[2];if(M){var
+N=M[2];if(N){if(N[2])return 0;if(f[2])return 0;var
+ca=i[3],cb=i[2],cc=i[1],cd=[0,L[1],M[1],N[1]],ce=l[5],cf=l[4];return mG(a,function(a){return mE(cf,ce,a)},cd,cc,cb,ca)}var
+bw=N}else
 var
-bw=L;var
+bw=M;var
 bx=bw}else
 var
-bx=K;var
+bx=L;var
 by=bx}else
 var
 by=f;return by;case
 17:if(f)return 0;var
-bz=i[2],ay=i[1],ch=i[3],az=gF(l[7]);if(az){var
-aA=az[1],bA=mA(o,aA),bB=bA?q(g(bz),o):bA;if(bB){var
-aB=G(aA,ay);if(aB){var
-ci=aB[1];return C(ay,function(x){var
-e=gG(a,aA);if(e){var
-j=e[1],f=gG(a,[0,bz,[0,x,[0,ci,0]]]);if(f){var
+bz=i[2],ay=i[1],cg=i[3],az=gR(l[7]);if(az){var
+aA=az[1],bA=mO(p,aA),bB=bA?o(g(bz),p):bA;if(bB){var
+aB=H(aA,ay);if(aB){var
+ch=aB[1];return C(ay,function(x){var
+e=gS(a,aA);if(e){var
+j=e[1],f=gS(a,[0,bz,[0,x,[0,ch,0]]]);if(f){var
 b=f[1];if(b){var
 c=b[2];if(c){var
 d=c[2];if(d){if(d[2])return 0;var
-g=aD(a,ch);if(g){var
-k=g[1],l=S(a,mH(a,j)),h=mH(a,mz(ay,b[1],j)),m=cf([0,k]),n=m?cf([0,l]):m;if(n)var
-y=q(s,0)?h:ab(h),i=cf([0,y]);else
+g=aD(a,cg);if(g){var
+k=g[1],l=U(a,mV(a,j)),h=mV(a,mN(ay,b[1],j)),m=ci([0,k]),n=m?ci([0,l]):m;if(n)var
+y=o(s,0)?h:ab(h),i=ci([0,y]);else
 var
 i=n;if(i){var
-z=mG(a,c[1]),A=t(a,t(a,S(a,k),l),z),B=mG(a,d[1]);return cf([0,E(t(a,S(a,h),B),A)])}var
-o=i}else
+z=mU(a,c[1]),A=t(a,t(a,U(a,k),l),z),B=mU(a,d[1]);return ci([0,F(t(a,U(a,h),B),A)])}var
+p=i}else
 var
-o=g;var
-p=o}else
+p=g;var
+q=p}else
 var
-p=d;var
-r=p}else
+q=d;var
+r=q}else
 var
 r=c;var
 u=r}else
@@ -3623,90 +3625,90 @@ bD=az;return bD;default:v=1}switch(v){case
 1:var
 a3=0;break;case
 2:var
-as=G(l[3],bm);if(as){var
+as=H(l[3],bm);if(as){var
 at=as[1];if(at)return bn(at[1]);var
 bp=at}else
 var
 bp=as;return bp;default:var
-aj=G(l[2],ah);return aj?ai(aj[1]):aj}}else
+aj=H(l[2],ah);return aj?ai(aj[1]):aj}}else
 var
 a3=a2;return a3}function
-gH(d,f,a){if(typeof
+gT(d,f,a){if(typeof
 a!=="number")switch(a[0]){case
 13:var
-e=a[4];if(mE(d,e)&&L(h(d,0,[3,e,[0,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b))))))))),b]])))return ty;return tz;case
+e=a[4];if(mS(d,e)&&M(h(d,0,[3,e,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b]])))return tR;return tS;case
 16:return f;case
 4:case
-17:return tx}return tw}function
-gI(e,d,g,f){var
+17:return tQ}return tP}function
+ep(e,d,g,f){var
 b=g,a=f;for(;;){if(a){var
-c=a[1];if(aJ(b,gH(e,d,c)))return[0,[0,c,b]];var
-h=a[2],b=dW(b,gH(e,d,c)),a=h;continue}return a}}function
-mJ(a){return e(function(a){return[0,a,b]},a)}function
-iK(f,o,g,c,n,a){if(typeof
+c=a[1];if(aI(b,gT(e,d,c)))return[0,[0,c,b]];var
+h=a[2],b=d7(b,gT(e,d,c)),a=h;continue}return a}}function
+mX(a){return e(function(a){return[0,a,b]},a)}function
+iW(f,o,g,c,n,a){if(typeof
 a==="number"){if(0===a){var
 s=c[6];return aj(function(a){return h(f,0,[3,[0,d,b],a])},s)}var
-i=gF(c[7]);return i?lu(g,i[1]):i}else{if(0===a[0]){var
-j=gI(f,o,a[1],n);if(j){var
-p=j[1],t=p[1],u=e(mJ,a[2]);return mI(f,g,c,p[2],u,t)}return j}var
-k=gI(f,o,a[1],n);if(k){var
+i=gR(c[7]);return i?lH(g,i[1]):i}else{if(0===a[0]){var
+j=ep(f,o,a[1],n);if(j){var
+p=j[1],t=p[1],u=e(mX,a[2]);return mW(f,g,c,p[2],u,t)}return j}var
+k=ep(f,o,a[1],n);if(k){var
 q=k[1],l=q[1];if(typeof
 l!=="number"&&1===l[0]){var
-m=G(c[1],a[2]);return m?mI(f,g,c,q[2],[0,m[1],0],[1,l[1]]):m}var
+m=H(c[1],a[2]);return m?mW(f,g,c,q[2],[0,m[1],0],[1,l[1]]):m}var
 r=0}else
 var
 r=k;return r}}function
-iL(a){var
-b=ay(a[1]),c=V(x(b,a[2]),b),d=a[2];return U(function(b,a){return[3,b,a]},d,c)}function
-gJ(a){return ay(iL(a))}function
-iM(c){var
-a=gJ(c),b=ay(c[1]);return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
-gK(a,b){return aX(a[3],a[4],b)}function
-gL(a,b){var
-c=gK(a,b);return x(gJ(a),c)}function
-gM(a,b){var
-c=gK(a,b);return x(iM(a),c)}function
-mK(a,b){var
-c=gK(a,b);return x(ay(a[1]),c)}function
-gN(b,a){var
-c=gM(b,a),d=gL(b,a);return[2,[4,d,d],[4,c,c]]}function
-gO(a,d){var
-h=a[5],i=[4,[0,c(2,b),b],h],e=a[6],f=a[5],g=mK(a,d);return[5,[2,gN(a,d),[2,[4,g,g],[3,[4,f,f],[4,e,e]]]],i]}function
-mL(a,b){var
-f=a[5],c=[3,gO(a,b),f],d=mK(a,b),e=a[6];return[3,[3,[4,e,e],[4,d,d]],[4,c,c]]}function
-e$(a,b){var
-c=mL(a,b);return c4(a[7],c)}function
-mM(b,a){var
-c=gN(b,a),d=gM(b,a),e=[4,e$(b,a),d],f=gL(b,a);return[5,[2,[4,gO(b,a),f],e],c]}function
-mN(b,a){var
-c=gN(b,a),d=gL(b,a),e=[4,e$(b,a),d],f=gM(b,a);return[5,[3,[4,gO(b,a),f],e],c]}function
-iN(a,b){var
-c=iM(a),d=V(mN(a,b),c),e=gJ(a),f=V(mM(a,b),e),g=U(function(b,a){return[2,b,a]},f,d),h=V(a[5],g),i=a[3];return U(function(b,a){return[2,b,a]},i,h)}function
-mO(a){return[5,[3,[0,b,b],[4,a,a]],[2,[0,b,b],[4,a,a]]]}function
-mP(a){return[5,[4,[0,c(2,b),b],a],[2,[0,b,b],[4,a,a]]]}function
-iO(a,c,b){var
-d=[4,mO(a),b],e=[2,[4,mP(a),c],d],f=[4,mP(a),b];return[0,[3,[4,mO(a),c],f],e]}function
-mQ(c,a){var
-b=iO(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
-c7(b,a){return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
-mR(a,d){var
-e=x(a,a),f=c7(a,d),g=V([0,c(2,b),b],f),h=x(a,d),i=V([4,[0,c(2,b),b],h],a),j=V([3,[0,b,b],e],d),k=U(function(b,a){return[2,b,a]},j,i);return V([5,[0,b,b],[2,[0,b,b],e]],U(function(b,a){return[2,b,a]},k,g))}function
-cD(j,b,a){switch(j[0]){case
-0:return b?b[2]?a:mQ(b[1],a):a;case
+iX(a){var
+b=av(a[1]),c=P(w(b,a[2]),b),d=a[2];return J(function(b,a){return[3,b,a]},d,c)}function
+fm(a){return av(iX(a))}function
+gU(c){var
+a=fm(c),b=av(c[1]);return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
+gV(a,b){return aU(a[3],a[4],b)}function
+fn(a,b){var
+c=gV(a,b);return w(fm(a),c)}function
+fo(a,b){var
+c=gV(a,b);return w(gU(a),c)}function
+mY(a,b){var
+c=gV(a,b);return w(av(a[1]),c)}function
+gW(b,a){var
+c=fo(b,a),d=fn(b,a);return[2,[4,d,d],[4,c,c]]}function
+gX(a,d){var
+h=a[5],i=[4,[0,c(2,b),b],h],e=a[6],f=a[5],g=mY(a,d);return[5,[2,gW(a,d),[2,[4,g,g],[3,[4,f,f],[4,e,e]]]],i]}function
+iY(a,b){var
+f=a[5],c=[3,gX(a,b),f],d=mY(a,b),e=a[6];return[3,[3,[4,e,e],[4,d,d]],[4,c,c]]}function
+eq(a,b){var
+c=iY(a,b);return cE(a[7],c)}function
+mZ(b,a){var
+c=gW(b,a),d=fo(b,a),e=[4,eq(b,a),d],f=fn(b,a);return[5,[2,[4,gX(b,a),f],e],c]}function
+m0(b,a){var
+c=gW(b,a),d=fn(b,a),e=[4,eq(b,a),d],f=fo(b,a);return[5,[3,[4,gX(b,a),f],e],c]}function
+iZ(a,b){var
+c=gU(a),d=P(m0(a,b),c),e=fm(a),f=P(mZ(a,b),e),g=J(function(b,a){return[2,b,a]},f,d),h=P(a[5],g),i=a[3];return J(function(b,a){return[2,b,a]},i,h)}function
+dH(a){return[5,[3,[0,b,b],[4,a,a]],[2,[0,b,b],[4,a,a]]]}function
+dI(a){return[5,[4,[0,c(2,b),b],a],[2,[0,b,b],[4,a,a]]]}function
+i0(a,c,b){var
+d=[4,dH(a),b],e=[2,[4,dI(a),c],d],f=[4,dI(a),b];return[0,[3,[4,dH(a),c],f],e]}function
+m1(c,a){var
+b=i0(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
+c9(b,a){return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
+m2(a,d){var
+e=w(a,a),f=c9(a,d),g=P([0,c(2,b),b],f),h=w(a,d),i=P([4,[0,c(2,b),b],h],a),j=P([3,[0,b,b],e],d),k=J(function(b,a){return[2,b,a]},j,i);return P([5,[0,b,b],[2,[0,b,b],e]],J(function(b,a){return[2,b,a]},k,g))}function
+c_(j,b,a){switch(j[0]){case
+0:return b?b[2]?a:m1(b[1],a):a;case
 1:if(b){var
 c=b[2];if(c){var
 d=c[2];if(d){if(d[2])return a;var
-g=iO(b[1],a[2],a[3]),i=g[1],h=iO(c[1],g[2],a[1]);return mQ(d[1],[0,h[2],i,h[1]])}return a}return a}return a;default:if(b){var
+g=i0(b[1],a[2],a[3]),i=g[1],h=i0(c[1],g[2],a[1]);return m1(d[1],[0,h[2],i,h[1]])}return a}return a}return a;default:if(b){var
 e=b[2];if(e){var
-f=e[2];return f?f[2]?a:mR([0,b[1],e[1],f[1]],a):a}return a}return a}}function
-mS(c){var
-a=cy(c);return a?d0(a[1],[0,d,b]):a}function
-mT(a,n,k,j){if(mS(j)){var
+f=e[2];return f?f[2]?a:m2([0,b[1],e[1],f[1]],a):a}return a}return a}}function
+m3(c){var
+a=cA(c);return a?d$(a[1],[0,d,b]):a}function
+m4(a,n,k,j){if(m3(j)){var
 q=n?[3,[0,d,b],k]:k;return h(a,0,q)}var
 f=aD(a,k);if(f){var
-g=cV(a,[5,j,[0,c(2,b),b]]);if(g){var
-i=gg(a,[5,j,[0,c(2,b),b]]);if(i)var
-p=t(a,f[1],g[1]),l=[0,E(i[1],p)];else
+g=cZ(a,[5,j,[0,c(2,b),b]]);if(g){var
+i=gs(a,[5,j,[0,c(2,b),b]]);if(i)var
+p=t(a,f[1],g[1]),l=[0,F(i[1],p)];else
 var
 l=i;var
 m=l}else
@@ -3716,25 +3718,25 @@ e=m}else
 var
 e=f;if(e){var
 o=e[1];return n?D(d,o[1]):D(o[2],d)}return e}function
-dB(b,a,c){var
-d=bu(b,a[1],a[2]),e=d?mT(b,0,c,a[1]):d;return e?mT(b,1,c,a[2]):e}function
-mU(h,f,c){if(mS(c))return[0,u];var
-a=F(h,h$(f)),d=cV(a,c);if(d){var
-e=gg(a,c);if(e){var
-i=e[1],j=d[1],k=b8(a,A(M(a,b),j));return z(function(b){return le(f,t(a,i,b))},k)}var
+dJ(b,a,c){var
+d=bw(b,a[1],a[2]),e=d?m4(b,0,c,a[1]):d;return e?m4(b,1,c,a[2]):e}function
+m5(h,f,c){if(m3(c))return[0,u];var
+a=E(h,im(f)),d=cZ(a,c);if(d){var
+e=gs(a,c);if(e){var
+i=e[1],j=d[1],k=b9(a,A(O(a,b),j));return z(function(b){return lr(f,t(a,i,b))},k)}var
 g=e}else
 var
 g=d;return g}function
-c8(a){return function(b){return mU(a,d,b)}}function
-c9(d,a){var
-e=h(d,1,[2,[0,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b)))))))))),b],a]);return e?h(d,1,[3,[0,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b)))))))))),b],a]):e}function
-c_(a){return[0,[3,[0,d,b],a],a]}function
-mV(a,c,o,n){var
-h=bu(a,[0,d,b],c),i=h?c9(a,c):h;if(i){var
-e=j(c8(a),c);if(e){var
+cG(a){return function(b){return m5(a,d,b)}}function
+cH(d,a){var
+e=h(d,1,[2,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],a]);return e?h(d,1,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],a]):e}function
+c$(a){return[0,[3,[0,d,b],a],a]}function
+m6(a,c,o,n){var
+h=bw(a,[0,d,b],c),i=h?cH(a,c):h;if(i){var
+e=j(cG(a),c);if(e){var
 f=aD(a,o);if(f){var
 g=aD(a,n);if(g){var
-p=f[1],q=g[1];return D(d,E(t(a,S(a,e[1]),q),p)[1])}var
+p=f[1],q=g[1];return D(d,F(t(a,U(a,e[1]),q),p)[1])}var
 k=g}else
 var
 k=f;var
@@ -3744,12 +3746,12 @@ l=e;var
 m=l}else
 var
 m=i;return m}function
-cg(d,c,a){switch(c[0]){case
-0:return a?a[2]?0:dB(d,c[1],a[1]):a;case
+da(d,c,a){switch(c[0]){case
+0:return a?a[2]?0:dJ(d,c[1],a[1]):a;case
 1:if(a){var
 e=a[2];if(e){var
 f=e[2];if(f){if(f[2])return 0;var
-l=dB(d,c[1],a[1]),m=l?dB(d,c[2],e[1]):l;if(m)return dB(d,c[3],f[1]);var
+l=dJ(d,c[1],a[1]),m=l?dJ(d,c[2],e[1]):l;if(m)return dJ(d,c[3],f[1]);var
 n=m}else
 var
 n=f;var
@@ -3762,7 +3764,7 @@ p=a;return p;case
 2:if(a){var
 g=a[2];if(g){var
 h=g[2];if(h){if(h[2])return 0;var
-q=h[1],r=g[1],s=a[1],C=x([0,s,r,q],[0,s,r,q]);return mV(d,c[1],C,[0,b,b])}var
+q=h[1],r=g[1],s=a[1],C=w([0,s,r,q],[0,s,r,q]);return m6(d,c[1],C,[0,b,b])}var
 t=h}else
 var
 t=g;var
@@ -3771,7 +3773,7 @@ var
 u=a;return u;default:if(a){var
 i=a[2];if(i){var
 j=i[2];if(j){if(j[2])return 0;var
-k=j[1],v=i[1],w=a[1],y=mV(d,c[1],[2,[4,w,w],[4,v,v]],[2,[0,b,b],[4,k,k]]);if(y)return dB(d,c_(c[2]),k);var
+k=j[1],v=i[1],x=a[1],y=m6(d,c[1],[2,[4,x,x],[4,v,v]],[2,[0,b,b],[4,k,k]]);if(y)return dJ(d,c$(c[2]),k);var
 z=y}else
 var
 z=j;var
@@ -3782,87 +3784,89 @@ B=A}else
 var
 B=a;return B}}var
 k=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))));function
-bD(b){var
+bF(b){var
 a=an(function(f,e){var
 a=aD(k,f);if(a)var
-b=a[1],c=br(co(b[1]),co(b[2]));else
+b=a[1],c=bj(cr(b[1]),cr(b[2]));else
 var
-c=d;return br(c,e)},d,b);return J(d,a)?aI(kZ(a),k):d}function
-eg(a){return[0,a[1],[0,a[2],0]]}function
-a8(a){var
-b=eg(a[3]),c=f(eg(a[2]),b);return f(eg(a[1]),c)}function
-gP(a){return gE(k,a,bD(a8(a)))}function
-mW(b,a){if(a){var
-g=mW([0,b],a[2]),c=a[1];if(0===c[0])var
-d=c[1],e=c2([0,[0,d,d],c[2]],b);else
+c=d;return bj(c,e)},d,b);return I(d,a)?aL(lb(a),k):d}function
+er(a){return[0,a[1],[0,a[2],0]]}function
+a9(a){var
+b=er(a[3]),c=f(er(a[2]),b);return f(er(a[1]),c)}function
+gY(a){return gQ(k,a,bF(a9(a)))}function
+m7(b,a){if(a){var
+g=m7([0,b],a[2]),c=a[1];if(0===c[0])var
+d=c[1],e=c6([0,[0,d,d],c[2]],b);else
 var
 e=[0,[1,b]];var
 f=[0,e,g]}else
 var
 f=a;return f}function
-mX(c,b,a){var
-d=d2(b);return[2,[2,d2(c),d],a]}function
-gQ(b,a){return b?Q(a):d}function
-fa(g,b,a){if(typeof
+m8(c,b,a){var
+d=ea(b);return[2,[2,ea(c),d],a]}function
+gZ(b,a){return b?T(a):d}function
+fp(g,b,a){if(typeof
 a!=="number")switch(a[0]){case
 4:var
 i=a[3],j=a[2];return[0,[2,j],[0,[3,j],[0,[2,i],[0,[3,i],0]]]];case
 6:return[0,[0,[5,a[3],a[2]],d],0];case
 8:var
 q=a[2],r=a[1];return e(function(a){var
-c=gQ(g,b);return[0,[5,q,a],F(gQ(g,b),c)]},r);case
-9:return[0,[1,[5,a[3],a[2]],Q(b)],0];case
+c=gZ(g,b);return[0,[5,q,a],E(gZ(g,b),c)]},r);case
+9:return[0,[1,[5,a[3],a[2]],T(b)],0];case
 10:return[0,[0,a[2],d],0];case
 11:return[0,[2,a[2]],0];case
 12:return[0,[0,a[1],d],0];case
 13:var
-c=a[3],h=bD([0,c[1],[0,c[2],[0,c[3],0]]]);return[0,[2,a[4]],[0,[0,c[1],h],[0,[0,c[2],h],[0,[0,c[3],h],0]]]];case
+c=a[3],h=bF([0,c[1],[0,c[2],[0,c[3],0]]]);return[0,[2,a[4]],[0,[0,c[1],h],[0,[0,c[2],h],[0,[0,c[3],h],0]]]];case
 14:var
-k=a[2],l=a[1],s=ee(b,k),t=f(ee(b,l),s),u=e(function(a){return[0,a[1][2],a[2]]},t);return[0,[0,mX(l,k,a[3]),b],u];case
+k=a[2],l=a[1],s=en(b,k),t=f(en(b,l),s),u=e(function(a){return[0,a[1][2],a[2]]},t);return[0,[0,m8(l,k,a[3]),b],u];case
 15:var
 m=a[4],n=a[3];return[0,[0,[5,a[2],m],d],[0,[0,[5,[4,n,n],m],b],0]];case
 16:var
-o=a[2],p=bD([0,o,0]);return[0,[4,a[3],aI(p,b)],[0,[0,o,p],0]];case
+o=a[2],p=bF([0,o,0]);return[0,[4,a[3],aL(p,b)],[0,[0,o,p],0]];case
 17:var
-v=a[3],w=a[2];return e(function(a){return[0,[5,a,v],gQ(g,b)]},w);case
+v=a[3],w=a[2];return e(function(a){return[0,[5,a,v],gZ(g,b)]},w);case
 2:case
 3:return[0,[0,a[2],b],0]}return 0}function
-c$(h,c,b,e,a){if(a){var
-d=a[1],i=a[2],j=c$(h,c,b,R(e,g(fa(c,b,d))),i);return f(aq(h,mW(e,fa(c,b,d)),d),j)}return a}function
-gR(b,a){var
-c=aa(b,a);return e(function(a){var
+db(h,c,b,e,a){if(a){var
+d=a[1],i=a[2],j=db(h,c,b,N(e,g(fp(c,b,d))),i);return f(aq(h,m7(e,fp(c,b,d)),d),j)}return a}function
+g0(b,a){var
+c=W(b,a);return e(function(a){var
 b=s(a[1][2],a[2]);return[0,a[1][1],b]},c)}function
-iP(b,a){switch(a[0]){case
+i1(b,a){switch(a[0]){case
 0:var
 d=a[1];return ao(b,[0,[0,d,d],a[2]]);case
 1:var
-e=a[1],c=ao(b,[0,[0,e,e],a[2]]);return c?ln(b,c[1]):c;case
-2:return cV(b,a[1]);case
-3:return gg(b,a[1]);default:var
-f=a[1],g=c9(b,f);return g?mU(b,a[2],f):g}}function
-bv(a){return 1===a?tA:tB}function
-bW(d,c,b,a){var
-e=a[1],f=cD(d,c,a[2]),g=U(function(b,a){return[2,b,a]},b,f);return U(function(b,a){return[3,b,a]},g,e)}function
-iQ(c,b,a){switch(c){case
+e=a[1],c=ao(b,[0,[0,e,e],a[2]]);return c?lA(b,c[1]):c;case
+2:return cZ(b,a[1]);case
+3:return gs(b,a[1]);default:var
+f=a[1],g=cH(b,f);return g?m5(b,a[2],f):g}}function
+bG(a){return 1===a?tT:tU}function
+bY(d,c,b,a){var
+e=a[1],f=c_(d,c,a[2]),g=J(function(b,a){return[2,b,a]},b,f);return J(function(b,a){return[3,b,a]},g,e)}function
+i2(c,b,a){switch(c){case
 0:return[0,b[1],[0,b[2],[0,a[3],0]]];case
 1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}}function
-iR(h,g,d,c,f,a){var
-e=bW(d,c,f,a);return iQ(h,e,V([5,[0,b,b],g],c7(cD(d,c,a[2]),e)))}function
-fb(c,j,i){var
+i3(h,g,d,c,f,a){var
+e=bY(d,c,f,a);return i2(h,e,P([5,[0,b,b],g],c9(c_(d,c,a[2]),e)))}function
+i4(c,j,i){var
 b=j,a=i;for(;;){if(b){if(a){var
-d=a[1],e=b[1],f=bm(c,e[1],d[1]),g=f?bm(c,e[2],d[2]):f;if(g){var
+d=a[1],e=b[1],f=bn(c,e[1],d[1]),g=f?bn(c,e[2],d[2]):f;if(g){var
 b=b[2],a=a[2];continue}var
 h=g}else
 var
 h=a;return h}return a?0:1}}function
-bw(b,d){var
+i5(b,a,g,f,e){var
+c=i4(b,a[2],g),d=c?bD(b,a[4],f):c;return d?da(b,a[5],e):d}function
+bx(b,d){var
 a=d[1];if(8===a[0]){var
-c=a[1][1];return 0===c[0]?[0,[0,R(b,c[1])]]:[0,bS(function(a){return bw(b,a)},a)]}return[0,bS(function(a){return bw(b,a)},a)]}function
-dC(d,b,h){var
+c=a[1][1];return 0===c[0]?[0,[0,N(b,c[1])]]:[0,bU(function(a){return bx(b,a)},a)]}return[0,bU(function(a){return bx(b,a)},a)]}function
+dK(d,b,h){var
 c=h;for(;;){var
 a=c[1];switch(a[0]){case
 0:var
-e=a[1],f=L(q(e,b));return f?L(q(e,R(d,b))):f;case
+e=a[1],f=M(o(e,b));return f?M(o(e,N(d,b))):f;case
 10:return 0;case
 1:case
 2:return 1;case
@@ -3870,31 +3874,31 @@ e=a[1],f=L(q(e,b));return f?L(q(e,R(d,b))):f;case
 8:case
 9:var
 c=a[1];continue;default:var
-g=dC(d,b,a[1]);if(g){var
+g=dK(d,b,a[1]);if(g){var
 c=a[2];continue}return g}}}function
-eh(c,b,m){var
+es(c,b,m){var
 d=m;for(;;){var
 a=d[1];switch(a[0]){case
 5:var
 d=a[1];continue;case
 6:var
-f=a[2],g=a[1],h=dC(c,b,g),i=h?eh(c,b,f):h;if(i)var
+f=a[2],g=a[1],h=dK(c,b,g),i=h?es(c,b,f):h;if(i)var
 j=i;else{var
-k=eh(c,b,g);if(k)return dC(c,b,f);var
+k=es(c,b,g);if(k)return dK(c,b,f);var
 j=k}return j;case
 7:var
-l=eh(c,b,a[1]);return l?dC(c,b,a[2]):l;case
+l=es(c,b,a[1]);return l?dK(c,b,a[2]):l;case
 10:return 0;case
 3:case
 4:var
-e=eh(c,b,a[1]);if(e){var
+e=es(c,b,a[1]);if(e){var
 d=a[2];continue}return e;case
 8:case
-9:return dC(c,b,a[1]);default:return 1}}}function
-cE(c,e){var
+9:return dK(c,b,a[1]);default:return 1}}}function
+cI(c,e){var
 b=e;for(;;){var
 a=b[1];switch(a[0]){case
-0:return L(q(a[1],c));case
+0:return M(o(a[1],c));case
 10:return 0;case
 1:case
 2:return 1;case
@@ -3902,32 +3906,32 @@ a=b[1];switch(a[0]){case
 8:case
 9:var
 b=a[1];continue;default:var
-d=cE(c,a[1]);if(d){var
+d=cI(c,a[1]);if(d){var
 b=a[2];continue}return d}}}function
-gS(d,b,m){var
+g1(d,b,m){var
 c=m;for(;;){var
 a=c[1];switch(a[0]){case
 3:var
-f=gS(d,b,a[1]);if(f){var
+f=g1(d,b,a[1]);if(f){var
 c=a[2];continue}return f;case
 4:var
-g=gS(d,b,a[1]);return g?cE(b,a[2]):g;case
+g=g1(d,b,a[1]);return g?cI(b,a[2]):g;case
 6:var
-h=a[2],i=a[1],j=cE(b,i);if(j){var
-k=cE(b,h);if(k)var
+h=a[2],i=a[1],j=cI(b,i);if(j){var
+k=cI(b,h);if(k)var
 e=k;else{var
-l=aK(i,d);if(l){var
+l=aN(i,d);if(l){var
 c=h;continue}var
 e=l}}else
 var
 e=j;return e;case
 0:case
 1:case
-2:return 1;default:return cE(b,c)}}}function
-gT(c,e){var
+2:return 1;default:return cI(b,c)}}}function
+g2(c,e){var
 b=e;for(;;){var
 a=b[1];switch(a[0]){case
-0:return aJ(a[1],c);case
+0:return aI(a[1],c);case
 10:return 0;case
 1:case
 2:return 1;case
@@ -3935,139 +3939,139 @@ a=b[1];switch(a[0]){case
 8:case
 9:var
 b=a[1];continue;default:var
-d=gT(c,a[1]);if(d){var
+d=g2(c,a[1]);if(d){var
 b=a[2];continue}return d}}}function
-gU(a,b){if(a){var
+g3(a,b){if(a){var
 c=a[2],d=a[1];if(b){var
-e=b[2];return b[1]?[0,d,gU(c,an(eU,e,k_(d)))]:[0,tE,gU(c,e)]}var
-f=[0,d,gU(c,0)]}else
+e=b[2];return b[1]?[0,d,g3(c,an(e6,e,lm(d)))]:[0,tX,g3(c,e)]}var
+f=[0,d,g3(c,0)]}else
 var
 f=a;return f}function
-da(b,a){return a?j(b,a[1]):a}function
-db(c,b,a){return da(function(b){return da(j(c,b),a)},b)}function
-mY(b,a){switch(a[0]){case
+dc(b,a){return a?j(b,a[1]):a}function
+dd(c,b,a){return dc(function(b){return dc(j(c,b),a)},b)}function
+m9(b,a){switch(a[0]){case
 0:return a;case
 1:return a[1];default:var
 c=a[3],d=a[2],e=a[1];switch(b){case
 0:return e;case
 1:return d;default:return c}}}function
-mZ(a){return 0===a[0]?a[1]:0}function
-m0(d,c){var
+m_(a){return 0===a[0]?a[1]:0}function
+m$(d,c){var
 b=d,a=c;for(;;){if(a){var
-e=a[2],b=mY(a[1],b),a=e;continue}return mZ(b)}}function
-ch(b,a){switch(a[0]){case
+e=a[2],b=m9(a[1],b),a=e;continue}return m_(b)}}function
+cj(b,a){switch(a[0]){case
 0:return[0,j(b,a[1])];case
-1:return[1,ch(b,a[1])];default:var
-c=ch(b,a[3]),d=ch(b,a[2]);return[2,ch(b,a[1]),d,c]}}function
+1:return[1,cj(b,a[1])];default:var
+c=cj(b,a[3]),d=cj(b,a[2]);return[2,cj(b,a[1]),d,c]}}function
 bp(b,c,a){switch(c[0]){case
-0:return ch(j(b,c[1]),a);case
+0:return cj(j(b,c[1]),a);case
 1:var
 d=c[1];switch(a[0]){case
 0:var
-k=a[1];return[1,ch(function(a){return aq(b,a,k)},d)];case
+k=a[1];return[1,cj(function(a){return aq(b,a,k)},d)];case
 1:return[1,bp(b,d,a[1])];default:var
 l=bp(b,d,a[3]),m=bp(b,d,a[2]);return[2,bp(b,d,a[1]),m,l]}default:var
 e=c[3],f=c[2],g=c[1];switch(a[0]){case
 0:var
-n=a[1],o=function(a){return aq(b,a,n)},h=function(a){return ch(o,a)},p=h(e),q=h(f);return[2,h(g),q,p];case
+n=a[1],o=function(a){return aq(b,a,n)},h=function(a){return cj(o,a)},p=h(e),q=h(f);return[2,h(g),q,p];case
 1:var
 i=a[1],r=bp(b,e,i),s=bp(b,f,i);return[2,bp(b,g,i),s,r];default:var
 t=bp(b,e,a[3]),u=bp(b,f,a[2]);return[2,bp(b,g,a[1]),u,t]}}}function
-iS(c,f,a){if(a)var
+i6(c,f,a){if(a)var
 d=a[1],b=function(h){var
 a=[0,d[1],d[1]],b=[0,d[2],d[2]];switch(h){case
 0:var
-e=[0,a,S(c,a)];break;case
+e=[0,a,U(c,a)];break;case
 1:var
 g=t(c,a,b),e=[0,as(A(a,b)),g];break;default:var
-e=[0,b,S(c,b)]}return[0,[0,j(f,e)]]},h=iS(c,f,a[2]),i=e(function(a){return[1,a]},h),k=b(2),l=b(1),g=[0,[2,b(0),l,k],i];else
+e=[0,b,U(c,b)]}return[0,[0,j(f,e)]]},h=i6(c,f,a[2]),i=e(function(a){return[1,a]},h),k=b(2),l=b(1),g=[0,[2,b(0),l,k],i];else
 var
 g=a;return g}function
-iT(b,x,c,a){var
-e=iS(b,aZ,a),d=0,y=f(iS(b,aw,a),e);return bb(tG,function(a){switch(a[0]){case
+i7(b,x,c,a){var
+e=i6(b,aY,a),d=0,y=f(i6(b,ay,a),e);return bc(tZ,function(a){switch(a[0]){case
 0:return r(a[1],y,[0,[0,u]]);case
 1:return[0,[0,r(a[1],x,u)]];case
-2:return[0,[0,M(b,a[1])]];case
+2:return[0,[0,O(b,a[1])]];case
 3:var
-c=a[2],d=a[1],e=function(b,a){return[0,A(b,a)]};return bp(function(a,b){return db(e,a,b)},d,c);case
+c=a[2],d=a[1],e=function(b,a){return[0,A(b,a)]};return bp(function(a,b){return dd(e,a,b)},d,c);case
 4:var
-f=a[2],g=a[1],h=function(b,a){return[0,E(b,a)]};return bp(function(a,b){return db(h,a,b)},g,f);case
+f=a[2],g=a[1],h=function(b,a){return[0,F(b,a)]};return bp(function(a,b){return dd(h,a,b)},g,f);case
 5:var
-i=a[1],j=function(a){return[0,ab(a)]};return ch(function(a){return da(j,a)},i);case
+i=a[1],j=function(a){return[0,ab(a)]};return cj(function(a){return dc(j,a)},i);case
 6:var
-k=a[2],l=a[1],m=function(c,a){return[0,t(b,c,a)]};return bp(function(a,b){return db(m,a,b)},l,k);case
+k=a[2],l=a[1],m=function(c,a){return[0,t(b,c,a)]};return bp(function(a,b){return dd(m,a,b)},l,k);case
 7:var
 n=a[2],o=a[1],p=function(c,a){var
-d=b8(b,a);return z(function(a){return t(b,c,a)},d)};return bp(function(a,b){return db(p,a,b)},o,n);case
+d=b9(b,a);return z(function(a){return t(b,c,a)},d)};return bp(function(a,b){return dd(p,a,b)},o,n);case
 8:var
-q=a[1],s=function(a){return[0,S(b,a)]};return ch(function(a){return da(s,a)},q);case
+q=a[1],s=function(a){return[0,U(b,a)]};return cj(function(a){return dc(s,a)},q);case
 9:var
-v=a[1],w=function(a){return b9(b,a)};return ch(function(a){return da(w,a)},v);default:return tF}},c,d)}function
-gV(a){if(a){var
+v=a[1],w=function(a){return b_(b,a)};return cj(function(a){return dc(w,a)},v);default:return tY}},c,d)}function
+g4(a){if(a){var
 b=a[1];if(b)var
-c=gV(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+c=g4(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return tH}function
-ei(a){if(a){var
-g=a[1],b=g[2],c=gV(g[1]);if(c)if(b){var
-h=b[1],e=ei(a[2]);if(e)var
-i=J(d,h[1]),j=i?[0,[0,[0,c[1],h],e[1]]]:i;else
+d=b;return d}return t0}function
+et(a){if(a){var
+g=a[1],b=g[2],c=g4(g[1]);if(c)if(b){var
+h=b[1],e=et(a[2]);if(e)var
+i=I(d,h[1]),j=i?[0,[0,[0,c[1],h],e[1]]]:i;else
 var
 j=e;var
 f=j}else
 var
 f=b;else
 var
-f=c;return f}return tI}function
-ej(b,a){var
+f=c;return f}return t1}function
+eu(b,a){var
 c=a[3],d=z(function(a){var
 c=a[2],d=a[1][2];return[0,[0,j(b,a[1][1]),d],c]},c),e=j(b,a[2]),f=a[1];return[0,j(au(b),f),e,d]}function
-iU(c,g,f,b,a,e){if(b){var
+i8(c,g,f,b,a,e){if(b){var
 h=b[1],l=b[2],d=function(b,a){var
-d=jZ(c,eO,eO,function(a){return mY(b,a)},e);return iU(c,g,by(f),l,a,d)},i=d(0,aI(a,h));if(i){var
-j=d(2,F(a,h));if(j)return f?1:d(1,a);var
+d=kc(c,e0,e0,function(a){return m9(b,a)},e);return i8(c,g,bz(f),l,a,d)},i=d(0,aL(a,h));if(i){var
+j=d(2,E(a,h));if(j)return f?1:d(1,a);var
 k=j}else
 var
-k=i;return k}return aq(g,a,jZ(c,eO,eO,mZ,e))}function
-iV(e,c,b,a){var
+k=i;return k}return aq(g,a,kc(c,e0,e0,m_,e))}function
+i9(e,c,b,a){var
 f=al(d,b);function
-g(b){return a}return function(a){return iU(e,g,c,f,d,a)}}function
-dc(a){if(a){var
-b=a[1],c=b[1],d=c[1],e=b[2],f=c[2];return z(function(a){return aS(f,e,a)},d)}return[0,u]}function
-m1(f,e,k,j,i,a){var
-b=ei(a[1]);if(b){var
+g(b){return a}return function(a){return i8(e,g,c,f,d,a)}}function
+de(a){if(a){var
+b=a[1],c=b[1],d=c[1],e=b[2],f=c[2];return z(function(a){return aT(f,e,a)},d)}return[0,u]}function
+na(f,e,k,j,i,a){var
+b=et(a[1]);if(b){var
 c=a[2];if(c){var
-d=dc(a[3]);if(d){var
-l=d[1],m=al([0,E(ab(t(f,i,c[1])),l),0],e);return a5(f,e,gi(k,j,b[1],m))}var
+d=de(a[3]);if(d){var
+l=d[1],m=al([0,F(ab(t(f,i,c[1])),l),0],e);return a6(f,e,gu(k,j,b[1],m))}var
 g=d}else
 var
 g=c;var
 h=g}else
 var
 h=b;return h}function
-m2(i,d,h,g,c){var
-a=ei(c[1]);if(a){var
-b=dc(c[3]);if(b){var
-j=al([0,E(u,b[1]),0],d),k=a[1];return a5(i,d,gi(h,g,e(function(a){return[0,a[1],u]},k),j))}var
+nb(i,d,h,g,c){var
+a=et(c[1]);if(a){var
+b=de(c[3]);if(b){var
+j=al([0,F(u,b[1]),0],d),k=a[1];return a6(i,d,gu(h,g,e(function(a){return[0,a[1],u]},k),j))}var
 f=b}else
 var
 f=a;return f}function
-m3(a,c,D,i){var
-j=ei(i[1]);if(j){var
+nc(a,c,D,i){var
+j=et(i[1]);if(j){var
 k=i[2];if(k){var
-l=dc(i[3]);if(l){var
-G=l[1],e=E(t(a,D,k[1]),G),b=j[1];if(b){var
+l=de(i[3]);if(l){var
+G=l[1],e=F(t(a,D,k[1]),G),b=j[1];if(b){var
 m=b[1],n=m[2];if(b[2]){var
-f=gj(a,b,al([0,e,0],c));if(f){var
-o=f[1],p=q(g(o),c);if(p)return d7(a,o);var
-r=p}else
+f=gv(a,b,al([0,e,0],c));if(f){var
+p=f[1],q=o(g(p),c);if(q)return ee(a,p);var
+r=q}else
 var
 r=f;return r}var
-s=J(d,e[1]),u=s?J(d,n[1]):s;if(u){var
-A=C(e[1],n[1]),B=m[1];return J(an(function(a,b){var
-c=b_(a);return F(C(b_(a),c),b)},d,B),A)}return u}var
-h=gj(a,b,al([0,e,0],c));if(h){var
-v=h[1],w=q(g(v),c);if(w)return d7(a,v);var
+s=I(d,e[1]),u=s?I(d,n[1]):s;if(u){var
+A=C(e[1],n[1]),B=m[1];return I(an(function(a,b){var
+c=b$(a);return E(C(b$(a),c),b)},d,B),A)}return u}var
+h=gv(a,b,al([0,e,0],c));if(h){var
+v=h[1],w=o(g(v),c);if(w)return ee(a,v);var
 x=w}else
 var
 x=h;return x}var
@@ -4077,195 +4081,203 @@ y=k;var
 z=y}else
 var
 z=j;return z}function
-tJ(c){var
+t2(c){var
 a=c[2];if(a){var
-b=dc(c[3]);if(b)return D(d,E(a[1],b[1])[1]);var
+b=de(c[3]);if(b)return D(d,F(a[1],b[1])[1]);var
 e=b}else
 var
 e=a;return e}function
-iW(a){return y(function(a){return f(a[1],[0,a[2],0])},a)}function
-m4(a,c,b){var
-e=r(b,c,l(d)),f=aC(0,a);return m(function(b){return eh(a,b,e)},f)}function
-fc(a){var
-c=T(a);return B(l(b),c)}function
-gW(i,g){var
-h=fc(g),j=T(g),e=w(l(b),j),f=s(l(c(2,b)),g),a=l(d);return i?i[1]?[0,[0,e,bk(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,bk(f),a,e]]:[0,[0,h,a,a],[0,a,e,bk(f)],[0,a,f,e]]}function
-fd(b,a){var
-c=Y(b[3],a),d=Y(b[2],a);return[0,Y(b[1],a),d,c]}function
-m5(b,a){function
+i_(a){return y(function(a){return f(a[1],[0,a[2],0])},a)}function
+nd(a,c,b){var
+e=r(b,c,l(d)),f=aC(0,a);return m(function(b){return es(a,b,e)},f)}function
+fq(a){var
+c=V(a);return B(l(b),c)}function
+g5(i,g){var
+h=fq(g),j=V(g),e=x(l(b),j),f=s(l(c(2,b)),g),a=l(d);return i?i[1]?[0,[0,e,bl(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,bl(f),a,e]]:[0,[0,h,a,a],[0,a,e,bl(f)],[0,a,f,e]]}function
+fr(b,a){var
+c=Z(b[3],a),d=Z(b[2],a);return[0,Z(b[1],a),d,c]}function
+ne(b,a){function
 c(b){var
 c=j(b,a[3]),d=j(b,a[2]);return[0,j(b,a[1]),d,c]}function
 d(a){var
-b=Y(a,c(function(a){return a[3]})),d=Y(a,c(function(a){return a[2]}));return[0,Y(a,c(function(a){return a[1]})),d,b]}var
+b=Z(a,c(function(a){return a[3]})),d=Z(a,c(function(a){return a[2]}));return[0,Z(a,c(function(a){return a[1]})),d,b]}var
 e=d(b[3]),f=d(b[2]);return[0,d(b[1]),f,e]}function
-m6(v,u){function
-a(a){return[0,[0,R(u,a)]]}switch(v[0]){case
+nf(v,u){function
+a(a){return[0,[0,N(u,a)]]}switch(v[0]){case
 0:var
-x=fc(a(0));return[0,gW(tK,a(0)),x];case
+w=fq(a(0));return[0,g5(t3,a(0)),w];case
 1:var
-y=fc(a(0)),z=s(fc(a(tL)),y),A=s(fc(a(tM)),z),C=gW(0,a(0)),D=m5(gW(tO,a(tN)),C);return[0,m5(gW(tQ,a(tP)),D),A];default:var
-E=a(tR),F=a(tS),g=[0,a(0),F,E],G=Y(g,g),H=B(l(b),G),j=Y(g,g),d=g[1],e=g[2],f=g[3],i=function(a){var
-d=T(a),e=s(l(c(2,b)),d);return B(w(l(b),j),e)},h=function(f,e,d,a){var
-g=aq(f,s(e,d),a);return s(l(c(2,b)),g)},k=i(f),m=h(B,e,f,d),n=[0,h(w,d,f,e),m,k],o=h(w,e,f,d),p=i(e),q=[0,h(B,d,e,f),p,o],r=h(B,d,f,e),t=h(w,d,e,f);return[0,[0,[0,i(d),t,r],q,n],H]}}function
-m7(a){return 1<a[0]?[0,a[1],0]:0}function
-gX(a){switch(a[0]){case
+y=fq(a(0)),z=s(fq(a(t4)),y),A=s(fq(a(t5)),z),C=g5(0,a(0)),D=ne(g5(t7,a(t6)),C);return[0,ne(g5(t9,a(t8)),D),A];default:var
+E=a(t_),F=a(t$),g=[0,a(0),F,E],G=Z(g,g),H=B(l(b),G),j=Z(g,g),d=g[1],e=g[2],f=g[3],i=function(a){var
+d=V(a),e=s(l(c(2,b)),d);return B(x(l(b),j),e)},h=function(f,e,d,a){var
+g=aq(f,s(e,d),a);return s(l(c(2,b)),g)},k=i(f),m=h(B,e,f,d),n=[0,h(x,d,f,e),m,k],o=h(x,e,f,d),p=i(e),q=[0,h(B,d,e,f),p,o],r=h(B,d,f,e),t=h(x,d,e,f);return[0,[0,[0,i(d),t,r],q,n],H]}}function
+ng(a){return 1<a[0]?[0,a[1],0]:0}function
+g6(a){switch(a[0]){case
 0:return[0,a[1],0];case
 1:return[0,a[1],[0,a[2],[0,a[3],0]]];case
-2:return[0,c_(a[1]),0];default:var
-b=[0,c_(a[2]),0];return[0,c_(a[1]),b]}}function
-ek(a){return[0,[0,a[1]],[0,a[2]]]}function
-m8(a){switch(a[0]){case
-0:return[0,ek(a[1]),0];case
+2:return[0,c$(a[1]),0];default:var
+b=[0,c$(a[2]),0];return[0,c$(a[1]),b]}}function
+ev(a){return[0,[0,a[1]],[0,a[2]]]}function
+nh(a){switch(a[0]){case
+0:return[0,ev(a[1]),0];case
 1:var
-f=[0,ek(a[3]),0],g=[0,ek(a[2]),f];return[0,ek(a[1]),g];case
+f=[0,ev(a[3]),0],g=[0,ev(a[2]),f];return[0,ev(a[1]),g];case
 2:var
-b=ek(c_(a[1]));return[0,b,[0,b,[0,b,0]]];default:var
-c=a[2],d=a[1],e=[0,[1,c_(d)[1],c],[1,d,c]];return[0,e,[0,e,[0,ek(c_(c)),0]]]}}function
-m9(a,c){if(0===c[0]){var
-g=c[1];return j(c8(a),g)}var
-h=c[1],d=j(c8(a),h);if(d){var
-i=c[2],e=j(c8(a),i);if(e){var
-k=S(a,e[1]),l=b9(a,A(M(a,b),k)),m=d[1];return z(function(b){return t(a,m,b)},l)}var
+b=ev(c$(a[1]));return[0,b,[0,b,[0,b,0]]];default:var
+c=a[2],d=a[1],e=[0,[1,c$(d)[1],c],[1,d,c]];return[0,e,[0,e,[0,ev(c$(c)),0]]]}}function
+ni(a,c){if(0===c[0]){var
+g=c[1];return j(cG(a),g)}var
+h=c[1],d=j(cG(a),h);if(d){var
+i=c[2],e=j(cG(a),i);if(e){var
+k=U(a,e[1]),l=b_(a,A(O(a,b),k)),m=d[1];return z(function(b){return t(a,m,b)},l)}var
 f=e}else
 var
 f=d;return f}function
-m_(d,c){var
-a=m9(d,c[1]);if(a)var
-b=m9(d,c[2]),f=b?[0,[0,a[1][1],b[1][2]]]:b,e=f;else
+nj(d,c){var
+a=ni(d,c[1]);if(a)var
+b=ni(d,c[2]),f=b?[0,[0,a[1][1],b[1][2]]]:b,e=f;else
 var
 e=a;return e}function
-m$(a,e,c){var
+nk(a,e,c){var
 b=c[1];if(1===b[0]){var
-f=b[1];if(aJ(f,a))return c;var
-g=l(d);return r(dW(f,a),e,g)}return[0,bS(function(b){return m$(a,e,b)},b)]}function
-iX(g,a,n,f,c){var
-h=g?[0,a,[0,[0,a],[0,[0,[0,a]],0]]]:[0,a,[0,[0,a],0]],i=l6(h,c),j=bU(f),b=e(function(b){return m$(a,j,b)},i),k=r(tX,b,l(d)),m=r(tY,b,l(d));return[0,r(0,b,l(d)),m,k]}function
-bE(b,a){var
-c=s(b[2],a[1]),d=w(s(b[1],a[2]),c),e=s(b[1],a[3]),f=w(s(b[3],a[1]),e),g=s(b[3],a[2]);return[0,w(s(b[2],a[3]),g),f,d]}function
-dD(b,a){return b?b[1]?a[3]:a[2]:a[1]}function
-na(c){function
+f=b[1];if(aI(f,a))return c;var
+g=l(d);return r(d7(f,a),e,g)}return[0,bU(function(b){return nk(a,e,b)},b)]}function
+i$(g,a,n,f,c){var
+h=g?[0,a,[0,[0,a],[0,[0,[0,a]],0]]]:[0,a,[0,[0,a],0]],i=mi(h,c),j=bW(f),b=e(function(b){return nk(a,j,b)},i),k=r(ue,b,l(d)),m=r(uf,b,l(d));return[0,r(0,b,l(d)),m,k]}function
+bH(b,a){var
+c=s(b[2],a[1]),d=x(s(b[1],a[2]),c),e=s(b[1],a[3]),f=x(s(b[3],a[1]),e),g=s(b[3],a[2]);return[0,x(s(b[2],a[3]),g),f,d]}function
+dL(b,a){return b?b[1]?a[3]:a[2]:a[1]}function
+nl(c){function
 a(a){var
-e=q(c,a)?b:d;return l(e)}var
-e=a(tZ),f=a(t0);return[0,a(0),f,e]}function
-nb(b,a){if(a)var
-d=nb(b,a[2]),c=[0,e(j(b,a[1]),a),d];else
+e=o(c,a)?b:d;return l(e)}var
+e=a(ug),f=a(uh);return[0,a(0),f,e]}function
+nm(b,a){if(a)var
+d=nm(b,a[2]),c=[0,e(j(b,a[1]),a),d];else
 var
 c=a;return c}function
-gY(c,b,a){switch(c){case
+g7(c,b,a){switch(c){case
 0:return[0,b[1],[0,b[2],[0,a[3],0]]];case
 1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}}function
-nc(b,c,a){return c?aM(b,a):aB(b,a)}function
-nd(a){if(a){var
-f=a[1],b=f[2],c=gV(f[1]);if(c)if(b)var
-d=nd(a[2]),g=d?[0,[0,[0,c[1],b[1]],d[1]]]:d,e=g;else
+nn(b,c,a){return c?aM(b,a):aB(b,a)}function
+no(a){if(a){var
+f=a[1],b=f[2],c=g4(f[1]);if(c)if(b)var
+d=no(a[2]),g=d?[0,[0,[0,c[1],b[1]],d[1]]]:d,e=g;else
 var
 e=b;else
 var
-e=c;return e}return t$}function
-ne(c,b,a){var
-d=aa(b,a);return an(function(a,d){var
-b=b_(a[2]);return A(t(c,a[1],[0,b,b]),d)},u,d)}function
-nf(a,h,e,f,d){if(e)if(d)var
-i=d[1],o=nf(a,h,e[2],f,d[2]),p=i[2],q=aM(h,i[1]),c=e[1],j=as(t(a,c[3],f)),k=c[3],l=A(as(d3(p,M(a,b),k)),j),m=t(a,c[2],l),n=t(a,c[1],f),g=[0,cu(A(A(as(ne(a,c[4],q)),n),m)),o];else
+e=c;return e}return us}function
+np(c,b,a){var
+d=W(b,a);return an(function(a,d){var
+b=b$(a[2]);return A(t(c,a[1],[0,b,b]),d)},u,d)}function
+nq(a,h,e,f,d){if(e)if(d)var
+i=d[1],o=nq(a,h,e[2],f,d[2]),p=i[2],q=aM(h,i[1]),c=e[1],j=as(t(a,c[3],f)),k=c[3],l=A(as(eb(p,O(a,b),k)),j),m=t(a,c[2],l),n=t(a,c[1],f),g=[0,cx(A(A(as(np(a,c[4],q)),n),m)),o];else
 var
 g=d;else
 var
 g=e;return g}function
-ub(a){return[0,a[1][1],a[2][1][2][1],a[1][2],a[2][2]]}function
-ng(b,a){return ac(e(function(a){return r(a,b,0)},a))}function
-cF(a){switch(a){case
-0:return uf;case
-1:return ug;default:return 0}}function
-dE(a){switch(a){case
-0:return[0,ui,uh,l(d)];case
-1:return dx;default:var
+uu(a){return[0,a[1][1],a[2][1][2][1],a[1][2],a[2][2]]}function
+nr(b,a){return ac(e(function(a){return r(a,b,0)},a))}function
+cJ(a){switch(a){case
+0:return uy;case
+1:return uz;default:return 0}}function
+dM(a){switch(a){case
+0:return[0,uB,uA,l(d)];case
+1:return dD;default:var
 b=l(d),c=l(d);return[0,l(d),c,b]}}function
-gZ(c,b,a){return bl(fd(c,a),b)}function
-nh(a){var
-d=Y(a,a),e=B(l(b),d);return am(l(c(2,b)),e)}function
-ni(k,j,i,h,g,a){var
-e=gZ(j,i,g),c=bE(a,e),f=af(B,c,bE(a,c)),d=af(B,e,a0(nh(a),f)),b=af(w,af(B,dE(k),d),h);return[0,[0,d,b],aF(Y(b,b))]}function
-aL(a){return typeof
-a==="number"?a?uj:uk:bv(a[1])}function
-iY(b,a,c){return typeof
-b==="number"?b?[0,a[1],[0,a[2],0]]:[0,a[1],[0,a[2],[0,a[3],0]]]:iQ(b[1],a,c)}function
-fe(a){if(0===a[0]){var
+g8(c,b,a){return bm(fr(c,a),b)}function
+ns(a){var
+d=Z(a,a),e=B(l(b),d);return am(l(c(2,b)),e)}function
+nt(k,j,i,h,g,a){var
+e=g8(j,i,g),c=bH(a,e),f=af(B,c,bH(a,c)),d=af(B,e,a1(ns(a),f)),b=af(x,af(B,dM(k),d),h);return[0,[0,d,b],aJ(Z(b,b))]}function
+aw(a){return typeof
+a==="number"?a?uC:uD:bG(a[1])}function
+ja(b,a,c){return typeof
+b==="number"?b?[0,a[1],[0,a[2],0]]:[0,a[1],[0,a[2],[0,a[3],0]]]:i2(b[1],a,c)}function
+ew(a){if(0===a[0]){var
 c=a[1];switch(c[0]){case
 0:return c[3];case
 1:return c[2];default:return[0,[0,d,b],[0,d,b],[0,d,b]]}}return a[1][4]}function
-ff(b,c,a){return b?cD(b[1],c,a):a}function
-bF(d,c,b,a){var
-e=fe(a),f=ff(d,c,fe(a)),g=U(function(b,a){return[2,b,a]},b,f);return U(function(b,a){return[3,b,a]},g,e)}function
-nj(b,a){var
+ex(b,c,a){return b?c_(b[1],c,a):a}function
+bq(d,c,b,a){var
+e=ew(a),f=ex(d,c,ew(a)),g=J(function(b,a){return[2,b,a]},b,f);return J(function(b,a){return[3,b,a]},g,e)}function
+nu(d,c,b,a){if(0===a[0]){var
+f=bq(d,c,b,a);return[0,cF(a[1],f)]}var
+e=a[1],g=m0(e,bq(d,c,b,a));return[1,mZ(e,bq(d,c,b,a)),g]}function
+nv(b,a){var
 c=typeof
 b==="number"?1:0;if(c){if(b)return[0,a[1],[0,a[2],0]];var
 d=[0,a[1],[0,a[2],[0,a[3],0]]]}else
 var
 d=c;return d}function
-iZ(b,w,v){var
-e=w,d=v;for(;;){if(e){if(d){var
-f=d[1],j=e[1];if(0===j[0])var
-g=0===f[0]?ml(b,j[1],f[1]):0;else
-if(0===f[0])var
-g=0;else{var
-a=f[1],c=j[1],k=bm(b,c[1],a[1]),l=k?bm(b,c[2],a[2]):k,m=l?bm(b,c[3],a[3]):l,n=m?bm(b,c[4],a[4]):m,o=n?c3(b,c[5],a[5]):n,p=o?c3(b,c[6],a[6]):o,q=p?h(b,1,a[5]):p,r=q?h(b,1,a[6]):q,s=r?h(b,1,x(a[1],a[1])):r;if(s)var
-u=iL(a),i=h(b,1,x(iL(a),u));else
+nw(b,f,d){if(0===f[0])return 0===d[0]?mz(b,f[1],d[1]):0;if(0===d[0])return 0;var
+a=d[1],c=f[1],g=bn(b,c[1],a[1]),i=g?bn(b,c[2],a[2]):g,j=i?bn(b,c[3],a[3]):i,k=j?bn(b,c[4],a[4]):j,l=k?c7(b,c[5],a[5]):k,m=l?c7(b,c[6],a[6]):l,n=m?h(b,1,a[5]):m,o=n?h(b,1,a[6]):n,p=o?h(b,1,w(a[1],a[1])):o;if(p)var
+q=iX(a),e=h(b,1,w(iX(a),q));else
 var
-i=s;var
-g=i?cq(c[7],a[7]):i}if(g){var
-e=e[2],d=d[2];continue}var
-t=g}else
+e=p;return e?ct(c[7],a[7]):e}function
+g9(g,f,e){var
+b=f,a=e;for(;;){if(b){if(a){var
+c=nw(g,b[1],a[1]);if(c){var
+b=b[2],a=a[2];continue}var
+d=c}else
 var
-t=d;return t}return d?0:1}}function
-nk(v,m,l){if(l){var
+d=a;return d}return a?0:1}}function
+nx(c,b,g,a){var
+d=bD(c,b[4],g);if(d){var
+e=b[5];if(e)return da(c,e[1],a);if(a)return 0;var
+f=1}else
+var
+f=d;return f}function
+jb(a){return typeof
+a==="number"?uE:2<=a[1]?uF:uG}function
+ny(v,m,l){if(l){var
 a=l[1],e=function(c,a){return h(v,1,[3,[0,a,b],c])},g=function(a){return[3,a[2],a[1]]};switch(a[0]){case
 0:var
-n=c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b)))))))))),f=e(g(a[1]),n);break;case
+n=c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),f=e(g(a[1]),n);break;case
 1:var
-j=a[2],o=c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b))))))))),k=e([3,[0,d,b],j[1]],o);if(k)var
-q=c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b))))))))),i=e(j[2],q);else
+j=a[2],o=c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),k=e([3,[0,d,b],j[1]],o);if(k)var
+p=c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),i=e(j[2],p);else
 var
 i=k;if(i)var
-r=c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b)))))))))),s=g(a[3]),f=e([2,g(a[1]),s],r);else
+r=c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),s=g(a[3]),f=e([2,g(a[1]),s],r);else
 var
 f=i;break;case
 2:var
-t=c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b))))))))),f=e(a[1],t);break;default:var
-u=c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b))))))))),f=e([2,a[1],a[2]],u)}return f?typeof
+t=c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),f=e(a[1],t);break;default:var
+u=c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),f=e([2,a[1],a[2]],u)}return f?typeof
 m==="number"?0:m[1]?1:0===a[0]?1:0:f}return 1}function
-bX(e,j){var
+bZ(e,j){var
 a=j[1];switch(a[0]){case
 1:var
-k=q(a[1],e)?b:d;return l(k);case
+k=o(a[1],e)?b:d;return l(k);case
 3:var
-m=bX(e,a[2]);return B(bX(e,a[1]),m);case
+m=bZ(e,a[2]);return B(bZ(e,a[1]),m);case
 4:var
-n=bX(e,a[2]);return w(bX(e,a[1]),n);case
-5:return bk(bX(e,a[1]));case
+n=bZ(e,a[2]);return x(bZ(e,a[1]),n);case
+5:return bl(bZ(e,a[1]));case
 6:var
-g=a[2],h=a[1],o=s(h,bX(e,g));return B(s(g,bX(e,h)),o);case
+g=a[2],h=a[1],p=s(h,bZ(e,g));return B(s(g,bZ(e,h)),p);case
 7:var
-f=bX(e,a[1]);return a4(d,f)?f:am(f,a[2]);case
+f=bZ(e,a[1]);return a5(d,f)?f:am(f,a[2]);case
 8:var
-i=a[1],p=bX(e,i);return s(s(l(c(2,b)),i),p);default:return l(d)}}function
-g0(c,b,k){var
+i=a[1],q=bZ(e,i);return s(s(l(c(2,b)),i),q);default:return l(d)}}function
+g_(c,b,k){var
 e=k;for(;;){var
 a=e[1];switch(a[0]){case
 7:var
-g=g0(c,b,a[1]);if(g){var
+g=g_(c,b,a[1]);if(g){var
 h=a[2][1];if(1===h[0]){var
-i=h[1],j=J(d,r(i,c,u)[1]);return j?L(aj(function(a){return q(i,a)},b)):j}return 0}return g;case
+i=h[1],j=I(d,r(i,c,u)[1]);return j?M(aj(function(a){return o(i,a)},b)):j}return 0}return g;case
 5:case
 8:var
 e=a[1];continue;case
 9:case
 10:return 0;case
-3:case
-4:case
-6:var
-f=g0(c,b,a[1]);if(f){var
-e=a[2];continue}return f;default:return 1}}}function
-nl(d){var
+0:case
+1:case
+2:return 1;default:var
+f=g_(c,b,a[1]);if(f){var
+e=a[2];continue}return f}}}function
+nz(d){var
 b=d;for(;;){var
 a=b[1];switch(a[0]){case
 0:case
@@ -4276,72 +4288,72 @@ a=b[1];switch(a[0]){case
 8:case
 9:var
 b=a[1];continue;default:var
-c=nl(a[1]);if(c){var
+c=nz(a[1]);if(c){var
 b=a[2];continue}return c}}}function
-nm(c,b,a){var
+nA(c,b,a){var
 d=e(b,a[2]);return[0,j(c,a[1]),d]}function
-i0(b,a,c){return e(function(c){var
-d=nm(b,a,c[2]),f=c[1];return[0,e(function(c){return nm(b,a,c)},f),d]},c)}function
-nn(b,a){return z(function(a){var
+jc(b,a,c){return e(function(c){var
+d=nA(b,a,c[2]),f=c[1];return[0,e(function(c){return nA(b,a,c)},f),d]},c)}function
+nB(b,a){return z(function(a){var
 c=a[2],d=a[1][2];return[0,[0,j(b,a[1][1]),d],c]},a)}function
-um(a,b){var
-c=nn(a,b[3]),d=j(a,b[2]);return[0,i0(a,a,b[1]),d,c]}function
-no(c){var
+uH(a,b){var
+c=nB(a,b[3]),d=j(a,b[2]);return[0,jc(a,a,b[1]),d,c]}function
+nC(c){var
 a=c[1];if(a){var
-b=gV(c[2]);if(b)var
-g=e(_,b[1]),d=[0,[0,_(a[1]),g]];else
+b=g4(c[2]);if(b)var
+g=e($,b[1]),d=[0,[0,$(a[1]),g]];else
 var
 d=b;var
 f=d}else
 var
 f=a;return f}function
-un(c){var
-a=ac(e(no,c[1]));if(a)var
-b=no(c[2]),f=b?[0,[0,a[1],b[1]]]:b,d=f;else
+uI(c){var
+a=ac(e(nC,c[1]));if(a)var
+b=nC(c[2]),f=b?[0,[0,a[1],b[1]]]:b,d=f;else
 var
 d=a;return d}function
-uo(a){return L(il([0,a[2],a[1]]))}function
-i1(a){return[0,a[1],a[2]]}function
-np(b,c,a){var
-d=e(function(c){return bw(b,bX(c,a))},c);return[0,bw(b,a),d]}function
-i2(b,e,a,d){var
+uJ(a){return M(iy([0,a[2],a[1]]))}function
+jd(a){return[0,a[1],a[2]]}function
+nD(b,c,a){var
+d=e(function(c){return bx(b,bZ(c,a))},c);return[0,bx(b,a),d]}function
+je(b,e,a,d){var
 c=y(function(a){var
-b=i1(a[2]);return f(y(i1,a[1]),b)},d),g=a?[0,bw(b,a[1]),0]:a,h=f(g,c);return[0,bw(b,e),h]}function
-nq(c,f,b,a){var
-d=g0(f,b,a),e=d?gT(c,a):d;return e?m(function(b){return gT(c,bX(b,a))},b):e}function
-nr(a){switch(a[0]){case
+b=jd(a[2]);return f(y(jd,a[1]),b)},d),g=a?[0,bx(b,a[1]),0]:a,h=f(g,c);return[0,bx(b,e),h]}function
+nE(c,f,b,a){var
+d=g_(f,b,a),e=d?g2(c,a):d;return e?m(function(b){return g2(c,bZ(b,a))},b):e}function
+nF(a){switch(a[0]){case
 3:var
-d=iW(a[2]);return[0,a[3],d];case
+d=i_(a[2]);return[0,a[3],d];case
 4:return[0,a[1],0];case
 8:var
-b=a[1],e=iW(b[1]);return[0,b[2],e];case
+b=a[1],e=i_(b[1]);return[0,b[2],e];case
 9:return 0;default:var
-c=iW(a[1]);return[0,a[2],c]}}function
-ns(a,ax,bq,k,n,R,av,x,Q,i,h){switch(i[0]){case
+c=i_(a[1]);return[0,a[2],c]}}function
+nG(a,aw,br,k,n,R,av,x,Q,i,h){switch(i[0]){case
 0:var
-ay=i[4],T=i[3],az=i[2],aA=i[1],V=0;if(typeof
+ax=i[4],S=i[3],az=i[2],aA=i[1],V=0;if(typeof
 h==="number")V=1;else
 switch(h[0]){case
 0:var
-bs=h[2],bt=h[1],v=az,s=aA,p=function(b){return m1(a,n,bt,bs,T,b)},o=ay;break;case
+bs=h[2],bt=h[1],v=az,s=aA,q=function(b){return na(a,n,bt,bs,S,b)},p=ax;break;case
 2:var
-aD=I(T[1],d),aE=aD?I(T[2],d):aD;if(!aE)return aE;var
-bw=h[2],bx=h[1],v=az,s=aA,p=function(b){return m2(a,n,bx,bw,b)},o=ay;break;default:V=1}if(V)return 0;break;case
+aD=K(S[1],d),aE=aD?K(S[2],d):aD;if(!aE)return aE;var
+bw=h[2],bx=h[1],v=az,s=aA,q=function(b){return nb(a,n,bx,bw,b)},p=ax;break;default:V=1}if(V)return 0;break;case
 1:var
 aQ=0;if(typeof
 h==="number"&&!h)var
-bz=i[2],bB=i[1],bC=i[3],v=bz,s=bB,bD=0,p=function(b){return m3(a,n,bC,b)},o=bD;else
+by=i[2],bA=i[1],bC=i[3],v=by,s=bA,bD=0,q=function(b){return nc(a,n,bC,b)},p=bD;else
 aQ=1;if(aQ)return 0;break;case
 2:if(typeof
 h!=="number"&&3===h[0]){var
 B=h[3];if(B){var
-aF=B[2],aG=q(g(aF),k);if(aG){var
-bE=[0,i[1],i[2],Q],bF=ej(function(a){return r(a,x,ur)},bE),aH=h[1],bG=0,bH=B[1],bI=h[2],bJ=i[3],bK=function(w,i){var
-c=ei(i[1]);if(c){var
+aF=B[2],aG=o(g(aF),k);if(aG){var
+bE=[0,i[1],i[2],Q],bF=eu(function(a){return r(a,x,uM)},bE),aH=h[1],bG=0,bH=B[1],bI=h[2],bJ=i[3],bK=function(w,i){var
+c=et(i[1]);if(c){var
 j=c[1],e=i[2];if(e){var
-f=dc(i[3]);if(f){var
-k=f[1],l=function(c){return aS(c,aH,M(a,b))},u=l(w),v=e[1],g=A(t(a,l(bH),v),u),m=J(d,g[1]),o=m?a5(a,n,gi(aH,bI,j,al([0,E(ab(g),k),0],n))):m;if(o){var
-h=gj(a,j,al([0,E(t(a,bJ,g),k),0],n));if(h)return a5(a,n,h[1]);var
+f=de(i[3]);if(f){var
+k=f[1],l=function(c){return aT(c,aH,O(a,b))},u=l(w),v=e[1],g=A(t(a,l(bH),v),u),m=I(d,g[1]),o=m?a6(a,n,gu(aH,bI,j,al([0,F(ab(g),k),0],n))):m;if(o){var
+h=gv(a,j,al([0,F(t(a,bJ,g),k),0],n));if(h)return a6(a,n,h[1]);var
 p=h}else
 var
 p=o;var
@@ -4353,20 +4365,20 @@ var
 r=e;var
 s=r}else
 var
-s=c;return s};return iU(function(b,a){return ej},bK,bG,aF,d,bF)}var
-aI=aG}else
+s=c;return s};return i8(function(b,a){return eu},bK,bG,aF,d,bF)}var
+aJ=aG}else
 var
-aI=B;return aI}return 0;case
+aJ=B;return aJ}return 0;case
 3:var
-aT=0;if(typeof
-h==="number"||!(0===h[0]))aT=1;else
+aS=0;if(typeof
+h==="number"||!(0===h[0]))aS=1;else
 var
 aK=h[2],aL=h[1],bL=i[3],bM=i[2],bN=i[4],bO=i[1],bP=function(f){var
-b=ei(f[1]);if(b){var
+b=et(f[1]);if(b){var
 c=b[1],d=f[2];if(d){var
-e=dc(f[3]);if(e){var
-h=q(g(c),n),i=h?q(g(aK),n):h;if(i){var
-m=d$(aL,ea(aL,aK,d[1],c));return a5(a,n,bd(gn(a,bO,bN,e[1],c),m))}var
+e=de(f[3]);if(e){var
+h=o(g(c),n),i=h?o(g(aK),n):h;if(i){var
+m=ei(aL,ej(aL,aK,d[1],c));return a6(a,n,be(gz(a,bO,bN,e[1],c),m))}var
 j=i}else
 var
 j=e;var
@@ -4375,91 +4387,91 @@ var
 k=d;var
 l=k}else
 var
-l=b;return l},v=bL,s=bM,p=bP,o=i[5];if(aT)return 0;break;case
+l=b;return l},v=bL,s=bM,q=bP,p=i[5];if(aS)return 0;break;case
 4:var
 aU=0;if(typeof
 h==="number"&&!h)var
-v=i[1],s=0,p=tJ,o=0;else
+v=i[1],s=0,q=t2,p=0;else
 aU=1;if(aU)return 0;break;case
 5:var
 aV=0;if(typeof
 h==="number"||!(0===h[0]))aV=1;else{var
 C=h[2],aW=0;if(C){var
 D=C[1];if(D){if(D[2])return 0;if(C[2])return 0;var
-bQ=i[2],bR=i[1],bS=M(a,b),bT=[0,[0,D[1],0],0],bU=h[1],v=bQ,s=bR,bV=0,p=function(b){return m1(a,us,bU,bT,bS,b)},o=bV;aW=1}else
+bQ=i[2],bR=i[1],bS=O(a,b),bT=[0,[0,D[1],0],0],bU=h[1],v=bQ,s=bR,bV=0,q=function(b){return na(a,uN,bU,bT,bS,b)},p=bV;aW=1}else
 var
-aO=D}else
+aN=D}else
 var
-aO=C;if(!aW)return aO}if(aV)return 0;break;case
+aN=C;if(!aW)return aN}if(aV)return 0;break;case
 6:var
 aX=0;if(typeof
 h==="number"&&!h)var
-bW=i[2],bX=i[1],bY=M(a,b),v=bW,s=bX,bZ=0,p=function(b){return m3(a,ut,bY,b)},o=bZ;else
+bW=i[2],bX=i[1],bY=O(a,b),v=bW,s=bX,bZ=0,q=function(b){return nc(a,uO,bY,b)},p=bZ;else
 aX=1;if(aX)return 0;break;case
 7:var
 aY=0;if(typeof
 h==="number"&&5<=h)var
-b0=i[2],b1=i[1],b2=i[4],b3=i[3],v=b0,s=b1,b4=0,p=function(b){return m2(a,n,b3,b2,b)},o=b4;else
+b0=i[2],b1=i[1],b2=i[4],b3=i[3],v=b0,s=b1,b4=0,q=function(b){return nb(a,n,b3,b2,b)},p=b4;else
 aY=1;if(aY)return 0;break;case
 8:if(typeof
 h!=="number"&&9===h[0]){var
-F=h[4],aP=h[2],U=h[1],l=i[1],w=l[9],b5=h[3],a3=l[5],a4=gc(f(dZ(l[4]),a3),ax),a6=e(_,bq),y=l[9],a7=l[8],a8=l[7],a1=go(y,al(u,dW(k,y)),a7),a2=f(e(_,aM(y,R)),a1),X=k9(0,bA(a,f(go(0,aB(y,R),a8),a2),a6),a4,ax,0),Y=0<aR(F)?0<aR(d)?f5(F,d):0:0<aR(d)?0:1;if(Y)var
-G=Y;else
+E=h[4],aP=h[2],T=h[1],l=i[1],w=l[9],b5=h[3],a3=l[5],a4=gp(f(d_(l[4]),a3),aw),a5=e($,br),y=l[9],a7=l[8],a8=l[7],a1=gA(y,al(u,d7(k,y)),a7),a2=f(e($,aM(y,R)),a1),Y=ll(0,bB(a,f(gA(0,aB(y,R),a8),a2),a5),a4,aw,0),Z=0<aR(E)?0<aR(d)?gf(E,d):0:0<aR(d)?0:1;if(Z)var
+G=Z;else
 var
-at=2<=kW(F,c(2,c(2,c(2,c(2,b)))))?0:1,au=at?aJ(0,w):at,G=au?aJ(w,k):au;var
-Z=G?$(w,k):G,ad=Z?q(g(R),k):Z,ae=ad?q(g(aP),k):ad,af=ae?q(g(l[1]),k):ae,ag=af?q(g(l[6]),k):af,ah=ag?q(g(l[4]),k):ag;if(ah)var
-a9=l[4],H=m(function(a){return q(g(a),k)},a9);else
+at=2<=k_(E,c(2,c(2,c(2,c(2,b)))))?0:1,au=at?aI(0,w):at,G=au?aI(w,k):au;var
+_=G?aa(w,k):G,ad=_?o(g(R),k):_,ae=ad?o(g(aP),k):ad,af=ae?o(g(l[1]),k):ae,ag=af?o(g(l[6]),k):af,ah=ag?o(g(l[4]),k):ag;if(ah)var
+a9=l[4],H=m(function(a){return o(g(a),k)},a9);else
 var
 H=ah;if(H){var
-a_=l[4],K=ac(e(function(a){return ng(X,a)},a_));if(K){var
-ai=ng(X,l[5]);if(ai){var
+a_=l[4],J=ac(e(function(a){return nr(Y,a)},a_));if(J){var
+ai=nr(Y,l[5]);if(ai){var
 a$=l[6],L=ac(e(function(j){var
 c=j[1],k=l[7],d=r(c[1],av,0);if(d){var
 h=c[2][2],b=ac(e(function(a){var
 b=r(a[2],av,0);return z(function(a){return a[2]},b)},h));if(b)var
-i=b[1],f=[0,cu(as(t(a,k,S(a,ne(a,e(aw,c[2][2]),i)))))];else
+i=b[1],f=[0,cx(as(t(a,k,U(a,np(a,e(ay,c[2][2]),i)))))];else
 var
 f=b;var
 g=f}else
 var
 g=d;return g},a$));if(L){var
-ba=l[1],bb=l[2],N=ac(e(function(m){function
+ba=l[1],bb=l[2],M=ac(e(function(m){function
 f(e){var
-g=al(e,k),c=m0(r(m[2],x,uc),g);if(c){var
-h=al(e,k),d=m0(r(bb,x,ud),h);if(d){var
-i=d[1],j=M(a,b);return b9(a,b$(d3(c[1],j,i)))}var
+g=al(e,k),c=m$(r(m[2],x,uv),g);if(c){var
+h=al(e,k),d=m$(r(bb,x,uw),h);if(d){var
+i=d[1],j=O(a,b);return b_(a,ca(eb(c[1],j,i)))}var
 f=d}else
 var
 f=c;return f}var
 c=f(0);if(c){var
 e=f(2);if(e)var
-g=b$(as(A(c[1],e[1]))),h=J(d,g[1]),l=h?[0,g]:h,i=l;else
+g=ca(as(A(c[1],e[1]))),h=I(d,g[1]),l=h?[0,g]:h,i=l;else
 var
 i=e;var
 j=i}else
 var
-j=c;return j},ba));if(N){var
-bc=K[1],W=d9(a,an(function(i,h){var
+j=c;return j},ba));if(M){var
+bc=J[1],X=eg(a,an(function(i,h){var
 o=e(function(b){var
-a=aC(0,k);return e(function(a){return b_(r(a,b[3],u))},a)},i);function
+a=aC(0,k);return e(function(a){return b$(r(a,b[3],u))},a)},i);function
 b(m,l){var
-n=nc(w,m,o),g=e(function(a){return nc(w,l,a)},n);function
-b(a){return an(br,d,a)}var
+n=nn(w,m,o),g=e(function(a){return nn(w,l,a)},n);function
+b(a){return an(bj,d,a)}var
 h=0;function
 i(a){return a}function
 j(a){return a}var
-c=b(an(function(a,b){return aN(j,i,kX,a,b)},h,g)),k=[0,c,c],f=b(e(function(a){return an(kX,d,a)},g));return d9(a,t(a,[0,f,f],k))}var
-c=b(1,1),f=b(1,0),g=b(0,1);return A(h,S(a,A(A(A(b(0,0),g),f),c)))},u,bc)),O=aS(b5,U,M(a,b)),aj=J(d,E(O,W)[1]);if(aj){var
-P=b8(a,O);if(P){var
-bf=as(t(a,W,P[1])),bg=E(M(a,b),bf),bh=[0,l[1],l[2],Q],bi=ej(function(a){return r(a,x,ue)},bh),bj=l[6],bk=e(ub,aa(aa(L[1],N[1]),bj)),bl=S(a,bg),bm=S(a,O),bn=l[10],aZ=aC(0,k),a0=e(function(a){var
-d=bn?$(w,a):aJ(a,w);return d?b:b7(c(2,b),F)},aZ),bo=function(r){var
-h=nd(r[1]);if(h){var
+c=b(an(function(a,b){return aO(j,i,k$,a,b)},h,g)),k=[0,c,c],f=b(e(function(a){return an(k$,d,a)},g));return eg(a,t(a,[0,f,f],k))}var
+c=b(1,1),f=b(1,0),g=b(0,1);return A(h,U(a,A(A(A(b(0,0),g),f),c)))},u,bc)),N=aT(b5,T,O(a,b)),aj=I(d,F(N,X)[1]);if(aj){var
+P=b9(a,N);if(P){var
+bd=as(t(a,X,P[1])),bg=F(O(a,b),bd),bh=[0,l[1],l[2],Q],bi=eu(function(a){return r(a,x,ux)},bh),bk=l[6],bl=e(uu,W(W(L[1],M[1]),bk)),bm=U(a,bg),bn=U(a,N),bo=l[10],aZ=aC(0,k),a0=e(function(a){var
+d=bo?aa(w,a):aI(a,w);return d?b:b8(c(2,b),E)},aZ),bp=function(r){var
+h=no(r[1]);if(h){var
 v=h[1],i=r[2];if(i){var
-j=i[1],l=dc(r[3]);if(l){var
-w=l[1],x=nf(a,k,bk,j,v),n=e(function(a){var
-c=a[2],b=aa(a0,a[1]);return[0,e(function(a){return aS(a[1],d,a[2])},b),c]},v),G=d$(U,ea(U,aP,j,n)),o=bd(al([0,ab(w),0],k),G),H=E(t(a,j,bl),w),y=q(g(n),k),z=y?q(g(x),k):y;if(z){var
-b=k,c=o;for(;;){if(c){if(b){var
-s=q(g(c[1]),b);if(s){var
+j=i[1],l=de(r[3]);if(l){var
+w=l[1],x=nq(a,k,bl,j,v),n=e(function(a){var
+c=a[2],b=W(a0,a[1]);return[0,e(function(a){return aT(a[1],d,a[2])},b),c]},v),G=ei(T,ej(T,aP,j,n)),p=be(al([0,ab(w),0],k),G),H=F(t(a,j,bm),w),y=o(g(n),k),z=y?o(g(x),k):y;if(z){var
+b=k,c=p;for(;;){if(c){if(b){var
+s=o(g(c[1]),b);if(s){var
 b=b[1],c=c[2];continue}var
 u=s}else
 var
@@ -4467,27 +4479,27 @@ u=b;var
 A=u}else
 var
 A=b?0:1;var
-p=A;break}}else
+q=A;break}}else
 var
-p=z;var
-B=p?a5(a,k,bd(e(function(b){return[0,ab(t(a,bm,b[2])),0]},n),o)):p;if(B){var
-I=be(by(k));return m(function(g){var
-d=aa(f(g,ua),x),b=[0,[0,H,0],0],c=aa(o,e(function(a){return a[1]?ab(a[2]):a[2]},d));return a5(a,[0,k],f(e(function(a){return f(a[1],[0,a[2],0])},c),b))},I)}var
+q=z;var
+B=q?a6(a,k,be(e(function(b){return[0,ab(t(a,bn,b[2])),0]},n),p)):q;if(B){var
+I=bf(bz(k));return m(function(g){var
+d=W(f(g,ut),x),b=[0,[0,H,0],0],c=W(p,e(function(a){return a[1]?ab(a[2]):a[2]},d));return a6(a,[0,k],f(e(function(a){return f(a[1],[0,a[2],0])},c),b))},I)}var
 C=B}else
 var
 C=l;var
 D=C}else
 var
 D=i;var
-F=D}else
+E=D}else
 var
-F=h;return F},bp=l[3];return j(iV(function(b,a){return ej},bp,k,bo),bi)}var
+E=h;return E},bq=l[3];return j(i9(function(b,a){return eu},bq,k,bp),bi)}var
 ak=P}else
 var
 ak=aj;var
 am=ak}else
 var
-am=N;var
+am=M;var
 ao=am}else
 var
 ao=L;var
@@ -4496,386 +4508,383 @@ var
 ap=ai;var
 aq=ap}else
 var
-aq=K;var
+aq=J;var
 ar=aq}else
 var
 ar=H;return ar}return 0;default:return 0}var
-bu=[0,s,v,Q],bv=ej(function(a){return r(a,x,uq)},bu);return j(iV(function(b,a){return ej},o,k,p),bv)}function
-uu(b,a){var
-c=h6(h1,b[1],a[1]);return c?h1(b[2],a[2]):c}function
-nt(i,r,p,h,o,k,A,z,y,j,n,g,a,e){if(typeof
-e==="number"){if(0===e)return 9===a[0]?e3(i,0,0,0,g,h,0,a[1],e):0}else
+bu=[0,s,v,Q],bv=eu(function(a){return r(a,x,uL)},bu);return j(i9(function(b,a){return eu},p,k,q),bv)}function
+uP(b,a){var
+c=ii(ic,b[1],a[1]);return c?ic(b[2],a[2]):c}function
+nH(i,r,q,h,p,k,A,z,y,j,n,g,a,e){if(typeof
+e==="number"){if(0===e)return 9===a[0]?fe(i,0,0,0,g,h,0,a[1],e):0}else
 switch(e[0]){case
 6:var
 f=e[1];if(typeof
 f!=="number"&&7===f[0]){if(k){var
-s=f[3],t=f[2],u=D(d,t),v=u?h3(s,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):u;if(v)return ns(i,r,p,h,o,j,g,n,[0,[0,[0,k[1],t],s]],a,f[1]);var
+s=f[3],t=f[2],u=D(d,t),v=u?ie(s,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):u;if(v)return nG(i,r,q,h,p,j,g,n,[0,[0,[0,k[1],t],s]],a,f[1]);var
 w=v}else
 var
-w=k;return w}return ns(i,r,p,h,o,j,g,n,0,a,f);case
-8:return 9===a[0]?e3(i,0,0,0,g,h,0,a[1],e):0;case
+w=k;return w}return nG(i,r,q,h,p,j,g,n,0,a,f);case
+8:return 9===a[0]?fe(i,0,0,0,g,h,0,a[1],e):0;case
 10:if(0===a[0]){var
-l=h6(uu,a[1],A),m=l?1:l,x=m?q(a[2],z):m;return x?jZ(y,j,a[3],a[4],e):x}return 0}return 0}function
-nu(b){var
+l=ii(uP,a[1],A),m=l?1:l,x=m?o(a[2],z):m;return x?kc(y,j,a[3],a[4],e):x}return 0}return 0}function
+nI(b){var
 a=b[2];if(typeof
 a!=="number"&&6===a[0])return 1;return 0}function
-uv(c){var
+uQ(c){var
 b=0,a=c[2];if(typeof
 a==="number"){if(0!==a)b=1}else
 switch(a[0]){case
 6:case
 8:break;default:b=1}return b?0:1}function
-fg(a,o,l,i,x,w,b,v,s,C,h,k,au,c){switch(c[0]){case
+uR(a){switch(a[0]){case
+8:return 0;case
+9:return iI(a[1]);default:return 1}}function
+fs(a,o,l,i,x,w,b,v,s,C,h,k,at,c){switch(c[0]){case
 0:var
-av=function(a){return m(L,a)},P=av,p=c[1];break;case
+au=function(a){return m(M,a)},P=au,p=c[1];break;case
 1:var
-ax=c[4],ay=c[3],az=c[2],aA=function(c){var
-d=cX(az,k),e=fg(a,o,l,i,x,w,b,v,s,C,h,d[1],c,ay);return e?fg(a,o,l,i,x,w,b,v,s,C,h,d[2],c,ax):e},P=aA,p=c[1];break;default:var
-aB=c[4],aC=c[3],aD=c[2],aE=function(c){var
-j=aa(i,c),d=m(function(b){var
-c=b[1];switch(c[0]){case
-8:var
-a=0;break;case
-9:var
-a=iw(c[1]);break;default:var
-a=1}return a?a:L(b[2])},j);if(d){var
-e=cX(aD,h),f=fg(a,o,l,i,x,w,b,v,s,C,e[1],k,c,aC);if(f)return fg(a,o,l,i,x,w,b,v,s,C,e[2],k,c,aB);var
+av=c[4],aw=c[3],ax=c[2],az=function(c){var
+d=c1(ax,k),e=fs(a,o,l,i,x,w,b,v,s,C,h,d[1],c,aw);return e?fs(a,o,l,i,x,w,b,v,s,C,h,d[2],c,av):e},P=az,p=c[1];break;default:var
+aA=c[4],aB=c[3],aC=c[2],aD=function(c){var
+d=mg(uR,i,c);if(d){var
+e=c1(aC,h),f=fs(a,o,l,i,x,w,b,v,s,C,e[1],k,c,aB);if(f)return fs(a,o,l,i,x,w,b,v,s,C,e[2],k,c,aA);var
 g=f}else
 var
-g=d;return g},P=aE,p=c[1]}var
-af=j(C,h),ac=aj(uv,p),ad=ac?iq(a,l,h,gc(y(function(c){var
-a=G(i,c[1]);if(a){var
+g=d;return g},P=aD,p=c[1]}var
+ae=j(C,h),aa=aj(uQ,p),ac=aa?iC(a,l,h,gp(y(function(c){var
+a=H(i,c[1]);if(a){var
 b=a[1];switch(b[0]){case
 8:var
 d=b[1][6];return y(function(a){var
-b=e(aZ,a[1][2][2]);return[0,a[1][1],b]},d);case
-9:return ix(0,0,0,b[1],c[2]);default:return 0}}return a},p),l),k):ac,ae=aj(nu,p);if(ae)var
-ar=y(function(b){var
-c=nu(b);if(c){var
-a=G(i,b[1]);if(a)return nr(a[1]);var
+b=e(aY,a[1][2][2]);return[0,a[1][1],b]},d);case
+9:return iJ(0,0,0,b[1],c[2]);default:return 0}}return a},p),l),k):aa,ad=aj(nI,p);if(ad)var
+aq=y(function(b){var
+c=nI(b);if(c){var
+a=H(i,b[1]);if(a)return nF(a[1]);var
 d=a}else
 var
-d=c;return d},p),as=b?[0,b[1],0]:b,at=f(as,ar),ai=0,ak=an(eU,e(function(a){return 0},o),at),O=iT(a,h,eR(gU(eR(o,0),ak),ai),k);else
+d=c;return d},p),ar=b?[0,b[1],0]:b,as=f(ar,aq),ah=0,ai=an(e6,e(function(a){return 0},o),as),N=i7(a,h,e3(g3(e3(o,0),ai),ah),k);else
 var
-O=ae;var
-q=p,g=au;for(;;){if(q){var
-T=q[1],D=T[2],n=T[1],H=q[2];if(n){var
-U=r(n,g,0);if(U){var
-I=G(i,n);if(I){var
-V=nt(a,l,h,x,w,b,v,s,af,k,O,ad,I[1],D);if(V){var
-q=H,g=gz(n,g);continue}var
+N=ad;var
+q=p,g=at;for(;;){if(q){var
+S=q[1],D=S[2],n=S[1],G=q[2];if(n){var
+T=r(n,g,0);if(T){var
+J=H(i,n);if(J){var
+V=nH(a,l,h,x,w,b,v,s,ae,k,N,ac,J[1],D);if(V){var
+q=G,g=gL(n,g);continue}var
 W=V}else
 var
-W=I;var
+W=J;var
 X=W}else
 var
-X=U;var
+X=T;var
 B=X}else{var
-ag=0;if(typeof
+af=0;if(typeof
 D==="number"&&4===D){var
-ah=0;if(b){var
-aq=0,Q=e(function(b){return[0,b,S(a,b)]},k),am=e(aZ,Q),al=0,ao=f(e(aw,Q),am),ap=bb(0,function(o){return function(b){switch(b[0]){case
+ag=0;if(b){var
+ap=0,Q=e(function(b){return[0,b,U(a,b)]},k),al=e(aY,Q),ak=0,am=f(e(ay,Q),al),ao=bc(0,function(o){return function(b){switch(b[0]){case
 0:return[0,r(b[1],o,u)];case
 1:return[0,r(b[1],h,u)];case
-2:return[0,M(a,b[1])];case
+2:return[0,O(a,b[1])];case
 3:var
-c=b[2],d=b[1];return db(function(b,a){return[0,A(b,a)]},d,c);case
+c=b[2],d=b[1];return dd(function(b,a){return[0,A(b,a)]},d,c);case
 4:var
-e=b[2],f=b[1];return db(function(b,a){return[0,E(b,a)]},f,e);case
+e=b[2],f=b[1];return dd(function(b,a){return[0,F(b,a)]},f,e);case
 5:var
-g=b[1];return da(function(a){return[0,ab(a)]},g);case
+g=b[1];return dc(function(a){return[0,ab(a)]},g);case
 6:var
-i=b[2],j=b[1];return db(function(c,b){return[0,t(a,c,b)]},j,i);case
+i=b[2],j=b[1];return dd(function(c,b){return[0,t(a,c,b)]},j,i);case
 7:var
-k=b[2],l=b[1];return db(function(c,b){var
-d=b8(a,b);return z(function(b){return t(a,c,b)},d)},l,k);case
+k=b[2],l=b[1];return dd(function(c,b){var
+d=b9(a,b);return z(function(b){return t(a,c,b)},d)},l,k);case
 8:var
-m=b[1];return da(function(b){return[0,S(a,b)]},m);case
+m=b[1];return dc(function(b){return[0,U(a,b)]},m);case
 9:var
-n=b[1];return da(function(b){return b9(a,b)},n);default:return 0}}}(ao),o,al),F=r(b[1],ap,aq);if(F){var
-K=J(F[1][2],d);ah=1}else
+n=b[1];return dc(function(b){return b_(a,b)},n);default:return 0}}}(am),o,ak),E=r(b[1],ao,ap);if(E){var
+K=I(E[1][2],d);ag=1}else
 var
-R=F}else
+R=E}else
 var
-R=b;if(!ah)var
+R=b;if(!ag)var
 K=R;if(K){var
-q=H,g=e(function(a){return 0},g);continue}var
+q=G,g=e(function(a){return 0},g);continue}var
 B=K}else
-ag=1;if(ag){var
+af=1;if(af){var
 Y=r(n,g,0);if(Y){var
-N=G(i,n);if(N){var
-Z=nt(a,l,h,x,w,b,v,s,af,k,O,ad,N[1],D);if(Z){var
-q=H,g=gz(n,g);continue}var
+L=H(i,n);if(L){var
+Z=nH(a,l,h,x,w,b,v,s,ae,k,N,ac,L[1],D);if(Z){var
+q=G,g=gL(n,g);continue}var
 _=Z}else
 var
-_=N;var
+_=L;var
 $=_}else
 var
 $=Y;var
 B=$}}}else
 var
 B=[0,g];return B?P(B[1]):B}}function
-i3(d,a){var
-e=T(a),f=s(s(l(c(2,b)),a),d);return B(w(T(d),f),e)}function
-i4(k,a,d,i,c,h){var
-e=af(w,dE(k),i);if(h){var
+jf(d,a){var
+e=V(a),f=s(s(l(c(2,b)),a),d);return B(x(V(d),f),e)}function
+jg(k,a,d,i,c,h){var
+e=af(x,dM(k),i);if(h){var
 b=function(b){var
-c=j(b,a[3]),d=j(b,a[2]);return[0,j(b,a[1]),d,c]},f=b(function(a){return a[3]}),g=b(function(a){return a[2]}),l=fd([0,b(function(a){return a[1]}),g,f],e);return af(B,a0(d,c),l)}var
-m=fd(a,c);return af(B,a0(d,e),m)}function
-nv(f,h,g,k,a,d){var
-e=dE(f),i=af(w,e,a),j=fd(h,d),m=i3(e[3],a[3]),n=i3(e[2],a[2]),o=i3(e[1],a[1]),p=B(B(B(Y(d,d),o),n),m),q=Y(j,i),r=s(l(c(2,b)),q),t=B(s(g,p),r),u=bl(bE(j,i),k);return[0,gY(f,i4(f,h,g,a,d,0),u),t]}function
-nw(d,c,b,a){var
-e=gZ(c,b,a);return af(B,dE(d),e)}function
-nx(g,f,e,d,c){var
-b=nw(g,f,e,c),a=af(w,b,d);return[0,[0,b,a],aF(Y(a,a))]}function
-g1(b,a){var
-c=a7(a[2],b);return f(a7(a[1],b),c)}function
-i5(d,b,a,c){if(a)var
-e=a[1],f=cB(c,g1(b,e)),i=R(c,g(g1(b,e))),j=i5(d,b,a[2],i),k=ak(f,uw),h=[0,aq(d,ak(f,0),k),j];else
+c=j(b,a[3]),d=j(b,a[2]);return[0,j(b,a[1]),d,c]},f=b(function(a){return a[3]}),g=b(function(a){return a[2]}),l=fr([0,b(function(a){return a[1]}),g,f],e);return af(B,a1(d,c),l)}var
+m=fr(a,c);return af(B,a1(d,e),m)}function
+nJ(f,h,g,k,a,d){var
+e=dM(f),i=af(x,e,a),j=fr(h,d),m=jf(e[3],a[3]),n=jf(e[2],a[2]),o=jf(e[1],a[1]),p=B(B(B(Z(d,d),o),n),m),q=Z(j,i),r=s(l(c(2,b)),q),t=B(s(g,p),r),u=bm(bH(j,i),k);return[0,g7(f,jg(f,h,g,a,d,0),u),t]}function
+nK(d,c,b,a){var
+e=g8(c,b,a);return af(B,dM(d),e)}function
+nL(g,f,e,d,c){var
+b=nK(g,f,e,c),a=af(x,b,d);return[0,[0,b,a],aJ(Z(a,a))]}function
+g$(b,a){var
+c=a8(a[2],b);return f(a8(a[1],b),c)}function
+jh(d,b,a,c){if(a)var
+e=a[1],f=cD(c,g$(b,e)),i=N(c,g(g$(b,e))),j=jh(d,b,a[2],i),k=ak(f,uS),h=[0,aq(d,ak(f,0),k),j];else
 var
 h=a;return h}function
-i6(f,o,e,n,a){var
-g=s(T(r(0,n,l(d))),o);if(typeof
+ji(f,o,e,n,a){var
+g=s(V(r(0,n,l(d))),o);if(typeof
 a!=="number")switch(a[0]){case
 2:var
-b=G(e,a[1]);if(b)var
-i=h(f,0,a[2]),j=i?[0,w(b[1][1][2],g)]:i;else
+b=H(e,a[1]);if(b)var
+i=h(f,0,a[2]),j=i?[0,x(b[1][1][2],g)]:i;else
 var
 j=b;return j;case
 3:var
-c=G(e,a[1]);if(c)var
-k=h(f,0,a[2]),m=k?[0,w(g,c[1][1][2])]:k;else
+c=H(e,a[1]);if(c)var
+k=h(f,0,a[2]),m=k?[0,x(g,c[1][1][2])]:k;else
 var
 m=c;return m}return 0}function
-ny(c,b,a){if(typeof
+nM(c,b,a){if(typeof
 a!=="number"&&6===a[0]){var
-e=G(c,a[1]);return z(function(a){var
+e=H(c,a[1]);return z(function(a){var
 c=r(0,b,l(d)),e=j(a[2][2],c);return[0,a[2][1],e]},e)}return 0}function
-g2(a){return h(k,0,[3,[0,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b))))))))),b],a])}function
-nz(a){var
-b=ak(a,ux),c=aF(Y(ak(a,uy),b));return s(r(0,a,l(d)),c)}function
-nA(b,a){var
-c=Y(a,ak(b,uz));return[0,bU(a0(nz(b),a)),c]}function
-nB(e,d,a,c,b){var
-f=b[2],g=s(nz(a),f),h=c?gZ(e,d,ak(a,uA)):ak(a,uB);return w(Y(b[1][2],h),g)}function
-nC(h,g,f,d,c,b,a){var
-i=bz(c);function
-j(a){return nw(h,g,f,a)}return l$(e(function(a){return[0,a[4]]},d),j,i,b,a)}function
-fh(a){var
-b=r(uC,a,l(d));return am(r(0,a,l(d)),b)}function
-i7(a){return a[4][2]}function
-nD(g,o,n,m,a){var
-p=a[1][2],q=e(aZ,gD(n,a[1][2])),h=fh(m),i=s(s(l(c(2,b)),o),h),d=a[1][1],j=aM(cF(g),d),k=e(function(a){return s(a,i)},j);return[0,f(f(aB(cF(g),d),k),q),p]}function
-nE(a){var
-b=a[3],c=a[2],d=a[1];return gP([0,[0,d,d],[0,c,c],[0,b,b]])}function
-uL(a){if(typeof
+ha(a){return h(k,0,[3,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b],a])}function
+nN(a){var
+b=ak(a,uT),c=aJ(Z(ak(a,uU),b));return s(r(0,a,l(d)),c)}function
+nO(b,a){var
+c=Z(a,ak(b,uV));return[0,bW(a1(nN(b),a)),c]}function
+nP(e,d,a,c,b){var
+f=b[2],g=s(nN(a),f),h=c?g8(e,d,ak(a,uW)):ak(a,uX);return x(Z(b[1][2],h),g)}function
+nQ(h,g,f,d,c,b,a){var
+i=bA(c);function
+j(a){return nK(h,g,f,a)}return mn(e(function(a){return[0,a[4]]},d),j,i,b,a)}function
+ft(a){var
+b=r(uY,a,l(d));return am(r(0,a,l(d)),b)}function
+jj(a){return a[4][2]}function
+nR(g,o,n,m,a){var
+p=a[1][2],q=e(aY,gP(n,a[1][2])),h=ft(m),i=s(s(l(c(2,b)),o),h),d=a[1][1],j=aM(cJ(g),d),k=e(function(a){return s(a,i)},j);return[0,f(f(aB(cJ(g),d),k),q),p]}function
+nS(a){var
+b=a[3],c=a[2],d=a[1];return gY([0,[0,d,d],[0,c,c],[0,b,b]])}function
+u7(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-nF(b,a){switch(b){case
+nT(b,a){switch(b){case
 0:return[0,a[1],[0,a[2],0]];case
 1:return[0,a[1],[0,a[2],[0,a[3],0]]];default:return 0}}function
-g3(a){var
-c=cx(a[1],[0,d,b]);return c?cx(a[2],[0,d,b]):c}function
-i8(d,a){switch(d){case
-0:return g3(a[3]);case
+hb(a){var
+c=cc(a[1],[0,d,b]);return c?cc(a[2],[0,d,b]):c}function
+jk(d,a){switch(d){case
+0:return hb(a[3]);case
 1:return 1;default:var
-b=g3(a[1]),c=b?g3(a[2]):b;return c?g3(a[3]):c}}function
-i9(c,b){var
-a=y(function(a){return g1(c,a)},b),d=aa(aC(0,g(a)),a);return e(aw,bs(function(a){return iF(a[2])},d))}function
-nG(b){var
+b=hb(a[1]),c=b?hb(a[2]):b;return c?hb(a[3]):c}}function
+jl(c,b){var
+a=y(function(a){return g$(c,a)},b),d=W(aC(0,g(a)),a);return e(ay,bu(function(a){return iR(a[2])},d))}function
+nU(b){var
 a=b[2];if(typeof
 a!=="number"&&10===a[0])return 1;return 0}function
-nH(c){var
-a=c;for(;;){if(0===a[0])return aj(nG,a[1]);var
-d=aj(nG,a[1]),b=d||nH(a[3]);if(b)return b;var
+nV(c){var
+a=c;for(;;){if(0===a[0])return aj(nU,a[1]);var
+d=aj(nU,a[1]),b=d||nV(a[3]);if(b)return b;var
 a=a[4];continue}}function
-uM(a,aQ,bA,A,C,aP){var
-n=A[1],i=bv(n),X=A[6],bC=A[2],K=y(function(a){return g1(C,a)},bC),aR=A[3],Q=[0,[0,aR,aR],C],$=[0,g(K)],bD=0,aS=y(function(a){return fa(bD,C,a)},X),bF=cF(n),aT=m6(A[5],bF),o=aT[2],H=aT[1],J=c2(Q,g(K)),bH=A[2],U=g(K),bG=0,x=i5(function(e,a){function
+u8(a,aQ,bz,A,C,aP){var
+n=A[1],i=bG(n),X=A[6],bA=A[2],K=y(function(a){return g$(C,a)},bA),aR=A[3],R=[0,[0,aR,aR],C],$=[0,g(K)],bB=0,aS=y(function(a){return fp(bB,C,a)},X),bD=cJ(n),aT=nf(A[5],bD),p=aT[2],G=aT[1],J=c6(R,g(K)),bF=A[2],S=g(K),bE=0,w=jh(function(e,a){function
 i(g){var
-c=bv(n);if(n)var
+c=bG(n);if(n)var
 b=[0,[0,[0,c]],[0,[0,[0,c]]],[0,[0,[0,[0,c]]]]];else
 var
 m=l(d),b=[0,l(d),m,[0,[0,c]]];var
-t=ni(n,H,o,e,a,b)[2],h=ni(n,H,o,e,a,b),i=h[1],j=bl(i[2],h[2]),k=bE(i[1],j),p=af(B,k,bE(k,b)),f=a0(nh(b),p),q=s(f[3],g),r=s(f[2],g);return[0,gY(n,j,[0,s(f[1],g),r,q]),t]}function
+t=nt(n,G,p,e,a,b)[2],h=nt(n,G,p,e,a,b),i=h[1],j=bm(i[2],h[2]),k=bH(i[1],j),o=af(B,k,bH(k,b)),f=a1(ns(b),o),q=s(f[3],g),r=s(f[2],g);return[0,g7(n,j,[0,s(f[1],g),r,q]),t]}function
 j(X){var
-v=nx(n,H,o,e,a),x=v[1],V=af(w,dE(n),e),y=v[2],r=x[1],W=x[2],g=gZ(H,o,a),i=bl(W,y),N=am(Y(g,i),J),O=T(J),P=am(Y(a,a),O),Q=2<=n?d:b,R=B(l(Q),P);function
-h(a){return[0,na(a),0]}function
-f(a){return[0,bl(bE(na(a),g),J),[0,a]]}switch(n){case
+v=nL(n,G,p,e,a),w=v[1],U=af(x,dM(n),e),y=v[2],r=w[1],W=w[2],g=g8(G,p,a),i=bm(W,y),N=am(Z(g,i),J),O=V(J),P=am(Z(a,a),O),Q=2<=n?d:b,R=B(l(Q),P);function
+h(a){return[0,nl(a),0]}function
+f(a){return[0,bm(bH(nl(a),g),J),[0,a]]}switch(n){case
 0:var
-C=[0,f(t1),0],D=[0,h(t2),C],p=[0,h(0),D];break;case
+C=[0,f(ui),0],D=[0,h(uj),C],q=[0,h(0),D];break;case
 1:var
-E=[0,f(t3),0],F=[0,f(t4),E],G=[0,f(0),F],I=[0,h(t5),G],K=[0,h(t6),I],p=[0,h(0),K];break;default:var
-L=[0,f(t7),0],M=[0,f(t8),L],p=[0,f(0),M]}var
-j=af(w,[0,[0,[1,U]],[0,[1,[0,U]]],[0,[1,[0,[0,U]]]]],e),k=bl(j,aF(Y(j,j)));if(n)var
-m=iX(n,U,e,r,k[3]);else
+E=[0,f(uk),0],F=[0,f(ul),E],H=[0,f(0),F],I=[0,h(um),H],K=[0,h(un),I],q=[0,h(0),K];break;default:var
+L=[0,f(uo),0],M=[0,f(up),L],q=[0,f(0),M]}var
+j=af(x,[0,[0,[1,S]],[0,[1,[0,S]]],[0,[1,[0,[0,S]]]]],e),k=bm(j,aJ(Z(j,j)));if(n)var
+m=i$(n,S,e,r,k[3]);else
 var
 z=l(d),A=l(d),m=[0,l(d),A,z];var
-t=iX(n,U,e,r,k[2]),u=iX(n,U,e,r,k[1]),S=nb(function(r,v){var
+t=i$(n,S,e,r,k[2]),u=i$(n,S,e,r,k[1]),T=nm(function(r,v){var
 e=v[1];function
 a(b,a){var
-c=e[3],f=dD(a,m),g=s(B(b[3],f),c),h=e[2],i=dD(a,t),j=s(B(b[2],i),h),k=e[1],n=dD(a,u),o=s(B(b[1],n),k);return B(B(B(l(d),o),j),g)}var
-x=a(m,t9),y=a(t,t_),z=[0,a(u,0),y,x],f=Y(r[1],z),k=r[2];if(k){var
+c=e[3],f=dL(a,m),g=s(B(b[3],f),c),h=e[2],i=dL(a,t),j=s(B(b[2],i),h),k=e[1],n=dL(a,u),o=s(B(b[1],n),k);return B(B(B(l(d),o),j),g)}var
+w=a(m,uq),y=a(t,ur),z=[0,a(u,0),y,w],f=Z(r[1],z),k=r[2];if(k){var
 h=k[1],n=v[2];if(n){var
-j=n[1],A=dD(h,g),C=s(dD(j,i),A),D=dD(j,g),o=B(s(dD(h,i),D),C),E=T(J);if(q(h,j))var
-F=Y(i,g),p=w(o,s(l(c(2,b)),F));else
+j=n[1],A=dL(h,g),C=s(dL(j,i),A),D=dL(j,g),p=B(s(dL(h,i),D),C),E=V(J);if(o(h,j))var
+F=Z(i,g),q=x(p,s(l(c(2,b)),F));else
 var
-p=o;return B(f,am(p,E))}return f}return f},p);return[0,gY(n,i,bl(bE(g,bl(V,y)),J)),S,R,N]}var
-k=nx(n,H,o,e,a);function
-m(b){return i4(n,H,o,e,a,b)}var
+q=p;return B(f,am(q,E))}return f}return f},q);return[0,g7(n,i,bm(bH(g,bm(U,y)),J)),T,R,N]}var
+k=nL(n,G,p,e,a);function
+m(b){return jg(n,G,p,e,a,b)}var
 f=2<=n?d:b;function
 g(b){var
-c=T(J),d=l(f),e=s(w(T(b),d),c);return s(o,w(Y(a,a),e))}var
-h=[0,Y(i4(n,H,o,e,a,1),a),g];return[0,nv(n,H,o,J,e,a),h,m,k,j,i]},C,bH,bG),V=e(function(a){return a[1]},x),bI=R($,g(aS)),bJ=cF(n),bK=A[5];function
-P(a){return[0,[0,R(bJ,a)]]}var
-aH=T([0,[1,bI]]);switch(bK[0]){case
+c=V(J),d=l(f),e=s(x(V(b),d),c);return s(p,x(Z(a,a),e))}var
+h=[0,Z(jg(n,G,p,e,a,1),a),g];return[0,nJ(n,G,p,J,e,a),h,m,k,j,i]},C,bF,bE),T=e(function(a){return a[1]},w),bI=N($,g(aS)),bJ=cJ(n),bK=A[5];function
+Q(a){return[0,[0,N(bJ,a)]]}var
+aG=V([0,[1,bI]]);switch(bK[0]){case
 2:var
-bo=P(tT),bp=P(tU),aI=[0,P(0),bp,bo],F=[0,w(aH,Y(aI,aI))];break;case
+bo=Q(ua),bp=Q(ub),aH=[0,Q(0),bp,bo],E=[0,x(aG,Z(aH,aH))];break;case
 3:var
-bq=T(P(tV)),br=T(P(0)),bt=T(P(tW)),F=[0,w(w(s(aH,B(l(b),bt)),br),bq)];break;default:var
-F=0}var
+bq=V(Q(uc)),br=V(Q(0)),bs=V(Q(ud)),E=[0,x(x(s(aG,B(l(b),bs)),br),bq)];break;default:var
+E=0}var
 aU=A[7];if(aU)var
-bL=0,bM=A[2],ak=i5(function(k,t){var
-a=nv(n,H,o,c2(Q,g(K)),k,t);switch(n){case
+bL=0,bM=A[2],ak=jh(function(k,t){var
+a=nJ(n,G,p,c6(R,g(K)),k,t);switch(n){case
 0:var
 c=a[1];if(c){var
 m=c[2],e=c[1];if(m){var
-p=m[1],s=a[2];return[0,[0,e,[0,p,[0,bE(k,[0,e,p,l(d)])[3],0]]],s]}return[0,[0,e,0],a[2]]}return[0,0,a[2]];case
+o=m[1],s=a[2];return[0,[0,e,[0,o,[0,bH(k,[0,e,o,l(d)])[3],0]]],s]}return[0,[0,e,0],a[2]]}return[0,0,a[2]];case
 1:var
 f=a[1];if(f){var
 h=f[2],b=f[1];if(h){var
 q=h[2],i=h[1];if(q){var
-r=q[1],j=bE(k,[0,b,i,r]);return[0,[0,b,[0,i,[0,r,[0,j[1],[0,j[2],[0,j[3],0]]]]]],a[2]]}return[0,[0,b,[0,i,0]],a[2]]}return[0,[0,b,0],a[2]]}return[0,0,a[2]];default:return[0,a[1],a[2]]}},C,bM,bL);else
+r=q[1],j=bH(k,[0,b,i,r]);return[0,[0,b,[0,i,[0,r,[0,j[1],[0,j[2],[0,j[3],0]]]]]],a[2]]}return[0,[0,b,[0,i,0]],a[2]]}return[0,[0,b,0],a[2]]}return[0,0,a[2]];default:return[0,a[1],a[2]]}},C,bM,bL);else
 var
 ak=aU;var
-bN=bB(ak),bO=F?[0,F[1],0]:F,bP=f(bO,bN),bQ=0,bR=f(K,[0,Q,0]),bz=e(function(a){return a[1]},x),bS=[0,o,f(c$(function(c,b){if(typeof
+bN=bC(ak),bO=E?[0,E[1],0]:E,bP=f(bO,bN),bQ=0,bR=f(K,[0,R,0]),by=e(function(a){return a[1]},w),bS=[0,p,f(db(function(c,b){if(typeof
 b!=="number")switch(b[0]){case
 6:var
-g=ny(x,c,b);if(g)var
+g=nM(w,c,b);if(g)var
 i=g[1],k=[0,i[1],[0,i[2],0]];else
 var
 k=g;return k;case
-8:return e(aZ,gR(bz,c));case
+8:return e(aY,g0(by,c));case
 13:var
-h=G(x,b[1]);if(h){var
-l=g2(b[4]);if(l){var
-m=nA(c,j(h[1][3],b[2]));return f(m[1],[0,m[2],0])}var
-p=l}else
+h=H(w,b[1]);if(h){var
+l=ha(b[4]);if(l){var
+m=nO(c,j(h[1][3],b[2]));return f(m[1],[0,m[2],0])}var
+o=l}else
 var
-p=h;return p;case
-16:return y(function(a){return nD(n,J,bR,c,a)[1]},x)}var
-d=i6(a,o,x,c,b),q=d?[0,d[1],0]:d;return q},bQ,C,$,X),bP)],an=f(bB(V),bS),bT=0,bV=f(K,[0,Q,0]),aV=c$(function(b,a){if(typeof
+o=h;return o;case
+16:return y(function(a){return nR(n,J,bR,c,a)[1]},w)}var
+d=ji(a,p,w,c,b),q=d?[0,d[1],0]:d;return q},bQ,C,$,X),bP)],an=f(bC(T),bS),bT=0,bU=f(K,[0,R,0]),aV=db(function(b,a){if(typeof
 a!=="number")switch(a[0]){case
 13:var
-g=G(x,a[1]);if(g){if(g2(a[4]))return 0;var
-k=[0,nB(H,o,b,a[2],g[1][4]),0]}else
+g=H(w,a[1]);if(g){if(ha(a[4]))return 0;var
+k=[0,nP(G,p,b,a[2],g[1][4]),0]}else
 var
 k=g;return k;case
 14:var
-h=nC(n,H,o,x,b,a[1],a[2]);if(h){var
-m=h[1],p=m[2],q=m[1];return y(bU,[0,q[1],[0,q[2],[0,p[1],[0,p[2],0]]]])}return h;case
+h=nQ(n,G,p,w,b,a[1],a[2]);if(h){var
+m=h[1],o=m[2],q=m[1];return y(bW,[0,q[1],[0,q[2],[0,o[1],[0,o[2],0]]]])}return h;case
 15:var
-i=G(x,a[1]);if(i){var
-c=j(i[1][5],0),s=[0,c[3],[0,c[4],0]],t=[0,r(uD,b,l(d)),s],u=[0,r(0,b,l(d)),t],v=f(dZ(c[2]),u);return f(c[1],v)}return i;case
+i=H(w,a[1]);if(i){var
+c=j(i[1][5],0),s=[0,c[3],[0,c[4],0]],t=[0,r(uZ,b,l(d)),s],u=[0,r(0,b,l(d)),t],v=f(d_(c[2]),u);return f(c[1],v)}return i;case
 16:var
-w=y(function(a){var
-b=e(aZ,gD(bV,i7(a)));return[0,i7(a),b]},x);return f(y(function(a){var
-c=fh(b),d=[0,j(a[6],c)[2],0],e=fh(b);return f(j(a[6],e)[1],d)},x),w)}return 0},bT,C,$,X),aW=cS(e(function(a){return bw(i,a)},an))[1],aX=cS(aV)[1],Z=cR(aW),ap=cR(aX);function
-v(a){return bc(Z,bw(i,a))}function
-aY(j){if(0===A[4][0]){var
-s=z(v,F),t=v(o),e=cF(n),f=q(g(j),i);if(f)var
-h=z(function(a){return[0,[0,a,d],d]},s),a=function(a){return r(a,Z,l(d))},c=a(t),k=aC(0,e),b=m(function(b){var
-d=dC(i,b,c),e=d?m(function(d){var
+x=y(function(a){var
+b=e(aY,gP(bU,jj(a)));return[0,jj(a),b]},w);return f(y(function(a){var
+c=ft(b),d=[0,j(a[6],c)[2],0],e=ft(b);return f(j(a[6],e)[1],d)},w),x)}return 0},bT,C,$,X),aW=cW(e(function(a){return bx(i,a)},an))[1],aX=cW(aV)[1],Y=cV(aW),ap=cV(aX);function
+v(a){return bd(Y,bx(i,a))}function
+aZ(j){if(0===A[4][0]){var
+s=z(v,E),t=v(p),e=cJ(n),f=o(g(j),i);if(f)var
+h=z(function(a){return[0,[0,a,d],d]},s),a=function(a){return r(a,Y,l(d))},c=a(t),k=aC(0,e),b=m(function(b){var
+d=dK(i,b,c),e=d?m(function(d){var
 f=d[1],e=m(function(c){var
-d=a(c);return cE(R(i,b),d)},f);if(e){var
-g=a(d[2]);return gS(c,R(i,b),g)}return e},j):d;if(e){if(h){var
-g=a(h[1][1][1]);return cE(R(i,b),g)}var
+d=a(c);return cI(N(i,b),d)},f);if(e){var
+g=a(d[2]);return g1(c,N(i,b),g)}return e},j):d;if(e){if(h){var
+g=a(h[1][1][1]);return cI(N(i,b),g)}var
 f=1}else
 var
 f=e;return f},k);else
 var
 b=f;var
-p=b?e:b;return p}return 0}var
-W=aY(j(au(v),V)),a1=m(function(a){var
-b=bw(i,a),c=l(d);return aK(r(v(a),Z,c),b)},an),a2=a1?m(function(a){return gT(i,a)},an):a1,a3=a2?m(function(a){var
-b=l(d);return aK(r(bc(ap,a),ap,b),a)},aV):a2,a4=a3?aj(uL,X):a3;if(a4)var
-bW=L(A[7]),aq=bW||nk(a,[0,n],[0,A[5]]);else
+q=b?e:b;return q}return 0}var
+W=aZ(j(au(v),T)),a0=m(function(a){var
+b=bx(i,a),c=l(d);return aN(r(v(a),Y,c),b)},an),a2=a0?m(function(a){return g2(i,a)},an):a0,a3=a2?m(function(a){var
+b=l(d);return aN(r(bd(ap,a),ap,b),a)},aV):a2,a4=a3?aj(u7,X):a3;if(a4)var
+bV=M(A[7]),aq=bV||ny(a,[0,n],[0,A[5]]);else
 var
 aq=a4;var
-a6=aq?i8(n,ef(A[4])):aq,a7=a6?h(a,1,A[3]):a6;if(a7)var
-bX=gX(A[5]),ar=m(function(b){var
-c=c9(a,b[1]);return c?c9(a,b[2]):c},bX);else
+a5=aq?jk(n,eo(A[4])):aq,a7=a5?h(a,1,A[3]):a5;if(a7)var
+bX=g6(A[5]),ar=m(function(b){var
+c=cH(a,b[1]);return c?cH(a,b[2]):c},bX);else
 var
 ar=a7;if(ar){var
-bY=f(K,[0,Q,0]),as=ac(e(function(b){return ao(a,b)},bY));if(as){var
-at=ac(e(function(b){return iP(a,b)},aS));if(at){var
-bZ=nF(n,ef(A[4])),av=ac(e(function(b){return ao(a,[0,b,C])},bZ));if(av){var
-a8=av[1],b0=m8(A[5]),ax=ac(e(function(b){return m_(a,b)},b0));if(ax){var
-a9=ax[1],b1=m7(A[5]),ay=ac(e(c8(a),b1));if(ay){var
-b2=0,I=function(a){return bc(ap,a)},az=f(K,[0,Q,0]),aA=ac(c$(function(i,f){if(typeof
+bY=f(K,[0,R,0]),as=ac(e(function(b){return ao(a,b)},bY));if(as){var
+at=ac(e(function(b){return i1(a,b)},aS));if(at){var
+bZ=nT(n,eo(A[4])),av=ac(e(function(b){return ao(a,[0,b,C])},bZ));if(av){var
+a8=av[1],b0=nh(A[5]),aw=ac(e(function(b){return nj(a,b)},b0));if(aw){var
+a9=aw[1],b1=ng(A[5]),ax=ac(e(cG(a),b1));if(ax){var
+b2=0,I=function(a){return bd(ap,a)},az=f(K,[0,R,0]),aA=ac(db(function(i,f){if(typeof
 f!=="number")switch(f[0]){case
 13:var
-E=f[4],aM=G(x,f[1]);if(aM){if(nE(f[3])&&h(a,0,E)&&h(a,0,[3,[0,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b)))))))))),b],E])){var
-aN=f[2],aO=aM[1];if(g2(E)){var
-aG=nA(i,j(aO[3],aN)),V=aG[2];if(h(k,0,[3,E,[0,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b))))))))),b]]))var
+E=f[4],aM=H(w,f[1]);if(aM){if(nS(f[3])&&h(a,0,E)&&h(a,0,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],E])){var
+aN=f[2],aO=aM[1];if(ha(E)){var
+aG=nO(i,j(aO[3],aN)),V=aG[2];if(h(k,0,[3,E,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b]]))var
 aH=0;else
 var
 be=v(V),bf=v(V),aH=[0,[6,[0,[0,e(v,aG[1]),bf],0],be],0];var
 aP=[0,[4,v(V)],aH]}else
 var
-aP=[0,[9,[3,I(nB(H,o,i,aN,aO[4]))]],0];return e(function(a){return[0,a]},aP)}return uJ}return uK;case
+aP=[0,[9,[3,I(nP(G,p,i,aN,aO[4]))]],0];return e(function(a){return[0,a]},aP)}return u5}return u6;case
 16:var
-Y=f[3],t=f[2],aQ=f[1],bg=bv(n);if(q(g(x),bg)&&h(a,0,aQ)&&h(a,1,t)&&h(a,1,Y)&&c9(a,Y)){var
+Y=f[3],t=f[2],aQ=f[1],bg=bG(n);if(o(g(w),bg)&&h(a,0,aQ)&&h(a,1,t)&&h(a,1,Y)&&cH(a,Y)){var
 aI=ao(a,[0,[0,t,t],C]);if(aI){var
-bh=aI[1],aJ=j(c8(a),Y);if(aJ){var
+bh=aI[1],aJ=j(cG(a),Y);if(aJ){var
 bi=aJ[1],aK=ac(e(function(f){var
-b=mi(a,I,az,C,aQ,t,i7(f));if(b){var
-c=mh(a,v,az,C,t,f[1][2]);if(c){var
-g=g0(0,0,f[1][2]);if(g)var
-i=e(aw,c[1]),d=[0,[0,b[1],i]];else
+b=mw(a,I,az,C,aQ,t,jj(f));if(b){var
+c=mv(a,v,az,C,t,f[1][2]);if(c){var
+g=g_(0,0,f[1][2]);if(g)var
+i=e(ay,c[1]),d=[0,[0,b[1],i]];else
 var
 d=g}else
 var
 d=c;var
 h=d}else
 var
-h=b;return h},x));if(aK){var
-bj=aK[1],bk=e(function(a){return nD(n,J,az,i,a)},x),aL=j(au(v),bk),X=function(a){var
-b=cF(n),c=e(function(a){var
-b=fh(i);return I(j(a[6],b)[2])},x),d=e(function(a){var
-b=fh(i);return e(I,j(a[6],b)[1])},x),f=aY(aL);return[0,[8,[0,aL,v(o),f,d,c,bj,bh,bi,b,a]]]};if(2<=n)return[0,X(1),0];var
-bl=[0,X(1),0];return[0,X(0),bl]}return uF}return uG}return uH}return uI}var
-bm=0,w=e(function(a){return a[1]},x);function
+h=b;return h},w));if(aK){var
+bj=aK[1],bk=e(function(a){return nR(n,J,az,i,a)},w),aL=j(au(v),bk),X=function(a){var
+b=cJ(n),c=e(function(a){var
+b=ft(i);return I(j(a[6],b)[2])},w),d=e(function(a){var
+b=ft(i);return e(I,j(a[6],b)[1])},w),f=aZ(aL);return[0,[8,[0,aL,v(p),f,d,c,bj,bh,bi,b,a]]]};if(2<=n)return[0,X(1),0];var
+bl=[0,X(1),0];return[0,X(0),bl]}return u1}return u2}return u3}return u4}var
+bm=0,x=e(function(a){return a[1]},w);function
 Z(c,b,a){return[0,c,b,a,W]}var
 F=0;if(typeof
 f==="number")var
-aS=v(o),s=[0,Z(j(au(v),w),aS,u)];else
+aS=v(p),s=[0,Z(j(au(v),x),aS,u)];else
 switch(f[0]){case
 0:var
 y=[5,[0,b,b],f[1]],K=Z;F=1;break;case
 1:var
 aU=[5,[0,b,b],f[1]],y=aU,K=function(c,b,a){return[1,c,b,a]};F=1;break;case
 2:var
-aV=i6(a,o,x,i,f),s=z(function(a){return[4,v(a)]},aV);break;case
+aV=ji(a,p,w,i,f),s=z(function(a){return[4,v(a)]},aV);break;case
 3:var
-aW=i6(a,o,x,i,f),s=z(function(a){return[4,v(a)]},aW);break;case
+aW=ji(a,p,w,i,f),s=z(function(a){return[4,v(a)]},aW);break;case
 5:var
 _=f[1],aX=ao(a,[0,[0,_,_],d]),s=z(function(b){var
-c=S(a,b),d=v(o);return[2,j(au(v),w),d,c]},aX);break;case
+c=U(a,b),d=v(p);return[2,j(au(v),x),d,c]},aX);break;case
 6:var
-L=G(x,f[1]);if(L){var
-N=ny(x,i,f);if(N){var
-$=N[1],aa=h(a,1,f[2]),ab=aa?h(a,1,f[3]):aa;if(ab)var
-aZ=v($[2]),a0=v(L[1][1][2]),ad=[0,[5,[0,[0,[0,v($[1]),0],a0],0],aZ]];else
+L=H(w,f[1]);if(L){var
+M=nM(w,i,f);if(M){var
+$=M[1],aa=h(a,1,f[2]),ab=aa?h(a,1,f[3]):aa;if(ab)var
+aY=v($[2]),a0=v(L[1][1][2]),ad=[0,[5,[0,[0,[0,v($[1]),0],a0],0],aY]];else
 var
 ad=ab;var
 ae=ad}else
 var
-ae=N;var
+ae=M;var
 af=ae}else
 var
 af=L;var
 s=af;break;case
 7:var
-ag=f[3],ah=f[2],ai=f[1],aj=G(x,ai),aR=0;if(aj){var
+ag=f[3],ah=f[2],ai=f[1],aj=H(w,ai),aR=0;if(aj){var
 ak=h(a,1,ah),al=ak?h(a,1,ag):ak;if(al){var
 a1=[5,ah,ag],y=a1,K=function(c,b,a){return[3,ai,c,b,a,W]};F=1;aR=1}else
 var
@@ -4885,18 +4894,18 @@ am=aj;if(!aR)var
 s=am;break;case
 8:var
 an=h(a,1,f[2]);if(an)var
-a2=f[1],a3=1,O=m(function(b){return h(a,a3,b)},a2);else
+a2=f[1],a3=1,N=m(function(b){return h(a,a3,b)},a2);else
 var
-O=an;if(O)var
-a4=M(a,b),a5=v(o),a6=gR(w,i),ap=[0,[0,j(au(v),a6),a5,a4,0]];else
+N=an;if(N)var
+a4=O(a,b),a5=v(p),a6=g0(x,i),ap=[0,[0,j(au(v),a6),a5,a4,0]];else
 var
-ap=O;var
+ap=N;var
 s=ap;break;case
 14:var
-aq=f[2],ar=f[1],P=nC(n,H,o,x,i,ar,aq);if(P){var
-as=P[1],at=as[2],av=as[1],ax=mX(ar,aq,f[3]),Q=ao(a,[0,[0,ax,ax],C]);if(Q){var
-ay=Q[1],aA=D(d,ay[1]);if(aA)var
-A=function(a){return mg(I,a)},a7=A(at[2]),a8=A(at[1]),a9=A(av[2]),aB=[0,[9,[6,A(av[1]),a9,a8,a7,ay]]];else
+aq=f[2],ar=f[1],P=nQ(n,G,p,w,i,ar,aq);if(P){var
+as=P[1],at=as[2],av=as[1],aw=m8(ar,aq,f[3]),Q=ao(a,[0,[0,aw,aw],C]);if(Q){var
+ax=Q[1],aA=D(d,ax[1]);if(aA)var
+A=function(a){return mu(I,a)},a7=A(at[2]),a8=A(at[1]),a9=A(av[2]),aB=[0,[9,[6,A(av[1]),a9,a8,a7,ax]]];else
 var
 aB=aA;var
 aC=aB}else
@@ -4907,63 +4916,63 @@ var
 aD=P;var
 s=aD;break;case
 15:var
-R=G(x,f[1]);if(R){var
+R=H(w,f[1]);if(R){var
 aE=h(a,1,f[4]);if(aE)var
-aF=h(a,0,f[2]),T=aF?h(a,0,f[3]):aF;else
+aF=h(a,0,f[2]),S=aF?h(a,0,f[3]):aF;else
 var
-T=aE;if(T)var
-B=j(R[1][5],0),a_=I(B[4]),a$=I(B[3]),ba=I(r(uE,i,l(d))),bb=I(r(0,i,l(d))),bc=B[2],bd=e(function(a){return e(I,a)},bc),U=[0,[9,[10,e(I,B[1]),bd,bb,ba,a$,a_]]];else
+S=aE;if(S)var
+B=j(R[1][5],0),a_=I(B[4]),a$=I(B[3]),ba=I(r(u0,i,l(d))),bb=I(r(0,i,l(d))),bc=B[2],bd=e(function(a){return e(I,a)},bc),T=[0,[9,[10,e(I,B[1]),bd,bb,ba,a$,a_]]];else
 var
-U=T}else
+T=S}else
 var
-U=R;var
-s=U;break;default:var
+T=R;var
+s=T;break;default:var
 s=0}if(F)var
 aT=ao(a,[0,[0,y,y],d]),s=z(function(b){var
-c=S(a,b),d=v(o);return K(j(au(v),w),d,c)},aT);return[0,s,bm]},b2,C,$,X));if(aA){var
+c=U(a,b),d=v(p);return K(j(au(v),x),d,c)},aT);return[0,s,bm]},b2,C,$,X));if(aA){var
 a_=aA[1];if(A[7])var
-b3=aQ[2],b4=aQ[1],b5=v(o),aa=iJ(bA,a_,[7,j(au(v),ak),b5,b4,b3]);else
+b3=aQ[2],b4=aQ[1],b5=v(p),aa=iV(bz,a_,[7,j(au(v),ak),b5,b4,b3]);else
 var
 aa=a_;var
-a$=q(g(f(a8,a9)),i),ba=a$?m(function(a){var
-b=nr(a);return m(function(a){return m4(i,Z,a)},b)},aa):a$,bb=ba?F?m4(i,Z,v(F[1])):1:ba;if(bb){var
-b6=f(at[1],ay[1]),aB=f(as[1],b6),N=nH(aP),O=i9(C,A[2]),_=N?e(function(a){var
-b=np(i,O,a[2]),c=a[1];return[0,e(function(a){return np(i,O,a)},c),b]},V):N,aD=N?cS(i2(i,o,F,_))[1]:N,aE=cR(aD),ad=function(a){return bc(aE,a)},b7=i0(ad,ad,_),b8=ad(bw(i,o)),aG=z(function(a){return ad(bw(i,a))},F),bd=L(N);if(bd)var
-ae=bd;else{var
-bn=q(g(V),i);if(bn){var
-bx=i2(i,o,F,_),aM=m(function(a){var
-b=l(d);return aK(r(bc(aE,a),aE,b),a)},bx);if(aM)var
-by=i2(i,o,F,_),ag=m(function(a){var
-b=aC(0,i);return m(function(b){return eh(i,b,a)},b)},by);else
+a$=o(g(f(a8,a9)),i),ba=a$?m(function(a){var
+b=nF(a);return m(function(a){return nd(i,Y,a)},b)},aa):a$,bb=ba?E?nd(i,Y,v(E[1])):1:ba;if(bb){var
+b6=f(at[1],ax[1]),aB=f(as[1],b6),L=nV(aP),P=jl(C,A[2]),_=L?e(function(a){var
+b=nD(i,P,a[2]),c=a[1];return[0,e(function(a){return nD(i,P,a)},c),b]},T):L,aD=L?cW(je(i,p,E,_))[1]:L,aE=cV(aD),ad=function(a){return bd(aE,a)},b7=jc(ad,ad,_),b8=ad(bx(i,p)),aF=z(function(a){return ad(bx(i,a))},E),bc=M(L);if(bc)var
+ae=bc;else{var
+bn=o(g(T),i);if(bn){var
+bv=je(i,p,E,_),aL=m(function(a){var
+b=l(d);return aN(r(bd(aE,a),aE,b),a)},bv);if(aL)var
+bw=je(i,p,E,_),ag=m(function(a){var
+b=aC(0,i);return m(function(b){return es(i,b,a)},b)},bw);else
 var
-ag=aM;if(ag){var
-aN=z(function(a){return bw(i,a)},F),ah=bw(i,o),aL=nl(ah);if(aL)var
-bu=aC(0,W),aO=m(function(a){var
-b=dC(i,a,ah),c=b?m(function(b){var
-d=b[2][2],e=f(y(i1,b[1]),d),g=R(i,a),c=m(function(a){return cE(g,a)},e);if(c){var
-h=b[2][1];return gS(ah,R(i,a),h)}return c},_):b;if(c){if(aN){var
-e=aN[1];return cE(R(i,a),e)}var
+ag=aL;if(ag){var
+aM=z(function(a){return bx(i,a)},E),ah=bx(i,p),aK=nz(ah);if(aK)var
+bt=aC(0,W),aO=m(function(a){var
+b=dK(i,a,ah),c=b?m(function(b){var
+d=b[2][2],e=f(y(jd,b[1]),d),g=N(i,a),c=m(function(a){return cI(g,a)},e);if(c){var
+h=b[2][1];return g1(ah,N(i,a),h)}return c},_):b;if(c){if(aM){var
+e=aM[1];return cI(N(i,a),e)}var
 d=1}else
 var
-d=c;return d},bu);else
+d=c;return d},bt);else
 var
-aO=aL;var
+aO=aK;var
 ai=aO}else
 var
 ai=ag;var
 cc=ai?m(function(a){var
-c=a[1],b=m(function(a){return nq(i,aB,O,a)},c);return b?nq(i,aB,O,a[2]):b},V):ai,ae=cc}else
+c=a[1],b=m(function(a){return nE(i,aB,P,a)},c);return b?nE(i,aB,P,a[2]):b},T):ai,ae=cc}else
 var
 ae=bn}if(ae){var
-b9=e(function(a){return 1},aa),b_=f(a8,a9),b$=function(l,P,aa,$,c){if(N){if(typeof
+b9=e(function(a){return 1},aa),b_=f(a8,a9),b$=function(l,N,aa,$,c){if(L){if(typeof
 c!=="number"&&10===c[0]){var
-h=c[3],o=c[2],p=c[1];if(typeof
-p!=="number"&&6===p[0]){if(h){if(h[2])return 0;var
-w=h[1],b=p[1],x=q($,W),y=x?aJ(0,W):x;if(y)var
-v=h6(h1,e(aw,o),O),Y=v?1:v,s=Y;else
+h=c[3],p=c[2],q=c[1];if(typeof
+q!=="number"&&6===q[0]){if(h){if(h[2])return 0;var
+w=h[1],b=q[1],x=o($,W),y=x?aI(0,W):x;if(y)var
+v=ii(ic,e(ay,p),P),Y=v?1:v,s=Y;else
 var
 s=y;var
-z=s?gw(O):s,A=z?m(function(a){return aJ(a,g(l))},O):z,B=A?q(g(w),i):A;if(B){var
+z=s?gI(P):s,A=z?m(function(a){return aI(a,g(l))},P):z,B=A?o(g(w),i):A;if(B){var
 u=0;if(typeof
 b!=="number")switch(b[0]){case
 0:var
@@ -4971,19 +4980,19 @@ I=b[2],H=b[1],G=0;u=1;break;case
 7:var
 J=b[2],k=b[1],Q=0;if(typeof
 k!=="number"&&0===k[0]){var
-R=0;if(aG){var
+R=0;if(aF){var
 K=D(d,J);if(K){var
-I=k[2],H=k[1],G=[0,[0,[0,aG[1],J],b[3]]];u=1;Q=1;R=1}else
+I=k[2],H=k[1],G=[0,[0,[0,aF[1],J],b[3]]];u=1;Q=1;R=1}else
 var
-L=K}else
+M=K}else
 var
-L=aG;if(!R)return L}if(!Q)return 0;break}if(u){var
-S=iT(a,e1(o,0,l),aD,P),n=iT(a,l,aD,P),f=function(b,a){return r(a,b,up)},T=nn(function(a){return f(n,a)},G),U=f(n,b8),V=function(a){return f(n,a)},X=[0,i0(function(a){return f(S,a)},V,b7),U,T],Z=gq(o,l),_=function(g){var
-b=ac(e(un,g[1]));if(b){var
+M=aF;if(!R)return M}if(!Q)return 0;break}if(u){var
+S=i7(a,fc(p,0,l),aD,N),n=i7(a,l,aD,N),f=function(b,a){return r(a,b,uK)},T=nB(function(a){return f(n,a)},G),U=f(n,b8),V=function(a){return f(n,a)},X=[0,jc(function(a){return f(S,a)},V,b7),U,T],Z=gC(p,l),_=function(g){var
+b=ac(e(uI,g[1]));if(b){var
 c=g[2];if(c){var
-d=dc(g[3]);if(d){var
-l=d[1],m=al([0,E(ab(t(a,aa,c[1])),l),0],i),n=b[1],o=e(function(d){var
-b=gr(a,0,Z,d),c=bs(uo,b[2]);return[0,b[1],c]},n),f=ip(a,e(function(b){return M(a,b)},w),H,I,o,m);if(f)return a5(a,i,f[1]);var
+d=de(g[3]);if(d){var
+l=d[1],m=al([0,F(ab(t(a,aa,c[1])),l),0],i),n=b[1],o=e(function(d){var
+b=gD(a,0,Z,d),c=bu(uJ,b[2]);return[0,b[1],c]},n),f=iB(a,e(function(b){return O(a,b)},w),H,I,o,m);if(f)return a6(a,i,f[1]);var
 h=f}else
 var
 h=d;var
@@ -4992,13 +5001,13 @@ var
 j=c;var
 k=j}else
 var
-k=b;return k};return j(iV(function(b,a){return um},W,i,_),X)}var
+k=b;return k};return j(i9(function(b,a){return uH},W,i,_),X)}var
 C=0}else
 var
 C=B;var
-F=C}else
+E=C}else
 var
-F=h;return F}return 0}return 0}return N},ca=v(o),cb=j(au(v),V);return fg(a,aW,aX,aa,i,i,z(v,F),cb,ca,b$,aB,b_,b9,aP)}var
+E=h;return E}return 0}return 0}return L},ca=v(p),cb=j(au(v),T);return fs(a,aW,aX,aa,i,i,z(v,E),cb,ca,b$,aB,b_,b9,aP)}var
 be=ae}else
 var
 be=bb;var
@@ -5007,10 +5016,10 @@ var
 bf=aA;var
 bg=bf}else
 var
-bg=ay;var
+bg=ax;var
 bh=bg}else
 var
-bh=ax;var
+bh=aw;var
 bi=bh}else
 var
 bi=av;var
@@ -5020,55 +5029,55 @@ bj=at;var
 bk=bj}else
 var
 bk=as;var
-bm=bk}else
+bl=bk}else
 var
-bm=ar;return bm}function
-fi(b,a){return bu(b,a[1],a[2])}function
-nI(b,a){var
-c=fi(b,a[1]),d=c?fi(b,a[2]):c;return d?fi(b,a[3]):d}function
-i_(a){return typeof
-a==="number"?a?dE(0):dx:dE(a[1])}function
-nJ(b,a,c){return typeof
-b==="number"?b?[0,a[1],[0,a[2],0]]:bU(a):gY(b[1],a,c)}function
-i$(b,d,c){if(0===c[0])return gA(b,d[1],c[1]);var
-a=c[1],e=[0,[0,a[5],b],[0,[0,a[6],b],0]],g=f(a7(a[4],b),e),h=f(a7(a[3],b),g),i=f(a7(a[2],d[2]),h);return f(a7(a[1],d[1]),i)}function
-ja(b,a){if(b){var
-c=b[1],d=c[2];return bl(fd(c[1],a),d)}return a}function
-nK(h,t,al,J,aj,q,ai){if(q){var
-j=q[1],an=bQ([0,d,d],aj),a=cB(ai,i$(J,an,j)),y=function(c,b){var
-d=ak(a,c);return af(w,af(B,i_(h),b),d)};if(0===j[0]){var
+bl=ar;return bl}function
+fu(b,a){return bw(b,a[1],a[2])}function
+nW(b,a){var
+c=fu(b,a[1]),d=c?fu(b,a[2]):c;return d?fu(b,a[3]):d}function
+jm(a){return typeof
+a==="number"?a?dM(0):dD:dM(a[1])}function
+nX(b,a,c){return typeof
+b==="number"?b?[0,a[1],[0,a[2],0]]:bW(a):g7(b[1],a,c)}function
+jn(b,d,c){if(0===c[0])return gM(b,d[1],c[1]);var
+a=c[1],e=[0,[0,a[5],b],[0,[0,a[6],b],0]],g=f(a8(a[4],b),e),h=f(a8(a[3],b),g),i=f(a8(a[2],d[2]),h);return f(a8(a[1],d[1]),i)}function
+jo(b,a){if(b){var
+c=b[1],d=c[2];return bm(fr(c[1],a),d)}return a}function
+nY(h,t,al,J,aj,q,ai){if(q){var
+j=q[1],an=bS([0,d,d],aj),a=cD(ai,jn(J,an,j)),y=function(c,b){var
+d=ak(a,c);return af(x,af(B,jm(h),b),d)};if(0===j[0]){var
 z=j[1];switch(z[0]){case
 0:var
-$=ja(t,ak(a,uN)),aE=z[1][5],A=r(uO,a,l(d)),C=ak(a,0),aa=y(uP,$),i=lA(aa,dw(C),aa,A,aE),aq=[0,aF(A),0],ar=[0,aF(Y(C,C)),aq],k=[0,[0,i[1],i[2],i[3],[0,i[4]],[0,[0,i[2],A]],ar],$];break;case
+$=jo(t,ak(a,u9)),aE=z[1][5],A=r(u_,a,l(d)),C=ak(a,0),aa=y(u$,$),i=lN(aa,dC(C),aa,A,aE),aq=[0,aJ(A),0],ar=[0,aJ(Z(C,C)),aq],k=[0,[0,i[1],i[2],i[3],[0,i[4]],[0,[0,i[2],A]],ar],$];break;case
 1:var
-ab=ja(t,ak(a,uQ)),ac=z[3],D=ac?[0,ak(a,uR)]:ac,ad=y(0,ab),m=lB(ad,ad,0);if(D)var
-K=D[1],L=[0,aF(Y(K,K)),0];else
+ab=jo(t,ak(a,va)),ac=z[3],D=ac?[0,ak(a,vb)]:ac,ad=y(0,ab),m=lO(ad,ad,0);if(D)var
+K=D[1],L=[0,aJ(Z(K,K)),0];else
 var
 L=D;var
 k=[0,[0,m[1],m[2],m[3],[0,m[4]],0,L],ab];break;default:var
-aG=l(d),aH=l(d),aI=[0,l(d),aH,aG],E=ak(a,0),aJ=i_(h),n=lC(aJ,dw(E)),as=[0,aF(Y(E,E)),0],k=[0,[0,n[1],n[2],n[3],[0,n[4]],0,as],aI]}}else
+aF=l(d),aG=l(d),aH=[0,l(d),aG,aF],E=ak(a,0),aI=jm(h),n=lP(aI,dC(E)),as=[0,aJ(Z(E,E)),0],k=[0,[0,n[1],n[2],n[3],[0,n[4]],0,as],aH]}}else
 var
-ae=ja(t,ak(a,uS)),F=j[1][7],G=r(uT,a,l(d)),e=r(uU,a,l(d)),ag=ak(a,uV),H=ak(a,0),p=y(uW,ae),o=dw(H),u=af(w,ag,a0(Y(o,ag),o)),v=dw(u),M=bE(o,v),N=Y(p,v),O=Y(p,M),at=Y(o,p),au=T(O),P=B(T(N),au),av=T(at),Q=w(T(G),av),aw=s(l(c(2,b)),e),x=w(P,T(am(B(P,w(T(e),Q)),aw))),ax=gl(F,s(e,aF(x))),S=am(N,e),U=gl(F,am(O,e)),V=am(Q,T(e)),W=k8(0,S,U,V),X=gl(F,k8(1,S,U,V)),ay=a0(X,M),Z=af(w,p,a0(e,af(B,a0(W,v),ay))),az=[0,aF(G),0],aA=[0,aF(e),az],aB=[0,aF(Y(u,u)),aA],aC=[0,aF(Y(H,H)),aB],aD=bl(Z,ax),k=[0,[0,Z,s(T(e),x),aD,[1,W,X],[0,[0,x,G]],aC],ae];var
-aT=R(ai,g(i$(J,an,j))),aU=q[2],aV=nK(h,t,al,J,bz(aj),aU,aT),ao=k[2],f=k[1],ah=function(a){return nJ(h,a,bl(bE(ao,a),al))},aK=f[1],aL=bE(af(B,i_(h),ao),aK),aM=nJ(h,f[1],aL),I=f[1],_=typeof
-h==="number"?1:0,aN=f[6],aO=f[5],aP=_?h?[0,I[1],[0,I[2],0]]:bU(I):_,aQ=f[4],aR=ah(f[3]),aS=f[2],ap=[0,[0,ah(f[1]),aS,aR,aQ,aP,aO,aN,aM],aV]}else
+ae=jo(t,ak(a,vc)),F=j[1][7],G=r(vd,a,l(d)),e=r(ve,a,l(d)),ag=ak(a,vf),H=ak(a,0),p=y(vg,ae),o=dC(H),u=af(x,ag,a1(Z(o,ag),o)),v=dC(u),M=bH(o,v),O=Z(p,v),P=Z(p,M),at=Z(o,p),au=V(P),Q=B(V(O),au),av=V(at),R=x(V(G),av),aw=s(l(c(2,b)),e),w=x(Q,V(am(B(Q,x(V(e),R)),aw))),ax=gx(F,s(e,aJ(w))),S=am(O,e),T=gx(F,am(P,e)),U=am(R,V(e)),W=lk(0,S,T,U),X=gx(F,lk(1,S,T,U)),ay=a1(X,M),Y=af(x,p,a1(e,af(B,a1(W,v),ay))),az=[0,aJ(G),0],aA=[0,aJ(e),az],aB=[0,aJ(Z(u,u)),aA],aC=[0,aJ(Z(H,H)),aB],aD=bm(Y,ax),k=[0,[0,Y,s(V(e),w),aD,[1,W,X],[0,[0,w,G]],aC],ae];var
+aT=N(ai,g(jn(J,an,j))),aU=q[2],aV=nY(h,t,al,J,bA(aj),aU,aT),ao=k[2],f=k[1],ah=function(a){return nX(h,a,bm(bH(ao,a),al))},aK=f[1],aL=bH(af(B,jm(h),ao),aK),aM=nX(h,f[1],aL),I=f[1],_=typeof
+h==="number"?1:0,aN=f[6],aO=f[5],aP=_?h?[0,I[1],[0,I[2],0]]:bW(I):_,aQ=f[4],aR=ah(f[3]),aS=f[2],ap=[0,[0,ah(f[1]),aS,aR,aQ,aP,aO,aN,aM],aV]}else
 var
 ap=q;return ap}function
-jb(c,b,a){if(a){var
-e=a[2],g=jb(c,bz(b),e),h=a[1];return f(i$(c,bQ([0,d,d],b),h),g)}return a}function
-nL(b,h,g,d,c,a){if(a){var
-i=a[2],k=a[1],l=nL(b,h,g,d,f(c,[0,k,0]),i),m=j(d,e(bz,f(c,i)));return aq(h,aq(g,bQ(b,k),m),l)}return b}function
-nM(a,f,e,d,c,b){if(c){var
-g=0,h=c[1];return nL(a,e,d,function(b){return nM(a,f,e,d,h,b)},g,b)}return b?a:f}function
-nN(a,d,c){var
-e=gG(a,c);function
+jp(c,b,a){if(a){var
+e=a[2],g=jp(c,bA(b),e),h=a[1];return f(jn(c,bS([0,d,d],b),h),g)}return a}function
+nZ(b,h,g,d,c,a){if(a){var
+i=a[2],k=a[1],l=nZ(b,h,g,d,f(c,[0,k,0]),i),m=j(d,e(bA,f(c,i)));return aq(h,aq(g,bS(b,k),m),l)}return b}function
+n0(a,f,e,d,c,b){if(c){var
+g=0,h=c[1];return nZ(a,e,d,function(b){return n0(a,f,e,d,h,b)},g,b)}return b?a:f}function
+n1(a,d,c){var
+e=gS(a,c);function
 f(b,c){return t(a,b,c)}var
-g=M(a,b);return z(function(a){return nM(u,g,E,f,d,a)},e)}function
-nO(e,c,o,n){var
-a=nN(e,c,o);if(a){var
-f=a[1],b=nN(e,c,n);if(b){var
-g=b[1],h=J(d,f[1]),i=h?J(g[2],d):h;if(i)var
+g=O(a,b);return z(function(a){return n0(u,g,F,f,d,a)},e)}function
+n2(e,c,o,n){var
+a=n1(e,c,o);if(a){var
+f=a[1],b=n1(e,c,n);if(b){var
+g=b[1],h=I(d,f[1]),i=h?I(g[2],d):h;if(i)var
 j=i;else{var
-m=J(f[2],d);if(m)return J(d,g[1]);var
+m=I(f[2],d);if(m)return I(d,g[1]);var
 j=m}var
 k=j}else
 var
@@ -5076,7 +5085,7 @@ k=b;var
 l=k}else
 var
 l=a;return l}function
-jc(b){if(b){var
+jq(b){if(b){var
 a=b[2],c=b[1];if(c){var
 e=c[2],q=c[1];if(e){var
 f=e[2],r=e[1];if(f){if(f[2])return l(d);if(a){var
@@ -5085,24 +5094,24 @@ i=h[2],t=h[1];if(i){var
 j=i[2],u=i[1];if(j){var
 v=j[1];if(j[2])return l(d);if(g){var
 k=g[1];if(k){var
-m=k[2],x=k[1];if(m){var
+m=k[2],w=k[1];if(m){var
 n=m[2],y=m[1];if(n){var
 z=n[1];if(n[2])return l(d);if(g[2])return l(d);var
-A=dA(t,u,x,y),C=s(f[1],A),D=s(r,dA(t,v,x,z));return B(w(s(q,dA(u,v,y,z)),D),C)}return l(d)}return l(d)}return l(d)}return l(d)}return l(d)}return l(d)}return l(d)}return l(d)}if(a){var
+A=dG(t,u,w,y),C=s(f[1],A),D=s(r,dG(t,v,w,z));return B(x(s(q,dG(u,v,y,z)),D),C)}return l(d)}return l(d)}return l(d)}return l(d)}return l(d)}return l(d)}return l(d)}return l(d)}if(a){var
 o=a[1];if(o){var
-p=o[2];return p?p[2]?l(d):a[2]?l(d):dA(q,r,o[1],p[1]):l(d)}return l(d)}return l(d)}return l(d)}return l(d)}return l(d)}function
-nP(a){if(a){var
+p=o[2];return p?p[2]?l(d):a[2]?l(d):dG(q,r,o[1],p[1]):l(d)}return l(d)}return l(d)}return l(d)}return l(d)}return l(d)}function
+n3(a){if(a){var
 b=a[1][6];if(b)var
-c=nP(a[2]),e=c?[0,[0,b[1][2],c[1]]]:c,d=e;else
+c=n3(a[2]),e=c?[0,[0,b[1][2],c[1]]]:c,d=e;else
 var
-d=b;return d}return uX}function
-nQ(g,k,a){function
+d=b;return d}return vh}function
+n4(g,k,a){function
 b(a){return r(a,k,l(d))}function
 m(a){var
-e=a[2],f=s(T(b(0)),e),c=0,d=0,g=a[1];return[0,[0,bR(function(b,a){return w(b,T(a))},g,f),d],c]}function
+e=a[2],f=s(V(b(0)),e),c=0,d=0,g=a[1];return[0,[0,bT(function(b,a){return x(b,V(a))},g,f),d],c]}function
 n(e){var
 a=e[6];if(a)var
-c=a[1],f=T(c[2]),g=s(T(b(0)),f),d=[0,[0,w(c[1],g),0],0];else
+c=a[1],f=V(c[2]),g=s(V(b(0)),f),d=[0,[0,x(c[1],g),0],0];else
 var
 d=a;return d}var
 j=0;if(typeof
@@ -5112,17 +5121,17 @@ switch(a[0]){case
 u=function(c){var
 a=c[4];if(typeof
 a!=="number"&&0===a[0]){var
-d=b(0);return[0,[0,w(a[1],d),0],0]}return 0},f=u,c=a[1];break;case
+d=b(0);return[0,[0,x(a[1],d),0],0]}return 0},f=u,c=a[1];break;case
 3:var
 v=function(c){var
 a=c[4];if(typeof
 a!=="number"&&0===a[0]){var
-d=a[1];return[0,[0,w(b(0),d),0],0]}return 0},f=v,c=a[1];break;case
+d=a[1];return[0,[0,x(b(0),d),0],0]}return 0},f=v,c=a[1];break;case
 4:var
-x=function(e){var
+w=function(e){var
 a=e[4];if(typeof
 a!=="number"&&1===a[0]){var
-c=a[2],d=a[1],f=s(b(uY),c),g=[0,[0,w(s(b(uZ),d),f),0],0],h=s(d,b(u0));return[0,[0,w(s(c,b(0)),h),0],g]}return 0},f=x,c=a[1];break;case
+c=a[2],d=a[1],f=s(b(vi),c),g=[0,[0,x(s(b(vj),d),f),0],0],h=s(d,b(vk));return[0,[0,x(s(c,b(0)),h),0],g]}return 0},f=w,c=a[1];break;case
 6:var
 y=function(a){var
 b=a[4];if(typeof
@@ -5138,23 +5147,23 @@ A=function(a){var
 b=a[4];if(typeof
 b!=="number"&&0===b[0])return n(a);return 0},f=A,c=a[1];break;case
 12:var
-i=nP(g);if(i)var
-C=b(0),o=bR(s,i[1],C),p=jc(e(function(a){return a[5]},g)),D=[0,bk(B(p,o)),0],q=[0,[0,w(p,o),D],0];else
+i=n3(g);if(i)var
+C=b(0),o=bT(s,i[1],C),p=jq(e(function(a){return a[5]},g)),D=[0,bl(B(p,o)),0],q=[0,[0,x(p,o),D],0];else
 var
 q=i;return q;case
 17:var
 t=a[1],f=function(d){var
-a=jc(e(function(a){return a[1]},g));function
+a=jq(e(function(a){return a[1]},g));function
 b(b){var
-c=[0,bk(B(a,b)),0];return[0,w(a,b),c]}var
-f=jc(mz(t,k,e(function(a){return a[1]},g))),c=s(aF(d[2]),f),h=[0,b(bk(c)),0];return[0,b(c),h]},c=t;break;default:j=1}if(j)return 0;var
-h=G(g,c);return h?f(h[1]):h}function
-el(a){return e(function(a){return[0,a[1],a[2]]},a)}function
-fj(a){return e(function(a){var
+c=[0,bl(B(a,b)),0];return[0,x(a,b),c]}var
+f=jq(mN(t,k,e(function(a){return a[1]},g))),c=s(aJ(d[2]),f),h=[0,b(bl(c)),0];return[0,b(c),h]},c=t;break;default:j=1}if(j)return 0;var
+h=H(g,c);return h?f(h[1]):h}function
+ey(a){return e(function(a){return[0,a[1],a[2]]},a)}function
+fv(a){return e(function(a){var
 c=l(b);return[0,a[3],c]},a)}function
-nR(c,b,a){if(typeof
-a!=="number"&&8===a[0])return bB(gR(el(c),b));return dZ(nQ(c,b,a))}function
-nS(f,l,k,K,J,t,a){if(typeof
+n5(c,b,a){if(typeof
+a!=="number"&&8===a[0])return bC(g0(ey(c),b));return d_(n4(c,b,a))}function
+n6(f,l,k,K,J,t,a){if(typeof
 a==="number")return[0,[0,[0,u]],0];else
 switch(a[0]){case
 0:var
@@ -5162,57 +5171,57 @@ L=[5,[0,b,b],a[1]],n=L,o=function(a){return[0,a]};break;case
 1:var
 P=[5,[0,b,b],a[1]],n=P,o=function(a){return[1,a]};break;case
 5:var
-B=a[1],U=0,V=ao(f,[0,[0,B,B],d]);return[0,z(function(a){return[2,S(f,a)]},V),U];case
+B=a[1],T=0,V=ao(f,[0,[0,B,B],d]);return[0,z(function(a){return[2,U(f,a)]},V),T];case
 7:var
-C=a[3],D=a[2],E=a[1];if(!G(k,E))return u3;var
+C=a[3],D=a[2],E=a[1];if(!H(k,E))return vn;var
 I=0;if(h(f,1,D)&&h(f,1,C))var
 W=[5,D,C],n=W,o=function(a){return[7,E,a]};else
-I=1;if(I)return u2;break;case
+I=1;if(I)return vm;break;case
 8:var
 F=h(f,1,a[2]),X=0;if(F)var
 Y=a[1],Z=1,r=m(function(a){return h(f,Z,a)},Y);else
 var
 r=F;if(r)var
-_=M(f,b),$=gR(el(k),t),H=[0,[4,j(au(l),$),_]];else
+_=O(f,b),$=g0(ey(k),t),G=[0,[4,j(au(l),$),_]];else
 var
-H=r;return[0,H,X];default:var
+G=r;return[0,G,X];default:var
 s=0;if(typeof
 a==="number")s=1;else
 switch(a[0]){case
 4:var
-v=a[3],w=a[2],x=h(f,1,[3,v,w]),R=x?h(f,1,[3,[2,w,[0,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b)))))))))),b]],v]):x,i=R;break;case
+v=a[3],w=a[2],x=h(f,1,[3,v,w]),R=x?h(f,1,[3,[2,w,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b]],v]):x,i=R;break;case
 17:var
 A=h(f,1,a[3]);if(A)var
-T=e(function(a){return a[1]},k),i=mA(g(a[2]),T);else
+S=e(function(a){return a[1]},k),i=mO(g(a[2]),S);else
 var
 i=A;break;case
 6:case
 9:var
 y=h(f,1,a[2]),i=y?h(f,0,a[3]):y;break;default:s=1}if(s)var
 i=1;var
-q=i?nQ(k,t,a):i;if(q){var
-Q=[0,q[1],q[2]];return e(function(a){if(a){var
+p=i?n4(k,t,a):i;if(p){var
+Q=[0,p[1],p[2]];return e(function(a){if(a){var
 b=a[2],c=a[1];if(b){if(b[2])return 0;var
 e=j(l,b[1]);return[0,[5,j(l,c),e]]}var
 d=[0,[3,j(l,c)]]}else
 var
-d=a;return d},Q)}return u1}var
-N=0,O=ao(f,[0,[0,n,n],gQ(K,J)]);return[0,z(function(a){return o(S(f,a))},O),N]}function
-nT(a){if(typeof
+d=a;return d},Q)}return vl}var
+M=0,N=ao(f,[0,[0,n,n],gZ(K,J)]);return[0,z(function(a){return o(U(f,a))},N),M]}function
+n7(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-u4(a){return 0===a[0]?2===a[1][0]?0:1:1}function
-u5(c,R,aA,a,i,Q,az){var
-b=a[1],aB=aL(b),s=a[6],A=jb(i,Q,a[2]),S=a[3],T=[0,[0,S,S],i],U=[0,g(A)],B=a[2],p=B?0===B[1][0]?0:1:B,aC=a[5],aD=z(function(a){var
+vo(a){return 0===a[0]?2===a[1][0]?0:1:1}function
+vp(c,R,aB,a,i,Q,aA){var
+b=a[1],aC=aw(b),s=a[6],A=jp(i,Q,a[2]),S=a[3],T=[0,[0,S,S],i],U=[0,g(A)],B=a[2],q=B?0===B[1][0]?0:1:B,aD=a[5],aE=z(function(a){var
 c=typeof
-b==="number"?0:cF(b[1]);return m6(a,c)},aC),aE=a[2],k=nK(b,aD,c2(T,g(A)),i,Q,aE,0),V=y(function(a){return a[7]},k),W=a[7],X=W?e(function(a){return[0,a[8],a[2]]},k):W,aF=bB(X),aG=f(V,f(c$(function(a,b){return nR(k,a,b)},p,i,U,s),aF)),aH=f(bB(fj(k)),aG),Y=f(bB(el(k)),aH),Z=cS(Y)[1],_=cR(Z);function
-o(a){return bc(_,a)}var
+b==="number"?0:cJ(b[1]);return nf(a,c)},aD),aF=a[2],k=nY(b,aE,c6(T,g(A)),i,Q,aF,0),V=y(function(a){return a[7]},k),W=a[7],X=W?e(function(a){return[0,a[8],a[2]]},k):W,aG=bC(X),aH=f(V,f(db(function(a,b){return n5(k,a,b)},q,i,U,s),aG)),aI=f(bC(fv(k)),aH),Y=f(bC(ey(k)),aI),Z=cW(Y)[1],_=cV(Z);function
+p(a){return bd(_,a)}var
 $=m(function(a){var
-b=l(d);return aK(r(o(a),_,b),a)},Y),aa=$?aj(nT,s):$;if(aa){var
+b=l(d);return aN(r(p(a),_,b),a)},Y),aa=$?aj(n7,s):$;if(aa){var
 ab=a[4];if(typeof
 b==="number")var
-ad=b?i8(0,ef(ab)):1;else
+ad=b?jk(0,eo(ab)):1;else
 var
-ax=ef(ab),ad=i8(b[1],ax);var
+ay=eo(ab),ad=jk(b[1],ay);var
 C=ad}else
 var
 C=aa;if(C){var
@@ -5221,46 +5230,46 @@ N==="number")var
 t=a[5]?0:1;else
 if(2<=N[1])var
 t=0;else{var
-w=a[5],M=0;if(w){var
+w=a[5],L=0;if(w){var
 O=h(c,1,a[3]);if(O)var
-ay=gX(w[1]),t=m(function(a){var
-b=c9(c,a[1]);return b?c9(c,a[2]):b},ay);else{var
-P=O;M=1}}else{var
-P=w;M=1}if(M)var
+az=g6(w[1]),t=m(function(a){var
+b=cH(c,a[1]);return b?cH(c,a[2]):b},az);else{var
+P=O;L=1}}else{var
+P=w;L=1}if(L)var
 t=P}var
 D=t}else
 var
 D=C;if(D)var
-aI=a[2],E=m(function(a){var
-b=0===a[0]?0:1;return cq(b,p)},aI);else
+aJ=a[2],E=m(function(a){var
+b=0===a[0]?0:1;return ct(b,q)},aJ);else
 var
 E=D;if(E){var
-ae=L(a[7]);if(ae)var
+ae=M(a[7]);if(ae)var
 u=ae;else
 var
-av=nk(c,b,a[5]),u=av?m(u4,a[2]):av}else
+av=ny(c,b,a[5]),u=av?m(vo,a[2]):av}else
 var
 u=E;if(u){var
-aJ=f(A,[0,T,0]),F=ac(e(function(a){return ao(c,a)},aJ));if(F){var
-aM=y(function(a){return fa(p,i,a)},s),G=ac(e(function(a){return iP(c,a)},aM));if(G){var
-n=ef(a[4]),aN=typeof
-b==="number"?b?[0,n[1],[0,n[2],0]]:[0,n[1],[0,n[2],[0,n[3],0]]]:nF(b[1],n),H=ac(e(function(a){return ao(c,[0,a,i])},aN));if(H){var
+aK=f(A,[0,T,0]),F=ac(e(function(a){return ao(c,a)},aK));if(F){var
+aL=y(function(a){return fp(q,i,a)},s),G=ac(e(function(a){return i1(c,a)},aL));if(G){var
+n=eo(a[4]),aM=typeof
+b==="number"?b?[0,n[1],[0,n[2],0]]:[0,n[1],[0,n[2],[0,n[3],0]]]:nT(b[1],n),H=ac(e(function(a){return ao(c,[0,a,i])},aM));if(H){var
 af=H[1],ag=a[5];if(ag)var
-aO=m8(ag[1]),v=ac(e(function(a){return m_(c,a)},aO));else
+aO=nh(ag[1]),v=ac(e(function(a){return nj(c,a)},aO));else
 var
-v=u6;if(v){var
-ah=v[1],x=a[5],aP=x?m7(x[1]):x,I=ac(e(c8(c),aP));if(I){var
-J=ac(c$(function(a,b){return nS(c,o,k,p,i,a,b)},p,i,U,s));if(J){var
+v=vq;if(v){var
+ah=v[1],x=a[5],aP=x?ng(x[1]):x,I=ac(e(cG(c),aP));if(I){var
+J=ac(db(function(a,b){return n6(c,p,k,q,i,a,b)},q,i,U,s));if(J){var
 ai=J[1];if(a[7])var
-aQ=R[2],aR=R[1],K=iJ(aA,ai,[8,j(au(o),X),aR,aQ]);else
+aQ=R[2],aR=R[1],K=iV(aB,ai,[8,j(au(p),X),aR,aQ]);else
 var
 K=ai;var
-ak=q(g(f(af,ah)),aB);if(ak){var
-aS=iB(K),aT=f(af,ah),aw=0,aU=a[4];if(typeof
+ak=o(g(f(af,ah)),aC);if(ak){var
+aS=iN(K),aT=f(af,ah),ax=0,aU=a[4];if(typeof
 b==="number"&&!b){var
-al=function(a){return mk(c,aU,i,a)};aw=1}if(!aw)var
+al=function(a){return my(c,aU,i,a)};ax=1}if(!ax)var
 al=function(a){return 0};var
-aV=f(G[1],I[1]),aW=f(F[1],aV),aX=e(o,V),aY=fj(k),aZ=j(au(o),aY),a0=el(k);return fG(iA(c,Z,j(au(o),a0),aZ,aX,aW,K,al),aT,aS,az)}var
+aV=f(G[1],I[1]),aW=f(F[1],aV),aX=e(p,V),aY=fv(k),aZ=j(au(p),aY),a0=ey(k);return fR(iM(c,Z,j(au(p),a0),aZ,aX,aW,K,al),aT,aS,aA)}var
 am=ak}else
 var
 am=J;var
@@ -5282,9 +5291,15 @@ as=F;var
 at=as}else
 var
 at=u;return at}function
-u7(b){if(0===b[0])return[0,mv(b[1])];var
-a=b[1],c=a[7],d=a[6][1],e=a[5][1],f=bC(a[4]),g=bC(a[3]),h=bC(a[2]);return[1,[0,bC(a[1]),h,g,f,e,d,c]]}function
-bY(c){var
+vr(b){if(0===b[0])return[0,mJ(b[1])];var
+a=b[1],c=a[7],d=a[6][1],e=a[5][1],f=bE(a[4]),g=bE(a[3]),h=bE(a[2]);return[1,[0,bE(a[1]),h,g,f,e,d,c]]}function
+n8(e,d,c){var
+a=d;for(;;){if(a){var
+b=a[1];if(r1(b[1],c))return b[2];var
+a=a[2];continue}return e}}function
+n9(a,c,b){var
+d=W(e(ay,a[2]),b);return f(W(a[1],c),d)}function
+b0(c){var
 a=c;for(;;)switch(a[0]){case
 0:var
 b=a[1];return[0,[0,[0,b,b],d],0];case
@@ -5293,104 +5308,102 @@ b=a[1];return[0,[0,[0,b,b],d],0];case
 7:case
 8:var
 a=a[1];continue;default:var
-e=bY(a[2]);return f(bY(a[1]),e)}}function
-bG(e,a,c){switch(a[0]){case
+e=b0(a[2]);return f(b0(a[1]),e)}}function
+bI(e,a,c){switch(a[0]){case
 0:var
-q=a[1];return c2([0,[0,q,q],d],c);case
+o=a[1];return c6([0,[0,o,o],d],c);case
 1:var
-t=a[1],h=e,u=l(d);for(;;){if(h){var
-n=h[1];if(rI(n[1],t))return n[2];var
-h=h[2];continue}return u}case
-2:return bk(bG(e,a[1],c));case
+q=a[1];return n8(l(d),e,q);case
+2:return bl(bI(e,a[1],c));case
 3:var
-j=a[2],f=a[1],i=B;break;case
+i=a[2],f=a[1],h=B;break;case
 4:var
-j=a[2],f=a[1],i=w;break;case
+i=a[2],f=a[1],h=x;break;case
 5:var
-j=a[2],f=a[1],i=s;break;case
+i=a[2],f=a[1],h=s;break;case
 6:var
-j=a[2],f=a[1],i=am;break;case
+i=a[2],f=a[1],h=am;break;case
 7:var
-k=eP(a[2]),m=bG(e,a[1],c);if(k){if(k[1]){var
-o=T(m),r=function(a){return s(a,o)},p=f1(by(kP(k)),r,o);return kO(k)?p:s(p,m)}return m}return l(b);default:return aF(bG(e,a[1],c))}var
-v=bG(e,j,R(c,g(bY(f))));return i(bG(e,f,c),v)}function
-dd(c,h,b){var
+j=e1(a[2]),k=bI(e,a[1],c);if(j){if(j[1]){var
+m=V(k),p=function(a){return s(a,m)},n=ga(bz(k4(j)),p,m);return k3(j)?n:s(n,k)}return k}return l(b);default:return aJ(bI(e,a[1],c))}var
+r=bI(e,i,N(c,g(b0(f))));return h(bI(e,f,c),r)}function
+df(c,h,b){var
 a=h;for(;;)switch(a[0]){case
 6:var
-e=a[1],k=R(b,g(bY(e))),l=dd(c,a[2],k),m=f(dd(c,e,b),l);return[0,bG(c,a,b),m];case
+e=a[1],k=N(b,g(b0(e))),l=df(c,a[2],k),m=f(df(c,e,b),l);return[0,bI(c,a,b),m];case
 8:var
-n=dd(c,a[1],b);return[0,bG(c,a,b),n];case
+n=df(c,a[1],b);return[0,bI(c,a,b),n];case
 2:case
 7:var
 a=a[1];continue;case
 0:case
 1:return 0;default:var
-d=a[1],i=R(b,g(bY(d))),j=dd(c,a[2],i);return f(dd(c,d,b),j)}}function
-nU(i,h,f){var
+d=a[1],i=N(b,g(b0(d))),j=df(c,a[2],i);return f(df(c,d,b),j)}}function
+n_(i,h,f){var
 b=i,a=h,c=f;for(;;){if(a){var
-d=a[1],e=d[2],j=R(c,g(bY(e))),k=a[2],l=bG(b,e,c),b=[0,[0,d[1],l],b],a=k,c=j;continue}return b}}function
-jd(c,a,b){if(a){var
-e=a[1],d=e[2],h=R(b,g(bY(d))),i=a[2],j=bG(c,d,b),k=jd([0,[0,e[1],j],c],i,h);return f(dd(c,d,b),k)}return a}function
-fk(a){return y(bY,a)}function
-nV(c,a,b){if(a)var
-d=a[1],f=R(b,g(bY(d))),h=nV(c,a[2],f),e=[0,bG(c,d,b),h];else
+d=a[1],e=d[2],j=N(c,g(b0(e))),k=a[2],l=bI(b,e,c),b=[0,[0,d[1],l],b],a=k,c=j;continue}return b}}function
+jr(c,a,b){if(a){var
+e=a[1],d=e[2],h=N(b,g(b0(d))),i=a[2],j=bI(c,d,b),k=jr([0,[0,e[1],j],c],i,h);return f(df(c,d,b),k)}return a}function
+fw(a){return y(b0,a)}function
+n$(c,a,b){if(a)var
+d=a[1],f=N(b,g(b0(d))),h=n$(c,a[2],f),e=[0,bI(c,d,b),h];else
 var
 e=a;return e}function
-nW(c,a,b){if(a){var
-d=a[1],e=R(b,g(bY(d))),h=nW(c,a[2],e);return f(dd(c,d,b),h)}return a}function
-g4(a){return 0===a[0]?fk(a[1]):bY(a[1])}function
-je(c,b,a){if(b){var
-d=b[1],j=R(a,g(g4(d))),k=je(c,b[2],j);if(0===d[0])var
-h=nW(c,d[1],a);else
+oa(c,a,b){if(a){var
+d=a[1],e=N(b,g(b0(d))),h=oa(c,a[2],e);return f(df(c,d,b),h)}return a}function
+hc(a){return 0===a[0]?fw(a[1]):b0(a[1])}function
+js(c,b,a){if(b){var
+d=b[1],j=N(a,g(hc(d))),k=js(c,b[2],j);if(0===d[0])var
+h=oa(c,d[1],a);else
 var
-e=d[1],i=dd(c,e,a),h=[0,bG(c,e,a),i];return f(h,k)}return b}function
-g5(c){var
+e=d[1],i=df(c,e,a),h=[0,bI(c,e,a),i];return f(h,k)}return b}function
+hd(c){var
 a=c[1];switch(a[0]){case
 0:var
 b=[1,a[1]];break;case
 1:var
 b=[0,a[1]];break;default:var
-b=bS(g5,a)}return[0,b]}function
-jf(c){var
+b=bU(hd,a)}return[0,b]}function
+jt(c){var
 b=c;for(;;){var
 a=b[1];switch(a[0]){case
 5:var
 b=a[1];continue;case
 6:var
-d=jf(a[2]);return s(jf(a[1]),d);case
-9:return a[1];default:return T(b)}}}function
-jg(n,h,a,f){if(a){var
-c=a[1],x=R(f,g(g4(c))),y=jg(n,h,a[2],x);if(0===c[0])var
-k=nV(h,c[1],f),o=[0,k,l(b),k,0,0,0,0,0];else
+d=jt(a[2]);return s(jt(a[1]),d);case
+9:return a[1];default:return V(b)}}}function
+ju(n,h,a,f){if(a){var
+c=a[1],x=N(f,g(hc(c))),y=ju(n,h,a[2],x);if(0===c[0])var
+k=n$(h,c[1],f),o=[0,k,l(b),k,0,0,0,0,0];else
 var
-m=bG(h,c[1],f),q=g5(m),i=a6(aC(0,n),q),d=g5(i[2]),j=e(g5,i[1]),r=0,s=0,t=0,u=0,v=[0,m],w=e(function(a){return aK(a,d)?l(b):am(a,d)},j),o=[0,j,jf(d),w,v,u,t,s,r];var
+m=bI(h,c[1],f),q=hd(m),i=a7(aC(0,n),q),d=hd(i[2]),j=e(hd,i[1]),r=0,s=0,t=0,u=0,v=[0,m],w=e(function(a){return aN(a,d)?l(b):am(a,d)},j),o=[0,j,jt(d),w,v,u,t,s,r];var
 p=[0,o,y]}else
 var
 p=a;return p}function
-nX(a){return e(function(a){return[0,a[2],d]},a)}function
-jh(a){var
-b=y(g4,a[4]),c=f(fk(e(aZ,a[3])),b);return f(nX(a[2]),c)}function
-g6(a){var
-c=cB(0,nX(a[2])),d=aC(0,g(a[1])),h=e(function(a){return[0,[0,a]]},d),b=aa(e(aw,a[2]),c);return f(aa(a[1],h),b)}function
-ji(b,d){var
+ob(a){return e(function(a){return[0,a[2],d]},a)}function
+jv(a){var
+b=y(hc,a[4]),c=f(fw(e(aY,a[3])),b);return f(ob(a[2]),c)}function
+he(a){var
+b=cD(0,ob(a[2])),c=aC(0,g(a[1]));return n9(a,e(function(a){return[0,[0,a]]},c),b)}function
+jw(b,d){var
 a=d;for(;;)switch(a[0]){case
 0:return 1;case
 1:var
-e=a[1];return aj(function(a){return ax(e,a)},b);case
+e=a[1];return aj(function(a){return az(e,a)},b);case
 2:case
 7:case
 8:var
 a=a[1];continue;default:var
-c=ji(b,a[1]);if(c){var
+c=jw(b,a[1]);if(c){var
 a=a[2];continue}return c}}function
-nY(d){var
+oc(d){var
 a=d;for(;;){if(a){var
-b=a[2],e=a[1],c=L(aj(function(b){return function(a){return rI(b,a)}}(e),b));if(c){var
+b=a[2],e=a[1],c=M(aj(function(b){return function(a){return r1(b,a)}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-nZ(a){var
-u=e(aw,a[2]),d=f(a[1],u),h=g(a[1]),o=$(u8,h),p=o?$(h,u9):o,q=p?$(h,g(a[4])):p,r=q?$(g(a[4]),u_):q,s=r?nY(d):r;if(s){var
+od(a){var
+u=e(ay,a[2]),d=f(a[1],u),h=g(a[1]),o=aa(vs,h),p=o?aa(h,vt):o,q=p?aa(h,g(a[4])):p,r=q?aa(g(a[4]),vu):q,s=r?oc(d):r;if(s){var
 c=d,b=a[3];for(;;){if(b){var
-j=b[1],k=j[1],l=L(aj(function(b){return function(a){return ax(b,a)}}(k),c)),n=l?ji(c,j[2]):l;if(n){var
+j=b[1],k=j[1],l=M(aj(function(b){return function(a){return az(b,a)}}(k),c)),n=l?jw(c,j[2]):l;if(n){var
 c=[0,k,c],b=b[2];continue}var
 t=n}else
 var
@@ -5399,9 +5412,9 @@ i=t;break}}else
 var
 i=s;if(i){var
 v=a[4];return m(function(b){var
-c=0===b[0]?b[1]:[0,b[1],0],g=f(e(aw,a[3]),d);return m(function(a){return ji(g,a)},c)},v)}return i}function
-em(f,e,g){var
-h=g[1],a=bS(function(a){return em(f,e,a)},h);switch(a[0]){case
+c=0===b[0]?b[1]:[0,b[1],0],g=f(e(ay,a[3]),d);return m(function(a){return jw(g,a)},c)},v)}return i}function
+ez(f,e,g){var
+h=g[1],a=bU(function(a){return ez(f,e,a)},h);switch(a[0]){case
 0:return r(a[1],f,[0,d,b]);case
 1:return r(a[1],e,[0,d,b]);case
 2:return[0,a[1],b];case
@@ -5413,7 +5426,7 @@ h=g[1],a=bS(function(a){return em(f,e,a)},h);switch(a[0]){case
 8:var
 c=a[1];return[4,c,c];case
 9:return[6,a[1]];default:return[0,d,b]}}function
-n0(d){var
+oe(d){var
 b=d;for(;;){var
 a=b[1];switch(a[0]){case
 10:return 0;case
@@ -5424,92 +5437,92 @@ b=a[1];continue;case
 0:case
 1:case
 2:return 1;default:var
-c=n0(a[1]);if(c){var
+c=oe(a[1]);if(c){var
 b=a[2];continue}return c}}}function
-n1(g,f,e){var
+hf(g,f,e){var
 b=f,a=e;for(;;){if(b){if(a){var
-c=c3(g,b[1],a[1]);if(c){var
+c=c7(g,b[1],a[1]);if(c){var
 b=b[2],a=a[2];continue}var
 d=c}else
 var
 d=a;return d}return a?0:1}}function
-u$(a){var
+vv(a){var
 b=a[4],d=0;if(typeof
 b!=="number"&&0===b[0]){var
 c=[0,b[1],0];d=1}if(!d)var
 c=0;var
 e=f(a[3],c);return f(a[1],e)}function
-n2(f,e){function
+of(f,e){function
 a(a){return r(a,e,[0,d,b])}var
 c=[0,d,b];switch(f){case
 0:var
-g=a(vb);return[0,a(0),g,c];case
+g=a(vx);return[0,a(0),g,c];case
 1:var
-h=a(vc),i=a(vd);return[0,a(0),i,h];default:return[0,c,c,c]}}function
-n3(f,e){function
+h=a(vy),i=a(vz);return[0,a(0),i,h];default:return[0,c,c,c]}}function
+og(f,e){function
 a(a){return r(a,e,[0,d,b])}var
 c=[0,d,b];switch(f){case
-0:return[0,c,c,a(ve)];case
+0:return[0,c,c,a(vA)];case
 1:var
-g=a(vf),h=a(vg);return[0,a(vh),h,g];default:var
-i=a(vi),j=a(vj);return[0,a(0),j,i]}}function
-n4(t,s,k,j,r,d){var
-c=bF(k,j,r,d);if(0===d[0])var
-e=ce(d[1],c);else
+g=a(vB),h=a(vC);return[0,a(vD),h,g];default:var
+i=a(vE),j=a(vF);return[0,a(0),j,i]}}function
+oh(t,s,k,j,r,d){var
+c=bq(k,j,r,d);if(0===d[0])var
+e=ch(d[1],c);else
 var
-a=d[1],f=gL(a,c),g=gM(a,c),h=gO(a,c),i=e$(a,c),l=V([3,[4,h,g],[4,i,f]],iM(a)),m=V([2,[4,h,f],[4,i,g]],gJ(a)),n=U(function(b,a){return[2,b,a]},m,l),o=V(a[5],n),p=gK(a,c),q=V(gN(a,c),p),e=U(function(b,a){return[3,b,a]},q,o);return iY(t,e,V([5,[0,b,b],s],c7(ff(k,j,fe(d)),e)))}function
-n5(c,b,a){return b?cg(c,b[1],a):a?0:1}function
-n6(d,b,i,a,c,n,h,m,f){var
-o=aL(b),j=q(g(c),o),k=j?n5(d,a,h):j,l=k?n5(d,a,f):k;if(l){var
-p=e(function(c){return n4(b,i,a,f,m,c)},c),r=e(function(c){return n4(b,i,a,h,n,c)},c);return nO(d,aL(b),r,p)}return l}function
-n7(c,j,d,b,a){var
-e=aJ(d,j),g=e?ba(b,a):e;if(g)var
-k=cz(c,a)[2],h=[0,cz(c,b)[1],k],l=[0,cz(c,d1(a,b)),0],i=[0,[0,h,h,f(al(u,d),l)]];else
+a=d[1],f=fn(a,c),g=fo(a,c),h=gX(a,c),i=eq(a,c),l=P([3,[4,h,g],[4,i,f]],gU(a)),m=P([2,[4,h,f],[4,i,g]],fm(a)),n=J(function(b,a){return[2,b,a]},m,l),o=P(a[5],n),p=gV(a,c),q=P(gW(a,c),p),e=J(function(b,a){return[3,b,a]},q,o);return ja(t,e,P([5,[0,b,b],s],c9(ex(k,j,ew(d)),e)))}function
+oi(c,b,a){return b?da(c,b[1],a):a?0:1}function
+oj(d,b,i,a,c,n,h,m,f){var
+p=aw(b),j=o(g(c),p),k=j?oi(d,a,h):j,l=k?oi(d,a,f):k;if(l){var
+q=e(function(c){return oh(b,i,a,f,m,c)},c),r=e(function(c){return oh(b,i,a,h,n,c)},c);return n2(d,aw(b),r,q)}return l}function
+ok(c,j,d,b,a){var
+e=aI(d,j),g=e?bb(b,a):e;if(g)var
+k=cB(c,a)[2],h=[0,cB(c,b)[1],k],l=[0,cB(c,dx(a,b)),0],i=[0,[0,h,h,f(al(u,d),l)]];else
 var
 i=g;return i}function
-jj(a){if(a){var
+jx(a){if(a){var
 b=a[1];if(b)var
-c=jj(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+c=jx(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return vm}function
-n8(c,b,a){if(b){if(a){var
-d=b[1],f=n8(c,b[2],a[2]),g=a[1],h=function(b,a){return A(t(c,d,b),a)},i=function(a){return a};return aN(function(a){return t(c,d,a)},i,h,g,f)}var
+d=b;return d}return vI}function
+ol(c,b,a){if(b){if(a){var
+d=b[1],f=ol(c,b[2],a[2]),g=a[1],h=function(b,a){return A(t(c,d,b),a)},i=function(a){return a};return aO(function(a){return t(c,d,a)},i,h,g,f)}var
 e=a}else
 var
 e=b;return e}function
-n9(c,b,a){if(b){if(a){var
-d=n9(c,b[2],a[2]);return A(t(c,b[1],a[1]),d)}return u}return u}function
-g7(a){return an(function(d,a){var
-e=c(2,b);return F(b7(b_(d),e),a)},d,a)}function
-n_(a,i,h){var
+om(c,b,a){if(b){if(a){var
+d=om(c,b[2],a[2]);return A(t(c,b[1],a[1]),d)}return u}return u}function
+hg(a){return an(function(d,a){var
+e=c(2,b);return E(b8(b$(d),e),a)},d,a)}function
+on(a,i,h){var
 d=g(i);function
 t(g,e,f){var
-d=[0,b,c(2,b)];return[0,_(cz(a,a3(dt(e,f),d)))]}var
-j=jj(e(function(b){return d6(a,t,b)},i));if(j){var
-v=j[1],w=function(b,c,e){return n7(a,d,b,c,e)},k=jj(e(function(b){return d6(a,w,b)},i));if(k){var
-x=function(b){return cz(a,b)},n=e(function(a){return e(x,a)},h),y=k[1],z=e(function(a){return a[3]},y),A=e(function(b){return n9(a,b,e(function(a){return a[2]},v))},n),B=aa(aC(0,d),n),F=e(function(c){var
-i=n8(a,c[2],z),j=c[1],d=[0,M(a,b),0],e=f(al(u,j),d);function
-g(b,a){return E(b,as(a))}function
-h(a){return ab(as(a))}return aN(function(a){return a},h,g,e,i)},B),o=q(g(h),d),p=o?m(function(a){return q(g(a),d)},h):o;if(p)var
-G=c(2,b),H=b7(ct(a),G),I=g7(A),l=D(C(c(2,c(2,b)),I),H);else
+d=[0,b,c(2,b)];return[0,$(cB(a,a0(dw(e,f),d)))]}var
+j=jx(e(function(b){return ed(a,t,b)},i));if(j){var
+v=j[1],w=function(b,c,e){return ok(a,d,b,c,e)},k=jx(e(function(b){return ed(a,w,b)},i));if(k){var
+x=function(b){return cB(a,b)},n=e(function(a){return e(x,a)},h),y=k[1],z=e(function(a){return a[3]},y),A=e(function(b){return om(a,b,e(function(a){return a[2]},v))},n),B=W(aC(0,d),n),E=e(function(c){var
+i=ol(a,c[2],z),j=c[1],d=[0,O(a,b),0],e=f(al(u,j),d);function
+g(b,a){return F(b,as(a))}function
+h(a){return ab(as(a))}return aO(function(a){return a},h,g,e,i)},B),p=o(g(h),d),q=p?m(function(a){return o(g(a),d)},h):p;if(q)var
+G=c(2,b),H=b8(cw(a),G),I=hg(A),l=D(C(c(2,c(2,b)),I),H);else
 var
-l=p;if(l){var
-J=c(2,b),K=b7(ct(a),J),L=g7(dZ(F));return D(C(c(2,c(2,b)),L),K)}var
+l=q;if(l){var
+J=c(2,b),K=b8(cw(a),J),L=hg(d_(E));return D(C(c(2,c(2,b)),L),K)}var
 r=l}else
 var
 r=k;var
 s=r}else
 var
 s=j;return s}function
-bZ(a){return m(function(a){return L(d5(a))},a)}function
-bf(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-bx(a){return[0,a[1],a[2]]}function
-n$(b,a){var
-d=g(a),c=q(g(b),d);if(c){var
-e=aa(b,a);return m(function(a){return ba(a[1],a[2])},e)}return c}function
-jk(e,k,j,i){var
+hh(a){return m(function(a){return M(dA(a))},a)}function
+br(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+bg(a){return[0,a[1],a[2]]}function
+oo(b,a){var
+d=g(a),c=o(g(b),d);if(c){var
+e=W(b,a);return m(function(a){return bb(a[1],a[2])},e)}return c}function
+jy(e,k,j,i){var
 c=k,b=j,a=i;for(;;){if(c)if(b)if(a){var
-f=a[1],l=h(e,1,[3,bx(c[1]),f]),g=l||h(e,1,[3,f,bx(b[1])]);if(!g){var
+f=a[1],l=h(e,1,[3,bg(c[1]),f]),g=l||h(e,1,[3,f,bg(b[1])]);if(!g){var
 c=c[2],b=b[2],a=a[2];continue}var
 d=g}else
 var
@@ -5518,73 +5531,73 @@ var
 d=b;else
 var
 d=c;return d}}function
-oa(f,e,b,a){var
+op(f,e,b,a){var
 c=a[1],d=b[1],g=c[2],h=a[2],i=d[2],j=b[2],k=[0,d[1],[0,c[1],0]];return m(function(a){var
 b=[0,i,[0,g,0]];return m(function(b){var
 c=[0,j,[0,h,0]];return m(function(c){var
-d=bx(c),g=bx(b);return bn(f,e,[0,bx(a),g,d])},c)},b)},k)}function
-ob(a){switch(a[0]){case
+d=bg(c),g=bg(b);return bD(f,e,[0,bg(a),g,d])},c)},b)},k)}function
+oq(a){switch(a[0]){case
 0:var
-c=[0,a[4],0],d=f(bf(a[3]),c),e=f(bf(a[2]),d);return f(bf(a[1]),e);case
+c=[0,a[4],0],d=f(br(a[3]),c),e=f(br(a[2]),d);return f(br(a[1]),e);case
 1:var
-b=a[3],g=b?bf(b[1]):b,h=f(bf(a[2]),g);return f(bf(a[1]),h);default:return bf(a[1])}}function
-fl(b,a){var
-c=a3(a,a);return ba(a3(b,b),c)?a:b}function
-fm(b,a,e,d){var
-c=dB(b,a,bx(e));return c?dB(b,a,bx(d)):c}function
-oc(a){var
-c=r(vs,a,[0,d,b]),e=r(vt,a,[0,d,b]);return[0,[0,r(0,a,[0,d,b]),e],c]}function
-jl(d,c,b,a){var
-e=bW(d,c,b,a);return x(bW(d,c,b,a),e)}function
-vu(i,k,t,S,H,o,l,n,aS){var
-j=t[5],aJ=aa(l,n),aK=aa(aC(0,g(l)),aJ),ag=e(function(a){return[1,a[1],a[2][1],a[2][2]]},aK),ax=t[7],ay=ax?fb(i,t[2],S):ax,az=ay?bn(i,t[4],H):ay,aA=az?cg(i,j,o):az,aD=aA?$(k,vv):aA;if(aD)var
-aT=R(k,g(o)),T=q(g(l),aT);else
+b=a[3],g=b?br(b[1]):b,h=f(br(a[2]),g);return f(br(a[1]),h);default:return br(a[1])}}function
+fx(b,a){var
+c=a0(a,a);return bb(a0(b,b),c)?a:b}function
+fy(b,a,e,d){var
+c=dJ(b,a,bg(e));return c?dJ(b,a,bg(d)):c}function
+or(a){var
+c=r(vO,a,[0,d,b]),e=r(vP,a,[0,d,b]);return[0,[0,r(0,a,[0,d,b]),e],c]}function
+jz(d,c,b,a){var
+e=bY(d,c,b,a);return w(bY(d,c,b,a),e)}function
+vQ(i,k,t,S,H,p,l,n,aS){var
+j=t[5],aJ=W(l,n),aK=W(aC(0,g(l)),aJ),ag=e(function(a){return[1,a[1],a[2][1],a[2][2]]},aK),ax=t[7],ay=ax?i4(i,t[2],S):ax,az=ay?bD(i,t[4],H):ay,aA=az?da(i,j,p):az,aD=aA?aa(k,vR):aA;if(aD)var
+aT=N(k,g(p)),T=o(g(l),aT);else
 var
 T=aD;if(T)var
-aU=0===j[0]?vw:vx,U=q(g(o),aU);else
+aU=0===j[0]?vS:vT,U=o(g(p),aU);else
 var
 U=T;var
-aE=U?n$(l,n):U;if(aE)var
-aV=oc(aB(k,n)),aW=oc(aB(k,l)),V=oa(i,t[4],aW,aV);else
+aE=U?oo(l,n):U;if(aE)var
+aV=or(aB(k,n)),aW=or(aB(k,l)),V=op(i,t[4],aW,aV);else
 var
 V=aE;if(V){var
 a=aM(k,n),c=aM(k,l);switch(j[0]){case
 0:var
-X=0;if(c)if(c[2])var
+Y=0;if(c)if(c[2])var
 h=0;else
 if(a)var
-h=a[2]?0:fm(i,j[1],c[1],a[1]);else{var
-ah=a;X=1}else{var
-ah=c;X=1}if(X)var
+h=a[2]?0:fy(i,j[1],c[1],a[1]);else{var
+ah=a;Y=1}else{var
+ah=c;Y=1}if(Y)var
 h=ah;break;case
 1:var
-Y=0;if(c){var
+Z=0;if(c){var
 v=c[2],I=0;if(v){var
 w=v[2],J=0;if(w)if(w[2]){var
 h=0;I=1;J=1}else
 if(a){var
-x=a[2],Z=0;if(x){var
-y=x[2],_=0;if(y)if(y[2]){var
-h=0;I=1;J=1;Z=1;_=1}else{var
-ai=fm(i,j[1],c[1],a[1]),aj=ai?fm(i,j[2],v[1],x[1]):ai;if(aj){var
-h=fm(i,j[3],w[1],y[1]);I=1;J=1;Z=1;_=1}else
+x=a[2],_=0;if(x){var
+y=x[2],$=0;if(y)if(y[2]){var
+h=0;I=1;J=1;_=1;$=1}else{var
+ai=fy(i,j[1],c[1],a[1]),aj=ai?fy(i,j[2],v[1],x[1]):ai;if(aj){var
+h=fy(i,j[3],w[1],y[1]);I=1;J=1;_=1;$=1}else
 var
 ak=aj}else
 var
-ak=y;if(!_)var
+ak=y;if(!$)var
 al=ak}else
 var
-al=x;if(!Z)var
-O=al}else
+al=x;if(!_)var
+P=al}else
 var
-O=a;else
+P=a;else
 var
-O=w;if(!J)var
-am=O}else
+P=w;if(!J)var
+am=P}else
 var
 am=v;if(!I){var
-an=am;Y=1}}else{var
-an=c;Y=1}if(Y)var
+an=am;Z=1}}else{var
+an=c;Z=1}if(Z)var
 h=an;break;case
 2:var
 ab=0;if(c){var
@@ -5595,17 +5608,17 @@ if(a){var
 B=a[2],ac=0;if(B){var
 C=B[2];if(C)if(C[2]){var
 h=0;K=1;L=1;ac=1}else{var
-aN=[0,bx(fl(A[1],C[1])),0],aO=[0,bx(fl(z[1],B[1])),aN],h=cg(i,j,[0,bx(fl(c[1],a[1])),aO]);K=1;L=1;ac=1}else
+aN=[0,bg(fx(A[1],C[1])),0],aO=[0,bg(fx(z[1],B[1])),aN],h=da(i,j,[0,bg(fx(c[1],a[1])),aO]);K=1;L=1;ac=1}else
 var
 ao=C}else
 var
 ao=B;if(!ac)var
-P=ao}else
+Q=ao}else
 var
-P=a;else
+Q=a;else
 var
-P=A;if(!L)var
-ap=P}else
+Q=A;if(!L)var
+ap=Q}else
 var
 ap=z;if(!K){var
 aq=ap;ab=1}}else{var
@@ -5613,18 +5626,18 @@ aq=c;ab=1}if(ab)var
 h=aq;break;default:var
 ad=0;if(c){var
 D=c[2],M=0;if(D){var
-E=D[2],N=0;if(E)if(E[2]){var
-h=0;M=1;N=1}else
+E=D[2],O=0;if(E)if(E[2]){var
+h=0;M=1;O=1}else
 if(a){var
 F=a[2],ae=0;if(F){var
 G=F[2],af=0;if(G)if(G[2]){var
-h=0;M=1;N=1;ae=1;af=1}else{var
-p=G[1],s=E[1],aI=0,aP=0;if(ba(s,[0,d,b])&&ba([0,d,b],p))var
+h=0;M=1;O=1;ae=1;af=1}else{var
+q=G[1],s=E[1],aI=0,aP=0;if(bb(s,[0,d,b])&&bb([0,d,b],q))var
 ar=[0,d,b];else
 aI=1;if(aI)var
-aL=a3(p,p),ar=ba(a3(s,s),aL)?s:p;var
-aQ=[0,bx(ar),aP],aR=[0,bx(fl(D[1],F[1])),aQ],as=cg(i,j,[0,bx(fl(c[1],a[1])),aR]);if(as){var
-h=fm(i,c_(j[2]),s,p);M=1;N=1;ae=1;af=1}else
+aL=a0(q,q),ar=bb(a0(s,s),aL)?s:q;var
+aQ=[0,bg(ar),aP],aR=[0,bg(fx(D[1],F[1])),aQ],as=da(i,j,[0,bg(fx(c[1],a[1])),aR]);if(as){var
+h=fy(i,c$(j[2]),s,q);M=1;O=1;ae=1;af=1}else
 var
 at=as}else
 var
@@ -5632,119 +5645,200 @@ at=G;if(!af)var
 au=at}else
 var
 au=F;if(!ae)var
-Q=au}else
+R=au}else
 var
-Q=a;else
+R=a;else
 var
-Q=E;if(!N)var
-av=Q}else
+R=E;if(!O)var
+av=R}else
 var
 av=D;if(!M){var
 aw=av;ad=1}}else{var
 aw=c;ad=1}if(ad)var
 h=aw}var
-W=h}else
+X=h}else
 var
-W=V;if(W){var
-aX=aB(k,bf(H)),aY=aB(k,n),aF=jk(i,aB(k,l),aY,aX);if(aF)var
+X=V;if(X){var
+aX=aB(k,br(H)),aY=aB(k,n),aF=jy(i,aB(k,l),aY,aX);if(aF)var
 u=aF;else{var
 aH=1===j[0]?0:1;if(aH)var
-aZ=aM(k,n),u=jk(i,aM(k,l),aZ,o);else
+aZ=aM(k,n),u=jy(i,aM(k,l),aZ,p);else
 var
 u=aH}}else
 var
-u=W;var
+u=X;var
 aG=u?m(function(a){var
-c=bf(a[2]),b=bZ(f(bf(a[1]),c));return b?bZ([0,jl(j,o,H,a),0]):b},S):u;return aG?n_(i,e(function(c){var
-h=[6,jl(j,o,H,c)],a=aB(k,ag),e=r(vq,a,[0,d,b]),f=r(vr,a,[0,d,b]),g=[0,r(0,a,[0,d,b]),f,e];return[3,[6,jl(j,aM(k,ag),g,c)],h]},S),aS):aG}var
-en=c(2,c(2,c(2,c(2,c(2,p(c(2,b)))))));function
-jm(e){var
-a=aD(en,e);if(a){var
-f=j(kS(c(2,b)),en);return[0,a[1][2],f]}return[0,d,b]}var
-vy=[0,[0,d,b],[0,d,b],[0,d,b]];function
-fn(c,a){var
+c=br(a[2]),b=hh(f(br(a[1]),c));return b?hh([0,jz(j,p,H,a),0]):b},S):u;return aG?on(i,e(function(c){var
+h=[6,jz(j,p,H,c)],a=aB(k,ag),e=r(vM,a,[0,d,b]),f=r(vN,a,[0,d,b]),g=[0,r(0,a,[0,d,b]),f,e];return[3,[6,jz(j,aM(k,ag),g,c)],h]},S),aS):aG}var
+cK=c(2,c(2,c(2,c(2,c(2,q(c(2,b)))))));function
+dN(e){var
+a=aD(cK,e);if(a){var
+f=j(gc(c(2,b)),cK);return[0,a[1][2],f]}return[0,d,b]}var
+jA=[0,[0,d,b],[0,d,b],[0,d,b]];function
+eA(c,a){var
 e=[0,d,b];return an(function(b,a){return[2,j(c,b),a]},e,a)}function
-fo(b,a){return an(function(c,a){var
-d=j(b,c);return U(function(b,a){return[2,b,a]},d,a)},vy,a)}function
-od(d,h,c,e){var
-a=d6(d,function(c,e,f){var
-a=aJ(c,h),b=a?ba(e,f):a,g=b?[0,lc(d,c,e,f)]:b;return g},e);if(a){var
-b=a[1],f=h9(g7(aM(c,b[3]))),g=Q(F(h9(g7(aB(c,b[3]))),f));return J(b[1][2],g)}return a}function
-jn(b,a,c){if(b)if(a)var
-f=a[1],g=jn(b[2],a[2],c),h=J(b[1],d)?[3,f,c]:[2,f,c],e=[0,h,g];else
+fz(b,a){return an(function(c,a){var
+d=j(b,c);return J(function(b,a){return[2,b,a]},d,a)},jA,a)}function
+os(c){var
+a=c;for(;;)switch(a[0]){case
+0:return 1;case
+1:return aI(a[1],dB);case
+6:var
+a=a[1];continue;default:var
+b=os(a[1]);if(b){var
+a=a[2];continue}return b}}function
+dg(a){return m(os,a)}function
+jB(d,h,c,f){var
+a=ed(d,function(c,e,f){var
+a=aI(c,N(dB,h)),b=a?bb(e,f):a,g=b?[0,lp(d,c,e,f)]:b;return g},f);if(a){var
+b=a[1],e=aM(dB,b[3]),g=ik(hg(aM(c,e))),i=ik(hg(aB(c,e))),j=T(E(E(e7(aB(dB,b[3])),i),g));return I(b[1][2],j)}return a}function
+hi(b,a,c){if(b)if(a)var
+f=a[1],g=hi(b[2],a[2],c),h=I(b[1],d)?[3,f,c]:[2,f,c],e=[0,h,g];else
 var
 e=a;else
 var
 e=b;return e}function
-jo(a){return z(function(a){var
-d=j(kS(c(2,b)),en);return[0,a[2],d]},a)}function
-g8(b,a){return[1,b,h7(a),a]}function
-g9(a){var
+hj(a){return z(function(a){var
+d=j(gc(c(2,b)),cK);return[0,a[2],d]},a)}function
+ck(b,a){var
+c=gl(a);return[1,N(dB,b),c,a]}function
+dO(a){if(cc(a[1],a[2]))return a[1];var
 d=[0,c(2,b),b];return[5,[2,a[1],a[2]],d]}function
-cG(a){var
-b=g9(a[3]),c=g9(a[2]);return[0,g9(a[1]),c,b]}function
-fp(i,f,o,a,P,n){var
-w=e7(i,f,o,a),y=w?bZ(bf(a)):w;if(y){var
-p=G(f[3],P);if(p){var
-j=p[1];if(typeof
-j!=="number"&&14===j[0]){var
-C=j[2],D=j[1],r=jo(aD(en,C));if(r){var
-s=r[1],Q=g8(vz,s),R=g8(vA,s),t=[0,g8(0,s),R,Q],E=h(i,1,C),F=E?h(i,0,D):E;if(F)var
-S=g(f[1]),u=q(g(n),S);else
-var
-u=F;var
-H=u?m(function(a){return bZ(ob(a))},o):u;if(H){var
-T=f[1],I=jn(n,e(function(b){switch(b[0]){case
+by(a){var
+b=dO(a[3]),c=dO(a[2]);return[0,dO(a[1]),c,b]}function
+ot(a){switch(a[0]){case
 0:var
-c=b[1],e=c[5],f=g9(c[4]),g=cG(c[3]),h=cG(c[2]),d=[0,cG(c[1]),h,g,f,e];break;case
+b=a[1],c=b[5],d=dO(b[4]),e=by(b[3]),f=by(b[2]);return[0,by(b[1]),f,e,d,c];case
 1:var
-i=z(cG,b[3]),j=cG(b[2]),d=[1,cG(b[1]),j,i];break;default:var
-d=[2,cG(b[1])]}return c5(d,a)},T),D),J=bZ(I);if(J){var
-v=aa(aa(o,I),n),k=function(k){var
+g=z(by,a[3]),h=by(a[2]);return[1,by(a[1]),h,g];default:return[2,by(a[1])]}}function
+fA(i,f,p,a,Q,n){var
+x=fi(i,f,p,a),y=x?dg(br(a)):x;if(y){var
+q=H(f[3],Q);if(q){var
+j=q[1];if(typeof
+j!=="number"&&14===j[0]){var
+B=j[2],C=j[1],r=hj(aD(cK,B));if(r){var
+s=r[1],R=ck(vU,s),S=ck(vV,s),t=[0,ck(0,s),S,R],D=h(i,1,B),E=D?h(i,0,C):D;if(E)var
+T=g(f[1]),u=o(g(n),T);else
+var
+u=E;var
+F=u?m(function(a){return dg(oq(a))},p):u;if(F){var
+U=f[1],G=hi(n,e(function(b){return cF(ot(b),a)},U),C),I=dg(G);if(I){var
+v=W(W(p,G),n),k=function(k){var
 f=k[1][2],e=k[1][1];switch(e[0]){case
 0:var
-i=e[4],l=V(f,ay(e[1])),m=aX(e[2],e[3],a),g=U(function(b,a){return[3,b,a]},m,l),n=V([0,c(2,b),b],g);return[0,[3,x(g,g),[4,i,i]],n,[0,b,b]];case
+i=e[4],l=P(f,av(e[1])),m=aU(e[2],e[3],a),g=J(function(b,a){return[3,b,a]},m,l),n=P([0,c(2,b),b],g);return[0,[3,w(g,g),[4,i,i]],n,[0,b,b]];case
 1:var
-h=aX(e[1],e[2],a),o=V([0,c(2,b),b],h);return[0,[3,x(h,h),[4,f,f]],o,[0,b,b]];default:var
-j=e[1],p=ay(j);return[0,[3,x(ay(j),a),f],p,[0,d,b]]}},l=function(j){var
+h=aU(e[1],e[2],a),o=P([0,c(2,b),b],h);return[0,[3,w(h,h),[4,f,f]],o,[0,b,b]];default:var
+j=e[1],p=av(j);return[0,[3,w(av(j),a),f],p,[0,d,b]]}},l=function(j){var
 e=j[1],f=e[2],c=e[1],d=j[2];switch(c[0]){case
 0:var
-g=c[3],h=c[2],i=c[1],k=aX(h,g,a),l=[3,x(ay(i),k),f],m=cC(i,h,g,c[4],a);return jm([5,[0,d,b],[2,c4(c[5],m),l]]);case
-1:return jm([5,[0,d,b],[2,f,c5(c,a)]]);default:return[0,d,b]}},M=x(t,t),N=[4,fn(function(a){var
-b=k(a)[3];return[4,l(a),b]},v),M],O=x(fo(function(a){var
-b=k(a)[2];return V(l(a),b)},v),t);return od(i,vC,vB,[2,[2,fn(function(a){var
+g=c[3],h=c[2],i=c[1],k=aU(h,g,a),l=[3,w(av(i),k),f],m=cf(i,h,g,c[4],a);return dN([5,[0,d,b],[2,cE(c[5],m),l]]);case
+1:return dN([5,[0,d,b],[2,f,cF(c,a)]]);default:return[0,d,b]}},M=w(t,t),N=[4,eA(function(a){var
+b=k(a)[3];return[4,l(a),b]},v),M],O=w(fz(function(a){var
+b=k(a)[2];return P(l(a),b)},v),t);return jB(i,vX,vW,[2,[2,eA(function(a){var
 b=k(a)[1];return[4,l(a),b]},v),O],N])}var
-K=J}else
+K=I}else
 var
-K=H;var
+K=F;var
 L=K}else
 var
 L=r;return L}var
-A=0}else
+z=0}else
 var
-A=p;var
-B=A}else
+z=q;var
+A=z}else
 var
-B=y;return B}function
-oe(a,d,c){var
-b=aC(0,bv(a));return e(function(b){var
-e=aJ(b,cF(a))?d:c;return g8(b,e)},b)}function
-of(a){return[6,x(a,a)]}var
-g$=w(l(b),g_);function
-og(e){var
-a=T(g$);if(e)var
+A=y;return A}function
+vY(a){var
+b=dg(br(a[3])),c=b?dg(br(a[4])):b;return c?dg([0,a[2],0]):c}function
+ou(a,d,c){var
+b=aC(0,bG(a));return e(function(b){var
+e=aI(b,cJ(a))?d:c;return ck(b,e)},b)}function
+ov(e,a,f){if(typeof
+e==="number"){if(e){var
+g=ck(vZ,a);return[0,[0,ck(0,a),g,[0,d,b]],jA]}var
+h=ck(v0,a),i=ck(v1,a);return[0,[0,ck(0,a),i,h],jA]}var
+c=e[1],j=og(c,ou(c,a,f));return[0,of(c,ou(c,a,f)),j]}function
+ow(g,e,u,o,a){var
+p=hj(aD(cK,u));if(p){var
+v=p[1],q=typeof
+e==="number"?[0,[0,b,b]]:hj(j(cG(cK),o));if(q){var
+r=q[1],x=h(g,1,u);if(x)if(typeof
+e==="number")var
+i=1;else
+var
+B=h(g,1,o),C=B?cH(g,o):B,i=C?M(bb(r,[0,d,b])):C;else
+var
+i=x;var
+y=i?m(vY,a):i;if(y){var
+f=ov(e,v,r)[2],k=ov(e,v,r)[1],l=[0,c(2,b),b],n=function(b){return fz(function(a){var
+c=a[3],d=j(b,a[4]);return P([4,a[1],d],c)},a)},s=eA(function(a){var
+b=w(a[3],a[4]);return[4,a[1],b]},a),t=w(f,f),D=n(function(a){return a[3]}),E=P(f[3],D),F=n(function(a){return a[2]}),G=P(f[2],F),H=n(function(a){return a[1]}),I=P(f[1],H),K=J(function(b,a){return[2,b,a]},I,G),L=[4,t,s],N=w(f,J(function(b,a){return[2,b,a]},K,E)),O=[3,[2,w(f,fz(function(a){var
+b=c9(a[4],a[3]);return P(a[1],b)},a)),N],L],Q=[2,[4,l,s],[4,[5,[0,c(2,c(2,b)),b],[2,[0,b,b],t]],O]],R=[4,l,w(k,m2(f,fz(function(a){return P(a[1],a[4])},a)))],S=w(k,k),T=[2,[4,eA(function(a){return a[1]},a),S],R],U=[4,l,w(fz(function(a){return P(a[1],a[3])},a),k)],V=[2,[2,[2,eA(function(a){var
+b=[4,a[2],a[2]],c=w(a[4],a[4]),d=[3,[2,w(a[3],a[3]),c],b];return[4,a[1],d]},a),U],T],Q],W=typeof
+e==="number"?aw(e):cJ(e[1]);return jB(g,aw(e),W,V)}var
+z=y}else
+var
+z=q;var
+A=z}else
+var
+A=p;return A}function
+ox(a){return[6,w(a,a)]}function
+oy(b){if(0===b[0])return[0,ot(b[1])];var
+a=b[1],c=a[7],d=dO(a[6]),e=dO(a[5]),f=by(a[4]),g=by(a[3]),h=by(a[2]);return[1,[0,by(a[1]),h,g,f,e,d,c]]}function
+hk(f,e,c,a){if(typeof
+a==="number")return 0;else{if(0===a[0]){var
+g=a[1],j=I(c,d)?[3,g,f]:[2,g,f];return[0,j]}var
+h=a[2],i=a[1],k=I(c,d)?gl(e):e,b=bg(k),l=[4,i,dI(b)],m=[2,[4,h,dH(b)],l],n=[4,h,dI(b)];return[1,[3,[4,i,dH(b)],n],m]}}function
+jC(a,c){if(D(c,b))return a;var
+g=aS(c,aH(2)),h=g[1];if(K(g[2],d)){var
+e=jC(a,h);return[4,e,e]}var
+f=jC(a,h);return[4,[4,f,f],a]}function
+bs(c,a){switch(a[0]){case
+0:return a[1];case
+1:return n8([0,d,b],c,a[1]);case
+2:return[3,[0,d,b],bs(c,a[1])];case
+3:var
+e=bs(c,a[2]);return[2,bs(c,a[1]),e];case
+4:var
+f=bs(c,a[2]);return[3,bs(c,a[1]),f];case
+5:var
+g=bs(c,a[2]);return[4,bs(c,a[1]),g];case
+6:var
+h=bs(c,a[2]);return[5,bs(c,a[1]),h];case
+7:var
+i=a[2];return jC(bs(c,a[1]),i);default:return[6,bs(c,a[1])]}}function
+oz(d,h,g){var
+i=d[3],b=n9(d,g,h),a=i;for(;;){if(a){var
+c=a[1],e=a[2],f=bs(b,c[2]),b=[0,[0,c[1],f],b],a=e;continue}return b}}function
+jD(c){var
+a=c;for(;;)switch(a[0]){case
+0:return M(dA(a[1]));case
+1:return 1;case
+2:case
+7:case
+8:var
+a=a[1];continue;default:var
+b=jD(a[1]);if(b){var
+a=a[2];continue}return b}}function
+oA(a){if(a){var
+b=a[1];if(0===b[0])return 0;var
+c=b[1],d=oA(a[2]);return z(function(a){return[0,c,a]},d)}return v4}var
+hm=x(l(b),hl);function
+oB(e){var
+a=V(hm);if(e)var
 f=s(l(c(2,b)),a),g=B(l(c(2,c(2,b))),f),h=s(l(c(2,b)),a),d=am(B(l(b),h),g);else
 var
-i=B(l(c(2,b)),a),j=T(g_),d=am(B(s(l(c(2,b)),j),a),i);return aF(d)}function
-oh(d,c,a){if(d){var
-e=og(c),f=B(l(b),e),g=s(w(l(b),a),f);return w(l(b),g)}var
-h=l(b),i=og(c),j=am(l(b),i);return w(s(a,B(l(b),j)),h)}function
-eo(f,e,d,a){var
-g=T(a),h=T(d),i=w(w(l(c(2,b)),h),g),j=f?e?g$:am(g$,s(l(c(2,b)),g_)):am(g$,l(c(2,b))),k=s(T(j),i);return aF(B(l(b),k))}function
-oi(g,d){var
+i=B(l(c(2,b)),a),j=V(hl),d=am(B(s(l(c(2,b)),j),a),i);return aJ(d)}function
+oC(d,c,a){if(d){var
+e=oB(c),f=B(l(b),e),g=s(x(l(b),a),f);return x(l(b),g)}var
+h=l(b),i=oB(c),j=am(l(b),i);return x(s(a,B(l(b),j)),h)}function
+eB(f,e,d,a){var
+g=V(a),h=V(d),i=x(x(l(c(2,b)),h),g),j=f?e?hm:am(hm,s(l(c(2,b)),hl)):am(hm,l(c(2,b))),k=s(V(j),i);return aJ(B(l(b),k))}function
+oD(g,d){var
 c=g,a=d[1],b=d[3];for(;;){if(c){if(b){var
 e=b[2],f=c[1]?A(a,b[1]):a,c=c[2],a=f,b=e;continue}return a}return a}}function
-jp(w,v,u,t){var
+jE(w,v,u,t){var
 a=e(function(a){return r(a,u,0)},v);if(a){var
 f=a[1];if(f){var
 b=a[2];if(b){var
@@ -5754,7 +5848,7 @@ h=c[1];if(h){var
 d=c[2];if(d){var
 i=d[1];if(i){if(d[2])return 0;var
 x=i[1],y=h[1],z=g[1],A=f[1];return m(function(a){var
-c=j(a,x),d=j(a,y),e=j(a,z),b=j(a,A);return d7(w,[0,[0,b,[0,e,[0,d,0]]],[0,[0,b,[0,c,0]],[0,[0,b,0],0]]])},t)}var
+c=j(a,x),d=j(a,y),e=j(a,z),b=j(a,A);return ee(w,[0,[0,b,[0,e,[0,d,0]]],[0,[0,b,[0,c,0]],[0,[0,b,0],0]]])},t)}var
 k=i}else
 var
 k=d;var
@@ -5776,12 +5870,12 @@ q=f;var
 s=q}else
 var
 s=a;return s}function
-oj(f,i,e,c,h){var
-j=f?b:d,a=M(i,j);function
+oE(f,i,e,c,h){var
+j=f?b:d,a=O(i,j);function
 g(b){var
-c=f?b$(b):cu(b);return E(c,a)}var
-k=[0,_(h),0],l=[0,[0,a,c,[0,u,[0,g(c),0]]],k];return[0,[0,a,e,[0,g(e),0]],l]}function
-ok(r,b,q,p,g,o,n){if(o){var
+c=f?ca(b):cx(b);return F(c,a)}var
+k=[0,$(h),0],l=[0,[0,a,c,[0,u,[0,g(c),0]]],k];return[0,[0,a,e,[0,g(e),0]],l]}function
+oF(r,b,q,p,g,o,n){if(o){var
 x=o[1];if(x[1])return 0;if(o[2])return 0;if(n){var
 j=x[2],s=0;if(g){var
 h=g[2],c=0;if(h){var
@@ -5790,16 +5884,16 @@ a=0;c=1;d=1}else{var
 t=i[1],k=h[1],l=g[1],f=0;if(typeof
 j==="number")switch(j){case
 0:var
-A=e(aE,be(vH)),z=e(_,0),a=jp(b,p,bb(0,bA(b,dy(0,g),z),q,0),A);c=1;d=1;f=1;break;case
+A=e(aG,bf(v8)),z=e($,0),a=jE(b,p,bc(0,bB(b,dE(0,g),z),q,0),A);c=1;d=1;f=1;break;case
 3:var
 a=D(k[2],l[1]);c=1;d=1;f=1;break}else
 if(4===j[0]){var
 m=j[1];if(r)if(m){var
-B=e(oi,vI),a=jp(b,p,bb(0,bA(b,oj(r,b,l,k,t),0),q,0),B);c=1;d=1;f=1}else{var
+B=e(oD,v9),a=jE(b,p,bc(0,bB(b,oE(r,b,l,k,t),0),q,0),B);c=1;d=1;f=1}else{var
 a=m;c=1;d=1;f=1}else
 if(m){var
 a=0;c=1;d=1;f=1}else{var
-C=e(oi,vJ),a=jp(b,p,bb(0,bA(b,oj(r,b,l,k,t),0),q,0),C);c=1;d=1;f=1}}if(!f)var
+C=e(oD,v_),a=jE(b,p,bc(0,bB(b,oE(r,b,l,k,t),0),q,0),C);c=1;d=1;f=1}}if(!f)var
 u=0}else
 var
 u=i;if(!d)var
@@ -5809,29 +5903,29 @@ v=h;if(!c){var
 w=v;s=1}}else{var
 w=g;s=1}if(s)var
 a=w;var
-y=a?vK:a}else
+y=a?v$:a}else
 var
 y=n;return y}return[0,n]}function
-ol(f,e,d,c,p,o,n){var
+oG(f,e,d,c,p,o,n){var
 b=p,g=o,a=n;for(;;)switch(a[0]){case
 0:var
-h=ok(f,e,d,c,b,a[1],g);return h?L(h[1]):h;case
+h=oF(f,e,d,c,b,a[1],g);return h?M(h[1]):h;case
 1:var
-i=ok(f,e,d,c,b,a[1],g);if(i){var
-j=i[1],k=cX(a[2],b),l=ol(f,e,d,c,k[1],j,a[3]);if(l){var
+i=oF(f,e,d,c,b,a[1],g);if(i){var
+j=i[1],k=c1(a[2],b),l=oG(f,e,d,c,k[1],j,a[3]);if(l){var
 b=k[2],g=j,a=a[4];continue}var
 m=l}else
 var
 m=i;return m;default:return 0}}function
-jq(a){return b7(c(2,b),aI(a,b))}function
-ep(i,a,e,w,v){var
-m=a?b:Q(b),f=l(m),g=oh(a,e,vF),h=oh(a,e,vG),n=am(g,eo(a,e,f,g)),o=[0,B(am(h,eo(a,e,h,f)),n),0],p=am(f,eo(a,e,f,g)),q=[0,B(am(h,eo(a,e,g,h)),p),o],r=am(f,eo(a,e,h,f)),t=[0,B(am(g,eo(a,e,g,h)),r),q],u=a?e?l(c(2,b)):s(l(c(2,c(2,b))),g_):l(c(2,c(2,b))),j=cS([0,u,t]),k=[0,d,ct(i)];return ol(a,i,j[1],j[2],[0,k,[0,k,[0,w,0]]],1,v)}function
-om(a,g,b){if(J(g,jq(a))){if(b){var
+jF(a){return b8(c(2,b),aL(a,b))}function
+eC(i,a,e,w,v){var
+m=a?b:T(b),f=l(m),g=oC(a,e,v6),h=oC(a,e,v7),n=am(g,eB(a,e,f,g)),o=[0,B(am(h,eB(a,e,h,f)),n),0],p=am(f,eB(a,e,f,g)),q=[0,B(am(h,eB(a,e,g,h)),p),o],r=am(f,eB(a,e,h,f)),t=[0,B(am(g,eB(a,e,g,h)),r),q],u=a?e?l(c(2,b)):s(l(c(2,c(2,b))),hl):l(c(2,c(2,b))),j=cW([0,u,t]),k=[0,d,cw(i)];return oG(a,i,j[1],j[2],[0,k,[0,k,[0,w,0]]],1,v)}function
+oH(a,g,b){if(I(g,jF(a))){if(b){var
 c=b[2];if(c){var
 d=c[2];if(d){var
 e=d[2];if(e){if(e[2])return 0;var
-h=[0,g,jq(a)],v=ct(a),i=[0,jq(a),v],j=ep(a,0,1,h,b[1]),k=j?ep(a,0,0,i,c[1]):j;if(k){var
-l=ep(a,1,1,h,d[1]);if(l)return ep(a,1,0,i,e[1]);var
+h=[0,g,jF(a)],v=cw(a),i=[0,jF(a),v],j=eC(a,0,1,h,b[1]),k=j?eC(a,0,0,i,c[1]):j;if(k){var
+l=eC(a,1,1,h,d[1]);if(l)return eC(a,1,0,i,e[1]);var
 m=l}else
 var
 m=k;var
@@ -5848,301 +5942,301 @@ q=p}else
 var
 q=b;return q}if(b){var
 f=b[2];if(f){if(f[2])return 0;var
-r=[0,g,ct(a)],s=ep(a,0,0,r,b[1]);if(s)return ep(a,1,0,r,f[1]);var
+r=[0,g,cw(a)],s=eC(a,0,0,r,b[1]);if(s)return eC(a,1,0,r,f[1]);var
 t=s}else
 var
 t=f;var
 u=t}else
 var
 u=b;return u}function
-jr(a){var
-b=[1,[2,d]];return bR(function(b,a){return[1,[3,b,a]]},a,b)}function
-ha(a){return jr(e(function(a){return[1,[8,[1,[2,a]]]]},a))}function
-hb(a,c){return jr(e(function(a){var
-d=[0,a[2]],b=aa(a[1],c);return[1,[7,[1,[8,jr(e(function(a){return[1,[6,[0,a[1]],[1,[2,a[2]]]]]},b))]],d]]},a))}function
-on(e,d,c,b,a){if(0===a[0])return r(a[1],b,0);var
-f=a[1],g=bS(function(a){return on(e,d,c,b,a)},f);return j(bA(e,d,c),g)}function
-oo(a){return a?J(d,a[1][2][1]):a}function
-vL(a){var
-b=q(g(a),vM);return b?aj(function(a){return L(I(a,d))},a):b}function
-op(c,f,b,a){if(b)if(a)var
-d=b[1],g=t(c,M(c,a[1]),f),h=op(c,f,b[2],a[2]),i=d[3],j=A(d[2],g),e=[0,[0,A(d[1],g),j,i],h];else
+jG(a){var
+b=[1,[2,d]];return bT(function(b,a){return[1,[3,b,a]]},a,b)}function
+hn(a){return jG(e(function(a){return[1,[8,[1,[2,a]]]]},a))}function
+ho(a,c){return jG(e(function(a){var
+d=[0,a[2]],b=W(a[1],c);return[1,[7,[1,[8,jG(e(function(a){return[1,[6,[0,a[1]],[1,[2,a[2]]]]]},b))]],d]]},a))}function
+oI(e,d,c,b,a){if(0===a[0])return r(a[1],b,0);var
+f=a[1],g=bU(function(a){return oI(e,d,c,b,a)},f);return j(bB(e,d,c),g)}function
+oJ(a){return a?I(d,a[1][2][1]):a}function
+wa(a){var
+b=o(g(a),wb);return b?aj(function(a){return M(K(a,d))},a):b}function
+oK(c,f,b,a){if(b)if(a)var
+d=b[1],g=t(c,O(c,a[1]),f),h=oK(c,f,b[2],a[2]),i=d[3],j=A(d[2],g),e=[0,[0,A(d[1],g),j,i],h];else
 var
 e=a;else
 var
 e=b;return e}function
-oq(d,c){var
-a=G(c,d);if(a){var
-b=a[1],e=b[1];return L(I(cb(b),e))}return a}function
-hc(b,a){return eR(eR(b,0),a)}function
-js(a){if(a){var
-b=a[2],c=a[1];if(b)return hc(c,[0,vO,js(b)]);var
+oL(d,c){var
+a=H(c,d);if(a){var
+b=a[1],e=b[1];return M(K(cd(b),e))}return a}function
+hp(b,a){return e3(e3(b,0),a)}function
+jH(a){if(a){var
+b=a[2],c=a[1];if(b)return hp(c,[0,wd,jH(b)]);var
 d=c}else
 var
 d=a;return d}function
-H(a){return[0,vQ,hc(js(a),vP)]}function
-ag(a){return[0,vS,hc(js(a),vR)]}function
-ap(a){return[0,vU,[0,a,vT]]}function
-n(b,a){return[0,a$(vW,a$(b,vV)),a]}function
-N(b,a){return ag([0,n(b,a),0])}function
-cH(d){var
-b=d,a=sb,e=0;for(;;){if(b){var
-c=kM(a),b=b[1],a=c;continue}return[0,eS(f0(a)),e]}}function
-jt(a){return[0,eS(f8(a)),0]}function
-fq(a){var
-c=aR(a),f=0,b=0===c?sh:0<c?[0,f8(a)]:[1,f8(Q(a))];if(0===b[0])var
-d=eS(b[1]);else
+G(a){return[0,wf,hp(jH(a),we)]}function
+ag(a){return[0,wh,hp(jH(a),wg)]}function
+ap(a){return[0,wj,[0,a,wi]]}function
+n(b,a){return[0,ba(wl,ba(b,wk)),a]}function
+Q(b,a){return ag([0,n(b,a),0])}function
+cL(d){var
+b=d,a=su,e=0;for(;;){if(b){var
+c=k1(a),b=b[1],a=c;continue}return[0,e4(f$(a)),e]}}function
+jI(a){return[0,e4(gi(a)),0]}function
+fB(a){var
+c=aR(a),f=0,b=0===c?sA:0<c?[0,gi(a)]:[1,gi(T(a))];if(0===b[0])var
+d=e4(b[1]);else
 var
-e=eS(b[1]),d=a$(bN(1,45),e);return[0,d,f]}function
-eq(a){var
-b=0,c=0<aR(a)?f8(a):sf;return[0,eS(c),b]}function
-ju(a){switch(a[0]){case
-2:return vY;case
-3:return 2<=a[1]?vZ:v0;case
-4:return v1;default:return vX}}function
-fr(b,a){function
-c(c,a){return $(c,ju(a))?fr(b,a):[0,v7,f(fr(b,a),v6)]}switch(a[0]){case
+e=e4(b[1]),d=ba(bP(1,45),e);return[0,d,f]}function
+eD(a){var
+b=0,c=0<aR(a)?gi(a):sy;return[0,e4(c),b]}function
+jJ(a){switch(a[0]){case
+2:return wn;case
+3:return 2<=a[1]?wo:wp;case
+4:return wq;default:return wm}}function
+fC(b,a){function
+c(c,a){return aa(c,jJ(a))?fC(b,a):[0,ww,f(fC(b,a),wv)]}switch(a[0]){case
 0:var
 e=a[2],g=a[1];if(typeof
-e==="number")return[0,bj(g),0];var
-h=[0,v8,[0,bj(e),0]];return[0,bj(g),h];case
+e==="number")return[0,bk(g),0];var
+h=[0,wx,[0,bk(e),0]];return[0,bk(g),h];case
 1:return[0,j(b,a[1]),0];case
-2:return[0,v_,c(v9,a[1])];case
+2:return[0,wz,c(wy,a[1])];case
 3:var
-i=a[3],k=c([0,ju(a)],i);switch(a[1]){case
+i=a[3],k=c([0,jJ(a)],i);switch(a[1]){case
 0:var
-d=v2;break;case
+d=wr;break;case
 1:var
-d=v3;break;case
+d=ws;break;case
 2:var
-d=v4;break;default:var
-d=v5}var
-l=a[2];return f(c(ju(a),l),[0,d,k]);case
+d=wt;break;default:var
+d=wu}var
+l=a[2];return f(c(jJ(a),l),[0,d,k]);case
 4:var
-m=[0,v$,jt(a[2])];return f(c(wa,a[1]),m);default:return[0,wc,f(fr(b,a[1]),wb)]}}function
-K(a){return[0,wf,f(fr(function(a){return 0===a[0]?a[1]:we},a),wd)]}function
-jv(a){return[0,wh,f(fr(function(a){return a},a),wg)]}function
-cI(a){if(0===a[0])return K(a[1]);var
-b=[0,n(wi,K(a[2])),0];return ag([0,n(wj,K(a[1])),b])}function
-hd(b,a){var
-c=[0,j(b,a[3]),0],d=[0,j(b,a[2]),c];return H([0,j(b,a[1]),d])}function
-wk(a){function
-b(a){return hd(cI,a)}switch(a[0]){case
+m=[0,wA,jI(a[2])];return f(c(wB,a[1]),m);default:return[0,wD,f(fC(b,a[1]),wC)]}}function
+L(a){return[0,wG,f(fC(function(a){return 0===a[0]?a[1]:wF},a),wE)]}function
+jK(a){return[0,wI,f(fC(function(a){return a},a),wH)]}function
+cM(a){if(0===a[0])return L(a[1]);var
+b=[0,n(wJ,L(a[2])),0];return ag([0,n(wK,L(a[1])),b])}function
+hq(b,a){var
+c=[0,j(b,a[3]),0],d=[0,j(b,a[2]),c];return G([0,j(b,a[1]),d])}function
+wL(a){function
+b(a){return hq(cM,a)}switch(a[0]){case
 0:var
-e=0,g=a[5]?wl:wt,h=[0,n(wm,ap(g)),e],i=[0,n(wn,cI(a[4])),h],j=[0,n(wo,b(a[3])),i],k=[0,n(wp,b(a[2])),j],l=[0,n(wq,b(a[1])),k],c=[0,n(ws,ap(wr)),l];break;case
+e=0,g=a[5]?wM:wU,h=[0,n(wN,ap(g)),e],i=[0,n(wO,cM(a[4])),h],j=[0,n(wP,b(a[3])),i],k=[0,n(wQ,b(a[2])),j],l=[0,n(wR,b(a[1])),k],c=[0,n(wT,ap(wS)),l];break;case
 1:var
-d=a[3],m=d?[0,n(wu,b(d[1])),0]:d,o=[0,n(wv,b(a[2])),0],p=[0,n(ww,b(a[1])),o],c=f([0,n(wy,ap(wx)),p],m);break;default:var
-q=[0,n(wz,b(a[1])),0],c=[0,n(wB,ap(wA)),q]}return ag(c)}function
-wC(a){function
-b(a){return H(e(cI,a))}function
+d=a[3],m=d?[0,n(wV,b(d[1])),0]:d,o=[0,n(wW,b(a[2])),0],p=[0,n(wX,b(a[1])),o],c=f([0,n(wZ,ap(wY)),p],m);break;default:var
+q=[0,n(w0,b(a[1])),0],c=[0,n(w2,ap(w1)),q]}return ag(c)}function
+w3(a){function
+b(a){return G(e(cM,a))}function
 g(a){var
-b=a?wD:wF;return n(wE,ap(b))}switch(a[0]){case
+b=a?w4:w6;return n(w5,ap(b))}switch(a[0]){case
 0:var
-h=[0,g(a[5]),0],i=[0,n(wG,cI(a[4])),h],j=[0,n(wH,b(a[3])),i],k=[0,n(wI,b(a[2])),j],l=[0,n(wJ,b(a[1])),k],c=[0,n(wL,ap(wK)),l];break;case
+h=[0,g(a[5]),0],i=[0,n(w7,cM(a[4])),h],j=[0,n(w8,b(a[3])),i],k=[0,n(w9,b(a[2])),j],l=[0,n(w_,b(a[1])),k],c=[0,n(xa,ap(w$)),l];break;case
 1:var
-d=a[3],m=d?[0,n(wM,b(d[1])),0]:d,o=[0,n(wN,b(a[2])),0],p=[0,n(wO,b(a[1])),o],c=f([0,n(wQ,ap(wP)),p],m);break;case
+d=a[3],m=d?[0,n(xb,b(d[1])),0]:d,o=[0,n(xc,b(a[2])),0],p=[0,n(xd,b(a[1])),o],c=f([0,n(xf,ap(xe)),p],m);break;case
 2:var
-q=[0,n(wR,b(a[1])),0],c=[0,n(wT,ap(wS)),q];break;default:var
-r=[0,g(a[7]),0],s=[0,n(wU,cI(a[6])),r],t=[0,n(wV,cI(a[5])),s],u=[0,n(wW,b(a[4])),t],v=[0,n(wX,b(a[3])),u],w=[0,n(wY,b(a[2])),v],x=[0,n(wZ,b(a[1])),w],c=[0,n(w1,ap(w0)),x]}return ag(c)}function
-jw(a){switch(a){case
-0:return w2;case
-1:return w3;case
-2:return w4;case
-3:return w5;case
-4:return w6;case
-5:return w7;case
-6:return w8;case
-7:return w9;case
-8:return w_;case
-9:return w$;case
-10:return xa;case
-11:return xb;case
-12:return xc;case
-13:return xd;case
-14:return xe;case
-15:return xf;default:return xg}}function
-jx(a){if(typeof
-a==="number")return xh;else
+q=[0,n(xg,b(a[1])),0],c=[0,n(xi,ap(xh)),q];break;default:var
+r=[0,g(a[7]),0],s=[0,n(xj,cM(a[6])),r],t=[0,n(xk,cM(a[5])),s],u=[0,n(xl,b(a[4])),t],v=[0,n(xm,b(a[3])),u],w=[0,n(xn,b(a[2])),v],x=[0,n(xo,b(a[1])),w],c=[0,n(xq,ap(xp)),x]}return ag(c)}function
+jL(a){switch(a){case
+0:return xr;case
+1:return xs;case
+2:return xt;case
+3:return xu;case
+4:return xv;case
+5:return xw;case
+6:return xx;case
+7:return xy;case
+8:return xz;case
+9:return xA;case
+10:return xB;case
+11:return xC;case
+12:return xD;case
+13:return xE;case
+14:return xF;case
+15:return xG;default:return xH}}function
+jM(a){if(typeof
+a==="number")return xI;else
 switch(a[0]){case
-0:return xi;case
-1:return xj;default:return xk}}function
-fs(a){var
+0:return xJ;case
+1:return xK;default:return xL}}function
+fD(a){var
 c=a[4];if(typeof
 c==="number")var
 d=0;else
 switch(c[0]){case
 0:var
-d=[0,n(xl,K(c[1])),0];break;case
+d=[0,n(xM,L(c[1])),0];break;case
 1:var
-d=[0,n(xm,K(c[1])),0];break;default:var
-o=[0,K(c[2]),0],d=[0,n(xn,H([0,K(c[1]),o])),0]}var
-p=[0,n(xo,ap(jx(a[4]))),d],i=a[3];if(i){var
+d=[0,n(xN,L(c[1])),0];break;default:var
+o=[0,L(c[2]),0],d=[0,n(xO,G([0,L(c[1]),o])),0]}var
+p=[0,n(xP,ap(jM(a[4]))),d],i=a[3];if(i){var
 b=i[1];switch(b[0]){case
 0:var
-r=H([0,K(b[1]),0]),k=a[1],q=0,s=6===k?xp:12===k?xt:xu,g=[0,n(xq,N(s,r)),q];break;case
+r=G([0,L(b[1]),0]),k=a[1],q=0,s=6===k?xQ:12===k?xU:xV,g=[0,n(xR,Q(s,r)),q];break;case
 1:var
-x=H(e(K,b[1])),m=a[1],w=0;if(14<=m)switch(m+qt|0){case
+x=G(e(L,b[1])),m=a[1],w=0;if(14<=m)switch(m+qM|0){case
 0:var
-h=xv;break;case
+h=xW;break;case
 1:var
-h=xx;break;default:var
-h=xy}else
+h=xY;break;default:var
+h=xZ}else
 var
-h=xz;var
-g=[0,n(xw,N(h,x)),w];break;case
+h=x0;var
+g=[0,n(xX,Q(h,x)),w];break;case
 2:var
-y=[0,n(xA,H([0,K(b[2]),0])),0],g=[0,n(xC,ag([0,n(xB,H([0,K(b[1]),0])),y])),0];break;default:var
-z=[0,n(xD,H([0,K(b[2]),0])),0],g=[0,n(xF,ag([0,n(xE,H([0,K(b[1]),0])),z])),0]}var
+y=[0,n(x1,G([0,L(b[2]),0])),0],g=[0,n(x3,ag([0,n(x2,G([0,L(b[1]),0])),y])),0];break;default:var
+z=[0,n(x4,G([0,L(b[2]),0])),0],g=[0,n(x6,ag([0,n(x5,G([0,L(b[1]),0])),z])),0]}var
 l=g}else
 var
 l=i;var
-t=f(l,p),j=a[2],u=j?[0,n(xr,cH(j[1])),0]:j,v=f(u,t);return ag([0,n(xs,ap(jw(a[1]))),v])}function
-or(a){if(0===a[0]){var
-b=[0,n(xG,hd(K,a[2])),0];return N(xI,ag([0,n(xH,hd(K,a[1])),b]))}var
-c=[0,K(a[5]),0],d=[0,n(xJ,H([0,K(a[4]),c])),0],e=[0,n(xK,K(a[3])),d],f=[0,K(a[2]),0];return N(xM,ag([0,n(xL,H([0,K(a[1]),f])),e]))}function
-os(a){if(0===a[0]){var
-b=[0,n(xN,H(e(K,a[2]))),0];return N(xP,ag([0,n(xO,H(e(K,a[1]))),b]))}return or([1,a[1],a[2],a[3],a[4],a[5]])}function
-ot(a){switch(a){case
-0:return xQ;case
-1:return xR;default:return xS}}function
-xT(a){function
-b(a){return H(e(cI,a))}var
-c=[0,n(xU,b(a[2])),0],d=[0,n(xV,b(a[1])),c];return ag([0,n(xX,ap(xW)),d])}function
-ou(a){function
+t=f(l,p),j=a[2],u=j?[0,n(xS,cL(j[1])),0]:j,v=f(u,t);return ag([0,n(xT,ap(jL(a[1]))),v])}function
+oM(a){if(0===a[0]){var
+b=[0,n(x7,hq(L,a[2])),0];return Q(x9,ag([0,n(x8,hq(L,a[1])),b]))}var
+c=[0,L(a[5]),0],d=[0,n(x_,G([0,L(a[4]),c])),0],e=[0,n(x$,L(a[3])),d],f=[0,L(a[2]),0];return Q(yb,ag([0,n(ya,G([0,L(a[1]),f])),e]))}function
+oN(a){if(0===a[0]){var
+b=[0,n(yc,G(e(L,a[2]))),0];return Q(ye,ag([0,n(yd,G(e(L,a[1]))),b]))}return oM([1,a[1],a[2],a[3],a[4],a[5]])}function
+oO(a){switch(a){case
+0:return yf;case
+1:return yg;default:return yh}}function
+yi(a){function
+b(a){return G(e(cM,a))}var
+c=[0,n(yj,b(a[2])),0],d=[0,n(yk,b(a[1])),c];return ag([0,n(ym,ap(yl)),d])}function
+oP(a){function
 b(b,a){var
-c=[0,K(a),0];return H([0,K(b),c])}switch(a[0]){case
-0:return N(xY,b(a[1],a[2]));case
+c=[0,L(a),0];return G([0,L(b),c])}switch(a[0]){case
+0:return Q(yn,b(a[1],a[2]));case
 1:var
-c=a[3],d=a[2],e=a[1],f=[0,n(xZ,b(c[1],c[2])),0],g=[0,n(x0,b(d[1],d[2])),f];return N(x2,ag([0,n(x1,b(e[1],e[2])),g]));case
-2:return N(x3,K(a[1]));default:var
-h=[0,n(x4,K(a[2])),0];return N(x6,ag([0,n(x5,K(a[1])),h]))}}function
-x7(a){function
-b(a){return hd(K,a)}if(0===a[0])var
-c=a[5],e=c?[0,n(x8,b(c[1])),0]:c,g=[0,K(a[4]),0],h=[0,n(x9,H([0,K(a[3]),g])),0],i=[0,n(x_,K(a[2])),h],j=[0,n(x$,cH(a[1])),i],d=f([0,n(yb,ap(ya)),j],e);else
+c=a[3],d=a[2],e=a[1],f=[0,n(yo,b(c[1],c[2])),0],g=[0,n(yp,b(d[1],d[2])),f];return Q(yr,ag([0,n(yq,b(e[1],e[2])),g]));case
+2:return Q(ys,L(a[1]));default:var
+h=[0,n(yt,L(a[2])),0];return Q(yv,ag([0,n(yu,L(a[1])),h]))}}function
+yw(a){function
+b(a){return hq(L,a)}if(0===a[0])var
+c=a[5],e=c?[0,n(yx,b(c[1])),0]:c,g=[0,L(a[4]),0],h=[0,n(yy,G([0,L(a[3]),g])),0],i=[0,n(yz,L(a[2])),h],j=[0,n(yA,cL(a[1])),i],d=f([0,n(yC,ap(yB)),j],e);else
 var
-k=[0,n(yc,K(a[4])),0],l=[0,n(yd,b(a[3])),k],m=[0,n(ye,b(a[2])),l],o=a[1]?yf:yh,d=[0,n(yg,ap(o)),m];return ag(d)}function
-ov(a){var
-b=a?[0,n(yi,H(e(x7,a))),0]:a;return b}function
-jy(d,c,b,a){var
-g=[0,n(yj,H(e(fs,a))),0],h=f(ov(b),g),i=[0,n(yk,or(c)),0];return ag(f([0,n(ym,N(yl,H(e(wk,d)))),i],h))}function
-yn(a){switch(a[0]){case
-0:return N(yo,jy(a[1],a[2],a[3],a[4]));case
+k=[0,n(yD,L(a[4])),0],l=[0,n(yE,b(a[3])),k],m=[0,n(yF,b(a[2])),l],o=a[1]?yG:yI,d=[0,n(yH,ap(o)),m];return ag(d)}function
+oQ(a){var
+b=a?[0,n(yJ,G(e(yw,a))),0]:a;return b}function
+jN(d,c,b,a){var
+g=[0,n(yK,G(e(fD,a))),0],h=f(oQ(b),g),i=[0,n(yL,oM(c)),0];return ag(f([0,n(yN,Q(yM,G(e(wL,d)))),i],h))}function
+yO(a){switch(a[0]){case
+0:return Q(yP,jN(a[1],a[2],a[3],a[4]));case
 1:var
-b=a[5],c=a[3],d=a[1],g=H(e(wC,a[2])),l=[0,n(yp,H(e(fs,a[6]))),0],m=b?[0,n(yq,ou(b[1])),0]:b,o=f(m,l),k=0,p=[0,n(yr,os(a[4])),o];if(typeof
+b=a[5],c=a[3],d=a[1],g=G(e(w3,a[2])),l=[0,n(yQ,G(e(fD,a[6]))),0],m=b?[0,n(yR,oP(b[1])),0]:b,o=f(m,l),k=0,p=[0,n(yS,oN(a[4])),o];if(typeof
 d==="number")if(d)var
-h=ys;else{var
-i=N(yx,g);k=1}else
+h=yT;else{var
+i=Q(yY,g);k=1}else
 var
-h=ot(d[1]);if(!k)var
-q=c?[0,n(yt,K(c[1])),0]:c,i=N(h,ag([0,n(yu,g),q]));return N(yw,ag([0,n(yv,i),p]));case
+h=oO(d[1]);if(!k)var
+q=c?[0,n(yU,L(c[1])),0]:c,i=Q(h,ag([0,n(yV,g),q]));return Q(yX,ag([0,n(yW,i),p]));case
 2:var
-r=[0,n(yy,H(e(fs,a[7]))),0],s=f(ov(a[6]),r),t=[0,n(yz,ou(a[5])),0],u=[0,n(yA,os(a[4])),t],v=[0,n(yB,K(a[3])),0],w=ag([0,n(yC,H(e(xT,a[2]))),v]);return N(yE,ag(f([0,n(yD,N(ot(a[1]),w)),u],s)));case
+r=[0,n(yZ,G(e(fD,a[7]))),0],s=f(oQ(a[6]),r),t=[0,n(y0,oP(a[5])),0],u=[0,n(y1,oN(a[4])),t],v=[0,n(y2,L(a[3])),0],w=ag([0,n(y3,G(e(yi,a[2]))),v]);return Q(y5,ag(f([0,n(y4,Q(oO(a[1]),w)),u],s)));case
 3:var
-x=[0,n(yF,H(e(fs,a[7]))),0],y=[0,n(yG,H(e(K,a[6]))),0],z=[0,n(yJ,N(yI,ag([0,n(yH,H(e(K,a[5]))),y]))),x],A=0,B=a[4],C=[0,n(yM,H(e(function(a){return 0===a[0]?N(yK,H(e(jv,a[1]))):N(yL,jv(a[1]))},B))),A],D=a[3],E=[0,n(yN,H(e(function(a){var
-b=[0,jv(a[2]),0];return H([0,ap(a[1]),b])},D))),C],F=a[2],G=[0,n(yO,H(e(function(a){var
-b=[0,cI(a[2]),0];return H([0,ap(a[1]),b])},F))),E];return N(yS,ag([0,n(yR,N(yQ,ag([0,n(yP,H(e(ap,a[1]))),G]))),z]));case
+x=[0,n(y6,G(e(fD,a[7]))),0],y=[0,n(y7,G(e(L,a[6]))),0],z=[0,n(y_,Q(y9,ag([0,n(y8,G(e(L,a[5]))),y]))),x],A=0,B=a[4],C=[0,n(zb,G(e(function(a){return 0===a[0]?Q(y$,G(e(jK,a[1]))):Q(za,jK(a[1]))},B))),A],D=a[3],E=[0,n(zc,G(e(function(a){var
+b=[0,jK(a[2]),0];return G([0,ap(a[1]),b])},D))),C],F=a[2],H=[0,n(zd,G(e(function(a){var
+b=[0,cM(a[2]),0];return G([0,ap(a[1]),b])},F))),E];return Q(zh,ag([0,n(zg,Q(zf,ag([0,n(ze,G(e(ap,a[1]))),H]))),z]));case
 4:var
-I=[0,n(yT,H(e(fs,a[3]))),0],J=[0,n(yW,N(yV,ag([0,n(yU,K(a[2])),0]))),I];return N(y0,ag([0,n(yZ,N(yY,ag([0,n(yX,K(a[1])),0]))),J]));case
+I=[0,n(zi,G(e(fD,a[3]))),0],J=[0,n(zl,Q(zk,ag([0,n(zj,L(a[2])),0]))),I];return Q(zp,ag([0,n(zo,Q(zn,ag([0,n(zm,L(a[1])),0]))),J]));case
 5:var
-L=[0,n(y1,K(a[5])),0];return N(y3,ag([0,n(y2,jy(a[1],[0,a[2],a[3]],0,a[4])),L]));case
+K=[0,n(zq,L(a[5])),0];return Q(zs,ag([0,n(zr,jN(a[1],[0,a[2],a[3]],0,a[4])),K]));case
 6:var
-j=a[1],M=0,O=j?cI(j[1]):ap(y6);return N(y5,ag([0,n(y4,O),M]));default:var
-P=[0,n(y7,K(a[6])),0],Q=[0,n(y8,K(a[5])),P],R=[0,n(y9,jy(a[2],a[3],0,a[4])),Q],S=a[1];return N(zc,ag([0,n(zb,H(e(function(a){var
-b=[0,n(y_,K(a[2][2])),0],c=[0,n(y$,K(a[2][1])),b];return ag([0,n(za,ap(a[1])),c])},S))),R]))}}function
-dF(a){return H(e(fq,a))}function
-ft(b,a){var
-c=[0,n(zd,eq(a)),0];return ag([0,n(ze,H(e(dF,b))),c])}function
-de(a){switch(a[0]){case
+j=a[1],M=0,N=j?cM(j[1]):ap(zv);return Q(zu,ag([0,n(zt,N),M]));default:var
+O=[0,n(zw,L(a[6])),0],P=[0,n(zx,L(a[5])),O],R=[0,n(zy,jN(a[2],a[3],0,a[4])),P],S=a[1];return Q(zD,ag([0,n(zC,G(e(function(a){var
+b=[0,n(zz,L(a[2][2])),0],c=[0,n(zA,L(a[2][1])),b];return ag([0,n(zB,ap(a[1])),c])},S))),R]))}}function
+dP(a){return G(e(fB,a))}function
+fE(b,a){var
+c=[0,n(zE,eD(a)),0];return ag([0,n(zF,G(e(dP,b))),c])}function
+dh(a){switch(a[0]){case
 0:return ap(a[1]);case
 1:var
-b=ft(a[2],a[3]);return N(a[1],b);case
+b=fE(a[2],a[3]);return Q(a[1],b);case
 2:var
-c=a[1]?zf:zh;return N(zg,ap(c));case
+c=a[1]?zG:zI;return Q(zH,ap(c));case
 3:var
-d=[0,dF(a[3]),0];return N(zi,H([0,ft(a[1],a[2]),d]));case
+d=[0,dP(a[3]),0];return Q(zJ,G([0,fE(a[1],a[2]),d]));case
 4:var
-f=[0,eq(a[4]),0],g=[0,fq(a[3]),f];return N(zj,H([0,ft(a[1],a[2]),g]));case
+f=[0,eD(a[4]),0],g=[0,fB(a[3]),f];return Q(zK,G([0,fE(a[1],a[2]),g]));case
 5:var
-h=[0,eq(a[3]),0],i=[0,fq(a[2]),h];return N(zk,H([0,de(a[1]),i]));case
+h=[0,eD(a[3]),0],i=[0,fB(a[2]),h];return Q(zL,G([0,dh(a[1]),i]));case
 6:var
-j=[0,eq(a[3]),0],k=[0,fq(a[2]),j];return N(zl,H([0,de(a[1]),k]));case
-7:return N(zm,de(a[1]));case
+j=[0,eD(a[3]),0],k=[0,fB(a[2]),j];return Q(zM,G([0,dh(a[1]),k]));case
+7:return Q(zN,dh(a[1]));case
 8:var
-l=[0,H(e(dF,a[3])),0],m=[0,ap(a[2]),l];return N(zn,H([0,de(a[1]),m]));case
+l=[0,G(e(dP,a[3])),0],m=[0,ap(a[2]),l];return Q(zO,G([0,dh(a[1]),m]));case
 9:var
-n=a[1];return N(zo,H(e(function(a){var
-b=a[1],c=b[1],d=[0,de(a[2]),0],e=[0,eq(b[2]),d],f=[0,fq(c[2]),e];return H([0,dF(c[1]),f])},n)));default:var
-o=[0,de(a[4]),0],p=[0,de(a[3]),o],q=[0,eq(a[2]),p];return N(zp,H([0,dF(a[1]),q]))}}function
-zq(a){var
-b=[0,de(a[2]),0];return H([0,cH(a[1]),b])}function
-ow(a){if(typeof
-a==="number")return 0===a?ap(zr):ap(zs);else
+n=a[1];return Q(zP,G(e(function(a){var
+b=a[1],c=b[1],d=[0,dh(a[2]),0],e=[0,eD(b[2]),d],f=[0,fB(c[2]),e];return G([0,dP(c[1]),f])},n)));default:var
+o=[0,dh(a[4]),0],p=[0,dh(a[3]),o],q=[0,eD(a[2]),p];return Q(zQ,G([0,dP(a[1]),q]))}}function
+zR(a){var
+b=[0,dh(a[2]),0];return G([0,cL(a[1]),b])}function
+oR(a){if(typeof
+a==="number")return 0===a?ap(zS):ap(zT);else
 switch(a[0]){case
 0:var
-b=[0,H(e(dF,a[2])),0];return N(zt,H([0,cH(a[1]),b]));case
+b=[0,G(e(dP,a[2])),0];return Q(zU,G([0,cL(a[1]),b]));case
 1:var
-c=[0,cH(a[2]),0];return N(zu,H([0,cH(a[1]),c]));case
-2:return N(zv,H(e(K,a[1])));default:var
-d=[0,n(zw,ft(a[4],a[5])),0],f=[0,n(zx,H(e(K,a[3]))),d],g=[0,n(zy,H(e(K,a[2]))),f];return N(zA,ag([0,n(zz,cH(a[1])),g]))}}function
-zB(a){var
-b=a[4],h=b?[0,n(zC,dF([0,b[1],b[2]])),0]:b,d=a[3],i=d?[0,n(zD,ow(d[1])),0]:d,j=f(i,h),g=a[2],k=g?[0,n(zE,cH(g[1])),0]:g,l=f(k,j),c=a[1],m=c?[0,n(zF,H(e(zq,[0,c[1],c[2]]))),0]:c;return ag(f(m,l))}function
-ox(g,a,d){var
-h=[0,n(zG,H(e(zB,d))),0];if(a)var
-b=a[1],c=[0,n(zH,ft(b[1],b[2])),0];else
+c=[0,cL(a[2]),0];return Q(zV,G([0,cL(a[1]),c]));case
+2:return Q(zW,G(e(L,a[1])));default:var
+d=[0,n(zX,fE(a[4],a[5])),0],f=[0,n(zY,G(e(L,a[3]))),d],g=[0,n(zZ,G(e(L,a[2]))),f];return Q(z1,ag([0,n(z0,cL(a[1])),g]))}}function
+z2(a){var
+b=a[4],h=b?[0,n(z3,dP([0,b[1],b[2]])),0]:b,d=a[3],i=d?[0,n(z4,oR(d[1])),0]:d,j=f(i,h),g=a[2],k=g?[0,n(z5,cL(g[1])),0]:g,l=f(k,j),c=a[1],m=c?[0,n(z6,G(e(zR,[0,c[1],c[2]]))),0]:c;return ag(f(m,l))}function
+oS(g,a,d){var
+h=[0,n(z7,G(e(z2,d))),0];if(a)var
+b=a[1],c=[0,n(z8,fE(b[1],b[2])),0];else
 var
 c=a;var
-i=f(c,h);return ag([0,n(zI,jt(g)),i])}function
-oy(d,c,a,b){var
-g=[0,n(zJ,ow(b)),0],h=a?[0,n(zK,H(e(K,a))),0]:a,i=f(h,g),j=[0,n(zL,H(e(K,c))),0];return ag(f([0,n(zM,jt(d)),j],i))}function
-zN(a){if(typeof
-a==="number")return ap(zO);else
+i=f(c,h);return ag([0,n(z9,jI(g)),i])}function
+oT(d,c,a,b){var
+g=[0,n(z_,oR(b)),0],h=a?[0,n(z$,G(e(L,a))),0]:a,i=f(h,g),j=[0,n(Aa,G(e(L,c))),0];return ag(f([0,n(Ab,jI(d)),j],i))}function
+Ac(a){if(typeof
+a==="number")return ap(Ad);else
 switch(a[0]){case
-0:return N(zP,cH(a[1]));case
-1:return N(zQ,ox(a[1],a[2],a[3]));default:return N(zR,oy(a[1],a[2],a[3],a[4]))}}function
-he(a){var
-b=hZ(hY(av(a),function(b){return a2(a,b)}));return m(function(a){var
-b=L(34===a?1:0),c=b?L(92===a?1:0):b,d=c?$(z6,f_(a)):c;return d?$(f_(a),z7):d},b)}function
-jz(d){var
+0:return Q(Ae,cL(a[1]));case
+1:return Q(Af,oS(a[1],a[2],a[3]));default:return Q(Ag,oT(a[1],a[2],a[3],a[4]))}}function
+hr(a){var
+b=ia(h$(ax(a),function(b){return a4(a,b)}));return m(function(a){var
+b=M(34===a?1:0),c=b?M(92===a?1:0):b,d=c?aa(Av,gk(a)):c;return d?aa(gk(a),Aw):d},b)}function
+jO(d){var
 a=d;for(;;)switch(a[0]){case
 8:var
-b=he(a[2]);if(b){var
+b=hr(a[2]);if(b){var
 a=a[1];continue}return b;case
 9:var
-e=a[1];return m(function(a){return jz(a[2])},e);case
+e=a[1];return m(function(a){return jO(a[2])},e);case
 10:var
-c=jz(a[3]);if(c){var
+c=jO(a[3]);if(c){var
 a=a[4];continue}return c;case
 0:case
-1:return he(a[1]);case
+1:return hr(a[1]);case
 5:case
 6:case
 7:var
 a=a[1];continue;default:return 1}}function
-fu(b){function
+fF(b){function
 c(f){var
-a=f_(f),b=$(z8,a),c=b?$(a,z9):b;if(c)var
+a=gk(f),b=aa(Ax,a),c=b?aa(a,Ay):b;if(c)var
 d=c;else{var
-e=$(z_,a);if(e)return $(a,z$);var
+e=aa(Az,a);if(e)return aa(a,AA);var
 d=e}return d}var
-a=hZ(hY(av(b),function(a){return a2(b,a)}));if(a){var
+a=ia(h$(ax(b),function(a){return a4(b,a)}));if(a){var
 d=a[2],e=c(a[1]),f=e?m(function(a){var
 b=c(a);if(b)var
 d=b;else
 var
-e=f_(a),f=$(Aa,e),h=f?$(e,Ab):f,d=h;var
-g=d||(95===a?1:0);return g},d):e,h=f?$(g(d),Ac):f;if(h)return L(ax(b,Ad));var
+e=gk(a),f=aa(AB,e),h=f?aa(e,AC):f,d=h;var
+g=d||(95===a?1:0);return g},d):e,h=f?aa(g(d),AD):f;if(h)return M(az(b,AE));var
 i=h}else
 var
 i=a;return i}function
-jA(c){var
+jP(c){var
 a=c;for(;;)switch(a[0]){case
 0:return 1;case
-1:return fu(a[1]);case
+1:return fF(a[1]);case
 3:var
-b=jA(a[2]);if(b){var
+b=jP(a[2]);if(b){var
 a=a[3];continue}return b;default:var
 a=a[1];continue}}function
-fv(m){var
+fG(m){var
 a=m;for(;;)switch(a[0]){case
 0:var
 e=a[1];if(typeof
@@ -6153,42 +6247,42 @@ h=typeof
 e[1]==="number"?1:0,d=h?1:h;else
 var
 d=1;if(d){var
-f=f0(a[2]);if(typeof
+f=f$(a[2]);if(typeof
 f!=="number"&&0===f[0])return 0;var
 g=1}else
 var
 g=d;return g;case
 1:return 1;case
 3:var
-i=fv(a[2]);if(i){var
+i=fG(a[2]);if(i){var
 a=a[3];continue}return i;case
 4:var
-j=a[2],k=fv(a[1]),l=k?f6(c(2,b),j):k;return l?f6(j,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):l;default:var
+j=a[2],k=fG(a[1]),l=k?gg(c(2,b),j):k;return l?gg(j,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):l;default:var
 a=a[1];continue}}function
-er(a){return 0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
-b0(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-dG(a){return y(er,b0(a))}function
-jB(a){switch(a[0]){case
+eE(a){return 0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
+b1(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+dQ(a){return y(eE,b1(a))}function
+jQ(a){switch(a[0]){case
 0:var
-c=er(a[4]),d=f(dG(a[3]),c),e=f(dG(a[2]),d);return f(dG(a[1]),e);case
+c=eE(a[4]),d=f(dQ(a[3]),c),e=f(dQ(a[2]),d);return f(dQ(a[1]),e);case
 1:var
-b=a[3],g=b?dG(b[1]):b,h=f(dG(a[2]),g);return f(dG(a[1]),h);default:return dG(a[1])}}function
-Ae(a){switch(a[0]){case
+b=a[3],g=b?dQ(b[1]):b,h=f(dQ(a[2]),g);return f(dQ(a[1]),h);default:return dQ(a[1])}}function
+AF(a){switch(a[0]){case
 0:var
 d=f(a[3],[0,a[4],0]),e=f(a[2],d),b=f(a[1],e);break;case
 1:var
 c=a[3],g=c?c[1]:c,h=f(a[2],g),b=f(a[1],h);break;case
 2:var
 b=a[1];break;default:var
-i=f(a[4],[0,a[5],[0,a[6],0]]),j=f(a[3],i),k=f(a[2],j),b=f(a[1],k)}return y(er,b)}function
-oz(a){return 0===a[0]?f(a[1],a[2]):[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
-oA(a){if(0===a[0]){var
-b=b0(a[2]);return f(b0(a[1]),b)}return[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
-oB(a){switch(a[0]){case
+i=f(a[4],[0,a[5],[0,a[6],0]]),j=f(a[3],i),k=f(a[2],j),b=f(a[1],k)}return y(eE,b)}function
+oU(a){return 0===a[0]?f(a[1],a[2]):[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
+oV(a){if(0===a[0]){var
+b=b1(a[2]);return f(b1(a[1]),b)}return[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
+oW(a){switch(a[0]){case
 1:var
 b=a[3],c=a[2],d=a[1];return[0,d[1],[0,d[2],[0,c[1],[0,c[2],[0,b[1],[0,b[2],0]]]]]];case
 2:return[0,a[1],0];default:return[0,a[1],[0,a[2],0]]}}function
-dH(e){var
+dR(e){var
 a=e[4],h=typeof
 a==="number"?0:2===a[0]?[0,a[1],[0,a[2],0]]:[0,a[1],0],c=e[3];if(c){var
 b=c[1];switch(b[0]){case
@@ -6200,70 +6294,70 @@ d=[0,b[1],[0,b[2],0]]}var
 g=d}else
 var
 g=c;return f(g,h)}function
-oC(a){if(0===a[0]){var
-b=a[5],c=b?b0(b[1]):b;return[0,a[2],[0,a[3],[0,a[4],c]]]}var
-d=[0,a[4],0],e=f(b0(a[3]),d);return f(b0(a[2]),e)}function
-oD(b,e){var
+oX(a){if(0===a[0]){var
+b=a[5],c=b?b1(b[1]):b;return[0,a[2],[0,a[3],[0,a[4],c]]]}var
+d=[0,a[4],0],e=f(b1(a[3]),d);return f(b1(a[2]),e)}function
+oY(b,e){var
 a=e;for(;;)switch(a[0]){case
 0:return 1;case
 1:var
 c=a[1];if(0===c[0]){var
-f=c[1];return aj(function(a){return ax(f,a)},b)}return 0;case
+f=c[1];return aj(function(a){return az(f,a)},b)}return 0;case
 3:var
-d=oD(b,a[2]);if(d){var
+d=oY(b,a[2]);if(d){var
 a=a[3];continue}return d;default:var
 a=a[1];continue}}function
-fw(c,a){return m(function(a){var
-b=fv(a);return b?oD(c,a):b},a)}function
-oE(a){if(typeof
+fH(c,a){return m(function(a){var
+b=fG(a);return b?oY(c,a):b},a)}function
+oZ(a){if(typeof
 a!=="number")switch(a[0]){case
 2:return a[1];case
 3:return f(a[2],a[3])}return 0}function
-oF(a){var
-d=f6(c(2,c(2,c(2,c(2,c(2,b))))),a);return d?f6(a,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b))))))))))):d}function
-oG(a,b){return b?[4,oG(a,b[1]),a]:a}function
+o0(a){var
+d=gg(c(2,c(2,c(2,c(2,c(2,b))))),a);return d?gg(a,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b))))))))))):d}function
+o1(a,b){return b?[4,o1(a,b[1]),a]:a}function
 i(a){switch(a[0]){case
 0:var
-j=a[2],k=c(2,p(c(2,c(2,b)))),l=function(a){return C(k,a)},m=f1(kK(j),l,b);return[0,kY(kL(f0(a[1]),j)),m];case
+j=a[2],k=c(2,q(c(2,c(2,b)))),l=function(a){return C(k,a)},m=ga(kZ(j),l,b);return[0,la(k0(f$(a[1]),j)),m];case
 1:var
 e=a[1];return 0===e[0]?[5,[0,b,b],[0,d,b]]:[1,e[1],e[2],e[3]];case
 2:var
-f=i(a[1]);return 0===f[0]?[0,Q(f[1]),f[2]]:[3,[0,d,b],f];case
+f=i(a[1]);return 0===f[0]?[0,T(f[1]),f[2]]:[3,[0,d,b],f];case
 3:var
 g=i(a[2]),h=i(a[3]);switch(a[1]){case
 0:return[2,g,h];case
 1:return[3,g,h];case
 2:return[4,g,h];default:return[5,g,h]}case
 4:var
-n=by(eP(a[2]));return oG(i(a[1]),n);default:return[6,i(a[1])]}}function
-b1(a){if(0===a[0]){var
+n=bz(e1(a[2]));return o1(i(a[1]),n);default:return[6,i(a[1])]}}function
+b2(a){if(0===a[0]){var
 b=i(a[1]);return[0,b,b]}var
 c=i(a[2]);return[0,i(a[1]),c]}function
-dI(a){var
-b=b1(a[3]),c=b1(a[2]);return[0,b1(a[1]),c,b]}function
-Af(a){switch(a[0]){case
+dS(a){var
+b=b2(a[3]),c=b2(a[2]);return[0,b2(a[1]),c,b]}function
+AG(a){switch(a[0]){case
 0:var
-b=a[5],c=b1(a[4]),d=dI(a[3]),e=dI(a[2]);return[0,[0,dI(a[1]),e,d,c,b]];case
+b=a[5],c=b2(a[4]),d=dS(a[3]),e=dS(a[2]);return[0,[0,dS(a[1]),e,d,c,b]];case
 1:var
-f=z(dI,a[3]),g=dI(a[2]);return[1,dI(a[1]),g,f];default:return[2,dI(a[1])]}}function
-oH(a){if(0===a[0]){var
+f=z(dS,a[3]),g=dS(a[2]);return[1,dS(a[1]),g,f];default:return[2,dS(a[1])]}}function
+o2(a){if(0===a[0]){var
 c=a[2],d=a[1],b=function(a){var
 b=i(j(a,c));return[0,i(j(a,d)),b]},e=b(function(a){return a[3]}),f=b(function(a){return a[2]});return[0,[0,b(function(a){return a[1]}),f,e]]}var
 g=i(a[5]),h=[0,i(a[4]),g],k=i(a[3]),l=i(a[2]);return[1,i(a[1]),l,k,h]}function
-es(a){var
+eF(a){var
 b=i(a[3]),c=i(a[2]);return[0,i(a[1]),c,b]}function
-df(a){if(0===a[0]){var
-c=a[5],h=c?es(c[1]):[0,[0,d,b],[0,d,b],[0,d,b]],j=i(a[4]),k=i(a[3]),l=i(a[2]);return[0,by(a[1]),l,k,j,h]}var
+di(a){if(0===a[0]){var
+c=a[5],h=c?eF(c[1]):[0,[0,d,b],[0,d,b],[0,d,b]],j=i(a[4]),k=i(a[3]),l=i(a[2]);return[0,bz(a[1]),l,k,j,h]}var
 e=a[4],f=a[3],g=a[2];if(a[1]){var
-m=es(f),n=es(g);return[2,i(e),n,m]}var
-o=es(f),p=es(g);return[1,i(e),p,o]}function
-hf(b,a){if(a){var
-c=a[1],d=a[2],g=hf(f(b,[0,c,0]),d),h=e(function(a){return[0,c,a]},b);return f(bs(function(c){var
-a=c[2],b=c[1],d=0===b[0]?b[5]?0:0===a[0]?a[5]?0:q(b[1],a[1]):0:0===a[0]?0:cq(b[1],a[1]);return L(d)},h),g)}return a}function
-Ag(b){if(b[1])return 0;var
+m=eF(f),n=eF(g);return[2,i(e),n,m]}var
+o=eF(f),p=eF(g);return[1,i(e),p,o]}function
+hs(b,a){if(a){var
+c=a[1],d=a[2],g=hs(f(b,[0,c,0]),d),h=e(function(a){return[0,c,a]},b);return f(bu(function(c){var
+a=c[2],b=c[1],d=0===b[0]?b[5]?0:0===a[0]?a[5]?0:o(b[1],a[1]):0:0===a[0]?0:ct(b[1],a[1]);return M(d)},h),g)}return a}function
+AH(b){if(b[1])return 0;var
 a=b[4];if(typeof
 a!=="number"&&1===a[0])return[0,[0,i(a[1])],0];return 0}function
-Ah(N,M,a){switch(a[1]){case
+AI(N,M,a){switch(a[1]){case
 0:var
 g=a[4];if(typeof
 g!=="number"&&0===g[0])return[0,[1,i(g[1])],0];return 0;case
@@ -6296,15 +6390,15 @@ m!=="number"&&0===m[0])return[0,[7,i(m[1])],0];return 0;case
 6:var
 n=a[4];if(typeof
 n!=="number"&&0===n[0]){var
-D=n[1],o=a[3];if(o){var
-p=o[1];switch(p[0]){case
+D=n[1],p=a[3];if(p){var
+q=p[1];switch(q[0]){case
 0:var
-U=i(D);return[0,[8,i(p[1]),U],0];case
+U=i(D);return[0,[8,i(q[1]),U],0];case
 1:var
-V=i(D);return[0,[15,e(i,p[1]),V],0];default:var
+V=i(D);return[0,[15,e(i,q[1]),V],0];default:var
 E=0}}else
 var
-E=o;return E}return 0;case
+E=p;return E}return 0;case
 7:var
 r=a[4];if(typeof
 r!=="number"&&0===r[0])return[0,[9,i(r[1])],0];return 0;case
@@ -6318,14 +6412,14 @@ b=i(W);return[13,a,i(X),b]}}if(K)return 0;break;case
 9:var
 u=a[4];if(typeof
 u!=="number"&&0===u[0]){var
-Y=u[1],Z=hf(0,M);return e(function(h){var
+Y=u[1],Z=hs(0,M);return e(function(h){var
 e=i(Y),a=h[2],c=h[1];if(0===c[0]){var
 f=c[1];if(0===a[0]){var
-g=function(a){return a?es(a[1]):[0,[0,d,b],[0,d,b],[0,d,b]]};if(q(f,a[1])){var
-j=i(a[2]),k=[2,[2,i(c[2]),j],e],l=g(a[5]),m=g(c[5]);return[11,by(f),m,l,k]}var
-n=df(a);return[10,df(c),n,e]}var
-o=df(a);return[10,df(c),o,e]}var
-p=df(a);return[10,df(c),p,e]},Z)}return 0;case
+g=function(a){return a?eF(a[1]):[0,[0,d,b],[0,d,b],[0,d,b]]};if(o(f,a[1])){var
+j=i(a[2]),k=[2,[2,i(c[2]),j],e],l=g(a[5]),m=g(c[5]);return[11,bz(f),m,l,k]}var
+n=di(a);return[10,di(c),n,e]}var
+p=di(a);return[10,di(c),p,e]}var
+q=di(a);return[10,di(c),q,e]},Z)}return 0;case
 10:var
 v=a[4],L=0;if(typeof
 v==="number"||!(1===v[0]))L=1;else{var
@@ -6335,15 +6429,15 @@ $=x[2],aa=x[1],c=function(a){var
 b=i(_),c=i($);return[12,a,i(aa),c,b]}}if(L)return 0;break;case
 11:var
 G=typeof
-a[4]==="number"?1:0,ab=G?Ai:G;return ab;case
+a[4]==="number"?1:0,ab=G?AJ:G;return ab;case
 12:var
 y=a[4];if(typeof
 y!=="number"&&1===y[0]){var
 z=a[3];if(z){var
 H=z[1];if(0===H[0]){var
 ac=i(y[1]);return[0,[14,i(H[1]),ac],0]}return 0}return z}return 0;default:return 0}var
-B=a[2],P=B?[0,by(B[1]),0]:aC(0,N);return e(c,P)}function
-Aj(c,a){switch(a[1]){case
+B=a[2],P=B?[0,bz(B[1]),0]:aC(0,N);return e(c,P)}function
+AK(c,a){switch(a[1]){case
 0:var
 l=a[4];if(typeof
 l!=="number"&&2!==l[0])return a[2]?0:a[3]?0:1;return 0;case
@@ -6353,8 +6447,8 @@ m==="number"||2===m[0])K=1;else{var
 n=a[2];if(!n)return a[3]?0:1;if(a[3])return 0;var
 b=n[1]}if(K)return 0;break;case
 2:var
-L=0,p=a[4];if(typeof
-p==="number"||!(1===p[0]))L=1;else{var
+L=0,q=a[4];if(typeof
+q==="number"||!(1===q[0]))L=1;else{var
 r=a[2];if(!r){var
 e=a[3];return e?0===e[1][0]?1:0:e}var
 d=a[3];if(!d)return d;if(0!==d[1][0])return 0;var
@@ -6376,7 +6470,7 @@ w!=="number"&&0===w[0]){if(a[2])return 0;var
 f=a[3];if(f){var
 x=f[1];switch(x[0]){case
 0:return 1;case
-1:return q(g(x[1]),c);default:var
+1:return o(g(x[1]),c);default:var
 y=0}}else
 var
 y=f;return y}return 0;case
@@ -6387,7 +6481,7 @@ z!=="number"&&0===z[0])return a[2]?0:a[3]?0:1;return 0;case
 N=0,A=a[4];if(typeof
 A==="number"||!(1===A[0]))N=1;else{var
 h=a[3];if(!h)return h;if(0!==h[1][0])return 0;var
-B=q(c,Al),O=0;if(B){var
+B=o(c,AM),O=0;if(B){var
 C=a[2];if(C){var
 b=C[1];O=1}else
 var
@@ -6413,118 +6507,122 @@ I=H;return I;case
 12:var
 J=a[4];if(typeof
 J!=="number"&&1===J[0]){if(a[2])return 0;var
-k=a[3];return k?0===k[1][0]?q(c,Am):0:k}return 0;default:return 0}var
-o=$(Ak,b);return o?$(b,c):o}function
-oI(d,c,b){var
-e=y(function(a){return Ah(d,c,a)},b),a=y(Ag,b),g=a?[0,a[1],a[2]]:An;return f(g,e)}function
-jC(a,d,c,b){var
-f=oI(g(a),c,b),h=oH(d);return[0,e(Af,a),h,f]}function
-oJ(b){if(b[1])return 0;var
+k=a[3];return k?0===k[1][0]?o(c,AN):0:k}return 0;default:return 0}var
+p=aa(AL,b);return p?aa(b,c):p}function
+jR(c,k,j,b){var
+l=g(c),d=y(function(a){return AI(l,j,a)},b),a=y(AH,b),h=a?[0,a[1],a[2]]:AO,i=f(h,d),m=o2(k);return[0,e(AG,c),m,i]}function
+o3(b){if(b[1])return 0;var
 a=b[4];if(typeof
 a!=="number"&&1===a[0])return[0,[0,i(a[1])],0];return 0}function
-oK(c){function
+o4(c){function
 a(a){return r(a,e(i,c),[0,d,b])}var
-f=a(Ao),g=a(Ap);return[0,a(0),g,f]}function
-jD(W,E,V,a){switch(a[1]){case
+f=a(AP),g=a(AQ);return[0,a(0),g,f]}function
+jS(_,G,Z,a){switch(a[1]){case
 0:var
-d=a[4];if(typeof
-d!=="number"&&0===d[0])return[0,[1,i(d[1])],0];return 0;case
-1:var
-c=a[4];if(typeof
-c==="number")return 0;else
-switch(c[0]){case
-0:var
-X=c[1],b=function(a){return[2,a,i(X)]};break;case
-1:var
-Z=c[1],b=function(a){return[3,a,i(Z)]};break;default:var
-_=c[2],$=c[1],b=function(a){var
-b=i(_);return[4,a,i($),b]}}break;case
-2:var
-f=a[4],N=0;if(typeof
-f==="number"||!(1===f[0]))N=1;else{var
-g=a[3],aa=f[1];if(!g)return g;var
-G=g[1];if(0!==G[0])return 0;var
-ab=G[1],b=function(a){var
-b=i(ab),c=i(aa);return W?[9,a,b,c]:[6,a,b,c]}}if(N)return 0;break;case
-3:var
 h=a[4];if(typeof
-h!=="number"&&1===h[0])return[0,[5,i(h[1])],0];return 0;case
-4:var
-j=a[4],O=0;if(typeof
-j==="number"||!(0===j[0]))O=1;else
-var
-ac=j[1],b=function(a){return[10,a,i(ac)]};if(O)return 0;break;case
-5:var
-k=a[4];if(typeof
-k!=="number"&&0===k[0])return[0,[12,i(k[1])],0];return 0;case
-6:var
-l=a[4];if(typeof
-l!=="number"&&0===l[0]){var
-H=l[1],m=a[3];if(m){var
-n=m[1];switch(n[0]){case
-0:var
-ad=i(H);return[0,[8,al(i(n[1]),E),ad],0];case
+h!=="number"&&0===h[0])return[0,[1,i(h[1])],0];return 0;case
 1:var
-ae=i(H);return[0,[8,e(i,n[1]),ae],0];default:var
-I=0}}else
+f=a[4];if(typeof
+f==="number")return 0;else
+switch(f[0]){case
+0:var
+$=f[1],c=function(a){return[2,a,i($)]};break;case
+1:var
+ab=f[1],c=function(a){return[3,a,i(ab)]};break;default:var
+ac=f[2],ad=f[1],c=function(a){var
+b=i(ac);return[4,a,i(ad),b]}}break;case
+2:var
+j=a[4],R=0;if(typeof
+j==="number"||!(1===j[0]))R=1;else{var
+k=a[3],ae=j[1];if(!k)return k;var
+I=k[1];if(0!==I[0])return 0;var
+af=I[1],c=function(a){var
+b=i(af),c=i(ae);return _?[9,a,b,c]:[6,a,b,c]}}if(R)return 0;break;case
+3:var
+l=a[4];if(typeof
+l!=="number"&&1===l[0])return[0,[5,i(l[1])],0];return 0;case
+4:var
+m=a[4],S=0;if(typeof
+m==="number"||!(0===m[0]))S=1;else
 var
-I=m;return I}return 0;case
+ag=m[1],c=function(a){return[10,a,i(ag)]};if(S)return 0;break;case
+5:var
+n=a[4];if(typeof
+n!=="number"&&0===n[0])return[0,[12,i(n[1])],0];return 0;case
+6:var
+o=a[4];if(typeof
+o!=="number"&&0===o[0]){var
+J=o[1],p=a[3];if(p){var
+q=p[1];switch(q[0]){case
+0:var
+ah=i(J);return[0,[8,al(i(q[1]),G),ah],0];case
+1:var
+ai=i(J);return[0,[8,e(i,q[1]),ai],0];default:var
+K=0}}else
+var
+K=p;return K}return 0;case
 8:var
-o=a[4],P=0;if(typeof
-o==="number"||!(1===o[0]))P=1;else{var
-p=a[3],af=o[1];if(!p)return p;var
-J=p[1];if(0!==J[0])return 0;var
-ag=J[1],b=function(a){var
-b=i(af);return[7,a,i(ag),b]}}if(P)return 0;break;case
-9:var
-q=a[4];if(typeof
-q!=="number"&&0===q[0]){var
-ah=q[1],ai=hf(0,V);return e(function(a){var
-b=i(ah),c=df(a[2]);return[14,df(a[1]),c,b]},ai)}return 0;case
-10:var
-r=a[4],Q=0;if(typeof
-r==="number"||!(1===r[0]))Q=1;else{var
+r=a[4],T=0;if(typeof
+r==="number"||!(1===r[0]))T=1;else{var
 s=a[3],aj=r[1];if(!s)return s;var
-t=s[1];if(2!==t[0])return 0;var
-ak=t[2],am=t[1],b=function(a){var
-b=i(aj),c=i(ak);return[15,a,i(am),c,b]}}if(Q)return 0;break;case
+L=s[1];if(0!==L[0])return 0;var
+ak=L[1],c=function(a){var
+b=i(aj);return[7,a,i(ak),b]}}if(T)return 0;break;case
+9:var
+t=a[4];if(typeof
+t!=="number"&&0===t[0]){var
+am=t[1],an=hs(0,Z);return e(function(a){var
+b=i(am),c=di(a[2]);return[14,di(a[1]),c,b]},an)}return 0;case
+10:var
+u=a[4],U=0;if(typeof
+u==="number"||!(1===u[0]))U=1;else{var
+v=a[3],ao=u[1];if(!v)return v;var
+w=v[1];if(2!==w[0])return 0;var
+ap=w[2],aq=w[1],c=function(a){var
+b=i(ao),c=i(ap);return[15,a,i(aq),c,b]}}if(U)return 0;break;case
 12:var
-u=a[4];if(typeof
-u!=="number"&&1===u[0]){var
-v=a[3];if(v){var
-w=v[1];if(3===w[0]){var
-an=i(w[2]),ao=i(u[1]);return[0,[16,i(w[1]),ao,an],0]}return 0}return v}return 0;case
-13:var
-x=a[4],R=0;if(typeof
-x==="number"||!(1===x[0]))R=1;else
+x=a[4];if(typeof
+x!=="number"&&1===x[0]){var
+M=x[1],y=a[3];if(y){var
+g=y[1];switch(g[0]){case
+0:var
+ar=i(M);return[0,[16,i(g[1]),ar,[0,d,b]],0];case
+3:var
+as=i(g[2]),at=i(M);return[0,[16,i(g[1]),at,as],0];default:var
+N=0}}else
 var
-ap=x[1],b=function(a){return[11,a,i(ap)]};if(R)return 0;break;case
+N=y;return N}return 0;case
+13:var
+z=a[4],V=0;if(typeof
+z==="number"||!(1===z[0]))V=1;else
+var
+au=z[1],c=function(a){return[11,a,i(au)]};if(V)return 0;break;case
 14:var
-y=a[4],S=0;if(typeof
-y==="number"||!(1===y[0]))S=1;else{var
-z=a[3],aq=y[1];if(!z)return z;var
-K=z[1];if(1!==K[0])return 0;var
-ar=K[1],b=function(a){var
-b=i(aq);return[13,a,0,oK(ar),b]}}if(S)return 0;break;case
+A=a[4],W=0;if(typeof
+A==="number"||!(1===A[0]))W=1;else{var
+B=a[3],av=A[1];if(!B)return B;var
+O=B[1];if(1!==O[0])return 0;var
+aw=O[1],c=function(a){var
+b=i(av);return[13,a,0,o4(aw),b]}}if(W)return 0;break;case
 15:var
-A=a[4],T=0;if(typeof
-A==="number"||!(1===A[0]))T=1;else{var
-B=a[3],as=A[1];if(!B)return B;var
-L=B[1];if(1!==L[0])return 0;var
-at=L[1],b=function(a){var
-b=i(as);return[13,a,1,oK(at),b]}}if(T)return 0;break;case
+C=a[4],X=0;if(typeof
+C==="number"||!(1===C[0]))X=1;else{var
+D=a[3],ax=C[1];if(!D)return D;var
+P=D[1];if(1!==P[0])return 0;var
+ay=P[1],c=function(a){var
+b=i(ax);return[13,a,1,o4(ay),b]}}if(X)return 0;break;case
 16:var
-C=a[4],U=0;if(typeof
-C==="number"||!(1===C[0]))U=1;else{var
-D=a[3],au=C[1];if(!D)return D;var
-M=D[1];if(1!==M[0])return 0;var
-av=M[1],b=function(a){var
-b=i(au);return[17,a,e(i,av),b]}}if(U)return 0;break;default:return 0}var
-F=a[2],Y=F?[0,by(F[1]),0]:aC(0,E);return e(b,Y)}function
-et(e,d,c,b){var
-g=y(function(a){return jD(e,d,c,a)},b),a=y(oJ,b),h=a?[0,a[1],a[2]]:Aq;return f(h,g)}function
-cJ(a){return 11===a[1]?1:0}function
-ci(n,m,a){var
+E=a[4],Y=0;if(typeof
+E==="number"||!(1===E[0]))Y=1;else{var
+F=a[3],az=E[1];if(!F)return F;var
+Q=F[1];if(1!==Q[0])return 0;var
+aA=Q[1],c=function(a){var
+b=i(az);return[17,a,e(i,aA),b]}}if(Y)return 0;break;default:return 0}var
+H=a[2],aa=H?[0,bz(H[1]),0]:aC(0,G);return e(c,aa)}function
+eG(e,d,c,b){var
+g=y(function(a){return jS(e,d,c,a)},b),a=y(o3,b),h=a?[0,a[1],a[2]]:AR;return f(h,g)}function
+cN(a){return 11===a[1]?1:0}function
+cl(n,m,a){var
 b=a[1];if(!(4<=b))switch(b){case
 0:var
 c=a[4];if(typeof
@@ -6534,25 +6632,25 @@ l=0,d=a[4];if(typeof
 d!=="number"&&2===d[0]){var
 e=1;l=1}if(!l)var
 e=0;var
-f=cq(n,e);if(f){var
+f=ct(n,e);if(f){var
 g=a[2];if(g){var
-h=g[1],i=$(Ar,h);return i?$(h,m):i}var
+h=g[1],i=aa(AS,h);return i?aa(h,m):i}var
 j=1}else
 var
 j=f;return j;case
 3:var
 k=a[4];if(typeof
 k!=="number"&&1===k[0])return a[2]?0:a[3]?0:1;return 0}return 0}function
-bg(s,b,a){var
+a2(s,b,a){var
 d=a[2];if(d)var
-e=d[1],f=$(As,e),t=f?$(e,b):f,c=t;else
+e=d[1],f=aa(AT,e),t=f?aa(e,b):f,c=t;else
 var
 c=1;var
 h=a[1];if(!(9<=h))switch(h){case
 2:var
 i=a[4];if(typeof
 i!=="number"&&1===i[0]){var
-j=a[3];return j?0===j[1][0]?c:ci(0,b,a):ci(0,b,a)}return ci(0,b,a);case
+j=a[3];return j?0===j[1][0]?c:cl(0,b,a):cl(0,b,a)}return cl(0,b,a);case
 6:var
 k=a[4];if(typeof
 k!=="number"&&0===k[0]){var
@@ -6560,74 +6658,80 @@ l=a[3];if(l){var
 m=l[1];switch(m[0]){case
 0:return a[2]?0:1;case
 1:var
-n=q(g(m[1]),b);if(n){if(a[2])return 0;var
-o=1}else
+n=o(g(m[1]),b);if(n){if(a[2])return 0;var
+p=1}else
 var
-o=n;return o;default:return ci(0,b,a)}}return ci(0,b,a)}return ci(0,b,a);case
+p=n;return p;default:return cl(0,b,a)}}return cl(0,b,a)}return cl(0,b,a);case
 8:var
-p=a[4];if(typeof
-p!=="number"&&1===p[0]){var
-r=a[3];return r?0===r[1][0]?c?q(b,s):c:ci(0,b,a):ci(0,b,a)}return ci(0,b,a)}return ci(0,b,a)}function
-aP(c,b,a){return 11===a[1]?typeof
-a[4]==="number"?a[2]?bg(c,b,a):a[3]?bg(c,b,a):1:bg(c,b,a):bg(c,b,a)}function
-oL(f,c,b,a){var
+q=a[4];if(typeof
+q!=="number"&&1===q[0]){var
+r=a[3];return r?0===r[1][0]?c?o(b,s):c:cl(0,b,a):cl(0,b,a)}return cl(0,b,a)}return cl(0,b,a)}function
+aE(c,b,a){return 11===a[1]?typeof
+a[4]==="number"?a[2]?a2(c,b,a):a[3]?a2(c,b,a):1:a2(c,b,a):a2(c,b,a)}function
+o5(f,b,c,a){var
 h=a[2];if(h)var
-i=h[1],j=$(Au,i),A=j?$(i,b):j,d=A;else
+i=h[1],j=aa(AV,i),E=j?aa(i,c):j,d=E;else
 var
 d=1;switch(a[1]){case
-1:if(a[3])return bg(aL(c),b,a);if(d){var
-z=0,k=a[4];if(typeof
+1:if(a[3])return a2(aw(b),c,a);if(d){var
+D=0,k=a[4];if(typeof
 k!=="number"&&2===k[0]){var
-l=1;z=1}if(!z)var
-l=0;return cq(f,l)}return d;case
+l=1;D=1}if(!D)var
+l=0;return ct(f,l)}return d;case
 4:var
 m=a[4];if(typeof
-m!=="number"&&0===m[0])return a[3]?bg(aL(c),b,a):d;return bg(aL(c),b,a);case
+m!=="number"&&0===m[0])return a[3]?a2(aw(b),c,a):d;return a2(aw(b),c,a);case
 5:var
 n=a[4];if(typeof
-n!=="number"&&0===n[0]){if(a[3])return bg(aL(c),b,a);var
-o=q(b,aL(c));if(o){var
-p=typeof
-c==="number"?1:0;if(p){if(a[2])return 0;var
+n!=="number"&&0===n[0]){if(a[3])return a2(aw(b),c,a);var
+p=o(c,aw(b));if(p){var
+q=typeof
+b==="number"?1:0;if(q){if(a[2])return 0;var
 e=1}else
 var
-e=p}else
+e=q}else
 var
-e=o;return e}return bg(aL(c),b,a);case
-13:var
+e=p;return e}return a2(aw(b),c,a);case
+12:var
 r=a[4];if(typeof
-r!=="number"&&1===r[0])return a[3]?bg(aL(c),b,a):d?L(f):d;return bg(aL(c),b,a);case
+r!=="number"&&1===r[0]){var
+s=a[3];if(s){var
+t=s[1],u=o(c,aw(b));return u?typeof
+b==="number"?a[2]?0:0===t[0]?1:0:a[2]?0:3===t[0]?1:0:u}return a2(aw(b),c,a)}return a2(aw(b),c,a);case
+13:var
+v=a[4];if(typeof
+v!=="number"&&1===v[0])return a[3]?a2(aw(b),c,a):d?M(f):d;return a2(aw(b),c,a);case
 16:var
-s=a[4];if(typeof
-s!=="number"&&1===s[0]){var
-t=a[3];if(t){var
-u=t[1];if(1===u[0]){var
-v=d?q(b,aL(c)):d,w=v?q(g(u[1]),b):v;if(w)var
-x=typeof
-c==="number"?1:0,y=x?1:x;else
+w=a[4];if(typeof
+w!=="number"&&1===w[0]){var
+x=a[3];if(x){var
+y=x[1];if(1===y[0]){var
+z=d?o(c,aw(b)):d,A=z?o(g(y[1]),c):z;if(A)var
+B=typeof
+b==="number"?1:0,C=B?1:B;else
 var
-y=w;return y}return bg(aL(c),b,a)}return bg(aL(c),b,a)}return bg(aL(c),b,a);default:return bg(aL(c),b,a)}}function
-dg(a){switch(a[0]){case
+C=A;return C}return a2(aw(b),c,a)}return a2(aw(b),c,a)}return a2(aw(b),c,a);default:return a2(aw(b),c,a)}}function
+dj(a){switch(a[0]){case
 0:return[0,i([0,a[1],a[2]])];case
 1:return[1,a[1]];case
-2:return[2,dg(a[1])];case
+2:return[2,dj(a[1])];case
 3:var
-b=dg(a[2]),c=dg(a[3]);switch(a[1]){case
+b=dj(a[2]),c=dj(a[3]);switch(a[1]){case
 0:return[3,b,c];case
 1:return[4,b,c];case
 2:return[5,b,c];default:return[6,b,c]}case
 4:var
-d=a[2];return[7,dg(a[1]),d];default:return[8,dg(a[1])]}}function
-jE(j,h,f,b,d,c,a){var
-k=aj(cJ,a),l=et(0,g(b),0,a),m=aa(d,c),n=e(function(a){var
-b=i(a[2]);return[0,i(a[1]),b]},m),o=e(function(a){return 0===a[0]?[0,e(dg,a[1])]:[1,dg(a[1])]},b),p=e(function(a){var
-b=dg(a[2]);return[0,a[1],b]},f);return[0,[0,j,e(function(a){var
-b=b1(a[2]);return[0,a[1],b]},h),p,o],n,l,k]}function
-jF(c){function
+d=a[2];return[7,dj(a[1]),d];default:return[8,dj(a[1])]}}function
+jT(j,h,f,b,d,c,a){var
+k=aj(cN,a),l=eG(0,g(b),0,a),m=W(d,c),n=e(function(a){var
+b=i(a[2]);return[0,i(a[1]),b]},m),o=e(function(a){return 0===a[0]?[0,e(dj,a[1])]:[1,dj(a[1])]},b),p=e(function(a){var
+b=dj(a[2]);return[0,a[1],b]},f);return[0,[0,j,e(function(a){var
+b=b2(a[2]);return[0,a[1],b]},h),p,o],n,l,k]}function
+jU(c){function
 a(e){var
 a=[0,d,b];return r(e,c,[0,a,a])}var
-e=a(Av),f=a(Aw);return[0,a(0),f,e]}function
-dJ(a){function
+e=a(AW),f=a(AX);return[0,a(0),f,e]}function
+dT(a){function
 b(a){var
 b=i(a[2]);return[0,i(a[1]),b]}switch(a[0]){case
 0:return[0,b([0,a[1],a[2]])];case
@@ -6635,19 +6739,19 @@ b=i(a[2]);return[0,i(a[1]),b]}switch(a[0]){case
 c=b(a[3]),d=b(a[2]);return[1,b(a[1]),d,c];case
 2:return[2,i(a[1])];default:var
 e=i(a[2]);return[3,i(a[1]),e]}}function
-oM(a){if(0===a[0]){var
-b=aa(a[1],a[2]);return[0,jF(e(function(a){var
-b=i(a[2]);return[0,i(a[1]),b]},b))]}return oH([1,a[1],a[2],a[3],a[4],a[5]])}function
-oN(k,b,j,h,f,d,a){function
-c(a){return jF(e(b1,a))}var
-l=aj(cJ,a),m=et(0,g(b),d,a),n=dJ(f),o=oM(h),p=i(j);return[0,k,e(function(a){var
+o6(a){if(0===a[0]){var
+b=W(a[1],a[2]);return[0,jU(e(function(a){var
+b=i(a[2]);return[0,i(a[1]),b]},b))]}return o2([1,a[1],a[2],a[3],a[4],a[5]])}function
+o7(k,b,j,h,f,d,a){function
+c(a){return jU(e(b2,a))}var
+l=aj(cN,a),m=eG(0,g(b),d,a),n=dT(f),o=o6(h),p=i(j);return[0,k,e(function(a){var
 b=c(a[2]);return[0,c(a[1]),b]},b),p,o,n,m,l]}function
-fx(a){return aj(function(a){return 3===a[0]?1:0},a)}function
-oO(k,a,f,j,h,c){var
-l=aj(cJ,c),m=g(a),n=et(fx(a),m,0,c),o=z(dJ,h),p=oM(j),q=f?i(f[1]):[0,b,b];return[0,k,e(function(a){function
-c(a){return jF(e(b1,a))}switch(a[0]){case
+fI(a){return aj(function(a){return 3===a[0]?1:0},a)}function
+o8(k,a,f,j,h,c){var
+l=aj(cN,c),m=g(a),n=eG(fI(a),m,0,c),o=z(dT,h),p=o6(j),q=f?i(f[1]):[0,b,b];return[0,k,e(function(a){function
+c(a){return jU(e(b2,a))}switch(a[0]){case
 0:var
-k=a[5],l=b1(a[4]),m=c(a[3]),n=c(a[2]);return[0,[0,[0,c(a[1]),n,m,l,k]]];case
+k=a[5],l=b2(a[4]),m=c(a[3]),n=c(a[2]);return[0,[0,[0,c(a[1]),n,m,l,k]]];case
 1:var
 o=z(c,a[3]),p=c(a[2]);return[0,[1,c(a[1]),p,o]];case
 2:return[0,[2,c(a[1])]];default:var
@@ -6655,10 +6759,10 @@ f=a[1];if(f)var
 g=c(f);else
 var
 h=[0,b,b],i=[0,d,b],j=[0,d,b],g=[0,[0,j,j],[0,i,i],[0,h,h]];var
-q=a[7],r=b1(a[6]),s=b1(a[5]),t=c(a[4]),u=c(a[3]);return[1,[0,g,c(a[2]),u,t,s,r,q]]}},a),q,p,o,n,l]}function
-oP(a){return a[1]?0:1}function
-oQ(l){var
-b=bs(oP,l);if(b){var
+q=a[7],r=b2(a[6]),s=b2(a[5]),t=c(a[4]),u=c(a[3]);return[1,[0,g,c(a[2]),u,t,s,r,q]]}},a),q,p,o,n,l]}function
+o9(a){return a[1]?0:1}function
+o_(l){var
+b=bu(o9,l);if(b){var
 d=b[1];if(d[2])return 0;if(d[3])return 0;var
 c=d[4],a=b[2];if(typeof
 c!=="number")switch(c[0]){case
@@ -6679,46 +6783,46 @@ k=a;return k}var
 i=0}else
 var
 i=b;return i}function
-oR(a){var
-c=oP(a);if(c)return c;if(1===a[1]){var
+o$(a){var
+c=o9(a);if(c)return c;if(1===a[1]){var
 b=a[4];if(typeof
 b!=="number"&&0===b[0])return 1;return 0}return 0}function
-hg(i,h,b){function
+ht(i,h,b){function
 c(b,a){return[3,1,b,a]}function
 a(b,a){return[3,3,b,a]}function
 d(b,a){return[3,2,b,a]}function
 e(b,a){return[3,0,b,a]}var
-f=c(hh,a(hh,b)),j=a(f,jG),k=i?f:a(c(b,hh),jG);function
-g(b){return a(b,[5,e(hh,d(jG,d(b,b)))])}var
+f=c(hu,a(hu,b)),j=a(f,jV),k=i?f:a(c(b,hu),jV);function
+g(b){return a(b,[5,e(hu,d(jV,d(b,b)))])}var
 l=g(k);return a(h,e(g(j),l))}function
-hi(f,e,d){function
+hv(f,e,d){function
 a(b,a){return[3,3,b,a]}function
 b(b,a){return[3,2,b,a]}var
-c=a([3,1,jH,a(jH,d)],oS),g=a(c,[5,[3,0,jH,b(oS,b(c,c))]]);return[2,b(hg(f,e,d),g)]}function
-jI(e,g,a){function
+c=a([3,1,jW,a(jW,d)],pa),g=a(c,[5,[3,0,jW,b(pa,b(c,c))]]);return[2,b(ht(f,e,d),g)]}function
+jX(e,g,a){function
 f(b,a){return[3,1,b,a]}function
 b(b,a){return[3,3,b,a]}function
 c(b,a){return[3,2,b,a]}var
-h=f(hj,b(hj,a)),d=e?h:b(f(a,hj),oT),i=b(d,[5,[3,0,hj,c(oT,c(d,d))]]);return c(hg(e,g,a),i)}function
-oU(c,g,b,a){function
+h=f(hw,b(hw,a)),d=e?h:b(f(a,hw),pb),i=b(d,[5,[3,0,hw,c(pb,c(d,d))]]);return c(ht(e,g,a),i)}function
+pc(c,g,b,a){function
 d(b,a){return e(function(c){var
-d=q(b,c)?a:Ax;return[0,d]},Az)}return e(function(e){var
-j=[0,hg(c,b,a)],i=1,k=d(e,[2,g]);function
+d=o(b,c)?a:AY;return[0,d]},A0)}return e(function(e){var
+j=[0,ht(c,b,a)],i=1,k=d(e,[2,g]);function
 f(b,a){return[3,1,b,a]}var
-h=hg(c,b,a),l=d(e,f(f(hi(c,b,a),g),h));return[0,d(e,Ay),l,k,j,i]},AA)}function
-oV(c,b,a){var
-d=[0,jI(c,b,a),0],e=[0,jI(c,b,a),d],f=[0,jI(c,b,a),e],g=[0,hi(c,b,a),0],h=[0,hi(c,b,a),g];return[0,[0,hi(c,b,a),h],f]}function
-oW(o,e,a){if(e)if(a){var
-g=e[1],h=a[1],k=cy(i(g[2][1]));if(k){var
-l=k[1],m=cy(i(g[2][2]));if(m)var
+h=ht(c,b,a),l=d(e,f(f(hv(c,b,a),g),h));return[0,d(e,AZ),l,k,j,i]},A1)}function
+pd(c,b,a){var
+d=[0,jX(c,b,a),0],e=[0,jX(c,b,a),d],f=[0,jX(c,b,a),e],g=[0,hv(c,b,a),0],h=[0,hv(c,b,a),g];return[0,[0,hv(c,b,a),h],f]}function
+pe(o,e,a){if(e)if(a){var
+g=e[1],h=a[1],k=cA(i(g[2][1]));if(k){var
+l=k[1],m=cA(i(g[2][2]));if(m)var
 p=m[1],n=function(a){function
 d(a){return c(2,a)}var
-e=[0,a,f1(h[2],d,b)];return dt(l,a3(d1(p,l),e))},q=n(F(h[1],b)),f=[0,n(h[1]),q];else
+e=[0,a,ga(h[2],d,b)];return dw(l,a0(dx(p,l),e))},q=n(E(h[1],b)),f=[0,n(h[1]),q];else
 var
 f=[0,[0,d,b],[0,d,b]]}else
 var
 f=[0,[0,d,b],[0,d,b]];var
-r=oW([0,o],e[2],a[2]),j=[0,[0,g[1],[1,o,f[1],f[2]]],r]}else
+r=pe([0,o],e[2],a[2]),j=[0,[0,g[1],[1,o,f[1],f[2]]],r]}else
 var
 j=a;else
 var
@@ -6727,21 +6831,21 @@ at(b,a){switch(a[0]){case
 0:return[0,a[1],a[2]];case
 1:var
 c=a[1];if(0===c[0]){var
-e=c[1],d=k1(function(a){return ax(e,a[1])},b);return d?[1,d[1][2]]:a}return a;case
+e=c[1],d=ld(function(a){return az(e,a[1])},b);return d?[1,d[1][2]]:a}return a;case
 2:return[2,at(b,a[1])];case
 3:var
 f=at(b,a[3]),g=at(b,a[2]);return[3,a[1],g,f];case
 4:var
 h=a[2];return[4,at(b,a[1]),h];default:return[5,at(b,a[1])]}}function
-oX(b,a){if(0===a[0])return[0,at(b,a[1])];var
+pf(b,a){if(0===a[0])return[0,at(b,a[1])];var
 c=at(b,a[2]);return[1,at(b,a[1]),c]}function
-jJ(b,a){var
+jY(b,a){var
 c=j(b,a[3]),d=j(b,a[2]);return[0,j(b,a[1]),d,c]}function
-jK(c,a){if(c)if(a){var
+jZ(c,a){if(c)if(a){var
 g=a[2],b=a[1],h=c[1];if(typeof
 b!=="number"&&0===b[0]){var
-e=jK(h,g);if(e){var
-i=e[1],f=jK(h,i[2]);if(f)var
+e=jZ(h,g);if(e){var
+i=e[1],f=jZ(h,i[2]);if(f)var
 j=f[1],k=[0,[0,[0,b[1],i[1],j[1]],j[2]]];else
 var
 k=f;var
@@ -6753,62 +6857,62 @@ var
 d=a;else
 var
 d=c;return d}function
-jL(g,f,a){if(a){var
-e=a[1],h=a[2];if(f)return[0,e,jL(g,f[1],h)];var
-j=[0,e[2]],k=g?b:d,l=e[1],i=[0,[0,F(C(c(2,b),l),k),j],h]}else
+j0(g,f,a){if(a){var
+e=a[1],h=a[2];if(f)return[0,e,j0(g,f[1],h)];var
+j=[0,e[2]],k=g?b:d,l=e[1],i=[0,[0,E(C(c(2,b),l),k),j],h]}else
 var
 i=a;return i}function
-AB(a){if(typeof
+A2(a){if(typeof
 a!=="number"&&1===a[0])return 1;return 0}function
-AC(a){if(typeof
+A3(a){if(typeof
 a!=="number"&&2===a[0])return 1;return 0}function
-hk(e,a){if(0===a[0]){var
-f=[0,b,c(2,b)],g=hk(e,a[3]);return a3(dt(hk(e,a[2]),g),f)}return j(e,a[1])?[0,b,b]:[0,d,b]}function
-oY(a){return 0===a[0]?eg(a[1][4]):0}function
-oZ(a){switch(a[0]){case
+hx(e,a){if(0===a[0]){var
+f=[0,b,c(2,b)],g=hx(e,a[3]);return a0(dw(hx(e,a[2]),g),f)}return j(e,a[1])?[0,b,b]:[0,d,b]}function
+pg(a){return 0===a[0]?er(a[1][4]):0}function
+ph(a){switch(a[0]){case
 0:var
-b=a[1],c=a8(b[3]);return f(a8(b[2]),c);case
+b=a[1],c=a9(b[3]);return f(a9(b[2]),c);case
 1:var
-d=a8(a[2]);return f(a8(a[1]),d);default:return 0}}function
-hl(a){switch(a[0]){case
-0:return bD(a8(a[1][1]));case
+d=a9(a[2]);return f(a9(a[1]),d);default:return 0}}function
+hy(a){switch(a[0]){case
+0:return bF(a9(a[1][1]));case
 1:var
-b=a[3];return b?bD(a8(b[1])):d;default:return bD(a8(a[1]))}}function
-hm(c){var
-a=y(oY,c),d=a?[0,a[1],a[2]]:y(oZ,c);return F(b,bD(d))}function
-o0(d,a){if(d){if(a){var
-b=a[1],g=d[1],e=o0(d[2],a[2]);if(e){var
+b=a[3];return b?bF(a9(b[1])):d;default:return bF(a9(a[1]))}}function
+hz(c){var
+a=y(pg,c),d=a?[0,a[1],a[2]]:y(ph,c);return E(b,bF(d))}function
+pi(d,a){if(d){if(a){var
+b=a[1],g=d[1],e=pi(d[2],a[2]);if(e){var
 h=e[1],i=h[2],j=h[1];if(45===b)var
-c=AD;else
+c=A4;else
 if(43===b)var
-c=AE;else
+c=A5;else
 var
-f=48===b?1:0,n=f?AF:f,c=n;if(c)return[0,[0,[0,[0,g,c[1]],j],i]];var
+f=48===b?1:0,n=f?A6:f,c=n;if(c)return[0,[0,[0,[0,g,c[1]],j],i]];var
 k=49===b?1:0,o=k?[0,[0,j,[0,g,i]]]:k,l=o}else
 var
 l=e;var
 m=l}else
 var
-m=a;return m}return a?0:AG}function
-dh(b,c,a){switch(a[0]){case
+m=a;return m}return a?0:A7}function
+dk(b,c,a){switch(a[0]){case
 0:var
-d=a[1];if(ax(d,AH))return AI;if(ax(d,AJ))return AK;if(ax(d,AL))return AM;if(ax(d,AN))return AO;if(ax(d,AP))return AQ;var
-n=ax(d,AR),B=n?AS:n;return B;case
+d=a[1];if(az(d,A8))return A9;if(az(d,A_))return A$;if(az(d,Ba))return Bb;if(az(d,Bc))return Bd;if(az(d,Be))return Bf;var
+n=az(d,Bg),B=n?Bh:n;return B;case
 1:var
-e=a[3],f=a[2],g=a[1];if(ax(g,AT))return[0,[0,e,f]];if(ax(g,AU))return[0,[1,e,f]];if(ax(g,AV))return[0,[2,e,f]];var
-o=ax(g,AW),C=o?[0,[8,e,f]]:o;return C;case
+e=a[3],f=a[2],g=a[1];if(az(g,Bi))return[0,[0,e,f]];if(az(g,Bj))return[0,[1,e,f]];if(az(g,Bk))return[0,[2,e,f]];var
+o=az(g,Bl),C=o?[0,[8,e,f]]:o;return C;case
 2:return[0,[4,a[1]]];case
 3:return[0,[3,a[2],a[1],a[3]]];case
 4:return[0,[9,a[2],a[1],a[3],a[4]]];case
 5:var
-h=dh(b,c,a[1]),D=h?[0,[5,h[1],a[2],a[3]]]:h;return D;case
+h=dk(b,c,a[1]),D=h?[0,[5,h[1],a[2],a[3]]]:h;return D;case
 6:var
-i=dh(b,c,a[1]),E=i?[0,[7,i[1],a[2],a[3]]]:i;return E;case
+i=dk(b,c,a[1]),E=i?[0,[7,i[1],a[2],a[3]]]:i;return E;case
 7:var
-F=dh(b,c,a[1]);return z(function(a){return[6,a]},F);case
+F=dk(b,c,a[1]);return z(function(a){return[6,a]},F);case
 8:if(b){var
-p=a[3],q=a[2],j=dh(b,c,a[1]);if(j){var
-r=j[1],k=o0(b,hZ(hY(av(q),function(a){return a2(q,a)})));if(k){var
+p=a[3],q=a[2],j=dk(b,c,a[1]);if(j){var
+r=j[1],k=pi(b,ia(h$(ax(q),function(a){return a4(q,a)})));if(k){var
 s=k[1],t=s[2],u=s[1];if(t)return[0,[11,c,t,[10,r,u,p]]];var
 v=[0,[10,r,u,p]]}else
 var
@@ -6821,29 +6925,29 @@ var
 x=b;return x;case
 9:var
 y=function(a){if(a){var
-f=a[1],d=dh(b,c,f[2]);if(d)var
+f=a[1],d=dk(b,c,f[2]);if(d)var
 e=y(a[2]),h=e?[0,[0,[0,f[1],d[1]],e[1]]]:e,g=h;else
 var
-g=d;return g}return AX},G=y(a[1]);return z(function(a){return[12,a]},G);default:var
-l=dh(b,c,a[3]);if(l)var
-m=dh(b,c,a[4]),H=m?[0,[13,a[2],a[1],l[1],m[1]]]:m,A=H;else
+g=d;return g}return Bm},G=y(a[1]);return z(function(a){return[12,a]},G);default:var
+l=dk(b,c,a[3]);if(l)var
+m=dk(b,c,a[4]),H=m?[0,[13,a[2],a[1],l[1],m[1]]]:m,A=H;else
 var
 A=l;return A}}function
-o1(e,d,a){if(a){var
-f=a[1],b=dh(e,d,f[2]);if(b)var
-c=o1(e,d,a[2]),h=c?[0,[0,[0,f[1],b[1]],c[1]]]:c,g=h;else
+pj(e,d,a){if(a){var
+f=a[1],b=dk(e,d,f[2]);if(b)var
+c=pj(e,d,a[2]),h=c?[0,[0,[0,f[1],b[1]],c[1]]]:c,g=h;else
 var
-g=b;return g}return AY}function
-dK(b,g,f,e,d,a){if(d)if(a){var
+g=b;return g}return Bn}function
+dU(b,g,f,e,d,a){if(d)if(a){var
 c=a[1];if(c[3])return 0;if(c[4])return 0;var
-n=c[2],o=a[2],p=d[1],h=o1(f,e,c[1]);if(h){var
+n=c[2],o=a[2],p=d[1],h=pj(f,e,c[1]);if(h){var
 i=h[1];if(n){var
-j=dK(b,g,f,e,p,o);if(j){var
-q=j[1],k=dK(b,g,f,e,p,q[2]);if(k){var
-r=k[1],s=r[1],t=q[1],l=n[1],y=r[2];if(aJ(l,b))var
+j=dU(b,g,f,e,p,o);if(j){var
+q=j[1],k=dU(b,g,f,e,p,q[2]);if(k){var
+r=k[1],s=r[1],t=q[1],l=n[1],y=r[2];if(aI(l,b))var
 u=[0,[1,i,l,t,s]];else
 var
-x=G(g,dW(l,b)),u=z(function(a){return[2,i,a,t,s]},x);return z(function(a){return[0,a,y]},u)}var
+x=H(g,d7(l,b)),u=z(function(a){return[2,i,a,t,s]},x);return z(function(a){return[0,a,y]},u)}var
 v=k}else
 var
 v=j;return v}var
@@ -6855,67 +6959,67 @@ var
 m=a;else
 var
 m=d;return m}function
-jM(i,h,f,e,d,a){if(d){if(a){var
-b=dK(i,h,f,e,g(a),a);if(b)var
-j=b[1],c=jM(i,h,f,e,d[1],j[2]),l=c?[0,[0,j[1],c[1]]]:c,k=l;else
+j1(i,h,f,e,d,a){if(d){if(a){var
+b=dU(i,h,f,e,g(a),a);if(b)var
+j=b[1],c=j1(i,h,f,e,d[1],j[2]),l=c?[0,[0,j[1],c[1]]]:c,k=l;else
 var
-k=b;return k}return AZ}return a?0:A0}function
-o2(a){if(typeof
-a==="number")return 0===a?A1:A2;else
+k=b;return k}return Bo}return a?0:Bp}function
+pk(a){if(typeof
+a==="number")return 0===a?Bq:Br;else
 switch(a[0]){case
 0:return[0,[0,a[1],a[2]]];case
 1:return[0,[1,a[1],a[2]]];default:return 0}}function
-jN(e,d,a){if(d)if(a){var
+j2(e,d,a){if(d)if(a){var
 b=a[1];if(b[1])return 0;var
 j=b[4],c=b[3],k=b[2],l=a[2],m=d[1];if(k){if(c)return 0;if(j)return 0;var
-f=k[1],g=jN(e,m,l);if(g){var
-n=g[1],o=n[1],h=jN(e,m,n[2]);if(h){var
-p=h[1],q=p[2],r=p[1];if(aJ(f,A3))return[0,[0,[1,f,o,r],q]];var
-t=G(e,dW(f,A4));return z(function(a){return[0,[2,a,o,r],q]},t)}var
+f=k[1],g=j2(e,m,l);if(g){var
+n=g[1],o=n[1],h=j2(e,m,n[2]);if(h){var
+p=h[1],q=p[2],r=p[1];if(aI(f,Bs))return[0,[0,[1,f,o,r],q]];var
+t=H(e,d7(f,Bt));return z(function(a){return[0,[2,a,o,r],q]},t)}var
 s=h}else
 var
 s=g;return s}if(c){var
-u=o2(c[1]);return z(function(a){return[0,[0,j,a],l]},u)}var
+u=pk(c[1]);return z(function(a){return[0,[0,j,a],l]},u)}var
 i=c}else
 var
 i=a;else
 var
 i=d;return i}function
-di(b,a){return 0===b[0]?[0,i(b[1]),a]:a?[0,a[1],a[2]]:[0,i(b[1]),0]}function
-dL(a,e){var
-b=di(a[1],e),c=di(a[2],b[2]),d=di(a[3],c[2]);return[0,[0,b[1],c[1],d[1]],d[2]]}function
-o3(d,c){if(d){var
+dl(b,a){return 0===b[0]?[0,i(b[1]),a]:a?[0,a[1],a[2]]:[0,i(b[1]),0]}function
+dV(a,e){var
+b=dl(a[1],e),c=dl(a[2],b[2]),d=dl(a[3],c[2]);return[0,[0,b[1],c[1],d[1]],d[2]]}function
+pl(d,c){if(d){var
 a=d[1];switch(a[0]){case
 0:var
-e=dL(a[1],c),f=dL(a[2],e[2]),g=dL(a[3],f[2]),h=di(a[4],g[2]),b=[0,[0,e[1],f[1],g[1],h[1],a[5]],h[2]];break;case
+e=dV(a[1],c),f=dV(a[2],e[2]),g=dV(a[3],f[2]),h=dl(a[4],g[2]),b=[0,[0,e[1],f[1],g[1],h[1],a[5]],h[2]];break;case
 1:var
-i=a[3],j=dL(a[1],c),k=j[1],l=dL(a[2],j[2]),m=l[2],n=l[1];if(i)var
-o=dL(i[1],m),b=[0,[1,k,n,[0,o[1]]],o[2]];else
+i=a[3],j=dV(a[1],c),k=j[1],l=dV(a[2],j[2]),m=l[2],n=l[1];if(i)var
+o=dV(i[1],m),b=[0,[1,k,n,[0,o[1]]],o[2]];else
 var
 b=[0,[1,k,n,0],m];break;default:var
-p=dL(a[1],c),b=[0,[2,p[1]],p[2]]}var
-q=o3(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
-fy(t,f){var
+p=dV(a[1],c),b=[0,[2,p[1]],p[2]]}var
+q=pl(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
+fJ(t,f){var
 u=t[3];if(typeof
-f==="number")return 0===f?A8:A9;else
+f==="number")return 0===f?Bx:By;else
 switch(f[0]){case
 0:var
-v=f[2],h=f[1],B=G(u,h);if(B){var
+v=f[2],h=f[1],B=H(u,h);if(B){var
 ab=0,E=B[1];if(typeof
 E==="number"||!(13===E[0]))ab=1;else
 var
-x=t[1],A=hm(x),a=e(function(a){var
-f=g(x);if(q(g(a),f)){var
-h=aa(x,a);return e(function(a){var
-e=a[2],f=D(d,A),g=2===a[1][0]?1:0;return cq(g,f)?C(e,b7(c(2,b),co(A))):e},h)}return a},v);if(ab)var
+x=t[1],A=hz(x),a=e(function(a){var
+f=g(x);if(o(g(a),f)){var
+h=W(x,a);return e(function(a){var
+e=a[2],f=D(d,A),g=2===a[1][0]?1:0;return ct(g,f)?C(e,b8(c(2,b),cr(A))):e},h)}return a},v);if(ab)var
 a=v}else
 var
 a=v;var
-ac=G(u,h),ad=t[1],w=z(function(b){if(typeof
+ac=H(u,h),ad=t[1],w=z(function(b){if(typeof
 b!=="number")switch(b[0]){case
-5:return A6;case
+5:return Bv;case
 12:var
-a=G(ad,b[1]);if(a){if(2===a[1][0])return A7;var
+a=H(ad,b[1]);if(a){if(2===a[1][0])return Bw;var
 c=0}else
 var
 c=a;return c;case
@@ -6924,19 +7028,19 @@ c=a;return c;case
 4:case
 6:case
 7:case
-11:return 0}return A5},ac);if(w){var
+11:return 0}return Bu},ac);if(w){var
 F=w[1];if(F){var
-H=F[1];if(H){if(H[1])return 0;if(a){var
+G=F[1];if(G){if(G[1])return 0;if(a){var
 i=a[1];if(i){var
 j=i[2];if(j){var
 k=j[2];if(k){if(k[2])return 0;var
 l=a[2];if(l){var
 m=l[1];if(m){var
 n=m[2];if(n){var
-o=n[2];if(o){if(o[2])return 0;if(l[2])return 0;var
-I=[0,[0,h,[0,[0,i[1],j[1]],k[1]],[0,[0,m[1],n[1]],o[1]]]]}else
+p=n[2];if(p){if(p[2])return 0;if(l[2])return 0;var
+I=[0,[0,h,[0,[0,i[1],j[1]],k[1]],[0,[0,m[1],n[1]],p[1]]]]}else
 var
-I=o;var
+I=p;var
 J=I}else
 var
 J=n;var
@@ -6958,10 +7062,10 @@ O=i;var
 P=O}else
 var
 P=a;return P}if(a){var
-p=a[1];if(p){var
-r=p[2];if(r){var
+q=a[1];if(q){var
+r=q[2];if(r){var
 s=r[2];if(s){if(s[2])return 0;if(a[2])return 0;var
-Q=s[1],R=r[1],S=p[1],T=[0,[0,h,[0,[0,S,R],Q],[0,[0,S,R],Q]]]}else
+Q=s[1],R=r[1],S=q[1],T=[0,[0,h,[0,[0,S,R],Q],[0,[0,S,R],Q]]]}else
 var
 T=s;var
 U=T}else
@@ -6969,42 +7073,42 @@ var
 U=r;var
 V=U}else
 var
-V=p;var
-W=V}else
+V=q;var
+X=V}else
 var
-W=a;return W}if(a)return 0;var
-X=[0,[0,d,d],d],Y=[0,[0,h,X,X]]}else
+X=a;return X}if(a)return 0;var
+Y=[0,[0,d,d],d],Z=[0,[0,h,Y,Y]]}else
 var
-Y=w;return Y;case
+Z=w;return Z;case
 1:var
-Z=f[1],y=G(u,Z);if(y){var
-_=y[1];if(typeof
-_!=="number"&&1===_[0])return[0,[1,Z,f[2]]];var
-$=0}else
+_=f[1],y=H(u,_);if(y){var
+$=y[1];if(typeof
+$!=="number"&&1===$[0])return[0,[1,_,f[2]]];var
+aa=0}else
 var
-$=y;return $;default:return 0}}function
+aa=y;return aa;default:return 0}}function
 bh(a,b){if(a){var
-c=di(a[1],b),d=bh(a[2],c[2]);return[0,[0,c[1],d[1]],d[2]]}return[0,0,b]}function
-aG(c){function
+c=dl(a[1],b),d=bh(a[2],c[2]);return[0,[0,c[1],d[1]],d[2]]}return[0,0,b]}function
+aK(c){function
 a(a){return r(a,c,[0,d,b])}var
-e=a(A_),f=a(A$);return[0,a(0),f,e]}function
-o4(a,b){if(a){var
-c=a[1],d=bh(c[1],b),e=bh(c[2],d[2]),f=o4(a[2],e[2]),g=f[2],h=f[1],i=aG(e[1]);return[0,[0,[0,aG(d[1]),i],h],g]}return[0,0,b]}function
-o5(f,e){if(f){var
+e=a(Bz),f=a(BA);return[0,a(0),f,e]}function
+pm(a,b){if(a){var
+c=a[1],d=bh(c[1],b),e=bh(c[2],d[2]),f=pm(a[2],e[2]),g=f[2],h=f[1],i=aK(e[1]);return[0,[0,[0,aK(d[1]),i],h],g]}return[0,0,b]}function
+pn(f,e){if(f){var
 a=f[1];switch(a[0]){case
 0:var
-g=bh(a[1],e),h=bh(a[2],g[2]),i=bh(a[3],h[2]),j=di(a[4],i[2]),A=j[2],B=a[5],C=j[1],D=aG(i[1]),E=aG(h[1]),c=[0,[0,[0,aG(g[1]),E,D,C,B]],A];break;case
+g=bh(a[1],e),h=bh(a[2],g[2]),i=bh(a[3],h[2]),j=dl(a[4],i[2]),A=j[2],B=a[5],C=j[1],D=aK(i[1]),E=aK(h[1]),c=[0,[0,[0,aK(g[1]),E,D,C,B]],A];break;case
 1:var
 k=a[3],l=bh(a[1],e),m=l[1],n=bh(a[2],l[2]),o=n[2],p=n[1];if(k)var
-q=bh(k[1],o),F=q[2],G=[0,aG(q[1])],H=aG(p),c=[0,[0,[1,aG(m),H,G]],F];else
+q=bh(k[1],o),F=q[2],G=[0,aK(q[1])],H=aK(p),c=[0,[0,[1,aK(m),H,G]],F];else
 var
-I=aG(p),c=[0,[0,[1,aG(m),I,0]],o];break;case
+I=aK(p),c=[0,[0,[1,aK(m),I,0]],o];break;case
 2:var
-r=bh(a[1],e),J=r[2],c=[0,[0,[2,aG(r[1])]],J];break;default:var
-s=a[1],t=bh(s,e),u=bh(a[2],t[2]),v=bh(a[3],u[2]),w=bh(a[4],v[2]),x=di(a[5],w[2]),y=di(a[6],x[2]),K=s?aG(t[1]):[0,[0,d,b],[0,d,b],[0,b,b]],L=y[2],M=a[7],N=y[1],O=x[1],P=aG(w[1]),Q=aG(v[1]),c=[0,[1,[0,K,aG(u[1]),Q,P,O,N,M]],L]}var
-z=o5(f[2],c[2]);return[0,[0,c[1],z[1]],z[2]]}return[0,0,e]}function
-dj(a){return lo(k,a)}function
-Ba(a){if(typeof
+r=bh(a[1],e),J=r[2],c=[0,[0,[2,aK(r[1])]],J];break;default:var
+s=a[1],t=bh(s,e),u=bh(a[2],t[2]),v=bh(a[3],u[2]),w=bh(a[4],v[2]),x=dl(a[5],w[2]),y=dl(a[6],x[2]),K=s?aK(t[1]):[0,[0,d,b],[0,d,b],[0,b,b]],L=y[2],M=a[7],N=y[1],O=x[1],P=aK(w[1]),Q=aK(v[1]),c=[0,[1,[0,K,aK(u[1]),Q,P,O,N,M]],L]}var
+z=pn(f[2],c[2]);return[0,[0,c[1],z[1]],z[2]]}return[0,0,e]}function
+dm(a){return lB(k,a)}function
+BB(a){if(typeof
 a==="number")return 1;else
 switch(a[0]){case
 5:return h(k,1,[3,a[1],[0,b,b]]);case
@@ -7021,168 +7125,168 @@ i=h(k,0,a[1]);return i?h(k,1,a[2]):i;case
 15:var
 j=[0,a[2],a[1]],l=1;return m(function(a){return h(k,l,a)},j);case
 2:case
-3:return dj(a[2]);case
+3:return dm(a[2]);case
 4:case
 13:var
 c=h(k,1,a[2]);return c?h(k,1,a[3]):c;default:return h(k,1,a[1])}}function
-jO(a){if(typeof
+j3(a){if(typeof
 a==="number")return 1;else
 switch(a[0]){case
 4:var
-d=a[3],e=a[2],f=h(k,1,[3,d,e]),g=f?h(k,1,[3,[2,e,[0,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b)))))))))),b]],d]):f,i=g?h(k,0,[2,e,[0,c(2,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b))))))))))),b]]):g;return i?h(k,0,[3,[0,c(2,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b))))))))))),b],d]):i;case
+d=a[3],e=a[2],f=h(k,1,[3,d,e]),g=f?h(k,1,[3,[2,e,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b]],d]):f,i=g?h(k,0,[2,e,[0,c(2,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))))),b]]):g;return i?h(k,0,[3,[0,c(2,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))))),b],d]):i;case
 5:return h(k,1,[3,a[1],[0,b,b]]);case
 8:var
 B=[0,a[2],a[1]],C=1;return m(function(a){return h(k,C,a)},B);case
 10:return h(k,1,a[2]);case
 11:var
-l=a[2],n=h(k,1,l);return n?h(k,0,[3,[0,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b))))))))),b],l]):n;case
+l=a[2],n=h(k,1,l);return n?h(k,0,[3,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b],l]):n;case
 13:var
-o=a[4],q=nE(a[3]),r=q?h(k,1,o):q;return r?h(k,0,[3,[0,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b)))))))))),b],o]):r;case
+o=a[4],p=nS(a[3]),r=p?h(k,1,o):p;return r?h(k,0,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],o]):r;case
 14:return h(k,0,a[3]);case
 15:var
 s=h(k,0,a[2]),t=s?h(k,0,a[3]):s;return t?h(k,1,a[4]):t;case
 16:var
-u=a[3],v=h(k,0,a[1]),w=v?h(k,1,a[2]):v,x=w?h(k,1,u):w;return x?h(k,1,[3,[0,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b)))))))))),b],u]):x;case
+u=a[3],v=h(k,0,a[1]),w=v?h(k,1,a[2]):v,x=w?h(k,0,u):w;return x?h(k,1,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],u]):x;case
 17:var
-y=a[2],z=m(dj,y),A=z?aj(function(a){return h(k,1,[4,a,a])},y):z;return A?h(k,1,a[3]):A;case
+y=a[2],z=m(dm,y),A=z?aj(function(a){return h(k,1,[4,a,a])},y):z;return A?h(k,1,a[3]):A;case
 2:case
-3:return dj(a[2]);case
+3:return dm(a[2]);case
 6:case
 7:case
 9:var
 j=h(k,1,a[2]);return j?h(k,1,a[3]):j;default:return h(k,1,a[1])}}function
-hn(d){var
+hA(d){var
 a=d;for(;;){if(a){var
-b=a[2],e=a[1],c=L(aj(function(d){return function(a){var
-h=jw(a[1]),e=ax(jw(d[1]),h);if(e)var
-i=jx(a[4]),b=ax(jx(d[4]),i);else
+b=a[2],e=a[1],c=M(aj(function(d){return function(a){var
+h=jL(a[1]),e=az(jL(d[1]),h);if(e)var
+i=jM(a[4]),b=az(jM(d[4]),i);else
 var
 b=e;if(b){var
 f=d[2];if(f){var
-c=a[2];return c?q(f[1],c[1]):c}if(a[2])return 0;var
+c=a[2];return c?o(f[1],c[1]):c}if(a[2])return 0;var
 g=1}else
 var
 g=b;return g}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-fz(a){if(0===a[0])return dj(i(a[1]));var
-b=a[2],c=a[1];if(!d5(i(c))&&!d5(i(b))){var
+fK(a){if(0===a[0])return dm(i(a[1]));var
+b=a[2],c=a[1];if(!dA(i(c))&&!dA(i(b))){var
 e=i(c);return h(k,1,[3,i(b),e])}var
-d=i(b);return bu(k,i(c),d)}function
-dM(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-o6(a){switch(a[0]){case
+d=i(b);return bw(k,i(c),d)}function
+dW(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+po(a){switch(a[0]){case
 0:var
-c=[0,a[4],0],d=f(dM(a[3]),c),e=f(dM(a[2]),d);return f(dM(a[1]),e);case
+c=[0,a[4],0],d=f(dW(a[3]),c),e=f(dW(a[2]),d);return f(dW(a[1]),e);case
 1:var
-b=a[3],g=b?dM(b[1]):b,h=f(dM(a[2]),g);return f(dM(a[1]),h);default:return dM(a[1])}}function
-o7(s,a,l){if(aj(function(a){return 9===a[1]?1:0},l)){var
-b=$(g(a),Bd),c=b?m(function(a){if(0===a[0]){var
+b=a[3],g=b?dW(b[1]):b,h=f(dW(a[2]),g);return f(dW(a[1]),h);default:return dW(a[1])}}function
+pp(s,a,l){if(aj(function(a){return 9===a[1]?1:0},l)){var
+b=aa(g(a),BE),c=b?m(function(a){if(0===a[0]){var
 d=a[5],e=h(k,1,i(a[2])),g=e?h(k,0,i(a[3])):e,l=g?h(k,0,i(a[4])):g,c=0;if(l)if(d)var
-p=b0(d[1]),b=m(function(a){return dj(i(a))},p);else{var
+p=b1(d[1]),b=m(function(a){return dm(i(a))},p);else{var
 n=1;c=1}else{var
 n=l;c=1}if(c)var
 b=n}else{var
 o=h(k,1,i(a[4]));if(o)var
-q=b0(a[3]),r=f(b0(a[2]),q),b=m(function(a){return dj(i(a))},r);else
+q=b1(a[3]),r=f(b1(a[2]),q),b=m(function(a){return dm(i(a))},r);else
 var
 b=o}return b?j(s,a):b},a):b;if(c)var
-d=hf(0,a),n=d?1:d,e=n;else
+d=hs(0,a),n=d?1:d,e=n;else
 var
 e=c;return e}return a?0:1}function
-o8(a){return a?Be:Bf}function
-jP(a){switch(a){case
-0:return Bg;case
-1:return Bh;default:return 0}}function
-dk(a){var
-f=a[1],d=h(k,1,[2,[0,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b)))))))))),b],f]),e=d?bu(k,a[1],a[2]):d;if(e){var
-g=a[2];return h(k,1,[3,[0,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b)))))))))),b],g])}return e}function
-eu(a){var
-e=bu(k,[0,d,b],a);return e?h(k,1,[3,[0,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b)))))))))),b],a]):e}function
-o9(c,b,a){if(0===a[0]){var
-d=a[2],e=a[1],f=q(g(e),c),j=f?q(g(d),c):f;if(j){var
-n=aa(e,d);return m(function(a){var
-b=i(a[2]);return bu(k,i(a[1]),b)},n)}return j}var
+pq(a){return a?BF:BG}function
+j4(a){switch(a){case
+0:return BH;case
+1:return BI;default:return 0}}function
+dn(a){var
+f=a[1],d=h(k,1,[2,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],f]),e=d?bw(k,a[1],a[2]):d;if(e){var
+g=a[2];return h(k,1,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],g])}return e}function
+eH(a){var
+e=bw(k,[0,d,b],a);return e?h(k,1,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],a]):e}function
+pr(c,b,a){if(0===a[0]){var
+d=a[2],e=a[1],f=o(g(e),c),j=f?o(g(d),c):f;if(j){var
+n=W(e,d);return m(function(a){var
+b=i(a[2]);return bw(k,i(a[1]),b)},n)}return j}var
 l=b?h(k,1,i(a[3])):b;if(l){var
-o=i(a[5]);return bu(k,i(a[4]),o)}return l}function
-o_(a,e,F,E,t,s,f){function
+p=i(a[5]);return bw(k,i(a[4]),p)}return l}function
+ps(a,e,F,E,t,s,f){function
 u(b){var
-d=o8(a),c=q(g(b),d);return c?m(fz,b):c}var
+d=pq(a),c=o(g(b),d);return c?m(fK,b):c}var
 v=m(function(a){var
 b=u(a[1]);return b?u(a[2]):b},e);if(v)var
-G=g(e),n=$(bv(a),G);else
+G=g(e),n=aa(bG(a),G);else
 var
 n=v;var
-w=n?$(g(e),Bi):n,x=w?h(k,1,i(F)):w;if(x)var
-H=1===a?1:0,o=o9(jP(a),H,E);else
+w=n?aa(g(e),BJ):n,x=w?h(k,1,i(F)):w;if(x)var
+H=1===a?1:0,p=pr(j4(a),H,E);else
 var
-o=x;if(o)if(a){var
-d=dJ(t);switch(d[0]){case
+p=x;if(p)if(a){var
+d=dT(t);switch(d[0]){case
 0:var
 j=0;break;case
 1:var
-A=dk(d[1]),B=A?dk(d[2]):A,j=B?dk(d[3]):B;break;case
+A=dn(d[1]),B=A?dn(d[2]):A,j=B?dn(d[3]):B;break;case
 2:var
-j=eu(d[1]);break;default:var
-C=eu(d[1]),j=C?eu(d[2]):C}var
+j=eH(d[1]);break;default:var
+C=eH(d[1]),j=C?eH(d[2]):C}var
 l=j}else
 var
-D=dJ(t),J=0===D[0]?dk(D[1]):0,l=J;else
+D=dT(t),J=0===D[0]?dn(D[1]):0,l=J;else
 var
-l=o;if(l)var
-I=g(e),p=o7(function(a){if(0===a[0]){var
-b=a[1],c=$(Bc,b),d=c?$(b,I):c;if(d){if(a[5])return 0;var
+l=p;if(l)var
+I=g(e),q=pp(function(a){if(0===a[0]){var
+b=a[1],c=aa(BD,b),d=c?aa(b,I):c;if(d){if(a[5])return 0;var
 e=1}else
 var
 e=d;return e}return 1},s,f);else
 var
-p=l;if(p)var
-b=g(e),c=bv(a),y=o8(a),r=m(function(a){var
+q=l;if(q)var
+b=g(e),c=bG(a),y=pq(a),r=m(function(a){var
 e=a[2];if(e)var
-f=e[1],h=$(At,f),w=h?$(f,b):h,d=w;else
+f=e[1],h=aa(AU,f),w=h?aa(f,b):h,d=w;else
 var
 d=1;switch(a[1]){case
 9:var
 i=a[4];if(typeof
-i!=="number"&&0===i[0])return a[2]?aP(c,b,a):a[3]?aP(c,b,a):1;return aP(c,b,a);case
+i!=="number"&&0===i[0])return a[2]?aE(c,b,a):a[3]?aE(c,b,a):1;return aE(c,b,a);case
 10:var
 j=a[4];if(typeof
 j!=="number"&&1===j[0]){var
-k=a[3];return k?2===k[1][0]?d:aP(c,b,a):aP(c,b,a)}return aP(c,b,a);case
+k=a[3];return k?2===k[1][0]?d:aE(c,b,a):aE(c,b,a)}return aE(c,b,a);case
 12:var
 l=a[4];if(typeof
-l!=="number"&&1===l[0]){if(a[2])return aP(c,b,a);var
-m=a[3];return m?3===m[1][0]?q(b,c):aP(c,b,a):aP(c,b,a)}return aP(c,b,a);case
+l!=="number"&&1===l[0]){if(a[2])return aE(c,b,a);var
+m=a[3];return m?3===m[1][0]?o(b,c):aE(c,b,a):aE(c,b,a)}return aE(c,b,a);case
 14:var
 n=a[4];if(typeof
 n!=="number"&&1===n[0]){var
-o=a[3];if(o){var
-p=o[1];if(1===p[0]){var
-r=q(g(p[1]),y),x=r?d:r;return x}return aP(c,b,a)}return aP(c,b,a)}return aP(c,b,a);case
+p=a[3];if(p){var
+q=p[1];if(1===q[0]){var
+r=o(g(q[1]),y),x=r?d:r;return x}return aE(c,b,a)}return aE(c,b,a)}return aE(c,b,a);case
 15:var
 s=a[4];if(typeof
 s!=="number"&&1===s[0]){var
 t=a[3];if(t){var
 u=t[1];if(1===u[0]){var
-v=q(g(u[1]),y),z=v?d:v;return z}return aP(c,b,a)}return aP(c,b,a)}return aP(c,b,a);default:return aP(c,b,a)}},f);else
+v=o(g(u[1]),y),z=v?d:v;return z}return aE(c,b,a)}return aE(c,b,a)}return aE(c,b,a);default:return aE(c,b,a)}},f);else
 var
-r=p;var
-z=r?hn(f):r;return z?m(jO,et(0,g(e),s,f)):z}function
-o$(a){switch(a[0]){case
+r=q;var
+z=r?hA(f):r;return z?m(j3,eG(0,g(e),s,f)):z}function
+pt(a){switch(a[0]){case
 0:var
 c=f(a[3],[0,a[4],0]),d=f(a[2],c);return f(a[1],d);case
 1:var
 b=a[3],e=b?b[1]:b,g=f(a[2],e);return f(a[1],g);case
 2:return a[1];default:var
 h=f(a[4],[0,a[5],[0,a[6],0]]),i=f(a[3],h),j=f(a[2],i);return f(a[1],j)}}function
-pa(a,e,d,R,o,n){var
-p=typeof
+pu(a,e,d,R,p,n){var
+q=typeof
 a==="number"?a?1:a:a[1]?0:1;function
 c(a){var
-b=p?Bj:Bk;return q(g(a),b)}var
-j=fx(e),w=m(function(b){switch(b[0]){case
+b=q?BK:BL;return o(g(a),b)}var
+j=fI(e),w=m(function(b){switch(b[0]){case
 0:var
-f=L(j),g=f?c(b[1]):f,h=g?c(b[2]):g;return h?c(b[3]):h;case
+f=M(j),g=f?c(b[1]):f,h=g?c(b[2]):g;return h?c(b[3]):h;case
 1:var
-d=b[3],i=L(j),k=i?c(b[1]):i,l=k?c(b[2]):k;if(l){var
+d=b[3],i=M(j),k=i?c(b[1]):i,l=k?c(b[2]):k;if(l){var
 m=typeof
 a==="number"?1:0;if(m){if(a)return d?0:1;if(d)return c(d[1]);var
 e=1}else
@@ -7191,32 +7295,32 @@ e=m}else
 var
 e=l;return e;case
 2:var
-n=L(j),o=n?c(b[1]):n;if(o){if(typeof
+n=M(j),o=n?c(b[1]):n;if(o){if(typeof
 a==="number"&&!a)return 1;var
-q=0}else
+p=0}else
 var
-q=o;return q;default:var
-r=b[1],s=p?r?0:1:c(r),t=s?c(b[2]):s,u=t?c(b[3]):t;return u?c(b[4]):u}},e);if(w)var
-S=g(e),r=$(aL(a),S);else
+p=o;return p;default:var
+r=b[1],s=q?r?0:1:c(r),t=s?c(b[2]):s,u=t?c(b[3]):t;return u?c(b[4]):u}},e);if(w)var
+S=g(e),r=aa(aw(a),S);else
 var
 r=w;var
-x=r?$(g(e),Bl):r,A=x?m(fz,y(o$,e)):x;if(A){var
+x=r?aa(g(e),BM):r,A=x?m(fK,y(pt,e)):x;if(A){var
 Q=0;if(typeof
 a==="number"&&!a){var
 B=1;Q=1}if(!Q)var
 B=0;var
-T=p?Bm:Bn,s=o9(T,B,R)}else
+T=q?BN:BO,s=pr(T,B,R)}else
 var
 s=A;if(s)if(typeof
 a==="number")if(d)var
 b=0;else
 var
-U=z(dJ,o)?0:1,b=U;else
+U=z(dT,p)?0:1,b=U;else
 switch(a[1]){case
 0:if(d){var
-t=z(dJ,o);if(t){var
+t=z(dT,p);if(t){var
 E=t[1];if(0===E[0])var
-F=h(k,1,i(d[1])),G=F?dk(E[1]):F;else
+F=h(k,1,i(d[1])),G=F?dn(E[1]):F;else
 var
 G=0;var
 H=G}else
@@ -7226,15 +7330,15 @@ b=H}else
 var
 b=d;break;case
 1:if(d){var
-u=d[1],v=z(dJ,o);if(v){var
+u=d[1],v=z(dT,p);if(v){var
 f=v[1];switch(f[0]){case
 0:var
 l=0;break;case
 1:var
-J=h(k,1,i(u)),K=J?dk(f[1]):J,M=K?dk(f[2]):K,l=M?dk(f[3]):M;break;case
+J=h(k,1,i(u)),K=J?dn(f[1]):J,L=K?dn(f[2]):K,l=L?dn(f[3]):L;break;case
 2:var
-N=h(k,1,i(u)),l=N?eu(f[1]):N;break;default:var
-O=h(k,1,i(u)),P=O?eu(f[1]):O,l=P?eu(f[2]):P}var
+N=h(k,1,i(u)),l=N?eH(f[1]):N;break;default:var
+O=h(k,1,i(u)),P=O?eH(f[1]):O,l=P?eH(f[2]):P}var
 I=l}else
 var
 I=v;var
@@ -7245,108 +7349,123 @@ b=0}else
 var
 b=s;var
 C=b?m(function(b){var
-c=oL(j,a,g(e),b);if(c)var
+c=o5(j,a,g(e),b);if(c)var
 d=c;else{var
-f=cJ(b);if(f)return aP(0,0,b);var
-d=f}return d},n):b,D=C?hn(n):C;return D?m(jO,et(j,g(e),0,n)):D}function
-Bo(a){switch(a[0]){case
-0:return gP(a[1][1]);case
+f=cN(b);if(f)return aE(0,0,b);var
+d=f}return d},n):b,D=C?hA(n):C;return D?m(j3,eG(j,g(e),0,n)):D}function
+BP(a){switch(a[0]){case
+0:return gY(a[1][1]);case
 1:var
-b=a[3];return b?gP(b[1]):1;default:return gP(a[1])}}function
-jQ(a,k,b,d){var
-e=o7(function(g){if(0===g[0]){var
-c=g[1],d=$(Bb,c);if(d){var
-b=G(a,by(c));if(b){if(2===b[1][0])return 0;var
+b=a[3];return b?gY(b[1]):1;default:return gY(a[1])}}function
+j5(a,k,b,d){var
+e=pp(function(g){if(0===g[0]){var
+c=g[1],d=aa(BC,c);if(d){var
+b=H(a,bz(c));if(b){if(2===b[1][0])return 0;var
 e=1}else
 var
 e=b;var
 f=e}else
 var
-f=d;return f}return 1},k,b),f=e?m(Bo,d[1]):e,h=f?$(Bp,g(a)):f;if(h)var
-l=g(a),c=m(function(a){return Aj(l,a)},b);else
+f=d;return f}return 1},k,b),f=e?m(BP,d[1]):e,h=f?aa(BQ,g(a)):f;if(h)var
+l=g(a),c=m(function(a){return AK(l,a)},b);else
 var
 c=h;var
-i=c?hn(b):c,j=i?m(fz,y(o6,a)):i;return j?m(Ba,d[3]):j}function
-pb(k,j,a,i,h,b){var
-l=g(k),n=g(h),c=q(g(i),n),d=c?m(function(b){var
-c=aP(l,g(a),b);if(c){var
-d=b[1];if(1===d){var
-e=b[2],f=e?[0,by(e[1]),0]:aC(0,g(a));return m(function(c){var
-b=G(a,c);return b?0===b[1][0]?0:1:b},f)}return 11===d?m(function(a){return 0===a[0]?0:1},a):1}return c},b):c,e=d?hn(b):d,f=e?m(function(a){return fz(a[2])},j):e;return f?m(jO,et(0,g(a),0,b)):f}function
-pc(a){if(a){var
-b=a[1];if(cJ(b))return 0;var
-c=[0,b,pc(a[2])]}else
+i=c?hA(b):c,j=i?m(fK,y(po,a)):i;return j?m(BB,d[3]):j}function
+pv(l,k,a,j,i,b){var
+c=g(l),n=g(i),d=o(g(j),n),e=d?m(function(b){if(12===b[1]){var
+n=0,e=b[4];if(typeof
+e!=="number"&&1===e[0]){if(b[2])var
+k=aE(c,g(a),b);else
+var
+l=b[3],q=l?0===l[1][0]?o(c,g(a)):aE(c,g(a),b):aE(c,g(a),b),k=q;var
+f=k;n=1}if(!n)var
+f=aE(c,g(a),b);var
+d=f}else
+var
+d=aE(c,g(a),b);if(d){var
+h=b[1]-1|0;if(!(11<h>>>0))switch(h){case
+0:var
+j=b[2],p=j?[0,bz(j[1]),0]:aC(0,g(a));return m(function(c){var
+b=H(a,c);return b?0===b[1][0]?0:1:b},p);case
+10:return m(function(a){return 0===a[0]?0:1},a);case
+11:return m(function(a){return 0===a[0]?0:1},a)}var
+i=1}else
+var
+i=d;return i},b):d,f=e?hA(b):e,h=f?m(function(a){return fK(a[2])},k):f;return h?m(j3,eG(0,g(a),0,b)):h}function
+pw(a){if(a){var
+b=a[1];if(cN(b))return 0;var
+c=[0,b,pw(a[2])]}else
 var
 c=a;return c}function
-fA(i,h,f,d,b){var
-j=pc(b),l=y(function(a){return jD(i,f,d,a)},j),c=an(R,0,e(function(a){return gH(k,h,a)},l)),a=y(oJ,b),m=a?[0,a[1],a[2]]:Bq;return R(g(m),c)}function
-jR(a){return 2<=a?Br:Bs}function
-jS(m,l,k,j,f,i){var
-g=fA(m,l,k,j,f),c=o2(i);if(c){var
+fL(i,h,f,d,b){var
+j=pw(b),l=y(function(a){return jS(i,f,d,a)},j),c=an(N,0,e(function(a){return gT(k,h,a)},l)),a=y(o3,b),m=a?[0,a[1],a[2]]:BR;return N(g(m),c)}function
+j6(a){return 2<=a?BS:BT}function
+j7(m,l,k,j,f,i){var
+g=fL(m,l,k,j,f),c=pk(i);if(c){var
 a=c[1],e=0;if(typeof
 a==="number")var
 h=[0,a];else
 if(0===a[0]){var
-n=a[2],o=a[1],b=o,d=function(a){return[0,a,n]};e=1}else{var
-p=a[2],r=a[1],b=r,d=function(a){return[1,a,p]};e=1}if(e){if(!L(aj(cJ,f))&&!aJ(b,g))return q(b,g)?0:[0,d(by(b))];return[0,d(b)]}}else
+n=a[2],p=a[1],b=p,d=function(a){return[0,a,n]};e=1}else{var
+q=a[2],r=a[1],b=r,d=function(a){return[1,a,q]};e=1}if(e){if(!M(aj(cN,f))&&!aI(b,g))return o(b,g)?0:[0,d(bz(b))];return[0,d(b)]}}else
 var
 h=c;return h}function
-ho(b,a){var
-c=g(bs(function(a){return 0===a[0]?0:1},b));return q(g(a),c)}function
-hp(a){var
-b=aa(aC(0,g(a)),a);return e(aw,bs(function(a){return iF(a[2])},b))}function
-pd(a){var
-b=a[1],c=e(hl,a[1]);return gB(hm(a[1]),c,b)}function
-jT(a){return hp(pd(a))}function
-pe(b,a){if(a){var
-c=a[1],d=a[2],g=pe(R(b,c[1]),d),h=c[2];return f(e(function(a){return aC(R(b,a),Bt)},h),g)}return a}function
-pf(e,a){function
+hB(b,a){var
+c=g(bu(function(a){return 0===a[0]?0:1},b));return o(g(a),c)}function
+hC(a){var
+b=W(aC(0,g(a)),a);return e(ay,bu(function(a){return iR(a[2])},b))}function
+px(a){var
+b=a[1],c=e(hy,a[1]);return gN(hz(a[1]),c,b)}function
+j8(a){return hC(px(a))}function
+py(b,a){if(a){var
+c=a[1],d=a[2],g=py(N(b,c[1]),d),h=c[2];return f(e(function(a){return aC(N(b,a),BU)},h),g)}return a}function
+pz(e,a){function
 b(f){var
-a=G(e,f);if(a){var
-b=l7(a[1]);if(b)return I(b[1],d);var
+a=H(e,f);if(a){var
+b=mj(a[1]);if(b)return K(b[1],d);var
 c=1}else
 var
 c=a;return c}var
-c=pe(0,a);return bs(function(a){return m(b,a)},c)}function
-pg(a){switch(a[0]){case
-0:return Bu;case
-1:return a[3]?Bv:Bw;default:return Bx}}function
-By(a){return 0===a[0]?pg(a[1]):Bz}function
-hq(a){if(a){var
+c=py(0,a);return bu(function(a){return m(b,a)},c)}function
+pA(a){switch(a[0]){case
+0:return BV;case
+1:return a[3]?BW:BX;default:return BY}}function
+BZ(a){return 0===a[0]?pA(a[1]):B0}function
+hD(a){if(a){var
 b=a[1];return[0,b[2],b[1]]}return[0,d,0]}function
-ph(aC,Y,aB,X,W,b,aA,V){var
-a=jC(Y,aB,X,W),aD=g(V),aE=e(pg,a[1]),aF=pf(pd(a),aE),aG=aC?0:jT(a),B=dK(BA,jT(a),aG,aF,aD,V);if(B){var
+pB(aC,Y,aB,X,W,b,aA,V){var
+a=jR(Y,aB,X,W),aD=g(V),aE=e(pA,a[1]),aF=pz(px(a),aE),aG=aC?0:j8(a),B=dU(B1,j8(a),aG,aF,aD,V);if(B){var
 Z=B[1];if(Z[2])return 0;var
-_=jQ(Y,X,W,a);if(_){var
-aH=Z[1],C=e(hl,a[1]),c=hm(a[1]),aI=hq(aA),U=mw(k,a);if(U){var
-n=gB(c,C,a[1]),h=iC(c,C,a[1],0),ab=g(a[3]),ad=R(g(n),ab),K=[0,g(n),ad],ae=a[3],E=aj(function(a){if(typeof
+_=j5(Y,X,W,a);if(_){var
+aH=Z[1],C=e(hy,a[1]),c=hz(a[1]),aI=hD(aA),U=mK(k,a);if(U){var
+n=gN(c,C,a[1]),h=iO(c,C,a[1],0),ab=g(a[3]),ad=N(g(n),ab),K=[0,g(n),ad],ae=a[3],E=aj(function(a){if(typeof
 a!=="number"&&14===a[0])return 1;return 0},ae),af=E?y(function(a){var
-b=e(aZ,gD(n,a[4]));return[0,a[4],b]},h):E,ag=f(iE(h,c,K,a[3]),af),ah=f(bB(lD(h)),ag),L=f(bB(eZ(h)),ah),M=cS(L)[1],o=cR(M),N=m(function(a){var
-b=l(d);return aK(r(bc(o,a),o,b),a)},L);if(N){var
-O=aj(tl,a[3]);if(O){var
+b=e(aY,gP(n,a[4]));return[0,a[4],b]},h):E,ag=f(iQ(h,c,K,a[3]),af),ah=f(bC(lQ(h)),ag),L=f(bC(fa(h)),ah),M=cW(L)[1],o=cV(M),O=m(function(a){var
+b=l(d);return aN(r(bd(o,a),o,b),a)},L);if(O){var
+P=aj(tE,a[3]);if(P){var
 t=C,p=a[1];for(;;){if(p){var
-q=p[1],u=bQ(d,t);switch(q[0]){case
+q=p[1],u=bS(d,t);switch(q[0]){case
 0:var
-F=q[1],G=gE(b,F[1],u),D=0;if(G){var
+F=q[1],G=gQ(b,F[1],u),D=0;if(G){var
 s=ao(b,[0,F[4],c]);if(s)var
-i=J(d,s[1][1]);else{var
+i=I(d,s[1][1]);else{var
 H=s;D=1}}else{var
 H=G;D=1}if(D)var
 i=H;break;case
 1:var
-I=q[3],i=I?gE(b,I[1],u):1;break;default:var
-i=gE(b,q[1],u)}if(i){var
-aa=p[2],t=bz(t),p=aa;continue}var
-P=i}else
+J=q[3],i=J?gQ(b,J[1],u):1;break;default:var
+i=gQ(b,q[1],u)}if(i){var
+aa=p[2],t=bA(t),p=aa;continue}var
+Q=i}else
 var
-P=1;var
-v=P;break}}else
+Q=1;var
+v=Q;break}}else
 var
-v=O;if(v){var
-ai=a[3],ak=y(function(a){return dz(c,a)},ai),al=a[3],am=f(n,f(e(function(a){return bV(c,a)},al),ak)),w=ac(e(function(a){return ao(b,a)},am));if(w){var
-an=a7(ef(a[2]),c),x=ac(e(function(a){return ao(b,a)},an));if(x){var
-ap=a[3],z=ac(mj(b,aI,function(a){return bc(o,a)},n,h,c,K,ap));if(z){var
-Q=z[1],aq=iB(Q),ar=x[1],as=a[2],at=function(a){return mk(b,as,c,a)},av=w[1],aw=0,ax=lD(h),ay=j(au(function(a){return bc(o,a)}),ax),az=eZ(h);return fG(iA(b,M,j(au(function(a){return bc(o,a)}),az),ay,aw,av,Q,at),ar,aq,aH)}var
+v=P;if(v){var
+ai=a[3],ak=y(function(a){return dF(c,a)},ai),al=a[3],am=f(n,f(e(function(a){return bX(c,a)},al),ak)),w=ac(e(function(a){return ao(b,a)},am));if(w){var
+an=a8(eo(a[2]),c),x=ac(e(function(a){return ao(b,a)},an));if(x){var
+ap=a[3],z=ac(mx(b,aI,function(a){return bd(o,a)},n,h,c,K,ap));if(z){var
+R=z[1],aq=iN(R),ar=x[1],as=a[2],at=function(a){return my(b,as,c,a)},av=w[1],aw=0,ax=lQ(h),ay=j(au(function(a){return bd(o,a)}),ax),az=fa(h);return fR(iM(b,M,j(au(function(a){return bd(o,a)}),az),ay,aw,av,R,at),ar,aq,aH)}var
 S=z}else
 var
 S=x;var
@@ -7357,152 +7476,188 @@ A=T}else
 var
 A=v}else
 var
-A=N;return A}return U}var
+A=O;return A}return U}var
 $=_}else
 var
 $=B;return $}function
-BB(a){if(0===a[0])return oY(a[1]);var
-b=a[1],c=eg(b[6]);return f(eg(b[5]),c)}function
-BC(a){if(0===a[0])return oZ(a[1]);var
-b=a[1],c=a8(b[4]);return f(a8(b[3]),c)}function
-BD(a){if(0===a[0])return[0,hl(a[1]),d];var
-b=a[1],c=bD(a8(b[2]));return[0,bD(a8(b[1])),c]}function
-pi(j,c,v,u,t,i,I,H,s){var
-a=oO(j,c,v,u,t,i),w=a[2],h=y(BB,w),G=h?[0,h[1],h[2]]:y(BC,w),r=F(b,bD(G)),x=e(BD,a[2]),l=jb(r,x,a[2]),J=g(s),K=pf(l,e(By,a[2])),L=hp(l),M=hp(l),n=dK(aL(j),M,L,K,J,s);if(n){var
+B2(a){if(0===a[0])return pg(a[1]);var
+b=a[1],c=er(b[6]);return f(er(b[5]),c)}function
+B3(a){if(0===a[0])return ph(a[1]);var
+b=a[1],c=a9(b[4]);return f(a9(b[3]),c)}function
+B4(a){if(0===a[0])return[0,hy(a[1]),d];var
+b=a[1],c=bF(a9(b[2]));return[0,bF(a9(b[1])),c]}function
+pC(j,c,v,u,t,i,I,H,s){var
+a=o8(j,c,v,u,t,i),w=a[2],h=y(B2,w),G=h?[0,h[1],h[2]]:y(B3,w),r=E(b,bF(G)),x=e(B4,a[2]),l=jp(r,x,a[2]),J=g(s),K=pz(l,e(BZ,a[2])),L=hC(l),M=hC(l),n=dU(aw(j),M,L,K,J,s);if(n){var
 z=n[1];if(z[2])return 0;var
-A=pa(j,c,v,u,t,i);if(A){var
-N=z[1],O=g(c),P=fA(fx(c),BE,O,0,i),Q=hq(H),C=e(u7,a[2]),o=iZ(k,a[2],C);if(o)var
-D=iI(a[4]),d=bn(k,a[4],D);else
+A=pu(j,c,v,u,t,i);if(A){var
+N=z[1],O=g(c),P=fL(fI(c),B5,O,0,i),Q=hD(H),C=e(vr,a[2]),o=g9(k,a[2],C);if(o)var
+D=iU(a[4]),d=bD(k,a[4],D);else
 var
 d=o;if(d){var
 p=a[5];if(p)var
-E=gX(p[1]),q=m(function(a){return fi(k,a)},E);else
+F=g6(p[1]),q=m(function(a){return fu(k,a)},F);else
 var
 q=1;var
 f=q}else
 var
-f=d;return f?u5(I,Q,P,a,r,x,N):f}var
+f=d;return f?vp(I,Q,P,a,r,x,N):f}var
 B=A}else
 var
 B=n;return B}function
-pj(l,j,N,M,K,t,ad,J,m){var
-n=typeof
-l==="number"?l?BF:BH:jP(l[1]),o=e(i,ad),d=oO(l,j,N,M,K,t),O=o5(j,e(i,J));if(O[2])return 0;var
-h=O[1],P=ho(y(o$,j),J),Q=P?pa(l,j,N,M,K,t):P;if(Q)var
-ae=aL(l),u=q(g(o),ae);else
+pD(r,t,ai,ah,ag,I,aP,af,v){var
+x=typeof
+r==="number"?r?B6:B7:j4(r[1]),A=e(i,aP),a=o8(r,t,ai,ah,ag,I),aj=pn(t,e(i,af));if(aj[2])return 0;var
+p=aj[1],ak=hB(y(pt,t),af),al=ak?pu(r,t,ai,ah,ag,I):ak;if(al)var
+aQ=aw(r),K=o(g(A),aQ);else
 var
-u=Q;if(u){if(typeof
-m!=="number"&&2===m[0]){var
-z=e(i,m[1]),ah=aM(n,z),S=aG(aB(n,z)),ai=aM(n,o),T=aG(aB(n,o)),G=iZ(k,d[2],h),H=G?bn(k,d[4],T):G,I=H?bn(k,d[4],S):H,W=I?n6(k,d[1],d[3],d[5],h,T,ai,S,ah):I;if(W){var
-aj=aL(l);return q(g(z),aj)}return W}var
-af=g(j),v=jS(fx(j),BG,af,0,t,m);if(v){var
-ag=v[1],a=aM(n,o),f=aG(aB(n,o)),E=iZ(k,d[2],h);if(E){var
-B=bn(k,d[4],f),A=0;if(B){var
-C=d[5];if(C)var
-r=cg(k,C[1],a);else
-if(a)var
-r=0;else{var
-D=1;A=1}}else{var
-D=B;A=1}if(A)var
-r=D;var
-s=r}else
+K=al;if(K){if(typeof
+v!=="number"&&2===v[0]){var
+S=e(i,v[1]),aV=aM(x,S),ao=aK(aB(x,S)),aW=aM(x,A),ap=aK(aB(x,A)),X=g9(k,a[2],p),Y=X?bD(k,a[4],ap):X,Z=Y?bD(k,a[4],ao):Y,aq=Z?oj(k,a[1],a[3],a[5],p,ap,aW,ao,aV):Z;if(aq){var
+aX=aw(r);return o(g(S),aX)}return aq}var
+aR=g(t),aS=jb(r),L=j7(fI(t),aS,aR,0,I,v);if(L){var
+B=L[1],f=aK(aB(x,A)),l=aM(x,A),ar=0;if(typeof
+v==="number"&&v){var
+N=M(fI(t));ar=1}if(!ar)var
+N=1;if(N){var
+T=g9(k,a[2],p),U=T?nx(k,a,f,l):T;if(U)var
+n=a[5],V=a[3],C=a[1],aC=a[6],as=e(function(a){if(0===a[0])var
+e=bq(n,l,f,a),c=ch(a[1],e);else
 var
-s=E;if(s)var
-c=d[5],F=d[3],p=d[1],ac=d[6],X=e(function(d){if(0===d[0])var
-h=bF(c,a,f,d),e=ce(d[1],h);else
+d=a[1],g=iZ(d,bq(n,l,f,a)),h=d[4],i=bq(n,l,f,a),j=J(function(b,a){return[2,b,a]},i,h),c=J(function(b,a){return[3,b,a]},j,g);return[0,ja(C,c,P([5,[0,b,b],V],c9(ex(n,l,ew(a)),c)))]},p),at=y(function(a){if(0===a[0]){var
+c=bq(n,l,f,a),b=iS(a[1],c),d=b?[0,b[1],0]:b;return d}var
+e=bq(n,l,f,a);return[0,iY(a[1],e),0]},p),au=function(a){var
+b=ex(n,l,a);return J(function(b,a){return[2,b,a]},f,b)},ax=0,ay=e(function(d){var
+b=bq(n,l,f,d);if(0===d[0]){var
+a=d[1];if(0===a[0]){var
+g=a[4],h=a[3],i=a[2],e=a[1],k=cf(e,i,h,g,b),j=cE(a[5],k),m=P(j,av(e)),o=fj(e,i,h,b);return[0,[0,nv(C,J(function(b,a){return[2,b,a]},o,m)),j,g]]}return 0}var
+c=d[1],p=c[6],q=eq(c,b),r=iZ(c,b),s=c[4],t=J(function(b,a){return[2,b,a]},b,s);return[0,[0,nv(C,J(function(b,a){return[3,b,a]},t,r)),q,p]]},p),az=e(function(a){return nu(n,l,f,a)},p),aA=[0,e(function(a){if(0===a[0])var
+m=bq(n,l,f,a),d=cg(a[1],m);else
 var
-g=d[1],i=iN(g,bF(c,a,f,d)),j=g[4],k=bF(c,a,f,d),l=U(function(b,a){return[2,b,a]},k,j),e=U(function(b,a){return[3,b,a]},l,i);return[0,iY(p,e,V([5,[0,b,b],F],c7(ff(c,a,fe(d)),e)))]},h),Y=y(function(b){if(0===b[0]){var
-e=bF(c,a,f,b),d=iG(b[1],e),g=d?[0,d[1],0]:d;return g}var
-h=bF(c,a,f,b);return[0,mL(b[1],h),0]},h),Z=function(b){var
-d=ff(c,a,b);return U(function(b,a){return[2,b,a]},f,d)},_=0,$=e(function(g){var
-d=bF(c,a,f,g);if(0===g[0]){var
-b=g[1];if(0===b[0]){var
-i=b[4],j=b[3],k=b[2],h=b[1],m=cC(h,k,j,i,d),l=c4(b[5],m),n=V(l,ay(h)),o=e8(h,k,j,d);return[0,[0,nj(p,U(function(b,a){return[2,b,a]},o,n)),l,i]]}return 0}var
-e=g[1],q=e[6],r=e$(e,d),s=iN(e,d),t=e[4],u=U(function(b,a){return[2,b,a]},d,t);return[0,[0,nj(p,U(function(b,a){return[3,b,a]},u,s)),r,q]]},h),aa=e(function(b){if(0===b[0]){var
-e=bF(c,a,f,b);return[0,c5(b[1],e)]}var
-d=b[1],g=mN(d,bF(c,a,f,b));return[1,mM(d,bF(c,a,f,b)),g]},h),ab=[0,e(function(d){if(0===d[0])var
-n=bF(c,a,f,d),g=cd(d[1],n);else
+e=bq(n,l,f,a),c=a[1],g=iZ(c,e),h=c[4],i=J(function(b,a){return[2,b,a]},e,h),j=J(function(b,a){return[3,b,a]},i,g),k=eq(c,e),d=P([5,[0,b,b],[4,c[5],k]],j);return ja(C,d,P([5,[0,b,b],V],c9(ex(n,l,ew(a)),d)))},p),az,ay,ax,au,at,as],aD=aw(a[1]),O=iW(k,jb(a[1]),aD,aA,aC,B);else
 var
-h=bF(c,a,f,d),e=d[1],i=iN(e,h),j=e[4],k=U(function(b,a){return[2,b,a]},h,j),l=U(function(b,a){return[3,b,a]},k,i),m=e$(e,h),g=V([5,[0,b,b],[4,e[5],m]],l);return iY(p,g,V([5,[0,b,b],F],c7(ff(c,a,fe(d)),g)))},h),aa,$,_,Z,Y,X],w=iK(k,ul,aL(d[1]),ab,ac,ag);else
+O=U;if(O)var
+Q=O;else{if(typeof
+B!=="number"&&0===B[0]){var
+E=B[2];if(E){if(E[2])return 0;var
+R=E[1],_=a[1],D=a[5],aT=B[1],$=g9(k,a[2],p),aa=$?nx(k,a,f,l):$;if(aa){var
+aF=a[6],F=ep(k,jb(_),aT,aF);if(F){var
+z=F[1][1];if(typeof
+z!=="number"&&16===z[0]){var
+s=z[1],aG=a[2],aH=e(function(a){return nu(D,l,f,oy(a))},aG),ad=j(cG(cK),s);if(ad)var
+aE=j(gc(c(2,b)),cK),u=[0,bj(d,ad[1][1]),aE];else
 var
-w=s;if(w){if(typeof
-m==="number"&&m)return L(fx(j));var
-x=1}else
+u=[0,d,b];var
+ae=h(k,0,s);if(ae)var
+aI=a[2],G=m(function(a){var
+b=oy(a);if(0===b[0])return 1;var
+c=b[1],d=[1,c],e=cH(k,s),g=e?nw(k,a,d):e;return g?h(k,1,iY(c,bq(D,l,f,d))):g},aI);else
 var
-x=w}else
+G=ae;if(G)var
+aJ=g(a[2]),H=o(g(R),aJ);else
 var
-x=v;var
-R=x}else
+H=G;if(H){var
+aL=W(R,aH),aN=W(W(p,e(function(o){var
+a=o[2],f=o[1];if(typeof
+a!=="number"&&1===a[0]){var
+g=a[2],i=a[1],p=c(2,c(2,c(2,q(c(2,c(2,b)))))),e=hk(s,a0(u,dx([0,b,b],[0,b,j(gc(c(2,b)),p)])),f,[1,i,g]);if(typeof
+e!=="number"&&1===e[0]){var
+d=dN([5,e[2],[2,[0,b,b],e[1]]]),r=[4,g,dI(d)],l=[2,[4,i,dH(d)],r],t=[4,g,dH(d)],m=[3,[4,i,dI(d)],t],n=[4,bg(u),[2,[0,b,b],l]];if(h(k,1,[2,[0,b,b],l])&&h(k,0,[3,n,m])&&h(k,0,[2,n,m])){var
+v=dI(d);return[1,dH(d),v]}return hk(s,u,f,a)}return hk(s,u,f,a)}return hk(s,u,f,a)},aL)),R),aO=y(function(t){var
+m=t[1],a=m[2],g=m[1],h=t[2],i=ex(D,l,ew(g)),e=bq(D,l,f,g);if(0===g[0]){var
+d=g[1];switch(d[0]){case
+0:var
+n=d[4],o=d[3],j=d[2],k=d[1];if(typeof
+a!=="number"&&0===a[0]){var
+p=a[1],u=0,v=P(p,av(k)),x=J(function(b,a){return[3,b,a]},f,j),y=J(function(b,a){return[3,b,a]},x,v),z=aU(j,o,e),A=[3,w(av(k),z),p],B=cf(k,j,o,n,e);return[0,[0,dN([5,[0,h,b],[2,cE(d[5],B),A]]),n,y,i],u]}return 0;case
+1:if(typeof
+a!=="number"&&0===a[0]){var
+q=a[1],C=0,E=d[1],F=J(function(b,a){return[3,b,a]},f,E);return[0,[0,dN([5,[0,h,b],[2,q,cF(d,e)]]),q,F,i],C]}return 0;default:return 0}}var
+c=g[1];if(typeof
+a!=="number"&&1===a[0]){var
+r=a[2],s=a[1],G=[4,r,fn(c,e)],H=[3,[4,s,fo(c,e)],G],K=P(r,gU(c)),I=0,L=P(s,fm(c)),M=J(function(b,a){return[2,b,a]},L,K),N=P(c[5],M),O=c[3],Q=J(function(b,a){return[2,b,a]},O,N),R=J(function(b,a){return[3,b,a]},f,Q),S=c[6],T=[2,eq(c,e),H];return[0,[0,dN([5,[0,h,b],[4,c[5],T]]),S,R,i],I]}return 0},aN);return ow(k,_,z[2],z[3],aO)}return H}var
+ab=0}else
 var
-R=u;return R}function
-fB(a){if(a){var
-b=cy(i(a[1]));if(b){var
-c=fB(a[2]);if(c)var
-f=c[1],d=[0,[0,du(b[1]),f]];else
+ab=F;var
+ac=ab}else
+var
+ac=aa;return ac}return E}var
+Q=0}}else
+var
+Q=N;var
+am=Q}else
+var
+am=L;var
+an=am}else
+var
+an=K;return an}function
+fM(a){if(a){var
+b=cA(i(a[1]));if(b){var
+c=fM(a[2]);if(c)var
+f=c[1],d=[0,[0,dy(b[1]),f]];else
 var
 d=c;var
 e=d}else
 var
-e=b;return e}return BI}function
-pk(f,k,j,a,i){var
-l=g(f),h=q(g(a),l);if(h){var
-m=aa(aa(f,aa(k,j)),a);return e(function(f){var
-g=f[1],h=g[2],j=d1(h[2],h[1]),a=aI(g[1],i),k=D(d,a)?k3(b7(c(2,b),a)):[0,b,dY(b7(c(2,b),Q(a)))],l=du(f$(a3([0,c(2,b),b],k),j)),m=f[2];return e(function(a){return du(a3(k3(a),l))},m)},m)}return h}function
-pl(u,aV,ar,aq,t,ap,a){var
-c=jC(u,aV,ar,aq),as=ho(y(o6,u),ap),g=as?jQ(u,ar,aq,c):as;if(t){var
+e=b;return e}return B8}function
+pE(f,k,j,a,i){var
+l=g(f),h=o(g(a),l);if(h){var
+m=W(W(f,W(k,j)),a);return e(function(f){var
+g=f[1],h=g[2],j=dx(h[2],h[1]),a=aL(g[1],i),k=D(d,a)?lf(b8(c(2,b),a)):[0,b,d9(b8(c(2,b),T(a)))],l=dy(gm(a0([0,c(2,b),b],k),j)),m=f[2];return e(function(a){return dy(a0(lf(a),l))},m)},m)}return h}function
+pF(u,aV,ar,aq,t,ap,a){var
+c=jR(u,aV,ar,aq),as=hB(y(po,u),ap),g=as?j5(u,ar,aq,c):as;if(t){var
 v=t[2];if(v){var
 w=v[2];if(w){if(w[2])return 0;var
-h=w[1],j=v[1],l=t[1],at=o3(u,e(i,ap));if(at[2])return 0;var
+h=w[1],j=v[1],l=t[1],at=pl(u,e(i,ap));if(at[2])return 0;var
 f=at[1];if(typeof
 a!=="number")switch(a[0]){case
 2:var
 K=a[1];if(K){var
 L=K[2];if(L){var
 M=L[2];if(M){if(M[2]){var
-N=fy(c,a);if(N){var
+N=fJ(c,a);if(N){var
 aY=i(h),aZ=i(j),aA=[0,i(l),aZ,aY];if(g){var
-aB=e_(k,c,f,aA,N[1]);if(aB)var
+aB=fl(k,c,f,aA,N[1]);if(aB)var
 O=aB;else{if(typeof
 a!=="number"&&0===a[0]){var
-z=a[2];return z?z[2]?0:fp(k,c,f,aA,a[1],z[1]):z}var
+z=a[2];return z?z[2]?0:fA(k,c,f,aA,a[1],z[1]):z}var
 O=0}}else
 var
 O=g;var
 aC=O}else
 var
 aC=N;return aC}if(g){var
-a0=i(M[1]),a1=i(L[1]),aD=[0,i(K[1]),a1,a0],a2=i(h),a3=i(j),aE=[0,i(l),a3,a2],Y=e7(k,c,f,aE),Z=Y?bn(k,c[2],aD):Y;if(Z){var
-aS=0,aT=0;return n6(k,0,[0,b,b],0,e(function(a){return[0,a]},f),aE,aT,aD,aS)}return Z}return g}var
-P=fy(c,a);if(P){var
+a0=i(M[1]),a1=i(L[1]),aD=[0,i(K[1]),a1,a0],a2=i(h),a3=i(j),aE=[0,i(l),a3,a2],Y=fi(k,c,f,aE),Z=Y?bD(k,c[2],aD):Y;if(Z){var
+aS=0,aT=0;return oj(k,0,[0,b,b],0,e(function(a){return[0,a]},f),aE,aT,aD,aS)}return Z}return g}var
+P=fJ(c,a);if(P){var
 a4=i(h),a5=i(j),aF=[0,i(l),a5,a4];if(g){var
-aG=e_(k,c,f,aF,P[1]);if(aG)var
+aG=fl(k,c,f,aF,P[1]);if(aG)var
 Q=aG;else{if(typeof
 a!=="number"&&0===a[0]){var
-A=a[2];return A?A[2]?0:fp(k,c,f,aF,a[1],A[1]):A}var
+A=a[2];return A?A[2]?0:fA(k,c,f,aF,a[1],A[1]):A}var
 Q=0}}else
 var
 Q=g;var
 aH=Q}else
 var
 aH=P;return aH}var
-R=fy(c,a);if(R){var
+R=fJ(c,a);if(R){var
 a6=i(h),a7=i(j),aI=[0,i(l),a7,a6];if(g){var
-aJ=e_(k,c,f,aI,R[1]);if(aJ)var
+aJ=fl(k,c,f,aI,R[1]);if(aJ)var
 S=aJ;else{if(typeof
 a!=="number"&&0===a[0]){var
-B=a[2];return B?B[2]?0:fp(k,c,f,aI,a[1],B[1]):B}var
+B=a[2];return B?B[2]?0:fA(k,c,f,aI,a[1],B[1]):B}var
 S=0}}else
 var
 S=g;var
 aK=S}else
 var
 aK=R;return aK}var
-T=fy(c,a);if(T){var
+T=fJ(c,a);if(T){var
 a8=i(h),a9=i(j),aL=[0,i(l),a9,a8];if(g){var
-aM=e_(k,c,f,aL,T[1]);if(aM)var
+aM=fl(k,c,f,aL,T[1]);if(aM)var
 U=aM;else{if(typeof
 a!=="number"&&0===a[0]){var
-C=a[2];return C?C[2]?0:fp(k,c,f,aL,a[1],C[1]):C}var
+C=a[2];return C?C[2]?0:fA(k,c,f,aL,a[1],C[1]):C}var
 U=0}}else
 var
 U=g;var
@@ -7510,30 +7665,30 @@ aN=U}else
 var
 aN=T;return aN;case
 3:var
-V=G(c[3],a[1]);if(V){var
+V=H(c[3],a[1]);if(V){var
 aO=V[1];if(typeof
 aO==="number"&&aO){var
-W=fB(a[2]);if(W){var
-n=W[1],X=fB(a[3]);if(X){var
+W=fM(a[2]);if(W){var
+n=W[1],X=fM(a[3]);if(X){var
 o=X[1];if(g){var
-a_=pk([0,d,[0,d,[0,d,0]]],n,o,a[4],a[5]),a$=i(h),ba=i(j),D=[0,i(l),ba,a$];if(n){var
+a_=pE([0,d,[0,d,[0,d,0]]],n,o,a[4],a[5]),a$=i(h),ba=i(j),D=[0,i(l),ba,a$];if(n){var
 p=n[2];if(p){var
 q=p[2];if(q){if(q[2])return 0;if(o){var
 r=o[2];if(r){var
 s=r[2];if(s){if(s[2])return 0;var
-_=s[1],$=r[1],aa=o[1],ab=q[1],ac=p[1],ad=n[1],ae=[0,[1,0,ad,aa],[1,vo,ac,$],[1,vn,ab,_]],af=e7(k,c,f,D);if(af)var
+_=s[1],$=r[1],aa=o[1],ab=q[1],ac=p[1],ad=n[1],ae=[0,[1,0,ad,aa],[1,vK,ac,$],[1,vJ,ab,_]],af=fi(k,c,f,D);if(af)var
 aU=c[3],E=aj(function(a){if(typeof
 a==="number"&&a)return 1;return 0},aU);else
 var
 E=af;var
-ag=E?n$(n,o):E,ah=ag?oa(k,c[2],[0,[0,ad,ac],ab],[0,[0,aa,$],_]):ag,ai=ah?jk(k,n,o,bf(D)):ah,ak=ai?m(function(b){var
-c=bZ(ob(b)),e=c?bZ([0,c5(b,D),0]):c;if(e){var
-f=iG(b,ae);if(f){var
-h=f[1],a=d6(k,function(a,b,c){return n7(k,vp,a,b,c)},h);return a?J(d,a[1][2][1]):a}var
+ag=E?oo(n,o):E,ah=ag?op(k,c[2],[0,[0,ad,ac],ab],[0,[0,aa,$],_]):ag,ai=ah?jy(k,n,o,br(D)):ah,ak=ai?m(function(b){var
+c=hh(oq(b)),e=c?hh([0,cF(b,D),0]):c;if(e){var
+f=iS(b,ae);if(f){var
+h=f[1],a=ed(k,function(a,b,c){return ok(k,vL,a,b,c)},h);return a?I(d,a[1][2][1]):a}var
 g=1}else
 var
-g=e;return g},f):ai;if(ak)return n_(k,e(function(a){var
-b=c5(a,D);return[3,c5(a,ae),b]},f),a_);var
+g=e;return g},f):ai;if(ak)return on(k,e(function(a){var
+b=cF(a,D);return[3,cF(a,ae),b]},f),a_);var
 al=ak}else
 var
 al=s;var
@@ -7560,18 +7715,18 @@ aQ=W;return aQ}var
 aR=0}else
 var
 aR=V;return aR}var
-H=fy(c,a);if(H){var
+G=fJ(c,a);if(G){var
 aW=i(h),aX=i(j),au=[0,i(l),aX,aW];if(g){var
-av=e_(k,c,f,au,H[1]);if(av)var
-I=av;else{if(typeof
+av=fl(k,c,f,au,G[1]);if(av)var
+J=av;else{if(typeof
 a!=="number"&&0===a[0]){var
-x=a[2];return x?x[2]?0:fp(k,c,f,au,a[1],x[1]):x}var
-I=0}}else
+x=a[2];return x?x[2]?0:fA(k,c,f,au,a[1],x[1]):x}var
+J=0}}else
 var
-I=g;var
-aw=I}else
+J=g;var
+aw=J}else
 var
-aw=H;var
+aw=G;var
 ax=aw}else
 var
 ax=w;var
@@ -7581,21 +7736,21 @@ ay=v;var
 az=ay}else
 var
 az=t;return az}function
-pm(m,l,b,k,y,x){var
+pG(m,l,b,k,y,x){var
 f=y,d=x;for(;;){if(0===d[0]){var
-g=d[1],h=G(f,g),n=h?aJ(h[1][2],BJ):h;if(n)var
-A=d[2],i=pm(m,l,b,k,jL(0,g,f),A);else
+g=d[1],h=H(f,g),n=h?aI(h[1][2],B9):h;if(n)var
+A=d[2],i=pG(m,l,b,k,j0(0,g,f),A);else
 var
 i=n;if(i){var
-B=d[3],f=jL(1,g,f),d=B;continue}return i}var
-c=d[1],a=oW(0,m,f),o=e(function(b){function
-d(b){return oX(a,b)}function
-c(a){return jJ(d,a)}switch(b[0]){case
+B=d[3],f=j0(1,g,f),d=B;continue}return i}var
+c=d[1],a=pe(0,m,f),o=e(function(b){function
+d(b){return pf(a,b)}function
+c(a){return jY(d,a)}switch(b[0]){case
 0:var
-e=b[5],f=oX(a,b[4]),g=c(b[3]),h=c(b[2]);return[0,c(b[1]),h,g,f,e];case
+e=b[5],f=pf(a,b[4]),g=c(b[3]),h=c(b[2]);return[0,c(b[1]),h,g,f,e];case
 1:var
 i=z(c,b[3]),j=c(b[2]);return[1,c(b[1]),j,i];default:return[2,c(b[1])]}},l);if(0===b[0])var
-q=b[2],r=jJ(function(b){return at(a,b)},q),s=b[1],j=[0,jJ(function(b){return at(a,b)},s),r];else
+q=b[2],r=jY(function(b){return at(a,b)},q),s=b[1],j=[0,jY(function(b){return at(a,b)},s),r];else
 var
 t=at(a,b[5]),u=at(a,b[4]),v=at(a,b[3]),w=at(a,b[2]),j=[1,at(a,b[1]),w,v,u,t];var
 p=e(function(g){var
@@ -7623,356 +7778,378 @@ i=h;return[0,g[1],g[2],i,d]},k);if(typeof
 c==="number")return 1;else
 switch(c[0]){case
 0:return 0;case
-1:return ph(1,o,j,0,p,c[1],c[2],c[3]);default:var
-C=c[4],D=c[3],E=e(function(b){return at(a,b)},D),F=c[2];return pl(o,j,0,p,e(function(b){return at(a,b)},F),E,C)}}}function
-pn(h,g){var
-a=cy(i(h));if(a){var
-c=a[1],e=ba([0,d,b],c);if(e)return ba(c,g);var
+1:return pB(1,o,j,0,p,c[1],c[2],c[3]);default:var
+C=c[4],D=c[3],E=e(function(b){return at(a,b)},D),F=c[2];return pF(o,j,0,p,e(function(b){return at(a,b)},F),E,C)}}}function
+pH(h,g){var
+a=cA(i(h));if(a){var
+c=a[1],e=bb([0,d,b],c);if(e)return bb(c,g);var
 f=e}else
 var
 f=a;return f}function
-BR(t){var
-eA=he(t[3]),eB=eA?he(t[4]):eA;if(eB){var
-P=t[1];switch(P[0]){case
+Cf(s){var
+eF=hr(s[3]),eG=eF?hr(s[4]):eF;if(eG){var
+R=s[1];switch(R[0]){case
 3:var
-eH=m(fu,P[1]);if(eH)var
-iS=P[2],cl=m(function(a){return fu(a[1])},iS);else
+eM=m(fF,R[1]);if(eM)var
+iE=R[2],co=m(function(a){return fF(a[1])},iE);else
 var
-cl=eH;if(cl)var
-iT=P[3],cm=m(function(a){var
-b=fu(a[1]),c=b?jA(a[2]):b;return c?fv(a[2]):c},iT);else
+co=eM;if(co)var
+iF=R[3],cp=m(function(a){var
+b=fF(a[1]),c=b?jP(a[2]):b;return c?fG(a[2]):c},iF);else
 var
-cm=cl;if(cm)var
-iU=P[4],a_=m(function(a){var
+cp=co;if(cp)var
+iG=R[4],ba=m(function(a){var
 b=0===a[0]?a[1]:[0,a[1],0];return m(function(a){var
-b=jA(a);return b?fv(a):b},b)},iU);else
+b=jP(a);return b?fG(a):b},b)},iG);else
 var
-a_=cm;break;case
+ba=cp;break;case
 7:var
-iV=P[1],eI=m(function(a){var
-b=fu(a[1]);return b?fw(0,[0,a[2][1],[0,a[2][2],0]]):b},iV),a_=eI?fw(0,[0,P[5],[0,P[6],0]]):eI;break;default:var
-a_=1}var
-cj=a_}else
+iH=R[1],eN=m(function(a){var
+b=fF(a[1]);return b?fH(0,[0,a[2][1],[0,a[2][2],0]]):b},iH),ba=eN?fH(0,[0,R[5],[0,R[6],0]]):eN;break;default:var
+ba=1}var
+cm=ba}else
 var
-cj=eB;var
-cV=0;if(cj){var
-eC=t[1],ck=7===eC[0]?e(aw,eC[1]):0,eD=function(c,b){var
-a=oF(c);return a?m(function(a){var
-e=a[1],b=m(function(a){return jz(a[2])},e);if(b){var
-c=a[3];if(c)return fw(ck,oE(c[1]));var
+cm=eG;var
+cZ=0;if(cm){var
+eH=s[1],cn=7===eH[0]?e(ay,eH[1]):0,eI=function(c,b){var
+a=o0(c);return a?m(function(a){var
+e=a[1],b=m(function(a){return jO(a[2])},e);if(b){var
+c=a[3];if(c)return fH(cn,oZ(c[1]));var
 d=1}else
 var
-d=b;return d},b):a},eE=function(e,d,c,b){var
-a=oF(e);return a?fw(ck,f(d,f(c,oE(b)))):a},o=t[1];switch(o[0]){case
+d=b;return d},b):a},eJ=function(e,d,c,b){var
+a=o0(e);return a?fH(cn,f(d,f(c,oZ(b)))):a},n=s[1];switch(n[0]){case
 0:var
-ig=y(dH,o[4]),ih=f(y(oC,o[3]),ig),ii=f(oA(o[2]),ih),S=f(y(jB,o[1]),ii);break;case
+ib=y(dR,n[4]),ic=f(y(oX,n[3]),ib),id=f(oV(n[2]),ic),S=f(y(jQ,n[1]),id);break;case
 1:var
-cf=o[5],ch=o[3],ij=y(dH,o[6]),ik=cf?oB(cf[1]):cf,il=f(ik,ij),im=f(oz(o[4]),il),io=ch?[0,ch[1],0]:ch,ip=f(io,im),S=f(y(Ae,o[2]),ip);break;case
+ci=n[5],cj=n[3],ie=y(dR,n[6]),ig=ci?oW(ci[1]):ci,ih=f(ig,ie),ii=f(oU(n[4]),ih),ij=cj?[0,cj[1],0]:cj,ik=f(ij,ii),S=f(y(AF,n[2]),ik);break;case
 2:var
-iq=y(dH,o[7]),ir=f(y(oC,o[6]),iq),is=f(oB(o[5]),ir),it=f(oz(o[4]),is),iu=[0,o[3],it],iv=o[2],S=f(y(function(a){return y(er,f(a[1],a[2]))},iv),iu);break;case
+il=y(dR,n[7]),im=f(y(oX,n[6]),il),io=f(oW(n[5]),im),ip=f(oU(n[4]),io),iq=[0,n[3],ip],ir=n[2],S=f(y(function(a){return y(eE,f(a[1],a[2]))},ir),iq);break;case
 3:var
-iw=y(dH,o[7]),ix=f(o[6],iw),iy=f(o[5],ix),iz=o[2],S=f(y(function(a){return er(a[2])},iz),iy);break;case
+is=y(dR,n[7]),it=f(n[6],is),iu=f(n[5],it),iv=n[2],S=f(y(function(a){return eE(a[2])},iv),iu);break;case
 4:var
-iD=y(dH,o[3]),S=[0,o[1],[0,o[2],iD]];break;case
+iw=y(dR,n[3]),S=[0,n[1],[0,n[2],iw]];break;case
 5:var
-iF=y(dH,o[4]),iG=f(b0(o[3]),iF),iH=f(b0(o[2]),iG),iL=f(y(jB,o[1]),iH),S=[0,o[5],iL];break;case
+ix=y(dR,n[4]),iy=f(b1(n[3]),ix),iz=f(b1(n[2]),iy),iA=f(y(jQ,n[1]),iz),S=[0,n[5],iA];break;case
 6:var
-ci=o[1],S=ci?er(ci[1]):ci;break;default:var
-iM=y(dH,o[4]),iN=f(oA(o[3]),iM),S=f(y(jB,o[2]),iN)}var
-eF=fw(ck,S);if(eF){var
-T=t[2];switch(T[0]){case
+cl=n[1],S=cl?eE(cl[1]):cl;break;default:var
+iB=y(dR,n[4]),iC=f(oV(n[3]),iB),S=f(y(jQ,n[2]),iC)}var
+eK=fH(cn,S);if(eK){var
+U=s[2];switch(U[0]){case
 0:var
-aT=eD(T[1],T[3]);break;case
+aR=eI(U[1],U[3]);break;case
 1:var
-aT=eE(T[1],T[2],T[3],T[4]);break;default:var
-iO=T[1],aT=m(function(a){if(typeof
+aR=eJ(U[1],U[2],U[3],U[4]);break;default:var
+iD=U[1],aR=m(function(a){if(typeof
 a!=="number")switch(a[0]){case
-1:return eD(a[1],a[3]);case
-2:return eE(a[1],a[2],a[3],a[4])}return 1},iO)}}else{var
-eG=eF;cV=1}}else{var
-eG=cj;cV=1}if(cV)var
-aT=eG;if(aT){var
-a=t[1];switch(a[0]){case
+1:return eI(a[1],a[3]);case
+2:return eJ(a[1],a[2],a[3],a[4])}return 1},iD)}}else{var
+eL=eK;cZ=1}}else{var
+eL=cm;cZ=1}if(cZ)var
+aR=eL;if(aR){var
+a=s[1];switch(a[0]){case
 0:var
-e3=a[4],e4=a[3],e5=a[2],e7=a[1],ad=t[2];switch(ad[0]){case
-0:return ph(0,e7,e5,e4,e3,ad[1],ad[2],ad[3]);case
-1:return pl(e7,e5,e4,e3,ad[2],ad[3],ad[4]);default:return 0}case
+e7=a[4],e8=a[3],e9=a[2],e_=a[1],ab=s[2];switch(ab[0]){case
+0:return pB(0,e_,e9,e8,e7,ab[1],ab[2],ab[3]);case
+1:return pF(e_,e9,e8,e7,ab[2],ab[3],ab[4]);default:return 0}case
 1:var
-e8=a[6],e9=a[5],e_=a[4],e$=a[3],fc=a[2],fd=a[1],ae=t[2];switch(ae[0]){case
-0:return pi(fd,fc,e$,e_,e9,e8,ae[1],ae[2],ae[3]);case
-1:return pj(fd,fc,e$,e_,e9,e8,ae[2],ae[3],ae[4]);default:return 0}case
+e$=a[6],fb=a[5],fc=a[4],fd=a[3],fe=a[2],ff=a[1],ad=s[2];switch(ad[0]){case
+0:return pC(ff,fe,fd,fc,fb,e$,ad[1],ad[2],ad[3]);case
+1:return pD(ff,fe,fd,fc,fb,e$,ad[2],ad[3],ad[4]);default:return 0}case
 2:var
-af=a[7],ag=a[6],bg=a[5],bi=a[4],bj=a[3],E=a[2],H=a[1],ah=t[2];switch(ah[0]){case
+ae=a[7],af=a[6],bi=a[5],bj=a[4],bk=a[3],F=a[2],G=a[1],ag=s[2];switch(ag[0]){case
 0:var
-fe=ah[3],W=oN(H,E,bj,bi,bg,ag,af),i6=W[2],cr=F(b,bD(y(function(a){var
-b=a8(a[2]);return f(a8(a[1]),b)},i6))),i7=g(fe),i8=i9(cr,W[2]),i_=i9(cr,W[2]),cs=dK(bv(H),i_,i8,0,i7,fe);if(cs){var
-ff=cs[1];if(ff[2])return 0;var
-fg=o_(H,E,bj,bi,bg,ag,af);if(fg){var
-i$=ff[1],ja=g(E),jb=fA(0,jR(H),ja,ag,af),jc=hq(ah[2]),jf=ah[1],gs=W[2],c4=m(function(a){var
-b=nI(k,a[1]);return b?nI(k,a[2]):b},gs);if(c4)var
-gt=iI(W[4]),bw=bn(k,W[4],gt);else
+fg=ag[3],V=o7(G,F,bk,bj,bi,af,ae),iZ=V[2],cu=E(b,bF(y(function(a){var
+b=a9(a[2]);return f(a9(a[1]),b)},iZ))),i0=g(fg),i6=jl(cu,V[2]),i7=jl(cu,V[2]),cv=dU(bG(G),i7,i6,0,i0,fg);if(cv){var
+fi=cv[1];if(fi[2])return 0;var
+fj=ps(G,F,bk,bj,bi,af,ae);if(fj){var
+i8=fi[1],i9=g(F),i_=fL(0,j6(G),i9,af,ae),i$=hD(ag[2]),ja=ag[1],gu=V[2],c6=m(function(a){var
+b=nW(k,a[1]);return b?nW(k,a[2]):b},gu);if(c6)var
+gv=iU(V[4]),bx=bD(k,V[4],gv);else
 var
-bw=c4;if(bw)var
-gu=gX(W[5]),bx=m(function(a){return fi(k,a)},gu);else
+bx=c6;if(bx)var
+gw=g6(V[5]),bz=m(function(a){return fu(k,a)},gw);else
 var
-bx=bw;return bx?uM(jf,jc,jb,W,cr,i$):bx}var
-fh=fg}else
+bz=bx;return bz?u8(ja,i$,i_,V,cu,i8):bz}var
+fk=fj}else
 var
-fh=cs;return fh;case
+fk=cv;return fk;case
 1:var
-I=ah[4],fl=ah[3],ai=e(i,ah[2]),B=jP(H),fm=o4(E,e(i,fl));if(fm[2])return 0;var
-u=fm[1],fp=ho(y(function(a){return f(a[1],a[2])},E),fl),fq=fp?o_(H,E,bj,bi,bg,ag,af):fp;if(fq){var
-n=oN(H,E,bj,bi,bg,ag,af);if(typeof
-I!=="number")switch(I[0]){case
+K=ag[4],fl=ag[3],ah=e(i,ag[2]),B=j4(G),fm=pm(F,e(i,fl));if(fm[2])return 0;var
+u=fm[1],fn=hB(y(function(a){return f(a[1],a[2])},F),fl),fo=fn?ps(G,F,bk,bj,bi,af,ae):fn;if(fo){var
+p=o7(G,F,bk,bj,bi,af,ae);if(typeof
+K!=="number")switch(K[0]){case
 2:var
-fC=e(i,I[1]),fD=aM(B,fC),fE=aG(aB(B,fC)),fF=aM(B,ai),fH=aG(aB(B,ai)),c5=fb(k,n[2],u);if(c5)var
-gv=bv(n[1]),by=q(g(u),gv);else
+fy=e(i,K[1]),fz=aM(B,fy),fA=aK(aB(B,fy)),fB=aM(B,ah),fC=aK(aB(B,ah)),c7=i4(k,p[2],u);if(c7)var
+gx=bG(p[1]),bA=o(g(u),gx);else
 var
-by=c5;var
-c6=by?bn(k,n[4],fH):by,c_=c6?bn(k,n[4],fE):c6,da=c_?cg(k,n[5],fF):c_,db=da?cg(k,n[5],fD):da;if(db){var
-dc=function(b,a){var
-c=n[5],d=n[3],f=n[1];return e(function(e){return iR(f,d,c,a,b,e)},u)},gw=dc(fE,fD),gx=dc(fH,fF);return nO(k,bv(n[1]),gx,gw)}return db;case
+bA=c7;var
+c8=bA?bD(k,p[4],fC):bA,c$=c8?bD(k,p[4],fA):c8,dc=c$?da(k,p[5],fB):c$,dd=dc?da(k,p[5],fz):dc;if(dd){var
+de=function(b,a){var
+c=p[5],d=p[3],f=p[1];return e(function(e){return i3(f,d,c,a,b,e)},u)},gy=de(fA,fz),gz=de(fC,fB);return n2(k,bG(p[1]),gz,gy)}return dd;case
 3:var
-cw=fB(I[2]);if(cw){var
-fI=cw[1],cx=fB(I[3]);if(cx){var
-fJ=cx[1],jj=n[2],jk=F(b,bD(y(function(a){var
-b=a8(a[2]);return f(a8(a[1]),b)},jj))),jl=g(E),jp=fA(0,jR(H),jl,ag,af),fK=q(I[1],jp);if(fK){var
-jq=I[5],jr=I[4],js=al(Q(jk),dW(g(ai),B)),jt=pk(f(al(d,B),js),fI,fJ,jr,jq),ju=aM(B,ai);return vu(k,B,n,u,aG(aB(B,ai)),ju,fI,fJ,jt)}var
-fL=fK}else
+cz=fM(K[2]);if(cz){var
+fD=cz[1],cB=fM(K[3]);if(cB){var
+fE=cB[1],jc=p[2],jd=E(b,bF(y(function(a){var
+b=a9(a[2]);return f(a9(a[1]),b)},jc))),je=g(F),jf=fL(0,j6(G),je,af,ae),fI=o(K[1],jf);if(fI){var
+jg=K[5],jh=K[4],ji=al(T(jd),d7(g(ah),B)),jj=pE(f(al(d,B),ji),fD,fE,jh,jg),jk=aM(B,ah);return vQ(k,B,p,u,aK(aB(B,ah)),jk,fD,fE,jj)}var
+fJ=fI}else
 var
-fL=cx;var
-fM=fL}else
+fJ=cB;var
+fN=fJ}else
 var
-fM=cw;return fM}var
-ji=g(E),cu=jS(0,jR(H),ji,ag,af,I);if(cu){var
-aU=cu[1],s=aG(aB(B,ai)),p=aM(B,ai),cZ=fb(k,n[2],u),c0=cZ?bn(k,n[4],s):cZ,c1=c0?cg(k,n[5],p):c0;if(c1)var
-M=n[5],c2=n[3],c3=n[1],gp=n[6],bt=function(a){var
-b=bW(M,p,s,a);return x(bW(M,p,s,a),b)},gi=e(function(a){return[0,iR(c3,c2,M,p,s,a)]},u),gj=e(bt,u),gk=function(a){var
-b=cD(M,p,a);return U(function(b,a){return[2,b,a]},s,b)},gl=e(function(a){var
-b=[6,bt(a)],c=bW(M,p,s,a),d=cD(M,p,a[2]);return[0,[0,[0,U(function(b,a){return[2,b,a]},s,d),c],b]]},u),gm=e(function(a){return 0},u),gn=e(function(a){return[0,[6,bt(a)]]},u),go=[0,e(function(c){var
-a=ay(bW(M,p,s,c));return iQ(c3,a,V([5,[0,b,b],c2],c7(cD(M,p,c[2]),a)))},u),gn,gm,gl,gk,gj,gi],gq=bv(n[1]),gr=2<=n[1]?tC:tD,cv=iK(k,gr,gq,go,gp,aU);else
+fN=cz;return fN}var
+jb=g(F),cx=j7(0,j6(G),jb,af,ae,K);if(cx){var
+aS=cx[1],t=aK(aB(B,ah)),q=aM(B,ah),c3=i5(k,p,u,t,q);if(c3)var
+O=p[5],c4=p[3],c5=p[1],gr=p[6],bv=function(a){var
+b=bY(O,q,t,a);return w(bY(O,q,t,a),b)},gk=e(function(a){return[0,i3(c5,c4,O,q,t,a)]},u),gl=e(bv,u),gm=function(a){var
+b=c_(O,q,a);return J(function(b,a){return[2,b,a]},t,b)},gn=e(function(a){var
+b=[6,bv(a)],c=bY(O,q,t,a),d=c_(O,q,a[2]);return[0,[0,[0,J(function(b,a){return[2,b,a]},t,d),c],b]]},u),go=e(function(a){return 0},u),gp=e(function(a){return[0,[6,bv(a)]]},u),gq=[0,e(function(c){var
+a=av(bY(O,q,t,c));return i2(c5,a,P([5,[0,b,b],c4],c9(c_(O,q,c[2]),a)))},u),gp,go,gn,gm,gl,gk],gs=bG(p[1]),gt=2<=p[1]?tV:tW,cy=iW(k,gt,gs,gq,gr,aS);else
 var
-cv=c1;if(cv)var
-fr=cv;else{if(typeof
-aU!=="number"&&0===aU[0]){var
-bk=aU[2];if(bk){if(bk[2])return 0;var
-bl=bk[1],fx=aU[1],aJ=n[1],dQ=fb(k,n[2],u),dR=dQ?bn(k,n[4],s):dQ,dS=dR?cg(k,n[5],p):dR,cY=0;if(dS){var
-hz=n[6],hA=2<=aJ?vk:vl,bS=gI(k,hA,fx,hz),bq=0;if(bS){var
-av=bS[1][1],br=0;if(typeof
-av!=="number"&&15===av[0]){var
-bT=G(u,av[1]);if(bT){var
-aL=mJ(bl),dV=av[3],a4=bT[1],a5=n[5],bU=n[3],hB=av[4],hC=av[2],dE=iR(aJ,bU,a5,p,s,a4),dF=bW(a5,p,s,a4),bR=bo(aL,aL),dG=[4,[4,hC,[6,bo(dE,dE)]],bR],aH=bW(a5,p,s,a4),bP=cD(a5,p,a4[2]),aI=V([5,[0,b,b],bU],n3(aJ,aL)),hr=c7(aI,bP),hs=n2(aJ,aL),bQ=U(function(b,a){return[2,b,a]},hs,hr),dD=x(aH,bQ),ht=x(aI,aI),hu=[4,x(aH,bP),ht],hv=x(bP,aI),hw=[3,[4,x(aH,aI),hv],hu],hx=[5,[4,dD,dD],x(aH,aH)],dI=[4,[4,dV,dV],[2,[3,x(bQ,bQ),hx],hw]],dJ=[4,[4,hB,bR],[6,x(dF,dF)]],hy=bv(aJ),dL=q(g(aL),hy),dM=dL?h(k,1,bR):dL,dN=dM?h(k,1,bU):dM,gh=0;if(dN){var
-dO=h(k,1,[3,[2,dG,dI],dJ]);if(dO)var
-dP=dO;else{var
-aV=h(k,1,[3,[3,dG,dI],dJ]);bq=1;br=1;gh=1}}else
+cy=c3;if(cy)var
+fq=cy;else{if(typeof
+aS!=="number"&&0===aS[0]){var
+bl=aS[2];if(bl){if(bl[2])return 0;var
+bm=bl[1],ft=aS[1],aI=p[1],dW=i5(k,p,u,t,q),c2=0;if(dW){var
+hA=p[6],hE=2<=aI?vG:vH,bW=ep(k,hE,ft,hA),br=0;if(bW){var
+at=bW[1][1],bt=0;if(typeof
+at!=="number"&&15===at[0]){var
+bZ=H(u,at[1]);if(bZ){var
+aJ=mX(bm),dZ=at[3],a4=bZ[1],a5=p[5],b0=p[3],hF=at[4],hG=at[2],dI=i3(aI,b0,a5,q,t,a4),dJ=bY(a5,q,t,a4),bV=bo(aJ,aJ),dK=[4,[4,hG,[6,bo(dI,dI)]],bV],aG=bY(a5,q,t,a4),bT=c_(a5,q,a4[2]),aH=P([5,[0,b,b],b0],og(aI,aJ)),hm=c9(aH,bT),hp=of(aI,aJ),bU=J(function(b,a){return[2,b,a]},hp,hm),dH=w(aG,bU),hq=w(aH,aH),hs=[4,w(aG,bT),hq],ht=w(bT,aH),hu=[3,[4,w(aG,aH),ht],hs],hv=[5,[4,dH,dH],w(aG,aG)],dL=[4,[4,dZ,dZ],[2,[3,w(bU,bU),hv],hu]],dM=[4,[4,hF,bV],[6,w(dJ,dJ)]],hw=bG(aI),dP=o(g(aJ),hw),dQ=dP?h(k,1,bV):dP,dS=dQ?h(k,1,b0):dQ,gj=0;if(dS){var
+dT=h(k,1,[3,[2,dK,dL],dM]);if(dT)var
+dV=dT;else{var
+aT=h(k,1,[3,[3,dK,dL],dM]);br=1;bt=1;gj=1}}else
 var
-dP=dN;if(!gh){var
-aV=dP;bq=1;br=1}}else{var
-aV=bT;bq=1;br=1}}if(!br)var
-dT=0}else
+dV=dS;if(!gj){var
+aT=dV;br=1;bt=1}}else{var
+aT=bZ;br=1;bt=1}}if(!bt)var
+dX=0}else
 var
-dT=bS;if(!bq){var
-dU=dT;cY=1}}else{var
-dU=dS;cY=1}if(cY)var
-aV=dU;if(!aV){var
-Z=n[1],aN=n[5],dZ=fb(k,n[2],u),d0=dZ?bn(k,n[4],s):dZ,d1=d0?cg(k,aN,p):d0,d2=d1?bZ(bf(s)):d1;if(d2){var
-hT=n[6],hU=2<=Z?vD:vE,b2=gI(k,hU,fx,hT);if(b2){var
-aO=b2[1][1];if(typeof
-aO!=="number"&&16===aO[0]){var
-b3=aO[3],d5=aO[2],d6=aO[1],b4=jo(aD(en,d5));if(b4){var
-d7=b4[1],b5=jo(j(c8(en),b3));if(b5){var
-b6=b5[1],a6=n2(Z,oe(Z,d7,b6)),N=n3(Z,oe(Z,d7,b6)),d8=h(k,1,d5),d9=d8?h(k,0,d6):d8,d_=d9?h(k,1,b3):d9,d$=d_?c9(k,b3):d_,ea=d$?L(ba(b6,[0,d,b])):d$;if(ea)var
-hV=g(n[2]),b7=q(g(bl),hV);else
+dX=bW;if(!br){var
+dY=dX;c2=1}}else{var
+dY=dW;c2=1}if(c2)var
+aT=dY;if(!aT){var
+d0=p[1],b3=p[5],d1=i5(k,p,u,t,q);if(d1){var
+hH=p[6],hI=2<=d0?v2:v3,b4=ep(k,hI,ft,hH);if(b4){var
+aL=b4[1][1];if(typeof
+aL!=="number"&&16===aL[0]){var
+d4=aL[1],d5=h(k,0,d4);if(d5)var
+hJ=g(p[2]),b5=o(g(bm),hJ);else
 var
-b7=ea;var
-eb=b7?m(function(a){var
-b=bZ(bf(a[1]));return b?bZ(bf(cD(aN,p,a[2]))):b},u):b7;if(eb){var
-hW=n[2],ec=jn(bl,e(function(a){var
-b=cG(a[2]);return of(bW(aN,p,s,[0,cG(a[1]),b]))},hW),d6),ed=bZ(ec);if(ed){var
-hX=aa(aa(u,ec),bl),ab=e(function(e){var
-c=e[1],d=c[2],a=c[1],f=cD(aN,p,a[2]),g=a[1],h=U(function(b,a){return[3,b,a]},s,g),i=[2,d,of(bW(aN,p,s,a))];return[0,jm([5,[0,e[2],b],i]),d,h,f]},hX),bX=[0,c(2,b),b],bY=function(b){return fo(function(a){var
-c=a[3],d=j(b,a[4]);return V([4,a[1],d],c)},ab)},dX=fn(function(a){var
-b=x(a[3],a[4]);return[4,a[1],b]},ab),dY=x(N,N),hD=bY(function(a){return a[3]}),hE=V(N[3],hD),hF=bY(function(a){return a[2]}),hG=V(N[2],hF),hH=bY(function(a){return a[1]}),hI=V(N[1],hH),hJ=U(function(b,a){return[2,b,a]},hI,hG),hK=[4,dY,dX],hL=x(N,U(function(b,a){return[2,b,a]},hJ,hE)),hM=[3,[2,x(N,fo(function(a){var
-b=c7(a[4],a[3]);return V(a[1],b)},ab)),hL],hK],hN=[2,[4,bX,dX],[4,[5,[0,c(2,c(2,b)),b],[2,[0,b,b],dY]],hM]],hO=[4,bX,x(a6,mR(N,fo(function(a){return V(a[1],a[4])},ab)))],hP=x(a6,a6),hQ=[2,[4,fn(function(a){return a[1]},ab),hP],hO],hR=[4,bX,x(fo(function(a){return V(a[1],a[3])},ab),a6)],hS=[2,[2,[2,fn(function(a){var
-b=[4,a[2],a[2]],c=x(a[4],a[4]),d=[3,[2,x(a[3],a[3]),c],b];return[4,a[1],d]},ab),hR],hQ],hN],hY=cF(Z);return od(k,bv(Z),hY,hS)}var
-ee=ed}else
+b5=d5;if(b5){var
+hK=p[2],hL=W(W(u,hi(bm,e(function(a){var
+b=by(a[2]);return ox(bY(b3,q,t,[0,by(a[1]),b]))},hK),d4)),bm),hM=e(function(e){var
+c=e[1],d=c[2],a=c[1],f=c_(b3,q,a[2]),g=a[1],h=J(function(b,a){return[3,b,a]},t,g),i=[2,d,ox(bY(b3,q,t,a))];return[0,dN([5,[0,e[2],b],i]),d,h,f]},hL);return ow(k,[0,d0],aL[2],aL[3],hM)}return b5}var
+d2=0}else
 var
-ee=eb;var
-ef=ee}else
+d2=b4;var
+d3=d2}else
 var
-ef=b5;var
-eg=ef}else
+d3=d1;return d3}var
+fx=aT}else
 var
-eg=b4;return eg}var
-d3=0}else
+fx=bl;return fx}var
+fq=0}var
+fr=fq}else
 var
-d3=b2;var
-d4=d3}else
-var
-d4=d2;return d4}var
-fy=aV}else
-var
-fy=bk;return fy}var
-fr=0}var
+fr=cx;var
 fs=fr}else
 var
-fs=cu;var
-ft=fs}else
-var
-ft=fq;return ft;default:return 0}case
+fs=fo;return fs;default:return 0}case
 3:var
-ak=a[7],aW=a[6],aX=a[5],am=a[4],cz=a[3],an=a[2],ax=a[1],ap=t[2];switch(ap[0]){case
+ai=a[7],aU=a[6],aV=a[5],ak=a[4],cC=a[3],am=a[2],aw=a[1],an=s[2];switch(an[0]){case
 0:var
-fN=ap[3],jv=g(fN),jw=hp(jh(jE(ax,an,cz,am,aX,aW,ak)[1])),cA=dK(g(ax),jw,0,0,jv,fN);if(cA){var
-fO=cA[1];if(fO[2])return 0;var
-fP=pb(ax,an,am,aX,aW,ak);if(fP){var
-jx=fO[1],K=jE(ax,an,cz,am,aX,aW,ak),jy=fA(0,BS,g(am),0,ak),fQ=hq(ap[2]),aY=ap[1],dt=nZ(K[1]);if(dt)var
-g3=K[1][2],bL=m(function(a){return bu(k,a[2][1],a[2][2])},g3);else
+fO=an[3],jm=g(fO),jn=hC(jv(jT(aw,am,cC,ak,aV,aU,ai)[1])),cD=dU(g(aw),jn,0,0,jm,fO);if(cD){var
+fP=cD[1];if(fP[2])return 0;var
+fQ=pv(aw,am,ak,aV,aU,ai);if(fQ){var
+jo=fP[1],L=jT(aw,am,cC,ak,aV,aU,ai),jp=fL(0,Cg,g(ak),0,ai),fS=hD(an[2]),aW=an[1],dw=od(L[1]);if(dw)var
+g3=L[1][2],bP=m(function(a){return bw(k,a[2][1],a[2][2])},g3);else
 var
-bL=dt;if(bL)var
-g5=K[2],bM=m(function(a){return bu(k,a[1],a[2])},g5);else
+bP=dw;if(bP)var
+g4=L[2],bQ=m(function(a){return bw(k,a[1],a[2])},g4);else
 var
-bM=bL;if(bM){var
-w=K[1],bz=g(w[1]),a1=K[3],bC=g(w[2]),dd=R(bC,g(fk(e(aZ,w[3])))),gy=w[3],de=nU(g6(w),gy,bC),Y=jg(bz,de,w[4],dd),gz=je(de,w[4],dd),gA=w[3],df=f(jd(g6(w),gA,bC),gz),dg=g(jh(w)),gD=0,gE=f(df,c$(function(a,b){return nR(Y,a,b)},gD,d,dg,a1)),gF=f(bB(fj(Y)),gE),dh=f(bB(el(Y)),gF),bE=cS(dh)[1],gG=cR(bE),at=function(a){return bc(gG,a)},di=q(g(K[2]),bz);if(di)var
-gJ=w[4],bF=m(function(a){return 0===a[0]?q(g(a[1]),bz):1},gJ);else
+bQ=bP;if(bQ){var
+x=L[1],bE=g(x[1]),a1=L[3],bH=g(x[2]),df=N(bH,g(fw(e(aY,x[3])))),gA=x[3],dh=n_(he(x),gA,bH),Z=ju(bE,dh,x[4],df),gB=js(dh,x[4],df),gC=x[3],di=f(jr(he(x),gC,bH),gB),dj=g(jv(x)),gD=0,gE=f(di,db(function(a,b){return n5(Z,a,b)},gD,d,dj,a1)),gF=f(bC(fv(Z)),gE),dk=f(bC(ey(Z)),gF),bI=cW(dk)[1],gG=cV(bI),as=function(a){return bd(gG,a)},dl=o(g(L[2]),bE);if(dl)var
+gH=x[4],bJ=m(function(a){return 0===a[0]?o(g(a[1]),bE):1},gH);else
 var
-bF=di;var
-dk=bF?m(function(a){var
-b=l(d),c=cR(bE);return aK(r(at(a),c,b),a)},dh):bF,dl=dk?aj(nT,a1):dk;if(dl){var
-dm=L(K[4]);if(dm)var
-a2=dm;else
+bJ=dl;var
+dn=bJ?m(function(a){var
+b=l(d),c=cV(bI);return aN(r(as(a),c,b),a)},dk):bJ,dp=dn?aj(n7,a1):dn;if(dp){var
+dq=M(L[4]);if(dq)var
+a2=dq;else
 var
-g2=w[4],a2=m(function(a){return 0===a[0]?0:1},g2)}else
+g2=x[4],a2=m(function(a){return 0===a[0]?0:1},g2)}else
 var
-a2=dl;if(a2){var
-gK=jh(w),bG=ac(e(function(a){return ao(aY,a)},gK));if(bG){var
-gL=0,gM=y(function(a){return fa(gL,d,a)},a1),bH=ac(e(function(a){return iP(aY,a)},gM));if(bH){var
-gN=K[2],bI=ac(e(function(a){return ao(aY,[0,a,d])},gN));if(bI){var
-gO=0,gP=0,bJ=ac(c$(function(a,b){return nS(aY,at,Y,gP,d,a,b)},gO,d,dg,a1));if(bJ){var
-dn=bJ[1];if(K[4])var
-gQ=fQ[2],gR=fQ[1],gS=fj(Y),bK=iJ(jy,dn,[8,j(au(at),gS),gR,gQ]);else
+a2=dp;if(a2){var
+gI=jv(x),bK=ac(e(function(a){return ao(aW,a)},gI));if(bK){var
+gJ=0,gK=y(function(a){return fp(gJ,d,a)},a1),bL=ac(e(function(a){return i1(aW,a)},gK));if(bL){var
+gL=L[2],bM=ac(e(function(a){return ao(aW,[0,a,d])},gL));if(bM){var
+gM=0,gP=0,bN=ac(db(function(a,b){return n6(aW,as,Z,gP,d,a,b)},gM,d,dj,a1));if(bN){var
+dr=bN[1];if(L[4])var
+gQ=fS[2],gR=fS[1],gS=fv(Z),bO=iV(jp,dr,[8,j(au(as),gS),gR,gQ]);else
 var
-bK=dn;var
-gT=iB(bK),gU=bI[1],gV=function(a){return 0},gW=f(bG[1],bH[1]),gY=e(at,df),gZ=fj(Y),g0=j(au(at),gZ),g1=el(Y);return fG(iA(aY,bE,j(au(at),g1),g0,gY,gW,bK,gV),gU,gT,jx)}var
-dp=bJ}else
+bO=dr;var
+gU=iN(bO),gV=bM[1],gW=function(a){return 0},gX=f(bK[1],bL[1]),gY=e(as,di),gZ=fv(Z),g0=j(au(as),gZ),g1=ey(Z);return fR(iM(aW,bI,j(au(as),g1),g0,gY,gX,bO,gW),gV,gU,jo)}var
+ds=bN}else
 var
-dp=bI;var
-dq=dp}else
+ds=bM;var
+dt=ds}else
 var
-dq=bH;var
-dr=dq}else
+dt=bL;var
+du=dt}else
 var
-dr=bG;var
-ds=dr}else
+du=bK;var
+dv=du}else
 var
-ds=a2;return ds}return bM}var
-fR=fP}else
+dv=a2;return dv}return bQ}var
+fT=fQ}else
 var
-fR=cA;return fR;case
+fT=cD;return fT;case
 1:var
-fS=ap[3],a0=jE(ax,an,cz,am,aX,aW,ak),jF=e(i,fS),fT=bh(e(aZ,an),jF);if(fT[2])return 0;var
-jG=ap[4],cB=jS(0,BT,g(am),0,ak,jG);if(cB){var
-fU=ho(e(aZ,an),fS),fV=fU?pb(ax,an,am,aX,aW,ak):fU,fW=fV?nZ(a0[1]):fV;if(fW)var
-jH=a0[2],cC=m(function(a){return bu(k,a[1],a[2])},jH);else
+fU=an[3],fV=an[2],X=jT(aw,am,cC,ak,aV,aU,ai),jq=e(i,fU),fW=bh(e(aY,am),jq);if(fW[2])return 0;var
+aX=fW[1],jt=an[4],cE=j7(0,Ch,g(ak),0,ai,jt);if(cE){var
+aZ=cE[1],fX=hB(e(aY,am),fU),fY=fX?pv(aw,am,ak,aV,aU,ai):fX,fZ=fY?od(X[1]):fY;if(fZ)var
+jw=X[2],cF=m(function(a){return bw(k,a[1],a[2])},jw);else
 var
-cC=fW;if(cC){var
-jI=cB[1],aq=e(i,ap[2]),fX=fT[1],A=a0[1],a3=g(A[1]),bN=g(A[2]),du=R(bN,g(fk(e(aZ,A[3])))),hd=A[3],dv=nU(g6(A),hd,bN),aE=jg(a3,dv,A[4],du),hf=je(dv,A[4],du),hg=A[3],dw=f(jd(g6(A),hg,bN),hf),hh=y(g4,A[4]),hi=f(fk(e(aZ,A[3])),hh),aF=f(fX,e(function(a){return a[1][1]},hi)),dx=n1(k,e(aZ,A[2]),fX),dA=dx?n1(k,a0[2],aq):dx,dB=dA?q(g(aq),a3):dA;if(dB)var
-hj=A[4],bO=m(function(a){return 0===a[0]?q(g(a[1]),a3):1},hj);else
+cF=fZ;if(cF){var
+ap=e(i,fV),A=X[1],a3=g(A[1]),bR=g(A[2]),dx=N(bR,g(fw(e(aY,A[3])))),ha=A[3],dy=n_(he(A),ha,bR),aA=ju(a3,dy,A[4],dx),hb=js(dy,A[4],dx),hd=A[3],dz=f(jr(he(A),hd,bR),hb),hg=y(hc,A[4]),hh=f(fw(e(aY,A[3])),hg),aF=f(aX,e(function(a){return a[1][1]},hh)),dA=hf(k,e(aY,A[2]),aX),dC=dA?hf(k,X[2],ap):dA,dD=dC?o(g(ap),a3):dC;if(dD)var
+hk=A[4],bS=m(function(a){return 0===a[0]?o(g(a[1]),a3):1},hk);else
 var
-bO=dB;var
-dC=bO?m(n0,f(y(u$,aE),dw)):bO;if(dC){var
-hn=a0[3],g7=e(function(a){var
-b=a[1];return[0,e(function(a){return em(aq,aF,a)},b)]},aE),g8=y(function(c){var
+bS=dD;var
+dG=bS?m(oe,f(y(vv,aA),dz)):bS;if(dG)var
+hl=X[3],g5=e(function(a){var
+b=a[1];return[0,e(function(a){return ez(ap,aF,a)},b)]},aA),g7=y(function(c){var
 a=c[1];switch(a[0]){case
 7:var
-b=em(aq,aF,a[2]);return[0,[4,b,b],0];case
-9:return[0,em(aq,aF,a[1]),0];default:return 0}},dw),g9=function(a){return a},g_=0,g$=e(function(a){return 0},aE),hc=e(function(b){var
+b=ez(ap,aF,a[2]);return[0,[4,b,b],0];case
+9:return[0,ez(ap,aF,a[1]),0];default:return 0}},dz),g8=function(a){return a},g9=0,g_=e(function(a){return 0},aA),g$=e(function(b){var
 a=b[4];if(typeof
-a!=="number"&&0===a[0])return[0,em(aq,aF,a[1])];return 0},aE);return iK(k,va,a3,[0,e(function(a){var
-b=a[3];return e(function(a){return em(aq,aF,a)},b)},aE),hc,g$,g_,g9,g8,g7],hn,jI)}return dC}var
-fY=cC}else
+a!=="number"&&0===a[0])return[0,ez(ap,aF,a[1])];return 0},aA),cG=iW(k,vw,a3,[0,e(function(a){var
+b=a[3];return e(function(a){return ez(ap,aF,a)},b)},aA),g$,g_,g9,g8,g7,g5],hl,aZ);else
 var
-fY=cB;return fY;default:return 0}case
+cG=dG;if(cG)var
+cH=cG;else{if(typeof
+aZ!=="number"&&0===aZ[0]){var
+bn=aZ[2];if(bn){if(bn[2])return 0;var
+cI=bn[1],jx=aZ[1],a0=e(i,fV),_=X[1],a6=g(_[1]),d6=hf(k,e(aY,_[2]),aX),d8=d6?hf(k,X[2],a0):d6,d9=d8?o(g(a0),a6):d8,d_=d9?dg(f(aX,a0)):d9;if(d_)var
+hN=_[3],b6=m(function(a){return jD(a[2])},hN);else
+var
+b6=d_;if(b6){var
+b7=ep(k,v5,jx,X[3]);if(b7){var
+a7=b7[1][1];if(typeof
+a7!=="number"&&16===a7[0]){var
+eb=a7[2],ec=a7[1],b8=oA(_[4]);if(b8){var
+a_=b8[1],b9=hj(aD(cK,eb));if(b9){var
+hO=b9[1],ed=h(k,1,eb),ee=ed?h(k,0,ec):ed;if(ee)var
+hP=g(a_),b_=o(g(cI),hP);else
+var
+b_=ee;var
+ef=b_?m(jD,a_):b_;if(ef){var
+hQ=_[2],hR=oz(_,e(function(a){return dO(a[2])},hQ),a0),eg=hi(cI,e(function(a){return bs(hR,a)},a_),ec),eh=dg(eg);if(eh){var
+hS=W(a0,aC(0,a6)),hT=oz(_,aX,e(function(a){var
+b=ck(a[2],hO);return[2,a[1],b]},hS)),hU=W(W(e(function(a){return bs(hT,a)},a_),eg),cI);return jB(k,a6,a6,eA(function(a){return[4,[0,a[2],b],[3,a[1][1],a[1][2]]]},hU))}var
+ei=eh}else
+var
+ei=ef;var
+ej=ei}else
+var
+ej=b9;var
+ek=ej}else
+var
+ek=b8;return ek}var
+d$=0}else
+var
+d$=b7;var
+ea=d$}else
+var
+ea=b6;return ea}return bn}var
+cH=0}}else
+var
+cH=cF;var
+f0=cH}else
+var
+f0=cE;return f0;default:return 0}case
 4:var
-ar=a[3],az=a[2],bm=a[1],as=t[2];switch(as[0]){case
+aq=a[3],ax=a[2],bp=a[1],ar=s[2];switch(ar[0]){case
 0:var
-jJ=as[3],jL=as[2],jO=as[1],eN=dj(i(bm));if(eN){var
-co=oQ(ar);if(co){var
-eO=co[1],aR=eO[2],eP=i(aR),eQ=i(eO[1]),ek=h(k,1,i(az)),eo=ek?h(k,1,[3,eP,[0,b,b]]):ek,ep=eo?h(k,1,eQ):eo,eR=ep?h(k,0,[3,[5,[0,b,b],eP],eQ]):ep,eS=eR?m(function(a){var
-b=oL(0,0,BQ,a);if(b)var
+jy=ar[3],jz=ar[2],jA=ar[1],eS=dm(i(bp));if(eS){var
+cr=o_(aq);if(cr){var
+eT=cr[1],aP=eT[2],eU=i(aP),eV=i(eT[1]),eo=h(k,1,i(ax)),eq=eo?h(k,1,[3,eU,[0,b,b]]):eo,er=eq?h(k,1,eV):eq,eW=er?h(k,0,[3,[5,[0,b,b],eU],eV]):er,eX=eW?m(function(a){var
+b=o5(0,0,Ce,a);if(b)var
 c=b;else{var
-d=cJ(a);if(d)return aP(0,0,a);var
-c=d}return c},ar):eR,eT=eS?m(function(c){if(1===c[1]){var
+d=cN(a);if(d)return aE(0,0,a);var
+c=d}return c},aq):eW,eY=eX?m(function(c){if(1===c[1]){var
 a=c[4];if(typeof
-a!=="number"&&0===a[0])return h(k,0,[3,[0,d,b],i(a[1])]);return 1}return 1},ar):eS;if(eT){var
-cn=bs(function(a){return L(oR(a))},ar);if(cn){var
-iZ=[0,c(2,b),b],a$=h(k,0,[3,i(aR),iZ]);if(a$)var
-cp=a$;else
+a!=="number"&&0===a[0])return h(k,0,[3,[0,d,b],i(a[1])]);return 1}return 1},aq):eX;if(eY){var
+cq=bu(function(a){return M(o$(a))},aq);if(cq){var
+iL=[0,c(2,b),b],be=h(k,0,[3,i(aP),iL]);if(be)var
+cs=be;else
 var
-i2=i(aR),cp=h(k,0,[3,[0,c(2,b),b],i2]);if(cp){var
-eM=y(function(a){if(cJ(a))return BL;var
-b=jD(0,BM,0,a);return y(function(b){var
-c=gH(k,BN,b);return al(L(oR(a)),c)},b)},ar),iX=function(f){var
+iS=i(aP),cs=h(k,0,[3,[0,c(2,b),b],iS]);if(cs){var
+eR=y(function(a){if(cN(a))return B$;var
+b=jS(0,Ca,0,a);return y(function(b){var
+c=gT(k,Cb,b);return al(M(o$(a)),c)},b)},aq),iJ=function(f){var
 h=f[1];if(h){var
-i=h[1],j=r(i,eM,0);if(j)var
-l=aB(i,eM),k=[0,[0,g(bs(function(a){return a},l))]];else
+i=h[1],j=r(i,eR,0);if(j)var
+l=aB(i,eR),k=[0,[0,g(bu(function(a){return a},l))]];else
 var
 k=j;var
 a=k}else
 var
-a=BP;if(a){var
+a=Cd;if(a){var
 c=a[1],e=f[2];switch(e[0]){case
 0:return[0,[0,c,[0,e[1]]],0];case
-2:return[0,[0,c,[1,BO,[0,[0,b,[0,d,[0,d,0]]],[0,[0,d,[0,b,[0,d,0]]],[0,[0,d,[0,d,[0,b,0]]],0]]],d]],0];default:return[0,[0,c,e],0]}}return a},iY=e(function(a){var
-b=a[4],c=a[3],d=a[2];return[0,y(iX,a[1]),d,c,b]},jJ),i0=[0,cn[1],cn[2]],i1=oV(a$,az,aR);return pi(0,oU(a$,bm,az,aR),0,i1,0,i0,jO,jL,iY)}return cp}var
-eU=1}else
+2:return[0,[0,c,[1,Cc,[0,[0,b,[0,d,[0,d,0]]],[0,[0,d,[0,b,[0,d,0]]],[0,[0,d,[0,d,[0,b,0]]],0]]],d]],0];default:return[0,[0,c,e],0]}}return a},iK=e(function(a){var
+b=a[4],c=a[3],d=a[2];return[0,y(iJ,a[1]),d,c,b]},jy),iP=[0,cq[1],cq[2]],iR=pd(be,ax,aP);return pC(0,pc(be,bp,ax,aP),0,iR,0,iP,jA,jz,iK)}return cs}var
+eZ=1}else
 var
-eU=eT;var
-eV=eU}else
+eZ=eY;var
+e0=eZ}else
 var
-eV=co;var
-eW=eV}else
+e0=cr;var
+e1=e0}else
 var
-eW=eN;return eW;case
+e1=eS;return e1;case
 1:var
-jU=as[4],jV=as[3],jW=as[2],eX=dj(i(bm));if(eX){var
-cq=oQ(ar);if(cq){var
-aS=cq[1][2],i3=[0,c(2,b),b],bd=h(k,0,[3,i(aS),i3]),eY=h(k,1,i(az)),e0=eY?h(k,1,[3,i(aS),[0,b,b]]):eY;if(e0)if(bd)var
-be=bd;else
+jC=ar[4],jE=ar[3],jF=ar[2],e2=dm(i(bp));if(e2){var
+ct=o_(aq);if(ct){var
+aQ=ct[1][2],iT=[0,c(2,b),b],bf=h(k,0,[3,i(aQ),iT]),e3=h(k,1,i(ax)),e4=e3?h(k,1,[3,i(aQ),[0,b,b]]):e3;if(e4)if(bf)var
+bg=bf;else
 var
-i5=i(aS),be=h(k,0,[3,[0,c(2,b),b],i5]);else
+iY=i(aQ),bg=h(k,0,[3,[0,c(2,b),b],iY]);else
 var
-be=e0;if(be){var
-i4=oV(bd,az,aS);return pj(0,oU(bd,bm,az,aS),0,i4,0,ar,jW,jV,jU)}var
-e1=be}else
+bg=e4;if(bg){var
+iX=pd(bf,ax,aQ);return pD(0,pc(bf,bp,ax,aQ),0,iX,0,aq,jF,jE,jC)}var
+e5=bg}else
 var
-e1=cq;var
-e2=e1}else
+e5=ct;var
+e6=e5}else
 var
-e2=eX;return e2;default:return 0}case
+e6=e2;return e6;default:return 0}case
 5:var
-cE=a[4],fZ=a[1],cH=t[2];if(0===cH[0]){var
-f0=cH[3],v=jC(fZ,[0,a[2],a[3]],0,cE),jX=g(f0),cI=jN(jT(v),jX,f0);if(cI){var
-f1=cI[1];if(f1[2])return 0;var
-f2=jQ(fZ,0,cE,v),f3=f2?L(aj(cJ,cE)):f2;if(f3){var
-f4=mw(k,v);if(f4){var
-jY=f1[1],f5=e(hl,v[1]),C=hm(v[1]),f6=i(a[5]),X=cH[1],b$=gB(C,f5,v[1]),O=iC(C,f5,v[1],0),h3=g(v[3]),h4=R(g(b$),h3),a9=[0,g(b$),h4],h5=iE(O,C,a9,v[3]),h6=f(e(cW,O),h5),es=f(bB(eZ(O)),h6),et=cS(es)[1],ca=cR(et),eu=v[2];if(0===eu[0]){var
-ev=m(function(a){var
-b=l(d);return aK(r(bc(ca,a),ca,b),a)},es),ew=ev?h(k,1,f6):ev;if(ew){var
-h7=v[3],h8=y(function(a){return dz(C,a)},h7),h9=v[3],h_=f(b$,f(e(function(a){return bV(C,a)},h9),h8)),cb=ac(e(function(a){return ao(X,a)},h_));if(cb){var
-h$=a7(eu[1],C),cc=ac(e(function(a){return ao(X,a)},h$));if(cc){var
-cd=cU(X,C,[5,f6,[0,c(2,c(2,c(2,c(2,b)))),b]]);if(cd){var
-ce=v[3],ia=cc[1],ib=cb[1],ic=cd[1],aQ=function(a){return bc(ca,a)},h0=aC(0,g(ce)),h1=e(function(k){var
-l=G(ce,k);if(l){var
-a=l[1],u=aB(k,ce),v=g(y(function(a){return dz(C,a)},u)),w=R(a9[2],v),i=[0,R(a9[1],k),w],r=eZ(O),f=j(au(aQ),r),c=[1,[8,[1,[1,i[1]]]]],d=gC(O,C,i,a),n=d?[0,[3,e(aQ,[0,d[1],d[2]])]]:d,m=0;if(typeof
+cJ=a[4],f1=a[1],cL=s[2];if(0===cL[0]){var
+f2=cL[3],v=jR(f1,[0,a[2],a[3]],0,cJ),jG=g(f2),cM=j2(j8(v),jG,f2);if(cM){var
+f3=cM[1];if(f3[2])return 0;var
+f4=j5(f1,0,cJ,v),f5=f4?M(aj(cN,cJ)):f4;if(f5){var
+f6=mK(k,v);if(f6){var
+jH=f3[1],f7=e(hy,v[1]),C=hz(v[1]),f8=i(a[5]),Y=cL[1],cc=gN(C,f7,v[1]),Q=iO(C,f7,v[1],0),hZ=g(v[3]),h0=N(g(cc),hZ),a$=[0,g(cc),h0],h1=iQ(Q,C,a$,v[3]),h2=f(e(c0,Q),h1),et=f(bC(fa(Q)),h2),eu=cW(et)[1],cd=cV(eu),ev=v[2];if(0===ev[0]){var
+ew=m(function(a){var
+b=l(d);return aN(r(bd(cd,a),cd,b),a)},et),ex=ew?h(k,1,f8):ew;if(ex){var
+h3=v[3],h4=y(function(a){return dF(C,a)},h3),h5=v[3],h6=f(cc,f(e(function(a){return bX(C,a)},h5),h4)),ce=ac(e(function(a){return ao(Y,a)},h6));if(ce){var
+h7=a8(ev[1],C),cf=ac(e(function(a){return ao(Y,a)},h7));if(cf){var
+cg=cY(Y,C,[5,f8,[0,c(2,c(2,c(2,c(2,b)))),b]]);if(cg){var
+ch=v[3],h8=cf[1],h9=ce[1],h_=cg[1],aO=function(a){return bd(cd,a)},hW=aC(0,g(ch)),hX=e(function(k){var
+l=H(ch,k);if(l){var
+a=l[1],u=aB(k,ch),v=g(y(function(a){return dF(C,a)},u)),w=N(a$[2],v),i=[0,N(a$[1],k),w],r=fa(Q),f=j(au(aO),r),c=[1,[8,[1,[1,i[1]]]]],d=gO(Q,C,i,a),n=d?[0,[3,e(aO,[0,d[1],d[2]])]]:d,m=0;if(typeof
 a!=="number")switch(a[0]){case
 0:return[0,[0,f,c]];case
 1:return[0,[1,f,c]];case
 4:var
-o=h(X,1,a[2]),s=o?n:o;return s;case
+o=h(Y,1,a[2]),s=o?n:o;return s;case
 5:return[0,[2,f,c]];case
 8:var
-p=h(X,1,[5,a[2],a[1]]);if(!p)return p;var
+p=h(Y,1,[5,a[2],a[1]]);if(!p)return p;var
 q=[1,[2,b]];m=1;break;case
 9:var
 q=c;m=1;break;case
@@ -7980,35 +8157,35 @@ q=c;m=1;break;case
 3:case
 6:case
 7:return n}if(m){var
-t=e6(O,C,i,a);return z(function(a){return[0,j(au(aQ),a),q]},t)}return 0}return l},h0),h2=e(function(a){return aQ(cW(a))},O),eq=e(function(a){return aQ(a[2])},O),id=v[3],ie=a9[1],b_=function(aC,aB,aA){var
+t=fh(Q,C,i,a);return z(function(a){return[0,j(au(aO),a),q]},t)}return 0}return l},hW),hY=e(function(a){return aO(c0(a))},Q),es=e(function(a){return aO(a[2])},Q),h$=v[3],ia=a$[1],cb=function(aC,aB,aA){var
 k=aC,l=aB,f=aA;for(;;)switch(f[0]){case
 0:var
-v=f[1],aa=q(g(v),vN),ab=aa?m(function(a){var
-d=D(Q(c(2,c(2,c(2,b)))),a);return d?D(a,c(2,c(2,c(2,b)))):d},v):aa;if(ab){var
-ac=op(X,ic,dy(0,l),v),j=f[2],w=bb(0,bA(X,ac,e(_,k)),et,0),aD=e(_,k),M=function(a){return oo(on(X,ac,aD,w,a))};if(typeof
+v=f[1],aa=o(g(v),wc),ab=aa?m(function(a){var
+d=D(T(c(2,c(2,c(2,b)))),a);return d?D(a,c(2,c(2,c(2,b)))):d},v):aa;if(ab){var
+ac=oK(Y,h_,dE(0,l),v),j=f[2],w=bc(0,bB(Y,ac,e($,k)),eu,0),aD=e($,k),M=function(a){return oJ(oI(Y,ac,aD,w,a))};if(typeof
 j==="number")return 0===j?aj(function(b){var
-a=r(b,w,0);return a?D(a[1][2][2],d):a},eq):0;else{if(0===j[0]){var
-a=j[2],N=m(vL,a);if(N){var
-p=r(j[1],h1,0);if(p){var
-i=p[1];switch(i[0]){case
+a=r(b,w,0);return a?D(a[1][2][2],d):a},es):0;else{if(0===j[0]){var
+a=j[2],O=m(wa,a);if(O){var
+q=r(j[1],hX,0);if(q){var
+i=q[1];switch(i[0]){case
 0:var
 x=0;if(a)if(a[2])var
 h=0;else{var
-A=a[1],B=i[1],ap=hb(B,A),aq=ha(A),C=[0,[0,B,[0,[1,[4,[1,[6,i[2],aq]],ap]],0]]];x=1}else{var
+A=a[1],B=i[1],ap=ho(B,A),aq=hn(A),C=[0,[0,B,[0,[1,[4,[1,[6,i[2],aq]],ap]],0]]];x=1}else{var
 C=a;x=1}if(x)var
 h=C;break;case
 1:var
 y=0;if(a)if(a[2])var
 h=0;else{var
-E=a[1],F=i[1],ar=ha(E),as=[1,[6,i[2],ar]],H=[0,[0,F,[0,[1,[4,hb(F,E),as]],0]]];y=1}else{var
-H=a;y=1}if(y)var
-h=H;break;case
+E=a[1],F=i[1],ar=hn(E),as=[1,[6,i[2],ar]],G=[0,[0,F,[0,[1,[4,ho(F,E),as]],0]]];y=1}else{var
+G=a;y=1}if(y)var
+h=G;break;case
 2:var
 z=0;if(a){var
 n=a[2],ao=0;if(n)if(n[2]){var
 h=0;ao=1}else
 var
-I=n[1],J=a[1],o=i[1],at=ha(J),au=[1,[6,hb(o,I),at]],av=[1,[6,i[2],au]],aw=ha(I),K=[0,[0,o,[0,[1,[4,[1,[6,hb(o,J),aw]],av]],0]]];else
+I=n[1],J=a[1],p=i[1],at=hn(J),au=[1,[6,ho(p,I),at]],av=[1,[6,i[2],au]],aw=hn(I),K=[0,[0,p,[0,[1,[4,[1,[6,ho(p,J),aw]],av]],0]]];else
 var
 K=n;if(!ao){var
 L=K;z=1}}else{var
@@ -8017,128 +8194,128 @@ h=L;break;default:if(a)var
 h=0;else
 var
 ax=i[1],h=[0,[0,0,e(function(a){return[1,[5,[0,a]]]},ax)]]}if(h){var
-O=h[1],ay=O[1],P=m(function(a){return oo(r(a[2],w,0))},ay);if(P)return m(M,O[2]);var
-S=P}else
+P=h[1],ay=P[1],Q=m(function(a){return oJ(r(a[2],w,0))},ay);if(Q)return m(M,P[2]);var
+R=Q}else
 var
-S=h;var
-T=S}else
+R=h;var
+S=R}else
 var
-T=p;var
-U=T}else
+S=q;var
+U=S}else
 var
-U=N;return U}var
-V=j[2],W=j[1],s=G(id,W);if(s){var
-Y=s[1];if(typeof
-Y!=="number"&&1===Y[0]){var
-t=G(eq,V);if(t){var
-u=G(h2,V);if(u){var
-az=R(ie,W);return M([1,[4,[1,[8,[0,u[1]]]],[1,[6,[1,[8,[1,[1,az]]]],[0,t[1]]]]]])}var
-$=u}else
+U=O;return U}var
+V=j[2],W=j[1],s=H(h$,W);if(s){var
+X=s[1];if(typeof
+X!=="number"&&1===X[0]){var
+t=H(es,V);if(t){var
+u=H(hY,V);if(u){var
+az=N(ia,W);return M([1,[4,[1,[8,[0,u[1]]]],[1,[6,[1,[8,[1,[1,az]]]],[0,t[1]]]]]])}var
+_=u}else
 var
-$=t;return $}var
+_=t;return _}var
 Z=0}else
 var
 Z=s;return Z}}return ab;case
 1:var
-ad=f[1],ae=oq(ad,l);if(ae){var
-af=cX(ad,l),ag=b_(k,af[1],f[2]);if(ag){var
+ad=f[1],ae=oL(ad,l);if(ae){var
+af=c1(ad,l),ag=cb(k,af[1],f[2]);if(ag){var
 l=af[2],f=f[3];continue}var
 ah=ag}else
 var
 ah=ae;return ah;default:var
-ai=f[1],ak=oq(ai,k);if(ak){var
-al=cX(ai,k),am=b_(al[1],l,f[2]);if(am){var
+ai=f[1],ak=oL(ai,k);if(ak){var
+al=c1(ai,k),am=cb(al[1],l,f[2]);if(am){var
 k=al[2],f=f[3];continue}var
 an=am}else
 var
-an=ak;return an}};return b_(ib,ia,jY)}var
-ex=cd}else
+an=ak;return an}};return cb(h9,h8,jH)}var
+eB=cg}else
 var
-ex=cc;var
-ey=ex}else
+eB=cf;var
+eC=eB}else
 var
-ey=cb;var
-ez=ey}else
+eC=ce;var
+eD=eC}else
 var
-ez=ew;return ez}return 0}var
-f7=f4}else
+eD=ex;return eD}return 0}var
+f9=f6}else
 var
-f7=f3;var
-f8=f7}else
+f9=f5;var
+f_=f9}else
 var
-f8=cI;return f8}return 0;case
+f_=cM;return f_}return 0;case
 6:var
-f9=a[1];if(f9){var
-f_=f9[1],cK=t[2];if(0===cK[0]){var
-cL=jM(BV,0,0,0,BU,cK[3]);if(cL){var
-f$=fz(f_);if(f$){var
-jZ=cL[1],ga=b1(f_)[2],bp=cK[1],b8=cU(bp,d,ga);if(b8){var
-b9=cU(bp,d,[5,[0,b,b],ga]);if(b9){var
-hZ=b8[1][1],eh=J(ct(bp),hZ);if(eh)return om(bp,b9[1][1],jZ);var
-ei=eh}else
+f$=a[1];if(f$){var
+ga=f$[1],cO=s[2];if(0===cO[0]){var
+cP=j1(Cj,0,0,0,Ci,cO[3]);if(cP){var
+gb=fK(ga);if(gb){var
+jI=cP[1],gc=b2(ga)[2],bq=cO[1],b$=cY(bq,d,gc);if(b$){var
+ca=cY(bq,d,[5,[0,b,b],gc]);if(ca){var
+hV=b$[1][1],el=I(cw(bq),hV);if(el)return oH(bq,ca[1][1],jI);var
+em=el}else
 var
-ei=b9;var
-ej=ei}else
+em=ca;var
+en=em}else
 var
-ej=b8;return ej}var
-gb=f$}else
+en=b$;return en}var
+gd=gb}else
 var
-gb=cL;return gb}return 0}var
-cM=t[2];if(0===cM[0]){var
-cN=jM(BX,0,0,0,BW,cM[3]);return cN?om(cM[1],d,cN[1]):cN}return 0;default:var
-aA=a[1],gc=t[2];if(2===gc[0]){var
-gd=gc[1],cO=jK(g(gd),gd);if(cO){var
-ge=cO[1];if(ge[2])return 0;var
-cP=ge[1],eJ=$(BK,g(aA)),eK=eJ?$(g(aA),lb):eJ,eL=eK?nY(e(aw,aA)):eK,gf=eL?m(function(c){var
-a=cy(i(c[2][1]));if(a){var
-b=cy(i(c[2][2]));if(b)return L(ba(b[1],a[1]));var
+gd=cP;return gd}return 0}var
+cQ=s[2];if(0===cQ[0]){var
+cR=j1(Cl,0,0,0,Ck,cQ[3]);return cR?oH(cQ[1],d,cR[1]):cR}return 0;default:var
+az=a[1],ge=s[2];if(2===ge[0]){var
+gf=ge[1],cS=jZ(g(gf),gf);if(cS){var
+gg=cS[1];if(gg[2])return 0;var
+cT=gg[1],eO=aa(B_,g(az)),eP=eO?aa(g(az),dB):eO,eQ=eP?oc(e(ay,az)):eP,gh=eQ?m(function(c){var
+a=cA(i(c[2][1]));if(a){var
+b=cA(i(c[2][2]));if(b)return M(bb(b[1],a[1]));var
 d=b}else
 var
-d=a;return d},aA):eL;if(gf)var
-j0=hk(AB,cP),cQ=pn(a[5],j0);else
+d=a;return d},az):eQ;if(gh)var
+jJ=hx(A2,cT),cU=pH(a[5],jJ);else
 var
-cQ=gf;if(cQ)var
-j1=hk(AC,cP),cT=pn(a[6],j1);else
+cU=gh;if(cU)var
+jK=hx(A3,cT),cX=pH(a[6],jK);else
 var
-cT=cQ;if(cT){var
-iW=e(function(a){return[0,d,0]},aA);return pm(aA,a[2],a[3],a[4],iW,cP)}var
-gg=cT}else
+cX=cU;if(cX){var
+iI=e(function(a){return[0,d,0]},az);return pG(az,a[2],a[3],a[4],iI,cT)}var
+gi=cX}else
 var
-gg=cO;return gg}return 0}}return aT}var
-W=[a1,B0,rK(0)],po=[a1,B1,rK(0)];function
-BY(l,b){var
-f=[0,n(zW,ap(b[4])),0],g=[0,n(zY,ag([0,n(zX,ap(b[3])),f])),0],a=b[2];switch(a[0]){case
+gi=cS;return gi}return 0}}return aR}var
+X=[a3,Co,r3(0)],pI=[a3,Cp,r3(0)];function
+Cm(l,b){var
+f=[0,n(Al,ap(b[4])),0],g=[0,n(An,ag([0,n(Am,ap(b[3])),f])),0],a=b[2];switch(a[0]){case
 0:var
-c=N(zS,ox(a[1],a[2],a[3]));break;case
+c=Q(Ah,oS(a[1],a[2],a[3]));break;case
 1:var
-c=N(zT,oy(a[1],a[2],a[3],a[4]));break;default:var
-c=N(zU,H(e(zN,a[1])))}var
-h=[0,n(zZ,c),g],i=1===b[2][0]?z5:z0,j=[0,n(z1,ap(i)),h],k=[0,n(z2,yn(b[1])),j],d=ax(kI(BZ,hc(ag([0,n(z4,ap(z3)),k]),zV)),l);return d?BR(b):d}function
-ai(a){if(0===a[0])return a[1];throw W}function
-ad(a){if(1===a[0])return a[1];throw W}function
-aY(a){if(2===a[0])return a[1];throw W}function
-fC(a){if(3===a[0])return a[1];throw W}function
-a9(f,e){var
+c=Q(Ai,oT(a[1],a[2],a[3],a[4]));break;default:var
+c=Q(Aj,G(e(Ac,a[1])))}var
+h=[0,n(Ao,c),g],i=1===b[2][0]?Au:Ap,j=[0,n(Aq,ap(i)),h],k=[0,n(Ar,yO(b[1])),j],d=az(kX(Cn,hp(ag([0,n(At,ap(As)),k]),Ak)),l);return d?Cf(b):d}function
+ai(a){if(0===a[0])return a[1];throw X}function
+ad(a){if(1===a[0])return a[1];throw X}function
+aZ(a){if(2===a[0])return a[1];throw X}function
+fN(a){if(3===a[0])return a[1];throw X}function
+a_(f,e){var
 a=f;for(;;){if(a){var
-b=a[1],c=a[2],d=b[2];if(0===Im(b[1],e))return[0,d];var
+b=a[1],c=a[2],d=b[2];if(0===IO(b[1],e))return[0,d];var
 a=c;continue}return 0}}function
 v(c,b){var
-a=a9(c,b);if(a)return a[1];throw W}function
-cj(b,a){var
+a=a_(c,b);if(a)return a[1];throw X}function
+cm(b,a){var
 c=a?[0,j(b,a[1])]:a;return c}function
-dN(a){switch(a[0]){case
+dX(a){switch(a[0]){case
 0:var
 b=a[1];if(b&&!b[2]){var
 c=b[1];return[0,c[1],c[2]]}break;case
-2:return[0,a[1],B3]}throw W}function
-fD(e,d){var
-a=Z(e,ad(d));if(a){var
+2:return[0,a[1],Cr]}throw X}function
+fO(e,d){var
+a=_(e,ad(d));if(a){var
 b=a[2];if(b){var
-c=b[2];if(c&&!c[2])return[0,a[1],b[1],c[1]]}}throw W}function
-hr(i){var
-f=eJ(i),d=[0,0],e=hT(f)-1|0;if(!(e<0)){var
+c=b[2];if(c&&!c[2])return[0,a[1],b[1],c[1]]}}throw X}function
+hE(i){var
+f=eV(i),d=[0,0],e=h6(f)-1|0;if(!(e<0)){var
 c=e;for(;;){var
-a=d[1],g=ko(f,c)-48|0;if(9<g>>>0)throw W;switch(g){case
+a=d[1],g=kD(f,c)-48|0;if(9<g>>>0)throw X;switch(g){case
 0:var
 b=[0,a];break;case
 1:var
@@ -8160,98 +8337,98 @@ b=[8,a];break;default:var
 b=[9,a]}d[1]=b;var
 h=c-1|0;if(0!==c){var
 c=h;continue}break}}return d[1]}function
-fE(a){return kY(hr(a))}function
-ev(b){var
-a=fC(b);return 45===a2(a,0)?Q(fE(dV(a,1,av(a)-1|0))):fE(a)}function
-pp(a){return dY(fE(fC(a)))}function
-dl(b){var
-a=fC(b);if(!(2<av(a))&&!(64<=hS(a)))return h5(fE(a));throw W}function
-cK(c){var
-a=fC(c);if(6<av(a))throw W;function
-b(a){return 0<a?[0,b(a-1|0)]:0}return b(hS(a))}function
-pq(a){var
-b=97<=a?1:0,c=b?a<=rm?1:0:b;if(c)var
+fP(a){return la(hE(a))}function
+eI(b){var
+a=fN(b);return 45===a4(a,0)?T(fP(d6(a,1,ax(a)-1|0))):fP(a)}function
+pJ(a){return d9(fP(fN(a)))}function
+dp(b){var
+a=fN(b);if(!(2<ax(a))&&!(64<=h5(a)))return ih(fP(a));throw X}function
+cO(c){var
+a=fN(c);if(6<ax(a))throw X;function
+b(a){return 0<a?[0,b(a-1|0)]:0}return b(h5(a))}function
+pK(a){var
+b=97<=a?1:0,c=b?a<=rF?1:0:b;if(c)var
 d=c;else
 var
 e=65<=a?1:0,d=e?a<=90?1:0:e;return d}function
-pr(y,b){var
-d=av(b),a=[0,0];function
+pL(y,b){var
+d=ax(b),a=[0,0];function
 c(e){var
-c=a[1]<d?1:0,f=c?a2(b,a[1])===e?1:0:c;return f}function
+c=a[1]<d?1:0,f=c?a4(b,a[1])===e?1:0:c;return f}function
 l(e){var
-c=a[1];for(;;){if(a[1]<d&&48<=a2(b,a[1])&&!(57<a2(b,a[1]))){a[1]++;continue}return dV(b,c,a[1]-c|0)}}function
+c=a[1];for(;;){if(a[1]<d&&48<=a4(b,a[1])&&!(57<a4(b,a[1]))){a[1]++;continue}return d6(b,c,a[1]-c|0)}}function
 m(b){a[1]++;var
-d=f(b+1|0);if(c(41)){a[1]++;return d}throw W}function
-h(i){if(64<i)throw W;if(c(45)){a[1]++;return[2,h(i+1|0)]}if(c(40))var
+d=f(b+1|0);if(c(41)){a[1]++;return d}throw X}function
+h(i){if(64<i)throw X;if(c(45)){a[1]++;return[2,h(i+1|0)]}if(c(40))var
 e=m(i);else{var
-u=0;if((a[1]+5|0)<=d&&ax(dV(b,a[1],5),B5)){a[1]=a[1]+4|0;var
+u=0;if((a[1]+5|0)<=d&&az(d6(b,a[1],5),Ct)){a[1]=a[1]+4|0;var
 e=[5,m(i)]}else
 u=1;if(u){var
-v=0;if(a[1]<d&&pq(a2(b,a[1]))){var
+v=0;if(a[1]<d&&pK(a4(b,a[1]))){var
 n=a[1];for(;;){if(a[1]<d){var
-w=0;if(!pq(a2(b,a[1]))&&95!==a2(b,a[1])&&(!(48<=a2(b,a[1]))||57<a2(b,a[1])))w=1;if(!w){a[1]++;continue}}var
-e=[1,j(y,dV(b,n,a[1]-n|0))];break}}else
+w=0;if(!pK(a4(b,a[1]))&&95!==a4(b,a[1])&&(!(48<=a4(b,a[1]))||57<a4(b,a[1])))w=1;if(!w){a[1]++;continue}}var
+e=[1,j(y,d6(b,n,a[1]-n|0))];break}}else
 v=1;if(v){var
-g=l(0),p=c(46),q=p?(a[1]++,[0,l(0)]):p,r=ax(g,B6);if(r)var
+g=l(0),o=c(46),q=o?(a[1]++,[0,l(0)]):o,r=az(g,Cu);if(r)var
 s=r;else
 var
-t=1<av(g)?1:0,s=t?48===a2(g,0)?1:0:t;if(s)throw W;if(q){var
-k=q[1],x=0;if(ax(k,B7)||48===a2(k,av(k)-1|0))x=1;else
+t=1<ax(g)?1:0,s=t?48===a4(g,0)?1:0:t;if(s)throw X;if(q){var
+k=q[1],x=0;if(az(k,Cv)||48===a4(k,ax(k)-1|0))x=1;else
 var
-z=hr(k),e=[0,hr(g),z];if(x)throw W}else
+z=hE(k),e=[0,hE(g),z];if(x)throw X}else
 var
-e=[0,hr(g),0]}}}if(c(94)){a[1]++;var
-f=l(0);if(o(f,B4)){if(!(2<av(f))&&2<=hS(f)&&!(64<hS(f)))return[4,e,dY(fE(f))];throw W}throw W}return e}function
+e=[0,hE(g),0]}}}if(c(94)){a[1]++;var
+f=l(0);if(p(f,Cs)){if(!(2<ax(f))&&2<=h5(f)&&!(64<h5(f)))return[4,e,d9(fP(f))];throw X}throw X}return e}function
 e(d){var
 b=h(d);for(;;){if(c(42)){a[1]++;var
 b=[3,2,b,h(d)];continue}if(c(47)){a[1]++;var
 b=[3,3,b,h(d)];continue}return b}}function
-f(d){if(64<d)throw W;var
+f(d){if(64<d)throw X;var
 b=e(d);for(;;){if(c(43)){a[1]++;var
 b=[3,0,b,e(d)];continue}if(c(45)){a[1]++;var
 b=[3,1,b,e(d)];continue}return b}}var
-g=f(0);if(a[1]<d)throw W;return g}function
-hs(a){return pr(function(a){return[0,a]},a)}function
-jU(a){var
-b=aY(a);return pr(function(a){return a},b)}function
-X(a){return hs(aY(a))}function
-b2(a){if(2===a[0])return[0,hs(a[1])];var
-b=ai(a),c=X(v(b,B8));return[1,X(v(b,B9)),c]}function
-ah(a){throw[0,po,a$(kI(B$,a),B_)]}function
-jV(c){var
-a=aY(c);if(o(a,Ca)){var
-b=o(a,Cb);if(b)throw W;return b}return 1}function
-Cc(d){var
+g=f(0);if(a[1]<d)throw X;return g}function
+hF(a){return pL(function(a){return[0,a]},a)}function
+j9(a){var
+b=aZ(a);return pL(function(a){return a},b)}function
+Y(a){return hF(aZ(a))}function
+b3(a){if(2===a[0])return[0,hF(a[1])];var
+b=ai(a),c=Y(v(b,Cw));return[1,Y(v(b,Cx)),c]}function
+ah(a){throw[0,pI,ba(kX(Cz,a),Cy)]}function
+j_(c){var
+a=aZ(c);if(p(a,CA)){var
+b=p(a,CB);if(b)throw X;return b}return 1}function
+CC(d){var
 b=ai(d);function
-a(a){return fD(b2,v(b,a))}var
-c=aY(v(b,Cd));if(o(c,Ce)){if(o(c,Cf)){if(o(c,Cg))return ah([0,Ci,[0,c,Ch]]);var
-e=a9(b,Cj),f=cj(function(a){return fD(b2,a)},e),g=a(Ck);return[1,a(Cl),g,f]}var
-h=jV(v(b,Cm)),i=b2(v(b,Cn)),j=a(Co),k=a(Cp);return[0,a(Cq),k,j,i,h]}return[2,a(Cr)]}function
-Cs(d){var
+a(a){return fO(b3,v(b,a))}var
+c=aZ(v(b,CD));if(p(c,CE)){if(p(c,CF)){if(p(c,CG))return ah([0,CI,[0,c,CH]]);var
+e=a_(b,CJ),f=cm(function(a){return fO(b3,a)},e),g=a(CK);return[1,a(CL),g,f]}var
+h=j_(v(b,CM)),i=b3(v(b,CN)),j=a(CO),k=a(CP);return[0,a(CQ),k,j,i,h]}return[2,a(CR)]}function
+CS(d){var
 a=ai(d);if(a){var
-b=a[1];if(!o(b[1],Ct)){var
-c=b[2];if(2===c[0]&&!o(c[1],Cu))return 1}}return 0}function
-ps(e){var
+b=a[1];if(!p(b[1],CT)){var
+c=b[2];if(2===c[0]&&!p(c[1],CU))return 1}}return 0}function
+pM(e){var
 b=ai(e);function
-a(a){return Z(b2,ad(v(b,a)))}var
-c=aY(v(b,Cv)),f=a9(b,Cw),d=cj(function(a){return Z(b2,ad(a))},f);if(o(c,Cx)){if(o(c,Cy)){if(o(c,Cz)){if(!o(c,CA)){var
-g=a(CD);return[1,a(CE),g,d]}}else
+a(a){return _(b3,ad(v(b,a)))}var
+c=aZ(v(b,CV)),f=a_(b,CW),d=cm(function(a){return _(b3,ad(a))},f);if(p(c,CX)){if(p(c,CY)){if(p(c,CZ)){if(!p(c,C0)){var
+g=a(C3);return[1,a(C4),g,d]}}else
 if(!d){var
-h=jV(v(b,CF)),i=b2(v(b,CG)),j=a(CH),k=a(CI);return[0,a(CJ),k,j,i,h]}}else
-if(!d)return[2,a(CK)]}else
+h=j_(v(b,C5)),i=b3(v(b,C6)),j=a(C7),k=a(C8);return[0,a(C9),k,j,i,h]}}else
+if(!d)return[2,a(C_)]}else
 if(!d){var
-l=jV(v(b,CL)),m=b2(v(b,CM)),n=b2(v(b,CN)),p=a(CO),q=a(CP),r=a(CQ);return[3,a(CR),r,q,p,n,m,l]}return ah([0,CC,[0,c,CB]])}function
-pt(d){var
+l=j_(v(b,C$)),m=b3(v(b,Da)),n=b3(v(b,Db)),o=a(Dc),q=a(Dd),r=a(De);return[3,a(Df),r,q,o,n,m,l]}return ah([0,C2,[0,c,C1]])}function
+pN(d){var
 a=ai(d);if(a){var
-b=a[1];if(!o(b[1],CS)){var
-c=b[2];if(2===c[0]&&!o(c[1],CT))return 1}}return 0}function
-dm(c,d){var
+b=a[1];if(!p(b[1],Dg)){var
+c=b[2];if(2===c[0]&&!p(c[1],Dh))return 1}}return 0}function
+dq(c,d){var
 a=ad(d);if(a){var
 b=a[2];if(b&&!b[2]){var
-e=j(c,b[1]);return[0,j(c,a[1]),e]}}throw W}function
-ew(g,p){var
-h=g?g[1]:g,c=ai(p),a=aY(v(c,CU)),j=rX(a,CV),f=0;if(0<=j)if(0<j)if(o(a,CW))if(o(a,CX))if(o(a,CY))if(o(a,CZ))if(o(a,C0))if(o(a,C1))if(o(a,C2)){var
-k=o(a,C3);if(k)f=1;else
+e=j(c,b[1]);return[0,j(c,a[1]),e]}}throw X}function
+dY(g,o){var
+h=g?g[1]:g,c=ai(o),a=aZ(v(c,Di)),j=se(a,Dj),f=0;if(0<=j)if(0<j)if(p(a,Dk))if(p(a,Dl))if(p(a,Dm))if(p(a,Dn))if(p(a,Do))if(p(a,Dp))if(p(a,Dq)){var
+k=p(a,Dr);if(k)f=1;else
 var
 b=k}else
 var
@@ -8271,7 +8448,7 @@ var
 b=13;else
 var
 b=2;else
-if(o(a,Dm))if(o(a,Dn))if(o(a,Do))if(o(a,Dp))if(o(a,Dq))if(o(a,Dr))if(o(a,Ds))if(o(a,Dt))f=1;else
+if(p(a,DM))if(p(a,DN))if(p(a,DO))if(p(a,DP))if(p(a,DQ))if(p(a,DR))if(p(a,DS))if(p(a,DT))f=1;else
 var
 b=1;else
 var
@@ -8289,119 +8466,122 @@ b=14;else
 f=1;else
 var
 b=12;var
-n=f?ah([0,C5,[0,a,C4]]):b;function
-i(a){return v(c,C6)}var
-d=aY(v(c,C7)),l=o(d,C8);if(l)if(o(d,C9))if(o(d,C_))if(o(d,C$))var
-e=ah([0,Db,[0,d,Da]]);else
+n=f?ah([0,Dt,[0,a,Ds]]):b;function
+i(a){return v(c,Du)}var
+d=aZ(v(c,Dv)),l=p(d,Dw);if(l)if(p(d,Dx))if(p(d,Dy))if(p(d,Dz))var
+e=ah([0,DB,[0,d,DA]]);else
 var
-m=dm(X,i(0)),e=[2,m[1],m[2]];else
+m=dq(Y,i(0)),e=[2,m[1],m[2]];else
 var
-e=[0,X(i(0))];else
+e=[0,Y(i(0))];else
 var
-e=[1,X(i(0))];else
+e=[1,Y(i(0))];else
 var
 e=l;function
 q(H){var
 a=ai(H),b=0;switch(n){case
 6:if(a){var
-r=a[1];if(!o(r[1],Dd)){var
+r=a[1];if(!p(r[1],DD)){var
 s=r[2];if(1===s[0]){var
 c=s[1],m=0;if(c&&!c[2])if(a[2])m=1;else{var
 e=c[1];b=1;m=1}if(!m&&!a[2]){var
 t=c;b=2}}}}break;case
 10:if(a){var
-u=a[1];if(!o(u[1],De)){var
+u=a[1];if(!p(u[1],DE)){var
 v=u[2];if(1===v[0]){var
 f=v[1];if(f&&!f[2]){var
 g=a[2];if(g){var
-w=g[1];if(!o(w[1],Df)){var
+w=g[1];if(!p(w[1],DF)){var
 x=w[2];if(1===x[0]){var
 i=x[1];if(i&&!i[2]&&!g[2]){var
-I=X(i[1]);return[2,X(f[1]),I]}}}}}}}}break;case
+I=Y(i[1]);return[2,Y(f[1]),I]}}}}}}}}break;case
 12:if(a){var
-y=a[1];if(!o(y[1],Dg)){var
+y=a[1];if(!p(y[1],DG)){var
 z=y[2];if(1===z[0]){var
 j=z[1];if(j&&!j[2]){var
 k=a[2],A=j[1];if(k){var
-B=k[1];if(!o(B[1],Dh)){var
+B=k[1];if(!p(B[1],DH)){var
 C=B[2];if(1===C[0]){var
 l=C[1];if(l&&!l[2]&&!k[2]&&h){var
-J=X(l[1]);return[3,X(A),J]}}}}else{var
+J=Y(l[1]);return[3,Y(A),J]}}}}else{var
 e=A;b=1}}}}}break;case
 16:if(a){var
-F=a[1];if(!o(F[1],Dj)){var
+F=a[1];if(!p(F[1],DJ)){var
 G=F[2];if(1===G[0]&&!a[2]){var
 t=G[1];b=2}}}break;case
 14:case
 15:if(a){var
-D=a[1];if(!o(D[1],Di)){var
-E=D[2];if(1===E[0]&&!a[2])return[1,Z(X,E[1])]}}break;case
+D=a[1];if(!p(D[1],DI)){var
+E=D[2];if(1===E[0]&&!a[2])return[1,_(Y,E[1])]}}break;case
 2:case
 8:if(a){var
-p=a[1];if(!o(p[1],Dc)){var
-q=p[2];if(1===q[0]){var
+o=a[1];if(!p(o[1],DC)){var
+q=o[2];if(1===q[0]){var
 d=q[1];if(d&&!d[2]&&!a[2]){var
 e=d[1];b=1}}}}break}switch(b){case
-0:throw W;case
-1:return[0,X(e)];default:return[1,Z(X,t)]}}var
-r=cj(q,a9(c,Dk));return[0,n,cj(cK,a9(c,Dl)),r,e]}function
-pu(c){var
-d=ew(Dw,c),e=d[1];if(!(9<=e))switch(e){case
+0:throw X;case
+1:return[0,Y(e)];default:return[1,_(Y,t)]}}var
+r=cm(q,a_(c,DK));return[0,n,cm(cO,a_(c,DL)),r,e]}function
+pO(c){var
+d=dY(DW,c),e=d[1];if(!(9<=e))switch(e){case
 2:case
 6:case
 8:return d}var
-a=ew(Du,c),b=a[1];if(2!==b&&!(4<=b))return a;return ah(Dv)}function
-pv(a){var
-b=ew(Dx,a);return 11===b[1]?b:pu(a)}function
-Dy(a){var
-b=ew(Dz,a),c=b[1];if(9<=c)switch(c-9|0){case
+a=dY(DU,c),b=a[1];if(2!==b&&!(4<=b))return a;return ah(DV)}function
+pP(a){var
+b=dY(DX,a);return 11===b[1]?b:pO(a)}function
+DY(a){var
+b=dY(DZ,a);return 12===b[1]?b:pP(a)}function
+D0(a){var
+b=dY(D1,a),c=b[1];if(9<=c)switch(c-9|0){case
 2:case
 4:case
-7:break;default:return b}return pv(a)}function
-jW(a){var
-b=ew(DA,a);switch(b[1]){case
-4:case
+7:break;default:return b}return pP(a)}function
+j$(c){var
+d=dY(D2,c),a=d[1];if(4<=a){var
+b=0;if(6<=a)switch(a-6|0){case
 5:case
-11:case
-13:case
-16:return b;default:return pu(a)}}function
-jX(b){var
-a=ai(b[2]);if(o(b[1],DH)){var
-c=dm(X,v(a,DI)),d=dm(X,v(a,DJ)),e=d[2],f=d[1],g=X(v(a,DK));return[1,c[1],c[2],g,f,e]}var
-h=Z(X,ad(v(a,DL)));return[0,Z(X,ad(v(a,DM))),h]}function
-DN(f){var
+6:case
+7:case
+10:b=1;break}else
+b=1;if(b)return d}return pO(c)}function
+ka(b){var
+a=ai(b[2]);if(p(b[1],D9)){var
+c=dq(Y,v(a,D_)),d=dq(Y,v(a,D$)),e=d[2],f=d[1],g=Y(v(a,Ea));return[1,c[1],c[2],g,f,e]}var
+h=_(Y,ad(v(a,Eb)));return[0,_(Y,ad(v(a,Ec))),h]}function
+Ed(f){var
 a=ai(f);function
-d(b){return X(v(a,b))}function
-c(b){return fD(X,v(a,b))}var
-b=aY(v(a,DO));if(o(b,DP)){if(!o(b,DQ)){var
-j=v(a,DW),e=dm(function(a){return a},j),k=a9(a,DX),l=cj(function(a){return c(DY)},k),m=hs(aY(e[2])),n=hs(aY(e[1])),p=d(DZ);return[0,cK(v(a,D0)),p,n,m,l]}if(o(b,DR))throw W}var
-g=d(DS),h=c(DT),i=c(DU);return[1,ax(b,DV),i,h,g]}function
-jY(an){var
-g=dN(an),h=g[1];if(o(h,D1)){if(o(h,D2)){if(o(h,D3)){if(o(h,D4))return ah([0,D6,[0,h,D5]]);var
-w=v(ai(g[2]),D7),ab=0;if(2===w[0]){var
-K=o(w[1],D8);if(!K){var
+d(b){return Y(v(a,b))}function
+c(b){return fO(Y,v(a,b))}var
+b=aZ(v(a,Ee));if(p(b,Ef)){if(!p(b,Eg)){var
+j=v(a,Em),e=dq(function(a){return a},j),k=a_(a,En),l=cm(function(a){return c(Eo)},k),m=hF(aZ(e[2])),n=hF(aZ(e[1])),o=d(Ep);return[0,cO(v(a,Eq)),o,n,m,l]}if(p(b,Eh))throw X}var
+g=d(Ei),h=c(Ej),i=c(Ek);return[1,az(b,El),i,h,g]}function
+kb(an){var
+g=dX(an),h=g[1];if(p(h,Er)){if(p(h,Es)){if(p(h,Et)){if(p(h,Eu))return ah([0,Ew,[0,h,Ev]]);var
+w=v(ai(g[2]),Ex),ab=0;if(2===w[0]){var
+K=p(w[1],Ey);if(!K){var
 J=K;ab=1}}if(!ab)var
-J=[0,b2(w)];return[6,J]}var
-L=ai(g[2]),i=jY([0,[0,[0,D_,v(L,D9)],0]]);if(0===i[0]){var
+J=[0,b3(w)];return[6,J]}var
+L=ai(g[2]),i=kb([0,[0,[0,EA,v(L,Ez)],0]]);if(0===i[0]){var
 x=i[2];if(0===x[0]&&!i[3]){var
-ao=X(v(L,Ea));return[5,i[1],x[1],x[2],i[4],ao]}}return ah(D$)}var
-a=ai(g[2]),y=a9(a,Eb),z=y?Z(DN,ad(y[1])):y,n=function(b){var
-a=0!==z?1:0;return a?ah(Ec):a},k=dN(v(a,Ed)),b=dN(v(a,Ee)),c=k[1];if(o(c,Ef)&&o(c,Eg)&&o(c,Eh)){if(0===a9(a,Ei)){if(o(c,Ej)){var
-ac=0;if(o(c,Ek)){if(!o(c,El)){var
-M=b[1],ae=0;if(o(M,Eo)&&o(M,Ep)){ac=1;ae=1}if(!ae){var
-A=ad(k[2]),ap=ad(v(a,Es)),N=Z(function(a){return ew(0,a)},ap);if(!aA(Cs,A)&&!aA(function(a){var
+ao=Y(v(L,EC));return[5,i[1],x[1],x[2],i[4],ao]}}return ah(EB)}var
+a=ai(g[2]),y=a_(a,ED),z=y?_(Ed,ad(y[1])):y,n=function(b){var
+a=0!==z?1:0;return a?ah(EE):a},k=dX(v(a,EF)),b=dX(v(a,EG)),c=k[1];if(p(c,EH)&&p(c,EI)&&p(c,EJ)){if(0===a_(a,EK)){if(p(c,EL)){var
+ac=0;if(p(c,EM)){if(!p(c,EN)){var
+M=b[1],ae=0;if(p(M,EQ)&&p(M,ER)){ac=1;ae=1}if(!ae){var
+A=ad(k[2]),ap=ad(v(a,EU)),N=_(function(a){return dY(0,a)},ap);if(!aA(CS,A)&&!aA(function(a){var
 b=13===a[1]?1:0,c=b||(16===a[1]?1:0);return c},N)){var
-as=Z(Cc,A),f=ai(b[2]);if(o(b[1],DB))var
-H=dm(X,v(f,DC)),I=dm(X,v(f,DD)),aj=I[2],ak=I[1],al=X(v(f,DE)),O=[1,H[1],H[2],al,ak,aj];else
+as=_(CC,A),f=ai(b[2]);if(p(b[1],D3))var
+H=dq(Y,v(f,D4)),I=dq(Y,v(f,D5)),aj=I[2],ak=I[1],al=Y(v(f,D6)),O=[1,H[1],H[2],al,ak,aj];else
 var
-am=fD(X,v(f,DF)),O=[0,fD(X,v(f,DG)),am];return[0,as,O,z,N]}n(0);var
-aq=Z(jW,ad(v(a,Et))),ar=jX(b);return[1,0,Z(ps,A),0,ar,0,aq]}}}else
-if(!o(b[1],Eu)){n(0);var
-P=Z(jW,ad(v(a,Ev))),u=0,e=P;for(;;){if(e){var
+am=fO(Y,v(f,D7)),O=[0,fO(Y,v(f,D8)),am];return[0,as,O,z,N]}n(0);var
+aq=_(j$,ad(v(a,EV))),ar=ka(b);return[1,0,_(pM,A),0,ar,0,aq]}}}else
+if(!p(b[1],EW)){n(0);var
+P=_(j$,ad(v(a,EX))),u=0,e=P;for(;;){if(e){var
 F=e[2],G=e[1];if(0===G[1]){var
 u=[0,G,u],e=F;continue}var
 e=F;continue}var
-m=kH(u),af=0;if(m){var
+m=kW(u),af=0;if(m){var
 d=0,Q=m[1][4];if(typeof
 Q==="number")d=1;else
 switch(Q[0]){case
@@ -8416,75 +8596,75 @@ C=m[2];if(C){var
 E=0,S=C[1][4];if(typeof
 S!=="number"&&0===S[0])if(C[2]){d=1;E=1}else
 E=1;if(!E)d=1}else
-d=1;break;default:d=1}if(!d)af=1}if(!af)ah(Ew);var
-at=X(v(ai(b[2]),Ex));return[4,X(v(ai(k[2]),Ey)),at,P]}}if(!ac)return ah([0,En,[0,c,Em]])}else
-if(!o(b[1],Ez)){n(0);var
-p=ai(k[2]),T=ai(b[2]),U=function(c,a){var
-b=ad(a);return Z(function(d){var
+d=1;break;default:d=1}if(!d)af=1}if(!af)ah(EY);var
+at=Y(v(ai(b[2]),EZ));return[4,Y(v(ai(k[2]),E0)),at,P]}}if(!ac)return ah([0,EP,[0,c,EO]])}else
+if(!p(b[1],E1)){n(0);var
+o=ai(k[2]),T=ai(b[2]),U=function(c,a){var
+b=ad(a);return _(function(d){var
 a=ad(d);if(a){var
 b=a[2];if(b&&!b[2]){var
-e=j(c,b[1]);return[0,aY(a[1]),e]}}throw W},b)},au=function(d){var
+e=j(c,b[1]);return[0,aZ(a[1]),e]}}throw X},b)},au=function(d){var
 a=ai(d);if(a){var
-b=a[1],c=b[1];if(o(c,EA)){if(!o(c,EB)&&!a[2])return[0,Z(jU,ad(b[2]))]}else
-if(!a[2])return[1,jU(b[2])]}throw W},av=Z(pv,ad(v(a,EC))),aw=Z(X,ad(v(T,ED))),ay=Z(X,ad(v(T,EE))),az=Z(au,ad(v(p,EF))),aB=U(jU,v(p,EG)),aC=U(b2,v(p,EH));return[3,Z(aY,ad(v(p,EI))),aC,aB,az,ay,aw,av]}return ah([0,Er,[0,b[1],Eq]])}throw W}var
-V=ai(k[2]),q=cj(X,a9(V,EJ)),aD=function(f){var
-a=dN(f),b=a[1];if(o(b,EK)){if(o(b,EL)){if(o(b,EM)){if(o(b,EN))throw W;var
-d=a[2],g=X(v(ai(d),EO));return[3,X(v(ai(d),EP)),g]}var
-h=a[2],c=function(a){return dm(X,v(ai(h),a))},i=c(EQ),j=c(ER);return[1,c(ES),j,i]}var
-e=dm(X,a[2]);return[0,e[1],e[2]]}return[2,X(a[2])]},r=cj(aD,a9(a,ET)),Y=o(c,EU),_=Y?o(c,EV)?2:1:Y,s=ad(v(V,EW));if(q&&r&&hX(pt,s)){var
+b=a[1],c=b[1];if(p(c,E2)){if(!p(c,E3)&&!a[2])return[0,_(j9,ad(b[2]))]}else
+if(!a[2])return[1,j9(b[2])]}throw X},av=_(DY,ad(v(a,E4))),aw=_(Y,ad(v(T,E5))),ax=_(Y,ad(v(T,E6))),ay=_(au,ad(v(o,E7))),aB=U(j9,v(o,E8)),aC=U(b3,v(o,E9));return[3,_(aZ,ad(v(o,E_))),aC,aB,ay,ax,aw,av]}return ah([0,ET,[0,b[1],ES]])}throw X}var
+V=ai(k[2]),q=cm(Y,a_(V,E$)),aD=function(f){var
+a=dX(f),b=a[1];if(p(b,Fa)){if(p(b,Fb)){if(p(b,Fc)){if(p(b,Fd))throw X;var
+d=a[2],g=Y(v(ai(d),Fe));return[3,Y(v(ai(d),Ff)),g]}var
+h=a[2],c=function(a){return dq(Y,v(ai(h),a))},i=c(Fg),j=c(Fh);return[1,c(Fi),j,i]}var
+e=dq(Y,a[2]);return[0,e[1],e[2]]}return[2,Y(a[2])]},r=cm(aD,a_(a,Fj)),W=p(c,Fk),Z=W?p(c,Fl)?2:1:W,s=ad(v(V,Fm));if(q&&r&&h_(pN,s)){var
 aE=function(c){var
 a=ai(c);function
-b(b){return Z(b2,ad(v(a,b)))}if(0!==a9(a,EX))ah(EY);var
-d=b(EZ);return[0,b(E0),d]},aF=Z(Dy,ad(v(a,E1))),aG=r[1],aH=jX(b),aI=q[1];return[2,_,Z(aE,s),aI,aH,aG,z,aF]}n(0);var
-ag=0;if(!q&&ax(c,E4)){var
+b(b){return _(b3,ad(v(a,b)))}if(0!==a_(a,Fn))ah(Fo);var
+d=b(Fp);return[0,b(Fq),d]},aF=_(D0,ad(v(a,Fr))),aG=r[1],aH=ka(b),aI=q[1];return[2,Z,_(aE,s),aI,aH,aG,z,aF]}n(0);var
+ag=0;if(!q&&az(c,Fu)){var
 $=1;ag=1}if(!ag)var
-$=[0,_];var
-aa=0!==r?1:0,aJ=aa?aA(pt,s):aa;if(aJ)ah(E2);var
-aK=Z(jW,ad(v(a,E3))),aL=jX(b);return[1,$,Z(ps,s),q,aL,r,aK]}var
+$=[0,Z];var
+aa=0!==r?1:0,aJ=aa?aA(pN,s):aa;if(aJ)ah(Fs);var
+aK=_(j$,ad(v(a,Ft))),aL=ka(b);return[1,$,_(pM,s),q,aL,r,aK]}var
 t=ai(g[2]);function
 aM(b){var
-a=ai(b),c=X(v(a,E5)),d=[0,X(v(a,E6)),c];return[0,aY(v(a,E7)),d]}var
-l=jY([0,[0,[0,E9,v(t,E8)],0]]);if(0===l[0]&&!l[3]){var
-aN=X(v(t,E$)),aO=X(v(t,Fa)),aP=l[4],aQ=l[2],aR=l[1];return[7,Z(aM,ad(v(t,Fb))),aR,aQ,aP,aO,aN]}return ah(E_)}function
-fF(a){return Z(ev,ad(a))}function
-ht(c,b){var
-a=fF(b);if(cp(a)!==c)throw W;return a}function
-pw(a,d){var
-b=ai(d),e=ad(v(b,Fe)),f=a[2],c=Z(function(a){return ht(f,a)},e),g=a[1];if(cp(c)!==g)throw W;return[0,c,dl(v(b,Ff))]}function
-dn(au,i){var
+a=ai(b),c=Y(v(a,Fv)),d=[0,Y(v(a,Fw)),c];return[0,aZ(v(a,Fx)),d]}var
+l=kb([0,[0,[0,Fz,v(t,Fy)],0]]);if(0===l[0]&&!l[3]){var
+aN=Y(v(t,FB)),aO=Y(v(t,FC)),aP=l[4],aQ=l[2],aR=l[1];return[7,_(aM,ad(v(t,FD))),aR,aQ,aP,aO,aN]}return ah(FA)}function
+fQ(a){return _(eI,ad(a))}function
+hG(c,b){var
+a=fQ(b);if(cs(a)!==c)throw X;return a}function
+pQ(a,d){var
+b=ai(d),e=ad(v(b,FG)),f=a[2],c=_(function(a){return hG(f,a)},e),g=a[1];if(cs(c)!==g)throw X;return[0,c,dp(v(b,FH))]}function
+dr(au,i){var
 as=0;if(0===i[0]){var
 q=i[1];if(q){var
-U=q[1];if(!o(U[1],Fg)){var
+U=q[1];if(!p(U[1],FI)){var
 ag=U[2];if(0===ag[0]){var
 L=ag[1];if(L){var
-aj=L[1];if(!o(aj[1],FE)){var
+aj=L[1];if(!p(aj[1],F6)){var
 ak=aj[2];if(1===ak[0]){var
 M=ak[1];if(M){var
 al=M[1];if(1===al[0]){var
 am=al[1];if(am&&!am[2]&&!M[2]){var
 an=L[2];if(an&&!an[2]&&!q[2]){var
-f=FF;as=1}}}}}}}}}}}if(!as)var
+f=F7;as=1}}}}}}}}}}}if(!as)var
 f=au;var
 r=f[2];switch(i[0]){case
 0:var
 c=i[1];if(c){var
-e=c[1],a=e[1],V=rX(a,Fh),b=0;if(0<=V)if(0<V)if(o(a,Fi)){var
-g=0;if(o(a,Fj)&&o(a,Fk)&&o(a,Fl))if(o(a,Fm))g=1;else{var
-X=e[2];if(1===X[0]){var
-s=X[1];if(s){var
+e=c[1],a=e[1],V=se(a,FJ),b=0;if(0<=V)if(0<V)if(p(a,FK)){var
+g=0;if(p(a,FL)&&p(a,FM)&&p(a,FN))if(p(a,FO))g=1;else{var
+W=e[2];if(1===W[0]){var
+s=W[1];if(s){var
 t=s[2];if(t){var
 u=t[2];if(u&&!u[2]){if(!c[2]){var
-av=Z(fF,ad(u[1])),aw=aY(t[1]);return[8,dn(f,s[1]),aw,av]}b=1;g=1}else
+av=_(fQ,ad(u[1])),aw=aZ(t[1]);return[8,dr(f,s[1]),aw,av]}b=1;g=1}else
 g=1}else
 g=1}else
 g=1}else
 g=1}if(!g)if(c[2])b=1;else{var
 ax=e[2],x=ax,w=function(c,b){return[1,a,c,b]};b=2}}else{var
-_=e[2];if(1===_[0]){var
-y=_[1];if(y){var
+Z=e[2];if(1===Z[0]){var
+y=Z[1];if(y){var
 z=y[2];if(z){var
 A=z[2];if(A&&!A[2]){if(!c[2]){var
-ay=dl(A[1]),az=ev(z[1]);return[5,dn(f,y[1]),az,ay]}b=1}}}}}else{var
+ay=dp(A[1]),az=eI(z[1]);return[5,dr(f,y[1]),az,ay]}b=1}}}}}else{var
 $=e[2];if(1===$[0]){if(!c[2]){var
 aA=function(m){if(1===m[0]){var
 d=m[1];if(d){var
@@ -8495,325 +8675,319 @@ n=h[1],a=n;for(;;){var
 i=0;switch(a[0]){case
 0:var
 b=a[1];if(b){var
-j=b[1],c=j[1];if(o(c,Fp)){var
-p=0;if(o(c,Fq)&&o(c,Fr)&&o(c,Fs))p=1;if(!p&&!b[2])i=1}else{var
+j=b[1],c=j[1];if(p(c,FR)){var
+o=0;if(p(c,FS)&&p(c,FT)&&p(c,FU))o=1;if(!o&&!b[2])i=1}else{var
 k=j[2];if(1===k[0]){var
 l=k[1];if(l&&!b[2]){var
 a=l[1];continue}}}}break;case
-2:if(!o(a[1],Ft))i=1;break}var
+2:if(!p(a[1],FV))i=1;break}var
 q=i?1:0;if(q){var
-r=dn(f,n),s=dl(g[1]),t=ev(e[1]);return[0,[0,[0,fF(d[1]),t],s],r]}return ah(Fu)}}}}}}throw W};return[9,Z(aA,$[1])]}b=1}}else
-if(o(a,Fv))if(o(a,Fw))if(o(a,Fx))if(o(a,Fy))if(o(a,Fz)){if(!o(a,FA)){if(!c[2]){var
-aa=ai(e[2]),aB=ad(v(aa,FB)),aC=r+1|0,ab=Z(function(a){return ht(aC,a)},aB);if(3===cp(ab))return[1,FD,ab,dl(v(aa,FC))];throw W}b=1}}else{if(!c[2]){var
-R=aY(e[2]),S=o(R,Fc);if(S){if(o(R,Fd))throw W;var
+r=dr(f,n),s=dp(g[1]),t=eI(e[1]);return[0,[0,[0,fQ(d[1]),t],s],r]}return ah(FW)}}}}}}throw X};return[9,_(aA,$[1])]}b=1}}else
+if(p(a,FX))if(p(a,FY))if(p(a,FZ))if(p(a,F0))if(p(a,F1)){if(!p(a,F2)){if(!c[2]){var
+aa=ai(e[2]),aB=ad(v(aa,F3)),aC=r+1|0,ab=_(function(a){return hG(aC,a)},aB);if(3===cs(ab))return[1,F5,ab,dp(v(aa,F4))];throw X}b=1}}else{if(!c[2]){var
+R=aZ(e[2]),S=p(R,FE);if(S){if(p(R,FF))throw X;var
 T=1}else
 var
 T=S;return[2,T]}b=1}else{if(!c[2]){var
-k=e[2],p=0;switch(k[0]){case
+k=e[2],o=0;switch(k[0]){case
 0:var
 l=k[1];if(l){var
-ao=l[1],j=ao[1],d=0;if(o(j,FG)&&o(j,FH)&&o(j,FI)&&o(j,FJ))if(o(j,FK))d=1;else{var
+ao=l[1],j=ao[1],d=0;if(p(j,F8)&&p(j,F9)&&p(j,F_)&&p(j,F$))if(p(j,Ga))d=1;else{var
 ap=ao[2];if(1===ap[0]){var
 N=ap[1];if(N){var
 m=N[1],h=0;switch(m[0]){case
 0:var
 O=m[1];if(O){var
-n=O[1][1],at=0;if(o(n,FM)&&o(n,FN)&&o(n,FO)&&o(n,FP)){d=1;h=1;at=1}if(!at&&O[2]){d=1;h=1}}else{d=1;h=1}break;case
+n=O[1][1],at=0;if(p(n,Gc)&&p(n,Gd)&&p(n,Ge)&&p(n,Gf)){d=1;h=1;at=1}if(!at&&O[2]){d=1;h=1}}else{d=1;h=1}break;case
 2:var
-aq=m[1];if(o(aq,FQ)&&o(aq,FR)){d=1;h=1}break;default:d=1;h=1}if(!h){var
+aq=m[1];if(p(aq,Gg)&&p(aq,Gh)){d=1;h=1}break;default:d=1;h=1}if(!h){var
 P=N[2];if(P){var
 Q=P[2];if(Q&&!(Q[2]||l[2])){var
-aL=dl(Q[1]),aM=ev(P[1]),B=[6,dn(f,m),aM,aL];p=2;d=1}else
+aL=dp(Q[1]),aM=eI(P[1]),B=[6,dr(f,m),aM,aL];o=2;d=1}else
 d=1}else
 d=1}}else
 d=1}else
-d=1}if(!d&&!l[2])p=1}break;case
+d=1}if(!d&&!l[2])o=1}break;case
 2:var
-ar=k[1];if(!o(ar,FS)||!o(ar,FT))p=1;break}switch(p){case
+ar=k[1];if(!p(ar,Gi)||!p(ar,Gj))o=1;break}switch(o){case
 0:var
-B=ah(FL);break;case
+B=ah(Gb);break;case
 1:var
-B=dn(f,k);break}return[7,B]}b=1}else{var
+B=dr(f,k);break}return[7,B]}b=1}else{var
 ac=e[2];if(1===ac[0]){var
 C=ac[1];if(C){var
 D=C[2];if(D&&!D[2])if(c[2])b=1;else{var
-aD=D[1],aE=C[1],x=aE,w=function(b,a){return[3,b,a,ht(r+1|0,aD)]};b=2}}}}else{var
+aD=D[1],aE=C[1],x=aE,w=function(b,a){return[3,b,a,hG(r+1|0,aD)]};b=2}}}}else{var
 ae=e[2];if(1===ae[0]){var
 E=ae[1];if(E){var
 F=E[2];if(F){var
 G=F[2];if(G){var
 H=G[2];if(H&&!H[2]){if(!c[2]){var
-aF=dn(f,H[1]),aG=dn(f,G[1]),aH=dl(F[1]);return[10,ht(r+1|0,E[1]),aH,aG,aF]}b=1}}}}}}else{var
+aF=dr(f,H[1]),aG=dr(f,G[1]),aH=dp(F[1]);return[10,hG(r+1|0,E[1]),aH,aG,aF]}b=1}}}}}}else{var
 af=e[2];if(1===af[0]){var
 I=af[1];if(I){var
 J=I[2];if(J){var
 K=J[2];if(K&&!K[2])if(c[2])b=1;else{var
 aI=K[1],aJ=J[1],aK=I[1],x=aK,w=function(b,a){var
-c=dl(aI);return[4,b,a,ev(aJ),c]};b=2}}}}}switch(b){case
-0:if(!c[2])return ah([0,Fo,[0,a,Fn]]);break;case
+c=dp(aI);return[4,b,a,eI(aJ),c]};b=2}}}}}switch(b){case
+0:if(!c[2])return ah([0,FQ,[0,a,FP]]);break;case
 1:break;default:var
-Y=pw(f,x);return w(Y[1],Y[2])}}break;case
-2:return[0,i[1]]}throw W}function
-px(n){var
-b=dN(n),a=b[1];if(o(a,FW))if(o(a,FX)){var
-h=o(a,FY);if(!h)return h;if(o(a,FZ)){if(!o(a,F0)){var
-c=ai(b[2]),i=function(a){return Z(X,ad(v(c,a)))},j=ai(v(c,F4)),p=dl(v(j,F5)),q=Z(fF,ad(v(j,F6))),r=i(F7),s=i(F8);return[3,cK(v(c,F9)),s,r,q,p]}if(!o(a,F1))return[2,Z(X,ad(b[2]))]}else{var
+Y=pQ(f,x);return w(Y[1],Y[2])}}break;case
+2:return[0,i[1]]}throw X}function
+pR(n){var
+b=dX(n),a=b[1];if(p(a,Gm))if(p(a,Gn)){var
+h=p(a,Go);if(!h)return h;if(p(a,Gp)){if(!p(a,Gq)){var
+c=ai(b[2]),i=function(a){return _(Y,ad(v(c,a)))},j=ai(v(c,Gu)),o=dp(v(j,Gv)),q=_(fQ,ad(v(j,Gw))),r=i(Gx),s=i(Gy);return[3,cO(v(c,Gz)),s,r,q,o]}if(!p(a,Gr))return[2,_(Y,ad(b[2]))]}else{var
 k=b[2];if(1===k[0]){var
 d=k[1];if(d){var
 e=d[2];if(e&&!e[2]){var
-t=cK(e[1]);return[1,cK(d[1]),t]}}}}}else{var
+t=cO(e[1]);return[1,cO(d[1]),t]}}}}}else{var
 l=b[2];if(1===l[0]){var
 f=l[1];if(f){var
 g=f[2];if(g&&!g[2]){var
-u=Z(fF,ad(g[1]));return[0,cK(f[1]),u]}}}}else{var
-m=b[2];if(1===m[0]&&!m[1])return 1}return ah([0,F3,[0,a,F2]])}function
-py(f,b){var
-a=ai(b),c=ad(v(a,Gc)),d=Z(function(g){var
+u=_(fQ,ad(g[1]));return[0,cO(f[1]),u]}}}}else{var
+m=b[2];if(1===m[0]&&!m[1])return 1}return ah([0,Gt,[0,a,Gs]])}function
+pS(f,b){var
+a=ai(b),c=ad(v(a,GE)),d=_(function(g){var
 a=ai(g);function
 b(d,c){var
-b=a9(a,c);return b?Z(d,ad(b[1])):b}var
-c=b(ev,F_),d=cj(px,a9(a,F$)),e=cj(cK,a9(a,Ga));return[0,b(function(h){var
+b=a_(a,c);return b?_(d,ad(b[1])):b}var
+c=b(eI,GA),d=cm(pR,a_(a,GB)),e=cm(cO,a_(a,GC));return[0,b(function(h){var
 b=ad(h);if(b){var
 a=b[2];if(a){var
-c=a[1],e=b[1],d=0;if(2===c[0]&&!o(c[1],FU)){if(!a[2]){if(o(fC(e),FV))throw W;d=1}}else
+c=a[1],e=b[1],d=0;if(2===c[0]&&!p(c[1],Gk)){if(!a[2]){if(p(fN(e),Gl))throw X;d=1}}else
 d=1;if(d&&!a[2]){var
-g=dn(f,c);return[0,cK(e),g]}}}throw W},Gb),e,d,c]},c),e=a9(a,Gd),g=cj(function(a){return pw(f,a)},e);return[0,pp(v(a,Ge)),g,d]}function
-pz(c){var
-a=ai(c),b=a9(a,Gf),d=b?Z(X,ad(b[1])):b,e=px(v(a,Gg)),f=Z(X,ad(v(a,Gh)));return[0,pp(v(a,Gi)),f,d,e]}function
-Gs(c){var
+g=dr(f,c);return[0,cO(e),g]}}}throw X},GD),e,d,c]},c),e=a_(a,GF),g=cm(function(a){return pQ(f,a)},e);return[0,pJ(v(a,GG)),g,d]}function
+pT(c){var
+a=ai(c),b=a_(a,GH),d=b?_(Y,ad(b[1])):b,e=pR(v(a,GI)),f=_(Y,ad(v(a,GJ)));return[0,pJ(v(a,GK)),f,d,e]}function
+GU(c){var
 a=c[1],b=0;if(10<=a){if(!(13<=a))b=1}else
 if(8===a)b=1;return b?1:0}function
-Gt(b){var
+GV(b){var
 a=b[3];if(a&&1===a[1][0])return 1;return 0}function
-Gu(b){var
-c=b[1],a=b[4];if(!(1<c+qt>>>0)&&typeof
-a!=="number"&&1===a[0])return 1-g2(i(a[1]));return 10===c?1:0}function
-Gy(l){var
-p=av(l),c=[0,0];function
-q(a){if(c[1]<p)return a2(l,c[1]);throw W}function
-r(a){if(q(0)===a){c[1]++;return 0}throw W}function
-N(a,b){for(;;){if(c[1]<p&&j(b,a2(l,c[1]))){c[1]++;continue}return dV(l,a,c[1]-a|0)}}function
-O(d){r(34);function
+GW(b){var
+c=b[1],a=b[4];if(!(1<c+qM>>>0)&&typeof
+a!=="number"&&1===a[0])return 1-ha(i(a[1]));return 10===c?1:0}function
+G0(k){var
+m=ax(k),c=[0,0];function
+n(a){if(c[1]<m)return a4(k,c[1]);throw X}function
+o(a){if(n(0)===a){c[1]++;return 0}throw X}function
+H(a,b){for(;;){if(c[1]<m&&j(b,a4(k,c[1]))){c[1]++;continue}return d6(k,a,c[1]-a|0)}}function
+I(d){o(34);function
 a(a){var
 b=34!==a?1:0;if(b)var
 c=92!==a?1:0,d=c?32<=a?1:0:c;else
 var
 d=b;return d}var
-b=N(c[1],a);r(34);return b}function
-P(e,a){if(q(0)===a){c[1]++;return 0}var
+b=H(c[1],a);o(34);return b}function
+J(e,a){if(n(0)===a){c[1]++;return 0}var
 b=0;for(;;){var
-d=[0,j(e,0),b];if(44===q(0)){c[1]++;var
-b=d;continue}r(a);return kH(d)}}function
-z(b,j){if(64<b)throw W;var
-a=q(0),d=0;if(48<=a){if(91===a){c[1]++;var
-f=93,g=b+1|0;return[1,P(function(a){return z(g,a)},f)]}if(123===a){c[1]++;var
-h=125;return[0,P(function(c){var
-a=O(0);r(58);return[0,a,z(b+1|0,0)]},h)]}if(!(58<=a))d=1}else{if(34===a)return[2,O(0)];if(45===a)d=1}if(d){var
+d=[0,j(e,0),b];if(44===n(0)){c[1]++;var
+b=d;continue}o(a);return kW(d)}}function
+w(b,j){if(64<b)throw X;var
+a=n(0),d=0;if(48<=a){if(91===a){c[1]++;var
+f=93,g=b+1|0;return[1,J(function(a){return w(g,a)},f)]}if(123===a){c[1]++;var
+h=125;return[0,J(function(c){var
+a=I(0);o(58);return[0,a,w(b+1|0,0)]},h)]}if(!(58<=a))d=1}else{if(34===a)return[2,I(0)];if(45===a)d=1}if(d){var
 i=c[1];c[1]++;var
-e=N(i,function(a){var
-b=48<=a?1:0,c=b?a<=57?1:0:b;return c});if(o(e,B2))return[3,e];throw W}throw W}var
-as=z(0,0),Q=c[1]<p?1:0,at=Q?10===a2(l,c[1])?1:0:Q;if(at)c[1]++;if(c[1]<p)throw W;var
-w=ai(as);if(o(aY(v(w,Gz)),GA))throw W;var
-b=jY(v(w,GB)),H=0;switch(b[0]){case
+e=H(i,function(a){var
+b=48<=a?1:0,c=b?a<=57?1:0:b;return c});if(p(e,Cq))return[3,e];throw X}throw X}var
+al=w(0,0),K=c[1]<m?1:0,am=K?10===a4(k,c[1])?1:0:K;if(am)c[1]++;if(c[1]<m)throw X;var
+t=ai(al);if(p(aZ(v(t,G1)),G2))throw X;var
+a=kb(v(t,G3)),C=0;switch(a[0]){case
 1:var
-E=b[1],I=0;if(typeof
-E==="number")if(E)var
-F=2;else
-I=1;else
-if(1===E[1])var
-F=6;else
-I=1;if(I)var
-F=3;var
-i=[0,cp(b[2]),F];break;case
+A=a[1],D=0;if(typeof
+A==="number")if(A)var
+B=2;else
+D=1;else
+if(1===A[1])var
+B=6;else
+D=1;if(D)var
+B=3;var
+h=[0,cs(a[2]),B];break;case
 2:var
-aI=1===b[1]?6:3,i=[0,cp(b[2]),aI];break;case
+aB=1===a[1]?6:3,h=[0,cs(a[2]),aB];break;case
 3:var
-aJ=cp(b[1]),i=[0,cp(b[4]),aJ];break;case
+aC=cs(a[1]),h=[0,cs(a[4]),aC];break;case
 7:var
-R=b[2];H=1;break;case
+L=a[2];C=1;break;case
 0:case
 5:var
-R=b[1];H=1;break;default:var
-i=GZ}if(H)var
-i=[0,cp(R),3];var
-s=dN(v(w,GC)),t=s[1];if(o(t,Gn))if(o(t,Go))if(o(t,Gp))var
-a=ah([0,Gr,[0,t,Gq]]);else
+L=a[1];C=1;break;default:var
+h=Hp}if(C)var
+h=[0,cs(L),3];var
+q=dX(v(t,G4)),r=q[1];if(p(r,GP))if(p(r,GQ))if(p(r,GR))var
+b=ah([0,GT,[0,r,GS]]);else
 var
-u=pz(s[2]),a=[1,u[1],u[2],u[3],u[4]];else
+s=pT(q[2]),b=[1,s[1],s[2],s[3],s[4]];else
 var
-A=py(i,s[2]),a=[0,A[1],A[2],A[3]];else
+x=pS(h,q[2]),b=[0,x[1],x[2],x[3]];else
 var
-au=ad(s[2]),a=[2,Z(function(f){var
-a=dN(f),b=a[1];if(o(b,Gj)){if(o(b,Gk)){if(o(b,Gl)){var
-e=o(b,Gm);if(e)throw W;return e}return[0,cK(a[2])]}var
-c=pz(a[2]);return[2,c[1],c[2],c[3],c[4]]}var
-d=py(i,a[2]);return[1,d[1],d[2],d[3]]},au)];function
-aw(a){var
+an=ad(q[2]),b=[2,_(function(f){var
+a=dX(f),b=a[1];if(p(b,GL)){if(p(b,GM)){if(p(b,GN)){var
+e=p(b,GO);if(e)throw X;return e}return[0,cO(a[2])]}var
+c=pT(a[2]);return[2,c[1],c[2],c[3],c[4]]}var
+d=pS(h,a[2]);return[1,d[1],d[2],d[3]]},an)];function
+ao(a){var
 b=a[1];return aA(function(a){return 7<a[2][0]?1:0},b)}function
-ax(a){return 0!==a[3]?1:0}function
-S(a){return aA(ax,a)}function
-T(a){if(typeof
+ap(a){return 0!==a[3]?1:0}function
+M(a){return aA(ap,a)}function
+N(a){if(typeof
 a!=="number"&&2===a[0])return 1;return 0}var
-d=0;switch(b[0]){case
-0:switch(a[0]){case
+d=0;switch(a[0]){case
+0:switch(b[0]){case
 0:var
-V=b[4],U=b[1];d=8;break;case
+P=a[4],O=a[1];d=8;break;case
 1:var
-Y=a[4];d=typeof
-Y==="number"||!(1<Y[0])?3:7;break;default:d=1}break;case
+R=b[4];d=typeof
+R==="number"||!(1<R[0])?3:7;break;default:d=2}break;case
 1:var
-_=b[6],$=b[2],J=0;if(0===a[0]){var
-aC=a[3];if(aA(function(a){var
+S=a[6],T=a[2],E=0;if(0===b[0]){var
+at=b[3];if(aA(function(a){var
 b=a[1];return aA(function(a){switch(a[2][0]){case
 6:case
-7:return 1;default:return 0}},b)},aC))ah(GO);else
-J=1}else
-J=1;var
-K=0;if(J){var
-aj=0;if(aA(function(a){return 5===a[1]?1:0},_)&&aA(function(a){switch(a[0]){case
+7:return 1;default:return 0}},b)},at))ah(Hd);else
+E=1}else
+E=1;var
+F=0;if(E){var
+aa=0;if(aA(function(a){return 5===a[1]?1:0},S)&&aA(function(a){switch(a[0]){case
 0:case
-3:return 0;default:return 1}},$)){ah(GP);aj=1}if(!aj)switch(a[0]){case
+3:return 0;default:return 1}},T)){ah(He);aa=1}if(!aa)switch(b[0]){case
 0:var
-ak=0;if(aA(function(a){return 11===a[1]?1:0},_)&&aA(function(a){return 2===a[0]?1:0},$)){ah(GQ);ak=1}if(!ak){d=4;K=1}break;case
-1:d=5;K=1;break;default:d=4;K=1}}break;case
+ab=0;if(aA(function(a){return 11===a[1]?1:0},S)&&aA(function(a){return 2===a[0]?1:0},T)){ah(Hf);ab=1}if(!ab){d=1;F=1}break;case
+1:d=5;F=1;break;default:d=1;F=1}}break;case
 2:var
-ac=b[1],aD=b[7];switch(a[0]){case
+W=a[1],au=a[7];switch(b[0]){case
 0:var
-aE=1===ac?6:3,ae=cp(b[2])===aE?1:0;if(ae){var
-al=0;if(2<=ac||!(0===b[4][0]))al=1;else
+av=1===W?6:3,Y=cs(a[2])===av?1:0;if(Y){var
+ac=0;if(2<=W||!(0===a[4][0]))ac=1;else
 var
-D=1;if(al)var
-D=0}else
+z=1;if(ac)var
+z=0}else
 var
-D=ae;var
-aF=function(b){var
+z=Y;var
+aw=function(b){var
 g=0;if(!b[1]){var
 d=b[2];if(8===d[0]){var
 e=d[1];if(7===e[0]){var
 c=e[1],a=0;switch(c[0]){case
-1:if(o(c[1],GS))a=1;break;case
+1:if(p(c[1],Hi))a=1;break;case
 6:var
-f=c[1];if(1!==f[0]||o(f[1],GT))a=1;break;default:a=1}if(!a)return 1-D}}else
-g=1}if(!g&&8===b[2][0])return 1;return 0},aG=a[3],aK=0;if(aA(function(a){return aA(aF,a[1])},aG))ah(GU);else{var
-aH=a[3];if(hX(function(a){var
-b=a[1];return hX(function(d){var
+f=c[1];if(1!==f[0]||p(f[1],Hj))a=1;break;default:a=1}if(!a)return 1-z}}else
+g=1}if(!g&&8===b[2][0])return 1;return 0},ay=b[3],aD=0;if(aA(function(a){return aA(aw,a[1])},ay))ah(Hk);else{var
+az=b[3];if(h_(function(a){var
+b=a[1];return h_(function(d){var
 b=d[2],a=0;switch(b[0]){case
 0:var
-c=b[1];if(o(c,Gv)){if(!o(c,Gw))return aA(Gu,aD)}else
+c=b[1];if(p(c,GX)){if(!p(c,GY))return aA(GW,au)}else
 a=1;break;case
-1:if(!o(b[1],Gx))a=1;break;case
+1:if(!p(b[1],GZ))a=1;break;case
 7:case
-8:a=1;break}return a?1:0},b)},aH)){d=2;aK=1}else
-ah(GV)}break;case
+8:a=1;break}return a?1:0},b)},az)){d=4;aD=1}else
+ah(Hl)}break;case
 1:var
-am=0,af=a[4];if(typeof
-af==="number"||!(1<af[0]))am=1;else
-d=7;if(am)d=3;break;default:d=1}break;case
-3:switch(a[0]){case
-0:if(aA(aw,a[3]))ah(GW);else
-d=2;break;case
-2:d=1;break;default:d=5}break;case
-7:switch(a[0]){case
+ae=0,Z=b[4];if(typeof
+Z==="number"||!(1<Z[0]))ae=1;else
+d=7;if(ae)d=3;break;default:d=2}break;case
+3:switch(b[0]){case
+0:if(aA(ao,b[3]))ah(Hm);else
+d=1;break;case
+1:d=5;break;default:d=1}break;case
+7:switch(b[0]){case
 2:var
-ag=a[1],an=0;if(aA(function(a){if(typeof
+$=b[1],af=0;if(aA(function(a){if(typeof
 a!=="number"&&2===a[0]){var
 b=a[4];if(typeof
-b!=="number"&&3===b[0])return 1}return 0},ag)){ah(GX);an=1}else
+b!=="number"&&3===b[0])return 1}return 0},$)){ah(Hn);af=1}else
 if(aA(function(a){if(typeof
-a!=="number"&&2===a[0])return T(a[4]);return 0},ag)){ah(GY);an=1}else
+a!=="number"&&2===a[0])return N(a[4]);return 0},$)){ah(Ho);af=1}else
 d=6;break;case
 1:d=5;break;default:d=6}break;default:d=5}var
-e=0;switch(d){case
-5:if(1===a[0]){var
-ab=a[4];if(typeof
-ab==="number"||!(3===ab[0]))e=3;else
-ah(GR)}else
-e=3;break;case
-4:e=3;break;case
-3:e=4;break;case
-6:e=5;break;case
-7:e=6;break;case
-0:break;case
-8:e=7;break;case
-2:e=1;break;default:e=2}var
-f=0;switch(e){case
-3:switch(b[0]){case
-1:case
-4:switch(a[0]){case
-0:break;case
-1:var
-aa=a[4];f=typeof
-aa==="number"||!(2===aa[0])?3:5;break;default:f=1}break;default:f=3}break;case
-4:f=3;break;case
-5:f=4;break;case
+f=0;switch(d){case
+5:if(1===b[0]){var
+V=b[4];if(typeof
+V==="number"||!(3===V[0]))f=3;else
+ah(Hh)}else
+f=3;break;case
+1:f=3;break;case
+3:f=4;break;case
 6:f=5;break;case
-0:f=2;break;case
 7:f=6;break;case
-1:break;default:f=1}var
-k=0;switch(f){case
-3:if(1===a[0]&&T(a[4]))ah(GN);else
-k=3;break;case
-4:k=3;break;case
+0:break;case
+8:f=7;break;case
+4:f=1;break;default:f=2}var
+e=0;switch(f){case
+3:var
+ag=0;switch(a[0]){case
+1:var
+y=a[6];break;case
+3:var
+y=a[7];break;case
+4:var
+y=a[3];break;default:e=3;ag=1}if(!ag)switch(b[0]){case
+0:if(aA(function(a){return 12===a[1]?1:0},y))ah(Hg);else
+e=1;break;case
+1:if(3===a[0])e=3;else{var
+aj=0,U=b[4];if(typeof
+U!=="number"&&2===U[0]){e=5;aj=1}if(!aj)e=3}break;default:e=2}break;case
+4:e=3;break;case
+5:e=4;break;case
+6:e=5;break;case
+0:break;case
+7:e=6;break;case
+1:e=1;break;default:e=2}var
+i=0;switch(e){case
+3:if(1===b[0]&&N(b[4]))ah(Hc);else
+i=3;break;case
+4:i=3;break;case
 5:break;case
-2:break;case
-6:k=4;break;case
-0:k=1;break;default:k=2}var
-h=0;switch(k){case
-3:switch(b[0]){case
-5:if(aA(Gs,b[4])){ah(GL);h=2}else
-if(0===a[0]){var
-aB=a[3];if(aA(function(a){return 0!==a[1]?1:0},aB)){ah(GM);h=2}}break;case
+0:break;case
+6:i=4;break;case
+1:i=1;break;default:i=2}var
+g=0;switch(i){case
+3:switch(a[0]){case
+5:if(aA(GU,a[4])){ah(Ha);g=2}else
+if(0===b[0]){var
+as=b[3];if(aA(function(a){return 0!==a[1]?1:0},as)){ah(Hb);g=2}}break;case
 6:break;case
 7:var
-V=b[4],U=b[2];h=3;break;default:h=1}break;case
-0:h=2;break;case
-4:h=3;break;case
-1:break;default:h=1}var
-x=0;switch(h){case
+P=a[4],O=a[2];g=3;break;default:g=1}break;case
+0:g=2;break;case
+4:g=3;break;case
+1:break;default:g=1}var
+u=0;switch(g){case
 2:break;case
 3:var
-ao=0;if(aA(function(a){return 10===a[1]?1:0},V)&&aA(function(a){return 2===a[0]?1:0},U)){ah(GD);ao=1}if(!ao)x=2;break;case
-0:x=2;break;default:x=1}var
-L=0;switch(x){case
+ak=0;if(aA(function(a){return 10===a[1]?1:0},P)&&aA(function(a){return 2===a[0]?1:0},O)){ah(G5);ak=1}if(!ak)u=2;break;case
+0:u=2;break;default:u=1}var
+G=0;switch(u){case
 2:var
-n=0;switch(b[0]){case
+l=0;switch(a[0]){case
 5:case
-7:if(aA(Gt,b[4])){ah(GJ);n=1}else
-if(7===b[0])switch(a[0]){case
+7:if(aA(GV,a[4])){ah(G_);l=1}else
+if(7===a[0])switch(b[0]){case
 2:var
-az=function(a){if(typeof
-a!=="number"&&1===a[0])return S(a[3]);return 0};if(aA(az,a[1]))ah(GK);n=1;break;case
-0:break;default:L=1;n=1}else
-n=1;break}if(!n)if(0===a[0]&&S(a[3]))ah(GI);else
-L=1;break;case
-1:L=1;break}var
-X=ai(v(w,GE)),ay=aY(v(X,GF)),B=[0,b,a,aY(v(X,GG)),ay],y=B[1];if(7===y[0]){var
-M=B[2],ap=y[4],aq=y[2];if(2===M[0])var
-ar=M[1],C=m(function(a){if(typeof
-a!=="number"&&2===a[0]){var
-b=a[4];if(typeof
-b!=="number"&&0===b[0]){var
-e=b[1],c=G(oI(g(aq),0,ap),e);if(c){var
-d=c[1];if(typeof
-d!=="number"&&14===d[0])return 0;return 1}return 1}return 1}return 1},ar);else
-var
-C=1}else
-var
-C=1;return C?B:ah(GH)}function
-G0(b){var
-c=av(b),g=64,h=IB(64,c)?g:c,a=0,i=h-18|0;for(;;){var
+ar=function(a){if(typeof
+a!=="number"&&1===a[0])return M(a[3]);return 0};if(aA(ar,b[1]))ah(G$);l=1;break;case
+0:break;default:G=1;l=1}else
+l=1;break}if(!l)if(0===b[0]&&M(b[3]))ah(G9);else
+G=1;break;case
+1:G=1;break}var
+Q=ai(v(t,G6)),aq=aZ(v(Q,G7));return[0,a,b,aZ(v(Q,G8)),aq]}function
+Hq(b){var
+c=ax(b),g=64,h=I3(64,c)?g:c,a=0,i=h-18|0;for(;;){var
 d=a<=i?1:0;if(d){var
-e=ax(dV(b,a,18),G1);if(!e){var
+e=az(d6(b,a,18),Hr);if(!e){var
 a=a+1|0;continue}var
 f=e}else
 var
-f=d;return f}}IW(function(b){try{if(G0(b))var
-a=G3;else{try{var
-e=0,d=Gy(b);e=1}catch(a){a=rZ(a);if(a[1]===po)var
-c=[0,a[2]];else{if(a!==W)throw a;var
+f=d;return f}}Jm(function(b){try{if(Hq(b))var
+a=Ht;else{try{var
+e=0,d=G0(b);e=1}catch(a){a=sg(a);if(a[1]===pI)var
+c=[0,a[2]];else{if(a!==X)throw a;var
 c=2}}if(e)var
-c=BY(b,d)?1===d[2][0]?1:0:2;var
-a=c}}catch(a){return G2}if(typeof
+c=Cm(b,d)?1===d[2][0]?1:0:2;var
+a=c}}catch(a){return Hs}if(typeof
 a==="number")switch(a){case
-0:return G4;case
-1:return G5;default:return G6}return a$(G7,a[1])});kG(0);return}(globalThis));
+0:return Hu;case
+1:return Hv;default:return Hw}return ba(Hx,a[1])});kV(0);return}(globalThis));

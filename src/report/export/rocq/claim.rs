@@ -7,7 +7,6 @@ use orthocert_kernel::claim::{
     PsiMax, Quantity, Requirement, Sign, Turning, Workspace,
 };
 use orthocert_kernel::number::Expression;
-use orthocert_kernel::problem::Problem;
 
 /// The constructors of `subject`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -34,22 +33,9 @@ pub struct Subject<'a> {
     pub requirements: &'a [Requirement],
     /// Over a box, of as many legs as there are coordinates, of place and of orientation.
     pub is_square_over_box: bool,
-    /// What is claimed of a machine, if that is a claim by itself or of parts of an atlas.
-    pub claim_of_machine: Option<&'a MachineClaim>,
 }
 
 impl Subject<'_> {
-    /// Whether an obligation fails of a quantity of which the formal development does not say that it fails.
-    pub fn is_unknown(&self, fails: &Failure) -> bool {
-        let Failure::Obligation(number, _) = fails else { return false };
-        let problem = self.claim_of_machine.and_then(|claim| Problem::new(claim).ok());
-        let quantity = problem.and_then(|problem| {
-            let requirement = problem.obligations.get(*number)?.requirement?;
-            Some(self.requirements.get(requirement)?.quantity.as_str())
-        });
-        self.kind == Kind::Atlas && quantity == Some("accuracy")
-    }
-
     /// The value of the type `subject`.
     pub fn term(&self) -> String {
         let names: Vec<&str> = self.arguments.iter().map(|(name, _, _)| *name).collect();
@@ -149,7 +135,6 @@ pub fn subject(claim: &Claim) -> Exported<Subject<'_>> {
                 legs: &[],
                 requirements: &[],
                 is_square_over_box: false,
-                claim_of_machine: None,
             })
         }
         Claim::NoCube(claim) => {
@@ -254,9 +239,8 @@ fn machine(claim: &MachineClaim) -> Exported<Subject<'_>> {
     };
     let is_square_over_box =
         coordinates == Some(legs.len()) && matches!(workspace, Workspace::Box { .. });
-    let claim_of_machine = Some(claim);
     let requirements = require;
-    Ok(Subject { kind, arguments, legs, requirements, is_square_over_box, claim_of_machine })
+    Ok(Subject { kind, arguments, legs, requirements, is_square_over_box })
 }
 
 fn without_bodies(claim: &MachineClaim) -> Exported<()> {
@@ -502,11 +486,9 @@ fn requirement(requirement: &Requirement, asked: Asked) -> Exported<String> {
     let is_asked = match about {
         "Transmission" | "JointRange" | "Condition_" | "Speed_" | "Force_" | "Stiffness_" => true,
         "Serial_" | "Parallel_" | "LegAngle_" | "Load_" => asked < Asked::OfTwoPoints,
-        "OneToOne_" => true,
+        "OneToOne_" | "Accuracy_" => true,
         "BaseJoint_" | "PlatformJoint_" => asked == Asked::OfStruts,
-        "Clearance_" | "Acceleration_" | "Accuracy_" => {
-            matches!(asked, Asked::Anything | Asked::OfStruts)
-        }
+        "Clearance_" | "Acceleration_" => matches!(asked, Asked::Anything | Asked::OfStruts),
         _ => asked == Asked::Anything,
     };
     if !is_asked {

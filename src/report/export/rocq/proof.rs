@@ -83,6 +83,9 @@ fn covered(proof: &Proof, subject: &Subject<'_>) -> Exported<()> {
         {
             "\"one_to_one\" of planes in such a claim"
         }
+        (Kind::Legs | Kind::Closed | Kind::Formulas, Proof::Tree(_)) if requires(&["accuracy"]) => {
+            "\"accuracy\" of such a mechanism"
+        }
         (Kind::Turning, _)
             if has(&|by| is_no_step_of_pose(by) || (*by == Evidence::Test && !has_sign)) =>
         {
@@ -107,9 +110,6 @@ fn covered(proof: &Proof, subject: &Subject<'_>) -> Exported<()> {
         (Kind::NoCube, _) => return Ok(()),
         (Kind::Atlas, Proof::Atlas(cells)) if cells.iter().any(is_outside) => "a leaf that fails",
         (_, Proof::Tree(tree)) if fails(tree) => "a leaf that fails",
-        _ if refuted.iter().any(|fails| subject.is_unknown(fails)) => {
-            "this quantity in a claim that is refuted"
-        }
         _ => return Ok(()),
     };
     not_covered(what)
