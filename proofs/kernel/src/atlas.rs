@@ -14,7 +14,6 @@ use crate::work::{self, spend};
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{Signed, Zero};
-use serde::Serialize;
 
 /// Most bits of an end of a parameter's range.
 pub const MOST_END: u64 = 128;
@@ -171,14 +170,14 @@ pub fn check_part(
 ) -> Result<(), Rejected> {
     claim.validate()?;
     let says = |cell: &&AtlasCell| matches!(cell, AtlasCell::Certified(_) | AtlasCell::Refuted(_));
-    let of_cells: usize = cells.iter().map(bytes).sum();
-    let all = bytes(claim).saturating_add(of_cells).max(work::LEAST_BYTES);
+    let of_cells: usize = cells.iter().map(work::bytes).sum();
+    let all = work::bytes(claim).saturating_add(of_cells).max(work::LEAST_BYTES);
     let each = all / cells.iter().filter(says).count().max(1);
     let found = walk(cells, claim.parameters.len(), |at, part, cell| {
         if !is_wanted(at) {
             return Ok(());
         }
-        let shown = shown(claim, part, cell, each.saturating_add(bytes(cell)));
+        let shown = shown(claim, part, cell, each.saturating_add(work::bytes(cell)));
         shown.map_err(|why| Rejected::Cell(at, Box::new(why)))
     })?;
     let reaches = |share: &Expression, found: &BigRational| {
@@ -188,11 +187,6 @@ pub fn check_part(
     let reached =
         reaches(&claim.certified, &found.certified) && reaches(&claim.refuted, &found.refuted);
     reached.then_some(()).ok_or(Rejected::Shares)
-}
-
-/// The bytes of a text.
-fn bytes(part: &impl Serialize) -> usize {
-    serde_json::to_string(part).map_or(0, |text| text.len())
 }
 
 /// Whether what is said of a cell holds for all values of the parameters there.

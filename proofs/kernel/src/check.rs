@@ -1,9 +1,10 @@
 //! What a certificate has to be to be accepted.
 
 use crate::certificate::{Certificate, Claim, Proof, Verdict};
+use crate::claim::MachineClaim;
 use crate::problem::Problem;
 use crate::rejected::Rejected;
-use crate::{atlas, no_cube, postulate, tree, witness};
+use crate::{atlas, no_cube, postulate, tree, witness, work};
 
 /// Accepts a certificate, or says why not.
 ///
@@ -11,9 +12,13 @@ use crate::{atlas, no_cube, postulate, tree, witness};
 /// If its proof does not show what its verdict says of its claim.
 pub fn check(certificate: &Certificate) -> Result<(), Rejected> {
     use Verdict::{Certified, Refuted};
+    let problem = |claim: &MachineClaim| -> Result<Problem, Rejected> {
+        let most_work = work::of_bytes(work::bytes(certificate));
+        Ok(Problem { most_work, ..Problem::new(claim)? })
+    };
     match (&certificate.claim, certificate.verdict, &certificate.proof) {
         (Claim::Machine(claim), Certified, Proof::Tree(tree)) => {
-            let problem = Problem::new(claim)?;
+            let problem = problem(claim)?;
             let is_apart = tree.takes_tolerances_apart();
             tree::check(&if is_apart { problem.with_derivatives() } else { problem }, tree)
         }
@@ -21,7 +26,7 @@ pub fn check(certificate: &Certificate) -> Result<(), Rejected> {
             Ok(witness::check(&Problem::new(claim)?, &claim.workspace, witness)?)
         }
         (Claim::NoCube(claim), Certified, Proof::Tree(tree)) => {
-            no_cube::check(claim, Problem::new(&claim.machine)?, tree)
+            no_cube::check(claim, problem(&claim.machine)?, tree)
         }
         (Claim::Postulate(claim), Certified, Proof::Tree(tree)) => postulate::check(claim, tree),
         (Claim::Atlas(claim), Certified, Proof::Atlas(cells)) => {

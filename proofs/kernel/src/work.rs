@@ -5,13 +5,14 @@
 //! that they are not exceeded by much is measured, not proved, and nothing that is accepted rests on
 //! it.
 
-use crate::certificate::Tree;
+use crate::certificate::{Tree, MOST_WORK};
 use crate::formula::Op;
 use crate::input::{Input, Value};
 use crate::number::{Expression, Operator};
 use crate::problem::Problem;
 use crate::rejected::Rejected;
 use crate::vary::Numbers;
+use serde::Serialize;
 
 /// Units of work for each byte of a certificate, of a third of a microsecond or so.
 pub const WORK_A_BYTE: usize = 192;
@@ -19,6 +20,17 @@ pub const WORK_A_BYTE: usize = 192;
 pub(crate) const OF_TREES: usize = 16;
 /// A certificate may ask for the work of so many bytes, however short it is.
 pub const LEAST_BYTES: usize = 100_000;
+
+/// The bytes of a text.
+pub(crate) fn bytes(part: &impl Serialize) -> usize {
+    serde_json::to_string(part).map_or(0, |text| text.len())
+}
+
+/// The work that a tree may ask for in a certificate of so many bytes: [`MOST_WORK`] in one of [`LEAST_BYTES`] or
+/// fewer, in proportion in one of up to eight times as many.
+pub(crate) fn of_bytes(bytes: usize) -> usize {
+    MOST_WORK / 1000 * (bytes.clamp(LEAST_BYTES, 8 * LEAST_BYTES) / (LEAST_BYTES / 1000))
+}
 
 /// Takes so many units of what is left.
 ///
