@@ -1252,8 +1252,8 @@ for (const name of ["kernel/five-bar", "kernel/planar-3-prr", "kernel/planar-3-r
     if (mutant === text && !right) continue;
     const answers = all(mutant);
     if (answers.some((answer) => answer !== (right ? "CERTIFIED" : "REJECTED"))) fail(`once: ${answers}: ${mutant}`);
-    agrees(file, verify(text));
   }
+  agrees(file, verify(text));
   if (text.length < 5000) read.push(text);
 }
 fs.rmSync(once, { recursive: true });
