@@ -152,51 +152,49 @@ Proof.
 Qed.
 
 Definition own_formulas (q : pose_formulas) : list formula := d_A q ++ d_divided q ++ match d_joint q with ELength f => [f] | _ => [] end.
-Definition refute_written (c : written_claim) (thetas xs : list number) (f : nfailure) : bool :=
-  let m := by_formulas c in let n := length (coordinate_names m) in
-  let j := length (parameters m) in let i := (j + length (all_literals (map snd (definitions m))))%nat in
-  let env := named (given_formulas m) (definitions m) j in
-  let fs := all_joints n env (joint_forms m) i in
-  let partial := named_partials (given_formulas m) (definitions m) j ++ joints_partials env (joint_forms m) i in
-  let all := thetas ++ map (fun p => least (fst p)) (all_literals (map snd (definitions m)) ++ flat_map joint_literals (joint_forms m)) in
-  all_parts (map snd (parameters m)) thetas && all_parts (box_of c) xs && Nat.eqb (length xs) n &&
-  forallb (fun j => match j with ByRow es => Nat.eqb (length es) n | ByCoordinate _ => true end) (joint_forms m) &&
-  forallb has_no_elbow (flat_map own_formulas fs ++ partial) &&
-  refutes bits 1 n (exact_joints xs all fs partial) (written_demands c) f.
 
-(** A machine of the claim does not meet it at some point of the box. *)
-Theorem refute_written_sound : forall c thetas xs f, refute_written c thetas xs f = true ->
-  exists theta x, is_about_written c theta x /\ ~ exists M, Forall2 (is_row (by_formulas c) theta x) (joint_forms (by_formulas c)) M /\
-    Configuration.meets (length (coordinate_names (by_formulas c))) (machine_at (by_formulas c) theta x M) (written_demands c).
+(** Of a mechanism: where its numbers are among parameters, what its names stand for, joints, quotients and roots, and all parameters. *)
+Section Mechanism.
+Variable m : mechanism.
+Definition coordinates : nat := length (coordinate_names m).
+Definition first_of_joints : nat := length (parameters m) + length (all_literals (map snd (definitions m))).
+Definition names_of : environment formula := named (given_formulas m) (definitions m) (length (parameters m)).
+Definition joints_of : list pose_formulas := all_joints coordinates names_of (joint_forms m) first_of_joints.
+Definition partials_of : list formula := named_partials (given_formulas m) (definitions m) (length (parameters m)) ++ joints_partials names_of (joint_forms m) first_of_joints.
+Definition with_literals (thetas : list number) : list number :=
+  thetas ++ map (fun p => least (fst p)) (all_literals (map snd (definitions m)) ++ flat_map joint_literals (joint_forms m)).
+Definition are_shaped (js : list written_joint) : bool := forallb (fun j => match j with ByRow es => Nat.eqb (length es) coordinates | ByCoordinate _ => true end) js.
+
+Lemma are_within : forall thetas, all_parts (map snd (parameters m)) thetas = true -> Forall2 (fun p y => within (snd p) y) (parameters m) (map Claim.value thetas).
 Proof.
-  intros c thetas xs f h. unfold refute_written in h. cbv zeta in h. set (m := by_formulas c) in *. set (n := length (coordinate_names m)) in *.
-  set (j := length (parameters m)) in *. set (i := (j + length (all_literals (map snd (definitions m))))%nat) in *.
-  set (env := named (given_formulas m) (definitions m) j) in *. set (fs := all_joints n env (joint_forms m) i) in *.
-  set (partial := named_partials _ _ _ ++ joints_partials _ _ _) in *. set (lits := all_literals (map snd (definitions m)) ++ flat_map joint_literals (joint_forms m)) in *.
-  set (all := thetas ++ map (fun p => least (fst p)) lits) in *.
-  apply andb_true_iff in h as [h r]. apply andb_true_iff in h as [h elbow]. apply andb_true_iff in h as [h shapes]. apply andb_true_iff in h as [h lx].
-  apply andb_true_iff in h as [hp hb]. apply Nat.eqb_eq in lx. apply all_parts_sound in hp, hb. rewrite forallb_forall in elbow.
-  set (theta := map Claim.value thetas) in *. set (x := map Claim.value xs) in *. exists theta, x.
-  assert (P : Forall2 (fun p y => within (snd p) y) (parameters m) theta).
-  { clear - hp. fold m in hp. revert hp. generalize theta. induction (parameters m) as [| p l IH]; intros th hp; inversion hp; subst; constructor; auto. }
-  split; [split; assumption |]. intros [M [rows [re [inj met]]]].
-  set (th := map Claim.value all). assert (lX : length x = n) by (unfold x; rewrite map_length; exact lx).
-  assert (Eth : th = theta ++ map (fun p => Claim.value (least (fst p))) lits) by (unfold th, all; rewrite map_app, map_map; reflexivity).
+  intros thetas h. apply all_parts_sound in h. revert h. generalize (map Claim.value thetas). induction (parameters m) as [| p l IH]; intros th h; inversion h; subst; constructor; auto.
+Qed.
+
+(** At a point at which everything is defined, formulas are those of the machine. *)
+Lemma where_reached : forall thetas y, let theta := map Claim.value thetas in let th := map Claim.value (with_literals thetas) in
+  all_parts (map snd (parameters m)) thetas = true -> are_shaped (joint_forms m) = true -> length y = coordinates -> is_reached m theta y ->
+  agrees y th names_of (environment_at m theta y) /\ (forall name, Formula.defined y th (lookup (integer 0) names_of name)) /\
+  holds_at th first_of_joints (flat_map joint_literals (joint_forms m)) /\ Forall (Formula.defined y th) partials_of /\
+  exists M, Forall2 (is_row m theta y) (joint_forms m) M /\
+    Forall2 (is_good y th 0 coordinates false) joints_of (map (fun p => Seen (snd p) (coordinate_at m theta y (fst p)) None True) (combine (joint_forms m) M)).
+Proof.
+  intros thetas x theta th hp shapes lX [re1 re2]. pose proof (are_within thetas hp) as P. fold theta in P.
+  set (lits := all_literals (map snd (definitions m)) ++ flat_map joint_literals (joint_forms m)).
+  assert (Eth : th = theta ++ map (fun p => Claim.value (least (fst p))) lits) by (unfold th, with_literals; rewrite map_app, map_map; reflexivity).
   assert (Exact : forall es, Forall2 scaled_within (all_literals es) (map (fun p => Claim.value (least (fst p))) (all_literals es))).
   { induction es as [| e es IH]; [constructor |]. cbn [all_literals flat_map]. rewrite map_app. apply Forall2_app; [apply literals_exact | exact IH]. }
-  assert (lt : length theta = j) by (unfold j; symmetry; exact (related_length _ _ _ _ _ P)).
+  assert (lt : length theta = length (parameters m)) by (symmetry; exact (related_length _ _ _ _ _ P)).
   assert (Joint : Forall2 scaled_within (flat_map joint_literals (joint_forms m)) (map (fun p => Claim.value (least (fst p))) (flat_map joint_literals (joint_forms m)))).
-  { clear. induction (joint_forms m) as [| q l IH]; [constructor |]. cbn [flat_map]. rewrite map_app. apply Forall2_app; [| exact IH]. destruct q as [es | e]; cbn [joint_literals]; [| apply literals_exact].
-    induction es as [| e es IHe]; [constructor |]. cbn [all_literals flat_map]. rewrite map_app. apply Forall2_app; [apply literals_exact | exact IHe]. }
-  assert (H1 : holds_at th j (all_literals (map snd (definitions m)))).
+  { clear - Exact. induction (joint_forms m) as [| q l IH]; [constructor |]. cbn [flat_map]. rewrite map_app. apply Forall2_app; [| exact IH]. destruct q as [es | e]; cbn [joint_literals]; [apply Exact | apply literals_exact]. }
+  assert (H1 : holds_at th (length (parameters m)) (all_literals (map snd (definitions m)))).
   { rewrite Eth. unfold lits. rewrite map_app, <- lt. apply holds_at_of, Exact. }
-  assert (H2 : holds_at th i (flat_map joint_literals (joint_forms m))).
+  assert (H2 : holds_at th first_of_joints (flat_map joint_literals (joint_forms m))).
   { rewrite Eth. unfold lits. rewrite map_app, app_assoc. pose proof (holds_at_of (theta ++ map (fun p => Claim.value (least (fst p))) (all_literals (map snd (definitions m)))) _ _ [] Joint) as K.
     rewrite app_nil_r, app_length, map_length, lt in K. exact K. }
-  assert (Given : forall y, length y = n -> agrees y th (given_formulas m) (given m y theta) /\ forall name, Formula.defined y th (lookup (integer 0) (given_formulas m) name)).
+  assert (Given : forall y, length y = coordinates -> agrees y th (given_formulas m) (given m y theta) /\ forall name, Formula.defined y th (lookup (integer 0) (given_formulas m) name)).
   { intros y ly. split.
     - apply agrees_combine.
-      + rewrite map_map. fold n. rewrite <- ly. clear. change (map (fun k => nth k y 0) (seq 0 (length y)) = y).
+      + rewrite map_map. fold coordinates. rewrite <- ly. clear. change (map (fun k => nth k y 0) (seq 0 (length y)) = y).
         apply nth_ext with 0 0; rewrite map_length, seq_length; [reflexivity |]. intros k hk.
         rewrite (nth_indep _ 0 (nth 0 y 0)) by (rewrite map_length, seq_length; exact hk). rewrite (map_nth (fun k => nth k y 0)), seq_nth by exact hk. reflexivity.
       + rewrite <- (app_nil_r (combine _ (numbered _ _))), <- (app_nil_r (combine _ theta)). apply agrees_combine; [| intro; reflexivity].
@@ -209,16 +207,40 @@ Proof.
       apply L; [apply Forall_forall; intros g ig; apply in_map_iff in ig as [k [<- _]]; split; exact I |]. intro nm.
       rewrite <- (app_nil_r (combine _ _)). apply L; [| intro; split; exact I]. generalize 0%nat (exact_parameters (parameters m)). intros a l. revert a.
       induction l as [| p l IH]; intro a; [constructor |]. cbn [numbered]. constructor; [unfold quantity; destruct (small p); split; exact I | apply IH]. }
-  assert (Agree : forall y, length y = n -> agrees y th env (environment_at m theta y)) by (intros y ly; apply named_agrees; [apply Given, ly | exact H1]).
-  destruct (Given x lX) as [G1 G2]. destruct re as [re1 re2].
-  destruct (named_defined x th (definitions m) _ _ j G1 G2 H1 re1) as [N1 N2].
-  pose proof (joints_defined x th env _ (Agree x lX) N1 (joint_forms m) i H2 re2) as N3.
-  assert (SH : Forall (fun j => match j with ByRow es => length es = n | ByCoordinate _ => True end) (joint_forms m)).
-  { rewrite forallb_forall in shapes. apply Forall_forall. intros q k. specialize (shapes q k). destruct q; [apply Nat.eqb_eq, shapes | exact I]. }
-  destruct (joints_good m theta th x env Agree lX (joint_forms m) i H2 SH N3) as [_ [M' [RM good]]].
-  assert (EM : M = M').
-  { clear - rows RM lX. revert M' RM. induction rows as [| q r l M h hs IH]; intros M' RM; inversion RM; subst; [reflexivity |]. f_equal; [eapply row_unique; eassumption | auto]. }
-  subst M'. fold fs in good.
+  assert (Agree : forall y, length y = coordinates -> agrees y th names_of (environment_at m theta y)) by (intros y ly; apply named_agrees; [apply Given, ly | exact H1]).
+  destruct (Given x lX) as [G1 G2]. destruct (named_defined x th (definitions m) _ _ (length (parameters m)) G1 G2 H1 re1) as [N1 N2].
+  pose proof (joints_defined x th names_of _ (Agree x lX) N1 (joint_forms m) first_of_joints H2 re2) as N3.
+  assert (SH : Forall (fun j => match j with ByRow es => length es = coordinates | ByCoordinate _ => True end) (joint_forms m)).
+  { unfold are_shaped in shapes. rewrite forallb_forall in shapes. apply Forall_forall. intros q k. specialize (shapes q k). destruct q; [apply Nat.eqb_eq, shapes | exact I]. }
+  split; [exact (Agree x lX) |]. split; [exact N1 |]. split; [exact H2 |]. split; [apply Forall_app; split; assumption |].
+  exact (proj2 (joints_good m theta th x names_of Agree lX (joint_forms m) first_of_joints H2 SH N3)).
+Qed.
+Lemma rows_unique : forall theta x M M', length x = coordinates -> Forall2 (is_row m theta x) (joint_forms m) M -> Forall2 (is_row m theta x) (joint_forms m) M' -> M = M'.
+Proof.
+  intros theta x M M' lX rows. revert M'. induction rows as [| q r l M h hs IH]; intros M' RM; inversion RM; subst; [reflexivity |]. f_equal; [eapply row_unique; eassumption | auto].
+Qed.
+End Mechanism.
+
+Definition refute_written (c : written_claim) (thetas xs : list number) (f : nfailure) : bool :=
+  let m := by_formulas c in let n := coordinates m in let fs := joints_of m in let partial := partials_of m in let all := with_literals m thetas in
+  all_parts (map snd (parameters m)) thetas && all_parts (box_of c) xs && Nat.eqb (length xs) n && are_shaped m (joint_forms m) &&
+  forallb has_no_elbow (flat_map own_formulas fs ++ partial) &&
+  refutes bits 1 n (exact_joints xs all fs partial) (written_demands c) f.
+
+(** A machine of the claim does not meet it at some point of the box. *)
+Theorem refute_written_sound : forall c thetas xs f, refute_written c thetas xs f = true ->
+  exists theta x, is_about_written c theta x /\ ~ exists M, Forall2 (is_row (by_formulas c) theta x) (joint_forms (by_formulas c)) M /\
+    Configuration.meets (length (coordinate_names (by_formulas c))) (machine_at (by_formulas c) theta x M) (written_demands c).
+Proof.
+  intros c thetas xs f h. unfold refute_written in h. cbv zeta in h. set (m := by_formulas c) in *. set (n := coordinates m) in *.
+  set (fs := joints_of m) in *. set (partial := partials_of m) in *. set (all := with_literals m thetas) in *.
+  apply andb_true_iff in h as [h r]. apply andb_true_iff in h as [h elbow]. apply andb_true_iff in h as [h shapes]. apply andb_true_iff in h as [h lx].
+  apply andb_true_iff in h as [hp hb]. apply Nat.eqb_eq in lx. pose proof hp as hp'. pose proof (are_within m thetas hp) as P. apply all_parts_sound in hb. rewrite forallb_forall in elbow.
+  set (theta := map Claim.value thetas) in *. set (x := map Claim.value xs) in *. exists theta, x.
+  split; [split; assumption |]. intros [M [rows [re [inj met]]]].
+  set (th := map Claim.value all). assert (lX : length x = n) by (unfold x; rewrite map_length; exact lx).
+  destruct (where_reached m thetas x hp' shapes lX re) as [_ [_ [_ [N [M' [RM good]]]]]]. fold theta all th n fs in RM, good. destruct re as [re1 re2].
+  pose proof (rows_unique m theta x M M' lX rows RM) as EM. subst M'.
   assert (Num : forall g, In g (flat_map own_formulas fs ++ partial) -> Claim.value (number_of xs all g) = Formula.value x th g) by (intros g ig; apply number_of_value, elbow, ig).
   enough (S : stands_for (exact_joints xs all fs partial) (machine_at m theta x M)) by exact (refutes_sound bits _ _ _ _ _ _ S r (conj (conj re1 re2) (conj inj met))).
   assert (Own : Forall2 (fun q p => Forall (fun g => Claim.value (number_of xs all g) = Formula.value x th g) (own_formulas q) /\ is_good x th 0 n false q (Seen (snd p) (coordinate_at m theta x (fst p)) None True)) fs (combine (joint_forms m) M)).
@@ -249,7 +271,7 @@ Proof.
     apply K, L.
   - intros _. split.
     + apply Forall_forall. intros y iy. apply in_flat_map in iy as [g [ig iy]]. assert (D : Formula.defined x th g).
-      { unfold partial in ig. apply in_app_or in ig as [ig | ig]; [rewrite Forall_forall in N2; exact (N2 _ ig) | rewrite Forall_forall in N3; exact (N3 _ ig)]. }
+      { rewrite Forall_forall in N. exact (N _ ig). }
       pose proof (elbow g (in_or_app _ _ _ (or_intror ig))) as el. destruct g as [o]. destruct o; cbn [reserve_of] in iy; try contradiction; destruct iy as [<- | []]; cbn [has_no_elbow] in el.
       * apply andb_true_iff in el as [_ el]. destruct D as [D _]. cbn [map_op defined_op] in D. cbn [Claim.value]. rewrite (number_of_value _ _ _ el). fold x th.
         assert (0 < Formula.value x th b ^ 2) by (rewrite <- Rsqr_pow2; apply Rlt_0_sqr; exact D). lra.

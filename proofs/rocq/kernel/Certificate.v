@@ -9,7 +9,7 @@
 
 From Coq Require Import ZArith QArith Reals Lra List Bool String Ascii DecimalString.
 From Orthocert Require Import Vec3 SingularValues Kinematics Diagonal Scaling Postulate Paper Claim.
-From Orthocert.kernel Require Import Configuration Arm Written AtPoint Orientation Turning Accelerated Singular Between Twins Far FarWritten Legs Inputs Pose Driven.
+From Orthocert.kernel Require Import Configuration Arm Written AtPoint Orientation Turning Accelerated Singular Between BetweenWritten Twins Far FarWritten Legs Inputs Pose Driven.
 From Orthocert.kernel Require Tolerances.
 From Orthocert.kernel Require Import Statement Check Number Problem Faces Witness Closed Cubes NoCube.
 Import ListNotations.
@@ -1453,7 +1453,8 @@ Fixpoint accept_cells (ps : parameters_) (ls : list written_leg) (w : written_re
       let ls := map (leg_over by_name) ls in let w := region_over by_name w in let rs := map (requirement_over by_name) rs in
       match c with
       | Proved bits chords nodes => accept_tree true ls w [] rs bits chords nodes
-      | Disproved _ point machine how => accept_witness ls w [] rs (map (over by_name) point) (map (over by_name) machine) how
+      | Disproved _ point machine how =>
+          accept_witness ls w [] rs (map (over by_name) point) (map (over by_name) machine) match how with Singular_ other => Singular_ (map (over by_name) other) | _ => how end
       | Undecided => true
       | Cut _ => false
       end
@@ -1555,11 +1556,16 @@ Definition accept (c : certificate) : bool :=
       end
   | Formulas_ xs ps ds rows a b rs, ByWitness _ point machine how =>
       let c := written_claim_of xs ps ds rows a b rs in
-      match take_list (map snd ps) (map denoted machine), failure_at false 1 (length rows) [] rs how with
-      | (thetas, []), Some f => is_one_each (map snd ps) machine && are_well_formed_formulas xs ps rows a b rs && is_mechanism (by_formulas c) &&
+      match take_list (map snd ps) (map denoted machine) with
+      | (thetas, []) => is_one_each (map snd ps) machine && are_well_formed_formulas xs ps rows a b rs && is_mechanism (by_formulas c) &&
           forallb (fun t => below exact_bits (least t) (greatest t)) (box_of c) &&
-          (refute_written exact_bits c thetas (map denoted point) f || match f with NFails i [v] => refute_far_written exact_bits c thetas (map denoted point) i v | _ => false end)
-      | _, _ => false
+          match how, failure_at false 1 (length rows) [] rs how with
+          | Singular_ other, _ => refute_between_written exact_bits c thetas (map denoted point) (map denoted other)
+          | _, Some f => refute_written exact_bits c thetas (map denoted point) f ||
+              match f with NFails i [v] => refute_far_written exact_bits c thetas (map denoted point) i v | _ => false end
+          | _, None => false
+          end
+      | _ => false
       end
   | Closed_ offset side rs, Nodes bits chords nodes => accept_closed offset side rs bits chords nodes
   | Closed_ offset side rs, ByWitness _ point machine how => accept_closed_witness offset side rs point machine how
@@ -1667,8 +1673,9 @@ Proof.
        apply orb_true_iff in h as [h | h]; [exact (refute_accelerated_sound _ _ _ _ _ _ _ h) | exact (refute_far_pose_sound _ _ _ _ _ _ _ h)]).
   - destruct (tree_of _ _ _ _ _ nodes) as [[tr [|]] |]; try discriminate. apply andb_true_iff in h as [_ h].
     exact (certify_written_sound _ _ _ _ _ _ h).
-  - cbv zeta in h. destruct (take_list _ _) as [thetas [|]]; [| discriminate]. destruct (failure_at _ _ _ _ _ how) as [f |]; [| discriminate].
-    apply andb_true_iff in h as [_ h]. apply orb_true_iff in h as [h | h]; [exact (refute_written_sound _ _ _ _ _ h) |]. destruct f as [| i [| v' [|]] | |]; try discriminate. exact (refute_far_written_sound _ _ _ _ _ _ h).
+  - cbv zeta in h. destruct (take_list _ _) as [thetas [|]]; [| discriminate]. apply andb_true_iff in h as [_ h].
+    destruct how; try exact (refute_between_written_sound _ _ _ _ _ h); (destruct (failure_at _ _ _ _ _ _) as [f |]; [| discriminate]; apply orb_true_iff in h as [h | h]; [exact (refute_written_sound _ _ _ _ _ h) |];
+      destruct f as [| i [| v' [|]] | |]; try discriminate; exact (refute_far_written_sound _ _ _ _ _ _ h)).
   - exact (accept_closed_sound offset side rs bits chords nodes t v h).
   - exact (accept_closed_witness_sound offset side rs bits point machine how t v h).
   - cbv zeta in h. destruct (failing_tree_of _ _ nodes) as [[tr [|]] |]; try discriminate. apply andb_true_iff in h as [_ h].

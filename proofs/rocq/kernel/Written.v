@@ -268,36 +268,38 @@ Proof.
   - destruct d as [d _]. cbn [map_op defined_op] in d. cbn [value map_op real_op]. rewrite <- Rsqr_pow2, Rsqr_sqrt by lra. reflexivity.
 Qed.
 
-(** A denominator is defined where the formula is. *)
-Lemma defined_times_of : forall x theta a b, defined x theta a -> defined x theta b -> defined x theta (times a b).
+(** A derivative is defined where the formula is. *)
+Fixpoint gradient_defined (by_ : list nat) (x theta : list R) (f : formula) {struct f} : defined x theta f ->
+  Forall (defined x theta) (fst (Gradient.gradient by_ f)) /\ defined x theta (snd (Gradient.gradient by_ f)).
 Proof.
-  intros x theta a b da db. unfold times. destruct (is 0 a || is 1 b); [exact da |]. destruct (is 0 b || is 1 a); [exact db |].
-  destruct (same a b); [| split; [exact I | split; assumption]]. unfold square. destruct (integer_of a) as [n |]; [destruct (is_small n) |]; try (split; [exact I | exact I]); split; try exact I; exact da.
-Qed.
-Lemma defined_minus_of : forall x theta a b, defined x theta a -> defined x theta b -> defined x theta (minus a b).
-Proof.
-  intros x theta a b da db. assert (S : defined x theta (F (Sub a b))) by (repeat split; assumption). unfold minus. destruct (is 0 b); [exact da |]. destruct (is 0 a).
-  - destruct b as [[| | n | | | c | | | | |]]; try (split; [exact I | exact db]); cbn [opposite]; [destruct (is_small n); repeat split | apply db].
-  - destruct a as [[j | | | | | | | | | |]]; try exact S. destruct b as [[k | | | | | | | | | |]]; try exact S. destruct (Nat.eqb j k); [repeat split | exact S].
-Qed.
-Fixpoint denominator_defined (by_ : list nat) (x theta : list R) (f : formula) {struct f} : defined x theta f -> defined x theta (snd (Gradient.gradient by_ f)).
-Proof.
-  assert (C : forall a p b q, defined x theta (snd a) -> defined x theta (snd b) -> defined x theta (snd (Gradient.combined a p b q)))
-    by (intros a p b q da db; unfold Gradient.combined; destruct (same (snd a) (snd b)); cbn [snd]; [exact da | apply defined_times_of; assumption]).
+  set (ok := fun g : Gradient.fraction => Forall (defined x theta) (fst g) /\ defined x theta (snd g)).
   assert (One : forall n, defined x theta (integer n)) by (intro n; split; exact I).
-  intro d. destruct f as [o]. destruct o as [k | j | n | b c | b c | b | b c | b c | b | b | ? b c e]; cbn [Gradient.gradient]; try (apply One).
-  - destruct (existsb _ by_); apply One.
-  - destruct d as [_ [d1 d2]]. apply C; apply denominator_defined; assumption.
-  - destruct d as [_ [d1 d2]]. apply C; apply denominator_defined; assumption.
-  - destruct d as [_ d]. cbn [snd]. apply denominator_defined, d.
-  - destruct d as [_ [d1 d2]]. apply C; apply denominator_defined; assumption.
-  - destruct d as [_ [d1 d2]]. set (g := Gradient.combined _ _ _ _). assert (dg : defined x theta (snd g)) by (apply C; apply denominator_defined; assumption).
-    destruct (forallb _ _); [exact dg |]. cbn [snd]. apply defined_times_of; [exact dg | exact d2].
-  - destruct d as [_ d]. cbn [snd]. apply denominator_defined, d.
-  - assert (dd := d). destruct d as [_ d]. cbv zeta. destruct (forallb _ _); cbn [snd]; [apply One |]. apply defined_times_of; [apply denominator_defined, d |]. apply defined_times_of; [apply One | exact dd].
-  - assert (dd := d). destruct d as [r [d1 [d2 d3]]]. cbv zeta. set (g := Gradient.combined _ _ _ _). assert (dg : defined x theta (snd g)) by (unfold g; repeat apply C; apply denominator_defined; assumption).
-    destruct (forallb _ _); cbn [snd]; [exact dg |]. apply defined_times_of; [exact dg |]. apply defined_times_of; [apply One |].
-    apply defined_minus_of; apply defined_times_of; try assumption; split; try exact r; repeat split; assumption.
+  assert (S : ok (Gradient.stays by_)) by (split; [cbn [fst]; apply Forall_forall; intros g i; apply in_map_iff in i as [k [<- _]]; apply One | apply One]).
+  assert (M : forall l h, Forall (defined x theta) l -> (forall g, defined x theta g -> defined x theta (h g)) -> Forall (defined x theta) (map h l)) by (intros l h d k; rewrite Forall_map; revert d; apply Forall_impl, k).
+  assert (C : forall a p b q, ok a -> ok b -> defined x theta p -> defined x theta q -> ok (Gradient.combined a p b q)).
+  { assert (T : forall p q, defined x theta p -> defined x theta q -> forall l m, Forall (defined x theta) l -> Forall (defined x theta) m ->
+      Forall (defined x theta) (map (fun n => plus (times p (fst n)) (times q (snd n))) (combine l m))).
+    { intros p q dp dq. induction l as [| a l IH]; intros [| b m] hl hm; cbn [combine map]; constructor; inversion hl; inversion hm; subst; [| apply IH; assumption].
+      apply plus_defined; apply times_defined; assumption. }
+    intros a p b q [a1 a2] [b1 b2] dp dq. unfold Gradient.combined. destruct (same (snd a) (snd b)); (split; cbn [fst snd]; [apply T; try assumption; apply times_defined; assumption |]); [exact a2 | apply times_defined; assumption]. }
+  assert (Z : forall g h, ok g -> defined x theta h -> ok (if forallb (is 0) (fst g) then g else (fst g, h))) by (intros g h [g1 g2] dh; destruct (forallb _ _); split; assumption).
+  intro d. destruct f as [o]. destruct o as [k | j | n | b c | b c | b | b c | b c | b | b | second b c e]; cbn [Gradient.gradient]; try exact S.
+  - destruct (existsb _ by_); [| exact S]. split; [cbn [fst]; apply Forall_forall; intros g i; apply in_map_iff in i as [k [<- _]]; apply One | apply One].
+  - destruct d as [_ [d1 d2]]. apply C; try apply One; apply gradient_defined; assumption.
+  - destruct d as [_ [d1 d2]]. apply C; try apply One; apply gradient_defined; assumption.
+  - destruct d as [_ d]. destruct (gradient_defined by_ x theta b d) as [g1 g2]. split; [apply M; [exact g1 | apply opposite_defined] | exact g2].
+  - destruct d as [_ [d1 d2]]. apply C; try assumption; apply gradient_defined; assumption.
+  - assert (dd := d). destruct d as [_ [d1 d2]]. apply Z; [apply C; try apply One; [apply gradient_defined; assumption .. | apply opposite_defined, dd] |].
+    apply times_defined; [apply C; try apply One; [apply gradient_defined; assumption .. | apply opposite_defined, dd] | exact d2].
+  - destruct d as [_ d]. destruct (gradient_defined by_ x theta b d) as [g1 g2]. split; [| exact g2]. cbn [fst]. apply M; [exact g1 |].
+    intros g dg. repeat apply times_defined; try assumption. apply One.
+  - assert (dd := d). destruct d as [_ d]. destruct (gradient_defined by_ x theta b d) as [g1 g2]. cbv zeta.
+    destruct (forallb _ _); (split; [exact g1 | cbn [snd]]); [apply One | repeat apply times_defined; try assumption; apply One].
+  - assert (dd := d). destruct d as [r [d1 [d2 d3]]]. assert (E : forall s, defined x theta (F (Elbow s b c e))) by (intro s; split; [exact r | repeat split; assumption]). cbv zeta.
+    set (g := Gradient.combined _ _ _ _). assert (G : ok g) by (unfold g; repeat apply C; try apply One; try (apply minus_defined; [assumption | apply E]); apply gradient_defined; assumption).
+    destruct G as [g1 g2]. set (n := map _ (fst g)). assert (N : Forall (defined x theta) n) by (unfold n; apply M; [exact g1 |]; intros h dh; apply times_defined; [destruct second; [| apply opposite_defined]; apply E | exact dh]).
+    destruct (forallb _ _); (split; [exact N | cbn [snd]]); [exact g2 |]. repeat apply times_defined; try apply One; try assumption.
+    apply minus_defined; apply times_defined; try assumption; apply E.
 Qed.
 
 Definition of_joint (n : nat) (env : environment formula) (j : written_joint) (i : nat) : pose_formulas :=
@@ -439,7 +441,7 @@ Proof.
     assert (V : forall y, length y = n -> value y th f = meaning (environment_at c theta y) e) by (intros y ly; exact (formula_value y th env _ (agree y ly) e i h)).
     set (g := Gradient.gradient (seq 0 n) (swapped f)). assert (G : coordinate_gradient n f = (map swapped (fst g), swapped (snd g))) by reflexivity. rewrite G.
     assert (gl : length (fst g) = n) by (unfold g; rewrite Gradient.gradient_length, seq_length; reflexivity).
-    assert (dE : defined x th (swapped (snd g))) by (apply defined_swapped; apply denominator_defined; apply defined_swapped; exact D0).
+    assert (dE : defined x th (swapped (snd g))) by (apply defined_swapped; apply gradient_defined; apply defined_swapped; exact D0).
     set (E := value x th (swapped (snd g))). set (row := map (fun a => value x th a / E) (map swapped (fst g))).
     assert (Along : forall path v, (forall t, length (path t) = n) -> path 0 = x -> (forall k, derivable_pt_lim (fun t => nth k (path t) 0) 0 (nth k v 0)) ->
       E <> 0 /\ derivable_pt_lim (fun t => value (path t) th f) 0 (Linear.dot row v)).

@@ -156,12 +156,16 @@ const crossed_strut = (a, b = a.map(() => 0)) => `drive = "strut"\nanchor = ${ve
 const crossed_arm = (x, mode) => `drive = "arm"\nreference = [1, 0]\nanchor = [${x}, 0]\nplatform = [0, 0]\narm = 5\nlength = 6\nmode = "${mode}"`;
 const crossed_slider = (x, mode) => `drive = "slider"\ndirection = [0, 1]\nanchor = [${x}, 0]\nplatform = [0, 0]\nlength = 12\nmode = "${mode}"`;
 const bent_arms = fs.readFileSync(path.join(__dirname, "../../../tests/designs/kernel/planar-3-rrr.toml"), "utf8").replace(/min = \[.*?\]/, "min = [-1, -1]").replace(/max = \[\d.*?\]/, "max = [1, 1]").replace("[-15, 15]", "[-15, 75]");
+const by_formulas = (joints, min, max) => `[mechanism]\nkind = "formulas"\ncoordinates = ["x", "y"]\n[mechanism.parameters]\nd = "10 ± 0.1"\n[mechanism.definitions]\nsquare = "y^2 + 1/9"\n${joints.map((j) => `[[mechanism.joints]]\n${j}\n`).join("")}[workspace]\nmin = ${vector_of(...min)}\nmax = ${vector_of(...max)}\n`;
 for (const [name, design] of Object.entries({
   struts: crossed("translational", [[10, 0, 0], [-5, 8, 0], [-5, '"-8 ± 0.1"', 0]].map((a) => crossed_strut(a)), [-1, -1, -1], [1, 1, 2]),
   struts_in_the_plane: crossed("planar", [[0, 0], [10, 0]].map((a) => crossed_strut(a)), [4, -1], [6, 2]),
   arms: crossed("planar", [crossed_arm(-4, "-"), crossed_arm(4, "+")], [-1, 2], [1, 9]),
   sliders: crossed("planar", [crossed_slider(-10, "+"), crossed_slider(10, "-")], [-1, 0], ["1.5", 1]),
   arms_that_turn: bent_arms,
+  coordinates_by_formulas: by_formulas(['rho = "sqrt(x^2 + square)"', 'rho = "-sqrt((x - d)^2 + square)"'], [4, -1], [6, 2]),
+  rows_by_formulas: by_formulas(['row = ["x", "y"]', 'row = ["1", "square/d"]'], [4, -1], [6, 70]),
+  a_divisor_by_formulas: by_formulas(['row = ["1/(x - 1/2)", "0"]', 'row = ["d", "square"]'], [-1, 0], [1, 1]),
 })) {
   const toml = path.join(made, "crossed.toml"), file = path.join(made, "crossed.cert.json");
   fs.writeFileSync(toml, design.includes("[requirements]") ? design : `${design}[requirements]\njoint_force = { tool = 1, max = 1e9 }\n`);
@@ -175,7 +179,19 @@ for (const [name, design] of Object.entries({
     if (mutant === text || answers.some((answer) => answer !== "REJECTED")) fail(`${name}: ${answers}: ${mutant}`);
   }
 }
-console.log("singular between two points of legs in any motion: five machines, 120 points with one answer");
+console.log("singular between two points of legs in any motion, and by formulas: eight machines, 192 points with one answer");
+// In a cell of an atlas, whose parameter is in both points.
+{
+  const legs = [["10", "0", "0"], ["-5", "a", "0"], ["-5", "-8", "0"]].map((anchor) => ({ drive: "strut", anchor, platform: ["0", "0", "0"] }));
+  const machine = { mechanism: { translational: legs }, workspace: { box: { min: ["-1", "-1", "-a"], max: ["1", "1", "a"] } }, require: [{ quantity: "transmission", end: "max", bound: "9" }] };
+  for (const [here, there, answer] of [["-1", "1", "CERTIFIED"], ["-a", "a", "CERTIFIED"], ["-a", "a-6", "CERTIFIED"], ["-a", "a-14", "REJECTED"], ["-a", "7-a", "REJECTED"], ["-a", "a+1", "REJECTED"], ["-a", "2*a-14", "REJECTED"]]) {
+    const text = JSON.stringify({ format: "orthocert/2", claim: { atlas: { parameters: [{ name: "a", min: "7", max: "8" }], machine, certified: "0", refuted: "1" } }, verdict: "certified",
+      proof: { atlas: [{ refuted: { precision: 128, point: ["0", "0", here], fails: { singular: ["0", "0", there] } } }] }, provenance: { tool: "t", version: "1" } }) + "\n";
+    const answers = three_answers(text);
+    if (answers.some((a) => a !== answer)) fail(`singular in an atlas: ${answers}: ${here} ${there}`);
+    else if (answer === "CERTIFIED") read.push(text);
+  }
+}
 // Tolerances apart of struts of a platform that turns.
 const made_as = fs.readFileSync(path.join(made, "hexapod-rubin-camera-as-made.cert.json"), "latin1");
 const apart_by = /\[\[(-?\d+,){5}-?\d+\]\]\]\}\]/.exec(made_as)[0], apart_ends = /\}\},"([-+0]+)",/.exec(made_as)[1];

@@ -461,7 +461,6 @@ let certificate text =
       | _ -> false in
     List.exists (fun n -> List.exists is_other n.by_) nodes in
   let has_failure = List.exists (fun n -> n.fails_ <> None) in
-  let is_singular = function Singular_ _ -> true | _ -> false in
   (match subject_, proof_ with
    | Formulas_ _, Nodes (_, _, nodes) when has_apart nodes -> not_covered [ "the evidence \"tolerances\" of such a mechanism" ]
    | Turning_ (kind, legs, _, w, _, _, _), Nodes (_, _, nodes) when has_other_apart kind legs w nodes ->
@@ -475,11 +474,9 @@ let certificate text =
    | (Legs_ (_, _, _, _, _, rs) | Closed_ (_, _, rs) | Formulas_ (_, _, _, _, _, _, rs)), Nodes _ when List.exists (fun r -> r.about_ = Accuracy_) rs -> not_covered [ "\"accuracy\" of such a mechanism" ]
    | Turning_ (_, _, _, _, _, _, rs), Nodes (_, _, nodes) when not (List.for_all (fun n -> List.for_all (is_pose_step rs) n.by_) nodes) ->
      not_covered [ "a step of a platform that turns that is not at control points" ]
-   | Turning_ _, ByWitness (_, _, _, (Singular_ _ | Same_ _)) | Machine_ _, ByWitness (_, _, _, (Singular_ _ | Same_ _)) | (Legs_ _ | Closed_ _), ByWitness (_, _, _, Singular_ _) -> ()
+   | (Turning_ _ | Machine_ _), ByWitness (_, _, _, Same_ _) -> ()
    | _, ByWitness (_, _, _, Same_ _) -> not_covered [ "the failure \"same\" of such a mechanism" ]
    | Atlas_ _, Cells cells when List.exists (function Disproved (_, _, _, Same_ _) -> true | _ -> false) cells -> not_covered [ "the failure \"same\" of such a mechanism" ]
-   | _, ByWitness (_, _, _, how) when is_singular how -> not_covered [ "the failure \"singular\" of such a mechanism" ]
-   | Atlas_ _, Cells cells when List.exists (function Disproved (_, _, _, how) -> is_singular how | _ -> false) cells -> not_covered [ "the failure \"singular\" of such a mechanism" ]
    | (Machine_ (legs, _, _, rs), Nodes _ | Atlas_ (_, legs, _, rs, _, _), _) when plane_accelerates legs rs ->
      not_covered [ "the acceleration of a joint of a machine with a plane" ]
    | NoCube_ (_, _, _, rs, _), _ when List.exists is_certified_only rs -> not_covered [ "this quantity in a claim that is refuted" ]

@@ -4,27 +4,27 @@ globalThis!=="object"&&(this?b():(a.defineProperty(a.prototype,"_T_",{configurab
 b(){var
 b=this||self;b.globalThis=b;delete
 a.prototype._T_}}(Object));(function(S){"use strict";var
-kp="spatial",rN="Invalid_argument",hT="precision",aQ='"',ko=1255,kB="inside",qJ="(",qK=0x800,rM="yaw",qG="range",qH="tree",qI="jsError",cn=0x8000,rL="sqrt(",qF=256,hS="obligation",rK="load",f4="offset",bt="machine",qE="End_of_file",eS="strut",kn="center",f3="arm",km="Failure",rJ="serial_margin",h0="parameters",cR=0xff,rI="bodies",rH="max_angle",kA="outside",f2="base_axis",kl="ENOENT",rG="singular",rF=122,qD="([^/]+)",rE="0",kk=0xf,f1=128,qC=0xdc00,rC="Sys_blocked_io",rD="fd ",fU="given",qB="ENOTEMPTY",a3=248,hR="bound",qA="Division_by_zero",rA="by",rB=1027,qz="Sys_error",hZ="slider",qy="torsion",rz="postulate",qx="proof",kz="joint_error",f0="refuted",eL="mechanism",hQ="row",qw="EEXIST",ry="roll_pitch_yaw",fZ="y",qv="cube",ds="lower",rx="within",qu="clearance",rw="turned",qt="control",hP="int_of_string",qs="between",ru="definitions",rv="dependent",fY=1024,qq="from",qr="name",rt=" : flags Open_rdonly and Open_wronly are not compatible",qp="orthocert/2",rs="reach",qo=512,rq="base_joint",rr="witness",eR="-",bi="platform",qn=0x7ff0,qm="pitch",ky=": Not a directory",bL="min",ro="trim",eQ="workspace",rp=" : file already exists",hO="split",rm='the failure "singular" of such a mechanism',kx="legs",rn="claim",kj="joint",d1=0xffffff,ql="platform_joint",qk="formulas",qj="roll",hN="atlas",rj="greatest",rk="nodes",rl="Out_of_memory",qi="psi_max",hY="orientation",hM=254,ri="angle",kw="index out of bounds",qh="end",rh="one_to_one",hX="_bigarr02",qg=" : flags Open_text and Open_binary are not compatible",rg="inverse",bK="drive",qf="coordinates",rf="holds",qe="lower_divided",qd="speed",rd="cylinder",re="joints",cQ=0xffff,q$="a leaf that fails",ra="acceleration",rb="force",fW="certified",fX="chords",rc=12520,ki="on",q_="same",eK="accuracy",fV="axis",q9="no_cube",q8="parallel_margin",qc='the drive "',kh="Unix.Unix_error",hW="fails",hL="tool",kg="mkdir",q6="rho",q7="least",hV=1000,kf="translational",kv="tolerances",qb="Stack_overflow",ku="characteristic_length",ae="",kt="^",hJ="places",hK=": No such file or directory",qa="/static/",eP=0x3f,p_="stiffness",p$="Not_found",cP="planar",fT="mode",q5="joint_speed",q4="Match_failure",p9="transmission",bJ="anchor",q3="at",p8="joint_force",eO="leg",p7="joint_acceleration",hU="+",ke="rmdir",q2=0xf0,q1="spherical",p6=1026,qZ="REJECTED",q0="undecided",bN="max",bM="direction",p4="leg_angle",p5="orthoglide",eN="rank",qX="constraint_margin",qY="fan",fS="test",p2="Pervasives.do_at_exit",p3="utf8",b4=0x80,eM="conditioning",eJ="length",p1="Undefined_recursive_module",ks=")",p0="base",qW="quantity",pZ="joint_range",hI="tilt",pY="Q2",qV='the failure "same" of such a mechanism',qU="reference",pX="point",qS="corner",qT=0xe0,pW="version",kr="z",qQ="to",qR=0xdfff,kd="compare: functional value",qP="Assert_failure",b6="/",qO="provenance",d0="radius",hH="side",qM=-14,b5="require",qN="format",pV="Q1",kq="ENOTDIR",pU="all",dZ="box",qL=250;function
-kN(c,b,a){var
+ks="spatial",rS="Invalid_argument",hU="precision",aQ='"',kr=1255,kE="inside",qP="(",qQ=0x800,rR="yaw",qM="range",qN="tree",qO="jsError",cn=0x8000,rQ="sqrt(",qL=256,hT="obligation",rP="load",f5="offset",bt="machine",qK="End_of_file",eT="strut",kq="center",f4="arm",kp="Failure",rO="serial_margin",h1="parameters",cR=0xff,rN="bodies",rM="max_angle",kD="outside",f3="base_axis",ko="ENOENT",rL="singular",rK=122,qJ="([^/]+)",rJ="0",kn=0xf,f2=128,qI=0xdc00,rH="Sys_blocked_io",rI="fd ",fV="given",qH="ENOTEMPTY",a3=248,hS="bound",qG="Division_by_zero",rF="by",rG=1027,qF="Sys_error",h0="slider",qE="torsion",rE="postulate",qD="proof",kC="joint_error",f1="refuted",eM="mechanism",hR="row",qC="EEXIST",rD="roll_pitch_yaw",f0="y",qB="cube",ds="lower",rC="within",qA="clearance",rB="turned",qz="control",hQ="int_of_string",qy="between",rz="definitions",rA="dependent",fZ=1024,qw="from",qx="name",ry=" : flags Open_rdonly and Open_wronly are not compatible",qv="orthocert/2",rx="reach",qu=512,rv="base_joint",rw="witness",eS="-",bi="platform",qt=0x7ff0,qs="pitch",kB=": Not a directory",bL="min",rt="trim",eR="workspace",ru=" : file already exists",hP="split",kA="legs",rs="claim",km="joint",d3=0xffffff,qr="platform_joint",qq="formulas",qp="roll",hO="atlas",rp="greatest",rq="nodes",rr="Out_of_memory",qo="psi_max",hZ="orientation",hN=254,ro="angle",kz="index out of bounds",qn="end",rn="one_to_one",hY="_bigarr02",qm=" : flags Open_text and Open_binary are not compatible",rm="inverse",bK="drive",ql="coordinates",rl="holds",qk="lower_divided",qj="speed",rj="cylinder",rk="joints",cQ=0xffff,rf="a leaf that fails",rg="acceleration",rh="force",fX="certified",fY="chords",ri=12520,kl="on",re="same",eL="accuracy",fW="axis",rd="no_cube",rc="parallel_margin",qi='the drive "',kk="Unix.Unix_error",hX="fails",hM="tool",kj="mkdir",ra="rho",rb="least",hW=1000,ki="translational",ky="tolerances",qh="Stack_overflow",kx="characteristic_length",ae="",kw="^",hK="places",hL=": No such file or directory",qg="/static/",eQ=0x3f,qe="stiffness",qf="Not_found",cP="planar",fU="mode",q$="joint_speed",q_="Match_failure",qd="transmission",bJ="anchor",q9="at",qc="joint_force",eP="leg",qb="joint_acceleration",hV="+",kh="rmdir",q8=0xf0,q7="spherical",qa=1026,q5="REJECTED",q6="undecided",bN="max",bM="direction",p_="leg_angle",p$="orthoglide",eO="rank",q3="constraint_margin",q4="fan",fT="test",p8="Pervasives.do_at_exit",p9="utf8",b4=0x80,eN="conditioning",eK="length",p7="Undefined_recursive_module",kv=")",p6="base",q2="quantity",p5="joint_range",hJ="tilt",p4="Q2",q1='the failure "same" of such a mechanism',q0="reference",p3="point",qY="corner",qZ=0xe0,p2="version",ku="z",qW="to",qX=0xdfff,kg="compare: functional value",qV="Assert_failure",b6="/",qU="provenance",d2="radius",hI="side",qS=-14,b5="require",qT="format",p1="Q1",kt="ENOTDIR",p0="all",d1="box",qR=250;function
+kQ(c,b,a){var
 d=String.fromCharCode;if(b==0&&a<=4096&&a==c.length)return d.apply(null,c);var
-e=ae;for(;0<a;b+=fY,a-=fY)e+=d.apply(null,c.slice(b,b+Math.min(a,fY)));return e}function
-h2(b){if(S.Uint8Array)var
+e=ae;for(;0<a;b+=fZ,a-=fZ)e+=d.apply(null,c.slice(b,b+Math.min(a,fZ)));return e}function
+h3(b){if(S.Uint8Array)var
 c=new(S.Uint8Array)(b.l);else
 var
 c=new
 Array(b.l);var
 e=b.c,d=e.length,a=0;for(;a<d;a++)c[a]=e.charCodeAt(a);for(d=b.l;a<d;a++)c[a]=0;b.c=c;b.t=4;return c}function
-f5(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?kN(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
-if(b.t==2&&f==b.c.length){b.c+=d.t==4?kN(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)h2(b);var
+f6(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?kQ(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
+if(b.t==2&&f==b.c.length){b.c+=d.t==4?kQ(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)h3(b);var
 g=d.c,h=b.c;if(d.t==4)if(f<=e)for(var
 a=0;a<c;a++)h[f+a]=g[e+a];else
 for(var
 a=c-1;a>=0;a--)h[f+a]=g[e+a];else{var
 i=Math.min(c,g.length-e);for(var
 a=0;a<i;a++)h[f+a]=g.charCodeAt(e+a);for(;a<c;a++)h[f+a]=0}}return 0}function
-eV(a){return a}function
-eU(a,b,c,d,e){f5(eV(a),b,c,d,e);return 0}function
-kD(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
+eW(a){return a}function
+eV(a,b,c,d,e){f6(eW(a),b,c,d,e);return 0}function
+kG(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
 0:return a.c.charCodeAt(b);case
 4:return a.c[b]}}function
 du(c,a){if(c.fun)return du(c.fun,a);if(typeof
@@ -37,23 +37,23 @@ e=arguments.length==0?1:arguments.length,d=new
 Array(a.length+e);for(var
 b=0;b<a.length;b++)d[b]=a[b];for(var
 b=0;b<arguments.length;b++)d[a.length+b]=arguments[b];return du(c,d)}}function
-sd(b,a){if(b==0)return ae;if(a.repeat)return a.repeat(b);var
+si(b,a){if(b==0)return ae;if(a.repeat)return a.repeat(b);var
 d=ae,c=0;for(;;){if(b&1)d+=a;b>>=1;if(b==0)return d;a+=a;c++;if(c==9)a.slice(0,1)}}function
-eW(a){if(a.t==2)a.c+=sd(a.l-a.c.length,"\0");else
-a.c=kN(a.c,0,a.c.length);a.t=0}function
-eX(a){a.t&6&&eW(a);return a.c}var
-Jk=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
-Jj(a){if(Jk)return Math.floor(Math.log2(a));var
+eX(a){if(a.t==2)a.c+=si(a.l-a.c.length,"\0");else
+a.c=kQ(a.c,0,a.c.length);a.t=0}function
+eY(a){a.t&6&&eX(a);return a.c}var
+Jn=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
+Jm(a){if(Jn)return Math.floor(Math.log2(a));var
 b=0;if(a==0)return-Infinity;if(a>=1)while(a>=2){a/=2;b++}else
 while(a<1){a*=2;b--}return b}function
-kG(c){var
+kJ(c){var
 a=new(S.Float32Array)(1);a[0]=c;var
 b=new(S.Int32Array)(a.buffer);return b[0]|0}var
-r6=Math.pow(2,-24);function
-Ja(a){throw a}var
-aF=[0];function
-sa(){Ja(aF.Division_by_zero)}function
-R(b,c,a){this.lo=b&d1;this.mi=c&d1;this.hi=a&cQ}R.prototype.caml_custom="_j";R.prototype.copy=function(){return new
+r$=Math.pow(2,-24);function
+Jd(a){throw a}var
+aE=[0];function
+sf(){Jd(aE.Division_by_zero)}function
+R(b,c,a){this.lo=b&d3;this.mi=c&d3;this.hi=a&cQ}R.prototype.caml_custom="_j";R.prototype.copy=function(){return new
 R(this.lo,this.mi,this.hi)};R.prototype.ucompare=function(a){if(this.hi>a.hi)return 1;if(this.hi<a.hi)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};R.prototype.compare=function(a){var
 b=this.hi<<16,c=a.hi<<16;if(b>c)return 1;if(b<c)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};R.prototype.neg=function(){var
 a=-this.lo,b=-this.mi+(a>>24),c=-this.hi+(b>>24);return new
@@ -62,7 +62,7 @@ b=this.lo+a.lo,c=this.mi+a.mi+(b>>24),d=this.hi+a.hi+(c>>24);return new
 R(b,c,d)};R.prototype.sub=function(a){var
 b=this.lo-a.lo,c=this.mi-a.mi+(b>>24),d=this.hi-a.hi+(c>>24);return new
 R(b,c,d)};R.prototype.mul=function(a){var
-b=this.lo*a.lo,c=(b*r6|0)+this.mi*a.lo+this.lo*a.mi,d=(c*r6|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
+b=this.lo*a.lo,c=(b*r$|0)+this.mi*a.lo+this.lo*a.mi,d=(c*r$|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
 R(b,c,d)};R.prototype.isZero=function(){return(this.lo|this.mi|this.hi)==0};R.prototype.isNeg=function(){return this.hi<<16<0};R.prototype.and=function(a){return new
 R(this.lo&a.lo,this.mi&a.mi,this.hi&a.hi)};R.prototype.or=function(a){return new
 R(this.lo|a.lo,this.mi|a.mi,this.hi|a.hi)};R.prototype.xor=function(a){return new
@@ -77,25 +77,25 @@ c=this.hi<<16>>16;if(a<24)return new
 R(this.lo>>a|this.mi<<24-a,this.mi>>a|c<<24-a,this.hi<<16>>a>>>16);var
 b=this.hi<<16>>31;if(a<48)return new
 R(this.mi>>a-24|this.hi<<48-a,this.hi<<16>>a-24>>16,b&cQ);return new
-R(this.hi<<16>>a-32,b,b)};R.prototype.lsl1=function(){this.hi=this.hi<<1|this.mi>>23;this.mi=(this.mi<<1|this.lo>>23)&d1;this.lo=this.lo<<1&d1};R.prototype.lsr1=function(){this.lo=(this.lo>>>1|this.mi<<23)&d1;this.mi=(this.mi>>>1|this.hi<<23)&d1;this.hi=this.hi>>>1};R.prototype.udivmod=function(e){var
+R(this.hi<<16>>a-32,b,b)};R.prototype.lsl1=function(){this.hi=this.hi<<1|this.mi>>23;this.mi=(this.mi<<1|this.lo>>23)&d3;this.lo=this.lo<<1&d3};R.prototype.lsr1=function(){this.lo=(this.lo>>>1|this.mi<<23)&d3;this.mi=(this.mi>>>1|this.hi<<23)&d3;this.hi=this.hi>>>1};R.prototype.udivmod=function(e){var
 c=0,b=this.copy(),a=e.copy(),d=new
 R(0,0,0);while(b.ucompare(a)>0){c++;a.lsl1()}while(c>=0){c--;d.lsl1();if(b.ucompare(a)>=0){d.lo++;b=b.sub(a)}a.lsr1()}return{quotient:d,modulus:b}};R.prototype.div=function(a){var
-b=this;if(a.isZero())sa();var
+b=this;if(a.isZero())sf();var
 d=b.hi^a.hi;if(b.hi&cn)b=b.neg();if(a.hi&cn)a=a.neg();var
 c=b.udivmod(a).quotient;if(d&cn)c=c.neg();return c};R.prototype.mod=function(b){var
-a=this;if(b.isZero())sa();var
+a=this;if(b.isZero())sf();var
 d=a.hi;if(a.hi&cn)a=a.neg();if(b.hi&cn)b=b.neg();var
 c=a.udivmod(b).modulus;if(d&cn)c=c.neg();return c};R.prototype.toInt=function(){return this.lo|this.mi<<24};R.prototype.toFloat=function(){return(this.hi<<16)*Math.pow(2,32)+this.mi*Math.pow(2,24)+this.lo};R.prototype.toArray=function(){return[this.hi>>8,this.hi&cR,this.mi>>16,this.mi>>8&cR,this.mi&cR,this.lo>>16,this.lo>>8&cR,this.lo&cR]};R.prototype.lo32=function(){return this.lo|(this.mi&cR)<<24};R.prototype.hi32=function(){return this.mi>>>8&cQ|this.hi<<16};function
-h4(b,c,a){return new
+h5(b,c,a){return new
 R(b,c,a)}function
-h3(a){if(!isFinite(a)){if(isNaN(a))return h4(1,0,qn);return a>0?h4(0,0,qn):h4(0,0,0xfff0)}var
+h4(a){if(!isFinite(a)){if(isNaN(a))return h5(1,0,qt);return a>0?h5(0,0,qt):h5(0,0,0xfff0)}var
 f=a==0&&1/a==-Infinity?cn:a>=0?0:cn;if(f)a=-a;var
-b=Jj(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-p6)}else{a/=Math.pow(2,b-rB);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
+b=Jm(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-qa)}else{a/=Math.pow(2,b-rG);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
 d=Math.pow(2,24),c=a|0;a=(a-c)*d;var
 e=a|0;a=(a-e)*d;var
-g=a|0;c=c&kk|f|b<<4;return h4(g,e,c)}function
-f8(a){return a.toArray()}function
-rU(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==hX)for(var
+g=a|0;c=c&kn|f|b<<4;return h5(g,e,c)}function
+f9(a){return a.toArray()}function
+rZ(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==hY)for(var
 a=0;a<b.dims.length;a++)if(b.dims[a]<cQ)c.write(16,b.dims[a]);else{c.write(16,cQ);c.write(32,0);c.write(32,b.dims[a])}else
 for(var
 a=0;a<b.dims.length;a++)c.write(32,b.dims[a]);switch(b.kind){case
@@ -113,51 +113,51 @@ a=0;a<b.data.length;a++)c.write(32,b.data[a]);break;case
 a=0;a<b.data.length;a++)c.write(32,b.data[a]);break;case
 7:for(var
 a=0;a<b.data.length/2;a++){var
-e=f8(b.get(a));for(var
+e=f9(b.get(a));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 1:for(var
 a=0;a<b.data.length;a++){var
-e=f8(h3(b.get(a)));for(var
+e=f9(h4(b.get(a)));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 0:for(var
 a=0;a<b.data.length;a++){var
-e=kG(b.get(a));c.write(32,e)}break;case
+e=kJ(b.get(a));c.write(32,e)}break;case
 10:for(var
 a=0;a<b.data.length/2;a++){var
-d=b.get(a);c.write(32,kG(d[1]));c.write(32,kG(d[2]))}break;case
+d=b.get(a);c.write(32,kJ(d[1]));c.write(32,kJ(d[2]))}break;case
 11:for(var
 a=0;a<b.data.length/2;a++){var
-f=b.get(a),e=f8(h3(f[1]));for(var
+f=b.get(a),e=f9(h4(f[1]));for(var
 d=0;d<8;d++)c.write(8,e[d]);var
-e=f8(h3(f[2]));for(var
+e=f9(h4(f[2]));for(var
 d=0;d<8;d++)c.write(8,e[d])}break}g[0]=(4+b.dims.length)*4;g[1]=(4+b.dims.length)*8}function
-Jc(b,a){throw[0,b,a]}function
-si(a){if(a.length<24){for(var
+Jf(b,a){throw[0,b,a]}function
+sn(a){if(a.length<24){for(var
 b=0;b<a.length;b++)if(a.charCodeAt(b)>127)return false;return true}else
 return!/[^\x00-\x7f]/.test(a)}function
-kO(e){for(var
+kR(e){for(var
 j=ae,c=ae,g,f,h,a,b=0,i=e.length;b<i;b++){f=e.charCodeAt(b);if(f<b4){for(var
-d=b+1;d<i&&(f=e.charCodeAt(d))<b4;d++);if(d-b>qo){c.substr(0,1);j+=c;c=ae;j+=e.slice(b,d)}else
-c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==f1){g=h+(f<<6);if(f<qT){a=g-0x3080;if(a<b4)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==f1){g=h+(g<<6);if(f<q2){a=g-0xe2080;if(a<qK||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==f1&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
-if(a>cQ)c+=String.fromCharCode(0xd7c0+(a>>10),qC+(a&0x3FF));else
-c+=String.fromCharCode(a);if(c.length>fY){c.substr(0,1);j+=c;c=ae}}return j+c}function
+d=b+1;d<i&&(f=e.charCodeAt(d))<b4;d++);if(d-b>qu){c.substr(0,1);j+=c;c=ae;j+=e.slice(b,d)}else
+c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==f2){g=h+(f<<6);if(f<qZ){a=g-0x3080;if(a<b4)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==f2){g=h+(g<<6);if(f<q8){a=g-0xe2080;if(a<qQ||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==f2&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
+if(a>cQ)c+=String.fromCharCode(0xd7c0+(a>>10),qI+(a&0x3FF));else
+c+=String.fromCharCode(a);if(c.length>fZ){c.substr(0,1);j+=c;c=ae}}return j+c}function
 co(c,a,b){this.t=c;this.c=a;this.l=b}co.prototype.toString=function(){switch(this.t){case
-9:return this.c;default:eW(this);case
-0:if(si(this.c)){this.t=9;return this.c}this.t=8;case
+9:return this.c;default:eX(this);case
+0:if(sn(this.c)){this.t=9;return this.c}this.t=8;case
 8:return this.c}};co.prototype.toUtf16=function(){var
-a=this.toString();if(this.t==9)return a;return kO(a)};co.prototype.slice=function(){var
+a=this.toString();if(this.t==9)return a;return kR(a)};co.prototype.slice=function(){var
 a=this.t==4?this.c.slice():this.c;return new
 co(this.t,a,this.l)};function
-rX(a){return new
+r2(a){return new
 co(0,a,a.length)}function
-a(a){return rX(a)}function
-kM(c,b){Jc(c,a(b))}function
-aX(a){kM(aF.Invalid_argument,a)}function
-rS(a){switch(a){case
+a(a){return r2(a)}function
+kP(c,b){Jf(c,a(b))}function
+aY(a){kP(aE.Invalid_argument,a)}function
+rX(a){switch(a){case
 7:case
 10:case
 11:return 2;default:return 1}}function
-IG(c,e){var
+IJ(c,e){var
 b=S,a;switch(c){case
 0:a=b.Float32Array;break;case
 1:a=b.Float64Array;break;case
@@ -171,45 +171,45 @@ b=S,a;switch(c){case
 9:a=b.Int32Array;break;case
 10:a=b.Float32Array;break;case
 11:a=b.Float64Array;break;case
-12:a=b.Uint8Array;break}if(!a)aX("Bigarray.create: unsupported kind");var
+12:a=b.Uint8Array;break}if(!a)aY("Bigarray.create: unsupported kind");var
 d=new
-a(e*rS(c));return d}function
-kH(c){var
+a(e*rX(c));return d}function
+kK(c){var
 a=new(S.Int32Array)(1);a[0]=c;var
 b=new(S.Float32Array)(a.buffer);return b[0]}function
-f7(a){return new
+f8(a){return new
 R(a[7]<<0|a[6]<<8|a[5]<<16,a[4]<<0|a[3]<<8|a[2]<<16,a[1]<<0|a[0]<<8)}function
-kI(d){var
-f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&kk)==0?b&cn?-Infinity:Infinity:NaN;var
-e=Math.pow(2,-24),a=(f*e+g)*e+(b&kk);if(c>0){a+=16;a*=Math.pow(2,c-rB)}else
-a*=Math.pow(2,-p6);if(b&cn)a=-a;return a}function
-kC(b){var
+kL(d){var
+f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&kn)==0?b&cn?-Infinity:Infinity:NaN;var
+e=Math.pow(2,-24),a=(f*e+g)*e+(b&kn);if(c>0){a+=16;a*=Math.pow(2,c-rG)}else
+a*=Math.pow(2,-qa);if(b&cn)a=-a;return a}function
+kF(b){var
 d=b.length,c=1;for(var
-a=0;a<d;a++){if(b[a]<0)aX("Bigarray.create: negative dimension");c=c*b[a]}return c}function
-IW(b,a){return new
-R(b&d1,b>>>24&cR|(a&cQ)<<8,a>>>16&cQ)}function
-kJ(a){return a.hi32()}function
-kK(a){return a.lo32()}function
-h1(){aX(kw)}var
-IH=hX;function
-dt(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}dt.prototype.caml_custom=IH;dt.prototype.offset=function(b){var
+a=0;a<d;a++){if(b[a]<0)aY("Bigarray.create: negative dimension");c=c*b[a]}return c}function
+IZ(b,a){return new
+R(b&d3,b>>>24&cR|(a&cQ)<<8,a>>>16&cQ)}function
+kM(a){return a.hi32()}function
+kN(a){return a.lo32()}function
+h2(){aY(kz)}var
+IK=hY;function
+dt(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}dt.prototype.caml_custom=IK;dt.prototype.offset=function(b){var
 c=0;if(typeof
 b==="number")b=[b];if(!(b
 instanceof
-Array))aX("bigarray.js: invalid offset");if(this.dims.length!=b.length)aX("Bigarray.get/set: bad number of dimensions");if(this.layout==0)for(var
-a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])h1();c=c*this.dims[a]+b[a]}else
+Array))aY("bigarray.js: invalid offset");if(this.dims.length!=b.length)aY("Bigarray.get/set: bad number of dimensions");if(this.layout==0)for(var
+a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])h2();c=c*this.dims[a]+b[a]}else
 for(var
-a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])h1();c=c*this.dims[a]+(b[a]-1)}return c};dt.prototype.get=function(a){switch(this.kind){case
+a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])h2();c=c*this.dims[a]+(b[a]-1)}return c};dt.prototype.get=function(a){switch(this.kind){case
 7:var
-d=this.data[a*2+0],b=this.data[a*2+1];return IW(d,b);case
+d=this.data[a*2+0],b=this.data[a*2+1];return IZ(d,b);case
 10:case
 11:var
-e=this.data[a*2+0],c=this.data[a*2+1];return[hM,e,c];default:return this.data[a]}};dt.prototype.set=function(a,b){switch(this.kind){case
-7:this.data[a*2+0]=kK(b);this.data[a*2+1]=kJ(b);break;case
+e=this.data[a*2+0],c=this.data[a*2+1];return[hN,e,c];default:return this.data[a]}};dt.prototype.set=function(a,b){switch(this.kind){case
+7:this.data[a*2+0]=kN(b);this.data[a*2+1]=kM(b);break;case
 10:case
 11:this.data[a*2+0]=b[1];this.data[a*2+1]=b[2];break;default:this.data[a]=b;break}return 0};dt.prototype.fill=function(b){switch(this.kind){case
 7:var
-c=kK(b),e=kJ(b);if(c==e)this.data.fill(c);else
+c=kN(b),e=kM(b);if(c==e)this.data.fill(c);else
 for(var
 a=0;a<this.data.length;a++)this.data[a]=a%2==0?c:e;break;case
 10:case
@@ -236,26 +236,26 @@ a=0;a<this.data.length;a+=2){if(this.data[a+1]<b.data[a+1])return-1;if(this.data
 9:case
 12:for(var
 a=0;a<this.data.length;a++){if(this.data[a]<b.data[a])return-1;if(this.data[a]>b.data[a])return 1}break}return 0};function
-eT(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}eT.prototype=new
-dt();eT.prototype.offset=function(a){if(typeof
+eU(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}eU.prototype=new
+dt();eU.prototype.offset=function(a){if(typeof
 a!=="number")if(a
 instanceof
 Array&&a.length==1)a=a[0];else
-aX("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])h1();return a};eT.prototype.get=function(a){return this.data[a]};eT.prototype.set=function(a,b){this.data[a]=b;return 0};eT.prototype.fill=function(a){this.data.fill(a);return 0};function
-rQ(c,d,a,b){var
-e=rS(c);if(kC(a)*e!=b.length)aX("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
-eT(c,d,a,b);return new
+aY("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])h2();return a};eU.prototype.get=function(a){return this.data[a]};eU.prototype.set=function(a,b){this.data[a]=b;return 0};eU.prototype.fill=function(a){this.data.fill(a);return 0};function
+rV(c,d,a,b){var
+e=rX(c);if(kF(a)*e!=b.length)aY("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
+eU(c,d,a,b);return new
 dt(c,d,a,b)}function
-b7(b){if(!aF.Failure)aF.Failure=[a3,a(km),-3];kM(aF.Failure,b)}function
-rR(b,v,r){var
+b7(b){if(!aE.Failure)aE.Failure=[a3,a(kp),-3];kP(aE.Failure,b)}function
+rW(b,v,r){var
 i=b.read32s();if(i<0||i>16)b7("input_value: wrong number of bigarray dimensions");var
-p=b.read32s(),j=p&cR,o=p>>8&1,h=[];if(r==hX)for(var
+p=b.read32s(),j=p&cR,o=p>>8&1,h=[];if(r==hY)for(var
 a=0;a<i;a++){var
 n=b.read16u();if(n==cQ){var
 t=b.read32u(),u=b.read32u();if(t!=0)b7("input_value: bigarray dimension overflow in 32bit");n=u}h.push(n)}else
 for(var
 a=0;a<i;a++)h.push(b.read32u());var
-d=kC(h),f=IG(j,d),g=rQ(j,o,h,f);switch(j){case
+d=kF(h),f=IJ(j,d),g=rV(j,o,h,f);switch(j){case
 2:for(var
 a=0;a<d;a++)f[a]=b.read8s();break;case
 3:case
@@ -276,43 +276,43 @@ e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-q=f7(e);g.set(a,q)}break;case
+q=f8(e);g.set(a,q)}break;case
 1:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-k=kI(f7(e));g.set(a,k)}break;case
+k=kL(f8(e));g.set(a,k)}break;case
 0:for(var
 a=0;a<d;a++){var
-k=kH(b.read32s());g.set(a,k)}break;case
+k=kK(b.read32s());g.set(a,k)}break;case
 10:for(var
 a=0;a<d;a++){var
-m=kH(b.read32s()),l=kH(b.read32s());g.set(a,[hM,m,l])}break;case
+m=kK(b.read32s()),l=kK(b.read32s());g.set(a,[hN,m,l])}break;case
 11:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-m=kI(f7(e));for(var
+m=kL(f8(e));for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-l=kI(f7(e));g.set(a,[hM,m,l])}break}v[0]=(4+i)*4;return rQ(j,o,h,f)}function
-rP(a,b,c){return a.compare(b,c)}function
-r9(a,b){return Math.imul(a,b)}function
-cS(b,a){a=r9(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=r9(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
-IT(a,b){a=cS(a,kK(b));a=cS(a,kJ(b));return a}function
-r5(a,b){return IT(a,h3(b))}function
-rT(c){var
-b=kC(c.dims),d=0;switch(c.kind){case
+l=kL(f8(e));g.set(a,[hN,m,l])}break}v[0]=(4+i)*4;return rV(j,o,h,f)}function
+rU(a,b,c){return a.compare(b,c)}function
+sc(a,b){return Math.imul(a,b)}function
+cS(b,a){a=sc(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=sc(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
+IW(a,b){a=cS(a,kN(b));a=cS(a,kM(b));return a}function
+r_(a,b){return IW(a,h4(b))}function
+rY(c){var
+b=kF(c.dims),d=0;switch(c.kind){case
 2:case
 3:case
-12:if(b>qF)b=qF;var
+12:if(b>qL)b=qL;var
 e=0,a=0;for(a=0;a+4<=c.data.length;a+=4){e=c.data[a+0]|c.data[a+1]<<8|c.data[a+2]<<16|c.data[a+3]<<24;d=cS(d,e)}e=0;switch(b&3){case
 3:e=c.data[a+2]<<16;case
 2:e|=c.data[a+1]<<8;case
 1:e|=c.data[a+0];d=cS(d,e)}break;case
 4:case
-5:if(b>f1)b=f1;var
+5:if(b>f2)b=f2;var
 e=0,a=0;for(a=0;a+2<=c.data.length;a+=2){e=c.data[a+0]|c.data[a+1]<<16;d=cS(d,e)}if((b&1)!=0)d=cS(d,c.data[a]);break;case
 6:if(b>64)b=64;for(var
 a=0;a<b;a++)d=cS(d,c.data[a]);break;case
@@ -323,75 +323,75 @@ a=0;a<b;a++)d=cS(d,c.data[a]);break;case
 a=0;a<b;a++)d=cS(d,c.data[a]);break;case
 10:b*=2;case
 0:if(b>64)b=64;for(var
-a=0;a<b;a++)d=r5(d,c.data[a]);break;case
+a=0;a<b;a++)d=r_(d,c.data[a]);break;case
 11:b*=2;case
 1:if(b>32)b=32;for(var
-a=0;a<b;a++)d=r5(d,c.data[a]);break}return d}function
-IU(a,b){b[0]=4;return a.read32s()}function
-I9(a,b){switch(a.read8u()){case
+a=0;a<b;a++)d=r_(d,c.data[a]);break}return d}function
+IX(a,b){b[0]=4;return a.read32s()}function
+Ja(a,b){switch(a.read8u()){case
 1:b[0]=4;return a.read32s();case
 2:b7("input_value: native integer value too large");default:b7("input_value: ill-formed native integer")}}function
-IZ(c,d){var
+I2(c,d){var
 b=new
 Array(8);for(var
-a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return f7(b)}function
-IY(e,d,b){var
-c=f8(d);for(var
+a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return f8(b)}function
+I1(e,d,b){var
+c=f9(d);for(var
 a=0;a<8;a++)e.write(8,c[a]);b[0]=8;b[1]=8}function
-IV(a,b,c){return a.compare(b)}function
-IX(a){return a.lo32()^a.hi32()}var
-r0={"_j":{deserialize:IZ,serialize:IY,fixed_length:8,compare:IV,hash:IX},"_i":{deserialize:IU,fixed_length:4},"_n":{deserialize:I9,fixed_length:4},"_bigarray":{deserialize:function(a,b){return rR(a,b,"_bigarray")},serialize:rU,compare:rP,hash:rT},"_bigarr02":{deserialize:function(a,b){return rR(a,b,hX)},serialize:rU,compare:rP,hash:rT}};function
-kF(a){return r0[a.caml_custom]&&r0[a.caml_custom].compare}function
-rY(f,c,d,e){var
-b=kF(c);if(b){var
+IY(a,b,c){return a.compare(b)}function
+I0(a){return a.lo32()^a.hi32()}var
+r5={"_j":{deserialize:I2,serialize:I1,fixed_length:8,compare:IY,hash:I0},"_i":{deserialize:IX,fixed_length:4},"_n":{deserialize:Ja,fixed_length:4},"_bigarray":{deserialize:function(a,b){return rW(a,b,"_bigarray")},serialize:rZ,compare:rU,hash:rY},"_bigarr02":{deserialize:function(a,b){return rW(a,b,hY)},serialize:rZ,compare:rU,hash:rY}};function
+kI(a){return r5[a.caml_custom]&&r5[a.caml_custom].compare}function
+r3(f,c,d,e){var
+b=kI(c);if(b){var
 a=d>0?b(c,f,e):b(f,c,e);if(e&&a!=a)return d;if(+a!=+a)return+a;if((a|0)!=0)return a|0}return d}function
-kL(a){return a
+kO(a){return a
 instanceof
 co}function
-r7(a){return kL(a)}function
-rZ(a){if(typeof
-a==="number")return hV;else
-if(kL(a))return 252;else
-if(r7(a))return 1252;else
+sa(a){return kO(a)}function
+r4(a){if(typeof
+a==="number")return hW;else
+if(kO(a))return 252;else
+if(sa(a))return 1252;else
 if(a
 instanceof
 Array&&a[0]===a[0]>>>0&&a[0]<=255){var
-b=a[0]|0;return b==hM?0:b}else
+b=a[0]|0;return b==hN?0:b}else
 if(a
 instanceof
-String)return rc;else
+String)return ri;else
 if(typeof
-a=="string")return rc;else
+a=="string")return ri;else
 if(a
 instanceof
-Number)return hV;else
-if(a&&a.caml_custom)return ko;else
+Number)return hW;else
+if(a&&a.caml_custom)return kr;else
 if(a&&a.compare)return 1256;else
 if(typeof
 a=="function")return 1247;else
 if(typeof
 a=="symbol")return 1251;return 1001}function
-I0(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
-rW(a,b){a.t&6&&eW(a);b.t&6&&eW(b);return a.c<b.c?-1:a.c>b.c?1:0}function
-se(a,b){return rW(a,b)}function
-kE(a,b,d){var
+I3(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
+r1(a,b){a.t&6&&eX(a);b.t&6&&eX(b);return a.c<b.c?-1:a.c>b.c?1:0}function
+sj(a,b){return r1(a,b)}function
+kH(a,b,d){var
 e=[];for(;;){if(!(d&&a===b)){var
-f=rZ(a);if(f==qL){a=a[1];continue}var
-g=rZ(b);if(g==qL){b=b[1];continue}if(f!==g){if(f==hV){if(g==ko)return rY(a,b,-1,d);return-1}if(g==hV){if(f==ko)return rY(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
-247:aX(kd);break;case
+f=r4(a);if(f==qR){a=a[1];continue}var
+g=r4(b);if(g==qR){b=b[1];continue}if(f!==g){if(f==hW){if(g==kr)return r3(a,b,-1,d);return-1}if(g==hW){if(f==kr)return r3(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
+247:aY(kg);break;case
 248:var
-c=I0(a[2],b[2]);if(c!=0)return c|0;break;case
-249:aX(kd);break;case
-250:aX("equal: got Forward_tag, should not happen");break;case
-251:aX("equal: abstract value");break;case
+c=I3(a[2],b[2]);if(c!=0)return c|0;break;case
+249:aY(kg);break;case
+250:aY("equal: got Forward_tag, should not happen");break;case
+251:aY("equal: abstract value");break;case
 252:if(a!==b){var
-c=rW(a,b);if(c!=0)return c|0}break;case
-253:aX("equal: got Double_tag, should not happen");break;case
-254:aX("equal: got Double_array_tag, should not happen");break;case
-255:aX("equal: got Custom_tag, should not happen");break;case
-1247:aX(kd);break;case
+c=r1(a,b);if(c!=0)return c|0}break;case
+253:aY("equal: got Double_tag, should not happen");break;case
+254:aY("equal: got Double_array_tag, should not happen");break;case
+255:aY("equal: got Custom_tag, should not happen");break;case
+1247:aY(kg);break;case
 1255:var
-i=kF(a);if(i!=kF(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)aX("compare: abstract value");var
+i=kI(a);if(i!=kI(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)aY("compare: abstract value");var
 c=i(a,b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
 1256:var
 c=a.compare(b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
@@ -399,182 +399,182 @@ c=a.compare(b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;
 1001:if(a<b)return-1;if(a>b)return 1;if(a!=b){if(!d)return NaN;if(a==a)return 1;if(b==b)return-1}break;case
 1251:if(a!==b){if(!d)return NaN;return 1}break;case
 1252:var
-a=eX(a),b=eX(b);if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
+a=eY(a),b=eY(b);if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
 12520:var
 a=a.toString(),b=b.toString();if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
 246:case
 254:default:if(a.length!=b.length)return a.length<b.length?-1:1;if(a.length>1)e.push(a,b,1);break}}if(e.length==0)return 0;var
 h=e.pop();b=e.pop();a=e.pop();if(h+1<a.length)e.push(a,b,h+1);a=a[h];b=b[h]}}function
-IO(a,b){return kE(a,b,true)}function
-cq(a){if(a<0)aX("Bytes.create");return new
+IR(a,b){return kH(a,b,true)}function
+cq(a){if(a<0)aY("Bytes.create");return new
 co(a?2:9,ae,a)}function
-r1(a,b){return+(kE(a,b,false)==0)}function
-IQ(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=ae;a.t=2}else{a.c=sd(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)h2(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}var
-I_=0;function
-r3(){return I_++}function
-I2(a){return a.toUtf16()}function
-f9(){return typeof
+r6(a,b){return+(kH(a,b,false)==0)}function
+IT(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=ae;a.t=2}else{a.c=si(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)h3(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}var
+Jb=0;function
+r8(){return Jb++}function
+I5(a){return a.toUtf16()}function
+f_(){return typeof
 S.process!=="undefined"&&typeof
 S.process.versions!=="undefined"&&typeof
 S.process.versions.node!=="undefined"}function
-Jl(){function
+Jo(){function
 a(a){if(a.charAt(0)===b6)return[ae,a.substring(1)];return}function
 b(c){var
 g=/^([a-zA-Z]:|[\\/]{2}[^\\/]+[\\/]+[^\\/]+)?([\\/])?([\s\S]*?)$/,a=g.exec(c),b=a[1]||ae,e=Boolean(b&&b.charAt(1)!==":");if(Boolean(a[2]||e)){var
-d=a[1]||ae,f=a[2]||ae;return[d,c.substring(d.length+f.length)]}return}return f9()&&S.process&&S.process.platform?S.process.platform==="win32"?b:a:a}var
-kS=Jl();function
-sf(a){return a.slice(-1)!==b6?a+b6:a}if(f9()&&S.process&&S.process.cwd)var
-f6=S.process.cwd().replace(/\\/g,b6);else
+d=a[1]||ae,f=a[2]||ae;return[d,c.substring(d.length+f.length)]}return}return f_()&&S.process&&S.process.platform?S.process.platform==="win32"?b:a:a}var
+kV=Jo();function
+sk(a){return a.slice(-1)!==b6?a+b6:a}if(f_()&&S.process&&S.process.cwd)var
+f7=S.process.cwd().replace(/\\/g,b6);else
 var
-f6="/static";f6=sf(f6);function
-I4(a){a=I2(a);if(!kS(a))a=f6+a;var
-e=kS(a),d=e[1].split(b6),b=[];for(var
+f7="/static";f7=sk(f7);function
+I7(a){a=I5(a);if(!kV(a))a=f7+a;var
+e=kV(a),d=e[1].split(b6),b=[];for(var
 c=0;c<d.length;c++)switch(d[c]){case"..":if(b.length>1)b.pop();break;case".":break;default:b.push(d[c]);break}b.unshift(e[0]);b.orig=a;return b}function
-Jg(e){for(var
+Jj(e){for(var
 f=ae,b=f,a,h,c=0,g=e.length;c<g;c++){a=e.charCodeAt(c);if(a<b4){for(var
-d=c+1;d<g&&(a=e.charCodeAt(d))<b4;d++);if(d-c>qo){b.substr(0,1);f+=b;b=ae;f+=e.slice(c,d)}else
-b+=e.slice(c,d);if(d==g)break;c=d}if(a<qK){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(b4|a&eP)}else
-if(a<0xd800||a>=qR)b+=String.fromCharCode(qT|a>>12,b4|a>>6&eP,b4|a&eP);else
-if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<qC||h>qR)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(q2|a>>18,b4|a>>12&eP,b4|a>>6&eP,b4|a&eP)}if(b.length>fY){b.substr(0,1);f+=b;b=ae}}return f+b}function
-IL(a){var
-b=9;if(!si(a))b=8,a=Jg(a);return new
+d=c+1;d<g&&(a=e.charCodeAt(d))<b4;d++);if(d-c>qu){b.substr(0,1);f+=b;b=ae;f+=e.slice(c,d)}else
+b+=e.slice(c,d);if(d==g)break;c=d}if(a<qQ){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(b4|a&eQ)}else
+if(a<0xd800||a>=qX)b+=String.fromCharCode(qZ|a>>12,b4|a>>6&eQ,b4|a&eQ);else
+if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<qI||h>qX)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(q8|a>>18,b4|a>>12&eQ,b4|a>>6&eQ,b4|a&eQ)}if(b.length>fZ){b.substr(0,1);f+=b;b=ae}}return f+b}function
+IO(a){var
+b=9;if(!sn(a))b=8,a=Jj(a);return new
 co(b,a,a.length)}function
-eY(a){return IL(a)}var
-Jo=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",qw,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",kl,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",kq,qB,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
-d5(d,f,e,a){var
-b=Jo.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
-c=[b,eY(f||ae),eY(e||ae)];return c}var
-r_={};function
-d2(a){return r_[a]}function
-d3(b,a){throw[0,b].concat(a)}function
-IK(a){return new
+eZ(a){return IO(a)}var
+Jr=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",qC,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",ko,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",kt,qH,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
+d7(d,f,e,a){var
+b=Jr.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
+c=[b,eZ(f||ae),eZ(e||ae)];return c}var
+sd={};function
+d4(a){return sd[a]}function
+d5(b,a){throw[0,b].concat(a)}function
+IN(a){return new
 co(4,a,a.length)}function
-ar(a){kM(aF.Sys_error,a)}function
-Jb(a){ar(a+hK)}function
-rV(){aX(kw)}function
-IJ(b,a){if(a>>>0>=b.l)rV();return kD(b,a)}function
-h6(a){return a.l}function
-rO(){}function
-aV(a){this.data=a}aV.prototype=new
-rO();aV.prototype.truncate=function(a){var
-b=this.data;this.data=cq(a|0);f5(b,0,this.data,0,a)};aV.prototype.length=function(){return h6(this.data)};aV.prototype.write=function(b,d,g,a){var
+ar(a){kP(aE.Sys_error,a)}function
+Je(a){ar(a+hL)}function
+r0(){aY(kz)}function
+IM(b,a){if(a>>>0>=b.l)r0();return kG(b,a)}function
+h7(a){return a.l}function
+rT(){}function
+aW(a){this.data=a}aW.prototype=new
+rT();aW.prototype.truncate=function(a){var
+b=this.data;this.data=cq(a|0);f6(b,0,this.data,0,a)};aW.prototype.length=function(){return h7(this.data)};aW.prototype.write=function(b,d,g,a){var
 c=this.length();if(b+a>=c){var
-e=cq(b+a),f=this.data;this.data=e;f5(f,0,this.data,0,c)}eU(d,g,this.data,b,a);return 0};aV.prototype.read=function(c,a,d,b){var
-e=this.length();f5(this.data,c,a,d,b);return 0};aV.prototype.read_one=function(a){return IJ(this.data,a)};aV.prototype.close=function(){};aV.prototype.constructor=aV;function
+e=cq(b+a),f=this.data;this.data=e;f6(f,0,this.data,0,c)}eV(d,g,this.data,b,a);return 0};aW.prototype.read=function(c,a,d,b){var
+e=this.length();f6(this.data,c,a,d,b);return 0};aW.prototype.read_one=function(a){return IM(this.data,a)};aW.prototype.close=function(){};aW.prototype.constructor=aW;function
 a$(b,a){this.content={};this.root=b;this.lookupFun=a}a$.prototype.nm=function(a){return this.root+a};a$.prototype.create_dir_if_needed=function(d){var
 c=d.split(b6),b=ae;for(var
 a=0;a<c.length-1;a++){b+=c[a]+b6;if(this.content[b])continue;this.content[b]=Symbol("directory")}};a$.prototype.slash=function(a){return/\/$/.test(a)?a:a+b6};a$.prototype.lookup=function(b){if(!this.content[b]&&this.lookupFun){var
 c=this.lookupFun(a(this.root),a(b));if(c!==0){this.create_dir_if_needed(b);this.content[b]=new
-aV(eV(c[1]))}}};a$.prototype.exists=function(a){if(a==ae)return 1;var
+aW(eW(c[1]))}}};a$.prototype.exists=function(a){if(a==ae)return 1;var
 b=this.slash(a);if(this.content[b])return 1;this.lookup(a);return this.content[a]?1:0};a$.prototype.mkdir=function(c,e,d){var
-b=d&&d2(kh);if(this.exists(c))if(b)d3(b,d5(qw,kg,this.nm(c)));else
+b=d&&d4(kk);if(this.exists(c))if(b)d5(b,d7(qC,kj,this.nm(c)));else
 ar(c+": File exists");var
-a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||ae;if(!this.exists(a))if(b)d3(b,d5(kl,kg,this.nm(a)));else
-ar(a+hK);if(!this.is_dir(a))if(b)d3(b,d5(kq,kg,this.nm(a)));else
-ar(a+ky);this.create_dir_if_needed(this.slash(c))};a$.prototype.rmdir=function(a,f){var
-b=f&&d2(kh),c=a==ae?ae:this.slash(a),e=new
-RegExp(kt+c+qD);if(!this.exists(a))if(b)d3(b,d5(kl,ke,this.nm(a)));else
-ar(a+hK);if(!this.is_dir(a))if(b)d3(b,d5(kq,ke,this.nm(a)));else
-ar(a+ky);for(var
+a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||ae;if(!this.exists(a))if(b)d5(b,d7(ko,kj,this.nm(a)));else
+ar(a+hL);if(!this.is_dir(a))if(b)d5(b,d7(kt,kj,this.nm(a)));else
+ar(a+kB);this.create_dir_if_needed(this.slash(c))};a$.prototype.rmdir=function(a,f){var
+b=f&&d4(kk),c=a==ae?ae:this.slash(a),e=new
+RegExp(kw+c+qJ);if(!this.exists(a))if(b)d5(b,d7(ko,kh,this.nm(a)));else
+ar(a+hL);if(!this.is_dir(a))if(b)d5(b,d7(kt,kh,this.nm(a)));else
+ar(a+kB);for(var
 d
 in
-this.content)if(d.match(e))if(b)d3(b,d5(qB,ke,this.nm(a)));else
+this.content)if(d.match(e))if(b)d5(b,d7(qH,kh,this.nm(a)));else
 ar(this.nm(a)+": Directory not empty");delete
 this.content[c]};a$.prototype.readdir=function(a){var
-f=a==ae?ae:this.slash(a);if(!this.exists(a))ar(a+hK);if(!this.is_dir(a))ar(a+ky);var
+f=a==ae?ae:this.slash(a);if(!this.exists(a))ar(a+hL);if(!this.is_dir(a))ar(a+kB);var
 g=new
-RegExp(kt+f+qD),d={},c=[];for(var
+RegExp(kw+f+qJ),d={},c=[];for(var
 e
 in
 this.content){var
 b=e.match(g);if(b&&!d[b[1]]){d[b[1]]=true;c.push(b[1])}}return c};a$.prototype.is_dir=function(a){if(a==ae)return true;var
 b=this.slash(a);return this.content[b]?1:0};a$.prototype.unlink=function(a){var
 b=this.content[a]?true:false;delete
-this.content[a];return b};a$.prototype.open=function(a,b){if(b.rdonly&&b.wronly)ar(this.nm(a)+rt);if(b.text&&b.binary)ar(this.nm(a)+qg);this.lookup(a);if(this.content[a]){if(this.is_dir(a))ar(this.nm(a)+" : is a directory");if(b.create&&b.excl)ar(this.nm(a)+rp);var
+this.content[a];return b};a$.prototype.open=function(a,b){if(b.rdonly&&b.wronly)ar(this.nm(a)+ry);if(b.text&&b.binary)ar(this.nm(a)+qm);this.lookup(a);if(this.content[a]){if(this.is_dir(a))ar(this.nm(a)+" : is a directory");if(b.create&&b.excl)ar(this.nm(a)+ru);var
 c=this.content[a];if(b.truncate)c.truncate();return c}else
 if(b.create){this.create_dir_if_needed(a);this.content[a]=new
-aV(cq(0));return this.content[a]}else
-Jb(this.nm(a))};a$.prototype.register=function(c,a){var
-b;if(this.content[c])ar(this.nm(c)+rp);if(kL(a))b=new
-aV(a);if(r7(a))b=new
-aV(eV(a));else
+aW(cq(0));return this.content[a]}else
+Je(this.nm(a))};a$.prototype.register=function(c,a){var
+b;if(this.content[c])ar(this.nm(c)+ru);if(kO(a))b=new
+aW(a);if(sa(a))b=new
+aW(eW(a));else
 if(a
 instanceof
 Array)b=new
-aV(IK(a));else
+aW(IN(a));else
 if(typeof
 a==="string")b=new
-aV(rX(a));else
+aW(r2(a));else
 if(a.toString){var
-d=eV(eY(a.toString()));b=new
-aV(d)}if(b){this.create_dir_if_needed(c);this.content[c]=b}else
+d=eW(eZ(a.toString()));b=new
+aW(d)}if(b){this.create_dir_if_needed(c);this.content[c]=b}else
 ar(this.nm(c)+" : registering file with invalid content type")};a$.prototype.constructor=a$;function
-ax(a){return h6(a)}function
-d4(b,a){return kD(b,a)}function
-IF(d){var
+ax(a){return h7(a)}function
+d6(b,a){return kG(b,a)}function
+II(d){var
 c=ax(d),b=new
-Array(c),a=0;for(;a<c;a++)b[a]=d4(d,a);return b}function
-IE(a){if(a.t!=4)h2(a);return a.c}function
-IN(a,c,b){b&=cR;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}h2(a)}a.c[c]=b;return 0}function
-IM(b,a,c){if(a>>>0>=b.l)rV();return IN(b,a,c)}function
+Array(c),a=0;for(;a<c;a++)b[a]=d6(d,a);return b}function
+IH(a){if(a.t!=4)h3(a);return a.c}function
+IQ(a,c,b){b&=cR;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}h3(a)}a.c[c]=b;return 0}function
+IP(b,a,c){if(a>>>0>=b.l)r0();return IQ(b,a,c)}function
 cp(a){this.fs=require("fs");this.fd=a}cp.prototype=new
-rO();cp.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){ar(a.toString())}};cp.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){ar(a.toString())}};cp.prototype.write=function(f,b,c,e){var
-a=IF(b);if(!(a
+rT();cp.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){ar(a.toString())}};cp.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){ar(a.toString())}};cp.prototype.write=function(f,b,c,e){var
+a=II(b);if(!(a
 instanceof
 S.Uint8Array))a=new(S.Uint8Array)(a);var
 d=S.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){ar(a.toString())}return 0};cp.prototype.read=function(g,d,c,f){var
-a=IE(d);if(!(a
+a=IH(d);if(!(a
 instanceof
 S.Uint8Array))a=new(S.Uint8Array)(a);var
 e=S.Buffer.from(a);try{this.fs.readSync(this.fd,e,c,f,g)}catch(a){ar(a.toString())}for(var
-b=0;b<f;b++)IM(d,c+b,e[c+b]);return 0};cp.prototype.read_one=function(c){var
+b=0;b<f;b++)IP(d,c+b,e[c+b]);return 0};cp.prototype.read_one=function(c){var
 b=new(S.Uint8Array)(1),a=S.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){ar(a.toString())}return a[0]};cp.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){ar(a.toString())}};cp.prototype.constructor=cp;function
-aW(a){this.fs=require("fs");this.root=a}aW.prototype.nm=function(a){return this.root+a};aW.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};aW.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};aW.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};aW.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};aW.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){ar(a.toString())}};aW.prototype.unlink=function(a,c){try{var
-b=this.fs.existsSync(this.nm(a))?1:0;this.fs.unlinkSync(this.nm(a));return b}catch(a){this.raise_nodejs_error(a,c)}};aW.prototype.open=function(f,c,g){var
+aX(a){this.fs=require("fs");this.root=a}aX.prototype.nm=function(a){return this.root+a};aX.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};aX.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};aX.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};aX.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};aX.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){ar(a.toString())}};aX.prototype.unlink=function(a,c){try{var
+b=this.fs.existsSync(this.nm(a))?1:0;this.fs.unlinkSync(this.nm(a));return b}catch(a){this.raise_nodejs_error(a,c)}};aX.prototype.open=function(f,c,g){var
 a=require("constants"),b=0;for(var
 e
 in
 c)switch(e){case"rdonly":b|=a.O_RDONLY;break;case"wronly":b|=a.O_WRONLY;break;case"append":b|=a.O_WRONLY|a.O_APPEND;break;case"create":b|=a.O_CREAT;break;case"truncate":b|=a.O_TRUNC;break;case"excl":b|=a.O_EXCL;break;case"binary":b|=a.O_BINARY;break;case"text":b|=a.O_TEXT;break;case"nonblock":b|=a.O_NONBLOCK;break}try{var
 d=this.fs.openSync(this.nm(f),b);return new
-cp(d)}catch(a){this.raise_nodejs_error(a,g)}};aW.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};aW.prototype.stat=function(b,c){try{var
-a=this.fs.statSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aW.prototype.lstat=function(b,c){try{var
-a=this.fs.lstatSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aW.prototype.symlink=function(d,c,a,b){try{this.fs.symlinkSync(this.nm(c),this.nm(a),d?"dir":"file");return 0}catch(a){this.raise_nodejs_error(a,b)}};aW.prototype.readlink=function(b,c){try{var
-a=this.fs.readlinkSync(this.nm(b),p3);return eY(a)}catch(a){this.raise_nodejs_error(a,c)}};aW.prototype.raise_nodejs_error=function(a,d){var
-b=d2(kh);if(d&&b){var
-c=d5(a.code,a.syscall,a.path,a.errno);d3(b,c)}else
-ar(a.toString())};aW.prototype.stats_from_js=function(a){var
+cp(d)}catch(a){this.raise_nodejs_error(a,g)}};aX.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};aX.prototype.stat=function(b,c){try{var
+a=this.fs.statSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aX.prototype.lstat=function(b,c){try{var
+a=this.fs.lstatSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aX.prototype.symlink=function(d,c,a,b){try{this.fs.symlinkSync(this.nm(c),this.nm(a),d?"dir":"file");return 0}catch(a){this.raise_nodejs_error(a,b)}};aX.prototype.readlink=function(b,c){try{var
+a=this.fs.readlinkSync(this.nm(b),p9);return eZ(a)}catch(a){this.raise_nodejs_error(a,c)}};aX.prototype.raise_nodejs_error=function(a,d){var
+b=d4(kk);if(d&&b){var
+c=d7(a.code,a.syscall,a.path,a.errno);d5(b,c)}else
+ar(a.toString())};aX.prototype.stats_from_js=function(a){var
 b;if(a.isFile())b=0;else
 if(a.isDirectory())b=1;else
 if(a.isCharacterDevice())b=2;else
 if(a.isBlockDevice())b=3;else
 if(a.isSymbolicLink())b=4;else
 if(a.isFIFO())b=5;else
-if(a.isSocket())b=6;return[0,a.dev,a.ino,b,a.mode,a.nlink,a.uid,a.gid,a.rdev,a.size,a.atimeMs,a.mtimeMs,a.ctimeMs]};aW.prototype.constructor=aW;function
-r4(b){var
-a=kS(b);if(!a)return;return a[0]+b6}var
-h7=r4(f6)||b7("unable to compute caml_root"),eZ=[];if(f9())eZ.push({path:h7,device:new
-aW(h7)});else
-eZ.push({path:h7,device:new
-a$(h7)});eZ.push({path:qa,device:new
-a$(qa)});function
-sm(b){var
-g=I4(b),b=g.join(b6),f=sf(b),c;for(var
-e=0;e<eZ.length;e++){var
-a=eZ[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&f9()){var
-d=r4(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
+if(a.isSocket())b=6;return[0,a.dev,a.ino,b,a.mode,a.nlink,a.uid,a.gid,a.rdev,a.size,a.atimeMs,a.mtimeMs,a.ctimeMs]};aX.prototype.constructor=aX;function
+r9(b){var
+a=kV(b);if(!a)return;return a[0]+b6}var
+h8=r9(f7)||b7("unable to compute caml_root"),e0=[];if(f_())e0.push({path:h8,device:new
+aX(h8)});else
+e0.push({path:h8,device:new
+a$(h8)});e0.push({path:qg,device:new
+a$(qg)});function
+sr(b){var
+g=I7(b),b=g.join(b6),f=sk(b),c;for(var
+e=0;e<e0.length;e++){var
+a=e0[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&f_()){var
+d=r9(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
 a={path:d,device:new
-aW(d)};eZ.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;ar("no device found for "+f)}function
-IP(c,b){var
-a=sm(c);if(!a.device.register)b7("cannot register file");a.device.register(a.rest,b);return 0}function
-sh(c,b){var
-c=a(c),b=a(b);return IP(c,b)}function
-IS(){var
+aX(d)};e0.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;ar("no device found for "+f)}function
+IS(c,b){var
+a=sr(c);if(!a.device.register)b7("cannot register file");a.device.register(a.rest,b);return 0}function
+sm(c,b){var
+c=a(c),b=a(b);return IS(c,b)}function
+IV(){var
 b=S.caml_fs_tmp;if(b)for(var
-a=0;a<b.length;a++)sh(b[a].name,b[a].content);S.jsoo_create_file=sh;S.caml_fs_tmp=[];return 0}function
-I$(c){var
-a=0,e=ax(c),b=10,d=1;if(e>0)switch(d4(c,a)){case
+a=0;a<b.length;a++)sm(b[a].name,b[a].content);S.jsoo_create_file=sm;S.caml_fs_tmp=[];return 0}function
+Jc(c){var
+a=0,e=ax(c),b=10,d=1;if(e>0)switch(d6(c,a)){case
 45:a++;d=-1;break;case
-43:a++;d=1;break}if(a+1<e&&d4(c,a)==48)switch(d4(c,a+1)){case
+43:a++;d=1;break}if(a+1<e&&d6(c,a)==48)switch(d6(c,a+1)){case
 120:case
 88:b=16;a+=2;break;case
 111:case
@@ -583,33 +583,33 @@ a=0,e=ax(c),b=10,d=1;if(e>0)switch(d4(c,a)){case
 66:b=2;a+=2;break;case
 117:case
 85:a+=2;break}return[a,d,b]}function
-r$(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=rF)return a-87;return-1}function
-h5(f){var
-h=I$(f),c=h[0],i=h[1],d=h[2],g=ax(f),j=-1>>>0,e=c<g?d4(f,c):0,b=r$(e);if(b<0||b>=d)b7(hP);var
-a=b;for(c++;c<g;c++){e=d4(f,c);if(e==95)continue;b=r$(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)b7(hP)}if(c!=g)b7(hP);a=i*a;if(d==10&&(a|0)!=a)b7(hP);return a|0}function
-I3(a,b){return+(kE(a,b,false)<=0)}function
-I5(a,d){if(a<0)h1();var
+se(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=rK)return a-87;return-1}function
+h6(f){var
+h=Jc(f),c=h[0],i=h[1],d=h[2],g=ax(f),j=-1>>>0,e=c<g?d6(f,c):0,b=se(e);if(b<0||b>=d)b7(hQ);var
+a=b;for(c++;c<g;c++){e=d6(f,c);if(e==95)continue;b=se(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)b7(hQ)}if(c!=g)b7(hQ);a=i*a;if(d==10&&(a|0)!=a)b7(hQ);return a|0}function
+I6(a,b){return+(kH(a,b,false)<=0)}function
+I8(a,d){if(a<0)h2();var
 a=a+1|0,b=new
 Array(a);b[0]=0;for(var
 c=1;c<a;c++)b[c]=d;return b}var
 cT=new
 Array();function
-I6(c){var
-a=cT[c];if(!a.opened)ar("Cannot flush a closed channel");if(!a.buffer||a.buffer==ae)return 0;if(a.fd&&aF.fds[a.fd]&&aF.fds[a.fd].output){var
-b=aF.fds[a.fd].output;switch(b.length){case
+I9(c){var
+a=cT[c];if(!a.opened)ar("Cannot flush a closed channel");if(!a.buffer||a.buffer==ae)return 0;if(a.fd&&aE.fds[a.fd]&&aE.fds[a.fd].output){var
+b=aE.fds[a.fd].output;switch(b.length){case
 2:b(c,a.buffer);break;default:b(a.buffer)}}a.buffer=ae;return 0}function
-sc(e,f){var
+sh(e,f){var
 b=cT[e],d=a(f),c=ax(d);b.file.write(b.offset,d,0,c);b.offset+=c;return 0}function
-Jh(a){var
-a=kO(a),b=S;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+Jk(a){var
+a=kR(a),b=S;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.error&&c.error(a)}}function
-Ji(a){var
-a=kO(a),b=S;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+Jl(a){var
+a=kR(a),b=S;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.log&&c.log(a)}}function
-h9(c,e,d,a){if(aF.fds===undefined)aF.fds=new
+h_(c,e,d,a){if(aE.fds===undefined)aE.fds=new
 Array();a=a?a:{};var
-b={};b.file=d;b.offset=a.append?d.length():0;b.flags=a;b.output=e;aF.fds[c]=b;if(!aF.fd_last_idx||c>aF.fd_last_idx)aF.fd_last_idx=c;return c}function
-Jp(c,b,g){var
+b={};b.file=d;b.offset=a.append?d.length():0;b.flags=a;b.output=e;aE.fds[c]=b;if(!aE.fd_last_idx||c>aE.fd_last_idx)aE.fd_last_idx=c;return c}function
+Js(c,b,g){var
 a={};while(b){switch(b[1]){case
 0:a.rdonly=1;break;case
 1:a.wronly=1;break;case
@@ -619,66 +619,66 @@ a={};while(b){switch(b[1]){case
 5:a.excl=1;break;case
 6:a.binary=1;break;case
 7:a.text=1;break;case
-8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)ar(eX(c)+rt);if(a.text&&a.binary)ar(eX(c)+qg);var
-d=sm(c),e=d.device.open(d.rest,a),f=aF.fd_last_idx?aF.fd_last_idx:0;return h9(f+1,sc,e,a)}h9(0,sc,new
-aV(cq(0)));h9(1,Ji,new
-aV(cq(0)));h9(2,Jh,new
-aV(cq(0)));function
-I7(a){var
-c=aF.fds[a];if(c.flags.wronly)ar(rD+a+" is writeonly");var
-d=null;if(a==0&&f9()){var
-e=require("fs");d=function(){return eY(e.readFileSync(0,p3))}}var
+8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)ar(eY(c)+ry);if(a.text&&a.binary)ar(eY(c)+qm);var
+d=sr(c),e=d.device.open(d.rest,a),f=aE.fd_last_idx?aE.fd_last_idx:0;return h_(f+1,sh,e,a)}h_(0,sh,new
+aW(cq(0)));h_(1,Jl,new
+aW(cq(0)));h_(2,Jk,new
+aW(cq(0)));function
+I_(a){var
+c=aE.fds[a];if(c.flags.wronly)ar(rI+a+" is writeonly");var
+d=null;if(a==0&&f_()){var
+e=require("fs");d=function(){return eZ(e.readFileSync(0,p9))}}var
 b={file:c.file,offset:c.offset,fd:a,opened:true,out:false,refill:d};cT[b.fd]=b;return b.fd}function
-r8(c){var
-b=aF.fds[c];if(b.flags.rdonly)ar(rD+c+" is readonly");var
+sb(c){var
+b=aE.fds[c];if(b.flags.rdonly)ar(rI+c+" is readonly");var
 a={file:b.file,offset:b.offset,fd:c,opened:true,out:true,buffer:ae};cT[a.fd]=a;return a.fd}function
-I8(){var
+I$(){var
 b=0;for(var
 a=0;a<cT.length;a++)if(cT[a]&&cT[a].opened&&cT[a].out)b=[0,cT[a].fd,b];return b}function
-bO(b,c,a){if(a&&S.toplevelReloc)b=S.toplevelReloc(a);aF[b+1]=c;if(a)aF[a]=c}function
-Jd(a,b){r_[eX(a)]=b;return 0}function
-II(a,b){if(a===b)return 1;a.t&6&&eW(a);b.t&6&&eW(b);return a.c==b.c?1:0}function
-az(a,b){return II(a,b)}function
-Jf(){aX(kw)}function
-a4(b,a){if(a>>>0>=ax(b))Jf();return d4(b,a)}function
+bO(b,c,a){if(a&&S.toplevelReloc)b=S.toplevelReloc(a);aE[b+1]=c;if(a)aE[a]=c}function
+Jg(a,b){sd[eY(a)]=b;return 0}function
+IL(a,b){if(a===b)return 1;a.t&6&&eX(a);b.t&6&&eX(b);return a.c==b.c?1:0}function
+az(a,b){return IL(a,b)}function
+Ji(){aY(kz)}function
+a4(b,a){if(a>>>0>=ax(b))Ji();return d6(b,a)}function
 p(a,b){return 1-az(a,b)}function
-h8(a){return a}function
-sb(a){return a}function
-sg(a){if(a
+h9(a){return a}function
+sg(a){return a}function
+sl(a){if(a
 instanceof
 Array)return a;if(S.RangeError&&a
 instanceof
-S.RangeError&&a.message&&a.message.match(/maximum call stack/i))return sb(aF.Stack_overflow);if(S.InternalError&&a
+S.RangeError&&a.message&&a.message.match(/maximum call stack/i))return sg(aE.Stack_overflow);if(S.InternalError&&a
 instanceof
-S.InternalError&&a.message&&a.message.match(/too much recursion/i))return sb(aF.Stack_overflow);if(a
+S.InternalError&&a.message&&a.message.match(/too much recursion/i))return sg(aE.Stack_overflow);if(a
 instanceof
-S.Error&&d2(qI))return[0,d2(qI),a];return[0,aF.Failure,eY(String(a))]}function
+S.Error&&d4(qO))return[0,d4(qO),a];return[0,aE.Failure,eZ(String(a))]}function
 cr(a){return a<0?-a:a}function
 E(a,b){return a+b}function
-kP(a,b){return a<b?-1:a>b?1:0}function
-sj(c,b){var
+kS(a,b){return a<b?-1:a>b?1:0}function
+so(c,b){var
 a=c%b;return a<0?a+cr(b):a}function
-kQ(a,b){return(a-sj(a,b))/b}function
+kT(a,b){return(a-so(a,b))/b}function
 K(a,b){return a==b?1:0}function
-Jm(c){S.orthocert_verify=function(b){return eX(du(c,[a(b)]))}}function
+Jp(c){S.orthocert_verify=function(b){return eY(du(c,[a(b)]))}}function
 D(a,b){return a<=b?1:0}function
 I(a,b){return a<b?1:0}function
 C(a,b){return a*b}function
 T(a){return-a}function
 aH(a){return S.BigInt(a)}function
-sk(a,b){return a<<S.BigInt(b)}function
-sl(a,b){return a>>S.BigInt(b)}function
+sp(a,b){return a<<S.BigInt(b)}function
+sq(a,b){return a>>S.BigInt(b)}function
 aR(a){return a<0?-1:a>0?1:0}function
-Jn(a){if(a<0)throw new(S.Error)("a root of a negative number");if(a<2)return a;var
+Jq(a){if(a<0)throw new(S.Error)("a root of a negative number");if(a<2)return a;var
 d=S.BigInt(1),b=d<<S.BigInt((a.toString(16).length*4+1)/2|0),c;for(;;){c=b+a/b>>d;if(c>=b)return b;b=c}}function
 aL(a,b){return a-b}function
-kR(a){if(a>0x7fffffff||a<-0x80000000)throw new(S.Error)("a number of more than 32 bits");return S.Number(a)}function
-I1(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
-IR(b){var
-a=ae;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&I1(b[1]))var
+kU(a){if(a>0x7fffffff||a<-0x80000000)throw new(S.Error)("a number of more than 32 bits");return S.Number(a)}function
+I4(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
+IU(b){var
+a=ae;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&I4(b[1]))var
 e=b[2],f=1;else
 var
-f=2,e=b;a+=qJ;for(var
+f=2,e=b;a+=qP;for(var
 d=f;d<e.length;d++){if(d>f)a+=", ";var
 c=e[d];if(typeof
 c=="number")a+=c.toString();else
@@ -687,94 +687,94 @@ instanceof
 co)a+=aQ+c.toString()+aQ;else
 if(typeof
 c=="string")a+=aQ+c.toString()+aQ;else
-a+="_"}a+=ks}else
+a+="_"}a+=kv}else
 if(b[0]==a3)a+=b[1];return a}function
-r2(a){if(a
+r7(a){if(a
 instanceof
 Array&&(a[0]==0||a[0]==a3)){var
-c=d2("Printexc.handle_uncaught_exception");if(c)c(a,false);else{var
-d=IR(a),b=d2(p2);if(b)b(0);S.console.error("Fatal error: exception "+d+"\n")}}else
+c=d4("Printexc.handle_uncaught_exception");if(c)c(a,false);else{var
+d=IU(a),b=d4(p8);if(b)b(0);S.console.error("Fatal error: exception "+d+"\n")}}else
 throw a}function
-Je(){var
-a=S;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){r2(b);a.process.exit(2)});else
-if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)r2(a.error)})}Je();function
+Jh(){var
+a=S;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){r7(b);a.process.exit(2)});else
+if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)r7(a.error)})}Jh();function
 j(a,b){return a.length==1?a(b):du(a,[b])}function
 aq(a,b,c){return a.length==2?a(b,c):du(a,[b,c])}function
-fR(a,b,c,d){return a.length==3?a(b,c,d):du(a,[b,c,d])}function
-kc(a,b,c,d,e){return a.length==4?a(b,c,d,e):du(a,[b,c,d,e])}IS();var
-kU=[a3,a(qz),-2],kT=[a3,a(rN),-4],Hy=[0,[0,[0,[0,0]]]],Hz=[0,0],HA=[0,0],HB=[0,[0,0]],HC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HB]]]]]]]]]]],hw=[0,[1,0],0],pb=[0,[2,0],0],jW=[0,[1,0],0],pa=[0,[2,0],0],hu=[0,[1,0],0],jV=[0,[2,0],0],HD=[0,[0,[0,[0,0]]]],HE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HD]]]]]]]]]]],HF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HE]]]]]]]]]]],HG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HF]]]]]]]]]]],HH=[0,[0,0]],HI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HH]]]]]]]]]]],HJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HI]]]]]]]]]]],HK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HJ]]]]]]]]]]],HL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HK]]]]]]]]]]],HM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],HN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HM]]]]]]]]]]],HO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HN]]]]]]]]]]],HP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HO]]]]]]]]]]],HQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HP]]]]]]]]]]],HR=[0,[0,0]],HS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HR]]]]]]]]]]],HT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HS]]]]]]]]]]],HU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HT]]]]]]]]]]],HV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HU]]]]]]]]]]],HW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HV]]]]]]]]]]],HX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HW]]]]]]]]]]],HY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HX]]]]]]]]]]],HZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],H0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HZ]]]]]]]]]]],H1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H0]]]]]]]]]]],H2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H1]]]]]]]]]]],H3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H2]]]]]]]]]]],H4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H3]]]]]]]]]]],H5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H4]]]]]]]]]]],H6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H5]]]]]]]]]]],H7=[0,0],H8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H7]]]]]]]]]]],H9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H8]]]]]]]]]]],H_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H9]]]]]]]]]]],H$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H_]]]]]]]]]]],Ia=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H$]]]]]]]]]]],Ib=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ia]]]]]]]]]]],Ic=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ib]]]]]]]]]]],Id=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ic]]]]]]]]]]],Ie=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Id]]]]]]]]]]],If=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ie]]]]]]]]]]],Ig=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],Ih=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ig]]]]]]]]]]],Ii=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],Ij=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ii]]]]]]]]]]],Ik=[0,[0,[0,[0,[0,0]]]]],Il=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ik]]]]]]]]]]],Im=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Il]]]]]]]]]]],In=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Im]]]]]]]]]]],Io=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,In]]]]]]]]]]],Ip=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Io]]]]]]]]]]],Iq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ip]]]]]]]]]]],Ir=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Iq]]]]]]]]]]],Is=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ir]]]]]]]]]]],It=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Is]]]]]]]]]]],Iu=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,It]]]]]]]]]]],Iv=[0,0],Iw=[0,[0,0]],Ix=[0,0],Iy=[0,[0,[0,[0,[0,0]]]]],dB=[0,[0,[0,0]]],dD=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],hl=[0,[0,[0,[0,0]]]],Iz=[0,[0,[0,[0,[0,0]]]]],IA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Iz]]]]]]]]]]],IB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IA]]]]]]]]]]],IC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IB]]]]]]]]]]],ID=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IC]]]]]]]]]]];bO(11,[a3,a(p1),-12],p1);bO(10,[a3,a(qP),-11],qP);bO(9,[a3,a(rC),-10],rC);bO(8,[a3,a(qb),-9],qb);bO(7,[a3,a(q4),-8],q4);bO(6,[a3,a(p$),-7],p$);bO(5,[a3,a(qA),-6],qA);bO(4,[a3,a(qE),-5],qE);bO(3,kT,rN);bO(2,[a3,a(km),-3],km);bO(1,kU,qz);bO(0,[a3,a(rl),-1],rl);var
-sn=a("String.sub / Bytes.sub"),sp=a(ae),so=a("String.concat"),sq=a("Array.init"),sr=a("power"),sK=[0,0],sL=[0,0],sR=[0,0,0],sS=[0,0,0],sT=[0,0],td=[0,0],te=[0,0],th=[0,0],tC=[0,0],tF=[0,0],tJ=[0,0],tK=[0,0],tL=[0,0],tM=[0,0],t0=[0,0],t1=[0,0],us=[0,0],uS=[0,[0,[0,0]]],vh=[0,0],vI=[0,0],v4=[0,0],wd=a(","),wv=[0,a(ks),0],ww=a(qJ),wx=a("."),wy=[0,[0,[0,0]]],wz=a(eR),wA=a(kt),wB=[0,[0,[0,[0,[0,0]]]]],wC=[0,a(ks),0],wD=a(rL),zG=a(pY),zI=a(pV),zH=a(qS),zJ=a(eM),zK=a(eK),zL=a(kB),zM=a(rw),zN=a(qt),zO=a(kv),zP=a(qY),zQ=a(qs),A7=[0,[0,0,0]],Bm=[0,0],A8=a(fS),A9=[0,0],A_=a("divided"),A$=[0,1],Ba=a("mirror"),Bb=[0,3],Bc=a("negative"),Bd=[0,2],Be=a(fX),Bf=[0,5],Bg=a(kA),Bh=[0,4],Bi=a(ds),Bj=a(qe),Bk=a(eN),Bl=a(bM),Bn=[0,0],Bo=[0,0],Bp=[0,0],Bs=[0,[0,[0,0]]],Bt=[0,[0,[0,0]]],BU=[0,[0,[0,0]]],B8=[0,0],Cn=a(ae),Cg=[0,0],Ch=[0,0],Ci=[0,[0,[0,[0,0]]]],Cj=[0,[0,[0,0]]],Ck=[0,[0,[0,[0,0]]]],Cl=[0,[0,[0,0]]],Ce=[0,[0,[0,0]]],Cd=[0,0],Cc=a(eN),Cb=[0,0],B$=[0,1,0],Ca=[0,[0,[0,0]]],B_=[0,0],B6=[0,[0,0]],B7=[0,[0,[0,0]]],B5=[0,0],B1=[0,[0,[0,0]]],B0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hy]]]]]]]]]],[0,0,[0,[0,[0,[0,0]]],0]]],BV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],[0,0,0]],BW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],[0,[0,[0,[0,[0,[0,[0,0]]]]]],0]],BX=[0,[0,[0,[0,[0,[0,[0,0]]]]]],0],BY=[0,[0,[0,[0,0]]],[0,0,0]],BS=[0,0],BT=[0,[0,0]],BR=[0,0,0],BQ=[0,[0,[0,0]]],BK=[0,[0,0]],BL=[0,[0,[0,0]]],BM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Hz]]]]]]]]]]],BN=[0,[0,0]],BO=[0,[0,[0,0]]],BJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HA]]]]]]]]]]],BH=[0,[0,0]],BI=[0,[0,[0,0]]],BF=[0,[0,[0,0]]],BG=[0,[0,0]],BE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HC]]]]]]]]]]],BD=[0,0],BC=[0,0],Bz=[0,[0,0]],BA=[0,0],Bx=[0,0],By=[0,1],Bv=[0,[0,0]],Bw=[0,0],Bu=[0,0],Bq=[0,0],Br=[0,1],A4=[0,0],A5=[0,1],A6=[0,2],A0=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],AY=[0,[0,0],0],AZ=[0,[1,0],0],A1=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],AW=[0,[0,0]],AX=[0,0],AV=[0,0],AU=[0,0],AT=[0,0],AS=[0,0],AR=[0,0,0],AP=[0,[0,0]],AQ=[0,0],AO=[0,0,0],AM=[0,[0,[0,0]]],AN=[0,[0,[0,0]]],AL=[0,0],AJ=[0,1,0],AB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HG]]]]]]]]]]],AC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HL]]]]]]]]]]],Ax=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HQ]]]]]]]]]]],Ay=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HY]]]]]]]]]]],Az=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H6]]]]]]]]]]],AA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,If]]]]]]]]]]],AD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ih]]]]]]]]]]],AE=a("sqrt"),Av=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ij]]]]]]]]]]],Aw=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Iu]]]]]]]]]]],Ak=[0,a("\n"),0],Al=a(pW),Am=a(hL),An=a(qO),Ao=a(qx),Au=a(f0),Ap=a(fW),Aq=a("verdict"),Ar=a(rn),As=a(qp),At=a(qN),Ah=a(qH),Ai=a(rr),Aj=a(hN),Ad=a(q0),Ae=a(hO),Af=a(fW),Ag=a(f0),z_=a(hW),z$=a(bt),Aa=a(pX),Ab=a(hT),z7=a(rk),z8=a(fX),z9=a(hT),z3=a(q3),z4=a(hW),z5=a(hO),z6=a(rA),zS=a(rs),zT=a(rv),zU=a(hS),zV=a(hQ),zW=a(rG),zX=a(rg),zY=a(rj),zZ=a(q7),z0=a(hS),z1=a(q_),zE=a(hJ),zF=a(fZ),zz=a(bN),zA=a(bL),zB=a(qr),y$=a(hQ),za=a(q6),yP=a(bt),yQ=a(b5),yR=a(hY),yS=a(eQ),yT=a(cP),yY=a(kf),yU=a(ku),yV=a(kx),yW=a(eL),yX=a(bt),yZ=a(b5),y0=a(hY),y1=a(eQ),y2=a(ku),y3=a(kx),y4=a(eL),y5=a(bt),y6=a(b5),y7=a(bN),y8=a(bL),y9=a(dZ),y_=a(eQ),zb=a(re),zc=a(ru),zd=a(h0),ze=a(qf),zf=a(qk),zg=a(eL),zh=a(bt),zi=a(b5),zj=a(hH),zk=a(qv),zl=a(eQ),zm=a(f4),zn=a(p5),zo=a(eL),zp=a(bt),zq=a(hH),zr=a(bt),zs=a(q9),zv=a(pU),zt=a(qi),zu=a(rz),zw=a(f0),zx=a(fW),zy=a(bt),zC=a(h0),zD=a(hN),yK=a(b5),yL=a(eQ),yM=a(kf),yN=a(eL),yJ=a(rI),yx=a(f4),yy=a(ro),yz=a(d0),yA=a(eO),yB=a(eO),yC=a(ki),yD=a(d0),yE=a(qQ),yF=a(qq),yG=a(bi),yI=a(p0),yH=a(ki),yn=a(qG),yo=a(rM),yp=a(qm),yq=a(qj),yr=a(ry),ys=a(ri),yt=a(qy),yu=a(hI),yv=a(hI),yj=a(bi),yk=a(bJ),yl=a(eS),ym=a(bK),yf=a(cP),yg=a(kp),yh=a(q1),yc=a(bN),yd=a(bL),ye=a(dZ),x7=a(bN),x8=a(bL),x9=a(dZ),x_=a(kr),x$=a(d0),ya=a(kn),yb=a(rd),xP=a(qh),xV=a(hL),xU=a(kz),xQ=a(kj),xR=a(fU),xW=a(fV),xY=a(fV),xZ=a(rb),x0=a(kj),xX=a(fU),x1=a(qd),x2=a(ra),x3=a(fU),x4=a(rH),x5=a(kz),x6=a(fU),xS=a(eO),xT=a(qW),xM=a(hR),xN=a(hR),xO=a(hR),xI=a(rf),xJ=a(bL),xK=a(bN),xL=a(rx),xr=a(p9),xs=a(pZ),xt=a(q5),xu=a(eM),xv=a(rJ),xw=a(q8),xx=a(p_),xy=a(qX),xz=a(p8),xA=a(qu),xB=a(p7),xC=a(rh),xD=a(eK),xE=a(p4),xF=a(rq),xG=a(ql),xH=a(rK),w4=a(hU),w6=a(eR),w5=a(fT),w7=a(eJ),w8=a(bi),w9=a(bJ),w_=a(bM),w$=a(hZ),xa=a(bK),xb=a(f2),xc=a(bi),xd=a(bJ),xe=a(eS),xf=a(bK),xg=a(bM),xh=a(cP),xi=a(bK),xj=a(eJ),xk=a(f3),xl=a(bi),xm=a(bJ),xn=a(qU),xo=a(fV),xp=a(f3),xq=a(bK),wM=a(hU),wU=a(eR),wN=a(fT),wO=a(eJ),wP=a(bi),wQ=a(bJ),wR=a(bM),wS=a(hZ),wT=a(bK),wV=a(f2),wW=a(bi),wX=a(bJ),wY=a(eS),wZ=a(bK),w0=a(bM),w1=a(cP),w2=a(bK),wJ=a(bN),wK=a(bL),wH=[0,a(aQ),0],wI=a(aQ),wF=a(ae),wE=[0,a(aQ),0],wG=a(aQ),wr=a(hU),ws=a(eR),wt=a("*"),wu=a(b6),wm=[0,[0,[0,[0,[0,0]]]]],wn=[0,[0,[0,0]]],wo=[0,[0,0]],wp=[0,0],wq=[0,[0,[0,[0,0]]]],wk=a('":'),wl=a(aQ),wi=[0,a(aQ),0],wj=a(aQ),wg=[0,a("}"),0],wh=a("{"),we=[0,a("]"),0],wf=a("["),wc=[0,[0,[0,0]]],wb=[0,[0,[0,0]]],v$=[0,0],v8=[0,[0,[0,0]]],v9=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],v_=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],v6=[0,[0,0]],v7=[0,[0,[0,0]]],v5=[0,0],v2=[0,0],v3=[0,[0,0]],vZ=[0,0],v0=[0,[0,0]],v1=[0,0],vU=[0,[0,0]],vV=[0,0],vW=[0,[0,[0,0]]],vX=[0,[0,[0,0]]],vR=[0,[0,[0,0]]],vT=[0,[0,[0,0]]],vS=[0,0],vO=[0,[0,0]],vP=[0,0],vM=[0,[0,0]],vN=[0,0],vL=[0,[0,[0,0]]],vJ=[0,[0,0]],vK=[0,0],vG=[0,0],vH=[0,[0,0]],vA=[0,[0,0]],vB=[0,[0,[0,[0,[0,0]]]]],vC=[0,[0,[0,[0,0]]]],vD=[0,[0,[0,0]]],vE=[0,[0,0]],vF=[0,0],vx=[0,0],vy=[0,[0,0]],vz=[0,0],vw=[0,0],vs=[0,0],vt=[0,[0,[0,[0,[0,[0,0]]]]]],vu=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Iv]]]]]]]]]]],vq=[0,0],vl=[0,0,0],vm=[0,0,0],vn=[0,0,0],vi=[0,[0,0]],vj=[0,[0,[0,0]]],vk=[0,0],u9=[0,[0,[0,[0,[0,[0,0]]]]]],u_=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],u$=[0,[0,[0,0]]],va=[0,[0,[0,0]]],vb=[0,[0,[0,[0,[0,[0,0]]]]]],vc=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],vd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Iw]]]]]]]]]]],ve=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ix]]]]]]]]]]],vf=[0,[0,[0,0]]],vg=[0,[0,[0,[0,[0,[0,0]]]]]],u5=[0,0,0],u6=[0,0,0],u1=[0,0,0],u2=[0,0,0],u3=[0,0,0],u4=[0,0,0],u0=[0,0],uZ=[0,0],uY=[0,0],uW=[0,0],uX=[0,0],uV=[0,0],uT=[0,0],uU=[0,0],uL=[0,0],uM=[0,0],uN=[0,0],uO=[0,[0,[0,0]]],uK=[0,0],uE=[0,0],uF=[0,0],uG=[0,[0,0]],uC=[0,[0,0]],uD=[0,[0,[0,0]]],uA=[0,[0,[0,0]]],uB=[0,[0,0]],uy=[0,[0,0]],uz=[0,[0,[0,0]]],ux=[0,0],uv=[0,0],uw=[0,0],ut=[0,0,0],uq=[0,[0,0]],ur=[0,0],ui=[0,[0,0]],uj=[0,0],uk=[0,[0,0]],ul=[0,0],um=[0,[0,0]],un=[0,0],uo=[0,[0,0]],up=[0,0],ug=[0,[0,0]],uh=[0,0],ue=[0,[0,0]],uf=[0,0],ua=[0,[0,0]],ub=[0,0],uc=[0,0],ud=[0,[0,0]],t3=[0,[0,0]],t4=[0,0],t5=[0,[0,0]],t6=[0,0],t7=[0,0],t8=[0,[0,0]],t9=[0,[0,0]],t_=[0,[0,0]],t$=[0,0],tZ=[0,0],tY=[0,0],tV=[0,0],tW=[0,[0,0]],tU=[0,[0,[0,0]]],tT=[0,[0,[0,[0,[0,[0,0]]]]]],tR=[0,[0,0]],tS=[0,0],tQ=[0,[0,0]],tP=[0,0],tN=[0,0],tO=[0,[0,[0,0]]],tH=[0,[0,0]],tI=[0,[0,[0,0]]],tG=[0,[0,[0,0]]],tD=[0,[0,[0,0]]],tB=[0,[0,[0,0]]],tz=[0,[0,[0,[0,[0,[0,0]]]]]],tA=[0,[0,[0,[0,[0,[0,0]]]]]],tu=[0,[0,0]],tv=[0,0],tw=[0,[0,0]],tx=[0,[0,[0,0]]],ty=[0,[0,[0,0]]],tn=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],to=[0,[0,[0,[0,[0,[0,0]]]]]],tp=[0,[0,[0,[0,[0,[0,0]]]]]],tq=[0,[0,[0,0]]],tr=[0,[0,[0,[0,[0,[0,0]]]]]],ts=[0,[0,[0,0]]],tt=[0,[0,[0,0]]],tl=[0,[0,0]],tm=[0,0],tk=[0,0,0],tj=[0,0,0],ti=[0,0,0],tg=[0,0,0],tf=[0,[0,[0,0]]],s$=[0,0],ta=[0,0],tb=[0,0],tc=[0,0],s9=[0,0],s_=[0,0],s5=[0,[0,[0,0]]],s6=[0,[0,[0,0]]],s7=[0,[0,[0,0]]],s4=[0,[0,[0,[0,0]]]],s0=[0,[0,[0,0]]],s1=[0,[0,[0,0]]],s2=[0,[0,[0,0]]],s3=[0,[0,1,1],[0,[0,0,1],[0,[0,1,0],[0,[0,0,0],0]]]],sY=[0,[0,0]],sZ=[0,0],sW=[0,[0,0]],sX=[0,0],sU=[0,[0,0]],sV=[0,0],sH=[0,0],sI=[0,[0,0]],sF=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],sG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Iy]]]]]]]]]]],sD=[0,0,0],sC=a(rE),sB=a(ae),sA=[0,[0,0]],sy=[0,0],sv=[0,0],sx=[1,0],sw=[0,0],su=[0,0],ss=[1,0],st=[1,0],tX=[10,0,0,0,0],B9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,ID]]]]]]]]]]],Fv=a(bN),Fw=a(bL),Fx=a(qr),Fn=a(f2),Fo=[0,a("a base axis of such a platform"),0],Fp=a(bi),Fq=a(bJ),Fa=a(ri),Fb=a(qG),Fc=a(ry),Fd=a(hI),Fe=a(qy),Ff=a(hI),Fg=a(rM),Fh=a(qm),Fi=a(qj),E2=a(q6),E3=a(hQ),EE=[0,a("such a machine with bodies"),0],Er=a(hN),Es=a(bt),Et=a(q9),Eu=a(rz),Ex=a(qi),Ey=a(pU),Ez=a(bt),EA=a(bt),EC=a(hH),EB=[0,a("a claim that no cube of such a machine fits"),0],ED=a(rI),EF=a(eL),EG=a(eQ),EH=a(cP),EI=a(kp),EJ=a(q1),EK=a(hY),EL=a(qk),EM=a(p5),EN=a(kf),EQ=a(dZ),ER=a(rd),EU=a(b5),EV=a(b5),EW=a(qv),EX=a(b5),EY=[0,a("the closed design with other bounds on psi than one from below and one from above"),0],EZ=a(hH),E0=a(f4),E1=a(dZ),E4=a(b5),E5=a(bN),E6=a(bL),E7=a(re),E8=a(ru),E9=a(h0),E_=a(qf),EO=[0,a(aQ),0],EP=a('the mechanism "'),E$=a(ku),Fj=a(hY),Fk=a(cP),Fl=a(kp),Fm=a(kx),Fr=a(b5),Fu=a(cP),Fs=[0,a("a platform that turns on struts and other drives"),0],Ft=a(b5),ES=[0,a(aQ),0],ET=a('the workspace "'),Fy=a(bt),Fz=a(bt),FB=a(f0),FC=a(fW),FD=a(h0),FA=[0,a("an atlas of such a machine"),0],Ev=[0,a(aQ),0],Ew=a('a claim of the kind "'),FR=a(kB),FS=a(ds),FT=a(eN),FU=a(kv),FV=a(fS),FW=[0,a('this evidence "fan"'),0],FI=a(ds),F6=a(fZ),F7=[0,1,1],FJ=a(qY),FX=a(eK),FY=a(qs),FZ=a(eM),F0=a(qt),F1=a(qS),F2=a(bM),F3=a(fZ),F4=a(hJ),F5=a(bM),FK=a(kB),FL=a(ds),FM=a(qe),FN=a(eN),FO=a(kv),FP=[0,a(aQ),0],FQ=a('the evidence "'),F8=a(eK),F9=a(eM),F_=a(ds),F$=a(eN),Ga=a(rw),Gc=a(eK),Gd=a(eM),Ge=a(ds),Gf=a(eN),Gg=a(fX),Gh=a(fS),Gi=a(fX),Gj=a(fS),Gb=[0,a("this evidence at control points"),0],Hr=a('"orthocert-paving/'),Hi=a(ds),Hj=a(ds),G1=a(qN),G2=a(qp),G3=a(rn),Hp=[0,3,3],G4=a(qx),Hd=[0,a("this set of orientations with such drives"),0],He=[0,a('"parallel_margin" of struts in such a claim'),0],Hf=[0,a('"one_to_one" of planes in such a claim'),0],Hk=[0,a('this evidence "tolerances" of a platform that turns'),0],Hl=[0,a("a step of a platform that turns that is not at control points"),0],Hm=[0,a('the evidence "tolerances" of such a mechanism'),0],Hn=[0,a(qV),0],Ho=[0,a(rm),0],Hh=[0,a(qV),0],Hg=[0,a('"accuracy" of such a mechanism'),0],Hc=[0,a(rm),0],Ha=[0,a("this quantity in a claim that is refuted"),0],Hb=[0,a("a step in a proof that no cube fits"),0],G5=[0,a("the acceleration of a joint of a machine with a plane"),0],G_=[0,a("a stiffness for each joint in such a claim"),0],G$=[0,a(q$),0],G9=[0,a(q$),0],G6=a(qO),G7=a(pW),G8=a(hL),GX=a(kA),GY=a(fS),GZ=a(bM),GP=a(hN),GQ=a(qH),GR=a(rr),GS=[0,a(aQ),0],GT=a('a proof of the kind "'),GL=a(fW),GM=a(f0),GN=a(hO),GO=a(q0),GH=a(bt),GI=a(hW),GJ=a(pX),GK=a(hT),GE=a(rk),GF=a(fX),GG=a(hT),GA=a(q3),GB=a(hW),GC=a(hO),GD=a(rA),Gm=a(rv),Gn=a(hS),Go=a(rs),Gp=a(hQ),Gq=a(q_),Gr=a(rG),Gu=a(rg),Gv=a(hJ),Gw=a(fZ),Gx=a(rj),Gy=a(q7),Gz=a(hS),Gs=[0,a(aQ),0],Gt=a('the failure "'),Gk=a(kA),Gl=a(rE),FG=a(fZ),FH=a(hJ),FE=a(pV),FF=a(pY),Eo=a(f4),Ee=a(ki),Ef=a(p0),Eg=a(eO),Eh=a(bi),Em=a(ro),En=a(f4),Ep=a(d0),Eq=a(eO),Ei=a(d0),Ej=a(qQ),Ek=a(qq),El=a(bi),D9=a(dZ),Eb=a(bN),Ec=a(bL),D_=a(kn),D$=a(kr),Ea=a(d0),D3=a(dZ),D7=a(bN),D8=a(bL),D4=a(kn),D5=a(kr),D6=a(d0),D2=[0,1],D1=[0,1],DZ=[0,1],DX=[0,1],DW=[0,1],DU=[0,1],DV=[0,a("this quantity of such a mechanism"),0],DD=a(kj),DE=a(ra),DF=a(qd),DG=a(kz),DH=a(rH),DJ=a(rb),DI=a(fV),DC=a(hL),Du=a(hR),Di=a(qW),Dj=a(q5),DM=a(eK),DN=a(rq),DO=a(qu),DP=a(eM),DQ=a(qX),DR=a(p7),DS=a(p8),DT=a(pZ),Dk=a(p4),Dl=a(rK),Dm=a(rh),Dn=a(q8),Do=a(ql),Dp=a(rJ),Dq=a(p_),Dr=a(p9),Ds=[0,a(aQ),0],Dt=a('the quantity "'),Dv=a(qh),Dw=a(rf),Dx=a(bN),Dy=a(bL),Dz=a(rx),DA=[0,a(aQ),0],DB=a('a bound "'),DK=a(fU),DL=a(eO),Dg=a(bK),Dh=a(eS),CV=a(bK),CW=a(f2),CX=a(f3),CY=a(cP),CZ=a(hZ),C0=a(eS),C3=a(bi),C4=a(bJ),C5=a(fT),C6=a(eJ),C7=a(bi),C8=a(bJ),C9=a(bM),C_=a(bM),C$=a(fT),Da=a(eJ),Db=a(f3),Dc=a(bi),Dd=a(bJ),De=a(qU),Df=a(fV),C1=[0,a('" of such a machine'),0],C2=a(qc),CT=a(bK),CU=a(f3),CD=a(bK),CE=a(cP),CF=a(hZ),CG=a(eS),CJ=a(f2),CK=a(bi),CL=a(bJ),CM=a(fT),CN=a(eJ),CO=a(bi),CP=a(bJ),CQ=a(bM),CR=a(bM),CH=[0,a(aQ),0],CI=a(qc),CA=a(hU),CB=a(eR),Cy=a(" is not covered by the verified checker"),Cz=a(ae),Cw=a(bN),Cx=a(bL),Cs=a(ae),Ct=a(rL),Cu=a(ae),Cv=a(ae),Cr=[1,0],Cq=a(eR),Co=a("Reader.Malformed"),Cp=a("Reader.Not_covered"),Ht=[0,a("a paving is checked by orthocert-verified")],Hs=a(qZ),Hu=a("CERTIFIED"),Hv=a("REFUTED"),Hw=a(qZ),Hx=a("NOT COVERED: ");function
-f_(a){throw[0,kT,a]}function
+fS(a,b,c,d){return a.length==3?a(b,c,d):du(a,[b,c,d])}function
+kf(a,b,c,d,e){return a.length==4?a(b,c,d,e):du(a,[b,c,d,e])}IV();var
+kX=[a3,a(qF),-2],kW=[a3,a(rS),-4],HB=[0,[0,[0,[0,0]]]],HC=[0,0],HD=[0,0],HE=[0,[0,0]],HF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HE]]]]]]]]]]],hx=[0,[1,0],0],ph=[0,[2,0],0],jZ=[0,[1,0],0],pg=[0,[2,0],0],hv=[0,[1,0],0],jY=[0,[2,0],0],HG=[0,[0,[0,[0,0]]]],HH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HG]]]]]]]]]]],HI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HH]]]]]]]]]]],HJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HI]]]]]]]]]]],HK=[0,[0,0]],HL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HK]]]]]]]]]]],HM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HL]]]]]]]]]]],HN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HM]]]]]]]]]]],HO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HN]]]]]]]]]]],HP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],HQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HP]]]]]]]]]]],HR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HQ]]]]]]]]]]],HS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HR]]]]]]]]]]],HT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HS]]]]]]]]]]],HU=[0,[0,0]],HV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HU]]]]]]]]]]],HW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HV]]]]]]]]]]],HX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HW]]]]]]]]]]],HY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HX]]]]]]]]]]],HZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HY]]]]]]]]]]],H0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HZ]]]]]]]]]]],H1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H0]]]]]]]]]]],H2=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],H3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H2]]]]]]]]]]],H4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H3]]]]]]]]]]],H5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H4]]]]]]]]]]],H6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H5]]]]]]]]]]],H7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H6]]]]]]]]]]],H8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H7]]]]]]]]]]],H9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H8]]]]]]]]]]],H_=[0,0],H$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H_]]]]]]]]]]],Ia=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H$]]]]]]]]]]],Ib=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ia]]]]]]]]]]],Ic=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ib]]]]]]]]]]],Id=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ic]]]]]]]]]]],Ie=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Id]]]]]]]]]]],If=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ie]]]]]]]]]]],Ig=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,If]]]]]]]]]]],Ih=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ig]]]]]]]]]]],Ii=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ih]]]]]]]]]]],Ij=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],Ik=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ij]]]]]]]]]]],Il=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],Im=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Il]]]]]]]]]]],In=[0,[0,[0,[0,[0,0]]]]],Io=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,In]]]]]]]]]]],Ip=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Io]]]]]]]]]]],Iq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ip]]]]]]]]]]],Ir=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Iq]]]]]]]]]]],Is=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ir]]]]]]]]]]],It=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Is]]]]]]]]]]],Iu=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,It]]]]]]]]]]],Iv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Iu]]]]]]]]]]],Iw=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Iv]]]]]]]]]]],Ix=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Iw]]]]]]]]]]],Iy=[0,0],Iz=[0,[0,0]],IA=[0,0],IB=[0,[0,[0,[0,[0,0]]]]],dB=[0,[0,[0,0]]],dD=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],hm=[0,[0,[0,[0,0]]]],IC=[0,[0,[0,[0,[0,0]]]]],ID=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IC]]]]]]]]]]],IE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,ID]]]]]]]]]]],IF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IE]]]]]]]]]]],IG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IF]]]]]]]]]]];bO(11,[a3,a(p7),-12],p7);bO(10,[a3,a(qV),-11],qV);bO(9,[a3,a(rH),-10],rH);bO(8,[a3,a(qh),-9],qh);bO(7,[a3,a(q_),-8],q_);bO(6,[a3,a(qf),-7],qf);bO(5,[a3,a(qG),-6],qG);bO(4,[a3,a(qK),-5],qK);bO(3,kW,rS);bO(2,[a3,a(kp),-3],kp);bO(1,kX,qF);bO(0,[a3,a(rr),-1],rr);var
+ss=a("String.sub / Bytes.sub"),su=a(ae),st=a("String.concat"),sv=a("Array.init"),sw=a("power"),sP=[0,0],sQ=[0,0],sW=[0,0,0],sX=[0,0,0],sY=[0,0],ti=[0,0],tj=[0,0],tm=[0,0],tH=[0,0],tK=[0,0],tO=[0,0],tP=[0,0],tQ=[0,0],tR=[0,0],t5=[0,0],t6=[0,0],ux=[0,0],uX=[0,[0,[0,0]]],vm=[0,0],vN=[0,0],v9=[0,0],wi=a(","),wA=[0,a(kv),0],wB=a(qP),wC=a("."),wD=[0,[0,[0,0]]],wE=a(eS),wF=a(kw),wG=[0,[0,[0,[0,[0,0]]]]],wH=[0,a(kv),0],wI=a(rQ),zL=a(p4),zN=a(p1),zM=a(qY),zO=a(eN),zP=a(eL),zQ=a(kE),zR=a(rB),zS=a(qz),zT=a(ky),zU=a(q4),zV=a(qy),Ba=[0,[0,0,0]],Br=[0,0],Bb=a(fT),Bc=[0,0],Bd=a("divided"),Be=[0,1],Bf=a("mirror"),Bg=[0,3],Bh=a("negative"),Bi=[0,2],Bj=a(fY),Bk=[0,5],Bl=a(kD),Bm=[0,4],Bn=a(ds),Bo=a(qk),Bp=a(eO),Bq=a(bM),Bs=[0,0],Bt=[0,0],Bu=[0,0],Bx=[0,[0,[0,0]]],By=[0,[0,[0,0]]],BZ=[0,[0,[0,0]]],Cb=[0,0],Cs=a(ae),Cl=[0,0],Cm=[0,0],Cn=[0,[0,[0,[0,0]]]],Co=[0,[0,[0,0]]],Cp=[0,[0,[0,[0,0]]]],Cq=[0,[0,[0,0]]],Cj=[0,[0,[0,0]]],Ci=[0,0],Ch=a(eO),Cg=[0,0],Ce=[0,1,0],Cf=[0,[0,[0,0]]],Cd=[0,0],B$=[0,[0,0]],Ca=[0,[0,[0,0]]],B_=[0,0],B6=[0,[0,[0,0]]],B5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HB]]]]]]]]]],[0,0,[0,[0,[0,[0,0]]],0]]],B0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],[0,0,0]],B1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],[0,[0,[0,[0,[0,[0,[0,0]]]]]],0]],B2=[0,[0,[0,[0,[0,[0,[0,0]]]]]],0],B3=[0,[0,[0,[0,0]]],[0,0,0]],BX=[0,0],BY=[0,[0,0]],BW=[0,0,0],BV=[0,[0,[0,0]]],BP=[0,[0,0]],BQ=[0,[0,[0,0]]],BR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HC]]]]]]]]]]],BS=[0,[0,0]],BT=[0,[0,[0,0]]],BO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HD]]]]]]]]]]],BM=[0,[0,0]],BN=[0,[0,[0,0]]],BK=[0,[0,[0,0]]],BL=[0,[0,0]],BJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HF]]]]]]]]]]],BI=[0,0],BH=[0,0],BE=[0,[0,0]],BF=[0,0],BC=[0,0],BD=[0,1],BA=[0,[0,0]],BB=[0,0],Bz=[0,0],Bv=[0,0],Bw=[0,1],A9=[0,0],A_=[0,1],A$=[0,2],A5=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],A3=[0,[0,0],0],A4=[0,[1,0],0],A6=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],A1=[0,[0,0]],A2=[0,0],A0=[0,0],AZ=[0,0],AY=[0,0],AX=[0,0],AW=[0,0,0],AU=[0,[0,0]],AV=[0,0],AT=[0,0,0],AR=[0,[0,[0,0]]],AS=[0,[0,[0,0]]],AQ=[0,0],AO=[0,1,0],AG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HJ]]]]]]]]]]],AH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HO]]]]]]]]]]],AC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HT]]]]]]]]]]],AD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H1]]]]]]]]]]],AE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H9]]]]]]]]]]],AF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ii]]]]]]]]]]],AI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ik]]]]]]]]]]],AJ=a("sqrt"),AA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Im]]]]]]]]]]],AB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ix]]]]]]]]]]],Ap=[0,a("\n"),0],Aq=a(p2),Ar=a(hM),As=a(qU),At=a(qD),Az=a(f1),Au=a(fX),Av=a("verdict"),Aw=a(rs),Ax=a(qv),Ay=a(qT),Am=a(qN),An=a(rw),Ao=a(hO),Ai=a(q6),Aj=a(hP),Ak=a(fX),Al=a(f1),Ad=a(hX),Ae=a(bt),Af=a(p3),Ag=a(hU),Aa=a(rq),Ab=a(fY),Ac=a(hU),z8=a(q9),z9=a(hX),z_=a(hP),z$=a(rF),zX=a(rx),zY=a(rA),zZ=a(hT),z0=a(hR),z1=a(rL),z2=a(rm),z3=a(rp),z4=a(rb),z5=a(hT),z6=a(re),zJ=a(hK),zK=a(f0),zE=a(bN),zF=a(bL),zG=a(qx),ze=a(hR),zf=a(ra),yU=a(bt),yV=a(b5),yW=a(hZ),yX=a(eR),yY=a(cP),y3=a(ki),yZ=a(kx),y0=a(kA),y1=a(eM),y2=a(bt),y4=a(b5),y5=a(hZ),y6=a(eR),y7=a(kx),y8=a(kA),y9=a(eM),y_=a(bt),y$=a(b5),za=a(bN),zb=a(bL),zc=a(d1),zd=a(eR),zg=a(rk),zh=a(rz),zi=a(h1),zj=a(ql),zk=a(qq),zl=a(eM),zm=a(bt),zn=a(b5),zo=a(hI),zp=a(qB),zq=a(eR),zr=a(f5),zs=a(p$),zt=a(eM),zu=a(bt),zv=a(hI),zw=a(bt),zx=a(rd),zA=a(p0),zy=a(qo),zz=a(rE),zB=a(f1),zC=a(fX),zD=a(bt),zH=a(h1),zI=a(hO),yP=a(b5),yQ=a(eR),yR=a(ki),yS=a(eM),yO=a(rN),yC=a(f5),yD=a(rt),yE=a(d2),yF=a(eP),yG=a(eP),yH=a(kl),yI=a(d2),yJ=a(qW),yK=a(qw),yL=a(bi),yN=a(p6),yM=a(kl),ys=a(qM),yt=a(rR),yu=a(qs),yv=a(qp),yw=a(rD),yx=a(ro),yy=a(qE),yz=a(hJ),yA=a(hJ),yo=a(bi),yp=a(bJ),yq=a(eT),yr=a(bK),yk=a(cP),yl=a(ks),ym=a(q7),yh=a(bN),yi=a(bL),yj=a(d1),ya=a(bN),yb=a(bL),yc=a(d1),yd=a(ku),ye=a(d2),yf=a(kq),yg=a(rj),xU=a(qn),x0=a(hM),xZ=a(kC),xV=a(km),xW=a(fV),x1=a(fW),x3=a(fW),x4=a(rh),x5=a(km),x2=a(fV),x6=a(qj),x7=a(rg),x8=a(fV),x9=a(rM),x_=a(kC),x$=a(fV),xX=a(eP),xY=a(q2),xR=a(hS),xS=a(hS),xT=a(hS),xN=a(rl),xO=a(bL),xP=a(bN),xQ=a(rC),xw=a(qd),xx=a(p5),xy=a(q$),xz=a(eN),xA=a(rO),xB=a(rc),xC=a(qe),xD=a(q3),xE=a(qc),xF=a(qA),xG=a(qb),xH=a(rn),xI=a(eL),xJ=a(p_),xK=a(rv),xL=a(qr),xM=a(rP),w9=a(hV),w$=a(eS),w_=a(fU),xa=a(eK),xb=a(bi),xc=a(bJ),xd=a(bM),xe=a(h0),xf=a(bK),xg=a(f3),xh=a(bi),xi=a(bJ),xj=a(eT),xk=a(bK),xl=a(bM),xm=a(cP),xn=a(bK),xo=a(eK),xp=a(f4),xq=a(bi),xr=a(bJ),xs=a(q0),xt=a(fW),xu=a(f4),xv=a(bK),wR=a(hV),wZ=a(eS),wS=a(fU),wT=a(eK),wU=a(bi),wV=a(bJ),wW=a(bM),wX=a(h0),wY=a(bK),w0=a(f3),w1=a(bi),w2=a(bJ),w3=a(eT),w4=a(bK),w5=a(bM),w6=a(cP),w7=a(bK),wO=a(bN),wP=a(bL),wM=[0,a(aQ),0],wN=a(aQ),wK=a(ae),wJ=[0,a(aQ),0],wL=a(aQ),ww=a(hV),wx=a(eS),wy=a("*"),wz=a(b6),wr=[0,[0,[0,[0,[0,0]]]]],ws=[0,[0,[0,0]]],wt=[0,[0,0]],wu=[0,0],wv=[0,[0,[0,[0,0]]]],wp=a('":'),wq=a(aQ),wn=[0,a(aQ),0],wo=a(aQ),wl=[0,a("}"),0],wm=a("{"),wj=[0,a("]"),0],wk=a("["),wh=[0,[0,[0,0]]],wg=[0,[0,[0,0]]],we=[0,0],wb=[0,[0,[0,0]]],wc=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],wd=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],v$=[0,[0,0]],wa=[0,[0,[0,0]]],v_=[0,0],v7=[0,0],v8=[0,[0,0]],v4=[0,0],v5=[0,[0,0]],v6=[0,0],vZ=[0,[0,0]],v0=[0,0],v1=[0,[0,[0,0]]],v2=[0,[0,[0,0]]],vW=[0,[0,[0,0]]],vY=[0,[0,[0,0]]],vX=[0,0],vT=[0,[0,0]],vU=[0,0],vR=[0,[0,0]],vS=[0,0],vQ=[0,[0,[0,0]]],vO=[0,[0,0]],vP=[0,0],vL=[0,0],vM=[0,[0,0]],vF=[0,[0,0]],vG=[0,[0,[0,[0,[0,0]]]]],vH=[0,[0,[0,[0,0]]]],vI=[0,[0,[0,0]]],vJ=[0,[0,0]],vK=[0,0],vC=[0,0],vD=[0,[0,0]],vE=[0,0],vB=[0,0],vx=[0,0],vy=[0,[0,[0,[0,[0,[0,0]]]]]],vz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Iy]]]]]]]]]]],vv=[0,0],vq=[0,0,0],vr=[0,0,0],vs=[0,0,0],vn=[0,[0,0]],vo=[0,[0,[0,0]]],vp=[0,0],vc=[0,[0,[0,[0,[0,[0,0]]]]]],vd=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],ve=[0,[0,[0,0]]],vf=[0,[0,[0,0]]],vg=[0,[0,[0,[0,[0,[0,0]]]]]],vh=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],vi=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Iz]]]]]]]]]]],vj=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IA]]]]]]]]]]],vk=[0,[0,[0,0]]],vl=[0,[0,[0,[0,[0,[0,0]]]]]],u_=[0,0,0],u$=[0,0,0],u6=[0,0,0],u7=[0,0,0],u8=[0,0,0],u9=[0,0,0],u5=[0,0],u4=[0,0],u3=[0,0],u1=[0,0],u2=[0,0],u0=[0,0],uY=[0,0],uZ=[0,0],uQ=[0,0],uR=[0,0],uS=[0,0],uT=[0,[0,[0,0]]],uP=[0,0],uJ=[0,0],uK=[0,0],uL=[0,[0,0]],uH=[0,[0,0]],uI=[0,[0,[0,0]]],uF=[0,[0,[0,0]]],uG=[0,[0,0]],uD=[0,[0,0]],uE=[0,[0,[0,0]]],uC=[0,0],uA=[0,0],uB=[0,0],uy=[0,0,0],uv=[0,[0,0]],uw=[0,0],un=[0,[0,0]],uo=[0,0],up=[0,[0,0]],uq=[0,0],ur=[0,[0,0]],us=[0,0],ut=[0,[0,0]],uu=[0,0],ul=[0,[0,0]],um=[0,0],uj=[0,[0,0]],uk=[0,0],uf=[0,[0,0]],ug=[0,0],uh=[0,0],ui=[0,[0,0]],t8=[0,[0,0]],t9=[0,0],t_=[0,[0,0]],t$=[0,0],ua=[0,0],ub=[0,[0,0]],uc=[0,[0,0]],ud=[0,[0,0]],ue=[0,0],t4=[0,0],t3=[0,0],t0=[0,0],t1=[0,[0,0]],tZ=[0,[0,[0,0]]],tY=[0,[0,[0,[0,[0,[0,0]]]]]],tW=[0,[0,0]],tX=[0,0],tV=[0,[0,0]],tU=[0,0],tS=[0,0],tT=[0,[0,[0,0]]],tM=[0,[0,0]],tN=[0,[0,[0,0]]],tL=[0,[0,[0,0]]],tI=[0,[0,[0,0]]],tG=[0,[0,[0,0]]],tE=[0,[0,[0,[0,[0,[0,0]]]]]],tF=[0,[0,[0,[0,[0,[0,0]]]]]],tz=[0,[0,0]],tA=[0,0],tB=[0,[0,0]],tC=[0,[0,[0,0]]],tD=[0,[0,[0,0]]],ts=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],tt=[0,[0,[0,[0,[0,[0,0]]]]]],tu=[0,[0,[0,[0,[0,[0,0]]]]]],tv=[0,[0,[0,0]]],tw=[0,[0,[0,[0,[0,[0,0]]]]]],tx=[0,[0,[0,0]]],ty=[0,[0,[0,0]]],tq=[0,[0,0]],tr=[0,0],tp=[0,0,0],to=[0,0,0],tn=[0,0,0],tl=[0,0,0],tk=[0,[0,[0,0]]],te=[0,0],tf=[0,0],tg=[0,0],th=[0,0],tc=[0,0],td=[0,0],s_=[0,[0,[0,0]]],s$=[0,[0,[0,0]]],ta=[0,[0,[0,0]]],s9=[0,[0,[0,[0,0]]]],s5=[0,[0,[0,0]]],s6=[0,[0,[0,0]]],s7=[0,[0,[0,0]]],s8=[0,[0,1,1],[0,[0,0,1],[0,[0,1,0],[0,[0,0,0],0]]]],s3=[0,[0,0]],s4=[0,0],s1=[0,[0,0]],s2=[0,0],sZ=[0,[0,0]],s0=[0,0],sM=[0,0],sN=[0,[0,0]],sK=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],sL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IB]]]]]]]]]]],sI=[0,0,0],sH=a(rJ),sG=a(ae),sF=[0,[0,0]],sD=[0,0],sA=[0,0],sC=[1,0],sB=[0,0],sz=[0,0],sx=[1,0],sy=[1,0],t2=[10,0,0,0,0],Cc=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IG]]]]]]]]]]],FA=a(bN),FB=a(bL),FC=a(qx),Fs=a(f3),Ft=[0,a("a base axis of such a platform"),0],Fu=a(bi),Fv=a(bJ),Ff=a(ro),Fg=a(qM),Fh=a(rD),Fi=a(hJ),Fj=a(qE),Fk=a(hJ),Fl=a(rR),Fm=a(qs),Fn=a(qp),E7=a(ra),E8=a(hR),EJ=[0,a("such a machine with bodies"),0],Ew=a(hO),Ex=a(bt),Ey=a(rd),Ez=a(rE),EC=a(qo),ED=a(p0),EE=a(bt),EF=a(bt),EH=a(hI),EG=[0,a("a claim that no cube of such a machine fits"),0],EI=a(rN),EK=a(eM),EL=a(eR),EM=a(cP),EN=a(ks),EO=a(q7),EP=a(hZ),EQ=a(qq),ER=a(p$),ES=a(ki),EV=a(d1),EW=a(rj),EZ=a(b5),E0=a(b5),E1=a(qB),E2=a(b5),E3=[0,a("the closed design with other bounds on psi than one from below and one from above"),0],E4=a(hI),E5=a(f5),E6=a(d1),E9=a(b5),E_=a(bN),E$=a(bL),Fa=a(rk),Fb=a(rz),Fc=a(h1),Fd=a(ql),ET=[0,a(aQ),0],EU=a('the mechanism "'),Fe=a(kx),Fo=a(hZ),Fp=a(cP),Fq=a(ks),Fr=a(kA),Fw=a(b5),Fz=a(cP),Fx=[0,a("a platform that turns on struts and other drives"),0],Fy=a(b5),EX=[0,a(aQ),0],EY=a('the workspace "'),FD=a(bt),FE=a(bt),FG=a(f1),FH=a(fX),FI=a(h1),FF=[0,a("an atlas of such a machine"),0],EA=[0,a(aQ),0],EB=a('a claim of the kind "'),FW=a(kE),FX=a(ds),FY=a(eO),FZ=a(ky),F0=a(fT),F1=[0,a('this evidence "fan"'),0],FN=a(ds),F$=a(f0),Ga=[0,1,1],FO=a(q4),F2=a(eL),F3=a(qy),F4=a(eN),F5=a(qz),F6=a(qY),F7=a(bM),F8=a(f0),F9=a(hK),F_=a(bM),FP=a(kE),FQ=a(ds),FR=a(qk),FS=a(eO),FT=a(ky),FU=[0,a(aQ),0],FV=a('the evidence "'),Gb=a(eL),Gc=a(eN),Gd=a(ds),Ge=a(eO),Gf=a(rB),Gh=a(eL),Gi=a(eN),Gj=a(ds),Gk=a(eO),Gl=a(fY),Gm=a(fT),Gn=a(fY),Go=a(fT),Gg=[0,a("this evidence at control points"),0],Hu=a('"orthocert-paving/'),Hm=a(ds),Hn=a(ds),G6=a(qT),G7=a(qv),G8=a(rs),Hs=[0,3,3],G9=a(qD),Hf=[0,a("this set of orientations with such drives"),0],Hg=[0,a('"parallel_margin" of struts in such a claim'),0],Hh=[0,a('"one_to_one" of planes in such a claim'),0],Ho=[0,a('this evidence "tolerances" of a platform that turns'),0],Hp=[0,a("a step of a platform that turns that is not at control points"),0],Hq=[0,a('the evidence "tolerances" of such a mechanism'),0],Hr=[0,a(q1),0],Hi=[0,a('"accuracy" of such a mechanism'),0],Hl=[0,a(q1),0],Hj=[0,a("this quantity in a claim that is refuted"),0],Hk=[0,a("a step in a proof that no cube fits"),0],G_=[0,a("the acceleration of a joint of a machine with a plane"),0],Hd=[0,a("a stiffness for each joint in such a claim"),0],He=[0,a(rf),0],Hc=[0,a(rf),0],G$=a(qU),Ha=a(p2),Hb=a(hM),G2=a(kD),G3=a(fT),G4=a(bM),GU=a(hO),GV=a(qN),GW=a(rw),GX=[0,a(aQ),0],GY=a('a proof of the kind "'),GQ=a(fX),GR=a(f1),GS=a(hP),GT=a(q6),GM=a(bt),GN=a(hX),GO=a(p3),GP=a(hU),GJ=a(rq),GK=a(fY),GL=a(hU),GF=a(q9),GG=a(hX),GH=a(hP),GI=a(rF),Gr=a(rA),Gs=a(hT),Gt=a(rx),Gu=a(hR),Gv=a(re),Gw=a(rL),Gz=a(rm),GA=a(hK),GB=a(f0),GC=a(rp),GD=a(rb),GE=a(hT),Gx=[0,a(aQ),0],Gy=a('the failure "'),Gp=a(kD),Gq=a(rJ),FL=a(f0),FM=a(hK),FJ=a(p1),FK=a(p4),Et=a(f5),Ej=a(kl),Ek=a(p6),El=a(eP),Em=a(bi),Er=a(rt),Es=a(f5),Eu=a(d2),Ev=a(eP),En=a(d2),Eo=a(qW),Ep=a(qw),Eq=a(bi),Ec=a(d1),Eg=a(bN),Eh=a(bL),Ed=a(kq),Ee=a(ku),Ef=a(d2),D8=a(d1),Ea=a(bN),Eb=a(bL),D9=a(kq),D_=a(ku),D$=a(d2),D7=[0,1],D6=[0,1],D4=[0,1],D2=[0,1],D1=[0,1],DZ=[0,1],D0=[0,a("this quantity of such a mechanism"),0],DI=a(km),DJ=a(rg),DK=a(qj),DL=a(kC),DM=a(rM),DO=a(rh),DN=a(fW),DH=a(hM),Dz=a(hS),Dn=a(q2),Do=a(q$),DR=a(eL),DS=a(rv),DT=a(qA),DU=a(eN),DV=a(q3),DW=a(qb),DX=a(qc),DY=a(p5),Dp=a(p_),Dq=a(rP),Dr=a(rn),Ds=a(rc),Dt=a(qr),Du=a(rO),Dv=a(qe),Dw=a(qd),Dx=[0,a(aQ),0],Dy=a('the quantity "'),DA=a(qn),DB=a(rl),DC=a(bN),DD=a(bL),DE=a(rC),DF=[0,a(aQ),0],DG=a('a bound "'),DP=a(fV),DQ=a(eP),Dl=a(bK),Dm=a(eT),C0=a(bK),C1=a(f3),C2=a(f4),C3=a(cP),C4=a(h0),C5=a(eT),C8=a(bi),C9=a(bJ),C_=a(fU),C$=a(eK),Da=a(bi),Db=a(bJ),Dc=a(bM),Dd=a(bM),De=a(fU),Df=a(eK),Dg=a(f4),Dh=a(bi),Di=a(bJ),Dj=a(q0),Dk=a(fW),C6=[0,a('" of such a machine'),0],C7=a(qi),CY=a(bK),CZ=a(f4),CI=a(bK),CJ=a(cP),CK=a(h0),CL=a(eT),CO=a(f3),CP=a(bi),CQ=a(bJ),CR=a(fU),CS=a(eK),CT=a(bi),CU=a(bJ),CV=a(bM),CW=a(bM),CM=[0,a(aQ),0],CN=a(qi),CF=a(hV),CG=a(eS),CD=a(" is not covered by the verified checker"),CE=a(ae),CB=a(bN),CC=a(bL),Cx=a(ae),Cy=a(rQ),Cz=a(ae),CA=a(ae),Cw=[1,0],Cv=a(eS),Ct=a("Reader.Malformed"),Cu=a("Reader.Not_covered"),Hw=[0,a("a paving is checked by orthocert-verified")],Hv=a(q5),Hx=a("CERTIFIED"),Hy=a("REFUTED"),Hz=a(q5),HA=a("NOT COVERED: ");function
+f$(a){throw[0,kW,a]}function
 ba(d,c){var
-a=ax(d),e=ax(c),b=cq(a+e|0);eU(d,0,b,0,a);eU(c,0,b,a,e);return h8(b)}I7(0);r8(1);r8(2);function
-kV(b){function
+a=ax(d),e=ax(c),b=cq(a+e|0);eV(d,0,b,0,a);eV(c,0,b,a,e);return h9(b)}I_(0);sb(1);sb(2);function
+kY(b){function
 a(b){var
 a=b;for(;;){if(a){var
-c=a[2],d=a[1];try{I6(d)}catch(a){a=sg(a);if(a[1]!==kU)throw a;var
+c=a[2],d=a[1];try{I9(d)}catch(a){a=sl(a);if(a[1]!==kX)throw a;var
 e=a}var
-a=c;continue}return 0}}return a(I8(0))}Jd(a(p2),kV);function
+a=c;continue}return 0}}return a(I$(0))}Jg(a(p8),kY);function
 cs(c){var
 b=0,a=c;for(;;){if(a){var
 b=b+1|0,a=a[2];continue}return b}}function
-kW(d){var
+kZ(d){var
 a=d,b=0;for(;;){if(a){var
 c=[0,a[1],b],a=a[2],b=c;continue}return b}}function
 _(b,a){if(a){var
 c=a[2],d=j(b,a[1]);return[0,d,_(b,c)]}return 0}function
-h_(d,c){var
+h$(d,c){var
 a=c;for(;;){if(a){var
 e=a[2],b=j(d,a[1]);if(b){var
 a=e;continue}return b}return 1}}function
-aA(d,c){var
+aF(d,c){var
 a=c;for(;;){if(a){var
 e=a[2],b=j(d,a[1]);if(b)return b;var
 a=e;continue}return 0}}function
 bP(b,c){var
-a=cq(b);IQ(a,0,b,c);return h8(a)}function
-d6(g,b,a){var
-d=eV(g),f=0;if(0<=b&&0<=a&&!((h6(d)-a|0)<b)){var
-c=cq(a);f5(d,b,c,0,a);var
+a=cq(b);IT(a,0,b,c);return h9(a)}function
+d8(g,b,a){var
+d=eW(g),f=0;if(0<=b&&0<=a&&!((h7(d)-a|0)<b)){var
+c=cq(a);f6(d,b,c,0,a);var
 e=c;f=1}if(!f)var
-e=f_(sn);return h8(e)}function
-kX(k,g){if(g){var
+e=f$(ss);return h9(e)}function
+k0(k,g){if(g){var
 h=ax(k),c=0,b=g,p=0;for(;;){if(b){var
 i=b[1];if(b[2]){var
-j=(ax(i)+h|0)+c|0,m=b[2],n=c<=j?j:f_(so),c=n,b=m;continue}var
+j=(ax(i)+h|0)+c|0,m=b[2],n=c<=j?j:f$(st),c=n,b=m;continue}var
 l=ax(i)+c|0}else
 var
 l=c;var
 f=cq(l),e=p,d=g;for(;;){if(d){var
 a=d[1];if(d[2]){var
-o=d[2];eU(a,0,f,e,ax(a));eU(k,0,f,e+ax(a)|0,h);var
-e=(e+ax(a)|0)+h|0,d=o;continue}eU(a,0,f,e,ax(a))}return h8(f)}}}return sp}function
-h$(b,c){if(0===b)return[0];if(0<=b){var
-d=I5(b,j(c,0)),e=b-1|0,f=1;if(!(e<1)){var
+o=d[2];eV(a,0,f,e,ax(a));eV(k,0,f,e+ax(a)|0,h);var
+e=(e+ax(a)|0)+h|0,d=o;continue}eV(a,0,f,e,ax(a))}return h9(f)}}}return su}function
+ia(b,c){if(0===b)return[0];if(0<=b){var
+d=I8(b,j(c,0)),e=b-1|0,f=1;if(!(e<1)){var
 a=f;for(;;){d[1+a]=j(c,a);var
 g=a+1|0;if(e!==a){var
-a=g;continue}break}}return d}return f_(sq)}function
-ia(c){var
+a=g;continue}break}}return d}return f$(sv)}function
+ib(c){var
 a=c.length-1-1|0,b=0;for(;;){if(0<=a){var
 d=[0,c[1+a],b],a=a-1|0,b=d;continue}return b}}var
 d=aH(0),b=aH(1);function
 q(a){return E(a,b)}function
-kY(b,a){return E(aH(b),a)}function
+k1(b,a){return E(aH(b),a)}function
 c(b,a){return C(aH(b),a)}function
-aS(b,a){return[0,kQ(b,a),sj(b,a)]}function
-ib(b,a){return D(b,a)?b:a}function
+aS(b,a){return[0,kT(b,a),so(b,a)]}function
+ic(b,a){return D(b,a)?b:a}function
 bj(b,a){return D(b,a)?a:b}function
-e0(a){return e0}function
+e1(a){return e1}function
 M(a){return a?0:1}function
 z(b,a){var
 c=a?[0,j(b,a[1])]:a;return c}function
 ay(a){return a[1]}function
-aY(a){return a[2]}function
+aT(a){return a[2]}function
 g(a){var
 b=a?[0,g(a[2])]:a;return b}function
 f(a,b){if(a){var
 c=f(a[2],b);return[0,a[1],c]}return b}function
-kZ(a){return typeof
-a==="number"?0:[0,kZ(a[1])]}function
-k0(d,c){var
+k2(a){return typeof
+a==="number"?0:[0,k2(a[1])]}function
+k3(d,c){var
 a=d,b=c;for(;;)if(typeof
 a==="number")return b;else
 switch(a[0]){case
@@ -797,9 +797,9 @@ a=a[1],b=[7,b];continue;case
 8:var
 a=a[1],b=[8,b];continue;default:var
 a=a[1],b=[9,b];continue}}function
-f$(a){return k0(a,0)}function
-k1(a){if(typeof
-a==="number")return ss;else
+ga(a){return k3(a,0)}function
+k4(a){if(typeof
+a==="number")return sx;else
 switch(a[0]){case
 0:return[1,a[1]];case
 1:return[2,a[1]];case
@@ -809,9 +809,9 @@ switch(a[0]){case
 5:return[6,a[1]];case
 6:return[7,a[1]];case
 7:return[8,a[1]];case
-8:return[9,a[1]];default:return[0,k1(a[1])]}}function
+8:return[9,a[1]];default:return[0,k4(a[1])]}}function
 bR(a){if(typeof
-a==="number")return st;else
+a==="number")return sy;else
 switch(a[0]){case
 0:return[1,bQ(a[1])];case
 1:return[3,bQ(a[1])];case
@@ -836,8 +836,8 @@ switch(a[0]){case
 8:return[6,bR(a[1])];default:return[8,bR(a[1])]}}function
 bz(a){return a?a[1]:a}function
 N(b,a){return b?[0,N(b[1],a)]:a}function
-k2(a,b){return a?N(b,k2(a[1],b)):a}function
-d7(d,c){var
+k5(a,b){return a?N(b,k5(a[1],b)):a}function
+d9(d,c){var
 a=d,b=c;for(;;){if(a){if(b){var
 a=a[1],b=b[1];continue}return a}return a}}function
 ct(b,a){return b?a:a?0:1}function
@@ -848,61 +848,61 @@ aa(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return 1}}function
 aI(b,a){return aa([0,b],a)}function
-k3(c){var
+k6(c){var
 a=c;for(;;){if(a){var
 b=a[1];if(b){var
 a=b[1];continue}return b}return 1}}function
-ga(c,b,a){return c?j(b,ga(c[1],b,a)):a}function
-k4(a){if(a)var
-b=a[1],d=b?[0,k4(b[1])]:b,c=d;else
+gb(c,b,a){return c?j(b,gb(c[1],b,a)):a}function
+k7(a){if(a)var
+b=a[1],d=b?[0,k7(b[1])]:b,c=d;else
 var
 c=a;return c}function
-ic(d,c){var
+id(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return a?0:1}}function
-k5(a){if(D(a,b))return b;var
-e=aS(a,aH(2)),f=e[1];return K(e[2],d)?q(c(2,k5(f))):q(c(2,c(2,f)))}function
-k6(c,a){return bj(b,aL(c,a))}function
-gb(a,i,h){var
+k8(a){if(D(a,b))return b;var
+e=aS(a,aH(2)),f=e[1];return K(e[2],d)?q(c(2,k8(f))):q(c(2,c(2,f)))}function
+k9(c,a){return bj(b,aL(c,a))}function
+gc(a,i,h){var
 c=i,f=h;for(;;){if(D(f,b))return j(a,c);var
 g=aS(f,aH(2)),e=g[1];if(K(g[2],d)){var
-c=gb(a,c,e),f=e;continue}return j(a,gb(a,gb(a,c,e),e))}}function
-gc(a){function
-c(b){return C(a,b)}return function(a){return gb(c,b,a)}}function
-gd(a){if(D(a,b))return sv;var
-c=aS(a,aH(2)),e=c[1];return K(c[2],d)?[0,gd(e)]:[0,gd(e)]}function
-ge(a){if(D(a,b))return b;var
-c=aS(a,aH(2)),e=c[1];return K(c[2],d)?q(ge(e)):q(ge(e))}function
-k7(c,b){var
-a=kP(c,b);return 0===a?0:0<=a?2:1}function
-gf(j,i){var
+c=gc(a,c,e),f=e;continue}return j(a,gc(a,gc(a,c,e),e))}}function
+gd(a){function
+c(b){return C(a,b)}return function(a){return gc(c,b,a)}}function
+ge(a){if(D(a,b))return sA;var
+c=aS(a,aH(2)),e=c[1];return K(c[2],d)?[0,ge(e)]:[0,ge(e)]}function
+gf(a){if(D(a,b))return b;var
+c=aS(a,aH(2)),e=c[1];return K(c[2],d)?q(gf(e)):q(gf(e))}function
+k_(c,b){var
+a=kS(c,b);return 0===a?0:0<=a?2:1}function
+gg(j,i){var
 c=j,a=i;for(;;){if(D(c,b))return D(a,b)?1:K(aS(a,aH(2))[2],d)?0:0;var
 g=aS(c,aH(2)),h=g[1];if(K(g[2],d)){if(D(a,b))return 0;var
 e=aS(a,aH(2)),k=e[1];if(K(e[2],d)){var
 c=h,a=k;continue}return 0}if(D(a,b))return 0;var
 f=aS(a,aH(2)),l=f[1];if(K(f[2],d))return 0;var
 c=h,a=l;continue}}function
-gg(b,a){return 2<=k7(b,a)?0:1}function
-d8(i,e,a){if(i){var
+gh(b,a){return 2<=k_(b,a)?0:1}function
+d_(i,e,a){if(i){var
 f=i[1];if(D(e,b))return[0,b,[0,b,a]];var
 w=aS(e,aH(2)),g=w[1];if(K(w[2],d)){if(D(a,b))return[0,b,[0,e,b]];var
 m=aS(a,aH(2)),A=m[1];if(K(m[2],d)){var
-j=d8(f,g,A),x=j[2];return[0,c(2,j[1]),x]}var
-k=d8(f,g,a),l=k[2],y=l[2],z=[0,c(2,l[1]),y];return[0,k[1],z]}if(D(a,b))return[0,b,[0,e,b]];var
+j=d_(f,g,A),x=j[2];return[0,c(2,j[1]),x]}var
+k=d_(f,g,a),l=k[2],y=l[2],z=[0,c(2,l[1]),y];return[0,k[1],z]}if(D(a,b))return[0,b,[0,e,b]];var
 v=aS(a,aH(2)),h=v[1];if(K(v[2],d)){var
-n=d8(f,e,h),o=n[2],B=c(2,o[2]);return[0,n[1],[0,o[1],B]]}switch(k7(g,h)){case
+n=d_(f,e,h),o=n[2],B=c(2,o[2]);return[0,n[1],[0,o[1],B]]}switch(k_(g,h)){case
 0:return[0,e,[0,b,b]];case
 1:var
-p=d8(f,k6(h,g),e),q=p[2],r=q[2],C=[0,r,E(r,c(2,q[1]))];return[0,p[1],C];default:var
-s=d8(f,k6(g,h),a),t=s[2],u=t[2],F=[0,E(u,c(2,t[1])),u];return[0,s[1],F]}}return[0,b,[0,e,a]]}function
-gh(b,a){var
-c=gd(a);return d8(N(gd(b),c),b,a)}function
-k8(c,i,h){var
+p=d_(f,k9(h,g),e),q=p[2],r=q[2],C=[0,r,E(r,c(2,q[1]))];return[0,p[1],C];default:var
+s=d_(f,k9(g,h),a),t=s[2],u=t[2],F=[0,E(u,c(2,t[1])),u];return[0,s[1],F]}}return[0,b,[0,e,a]]}function
+gi(b,a){var
+c=ge(a);return d_(N(ge(b),c),b,a)}function
+k$(c,i,h){var
 e=i,a=h;for(;;){if(D(e,b))return a;var
 f=aS(e,aH(2)),g=f[1];if(K(f[2],d)){var
-e=g,a=aq(c,a,a);continue}return aq(c,a,k8(c,g,aq(c,a,a)))}}function
-e1(a){return k8(N,a,sw)}function
-k9(a){return a?q(k9(a[1])):b}function
+e=g,a=aq(c,a,a);continue}return aq(c,a,k$(c,g,aq(c,a,a)))}}function
+e2(a){return k$(N,a,sB)}function
+la(a){return a?q(la(a[1])):b}function
 cu(f,e){var
 a=f,d=e;for(;;)if(typeof
 a==="number")return d;else
@@ -926,23 +926,23 @@ t=C(c(2,q(c(2,c(2,b)))),d),u=E(q(c(2,q(c(2,b)))),t),a=a[1],d=u;continue;case
 8:var
 v=C(c(2,q(c(2,c(2,b)))),d),w=E(c(2,c(2,c(2,b))),v),a=a[1],d=w;continue;default:var
 x=C(c(2,q(c(2,c(2,b)))),d),y=E(q(c(2,c(2,c(2,b)))),x),a=a[1],d=y;continue}}function
-id(a){if(D(a,b))return sx;var
-c=aS(a,aH(2)),e=c[1];return K(c[2],d)?bQ(id(e)):bR(id(e))}function
-gi(a){return f$(id(a))}function
-k_(c,b){var
-a=kP(c,b);return 0===a?0:0<=a?2:1}function
-ie(b,a){return 1===k_(b,a)?1:0}var
-k$=E,sz=T;function
+ie(a){if(D(a,b))return sC;var
+c=aS(a,aH(2)),e=c[1];return K(c[2],d)?bQ(ie(e)):bR(ie(e))}function
+gj(a){return ga(ie(a))}function
+lb(c,b){var
+a=kS(c,b);return 0===a?0:0<=a?2:1}function
+ig(b,a){return 1===lb(b,a)?1:0}var
+lc=E,sE=T;function
 b8(k,f){if(0<=aR(f)){var
-g=kR(f);if(0<=g){var
+g=kU(f);if(0<=g){var
 e=b,c=k,a=g;for(;;){if(0===a)return e;var
-h=a>>>1|0,i=C(c,c),j=1===(a&1)?C(e,c):e,e=j,c=i,a=h;continue}}return f_(sr)}return d}function
-ig(c){var
+h=a>>>1|0,i=C(c,c),j=1===(a&1)?C(e,c):e,e=j,c=i,a=h;continue}}return f$(sw)}return d}function
+ih(c){var
 a=aR(c);return 0===a?d:0<a?b:T(b)}function
-ih(a){return 0<=aR(a)?a:d}function
-d9(a){var
+ii(a){return 0<=aR(a)?a:d}function
+d$(a){var
 c=aR(a);return 0===c?b:0<c?a:b}function
-la(m){var
+ld(m){var
 a=m;for(;;)if(typeof
 a==="number")return d;else
 switch(a[0]){case
@@ -965,15 +965,15 @@ j=q(c(2,q(c(2,b))));return cu(a[1],j);case
 k=c(2,c(2,c(2,b)));return cu(a[1],k);default:var
 l=q(c(2,c(2,c(2,b))));return cu(a[1],l)}}function
 cv(b,a){var
-c=aR(a);return 0===c?d:1===c?kQ(b,a):kY(-1,kQ(kY(-1,b),a))}function
-lb(a){var
+c=aR(a);return 0===c?d:1===c?kT(b,a):k1(-1,kT(k1(-1,b),a))}function
+le(a){var
 f=aR(a);if(0===f)return d;if(0<f){if(D(a,b))return d;var
-c=aS(a,aH(2)),e=c[1];return K(c[2],d)?ge(e):ge(e)}return d}function
-gj(a){return 0<aR(a)?Jn(a):d}function
-e2(b,c){var
-a=kR(c);return 0<=a?sk(b,a):sl(b,-a|0)}function
+c=aS(a,aH(2)),e=c[1];return K(c[2],d)?gf(e):gf(e)}return d}function
+gk(a){return 0<aR(a)?Jq(a):d}function
+e3(b,c){var
+a=kU(c);return 0<=a?sp(b,a):sq(b,-a|0)}function
 dv(b,c){var
-a=kR(c);return 0<=a?sl(b,a):sk(b,-a|0)}function
+a=kU(c);return 0<=a?sq(b,a):sp(b,-a|0)}function
 bS(b,a){return a?a[1]:b}function
 bA(a){var
 b=a?a[2]:a;return b}function
@@ -984,14 +984,14 @@ H(d,c){var
 a=d,b=c;for(;;){if(b){if(a){var
 a=a[2],b=b[1];continue}return a}var
 e=a?[0,a[1]]:a;return e}}function
-lc(a){if(a){var
-b=[0,a[1],0];return f(lc(a[2]),b)}return a}function
-e3(d,c){var
+lf(a){if(a){var
+b=[0,a[1],0];return f(lf(a[2]),b)}return a}function
+e4(d,c){var
 a=d,b=c;for(;;){if(a){var
 e=[0,a[1],b],a=a[2],b=e;continue}return b}}function
-d_(a){if(a){var
-b=d_(a[2]);return f(a[1],b)}return a}function
-ii(g,f,e){var
+ea(a){if(a){var
+b=ea(a[2]);return f(a[1],b)}return a}function
+ij(g,f,e){var
 b=f,a=e;for(;;){if(b){if(a){var
 c=aq(g,b[1],a[1]);if(c){var
 b=b[2],a=a[2];continue}var
@@ -1016,7 +1016,7 @@ a=a[2];continue}var
 c=b}else
 var
 c=a;return c}}function
-m(d,c){var
+l(d,c){var
 a=c;for(;;){if(a){var
 b=j(d,a[1]);if(b){var
 a=a[2];continue}return b}return 1}}function
@@ -1024,7 +1024,7 @@ bu(b,e){var
 a=e;for(;;){if(a){var
 c=a[2],d=a[1];if(j(b,d))return[0,d,bu(b,c)];var
 a=c;continue}return a}}function
-ld(d,c){var
+lg(d,c){var
 a=c;for(;;){if(a){var
 b=a[1];if(j(d,b))return[0,b];var
 a=a[2];continue}return a}}function
@@ -1034,8 +1034,8 @@ var
 c=a;else
 var
 c=b;return c}function
-aB(b,a){if(b)if(a)var
-d=aB(b[1],a[2]),c=[0,a[1],d];else
+aA(b,a){if(b)if(a)var
+d=aA(b[1],a[2]),c=[0,a[1],d];else
 var
 c=a;else
 var
@@ -1043,44 +1043,44 @@ c=b;return c}function
 aM(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[2];continue}return a}return a}}function
-aC(b,a){var
-c=a?[0,b,aC([0,b],a[1])]:a;return c}function
+aB(b,a){var
+c=a?[0,b,aB([0,b],a[1])]:a;return c}function
 al(b,a){var
 c=a?[0,b,al(b,a[1])]:a;return c}function
-le(a){if(a){var
-e=le(a[2]),f=C(c(2,b),e),g=a[1]?b:d;return E(g,f)}return d}function
-gk(j){function
+lh(a){if(a){var
+e=lh(a[2]),f=C(c(2,b),e),g=a[1]?b:d;return E(g,f)}return d}function
+gl(j){function
 a(a){return 0!==(j&1<<a)?1:0}var
-c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=le([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<aR(b)?e1(b):0}function
-lf(a){return[0,a,b]}function
-d$(c,b){var
-a=kP(C(c[1],b[2]),C(b[1],c[2])),d=0===a?0:0<=a?2:1;return d?0:1}function
+c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=lh([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<aR(b)?e2(b):0}function
+li(a){return[0,a,b]}function
+eb(c,b){var
+a=kS(C(c[1],b[2]),C(b[1],c[2])),d=0===a?0:0<=a?2:1;return d?0:1}function
 bb(b,a){return D(C(b[1],a[2]),C(a[1],b[2]))}function
 dw(b,a){return[0,E(C(b[1],a[2]),C(a[1],b[2])),C(b[2],a[2])]}function
 a0(b,a){return[0,C(b[1],a[1]),C(b[2],a[2])]}function
-gl(a){return[0,T(a[1]),a[2]]}function
-dx(b,a){return dw(b,gl(a))}function
-gm(f,c){var
+gm(a){return[0,T(a[1]),a[2]]}function
+dx(b,a){return dw(b,gm(a))}function
+gn(f,c){var
 a=c[1],e=aR(a),g=0===e?[0,d,b]:0<e?[0,c[2],a]:[0,T(c[2]),T(a)];return a0(f,g)}function
 dy(q){var
 a=q[2],b=q[1],o=aR(b);if(0===o)var
-c=[0,cr(a),[0,d,ig(a)]];else
+c=[0,cr(a),[0,d,ih(a)]];else
 if(0<o){var
 n=aR(a);if(0===n)var
-c=[0,cr(b),[0,ig(b),d]];else
+c=[0,cr(b),[0,ih(b),d]];else
 if(0<n)var
-l=gh(b,a),m=l[2],c=[0,l[1],[0,m[1],m[2]]];else
+l=gi(b,a),m=l[2],c=[0,l[1],[0,m[1],m[2]]];else
 var
-j=gh(b,T(a)),k=j[2],c=[0,j[1],[0,k[1],T(k[2])]]}else{var
+j=gi(b,T(a)),k=j[2],c=[0,j[1],[0,k[1],T(k[2])]]}else{var
 p=T(b),i=aR(a);if(0===i)var
-c=[0,cr(b),[0,ig(b),d]];else
+c=[0,cr(b),[0,ih(b),d]];else
 if(0<i)var
-g=gh(p,a),h=g[2],c=[0,g[1],[0,T(h[1]),h[2]]];else
+g=gi(p,a),h=g[2],c=[0,g[1],[0,T(h[1]),h[2]]];else
 var
-e=gh(p,T(a)),f=e[2],c=[0,e[1],[0,T(f[1]),T(f[2])]]}var
-r=c[2],s=d9(r[2]);return[0,r[1],s]}function
+e=gi(p,T(a)),f=e[2],c=[0,e[1],[0,T(f[1]),T(f[2])]]}var
+r=c[2],s=d$(r[2]);return[0,r[1],s]}function
 bk(a){if(typeof
-a==="number")return sB;else
+a==="number")return sG;else
 switch(a[0]){case
 0:var
 b=bk(a[1]);return ba(bP(1,48),b);case
@@ -1101,49 +1101,49 @@ i=bk(a[1]);return ba(bP(1,55),i);case
 8:var
 j=bk(a[1]);return ba(bP(1,56),j);default:var
 k=bk(a[1]);return ba(bP(1,57),k)}}function
-e4(a){return typeof
-a==="number"?sC:bk(a)}function
+e5(a){return typeof
+a==="number"?sH:bk(a)}function
 cw(a){return b8(c(2,b),a)}function
-lg(b,a){return dv(a,b)}function
-lh(b,a){return T(dv(T(a),b))}function
-gn(b,a){return T(cv(T(b),a))}function
+lj(b,a){return dv(a,b)}function
+lk(b,a){return T(dv(T(a),b))}function
+go(b,a){return T(cv(T(b),a))}function
 O(c,b){var
-a=e2(b,c);return[0,a,a]}function
-li(d,c,a){var
-b=e2(c,d),e=gn(b,a);return[0,cv(b,a),e]}function
+a=e3(b,c);return[0,a,a]}function
+ll(d,c,a){var
+b=e3(c,d),e=go(b,a);return[0,cv(b,a),e]}function
 A(b,a){return[0,E(b[1],a[1]),E(b[2],a[2])]}function
 F(b,a){return[0,aL(b[1],a[2]),aL(b[2],a[1])]}function
 ab(a){return[0,T(a[2]),T(a[1])]}function
-lj(e,c,b,a){if(D(d,e))return D(d,b)?[0,C(e,b),C(c,a)]:D(a,d)?[0,C(c,b),C(e,a)]:[0,C(c,b),C(c,a)];if(D(c,d))return D(d,b)?[0,C(e,a),C(c,b)]:D(a,d)?[0,C(c,a),C(e,b)]:[0,C(e,a),C(e,b)];if(D(d,b))return[0,C(e,a),C(c,a)];if(D(a,d))return[0,C(c,b),C(e,b)];var
-f=bj(C(e,b),C(c,a));return[0,ib(C(e,a),C(c,b)),f]}function
+lm(e,c,b,a){if(D(d,e))return D(d,b)?[0,C(e,b),C(c,a)]:D(a,d)?[0,C(c,b),C(e,a)]:[0,C(c,b),C(c,a)];if(D(c,d))return D(d,b)?[0,C(e,a),C(c,b)]:D(a,d)?[0,C(c,a),C(e,b)]:[0,C(e,a),C(e,b)];if(D(d,b))return[0,C(e,a),C(c,a)];if(D(a,d))return[0,C(c,b),C(e,b)];var
+f=bj(C(e,b),C(c,a));return[0,ic(C(e,a),C(c,b)),f]}function
 t(c,b,a){var
-d=lj(b[1],b[2],a[1],a[2]),e=lh(c,d[2]);return[0,lg(c,d[1]),e]}function
+d=lm(b[1],b[2],a[1],a[2]),e=lk(c,d[2]);return[0,lj(c,d[1]),e]}function
 U(b,a){var
-c=C(a[1],a[1]),e=C(a[2],a[2]),h=lh(b,bj(c,e)),g=0;if(I(a[1],d)&&I(d,a[2])){var
+c=C(a[1],a[1]),e=C(a[2],a[2]),h=lk(b,bj(c,e)),g=0;if(I(a[1],d)&&I(d,a[2])){var
 f=d;g=1}if(!g)var
-f=lg(b,ib(c,e));return[0,f,h]}function
-ij(b,a){var
-c=e2(cw(b),b),d=gn(c,a[1]);return[0,cv(c,a[2]),d]}function
-b9(b,a){if(I(d,a[1]))return[0,ij(b,a)];var
-c=I(a[2],d),e=c?[0,ab(ij(b,ab(a)))]:c;return e}function
-ik(c){var
-a=gj(c);return K(C(a,a),c)?a:E(a,b)}function
+f=lj(b,ic(c,e));return[0,f,h]}function
+ik(b,a){var
+c=e3(cw(b),b),d=go(c,a[1]);return[0,cv(c,a[2]),d]}function
+b9(b,a){if(I(d,a[1]))return[0,ik(b,a)];var
+c=I(a[2],d),e=c?[0,ab(ik(b,ab(a)))]:c;return e}function
+il(c){var
+a=gk(c);return K(C(a,a),c)?a:E(a,b)}function
 b_(b,a){var
 c=I(d,a[1]);if(c)var
-f=ik(e2(a[2],b)),e=[0,[0,gj(e2(a[1],b)),f]];else
+f=il(e3(a[2],b)),e=[0,[0,gk(e3(a[1],b)),f]];else
 var
 e=c;return e}function
-ea(a){return 0===a[0]?a[2]:a[1]}function
+ec(a){return 0===a[0]?a[2]:a[1]}function
 aO(f,d,c,b,a){if(b){if(a){var
 g=aO(f,d,c,b[2],a[2]);return[0,aq(c,b[1],a[1]),g]}return e(f,b)}return e(d,a)}function
 cU(b,a){return dv(b,a)}function
-aT(a,c,b){if(D(d,a)){var
+aU(a,c,b){if(D(d,a)){var
 e=b[1],f=T(cU(T(C(a,b[2])),c));return[0,cU(C(a,e),c),f]}var
 g=b[2],h=T(cU(T(C(a,b[1])),c));return[0,cU(C(a,g),c),h]}function
-as(a){var
+at(a){var
 c=T(dv(T(a[2]),b));return[0,dv(a[1],b),c]}function
-eb(c,b,a){var
-e=lj(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=I(f,d)?a[2]:a[1],i=gn(f,h),j=I(g,d)?a[1]:a[2];return[0,cv(g,j),i]}function
+ed(c,b,a){var
+e=lm(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=I(f,d)?a[2]:a[1],i=go(f,h),j=I(g,d)?a[1]:a[2];return[0,cv(g,j),i]}function
 b$(a){return bj(a[2],T(a[1]))}var
 u=[0,d,d];function
 ca(a){return[0,a[1],a[1]]}function
@@ -1197,47 +1197,47 @@ var
 e=k}else
 var
 e=j;return e}return 0}}}function
-go(b){var
+gp(b){var
 a=b[1];return 2===a[0]?[0,a[1]]:0}function
 a5(c,b){var
-a=go(b);return a?K(c,a[1]):a}function
-e5(a){return I(cr(a),c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b))))))))))))))))}function
-l(a){return[0,[2,a]]}function
+a=gp(b);return a?K(c,a[1]):a}function
+e6(a){return I(cr(a),c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b))))))))))))))))}function
+m(a){return[0,[2,a]]}function
 B(b,a){if(a5(d,b))return a;if(a5(d,a))return b;var
-c=go(b);if(c){var
-e=c[1],f=go(a);if(f){var
-g=f[1];if(e5(e)&&e5(g))return l(E(e,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
+c=gp(b);if(c){var
+e=c[1],f=gp(a);if(f){var
+g=f[1];if(e6(e)&&e6(g))return m(E(e,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
 bl(a){var
 b=a[1];switch(b[0]){case
 2:var
-c=b[1];return e5(c)?l(T(c)):[0,[5,a]];case
+c=b[1];return e6(c)?m(T(c)):[0,[5,a]];case
 5:return b[1];default:return[0,[5,a]]}}function
 x(b,a){if(a5(d,a))return b;if(a5(d,b))return bl(a);var
 c=b[1];if(0===c[0]){var
-e=a[1];return 0===e[0]?o(c[1],e[1])?l(d):[0,[4,b,a]]:[0,[4,b,a]]}return[0,[4,b,a]]}function
+e=a[1];return 0===e[0]?o(c[1],e[1])?m(d):[0,[4,b,a]]:[0,[4,b,a]]}return[0,[4,b,a]]}function
 V(a){var
-c=go(a);if(c){var
-b=c[1];return e5(b)?l(C(b,b)):[0,[8,a]]}return[0,[8,a]]}function
+c=gp(a);if(c){var
+b=c[1];return e6(b)?m(C(b,b)):[0,[8,a]]}return[0,[8,a]]}function
 s(a,c){if(!a5(d,a)&&!a5(b,c)){if(!a5(d,c)&&!a5(b,a))return aN(a,c)?V(a):[0,[6,a,c]];return c}return a}function
 am(c,a){return a5(b,a)?c:[0,[7,c,a]]}function
 aJ(a){return a5(b,a)?a:[0,[9,a]]}function
-lk(d,c,b,a){return[0,[10,d,c,b,a]]}function
+ln(d,c,b,a){return[0,[10,d,c,b,a]]}function
 bc(f,e,d,c){var
 b=d,a=c;for(;;){if(b){var
 g=b[1],h=[0,j(e,bU(function(b){return function(a){return r(a,b,f)}}(a),g)),a],b=b[2],a=h;continue}return a}}function
-ll(d,f,k,i,h){var
+lo(d,f,k,i,h){var
 b=k,c=i,a=h;for(;;){if(c){var
 e=c[2],g=c[1];if(b){if(b[1]){var
 l=[0,j(f,bU(function(b){return function(a){return r(a,b,d)}}(a),g)),a],b=bA(b),c=e,a=l;continue}var
 b=b[2],c=e,a=[0,d,a];continue}var
 m=[0,j(f,bU(function(b){return function(a){return r(a,b,d)}}(a),g)),a],b=bA(b),c=e,a=m;continue}return a}}function
-e6(b,a){if(a){var
+e7(b,a){if(a){var
 c=a[2];if(b){var
-e=e6(b[1],c);return[0,a[1],e]}var
+e=e7(b[1],c);return[0,a[1],e]}var
 d=[0,1,c]}else
 var
 d=a;return d}function
-lm(a){switch(a[0]){case
+lp(a){switch(a[0]){case
 10:return[0,a[2],[0,a[3],[0,a[4],0]]];case
 5:case
 8:case
@@ -1245,12 +1245,12 @@ lm(a){switch(a[0]){case
 0:case
 1:case
 2:return 0;default:return[0,a[1],[0,a[2],0]]}}function
-gp(j,g){var
-k=0,l=an(e6,e(function(a){return 0},g),j),c=e3(g,0),b=l,a=k;for(;;){if(c){if(b){var
-d=b[2],f=b[1],h=[0,f,a],i=f?an(e6,d,lm(c[1])):d,c=c[2],b=i,a=h;continue}return a}return a}}function
+gq(j,g){var
+k=0,l=an(e7,e(function(a){return 0},g),j),c=e4(g,0),b=l,a=k;for(;;){if(c){if(b){var
+d=b[2],f=b[1],h=[0,f,a],i=f?an(e7,d,lp(c[1])):d,c=c[2],b=i,a=h;continue}return a}return a}}function
 cV(a){var
 b=0;function
-c(a){return[0,a]}return bc(l(d),c,a,b)}function
+c(a){return[0,a]}return bc(m(d),c,a,b)}function
 bd(d,c){var
 a=d,b=0;for(;;){if(a){if(aN(c,a[1]))return b;var
 a=a[2],b=[0,b];continue}return a}}function
@@ -1270,10 +1270,10 @@ c=b;break;default:var
 i=dz(a[1],b),c=dz(a[2],i)}var
 f=c[2],g=c[1],h=[0,bU(function(a){return bd(g,a)},a),f];return[0,[0,d,c[1]],h]}function
 cW(a){var
-b=bT(function(b,a){return dz(a,b)},a,sD),c=b[1],d=e(function(a){return bd(c,a)},a);return[0,lc(b[2]),d]}function
-e7(a){return an(function(b,a){return E(b$(b),a)},d,a)}function
+b=bT(function(b,a){return dz(a,b)},a,sI),c=b[1],d=e(function(a){return bd(c,a)},a);return[0,lf(b[2]),d]}function
+e8(a){return an(function(b,a){return E(b$(b),a)},d,a)}function
 cy(b,c,a){var
-d=e7(a),e=ib(c[2],E(b[2],d)),f=e7(a);return[0,b,[0,bj(c[1],aL(b[1],f)),e],a]}function
+d=e8(a),e=ic(c[2],E(b[2],d)),f=e8(a);return[0,b,[0,bj(c[1],aL(b[1],f)),e],a]}function
 $(a){return[0,a,a,0]}function
 cb(b,a){var
 c=a[3],d=b[3];function
@@ -1281,17 +1281,17 @@ e(a){return a}var
 f=aO(function(a){return a},e,A,d,c),g=A(b[2],a[2]);return cy(A(b[1],a[1]),g,f)}function
 bv(b,a){var
 c=a[3],d=b[3],e=aO(function(a){return a},ab,F,d,c),f=F(b[2],a[2]);return cy(F(b[1],a[1]),f,e)}function
-e8(a){var
+e9(a){var
 b=e(ab,a[3]),c=ab(a[2]);return[0,ab(a[1]),c,b]}function
 aP(a,c,b){var
 d=A(b[2],b[1]),e=A(c[2],c[1]),f=b[3],g=c[3];function
 h(c,b){var
-f=t(a,e,b);return as(A(t(a,d,c),f))}function
-i(b){return as(t(a,e,b))}var
-j=aO(function(b){return as(t(a,d,b))},i,h,g,f),k=t(a,c[2],b[2]);return cy(t(a,c[1],b[1]),k,j)}function
-e9(b,a){var
+f=t(a,e,b);return at(A(t(a,d,c),f))}function
+i(b){return at(t(a,e,b))}var
+j=aO(function(b){return at(t(a,d,b))},i,h,g,f),k=t(a,c[2],b[2]);return cy(t(a,c[1],b[1]),k,j)}function
+e_(b,a){var
 c=a[3],d=A(a[2],a[1]),f=e(function(a){return t(b,d,a)},c),g=U(b,a[2]);return cy(U(b,a[1]),g,f)}function
-il(a,b){var
+im(a,b){var
 c=b_(a,b[1]);if(c){var
 g=c[1],d=b_(a,b[2]);if(d){var
 h=d[1],f=b9(a,A(h,g));if(f)var
@@ -1304,7 +1304,7 @@ j=d;var
 k=j}else
 var
 k=c;return k}function
-ec(a,c,b){var
+ee(a,c,b){var
 d=b9(a,b[1]);if(d){var
 f=b9(a,b[2]);if(f)var
 h=f[1],g=t(a,c[1],d[1]),k=b[3],l=c[3],m=function(c,b){return F(c,t(a,g,b))},n=function(b){return ab(t(a,g,b))},o=aO(function(a){return a},n,m,l,k),p=e(function(b){return t(a,h,b)},o),i=[0,cy(g,t(a,c[2],h),p)];else
@@ -1314,24 +1314,24 @@ j=i}else
 var
 j=d;return j}function
 cX(b,a){return a?j(b,a[1]):a}function
-gq(a){var
-b=e(as,a[3]),c=as(A(a[2],a[1]));return cy(a[1],c,b)}function
-ln(a,k,j,r,c){var
-l=gq(k),m=gq(j),g=gq(c[1]),h=gq(c[2]),s=aP(a,l,h),u=bv(aP(a,m,g),s),i=ec(a,$(O(a,b)),u);if(i)var
+gr(a){var
+b=e(at,a[3]),c=at(A(a[2],a[1]));return cy(a[1],c,b)}function
+lq(a,k,j,r,c){var
+l=gr(k),m=gr(j),g=gr(c[1]),h=gr(c[2]),s=aP(a,l,h),u=bv(aP(a,m,g),s),i=ee(a,$(O(a,b)),u);if(i)var
 f=i[1],n=aP(a,bv(l,g),f),o=aP(a,bv(m,h),f),d=function(c,b){return aP(a,c,$(b))},v=j[3],w=k[3],x=function(b,a){var
-c=d(o,a);return cb(d(n,b),c)},y=function(a){return d(o,a)},z=aO(function(a){return d(n,a)},y,x,w,v),A=r[3],B=function(b,a){return bv(b,d(f,as(a)))[2]},C=function(a){return e8(d(f,as(a)))[2]},p=aO(function(a){return a[2]},C,B,z,A),D=g[2],E=e(function(b){return t(a,D,b)},p),F=cy(c[2][1],c[2][2],E),G=ab(h[2]),H=e(function(b){return t(a,G,b)},p),q=[0,[0,cy(c[1][1],c[1][2],H),F]];else
+c=d(o,a);return cb(d(n,b),c)},y=function(a){return d(o,a)},z=aO(function(a){return d(n,a)},y,x,w,v),A=r[3],B=function(b,a){return bv(b,d(f,at(a)))[2]},C=function(a){return e9(d(f,at(a)))[2]},p=aO(function(a){return a[2]},C,B,z,A),D=g[2],E=e(function(b){return t(a,D,b)},p),F=cy(c[2][1],c[2][2],E),G=ab(h[2]),H=e(function(b){return t(a,G,b)},p),q=[0,[0,cy(c[1][1],c[1][2],H),F]];else
 var
 q=i;return q}function
-lo(a,e,d,k){var
-p=e9(a,d),f=cb(e9(a,e),p),g=bv(cb(f,$(O(a,b))),k),l=aP(a,$(O(a,c(2,b))),f),q=e9(a,g),h=il(a,bv(aP(a,$(O(a,c(2,c(2,b)))),f),q));if(h){var
-m=h[1],r=aP(a,m,d),i=ec(a,cb(aP(a,g,e),r),l);if(i)var
-s=aP(a,m,e),j=ec(a,bv(aP(a,g,d),s),l),t=j?[0,[0,i[1],j[1]]]:j,n=t;else
+lr(a,e,d,k){var
+p=e_(a,d),f=cb(e_(a,e),p),g=bv(cb(f,$(O(a,b))),k),l=aP(a,$(O(a,c(2,b))),f),q=e_(a,g),h=im(a,bv(aP(a,$(O(a,c(2,c(2,b)))),f),q));if(h){var
+m=h[1],r=aP(a,m,d),i=ee(a,cb(aP(a,g,e),r),l);if(i)var
+s=aP(a,m,e),j=ee(a,bv(aP(a,g,d),s),l),t=j?[0,[0,i[1],j[1]]]:j,n=t;else
 var
 n=i;var
 o=n}else
 var
 o=h;var
-u=cX(function(b){return ln(a,e,d,k,b)},o);return cX(function(b){return ln(a,e,d,k,b)},u)}function
+u=cX(function(b){return lq(a,e,d,k,b)},o);return cX(function(b){return lq(a,e,d,k,b)},u)}function
 cz(d,b,a){if(b){if(a)return aq(d,b[1],a[1]);var
 c=a}else
 var
@@ -1346,19 +1346,19 @@ k=a[2],l=a[1];return cz(function(b,a){return[0,cb(b,a)]},l,k);case
 4:var
 m=a[2],n=a[1];return cz(function(b,a){return[0,bv(b,a)]},n,m);case
 5:var
-o=a[1];return cX(function(a){return[0,e8(a)]},o);case
+o=a[1];return cX(function(a){return[0,e9(a)]},o);case
 6:var
 p=a[2],q=a[1];return cz(function(c,a){return[0,aP(b,c,a)]},q,p);case
 7:var
-s=a[2],t=a[1];return cz(function(a,c){return ec(b,a,c)},t,s);case
+s=a[2],t=a[1];return cz(function(a,c){return ee(b,a,c)},t,s);case
 8:var
-u=a[1];return cX(function(a){return[0,e9(b,a)]},u);case
+u=a[1];return cX(function(a){return[0,e_(b,a)]},u);case
 9:var
-v=a[1];return cX(function(a){return il(b,a)},v);default:var
+v=a[1];return cX(function(a){return im(b,a)},v);default:var
 c=a[2];if(c){var
 d=a[3];if(d){var
 e=a[4];if(e){var
-w=lo(b,c[1],d[1],e[1]),x=a[1]?aY:ay;return z(x,w)}var
+w=lr(b,c[1],d[1],e[1]),x=a[1]?aT:ay;return z(x,w)}var
 g=e}else
 var
 g=d;var
@@ -1376,10 +1376,10 @@ a=a[2];continue}}function
 cc(r,q){var
 b=r,a=q;for(;;)switch(b[0]){case
 0:if(0===a[0]){var
-c=K(b[1],a[1]);return c?gf(b[2],a[2]):c}return 0;case
+c=K(b[1],a[1]);return c?gg(b[2],a[2]):c}return 0;case
 1:var
 d=b[3],e=b[2];if(1===a[0]){var
-f=a[3],g=a[2],h=o(b[1],a[1]),i=h?K(e[1],g[1]):h,j=i?gf(e[2],g[2]):i,k=j?K(d[1],f[1]):j;return k?gf(d[2],f[2]):k}return 0;case
+f=a[3],g=a[2],h=o(b[1],a[1]),i=h?K(e[1],g[1]):h,j=i?gg(e[2],g[2]):i,k=j?K(d[1],f[1]):j;return k?gg(d[2],f[2]):k}return 0;case
 2:if(2===a[0]){var
 l=cc(b[1],a[1]);if(l){var
 b=b[2],a=a[2];continue}return l}return 0;case
@@ -1393,7 +1393,7 @@ b=b[2],a=a[2];continue}return n}return 0;case
 p=cc(b[1],a[1]);if(p){var
 b=b[2],a=a[2];continue}return p}return 0;default:if(6===a[0]){var
 b=b[1],a=a[1];continue}return 0}}function
-e_(c,a){switch(a[0]){case
+e$(c,a){switch(a[0]){case
 0:return[0,[0,a[1],a[2]]];case
 1:return 0;case
 2:var
@@ -1403,17 +1403,17 @@ o=a[2],p=a[1],g=o,f=p,e=function(b,a){return[0,dx(b,a)]};break;case
 4:var
 q=a[2],r=a[1],g=q,f=r,e=function(b,a){return[0,a0(b,a)]};break;case
 5:var
-s=a[2],t=a[1],g=s,f=t,e=function(c,a){return d$(a,[0,d,b])?0:[0,gm(c,a)]};break;default:var
-k=e_(c,a[1]);return k?j(c,k[1]):k}var
-h=e_(c,f);if(h){var
-i=e_(c,g);if(i)return e(h[1],i[1]);var
+s=a[2],t=a[1],g=s,f=t,e=function(c,a){return eb(a,[0,d,b])?0:[0,gn(c,a)]};break;default:var
+k=e$(c,a[1]);return k?j(c,k[1]):k}var
+h=e$(c,f);if(h){var
+i=e$(c,g);if(i)return e(h[1],i[1]);var
 l=i}else
 var
 l=h;return l}function
-sE(a){return 0}function
-cA(a){return e_(sE,a)}function
+sJ(a){return 0}function
+cA(a){return e$(sJ,a)}function
 bV(a,c){switch(c[0]){case
-0:return[0,li(a,c[1],c[2])];case
+0:return[0,ll(a,c[1],c[2])];case
 1:return 0;case
 2:var
 g=bV(a,c[1]);if(g)var
@@ -1444,224 +1444,224 @@ e=p[1];if(I(d,e[1]))return b_(a,e);var
 f=cA(y),J=f?M(bb([0,d,b],f[1])):f;if(J)return 0;if(I(d,e[2])){var
 B=b_(a,[0,e[2],e[2]]);return z(function(a){return[0,d,a[2]]},B)}var
 q=K(e[2],d),C=q?[0,u]:q;return C}return p}}function
-cB(b,a){return li(b,a[1],a[2])}function
-lp(a,g,e,d){var
+cB(b,a){return ll(b,a[1],a[2])}function
+ls(a,g,e,d){var
 h=[0,b,c(2,b)],i=[0,cB(a,a0(dx(d,e),h)),0],j=f(al(u,g),i),k=cB(a,d)[2],l=[0,cB(a,e)[1],k],m=[0,b,c(2,b)];return[0,cB(a,a0(dw(e,d),m)),l,j]}function
-ed(c,e,a){function
-b(a){return ed(c,e,a)}if(dA(a))switch(a[0]){case
+ef(c,e,a){function
+b(a){return ef(c,e,a)}if(dA(a))switch(a[0]){case
 0:return 0;case
-1:return fR(e,a[1],a[2],a[3]);case
+1:return fS(e,a[1],a[2],a[3]);case
 2:var
 g=b(a[2]),h=b(a[1]);return cz(function(b,a){return[0,cb(b,a)]},h,g);case
 3:var
 i=b(a[2]),j=b(a[1]);return cz(function(b,a){return[0,bv(b,a)]},j,i);case
 4:var
 f=a[2],d=a[1];if(cc(d,f)){var
-k=b(d);return cX(function(a){return[0,e9(c,a)]},k)}var
+k=b(d);return cX(function(a){return[0,e_(c,a)]},k)}var
 l=b(f),m=b(d);return cz(function(b,a){return[0,aP(c,b,a)]},m,l);case
 5:var
-n=b(a[2]),o=b(a[1]);return cz(function(a,b){return ec(c,a,b)},o,n);default:var
-p=b(a[1]);return cX(function(a){return il(c,a)},p)}return z($,bV(c,a))}function
-aD(b,a){if(dA(a)){var
-c=ed(b,function(d,c,a){var
-e=aI(d,dB),f=e?bb(c,a):e,g=f?[0,lp(b,d,c,a)]:f;return g},a);return z(function(a){return a[2]},c)}return bV(b,a)}function
-im(a){var
-e=bj(T(a),d);return d9(E(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e))}function
-lq(a){return ih(E(im(a),a))}function
-lr(b,a){var
-c=lq(b),d=T(cU(T(a[2]),c)),e=lq(b);return[0,cU(a[1],e),d]}function
+n=b(a[2]),o=b(a[1]);return cz(function(a,b){return ee(c,a,b)},o,n);default:var
+p=b(a[1]);return cX(function(a){return im(c,a)},p)}return z($,bV(c,a))}function
+aC(b,a){if(dA(a)){var
+c=ef(b,function(d,c,a){var
+e=aI(d,dB),f=e?bb(c,a):e,g=f?[0,ls(b,d,c,a)]:f;return g},a);return z(function(a){return a[2]},c)}return bV(b,a)}function
+io(a){var
+e=bj(T(a),d);return d$(E(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e))}function
+lt(a){return ii(E(io(a),a))}function
+lu(b,a){var
+c=lt(b),d=T(cU(T(a[2]),c)),e=lt(b);return[0,cU(a[1],e),d]}function
 cY(c,a,b){var
-d=aD(E(c,im(a)),b);return z(function(b){return lr(a,b)},d)}function
+d=aC(E(c,io(a)),b);return z(function(b){return lu(a,b)},d)}function
 ao(d,a){var
 b=cY(d,a[2],a[1][1]);if(b)var
 c=cY(d,a[2],a[1][2]),f=c?[0,[0,b[1][1],c[1][2]]]:c,e=f;else
 var
 e=b;return e}function
-ls(b,a){var
+lv(b,a){var
 c=T(cU(T(a[2]),b));return[0,cU(a[1],b),c]}function
-gr(b,a){var
-c=gn(b[2],a);return[0,cv(b[1],a),c]}function
-lt(h,g,d,b){var
-e=b[2],f=k9(d),i=c(2,f),j=C(k5(f),i),a=gr(t(h,b[1],g),j),k=k3(d)?F(e,a):A(e,a);return[0,a,k]}function
-lu(a,d,c){if(c){var
-e=c[1];return lt(a,d,e,lu(a,d,e))}var
+gs(b,a){var
+c=go(b[2],a);return[0,cv(b[1],a),c]}function
+lw(h,g,d,b){var
+e=b[2],f=la(d),i=c(2,f),j=C(k8(f),i),a=gs(t(h,b[1],g),j),k=k6(d)?F(e,a):A(e,a);return[0,a,k]}function
+lx(a,d,c){if(c){var
+e=c[1];return lw(a,d,e,lx(a,d,e))}var
 f=O(a,b);return[0,O(a,b),f]}function
-lv(e,g){var
+ly(e,g){var
 o=cw(e),p=C(c(2,c(2,b)),o),j=D(g[2],p);if(j){var
-n=e1(e),i=sF[1],d=n,f=0,a=i;for(;;){if(d){var
+n=e2(e),i=sK[1],d=n,f=0,a=i;for(;;){if(d){var
 h=d[1];if(a){var
 d=h,a=a[1];continue}var
 d=h,f=[0,f],a=i;continue}var
-k=N(k2(sI,N(sG,f)),sH),l=lu(e,g,k),q=lt(e,g,k,l)[2][2],m=[0,[0,l[2][1],q]];break}}else
+k=N(k5(sN,N(sL,f)),sM),l=lx(e,g,k),q=lw(e,g,k,l)[2][2],m=[0,[0,l[2][1],q]];break}}else
 var
 m=j;return m}function
-lw(i){function
+lz(i){function
 a(h){var
-m=cv(cw(i),h),g=e1(i),f=m,e=d,a=b;for(;;){if(g){var
+m=cv(cw(i),h),g=e2(i),f=m,e=d,a=b;for(;;){if(g){var
 j=E(a,c(2,b)),k=E(e,cv(f,a)),l=T(cv(f,C(h,h))),g=g[1],f=l,e=k,a=j;continue}return e}}var
 e=a(q(c(2,q(c(2,q(c(2,q(c(2,c(2,q(c(2,q(c(2,b)))))))))))))),f=C(c(2,c(2,b)),e),g=a(q(c(2,c(2,b))));return aL(C(c(2,c(2,c(2,c(2,b)))),g),f)}function
-lx(e,a){var
+lA(e,a){var
 f=D(d,a);if(f){var
-g=c(2,c(2,b));return lv(e,gr(U(e,[0,a,a]),g))}return f}function
-ly(a){var
-m=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),g=aL(lw(a),m),n=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),h=E(lw(a),n),e=lx(a,g);if(e){var
-f=lx(a,h);if(f)var
+g=c(2,c(2,b));return ly(e,gs(U(e,[0,a,a]),g))}return f}function
+lB(a){var
+m=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),g=aL(lz(a),m),n=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),h=E(lz(a),n),e=lA(a,g);if(e){var
+f=lA(a,h);if(f)var
 i=I(d,e[1][1]),j=i?I(f[1][2],d):i,k=j?[0,[0,g,h]]:j;else
 var
 k=f;var
 l=k}else
 var
 l=e;return l}function
-lz(a,d){var
+lC(a,d){var
 c=U(a,d),e=O(a,b);return F(A(c,c),e)}function
 cZ(f,j){var
-e=aD(E(f,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),j);if(e){var
-k=e[1],a=E(f,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),d=ly(a);if(d)var
-h=c(2,c(2,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))))),i=lv(a,U(a,gr(t(a,k,d[1]),h))),g=z(function(b){return lz(a,lz(a,b))},i);else
+e=aC(E(f,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),j);if(e){var
+k=e[1],a=E(f,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),d=lB(a);if(d)var
+h=c(2,c(2,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))))),i=ly(a,U(a,gs(t(a,k,d[1]),h))),g=z(function(b){return lC(a,lC(a,b))},i);else
 var
 g=d;var
-l=c(2,c(2,c(2,c(2,c(2,c(2,b))))));return z(function(a){return ls(l,a)},g)}return e}function
-lA(a,d){var
-e=ly(E(a,c(2,c(2,c(2,c(2,c(2,c(2,b))))))));return z(function(e){var
-f=c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))));return gr(t(a,d,ls(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e)),f)},e)}function
-gs(d,a){return cZ(d,[3,a,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b]])}function
+l=c(2,c(2,c(2,c(2,c(2,c(2,b))))));return z(function(a){return lv(l,a)},g)}return e}function
+lD(a,d){var
+e=lB(E(a,c(2,c(2,c(2,c(2,c(2,c(2,b))))))));return z(function(e){var
+f=c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))));return gs(t(a,d,lv(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e)),f)},e)}function
+gt(d,a){return cZ(d,[3,a,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b]])}function
 h(i,e,c){var
 f=cA(c);if(f){var
 g=f[1];return e?M(bb(g,[0,d,b])):bb([0,d,b],g)}var
-a=aD(i,c);if(a){var
+a=aC(i,c);if(a){var
 h=a[1];return e?I(d,h[1]):D(d,h[1])}return a}function
-lB(c,b){var
-a=aD(c,b),d=a?1:a;return d}function
+lE(c,b){var
+a=aC(c,b),d=a?1:a;return d}function
 bw(c,a,b){var
-d=cc(a,b),e=d?lB(c,a):d;return e?e:h(c,0,[3,b,a])}function
-sJ(c){var
-a=dy(c),g=d9(gj(a[2])),b=[0,gj(a[1]),g],e=I(d,a[1]),f=e?d$(a0(b,b),c):e,h=f?[0,b]:f;return h}function
-lC(a){if(a){var
-e=a[2],c=a[1];if(d$(bS([0,d,b],c),[0,d,b])){var
-g=lC(e);return z(function(a){return[0,a[1],[0,c,a[2]]]},g)}var
+d=cc(a,b),e=d?lE(c,a):d;return e?e:h(c,0,[3,b,a])}function
+sO(c){var
+a=dy(c),g=d$(gk(a[2])),b=[0,gk(a[1]),g],e=I(d,a[1]),f=e?eb(a0(b,b),c):e,h=f?[0,b]:f;return h}function
+lF(a){if(a){var
+e=a[2],c=a[1];if(eb(bS([0,d,b],c),[0,d,b])){var
+g=lF(e);return z(function(a){return[0,a[1],[0,c,a[2]]]},g)}var
 f=[0,[0,c,e]]}else
 var
 f=a;return f}function
-lD(c,a){var
+lG(c,a){var
 e=W(c,a),f=[0,d,b];return an(function(a,b){return dy(dw(a0(a[1],a[2]),b))},f,e)}function
-lE(c,j){if(c){var
-f=c[1],g=lC(j);if(g){var
+lH(c,j){if(c){var
+f=c[1],g=lF(j);if(g){var
 h=g[1],a=h[1],k=function(c){var
-f=bS([0,d,b],a),g=gm(bS([0,d,b],c),f),h=bA(a),i=W(bA(c),h);return e(function(a){var
-b=a0(g,a[2]);return dy(dx(a[1],b))},i)},l=lE(f,e(k,h[2]));return z(function(c){var
-e=bS([0,d,b],a);return[0,dy(gm(gl(lD(bA(a),c)),e)),c]},l)}var
+f=bS([0,d,b],a),g=gn(bS([0,d,b],c),f),h=bA(a),i=W(bA(c),h);return e(function(a){var
+b=a0(g,a[2]);return dy(dx(a[1],b))},i)},l=lH(f,e(k,h[2]));return z(function(c){var
+e=bS([0,d,b],a);return[0,dy(gn(gm(lG(bA(a),c)),e)),c]},l)}var
 i=[0,[0,[0,b,b],al([0,d,b],f)]]}else
 var
 i=c;return i}function
-lF(a){if(a){var
-b=e_(sJ,a[1]);if(b)var
-c=lF(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+lI(a){if(a){var
+b=e$(sO,a[1]);if(b)var
+c=lI(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return sK}function
-lG(a){if(a){var
-b=lF(a[1]);if(b)var
-c=lG(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+d=b;return d}return sP}function
+lJ(a){if(a){var
+b=lI(a[1]);if(b)var
+c=lJ(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return sL}function
-lH(i,l){var
-a=lG(l);if(a){var
-j=a[1],c=lE(i,j);if(c){var
-e=c[1],f=o(g(e),i),h=f?aj(function(a){return M(d$(a,[0,d,b]))},e):f;return h?m(function(a){return d$(lD(a,e),[0,d,b])},j):h}var
+d=b;return d}return sQ}function
+lK(i,m){var
+a=lJ(m);if(a){var
+j=a[1],c=lH(i,j);if(c){var
+e=c[1],f=o(g(e),i),h=f?aj(function(a){return M(eb(a,[0,d,b]))},e):f;return h?l(function(a){return eb(lG(a,e),[0,d,b])},j):h}var
 k=c}else
 var
 k=a;return k}function
-sM(a){return a}function
-sN(a){return a}function
-sO(a,b){return aO(sN,sM,A,a,b)}function
-sP(a){return a}function
-sQ(a){return a}function
-be(a,b){return aO(sQ,sP,sO,a,b)}function
-io(a,f,c,d){if(c){var
-h=c[2],i=O(a,b),g=eb(c[1],i,f);if(d){var
-j=io(a,f,h,d[2]),k=d[1],l=function(c,b){return F(c,t(a,g,b))},m=function(b){return ab(t(a,g,b))};return[0,aO(function(a){return a},m,l,k,c),j]}var
-n=io(a,f,h,0);return[0,e(function(b){return ab(t(a,g,b))},c),n]}return d}function
-gt(h,a){if(a){var
+sR(a){return a}function
+sS(a){return a}function
+sT(a,b){return aO(sS,sR,A,a,b)}function
+sU(a){return a}function
+sV(a){return a}function
+be(a,b){return aO(sV,sU,sT,a,b)}function
+ip(a,f,c,d){if(c){var
+h=c[2],i=O(a,b),g=ed(c[1],i,f);if(d){var
+j=ip(a,f,h,d[2]),k=d[1],l=function(c,b){return F(c,t(a,g,b))},m=function(b){return ab(t(a,g,b))};return[0,aO(function(a){return a},m,l,k,c),j]}var
+n=ip(a,f,h,0);return[0,e(function(b){return ab(t(a,g,b))},c),n]}return d}function
+gu(h,a){if(a){var
 b=a[1];if(b)var
-c=b[1],e=I(d,c[1]),i=e?[0,io(h,c,b[2],a[2])]:e,f=i;else
+c=b[1],e=I(d,c[1]),i=e?[0,ip(h,c,b[2],a[2])]:e,f=i;else
 var
 f=b;var
 g=f}else
 var
 g=a;return g}function
-lI(g,f,e){var
+lL(g,f,e){var
 a=f,b=e;for(;;){if(b){if(a){var
-c=gt(g,b);if(c){var
+c=gu(g,b);if(c){var
 a=a[1],b=c[1];continue}var
 d=c}else
 var
 d=a;return d}return 1}}function
-lJ(d,b,a){if(b)if(a)var
-e=a[1],f=lJ(d,b[2],a[2]),g=ct(d,b[1])?ca(e):cx(e),c=[0,g,f];else
+lM(d,b,a){if(b)if(a)var
+e=a[1],f=lM(d,b[2],a[2]),g=ct(d,b[1])?ca(e):cx(e),c=[0,g,f];else
 var
 c=a;else
 var
 c=b;return c}function
-lK(a,b){if(a)if(b)var
-d=lK(a[2],b[2]),c=[0,lJ(a[1],a,b[1]),d];else
+lN(a,b){if(a)if(b)var
+d=lN(a[2],b[2]),c=[0,lM(a[1],a,b[1]),d];else
 var
 c=b;else
 var
 c=a;return c}function
 bf(a){if(a){var
-b=a[1],c=bf(b),d=e(function(a){return[0,1,a]},c),g=bf(b);return f(e(function(a){return[0,0,a]},g),d)}return sR}function
-ee(c,a){var
-b=g(a);if(lI(c,b,a))return 1;var
-d=bf(bz(b));return m(function(d){return lI(c,b,lK([0,0,d],a))},d)}function
+b=a[1],c=bf(b),d=e(function(a){return[0,1,a]},c),g=bf(b);return f(e(function(a){return[0,0,a]},g),d)}return sW}function
+eg(c,a){var
+b=g(a);if(lL(c,b,a))return 1;var
+d=bf(bz(b));return l(function(d){return lL(c,b,lN([0,0,d],a))},d)}function
 au(a){function
 b(b){var
 c=j(a,b[2]);return[0,e(a,b[1]),c]}return function(a){return e(b,a)}}function
 aG(h,e){var
 c=h,a=e[1],b=e[3];for(;;){if(c){if(b){var
 d=b[1],f=b[2],g=c[1]?A(a,d):F(a,d),c=c[2],a=g,b=f;continue}return a}return a}}function
-ip(c,b,a){var
-d=bf(c);return m(function(c){return j(a,j(au(function(a){return aG(c,a)}),b))},d)}function
-iq(h,d,c){if(d)if(c)var
-i=c[2],e=c[1],j=d[2],f=d[1],a=function(c,a){return aT(c,E(h,b),a)},k=iq(h,j,i),l=function(c,b){var
+iq(c,b,a){var
+d=bf(c);return l(function(c){return j(a,j(au(function(a){return aG(c,a)}),b))},d)}function
+ir(h,d,c){if(d)if(c)var
+i=c[2],e=c[1],j=d[2],f=d[1],a=function(c,a){return aU(c,E(h,b),a)},k=ir(h,j,i),l=function(c,b){var
 d=a(b,e);return A(a(f,c),d)},m=function(b){return a(b,e)},n=aO(function(b){return a(f,b)},m,l,i,j),o=a(f,e),g=[0,[0,A(a(f,e),o),n],k];else
 var
 g=c;else
 var
 g=d;return g}function
-ef(b,d,a,c){function
+eh(b,d,a,c){function
 e(c,d){var
-e=aT(d,b,a);return F(A(c,c),e)}function
-f(c){return ab(aT(c,b,a))}return aO(function(a){return A(a,a)},f,e,d,c)}function
-gu(d,i,h,g){var
+e=aU(d,b,a);return F(A(c,c),e)}function
+f(c){return ab(aU(c,b,a))}return aO(function(a){return A(a,a)},f,e,d,c)}function
+gv(d,i,h,g){var
 c=i,b=h,a=g;for(;;){if(c){if(b){var
-e=b[1],f=c[1],j=cx(e[2]),k=be(a,iq(d,f,ef(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
-ir(b,a){return[0,[0,0,b],a]}function
-e$(i,b,c,h,f,a){function
+e=b[1],f=c[1],j=cx(e[2]),k=be(a,ir(d,f,eh(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
+is(b,a){return[0,[0,0,b],a]}function
+fa(i,b,c,h,f,a){function
 d(a){if(a){var
-j=al([0,ab(a[1][2]),0],b),c=gu(h,f,a[2],j),d=o(g(c),b);if(d)return ee(i,c);var
+j=al([0,ab(a[1][2]),0],b),c=gv(h,f,a[2],j),d=o(g(c),b);if(d)return eg(i,c);var
 e=d}else
 var
-e=a;return e}return ip(b,ir(c,a),d)}function
-gv(g,f,e){var
+e=a;return e}return iq(b,is(c,a),d)}function
+gw(g,f,e){var
 a=f,b=e;for(;;){if(a){var
-d=a[1],h=d[1],c=gt(g,[0,[0,ca(d[2]),h],b]);if(c){var
+d=a[1],h=d[1],c=gu(g,[0,[0,ca(d[2]),h],b]);if(c){var
 a=a[2],b=c[1];continue}return c}return[0,b]}}function
-is(d,b,c,a){function
+it(d,b,c,a){function
 e(a){if(a){var
-j=al([0,a[1][2],0],b),c=gv(d,a[2],j);if(c){var
-e=c[1],f=o(g(e),b);if(f)return ee(d,e);var
+j=al([0,a[1][2],0],b),c=gw(d,a[2],j);if(c){var
+e=c[1],f=o(g(e),b);if(f)return eg(d,e);var
 h=f}else
 var
 h=c;var
 i=h}else
 var
-i=a;return i}return ip(b,ir(c,a),e)}function
-lL(h,g,a,f,d,c){var
-i=[0,u,u,0],b=e(function(a){return[0,a[1],i]},c),j=a?a[1]:[0,u,u,0];return e$(h,g,j,f,d,b)}function
-it(b,a){var
-c=bf(b);return m(function(b){return I(d,aG(b,a)[1])},c)}function
-gw(c,b,a){var
-d=a[3],f=e(function(a){return aT(c,b,a)},d),g=a[2];return[0,aT(c,b,a[1]),g,f]}function
-lM(a,b){var
+i=a;return i}return iq(b,is(c,a),e)}function
+lO(h,g,a,f,d,c){var
+i=[0,u,u,0],b=e(function(a){return[0,a[1],i]},c),j=a?a[1]:[0,u,u,0];return fa(h,g,j,f,d,b)}function
+iu(b,a){var
+c=bf(b);return l(function(b){return I(d,aG(b,a)[1])},c)}function
+gx(c,b,a){var
+d=a[3],f=e(function(a){return aU(c,b,a)},d),g=a[2];return[0,aU(c,b,a[1]),g,f]}function
+lP(a,b){var
 c=b[3],d=a[3],e=aO(function(a){return a},ab,F,d,c),f=a[2];return[0,F(a[1],b[1]),f,e]}function
 bW(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
 af(c,b,a){var
@@ -1675,124 +1675,124 @@ c=s(b[3],a[3]),d=s(b[2],a[2]);return B(B(s(b[1],a[1]),d),c)}function
 dC(a){return bm(a,aJ(Z(a,a)))}function
 c0(a){var
 b=a[5];return b?b[1]:aJ(a[2])}function
-gx(b,a){return b?a:bl(a)}function
-lN(e,a,i,d,h){var
-f=Z(a,e),b=af(x,e,a1(f,a)),j=Z(b,b),g=x(V(d),j),c=gx(h,aJ(g)),k=x(f,c),l=af(B,a,bm(b,c));return[0,af(B,b,a1(c,a)),g,l,k,[0,d],0,[0,i]]}function
-lO(a,e,d){var
+gy(b,a){return b?a:bl(a)}function
+lQ(e,a,i,d,h){var
+f=Z(a,e),b=af(x,e,a1(f,a)),j=Z(b,b),g=x(V(d),j),c=gy(h,aJ(g)),k=x(f,c),l=af(B,a,bm(b,c));return[0,af(B,b,a1(c,a)),g,l,k,[0,d],0,[0,i]]}function
+lR(a,e,d){var
 b=Z(a,a),c=aJ(b),f=[0,e],g=z(function(b){return af(x,a,a1(Z(b,a),b))},d);return[0,a,b,bm(a,c),c,0,g,f]}function
-lP(c,a){var
-d=Z(a,c);return[0,a,l(b),a,d,0,0,0]}function
-fa(a){return e(function(a){var
+lS(c,a){var
+d=Z(a,c);return[0,a,m(b),a,d,0,0,0]}function
+fb(a){return e(function(a){var
 b=a[2];return[0,bW(a[1]),b]},a)}function
-lQ(a){return e(function(a){var
-c=l(b);return[0,bW(a[3]),c]},a)}function
-lR(b,a){var
+lT(a){return e(function(a){var
+c=m(b);return[0,bW(a[3]),c]},a)}function
+lU(b,a){var
 c=j(b,a[3]),d=j(b,a[2]);return[0,j(b,a[1]),d,c]}function
-lS(c,b,a){var
+lV(c,b,a){var
 d=aq(c,b[3],a[3]),e=aq(c,b[2],a[2]);return[0,aq(c,b[1],a[1]),e,d]}function
-eg(d,a){var
+ei(d,a){var
 b=b_(d,[0,a[2],a[2]]);if(b){var
 c=b[1];return[0,c[2],c[2]]}return[0,a[2],a[2]]}function
-gy(a,n,f,l,e,k,j){var
-o=lS(bv,k,j),b=lS(function(b,c){return aP(a,b,c)},e,o),c=b[3],g=b[2],h=b[1],i=cb(cb(cb($(O(a,d)),h),g),c),p=bf(n);return m(function(c){var
-b=lR(function(b){return U(a,aG(c,b))},e),h=b[3],j=b[2],k=b[1],m=t(a,l,eg(a,A(A(A(O(a,d),k),j),h))),g=F(aG(c,i),m),n=f?F(g,aG(c,f[1])):g;return I(d,n[1])},p)}function
+gz(a,n,f,m,e,k,j){var
+o=lV(bv,k,j),b=lV(function(b,c){return aP(a,b,c)},e,o),c=b[3],g=b[2],h=b[1],i=cb(cb(cb($(O(a,d)),h),g),c),p=bf(n);return l(function(c){var
+b=lU(function(b){return U(a,aG(c,b))},e),h=b[3],j=b[2],k=b[1],l=t(a,m,ei(a,A(A(A(O(a,d),k),j),h))),g=F(aG(c,i),l),n=f?F(g,aG(c,f[1])):g;return I(d,n[1])},p)}function
 cd(a){return dv(E(a[1],a[2]),b)}function
-eh(a){var
+ej(a){var
 b=cd(a);return aL(a[2],b)}function
 dE(c,b){if(b)var
-a=b[1],e=dE([0,c],b[2]),g=eh(a),h=[0,[0,eh(a),g],0],i=f(al(u,c),h),j=cd(a),d=[0,[0,[0,cd(a),j],a,i],e];else
+a=b[1],e=dE([0,c],b[2]),g=ej(a),h=[0,[0,ej(a),g],0],i=f(al(u,c),h),j=cd(a),d=[0,[0,[0,cd(a),j],a,i],e];else
 var
 d=b;return d}function
 c1(d,b){if(b){var
 c=b[2],a=b[1];if(d){var
 e=c1(d[1],c);return[0,[0,a,e[1]],[0,a,e[2]]]}var
-f=a[2],g=[0,[0,cd(a),f],c],h=cd(a);return[0,[0,[0,a[1],h],c],g]}return sS}function
-lT(d,c,a){if(c){if(a){var
-e=lT(d,c[2],a[2]);return A(aT(c[1],E(d,b),a[1]),e)}return u}return u}function
-ei(f,a){if(a)var
-g=a[1],c=g[2],d=g[1],h=a[2],b=function(a,b){return lT(f,a,b)},j=ei(f,h),k=e(function(a){var
+f=a[2],g=[0,[0,cd(a),f],c],h=cd(a);return[0,[0,[0,a[1],h],c],g]}return sX}function
+lW(d,c,a){if(c){if(a){var
+e=lW(d,c[2],a[2]);return A(aU(c[1],E(d,b),a[1]),e)}return u}return u}function
+ek(f,a){if(a)var
+g=a[1],c=g[2],d=g[1],h=a[2],b=function(a,b){return lW(f,a,b)},j=ek(f,h),k=e(function(a){var
 e=b(d,a[2]);return A(b(a[1],c),e)},h),l=b(d,c),i=[0,[0,A(b(d,c),l),k],j];else
 var
 i=a;return i}function
-ej(e,b,d,a){if(b)if(a)var
-f=b[1],g=ej(e,b[2],d,a[2]),c=[0,[0,f,ef(e,a[1][1],d,f)],g];else
+el(e,b,d,a){if(b)if(a)var
+f=b[1],g=el(e,b[2],d,a[2]),c=[0,[0,f,eh(e,a[1][1],d,f)],g];else
 var
 c=a;else
 var
 c=b;return c}function
-gz(f,d,c,b,a){if(a){var
+gA(f,d,c,b,a){if(a){var
 g=a[2];if(d){var
-i=gz(f,d[1],c,b,g);return[0,[0,F(u,b),0],i]}var
+i=gA(f,d[1],c,b,g);return[0,[0,F(u,b),0],i]}var
 j=e(function(a){return[0,F(u,b),0]},g),h=[0,[0,F(ab(t(f,c,cx(a[1][2]))),b),0],j]}else
 var
 h=a;return h}function
 a6(d,c,a){var
-b=o(g(a),c);return b?ee(d,a):b}function
-gA(d,b,a){if(b)var
-c=b[1],g=gA([0,d],b[2],a),h=f(al(u,d),[0,a,0]),e=[0,[0,c,[0,aL(c[1],a[2]),E(c[2],a[2])],h],g];else
+b=o(g(a),c);return b?eg(d,a):b}function
+gB(d,b,a){if(b)var
+c=b[1],g=gB([0,d],b[2],a),h=f(al(u,d),[0,a,0]),e=[0,[0,c,[0,aL(c[1],a[2]),E(c[2],a[2])],h],g];else
 var
 e=b;return e}function
-lU(d){if(d){var
+lX(d){if(d){var
 a=d[1][1];if(a){var
 b=a[2];if(b){var
 c=b[2];if(c){if(c[2])return 0;var
-g=c[1],h=b[1],i=a[1],j=lU(d[2]);return z(function(a){return[0,[0,[0,i,h],g],a]},j)}var
+g=c[1],h=b[1],i=a[1],j=lX(d[2]);return z(function(a){return[0,[0,[0,i,h],g],a]},j)}var
 e=c}else
 var
 e=b;var
 f=e}else
 var
-f=a;return f}return sT}function
-iu(a){return z(function(a){return z(e8,a)},a)}function
+f=a;return f}return sY}function
+iv(a){return z(function(a){return z(e9,a)},a)}function
 c2(c,b,a){function
 d(a){return aP(c,b,a)}return z(function(a){return z(d,a)},a)}function
-iv(c,b,a){function
-d(a){return ec(c,a,b)}return z(function(a){return cX(d,a)},a)}function
-ek(b,a){var
+iw(c,b,a){function
+d(a){return ee(c,a,b)}return z(function(a){return cX(d,a)},a)}function
+em(b,a){var
 c=W(b,a);return e(function(c){var
 a=c[2],b=c[1];if(b){if(a){var
 d=a[1],e=b[1];return[0,cz(function(b,a){return[0,cb(b,a)]},e,d)]}return b}return a},c)}function
-gB(a){return $(O(a,c(2,b)))}function
-iw(a,au,at,K,c){var
+gC(a){return $(O(a,c(2,b)))}function
+ix(a,au,at,K,c){var
 av=bU(ay,c),f=j(bB(a,au,at),av);switch(c[0]){case
 1:var
 N=c[1],d=e(function(d){var
 c=o(N,d),e=c?[0,[0,$(O(a,b))]]:c;return e},K);break;case
 3:var
-d=ek(c[1][2],c[2][2]);break;case
+d=em(c[1][2],c[2][2]);break;case
 4:var
-P=e(iu,c[2][2]),d=ek(c[1][2],P);break;case
+P=e(iv,c[2][2]),d=em(c[1][2],P);break;case
 5:var
-d=e(iu,c[1][2]);break;case
+d=e(iv,c[1][2]);break;case
 6:var
 x=c[2],y=c[1],g=y[1],u=0;if(g){var
 h=x[1];if(h)var
-Q=x[2],R=g[1],S=e(function(b){return c2(a,R,b)},Q),T=y[2],U=h[1],d=ek(e(function(b){return c2(a,U,b)},T),S);else{var
+Q=x[2],R=g[1],S=e(function(b){return c2(a,R,b)},Q),T=y[2],U=h[1],d=em(e(function(b){return c2(a,U,b)},T),S);else{var
 z=h;u=1}}else{var
 z=g;u=1}if(u)var
 d=z;break;case
 7:var
 v=0;if(f){var
 A=c[2],i=A[1];if(i)var
-V=A[2],W=e8(f[1]),X=e(function(b){return c2(a,W,b)},V),Y=ek(c[1][2],X),Z=i[1],d=e(function(b){return iv(a,Z,b)},Y);else{var
+V=A[2],W=e9(f[1]),X=e(function(b){return c2(a,W,b)},V),Y=em(c[1][2],X),Z=i[1],d=e(function(b){return iw(a,Z,b)},Y);else{var
 B=i;v=1}}else{var
 B=f;v=1}if(v)var
 d=B;break;case
 8:var
 C=c[1],k=C[1];if(k)var
-_=C[2],aa=k[1],ab=aP(a,gB(a),aa),d=e(function(b){return c2(a,ab,b)},_);else
+_=C[2],aa=k[1],ab=aP(a,gC(a),aa),d=e(function(b){return c2(a,ab,b)},_);else
 var
 d=k;break;case
 9:if(f)var
-ac=c[1][2],ad=f[1],ae=aP(a,gB(a),ad),d=e(function(b){return iv(a,ae,b)},ac);else
+ac=c[1][2],ad=f[1],ae=aP(a,gC(a),ad),d=e(function(b){return iw(a,ae,b)},ac);else
 var
 d=f;break;case
 10:var
 D=c[4],E=c[3],F=c[2],l=F[1],w=0;if(l){var
 m=l[1],n=E[1],L=0;if(n){var
 p=n[1],q=D[1],M=0;if(q){var
-r=lo(a,m,p,q[1]);if(r){var
-G=r[1],s=G[2],t=G[1],af=E[2],ag=bv(p,s),ah=e(function(b){return c2(a,ag,b)},af),ai=F[2],aj=bv(m,t),ak=ek(e(function(b){return c2(a,aj,b)},ai),ah),al=e(iu,D[2]),am=gB(a),an=ek(e(function(b){return c2(a,am,b)},ak),al),ao=c[1]?t:e8(s),ap=e(function(b){return c2(a,ao,b)},an),aq=aP(a,m,s),ar=bv(aP(a,p,t),aq),as=aP(a,gB(a),ar),d=e(function(b){return iv(a,as,b)},ap);L=1;M=1}else
+r=lr(a,m,p,q[1]);if(r){var
+G=r[1],s=G[2],t=G[1],af=E[2],ag=bv(p,s),ah=e(function(b){return c2(a,ag,b)},af),ai=F[2],aj=bv(m,t),ak=em(e(function(b){return c2(a,aj,b)},ai),ah),al=e(iv,D[2]),am=gC(a),an=em(e(function(b){return c2(a,am,b)},ak),al),ao=c[1]?t:e9(s),ap=e(function(b){return c2(a,ao,b)},an),aq=aP(a,m,s),ar=bv(aP(a,p,t),aq),as=aP(a,gC(a),ar),d=e(function(b){return iw(a,as,b)},ap);L=1;M=1}else
 var
 H=r}else
 var
@@ -1804,151 +1804,151 @@ J=I;w=1}}else{var
 J=l;w=1}if(w)var
 d=J;break;default:var
 d=e(function(a){return 0},K)}return[0,f,d]}function
-ix(b,c,a){if(a)var
-f=a[1],g=ix(b,c,a[2]),d=[0,e(function(a){return ab(t(b,t(b,c,f),a))},a),g];else
+iy(b,c,a){if(a)var
+f=a[1],g=iy(b,c,a[2]),d=[0,e(function(a){return ab(t(b,t(b,c,f),a))},a),g];else
 var
 d=a;return d}function
-iy(a){return m(function(a){var
+iz(a){return l(function(a){var
 b=K(a[1],d);return b?K(a[2],d):b},a)}function
-iz(c,b,a){var
-d=W(b,a);return an(function(a,b){return A(t(c,a[1],a[2]),b)},u,d)}function
 iA(c,b,a){var
-d=b$(iz(c,a,b));return an(function(b,a){return E(b$(b),a)},d,a)}function
+d=W(b,a);return an(function(a,b){return A(t(c,a[1],a[2]),b)},u,d)}function
+iB(c,b,a){var
+d=b$(iA(c,a,b));return an(function(b,a){return E(b$(b),a)},d,a)}function
 ce(a){return O(a,b)}function
-fb(a,i,c,v,u){var
+fc(a,i,c,v,u){var
 f=v,e=u;for(;;){if(f){var
-j=f[1],n=0;if(!iy(c)&&!iy(j)){var
-h=iA(a,i,j),o=ce(a),p=iA(a,i,c),b=eb([0,iA(a,i,c),p],o,[0,h,h])[1],k=I(d,h),l=k?I(d,b):k;if(l)var
-q=as(ij(a,[0,b,b])),r=function(b){return function(d,c){return F(t(a,[0,b,b],d),c)}}(b),s=[0,b,b],m=[0,be(e,ix(a,q,aO(function(c){return function(b){return t(a,c,b)}}(s),ab,r,j,c)))];else
+j=f[1],n=0;if(!iz(c)&&!iz(j)){var
+h=iB(a,i,j),o=ce(a),p=iB(a,i,c),b=ed([0,iB(a,i,c),p],o,[0,h,h])[1],k=I(d,h),l=k?I(d,b):k;if(l)var
+q=at(ik(a,[0,b,b])),r=function(b){return function(d,c){return F(t(a,[0,b,b],d),c)}}(b),s=[0,b,b],m=[0,be(e,iy(a,q,aO(function(c){return function(b){return t(a,c,b)}}(s),ab,r,j,c)))];else
 var
 m=l;var
 g=m;n=1}if(!n)var
 g=[0,e];if(g){var
 f=f[2],e=g[1];continue}return g}return[0,e]}}function
-lV(a){var
+lY(a){var
 b=a[2],c=e(function(a){return[0,a[1],u]},b);return[0,[0,a[1][1],u],c]}function
-iB(h,n,a,m,l,k){var
+iC(h,n,a,m,l,k){var
 d=m,c=l,b=k;for(;;){if(d){if(c){var
-i=c[1],j=i[1],f=d[1],o=cx(j[2]),p=be(b,iq(a,f,ef(a,j[1],o,f))),q=i[2],r=e(function(c){return function(b){return e(as,ef(a,b[1],b[2],c))}}(f),q),g=fb(h,n,e(function(b){return aT(b,a,ce(h))},f),r,p);if(g){var
+i=c[1],j=i[1],f=d[1],o=cx(j[2]),p=be(b,ir(a,f,eh(a,j[1],o,f))),q=i[2],r=e(function(c){return function(b){return e(at,eh(a,b[1],b[2],c))}}(f),q),g=fc(h,n,e(function(b){return aU(b,a,ce(h))},f),r,p);if(g){var
 d=d[2],c=c[2],b=g[1];continue}return g}return[0,b]}return[0,b]}}function
-lW(a,j,r,q){var
+lZ(a,j,r,q){var
 c=r,f=q;for(;;){if(c){var
 k=c[1],l=k[1],g=l[2],h=l[1],m=k[2],n=[0,[0,ca(g),h],f];if(m){var
 o=I(d,g[1]);if(o)var
 s=e(function(a){var
-b=a[1];return[0,as(a[2]),b]},m),t=e(function(a){return u},h),v=[0,ce(a),t],w=ce(a),b=fb(a,[0,ab(eb(iz(a,h,j),w,g)),j],v,s,n);else
+b=a[1];return[0,at(a[2]),b]},m),t=e(function(a){return u},h),v=[0,ce(a),t],w=ce(a),b=fc(a,[0,ab(ed(iA(a,h,j),w,g)),j],v,s,n);else
 var
 b=o}else
 var
 b=[0,n];if(b){var
-i=gt(a,b[1]);if(i){var
+i=gu(a,b[1]);if(i){var
 c=c[2],f=i[1];continue}var
 p=i}else
 var
 p=b;return p}return[0,f]}}function
-lX(c,b,a){var
-d=aC(0,a);return e(function(a){return o(a,b)?ce(c):u},d)}function
-lY(c,b,a){if(b){if(a){var
-d=lY(c,b[2],a[2]);return A(aT(b[1],c,a[1]),d)}return u}return u}function
-lZ(a,j){switch(j){case
+l0(c,b,a){var
+d=aB(0,a);return e(function(a){return o(a,b)?ce(c):u},d)}function
+l1(c,b,a){if(b){if(a){var
+d=l1(c,b[2],a[2]);return A(aU(b[1],c,a[1]),d)}return u}return u}function
+l2(a,j){switch(j){case
 0:var
 d=aL(a[2],a[1]),e=a[1];return[0,[0,e,e],[0,[0,d,d],0]];case
 1:var
 f=aL(a[1],a[2]),g=a[2];return[0,[0,g,g],[0,[0,f,f],0]];default:var
 c=dv(E(a[1],a[2]),b),h=aL(c,a[2]),i=aL(a[2],c);return[0,[0,c,c],[0,[0,i,i],[0,[0,h,h],0]]]}}function
-fc(d,c,a){if(a)var
-e=a[1],g=fc(d,[0,c],a[2]),b=z(aY,ld(function(a){return o(a[1],c)},d)),h=b?lZ(e,b[1])[1]:e,f=[0,h,g];else
+fd(d,c,a){if(a)var
+e=a[1],g=fd(d,[0,c],a[2]),b=z(aT,lg(function(a){return o(a[1],c)},d)),h=b?l2(e,b[1])[1]:e,f=[0,h,g];else
 var
 f=a;return f}function
-gC(a,b){return e(function(a){var
-c=a[2];return lZ(r(a[1],b,u),c)[2]},a)}function
-gD(i,b,g,a){function
+gD(a,b){return e(function(a){var
+c=a[2];return l2(r(a[1],b,u),c)[2]},a)}function
+gE(i,b,g,a){function
 d(a){return aG(b,a[1])}var
 h=0,j=$(u);function
 c(g,d,a,b){if(a){var
 h=function(a){return aG(g,r(d,a[2],j))},k=e(h,b[1]),l=h(b[2]),m=c(g,[0,d],a[2],b),n=a[1];return f(e(function(a){var
 b=t(i,a,l);return[0,e(function(b){return t(i,a,b)},k),b]},n),m)}return a}var
 k=c(b,h,g,a),l=d(a[2]);return[0,[0,e(d,a[1]),l],k]}var
-s8=$(u);function
-l0(e,d,c){if(d){var
-f=r(e,c[2],s9),a=f?f[1]:[0,s8];if(a)var
-b=l0([0,e],d[2],c),h=b?[0,[0,a[1],b[1]]]:b,g=h;else
+tb=$(u);function
+l3(e,d,c){if(d){var
+f=r(e,c[2],tc),a=f?f[1]:[0,tb];if(a)var
+b=l3([0,e],d[2],c),h=b?[0,[0,a[1],b[1]]]:b,g=h;else
 var
-g=a;return g}return s_}function
-l1(a,c,h,p,o,g,n){var
-d=bf(c);return m(function(d){var
+g=a;return g}return td}function
+l4(a,c,h,p,o,g,n){var
+d=bf(c);return l(function(d){var
 f=j(n,d);if(f){var
 q=t(a,o,f[1]),i=F(O(a,b),q),r=h?F(i,aG(d,h[1])):i,k=function(b){function
 f(c){return t(a,b,aG(d,c))}var
-g=e(function(a){return e(f,a)},p);return a6(a,c,be(al([0,r,0],c),g))},l=k(as(g));if(l)return k(ab(as(g)));var
+g=e(function(a){return e(f,a)},p);return a6(a,c,be(al([0,r,0],c),g))},l=k(at(g));if(l)return k(ab(at(g)));var
 m=l}else
 var
 m=f;return m},d)}function
-l2(c,b,a){if(a){var
+l5(c,b,a){if(a){var
 d=a[2];if(c){var
-f=l2(c[1],b,d);return[0,a[1],f]}var
+f=l5(c[1],b,d);return[0,a[1],f]}var
 e=[0,b,d]}else
 var
 e=a;return e}function
-fd(a,g){var
+fe(a,g){var
 b=bu(function(e){var
 c=r(e,a,u),b=D(c[1],d),f=b?D(d,c[2]):b;return M(f)},g);if(b){if(b[2])return a;var
-f=b[1],c=r(f,a,u),e=I(d,c[1])?c[1]:c[2];return l2(f,[0,e,e],a)}return a}function
-l3(c,a){if(a)var
-b=a[2],f=l3(c,b),g=b?b[1]:e(sz,c),d=[0,[0,a[1],g],f];else
+f=b[1],c=r(f,a,u),e=I(d,c[1])?c[1]:c[2];return l5(f,[0,e,e],a)}return a}function
+l6(c,a){if(a)var
+b=a[2],f=l6(c,b),g=b?b[1]:e(sE,c),d=[0,[0,a[1],g],f];else
 var
 d=a;return d}function
-l4(a){return a?l3(a[1],a):a}function
+l7(a){return a?l6(a[1],a):a}function
 c3(c,d,b,a){if(d){var
 e=d[1];if(a){var
 f=c3(c,e,b,a[2]);return[0,a[1],f]}return[0,c,c3(c,e,b,0)]}return a?[0,b,a[2]]:[0,b,0]}function
-gE(a,c,b){if(c)if(b)var
-g=b[2],e=b[1],h=c[2],d=c[1],i=gE(a,h,g),j=function(c,b){var
+gF(a,c,b){if(c)if(b)var
+g=b[2],e=b[1],h=c[2],d=c[1],i=gF(a,h,g),j=function(c,b){var
 f=t(a,e,b);return A(t(a,d,c),f)},k=function(b){return t(a,e,b)},l=aO(function(b){return t(a,d,b)},k,j,g,h),f=[0,[0,t(a,A(d,d),e),l],i];else
 var
 f=b;else
 var
 f=c;return f}function
-c4(d,c,b,a){return c3(u,c,iz(d,a,b),a)}function
-l5(a,f,e,b,d,c){var
-g=aC(0,b);return an(function(g,c){var
-h=c4(a,f,e,lX(a,g,b));return be(c,ix(a,ab(d),h))},c,g)}function
-l6(a,d,c,j,i,h,g,f){var
-k=c4(a,d,c,e(function(b){return O(a,C(h,b))},i));return be(f,gE(a,c4(a,d,c,e(function(c){return aT(c,E(g,b),ce(a))},j)),k))}function
-l7(a,h,g,q,f,p,o,n){var
+c4(d,c,b,a){return c3(u,c,iA(d,a,b),a)}function
+l8(a,f,e,b,d,c){var
+g=aB(0,b);return an(function(g,c){var
+h=c4(a,f,e,l0(a,g,b));return be(c,iy(a,ab(d),h))},c,g)}function
+l9(a,d,c,j,i,h,g,f){var
+k=c4(a,d,c,e(function(b){return O(a,C(h,b))},i));return be(f,gF(a,c4(a,d,c,e(function(c){return aU(c,E(g,b),ce(a))},j)),k))}function
+l_(a,h,g,q,f,p,o,n){var
 d=p,c=o,b=n;for(;;){if(d){if(c){var
-k=c[1],l=k[1],i=d[1],m=c4(a,h,g,e(function(b){return aT(b,f,ce(a))},i)),r=cx(l[2]),s=c4(a,h,g,ef(f,l[1],r,i)),t=be(b,gE(a,e(as,m),s)),u=k[2],j=fb(a,q,m,e(function(c){return function(b){return c4(a,h,g,e(as,ef(f,b[1],b[2],c)))}}(i),u),t);if(j){var
+k=c[1],l=k[1],i=d[1],m=c4(a,h,g,e(function(b){return aU(b,f,ce(a))},i)),r=cx(l[2]),s=c4(a,h,g,eh(f,l[1],r,i)),t=be(b,gF(a,e(at,m),s)),u=k[2],j=fc(a,q,m,e(function(c){return function(b){return c4(a,h,g,e(at,eh(f,b[1],b[2],c)))}}(i),u),t);if(j){var
 d=d[2],c=c[2],b=j[1];continue}return j}return[0,b]}return[0,b]}}function
-l8(g,b,f,a){if(a)var
+l$(g,b,f,a){if(a)var
 c=a[2],d=a[1],h=r(b,c,u),e=[0,d,c3(u,b,A(t(g,f,d),h),c)];else
 var
 e=a;return e}function
-l9(a,b,m,D,C,B){var
+ma(a,b,m,D,C,B){var
 i=C,h=B;for(;;){if(i){var
 n=i[1],o=n[1],j=o[2],p=n[2],c=c4(a,b,m,o[1]);if(p){var
 q=I(d,j[1]);if(q)var
-E=ce(a),f=ca(ab(eb(r(b,c,u),E,j))),k=ca(j),v=c3(u,b,f,0),w=r(b,c,u),x=be(h,gE(a,v,c3(u,b,A(as(t(a,f,k)),w),c))),y=r(b,c,u),z=[0,[0,k,c3(u,b,A(t(a,f,k),y),c)],x],F=e(function(e){return function(c){var
-d=c4(a,b,m,c[1]);return l8(a,b,e,[0,as(c[2]),d])}}(f),p),G=e(function(a){return u},c),g=fb(a,[0,u,D],l8(a,b,f,[0,ce(a),G]),F,z);else
+E=ce(a),f=ca(ab(ed(r(b,c,u),E,j))),k=ca(j),v=c3(u,b,f,0),w=r(b,c,u),x=be(h,gF(a,v,c3(u,b,A(at(t(a,f,k)),w),c))),y=r(b,c,u),z=[0,[0,k,c3(u,b,A(t(a,f,k),y),c)],x],F=e(function(e){return function(c){var
+d=c4(a,b,m,c[1]);return l$(a,b,e,[0,at(c[2]),d])}}(f),p),G=e(function(a){return u},c),g=fc(a,[0,u,D],l$(a,b,f,[0,ce(a),G]),F,z);else
 var
 g=q}else
 var
 g=[0,[0,[0,ca(j),c],h]];if(g){var
-l=gt(a,g[1]);if(l){var
+l=gu(a,g[1]);if(l){var
 i=i[2],h=l[1];continue}var
 s=l}else
 var
 s=g;return s}return[0,h]}}function
-iC(f,d,c,b,a){var
-g=e($,c);return ll(0,bB(f,dE(0,a),g),b,d,0)}function
+iD(f,d,c,b,a){var
+g=e($,c);return lo(0,bB(f,dE(0,a),g),b,d,0)}function
 ac(a){if(a){var
 b=a[1];if(b)var
 c=ac(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return td}function
-gF(b,a){if(a){var
+d=b;return d}return ti}function
+gG(b,a){if(a){var
 h=a[1],n=h[1],c=ac(e(function(a){return r(a,b,0)},n));if(c){var
 f=r(h[2],b,0);if(f){var
-i=f[1],g=gF(b,a[2]);if(g)var
+i=f[1],g=gG(b,a[2]);if(g)var
 j=I(d,i[2][1]),k=j?[0,[0,[0,c[1],i],g[1]]]:j;else
 var
 k=g;var
@@ -1957,22 +1957,22 @@ var
 l=f;var
 m=l}else
 var
-m=c;return m}return te}function
+m=c;return m}return tj}function
 cC(d,c,b){var
-a=gF(d,c);return a?j(b,a[1]):a}function
-c5(a,b){return m(function(c){var
+a=gG(d,c);return a?j(b,a[1]):a}function
+c5(a,b){return l(function(c){var
 a=r(c,b,0),d=a?1:a;return d},a)}function
-gG(b,a){if(b){var
+gH(b,a){if(b){var
 c=b[1],d=c[3],e=a[3],f=function(a){return a},g=aO(function(a){return a},f,A,e,d),h=a[2];return[0,A(a[1],c[1]),h,g]}return a}function
-iD(b,a){return b?lM(a,b[1]):a}function
-iE(h,g,b,f){var
+iE(b,a){return b?lP(a,b[1]):a}function
+iF(h,g,b,f){var
 a=r(f,h,0);if(a){var
 c=a[1];if(b){var
-i=lM(c,b[1]),e=bf(g);return m(function(a){return D(d,aG(a,i)[1])},e)}return D(d,c[2][1])}return a}function
-iF(f,d,a){function
-c(a){return aT(a,d,O(f,b))}if(a){var
+i=lP(c,b[1]),e=bf(g);return l(function(a){return D(d,aG(a,i)[1])},e)}return D(d,c[2][1])}return a}function
+iG(f,d,a){function
+c(a){return aU(a,d,O(f,b))}if(a){var
 g=e(c,a[2]);return[0,c(a[1]),u,g]}return $(u)}function
-gH(b,a){var
+gI(b,a){var
 c=r(a[1],b,0);if(c){var
 d=r(a[2],b,0);if(d)var
 e=r(a[3],b,0),h=e?[0,[0,c[1],d[1],e[1]]]:e,f=h;else
@@ -1981,55 +1981,55 @@ f=d;var
 g=f}else
 var
 g=c;return g}function
-iG(b,a){return ac(e(function(a){return r(a,b,0)},a))}function
-fe(c,k,X,C,i,h,j,f,a){switch(f[0]){case
+iH(b,a){return ac(e(function(a){return r(a,b,0)},a))}function
+ff(c,k,X,C,i,h,j,f,a){switch(f[0]){case
 0:var
 s=f[1];if(typeof
 a!=="number")switch(a[0]){case
 0:var
 Y=c5(C,i);if(Y){var
-aD=a[2],aE=a[1],aF=gG(j,$(s));return cC(i,k,function(a){return e$(c,h,aF,aE,aD,a)})}return Y;case
+aD=a[2],aE=a[1],aF=gH(j,$(s));return cC(i,k,function(a){return fa(c,h,aF,aE,aD,a)})}return Y;case
 1:var
 Z=c5(C,i);if(Z){var
-aH=a[2],aI=a[1],aJ=gG(j,$(s));return cC(i,X,function(a){return e$(c,h,aJ,aI,aH,a)})}return Z;case
+aH=a[2],aI=a[1],aJ=gH(j,$(s));return cC(i,X,function(a){return fa(c,h,aJ,aI,aH,a)})}return Z;case
 2:var
 _=c5(C,i);if(_){var
 aa=K(s[1],d),ab=aa?K(s[2],d):aa;if(ab){var
-aK=a[2],aM=a[1];return cC(i,k,function(a){return lL(c,h,j,aM,aK,a)})}var
+aK=a[2],aM=a[1];return cC(i,k,function(a){return lO(c,h,j,aM,aK,a)})}var
 ad=ab}else
 var
 ad=_;return ad}return 0;case
 1:var
 ae=f[1];if(typeof
 a==="number"){if(1===a){var
-aN=iD(j,$(ae));return cC(i,X,function(a){return is(c,h,aN,a)})}if(!a){var
-aO=iD(j,$(ae));return cC(i,k,function(a){return is(c,h,aO,a)})}}return 0;case
+aN=iE(j,$(ae));return cC(i,X,function(a){return it(c,h,aN,a)})}if(!a){var
+aO=iE(j,$(ae));return cC(i,k,function(a){return it(c,h,aO,a)})}}return 0;case
 2:if(typeof
 a!=="number"&&3===a[0]){var
-af=a[1],l=iF(c,af,a[3]),ag=f[1],aP=a[2];return cC(i,k,function(d){var
-a=it(h,l),b=a?e$(c,h,gG(j,l),af,aP,d):a;if(b){var
-f=l[3],g=e(function(a){return t(c,ag,a)},f),i=l[2];return is(c,h,iD(j,[0,t(c,ag,l[1]),i,g]),d)}return b})}return 0;case
+af=a[1],m=iG(c,af,a[3]),ag=f[1],aP=a[2];return cC(i,k,function(d){var
+a=iu(h,m),b=a?fa(c,h,gH(j,m),af,aP,d):a;if(b){var
+f=m[3],g=e(function(a){return t(c,ag,a)},f),i=m[2];return it(c,h,iE(j,[0,t(c,ag,m[1]),i,g]),d)}return b})}return 0;case
 3:if(typeof
-a==="number"&&!a)return iE(i,h,j,f[1]);return 0;case
+a==="number"&&!a)return iF(i,h,j,f[1]);return 0;case
 4:if(typeof
 a!=="number"&&0===a[0]){var
-aQ=a[2],aR=a[1],aS=gG(j,$(f[2])),aU=function(a){return e$(c,h,aS,aR,aQ,a)};return cC(i,f[1],aU)}return 0;case
+aQ=a[2],aR=a[1],aS=gH(j,$(f[2])),aT=function(a){return fa(c,h,aS,aR,aQ,a)};return cC(i,f[1],aT)}return 0;case
 5:if(typeof
 a==="number"&&!(3<=a))switch(a){case
-0:return iE(i,h,j,f[1]);case
-2:return iE(i,h,j,f[2])}return 0;case
+0:return iF(i,h,j,f[1]);case
+2:return iF(i,h,j,f[2])}return 0;case
 6:if(typeof
 a!=="number"&&8===a[0]){var
-D=gH(i,f[1]);if(D){var
-G=gH(i,f[2]);if(G){var
-H=gH(i,f[3]);if(H){var
-I=gH(i,f[4]);if(I){var
+D=gI(i,f[1]);if(D){var
+G=gI(i,f[2]);if(G){var
+H=gI(i,f[3]);if(H){var
+I=gI(i,f[4]);if(I){var
 ah=I[1],ai=H[1],aj=G[1],ak=D[1],n=a[2],v=f[5],aV=a[1];if(n){var
 p=n[2];if(p){var
 q=p[2];if(q){if(q[2])return 0;var
-aC=[0,n[1],p[1],q[1]],r=lR(function(f){function
-g(a){return aT(a,aV,O(c,b))}if(f){var
-a=e(g,f[2]),d=g(f[1]),h=e7(a),i=E(d[2],h),j=e7(a);return[0,d,[0,aL(d[1],j),i],a]}return $(u)},aC),N=m(function(a){return o(g(a),[0,h])},n),P=N?gy(c,h,j,v,r,ak,ai):N,Q=P?gy(c,h,j,v,r,ak,ah):P,R=Q?gy(c,h,j,v,r,aj,ai):Q;if(R)return gy(c,h,j,v,r,aj,ah);var
+aC=[0,n[1],p[1],q[1]],r=lU(function(f){function
+g(a){return aU(a,aV,O(c,b))}if(f){var
+a=e(g,f[2]),d=g(f[1]),h=e8(a),i=E(d[2],h),j=e8(a);return[0,d,[0,aL(d[1],j),i],a]}return $(u)},aC),N=l(function(a){return o(g(a),[0,h])},n),P=N?gz(c,h,j,v,r,ak,ai):N,Q=P?gz(c,h,j,v,r,ak,ah):P,R=Q?gz(c,h,j,v,r,aj,ai):Q;if(R)return gz(c,h,j,v,r,aj,ah);var
 S=R}else
 var
 S=q;var
@@ -2054,23 +2054,23 @@ ap=a[2],aq=a[1],aW=f[2],aX=f[1];return cC(i,k,function(e){var
 a=o(g(e),h),d=a?o(g(ap),h):a;if(d){var
 f=function(a){if(a){var
 d=a[2],e=o(g(d),h);if(e){var
-i=ei(aq,ej(aq,ap,O(c,b),d));return a6(c,h,be(gz(c,aX,aW,a[1][2],d),i))}var
+i=ek(aq,el(aq,ap,O(c,b),d));return a6(c,h,be(gA(c,aX,aW,a[1][2],d),i))}var
 f=e}else
 var
-f=a;return f},i=j?j[1]:$(u);return ip(h,ir(i,e),f)}return d})}return 0;case
+f=a;return f},i=j?j[1]:$(u);return iq(h,is(i,e),f)}return d})}return 0;case
 8:if(typeof
 a==="number"&&5<=a){var
-aY=f[3],aZ=f[2],a0=function(a){return lL(c,h,j,aZ,aY,a)};return cC(i,f[1],a0)}return 0;case
+aY=f[3],aZ=f[2],a0=function(a){return lO(c,h,j,aZ,aY,a)};return cC(i,f[1],a0)}return 0;case
 9:return 0;default:if(typeof
 a==="number"&&!a){var
-J=iG(i,f[1]);if(J){var
-a1=f[2],L=ac(e(function(a){return iG(i,a)},a1));if(L){var
-M=iG(i,[0,f[3],[0,f[4],[0,f[5],[0,f[6],0]]]]);if(M){var
+J=iH(i,f[1]);if(J){var
+a1=f[2],L=ac(e(function(a){return iH(i,a)},a1));if(L){var
+M=iH(i,[0,f[3],[0,f[4],[0,f[5],[0,f[6],0]]]]);if(M){var
 w=M[1];if(w){var
 x=w[2];if(x){var
 y=x[2];if(y){var
 B=y[2];if(B){if(B[2])return 0;var
-ar=B[1],as=y[1][2],at=x[1][2],au=w[1][2],av=L[1],a2=J[1],W=l1(c,h,j,av,au,at,function(d){return[0,eg(c,an(function(b,a){return A(U(c,aG(d,b)),a)},u,a2))]});return W?W:l1(c,h,j,av,au,at,function(f){var
+ar=B[1],as=y[1][2],at=x[1][2],au=w[1][2],av=L[1],a2=J[1],W=l4(c,h,j,av,au,at,function(d){return[0,ei(c,an(function(b,a){return A(U(c,aG(d,b)),a)},u,a2))]});return W?W:l4(c,h,j,av,au,at,function(f){var
 b=ca(ar[1]),a=b_(c,F(as,U(c,b)));if(a){var
 d=b9(c,a[1]),e=F(as,t(c,b,aG(f,ar)));return z(function(a){return t(c,e,a)},d)}return a})}var
 aw=B}else
@@ -2091,36 +2091,36 @@ aA=L;var
 aB=aA}else
 var
 aB=J;return aB}return 0}}function
-l_(a,_,s,l,n,Z,h,k,i,f,c){if(9===f[0]){var
+mb(a,_,s,m,n,Z,h,k,i,f,c){if(9===f[0]){var
 aa=f[2],ad=f[1];if(typeof
 c!=="number"&&9===c[0]){var
-L=c[2],v=c[1],ae=c[3];if(0<aR(c[4]))return fe(a,s,l,n,h,g(k),i,f,c);var
-V=e($,Z),C=bc(0,bB(a,gA(0,k,ad),V),_,0),M=o(g(k),tf),N=M?c5(n,C):M;if(N){var
-w=gF(C,l);if(w){var
-x=gF(h,l);if(x){var
+L=c[2],v=c[1],ae=c[3];if(0<aR(c[4]))return ff(a,s,m,n,h,g(k),i,f,c);var
+V=e($,Z),C=bc(0,bB(a,gB(0,k,ad),V),_,0),M=o(g(k),tk),N=M?c5(n,C):M;if(N){var
+w=gG(C,m);if(w){var
+x=gG(h,m);if(x){var
 y=ac(e(function(b){var
 c=r(b[1],h,0);if(c)var
 f=b[2][2],a=ac(e(function(a){var
 b=r(a[2],h,0);return z(function(b){return[0,a[1],b]},b)},f)),g=a?[0,[0,b[2][1],a[1]]]:a,d=g;else
 var
 d=c;return d},aa));if(y){var
-B=lU(w[1]);if(B){var
-P=x[1],af=y[1],ag=B[1],D=eg(a,an(function(f,h){function
+B=lX(w[1]);if(B){var
+P=x[1],af=y[1],ag=B[1],D=ei(a,an(function(f,h){function
 b(b,d){var
 a=f[1],c=b?b[1]?f[2]:a[2]:a[1];return b$(r(d,c[3],u))}function
 c(a){var
-b=j(a,sU),c=bj(j(a,sV),b);return bj(j(a,0),c)}var
+b=j(a,sZ),c=bj(j(a,s0),b);return bj(j(a,0),c)}var
 d=c(function(a){var
-c=b(sW,a),d=b(sX,a);return E(E(b(0,a),d),c)}),g=[0,d,d],e=c(function(a){var
-c=b(a,sY),d=b(a,sZ);return E(E(b(a,0),d),c)});return A(h,U(a,eg(a,t(a,[0,e,e],g))))},u,ag)),p=aT(ae,v,O(a,b)),G=I(d,F(p,D)[1]),H=G?o(g(L),s5):G,J=H?o(g(P),s6):H;if(J){var
+c=b(s1,a),d=b(s2,a);return E(E(b(0,a),d),c)}),g=[0,d,d],e=c(function(a){var
+c=b(a,s3),d=b(a,s4);return E(E(b(a,0),d),c)});return A(h,U(a,ei(a,t(a,[0,e,e],g))))},u,ag)),p=aU(ae,v,O(a,b)),G=I(d,F(p,D)[1]),H=G?o(g(L),s_):G,J=H?o(g(P),s$):H;if(J){var
 q=b9(a,p);if(q){var
-W=as(t(a,D,q[1])),X=F(O(a,b),W),Y=bf(s7);return m(function(h){var
+W=at(t(a,D,q[1])),X=F(O(a,b),W),Y=bf(ta);return l(function(h){var
 g=e(function(b){var
 c=b[2],d=b[1];return cx(bT(function(d,b){var
-c=b$(aG(h,b[2]));return A(d,t(a,b[1],[0,c,c]))},c,d))},af),r=j(au(function(a){return aG(h,a)}),P),E=i?aG(h,i[1]):u,M=U(a,X),s=U(a,p),q=ei(v,ej(v,L,O(a,b),r)),c=be(al([0,ab(E),0],s0),q);if(g){var
+c=b$(aG(h,b[2]));return A(d,t(a,b[1],[0,c,c]))},c,d))},af),r=j(au(function(a){return aG(h,a)}),P),E=i?aG(h,i[1]):u,M=U(a,X),s=U(a,p),q=ek(v,el(v,L,O(a,b),r)),c=be(al([0,ab(E),0],s5),q);if(g){var
 d=g[2];if(d){var
 f=d[2];if(f){if(f[2])return 0;var
-B=d[1],C=g[1],I=f[1],k=a6(a,s2,be(al([0,ab(s),0],s1),c));if(k)return m(function(D){var
+B=d[1],C=g[1],I=f[1],k=a6(a,s7,be(al([0,ab(s),0],s6),c));if(k)return l(function(D){var
 J=F(M,E),K=D[2]?B:ab(B),L=D[1]?C:ab(C),o=0;if(c){var
 b=c[1],l=0;if(b){var
 d=b[2],m=0;if(d){var
@@ -2160,11 +2160,11 @@ var
 z=b;if(!l){var
 A=z;o=1}}else{var
 A=c;o=1}if(o)var
-k=A;return a6(a,s4,k)},s3);var
-l=k}else
+k=A;return a6(a,s9,k)},s8);var
+m=k}else
 var
-l=f;var
-n=l}else
+m=f;var
+n=m}else
 var
 n=d;var
 o=n}else
@@ -2184,25 +2184,25 @@ var
 S=w;var
 T=S}else
 var
-T=N;return T}return fe(a,s,l,n,h,g(k),i,f,c)}return fe(a,s,l,n,h,g(k),i,f,c)}function
-gI(d){var
+T=N;return T}return ff(a,s,m,n,h,g(k),i,f,c)}return ff(a,s,m,n,h,g(k),i,f,c)}function
+gJ(d){var
 a=d;for(;;){if(a){var
 b=a[2],e=a[1],c=M(aj(function(b){return function(a){return o(b,a)}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-iH(j,i,h,g,a){var
+iI(j,i,h,g,a){var
 d=r(a,j,0);if(d){var
 b=r(a,i,0);if(b)var
-c=l0(0,g,r(a,h,tg)),k=c?[0,[0,b[1],c[1]]]:c,e=k;else
+c=l3(0,g,r(a,h,tl)),k=c?[0,[0,b[1],c[1]]]:c,e=k;else
 var
 e=b;var
 f=e}else
 var
 f=d;return f}function
-gJ(i,b,a){if(a){var
+gK(i,b,a){if(a){var
 k=a[1],l=k[2],c=ac(e(b,k[1]));if(c){var
 f=j(b,l);if(f){var
 g=r(l,i,0);if(g){var
-h=gJ(i,b,a[2]);if(h)var
+h=gK(i,b,a[2]);if(h)var
 m=I(d,g[1][2][1]),n=m?[0,[0,[0,c[1],f[1]],h[1]]]:m;else
 var
 n=h;var
@@ -2214,18 +2214,18 @@ var
 p=f;var
 q=p}else
 var
-q=c;return q}return th}function
-l$(c,M,j,L,q,p,J,I,f,b,i,a){var
-h=g(J),N=dE(0,J),aF=bc(0,bB(c,N,e($,fc(i,0,q))),M,0),aJ=e(ay,i),aH=0,aK=e($,q),aM=bc(ti,function(a){return iw(c,N,aK,aJ,a)},M,aH),aN=gC(i,q);function
-P(a){return iH(p,aF,aM,i,a)}function
+q=c;return q}return tm}function
+mc(c,M,j,L,q,p,J,I,f,b,i,a){var
+h=g(J),N=dE(0,J),aF=bc(0,bB(c,N,e($,fd(i,0,q))),M,0),aJ=e(ay,i),aH=0,aK=e($,q),aM=bc(tn,function(a){return ix(c,N,aK,aJ,a)},M,aH),aN=gD(i,q);function
+P(a){return iI(p,aF,aM,i,a)}function
 w(a){return e(function(a){return O(c,a)},a)}var
 aO=I?I[1]:$(u);function
 Q(a){return a?a6(c,h,a[1]):a}function
 r(f,e,d,b,a){var
-g=al([0,ab(e),0],h);return Q(iB(c,w(f),d,b,a,g))}function
+g=al([0,ab(e),0],h);return Q(iC(c,w(f),d,b,a,g))}function
 R(d,b,a){var
-e=al([0,b,0],h);return Q(lW(c,w(d),a,e))}var
-aP=e(ay,i),S=m(function(a){return aI(a,g(q))},aP),U=S?gI(e(ay,i)):S,V=U?m(function(a){return o(g(a),h)},a):U;if(V){var
+e=al([0,b,0],h);return Q(lZ(c,w(d),a,e))}var
+aP=e(ay,i),S=l(function(a){return aI(a,g(q))},aP),U=S?gJ(e(ay,i)):S,V=U?l(function(a){return o(g(a),h)},a):U;if(V){var
 v=0;switch(f[0]){case
 0:var
 x=f[1],G=0;if(typeof
@@ -2233,36 +2233,36 @@ b!=="number")switch(b[0]){case
 0:var
 ar=0;if(a){if(a[2])return 0;var
 aQ=a[1],aR=b[2],aS=b[1],X=c5(L,p);if(X){var
-l=function(c,a){var
+m=function(c,a){var
 b=A(x,a);return function(a){return r(aQ,b,aS,aR,a)}},k=j;G=1;ar=1}else
 var
 _=X}else
 var
 _=a;if(!ar)return _;break;case
 2:var
-at=0;if(a){if(a[2])return 0;var
+as=0;if(a){if(a[2])return 0;var
 aU=a[1],aV=b[2],aW=b[1],aa=c5(L,p),au=0;if(aa){var
 ac=K(x[1],d),ad=ac?K(x[2],d):ac;if(ad){var
-l=function(c,b,a){return r(aU,b,aW,aV,e(lV,a))},k=j;G=1;at=1;au=1}else
+m=function(c,b,a){return r(aU,b,aW,aV,e(lY,a))},k=j;G=1;as=1;au=1}else
 var
 ae=ad}else
 var
 ae=aa;if(!au)var
 af=ae}else
 var
-af=a;if(!at)return af;break}if(!G)return 0;break;case
+af=a;if(!as)return af;break}if(!G)return 0;break;case
 1:var
 av=0,aX=f[1];if(typeof
 b==="number"&&!b){if(!a)return a;if(a[2])return 0;var
-aY=a[1],l=function(c,a){var
+aY=a[1],m=function(c,a){var
 b=F(aX,a);return function(a){return R(aY,b,a)}},k=j;av=1}if(!av)return 0;break;case
 2:var
 aw=0,aZ=f[1];if(typeof
 b==="number"||!(3===b[0]))aw=1;else{var
 ax=0;if(a){var
 s=a[2],az=0;if(s){if(s[2])return 0;var
-ag=b[1],a0=s[1],a1=a[1],a2=b[2],ah=iF(c,ag,b[3]),ai=it(h,ah);if(ai){var
-l=function(f,b,a){var
+ag=b[1],a0=s[1],a1=a[1],a2=b[2],ah=iG(c,ag,b[3]),ai=iu(h,ah);if(ai){var
+m=function(f,b,a){var
 d=aG(f,ah),e=r(a1,A(d,b),ag,a2,a);return e?R(a0,F(t(c,aZ,d),b),a):e},k=j;ax=1;az=1}else
 var
 aj=ai}else
@@ -2277,10 +2277,10 @@ b==="number"&&!b){if(a)return 0;var
 z=f[1];v=1}else
 aA=1;if(aA)return 0;break;case
 4:var
-aB=0,a4=f[2];if(typeof
-b==="number"||!(0===b[0]))aB=1;else{if(!a)return a;if(a[2])return 0;var
+aC=0,a4=f[2];if(typeof
+b==="number"||!(0===b[0]))aC=1;else{if(!a)return a;if(a[2])return 0;var
 a5=a[1],a7=b[2],a8=b[1],a9=function(c,a){var
-b=A(a4,a);return function(a){return r(a5,b,a8,a7,a)}},l=a9,k=f[1]}if(aB)return 0;break;case
+b=A(a4,a);return function(a){return r(a5,b,a8,a7,a)}},m=a9,k=f[1]}if(aC)return 0;break;case
 5:var
 H=0;if(typeof
 b==="number"&&!(3<=b))switch(b){case
@@ -2294,13 +2294,13 @@ am=f[2],ao=f[1],aD=0;if(typeof
 b==="number"||!(0===b[0]))aD=1;else{var
 aE=0;if(a){if(a[2])return 0;var
 n=b[2],C=b[1],a_=a[1],ap=o(g(j),h);if(ap){var
-l=function(a,x){var
+m=function(a,x){var
 y=w(a_);return function(f){var
 k=o(g(f),h),l=k?o(g(n),h):k;if(l){var
-s=e(ay,f),u=ei(C,ej(C,n,ce(c),s)),v=be(gz(c,ao,am,x,e(ay,f)),u),a=0,b=f,i=v,w=g(n);for(;;){if(b){var
+s=e(ay,f),u=ek(C,el(C,n,ce(c),s)),v=be(gA(c,ao,am,x,e(ay,f)),u),a=0,b=f,i=v,w=g(n);for(;;){if(b){var
 p=b[1][2],q=o(a,ao),r=e(function(f,h){return function(d){var
-a=W(aC(0,g(n)),n);return e(function(a){var
-b=lY(C,a[2],d[1]);if(h&&o(a[1],f))return F(b,as(t(c,am,d[2])));return b},a)}}(a,q),p),j=fb(c,y,lX(c,a,w),r,i);if(j){var
+a=W(aB(0,g(n)),n);return e(function(a){var
+b=l1(C,a[2],d[1]);if(h&&o(a[1],f))return F(b,at(t(c,am,d[2])));return b},a)}}(a,q),p),j=fc(c,y,l0(c,a,w),r,i);if(j){var
 a=[0,a],b=b[2],i=j[1];continue}var
 d=j}else
 var
@@ -2313,13 +2313,13 @@ aq=ap}else
 var
 aq=a;if(!aE)return aq}if(aD)return 0;break;default:return 0}if(v){var
 B=P(z);if(!B)return B;var
-a3=function(b,f,a){return m(function(a){var
+a3=function(b,f,a){return l(function(a){var
 b=f[2],c=a[2],e=an(function(b,a){return E(bj(d,T(b[2][1])),a)},d,c);return D(d,aL(aL(a[1][2][1],e),b))},a)},Z=a3,Y=[0,[0,0,B[1]],0]}else{var
-y=gJ(p,P,k);if(!y)return y;var
-Z=l,Y=y[1]}var
-aT=bf(h);return m(function(a){var
-b=e(function(b){return gD(c,a,aN,b)},Y);return fR(Z,a,aG(a,aO),b)},aT)}return V}function
-ma(j,a){var
+y=gK(p,P,k);if(!y)return y;var
+Z=m,Y=y[1]}var
+aT=bf(h);return l(function(a){var
+b=e(function(b){return gE(c,a,aN,b)},Y);return fS(Z,a,aG(a,aO),b)},aT)}return V}function
+md(j,a){var
 f=an(function(b,a){return bj(cr(b),a)},d,a);function
 g(a){if(a){if(K(cr(a[1]),f))return 0;var
 b=[0,g(a[2])]}else
@@ -2327,27 +2327,27 @@ var
 b=a;return b}var
 h=g(a);if(K(f,d)){var
 k=e(function(a){return u},a),l=a?[0,b,a[2]]:a;return[0,[0,[0,0,l],d],k]}var
-i=ih(E(lb(f),b)),m=e(function(a){return u},a);return[0,[0,[0,h,a],i],c3(u,h,O(j,b8(c(2,b),i)),m)]}function
-gK(f,J,t,I,n,l,H,G,k,a,h,al,E,ak,C,B){var
-i=g(H),L=dE(0,H),am=bc(0,bB(f,L,e($,fc(h,0,n))),J,0),ao=e(ay,h),an=0,ap=e($,n),ar=bc(tj,function(a){return iw(f,L,ap,ao,a)},J,an),as=gC(h,n);function
-at(a){return iH(l,am,ar,h,a)}var
-au=G?G[1]:$(u),N=ma(f,al),P=N[1],Q=P[1],v=Q[2],j=Q[1],R=N[2],av=P[2],p=e(function(a){return aT(a,av,O(f,b))},v);function
-S(a){return l6(f,j,p,E,ak,C,B,l5(f,j,p,i,a,0))}function
+i=ii(E(le(f),b)),m=e(function(a){return u},a);return[0,[0,[0,h,a],i],c3(u,h,O(j,b8(c(2,b),i)),m)]}function
+gL(f,J,t,I,n,m,H,G,k,a,h,al,E,ak,C,B){var
+i=g(H),L=dE(0,H),am=bc(0,bB(f,L,e($,fd(h,0,n))),J,0),ao=e(ay,h),an=0,ap=e($,n),ar=bc(to,function(a){return ix(f,L,ap,ao,a)},J,an),as=gD(h,n);function
+at(a){return iI(m,am,ar,h,a)}var
+au=G?G[1]:$(u),N=md(f,al),P=N[1],Q=P[1],v=Q[2],j=Q[1],R=N[2],av=P[2],p=e(function(a){return aU(a,av,O(f,b))},v);function
+S(a){return l9(f,j,p,E,ak,C,B,l8(f,j,p,i,a,0))}function
 T(a){return a?a6(f,i,a[1]):a}function
-w(d,c,b,a){return T(l7(f,j,p,R,c,b,a,S(ab(d))))}var
-aw=e(ay,h),U=m(function(a){return aI(a,g(n))},aw),V=U?gI(e(ay,h)):U,W=V?o(g(v),i):V,X=W?o(g(E),i):W,Y=X?D(d,C):X,Z=Y?ie(B,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):Y,_=Z?aI(j,i):Z,aa=_?M(K(r(j,v,d),d)):_;if(aa){switch(k[0]){case
+w(d,c,b,a){return T(l_(f,j,p,R,c,b,a,S(ab(d))))}var
+aw=e(ay,h),U=l(function(a){return aI(a,g(n))},aw),V=U?gJ(e(ay,h)):U,W=V?o(g(v),i):V,X=W?o(g(E),i):W,Y=X?D(d,C):X,Z=Y?ig(B,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):Y,_=Z?aI(j,i):Z,aa=_?M(K(r(j,v,d),d)):_;if(aa){switch(k[0]){case
 0:var
 x=k[1],z=0;if(typeof
 a==="number")z=1;else
 switch(a[0]){case
 0:var
-ax=a[2],az=a[1],ac=c5(I,l);if(!ac)return ac;var
+ax=a[2],az=a[1],ac=c5(I,m);if(!ac)return ac;var
 s=function(a){var
 b=A(x,a);return function(a){return w(b,az,ax,a)}},q=t;break;case
 2:var
-aC=a[2],aD=a[1],ad=c5(I,l),ah=0;if(ad){var
+aC=a[2],aD=a[1],ad=c5(I,m),ah=0;if(ad){var
 ae=K(x[1],d),af=ae?K(x[2],d):ae;if(af){var
-s=function(b,a){return w(b,aD,aC,e(lV,a))},q=t;ah=1}else
+s=function(b,a){return w(b,aD,aC,e(lY,a))},q=t;ah=1}else
 var
 ag=af}else
 var
@@ -2356,7 +2356,7 @@ ag=ad;if(!ah)return ag;break;default:z=1}if(z)return 0;break;case
 ai=0,aE=k[1];if(typeof
 a==="number"&&!a)var
 s=function(a){var
-b=F(aE,a);return function(a){return T(l9(f,j,p,R,a,S(b)))}},q=t;else
+b=F(aE,a);return function(a){return T(ma(f,j,p,R,a,S(b)))}},q=t;else
 ai=1;if(ai)return 0;break;case
 4:var
 aj=0,aF=k[2];if(typeof
@@ -2364,66 +2364,66 @@ a==="number"||!(0===a[0]))aj=1;else
 var
 aH=a[2],aJ=a[1],aK=function(a){var
 b=A(aF,a);return function(a){return w(b,aJ,aH,a)}},s=aK,q=k[1];if(aj)return 0;break;default:return 0}var
-y=gJ(l,at,q);if(y){var
-aA=y[1],aB=bf(i);return m(function(a){var
-b=e(function(b){return gD(f,a,as,b)},aA);return aq(s,aG(a,au),b)},aB)}return y}return aa}function
-mb(r,q,p,o,n,C,m,c,l,k,i,h,g,a){var
+y=gK(m,at,q);if(y){var
+aA=y[1],aB=bf(i);return l(function(a){var
+b=e(function(b){return gE(f,a,as,b)},aA);return aq(s,aG(a,au),b)},aB)}return y}return aa}function
+me(r,q,p,o,n,C,m,c,l,k,i,h,g,a){var
 v=e(function(a){return d},c),u=0;if(typeof
 a!=="number")switch(a[0]){case
 5:var
-E=a[1],F=function(a){return gK(r,q,p,o,n,m,c,a,l,E,0,v,k,i,h,g)},x=F,w=a[3],s=a[2];u=1;break;case
+E=a[1],F=function(a){return gL(r,q,p,o,n,m,c,a,l,E,0,v,k,i,h,g)},x=F,w=a[3],s=a[2];u=1;break;case
 10:var
 b=a[3],A=a[2],f=a[1],B=0;if(typeof
 f!=="number"&&5===f[0]){if(!b)return b;if(b[2])return 0;var
-G=b[1],H=f[1],I=function(a){return gK(r,q,p,o,n,m,c,a,l,H,A,G,k,i,h,g)},x=I,w=f[3],s=f[2];u=1;B=1}if(!B)return b?b[2]?0:gK(r,q,p,o,n,m,c,0,l,f,A,b[1],k,i,h,g):b;break}if(u){var
+G=b[1],H=f[1],I=function(a){return gL(r,q,p,o,n,m,c,a,l,H,A,G,k,i,h,g)},x=I,w=f[3],s=f[2];u=1;B=1}if(!B)return b?b[2]?0:gL(r,q,p,o,n,m,c,0,l,f,A,b[1],k,i,h,g):b;break}if(u){var
 t=j(C,c);if(t){var
-y=D(d,s);if(y)return x([0,gw(s,w,t[1])]);var
+y=D(d,s);if(y)return x([0,gx(s,w,t[1])]);var
 z=y}else
 var
-z=t;return z}return gK(r,q,p,o,n,m,c,0,l,a,0,v,k,i,h,g)}function
-mc(a,ai,aL,s,G,ah,q,p,ag,af,h){function
+z=t;return z}return gL(r,q,p,o,n,m,c,0,l,a,0,v,k,i,h,g)}function
+mf(a,ai,aL,s,G,ah,q,p,ag,af,h){function
 k(aj,f,j,x){var
-h=g(q),z=dE(0,q),aq=bc(0,bB(a,z,e($,fc(j,0,s))),ai,0),as=e(ay,j),ar=0,at=e($,s),au=bc(tk,function(b){return iw(a,z,at,as,b)},ai,ar);function
-av(a){return iH(ah,aq,au,j,a)}var
+h=g(q),z=dE(0,q),aq=bc(0,bB(a,z,e($,fd(j,0,s))),ai,0),as=e(ay,j),ar=0,at=e($,s),au=bc(tp,function(b){return ix(a,z,at,as,b)},ai,ar);function
+av(a){return iI(ah,aq,au,j,a)}var
 aw=aj?aj[1]:$(u);function
 k(b){return b?a6(a,h,b[1]):b}function
 B(b,a){return ab(A(aG(b,ag),a))}function
 C(d,c,b){return F(t(a,d,aG(c,ag)),b)}var
-ax=e(ay,j),E=m(function(a){return aI(a,g(s))},ax),G=E?gI(e(ay,j)):E,H=G?o(g(x),h):G;if(H){var
+ax=e(ay,j),E=l(function(a){return aI(a,g(s))},ax),G=E?gJ(e(ay,j)):E,H=G?o(g(x),h):G;if(H){var
 ak=0;if(af){var
-I=af[1],J=I[1],L=J[1],N=L[1],P=J[2],Q=I[2],az=L[2],R=ma(a,x),S=R[1],T=S[1],v=T[2],i=T[1],U=R[2],aA=S[2],l=e(function(c){return aT(c,aA,O(a,b))},v),V=function(b){return l6(a,i,l,N,az,P,Q,l5(a,i,l,h,b,0))},W=o(g(v),h),X=W?o(g(N),h):W,Y=X?D(d,P):X,Z=Y?ie(Q,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):Y,_=Z?aI(i,h):Z,aa=_?M(K(r(i,v,d),d)):_,y=0;if(aa)if(p){var
+I=af[1],J=I[1],L=J[1],N=L[1],P=J[2],Q=I[2],az=L[2],R=md(a,x),S=R[1],T=S[1],v=T[2],i=T[1],U=R[2],aA=S[2],m=e(function(c){return aU(c,aA,O(a,b))},v),V=function(b){return l9(a,i,m,N,az,P,Q,l8(a,i,m,h,b,0))},W=o(g(v),h),X=W?o(g(N),h):W,Y=X?D(d,P):X,Z=Y?ig(Q,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):Y,_=Z?aI(i,h):Z,aa=_?M(K(r(i,v,d),d)):_,y=0;if(aa)if(p){var
 am=0,aB=p[1];if(typeof
 f==="number"&&!f){var
-n=function(d,c,b){return k(l9(a,i,l,U,b,V(C(aB,d,c))))};y=1;am=1}if(!am)return 0}else{var
+n=function(d,c,b){return k(ma(a,i,m,U,b,V(C(aB,d,c))))};y=1;am=1}if(!am)return 0}else{var
 an=0;if(typeof
 f!=="number"&&0===f[0]){var
-aE=f[2],aF=f[1],n=function(d,c,b){return k(l7(a,i,l,U,aF,aE,b,V(B(d,c))))};y=1;an=1}if(!an)var
+aE=f[2],aF=f[1],n=function(d,c,b){return k(l_(a,i,m,U,aF,aE,b,V(B(d,c))))};y=1;an=1}if(!an)var
 ac=0}else
 var
 ac=aa;if(!y)return ac}else{var
 ad=e(function(b){return O(a,b)},x);if(p){var
 ao=0,aH=p[1];if(typeof
 f==="number"&&!f){var
-n=function(d,c,b){return k(lW(a,ad,b,al([0,C(aH,d,c),0],h)))};ao=1}if(!ao)return 0}else{var
+n=function(d,c,b){return k(lZ(a,ad,b,al([0,C(aH,d,c),0],h)))};ao=1}if(!ao)return 0}else{var
 ap=0;if(typeof
 f==="number"||!(0===f[0]))ap=1;else
 var
-aJ=f[2],aK=f[1],n=function(d,c,b){return k(iB(a,ad,aK,aJ,b,al([0,B(d,c),0],h)))};if(ap){var
+aJ=f[2],aK=f[1],n=function(d,c,b){return k(iC(a,ad,aK,aJ,b,al([0,B(d,c),0],h)))};if(ap){var
 ae=0;ak=1}}}if(!ak){var
-w=gJ(ah,av,aL);if(w){var
-aC=w[1],aD=bf(h);return m(function(b){var
-c=gC(j,s),d=e(function(d){return gD(a,b,c,d)},aC);return n(b,aG(b,aw),d)},aD)}return w}}else
+w=gK(ah,av,aL);if(w){var
+aC=w[1],aD=bf(h);return l(function(b){var
+c=gD(j,s),d=e(function(d){return gE(a,b,c,d)},aC);return n(b,aG(b,aw),d)},aD)}return w}}else
 var
 ae=H;return ae}var
 x=e(function(a){return d},q),w=0;if(typeof
 h!=="number")switch(h[0]){case
 5:var
-H=h[1],I=function(a){return k(a,H,0,x)},z=I,y=h[3],l=h[2];w=1;break;case
+H=h[1],I=function(a){return k(a,H,0,x)},z=I,y=h[3],m=h[2];w=1;break;case
 10:var
 f=h[3],v=h[2],i=h[1],E=0;if(typeof
 i!=="number")switch(i[0]){case
 5:if(!f)return f;if(f[2])return 0;var
-J=f[1],L=i[1],N=function(a){return k(a,L,v,J)},z=N,y=i[3],l=i[2];w=1;E=1;break;case
+J=f[1],L=i[1],N=function(a){return k(a,L,v,J)},z=N,y=i[3],m=i[2];w=1;E=1;break;case
 3:case
 7:case
 9:case
@@ -2431,16 +2431,16 @@ J=f[1],L=i[1],N=function(a){return k(a,L,v,J)},z=N,y=i[3],l=i[2];w=1;E=1;break;c
 11:case
 13:return f?f[2]?0:k(0,i,v,f[1]):f}if(!E)return f?f[2]?0:k(0,i,v,f[1]):f;break}if(w){var
 n=j(G,q);if(n){var
-B=D(d,l);if(B)return z([0,gw(l,y,n[1])]);var
+B=D(d,m);if(B)return z([0,gx(m,y,n[1])]);var
 C=B}else
 var
 C=n;return C}return k(0,h,0,x)}function
-md(l,k,i,p,h,g,o,f,b,e,a){if(typeof
+mg(l,k,i,p,h,g,o,f,b,e,a){if(typeof
 a!=="number")switch(a[0]){case
 5:var
 q=a[2],m=j(o,b);if(m){var
 r=D(d,q);if(r){var
-y=a[1];return l_(l,k,i,p,h,g,f,b,[0,gw(q,a[3],m[1])],e,y)}var
+y=a[1];return mb(l,k,i,p,h,g,f,b,[0,gx(q,a[3],m[1])],e,y)}var
 s=r}else
 var
 s=m;return s;case
@@ -2449,13 +2449,13 @@ t=a[3],u=a[2],c=a[1];if(typeof
 c!=="number"&&5===c[0]){var
 v=c[2],n=j(o,b);if(n){var
 w=D(d,v);if(w){var
-z=c[1];return l$(l,k,i,h,g,f,b,[0,gw(v,c[3],n[1])],e,z,u,t)}var
+z=c[1];return mc(l,k,i,h,g,f,b,[0,gx(v,c[3],n[1])],e,z,u,t)}var
 x=w}else
 var
-x=n;return x}return l$(l,k,i,h,g,f,b,0,e,c,u,t)}return l_(l,k,i,p,h,g,f,b,0,e,a)}function
-iI(a){return 9===a[0]?0:1}function
-el(a){return y(function(a){return f(a[1],[0,a[2],0])},a)}function
-iJ(j,d,i,a,h){var
+x=n;return x}return mc(l,k,i,h,g,f,b,0,e,c,u,t)}return mb(l,k,i,p,h,g,f,b,0,e,a)}function
+iJ(a){return 9===a[0]?0:1}function
+en(a){return y(function(a){return f(a[1],[0,a[2],0])},a)}function
+iK(j,d,i,a,h){var
 b=h;for(;;){var
 c=0;if(typeof
 b==="number"){if(1!==b)c=1}else
@@ -2466,7 +2466,7 @@ b=b[3];continue;case
 5:case
 10:var
 b=b[1];continue;default:c=1}var
-k=c?0:1,l=k?d:j,g=el(l);switch(a[0]){case
+k=c?0:1,l=k?d:j,g=en(l);switch(a[0]){case
 0:return f(i,g);case
 3:return[0,a[1],0];case
 5:return[0,a[1],[0,a[2],0]];case
@@ -2474,18 +2474,18 @@ k=c?0:1,l=k?d:j,g=el(l);switch(a[0]){case
 m=[0,a[1],[0,a[2],[0,a[3],[0,a[4],0]]]];return y(function(a){return[0,a[1],[0,a[2],[0,a[3],0]]]},m);case
 9:var
 n=a[2],o=y(function(a){var
-b=e(aY,a[2][2]);return[0,a[1],b]},n);return f(el(d),o);case
+b=e(aT,a[2][2]);return[0,a[1],b]},n);return f(en(d),o);case
 10:var
-p=[0,a[3],[0,a[4],[0,a[5],[0,a[6],0]]]],q=f(d_(a[2]),p);return f(a[1],q);case
+p=[0,a[3],[0,a[4],[0,a[5],[0,a[6],0]]]],q=f(ea(a[2]),p);return f(a[1],q);case
 4:case
-8:return el(a[1]);default:return g}}}function
-iK(v,t,s,q,k,a,g,j){var
-h=iI(a),i=h?m(function(b){var
-a=r(b,bT(fd,g,k),u);return K(a[1],a[2])},j):h;return i?m(function(ao){switch(a[0]){case
+8:return en(a[1]);default:return g}}}function
+iL(v,t,s,q,k,a,g,j){var
+h=iJ(a),i=h?l(function(b){var
+a=r(b,bT(fe,g,k),u);return K(a[1],a[2])},j):h;return i?l(function(ao){switch(a[0]){case
 3:var
 g=[0,a[1],0];break;case
 4:var
-g=el(a[1]);break;case
+g=en(a[1]);break;case
 5:var
 g=[0,a[1],[0,a[2],0]];break;case
 6:case
@@ -2526,10 +2526,10 @@ N=f;return N;case
 n=a[1];if(n){var
 O=n[1],g=a[2];if(O){if(g){var
 P=g[1];if(P)return[0,[0,E(O[1],P[1])]];var
-Q=s$}else
+Q=te}else
 var
 Q=g;return Q}var
-ai=g?ta:g,R=ai}else
+ai=g?tf:g,R=ai}else
 var
 R=n;return R;case
 7:var
@@ -2538,26 +2538,26 @@ S=p[1],h=a[2];if(S){if(h)var
 q=h[1],ak=q?[0,[0,aL(S[1],q[1])]]:q,U=ak;else
 var
 U=h;return U}var
-al=h?tb:h,V=al}else
+al=h?tg:h,V=al}else
 var
 V=p;return V;case
 8:var
 r=a[1];if(r){var
 W=r[1];if(W){var
 X=W[1];return[0,[0,E(X,X)]]}var
-Y=tc}else
+Y=th}else
 var
 Y=r;return Y;case
 9:var
 s=a[1];if(s){var
 t=s[1];if(t){var
 i=t[1],x=aR(i);if(0===x)var
-l=1;else
+m=1;else
 if(0<x)var
-l=D(i,b)?0:K(aS(i,aH(2))[2],d)?1:0;else
+m=D(i,b)?0:K(aS(i,aH(2))[2],d)?1:0;else
 var
-y=T(i),l=D(y,b)?0:K(aS(y,aH(2))[2],d)?1:0;var
-am=l?[0,[0,cv(i,c(2,b))]]:l,Z=am}else
+y=T(i),m=D(y,b)?0:K(aS(y,aH(2))[2],d)?1:0;var
+am=m?[0,[0,cv(i,c(2,b))]]:m,Z=am}else
 var
 Z=t;var
 _=Z}else
@@ -2566,7 +2566,7 @@ _=s;return _;default:var
 u=a[2];if(u){var
 v=a[3];if(v){var
 w=a[4];if(w)var
-an=[0,u[1],[0,v[1],[0,w[1],0]]],$=m(function(a){return a?K(a[1],d):1},an),aa=$?[0,[0,d]]:$;else
+an=[0,u[1],[0,v[1],[0,w[1],0]]],$=l(function(a){return a?K(a[1],d):1},an),aa=$?[0,[0,d]]:$;else
 var
 aa=w;var
 ab=aa}else
@@ -2575,53 +2575,53 @@ ab=v;var
 ac=ab}else
 var
 ac=u;return ac}},v,j);function
-l(a){return a?a[1]:d}var
-h=e(function(a){return z(l,a)},k),i=m(function(c){var
+m(a){return a?a[1]:d}var
+h=e(function(a){return z(m,a)},k),i=l(function(c){var
 a=r(c,h,0),b=a?1:a;return b},q);if(i){var
-n=f(el(s),g),p=f(el(t),n);return m(function(c){var
+n=f(en(s),g),p=f(en(t),n);return l(function(c){var
 a=r(c,h,0);if(a){var
 b=aR(a[1]);return 0===b?1:0<b?0:0}return a},p)}return i},g):i}function
-iL(j,a,i,h,g,f,e,d,c,b){var
-k=gp(iJ(i,h,g,c,b),a);return iC(j,a,bT(fd,e,f),k,d)}function
-me(f,d,c,n,m,b,l,q,e,k,j,i,h,a){if(typeof
+iM(j,a,i,h,g,f,e,d,c,b){var
+k=gq(iK(i,h,g,c,b),a);return iD(j,a,bT(fe,e,f),k,d)}function
+mh(f,d,c,n,m,b,l,q,e,k,j,i,h,a){if(typeof
 a!=="number"&&11===a[0]){var
-o=a[3],g=a[1],p=iK(d,c,n,m,b,k,g,a[2]);if(p){var
-r=iL(f,d,c,n,m,b,g,e,k,o);return mc(f,d,c,bT(fd,g,b),l,r,e,j,i,h,o)}return p}return mc(f,d,c,b,l,q,e,j,i,h,a)}function
-mf(r,q,p,n,l,k,j,i,h,f,d,c,a){if(typeof
+o=a[3],g=a[1],p=iL(d,c,n,m,b,k,g,a[2]);if(p){var
+r=iM(f,d,c,n,m,b,g,e,k,o);return mf(f,d,c,bT(fe,g,b),l,r,e,j,i,h,o)}return p}return mf(f,d,c,b,l,q,e,j,i,h,a)}function
+mi(r,q,p,n,m,k,j,i,h,f,d,c,a){if(typeof
 a!=="number"&&12===a[0]){var
 b=a[1],s=M(o(g(b),0));if(s){var
-t=W(l4(e(function(a){return a[1][1][1]},b)),b);return m(function(a){var
-b=a[2],e=b[1];return me(r,q,p,n,l,k,j,i,h,f,d,c,[0,[0,[0,[0,a[1][1],a[1][2]],e[1][2]],e[2]]],b[2])},t)}return s}return me(r,q,p,n,l,k,j,i,h,f,d,c,0,a)}function
-gL(b,a){if(a){var
+t=W(l7(e(function(a){return a[1][1][1]},b)),b);return l(function(a){var
+b=a[2],e=b[1];return mh(r,q,p,n,m,k,j,i,h,f,d,c,[0,[0,[0,[0,a[1][1],a[1][2]],e[1][2]],e[2]]],b[2])},t)}return s}return mh(r,q,p,n,m,k,j,i,h,f,d,c,0,a)}function
+gM(b,a){if(a){var
 c=a[2];if(b){var
-e=gL(b[1],c);return[0,a[1],e]}var
+e=gM(b[1],c);return[0,a[1],e]}var
 d=[0,0,c]}else
 var
 d=a;return d}function
-mg(c,b,a){var
-d=W(b,a);return m(function(a){var
+mj(c,b,a){var
+d=W(b,a);return l(function(a){var
 b=j(c,a[1]);return b?b:M(a[2])},d)}function
-ff(i,a,f,l,c,t,n,h,b,X,p){switch(p[0]){case
+fg(i,a,f,m,c,t,n,h,b,X,p){switch(p[0]){case
 0:var
-ab=function(a){return m(M,a)},J=ab,x=p[1];break;case
+ab=function(a){return l(M,a)},J=ab,x=p[1];break;case
 1:var
 ac=p[4],ad=p[3],ae=p[2],af=function(d){var
-e=c1(ae,b),g=ff(i,a,f,l,c,t,n,h,e[1],d,ad);return g?ff(i,a,f,l,c,t,n,h,e[2],d,ac):g},J=af,x=p[1];break;default:var
+e=c1(ae,b),g=fg(i,a,f,m,c,t,n,h,e[1],d,ad);return g?fg(i,a,f,m,c,t,n,h,e[2],d,ac):g},J=af,x=p[1];break;default:var
 ag=p[4],ah=p[3],ai=p[2],aj=function(d){var
-e=mg(iI,t,d);if(e){var
-g=c1(ai,h),j=ff(i,a,f,l,c,t,n,g[1],b,d,ah);if(j)return ff(i,a,f,l,c,t,n,g[2],b,d,ag);var
+e=mj(iJ,t,d);if(e){var
+g=c1(ai,h),j=fg(i,a,f,m,c,t,n,g[1],b,d,ah);if(j)return fg(i,a,f,m,c,t,n,g[2],b,d,ag);var
 k=j}else
 var
 k=e;return k},J=aj,x=p[1]}if(x){var
-z=iC(i,a,h,gp(y(function(e){var
+z=iD(i,a,h,gq(y(function(e){var
 a=e[2],d=0;if(typeof
 a==="number"){if(4!==a)d=1}else
 if(11!==a[0])d=1;if(d){var
-b=H(t,e[1]);return b?iJ(f,l,c,b[1],a):b}return 0},x),a),b),w=x,u=X;for(;;){if(w){var
+b=H(t,e[1]);return b?iK(f,m,c,b[1],a):b}return 0},x),a),b),w=x,u=X;for(;;){if(w){var
 R=w[1],k=R[2],E=R[1],S=w[2],Y=0;if(typeof
 k==="number"&&4===k){var
 A=j(n,b);if(A)var
-_=A[1],Z=bf(g(b)),F=m(function(b){return function(a){return I(aG(a,b)[2],d)}}(_),Z);else
+_=A[1],Z=bf(g(b)),F=l(function(b){return function(a){return I(aG(a,b)[2],d)}}(_),Z);else
 var
 F=A;if(F){var
 w=S,u=e(function(a){return 0},u);continue}var
@@ -2633,25 +2633,25 @@ q=G[1],K=0;if(typeof
 k==="number")K=1;else
 switch(k[0]){case
 11:var
-L=k[3],B=k[1],N=iK(a,f,l,c,h,q,B,k[2]);if(N)var
-$=iL(i,a,f,l,c,h,B,b,q,L),s=md(i,a,f,l,c,bT(fd,B,h),n,$,b,q,L);else
+L=k[3],B=k[1],N=iL(a,f,m,c,h,q,B,k[2]);if(N)var
+$=iM(i,a,f,m,c,h,B,b,q,L),s=mg(i,a,f,m,c,bT(fe,B,h),n,$,b,q,L);else
 var
 s=N;break;case
 12:var
 C=k[1],O=M(o(g(C),0));if(O)var
-aa=W(l4(e(function(a){return a[1][1][1]},C)),C),s=m(function(g){return function(r){var
-s=r[2],e=r[1],k=s[1],m=k[1][2],o=k[2],d=s[2];if(typeof
+aa=W(l7(e(function(a){return a[1][1][1]},C)),C),s=l(function(g){return function(r){var
+s=r[2],e=r[1],k=s[1],l=k[1][2],o=k[2],d=s[2];if(typeof
 d!=="number"&&11===d[0]){var
-p=d[3],j=d[1],q=iK(a,f,l,c,h,g,j,d[2]);if(q){var
-t=e[2],u=e[1],v=iL(i,a,f,l,c,h,j,b,g,p);return mb(i,a,f,c,bT(fd,j,h),n,v,b,g,u,t,m,o,p)}return q}return mb(i,a,f,c,h,n,z,b,g,e[1],e[2],m,o,d)}}(q),aa);else
+p=d[3],j=d[1],q=iL(a,f,m,c,h,g,j,d[2]);if(q){var
+t=e[2],u=e[1],v=iM(i,a,f,m,c,h,j,b,g,p);return me(i,a,f,c,bT(fe,j,h),n,v,b,g,u,t,l,o,p)}return q}return me(i,a,f,c,h,n,z,b,g,e[1],e[2],l,o,d)}}(q),aa);else
 var
 s=O;break;case
 13:if(2===q[0])var
-D=iF(i,k[1],k[2]),P=it(g(b),D),Q=P?mf(i,a,f,l,c,h,n,z,b,q,0,D,k[3]):P,s=Q?mf(i,a,f,l,c,h,n,z,b,q,[0,q[1]],D,k[4]):Q;else
+D=iG(i,k[1],k[2]),P=iu(g(b),D),Q=P?mi(i,a,f,m,c,h,n,z,b,q,0,D,k[3]):P,s=Q?mi(i,a,f,m,c,h,n,z,b,q,[0,q[1]],D,k[4]):Q;else
 var
 s=0;break;default:K=1}if(K)var
-s=md(i,a,f,l,c,h,n,z,b,q,k);if(s){var
-w=S,u=gL(E,u);continue}var
+s=mg(i,a,f,m,c,h,n,z,b,q,k);if(s){var
+w=S,u=gM(E,u);continue}var
 U=s}else
 var
 U=G;var
@@ -2663,77 +2663,77 @@ var
 v=[0,u];break}}else
 var
 v=[0,X];return v?J(v[1]):v}function
-iM(h,g,f,e,d,c,b,a){return function(i,j,k){return ff(h,g,f,e,d,b,a,c,i,j,k)}}function
-iN(a){return e(function(a){return 1},a)}function
-em(a,d,b,c){function
+iN(h,g,f,e,d,c,b,a){return function(i,j,k){return fg(h,g,f,e,d,b,a,c,i,j,k)}}function
+iO(a){return e(function(a){return 1},a)}function
+eo(a,d,b,c){function
 f(d,c){var
 f=W(a[1],b[1]);return e(function(a){var
 b=s(c,a[2]);return B(s(d,a[1]),b)},f)}if(aN(a[2],b[2])){var
 g=a[2];return[0,f(d,c),g]}var
 h=s(a[2],b[2]),i=s(c,a[2]);return[0,f(s(d,b[2]),i),h]}function
-mh(a){var
-c=l(b);return[0,e(function(a){return l(d)},a),c]}function
+mk(a){var
+c=m(b);return[0,e(function(a){return m(d)},a),c]}function
 a7(a,k){var
 f=k[1];switch(f[0]){case
 1:var
 u=f[1];if(aj(function(a){return o(u,a)},a)){var
-C=l(b);return[0,e(function(a){var
-c=o(a,u)?b:d;return l(c)},a),C]}return mh(a);case
+C=m(b);return[0,e(function(a){var
+c=o(a,u)?b:d;return m(c)},a),C]}return mk(a);case
 3:var
-D=l(b),E=a7(a,f[2]),F=l(b);return em(a7(a,f[1]),F,E,D);case
+D=m(b),E=a7(a,f[2]),F=m(b);return eo(a7(a,f[1]),F,E,D);case
 4:var
-G=l(T(b)),H=a7(a,f[2]),I=l(b);return em(a7(a,f[1]),I,H,G);case
+G=m(T(b)),H=a7(a,f[2]),I=m(b);return eo(a7(a,f[1]),I,H,G);case
 5:var
 v=a7(a,f[1]),J=v[2];return[0,e(bl,v[1]),J];case
 6:var
-w=f[2],y=f[1],K=a7(a,w);return em(a7(a,y),w,K,y);case
+w=f[2],y=f[1],K=a7(a,w);return eo(a7(a,y),w,K,y);case
 7:var
-z=f[2],L=bl(k),M=a7(a,z),N=l(b),i=em(a7(a,f[1]),N,M,L),O=i[1];if(m(function(a){return a5(d,a)},O))return i;var
+z=f[2],L=bl(k),M=a7(a,z),N=m(b),i=eo(a7(a,f[1]),N,M,L),O=i[1];if(l(function(a){return a5(d,a)},O))return i;var
 P=s(i[2],z);return[0,i[1],P];case
 8:var
-A=f[1],B=a7(a,A),Q=B[2],R=B[1],S=s(l(c(2,b)),A);return[0,e(function(a){return s(S,a)},R),Q];case
+A=f[1],B=a7(a,A),Q=B[2],R=B[1],S=s(m(c(2,b)),A);return[0,e(function(a){return s(S,a)},R),Q];case
 9:var
-j=a7(a,f[1]),U=j[1];if(m(function(a){return a5(d,a)},U)){var
-V=l(b);return[0,j[1],V]}var
-W=s(l(c(2,b)),k),X=s(j[2],W);return[0,j[1],X];case
+j=a7(a,f[1]),U=j[1];if(l(function(a){return a5(d,a)},U)){var
+V=m(b);return[0,j[1],V]}var
+W=s(m(c(2,b)),k),X=s(j[2],W);return[0,j[1],X];case
 10:var
-n=f[4],g=f[3],h=f[2],p=[0,[10,0,h,g,n]],q=[0,[10,1,h,g,n]],Y=x(g,q),Z=a7(a,g),_=x(h,p),$=em(a7(a,h),_,Z,Y),aa=l(T(b)),ab=a7(a,n),r=em($,l(c(2,b)),ab,aa),ac=r[1],ad=f[1]?p:bl(q),t=e(function(a){return s(ad,a)},ac);if(m(function(a){return a5(d,a)},t))return[0,t,r[2]];var
-ae=s(h,q),af=x(s(g,p),ae),ag=s(l(c(2,b)),af);return[0,t,s(r[2],ag)];default:return mh(a)}}function
-mi(c,a){var
+n=f[4],g=f[3],h=f[2],p=[0,[10,0,h,g,n]],q=[0,[10,1,h,g,n]],Y=x(g,q),Z=a7(a,g),_=x(h,p),$=eo(a7(a,h),_,Z,Y),aa=m(T(b)),ab=a7(a,n),r=eo($,m(c(2,b)),ab,aa),ac=r[1],ad=f[1]?p:bl(q),t=e(function(a){return s(ad,a)},ac);if(l(function(a){return a5(d,a)},t))return[0,t,r[2]];var
+ae=s(h,q),af=x(s(g,p),ae),ag=s(m(c(2,b)),af);return[0,t,s(r[2],ag)];default:return mk(a)}}function
+ml(c,a){var
 b=a7(c,a),f=b[1];return e(function(a){return a5(d,a)?a:am(a,b[2])},f)}function
-mj(g){var
+mm(g){var
 h=g[1],c=h[2],e=h[1];if(0===e[0]){var
 i=e[2],a=e[1];if(D(i,b)){if(0===c[0]){var
 j=c[2],m=c[1];if(D(j,b)){var
-k=K(a,m),l=k?e5(a):k;if(l)var
+k=K(a,m),l=k?e6(a):k;if(l)var
 n=K(g[2],d),f=n||K(a,d);else
 var
 f=l;var
 o=f?[0,a]:f;return o}return K(aS(j,aH(2))[2],d)?0:0}return 0}return K(aS(i,aH(2))[2],d)?0:0}return 0}function
 c6(c,b){var
-a=mj(c);return a?l(a[1]):[0,[1,b]]}function
+a=mm(c);return a?m(a[1]):[0,[1,b]]}function
 cD(b,a){if(a)var
 d=cD([0,b],a[2]),c=[0,c6(a[1],b),d];else
 var
 c=a;return c}function
 a8(b,a){return[0,[0,b[1],a],[0,[0,b[2],a],[0,[0,b[3],a],0]]]}function
-gM(b,d,a){switch(a[0]){case
+gN(b,d,a){switch(a[0]){case
 0:var
 c=a[1],g=[0,[0,c[4],b],0],h=f(a8(c[3],b),g),i=f(a8(c[2],b),h);return f(a8(c[1],d),i);case
 1:var
 e=a[3],j=e?a8(e[1],d):e,k=f(a8(a[2],b),j);return f(a8(a[1],b),k);default:return a8(a[1],d)}}function
 ak(b,a){var
-c=l(d),e=r(N(tl,a),b,c),f=l(d),g=r(N(tm,a),b,f);return[0,r(a,b,l(d)),g,e]}function
-mk(b,a){return af(x,af(B,dD,a),b)}function
-gN(c,b,a){if(a){var
-e=a[2],g=gN(c,bA(b),e),h=a[1];return f(gM(c,bS(d,b),h),g)}return a}function
-iO(f,e,c,j){if(c){var
-b=c[1],v=N(j,g(gM(f,bS(d,e),b))),w=c[2],x=iO(f,bA(e),w,v),a=cD(j,gM(f,bS(d,e),b));switch(b[0]){case
+c=m(d),e=r(N(tq,a),b,c),f=m(d),g=r(N(tr,a),b,f);return[0,r(a,b,m(d)),g,e]}function
+mn(b,a){return af(x,af(B,dD,a),b)}function
+gO(c,b,a){if(a){var
+e=a[2],g=gO(c,bA(b),e),h=a[1];return f(gN(c,bS(d,b),h),g)}return a}function
+iP(f,e,c,j){if(c){var
+b=c[1],v=N(j,g(gN(f,bS(d,e),b))),w=c[2],x=iP(f,bA(e),w,v),a=cD(j,gN(f,bS(d,e),b));switch(b[0]){case
 0:var
-m=b[1][5],n=r(tn,a,l(d)),o=af(B,dD,ak(a,to)),p=dC(ak(a,0)),q=ak(a,tp),h=lN(mk(ak(a,tq),q),p,o,n,m);break;case
+l=b[1][5],n=r(ts,a,m(d)),o=af(B,dD,ak(a,tt)),p=dC(ak(a,0)),q=ak(a,tu),h=lQ(mn(ak(a,tv),q),p,o,n,l);break;case
 1:var
-i=b[3],s=i?[0,dC(ak(a,tr))]:i,t=af(B,dD,ak(a,ts)),u=ak(a,tt),h=lO(mk(ak(a,0),u),t,s);break;default:var
-h=lP(dD,dC(ak(a,0)))}var
+i=b[3],s=i?[0,dC(ak(a,tw))]:i,t=af(B,dD,ak(a,tx)),u=ak(a,ty),h=lR(mn(ak(a,0),u),t,s);break;default:var
+h=lS(dD,dC(ak(a,0)))}var
 k=[0,h,x]}else
 var
 k=c;return k}function
@@ -2746,7 +2746,7 @@ j=a[2];return[0,[0,j,j],d];case
 8:var
 k=[5,a[2],a[1]];return[0,[0,k,k],d];case
 10:var
-p=a[3],q=ea(a[2]),l=[2,[2,ea(a[1]),q],p];return[0,[0,l,l],c];case
+p=a[3],q=ec(a[2]),l=[2,[2,ec(a[1]),q],p];return[0,[0,l,l],c];case
 11:var
 m=a[4];return[0,[0,m,m],c];case
 12:var
@@ -2763,41 +2763,41 @@ f=[5,[0,b,b],a[1]];return[0,[0,f,f],d];case
 g=a[2];return[0,[0,g,g],c];default:var
 i=a[1];return[0,[0,i,i],d]}var
 e=[0,d,b];return[0,[0,e,e],d]}function
-fg(b,a){var
+fh(b,a){var
 c=a[3],d=a[2],e=a[1];return[0,[0,[0,e,e],b],[0,[0,[0,d,d],b],[0,[0,[0,c,c],b],0]]]}function
-en(c,a){if(0===a[0]){var
-e=[0,d,b],i=f(fg(c,a[5]),[0,[0,[0,e,e],d],0]),g=a[4],h=a[3];return f([0,[0,[0,h,h],c],[0,[0,[0,g,g],c],0]],i)}var
-j=fg(c,a[3]);return f(fg(c,a[2]),j)}function
+ep(c,a){if(0===a[0]){var
+e=[0,d,b],i=f(fh(c,a[5]),[0,[0,[0,e,e],d],0]),g=a[4],h=a[3];return f([0,[0,[0,h,h],c],[0,[0,[0,g,g],c],0]],i)}var
+j=fh(c,a[3]);return f(fh(c,a[2]),j)}function
 dF(b,a){if(typeof
 a!=="number")switch(a[0]){case
 10:var
-h=en(b,a[2]);return f(en(b,a[1]),h);case
+h=ep(b,a[2]);return f(ep(b,a[1]),h);case
 11:var
-i=fg(b,a[3]);return f(fg(b,a[2]),i);case
+i=fh(b,a[3]);return f(fh(b,a[2]),i);case
 12:var
 c=a[3],g=[5,[4,c,c],a[4]];return[0,[0,[0,g,g],b],0];case
 15:var
 j=a[2],k=a[1];return e(function(b){var
 a=[5,j,b];return[0,[0,a,a],d]},k)}return 0}function
-ml(c,b,a){var
+mo(c,b,a){var
 d=g(dF(c,b)),e=N(a[2],d);return[0,[0,a[1]],e]}function
-iP(c,b){if(aN(b,c))return[0,l(d)];var
+iQ(c,b){if(aN(b,c))return[0,m(d)];var
 a=b[1];if(4===a[0]){var
 e=aN(a[1],c),f=e?[0,a[2]]:e;return f}return 0}function
-mm(y,p,a,o){switch(o[0]){case
+mp(y,p,a,o){switch(o[0]){case
 0:var
 h=H(y,o[1]);if(h){var
 i=h[1];if(i){var
-q=i[1],s=q[1],c=s[2],e=s[1],t=q[2],z=ak(a,tu),A=af(B,af(x,e,a1(am(r(tv,a,l(d)),t),c)),z),C=ak(a,tw),f=am(r(0,a,l(d)),t),k=iP(e[1],c[1]);if(k){var
-m=iP(e[2],c[2]);if(m){var
-n=iP(e[3],c[3]);if(n)var
-w=a1(f,c),g=af(B,[0,k[1],m[1],n[1]],w);else
+q=i[1],s=q[1],c=s[2],e=s[1],t=q[2],z=ak(a,tz),A=af(B,af(x,e,a1(am(r(tA,a,m(d)),t),c)),z),C=ak(a,tB),f=am(r(0,a,m(d)),t),k=iQ(e[1],c[1]);if(k){var
+l=iQ(e[2],c[2]);if(l){var
+n=iQ(e[3],c[3]);if(n)var
+w=a1(f,c),g=af(B,[0,k[1],l[1],n[1]],w);else
 var
-g=af(x,e,a1(x(l(b),f),c))}else
+g=af(x,e,a1(x(m(b),f),c))}else
 var
-g=af(x,e,a1(x(l(b),f),c))}else
+g=af(x,e,a1(x(m(b),f),c))}else
 var
-g=af(x,e,a1(x(l(b),f),c));var
+g=af(x,e,a1(x(m(b),f),c));var
 u=[0,[0,af(B,g,C),A]]}else
 var
 u=i;var
@@ -2805,48 +2805,48 @@ v=u}else
 var
 v=h;return v;case
 1:var
-D=ak(a,tx);return[0,[0,ak(a,0),D]];default:var
-E=j(p,ak(a,ty));return[0,[0,j(p,ak(a,0)),E]]}}function
-mn(e,d,c,h,g){var
-a=mm(e,d,aB(tz,c),h);if(a)var
-b=mm(e,d,aM(tA,c),g),i=b?[0,[0,a[1],b[1]]]:b,f=i;else
+D=ak(a,tC);return[0,[0,ak(a,0),D]];default:var
+E=j(p,ak(a,tD));return[0,[0,j(p,ak(a,0)),E]]}}function
+mq(e,d,c,h,g){var
+a=mp(e,d,aA(tE,c),h);if(a)var
+b=mp(e,d,aM(tF,c),g),i=b?[0,[0,a[1],b[1]]]:b,f=i;else
 var
 f=a;return f}function
-mo(g,c,d,b,a){var
-h=en(c,a),i=cD(d,f(en(c,b),h));function
-j(a){return af(B,dD,a)}return mn(e(function(a){var
+mr(g,c,d,b,a){var
+h=ep(c,a),i=cD(d,f(ep(c,b),h));function
+j(a){return af(B,dD,a)}return mq(e(function(a){var
 b=a[7];return z(function(b){var
 c=c0(a);return[0,[0,b,a[1]],c]},b)},g),j,i,b,a)}function
 dG(d,c,b,a){var
 e=s(c,b);return x(s(d,a),e)}function
 bC(a){return y(function(a){return f(a[1],[0,a[2],0])},a)}function
-mp(b,a){if(b)if(a)var
-d=b[1],e=mp(b[2],a[2]),f=s(d[2],a[1]),c=[0,[0,bW(d[1]),f],e];else
+ms(b,a){if(b)if(a)var
+d=b[1],e=ms(b[2],a[2]),f=s(d[2],a[1]),c=[0,[0,bW(d[1]),f],e];else
 var
 c=a;else
 var
 c=b;return c}function
-mq(a){if(a){var
+mt(a){if(a){var
 b=a[1][6];if(b){var
-c=b[1],d=mq(a[2]);if(d)var
+c=b[1],d=mt(a[2]);if(d)var
 g=d[1],h=Z(c,c),e=[0,[0,[0,bW(c),h],g]];else
 var
 e=d;var
 f=e}else
 var
-f=b;return f}return tC}function
-fh(b,d,c,a){if(typeof
+f=b;return f}return tH}function
+fi(b,d,c,a){if(typeof
 a!=="number")switch(a[0]){case
 8:var
 i=c[1],j=c6(bX(d,a),i);return[0,e(function(a){var
 b=s(a[2],j);return[0,bW(a[1]),b]},b)];case
-9:return mq(b);case
+9:return mt(b);case
 15:var
 k=g(b),f=o(g(a[1]),k);if(f)var
-l=dF(d,a),h=[0,mp(b,cD(c[2],l))];else
+l=dF(d,a),h=[0,ms(b,cD(c[2],l))];else
 var
 h=f;return h}return 0}function
-gO(e,k,j,a){var
+gP(e,k,j,a){var
 P=j[1],c=c6(bX(k,a),P),u=0;if(typeof
 a==="number")u=1;else
 switch(a[0]){case
@@ -2864,64 +2864,64 @@ e=V(a[1]),f=s(V(c),e),d=[0,x(b[2],f),0];else
 var
 d=a;return d},g=T,f=a[1];break;case
 7:if(e){var
-m=e[2];if(m){var
-n=m[2];if(n){if(n[2])return 0;var
-w=n[1],z=m[1],A=e[1],h=w[1],i=z[1],p=A[1],K=dG(i[1],i[2],h[1],h[2]),L=s(p[3],K),M=dG(i[1],i[3],h[1],h[3]),N=s(p[2],M),O=dG(i[2],i[3],h[2],h[3]),v=B(x(s(p[1],O),N),L),U=c0(w),W=c0(z),C=s(s(s(c,c0(A)),W),U),X=[0,bl(B(v,C)),0],D=[0,x(v,C),X]}else
+l=e[2];if(l){var
+n=l[2];if(n){if(n[2])return 0;var
+w=n[1],z=l[1],A=e[1],h=w[1],i=z[1],p=A[1],K=dG(i[1],i[2],h[1],h[2]),L=s(p[3],K),M=dG(i[1],i[3],h[1],h[3]),N=s(p[2],M),O=dG(i[2],i[3],h[2],h[3]),v=B(x(s(p[1],O),N),L),U=c0(w),W=c0(z),C=s(s(s(c,c0(A)),W),U),X=[0,bl(B(v,C)),0],D=[0,x(v,C),X]}else
 var
 D=n;var
 E=D}else
 var
-E=m;var
+E=l;var
 F=E}else
 var
 F=e;return F;case
 10:var
-t=mo(e,k,j[2],a[1],a[2]);if(t){var
+t=mr(e,k,j[2],a[1],a[2]);if(t){var
 G=t[1],I=G[2],J=G[1];return y(bW,[0,J[1],[0,J[2],[0,I[1],[0,I[2],0]]]])}return t;case
 11:var
 Y=function(d){var
 e=d[7];if(e)var
-n=dF(k,a),f=cD(j[2],n),h=ak(f,tB),b=af(x,ak(f,0),h),i=V(c),l=V(c0(d)),m=am(V(Z(b,d[1])),l),g=[0,x(x(Z(b,b),m),i),0];else
+n=dF(k,a),f=cD(j[2],n),h=ak(f,tG),b=af(x,ak(f,0),h),i=V(c),l=V(c0(d)),m=am(V(Z(b,d[1])),l),g=[0,x(x(Z(b,b),m),i),0];else
 var
 g=e;return g},g=Y,f=a[1];break;case
 12:var
 _=function(e){var
-p=l(d),q=dF(k,a),t=r(0,cD(j[2],q),p),f=am(t,c0(e)),g=e[5];if(g){var
-m=aJ(e[2]),h=am(g[1],m),n=s(h,B(c,s(f,V(h))));return[0,x(l(b),n),0]}var
-i=e[7],o=i?[0,x(x(l(b),c),f),0]:i;return o},g=_,f=a[1];break;case
+p=m(d),q=dF(k,a),t=r(0,cD(j[2],q),p),f=am(t,c0(e)),g=e[5];if(g){var
+l=aJ(e[2]),h=am(g[1],l),n=s(h,B(c,s(f,V(h))));return[0,x(m(b),n),0]}var
+i=e[7],o=i?[0,x(x(m(b),c),f),0]:i;return o},g=_,f=a[1];break;case
 8:case
 9:case
 15:var
-q=fh(e,k,j,a);return q?bC(q[1]):q;default:u=1}if(u)return 0;var
+q=fi(e,k,j,a);return q?bC(q[1]):q;default:u=1}if(u)return 0;var
 o=H(e,f);return o?g(o[1]):o}function
-iQ(d,b,c,a){if(a){var
-e=a[1],g=a[2],h=iQ(d,b,ml(b,e,c),g);return f(gO(d,b,c,e),h)}return a}var
-mr=[0,d,b],ms=[0,[0,mr,mr],d];function
-iR(a){return M(cc(a[1][1],a[1][2]))}function
-mt(a){var
-b=aC(0,g(a));return bu(function(b){return iR(r(b,a,ms))},b)}function
-gP(a,b){var
-c=mi(mt(a),b),e=W(mt(a),c);return bu(function(a){return M(a5(d,a[2]))},e)}function
-mu(b,a){var
+iR(d,b,c,a){if(a){var
+e=a[1],g=a[2],h=iR(d,b,mo(b,e,c),g);return f(gP(d,b,c,e),h)}return a}var
+mu=[0,d,b],mv=[0,[0,mu,mu],d];function
+iS(a){return M(cc(a[1][1],a[1][2]))}function
+mw(a){var
+b=aB(0,g(a));return bu(function(b){return iS(r(b,a,mv))},b)}function
+gQ(a,b){var
+c=ml(mw(a),b),e=W(mw(a),c);return bu(function(a){return M(a5(d,a[2]))},e)}function
+mx(b,a){var
 c=j(b,a[3]),d=j(b,a[2]);return[0,j(b,a[1]),d,c]}function
-mv(m,l,f,k,i,a){var
-d=gP(f,a);return ac(e(function(e){var
-a=r(e[1],f,ms),g=aL(a[2],k),h=[4,[0,c(2,b),b],i],d=[5,[3,a[1][2],a[1][1]],h],n=ao(m,[0,[0,d,d],g]);return z(function(a){return[0,a,j(l,e[2])]},n)},d))}function
-mw(g,f,n,m,l,e,c){var
+my(m,l,f,k,i,a){var
+d=gQ(f,a);return ac(e(function(e){var
+a=r(e[1],f,mv),g=aL(a[2],k),h=[4,[0,c(2,b),b],i],d=[5,[3,a[1][2],a[1][1]],h],n=ao(m,[0,[0,d,d],g]);return z(function(a){return[0,a,j(l,e[2])]},n)},d))}function
+mz(g,f,n,m,l,e,c){var
 h=[5,l,e],a=ao(g,[0,[0,h,h],d]);if(a){var
-b=mv(g,f,n,m,e,c);if(b)var
+b=my(g,f,n,m,e,c);if(b)var
 o=[0,a[1],b[1]],i=[0,[0,j(f,c),o]];else
 var
 i=b;var
 k=i}else
 var
 k=a;return k}function
-mx(c,F,l,al,k,i,n,s){if(s){var
-a=s[1],aH=s[2],aI=mx(c,F,l,al,k,i,ml(i,a,n),aH);if(typeof
+mA(c,F,m,al,k,i,n,s){if(s){var
+a=s[1],aH=s[2],aI=mA(c,F,m,al,k,i,mo(i,a,n),aH);if(typeof
 a==="number")if(0===a)var
 f=[0,[0,u]];else
 var
-an=F[2],ap=F[1],aq=fa(k),f=[0,[8,j(au(l),aq),ap,an]];else
+an=F[2],ap=F[1],aq=fb(k),f=[0,[8,j(au(m),aq),ap,an]];else
 switch(a[0]){case
 0:var
 ar=ao(c,bX(i,a)),f=z(function(a){return[0,U(c,a)]},ar);break;case
@@ -2930,12 +2930,12 @@ as=ao(c,bX(i,a)),f=z(function(a){return[1,U(c,a)]},as);break;case
 5:var
 av=ao(c,bX(i,a)),f=z(function(a){return[2,U(c,a)]},av);break;case
 8:var
-aw=fh(k,i,n,a),f=z(function(a){var
-d=O(c,b);return[4,j(au(l),a),d]},aw);break;case
+aw=fi(k,i,n,a),f=z(function(a){var
+d=O(c,b);return[4,j(au(m),a),d]},aw);break;case
 9:var
-w=fh(k,i,n,a);if(w){var
+w=fi(k,i,n,a);if(w){var
 x=ao(c,bX(i,a));if(x)var
-ax=U(c,x[1]),ay=w[1],L=[0,[4,j(au(l),ay),ax]];else
+ax=U(c,x[1]),ay=w[1],L=[0,[4,j(au(m),ay),ax]];else
 var
 L=x;var
 M=L}else
@@ -2943,10 +2943,10 @@ var
 M=w;var
 f=M;break;case
 10:var
-y=mo(k,i,n[2],a[1],a[2]);if(y){var
+y=mr(k,i,n[2],a[1],a[2]);if(y){var
 N=y[1],P=N[2],Q=N[1],A=ao(c,bX(i,a));if(A){var
 R=A[1],S=D(d,R[1]);if(S)var
-q=function(a){return mu(l,a)},az=q(P[2]),aA=q(P[1]),aB=q(Q[2]),T=[0,[6,q(Q[1]),aB,aA,az,R]];else
+q=function(a){return mx(m,a)},az=q(P[2]),aA=q(P[1]),aB=q(Q[2]),T=[0,[6,q(Q[1]),aB,aA,az,R]];else
 var
 T=S;var
 V=T}else
@@ -2957,10 +2957,10 @@ var
 W=y;var
 f=W;break;case
 12:var
-r=gO(k,i,n,a),t=0;if(r)if(r[2])var
+r=gP(k,i,n,a),t=0;if(r)if(r[2])var
 f=0;else{var
 X=h(c,0,a[2]),Y=X?h(c,1,a[4]):X;if(Y){var
-B=[0,[3,j(l,r[1])]];t=1}else{var
+B=[0,[3,j(m,r[1])]];t=1}else{var
 B=Y;t=1}}else{var
 B=r;t=1}if(t)var
 f=B;break;case
@@ -2972,9 +2972,9 @@ ab=aa;G=1}}else{var
 ab=_;G=1}if(G)var
 f=ab;break;case
 14:var
-ad=a[2],ae=a[1],af=o(g(k),tD),ag=af?h(c,0,ae):af,ah=ag?h(c,1,ad):ag;if(ah){var
+ad=a[2],ae=a[1],af=o(g(k),tI),ag=af?h(c,0,ae):af,ah=ag?h(c,1,ad):ag;if(ah){var
 C=ao(c,bX(i,a));if(C)var
-E=ac(e(function(a){return mw(c,l,al,i,ae,ad,a[4])},k)),aD=E?[0,[9,C[1],E[1]]]:E,ai=aD;else
+E=ac(e(function(a){return mz(c,m,al,i,ae,ad,a[4])},k)),aD=E?[0,[9,C[1],E[1]]]:E,ai=aD;else
 var
 ai=C;var
 aj=ai}else
@@ -2982,35 +2982,35 @@ var
 aj=ah;var
 f=aj;break;case
 15:var
-aE=[0,a[2],a[1]],aF=1,ak=m(function(a){return h(c,aF,a)},aE);if(ak)var
-aG=fh(k,i,n,a),f=z(function(a){var
-d=O(c,b);return[4,j(au(l),a),d]},aG);else
+aE=[0,a[2],a[1]],aF=1,ak=l(function(a){return h(c,aF,a)},aE);if(ak)var
+aG=fi(k,i,n,a),f=z(function(a){var
+d=O(c,b);return[4,j(au(m),a),d]},aG);else
 var
 f=ak;break;default:var
-p=gO(k,i,n,a),I=0;if(p){var
+p=gP(k,i,n,a),I=0;if(p){var
 v=p[2],J=p[1];if(v)if(v[2])var
 f=0;else
 var
-at=j(l,v[1]),f=[0,[5,j(l,J),at]];else{var
-K=[0,[3,j(l,J)]];I=1}}else{var
+at=j(m,v[1]),f=[0,[5,j(m,J),at]];else{var
+K=[0,[3,j(m,J)]];I=1}}else{var
 K=p;I=1}if(I)var
 f=K}var
 am=[0,f,aI]}else
 var
 am=s;return am}function
-tE(a){var
+tJ(a){var
 b=0;if(typeof
 a==="number"){if(0!==a)b=1}else
 if(0!==a[0])b=1;return b?0:1}function
-eo(a){if(0===a[0])return a[1];var
+eq(a){if(0===a[0])return a[1];var
 b=a[3],c=a[2],d=a[1];return[0,[0,[3,d,b],[2,d,b]],[0,[3,c,b],[2,c,b]],a[4]]}function
-my(a,c,g,b){if(0===c[0])return 0;if(b){var
+mB(a,c,g,b){if(0===c[0])return 0;if(b){var
 d=b[2];if(d){var
 h=d[2];if(h){if(h[2])return 0;var
 e=d[1],f=b[1],i=cY(a,g,c[1]);if(i){var
 j=cY(a,g,c[2]);if(j){var
 k=cY(a,g,c[3]);if(k)var
-v=i[1],w=cd(f),l=F([0,cd(f),w],v),x=j[1],y=cd(e),m=F([0,cd(e),y],x),z=eh(e),B=[0,eh(e),z],C=[0,t(a,ab(A(m,m)),B),0],D=eh(f),E=[0,eh(f),D],G=[0,t(a,ab(A(l,l)),E),C],H=U(a,m),I=U(a,l),n=[0,[0,F(F(U(a,k[1]),I),H),u,G]];else
+v=i[1],w=cd(f),l=F([0,cd(f),w],v),x=j[1],y=cd(e),m=F([0,cd(e),y],x),z=ej(e),B=[0,ej(e),z],C=[0,t(a,ab(A(m,m)),B),0],D=ej(f),E=[0,ej(f),D],G=[0,t(a,ab(A(l,l)),E),C],H=U(a,m),I=U(a,l),n=[0,[0,F(F(U(a,k[1]),I),H),u,G]];else
 var
 n=k;var
 o=n}else
@@ -3028,7 +3028,7 @@ r=d;var
 s=r}else
 var
 s=b;return s}function
-gQ(a,p,o){var
+gR(a,p,o){var
 q=a8(p,o),b=e(function(b){return ao(a,b)},q);if(b){var
 g=b[1];if(g){var
 c=b[2];if(c){var
@@ -3060,7 +3060,7 @@ c7(c,b,a){var
 d=bw(c,b[1],a);return d?bw(c,a,b[2]):d}function
 bn(c,b,a){var
 d=c7(c,b[1],a[1]),e=d?c7(c,b[2],a[2]):d;return e?c7(c,b[3],a[3]):e}function
-mz(b,c,a){switch(c[0]){case
+mC(b,c,a){switch(c[0]){case
 0:var
 d=c[1];if(0===a[0]){var
 j=a[4],f=a[1],k=bn(b,d[1],f),l=k?h(b,1,w(f,f)):k,m=l?bn(b,d[2],a[2]):l,n=m?bn(b,d[3],a[3]):m,o=n?c7(b,d[4],j):n,p=o?h(b,1,j):o;return p?ct(d[5],a[5]):p}return 0;case
@@ -3077,9 +3077,9 @@ v=s;return v}return 0;default:if(2===a[0]){var
 i=a[1],x=bn(b,c[1],i);return x?h(b,1,w(i,i)):x}return 0}}function
 bD(c,a,b){if(0===a[0])return bn(c,a[1],b);var
 d=a[3],e=[3,b[1],a[1]],f=[3,b[2],a[2]],g=h(c,0,[3,[3,[4,d,d],[4,e,e]],[4,f,f]]),i=g?h(c,0,d):g;return i?c7(c,a[4],b[3]):i}function
-fi(g,f,i,h){var
+fj(g,f,i,h){var
 b=f[1],a=i;for(;;){if(b){if(a){var
-d=mz(g,b[1],a[1]);if(d){var
+d=mC(g,b[1],a[1]);if(d){var
 b=b[2],a=a[2];continue}var
 e=d}else
 var
@@ -3087,60 +3087,60 @@ e=a;var
 c=e}else
 var
 c=a?0:1;return c?bD(g,f[2],h):c}}function
-aU(c,b,a){var
+aV(c,b,a){var
 d=J(function(b,a){return[2,b,a]},a,b);return J(function(b,a){return[3,b,a]},d,c)}function
-fj(a,e,d,c){var
-b=aU(e,d,c),f=av(a),g=P(w(av(a),b),f);return J(function(b,a){return[3,b,a]},b,g)}function
+fk(a,e,d,c){var
+b=aV(e,d,c),f=av(a),g=P(w(av(a),b),f);return J(function(b,a){return[3,b,a]},b,g)}function
 cf(f,e,d,a,c){var
-b=fj(f,e,d,c);return[3,[4,a,a],w(b,b)]}function
+b=fk(f,e,d,c);return[3,[4,a,a],w(b,b)]}function
 cE(c,a){return c?[6,a]:[3,[0,d,b],[6,a]]}function
 cg(a,c){switch(a[0]){case
 0:var
-e=a[3],f=a[2],d=a[1],g=fj(d,f,e,c),h=cf(d,f,e,a[4],c),i=P([5,[0,b,b],cE(a[5],h)],g),j=av(d);return J(function(b,a){return[2,b,a]},j,i);case
-1:return av(aU(a[1],a[2],c));default:return av(a[1])}}function
+e=a[3],f=a[2],d=a[1],g=fk(d,f,e,c),h=cf(d,f,e,a[4],c),i=P([5,[0,b,b],cE(a[5],h)],g),j=av(d);return J(function(b,a){return[2,b,a]},j,i);case
+1:return av(aV(a[1],a[2],c));default:return av(a[1])}}function
 ch(a,b){switch(a[0]){case
 0:var
-d=a[3],e=a[2],c=a[1],f=av(c),g=cf(c,e,d,a[4],b),h=P(cE(a[5],g),f),i=fj(c,e,d,b);return J(function(b,a){return[2,b,a]},i,h);case
-1:return aU(a[1],a[2],b);default:return av(a[1])}}function
+d=a[3],e=a[2],c=a[1],f=av(c),g=cf(c,e,d,a[4],b),h=P(cE(a[5],g),f),i=fk(c,e,d,b);return J(function(b,a){return[2,b,a]},i,h);case
+1:return aV(a[1],a[2],b);default:return av(a[1])}}function
 cF(a,b){switch(a[0]){case
 0:var
-c=a[3],d=a[2],e=a[1],h=cf(e,d,c,a[4],b),i=cE(a[5],h),j=aU(d,c,b);return[3,w(av(e),j),i];case
+c=a[3],d=a[2],e=a[1],h=cf(e,d,c,a[4],b),i=cE(a[5],h),j=aV(d,c,b);return[3,w(av(e),j),i];case
 1:var
-f=a[2],g=a[1],k=aU(g,f,b);return[6,w(aU(g,f,b),k)];default:return w(av(a[1]),b)}}function
-iS(a,b){switch(a[0]){case
+f=a[2],g=a[1],k=aV(g,f,b);return[6,w(aV(g,f,b),k)];default:return w(av(a[1]),b)}}function
+iT(a,b){switch(a[0]){case
 0:return[0,cf(a[1],a[2],a[3],a[4],b)];case
 1:var
-c=a[2],d=a[1],e=aU(d,c,b);return[0,w(aU(d,c,b),e)];default:return 0}}function
-fk(e,c,a){var
+c=a[2],d=a[1],e=aV(d,c,b);return[0,w(aV(d,c,b),e)];default:return 0}}function
+fl(e,c,a){var
 f=[0,d,b];return an(function(b,d){var
 e=w(cg(b,c),a);return[2,[4,w(cg(b,c),a),e],d]},f,e)}function
-mA(f,e,c,a){if(f){if(e){var
-g=e[1],h=mA(f[2],e[2],c,a),i=w(cg(g,c),a),j=[4,w(cg(g,c),a),i];return[2,[4,f[1],j],h]}return[0,d,b]}return[0,d,b]}function
-mB(a){var
+mD(f,e,c,a){if(f){if(e){var
+g=e[1],h=mD(f[2],e[2],c,a),i=w(cg(g,c),a),j=[4,w(cg(g,c),a),i];return[2,[4,f[1],j],h]}return[0,d,b]}return[0,d,b]}function
+mE(a){var
 c=a[1];return[0,[0,c[1],b],[0,c[2],b],[0,a[2],b]]}function
-iT(a,c){switch(a[0]){case
+iU(a,c){switch(a[0]){case
 0:return a[4];case
 1:var
-d=a[2],e=a[1],f=aU(e,d,c);return[6,w(aU(e,d,c),f)];default:return[0,b,b]}}function
-mC(d,i){if(d){var
+d=a[2],e=a[1],f=aV(e,d,c);return[6,w(aV(e,d,c),f)];default:return[0,b,b]}}function
+mF(d,i){if(d){var
 a=d[1];if(1===a[0]){var
 c=a[3];if(c)var
-f=c[1],g=aU(a[1],a[2],i),k=av(f),l=P(w(av(f),g),k),h=[0,J(function(b,a){return[3,b,a]},g,l)];else
+f=c[1],g=aV(a[1],a[2],i),k=av(f),l=P(w(av(f),g),k),h=[0,J(function(b,a){return[3,b,a]},g,l)];else
 var
 h=c;var
 b=h}else
 var
 b=0;if(b)var
-e=mC(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
+e=mF(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
 var
-j=b;return j}return tF}function
+j=b;return j}return tK}function
 c8(a){return[0,a[1],a[2],a[3]]}function
-mD(a,b){switch(a[0]){case
+mG(a,b){switch(a[0]){case
 0:var
-f=a[4],c=a[3],g=a[2],d=a[1],i=av(d),j=cf(d,g,c,f,b),k=P(cE(a[5],j),i),l=fj(d,g,c,b),m=J(function(b,a){return[2,b,a]},l,k);return[0,[0,[0,J(function(b,a){return[2,b,a]},b,c),m],f]];case
+f=a[4],c=a[3],g=a[2],d=a[1],i=av(d),j=cf(d,g,c,f,b),k=P(cE(a[5],j),i),l=fk(d,g,c,b),m=J(function(b,a){return[2,b,a]},l,k);return[0,[0,[0,J(function(b,a){return[2,b,a]},b,c),m],f]];case
 1:var
-h=a[2],e=aU(a[1],h,b),n=[6,w(e,e)];return[0,[0,[0,J(function(b,a){return[2,b,a]},b,h),e],n]];default:return 0}}function
-mE(m,e,a){switch(a[0]){case
+h=a[2],e=aV(a[1],h,b),n=[6,w(e,e)];return[0,[0,[0,J(function(b,a){return[2,b,a]},b,h),e],n]];default:return 0}}function
+mH(m,e,a){switch(a[0]){case
 0:var
 n=a[5],c=H(m,a[1]);if(c){var
 d=c[1];if(d)var
@@ -3154,30 +3154,30 @@ l=c;return l;case
 1:var
 r=c8(a[3]);return[0,[0,c8(a[2]),r]];default:var
 s=j(e,c8(a[3]));return[0,[0,j(e,c8(a[2])),s]]}}function
-mF(d,a,c,b){var
+mI(d,a,c,b){var
 e=P(a,b),f=P([3,d,a],c);return J(function(b,a){return[2,b,a]},f,e)}function
-mG(a,l,c,k,i,y){var
+mJ(a,l,c,k,i,y){var
 d=j(l,k);if(d){var
 m=d[1],e=j(l,i);if(e){var
-n=e[1],f=c[1],g=c[2],b=c[3],z=mF(b,g,n[1],n[2]),A=mF(b,f,m[1],m[2]),o=J(function(b,a){return[3,b,a]},A,z),B=ea(i),p=[4,b,[2,[2,ea(k),B],y]],q=h(a,1,b),r=q?h(a,0,f):q,s=r?h(a,0,[3,b,f]):r,t=s?h(a,0,g):s,u=t?h(a,0,[3,b,g]):t;if(u)return h(a,1,[3,[4,p,p],w(o,o)]);var
+n=e[1],f=c[1],g=c[2],b=c[3],z=mI(b,g,n[1],n[2]),A=mI(b,f,m[1],m[2]),o=J(function(b,a){return[3,b,a]},A,z),B=ec(i),p=[4,b,[2,[2,ec(k),B],y]],q=h(a,1,b),r=q?h(a,0,f):q,s=r?h(a,0,[3,b,f]):r,t=s?h(a,0,g):s,u=t?h(a,0,[3,b,g]):t;if(u)return h(a,1,[3,[4,p,p],w(o,o)]);var
 v=u}else
 var
 v=e;var
 x=v}else
 var
 x=d;return x}function
-mH(d,c,b,a,i,g,f,e){var
+mK(d,c,b,a,i,g,f,e){var
 j=h(d,1,b),k=j?h(d,1,a):j;if(k){var
 l=aq(c,f,f),m=[4,[4,a,a],[4,aq(c,g,g),l]];return h(d,1,[3,[4,[4,[4,b,b],[4,i,i]],aq(c,e,e)],m])}return k}function
-mI(i,g,c,f,y,a){function
+mL(i,g,c,f,y,a){function
 T(a){return[4,[4,[5,[0,b,b],a],[5,[0,b,b],a]],w(f,f)]}var
 O=0;if(typeof
 a==="number")O=1;else
 switch(a[0]){case
 0:var
-aG=fk(g,c,f);return h(i,1,[3,T(a[1]),aG]);case
+aG=fl(g,c,f);return h(i,1,[3,T(a[1]),aG]);case
 1:var
-aH=T(a[1]);return h(i,1,[3,fk(g,c,f),aH]);case
+aH=T(a[1]);return h(i,1,[3,fl(g,c,f),aH]);case
 2:var
 aI=a[2],aJ=function(a){return[3,aI,cF(a,c)]},A=aJ,z=a[1];break;case
 3:var
@@ -3186,7 +3186,7 @@ aK=a[2],aL=function(a){return[3,cF(a,c),aK]},A=aL,z=a[1];break;case
 U=a[3],V=a[2],aM=function(a){var
 b=cg(a,c);return[3,[4,[4,V,V],w(cg(a,c),b)],[4,U,U]]},A=aM,z=a[1];break;case
 5:var
-W=a[1],aN=w(f,f),aO=[4,[4,W,W],[4,fk(g,c,y),aN]],aP=w(y,y);return h(i,1,[3,[4,fk(g,c,f),aP],aO]);case
+W=a[1],aN=w(f,f),aO=[4,[4,W,W],[4,fl(g,c,y),aN]],aP=w(y,y);return h(i,1,[3,[4,fl(g,c,f),aP],aO]);case
 6:var
 X=a[2],C=H(g,a[1]);if(C){var
 k=C[1];if(0===k[0]){var
@@ -3197,7 +3197,7 @@ Z=C;return Z;case
 7:if(g){var
 p=g[2];if(p){var
 q=p[2];if(q){if(q[2])return 0;var
-_=q[1],$=p[1],aa=g[1],aR=iT(_,c),aS=iT($,c),aT=iT(aa,c),ab=[4,[4,[4,a[1],aT],aS],aR],l=ch(_,c),m=ch($,c),aV=ch(aa,c),Q=w(aV,[0,[3,[4,m[2],l[3]],[4,m[3],l[2]]],[3,[4,m[3],l[1]],[4,m[1],l[3]]],[3,[4,m[1],l[2]],[4,m[2],l[1]]]]),ac=h(i,1,[3,ab,Q]);if(ac)return h(i,1,[2,ab,Q]);var
+_=q[1],$=p[1],aa=g[1],aR=iU(_,c),aS=iU($,c),aT=iU(aa,c),ab=[4,[4,[4,a[1],aT],aS],aR],l=ch(_,c),m=ch($,c),aU=ch(aa,c),Q=w(aU,[0,[3,[4,m[2],l[3]],[4,m[3],l[2]]],[3,[4,m[3],l[1]],[4,m[1],l[3]]],[3,[4,m[1],l[2]],[4,m[2],l[1]]]]),ac=h(i,1,[3,ab,Q]);if(ac)return h(i,1,[2,ab,Q]);var
 ad=ac}else
 var
 ad=q;var
@@ -3208,16 +3208,16 @@ af=ae}else
 var
 af=g;return af;case
 8:var
-aW=fk(g,c,f),aX=w(f,f);return h(i,1,[3,[4,[5,a[2],a[1]],aX],aW]);case
+aW=fl(g,c,f),aX=w(f,f);return h(i,1,[3,[4,[5,a[2],a[1]],aX],aW]);case
 9:var
-ag=a[1],E=mC(g,c);if(E){var
+ag=a[1],E=mF(g,c);if(E){var
 aY=E[1],aA=[0,d,b],aB=an(function(a,b){var
 c=w(av(a),f);return[2,[4,w(av(a),f),c],b]},aA,aY);return h(i,1,[3,[4,[4,ag,ag],w(f,f)],aB])}return E;case
 10:var
-aZ=a[3],a0=a[2],a1=a[1],aC=function(b,a){return[2,b,a]},aD=function(a){return J(aC,c,a)},aE=e(function(a){return mD(a,c)},g);return mG(i,function(a){return mE(aE,aD,a)},f,a1,a0,aZ);case
+aZ=a[3],a0=a[2],a1=a[1],aC=function(b,a){return[2,b,a]},aD=function(a){return J(aC,c,a)},aE=e(function(a){return mG(a,c)},g);return mJ(i,function(a){return mH(aE,aD,a)},f,a1,a0,aZ);case
 11:var
 ah=a[4],F=H(g,a[1]);if(F){var
-G=mD(F[1],c);if(G){var
+G=mG(F[1],c);if(G){var
 n=G[1][1][2],a2=c8(a[3]),a3=c8(a[2]),r=J(function(b,a){return[3,b,a]},a3,a2),ai=h(i,1,w(n,n));if(ai){var
 a4=w(n,n),a5=w(r,n),a6=[5,[4,w(r,n),a5],a4];return h(i,1,[3,[4,ah,ah],[3,w(r,r),a6]])}var
 aj=ai}else
@@ -3233,7 +3233,7 @@ a7=a[4];switch(j[0]){case
 0:var
 v=j[4],x=[5,v,[6,cf(j[1],j[2],j[3],v,c)]],K=[4,x,[2,s,[4,[5,[4,o,o],v],[4,x,x]]]];break;case
 1:var
-R=j[2],S=j[1],aF=aU(S,R,c),K=[2,s,[5,[4,o,o],[6,w(aU(S,R,c),aF)]]];break;default:var
+R=j[2],S=j[1],aF=aV(S,R,c),K=[2,s,[5,[4,o,o],[6,w(aV(S,R,c),aF)]]];break;default:var
 K=s}var
 L=h(i,1,[3,K,a7])}else
 var
@@ -3249,7 +3249,7 @@ t=g[2];if(t){var
 u=t[2];if(u){if(u[2])return 0;var
 aq=u[1],ar=t[1],as=g[1],at=a[1],M=H([0,f[1],[0,f[2],[0,f[3],0]]],at);if(M){var
 N=H([0,as,[0,ar,[0,aq,0]]],at);if(N){var
-au=N[1],a8=ch(au,c),a9=cg(au,c),a_=ch(aq,c),a$=P(f[3],a_),ba=ch(ar,c),bb=P(f[2],ba),bc=ch(as,c),bd=P(f[1],bc),be=J(function(b,a){return[2,b,a]},bd,bb),bf=J(function(b,a){return[2,b,a]},be,a$);return mH(i,w,a[2],a[3],M[1],bf,a9,a8)}var
+au=N[1],a8=ch(au,c),a9=cg(au,c),a_=ch(aq,c),a$=P(f[3],a_),ba=ch(ar,c),bb=P(f[2],ba),bc=ch(as,c),bd=P(f[1],bc),be=J(function(b,a){return[2,b,a]},bd,bb),bf=J(function(b,a){return[2,b,a]},be,a$);return mK(i,w,a[2],a[3],M[1],bf,a9,a8)}var
 aw=N}else
 var
 aw=M;var
@@ -3263,56 +3263,56 @@ az=ay}else
 var
 az=g;return az;case
 15:var
-bg=mA(a[1],g,c,f),bh=w(f,f);return h(i,1,[3,[4,a[2],bh],bg]);default:O=1}if(O)return 0;var
+bg=mD(a[1],g,c,f),bh=w(f,f);return h(i,1,[3,[4,a[2],bh],bg]);default:O=1}if(O)return 0;var
 B=H(g,z);return B?h(i,1,A(B[1])):B}function
-fl(g,i,f,c,a){var
-m=fi(g,i,f,c);if(m)if(typeof
+fm(g,i,f,c,a){var
+m=fj(g,i,f,c);if(m)if(typeof
 a==="number")return 0===a?aj(function(e){var
-a=iS(e,c);return a?h(g,0,[3,[0,d,b],a[1]]):a},f):lH(tG,e(function(b){var
+a=iT(e,c);return a?h(g,0,[3,[0,d,b],a[1]]):a},f):lK(tL,e(function(b){var
 a=ch(b,c);return[0,a[1],[0,a[2],[0,a[3],0]]]},f));else{if(0===a[0]){var
 j=H(i[3],a[1]);if(j){var
-p=j[1],q=mB(a[3]);return mI(g,f,c,mB(a[2]),q,p)}return j}var
+p=j[1],q=mE(a[3]);return mL(g,f,c,mE(a[2]),q,p)}return j}var
 k=H(i[3],a[1]);if(k){var
 l=H(f,a[2]);if(l){var
-n=l[1],r=k[1],s=cg(n,c);return mI(g,f,c,cg(n,c),s,r)}var
+n=l[1],r=k[1],s=cg(n,c);return mL(g,f,c,cg(n,c),s,r)}var
 o=l}else
 var
 o=k;return o}return m}function
 bE(a){return[0,a[1][1],a[2][1],a[3][1]]}function
-mJ(a){switch(a[0]){case
+mM(a){switch(a[0]){case
 0:var
 b=a[1],c=b[5],d=b[4][1],e=bE(b[3]),f=bE(b[2]);return[0,bE(b[1]),f,e,d,c];case
 1:var
 g=z(bE,a[3]),h=bE(a[2]);return[1,bE(a[1]),h,g];default:return[2,bE(a[1])]}}function
-iU(a){return 0===a[0]?bE(a[1]):[0,a[1],a[2],a[4][1]]}function
-mK(b,a){var
-c=iU(a[2]);return fi(b,a,e(mJ,a[1]),c)}function
-iV(b,a,c){var
-d=[0,c,aM(b,a)];return f(aB(b,a),d)}function
+iV(a){return 0===a[0]?bE(a[1]):[0,a[1],a[2],a[4][1]]}function
+mN(b,a){var
+c=iV(a[2]);return fj(b,a,e(mM,a[1]),c)}function
+iW(b,a,c){var
+d=[0,c,aM(b,a)];return f(aA(b,a),d)}function
 bo(c,a){if(c){if(a){var
 e=bo(c[2],a[2]);return[2,[4,c[1],a[1]],e]}return[0,d,b]}return[0,d,b]}function
-mL(e,c,a){if(e){if(c){var
-f=c[1],g=mL(e[2],c[2],a),h=bo(f,a),i=[4,bo(f,a),h];return[2,[4,e[1],i],g]}return[0,d,b]}return[0,d,b]}function
-mM(b,a){if(b){if(a){var
-c=b[1],e=mM(b[2],a[2]),f=a[1],g=function(b,a){return[2,[4,c,b],a]},h=function(a){return a};return aO(function(a){return[4,c,a]},h,g,f,e)}var
+mO(e,c,a){if(e){if(c){var
+f=c[1],g=mO(e[2],c[2],a),h=bo(f,a),i=[4,bo(f,a),h];return[2,[4,e[1],i],g]}return[0,d,b]}return[0,d,b]}function
+mP(b,a){if(b){if(a){var
+c=b[1],e=mP(b[2],a[2]),f=a[1],g=function(b,a){return[2,[4,c,b],a]},h=function(a){return a};return aO(function(a){return[4,c,a]},h,g,f,e)}var
 d=a}else
 var
 d=b;return d}function
-mN(b,c,a){var
-d=[0,c,aM([0,b],a)];return f(aB(b,a),d)}function
-mO(a,b){var
-e=o(a,tH),c=e||o(a,tI),d=c?o(g(b),a):c;return d?m(function(b){return o(g(b),a)},b):d}function
-mP(a){if(a){var
+mQ(b,c,a){var
+d=[0,c,aM([0,b],a)];return f(aA(b,a),d)}function
+mR(a,b){var
+e=o(a,tM),c=e||o(a,tN),d=c?o(g(b),a):c;return d?l(function(b){return o(g(b),a)},b):d}function
+mS(a){if(a){var
 b=a[1];if(b){var
-c=b[1],d=mP(a[2]);return z(function(a){return[0,c,a]},d)}return b}return tJ}function
-gR(a){if(a){var
+c=b[1],d=mS(a[2]);return z(function(a){return[0,c,a]},d)}return b}return tO}function
+gS(a){if(a){var
 b=a[1];if(b){var
-c=b[1],d=gR(a[2]);return z(function(a){return[0,c,a]},d)}return b}return tK}function
-mQ(a,l,k,f){var
-b=aD(a,l);if(b){var
-c=aD(a,k);if(c){var
+c=b[1],d=gS(a[2]);return z(function(a){return[0,c,a]},d)}return b}return tP}function
+mT(a,l,k,f){var
+b=aC(a,l);if(b){var
+c=aC(a,k);if(c){var
 d=cZ(a,f);if(d){var
-e=gs(a,f);if(e)var
+e=gt(a,f);if(e)var
 m=t(a,b[1],e[1]),g=[0,F(t(a,c[1],d[1]),m)];else
 var
 g=e;var
@@ -3325,21 +3325,21 @@ i=c;var
 j=i}else
 var
 j=b;return j}function
-mR(a){return a?I(a[1][2],d):a}function
+mU(a){return a?I(a[1][2],d):a}function
 ci(a){return a?I(d,a[1][1]):a}function
-mS(d,a){return h(d,0,[3,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b],a])}function
-mT(d,a){if(a){var
-b=aD(d,a[1]);if(b)var
-c=mT(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
+mV(d,a){return h(d,0,[3,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b],a])}function
+mW(d,a){if(a){var
+b=aC(d,a[1]);if(b)var
+c=mW(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
 var
-e=b;return e}return tL}function
-gS(d,a){if(a){var
-b=mT(d,a[1]);if(b)var
-c=gS(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
+e=b;return e}return tQ}function
+gT(d,a){if(a){var
+b=mW(d,a[1]);if(b)var
+c=gT(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
 var
-e=b;return e}return tM}function
-mU(b,a){return an(function(c,a){return A(U(b,c),a)},u,a)}function
-mV(b,d){function
+e=b;return e}return tR}function
+mX(b,a){return an(function(c,a){return A(U(b,c),a)},u,a)}function
+mY(b,d){function
 c(e,d,c,a){var
 f=t(b,d,c);return F(t(b,e,a),f)}if(d){var
 e=d[1];if(e){var
@@ -3355,27 +3355,27 @@ n=m[2];if(n){if(n[2])return u;if(k[2])return u;var
 s=n[1],v=m[1],w=l[1],x=j[1],y=i[1],z=h[1],B=c(z,y,w,v),C=t(b,g[1],B),D=t(b,q,c(z,x,w,s));return A(F(t(b,r,c(y,x,v,s)),D),C)}return u}return u}return u}return u}return u}return u}return u}return u}if(a){var
 o=a[1];if(o){var
 p=o[2];return p?p[2]?u:a[2]?u:c(r,q,o[1],p[1]):u}return u}return u}return u}return u}return u}function
-mW(a,p,l,s,f,i){function
+mZ(a,p,m,s,f,i){function
 a1(c,a){return[4,[4,[5,[0,b,b],c],[5,[0,b,b],c]],bo(a,a)]}var
-bL=l[1];function
+bL=m[1];function
 B(c){var
 a=[0,d,b];return an(function(a,b){var
 d=bo(a,c);return[2,[4,bo(a,c),d],b]},a,bL)}function
 C(f,e){var
-a=H(l[1],f);if(a){var
+a=H(m[1],f);if(a){var
 b=a[1],c=o(g(b),p);if(c)return j(e,b);var
 d=c}else
 var
 d=a;return d}var
-a2=m(function(c){var
+a2=l(function(c){var
 b=0;if(typeof
 i==="number")b=1;else
 switch(i[0]){case
 6:var
-a=tN;break;case
+a=tS;break;case
 13:case
 14:var
-a=tO;break;default:b=1}if(b)var
+a=tT;break;default:b=1}if(b)var
 a=p;return o(g(c),a)},f);if(a2){var
 v=0;if(typeof
 i==="number")v=1;else
@@ -3394,7 +3394,7 @@ b!=="number"&&0===b[0])return h(a,1,[3,b[1],bQ]);return 0},ai=bR,ah=i[1];break;c
 a6=i[3],a7=i[2],bS=function(d){var
 i=o(s,0);if(typeof
 d!=="number"&&1===d[0]){var
-e=d[2],f=d[1],g=h(a,0,[3,[2,a7,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b]],a6]);return g?i?mR(mQ(a,f,e,a7)):ci(mQ(a,f,e,a6)):g}return 0},ai=bS,ah=i[1];break;case
+e=d[2],f=d[1],g=h(a,0,[3,[2,a7,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b]],a6]);return g?i?mU(mT(a,f,e,a7)):ci(mT(a,f,e,a6)):g}return 0},ai=bS,ah=i[1];break;case
 5:if(f){var
 D=f[2];if(D){if(D[2])return 0;var
 ak=D[1],al=f[1],a8=i[1],bU=bo(al,al),bV=[4,[4,a8,a8],[4,B(ak),bU]],bW=bo(ak,ak);return h(a,1,[3,[4,B(al),bW],bV])}var
@@ -3403,7 +3403,7 @@ var
 a9=f;return a9;case
 6:var
 a_=i[2],bX=i[3],bY=function(b){var
-c=[5,bX,a_],d=h(a,1,a_);return d?h(a,1,[3,bo(b,b),[4,c,c]]):d},a$=C(i[1],bY);if(a$){if(l[4]){if(f){var
+c=[5,bX,a_],d=h(a,1,a_);return d?h(a,1,[3,bo(b,b),[4,c,c]]):d},a$=C(i[1],bY);if(a$){if(m[4]){if(f){var
 E=f[1];if(E){if(E[2])return 0;if(f[2])return 0;var
 ba=E[1];return h(a,1,[4,ba,ba])}var
 bb=E}else
@@ -3413,11 +3413,11 @@ bc=1}else
 var
 bc=a$;return bc;case
 7:if(f){if(f[2])return 0;var
-bd=f[1],am=i[1],bZ=i[3],b0=i[2],ao=gR(l[7]);if(ao){var
+bd=f[1],am=i[1],bZ=i[3],b0=i[2],ao=gS(m[7]);if(ao){var
 G=ao[1],ap=H(bd,am);if(ap){var
-b1=ap[1],be=o(g(G),p),bf=be?m(function(a){return o(g(a),p)},G):be;if(bf){var
+b1=ap[1],be=o(g(G),p),bf=be?l(function(a){return o(g(a),p)},G):be;if(bf){var
 aq=H(G,am);if(aq){var
-b2=aq[1];return C(am,function(b){return mH(a,bo,b0,bZ,b1,mM(bd,G),b,b2)})}var
+b2=aq[1];return C(am,function(b){return mK(a,bo,b0,bZ,b1,mP(bd,G),b,b2)})}var
 bg=aq}else
 var
 bg=bf;var
@@ -3431,13 +3431,13 @@ bj=bi}else
 var
 bj=f;return bj;case
 8:if(f){if(f[2])return 0;var
-ar=f[1],b3=mL(i[1],l[1],ar),b4=bo(ar,ar);return h(a,1,[3,[4,i[2],b4],b3])}return f;case
+ar=f[1],b3=mO(i[1],m[1],ar),b4=bo(ar,ar);return h(a,1,[3,[4,i[2],b4],b3])}return f;case
 9:if(f)return 0;var
 bk=i[3],bl=i[2],b5=function(e){var
 f=h(a,1,bl),g=f?h(a,0,bk):f;if(g){var
-b=aD(a,bo(e,e));if(b){var
-c=aD(a,[5,bk,bl]);if(c){var
-d=lA(a,c[1]);if(d){var
+b=aC(a,bo(e,e));if(b){var
+c=aC(a,[5,bk,bl]);if(c){var
+d=lD(a,c[1]);if(d){var
 l=U(a,d[1]);return ci([0,F(b[1],l)])}var
 i=d}else
 var
@@ -3454,8 +3454,8 @@ c=[4,b6,b[3]],d=h(a,1,c);return d?h(a,1,[3,[4,c,c],[4,b[2],b[2]]]):d},bn=b7,bm=i
 11:if(f)return 0;var
 b8=i[2],b9=function(e){var
 b=cZ(a,b8);if(b){var
-c=aD(a,e[3]);if(c){var
-d=aD(a,e[2]);if(d){var
+c=aC(a,e[3]);if(c){var
+d=aC(a,e[2]);if(d){var
 f=t(a,b[1],c[1]),g=ci([0,f]);if(g){var
 k=U(a,d[1]);return ci([0,F(U(a,f),k)])}var
 h=g}else
@@ -3468,11 +3468,11 @@ j=i}else
 var
 j=b;return j},bn=b9,bm=i[1];v=2;break;case
 12:if(f)return 0;var
-au=mP(l[3]);if(au){var
+au=mS(m[3]);if(au){var
 bq=au[1],b_=i[1],br=bT(function(b,a){return[4,b,a[3]]},bq,b_),av=e(function(a){return a[1]},bq),x=function(d,c,b,a){return[3,[4,d,a],[4,c,b]]};if(av){var
 O=av[1];if(O){var
 P=O[2];if(P){var
-Q=P[2],aC=P[1],aE=O[1],n=av[2];if(Q)if(Q[2]||!n)var
+Q=P[2],aD=P[1],aE=O[1],n=av[2];if(Q)if(Q[2]||!n)var
 k=[0,d,b];else{var
 R=n[1];if(R){var
 S=R[2];if(S){var
@@ -3481,7 +3481,7 @@ V=n[2];if(V){var
 W=V[1];if(W){var
 X=W[2];if(X){var
 Y=X[2];if(Y&&!(Y[2]||V[2]))var
-aF=Y[1],aG=X[1],aH=W[1],aI=T[1],aJ=S[1],aK=R[1],bE=x(aK,aJ,aH,aG),bF=[4,Q[1],bE],bG=[4,aC,x(aK,aI,aH,aF)],k=[2,[3,[4,aE,x(aJ,aI,aG,aF)],bG],bF];else
+aF=Y[1],aG=X[1],aH=W[1],aI=T[1],aJ=S[1],aK=R[1],bE=x(aK,aJ,aH,aG),bF=[4,Q[1],bE],bG=[4,aD,x(aK,aI,aH,aF)],k=[2,[3,[4,aE,x(aJ,aI,aG,aF)],bG],bF];else
 var
 k=[0,d,b]}else
 var
@@ -3498,7 +3498,7 @@ var
 k=[0,d,b]}else
 if(n){var
 Z=n[1];if(Z)var
-_=Z[2],k=_?_[2]?[0,d,b]:n[2]?[0,d,b]:x(aE,aC,Z[1],_[1]):[0,d,b];else
+_=Z[2],k=_?_[2]?[0,d,b]:n[2]?[0,d,b]:x(aE,aD,Z[1],_[1]):[0,d,b];else
 var
 k=[0,d,b]}else
 var
@@ -3514,17 +3514,17 @@ bt=bs}else
 var
 bt=au;return bt;case
 13:var
-b$=i[2],aw=H(l[4],i[1]);if(aw){var
+b$=i[2],aw=H(m[4],i[1]);if(aw){var
 ax=aw[1];if(ax){var
 bu=function(a){if(b$){var
-c=j(l[5],[0,[0,d,b],[0,d,b],[0,d,b]]),e=j(l[5],a);return J(function(b,a){return[3,b,a]},e,c)}return a},I=i[4],u=bu(c8(i[3])),K=ax[1][1][2],r=w(K,u);if(mS(a,I)){if(s){if(s[1])return 0;if(f){var
+c=j(m[5],[0,[0,d,b],[0,d,b],[0,d,b]]),e=j(m[5],a);return J(function(b,a){return[3,b,a]},e,c)}return a},I=i[4],u=bu(c8(i[3])),K=ax[1][1][2],r=w(K,u);if(mV(a,I)){if(s){if(s[1])return 0;if(f){var
 y=f[1];if(y){var
 z=y[2];if(z){var
 A=z[2];if(A){if(A[2])return 0;if(f[2])return 0;var
 $=bu([0,y[1],z[1],A[1]]),aL=w(K,$),aM=h(a,1,r);if(aM){var
 aa=cZ(a,I);if(aa){var
-aN=aa[1],ac=aD(a,[4,w(u,u),[4,aL,aL]]);if(ac){var
-ad=aD(a,[4,[4,r,r],w($,$)]);if(ad){var
+aN=aa[1],ac=aC(a,[4,w(u,u),[4,aL,aL]]);if(ac){var
+ad=aC(a,[4,[4,r,r],w($,$)]);if(ad){var
 aO=ci([0,aN]);if(aO){var
 bH=ad[1],bI=ac[1];return ci([0,F(t(a,U(a,aN),bI),bH)])}var
 aP=aO}else
@@ -3553,9 +3553,9 @@ var
 aW=f;return aW}return f?0:h(a,1,[3,[0,d,b],r])}if(s)return 0;if(f)return 0;var
 aX=h(a,0,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],I]);if(aX){var
 ae=cZ(a,I);if(ae){var
-af=aD(a,r);if(af){var
-bJ=w(K,K),ag=aD(a,[6,[4,w(u,u),bJ]]);if(ag){var
-bK=t(a,ae[1],ag[1]);return mR([0,F(af[1],bK)])}var
+af=aC(a,r);if(af){var
+bJ=w(K,K),ag=aC(a,[6,[4,w(u,u),bJ]]);if(ag){var
+bK=t(a,ae[1],ag[1]);return mU([0,F(af[1],bK)])}var
 aY=ag}else
 var
 aY=af;var
@@ -3572,7 +3572,7 @@ bv=aw;return bv;case
 L=f[1];if(L){var
 M=L[2];if(M){var
 N=M[2];if(N){if(N[2])return 0;if(f[2])return 0;var
-ca=i[3],cb=i[2],cc=i[1],cd=[0,L[1],M[1],N[1]],ce=l[5],cf=l[4];return mG(a,function(a){return mE(cf,ce,a)},cd,cc,cb,ca)}var
+ca=i[3],cb=i[2],cc=i[1],cd=[0,L[1],M[1],N[1]],ce=m[5],cf=m[4];return mJ(a,function(a){return mH(cf,ce,a)},cd,cc,cb,ca)}var
 bw=N}else
 var
 bw=M;var
@@ -3583,21 +3583,21 @@ by=bx}else
 var
 by=f;return by;case
 17:if(f)return 0;var
-bz=i[2],ay=i[1],cg=i[3],az=gR(l[7]);if(az){var
-aA=az[1],bA=mO(p,aA),bB=bA?o(g(bz),p):bA;if(bB){var
+bz=i[2],ay=i[1],cg=i[3],az=gS(m[7]);if(az){var
+aA=az[1],bA=mR(p,aA),bB=bA?o(g(bz),p):bA;if(bB){var
 aB=H(aA,ay);if(aB){var
 ch=aB[1];return C(ay,function(x){var
-e=gS(a,aA);if(e){var
-j=e[1],f=gS(a,[0,bz,[0,x,[0,ch,0]]]);if(f){var
+e=gT(a,aA);if(e){var
+j=e[1],f=gT(a,[0,bz,[0,x,[0,ch,0]]]);if(f){var
 b=f[1];if(b){var
 c=b[2];if(c){var
 d=c[2];if(d){if(d[2])return 0;var
-g=aD(a,cg);if(g){var
-k=g[1],l=U(a,mV(a,j)),h=mV(a,mN(ay,b[1],j)),m=ci([0,k]),n=m?ci([0,l]):m;if(n)var
+g=aC(a,cg);if(g){var
+k=g[1],l=U(a,mY(a,j)),h=mY(a,mQ(ay,b[1],j)),m=ci([0,k]),n=m?ci([0,l]):m;if(n)var
 y=o(s,0)?h:ab(h),i=ci([0,y]);else
 var
 i=n;if(i){var
-z=mU(a,c[1]),A=t(a,t(a,U(a,k),l),z),B=mU(a,d[1]);return ci([0,F(t(a,U(a,h),B),A)])}var
+z=mX(a,c[1]),A=t(a,t(a,U(a,k),l),z),B=mX(a,d[1]);return ci([0,F(t(a,U(a,h),B),A)])}var
 p=i}else
 var
 p=g;var
@@ -3625,89 +3625,89 @@ bD=az;return bD;default:v=1}switch(v){case
 1:var
 a3=0;break;case
 2:var
-as=H(l[3],bm);if(as){var
+as=H(m[3],bm);if(as){var
 at=as[1];if(at)return bn(at[1]);var
 bp=at}else
 var
 bp=as;return bp;default:var
-aj=H(l[2],ah);return aj?ai(aj[1]):aj}}else
+aj=H(m[2],ah);return aj?ai(aj[1]):aj}}else
 var
 a3=a2;return a3}function
-gT(d,f,a){if(typeof
+gU(d,f,a){if(typeof
 a!=="number")switch(a[0]){case
 13:var
-e=a[4];if(mS(d,e)&&M(h(d,0,[3,e,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b]])))return tR;return tS;case
+e=a[4];if(mV(d,e)&&M(h(d,0,[3,e,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b]])))return tW;return tX;case
 16:return f;case
 4:case
-17:return tQ}return tP}function
-ep(e,d,g,f){var
+17:return tV}return tU}function
+er(e,d,g,f){var
 b=g,a=f;for(;;){if(a){var
-c=a[1];if(aI(b,gT(e,d,c)))return[0,[0,c,b]];var
-h=a[2],b=d7(b,gT(e,d,c)),a=h;continue}return a}}function
-mX(a){return e(function(a){return[0,a,b]},a)}function
-iW(f,o,g,c,n,a){if(typeof
+c=a[1];if(aI(b,gU(e,d,c)))return[0,[0,c,b]];var
+h=a[2],b=d9(b,gU(e,d,c)),a=h;continue}return a}}function
+m0(a){return e(function(a){return[0,a,b]},a)}function
+iX(f,o,g,c,n,a){if(typeof
 a==="number"){if(0===a){var
 s=c[6];return aj(function(a){return h(f,0,[3,[0,d,b],a])},s)}var
-i=gR(c[7]);return i?lH(g,i[1]):i}else{if(0===a[0]){var
-j=ep(f,o,a[1],n);if(j){var
-p=j[1],t=p[1],u=e(mX,a[2]);return mW(f,g,c,p[2],u,t)}return j}var
-k=ep(f,o,a[1],n);if(k){var
+i=gS(c[7]);return i?lK(g,i[1]):i}else{if(0===a[0]){var
+j=er(f,o,a[1],n);if(j){var
+p=j[1],t=p[1],u=e(m0,a[2]);return mZ(f,g,c,p[2],u,t)}return j}var
+k=er(f,o,a[1],n);if(k){var
 q=k[1],l=q[1];if(typeof
 l!=="number"&&1===l[0]){var
-m=H(c[1],a[2]);return m?mW(f,g,c,q[2],[0,m[1],0],[1,l[1]]):m}var
+m=H(c[1],a[2]);return m?mZ(f,g,c,q[2],[0,m[1],0],[1,l[1]]):m}var
 r=0}else
 var
 r=k;return r}}function
-iX(a){var
+iY(a){var
 b=av(a[1]),c=P(w(b,a[2]),b),d=a[2];return J(function(b,a){return[3,b,a]},d,c)}function
-fm(a){return av(iX(a))}function
-gU(c){var
-a=fm(c),b=av(c[1]);return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
-gV(a,b){return aU(a[3],a[4],b)}function
-fn(a,b){var
-c=gV(a,b);return w(fm(a),c)}function
+fn(a){return av(iY(a))}function
+gV(c){var
+a=fn(c),b=av(c[1]);return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
+gW(a,b){return aV(a[3],a[4],b)}function
 fo(a,b){var
-c=gV(a,b);return w(gU(a),c)}function
-mY(a,b){var
-c=gV(a,b);return w(av(a[1]),c)}function
-gW(b,a){var
-c=fo(b,a),d=fn(b,a);return[2,[4,d,d],[4,c,c]]}function
-gX(a,d){var
-h=a[5],i=[4,[0,c(2,b),b],h],e=a[6],f=a[5],g=mY(a,d);return[5,[2,gW(a,d),[2,[4,g,g],[3,[4,f,f],[4,e,e]]]],i]}function
-iY(a,b){var
-f=a[5],c=[3,gX(a,b),f],d=mY(a,b),e=a[6];return[3,[3,[4,e,e],[4,d,d]],[4,c,c]]}function
-eq(a,b){var
-c=iY(a,b);return cE(a[7],c)}function
-mZ(b,a){var
-c=gW(b,a),d=fo(b,a),e=[4,eq(b,a),d],f=fn(b,a);return[5,[2,[4,gX(b,a),f],e],c]}function
-m0(b,a){var
-c=gW(b,a),d=fn(b,a),e=[4,eq(b,a),d],f=fo(b,a);return[5,[3,[4,gX(b,a),f],e],c]}function
+c=gW(a,b);return w(fn(a),c)}function
+fp(a,b){var
+c=gW(a,b);return w(gV(a),c)}function
+m1(a,b){var
+c=gW(a,b);return w(av(a[1]),c)}function
+gX(b,a){var
+c=fp(b,a),d=fo(b,a);return[2,[4,d,d],[4,c,c]]}function
+gY(a,d){var
+h=a[5],i=[4,[0,c(2,b),b],h],e=a[6],f=a[5],g=m1(a,d);return[5,[2,gX(a,d),[2,[4,g,g],[3,[4,f,f],[4,e,e]]]],i]}function
 iZ(a,b){var
-c=gU(a),d=P(m0(a,b),c),e=fm(a),f=P(mZ(a,b),e),g=J(function(b,a){return[2,b,a]},f,d),h=P(a[5],g),i=a[3];return J(function(b,a){return[2,b,a]},i,h)}function
+f=a[5],c=[3,gY(a,b),f],d=m1(a,b),e=a[6];return[3,[3,[4,e,e],[4,d,d]],[4,c,c]]}function
+es(a,b){var
+c=iZ(a,b);return cE(a[7],c)}function
+m2(b,a){var
+c=gX(b,a),d=fp(b,a),e=[4,es(b,a),d],f=fo(b,a);return[5,[2,[4,gY(b,a),f],e],c]}function
+m3(b,a){var
+c=gX(b,a),d=fo(b,a),e=[4,es(b,a),d],f=fp(b,a);return[5,[3,[4,gY(b,a),f],e],c]}function
+i0(a,b){var
+c=gV(a),d=P(m3(a,b),c),e=fn(a),f=P(m2(a,b),e),g=J(function(b,a){return[2,b,a]},f,d),h=P(a[5],g),i=a[3];return J(function(b,a){return[2,b,a]},i,h)}function
 dH(a){return[5,[3,[0,b,b],[4,a,a]],[2,[0,b,b],[4,a,a]]]}function
 dI(a){return[5,[4,[0,c(2,b),b],a],[2,[0,b,b],[4,a,a]]]}function
-i0(a,c,b){var
+i1(a,c,b){var
 d=[4,dH(a),b],e=[2,[4,dI(a),c],d],f=[4,dI(a),b];return[0,[3,[4,dH(a),c],f],e]}function
-m1(c,a){var
-b=i0(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
+m4(c,a){var
+b=i1(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
 c9(b,a){return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
-m2(a,d){var
+m5(a,d){var
 e=w(a,a),f=c9(a,d),g=P([0,c(2,b),b],f),h=w(a,d),i=P([4,[0,c(2,b),b],h],a),j=P([3,[0,b,b],e],d),k=J(function(b,a){return[2,b,a]},j,i);return P([5,[0,b,b],[2,[0,b,b],e]],J(function(b,a){return[2,b,a]},k,g))}function
 c_(j,b,a){switch(j[0]){case
-0:return b?b[2]?a:m1(b[1],a):a;case
+0:return b?b[2]?a:m4(b[1],a):a;case
 1:if(b){var
 c=b[2];if(c){var
 d=c[2];if(d){if(d[2])return a;var
-g=i0(b[1],a[2],a[3]),i=g[1],h=i0(c[1],g[2],a[1]);return m1(d[1],[0,h[2],i,h[1]])}return a}return a}return a;default:if(b){var
+g=i1(b[1],a[2],a[3]),i=g[1],h=i1(c[1],g[2],a[1]);return m4(d[1],[0,h[2],i,h[1]])}return a}return a}return a;default:if(b){var
 e=b[2];if(e){var
-f=e[2];return f?f[2]?a:m2([0,b[1],e[1],f[1]],a):a}return a}return a}}function
-m3(c){var
-a=cA(c);return a?d$(a[1],[0,d,b]):a}function
-m4(a,n,k,j){if(m3(j)){var
+f=e[2];return f?f[2]?a:m5([0,b[1],e[1],f[1]],a):a}return a}return a}}function
+m6(c){var
+a=cA(c);return a?eb(a[1],[0,d,b]):a}function
+m7(a,n,k,j){if(m6(j)){var
 q=n?[3,[0,d,b],k]:k;return h(a,0,q)}var
-f=aD(a,k);if(f){var
+f=aC(a,k);if(f){var
 g=cZ(a,[5,j,[0,c(2,b),b]]);if(g){var
-i=gs(a,[5,j,[0,c(2,b),b]]);if(i)var
+i=gt(a,[5,j,[0,c(2,b),b]]);if(i)var
 p=t(a,f[1],g[1]),l=[0,F(i[1],p)];else
 var
 l=i;var
@@ -3719,23 +3719,23 @@ var
 e=f;if(e){var
 o=e[1];return n?D(d,o[1]):D(o[2],d)}return e}function
 dJ(b,a,c){var
-d=bw(b,a[1],a[2]),e=d?m4(b,0,c,a[1]):d;return e?m4(b,1,c,a[2]):e}function
-m5(h,f,c){if(m3(c))return[0,u];var
-a=E(h,im(f)),d=cZ(a,c);if(d){var
-e=gs(a,c);if(e){var
-i=e[1],j=d[1],k=b9(a,A(O(a,b),j));return z(function(b){return lr(f,t(a,i,b))},k)}var
+d=bw(b,a[1],a[2]),e=d?m7(b,0,c,a[1]):d;return e?m7(b,1,c,a[2]):e}function
+m8(h,f,c){if(m6(c))return[0,u];var
+a=E(h,io(f)),d=cZ(a,c);if(d){var
+e=gt(a,c);if(e){var
+i=e[1],j=d[1],k=b9(a,A(O(a,b),j));return z(function(b){return lu(f,t(a,i,b))},k)}var
 g=e}else
 var
 g=d;return g}function
-cG(a){return function(b){return m5(a,d,b)}}function
+cG(a){return function(b){return m8(a,d,b)}}function
 cH(d,a){var
 e=h(d,1,[2,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],a]);return e?h(d,1,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],a]):e}function
 c$(a){return[0,[3,[0,d,b],a],a]}function
-m6(a,c,o,n){var
+m9(a,c,o,n){var
 h=bw(a,[0,d,b],c),i=h?cH(a,c):h;if(i){var
 e=j(cG(a),c);if(e){var
-f=aD(a,o);if(f){var
-g=aD(a,n);if(g){var
+f=aC(a,o);if(f){var
+g=aC(a,n);if(g){var
 p=f[1],q=g[1];return D(d,F(t(a,U(a,e[1]),q),p)[1])}var
 k=g}else
 var
@@ -3764,7 +3764,7 @@ p=a;return p;case
 2:if(a){var
 g=a[2];if(g){var
 h=g[2];if(h){if(h[2])return 0;var
-q=h[1],r=g[1],s=a[1],C=w([0,s,r,q],[0,s,r,q]);return m6(d,c[1],C,[0,b,b])}var
+q=h[1],r=g[1],s=a[1],C=w([0,s,r,q],[0,s,r,q]);return m9(d,c[1],C,[0,b,b])}var
 t=h}else
 var
 t=g;var
@@ -3773,7 +3773,7 @@ var
 u=a;return u;default:if(a){var
 i=a[2];if(i){var
 j=i[2];if(j){if(j[2])return 0;var
-k=j[1],v=i[1],x=a[1],y=m6(d,c[1],[2,[4,x,x],[4,v,v]],[2,[0,b,b],[4,k,k]]);if(y)return dJ(d,c$(c[2]),k);var
+k=j[1],v=i[1],x=a[1],y=m9(d,c[1],[2,[4,x,x],[4,v,v]],[2,[0,b,b],[4,k,k]]);if(y)return dJ(d,c$(c[2]),k);var
 z=y}else
 var
 z=j;var
@@ -3786,33 +3786,33 @@ B=a;return B}}var
 k=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))));function
 bF(b){var
 a=an(function(f,e){var
-a=aD(k,f);if(a)var
+a=aC(k,f);if(a)var
 b=a[1],c=bj(cr(b[1]),cr(b[2]));else
 var
-c=d;return bj(c,e)},d,b);return I(d,a)?aL(lb(a),k):d}function
-er(a){return[0,a[1],[0,a[2],0]]}function
+c=d;return bj(c,e)},d,b);return I(d,a)?aL(le(a),k):d}function
+et(a){return[0,a[1],[0,a[2],0]]}function
 a9(a){var
-b=er(a[3]),c=f(er(a[2]),b);return f(er(a[1]),c)}function
-gY(a){return gQ(k,a,bF(a9(a)))}function
-m7(b,a){if(a){var
-g=m7([0,b],a[2]),c=a[1];if(0===c[0])var
+b=et(a[3]),c=f(et(a[2]),b);return f(et(a[1]),c)}function
+gZ(a){return gR(k,a,bF(a9(a)))}function
+m_(b,a){if(a){var
+g=m_([0,b],a[2]),c=a[1];if(0===c[0])var
 d=c[1],e=c6([0,[0,d,d],c[2]],b);else
 var
 e=[0,[1,b]];var
 f=[0,e,g]}else
 var
 f=a;return f}function
-m8(c,b,a){var
-d=ea(b);return[2,[2,ea(c),d],a]}function
-gZ(b,a){return b?T(a):d}function
-fp(g,b,a){if(typeof
+m$(c,b,a){var
+d=ec(b);return[2,[2,ec(c),d],a]}function
+g0(b,a){return b?T(a):d}function
+fq(g,b,a){if(typeof
 a!=="number")switch(a[0]){case
 4:var
 i=a[3],j=a[2];return[0,[2,j],[0,[3,j],[0,[2,i],[0,[3,i],0]]]];case
 6:return[0,[0,[5,a[3],a[2]],d],0];case
 8:var
 q=a[2],r=a[1];return e(function(a){var
-c=gZ(g,b);return[0,[5,q,a],E(gZ(g,b),c)]},r);case
+c=g0(g,b);return[0,[5,q,a],E(g0(g,b),c)]},r);case
 9:return[0,[1,[5,a[3],a[2]],T(b)],0];case
 10:return[0,[0,a[2],d],0];case
 11:return[0,[2,a[2]],0];case
@@ -3820,45 +3820,45 @@ c=gZ(g,b);return[0,[5,q,a],E(gZ(g,b),c)]},r);case
 13:var
 c=a[3],h=bF([0,c[1],[0,c[2],[0,c[3],0]]]);return[0,[2,a[4]],[0,[0,c[1],h],[0,[0,c[2],h],[0,[0,c[3],h],0]]]];case
 14:var
-k=a[2],l=a[1],s=en(b,k),t=f(en(b,l),s),u=e(function(a){return[0,a[1][2],a[2]]},t);return[0,[0,m8(l,k,a[3]),b],u];case
+k=a[2],l=a[1],s=ep(b,k),t=f(ep(b,l),s),u=e(function(a){return[0,a[1][2],a[2]]},t);return[0,[0,m$(l,k,a[3]),b],u];case
 15:var
 m=a[4],n=a[3];return[0,[0,[5,a[2],m],d],[0,[0,[5,[4,n,n],m],b],0]];case
 16:var
 o=a[2],p=bF([0,o,0]);return[0,[4,a[3],aL(p,b)],[0,[0,o,p],0]];case
 17:var
-v=a[3],w=a[2];return e(function(a){return[0,[5,a,v],gZ(g,b)]},w);case
+v=a[3],w=a[2];return e(function(a){return[0,[5,a,v],g0(g,b)]},w);case
 2:case
 3:return[0,[0,a[2],b],0]}return 0}function
 db(h,c,b,e,a){if(a){var
-d=a[1],i=a[2],j=db(h,c,b,N(e,g(fp(c,b,d))),i);return f(aq(h,m7(e,fp(c,b,d)),d),j)}return a}function
-g0(b,a){var
+d=a[1],i=a[2],j=db(h,c,b,N(e,g(fq(c,b,d))),i);return f(aq(h,m_(e,fq(c,b,d)),d),j)}return a}function
+g1(b,a){var
 c=W(b,a);return e(function(a){var
 b=s(a[1][2],a[2]);return[0,a[1][1],b]},c)}function
-i1(b,a){switch(a[0]){case
+i2(b,a){switch(a[0]){case
 0:var
 d=a[1];return ao(b,[0,[0,d,d],a[2]]);case
 1:var
-e=a[1],c=ao(b,[0,[0,e,e],a[2]]);return c?lA(b,c[1]):c;case
+e=a[1],c=ao(b,[0,[0,e,e],a[2]]);return c?lD(b,c[1]):c;case
 2:return cZ(b,a[1]);case
-3:return gs(b,a[1]);default:var
-f=a[1],g=cH(b,f);return g?m5(b,a[2],f):g}}function
-bG(a){return 1===a?tT:tU}function
+3:return gt(b,a[1]);default:var
+f=a[1],g=cH(b,f);return g?m8(b,a[2],f):g}}function
+bG(a){return 1===a?tY:tZ}function
 bY(d,c,b,a){var
 e=a[1],f=c_(d,c,a[2]),g=J(function(b,a){return[2,b,a]},b,f);return J(function(b,a){return[3,b,a]},g,e)}function
-i2(c,b,a){switch(c){case
+i3(c,b,a){switch(c){case
 0:return[0,b[1],[0,b[2],[0,a[3],0]]];case
 1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}}function
-i3(h,g,d,c,f,a){var
-e=bY(d,c,f,a);return i2(h,e,P([5,[0,b,b],g],c9(c_(d,c,a[2]),e)))}function
-i4(c,j,i){var
+i4(h,g,d,c,f,a){var
+e=bY(d,c,f,a);return i3(h,e,P([5,[0,b,b],g],c9(c_(d,c,a[2]),e)))}function
+i5(c,j,i){var
 b=j,a=i;for(;;){if(b){if(a){var
 d=a[1],e=b[1],f=bn(c,e[1],d[1]),g=f?bn(c,e[2],d[2]):f;if(g){var
 b=b[2],a=a[2];continue}var
 h=g}else
 var
 h=a;return h}return a?0:1}}function
-i5(b,a,g,f,e){var
-c=i4(b,a[2],g),d=c?bD(b,a[4],f):c;return d?da(b,a[5],e):d}function
+i6(b,a,g,f,e){var
+c=i5(b,a[2],g),d=c?bD(b,a[4],f):c;return d?da(b,a[5],e):d}function
 bx(b,d){var
 a=d[1];if(8===a[0]){var
 c=a[1][1];return 0===c[0]?[0,[0,N(b,c[1])]]:[0,bU(function(a){return bx(b,a)},a)]}return[0,bU(function(a){return bx(b,a)},a)]}function
@@ -3876,22 +3876,22 @@ e=a[1],f=M(o(e,b));return f?M(o(e,N(d,b))):f;case
 c=a[1];continue;default:var
 g=dK(d,b,a[1]);if(g){var
 c=a[2];continue}return g}}}function
-es(c,b,m){var
+eu(c,b,m){var
 d=m;for(;;){var
 a=d[1];switch(a[0]){case
 5:var
 d=a[1];continue;case
 6:var
-f=a[2],g=a[1],h=dK(c,b,g),i=h?es(c,b,f):h;if(i)var
+f=a[2],g=a[1],h=dK(c,b,g),i=h?eu(c,b,f):h;if(i)var
 j=i;else{var
-k=es(c,b,g);if(k)return dK(c,b,f);var
+k=eu(c,b,g);if(k)return dK(c,b,f);var
 j=k}return j;case
 7:var
-l=es(c,b,a[1]);return l?dK(c,b,a[2]):l;case
+l=eu(c,b,a[1]);return l?dK(c,b,a[2]):l;case
 10:return 0;case
 3:case
 4:var
-e=es(c,b,a[1]);if(e){var
+e=eu(c,b,a[1]);if(e){var
 d=a[2];continue}return e;case
 8:case
 9:return dK(c,b,a[1]);default:return 1}}}function
@@ -3908,14 +3908,14 @@ a=b[1];switch(a[0]){case
 b=a[1];continue;default:var
 d=cI(c,a[1]);if(d){var
 b=a[2];continue}return d}}}function
-g1(d,b,m){var
+g2(d,b,m){var
 c=m;for(;;){var
 a=c[1];switch(a[0]){case
 3:var
-f=g1(d,b,a[1]);if(f){var
+f=g2(d,b,a[1]);if(f){var
 c=a[2];continue}return f;case
 4:var
-g=g1(d,b,a[1]);return g?cI(b,a[2]):g;case
+g=g2(d,b,a[1]);return g?cI(b,a[2]):g;case
 6:var
 h=a[2],i=a[1],j=cI(b,i);if(j){var
 k=cI(b,h);if(k)var
@@ -3928,7 +3928,7 @@ e=j;return e;case
 0:case
 1:case
 2:return 1;default:return cI(b,c)}}}function
-g2(c,e){var
+g3(c,e){var
 b=e;for(;;){var
 a=b[1];switch(a[0]){case
 0:return aI(a[1],c);case
@@ -3939,26 +3939,26 @@ a=b[1];switch(a[0]){case
 8:case
 9:var
 b=a[1];continue;default:var
-d=g2(c,a[1]);if(d){var
+d=g3(c,a[1]);if(d){var
 b=a[2];continue}return d}}}function
-g3(a,b){if(a){var
+g4(a,b){if(a){var
 c=a[2],d=a[1];if(b){var
-e=b[2];return b[1]?[0,d,g3(c,an(e6,e,lm(d)))]:[0,tX,g3(c,e)]}var
-f=[0,d,g3(c,0)]}else
+e=b[2];return b[1]?[0,d,g4(c,an(e7,e,lp(d)))]:[0,t2,g4(c,e)]}var
+f=[0,d,g4(c,0)]}else
 var
 f=a;return f}function
 dc(b,a){return a?j(b,a[1]):a}function
 dd(c,b,a){return dc(function(b){return dc(j(c,b),a)},b)}function
-m9(b,a){switch(a[0]){case
+na(b,a){switch(a[0]){case
 0:return a;case
 1:return a[1];default:var
 c=a[3],d=a[2],e=a[1];switch(b){case
 0:return e;case
 1:return d;default:return c}}}function
-m_(a){return 0===a[0]?a[1]:0}function
-m$(d,c){var
+nb(a){return 0===a[0]?a[1]:0}function
+nc(d,c){var
 b=d,a=c;for(;;){if(a){var
-e=a[2],b=m9(a[1],b),a=e;continue}return m_(b)}}function
+e=a[2],b=na(a[1],b),a=e;continue}return nb(b)}}function
 cj(b,a){switch(a[0]){case
 0:return[0,j(b,a[1])];case
 1:return[1,cj(b,a[1])];default:var
@@ -3977,18 +3977,18 @@ n=a[1],o=function(a){return aq(b,a,n)},h=function(a){return cj(o,a)},p=h(e),q=h(
 1:var
 i=a[1],r=bp(b,e,i),s=bp(b,f,i);return[2,bp(b,g,i),s,r];default:var
 t=bp(b,e,a[3]),u=bp(b,f,a[2]);return[2,bp(b,g,a[1]),u,t]}}}function
-i6(c,f,a){if(a)var
+i7(c,f,a){if(a)var
 d=a[1],b=function(h){var
 a=[0,d[1],d[1]],b=[0,d[2],d[2]];switch(h){case
 0:var
 e=[0,a,U(c,a)];break;case
 1:var
-g=t(c,a,b),e=[0,as(A(a,b)),g];break;default:var
-e=[0,b,U(c,b)]}return[0,[0,j(f,e)]]},h=i6(c,f,a[2]),i=e(function(a){return[1,a]},h),k=b(2),l=b(1),g=[0,[2,b(0),l,k],i];else
+g=t(c,a,b),e=[0,at(A(a,b)),g];break;default:var
+e=[0,b,U(c,b)]}return[0,[0,j(f,e)]]},h=i7(c,f,a[2]),i=e(function(a){return[1,a]},h),k=b(2),l=b(1),g=[0,[2,b(0),l,k],i];else
 var
 g=a;return g}function
-i7(b,x,c,a){var
-e=i6(b,aY,a),d=0,y=f(i6(b,ay,a),e);return bc(tZ,function(a){switch(a[0]){case
+i8(b,x,c,a){var
+e=i7(b,aT,a),d=0,y=f(i7(b,ay,a),e);return bc(t4,function(a){switch(a[0]){case
 0:return r(a[1],y,[0,[0,u]]);case
 1:return[0,[0,r(a[1],x,u)]];case
 2:return[0,[0,O(b,a[1])]];case
@@ -4006,15 +4006,15 @@ d=b9(b,a);return z(function(a){return t(b,c,a)},d)};return bp(function(a,b){retu
 8:var
 q=a[1],s=function(a){return[0,U(b,a)]};return cj(function(a){return dc(s,a)},q);case
 9:var
-v=a[1],w=function(a){return b_(b,a)};return cj(function(a){return dc(w,a)},v);default:return tY}},c,d)}function
-g4(a){if(a){var
+v=a[1],w=function(a){return b_(b,a)};return cj(function(a){return dc(w,a)},v);default:return t3}},c,d)}function
+g5(a){if(a){var
 b=a[1];if(b)var
-c=g4(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+c=g5(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return t0}function
-et(a){if(a){var
-g=a[1],b=g[2],c=g4(g[1]);if(c)if(b){var
-h=b[1],e=et(a[2]);if(e)var
+d=b;return d}return t5}function
+ev(a){if(a){var
+g=a[1],b=g[2],c=g5(g[1]);if(c)if(b){var
+h=b[1],e=ev(a[2]);if(e)var
 i=I(d,h[1]),j=i?[0,[0,[0,c[1],h],e[1]]]:i;else
 var
 j=e;var
@@ -4022,56 +4022,56 @@ f=j}else
 var
 f=b;else
 var
-f=c;return f}return t1}function
-eu(b,a){var
+f=c;return f}return t6}function
+ew(b,a){var
 c=a[3],d=z(function(a){var
 c=a[2],d=a[1][2];return[0,[0,j(b,a[1][1]),d],c]},c),e=j(b,a[2]),f=a[1];return[0,j(au(b),f),e,d]}function
-i8(c,g,f,b,a,e){if(b){var
+i9(c,g,f,b,a,e){if(b){var
 h=b[1],l=b[2],d=function(b,a){var
-d=kc(c,e0,e0,function(a){return m9(b,a)},e);return i8(c,g,bz(f),l,a,d)},i=d(0,aL(a,h));if(i){var
+d=kf(c,e1,e1,function(a){return na(b,a)},e);return i9(c,g,bz(f),l,a,d)},i=d(0,aL(a,h));if(i){var
 j=d(2,E(a,h));if(j)return f?1:d(1,a);var
 k=j}else
 var
-k=i;return k}return aq(g,a,kc(c,e0,e0,m_,e))}function
-i9(e,c,b,a){var
+k=i;return k}return aq(g,a,kf(c,e1,e1,nb,e))}function
+i_(e,c,b,a){var
 f=al(d,b);function
-g(b){return a}return function(a){return i8(e,g,c,f,d,a)}}function
+g(b){return a}return function(a){return i9(e,g,c,f,d,a)}}function
 de(a){if(a){var
-b=a[1],c=b[1],d=c[1],e=b[2],f=c[2];return z(function(a){return aT(f,e,a)},d)}return[0,u]}function
-na(f,e,k,j,i,a){var
-b=et(a[1]);if(b){var
+b=a[1],c=b[1],d=c[1],e=b[2],f=c[2];return z(function(a){return aU(f,e,a)},d)}return[0,u]}function
+nd(f,e,k,j,i,a){var
+b=ev(a[1]);if(b){var
 c=a[2];if(c){var
 d=de(a[3]);if(d){var
-l=d[1],m=al([0,F(ab(t(f,i,c[1])),l),0],e);return a6(f,e,gu(k,j,b[1],m))}var
+l=d[1],m=al([0,F(ab(t(f,i,c[1])),l),0],e);return a6(f,e,gv(k,j,b[1],m))}var
 g=d}else
 var
 g=c;var
 h=g}else
 var
 h=b;return h}function
-nb(i,d,h,g,c){var
-a=et(c[1]);if(a){var
+ne(i,d,h,g,c){var
+a=ev(c[1]);if(a){var
 b=de(c[3]);if(b){var
-j=al([0,F(u,b[1]),0],d),k=a[1];return a6(i,d,gu(h,g,e(function(a){return[0,a[1],u]},k),j))}var
+j=al([0,F(u,b[1]),0],d),k=a[1];return a6(i,d,gv(h,g,e(function(a){return[0,a[1],u]},k),j))}var
 f=b}else
 var
 f=a;return f}function
-nc(a,c,D,i){var
-j=et(i[1]);if(j){var
+nf(a,c,D,i){var
+j=ev(i[1]);if(j){var
 k=i[2];if(k){var
 l=de(i[3]);if(l){var
 G=l[1],e=F(t(a,D,k[1]),G),b=j[1];if(b){var
 m=b[1],n=m[2];if(b[2]){var
-f=gv(a,b,al([0,e,0],c));if(f){var
-p=f[1],q=o(g(p),c);if(q)return ee(a,p);var
+f=gw(a,b,al([0,e,0],c));if(f){var
+p=f[1],q=o(g(p),c);if(q)return eg(a,p);var
 r=q}else
 var
 r=f;return r}var
 s=I(d,e[1]),u=s?I(d,n[1]):s;if(u){var
 A=C(e[1],n[1]),B=m[1];return I(an(function(a,b){var
 c=b$(a);return E(C(b$(a),c),b)},d,B),A)}return u}var
-h=gv(a,b,al([0,e,0],c));if(h){var
-v=h[1],w=o(g(v),c);if(w)return ee(a,v);var
+h=gw(a,b,al([0,e,0],c));if(h){var
+v=h[1],w=o(g(v),c);if(w)return eg(a,v);var
 x=w}else
 var
 x=h;return x}var
@@ -4081,51 +4081,51 @@ y=k;var
 z=y}else
 var
 z=j;return z}function
-t2(c){var
+t7(c){var
 a=c[2];if(a){var
 b=de(c[3]);if(b)return D(d,F(a[1],b[1])[1]);var
 e=b}else
 var
 e=a;return e}function
-i_(a){return y(function(a){return f(a[1],[0,a[2],0])},a)}function
-nd(a,c,b){var
-e=r(b,c,l(d)),f=aC(0,a);return m(function(b){return es(a,b,e)},f)}function
-fq(a){var
-c=V(a);return B(l(b),c)}function
-g5(i,g){var
-h=fq(g),j=V(g),e=x(l(b),j),f=s(l(c(2,b)),g),a=l(d);return i?i[1]?[0,[0,e,bl(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,bl(f),a,e]]:[0,[0,h,a,a],[0,a,e,bl(f)],[0,a,f,e]]}function
-fr(b,a){var
+i$(a){return y(function(a){return f(a[1],[0,a[2],0])},a)}function
+ng(a,c,b){var
+e=r(b,c,m(d)),f=aB(0,a);return l(function(b){return eu(a,b,e)},f)}function
+fr(a){var
+c=V(a);return B(m(b),c)}function
+g6(i,g){var
+h=fr(g),j=V(g),e=x(m(b),j),f=s(m(c(2,b)),g),a=m(d);return i?i[1]?[0,[0,e,bl(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,bl(f),a,e]]:[0,[0,h,a,a],[0,a,e,bl(f)],[0,a,f,e]]}function
+fs(b,a){var
 c=Z(b[3],a),d=Z(b[2],a);return[0,Z(b[1],a),d,c]}function
-ne(b,a){function
+nh(b,a){function
 c(b){var
 c=j(b,a[3]),d=j(b,a[2]);return[0,j(b,a[1]),d,c]}function
 d(a){var
 b=Z(a,c(function(a){return a[3]})),d=Z(a,c(function(a){return a[2]}));return[0,Z(a,c(function(a){return a[1]})),d,b]}var
 e=d(b[3]),f=d(b[2]);return[0,d(b[1]),f,e]}function
-nf(v,u){function
+ni(v,u){function
 a(a){return[0,[0,N(u,a)]]}switch(v[0]){case
 0:var
-w=fq(a(0));return[0,g5(t3,a(0)),w];case
+w=fr(a(0));return[0,g6(t8,a(0)),w];case
 1:var
-y=fq(a(0)),z=s(fq(a(t4)),y),A=s(fq(a(t5)),z),C=g5(0,a(0)),D=ne(g5(t7,a(t6)),C);return[0,ne(g5(t9,a(t8)),D),A];default:var
-E=a(t_),F=a(t$),g=[0,a(0),F,E],G=Z(g,g),H=B(l(b),G),j=Z(g,g),d=g[1],e=g[2],f=g[3],i=function(a){var
-d=V(a),e=s(l(c(2,b)),d);return B(x(l(b),j),e)},h=function(f,e,d,a){var
-g=aq(f,s(e,d),a);return s(l(c(2,b)),g)},k=i(f),m=h(B,e,f,d),n=[0,h(x,d,f,e),m,k],o=h(x,e,f,d),p=i(e),q=[0,h(B,d,e,f),p,o],r=h(B,d,f,e),t=h(x,d,e,f);return[0,[0,[0,i(d),t,r],q,n],H]}}function
-ng(a){return 1<a[0]?[0,a[1],0]:0}function
-g6(a){switch(a[0]){case
+y=fr(a(0)),z=s(fr(a(t9)),y),A=s(fr(a(t_)),z),C=g6(0,a(0)),D=nh(g6(ua,a(t$)),C);return[0,nh(g6(uc,a(ub)),D),A];default:var
+E=a(ud),F=a(ue),g=[0,a(0),F,E],G=Z(g,g),H=B(m(b),G),j=Z(g,g),d=g[1],e=g[2],f=g[3],i=function(a){var
+d=V(a),e=s(m(c(2,b)),d);return B(x(m(b),j),e)},h=function(f,e,d,a){var
+g=aq(f,s(e,d),a);return s(m(c(2,b)),g)},k=i(f),l=h(B,e,f,d),n=[0,h(x,d,f,e),l,k],o=h(x,e,f,d),p=i(e),q=[0,h(B,d,e,f),p,o],r=h(B,d,f,e),t=h(x,d,e,f);return[0,[0,[0,i(d),t,r],q,n],H]}}function
+nj(a){return 1<a[0]?[0,a[1],0]:0}function
+g7(a){switch(a[0]){case
 0:return[0,a[1],0];case
 1:return[0,a[1],[0,a[2],[0,a[3],0]]];case
 2:return[0,c$(a[1]),0];default:var
 b=[0,c$(a[2]),0];return[0,c$(a[1]),b]}}function
-ev(a){return[0,[0,a[1]],[0,a[2]]]}function
-nh(a){switch(a[0]){case
-0:return[0,ev(a[1]),0];case
+ex(a){return[0,[0,a[1]],[0,a[2]]]}function
+nk(a){switch(a[0]){case
+0:return[0,ex(a[1]),0];case
 1:var
-f=[0,ev(a[3]),0],g=[0,ev(a[2]),f];return[0,ev(a[1]),g];case
+f=[0,ex(a[3]),0],g=[0,ex(a[2]),f];return[0,ex(a[1]),g];case
 2:var
-b=ev(c$(a[1]));return[0,b,[0,b,[0,b,0]]];default:var
-c=a[2],d=a[1],e=[0,[1,c$(d)[1],c],[1,d,c]];return[0,e,[0,e,[0,ev(c$(c)),0]]]}}function
-ni(a,c){if(0===c[0]){var
+b=ex(c$(a[1]));return[0,b,[0,b,[0,b,0]]];default:var
+c=a[2],d=a[1],e=[0,[1,c$(d)[1],c],[1,d,c]];return[0,e,[0,e,[0,ex(c$(c)),0]]]}}function
+nl(a,c){if(0===c[0]){var
 g=c[1];return j(cG(a),g)}var
 h=c[1],d=j(cG(a),h);if(d){var
 i=c[2],e=j(cG(a),i);if(e){var
@@ -4133,103 +4133,103 @@ k=U(a,e[1]),l=b_(a,A(O(a,b),k)),m=d[1];return z(function(b){return t(a,m,b)},l)}
 f=e}else
 var
 f=d;return f}function
-nj(d,c){var
-a=ni(d,c[1]);if(a)var
-b=ni(d,c[2]),f=b?[0,[0,a[1][1],b[1][2]]]:b,e=f;else
+nm(d,c){var
+a=nl(d,c[1]);if(a)var
+b=nl(d,c[2]),f=b?[0,[0,a[1][1],b[1][2]]]:b,e=f;else
 var
 e=a;return e}function
-nk(a,e,c){var
+nn(a,e,c){var
 b=c[1];if(1===b[0]){var
 f=b[1];if(aI(f,a))return c;var
-g=l(d);return r(d7(f,a),e,g)}return[0,bU(function(b){return nk(a,e,b)},b)]}function
-i$(g,a,n,f,c){var
-h=g?[0,a,[0,[0,a],[0,[0,[0,a]],0]]]:[0,a,[0,[0,a],0]],i=mi(h,c),j=bW(f),b=e(function(b){return nk(a,j,b)},i),k=r(ue,b,l(d)),m=r(uf,b,l(d));return[0,r(0,b,l(d)),m,k]}function
+g=m(d);return r(d9(f,a),e,g)}return[0,bU(function(b){return nn(a,e,b)},b)]}function
+ja(g,a,n,f,c){var
+h=g?[0,a,[0,[0,a],[0,[0,[0,a]],0]]]:[0,a,[0,[0,a],0]],i=ml(h,c),j=bW(f),b=e(function(b){return nn(a,j,b)},i),k=r(uj,b,m(d)),l=r(uk,b,m(d));return[0,r(0,b,m(d)),l,k]}function
 bH(b,a){var
 c=s(b[2],a[1]),d=x(s(b[1],a[2]),c),e=s(b[1],a[3]),f=x(s(b[3],a[1]),e),g=s(b[3],a[2]);return[0,x(s(b[2],a[3]),g),f,d]}function
 dL(b,a){return b?b[1]?a[3]:a[2]:a[1]}function
-nl(c){function
+no(c){function
 a(a){var
-e=o(c,a)?b:d;return l(e)}var
-e=a(ug),f=a(uh);return[0,a(0),f,e]}function
-nm(b,a){if(a)var
-d=nm(b,a[2]),c=[0,e(j(b,a[1]),a),d];else
+e=o(c,a)?b:d;return m(e)}var
+e=a(ul),f=a(um);return[0,a(0),f,e]}function
+np(b,a){if(a)var
+d=np(b,a[2]),c=[0,e(j(b,a[1]),a),d];else
 var
 c=a;return c}function
-g7(c,b,a){switch(c){case
+g8(c,b,a){switch(c){case
 0:return[0,b[1],[0,b[2],[0,a[3],0]]];case
 1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}}function
-nn(b,c,a){return c?aM(b,a):aB(b,a)}function
-no(a){if(a){var
-f=a[1],b=f[2],c=g4(f[1]);if(c)if(b)var
-d=no(a[2]),g=d?[0,[0,[0,c[1],b[1]],d[1]]]:d,e=g;else
+nq(b,c,a){return c?aM(b,a):aA(b,a)}function
+nr(a){if(a){var
+f=a[1],b=f[2],c=g5(f[1]);if(c)if(b)var
+d=nr(a[2]),g=d?[0,[0,[0,c[1],b[1]],d[1]]]:d,e=g;else
 var
 e=b;else
 var
-e=c;return e}return us}function
-np(c,b,a){var
+e=c;return e}return ux}function
+ns(c,b,a){var
 d=W(b,a);return an(function(a,d){var
 b=b$(a[2]);return A(t(c,a[1],[0,b,b]),d)},u,d)}function
-nq(a,h,e,f,d){if(e)if(d)var
-i=d[1],o=nq(a,h,e[2],f,d[2]),p=i[2],q=aM(h,i[1]),c=e[1],j=as(t(a,c[3],f)),k=c[3],l=A(as(eb(p,O(a,b),k)),j),m=t(a,c[2],l),n=t(a,c[1],f),g=[0,cx(A(A(as(np(a,c[4],q)),n),m)),o];else
+nt(a,h,e,f,d){if(e)if(d)var
+i=d[1],o=nt(a,h,e[2],f,d[2]),p=i[2],q=aM(h,i[1]),c=e[1],j=at(t(a,c[3],f)),k=c[3],l=A(at(ed(p,O(a,b),k)),j),m=t(a,c[2],l),n=t(a,c[1],f),g=[0,cx(A(A(at(ns(a,c[4],q)),n),m)),o];else
 var
 g=d;else
 var
 g=e;return g}function
-uu(a){return[0,a[1][1],a[2][1][2][1],a[1][2],a[2][2]]}function
-nr(b,a){return ac(e(function(a){return r(a,b,0)},a))}function
+uz(a){return[0,a[1][1],a[2][1][2][1],a[1][2],a[2][2]]}function
+nu(b,a){return ac(e(function(a){return r(a,b,0)},a))}function
 cJ(a){switch(a){case
-0:return uy;case
-1:return uz;default:return 0}}function
+0:return uD;case
+1:return uE;default:return 0}}function
 dM(a){switch(a){case
-0:return[0,uB,uA,l(d)];case
+0:return[0,uG,uF,m(d)];case
 1:return dD;default:var
-b=l(d),c=l(d);return[0,l(d),c,b]}}function
-g8(c,b,a){return bm(fr(c,a),b)}function
-ns(a){var
-d=Z(a,a),e=B(l(b),d);return am(l(c(2,b)),e)}function
-nt(k,j,i,h,g,a){var
-e=g8(j,i,g),c=bH(a,e),f=af(B,c,bH(a,c)),d=af(B,e,a1(ns(a),f)),b=af(x,af(B,dM(k),d),h);return[0,[0,d,b],aJ(Z(b,b))]}function
+b=m(d),c=m(d);return[0,m(d),c,b]}}function
+g9(c,b,a){return bm(fs(c,a),b)}function
+nv(a){var
+d=Z(a,a),e=B(m(b),d);return am(m(c(2,b)),e)}function
+nw(k,j,i,h,g,a){var
+e=g9(j,i,g),c=bH(a,e),f=af(B,c,bH(a,c)),d=af(B,e,a1(nv(a),f)),b=af(x,af(B,dM(k),d),h);return[0,[0,d,b],aJ(Z(b,b))]}function
 aw(a){return typeof
-a==="number"?a?uC:uD:bG(a[1])}function
-ja(b,a,c){return typeof
-b==="number"?b?[0,a[1],[0,a[2],0]]:[0,a[1],[0,a[2],[0,a[3],0]]]:i2(b[1],a,c)}function
-ew(a){if(0===a[0]){var
+a==="number"?a?uH:uI:bG(a[1])}function
+jb(b,a,c){return typeof
+b==="number"?b?[0,a[1],[0,a[2],0]]:[0,a[1],[0,a[2],[0,a[3],0]]]:i3(b[1],a,c)}function
+ey(a){if(0===a[0]){var
 c=a[1];switch(c[0]){case
 0:return c[3];case
 1:return c[2];default:return[0,[0,d,b],[0,d,b],[0,d,b]]}}return a[1][4]}function
-ex(b,c,a){return b?c_(b[1],c,a):a}function
+ez(b,c,a){return b?c_(b[1],c,a):a}function
 bq(d,c,b,a){var
-e=ew(a),f=ex(d,c,ew(a)),g=J(function(b,a){return[2,b,a]},b,f);return J(function(b,a){return[3,b,a]},g,e)}function
-nu(d,c,b,a){if(0===a[0]){var
+e=ey(a),f=ez(d,c,ey(a)),g=J(function(b,a){return[2,b,a]},b,f);return J(function(b,a){return[3,b,a]},g,e)}function
+nx(d,c,b,a){if(0===a[0]){var
 f=bq(d,c,b,a);return[0,cF(a[1],f)]}var
-e=a[1],g=m0(e,bq(d,c,b,a));return[1,mZ(e,bq(d,c,b,a)),g]}function
-nv(b,a){var
+e=a[1],g=m3(e,bq(d,c,b,a));return[1,m2(e,bq(d,c,b,a)),g]}function
+ny(b,a){var
 c=typeof
 b==="number"?1:0;if(c){if(b)return[0,a[1],[0,a[2],0]];var
 d=[0,a[1],[0,a[2],[0,a[3],0]]]}else
 var
 d=c;return d}function
-nw(b,f,d){if(0===f[0])return 0===d[0]?mz(b,f[1],d[1]):0;if(0===d[0])return 0;var
+nz(b,f,d){if(0===f[0])return 0===d[0]?mC(b,f[1],d[1]):0;if(0===d[0])return 0;var
 a=d[1],c=f[1],g=bn(b,c[1],a[1]),i=g?bn(b,c[2],a[2]):g,j=i?bn(b,c[3],a[3]):i,k=j?bn(b,c[4],a[4]):j,l=k?c7(b,c[5],a[5]):k,m=l?c7(b,c[6],a[6]):l,n=m?h(b,1,a[5]):m,o=n?h(b,1,a[6]):n,p=o?h(b,1,w(a[1],a[1])):o;if(p)var
-q=iX(a),e=h(b,1,w(iX(a),q));else
+q=iY(a),e=h(b,1,w(iY(a),q));else
 var
 e=p;return e?ct(c[7],a[7]):e}function
-g9(g,f,e){var
+g_(g,f,e){var
 b=f,a=e;for(;;){if(b){if(a){var
-c=nw(g,b[1],a[1]);if(c){var
+c=nz(g,b[1],a[1]);if(c){var
 b=b[2],a=a[2];continue}var
 d=c}else
 var
 d=a;return d}return a?0:1}}function
-nx(c,b,g,a){var
+nA(c,b,g,a){var
 d=bD(c,b[4],g);if(d){var
 e=b[5];if(e)return da(c,e[1],a);if(a)return 0;var
 f=1}else
 var
 f=d;return f}function
-jb(a){return typeof
-a==="number"?uE:2<=a[1]?uF:uG}function
-ny(v,m,l){if(l){var
+jc(a){return typeof
+a==="number"?uJ:2<=a[1]?uK:uL}function
+nB(v,m,l){if(l){var
 a=l[1],e=function(c,a){return h(v,1,[3,[0,a,b],c])},g=function(a){return[3,a[2],a[1]]};switch(a[0]){case
 0:var
 n=c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),f=e(g(a[1]),n);break;case
@@ -4248,9 +4248,9 @@ m==="number"?0:m[1]?1:0===a[0]?1:0:f}return 1}function
 bZ(e,j){var
 a=j[1];switch(a[0]){case
 1:var
-k=o(a[1],e)?b:d;return l(k);case
+k=o(a[1],e)?b:d;return m(k);case
 3:var
-m=bZ(e,a[2]);return B(bZ(e,a[1]),m);case
+l=bZ(e,a[2]);return B(bZ(e,a[1]),l);case
 4:var
 n=bZ(e,a[2]);return x(bZ(e,a[1]),n);case
 5:return bl(bZ(e,a[1]));case
@@ -4259,12 +4259,12 @@ g=a[2],h=a[1],p=s(h,bZ(e,g));return B(s(g,bZ(e,h)),p);case
 7:var
 f=bZ(e,a[1]);return a5(d,f)?f:am(f,a[2]);case
 8:var
-i=a[1],q=bZ(e,i);return s(s(l(c(2,b)),i),q);default:return l(d)}}function
-g_(c,b,k){var
+i=a[1],q=bZ(e,i);return s(s(m(c(2,b)),i),q);default:return m(d)}}function
+g$(c,b,k){var
 e=k;for(;;){var
 a=e[1];switch(a[0]){case
 7:var
-g=g_(c,b,a[1]);if(g){var
+g=g$(c,b,a[1]);if(g){var
 h=a[2][1];if(1===h[0]){var
 i=h[1],j=I(d,r(i,c,u)[1]);return j?M(aj(function(a){return o(i,a)},b)):j}return 0}return g;case
 5:case
@@ -4275,9 +4275,9 @@ e=a[1];continue;case
 0:case
 1:case
 2:return 1;default:var
-f=g_(c,b,a[1]);if(f){var
+f=g$(c,b,a[1]);if(f){var
 e=a[2];continue}return f}}}function
-nz(d){var
+nC(d){var
 b=d;for(;;){var
 a=b[1];switch(a[0]){case
 0:case
@@ -4288,72 +4288,72 @@ a=b[1];switch(a[0]){case
 8:case
 9:var
 b=a[1];continue;default:var
-c=nz(a[1]);if(c){var
+c=nC(a[1]);if(c){var
 b=a[2];continue}return c}}}function
-nA(c,b,a){var
+nD(c,b,a){var
 d=e(b,a[2]);return[0,j(c,a[1]),d]}function
-jc(b,a,c){return e(function(c){var
-d=nA(b,a,c[2]),f=c[1];return[0,e(function(c){return nA(b,a,c)},f),d]},c)}function
-nB(b,a){return z(function(a){var
+jd(b,a,c){return e(function(c){var
+d=nD(b,a,c[2]),f=c[1];return[0,e(function(c){return nD(b,a,c)},f),d]},c)}function
+nE(b,a){return z(function(a){var
 c=a[2],d=a[1][2];return[0,[0,j(b,a[1][1]),d],c]},a)}function
-uH(a,b){var
-c=nB(a,b[3]),d=j(a,b[2]);return[0,jc(a,a,b[1]),d,c]}function
-nC(c){var
+uM(a,b){var
+c=nE(a,b[3]),d=j(a,b[2]);return[0,jd(a,a,b[1]),d,c]}function
+nF(c){var
 a=c[1];if(a){var
-b=g4(c[2]);if(b)var
+b=g5(c[2]);if(b)var
 g=e($,b[1]),d=[0,[0,$(a[1]),g]];else
 var
 d=b;var
 f=d}else
 var
 f=a;return f}function
-uI(c){var
-a=ac(e(nC,c[1]));if(a)var
-b=nC(c[2]),f=b?[0,[0,a[1],b[1]]]:b,d=f;else
+uN(c){var
+a=ac(e(nF,c[1]));if(a)var
+b=nF(c[2]),f=b?[0,[0,a[1],b[1]]]:b,d=f;else
 var
 d=a;return d}function
-uJ(a){return M(iy([0,a[2],a[1]]))}function
-jd(a){return[0,a[1],a[2]]}function
-nD(b,c,a){var
+uO(a){return M(iz([0,a[2],a[1]]))}function
+je(a){return[0,a[1],a[2]]}function
+nG(b,c,a){var
 d=e(function(c){return bx(b,bZ(c,a))},c);return[0,bx(b,a),d]}function
-je(b,e,a,d){var
+jf(b,e,a,d){var
 c=y(function(a){var
-b=jd(a[2]);return f(y(jd,a[1]),b)},d),g=a?[0,bx(b,a[1]),0]:a,h=f(g,c);return[0,bx(b,e),h]}function
-nE(c,f,b,a){var
-d=g_(f,b,a),e=d?g2(c,a):d;return e?m(function(b){return g2(c,bZ(b,a))},b):e}function
-nF(a){switch(a[0]){case
+b=je(a[2]);return f(y(je,a[1]),b)},d),g=a?[0,bx(b,a[1]),0]:a,h=f(g,c);return[0,bx(b,e),h]}function
+nH(c,f,b,a){var
+d=g$(f,b,a),e=d?g3(c,a):d;return e?l(function(b){return g3(c,bZ(b,a))},b):e}function
+nI(a){switch(a[0]){case
 3:var
-d=i_(a[2]);return[0,a[3],d];case
+d=i$(a[2]);return[0,a[3],d];case
 4:return[0,a[1],0];case
 8:var
-b=a[1],e=i_(b[1]);return[0,b[2],e];case
+b=a[1],e=i$(b[1]);return[0,b[2],e];case
 9:return 0;default:var
-c=i_(a[1]);return[0,a[2],c]}}function
-nG(a,aw,br,k,n,R,av,x,Q,i,h){switch(i[0]){case
+c=i$(a[1]);return[0,a[2],c]}}function
+nJ(a,aw,br,k,n,R,av,x,Q,i,h){switch(i[0]){case
 0:var
-ax=i[4],S=i[3],az=i[2],aA=i[1],V=0;if(typeof
+ax=i[4],S=i[3],az=i[2],aC=i[1],V=0;if(typeof
 h==="number")V=1;else
 switch(h[0]){case
 0:var
-bs=h[2],bt=h[1],v=az,s=aA,q=function(b){return na(a,n,bt,bs,S,b)},p=ax;break;case
+bs=h[2],bt=h[1],v=az,s=aC,q=function(b){return nd(a,n,bt,bs,S,b)},p=ax;break;case
 2:var
 aD=K(S[1],d),aE=aD?K(S[2],d):aD;if(!aE)return aE;var
-bw=h[2],bx=h[1],v=az,s=aA,q=function(b){return nb(a,n,bx,bw,b)},p=ax;break;default:V=1}if(V)return 0;break;case
+bw=h[2],bx=h[1],v=az,s=aC,q=function(b){return ne(a,n,bx,bw,b)},p=ax;break;default:V=1}if(V)return 0;break;case
 1:var
 aQ=0;if(typeof
 h==="number"&&!h)var
-by=i[2],bA=i[1],bC=i[3],v=by,s=bA,bD=0,q=function(b){return nc(a,n,bC,b)},p=bD;else
+by=i[2],bA=i[1],bC=i[3],v=by,s=bA,bD=0,q=function(b){return nf(a,n,bC,b)},p=bD;else
 aQ=1;if(aQ)return 0;break;case
 2:if(typeof
 h!=="number"&&3===h[0]){var
 B=h[3];if(B){var
 aF=B[2],aG=o(g(aF),k);if(aG){var
-bE=[0,i[1],i[2],Q],bF=eu(function(a){return r(a,x,uM)},bE),aH=h[1],bG=0,bH=B[1],bI=h[2],bJ=i[3],bK=function(w,i){var
-c=et(i[1]);if(c){var
+bE=[0,i[1],i[2],Q],bF=ew(function(a){return r(a,x,uR)},bE),aH=h[1],bG=0,bH=B[1],bI=h[2],bJ=i[3],bK=function(w,i){var
+c=ev(i[1]);if(c){var
 j=c[1],e=i[2];if(e){var
 f=de(i[3]);if(f){var
-k=f[1],l=function(c){return aT(c,aH,O(a,b))},u=l(w),v=e[1],g=A(t(a,l(bH),v),u),m=I(d,g[1]),o=m?a6(a,n,gu(aH,bI,j,al([0,F(ab(g),k),0],n))):m;if(o){var
-h=gv(a,j,al([0,F(t(a,bJ,g),k),0],n));if(h)return a6(a,n,h[1]);var
+k=f[1],l=function(c){return aU(c,aH,O(a,b))},u=l(w),v=e[1],g=A(t(a,l(bH),v),u),m=I(d,g[1]),o=m?a6(a,n,gv(aH,bI,j,al([0,F(ab(g),k),0],n))):m;if(o){var
+h=gw(a,j,al([0,F(t(a,bJ,g),k),0],n));if(h)return a6(a,n,h[1]);var
 p=h}else
 var
 p=o;var
@@ -4365,7 +4365,7 @@ var
 r=e;var
 s=r}else
 var
-s=c;return s};return i8(function(b,a){return eu},bK,bG,aF,d,bF)}var
+s=c;return s};return i9(function(b,a){return ew},bK,bG,aF,d,bF)}var
 aJ=aG}else
 var
 aJ=B;return aJ}return 0;case
@@ -4374,11 +4374,11 @@ aS=0;if(typeof
 h==="number"||!(0===h[0]))aS=1;else
 var
 aK=h[2],aL=h[1],bL=i[3],bM=i[2],bN=i[4],bO=i[1],bP=function(f){var
-b=et(f[1]);if(b){var
+b=ev(f[1]);if(b){var
 c=b[1],d=f[2];if(d){var
 e=de(f[3]);if(e){var
 h=o(g(c),n),i=h?o(g(aK),n):h;if(i){var
-m=ei(aL,ej(aL,aK,d[1],c));return a6(a,n,be(gz(a,bO,bN,e[1],c),m))}var
+m=ek(aL,el(aL,aK,d[1],c));return a6(a,n,be(gA(a,bO,bN,e[1],c),m))}var
 j=i}else
 var
 j=e;var
@@ -4389,16 +4389,16 @@ l=k}else
 var
 l=b;return l},v=bL,s=bM,q=bP,p=i[5];if(aS)return 0;break;case
 4:var
-aU=0;if(typeof
+aT=0;if(typeof
 h==="number"&&!h)var
-v=i[1],s=0,q=t2,p=0;else
-aU=1;if(aU)return 0;break;case
+v=i[1],s=0,q=t7,p=0;else
+aT=1;if(aT)return 0;break;case
 5:var
 aV=0;if(typeof
 h==="number"||!(0===h[0]))aV=1;else{var
 C=h[2],aW=0;if(C){var
 D=C[1];if(D){if(D[2])return 0;if(C[2])return 0;var
-bQ=i[2],bR=i[1],bS=O(a,b),bT=[0,[0,D[1],0],0],bU=h[1],v=bQ,s=bR,bV=0,q=function(b){return na(a,uN,bU,bT,bS,b)},p=bV;aW=1}else
+bQ=i[2],bR=i[1],bS=O(a,b),bT=[0,[0,D[1],0],0],bU=h[1],v=bQ,s=bR,bV=0,q=function(b){return nd(a,uS,bU,bT,bS,b)},p=bV;aW=1}else
 var
 aN=D}else
 var
@@ -4406,70 +4406,70 @@ aN=C;if(!aW)return aN}if(aV)return 0;break;case
 6:var
 aX=0;if(typeof
 h==="number"&&!h)var
-bW=i[2],bX=i[1],bY=O(a,b),v=bW,s=bX,bZ=0,q=function(b){return nc(a,uO,bY,b)},p=bZ;else
+bW=i[2],bX=i[1],bY=O(a,b),v=bW,s=bX,bZ=0,q=function(b){return nf(a,uT,bY,b)},p=bZ;else
 aX=1;if(aX)return 0;break;case
 7:var
 aY=0;if(typeof
 h==="number"&&5<=h)var
-b0=i[2],b1=i[1],b2=i[4],b3=i[3],v=b0,s=b1,b4=0,q=function(b){return nb(a,n,b3,b2,b)},p=b4;else
+b0=i[2],b1=i[1],b2=i[4],b3=i[3],v=b0,s=b1,b4=0,q=function(b){return ne(a,n,b3,b2,b)},p=b4;else
 aY=1;if(aY)return 0;break;case
 8:if(typeof
 h!=="number"&&9===h[0]){var
-E=h[4],aP=h[2],T=h[1],l=i[1],w=l[9],b5=h[3],a3=l[5],a4=gp(f(d_(l[4]),a3),aw),a5=e($,br),y=l[9],a7=l[8],a8=l[7],a1=gA(y,al(u,d7(k,y)),a7),a2=f(e($,aM(y,R)),a1),Y=ll(0,bB(a,f(gA(0,aB(y,R),a8),a2),a5),a4,aw,0),Z=0<aR(E)?0<aR(d)?gf(E,d):0:0<aR(d)?0:1;if(Z)var
+E=h[4],aP=h[2],T=h[1],m=i[1],w=m[9],b5=h[3],a3=m[5],a4=gq(f(ea(m[4]),a3),aw),a5=e($,br),y=m[9],a7=m[8],a8=m[7],a1=gB(y,al(u,d9(k,y)),a7),a2=f(e($,aM(y,R)),a1),Y=lo(0,bB(a,f(gB(0,aA(y,R),a8),a2),a5),a4,aw,0),Z=0<aR(E)?0<aR(d)?gg(E,d):0:0<aR(d)?0:1;if(Z)var
 G=Z;else
 var
-at=2<=k_(E,c(2,c(2,c(2,c(2,b)))))?0:1,au=at?aI(0,w):at,G=au?aI(w,k):au;var
-_=G?aa(w,k):G,ad=_?o(g(R),k):_,ae=ad?o(g(aP),k):ad,af=ae?o(g(l[1]),k):ae,ag=af?o(g(l[6]),k):af,ah=ag?o(g(l[4]),k):ag;if(ah)var
-a9=l[4],H=m(function(a){return o(g(a),k)},a9);else
+as=2<=lb(E,c(2,c(2,c(2,c(2,b)))))?0:1,au=as?aI(0,w):as,G=au?aI(w,k):au;var
+_=G?aa(w,k):G,ad=_?o(g(R),k):_,ae=ad?o(g(aP),k):ad,af=ae?o(g(m[1]),k):ae,ag=af?o(g(m[6]),k):af,ah=ag?o(g(m[4]),k):ag;if(ah)var
+a9=m[4],H=l(function(a){return o(g(a),k)},a9);else
 var
 H=ah;if(H){var
-a_=l[4],J=ac(e(function(a){return nr(Y,a)},a_));if(J){var
-ai=nr(Y,l[5]);if(ai){var
-a$=l[6],L=ac(e(function(j){var
-c=j[1],k=l[7],d=r(c[1],av,0);if(d){var
+a_=m[4],J=ac(e(function(a){return nu(Y,a)},a_));if(J){var
+ai=nu(Y,m[5]);if(ai){var
+a$=m[6],L=ac(e(function(j){var
+c=j[1],k=m[7],d=r(c[1],av,0);if(d){var
 h=c[2][2],b=ac(e(function(a){var
 b=r(a[2],av,0);return z(function(a){return a[2]},b)},h));if(b)var
-i=b[1],f=[0,cx(as(t(a,k,U(a,np(a,e(ay,c[2][2]),i)))))];else
+i=b[1],f=[0,cx(at(t(a,k,U(a,ns(a,e(ay,c[2][2]),i)))))];else
 var
 f=b;var
 g=f}else
 var
 g=d;return g},a$));if(L){var
-ba=l[1],bb=l[2],M=ac(e(function(m){function
+ba=m[1],bb=m[2],M=ac(e(function(m){function
 f(e){var
-g=al(e,k),c=m$(r(m[2],x,uv),g);if(c){var
-h=al(e,k),d=m$(r(bb,x,uw),h);if(d){var
-i=d[1],j=O(a,b);return b_(a,ca(eb(c[1],j,i)))}var
+g=al(e,k),c=nc(r(m[2],x,uA),g);if(c){var
+h=al(e,k),d=nc(r(bb,x,uB),h);if(d){var
+i=d[1],j=O(a,b);return b_(a,ca(ed(c[1],j,i)))}var
 f=d}else
 var
 f=c;return f}var
 c=f(0);if(c){var
 e=f(2);if(e)var
-g=ca(as(A(c[1],e[1]))),h=I(d,g[1]),l=h?[0,g]:h,i=l;else
+g=ca(at(A(c[1],e[1]))),h=I(d,g[1]),l=h?[0,g]:h,i=l;else
 var
 i=e;var
 j=i}else
 var
 j=c;return j},ba));if(M){var
-bc=J[1],X=eg(a,an(function(i,h){var
+bc=J[1],X=ei(a,an(function(i,h){var
 o=e(function(b){var
-a=aC(0,k);return e(function(a){return b$(r(a,b[3],u))},a)},i);function
+a=aB(0,k);return e(function(a){return b$(r(a,b[3],u))},a)},i);function
 b(m,l){var
-n=nn(w,m,o),g=e(function(a){return nn(w,l,a)},n);function
+n=nq(w,m,o),g=e(function(a){return nq(w,l,a)},n);function
 b(a){return an(bj,d,a)}var
 h=0;function
 i(a){return a}function
 j(a){return a}var
-c=b(an(function(a,b){return aO(j,i,k$,a,b)},h,g)),k=[0,c,c],f=b(e(function(a){return an(k$,d,a)},g));return eg(a,t(a,[0,f,f],k))}var
-c=b(1,1),f=b(1,0),g=b(0,1);return A(h,U(a,A(A(A(b(0,0),g),f),c)))},u,bc)),N=aT(b5,T,O(a,b)),aj=I(d,F(N,X)[1]);if(aj){var
+c=b(an(function(a,b){return aO(j,i,lc,a,b)},h,g)),k=[0,c,c],f=b(e(function(a){return an(lc,d,a)},g));return ei(a,t(a,[0,f,f],k))}var
+c=b(1,1),f=b(1,0),g=b(0,1);return A(h,U(a,A(A(A(b(0,0),g),f),c)))},u,bc)),N=aU(b5,T,O(a,b)),aj=I(d,F(N,X)[1]);if(aj){var
 P=b9(a,N);if(P){var
-bd=as(t(a,X,P[1])),bg=F(O(a,b),bd),bh=[0,l[1],l[2],Q],bi=eu(function(a){return r(a,x,ux)},bh),bk=l[6],bl=e(uu,W(W(L[1],M[1]),bk)),bm=U(a,bg),bn=U(a,N),bo=l[10],aZ=aC(0,k),a0=e(function(a){var
+bd=at(t(a,X,P[1])),bg=F(O(a,b),bd),bh=[0,m[1],m[2],Q],bi=ew(function(a){return r(a,x,uC)},bh),bk=m[6],bl=e(uz,W(W(L[1],M[1]),bk)),bm=U(a,bg),bn=U(a,N),bo=m[10],aZ=aB(0,k),a0=e(function(a){var
 d=bo?aa(w,a):aI(a,w);return d?b:b8(c(2,b),E)},aZ),bp=function(r){var
-h=no(r[1]);if(h){var
+h=nr(r[1]);if(h){var
 v=h[1],i=r[2];if(i){var
-j=i[1],l=de(r[3]);if(l){var
-w=l[1],x=nq(a,k,bl,j,v),n=e(function(a){var
-c=a[2],b=W(a0,a[1]);return[0,e(function(a){return aT(a[1],d,a[2])},b),c]},v),G=ei(T,ej(T,aP,j,n)),p=be(al([0,ab(w),0],k),G),H=F(t(a,j,bm),w),y=o(g(n),k),z=y?o(g(x),k):y;if(z){var
+j=i[1],m=de(r[3]);if(m){var
+w=m[1],x=nt(a,k,bl,j,v),n=e(function(a){var
+c=a[2],b=W(a0,a[1]);return[0,e(function(a){return aU(a[1],d,a[2])},b),c]},v),G=ek(T,el(T,aP,j,n)),p=be(al([0,ab(w),0],k),G),H=F(t(a,j,bm),w),y=o(g(n),k),z=y?o(g(x),k):y;if(z){var
 b=k,c=p;for(;;){if(c){if(b){var
 s=o(g(c[1]),b);if(s){var
 b=b[1],c=c[2];continue}var
@@ -4483,17 +4483,17 @@ q=A;break}}else
 var
 q=z;var
 B=q?a6(a,k,be(e(function(b){return[0,ab(t(a,bn,b[2])),0]},n),p)):q;if(B){var
-I=bf(bz(k));return m(function(g){var
-d=W(f(g,ut),x),b=[0,[0,H,0],0],c=W(p,e(function(a){return a[1]?ab(a[2]):a[2]},d));return a6(a,[0,k],f(e(function(a){return f(a[1],[0,a[2],0])},c),b))},I)}var
+I=bf(bz(k));return l(function(g){var
+d=W(f(g,uy),x),b=[0,[0,H,0],0],c=W(p,e(function(a){return a[1]?ab(a[2]):a[2]},d));return a6(a,[0,k],f(e(function(a){return f(a[1],[0,a[2],0])},c),b))},I)}var
 C=B}else
 var
-C=l;var
+C=m;var
 D=C}else
 var
 D=i;var
 E=D}else
 var
-E=h;return E},bq=l[3];return j(i9(function(b,a){return eu},bq,k,bp),bi)}var
+E=h;return E},bq=m[3];return j(i_(function(b,a){return ew},bq,k,bp),bi)}var
 ak=P}else
 var
 ak=aj;var
@@ -4512,67 +4512,67 @@ aq=J;var
 ar=aq}else
 var
 ar=H;return ar}return 0;default:return 0}var
-bu=[0,s,v,Q],bv=eu(function(a){return r(a,x,uL)},bu);return j(i9(function(b,a){return eu},p,k,q),bv)}function
-uP(b,a){var
-c=ii(ic,b[1],a[1]);return c?ic(b[2],a[2]):c}function
-nH(i,r,q,h,p,k,A,z,y,j,n,g,a,e){if(typeof
-e==="number"){if(0===e)return 9===a[0]?fe(i,0,0,0,g,h,0,a[1],e):0}else
+bu=[0,s,v,Q],bv=ew(function(a){return r(a,x,uQ)},bu);return j(i_(function(b,a){return ew},p,k,q),bv)}function
+uU(b,a){var
+c=ij(id,b[1],a[1]);return c?id(b[2],a[2]):c}function
+nK(i,r,q,h,p,k,A,z,y,j,n,g,a,e){if(typeof
+e==="number"){if(0===e)return 9===a[0]?ff(i,0,0,0,g,h,0,a[1],e):0}else
 switch(e[0]){case
 6:var
 f=e[1];if(typeof
 f!=="number"&&7===f[0]){if(k){var
-s=f[3],t=f[2],u=D(d,t),v=u?ie(s,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):u;if(v)return nG(i,r,q,h,p,j,g,n,[0,[0,[0,k[1],t],s]],a,f[1]);var
+s=f[3],t=f[2],u=D(d,t),v=u?ig(s,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):u;if(v)return nJ(i,r,q,h,p,j,g,n,[0,[0,[0,k[1],t],s]],a,f[1]);var
 w=v}else
 var
-w=k;return w}return nG(i,r,q,h,p,j,g,n,0,a,f);case
-8:return 9===a[0]?fe(i,0,0,0,g,h,0,a[1],e):0;case
+w=k;return w}return nJ(i,r,q,h,p,j,g,n,0,a,f);case
+8:return 9===a[0]?ff(i,0,0,0,g,h,0,a[1],e):0;case
 10:if(0===a[0]){var
-l=ii(uP,a[1],A),m=l?1:l,x=m?o(a[2],z):m;return x?kc(y,j,a[3],a[4],e):x}return 0}return 0}function
-nI(b){var
+l=ij(uU,a[1],A),m=l?1:l,x=m?o(a[2],z):m;return x?kf(y,j,a[3],a[4],e):x}return 0}return 0}function
+nL(b){var
 a=b[2];if(typeof
 a!=="number"&&6===a[0])return 1;return 0}function
-uQ(c){var
+uV(c){var
 b=0,a=c[2];if(typeof
 a==="number"){if(0!==a)b=1}else
 switch(a[0]){case
 6:case
 8:break;default:b=1}return b?0:1}function
-uR(a){switch(a[0]){case
+uW(a){switch(a[0]){case
 8:return 0;case
-9:return iI(a[1]);default:return 1}}function
-fs(a,o,l,i,x,w,b,v,s,C,h,k,at,c){switch(c[0]){case
+9:return iJ(a[1]);default:return 1}}function
+ft(a,o,m,i,x,w,b,v,s,C,h,k,at,c){switch(c[0]){case
 0:var
-au=function(a){return m(M,a)},P=au,p=c[1];break;case
+au=function(a){return l(M,a)},P=au,p=c[1];break;case
 1:var
 av=c[4],aw=c[3],ax=c[2],az=function(c){var
-d=c1(ax,k),e=fs(a,o,l,i,x,w,b,v,s,C,h,d[1],c,aw);return e?fs(a,o,l,i,x,w,b,v,s,C,h,d[2],c,av):e},P=az,p=c[1];break;default:var
+d=c1(ax,k),e=ft(a,o,m,i,x,w,b,v,s,C,h,d[1],c,aw);return e?ft(a,o,m,i,x,w,b,v,s,C,h,d[2],c,av):e},P=az,p=c[1];break;default:var
 aA=c[4],aB=c[3],aC=c[2],aD=function(c){var
-d=mg(uR,i,c);if(d){var
-e=c1(aC,h),f=fs(a,o,l,i,x,w,b,v,s,C,e[1],k,c,aB);if(f)return fs(a,o,l,i,x,w,b,v,s,C,e[2],k,c,aA);var
+d=mj(uW,i,c);if(d){var
+e=c1(aC,h),f=ft(a,o,m,i,x,w,b,v,s,C,e[1],k,c,aB);if(f)return ft(a,o,m,i,x,w,b,v,s,C,e[2],k,c,aA);var
 g=f}else
 var
 g=d;return g},P=aD,p=c[1]}var
-ae=j(C,h),aa=aj(uQ,p),ac=aa?iC(a,l,h,gp(y(function(c){var
+ae=j(C,h),aa=aj(uV,p),ac=aa?iD(a,m,h,gq(y(function(c){var
 a=H(i,c[1]);if(a){var
 b=a[1];switch(b[0]){case
 8:var
 d=b[1][6];return y(function(a){var
-b=e(aY,a[1][2][2]);return[0,a[1][1],b]},d);case
-9:return iJ(0,0,0,b[1],c[2]);default:return 0}}return a},p),l),k):aa,ad=aj(nI,p);if(ad)var
+b=e(aT,a[1][2][2]);return[0,a[1][1],b]},d);case
+9:return iK(0,0,0,b[1],c[2]);default:return 0}}return a},p),m),k):aa,ad=aj(nL,p);if(ad)var
 aq=y(function(b){var
-c=nI(b);if(c){var
-a=H(i,b[1]);if(a)return nF(a[1]);var
+c=nL(b);if(c){var
+a=H(i,b[1]);if(a)return nI(a[1]);var
 d=a}else
 var
-d=c;return d},p),ar=b?[0,b[1],0]:b,as=f(ar,aq),ah=0,ai=an(e6,e(function(a){return 0},o),as),N=i7(a,h,e3(g3(e3(o,0),ai),ah),k);else
+d=c;return d},p),ar=b?[0,b[1],0]:b,as=f(ar,aq),ah=0,ai=an(e7,e(function(a){return 0},o),as),N=i8(a,h,e4(g4(e4(o,0),ai),ah),k);else
 var
 N=ad;var
 q=p,g=at;for(;;){if(q){var
 S=q[1],D=S[2],n=S[1],G=q[2];if(n){var
 T=r(n,g,0);if(T){var
 J=H(i,n);if(J){var
-V=nH(a,l,h,x,w,b,v,s,ae,k,N,ac,J[1],D);if(V){var
-q=G,g=gL(n,g);continue}var
+V=nK(a,m,h,x,w,b,v,s,ae,k,N,ac,J[1],D);if(V){var
+q=G,g=gM(n,g);continue}var
 W=V}else
 var
 W=J;var
@@ -4583,7 +4583,7 @@ B=X}else{var
 af=0;if(typeof
 D==="number"&&4===D){var
 ag=0;if(b){var
-ap=0,Q=e(function(b){return[0,b,U(a,b)]},k),al=e(aY,Q),ak=0,am=f(e(ay,Q),al),ao=bc(0,function(o){return function(b){switch(b[0]){case
+ap=0,Q=e(function(b){return[0,b,U(a,b)]},k),al=e(aT,Q),ak=0,am=f(e(ay,Q),al),ao=bc(0,function(o){return function(b){switch(b[0]){case
 0:return[0,r(b[1],o,u)];case
 1:return[0,r(b[1],h,u)];case
 2:return[0,O(a,b[1])];case
@@ -4613,8 +4613,8 @@ B=K}else
 af=1;if(af){var
 Y=r(n,g,0);if(Y){var
 L=H(i,n);if(L){var
-Z=nH(a,l,h,x,w,b,v,s,ae,k,N,ac,L[1],D);if(Z){var
-q=G,g=gL(n,g);continue}var
+Z=nK(a,m,h,x,w,b,v,s,ae,k,N,ac,L[1],D);if(Z){var
+q=G,g=gM(n,g);continue}var
 _=Z}else
 var
 _=L;var
@@ -4624,27 +4624,27 @@ $=Y;var
 B=$}}}else
 var
 B=[0,g];return B?P(B[1]):B}}function
-jf(d,a){var
-e=V(a),f=s(s(l(c(2,b)),a),d);return B(x(V(d),f),e)}function
-jg(k,a,d,i,c,h){var
+jg(d,a){var
+e=V(a),f=s(s(m(c(2,b)),a),d);return B(x(V(d),f),e)}function
+jh(k,a,d,i,c,h){var
 e=af(x,dM(k),i);if(h){var
 b=function(b){var
-c=j(b,a[3]),d=j(b,a[2]);return[0,j(b,a[1]),d,c]},f=b(function(a){return a[3]}),g=b(function(a){return a[2]}),l=fr([0,b(function(a){return a[1]}),g,f],e);return af(B,a1(d,c),l)}var
-m=fr(a,c);return af(B,a1(d,e),m)}function
-nJ(f,h,g,k,a,d){var
-e=dM(f),i=af(x,e,a),j=fr(h,d),m=jf(e[3],a[3]),n=jf(e[2],a[2]),o=jf(e[1],a[1]),p=B(B(B(Z(d,d),o),n),m),q=Z(j,i),r=s(l(c(2,b)),q),t=B(s(g,p),r),u=bm(bH(j,i),k);return[0,g7(f,jg(f,h,g,a,d,0),u),t]}function
-nK(d,c,b,a){var
-e=g8(c,b,a);return af(B,dM(d),e)}function
-nL(g,f,e,d,c){var
-b=nK(g,f,e,c),a=af(x,b,d);return[0,[0,b,a],aJ(Z(a,a))]}function
-g$(b,a){var
+c=j(b,a[3]),d=j(b,a[2]);return[0,j(b,a[1]),d,c]},f=b(function(a){return a[3]}),g=b(function(a){return a[2]}),l=fs([0,b(function(a){return a[1]}),g,f],e);return af(B,a1(d,c),l)}var
+m=fs(a,c);return af(B,a1(d,e),m)}function
+nM(f,h,g,k,a,d){var
+e=dM(f),i=af(x,e,a),j=fs(h,d),l=jg(e[3],a[3]),n=jg(e[2],a[2]),o=jg(e[1],a[1]),p=B(B(B(Z(d,d),o),n),l),q=Z(j,i),r=s(m(c(2,b)),q),t=B(s(g,p),r),u=bm(bH(j,i),k);return[0,g8(f,jh(f,h,g,a,d,0),u),t]}function
+nN(d,c,b,a){var
+e=g9(c,b,a);return af(B,dM(d),e)}function
+nO(g,f,e,d,c){var
+b=nN(g,f,e,c),a=af(x,b,d);return[0,[0,b,a],aJ(Z(a,a))]}function
+ha(b,a){var
 c=a8(a[2],b);return f(a8(a[1],b),c)}function
-jh(d,b,a,c){if(a)var
-e=a[1],f=cD(c,g$(b,e)),i=N(c,g(g$(b,e))),j=jh(d,b,a[2],i),k=ak(f,uS),h=[0,aq(d,ak(f,0),k),j];else
+ji(d,b,a,c){if(a)var
+e=a[1],f=cD(c,ha(b,e)),i=N(c,g(ha(b,e))),j=ji(d,b,a[2],i),k=ak(f,uX),h=[0,aq(d,ak(f,0),k),j];else
 var
 h=a;return h}function
-ji(f,o,e,n,a){var
-g=s(V(r(0,n,l(d))),o);if(typeof
+jj(f,o,e,n,a){var
+g=s(V(r(0,n,m(d))),o);if(typeof
 a!=="number")switch(a[0]){case
 2:var
 b=H(e,a[1]);if(b)var
@@ -4653,149 +4653,149 @@ var
 j=b;return j;case
 3:var
 c=H(e,a[1]);if(c)var
-k=h(f,0,a[2]),m=k?[0,x(g,c[1][1][2])]:k;else
+k=h(f,0,a[2]),l=k?[0,x(g,c[1][1][2])]:k;else
 var
-m=c;return m}return 0}function
-nM(c,b,a){if(typeof
+l=c;return l}return 0}function
+nP(c,b,a){if(typeof
 a!=="number"&&6===a[0]){var
 e=H(c,a[1]);return z(function(a){var
-c=r(0,b,l(d)),e=j(a[2][2],c);return[0,a[2][1],e]},e)}return 0}function
-ha(a){return h(k,0,[3,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b],a])}function
-nN(a){var
-b=ak(a,uT),c=aJ(Z(ak(a,uU),b));return s(r(0,a,l(d)),c)}function
-nO(b,a){var
-c=Z(a,ak(b,uV));return[0,bW(a1(nN(b),a)),c]}function
-nP(e,d,a,c,b){var
-f=b[2],g=s(nN(a),f),h=c?g8(e,d,ak(a,uW)):ak(a,uX);return x(Z(b[1][2],h),g)}function
-nQ(h,g,f,d,c,b,a){var
+c=r(0,b,m(d)),e=j(a[2][2],c);return[0,a[2][1],e]},e)}return 0}function
+hb(a){return h(k,0,[3,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b],a])}function
+nQ(a){var
+b=ak(a,uY),c=aJ(Z(ak(a,uZ),b));return s(r(0,a,m(d)),c)}function
+nR(b,a){var
+c=Z(a,ak(b,u0));return[0,bW(a1(nQ(b),a)),c]}function
+nS(e,d,a,c,b){var
+f=b[2],g=s(nQ(a),f),h=c?g9(e,d,ak(a,u1)):ak(a,u2);return x(Z(b[1][2],h),g)}function
+nT(h,g,f,d,c,b,a){var
 i=bA(c);function
-j(a){return nK(h,g,f,a)}return mn(e(function(a){return[0,a[4]]},d),j,i,b,a)}function
-ft(a){var
-b=r(uY,a,l(d));return am(r(0,a,l(d)),b)}function
-jj(a){return a[4][2]}function
-nR(g,o,n,m,a){var
-p=a[1][2],q=e(aY,gP(n,a[1][2])),h=ft(m),i=s(s(l(c(2,b)),o),h),d=a[1][1],j=aM(cJ(g),d),k=e(function(a){return s(a,i)},j);return[0,f(f(aB(cJ(g),d),k),q),p]}function
-nS(a){var
-b=a[3],c=a[2],d=a[1];return gY([0,[0,d,d],[0,c,c],[0,b,b]])}function
-u7(a){if(typeof
+j(a){return nN(h,g,f,a)}return mq(e(function(a){return[0,a[4]]},d),j,i,b,a)}function
+fu(a){var
+b=r(u3,a,m(d));return am(r(0,a,m(d)),b)}function
+jk(a){return a[4][2]}function
+nU(g,o,n,l,a){var
+p=a[1][2],q=e(aT,gQ(n,a[1][2])),h=fu(l),i=s(s(m(c(2,b)),o),h),d=a[1][1],j=aM(cJ(g),d),k=e(function(a){return s(a,i)},j);return[0,f(f(aA(cJ(g),d),k),q),p]}function
+nV(a){var
+b=a[3],c=a[2],d=a[1];return gZ([0,[0,d,d],[0,c,c],[0,b,b]])}function
+va(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-nT(b,a){switch(b){case
+nW(b,a){switch(b){case
 0:return[0,a[1],[0,a[2],0]];case
 1:return[0,a[1],[0,a[2],[0,a[3],0]]];default:return 0}}function
-hb(a){var
+hc(a){var
 c=cc(a[1],[0,d,b]);return c?cc(a[2],[0,d,b]):c}function
-jk(d,a){switch(d){case
-0:return hb(a[3]);case
+jl(d,a){switch(d){case
+0:return hc(a[3]);case
 1:return 1;default:var
-b=hb(a[1]),c=b?hb(a[2]):b;return c?hb(a[3]):c}}function
-jl(c,b){var
-a=y(function(a){return g$(c,a)},b),d=W(aC(0,g(a)),a);return e(ay,bu(function(a){return iR(a[2])},d))}function
-nU(b){var
+b=hc(a[1]),c=b?hc(a[2]):b;return c?hc(a[3]):c}}function
+jm(c,b){var
+a=y(function(a){return ha(c,a)},b),d=W(aB(0,g(a)),a);return e(ay,bu(function(a){return iS(a[2])},d))}function
+nX(b){var
 a=b[2];if(typeof
 a!=="number"&&10===a[0])return 1;return 0}function
-nV(c){var
-a=c;for(;;){if(0===a[0])return aj(nU,a[1]);var
-d=aj(nU,a[1]),b=d||nV(a[3]);if(b)return b;var
+nY(c){var
+a=c;for(;;){if(0===a[0])return aj(nX,a[1]);var
+d=aj(nX,a[1]),b=d||nY(a[3]);if(b)return b;var
 a=a[4];continue}}function
-u8(a,aQ,bz,A,C,aP){var
-n=A[1],i=bG(n),X=A[6],bA=A[2],K=y(function(a){return g$(C,a)},bA),aR=A[3],R=[0,[0,aR,aR],C],$=[0,g(K)],bB=0,aS=y(function(a){return fp(bB,C,a)},X),bD=cJ(n),aT=nf(A[5],bD),p=aT[2],G=aT[1],J=c6(R,g(K)),bF=A[2],S=g(K),bE=0,w=jh(function(e,a){function
+vb(a,aQ,bz,A,C,aP){var
+n=A[1],i=bG(n),X=A[6],bA=A[2],K=y(function(a){return ha(C,a)},bA),aR=A[3],R=[0,[0,aR,aR],C],$=[0,g(K)],bB=0,aS=y(function(a){return fq(bB,C,a)},X),bD=cJ(n),aU=ni(A[5],bD),p=aU[2],G=aU[1],J=c6(R,g(K)),bF=A[2],S=g(K),bE=0,w=ji(function(e,a){function
 i(g){var
 c=bG(n);if(n)var
 b=[0,[0,[0,c]],[0,[0,[0,c]]],[0,[0,[0,[0,c]]]]];else
 var
-m=l(d),b=[0,l(d),m,[0,[0,c]]];var
-t=nt(n,G,p,e,a,b)[2],h=nt(n,G,p,e,a,b),i=h[1],j=bm(i[2],h[2]),k=bH(i[1],j),o=af(B,k,bH(k,b)),f=a1(ns(b),o),q=s(f[3],g),r=s(f[2],g);return[0,g7(n,j,[0,s(f[1],g),r,q]),t]}function
+l=m(d),b=[0,m(d),l,[0,[0,c]]];var
+t=nw(n,G,p,e,a,b)[2],h=nw(n,G,p,e,a,b),i=h[1],j=bm(i[2],h[2]),k=bH(i[1],j),o=af(B,k,bH(k,b)),f=a1(nv(b),o),q=s(f[3],g),r=s(f[2],g);return[0,g8(n,j,[0,s(f[1],g),r,q]),t]}function
 j(X){var
-v=nL(n,G,p,e,a),w=v[1],U=af(x,dM(n),e),y=v[2],r=w[1],W=w[2],g=g8(G,p,a),i=bm(W,y),N=am(Z(g,i),J),O=V(J),P=am(Z(a,a),O),Q=2<=n?d:b,R=B(l(Q),P);function
-h(a){return[0,nl(a),0]}function
-f(a){return[0,bm(bH(nl(a),g),J),[0,a]]}switch(n){case
+v=nO(n,G,p,e,a),w=v[1],U=af(x,dM(n),e),y=v[2],r=w[1],W=w[2],g=g9(G,p,a),i=bm(W,y),N=am(Z(g,i),J),O=V(J),P=am(Z(a,a),O),Q=2<=n?d:b,R=B(m(Q),P);function
+h(a){return[0,no(a),0]}function
+f(a){return[0,bm(bH(no(a),g),J),[0,a]]}switch(n){case
 0:var
-C=[0,f(ui),0],D=[0,h(uj),C],q=[0,h(0),D];break;case
+C=[0,f(un),0],D=[0,h(uo),C],q=[0,h(0),D];break;case
 1:var
-E=[0,f(uk),0],F=[0,f(ul),E],H=[0,f(0),F],I=[0,h(um),H],K=[0,h(un),I],q=[0,h(0),K];break;default:var
-L=[0,f(uo),0],M=[0,f(up),L],q=[0,f(0),M]}var
+E=[0,f(up),0],F=[0,f(uq),E],H=[0,f(0),F],I=[0,h(ur),H],K=[0,h(us),I],q=[0,h(0),K];break;default:var
+L=[0,f(ut),0],M=[0,f(uu),L],q=[0,f(0),M]}var
 j=af(x,[0,[0,[1,S]],[0,[1,[0,S]]],[0,[1,[0,[0,S]]]]],e),k=bm(j,aJ(Z(j,j)));if(n)var
-m=i$(n,S,e,r,k[3]);else
+l=ja(n,S,e,r,k[3]);else
 var
-z=l(d),A=l(d),m=[0,l(d),A,z];var
-t=i$(n,S,e,r,k[2]),u=i$(n,S,e,r,k[1]),T=nm(function(r,v){var
+z=m(d),A=m(d),l=[0,m(d),A,z];var
+t=ja(n,S,e,r,k[2]),u=ja(n,S,e,r,k[1]),T=np(function(r,v){var
 e=v[1];function
 a(b,a){var
-c=e[3],f=dL(a,m),g=s(B(b[3],f),c),h=e[2],i=dL(a,t),j=s(B(b[2],i),h),k=e[1],n=dL(a,u),o=s(B(b[1],n),k);return B(B(B(l(d),o),j),g)}var
-w=a(m,uq),y=a(t,ur),z=[0,a(u,0),y,w],f=Z(r[1],z),k=r[2];if(k){var
+c=e[3],f=dL(a,l),g=s(B(b[3],f),c),h=e[2],i=dL(a,t),j=s(B(b[2],i),h),k=e[1],n=dL(a,u),o=s(B(b[1],n),k);return B(B(B(m(d),o),j),g)}var
+w=a(l,uv),y=a(t,uw),z=[0,a(u,0),y,w],f=Z(r[1],z),k=r[2];if(k){var
 h=k[1],n=v[2];if(n){var
 j=n[1],A=dL(h,g),C=s(dL(j,i),A),D=dL(j,g),p=B(s(dL(h,i),D),C),E=V(J);if(o(h,j))var
-F=Z(i,g),q=x(p,s(l(c(2,b)),F));else
+F=Z(i,g),q=x(p,s(m(c(2,b)),F));else
 var
-q=p;return B(f,am(q,E))}return f}return f},q);return[0,g7(n,i,bm(bH(g,bm(U,y)),J)),T,R,N]}var
-k=nL(n,G,p,e,a);function
-m(b){return jg(n,G,p,e,a,b)}var
+q=p;return B(f,am(q,E))}return f}return f},q);return[0,g8(n,i,bm(bH(g,bm(U,y)),J)),T,R,N]}var
+k=nO(n,G,p,e,a);function
+l(b){return jh(n,G,p,e,a,b)}var
 f=2<=n?d:b;function
 g(b){var
-c=V(J),d=l(f),e=s(x(V(b),d),c);return s(p,x(Z(a,a),e))}var
-h=[0,Z(jg(n,G,p,e,a,1),a),g];return[0,nJ(n,G,p,J,e,a),h,m,k,j,i]},C,bF,bE),T=e(function(a){return a[1]},w),bI=N($,g(aS)),bJ=cJ(n),bK=A[5];function
+c=V(J),d=m(f),e=s(x(V(b),d),c);return s(p,x(Z(a,a),e))}var
+h=[0,Z(jh(n,G,p,e,a,1),a),g];return[0,nM(n,G,p,J,e,a),h,l,k,j,i]},C,bF,bE),T=e(function(a){return a[1]},w),bI=N($,g(aS)),bJ=cJ(n),bK=A[5];function
 Q(a){return[0,[0,N(bJ,a)]]}var
 aG=V([0,[1,bI]]);switch(bK[0]){case
 2:var
-bo=Q(ua),bp=Q(ub),aH=[0,Q(0),bp,bo],E=[0,x(aG,Z(aH,aH))];break;case
+bo=Q(uf),bp=Q(ug),aH=[0,Q(0),bp,bo],E=[0,x(aG,Z(aH,aH))];break;case
 3:var
-bq=V(Q(uc)),br=V(Q(0)),bs=V(Q(ud)),E=[0,x(x(s(aG,B(l(b),bs)),br),bq)];break;default:var
+bq=V(Q(uh)),br=V(Q(0)),bs=V(Q(ui)),E=[0,x(x(s(aG,B(m(b),bs)),br),bq)];break;default:var
 E=0}var
-aU=A[7];if(aU)var
-bL=0,bM=A[2],ak=jh(function(k,t){var
-a=nJ(n,G,p,c6(R,g(K)),k,t);switch(n){case
+aV=A[7];if(aV)var
+bL=0,bM=A[2],ak=ji(function(k,t){var
+a=nM(n,G,p,c6(R,g(K)),k,t);switch(n){case
 0:var
 c=a[1];if(c){var
-m=c[2],e=c[1];if(m){var
-o=m[1],s=a[2];return[0,[0,e,[0,o,[0,bH(k,[0,e,o,l(d)])[3],0]]],s]}return[0,[0,e,0],a[2]]}return[0,0,a[2]];case
+l=c[2],e=c[1];if(l){var
+o=l[1],s=a[2];return[0,[0,e,[0,o,[0,bH(k,[0,e,o,m(d)])[3],0]]],s]}return[0,[0,e,0],a[2]]}return[0,0,a[2]];case
 1:var
 f=a[1];if(f){var
 h=f[2],b=f[1];if(h){var
 q=h[2],i=h[1];if(q){var
 r=q[1],j=bH(k,[0,b,i,r]);return[0,[0,b,[0,i,[0,r,[0,j[1],[0,j[2],[0,j[3],0]]]]]],a[2]]}return[0,[0,b,[0,i,0]],a[2]]}return[0,[0,b,0],a[2]]}return[0,0,a[2]];default:return[0,a[1],a[2]]}},C,bM,bL);else
 var
-ak=aU;var
+ak=aV;var
 bN=bC(ak),bO=E?[0,E[1],0]:E,bP=f(bO,bN),bQ=0,bR=f(K,[0,R,0]),by=e(function(a){return a[1]},w),bS=[0,p,f(db(function(c,b){if(typeof
 b!=="number")switch(b[0]){case
 6:var
-g=nM(w,c,b);if(g)var
+g=nP(w,c,b);if(g)var
 i=g[1],k=[0,i[1],[0,i[2],0]];else
 var
 k=g;return k;case
-8:return e(aY,g0(by,c));case
+8:return e(aT,g1(by,c));case
 13:var
 h=H(w,b[1]);if(h){var
-l=ha(b[4]);if(l){var
-m=nO(c,j(h[1][3],b[2]));return f(m[1],[0,m[2],0])}var
+l=hb(b[4]);if(l){var
+m=nR(c,j(h[1][3],b[2]));return f(m[1],[0,m[2],0])}var
 o=l}else
 var
 o=h;return o;case
-16:return y(function(a){return nR(n,J,bR,c,a)[1]},w)}var
-d=ji(a,p,w,c,b),q=d?[0,d[1],0]:d;return q},bQ,C,$,X),bP)],an=f(bC(T),bS),bT=0,bU=f(K,[0,R,0]),aV=db(function(b,a){if(typeof
+16:return y(function(a){return nU(n,J,bR,c,a)[1]},w)}var
+d=jj(a,p,w,c,b),q=d?[0,d[1],0]:d;return q},bQ,C,$,X),bP)],an=f(bC(T),bS),bT=0,bU=f(K,[0,R,0]),aW=db(function(b,a){if(typeof
 a!=="number")switch(a[0]){case
 13:var
-g=H(w,a[1]);if(g){if(ha(a[4]))return 0;var
-k=[0,nP(G,p,b,a[2],g[1][4]),0]}else
+g=H(w,a[1]);if(g){if(hb(a[4]))return 0;var
+k=[0,nS(G,p,b,a[2],g[1][4]),0]}else
 var
 k=g;return k;case
 14:var
-h=nQ(n,G,p,w,b,a[1],a[2]);if(h){var
-m=h[1],o=m[2],q=m[1];return y(bW,[0,q[1],[0,q[2],[0,o[1],[0,o[2],0]]]])}return h;case
+h=nT(n,G,p,w,b,a[1],a[2]);if(h){var
+l=h[1],o=l[2],q=l[1];return y(bW,[0,q[1],[0,q[2],[0,o[1],[0,o[2],0]]]])}return h;case
 15:var
 i=H(w,a[1]);if(i){var
-c=j(i[1][5],0),s=[0,c[3],[0,c[4],0]],t=[0,r(uZ,b,l(d)),s],u=[0,r(0,b,l(d)),t],v=f(d_(c[2]),u);return f(c[1],v)}return i;case
+c=j(i[1][5],0),s=[0,c[3],[0,c[4],0]],t=[0,r(u4,b,m(d)),s],u=[0,r(0,b,m(d)),t],v=f(ea(c[2]),u);return f(c[1],v)}return i;case
 16:var
 x=y(function(a){var
-b=e(aY,gP(bU,jj(a)));return[0,jj(a),b]},w);return f(y(function(a){var
-c=ft(b),d=[0,j(a[6],c)[2],0],e=ft(b);return f(j(a[6],e)[1],d)},w),x)}return 0},bT,C,$,X),aW=cW(e(function(a){return bx(i,a)},an))[1],aX=cW(aV)[1],Y=cV(aW),ap=cV(aX);function
+b=e(aT,gQ(bU,jk(a)));return[0,jk(a),b]},w);return f(y(function(a){var
+c=fu(b),d=[0,j(a[6],c)[2],0],e=fu(b);return f(j(a[6],e)[1],d)},w),x)}return 0},bT,C,$,X),aX=cW(e(function(a){return bx(i,a)},an))[1],aY=cW(aW)[1],Y=cV(aX),ap=cV(aY);function
 v(a){return bd(Y,bx(i,a))}function
 aZ(j){if(0===A[4][0]){var
 s=z(v,E),t=v(p),e=cJ(n),f=o(g(j),i);if(f)var
-h=z(function(a){return[0,[0,a,d],d]},s),a=function(a){return r(a,Y,l(d))},c=a(t),k=aC(0,e),b=m(function(b){var
-d=dK(i,b,c),e=d?m(function(d){var
-f=d[1],e=m(function(c){var
+h=z(function(a){return[0,[0,a,d],d]},s),a=function(a){return r(a,Y,m(d))},c=a(t),k=aB(0,e),b=l(function(b){var
+d=dK(i,b,c),e=d?l(function(d){var
+f=d[1],e=l(function(c){var
 d=a(c);return cI(N(i,b),d)},f);if(e){var
-g=a(d[2]);return g1(c,N(i,b),g)}return e},j):d;if(e){if(h){var
+g=a(d[2]);return g2(c,N(i,b),g)}return e},j):d;if(e){if(h){var
 g=a(h[1][1][1]);return cI(N(i,b),g)}var
 f=1}else
 var
@@ -4803,42 +4803,42 @@ f=e;return f},k);else
 var
 b=f;var
 q=b?e:b;return q}return 0}var
-W=aZ(j(au(v),T)),a0=m(function(a){var
-b=bx(i,a),c=l(d);return aN(r(v(a),Y,c),b)},an),a2=a0?m(function(a){return g2(i,a)},an):a0,a3=a2?m(function(a){var
-b=l(d);return aN(r(bd(ap,a),ap,b),a)},aV):a2,a4=a3?aj(u7,X):a3;if(a4)var
-bV=M(A[7]),aq=bV||ny(a,[0,n],[0,A[5]]);else
+W=aZ(j(au(v),T)),a0=l(function(a){var
+b=bx(i,a),c=m(d);return aN(r(v(a),Y,c),b)},an),a2=a0?l(function(a){return g3(i,a)},an):a0,a3=a2?l(function(a){var
+b=m(d);return aN(r(bd(ap,a),ap,b),a)},aW):a2,a4=a3?aj(va,X):a3;if(a4)var
+bV=M(A[7]),aq=bV||nB(a,[0,n],[0,A[5]]);else
 var
 aq=a4;var
-a5=aq?jk(n,eo(A[4])):aq,a7=a5?h(a,1,A[3]):a5;if(a7)var
-bX=g6(A[5]),ar=m(function(b){var
+a5=aq?jl(n,eq(A[4])):aq,a7=a5?h(a,1,A[3]):a5;if(a7)var
+bX=g7(A[5]),ar=l(function(b){var
 c=cH(a,b[1]);return c?cH(a,b[2]):c},bX);else
 var
 ar=a7;if(ar){var
 bY=f(K,[0,R,0]),as=ac(e(function(b){return ao(a,b)},bY));if(as){var
-at=ac(e(function(b){return i1(a,b)},aS));if(at){var
-bZ=nT(n,eo(A[4])),av=ac(e(function(b){return ao(a,[0,b,C])},bZ));if(av){var
-a8=av[1],b0=nh(A[5]),aw=ac(e(function(b){return nj(a,b)},b0));if(aw){var
-a9=aw[1],b1=ng(A[5]),ax=ac(e(cG(a),b1));if(ax){var
+at=ac(e(function(b){return i2(a,b)},aS));if(at){var
+bZ=nW(n,eq(A[4])),av=ac(e(function(b){return ao(a,[0,b,C])},bZ));if(av){var
+a8=av[1],b0=nk(A[5]),aw=ac(e(function(b){return nm(a,b)},b0));if(aw){var
+a9=aw[1],b1=nj(A[5]),ax=ac(e(cG(a),b1));if(ax){var
 b2=0,I=function(a){return bd(ap,a)},az=f(K,[0,R,0]),aA=ac(db(function(i,f){if(typeof
 f!=="number")switch(f[0]){case
 13:var
-E=f[4],aM=H(w,f[1]);if(aM){if(nS(f[3])&&h(a,0,E)&&h(a,0,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],E])){var
-aN=f[2],aO=aM[1];if(ha(E)){var
-aG=nO(i,j(aO[3],aN)),V=aG[2];if(h(k,0,[3,E,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b]]))var
+E=f[4],aM=H(w,f[1]);if(aM){if(nV(f[3])&&h(a,0,E)&&h(a,0,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],E])){var
+aN=f[2],aO=aM[1];if(hb(E)){var
+aG=nR(i,j(aO[3],aN)),V=aG[2];if(h(k,0,[3,E,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b]]))var
 aH=0;else
 var
 be=v(V),bf=v(V),aH=[0,[6,[0,[0,e(v,aG[1]),bf],0],be],0];var
 aP=[0,[4,v(V)],aH]}else
 var
-aP=[0,[9,[3,I(nP(G,p,i,aN,aO[4]))]],0];return e(function(a){return[0,a]},aP)}return u5}return u6;case
+aP=[0,[9,[3,I(nS(G,p,i,aN,aO[4]))]],0];return e(function(a){return[0,a]},aP)}return u_}return u$;case
 16:var
 Y=f[3],t=f[2],aQ=f[1],bg=bG(n);if(o(g(w),bg)&&h(a,0,aQ)&&h(a,1,t)&&h(a,1,Y)&&cH(a,Y)){var
 aI=ao(a,[0,[0,t,t],C]);if(aI){var
 bh=aI[1],aJ=j(cG(a),Y);if(aJ){var
 bi=aJ[1],aK=ac(e(function(f){var
-b=mw(a,I,az,C,aQ,t,jj(f));if(b){var
-c=mv(a,v,az,C,t,f[1][2]);if(c){var
-g=g_(0,0,f[1][2]);if(g)var
+b=mz(a,I,az,C,aQ,t,jk(f));if(b){var
+c=my(a,v,az,C,t,f[1][2]);if(c){var
+g=g$(0,0,f[1][2]);if(g)var
 i=e(ay,c[1]),d=[0,[0,b[1],i]];else
 var
 d=g}else
@@ -4847,11 +4847,11 @@ d=c;var
 h=d}else
 var
 h=b;return h},w));if(aK){var
-bj=aK[1],bk=e(function(a){return nR(n,J,az,i,a)},w),aL=j(au(v),bk),X=function(a){var
+bj=aK[1],bk=e(function(a){return nU(n,J,az,i,a)},w),aL=j(au(v),bk),X=function(a){var
 b=cJ(n),c=e(function(a){var
-b=ft(i);return I(j(a[6],b)[2])},w),d=e(function(a){var
-b=ft(i);return e(I,j(a[6],b)[1])},w),f=aZ(aL);return[0,[8,[0,aL,v(p),f,d,c,bj,bh,bi,b,a]]]};if(2<=n)return[0,X(1),0];var
-bl=[0,X(1),0];return[0,X(0),bl]}return u1}return u2}return u3}return u4}var
+b=fu(i);return I(j(a[6],b)[2])},w),d=e(function(a){var
+b=fu(i);return e(I,j(a[6],b)[1])},w),f=aZ(aL);return[0,[8,[0,aL,v(p),f,d,c,bj,bh,bi,b,a]]]};if(2<=n)return[0,X(1),0];var
+bl=[0,X(1),0];return[0,X(0),bl]}return u6}return u7}return u8}return u9}var
 bm=0,x=e(function(a){return a[1]},w);function
 Z(c,b,a){return[0,c,b,a,W]}var
 F=0;if(typeof
@@ -4863,15 +4863,15 @@ y=[5,[0,b,b],f[1]],K=Z;F=1;break;case
 1:var
 aU=[5,[0,b,b],f[1]],y=aU,K=function(c,b,a){return[1,c,b,a]};F=1;break;case
 2:var
-aV=ji(a,p,w,i,f),s=z(function(a){return[4,v(a)]},aV);break;case
+aV=jj(a,p,w,i,f),s=z(function(a){return[4,v(a)]},aV);break;case
 3:var
-aW=ji(a,p,w,i,f),s=z(function(a){return[4,v(a)]},aW);break;case
+aW=jj(a,p,w,i,f),s=z(function(a){return[4,v(a)]},aW);break;case
 5:var
 _=f[1],aX=ao(a,[0,[0,_,_],d]),s=z(function(b){var
 c=U(a,b),d=v(p);return[2,j(au(v),x),d,c]},aX);break;case
 6:var
 L=H(w,f[1]);if(L){var
-M=nM(w,i,f);if(M){var
+M=nP(w,i,f);if(M){var
 $=M[1],aa=h(a,1,f[2]),ab=aa?h(a,1,f[3]):aa;if(ab)var
 aY=v($[2]),a0=v(L[1][1][2]),ad=[0,[5,[0,[0,[0,v($[1]),0],a0],0],aY]];else
 var
@@ -4894,18 +4894,18 @@ am=aj;if(!aR)var
 s=am;break;case
 8:var
 an=h(a,1,f[2]);if(an)var
-a2=f[1],a3=1,N=m(function(b){return h(a,a3,b)},a2);else
+a2=f[1],a3=1,N=l(function(b){return h(a,a3,b)},a2);else
 var
 N=an;if(N)var
-a4=O(a,b),a5=v(p),a6=g0(x,i),ap=[0,[0,j(au(v),a6),a5,a4,0]];else
+a4=O(a,b),a5=v(p),a6=g1(x,i),ap=[0,[0,j(au(v),a6),a5,a4,0]];else
 var
 ap=N;var
 s=ap;break;case
 14:var
-aq=f[2],ar=f[1],P=nQ(n,G,p,w,i,ar,aq);if(P){var
-as=P[1],at=as[2],av=as[1],aw=m8(ar,aq,f[3]),Q=ao(a,[0,[0,aw,aw],C]);if(Q){var
+aq=f[2],ar=f[1],P=nT(n,G,p,w,i,ar,aq);if(P){var
+as=P[1],at=as[2],av=as[1],aw=m$(ar,aq,f[3]),Q=ao(a,[0,[0,aw,aw],C]);if(Q){var
 ax=Q[1],aA=D(d,ax[1]);if(aA)var
-A=function(a){return mu(I,a)},a7=A(at[2]),a8=A(at[1]),a9=A(av[2]),aB=[0,[9,[6,A(av[1]),a9,a8,a7,ax]]];else
+A=function(a){return mx(I,a)},a7=A(at[2]),a8=A(at[1]),a9=A(av[2]),aB=[0,[9,[6,A(av[1]),a9,a8,a7,ax]]];else
 var
 aB=aA;var
 aC=aB}else
@@ -4921,7 +4921,7 @@ aE=h(a,1,f[4]);if(aE)var
 aF=h(a,0,f[2]),S=aF?h(a,0,f[3]):aF;else
 var
 S=aE;if(S)var
-B=j(R[1][5],0),a_=I(B[4]),a$=I(B[3]),ba=I(r(u0,i,l(d))),bb=I(r(0,i,l(d))),bc=B[2],bd=e(function(a){return e(I,a)},bc),T=[0,[9,[10,e(I,B[1]),bd,bb,ba,a$,a_]]];else
+B=j(R[1][5],0),a_=I(B[4]),a$=I(B[3]),ba=I(r(u5,i,m(d))),bb=I(r(0,i,m(d))),bc=B[2],bd=e(function(a){return e(I,a)},bc),T=[0,[9,[10,e(I,B[1]),bd,bb,ba,a$,a_]]];else
 var
 T=S}else
 var
@@ -4931,26 +4931,26 @@ s=0}if(F)var
 aT=ao(a,[0,[0,y,y],d]),s=z(function(b){var
 c=U(a,b),d=v(p);return K(j(au(v),x),d,c)},aT);return[0,s,bm]},b2,C,$,X));if(aA){var
 a_=aA[1];if(A[7])var
-b3=aQ[2],b4=aQ[1],b5=v(p),aa=iV(bz,a_,[7,j(au(v),ak),b5,b4,b3]);else
+b3=aQ[2],b4=aQ[1],b5=v(p),aa=iW(bz,a_,[7,j(au(v),ak),b5,b4,b3]);else
 var
 aa=a_;var
-a$=o(g(f(a8,a9)),i),ba=a$?m(function(a){var
-b=nF(a);return m(function(a){return nd(i,Y,a)},b)},aa):a$,bb=ba?E?nd(i,Y,v(E[1])):1:ba;if(bb){var
-b6=f(at[1],ax[1]),aB=f(as[1],b6),L=nV(aP),P=jl(C,A[2]),_=L?e(function(a){var
-b=nD(i,P,a[2]),c=a[1];return[0,e(function(a){return nD(i,P,a)},c),b]},T):L,aD=L?cW(je(i,p,E,_))[1]:L,aE=cV(aD),ad=function(a){return bd(aE,a)},b7=jc(ad,ad,_),b8=ad(bx(i,p)),aF=z(function(a){return ad(bx(i,a))},E),bc=M(L);if(bc)var
+a$=o(g(f(a8,a9)),i),ba=a$?l(function(a){var
+b=nI(a);return l(function(a){return ng(i,Y,a)},b)},aa):a$,bb=ba?E?ng(i,Y,v(E[1])):1:ba;if(bb){var
+b6=f(at[1],ax[1]),aC=f(as[1],b6),L=nY(aP),P=jm(C,A[2]),_=L?e(function(a){var
+b=nG(i,P,a[2]),c=a[1];return[0,e(function(a){return nG(i,P,a)},c),b]},T):L,aD=L?cW(jf(i,p,E,_))[1]:L,aE=cV(aD),ad=function(a){return bd(aE,a)},b7=jd(ad,ad,_),b8=ad(bx(i,p)),aF=z(function(a){return ad(bx(i,a))},E),bc=M(L);if(bc)var
 ae=bc;else{var
 bn=o(g(T),i);if(bn){var
-bv=je(i,p,E,_),aL=m(function(a){var
-b=l(d);return aN(r(bd(aE,a),aE,b),a)},bv);if(aL)var
-bw=je(i,p,E,_),ag=m(function(a){var
-b=aC(0,i);return m(function(b){return es(i,b,a)},b)},bw);else
+bv=jf(i,p,E,_),aL=l(function(a){var
+b=m(d);return aN(r(bd(aE,a),aE,b),a)},bv);if(aL)var
+bw=jf(i,p,E,_),ag=l(function(a){var
+b=aB(0,i);return l(function(b){return eu(i,b,a)},b)},bw);else
 var
 ag=aL;if(ag){var
-aM=z(function(a){return bx(i,a)},E),ah=bx(i,p),aK=nz(ah);if(aK)var
-bt=aC(0,W),aO=m(function(a){var
-b=dK(i,a,ah),c=b?m(function(b){var
-d=b[2][2],e=f(y(jd,b[1]),d),g=N(i,a),c=m(function(a){return cI(g,a)},e);if(c){var
-h=b[2][1];return g1(ah,N(i,a),h)}return c},_):b;if(c){if(aM){var
+aM=z(function(a){return bx(i,a)},E),ah=bx(i,p),aK=nC(ah);if(aK)var
+bt=aB(0,W),aO=l(function(a){var
+b=dK(i,a,ah),c=b?l(function(b){var
+d=b[2][2],e=f(y(je,b[1]),d),g=N(i,a),c=l(function(a){return cI(g,a)},e);if(c){var
+h=b[2][1];return g2(ah,N(i,a),h)}return c},_):b;if(c){if(aM){var
 e=aM[1];return cI(N(i,a),e)}var
 d=1}else
 var
@@ -4960,19 +4960,19 @@ aO=aK;var
 ai=aO}else
 var
 ai=ag;var
-cc=ai?m(function(a){var
-c=a[1],b=m(function(a){return nE(i,aB,P,a)},c);return b?nE(i,aB,P,a[2]):b},T):ai,ae=cc}else
+cc=ai?l(function(a){var
+c=a[1],b=l(function(a){return nH(i,aC,P,a)},c);return b?nH(i,aC,P,a[2]):b},T):ai,ae=cc}else
 var
 ae=bn}if(ae){var
-b9=e(function(a){return 1},aa),b_=f(a8,a9),b$=function(l,N,aa,$,c){if(L){if(typeof
+b9=e(function(a){return 1},aa),b_=f(a8,a9),b$=function(m,N,aa,$,c){if(L){if(typeof
 c!=="number"&&10===c[0]){var
 h=c[3],p=c[2],q=c[1];if(typeof
 q!=="number"&&6===q[0]){if(h){if(h[2])return 0;var
 w=h[1],b=q[1],x=o($,W),y=x?aI(0,W):x;if(y)var
-v=ii(ic,e(ay,p),P),Y=v?1:v,s=Y;else
+v=ij(id,e(ay,p),P),Y=v?1:v,s=Y;else
 var
 s=y;var
-z=s?gI(P):s,A=z?m(function(a){return aI(a,g(l))},P):z,B=A?o(g(w),i):A;if(B){var
+z=s?gJ(P):s,A=z?l(function(a){return aI(a,g(m))},P):z,B=A?o(g(w),i):A;if(B){var
 u=0;if(typeof
 b!=="number")switch(b[0]){case
 0:var
@@ -4987,12 +4987,12 @@ var
 M=K}else
 var
 M=aF;if(!R)return M}if(!Q)return 0;break}if(u){var
-S=i7(a,fc(p,0,l),aD,N),n=i7(a,l,aD,N),f=function(b,a){return r(a,b,uK)},T=nB(function(a){return f(n,a)},G),U=f(n,b8),V=function(a){return f(n,a)},X=[0,jc(function(a){return f(S,a)},V,b7),U,T],Z=gC(p,l),_=function(g){var
-b=ac(e(uI,g[1]));if(b){var
+S=i8(a,fd(p,0,m),aD,N),n=i8(a,m,aD,N),f=function(b,a){return r(a,b,uP)},T=nE(function(a){return f(n,a)},G),U=f(n,b8),V=function(a){return f(n,a)},X=[0,jd(function(a){return f(S,a)},V,b7),U,T],Z=gD(p,m),_=function(g){var
+b=ac(e(uN,g[1]));if(b){var
 c=g[2];if(c){var
 d=de(g[3]);if(d){var
 l=d[1],m=al([0,F(ab(t(a,aa,c[1])),l),0],i),n=b[1],o=e(function(d){var
-b=gD(a,0,Z,d),c=bu(uJ,b[2]);return[0,b[1],c]},n),f=iB(a,e(function(b){return O(a,b)},w),H,I,o,m);if(f)return a6(a,i,f[1]);var
+b=gE(a,0,Z,d),c=bu(uO,b[2]);return[0,b[1],c]},n),f=iC(a,e(function(b){return O(a,b)},w),H,I,o,m);if(f)return a6(a,i,f[1]);var
 h=f}else
 var
 h=d;var
@@ -5001,13 +5001,13 @@ var
 j=c;var
 k=j}else
 var
-k=b;return k};return j(i9(function(b,a){return uH},W,i,_),X)}var
+k=b;return k};return j(i_(function(b,a){return uM},W,i,_),X)}var
 C=0}else
 var
 C=B;var
 E=C}else
 var
-E=h;return E}return 0}return 0}return L},ca=v(p),cb=j(au(v),T);return fs(a,aW,aX,aa,i,i,z(v,E),cb,ca,b$,aB,b_,b9,aP)}var
+E=h;return E}return 0}return 0}return L},ca=v(p),cb=j(au(v),T);return ft(a,aX,aY,aa,i,i,z(v,E),cb,ca,b$,aC,b_,b9,aP)}var
 be=ae}else
 var
 be=bb;var
@@ -5032,49 +5032,49 @@ bk=as;var
 bl=bk}else
 var
 bl=ar;return bl}function
-fu(b,a){return bw(b,a[1],a[2])}function
-nW(b,a){var
-c=fu(b,a[1]),d=c?fu(b,a[2]):c;return d?fu(b,a[3]):d}function
-jm(a){return typeof
+fv(b,a){return bw(b,a[1],a[2])}function
+nZ(b,a){var
+c=fv(b,a[1]),d=c?fv(b,a[2]):c;return d?fv(b,a[3]):d}function
+jn(a){return typeof
 a==="number"?a?dM(0):dD:dM(a[1])}function
-nX(b,a,c){return typeof
-b==="number"?b?[0,a[1],[0,a[2],0]]:bW(a):g7(b[1],a,c)}function
-jn(b,d,c){if(0===c[0])return gM(b,d[1],c[1]);var
+n0(b,a,c){return typeof
+b==="number"?b?[0,a[1],[0,a[2],0]]:bW(a):g8(b[1],a,c)}function
+jo(b,d,c){if(0===c[0])return gN(b,d[1],c[1]);var
 a=c[1],e=[0,[0,a[5],b],[0,[0,a[6],b],0]],g=f(a8(a[4],b),e),h=f(a8(a[3],b),g),i=f(a8(a[2],d[2]),h);return f(a8(a[1],d[1]),i)}function
-jo(b,a){if(b){var
-c=b[1],d=c[2];return bm(fr(c[1],a),d)}return a}function
-nY(h,t,al,J,aj,q,ai){if(q){var
-j=q[1],an=bS([0,d,d],aj),a=cD(ai,jn(J,an,j)),y=function(c,b){var
-d=ak(a,c);return af(x,af(B,jm(h),b),d)};if(0===j[0]){var
+jp(b,a){if(b){var
+c=b[1],d=c[2];return bm(fs(c[1],a),d)}return a}function
+n1(h,t,al,J,aj,q,ai){if(q){var
+j=q[1],an=bS([0,d,d],aj),a=cD(ai,jo(J,an,j)),y=function(c,b){var
+d=ak(a,c);return af(x,af(B,jn(h),b),d)};if(0===j[0]){var
 z=j[1];switch(z[0]){case
 0:var
-$=jo(t,ak(a,u9)),aE=z[1][5],A=r(u_,a,l(d)),C=ak(a,0),aa=y(u$,$),i=lN(aa,dC(C),aa,A,aE),aq=[0,aJ(A),0],ar=[0,aJ(Z(C,C)),aq],k=[0,[0,i[1],i[2],i[3],[0,i[4]],[0,[0,i[2],A]],ar],$];break;case
+$=jp(t,ak(a,vc)),aE=z[1][5],A=r(vd,a,m(d)),C=ak(a,0),aa=y(ve,$),i=lQ(aa,dC(C),aa,A,aE),aq=[0,aJ(A),0],ar=[0,aJ(Z(C,C)),aq],k=[0,[0,i[1],i[2],i[3],[0,i[4]],[0,[0,i[2],A]],ar],$];break;case
 1:var
-ab=jo(t,ak(a,va)),ac=z[3],D=ac?[0,ak(a,vb)]:ac,ad=y(0,ab),m=lO(ad,ad,0);if(D)var
+ab=jp(t,ak(a,vf)),ac=z[3],D=ac?[0,ak(a,vg)]:ac,ad=y(0,ab),l=lR(ad,ad,0);if(D)var
 K=D[1],L=[0,aJ(Z(K,K)),0];else
 var
 L=D;var
-k=[0,[0,m[1],m[2],m[3],[0,m[4]],0,L],ab];break;default:var
-aF=l(d),aG=l(d),aH=[0,l(d),aG,aF],E=ak(a,0),aI=jm(h),n=lP(aI,dC(E)),as=[0,aJ(Z(E,E)),0],k=[0,[0,n[1],n[2],n[3],[0,n[4]],0,as],aH]}}else
+k=[0,[0,l[1],l[2],l[3],[0,l[4]],0,L],ab];break;default:var
+aF=m(d),aG=m(d),aH=[0,m(d),aG,aF],E=ak(a,0),aI=jn(h),n=lS(aI,dC(E)),as=[0,aJ(Z(E,E)),0],k=[0,[0,n[1],n[2],n[3],[0,n[4]],0,as],aH]}}else
 var
-ae=jo(t,ak(a,vc)),F=j[1][7],G=r(vd,a,l(d)),e=r(ve,a,l(d)),ag=ak(a,vf),H=ak(a,0),p=y(vg,ae),o=dC(H),u=af(x,ag,a1(Z(o,ag),o)),v=dC(u),M=bH(o,v),O=Z(p,v),P=Z(p,M),at=Z(o,p),au=V(P),Q=B(V(O),au),av=V(at),R=x(V(G),av),aw=s(l(c(2,b)),e),w=x(Q,V(am(B(Q,x(V(e),R)),aw))),ax=gx(F,s(e,aJ(w))),S=am(O,e),T=gx(F,am(P,e)),U=am(R,V(e)),W=lk(0,S,T,U),X=gx(F,lk(1,S,T,U)),ay=a1(X,M),Y=af(x,p,a1(e,af(B,a1(W,v),ay))),az=[0,aJ(G),0],aA=[0,aJ(e),az],aB=[0,aJ(Z(u,u)),aA],aC=[0,aJ(Z(H,H)),aB],aD=bm(Y,ax),k=[0,[0,Y,s(V(e),w),aD,[1,W,X],[0,[0,w,G]],aC],ae];var
-aT=N(ai,g(jn(J,an,j))),aU=q[2],aV=nY(h,t,al,J,bA(aj),aU,aT),ao=k[2],f=k[1],ah=function(a){return nX(h,a,bm(bH(ao,a),al))},aK=f[1],aL=bH(af(B,jm(h),ao),aK),aM=nX(h,f[1],aL),I=f[1],_=typeof
+ae=jp(t,ak(a,vh)),F=j[1][7],G=r(vi,a,m(d)),e=r(vj,a,m(d)),ag=ak(a,vk),H=ak(a,0),p=y(vl,ae),o=dC(H),u=af(x,ag,a1(Z(o,ag),o)),v=dC(u),M=bH(o,v),O=Z(p,v),P=Z(p,M),at=Z(o,p),au=V(P),Q=B(V(O),au),av=V(at),R=x(V(G),av),aw=s(m(c(2,b)),e),w=x(Q,V(am(B(Q,x(V(e),R)),aw))),ax=gy(F,s(e,aJ(w))),S=am(O,e),T=gy(F,am(P,e)),U=am(R,V(e)),W=ln(0,S,T,U),X=gy(F,ln(1,S,T,U)),ay=a1(X,M),Y=af(x,p,a1(e,af(B,a1(W,v),ay))),az=[0,aJ(G),0],aA=[0,aJ(e),az],aB=[0,aJ(Z(u,u)),aA],aC=[0,aJ(Z(H,H)),aB],aD=bm(Y,ax),k=[0,[0,Y,s(V(e),w),aD,[1,W,X],[0,[0,w,G]],aC],ae];var
+aT=N(ai,g(jo(J,an,j))),aU=q[2],aV=n1(h,t,al,J,bA(aj),aU,aT),ao=k[2],f=k[1],ah=function(a){return n0(h,a,bm(bH(ao,a),al))},aK=f[1],aL=bH(af(B,jn(h),ao),aK),aM=n0(h,f[1],aL),I=f[1],_=typeof
 h==="number"?1:0,aN=f[6],aO=f[5],aP=_?h?[0,I[1],[0,I[2],0]]:bW(I):_,aQ=f[4],aR=ah(f[3]),aS=f[2],ap=[0,[0,ah(f[1]),aS,aR,aQ,aP,aO,aN,aM],aV]}else
 var
 ap=q;return ap}function
-jp(c,b,a){if(a){var
-e=a[2],g=jp(c,bA(b),e),h=a[1];return f(jn(c,bS([0,d,d],b),h),g)}return a}function
-nZ(b,h,g,d,c,a){if(a){var
-i=a[2],k=a[1],l=nZ(b,h,g,d,f(c,[0,k,0]),i),m=j(d,e(bA,f(c,i)));return aq(h,aq(g,bS(b,k),m),l)}return b}function
-n0(a,f,e,d,c,b){if(c){var
-g=0,h=c[1];return nZ(a,e,d,function(b){return n0(a,f,e,d,h,b)},g,b)}return b?a:f}function
-n1(a,d,c){var
-e=gS(a,c);function
+jq(c,b,a){if(a){var
+e=a[2],g=jq(c,bA(b),e),h=a[1];return f(jo(c,bS([0,d,d],b),h),g)}return a}function
+n2(b,h,g,d,c,a){if(a){var
+i=a[2],k=a[1],l=n2(b,h,g,d,f(c,[0,k,0]),i),m=j(d,e(bA,f(c,i)));return aq(h,aq(g,bS(b,k),m),l)}return b}function
+n3(a,f,e,d,c,b){if(c){var
+g=0,h=c[1];return n2(a,e,d,function(b){return n3(a,f,e,d,h,b)},g,b)}return b?a:f}function
+n4(a,d,c){var
+e=gT(a,c);function
 f(b,c){return t(a,b,c)}var
-g=O(a,b);return z(function(a){return n0(u,g,F,f,d,a)},e)}function
-n2(e,c,o,n){var
-a=n1(e,c,o);if(a){var
-f=a[1],b=n1(e,c,n);if(b){var
+g=O(a,b);return z(function(a){return n3(u,g,F,f,d,a)},e)}function
+jr(e,c,o,n){var
+a=n4(e,c,o);if(a){var
+f=a[1],b=n4(e,c,n);if(b){var
 g=b[1],h=I(d,f[1]),i=h?I(g[2],d):h;if(i)var
 j=i;else{var
 m=I(f[2],d);if(m)return I(d,g[1]);var
@@ -5085,29 +5085,29 @@ k=b;var
 l=k}else
 var
 l=a;return l}function
-jq(b){if(b){var
+js(b){if(b){var
 a=b[2],c=b[1];if(c){var
 e=c[2],q=c[1];if(e){var
-f=e[2],r=e[1];if(f){if(f[2])return l(d);if(a){var
+f=e[2],r=e[1];if(f){if(f[2])return m(d);if(a){var
 g=a[2],h=a[1];if(h){var
 i=h[2],t=h[1];if(i){var
 j=i[2],u=i[1];if(j){var
-v=j[1];if(j[2])return l(d);if(g){var
+v=j[1];if(j[2])return m(d);if(g){var
 k=g[1];if(k){var
-m=k[2],w=k[1];if(m){var
-n=m[2],y=m[1];if(n){var
-z=n[1];if(n[2])return l(d);if(g[2])return l(d);var
-A=dG(t,u,w,y),C=s(f[1],A),D=s(r,dG(t,v,w,z));return B(x(s(q,dG(u,v,y,z)),D),C)}return l(d)}return l(d)}return l(d)}return l(d)}return l(d)}return l(d)}return l(d)}return l(d)}if(a){var
+l=k[2],w=k[1];if(l){var
+n=l[2],y=l[1];if(n){var
+z=n[1];if(n[2])return m(d);if(g[2])return m(d);var
+A=dG(t,u,w,y),C=s(f[1],A),D=s(r,dG(t,v,w,z));return B(x(s(q,dG(u,v,y,z)),D),C)}return m(d)}return m(d)}return m(d)}return m(d)}return m(d)}return m(d)}return m(d)}return m(d)}if(a){var
 o=a[1];if(o){var
-p=o[2];return p?p[2]?l(d):a[2]?l(d):dG(q,r,o[1],p[1]):l(d)}return l(d)}return l(d)}return l(d)}return l(d)}return l(d)}function
-n3(a){if(a){var
+p=o[2];return p?p[2]?m(d):a[2]?m(d):dG(q,r,o[1],p[1]):m(d)}return m(d)}return m(d)}return m(d)}return m(d)}return m(d)}function
+n5(a){if(a){var
 b=a[1][6];if(b)var
-c=n3(a[2]),e=c?[0,[0,b[1][2],c[1]]]:c,d=e;else
+c=n5(a[2]),e=c?[0,[0,b[1][2],c[1]]]:c,d=e;else
 var
-d=b;return d}return vh}function
-n4(g,k,a){function
-b(a){return r(a,k,l(d))}function
-m(a){var
+d=b;return d}return vm}function
+n6(g,k,a){function
+b(a){return r(a,k,m(d))}function
+l(a){var
 e=a[2],f=s(V(b(0)),e),c=0,d=0,g=a[1];return[0,[0,bT(function(b,a){return x(b,V(a))},g,f),d],c]}function
 n(e){var
 a=e[6];if(a)var
@@ -5131,15 +5131,15 @@ d=a[1];return[0,[0,x(b(0),d),0],0]}return 0},f=v,c=a[1];break;case
 w=function(e){var
 a=e[4];if(typeof
 a!=="number"&&1===a[0]){var
-c=a[2],d=a[1],f=s(b(vi),c),g=[0,[0,x(s(b(vj),d),f),0],0],h=s(d,b(vk));return[0,[0,x(s(c,b(0)),h),0],g]}return 0},f=w,c=a[1];break;case
+c=a[2],d=a[1],f=s(b(vn),c),g=[0,[0,x(s(b(vo),d),f),0],0],h=s(d,b(vp));return[0,[0,x(s(c,b(0)),h),0],g]}return 0},f=w,c=a[1];break;case
 6:var
 y=function(a){var
 b=a[4];if(typeof
-b!=="number"&&1===b[0])return 0;return m(a)},f=y,c=a[1];break;case
+b!=="number"&&1===b[0])return 0;return l(a)},f=y,c=a[1];break;case
 9:var
 z=function(a){var
 b=a[4];if(typeof
-b!=="number"&&1===b[0])return m(a);return 0},f=z,c=a[1];break;case
+b!=="number"&&1===b[0])return l(a);return 0},f=z,c=a[1];break;case
 10:var
 f=n,c=a[1];break;case
 11:var
@@ -5147,23 +5147,23 @@ A=function(a){var
 b=a[4];if(typeof
 b!=="number"&&0===b[0])return n(a);return 0},f=A,c=a[1];break;case
 12:var
-i=n3(g);if(i)var
-C=b(0),o=bT(s,i[1],C),p=jq(e(function(a){return a[5]},g)),D=[0,bl(B(p,o)),0],q=[0,[0,x(p,o),D],0];else
+i=n5(g);if(i)var
+C=b(0),o=bT(s,i[1],C),p=js(e(function(a){return a[5]},g)),D=[0,bl(B(p,o)),0],q=[0,[0,x(p,o),D],0];else
 var
 q=i;return q;case
 17:var
 t=a[1],f=function(d){var
-a=jq(e(function(a){return a[1]},g));function
+a=js(e(function(a){return a[1]},g));function
 b(b){var
 c=[0,bl(B(a,b)),0];return[0,x(a,b),c]}var
-f=jq(mN(t,k,e(function(a){return a[1]},g))),c=s(aJ(d[2]),f),h=[0,b(bl(c)),0];return[0,b(c),h]},c=t;break;default:j=1}if(j)return 0;var
+f=js(mQ(t,k,e(function(a){return a[1]},g))),c=s(aJ(d[2]),f),h=[0,b(bl(c)),0];return[0,b(c),h]},c=t;break;default:j=1}if(j)return 0;var
 h=H(g,c);return h?f(h[1]):h}function
-ey(a){return e(function(a){return[0,a[1],a[2]]},a)}function
-fv(a){return e(function(a){var
-c=l(b);return[0,a[3],c]},a)}function
-n5(c,b,a){if(typeof
-a!=="number"&&8===a[0])return bC(g0(ey(c),b));return d_(n4(c,b,a))}function
-n6(f,l,k,K,J,t,a){if(typeof
+eA(a){return e(function(a){return[0,a[1],a[2]]},a)}function
+fw(a){return e(function(a){var
+c=m(b);return[0,a[3],c]},a)}function
+n7(c,b,a){if(typeof
+a!=="number"&&8===a[0])return bC(g1(eA(c),b));return ea(n6(c,b,a))}function
+n8(f,m,k,K,J,t,a){if(typeof
 a==="number")return[0,[0,[0,u]],0];else
 switch(a[0]){case
 0:var
@@ -5173,16 +5173,16 @@ P=[5,[0,b,b],a[1]],n=P,o=function(a){return[1,a]};break;case
 5:var
 B=a[1],T=0,V=ao(f,[0,[0,B,B],d]);return[0,z(function(a){return[2,U(f,a)]},V),T];case
 7:var
-C=a[3],D=a[2],E=a[1];if(!H(k,E))return vn;var
+C=a[3],D=a[2],E=a[1];if(!H(k,E))return vs;var
 I=0;if(h(f,1,D)&&h(f,1,C))var
 W=[5,D,C],n=W,o=function(a){return[7,E,a]};else
-I=1;if(I)return vm;break;case
+I=1;if(I)return vr;break;case
 8:var
 F=h(f,1,a[2]),X=0;if(F)var
-Y=a[1],Z=1,r=m(function(a){return h(f,Z,a)},Y);else
+Y=a[1],Z=1,r=l(function(a){return h(f,Z,a)},Y);else
 var
 r=F;if(r)var
-_=O(f,b),$=g0(ey(k),t),G=[0,[4,j(au(l),$),_]];else
+_=O(f,b),$=g1(eA(k),t),G=[0,[4,j(au(m),$),_]];else
 var
 G=r;return[0,G,X];default:var
 s=0;if(typeof
@@ -5192,36 +5192,36 @@ switch(a[0]){case
 v=a[3],w=a[2],x=h(f,1,[3,v,w]),R=x?h(f,1,[3,[2,w,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b]],v]):x,i=R;break;case
 17:var
 A=h(f,1,a[3]);if(A)var
-S=e(function(a){return a[1]},k),i=mO(g(a[2]),S);else
+S=e(function(a){return a[1]},k),i=mR(g(a[2]),S);else
 var
 i=A;break;case
 6:case
 9:var
 y=h(f,1,a[2]),i=y?h(f,0,a[3]):y;break;default:s=1}if(s)var
 i=1;var
-p=i?n4(k,t,a):i;if(p){var
+p=i?n6(k,t,a):i;if(p){var
 Q=[0,p[1],p[2]];return e(function(a){if(a){var
 b=a[2],c=a[1];if(b){if(b[2])return 0;var
-e=j(l,b[1]);return[0,[5,j(l,c),e]]}var
-d=[0,[3,j(l,c)]]}else
+e=j(m,b[1]);return[0,[5,j(m,c),e]]}var
+d=[0,[3,j(m,c)]]}else
 var
-d=a;return d},Q)}return vl}var
-M=0,N=ao(f,[0,[0,n,n],gZ(K,J)]);return[0,z(function(a){return o(U(f,a))},N),M]}function
-n7(a){if(typeof
+d=a;return d},Q)}return vq}var
+M=0,N=ao(f,[0,[0,n,n],g0(K,J)]);return[0,z(function(a){return o(U(f,a))},N),M]}function
+n9(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-vo(a){return 0===a[0]?2===a[1][0]?0:1:1}function
-vp(c,R,aB,a,i,Q,aA){var
-b=a[1],aC=aw(b),s=a[6],A=jp(i,Q,a[2]),S=a[3],T=[0,[0,S,S],i],U=[0,g(A)],B=a[2],q=B?0===B[1][0]?0:1:B,aD=a[5],aE=z(function(a){var
+vt(a){return 0===a[0]?2===a[1][0]?0:1:1}function
+vu(c,R,aB,a,i,Q,aA){var
+b=a[1],aC=aw(b),s=a[6],A=jq(i,Q,a[2]),S=a[3],T=[0,[0,S,S],i],U=[0,g(A)],B=a[2],q=B?0===B[1][0]?0:1:B,aD=a[5],aE=z(function(a){var
 c=typeof
-b==="number"?0:cJ(b[1]);return nf(a,c)},aD),aF=a[2],k=nY(b,aE,c6(T,g(A)),i,Q,aF,0),V=y(function(a){return a[7]},k),W=a[7],X=W?e(function(a){return[0,a[8],a[2]]},k):W,aG=bC(X),aH=f(V,f(db(function(a,b){return n5(k,a,b)},q,i,U,s),aG)),aI=f(bC(fv(k)),aH),Y=f(bC(ey(k)),aI),Z=cW(Y)[1],_=cV(Z);function
+b==="number"?0:cJ(b[1]);return ni(a,c)},aD),aF=a[2],k=n1(b,aE,c6(T,g(A)),i,Q,aF,0),V=y(function(a){return a[7]},k),W=a[7],X=W?e(function(a){return[0,a[8],a[2]]},k):W,aG=bC(X),aH=f(V,f(db(function(a,b){return n7(k,a,b)},q,i,U,s),aG)),aI=f(bC(fw(k)),aH),Y=f(bC(eA(k)),aI),Z=cW(Y)[1],_=cV(Z);function
 p(a){return bd(_,a)}var
-$=m(function(a){var
-b=l(d);return aN(r(p(a),_,b),a)},Y),aa=$?aj(n7,s):$;if(aa){var
+$=l(function(a){var
+b=m(d);return aN(r(p(a),_,b),a)},Y),aa=$?aj(n9,s):$;if(aa){var
 ab=a[4];if(typeof
 b==="number")var
-ad=b?jk(0,eo(ab)):1;else
+ad=b?jl(0,eq(ab)):1;else
 var
-ay=eo(ab),ad=jk(b[1],ay);var
+ay=eq(ab),ad=jl(b[1],ay);var
 C=ad}else
 var
 C=aa;if(C){var
@@ -5232,7 +5232,7 @@ if(2<=N[1])var
 t=0;else{var
 w=a[5],L=0;if(w){var
 O=h(c,1,a[3]);if(O)var
-az=g6(w[1]),t=m(function(a){var
+az=g7(w[1]),t=l(function(a){var
 b=cH(c,a[1]);return b?cH(c,a[2]):b},az);else{var
 P=O;L=1}}else{var
 P=w;L=1}if(L)var
@@ -5240,36 +5240,36 @@ t=P}var
 D=t}else
 var
 D=C;if(D)var
-aJ=a[2],E=m(function(a){var
+aJ=a[2],E=l(function(a){var
 b=0===a[0]?0:1;return ct(b,q)},aJ);else
 var
 E=D;if(E){var
 ae=M(a[7]);if(ae)var
 u=ae;else
 var
-av=ny(c,b,a[5]),u=av?m(vo,a[2]):av}else
+av=nB(c,b,a[5]),u=av?l(vt,a[2]):av}else
 var
 u=E;if(u){var
 aK=f(A,[0,T,0]),F=ac(e(function(a){return ao(c,a)},aK));if(F){var
-aL=y(function(a){return fp(q,i,a)},s),G=ac(e(function(a){return i1(c,a)},aL));if(G){var
-n=eo(a[4]),aM=typeof
-b==="number"?b?[0,n[1],[0,n[2],0]]:[0,n[1],[0,n[2],[0,n[3],0]]]:nT(b[1],n),H=ac(e(function(a){return ao(c,[0,a,i])},aM));if(H){var
+aL=y(function(a){return fq(q,i,a)},s),G=ac(e(function(a){return i2(c,a)},aL));if(G){var
+n=eq(a[4]),aM=typeof
+b==="number"?b?[0,n[1],[0,n[2],0]]:[0,n[1],[0,n[2],[0,n[3],0]]]:nW(b[1],n),H=ac(e(function(a){return ao(c,[0,a,i])},aM));if(H){var
 af=H[1],ag=a[5];if(ag)var
-aO=nh(ag[1]),v=ac(e(function(a){return nj(c,a)},aO));else
+aO=nk(ag[1]),v=ac(e(function(a){return nm(c,a)},aO));else
 var
-v=vq;if(v){var
-ah=v[1],x=a[5],aP=x?ng(x[1]):x,I=ac(e(cG(c),aP));if(I){var
-J=ac(db(function(a,b){return n6(c,p,k,q,i,a,b)},q,i,U,s));if(J){var
+v=vv;if(v){var
+ah=v[1],x=a[5],aP=x?nj(x[1]):x,I=ac(e(cG(c),aP));if(I){var
+J=ac(db(function(a,b){return n8(c,p,k,q,i,a,b)},q,i,U,s));if(J){var
 ai=J[1];if(a[7])var
-aQ=R[2],aR=R[1],K=iV(aB,ai,[8,j(au(p),X),aR,aQ]);else
+aQ=R[2],aR=R[1],K=iW(aB,ai,[8,j(au(p),X),aR,aQ]);else
 var
 K=ai;var
 ak=o(g(f(af,ah)),aC);if(ak){var
-aS=iN(K),aT=f(af,ah),ax=0,aU=a[4];if(typeof
+aS=iO(K),aT=f(af,ah),ax=0,aU=a[4];if(typeof
 b==="number"&&!b){var
-al=function(a){return my(c,aU,i,a)};ax=1}if(!ax)var
+al=function(a){return mB(c,aU,i,a)};ax=1}if(!ax)var
 al=function(a){return 0};var
-aV=f(G[1],I[1]),aW=f(F[1],aV),aX=e(p,V),aY=fv(k),aZ=j(au(p),aY),a0=ey(k);return fR(iM(c,Z,j(au(p),a0),aZ,aX,aW,K,al),aT,aS,aA)}var
+aV=f(G[1],I[1]),aW=f(F[1],aV),aX=e(p,V),aY=fw(k),aZ=j(au(p),aY),a0=eA(k);return fS(iN(c,Z,j(au(p),a0),aZ,aX,aW,K,al),aT,aS,aA)}var
 am=ak}else
 var
 am=J;var
@@ -5291,13 +5291,13 @@ as=F;var
 at=as}else
 var
 at=u;return at}function
-vr(b){if(0===b[0])return[0,mJ(b[1])];var
+vw(b){if(0===b[0])return[0,mM(b[1])];var
 a=b[1],c=a[7],d=a[6][1],e=a[5][1],f=bE(a[4]),g=bE(a[3]),h=bE(a[2]);return[1,[0,bE(a[1]),h,g,f,e,d,c]]}function
-n8(e,d,c){var
+n_(e,d,c){var
 a=d;for(;;){if(a){var
-b=a[1];if(r1(b[1],c))return b[2];var
+b=a[1];if(r6(b[1],c))return b[2];var
 a=a[2];continue}return e}}function
-n9(a,c,b){var
+n$(a,c,b){var
 d=W(e(ay,a[2]),b);return f(W(a[1],c),d)}function
 b0(c){var
 a=c;for(;;)switch(a[0]){case
@@ -5313,7 +5313,7 @@ bI(e,a,c){switch(a[0]){case
 0:var
 o=a[1];return c6([0,[0,o,o],d],c);case
 1:var
-q=a[1];return n8(l(d),e,q);case
+q=a[1];return n_(m(d),e,q);case
 2:return bl(bI(e,a[1],c));case
 3:var
 i=a[2],f=a[1],h=B;break;case
@@ -5324,8 +5324,8 @@ i=a[2],f=a[1],h=s;break;case
 6:var
 i=a[2],f=a[1],h=am;break;case
 7:var
-j=e1(a[2]),k=bI(e,a[1],c);if(j){if(j[1]){var
-m=V(k),p=function(a){return s(a,m)},n=ga(bz(k4(j)),p,m);return k3(j)?n:s(n,k)}return k}return l(b);default:return aJ(bI(e,a[1],c))}var
+j=e2(a[2]),k=bI(e,a[1],c);if(j){if(j[1]){var
+l=V(k),p=function(a){return s(a,l)},n=gb(bz(k7(j)),p,l);return k6(j)?n:s(n,k)}return k}return m(b);default:return aJ(bI(e,a[1],c))}var
 r=bI(e,i,N(c,g(b0(f))));return h(bI(e,f,c),r)}function
 df(c,h,b){var
 a=h;for(;;)switch(a[0]){case
@@ -5339,53 +5339,53 @@ a=a[1];continue;case
 0:case
 1:return 0;default:var
 d=a[1],i=N(b,g(b0(d))),j=df(c,a[2],i);return f(df(c,d,b),j)}}function
-n_(i,h,f){var
+oa(i,h,f){var
 b=i,a=h,c=f;for(;;){if(a){var
 d=a[1],e=d[2],j=N(c,g(b0(e))),k=a[2],l=bI(b,e,c),b=[0,[0,d[1],l],b],a=k,c=j;continue}return b}}function
-jr(c,a,b){if(a){var
-e=a[1],d=e[2],h=N(b,g(b0(d))),i=a[2],j=bI(c,d,b),k=jr([0,[0,e[1],j],c],i,h);return f(df(c,d,b),k)}return a}function
-fw(a){return y(b0,a)}function
-n$(c,a,b){if(a)var
-d=a[1],f=N(b,g(b0(d))),h=n$(c,a[2],f),e=[0,bI(c,d,b),h];else
+jt(c,a,b){if(a){var
+e=a[1],d=e[2],h=N(b,g(b0(d))),i=a[2],j=bI(c,d,b),k=jt([0,[0,e[1],j],c],i,h);return f(df(c,d,b),k)}return a}function
+fx(a){return y(b0,a)}function
+ob(c,a,b){if(a)var
+d=a[1],f=N(b,g(b0(d))),h=ob(c,a[2],f),e=[0,bI(c,d,b),h];else
 var
 e=a;return e}function
-oa(c,a,b){if(a){var
-d=a[1],e=N(b,g(b0(d))),h=oa(c,a[2],e);return f(df(c,d,b),h)}return a}function
-hc(a){return 0===a[0]?fw(a[1]):b0(a[1])}function
-js(c,b,a){if(b){var
-d=b[1],j=N(a,g(hc(d))),k=js(c,b[2],j);if(0===d[0])var
-h=oa(c,d[1],a);else
+oc(c,a,b){if(a){var
+d=a[1],e=N(b,g(b0(d))),h=oc(c,a[2],e);return f(df(c,d,b),h)}return a}function
+hd(a){return 0===a[0]?fx(a[1]):b0(a[1])}function
+ju(c,b,a){if(b){var
+d=b[1],j=N(a,g(hd(d))),k=ju(c,b[2],j);if(0===d[0])var
+h=oc(c,d[1],a);else
 var
 e=d[1],i=df(c,e,a),h=[0,bI(c,e,a),i];return f(h,k)}return b}function
-hd(c){var
+he(c){var
 a=c[1];switch(a[0]){case
 0:var
 b=[1,a[1]];break;case
 1:var
 b=[0,a[1]];break;default:var
-b=bU(hd,a)}return[0,b]}function
-jt(c){var
+b=bU(he,a)}return[0,b]}function
+jv(c){var
 b=c;for(;;){var
 a=b[1];switch(a[0]){case
 5:var
 b=a[1];continue;case
 6:var
-d=jt(a[2]);return s(jt(a[1]),d);case
+d=jv(a[2]);return s(jv(a[1]),d);case
 9:return a[1];default:return V(b)}}}function
-ju(n,h,a,f){if(a){var
-c=a[1],x=N(f,g(hc(c))),y=ju(n,h,a[2],x);if(0===c[0])var
-k=n$(h,c[1],f),o=[0,k,l(b),k,0,0,0,0,0];else
+jw(n,h,a,f){if(a){var
+c=a[1],x=N(f,g(hd(c))),y=jw(n,h,a[2],x);if(0===c[0])var
+k=ob(h,c[1],f),o=[0,k,m(b),k,0,0,0,0,0];else
 var
-m=bI(h,c[1],f),q=hd(m),i=a7(aC(0,n),q),d=hd(i[2]),j=e(hd,i[1]),r=0,s=0,t=0,u=0,v=[0,m],w=e(function(a){return aN(a,d)?l(b):am(a,d)},j),o=[0,j,jt(d),w,v,u,t,s,r];var
+l=bI(h,c[1],f),q=he(l),i=a7(aB(0,n),q),d=he(i[2]),j=e(he,i[1]),r=0,s=0,t=0,u=0,v=[0,l],w=e(function(a){return aN(a,d)?m(b):am(a,d)},j),o=[0,j,jv(d),w,v,u,t,s,r];var
 p=[0,o,y]}else
 var
 p=a;return p}function
-ob(a){return e(function(a){return[0,a[2],d]},a)}function
-jv(a){var
-b=y(hc,a[4]),c=f(fw(e(aY,a[3])),b);return f(ob(a[2]),c)}function
-he(a){var
-b=cD(0,ob(a[2])),c=aC(0,g(a[1]));return n9(a,e(function(a){return[0,[0,a]]},c),b)}function
-jw(b,d){var
+od(a){return e(function(a){return[0,a[2],d]},a)}function
+jx(a){var
+b=y(hd,a[4]),c=f(fx(e(aT,a[3])),b);return f(od(a[2]),c)}function
+hf(a){var
+b=cD(0,od(a[2])),c=aB(0,g(a[1]));return n$(a,e(function(a){return[0,[0,a]]},c),b)}function
+jy(b,d){var
 a=d;for(;;)switch(a[0]){case
 0:return 1;case
 1:var
@@ -5394,16 +5394,16 @@ e=a[1];return aj(function(a){return az(e,a)},b);case
 7:case
 8:var
 a=a[1];continue;default:var
-c=jw(b,a[1]);if(c){var
+c=jy(b,a[1]);if(c){var
 a=a[2];continue}return c}}function
-oc(d){var
+oe(d){var
 a=d;for(;;){if(a){var
-b=a[2],e=a[1],c=M(aj(function(b){return function(a){return r1(b,a)}}(e),b));if(c){var
+b=a[2],e=a[1],c=M(aj(function(b){return function(a){return r6(b,a)}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-od(a){var
-u=e(ay,a[2]),d=f(a[1],u),h=g(a[1]),o=aa(vs,h),p=o?aa(h,vt):o,q=p?aa(h,g(a[4])):p,r=q?aa(g(a[4]),vu):q,s=r?oc(d):r;if(s){var
+of(a){var
+u=e(ay,a[2]),d=f(a[1],u),h=g(a[1]),o=aa(vx,h),p=o?aa(h,vy):o,q=p?aa(h,g(a[4])):p,r=q?aa(g(a[4]),vz):q,s=r?oe(d):r;if(s){var
 c=d,b=a[3];for(;;){if(b){var
-j=b[1],k=j[1],l=M(aj(function(b){return function(a){return az(b,a)}}(k),c)),n=l?jw(c,j[2]):l;if(n){var
+j=b[1],k=j[1],m=M(aj(function(b){return function(a){return az(b,a)}}(k),c)),n=m?jy(c,j[2]):m;if(n){var
 c=[0,k,c],b=b[2];continue}var
 t=n}else
 var
@@ -5411,10 +5411,10 @@ t=1;var
 i=t;break}}else
 var
 i=s;if(i){var
-v=a[4];return m(function(b){var
-c=0===b[0]?b[1]:[0,b[1],0],g=f(e(ay,a[3]),d);return m(function(a){return jw(g,a)},c)},v)}return i}function
-ez(f,e,g){var
-h=g[1],a=bU(function(a){return ez(f,e,a)},h);switch(a[0]){case
+v=a[4];return l(function(b){var
+c=0===b[0]?b[1]:[0,b[1],0],g=f(e(ay,a[3]),d);return l(function(a){return jy(g,a)},c)},v)}return i}function
+dN(f,e,g){var
+h=g[1],a=bU(function(a){return dN(f,e,a)},h);switch(a[0]){case
 0:return r(a[1],f,[0,d,b]);case
 1:return r(a[1],e,[0,d,b]);case
 2:return[0,a[1],b];case
@@ -5426,7 +5426,7 @@ h=g[1],a=bU(function(a){return ez(f,e,a)},h);switch(a[0]){case
 8:var
 c=a[1];return[4,c,c];case
 9:return[6,a[1]];default:return[0,d,b]}}function
-oe(d){var
+jz(d){var
 b=d;for(;;){var
 a=b[1];switch(a[0]){case
 10:return 0;case
@@ -5437,90 +5437,101 @@ b=a[1];continue;case
 0:case
 1:case
 2:return 1;default:var
-c=oe(a[1]);if(c){var
+c=jz(a[1]);if(c){var
 b=a[2];continue}return c}}}function
-hf(g,f,e){var
+dO(g,f,e){var
 b=f,a=e;for(;;){if(b){if(a){var
 c=c7(g,b[1],a[1]);if(c){var
 b=b[2],a=a[2];continue}var
 d=c}else
 var
 d=a;return d}return a?0:1}}function
-vv(a){var
+vA(a){var
 b=a[4],d=0;if(typeof
 b!=="number"&&0===b[0]){var
 c=[0,b[1],0];d=1}if(!d)var
 c=0;var
 e=f(a[3],c);return f(a[1],e)}function
-of(f,e){function
+hg(a){return g(a[1])}function
+og(a){var
+b=g(fx(e(aT,a[3])));return N(g(a[2]),b)}function
+oh(a){var
+b=g(a[2]),c=a[3];return oa(hf(a),c,b)}function
+oi(a){var
+b=og(a),c=a[4],d=oh(a);return jw(hg(a),d,c,b)}function
+oj(a,b){var
+c=y(hd,a[4]),d=f(fx(e(aT,a[3])),c);return f(b,e(function(a){return a[1][1]},d))}function
+ok(b,a){return l(function(a){if(0===a[0]){var
+c=hg(b);return o(g(a[1]),c)}return 1},a)}function
+ol(f,e){function
 a(a){return r(a,e,[0,d,b])}var
 c=[0,d,b];switch(f){case
 0:var
-g=a(vx);return[0,a(0),g,c];case
+g=a(vC);return[0,a(0),g,c];case
 1:var
-h=a(vy),i=a(vz);return[0,a(0),i,h];default:return[0,c,c,c]}}function
-og(f,e){function
+h=a(vD),i=a(vE);return[0,a(0),i,h];default:return[0,c,c,c]}}function
+om(f,e){function
 a(a){return r(a,e,[0,d,b])}var
 c=[0,d,b];switch(f){case
-0:return[0,c,c,a(vA)];case
+0:return[0,c,c,a(vF)];case
 1:var
-g=a(vB),h=a(vC);return[0,a(vD),h,g];default:var
-i=a(vE),j=a(vF);return[0,a(0),j,i]}}function
-oh(t,s,k,j,r,d){var
+g=a(vG),h=a(vH);return[0,a(vI),h,g];default:var
+i=a(vJ),j=a(vK);return[0,a(0),j,i]}}function
+on(t,s,k,j,r,d){var
 c=bq(k,j,r,d);if(0===d[0])var
 e=ch(d[1],c);else
 var
-a=d[1],f=fn(a,c),g=fo(a,c),h=gX(a,c),i=eq(a,c),l=P([3,[4,h,g],[4,i,f]],gU(a)),m=P([2,[4,h,f],[4,i,g]],fm(a)),n=J(function(b,a){return[2,b,a]},m,l),o=P(a[5],n),p=gV(a,c),q=P(gW(a,c),p),e=J(function(b,a){return[3,b,a]},q,o);return ja(t,e,P([5,[0,b,b],s],c9(ex(k,j,ew(d)),e)))}function
-oi(c,b,a){return b?da(c,b[1],a):a?0:1}function
-oj(d,b,i,a,c,n,h,m,f){var
-p=aw(b),j=o(g(c),p),k=j?oi(d,a,h):j,l=k?oi(d,a,f):k;if(l){var
-q=e(function(c){return oh(b,i,a,f,m,c)},c),r=e(function(c){return oh(b,i,a,h,n,c)},c);return n2(d,aw(b),r,q)}return l}function
-ok(c,j,d,b,a){var
+a=d[1],f=fo(a,c),g=fp(a,c),h=gY(a,c),i=es(a,c),l=P([3,[4,h,g],[4,i,f]],gV(a)),m=P([2,[4,h,f],[4,i,g]],fn(a)),n=J(function(b,a){return[2,b,a]},m,l),o=P(a[5],n),p=gW(a,c),q=P(gX(a,c),p),e=J(function(b,a){return[3,b,a]},q,o);return jb(t,e,P([5,[0,b,b],s],c9(ez(k,j,ey(d)),e)))}function
+oo(c,b,a){return b?da(c,b[1],a):a?0:1}function
+op(d,b,i,a,c,n,h,m,f){var
+p=aw(b),j=o(g(c),p),k=j?oo(d,a,h):j,l=k?oo(d,a,f):k;if(l){var
+q=e(function(c){return on(b,i,a,f,m,c)},c),r=e(function(c){return on(b,i,a,h,n,c)},c);return jr(d,aw(b),r,q)}return l}function
+oq(c,j,d,b,a){var
 e=aI(d,j),g=e?bb(b,a):e;if(g)var
 k=cB(c,a)[2],h=[0,cB(c,b)[1],k],l=[0,cB(c,dx(a,b)),0],i=[0,[0,h,h,f(al(u,d),l)]];else
 var
 i=g;return i}function
-jx(a){if(a){var
+jA(a){if(a){var
 b=a[1];if(b)var
-c=jx(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+c=jA(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return vI}function
-ol(c,b,a){if(b){if(a){var
-d=b[1],f=ol(c,b[2],a[2]),g=a[1],h=function(b,a){return A(t(c,d,b),a)},i=function(a){return a};return aO(function(a){return t(c,d,a)},i,h,g,f)}var
+d=b;return d}return vN}function
+or(c,b,a){if(b){if(a){var
+d=b[1],f=or(c,b[2],a[2]),g=a[1],h=function(b,a){return A(t(c,d,b),a)},i=function(a){return a};return aO(function(a){return t(c,d,a)},i,h,g,f)}var
 e=a}else
 var
 e=b;return e}function
-om(c,b,a){if(b){if(a){var
-d=om(c,b[2],a[2]);return A(t(c,b[1],a[1]),d)}return u}return u}function
-hg(a){return an(function(d,a){var
+os(c,b,a){if(b){if(a){var
+d=os(c,b[2],a[2]);return A(t(c,b[1],a[1]),d)}return u}return u}function
+hh(a){return an(function(d,a){var
 e=c(2,b);return E(b8(b$(d),e),a)},d,a)}function
-on(a,i,h){var
+ot(a,i,h){var
 d=g(i);function
 t(g,e,f){var
 d=[0,b,c(2,b)];return[0,$(cB(a,a0(dw(e,f),d)))]}var
-j=jx(e(function(b){return ed(a,t,b)},i));if(j){var
-v=j[1],w=function(b,c,e){return ok(a,d,b,c,e)},k=jx(e(function(b){return ed(a,w,b)},i));if(k){var
-x=function(b){return cB(a,b)},n=e(function(a){return e(x,a)},h),y=k[1],z=e(function(a){return a[3]},y),A=e(function(b){return om(a,b,e(function(a){return a[2]},v))},n),B=W(aC(0,d),n),E=e(function(c){var
-i=ol(a,c[2],z),j=c[1],d=[0,O(a,b),0],e=f(al(u,j),d);function
-g(b,a){return F(b,as(a))}function
-h(a){return ab(as(a))}return aO(function(a){return a},h,g,e,i)},B),p=o(g(h),d),q=p?m(function(a){return o(g(a),d)},h):p;if(q)var
-G=c(2,b),H=b8(cw(a),G),I=hg(A),l=D(C(c(2,c(2,b)),I),H);else
+j=jA(e(function(b){return ef(a,t,b)},i));if(j){var
+v=j[1],w=function(b,c,e){return oq(a,d,b,c,e)},k=jA(e(function(b){return ef(a,w,b)},i));if(k){var
+x=function(b){return cB(a,b)},n=e(function(a){return e(x,a)},h),y=k[1],z=e(function(a){return a[3]},y),A=e(function(b){return os(a,b,e(function(a){return a[2]},v))},n),B=W(aB(0,d),n),E=e(function(c){var
+i=or(a,c[2],z),j=c[1],d=[0,O(a,b),0],e=f(al(u,j),d);function
+g(b,a){return F(b,at(a))}function
+h(a){return ab(at(a))}return aO(function(a){return a},h,g,e,i)},B),p=o(g(h),d),q=p?l(function(a){return o(g(a),d)},h):p;if(q)var
+G=c(2,b),H=b8(cw(a),G),I=hh(A),m=D(C(c(2,c(2,b)),I),H);else
 var
-l=q;if(l){var
-J=c(2,b),K=b8(cw(a),J),L=hg(d_(E));return D(C(c(2,c(2,b)),L),K)}var
-r=l}else
+m=q;if(m){var
+J=c(2,b),K=b8(cw(a),J),L=hh(ea(E));return D(C(c(2,c(2,b)),L),K)}var
+r=m}else
 var
 r=k;var
 s=r}else
 var
 s=j;return s}function
-hh(a){return m(function(a){return M(dA(a))},a)}function
+hi(a){return l(function(a){return M(dA(a))},a)}function
 br(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
 bg(a){return[0,a[1],a[2]]}function
-oo(b,a){var
+ou(b,a){var
 d=g(a),c=o(g(b),d);if(c){var
-e=W(b,a);return m(function(a){return bb(a[1],a[2])},e)}return c}function
-jy(e,k,j,i){var
+e=W(b,a);return l(function(a){return bb(a[1],a[2])},e)}return c}function
+jB(e,k,j,i){var
 c=k,b=j,a=i;for(;;){if(c)if(b)if(a){var
 f=a[1],l=h(e,1,[3,bg(c[1]),f]),g=l||h(e,1,[3,f,bg(b[1])]);if(!g){var
 c=c[2],b=b[2],a=a[2];continue}var
@@ -5531,42 +5542,42 @@ var
 d=b;else
 var
 d=c;return d}}function
-op(f,e,b,a){var
-c=a[1],d=b[1],g=c[2],h=a[2],i=d[2],j=b[2],k=[0,d[1],[0,c[1],0]];return m(function(a){var
-b=[0,i,[0,g,0]];return m(function(b){var
-c=[0,j,[0,h,0]];return m(function(c){var
+ov(f,e,b,a){var
+c=a[1],d=b[1],g=c[2],h=a[2],i=d[2],j=b[2],k=[0,d[1],[0,c[1],0]];return l(function(a){var
+b=[0,i,[0,g,0]];return l(function(b){var
+c=[0,j,[0,h,0]];return l(function(c){var
 d=bg(c),g=bg(b);return bD(f,e,[0,bg(a),g,d])},c)},b)},k)}function
-oq(a){switch(a[0]){case
+ow(a){switch(a[0]){case
 0:var
 c=[0,a[4],0],d=f(br(a[3]),c),e=f(br(a[2]),d);return f(br(a[1]),e);case
 1:var
 b=a[3],g=b?br(b[1]):b,h=f(br(a[2]),g);return f(br(a[1]),h);default:return br(a[1])}}function
-fx(b,a){var
+fy(b,a){var
 c=a0(a,a);return bb(a0(b,b),c)?a:b}function
-fy(b,a,e,d){var
+fz(b,a,e,d){var
 c=dJ(b,a,bg(e));return c?dJ(b,a,bg(d)):c}function
-or(a){var
-c=r(vO,a,[0,d,b]),e=r(vP,a,[0,d,b]);return[0,[0,r(0,a,[0,d,b]),e],c]}function
-jz(d,c,b,a){var
+ox(a){var
+c=r(vT,a,[0,d,b]),e=r(vU,a,[0,d,b]);return[0,[0,r(0,a,[0,d,b]),e],c]}function
+jC(d,c,b,a){var
 e=bY(d,c,b,a);return w(bY(d,c,b,a),e)}function
-vQ(i,k,t,S,H,p,l,n,aS){var
-j=t[5],aJ=W(l,n),aK=W(aC(0,g(l)),aJ),ag=e(function(a){return[1,a[1],a[2][1],a[2][2]]},aK),ax=t[7],ay=ax?i4(i,t[2],S):ax,az=ay?bD(i,t[4],H):ay,aA=az?da(i,j,p):az,aD=aA?aa(k,vR):aA;if(aD)var
-aT=N(k,g(p)),T=o(g(l),aT);else
+vV(i,k,t,S,H,p,m,n,aS){var
+j=t[5],aJ=W(m,n),aK=W(aB(0,g(m)),aJ),ag=e(function(a){return[1,a[1],a[2][1],a[2][2]]},aK),ax=t[7],ay=ax?i5(i,t[2],S):ax,az=ay?bD(i,t[4],H):ay,aC=az?da(i,j,p):az,aD=aC?aa(k,vW):aC;if(aD)var
+aT=N(k,g(p)),T=o(g(m),aT);else
 var
 T=aD;if(T)var
-aU=0===j[0]?vS:vT,U=o(g(p),aU);else
+aU=0===j[0]?vX:vY,U=o(g(p),aU);else
 var
 U=T;var
-aE=U?oo(l,n):U;if(aE)var
-aV=or(aB(k,n)),aW=or(aB(k,l)),V=op(i,t[4],aW,aV);else
+aE=U?ou(m,n):U;if(aE)var
+aV=ox(aA(k,n)),aW=ox(aA(k,m)),V=ov(i,t[4],aW,aV);else
 var
 V=aE;if(V){var
-a=aM(k,n),c=aM(k,l);switch(j[0]){case
+a=aM(k,n),c=aM(k,m);switch(j[0]){case
 0:var
 Y=0;if(c)if(c[2])var
 h=0;else
 if(a)var
-h=a[2]?0:fy(i,j[1],c[1],a[1]);else{var
+h=a[2]?0:fz(i,j[1],c[1],a[1]);else{var
 ah=a;Y=1}else{var
 ah=c;Y=1}if(Y)var
 h=ah;break;case
@@ -5579,8 +5590,8 @@ if(a){var
 x=a[2],_=0;if(x){var
 y=x[2],$=0;if(y)if(y[2]){var
 h=0;I=1;J=1;_=1;$=1}else{var
-ai=fy(i,j[1],c[1],a[1]),aj=ai?fy(i,j[2],v[1],x[1]):ai;if(aj){var
-h=fy(i,j[3],w[1],y[1]);I=1;J=1;_=1;$=1}else
+ai=fz(i,j[1],c[1],a[1]),aj=ai?fz(i,j[2],v[1],x[1]):ai;if(aj){var
+h=fz(i,j[3],w[1],y[1]);I=1;J=1;_=1;$=1}else
 var
 ak=aj}else
 var
@@ -5608,7 +5619,7 @@ if(a){var
 B=a[2],ac=0;if(B){var
 C=B[2];if(C)if(C[2]){var
 h=0;K=1;L=1;ac=1}else{var
-aN=[0,bg(fx(A[1],C[1])),0],aO=[0,bg(fx(z[1],B[1])),aN],h=da(i,j,[0,bg(fx(c[1],a[1])),aO]);K=1;L=1;ac=1}else
+aN=[0,bg(fy(A[1],C[1])),0],aO=[0,bg(fy(z[1],B[1])),aN],h=da(i,j,[0,bg(fy(c[1],a[1])),aO]);K=1;L=1;ac=1}else
 var
 ao=C}else
 var
@@ -5636,8 +5647,8 @@ q=G[1],s=E[1],aI=0,aP=0;if(bb(s,[0,d,b])&&bb([0,d,b],q))var
 ar=[0,d,b];else
 aI=1;if(aI)var
 aL=a0(q,q),ar=bb(a0(s,s),aL)?s:q;var
-aQ=[0,bg(ar),aP],aR=[0,bg(fx(D[1],F[1])),aQ],as=da(i,j,[0,bg(fx(c[1],a[1])),aR]);if(as){var
-h=fy(i,c$(j[2]),s,q);M=1;O=1;ae=1;af=1}else
+aQ=[0,bg(ar),aP],aR=[0,bg(fy(D[1],F[1])),aQ],as=da(i,j,[0,bg(fy(c[1],a[1])),aR]);if(as){var
+h=fz(i,c$(j[2]),s,q);M=1;O=1;ae=1;af=1}else
 var
 at=as}else
 var
@@ -5659,84 +5670,84 @@ h=aw}var
 X=h}else
 var
 X=V;if(X){var
-aX=aB(k,br(H)),aY=aB(k,n),aF=jy(i,aB(k,l),aY,aX);if(aF)var
+aX=aA(k,br(H)),aY=aA(k,n),aF=jB(i,aA(k,m),aY,aX);if(aF)var
 u=aF;else{var
 aH=1===j[0]?0:1;if(aH)var
-aZ=aM(k,n),u=jy(i,aM(k,l),aZ,p);else
+aZ=aM(k,n),u=jB(i,aM(k,m),aZ,p);else
 var
 u=aH}}else
 var
 u=X;var
-aG=u?m(function(a){var
-c=br(a[2]),b=hh(f(br(a[1]),c));return b?hh([0,jz(j,p,H,a),0]):b},S):u;return aG?on(i,e(function(c){var
-h=[6,jz(j,p,H,c)],a=aB(k,ag),e=r(vM,a,[0,d,b]),f=r(vN,a,[0,d,b]),g=[0,r(0,a,[0,d,b]),f,e];return[3,[6,jz(j,aM(k,ag),g,c)],h]},S),aS):aG}var
+aG=u?l(function(a){var
+c=br(a[2]),b=hi(f(br(a[1]),c));return b?hi([0,jC(j,p,H,a),0]):b},S):u;return aG?ot(i,e(function(c){var
+h=[6,jC(j,p,H,c)],a=aA(k,ag),e=r(vR,a,[0,d,b]),f=r(vS,a,[0,d,b]),g=[0,r(0,a,[0,d,b]),f,e];return[3,[6,jC(j,aM(k,ag),g,c)],h]},S),aS):aG}var
 cK=c(2,c(2,c(2,c(2,c(2,q(c(2,b)))))));function
-dN(e){var
-a=aD(cK,e);if(a){var
-f=j(gc(c(2,b)),cK);return[0,a[1][2],f]}return[0,d,b]}var
-jA=[0,[0,d,b],[0,d,b],[0,d,b]];function
-eA(c,a){var
+dP(e){var
+a=aC(cK,e);if(a){var
+f=j(gd(c(2,b)),cK);return[0,a[1][2],f]}return[0,d,b]}var
+jD=[0,[0,d,b],[0,d,b],[0,d,b]];function
+eB(c,a){var
 e=[0,d,b];return an(function(b,a){return[2,j(c,b),a]},e,a)}function
-fz(b,a){return an(function(c,a){var
-d=j(b,c);return J(function(b,a){return[2,b,a]},d,a)},jA,a)}function
-os(c){var
+fA(b,a){return an(function(c,a){var
+d=j(b,c);return J(function(b,a){return[2,b,a]},d,a)},jD,a)}function
+oy(c){var
 a=c;for(;;)switch(a[0]){case
 0:return 1;case
 1:return aI(a[1],dB);case
 6:var
 a=a[1];continue;default:var
-b=os(a[1]);if(b){var
+b=oy(a[1]);if(b){var
 a=a[2];continue}return b}}function
-dg(a){return m(os,a)}function
-jB(d,h,c,f){var
-a=ed(d,function(c,e,f){var
-a=aI(c,N(dB,h)),b=a?bb(e,f):a,g=b?[0,lp(d,c,e,f)]:b;return g},f);if(a){var
-b=a[1],e=aM(dB,b[3]),g=ik(hg(aM(c,e))),i=ik(hg(aB(c,e))),j=T(E(E(e7(aB(dB,b[3])),i),g));return I(b[1][2],j)}return a}function
-hi(b,a,c){if(b)if(a)var
-f=a[1],g=hi(b[2],a[2],c),h=I(b[1],d)?[3,f,c]:[2,f,c],e=[0,h,g];else
+dg(a){return l(oy,a)}function
+jE(d,h,c,f){var
+a=ef(d,function(c,e,f){var
+a=aI(c,N(dB,h)),b=a?bb(e,f):a,g=b?[0,ls(d,c,e,f)]:b;return g},f);if(a){var
+b=a[1],e=aM(dB,b[3]),g=il(hh(aM(c,e))),i=il(hh(aA(c,e))),j=T(E(E(e8(aA(dB,b[3])),i),g));return I(b[1][2],j)}return a}function
+hj(b,a,c){if(b)if(a)var
+f=a[1],g=hj(b[2],a[2],c),h=I(b[1],d)?[3,f,c]:[2,f,c],e=[0,h,g];else
 var
 e=a;else
 var
 e=b;return e}function
-hj(a){return z(function(a){var
-d=j(gc(c(2,b)),cK);return[0,a[2],d]},a)}function
+hk(a){return z(function(a){var
+d=j(gd(c(2,b)),cK);return[0,a[2],d]},a)}function
 ck(b,a){var
-c=gl(a);return[1,N(dB,b),c,a]}function
-dO(a){if(cc(a[1],a[2]))return a[1];var
+c=gm(a);return[1,N(dB,b),c,a]}function
+dQ(a){if(cc(a[1],a[2]))return a[1];var
 d=[0,c(2,b),b];return[5,[2,a[1],a[2]],d]}function
 by(a){var
-b=dO(a[3]),c=dO(a[2]);return[0,dO(a[1]),c,b]}function
-ot(a){switch(a[0]){case
+b=dQ(a[3]),c=dQ(a[2]);return[0,dQ(a[1]),c,b]}function
+oz(a){switch(a[0]){case
 0:var
-b=a[1],c=b[5],d=dO(b[4]),e=by(b[3]),f=by(b[2]);return[0,by(b[1]),f,e,d,c];case
+b=a[1],c=b[5],d=dQ(b[4]),e=by(b[3]),f=by(b[2]);return[0,by(b[1]),f,e,d,c];case
 1:var
 g=z(by,a[3]),h=by(a[2]);return[1,by(a[1]),h,g];default:return[2,by(a[1])]}}function
-fA(i,f,p,a,Q,n){var
-x=fi(i,f,p,a),y=x?dg(br(a)):x;if(y){var
+fB(i,f,p,a,Q,n){var
+x=fj(i,f,p,a),y=x?dg(br(a)):x;if(y){var
 q=H(f[3],Q);if(q){var
 j=q[1];if(typeof
 j!=="number"&&14===j[0]){var
-B=j[2],C=j[1],r=hj(aD(cK,B));if(r){var
-s=r[1],R=ck(vU,s),S=ck(vV,s),t=[0,ck(0,s),S,R],D=h(i,1,B),E=D?h(i,0,C):D;if(E)var
+B=j[2],C=j[1],r=hk(aC(cK,B));if(r){var
+s=r[1],R=ck(vZ,s),S=ck(v0,s),t=[0,ck(0,s),S,R],D=h(i,1,B),E=D?h(i,0,C):D;if(E)var
 T=g(f[1]),u=o(g(n),T);else
 var
 u=E;var
-F=u?m(function(a){return dg(oq(a))},p):u;if(F){var
-U=f[1],G=hi(n,e(function(b){return cF(ot(b),a)},U),C),I=dg(G);if(I){var
+F=u?l(function(a){return dg(ow(a))},p):u;if(F){var
+U=f[1],G=hj(n,e(function(b){return cF(oz(b),a)},U),C),I=dg(G);if(I){var
 v=W(W(p,G),n),k=function(k){var
 f=k[1][2],e=k[1][1];switch(e[0]){case
 0:var
-i=e[4],l=P(f,av(e[1])),m=aU(e[2],e[3],a),g=J(function(b,a){return[3,b,a]},m,l),n=P([0,c(2,b),b],g);return[0,[3,w(g,g),[4,i,i]],n,[0,b,b]];case
+i=e[4],l=P(f,av(e[1])),m=aV(e[2],e[3],a),g=J(function(b,a){return[3,b,a]},m,l),n=P([0,c(2,b),b],g);return[0,[3,w(g,g),[4,i,i]],n,[0,b,b]];case
 1:var
-h=aU(e[1],e[2],a),o=P([0,c(2,b),b],h);return[0,[3,w(h,h),[4,f,f]],o,[0,b,b]];default:var
-j=e[1],p=av(j);return[0,[3,w(av(j),a),f],p,[0,d,b]]}},l=function(j){var
+h=aV(e[1],e[2],a),o=P([0,c(2,b),b],h);return[0,[3,w(h,h),[4,f,f]],o,[0,b,b]];default:var
+j=e[1],p=av(j);return[0,[3,w(av(j),a),f],p,[0,d,b]]}},m=function(j){var
 e=j[1],f=e[2],c=e[1],d=j[2];switch(c[0]){case
 0:var
-g=c[3],h=c[2],i=c[1],k=aU(h,g,a),l=[3,w(av(i),k),f],m=cf(i,h,g,c[4],a);return dN([5,[0,d,b],[2,cE(c[5],m),l]]);case
-1:return dN([5,[0,d,b],[2,f,cF(c,a)]]);default:return[0,d,b]}},M=w(t,t),N=[4,eA(function(a){var
-b=k(a)[3];return[4,l(a),b]},v),M],O=w(fz(function(a){var
-b=k(a)[2];return P(l(a),b)},v),t);return jB(i,vX,vW,[2,[2,eA(function(a){var
-b=k(a)[1];return[4,l(a),b]},v),O],N])}var
+g=c[3],h=c[2],i=c[1],k=aV(h,g,a),l=[3,w(av(i),k),f],m=cf(i,h,g,c[4],a);return dP([5,[0,d,b],[2,cE(c[5],m),l]]);case
+1:return dP([5,[0,d,b],[2,f,cF(c,a)]]);default:return[0,d,b]}},M=w(t,t),N=[4,eB(function(a){var
+b=k(a)[3];return[4,m(a),b]},v),M],O=w(fA(function(a){var
+b=k(a)[2];return P(m(a),b)},v),t);return jE(i,v2,v1,[2,[2,eB(function(a){var
+b=k(a)[1];return[4,m(a),b]},v),O],N])}var
 K=I}else
 var
 K=F;var
@@ -5749,20 +5760,20 @@ z=q;var
 A=z}else
 var
 A=y;return A}function
-vY(a){var
+v3(a){var
 b=dg(br(a[3])),c=b?dg(br(a[4])):b;return c?dg([0,a[2],0]):c}function
-ou(a,d,c){var
-b=aC(0,bG(a));return e(function(b){var
+oA(a,d,c){var
+b=aB(0,bG(a));return e(function(b){var
 e=aI(b,cJ(a))?d:c;return ck(b,e)},b)}function
-ov(e,a,f){if(typeof
+oB(e,a,f){if(typeof
 e==="number"){if(e){var
-g=ck(vZ,a);return[0,[0,ck(0,a),g,[0,d,b]],jA]}var
-h=ck(v0,a),i=ck(v1,a);return[0,[0,ck(0,a),i,h],jA]}var
-c=e[1],j=og(c,ou(c,a,f));return[0,of(c,ou(c,a,f)),j]}function
-ow(g,e,u,o,a){var
-p=hj(aD(cK,u));if(p){var
+g=ck(v4,a);return[0,[0,ck(0,a),g,[0,d,b]],jD]}var
+h=ck(v5,a),i=ck(v6,a);return[0,[0,ck(0,a),i,h],jD]}var
+c=e[1],j=om(c,oA(c,a,f));return[0,ol(c,oA(c,a,f)),j]}function
+oC(g,e,u,o,a){var
+p=hk(aC(cK,u));if(p){var
 v=p[1],q=typeof
-e==="number"?[0,[0,b,b]]:hj(j(cG(cK),o));if(q){var
+e==="number"?[0,[0,b,b]]:hk(j(cG(cK),o));if(q){var
 r=q[1],x=h(g,1,u);if(x)if(typeof
 e==="number")var
 i=1;else
@@ -5770,33 +5781,33 @@ var
 B=h(g,1,o),C=B?cH(g,o):B,i=C?M(bb(r,[0,d,b])):C;else
 var
 i=x;var
-y=i?m(vY,a):i;if(y){var
-f=ov(e,v,r)[2],k=ov(e,v,r)[1],l=[0,c(2,b),b],n=function(b){return fz(function(a){var
-c=a[3],d=j(b,a[4]);return P([4,a[1],d],c)},a)},s=eA(function(a){var
-b=w(a[3],a[4]);return[4,a[1],b]},a),t=w(f,f),D=n(function(a){return a[3]}),E=P(f[3],D),F=n(function(a){return a[2]}),G=P(f[2],F),H=n(function(a){return a[1]}),I=P(f[1],H),K=J(function(b,a){return[2,b,a]},I,G),L=[4,t,s],N=w(f,J(function(b,a){return[2,b,a]},K,E)),O=[3,[2,w(f,fz(function(a){var
-b=c9(a[4],a[3]);return P(a[1],b)},a)),N],L],Q=[2,[4,l,s],[4,[5,[0,c(2,c(2,b)),b],[2,[0,b,b],t]],O]],R=[4,l,w(k,m2(f,fz(function(a){return P(a[1],a[4])},a)))],S=w(k,k),T=[2,[4,eA(function(a){return a[1]},a),S],R],U=[4,l,w(fz(function(a){return P(a[1],a[3])},a),k)],V=[2,[2,[2,eA(function(a){var
+y=i?l(v3,a):i;if(y){var
+f=oB(e,v,r)[2],k=oB(e,v,r)[1],m=[0,c(2,b),b],n=function(b){return fA(function(a){var
+c=a[3],d=j(b,a[4]);return P([4,a[1],d],c)},a)},s=eB(function(a){var
+b=w(a[3],a[4]);return[4,a[1],b]},a),t=w(f,f),D=n(function(a){return a[3]}),E=P(f[3],D),F=n(function(a){return a[2]}),G=P(f[2],F),H=n(function(a){return a[1]}),I=P(f[1],H),K=J(function(b,a){return[2,b,a]},I,G),L=[4,t,s],N=w(f,J(function(b,a){return[2,b,a]},K,E)),O=[3,[2,w(f,fA(function(a){var
+b=c9(a[4],a[3]);return P(a[1],b)},a)),N],L],Q=[2,[4,m,s],[4,[5,[0,c(2,c(2,b)),b],[2,[0,b,b],t]],O]],R=[4,m,w(k,m5(f,fA(function(a){return P(a[1],a[4])},a)))],S=w(k,k),T=[2,[4,eB(function(a){return a[1]},a),S],R],U=[4,m,w(fA(function(a){return P(a[1],a[3])},a),k)],V=[2,[2,[2,eB(function(a){var
 b=[4,a[2],a[2]],c=w(a[4],a[4]),d=[3,[2,w(a[3],a[3]),c],b];return[4,a[1],d]},a),U],T],Q],W=typeof
-e==="number"?aw(e):cJ(e[1]);return jB(g,aw(e),W,V)}var
+e==="number"?aw(e):cJ(e[1]);return jE(g,aw(e),W,V)}var
 z=y}else
 var
 z=q;var
 A=z}else
 var
 A=p;return A}function
-ox(a){return[6,w(a,a)]}function
-oy(b){if(0===b[0])return[0,ot(b[1])];var
-a=b[1],c=a[7],d=dO(a[6]),e=dO(a[5]),f=by(a[4]),g=by(a[3]),h=by(a[2]);return[1,[0,by(a[1]),h,g,f,e,d,c]]}function
-hk(f,e,c,a){if(typeof
+oD(a){return[6,w(a,a)]}function
+oE(b){if(0===b[0])return[0,oz(b[1])];var
+a=b[1],c=a[7],d=dQ(a[6]),e=dQ(a[5]),f=by(a[4]),g=by(a[3]),h=by(a[2]);return[1,[0,by(a[1]),h,g,f,e,d,c]]}function
+hl(f,e,c,a){if(typeof
 a==="number")return 0;else{if(0===a[0]){var
 g=a[1],j=I(c,d)?[3,g,f]:[2,g,f];return[0,j]}var
-h=a[2],i=a[1],k=I(c,d)?gl(e):e,b=bg(k),l=[4,i,dI(b)],m=[2,[4,h,dH(b)],l],n=[4,h,dI(b)];return[1,[3,[4,i,dH(b)],n],m]}}function
-jC(a,c){if(D(c,b))return a;var
+h=a[2],i=a[1],k=I(c,d)?gm(e):e,b=bg(k),l=[4,i,dI(b)],m=[2,[4,h,dH(b)],l],n=[4,h,dI(b)];return[1,[3,[4,i,dH(b)],n],m]}}function
+jF(a,c){if(D(c,b))return a;var
 g=aS(c,aH(2)),h=g[1];if(K(g[2],d)){var
-e=jC(a,h);return[4,e,e]}var
-f=jC(a,h);return[4,[4,f,f],a]}function
+e=jF(a,h);return[4,e,e]}var
+f=jF(a,h);return[4,[4,f,f],a]}function
 bs(c,a){switch(a[0]){case
 0:return a[1];case
-1:return n8([0,d,b],c,a[1]);case
+1:return n_([0,d,b],c,a[1]);case
 2:return[3,[0,d,b],bs(c,a[1])];case
 3:var
 e=bs(c,a[2]);return[2,bs(c,a[1]),e];case
@@ -5807,11 +5818,11 @@ g=bs(c,a[2]);return[4,bs(c,a[1]),g];case
 6:var
 h=bs(c,a[2]);return[5,bs(c,a[1]),h];case
 7:var
-i=a[2];return jC(bs(c,a[1]),i);default:return[6,bs(c,a[1])]}}function
-oz(d,h,g){var
-i=d[3],b=n9(d,g,h),a=i;for(;;){if(a){var
+i=a[2];return jF(bs(c,a[1]),i);default:return[6,bs(c,a[1])]}}function
+oF(d,h,g){var
+i=d[3],b=n$(d,g,h),a=i;for(;;){if(a){var
 c=a[1],e=a[2],f=bs(b,c[2]),b=[0,[0,c[1],f],b],a=e;continue}return b}}function
-jD(c){var
+jG(c){var
 a=c;for(;;)switch(a[0]){case
 0:return M(dA(a[1]));case
 1:return 1;case
@@ -5819,26 +5830,26 @@ a=c;for(;;)switch(a[0]){case
 7:case
 8:var
 a=a[1];continue;default:var
-b=jD(a[1]);if(b){var
+b=jG(a[1]);if(b){var
 a=a[2];continue}return b}}function
-oA(a){if(a){var
+oG(a){if(a){var
 b=a[1];if(0===b[0])return 0;var
-c=b[1],d=oA(a[2]);return z(function(a){return[0,c,a]},d)}return v4}var
-hm=x(l(b),hl);function
-oB(e){var
-a=V(hm);if(e)var
-f=s(l(c(2,b)),a),g=B(l(c(2,c(2,b))),f),h=s(l(c(2,b)),a),d=am(B(l(b),h),g);else
+c=b[1],d=oG(a[2]);return z(function(a){return[0,c,a]},d)}return v9}var
+hn=x(m(b),hm);function
+oH(e){var
+a=V(hn);if(e)var
+f=s(m(c(2,b)),a),g=B(m(c(2,c(2,b))),f),h=s(m(c(2,b)),a),d=am(B(m(b),h),g);else
 var
-i=B(l(c(2,b)),a),j=V(hl),d=am(B(s(l(c(2,b)),j),a),i);return aJ(d)}function
-oC(d,c,a){if(d){var
-e=oB(c),f=B(l(b),e),g=s(x(l(b),a),f);return x(l(b),g)}var
-h=l(b),i=oB(c),j=am(l(b),i);return x(s(a,B(l(b),j)),h)}function
-eB(f,e,d,a){var
-g=V(a),h=V(d),i=x(x(l(c(2,b)),h),g),j=f?e?hm:am(hm,s(l(c(2,b)),hl)):am(hm,l(c(2,b))),k=s(V(j),i);return aJ(B(l(b),k))}function
-oD(g,d){var
+i=B(m(c(2,b)),a),j=V(hm),d=am(B(s(m(c(2,b)),j),a),i);return aJ(d)}function
+oI(d,c,a){if(d){var
+e=oH(c),f=B(m(b),e),g=s(x(m(b),a),f);return x(m(b),g)}var
+h=m(b),i=oH(c),j=am(m(b),i);return x(s(a,B(m(b),j)),h)}function
+eC(f,e,d,a){var
+g=V(a),h=V(d),i=x(x(m(c(2,b)),h),g),j=f?e?hn:am(hn,s(m(c(2,b)),hm)):am(hn,m(c(2,b))),k=s(V(j),i);return aJ(B(m(b),k))}function
+oJ(g,d){var
 c=g,a=d[1],b=d[3];for(;;){if(c){if(b){var
 e=b[2],f=c[1]?A(a,b[1]):a,c=c[2],a=f,b=e;continue}return a}return a}}function
-jE(w,v,u,t){var
+jH(w,v,u,t){var
 a=e(function(a){return r(a,u,0)},v);if(a){var
 f=a[1];if(f){var
 b=a[2];if(b){var
@@ -5847,15 +5858,15 @@ c=b[2];if(c){var
 h=c[1];if(h){var
 d=c[2];if(d){var
 i=d[1];if(i){if(d[2])return 0;var
-x=i[1],y=h[1],z=g[1],A=f[1];return m(function(a){var
-c=j(a,x),d=j(a,y),e=j(a,z),b=j(a,A);return ee(w,[0,[0,b,[0,e,[0,d,0]]],[0,[0,b,[0,c,0]],[0,[0,b,0],0]]])},t)}var
+x=i[1],y=h[1],z=g[1],A=f[1];return l(function(a){var
+c=j(a,x),d=j(a,y),e=j(a,z),b=j(a,A);return eg(w,[0,[0,b,[0,e,[0,d,0]]],[0,[0,b,[0,c,0]],[0,[0,b,0],0]]])},t)}var
 k=i}else
 var
 k=d;var
-l=k}else
+m=k}else
 var
-l=h;var
-n=l}else
+m=h;var
+n=m}else
 var
 n=c;var
 o=n}else
@@ -5870,12 +5881,12 @@ q=f;var
 s=q}else
 var
 s=a;return s}function
-oE(f,i,e,c,h){var
+oK(f,i,e,c,h){var
 j=f?b:d,a=O(i,j);function
 g(b){var
 c=f?ca(b):cx(b);return F(c,a)}var
 k=[0,$(h),0],l=[0,[0,a,c,[0,u,[0,g(c),0]]],k];return[0,[0,a,e,[0,g(e),0]],l]}function
-oF(r,b,q,p,g,o,n){if(o){var
+oL(r,b,q,p,g,o,n){if(o){var
 x=o[1];if(x[1])return 0;if(o[2])return 0;if(n){var
 j=x[2],s=0;if(g){var
 h=g[2],c=0;if(h){var
@@ -5884,16 +5895,16 @@ a=0;c=1;d=1}else{var
 t=i[1],k=h[1],l=g[1],f=0;if(typeof
 j==="number")switch(j){case
 0:var
-A=e(aG,bf(v8)),z=e($,0),a=jE(b,p,bc(0,bB(b,dE(0,g),z),q,0),A);c=1;d=1;f=1;break;case
+A=e(aG,bf(wb)),z=e($,0),a=jH(b,p,bc(0,bB(b,dE(0,g),z),q,0),A);c=1;d=1;f=1;break;case
 3:var
 a=D(k[2],l[1]);c=1;d=1;f=1;break}else
 if(4===j[0]){var
 m=j[1];if(r)if(m){var
-B=e(oD,v9),a=jE(b,p,bc(0,bB(b,oE(r,b,l,k,t),0),q,0),B);c=1;d=1;f=1}else{var
+B=e(oJ,wc),a=jH(b,p,bc(0,bB(b,oK(r,b,l,k,t),0),q,0),B);c=1;d=1;f=1}else{var
 a=m;c=1;d=1;f=1}else
 if(m){var
 a=0;c=1;d=1;f=1}else{var
-C=e(oD,v_),a=jE(b,p,bc(0,bB(b,oE(r,b,l,k,t),0),q,0),C);c=1;d=1;f=1}}if(!f)var
+C=e(oJ,wd),a=jH(b,p,bc(0,bB(b,oK(r,b,l,k,t),0),q,0),C);c=1;d=1;f=1}}if(!f)var
 u=0}else
 var
 u=i;if(!d)var
@@ -5903,29 +5914,29 @@ v=h;if(!c){var
 w=v;s=1}}else{var
 w=g;s=1}if(s)var
 a=w;var
-y=a?v$:a}else
+y=a?we:a}else
 var
 y=n;return y}return[0,n]}function
-oG(f,e,d,c,p,o,n){var
+oM(f,e,d,c,p,o,n){var
 b=p,g=o,a=n;for(;;)switch(a[0]){case
 0:var
-h=oF(f,e,d,c,b,a[1],g);return h?M(h[1]):h;case
+h=oL(f,e,d,c,b,a[1],g);return h?M(h[1]):h;case
 1:var
-i=oF(f,e,d,c,b,a[1],g);if(i){var
-j=i[1],k=c1(a[2],b),l=oG(f,e,d,c,k[1],j,a[3]);if(l){var
+i=oL(f,e,d,c,b,a[1],g);if(i){var
+j=i[1],k=c1(a[2],b),l=oM(f,e,d,c,k[1],j,a[3]);if(l){var
 b=k[2],g=j,a=a[4];continue}var
 m=l}else
 var
 m=i;return m;default:return 0}}function
-jF(a){return b8(c(2,b),aL(a,b))}function
-eC(i,a,e,w,v){var
-m=a?b:T(b),f=l(m),g=oC(a,e,v6),h=oC(a,e,v7),n=am(g,eB(a,e,f,g)),o=[0,B(am(h,eB(a,e,h,f)),n),0],p=am(f,eB(a,e,f,g)),q=[0,B(am(h,eB(a,e,g,h)),p),o],r=am(f,eB(a,e,h,f)),t=[0,B(am(g,eB(a,e,g,h)),r),q],u=a?e?l(c(2,b)):s(l(c(2,c(2,b))),hl):l(c(2,c(2,b))),j=cW([0,u,t]),k=[0,d,cw(i)];return oG(a,i,j[1],j[2],[0,k,[0,k,[0,w,0]]],1,v)}function
-oH(a,g,b){if(I(g,jF(a))){if(b){var
+jI(a){return b8(c(2,b),aL(a,b))}function
+eD(i,a,e,w,v){var
+l=a?b:T(b),f=m(l),g=oI(a,e,v$),h=oI(a,e,wa),n=am(g,eC(a,e,f,g)),o=[0,B(am(h,eC(a,e,h,f)),n),0],p=am(f,eC(a,e,f,g)),q=[0,B(am(h,eC(a,e,g,h)),p),o],r=am(f,eC(a,e,h,f)),t=[0,B(am(g,eC(a,e,g,h)),r),q],u=a?e?m(c(2,b)):s(m(c(2,c(2,b))),hm):m(c(2,c(2,b))),j=cW([0,u,t]),k=[0,d,cw(i)];return oM(a,i,j[1],j[2],[0,k,[0,k,[0,w,0]]],1,v)}function
+oN(a,g,b){if(I(g,jI(a))){if(b){var
 c=b[2];if(c){var
 d=c[2];if(d){var
 e=d[2];if(e){if(e[2])return 0;var
-h=[0,g,jF(a)],v=cw(a),i=[0,jF(a),v],j=eC(a,0,1,h,b[1]),k=j?eC(a,0,0,i,c[1]):j;if(k){var
-l=eC(a,1,1,h,d[1]);if(l)return eC(a,1,0,i,e[1]);var
+h=[0,g,jI(a)],v=cw(a),i=[0,jI(a),v],j=eD(a,0,1,h,b[1]),k=j?eD(a,0,0,i,c[1]):j;if(k){var
+l=eD(a,1,1,h,d[1]);if(l)return eD(a,1,0,i,e[1]);var
 m=l}else
 var
 m=k;var
@@ -5942,301 +5953,301 @@ q=p}else
 var
 q=b;return q}if(b){var
 f=b[2];if(f){if(f[2])return 0;var
-r=[0,g,cw(a)],s=eC(a,0,0,r,b[1]);if(s)return eC(a,1,0,r,f[1]);var
+r=[0,g,cw(a)],s=eD(a,0,0,r,b[1]);if(s)return eD(a,1,0,r,f[1]);var
 t=s}else
 var
 t=f;var
 u=t}else
 var
 u=b;return u}function
-jG(a){var
+jJ(a){var
 b=[1,[2,d]];return bT(function(b,a){return[1,[3,b,a]]},a,b)}function
-hn(a){return jG(e(function(a){return[1,[8,[1,[2,a]]]]},a))}function
-ho(a,c){return jG(e(function(a){var
-d=[0,a[2]],b=W(a[1],c);return[1,[7,[1,[8,jG(e(function(a){return[1,[6,[0,a[1]],[1,[2,a[2]]]]]},b))]],d]]},a))}function
-oI(e,d,c,b,a){if(0===a[0])return r(a[1],b,0);var
-f=a[1],g=bU(function(a){return oI(e,d,c,b,a)},f);return j(bB(e,d,c),g)}function
-oJ(a){return a?I(d,a[1][2][1]):a}function
-wa(a){var
-b=o(g(a),wb);return b?aj(function(a){return M(K(a,d))},a):b}function
-oK(c,f,b,a){if(b)if(a)var
-d=b[1],g=t(c,O(c,a[1]),f),h=oK(c,f,b[2],a[2]),i=d[3],j=A(d[2],g),e=[0,[0,A(d[1],g),j,i],h];else
+ho(a){return jJ(e(function(a){return[1,[8,[1,[2,a]]]]},a))}function
+hp(a,c){return jJ(e(function(a){var
+d=[0,a[2]],b=W(a[1],c);return[1,[7,[1,[8,jJ(e(function(a){return[1,[6,[0,a[1]],[1,[2,a[2]]]]]},b))]],d]]},a))}function
+oO(e,d,c,b,a){if(0===a[0])return r(a[1],b,0);var
+f=a[1],g=bU(function(a){return oO(e,d,c,b,a)},f);return j(bB(e,d,c),g)}function
+oP(a){return a?I(d,a[1][2][1]):a}function
+wf(a){var
+b=o(g(a),wg);return b?aj(function(a){return M(K(a,d))},a):b}function
+oQ(c,f,b,a){if(b)if(a)var
+d=b[1],g=t(c,O(c,a[1]),f),h=oQ(c,f,b[2],a[2]),i=d[3],j=A(d[2],g),e=[0,[0,A(d[1],g),j,i],h];else
 var
 e=a;else
 var
 e=b;return e}function
-oL(d,c){var
+oR(d,c){var
 a=H(c,d);if(a){var
 b=a[1],e=b[1];return M(K(cd(b),e))}return a}function
-hp(b,a){return e3(e3(b,0),a)}function
-jH(a){if(a){var
-b=a[2],c=a[1];if(b)return hp(c,[0,wd,jH(b)]);var
+hq(b,a){return e4(e4(b,0),a)}function
+jK(a){if(a){var
+b=a[2],c=a[1];if(b)return hq(c,[0,wi,jK(b)]);var
 d=c}else
 var
 d=a;return d}function
-G(a){return[0,wf,hp(jH(a),we)]}function
-ag(a){return[0,wh,hp(jH(a),wg)]}function
-ap(a){return[0,wj,[0,a,wi]]}function
-n(b,a){return[0,ba(wl,ba(b,wk)),a]}function
+G(a){return[0,wk,hq(jK(a),wj)]}function
+ag(a){return[0,wm,hq(jK(a),wl)]}function
+ap(a){return[0,wo,[0,a,wn]]}function
+n(b,a){return[0,ba(wq,ba(b,wp)),a]}function
 Q(b,a){return ag([0,n(b,a),0])}function
 cL(d){var
-b=d,a=su,e=0;for(;;){if(b){var
-c=k1(a),b=b[1],a=c;continue}return[0,e4(f$(a)),e]}}function
-jI(a){return[0,e4(gi(a)),0]}function
-fB(a){var
-c=aR(a),f=0,b=0===c?sA:0<c?[0,gi(a)]:[1,gi(T(a))];if(0===b[0])var
-d=e4(b[1]);else
+b=d,a=sz,e=0;for(;;){if(b){var
+c=k4(a),b=b[1],a=c;continue}return[0,e5(ga(a)),e]}}function
+jL(a){return[0,e5(gj(a)),0]}function
+fC(a){var
+c=aR(a),f=0,b=0===c?sF:0<c?[0,gj(a)]:[1,gj(T(a))];if(0===b[0])var
+d=e5(b[1]);else
 var
-e=e4(b[1]),d=ba(bP(1,45),e);return[0,d,f]}function
-eD(a){var
-b=0,c=0<aR(a)?gi(a):sy;return[0,e4(c),b]}function
-jJ(a){switch(a[0]){case
-2:return wn;case
-3:return 2<=a[1]?wo:wp;case
-4:return wq;default:return wm}}function
-fC(b,a){function
-c(c,a){return aa(c,jJ(a))?fC(b,a):[0,ww,f(fC(b,a),wv)]}switch(a[0]){case
+e=e5(b[1]),d=ba(bP(1,45),e);return[0,d,f]}function
+eE(a){var
+b=0,c=0<aR(a)?gj(a):sD;return[0,e5(c),b]}function
+jM(a){switch(a[0]){case
+2:return ws;case
+3:return 2<=a[1]?wt:wu;case
+4:return wv;default:return wr}}function
+fD(b,a){function
+c(c,a){return aa(c,jM(a))?fD(b,a):[0,wB,f(fD(b,a),wA)]}switch(a[0]){case
 0:var
 e=a[2],g=a[1];if(typeof
 e==="number")return[0,bk(g),0];var
-h=[0,wx,[0,bk(e),0]];return[0,bk(g),h];case
+h=[0,wC,[0,bk(e),0]];return[0,bk(g),h];case
 1:return[0,j(b,a[1]),0];case
-2:return[0,wz,c(wy,a[1])];case
+2:return[0,wE,c(wD,a[1])];case
 3:var
-i=a[3],k=c([0,jJ(a)],i);switch(a[1]){case
+i=a[3],k=c([0,jM(a)],i);switch(a[1]){case
 0:var
-d=wr;break;case
+d=ww;break;case
 1:var
-d=ws;break;case
+d=wx;break;case
 2:var
-d=wt;break;default:var
-d=wu}var
-l=a[2];return f(c(jJ(a),l),[0,d,k]);case
+d=wy;break;default:var
+d=wz}var
+l=a[2];return f(c(jM(a),l),[0,d,k]);case
 4:var
-m=[0,wA,jI(a[2])];return f(c(wB,a[1]),m);default:return[0,wD,f(fC(b,a[1]),wC)]}}function
-L(a){return[0,wG,f(fC(function(a){return 0===a[0]?a[1]:wF},a),wE)]}function
-jK(a){return[0,wI,f(fC(function(a){return a},a),wH)]}function
+m=[0,wF,jL(a[2])];return f(c(wG,a[1]),m);default:return[0,wI,f(fD(b,a[1]),wH)]}}function
+L(a){return[0,wL,f(fD(function(a){return 0===a[0]?a[1]:wK},a),wJ)]}function
+jN(a){return[0,wN,f(fD(function(a){return a},a),wM)]}function
 cM(a){if(0===a[0])return L(a[1]);var
-b=[0,n(wJ,L(a[2])),0];return ag([0,n(wK,L(a[1])),b])}function
-hq(b,a){var
+b=[0,n(wO,L(a[2])),0];return ag([0,n(wP,L(a[1])),b])}function
+hr(b,a){var
 c=[0,j(b,a[3]),0],d=[0,j(b,a[2]),c];return G([0,j(b,a[1]),d])}function
-wL(a){function
-b(a){return hq(cM,a)}switch(a[0]){case
+wQ(a){function
+b(a){return hr(cM,a)}switch(a[0]){case
 0:var
-e=0,g=a[5]?wM:wU,h=[0,n(wN,ap(g)),e],i=[0,n(wO,cM(a[4])),h],j=[0,n(wP,b(a[3])),i],k=[0,n(wQ,b(a[2])),j],l=[0,n(wR,b(a[1])),k],c=[0,n(wT,ap(wS)),l];break;case
+e=0,g=a[5]?wR:wZ,h=[0,n(wS,ap(g)),e],i=[0,n(wT,cM(a[4])),h],j=[0,n(wU,b(a[3])),i],k=[0,n(wV,b(a[2])),j],l=[0,n(wW,b(a[1])),k],c=[0,n(wY,ap(wX)),l];break;case
 1:var
-d=a[3],m=d?[0,n(wV,b(d[1])),0]:d,o=[0,n(wW,b(a[2])),0],p=[0,n(wX,b(a[1])),o],c=f([0,n(wZ,ap(wY)),p],m);break;default:var
-q=[0,n(w0,b(a[1])),0],c=[0,n(w2,ap(w1)),q]}return ag(c)}function
-w3(a){function
+d=a[3],m=d?[0,n(w0,b(d[1])),0]:d,o=[0,n(w1,b(a[2])),0],p=[0,n(w2,b(a[1])),o],c=f([0,n(w4,ap(w3)),p],m);break;default:var
+q=[0,n(w5,b(a[1])),0],c=[0,n(w7,ap(w6)),q]}return ag(c)}function
+w8(a){function
 b(a){return G(e(cM,a))}function
 g(a){var
-b=a?w4:w6;return n(w5,ap(b))}switch(a[0]){case
+b=a?w9:w$;return n(w_,ap(b))}switch(a[0]){case
 0:var
-h=[0,g(a[5]),0],i=[0,n(w7,cM(a[4])),h],j=[0,n(w8,b(a[3])),i],k=[0,n(w9,b(a[2])),j],l=[0,n(w_,b(a[1])),k],c=[0,n(xa,ap(w$)),l];break;case
+h=[0,g(a[5]),0],i=[0,n(xa,cM(a[4])),h],j=[0,n(xb,b(a[3])),i],k=[0,n(xc,b(a[2])),j],l=[0,n(xd,b(a[1])),k],c=[0,n(xf,ap(xe)),l];break;case
 1:var
-d=a[3],m=d?[0,n(xb,b(d[1])),0]:d,o=[0,n(xc,b(a[2])),0],p=[0,n(xd,b(a[1])),o],c=f([0,n(xf,ap(xe)),p],m);break;case
+d=a[3],m=d?[0,n(xg,b(d[1])),0]:d,o=[0,n(xh,b(a[2])),0],p=[0,n(xi,b(a[1])),o],c=f([0,n(xk,ap(xj)),p],m);break;case
 2:var
-q=[0,n(xg,b(a[1])),0],c=[0,n(xi,ap(xh)),q];break;default:var
-r=[0,g(a[7]),0],s=[0,n(xj,cM(a[6])),r],t=[0,n(xk,cM(a[5])),s],u=[0,n(xl,b(a[4])),t],v=[0,n(xm,b(a[3])),u],w=[0,n(xn,b(a[2])),v],x=[0,n(xo,b(a[1])),w],c=[0,n(xq,ap(xp)),x]}return ag(c)}function
-jL(a){switch(a){case
-0:return xr;case
-1:return xs;case
-2:return xt;case
-3:return xu;case
-4:return xv;case
-5:return xw;case
-6:return xx;case
-7:return xy;case
-8:return xz;case
-9:return xA;case
-10:return xB;case
-11:return xC;case
-12:return xD;case
-13:return xE;case
-14:return xF;case
-15:return xG;default:return xH}}function
-jM(a){if(typeof
-a==="number")return xI;else
+q=[0,n(xl,b(a[1])),0],c=[0,n(xn,ap(xm)),q];break;default:var
+r=[0,g(a[7]),0],s=[0,n(xo,cM(a[6])),r],t=[0,n(xp,cM(a[5])),s],u=[0,n(xq,b(a[4])),t],v=[0,n(xr,b(a[3])),u],w=[0,n(xs,b(a[2])),v],x=[0,n(xt,b(a[1])),w],c=[0,n(xv,ap(xu)),x]}return ag(c)}function
+jO(a){switch(a){case
+0:return xw;case
+1:return xx;case
+2:return xy;case
+3:return xz;case
+4:return xA;case
+5:return xB;case
+6:return xC;case
+7:return xD;case
+8:return xE;case
+9:return xF;case
+10:return xG;case
+11:return xH;case
+12:return xI;case
+13:return xJ;case
+14:return xK;case
+15:return xL;default:return xM}}function
+jP(a){if(typeof
+a==="number")return xN;else
 switch(a[0]){case
-0:return xJ;case
-1:return xK;default:return xL}}function
-fD(a){var
+0:return xO;case
+1:return xP;default:return xQ}}function
+fE(a){var
 c=a[4];if(typeof
 c==="number")var
 d=0;else
 switch(c[0]){case
 0:var
-d=[0,n(xM,L(c[1])),0];break;case
+d=[0,n(xR,L(c[1])),0];break;case
 1:var
-d=[0,n(xN,L(c[1])),0];break;default:var
-o=[0,L(c[2]),0],d=[0,n(xO,G([0,L(c[1]),o])),0]}var
-p=[0,n(xP,ap(jM(a[4]))),d],i=a[3];if(i){var
+d=[0,n(xS,L(c[1])),0];break;default:var
+o=[0,L(c[2]),0],d=[0,n(xT,G([0,L(c[1]),o])),0]}var
+p=[0,n(xU,ap(jP(a[4]))),d],i=a[3];if(i){var
 b=i[1];switch(b[0]){case
 0:var
-r=G([0,L(b[1]),0]),k=a[1],q=0,s=6===k?xQ:12===k?xU:xV,g=[0,n(xR,Q(s,r)),q];break;case
+r=G([0,L(b[1]),0]),k=a[1],q=0,s=6===k?xV:12===k?xZ:x0,g=[0,n(xW,Q(s,r)),q];break;case
 1:var
-x=G(e(L,b[1])),m=a[1],w=0;if(14<=m)switch(m+qM|0){case
+x=G(e(L,b[1])),m=a[1],w=0;if(14<=m)switch(m+qS|0){case
 0:var
-h=xW;break;case
+h=x1;break;case
 1:var
-h=xY;break;default:var
-h=xZ}else
+h=x3;break;default:var
+h=x4}else
 var
-h=x0;var
-g=[0,n(xX,Q(h,x)),w];break;case
+h=x5;var
+g=[0,n(x2,Q(h,x)),w];break;case
 2:var
-y=[0,n(x1,G([0,L(b[2]),0])),0],g=[0,n(x3,ag([0,n(x2,G([0,L(b[1]),0])),y])),0];break;default:var
-z=[0,n(x4,G([0,L(b[2]),0])),0],g=[0,n(x6,ag([0,n(x5,G([0,L(b[1]),0])),z])),0]}var
+y=[0,n(x6,G([0,L(b[2]),0])),0],g=[0,n(x8,ag([0,n(x7,G([0,L(b[1]),0])),y])),0];break;default:var
+z=[0,n(x9,G([0,L(b[2]),0])),0],g=[0,n(x$,ag([0,n(x_,G([0,L(b[1]),0])),z])),0]}var
 l=g}else
 var
 l=i;var
-t=f(l,p),j=a[2],u=j?[0,n(xS,cL(j[1])),0]:j,v=f(u,t);return ag([0,n(xT,ap(jL(a[1]))),v])}function
-oM(a){if(0===a[0]){var
-b=[0,n(x7,hq(L,a[2])),0];return Q(x9,ag([0,n(x8,hq(L,a[1])),b]))}var
-c=[0,L(a[5]),0],d=[0,n(x_,G([0,L(a[4]),c])),0],e=[0,n(x$,L(a[3])),d],f=[0,L(a[2]),0];return Q(yb,ag([0,n(ya,G([0,L(a[1]),f])),e]))}function
-oN(a){if(0===a[0]){var
-b=[0,n(yc,G(e(L,a[2]))),0];return Q(ye,ag([0,n(yd,G(e(L,a[1]))),b]))}return oM([1,a[1],a[2],a[3],a[4],a[5]])}function
-oO(a){switch(a){case
-0:return yf;case
-1:return yg;default:return yh}}function
-yi(a){function
+t=f(l,p),j=a[2],u=j?[0,n(xX,cL(j[1])),0]:j,v=f(u,t);return ag([0,n(xY,ap(jO(a[1]))),v])}function
+oS(a){if(0===a[0]){var
+b=[0,n(ya,hr(L,a[2])),0];return Q(yc,ag([0,n(yb,hr(L,a[1])),b]))}var
+c=[0,L(a[5]),0],d=[0,n(yd,G([0,L(a[4]),c])),0],e=[0,n(ye,L(a[3])),d],f=[0,L(a[2]),0];return Q(yg,ag([0,n(yf,G([0,L(a[1]),f])),e]))}function
+oT(a){if(0===a[0]){var
+b=[0,n(yh,G(e(L,a[2]))),0];return Q(yj,ag([0,n(yi,G(e(L,a[1]))),b]))}return oS([1,a[1],a[2],a[3],a[4],a[5]])}function
+oU(a){switch(a){case
+0:return yk;case
+1:return yl;default:return ym}}function
+yn(a){function
 b(a){return G(e(cM,a))}var
-c=[0,n(yj,b(a[2])),0],d=[0,n(yk,b(a[1])),c];return ag([0,n(ym,ap(yl)),d])}function
-oP(a){function
+c=[0,n(yo,b(a[2])),0],d=[0,n(yp,b(a[1])),c];return ag([0,n(yr,ap(yq)),d])}function
+oV(a){function
 b(b,a){var
 c=[0,L(a),0];return G([0,L(b),c])}switch(a[0]){case
-0:return Q(yn,b(a[1],a[2]));case
+0:return Q(ys,b(a[1],a[2]));case
 1:var
-c=a[3],d=a[2],e=a[1],f=[0,n(yo,b(c[1],c[2])),0],g=[0,n(yp,b(d[1],d[2])),f];return Q(yr,ag([0,n(yq,b(e[1],e[2])),g]));case
-2:return Q(ys,L(a[1]));default:var
-h=[0,n(yt,L(a[2])),0];return Q(yv,ag([0,n(yu,L(a[1])),h]))}}function
-yw(a){function
-b(a){return hq(L,a)}if(0===a[0])var
-c=a[5],e=c?[0,n(yx,b(c[1])),0]:c,g=[0,L(a[4]),0],h=[0,n(yy,G([0,L(a[3]),g])),0],i=[0,n(yz,L(a[2])),h],j=[0,n(yA,cL(a[1])),i],d=f([0,n(yC,ap(yB)),j],e);else
+c=a[3],d=a[2],e=a[1],f=[0,n(yt,b(c[1],c[2])),0],g=[0,n(yu,b(d[1],d[2])),f];return Q(yw,ag([0,n(yv,b(e[1],e[2])),g]));case
+2:return Q(yx,L(a[1]));default:var
+h=[0,n(yy,L(a[2])),0];return Q(yA,ag([0,n(yz,L(a[1])),h]))}}function
+yB(a){function
+b(a){return hr(L,a)}if(0===a[0])var
+c=a[5],e=c?[0,n(yC,b(c[1])),0]:c,g=[0,L(a[4]),0],h=[0,n(yD,G([0,L(a[3]),g])),0],i=[0,n(yE,L(a[2])),h],j=[0,n(yF,cL(a[1])),i],d=f([0,n(yH,ap(yG)),j],e);else
 var
-k=[0,n(yD,L(a[4])),0],l=[0,n(yE,b(a[3])),k],m=[0,n(yF,b(a[2])),l],o=a[1]?yG:yI,d=[0,n(yH,ap(o)),m];return ag(d)}function
-oQ(a){var
-b=a?[0,n(yJ,G(e(yw,a))),0]:a;return b}function
-jN(d,c,b,a){var
-g=[0,n(yK,G(e(fD,a))),0],h=f(oQ(b),g),i=[0,n(yL,oM(c)),0];return ag(f([0,n(yN,Q(yM,G(e(wL,d)))),i],h))}function
-yO(a){switch(a[0]){case
-0:return Q(yP,jN(a[1],a[2],a[3],a[4]));case
+k=[0,n(yI,L(a[4])),0],l=[0,n(yJ,b(a[3])),k],m=[0,n(yK,b(a[2])),l],o=a[1]?yL:yN,d=[0,n(yM,ap(o)),m];return ag(d)}function
+oW(a){var
+b=a?[0,n(yO,G(e(yB,a))),0]:a;return b}function
+jQ(d,c,b,a){var
+g=[0,n(yP,G(e(fE,a))),0],h=f(oW(b),g),i=[0,n(yQ,oS(c)),0];return ag(f([0,n(yS,Q(yR,G(e(wQ,d)))),i],h))}function
+yT(a){switch(a[0]){case
+0:return Q(yU,jQ(a[1],a[2],a[3],a[4]));case
 1:var
-b=a[5],c=a[3],d=a[1],g=G(e(w3,a[2])),l=[0,n(yQ,G(e(fD,a[6]))),0],m=b?[0,n(yR,oP(b[1])),0]:b,o=f(m,l),k=0,p=[0,n(yS,oN(a[4])),o];if(typeof
+b=a[5],c=a[3],d=a[1],g=G(e(w8,a[2])),l=[0,n(yV,G(e(fE,a[6]))),0],m=b?[0,n(yW,oV(b[1])),0]:b,o=f(m,l),k=0,p=[0,n(yX,oT(a[4])),o];if(typeof
 d==="number")if(d)var
-h=yT;else{var
-i=Q(yY,g);k=1}else
+h=yY;else{var
+i=Q(y3,g);k=1}else
 var
-h=oO(d[1]);if(!k)var
-q=c?[0,n(yU,L(c[1])),0]:c,i=Q(h,ag([0,n(yV,g),q]));return Q(yX,ag([0,n(yW,i),p]));case
+h=oU(d[1]);if(!k)var
+q=c?[0,n(yZ,L(c[1])),0]:c,i=Q(h,ag([0,n(y0,g),q]));return Q(y2,ag([0,n(y1,i),p]));case
 2:var
-r=[0,n(yZ,G(e(fD,a[7]))),0],s=f(oQ(a[6]),r),t=[0,n(y0,oP(a[5])),0],u=[0,n(y1,oN(a[4])),t],v=[0,n(y2,L(a[3])),0],w=ag([0,n(y3,G(e(yi,a[2]))),v]);return Q(y5,ag(f([0,n(y4,Q(oO(a[1]),w)),u],s)));case
+r=[0,n(y4,G(e(fE,a[7]))),0],s=f(oW(a[6]),r),t=[0,n(y5,oV(a[5])),0],u=[0,n(y6,oT(a[4])),t],v=[0,n(y7,L(a[3])),0],w=ag([0,n(y8,G(e(yn,a[2]))),v]);return Q(y_,ag(f([0,n(y9,Q(oU(a[1]),w)),u],s)));case
 3:var
-x=[0,n(y6,G(e(fD,a[7]))),0],y=[0,n(y7,G(e(L,a[6]))),0],z=[0,n(y_,Q(y9,ag([0,n(y8,G(e(L,a[5]))),y]))),x],A=0,B=a[4],C=[0,n(zb,G(e(function(a){return 0===a[0]?Q(y$,G(e(jK,a[1]))):Q(za,jK(a[1]))},B))),A],D=a[3],E=[0,n(zc,G(e(function(a){var
-b=[0,jK(a[2]),0];return G([0,ap(a[1]),b])},D))),C],F=a[2],H=[0,n(zd,G(e(function(a){var
-b=[0,cM(a[2]),0];return G([0,ap(a[1]),b])},F))),E];return Q(zh,ag([0,n(zg,Q(zf,ag([0,n(ze,G(e(ap,a[1]))),H]))),z]));case
+x=[0,n(y$,G(e(fE,a[7]))),0],y=[0,n(za,G(e(L,a[6]))),0],z=[0,n(zd,Q(zc,ag([0,n(zb,G(e(L,a[5]))),y]))),x],A=0,B=a[4],C=[0,n(zg,G(e(function(a){return 0===a[0]?Q(ze,G(e(jN,a[1]))):Q(zf,jN(a[1]))},B))),A],D=a[3],E=[0,n(zh,G(e(function(a){var
+b=[0,jN(a[2]),0];return G([0,ap(a[1]),b])},D))),C],F=a[2],H=[0,n(zi,G(e(function(a){var
+b=[0,cM(a[2]),0];return G([0,ap(a[1]),b])},F))),E];return Q(zm,ag([0,n(zl,Q(zk,ag([0,n(zj,G(e(ap,a[1]))),H]))),z]));case
 4:var
-I=[0,n(zi,G(e(fD,a[3]))),0],J=[0,n(zl,Q(zk,ag([0,n(zj,L(a[2])),0]))),I];return Q(zp,ag([0,n(zo,Q(zn,ag([0,n(zm,L(a[1])),0]))),J]));case
+I=[0,n(zn,G(e(fE,a[3]))),0],J=[0,n(zq,Q(zp,ag([0,n(zo,L(a[2])),0]))),I];return Q(zu,ag([0,n(zt,Q(zs,ag([0,n(zr,L(a[1])),0]))),J]));case
 5:var
-K=[0,n(zq,L(a[5])),0];return Q(zs,ag([0,n(zr,jN(a[1],[0,a[2],a[3]],0,a[4])),K]));case
+K=[0,n(zv,L(a[5])),0];return Q(zx,ag([0,n(zw,jQ(a[1],[0,a[2],a[3]],0,a[4])),K]));case
 6:var
-j=a[1],M=0,N=j?cM(j[1]):ap(zv);return Q(zu,ag([0,n(zt,N),M]));default:var
-O=[0,n(zw,L(a[6])),0],P=[0,n(zx,L(a[5])),O],R=[0,n(zy,jN(a[2],a[3],0,a[4])),P],S=a[1];return Q(zD,ag([0,n(zC,G(e(function(a){var
-b=[0,n(zz,L(a[2][2])),0],c=[0,n(zA,L(a[2][1])),b];return ag([0,n(zB,ap(a[1])),c])},S))),R]))}}function
-dP(a){return G(e(fB,a))}function
-fE(b,a){var
-c=[0,n(zE,eD(a)),0];return ag([0,n(zF,G(e(dP,b))),c])}function
+j=a[1],M=0,N=j?cM(j[1]):ap(zA);return Q(zz,ag([0,n(zy,N),M]));default:var
+O=[0,n(zB,L(a[6])),0],P=[0,n(zC,L(a[5])),O],R=[0,n(zD,jQ(a[2],a[3],0,a[4])),P],S=a[1];return Q(zI,ag([0,n(zH,G(e(function(a){var
+b=[0,n(zE,L(a[2][2])),0],c=[0,n(zF,L(a[2][1])),b];return ag([0,n(zG,ap(a[1])),c])},S))),R]))}}function
+dR(a){return G(e(fC,a))}function
+fF(b,a){var
+c=[0,n(zJ,eE(a)),0];return ag([0,n(zK,G(e(dR,b))),c])}function
 dh(a){switch(a[0]){case
 0:return ap(a[1]);case
 1:var
-b=fE(a[2],a[3]);return Q(a[1],b);case
+b=fF(a[2],a[3]);return Q(a[1],b);case
 2:var
-c=a[1]?zG:zI;return Q(zH,ap(c));case
+c=a[1]?zL:zN;return Q(zM,ap(c));case
 3:var
-d=[0,dP(a[3]),0];return Q(zJ,G([0,fE(a[1],a[2]),d]));case
+d=[0,dR(a[3]),0];return Q(zO,G([0,fF(a[1],a[2]),d]));case
 4:var
-f=[0,eD(a[4]),0],g=[0,fB(a[3]),f];return Q(zK,G([0,fE(a[1],a[2]),g]));case
+f=[0,eE(a[4]),0],g=[0,fC(a[3]),f];return Q(zP,G([0,fF(a[1],a[2]),g]));case
 5:var
-h=[0,eD(a[3]),0],i=[0,fB(a[2]),h];return Q(zL,G([0,dh(a[1]),i]));case
+h=[0,eE(a[3]),0],i=[0,fC(a[2]),h];return Q(zQ,G([0,dh(a[1]),i]));case
 6:var
-j=[0,eD(a[3]),0],k=[0,fB(a[2]),j];return Q(zM,G([0,dh(a[1]),k]));case
-7:return Q(zN,dh(a[1]));case
+j=[0,eE(a[3]),0],k=[0,fC(a[2]),j];return Q(zR,G([0,dh(a[1]),k]));case
+7:return Q(zS,dh(a[1]));case
 8:var
-l=[0,G(e(dP,a[3])),0],m=[0,ap(a[2]),l];return Q(zO,G([0,dh(a[1]),m]));case
+l=[0,G(e(dR,a[3])),0],m=[0,ap(a[2]),l];return Q(zT,G([0,dh(a[1]),m]));case
 9:var
-n=a[1];return Q(zP,G(e(function(a){var
-b=a[1],c=b[1],d=[0,dh(a[2]),0],e=[0,eD(b[2]),d],f=[0,fB(c[2]),e];return G([0,dP(c[1]),f])},n)));default:var
-o=[0,dh(a[4]),0],p=[0,dh(a[3]),o],q=[0,eD(a[2]),p];return Q(zQ,G([0,dP(a[1]),q]))}}function
-zR(a){var
+n=a[1];return Q(zU,G(e(function(a){var
+b=a[1],c=b[1],d=[0,dh(a[2]),0],e=[0,eE(b[2]),d],f=[0,fC(c[2]),e];return G([0,dR(c[1]),f])},n)));default:var
+o=[0,dh(a[4]),0],p=[0,dh(a[3]),o],q=[0,eE(a[2]),p];return Q(zV,G([0,dR(a[1]),q]))}}function
+zW(a){var
 b=[0,dh(a[2]),0];return G([0,cL(a[1]),b])}function
-oR(a){if(typeof
-a==="number")return 0===a?ap(zS):ap(zT);else
+oX(a){if(typeof
+a==="number")return 0===a?ap(zX):ap(zY);else
 switch(a[0]){case
 0:var
-b=[0,G(e(dP,a[2])),0];return Q(zU,G([0,cL(a[1]),b]));case
+b=[0,G(e(dR,a[2])),0];return Q(zZ,G([0,cL(a[1]),b]));case
 1:var
-c=[0,cL(a[2]),0];return Q(zV,G([0,cL(a[1]),c]));case
-2:return Q(zW,G(e(L,a[1])));default:var
-d=[0,n(zX,fE(a[4],a[5])),0],f=[0,n(zY,G(e(L,a[3]))),d],g=[0,n(zZ,G(e(L,a[2]))),f];return Q(z1,ag([0,n(z0,cL(a[1])),g]))}}function
-z2(a){var
-b=a[4],h=b?[0,n(z3,dP([0,b[1],b[2]])),0]:b,d=a[3],i=d?[0,n(z4,oR(d[1])),0]:d,j=f(i,h),g=a[2],k=g?[0,n(z5,cL(g[1])),0]:g,l=f(k,j),c=a[1],m=c?[0,n(z6,G(e(zR,[0,c[1],c[2]]))),0]:c;return ag(f(m,l))}function
-oS(g,a,d){var
-h=[0,n(z7,G(e(z2,d))),0];if(a)var
-b=a[1],c=[0,n(z8,fE(b[1],b[2])),0];else
+c=[0,cL(a[2]),0];return Q(z0,G([0,cL(a[1]),c]));case
+2:return Q(z1,G(e(L,a[1])));default:var
+d=[0,n(z2,fF(a[4],a[5])),0],f=[0,n(z3,G(e(L,a[3]))),d],g=[0,n(z4,G(e(L,a[2]))),f];return Q(z6,ag([0,n(z5,cL(a[1])),g]))}}function
+z7(a){var
+b=a[4],h=b?[0,n(z8,dR([0,b[1],b[2]])),0]:b,d=a[3],i=d?[0,n(z9,oX(d[1])),0]:d,j=f(i,h),g=a[2],k=g?[0,n(z_,cL(g[1])),0]:g,l=f(k,j),c=a[1],m=c?[0,n(z$,G(e(zW,[0,c[1],c[2]]))),0]:c;return ag(f(m,l))}function
+oY(g,a,d){var
+h=[0,n(Aa,G(e(z7,d))),0];if(a)var
+b=a[1],c=[0,n(Ab,fF(b[1],b[2])),0];else
 var
 c=a;var
-i=f(c,h);return ag([0,n(z9,jI(g)),i])}function
-oT(d,c,a,b){var
-g=[0,n(z_,oR(b)),0],h=a?[0,n(z$,G(e(L,a))),0]:a,i=f(h,g),j=[0,n(Aa,G(e(L,c))),0];return ag(f([0,n(Ab,jI(d)),j],i))}function
-Ac(a){if(typeof
-a==="number")return ap(Ad);else
+i=f(c,h);return ag([0,n(Ac,jL(g)),i])}function
+oZ(d,c,a,b){var
+g=[0,n(Ad,oX(b)),0],h=a?[0,n(Ae,G(e(L,a))),0]:a,i=f(h,g),j=[0,n(Af,G(e(L,c))),0];return ag(f([0,n(Ag,jL(d)),j],i))}function
+Ah(a){if(typeof
+a==="number")return ap(Ai);else
 switch(a[0]){case
-0:return Q(Ae,cL(a[1]));case
-1:return Q(Af,oS(a[1],a[2],a[3]));default:return Q(Ag,oT(a[1],a[2],a[3],a[4]))}}function
-hr(a){var
-b=ia(h$(ax(a),function(b){return a4(a,b)}));return m(function(a){var
-b=M(34===a?1:0),c=b?M(92===a?1:0):b,d=c?aa(Av,gk(a)):c;return d?aa(gk(a),Aw):d},b)}function
-jO(d){var
+0:return Q(Aj,cL(a[1]));case
+1:return Q(Ak,oY(a[1],a[2],a[3]));default:return Q(Al,oZ(a[1],a[2],a[3],a[4]))}}function
+hs(a){var
+b=ib(ia(ax(a),function(b){return a4(a,b)}));return l(function(a){var
+b=M(34===a?1:0),c=b?M(92===a?1:0):b,d=c?aa(AA,gl(a)):c;return d?aa(gl(a),AB):d},b)}function
+jR(d){var
 a=d;for(;;)switch(a[0]){case
 8:var
-b=hr(a[2]);if(b){var
+b=hs(a[2]);if(b){var
 a=a[1];continue}return b;case
 9:var
-e=a[1];return m(function(a){return jO(a[2])},e);case
+e=a[1];return l(function(a){return jR(a[2])},e);case
 10:var
-c=jO(a[3]);if(c){var
+c=jR(a[3]);if(c){var
 a=a[4];continue}return c;case
 0:case
-1:return hr(a[1]);case
+1:return hs(a[1]);case
 5:case
 6:case
 7:var
 a=a[1];continue;default:return 1}}function
-fF(b){function
+fG(b){function
 c(f){var
-a=gk(f),b=aa(Ax,a),c=b?aa(a,Ay):b;if(c)var
+a=gl(f),b=aa(AC,a),c=b?aa(a,AD):b;if(c)var
 d=c;else{var
-e=aa(Az,a);if(e)return aa(a,AA);var
+e=aa(AE,a);if(e)return aa(a,AF);var
 d=e}return d}var
-a=ia(h$(ax(b),function(a){return a4(b,a)}));if(a){var
-d=a[2],e=c(a[1]),f=e?m(function(a){var
+a=ib(ia(ax(b),function(a){return a4(b,a)}));if(a){var
+d=a[2],e=c(a[1]),f=e?l(function(a){var
 b=c(a);if(b)var
 d=b;else
 var
-e=gk(a),f=aa(AB,e),h=f?aa(e,AC):f,d=h;var
-g=d||(95===a?1:0);return g},d):e,h=f?aa(g(d),AD):f;if(h)return M(az(b,AE));var
+e=gl(a),f=aa(AG,e),h=f?aa(e,AH):f,d=h;var
+g=d||(95===a?1:0);return g},d):e,h=f?aa(g(d),AI):f;if(h)return M(az(b,AJ));var
 i=h}else
 var
 i=a;return i}function
-jP(c){var
+jS(c){var
 a=c;for(;;)switch(a[0]){case
 0:return 1;case
-1:return fF(a[1]);case
+1:return fG(a[1]);case
 3:var
-b=jP(a[2]);if(b){var
+b=jS(a[2]);if(b){var
 a=a[3];continue}return b;default:var
 a=a[1];continue}}function
-fG(m){var
+fH(m){var
 a=m;for(;;)switch(a[0]){case
 0:var
 e=a[1];if(typeof
@@ -6247,42 +6258,42 @@ h=typeof
 e[1]==="number"?1:0,d=h?1:h;else
 var
 d=1;if(d){var
-f=f$(a[2]);if(typeof
+f=ga(a[2]);if(typeof
 f!=="number"&&0===f[0])return 0;var
 g=1}else
 var
 g=d;return g;case
 1:return 1;case
 3:var
-i=fG(a[2]);if(i){var
+i=fH(a[2]);if(i){var
 a=a[3];continue}return i;case
 4:var
-j=a[2],k=fG(a[1]),l=k?gg(c(2,b),j):k;return l?gg(j,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):l;default:var
+j=a[2],k=fH(a[1]),l=k?gh(c(2,b),j):k;return l?gh(j,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):l;default:var
 a=a[1];continue}}function
-eE(a){return 0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
+eF(a){return 0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
 b1(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-dQ(a){return y(eE,b1(a))}function
-jQ(a){switch(a[0]){case
+dS(a){return y(eF,b1(a))}function
+jT(a){switch(a[0]){case
 0:var
-c=eE(a[4]),d=f(dQ(a[3]),c),e=f(dQ(a[2]),d);return f(dQ(a[1]),e);case
+c=eF(a[4]),d=f(dS(a[3]),c),e=f(dS(a[2]),d);return f(dS(a[1]),e);case
 1:var
-b=a[3],g=b?dQ(b[1]):b,h=f(dQ(a[2]),g);return f(dQ(a[1]),h);default:return dQ(a[1])}}function
-AF(a){switch(a[0]){case
+b=a[3],g=b?dS(b[1]):b,h=f(dS(a[2]),g);return f(dS(a[1]),h);default:return dS(a[1])}}function
+AK(a){switch(a[0]){case
 0:var
 d=f(a[3],[0,a[4],0]),e=f(a[2],d),b=f(a[1],e);break;case
 1:var
 c=a[3],g=c?c[1]:c,h=f(a[2],g),b=f(a[1],h);break;case
 2:var
 b=a[1];break;default:var
-i=f(a[4],[0,a[5],[0,a[6],0]]),j=f(a[3],i),k=f(a[2],j),b=f(a[1],k)}return y(eE,b)}function
-oU(a){return 0===a[0]?f(a[1],a[2]):[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
-oV(a){if(0===a[0]){var
+i=f(a[4],[0,a[5],[0,a[6],0]]),j=f(a[3],i),k=f(a[2],j),b=f(a[1],k)}return y(eF,b)}function
+o0(a){return 0===a[0]?f(a[1],a[2]):[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
+o1(a){if(0===a[0]){var
 b=b1(a[2]);return f(b1(a[1]),b)}return[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
-oW(a){switch(a[0]){case
+o2(a){switch(a[0]){case
 1:var
 b=a[3],c=a[2],d=a[1];return[0,d[1],[0,d[2],[0,c[1],[0,c[2],[0,b[1],[0,b[2],0]]]]]];case
 2:return[0,a[1],0];default:return[0,a[1],[0,a[2],0]]}}function
-dR(e){var
+dT(e){var
 a=e[4],h=typeof
 a==="number"?0:2===a[0]?[0,a[1],[0,a[2],0]]:[0,a[1],0],c=e[3];if(c){var
 b=c[1];switch(b[0]){case
@@ -6294,31 +6305,31 @@ d=[0,b[1],[0,b[2],0]]}var
 g=d}else
 var
 g=c;return f(g,h)}function
-oX(a){if(0===a[0]){var
+o3(a){if(0===a[0]){var
 b=a[5],c=b?b1(b[1]):b;return[0,a[2],[0,a[3],[0,a[4],c]]]}var
 d=[0,a[4],0],e=f(b1(a[3]),d);return f(b1(a[2]),e)}function
-oY(b,e){var
+o4(b,e){var
 a=e;for(;;)switch(a[0]){case
 0:return 1;case
 1:var
 c=a[1];if(0===c[0]){var
 f=c[1];return aj(function(a){return az(f,a)},b)}return 0;case
 3:var
-d=oY(b,a[2]);if(d){var
+d=o4(b,a[2]);if(d){var
 a=a[3];continue}return d;default:var
 a=a[1];continue}}function
-fH(c,a){return m(function(a){var
-b=fG(a);return b?oY(c,a):b},a)}function
-oZ(a){if(typeof
+fI(c,a){return l(function(a){var
+b=fH(a);return b?o4(c,a):b},a)}function
+o5(a){if(typeof
 a!=="number")switch(a[0]){case
 2:return a[1];case
 3:return f(a[2],a[3])}return 0}function
-o0(a){var
-d=gg(c(2,c(2,c(2,c(2,c(2,b))))),a);return d?gg(a,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b))))))))))):d}function
-o1(a,b){return b?[4,o1(a,b[1]),a]:a}function
+o6(a){var
+d=gh(c(2,c(2,c(2,c(2,c(2,b))))),a);return d?gh(a,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b))))))))))):d}function
+o7(a,b){return b?[4,o7(a,b[1]),a]:a}function
 i(a){switch(a[0]){case
 0:var
-j=a[2],k=c(2,q(c(2,c(2,b)))),l=function(a){return C(k,a)},m=ga(kZ(j),l,b);return[0,la(k0(f$(a[1]),j)),m];case
+j=a[2],k=c(2,q(c(2,c(2,b)))),l=function(a){return C(k,a)},m=gb(k2(j),l,b);return[0,ld(k3(ga(a[1]),j)),m];case
 1:var
 e=a[1];return 0===e[0]?[5,[0,b,b],[0,d,b]]:[1,e[1],e[2],e[3]];case
 2:var
@@ -6329,35 +6340,35 @@ g=i(a[2]),h=i(a[3]);switch(a[1]){case
 1:return[3,g,h];case
 2:return[4,g,h];default:return[5,g,h]}case
 4:var
-n=bz(e1(a[2]));return o1(i(a[1]),n);default:return[6,i(a[1])]}}function
+n=bz(e2(a[2]));return o7(i(a[1]),n);default:return[6,i(a[1])]}}function
 b2(a){if(0===a[0]){var
 b=i(a[1]);return[0,b,b]}var
 c=i(a[2]);return[0,i(a[1]),c]}function
-dS(a){var
+dU(a){var
 b=b2(a[3]),c=b2(a[2]);return[0,b2(a[1]),c,b]}function
-AG(a){switch(a[0]){case
+AL(a){switch(a[0]){case
 0:var
-b=a[5],c=b2(a[4]),d=dS(a[3]),e=dS(a[2]);return[0,[0,dS(a[1]),e,d,c,b]];case
+b=a[5],c=b2(a[4]),d=dU(a[3]),e=dU(a[2]);return[0,[0,dU(a[1]),e,d,c,b]];case
 1:var
-f=z(dS,a[3]),g=dS(a[2]);return[1,dS(a[1]),g,f];default:return[2,dS(a[1])]}}function
-o2(a){if(0===a[0]){var
+f=z(dU,a[3]),g=dU(a[2]);return[1,dU(a[1]),g,f];default:return[2,dU(a[1])]}}function
+o8(a){if(0===a[0]){var
 c=a[2],d=a[1],b=function(a){var
 b=i(j(a,c));return[0,i(j(a,d)),b]},e=b(function(a){return a[3]}),f=b(function(a){return a[2]});return[0,[0,b(function(a){return a[1]}),f,e]]}var
 g=i(a[5]),h=[0,i(a[4]),g],k=i(a[3]),l=i(a[2]);return[1,i(a[1]),l,k,h]}function
-eF(a){var
+eG(a){var
 b=i(a[3]),c=i(a[2]);return[0,i(a[1]),c,b]}function
 di(a){if(0===a[0]){var
-c=a[5],h=c?eF(c[1]):[0,[0,d,b],[0,d,b],[0,d,b]],j=i(a[4]),k=i(a[3]),l=i(a[2]);return[0,bz(a[1]),l,k,j,h]}var
+c=a[5],h=c?eG(c[1]):[0,[0,d,b],[0,d,b],[0,d,b]],j=i(a[4]),k=i(a[3]),l=i(a[2]);return[0,bz(a[1]),l,k,j,h]}var
 e=a[4],f=a[3],g=a[2];if(a[1]){var
-m=eF(f),n=eF(g);return[2,i(e),n,m]}var
-o=eF(f),p=eF(g);return[1,i(e),p,o]}function
-hs(b,a){if(a){var
-c=a[1],d=a[2],g=hs(f(b,[0,c,0]),d),h=e(function(a){return[0,c,a]},b);return f(bu(function(c){var
+m=eG(f),n=eG(g);return[2,i(e),n,m]}var
+o=eG(f),p=eG(g);return[1,i(e),p,o]}function
+ht(b,a){if(a){var
+c=a[1],d=a[2],g=ht(f(b,[0,c,0]),d),h=e(function(a){return[0,c,a]},b);return f(bu(function(c){var
 a=c[2],b=c[1],d=0===b[0]?b[5]?0:0===a[0]?a[5]?0:o(b[1],a[1]):0:0===a[0]?0:ct(b[1],a[1]);return M(d)},h),g)}return a}function
-AH(b){if(b[1])return 0;var
+AM(b){if(b[1])return 0;var
 a=b[4];if(typeof
 a!=="number"&&1===a[0])return[0,[0,i(a[1])],0];return 0}function
-AI(N,M,a){switch(a[1]){case
+AN(N,M,a){switch(a[1]){case
 0:var
 g=a[4];if(typeof
 g!=="number"&&0===g[0])return[0,[1,i(g[1])],0];return 0;case
@@ -6412,10 +6423,10 @@ b=i(W);return[13,a,i(X),b]}}if(K)return 0;break;case
 9:var
 u=a[4];if(typeof
 u!=="number"&&0===u[0]){var
-Y=u[1],Z=hs(0,M);return e(function(h){var
+Y=u[1],Z=ht(0,M);return e(function(h){var
 e=i(Y),a=h[2],c=h[1];if(0===c[0]){var
 f=c[1];if(0===a[0]){var
-g=function(a){return a?eF(a[1]):[0,[0,d,b],[0,d,b],[0,d,b]]};if(o(f,a[1])){var
+g=function(a){return a?eG(a[1]):[0,[0,d,b],[0,d,b],[0,d,b]]};if(o(f,a[1])){var
 j=i(a[2]),k=[2,[2,i(c[2]),j],e],l=g(a[5]),m=g(c[5]);return[11,bz(f),m,l,k]}var
 n=di(a);return[10,di(c),n,e]}var
 p=di(a);return[10,di(c),p,e]}var
@@ -6429,15 +6440,15 @@ $=x[2],aa=x[1],c=function(a){var
 b=i(_),c=i($);return[12,a,i(aa),c,b]}}if(L)return 0;break;case
 11:var
 G=typeof
-a[4]==="number"?1:0,ab=G?AJ:G;return ab;case
+a[4]==="number"?1:0,ab=G?AO:G;return ab;case
 12:var
 y=a[4];if(typeof
 y!=="number"&&1===y[0]){var
 z=a[3];if(z){var
 H=z[1];if(0===H[0]){var
 ac=i(y[1]);return[0,[14,i(H[1]),ac],0]}return 0}return z}return 0;default:return 0}var
-B=a[2],P=B?[0,bz(B[1]),0]:aC(0,N);return e(c,P)}function
-AK(c,a){switch(a[1]){case
+B=a[2],P=B?[0,bz(B[1]),0]:aB(0,N);return e(c,P)}function
+AP(c,a){switch(a[1]){case
 0:var
 l=a[4];if(typeof
 l!=="number"&&2!==l[0])return a[2]?0:a[3]?0:1;return 0;case
@@ -6481,7 +6492,7 @@ z!=="number"&&0===z[0])return a[2]?0:a[3]?0:1;return 0;case
 N=0,A=a[4];if(typeof
 A==="number"||!(1===A[0]))N=1;else{var
 h=a[3];if(!h)return h;if(0!==h[1][0])return 0;var
-B=o(c,AM),O=0;if(B){var
+B=o(c,AR),O=0;if(B){var
 C=a[2];if(C){var
 b=C[1];O=1}else
 var
@@ -6507,17 +6518,17 @@ I=H;return I;case
 12:var
 J=a[4];if(typeof
 J!=="number"&&1===J[0]){if(a[2])return 0;var
-k=a[3];return k?0===k[1][0]?o(c,AN):0:k}return 0;default:return 0}var
-p=aa(AL,b);return p?aa(b,c):p}function
-jR(c,k,j,b){var
-l=g(c),d=y(function(a){return AI(l,j,a)},b),a=y(AH,b),h=a?[0,a[1],a[2]]:AO,i=f(h,d),m=o2(k);return[0,e(AG,c),m,i]}function
-o3(b){if(b[1])return 0;var
+k=a[3];return k?0===k[1][0]?o(c,AS):0:k}return 0;default:return 0}var
+p=aa(AQ,b);return p?aa(b,c):p}function
+jU(c,k,j,b){var
+l=g(c),d=y(function(a){return AN(l,j,a)},b),a=y(AM,b),h=a?[0,a[1],a[2]]:AT,i=f(h,d),m=o8(k);return[0,e(AL,c),m,i]}function
+o9(b){if(b[1])return 0;var
 a=b[4];if(typeof
 a!=="number"&&1===a[0])return[0,[0,i(a[1])],0];return 0}function
-o4(c){function
+o_(c){function
 a(a){return r(a,e(i,c),[0,d,b])}var
-f=a(AP),g=a(AQ);return[0,a(0),g,f]}function
-jS(_,G,Z,a){switch(a[1]){case
+f=a(AU),g=a(AV);return[0,a(0),g,f]}function
+jV(_,G,Z,a){switch(a[1]){case
 0:var
 h=a[4];if(typeof
 h!=="number"&&0===h[0])return[0,[1,i(h[1])],0];return 0;case
@@ -6571,7 +6582,7 @@ b=i(aj);return[7,a,i(ak),b]}}if(T)return 0;break;case
 9:var
 t=a[4];if(typeof
 t!=="number"&&0===t[0]){var
-am=t[1],an=hs(0,Z);return e(function(a){var
+am=t[1],an=ht(0,Z);return e(function(a){var
 b=i(am),c=di(a[2]);return[14,di(a[1]),c,b]},an)}return 0;case
 10:var
 u=a[4],U=0;if(typeof
@@ -6603,14 +6614,14 @@ A==="number"||!(1===A[0]))W=1;else{var
 B=a[3],av=A[1];if(!B)return B;var
 O=B[1];if(1!==O[0])return 0;var
 aw=O[1],c=function(a){var
-b=i(av);return[13,a,0,o4(aw),b]}}if(W)return 0;break;case
+b=i(av);return[13,a,0,o_(aw),b]}}if(W)return 0;break;case
 15:var
 C=a[4],X=0;if(typeof
 C==="number"||!(1===C[0]))X=1;else{var
 D=a[3],ax=C[1];if(!D)return D;var
 P=D[1];if(1!==P[0])return 0;var
 ay=P[1],c=function(a){var
-b=i(ax);return[13,a,1,o4(ay),b]}}if(X)return 0;break;case
+b=i(ax);return[13,a,1,o_(ay),b]}}if(X)return 0;break;case
 16:var
 E=a[4],Y=0;if(typeof
 E==="number"||!(1===E[0]))Y=1;else{var
@@ -6618,9 +6629,9 @@ F=a[3],az=E[1];if(!F)return F;var
 Q=F[1];if(1!==Q[0])return 0;var
 aA=Q[1],c=function(a){var
 b=i(az);return[17,a,e(i,aA),b]}}if(Y)return 0;break;default:return 0}var
-H=a[2],aa=H?[0,bz(H[1]),0]:aC(0,G);return e(c,aa)}function
-eG(e,d,c,b){var
-g=y(function(a){return jS(e,d,c,a)},b),a=y(o3,b),h=a?[0,a[1],a[2]]:AR;return f(h,g)}function
+H=a[2],aa=H?[0,bz(H[1]),0]:aB(0,G);return e(c,aa)}function
+eH(e,d,c,b){var
+g=y(function(a){return jV(e,d,c,a)},b),a=y(o9,b),h=a?[0,a[1],a[2]]:AW;return f(h,g)}function
 cN(a){return 11===a[1]?1:0}function
 cl(n,m,a){var
 b=a[1];if(!(4<=b))switch(b){case
@@ -6634,7 +6645,7 @@ e=1;l=1}if(!l)var
 e=0;var
 f=ct(n,e);if(f){var
 g=a[2];if(g){var
-h=g[1],i=aa(AS,h);return i?aa(h,m):i}var
+h=g[1],i=aa(AX,h);return i?aa(h,m):i}var
 j=1}else
 var
 j=f;return j;case
@@ -6643,7 +6654,7 @@ k=a[4];if(typeof
 k!=="number"&&1===k[0])return a[2]?0:a[3]?0:1;return 0}return 0}function
 a2(s,b,a){var
 d=a[2];if(d)var
-e=d[1],f=aa(AT,e),t=f?aa(e,b):f,c=t;else
+e=d[1],f=aa(AY,e),t=f?aa(e,b):f,c=t;else
 var
 c=1;var
 h=a[1];if(!(9<=h))switch(h){case
@@ -6666,11 +6677,11 @@ p=n;return p;default:return cl(0,b,a)}}return cl(0,b,a)}return cl(0,b,a);case
 q=a[4];if(typeof
 q!=="number"&&1===q[0]){var
 r=a[3];return r?0===r[1][0]?c?o(b,s):c:cl(0,b,a):cl(0,b,a)}return cl(0,b,a)}return cl(0,b,a)}function
-aE(c,b,a){return 11===a[1]?typeof
+aD(c,b,a){return 11===a[1]?typeof
 a[4]==="number"?a[2]?a2(c,b,a):a[3]?a2(c,b,a):1:a2(c,b,a):a2(c,b,a)}function
-o5(f,b,c,a){var
+o$(f,b,c,a){var
 h=a[2];if(h)var
-i=h[1],j=aa(AV,i),E=j?aa(i,c):j,d=E;else
+i=h[1],j=aa(A0,i),E=j?aa(i,c):j,d=E;else
 var
 d=1;switch(a[1]){case
 1:if(a[3])return a2(aw(b),c,a);if(d){var
@@ -6722,16 +6733,16 @@ b=dj(a[2]),c=dj(a[3]);switch(a[1]){case
 2:return[5,b,c];default:return[6,b,c]}case
 4:var
 d=a[2];return[7,dj(a[1]),d];default:return[8,dj(a[1])]}}function
-jT(j,h,f,b,d,c,a){var
-k=aj(cN,a),l=eG(0,g(b),0,a),m=W(d,c),n=e(function(a){var
+jW(j,h,f,b,d,c,a){var
+k=aj(cN,a),l=eH(0,g(b),0,a),m=W(d,c),n=e(function(a){var
 b=i(a[2]);return[0,i(a[1]),b]},m),o=e(function(a){return 0===a[0]?[0,e(dj,a[1])]:[1,dj(a[1])]},b),p=e(function(a){var
 b=dj(a[2]);return[0,a[1],b]},f);return[0,[0,j,e(function(a){var
 b=b2(a[2]);return[0,a[1],b]},h),p,o],n,l,k]}function
-jU(c){function
+jX(c){function
 a(e){var
 a=[0,d,b];return r(e,c,[0,a,a])}var
-e=a(AW),f=a(AX);return[0,a(0),f,e]}function
-dT(a){function
+e=a(A1),f=a(A2);return[0,a(0),f,e]}function
+dV(a){function
 b(a){var
 b=i(a[2]);return[0,i(a[1]),b]}switch(a[0]){case
 0:return[0,b([0,a[1],a[2]])];case
@@ -6739,17 +6750,17 @@ b=i(a[2]);return[0,i(a[1]),b]}switch(a[0]){case
 c=b(a[3]),d=b(a[2]);return[1,b(a[1]),d,c];case
 2:return[2,i(a[1])];default:var
 e=i(a[2]);return[3,i(a[1]),e]}}function
-o6(a){if(0===a[0]){var
-b=W(a[1],a[2]);return[0,jU(e(function(a){var
-b=i(a[2]);return[0,i(a[1]),b]},b))]}return o2([1,a[1],a[2],a[3],a[4],a[5]])}function
-o7(k,b,j,h,f,d,a){function
-c(a){return jU(e(b2,a))}var
-l=aj(cN,a),m=eG(0,g(b),d,a),n=dT(f),o=o6(h),p=i(j);return[0,k,e(function(a){var
+pa(a){if(0===a[0]){var
+b=W(a[1],a[2]);return[0,jX(e(function(a){var
+b=i(a[2]);return[0,i(a[1]),b]},b))]}return o8([1,a[1],a[2],a[3],a[4],a[5]])}function
+pb(k,b,j,h,f,d,a){function
+c(a){return jX(e(b2,a))}var
+l=aj(cN,a),m=eH(0,g(b),d,a),n=dV(f),o=pa(h),p=i(j);return[0,k,e(function(a){var
 b=c(a[2]);return[0,c(a[1]),b]},b),p,o,n,m,l]}function
-fI(a){return aj(function(a){return 3===a[0]?1:0},a)}function
-o8(k,a,f,j,h,c){var
-l=aj(cN,c),m=g(a),n=eG(fI(a),m,0,c),o=z(dT,h),p=o6(j),q=f?i(f[1]):[0,b,b];return[0,k,e(function(a){function
-c(a){return jU(e(b2,a))}switch(a[0]){case
+fJ(a){return aj(function(a){return 3===a[0]?1:0},a)}function
+pc(k,a,f,j,h,c){var
+l=aj(cN,c),m=g(a),n=eH(fJ(a),m,0,c),o=z(dV,h),p=pa(j),q=f?i(f[1]):[0,b,b];return[0,k,e(function(a){function
+c(a){return jX(e(b2,a))}switch(a[0]){case
 0:var
 k=a[5],l=b2(a[4]),m=c(a[3]),n=c(a[2]);return[0,[0,[0,c(a[1]),n,m,l,k]]];case
 1:var
@@ -6760,9 +6771,9 @@ g=c(f);else
 var
 h=[0,b,b],i=[0,d,b],j=[0,d,b],g=[0,[0,j,j],[0,i,i],[0,h,h]];var
 q=a[7],r=b2(a[6]),s=b2(a[5]),t=c(a[4]),u=c(a[3]);return[1,[0,g,c(a[2]),u,t,s,r,q]]}},a),q,p,o,n,l]}function
-o9(a){return a[1]?0:1}function
-o_(l){var
-b=bu(o9,l);if(b){var
+pd(a){return a[1]?0:1}function
+pe(l){var
+b=bu(pd,l);if(b){var
 d=b[1];if(d[2])return 0;if(d[3])return 0;var
 c=d[4],a=b[2];if(typeof
 c!=="number")switch(c[0]){case
@@ -6783,69 +6794,69 @@ k=a;return k}var
 i=0}else
 var
 i=b;return i}function
-o$(a){var
-c=o9(a);if(c)return c;if(1===a[1]){var
+pf(a){var
+c=pd(a);if(c)return c;if(1===a[1]){var
 b=a[4];if(typeof
 b!=="number"&&0===b[0])return 1;return 0}return 0}function
-ht(i,h,b){function
+hu(i,h,b){function
 c(b,a){return[3,1,b,a]}function
 a(b,a){return[3,3,b,a]}function
 d(b,a){return[3,2,b,a]}function
 e(b,a){return[3,0,b,a]}var
-f=c(hu,a(hu,b)),j=a(f,jV),k=i?f:a(c(b,hu),jV);function
-g(b){return a(b,[5,e(hu,d(jV,d(b,b)))])}var
+f=c(hv,a(hv,b)),j=a(f,jY),k=i?f:a(c(b,hv),jY);function
+g(b){return a(b,[5,e(hv,d(jY,d(b,b)))])}var
 l=g(k);return a(h,e(g(j),l))}function
-hv(f,e,d){function
+hw(f,e,d){function
 a(b,a){return[3,3,b,a]}function
 b(b,a){return[3,2,b,a]}var
-c=a([3,1,jW,a(jW,d)],pa),g=a(c,[5,[3,0,jW,b(pa,b(c,c))]]);return[2,b(ht(f,e,d),g)]}function
-jX(e,g,a){function
+c=a([3,1,jZ,a(jZ,d)],pg),g=a(c,[5,[3,0,jZ,b(pg,b(c,c))]]);return[2,b(hu(f,e,d),g)]}function
+j0(e,g,a){function
 f(b,a){return[3,1,b,a]}function
 b(b,a){return[3,3,b,a]}function
 c(b,a){return[3,2,b,a]}var
-h=f(hw,b(hw,a)),d=e?h:b(f(a,hw),pb),i=b(d,[5,[3,0,hw,c(pb,c(d,d))]]);return c(ht(e,g,a),i)}function
-pc(c,g,b,a){function
+h=f(hx,b(hx,a)),d=e?h:b(f(a,hx),ph),i=b(d,[5,[3,0,hx,c(ph,c(d,d))]]);return c(hu(e,g,a),i)}function
+pi(c,g,b,a){function
 d(b,a){return e(function(c){var
-d=o(b,c)?a:AY;return[0,d]},A0)}return e(function(e){var
-j=[0,ht(c,b,a)],i=1,k=d(e,[2,g]);function
+d=o(b,c)?a:A3;return[0,d]},A5)}return e(function(e){var
+j=[0,hu(c,b,a)],i=1,k=d(e,[2,g]);function
 f(b,a){return[3,1,b,a]}var
-h=ht(c,b,a),l=d(e,f(f(hv(c,b,a),g),h));return[0,d(e,AZ),l,k,j,i]},A1)}function
-pd(c,b,a){var
-d=[0,jX(c,b,a),0],e=[0,jX(c,b,a),d],f=[0,jX(c,b,a),e],g=[0,hv(c,b,a),0],h=[0,hv(c,b,a),g];return[0,[0,hv(c,b,a),h],f]}function
-pe(o,e,a){if(e)if(a){var
+h=hu(c,b,a),l=d(e,f(f(hw(c,b,a),g),h));return[0,d(e,A4),l,k,j,i]},A6)}function
+pj(c,b,a){var
+d=[0,j0(c,b,a),0],e=[0,j0(c,b,a),d],f=[0,j0(c,b,a),e],g=[0,hw(c,b,a),0],h=[0,hw(c,b,a),g];return[0,[0,hw(c,b,a),h],f]}function
+pk(o,e,a){if(e)if(a){var
 g=e[1],h=a[1],k=cA(i(g[2][1]));if(k){var
 l=k[1],m=cA(i(g[2][2]));if(m)var
 p=m[1],n=function(a){function
 d(a){return c(2,a)}var
-e=[0,a,ga(h[2],d,b)];return dw(l,a0(dx(p,l),e))},q=n(E(h[1],b)),f=[0,n(h[1]),q];else
+e=[0,a,gb(h[2],d,b)];return dw(l,a0(dx(p,l),e))},q=n(E(h[1],b)),f=[0,n(h[1]),q];else
 var
 f=[0,[0,d,b],[0,d,b]]}else
 var
 f=[0,[0,d,b],[0,d,b]];var
-r=pe([0,o],e[2],a[2]),j=[0,[0,g[1],[1,o,f[1],f[2]]],r]}else
+r=pk([0,o],e[2],a[2]),j=[0,[0,g[1],[1,o,f[1],f[2]]],r]}else
 var
 j=a;else
 var
 j=e;return j}function
-at(b,a){switch(a[0]){case
+as(b,a){switch(a[0]){case
 0:return[0,a[1],a[2]];case
 1:var
 c=a[1];if(0===c[0]){var
-e=c[1],d=ld(function(a){return az(e,a[1])},b);return d?[1,d[1][2]]:a}return a;case
-2:return[2,at(b,a[1])];case
+e=c[1],d=lg(function(a){return az(e,a[1])},b);return d?[1,d[1][2]]:a}return a;case
+2:return[2,as(b,a[1])];case
 3:var
-f=at(b,a[3]),g=at(b,a[2]);return[3,a[1],g,f];case
+f=as(b,a[3]),g=as(b,a[2]);return[3,a[1],g,f];case
 4:var
-h=a[2];return[4,at(b,a[1]),h];default:return[5,at(b,a[1])]}}function
-pf(b,a){if(0===a[0])return[0,at(b,a[1])];var
-c=at(b,a[2]);return[1,at(b,a[1]),c]}function
-jY(b,a){var
+h=a[2];return[4,as(b,a[1]),h];default:return[5,as(b,a[1])]}}function
+pl(b,a){if(0===a[0])return[0,as(b,a[1])];var
+c=as(b,a[2]);return[1,as(b,a[1]),c]}function
+j1(b,a){var
 c=j(b,a[3]),d=j(b,a[2]);return[0,j(b,a[1]),d,c]}function
-jZ(c,a){if(c)if(a){var
+j2(c,a){if(c)if(a){var
 g=a[2],b=a[1],h=c[1];if(typeof
 b!=="number"&&0===b[0]){var
-e=jZ(h,g);if(e){var
-i=e[1],f=jZ(h,i[2]);if(f)var
+e=j2(h,g);if(e){var
+i=e[1],f=j2(h,i[2]);if(f)var
 j=f[1],k=[0,[0,[0,b[1],i[1],j[1]],j[2]]];else
 var
 k=f;var
@@ -6857,50 +6868,50 @@ var
 d=a;else
 var
 d=c;return d}function
-j0(g,f,a){if(a){var
-e=a[1],h=a[2];if(f)return[0,e,j0(g,f[1],h)];var
+j3(g,f,a){if(a){var
+e=a[1],h=a[2];if(f)return[0,e,j3(g,f[1],h)];var
 j=[0,e[2]],k=g?b:d,l=e[1],i=[0,[0,E(C(c(2,b),l),k),j],h]}else
 var
 i=a;return i}function
-A2(a){if(typeof
+A7(a){if(typeof
 a!=="number"&&1===a[0])return 1;return 0}function
-A3(a){if(typeof
+A8(a){if(typeof
 a!=="number"&&2===a[0])return 1;return 0}function
-hx(e,a){if(0===a[0]){var
-f=[0,b,c(2,b)],g=hx(e,a[3]);return a0(dw(hx(e,a[2]),g),f)}return j(e,a[1])?[0,b,b]:[0,d,b]}function
-pg(a){return 0===a[0]?er(a[1][4]):0}function
-ph(a){switch(a[0]){case
+hy(e,a){if(0===a[0]){var
+f=[0,b,c(2,b)],g=hy(e,a[3]);return a0(dw(hy(e,a[2]),g),f)}return j(e,a[1])?[0,b,b]:[0,d,b]}function
+pm(a){return 0===a[0]?et(a[1][4]):0}function
+pn(a){switch(a[0]){case
 0:var
 b=a[1],c=a9(b[3]);return f(a9(b[2]),c);case
 1:var
 d=a9(a[2]);return f(a9(a[1]),d);default:return 0}}function
-hy(a){switch(a[0]){case
+hz(a){switch(a[0]){case
 0:return bF(a9(a[1][1]));case
 1:var
 b=a[3];return b?bF(a9(b[1])):d;default:return bF(a9(a[1]))}}function
-hz(c){var
-a=y(pg,c),d=a?[0,a[1],a[2]]:y(ph,c);return E(b,bF(d))}function
-pi(d,a){if(d){if(a){var
-b=a[1],g=d[1],e=pi(d[2],a[2]);if(e){var
+hA(c){var
+a=y(pm,c),d=a?[0,a[1],a[2]]:y(pn,c);return E(b,bF(d))}function
+po(d,a){if(d){if(a){var
+b=a[1],g=d[1],e=po(d[2],a[2]);if(e){var
 h=e[1],i=h[2],j=h[1];if(45===b)var
-c=A4;else
+c=A9;else
 if(43===b)var
-c=A5;else
+c=A_;else
 var
-f=48===b?1:0,n=f?A6:f,c=n;if(c)return[0,[0,[0,[0,g,c[1]],j],i]];var
+f=48===b?1:0,n=f?A$:f,c=n;if(c)return[0,[0,[0,[0,g,c[1]],j],i]];var
 k=49===b?1:0,o=k?[0,[0,j,[0,g,i]]]:k,l=o}else
 var
 l=e;var
 m=l}else
 var
-m=a;return m}return a?0:A7}function
+m=a;return m}return a?0:Ba}function
 dk(b,c,a){switch(a[0]){case
 0:var
-d=a[1];if(az(d,A8))return A9;if(az(d,A_))return A$;if(az(d,Ba))return Bb;if(az(d,Bc))return Bd;if(az(d,Be))return Bf;var
-n=az(d,Bg),B=n?Bh:n;return B;case
+d=a[1];if(az(d,Bb))return Bc;if(az(d,Bd))return Be;if(az(d,Bf))return Bg;if(az(d,Bh))return Bi;if(az(d,Bj))return Bk;var
+n=az(d,Bl),B=n?Bm:n;return B;case
 1:var
-e=a[3],f=a[2],g=a[1];if(az(g,Bi))return[0,[0,e,f]];if(az(g,Bj))return[0,[1,e,f]];if(az(g,Bk))return[0,[2,e,f]];var
-o=az(g,Bl),C=o?[0,[8,e,f]]:o;return C;case
+e=a[3],f=a[2],g=a[1];if(az(g,Bn))return[0,[0,e,f]];if(az(g,Bo))return[0,[1,e,f]];if(az(g,Bp))return[0,[2,e,f]];var
+o=az(g,Bq),C=o?[0,[8,e,f]]:o;return C;case
 2:return[0,[4,a[1]]];case
 3:return[0,[3,a[2],a[1],a[3]]];case
 4:return[0,[9,a[2],a[1],a[3],a[4]]];case
@@ -6912,7 +6923,7 @@ i=dk(b,c,a[1]),E=i?[0,[7,i[1],a[2],a[3]]]:i;return E;case
 F=dk(b,c,a[1]);return z(function(a){return[6,a]},F);case
 8:if(b){var
 p=a[3],q=a[2],j=dk(b,c,a[1]);if(j){var
-r=j[1],k=pi(b,ia(h$(ax(q),function(a){return a4(q,a)})));if(k){var
+r=j[1],k=po(b,ib(ia(ax(q),function(a){return a4(q,a)})));if(k){var
 s=k[1],t=s[2],u=s[1];if(t)return[0,[11,c,t,[10,r,u,p]]];var
 v=[0,[10,r,u,p]]}else
 var
@@ -6928,26 +6939,26 @@ y=function(a){if(a){var
 f=a[1],d=dk(b,c,f[2]);if(d)var
 e=y(a[2]),h=e?[0,[0,[0,f[1],d[1]],e[1]]]:e,g=h;else
 var
-g=d;return g}return Bm},G=y(a[1]);return z(function(a){return[12,a]},G);default:var
+g=d;return g}return Br},G=y(a[1]);return z(function(a){return[12,a]},G);default:var
 l=dk(b,c,a[3]);if(l)var
 m=dk(b,c,a[4]),H=m?[0,[13,a[2],a[1],l[1],m[1]]]:m,A=H;else
 var
 A=l;return A}}function
-pj(e,d,a){if(a){var
+pp(e,d,a){if(a){var
 f=a[1],b=dk(e,d,f[2]);if(b)var
-c=pj(e,d,a[2]),h=c?[0,[0,[0,f[1],b[1]],c[1]]]:c,g=h;else
+c=pp(e,d,a[2]),h=c?[0,[0,[0,f[1],b[1]],c[1]]]:c,g=h;else
 var
-g=b;return g}return Bn}function
-dU(b,g,f,e,d,a){if(d)if(a){var
+g=b;return g}return Bs}function
+dW(b,g,f,e,d,a){if(d)if(a){var
 c=a[1];if(c[3])return 0;if(c[4])return 0;var
-n=c[2],o=a[2],p=d[1],h=pj(f,e,c[1]);if(h){var
+n=c[2],o=a[2],p=d[1],h=pp(f,e,c[1]);if(h){var
 i=h[1];if(n){var
-j=dU(b,g,f,e,p,o);if(j){var
-q=j[1],k=dU(b,g,f,e,p,q[2]);if(k){var
+j=dW(b,g,f,e,p,o);if(j){var
+q=j[1],k=dW(b,g,f,e,p,q[2]);if(k){var
 r=k[1],s=r[1],t=q[1],l=n[1],y=r[2];if(aI(l,b))var
 u=[0,[1,i,l,t,s]];else
 var
-x=H(g,d7(l,b)),u=z(function(a){return[2,i,a,t,s]},x);return z(function(a){return[0,a,y]},u)}var
+x=H(g,d9(l,b)),u=z(function(a){return[2,i,a,t,s]},x);return z(function(a){return[0,a,y]},u)}var
 v=k}else
 var
 v=j;return v}var
@@ -6959,56 +6970,56 @@ var
 m=a;else
 var
 m=d;return m}function
-j1(i,h,f,e,d,a){if(d){if(a){var
-b=dU(i,h,f,e,g(a),a);if(b)var
-j=b[1],c=j1(i,h,f,e,d[1],j[2]),l=c?[0,[0,j[1],c[1]]]:c,k=l;else
+j4(i,h,f,e,d,a){if(d){if(a){var
+b=dW(i,h,f,e,g(a),a);if(b)var
+j=b[1],c=j4(i,h,f,e,d[1],j[2]),l=c?[0,[0,j[1],c[1]]]:c,k=l;else
 var
-k=b;return k}return Bo}return a?0:Bp}function
-pk(a){if(typeof
-a==="number")return 0===a?Bq:Br;else
+k=b;return k}return Bt}return a?0:Bu}function
+pq(a){if(typeof
+a==="number")return 0===a?Bv:Bw;else
 switch(a[0]){case
 0:return[0,[0,a[1],a[2]]];case
 1:return[0,[1,a[1],a[2]]];default:return 0}}function
-j2(e,d,a){if(d)if(a){var
+j5(e,d,a){if(d)if(a){var
 b=a[1];if(b[1])return 0;var
 j=b[4],c=b[3],k=b[2],l=a[2],m=d[1];if(k){if(c)return 0;if(j)return 0;var
-f=k[1],g=j2(e,m,l);if(g){var
-n=g[1],o=n[1],h=j2(e,m,n[2]);if(h){var
-p=h[1],q=p[2],r=p[1];if(aI(f,Bs))return[0,[0,[1,f,o,r],q]];var
-t=H(e,d7(f,Bt));return z(function(a){return[0,[2,a,o,r],q]},t)}var
+f=k[1],g=j5(e,m,l);if(g){var
+n=g[1],o=n[1],h=j5(e,m,n[2]);if(h){var
+p=h[1],q=p[2],r=p[1];if(aI(f,Bx))return[0,[0,[1,f,o,r],q]];var
+t=H(e,d9(f,By));return z(function(a){return[0,[2,a,o,r],q]},t)}var
 s=h}else
 var
 s=g;return s}if(c){var
-u=pk(c[1]);return z(function(a){return[0,[0,j,a],l]},u)}var
+u=pq(c[1]);return z(function(a){return[0,[0,j,a],l]},u)}var
 i=c}else
 var
 i=a;else
 var
 i=d;return i}function
 dl(b,a){return 0===b[0]?[0,i(b[1]),a]:a?[0,a[1],a[2]]:[0,i(b[1]),0]}function
-dV(a,e){var
+dX(a,e){var
 b=dl(a[1],e),c=dl(a[2],b[2]),d=dl(a[3],c[2]);return[0,[0,b[1],c[1],d[1]],d[2]]}function
-pl(d,c){if(d){var
+pr(d,c){if(d){var
 a=d[1];switch(a[0]){case
 0:var
-e=dV(a[1],c),f=dV(a[2],e[2]),g=dV(a[3],f[2]),h=dl(a[4],g[2]),b=[0,[0,e[1],f[1],g[1],h[1],a[5]],h[2]];break;case
+e=dX(a[1],c),f=dX(a[2],e[2]),g=dX(a[3],f[2]),h=dl(a[4],g[2]),b=[0,[0,e[1],f[1],g[1],h[1],a[5]],h[2]];break;case
 1:var
-i=a[3],j=dV(a[1],c),k=j[1],l=dV(a[2],j[2]),m=l[2],n=l[1];if(i)var
-o=dV(i[1],m),b=[0,[1,k,n,[0,o[1]]],o[2]];else
+i=a[3],j=dX(a[1],c),k=j[1],l=dX(a[2],j[2]),m=l[2],n=l[1];if(i)var
+o=dX(i[1],m),b=[0,[1,k,n,[0,o[1]]],o[2]];else
 var
 b=[0,[1,k,n,0],m];break;default:var
-p=dV(a[1],c),b=[0,[2,p[1]],p[2]]}var
-q=pl(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
-fJ(t,f){var
+p=dX(a[1],c),b=[0,[2,p[1]],p[2]]}var
+q=pr(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
+fK(t,f){var
 u=t[3];if(typeof
-f==="number")return 0===f?Bx:By;else
+f==="number")return 0===f?BC:BD;else
 switch(f[0]){case
 0:var
 v=f[2],h=f[1],B=H(u,h);if(B){var
 ab=0,E=B[1];if(typeof
 E==="number"||!(13===E[0]))ab=1;else
 var
-x=t[1],A=hz(x),a=e(function(a){var
+x=t[1],A=hA(x),a=e(function(a){var
 f=g(x);if(o(g(a),f)){var
 h=W(x,a);return e(function(a){var
 e=a[2],f=D(d,A),g=2===a[1][0]?1:0;return ct(g,f)?C(e,b8(c(2,b),cr(A))):e},h)}return a},v);if(ab)var
@@ -7017,9 +7028,9 @@ var
 a=v;var
 ac=H(u,h),ad=t[1],w=z(function(b){if(typeof
 b!=="number")switch(b[0]){case
-5:return Bv;case
+5:return BA;case
 12:var
-a=H(ad,b[1]);if(a){if(2===a[1][0])return Bw;var
+a=H(ad,b[1]);if(a){if(2===a[1][0])return BB;var
 c=0}else
 var
 c=a;return c;case
@@ -7028,7 +7039,7 @@ c=a;return c;case
 4:case
 6:case
 7:case
-11:return 0}return Bu},ac);if(w){var
+11:return 0}return Bz},ac);if(w){var
 F=w[1];if(F){var
 G=F[1];if(G){if(G[1])return 0;if(a){var
 i=a[1];if(i){var
@@ -7091,10 +7102,10 @@ bh(a,b){if(a){var
 c=dl(a[1],b),d=bh(a[2],c[2]);return[0,[0,c[1],d[1]],d[2]]}return[0,0,b]}function
 aK(c){function
 a(a){return r(a,c,[0,d,b])}var
-e=a(Bz),f=a(BA);return[0,a(0),f,e]}function
-pm(a,b){if(a){var
-c=a[1],d=bh(c[1],b),e=bh(c[2],d[2]),f=pm(a[2],e[2]),g=f[2],h=f[1],i=aK(e[1]);return[0,[0,[0,aK(d[1]),i],h],g]}return[0,0,b]}function
-pn(f,e){if(f){var
+e=a(BE),f=a(BF);return[0,a(0),f,e]}function
+ps(a,b){if(a){var
+c=a[1],d=bh(c[1],b),e=bh(c[2],d[2]),f=ps(a[2],e[2]),g=f[2],h=f[1],i=aK(e[1]);return[0,[0,[0,aK(d[1]),i],h],g]}return[0,0,b]}function
+pt(f,e){if(f){var
 a=f[1];switch(a[0]){case
 0:var
 g=bh(a[1],e),h=bh(a[2],g[2]),i=bh(a[3],h[2]),j=dl(a[4],i[2]),A=j[2],B=a[5],C=j[1],D=aK(i[1]),E=aK(h[1]),c=[0,[0,[0,aK(g[1]),E,D,C,B]],A];break;case
@@ -7106,9 +7117,9 @@ I=aK(p),c=[0,[0,[1,aK(m),I,0]],o];break;case
 2:var
 r=bh(a[1],e),J=r[2],c=[0,[0,[2,aK(r[1])]],J];break;default:var
 s=a[1],t=bh(s,e),u=bh(a[2],t[2]),v=bh(a[3],u[2]),w=bh(a[4],v[2]),x=dl(a[5],w[2]),y=dl(a[6],x[2]),K=s?aK(t[1]):[0,[0,d,b],[0,d,b],[0,b,b]],L=y[2],M=a[7],N=y[1],O=x[1],P=aK(w[1]),Q=aK(v[1]),c=[0,[1,[0,K,aK(u[1]),Q,P,O,N,M]],L]}var
-z=pn(f[2],c[2]);return[0,[0,c[1],z[1]],z[2]]}return[0,0,e]}function
-dm(a){return lB(k,a)}function
-BB(a){if(typeof
+z=pt(f[2],c[2]);return[0,[0,c[1],z[1]],z[2]]}return[0,0,e]}function
+dm(a){return lE(k,a)}function
+BG(a){if(typeof
 a==="number")return 1;else
 switch(a[0]){case
 5:return h(k,1,[3,a[1],[0,b,b]]);case
@@ -7123,43 +7134,43 @@ f=h(k,0,a[2]),g=f?h(k,0,a[3]):f;return g?h(k,1,a[4]):g;case
 14:var
 i=h(k,0,a[1]);return i?h(k,1,a[2]):i;case
 15:var
-j=[0,a[2],a[1]],l=1;return m(function(a){return h(k,l,a)},j);case
+j=[0,a[2],a[1]],m=1;return l(function(a){return h(k,m,a)},j);case
 2:case
 3:return dm(a[2]);case
 4:case
 13:var
 c=h(k,1,a[2]);return c?h(k,1,a[3]):c;default:return h(k,1,a[1])}}function
-j3(a){if(typeof
+j6(a){if(typeof
 a==="number")return 1;else
 switch(a[0]){case
 4:var
 d=a[3],e=a[2],f=h(k,1,[3,d,e]),g=f?h(k,1,[3,[2,e,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b]],d]):f,i=g?h(k,0,[2,e,[0,c(2,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))))),b]]):g;return i?h(k,0,[3,[0,c(2,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))))),b],d]):i;case
 5:return h(k,1,[3,a[1],[0,b,b]]);case
 8:var
-B=[0,a[2],a[1]],C=1;return m(function(a){return h(k,C,a)},B);case
+B=[0,a[2],a[1]],C=1;return l(function(a){return h(k,C,a)},B);case
 10:return h(k,1,a[2]);case
 11:var
-l=a[2],n=h(k,1,l);return n?h(k,0,[3,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b],l]):n;case
+m=a[2],n=h(k,1,m);return n?h(k,0,[3,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b],m]):n;case
 13:var
-o=a[4],p=nS(a[3]),r=p?h(k,1,o):p;return r?h(k,0,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],o]):r;case
+o=a[4],p=nV(a[3]),r=p?h(k,1,o):p;return r?h(k,0,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],o]):r;case
 14:return h(k,0,a[3]);case
 15:var
 s=h(k,0,a[2]),t=s?h(k,0,a[3]):s;return t?h(k,1,a[4]):t;case
 16:var
 u=a[3],v=h(k,0,a[1]),w=v?h(k,1,a[2]):v,x=w?h(k,0,u):w;return x?h(k,1,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],u]):x;case
 17:var
-y=a[2],z=m(dm,y),A=z?aj(function(a){return h(k,1,[4,a,a])},y):z;return A?h(k,1,a[3]):A;case
+y=a[2],z=l(dm,y),A=z?aj(function(a){return h(k,1,[4,a,a])},y):z;return A?h(k,1,a[3]):A;case
 2:case
 3:return dm(a[2]);case
 6:case
 7:case
 9:var
 j=h(k,1,a[2]);return j?h(k,1,a[3]):j;default:return h(k,1,a[1])}}function
-hA(d){var
+hB(d){var
 a=d;for(;;){if(a){var
 b=a[2],e=a[1],c=M(aj(function(d){return function(a){var
-h=jL(a[1]),e=az(jL(d[1]),h);if(e)var
-i=jM(a[4]),b=az(jM(d[4]),i);else
+h=jO(a[1]),e=az(jO(d[1]),h);if(e)var
+i=jP(a[4]),b=az(jP(d[4]),i);else
 var
 b=e;if(b){var
 f=d[2];if(f){var
@@ -7168,121 +7179,121 @@ g=1}else
 var
 g=b;return g}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-fK(a){if(0===a[0])return dm(i(a[1]));var
+fL(a){if(0===a[0])return dm(i(a[1]));var
 b=a[2],c=a[1];if(!dA(i(c))&&!dA(i(b))){var
 e=i(c);return h(k,1,[3,i(b),e])}var
 d=i(b);return bw(k,i(c),d)}function
-dW(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-po(a){switch(a[0]){case
+dY(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+pu(a){switch(a[0]){case
 0:var
-c=[0,a[4],0],d=f(dW(a[3]),c),e=f(dW(a[2]),d);return f(dW(a[1]),e);case
+c=[0,a[4],0],d=f(dY(a[3]),c),e=f(dY(a[2]),d);return f(dY(a[1]),e);case
 1:var
-b=a[3],g=b?dW(b[1]):b,h=f(dW(a[2]),g);return f(dW(a[1]),h);default:return dW(a[1])}}function
-pp(s,a,l){if(aj(function(a){return 9===a[1]?1:0},l)){var
-b=aa(g(a),BE),c=b?m(function(a){if(0===a[0]){var
-d=a[5],e=h(k,1,i(a[2])),g=e?h(k,0,i(a[3])):e,l=g?h(k,0,i(a[4])):g,c=0;if(l)if(d)var
-p=b1(d[1]),b=m(function(a){return dm(i(a))},p);else{var
+b=a[3],g=b?dY(b[1]):b,h=f(dY(a[2]),g);return f(dY(a[1]),h);default:return dY(a[1])}}function
+pv(s,a,m){if(aj(function(a){return 9===a[1]?1:0},m)){var
+b=aa(g(a),BJ),c=b?l(function(a){if(0===a[0]){var
+d=a[5],e=h(k,1,i(a[2])),g=e?h(k,0,i(a[3])):e,m=g?h(k,0,i(a[4])):g,c=0;if(m)if(d)var
+p=b1(d[1]),b=l(function(a){return dm(i(a))},p);else{var
 n=1;c=1}else{var
-n=l;c=1}if(c)var
+n=m;c=1}if(c)var
 b=n}else{var
 o=h(k,1,i(a[4]));if(o)var
-q=b1(a[3]),r=f(b1(a[2]),q),b=m(function(a){return dm(i(a))},r);else
+q=b1(a[3]),r=f(b1(a[2]),q),b=l(function(a){return dm(i(a))},r);else
 var
 b=o}return b?j(s,a):b},a):b;if(c)var
-d=hs(0,a),n=d?1:d,e=n;else
+d=ht(0,a),n=d?1:d,e=n;else
 var
 e=c;return e}return a?0:1}function
-pq(a){return a?BF:BG}function
-j4(a){switch(a){case
-0:return BH;case
-1:return BI;default:return 0}}function
+pw(a){return a?BK:BL}function
+j7(a){switch(a){case
+0:return BM;case
+1:return BN;default:return 0}}function
 dn(a){var
 f=a[1],d=h(k,1,[2,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],f]),e=d?bw(k,a[1],a[2]):d;if(e){var
 g=a[2];return h(k,1,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],g])}return e}function
-eH(a){var
+eI(a){var
 e=bw(k,[0,d,b],a);return e?h(k,1,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],a]):e}function
-pr(c,b,a){if(0===a[0]){var
+px(c,b,a){if(0===a[0]){var
 d=a[2],e=a[1],f=o(g(e),c),j=f?o(g(d),c):f;if(j){var
-n=W(e,d);return m(function(a){var
+n=W(e,d);return l(function(a){var
 b=i(a[2]);return bw(k,i(a[1]),b)},n)}return j}var
-l=b?h(k,1,i(a[3])):b;if(l){var
-p=i(a[5]);return bw(k,i(a[4]),p)}return l}function
-ps(a,e,F,E,t,s,f){function
+m=b?h(k,1,i(a[3])):b;if(m){var
+p=i(a[5]);return bw(k,i(a[4]),p)}return m}function
+py(a,e,F,E,t,s,f){function
 u(b){var
-d=pq(a),c=o(g(b),d);return c?m(fK,b):c}var
-v=m(function(a){var
+d=pw(a),c=o(g(b),d);return c?l(fL,b):c}var
+v=l(function(a){var
 b=u(a[1]);return b?u(a[2]):b},e);if(v)var
 G=g(e),n=aa(bG(a),G);else
 var
 n=v;var
-w=n?aa(g(e),BJ):n,x=w?h(k,1,i(F)):w;if(x)var
-H=1===a?1:0,p=pr(j4(a),H,E);else
+w=n?aa(g(e),BO):n,x=w?h(k,1,i(F)):w;if(x)var
+H=1===a?1:0,p=px(j7(a),H,E);else
 var
 p=x;if(p)if(a){var
-d=dT(t);switch(d[0]){case
+d=dV(t);switch(d[0]){case
 0:var
 j=0;break;case
 1:var
 A=dn(d[1]),B=A?dn(d[2]):A,j=B?dn(d[3]):B;break;case
 2:var
-j=eH(d[1]);break;default:var
-C=eH(d[1]),j=C?eH(d[2]):C}var
-l=j}else
+j=eI(d[1]);break;default:var
+C=eI(d[1]),j=C?eI(d[2]):C}var
+m=j}else
 var
-D=dT(t),J=0===D[0]?dn(D[1]):0,l=J;else
+D=dV(t),J=0===D[0]?dn(D[1]):0,m=J;else
 var
-l=p;if(l)var
-I=g(e),q=pp(function(a){if(0===a[0]){var
-b=a[1],c=aa(BD,b),d=c?aa(b,I):c;if(d){if(a[5])return 0;var
+m=p;if(m)var
+I=g(e),q=pv(function(a){if(0===a[0]){var
+b=a[1],c=aa(BI,b),d=c?aa(b,I):c;if(d){if(a[5])return 0;var
 e=1}else
 var
 e=d;return e}return 1},s,f);else
 var
-q=l;if(q)var
-b=g(e),c=bG(a),y=pq(a),r=m(function(a){var
+q=m;if(q)var
+b=g(e),c=bG(a),y=pw(a),r=l(function(a){var
 e=a[2];if(e)var
-f=e[1],h=aa(AU,f),w=h?aa(f,b):h,d=w;else
+f=e[1],h=aa(AZ,f),w=h?aa(f,b):h,d=w;else
 var
 d=1;switch(a[1]){case
 9:var
 i=a[4];if(typeof
-i!=="number"&&0===i[0])return a[2]?aE(c,b,a):a[3]?aE(c,b,a):1;return aE(c,b,a);case
+i!=="number"&&0===i[0])return a[2]?aD(c,b,a):a[3]?aD(c,b,a):1;return aD(c,b,a);case
 10:var
 j=a[4];if(typeof
 j!=="number"&&1===j[0]){var
-k=a[3];return k?2===k[1][0]?d:aE(c,b,a):aE(c,b,a)}return aE(c,b,a);case
+k=a[3];return k?2===k[1][0]?d:aD(c,b,a):aD(c,b,a)}return aD(c,b,a);case
 12:var
 l=a[4];if(typeof
-l!=="number"&&1===l[0]){if(a[2])return aE(c,b,a);var
-m=a[3];return m?3===m[1][0]?o(b,c):aE(c,b,a):aE(c,b,a)}return aE(c,b,a);case
+l!=="number"&&1===l[0]){if(a[2])return aD(c,b,a);var
+m=a[3];return m?3===m[1][0]?o(b,c):aD(c,b,a):aD(c,b,a)}return aD(c,b,a);case
 14:var
 n=a[4];if(typeof
 n!=="number"&&1===n[0]){var
 p=a[3];if(p){var
 q=p[1];if(1===q[0]){var
-r=o(g(q[1]),y),x=r?d:r;return x}return aE(c,b,a)}return aE(c,b,a)}return aE(c,b,a);case
+r=o(g(q[1]),y),x=r?d:r;return x}return aD(c,b,a)}return aD(c,b,a)}return aD(c,b,a);case
 15:var
 s=a[4];if(typeof
 s!=="number"&&1===s[0]){var
 t=a[3];if(t){var
 u=t[1];if(1===u[0]){var
-v=o(g(u[1]),y),z=v?d:v;return z}return aE(c,b,a)}return aE(c,b,a)}return aE(c,b,a);default:return aE(c,b,a)}},f);else
+v=o(g(u[1]),y),z=v?d:v;return z}return aD(c,b,a)}return aD(c,b,a)}return aD(c,b,a);default:return aD(c,b,a)}},f);else
 var
 r=q;var
-z=r?hA(f):r;return z?m(j3,eG(0,g(e),s,f)):z}function
-pt(a){switch(a[0]){case
+z=r?hB(f):r;return z?l(j6,eH(0,g(e),s,f)):z}function
+pz(a){switch(a[0]){case
 0:var
 c=f(a[3],[0,a[4],0]),d=f(a[2],c);return f(a[1],d);case
 1:var
 b=a[3],e=b?b[1]:b,g=f(a[2],e);return f(a[1],g);case
 2:return a[1];default:var
 h=f(a[4],[0,a[5],[0,a[6],0]]),i=f(a[3],h),j=f(a[2],i);return f(a[1],j)}}function
-pu(a,e,d,R,p,n){var
+pA(a,e,d,R,p,n){var
 q=typeof
 a==="number"?a?1:a:a[1]?0:1;function
 c(a){var
-b=q?BK:BL;return o(g(a),b)}var
-j=fI(e),w=m(function(b){switch(b[0]){case
+b=q?BP:BQ;return o(g(a),b)}var
+j=fJ(e),w=l(function(b){switch(b[0]){case
 0:var
 f=M(j),g=f?c(b[1]):f,h=g?c(b[2]):g;return h?c(b[3]):h;case
 1:var
@@ -7304,21 +7315,21 @@ r=b[1],s=q?r?0:1:c(r),t=s?c(b[2]):s,u=t?c(b[3]):t;return u?c(b[4]):u}},e);if(w)v
 S=g(e),r=aa(aw(a),S);else
 var
 r=w;var
-x=r?aa(g(e),BM):r,A=x?m(fK,y(pt,e)):x;if(A){var
+x=r?aa(g(e),BR):r,A=x?l(fL,y(pz,e)):x;if(A){var
 Q=0;if(typeof
 a==="number"&&!a){var
 B=1;Q=1}if(!Q)var
 B=0;var
-T=q?BN:BO,s=pr(T,B,R)}else
+T=q?BS:BT,s=px(T,B,R)}else
 var
 s=A;if(s)if(typeof
 a==="number")if(d)var
 b=0;else
 var
-U=z(dT,p)?0:1,b=U;else
+U=z(dV,p)?0:1,b=U;else
 switch(a[1]){case
 0:if(d){var
-t=z(dT,p);if(t){var
+t=z(dV,p);if(t){var
 E=t[1];if(0===E[0])var
 F=h(k,1,i(d[1])),G=F?dn(E[1]):F;else
 var
@@ -7330,16 +7341,16 @@ b=H}else
 var
 b=d;break;case
 1:if(d){var
-u=d[1],v=z(dT,p);if(v){var
+u=d[1],v=z(dV,p);if(v){var
 f=v[1];switch(f[0]){case
 0:var
-l=0;break;case
+m=0;break;case
 1:var
-J=h(k,1,i(u)),K=J?dn(f[1]):J,L=K?dn(f[2]):K,l=L?dn(f[3]):L;break;case
+J=h(k,1,i(u)),K=J?dn(f[1]):J,L=K?dn(f[2]):K,m=L?dn(f[3]):L;break;case
 2:var
-N=h(k,1,i(u)),l=N?eH(f[1]):N;break;default:var
-O=h(k,1,i(u)),P=O?eH(f[1]):O,l=P?eH(f[2]):P}var
-I=l}else
+N=h(k,1,i(u)),m=N?eI(f[1]):N;break;default:var
+O=h(k,1,i(u)),P=O?eI(f[1]):O,m=P?eI(f[2]):P}var
+I=m}else
 var
 I=v;var
 b=I}else
@@ -7348,60 +7359,60 @@ b=d;break;default:var
 b=0}else
 var
 b=s;var
-C=b?m(function(b){var
-c=o5(j,a,g(e),b);if(c)var
+C=b?l(function(b){var
+c=o$(j,a,g(e),b);if(c)var
 d=c;else{var
-f=cN(b);if(f)return aE(0,0,b);var
-d=f}return d},n):b,D=C?hA(n):C;return D?m(j3,eG(j,g(e),0,n)):D}function
-BP(a){switch(a[0]){case
-0:return gY(a[1][1]);case
+f=cN(b);if(f)return aD(0,0,b);var
+d=f}return d},n):b,D=C?hB(n):C;return D?l(j6,eH(j,g(e),0,n)):D}function
+BU(a){switch(a[0]){case
+0:return gZ(a[1][1]);case
 1:var
-b=a[3];return b?gY(b[1]):1;default:return gY(a[1])}}function
-j5(a,k,b,d){var
-e=pp(function(g){if(0===g[0]){var
-c=g[1],d=aa(BC,c);if(d){var
+b=a[3];return b?gZ(b[1]):1;default:return gZ(a[1])}}function
+j8(a,k,b,d){var
+e=pv(function(g){if(0===g[0]){var
+c=g[1],d=aa(BH,c);if(d){var
 b=H(a,bz(c));if(b){if(2===b[1][0])return 0;var
 e=1}else
 var
 e=b;var
 f=e}else
 var
-f=d;return f}return 1},k,b),f=e?m(BP,d[1]):e,h=f?aa(BQ,g(a)):f;if(h)var
-l=g(a),c=m(function(a){return AK(l,a)},b);else
+f=d;return f}return 1},k,b),f=e?l(BU,d[1]):e,h=f?aa(BV,g(a)):f;if(h)var
+m=g(a),c=l(function(a){return AP(m,a)},b);else
 var
 c=h;var
-i=c?hA(b):c,j=i?m(fK,y(po,a)):i;return j?m(BB,d[3]):j}function
-pv(l,k,a,j,i,b){var
-c=g(l),n=g(i),d=o(g(j),n),e=d?m(function(b){if(12===b[1]){var
+i=c?hB(b):c,j=i?l(fL,y(pu,a)):i;return j?l(BG,d[3]):j}function
+pB(m,k,a,j,i,b){var
+c=g(m),n=g(i),d=o(g(j),n),e=d?l(function(b){if(12===b[1]){var
 n=0,e=b[4];if(typeof
 e!=="number"&&1===e[0]){if(b[2])var
-k=aE(c,g(a),b);else
+k=aD(c,g(a),b);else
 var
-l=b[3],q=l?0===l[1][0]?o(c,g(a)):aE(c,g(a),b):aE(c,g(a),b),k=q;var
+m=b[3],q=m?0===m[1][0]?o(c,g(a)):aD(c,g(a),b):aD(c,g(a),b),k=q;var
 f=k;n=1}if(!n)var
-f=aE(c,g(a),b);var
+f=aD(c,g(a),b);var
 d=f}else
 var
-d=aE(c,g(a),b);if(d){var
+d=aD(c,g(a),b);if(d){var
 h=b[1]-1|0;if(!(11<h>>>0))switch(h){case
 0:var
-j=b[2],p=j?[0,bz(j[1]),0]:aC(0,g(a));return m(function(c){var
+j=b[2],p=j?[0,bz(j[1]),0]:aB(0,g(a));return l(function(c){var
 b=H(a,c);return b?0===b[1][0]?0:1:b},p);case
-10:return m(function(a){return 0===a[0]?0:1},a);case
-11:return m(function(a){return 0===a[0]?0:1},a)}var
+10:return l(function(a){return 0===a[0]?0:1},a);case
+11:return l(function(a){return 0===a[0]?0:1},a)}var
 i=1}else
 var
-i=d;return i},b):d,f=e?hA(b):e,h=f?m(function(a){return fK(a[2])},k):f;return h?m(j3,eG(0,g(a),0,b)):h}function
-pw(a){if(a){var
+i=d;return i},b):d,f=e?hB(b):e,h=f?l(function(a){return fL(a[2])},k):f;return h?l(j6,eH(0,g(a),0,b)):h}function
+pC(a){if(a){var
 b=a[1];if(cN(b))return 0;var
-c=[0,b,pw(a[2])]}else
+c=[0,b,pC(a[2])]}else
 var
 c=a;return c}function
-fL(i,h,f,d,b){var
-j=pw(b),l=y(function(a){return jS(i,f,d,a)},j),c=an(N,0,e(function(a){return gT(k,h,a)},l)),a=y(o3,b),m=a?[0,a[1],a[2]]:BR;return N(g(m),c)}function
-j6(a){return 2<=a?BS:BT}function
-j7(m,l,k,j,f,i){var
-g=fL(m,l,k,j,f),c=pk(i);if(c){var
+fM(i,h,f,d,b){var
+j=pC(b),l=y(function(a){return jV(i,f,d,a)},j),c=an(N,0,e(function(a){return gU(k,h,a)},l)),a=y(o9,b),m=a?[0,a[1],a[2]]:BW;return N(g(m),c)}function
+j9(a){return 2<=a?BX:BY}function
+j_(m,l,k,j,f,i){var
+g=fM(m,l,k,j,f),c=pq(i);if(c){var
 a=c[1],e=0;if(typeof
 a==="number")var
 h=[0,a];else
@@ -7410,51 +7421,51 @@ n=a[2],p=a[1],b=p,d=function(a){return[0,a,n]};e=1}else{var
 q=a[2],r=a[1],b=r,d=function(a){return[1,a,q]};e=1}if(e){if(!M(aj(cN,f))&&!aI(b,g))return o(b,g)?0:[0,d(bz(b))];return[0,d(b)]}}else
 var
 h=c;return h}function
-hB(b,a){var
+hC(b,a){var
 c=g(bu(function(a){return 0===a[0]?0:1},b));return o(g(a),c)}function
-hC(a){var
-b=W(aC(0,g(a)),a);return e(ay,bu(function(a){return iR(a[2])},b))}function
-px(a){var
-b=a[1],c=e(hy,a[1]);return gN(hz(a[1]),c,b)}function
-j8(a){return hC(px(a))}function
-py(b,a){if(a){var
-c=a[1],d=a[2],g=py(N(b,c[1]),d),h=c[2];return f(e(function(a){return aC(N(b,a),BU)},h),g)}return a}function
-pz(e,a){function
+hD(a){var
+b=W(aB(0,g(a)),a);return e(ay,bu(function(a){return iS(a[2])},b))}function
+pD(a){var
+b=a[1],c=e(hz,a[1]);return gO(hA(a[1]),c,b)}function
+j$(a){return hD(pD(a))}function
+pE(b,a){if(a){var
+c=a[1],d=a[2],g=pE(N(b,c[1]),d),h=c[2];return f(e(function(a){return aB(N(b,a),BZ)},h),g)}return a}function
+pF(e,a){function
 b(f){var
 a=H(e,f);if(a){var
-b=mj(a[1]);if(b)return K(b[1],d);var
+b=mm(a[1]);if(b)return K(b[1],d);var
 c=1}else
 var
 c=a;return c}var
-c=py(0,a);return bu(function(a){return m(b,a)},c)}function
-pA(a){switch(a[0]){case
-0:return BV;case
-1:return a[3]?BW:BX;default:return BY}}function
-BZ(a){return 0===a[0]?pA(a[1]):B0}function
-hD(a){if(a){var
+c=pE(0,a);return bu(function(a){return l(b,a)},c)}function
+pG(a){switch(a[0]){case
+0:return B0;case
+1:return a[3]?B1:B2;default:return B3}}function
+B4(a){return 0===a[0]?pG(a[1]):B5}function
+hE(a){if(a){var
 b=a[1];return[0,b[2],b[1]]}return[0,d,0]}function
-pB(aC,Y,aB,X,W,b,aA,V){var
-a=jR(Y,aB,X,W),aD=g(V),aE=e(pA,a[1]),aF=pz(px(a),aE),aG=aC?0:j8(a),B=dU(B1,j8(a),aG,aF,aD,V);if(B){var
+pH(aC,Y,aB,X,W,b,aA,V){var
+a=jU(Y,aB,X,W),aD=g(V),aE=e(pG,a[1]),aF=pF(pD(a),aE),aG=aC?0:j$(a),B=dW(B6,j$(a),aG,aF,aD,V);if(B){var
 Z=B[1];if(Z[2])return 0;var
-_=j5(Y,X,W,a);if(_){var
-aH=Z[1],C=e(hy,a[1]),c=hz(a[1]),aI=hD(aA),U=mK(k,a);if(U){var
-n=gN(c,C,a[1]),h=iO(c,C,a[1],0),ab=g(a[3]),ad=N(g(n),ab),K=[0,g(n),ad],ae=a[3],E=aj(function(a){if(typeof
+_=j8(Y,X,W,a);if(_){var
+aH=Z[1],C=e(hz,a[1]),c=hA(a[1]),aI=hE(aA),U=mN(k,a);if(U){var
+n=gO(c,C,a[1]),h=iP(c,C,a[1],0),ab=g(a[3]),ad=N(g(n),ab),K=[0,g(n),ad],ae=a[3],E=aj(function(a){if(typeof
 a!=="number"&&14===a[0])return 1;return 0},ae),af=E?y(function(a){var
-b=e(aY,gP(n,a[4]));return[0,a[4],b]},h):E,ag=f(iQ(h,c,K,a[3]),af),ah=f(bC(lQ(h)),ag),L=f(bC(fa(h)),ah),M=cW(L)[1],o=cV(M),O=m(function(a){var
-b=l(d);return aN(r(bd(o,a),o,b),a)},L);if(O){var
-P=aj(tE,a[3]);if(P){var
+b=e(aT,gQ(n,a[4]));return[0,a[4],b]},h):E,ag=f(iR(h,c,K,a[3]),af),ah=f(bC(lT(h)),ag),L=f(bC(fb(h)),ah),M=cW(L)[1],o=cV(M),O=l(function(a){var
+b=m(d);return aN(r(bd(o,a),o,b),a)},L);if(O){var
+P=aj(tJ,a[3]);if(P){var
 t=C,p=a[1];for(;;){if(p){var
 q=p[1],u=bS(d,t);switch(q[0]){case
 0:var
-F=q[1],G=gQ(b,F[1],u),D=0;if(G){var
+F=q[1],G=gR(b,F[1],u),D=0;if(G){var
 s=ao(b,[0,F[4],c]);if(s)var
 i=I(d,s[1][1]);else{var
 H=s;D=1}}else{var
 H=G;D=1}if(D)var
 i=H;break;case
 1:var
-J=q[3],i=J?gQ(b,J[1],u):1;break;default:var
-i=gQ(b,q[1],u)}if(i){var
+J=q[3],i=J?gR(b,J[1],u):1;break;default:var
+i=gR(b,q[1],u)}if(i){var
 aa=p[2],t=bA(t),p=aa;continue}var
 Q=i}else
 var
@@ -7463,9 +7474,9 @@ v=Q;break}}else
 var
 v=P;if(v){var
 ai=a[3],ak=y(function(a){return dF(c,a)},ai),al=a[3],am=f(n,f(e(function(a){return bX(c,a)},al),ak)),w=ac(e(function(a){return ao(b,a)},am));if(w){var
-an=a8(eo(a[2]),c),x=ac(e(function(a){return ao(b,a)},an));if(x){var
-ap=a[3],z=ac(mx(b,aI,function(a){return bd(o,a)},n,h,c,K,ap));if(z){var
-R=z[1],aq=iN(R),ar=x[1],as=a[2],at=function(a){return my(b,as,c,a)},av=w[1],aw=0,ax=lQ(h),ay=j(au(function(a){return bd(o,a)}),ax),az=fa(h);return fR(iM(b,M,j(au(function(a){return bd(o,a)}),az),ay,aw,av,R,at),ar,aq,aH)}var
+an=a8(eq(a[2]),c),x=ac(e(function(a){return ao(b,a)},an));if(x){var
+ap=a[3],z=ac(mA(b,aI,function(a){return bd(o,a)},n,h,c,K,ap));if(z){var
+R=z[1],aq=iO(R),ar=x[1],as=a[2],at=function(a){return mB(b,as,c,a)},av=w[1],aw=0,ax=lT(h),ay=j(au(function(a){return bd(o,a)}),ax),az=fb(h);return fS(iN(b,M,j(au(function(a){return bd(o,a)}),az),ay,aw,av,R,at),ar,aq,aH)}var
 S=z}else
 var
 S=x;var
@@ -7480,77 +7491,77 @@ A=O;return A}return U}var
 $=_}else
 var
 $=B;return $}function
-B2(a){if(0===a[0])return pg(a[1]);var
-b=a[1],c=er(b[6]);return f(er(b[5]),c)}function
-B3(a){if(0===a[0])return ph(a[1]);var
+B7(a){if(0===a[0])return pm(a[1]);var
+b=a[1],c=et(b[6]);return f(et(b[5]),c)}function
+B8(a){if(0===a[0])return pn(a[1]);var
 b=a[1],c=a9(b[4]);return f(a9(b[3]),c)}function
-B4(a){if(0===a[0])return[0,hy(a[1]),d];var
+B9(a){if(0===a[0])return[0,hz(a[1]),d];var
 b=a[1],c=bF(a9(b[2]));return[0,bF(a9(b[1])),c]}function
-pC(j,c,v,u,t,i,I,H,s){var
-a=o8(j,c,v,u,t,i),w=a[2],h=y(B2,w),G=h?[0,h[1],h[2]]:y(B3,w),r=E(b,bF(G)),x=e(B4,a[2]),l=jp(r,x,a[2]),J=g(s),K=pz(l,e(BZ,a[2])),L=hC(l),M=hC(l),n=dU(aw(j),M,L,K,J,s);if(n){var
+pI(j,c,v,u,t,i,I,H,s){var
+a=pc(j,c,v,u,t,i),w=a[2],h=y(B7,w),G=h?[0,h[1],h[2]]:y(B8,w),r=E(b,bF(G)),x=e(B9,a[2]),m=jq(r,x,a[2]),J=g(s),K=pF(m,e(B4,a[2])),L=hD(m),M=hD(m),n=dW(aw(j),M,L,K,J,s);if(n){var
 z=n[1];if(z[2])return 0;var
-A=pu(j,c,v,u,t,i);if(A){var
-N=z[1],O=g(c),P=fL(fI(c),B5,O,0,i),Q=hD(H),C=e(vr,a[2]),o=g9(k,a[2],C);if(o)var
-D=iU(a[4]),d=bD(k,a[4],D);else
+A=pA(j,c,v,u,t,i);if(A){var
+N=z[1],O=g(c),P=fM(fJ(c),B_,O,0,i),Q=hE(H),C=e(vw,a[2]),o=g_(k,a[2],C);if(o)var
+D=iV(a[4]),d=bD(k,a[4],D);else
 var
 d=o;if(d){var
 p=a[5];if(p)var
-F=g6(p[1]),q=m(function(a){return fu(k,a)},F);else
+F=g7(p[1]),q=l(function(a){return fv(k,a)},F);else
 var
 q=1;var
 f=q}else
 var
-f=d;return f?vp(I,Q,P,a,r,x,N):f}var
+f=d;return f?vu(I,Q,P,a,r,x,N):f}var
 B=A}else
 var
 B=n;return B}function
-pD(r,t,ai,ah,ag,I,aP,af,v){var
+pJ(r,t,ai,ah,ag,I,aP,af,v){var
 x=typeof
-r==="number"?r?B6:B7:j4(r[1]),A=e(i,aP),a=o8(r,t,ai,ah,ag,I),aj=pn(t,e(i,af));if(aj[2])return 0;var
-p=aj[1],ak=hB(y(pt,t),af),al=ak?pu(r,t,ai,ah,ag,I):ak;if(al)var
+r==="number"?r?B$:Ca:j7(r[1]),A=e(i,aP),a=pc(r,t,ai,ah,ag,I),aj=pt(t,e(i,af));if(aj[2])return 0;var
+p=aj[1],ak=hC(y(pz,t),af),al=ak?pA(r,t,ai,ah,ag,I):ak;if(al)var
 aQ=aw(r),K=o(g(A),aQ);else
 var
 K=al;if(K){if(typeof
 v!=="number"&&2===v[0]){var
-S=e(i,v[1]),aV=aM(x,S),ao=aK(aB(x,S)),aW=aM(x,A),ap=aK(aB(x,A)),X=g9(k,a[2],p),Y=X?bD(k,a[4],ap):X,Z=Y?bD(k,a[4],ao):Y,aq=Z?oj(k,a[1],a[3],a[5],p,ap,aW,ao,aV):Z;if(aq){var
+S=e(i,v[1]),aU=aM(x,S),ao=aK(aA(x,S)),aW=aM(x,A),ap=aK(aA(x,A)),X=g_(k,a[2],p),Y=X?bD(k,a[4],ap):X,Z=Y?bD(k,a[4],ao):Y,aq=Z?op(k,a[1],a[3],a[5],p,ap,aW,ao,aU):Z;if(aq){var
 aX=aw(r);return o(g(S),aX)}return aq}var
-aR=g(t),aS=jb(r),L=j7(fI(t),aS,aR,0,I,v);if(L){var
-B=L[1],f=aK(aB(x,A)),l=aM(x,A),ar=0;if(typeof
+aR=g(t),aS=jc(r),L=j_(fJ(t),aS,aR,0,I,v);if(L){var
+B=L[1],f=aK(aA(x,A)),m=aM(x,A),ar=0;if(typeof
 v==="number"&&v){var
-N=M(fI(t));ar=1}if(!ar)var
+N=M(fJ(t));ar=1}if(!ar)var
 N=1;if(N){var
-T=g9(k,a[2],p),U=T?nx(k,a,f,l):T;if(U)var
+T=g_(k,a[2],p),U=T?nA(k,a,f,m):T;if(U)var
 n=a[5],V=a[3],C=a[1],aC=a[6],as=e(function(a){if(0===a[0])var
-e=bq(n,l,f,a),c=ch(a[1],e);else
+e=bq(n,m,f,a),c=ch(a[1],e);else
 var
-d=a[1],g=iZ(d,bq(n,l,f,a)),h=d[4],i=bq(n,l,f,a),j=J(function(b,a){return[2,b,a]},i,h),c=J(function(b,a){return[3,b,a]},j,g);return[0,ja(C,c,P([5,[0,b,b],V],c9(ex(n,l,ew(a)),c)))]},p),at=y(function(a){if(0===a[0]){var
-c=bq(n,l,f,a),b=iS(a[1],c),d=b?[0,b[1],0]:b;return d}var
-e=bq(n,l,f,a);return[0,iY(a[1],e),0]},p),au=function(a){var
-b=ex(n,l,a);return J(function(b,a){return[2,b,a]},f,b)},ax=0,ay=e(function(d){var
-b=bq(n,l,f,d);if(0===d[0]){var
+d=a[1],g=i0(d,bq(n,m,f,a)),h=d[4],i=bq(n,m,f,a),j=J(function(b,a){return[2,b,a]},i,h),c=J(function(b,a){return[3,b,a]},j,g);return[0,jb(C,c,P([5,[0,b,b],V],c9(ez(n,m,ey(a)),c)))]},p),at=y(function(a){if(0===a[0]){var
+c=bq(n,m,f,a),b=iT(a[1],c),d=b?[0,b[1],0]:b;return d}var
+e=bq(n,m,f,a);return[0,iZ(a[1],e),0]},p),au=function(a){var
+b=ez(n,m,a);return J(function(b,a){return[2,b,a]},f,b)},ax=0,ay=e(function(d){var
+b=bq(n,m,f,d);if(0===d[0]){var
 a=d[1];if(0===a[0]){var
-g=a[4],h=a[3],i=a[2],e=a[1],k=cf(e,i,h,g,b),j=cE(a[5],k),m=P(j,av(e)),o=fj(e,i,h,b);return[0,[0,nv(C,J(function(b,a){return[2,b,a]},o,m)),j,g]]}return 0}var
-c=d[1],p=c[6],q=eq(c,b),r=iZ(c,b),s=c[4],t=J(function(b,a){return[2,b,a]},b,s);return[0,[0,nv(C,J(function(b,a){return[3,b,a]},t,r)),q,p]]},p),az=e(function(a){return nu(n,l,f,a)},p),aA=[0,e(function(a){if(0===a[0])var
-m=bq(n,l,f,a),d=cg(a[1],m);else
+g=a[4],h=a[3],i=a[2],e=a[1],k=cf(e,i,h,g,b),j=cE(a[5],k),l=P(j,av(e)),o=fk(e,i,h,b);return[0,[0,ny(C,J(function(b,a){return[2,b,a]},o,l)),j,g]]}return 0}var
+c=d[1],p=c[6],q=es(c,b),r=i0(c,b),s=c[4],t=J(function(b,a){return[2,b,a]},b,s);return[0,[0,ny(C,J(function(b,a){return[3,b,a]},t,r)),q,p]]},p),az=e(function(a){return nx(n,m,f,a)},p),aB=[0,e(function(a){if(0===a[0])var
+l=bq(n,m,f,a),d=cg(a[1],l);else
 var
-e=bq(n,l,f,a),c=a[1],g=iZ(c,e),h=c[4],i=J(function(b,a){return[2,b,a]},e,h),j=J(function(b,a){return[3,b,a]},i,g),k=eq(c,e),d=P([5,[0,b,b],[4,c[5],k]],j);return ja(C,d,P([5,[0,b,b],V],c9(ex(n,l,ew(a)),d)))},p),az,ay,ax,au,at,as],aD=aw(a[1]),O=iW(k,jb(a[1]),aD,aA,aC,B);else
+e=bq(n,m,f,a),c=a[1],g=i0(c,e),h=c[4],i=J(function(b,a){return[2,b,a]},e,h),j=J(function(b,a){return[3,b,a]},i,g),k=es(c,e),d=P([5,[0,b,b],[4,c[5],k]],j);return jb(C,d,P([5,[0,b,b],V],c9(ez(n,m,ey(a)),d)))},p),az,ay,ax,au,at,as],aD=aw(a[1]),O=iX(k,jc(a[1]),aD,aB,aC,B);else
 var
 O=U;if(O)var
 Q=O;else{if(typeof
 B!=="number"&&0===B[0]){var
 E=B[2];if(E){if(E[2])return 0;var
-R=E[1],_=a[1],D=a[5],aT=B[1],$=g9(k,a[2],p),aa=$?nx(k,a,f,l):$;if(aa){var
-aF=a[6],F=ep(k,jb(_),aT,aF);if(F){var
+R=E[1],_=a[1],D=a[5],aT=B[1],$=g_(k,a[2],p),aa=$?nA(k,a,f,m):$;if(aa){var
+aF=a[6],F=er(k,jc(_),aT,aF);if(F){var
 z=F[1][1];if(typeof
 z!=="number"&&16===z[0]){var
-s=z[1],aG=a[2],aH=e(function(a){return nu(D,l,f,oy(a))},aG),ad=j(cG(cK),s);if(ad)var
-aE=j(gc(c(2,b)),cK),u=[0,bj(d,ad[1][1]),aE];else
+s=z[1],aG=a[2],aH=e(function(a){return nx(D,m,f,oE(a))},aG),ad=j(cG(cK),s);if(ad)var
+aE=j(gd(c(2,b)),cK),u=[0,bj(d,ad[1][1]),aE];else
 var
 u=[0,d,b];var
 ae=h(k,0,s);if(ae)var
-aI=a[2],G=m(function(a){var
-b=oy(a);if(0===b[0])return 1;var
-c=b[1],d=[1,c],e=cH(k,s),g=e?nw(k,a,d):e;return g?h(k,1,iY(c,bq(D,l,f,d))):g},aI);else
+aI=a[2],G=l(function(a){var
+b=oE(a);if(0===b[0])return 1;var
+c=b[1],d=[1,c],e=cH(k,s),g=e?nz(k,a,d):e;return g?h(k,1,iZ(c,bq(D,m,f,d))):g},aI);else
 var
 G=ae;if(G)var
 aJ=g(a[2]),H=o(g(R),aJ);else
@@ -7559,22 +7570,22 @@ H=G;if(H){var
 aL=W(R,aH),aN=W(W(p,e(function(o){var
 a=o[2],f=o[1];if(typeof
 a!=="number"&&1===a[0]){var
-g=a[2],i=a[1],p=c(2,c(2,c(2,q(c(2,c(2,b)))))),e=hk(s,a0(u,dx([0,b,b],[0,b,j(gc(c(2,b)),p)])),f,[1,i,g]);if(typeof
+g=a[2],i=a[1],p=c(2,c(2,c(2,q(c(2,c(2,b)))))),e=hl(s,a0(u,dx([0,b,b],[0,b,j(gd(c(2,b)),p)])),f,[1,i,g]);if(typeof
 e!=="number"&&1===e[0]){var
-d=dN([5,e[2],[2,[0,b,b],e[1]]]),r=[4,g,dI(d)],l=[2,[4,i,dH(d)],r],t=[4,g,dH(d)],m=[3,[4,i,dI(d)],t],n=[4,bg(u),[2,[0,b,b],l]];if(h(k,1,[2,[0,b,b],l])&&h(k,0,[3,n,m])&&h(k,0,[2,n,m])){var
-v=dI(d);return[1,dH(d),v]}return hk(s,u,f,a)}return hk(s,u,f,a)}return hk(s,u,f,a)},aL)),R),aO=y(function(t){var
-m=t[1],a=m[2],g=m[1],h=t[2],i=ex(D,l,ew(g)),e=bq(D,l,f,g);if(0===g[0]){var
+d=dP([5,e[2],[2,[0,b,b],e[1]]]),r=[4,g,dI(d)],l=[2,[4,i,dH(d)],r],t=[4,g,dH(d)],m=[3,[4,i,dI(d)],t],n=[4,bg(u),[2,[0,b,b],l]];if(h(k,1,[2,[0,b,b],l])&&h(k,0,[3,n,m])&&h(k,0,[2,n,m])){var
+v=dI(d);return[1,dH(d),v]}return hl(s,u,f,a)}return hl(s,u,f,a)}return hl(s,u,f,a)},aL)),R),aO=y(function(t){var
+l=t[1],a=l[2],g=l[1],h=t[2],i=ez(D,m,ey(g)),e=bq(D,m,f,g);if(0===g[0]){var
 d=g[1];switch(d[0]){case
 0:var
 n=d[4],o=d[3],j=d[2],k=d[1];if(typeof
 a!=="number"&&0===a[0]){var
-p=a[1],u=0,v=P(p,av(k)),x=J(function(b,a){return[3,b,a]},f,j),y=J(function(b,a){return[3,b,a]},x,v),z=aU(j,o,e),A=[3,w(av(k),z),p],B=cf(k,j,o,n,e);return[0,[0,dN([5,[0,h,b],[2,cE(d[5],B),A]]),n,y,i],u]}return 0;case
+p=a[1],u=0,v=P(p,av(k)),x=J(function(b,a){return[3,b,a]},f,j),y=J(function(b,a){return[3,b,a]},x,v),z=aV(j,o,e),A=[3,w(av(k),z),p],B=cf(k,j,o,n,e);return[0,[0,dP([5,[0,h,b],[2,cE(d[5],B),A]]),n,y,i],u]}return 0;case
 1:if(typeof
 a!=="number"&&0===a[0]){var
-q=a[1],C=0,E=d[1],F=J(function(b,a){return[3,b,a]},f,E);return[0,[0,dN([5,[0,h,b],[2,q,cF(d,e)]]),q,F,i],C]}return 0;default:return 0}}var
+q=a[1],C=0,E=d[1],F=J(function(b,a){return[3,b,a]},f,E);return[0,[0,dP([5,[0,h,b],[2,q,cF(d,e)]]),q,F,i],C]}return 0;default:return 0}}var
 c=g[1];if(typeof
 a!=="number"&&1===a[0]){var
-r=a[2],s=a[1],G=[4,r,fn(c,e)],H=[3,[4,s,fo(c,e)],G],K=P(r,gU(c)),I=0,L=P(s,fm(c)),M=J(function(b,a){return[2,b,a]},L,K),N=P(c[5],M),O=c[3],Q=J(function(b,a){return[2,b,a]},O,N),R=J(function(b,a){return[3,b,a]},f,Q),S=c[6],T=[2,eq(c,e),H];return[0,[0,dN([5,[0,h,b],[4,c[5],T]]),S,R,i],I]}return 0},aN);return ow(k,_,z[2],z[3],aO)}return H}var
+r=a[2],s=a[1],G=[4,r,fo(c,e)],H=[3,[4,s,fp(c,e)],G],K=P(r,gV(c)),I=0,L=P(s,fn(c)),M=J(function(b,a){return[2,b,a]},L,K),N=P(c[5],M),O=c[3],Q=J(function(b,a){return[2,b,a]},O,N),R=J(function(b,a){return[3,b,a]},f,Q),S=c[6],T=[2,es(c,e),H];return[0,[0,dP([5,[0,h,b],[4,c[5],T]]),S,R,i],I]}return 0},aN);return oC(k,_,z[2],z[3],aO)}return H}var
 ab=0}else
 var
 ab=F;var
@@ -7590,74 +7601,74 @@ am=L;var
 an=am}else
 var
 an=K;return an}function
-fM(a){if(a){var
+fN(a){if(a){var
 b=cA(i(a[1]));if(b){var
-c=fM(a[2]);if(c)var
+c=fN(a[2]);if(c)var
 f=c[1],d=[0,[0,dy(b[1]),f]];else
 var
 d=c;var
 e=d}else
 var
-e=b;return e}return B8}function
-pE(f,k,j,a,i){var
+e=b;return e}return Cb}function
+pK(f,k,j,a,i){var
 l=g(f),h=o(g(a),l);if(h){var
 m=W(W(f,W(k,j)),a);return e(function(f){var
-g=f[1],h=g[2],j=dx(h[2],h[1]),a=aL(g[1],i),k=D(d,a)?lf(b8(c(2,b),a)):[0,b,d9(b8(c(2,b),T(a)))],l=dy(gm(a0([0,c(2,b),b],k),j)),m=f[2];return e(function(a){return dy(a0(lf(a),l))},m)},m)}return h}function
-pF(u,aV,ar,aq,t,ap,a){var
-c=jR(u,aV,ar,aq),as=hB(y(po,u),ap),g=as?j5(u,ar,aq,c):as;if(t){var
+g=f[1],h=g[2],j=dx(h[2],h[1]),a=aL(g[1],i),k=D(d,a)?li(b8(c(2,b),a)):[0,b,d$(b8(c(2,b),T(a)))],l=dy(gn(a0([0,c(2,b),b],k),j)),m=f[2];return e(function(a){return dy(a0(li(a),l))},m)},m)}return h}function
+pL(u,aV,ar,aq,t,ap,a){var
+c=jU(u,aV,ar,aq),as=hC(y(pu,u),ap),g=as?j8(u,ar,aq,c):as;if(t){var
 v=t[2];if(v){var
 w=v[2];if(w){if(w[2])return 0;var
-h=w[1],j=v[1],l=t[1],at=pl(u,e(i,ap));if(at[2])return 0;var
+h=w[1],j=v[1],m=t[1],at=pr(u,e(i,ap));if(at[2])return 0;var
 f=at[1];if(typeof
 a!=="number")switch(a[0]){case
 2:var
 K=a[1];if(K){var
 L=K[2];if(L){var
 M=L[2];if(M){if(M[2]){var
-N=fJ(c,a);if(N){var
-aY=i(h),aZ=i(j),aA=[0,i(l),aZ,aY];if(g){var
-aB=fl(k,c,f,aA,N[1]);if(aB)var
+N=fK(c,a);if(N){var
+aY=i(h),aZ=i(j),aA=[0,i(m),aZ,aY];if(g){var
+aB=fm(k,c,f,aA,N[1]);if(aB)var
 O=aB;else{if(typeof
 a!=="number"&&0===a[0]){var
-z=a[2];return z?z[2]?0:fA(k,c,f,aA,a[1],z[1]):z}var
+z=a[2];return z?z[2]?0:fB(k,c,f,aA,a[1],z[1]):z}var
 O=0}}else
 var
 O=g;var
 aC=O}else
 var
 aC=N;return aC}if(g){var
-a0=i(M[1]),a1=i(L[1]),aD=[0,i(K[1]),a1,a0],a2=i(h),a3=i(j),aE=[0,i(l),a3,a2],Y=fi(k,c,f,aE),Z=Y?bD(k,c[2],aD):Y;if(Z){var
-aS=0,aT=0;return oj(k,0,[0,b,b],0,e(function(a){return[0,a]},f),aE,aT,aD,aS)}return Z}return g}var
-P=fJ(c,a);if(P){var
-a4=i(h),a5=i(j),aF=[0,i(l),a5,a4];if(g){var
-aG=fl(k,c,f,aF,P[1]);if(aG)var
+a0=i(M[1]),a1=i(L[1]),aD=[0,i(K[1]),a1,a0],a2=i(h),a3=i(j),aE=[0,i(m),a3,a2],Y=fj(k,c,f,aE),Z=Y?bD(k,c[2],aD):Y;if(Z){var
+aS=0,aT=0;return op(k,0,[0,b,b],0,e(function(a){return[0,a]},f),aE,aT,aD,aS)}return Z}return g}var
+P=fK(c,a);if(P){var
+a4=i(h),a5=i(j),aF=[0,i(m),a5,a4];if(g){var
+aG=fm(k,c,f,aF,P[1]);if(aG)var
 Q=aG;else{if(typeof
 a!=="number"&&0===a[0]){var
-A=a[2];return A?A[2]?0:fA(k,c,f,aF,a[1],A[1]):A}var
+A=a[2];return A?A[2]?0:fB(k,c,f,aF,a[1],A[1]):A}var
 Q=0}}else
 var
 Q=g;var
 aH=Q}else
 var
 aH=P;return aH}var
-R=fJ(c,a);if(R){var
-a6=i(h),a7=i(j),aI=[0,i(l),a7,a6];if(g){var
-aJ=fl(k,c,f,aI,R[1]);if(aJ)var
+R=fK(c,a);if(R){var
+a6=i(h),a7=i(j),aI=[0,i(m),a7,a6];if(g){var
+aJ=fm(k,c,f,aI,R[1]);if(aJ)var
 S=aJ;else{if(typeof
 a!=="number"&&0===a[0]){var
-B=a[2];return B?B[2]?0:fA(k,c,f,aI,a[1],B[1]):B}var
+B=a[2];return B?B[2]?0:fB(k,c,f,aI,a[1],B[1]):B}var
 S=0}}else
 var
 S=g;var
 aK=S}else
 var
 aK=R;return aK}var
-T=fJ(c,a);if(T){var
-a8=i(h),a9=i(j),aL=[0,i(l),a9,a8];if(g){var
-aM=fl(k,c,f,aL,T[1]);if(aM)var
+T=fK(c,a);if(T){var
+a8=i(h),a9=i(j),aL=[0,i(m),a9,a8];if(g){var
+aM=fm(k,c,f,aL,T[1]);if(aM)var
 U=aM;else{if(typeof
 a!=="number"&&0===a[0]){var
-C=a[2];return C?C[2]?0:fA(k,c,f,aL,a[1],C[1]):C}var
+C=a[2];return C?C[2]?0:fB(k,c,f,aL,a[1],C[1]):C}var
 U=0}}else
 var
 U=g;var
@@ -7668,26 +7679,26 @@ aN=T;return aN;case
 V=H(c[3],a[1]);if(V){var
 aO=V[1];if(typeof
 aO==="number"&&aO){var
-W=fM(a[2]);if(W){var
-n=W[1],X=fM(a[3]);if(X){var
+W=fN(a[2]);if(W){var
+n=W[1],X=fN(a[3]);if(X){var
 o=X[1];if(g){var
-a_=pE([0,d,[0,d,[0,d,0]]],n,o,a[4],a[5]),a$=i(h),ba=i(j),D=[0,i(l),ba,a$];if(n){var
+a_=pK([0,d,[0,d,[0,d,0]]],n,o,a[4],a[5]),a$=i(h),ba=i(j),D=[0,i(m),ba,a$];if(n){var
 p=n[2];if(p){var
 q=p[2];if(q){if(q[2])return 0;if(o){var
 r=o[2];if(r){var
 s=r[2];if(s){if(s[2])return 0;var
-_=s[1],$=r[1],aa=o[1],ab=q[1],ac=p[1],ad=n[1],ae=[0,[1,0,ad,aa],[1,vK,ac,$],[1,vJ,ab,_]],af=fi(k,c,f,D);if(af)var
+_=s[1],$=r[1],aa=o[1],ab=q[1],ac=p[1],ad=n[1],ae=[0,[1,0,ad,aa],[1,vP,ac,$],[1,vO,ab,_]],af=fj(k,c,f,D);if(af)var
 aU=c[3],E=aj(function(a){if(typeof
 a==="number"&&a)return 1;return 0},aU);else
 var
 E=af;var
-ag=E?oo(n,o):E,ah=ag?op(k,c[2],[0,[0,ad,ac],ab],[0,[0,aa,$],_]):ag,ai=ah?jy(k,n,o,br(D)):ah,ak=ai?m(function(b){var
-c=hh(oq(b)),e=c?hh([0,cF(b,D),0]):c;if(e){var
-f=iS(b,ae);if(f){var
-h=f[1],a=ed(k,function(a,b,c){return ok(k,vL,a,b,c)},h);return a?I(d,a[1][2][1]):a}var
+ag=E?ou(n,o):E,ah=ag?ov(k,c[2],[0,[0,ad,ac],ab],[0,[0,aa,$],_]):ag,ai=ah?jB(k,n,o,br(D)):ah,ak=ai?l(function(b){var
+c=hi(ow(b)),e=c?hi([0,cF(b,D),0]):c;if(e){var
+f=iT(b,ae);if(f){var
+h=f[1],a=ef(k,function(a,b,c){return oq(k,vQ,a,b,c)},h);return a?I(d,a[1][2][1]):a}var
 g=1}else
 var
-g=e;return g},f):ai;if(ak)return on(k,e(function(a){var
+g=e;return g},f):ai;if(ak)return ot(k,e(function(a){var
 b=cF(a,D);return[3,cF(a,ae),b]},f),a_);var
 al=ak}else
 var
@@ -7715,12 +7726,12 @@ aQ=W;return aQ}var
 aR=0}else
 var
 aR=V;return aR}var
-G=fJ(c,a);if(G){var
-aW=i(h),aX=i(j),au=[0,i(l),aX,aW];if(g){var
-av=fl(k,c,f,au,G[1]);if(av)var
+G=fK(c,a);if(G){var
+aW=i(h),aX=i(j),au=[0,i(m),aX,aW];if(g){var
+av=fm(k,c,f,au,G[1]);if(av)var
 J=av;else{if(typeof
 a!=="number"&&0===a[0]){var
-x=a[2];return x?x[2]?0:fA(k,c,f,au,a[1],x[1]):x}var
+x=a[2];return x?x[2]?0:fB(k,c,f,au,a[1],x[1]):x}var
 J=0}}else
 var
 J=g;var
@@ -7736,412 +7747,418 @@ ay=v;var
 az=ay}else
 var
 az=t;return az}function
-pG(m,l,b,k,y,x){var
-f=y,d=x;for(;;){if(0===d[0]){var
-g=d[1],h=H(f,g),n=h?aI(h[1][2],B9):h;if(n)var
-A=d[2],i=pG(m,l,b,k,j0(0,g,f),A);else
+pM(n,m,b,l,C,B){var
+f=C,d=B;for(;;){if(0===d[0]){var
+h=d[1],i=H(f,h),o=i?aI(i[1][2],Cc):i;if(o)var
+D=d[2],j=pM(n,m,b,l,j3(0,h,f),D);else
 var
-i=n;if(i){var
-B=d[3],f=j0(1,g,f),d=B;continue}return i}var
-c=d[1],a=pe(0,m,f),o=e(function(b){function
-d(b){return pf(a,b)}function
-c(a){return jY(d,a)}switch(b[0]){case
+j=o;if(j){var
+E=d[3],f=j3(1,h,f),d=E;continue}return j}var
+c=d[1],a=pk(0,n,f),p=e(function(b){function
+d(b){return pl(a,b)}function
+c(a){return j1(d,a)}switch(b[0]){case
 0:var
-e=b[5],f=pf(a,b[4]),g=c(b[3]),h=c(b[2]);return[0,c(b[1]),h,g,f,e];case
+e=b[5],f=pl(a,b[4]),g=c(b[3]),h=c(b[2]);return[0,c(b[1]),h,g,f,e];case
 1:var
-i=z(c,b[3]),j=c(b[2]);return[1,c(b[1]),j,i];default:return[2,c(b[1])]}},l);if(0===b[0])var
-q=b[2],r=jY(function(b){return at(a,b)},q),s=b[1],j=[0,jY(function(b){return at(a,b)},s),r];else
+i=z(c,b[3]),j=c(b[2]);return[1,c(b[1]),j,i];default:return[2,c(b[1])]}},m);if(0===b[0])var
+t=b[2],u=j1(function(b){return as(a,b)},t),v=b[1],k=[0,j1(function(b){return as(a,b)},v),u];else
 var
-t=at(a,b[5]),u=at(a,b[4]),v=at(a,b[3]),w=at(a,b[2]),j=[1,at(a,b[1]),w,v,u,t];var
-p=e(function(g){var
+w=as(a,b[5]),x=as(a,b[4]),y=as(a,b[3]),A=as(a,b[2]),k=[1,as(a,b[1]),A,y,x,w];var
+q=e(function(g){var
 c=g[4];if(typeof
 c==="number")var
 d=0;else
 switch(c[0]){case
 0:var
-d=[0,at(a,c[1])];break;case
+d=[0,as(a,c[1])];break;case
 1:var
-d=[1,at(a,c[1])];break;default:var
-m=at(a,c[2]),d=[2,at(a,c[1]),m]}var
+d=[1,as(a,c[1])];break;default:var
+m=as(a,c[2]),d=[2,as(a,c[1]),m]}var
 h=g[3];if(h){var
 b=h[1];switch(b[0]){case
 0:var
-f=[0,[0,at(a,b[1])]];break;case
+f=[0,[0,as(a,b[1])]];break;case
 1:var
-j=b[1],f=[0,[1,e(function(b){return at(a,b)},j)]];break;case
+j=b[1],f=[0,[1,e(function(b){return as(a,b)},j)]];break;case
 2:var
-k=at(a,b[2]),f=[0,[2,at(a,b[1]),k]];break;default:var
-l=at(a,b[2]),f=[0,[3,at(a,b[1]),l]]}var
+k=as(a,b[2]),f=[0,[2,as(a,b[1]),k]];break;default:var
+l=as(a,b[2]),f=[0,[3,as(a,b[1]),l]]}var
 i=f}else
 var
-i=h;return[0,g[1],g[2],i,d]},k);if(typeof
+i=h;return[0,g[1],g[2],i,d]},l);if(typeof
 c==="number")return 1;else
 switch(c[0]){case
 0:return 0;case
-1:return pB(1,o,j,0,p,c[1],c[2],c[3]);default:var
-C=c[4],D=c[3],E=e(function(b){return at(a,b)},D),F=c[2];return pF(o,j,0,p,e(function(b){return at(a,b)},F),E,C)}}}function
-pH(h,g){var
+1:return pH(1,p,k,0,q,c[1],c[2],c[3]);default:var
+g=c[4],s=0;if(typeof
+g!=="number"&&2===g[0]){var
+J=g[1],r=[2,e(function(b){return as(a,b)},J)];s=1}if(!s)var
+r=g;var
+F=c[3],G=e(function(b){return as(a,b)},F),I=c[2];return pL(p,k,0,q,e(function(b){return as(a,b)},I),G,r)}}}function
+pN(h,g){var
 a=cA(i(h));if(a){var
 c=a[1],e=bb([0,d,b],c);if(e)return bb(c,g);var
 f=e}else
 var
 f=a;return f}function
-Cf(s){var
-eF=hr(s[3]),eG=eF?hr(s[4]):eF;if(eG){var
-R=s[1];switch(R[0]){case
+Ck(s){var
+eS=hs(s[3]),eT=eS?hs(s[4]):eS;if(eT){var
+S=s[1];switch(S[0]){case
 3:var
-eM=m(fF,R[1]);if(eM)var
-iE=R[2],co=m(function(a){return fF(a[1])},iE);else
+eZ=l(fG,S[1]);if(eZ)var
+iZ=S[2],co=l(function(a){return fG(a[1])},iZ);else
 var
-co=eM;if(co)var
-iF=R[3],cp=m(function(a){var
-b=fF(a[1]),c=b?jP(a[2]):b;return c?fG(a[2]):c},iF);else
+co=eZ;if(co)var
+i0=S[3],cp=l(function(a){var
+b=fG(a[1]),c=b?jS(a[2]):b;return c?fH(a[2]):c},i0);else
 var
 cp=co;if(cp)var
-iG=R[4],ba=m(function(a){var
-b=0===a[0]?a[1]:[0,a[1],0];return m(function(a){var
-b=jP(a);return b?fG(a):b},b)},iG);else
+i1=S[4],be=l(function(a){var
+b=0===a[0]?a[1]:[0,a[1],0];return l(function(a){var
+b=jS(a);return b?fH(a):b},b)},i1);else
 var
-ba=cp;break;case
+be=cp;break;case
 7:var
-iH=R[1],eN=m(function(a){var
-b=fF(a[1]);return b?fH(0,[0,a[2][1],[0,a[2][2],0]]):b},iH),ba=eN?fH(0,[0,R[5],[0,R[6],0]]):eN;break;default:var
-ba=1}var
-cm=ba}else
+i7=S[1],e0=l(function(a){var
+b=fG(a[1]);return b?fI(0,[0,a[2][1],[0,a[2][2],0]]):b},i7),be=e0?fI(0,[0,S[5],[0,S[6],0]]):e0;break;default:var
+be=1}var
+cm=be}else
 var
-cm=eG;var
-cZ=0;if(cm){var
-eH=s[1],cn=7===eH[0]?e(ay,eH[1]):0,eI=function(c,b){var
-a=o0(c);return a?m(function(a){var
-e=a[1],b=m(function(a){return jO(a[2])},e);if(b){var
-c=a[3];if(c)return fH(cn,oZ(c[1]));var
+cm=eT;var
+c3=0;if(cm){var
+eU=s[1],cn=7===eU[0]?e(ay,eU[1]):0,eV=function(c,b){var
+a=o6(c);return a?l(function(a){var
+e=a[1],b=l(function(a){return jR(a[2])},e);if(b){var
+c=a[3];if(c)return fI(cn,o5(c[1]));var
 d=1}else
 var
-d=b;return d},b):a},eJ=function(e,d,c,b){var
-a=o0(e);return a?fH(cn,f(d,f(c,oZ(b)))):a},n=s[1];switch(n[0]){case
+d=b;return d},b):a},eW=function(e,d,c,b){var
+a=o6(e);return a?fI(cn,f(d,f(c,o5(b)))):a},n=s[1];switch(n[0]){case
 0:var
-ib=y(dR,n[4]),ic=f(y(oX,n[3]),ib),id=f(oV(n[2]),ic),S=f(y(jQ,n[1]),id);break;case
+ir=y(dT,n[4]),is=f(y(o3,n[3]),ir),it=f(o1(n[2]),is),U=f(y(jT,n[1]),it);break;case
 1:var
-ci=n[5],cj=n[3],ie=y(dR,n[6]),ig=ci?oW(ci[1]):ci,ih=f(ig,ie),ii=f(oU(n[4]),ih),ij=cj?[0,cj[1],0]:cj,ik=f(ij,ii),S=f(y(AF,n[2]),ik);break;case
+ci=n[5],cj=n[3],iu=y(dT,n[6]),iv=ci?o2(ci[1]):ci,iw=f(iv,iu),ix=f(o0(n[4]),iw),iy=cj?[0,cj[1],0]:cj,iz=f(iy,ix),U=f(y(AK,n[2]),iz);break;case
 2:var
-il=y(dR,n[7]),im=f(y(oX,n[6]),il),io=f(oW(n[5]),im),ip=f(oU(n[4]),io),iq=[0,n[3],ip],ir=n[2],S=f(y(function(a){return y(eE,f(a[1],a[2]))},ir),iq);break;case
+iA=y(dT,n[7]),iB=f(y(o3,n[6]),iA),iC=f(o2(n[5]),iB),iD=f(o0(n[4]),iC),iE=[0,n[3],iD],iF=n[2],U=f(y(function(a){return y(eF,f(a[1],a[2]))},iF),iE);break;case
 3:var
-is=y(dR,n[7]),it=f(n[6],is),iu=f(n[5],it),iv=n[2],S=f(y(function(a){return eE(a[2])},iv),iu);break;case
+iG=y(dT,n[7]),iH=f(n[6],iG),iI=f(n[5],iH),iJ=n[2],U=f(y(function(a){return eF(a[2])},iJ),iI);break;case
 4:var
-iw=y(dR,n[3]),S=[0,n[1],[0,n[2],iw]];break;case
+iK=y(dT,n[3]),U=[0,n[1],[0,n[2],iK]];break;case
 5:var
-ix=y(dR,n[4]),iy=f(b1(n[3]),ix),iz=f(b1(n[2]),iy),iA=f(y(jQ,n[1]),iz),S=[0,n[5],iA];break;case
+iL=y(dT,n[4]),iM=f(b1(n[3]),iL),iQ=f(b1(n[2]),iM),iS=f(y(jT,n[1]),iQ),U=[0,n[5],iS];break;case
 6:var
-cl=n[1],S=cl?eE(cl[1]):cl;break;default:var
-iB=y(dR,n[4]),iC=f(oV(n[3]),iB),S=f(y(jQ,n[2]),iC)}var
-eK=fH(cn,S);if(eK){var
-U=s[2];switch(U[0]){case
+cl=n[1],U=cl?eF(cl[1]):cl;break;default:var
+iT=y(dT,n[4]),iU=f(o1(n[3]),iT),U=f(y(jT,n[2]),iU)}var
+eX=fI(cn,U);if(eX){var
+V=s[2];switch(V[0]){case
 0:var
-aR=eI(U[1],U[3]);break;case
+aU=eV(V[1],V[3]);break;case
 1:var
-aR=eJ(U[1],U[2],U[3],U[4]);break;default:var
-iD=U[1],aR=m(function(a){if(typeof
+aU=eW(V[1],V[2],V[3],V[4]);break;default:var
+iY=V[1],aU=l(function(a){if(typeof
 a!=="number")switch(a[0]){case
-1:return eI(a[1],a[3]);case
-2:return eJ(a[1],a[2],a[3],a[4])}return 1},iD)}}else{var
-eL=eK;cZ=1}}else{var
-eL=cm;cZ=1}if(cZ)var
-aR=eL;if(aR){var
+1:return eV(a[1],a[3]);case
+2:return eW(a[1],a[2],a[3],a[4])}return 1},iY)}}else{var
+eY=eX;c3=1}}else{var
+eY=cm;c3=1}if(c3)var
+aU=eY;if(aU){var
 a=s[1];switch(a[0]){case
 0:var
-e7=a[4],e8=a[3],e9=a[2],e_=a[1],ab=s[2];switch(ab[0]){case
-0:return pB(0,e_,e9,e8,e7,ab[1],ab[2],ab[3]);case
-1:return pF(e_,e9,e8,e7,ab[2],ab[3],ab[4]);default:return 0}case
+fk=a[4],fl=a[3],fm=a[2],fn=a[1],ad=s[2];switch(ad[0]){case
+0:return pH(0,fn,fm,fl,fk,ad[1],ad[2],ad[3]);case
+1:return pL(fn,fm,fl,fk,ad[2],ad[3],ad[4]);default:return 0}case
 1:var
-e$=a[6],fb=a[5],fc=a[4],fd=a[3],fe=a[2],ff=a[1],ad=s[2];switch(ad[0]){case
-0:return pC(ff,fe,fd,fc,fb,e$,ad[1],ad[2],ad[3]);case
-1:return pD(ff,fe,fd,fc,fb,e$,ad[2],ad[3],ad[4]);default:return 0}case
+fo=a[6],fp=a[5],fr=a[4],fs=a[3],ft=a[2],fu=a[1],ae=s[2];switch(ae[0]){case
+0:return pI(fu,ft,fs,fr,fp,fo,ae[1],ae[2],ae[3]);case
+1:return pJ(fu,ft,fs,fr,fp,fo,ae[2],ae[3],ae[4]);default:return 0}case
 2:var
-ae=a[7],af=a[6],bi=a[5],bj=a[4],bk=a[3],F=a[2],G=a[1],ag=s[2];switch(ag[0]){case
+af=a[7],ag=a[6],bj=a[5],bk=a[4],bl=a[3],G=a[2],K=a[1],ah=s[2];switch(ah[0]){case
 0:var
-fg=ag[3],V=o7(G,F,bk,bj,bi,af,ae),iZ=V[2],cu=E(b,bF(y(function(a){var
-b=a9(a[2]);return f(a9(a[1]),b)},iZ))),i0=g(fg),i6=jl(cu,V[2]),i7=jl(cu,V[2]),cv=dU(bG(G),i7,i6,0,i0,fg);if(cv){var
-fi=cv[1];if(fi[2])return 0;var
-fj=ps(G,F,bk,bj,bi,af,ae);if(fj){var
-i8=fi[1],i9=g(F),i_=fL(0,j6(G),i9,af,ae),i$=hD(ag[2]),ja=ag[1],gu=V[2],c6=m(function(a){var
-b=nW(k,a[1]);return b?nW(k,a[2]):b},gu);if(c6)var
-gv=iU(V[4]),bx=bD(k,V[4],gv);else
+fy=ah[3],X=pb(K,G,bl,bk,bj,ag,af),jg=X[2],cu=E(b,bF(y(function(a){var
+b=a9(a[2]);return f(a9(a[1]),b)},jg))),jh=g(fy),ji=jm(cu,X[2]),jj=jm(cu,X[2]),cv=dW(bG(K),jj,ji,0,jh,fy);if(cv){var
+fz=cv[1];if(fz[2])return 0;var
+fA=py(K,G,bl,bk,bj,ag,af);if(fA){var
+jk=fz[1],jl=g(G),jn=fM(0,j9(K),jl,ag,af),jo=hE(ah[2]),jp=ah[1],gI=X[2],c8=l(function(a){var
+b=nZ(k,a[1]);return b?nZ(k,a[2]):b},gI);if(c8)var
+gJ=iV(X[4]),bA=bD(k,X[4],gJ);else
 var
-bx=c6;if(bx)var
-gw=g6(V[5]),bz=m(function(a){return fu(k,a)},gw);else
+bA=c8;if(bA)var
+gK=g7(X[5]),bE=l(function(a){return fv(k,a)},gK);else
 var
-bz=bx;return bz?u8(ja,i$,i_,V,cu,i8):bz}var
-fk=fj}else
+bE=bA;return bE?vb(jp,jo,jn,X,cu,jk):bE}var
+fB=fA}else
 var
-fk=cv;return fk;case
+fB=cv;return fB;case
 1:var
-K=ag[4],fl=ag[3],ah=e(i,ag[2]),B=j4(G),fm=pm(F,e(i,fl));if(fm[2])return 0;var
-u=fm[1],fn=hB(y(function(a){return f(a[1],a[2])},F),fl),fo=fn?ps(G,F,bk,bj,bi,af,ae):fn;if(fo){var
-p=o7(G,F,bk,bj,bi,af,ae);if(typeof
-K!=="number")switch(K[0]){case
+L=ah[4],fC=ah[3],ai=e(i,ah[2]),B=j7(K),fD=ps(G,e(i,fC));if(fD[2])return 0;var
+u=fD[1],fE=hC(y(function(a){return f(a[1],a[2])},G),fC),fF=fE?py(K,G,bl,bk,bj,ag,af):fE;if(fF){var
+p=pb(K,G,bl,bk,bj,ag,af);if(typeof
+L!=="number")switch(L[0]){case
 2:var
-fy=e(i,K[1]),fz=aM(B,fy),fA=aK(aB(B,fy)),fB=aM(B,ah),fC=aK(aB(B,ah)),c7=i4(k,p[2],u);if(c7)var
-gx=bG(p[1]),bA=o(g(u),gx);else
+fR=e(i,L[1]),fT=aM(B,fR),fU=aK(aA(B,fR)),fV=aM(B,ai),fW=aK(aA(B,ai)),c$=i5(k,p[2],u);if(c$)var
+gL=bG(p[1]),bH=o(g(u),gL);else
 var
-bA=c7;var
-c8=bA?bD(k,p[4],fC):bA,c$=c8?bD(k,p[4],fA):c8,dc=c$?da(k,p[5],fB):c$,dd=dc?da(k,p[5],fz):dc;if(dd){var
-de=function(b,a){var
-c=p[5],d=p[3],f=p[1];return e(function(e){return i3(f,d,c,a,b,e)},u)},gy=de(fA,fz),gz=de(fC,fB);return n2(k,bG(p[1]),gz,gy)}return dd;case
+bH=c$;var
+dc=bH?bD(k,p[4],fW):bH,dd=dc?bD(k,p[4],fU):dc,de=dd?da(k,p[5],fV):dd,df=de?da(k,p[5],fT):de;if(df){var
+dh=function(b,a){var
+c=p[5],d=p[3],f=p[1];return e(function(e){return i4(f,d,c,a,b,e)},u)},gM=dh(fU,fT),gN=dh(fW,fV);return jr(k,bG(p[1]),gN,gM)}return df;case
 3:var
-cz=fM(K[2]);if(cz){var
-fD=cz[1],cB=fM(K[3]);if(cB){var
-fE=cB[1],jc=p[2],jd=E(b,bF(y(function(a){var
-b=a9(a[2]);return f(a9(a[1]),b)},jc))),je=g(F),jf=fL(0,j6(G),je,af,ae),fI=o(K[1],jf);if(fI){var
-jg=K[5],jh=K[4],ji=al(T(jd),d7(g(ah),B)),jj=pE(f(al(d,B),ji),fD,fE,jh,jg),jk=aM(B,ah);return vQ(k,B,p,u,aK(aB(B,ah)),jk,fD,fE,jj)}var
-fJ=fI}else
+cz=fN(L[2]);if(cz){var
+fX=cz[1],cB=fN(L[3]);if(cB){var
+fY=cB[1],js=p[2],jv=E(b,bF(y(function(a){var
+b=a9(a[2]);return f(a9(a[1]),b)},js))),jy=g(G),jA=fM(0,j9(K),jy,ag,af),fZ=o(L[1],jA);if(fZ){var
+jB=L[5],jC=L[4],jD=al(T(jv),d9(g(ai),B)),jF=pK(f(al(d,B),jD),fX,fY,jC,jB),jH=aM(B,ai);return vV(k,B,p,u,aK(aA(B,ai)),jH,fX,fY,jF)}var
+f0=fZ}else
 var
-fJ=cB;var
-fN=fJ}else
+f0=cB;var
+f1=f0}else
 var
-fN=cz;return fN}var
-jb=g(F),cx=j7(0,j6(G),jb,af,ae,K);if(cx){var
-aS=cx[1],t=aK(aB(B,ah)),q=aM(B,ah),c3=i5(k,p,u,t,q);if(c3)var
-O=p[5],c4=p[3],c5=p[1],gr=p[6],bv=function(a){var
-b=bY(O,q,t,a);return w(bY(O,q,t,a),b)},gk=e(function(a){return[0,i3(c5,c4,O,q,t,a)]},u),gl=e(bv,u),gm=function(a){var
-b=c_(O,q,a);return J(function(b,a){return[2,b,a]},t,b)},gn=e(function(a){var
-b=[6,bv(a)],c=bY(O,q,t,a),d=c_(O,q,a[2]);return[0,[0,[0,J(function(b,a){return[2,b,a]},t,d),c],b]]},u),go=e(function(a){return 0},u),gp=e(function(a){return[0,[6,bv(a)]]},u),gq=[0,e(function(c){var
-a=av(bY(O,q,t,c));return i2(c5,a,P([5,[0,b,b],c4],c9(c_(O,q,c[2]),a)))},u),gp,go,gn,gm,gl,gk],gs=bG(p[1]),gt=2<=p[1]?tV:tW,cy=iW(k,gt,gs,gq,gr,aS);else
+f1=cz;return f1}var
+jq=g(G),cx=j_(0,j9(K),jq,ag,af,L);if(cx){var
+aV=cx[1],t=aK(aA(B,ai)),q=aM(B,ai),c5=i6(k,p,u,t,q);if(c5)var
+Q=p[5],c6=p[3],c7=p[1],gF=p[6],bz=function(a){var
+b=bY(Q,q,t,a);return w(bY(Q,q,t,a),b)},gy=e(function(a){return[0,i4(c7,c6,Q,q,t,a)]},u),gz=e(bz,u),gA=function(a){var
+b=c_(Q,q,a);return J(function(b,a){return[2,b,a]},t,b)},gB=e(function(a){var
+b=[6,bz(a)],c=bY(Q,q,t,a),d=c_(Q,q,a[2]);return[0,[0,[0,J(function(b,a){return[2,b,a]},t,d),c],b]]},u),gC=e(function(a){return 0},u),gD=e(function(a){return[0,[6,bz(a)]]},u),gE=[0,e(function(c){var
+a=av(bY(Q,q,t,c));return i3(c7,a,P([5,[0,b,b],c6],c9(c_(Q,q,c[2]),a)))},u),gD,gC,gB,gA,gz,gy],gG=bG(p[1]),gH=2<=p[1]?t0:t1,cy=iX(k,gH,gG,gE,gF,aV);else
 var
-cy=c3;if(cy)var
-fq=cy;else{if(typeof
-aS!=="number"&&0===aS[0]){var
-bl=aS[2];if(bl){if(bl[2])return 0;var
-bm=bl[1],ft=aS[1],aI=p[1],dW=i5(k,p,u,t,q),c2=0;if(dW){var
-hA=p[6],hE=2<=aI?vG:vH,bW=ep(k,hE,ft,hA),br=0;if(bW){var
-at=bW[1][1],bt=0;if(typeof
-at!=="number"&&15===at[0]){var
-bZ=H(u,at[1]);if(bZ){var
-aJ=mX(bm),dZ=at[3],a4=bZ[1],a5=p[5],b0=p[3],hF=at[4],hG=at[2],dI=i3(aI,b0,a5,q,t,a4),dJ=bY(a5,q,t,a4),bV=bo(aJ,aJ),dK=[4,[4,hG,[6,bo(dI,dI)]],bV],aG=bY(a5,q,t,a4),bT=c_(a5,q,a4[2]),aH=P([5,[0,b,b],b0],og(aI,aJ)),hm=c9(aH,bT),hp=of(aI,aJ),bU=J(function(b,a){return[2,b,a]},hp,hm),dH=w(aG,bU),hq=w(aH,aH),hs=[4,w(aG,bT),hq],ht=w(bT,aH),hu=[3,[4,w(aG,aH),ht],hs],hv=[5,[4,dH,dH],w(aG,aG)],dL=[4,[4,dZ,dZ],[2,[3,w(bU,bU),hv],hu]],dM=[4,[4,hF,bV],[6,w(dJ,dJ)]],hw=bG(aI),dP=o(g(aJ),hw),dQ=dP?h(k,1,bV):dP,dS=dQ?h(k,1,b0):dQ,gj=0;if(dS){var
-dT=h(k,1,[3,[2,dK,dL],dM]);if(dT)var
-dV=dT;else{var
-aT=h(k,1,[3,[3,dK,dL],dM]);br=1;bt=1;gj=1}}else
+cy=c5;if(cy)var
+fJ=cy;else{if(typeof
+aV!=="number"&&0===aV[0]){var
+bm=aV[2];if(bm){if(bm[2])return 0;var
+bn=bm[1],fP=aV[1],aL=p[1],d0=i6(k,p,u,t,q),c4=0;if(d0){var
+hP=p[6],hQ=2<=aL?vL:vM,bW=er(k,hQ,fP,hP),bv=0;if(bW){var
+ax=bW[1][1],bx=0;if(typeof
+ax!=="number"&&15===ax[0]){var
+bZ=H(u,ax[1]);if(bZ){var
+aO=m0(bn),d3=ax[3],a4=bZ[1],a5=p[5],b0=p[3],hR=ax[4],hS=ax[2],dK=i4(aL,b0,a5,q,t,a4),dL=bY(a5,q,t,a4),bV=bo(aO,aO),dM=[4,[4,hS,[6,bo(dK,dK)]],bV],aI=bY(a5,q,t,a4),bT=c_(a5,q,a4[2]),aJ=P([5,[0,b,b],b0],om(aL,aO)),hH=c9(aJ,bT),hI=ol(aL,aO),bU=J(function(b,a){return[2,b,a]},hI,hH),dJ=w(aI,bU),hJ=w(aJ,aJ),hK=[4,w(aI,bT),hJ],hL=w(bT,aJ),hM=[3,[4,w(aI,aJ),hL],hK],hN=[5,[4,dJ,dJ],w(aI,aI)],dR=[4,[4,d3,d3],[2,[3,w(bU,bU),hN],hM]],dS=[4,[4,hR,bV],[6,w(dL,dL)]],hO=bG(aL),dU=o(g(aO),hO),dV=dU?h(k,1,bV):dU,dX=dV?h(k,1,b0):dV,gx=0;if(dX){var
+dY=h(k,1,[3,[2,dM,dR],dS]);if(dY)var
+dZ=dY;else{var
+aW=h(k,1,[3,[3,dM,dR],dS]);bv=1;bx=1;gx=1}}else
 var
-dV=dS;if(!gj){var
-aT=dV;br=1;bt=1}}else{var
-aT=bZ;br=1;bt=1}}if(!bt)var
-dX=0}else
+dZ=dX;if(!gx){var
+aW=dZ;bv=1;bx=1}}else{var
+aW=bZ;bv=1;bx=1}}if(!bx)var
+d1=0}else
 var
-dX=bW;if(!br){var
-dY=dX;c2=1}}else{var
-dY=dW;c2=1}if(c2)var
-aT=dY;if(!aT){var
-d0=p[1],b3=p[5],d1=i5(k,p,u,t,q);if(d1){var
-hH=p[6],hI=2<=d0?v2:v3,b4=ep(k,hI,ft,hH);if(b4){var
-aL=b4[1][1];if(typeof
-aL!=="number"&&16===aL[0]){var
-d4=aL[1],d5=h(k,0,d4);if(d5)var
-hJ=g(p[2]),b5=o(g(bm),hJ);else
+d1=bW;if(!bv){var
+d2=d1;c4=1}}else{var
+d2=d0;c4=1}if(c4)var
+aW=d2;if(!aW){var
+ed=p[1],b3=p[5],ee=i6(k,p,u,t,q);if(ee){var
+hV=p[6],hW=2<=ed?v7:v8,b4=er(k,hW,fP,hV);if(b4){var
+aP=b4[1][1];if(typeof
+aP!=="number"&&16===aP[0]){var
+eh=aP[1],ei=h(k,0,eh);if(ei)var
+hX=g(p[2]),b5=o(g(bn),hX);else
 var
-b5=d5;if(b5){var
-hK=p[2],hL=W(W(u,hi(bm,e(function(a){var
-b=by(a[2]);return ox(bY(b3,q,t,[0,by(a[1]),b]))},hK),d4)),bm),hM=e(function(e){var
-c=e[1],d=c[2],a=c[1],f=c_(b3,q,a[2]),g=a[1],h=J(function(b,a){return[3,b,a]},t,g),i=[2,d,ox(bY(b3,q,t,a))];return[0,dN([5,[0,e[2],b],i]),d,h,f]},hL);return ow(k,[0,d0],aL[2],aL[3],hM)}return b5}var
-d2=0}else
+b5=ei;if(b5){var
+hY=p[2],hZ=W(W(u,hj(bn,e(function(a){var
+b=by(a[2]);return oD(bY(b3,q,t,[0,by(a[1]),b]))},hY),eh)),bn),h0=e(function(e){var
+c=e[1],d=c[2],a=c[1],f=c_(b3,q,a[2]),g=a[1],h=J(function(b,a){return[3,b,a]},t,g),i=[2,d,oD(bY(b3,q,t,a))];return[0,dP([5,[0,e[2],b],i]),d,h,f]},hZ);return oC(k,[0,ed],aP[2],aP[3],h0)}return b5}var
+ef=0}else
 var
-d2=b4;var
-d3=d2}else
+ef=b4;var
+eg=ef}else
 var
-d3=d1;return d3}var
-fx=aT}else
+eg=ee;return eg}var
+fQ=aW}else
 var
-fx=bl;return fx}var
-fq=0}var
-fr=fq}else
+fQ=bm;return fQ}var
+fJ=0}var
+fK=fJ}else
 var
-fr=cx;var
-fs=fr}else
+fK=cx;var
+fO=fK}else
 var
-fs=fo;return fs;default:return 0}case
+fO=fF;return fO;default:return 0}case
 3:var
-ai=a[7],aU=a[6],aV=a[5],ak=a[4],cC=a[3],am=a[2],aw=a[1],an=s[2];switch(an[0]){case
+ak=a[7],aX=a[6],aY=a[5],am=a[4],cC=a[3],an=a[2],az=a[1],ap=s[2];switch(ap[0]){case
 0:var
-fO=an[3],jm=g(fO),jn=hC(jv(jT(aw,am,cC,ak,aV,aU,ai)[1])),cD=dU(g(aw),jn,0,0,jm,fO);if(cD){var
-fP=cD[1];if(fP[2])return 0;var
-fQ=pv(aw,am,ak,aV,aU,ai);if(fQ){var
-jo=fP[1],L=jT(aw,am,cC,ak,aV,aU,ai),jp=fL(0,Cg,g(ak),0,ai),fS=hD(an[2]),aW=an[1],dw=od(L[1]);if(dw)var
-g3=L[1][2],bP=m(function(a){return bw(k,a[2][1],a[2][2])},g3);else
+f2=ap[3],jI=g(f2),jJ=hD(jx(jW(az,an,cC,am,aY,aX,ak)[1])),cD=dW(g(az),jJ,0,0,jI,f2);if(cD){var
+f3=cD[1];if(f3[2])return 0;var
+f4=pB(az,an,am,aY,aX,ak);if(f4){var
+jK=f3[1],O=jW(az,an,cC,am,aY,aX,ak),jL=fM(0,Cl,g(am),0,ak),f5=hE(ap[2]),aZ=ap[1],dy=of(O[1]);if(dy)var
+hi=O[1][2],bR=l(function(a){return bw(k,a[2][1],a[2][2])},hi);else
 var
-bP=dw;if(bP)var
-g4=L[2],bQ=m(function(a){return bw(k,a[1],a[2])},g4);else
+bR=dy;if(bR)var
+hl=O[2],bS=l(function(a){return bw(k,a[1],a[2])},hl);else
 var
-bQ=bP;if(bQ){var
-x=L[1],bE=g(x[1]),a1=L[3],bH=g(x[2]),df=N(bH,g(fw(e(aY,x[3])))),gA=x[3],dh=n_(he(x),gA,bH),Z=ju(bE,dh,x[4],df),gB=js(dh,x[4],df),gC=x[3],di=f(jr(he(x),gC,bH),gB),dj=g(jv(x)),gD=0,gE=f(di,db(function(a,b){return n5(Z,a,b)},gD,d,dj,a1)),gF=f(bC(fv(Z)),gE),dk=f(bC(ey(Z)),gF),bI=cW(dk)[1],gG=cV(bI),as=function(a){return bd(gG,a)},dl=o(g(L[2]),bE);if(dl)var
-gH=x[4],bJ=m(function(a){return 0===a[0]?o(g(a[1]),bE):1},gH);else
+bS=bR;if(bS){var
+x=O[1],bI=g(x[1]),a2=O[3],bJ=g(x[2]),di=N(bJ,g(fx(e(aT,x[3])))),gQ=x[3],dj=oa(hf(x),gQ,bJ),Z=jw(bI,dj,x[4],di),gR=ju(dj,x[4],di),gS=x[3],dk=f(jt(hf(x),gS,bJ),gR),dl=g(jx(x)),gT=0,gV=f(dk,db(function(a,b){return n7(Z,a,b)},gT,d,dl,a2)),gW=f(bC(fw(Z)),gV),dn=f(bC(eA(Z)),gW),bK=cW(dn)[1],gX=cV(bK),aw=function(a){return bd(gX,a)},dp=o(g(O[2]),bI);if(dp)var
+gY=x[4],bL=l(function(a){return 0===a[0]?o(g(a[1]),bI):1},gY);else
 var
-bJ=dl;var
-dn=bJ?m(function(a){var
-b=l(d),c=cV(bI);return aN(r(as(a),c,b),a)},dk):bJ,dp=dn?aj(n7,a1):dn;if(dp){var
-dq=M(L[4]);if(dq)var
-a2=dq;else
+bL=dp;var
+dq=bL?l(function(a){var
+b=m(d),c=cV(bK);return aN(r(aw(a),c,b),a)},dn):bL,dr=dq?aj(n9,a2):dq;if(dr){var
+ds=M(O[4]);if(ds)var
+a3=ds;else
 var
-g2=x[4],a2=m(function(a){return 0===a[0]?0:1},g2)}else
+hh=x[4],a3=l(function(a){return 0===a[0]?0:1},hh)}else
 var
-a2=dp;if(a2){var
-gI=jv(x),bK=ac(e(function(a){return ao(aW,a)},gI));if(bK){var
-gJ=0,gK=y(function(a){return fp(gJ,d,a)},a1),bL=ac(e(function(a){return i1(aW,a)},gK));if(bL){var
-gL=L[2],bM=ac(e(function(a){return ao(aW,[0,a,d])},gL));if(bM){var
-gM=0,gP=0,bN=ac(db(function(a,b){return n6(aW,as,Z,gP,d,a,b)},gM,d,dj,a1));if(bN){var
-dr=bN[1];if(L[4])var
-gQ=fS[2],gR=fS[1],gS=fv(Z),bO=iV(jp,dr,[8,j(au(as),gS),gR,gQ]);else
+a3=dr;if(a3){var
+gZ=jx(x),bM=ac(e(function(a){return ao(aZ,a)},gZ));if(bM){var
+g0=0,g1=y(function(a){return fq(g0,d,a)},a2),bN=ac(e(function(a){return i2(aZ,a)},g1));if(bN){var
+g2=O[2],bO=ac(e(function(a){return ao(aZ,[0,a,d])},g2));if(bO){var
+g3=0,g4=0,bP=ac(db(function(a,b){return n8(aZ,aw,Z,g4,d,a,b)},g3,d,dl,a2));if(bP){var
+dt=bP[1];if(O[4])var
+g5=f5[2],g6=f5[1],g8=fw(Z),bQ=iW(jL,dt,[8,j(au(aw),g8),g6,g5]);else
 var
-bO=dr;var
-gU=iN(bO),gV=bM[1],gW=function(a){return 0},gX=f(bK[1],bL[1]),gY=e(as,di),gZ=fv(Z),g0=j(au(as),gZ),g1=ey(Z);return fR(iM(aW,bI,j(au(as),g1),g0,gY,gX,bO,gW),gV,gU,jo)}var
-ds=bN}else
+bQ=dt;var
+g9=iO(bQ),g_=bO[1],g$=function(a){return 0},ha=f(bM[1],bN[1]),hb=e(aw,dk),hc=fw(Z),hd=j(au(aw),hc),he=eA(Z);return fS(iN(aZ,bK,j(au(aw),he),hd,hb,ha,bQ,g$),g_,g9,jK)}var
+du=bP}else
 var
-ds=bM;var
-dt=ds}else
-var
-dt=bL;var
-du=dt}else
-var
-du=bK;var
+du=bO;var
 dv=du}else
 var
-dv=a2;return dv}return bQ}var
-fT=fQ}else
+dv=bN;var
+dw=dv}else
 var
-fT=cD;return fT;case
+dw=bM;var
+dx=dw}else
+var
+dx=a3;return dx}return bS}var
+f6=f4}else
+var
+f6=cD;return f6;case
 1:var
-fU=an[3],fV=an[2],X=jT(aw,am,cC,ak,aV,aU,ai),jq=e(i,fU),fW=bh(e(aY,am),jq);if(fW[2])return 0;var
-aX=fW[1],jt=an[4],cE=j7(0,Ch,g(ak),0,ai,jt);if(cE){var
-aZ=cE[1],fX=hB(e(aY,am),fU),fY=fX?pv(aw,am,ak,aV,aU,ai):fX,fZ=fY?od(X[1]):fY;if(fZ)var
-jw=X[2],cF=m(function(a){return bw(k,a[1],a[2])},jw);else
+bp=ap[4],f7=ap[3],cE=ap[2],C=jW(az,an,cC,am,aY,aX,ak),jM=e(i,f7),f8=bh(e(aT,an),jM);if(f8[2])return 0;var
+aq=f8[1],f9=hC(e(aT,an),f7),f_=f9?pB(az,an,am,aY,aX,ak):f9,f$=f_?of(C[1]):f_;if(f$)var
+jN=C[2],cF=l(function(a){return bw(k,a[1],a[2])},jN);else
 var
-cF=fZ;if(cF){var
-ap=e(i,fV),A=X[1],a3=g(A[1]),bR=g(A[2]),dx=N(bR,g(fw(e(aY,A[3])))),ha=A[3],dy=n_(he(A),ha,bR),aA=ju(a3,dy,A[4],dx),hb=js(dy,A[4],dx),hd=A[3],dz=f(jr(he(A),hd,bR),hb),hg=y(hc,A[4]),hh=f(fw(e(aY,A[3])),hg),aF=f(aX,e(function(a){return a[1][1]},hh)),dA=hf(k,e(aY,A[2]),aX),dC=dA?hf(k,X[2],ap):dA,dD=dC?o(g(ap),a3):dC;if(dD)var
-hk=A[4],bS=m(function(a){return 0===a[0]?o(g(a[1]),a3):1},hk);else
-var
-bS=dD;var
-dG=bS?m(oe,f(y(vv,aA),dz)):bS;if(dG)var
-hl=X[3],g5=e(function(a){var
-b=a[1];return[0,e(function(a){return ez(ap,aF,a)},b)]},aA),g7=y(function(c){var
+cF=f$;if(cF){if(typeof
+bp!=="number"&&2===bp[0]){var
+cJ=e(i,bp[1]),cL=e(i,cE),_=C[1],a6=hg(_),hT=oi(_),d4=e(function(a){return a[3]},hT),d5=function(a){var
+b=oj(_,aq);function
+c(c){return dN(a,b,c)}return e(function(a){return e(c,a)},d4)},d6=dO(k,e(aT,_[2]),aq),d7=d6?dO(k,C[2],cL):d6,d8=d7?dO(k,C[2],cJ):d7,d_=d8?o(g(cL),a6):d8,d$=d_?o(g(cJ),a6):d_,ea=d$?ok(_,_[4]):d$,eb=ea?o(g(_[4]),a6):ea,ec=eb?l(function(a){return l(jz,a)},d4):eb;if(ec){var
+hU=d5(cJ);return jr(k,a6,d5(cL),hU)}return ec}var
+cG=j_(0,Cm,g(am),0,ak,bp);if(cG){var
+a0=cG[1],ar=e(i,cE),A=C[1],dA=hg(A),aG=oi(A),hv=og(A),hw=A[4],hx=ju(oh(A),hw,hv),hB=g(A[2]),hF=A[3],dz=f(jt(hf(A),hF,hB),hx),aH=oj(A,aq),dC=dO(k,e(aT,A[2]),aq),dD=dC?dO(k,C[2],ar):dC,dG=dD?o(g(ar),dA):dD,dH=dG?ok(A,A[4]):dG,dI=dH?l(jz,f(y(vA,aG),dz)):dH;if(dI)var
+hG=C[3],hm=e(function(a){var
+b=a[1];return[0,e(function(a){return dN(ar,aH,a)},b)]},aG),hn=y(function(c){var
 a=c[1];switch(a[0]){case
 7:var
-b=ez(ap,aF,a[2]);return[0,[4,b,b],0];case
-9:return[0,ez(ap,aF,a[1]),0];default:return 0}},dz),g8=function(a){return a},g9=0,g_=e(function(a){return 0},aA),g$=e(function(b){var
+b=dN(ar,aH,a[2]);return[0,[4,b,b],0];case
+9:return[0,dN(ar,aH,a[1]),0];default:return 0}},dz),hq=function(a){return a},hr=0,ht=e(function(a){return 0},aG),hu=e(function(b){var
 a=b[4];if(typeof
-a!=="number"&&0===a[0])return[0,ez(ap,aF,a[1])];return 0},aA),cG=iW(k,vw,a3,[0,e(function(a){var
-b=a[3];return e(function(a){return ez(ap,aF,a)},b)},aA),g$,g_,g9,g8,g7,g5],hl,aZ);else
+a!=="number"&&0===a[0])return[0,dN(ar,aH,a[1])];return 0},aG),cH=iX(k,vB,dA,[0,e(function(a){var
+b=a[3];return e(function(a){return dN(ar,aH,a)},b)},aG),hu,ht,hr,hq,hn,hm],hG,a0);else
 var
-cG=dG;if(cG)var
-cH=cG;else{if(typeof
-aZ!=="number"&&0===aZ[0]){var
-bn=aZ[2];if(bn){if(bn[2])return 0;var
-cI=bn[1],jx=aZ[1],a0=e(i,fV),_=X[1],a6=g(_[1]),d6=hf(k,e(aY,_[2]),aX),d8=d6?hf(k,X[2],a0):d6,d9=d8?o(g(a0),a6):d8,d_=d9?dg(f(aX,a0)):d9;if(d_)var
-hN=_[3],b6=m(function(a){return jD(a[2])},hN);else
+cH=dI;if(cH)var
+ga=cH;else{if(typeof
+a0!=="number"&&0===a0[0]){var
+bq=a0[2];if(bq){if(bq[2])return 0;var
+cI=bq[1],jO=a0[1],a1=e(i,cE),ab=C[1],a7=g(ab[1]),ej=dO(k,e(aT,ab[2]),aq),ek=ej?dO(k,C[2],a1):ej,el=ek?o(g(a1),a7):ek,em=el?dg(f(aq,a1)):el;if(em)var
+h1=ab[3],b6=l(function(a){return jG(a[2])},h1);else
 var
-b6=d_;if(b6){var
-b7=ep(k,v5,jx,X[3]);if(b7){var
-a7=b7[1][1];if(typeof
-a7!=="number"&&16===a7[0]){var
-eb=a7[2],ec=a7[1],b8=oA(_[4]);if(b8){var
-a_=b8[1],b9=hj(aD(cK,eb));if(b9){var
-hO=b9[1],ed=h(k,1,eb),ee=ed?h(k,0,ec):ed;if(ee)var
-hP=g(a_),b_=o(g(cI),hP);else
+b6=em;if(b6){var
+b7=er(k,v_,jO,C[3]);if(b7){var
+a_=b7[1][1];if(typeof
+a_!=="number"&&16===a_[0]){var
+ep=a_[2],eq=a_[1],b8=oG(ab[4]);if(b8){var
+a$=b8[1],b9=hk(aC(cK,ep));if(b9){var
+h2=b9[1],es=h(k,1,ep),et=es?h(k,0,eq):es;if(et)var
+h3=g(a$),b_=o(g(cI),h3);else
 var
-b_=ee;var
-ef=b_?m(jD,a_):b_;if(ef){var
-hQ=_[2],hR=oz(_,e(function(a){return dO(a[2])},hQ),a0),eg=hi(cI,e(function(a){return bs(hR,a)},a_),ec),eh=dg(eg);if(eh){var
-hS=W(a0,aC(0,a6)),hT=oz(_,aX,e(function(a){var
-b=ck(a[2],hO);return[2,a[1],b]},hS)),hU=W(W(e(function(a){return bs(hT,a)},a_),eg),cI);return jB(k,a6,a6,eA(function(a){return[4,[0,a[2],b],[3,a[1][1],a[1][2]]]},hU))}var
-ei=eh}else
+b_=et;var
+eu=b_?l(jG,a$):b_;if(eu){var
+h4=ab[2],h5=oF(ab,e(function(a){return dQ(a[2])},h4),a1),ev=hj(cI,e(function(a){return bs(h5,a)},a$),eq),ew=dg(ev);if(ew){var
+h6=W(a1,aB(0,a7)),h7=oF(ab,aq,e(function(a){var
+b=ck(a[2],h2);return[2,a[1],b]},h6)),h8=W(W(e(function(a){return bs(h7,a)},a$),ev),cI);return jE(k,a7,a7,eB(function(a){return[4,[0,a[2],b],[3,a[1][1],a[1][2]]]},h8))}var
+ex=ew}else
 var
-ei=ef;var
-ej=ei}else
+ex=eu;var
+ey=ex}else
 var
-ej=b9;var
-ek=ej}else
+ey=b9;var
+ez=ey}else
 var
-ek=b8;return ek}var
-d$=0}else
+ez=b8;return ez}var
+en=0}else
 var
-d$=b7;var
-ea=d$}else
+en=b7;var
+eo=en}else
 var
-ea=b6;return ea}return bn}var
-cH=0}}else
+eo=b6;return eo}return bq}var
+ga=0}var
+gb=ga}else
 var
-cH=cF;var
-f0=cH}else
+gb=cG;var
+gc=gb}else
 var
-f0=cE;return f0;default:return 0}case
+gc=cF;return gc;default:return 0}case
 4:var
-aq=a[3],ax=a[2],bp=a[1],ar=s[2];switch(ar[0]){case
+as=a[3],aE=a[2],br=a[1],at=s[2];switch(at[0]){case
 0:var
-jy=ar[3],jz=ar[2],jA=ar[1],eS=dm(i(bp));if(eS){var
-cr=o_(aq);if(cr){var
-eT=cr[1],aP=eT[2],eU=i(aP),eV=i(eT[1]),eo=h(k,1,i(ax)),eq=eo?h(k,1,[3,eU,[0,b,b]]):eo,er=eq?h(k,1,eV):eq,eW=er?h(k,0,[3,[5,[0,b,b],eU],eV]):er,eX=eW?m(function(a){var
-b=o5(0,0,Ce,a);if(b)var
+jP=at[3],jQ=at[2],jX=at[1],e5=dm(i(br));if(e5){var
+cr=pe(as);if(cr){var
+e6=cr[1],aR=e6[2],e7=i(aR),e8=i(e6[1]),eG=h(k,1,i(aE)),eH=eG?h(k,1,[3,e7,[0,b,b]]):eG,eI=eH?h(k,1,e8):eH,e9=eI?h(k,0,[3,[5,[0,b,b],e7],e8]):eI,e_=e9?l(function(a){var
+b=o$(0,0,Cj,a);if(b)var
 c=b;else{var
-d=cN(a);if(d)return aE(0,0,a);var
-c=d}return c},aq):eW,eY=eX?m(function(c){if(1===c[1]){var
+d=cN(a);if(d)return aD(0,0,a);var
+c=d}return c},as):e9,e$=e_?l(function(c){if(1===c[1]){var
 a=c[4];if(typeof
-a!=="number"&&0===a[0])return h(k,0,[3,[0,d,b],i(a[1])]);return 1}return 1},aq):eX;if(eY){var
-cq=bu(function(a){return M(o$(a))},aq);if(cq){var
-iL=[0,c(2,b),b],be=h(k,0,[3,i(aP),iL]);if(be)var
-cs=be;else
+a!=="number"&&0===a[0])return h(k,0,[3,[0,d,b],i(a[1])]);return 1}return 1},as):e_;if(e$){var
+cq=bu(function(a){return M(pf(a))},as);if(cq){var
+i$=[0,c(2,b),b],bf=h(k,0,[3,i(aR),i$]);if(bf)var
+cs=bf;else
 var
-iS=i(aP),cs=h(k,0,[3,[0,c(2,b),b],iS]);if(cs){var
-eR=y(function(a){if(cN(a))return B$;var
-b=jS(0,Ca,0,a);return y(function(b){var
-c=gT(k,Cb,b);return al(M(o$(a)),c)},b)},aq),iJ=function(f){var
+jc=i(aR),cs=h(k,0,[3,[0,c(2,b),b],jc]);if(cs){var
+e4=y(function(a){if(cN(a))return Ce;var
+b=jV(0,Cf,0,a);return y(function(b){var
+c=gU(k,Cg,b);return al(M(pf(a)),c)},b)},as),i9=function(f){var
 h=f[1];if(h){var
-i=h[1],j=r(i,eR,0);if(j)var
-l=aB(i,eR),k=[0,[0,g(bu(function(a){return a},l))]];else
+i=h[1],j=r(i,e4,0);if(j)var
+l=aA(i,e4),k=[0,[0,g(bu(function(a){return a},l))]];else
 var
 k=j;var
 a=k}else
 var
-a=Cd;if(a){var
+a=Ci;if(a){var
 c=a[1],e=f[2];switch(e[0]){case
 0:return[0,[0,c,[0,e[1]]],0];case
-2:return[0,[0,c,[1,Cc,[0,[0,b,[0,d,[0,d,0]]],[0,[0,d,[0,b,[0,d,0]]],[0,[0,d,[0,d,[0,b,0]]],0]]],d]],0];default:return[0,[0,c,e],0]}}return a},iK=e(function(a){var
-b=a[4],c=a[3],d=a[2];return[0,y(iJ,a[1]),d,c,b]},jy),iP=[0,cq[1],cq[2]],iR=pd(be,ax,aP);return pC(0,pc(be,bp,ax,aP),0,iR,0,iP,jA,jz,iK)}return cs}var
-eZ=1}else
+2:return[0,[0,c,[1,Ch,[0,[0,b,[0,d,[0,d,0]]],[0,[0,d,[0,b,[0,d,0]]],[0,[0,d,[0,d,[0,b,0]]],0]]],d]],0];default:return[0,[0,c,e],0]}}return a},i_=e(function(a){var
+b=a[4],c=a[3],d=a[2];return[0,y(i9,a[1]),d,c,b]},jP),ja=[0,cq[1],cq[2]],jb=pj(bf,aE,aR);return pI(0,pi(bf,br,aE,aR),0,jb,0,ja,jX,jQ,i_)}return cs}var
+fa=1}else
 var
-eZ=eY;var
-e0=eZ}else
+fa=e$;var
+fc=fa}else
 var
-e0=cr;var
-e1=e0}else
+fc=cr;var
+fd=fc}else
 var
-e1=eS;return e1;case
+fd=e5;return fd;case
 1:var
-jC=ar[4],jE=ar[3],jF=ar[2],e2=dm(i(bp));if(e2){var
-ct=o_(aq);if(ct){var
-aQ=ct[1][2],iT=[0,c(2,b),b],bf=h(k,0,[3,i(aQ),iT]),e3=h(k,1,i(ax)),e4=e3?h(k,1,[3,i(aQ),[0,b,b]]):e3;if(e4)if(bf)var
-bg=bf;else
+jY=at[4],jZ=at[3],j0=at[2],fe=dm(i(br));if(fe){var
+ct=pe(as);if(ct){var
+aS=ct[1][2],jd=[0,c(2,b),b],bg=h(k,0,[3,i(aS),jd]),ff=h(k,1,i(aE)),fg=ff?h(k,1,[3,i(aS),[0,b,b]]):ff;if(fg)if(bg)var
+bi=bg;else
 var
-iY=i(aQ),bg=h(k,0,[3,[0,c(2,b),b],iY]);else
+jf=i(aS),bi=h(k,0,[3,[0,c(2,b),b],jf]);else
 var
-bg=e4;if(bg){var
-iX=pd(bf,ax,aQ);return pD(0,pc(bf,bp,ax,aQ),0,iX,0,aq,jF,jE,jC)}var
-e5=bg}else
+bi=fg;if(bi){var
+je=pj(bg,aE,aS);return pJ(0,pi(bg,br,aE,aS),0,je,0,as,j0,jZ,jY)}var
+fh=bi}else
 var
-e5=ct;var
-e6=e5}else
+fh=ct;var
+fj=fh}else
 var
-e6=e2;return e6;default:return 0}case
+fj=fe;return fj;default:return 0}case
 5:var
-cJ=a[4],f1=a[1],cL=s[2];if(0===cL[0]){var
-f2=cL[3],v=jR(f1,[0,a[2],a[3]],0,cJ),jG=g(f2),cM=j2(j8(v),jG,f2);if(cM){var
-f3=cM[1];if(f3[2])return 0;var
-f4=j5(f1,0,cJ,v),f5=f4?M(aj(cN,cJ)):f4;if(f5){var
-f6=mK(k,v);if(f6){var
-jH=f3[1],f7=e(hy,v[1]),C=hz(v[1]),f8=i(a[5]),Y=cL[1],cc=gN(C,f7,v[1]),Q=iO(C,f7,v[1],0),hZ=g(v[3]),h0=N(g(cc),hZ),a$=[0,g(cc),h0],h1=iQ(Q,C,a$,v[3]),h2=f(e(c0,Q),h1),et=f(bC(fa(Q)),h2),eu=cW(et)[1],cd=cV(eu),ev=v[2];if(0===ev[0]){var
-ew=m(function(a){var
-b=l(d);return aN(r(bd(cd,a),cd,b),a)},et),ex=ew?h(k,1,f8):ew;if(ex){var
-h3=v[3],h4=y(function(a){return dF(C,a)},h3),h5=v[3],h6=f(cc,f(e(function(a){return bX(C,a)},h5),h4)),ce=ac(e(function(a){return ao(Y,a)},h6));if(ce){var
-h7=a8(ev[1],C),cf=ac(e(function(a){return ao(Y,a)},h7));if(cf){var
-cg=cY(Y,C,[5,f8,[0,c(2,c(2,c(2,c(2,b)))),b]]);if(cg){var
-ch=v[3],h8=cf[1],h9=ce[1],h_=cg[1],aO=function(a){return bd(cd,a)},hW=aC(0,g(ch)),hX=e(function(k){var
+cM=a[4],gd=a[1],cO=s[2];if(0===cO[0]){var
+ge=cO[3],v=jU(gd,[0,a[2],a[3]],0,cM),j1=g(ge),cP=j5(j$(v),j1,ge);if(cP){var
+gf=cP[1];if(gf[2])return 0;var
+gg=j8(gd,0,cM,v),gh=gg?M(aj(cN,cM)):gg;if(gh){var
+gi=mN(k,v);if(gi){var
+j3=gf[1],gj=e(hz,v[1]),F=hA(v[1]),gk=i(a[5]),Y=cO[1],cc=gO(F,gj,v[1]),R=iP(F,gj,v[1],0),ib=g(v[3]),ic=N(g(cc),ib),ba=[0,g(cc),ic],id=iR(R,F,ba,v[3]),ie=f(e(c0,R),id),eK=f(bC(fb(R)),ie),eL=cW(eK)[1],cd=cV(eL),eM=v[2];if(0===eM[0]){var
+eN=l(function(a){var
+b=m(d);return aN(r(bd(cd,a),cd,b),a)},eK),eO=eN?h(k,1,gk):eN;if(eO){var
+ig=v[3],ih=y(function(a){return dF(F,a)},ig),ii=v[3],ij=f(cc,f(e(function(a){return bX(F,a)},ii),ih)),ce=ac(e(function(a){return ao(Y,a)},ij));if(ce){var
+ik=a8(eM[1],F),cf=ac(e(function(a){return ao(Y,a)},ik));if(cf){var
+cg=cY(Y,F,[5,gk,[0,c(2,c(2,c(2,c(2,b)))),b]]);if(cg){var
+ch=v[3],il=cf[1],im=ce[1],io=cg[1],aQ=function(a){return bd(cd,a)},h_=aB(0,g(ch)),h$=e(function(k){var
 l=H(ch,k);if(l){var
-a=l[1],u=aB(k,ch),v=g(y(function(a){return dF(C,a)},u)),w=N(a$[2],v),i=[0,N(a$[1],k),w],r=fa(Q),f=j(au(aO),r),c=[1,[8,[1,[1,i[1]]]]],d=gO(Q,C,i,a),n=d?[0,[3,e(aO,[0,d[1],d[2]])]]:d,m=0;if(typeof
+a=l[1],u=aA(k,ch),v=g(y(function(a){return dF(F,a)},u)),w=N(ba[2],v),i=[0,N(ba[1],k),w],r=fb(R),f=j(au(aQ),r),c=[1,[8,[1,[1,i[1]]]]],d=gP(R,F,i,a),n=d?[0,[3,e(aQ,[0,d[1],d[2]])]]:d,m=0;if(typeof
 a!=="number")switch(a[0]){case
 0:return[0,[0,f,c]];case
 1:return[0,[1,f,c]];case
@@ -8157,27 +8174,27 @@ q=c;m=1;break;case
 3:case
 6:case
 7:return n}if(m){var
-t=fh(Q,C,i,a);return z(function(a){return[0,j(au(aO),a),q]},t)}return 0}return l},hW),hY=e(function(a){return aO(c0(a))},Q),es=e(function(a){return aO(a[2])},Q),h$=v[3],ia=a$[1],cb=function(aC,aB,aA){var
-k=aC,l=aB,f=aA;for(;;)switch(f[0]){case
+t=fi(R,F,i,a);return z(function(a){return[0,j(au(aQ),a),q]},t)}return 0}return l},h_),ia=e(function(a){return aQ(c0(a))},R),eJ=e(function(a){return aQ(a[2])},R),ip=v[3],iq=ba[1],cb=function(aC,aB,aA){var
+k=aC,m=aB,f=aA;for(;;)switch(f[0]){case
 0:var
-v=f[1],aa=o(g(v),wc),ab=aa?m(function(a){var
+v=f[1],aa=o(g(v),wh),ab=aa?l(function(a){var
 d=D(T(c(2,c(2,c(2,b)))),a);return d?D(a,c(2,c(2,c(2,b)))):d},v):aa;if(ab){var
-ac=oK(Y,h_,dE(0,l),v),j=f[2],w=bc(0,bB(Y,ac,e($,k)),eu,0),aD=e($,k),M=function(a){return oJ(oI(Y,ac,aD,w,a))};if(typeof
+ac=oQ(Y,io,dE(0,m),v),j=f[2],w=bc(0,bB(Y,ac,e($,k)),eL,0),aD=e($,k),M=function(a){return oP(oO(Y,ac,aD,w,a))};if(typeof
 j==="number")return 0===j?aj(function(b){var
-a=r(b,w,0);return a?D(a[1][2][2],d):a},es):0;else{if(0===j[0]){var
-a=j[2],O=m(wa,a);if(O){var
-q=r(j[1],hX,0);if(q){var
+a=r(b,w,0);return a?D(a[1][2][2],d):a},eJ):0;else{if(0===j[0]){var
+a=j[2],O=l(wf,a);if(O){var
+q=r(j[1],h$,0);if(q){var
 i=q[1];switch(i[0]){case
 0:var
 x=0;if(a)if(a[2])var
 h=0;else{var
-A=a[1],B=i[1],ap=ho(B,A),aq=hn(A),C=[0,[0,B,[0,[1,[4,[1,[6,i[2],aq]],ap]],0]]];x=1}else{var
+A=a[1],B=i[1],ap=hp(B,A),aq=ho(A),C=[0,[0,B,[0,[1,[4,[1,[6,i[2],aq]],ap]],0]]];x=1}else{var
 C=a;x=1}if(x)var
 h=C;break;case
 1:var
 y=0;if(a)if(a[2])var
 h=0;else{var
-E=a[1],F=i[1],ar=hn(E),as=[1,[6,i[2],ar]],G=[0,[0,F,[0,[1,[4,ho(F,E),as]],0]]];y=1}else{var
+E=a[1],F=i[1],ar=ho(E),as=[1,[6,i[2],ar]],G=[0,[0,F,[0,[1,[4,hp(F,E),as]],0]]];y=1}else{var
 G=a;y=1}if(y)var
 h=G;break;case
 2:var
@@ -8185,7 +8202,7 @@ z=0;if(a){var
 n=a[2],ao=0;if(n)if(n[2]){var
 h=0;ao=1}else
 var
-I=n[1],J=a[1],p=i[1],at=hn(J),au=[1,[6,ho(p,I),at]],av=[1,[6,i[2],au]],aw=hn(I),K=[0,[0,p,[0,[1,[4,[1,[6,ho(p,J),aw]],av]],0]]];else
+I=n[1],J=a[1],p=i[1],at=ho(J),au=[1,[6,hp(p,I),at]],av=[1,[6,i[2],au]],aw=ho(I),K=[0,[0,p,[0,[1,[4,[1,[6,hp(p,J),aw]],av]],0]]];else
 var
 K=n;if(!ao){var
 L=K;z=1}}else{var
@@ -8194,7 +8211,7 @@ h=L;break;default:if(a)var
 h=0;else
 var
 ax=i[1],h=[0,[0,0,e(function(a){return[1,[5,[0,a]]]},ax)]]}if(h){var
-P=h[1],ay=P[1],Q=m(function(a){return oJ(r(a[2],w,0))},ay);if(Q)return m(M,P[2]);var
+P=h[1],ay=P[1],Q=l(function(a){return oP(r(a[2],w,0))},ay);if(Q)return l(M,P[2]);var
 R=Q}else
 var
 R=h;var
@@ -8204,12 +8221,12 @@ S=q;var
 U=S}else
 var
 U=O;return U}var
-V=j[2],W=j[1],s=H(h$,W);if(s){var
+V=j[2],W=j[1],s=H(ip,W);if(s){var
 X=s[1];if(typeof
 X!=="number"&&1===X[0]){var
-t=H(es,V);if(t){var
-u=H(hY,V);if(u){var
-az=N(ia,W);return M([1,[4,[1,[8,[0,u[1]]]],[1,[6,[1,[8,[1,[1,az]]]],[0,t[1]]]]]])}var
+t=H(eJ,V);if(t){var
+u=H(ia,V);if(u){var
+az=N(iq,W);return M([1,[4,[1,[8,[0,u[1]]]],[1,[6,[1,[8,[1,[1,az]]]],[0,t[1]]]]]])}var
 _=u}else
 var
 _=t;return _}var
@@ -8217,105 +8234,105 @@ Z=0}else
 var
 Z=s;return Z}}return ab;case
 1:var
-ad=f[1],ae=oL(ad,l);if(ae){var
-af=c1(ad,l),ag=cb(k,af[1],f[2]);if(ag){var
-l=af[2],f=f[3];continue}var
+ad=f[1],ae=oR(ad,m);if(ae){var
+af=c1(ad,m),ag=cb(k,af[1],f[2]);if(ag){var
+m=af[2],f=f[3];continue}var
 ah=ag}else
 var
 ah=ae;return ah;default:var
-ai=f[1],ak=oL(ai,k);if(ak){var
-al=c1(ai,k),am=cb(al[1],l,f[2]);if(am){var
+ai=f[1],ak=oR(ai,k);if(ak){var
+al=c1(ai,k),am=cb(al[1],m,f[2]);if(am){var
 k=al[2],f=f[3];continue}var
 an=am}else
 var
-an=ak;return an}};return cb(h9,h8,jH)}var
-eB=cg}else
+an=ak;return an}};return cb(im,il,j3)}var
+eP=cg}else
 var
-eB=cf;var
-eC=eB}else
+eP=cf;var
+eQ=eP}else
 var
-eC=ce;var
+eQ=ce;var
+eR=eQ}else
+var
+eR=eO;return eR}return 0}var
+gl=gi}else
+var
+gl=gh;var
+gm=gl}else
+var
+gm=cP;return gm}return 0;case
+6:var
+gn=a[1];if(gn){var
+go=gn[1],cQ=s[2];if(0===cQ[0]){var
+cR=j4(Co,0,0,0,Cn,cQ[3]);if(cR){var
+gp=fL(go);if(gp){var
+j6=cR[1],gq=b2(go)[2],bt=cQ[1],b$=cY(bt,d,gq);if(b$){var
+ca=cY(bt,d,[5,[0,b,b],gq]);if(ca){var
+h9=b$[1][1],eC=I(cw(bt),h9);if(eC)return oN(bt,ca[1][1],j6);var
 eD=eC}else
 var
-eD=ex;return eD}return 0}var
-f9=f6}else
+eD=ca;var
+eE=eD}else
 var
-f9=f5;var
-f_=f9}else
+eE=b$;return eE}var
+gr=gp}else
 var
-f_=cM;return f_}return 0;case
-6:var
-f$=a[1];if(f$){var
-ga=f$[1],cO=s[2];if(0===cO[0]){var
-cP=j1(Cj,0,0,0,Ci,cO[3]);if(cP){var
-gb=fK(ga);if(gb){var
-jI=cP[1],gc=b2(ga)[2],bq=cO[1],b$=cY(bq,d,gc);if(b$){var
-ca=cY(bq,d,[5,[0,b,b],gc]);if(ca){var
-hV=b$[1][1],el=I(cw(bq),hV);if(el)return oH(bq,ca[1][1],jI);var
-em=el}else
-var
-em=ca;var
-en=em}else
-var
-en=b$;return en}var
-gd=gb}else
-var
-gd=cP;return gd}return 0}var
-cQ=s[2];if(0===cQ[0]){var
-cR=j1(Cl,0,0,0,Ck,cQ[3]);return cR?oH(cQ[1],d,cR[1]):cR}return 0;default:var
-az=a[1],ge=s[2];if(2===ge[0]){var
-gf=ge[1],cS=jZ(g(gf),gf);if(cS){var
-gg=cS[1];if(gg[2])return 0;var
-cT=gg[1],eO=aa(B_,g(az)),eP=eO?aa(g(az),dB):eO,eQ=eP?oc(e(ay,az)):eP,gh=eQ?m(function(c){var
+gr=cR;return gr}return 0}var
+cS=s[2];if(0===cS[0]){var
+cT=j4(Cq,0,0,0,Cp,cS[3]);return cT?oN(cS[1],d,cT[1]):cT}return 0;default:var
+aF=a[1],gs=s[2];if(2===gs[0]){var
+gt=gs[1],cU=j2(g(gt),gt);if(cU){var
+gu=cU[1];if(gu[2])return 0;var
+cX=gu[1],e1=aa(Cd,g(aF)),e2=e1?aa(g(aF),dB):e1,e3=e2?oe(e(ay,aF)):e2,gv=e3?l(function(c){var
 a=cA(i(c[2][1]));if(a){var
 b=cA(i(c[2][2]));if(b)return M(bb(b[1],a[1]));var
 d=b}else
 var
-d=a;return d},az):eQ;if(gh)var
-jJ=hx(A2,cT),cU=pH(a[5],jJ);else
+d=a;return d},aF):e3;if(gv)var
+ka=hy(A7,cX),cZ=pN(a[5],ka);else
 var
-cU=gh;if(cU)var
-jK=hx(A3,cT),cX=pH(a[6],jK);else
+cZ=gv;if(cZ)var
+kb=hy(A8,cX),c2=pN(a[6],kb);else
 var
-cX=cU;if(cX){var
-iI=e(function(a){return[0,d,0]},az);return pG(az,a[2],a[3],a[4],iI,cT)}var
-gi=cX}else
+c2=cZ;if(c2){var
+i8=e(function(a){return[0,d,0]},aF);return pM(aF,a[2],a[3],a[4],i8,cX)}var
+gw=c2}else
 var
-gi=cS;return gi}return 0}}return aR}var
-X=[a3,Co,r3(0)],pI=[a3,Cp,r3(0)];function
-Cm(l,b){var
-f=[0,n(Al,ap(b[4])),0],g=[0,n(An,ag([0,n(Am,ap(b[3])),f])),0],a=b[2];switch(a[0]){case
+gw=cU;return gw}return 0}}return aU}var
+X=[a3,Ct,r8(0)],pO=[a3,Cu,r8(0)];function
+Cr(l,b){var
+f=[0,n(Aq,ap(b[4])),0],g=[0,n(As,ag([0,n(Ar,ap(b[3])),f])),0],a=b[2];switch(a[0]){case
 0:var
-c=Q(Ah,oS(a[1],a[2],a[3]));break;case
+c=Q(Am,oY(a[1],a[2],a[3]));break;case
 1:var
-c=Q(Ai,oT(a[1],a[2],a[3],a[4]));break;default:var
-c=Q(Aj,G(e(Ac,a[1])))}var
-h=[0,n(Ao,c),g],i=1===b[2][0]?Au:Ap,j=[0,n(Aq,ap(i)),h],k=[0,n(Ar,yO(b[1])),j],d=az(kX(Cn,hp(ag([0,n(At,ap(As)),k]),Ak)),l);return d?Cf(b):d}function
-ai(a){if(0===a[0])return a[1];throw X}function
+c=Q(An,oZ(a[1],a[2],a[3],a[4]));break;default:var
+c=Q(Ao,G(e(Ah,a[1])))}var
+h=[0,n(At,c),g],i=1===b[2][0]?Az:Au,j=[0,n(Av,ap(i)),h],k=[0,n(Aw,yT(b[1])),j],d=az(k0(Cs,hq(ag([0,n(Ay,ap(Ax)),k]),Ap)),l);return d?Ck(b):d}function
+ah(a){if(0===a[0])return a[1];throw X}function
 ad(a){if(1===a[0])return a[1];throw X}function
 aZ(a){if(2===a[0])return a[1];throw X}function
-fN(a){if(3===a[0])return a[1];throw X}function
+fO(a){if(3===a[0])return a[1];throw X}function
 a_(f,e){var
 a=f;for(;;){if(a){var
-b=a[1],c=a[2],d=b[2];if(0===IO(b[1],e))return[0,d];var
+b=a[1],c=a[2],d=b[2];if(0===IR(b[1],e))return[0,d];var
 a=c;continue}return 0}}function
 v(c,b){var
 a=a_(c,b);if(a)return a[1];throw X}function
 cm(b,a){var
 c=a?[0,j(b,a[1])]:a;return c}function
-dX(a){switch(a[0]){case
+dZ(a){switch(a[0]){case
 0:var
 b=a[1];if(b&&!b[2]){var
 c=b[1];return[0,c[1],c[2]]}break;case
-2:return[0,a[1],Cr]}throw X}function
-fO(e,d){var
+2:return[0,a[1],Cw]}throw X}function
+fP(e,d){var
 a=_(e,ad(d));if(a){var
 b=a[2];if(b){var
 c=b[2];if(c&&!c[2])return[0,a[1],b[1],c[1]]}}throw X}function
-hE(i){var
-f=eV(i),d=[0,0],e=h6(f)-1|0;if(!(e<0)){var
+hF(i){var
+f=eW(i),d=[0,0],e=h7(f)-1|0;if(!(e<0)){var
 c=e;for(;;){var
-a=d[1],g=kD(f,c)-48|0;if(9<g>>>0)throw X;switch(g){case
+a=d[1],g=kG(f,c)-48|0;if(9<g>>>0)throw X;switch(g){case
 0:var
 b=[0,a];break;case
 1:var
@@ -8337,48 +8354,48 @@ b=[8,a];break;default:var
 b=[9,a]}d[1]=b;var
 h=c-1|0;if(0!==c){var
 c=h;continue}break}}return d[1]}function
-fP(a){return la(hE(a))}function
-eI(b){var
-a=fN(b);return 45===a4(a,0)?T(fP(d6(a,1,ax(a)-1|0))):fP(a)}function
-pJ(a){return d9(fP(fN(a)))}function
+fQ(a){return ld(hF(a))}function
+eJ(b){var
+a=fO(b);return 45===a4(a,0)?T(fQ(d8(a,1,ax(a)-1|0))):fQ(a)}function
+pP(a){return d$(fQ(fO(a)))}function
 dp(b){var
-a=fN(b);if(!(2<ax(a))&&!(64<=h5(a)))return ih(fP(a));throw X}function
+a=fO(b);if(!(2<ax(a))&&!(64<=h6(a)))return ii(fQ(a));throw X}function
 cO(c){var
-a=fN(c);if(6<ax(a))throw X;function
-b(a){return 0<a?[0,b(a-1|0)]:0}return b(h5(a))}function
-pK(a){var
-b=97<=a?1:0,c=b?a<=rF?1:0:b;if(c)var
+a=fO(c);if(6<ax(a))throw X;function
+b(a){return 0<a?[0,b(a-1|0)]:0}return b(h6(a))}function
+pQ(a){var
+b=97<=a?1:0,c=b?a<=rK?1:0:b;if(c)var
 d=c;else
 var
 e=65<=a?1:0,d=e?a<=90?1:0:e;return d}function
-pL(y,b){var
+pR(y,b){var
 d=ax(b),a=[0,0];function
 c(e){var
 c=a[1]<d?1:0,f=c?a4(b,a[1])===e?1:0:c;return f}function
 l(e){var
-c=a[1];for(;;){if(a[1]<d&&48<=a4(b,a[1])&&!(57<a4(b,a[1]))){a[1]++;continue}return d6(b,c,a[1]-c|0)}}function
+c=a[1];for(;;){if(a[1]<d&&48<=a4(b,a[1])&&!(57<a4(b,a[1]))){a[1]++;continue}return d8(b,c,a[1]-c|0)}}function
 m(b){a[1]++;var
 d=f(b+1|0);if(c(41)){a[1]++;return d}throw X}function
 h(i){if(64<i)throw X;if(c(45)){a[1]++;return[2,h(i+1|0)]}if(c(40))var
 e=m(i);else{var
-u=0;if((a[1]+5|0)<=d&&az(d6(b,a[1],5),Ct)){a[1]=a[1]+4|0;var
+u=0;if((a[1]+5|0)<=d&&az(d8(b,a[1],5),Cy)){a[1]=a[1]+4|0;var
 e=[5,m(i)]}else
 u=1;if(u){var
-v=0;if(a[1]<d&&pK(a4(b,a[1]))){var
+v=0;if(a[1]<d&&pQ(a4(b,a[1]))){var
 n=a[1];for(;;){if(a[1]<d){var
-w=0;if(!pK(a4(b,a[1]))&&95!==a4(b,a[1])&&(!(48<=a4(b,a[1]))||57<a4(b,a[1])))w=1;if(!w){a[1]++;continue}}var
-e=[1,j(y,d6(b,n,a[1]-n|0))];break}}else
+w=0;if(!pQ(a4(b,a[1]))&&95!==a4(b,a[1])&&(!(48<=a4(b,a[1]))||57<a4(b,a[1])))w=1;if(!w){a[1]++;continue}}var
+e=[1,j(y,d8(b,n,a[1]-n|0))];break}}else
 v=1;if(v){var
-g=l(0),o=c(46),q=o?(a[1]++,[0,l(0)]):o,r=az(g,Cu);if(r)var
+g=l(0),o=c(46),q=o?(a[1]++,[0,l(0)]):o,r=az(g,Cz);if(r)var
 s=r;else
 var
 t=1<ax(g)?1:0,s=t?48===a4(g,0)?1:0:t;if(s)throw X;if(q){var
-k=q[1],x=0;if(az(k,Cv)||48===a4(k,ax(k)-1|0))x=1;else
+k=q[1],x=0;if(az(k,CA)||48===a4(k,ax(k)-1|0))x=1;else
 var
-z=hE(k),e=[0,hE(g),z];if(x)throw X}else
+z=hF(k),e=[0,hF(g),z];if(x)throw X}else
 var
-e=[0,hE(g),0]}}}if(c(94)){a[1]++;var
-f=l(0);if(p(f,Cs)){if(!(2<ax(f))&&2<=h5(f)&&!(64<h5(f)))return[4,e,d9(fP(f))];throw X}throw X}return e}function
+e=[0,hF(g),0]}}}if(c(94)){a[1]++;var
+f=l(0);if(p(f,Cx)){if(!(2<ax(f))&&2<=h6(f)&&!(64<h6(f)))return[4,e,d$(fQ(f))];throw X}throw X}return e}function
 e(d){var
 b=h(d);for(;;){if(c(42)){a[1]++;var
 b=[3,2,b,h(d)];continue}if(c(47)){a[1]++;var
@@ -8388,47 +8405,47 @@ b=e(d);for(;;){if(c(43)){a[1]++;var
 b=[3,0,b,e(d)];continue}if(c(45)){a[1]++;var
 b=[3,1,b,e(d)];continue}return b}}var
 g=f(0);if(a[1]<d)throw X;return g}function
-hF(a){return pL(function(a){return[0,a]},a)}function
-j9(a){var
-b=aZ(a);return pL(function(a){return a},b)}function
-Y(a){return hF(aZ(a))}function
-b3(a){if(2===a[0])return[0,hF(a[1])];var
-b=ai(a),c=Y(v(b,Cw));return[1,Y(v(b,Cx)),c]}function
-ah(a){throw[0,pI,ba(kX(Cz,a),Cy)]}function
-j_(c){var
-a=aZ(c);if(p(a,CA)){var
-b=p(a,CB);if(b)throw X;return b}return 1}function
-CC(d){var
-b=ai(d);function
-a(a){return fO(b3,v(b,a))}var
-c=aZ(v(b,CD));if(p(c,CE)){if(p(c,CF)){if(p(c,CG))return ah([0,CI,[0,c,CH]]);var
-e=a_(b,CJ),f=cm(function(a){return fO(b3,a)},e),g=a(CK);return[1,a(CL),g,f]}var
-h=j_(v(b,CM)),i=b3(v(b,CN)),j=a(CO),k=a(CP);return[0,a(CQ),k,j,i,h]}return[2,a(CR)]}function
-CS(d){var
-a=ai(d);if(a){var
-b=a[1];if(!p(b[1],CT)){var
-c=b[2];if(2===c[0]&&!p(c[1],CU))return 1}}return 0}function
-pM(e){var
-b=ai(e);function
+hG(a){return pR(function(a){return[0,a]},a)}function
+ka(a){var
+b=aZ(a);return pR(function(a){return a},b)}function
+Y(a){return hG(aZ(a))}function
+b3(a){if(2===a[0])return[0,hG(a[1])];var
+b=ah(a),c=Y(v(b,CB));return[1,Y(v(b,CC)),c]}function
+ai(a){throw[0,pO,ba(k0(CE,a),CD)]}function
+kb(c){var
+a=aZ(c);if(p(a,CF)){var
+b=p(a,CG);if(b)throw X;return b}return 1}function
+CH(d){var
+b=ah(d);function
+a(a){return fP(b3,v(b,a))}var
+c=aZ(v(b,CI));if(p(c,CJ)){if(p(c,CK)){if(p(c,CL))return ai([0,CN,[0,c,CM]]);var
+e=a_(b,CO),f=cm(function(a){return fP(b3,a)},e),g=a(CP);return[1,a(CQ),g,f]}var
+h=kb(v(b,CR)),i=b3(v(b,CS)),j=a(CT),k=a(CU);return[0,a(CV),k,j,i,h]}return[2,a(CW)]}function
+CX(d){var
+a=ah(d);if(a){var
+b=a[1];if(!p(b[1],CY)){var
+c=b[2];if(2===c[0]&&!p(c[1],CZ))return 1}}return 0}function
+pS(e){var
+b=ah(e);function
 a(a){return _(b3,ad(v(b,a)))}var
-c=aZ(v(b,CV)),f=a_(b,CW),d=cm(function(a){return _(b3,ad(a))},f);if(p(c,CX)){if(p(c,CY)){if(p(c,CZ)){if(!p(c,C0)){var
-g=a(C3);return[1,a(C4),g,d]}}else
+c=aZ(v(b,C0)),f=a_(b,C1),d=cm(function(a){return _(b3,ad(a))},f);if(p(c,C2)){if(p(c,C3)){if(p(c,C4)){if(!p(c,C5)){var
+g=a(C8);return[1,a(C9),g,d]}}else
 if(!d){var
-h=j_(v(b,C5)),i=b3(v(b,C6)),j=a(C7),k=a(C8);return[0,a(C9),k,j,i,h]}}else
-if(!d)return[2,a(C_)]}else
+h=kb(v(b,C_)),i=b3(v(b,C$)),j=a(Da),k=a(Db);return[0,a(Dc),k,j,i,h]}}else
+if(!d)return[2,a(Dd)]}else
 if(!d){var
-l=j_(v(b,C$)),m=b3(v(b,Da)),n=b3(v(b,Db)),o=a(Dc),q=a(Dd),r=a(De);return[3,a(Df),r,q,o,n,m,l]}return ah([0,C2,[0,c,C1]])}function
-pN(d){var
-a=ai(d);if(a){var
-b=a[1];if(!p(b[1],Dg)){var
-c=b[2];if(2===c[0]&&!p(c[1],Dh))return 1}}return 0}function
+l=kb(v(b,De)),m=b3(v(b,Df)),n=b3(v(b,Dg)),o=a(Dh),q=a(Di),r=a(Dj);return[3,a(Dk),r,q,o,n,m,l]}return ai([0,C7,[0,c,C6]])}function
+pT(d){var
+a=ah(d);if(a){var
+b=a[1];if(!p(b[1],Dl)){var
+c=b[2];if(2===c[0]&&!p(c[1],Dm))return 1}}return 0}function
 dq(c,d){var
 a=ad(d);if(a){var
 b=a[2];if(b&&!b[2]){var
 e=j(c,b[1]);return[0,j(c,a[1]),e]}}throw X}function
-dY(g,o){var
-h=g?g[1]:g,c=ai(o),a=aZ(v(c,Di)),j=se(a,Dj),f=0;if(0<=j)if(0<j)if(p(a,Dk))if(p(a,Dl))if(p(a,Dm))if(p(a,Dn))if(p(a,Do))if(p(a,Dp))if(p(a,Dq)){var
-k=p(a,Dr);if(k)f=1;else
+d0(g,o){var
+h=g?g[1]:g,c=ah(o),a=aZ(v(c,Dn)),j=sj(a,Do),f=0;if(0<=j)if(0<j)if(p(a,Dp))if(p(a,Dq))if(p(a,Dr))if(p(a,Ds))if(p(a,Dt))if(p(a,Du))if(p(a,Dv)){var
+k=p(a,Dw);if(k)f=1;else
 var
 b=k}else
 var
@@ -8448,7 +8465,7 @@ var
 b=13;else
 var
 b=2;else
-if(p(a,DM))if(p(a,DN))if(p(a,DO))if(p(a,DP))if(p(a,DQ))if(p(a,DR))if(p(a,DS))if(p(a,DT))f=1;else
+if(p(a,DR))if(p(a,DS))if(p(a,DT))if(p(a,DU))if(p(a,DV))if(p(a,DW))if(p(a,DX))if(p(a,DY))f=1;else
 var
 b=1;else
 var
@@ -8466,10 +8483,10 @@ b=14;else
 f=1;else
 var
 b=12;var
-n=f?ah([0,Dt,[0,a,Ds]]):b;function
-i(a){return v(c,Du)}var
-d=aZ(v(c,Dv)),l=p(d,Dw);if(l)if(p(d,Dx))if(p(d,Dy))if(p(d,Dz))var
-e=ah([0,DB,[0,d,DA]]);else
+n=f?ai([0,Dy,[0,a,Dx]]):b;function
+i(a){return v(c,Dz)}var
+d=aZ(v(c,DA)),l=p(d,DB);if(l)if(p(d,DC))if(p(d,DD))if(p(d,DE))var
+e=ai([0,DG,[0,d,DF]]);else
 var
 m=dq(Y,i(0)),e=[2,m[1],m[2]];else
 var
@@ -8479,109 +8496,109 @@ e=[1,Y(i(0))];else
 var
 e=l;function
 q(H){var
-a=ai(H),b=0;switch(n){case
+a=ah(H),b=0;switch(n){case
 6:if(a){var
-r=a[1];if(!p(r[1],DD)){var
+r=a[1];if(!p(r[1],DI)){var
 s=r[2];if(1===s[0]){var
 c=s[1],m=0;if(c&&!c[2])if(a[2])m=1;else{var
 e=c[1];b=1;m=1}if(!m&&!a[2]){var
 t=c;b=2}}}}break;case
 10:if(a){var
-u=a[1];if(!p(u[1],DE)){var
+u=a[1];if(!p(u[1],DJ)){var
 v=u[2];if(1===v[0]){var
 f=v[1];if(f&&!f[2]){var
 g=a[2];if(g){var
-w=g[1];if(!p(w[1],DF)){var
+w=g[1];if(!p(w[1],DK)){var
 x=w[2];if(1===x[0]){var
 i=x[1];if(i&&!i[2]&&!g[2]){var
 I=Y(i[1]);return[2,Y(f[1]),I]}}}}}}}}break;case
 12:if(a){var
-y=a[1];if(!p(y[1],DG)){var
+y=a[1];if(!p(y[1],DL)){var
 z=y[2];if(1===z[0]){var
 j=z[1];if(j&&!j[2]){var
 k=a[2],A=j[1];if(k){var
-B=k[1];if(!p(B[1],DH)){var
+B=k[1];if(!p(B[1],DM)){var
 C=B[2];if(1===C[0]){var
 l=C[1];if(l&&!l[2]&&!k[2]&&h){var
 J=Y(l[1]);return[3,Y(A),J]}}}}else{var
 e=A;b=1}}}}}break;case
 16:if(a){var
-F=a[1];if(!p(F[1],DJ)){var
+F=a[1];if(!p(F[1],DO)){var
 G=F[2];if(1===G[0]&&!a[2]){var
 t=G[1];b=2}}}break;case
 14:case
 15:if(a){var
-D=a[1];if(!p(D[1],DI)){var
+D=a[1];if(!p(D[1],DN)){var
 E=D[2];if(1===E[0]&&!a[2])return[1,_(Y,E[1])]}}break;case
 2:case
 8:if(a){var
-o=a[1];if(!p(o[1],DC)){var
+o=a[1];if(!p(o[1],DH)){var
 q=o[2];if(1===q[0]){var
 d=q[1];if(d&&!d[2]&&!a[2]){var
 e=d[1];b=1}}}}break}switch(b){case
 0:throw X;case
 1:return[0,Y(e)];default:return[1,_(Y,t)]}}var
-r=cm(q,a_(c,DK));return[0,n,cm(cO,a_(c,DL)),r,e]}function
-pO(c){var
-d=dY(DW,c),e=d[1];if(!(9<=e))switch(e){case
+r=cm(q,a_(c,DP));return[0,n,cm(cO,a_(c,DQ)),r,e]}function
+pU(c){var
+d=d0(D1,c),e=d[1];if(!(9<=e))switch(e){case
 2:case
 6:case
 8:return d}var
-a=dY(DU,c),b=a[1];if(2!==b&&!(4<=b))return a;return ah(DV)}function
-pP(a){var
-b=dY(DX,a);return 11===b[1]?b:pO(a)}function
-DY(a){var
-b=dY(DZ,a);return 12===b[1]?b:pP(a)}function
-D0(a){var
-b=dY(D1,a),c=b[1];if(9<=c)switch(c-9|0){case
+a=d0(DZ,c),b=a[1];if(2!==b&&!(4<=b))return a;return ai(D0)}function
+pV(a){var
+b=d0(D2,a);return 11===b[1]?b:pU(a)}function
+D3(a){var
+b=d0(D4,a);return 12===b[1]?b:pV(a)}function
+D5(a){var
+b=d0(D6,a),c=b[1];if(9<=c)switch(c-9|0){case
 2:case
 4:case
-7:break;default:return b}return pP(a)}function
-j$(c){var
-d=dY(D2,c),a=d[1];if(4<=a){var
+7:break;default:return b}return pV(a)}function
+kc(c){var
+d=d0(D7,c),a=d[1];if(4<=a){var
 b=0;if(6<=a)switch(a-6|0){case
 5:case
 6:case
 7:case
 10:b=1;break}else
-b=1;if(b)return d}return pO(c)}function
-ka(b){var
-a=ai(b[2]);if(p(b[1],D9)){var
-c=dq(Y,v(a,D_)),d=dq(Y,v(a,D$)),e=d[2],f=d[1],g=Y(v(a,Ea));return[1,c[1],c[2],g,f,e]}var
-h=_(Y,ad(v(a,Eb)));return[0,_(Y,ad(v(a,Ec))),h]}function
-Ed(f){var
-a=ai(f);function
+b=1;if(b)return d}return pU(c)}function
+kd(b){var
+a=ah(b[2]);if(p(b[1],Ec)){var
+c=dq(Y,v(a,Ed)),d=dq(Y,v(a,Ee)),e=d[2],f=d[1],g=Y(v(a,Ef));return[1,c[1],c[2],g,f,e]}var
+h=_(Y,ad(v(a,Eg)));return[0,_(Y,ad(v(a,Eh))),h]}function
+Ei(f){var
+a=ah(f);function
 d(b){return Y(v(a,b))}function
-c(b){return fO(Y,v(a,b))}var
-b=aZ(v(a,Ee));if(p(b,Ef)){if(!p(b,Eg)){var
-j=v(a,Em),e=dq(function(a){return a},j),k=a_(a,En),l=cm(function(a){return c(Eo)},k),m=hF(aZ(e[2])),n=hF(aZ(e[1])),o=d(Ep);return[0,cO(v(a,Eq)),o,n,m,l]}if(p(b,Eh))throw X}var
-g=d(Ei),h=c(Ej),i=c(Ek);return[1,az(b,El),i,h,g]}function
-kb(an){var
-g=dX(an),h=g[1];if(p(h,Er)){if(p(h,Es)){if(p(h,Et)){if(p(h,Eu))return ah([0,Ew,[0,h,Ev]]);var
-w=v(ai(g[2]),Ex),ab=0;if(2===w[0]){var
-K=p(w[1],Ey);if(!K){var
+c(b){return fP(Y,v(a,b))}var
+b=aZ(v(a,Ej));if(p(b,Ek)){if(!p(b,El)){var
+j=v(a,Er),e=dq(function(a){return a},j),k=a_(a,Es),l=cm(function(a){return c(Et)},k),m=hG(aZ(e[2])),n=hG(aZ(e[1])),o=d(Eu);return[0,cO(v(a,Ev)),o,n,m,l]}if(p(b,Em))throw X}var
+g=d(En),h=c(Eo),i=c(Ep);return[1,az(b,Eq),i,h,g]}function
+ke(an){var
+g=dZ(an),h=g[1];if(p(h,Ew)){if(p(h,Ex)){if(p(h,Ey)){if(p(h,Ez))return ai([0,EB,[0,h,EA]]);var
+w=v(ah(g[2]),EC),ab=0;if(2===w[0]){var
+K=p(w[1],ED);if(!K){var
 J=K;ab=1}}if(!ab)var
 J=[0,b3(w)];return[6,J]}var
-L=ai(g[2]),i=kb([0,[0,[0,EA,v(L,Ez)],0]]);if(0===i[0]){var
+L=ah(g[2]),i=ke([0,[0,[0,EF,v(L,EE)],0]]);if(0===i[0]){var
 x=i[2];if(0===x[0]&&!i[3]){var
-ao=Y(v(L,EC));return[5,i[1],x[1],x[2],i[4],ao]}}return ah(EB)}var
-a=ai(g[2]),y=a_(a,ED),z=y?_(Ed,ad(y[1])):y,n=function(b){var
-a=0!==z?1:0;return a?ah(EE):a},k=dX(v(a,EF)),b=dX(v(a,EG)),c=k[1];if(p(c,EH)&&p(c,EI)&&p(c,EJ)){if(0===a_(a,EK)){if(p(c,EL)){var
-ac=0;if(p(c,EM)){if(!p(c,EN)){var
-M=b[1],ae=0;if(p(M,EQ)&&p(M,ER)){ac=1;ae=1}if(!ae){var
-A=ad(k[2]),ap=ad(v(a,EU)),N=_(function(a){return dY(0,a)},ap);if(!aA(CS,A)&&!aA(function(a){var
+ao=Y(v(L,EH));return[5,i[1],x[1],x[2],i[4],ao]}}return ai(EG)}var
+a=ah(g[2]),y=a_(a,EI),z=y?_(Ei,ad(y[1])):y,n=function(b){var
+a=0!==z?1:0;return a?ai(EJ):a},k=dZ(v(a,EK)),b=dZ(v(a,EL)),c=k[1];if(p(c,EM)&&p(c,EN)&&p(c,EO)){if(0===a_(a,EP)){if(p(c,EQ)){var
+ac=0;if(p(c,ER)){if(!p(c,ES)){var
+M=b[1],ae=0;if(p(M,EV)&&p(M,EW)){ac=1;ae=1}if(!ae){var
+A=ad(k[2]),ap=ad(v(a,EZ)),N=_(function(a){return d0(0,a)},ap);if(!aF(CX,A)&&!aF(function(a){var
 b=13===a[1]?1:0,c=b||(16===a[1]?1:0);return c},N)){var
-as=_(CC,A),f=ai(b[2]);if(p(b[1],D3))var
-H=dq(Y,v(f,D4)),I=dq(Y,v(f,D5)),aj=I[2],ak=I[1],al=Y(v(f,D6)),O=[1,H[1],H[2],al,ak,aj];else
+as=_(CH,A),f=ah(b[2]);if(p(b[1],D8))var
+H=dq(Y,v(f,D9)),I=dq(Y,v(f,D_)),aj=I[2],ak=I[1],al=Y(v(f,D$)),O=[1,H[1],H[2],al,ak,aj];else
 var
-am=fO(Y,v(f,D7)),O=[0,fO(Y,v(f,D8)),am];return[0,as,O,z,N]}n(0);var
-aq=_(j$,ad(v(a,EV))),ar=ka(b);return[1,0,_(pM,A),0,ar,0,aq]}}}else
-if(!p(b[1],EW)){n(0);var
-P=_(j$,ad(v(a,EX))),u=0,e=P;for(;;){if(e){var
+am=fP(Y,v(f,Ea)),O=[0,fP(Y,v(f,Eb)),am];return[0,as,O,z,N]}n(0);var
+aq=_(kc,ad(v(a,E0))),ar=kd(b);return[1,0,_(pS,A),0,ar,0,aq]}}}else
+if(!p(b[1],E1)){n(0);var
+P=_(kc,ad(v(a,E2))),u=0,e=P;for(;;){if(e){var
 F=e[2],G=e[1];if(0===G[1]){var
 u=[0,G,u],e=F;continue}var
 e=F;continue}var
-m=kW(u),af=0;if(m){var
+m=kZ(u),af=0;if(m){var
 d=0,Q=m[1][4];if(typeof
 Q==="number")d=1;else
 switch(Q[0]){case
@@ -8596,65 +8613,65 @@ C=m[2];if(C){var
 E=0,S=C[1][4];if(typeof
 S!=="number"&&0===S[0])if(C[2]){d=1;E=1}else
 E=1;if(!E)d=1}else
-d=1;break;default:d=1}if(!d)af=1}if(!af)ah(EY);var
-at=Y(v(ai(b[2]),EZ));return[4,Y(v(ai(k[2]),E0)),at,P]}}if(!ac)return ah([0,EP,[0,c,EO]])}else
-if(!p(b[1],E1)){n(0);var
-o=ai(k[2]),T=ai(b[2]),U=function(c,a){var
+d=1;break;default:d=1}if(!d)af=1}if(!af)ai(E3);var
+at=Y(v(ah(b[2]),E4));return[4,Y(v(ah(k[2]),E5)),at,P]}}if(!ac)return ai([0,EU,[0,c,ET]])}else
+if(!p(b[1],E6)){n(0);var
+o=ah(k[2]),T=ah(b[2]),U=function(c,a){var
 b=ad(a);return _(function(d){var
 a=ad(d);if(a){var
 b=a[2];if(b&&!b[2]){var
 e=j(c,b[1]);return[0,aZ(a[1]),e]}}throw X},b)},au=function(d){var
-a=ai(d);if(a){var
-b=a[1],c=b[1];if(p(c,E2)){if(!p(c,E3)&&!a[2])return[0,_(j9,ad(b[2]))]}else
-if(!a[2])return[1,j9(b[2])]}throw X},av=_(DY,ad(v(a,E4))),aw=_(Y,ad(v(T,E5))),ax=_(Y,ad(v(T,E6))),ay=_(au,ad(v(o,E7))),aB=U(j9,v(o,E8)),aC=U(b3,v(o,E9));return[3,_(aZ,ad(v(o,E_))),aC,aB,ay,ax,aw,av]}return ah([0,ET,[0,b[1],ES]])}throw X}var
-V=ai(k[2]),q=cm(Y,a_(V,E$)),aD=function(f){var
-a=dX(f),b=a[1];if(p(b,Fa)){if(p(b,Fb)){if(p(b,Fc)){if(p(b,Fd))throw X;var
-d=a[2],g=Y(v(ai(d),Fe));return[3,Y(v(ai(d),Ff)),g]}var
-h=a[2],c=function(a){return dq(Y,v(ai(h),a))},i=c(Fg),j=c(Fh);return[1,c(Fi),j,i]}var
-e=dq(Y,a[2]);return[0,e[1],e[2]]}return[2,Y(a[2])]},r=cm(aD,a_(a,Fj)),W=p(c,Fk),Z=W?p(c,Fl)?2:1:W,s=ad(v(V,Fm));if(q&&r&&h_(pN,s)){var
-aE=function(c){var
-a=ai(c);function
-b(b){return _(b3,ad(v(a,b)))}if(0!==a_(a,Fn))ah(Fo);var
-d=b(Fp);return[0,b(Fq),d]},aF=_(D0,ad(v(a,Fr))),aG=r[1],aH=ka(b),aI=q[1];return[2,Z,_(aE,s),aI,aH,aG,z,aF]}n(0);var
-ag=0;if(!q&&az(c,Fu)){var
+a=ah(d);if(a){var
+b=a[1],c=b[1];if(p(c,E7)){if(!p(c,E8)&&!a[2])return[0,_(ka,ad(b[2]))]}else
+if(!a[2])return[1,ka(b[2])]}throw X},av=_(D3,ad(v(a,E9))),aw=_(Y,ad(v(T,E_))),ax=_(Y,ad(v(T,E$))),ay=_(au,ad(v(o,Fa))),aA=U(ka,v(o,Fb)),aB=U(b3,v(o,Fc));return[3,_(aZ,ad(v(o,Fd))),aB,aA,ay,ax,aw,av]}return ai([0,EY,[0,b[1],EX]])}throw X}var
+V=ah(k[2]),q=cm(Y,a_(V,Fe)),aC=function(f){var
+a=dZ(f),b=a[1];if(p(b,Ff)){if(p(b,Fg)){if(p(b,Fh)){if(p(b,Fi))throw X;var
+d=a[2],g=Y(v(ah(d),Fj));return[3,Y(v(ah(d),Fk)),g]}var
+h=a[2],c=function(a){return dq(Y,v(ah(h),a))},i=c(Fl),j=c(Fm);return[1,c(Fn),j,i]}var
+e=dq(Y,a[2]);return[0,e[1],e[2]]}return[2,Y(a[2])]},r=cm(aC,a_(a,Fo)),W=p(c,Fp),Z=W?p(c,Fq)?2:1:W,s=ad(v(V,Fr));if(q&&r&&h$(pT,s)){var
+aD=function(c){var
+a=ah(c);function
+b(b){return _(b3,ad(v(a,b)))}if(0!==a_(a,Fs))ai(Ft);var
+d=b(Fu);return[0,b(Fv),d]},aE=_(D5,ad(v(a,Fw))),aG=r[1],aH=kd(b),aI=q[1];return[2,Z,_(aD,s),aI,aH,aG,z,aE]}n(0);var
+ag=0;if(!q&&az(c,Fz)){var
 $=1;ag=1}if(!ag)var
 $=[0,Z];var
-aa=0!==r?1:0,aJ=aa?aA(pN,s):aa;if(aJ)ah(Fs);var
-aK=_(j$,ad(v(a,Ft))),aL=ka(b);return[1,$,_(pM,s),q,aL,r,aK]}var
-t=ai(g[2]);function
+aa=0!==r?1:0,aJ=aa?aF(pT,s):aa;if(aJ)ai(Fx);var
+aK=_(kc,ad(v(a,Fy))),aL=kd(b);return[1,$,_(pS,s),q,aL,r,aK]}var
+t=ah(g[2]);function
 aM(b){var
-a=ai(b),c=Y(v(a,Fv)),d=[0,Y(v(a,Fw)),c];return[0,aZ(v(a,Fx)),d]}var
-l=kb([0,[0,[0,Fz,v(t,Fy)],0]]);if(0===l[0]&&!l[3]){var
-aN=Y(v(t,FB)),aO=Y(v(t,FC)),aP=l[4],aQ=l[2],aR=l[1];return[7,_(aM,ad(v(t,FD))),aR,aQ,aP,aO,aN]}return ah(FA)}function
-fQ(a){return _(eI,ad(a))}function
-hG(c,b){var
-a=fQ(b);if(cs(a)!==c)throw X;return a}function
-pQ(a,d){var
-b=ai(d),e=ad(v(b,FG)),f=a[2],c=_(function(a){return hG(f,a)},e),g=a[1];if(cs(c)!==g)throw X;return[0,c,dp(v(b,FH))]}function
+a=ah(b),c=Y(v(a,FA)),d=[0,Y(v(a,FB)),c];return[0,aZ(v(a,FC)),d]}var
+l=ke([0,[0,[0,FE,v(t,FD)],0]]);if(0===l[0]&&!l[3]){var
+aN=Y(v(t,FG)),aO=Y(v(t,FH)),aP=l[4],aQ=l[2],aR=l[1];return[7,_(aM,ad(v(t,FI))),aR,aQ,aP,aO,aN]}return ai(FF)}function
+fR(a){return _(eJ,ad(a))}function
+hH(c,b){var
+a=fR(b);if(cs(a)!==c)throw X;return a}function
+pW(a,d){var
+b=ah(d),e=ad(v(b,FL)),f=a[2],c=_(function(a){return hH(f,a)},e),g=a[1];if(cs(c)!==g)throw X;return[0,c,dp(v(b,FM))]}function
 dr(au,i){var
 as=0;if(0===i[0]){var
 q=i[1];if(q){var
-U=q[1];if(!p(U[1],FI)){var
+U=q[1];if(!p(U[1],FN)){var
 ag=U[2];if(0===ag[0]){var
 L=ag[1];if(L){var
-aj=L[1];if(!p(aj[1],F6)){var
+aj=L[1];if(!p(aj[1],F$)){var
 ak=aj[2];if(1===ak[0]){var
 M=ak[1];if(M){var
 al=M[1];if(1===al[0]){var
 am=al[1];if(am&&!am[2]&&!M[2]){var
 an=L[2];if(an&&!an[2]&&!q[2]){var
-f=F7;as=1}}}}}}}}}}}if(!as)var
+f=Ga;as=1}}}}}}}}}}}if(!as)var
 f=au;var
 r=f[2];switch(i[0]){case
 0:var
 c=i[1];if(c){var
-e=c[1],a=e[1],V=se(a,FJ),b=0;if(0<=V)if(0<V)if(p(a,FK)){var
-g=0;if(p(a,FL)&&p(a,FM)&&p(a,FN))if(p(a,FO))g=1;else{var
+e=c[1],a=e[1],V=sj(a,FO),b=0;if(0<=V)if(0<V)if(p(a,FP)){var
+g=0;if(p(a,FQ)&&p(a,FR)&&p(a,FS))if(p(a,FT))g=1;else{var
 W=e[2];if(1===W[0]){var
 s=W[1];if(s){var
 t=s[2];if(t){var
 u=t[2];if(u&&!u[2]){if(!c[2]){var
-av=_(fQ,ad(u[1])),aw=aZ(t[1]);return[8,dr(f,s[1]),aw,av]}b=1;g=1}else
+av=_(fR,ad(u[1])),aw=aZ(t[1]);return[8,dr(f,s[1]),aw,av]}b=1;g=1}else
 g=1}else
 g=1}else
 g=1}else
@@ -8664,7 +8681,7 @@ Z=e[2];if(1===Z[0]){var
 y=Z[1];if(y){var
 z=y[2];if(z){var
 A=z[2];if(A&&!A[2]){if(!c[2]){var
-ay=dp(A[1]),az=eI(z[1]);return[5,dr(f,y[1]),az,ay]}b=1}}}}}else{var
+ay=dp(A[1]),az=eJ(z[1]);return[5,dr(f,y[1]),az,ay]}b=1}}}}}else{var
 $=e[2];if(1===$[0]){if(!c[2]){var
 aA=function(m){if(1===m[0]){var
 d=m[1];if(d){var
@@ -8675,69 +8692,69 @@ n=h[1],a=n;for(;;){var
 i=0;switch(a[0]){case
 0:var
 b=a[1];if(b){var
-j=b[1],c=j[1];if(p(c,FR)){var
-o=0;if(p(c,FS)&&p(c,FT)&&p(c,FU))o=1;if(!o&&!b[2])i=1}else{var
+j=b[1],c=j[1];if(p(c,FW)){var
+o=0;if(p(c,FX)&&p(c,FY)&&p(c,FZ))o=1;if(!o&&!b[2])i=1}else{var
 k=j[2];if(1===k[0]){var
 l=k[1];if(l&&!b[2]){var
 a=l[1];continue}}}}break;case
-2:if(!p(a[1],FV))i=1;break}var
+2:if(!p(a[1],F0))i=1;break}var
 q=i?1:0;if(q){var
-r=dr(f,n),s=dp(g[1]),t=eI(e[1]);return[0,[0,[0,fQ(d[1]),t],s],r]}return ah(FW)}}}}}}throw X};return[9,_(aA,$[1])]}b=1}}else
-if(p(a,FX))if(p(a,FY))if(p(a,FZ))if(p(a,F0))if(p(a,F1)){if(!p(a,F2)){if(!c[2]){var
-aa=ai(e[2]),aB=ad(v(aa,F3)),aC=r+1|0,ab=_(function(a){return hG(aC,a)},aB);if(3===cs(ab))return[1,F5,ab,dp(v(aa,F4))];throw X}b=1}}else{if(!c[2]){var
-R=aZ(e[2]),S=p(R,FE);if(S){if(p(R,FF))throw X;var
+r=dr(f,n),s=dp(g[1]),t=eJ(e[1]);return[0,[0,[0,fR(d[1]),t],s],r]}return ai(F1)}}}}}}throw X};return[9,_(aA,$[1])]}b=1}}else
+if(p(a,F2))if(p(a,F3))if(p(a,F4))if(p(a,F5))if(p(a,F6)){if(!p(a,F7)){if(!c[2]){var
+aa=ah(e[2]),aB=ad(v(aa,F8)),aC=r+1|0,ab=_(function(a){return hH(aC,a)},aB);if(3===cs(ab))return[1,F_,ab,dp(v(aa,F9))];throw X}b=1}}else{if(!c[2]){var
+R=aZ(e[2]),S=p(R,FJ);if(S){if(p(R,FK))throw X;var
 T=1}else
 var
 T=S;return[2,T]}b=1}else{if(!c[2]){var
 k=e[2],o=0;switch(k[0]){case
 0:var
 l=k[1];if(l){var
-ao=l[1],j=ao[1],d=0;if(p(j,F8)&&p(j,F9)&&p(j,F_)&&p(j,F$))if(p(j,Ga))d=1;else{var
+ao=l[1],j=ao[1],d=0;if(p(j,Gb)&&p(j,Gc)&&p(j,Gd)&&p(j,Ge))if(p(j,Gf))d=1;else{var
 ap=ao[2];if(1===ap[0]){var
 N=ap[1];if(N){var
 m=N[1],h=0;switch(m[0]){case
 0:var
 O=m[1];if(O){var
-n=O[1][1],at=0;if(p(n,Gc)&&p(n,Gd)&&p(n,Ge)&&p(n,Gf)){d=1;h=1;at=1}if(!at&&O[2]){d=1;h=1}}else{d=1;h=1}break;case
+n=O[1][1],at=0;if(p(n,Gh)&&p(n,Gi)&&p(n,Gj)&&p(n,Gk)){d=1;h=1;at=1}if(!at&&O[2]){d=1;h=1}}else{d=1;h=1}break;case
 2:var
-aq=m[1];if(p(aq,Gg)&&p(aq,Gh)){d=1;h=1}break;default:d=1;h=1}if(!h){var
+aq=m[1];if(p(aq,Gl)&&p(aq,Gm)){d=1;h=1}break;default:d=1;h=1}if(!h){var
 P=N[2];if(P){var
 Q=P[2];if(Q&&!(Q[2]||l[2])){var
-aL=dp(Q[1]),aM=eI(P[1]),B=[6,dr(f,m),aM,aL];o=2;d=1}else
+aL=dp(Q[1]),aM=eJ(P[1]),B=[6,dr(f,m),aM,aL];o=2;d=1}else
 d=1}else
 d=1}}else
 d=1}else
 d=1}if(!d&&!l[2])o=1}break;case
 2:var
-ar=k[1];if(!p(ar,Gi)||!p(ar,Gj))o=1;break}switch(o){case
+ar=k[1];if(!p(ar,Gn)||!p(ar,Go))o=1;break}switch(o){case
 0:var
-B=ah(Gb);break;case
+B=ai(Gg);break;case
 1:var
 B=dr(f,k);break}return[7,B]}b=1}else{var
 ac=e[2];if(1===ac[0]){var
 C=ac[1];if(C){var
 D=C[2];if(D&&!D[2])if(c[2])b=1;else{var
-aD=D[1],aE=C[1],x=aE,w=function(b,a){return[3,b,a,hG(r+1|0,aD)]};b=2}}}}else{var
+aD=D[1],aE=C[1],x=aE,w=function(b,a){return[3,b,a,hH(r+1|0,aD)]};b=2}}}}else{var
 ae=e[2];if(1===ae[0]){var
 E=ae[1];if(E){var
 F=E[2];if(F){var
 G=F[2];if(G){var
 H=G[2];if(H&&!H[2]){if(!c[2]){var
-aF=dr(f,H[1]),aG=dr(f,G[1]),aH=dp(F[1]);return[10,hG(r+1|0,E[1]),aH,aG,aF]}b=1}}}}}}else{var
+aF=dr(f,H[1]),aG=dr(f,G[1]),aH=dp(F[1]);return[10,hH(r+1|0,E[1]),aH,aG,aF]}b=1}}}}}}else{var
 af=e[2];if(1===af[0]){var
 I=af[1];if(I){var
 J=I[2];if(J){var
 K=J[2];if(K&&!K[2])if(c[2])b=1;else{var
 aI=K[1],aJ=J[1],aK=I[1],x=aK,w=function(b,a){var
-c=dp(aI);return[4,b,a,eI(aJ),c]};b=2}}}}}switch(b){case
-0:if(!c[2])return ah([0,FQ,[0,a,FP]]);break;case
+c=dp(aI);return[4,b,a,eJ(aJ),c]};b=2}}}}}switch(b){case
+0:if(!c[2])return ai([0,FV,[0,a,FU]]);break;case
 1:break;default:var
-Y=pQ(f,x);return w(Y[1],Y[2])}}break;case
+Y=pW(f,x);return w(Y[1],Y[2])}}break;case
 2:return[0,i[1]]}throw X}function
-pR(n){var
-b=dX(n),a=b[1];if(p(a,Gm))if(p(a,Gn)){var
-h=p(a,Go);if(!h)return h;if(p(a,Gp)){if(!p(a,Gq)){var
-c=ai(b[2]),i=function(a){return _(Y,ad(v(c,a)))},j=ai(v(c,Gu)),o=dp(v(j,Gv)),q=_(fQ,ad(v(j,Gw))),r=i(Gx),s=i(Gy);return[3,cO(v(c,Gz)),s,r,q,o]}if(!p(a,Gr))return[2,_(Y,ad(b[2]))]}else{var
+pX(n){var
+b=dZ(n),a=b[1];if(p(a,Gr))if(p(a,Gs)){var
+h=p(a,Gt);if(!h)return h;if(p(a,Gu)){if(!p(a,Gv)){var
+c=ah(b[2]),i=function(a){return _(Y,ad(v(c,a)))},j=ah(v(c,Gz)),o=dp(v(j,GA)),q=_(fR,ad(v(j,GB))),r=i(GC),s=i(GD);return[3,cO(v(c,GE)),s,r,q,o]}if(!p(a,Gw))return[2,_(Y,ad(b[2]))]}else{var
 k=b[2];if(1===k[0]){var
 d=k[1];if(d){var
 e=d[2];if(e&&!e[2]){var
@@ -8745,249 +8762,220 @@ t=cO(e[1]);return[1,cO(d[1]),t]}}}}}else{var
 l=b[2];if(1===l[0]){var
 f=l[1];if(f){var
 g=f[2];if(g&&!g[2]){var
-u=_(fQ,ad(g[1]));return[0,cO(f[1]),u]}}}}else{var
-m=b[2];if(1===m[0]&&!m[1])return 1}return ah([0,Gt,[0,a,Gs]])}function
-pS(f,b){var
-a=ai(b),c=ad(v(a,GE)),d=_(function(g){var
-a=ai(g);function
+u=_(fR,ad(g[1]));return[0,cO(f[1]),u]}}}}else{var
+m=b[2];if(1===m[0]&&!m[1])return 1}return ai([0,Gy,[0,a,Gx]])}function
+pY(f,b){var
+a=ah(b),c=ad(v(a,GJ)),d=_(function(g){var
+a=ah(g);function
 b(d,c){var
 b=a_(a,c);return b?_(d,ad(b[1])):b}var
-c=b(eI,GA),d=cm(pR,a_(a,GB)),e=cm(cO,a_(a,GC));return[0,b(function(h){var
+c=b(eJ,GF),d=cm(pX,a_(a,GG)),e=cm(cO,a_(a,GH));return[0,b(function(h){var
 b=ad(h);if(b){var
 a=b[2];if(a){var
-c=a[1],e=b[1],d=0;if(2===c[0]&&!p(c[1],Gk)){if(!a[2]){if(p(fN(e),Gl))throw X;d=1}}else
+c=a[1],e=b[1],d=0;if(2===c[0]&&!p(c[1],Gp)){if(!a[2]){if(p(fO(e),Gq))throw X;d=1}}else
 d=1;if(d&&!a[2]){var
-g=dr(f,c);return[0,cO(e),g]}}}throw X},GD),e,d,c]},c),e=a_(a,GF),g=cm(function(a){return pQ(f,a)},e);return[0,pJ(v(a,GG)),g,d]}function
-pT(c){var
-a=ai(c),b=a_(a,GH),d=b?_(Y,ad(b[1])):b,e=pR(v(a,GI)),f=_(Y,ad(v(a,GJ)));return[0,pJ(v(a,GK)),f,d,e]}function
-GU(c){var
+g=dr(f,c);return[0,cO(e),g]}}}throw X},GI),e,d,c]},c),e=a_(a,GK),g=cm(function(a){return pW(f,a)},e);return[0,pP(v(a,GL)),g,d]}function
+pZ(c){var
+a=ah(c),b=a_(a,GM),d=b?_(Y,ad(b[1])):b,e=pX(v(a,GN)),f=_(Y,ad(v(a,GO)));return[0,pP(v(a,GP)),f,d,e]}function
+GZ(c){var
 a=c[1],b=0;if(10<=a){if(!(13<=a))b=1}else
 if(8===a)b=1;return b?1:0}function
-GV(b){var
+G0(b){var
 a=b[3];if(a&&1===a[1][0])return 1;return 0}function
-GW(b){var
-c=b[1],a=b[4];if(!(1<c+qM>>>0)&&typeof
-a!=="number"&&1===a[0])return 1-ha(i(a[1]));return 10===c?1:0}function
-G0(k){var
-m=ax(k),c=[0,0];function
-n(a){if(c[1]<m)return a4(k,c[1]);throw X}function
-o(a){if(n(0)===a){c[1]++;return 0}throw X}function
-H(a,b){for(;;){if(c[1]<m&&j(b,a4(k,c[1]))){c[1]++;continue}return d6(k,a,c[1]-a|0)}}function
-I(d){o(34);function
+G1(b){var
+c=b[1],a=b[4];if(!(1<c+qS>>>0)&&typeof
+a!=="number"&&1===a[0])return 1-hb(i(a[1]));return 10===c?1:0}function
+G5(i){var
+l=ax(i),c=[0,0];function
+m(a){if(c[1]<l)return a4(i,c[1]);throw X}function
+n(a){if(m(0)===a){c[1]++;return 0}throw X}function
+F(a,b){for(;;){if(c[1]<l&&j(b,a4(i,c[1]))){c[1]++;continue}return d8(i,a,c[1]-a|0)}}function
+G(d){n(34);function
 a(a){var
 b=34!==a?1:0;if(b)var
 c=92!==a?1:0,d=c?32<=a?1:0:c;else
 var
 d=b;return d}var
-b=H(c[1],a);o(34);return b}function
-J(e,a){if(n(0)===a){c[1]++;return 0}var
+b=F(c[1],a);n(34);return b}function
+H(e,a){if(m(0)===a){c[1]++;return 0}var
 b=0;for(;;){var
-d=[0,j(e,0),b];if(44===n(0)){c[1]++;var
-b=d;continue}o(a);return kW(d)}}function
-w(b,j){if(64<b)throw X;var
-a=n(0),d=0;if(48<=a){if(91===a){c[1]++;var
-f=93,g=b+1|0;return[1,J(function(a){return w(g,a)},f)]}if(123===a){c[1]++;var
-h=125;return[0,J(function(c){var
-a=I(0);o(58);return[0,a,w(b+1|0,0)]},h)]}if(!(58<=a))d=1}else{if(34===a)return[2,I(0)];if(45===a)d=1}if(d){var
+d=[0,j(e,0),b];if(44===m(0)){c[1]++;var
+b=d;continue}n(a);return kZ(d)}}function
+u(b,j){if(64<b)throw X;var
+a=m(0),d=0;if(48<=a){if(91===a){c[1]++;var
+f=93,g=b+1|0;return[1,H(function(a){return u(g,a)},f)]}if(123===a){c[1]++;var
+h=125;return[0,H(function(c){var
+a=G(0);n(58);return[0,a,u(b+1|0,0)]},h)]}if(!(58<=a))d=1}else{if(34===a)return[2,G(0)];if(45===a)d=1}if(d){var
 i=c[1];c[1]++;var
-e=H(i,function(a){var
-b=48<=a?1:0,c=b?a<=57?1:0:b;return c});if(p(e,Cq))return[3,e];throw X}throw X}var
-al=w(0,0),K=c[1]<m?1:0,am=K?10===a4(k,c[1])?1:0:K;if(am)c[1]++;if(c[1]<m)throw X;var
-t=ai(al);if(p(aZ(v(t,G1)),G2))throw X;var
-a=kb(v(t,G3)),C=0;switch(a[0]){case
+e=F(i,function(a){var
+b=48<=a?1:0,c=b?a<=57?1:0:b;return c});if(p(e,Cv))return[3,e];throw X}throw X}var
+ab=u(0,0),I=c[1]<l?1:0,ac=I?10===a4(i,c[1])?1:0:I;if(ac)c[1]++;if(c[1]<l)throw X;var
+s=ah(ab);if(p(aZ(v(s,G6)),G7))throw X;var
+a=ke(v(s,G8)),B=0;switch(a[0]){case
 1:var
-A=a[1],D=0;if(typeof
-A==="number")if(A)var
-B=2;else
-D=1;else
-if(1===A[1])var
-B=6;else
-D=1;if(D)var
-B=3;var
-h=[0,cs(a[2]),B];break;case
+z=a[1],C=0;if(typeof
+z==="number")if(z)var
+A=2;else
+C=1;else
+if(1===z[1])var
+A=6;else
+C=1;if(C)var
+A=3;var
+h=[0,cs(a[2]),A];break;case
 2:var
-aB=1===a[1]?6:3,h=[0,cs(a[2]),aB];break;case
+at=1===a[1]?6:3,h=[0,cs(a[2]),at];break;case
 3:var
-aC=cs(a[1]),h=[0,cs(a[4]),aC];break;case
+au=cs(a[1]),h=[0,cs(a[4]),au];break;case
 7:var
-L=a[2];C=1;break;case
+J=a[2];B=1;break;case
 0:case
 5:var
-L=a[1];C=1;break;default:var
-h=Hp}if(C)var
-h=[0,cs(L),3];var
-q=dX(v(t,G4)),r=q[1];if(p(r,GP))if(p(r,GQ))if(p(r,GR))var
-b=ah([0,GT,[0,r,GS]]);else
+J=a[1];B=1;break;default:var
+h=Hs}if(B)var
+h=[0,cs(J),3];var
+o=dZ(v(s,G9)),q=o[1];if(p(q,GU))if(p(q,GV))if(p(q,GW))var
+b=ai([0,GY,[0,q,GX]]);else
 var
-s=pT(q[2]),b=[1,s[1],s[2],s[3],s[4]];else
+r=pZ(o[2]),b=[1,r[1],r[2],r[3],r[4]];else
 var
-x=pS(h,q[2]),b=[0,x[1],x[2],x[3]];else
+w=pY(h,o[2]),b=[0,w[1],w[2],w[3]];else
 var
-an=ad(q[2]),b=[2,_(function(f){var
-a=dX(f),b=a[1];if(p(b,GL)){if(p(b,GM)){if(p(b,GN)){var
-e=p(b,GO);if(e)throw X;return e}return[0,cO(a[2])]}var
-c=pT(a[2]);return[2,c[1],c[2],c[3],c[4]]}var
-d=pS(h,a[2]);return[1,d[1],d[2],d[3]]},an)];function
-ao(a){var
-b=a[1];return aA(function(a){return 7<a[2][0]?1:0},b)}function
-ap(a){return 0!==a[3]?1:0}function
-M(a){return aA(ap,a)}function
-N(a){if(typeof
-a!=="number"&&2===a[0])return 1;return 0}var
+ae=ad(o[2]),b=[2,_(function(f){var
+a=dZ(f),b=a[1];if(p(b,GQ)){if(p(b,GR)){if(p(b,GS)){var
+e=p(b,GT);if(e)throw X;return e}return[0,cO(a[2])]}var
+c=pZ(a[2]);return[2,c[1],c[2],c[3],c[4]]}var
+d=pY(h,a[2]);return[1,d[1],d[2],d[3]]},ae)];function
+af(a){var
+b=a[1];return aF(function(a){return 7<a[2][0]?1:0},b)}function
+ag(a){return 0!==a[3]?1:0}function
+K(a){return aF(ag,a)}var
 d=0;switch(a[0]){case
-0:switch(b[0]){case
-0:var
-P=a[4],O=a[1];d=8;break;case
+0:if(0===b[0]){var
+M=a[4],L=a[1];d=5}else
+d=4;break;case
 1:var
-R=b[4];d=typeof
-R==="number"||!(1<R[0])?3:7;break;default:d=2}break;case
-1:var
-S=a[6],T=a[2],E=0;if(0===b[0]){var
-at=b[3];if(aA(function(a){var
-b=a[1];return aA(function(a){switch(a[2][0]){case
+P=a[6],Q=a[2],D=0;if(0===b[0]){var
+al=b[3];if(aF(function(a){var
+b=a[1];return aF(function(a){switch(a[2][0]){case
 6:case
-7:return 1;default:return 0}},b)},at))ah(Hd);else
-E=1}else
-E=1;var
-F=0;if(E){var
-aa=0;if(aA(function(a){return 5===a[1]?1:0},S)&&aA(function(a){switch(a[0]){case
+7:return 1;default:return 0}},b)},al))ai(Hf);else
+D=1}else
+D=1;var
+av=0;if(D){var
+U=0;if(aF(function(a){return 5===a[1]?1:0},P)&&aF(function(a){switch(a[0]){case
 0:case
-3:return 0;default:return 1}},T)){ah(He);aa=1}if(!aa)switch(b[0]){case
-0:var
-ab=0;if(aA(function(a){return 11===a[1]?1:0},S)&&aA(function(a){return 2===a[0]?1:0},T)){ah(Hf);ab=1}if(!ab){d=1;F=1}break;case
-1:d=5;F=1;break;default:d=1;F=1}}break;case
+3:return 0;default:return 1}},Q)){ai(Hg);U=1}if(!U){var
+V=0;if(0===b[0]){var
+aw=0;if(aF(function(a){return 11===a[1]?1:0},P)&&aF(function(a){return 2===a[0]?1:0},Q)){ai(Hh);V=1;aw=1}}if(!V){var
+x=a[6];d=2;av=1}}}break;case
 2:var
-W=a[1],au=a[7];switch(b[0]){case
-0:var
-av=1===W?6:3,Y=cs(a[2])===av?1:0;if(Y){var
-ac=0;if(2<=W||!(0===a[4][0]))ac=1;else
+S=a[1],W=0,an=a[7];if(0===b[0]){var
+ao=1===S?6:3,T=cs(a[2])===ao?1:0;if(T){var
+Y=0;if(2<=S||!(0===a[4][0]))Y=1;else
 var
-z=1;if(ac)var
-z=0}else
+y=1;if(Y)var
+y=0}else
 var
-z=Y;var
-aw=function(b){var
+y=T;var
+ap=function(b){var
 g=0;if(!b[1]){var
 d=b[2];if(8===d[0]){var
 e=d[1];if(7===e[0]){var
 c=e[1],a=0;switch(c[0]){case
-1:if(p(c[1],Hi))a=1;break;case
+1:if(p(c[1],Hm))a=1;break;case
 6:var
-f=c[1];if(1!==f[0]||p(f[1],Hj))a=1;break;default:a=1}if(!a)return 1-z}}else
-g=1}if(!g&&8===b[2][0])return 1;return 0},ay=b[3],aD=0;if(aA(function(a){return aA(aw,a[1])},ay))ah(Hk);else{var
-az=b[3];if(h_(function(a){var
-b=a[1];return h_(function(d){var
+f=c[1];if(1!==f[0]||p(f[1],Hn))a=1;break;default:a=1}if(!a)return 1-y}}else
+g=1}if(!g&&8===b[2][0])return 1;return 0},aq=b[3],Z=0;if(aF(function(a){return aF(ap,a[1])},aq))ai(Ho);else{var
+ar=b[3];if(h$(function(a){var
+b=a[1];return h$(function(d){var
 b=d[2],a=0;switch(b[0]){case
 0:var
-c=b[1];if(p(c,GX)){if(!p(c,GY))return aA(GW,au)}else
+c=b[1];if(p(c,G2)){if(!p(c,G3))return aF(G1,an)}else
 a=1;break;case
-1:if(!p(b[1],GZ))a=1;break;case
+1:if(!p(b[1],G4))a=1;break;case
 7:case
-8:a=1;break}return a?1:0},b)},az)){d=4;aD=1}else
-ah(Hl)}break;case
-1:var
-ae=0,Z=b[4];if(typeof
-Z==="number"||!(1<Z[0]))ae=1;else
-d=7;if(ae)d=3;break;default:d=2}break;case
-3:switch(b[0]){case
-0:if(aA(ao,b[3]))ah(Hm);else
-d=1;break;case
-1:d=5;break;default:d=1}break;case
+8:a=1;break}return a?1:0},b)},ar))Z=1;else
+ai(Hp)}if(!Z)W=1}if(!W)d=4;break;case
+3:var
+$=0;if(0===b[0]&&aF(af,b[3]))ai(Hq);else
+$=1;if($){var
+x=a[7];d=2}break;case
+4:var
+x=a[3];d=2;break;case
 7:switch(b[0]){case
 2:var
-$=b[1],af=0;if(aA(function(a){if(typeof
+as=b[1];if(aF(function(a){if(typeof
 a!=="number"&&2===a[0]){var
 b=a[4];if(typeof
-b!=="number"&&3===b[0])return 1}return 0},$)){ah(Hn);af=1}else
-if(aA(function(a){if(typeof
-a!=="number"&&2===a[0])return N(a[4]);return 0},$)){ah(Ho);af=1}else
-d=6;break;case
-1:d=5;break;default:d=6}break;default:d=5}var
-f=0;switch(d){case
-5:if(1===b[0]){var
-V=b[4];if(typeof
-V==="number"||!(3===V[0]))f=3;else
-ah(Hh)}else
-f=3;break;case
-1:f=3;break;case
-3:f=4;break;case
-6:f=5;break;case
-7:f=6;break;case
-0:break;case
-8:f=7;break;case
-4:f=1;break;default:f=2}var
-e=0;switch(f){case
-3:var
-ag=0;switch(a[0]){case
+b!=="number"&&3===b[0])return 1}return 0},as))ai(Hr);else
+d=1;break;case
+1:d=3;break;default:d=1}break;default:d=3}var
+e=0;switch(d){case
+2:switch(b[0]){case
+0:if(aF(function(a){return 12===a[1]?1:0},x)){ai(Hi);e=1}else
+e=2;break;case
+1:e=4;break}break;case
+4:switch(b[0]){case
+0:e=2;break;case
 1:var
-y=a[6];break;case
-3:var
-y=a[7];break;case
-4:var
-y=a[3];break;default:e=3;ag=1}if(!ag)switch(b[0]){case
-0:if(aA(function(a){return 12===a[1]?1:0},y))ah(Hg);else
-e=1;break;case
-1:if(3===a[0])e=3;else{var
-aj=0,U=b[4];if(typeof
-U!=="number"&&2===U[0]){e=5;aj=1}if(!aj)e=3}break;default:e=2}break;case
-4:e=3;break;case
-5:e=4;break;case
-6:e=5;break;case
-0:break;case
-7:e=6;break;case
-1:e=1;break;default:e=2}var
-i=0;switch(e){case
-3:if(1===b[0]&&N(b[4]))ah(Hc);else
-i=3;break;case
-4:i=3;break;case
-5:break;case
-0:break;case
-6:i=4;break;case
-1:i=1;break;default:i=2}var
-g=0;switch(i){case
-3:switch(a[0]){case
-5:if(aA(GU,a[4])){ah(Ha);g=2}else
+ay=0,O=b[4];if(typeof
+O!=="number"&&3===O[0]){e=1;ay=1}break}break;case
+3:e=4;break;case
+1:e=3;break;case
+0:e=1;break;default:e=5}var
+f=0;switch(e){case
+4:if(1===b[0]){var
+R=b[4];if(typeof
+R==="number"||!(3===R[0]))f=2;else{ai(Hl);f=3}}else
+f=2;break;case
+3:f=2;break;case
+1:f=3;break;case
+5:f=4;break;case
+2:break;default:f=1}var
+g=0;switch(f){case
+2:switch(a[0]){case
+5:if(aF(GZ,a[4])){ai(Hj);g=2}else
 if(0===b[0]){var
-as=b[3];if(aA(function(a){return 0!==a[1]?1:0},as)){ah(Hb);g=2}}break;case
+am=b[3];if(aF(function(a){return 0!==a[1]?1:0},am)){ai(Hk);g=2}}break;case
 6:break;case
 7:var
-P=a[4],O=a[2];g=3;break;default:g=1}break;case
-0:g=2;break;case
+M=a[4],L=a[2];g=3;break;default:g=1}break;case
+3:g=2;break;case
 4:g=3;break;case
-1:break;default:g=1}var
-u=0;switch(g){case
+0:break;default:g=1}var
+t=0;switch(g){case
 2:break;case
 3:var
-ak=0;if(aA(function(a){return 10===a[1]?1:0},P)&&aA(function(a){return 2===a[0]?1:0},O)){ah(G5);ak=1}if(!ak)u=2;break;case
-0:u=2;break;default:u=1}var
-G=0;switch(u){case
+aa=0;if(aF(function(a){return 10===a[1]?1:0},M)&&aF(function(a){return 2===a[0]?1:0},L)){ai(G_);aa=1}if(!aa)t=2;break;case
+0:t=2;break;default:t=1}var
+E=0;switch(t){case
 2:var
-l=0;switch(a[0]){case
+k=0;switch(a[0]){case
 5:case
-7:if(aA(GV,a[4])){ah(G_);l=1}else
+7:if(aF(G0,a[4])){ai(Hd);k=1}else
 if(7===a[0])switch(b[0]){case
 2:var
-ar=function(a){if(typeof
-a!=="number"&&1===a[0])return M(a[3]);return 0};if(aA(ar,b[1]))ah(G$);l=1;break;case
-0:break;default:G=1;l=1}else
-l=1;break}if(!l)if(0===b[0]&&M(b[3]))ah(G9);else
-G=1;break;case
-1:G=1;break}var
-Q=ai(v(t,G6)),aq=aZ(v(Q,G7));return[0,a,b,aZ(v(Q,G8)),aq]}function
-Hq(b){var
-c=ax(b),g=64,h=I3(64,c)?g:c,a=0,i=h-18|0;for(;;){var
+ak=function(a){if(typeof
+a!=="number"&&1===a[0])return K(a[3]);return 0};if(aF(ak,b[1]))ai(He);k=1;break;case
+0:break;default:E=1;k=1}else
+k=1;break}if(!k)if(0===b[0]&&K(b[3]))ai(Hc);else
+E=1;break;case
+1:E=1;break}var
+N=ah(v(s,G$)),aj=aZ(v(N,Ha));return[0,a,b,aZ(v(N,Hb)),aj]}function
+Ht(b){var
+c=ax(b),g=64,h=I6(64,c)?g:c,a=0,i=h-18|0;for(;;){var
 d=a<=i?1:0;if(d){var
-e=az(d6(b,a,18),Hr);if(!e){var
+e=az(d8(b,a,18),Hu);if(!e){var
 a=a+1|0;continue}var
 f=e}else
 var
-f=d;return f}}Jm(function(b){try{if(Hq(b))var
-a=Ht;else{try{var
-e=0,d=G0(b);e=1}catch(a){a=sg(a);if(a[1]===pI)var
+f=d;return f}}Jp(function(b){try{if(Ht(b))var
+a=Hw;else{try{var
+e=0,d=G5(b);e=1}catch(a){a=sl(a);if(a[1]===pO)var
 c=[0,a[2]];else{if(a!==X)throw a;var
 c=2}}if(e)var
-c=Cm(b,d)?1===d[2][0]?1:0:2;var
-a=c}}catch(a){return Hs}if(typeof
+c=Cr(b,d)?1===d[2][0]?1:0:2;var
+a=c}}catch(a){return Hv}if(typeof
 a==="number")switch(a){case
-0:return Hu;case
-1:return Hv;default:return Hw}return ba(Hx,a[1])});kV(0);return}(globalThis));
+0:return Hx;case
+1:return Hy;default:return Hz}return ba(HA,a[1])});kY(0);return}(globalThis));

@@ -49,7 +49,6 @@ fn covered(proof: &Proof, subject: &Subject<'_>) -> Exported<()> {
             })
             .collect(),
     };
-    let is_singular = refuted.iter().any(|fails| matches!(fails, Failure::Singular(_)));
     let is_same = refuted.iter().any(|fails| matches!(fails, Failure::Same { .. }));
     let is_of_two_points = |kind, proof: &Proof| {
         matches!((kind, proof), (Kind::Machine | Kind::Turning, Proof::Witness(_)))
@@ -90,9 +89,6 @@ fn covered(proof: &Proof, subject: &Subject<'_>) -> Exported<()> {
             if has(&|by| is_no_step_of_pose(by) || (*by == Evidence::Test && !has_sign)) =>
         {
             "a step of a platform that turns that is not at control points"
-        }
-        (Kind::Formulas | Kind::Atlas, _) if is_singular => {
-            "the failure \"singular\" of such a mechanism"
         }
         (kind, proof) if is_same && !is_of_two_points(kind, proof) => {
             "the failure \"same\" of such a mechanism"
