@@ -6,7 +6,7 @@
 From Coq Require Import Reals.
 From Orthocert Require Import Vec3 SingularValues Kinematics Velocity Diagonal CubeLower Scaling
   Postulate Extremes Design TightCorner AllPsi Claim Paper.
-From Orthocert.kernel Require Apart Solve Tolerances Check Machine Acceleration Accuracy Gradient Near Problem Faces Witness Cubes NoCube Closed Trig Arm Written AtPoint Turning Same Twins Accelerated Far FarWritten BetweenWritten Singular Legs Control Pose Drives Driven Certificate PavingText.
+From Orthocert.kernel Require Apart Solve Tolerances Check Machine Acceleration Accuracy Gradient Near Problem Faces Witness Cubes NoCube Closed Trig Arm Written AtPoint Turning Same Twins TwinsDriven TwinsWritten Accelerated Far FarWritten BetweenWritten Singular Legs Control Pose Drives Driven Certificate PavingText.
 From Orthocert.instances Require OrthoglideTolerance LinearDelta PostulateAll PostulateUpTo2 FourSliders StrutsAndPlane DeltaSpeed DeltaMargin UpuAxes
   FiveBar PlanarPlatform FiveBarFormulas Prototype DeltaTooFast NoCube Atlas.
 Local Open Scope R_scope.
@@ -119,6 +119,8 @@ Check @kernel.BetweenWritten.refute_between_written_sound.
 Check kernel.Same.fits_sound.
 Check @kernel.Twins.refute_same_sound.
 Check @kernel.Twins.refute_same_pose_sound.
+Check @kernel.TwinsDriven.refute_same_driven_sound.
+Check @kernel.TwinsWritten.refute_same_written_sound.
 Check kernel.Accelerated.refute_accelerated_sound.
 Check @kernel.Far.refute_far_sound.
 Check @kernel.Far.refute_far_pose_sound.
@@ -169,7 +171,8 @@ Definition all_of_them :=
    @kernel.Turning.refute_turning_sound, @kernel.Singular.refute_between_sound,
    @kernel.Between.refute_between_driven_sound, @kernel.Between.refute_between_legs_sound,
    @kernel.BetweenWritten.refute_between_written_sound, @kernel.Same.fits_sound, @kernel.Twins.refute_same_sound,
-   @kernel.Twins.refute_same_pose_sound, @kernel.Accelerated.refute_accelerated_sound,
+   @kernel.Twins.refute_same_pose_sound, @kernel.TwinsDriven.refute_same_driven_sound,
+   @kernel.TwinsWritten.refute_same_written_sound, @kernel.Accelerated.refute_accelerated_sound,
    @kernel.Far.refute_far_sound, @kernel.Far.refute_far_pose_sound,
    @kernel.Far.refute_far_driven_sound, @kernel.FarWritten.refute_far_written_sound, @kernel.Control.controls_decide,
    @kernel.Pose.check_turning_sound, @Claim.every_value, @kernel.Tolerances.mean_value,

@@ -9,7 +9,7 @@
 
 From Coq Require Import ZArith QArith Reals Lra List Bool String Ascii DecimalString.
 From Orthocert Require Import Vec3 SingularValues Kinematics Diagonal Scaling Postulate Paper Claim.
-From Orthocert.kernel Require Import Configuration Arm Written AtPoint Orientation Turning Accelerated Singular Between BetweenWritten Twins Far FarWritten Legs Inputs Pose Driven.
+From Orthocert.kernel Require Import Configuration Arm Written AtPoint Orientation Turning Accelerated Singular Between BetweenWritten Twins TwinsDriven TwinsWritten Far FarWritten Legs Inputs Pose Driven.
 From Orthocert.kernel Require Tolerances.
 From Orthocert.kernel Require Import Statement Check Number Problem Faces Witness Closed Cubes NoCube.
 Import ListNotations.
@@ -923,6 +923,7 @@ Definition means (c : certificate) : Prop :=
       exists m P, is_about (claim_of ls w bs rs) m P /\ ~ meets (claim_of ls w bs rs) m P
   | Legs_ k ls ell w o rs, Nodes _ _ _ => let c := driven_claim_of k ls ell w o rs in
       driven_holds c /\ exists m P Q, is_about_driven c m P Q
+  | Legs_ k ls ell w o rs, ByWitness _ _ _ (Same_ _ _ _ _ _) => has_two_poses (driven_claim_of k ls ell w o rs)
   | Legs_ k ls ell w o rs, ByWitness _ _ _ _ => let c := driven_claim_of k ls ell w o rs in
       exists m P Q, Forall well_formed_driven m /\ is_about_driven c m P Q /\ ~ meets_driven c m P Q
   | Turning_ k ls ell w o bs rs, ByWitness _ _ _ (Same_ _ _ _ _ _) => let c := turning_claim_of k ls ell w o bs rs in
@@ -934,6 +935,7 @@ Definition means (c : certificate) : Prop :=
       turning_holds c /\ exists m P Q, is_about_struts c m P Q
   | Formulas_ xs ps ds rows a b rs, Nodes _ _ _ => let c := written_claim_of xs ps ds rows a b rs in
       written_holds c /\ exists theta x, is_about_written c theta x
+  | Formulas_ xs ps ds rows a b rs, ByWitness _ _ _ (Same_ _ _ _ _ _) => has_two_points (written_claim_of xs ps ds rows a b rs)
   | Formulas_ xs ps ds rows a b rs, ByWitness _ _ _ _ => let c := written_claim_of xs ps ds rows a b rs in let m := by_formulas c in
       exists theta x, is_about_written c theta x /\ ~ exists M, Forall2 (is_row m theta x) (joint_forms m) M /\
         Configuration.meets (length (coordinate_names m)) (machine_at m theta x M) (written_demands c)
@@ -1417,6 +1419,17 @@ Definition inverse_of (scales : list Z) (least greatest : list Q) (y : list (lis
       let k := Qred (2 * power_of_two (s - Z.of_N places) / (b - a))%Q in map (fun n => Qred (inject_Z n * k)) row)
       (combine (combine scales (combine least greatest)) y)
   else [].
+Definition accept_driven_twins (k : mobility) (ls : list written_driven) (ell : option expression) (w : written_place) (o : option written_orientation)
+    (rs : list written_requirement) (point machine : list expression) (i : nat) (a b : list expression) (y : list (list Z)) (places : N) : bool :=
+  let n := match k with Translates => 3 | TranslatesInPlane => 2 | Turns m => places_of_point m end in let turns := (freedom k - n)%nat in
+  let point := map denoted point in let c := driven_claim_of k ls ell w o rs in let s := any_length_order (drives c) in
+  match take_all_driven ls (map denoted machine), all_rational a, all_rational b with
+  | (m, []), Some a, Some b => is_one_each (flat_map quantities_of_driven ls) machine && are_well_formed_legs k ls ell w o rs && Nat.eqb (length point) (freedom k) &&
+      Nat.eqb i (place_of_two_points (has_arms ls) (parts_near k) (length ls) [] rs) &&
+      refute_same_driven exact_bits n c m (numbers_of (firstn n point)) (skipn n point) a b
+        (inverse_of (if has_arms ls then repeat s n ++ repeat 0 turns else repeat 0 n ++ repeat (- s) turns) a b y places)%Z
+  | _, _, _ => false
+  end.
 Definition accept_witness (ls : list written_leg) (w : written_region) (bs : list written_body) (rs : list written_requirement)
     (point machine : list expression) (how : violation) : bool :=
   let k := claim_of ls w bs rs in
@@ -1516,6 +1529,7 @@ Definition accept (c : certificate) : bool :=
       | _ => false
       end
   | Legs_ k ls ell w o rs, Nodes bits chords nodes => accept_driven_tree k ls ell w o rs bits chords nodes
+  | Legs_ k ls ell w o rs, ByWitness _ point machine (Same_ i a b y places) => accept_driven_twins k ls ell w o rs point machine i a b y places
   | Legs_ k ls ell w o rs, ByWitness _ point machine how => accept_driven_witness k ls ell w o rs point machine how
   | Turning_ k ls ell w o bs rs, ByWitness bits point machine how =>
       let point := map denoted point in
@@ -1561,6 +1575,12 @@ Definition accept (c : certificate) : bool :=
           forallb (fun t => below exact_bits (least t) (greatest t)) (box_of c) &&
           match how, failure_at false 1 (length rows) [] rs how with
           | Singular_ other, _ => refute_between_written exact_bits c thetas (map denoted point) (map denoted other)
+          | Same_ i a b y places, _ =>
+              match all_rational a, all_rational b with
+              | Some a, Some b => Nat.eqb i (place_of_two_points false 1 (length rows) [] rs) &&
+                  refute_same_written exact_bits c thetas (map denoted point) a b (inverse_of (repeat 0%Z (length xs)) a b y places)
+              | _, _ => false
+              end
           | _, Some f => refute_written exact_bits c thetas (map denoted point) f ||
               match f with NFails i [v] => refute_far_written exact_bits c thetas (map denoted point) i v | _ => false end
           | _, None => false
@@ -1628,6 +1648,12 @@ Proof.
      destruct f as [| i [| v [|]] | |]; try discriminate; exact (refute_far_driven_sound _ _ _ _ _ _ _ h)).
 Qed.
 
+Lemma accept_driven_twins_sound : forall k ls ell w o rs point machine i a b y places, accept_driven_twins k ls ell w o rs point machine i a b y places = true -> has_two_poses (driven_claim_of k ls ell w o rs).
+Proof.
+  intros k ls ell w o rs point machine i a b y places h. unfold accept_driven_twins in h. cbv zeta in h. destruct (take_all_driven _ _) as [m [|]]; [| discriminate].
+  destruct (all_rational a); [| discriminate]. destruct (all_rational b); [| discriminate]. apply andb_true_iff in h as [_ h]. exact (refute_same_driven_sound _ _ _ _ _ _ _ _ _ h).
+Qed.
+
 Lemma accept_closed_witness_sound : forall offset side rs bits point machine how tool version, accept_closed_witness offset side rs point machine how = true ->
   means (Certificate (Closed_ offset side rs) (ByWitness bits point machine how) tool version).
 Proof.
@@ -1663,7 +1689,7 @@ Proof.
   - exact (accept_tree_sound _ _ _ _ _ _ _ _ _ h).
   - exact (accept_witness_sound _ _ _ _ _ _ _ _ h).
   - exact (accept_driven_tree_sound _ _ _ _ _ _ _ _ _ h).
-  - exact (accept_driven_witness_sound _ _ _ _ _ _ _ _ _ h).
+  - destruct how; try exact (accept_driven_witness_sound _ _ _ _ _ _ _ _ _ h). exact (accept_driven_twins_sound _ _ _ _ _ _ _ _ _ _ _ _ _ h).
   - cbv zeta in h. destruct (tree_of _ _ _ _ _ nodes) as [[tr [|]] |]; try discriminate. apply andb_true_iff in h as [_ h].
     exact (certify_turning_sound _ _ _ _ _ _ _ h).
   - cbv zeta in h. destruct (take_struts _ _) as [m [|]]; [| discriminate]. apply andb_true_iff in h as [_ h].
@@ -1674,7 +1700,8 @@ Proof.
   - destruct (tree_of _ _ _ _ _ nodes) as [[tr [|]] |]; try discriminate. apply andb_true_iff in h as [_ h].
     exact (certify_written_sound _ _ _ _ _ _ h).
   - cbv zeta in h. destruct (take_list _ _) as [thetas [|]]; [| discriminate]. apply andb_true_iff in h as [_ h].
-    destruct how; try exact (refute_between_written_sound _ _ _ _ _ h); (destruct (failure_at _ _ _ _ _ _) as [f |]; [| discriminate]; apply orb_true_iff in h as [h | h]; [exact (refute_written_sound _ _ _ _ _ h) |];
+    destruct how; try exact (refute_between_written_sound _ _ _ _ _ h);
+      try (destruct (all_rational least); [| discriminate]; destruct (all_rational greatest); [| discriminate]; apply andb_true_iff in h as [_ h]; exact (refute_same_written_sound _ _ _ _ _ _ _ h)); (destruct (failure_at _ _ _ _ _ _) as [f |]; [| discriminate]; apply orb_true_iff in h as [h | h]; [exact (refute_written_sound _ _ _ _ _ h) |];
       destruct f as [| i [| v' [|]] | |]; try discriminate; exact (refute_far_written_sound _ _ _ _ _ _ h)).
   - exact (accept_closed_sound offset side rs bits chords nodes t v h).
   - exact (accept_closed_witness_sound offset side rs bits point machine how t v h).

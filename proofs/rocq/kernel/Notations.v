@@ -6,7 +6,7 @@
 
 From Coq Require Export ZArith Reals List String.
 From Orthocert Require Export Claim.
-From Orthocert.kernel Require Export Configuration Legs Written Turning Cubes Closed Statement Witness Certificate.
+From Orthocert.kernel Require Export Configuration Legs Written Turning TwinsDriven TwinsWritten Cubes Closed Statement Witness Certificate.
 Export ListNotations.
 
 Declare Scope written_scope.

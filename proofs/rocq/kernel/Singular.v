@@ -433,8 +433,7 @@ Proof.
 Qed.
 
 Definition refute_between (c : turning_claim) (ls : list exact_strut) (P : numbers) (t : list number) (P' : numbers) (t' : list number) : bool :=
-  all_struts bits (struts c) ls && Nat.eqb (length ls) (dimension (motion_of c)) && is_in bits (positions c) P && is_in bits (positions c) P' &&
-  is_orientation bits (turned c) t && is_orientation bits (turned c) t' &&
+  is_about_exactly bits c ls P t && is_about_exactly bits c ls P' t' && Nat.eqb (length ls) (dimension (motion_of c)) &&
   let rays P t := map (xstrut_ray (motion_of c) (characteristic_length c) (turned c) t P) ls in opposite (dimension (motion_of c)) (rays P t) (rays P' t').
 
 Lemma ray_values : forall k ell o c P l, is_coordinate o (map value c) ->
@@ -451,8 +450,8 @@ Qed.
 Theorem refute_between_sound : forall c ls P t P' t', refute_between c ls P t P' t' = true ->
   exists m P Q, is_about_struts c m P Q /\ ~ meets_turning c m P Q.
 Proof.
-  intros c ls P t P' t' h. unfold refute_between in h. apply andb_true_iff in h as [h opp]. apply andb_true_iff in h as [h o']. apply andb_true_iff in h as [h o].
-  apply andb_true_iff in h as [h p']. apply andb_true_iff in h as [h p]. apply andb_true_iff in h as [s n]. apply Nat.eqb_eq in n.
+  intros c ls P t P' t' h. apply andb_true_iff in h as [h opp]. apply andb_true_iff in h as [h n]. apply andb_true_iff in h as [h h']. apply Nat.eqb_eq in n.
+  apply andb_true_iff in h as [h o]. apply andb_true_iff in h as [s p]. apply andb_true_iff in h' as [h' o']. apply andb_true_iff in h' as [_ p'].
   apply is_orientation_coordinate in o, o'. apply is_in_sound in p, p'.
   destruct (orientations_connected _ _ _ o o') as [path [e0 [e1 [on flow]]]].
   set (k := motion_of c) in *. set (ell := value (characteristic_length c)) in *. set (m := map strut_of ls).

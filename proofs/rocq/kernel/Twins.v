@@ -278,8 +278,7 @@ Definition padded (l : list Q) : Q * Q * Q := (nth 0 l 0%Q, nth 1 l 0%Q, nth 2 l
 Definition square_length (o : orientations) (c : list number) (P : numbers) (l : exact_strut) : number := product (xvector o c P l) (xvector o c P l).
 Definition refute_same_pose (places : nat) (c : turning_claim) (ls : list exact_strut) (P : numbers) (t : list number) (least greatest : list Q) (C : list (list Q)) : bool :=
   let o := turned c in let X := somewhere 0 least greatest in
-  one_pose c && all_struts bits (struts c) ls && is_in bits (positions c) P && is_orientation bits o t &&
-  Nat.leb places 3 && Nat.eqb (length least) (places + length t) && Nat.eqb (length t) match o with TurnedBy _ => 1 | _ => 3 end &&
+  one_pose c && is_about_exactly bits c ls P t && Nat.leb places 3 && Nat.eqb (length least) (places + length t) && Nat.eqb (length t) match o with TurnedBy _ => 1 | _ => 3 end &&
   are_ordered least greatest && is_box_in (positions c) (padded (firstn places least)) (padded (firstn places greatest)) && are_oriented o (skipn places least) (skipn places greatest) &&
   (is_beside (firstn places least) (firstn places greatest) (firstn places (in_numbers P)) || tells o && is_beside (skipn places least) (skipn places greatest) t) &&
   forallb (fun l => is_steady (in_numbers (xbase l) ++ in_numbers (xjoint l)) && is_steady [square_length o t P l]) ls &&
@@ -291,8 +290,8 @@ Theorem refute_same_pose_sound : forall places c ls P t least greatest C, refute
 Proof.
   intros places c ls P t least greatest C h. unfold refute_same_pose in h. cbv zeta in h. set (o := turned c) in *. set (X := somewhere 0 least greatest) in *.
   apply andb_true_iff in h as [h fit]. apply andb_true_iff in h as [h each]. apply andb_true_iff in h as [h beside]. apply andb_true_iff in h as [h oriented]. apply andb_true_iff in h as [h box].
-  apply andb_true_iff in h as [h ordered]. apply andb_true_iff in h as [h lt]. apply andb_true_iff in h as [h ll]. apply andb_true_iff in h as [h p3]. apply andb_true_iff in h as [h ori].
-  apply andb_true_iff in h as [h place]. apply andb_true_iff in h as [one s]. apply Nat.eqb_eq in lt, ll. apply Nat.leb_le in p3. rewrite forallb_forall in each. split; [exact one |].
+  apply andb_true_iff in h as [h ordered]. apply andb_true_iff in h as [h lt]. apply andb_true_iff in h as [h ll]. apply andb_true_iff in h as [h p3]. apply andb_true_iff in h as [one h].
+  apply andb_true_iff in h as [h ori]. apply andb_true_iff in h as [s place]. apply Nat.eqb_eq in lt, ll. apply Nat.leb_le in p3. rewrite forallb_forall in each. split; [exact one |].
   destruct (fits_sound bits _ _ fit) as [u [_ [_ zero]]]. rewrite Forall_map, Forall_forall in zero. pose proof (somewhere_between u _ _ ordered) as B. fold X in B.
   set (y := map (@value (spot u)) X) in *.
   assert (lX : length y = length least).

@@ -474,8 +474,6 @@ let certificate text =
    | (Legs_ (_, _, _, _, _, rs) | Closed_ (_, _, rs) | Formulas_ (_, _, _, _, _, _, rs)), Nodes _ when List.exists (fun r -> r.about_ = Accuracy_) rs -> not_covered [ "\"accuracy\" of such a mechanism" ]
    | Turning_ (_, _, _, _, _, _, rs), Nodes (_, _, nodes) when not (List.for_all (fun n -> List.for_all (is_pose_step rs) n.by_) nodes) ->
      not_covered [ "a step of a platform that turns that is not at control points" ]
-   | (Turning_ _ | Machine_ _), ByWitness (_, _, _, Same_ _) -> ()
-   | _, ByWitness (_, _, _, Same_ _) -> not_covered [ "the failure \"same\" of such a mechanism" ]
    | Atlas_ _, Cells cells when List.exists (function Disproved (_, _, _, Same_ _) -> true | _ -> false) cells -> not_covered [ "the failure \"same\" of such a mechanism" ]
    | (Machine_ (legs, _, _, rs), Nodes _ | Atlas_ (_, legs, _, rs, _, _), _) when plane_accelerates legs rs ->
      not_covered [ "the acceleration of a joint of a machine with a plane" ]

@@ -4,56 +4,56 @@ globalThis!=="object"&&(this?b():(a.defineProperty(a.prototype,"_T_",{configurab
 b(){var
 b=this||self;b.globalThis=b;delete
 a.prototype._T_}}(Object));(function(S){"use strict";var
-ks="spatial",rS="Invalid_argument",hU="precision",aQ='"',kr=1255,kE="inside",qP="(",qQ=0x800,rR="yaw",qM="range",qN="tree",qO="jsError",cn=0x8000,rQ="sqrt(",qL=256,hT="obligation",rP="load",f5="offset",bt="machine",qK="End_of_file",eT="strut",kq="center",f4="arm",kp="Failure",rO="serial_margin",h1="parameters",cR=0xff,rN="bodies",rM="max_angle",kD="outside",f3="base_axis",ko="ENOENT",rL="singular",rK=122,qJ="([^/]+)",rJ="0",kn=0xf,f2=128,qI=0xdc00,rH="Sys_blocked_io",rI="fd ",fV="given",qH="ENOTEMPTY",a3=248,hS="bound",qG="Division_by_zero",rF="by",rG=1027,qF="Sys_error",h0="slider",qE="torsion",rE="postulate",qD="proof",kC="joint_error",f1="refuted",eM="mechanism",hR="row",qC="EEXIST",rD="roll_pitch_yaw",f0="y",qB="cube",ds="lower",rC="within",qA="clearance",rB="turned",qz="control",hQ="int_of_string",qy="between",rz="definitions",rA="dependent",fZ=1024,qw="from",qx="name",ry=" : flags Open_rdonly and Open_wronly are not compatible",qv="orthocert/2",rx="reach",qu=512,rv="base_joint",rw="witness",eS="-",bi="platform",qt=0x7ff0,qs="pitch",kB=": Not a directory",bL="min",rt="trim",eR="workspace",ru=" : file already exists",hP="split",kA="legs",rs="claim",km="joint",d3=0xffffff,qr="platform_joint",qq="formulas",qp="roll",hO="atlas",rp="greatest",rq="nodes",rr="Out_of_memory",qo="psi_max",hZ="orientation",hN=254,ro="angle",kz="index out of bounds",qn="end",rn="one_to_one",hY="_bigarr02",qm=" : flags Open_text and Open_binary are not compatible",rm="inverse",bK="drive",ql="coordinates",rl="holds",qk="lower_divided",qj="speed",rj="cylinder",rk="joints",cQ=0xffff,rf="a leaf that fails",rg="acceleration",rh="force",fX="certified",fY="chords",ri=12520,kl="on",re="same",eL="accuracy",fW="axis",rd="no_cube",rc="parallel_margin",qi='the drive "',kk="Unix.Unix_error",hX="fails",hM="tool",kj="mkdir",ra="rho",rb="least",hW=1000,ki="translational",ky="tolerances",qh="Stack_overflow",kx="characteristic_length",ae="",kw="^",hK="places",hL=": No such file or directory",qg="/static/",eQ=0x3f,qe="stiffness",qf="Not_found",cP="planar",fU="mode",q$="joint_speed",q_="Match_failure",qd="transmission",bJ="anchor",q9="at",qc="joint_force",eP="leg",qb="joint_acceleration",hV="+",kh="rmdir",q8=0xf0,q7="spherical",qa=1026,q5="REJECTED",q6="undecided",bN="max",bM="direction",p_="leg_angle",p$="orthoglide",eO="rank",q3="constraint_margin",q4="fan",fT="test",p8="Pervasives.do_at_exit",p9="utf8",b4=0x80,eN="conditioning",eK="length",p7="Undefined_recursive_module",kv=")",p6="base",q2="quantity",p5="joint_range",hJ="tilt",p4="Q2",q1='the failure "same" of such a mechanism',q0="reference",p3="point",qY="corner",qZ=0xe0,p2="version",ku="z",qW="to",qX=0xdfff,kg="compare: functional value",qV="Assert_failure",b6="/",qU="provenance",d2="radius",hI="side",qS=-14,b5="require",qT="format",p1="Q1",kt="ENOTDIR",p0="all",d1="box",qR=250;function
-kQ(c,b,a){var
+kK="spatial",rZ="Invalid_argument",h6="precision",aR='"',kJ=1255,kW="inside",qX="(",qY=0x800,rY="yaw",qU="range",qV="tree",qW="jsError",cn=0x8000,rX="sqrt(",qT=256,h5="obligation",rW="load",gc="offset",bt="machine",qS="End_of_file",e0="strut",kI="center",gb="arm",kH="Failure",rV="serial_margin",ib="parameters",cT=0xff,rU="bodies",rT="max_angle",kV="outside",ga="base_axis",kG="ENOENT",rS="singular",rR=122,qR="([^/]+)",rQ="0",kF=0xf,f$=128,qQ=0xdc00,rO="Sys_blocked_io",rP="fd ",f4="given",qP="ENOTEMPTY",a6=248,h4="bound",qO="Division_by_zero",rM="by",rN=1027,qN="Sys_error",ia="slider",qM="torsion",rL="postulate",qL="proof",kU="joint_error",f_="refuted",eT="mechanism",h3="row",qK="EEXIST",rK="roll_pitch_yaw",f9="y",qJ="cube",dt="lower",rJ="within",qI="clearance",rI="turned",qH="control",h2="int_of_string",qG="between",rG="definitions",rH="dependent",f8=1024,qE="from",qF="name",rF=" : flags Open_rdonly and Open_wronly are not compatible",qD="orthocert/2",rE="reach",qC=512,rC="base_joint",rD="witness",eZ="-",bk="platform",qB=0x7ff0,qA="pitch",kT=": Not a directory",bK="min",rA="trim",eY="workspace",rB=" : file already exists",h1="split",kS="legs",rz="claim",kE="joint",d6=0xffffff,qz="platform_joint",qy="formulas",qx="roll",h0="atlas",rw="greatest",rx="nodes",ry="Out_of_memory",qw="psi_max",h$="orientation",hZ=254,rv="angle",kR="index out of bounds",qv="end",ru="one_to_one",h_="_bigarr02",qu=" : flags Open_text and Open_binary are not compatible",rt="inverse",bJ="drive",qt="coordinates",rs="holds",qs="lower_divided",qr="speed",rq="cylinder",rr="joints",cS=0xffff,rm="a leaf that fails",rn="acceleration",ro="force",f6="certified",f7="chords",rp=12520,kD="on",rl="same",eS="accuracy",f5="axis",rk="no_cube",rj="parallel_margin",qq='the drive "',kC="Unix.Unix_error",h9="fails",hY="tool",kB="mkdir",rh="rho",ri="least",h8=1000,kA="translational",kQ="tolerances",qp="Stack_overflow",kP="characteristic_length",ae="",kO="^",hW="places",hX=": No such file or directory",qo="/static/",eX=0x3f,qm="stiffness",qn="Not_found",cR="planar",f3="mode",rg="joint_speed",rf="Match_failure",ql="transmission",bI="anchor",re="at",qk="joint_force",eW="leg",qj="joint_acceleration",h7="+",kz="rmdir",rd=0xf0,rc="spherical",qi=1026,ra="REJECTED",rb="undecided",bM="max",bL="direction",qg="leg_angle",qh="orthoglide",eV="rank",q_="constraint_margin",q$="fan",f2="test",qe="Pervasives.do_at_exit",qf="utf8",b4=0x80,eU="conditioning",eR="length",qd="Undefined_recursive_module",kN=")",qc="base",q9="quantity",qb="joint_range",hV="tilt",qa="Q2",q8="reference",p$="point",q6="corner",q7=0xe0,p_="version",kM="z",q4="to",q5=0xdfff,ky="compare: functional value",q3="Assert_failure",b6="/",q2="provenance",d5="radius",hU="side",q0=-14,b5="require",q1="format",p9="Q1",kL="ENOTDIR",p8="all",d4="box",qZ=250;function
+k8(c,b,a){var
 d=String.fromCharCode;if(b==0&&a<=4096&&a==c.length)return d.apply(null,c);var
-e=ae;for(;0<a;b+=fZ,a-=fZ)e+=d.apply(null,c.slice(b,b+Math.min(a,fZ)));return e}function
-h3(b){if(S.Uint8Array)var
+e=ae;for(;0<a;b+=f8,a-=f8)e+=d.apply(null,c.slice(b,b+Math.min(a,f8)));return e}function
+id(b){if(S.Uint8Array)var
 c=new(S.Uint8Array)(b.l);else
 var
 c=new
 Array(b.l);var
 e=b.c,d=e.length,a=0;for(;a<d;a++)c[a]=e.charCodeAt(a);for(d=b.l;a<d;a++)c[a]=0;b.c=c;b.t=4;return c}function
-f6(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?kQ(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
-if(b.t==2&&f==b.c.length){b.c+=d.t==4?kQ(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)h3(b);var
+gd(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?k8(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
+if(b.t==2&&f==b.c.length){b.c+=d.t==4?k8(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)id(b);var
 g=d.c,h=b.c;if(d.t==4)if(f<=e)for(var
 a=0;a<c;a++)h[f+a]=g[e+a];else
 for(var
 a=c-1;a>=0;a--)h[f+a]=g[e+a];else{var
 i=Math.min(c,g.length-e);for(var
 a=0;a<i;a++)h[f+a]=g.charCodeAt(e+a);for(;a<c;a++)h[f+a]=0}}return 0}function
-eW(a){return a}function
-eV(a,b,c,d,e){f6(eW(a),b,c,d,e);return 0}function
-kG(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
+e3(a){return a}function
+e2(a,b,c,d,e){gd(e3(a),b,c,d,e);return 0}function
+kY(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
 0:return a.c.charCodeAt(b);case
 4:return a.c[b]}}function
-du(c,a){if(c.fun)return du(c.fun,a);if(typeof
+dv(c,a){if(c.fun)return dv(c.fun,a);if(typeof
 c!=="function")return c;var
 b=c.length|0;if(b===0)return c.apply(null,a);var
 e=a.length|0,d=b-e|0;if(d==0)return c.apply(null,a);else
-if(d<0)return du(c.apply(null,a.slice(0,b)),a.slice(b));else
+if(d<0)return dv(c.apply(null,a.slice(0,b)),a.slice(b));else
 return function(){var
 e=arguments.length==0?1:arguments.length,d=new
 Array(a.length+e);for(var
 b=0;b<a.length;b++)d[b]=a[b];for(var
-b=0;b<arguments.length;b++)d[a.length+b]=arguments[b];return du(c,d)}}function
-si(b,a){if(b==0)return ae;if(a.repeat)return a.repeat(b);var
+b=0;b<arguments.length;b++)d[a.length+b]=arguments[b];return dv(c,d)}}function
+sp(b,a){if(b==0)return ae;if(a.repeat)return a.repeat(b);var
 d=ae,c=0;for(;;){if(b&1)d+=a;b>>=1;if(b==0)return d;a+=a;c++;if(c==9)a.slice(0,1)}}function
-eX(a){if(a.t==2)a.c+=si(a.l-a.c.length,"\0");else
-a.c=kQ(a.c,0,a.c.length);a.t=0}function
-eY(a){a.t&6&&eX(a);return a.c}var
-Jn=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
-Jm(a){if(Jn)return Math.floor(Math.log2(a));var
+e4(a){if(a.t==2)a.c+=sp(a.l-a.c.length,"\0");else
+a.c=k8(a.c,0,a.c.length);a.t=0}function
+e5(a){a.t&6&&e4(a);return a.c}var
+Jy=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
+Jx(a){if(Jy)return Math.floor(Math.log2(a));var
 b=0;if(a==0)return-Infinity;if(a>=1)while(a>=2){a/=2;b++}else
 while(a<1){a*=2;b--}return b}function
-kJ(c){var
+k1(c){var
 a=new(S.Float32Array)(1);a[0]=c;var
 b=new(S.Int32Array)(a.buffer);return b[0]|0}var
-r$=Math.pow(2,-24);function
-Jd(a){throw a}var
-aE=[0];function
-sf(){Jd(aE.Division_by_zero)}function
-R(b,c,a){this.lo=b&d3;this.mi=c&d3;this.hi=a&cQ}R.prototype.caml_custom="_j";R.prototype.copy=function(){return new
+sg=Math.pow(2,-24);function
+Jo(a){throw a}var
+aF=[0];function
+sm(){Jo(aF.Division_by_zero)}function
+R(b,c,a){this.lo=b&d6;this.mi=c&d6;this.hi=a&cS}R.prototype.caml_custom="_j";R.prototype.copy=function(){return new
 R(this.lo,this.mi,this.hi)};R.prototype.ucompare=function(a){if(this.hi>a.hi)return 1;if(this.hi<a.hi)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};R.prototype.compare=function(a){var
 b=this.hi<<16,c=a.hi<<16;if(b>c)return 1;if(b<c)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};R.prototype.neg=function(){var
 a=-this.lo,b=-this.mi+(a>>24),c=-this.hi+(b>>24);return new
@@ -62,7 +62,7 @@ b=this.lo+a.lo,c=this.mi+a.mi+(b>>24),d=this.hi+a.hi+(c>>24);return new
 R(b,c,d)};R.prototype.sub=function(a){var
 b=this.lo-a.lo,c=this.mi-a.mi+(b>>24),d=this.hi-a.hi+(c>>24);return new
 R(b,c,d)};R.prototype.mul=function(a){var
-b=this.lo*a.lo,c=(b*r$|0)+this.mi*a.lo+this.lo*a.mi,d=(c*r$|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
+b=this.lo*a.lo,c=(b*sg|0)+this.mi*a.lo+this.lo*a.mi,d=(c*sg|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
 R(b,c,d)};R.prototype.isZero=function(){return(this.lo|this.mi|this.hi)==0};R.prototype.isNeg=function(){return this.hi<<16<0};R.prototype.and=function(a){return new
 R(this.lo&a.lo,this.mi&a.mi,this.hi&a.hi)};R.prototype.or=function(a){return new
 R(this.lo|a.lo,this.mi|a.mi,this.hi|a.hi)};R.prototype.xor=function(a){return new
@@ -76,27 +76,27 @@ R(this.hi>>a-48,0,0)};R.prototype.shift_right=function(a){a=a&63;if(a==0)return 
 c=this.hi<<16>>16;if(a<24)return new
 R(this.lo>>a|this.mi<<24-a,this.mi>>a|c<<24-a,this.hi<<16>>a>>>16);var
 b=this.hi<<16>>31;if(a<48)return new
-R(this.mi>>a-24|this.hi<<48-a,this.hi<<16>>a-24>>16,b&cQ);return new
-R(this.hi<<16>>a-32,b,b)};R.prototype.lsl1=function(){this.hi=this.hi<<1|this.mi>>23;this.mi=(this.mi<<1|this.lo>>23)&d3;this.lo=this.lo<<1&d3};R.prototype.lsr1=function(){this.lo=(this.lo>>>1|this.mi<<23)&d3;this.mi=(this.mi>>>1|this.hi<<23)&d3;this.hi=this.hi>>>1};R.prototype.udivmod=function(e){var
+R(this.mi>>a-24|this.hi<<48-a,this.hi<<16>>a-24>>16,b&cS);return new
+R(this.hi<<16>>a-32,b,b)};R.prototype.lsl1=function(){this.hi=this.hi<<1|this.mi>>23;this.mi=(this.mi<<1|this.lo>>23)&d6;this.lo=this.lo<<1&d6};R.prototype.lsr1=function(){this.lo=(this.lo>>>1|this.mi<<23)&d6;this.mi=(this.mi>>>1|this.hi<<23)&d6;this.hi=this.hi>>>1};R.prototype.udivmod=function(e){var
 c=0,b=this.copy(),a=e.copy(),d=new
 R(0,0,0);while(b.ucompare(a)>0){c++;a.lsl1()}while(c>=0){c--;d.lsl1();if(b.ucompare(a)>=0){d.lo++;b=b.sub(a)}a.lsr1()}return{quotient:d,modulus:b}};R.prototype.div=function(a){var
-b=this;if(a.isZero())sf();var
+b=this;if(a.isZero())sm();var
 d=b.hi^a.hi;if(b.hi&cn)b=b.neg();if(a.hi&cn)a=a.neg();var
 c=b.udivmod(a).quotient;if(d&cn)c=c.neg();return c};R.prototype.mod=function(b){var
-a=this;if(b.isZero())sf();var
+a=this;if(b.isZero())sm();var
 d=a.hi;if(a.hi&cn)a=a.neg();if(b.hi&cn)b=b.neg();var
-c=a.udivmod(b).modulus;if(d&cn)c=c.neg();return c};R.prototype.toInt=function(){return this.lo|this.mi<<24};R.prototype.toFloat=function(){return(this.hi<<16)*Math.pow(2,32)+this.mi*Math.pow(2,24)+this.lo};R.prototype.toArray=function(){return[this.hi>>8,this.hi&cR,this.mi>>16,this.mi>>8&cR,this.mi&cR,this.lo>>16,this.lo>>8&cR,this.lo&cR]};R.prototype.lo32=function(){return this.lo|(this.mi&cR)<<24};R.prototype.hi32=function(){return this.mi>>>8&cQ|this.hi<<16};function
-h5(b,c,a){return new
+c=a.udivmod(b).modulus;if(d&cn)c=c.neg();return c};R.prototype.toInt=function(){return this.lo|this.mi<<24};R.prototype.toFloat=function(){return(this.hi<<16)*Math.pow(2,32)+this.mi*Math.pow(2,24)+this.lo};R.prototype.toArray=function(){return[this.hi>>8,this.hi&cT,this.mi>>16,this.mi>>8&cT,this.mi&cT,this.lo>>16,this.lo>>8&cT,this.lo&cT]};R.prototype.lo32=function(){return this.lo|(this.mi&cT)<<24};R.prototype.hi32=function(){return this.mi>>>8&cS|this.hi<<16};function
+ig(b,c,a){return new
 R(b,c,a)}function
-h4(a){if(!isFinite(a)){if(isNaN(a))return h5(1,0,qt);return a>0?h5(0,0,qt):h5(0,0,0xfff0)}var
+ie(a){if(!isFinite(a)){if(isNaN(a))return ig(1,0,qB);return a>0?ig(0,0,qB):ig(0,0,0xfff0)}var
 f=a==0&&1/a==-Infinity?cn:a>=0?0:cn;if(f)a=-a;var
-b=Jm(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-qa)}else{a/=Math.pow(2,b-rG);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
+b=Jx(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-qi)}else{a/=Math.pow(2,b-rN);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
 d=Math.pow(2,24),c=a|0;a=(a-c)*d;var
 e=a|0;a=(a-e)*d;var
-g=a|0;c=c&kn|f|b<<4;return h5(g,e,c)}function
-f9(a){return a.toArray()}function
-rZ(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==hY)for(var
-a=0;a<b.dims.length;a++)if(b.dims[a]<cQ)c.write(16,b.dims[a]);else{c.write(16,cQ);c.write(32,0);c.write(32,b.dims[a])}else
+g=a|0;c=c&kF|f|b<<4;return ig(g,e,c)}function
+gg(a){return a.toArray()}function
+r6(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==h_)for(var
+a=0;a<b.dims.length;a++)if(b.dims[a]<cS)c.write(16,b.dims[a]);else{c.write(16,cS);c.write(32,0);c.write(32,b.dims[a])}else
 for(var
 a=0;a<b.dims.length;a++)c.write(32,b.dims[a]);switch(b.kind){case
 2:case
@@ -113,51 +113,51 @@ a=0;a<b.data.length;a++)c.write(32,b.data[a]);break;case
 a=0;a<b.data.length;a++)c.write(32,b.data[a]);break;case
 7:for(var
 a=0;a<b.data.length/2;a++){var
-e=f9(b.get(a));for(var
+e=gg(b.get(a));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 1:for(var
 a=0;a<b.data.length;a++){var
-e=f9(h4(b.get(a)));for(var
+e=gg(ie(b.get(a)));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 0:for(var
 a=0;a<b.data.length;a++){var
-e=kJ(b.get(a));c.write(32,e)}break;case
+e=k1(b.get(a));c.write(32,e)}break;case
 10:for(var
 a=0;a<b.data.length/2;a++){var
-d=b.get(a);c.write(32,kJ(d[1]));c.write(32,kJ(d[2]))}break;case
+d=b.get(a);c.write(32,k1(d[1]));c.write(32,k1(d[2]))}break;case
 11:for(var
 a=0;a<b.data.length/2;a++){var
-f=b.get(a),e=f9(h4(f[1]));for(var
+f=b.get(a),e=gg(ie(f[1]));for(var
 d=0;d<8;d++)c.write(8,e[d]);var
-e=f9(h4(f[2]));for(var
+e=gg(ie(f[2]));for(var
 d=0;d<8;d++)c.write(8,e[d])}break}g[0]=(4+b.dims.length)*4;g[1]=(4+b.dims.length)*8}function
-Jf(b,a){throw[0,b,a]}function
-sn(a){if(a.length<24){for(var
+Jq(b,a){throw[0,b,a]}function
+su(a){if(a.length<24){for(var
 b=0;b<a.length;b++)if(a.charCodeAt(b)>127)return false;return true}else
 return!/[^\x00-\x7f]/.test(a)}function
-kR(e){for(var
+k9(e){for(var
 j=ae,c=ae,g,f,h,a,b=0,i=e.length;b<i;b++){f=e.charCodeAt(b);if(f<b4){for(var
-d=b+1;d<i&&(f=e.charCodeAt(d))<b4;d++);if(d-b>qu){c.substr(0,1);j+=c;c=ae;j+=e.slice(b,d)}else
-c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==f2){g=h+(f<<6);if(f<qZ){a=g-0x3080;if(a<b4)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==f2){g=h+(g<<6);if(f<q8){a=g-0xe2080;if(a<qQ||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==f2&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
-if(a>cQ)c+=String.fromCharCode(0xd7c0+(a>>10),qI+(a&0x3FF));else
-c+=String.fromCharCode(a);if(c.length>fZ){c.substr(0,1);j+=c;c=ae}}return j+c}function
+d=b+1;d<i&&(f=e.charCodeAt(d))<b4;d++);if(d-b>qC){c.substr(0,1);j+=c;c=ae;j+=e.slice(b,d)}else
+c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==f$){g=h+(f<<6);if(f<q7){a=g-0x3080;if(a<b4)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==f$){g=h+(g<<6);if(f<rd){a=g-0xe2080;if(a<qY||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==f$&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
+if(a>cS)c+=String.fromCharCode(0xd7c0+(a>>10),qQ+(a&0x3FF));else
+c+=String.fromCharCode(a);if(c.length>f8){c.substr(0,1);j+=c;c=ae}}return j+c}function
 co(c,a,b){this.t=c;this.c=a;this.l=b}co.prototype.toString=function(){switch(this.t){case
-9:return this.c;default:eX(this);case
-0:if(sn(this.c)){this.t=9;return this.c}this.t=8;case
+9:return this.c;default:e4(this);case
+0:if(su(this.c)){this.t=9;return this.c}this.t=8;case
 8:return this.c}};co.prototype.toUtf16=function(){var
-a=this.toString();if(this.t==9)return a;return kR(a)};co.prototype.slice=function(){var
+a=this.toString();if(this.t==9)return a;return k9(a)};co.prototype.slice=function(){var
 a=this.t==4?this.c.slice():this.c;return new
 co(this.t,a,this.l)};function
-r2(a){return new
+r9(a){return new
 co(0,a,a.length)}function
-a(a){return r2(a)}function
-kP(c,b){Jf(c,a(b))}function
-aY(a){kP(aE.Invalid_argument,a)}function
-rX(a){switch(a){case
+a(a){return r9(a)}function
+k7(c,b){Jq(c,a(b))}function
+a0(a){k7(aF.Invalid_argument,a)}function
+r4(a){switch(a){case
 7:case
 10:case
 11:return 2;default:return 1}}function
-IJ(c,e){var
+IU(c,e){var
 b=S,a;switch(c){case
 0:a=b.Float32Array;break;case
 1:a=b.Float64Array;break;case
@@ -171,52 +171,52 @@ b=S,a;switch(c){case
 9:a=b.Int32Array;break;case
 10:a=b.Float32Array;break;case
 11:a=b.Float64Array;break;case
-12:a=b.Uint8Array;break}if(!a)aY("Bigarray.create: unsupported kind");var
+12:a=b.Uint8Array;break}if(!a)a0("Bigarray.create: unsupported kind");var
 d=new
-a(e*rX(c));return d}function
-kK(c){var
+a(e*r4(c));return d}function
+k2(c){var
 a=new(S.Int32Array)(1);a[0]=c;var
 b=new(S.Float32Array)(a.buffer);return b[0]}function
-f8(a){return new
+gf(a){return new
 R(a[7]<<0|a[6]<<8|a[5]<<16,a[4]<<0|a[3]<<8|a[2]<<16,a[1]<<0|a[0]<<8)}function
-kL(d){var
-f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&kn)==0?b&cn?-Infinity:Infinity:NaN;var
-e=Math.pow(2,-24),a=(f*e+g)*e+(b&kn);if(c>0){a+=16;a*=Math.pow(2,c-rG)}else
-a*=Math.pow(2,-qa);if(b&cn)a=-a;return a}function
-kF(b){var
+k3(d){var
+f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&kF)==0?b&cn?-Infinity:Infinity:NaN;var
+e=Math.pow(2,-24),a=(f*e+g)*e+(b&kF);if(c>0){a+=16;a*=Math.pow(2,c-rN)}else
+a*=Math.pow(2,-qi);if(b&cn)a=-a;return a}function
+kX(b){var
 d=b.length,c=1;for(var
-a=0;a<d;a++){if(b[a]<0)aY("Bigarray.create: negative dimension");c=c*b[a]}return c}function
-IZ(b,a){return new
-R(b&d3,b>>>24&cR|(a&cQ)<<8,a>>>16&cQ)}function
-kM(a){return a.hi32()}function
-kN(a){return a.lo32()}function
-h2(){aY(kz)}var
-IK=hY;function
-dt(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}dt.prototype.caml_custom=IK;dt.prototype.offset=function(b){var
+a=0;a<d;a++){if(b[a]<0)a0("Bigarray.create: negative dimension");c=c*b[a]}return c}function
+I_(b,a){return new
+R(b&d6,b>>>24&cT|(a&cS)<<8,a>>>16&cS)}function
+k4(a){return a.hi32()}function
+k5(a){return a.lo32()}function
+ic(){a0(kR)}var
+IV=h_;function
+du(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}du.prototype.caml_custom=IV;du.prototype.offset=function(b){var
 c=0;if(typeof
 b==="number")b=[b];if(!(b
 instanceof
-Array))aY("bigarray.js: invalid offset");if(this.dims.length!=b.length)aY("Bigarray.get/set: bad number of dimensions");if(this.layout==0)for(var
-a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])h2();c=c*this.dims[a]+b[a]}else
+Array))a0("bigarray.js: invalid offset");if(this.dims.length!=b.length)a0("Bigarray.get/set: bad number of dimensions");if(this.layout==0)for(var
+a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])ic();c=c*this.dims[a]+b[a]}else
 for(var
-a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])h2();c=c*this.dims[a]+(b[a]-1)}return c};dt.prototype.get=function(a){switch(this.kind){case
+a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])ic();c=c*this.dims[a]+(b[a]-1)}return c};du.prototype.get=function(a){switch(this.kind){case
 7:var
-d=this.data[a*2+0],b=this.data[a*2+1];return IZ(d,b);case
+d=this.data[a*2+0],b=this.data[a*2+1];return I_(d,b);case
 10:case
 11:var
-e=this.data[a*2+0],c=this.data[a*2+1];return[hN,e,c];default:return this.data[a]}};dt.prototype.set=function(a,b){switch(this.kind){case
-7:this.data[a*2+0]=kN(b);this.data[a*2+1]=kM(b);break;case
+e=this.data[a*2+0],c=this.data[a*2+1];return[hZ,e,c];default:return this.data[a]}};du.prototype.set=function(a,b){switch(this.kind){case
+7:this.data[a*2+0]=k5(b);this.data[a*2+1]=k4(b);break;case
 10:case
-11:this.data[a*2+0]=b[1];this.data[a*2+1]=b[2];break;default:this.data[a]=b;break}return 0};dt.prototype.fill=function(b){switch(this.kind){case
+11:this.data[a*2+0]=b[1];this.data[a*2+1]=b[2];break;default:this.data[a]=b;break}return 0};du.prototype.fill=function(b){switch(this.kind){case
 7:var
-c=kN(b),e=kM(b);if(c==e)this.data.fill(c);else
+c=k5(b),e=k4(b);if(c==e)this.data.fill(c);else
 for(var
 a=0;a<this.data.length;a++)this.data[a]=a%2==0?c:e;break;case
 10:case
 11:var
 d=b[1],f=b[2];if(d==f)this.data.fill(d);else
 for(var
-a=0;a<this.data.length;a++)this.data[a]=a%2==0?d:f;break;default:this.data.fill(b);break}};dt.prototype.compare=function(b,g){if(this.layout!=b.layout||this.kind!=b.kind){var
+a=0;a<this.data.length;a++)this.data[a]=a%2==0?d:f;break;default:this.data.fill(b);break}};du.prototype.compare=function(b,g){if(this.layout!=b.layout||this.kind!=b.kind){var
 e=this.kind|this.layout<<8,f=b.kind|b.layout<<8;return f-e}if(this.dims.length!=b.dims.length)return b.dims.length-this.dims.length;for(var
 a=0;a<this.dims.length;a++)if(this.dims[a]!=b.dims[a])return this.dims[a]<b.dims[a]?-1:1;switch(this.kind){case
 0:case
@@ -236,26 +236,26 @@ a=0;a<this.data.length;a+=2){if(this.data[a+1]<b.data[a+1])return-1;if(this.data
 9:case
 12:for(var
 a=0;a<this.data.length;a++){if(this.data[a]<b.data[a])return-1;if(this.data[a]>b.data[a])return 1}break}return 0};function
-eU(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}eU.prototype=new
-dt();eU.prototype.offset=function(a){if(typeof
+e1(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}e1.prototype=new
+du();e1.prototype.offset=function(a){if(typeof
 a!=="number")if(a
 instanceof
 Array&&a.length==1)a=a[0];else
-aY("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])h2();return a};eU.prototype.get=function(a){return this.data[a]};eU.prototype.set=function(a,b){this.data[a]=b;return 0};eU.prototype.fill=function(a){this.data.fill(a);return 0};function
-rV(c,d,a,b){var
-e=rX(c);if(kF(a)*e!=b.length)aY("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
-eU(c,d,a,b);return new
-dt(c,d,a,b)}function
-b7(b){if(!aE.Failure)aE.Failure=[a3,a(kp),-3];kP(aE.Failure,b)}function
-rW(b,v,r){var
+a0("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])ic();return a};e1.prototype.get=function(a){return this.data[a]};e1.prototype.set=function(a,b){this.data[a]=b;return 0};e1.prototype.fill=function(a){this.data.fill(a);return 0};function
+r2(c,d,a,b){var
+e=r4(c);if(kX(a)*e!=b.length)a0("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
+e1(c,d,a,b);return new
+du(c,d,a,b)}function
+b7(b){if(!aF.Failure)aF.Failure=[a6,a(kH),-3];k7(aF.Failure,b)}function
+r3(b,v,r){var
 i=b.read32s();if(i<0||i>16)b7("input_value: wrong number of bigarray dimensions");var
-p=b.read32s(),j=p&cR,o=p>>8&1,h=[];if(r==hY)for(var
+p=b.read32s(),j=p&cT,o=p>>8&1,h=[];if(r==h_)for(var
 a=0;a<i;a++){var
-n=b.read16u();if(n==cQ){var
+n=b.read16u();if(n==cS){var
 t=b.read32u(),u=b.read32u();if(t!=0)b7("input_value: bigarray dimension overflow in 32bit");n=u}h.push(n)}else
 for(var
 a=0;a<i;a++)h.push(b.read32u());var
-d=kF(h),f=IJ(j,d),g=rV(j,o,h,f);switch(j){case
+d=kX(h),f=IU(j,d),g=r2(j,o,h,f);switch(j){case
 2:for(var
 a=0;a<d;a++)f[a]=b.read8s();break;case
 3:case
@@ -276,122 +276,122 @@ e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-q=f8(e);g.set(a,q)}break;case
+q=gf(e);g.set(a,q)}break;case
 1:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-k=kL(f8(e));g.set(a,k)}break;case
+k=k3(gf(e));g.set(a,k)}break;case
 0:for(var
 a=0;a<d;a++){var
-k=kK(b.read32s());g.set(a,k)}break;case
+k=k2(b.read32s());g.set(a,k)}break;case
 10:for(var
 a=0;a<d;a++){var
-m=kK(b.read32s()),l=kK(b.read32s());g.set(a,[hN,m,l])}break;case
+m=k2(b.read32s()),l=k2(b.read32s());g.set(a,[hZ,m,l])}break;case
 11:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-m=kL(f8(e));for(var
+m=k3(gf(e));for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-l=kL(f8(e));g.set(a,[hN,m,l])}break}v[0]=(4+i)*4;return rV(j,o,h,f)}function
-rU(a,b,c){return a.compare(b,c)}function
-sc(a,b){return Math.imul(a,b)}function
-cS(b,a){a=sc(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=sc(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
-IW(a,b){a=cS(a,kN(b));a=cS(a,kM(b));return a}function
-r_(a,b){return IW(a,h4(b))}function
-rY(c){var
-b=kF(c.dims),d=0;switch(c.kind){case
+l=k3(gf(e));g.set(a,[hZ,m,l])}break}v[0]=(4+i)*4;return r2(j,o,h,f)}function
+r1(a,b,c){return a.compare(b,c)}function
+sj(a,b){return Math.imul(a,b)}function
+cU(b,a){a=sj(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=sj(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
+I7(a,b){a=cU(a,k5(b));a=cU(a,k4(b));return a}function
+sf(a,b){return I7(a,ie(b))}function
+r5(c){var
+b=kX(c.dims),d=0;switch(c.kind){case
 2:case
 3:case
-12:if(b>qL)b=qL;var
-e=0,a=0;for(a=0;a+4<=c.data.length;a+=4){e=c.data[a+0]|c.data[a+1]<<8|c.data[a+2]<<16|c.data[a+3]<<24;d=cS(d,e)}e=0;switch(b&3){case
+12:if(b>qT)b=qT;var
+e=0,a=0;for(a=0;a+4<=c.data.length;a+=4){e=c.data[a+0]|c.data[a+1]<<8|c.data[a+2]<<16|c.data[a+3]<<24;d=cU(d,e)}e=0;switch(b&3){case
 3:e=c.data[a+2]<<16;case
 2:e|=c.data[a+1]<<8;case
-1:e|=c.data[a+0];d=cS(d,e)}break;case
+1:e|=c.data[a+0];d=cU(d,e)}break;case
 4:case
-5:if(b>f2)b=f2;var
-e=0,a=0;for(a=0;a+2<=c.data.length;a+=2){e=c.data[a+0]|c.data[a+1]<<16;d=cS(d,e)}if((b&1)!=0)d=cS(d,c.data[a]);break;case
+5:if(b>f$)b=f$;var
+e=0,a=0;for(a=0;a+2<=c.data.length;a+=2){e=c.data[a+0]|c.data[a+1]<<16;d=cU(d,e)}if((b&1)!=0)d=cU(d,c.data[a]);break;case
 6:if(b>64)b=64;for(var
-a=0;a<b;a++)d=cS(d,c.data[a]);break;case
+a=0;a<b;a++)d=cU(d,c.data[a]);break;case
 8:case
 9:if(b>64)b=64;for(var
-a=0;a<b;a++)d=cS(d,c.data[a]);break;case
+a=0;a<b;a++)d=cU(d,c.data[a]);break;case
 7:if(b>32)b=32;b*=2;for(var
-a=0;a<b;a++)d=cS(d,c.data[a]);break;case
+a=0;a<b;a++)d=cU(d,c.data[a]);break;case
 10:b*=2;case
 0:if(b>64)b=64;for(var
-a=0;a<b;a++)d=r_(d,c.data[a]);break;case
+a=0;a<b;a++)d=sf(d,c.data[a]);break;case
 11:b*=2;case
 1:if(b>32)b=32;for(var
-a=0;a<b;a++)d=r_(d,c.data[a]);break}return d}function
-IX(a,b){b[0]=4;return a.read32s()}function
-Ja(a,b){switch(a.read8u()){case
+a=0;a<b;a++)d=sf(d,c.data[a]);break}return d}function
+I8(a,b){b[0]=4;return a.read32s()}function
+Jl(a,b){switch(a.read8u()){case
 1:b[0]=4;return a.read32s();case
 2:b7("input_value: native integer value too large");default:b7("input_value: ill-formed native integer")}}function
-I2(c,d){var
+Jb(c,d){var
 b=new
 Array(8);for(var
-a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return f8(b)}function
-I1(e,d,b){var
-c=f9(d);for(var
+a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return gf(b)}function
+Ja(e,d,b){var
+c=gg(d);for(var
 a=0;a<8;a++)e.write(8,c[a]);b[0]=8;b[1]=8}function
-IY(a,b,c){return a.compare(b)}function
-I0(a){return a.lo32()^a.hi32()}var
-r5={"_j":{deserialize:I2,serialize:I1,fixed_length:8,compare:IY,hash:I0},"_i":{deserialize:IX,fixed_length:4},"_n":{deserialize:Ja,fixed_length:4},"_bigarray":{deserialize:function(a,b){return rW(a,b,"_bigarray")},serialize:rZ,compare:rU,hash:rY},"_bigarr02":{deserialize:function(a,b){return rW(a,b,hY)},serialize:rZ,compare:rU,hash:rY}};function
-kI(a){return r5[a.caml_custom]&&r5[a.caml_custom].compare}function
-r3(f,c,d,e){var
-b=kI(c);if(b){var
+I9(a,b,c){return a.compare(b)}function
+I$(a){return a.lo32()^a.hi32()}var
+sa={"_j":{deserialize:Jb,serialize:Ja,fixed_length:8,compare:I9,hash:I$},"_i":{deserialize:I8,fixed_length:4},"_n":{deserialize:Jl,fixed_length:4},"_bigarray":{deserialize:function(a,b){return r3(a,b,"_bigarray")},serialize:r6,compare:r1,hash:r5},"_bigarr02":{deserialize:function(a,b){return r3(a,b,h_)},serialize:r6,compare:r1,hash:r5}};function
+k0(a){return sa[a.caml_custom]&&sa[a.caml_custom].compare}function
+r_(f,c,d,e){var
+b=k0(c);if(b){var
 a=d>0?b(c,f,e):b(f,c,e);if(e&&a!=a)return d;if(+a!=+a)return+a;if((a|0)!=0)return a|0}return d}function
-kO(a){return a
+k6(a){return a
 instanceof
 co}function
-sa(a){return kO(a)}function
-r4(a){if(typeof
-a==="number")return hW;else
-if(kO(a))return 252;else
-if(sa(a))return 1252;else
+sh(a){return k6(a)}function
+r$(a){if(typeof
+a==="number")return h8;else
+if(k6(a))return 252;else
+if(sh(a))return 1252;else
 if(a
 instanceof
 Array&&a[0]===a[0]>>>0&&a[0]<=255){var
-b=a[0]|0;return b==hN?0:b}else
+b=a[0]|0;return b==hZ?0:b}else
 if(a
 instanceof
-String)return ri;else
+String)return rp;else
 if(typeof
-a=="string")return ri;else
+a=="string")return rp;else
 if(a
 instanceof
-Number)return hW;else
-if(a&&a.caml_custom)return kr;else
+Number)return h8;else
+if(a&&a.caml_custom)return kJ;else
 if(a&&a.compare)return 1256;else
 if(typeof
 a=="function")return 1247;else
 if(typeof
 a=="symbol")return 1251;return 1001}function
-I3(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
-r1(a,b){a.t&6&&eX(a);b.t&6&&eX(b);return a.c<b.c?-1:a.c>b.c?1:0}function
-sj(a,b){return r1(a,b)}function
-kH(a,b,d){var
+Jc(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
+r8(a,b){a.t&6&&e4(a);b.t&6&&e4(b);return a.c<b.c?-1:a.c>b.c?1:0}function
+sq(a,b){return r8(a,b)}function
+kZ(a,b,d){var
 e=[];for(;;){if(!(d&&a===b)){var
-f=r4(a);if(f==qR){a=a[1];continue}var
-g=r4(b);if(g==qR){b=b[1];continue}if(f!==g){if(f==hW){if(g==kr)return r3(a,b,-1,d);return-1}if(g==hW){if(f==kr)return r3(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
-247:aY(kg);break;case
+f=r$(a);if(f==qZ){a=a[1];continue}var
+g=r$(b);if(g==qZ){b=b[1];continue}if(f!==g){if(f==h8){if(g==kJ)return r_(a,b,-1,d);return-1}if(g==h8){if(f==kJ)return r_(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
+247:a0(ky);break;case
 248:var
-c=I3(a[2],b[2]);if(c!=0)return c|0;break;case
-249:aY(kg);break;case
-250:aY("equal: got Forward_tag, should not happen");break;case
-251:aY("equal: abstract value");break;case
+c=Jc(a[2],b[2]);if(c!=0)return c|0;break;case
+249:a0(ky);break;case
+250:a0("equal: got Forward_tag, should not happen");break;case
+251:a0("equal: abstract value");break;case
 252:if(a!==b){var
-c=r1(a,b);if(c!=0)return c|0}break;case
-253:aY("equal: got Double_tag, should not happen");break;case
-254:aY("equal: got Double_array_tag, should not happen");break;case
-255:aY("equal: got Custom_tag, should not happen");break;case
-1247:aY(kg);break;case
+c=r8(a,b);if(c!=0)return c|0}break;case
+253:a0("equal: got Double_tag, should not happen");break;case
+254:a0("equal: got Double_array_tag, should not happen");break;case
+255:a0("equal: got Custom_tag, should not happen");break;case
+1247:a0(ky);break;case
 1255:var
-i=kI(a);if(i!=kI(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)aY("compare: abstract value");var
+i=k0(a);if(i!=k0(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)a0("compare: abstract value");var
 c=i(a,b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
 1256:var
 c=a.compare(b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
@@ -399,182 +399,182 @@ c=a.compare(b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;
 1001:if(a<b)return-1;if(a>b)return 1;if(a!=b){if(!d)return NaN;if(a==a)return 1;if(b==b)return-1}break;case
 1251:if(a!==b){if(!d)return NaN;return 1}break;case
 1252:var
-a=eY(a),b=eY(b);if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
+a=e5(a),b=e5(b);if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
 12520:var
 a=a.toString(),b=b.toString();if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
 246:case
 254:default:if(a.length!=b.length)return a.length<b.length?-1:1;if(a.length>1)e.push(a,b,1);break}}if(e.length==0)return 0;var
 h=e.pop();b=e.pop();a=e.pop();if(h+1<a.length)e.push(a,b,h+1);a=a[h];b=b[h]}}function
-IR(a,b){return kH(a,b,true)}function
-cq(a){if(a<0)aY("Bytes.create");return new
+I2(a,b){return kZ(a,b,true)}function
+cq(a){if(a<0)a0("Bytes.create");return new
 co(a?2:9,ae,a)}function
-r6(a,b){return+(kH(a,b,false)==0)}function
-IT(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=ae;a.t=2}else{a.c=si(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)h3(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}var
-Jb=0;function
-r8(){return Jb++}function
-I5(a){return a.toUtf16()}function
-f_(){return typeof
+sb(a,b){return+(kZ(a,b,false)==0)}function
+I4(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=ae;a.t=2}else{a.c=sp(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)id(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}var
+Jm=0;function
+sd(){return Jm++}function
+Je(a){return a.toUtf16()}function
+gh(){return typeof
 S.process!=="undefined"&&typeof
 S.process.versions!=="undefined"&&typeof
 S.process.versions.node!=="undefined"}function
-Jo(){function
+Jz(){function
 a(a){if(a.charAt(0)===b6)return[ae,a.substring(1)];return}function
 b(c){var
 g=/^([a-zA-Z]:|[\\/]{2}[^\\/]+[\\/]+[^\\/]+)?([\\/])?([\s\S]*?)$/,a=g.exec(c),b=a[1]||ae,e=Boolean(b&&b.charAt(1)!==":");if(Boolean(a[2]||e)){var
-d=a[1]||ae,f=a[2]||ae;return[d,c.substring(d.length+f.length)]}return}return f_()&&S.process&&S.process.platform?S.process.platform==="win32"?b:a:a}var
-kV=Jo();function
-sk(a){return a.slice(-1)!==b6?a+b6:a}if(f_()&&S.process&&S.process.cwd)var
-f7=S.process.cwd().replace(/\\/g,b6);else
+d=a[1]||ae,f=a[2]||ae;return[d,c.substring(d.length+f.length)]}return}return gh()&&S.process&&S.process.platform?S.process.platform==="win32"?b:a:a}var
+lb=Jz();function
+sr(a){return a.slice(-1)!==b6?a+b6:a}if(gh()&&S.process&&S.process.cwd)var
+ge=S.process.cwd().replace(/\\/g,b6);else
 var
-f7="/static";f7=sk(f7);function
-I7(a){a=I5(a);if(!kV(a))a=f7+a;var
-e=kV(a),d=e[1].split(b6),b=[];for(var
+ge="/static";ge=sr(ge);function
+Jg(a){a=Je(a);if(!lb(a))a=ge+a;var
+e=lb(a),d=e[1].split(b6),b=[];for(var
 c=0;c<d.length;c++)switch(d[c]){case"..":if(b.length>1)b.pop();break;case".":break;default:b.push(d[c]);break}b.unshift(e[0]);b.orig=a;return b}function
-Jj(e){for(var
+Ju(e){for(var
 f=ae,b=f,a,h,c=0,g=e.length;c<g;c++){a=e.charCodeAt(c);if(a<b4){for(var
-d=c+1;d<g&&(a=e.charCodeAt(d))<b4;d++);if(d-c>qu){b.substr(0,1);f+=b;b=ae;f+=e.slice(c,d)}else
-b+=e.slice(c,d);if(d==g)break;c=d}if(a<qQ){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(b4|a&eQ)}else
-if(a<0xd800||a>=qX)b+=String.fromCharCode(qZ|a>>12,b4|a>>6&eQ,b4|a&eQ);else
-if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<qI||h>qX)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(q8|a>>18,b4|a>>12&eQ,b4|a>>6&eQ,b4|a&eQ)}if(b.length>fZ){b.substr(0,1);f+=b;b=ae}}return f+b}function
-IO(a){var
-b=9;if(!sn(a))b=8,a=Jj(a);return new
+d=c+1;d<g&&(a=e.charCodeAt(d))<b4;d++);if(d-c>qC){b.substr(0,1);f+=b;b=ae;f+=e.slice(c,d)}else
+b+=e.slice(c,d);if(d==g)break;c=d}if(a<qY){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(b4|a&eX)}else
+if(a<0xd800||a>=q5)b+=String.fromCharCode(q7|a>>12,b4|a>>6&eX,b4|a&eX);else
+if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<qQ||h>q5)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(rd|a>>18,b4|a>>12&eX,b4|a>>6&eX,b4|a&eX)}if(b.length>f8){b.substr(0,1);f+=b;b=ae}}return f+b}function
+IZ(a){var
+b=9;if(!su(a))b=8,a=Ju(a);return new
 co(b,a,a.length)}function
-eZ(a){return IO(a)}var
-Jr=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",qC,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",ko,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",kt,qH,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
-d7(d,f,e,a){var
-b=Jr.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
-c=[b,eZ(f||ae),eZ(e||ae)];return c}var
-sd={};function
-d4(a){return sd[a]}function
-d5(b,a){throw[0,b].concat(a)}function
-IN(a){return new
+e6(a){return IZ(a)}var
+JC=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",qK,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",kG,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",kL,qP,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
+d_(d,f,e,a){var
+b=JC.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
+c=[b,e6(f||ae),e6(e||ae)];return c}var
+sk={};function
+d7(a){return sk[a]}function
+d8(b,a){throw[0,b].concat(a)}function
+IY(a){return new
 co(4,a,a.length)}function
-ar(a){kP(aE.Sys_error,a)}function
-Je(a){ar(a+hL)}function
-r0(){aY(kz)}function
-IM(b,a){if(a>>>0>=b.l)r0();return kG(b,a)}function
-h7(a){return a.l}function
-rT(){}function
-aW(a){this.data=a}aW.prototype=new
-rT();aW.prototype.truncate=function(a){var
-b=this.data;this.data=cq(a|0);f6(b,0,this.data,0,a)};aW.prototype.length=function(){return h7(this.data)};aW.prototype.write=function(b,d,g,a){var
+as(a){k7(aF.Sys_error,a)}function
+Jp(a){as(a+hX)}function
+r7(){a0(kR)}function
+IX(b,a){if(a>>>0>=b.l)r7();return kY(b,a)}function
+ii(a){return a.l}function
+r0(){}function
+aY(a){this.data=a}aY.prototype=new
+r0();aY.prototype.truncate=function(a){var
+b=this.data;this.data=cq(a|0);gd(b,0,this.data,0,a)};aY.prototype.length=function(){return ii(this.data)};aY.prototype.write=function(b,d,g,a){var
 c=this.length();if(b+a>=c){var
-e=cq(b+a),f=this.data;this.data=e;f6(f,0,this.data,0,c)}eV(d,g,this.data,b,a);return 0};aW.prototype.read=function(c,a,d,b){var
-e=this.length();f6(this.data,c,a,d,b);return 0};aW.prototype.read_one=function(a){return IM(this.data,a)};aW.prototype.close=function(){};aW.prototype.constructor=aW;function
-a$(b,a){this.content={};this.root=b;this.lookupFun=a}a$.prototype.nm=function(a){return this.root+a};a$.prototype.create_dir_if_needed=function(d){var
+e=cq(b+a),f=this.data;this.data=e;gd(f,0,this.data,0,c)}e2(d,g,this.data,b,a);return 0};aY.prototype.read=function(c,a,d,b){var
+e=this.length();gd(this.data,c,a,d,b);return 0};aY.prototype.read_one=function(a){return IX(this.data,a)};aY.prototype.close=function(){};aY.prototype.constructor=aY;function
+bc(b,a){this.content={};this.root=b;this.lookupFun=a}bc.prototype.nm=function(a){return this.root+a};bc.prototype.create_dir_if_needed=function(d){var
 c=d.split(b6),b=ae;for(var
-a=0;a<c.length-1;a++){b+=c[a]+b6;if(this.content[b])continue;this.content[b]=Symbol("directory")}};a$.prototype.slash=function(a){return/\/$/.test(a)?a:a+b6};a$.prototype.lookup=function(b){if(!this.content[b]&&this.lookupFun){var
+a=0;a<c.length-1;a++){b+=c[a]+b6;if(this.content[b])continue;this.content[b]=Symbol("directory")}};bc.prototype.slash=function(a){return/\/$/.test(a)?a:a+b6};bc.prototype.lookup=function(b){if(!this.content[b]&&this.lookupFun){var
 c=this.lookupFun(a(this.root),a(b));if(c!==0){this.create_dir_if_needed(b);this.content[b]=new
-aW(eW(c[1]))}}};a$.prototype.exists=function(a){if(a==ae)return 1;var
-b=this.slash(a);if(this.content[b])return 1;this.lookup(a);return this.content[a]?1:0};a$.prototype.mkdir=function(c,e,d){var
-b=d&&d4(kk);if(this.exists(c))if(b)d5(b,d7(qC,kj,this.nm(c)));else
-ar(c+": File exists");var
-a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||ae;if(!this.exists(a))if(b)d5(b,d7(ko,kj,this.nm(a)));else
-ar(a+hL);if(!this.is_dir(a))if(b)d5(b,d7(kt,kj,this.nm(a)));else
-ar(a+kB);this.create_dir_if_needed(this.slash(c))};a$.prototype.rmdir=function(a,f){var
-b=f&&d4(kk),c=a==ae?ae:this.slash(a),e=new
-RegExp(kw+c+qJ);if(!this.exists(a))if(b)d5(b,d7(ko,kh,this.nm(a)));else
-ar(a+hL);if(!this.is_dir(a))if(b)d5(b,d7(kt,kh,this.nm(a)));else
-ar(a+kB);for(var
+aY(e3(c[1]))}}};bc.prototype.exists=function(a){if(a==ae)return 1;var
+b=this.slash(a);if(this.content[b])return 1;this.lookup(a);return this.content[a]?1:0};bc.prototype.mkdir=function(c,e,d){var
+b=d&&d7(kC);if(this.exists(c))if(b)d8(b,d_(qK,kB,this.nm(c)));else
+as(c+": File exists");var
+a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||ae;if(!this.exists(a))if(b)d8(b,d_(kG,kB,this.nm(a)));else
+as(a+hX);if(!this.is_dir(a))if(b)d8(b,d_(kL,kB,this.nm(a)));else
+as(a+kT);this.create_dir_if_needed(this.slash(c))};bc.prototype.rmdir=function(a,f){var
+b=f&&d7(kC),c=a==ae?ae:this.slash(a),e=new
+RegExp(kO+c+qR);if(!this.exists(a))if(b)d8(b,d_(kG,kz,this.nm(a)));else
+as(a+hX);if(!this.is_dir(a))if(b)d8(b,d_(kL,kz,this.nm(a)));else
+as(a+kT);for(var
 d
 in
-this.content)if(d.match(e))if(b)d5(b,d7(qH,kh,this.nm(a)));else
-ar(this.nm(a)+": Directory not empty");delete
-this.content[c]};a$.prototype.readdir=function(a){var
-f=a==ae?ae:this.slash(a);if(!this.exists(a))ar(a+hL);if(!this.is_dir(a))ar(a+kB);var
+this.content)if(d.match(e))if(b)d8(b,d_(qP,kz,this.nm(a)));else
+as(this.nm(a)+": Directory not empty");delete
+this.content[c]};bc.prototype.readdir=function(a){var
+f=a==ae?ae:this.slash(a);if(!this.exists(a))as(a+hX);if(!this.is_dir(a))as(a+kT);var
 g=new
-RegExp(kw+f+qJ),d={},c=[];for(var
+RegExp(kO+f+qR),d={},c=[];for(var
 e
 in
 this.content){var
-b=e.match(g);if(b&&!d[b[1]]){d[b[1]]=true;c.push(b[1])}}return c};a$.prototype.is_dir=function(a){if(a==ae)return true;var
-b=this.slash(a);return this.content[b]?1:0};a$.prototype.unlink=function(a){var
+b=e.match(g);if(b&&!d[b[1]]){d[b[1]]=true;c.push(b[1])}}return c};bc.prototype.is_dir=function(a){if(a==ae)return true;var
+b=this.slash(a);return this.content[b]?1:0};bc.prototype.unlink=function(a){var
 b=this.content[a]?true:false;delete
-this.content[a];return b};a$.prototype.open=function(a,b){if(b.rdonly&&b.wronly)ar(this.nm(a)+ry);if(b.text&&b.binary)ar(this.nm(a)+qm);this.lookup(a);if(this.content[a]){if(this.is_dir(a))ar(this.nm(a)+" : is a directory");if(b.create&&b.excl)ar(this.nm(a)+ru);var
+this.content[a];return b};bc.prototype.open=function(a,b){if(b.rdonly&&b.wronly)as(this.nm(a)+rF);if(b.text&&b.binary)as(this.nm(a)+qu);this.lookup(a);if(this.content[a]){if(this.is_dir(a))as(this.nm(a)+" : is a directory");if(b.create&&b.excl)as(this.nm(a)+rB);var
 c=this.content[a];if(b.truncate)c.truncate();return c}else
 if(b.create){this.create_dir_if_needed(a);this.content[a]=new
-aW(cq(0));return this.content[a]}else
-Je(this.nm(a))};a$.prototype.register=function(c,a){var
-b;if(this.content[c])ar(this.nm(c)+ru);if(kO(a))b=new
-aW(a);if(sa(a))b=new
-aW(eW(a));else
+aY(cq(0));return this.content[a]}else
+Jp(this.nm(a))};bc.prototype.register=function(c,a){var
+b;if(this.content[c])as(this.nm(c)+rB);if(k6(a))b=new
+aY(a);if(sh(a))b=new
+aY(e3(a));else
 if(a
 instanceof
 Array)b=new
-aW(IN(a));else
+aY(IY(a));else
 if(typeof
 a==="string")b=new
-aW(r2(a));else
+aY(r9(a));else
 if(a.toString){var
-d=eW(eZ(a.toString()));b=new
-aW(d)}if(b){this.create_dir_if_needed(c);this.content[c]=b}else
-ar(this.nm(c)+" : registering file with invalid content type")};a$.prototype.constructor=a$;function
-ax(a){return h7(a)}function
-d6(b,a){return kG(b,a)}function
-II(d){var
-c=ax(d),b=new
-Array(c),a=0;for(;a<c;a++)b[a]=d6(d,a);return b}function
-IH(a){if(a.t!=4)h3(a);return a.c}function
-IQ(a,c,b){b&=cR;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}h3(a)}a.c[c]=b;return 0}function
-IP(b,a,c){if(a>>>0>=b.l)r0();return IQ(b,a,c)}function
+d=e3(e6(a.toString()));b=new
+aY(d)}if(b){this.create_dir_if_needed(c);this.content[c]=b}else
+as(this.nm(c)+" : registering file with invalid content type")};bc.prototype.constructor=bc;function
+az(a){return ii(a)}function
+d9(b,a){return kY(b,a)}function
+IT(d){var
+c=az(d),b=new
+Array(c),a=0;for(;a<c;a++)b[a]=d9(d,a);return b}function
+IS(a){if(a.t!=4)id(a);return a.c}function
+I1(a,c,b){b&=cT;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}id(a)}a.c[c]=b;return 0}function
+I0(b,a,c){if(a>>>0>=b.l)r7();return I1(b,a,c)}function
 cp(a){this.fs=require("fs");this.fd=a}cp.prototype=new
-rT();cp.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){ar(a.toString())}};cp.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){ar(a.toString())}};cp.prototype.write=function(f,b,c,e){var
-a=II(b);if(!(a
+r0();cp.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){as(a.toString())}};cp.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){as(a.toString())}};cp.prototype.write=function(f,b,c,e){var
+a=IT(b);if(!(a
 instanceof
 S.Uint8Array))a=new(S.Uint8Array)(a);var
-d=S.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){ar(a.toString())}return 0};cp.prototype.read=function(g,d,c,f){var
-a=IH(d);if(!(a
+d=S.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){as(a.toString())}return 0};cp.prototype.read=function(g,d,c,f){var
+a=IS(d);if(!(a
 instanceof
 S.Uint8Array))a=new(S.Uint8Array)(a);var
-e=S.Buffer.from(a);try{this.fs.readSync(this.fd,e,c,f,g)}catch(a){ar(a.toString())}for(var
-b=0;b<f;b++)IP(d,c+b,e[c+b]);return 0};cp.prototype.read_one=function(c){var
-b=new(S.Uint8Array)(1),a=S.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){ar(a.toString())}return a[0]};cp.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){ar(a.toString())}};cp.prototype.constructor=cp;function
-aX(a){this.fs=require("fs");this.root=a}aX.prototype.nm=function(a){return this.root+a};aX.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};aX.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};aX.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};aX.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};aX.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){ar(a.toString())}};aX.prototype.unlink=function(a,c){try{var
-b=this.fs.existsSync(this.nm(a))?1:0;this.fs.unlinkSync(this.nm(a));return b}catch(a){this.raise_nodejs_error(a,c)}};aX.prototype.open=function(f,c,g){var
+e=S.Buffer.from(a);try{this.fs.readSync(this.fd,e,c,f,g)}catch(a){as(a.toString())}for(var
+b=0;b<f;b++)I0(d,c+b,e[c+b]);return 0};cp.prototype.read_one=function(c){var
+b=new(S.Uint8Array)(1),a=S.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){as(a.toString())}return a[0]};cp.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){as(a.toString())}};cp.prototype.constructor=cp;function
+aZ(a){this.fs=require("fs");this.root=a}aZ.prototype.nm=function(a){return this.root+a};aZ.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};aZ.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};aZ.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};aZ.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};aZ.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){as(a.toString())}};aZ.prototype.unlink=function(a,c){try{var
+b=this.fs.existsSync(this.nm(a))?1:0;this.fs.unlinkSync(this.nm(a));return b}catch(a){this.raise_nodejs_error(a,c)}};aZ.prototype.open=function(f,c,g){var
 a=require("constants"),b=0;for(var
 e
 in
 c)switch(e){case"rdonly":b|=a.O_RDONLY;break;case"wronly":b|=a.O_WRONLY;break;case"append":b|=a.O_WRONLY|a.O_APPEND;break;case"create":b|=a.O_CREAT;break;case"truncate":b|=a.O_TRUNC;break;case"excl":b|=a.O_EXCL;break;case"binary":b|=a.O_BINARY;break;case"text":b|=a.O_TEXT;break;case"nonblock":b|=a.O_NONBLOCK;break}try{var
 d=this.fs.openSync(this.nm(f),b);return new
-cp(d)}catch(a){this.raise_nodejs_error(a,g)}};aX.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};aX.prototype.stat=function(b,c){try{var
-a=this.fs.statSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aX.prototype.lstat=function(b,c){try{var
-a=this.fs.lstatSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aX.prototype.symlink=function(d,c,a,b){try{this.fs.symlinkSync(this.nm(c),this.nm(a),d?"dir":"file");return 0}catch(a){this.raise_nodejs_error(a,b)}};aX.prototype.readlink=function(b,c){try{var
-a=this.fs.readlinkSync(this.nm(b),p9);return eZ(a)}catch(a){this.raise_nodejs_error(a,c)}};aX.prototype.raise_nodejs_error=function(a,d){var
-b=d4(kk);if(d&&b){var
-c=d7(a.code,a.syscall,a.path,a.errno);d5(b,c)}else
-ar(a.toString())};aX.prototype.stats_from_js=function(a){var
+cp(d)}catch(a){this.raise_nodejs_error(a,g)}};aZ.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};aZ.prototype.stat=function(b,c){try{var
+a=this.fs.statSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aZ.prototype.lstat=function(b,c){try{var
+a=this.fs.lstatSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aZ.prototype.symlink=function(d,c,a,b){try{this.fs.symlinkSync(this.nm(c),this.nm(a),d?"dir":"file");return 0}catch(a){this.raise_nodejs_error(a,b)}};aZ.prototype.readlink=function(b,c){try{var
+a=this.fs.readlinkSync(this.nm(b),qf);return e6(a)}catch(a){this.raise_nodejs_error(a,c)}};aZ.prototype.raise_nodejs_error=function(a,d){var
+b=d7(kC);if(d&&b){var
+c=d_(a.code,a.syscall,a.path,a.errno);d8(b,c)}else
+as(a.toString())};aZ.prototype.stats_from_js=function(a){var
 b;if(a.isFile())b=0;else
 if(a.isDirectory())b=1;else
 if(a.isCharacterDevice())b=2;else
 if(a.isBlockDevice())b=3;else
 if(a.isSymbolicLink())b=4;else
 if(a.isFIFO())b=5;else
-if(a.isSocket())b=6;return[0,a.dev,a.ino,b,a.mode,a.nlink,a.uid,a.gid,a.rdev,a.size,a.atimeMs,a.mtimeMs,a.ctimeMs]};aX.prototype.constructor=aX;function
-r9(b){var
-a=kV(b);if(!a)return;return a[0]+b6}var
-h8=r9(f7)||b7("unable to compute caml_root"),e0=[];if(f_())e0.push({path:h8,device:new
-aX(h8)});else
-e0.push({path:h8,device:new
-a$(h8)});e0.push({path:qg,device:new
-a$(qg)});function
-sr(b){var
-g=I7(b),b=g.join(b6),f=sk(b),c;for(var
-e=0;e<e0.length;e++){var
-a=e0[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&f_()){var
-d=r9(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
+if(a.isSocket())b=6;return[0,a.dev,a.ino,b,a.mode,a.nlink,a.uid,a.gid,a.rdev,a.size,a.atimeMs,a.mtimeMs,a.ctimeMs]};aZ.prototype.constructor=aZ;function
+se(b){var
+a=lb(b);if(!a)return;return a[0]+b6}var
+ij=se(ge)||b7("unable to compute caml_root"),e7=[];if(gh())e7.push({path:ij,device:new
+aZ(ij)});else
+e7.push({path:ij,device:new
+bc(ij)});e7.push({path:qo,device:new
+bc(qo)});function
+sy(b){var
+g=Jg(b),b=g.join(b6),f=sr(b),c;for(var
+e=0;e<e7.length;e++){var
+a=e7[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&gh()){var
+d=se(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
 a={path:d,device:new
-aX(d)};e0.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;ar("no device found for "+f)}function
-IS(c,b){var
-a=sr(c);if(!a.device.register)b7("cannot register file");a.device.register(a.rest,b);return 0}function
-sm(c,b){var
-c=a(c),b=a(b);return IS(c,b)}function
-IV(){var
+aZ(d)};e7.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;as("no device found for "+f)}function
+I3(c,b){var
+a=sy(c);if(!a.device.register)b7("cannot register file");a.device.register(a.rest,b);return 0}function
+st(c,b){var
+c=a(c),b=a(b);return I3(c,b)}function
+I6(){var
 b=S.caml_fs_tmp;if(b)for(var
-a=0;a<b.length;a++)sm(b[a].name,b[a].content);S.jsoo_create_file=sm;S.caml_fs_tmp=[];return 0}function
-Jc(c){var
-a=0,e=ax(c),b=10,d=1;if(e>0)switch(d6(c,a)){case
+a=0;a<b.length;a++)st(b[a].name,b[a].content);S.jsoo_create_file=st;S.caml_fs_tmp=[];return 0}function
+Jn(c){var
+a=0,e=az(c),b=10,d=1;if(e>0)switch(d9(c,a)){case
 45:a++;d=-1;break;case
-43:a++;d=1;break}if(a+1<e&&d6(c,a)==48)switch(d6(c,a+1)){case
+43:a++;d=1;break}if(a+1<e&&d9(c,a)==48)switch(d9(c,a+1)){case
 120:case
 88:b=16;a+=2;break;case
 111:case
@@ -583,33 +583,33 @@ a=0,e=ax(c),b=10,d=1;if(e>0)switch(d6(c,a)){case
 66:b=2;a+=2;break;case
 117:case
 85:a+=2;break}return[a,d,b]}function
-se(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=rK)return a-87;return-1}function
-h6(f){var
-h=Jc(f),c=h[0],i=h[1],d=h[2],g=ax(f),j=-1>>>0,e=c<g?d6(f,c):0,b=se(e);if(b<0||b>=d)b7(hQ);var
-a=b;for(c++;c<g;c++){e=d6(f,c);if(e==95)continue;b=se(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)b7(hQ)}if(c!=g)b7(hQ);a=i*a;if(d==10&&(a|0)!=a)b7(hQ);return a|0}function
-I6(a,b){return+(kH(a,b,false)<=0)}function
-I8(a,d){if(a<0)h2();var
+sl(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=rR)return a-87;return-1}function
+ih(f){var
+h=Jn(f),c=h[0],i=h[1],d=h[2],g=az(f),j=-1>>>0,e=c<g?d9(f,c):0,b=sl(e);if(b<0||b>=d)b7(h2);var
+a=b;for(c++;c<g;c++){e=d9(f,c);if(e==95)continue;b=sl(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)b7(h2)}if(c!=g)b7(h2);a=i*a;if(d==10&&(a|0)!=a)b7(h2);return a|0}function
+Jf(a,b){return+(kZ(a,b,false)<=0)}function
+Jh(a,d){if(a<0)ic();var
 a=a+1|0,b=new
 Array(a);b[0]=0;for(var
 c=1;c<a;c++)b[c]=d;return b}var
-cT=new
+cV=new
 Array();function
-I9(c){var
-a=cT[c];if(!a.opened)ar("Cannot flush a closed channel");if(!a.buffer||a.buffer==ae)return 0;if(a.fd&&aE.fds[a.fd]&&aE.fds[a.fd].output){var
-b=aE.fds[a.fd].output;switch(b.length){case
+Ji(c){var
+a=cV[c];if(!a.opened)as("Cannot flush a closed channel");if(!a.buffer||a.buffer==ae)return 0;if(a.fd&&aF.fds[a.fd]&&aF.fds[a.fd].output){var
+b=aF.fds[a.fd].output;switch(b.length){case
 2:b(c,a.buffer);break;default:b(a.buffer)}}a.buffer=ae;return 0}function
-sh(e,f){var
-b=cT[e],d=a(f),c=ax(d);b.file.write(b.offset,d,0,c);b.offset+=c;return 0}function
-Jk(a){var
-a=kR(a),b=S;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+so(e,f){var
+b=cV[e],d=a(f),c=az(d);b.file.write(b.offset,d,0,c);b.offset+=c;return 0}function
+Jv(a){var
+a=k9(a),b=S;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.error&&c.error(a)}}function
-Jl(a){var
-a=kR(a),b=S;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+Jw(a){var
+a=k9(a),b=S;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.log&&c.log(a)}}function
-h_(c,e,d,a){if(aE.fds===undefined)aE.fds=new
+il(c,e,d,a){if(aF.fds===undefined)aF.fds=new
 Array();a=a?a:{};var
-b={};b.file=d;b.offset=a.append?d.length():0;b.flags=a;b.output=e;aE.fds[c]=b;if(!aE.fd_last_idx||c>aE.fd_last_idx)aE.fd_last_idx=c;return c}function
-Js(c,b,g){var
+b={};b.file=d;b.offset=a.append?d.length():0;b.flags=a;b.output=e;aF.fds[c]=b;if(!aF.fd_last_idx||c>aF.fd_last_idx)aF.fd_last_idx=c;return c}function
+JD(c,b,g){var
 a={};while(b){switch(b[1]){case
 0:a.rdonly=1;break;case
 1:a.wronly=1;break;case
@@ -619,162 +619,162 @@ a={};while(b){switch(b[1]){case
 5:a.excl=1;break;case
 6:a.binary=1;break;case
 7:a.text=1;break;case
-8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)ar(eY(c)+ry);if(a.text&&a.binary)ar(eY(c)+qm);var
-d=sr(c),e=d.device.open(d.rest,a),f=aE.fd_last_idx?aE.fd_last_idx:0;return h_(f+1,sh,e,a)}h_(0,sh,new
-aW(cq(0)));h_(1,Jl,new
-aW(cq(0)));h_(2,Jk,new
-aW(cq(0)));function
-I_(a){var
-c=aE.fds[a];if(c.flags.wronly)ar(rI+a+" is writeonly");var
-d=null;if(a==0&&f_()){var
-e=require("fs");d=function(){return eZ(e.readFileSync(0,p9))}}var
-b={file:c.file,offset:c.offset,fd:a,opened:true,out:false,refill:d};cT[b.fd]=b;return b.fd}function
-sb(c){var
-b=aE.fds[c];if(b.flags.rdonly)ar(rI+c+" is readonly");var
-a={file:b.file,offset:b.offset,fd:c,opened:true,out:true,buffer:ae};cT[a.fd]=a;return a.fd}function
-I$(){var
+8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)as(e5(c)+rF);if(a.text&&a.binary)as(e5(c)+qu);var
+d=sy(c),e=d.device.open(d.rest,a),f=aF.fd_last_idx?aF.fd_last_idx:0;return il(f+1,so,e,a)}il(0,so,new
+aY(cq(0)));il(1,Jw,new
+aY(cq(0)));il(2,Jv,new
+aY(cq(0)));function
+Jj(a){var
+c=aF.fds[a];if(c.flags.wronly)as(rP+a+" is writeonly");var
+d=null;if(a==0&&gh()){var
+e=require("fs");d=function(){return e6(e.readFileSync(0,qf))}}var
+b={file:c.file,offset:c.offset,fd:a,opened:true,out:false,refill:d};cV[b.fd]=b;return b.fd}function
+si(c){var
+b=aF.fds[c];if(b.flags.rdonly)as(rP+c+" is readonly");var
+a={file:b.file,offset:b.offset,fd:c,opened:true,out:true,buffer:ae};cV[a.fd]=a;return a.fd}function
+Jk(){var
 b=0;for(var
-a=0;a<cT.length;a++)if(cT[a]&&cT[a].opened&&cT[a].out)b=[0,cT[a].fd,b];return b}function
-bO(b,c,a){if(a&&S.toplevelReloc)b=S.toplevelReloc(a);aE[b+1]=c;if(a)aE[a]=c}function
-Jg(a,b){sd[eY(a)]=b;return 0}function
-IL(a,b){if(a===b)return 1;a.t&6&&eX(a);b.t&6&&eX(b);return a.c==b.c?1:0}function
-az(a,b){return IL(a,b)}function
-Ji(){aY(kz)}function
-a4(b,a){if(a>>>0>=ax(b))Ji();return d6(b,a)}function
-p(a,b){return 1-az(a,b)}function
-h9(a){return a}function
-sg(a){return a}function
-sl(a){if(a
+a=0;a<cV.length;a++)if(cV[a]&&cV[a].opened&&cV[a].out)b=[0,cV[a].fd,b];return b}function
+bN(b,c,a){if(a&&S.toplevelReloc)b=S.toplevelReloc(a);aF[b+1]=c;if(a)aF[a]=c}function
+Jr(a,b){sk[e5(a)]=b;return 0}function
+IW(a,b){if(a===b)return 1;a.t&6&&e4(a);b.t&6&&e4(b);return a.c==b.c?1:0}function
+aB(a,b){return IW(a,b)}function
+Jt(){a0(kR)}function
+a7(b,a){if(a>>>0>=az(b))Jt();return d9(b,a)}function
+p(a,b){return 1-aB(a,b)}function
+ik(a){return a}function
+sn(a){return a}function
+ss(a){if(a
 instanceof
 Array)return a;if(S.RangeError&&a
 instanceof
-S.RangeError&&a.message&&a.message.match(/maximum call stack/i))return sg(aE.Stack_overflow);if(S.InternalError&&a
+S.RangeError&&a.message&&a.message.match(/maximum call stack/i))return sn(aF.Stack_overflow);if(S.InternalError&&a
 instanceof
-S.InternalError&&a.message&&a.message.match(/too much recursion/i))return sg(aE.Stack_overflow);if(a
+S.InternalError&&a.message&&a.message.match(/too much recursion/i))return sn(aF.Stack_overflow);if(a
 instanceof
-S.Error&&d4(qO))return[0,d4(qO),a];return[0,aE.Failure,eZ(String(a))]}function
+S.Error&&d7(qW))return[0,d7(qW),a];return[0,aF.Failure,e6(String(a))]}function
 cr(a){return a<0?-a:a}function
 E(a,b){return a+b}function
-kS(a,b){return a<b?-1:a>b?1:0}function
-so(c,b){var
+k_(a,b){return a<b?-1:a>b?1:0}function
+sv(c,b){var
 a=c%b;return a<0?a+cr(b):a}function
-kT(a,b){return(a-so(a,b))/b}function
+k$(a,b){return(a-sv(a,b))/b}function
 K(a,b){return a==b?1:0}function
-Jp(c){S.orthocert_verify=function(b){return eY(du(c,[a(b)]))}}function
+JA(c){S.orthocert_verify=function(b){return e5(dv(c,[a(b)]))}}function
 D(a,b){return a<=b?1:0}function
 I(a,b){return a<b?1:0}function
 C(a,b){return a*b}function
 T(a){return-a}function
-aH(a){return S.BigInt(a)}function
-sp(a,b){return a<<S.BigInt(b)}function
-sq(a,b){return a>>S.BigInt(b)}function
-aR(a){return a<0?-1:a>0?1:0}function
-Jq(a){if(a<0)throw new(S.Error)("a root of a negative number");if(a<2)return a;var
+aJ(a){return S.BigInt(a)}function
+sw(a,b){return a<<S.BigInt(b)}function
+sx(a,b){return a>>S.BigInt(b)}function
+aS(a){return a<0?-1:a>0?1:0}function
+JB(a){if(a<0)throw new(S.Error)("a root of a negative number");if(a<2)return a;var
 d=S.BigInt(1),b=d<<S.BigInt((a.toString(16).length*4+1)/2|0),c;for(;;){c=b+a/b>>d;if(c>=b)return b;b=c}}function
-aL(a,b){return a-b}function
-kU(a){if(a>0x7fffffff||a<-0x80000000)throw new(S.Error)("a number of more than 32 bits");return S.Number(a)}function
-I4(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
-IU(b){var
-a=ae;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&I4(b[1]))var
+aM(a,b){return a-b}function
+la(a){if(a>0x7fffffff||a<-0x80000000)throw new(S.Error)("a number of more than 32 bits");return S.Number(a)}function
+Jd(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
+I5(b){var
+a=ae;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&Jd(b[1]))var
 e=b[2],f=1;else
 var
-f=2,e=b;a+=qP;for(var
+f=2,e=b;a+=qX;for(var
 d=f;d<e.length;d++){if(d>f)a+=", ";var
 c=e[d];if(typeof
 c=="number")a+=c.toString();else
 if(c
 instanceof
-co)a+=aQ+c.toString()+aQ;else
+co)a+=aR+c.toString()+aR;else
 if(typeof
-c=="string")a+=aQ+c.toString()+aQ;else
-a+="_"}a+=kv}else
-if(b[0]==a3)a+=b[1];return a}function
-r7(a){if(a
+c=="string")a+=aR+c.toString()+aR;else
+a+="_"}a+=kN}else
+if(b[0]==a6)a+=b[1];return a}function
+sc(a){if(a
 instanceof
-Array&&(a[0]==0||a[0]==a3)){var
-c=d4("Printexc.handle_uncaught_exception");if(c)c(a,false);else{var
-d=IU(a),b=d4(p8);if(b)b(0);S.console.error("Fatal error: exception "+d+"\n")}}else
+Array&&(a[0]==0||a[0]==a6)){var
+c=d7("Printexc.handle_uncaught_exception");if(c)c(a,false);else{var
+d=I5(a),b=d7(qe);if(b)b(0);S.console.error("Fatal error: exception "+d+"\n")}}else
 throw a}function
-Jh(){var
-a=S;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){r7(b);a.process.exit(2)});else
-if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)r7(a.error)})}Jh();function
-j(a,b){return a.length==1?a(b):du(a,[b])}function
-aq(a,b,c){return a.length==2?a(b,c):du(a,[b,c])}function
-fS(a,b,c,d){return a.length==3?a(b,c,d):du(a,[b,c,d])}function
-kf(a,b,c,d,e){return a.length==4?a(b,c,d,e):du(a,[b,c,d,e])}IV();var
-kX=[a3,a(qF),-2],kW=[a3,a(rS),-4],HB=[0,[0,[0,[0,0]]]],HC=[0,0],HD=[0,0],HE=[0,[0,0]],HF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HE]]]]]]]]]]],hx=[0,[1,0],0],ph=[0,[2,0],0],jZ=[0,[1,0],0],pg=[0,[2,0],0],hv=[0,[1,0],0],jY=[0,[2,0],0],HG=[0,[0,[0,[0,0]]]],HH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HG]]]]]]]]]]],HI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HH]]]]]]]]]]],HJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HI]]]]]]]]]]],HK=[0,[0,0]],HL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HK]]]]]]]]]]],HM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HL]]]]]]]]]]],HN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HM]]]]]]]]]]],HO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HN]]]]]]]]]]],HP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],HQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HP]]]]]]]]]]],HR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HQ]]]]]]]]]]],HS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HR]]]]]]]]]]],HT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HS]]]]]]]]]]],HU=[0,[0,0]],HV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HU]]]]]]]]]]],HW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HV]]]]]]]]]]],HX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HW]]]]]]]]]]],HY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HX]]]]]]]]]]],HZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HY]]]]]]]]]]],H0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HZ]]]]]]]]]]],H1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H0]]]]]]]]]]],H2=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],H3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H2]]]]]]]]]]],H4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H3]]]]]]]]]]],H5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H4]]]]]]]]]]],H6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H5]]]]]]]]]]],H7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H6]]]]]]]]]]],H8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H7]]]]]]]]]]],H9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H8]]]]]]]]]]],H_=[0,0],H$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H_]]]]]]]]]]],Ia=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H$]]]]]]]]]]],Ib=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ia]]]]]]]]]]],Ic=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ib]]]]]]]]]]],Id=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ic]]]]]]]]]]],Ie=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Id]]]]]]]]]]],If=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ie]]]]]]]]]]],Ig=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,If]]]]]]]]]]],Ih=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ig]]]]]]]]]]],Ii=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ih]]]]]]]]]]],Ij=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],Ik=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ij]]]]]]]]]]],Il=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],Im=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Il]]]]]]]]]]],In=[0,[0,[0,[0,[0,0]]]]],Io=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,In]]]]]]]]]]],Ip=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Io]]]]]]]]]]],Iq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ip]]]]]]]]]]],Ir=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Iq]]]]]]]]]]],Is=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ir]]]]]]]]]]],It=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Is]]]]]]]]]]],Iu=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,It]]]]]]]]]]],Iv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Iu]]]]]]]]]]],Iw=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Iv]]]]]]]]]]],Ix=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Iw]]]]]]]]]]],Iy=[0,0],Iz=[0,[0,0]],IA=[0,0],IB=[0,[0,[0,[0,[0,0]]]]],dB=[0,[0,[0,0]]],dD=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],hm=[0,[0,[0,[0,0]]]],IC=[0,[0,[0,[0,[0,0]]]]],ID=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IC]]]]]]]]]]],IE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,ID]]]]]]]]]]],IF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IE]]]]]]]]]]],IG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IF]]]]]]]]]]];bO(11,[a3,a(p7),-12],p7);bO(10,[a3,a(qV),-11],qV);bO(9,[a3,a(rH),-10],rH);bO(8,[a3,a(qh),-9],qh);bO(7,[a3,a(q_),-8],q_);bO(6,[a3,a(qf),-7],qf);bO(5,[a3,a(qG),-6],qG);bO(4,[a3,a(qK),-5],qK);bO(3,kW,rS);bO(2,[a3,a(kp),-3],kp);bO(1,kX,qF);bO(0,[a3,a(rr),-1],rr);var
-ss=a("String.sub / Bytes.sub"),su=a(ae),st=a("String.concat"),sv=a("Array.init"),sw=a("power"),sP=[0,0],sQ=[0,0],sW=[0,0,0],sX=[0,0,0],sY=[0,0],ti=[0,0],tj=[0,0],tm=[0,0],tH=[0,0],tK=[0,0],tO=[0,0],tP=[0,0],tQ=[0,0],tR=[0,0],t5=[0,0],t6=[0,0],ux=[0,0],uX=[0,[0,[0,0]]],vm=[0,0],vN=[0,0],v9=[0,0],wi=a(","),wA=[0,a(kv),0],wB=a(qP),wC=a("."),wD=[0,[0,[0,0]]],wE=a(eS),wF=a(kw),wG=[0,[0,[0,[0,[0,0]]]]],wH=[0,a(kv),0],wI=a(rQ),zL=a(p4),zN=a(p1),zM=a(qY),zO=a(eN),zP=a(eL),zQ=a(kE),zR=a(rB),zS=a(qz),zT=a(ky),zU=a(q4),zV=a(qy),Ba=[0,[0,0,0]],Br=[0,0],Bb=a(fT),Bc=[0,0],Bd=a("divided"),Be=[0,1],Bf=a("mirror"),Bg=[0,3],Bh=a("negative"),Bi=[0,2],Bj=a(fY),Bk=[0,5],Bl=a(kD),Bm=[0,4],Bn=a(ds),Bo=a(qk),Bp=a(eO),Bq=a(bM),Bs=[0,0],Bt=[0,0],Bu=[0,0],Bx=[0,[0,[0,0]]],By=[0,[0,[0,0]]],BZ=[0,[0,[0,0]]],Cb=[0,0],Cs=a(ae),Cl=[0,0],Cm=[0,0],Cn=[0,[0,[0,[0,0]]]],Co=[0,[0,[0,0]]],Cp=[0,[0,[0,[0,0]]]],Cq=[0,[0,[0,0]]],Cj=[0,[0,[0,0]]],Ci=[0,0],Ch=a(eO),Cg=[0,0],Ce=[0,1,0],Cf=[0,[0,[0,0]]],Cd=[0,0],B$=[0,[0,0]],Ca=[0,[0,[0,0]]],B_=[0,0],B6=[0,[0,[0,0]]],B5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HB]]]]]]]]]],[0,0,[0,[0,[0,[0,0]]],0]]],B0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],[0,0,0]],B1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],[0,[0,[0,[0,[0,[0,[0,0]]]]]],0]],B2=[0,[0,[0,[0,[0,[0,[0,0]]]]]],0],B3=[0,[0,[0,[0,0]]],[0,0,0]],BX=[0,0],BY=[0,[0,0]],BW=[0,0,0],BV=[0,[0,[0,0]]],BP=[0,[0,0]],BQ=[0,[0,[0,0]]],BR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HC]]]]]]]]]]],BS=[0,[0,0]],BT=[0,[0,[0,0]]],BO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HD]]]]]]]]]]],BM=[0,[0,0]],BN=[0,[0,[0,0]]],BK=[0,[0,[0,0]]],BL=[0,[0,0]],BJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HF]]]]]]]]]]],BI=[0,0],BH=[0,0],BE=[0,[0,0]],BF=[0,0],BC=[0,0],BD=[0,1],BA=[0,[0,0]],BB=[0,0],Bz=[0,0],Bv=[0,0],Bw=[0,1],A9=[0,0],A_=[0,1],A$=[0,2],A5=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],A3=[0,[0,0],0],A4=[0,[1,0],0],A6=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],A1=[0,[0,0]],A2=[0,0],A0=[0,0],AZ=[0,0],AY=[0,0],AX=[0,0],AW=[0,0,0],AU=[0,[0,0]],AV=[0,0],AT=[0,0,0],AR=[0,[0,[0,0]]],AS=[0,[0,[0,0]]],AQ=[0,0],AO=[0,1,0],AG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HJ]]]]]]]]]]],AH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HO]]]]]]]]]]],AC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HT]]]]]]]]]]],AD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H1]]]]]]]]]]],AE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H9]]]]]]]]]]],AF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ii]]]]]]]]]]],AI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ik]]]]]]]]]]],AJ=a("sqrt"),AA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Im]]]]]]]]]]],AB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ix]]]]]]]]]]],Ap=[0,a("\n"),0],Aq=a(p2),Ar=a(hM),As=a(qU),At=a(qD),Az=a(f1),Au=a(fX),Av=a("verdict"),Aw=a(rs),Ax=a(qv),Ay=a(qT),Am=a(qN),An=a(rw),Ao=a(hO),Ai=a(q6),Aj=a(hP),Ak=a(fX),Al=a(f1),Ad=a(hX),Ae=a(bt),Af=a(p3),Ag=a(hU),Aa=a(rq),Ab=a(fY),Ac=a(hU),z8=a(q9),z9=a(hX),z_=a(hP),z$=a(rF),zX=a(rx),zY=a(rA),zZ=a(hT),z0=a(hR),z1=a(rL),z2=a(rm),z3=a(rp),z4=a(rb),z5=a(hT),z6=a(re),zJ=a(hK),zK=a(f0),zE=a(bN),zF=a(bL),zG=a(qx),ze=a(hR),zf=a(ra),yU=a(bt),yV=a(b5),yW=a(hZ),yX=a(eR),yY=a(cP),y3=a(ki),yZ=a(kx),y0=a(kA),y1=a(eM),y2=a(bt),y4=a(b5),y5=a(hZ),y6=a(eR),y7=a(kx),y8=a(kA),y9=a(eM),y_=a(bt),y$=a(b5),za=a(bN),zb=a(bL),zc=a(d1),zd=a(eR),zg=a(rk),zh=a(rz),zi=a(h1),zj=a(ql),zk=a(qq),zl=a(eM),zm=a(bt),zn=a(b5),zo=a(hI),zp=a(qB),zq=a(eR),zr=a(f5),zs=a(p$),zt=a(eM),zu=a(bt),zv=a(hI),zw=a(bt),zx=a(rd),zA=a(p0),zy=a(qo),zz=a(rE),zB=a(f1),zC=a(fX),zD=a(bt),zH=a(h1),zI=a(hO),yP=a(b5),yQ=a(eR),yR=a(ki),yS=a(eM),yO=a(rN),yC=a(f5),yD=a(rt),yE=a(d2),yF=a(eP),yG=a(eP),yH=a(kl),yI=a(d2),yJ=a(qW),yK=a(qw),yL=a(bi),yN=a(p6),yM=a(kl),ys=a(qM),yt=a(rR),yu=a(qs),yv=a(qp),yw=a(rD),yx=a(ro),yy=a(qE),yz=a(hJ),yA=a(hJ),yo=a(bi),yp=a(bJ),yq=a(eT),yr=a(bK),yk=a(cP),yl=a(ks),ym=a(q7),yh=a(bN),yi=a(bL),yj=a(d1),ya=a(bN),yb=a(bL),yc=a(d1),yd=a(ku),ye=a(d2),yf=a(kq),yg=a(rj),xU=a(qn),x0=a(hM),xZ=a(kC),xV=a(km),xW=a(fV),x1=a(fW),x3=a(fW),x4=a(rh),x5=a(km),x2=a(fV),x6=a(qj),x7=a(rg),x8=a(fV),x9=a(rM),x_=a(kC),x$=a(fV),xX=a(eP),xY=a(q2),xR=a(hS),xS=a(hS),xT=a(hS),xN=a(rl),xO=a(bL),xP=a(bN),xQ=a(rC),xw=a(qd),xx=a(p5),xy=a(q$),xz=a(eN),xA=a(rO),xB=a(rc),xC=a(qe),xD=a(q3),xE=a(qc),xF=a(qA),xG=a(qb),xH=a(rn),xI=a(eL),xJ=a(p_),xK=a(rv),xL=a(qr),xM=a(rP),w9=a(hV),w$=a(eS),w_=a(fU),xa=a(eK),xb=a(bi),xc=a(bJ),xd=a(bM),xe=a(h0),xf=a(bK),xg=a(f3),xh=a(bi),xi=a(bJ),xj=a(eT),xk=a(bK),xl=a(bM),xm=a(cP),xn=a(bK),xo=a(eK),xp=a(f4),xq=a(bi),xr=a(bJ),xs=a(q0),xt=a(fW),xu=a(f4),xv=a(bK),wR=a(hV),wZ=a(eS),wS=a(fU),wT=a(eK),wU=a(bi),wV=a(bJ),wW=a(bM),wX=a(h0),wY=a(bK),w0=a(f3),w1=a(bi),w2=a(bJ),w3=a(eT),w4=a(bK),w5=a(bM),w6=a(cP),w7=a(bK),wO=a(bN),wP=a(bL),wM=[0,a(aQ),0],wN=a(aQ),wK=a(ae),wJ=[0,a(aQ),0],wL=a(aQ),ww=a(hV),wx=a(eS),wy=a("*"),wz=a(b6),wr=[0,[0,[0,[0,[0,0]]]]],ws=[0,[0,[0,0]]],wt=[0,[0,0]],wu=[0,0],wv=[0,[0,[0,[0,0]]]],wp=a('":'),wq=a(aQ),wn=[0,a(aQ),0],wo=a(aQ),wl=[0,a("}"),0],wm=a("{"),wj=[0,a("]"),0],wk=a("["),wh=[0,[0,[0,0]]],wg=[0,[0,[0,0]]],we=[0,0],wb=[0,[0,[0,0]]],wc=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],wd=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],v$=[0,[0,0]],wa=[0,[0,[0,0]]],v_=[0,0],v7=[0,0],v8=[0,[0,0]],v4=[0,0],v5=[0,[0,0]],v6=[0,0],vZ=[0,[0,0]],v0=[0,0],v1=[0,[0,[0,0]]],v2=[0,[0,[0,0]]],vW=[0,[0,[0,0]]],vY=[0,[0,[0,0]]],vX=[0,0],vT=[0,[0,0]],vU=[0,0],vR=[0,[0,0]],vS=[0,0],vQ=[0,[0,[0,0]]],vO=[0,[0,0]],vP=[0,0],vL=[0,0],vM=[0,[0,0]],vF=[0,[0,0]],vG=[0,[0,[0,[0,[0,0]]]]],vH=[0,[0,[0,[0,0]]]],vI=[0,[0,[0,0]]],vJ=[0,[0,0]],vK=[0,0],vC=[0,0],vD=[0,[0,0]],vE=[0,0],vB=[0,0],vx=[0,0],vy=[0,[0,[0,[0,[0,[0,0]]]]]],vz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Iy]]]]]]]]]]],vv=[0,0],vq=[0,0,0],vr=[0,0,0],vs=[0,0,0],vn=[0,[0,0]],vo=[0,[0,[0,0]]],vp=[0,0],vc=[0,[0,[0,[0,[0,[0,0]]]]]],vd=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],ve=[0,[0,[0,0]]],vf=[0,[0,[0,0]]],vg=[0,[0,[0,[0,[0,[0,0]]]]]],vh=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],vi=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Iz]]]]]]]]]]],vj=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IA]]]]]]]]]]],vk=[0,[0,[0,0]]],vl=[0,[0,[0,[0,[0,[0,0]]]]]],u_=[0,0,0],u$=[0,0,0],u6=[0,0,0],u7=[0,0,0],u8=[0,0,0],u9=[0,0,0],u5=[0,0],u4=[0,0],u3=[0,0],u1=[0,0],u2=[0,0],u0=[0,0],uY=[0,0],uZ=[0,0],uQ=[0,0],uR=[0,0],uS=[0,0],uT=[0,[0,[0,0]]],uP=[0,0],uJ=[0,0],uK=[0,0],uL=[0,[0,0]],uH=[0,[0,0]],uI=[0,[0,[0,0]]],uF=[0,[0,[0,0]]],uG=[0,[0,0]],uD=[0,[0,0]],uE=[0,[0,[0,0]]],uC=[0,0],uA=[0,0],uB=[0,0],uy=[0,0,0],uv=[0,[0,0]],uw=[0,0],un=[0,[0,0]],uo=[0,0],up=[0,[0,0]],uq=[0,0],ur=[0,[0,0]],us=[0,0],ut=[0,[0,0]],uu=[0,0],ul=[0,[0,0]],um=[0,0],uj=[0,[0,0]],uk=[0,0],uf=[0,[0,0]],ug=[0,0],uh=[0,0],ui=[0,[0,0]],t8=[0,[0,0]],t9=[0,0],t_=[0,[0,0]],t$=[0,0],ua=[0,0],ub=[0,[0,0]],uc=[0,[0,0]],ud=[0,[0,0]],ue=[0,0],t4=[0,0],t3=[0,0],t0=[0,0],t1=[0,[0,0]],tZ=[0,[0,[0,0]]],tY=[0,[0,[0,[0,[0,[0,0]]]]]],tW=[0,[0,0]],tX=[0,0],tV=[0,[0,0]],tU=[0,0],tS=[0,0],tT=[0,[0,[0,0]]],tM=[0,[0,0]],tN=[0,[0,[0,0]]],tL=[0,[0,[0,0]]],tI=[0,[0,[0,0]]],tG=[0,[0,[0,0]]],tE=[0,[0,[0,[0,[0,[0,0]]]]]],tF=[0,[0,[0,[0,[0,[0,0]]]]]],tz=[0,[0,0]],tA=[0,0],tB=[0,[0,0]],tC=[0,[0,[0,0]]],tD=[0,[0,[0,0]]],ts=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],tt=[0,[0,[0,[0,[0,[0,0]]]]]],tu=[0,[0,[0,[0,[0,[0,0]]]]]],tv=[0,[0,[0,0]]],tw=[0,[0,[0,[0,[0,[0,0]]]]]],tx=[0,[0,[0,0]]],ty=[0,[0,[0,0]]],tq=[0,[0,0]],tr=[0,0],tp=[0,0,0],to=[0,0,0],tn=[0,0,0],tl=[0,0,0],tk=[0,[0,[0,0]]],te=[0,0],tf=[0,0],tg=[0,0],th=[0,0],tc=[0,0],td=[0,0],s_=[0,[0,[0,0]]],s$=[0,[0,[0,0]]],ta=[0,[0,[0,0]]],s9=[0,[0,[0,[0,0]]]],s5=[0,[0,[0,0]]],s6=[0,[0,[0,0]]],s7=[0,[0,[0,0]]],s8=[0,[0,1,1],[0,[0,0,1],[0,[0,1,0],[0,[0,0,0],0]]]],s3=[0,[0,0]],s4=[0,0],s1=[0,[0,0]],s2=[0,0],sZ=[0,[0,0]],s0=[0,0],sM=[0,0],sN=[0,[0,0]],sK=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],sL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IB]]]]]]]]]]],sI=[0,0,0],sH=a(rJ),sG=a(ae),sF=[0,[0,0]],sD=[0,0],sA=[0,0],sC=[1,0],sB=[0,0],sz=[0,0],sx=[1,0],sy=[1,0],t2=[10,0,0,0,0],Cc=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IG]]]]]]]]]]],FA=a(bN),FB=a(bL),FC=a(qx),Fs=a(f3),Ft=[0,a("a base axis of such a platform"),0],Fu=a(bi),Fv=a(bJ),Ff=a(ro),Fg=a(qM),Fh=a(rD),Fi=a(hJ),Fj=a(qE),Fk=a(hJ),Fl=a(rR),Fm=a(qs),Fn=a(qp),E7=a(ra),E8=a(hR),EJ=[0,a("such a machine with bodies"),0],Ew=a(hO),Ex=a(bt),Ey=a(rd),Ez=a(rE),EC=a(qo),ED=a(p0),EE=a(bt),EF=a(bt),EH=a(hI),EG=[0,a("a claim that no cube of such a machine fits"),0],EI=a(rN),EK=a(eM),EL=a(eR),EM=a(cP),EN=a(ks),EO=a(q7),EP=a(hZ),EQ=a(qq),ER=a(p$),ES=a(ki),EV=a(d1),EW=a(rj),EZ=a(b5),E0=a(b5),E1=a(qB),E2=a(b5),E3=[0,a("the closed design with other bounds on psi than one from below and one from above"),0],E4=a(hI),E5=a(f5),E6=a(d1),E9=a(b5),E_=a(bN),E$=a(bL),Fa=a(rk),Fb=a(rz),Fc=a(h1),Fd=a(ql),ET=[0,a(aQ),0],EU=a('the mechanism "'),Fe=a(kx),Fo=a(hZ),Fp=a(cP),Fq=a(ks),Fr=a(kA),Fw=a(b5),Fz=a(cP),Fx=[0,a("a platform that turns on struts and other drives"),0],Fy=a(b5),EX=[0,a(aQ),0],EY=a('the workspace "'),FD=a(bt),FE=a(bt),FG=a(f1),FH=a(fX),FI=a(h1),FF=[0,a("an atlas of such a machine"),0],EA=[0,a(aQ),0],EB=a('a claim of the kind "'),FW=a(kE),FX=a(ds),FY=a(eO),FZ=a(ky),F0=a(fT),F1=[0,a('this evidence "fan"'),0],FN=a(ds),F$=a(f0),Ga=[0,1,1],FO=a(q4),F2=a(eL),F3=a(qy),F4=a(eN),F5=a(qz),F6=a(qY),F7=a(bM),F8=a(f0),F9=a(hK),F_=a(bM),FP=a(kE),FQ=a(ds),FR=a(qk),FS=a(eO),FT=a(ky),FU=[0,a(aQ),0],FV=a('the evidence "'),Gb=a(eL),Gc=a(eN),Gd=a(ds),Ge=a(eO),Gf=a(rB),Gh=a(eL),Gi=a(eN),Gj=a(ds),Gk=a(eO),Gl=a(fY),Gm=a(fT),Gn=a(fY),Go=a(fT),Gg=[0,a("this evidence at control points"),0],Hu=a('"orthocert-paving/'),Hm=a(ds),Hn=a(ds),G6=a(qT),G7=a(qv),G8=a(rs),Hs=[0,3,3],G9=a(qD),Hf=[0,a("this set of orientations with such drives"),0],Hg=[0,a('"parallel_margin" of struts in such a claim'),0],Hh=[0,a('"one_to_one" of planes in such a claim'),0],Ho=[0,a('this evidence "tolerances" of a platform that turns'),0],Hp=[0,a("a step of a platform that turns that is not at control points"),0],Hq=[0,a('the evidence "tolerances" of such a mechanism'),0],Hr=[0,a(q1),0],Hi=[0,a('"accuracy" of such a mechanism'),0],Hl=[0,a(q1),0],Hj=[0,a("this quantity in a claim that is refuted"),0],Hk=[0,a("a step in a proof that no cube fits"),0],G_=[0,a("the acceleration of a joint of a machine with a plane"),0],Hd=[0,a("a stiffness for each joint in such a claim"),0],He=[0,a(rf),0],Hc=[0,a(rf),0],G$=a(qU),Ha=a(p2),Hb=a(hM),G2=a(kD),G3=a(fT),G4=a(bM),GU=a(hO),GV=a(qN),GW=a(rw),GX=[0,a(aQ),0],GY=a('a proof of the kind "'),GQ=a(fX),GR=a(f1),GS=a(hP),GT=a(q6),GM=a(bt),GN=a(hX),GO=a(p3),GP=a(hU),GJ=a(rq),GK=a(fY),GL=a(hU),GF=a(q9),GG=a(hX),GH=a(hP),GI=a(rF),Gr=a(rA),Gs=a(hT),Gt=a(rx),Gu=a(hR),Gv=a(re),Gw=a(rL),Gz=a(rm),GA=a(hK),GB=a(f0),GC=a(rp),GD=a(rb),GE=a(hT),Gx=[0,a(aQ),0],Gy=a('the failure "'),Gp=a(kD),Gq=a(rJ),FL=a(f0),FM=a(hK),FJ=a(p1),FK=a(p4),Et=a(f5),Ej=a(kl),Ek=a(p6),El=a(eP),Em=a(bi),Er=a(rt),Es=a(f5),Eu=a(d2),Ev=a(eP),En=a(d2),Eo=a(qW),Ep=a(qw),Eq=a(bi),Ec=a(d1),Eg=a(bN),Eh=a(bL),Ed=a(kq),Ee=a(ku),Ef=a(d2),D8=a(d1),Ea=a(bN),Eb=a(bL),D9=a(kq),D_=a(ku),D$=a(d2),D7=[0,1],D6=[0,1],D4=[0,1],D2=[0,1],D1=[0,1],DZ=[0,1],D0=[0,a("this quantity of such a mechanism"),0],DI=a(km),DJ=a(rg),DK=a(qj),DL=a(kC),DM=a(rM),DO=a(rh),DN=a(fW),DH=a(hM),Dz=a(hS),Dn=a(q2),Do=a(q$),DR=a(eL),DS=a(rv),DT=a(qA),DU=a(eN),DV=a(q3),DW=a(qb),DX=a(qc),DY=a(p5),Dp=a(p_),Dq=a(rP),Dr=a(rn),Ds=a(rc),Dt=a(qr),Du=a(rO),Dv=a(qe),Dw=a(qd),Dx=[0,a(aQ),0],Dy=a('the quantity "'),DA=a(qn),DB=a(rl),DC=a(bN),DD=a(bL),DE=a(rC),DF=[0,a(aQ),0],DG=a('a bound "'),DP=a(fV),DQ=a(eP),Dl=a(bK),Dm=a(eT),C0=a(bK),C1=a(f3),C2=a(f4),C3=a(cP),C4=a(h0),C5=a(eT),C8=a(bi),C9=a(bJ),C_=a(fU),C$=a(eK),Da=a(bi),Db=a(bJ),Dc=a(bM),Dd=a(bM),De=a(fU),Df=a(eK),Dg=a(f4),Dh=a(bi),Di=a(bJ),Dj=a(q0),Dk=a(fW),C6=[0,a('" of such a machine'),0],C7=a(qi),CY=a(bK),CZ=a(f4),CI=a(bK),CJ=a(cP),CK=a(h0),CL=a(eT),CO=a(f3),CP=a(bi),CQ=a(bJ),CR=a(fU),CS=a(eK),CT=a(bi),CU=a(bJ),CV=a(bM),CW=a(bM),CM=[0,a(aQ),0],CN=a(qi),CF=a(hV),CG=a(eS),CD=a(" is not covered by the verified checker"),CE=a(ae),CB=a(bN),CC=a(bL),Cx=a(ae),Cy=a(rQ),Cz=a(ae),CA=a(ae),Cw=[1,0],Cv=a(eS),Ct=a("Reader.Malformed"),Cu=a("Reader.Not_covered"),Hw=[0,a("a paving is checked by orthocert-verified")],Hv=a(q5),Hx=a("CERTIFIED"),Hy=a("REFUTED"),Hz=a(q5),HA=a("NOT COVERED: ");function
-f$(a){throw[0,kW,a]}function
-ba(d,c){var
-a=ax(d),e=ax(c),b=cq(a+e|0);eV(d,0,b,0,a);eV(c,0,b,a,e);return h9(b)}I_(0);sb(1);sb(2);function
-kY(b){function
+Js(){var
+a=S;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){sc(b);a.process.exit(2)});else
+if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)sc(a.error)})}Js();function
+k(a,b){return a.length==1?a(b):dv(a,[b])}function
+ar(a,b,c){return a.length==2?a(b,c):dv(a,[b,c])}function
+f1(a,b,c,d){return a.length==3?a(b,c,d):dv(a,[b,c,d])}function
+kx(a,b,c,d,e){return a.length==4?a(b,c,d,e):dv(a,[b,c,d,e])}I6();var
+ld=[a6,a(qN),-2],lc=[a6,a(rZ),-4],HM=[0,[0,[0,[0,0]]]],HN=[0,0],HO=[0,0],HP=[0,[0,0]],HQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HP]]]]]]]]]]],hI=[0,[1,0],0],ps=[0,[2,0],0],kd=[0,[1,0],0],pr=[0,[2,0],0],hG=[0,[1,0],0],kc=[0,[2,0],0],HR=[0,[0,[0,[0,0]]]],HS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HR]]]]]]]]]]],HT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HS]]]]]]]]]]],HU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HT]]]]]]]]]]],HV=[0,[0,0]],HW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HV]]]]]]]]]]],HX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HW]]]]]]]]]]],HY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HX]]]]]]]]]]],HZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HY]]]]]]]]]]],H0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],H1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H0]]]]]]]]]]],H2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H1]]]]]]]]]]],H3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H2]]]]]]]]]]],H4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H3]]]]]]]]]]],H5=[0,[0,0]],H6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H5]]]]]]]]]]],H7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H6]]]]]]]]]]],H8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H7]]]]]]]]]]],H9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H8]]]]]]]]]]],H_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H9]]]]]]]]]]],H$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H_]]]]]]]]]]],Ia=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H$]]]]]]]]]]],Ib=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],Ic=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ib]]]]]]]]]]],Id=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ic]]]]]]]]]]],Ie=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Id]]]]]]]]]]],If=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ie]]]]]]]]]]],Ig=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,If]]]]]]]]]]],Ih=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ig]]]]]]]]]]],Ii=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ih]]]]]]]]]]],Ij=[0,0],Ik=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ij]]]]]]]]]]],Il=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ik]]]]]]]]]]],Im=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Il]]]]]]]]]]],In=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Im]]]]]]]]]]],Io=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,In]]]]]]]]]]],Ip=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Io]]]]]]]]]]],Iq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ip]]]]]]]]]]],Ir=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Iq]]]]]]]]]]],Is=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ir]]]]]]]]]]],It=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Is]]]]]]]]]]],Iu=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],Iv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Iu]]]]]]]]]]],Iw=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],Ix=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Iw]]]]]]]]]]],Iy=[0,[0,[0,[0,[0,0]]]]],Iz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Iy]]]]]]]]]]],IA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Iz]]]]]]]]]]],IB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IA]]]]]]]]]]],IC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IB]]]]]]]]]]],ID=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IC]]]]]]]]]]],IE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,ID]]]]]]]]]]],IF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IE]]]]]]]]]]],IG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IF]]]]]]]]]]],IH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IG]]]]]]]]]]],II=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IH]]]]]]]]]]],IJ=[0,0],IK=[0,[0,0]],IL=[0,0],IM=[0,[0,[0,[0,[0,0]]]]],dD=[0,[0,[0,0]]],dF=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],hx=[0,[0,[0,[0,0]]]],IN=[0,[0,[0,[0,[0,0]]]]],IO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IN]]]]]]]]]]],IP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IO]]]]]]]]]]],IQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IP]]]]]]]]]]],IR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IQ]]]]]]]]]]];bN(11,[a6,a(qd),-12],qd);bN(10,[a6,a(q3),-11],q3);bN(9,[a6,a(rO),-10],rO);bN(8,[a6,a(qp),-9],qp);bN(7,[a6,a(rf),-8],rf);bN(6,[a6,a(qn),-7],qn);bN(5,[a6,a(qO),-6],qO);bN(4,[a6,a(qS),-5],qS);bN(3,lc,rZ);bN(2,[a6,a(kH),-3],kH);bN(1,ld,qN);bN(0,[a6,a(ry),-1],ry);var
+sz=a("String.sub / Bytes.sub"),sB=a(ae),sA=a("String.concat"),sC=a("Array.init"),sD=a("power"),sW=[0,0],sX=[0,0],s3=[0,0,0],s4=[0,0,0],s5=[0,0],tp=[0,0],tq=[0,0],tt=[0,0],tO=[0,0],tR=[0,0],tV=[0,0],tW=[0,0],tX=[0,0],tY=[0,0],ua=[0,0],ub=[0,0],uE=[0,0],u4=[0,[0,[0,0]]],vt=[0,0],vU=[0,0],wg=[0,0],wr=a(","),wJ=[0,a(kN),0],wK=a(qX),wL=a("."),wM=[0,[0,[0,0]]],wN=a(eZ),wO=a(kO),wP=[0,[0,[0,[0,[0,0]]]]],wQ=[0,a(kN),0],wR=a(rX),zU=a(qa),zW=a(p9),zV=a(q6),zX=a(eU),zY=a(eS),zZ=a(kW),z0=a(rI),z1=a(qH),z2=a(kQ),z3=a(q$),z4=a(qG),Bj=[0,[0,0,0]],BA=[0,0],Bk=a(f2),Bl=[0,0],Bm=a("divided"),Bn=[0,1],Bo=a("mirror"),Bp=[0,3],Bq=a("negative"),Br=[0,2],Bs=a(f7),Bt=[0,5],Bu=a(kV),Bv=[0,4],Bw=a(dt),Bx=a(qs),By=a(eV),Bz=a(bL),BB=[0,0],BC=[0,0],BD=[0,0],BG=[0,[0,[0,0]]],BH=[0,[0,[0,0]]],B8=[0,[0,[0,0]]],Ck=[0,0],CE=a(ae),Cw=[0,0],Cy=[0,0],Cx=[0,0],Cz=[0,[0,[0,[0,0]]]],CA=[0,[0,[0,0]]],CB=[0,[0,[0,[0,0]]]],CC=[0,[0,[0,0]]],Cu=[0,[0,[0,0]]],Ct=[0,0],Cs=a(eV),Cr=[0,0],Cp=[0,1,0],Cq=[0,[0,[0,0]]],Co=[0,0],Cl=[0,[0,0]],Cm=[0,[0,[0,0]]],Ci=[0,[0,0]],Cj=[0,[0,[0,0]]],Ch=[0,0],Cd=[0,[0,[0,0]]],Cc=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HM]]]]]]]]]],[0,0,[0,[0,[0,[0,0]]],0]]],B9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],[0,0,0]],B_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],[0,[0,[0,[0,[0,[0,[0,0]]]]]],0]],B$=[0,[0,[0,[0,[0,[0,[0,0]]]]]],0],Ca=[0,[0,[0,[0,0]]],[0,0,0]],B6=[0,0],B7=[0,[0,0]],B5=[0,0,0],B4=[0,[0,[0,0]]],BY=[0,[0,0]],BZ=[0,[0,[0,0]]],B0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HN]]]]]]]]]]],B1=[0,[0,0]],B2=[0,[0,[0,0]]],BX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HO]]]]]]]]]]],BV=[0,[0,0]],BW=[0,[0,[0,0]]],BT=[0,[0,[0,0]]],BU=[0,[0,0]],BS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HQ]]]]]]]]]]],BR=[0,0],BQ=[0,0],BN=[0,[0,0]],BO=[0,0],BL=[0,0],BM=[0,1],BJ=[0,[0,0]],BK=[0,0],BI=[0,0],BE=[0,0],BF=[0,1],Bg=[0,0],Bh=[0,1],Bi=[0,2],Bc=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],Ba=[0,[0,0],0],Bb=[0,[1,0],0],Bd=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],A_=[0,[0,0]],A$=[0,0],A9=[0,0],A8=[0,0],A7=[0,0],A6=[0,0],A5=[0,0,0],A3=[0,[0,0]],A4=[0,0],A2=[0,0,0],A0=[0,[0,[0,0]]],A1=[0,[0,[0,0]]],AZ=[0,0],AX=[0,1,0],AP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HU]]]]]]]]]]],AQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HZ]]]]]]]]]]],AL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H4]]]]]]]]]]],AM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ia]]]]]]]]]]],AN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ii]]]]]]]]]]],AO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,It]]]]]]]]]]],AR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Iv]]]]]]]]]]],AS=a("sqrt"),AJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ix]]]]]]]]]]],AK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,II]]]]]]]]]]],Ay=[0,a("\n"),0],Az=a(p_),AA=a(hY),AB=a(q2),AC=a(qL),AI=a(f_),AD=a(f6),AE=a("verdict"),AF=a(rz),AG=a(qD),AH=a(q1),Av=a(qV),Aw=a(rD),Ax=a(h0),Ar=a(rb),As=a(h1),At=a(f6),Au=a(f_),Am=a(h9),An=a(bt),Ao=a(p$),Ap=a(h6),Aj=a(rx),Ak=a(f7),Al=a(h6),Af=a(re),Ag=a(h9),Ah=a(h1),Ai=a(rM),z6=a(rE),z7=a(rH),z8=a(h5),z9=a(h3),z_=a(rS),z$=a(rt),Aa=a(rw),Ab=a(ri),Ac=a(h5),Ad=a(rl),zS=a(hW),zT=a(f9),zN=a(bM),zO=a(bK),zP=a(qF),zn=a(h3),zo=a(rh),y3=a(bt),y4=a(b5),y5=a(h$),y6=a(eY),y7=a(cR),za=a(kA),y8=a(kP),y9=a(kS),y_=a(eT),y$=a(bt),zb=a(b5),zc=a(h$),zd=a(eY),ze=a(kP),zf=a(kS),zg=a(eT),zh=a(bt),zi=a(b5),zj=a(bM),zk=a(bK),zl=a(d4),zm=a(eY),zp=a(rr),zq=a(rG),zr=a(ib),zs=a(qt),zt=a(qy),zu=a(eT),zv=a(bt),zw=a(b5),zx=a(hU),zy=a(qJ),zz=a(eY),zA=a(gc),zB=a(qh),zC=a(eT),zD=a(bt),zE=a(hU),zF=a(bt),zG=a(rk),zJ=a(p8),zH=a(qw),zI=a(rL),zK=a(f_),zL=a(f6),zM=a(bt),zQ=a(ib),zR=a(h0),yY=a(b5),yZ=a(eY),y0=a(kA),y1=a(eT),yX=a(rU),yL=a(gc),yM=a(rA),yN=a(d5),yO=a(eW),yP=a(eW),yQ=a(kD),yR=a(d5),yS=a(q4),yT=a(qE),yU=a(bk),yW=a(qc),yV=a(kD),yB=a(qU),yC=a(rY),yD=a(qA),yE=a(qx),yF=a(rK),yG=a(rv),yH=a(qM),yI=a(hV),yJ=a(hV),yx=a(bk),yy=a(bI),yz=a(e0),yA=a(bJ),yt=a(cR),yu=a(kK),yv=a(rc),yq=a(bM),yr=a(bK),ys=a(d4),yj=a(bM),yk=a(bK),yl=a(d4),ym=a(kM),yn=a(d5),yo=a(kI),yp=a(rq),x3=a(qv),x9=a(hY),x8=a(kU),x4=a(kE),x5=a(f4),x_=a(f5),ya=a(f5),yb=a(ro),yc=a(kE),x$=a(f4),yd=a(qr),ye=a(rn),yf=a(f4),yg=a(rT),yh=a(kU),yi=a(f4),x6=a(eW),x7=a(q9),x0=a(h4),x1=a(h4),x2=a(h4),xW=a(rs),xX=a(bK),xY=a(bM),xZ=a(rJ),xF=a(ql),xG=a(qb),xH=a(rg),xI=a(eU),xJ=a(rV),xK=a(rj),xL=a(qm),xM=a(q_),xN=a(qk),xO=a(qI),xP=a(qj),xQ=a(ru),xR=a(eS),xS=a(qg),xT=a(rC),xU=a(qz),xV=a(rW),xg=a(h7),xi=a(eZ),xh=a(f3),xj=a(eR),xk=a(bk),xl=a(bI),xm=a(bL),xn=a(ia),xo=a(bJ),xp=a(ga),xq=a(bk),xr=a(bI),xs=a(e0),xt=a(bJ),xu=a(bL),xv=a(cR),xw=a(bJ),xx=a(eR),xy=a(gb),xz=a(bk),xA=a(bI),xB=a(q8),xC=a(f5),xD=a(gb),xE=a(bJ),w0=a(h7),w8=a(eZ),w1=a(f3),w2=a(eR),w3=a(bk),w4=a(bI),w5=a(bL),w6=a(ia),w7=a(bJ),w9=a(ga),w_=a(bk),w$=a(bI),xa=a(e0),xb=a(bJ),xc=a(bL),xd=a(cR),xe=a(bJ),wX=a(bM),wY=a(bK),wV=[0,a(aR),0],wW=a(aR),wT=a(ae),wS=[0,a(aR),0],wU=a(aR),wF=a(h7),wG=a(eZ),wH=a("*"),wI=a(b6),wA=[0,[0,[0,[0,[0,0]]]]],wB=[0,[0,[0,0]]],wC=[0,[0,0]],wD=[0,0],wE=[0,[0,[0,[0,0]]]],wy=a('":'),wz=a(aR),ww=[0,a(aR),0],wx=a(aR),wu=[0,a("}"),0],wv=a("{"),ws=[0,a("]"),0],wt=a("["),wq=[0,[0,[0,0]]],wp=[0,[0,[0,0]]],wn=[0,0],wk=[0,[0,[0,0]]],wl=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],wm=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],wi=[0,[0,0]],wj=[0,[0,[0,0]]],wh=[0,0],we=[0,0],wf=[0,[0,0]],wb=[0,0],wc=[0,[0,0]],wd=[0,0],v8=[0,[0,0]],v9=[0,0],v_=[0,[0,[0,0]]],v$=[0,[0,[0,0]]],v7=[0,[0,[0,0]]],v6=[0,[0,[0,0]]],v5=[0,0],v2=[0,[0,[0,0]]],v4=[0,[0,[0,0]]],v3=[0,0],v0=[0,[0,0]],v1=[0,0],vY=[0,[0,0]],vZ=[0,0],vX=[0,[0,[0,0]]],vV=[0,[0,0]],vW=[0,0],vS=[0,0],vT=[0,[0,0]],vM=[0,[0,0]],vN=[0,[0,[0,[0,[0,0]]]]],vO=[0,[0,[0,[0,0]]]],vP=[0,[0,[0,0]]],vQ=[0,[0,0]],vR=[0,0],vJ=[0,0],vK=[0,[0,0]],vL=[0,0],vI=[0,0],vE=[0,0],vF=[0,[0,[0,[0,[0,[0,0]]]]]],vG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IJ]]]]]]]]]]],vC=[0,0],vx=[0,0,0],vy=[0,0,0],vz=[0,0,0],vu=[0,[0,0]],vv=[0,[0,[0,0]]],vw=[0,0],vj=[0,[0,[0,[0,[0,[0,0]]]]]],vk=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],vl=[0,[0,[0,0]]],vm=[0,[0,[0,0]]],vn=[0,[0,[0,[0,[0,[0,0]]]]]],vo=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],vp=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IK]]]]]]]]]]],vq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IL]]]]]]]]]]],vr=[0,[0,[0,0]]],vs=[0,[0,[0,[0,[0,[0,0]]]]]],vf=[0,0,0],vg=[0,0,0],vb=[0,0,0],vc=[0,0,0],vd=[0,0,0],ve=[0,0,0],va=[0,0],u$=[0,0],u_=[0,0],u8=[0,0],u9=[0,0],u7=[0,0],u5=[0,0],u6=[0,0],uX=[0,0],uY=[0,0],uZ=[0,0],u0=[0,[0,[0,0]]],uW=[0,0],uQ=[0,0],uR=[0,0],uS=[0,[0,0]],uO=[0,[0,0]],uP=[0,[0,[0,0]]],uM=[0,[0,[0,0]]],uN=[0,[0,0]],uK=[0,[0,0]],uL=[0,[0,[0,0]]],uJ=[0,0],uH=[0,0],uI=[0,0],uF=[0,0,0],uC=[0,[0,0]],uD=[0,0],uu=[0,[0,0]],uv=[0,0],uw=[0,[0,0]],ux=[0,0],uy=[0,[0,0]],uz=[0,0],uA=[0,[0,0]],uB=[0,0],us=[0,[0,0]],ut=[0,0],uq=[0,[0,0]],ur=[0,0],um=[0,[0,0]],un=[0,0],uo=[0,0],up=[0,[0,0]],ud=[0,[0,0]],ue=[0,0],uf=[0,[0,0]],ug=[0,0],uh=[0,0],ui=[0,[0,0]],uj=[0,[0,0]],uk=[0,[0,0]],ul=[0,0],t$=[0,0],t_=[0,0],t7=[0,0],t8=[0,[0,0]],t6=[0,[0,[0,0]]],t5=[0,[0,[0,[0,[0,[0,0]]]]]],t3=[0,[0,0]],t4=[0,0],t2=[0,[0,0]],t1=[0,0],tZ=[0,0],t0=[0,[0,[0,0]]],tT=[0,[0,0]],tU=[0,[0,[0,0]]],tS=[0,[0,[0,0]]],tP=[0,[0,[0,0]]],tN=[0,[0,[0,0]]],tL=[0,[0,[0,[0,[0,[0,0]]]]]],tM=[0,[0,[0,[0,[0,[0,0]]]]]],tG=[0,[0,0]],tH=[0,0],tI=[0,[0,0]],tJ=[0,[0,[0,0]]],tK=[0,[0,[0,0]]],tz=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],tA=[0,[0,[0,[0,[0,[0,0]]]]]],tB=[0,[0,[0,[0,[0,[0,0]]]]]],tC=[0,[0,[0,0]]],tD=[0,[0,[0,[0,[0,[0,0]]]]]],tE=[0,[0,[0,0]]],tF=[0,[0,[0,0]]],tx=[0,[0,0]],ty=[0,0],tw=[0,0,0],tv=[0,0,0],tu=[0,0,0],ts=[0,0,0],tr=[0,[0,[0,0]]],tl=[0,0],tm=[0,0],tn=[0,0],to=[0,0],tj=[0,0],tk=[0,0],tf=[0,[0,[0,0]]],tg=[0,[0,[0,0]]],th=[0,[0,[0,0]]],te=[0,[0,[0,[0,0]]]],ta=[0,[0,[0,0]]],tb=[0,[0,[0,0]]],tc=[0,[0,[0,0]]],td=[0,[0,1,1],[0,[0,0,1],[0,[0,1,0],[0,[0,0,0],0]]]],s_=[0,[0,0]],s$=[0,0],s8=[0,[0,0]],s9=[0,0],s6=[0,[0,0]],s7=[0,0],sT=[0,0],sU=[0,[0,0]],sR=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],sS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IM]]]]]]]]]]],sP=[0,0,0],sO=a(rQ),sN=a(ae),sM=[0,[0,0]],sK=[0,0],sH=[0,0],sJ=[1,0],sI=[0,0],sG=[0,0],sE=[1,0],sF=[1,0],t9=[10,0,0,0,0],Cn=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IR]]]]]]]]]]],FM=a(bM),FN=a(bK),FO=a(qF),FE=a(ga),FF=[0,a("a base axis of such a platform"),0],FG=a(bk),FH=a(bI),Fr=a(rv),Fs=a(qU),Ft=a(rK),Fu=a(hV),Fv=a(qM),Fw=a(hV),Fx=a(rY),Fy=a(qA),Fz=a(qx),Fh=a(rh),Fi=a(h3),EV=[0,a("such a machine with bodies"),0],EI=a(h0),EJ=a(bt),EK=a(rk),EL=a(rL),EO=a(qw),EP=a(p8),EQ=a(bt),ER=a(bt),ET=a(hU),ES=[0,a("a claim that no cube of such a machine fits"),0],EU=a(rU),EW=a(eT),EX=a(eY),EY=a(cR),EZ=a(kK),E0=a(rc),E1=a(h$),E2=a(qy),E3=a(qh),E4=a(kA),E7=a(d4),E8=a(rq),E$=a(b5),Fa=a(b5),Fb=a(qJ),Fc=a(b5),Fd=[0,a("the closed design with other bounds on psi than one from below and one from above"),0],Fe=a(hU),Ff=a(gc),Fg=a(d4),Fj=a(b5),Fk=a(bM),Fl=a(bK),Fm=a(rr),Fn=a(rG),Fo=a(ib),Fp=a(qt),E5=[0,a(aR),0],E6=a('the mechanism "'),Fq=a(kP),FA=a(h$),FB=a(cR),FC=a(kK),FD=a(kS),FI=a(b5),FL=a(cR),FJ=[0,a("a platform that turns on struts and other drives"),0],FK=a(b5),E9=[0,a(aR),0],E_=a('the workspace "'),FP=a(bt),FQ=a(bt),FS=a(f_),FT=a(f6),FU=a(ib),FR=[0,a("an atlas of such a machine"),0],EM=[0,a(aR),0],EN=a('a claim of the kind "'),F8=a(kW),F9=a(dt),F_=a(eV),F$=a(kQ),Ga=a(f2),Gb=[0,a('this evidence "fan"'),0],FZ=a(dt),Gl=a(f9),Gm=[0,1,1],F0=a(q$),Gc=a(eS),Gd=a(qG),Ge=a(eU),Gf=a(qH),Gg=a(q6),Gh=a(bL),Gi=a(f9),Gj=a(hW),Gk=a(bL),F1=a(kW),F2=a(dt),F3=a(qs),F4=a(eV),F5=a(kQ),F6=[0,a(aR),0],F7=a('the evidence "'),Gn=a(eS),Go=a(eU),Gp=a(dt),Gq=a(eV),Gr=a(rI),Gt=a(eS),Gu=a(eU),Gv=a(dt),Gw=a(eV),Gx=a(f7),Gy=a(f2),Gz=a(f7),GA=a(f2),Gs=[0,a("this evidence at control points"),0],HF=a('"orthocert-paving/'),Hv=a(dt),Hw=a(dt),Hg=a(q1),Hh=a(qD),Hi=a(rz),HD=[0,3,3],Hj=a(qL),Hr=[0,a("this set of orientations with such drives"),0],Hs=[0,a('"parallel_margin" of struts in such a claim'),0],Ht=[0,a('"one_to_one" of planes in such a claim'),0],Hx=[0,a('this evidence "tolerances" of a platform that turns'),0],Hy=[0,a("a step of a platform that turns that is not at control points"),0],Hz=[0,a('the evidence "tolerances" of such a mechanism'),0],HA=[0,a("this quantity in a claim that is refuted"),0],HB=[0,a("a step in a proof that no cube fits"),0],HC=[0,a('the failure "same" of such a mechanism'),0],Hu=[0,a('"accuracy" of such a mechanism'),0],Hk=[0,a("the acceleration of a joint of a machine with a plane"),0],Hp=[0,a("a stiffness for each joint in such a claim"),0],Hq=[0,a(rm),0],Ho=[0,a(rm),0],Hl=a(q2),Hm=a(p_),Hn=a(hY),Hc=a(kV),Hd=a(f2),He=a(bL),G6=a(h0),G7=a(qV),G8=a(rD),G9=[0,a(aR),0],G_=a('a proof of the kind "'),G2=a(f6),G3=a(f_),G4=a(h1),G5=a(rb),GY=a(bt),GZ=a(h9),G0=a(p$),G1=a(h6),GV=a(rx),GW=a(f7),GX=a(h6),GR=a(re),GS=a(h9),GT=a(h1),GU=a(rM),GD=a(rH),GE=a(h5),GF=a(rE),GG=a(h3),GH=a(rl),GI=a(rS),GL=a(rt),GM=a(hW),GN=a(f9),GO=a(rw),GP=a(ri),GQ=a(h5),GJ=[0,a(aR),0],GK=a('the failure "'),GB=a(kV),GC=a(rQ),FX=a(f9),FY=a(hW),FV=a(p9),FW=a(qa),EF=a(gc),Ev=a(kD),Ew=a(qc),Ex=a(eW),Ey=a(bk),ED=a(rA),EE=a(gc),EG=a(d5),EH=a(eW),Ez=a(d5),EA=a(q4),EB=a(qE),EC=a(bk),Eo=a(d4),Es=a(bM),Et=a(bK),Ep=a(kI),Eq=a(kM),Er=a(d5),Ei=a(d4),Em=a(bM),En=a(bK),Ej=a(kI),Ek=a(kM),El=a(d5),Eh=[0,1],Eg=[0,1],Ee=[0,1],Ec=[0,1],Eb=[0,1],D$=[0,1],Ea=[0,a("this quantity of such a mechanism"),0],DU=a(kE),DV=a(rn),DW=a(qr),DX=a(kU),DY=a(rT),D0=a(ro),DZ=a(f5),DT=a(hY),DL=a(h4),Dz=a(q9),DA=a(rg),D3=a(eS),D4=a(rC),D5=a(qI),D6=a(eU),D7=a(q_),D8=a(qj),D9=a(qk),D_=a(qb),DB=a(qg),DC=a(rW),DD=a(ru),DE=a(rj),DF=a(qz),DG=a(rV),DH=a(qm),DI=a(ql),DJ=[0,a(aR),0],DK=a('the quantity "'),DM=a(qv),DN=a(rs),DO=a(bM),DP=a(bK),DQ=a(rJ),DR=[0,a(aR),0],DS=a('a bound "'),D1=a(f4),D2=a(eW),Dx=a(bJ),Dy=a(e0),Da=a(bJ),Db=a(ga),Dc=a(gb),Dd=a(cR),De=a(ia),Df=a(e0),Di=a(bk),Dj=a(bI),Dk=a(f3),Dl=a(eR),Dm=a(bk),Dn=a(bI),Do=a(bL),Dp=a(bL),Dq=a(f3),Dr=a(eR),Ds=a(gb),Dt=a(bk),Du=a(bI),Dv=a(q8),Dw=a(f5),Dg=[0,a('" of such a machine'),0],Dh=a(qq),C_=a(bJ),C$=a(gb),CU=a(bJ),CV=a(cR),CW=a(ia),CX=a(e0),C0=a(ga),C1=a(bk),C2=a(bI),C3=a(f3),C4=a(eR),C5=a(bk),C6=a(bI),C7=a(bL),C8=a(bL),CY=[0,a(aR),0],CZ=a(qq),CR=a(h7),CS=a(eZ),CP=a(" is not covered by the verified checker"),CQ=a(ae),CN=a(bM),CO=a(bK),CJ=a(ae),CK=a(rX),CL=a(ae),CM=a(ae),CI=[1,0],CH=a(eZ),CF=a("Reader.Malformed"),CG=a("Reader.Not_covered"),HH=[0,a("a paving is checked by orthocert-verified")],HG=a(ra),HI=a("CERTIFIED"),HJ=a("REFUTED"),HK=a(ra),HL=a("NOT COVERED: ");function
+gi(a){throw[0,lc,a]}function
+bd(d,c){var
+a=az(d),e=az(c),b=cq(a+e|0);e2(d,0,b,0,a);e2(c,0,b,a,e);return ik(b)}Jj(0);si(1);si(2);function
+le(b){function
 a(b){var
 a=b;for(;;){if(a){var
-c=a[2],d=a[1];try{I9(d)}catch(a){a=sl(a);if(a[1]!==kX)throw a;var
+c=a[2],d=a[1];try{Ji(d)}catch(a){a=ss(a);if(a[1]!==ld)throw a;var
 e=a}var
-a=c;continue}return 0}}return a(I$(0))}Jg(a(p8),kY);function
+a=c;continue}return 0}}return a(Jk(0))}Jr(a(qe),le);function
 cs(c){var
 b=0,a=c;for(;;){if(a){var
 b=b+1|0,a=a[2];continue}return b}}function
-kZ(d){var
+lf(d){var
 a=d,b=0;for(;;){if(a){var
 c=[0,a[1],b],a=a[2],b=c;continue}return b}}function
 _(b,a){if(a){var
-c=a[2],d=j(b,a[1]);return[0,d,_(b,c)]}return 0}function
-h$(d,c){var
+c=a[2],d=k(b,a[1]);return[0,d,_(b,c)]}return 0}function
+im(d,c){var
 a=c;for(;;){if(a){var
-e=a[2],b=j(d,a[1]);if(b){var
+e=a[2],b=k(d,a[1]);if(b){var
 a=e;continue}return b}return 1}}function
-aF(d,c){var
+aG(d,c){var
 a=c;for(;;){if(a){var
-e=a[2],b=j(d,a[1]);if(b)return b;var
+e=a[2],b=k(d,a[1]);if(b)return b;var
 a=e;continue}return 0}}function
-bP(b,c){var
-a=cq(b);IT(a,0,b,c);return h9(a)}function
-d8(g,b,a){var
-d=eW(g),f=0;if(0<=b&&0<=a&&!((h7(d)-a|0)<b)){var
-c=cq(a);f6(d,b,c,0,a);var
+bO(b,c){var
+a=cq(b);I4(a,0,b,c);return ik(a)}function
+d$(g,b,a){var
+d=e3(g),f=0;if(0<=b&&0<=a&&!((ii(d)-a|0)<b)){var
+c=cq(a);gd(d,b,c,0,a);var
 e=c;f=1}if(!f)var
-e=f$(ss);return h9(e)}function
-k0(k,g){if(g){var
-h=ax(k),c=0,b=g,p=0;for(;;){if(b){var
+e=gi(sz);return ik(e)}function
+lg(k,g){if(g){var
+h=az(k),c=0,b=g,p=0;for(;;){if(b){var
 i=b[1];if(b[2]){var
-j=(ax(i)+h|0)+c|0,m=b[2],n=c<=j?j:f$(st),c=n,b=m;continue}var
-l=ax(i)+c|0}else
+j=(az(i)+h|0)+c|0,m=b[2],n=c<=j?j:gi(sA),c=n,b=m;continue}var
+l=az(i)+c|0}else
 var
 l=c;var
 f=cq(l),e=p,d=g;for(;;){if(d){var
 a=d[1];if(d[2]){var
-o=d[2];eV(a,0,f,e,ax(a));eV(k,0,f,e+ax(a)|0,h);var
-e=(e+ax(a)|0)+h|0,d=o;continue}eV(a,0,f,e,ax(a))}return h9(f)}}}return su}function
-ia(b,c){if(0===b)return[0];if(0<=b){var
-d=I8(b,j(c,0)),e=b-1|0,f=1;if(!(e<1)){var
-a=f;for(;;){d[1+a]=j(c,a);var
+o=d[2];e2(a,0,f,e,az(a));e2(k,0,f,e+az(a)|0,h);var
+e=(e+az(a)|0)+h|0,d=o;continue}e2(a,0,f,e,az(a))}return ik(f)}}}return sB}function
+io(b,c){if(0===b)return[0];if(0<=b){var
+d=Jh(b,k(c,0)),e=b-1|0,f=1;if(!(e<1)){var
+a=f;for(;;){d[1+a]=k(c,a);var
 g=a+1|0;if(e!==a){var
-a=g;continue}break}}return d}return f$(sv)}function
-ib(c){var
+a=g;continue}break}}return d}return gi(sC)}function
+ip(c){var
 a=c.length-1-1|0,b=0;for(;;){if(0<=a){var
 d=[0,c[1+a],b],a=a-1|0,b=d;continue}return b}}var
-d=aH(0),b=aH(1);function
+d=aJ(0),b=aJ(1);function
 q(a){return E(a,b)}function
-k1(b,a){return E(aH(b),a)}function
-c(b,a){return C(aH(b),a)}function
-aS(b,a){return[0,kT(b,a),so(b,a)]}function
-ic(b,a){return D(b,a)?b:a}function
-bj(b,a){return D(b,a)?a:b}function
-e1(a){return e1}function
-M(a){return a?0:1}function
+lh(b,a){return E(aJ(b),a)}function
+c(b,a){return C(aJ(b),a)}function
+aT(b,a){return[0,k$(b,a),sv(b,a)]}function
+iq(b,a){return D(b,a)?b:a}function
+bl(b,a){return D(b,a)?a:b}function
+e8(a){return e8}function
+N(a){return a?0:1}function
 z(b,a){var
-c=a?[0,j(b,a[1])]:a;return c}function
-ay(a){return a[1]}function
-aT(a){return a[2]}function
+c=a?[0,k(b,a[1])]:a;return c}function
+aA(a){return a[1]}function
+aO(a){return a[2]}function
 g(a){var
 b=a?[0,g(a[2])]:a;return b}function
 f(a,b){if(a){var
 c=f(a[2],b);return[0,a[1],c]}return b}function
-k2(a){return typeof
-a==="number"?0:[0,k2(a[1])]}function
-k3(d,c){var
+li(a){return typeof
+a==="number"?0:[0,li(a[1])]}function
+lj(d,c){var
 a=d,b=c;for(;;)if(typeof
 a==="number")return b;else
 switch(a[0]){case
@@ -797,9 +797,9 @@ a=a[1],b=[7,b];continue;case
 8:var
 a=a[1],b=[8,b];continue;default:var
 a=a[1],b=[9,b];continue}}function
-ga(a){return k3(a,0)}function
-k4(a){if(typeof
-a==="number")return sx;else
+gj(a){return lj(a,0)}function
+lk(a){if(typeof
+a==="number")return sE;else
 switch(a[0]){case
 0:return[1,a[1]];case
 1:return[2,a[1]];case
@@ -809,35 +809,35 @@ switch(a[0]){case
 5:return[6,a[1]];case
 6:return[7,a[1]];case
 7:return[8,a[1]];case
-8:return[9,a[1]];default:return[0,k4(a[1])]}}function
-bR(a){if(typeof
-a==="number")return sy;else
-switch(a[0]){case
-0:return[1,bQ(a[1])];case
-1:return[3,bQ(a[1])];case
-2:return[5,bQ(a[1])];case
-3:return[7,bQ(a[1])];case
-4:return[9,bQ(a[1])];case
-5:return[1,bR(a[1])];case
-6:return[3,bR(a[1])];case
-7:return[5,bR(a[1])];case
-8:return[7,bR(a[1])];default:return[9,bR(a[1])]}}function
+8:return[9,a[1]];default:return[0,lk(a[1])]}}function
 bQ(a){if(typeof
+a==="number")return sF;else
+switch(a[0]){case
+0:return[1,bP(a[1])];case
+1:return[3,bP(a[1])];case
+2:return[5,bP(a[1])];case
+3:return[7,bP(a[1])];case
+4:return[9,bP(a[1])];case
+5:return[1,bQ(a[1])];case
+6:return[3,bQ(a[1])];case
+7:return[5,bQ(a[1])];case
+8:return[7,bQ(a[1])];default:return[9,bQ(a[1])]}}function
+bP(a){if(typeof
 a==="number")return 0;else
 switch(a[0]){case
-0:return[0,bQ(a[1])];case
-1:return[2,bQ(a[1])];case
-2:return[4,bQ(a[1])];case
-3:return[6,bQ(a[1])];case
-4:return[8,bQ(a[1])];case
-5:return[0,bR(a[1])];case
-6:return[2,bR(a[1])];case
-7:return[4,bR(a[1])];case
-8:return[6,bR(a[1])];default:return[8,bR(a[1])]}}function
+0:return[0,bP(a[1])];case
+1:return[2,bP(a[1])];case
+2:return[4,bP(a[1])];case
+3:return[6,bP(a[1])];case
+4:return[8,bP(a[1])];case
+5:return[0,bQ(a[1])];case
+6:return[2,bQ(a[1])];case
+7:return[4,bQ(a[1])];case
+8:return[6,bQ(a[1])];default:return[8,bQ(a[1])]}}function
 bz(a){return a?a[1]:a}function
-N(b,a){return b?[0,N(b[1],a)]:a}function
-k5(a,b){return a?N(b,k5(a[1],b)):a}function
-d9(d,c){var
+L(b,a){return b?[0,L(b[1],a)]:a}function
+ll(a,b){return a?L(b,ll(a[1],b)):a}function
+dw(d,c){var
 a=d,b=c;for(;;){if(a){if(b){var
 a=a[1],b=b[1];continue}return a}return a}}function
 ct(b,a){return b?a:a?0:1}function
@@ -847,62 +847,62 @@ b=b[1],a=a[1];continue}return a}return a?0:1}}function
 aa(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return 1}}function
-aI(b,a){return aa([0,b],a)}function
-k6(c){var
+aK(b,a){return aa([0,b],a)}function
+lm(c){var
 a=c;for(;;){if(a){var
 b=a[1];if(b){var
 a=b[1];continue}return b}return 1}}function
-gb(c,b,a){return c?j(b,gb(c[1],b,a)):a}function
-k7(a){if(a)var
-b=a[1],d=b?[0,k7(b[1])]:b,c=d;else
+gk(c,b,a){return c?k(b,gk(c[1],b,a)):a}function
+ln(a){if(a)var
+b=a[1],d=b?[0,ln(b[1])]:b,c=d;else
 var
 c=a;return c}function
-id(d,c){var
+ir(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return a?0:1}}function
-k8(a){if(D(a,b))return b;var
-e=aS(a,aH(2)),f=e[1];return K(e[2],d)?q(c(2,k8(f))):q(c(2,c(2,f)))}function
-k9(c,a){return bj(b,aL(c,a))}function
-gc(a,i,h){var
-c=i,f=h;for(;;){if(D(f,b))return j(a,c);var
-g=aS(f,aH(2)),e=g[1];if(K(g[2],d)){var
-c=gc(a,c,e),f=e;continue}return j(a,gc(a,gc(a,c,e),e))}}function
-gd(a){function
-c(b){return C(a,b)}return function(a){return gc(c,b,a)}}function
-ge(a){if(D(a,b))return sA;var
-c=aS(a,aH(2)),e=c[1];return K(c[2],d)?[0,ge(e)]:[0,ge(e)]}function
-gf(a){if(D(a,b))return b;var
-c=aS(a,aH(2)),e=c[1];return K(c[2],d)?q(gf(e)):q(gf(e))}function
-k_(c,b){var
-a=kS(c,b);return 0===a?0:0<=a?2:1}function
-gg(j,i){var
-c=j,a=i;for(;;){if(D(c,b))return D(a,b)?1:K(aS(a,aH(2))[2],d)?0:0;var
-g=aS(c,aH(2)),h=g[1];if(K(g[2],d)){if(D(a,b))return 0;var
-e=aS(a,aH(2)),k=e[1];if(K(e[2],d)){var
+lo(a){if(D(a,b))return b;var
+e=aT(a,aJ(2)),f=e[1];return K(e[2],d)?q(c(2,lo(f))):q(c(2,c(2,f)))}function
+lp(c,a){return bl(b,aM(c,a))}function
+gl(a,i,h){var
+c=i,f=h;for(;;){if(D(f,b))return k(a,c);var
+g=aT(f,aJ(2)),e=g[1];if(K(g[2],d)){var
+c=gl(a,c,e),f=e;continue}return k(a,gl(a,gl(a,c,e),e))}}function
+gm(a){function
+c(b){return C(a,b)}return function(a){return gl(c,b,a)}}function
+gn(a){if(D(a,b))return sH;var
+c=aT(a,aJ(2)),e=c[1];return K(c[2],d)?[0,gn(e)]:[0,gn(e)]}function
+go(a){if(D(a,b))return b;var
+c=aT(a,aJ(2)),e=c[1];return K(c[2],d)?q(go(e)):q(go(e))}function
+lq(c,b){var
+a=k_(c,b);return 0===a?0:0<=a?2:1}function
+gp(j,i){var
+c=j,a=i;for(;;){if(D(c,b))return D(a,b)?1:K(aT(a,aJ(2))[2],d)?0:0;var
+g=aT(c,aJ(2)),h=g[1];if(K(g[2],d)){if(D(a,b))return 0;var
+e=aT(a,aJ(2)),k=e[1];if(K(e[2],d)){var
 c=h,a=k;continue}return 0}if(D(a,b))return 0;var
-f=aS(a,aH(2)),l=f[1];if(K(f[2],d))return 0;var
+f=aT(a,aJ(2)),l=f[1];if(K(f[2],d))return 0;var
 c=h,a=l;continue}}function
-gh(b,a){return 2<=k_(b,a)?0:1}function
-d_(i,e,a){if(i){var
+gq(b,a){return 2<=lq(b,a)?0:1}function
+ea(i,e,a){if(i){var
 f=i[1];if(D(e,b))return[0,b,[0,b,a]];var
-w=aS(e,aH(2)),g=w[1];if(K(w[2],d)){if(D(a,b))return[0,b,[0,e,b]];var
-m=aS(a,aH(2)),A=m[1];if(K(m[2],d)){var
-j=d_(f,g,A),x=j[2];return[0,c(2,j[1]),x]}var
-k=d_(f,g,a),l=k[2],y=l[2],z=[0,c(2,l[1]),y];return[0,k[1],z]}if(D(a,b))return[0,b,[0,e,b]];var
-v=aS(a,aH(2)),h=v[1];if(K(v[2],d)){var
-n=d_(f,e,h),o=n[2],B=c(2,o[2]);return[0,n[1],[0,o[1],B]]}switch(k_(g,h)){case
+w=aT(e,aJ(2)),g=w[1];if(K(w[2],d)){if(D(a,b))return[0,b,[0,e,b]];var
+m=aT(a,aJ(2)),A=m[1];if(K(m[2],d)){var
+j=ea(f,g,A),x=j[2];return[0,c(2,j[1]),x]}var
+k=ea(f,g,a),l=k[2],y=l[2],z=[0,c(2,l[1]),y];return[0,k[1],z]}if(D(a,b))return[0,b,[0,e,b]];var
+v=aT(a,aJ(2)),h=v[1];if(K(v[2],d)){var
+n=ea(f,e,h),o=n[2],B=c(2,o[2]);return[0,n[1],[0,o[1],B]]}switch(lq(g,h)){case
 0:return[0,e,[0,b,b]];case
 1:var
-p=d_(f,k9(h,g),e),q=p[2],r=q[2],C=[0,r,E(r,c(2,q[1]))];return[0,p[1],C];default:var
-s=d_(f,k9(g,h),a),t=s[2],u=t[2],F=[0,E(u,c(2,t[1])),u];return[0,s[1],F]}}return[0,b,[0,e,a]]}function
-gi(b,a){var
-c=ge(a);return d_(N(ge(b),c),b,a)}function
-k$(c,i,h){var
+p=ea(f,lp(h,g),e),q=p[2],r=q[2],C=[0,r,E(r,c(2,q[1]))];return[0,p[1],C];default:var
+s=ea(f,lp(g,h),a),t=s[2],u=t[2],F=[0,E(u,c(2,t[1])),u];return[0,s[1],F]}}return[0,b,[0,e,a]]}function
+gr(b,a){var
+c=gn(a);return ea(L(gn(b),c),b,a)}function
+lr(c,i,h){var
 e=i,a=h;for(;;){if(D(e,b))return a;var
-f=aS(e,aH(2)),g=f[1];if(K(f[2],d)){var
-e=g,a=aq(c,a,a);continue}return aq(c,a,k$(c,g,aq(c,a,a)))}}function
-e2(a){return k$(N,a,sB)}function
-la(a){return a?q(la(a[1])):b}function
+f=aT(e,aJ(2)),g=f[1];if(K(f[2],d)){var
+e=g,a=ar(c,a,a);continue}return ar(c,a,lr(c,g,ar(c,a,a)))}}function
+e9(a){return lr(L,a,sI)}function
+ls(a){return a?q(ls(a[1])):b}function
 cu(f,e){var
 a=f,d=e;for(;;)if(typeof
 a==="number")return d;else
@@ -926,23 +926,23 @@ t=C(c(2,q(c(2,c(2,b)))),d),u=E(q(c(2,q(c(2,b)))),t),a=a[1],d=u;continue;case
 8:var
 v=C(c(2,q(c(2,c(2,b)))),d),w=E(c(2,c(2,c(2,b))),v),a=a[1],d=w;continue;default:var
 x=C(c(2,q(c(2,c(2,b)))),d),y=E(q(c(2,c(2,c(2,b)))),x),a=a[1],d=y;continue}}function
-ie(a){if(D(a,b))return sC;var
-c=aS(a,aH(2)),e=c[1];return K(c[2],d)?bQ(ie(e)):bR(ie(e))}function
-gj(a){return ga(ie(a))}function
-lb(c,b){var
-a=kS(c,b);return 0===a?0:0<=a?2:1}function
-ig(b,a){return 1===lb(b,a)?1:0}var
-lc=E,sE=T;function
-b8(k,f){if(0<=aR(f)){var
-g=kU(f);if(0<=g){var
+is(a){if(D(a,b))return sJ;var
+c=aT(a,aJ(2)),e=c[1];return K(c[2],d)?bP(is(e)):bQ(is(e))}function
+gs(a){return gj(is(a))}function
+lt(c,b){var
+a=k_(c,b);return 0===a?0:0<=a?2:1}function
+it(b,a){return 1===lt(b,a)?1:0}var
+lu=E,sL=T;function
+b8(k,f){if(0<=aS(f)){var
+g=la(f);if(0<=g){var
 e=b,c=k,a=g;for(;;){if(0===a)return e;var
-h=a>>>1|0,i=C(c,c),j=1===(a&1)?C(e,c):e,e=j,c=i,a=h;continue}}return f$(sw)}return d}function
-ih(c){var
-a=aR(c);return 0===a?d:0<a?b:T(b)}function
-ii(a){return 0<=aR(a)?a:d}function
-d$(a){var
-c=aR(a);return 0===c?b:0<c?a:b}function
-ld(m){var
+h=a>>>1|0,i=C(c,c),j=1===(a&1)?C(e,c):e,e=j,c=i,a=h;continue}}return gi(sD)}return d}function
+iu(c){var
+a=aS(c);return 0===a?d:0<a?b:T(b)}function
+iv(a){return 0<=aS(a)?a:d}function
+eb(a){var
+c=aS(a);return 0===c?b:0<c?a:b}function
+lv(m){var
 a=m;for(;;)if(typeof
 a==="number")return d;else
 switch(a[0]){case
@@ -965,16 +965,16 @@ j=q(c(2,q(c(2,b))));return cu(a[1],j);case
 k=c(2,c(2,c(2,b)));return cu(a[1],k);default:var
 l=q(c(2,c(2,c(2,b))));return cu(a[1],l)}}function
 cv(b,a){var
-c=aR(a);return 0===c?d:1===c?kT(b,a):k1(-1,kT(k1(-1,b),a))}function
-le(a){var
-f=aR(a);if(0===f)return d;if(0<f){if(D(a,b))return d;var
-c=aS(a,aH(2)),e=c[1];return K(c[2],d)?gf(e):gf(e)}return d}function
-gk(a){return 0<aR(a)?Jq(a):d}function
-e3(b,c){var
-a=kU(c);return 0<=a?sp(b,a):sq(b,-a|0)}function
-dv(b,c){var
-a=kU(c);return 0<=a?sq(b,a):sp(b,-a|0)}function
-bS(b,a){return a?a[1]:b}function
+c=aS(a);return 0===c?d:1===c?k$(b,a):lh(-1,k$(lh(-1,b),a))}function
+lw(a){var
+f=aS(a);if(0===f)return d;if(0<f){if(D(a,b))return d;var
+c=aT(a,aJ(2)),e=c[1];return K(c[2],d)?go(e):go(e)}return d}function
+gt(a){return 0<aS(a)?JB(a):d}function
+e_(b,c){var
+a=la(c);return 0<=a?sw(b,a):sx(b,-a|0)}function
+dx(b,c){var
+a=la(c);return 0<=a?sx(b,a):sw(b,-a|0)}function
+bR(b,a){return a?a[1]:b}function
 bA(a){var
 b=a?a[2]:a;return b}function
 r(e,d,c){var
@@ -984,49 +984,49 @@ H(d,c){var
 a=d,b=c;for(;;){if(b){if(a){var
 a=a[2],b=b[1];continue}return a}var
 e=a?[0,a[1]]:a;return e}}function
-lf(a){if(a){var
-b=[0,a[1],0];return f(lf(a[2]),b)}return a}function
-e4(d,c){var
+lx(a){if(a){var
+b=[0,a[1],0];return f(lx(a[2]),b)}return a}function
+e$(d,c){var
 a=d,b=c;for(;;){if(a){var
 e=[0,a[1],b],a=a[2],b=e;continue}return b}}function
-ea(a){if(a){var
-b=ea(a[2]);return f(a[1],b)}return a}function
-ij(g,f,e){var
+ec(a){if(a){var
+b=ec(a[2]);return f(a[1],b)}return a}function
+iw(g,f,e){var
 b=f,a=e;for(;;){if(b){if(a){var
-c=aq(g,b[1],a[1]);if(c){var
+c=ar(g,b[1],a[1]);if(c){var
 b=b[2],a=a[2];continue}var
 d=c}else
 var
 d=a;return d}return a?0:1}}function
 e(b,a){if(a)var
-d=e(b,a[2]),c=[0,j(b,a[1]),d];else
+d=e(b,a[2]),c=[0,k(b,a[1]),d];else
 var
 c=a;return c}function
 y(b,a){if(a){var
-c=y(b,a[2]);return f(j(b,a[1]),c)}return a}function
-bT(e,d,c){var
+c=y(b,a[2]);return f(k(b,a[1]),c)}return a}function
+bS(e,d,c){var
 a=d,b=c;for(;;){if(a){var
-f=aq(e,b,a[1]),a=a[2],b=f;continue}return b}}function
-an(c,b,a){if(a){var
-d=an(c,b,a[2]);return aq(c,a[1],d)}return b}function
+f=ar(e,b,a[1]),a=a[2],b=f;continue}return b}}function
+ao(c,b,a){if(a){var
+d=ao(c,b,a[2]);return ar(c,a[1],d)}return b}function
 aj(e,d){var
 a=d;for(;;){if(a){var
-b=j(e,a[1]);if(!b){var
+b=k(e,a[1]);if(!b){var
 a=a[2];continue}var
 c=b}else
 var
 c=a;return c}}function
 l(d,c){var
 a=c;for(;;){if(a){var
-b=j(d,a[1]);if(b){var
+b=k(d,a[1]);if(b){var
 a=a[2];continue}return b}return 1}}function
 bu(b,e){var
 a=e;for(;;){if(a){var
-c=a[2],d=a[1];if(j(b,d))return[0,d,bu(b,c)];var
+c=a[2],d=a[1];if(k(b,d))return[0,d,bu(b,c)];var
 a=c;continue}return a}}function
-lg(d,c){var
+ly(d,c){var
 a=c;for(;;){if(a){var
-b=a[1];if(j(d,b))return[0,b];var
+b=a[1];if(k(d,b))return[0,b];var
 a=a[2];continue}return a}}function
 W(b,a){if(b)if(a)var
 d=W(b[2],a[2]),c=[0,[0,b[1],a[1]],d];else
@@ -1034,136 +1034,136 @@ var
 c=a;else
 var
 c=b;return c}function
-aA(b,a){if(b)if(a)var
-d=aA(b[1],a[2]),c=[0,a[1],d];else
+an(b,a){if(b)if(a)var
+d=an(b[1],a[2]),c=[0,a[1],d];else
 var
 c=a;else
 var
 c=b;return c}function
-aM(d,c){var
+av(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[2];continue}return a}return a}}function
-aB(b,a){var
-c=a?[0,b,aB([0,b],a[1])]:a;return c}function
-al(b,a){var
-c=a?[0,b,al(b,a[1])]:a;return c}function
-lh(a){if(a){var
-e=lh(a[2]),f=C(c(2,b),e),g=a[1]?b:d;return E(g,f)}return d}function
-gl(j){function
+aC(b,a){var
+c=a?[0,b,aC([0,b],a[1])]:a;return c}function
+af(b,a){var
+c=a?[0,b,af(b,a[1])]:a;return c}function
+lz(a){if(a){var
+e=lz(a[2]),f=C(c(2,b),e),g=a[1]?b:d;return E(g,f)}return d}function
+gu(j){function
 a(a){return 0!==(j&1<<a)?1:0}var
-c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=lh([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<aR(b)?e2(b):0}function
-li(a){return[0,a,b]}function
-eb(c,b){var
-a=kS(C(c[1],b[2]),C(b[1],c[2])),d=0===a?0:0<=a?2:1;return d?0:1}function
-bb(b,a){return D(C(b[1],a[2]),C(a[1],b[2]))}function
-dw(b,a){return[0,E(C(b[1],a[2]),C(a[1],b[2])),C(b[2],a[2])]}function
-a0(b,a){return[0,C(b[1],a[1]),C(b[2],a[2])]}function
-gm(a){return[0,T(a[1]),a[2]]}function
-dx(b,a){return dw(b,gm(a))}function
-gn(f,c){var
-a=c[1],e=aR(a),g=0===e?[0,d,b]:0<e?[0,c[2],a]:[0,T(c[2]),T(a)];return a0(f,g)}function
-dy(q){var
-a=q[2],b=q[1],o=aR(b);if(0===o)var
-c=[0,cr(a),[0,d,ih(a)]];else
+c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=lz([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<aS(b)?e9(b):0}function
+lA(a){return[0,a,b]}function
+ed(c,b){var
+a=k_(C(c[1],b[2]),C(b[1],c[2])),d=0===a?0:0<=a?2:1;return d?0:1}function
+be(b,a){return D(C(b[1],a[2]),C(a[1],b[2]))}function
+dy(b,a){return[0,E(C(b[1],a[2]),C(a[1],b[2])),C(b[2],a[2])]}function
+a2(b,a){return[0,C(b[1],a[1]),C(b[2],a[2])]}function
+gv(a){return[0,T(a[1]),a[2]]}function
+dz(b,a){return dy(b,gv(a))}function
+gw(f,c){var
+a=c[1],e=aS(a),g=0===e?[0,d,b]:0<e?[0,c[2],a]:[0,T(c[2]),T(a)];return a2(f,g)}function
+dA(q){var
+a=q[2],b=q[1],o=aS(b);if(0===o)var
+c=[0,cr(a),[0,d,iu(a)]];else
 if(0<o){var
-n=aR(a);if(0===n)var
-c=[0,cr(b),[0,ih(b),d]];else
+n=aS(a);if(0===n)var
+c=[0,cr(b),[0,iu(b),d]];else
 if(0<n)var
-l=gi(b,a),m=l[2],c=[0,l[1],[0,m[1],m[2]]];else
+l=gr(b,a),m=l[2],c=[0,l[1],[0,m[1],m[2]]];else
 var
-j=gi(b,T(a)),k=j[2],c=[0,j[1],[0,k[1],T(k[2])]]}else{var
-p=T(b),i=aR(a);if(0===i)var
-c=[0,cr(b),[0,ih(b),d]];else
+j=gr(b,T(a)),k=j[2],c=[0,j[1],[0,k[1],T(k[2])]]}else{var
+p=T(b),i=aS(a);if(0===i)var
+c=[0,cr(b),[0,iu(b),d]];else
 if(0<i)var
-g=gi(p,a),h=g[2],c=[0,g[1],[0,T(h[1]),h[2]]];else
+g=gr(p,a),h=g[2],c=[0,g[1],[0,T(h[1]),h[2]]];else
 var
-e=gi(p,T(a)),f=e[2],c=[0,e[1],[0,T(f[1]),T(f[2])]]}var
-r=c[2],s=d$(r[2]);return[0,r[1],s]}function
-bk(a){if(typeof
-a==="number")return sG;else
+e=gr(p,T(a)),f=e[2],c=[0,e[1],[0,T(f[1]),T(f[2])]]}var
+r=c[2],s=eb(r[2]);return[0,r[1],s]}function
+bm(a){if(typeof
+a==="number")return sN;else
 switch(a[0]){case
 0:var
-b=bk(a[1]);return ba(bP(1,48),b);case
+b=bm(a[1]);return bd(bO(1,48),b);case
 1:var
-c=bk(a[1]);return ba(bP(1,49),c);case
+c=bm(a[1]);return bd(bO(1,49),c);case
 2:var
-d=bk(a[1]);return ba(bP(1,50),d);case
+d=bm(a[1]);return bd(bO(1,50),d);case
 3:var
-e=bk(a[1]);return ba(bP(1,51),e);case
+e=bm(a[1]);return bd(bO(1,51),e);case
 4:var
-f=bk(a[1]);return ba(bP(1,52),f);case
+f=bm(a[1]);return bd(bO(1,52),f);case
 5:var
-g=bk(a[1]);return ba(bP(1,53),g);case
+g=bm(a[1]);return bd(bO(1,53),g);case
 6:var
-h=bk(a[1]);return ba(bP(1,54),h);case
+h=bm(a[1]);return bd(bO(1,54),h);case
 7:var
-i=bk(a[1]);return ba(bP(1,55),i);case
+i=bm(a[1]);return bd(bO(1,55),i);case
 8:var
-j=bk(a[1]);return ba(bP(1,56),j);default:var
-k=bk(a[1]);return ba(bP(1,57),k)}}function
-e5(a){return typeof
-a==="number"?sH:bk(a)}function
+j=bm(a[1]);return bd(bO(1,56),j);default:var
+k=bm(a[1]);return bd(bO(1,57),k)}}function
+fa(a){return typeof
+a==="number"?sO:bm(a)}function
 cw(a){return b8(c(2,b),a)}function
-lj(b,a){return dv(a,b)}function
-lk(b,a){return T(dv(T(a),b))}function
-go(b,a){return T(cv(T(b),a))}function
+lB(b,a){return dx(a,b)}function
+lC(b,a){return T(dx(T(a),b))}function
+gx(b,a){return T(cv(T(b),a))}function
 O(c,b){var
-a=e3(b,c);return[0,a,a]}function
-ll(d,c,a){var
-b=e3(c,d),e=go(b,a);return[0,cv(b,a),e]}function
+a=e_(b,c);return[0,a,a]}function
+lD(d,c,a){var
+b=e_(c,d),e=gx(b,a);return[0,cv(b,a),e]}function
 A(b,a){return[0,E(b[1],a[1]),E(b[2],a[2])]}function
-F(b,a){return[0,aL(b[1],a[2]),aL(b[2],a[1])]}function
+F(b,a){return[0,aM(b[1],a[2]),aM(b[2],a[1])]}function
 ab(a){return[0,T(a[2]),T(a[1])]}function
-lm(e,c,b,a){if(D(d,e))return D(d,b)?[0,C(e,b),C(c,a)]:D(a,d)?[0,C(c,b),C(e,a)]:[0,C(c,b),C(c,a)];if(D(c,d))return D(d,b)?[0,C(e,a),C(c,b)]:D(a,d)?[0,C(c,a),C(e,b)]:[0,C(e,a),C(e,b)];if(D(d,b))return[0,C(e,a),C(c,a)];if(D(a,d))return[0,C(c,b),C(e,b)];var
-f=bj(C(e,b),C(c,a));return[0,ic(C(e,a),C(c,b)),f]}function
+lE(e,c,b,a){if(D(d,e))return D(d,b)?[0,C(e,b),C(c,a)]:D(a,d)?[0,C(c,b),C(e,a)]:[0,C(c,b),C(c,a)];if(D(c,d))return D(d,b)?[0,C(e,a),C(c,b)]:D(a,d)?[0,C(c,a),C(e,b)]:[0,C(e,a),C(e,b)];if(D(d,b))return[0,C(e,a),C(c,a)];if(D(a,d))return[0,C(c,b),C(e,b)];var
+f=bl(C(e,b),C(c,a));return[0,iq(C(e,a),C(c,b)),f]}function
 t(c,b,a){var
-d=lm(b[1],b[2],a[1],a[2]),e=lk(c,d[2]);return[0,lj(c,d[1]),e]}function
+d=lE(b[1],b[2],a[1],a[2]),e=lC(c,d[2]);return[0,lB(c,d[1]),e]}function
 U(b,a){var
-c=C(a[1],a[1]),e=C(a[2],a[2]),h=lk(b,bj(c,e)),g=0;if(I(a[1],d)&&I(d,a[2])){var
+c=C(a[1],a[1]),e=C(a[2],a[2]),h=lC(b,bl(c,e)),g=0;if(I(a[1],d)&&I(d,a[2])){var
 f=d;g=1}if(!g)var
-f=lj(b,ic(c,e));return[0,f,h]}function
-ik(b,a){var
-c=e3(cw(b),b),d=go(c,a[1]);return[0,cv(c,a[2]),d]}function
-b9(b,a){if(I(d,a[1]))return[0,ik(b,a)];var
-c=I(a[2],d),e=c?[0,ab(ik(b,ab(a)))]:c;return e}function
-il(c){var
-a=gk(c);return K(C(a,a),c)?a:E(a,b)}function
+f=lB(b,iq(c,e));return[0,f,h]}function
+ix(b,a){var
+c=e_(cw(b),b),d=gx(c,a[1]);return[0,cv(c,a[2]),d]}function
+b9(b,a){if(I(d,a[1]))return[0,ix(b,a)];var
+c=I(a[2],d),e=c?[0,ab(ix(b,ab(a)))]:c;return e}function
+iy(c){var
+a=gt(c);return K(C(a,a),c)?a:E(a,b)}function
 b_(b,a){var
 c=I(d,a[1]);if(c)var
-f=il(e3(a[2],b)),e=[0,[0,gk(e3(a[1],b)),f]];else
+f=iy(e_(a[2],b)),e=[0,[0,gt(e_(a[1],b)),f]];else
 var
 e=c;return e}function
-ec(a){return 0===a[0]?a[2]:a[1]}function
-aO(f,d,c,b,a){if(b){if(a){var
-g=aO(f,d,c,b[2],a[2]);return[0,aq(c,b[1],a[1]),g]}return e(f,b)}return e(d,a)}function
-cU(b,a){return dv(b,a)}function
+ee(a){return 0===a[0]?a[2]:a[1]}function
+aP(f,d,c,b,a){if(b){if(a){var
+g=aP(f,d,c,b[2],a[2]);return[0,ar(c,b[1],a[1]),g]}return e(f,b)}return e(d,a)}function
+cW(b,a){return dx(b,a)}function
 aU(a,c,b){if(D(d,a)){var
-e=b[1],f=T(cU(T(C(a,b[2])),c));return[0,cU(C(a,e),c),f]}var
-g=b[2],h=T(cU(T(C(a,b[1])),c));return[0,cU(C(a,g),c),h]}function
-at(a){var
-c=T(dv(T(a[2]),b));return[0,dv(a[1],b),c]}function
-ed(c,b,a){var
-e=lm(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=I(f,d)?a[2]:a[1],i=go(f,h),j=I(g,d)?a[1]:a[2];return[0,cv(g,j),i]}function
-b$(a){return bj(a[2],T(a[1]))}var
+e=b[1],f=T(cW(T(C(a,b[2])),c));return[0,cW(C(a,e),c),f]}var
+g=b[2],h=T(cW(T(C(a,b[1])),c));return[0,cW(C(a,g),c),h]}function
+aw(a){var
+c=T(dx(T(a[2]),b));return[0,dx(a[1],b),c]}function
+ef(c,b,a){var
+e=lE(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=I(f,d)?a[2]:a[1],i=gx(f,h),j=I(g,d)?a[1]:a[2];return[0,cv(g,j),i]}function
+b$(a){return bl(a[2],T(a[1]))}var
 u=[0,d,d];function
 ca(a){return[0,a[1],a[1]]}function
 cx(a){return[0,a[2],a[2]]}function
-bU(b,a){switch(a[0]){case
+bT(b,a){switch(a[0]){case
 0:return[0,a[1]];case
 1:return[1,a[1]];case
 2:return[2,a[1]];case
 3:var
-c=j(b,a[2]);return[3,j(b,a[1]),c];case
+c=k(b,a[2]);return[3,k(b,a[1]),c];case
 4:var
-d=j(b,a[2]);return[4,j(b,a[1]),d];case
-5:return[5,j(b,a[1])];case
+d=k(b,a[2]);return[4,k(b,a[1]),d];case
+5:return[5,k(b,a[1])];case
 6:var
-e=j(b,a[2]);return[6,j(b,a[1]),e];case
+e=k(b,a[2]);return[6,k(b,a[1]),e];case
 7:var
-f=j(b,a[2]);return[7,j(b,a[1]),f];case
-8:return[8,j(b,a[1])];case
-9:return[9,j(b,a[1])];default:var
-g=j(b,a[4]),h=j(b,a[3]),i=j(b,a[2]);return[10,a[1],i,h,g]}}function
+f=k(b,a[2]);return[7,k(b,a[1]),f];case
+8:return[8,k(b,a[1])];case
+9:return[9,k(b,a[1])];default:var
+g=k(b,a[4]),h=k(b,a[3]),i=k(b,a[2]);return[10,a[1],i,h,g]}}function
 aN(n,m){var
 d=n,c=m;for(;;){var
 a=c[1],b=d[1];switch(b[0]){case
@@ -1197,47 +1197,47 @@ var
 e=k}else
 var
 e=j;return e}return 0}}}function
-gp(b){var
+gy(b){var
 a=b[1];return 2===a[0]?[0,a[1]]:0}function
-a5(c,b){var
-a=gp(b);return a?K(c,a[1]):a}function
-e6(a){return I(cr(a),c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b))))))))))))))))}function
+a8(c,b){var
+a=gy(b);return a?K(c,a[1]):a}function
+fb(a){return I(cr(a),c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b))))))))))))))))}function
 m(a){return[0,[2,a]]}function
-B(b,a){if(a5(d,b))return a;if(a5(d,a))return b;var
-c=gp(b);if(c){var
-e=c[1],f=gp(a);if(f){var
-g=f[1];if(e6(e)&&e6(g))return m(E(e,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
-bl(a){var
+B(b,a){if(a8(d,b))return a;if(a8(d,a))return b;var
+c=gy(b);if(c){var
+e=c[1],f=gy(a);if(f){var
+g=f[1];if(fb(e)&&fb(g))return m(E(e,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
+bn(a){var
 b=a[1];switch(b[0]){case
 2:var
-c=b[1];return e6(c)?m(T(c)):[0,[5,a]];case
+c=b[1];return fb(c)?m(T(c)):[0,[5,a]];case
 5:return b[1];default:return[0,[5,a]]}}function
-x(b,a){if(a5(d,a))return b;if(a5(d,b))return bl(a);var
+x(b,a){if(a8(d,a))return b;if(a8(d,b))return bn(a);var
 c=b[1];if(0===c[0]){var
 e=a[1];return 0===e[0]?o(c[1],e[1])?m(d):[0,[4,b,a]]:[0,[4,b,a]]}return[0,[4,b,a]]}function
 V(a){var
-c=gp(a);if(c){var
-b=c[1];return e6(b)?m(C(b,b)):[0,[8,a]]}return[0,[8,a]]}function
-s(a,c){if(!a5(d,a)&&!a5(b,c)){if(!a5(d,c)&&!a5(b,a))return aN(a,c)?V(a):[0,[6,a,c]];return c}return a}function
-am(c,a){return a5(b,a)?c:[0,[7,c,a]]}function
-aJ(a){return a5(b,a)?a:[0,[9,a]]}function
-ln(d,c,b,a){return[0,[10,d,c,b,a]]}function
-bc(f,e,d,c){var
+c=gy(a);if(c){var
+b=c[1];return fb(b)?m(C(b,b)):[0,[8,a]]}return[0,[8,a]]}function
+s(a,c){if(!a8(d,a)&&!a8(b,c)){if(!a8(d,c)&&!a8(b,a))return aN(a,c)?V(a):[0,[6,a,c]];return c}return a}function
+am(c,a){return a8(b,a)?c:[0,[7,c,a]]}function
+aL(a){return a8(b,a)?a:[0,[9,a]]}function
+lF(d,c,b,a){return[0,[10,d,c,b,a]]}function
+bf(f,e,d,c){var
 b=d,a=c;for(;;){if(b){var
-g=b[1],h=[0,j(e,bU(function(b){return function(a){return r(a,b,f)}}(a),g)),a],b=b[2],a=h;continue}return a}}function
-lo(d,f,k,i,h){var
-b=k,c=i,a=h;for(;;){if(c){var
+g=b[1],h=[0,k(e,bT(function(b){return function(a){return r(a,b,f)}}(a),g)),a],b=b[2],a=h;continue}return a}}function
+lG(d,f,j,i,h){var
+b=j,c=i,a=h;for(;;){if(c){var
 e=c[2],g=c[1];if(b){if(b[1]){var
-l=[0,j(f,bU(function(b){return function(a){return r(a,b,d)}}(a),g)),a],b=bA(b),c=e,a=l;continue}var
+l=[0,k(f,bT(function(b){return function(a){return r(a,b,d)}}(a),g)),a],b=bA(b),c=e,a=l;continue}var
 b=b[2],c=e,a=[0,d,a];continue}var
-m=[0,j(f,bU(function(b){return function(a){return r(a,b,d)}}(a),g)),a],b=bA(b),c=e,a=m;continue}return a}}function
-e7(b,a){if(a){var
+m=[0,k(f,bT(function(b){return function(a){return r(a,b,d)}}(a),g)),a],b=bA(b),c=e,a=m;continue}return a}}function
+fc(b,a){if(a){var
 c=a[2];if(b){var
-e=e7(b[1],c);return[0,a[1],e]}var
+e=fc(b[1],c);return[0,a[1],e]}var
 d=[0,1,c]}else
 var
 d=a;return d}function
-lp(a){switch(a[0]){case
+lH(a){switch(a[0]){case
 10:return[0,a[2],[0,a[3],[0,a[4],0]]];case
 5:case
 8:case
@@ -1245,53 +1245,53 @@ lp(a){switch(a[0]){case
 0:case
 1:case
 2:return 0;default:return[0,a[1],[0,a[2],0]]}}function
-gq(j,g){var
-k=0,l=an(e7,e(function(a){return 0},g),j),c=e4(g,0),b=l,a=k;for(;;){if(c){if(b){var
-d=b[2],f=b[1],h=[0,f,a],i=f?an(e7,d,lp(c[1])):d,c=c[2],b=i,a=h;continue}return a}return a}}function
-cV(a){var
+gz(j,g){var
+k=0,l=ao(fc,e(function(a){return 0},g),j),c=e$(g,0),b=l,a=k;for(;;){if(c){if(b){var
+d=b[2],f=b[1],h=[0,f,a],i=f?ao(fc,d,lH(c[1])):d,c=c[2],b=i,a=h;continue}return a}return a}}function
+cX(a){var
 b=0;function
-c(a){return[0,a]}return bc(m(d),c,a,b)}function
-bd(d,c){var
+c(a){return[0,a]}return bf(m(d),c,a,b)}function
+bg(d,c){var
 a=d,b=0;for(;;){if(a){if(aN(c,a[1]))return b;var
 a=a[2],b=[0,b];continue}return a}}function
-dz(d,b){var
+dB(d,b){var
 e=b[1];if(aj(function(a){return aN(d,a)},e))return b;var
 a=d[1];switch(a[0]){case
 10:var
-j=dz(a[2],b),k=dz(a[3],j),c=dz(a[4],k);break;case
+j=dB(a[2],b),k=dB(a[3],j),c=dB(a[4],k);break;case
 5:case
 8:case
 9:var
-c=dz(a[1],b);break;case
+c=dB(a[1],b);break;case
 0:case
 1:case
 2:var
 c=b;break;default:var
-i=dz(a[1],b),c=dz(a[2],i)}var
-f=c[2],g=c[1],h=[0,bU(function(a){return bd(g,a)},a),f];return[0,[0,d,c[1]],h]}function
-cW(a){var
-b=bT(function(b,a){return dz(a,b)},a,sI),c=b[1],d=e(function(a){return bd(c,a)},a);return[0,lf(b[2]),d]}function
-e8(a){return an(function(b,a){return E(b$(b),a)},d,a)}function
+i=dB(a[1],b),c=dB(a[2],i)}var
+f=c[2],g=c[1],h=[0,bT(function(a){return bg(g,a)},a),f];return[0,[0,d,c[1]],h]}function
+cY(a){var
+b=bS(function(b,a){return dB(a,b)},a,sP),c=b[1],d=e(function(a){return bg(c,a)},a);return[0,lx(b[2]),d]}function
+fd(a){return ao(function(b,a){return E(b$(b),a)},d,a)}function
 cy(b,c,a){var
-d=e8(a),e=ic(c[2],E(b[2],d)),f=e8(a);return[0,b,[0,bj(c[1],aL(b[1],f)),e],a]}function
+d=fd(a),e=iq(c[2],E(b[2],d)),f=fd(a);return[0,b,[0,bl(c[1],aM(b[1],f)),e],a]}function
 $(a){return[0,a,a,0]}function
 cb(b,a){var
 c=a[3],d=b[3];function
 e(a){return a}var
-f=aO(function(a){return a},e,A,d,c),g=A(b[2],a[2]);return cy(A(b[1],a[1]),g,f)}function
+f=aP(function(a){return a},e,A,d,c),g=A(b[2],a[2]);return cy(A(b[1],a[1]),g,f)}function
 bv(b,a){var
-c=a[3],d=b[3],e=aO(function(a){return a},ab,F,d,c),f=F(b[2],a[2]);return cy(F(b[1],a[1]),f,e)}function
-e9(a){var
+c=a[3],d=b[3],e=aP(function(a){return a},ab,F,d,c),f=F(b[2],a[2]);return cy(F(b[1],a[1]),f,e)}function
+fe(a){var
 b=e(ab,a[3]),c=ab(a[2]);return[0,ab(a[1]),c,b]}function
-aP(a,c,b){var
+aQ(a,c,b){var
 d=A(b[2],b[1]),e=A(c[2],c[1]),f=b[3],g=c[3];function
 h(c,b){var
-f=t(a,e,b);return at(A(t(a,d,c),f))}function
-i(b){return at(t(a,e,b))}var
-j=aO(function(b){return at(t(a,d,b))},i,h,g,f),k=t(a,c[2],b[2]);return cy(t(a,c[1],b[1]),k,j)}function
-e_(b,a){var
+f=t(a,e,b);return aw(A(t(a,d,c),f))}function
+i(b){return aw(t(a,e,b))}var
+j=aP(function(b){return aw(t(a,d,b))},i,h,g,f),k=t(a,c[2],b[2]);return cy(t(a,c[1],b[1]),k,j)}function
+ff(b,a){var
 c=a[3],d=A(a[2],a[1]),f=e(function(a){return t(b,d,a)},c),g=U(b,a[2]);return cy(U(b,a[1]),g,f)}function
-im(a,b){var
+iz(a,b){var
 c=b_(a,b[1]);if(c){var
 g=c[1],d=b_(a,b[2]);if(d){var
 h=d[1],f=b9(a,A(h,g));if(f)var
@@ -1304,35 +1304,35 @@ j=d;var
 k=j}else
 var
 k=c;return k}function
-ee(a,c,b){var
+eg(a,c,b){var
 d=b9(a,b[1]);if(d){var
 f=b9(a,b[2]);if(f)var
-h=f[1],g=t(a,c[1],d[1]),k=b[3],l=c[3],m=function(c,b){return F(c,t(a,g,b))},n=function(b){return ab(t(a,g,b))},o=aO(function(a){return a},n,m,l,k),p=e(function(b){return t(a,h,b)},o),i=[0,cy(g,t(a,c[2],h),p)];else
+h=f[1],g=t(a,c[1],d[1]),k=b[3],l=c[3],m=function(c,b){return F(c,t(a,g,b))},n=function(b){return ab(t(a,g,b))},o=aP(function(a){return a},n,m,l,k),p=e(function(b){return t(a,h,b)},o),i=[0,cy(g,t(a,c[2],h),p)];else
 var
 i=f;var
 j=i}else
 var
 j=d;return j}function
-cX(b,a){return a?j(b,a[1]):a}function
-gr(a){var
-b=e(at,a[3]),c=at(A(a[2],a[1]));return cy(a[1],c,b)}function
-lq(a,k,j,r,c){var
-l=gr(k),m=gr(j),g=gr(c[1]),h=gr(c[2]),s=aP(a,l,h),u=bv(aP(a,m,g),s),i=ee(a,$(O(a,b)),u);if(i)var
-f=i[1],n=aP(a,bv(l,g),f),o=aP(a,bv(m,h),f),d=function(c,b){return aP(a,c,$(b))},v=j[3],w=k[3],x=function(b,a){var
-c=d(o,a);return cb(d(n,b),c)},y=function(a){return d(o,a)},z=aO(function(a){return d(n,a)},y,x,w,v),A=r[3],B=function(b,a){return bv(b,d(f,at(a)))[2]},C=function(a){return e9(d(f,at(a)))[2]},p=aO(function(a){return a[2]},C,B,z,A),D=g[2],E=e(function(b){return t(a,D,b)},p),F=cy(c[2][1],c[2][2],E),G=ab(h[2]),H=e(function(b){return t(a,G,b)},p),q=[0,[0,cy(c[1][1],c[1][2],H),F]];else
+cZ(b,a){return a?k(b,a[1]):a}function
+gA(a){var
+b=e(aw,a[3]),c=aw(A(a[2],a[1]));return cy(a[1],c,b)}function
+lI(a,k,j,r,c){var
+l=gA(k),m=gA(j),g=gA(c[1]),h=gA(c[2]),s=aQ(a,l,h),u=bv(aQ(a,m,g),s),i=eg(a,$(O(a,b)),u);if(i)var
+f=i[1],n=aQ(a,bv(l,g),f),o=aQ(a,bv(m,h),f),d=function(c,b){return aQ(a,c,$(b))},v=j[3],w=k[3],x=function(b,a){var
+c=d(o,a);return cb(d(n,b),c)},y=function(a){return d(o,a)},z=aP(function(a){return d(n,a)},y,x,w,v),A=r[3],B=function(b,a){return bv(b,d(f,aw(a)))[2]},C=function(a){return fe(d(f,aw(a)))[2]},p=aP(function(a){return a[2]},C,B,z,A),D=g[2],E=e(function(b){return t(a,D,b)},p),F=cy(c[2][1],c[2][2],E),G=ab(h[2]),H=e(function(b){return t(a,G,b)},p),q=[0,[0,cy(c[1][1],c[1][2],H),F]];else
 var
 q=i;return q}function
-lr(a,e,d,k){var
-p=e_(a,d),f=cb(e_(a,e),p),g=bv(cb(f,$(O(a,b))),k),l=aP(a,$(O(a,c(2,b))),f),q=e_(a,g),h=im(a,bv(aP(a,$(O(a,c(2,c(2,b)))),f),q));if(h){var
-m=h[1],r=aP(a,m,d),i=ee(a,cb(aP(a,g,e),r),l);if(i)var
-s=aP(a,m,e),j=ee(a,bv(aP(a,g,d),s),l),t=j?[0,[0,i[1],j[1]]]:j,n=t;else
+lJ(a,e,d,k){var
+p=ff(a,d),f=cb(ff(a,e),p),g=bv(cb(f,$(O(a,b))),k),l=aQ(a,$(O(a,c(2,b))),f),q=ff(a,g),h=iz(a,bv(aQ(a,$(O(a,c(2,c(2,b)))),f),q));if(h){var
+m=h[1],r=aQ(a,m,d),i=eg(a,cb(aQ(a,g,e),r),l);if(i)var
+s=aQ(a,m,e),j=eg(a,bv(aQ(a,g,d),s),l),t=j?[0,[0,i[1],j[1]]]:j,n=t;else
 var
 n=i;var
 o=n}else
 var
 o=h;var
-u=cX(function(b){return lq(a,e,d,k,b)},o);return cX(function(b){return lq(a,e,d,k,b)},u)}function
-cz(d,b,a){if(b){if(a)return aq(d,b[1],a[1]);var
+u=cZ(function(b){return lI(a,e,d,k,b)},o);return cZ(function(b){return lI(a,e,d,k,b)},u)}function
+cz(d,b,a){if(b){if(a)return ar(d,b[1],a[1]);var
 c=a}else
 var
 c=b;return c}function
@@ -1346,40 +1346,40 @@ k=a[2],l=a[1];return cz(function(b,a){return[0,cb(b,a)]},l,k);case
 4:var
 m=a[2],n=a[1];return cz(function(b,a){return[0,bv(b,a)]},n,m);case
 5:var
-o=a[1];return cX(function(a){return[0,e9(a)]},o);case
+o=a[1];return cZ(function(a){return[0,fe(a)]},o);case
 6:var
-p=a[2],q=a[1];return cz(function(c,a){return[0,aP(b,c,a)]},q,p);case
+p=a[2],q=a[1];return cz(function(c,a){return[0,aQ(b,c,a)]},q,p);case
 7:var
-s=a[2],t=a[1];return cz(function(a,c){return ee(b,a,c)},t,s);case
+s=a[2],t=a[1];return cz(function(a,c){return eg(b,a,c)},t,s);case
 8:var
-u=a[1];return cX(function(a){return[0,e_(b,a)]},u);case
+u=a[1];return cZ(function(a){return[0,ff(b,a)]},u);case
 9:var
-v=a[1];return cX(function(a){return im(b,a)},v);default:var
+v=a[1];return cZ(function(a){return iz(b,a)},v);default:var
 c=a[2];if(c){var
 d=a[3];if(d){var
 e=a[4];if(e){var
-w=lr(b,c[1],d[1],e[1]),x=a[1]?aT:ay;return z(x,w)}var
+w=lJ(b,c[1],d[1],e[1]),x=a[1]?aO:aA;return z(x,w)}var
 g=e}else
 var
 g=d;var
 h=g}else
 var
 h=c;return h}}}function
-dA(c){var
+dC(c){var
 a=c;for(;;)switch(a[0]){case
 0:return 0;case
 1:return 1;case
 6:var
 a=a[1];continue;default:var
-b=dA(a[1]);if(b)return b;var
+b=dC(a[1]);if(b)return b;var
 a=a[2];continue}}function
 cc(r,q){var
 b=r,a=q;for(;;)switch(b[0]){case
 0:if(0===a[0]){var
-c=K(b[1],a[1]);return c?gg(b[2],a[2]):c}return 0;case
+c=K(b[1],a[1]);return c?gp(b[2],a[2]):c}return 0;case
 1:var
 d=b[3],e=b[2];if(1===a[0]){var
-f=a[3],g=a[2],h=o(b[1],a[1]),i=h?K(e[1],g[1]):h,j=i?gg(e[2],g[2]):i,k=j?K(d[1],f[1]):j;return k?gg(d[2],f[2]):k}return 0;case
+f=a[3],g=a[2],h=o(b[1],a[1]),i=h?K(e[1],g[1]):h,j=i?gp(e[2],g[2]):i,k=j?K(d[1],f[1]):j;return k?gp(d[2],f[2]):k}return 0;case
 2:if(2===a[0]){var
 l=cc(b[1],a[1]);if(l){var
 b=b[2],a=a[2];continue}return l}return 0;case
@@ -1393,406 +1393,406 @@ b=b[2],a=a[2];continue}return n}return 0;case
 p=cc(b[1],a[1]);if(p){var
 b=b[2],a=a[2];continue}return p}return 0;default:if(6===a[0]){var
 b=b[1],a=a[1];continue}return 0}}function
-e$(c,a){switch(a[0]){case
+fg(c,a){switch(a[0]){case
 0:return[0,[0,a[1],a[2]]];case
 1:return 0;case
 2:var
-m=a[2],n=a[1],g=m,f=n,e=function(b,a){return[0,dw(b,a)]};break;case
+m=a[2],n=a[1],g=m,f=n,e=function(b,a){return[0,dy(b,a)]};break;case
 3:var
-o=a[2],p=a[1],g=o,f=p,e=function(b,a){return[0,dx(b,a)]};break;case
+o=a[2],p=a[1],g=o,f=p,e=function(b,a){return[0,dz(b,a)]};break;case
 4:var
-q=a[2],r=a[1],g=q,f=r,e=function(b,a){return[0,a0(b,a)]};break;case
+q=a[2],r=a[1],g=q,f=r,e=function(b,a){return[0,a2(b,a)]};break;case
 5:var
-s=a[2],t=a[1],g=s,f=t,e=function(c,a){return eb(a,[0,d,b])?0:[0,gn(c,a)]};break;default:var
-k=e$(c,a[1]);return k?j(c,k[1]):k}var
-h=e$(c,f);if(h){var
-i=e$(c,g);if(i)return e(h[1],i[1]);var
+s=a[2],t=a[1],g=s,f=t,e=function(c,a){return ed(a,[0,d,b])?0:[0,gw(c,a)]};break;default:var
+j=fg(c,a[1]);return j?k(c,j[1]):j}var
+h=fg(c,f);if(h){var
+i=fg(c,g);if(i)return e(h[1],i[1]);var
 l=i}else
 var
 l=h;return l}function
-sJ(a){return 0}function
-cA(a){return e$(sJ,a)}function
-bV(a,c){switch(c[0]){case
-0:return[0,ll(a,c[1],c[2])];case
+sQ(a){return 0}function
+cA(a){return fg(sQ,a)}function
+bU(a,c){switch(c[0]){case
+0:return[0,lD(a,c[1],c[2])];case
 1:return 0;case
 2:var
-g=bV(a,c[1]);if(g)var
-h=bV(a,c[2]),D=h?[0,A(g[1],h[1])]:h,r=D;else
+g=bU(a,c[1]);if(g)var
+h=bU(a,c[2]),D=h?[0,A(g[1],h[1])]:h,r=D;else
 var
 r=g;return r;case
 3:var
-i=bV(a,c[1]);if(i)var
-j=bV(a,c[2]),E=j?[0,F(i[1],j[1])]:j,s=E;else
+i=bU(a,c[1]);if(i)var
+j=bU(a,c[2]),E=j?[0,F(i[1],j[1])]:j,s=E;else
 var
 s=i;return s;case
 4:var
-k=bV(a,c[1]);if(k)var
-l=bV(a,c[2]),G=l?[0,t(a,k[1],l[1])]:l,v=G;else
+k=bU(a,c[1]);if(k)var
+l=bU(a,c[2]),G=l?[0,t(a,k[1],l[1])]:l,v=G;else
 var
 v=k;return v;case
 5:var
-m=bV(a,c[1]);if(m){var
-n=bV(a,c[2]);if(n)var
+m=bU(a,c[1]);if(m){var
+n=bU(a,c[2]);if(n)var
 o=b9(a,n[1]),H=o?[0,t(a,m[1],o[1])]:o,w=H;else
 var
 w=n;var
 x=w}else
 var
 x=m;return x;default:var
-y=c[1],p=bV(a,y);if(p){var
+y=c[1],p=bU(a,y);if(p){var
 e=p[1];if(I(d,e[1]))return b_(a,e);var
-f=cA(y),J=f?M(bb([0,d,b],f[1])):f;if(J)return 0;if(I(d,e[2])){var
+f=cA(y),J=f?N(be([0,d,b],f[1])):f;if(J)return 0;if(I(d,e[2])){var
 B=b_(a,[0,e[2],e[2]]);return z(function(a){return[0,d,a[2]]},B)}var
 q=K(e[2],d),C=q?[0,u]:q;return C}return p}}function
-cB(b,a){return ll(b,a[1],a[2])}function
-ls(a,g,e,d){var
-h=[0,b,c(2,b)],i=[0,cB(a,a0(dx(d,e),h)),0],j=f(al(u,g),i),k=cB(a,d)[2],l=[0,cB(a,e)[1],k],m=[0,b,c(2,b)];return[0,cB(a,a0(dw(e,d),m)),l,j]}function
-ef(c,e,a){function
-b(a){return ef(c,e,a)}if(dA(a))switch(a[0]){case
+cB(b,a){return lD(b,a[1],a[2])}function
+lK(a,g,e,d){var
+h=[0,b,c(2,b)],i=[0,cB(a,a2(dz(d,e),h)),0],j=f(af(u,g),i),k=cB(a,d)[2],l=[0,cB(a,e)[1],k],m=[0,b,c(2,b)];return[0,cB(a,a2(dy(e,d),m)),l,j]}function
+eh(c,e,a){function
+b(a){return eh(c,e,a)}if(dC(a))switch(a[0]){case
 0:return 0;case
-1:return fS(e,a[1],a[2],a[3]);case
+1:return f1(e,a[1],a[2],a[3]);case
 2:var
 g=b(a[2]),h=b(a[1]);return cz(function(b,a){return[0,cb(b,a)]},h,g);case
 3:var
 i=b(a[2]),j=b(a[1]);return cz(function(b,a){return[0,bv(b,a)]},j,i);case
 4:var
 f=a[2],d=a[1];if(cc(d,f)){var
-k=b(d);return cX(function(a){return[0,e_(c,a)]},k)}var
-l=b(f),m=b(d);return cz(function(b,a){return[0,aP(c,b,a)]},m,l);case
+k=b(d);return cZ(function(a){return[0,ff(c,a)]},k)}var
+l=b(f),m=b(d);return cz(function(b,a){return[0,aQ(c,b,a)]},m,l);case
 5:var
-n=b(a[2]),o=b(a[1]);return cz(function(a,b){return ee(c,a,b)},o,n);default:var
-p=b(a[1]);return cX(function(a){return im(c,a)},p)}return z($,bV(c,a))}function
-aC(b,a){if(dA(a)){var
-c=ef(b,function(d,c,a){var
-e=aI(d,dB),f=e?bb(c,a):e,g=f?[0,ls(b,d,c,a)]:f;return g},a);return z(function(a){return a[2]},c)}return bV(b,a)}function
-io(a){var
-e=bj(T(a),d);return d$(E(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e))}function
-lt(a){return ii(E(io(a),a))}function
-lu(b,a){var
-c=lt(b),d=T(cU(T(a[2]),c)),e=lt(b);return[0,cU(a[1],e),d]}function
-cY(c,a,b){var
-d=aC(E(c,io(a)),b);return z(function(b){return lu(a,b)},d)}function
-ao(d,a){var
-b=cY(d,a[2],a[1][1]);if(b)var
-c=cY(d,a[2],a[1][2]),f=c?[0,[0,b[1][1],c[1][2]]]:c,e=f;else
+n=b(a[2]),o=b(a[1]);return cz(function(a,b){return eg(c,a,b)},o,n);default:var
+p=b(a[1]);return cZ(function(a){return iz(c,a)},p)}return z($,bU(c,a))}function
+aD(b,a){if(dC(a)){var
+c=eh(b,function(d,c,a){var
+e=aK(d,dD),f=e?be(c,a):e,g=f?[0,lK(b,d,c,a)]:f;return g},a);return z(function(a){return a[2]},c)}return bU(b,a)}function
+iA(a){var
+e=bl(T(a),d);return eb(E(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e))}function
+lL(a){return iv(E(iA(a),a))}function
+lM(b,a){var
+c=lL(b),d=T(cW(T(a[2]),c)),e=lL(b);return[0,cW(a[1],e),d]}function
+c0(c,a,b){var
+d=aD(E(c,iA(a)),b);return z(function(b){return lM(a,b)},d)}function
+ap(d,a){var
+b=c0(d,a[2],a[1][1]);if(b)var
+c=c0(d,a[2],a[1][2]),f=c?[0,[0,b[1][1],c[1][2]]]:c,e=f;else
 var
 e=b;return e}function
-lv(b,a){var
-c=T(cU(T(a[2]),b));return[0,cU(a[1],b),c]}function
-gs(b,a){var
-c=go(b[2],a);return[0,cv(b[1],a),c]}function
-lw(h,g,d,b){var
-e=b[2],f=la(d),i=c(2,f),j=C(k8(f),i),a=gs(t(h,b[1],g),j),k=k6(d)?F(e,a):A(e,a);return[0,a,k]}function
-lx(a,d,c){if(c){var
-e=c[1];return lw(a,d,e,lx(a,d,e))}var
+lN(b,a){var
+c=T(cW(T(a[2]),b));return[0,cW(a[1],b),c]}function
+gB(b,a){var
+c=gx(b[2],a);return[0,cv(b[1],a),c]}function
+lO(h,g,d,b){var
+e=b[2],f=ls(d),i=c(2,f),j=C(lo(f),i),a=gB(t(h,b[1],g),j),k=lm(d)?F(e,a):A(e,a);return[0,a,k]}function
+lP(a,d,c){if(c){var
+e=c[1];return lO(a,d,e,lP(a,d,e))}var
 f=O(a,b);return[0,O(a,b),f]}function
-ly(e,g){var
+lQ(e,g){var
 o=cw(e),p=C(c(2,c(2,b)),o),j=D(g[2],p);if(j){var
-n=e2(e),i=sK[1],d=n,f=0,a=i;for(;;){if(d){var
+n=e9(e),i=sR[1],d=n,f=0,a=i;for(;;){if(d){var
 h=d[1];if(a){var
 d=h,a=a[1];continue}var
 d=h,f=[0,f],a=i;continue}var
-k=N(k5(sN,N(sL,f)),sM),l=lx(e,g,k),q=lw(e,g,k,l)[2][2],m=[0,[0,l[2][1],q]];break}}else
+k=L(ll(sU,L(sS,f)),sT),l=lP(e,g,k),q=lO(e,g,k,l)[2][2],m=[0,[0,l[2][1],q]];break}}else
 var
 m=j;return m}function
-lz(i){function
+lR(i){function
 a(h){var
-m=cv(cw(i),h),g=e2(i),f=m,e=d,a=b;for(;;){if(g){var
+m=cv(cw(i),h),g=e9(i),f=m,e=d,a=b;for(;;){if(g){var
 j=E(a,c(2,b)),k=E(e,cv(f,a)),l=T(cv(f,C(h,h))),g=g[1],f=l,e=k,a=j;continue}return e}}var
-e=a(q(c(2,q(c(2,q(c(2,q(c(2,c(2,q(c(2,q(c(2,b)))))))))))))),f=C(c(2,c(2,b)),e),g=a(q(c(2,c(2,b))));return aL(C(c(2,c(2,c(2,c(2,b)))),g),f)}function
-lA(e,a){var
+e=a(q(c(2,q(c(2,q(c(2,q(c(2,c(2,q(c(2,q(c(2,b)))))))))))))),f=C(c(2,c(2,b)),e),g=a(q(c(2,c(2,b))));return aM(C(c(2,c(2,c(2,c(2,b)))),g),f)}function
+lS(e,a){var
 f=D(d,a);if(f){var
-g=c(2,c(2,b));return ly(e,gs(U(e,[0,a,a]),g))}return f}function
-lB(a){var
-m=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),g=aL(lz(a),m),n=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),h=E(lz(a),n),e=lA(a,g);if(e){var
-f=lA(a,h);if(f)var
+g=c(2,c(2,b));return lQ(e,gB(U(e,[0,a,a]),g))}return f}function
+lT(a){var
+m=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),g=aM(lR(a),m),n=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),h=E(lR(a),n),e=lS(a,g);if(e){var
+f=lS(a,h);if(f)var
 i=I(d,e[1][1]),j=i?I(f[1][2],d):i,k=j?[0,[0,g,h]]:j;else
 var
 k=f;var
 l=k}else
 var
 l=e;return l}function
-lC(a,d){var
+lU(a,d){var
 c=U(a,d),e=O(a,b);return F(A(c,c),e)}function
-cZ(f,j){var
-e=aC(E(f,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),j);if(e){var
-k=e[1],a=E(f,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),d=lB(a);if(d)var
-h=c(2,c(2,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))))),i=ly(a,U(a,gs(t(a,k,d[1]),h))),g=z(function(b){return lC(a,lC(a,b))},i);else
+c1(f,j){var
+e=aD(E(f,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),j);if(e){var
+k=e[1],a=E(f,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),d=lT(a);if(d)var
+h=c(2,c(2,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))))),i=lQ(a,U(a,gB(t(a,k,d[1]),h))),g=z(function(b){return lU(a,lU(a,b))},i);else
 var
 g=d;var
-l=c(2,c(2,c(2,c(2,c(2,c(2,b))))));return z(function(a){return lv(l,a)},g)}return e}function
-lD(a,d){var
-e=lB(E(a,c(2,c(2,c(2,c(2,c(2,c(2,b))))))));return z(function(e){var
-f=c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))));return gs(t(a,d,lv(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e)),f)},e)}function
-gt(d,a){return cZ(d,[3,a,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b]])}function
+l=c(2,c(2,c(2,c(2,c(2,c(2,b))))));return z(function(a){return lN(l,a)},g)}return e}function
+lV(a,d){var
+e=lT(E(a,c(2,c(2,c(2,c(2,c(2,c(2,b))))))));return z(function(e){var
+f=c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))));return gB(t(a,d,lN(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e)),f)},e)}function
+gC(d,a){return c1(d,[3,a,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b]])}function
 h(i,e,c){var
 f=cA(c);if(f){var
-g=f[1];return e?M(bb(g,[0,d,b])):bb([0,d,b],g)}var
-a=aC(i,c);if(a){var
+g=f[1];return e?N(be(g,[0,d,b])):be([0,d,b],g)}var
+a=aD(i,c);if(a){var
 h=a[1];return e?I(d,h[1]):D(d,h[1])}return a}function
-lE(c,b){var
-a=aC(c,b),d=a?1:a;return d}function
+lW(c,b){var
+a=aD(c,b),d=a?1:a;return d}function
 bw(c,a,b){var
-d=cc(a,b),e=d?lE(c,a):d;return e?e:h(c,0,[3,b,a])}function
-sO(c){var
-a=dy(c),g=d$(gk(a[2])),b=[0,gk(a[1]),g],e=I(d,a[1]),f=e?eb(a0(b,b),c):e,h=f?[0,b]:f;return h}function
-lF(a){if(a){var
-e=a[2],c=a[1];if(eb(bS([0,d,b],c),[0,d,b])){var
-g=lF(e);return z(function(a){return[0,a[1],[0,c,a[2]]]},g)}var
+d=cc(a,b),e=d?lW(c,a):d;return e?e:h(c,0,[3,b,a])}function
+sV(c){var
+a=dA(c),g=eb(gt(a[2])),b=[0,gt(a[1]),g],e=I(d,a[1]),f=e?ed(a2(b,b),c):e,h=f?[0,b]:f;return h}function
+lX(a){if(a){var
+e=a[2],c=a[1];if(ed(bR([0,d,b],c),[0,d,b])){var
+g=lX(e);return z(function(a){return[0,a[1],[0,c,a[2]]]},g)}var
 f=[0,[0,c,e]]}else
 var
 f=a;return f}function
-lG(c,a){var
-e=W(c,a),f=[0,d,b];return an(function(a,b){return dy(dw(a0(a[1],a[2]),b))},f,e)}function
-lH(c,j){if(c){var
-f=c[1],g=lF(j);if(g){var
+lY(c,a){var
+e=W(c,a),f=[0,d,b];return ao(function(a,b){return dA(dy(a2(a[1],a[2]),b))},f,e)}function
+lZ(c,j){if(c){var
+f=c[1],g=lX(j);if(g){var
 h=g[1],a=h[1],k=function(c){var
-f=bS([0,d,b],a),g=gn(bS([0,d,b],c),f),h=bA(a),i=W(bA(c),h);return e(function(a){var
-b=a0(g,a[2]);return dy(dx(a[1],b))},i)},l=lH(f,e(k,h[2]));return z(function(c){var
-e=bS([0,d,b],a);return[0,dy(gn(gm(lG(bA(a),c)),e)),c]},l)}var
-i=[0,[0,[0,b,b],al([0,d,b],f)]]}else
+f=bR([0,d,b],a),g=gw(bR([0,d,b],c),f),h=bA(a),i=W(bA(c),h);return e(function(a){var
+b=a2(g,a[2]);return dA(dz(a[1],b))},i)},l=lZ(f,e(k,h[2]));return z(function(c){var
+e=bR([0,d,b],a);return[0,dA(gw(gv(lY(bA(a),c)),e)),c]},l)}var
+i=[0,[0,[0,b,b],af([0,d,b],f)]]}else
 var
 i=c;return i}function
-lI(a){if(a){var
-b=e$(sO,a[1]);if(b)var
-c=lI(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+l0(a){if(a){var
+b=fg(sV,a[1]);if(b)var
+c=l0(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return sP}function
-lJ(a){if(a){var
-b=lI(a[1]);if(b)var
-c=lJ(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+d=b;return d}return sW}function
+l1(a){if(a){var
+b=l0(a[1]);if(b)var
+c=l1(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return sQ}function
-lK(i,m){var
-a=lJ(m);if(a){var
-j=a[1],c=lH(i,j);if(c){var
-e=c[1],f=o(g(e),i),h=f?aj(function(a){return M(eb(a,[0,d,b]))},e):f;return h?l(function(a){return eb(lG(a,e),[0,d,b])},j):h}var
+d=b;return d}return sX}function
+l2(i,m){var
+a=l1(m);if(a){var
+j=a[1],c=lZ(i,j);if(c){var
+e=c[1],f=o(g(e),i),h=f?aj(function(a){return N(ed(a,[0,d,b]))},e):f;return h?l(function(a){return ed(lY(a,e),[0,d,b])},j):h}var
 k=c}else
 var
 k=a;return k}function
-sR(a){return a}function
-sS(a){return a}function
-sT(a,b){return aO(sS,sR,A,a,b)}function
-sU(a){return a}function
-sV(a){return a}function
-be(a,b){return aO(sV,sU,sT,a,b)}function
-ip(a,f,c,d){if(c){var
-h=c[2],i=O(a,b),g=ed(c[1],i,f);if(d){var
-j=ip(a,f,h,d[2]),k=d[1],l=function(c,b){return F(c,t(a,g,b))},m=function(b){return ab(t(a,g,b))};return[0,aO(function(a){return a},m,l,k,c),j]}var
-n=ip(a,f,h,0);return[0,e(function(b){return ab(t(a,g,b))},c),n]}return d}function
-gu(h,a){if(a){var
+sY(a){return a}function
+sZ(a){return a}function
+s0(a,b){return aP(sZ,sY,A,a,b)}function
+s1(a){return a}function
+s2(a){return a}function
+bh(a,b){return aP(s2,s1,s0,a,b)}function
+iB(a,f,c,d){if(c){var
+h=c[2],i=O(a,b),g=ef(c[1],i,f);if(d){var
+j=iB(a,f,h,d[2]),k=d[1],l=function(c,b){return F(c,t(a,g,b))},m=function(b){return ab(t(a,g,b))};return[0,aP(function(a){return a},m,l,k,c),j]}var
+n=iB(a,f,h,0);return[0,e(function(b){return ab(t(a,g,b))},c),n]}return d}function
+gD(h,a){if(a){var
 b=a[1];if(b)var
-c=b[1],e=I(d,c[1]),i=e?[0,ip(h,c,b[2],a[2])]:e,f=i;else
+c=b[1],e=I(d,c[1]),i=e?[0,iB(h,c,b[2],a[2])]:e,f=i;else
 var
 f=b;var
 g=f}else
 var
 g=a;return g}function
-lL(g,f,e){var
+l3(g,f,e){var
 a=f,b=e;for(;;){if(b){if(a){var
-c=gu(g,b);if(c){var
+c=gD(g,b);if(c){var
 a=a[1],b=c[1];continue}var
 d=c}else
 var
 d=a;return d}return 1}}function
-lM(d,b,a){if(b)if(a)var
-e=a[1],f=lM(d,b[2],a[2]),g=ct(d,b[1])?ca(e):cx(e),c=[0,g,f];else
+l4(d,b,a){if(b)if(a)var
+e=a[1],f=l4(d,b[2],a[2]),g=ct(d,b[1])?ca(e):cx(e),c=[0,g,f];else
 var
 c=a;else
 var
 c=b;return c}function
-lN(a,b){if(a)if(b)var
-d=lN(a[2],b[2]),c=[0,lM(a[1],a,b[1]),d];else
+l5(a,b){if(a)if(b)var
+d=l5(a[2],b[2]),c=[0,l4(a[1],a,b[1]),d];else
 var
 c=b;else
 var
 c=a;return c}function
-bf(a){if(a){var
-b=a[1],c=bf(b),d=e(function(a){return[0,1,a]},c),g=bf(b);return f(e(function(a){return[0,0,a]},g),d)}return sW}function
-eg(c,a){var
-b=g(a);if(lL(c,b,a))return 1;var
-d=bf(bz(b));return l(function(d){return lL(c,b,lN([0,0,d],a))},d)}function
-au(a){function
+bi(a){if(a){var
+b=a[1],c=bi(b),d=e(function(a){return[0,1,a]},c),g=bi(b);return f(e(function(a){return[0,0,a]},g),d)}return s3}function
+ei(c,a){var
+b=g(a);if(l3(c,b,a))return 1;var
+d=bi(bz(b));return l(function(d){return l3(c,b,l5([0,0,d],a))},d)}function
+ax(a){function
 b(b){var
-c=j(a,b[2]);return[0,e(a,b[1]),c]}return function(a){return e(b,a)}}function
-aG(h,e){var
+c=k(a,b[2]);return[0,e(a,b[1]),c]}return function(a){return e(b,a)}}function
+aH(h,e){var
 c=h,a=e[1],b=e[3];for(;;){if(c){if(b){var
 d=b[1],f=b[2],g=c[1]?A(a,d):F(a,d),c=c[2],a=g,b=f;continue}return a}return a}}function
-iq(c,b,a){var
-d=bf(c);return l(function(c){return j(a,j(au(function(a){return aG(c,a)}),b))},d)}function
-ir(h,d,c){if(d)if(c)var
-i=c[2],e=c[1],j=d[2],f=d[1],a=function(c,a){return aU(c,E(h,b),a)},k=ir(h,j,i),l=function(c,b){var
-d=a(b,e);return A(a(f,c),d)},m=function(b){return a(b,e)},n=aO(function(b){return a(f,b)},m,l,i,j),o=a(f,e),g=[0,[0,A(a(f,e),o),n],k];else
+iC(c,b,a){var
+d=bi(c);return l(function(c){return k(a,k(ax(function(a){return aH(c,a)}),b))},d)}function
+iD(h,d,c){if(d)if(c)var
+i=c[2],e=c[1],j=d[2],f=d[1],a=function(c,a){return aU(c,E(h,b),a)},k=iD(h,j,i),l=function(c,b){var
+d=a(b,e);return A(a(f,c),d)},m=function(b){return a(b,e)},n=aP(function(b){return a(f,b)},m,l,i,j),o=a(f,e),g=[0,[0,A(a(f,e),o),n],k];else
 var
 g=c;else
 var
 g=d;return g}function
-eh(b,d,a,c){function
+ej(b,d,a,c){function
 e(c,d){var
 e=aU(d,b,a);return F(A(c,c),e)}function
-f(c){return ab(aU(c,b,a))}return aO(function(a){return A(a,a)},f,e,d,c)}function
-gv(d,i,h,g){var
+f(c){return ab(aU(c,b,a))}return aP(function(a){return A(a,a)},f,e,d,c)}function
+gE(d,i,h,g){var
 c=i,b=h,a=g;for(;;){if(c){if(b){var
-e=b[1],f=c[1],j=cx(e[2]),k=be(a,ir(d,f,eh(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
-is(b,a){return[0,[0,0,b],a]}function
-fa(i,b,c,h,f,a){function
+e=b[1],f=c[1],j=cx(e[2]),k=bh(a,iD(d,f,ej(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
+iE(b,a){return[0,[0,0,b],a]}function
+fh(i,b,c,h,f,a){function
 d(a){if(a){var
-j=al([0,ab(a[1][2]),0],b),c=gv(h,f,a[2],j),d=o(g(c),b);if(d)return eg(i,c);var
+j=af([0,ab(a[1][2]),0],b),c=gE(h,f,a[2],j),d=o(g(c),b);if(d)return ei(i,c);var
 e=d}else
 var
-e=a;return e}return iq(b,is(c,a),d)}function
-gw(g,f,e){var
+e=a;return e}return iC(b,iE(c,a),d)}function
+gF(g,f,e){var
 a=f,b=e;for(;;){if(a){var
-d=a[1],h=d[1],c=gu(g,[0,[0,ca(d[2]),h],b]);if(c){var
+d=a[1],h=d[1],c=gD(g,[0,[0,ca(d[2]),h],b]);if(c){var
 a=a[2],b=c[1];continue}return c}return[0,b]}}function
-it(d,b,c,a){function
+iF(d,b,c,a){function
 e(a){if(a){var
-j=al([0,a[1][2],0],b),c=gw(d,a[2],j);if(c){var
-e=c[1],f=o(g(e),b);if(f)return eg(d,e);var
+j=af([0,a[1][2],0],b),c=gF(d,a[2],j);if(c){var
+e=c[1],f=o(g(e),b);if(f)return ei(d,e);var
 h=f}else
 var
 h=c;var
 i=h}else
 var
-i=a;return i}return iq(b,is(c,a),e)}function
-lO(h,g,a,f,d,c){var
-i=[0,u,u,0],b=e(function(a){return[0,a[1],i]},c),j=a?a[1]:[0,u,u,0];return fa(h,g,j,f,d,b)}function
-iu(b,a){var
-c=bf(b);return l(function(b){return I(d,aG(b,a)[1])},c)}function
-gx(c,b,a){var
+i=a;return i}return iC(b,iE(c,a),e)}function
+l6(h,g,a,f,d,c){var
+i=[0,u,u,0],b=e(function(a){return[0,a[1],i]},c),j=a?a[1]:[0,u,u,0];return fh(h,g,j,f,d,b)}function
+iG(b,a){var
+c=bi(b);return l(function(b){return I(d,aH(b,a)[1])},c)}function
+gG(c,b,a){var
 d=a[3],f=e(function(a){return aU(c,b,a)},d),g=a[2];return[0,aU(c,b,a[1]),g,f]}function
-lP(a,b){var
-c=b[3],d=a[3],e=aO(function(a){return a},ab,F,d,c),f=a[2];return[0,F(a[1],b[1]),f,e]}function
-bW(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-af(c,b,a){var
-d=aq(c,b[3],a[3]),e=aq(c,b[2],a[2]);return[0,aq(c,b[1],a[1]),e,d]}function
-a1(b,a){var
+l7(a,b){var
+c=b[3],d=a[3],e=aP(function(a){return a},ab,F,d,c),f=a[2];return[0,F(a[1],b[1]),f,e]}function
+bV(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+ag(c,b,a){var
+d=ar(c,b[3],a[3]),e=ar(c,b[2],a[2]);return[0,ar(c,b[1],a[1]),e,d]}function
+a3(b,a){var
 c=s(b,a[3]),d=s(b,a[2]);return[0,s(b,a[1]),d,c]}function
-bm(b,a){var
+bo(b,a){var
 c=am(b[3],a),d=am(b[2],a);return[0,am(b[1],a),d,c]}function
 Z(b,a){var
 c=s(b[3],a[3]),d=s(b[2],a[2]);return B(B(s(b[1],a[1]),d),c)}function
-dC(a){return bm(a,aJ(Z(a,a)))}function
-c0(a){var
-b=a[5];return b?b[1]:aJ(a[2])}function
-gy(b,a){return b?a:bl(a)}function
-lQ(e,a,i,d,h){var
-f=Z(a,e),b=af(x,e,a1(f,a)),j=Z(b,b),g=x(V(d),j),c=gy(h,aJ(g)),k=x(f,c),l=af(B,a,bm(b,c));return[0,af(B,b,a1(c,a)),g,l,k,[0,d],0,[0,i]]}function
-lR(a,e,d){var
-b=Z(a,a),c=aJ(b),f=[0,e],g=z(function(b){return af(x,a,a1(Z(b,a),b))},d);return[0,a,b,bm(a,c),c,0,g,f]}function
-lS(c,a){var
+dE(a){return bo(a,aL(Z(a,a)))}function
+c2(a){var
+b=a[5];return b?b[1]:aL(a[2])}function
+gH(b,a){return b?a:bn(a)}function
+l8(e,a,i,d,h){var
+f=Z(a,e),b=ag(x,e,a3(f,a)),j=Z(b,b),g=x(V(d),j),c=gH(h,aL(g)),k=x(f,c),l=ag(B,a,bo(b,c));return[0,ag(B,b,a3(c,a)),g,l,k,[0,d],0,[0,i]]}function
+l9(a,e,d){var
+b=Z(a,a),c=aL(b),f=[0,e],g=z(function(b){return ag(x,a,a3(Z(b,a),b))},d);return[0,a,b,bo(a,c),c,0,g,f]}function
+l_(c,a){var
 d=Z(a,c);return[0,a,m(b),a,d,0,0,0]}function
-fb(a){return e(function(a){var
-b=a[2];return[0,bW(a[1]),b]},a)}function
-lT(a){return e(function(a){var
-c=m(b);return[0,bW(a[3]),c]},a)}function
-lU(b,a){var
-c=j(b,a[3]),d=j(b,a[2]);return[0,j(b,a[1]),d,c]}function
-lV(c,b,a){var
-d=aq(c,b[3],a[3]),e=aq(c,b[2],a[2]);return[0,aq(c,b[1],a[1]),e,d]}function
-ei(d,a){var
+fi(a){return e(function(a){var
+b=a[2];return[0,bV(a[1]),b]},a)}function
+l$(a){return e(function(a){var
+c=m(b);return[0,bV(a[3]),c]},a)}function
+ma(b,a){var
+c=k(b,a[3]),d=k(b,a[2]);return[0,k(b,a[1]),d,c]}function
+mb(c,b,a){var
+d=ar(c,b[3],a[3]),e=ar(c,b[2],a[2]);return[0,ar(c,b[1],a[1]),e,d]}function
+ek(d,a){var
 b=b_(d,[0,a[2],a[2]]);if(b){var
 c=b[1];return[0,c[2],c[2]]}return[0,a[2],a[2]]}function
-gz(a,n,f,m,e,k,j){var
-o=lV(bv,k,j),b=lV(function(b,c){return aP(a,b,c)},e,o),c=b[3],g=b[2],h=b[1],i=cb(cb(cb($(O(a,d)),h),g),c),p=bf(n);return l(function(c){var
-b=lU(function(b){return U(a,aG(c,b))},e),h=b[3],j=b[2],k=b[1],l=t(a,m,ei(a,A(A(A(O(a,d),k),j),h))),g=F(aG(c,i),l),n=f?F(g,aG(c,f[1])):g;return I(d,n[1])},p)}function
-cd(a){return dv(E(a[1],a[2]),b)}function
-ej(a){var
-b=cd(a);return aL(a[2],b)}function
-dE(c,b){if(b)var
-a=b[1],e=dE([0,c],b[2]),g=ej(a),h=[0,[0,ej(a),g],0],i=f(al(u,c),h),j=cd(a),d=[0,[0,[0,cd(a),j],a,i],e];else
+gI(a,n,f,m,e,k,j){var
+o=mb(bv,k,j),b=mb(function(b,c){return aQ(a,b,c)},e,o),c=b[3],g=b[2],h=b[1],i=cb(cb(cb($(O(a,d)),h),g),c),p=bi(n);return l(function(c){var
+b=ma(function(b){return U(a,aH(c,b))},e),h=b[3],j=b[2],k=b[1],l=t(a,m,ek(a,A(A(A(O(a,d),k),j),h))),g=F(aH(c,i),l),n=f?F(g,aH(c,f[1])):g;return I(d,n[1])},p)}function
+cd(a){return dx(E(a[1],a[2]),b)}function
+el(a){var
+b=cd(a);return aM(a[2],b)}function
+dG(c,b){if(b)var
+a=b[1],e=dG([0,c],b[2]),g=el(a),h=[0,[0,el(a),g],0],i=f(af(u,c),h),j=cd(a),d=[0,[0,[0,cd(a),j],a,i],e];else
 var
 d=b;return d}function
-c1(d,b){if(b){var
+c3(d,b){if(b){var
 c=b[2],a=b[1];if(d){var
-e=c1(d[1],c);return[0,[0,a,e[1]],[0,a,e[2]]]}var
-f=a[2],g=[0,[0,cd(a),f],c],h=cd(a);return[0,[0,[0,a[1],h],c],g]}return sX}function
-lW(d,c,a){if(c){if(a){var
-e=lW(d,c[2],a[2]);return A(aU(c[1],E(d,b),a[1]),e)}return u}return u}function
-ek(f,a){if(a)var
-g=a[1],c=g[2],d=g[1],h=a[2],b=function(a,b){return lW(f,a,b)},j=ek(f,h),k=e(function(a){var
+e=c3(d[1],c);return[0,[0,a,e[1]],[0,a,e[2]]]}var
+f=a[2],g=[0,[0,cd(a),f],c],h=cd(a);return[0,[0,[0,a[1],h],c],g]}return s4}function
+mc(d,c,a){if(c){if(a){var
+e=mc(d,c[2],a[2]);return A(aU(c[1],E(d,b),a[1]),e)}return u}return u}function
+em(f,a){if(a)var
+g=a[1],c=g[2],d=g[1],h=a[2],b=function(a,b){return mc(f,a,b)},j=em(f,h),k=e(function(a){var
 e=b(d,a[2]);return A(b(a[1],c),e)},h),l=b(d,c),i=[0,[0,A(b(d,c),l),k],j];else
 var
 i=a;return i}function
-el(e,b,d,a){if(b)if(a)var
-f=b[1],g=el(e,b[2],d,a[2]),c=[0,[0,f,eh(e,a[1][1],d,f)],g];else
+en(e,b,d,a){if(b)if(a)var
+f=b[1],g=en(e,b[2],d,a[2]),c=[0,[0,f,ej(e,a[1][1],d,f)],g];else
 var
 c=a;else
 var
 c=b;return c}function
-gA(f,d,c,b,a){if(a){var
+gJ(f,d,c,b,a){if(a){var
 g=a[2];if(d){var
-i=gA(f,d[1],c,b,g);return[0,[0,F(u,b),0],i]}var
+i=gJ(f,d[1],c,b,g);return[0,[0,F(u,b),0],i]}var
 j=e(function(a){return[0,F(u,b),0]},g),h=[0,[0,F(ab(t(f,c,cx(a[1][2]))),b),0],j]}else
 var
 h=a;return h}function
-a6(d,c,a){var
-b=o(g(a),c);return b?eg(d,a):b}function
-gB(d,b,a){if(b)var
-c=b[1],g=gB([0,d],b[2],a),h=f(al(u,d),[0,a,0]),e=[0,[0,c,[0,aL(c[1],a[2]),E(c[2],a[2])],h],g];else
+a9(d,c,a){var
+b=o(g(a),c);return b?ei(d,a):b}function
+gK(d,b,a){if(b)var
+c=b[1],g=gK([0,d],b[2],a),h=f(af(u,d),[0,a,0]),e=[0,[0,c,[0,aM(c[1],a[2]),E(c[2],a[2])],h],g];else
 var
 e=b;return e}function
-lX(d){if(d){var
+md(d){if(d){var
 a=d[1][1];if(a){var
 b=a[2];if(b){var
 c=b[2];if(c){if(c[2])return 0;var
-g=c[1],h=b[1],i=a[1],j=lX(d[2]);return z(function(a){return[0,[0,[0,i,h],g],a]},j)}var
+g=c[1],h=b[1],i=a[1],j=md(d[2]);return z(function(a){return[0,[0,[0,i,h],g],a]},j)}var
 e=c}else
 var
 e=b;var
 f=e}else
 var
-f=a;return f}return sY}function
-iv(a){return z(function(a){return z(e9,a)},a)}function
-c2(c,b,a){function
-d(a){return aP(c,b,a)}return z(function(a){return z(d,a)},a)}function
-iw(c,b,a){function
-d(a){return ee(c,a,b)}return z(function(a){return cX(d,a)},a)}function
-em(b,a){var
+f=a;return f}return s5}function
+iH(a){return z(function(a){return z(fe,a)},a)}function
+c4(c,b,a){function
+d(a){return aQ(c,b,a)}return z(function(a){return z(d,a)},a)}function
+iI(c,b,a){function
+d(a){return eg(c,a,b)}return z(function(a){return cZ(d,a)},a)}function
+eo(b,a){var
 c=W(b,a);return e(function(c){var
 a=c[2],b=c[1];if(b){if(a){var
 d=a[1],e=b[1];return[0,cz(function(b,a){return[0,cb(b,a)]},e,d)]}return b}return a},c)}function
-gC(a){return $(O(a,c(2,b)))}function
-ix(a,au,at,K,c){var
-av=bU(ay,c),f=j(bB(a,au,at),av);switch(c[0]){case
+gL(a){return $(O(a,c(2,b)))}function
+iJ(a,au,at,K,c){var
+av=bT(aA,c),f=k(bB(a,au,at),av);switch(c[0]){case
 1:var
 N=c[1],d=e(function(d){var
 c=o(N,d),e=c?[0,[0,$(O(a,b))]]:c;return e},K);break;case
 3:var
-d=em(c[1][2],c[2][2]);break;case
+d=eo(c[1][2],c[2][2]);break;case
 4:var
-P=e(iv,c[2][2]),d=em(c[1][2],P);break;case
+P=e(iH,c[2][2]),d=eo(c[1][2],P);break;case
 5:var
-d=e(iv,c[1][2]);break;case
+d=e(iH,c[1][2]);break;case
 6:var
 x=c[2],y=c[1],g=y[1],u=0;if(g){var
 h=x[1];if(h)var
-Q=x[2],R=g[1],S=e(function(b){return c2(a,R,b)},Q),T=y[2],U=h[1],d=em(e(function(b){return c2(a,U,b)},T),S);else{var
+Q=x[2],R=g[1],S=e(function(b){return c4(a,R,b)},Q),T=y[2],U=h[1],d=eo(e(function(b){return c4(a,U,b)},T),S);else{var
 z=h;u=1}}else{var
 z=g;u=1}if(u)var
 d=z;break;case
 7:var
 v=0;if(f){var
 A=c[2],i=A[1];if(i)var
-V=A[2],W=e9(f[1]),X=e(function(b){return c2(a,W,b)},V),Y=em(c[1][2],X),Z=i[1],d=e(function(b){return iw(a,Z,b)},Y);else{var
+V=A[2],W=fe(f[1]),X=e(function(b){return c4(a,W,b)},V),Y=eo(c[1][2],X),Z=i[1],d=e(function(b){return iI(a,Z,b)},Y);else{var
 B=i;v=1}}else{var
 B=f;v=1}if(v)var
 d=B;break;case
 8:var
-C=c[1],k=C[1];if(k)var
-_=C[2],aa=k[1],ab=aP(a,gC(a),aa),d=e(function(b){return c2(a,ab,b)},_);else
+C=c[1],j=C[1];if(j)var
+_=C[2],aa=j[1],ab=aQ(a,gL(a),aa),d=e(function(b){return c4(a,ab,b)},_);else
 var
-d=k;break;case
+d=j;break;case
 9:if(f)var
-ac=c[1][2],ad=f[1],ae=aP(a,gC(a),ad),d=e(function(b){return iw(a,ae,b)},ac);else
+ac=c[1][2],ad=f[1],ae=aQ(a,gL(a),ad),d=e(function(b){return iI(a,ae,b)},ac);else
 var
 d=f;break;case
 10:var
 D=c[4],E=c[3],F=c[2],l=F[1],w=0;if(l){var
 m=l[1],n=E[1],L=0;if(n){var
 p=n[1],q=D[1],M=0;if(q){var
-r=lr(a,m,p,q[1]);if(r){var
-G=r[1],s=G[2],t=G[1],af=E[2],ag=bv(p,s),ah=e(function(b){return c2(a,ag,b)},af),ai=F[2],aj=bv(m,t),ak=em(e(function(b){return c2(a,aj,b)},ai),ah),al=e(iv,D[2]),am=gC(a),an=em(e(function(b){return c2(a,am,b)},ak),al),ao=c[1]?t:e9(s),ap=e(function(b){return c2(a,ao,b)},an),aq=aP(a,m,s),ar=bv(aP(a,p,t),aq),as=aP(a,gC(a),ar),d=e(function(b){return iw(a,as,b)},ap);L=1;M=1}else
+r=lJ(a,m,p,q[1]);if(r){var
+G=r[1],s=G[2],t=G[1],af=E[2],ag=bv(p,s),ah=e(function(b){return c4(a,ag,b)},af),ai=F[2],aj=bv(m,t),ak=eo(e(function(b){return c4(a,aj,b)},ai),ah),al=e(iH,D[2]),am=gL(a),an=eo(e(function(b){return c4(a,am,b)},ak),al),ao=c[1]?t:fe(s),ap=e(function(b){return c4(a,ao,b)},an),aq=aQ(a,m,s),ar=bv(aQ(a,p,t),aq),as=aQ(a,gL(a),ar),d=e(function(b){return iI(a,as,b)},ap);L=1;M=1}else
 var
 H=r}else
 var
@@ -1804,151 +1804,151 @@ J=I;w=1}}else{var
 J=l;w=1}if(w)var
 d=J;break;default:var
 d=e(function(a){return 0},K)}return[0,f,d]}function
-iy(b,c,a){if(a)var
-f=a[1],g=iy(b,c,a[2]),d=[0,e(function(a){return ab(t(b,t(b,c,f),a))},a),g];else
+iK(b,c,a){if(a)var
+f=a[1],g=iK(b,c,a[2]),d=[0,e(function(a){return ab(t(b,t(b,c,f),a))},a),g];else
 var
 d=a;return d}function
-iz(a){return l(function(a){var
+iL(a){return l(function(a){var
 b=K(a[1],d);return b?K(a[2],d):b},a)}function
-iA(c,b,a){var
-d=W(b,a);return an(function(a,b){return A(t(c,a[1],a[2]),b)},u,d)}function
-iB(c,b,a){var
-d=b$(iA(c,a,b));return an(function(b,a){return E(b$(b),a)},d,a)}function
+iM(c,b,a){var
+d=W(b,a);return ao(function(a,b){return A(t(c,a[1],a[2]),b)},u,d)}function
+iN(c,b,a){var
+d=b$(iM(c,a,b));return ao(function(b,a){return E(b$(b),a)},d,a)}function
 ce(a){return O(a,b)}function
-fc(a,i,c,v,u){var
+fj(a,i,c,v,u){var
 f=v,e=u;for(;;){if(f){var
-j=f[1],n=0;if(!iz(c)&&!iz(j)){var
-h=iB(a,i,j),o=ce(a),p=iB(a,i,c),b=ed([0,iB(a,i,c),p],o,[0,h,h])[1],k=I(d,h),l=k?I(d,b):k;if(l)var
-q=at(ik(a,[0,b,b])),r=function(b){return function(d,c){return F(t(a,[0,b,b],d),c)}}(b),s=[0,b,b],m=[0,be(e,iy(a,q,aO(function(c){return function(b){return t(a,c,b)}}(s),ab,r,j,c)))];else
+j=f[1],n=0;if(!iL(c)&&!iL(j)){var
+h=iN(a,i,j),o=ce(a),p=iN(a,i,c),b=ef([0,iN(a,i,c),p],o,[0,h,h])[1],k=I(d,h),l=k?I(d,b):k;if(l)var
+q=aw(ix(a,[0,b,b])),r=function(b){return function(d,c){return F(t(a,[0,b,b],d),c)}}(b),s=[0,b,b],m=[0,bh(e,iK(a,q,aP(function(c){return function(b){return t(a,c,b)}}(s),ab,r,j,c)))];else
 var
 m=l;var
 g=m;n=1}if(!n)var
 g=[0,e];if(g){var
 f=f[2],e=g[1];continue}return g}return[0,e]}}function
-lY(a){var
+me(a){var
 b=a[2],c=e(function(a){return[0,a[1],u]},b);return[0,[0,a[1][1],u],c]}function
-iC(h,n,a,m,l,k){var
+iO(h,n,a,m,l,k){var
 d=m,c=l,b=k;for(;;){if(d){if(c){var
-i=c[1],j=i[1],f=d[1],o=cx(j[2]),p=be(b,ir(a,f,eh(a,j[1],o,f))),q=i[2],r=e(function(c){return function(b){return e(at,eh(a,b[1],b[2],c))}}(f),q),g=fc(h,n,e(function(b){return aU(b,a,ce(h))},f),r,p);if(g){var
+i=c[1],j=i[1],f=d[1],o=cx(j[2]),p=bh(b,iD(a,f,ej(a,j[1],o,f))),q=i[2],r=e(function(c){return function(b){return e(aw,ej(a,b[1],b[2],c))}}(f),q),g=fj(h,n,e(function(b){return aU(b,a,ce(h))},f),r,p);if(g){var
 d=d[2],c=c[2],b=g[1];continue}return g}return[0,b]}return[0,b]}}function
-lZ(a,j,r,q){var
+mf(a,j,r,q){var
 c=r,f=q;for(;;){if(c){var
 k=c[1],l=k[1],g=l[2],h=l[1],m=k[2],n=[0,[0,ca(g),h],f];if(m){var
 o=I(d,g[1]);if(o)var
 s=e(function(a){var
-b=a[1];return[0,at(a[2]),b]},m),t=e(function(a){return u},h),v=[0,ce(a),t],w=ce(a),b=fc(a,[0,ab(ed(iA(a,h,j),w,g)),j],v,s,n);else
+b=a[1];return[0,aw(a[2]),b]},m),t=e(function(a){return u},h),v=[0,ce(a),t],w=ce(a),b=fj(a,[0,ab(ef(iM(a,h,j),w,g)),j],v,s,n);else
 var
 b=o}else
 var
 b=[0,n];if(b){var
-i=gu(a,b[1]);if(i){var
+i=gD(a,b[1]);if(i){var
 c=c[2],f=i[1];continue}var
 p=i}else
 var
 p=b;return p}return[0,f]}}function
-l0(c,b,a){var
-d=aB(0,a);return e(function(a){return o(a,b)?ce(c):u},d)}function
-l1(c,b,a){if(b){if(a){var
-d=l1(c,b[2],a[2]);return A(aU(b[1],c,a[1]),d)}return u}return u}function
-l2(a,j){switch(j){case
+mg(c,b,a){var
+d=aC(0,a);return e(function(a){return o(a,b)?ce(c):u},d)}function
+mh(c,b,a){if(b){if(a){var
+d=mh(c,b[2],a[2]);return A(aU(b[1],c,a[1]),d)}return u}return u}function
+mi(a,j){switch(j){case
 0:var
-d=aL(a[2],a[1]),e=a[1];return[0,[0,e,e],[0,[0,d,d],0]];case
+d=aM(a[2],a[1]),e=a[1];return[0,[0,e,e],[0,[0,d,d],0]];case
 1:var
-f=aL(a[1],a[2]),g=a[2];return[0,[0,g,g],[0,[0,f,f],0]];default:var
-c=dv(E(a[1],a[2]),b),h=aL(c,a[2]),i=aL(a[2],c);return[0,[0,c,c],[0,[0,i,i],[0,[0,h,h],0]]]}}function
-fd(d,c,a){if(a)var
-e=a[1],g=fd(d,[0,c],a[2]),b=z(aT,lg(function(a){return o(a[1],c)},d)),h=b?l2(e,b[1])[1]:e,f=[0,h,g];else
+f=aM(a[1],a[2]),g=a[2];return[0,[0,g,g],[0,[0,f,f],0]];default:var
+c=dx(E(a[1],a[2]),b),h=aM(c,a[2]),i=aM(a[2],c);return[0,[0,c,c],[0,[0,i,i],[0,[0,h,h],0]]]}}function
+fk(d,c,a){if(a)var
+e=a[1],g=fk(d,[0,c],a[2]),b=z(aO,ly(function(a){return o(a[1],c)},d)),h=b?mi(e,b[1])[1]:e,f=[0,h,g];else
 var
 f=a;return f}function
-gD(a,b){return e(function(a){var
-c=a[2];return l2(r(a[1],b,u),c)[2]},a)}function
-gE(i,b,g,a){function
-d(a){return aG(b,a[1])}var
+gM(a,b){return e(function(a){var
+c=a[2];return mi(r(a[1],b,u),c)[2]},a)}function
+gN(i,b,g,a){function
+d(a){return aH(b,a[1])}var
 h=0,j=$(u);function
 c(g,d,a,b){if(a){var
-h=function(a){return aG(g,r(d,a[2],j))},k=e(h,b[1]),l=h(b[2]),m=c(g,[0,d],a[2],b),n=a[1];return f(e(function(a){var
+h=function(a){return aH(g,r(d,a[2],j))},k=e(h,b[1]),l=h(b[2]),m=c(g,[0,d],a[2],b),n=a[1];return f(e(function(a){var
 b=t(i,a,l);return[0,e(function(b){return t(i,a,b)},k),b]},n),m)}return a}var
 k=c(b,h,g,a),l=d(a[2]);return[0,[0,e(d,a[1]),l],k]}var
-tb=$(u);function
-l3(e,d,c){if(d){var
-f=r(e,c[2],tc),a=f?f[1]:[0,tb];if(a)var
-b=l3([0,e],d[2],c),h=b?[0,[0,a[1],b[1]]]:b,g=h;else
+ti=$(u);function
+mj(e,d,c){if(d){var
+f=r(e,c[2],tj),a=f?f[1]:[0,ti];if(a)var
+b=mj([0,e],d[2],c),h=b?[0,[0,a[1],b[1]]]:b,g=h;else
 var
-g=a;return g}return td}function
-l4(a,c,h,p,o,g,n){var
-d=bf(c);return l(function(d){var
-f=j(n,d);if(f){var
-q=t(a,o,f[1]),i=F(O(a,b),q),r=h?F(i,aG(d,h[1])):i,k=function(b){function
-f(c){return t(a,b,aG(d,c))}var
-g=e(function(a){return e(f,a)},p);return a6(a,c,be(al([0,r,0],c),g))},l=k(at(g));if(l)return k(ab(at(g)));var
+g=a;return g}return tk}function
+mk(a,c,h,p,o,g,n){var
+d=bi(c);return l(function(d){var
+f=k(n,d);if(f){var
+q=t(a,o,f[1]),i=F(O(a,b),q),r=h?F(i,aH(d,h[1])):i,j=function(b){function
+f(c){return t(a,b,aH(d,c))}var
+g=e(function(a){return e(f,a)},p);return a9(a,c,bh(af([0,r,0],c),g))},l=j(aw(g));if(l)return j(ab(aw(g)));var
 m=l}else
 var
 m=f;return m},d)}function
-l5(c,b,a){if(a){var
+ml(c,b,a){if(a){var
 d=a[2];if(c){var
-f=l5(c[1],b,d);return[0,a[1],f]}var
+f=ml(c[1],b,d);return[0,a[1],f]}var
 e=[0,b,d]}else
 var
 e=a;return e}function
-fe(a,g){var
+fl(a,g){var
 b=bu(function(e){var
-c=r(e,a,u),b=D(c[1],d),f=b?D(d,c[2]):b;return M(f)},g);if(b){if(b[2])return a;var
-f=b[1],c=r(f,a,u),e=I(d,c[1])?c[1]:c[2];return l5(f,[0,e,e],a)}return a}function
-l6(c,a){if(a)var
-b=a[2],f=l6(c,b),g=b?b[1]:e(sE,c),d=[0,[0,a[1],g],f];else
+c=r(e,a,u),b=D(c[1],d),f=b?D(d,c[2]):b;return N(f)},g);if(b){if(b[2])return a;var
+f=b[1],c=r(f,a,u),e=I(d,c[1])?c[1]:c[2];return ml(f,[0,e,e],a)}return a}function
+mm(c,a){if(a)var
+b=a[2],f=mm(c,b),g=b?b[1]:e(sL,c),d=[0,[0,a[1],g],f];else
 var
 d=a;return d}function
-l7(a){return a?l6(a[1],a):a}function
-c3(c,d,b,a){if(d){var
+mn(a){return a?mm(a[1],a):a}function
+c5(c,d,b,a){if(d){var
 e=d[1];if(a){var
-f=c3(c,e,b,a[2]);return[0,a[1],f]}return[0,c,c3(c,e,b,0)]}return a?[0,b,a[2]]:[0,b,0]}function
-gF(a,c,b){if(c)if(b)var
-g=b[2],e=b[1],h=c[2],d=c[1],i=gF(a,h,g),j=function(c,b){var
-f=t(a,e,b);return A(t(a,d,c),f)},k=function(b){return t(a,e,b)},l=aO(function(b){return t(a,d,b)},k,j,g,h),f=[0,[0,t(a,A(d,d),e),l],i];else
+f=c5(c,e,b,a[2]);return[0,a[1],f]}return[0,c,c5(c,e,b,0)]}return a?[0,b,a[2]]:[0,b,0]}function
+gO(a,c,b){if(c)if(b)var
+g=b[2],e=b[1],h=c[2],d=c[1],i=gO(a,h,g),j=function(c,b){var
+f=t(a,e,b);return A(t(a,d,c),f)},k=function(b){return t(a,e,b)},l=aP(function(b){return t(a,d,b)},k,j,g,h),f=[0,[0,t(a,A(d,d),e),l],i];else
 var
 f=b;else
 var
 f=c;return f}function
-c4(d,c,b,a){return c3(u,c,iA(d,a,b),a)}function
-l8(a,f,e,b,d,c){var
-g=aB(0,b);return an(function(g,c){var
-h=c4(a,f,e,l0(a,g,b));return be(c,iy(a,ab(d),h))},c,g)}function
-l9(a,d,c,j,i,h,g,f){var
-k=c4(a,d,c,e(function(b){return O(a,C(h,b))},i));return be(f,gF(a,c4(a,d,c,e(function(c){return aU(c,E(g,b),ce(a))},j)),k))}function
-l_(a,h,g,q,f,p,o,n){var
+c6(d,c,b,a){return c5(u,c,iM(d,a,b),a)}function
+mo(a,f,e,b,d,c){var
+g=aC(0,b);return ao(function(g,c){var
+h=c6(a,f,e,mg(a,g,b));return bh(c,iK(a,ab(d),h))},c,g)}function
+mp(a,d,c,j,i,h,g,f){var
+k=c6(a,d,c,e(function(b){return O(a,C(h,b))},i));return bh(f,gO(a,c6(a,d,c,e(function(c){return aU(c,E(g,b),ce(a))},j)),k))}function
+mq(a,h,g,q,f,p,o,n){var
 d=p,c=o,b=n;for(;;){if(d){if(c){var
-k=c[1],l=k[1],i=d[1],m=c4(a,h,g,e(function(b){return aU(b,f,ce(a))},i)),r=cx(l[2]),s=c4(a,h,g,eh(f,l[1],r,i)),t=be(b,gF(a,e(at,m),s)),u=k[2],j=fc(a,q,m,e(function(c){return function(b){return c4(a,h,g,e(at,eh(f,b[1],b[2],c)))}}(i),u),t);if(j){var
+k=c[1],l=k[1],i=d[1],m=c6(a,h,g,e(function(b){return aU(b,f,ce(a))},i)),r=cx(l[2]),s=c6(a,h,g,ej(f,l[1],r,i)),t=bh(b,gO(a,e(aw,m),s)),u=k[2],j=fj(a,q,m,e(function(c){return function(b){return c6(a,h,g,e(aw,ej(f,b[1],b[2],c)))}}(i),u),t);if(j){var
 d=d[2],c=c[2],b=j[1];continue}return j}return[0,b]}return[0,b]}}function
-l$(g,b,f,a){if(a)var
-c=a[2],d=a[1],h=r(b,c,u),e=[0,d,c3(u,b,A(t(g,f,d),h),c)];else
+mr(g,b,f,a){if(a)var
+c=a[2],d=a[1],h=r(b,c,u),e=[0,d,c5(u,b,A(t(g,f,d),h),c)];else
 var
 e=a;return e}function
-ma(a,b,m,D,C,B){var
+ms(a,b,m,D,C,B){var
 i=C,h=B;for(;;){if(i){var
-n=i[1],o=n[1],j=o[2],p=n[2],c=c4(a,b,m,o[1]);if(p){var
+n=i[1],o=n[1],j=o[2],p=n[2],c=c6(a,b,m,o[1]);if(p){var
 q=I(d,j[1]);if(q)var
-E=ce(a),f=ca(ab(ed(r(b,c,u),E,j))),k=ca(j),v=c3(u,b,f,0),w=r(b,c,u),x=be(h,gF(a,v,c3(u,b,A(at(t(a,f,k)),w),c))),y=r(b,c,u),z=[0,[0,k,c3(u,b,A(t(a,f,k),y),c)],x],F=e(function(e){return function(c){var
-d=c4(a,b,m,c[1]);return l$(a,b,e,[0,at(c[2]),d])}}(f),p),G=e(function(a){return u},c),g=fc(a,[0,u,D],l$(a,b,f,[0,ce(a),G]),F,z);else
+E=ce(a),f=ca(ab(ef(r(b,c,u),E,j))),k=ca(j),v=c5(u,b,f,0),w=r(b,c,u),x=bh(h,gO(a,v,c5(u,b,A(aw(t(a,f,k)),w),c))),y=r(b,c,u),z=[0,[0,k,c5(u,b,A(t(a,f,k),y),c)],x],F=e(function(e){return function(c){var
+d=c6(a,b,m,c[1]);return mr(a,b,e,[0,aw(c[2]),d])}}(f),p),G=e(function(a){return u},c),g=fj(a,[0,u,D],mr(a,b,f,[0,ce(a),G]),F,z);else
 var
 g=q}else
 var
 g=[0,[0,[0,ca(j),c],h]];if(g){var
-l=gu(a,g[1]);if(l){var
+l=gD(a,g[1]);if(l){var
 i=i[2],h=l[1];continue}var
 s=l}else
 var
 s=g;return s}return[0,h]}}function
-iD(f,d,c,b,a){var
-g=e($,c);return lo(0,bB(f,dE(0,a),g),b,d,0)}function
+iP(f,d,c,b,a){var
+g=e($,c);return lG(0,bB(f,dG(0,a),g),b,d,0)}function
 ac(a){if(a){var
 b=a[1];if(b)var
 c=ac(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return ti}function
-gG(b,a){if(a){var
+d=b;return d}return tp}function
+gP(b,a){if(a){var
 h=a[1],n=h[1],c=ac(e(function(a){return r(a,b,0)},n));if(c){var
 f=r(h[2],b,0);if(f){var
-i=f[1],g=gG(b,a[2]);if(g)var
+i=f[1],g=gP(b,a[2]);if(g)var
 j=I(d,i[2][1]),k=j?[0,[0,[0,c[1],i],g[1]]]:j;else
 var
 k=g;var
@@ -1957,22 +1957,22 @@ var
 l=f;var
 m=l}else
 var
-m=c;return m}return tj}function
+m=c;return m}return tq}function
 cC(d,c,b){var
-a=gG(d,c);return a?j(b,a[1]):a}function
-c5(a,b){return l(function(c){var
+a=gP(d,c);return a?k(b,a[1]):a}function
+c7(a,b){return l(function(c){var
 a=r(c,b,0),d=a?1:a;return d},a)}function
-gH(b,a){if(b){var
-c=b[1],d=c[3],e=a[3],f=function(a){return a},g=aO(function(a){return a},f,A,e,d),h=a[2];return[0,A(a[1],c[1]),h,g]}return a}function
-iE(b,a){return b?lP(a,b[1]):a}function
-iF(h,g,b,f){var
+gQ(b,a){if(b){var
+c=b[1],d=c[3],e=a[3],f=function(a){return a},g=aP(function(a){return a},f,A,e,d),h=a[2];return[0,A(a[1],c[1]),h,g]}return a}function
+iQ(b,a){return b?l7(a,b[1]):a}function
+iR(h,g,b,f){var
 a=r(f,h,0);if(a){var
 c=a[1];if(b){var
-i=lP(c,b[1]),e=bf(g);return l(function(a){return D(d,aG(a,i)[1])},e)}return D(d,c[2][1])}return a}function
-iG(f,d,a){function
+i=l7(c,b[1]),e=bi(g);return l(function(a){return D(d,aH(a,i)[1])},e)}return D(d,c[2][1])}return a}function
+iS(f,d,a){function
 c(a){return aU(a,d,O(f,b))}if(a){var
 g=e(c,a[2]);return[0,c(a[1]),u,g]}return $(u)}function
-gI(b,a){var
+gR(b,a){var
 c=r(a[1],b,0);if(c){var
 d=r(a[2],b,0);if(d)var
 e=r(a[3],b,0),h=e?[0,[0,c[1],d[1],e[1]]]:e,f=h;else
@@ -1981,55 +1981,55 @@ f=d;var
 g=f}else
 var
 g=c;return g}function
-iH(b,a){return ac(e(function(a){return r(a,b,0)},a))}function
-ff(c,k,X,C,i,h,j,f,a){switch(f[0]){case
+iT(b,a){return ac(e(function(a){return r(a,b,0)},a))}function
+fm(c,k,X,C,i,h,j,f,a){switch(f[0]){case
 0:var
 s=f[1];if(typeof
 a!=="number")switch(a[0]){case
 0:var
-Y=c5(C,i);if(Y){var
-aD=a[2],aE=a[1],aF=gH(j,$(s));return cC(i,k,function(a){return fa(c,h,aF,aE,aD,a)})}return Y;case
+Y=c7(C,i);if(Y){var
+aD=a[2],aE=a[1],aF=gQ(j,$(s));return cC(i,k,function(a){return fh(c,h,aF,aE,aD,a)})}return Y;case
 1:var
-Z=c5(C,i);if(Z){var
-aH=a[2],aI=a[1],aJ=gH(j,$(s));return cC(i,X,function(a){return fa(c,h,aJ,aI,aH,a)})}return Z;case
+Z=c7(C,i);if(Z){var
+aG=a[2],aI=a[1],aJ=gQ(j,$(s));return cC(i,X,function(a){return fh(c,h,aJ,aI,aG,a)})}return Z;case
 2:var
-_=c5(C,i);if(_){var
+_=c7(C,i);if(_){var
 aa=K(s[1],d),ab=aa?K(s[2],d):aa;if(ab){var
-aK=a[2],aM=a[1];return cC(i,k,function(a){return lO(c,h,j,aM,aK,a)})}var
+aK=a[2],aL=a[1];return cC(i,k,function(a){return l6(c,h,j,aL,aK,a)})}var
 ad=ab}else
 var
 ad=_;return ad}return 0;case
 1:var
 ae=f[1];if(typeof
 a==="number"){if(1===a){var
-aN=iE(j,$(ae));return cC(i,X,function(a){return it(c,h,aN,a)})}if(!a){var
-aO=iE(j,$(ae));return cC(i,k,function(a){return it(c,h,aO,a)})}}return 0;case
+aN=iQ(j,$(ae));return cC(i,X,function(a){return iF(c,h,aN,a)})}if(!a){var
+aO=iQ(j,$(ae));return cC(i,k,function(a){return iF(c,h,aO,a)})}}return 0;case
 2:if(typeof
 a!=="number"&&3===a[0]){var
-af=a[1],m=iG(c,af,a[3]),ag=f[1],aP=a[2];return cC(i,k,function(d){var
-a=iu(h,m),b=a?fa(c,h,gH(j,m),af,aP,d):a;if(b){var
-f=m[3],g=e(function(a){return t(c,ag,a)},f),i=m[2];return it(c,h,iE(j,[0,t(c,ag,m[1]),i,g]),d)}return b})}return 0;case
+af=a[1],m=iS(c,af,a[3]),ag=f[1],aP=a[2];return cC(i,k,function(d){var
+a=iG(h,m),b=a?fh(c,h,gQ(j,m),af,aP,d):a;if(b){var
+f=m[3],g=e(function(a){return t(c,ag,a)},f),i=m[2];return iF(c,h,iQ(j,[0,t(c,ag,m[1]),i,g]),d)}return b})}return 0;case
 3:if(typeof
-a==="number"&&!a)return iF(i,h,j,f[1]);return 0;case
+a==="number"&&!a)return iR(i,h,j,f[1]);return 0;case
 4:if(typeof
 a!=="number"&&0===a[0]){var
-aQ=a[2],aR=a[1],aS=gH(j,$(f[2])),aT=function(a){return fa(c,h,aS,aR,aQ,a)};return cC(i,f[1],aT)}return 0;case
+aQ=a[2],aR=a[1],aS=gQ(j,$(f[2])),aT=function(a){return fh(c,h,aS,aR,aQ,a)};return cC(i,f[1],aT)}return 0;case
 5:if(typeof
 a==="number"&&!(3<=a))switch(a){case
-0:return iF(i,h,j,f[1]);case
-2:return iF(i,h,j,f[2])}return 0;case
+0:return iR(i,h,j,f[1]);case
+2:return iR(i,h,j,f[2])}return 0;case
 6:if(typeof
 a!=="number"&&8===a[0]){var
-D=gI(i,f[1]);if(D){var
-G=gI(i,f[2]);if(G){var
-H=gI(i,f[3]);if(H){var
-I=gI(i,f[4]);if(I){var
+D=gR(i,f[1]);if(D){var
+G=gR(i,f[2]);if(G){var
+H=gR(i,f[3]);if(H){var
+I=gR(i,f[4]);if(I){var
 ah=I[1],ai=H[1],aj=G[1],ak=D[1],n=a[2],v=f[5],aV=a[1];if(n){var
 p=n[2];if(p){var
 q=p[2];if(q){if(q[2])return 0;var
-aC=[0,n[1],p[1],q[1]],r=lU(function(f){function
+aC=[0,n[1],p[1],q[1]],r=ma(function(f){function
 g(a){return aU(a,aV,O(c,b))}if(f){var
-a=e(g,f[2]),d=g(f[1]),h=e8(a),i=E(d[2],h),j=e8(a);return[0,d,[0,aL(d[1],j),i],a]}return $(u)},aC),N=l(function(a){return o(g(a),[0,h])},n),P=N?gz(c,h,j,v,r,ak,ai):N,Q=P?gz(c,h,j,v,r,ak,ah):P,R=Q?gz(c,h,j,v,r,aj,ai):Q;if(R)return gz(c,h,j,v,r,aj,ah);var
+a=e(g,f[2]),d=g(f[1]),h=fd(a),i=E(d[2],h),j=fd(a);return[0,d,[0,aM(d[1],j),i],a]}return $(u)},aC),N=l(function(a){return o(g(a),[0,h])},n),P=N?gI(c,h,j,v,r,ak,ai):N,Q=P?gI(c,h,j,v,r,ak,ah):P,R=Q?gI(c,h,j,v,r,aj,ai):Q;if(R)return gI(c,h,j,v,r,aj,ah);var
 S=R}else
 var
 S=q;var
@@ -2045,34 +2045,34 @@ al=H;var
 am=al}else
 var
 am=G;var
-ao=am}else
+an=am}else
 var
-ao=D;return ao}return 0;case
+an=D;return an}return 0;case
 7:if(typeof
 a!=="number"&&0===a[0]){var
 ap=a[2],aq=a[1],aW=f[2],aX=f[1];return cC(i,k,function(e){var
 a=o(g(e),h),d=a?o(g(ap),h):a;if(d){var
 f=function(a){if(a){var
 d=a[2],e=o(g(d),h);if(e){var
-i=ek(aq,el(aq,ap,O(c,b),d));return a6(c,h,be(gA(c,aX,aW,a[1][2],d),i))}var
+i=em(aq,en(aq,ap,O(c,b),d));return a9(c,h,bh(gJ(c,aX,aW,a[1][2],d),i))}var
 f=e}else
 var
-f=a;return f},i=j?j[1]:$(u);return iq(h,is(i,e),f)}return d})}return 0;case
+f=a;return f},i=j?j[1]:$(u);return iC(h,iE(i,e),f)}return d})}return 0;case
 8:if(typeof
 a==="number"&&5<=a){var
-aY=f[3],aZ=f[2],a0=function(a){return lO(c,h,j,aZ,aY,a)};return cC(i,f[1],a0)}return 0;case
+aY=f[3],aZ=f[2],a0=function(a){return l6(c,h,j,aZ,aY,a)};return cC(i,f[1],a0)}return 0;case
 9:return 0;default:if(typeof
 a==="number"&&!a){var
-J=iH(i,f[1]);if(J){var
-a1=f[2],L=ac(e(function(a){return iH(i,a)},a1));if(L){var
-M=iH(i,[0,f[3],[0,f[4],[0,f[5],[0,f[6],0]]]]);if(M){var
+J=iT(i,f[1]);if(J){var
+a1=f[2],L=ac(e(function(a){return iT(i,a)},a1));if(L){var
+M=iT(i,[0,f[3],[0,f[4],[0,f[5],[0,f[6],0]]]]);if(M){var
 w=M[1];if(w){var
 x=w[2];if(x){var
 y=x[2];if(y){var
 B=y[2];if(B){if(B[2])return 0;var
-ar=B[1],as=y[1][2],at=x[1][2],au=w[1][2],av=L[1],a2=J[1],W=l4(c,h,j,av,au,at,function(d){return[0,ei(c,an(function(b,a){return A(U(c,aG(d,b)),a)},u,a2))]});return W?W:l4(c,h,j,av,au,at,function(f){var
+ar=B[1],as=y[1][2],at=x[1][2],au=w[1][2],av=L[1],a2=J[1],W=mk(c,h,j,av,au,at,function(d){return[0,ek(c,ao(function(b,a){return A(U(c,aH(d,b)),a)},u,a2))]});return W?W:mk(c,h,j,av,au,at,function(f){var
 b=ca(ar[1]),a=b_(c,F(as,U(c,b)));if(a){var
-d=b9(c,a[1]),e=F(as,t(c,b,aG(f,ar)));return z(function(a){return t(c,e,a)},d)}return a})}var
+d=b9(c,a[1]),e=F(as,t(c,b,aH(f,ar)));return z(function(a){return t(c,e,a)},d)}return a})}var
 aw=B}else
 var
 aw=y;var
@@ -2091,36 +2091,36 @@ aA=L;var
 aB=aA}else
 var
 aB=J;return aB}return 0}}function
-mb(a,_,s,m,n,Z,h,k,i,f,c){if(9===f[0]){var
+mt(a,_,s,m,n,Z,h,j,i,f,c){if(9===f[0]){var
 aa=f[2],ad=f[1];if(typeof
 c!=="number"&&9===c[0]){var
-L=c[2],v=c[1],ae=c[3];if(0<aR(c[4]))return ff(a,s,m,n,h,g(k),i,f,c);var
-V=e($,Z),C=bc(0,bB(a,gB(0,k,ad),V),_,0),M=o(g(k),tk),N=M?c5(n,C):M;if(N){var
-w=gG(C,m);if(w){var
-x=gG(h,m);if(x){var
+L=c[2],v=c[1],ae=c[3];if(0<aS(c[4]))return fm(a,s,m,n,h,g(j),i,f,c);var
+V=e($,Z),C=bf(0,bB(a,gK(0,j,ad),V),_,0),M=o(g(j),tr),N=M?c7(n,C):M;if(N){var
+w=gP(C,m);if(w){var
+x=gP(h,m);if(x){var
 y=ac(e(function(b){var
 c=r(b[1],h,0);if(c)var
 f=b[2][2],a=ac(e(function(a){var
 b=r(a[2],h,0);return z(function(b){return[0,a[1],b]},b)},f)),g=a?[0,[0,b[2][1],a[1]]]:a,d=g;else
 var
 d=c;return d},aa));if(y){var
-B=lX(w[1]);if(B){var
-P=x[1],af=y[1],ag=B[1],D=ei(a,an(function(f,h){function
+B=md(w[1]);if(B){var
+P=x[1],ag=y[1],ah=B[1],D=ek(a,ao(function(f,h){function
 b(b,d){var
 a=f[1],c=b?b[1]?f[2]:a[2]:a[1];return b$(r(d,c[3],u))}function
 c(a){var
-b=j(a,sZ),c=bj(j(a,s0),b);return bj(j(a,0),c)}var
+b=k(a,s6),c=bl(k(a,s7),b);return bl(k(a,0),c)}var
 d=c(function(a){var
-c=b(s1,a),d=b(s2,a);return E(E(b(0,a),d),c)}),g=[0,d,d],e=c(function(a){var
-c=b(a,s3),d=b(a,s4);return E(E(b(a,0),d),c)});return A(h,U(a,ei(a,t(a,[0,e,e],g))))},u,ag)),p=aU(ae,v,O(a,b)),G=I(d,F(p,D)[1]),H=G?o(g(L),s_):G,J=H?o(g(P),s$):H;if(J){var
+c=b(s8,a),d=b(s9,a);return E(E(b(0,a),d),c)}),g=[0,d,d],e=c(function(a){var
+c=b(a,s_),d=b(a,s$);return E(E(b(a,0),d),c)});return A(h,U(a,ek(a,t(a,[0,e,e],g))))},u,ah)),p=aU(ae,v,O(a,b)),G=I(d,F(p,D)[1]),H=G?o(g(L),tf):G,J=H?o(g(P),tg):H;if(J){var
 q=b9(a,p);if(q){var
-W=at(t(a,D,q[1])),X=F(O(a,b),W),Y=bf(ta);return l(function(h){var
+W=aw(t(a,D,q[1])),X=F(O(a,b),W),Y=bi(th);return l(function(h){var
 g=e(function(b){var
-c=b[2],d=b[1];return cx(bT(function(d,b){var
-c=b$(aG(h,b[2]));return A(d,t(a,b[1],[0,c,c]))},c,d))},af),r=j(au(function(a){return aG(h,a)}),P),E=i?aG(h,i[1]):u,M=U(a,X),s=U(a,p),q=ek(v,el(v,L,O(a,b),r)),c=be(al([0,ab(E),0],s5),q);if(g){var
+c=b[2],d=b[1];return cx(bS(function(d,b){var
+c=b$(aH(h,b[2]));return A(d,t(a,b[1],[0,c,c]))},c,d))},ag),r=k(ax(function(a){return aH(h,a)}),P),E=i?aH(h,i[1]):u,M=U(a,X),s=U(a,p),q=em(v,en(v,L,O(a,b),r)),c=bh(af([0,ab(E),0],ta),q);if(g){var
 d=g[2];if(d){var
 f=d[2];if(f){if(f[2])return 0;var
-B=d[1],C=g[1],I=f[1],k=a6(a,s7,be(al([0,ab(s),0],s6),c));if(k)return l(function(D){var
+B=d[1],C=g[1],I=f[1],j=a9(a,tc,bh(af([0,ab(s),0],tb),c));if(j)return l(function(D){var
 J=F(M,E),K=D[2]?B:ab(B),L=D[1]?C:ab(C),o=0;if(c){var
 b=c[1],l=0;if(b){var
 d=b[2],m=0;if(d){var
@@ -2160,8 +2160,8 @@ var
 z=b;if(!l){var
 A=z;o=1}}else{var
 A=c;o=1}if(o)var
-k=A;return a6(a,s9,k)},s8);var
-m=k}else
+k=A;return a9(a,te,k)},td);var
+m=j}else
 var
 m=f;var
 n=m}else
@@ -2184,25 +2184,25 @@ var
 S=w;var
 T=S}else
 var
-T=N;return T}return ff(a,s,m,n,h,g(k),i,f,c)}return ff(a,s,m,n,h,g(k),i,f,c)}function
-gJ(d){var
+T=N;return T}return fm(a,s,m,n,h,g(j),i,f,c)}return fm(a,s,m,n,h,g(j),i,f,c)}function
+gS(d){var
 a=d;for(;;){if(a){var
-b=a[2],e=a[1],c=M(aj(function(b){return function(a){return o(b,a)}}(e),b));if(c){var
+b=a[2],e=a[1],c=N(aj(function(b){return function(a){return o(b,a)}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-iI(j,i,h,g,a){var
+iU(j,i,h,g,a){var
 d=r(a,j,0);if(d){var
 b=r(a,i,0);if(b)var
-c=l3(0,g,r(a,h,tl)),k=c?[0,[0,b[1],c[1]]]:c,e=k;else
+c=mj(0,g,r(a,h,ts)),k=c?[0,[0,b[1],c[1]]]:c,e=k;else
 var
 e=b;var
 f=e}else
 var
 f=d;return f}function
-gK(i,b,a){if(a){var
-k=a[1],l=k[2],c=ac(e(b,k[1]));if(c){var
-f=j(b,l);if(f){var
+gT(i,b,a){if(a){var
+j=a[1],l=j[2],c=ac(e(b,j[1]));if(c){var
+f=k(b,l);if(f){var
 g=r(l,i,0);if(g){var
-h=gK(i,b,a[2]);if(h)var
+h=gT(i,b,a[2]);if(h)var
 m=I(d,g[1][2][1]),n=m?[0,[0,[0,c[1],f[1]],h[1]]]:m;else
 var
 n=h;var
@@ -2214,25 +2214,25 @@ var
 p=f;var
 q=p}else
 var
-q=c;return q}return tm}function
-mc(c,M,j,L,q,p,J,I,f,b,i,a){var
-h=g(J),N=dE(0,J),aF=bc(0,bB(c,N,e($,fd(i,0,q))),M,0),aJ=e(ay,i),aH=0,aK=e($,q),aM=bc(tn,function(a){return ix(c,N,aK,aJ,a)},M,aH),aN=gD(i,q);function
-P(a){return iI(p,aF,aM,i,a)}function
+q=c;return q}return tt}function
+mu(c,M,j,L,q,p,J,I,f,b,i,a){var
+h=g(J),N=dG(0,J),aF=bf(0,bB(c,N,e($,fk(i,0,q))),M,0),aI=e(aA,i),aG=0,aJ=e($,q),aL=bf(tu,function(a){return iJ(c,N,aJ,aI,a)},M,aG),aN=gM(i,q);function
+P(a){return iU(p,aF,aL,i,a)}function
 w(a){return e(function(a){return O(c,a)},a)}var
 aO=I?I[1]:$(u);function
-Q(a){return a?a6(c,h,a[1]):a}function
+Q(a){return a?a9(c,h,a[1]):a}function
 r(f,e,d,b,a){var
-g=al([0,ab(e),0],h);return Q(iC(c,w(f),d,b,a,g))}function
+g=af([0,ab(e),0],h);return Q(iO(c,w(f),d,b,a,g))}function
 R(d,b,a){var
-e=al([0,b,0],h);return Q(lZ(c,w(d),a,e))}var
-aP=e(ay,i),S=l(function(a){return aI(a,g(q))},aP),U=S?gJ(e(ay,i)):S,V=U?l(function(a){return o(g(a),h)},a):U;if(V){var
+e=af([0,b,0],h);return Q(mf(c,w(d),a,e))}var
+aP=e(aA,i),S=l(function(a){return aK(a,g(q))},aP),U=S?gS(e(aA,i)):S,V=U?l(function(a){return o(g(a),h)},a):U;if(V){var
 v=0;switch(f[0]){case
 0:var
 x=f[1],G=0;if(typeof
 b!=="number")switch(b[0]){case
 0:var
 ar=0;if(a){if(a[2])return 0;var
-aQ=a[1],aR=b[2],aS=b[1],X=c5(L,p);if(X){var
+aQ=a[1],aR=b[2],aS=b[1],X=c7(L,p);if(X){var
 m=function(c,a){var
 b=A(x,a);return function(a){return r(aQ,b,aS,aR,a)}},k=j;G=1;ar=1}else
 var
@@ -2241,46 +2241,46 @@ var
 _=a;if(!ar)return _;break;case
 2:var
 as=0;if(a){if(a[2])return 0;var
-aU=a[1],aV=b[2],aW=b[1],aa=c5(L,p),au=0;if(aa){var
+aU=a[1],aV=b[2],aW=b[1],aa=c7(L,p),at=0;if(aa){var
 ac=K(x[1],d),ad=ac?K(x[2],d):ac;if(ad){var
-m=function(c,b,a){return r(aU,b,aW,aV,e(lY,a))},k=j;G=1;as=1;au=1}else
+m=function(c,b,a){return r(aU,b,aW,aV,e(me,a))},k=j;G=1;as=1;at=1}else
 var
 ae=ad}else
 var
-ae=aa;if(!au)var
-af=ae}else
+ae=aa;if(!at)var
+ag=ae}else
 var
-af=a;if(!as)return af;break}if(!G)return 0;break;case
+ag=a;if(!as)return ag;break}if(!G)return 0;break;case
 1:var
-av=0,aX=f[1];if(typeof
+au=0,aX=f[1];if(typeof
 b==="number"&&!b){if(!a)return a;if(a[2])return 0;var
 aY=a[1],m=function(c,a){var
-b=F(aX,a);return function(a){return R(aY,b,a)}},k=j;av=1}if(!av)return 0;break;case
+b=F(aX,a);return function(a){return R(aY,b,a)}},k=j;au=1}if(!au)return 0;break;case
 2:var
-aw=0,aZ=f[1];if(typeof
-b==="number"||!(3===b[0]))aw=1;else{var
+av=0,aZ=f[1];if(typeof
+b==="number"||!(3===b[0]))av=1;else{var
 ax=0;if(a){var
-s=a[2],az=0;if(s){if(s[2])return 0;var
-ag=b[1],a0=s[1],a1=a[1],a2=b[2],ah=iG(c,ag,b[3]),ai=iu(h,ah);if(ai){var
+s=a[2],ay=0;if(s){if(s[2])return 0;var
+ah=b[1],a0=s[1],a1=a[1],a2=b[2],ai=iS(c,ah,b[3]),aj=iG(h,ai);if(aj){var
 m=function(f,b,a){var
-d=aG(f,ah),e=r(a1,A(d,b),ag,a2,a);return e?R(a0,F(t(c,aZ,d),b),a):e},k=j;ax=1;az=1}else
+d=aH(f,ai),e=r(a1,A(d,b),ah,a2,a);return e?R(a0,F(t(c,aZ,d),b),a):e},k=j;ax=1;ay=1}else
 var
-aj=ai}else
-var
-aj=s;if(!az)var
 ak=aj}else
 var
-ak=a;if(!ax)return ak}if(aw)return 0;break;case
+ak=s;if(!ay)var
+al=ak}else
+var
+al=a;if(!ax)return al}if(av)return 0;break;case
 3:var
-aA=0;if(typeof
+az=0;if(typeof
 b==="number"&&!b){if(a)return 0;var
 z=f[1];v=1}else
-aA=1;if(aA)return 0;break;case
+az=1;if(az)return 0;break;case
 4:var
-aC=0,a4=f[2];if(typeof
-b==="number"||!(0===b[0]))aC=1;else{if(!a)return a;if(a[2])return 0;var
-a5=a[1],a7=b[2],a8=b[1],a9=function(c,a){var
-b=A(a4,a);return function(a){return r(a5,b,a8,a7,a)}},m=a9,k=f[1]}if(aC)return 0;break;case
+aB=0,a4=f[2];if(typeof
+b==="number"||!(0===b[0]))aB=1;else{if(!a)return a;if(a[2])return 0;var
+a5=a[1],a6=b[2],a7=b[1],a8=function(c,a){var
+b=A(a4,a);return function(a){return r(a5,b,a7,a6,a)}},m=a8,k=f[1]}if(aB)return 0;break;case
 5:var
 H=0;if(typeof
 b==="number"&&!(3<=b))switch(b){case
@@ -2290,21 +2290,21 @@ z=f[1];v=1;break;case
 z=f[2];v=1;break;default:H=1}else
 H=1;if(H)return 0;break;case
 7:var
-am=f[2],ao=f[1],aD=0;if(typeof
+am=f[2],an=f[1],aD=0;if(typeof
 b==="number"||!(0===b[0]))aD=1;else{var
 aE=0;if(a){if(a[2])return 0;var
 n=b[2],C=b[1],a_=a[1],ap=o(g(j),h);if(ap){var
 m=function(a,x){var
 y=w(a_);return function(f){var
 k=o(g(f),h),l=k?o(g(n),h):k;if(l){var
-s=e(ay,f),u=ek(C,el(C,n,ce(c),s)),v=be(gA(c,ao,am,x,e(ay,f)),u),a=0,b=f,i=v,w=g(n);for(;;){if(b){var
-p=b[1][2],q=o(a,ao),r=e(function(f,h){return function(d){var
-a=W(aB(0,g(n)),n);return e(function(a){var
-b=l1(C,a[2],d[1]);if(h&&o(a[1],f))return F(b,at(t(c,am,d[2])));return b},a)}}(a,q),p),j=fc(c,y,l0(c,a,w),r,i);if(j){var
+s=e(aA,f),u=em(C,en(C,n,ce(c),s)),v=bh(gJ(c,an,am,x,e(aA,f)),u),a=0,b=f,i=v,w=g(n);for(;;){if(b){var
+p=b[1][2],q=o(a,an),r=e(function(f,h){return function(d){var
+a=W(aC(0,g(n)),n);return e(function(a){var
+b=mh(C,a[2],d[1]);if(h&&o(a[1],f))return F(b,aw(t(c,am,d[2])));return b},a)}}(a,q),p),j=fj(c,y,mg(c,a,w),r,i);if(j){var
 a=[0,a],b=b[2],i=j[1];continue}var
 d=j}else
 var
-d=[0,i];if(d)return a6(c,h,d[1]);var
+d=[0,i];if(d)return a9(c,h,d[1]);var
 m=d;break}}else
 var
 m=l;return m}},k=j;aE=1}else
@@ -2314,40 +2314,40 @@ var
 aq=a;if(!aE)return aq}if(aD)return 0;break;default:return 0}if(v){var
 B=P(z);if(!B)return B;var
 a3=function(b,f,a){return l(function(a){var
-b=f[2],c=a[2],e=an(function(b,a){return E(bj(d,T(b[2][1])),a)},d,c);return D(d,aL(aL(a[1][2][1],e),b))},a)},Z=a3,Y=[0,[0,0,B[1]],0]}else{var
-y=gK(p,P,k);if(!y)return y;var
+b=f[2],c=a[2],e=ao(function(b,a){return E(bl(d,T(b[2][1])),a)},d,c);return D(d,aM(aM(a[1][2][1],e),b))},a)},Z=a3,Y=[0,[0,0,B[1]],0]}else{var
+y=gT(p,P,k);if(!y)return y;var
 Z=m,Y=y[1]}var
-aT=bf(h);return l(function(a){var
-b=e(function(b){return gE(c,a,aN,b)},Y);return fS(Z,a,aG(a,aO),b)},aT)}return V}function
-md(j,a){var
-f=an(function(b,a){return bj(cr(b),a)},d,a);function
+aT=bi(h);return l(function(a){var
+b=e(function(b){return gN(c,a,aN,b)},Y);return f1(Z,a,aH(a,aO),b)},aT)}return V}function
+mv(j,a){var
+f=ao(function(b,a){return bl(cr(b),a)},d,a);function
 g(a){if(a){if(K(cr(a[1]),f))return 0;var
 b=[0,g(a[2])]}else
 var
 b=a;return b}var
 h=g(a);if(K(f,d)){var
 k=e(function(a){return u},a),l=a?[0,b,a[2]]:a;return[0,[0,[0,0,l],d],k]}var
-i=ii(E(le(f),b)),m=e(function(a){return u},a);return[0,[0,[0,h,a],i],c3(u,h,O(j,b8(c(2,b),i)),m)]}function
-gL(f,J,t,I,n,m,H,G,k,a,h,al,E,ak,C,B){var
-i=g(H),L=dE(0,H),am=bc(0,bB(f,L,e($,fd(h,0,n))),J,0),ao=e(ay,h),an=0,ap=e($,n),ar=bc(to,function(a){return ix(f,L,ap,ao,a)},J,an),as=gD(h,n);function
-at(a){return iI(m,am,ar,h,a)}var
-au=G?G[1]:$(u),N=md(f,al),P=N[1],Q=P[1],v=Q[2],j=Q[1],R=N[2],av=P[2],p=e(function(a){return aU(a,av,O(f,b))},v);function
-S(a){return l9(f,j,p,E,ak,C,B,l8(f,j,p,i,a,0))}function
-T(a){return a?a6(f,i,a[1]):a}function
-w(d,c,b,a){return T(l_(f,j,p,R,c,b,a,S(ab(d))))}var
-aw=e(ay,h),U=l(function(a){return aI(a,g(n))},aw),V=U?gJ(e(ay,h)):U,W=V?o(g(v),i):V,X=W?o(g(E),i):W,Y=X?D(d,C):X,Z=Y?ig(B,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):Y,_=Z?aI(j,i):Z,aa=_?M(K(r(j,v,d),d)):_;if(aa){switch(k[0]){case
+i=iv(E(lw(f),b)),m=e(function(a){return u},a);return[0,[0,[0,h,a],i],c5(u,h,O(j,b8(c(2,b),i)),m)]}function
+gU(f,J,t,I,n,m,H,G,k,a,h,al,E,ak,C,B){var
+i=g(H),L=dG(0,H),am=bf(0,bB(f,L,e($,fk(h,0,n))),J,0),ao=e(aA,h),an=0,ap=e($,n),aq=bf(tv,function(a){return iJ(f,L,ap,ao,a)},J,an),as=gM(h,n);function
+at(a){return iU(m,am,aq,h,a)}var
+au=G?G[1]:$(u),M=mv(f,al),P=M[1],Q=P[1],v=Q[2],j=Q[1],R=M[2],av=P[2],p=e(function(a){return aU(a,av,O(f,b))},v);function
+S(a){return mp(f,j,p,E,ak,C,B,mo(f,j,p,i,a,0))}function
+T(a){return a?a9(f,i,a[1]):a}function
+w(d,c,b,a){return T(mq(f,j,p,R,c,b,a,S(ab(d))))}var
+aw=e(aA,h),U=l(function(a){return aK(a,g(n))},aw),V=U?gS(e(aA,h)):U,W=V?o(g(v),i):V,X=W?o(g(E),i):W,Y=X?D(d,C):X,Z=Y?it(B,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):Y,_=Z?aK(j,i):Z,aa=_?N(K(r(j,v,d),d)):_;if(aa){switch(k[0]){case
 0:var
 x=k[1],z=0;if(typeof
 a==="number")z=1;else
 switch(a[0]){case
 0:var
-ax=a[2],az=a[1],ac=c5(I,m);if(!ac)return ac;var
+ax=a[2],ay=a[1],ac=c7(I,m);if(!ac)return ac;var
 s=function(a){var
-b=A(x,a);return function(a){return w(b,az,ax,a)}},q=t;break;case
+b=A(x,a);return function(a){return w(b,ay,ax,a)}},q=t;break;case
 2:var
-aC=a[2],aD=a[1],ad=c5(I,m),ah=0;if(ad){var
+aC=a[2],aD=a[1],ad=c7(I,m),ah=0;if(ad){var
 ae=K(x[1],d),af=ae?K(x[2],d):ae;if(af){var
-s=function(b,a){return w(b,aD,aC,e(lY,a))},q=t;ah=1}else
+s=function(b,a){return w(b,aD,aC,e(me,a))},q=t;ah=1}else
 var
 ag=af}else
 var
@@ -2356,106 +2356,106 @@ ag=ad;if(!ah)return ag;break;default:z=1}if(z)return 0;break;case
 ai=0,aE=k[1];if(typeof
 a==="number"&&!a)var
 s=function(a){var
-b=F(aE,a);return function(a){return T(ma(f,j,p,R,a,S(b)))}},q=t;else
+b=F(aE,a);return function(a){return T(ms(f,j,p,R,a,S(b)))}},q=t;else
 ai=1;if(ai)return 0;break;case
 4:var
 aj=0,aF=k[2];if(typeof
 a==="number"||!(0===a[0]))aj=1;else
 var
-aH=a[2],aJ=a[1],aK=function(a){var
-b=A(aF,a);return function(a){return w(b,aJ,aH,a)}},s=aK,q=k[1];if(aj)return 0;break;default:return 0}var
-y=gK(m,at,q);if(y){var
-aA=y[1],aB=bf(i);return l(function(a){var
-b=e(function(b){return gE(f,a,as,b)},aA);return aq(s,aG(a,au),b)},aB)}return y}return aa}function
-me(r,q,p,o,n,C,m,c,l,k,i,h,g,a){var
+aG=a[2],aI=a[1],aJ=function(a){var
+b=A(aF,a);return function(a){return w(b,aI,aG,a)}},s=aJ,q=k[1];if(aj)return 0;break;default:return 0}var
+y=gT(m,at,q);if(y){var
+az=y[1],aB=bi(i);return l(function(a){var
+b=e(function(b){return gN(f,a,as,b)},az);return ar(s,aH(a,au),b)},aB)}return y}return aa}function
+mw(r,q,p,o,n,C,m,c,l,j,i,h,g,a){var
 v=e(function(a){return d},c),u=0;if(typeof
 a!=="number")switch(a[0]){case
 5:var
-E=a[1],F=function(a){return gL(r,q,p,o,n,m,c,a,l,E,0,v,k,i,h,g)},x=F,w=a[3],s=a[2];u=1;break;case
+E=a[1],F=function(a){return gU(r,q,p,o,n,m,c,a,l,E,0,v,j,i,h,g)},x=F,w=a[3],s=a[2];u=1;break;case
 10:var
 b=a[3],A=a[2],f=a[1],B=0;if(typeof
 f!=="number"&&5===f[0]){if(!b)return b;if(b[2])return 0;var
-G=b[1],H=f[1],I=function(a){return gL(r,q,p,o,n,m,c,a,l,H,A,G,k,i,h,g)},x=I,w=f[3],s=f[2];u=1;B=1}if(!B)return b?b[2]?0:gL(r,q,p,o,n,m,c,0,l,f,A,b[1],k,i,h,g):b;break}if(u){var
-t=j(C,c);if(t){var
-y=D(d,s);if(y)return x([0,gx(s,w,t[1])]);var
+G=b[1],H=f[1],I=function(a){return gU(r,q,p,o,n,m,c,a,l,H,A,G,j,i,h,g)},x=I,w=f[3],s=f[2];u=1;B=1}if(!B)return b?b[2]?0:gU(r,q,p,o,n,m,c,0,l,f,A,b[1],j,i,h,g):b;break}if(u){var
+t=k(C,c);if(t){var
+y=D(d,s);if(y)return x([0,gG(s,w,t[1])]);var
 z=y}else
 var
-z=t;return z}return gL(r,q,p,o,n,m,c,0,l,a,0,v,k,i,h,g)}function
-mf(a,ai,aL,s,G,ah,q,p,ag,af,h){function
-k(aj,f,j,x){var
-h=g(q),z=dE(0,q),aq=bc(0,bB(a,z,e($,fd(j,0,s))),ai,0),as=e(ay,j),ar=0,at=e($,s),au=bc(tp,function(b){return ix(a,z,at,as,b)},ai,ar);function
-av(a){return iI(ah,aq,au,j,a)}var
-aw=aj?aj[1]:$(u);function
-k(b){return b?a6(a,h,b[1]):b}function
-B(b,a){return ab(A(aG(b,ag),a))}function
-C(d,c,b){return F(t(a,d,aG(c,ag)),b)}var
-ax=e(ay,j),E=l(function(a){return aI(a,g(s))},ax),G=E?gJ(e(ay,j)):E,H=G?o(g(x),h):G;if(H){var
-ak=0;if(af){var
-I=af[1],J=I[1],L=J[1],N=L[1],P=J[2],Q=I[2],az=L[2],R=md(a,x),S=R[1],T=S[1],v=T[2],i=T[1],U=R[2],aA=S[2],m=e(function(c){return aU(c,aA,O(a,b))},v),V=function(b){return l9(a,i,m,N,az,P,Q,l8(a,i,m,h,b,0))},W=o(g(v),h),X=W?o(g(N),h):W,Y=X?D(d,P):X,Z=Y?ig(Q,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):Y,_=Z?aI(i,h):Z,aa=_?M(K(r(i,v,d),d)):_,y=0;if(aa)if(p){var
+z=t;return z}return gU(r,q,p,o,n,m,c,0,l,a,0,v,j,i,h,g)}function
+mx(a,aj,aL,s,G,ai,q,p,ah,ag,h){function
+j(ak,f,j,x){var
+h=g(q),z=dG(0,q),aq=bf(0,bB(a,z,e($,fk(j,0,s))),aj,0),as=e(aA,j),ar=0,at=e($,s),au=bf(tw,function(b){return iJ(a,z,at,as,b)},aj,ar);function
+av(a){return iU(ai,aq,au,j,a)}var
+aw=ak?ak[1]:$(u);function
+k(b){return b?a9(a,h,b[1]):b}function
+B(b,a){return ab(A(aH(b,ah),a))}function
+C(d,c,b){return F(t(a,d,aH(c,ah)),b)}var
+ax=e(aA,j),E=l(function(a){return aK(a,g(s))},ax),G=E?gS(e(aA,j)):E,H=G?o(g(x),h):G;if(H){var
+al=0;if(ag){var
+I=ag[1],J=I[1],L=J[1],M=L[1],P=J[2],Q=I[2],ay=L[2],R=mv(a,x),S=R[1],T=S[1],v=T[2],i=T[1],U=R[2],az=S[2],m=e(function(c){return aU(c,az,O(a,b))},v),V=function(b){return mp(a,i,m,M,ay,P,Q,mo(a,i,m,h,b,0))},W=o(g(v),h),X=W?o(g(M),h):W,Y=X?D(d,P):X,Z=Y?it(Q,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):Y,_=Z?aK(i,h):Z,aa=_?N(K(r(i,v,d),d)):_,y=0;if(aa)if(p){var
 am=0,aB=p[1];if(typeof
 f==="number"&&!f){var
-n=function(d,c,b){return k(ma(a,i,m,U,b,V(C(aB,d,c))))};y=1;am=1}if(!am)return 0}else{var
+n=function(d,c,b){return k(ms(a,i,m,U,b,V(C(aB,d,c))))};y=1;am=1}if(!am)return 0}else{var
 an=0;if(typeof
 f!=="number"&&0===f[0]){var
-aE=f[2],aF=f[1],n=function(d,c,b){return k(l_(a,i,m,U,aF,aE,b,V(B(d,c))))};y=1;an=1}if(!an)var
+aE=f[2],aF=f[1],n=function(d,c,b){return k(mq(a,i,m,U,aF,aE,b,V(B(d,c))))};y=1;an=1}if(!an)var
 ac=0}else
 var
 ac=aa;if(!y)return ac}else{var
 ad=e(function(b){return O(a,b)},x);if(p){var
-ao=0,aH=p[1];if(typeof
+ao=0,aG=p[1];if(typeof
 f==="number"&&!f){var
-n=function(d,c,b){return k(lZ(a,ad,b,al([0,C(aH,d,c),0],h)))};ao=1}if(!ao)return 0}else{var
+n=function(d,c,b){return k(mf(a,ad,b,af([0,C(aG,d,c),0],h)))};ao=1}if(!ao)return 0}else{var
 ap=0;if(typeof
 f==="number"||!(0===f[0]))ap=1;else
 var
-aJ=f[2],aK=f[1],n=function(d,c,b){return k(iC(a,ad,aK,aJ,b,al([0,B(d,c),0],h)))};if(ap){var
-ae=0;ak=1}}}if(!ak){var
-w=gK(ah,av,aL);if(w){var
-aC=w[1],aD=bf(h);return l(function(b){var
-c=gD(j,s),d=e(function(d){return gE(a,b,c,d)},aC);return n(b,aG(b,aw),d)},aD)}return w}}else
+aI=f[2],aJ=f[1],n=function(d,c,b){return k(iO(a,ad,aJ,aI,b,af([0,B(d,c),0],h)))};if(ap){var
+ae=0;al=1}}}if(!al){var
+w=gT(ai,av,aL);if(w){var
+aC=w[1],aD=bi(h);return l(function(b){var
+c=gM(j,s),d=e(function(d){return gN(a,b,c,d)},aC);return n(b,aH(b,aw),d)},aD)}return w}}else
 var
 ae=H;return ae}var
 x=e(function(a){return d},q),w=0;if(typeof
 h!=="number")switch(h[0]){case
 5:var
-H=h[1],I=function(a){return k(a,H,0,x)},z=I,y=h[3],m=h[2];w=1;break;case
+H=h[1],I=function(a){return j(a,H,0,x)},z=I,y=h[3],m=h[2];w=1;break;case
 10:var
 f=h[3],v=h[2],i=h[1],E=0;if(typeof
 i!=="number")switch(i[0]){case
 5:if(!f)return f;if(f[2])return 0;var
-J=f[1],L=i[1],N=function(a){return k(a,L,v,J)},z=N,y=i[3],m=i[2];w=1;E=1;break;case
+J=f[1],L=i[1],M=function(a){return j(a,L,v,J)},z=M,y=i[3],m=i[2];w=1;E=1;break;case
 3:case
 7:case
 9:case
 10:case
 11:case
-13:return f?f[2]?0:k(0,i,v,f[1]):f}if(!E)return f?f[2]?0:k(0,i,v,f[1]):f;break}if(w){var
-n=j(G,q);if(n){var
-B=D(d,m);if(B)return z([0,gx(m,y,n[1])]);var
+13:return f?f[2]?0:j(0,i,v,f[1]):f}if(!E)return f?f[2]?0:j(0,i,v,f[1]):f;break}if(w){var
+n=k(G,q);if(n){var
+B=D(d,m);if(B)return z([0,gG(m,y,n[1])]);var
 C=B}else
 var
-C=n;return C}return k(0,h,0,x)}function
-mg(l,k,i,p,h,g,o,f,b,e,a){if(typeof
+C=n;return C}return j(0,h,0,x)}function
+my(l,j,i,p,h,g,o,f,b,e,a){if(typeof
 a!=="number")switch(a[0]){case
 5:var
-q=a[2],m=j(o,b);if(m){var
+q=a[2],m=k(o,b);if(m){var
 r=D(d,q);if(r){var
-y=a[1];return mb(l,k,i,p,h,g,f,b,[0,gx(q,a[3],m[1])],e,y)}var
+y=a[1];return mt(l,j,i,p,h,g,f,b,[0,gG(q,a[3],m[1])],e,y)}var
 s=r}else
 var
 s=m;return s;case
 10:var
 t=a[3],u=a[2],c=a[1];if(typeof
 c!=="number"&&5===c[0]){var
-v=c[2],n=j(o,b);if(n){var
+v=c[2],n=k(o,b);if(n){var
 w=D(d,v);if(w){var
-z=c[1];return mc(l,k,i,h,g,f,b,[0,gx(v,c[3],n[1])],e,z,u,t)}var
+z=c[1];return mu(l,j,i,h,g,f,b,[0,gG(v,c[3],n[1])],e,z,u,t)}var
 x=w}else
 var
-x=n;return x}return mc(l,k,i,h,g,f,b,0,e,c,u,t)}return mb(l,k,i,p,h,g,f,b,0,e,a)}function
-iJ(a){return 9===a[0]?0:1}function
-en(a){return y(function(a){return f(a[1],[0,a[2],0])},a)}function
-iK(j,d,i,a,h){var
+x=n;return x}return mu(l,j,i,h,g,f,b,0,e,c,u,t)}return mt(l,j,i,p,h,g,f,b,0,e,a)}function
+iV(a){return 9===a[0]?0:1}function
+ep(a){return y(function(a){return f(a[1],[0,a[2],0])},a)}function
+iW(j,d,i,a,h){var
 b=h;for(;;){var
 c=0;if(typeof
 b==="number"){if(1!==b)c=1}else
@@ -2466,7 +2466,7 @@ b=b[3];continue;case
 5:case
 10:var
 b=b[1];continue;default:c=1}var
-k=c?0:1,l=k?d:j,g=en(l);switch(a[0]){case
+k=c?0:1,l=k?d:j,g=ep(l);switch(a[0]){case
 0:return f(i,g);case
 3:return[0,a[1],0];case
 5:return[0,a[1],[0,a[2],0]];case
@@ -2474,18 +2474,18 @@ k=c?0:1,l=k?d:j,g=en(l);switch(a[0]){case
 m=[0,a[1],[0,a[2],[0,a[3],[0,a[4],0]]]];return y(function(a){return[0,a[1],[0,a[2],[0,a[3],0]]]},m);case
 9:var
 n=a[2],o=y(function(a){var
-b=e(aT,a[2][2]);return[0,a[1],b]},n);return f(en(d),o);case
+b=e(aO,a[2][2]);return[0,a[1],b]},n);return f(ep(d),o);case
 10:var
-p=[0,a[3],[0,a[4],[0,a[5],[0,a[6],0]]]],q=f(ea(a[2]),p);return f(a[1],q);case
+p=[0,a[3],[0,a[4],[0,a[5],[0,a[6],0]]]],q=f(ec(a[2]),p);return f(a[1],q);case
 4:case
-8:return en(a[1]);default:return g}}}function
-iL(v,t,s,q,k,a,g,j){var
-h=iJ(a),i=h?l(function(b){var
-a=r(b,bT(fe,g,k),u);return K(a[1],a[2])},j):h;return i?l(function(ao){switch(a[0]){case
+8:return ep(a[1]);default:return g}}}function
+iX(v,t,s,q,k,a,g,j){var
+h=iV(a),i=h?l(function(b){var
+a=r(b,bS(fl,g,k),u);return K(a[1],a[2])},j):h;return i?l(function(ao){switch(a[0]){case
 3:var
 g=[0,a[1],0];break;case
 4:var
-g=en(a[1]);break;case
+g=ep(a[1]);break;case
 5:var
 g=[0,a[1],[0,a[2],0]];break;case
 6:case
@@ -2493,7 +2493,7 @@ g=[0,a[1],[0,a[2],0]];break;case
 9:case
 10:return 0;default:var
 g=0}var
-j=0,k=bc(0,function(a){switch(a[0]){case
+j=0,k=bf(0,function(a){switch(a[0]){case
 0:return[0,[0,d]];case
 1:var
 ad=a[1],ae=aj(function(a){return o(ad,a)},ao)?b:d;return[0,[0,ae]];case
@@ -2526,37 +2526,37 @@ N=f;return N;case
 n=a[1];if(n){var
 O=n[1],g=a[2];if(O){if(g){var
 P=g[1];if(P)return[0,[0,E(O[1],P[1])]];var
-Q=te}else
+Q=tl}else
 var
 Q=g;return Q}var
-ai=g?tf:g,R=ai}else
+ai=g?tm:g,R=ai}else
 var
 R=n;return R;case
 7:var
 p=a[1];if(p){var
 S=p[1],h=a[2];if(S){if(h)var
-q=h[1],ak=q?[0,[0,aL(S[1],q[1])]]:q,U=ak;else
+q=h[1],ak=q?[0,[0,aM(S[1],q[1])]]:q,U=ak;else
 var
 U=h;return U}var
-al=h?tg:h,V=al}else
+al=h?tn:h,V=al}else
 var
 V=p;return V;case
 8:var
 r=a[1];if(r){var
 W=r[1];if(W){var
 X=W[1];return[0,[0,E(X,X)]]}var
-Y=th}else
+Y=to}else
 var
 Y=r;return Y;case
 9:var
 s=a[1];if(s){var
 t=s[1];if(t){var
-i=t[1],x=aR(i);if(0===x)var
+i=t[1],x=aS(i);if(0===x)var
 m=1;else
 if(0<x)var
-m=D(i,b)?0:K(aS(i,aH(2))[2],d)?1:0;else
+m=D(i,b)?0:K(aT(i,aJ(2))[2],d)?1:0;else
 var
-y=T(i),m=D(y,b)?0:K(aS(y,aH(2))[2],d)?1:0;var
+y=T(i),m=D(y,b)?0:K(aT(y,aJ(2))[2],d)?1:0;var
 am=m?[0,[0,cv(i,c(2,b))]]:m,Z=am}else
 var
 Z=t;var
@@ -2578,50 +2578,50 @@ ac=u;return ac}},v,j);function
 m(a){return a?a[1]:d}var
 h=e(function(a){return z(m,a)},k),i=l(function(c){var
 a=r(c,h,0),b=a?1:a;return b},q);if(i){var
-n=f(en(s),g),p=f(en(t),n);return l(function(c){var
+n=f(ep(s),g),p=f(ep(t),n);return l(function(c){var
 a=r(c,h,0);if(a){var
-b=aR(a[1]);return 0===b?1:0<b?0:0}return a},p)}return i},g):i}function
-iM(j,a,i,h,g,f,e,d,c,b){var
-k=gq(iK(i,h,g,c,b),a);return iD(j,a,bT(fe,e,f),k,d)}function
-mh(f,d,c,n,m,b,l,q,e,k,j,i,h,a){if(typeof
+b=aS(a[1]);return 0===b?1:0<b?0:0}return a},p)}return i},g):i}function
+iY(j,a,i,h,g,f,e,d,c,b){var
+k=gz(iW(i,h,g,c,b),a);return iP(j,a,bS(fl,e,f),k,d)}function
+mz(f,d,c,n,m,b,l,q,e,k,j,i,h,a){if(typeof
 a!=="number"&&11===a[0]){var
-o=a[3],g=a[1],p=iL(d,c,n,m,b,k,g,a[2]);if(p){var
-r=iM(f,d,c,n,m,b,g,e,k,o);return mf(f,d,c,bT(fe,g,b),l,r,e,j,i,h,o)}return p}return mf(f,d,c,b,l,q,e,j,i,h,a)}function
-mi(r,q,p,n,m,k,j,i,h,f,d,c,a){if(typeof
+o=a[3],g=a[1],p=iX(d,c,n,m,b,k,g,a[2]);if(p){var
+r=iY(f,d,c,n,m,b,g,e,k,o);return mx(f,d,c,bS(fl,g,b),l,r,e,j,i,h,o)}return p}return mx(f,d,c,b,l,q,e,j,i,h,a)}function
+mA(r,q,p,n,m,k,j,i,h,f,d,c,a){if(typeof
 a!=="number"&&12===a[0]){var
-b=a[1],s=M(o(g(b),0));if(s){var
-t=W(l7(e(function(a){return a[1][1][1]},b)),b);return l(function(a){var
-b=a[2],e=b[1];return mh(r,q,p,n,m,k,j,i,h,f,d,c,[0,[0,[0,[0,a[1][1],a[1][2]],e[1][2]],e[2]]],b[2])},t)}return s}return mh(r,q,p,n,m,k,j,i,h,f,d,c,0,a)}function
-gM(b,a){if(a){var
+b=a[1],s=N(o(g(b),0));if(s){var
+t=W(mn(e(function(a){return a[1][1][1]},b)),b);return l(function(a){var
+b=a[2],e=b[1];return mz(r,q,p,n,m,k,j,i,h,f,d,c,[0,[0,[0,[0,a[1][1],a[1][2]],e[1][2]],e[2]]],b[2])},t)}return s}return mz(r,q,p,n,m,k,j,i,h,f,d,c,0,a)}function
+gV(b,a){if(a){var
 c=a[2];if(b){var
-e=gM(b[1],c);return[0,a[1],e]}var
+e=gV(b[1],c);return[0,a[1],e]}var
 d=[0,0,c]}else
 var
 d=a;return d}function
-mj(c,b,a){var
+mB(c,b,a){var
 d=W(b,a);return l(function(a){var
-b=j(c,a[1]);return b?b:M(a[2])},d)}function
-fg(i,a,f,m,c,t,n,h,b,X,p){switch(p[0]){case
+b=k(c,a[1]);return b?b:N(a[2])},d)}function
+fn(i,a,f,m,c,t,n,h,b,X,p){switch(p[0]){case
 0:var
-ab=function(a){return l(M,a)},J=ab,x=p[1];break;case
+ab=function(a){return l(N,a)},J=ab,x=p[1];break;case
 1:var
 ac=p[4],ad=p[3],ae=p[2],af=function(d){var
-e=c1(ae,b),g=fg(i,a,f,m,c,t,n,h,e[1],d,ad);return g?fg(i,a,f,m,c,t,n,h,e[2],d,ac):g},J=af,x=p[1];break;default:var
+e=c3(ae,b),g=fn(i,a,f,m,c,t,n,h,e[1],d,ad);return g?fn(i,a,f,m,c,t,n,h,e[2],d,ac):g},J=af,x=p[1];break;default:var
 ag=p[4],ah=p[3],ai=p[2],aj=function(d){var
-e=mj(iJ,t,d);if(e){var
-g=c1(ai,h),j=fg(i,a,f,m,c,t,n,g[1],b,d,ah);if(j)return fg(i,a,f,m,c,t,n,g[2],b,d,ag);var
+e=mB(iV,t,d);if(e){var
+g=c3(ai,h),j=fn(i,a,f,m,c,t,n,g[1],b,d,ah);if(j)return fn(i,a,f,m,c,t,n,g[2],b,d,ag);var
 k=j}else
 var
 k=e;return k},J=aj,x=p[1]}if(x){var
-z=iD(i,a,h,gq(y(function(e){var
+z=iP(i,a,h,gz(y(function(e){var
 a=e[2],d=0;if(typeof
 a==="number"){if(4!==a)d=1}else
 if(11!==a[0])d=1;if(d){var
-b=H(t,e[1]);return b?iK(f,m,c,b[1],a):b}return 0},x),a),b),w=x,u=X;for(;;){if(w){var
-R=w[1],k=R[2],E=R[1],S=w[2],Y=0;if(typeof
-k==="number"&&4===k){var
-A=j(n,b);if(A)var
-_=A[1],Z=bf(g(b)),F=l(function(b){return function(a){return I(aG(a,b)[2],d)}}(_),Z);else
+b=H(t,e[1]);return b?iW(f,m,c,b[1],a):b}return 0},x),a),b),w=x,u=X;for(;;){if(w){var
+R=w[1],j=R[2],E=R[1],S=w[2],Y=0;if(typeof
+j==="number"&&4===j){var
+A=k(n,b);if(A)var
+_=A[1],Z=bi(g(b)),F=l(function(b){return function(a){return I(aH(a,b)[2],d)}}(_),Z);else
 var
 F=A;if(F){var
 w=S,u=e(function(a){return 0},u);continue}var
@@ -2630,28 +2630,28 @@ Y=1;if(Y){var
 T=r(E,u,0);if(T){var
 G=H(t,E);if(G){var
 q=G[1],K=0;if(typeof
-k==="number")K=1;else
-switch(k[0]){case
+j==="number")K=1;else
+switch(j[0]){case
 11:var
-L=k[3],B=k[1],N=iL(a,f,m,c,h,q,B,k[2]);if(N)var
-$=iM(i,a,f,m,c,h,B,b,q,L),s=mg(i,a,f,m,c,bT(fe,B,h),n,$,b,q,L);else
+L=j[3],B=j[1],M=iX(a,f,m,c,h,q,B,j[2]);if(M)var
+$=iY(i,a,f,m,c,h,B,b,q,L),s=my(i,a,f,m,c,bS(fl,B,h),n,$,b,q,L);else
 var
-s=N;break;case
+s=M;break;case
 12:var
-C=k[1],O=M(o(g(C),0));if(O)var
-aa=W(l7(e(function(a){return a[1][1][1]},C)),C),s=l(function(g){return function(r){var
+C=j[1],O=N(o(g(C),0));if(O)var
+aa=W(mn(e(function(a){return a[1][1][1]},C)),C),s=l(function(g){return function(r){var
 s=r[2],e=r[1],k=s[1],l=k[1][2],o=k[2],d=s[2];if(typeof
 d!=="number"&&11===d[0]){var
-p=d[3],j=d[1],q=iL(a,f,m,c,h,g,j,d[2]);if(q){var
-t=e[2],u=e[1],v=iM(i,a,f,m,c,h,j,b,g,p);return me(i,a,f,c,bT(fe,j,h),n,v,b,g,u,t,l,o,p)}return q}return me(i,a,f,c,h,n,z,b,g,e[1],e[2],l,o,d)}}(q),aa);else
+p=d[3],j=d[1],q=iX(a,f,m,c,h,g,j,d[2]);if(q){var
+t=e[2],u=e[1],v=iY(i,a,f,m,c,h,j,b,g,p);return mw(i,a,f,c,bS(fl,j,h),n,v,b,g,u,t,l,o,p)}return q}return mw(i,a,f,c,h,n,z,b,g,e[1],e[2],l,o,d)}}(q),aa);else
 var
 s=O;break;case
 13:if(2===q[0])var
-D=iG(i,k[1],k[2]),P=iu(g(b),D),Q=P?mi(i,a,f,m,c,h,n,z,b,q,0,D,k[3]):P,s=Q?mi(i,a,f,m,c,h,n,z,b,q,[0,q[1]],D,k[4]):Q;else
+D=iS(i,j[1],j[2]),P=iG(g(b),D),Q=P?mA(i,a,f,m,c,h,n,z,b,q,0,D,j[3]):P,s=Q?mA(i,a,f,m,c,h,n,z,b,q,[0,q[1]],D,j[4]):Q;else
 var
 s=0;break;default:K=1}if(K)var
-s=mg(i,a,f,m,c,h,n,z,b,q,k);if(s){var
-w=S,u=gM(E,u);continue}var
+s=my(i,a,f,m,c,h,n,z,b,q,j);if(s){var
+w=S,u=gV(E,u);continue}var
 U=s}else
 var
 U=G;var
@@ -2663,81 +2663,81 @@ var
 v=[0,u];break}}else
 var
 v=[0,X];return v?J(v[1]):v}function
-iN(h,g,f,e,d,c,b,a){return function(i,j,k){return fg(h,g,f,e,d,b,a,c,i,j,k)}}function
-iO(a){return e(function(a){return 1},a)}function
-eo(a,d,b,c){function
+iZ(h,g,f,e,d,c,b,a){return function(i,j,k){return fn(h,g,f,e,d,b,a,c,i,j,k)}}function
+i0(a){return e(function(a){return 1},a)}function
+eq(a,d,b,c){function
 f(d,c){var
 f=W(a[1],b[1]);return e(function(a){var
 b=s(c,a[2]);return B(s(d,a[1]),b)},f)}if(aN(a[2],b[2])){var
 g=a[2];return[0,f(d,c),g]}var
 h=s(a[2],b[2]),i=s(c,a[2]);return[0,f(s(d,b[2]),i),h]}function
-mk(a){var
+mC(a){var
 c=m(b);return[0,e(function(a){return m(d)},a),c]}function
-a7(a,k){var
+a_(a,k){var
 f=k[1];switch(f[0]){case
 1:var
 u=f[1];if(aj(function(a){return o(u,a)},a)){var
 C=m(b);return[0,e(function(a){var
-c=o(a,u)?b:d;return m(c)},a),C]}return mk(a);case
+c=o(a,u)?b:d;return m(c)},a),C]}return mC(a);case
 3:var
-D=m(b),E=a7(a,f[2]),F=m(b);return eo(a7(a,f[1]),F,E,D);case
+D=m(b),E=a_(a,f[2]),F=m(b);return eq(a_(a,f[1]),F,E,D);case
 4:var
-G=m(T(b)),H=a7(a,f[2]),I=m(b);return eo(a7(a,f[1]),I,H,G);case
+G=m(T(b)),H=a_(a,f[2]),I=m(b);return eq(a_(a,f[1]),I,H,G);case
 5:var
-v=a7(a,f[1]),J=v[2];return[0,e(bl,v[1]),J];case
+v=a_(a,f[1]),J=v[2];return[0,e(bn,v[1]),J];case
 6:var
-w=f[2],y=f[1],K=a7(a,w);return eo(a7(a,y),w,K,y);case
+w=f[2],y=f[1],K=a_(a,w);return eq(a_(a,y),w,K,y);case
 7:var
-z=f[2],L=bl(k),M=a7(a,z),N=m(b),i=eo(a7(a,f[1]),N,M,L),O=i[1];if(l(function(a){return a5(d,a)},O))return i;var
+z=f[2],L=bn(k),M=a_(a,z),N=m(b),i=eq(a_(a,f[1]),N,M,L),O=i[1];if(l(function(a){return a8(d,a)},O))return i;var
 P=s(i[2],z);return[0,i[1],P];case
 8:var
-A=f[1],B=a7(a,A),Q=B[2],R=B[1],S=s(m(c(2,b)),A);return[0,e(function(a){return s(S,a)},R),Q];case
+A=f[1],B=a_(a,A),Q=B[2],R=B[1],S=s(m(c(2,b)),A);return[0,e(function(a){return s(S,a)},R),Q];case
 9:var
-j=a7(a,f[1]),U=j[1];if(l(function(a){return a5(d,a)},U)){var
+j=a_(a,f[1]),U=j[1];if(l(function(a){return a8(d,a)},U)){var
 V=m(b);return[0,j[1],V]}var
 W=s(m(c(2,b)),k),X=s(j[2],W);return[0,j[1],X];case
 10:var
-n=f[4],g=f[3],h=f[2],p=[0,[10,0,h,g,n]],q=[0,[10,1,h,g,n]],Y=x(g,q),Z=a7(a,g),_=x(h,p),$=eo(a7(a,h),_,Z,Y),aa=m(T(b)),ab=a7(a,n),r=eo($,m(c(2,b)),ab,aa),ac=r[1],ad=f[1]?p:bl(q),t=e(function(a){return s(ad,a)},ac);if(l(function(a){return a5(d,a)},t))return[0,t,r[2]];var
-ae=s(h,q),af=x(s(g,p),ae),ag=s(m(c(2,b)),af);return[0,t,s(r[2],ag)];default:return mk(a)}}function
-ml(c,a){var
-b=a7(c,a),f=b[1];return e(function(a){return a5(d,a)?a:am(a,b[2])},f)}function
-mm(g){var
+n=f[4],g=f[3],h=f[2],p=[0,[10,0,h,g,n]],q=[0,[10,1,h,g,n]],Y=x(g,q),Z=a_(a,g),_=x(h,p),$=eq(a_(a,h),_,Z,Y),aa=m(T(b)),ab=a_(a,n),r=eq($,m(c(2,b)),ab,aa),ac=r[1],ad=f[1]?p:bn(q),t=e(function(a){return s(ad,a)},ac);if(l(function(a){return a8(d,a)},t))return[0,t,r[2]];var
+ae=s(h,q),af=x(s(g,p),ae),ag=s(m(c(2,b)),af);return[0,t,s(r[2],ag)];default:return mC(a)}}function
+mD(c,a){var
+b=a_(c,a),f=b[1];return e(function(a){return a8(d,a)?a:am(a,b[2])},f)}function
+mE(g){var
 h=g[1],c=h[2],e=h[1];if(0===e[0]){var
 i=e[2],a=e[1];if(D(i,b)){if(0===c[0]){var
 j=c[2],m=c[1];if(D(j,b)){var
-k=K(a,m),l=k?e6(a):k;if(l)var
+k=K(a,m),l=k?fb(a):k;if(l)var
 n=K(g[2],d),f=n||K(a,d);else
 var
 f=l;var
-o=f?[0,a]:f;return o}return K(aS(j,aH(2))[2],d)?0:0}return 0}return K(aS(i,aH(2))[2],d)?0:0}return 0}function
-c6(c,b){var
-a=mm(c);return a?m(a[1]):[0,[1,b]]}function
+o=f?[0,a]:f;return o}return K(aT(j,aJ(2))[2],d)?0:0}return 0}return K(aT(i,aJ(2))[2],d)?0:0}return 0}function
+c8(c,b){var
+a=mE(c);return a?m(a[1]):[0,[1,b]]}function
 cD(b,a){if(a)var
-d=cD([0,b],a[2]),c=[0,c6(a[1],b),d];else
+d=cD([0,b],a[2]),c=[0,c8(a[1],b),d];else
 var
 c=a;return c}function
-a8(b,a){return[0,[0,b[1],a],[0,[0,b[2],a],[0,[0,b[3],a],0]]]}function
-gN(b,d,a){switch(a[0]){case
+a$(b,a){return[0,[0,b[1],a],[0,[0,b[2],a],[0,[0,b[3],a],0]]]}function
+gW(b,d,a){switch(a[0]){case
 0:var
-c=a[1],g=[0,[0,c[4],b],0],h=f(a8(c[3],b),g),i=f(a8(c[2],b),h);return f(a8(c[1],d),i);case
+c=a[1],g=[0,[0,c[4],b],0],h=f(a$(c[3],b),g),i=f(a$(c[2],b),h);return f(a$(c[1],d),i);case
 1:var
-e=a[3],j=e?a8(e[1],d):e,k=f(a8(a[2],b),j);return f(a8(a[1],b),k);default:return a8(a[1],d)}}function
+e=a[3],j=e?a$(e[1],d):e,k=f(a$(a[2],b),j);return f(a$(a[1],b),k);default:return a$(a[1],d)}}function
 ak(b,a){var
-c=m(d),e=r(N(tq,a),b,c),f=m(d),g=r(N(tr,a),b,f);return[0,r(a,b,m(d)),g,e]}function
-mn(b,a){return af(x,af(B,dD,a),b)}function
-gO(c,b,a){if(a){var
-e=a[2],g=gO(c,bA(b),e),h=a[1];return f(gN(c,bS(d,b),h),g)}return a}function
-iP(f,e,c,j){if(c){var
-b=c[1],v=N(j,g(gN(f,bS(d,e),b))),w=c[2],x=iP(f,bA(e),w,v),a=cD(j,gN(f,bS(d,e),b));switch(b[0]){case
+c=m(d),e=r(L(tx,a),b,c),f=m(d),g=r(L(ty,a),b,f);return[0,r(a,b,m(d)),g,e]}function
+mF(b,a){return ag(x,ag(B,dF,a),b)}function
+gX(c,b,a){if(a){var
+e=a[2],g=gX(c,bA(b),e),h=a[1];return f(gW(c,bR(d,b),h),g)}return a}function
+i1(f,e,c,j){if(c){var
+b=c[1],v=L(j,g(gW(f,bR(d,e),b))),w=c[2],x=i1(f,bA(e),w,v),a=cD(j,gW(f,bR(d,e),b));switch(b[0]){case
 0:var
-l=b[1][5],n=r(ts,a,m(d)),o=af(B,dD,ak(a,tt)),p=dC(ak(a,0)),q=ak(a,tu),h=lQ(mn(ak(a,tv),q),p,o,n,l);break;case
+l=b[1][5],n=r(tz,a,m(d)),o=ag(B,dF,ak(a,tA)),p=dE(ak(a,0)),q=ak(a,tB),h=l8(mF(ak(a,tC),q),p,o,n,l);break;case
 1:var
-i=b[3],s=i?[0,dC(ak(a,tw))]:i,t=af(B,dD,ak(a,tx)),u=ak(a,ty),h=lR(mn(ak(a,0),u),t,s);break;default:var
-h=lS(dD,dC(ak(a,0)))}var
+i=b[3],s=i?[0,dE(ak(a,tD))]:i,t=ag(B,dF,ak(a,tE)),u=ak(a,tF),h=l9(mF(ak(a,0),u),t,s);break;default:var
+h=l_(dF,dE(ak(a,0)))}var
 k=[0,h,x]}else
 var
 k=c;return k}function
-bX(c,a){if(typeof
+bW(c,a){if(typeof
 a!=="number")switch(a[0]){case
 4:var
 h=[5,a[3],a[2]];return[0,[0,h,h],d];case
@@ -2746,7 +2746,7 @@ j=a[2];return[0,[0,j,j],d];case
 8:var
 k=[5,a[2],a[1]];return[0,[0,k,k],d];case
 10:var
-p=a[3],q=ec(a[2]),l=[2,[2,ec(a[1]),q],p];return[0,[0,l,l],c];case
+p=a[3],q=ee(a[2]),l=[2,[2,ee(a[1]),q],p];return[0,[0,l,l],c];case
 11:var
 m=a[4];return[0,[0,m,m],c];case
 12:var
@@ -2763,91 +2763,91 @@ f=[5,[0,b,b],a[1]];return[0,[0,f,f],d];case
 g=a[2];return[0,[0,g,g],c];default:var
 i=a[1];return[0,[0,i,i],d]}var
 e=[0,d,b];return[0,[0,e,e],d]}function
-fh(b,a){var
+fo(b,a){var
 c=a[3],d=a[2],e=a[1];return[0,[0,[0,e,e],b],[0,[0,[0,d,d],b],[0,[0,[0,c,c],b],0]]]}function
-ep(c,a){if(0===a[0]){var
-e=[0,d,b],i=f(fh(c,a[5]),[0,[0,[0,e,e],d],0]),g=a[4],h=a[3];return f([0,[0,[0,h,h],c],[0,[0,[0,g,g],c],0]],i)}var
-j=fh(c,a[3]);return f(fh(c,a[2]),j)}function
-dF(b,a){if(typeof
+er(c,a){if(0===a[0]){var
+e=[0,d,b],i=f(fo(c,a[5]),[0,[0,[0,e,e],d],0]),g=a[4],h=a[3];return f([0,[0,[0,h,h],c],[0,[0,[0,g,g],c],0]],i)}var
+j=fo(c,a[3]);return f(fo(c,a[2]),j)}function
+dH(b,a){if(typeof
 a!=="number")switch(a[0]){case
 10:var
-h=ep(b,a[2]);return f(ep(b,a[1]),h);case
+h=er(b,a[2]);return f(er(b,a[1]),h);case
 11:var
-i=fh(b,a[3]);return f(fh(b,a[2]),i);case
+i=fo(b,a[3]);return f(fo(b,a[2]),i);case
 12:var
 c=a[3],g=[5,[4,c,c],a[4]];return[0,[0,[0,g,g],b],0];case
 15:var
 j=a[2],k=a[1];return e(function(b){var
 a=[5,j,b];return[0,[0,a,a],d]},k)}return 0}function
-mo(c,b,a){var
-d=g(dF(c,b)),e=N(a[2],d);return[0,[0,a[1]],e]}function
-iQ(c,b){if(aN(b,c))return[0,m(d)];var
+mG(c,b,a){var
+d=g(dH(c,b)),e=L(a[2],d);return[0,[0,a[1]],e]}function
+i2(c,b){if(aN(b,c))return[0,m(d)];var
 a=b[1];if(4===a[0]){var
 e=aN(a[1],c),f=e?[0,a[2]]:e;return f}return 0}function
-mp(y,p,a,o){switch(o[0]){case
+mH(y,p,a,o){switch(o[0]){case
 0:var
 h=H(y,o[1]);if(h){var
 i=h[1];if(i){var
-q=i[1],s=q[1],c=s[2],e=s[1],t=q[2],z=ak(a,tz),A=af(B,af(x,e,a1(am(r(tA,a,m(d)),t),c)),z),C=ak(a,tB),f=am(r(0,a,m(d)),t),k=iQ(e[1],c[1]);if(k){var
-l=iQ(e[2],c[2]);if(l){var
-n=iQ(e[3],c[3]);if(n)var
-w=a1(f,c),g=af(B,[0,k[1],l[1],n[1]],w);else
+q=i[1],s=q[1],c=s[2],e=s[1],t=q[2],z=ak(a,tG),A=ag(B,ag(x,e,a3(am(r(tH,a,m(d)),t),c)),z),C=ak(a,tI),f=am(r(0,a,m(d)),t),j=i2(e[1],c[1]);if(j){var
+l=i2(e[2],c[2]);if(l){var
+n=i2(e[3],c[3]);if(n)var
+w=a3(f,c),g=ag(B,[0,j[1],l[1],n[1]],w);else
 var
-g=af(x,e,a1(x(m(b),f),c))}else
+g=ag(x,e,a3(x(m(b),f),c))}else
 var
-g=af(x,e,a1(x(m(b),f),c))}else
+g=ag(x,e,a3(x(m(b),f),c))}else
 var
-g=af(x,e,a1(x(m(b),f),c));var
-u=[0,[0,af(B,g,C),A]]}else
+g=ag(x,e,a3(x(m(b),f),c));var
+u=[0,[0,ag(B,g,C),A]]}else
 var
 u=i;var
 v=u}else
 var
 v=h;return v;case
 1:var
-D=ak(a,tC);return[0,[0,ak(a,0),D]];default:var
-E=j(p,ak(a,tD));return[0,[0,j(p,ak(a,0)),E]]}}function
-mq(e,d,c,h,g){var
-a=mp(e,d,aA(tE,c),h);if(a)var
-b=mp(e,d,aM(tF,c),g),i=b?[0,[0,a[1],b[1]]]:b,f=i;else
+D=ak(a,tJ);return[0,[0,ak(a,0),D]];default:var
+E=k(p,ak(a,tK));return[0,[0,k(p,ak(a,0)),E]]}}function
+mI(e,d,c,h,g){var
+a=mH(e,d,an(tL,c),h);if(a)var
+b=mH(e,d,av(tM,c),g),i=b?[0,[0,a[1],b[1]]]:b,f=i;else
 var
 f=a;return f}function
-mr(g,c,d,b,a){var
-h=ep(c,a),i=cD(d,f(ep(c,b),h));function
-j(a){return af(B,dD,a)}return mq(e(function(a){var
+mJ(g,c,d,b,a){var
+h=er(c,a),i=cD(d,f(er(c,b),h));function
+j(a){return ag(B,dF,a)}return mI(e(function(a){var
 b=a[7];return z(function(b){var
-c=c0(a);return[0,[0,b,a[1]],c]},b)},g),j,i,b,a)}function
-dG(d,c,b,a){var
+c=c2(a);return[0,[0,b,a[1]],c]},b)},g),j,i,b,a)}function
+dI(d,c,b,a){var
 e=s(c,b);return x(s(d,a),e)}function
 bC(a){return y(function(a){return f(a[1],[0,a[2],0])},a)}function
-ms(b,a){if(b)if(a)var
-d=b[1],e=ms(b[2],a[2]),f=s(d[2],a[1]),c=[0,[0,bW(d[1]),f],e];else
+mK(b,a){if(b)if(a)var
+d=b[1],e=mK(b[2],a[2]),f=s(d[2],a[1]),c=[0,[0,bV(d[1]),f],e];else
 var
 c=a;else
 var
 c=b;return c}function
-mt(a){if(a){var
+mL(a){if(a){var
 b=a[1][6];if(b){var
-c=b[1],d=mt(a[2]);if(d)var
-g=d[1],h=Z(c,c),e=[0,[0,[0,bW(c),h],g]];else
+c=b[1],d=mL(a[2]);if(d)var
+g=d[1],h=Z(c,c),e=[0,[0,[0,bV(c),h],g]];else
 var
 e=d;var
 f=e}else
 var
-f=b;return f}return tH}function
-fi(b,d,c,a){if(typeof
+f=b;return f}return tO}function
+fp(b,d,c,a){if(typeof
 a!=="number")switch(a[0]){case
 8:var
-i=c[1],j=c6(bX(d,a),i);return[0,e(function(a){var
-b=s(a[2],j);return[0,bW(a[1]),b]},b)];case
-9:return mt(b);case
+i=c[1],j=c8(bW(d,a),i);return[0,e(function(a){var
+b=s(a[2],j);return[0,bV(a[1]),b]},b)];case
+9:return mL(b);case
 15:var
 k=g(b),f=o(g(a[1]),k);if(f)var
-l=dF(d,a),h=[0,ms(b,cD(c[2],l))];else
+l=dH(d,a),h=[0,mK(b,cD(c[2],l))];else
 var
 h=f;return h}return 0}function
-gP(e,k,j,a){var
-P=j[1],c=c6(bX(k,a),P),u=0;if(typeof
+gY(e,k,j,a){var
+P=j[1],c=c8(bW(k,a),P),u=0;if(typeof
 a==="number")u=1;else
 switch(a[0]){case
 2:var
@@ -2866,7 +2866,7 @@ d=a;return d},g=T,f=a[1];break;case
 7:if(e){var
 l=e[2];if(l){var
 n=l[2];if(n){if(n[2])return 0;var
-w=n[1],z=l[1],A=e[1],h=w[1],i=z[1],p=A[1],K=dG(i[1],i[2],h[1],h[2]),L=s(p[3],K),M=dG(i[1],i[3],h[1],h[3]),N=s(p[2],M),O=dG(i[2],i[3],h[2],h[3]),v=B(x(s(p[1],O),N),L),U=c0(w),W=c0(z),C=s(s(s(c,c0(A)),W),U),X=[0,bl(B(v,C)),0],D=[0,x(v,C),X]}else
+w=n[1],z=l[1],A=e[1],h=w[1],i=z[1],p=A[1],K=dI(i[1],i[2],h[1],h[2]),L=s(p[3],K),M=dI(i[1],i[3],h[1],h[3]),N=s(p[2],M),O=dI(i[2],i[3],h[2],h[3]),v=B(x(s(p[1],O),N),L),U=c2(w),W=c2(z),C=s(s(s(c,c2(A)),W),U),X=[0,bn(B(v,C)),0],D=[0,x(v,C),X]}else
 var
 D=n;var
 E=D}else
@@ -2876,66 +2876,66 @@ F=E}else
 var
 F=e;return F;case
 10:var
-t=mr(e,k,j[2],a[1],a[2]);if(t){var
-G=t[1],I=G[2],J=G[1];return y(bW,[0,J[1],[0,J[2],[0,I[1],[0,I[2],0]]]])}return t;case
+t=mJ(e,k,j[2],a[1],a[2]);if(t){var
+G=t[1],I=G[2],J=G[1];return y(bV,[0,J[1],[0,J[2],[0,I[1],[0,I[2],0]]]])}return t;case
 11:var
 Y=function(d){var
 e=d[7];if(e)var
-n=dF(k,a),f=cD(j[2],n),h=ak(f,tG),b=af(x,ak(f,0),h),i=V(c),l=V(c0(d)),m=am(V(Z(b,d[1])),l),g=[0,x(x(Z(b,b),m),i),0];else
+n=dH(k,a),f=cD(j[2],n),h=ak(f,tN),b=ag(x,ak(f,0),h),i=V(c),l=V(c2(d)),m=am(V(Z(b,d[1])),l),g=[0,x(x(Z(b,b),m),i),0];else
 var
 g=e;return g},g=Y,f=a[1];break;case
 12:var
 _=function(e){var
-p=m(d),q=dF(k,a),t=r(0,cD(j[2],q),p),f=am(t,c0(e)),g=e[5];if(g){var
-l=aJ(e[2]),h=am(g[1],l),n=s(h,B(c,s(f,V(h))));return[0,x(m(b),n),0]}var
+p=m(d),q=dH(k,a),t=r(0,cD(j[2],q),p),f=am(t,c2(e)),g=e[5];if(g){var
+l=aL(e[2]),h=am(g[1],l),n=s(h,B(c,s(f,V(h))));return[0,x(m(b),n),0]}var
 i=e[7],o=i?[0,x(x(m(b),c),f),0]:i;return o},g=_,f=a[1];break;case
 8:case
 9:case
 15:var
-q=fi(e,k,j,a);return q?bC(q[1]):q;default:u=1}if(u)return 0;var
+q=fp(e,k,j,a);return q?bC(q[1]):q;default:u=1}if(u)return 0;var
 o=H(e,f);return o?g(o[1]):o}function
-iR(d,b,c,a){if(a){var
-e=a[1],g=a[2],h=iR(d,b,mo(b,e,c),g);return f(gP(d,b,c,e),h)}return a}var
-mu=[0,d,b],mv=[0,[0,mu,mu],d];function
-iS(a){return M(cc(a[1][1],a[1][2]))}function
-mw(a){var
-b=aB(0,g(a));return bu(function(b){return iS(r(b,a,mv))},b)}function
-gQ(a,b){var
-c=ml(mw(a),b),e=W(mw(a),c);return bu(function(a){return M(a5(d,a[2]))},e)}function
-mx(b,a){var
-c=j(b,a[3]),d=j(b,a[2]);return[0,j(b,a[1]),d,c]}function
-my(m,l,f,k,i,a){var
-d=gQ(f,a);return ac(e(function(e){var
-a=r(e[1],f,mv),g=aL(a[2],k),h=[4,[0,c(2,b),b],i],d=[5,[3,a[1][2],a[1][1]],h],n=ao(m,[0,[0,d,d],g]);return z(function(a){return[0,a,j(l,e[2])]},n)},d))}function
-mz(g,f,n,m,l,e,c){var
-h=[5,l,e],a=ao(g,[0,[0,h,h],d]);if(a){var
-b=my(g,f,n,m,e,c);if(b)var
-o=[0,a[1],b[1]],i=[0,[0,j(f,c),o]];else
+i3(d,b,c,a){if(a){var
+e=a[1],g=a[2],h=i3(d,b,mG(b,e,c),g);return f(gY(d,b,c,e),h)}return a}var
+mM=[0,d,b],mN=[0,[0,mM,mM],d];function
+i4(a){return N(cc(a[1][1],a[1][2]))}function
+mO(a){var
+b=aC(0,g(a));return bu(function(b){return i4(r(b,a,mN))},b)}function
+gZ(a,b){var
+c=mD(mO(a),b),e=W(mO(a),c);return bu(function(a){return N(a8(d,a[2]))},e)}function
+mP(b,a){var
+c=k(b,a[3]),d=k(b,a[2]);return[0,k(b,a[1]),d,c]}function
+mQ(m,l,f,j,i,a){var
+d=gZ(f,a);return ac(e(function(e){var
+a=r(e[1],f,mN),g=aM(a[2],j),h=[4,[0,c(2,b),b],i],d=[5,[3,a[1][2],a[1][1]],h],n=ap(m,[0,[0,d,d],g]);return z(function(a){return[0,a,k(l,e[2])]},n)},d))}function
+mR(g,f,n,m,l,e,c){var
+h=[5,l,e],a=ap(g,[0,[0,h,h],d]);if(a){var
+b=mQ(g,f,n,m,e,c);if(b)var
+o=[0,a[1],b[1]],i=[0,[0,k(f,c),o]];else
 var
 i=b;var
-k=i}else
+j=i}else
 var
-k=a;return k}function
-mA(c,F,m,al,k,i,n,s){if(s){var
-a=s[1],aH=s[2],aI=mA(c,F,m,al,k,i,mo(i,a,n),aH);if(typeof
+j=a;return j}function
+mS(c,F,m,al,j,i,n,s){if(s){var
+a=s[1],aH=s[2],aI=mS(c,F,m,al,j,i,mG(i,a,n),aH);if(typeof
 a==="number")if(0===a)var
 f=[0,[0,u]];else
 var
-an=F[2],ap=F[1],aq=fb(k),f=[0,[8,j(au(m),aq),ap,an]];else
+an=F[2],ao=F[1],aq=fi(j),f=[0,[8,k(ax(m),aq),ao,an]];else
 switch(a[0]){case
 0:var
-ar=ao(c,bX(i,a)),f=z(function(a){return[0,U(c,a)]},ar);break;case
+ar=ap(c,bW(i,a)),f=z(function(a){return[0,U(c,a)]},ar);break;case
 1:var
-as=ao(c,bX(i,a)),f=z(function(a){return[1,U(c,a)]},as);break;case
+as=ap(c,bW(i,a)),f=z(function(a){return[1,U(c,a)]},as);break;case
 5:var
-av=ao(c,bX(i,a)),f=z(function(a){return[2,U(c,a)]},av);break;case
+au=ap(c,bW(i,a)),f=z(function(a){return[2,U(c,a)]},au);break;case
 8:var
-aw=fi(k,i,n,a),f=z(function(a){var
-d=O(c,b);return[4,j(au(m),a),d]},aw);break;case
+av=fp(j,i,n,a),f=z(function(a){var
+d=O(c,b);return[4,k(ax(m),a),d]},av);break;case
 9:var
-w=fi(k,i,n,a);if(w){var
-x=ao(c,bX(i,a));if(x)var
-ax=U(c,x[1]),ay=w[1],L=[0,[4,j(au(m),ay),ax]];else
+w=fp(j,i,n,a);if(w){var
+x=ap(c,bW(i,a));if(x)var
+aw=U(c,x[1]),ay=w[1],L=[0,[4,k(ax(m),ay),aw]];else
 var
 L=x;var
 M=L}else
@@ -2943,10 +2943,10 @@ var
 M=w;var
 f=M;break;case
 10:var
-y=mr(k,i,n[2],a[1],a[2]);if(y){var
-N=y[1],P=N[2],Q=N[1],A=ao(c,bX(i,a));if(A){var
+y=mJ(j,i,n[2],a[1],a[2]);if(y){var
+N=y[1],P=N[2],Q=N[1],A=ap(c,bW(i,a));if(A){var
 R=A[1],S=D(d,R[1]);if(S)var
-q=function(a){return mx(m,a)},az=q(P[2]),aA=q(P[1]),aB=q(Q[2]),T=[0,[6,q(Q[1]),aB,aA,az,R]];else
+q=function(a){return mP(m,a)},az=q(P[2]),aA=q(P[1]),aB=q(Q[2]),T=[0,[6,q(Q[1]),aB,aA,az,R]];else
 var
 T=S;var
 V=T}else
@@ -2957,24 +2957,24 @@ var
 W=y;var
 f=W;break;case
 12:var
-r=gP(k,i,n,a),t=0;if(r)if(r[2])var
+r=gY(j,i,n,a),t=0;if(r)if(r[2])var
 f=0;else{var
 X=h(c,0,a[2]),Y=X?h(c,1,a[4]):X;if(Y){var
-B=[0,[3,j(m,r[1])]];t=1}else{var
+B=[0,[3,k(m,r[1])]];t=1}else{var
 B=Y;t=1}}else{var
 B=r;t=1}if(t)var
 f=B;break;case
 13:var
-Z=a[1],_=H(k,Z),G=0;if(_){var
+Z=a[1],_=H(j,Z),G=0;if(_){var
 $=h(c,1,a[2]),aa=$?h(c,1,a[3]):$;if(aa)var
-aC=ao(c,bX(i,a)),f=z(function(a){return[7,Z,U(c,a)]},aC);else{var
+aC=ap(c,bW(i,a)),f=z(function(a){return[7,Z,U(c,a)]},aC);else{var
 ab=aa;G=1}}else{var
 ab=_;G=1}if(G)var
 f=ab;break;case
 14:var
-ad=a[2],ae=a[1],af=o(g(k),tI),ag=af?h(c,0,ae):af,ah=ag?h(c,1,ad):ag;if(ah){var
-C=ao(c,bX(i,a));if(C)var
-E=ac(e(function(a){return mz(c,m,al,i,ae,ad,a[4])},k)),aD=E?[0,[9,C[1],E[1]]]:E,ai=aD;else
+ad=a[2],ae=a[1],af=o(g(j),tP),ag=af?h(c,0,ae):af,ah=ag?h(c,1,ad):ag;if(ah){var
+C=ap(c,bW(i,a));if(C)var
+E=ac(e(function(a){return mR(c,m,al,i,ae,ad,a[4])},j)),aD=E?[0,[9,C[1],E[1]]]:E,ai=aD;else
 var
 ai=C;var
 aj=ai}else
@@ -2983,34 +2983,34 @@ aj=ah;var
 f=aj;break;case
 15:var
 aE=[0,a[2],a[1]],aF=1,ak=l(function(a){return h(c,aF,a)},aE);if(ak)var
-aG=fi(k,i,n,a),f=z(function(a){var
-d=O(c,b);return[4,j(au(m),a),d]},aG);else
+aG=fp(j,i,n,a),f=z(function(a){var
+d=O(c,b);return[4,k(ax(m),a),d]},aG);else
 var
 f=ak;break;default:var
-p=gP(k,i,n,a),I=0;if(p){var
+p=gY(j,i,n,a),I=0;if(p){var
 v=p[2],J=p[1];if(v)if(v[2])var
 f=0;else
 var
-at=j(m,v[1]),f=[0,[5,j(m,J),at]];else{var
-K=[0,[3,j(m,J)]];I=1}}else{var
+at=k(m,v[1]),f=[0,[5,k(m,J),at]];else{var
+K=[0,[3,k(m,J)]];I=1}}else{var
 K=p;I=1}if(I)var
 f=K}var
 am=[0,f,aI]}else
 var
 am=s;return am}function
-tJ(a){var
+tQ(a){var
 b=0;if(typeof
 a==="number"){if(0!==a)b=1}else
 if(0!==a[0])b=1;return b?0:1}function
-eq(a){if(0===a[0])return a[1];var
+es(a){if(0===a[0])return a[1];var
 b=a[3],c=a[2],d=a[1];return[0,[0,[3,d,b],[2,d,b]],[0,[3,c,b],[2,c,b]],a[4]]}function
-mB(a,c,g,b){if(0===c[0])return 0;if(b){var
+mT(a,c,g,b){if(0===c[0])return 0;if(b){var
 d=b[2];if(d){var
 h=d[2];if(h){if(h[2])return 0;var
-e=d[1],f=b[1],i=cY(a,g,c[1]);if(i){var
-j=cY(a,g,c[2]);if(j){var
-k=cY(a,g,c[3]);if(k)var
-v=i[1],w=cd(f),l=F([0,cd(f),w],v),x=j[1],y=cd(e),m=F([0,cd(e),y],x),z=ej(e),B=[0,ej(e),z],C=[0,t(a,ab(A(m,m)),B),0],D=ej(f),E=[0,ej(f),D],G=[0,t(a,ab(A(l,l)),E),C],H=U(a,m),I=U(a,l),n=[0,[0,F(F(U(a,k[1]),I),H),u,G]];else
+e=d[1],f=b[1],i=c0(a,g,c[1]);if(i){var
+j=c0(a,g,c[2]);if(j){var
+k=c0(a,g,c[3]);if(k)var
+v=i[1],w=cd(f),l=F([0,cd(f),w],v),x=j[1],y=cd(e),m=F([0,cd(e),y],x),z=el(e),B=[0,el(e),z],C=[0,t(a,ab(A(m,m)),B),0],D=el(f),E=[0,el(f),D],G=[0,t(a,ab(A(l,l)),E),C],H=U(a,m),I=U(a,l),n=[0,[0,F(F(U(a,k[1]),I),H),u,G]];else
 var
 n=k;var
 o=n}else
@@ -3028,8 +3028,8 @@ r=d;var
 s=r}else
 var
 s=b;return s}function
-gR(a,p,o){var
-q=a8(p,o),b=e(function(b){return ao(a,b)},q);if(b){var
+g0(a,p,o){var
+q=a$(p,o),b=e(function(b){return ap(a,b)},q);if(b){var
 g=b[1];if(g){var
 c=b[2];if(c){var
 h=c[1];if(h){var
@@ -3052,152 +3052,152 @@ n=m}else
 var
 n=b;return n}function
 J(c,b,a){var
-d=aq(c,b[3],a[3]),e=aq(c,b[2],a[2]);return[0,aq(c,b[1],a[1]),e,d]}function
+d=ar(c,b[3],a[3]),e=ar(c,b[2],a[2]);return[0,ar(c,b[1],a[1]),e,d]}function
 P(b,a){return[0,[4,b,a[1]],[4,b,a[2]],[4,b,a[3]]]}function
 w(b,a){return[2,[2,[4,b[1],a[1]],[4,b[2],a[2]]],[4,b[3],a[3]]]}function
-av(a){return P([5,[0,b,b],[6,w(a,a)]],a)}function
-c7(c,b,a){var
+ay(a){return P([5,[0,b,b],[6,w(a,a)]],a)}function
+c9(c,b,a){var
 d=bw(c,b[1],a);return d?bw(c,a,b[2]):d}function
-bn(c,b,a){var
-d=c7(c,b[1],a[1]),e=d?c7(c,b[2],a[2]):d;return e?c7(c,b[3],a[3]):e}function
-mC(b,c,a){switch(c[0]){case
+bp(c,b,a){var
+d=c9(c,b[1],a[1]),e=d?c9(c,b[2],a[2]):d;return e?c9(c,b[3],a[3]):e}function
+mU(b,c,a){switch(c[0]){case
 0:var
 d=c[1];if(0===a[0]){var
-j=a[4],f=a[1],k=bn(b,d[1],f),l=k?h(b,1,w(f,f)):k,m=l?bn(b,d[2],a[2]):l,n=m?bn(b,d[3],a[3]):m,o=n?c7(b,d[4],j):n,p=o?h(b,1,j):o;return p?ct(d[5],a[5]):p}return 0;case
+j=a[4],f=a[1],k=bp(b,d[1],f),l=k?h(b,1,w(f,f)):k,m=l?bp(b,d[2],a[2]):l,n=m?bp(b,d[3],a[3]):m,o=n?c9(b,d[4],j):n,p=o?h(b,1,j):o;return p?ct(d[5],a[5]):p}return 0;case
 1:var
 q=c[3];if(1===a[0]){var
-e=a[3],r=bn(b,c[1],a[1]),s=r?bn(b,c[2],a[2]):r;if(s){if(q){if(e){var
-g=e[1],t=bn(b,q[1],g);if(t)return h(b,1,w(g,g));var
+e=a[3],r=bp(b,c[1],a[1]),s=r?bp(b,c[2],a[2]):r;if(s){if(q){if(e){var
+g=e[1],t=bp(b,q[1],g);if(t)return h(b,1,w(g,g));var
 u=t}else
 var
 u=e;return u}if(e)return 0;var
 v=1}else
 var
 v=s;return v}return 0;default:if(2===a[0]){var
-i=a[1],x=bn(b,c[1],i);return x?h(b,1,w(i,i)):x}return 0}}function
-bD(c,a,b){if(0===a[0])return bn(c,a[1],b);var
-d=a[3],e=[3,b[1],a[1]],f=[3,b[2],a[2]],g=h(c,0,[3,[3,[4,d,d],[4,e,e]],[4,f,f]]),i=g?h(c,0,d):g;return i?c7(c,a[4],b[3]):i}function
-fj(g,f,i,h){var
+i=a[1],x=bp(b,c[1],i);return x?h(b,1,w(i,i)):x}return 0}}function
+cE(c,a,b){if(0===a[0])return bp(c,a[1],b);var
+d=a[3],e=[3,b[1],a[1]],f=[3,b[2],a[2]],g=h(c,0,[3,[3,[4,d,d],[4,e,e]],[4,f,f]]),i=g?h(c,0,d):g;return i?c9(c,a[4],b[3]):i}function
+fq(g,f,i,h){var
 b=f[1],a=i;for(;;){if(b){if(a){var
-d=mC(g,b[1],a[1]);if(d){var
+d=mU(g,b[1],a[1]);if(d){var
 b=b[2],a=a[2];continue}var
 e=d}else
 var
 e=a;var
 c=e}else
 var
-c=a?0:1;return c?bD(g,f[2],h):c}}function
+c=a?0:1;return c?cE(g,f[2],h):c}}function
 aV(c,b,a){var
 d=J(function(b,a){return[2,b,a]},a,b);return J(function(b,a){return[3,b,a]},d,c)}function
-fk(a,e,d,c){var
-b=aV(e,d,c),f=av(a),g=P(w(av(a),b),f);return J(function(b,a){return[3,b,a]},b,g)}function
+fr(a,e,d,c){var
+b=aV(e,d,c),f=ay(a),g=P(w(ay(a),b),f);return J(function(b,a){return[3,b,a]},b,g)}function
 cf(f,e,d,a,c){var
-b=fk(f,e,d,c);return[3,[4,a,a],w(b,b)]}function
-cE(c,a){return c?[6,a]:[3,[0,d,b],[6,a]]}function
+b=fr(f,e,d,c);return[3,[4,a,a],w(b,b)]}function
+cF(c,a){return c?[6,a]:[3,[0,d,b],[6,a]]}function
 cg(a,c){switch(a[0]){case
 0:var
-e=a[3],f=a[2],d=a[1],g=fk(d,f,e,c),h=cf(d,f,e,a[4],c),i=P([5,[0,b,b],cE(a[5],h)],g),j=av(d);return J(function(b,a){return[2,b,a]},j,i);case
-1:return av(aV(a[1],a[2],c));default:return av(a[1])}}function
+e=a[3],f=a[2],d=a[1],g=fr(d,f,e,c),h=cf(d,f,e,a[4],c),i=P([5,[0,b,b],cF(a[5],h)],g),j=ay(d);return J(function(b,a){return[2,b,a]},j,i);case
+1:return ay(aV(a[1],a[2],c));default:return ay(a[1])}}function
 ch(a,b){switch(a[0]){case
 0:var
-d=a[3],e=a[2],c=a[1],f=av(c),g=cf(c,e,d,a[4],b),h=P(cE(a[5],g),f),i=fk(c,e,d,b);return J(function(b,a){return[2,b,a]},i,h);case
-1:return aV(a[1],a[2],b);default:return av(a[1])}}function
-cF(a,b){switch(a[0]){case
+d=a[3],e=a[2],c=a[1],f=ay(c),g=cf(c,e,d,a[4],b),h=P(cF(a[5],g),f),i=fr(c,e,d,b);return J(function(b,a){return[2,b,a]},i,h);case
+1:return aV(a[1],a[2],b);default:return ay(a[1])}}function
+cG(a,b){switch(a[0]){case
 0:var
-c=a[3],d=a[2],e=a[1],h=cf(e,d,c,a[4],b),i=cE(a[5],h),j=aV(d,c,b);return[3,w(av(e),j),i];case
+c=a[3],d=a[2],e=a[1],h=cf(e,d,c,a[4],b),i=cF(a[5],h),j=aV(d,c,b);return[3,w(ay(e),j),i];case
 1:var
-f=a[2],g=a[1],k=aV(g,f,b);return[6,w(aV(g,f,b),k)];default:return w(av(a[1]),b)}}function
-iT(a,b){switch(a[0]){case
+f=a[2],g=a[1],k=aV(g,f,b);return[6,w(aV(g,f,b),k)];default:return w(ay(a[1]),b)}}function
+i5(a,b){switch(a[0]){case
 0:return[0,cf(a[1],a[2],a[3],a[4],b)];case
 1:var
 c=a[2],d=a[1],e=aV(d,c,b);return[0,w(aV(d,c,b),e)];default:return 0}}function
-fl(e,c,a){var
-f=[0,d,b];return an(function(b,d){var
+fs(e,c,a){var
+f=[0,d,b];return ao(function(b,d){var
 e=w(cg(b,c),a);return[2,[4,w(cg(b,c),a),e],d]},f,e)}function
-mD(f,e,c,a){if(f){if(e){var
-g=e[1],h=mD(f[2],e[2],c,a),i=w(cg(g,c),a),j=[4,w(cg(g,c),a),i];return[2,[4,f[1],j],h]}return[0,d,b]}return[0,d,b]}function
-mE(a){var
+mV(f,e,c,a){if(f){if(e){var
+g=e[1],h=mV(f[2],e[2],c,a),i=w(cg(g,c),a),j=[4,w(cg(g,c),a),i];return[2,[4,f[1],j],h]}return[0,d,b]}return[0,d,b]}function
+mW(a){var
 c=a[1];return[0,[0,c[1],b],[0,c[2],b],[0,a[2],b]]}function
-iU(a,c){switch(a[0]){case
+i6(a,c){switch(a[0]){case
 0:return a[4];case
 1:var
 d=a[2],e=a[1],f=aV(e,d,c);return[6,w(aV(e,d,c),f)];default:return[0,b,b]}}function
-mF(d,i){if(d){var
+mX(d,i){if(d){var
 a=d[1];if(1===a[0]){var
 c=a[3];if(c)var
-f=c[1],g=aV(a[1],a[2],i),k=av(f),l=P(w(av(f),g),k),h=[0,J(function(b,a){return[3,b,a]},g,l)];else
+f=c[1],g=aV(a[1],a[2],i),k=ay(f),l=P(w(ay(f),g),k),h=[0,J(function(b,a){return[3,b,a]},g,l)];else
 var
 h=c;var
 b=h}else
 var
 b=0;if(b)var
-e=mF(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
+e=mX(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
 var
-j=b;return j}return tK}function
-c8(a){return[0,a[1],a[2],a[3]]}function
-mG(a,b){switch(a[0]){case
+j=b;return j}return tR}function
+c_(a){return[0,a[1],a[2],a[3]]}function
+mY(a,b){switch(a[0]){case
 0:var
-f=a[4],c=a[3],g=a[2],d=a[1],i=av(d),j=cf(d,g,c,f,b),k=P(cE(a[5],j),i),l=fk(d,g,c,b),m=J(function(b,a){return[2,b,a]},l,k);return[0,[0,[0,J(function(b,a){return[2,b,a]},b,c),m],f]];case
+f=a[4],c=a[3],g=a[2],d=a[1],i=ay(d),j=cf(d,g,c,f,b),k=P(cF(a[5],j),i),l=fr(d,g,c,b),m=J(function(b,a){return[2,b,a]},l,k);return[0,[0,[0,J(function(b,a){return[2,b,a]},b,c),m],f]];case
 1:var
 h=a[2],e=aV(a[1],h,b),n=[6,w(e,e)];return[0,[0,[0,J(function(b,a){return[2,b,a]},b,h),e],n]];default:return 0}}function
-mH(m,e,a){switch(a[0]){case
+mZ(m,e,a){switch(a[0]){case
 0:var
 n=a[5],c=H(m,a[1]);if(c){var
 d=c[1];if(d)var
 f=d[1],g=f[1],h=f[2],o=g[2],p=g[1],i=function(a){var
-b=c8(n),c=P(a,o),d=J(function(b,a){return[3,b,a]},p,c);return J(function(b,a){return[2,b,a]},d,b)},q=i([5,a[4],h]),k=[0,[0,i([3,[0,b,b],[5,a[3],h]]),q]];else
+b=c_(n),c=P(a,o),d=J(function(b,a){return[3,b,a]},p,c);return J(function(b,a){return[2,b,a]},d,b)},q=i([5,a[4],h]),j=[0,[0,i([3,[0,b,b],[5,a[3],h]]),q]];else
 var
-k=d;var
-l=k}else
+j=d;var
+l=j}else
 var
 l=c;return l;case
 1:var
-r=c8(a[3]);return[0,[0,c8(a[2]),r]];default:var
-s=j(e,c8(a[3]));return[0,[0,j(e,c8(a[2])),s]]}}function
-mI(d,a,c,b){var
+r=c_(a[3]);return[0,[0,c_(a[2]),r]];default:var
+s=k(e,c_(a[3]));return[0,[0,k(e,c_(a[2])),s]]}}function
+m0(d,a,c,b){var
 e=P(a,b),f=P([3,d,a],c);return J(function(b,a){return[2,b,a]},f,e)}function
-mJ(a,l,c,k,i,y){var
-d=j(l,k);if(d){var
-m=d[1],e=j(l,i);if(e){var
-n=e[1],f=c[1],g=c[2],b=c[3],z=mI(b,g,n[1],n[2]),A=mI(b,f,m[1],m[2]),o=J(function(b,a){return[3,b,a]},A,z),B=ec(i),p=[4,b,[2,[2,ec(k),B],y]],q=h(a,1,b),r=q?h(a,0,f):q,s=r?h(a,0,[3,b,f]):r,t=s?h(a,0,g):s,u=t?h(a,0,[3,b,g]):t;if(u)return h(a,1,[3,[4,p,p],w(o,o)]);var
+m1(a,l,c,j,i,y){var
+d=k(l,j);if(d){var
+m=d[1],e=k(l,i);if(e){var
+n=e[1],f=c[1],g=c[2],b=c[3],z=m0(b,g,n[1],n[2]),A=m0(b,f,m[1],m[2]),o=J(function(b,a){return[3,b,a]},A,z),B=ee(i),p=[4,b,[2,[2,ee(j),B],y]],q=h(a,1,b),r=q?h(a,0,f):q,s=r?h(a,0,[3,b,f]):r,t=s?h(a,0,g):s,u=t?h(a,0,[3,b,g]):t;if(u)return h(a,1,[3,[4,p,p],w(o,o)]);var
 v=u}else
 var
 v=e;var
 x=v}else
 var
 x=d;return x}function
-mK(d,c,b,a,i,g,f,e){var
+m2(d,c,b,a,i,g,f,e){var
 j=h(d,1,b),k=j?h(d,1,a):j;if(k){var
-l=aq(c,f,f),m=[4,[4,a,a],[4,aq(c,g,g),l]];return h(d,1,[3,[4,[4,[4,b,b],[4,i,i]],aq(c,e,e)],m])}return k}function
-mL(i,g,c,f,y,a){function
+l=ar(c,f,f),m=[4,[4,a,a],[4,ar(c,g,g),l]];return h(d,1,[3,[4,[4,[4,b,b],[4,i,i]],ar(c,e,e)],m])}return k}function
+m3(i,g,c,f,y,a){function
 T(a){return[4,[4,[5,[0,b,b],a],[5,[0,b,b],a]],w(f,f)]}var
 O=0;if(typeof
 a==="number")O=1;else
 switch(a[0]){case
 0:var
-aG=fl(g,c,f);return h(i,1,[3,T(a[1]),aG]);case
+aG=fs(g,c,f);return h(i,1,[3,T(a[1]),aG]);case
 1:var
-aH=T(a[1]);return h(i,1,[3,fl(g,c,f),aH]);case
+aH=T(a[1]);return h(i,1,[3,fs(g,c,f),aH]);case
 2:var
-aI=a[2],aJ=function(a){return[3,aI,cF(a,c)]},A=aJ,z=a[1];break;case
+aI=a[2],aJ=function(a){return[3,aI,cG(a,c)]},A=aJ,z=a[1];break;case
 3:var
-aK=a[2],aL=function(a){return[3,cF(a,c),aK]},A=aL,z=a[1];break;case
+aK=a[2],aL=function(a){return[3,cG(a,c),aK]},A=aL,z=a[1];break;case
 4:var
 U=a[3],V=a[2],aM=function(a){var
 b=cg(a,c);return[3,[4,[4,V,V],w(cg(a,c),b)],[4,U,U]]},A=aM,z=a[1];break;case
 5:var
-W=a[1],aN=w(f,f),aO=[4,[4,W,W],[4,fl(g,c,y),aN]],aP=w(y,y);return h(i,1,[3,[4,fl(g,c,f),aP],aO]);case
+W=a[1],aN=w(f,f),aO=[4,[4,W,W],[4,fs(g,c,y),aN]],aP=w(y,y);return h(i,1,[3,[4,fs(g,c,f),aP],aO]);case
 6:var
 X=a[2],C=H(g,a[1]);if(C){var
 k=C[1];if(0===k[0]){var
-D=k[4],aQ=cf(k[1],k[2],k[3],D,c),Y=cE(k[5],aQ);return h(i,1,[3,[4,[4,X,D],[4,X,D]],[4,Y,Y]])}var
+D=k[4],aQ=cf(k[1],k[2],k[3],D,c),Y=cF(k[5],aQ);return h(i,1,[3,[4,[4,X,D],[4,X,D]],[4,Y,Y]])}var
 Z=0}else
 var
 Z=C;return Z;case
 7:if(g){var
 p=g[2];if(p){var
 q=p[2];if(q){if(q[2])return 0;var
-_=q[1],$=p[1],aa=g[1],aR=iU(_,c),aS=iU($,c),aT=iU(aa,c),ab=[4,[4,[4,a[1],aT],aS],aR],l=ch(_,c),m=ch($,c),aU=ch(aa,c),Q=w(aU,[0,[3,[4,m[2],l[3]],[4,m[3],l[2]]],[3,[4,m[3],l[1]],[4,m[1],l[3]]],[3,[4,m[1],l[2]],[4,m[2],l[1]]]]),ac=h(i,1,[3,ab,Q]);if(ac)return h(i,1,[2,ab,Q]);var
+_=q[1],$=p[1],aa=g[1],aR=i6(_,c),aS=i6($,c),aT=i6(aa,c),ab=[4,[4,[4,a[1],aT],aS],aR],l=ch(_,c),m=ch($,c),aU=ch(aa,c),Q=w(aU,[0,[3,[4,m[2],l[3]],[4,m[3],l[2]]],[3,[4,m[3],l[1]],[4,m[1],l[3]]],[3,[4,m[1],l[2]],[4,m[2],l[1]]]]),ac=h(i,1,[3,ab,Q]);if(ac)return h(i,1,[2,ab,Q]);var
 ad=ac}else
 var
 ad=q;var
@@ -3208,17 +3208,17 @@ af=ae}else
 var
 af=g;return af;case
 8:var
-aW=fl(g,c,f),aX=w(f,f);return h(i,1,[3,[4,[5,a[2],a[1]],aX],aW]);case
+aW=fs(g,c,f),aX=w(f,f);return h(i,1,[3,[4,[5,a[2],a[1]],aX],aW]);case
 9:var
-ag=a[1],E=mF(g,c);if(E){var
-aY=E[1],aA=[0,d,b],aB=an(function(a,b){var
-c=w(av(a),f);return[2,[4,w(av(a),f),c],b]},aA,aY);return h(i,1,[3,[4,[4,ag,ag],w(f,f)],aB])}return E;case
+ag=a[1],E=mX(g,c);if(E){var
+aY=E[1],aA=[0,d,b],aB=ao(function(a,b){var
+c=w(ay(a),f);return[2,[4,w(ay(a),f),c],b]},aA,aY);return h(i,1,[3,[4,[4,ag,ag],w(f,f)],aB])}return E;case
 10:var
-aZ=a[3],a0=a[2],a1=a[1],aC=function(b,a){return[2,b,a]},aD=function(a){return J(aC,c,a)},aE=e(function(a){return mG(a,c)},g);return mJ(i,function(a){return mH(aE,aD,a)},f,a1,a0,aZ);case
+aZ=a[3],a0=a[2],a1=a[1],aC=function(b,a){return[2,b,a]},aD=function(a){return J(aC,c,a)},aE=e(function(a){return mY(a,c)},g);return m1(i,function(a){return mZ(aE,aD,a)},f,a1,a0,aZ);case
 11:var
 ah=a[4],F=H(g,a[1]);if(F){var
-G=mG(F[1],c);if(G){var
-n=G[1][1][2],a2=c8(a[3]),a3=c8(a[2]),r=J(function(b,a){return[3,b,a]},a3,a2),ai=h(i,1,w(n,n));if(ai){var
+G=mY(F[1],c);if(G){var
+n=G[1][1][2],a2=c_(a[3]),a3=c_(a[2]),r=J(function(b,a){return[3,b,a]},a3,a2),ai=h(i,1,w(n,n));if(ai){var
 a4=w(n,n),a5=w(r,n),a6=[5,[4,w(r,n),a5],a4];return h(i,1,[3,[4,ah,ah],[3,w(r,r),a6]])}var
 aj=ai}else
 var
@@ -3238,10 +3238,10 @@ K=s}var
 L=h(i,1,[3,K,a7])}else
 var
 L=am;if(L){if(2===j[0])return h(i,1,w(f,f));var
-ao=1}else
+an=1}else
 var
-ao=L;var
-ap=ao}else
+an=L;var
+ap=an}else
 var
 ap=I;return ap;case
 13:if(g){var
@@ -3249,70 +3249,70 @@ t=g[2];if(t){var
 u=t[2];if(u){if(u[2])return 0;var
 aq=u[1],ar=t[1],as=g[1],at=a[1],M=H([0,f[1],[0,f[2],[0,f[3],0]]],at);if(M){var
 N=H([0,as,[0,ar,[0,aq,0]]],at);if(N){var
-au=N[1],a8=ch(au,c),a9=cg(au,c),a_=ch(aq,c),a$=P(f[3],a_),ba=ch(ar,c),bb=P(f[2],ba),bc=ch(as,c),bd=P(f[1],bc),be=J(function(b,a){return[2,b,a]},bd,bb),bf=J(function(b,a){return[2,b,a]},be,a$);return mK(i,w,a[2],a[3],M[1],bf,a9,a8)}var
-aw=N}else
+au=N[1],a8=ch(au,c),a9=cg(au,c),a_=ch(aq,c),a$=P(f[3],a_),ba=ch(ar,c),bb=P(f[2],ba),bc=ch(as,c),bd=P(f[1],bc),be=J(function(b,a){return[2,b,a]},bd,bb),bf=J(function(b,a){return[2,b,a]},be,a$);return m2(i,w,a[2],a[3],M[1],bf,a9,a8)}var
+av=N}else
 var
-aw=M;var
+av=M;var
+aw=av}else
+var
+aw=u;var
 ax=aw}else
 var
-ax=u;var
-ay=ax}else
-var
-ay=t;var
-az=ay}else
+ax=t;var
+az=ax}else
 var
 az=g;return az;case
 15:var
-bg=mD(a[1],g,c,f),bh=w(f,f);return h(i,1,[3,[4,a[2],bh],bg]);default:O=1}if(O)return 0;var
+bg=mV(a[1],g,c,f),bh=w(f,f);return h(i,1,[3,[4,a[2],bh],bg]);default:O=1}if(O)return 0;var
 B=H(g,z);return B?h(i,1,A(B[1])):B}function
-fm(g,i,f,c,a){var
-m=fj(g,i,f,c);if(m)if(typeof
+ft(g,i,f,c,a){var
+m=fq(g,i,f,c);if(m)if(typeof
 a==="number")return 0===a?aj(function(e){var
-a=iT(e,c);return a?h(g,0,[3,[0,d,b],a[1]]):a},f):lK(tL,e(function(b){var
+a=i5(e,c);return a?h(g,0,[3,[0,d,b],a[1]]):a},f):l2(tS,e(function(b){var
 a=ch(b,c);return[0,a[1],[0,a[2],[0,a[3],0]]]},f));else{if(0===a[0]){var
 j=H(i[3],a[1]);if(j){var
-p=j[1],q=mE(a[3]);return mL(g,f,c,mE(a[2]),q,p)}return j}var
+p=j[1],q=mW(a[3]);return m3(g,f,c,mW(a[2]),q,p)}return j}var
 k=H(i[3],a[1]);if(k){var
 l=H(f,a[2]);if(l){var
-n=l[1],r=k[1],s=cg(n,c);return mL(g,f,c,cg(n,c),s,r)}var
+n=l[1],r=k[1],s=cg(n,c);return m3(g,f,c,cg(n,c),s,r)}var
 o=l}else
 var
 o=k;return o}return m}function
-bE(a){return[0,a[1][1],a[2][1],a[3][1]]}function
-mM(a){switch(a[0]){case
+bD(a){return[0,a[1][1],a[2][1],a[3][1]]}function
+m4(a){switch(a[0]){case
 0:var
-b=a[1],c=b[5],d=b[4][1],e=bE(b[3]),f=bE(b[2]);return[0,bE(b[1]),f,e,d,c];case
+b=a[1],c=b[5],d=b[4][1],e=bD(b[3]),f=bD(b[2]);return[0,bD(b[1]),f,e,d,c];case
 1:var
-g=z(bE,a[3]),h=bE(a[2]);return[1,bE(a[1]),h,g];default:return[2,bE(a[1])]}}function
-iV(a){return 0===a[0]?bE(a[1]):[0,a[1],a[2],a[4][1]]}function
-mN(b,a){var
-c=iV(a[2]);return fj(b,a,e(mM,a[1]),c)}function
-iW(b,a,c){var
-d=[0,c,aM(b,a)];return f(aA(b,a),d)}function
-bo(c,a){if(c){if(a){var
-e=bo(c[2],a[2]);return[2,[4,c[1],a[1]],e]}return[0,d,b]}return[0,d,b]}function
-mO(e,c,a){if(e){if(c){var
-f=c[1],g=mO(e[2],c[2],a),h=bo(f,a),i=[4,bo(f,a),h];return[2,[4,e[1],i],g]}return[0,d,b]}return[0,d,b]}function
-mP(b,a){if(b){if(a){var
-c=b[1],e=mP(b[2],a[2]),f=a[1],g=function(b,a){return[2,[4,c,b],a]},h=function(a){return a};return aO(function(a){return[4,c,a]},h,g,f,e)}var
+g=z(bD,a[3]),h=bD(a[2]);return[1,bD(a[1]),h,g];default:return[2,bD(a[1])]}}function
+i7(a){return 0===a[0]?bD(a[1]):[0,a[1],a[2],a[4][1]]}function
+m5(b,a){var
+c=i7(a[2]);return fq(b,a,e(m4,a[1]),c)}function
+i8(b,a,c){var
+d=[0,c,av(b,a)];return f(an(b,a),d)}function
+bq(c,a){if(c){if(a){var
+e=bq(c[2],a[2]);return[2,[4,c[1],a[1]],e]}return[0,d,b]}return[0,d,b]}function
+m6(e,c,a){if(e){if(c){var
+f=c[1],g=m6(e[2],c[2],a),h=bq(f,a),i=[4,bq(f,a),h];return[2,[4,e[1],i],g]}return[0,d,b]}return[0,d,b]}function
+m7(b,a){if(b){if(a){var
+c=b[1],e=m7(b[2],a[2]),f=a[1],g=function(b,a){return[2,[4,c,b],a]},h=function(a){return a};return aP(function(a){return[4,c,a]},h,g,f,e)}var
 d=a}else
 var
 d=b;return d}function
-mQ(b,c,a){var
-d=[0,c,aM([0,b],a)];return f(aA(b,a),d)}function
-mR(a,b){var
-e=o(a,tM),c=e||o(a,tN),d=c?o(g(b),a):c;return d?l(function(b){return o(g(b),a)},b):d}function
-mS(a){if(a){var
+m8(b,c,a){var
+d=[0,c,av([0,b],a)];return f(an(b,a),d)}function
+m9(a,b){var
+e=o(a,tT),c=e||o(a,tU),d=c?o(g(b),a):c;return d?l(function(b){return o(g(b),a)},b):d}function
+m_(a){if(a){var
 b=a[1];if(b){var
-c=b[1],d=mS(a[2]);return z(function(a){return[0,c,a]},d)}return b}return tO}function
-gS(a){if(a){var
+c=b[1],d=m_(a[2]);return z(function(a){return[0,c,a]},d)}return b}return tV}function
+g1(a){if(a){var
 b=a[1];if(b){var
-c=b[1],d=gS(a[2]);return z(function(a){return[0,c,a]},d)}return b}return tP}function
-mT(a,l,k,f){var
-b=aC(a,l);if(b){var
-c=aC(a,k);if(c){var
-d=cZ(a,f);if(d){var
-e=gt(a,f);if(e)var
+c=b[1],d=g1(a[2]);return z(function(a){return[0,c,a]},d)}return b}return tW}function
+m$(a,l,k,f){var
+b=aD(a,l);if(b){var
+c=aD(a,k);if(c){var
+d=c1(a,f);if(d){var
+e=gC(a,f);if(e)var
 m=t(a,b[1],e[1]),g=[0,F(t(a,c[1],d[1]),m)];else
 var
 g=e;var
@@ -3325,21 +3325,21 @@ i=c;var
 j=i}else
 var
 j=b;return j}function
-mU(a){return a?I(a[1][2],d):a}function
+na(a){return a?I(a[1][2],d):a}function
 ci(a){return a?I(d,a[1][1]):a}function
-mV(d,a){return h(d,0,[3,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b],a])}function
-mW(d,a){if(a){var
-b=aC(d,a[1]);if(b)var
-c=mW(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
+nb(d,a){return h(d,0,[3,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b],a])}function
+nc(d,a){if(a){var
+b=aD(d,a[1]);if(b)var
+c=nc(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
 var
-e=b;return e}return tQ}function
-gT(d,a){if(a){var
-b=mW(d,a[1]);if(b)var
-c=gT(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
+e=b;return e}return tX}function
+g2(d,a){if(a){var
+b=nc(d,a[1]);if(b)var
+c=g2(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
 var
-e=b;return e}return tR}function
-mX(b,a){return an(function(c,a){return A(U(b,c),a)},u,a)}function
-mY(b,d){function
+e=b;return e}return tY}function
+nd(b,a){return ao(function(c,a){return A(U(b,c),a)},u,a)}function
+ne(b,d){function
 c(e,d,c,a){var
 f=t(b,d,c);return F(t(b,e,a),f)}if(d){var
 e=d[1];if(e){var
@@ -3355,15 +3355,15 @@ n=m[2];if(n){if(n[2])return u;if(k[2])return u;var
 s=n[1],v=m[1],w=l[1],x=j[1],y=i[1],z=h[1],B=c(z,y,w,v),C=t(b,g[1],B),D=t(b,q,c(z,x,w,s));return A(F(t(b,r,c(y,x,v,s)),D),C)}return u}return u}return u}return u}return u}return u}return u}return u}if(a){var
 o=a[1];if(o){var
 p=o[2];return p?p[2]?u:a[2]?u:c(r,q,o[1],p[1]):u}return u}return u}return u}return u}return u}function
-mZ(a,p,m,s,f,i){function
-a1(c,a){return[4,[4,[5,[0,b,b],c],[5,[0,b,b],c]],bo(a,a)]}var
+nf(a,p,m,s,f,i){function
+a1(c,a){return[4,[4,[5,[0,b,b],c],[5,[0,b,b],c]],bq(a,a)]}var
 bL=m[1];function
 B(c){var
-a=[0,d,b];return an(function(a,b){var
-d=bo(a,c);return[2,[4,bo(a,c),d],b]},a,bL)}function
+a=[0,d,b];return ao(function(a,b){var
+d=bq(a,c);return[2,[4,bq(a,c),d],b]},a,bL)}function
 C(f,e){var
 a=H(m[1],f);if(a){var
-b=a[1],c=o(g(b),p);if(c)return j(e,b);var
+b=a[1],c=o(g(b),p);if(c)return k(e,b);var
 d=c}else
 var
 d=a;return d}var
@@ -3372,10 +3372,10 @@ b=0;if(typeof
 i==="number")b=1;else
 switch(i[0]){case
 6:var
-a=tS;break;case
+a=tZ;break;case
 13:case
 14:var
-a=tT;break;default:b=1}if(b)var
+a=t0;break;default:b=1}if(b)var
 a=p;return o(g(c),a)},f);if(a2){var
 v=0;if(typeof
 i==="number")v=1;else
@@ -3391,19 +3391,19 @@ b!=="number"&&0===b[0])return h(a,1,[3,bO,b[1]]);return 0},ai=bP,ah=i[1];break;c
 bQ=i[2],bR=function(b){if(typeof
 b!=="number"&&0===b[0])return h(a,1,[3,b[1],bQ]);return 0},ai=bR,ah=i[1];break;case
 4:if(f)return 0;var
-a6=i[3],a7=i[2],bS=function(d){var
+a6=i[3],a7=i[2],bT=function(d){var
 i=o(s,0);if(typeof
 d!=="number"&&1===d[0]){var
-e=d[2],f=d[1],g=h(a,0,[3,[2,a7,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b]],a6]);return g?i?mU(mT(a,f,e,a7)):ci(mT(a,f,e,a6)):g}return 0},ai=bS,ah=i[1];break;case
+e=d[2],f=d[1],g=h(a,0,[3,[2,a7,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b]],a6]);return g?i?na(m$(a,f,e,a7)):ci(m$(a,f,e,a6)):g}return 0},ai=bT,ah=i[1];break;case
 5:if(f){var
 D=f[2];if(D){if(D[2])return 0;var
-ak=D[1],al=f[1],a8=i[1],bU=bo(al,al),bV=[4,[4,a8,a8],[4,B(ak),bU]],bW=bo(ak,ak);return h(a,1,[3,[4,B(al),bW],bV])}var
+ak=D[1],al=f[1],a8=i[1],bU=bq(al,al),bV=[4,[4,a8,a8],[4,B(ak),bU]],bW=bq(ak,ak);return h(a,1,[3,[4,B(al),bW],bV])}var
 a9=D}else
 var
 a9=f;return a9;case
 6:var
 a_=i[2],bX=i[3],bY=function(b){var
-c=[5,bX,a_],d=h(a,1,a_);return d?h(a,1,[3,bo(b,b),[4,c,c]]):d},a$=C(i[1],bY);if(a$){if(m[4]){if(f){var
+c=[5,bX,a_],d=h(a,1,a_);return d?h(a,1,[3,bq(b,b),[4,c,c]]):d},a$=C(i[1],bY);if(a$){if(m[4]){if(f){var
 E=f[1];if(E){if(E[2])return 0;if(f[2])return 0;var
 ba=E[1];return h(a,1,[4,ba,ba])}var
 bb=E}else
@@ -3413,11 +3413,11 @@ bc=1}else
 var
 bc=a$;return bc;case
 7:if(f){if(f[2])return 0;var
-bd=f[1],am=i[1],bZ=i[3],b0=i[2],ao=gS(m[7]);if(ao){var
-G=ao[1],ap=H(bd,am);if(ap){var
+bd=f[1],am=i[1],bZ=i[3],b0=i[2],an=g1(m[7]);if(an){var
+G=an[1],ap=H(bd,am);if(ap){var
 b1=ap[1],be=o(g(G),p),bf=be?l(function(a){return o(g(a),p)},G):be;if(bf){var
 aq=H(G,am);if(aq){var
-b2=aq[1];return C(am,function(b){return mK(a,bo,b0,bZ,b1,mP(bd,G),b,b2)})}var
+b2=aq[1];return C(am,function(b){return m2(a,bq,b0,bZ,b1,m7(bd,G),b,b2)})}var
 bg=aq}else
 var
 bg=bf;var
@@ -3426,18 +3426,18 @@ var
 bh=ap;var
 bi=bh}else
 var
-bi=ao;var
+bi=an;var
 bj=bi}else
 var
 bj=f;return bj;case
 8:if(f){if(f[2])return 0;var
-ar=f[1],b3=mO(i[1],m[1],ar),b4=bo(ar,ar);return h(a,1,[3,[4,i[2],b4],b3])}return f;case
+ar=f[1],b3=m6(i[1],m[1],ar),b4=bq(ar,ar);return h(a,1,[3,[4,i[2],b4],b3])}return f;case
 9:if(f)return 0;var
 bk=i[3],bl=i[2],b5=function(e){var
 f=h(a,1,bl),g=f?h(a,0,bk):f;if(g){var
-b=aC(a,bo(e,e));if(b){var
-c=aC(a,[5,bk,bl]);if(c){var
-d=lD(a,c[1]);if(d){var
+b=aD(a,bq(e,e));if(b){var
+c=aD(a,[5,bk,bl]);if(c){var
+d=lV(a,c[1]);if(d){var
 l=U(a,d[1]);return ci([0,F(b[1],l)])}var
 i=d}else
 var
@@ -3453,9 +3453,9 @@ b6=i[2],b7=function(b){var
 c=[4,b6,b[3]],d=h(a,1,c);return d?h(a,1,[3,[4,c,c],[4,b[2],b[2]]]):d},bn=b7,bm=i[1];v=2;break;case
 11:if(f)return 0;var
 b8=i[2],b9=function(e){var
-b=cZ(a,b8);if(b){var
-c=aC(a,e[3]);if(c){var
-d=aC(a,e[2]);if(d){var
+b=c1(a,b8);if(b){var
+c=aD(a,e[3]);if(c){var
+d=aD(a,e[2]);if(d){var
 f=t(a,b[1],c[1]),g=ci([0,f]);if(g){var
 k=U(a,d[1]);return ci([0,F(U(a,f),k)])}var
 h=g}else
@@ -3468,12 +3468,12 @@ j=i}else
 var
 j=b;return j},bn=b9,bm=i[1];v=2;break;case
 12:if(f)return 0;var
-au=mS(m[3]);if(au){var
-bq=au[1],b_=i[1],br=bT(function(b,a){return[4,b,a[3]]},bq,b_),av=e(function(a){return a[1]},bq),x=function(d,c,b,a){return[3,[4,d,a],[4,c,b]]};if(av){var
+au=m_(m[3]);if(au){var
+bp=au[1],b_=i[1],br=bS(function(b,a){return[4,b,a[3]]},bp,b_),av=e(function(a){return a[1]},bp),x=function(d,c,b,a){return[3,[4,d,a],[4,c,b]]};if(av){var
 O=av[1];if(O){var
 P=O[2];if(P){var
-Q=P[2],aD=P[1],aE=O[1],n=av[2];if(Q)if(Q[2]||!n)var
-k=[0,d,b];else{var
+Q=P[2],aC=P[1],aE=O[1],n=av[2];if(Q)if(Q[2]||!n)var
+j=[0,d,b];else{var
 R=n[1];if(R){var
 S=R[2];if(S){var
 T=S[2];if(T&&!T[2]){var
@@ -3481,35 +3481,35 @@ V=n[2];if(V){var
 W=V[1];if(W){var
 X=W[2];if(X){var
 Y=X[2];if(Y&&!(Y[2]||V[2]))var
-aF=Y[1],aG=X[1],aH=W[1],aI=T[1],aJ=S[1],aK=R[1],bE=x(aK,aJ,aH,aG),bF=[4,Q[1],bE],bG=[4,aD,x(aK,aI,aH,aF)],k=[2,[3,[4,aE,x(aJ,aI,aG,aF)],bG],bF];else
+aF=Y[1],aG=X[1],aH=W[1],aI=T[1],aJ=S[1],aK=R[1],bE=x(aK,aJ,aH,aG),bF=[4,Q[1],bE],bG=[4,aC,x(aK,aI,aH,aF)],j=[2,[3,[4,aE,x(aJ,aI,aG,aF)],bG],bF];else
 var
-k=[0,d,b]}else
+j=[0,d,b]}else
 var
-k=[0,d,b]}else
+j=[0,d,b]}else
 var
-k=[0,d,b]}else
+j=[0,d,b]}else
 var
-k=[0,d,b]}else
+j=[0,d,b]}else
 var
-k=[0,d,b]}else
+j=[0,d,b]}else
 var
-k=[0,d,b]}else
+j=[0,d,b]}else
 var
-k=[0,d,b]}else
+j=[0,d,b]}else
 if(n){var
 Z=n[1];if(Z)var
-_=Z[2],k=_?_[2]?[0,d,b]:n[2]?[0,d,b]:x(aE,aD,Z[1],_[1]):[0,d,b];else
+_=Z[2],j=_?_[2]?[0,d,b]:n[2]?[0,d,b]:x(aE,aC,Z[1],_[1]):[0,d,b];else
 var
-k=[0,d,b]}else
+j=[0,d,b]}else
 var
-k=[0,d,b]}else
+j=[0,d,b]}else
 var
-k=[0,d,b]}else
+j=[0,d,b]}else
 var
-k=[0,d,b]}else
+j=[0,d,b]}else
 var
-k=[0,d,b];var
-bs=h(a,1,[3,br,k]);if(bs)return h(a,1,[2,br,k]);var
+j=[0,d,b];var
+bs=h(a,1,[3,br,j]);if(bs)return h(a,1,[2,br,j]);var
 bt=bs}else
 var
 bt=au;return bt;case
@@ -3517,14 +3517,14 @@ bt=au;return bt;case
 b$=i[2],aw=H(m[4],i[1]);if(aw){var
 ax=aw[1];if(ax){var
 bu=function(a){if(b$){var
-c=j(m[5],[0,[0,d,b],[0,d,b],[0,d,b]]),e=j(m[5],a);return J(function(b,a){return[3,b,a]},e,c)}return a},I=i[4],u=bu(c8(i[3])),K=ax[1][1][2],r=w(K,u);if(mV(a,I)){if(s){if(s[1])return 0;if(f){var
+c=k(m[5],[0,[0,d,b],[0,d,b],[0,d,b]]),e=k(m[5],a);return J(function(b,a){return[3,b,a]},e,c)}return a},I=i[4],u=bu(c_(i[3])),K=ax[1][1][2],r=w(K,u);if(nb(a,I)){if(s){if(s[1])return 0;if(f){var
 y=f[1];if(y){var
 z=y[2];if(z){var
 A=z[2];if(A){if(A[2])return 0;if(f[2])return 0;var
 $=bu([0,y[1],z[1],A[1]]),aL=w(K,$),aM=h(a,1,r);if(aM){var
-aa=cZ(a,I);if(aa){var
-aN=aa[1],ac=aC(a,[4,w(u,u),[4,aL,aL]]);if(ac){var
-ad=aC(a,[4,[4,r,r],w($,$)]);if(ad){var
+aa=c1(a,I);if(aa){var
+aN=aa[1],ac=aD(a,[4,w(u,u),[4,aL,aL]]);if(ac){var
+ad=aD(a,[4,[4,r,r],w($,$)]);if(ad){var
 aO=ci([0,aN]);if(aO){var
 bH=ad[1],bI=ac[1];return ci([0,F(t(a,U(a,aN),bI),bH)])}var
 aP=aO}else
@@ -3552,10 +3552,10 @@ aW=aV}else
 var
 aW=f;return aW}return f?0:h(a,1,[3,[0,d,b],r])}if(s)return 0;if(f)return 0;var
 aX=h(a,0,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],I]);if(aX){var
-ae=cZ(a,I);if(ae){var
-af=aC(a,r);if(af){var
-bJ=w(K,K),ag=aC(a,[6,[4,w(u,u),bJ]]);if(ag){var
-bK=t(a,ae[1],ag[1]);return mU([0,F(af[1],bK)])}var
+ae=c1(a,I);if(ae){var
+af=aD(a,r);if(af){var
+bJ=w(K,K),ag=aD(a,[6,[4,w(u,u),bJ]]);if(ag){var
+bK=t(a,ae[1],ag[1]);return na([0,F(af[1],bK)])}var
 aY=ag}else
 var
 aY=af;var
@@ -3572,7 +3572,7 @@ bv=aw;return bv;case
 L=f[1];if(L){var
 M=L[2];if(M){var
 N=M[2];if(N){if(N[2])return 0;if(f[2])return 0;var
-ca=i[3],cb=i[2],cc=i[1],cd=[0,L[1],M[1],N[1]],ce=m[5],cf=m[4];return mJ(a,function(a){return mH(cf,ce,a)},cd,cc,cb,ca)}var
+ca=i[3],cb=i[2],cc=i[1],cd=[0,L[1],M[1],N[1]],ce=m[5],cf=m[4];return m1(a,function(a){return mZ(cf,ce,a)},cd,cc,cb,ca)}var
 bw=N}else
 var
 bw=M;var
@@ -3583,21 +3583,21 @@ by=bx}else
 var
 by=f;return by;case
 17:if(f)return 0;var
-bz=i[2],ay=i[1],cg=i[3],az=gS(m[7]);if(az){var
-aA=az[1],bA=mR(p,aA),bB=bA?o(g(bz),p):bA;if(bB){var
+bz=i[2],ay=i[1],cg=i[3],az=g1(m[7]);if(az){var
+aA=az[1],bA=m9(p,aA),bB=bA?o(g(bz),p):bA;if(bB){var
 aB=H(aA,ay);if(aB){var
 ch=aB[1];return C(ay,function(x){var
-e=gT(a,aA);if(e){var
-j=e[1],f=gT(a,[0,bz,[0,x,[0,ch,0]]]);if(f){var
+e=g2(a,aA);if(e){var
+j=e[1],f=g2(a,[0,bz,[0,x,[0,ch,0]]]);if(f){var
 b=f[1];if(b){var
 c=b[2];if(c){var
 d=c[2];if(d){if(d[2])return 0;var
-g=aC(a,cg);if(g){var
-k=g[1],l=U(a,mY(a,j)),h=mY(a,mQ(ay,b[1],j)),m=ci([0,k]),n=m?ci([0,l]):m;if(n)var
+g=aD(a,cg);if(g){var
+k=g[1],l=U(a,ne(a,j)),h=ne(a,m8(ay,b[1],j)),m=ci([0,k]),n=m?ci([0,l]):m;if(n)var
 y=o(s,0)?h:ab(h),i=ci([0,y]);else
 var
 i=n;if(i){var
-z=mX(a,c[1]),A=t(a,t(a,U(a,k),l),z),B=mX(a,d[1]);return ci([0,F(t(a,U(a,h),B),A)])}var
+z=nd(a,c[1]),A=t(a,t(a,U(a,k),l),z),B=nd(a,d[1]);return ci([0,F(t(a,U(a,h),B),A)])}var
 p=i}else
 var
 p=g;var
@@ -3627,87 +3627,87 @@ a3=0;break;case
 2:var
 as=H(m[3],bm);if(as){var
 at=as[1];if(at)return bn(at[1]);var
-bp=at}else
+bo=at}else
 var
-bp=as;return bp;default:var
+bo=as;return bo;default:var
 aj=H(m[2],ah);return aj?ai(aj[1]):aj}}else
 var
 a3=a2;return a3}function
-gU(d,f,a){if(typeof
+g3(d,f,a){if(typeof
 a!=="number")switch(a[0]){case
 13:var
-e=a[4];if(mV(d,e)&&M(h(d,0,[3,e,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b]])))return tW;return tX;case
+e=a[4];if(nb(d,e)&&N(h(d,0,[3,e,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b]])))return t3;return t4;case
 16:return f;case
 4:case
-17:return tV}return tU}function
-er(e,d,g,f){var
+17:return t2}return t1}function
+et(e,d,g,f){var
 b=g,a=f;for(;;){if(a){var
-c=a[1];if(aI(b,gU(e,d,c)))return[0,[0,c,b]];var
-h=a[2],b=d9(b,gU(e,d,c)),a=h;continue}return a}}function
-m0(a){return e(function(a){return[0,a,b]},a)}function
-iX(f,o,g,c,n,a){if(typeof
+c=a[1];if(aK(b,g3(e,d,c)))return[0,[0,c,b]];var
+h=a[2],b=dw(b,g3(e,d,c)),a=h;continue}return a}}function
+ng(a){return e(function(a){return[0,a,b]},a)}function
+i9(f,o,g,c,n,a){if(typeof
 a==="number"){if(0===a){var
 s=c[6];return aj(function(a){return h(f,0,[3,[0,d,b],a])},s)}var
-i=gS(c[7]);return i?lK(g,i[1]):i}else{if(0===a[0]){var
-j=er(f,o,a[1],n);if(j){var
-p=j[1],t=p[1],u=e(m0,a[2]);return mZ(f,g,c,p[2],u,t)}return j}var
-k=er(f,o,a[1],n);if(k){var
+i=g1(c[7]);return i?l2(g,i[1]):i}else{if(0===a[0]){var
+j=et(f,o,a[1],n);if(j){var
+p=j[1],t=p[1],u=e(ng,a[2]);return nf(f,g,c,p[2],u,t)}return j}var
+k=et(f,o,a[1],n);if(k){var
 q=k[1],l=q[1];if(typeof
 l!=="number"&&1===l[0]){var
-m=H(c[1],a[2]);return m?mZ(f,g,c,q[2],[0,m[1],0],[1,l[1]]):m}var
+m=H(c[1],a[2]);return m?nf(f,g,c,q[2],[0,m[1],0],[1,l[1]]):m}var
 r=0}else
 var
 r=k;return r}}function
-iY(a){var
-b=av(a[1]),c=P(w(b,a[2]),b),d=a[2];return J(function(b,a){return[3,b,a]},d,c)}function
-fn(a){return av(iY(a))}function
-gV(c){var
-a=fn(c),b=av(c[1]);return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
-gW(a,b){return aV(a[3],a[4],b)}function
-fo(a,b){var
-c=gW(a,b);return w(fn(a),c)}function
-fp(a,b){var
-c=gW(a,b);return w(gV(a),c)}function
-m1(a,b){var
-c=gW(a,b);return w(av(a[1]),c)}function
-gX(b,a){var
-c=fp(b,a),d=fo(b,a);return[2,[4,d,d],[4,c,c]]}function
-gY(a,d){var
-h=a[5],i=[4,[0,c(2,b),b],h],e=a[6],f=a[5],g=m1(a,d);return[5,[2,gX(a,d),[2,[4,g,g],[3,[4,f,f],[4,e,e]]]],i]}function
-iZ(a,b){var
-f=a[5],c=[3,gY(a,b),f],d=m1(a,b),e=a[6];return[3,[3,[4,e,e],[4,d,d]],[4,c,c]]}function
-es(a,b){var
-c=iZ(a,b);return cE(a[7],c)}function
-m2(b,a){var
-c=gX(b,a),d=fp(b,a),e=[4,es(b,a),d],f=fo(b,a);return[5,[2,[4,gY(b,a),f],e],c]}function
-m3(b,a){var
-c=gX(b,a),d=fo(b,a),e=[4,es(b,a),d],f=fp(b,a);return[5,[3,[4,gY(b,a),f],e],c]}function
-i0(a,b){var
-c=gV(a),d=P(m3(a,b),c),e=fn(a),f=P(m2(a,b),e),g=J(function(b,a){return[2,b,a]},f,d),h=P(a[5],g),i=a[3];return J(function(b,a){return[2,b,a]},i,h)}function
-dH(a){return[5,[3,[0,b,b],[4,a,a]],[2,[0,b,b],[4,a,a]]]}function
-dI(a){return[5,[4,[0,c(2,b),b],a],[2,[0,b,b],[4,a,a]]]}function
-i1(a,c,b){var
-d=[4,dH(a),b],e=[2,[4,dI(a),c],d],f=[4,dI(a),b];return[0,[3,[4,dH(a),c],f],e]}function
-m4(c,a){var
-b=i1(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
-c9(b,a){return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
-m5(a,d){var
-e=w(a,a),f=c9(a,d),g=P([0,c(2,b),b],f),h=w(a,d),i=P([4,[0,c(2,b),b],h],a),j=P([3,[0,b,b],e],d),k=J(function(b,a){return[2,b,a]},j,i);return P([5,[0,b,b],[2,[0,b,b],e]],J(function(b,a){return[2,b,a]},k,g))}function
-c_(j,b,a){switch(j[0]){case
-0:return b?b[2]?a:m4(b[1],a):a;case
+i_(a){var
+b=ay(a[1]),c=P(w(b,a[2]),b),d=a[2];return J(function(b,a){return[3,b,a]},d,c)}function
+fu(a){return ay(i_(a))}function
+g4(c){var
+a=fu(c),b=ay(c[1]);return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
+g5(a,b){return aV(a[3],a[4],b)}function
+fv(a,b){var
+c=g5(a,b);return w(fu(a),c)}function
+fw(a,b){var
+c=g5(a,b);return w(g4(a),c)}function
+nh(a,b){var
+c=g5(a,b);return w(ay(a[1]),c)}function
+g6(b,a){var
+c=fw(b,a),d=fv(b,a);return[2,[4,d,d],[4,c,c]]}function
+g7(a,d){var
+h=a[5],i=[4,[0,c(2,b),b],h],e=a[6],f=a[5],g=nh(a,d);return[5,[2,g6(a,d),[2,[4,g,g],[3,[4,f,f],[4,e,e]]]],i]}function
+i$(a,b){var
+f=a[5],c=[3,g7(a,b),f],d=nh(a,b),e=a[6];return[3,[3,[4,e,e],[4,d,d]],[4,c,c]]}function
+eu(a,b){var
+c=i$(a,b);return cF(a[7],c)}function
+ni(b,a){var
+c=g6(b,a),d=fw(b,a),e=[4,eu(b,a),d],f=fv(b,a);return[5,[2,[4,g7(b,a),f],e],c]}function
+nj(b,a){var
+c=g6(b,a),d=fv(b,a),e=[4,eu(b,a),d],f=fw(b,a);return[5,[3,[4,g7(b,a),f],e],c]}function
+ja(a,b){var
+c=g4(a),d=P(nj(a,b),c),e=fu(a),f=P(ni(a,b),e),g=J(function(b,a){return[2,b,a]},f,d),h=P(a[5],g),i=a[3];return J(function(b,a){return[2,b,a]},i,h)}function
+dJ(a){return[5,[3,[0,b,b],[4,a,a]],[2,[0,b,b],[4,a,a]]]}function
+dK(a){return[5,[4,[0,c(2,b),b],a],[2,[0,b,b],[4,a,a]]]}function
+jb(a,c,b){var
+d=[4,dJ(a),b],e=[2,[4,dK(a),c],d],f=[4,dK(a),b];return[0,[3,[4,dJ(a),c],f],e]}function
+nk(c,a){var
+b=jb(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
+c$(b,a){return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
+nl(a,d){var
+e=w(a,a),f=c$(a,d),g=P([0,c(2,b),b],f),h=w(a,d),i=P([4,[0,c(2,b),b],h],a),j=P([3,[0,b,b],e],d),k=J(function(b,a){return[2,b,a]},j,i);return P([5,[0,b,b],[2,[0,b,b],e]],J(function(b,a){return[2,b,a]},k,g))}function
+da(j,b,a){switch(j[0]){case
+0:return b?b[2]?a:nk(b[1],a):a;case
 1:if(b){var
 c=b[2];if(c){var
 d=c[2];if(d){if(d[2])return a;var
-g=i1(b[1],a[2],a[3]),i=g[1],h=i1(c[1],g[2],a[1]);return m4(d[1],[0,h[2],i,h[1]])}return a}return a}return a;default:if(b){var
+g=jb(b[1],a[2],a[3]),i=g[1],h=jb(c[1],g[2],a[1]);return nk(d[1],[0,h[2],i,h[1]])}return a}return a}return a;default:if(b){var
 e=b[2];if(e){var
-f=e[2];return f?f[2]?a:m5([0,b[1],e[1],f[1]],a):a}return a}return a}}function
-m6(c){var
-a=cA(c);return a?eb(a[1],[0,d,b]):a}function
-m7(a,n,k,j){if(m6(j)){var
+f=e[2];return f?f[2]?a:nl([0,b[1],e[1],f[1]],a):a}return a}return a}}function
+nm(c){var
+a=cA(c);return a?ed(a[1],[0,d,b]):a}function
+nn(a,n,k,j){if(nm(j)){var
 q=n?[3,[0,d,b],k]:k;return h(a,0,q)}var
-f=aC(a,k);if(f){var
-g=cZ(a,[5,j,[0,c(2,b),b]]);if(g){var
-i=gt(a,[5,j,[0,c(2,b),b]]);if(i)var
+f=aD(a,k);if(f){var
+g=c1(a,[5,j,[0,c(2,b),b]]);if(g){var
+i=gC(a,[5,j,[0,c(2,b),b]]);if(i)var
 p=t(a,f[1],g[1]),l=[0,F(i[1],p)];else
 var
 l=i;var
@@ -3718,40 +3718,40 @@ e=m}else
 var
 e=f;if(e){var
 o=e[1];return n?D(d,o[1]):D(o[2],d)}return e}function
-dJ(b,a,c){var
-d=bw(b,a[1],a[2]),e=d?m7(b,0,c,a[1]):d;return e?m7(b,1,c,a[2]):e}function
-m8(h,f,c){if(m6(c))return[0,u];var
-a=E(h,io(f)),d=cZ(a,c);if(d){var
-e=gt(a,c);if(e){var
-i=e[1],j=d[1],k=b9(a,A(O(a,b),j));return z(function(b){return lu(f,t(a,i,b))},k)}var
+dL(b,a,c){var
+d=bw(b,a[1],a[2]),e=d?nn(b,0,c,a[1]):d;return e?nn(b,1,c,a[2]):e}function
+no(h,f,c){if(nm(c))return[0,u];var
+a=E(h,iA(f)),d=c1(a,c);if(d){var
+e=gC(a,c);if(e){var
+i=e[1],j=d[1],k=b9(a,A(O(a,b),j));return z(function(b){return lM(f,t(a,i,b))},k)}var
 g=e}else
 var
 g=d;return g}function
-cG(a){return function(b){return m8(a,d,b)}}function
-cH(d,a){var
+cH(a){return function(b){return no(a,d,b)}}function
+cI(d,a){var
 e=h(d,1,[2,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],a]);return e?h(d,1,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],a]):e}function
-c$(a){return[0,[3,[0,d,b],a],a]}function
-m9(a,c,o,n){var
-h=bw(a,[0,d,b],c),i=h?cH(a,c):h;if(i){var
-e=j(cG(a),c);if(e){var
-f=aC(a,o);if(f){var
-g=aC(a,n);if(g){var
+db(a){return[0,[3,[0,d,b],a],a]}function
+np(a,c,o,n){var
+h=bw(a,[0,d,b],c),i=h?cI(a,c):h;if(i){var
+e=k(cH(a),c);if(e){var
+f=aD(a,o);if(f){var
+g=aD(a,n);if(g){var
 p=f[1],q=g[1];return D(d,F(t(a,U(a,e[1]),q),p)[1])}var
-k=g}else
+j=g}else
 var
-k=f;var
-l=k}else
+j=f;var
+l=j}else
 var
 l=e;var
 m=l}else
 var
 m=i;return m}function
-da(d,c,a){switch(c[0]){case
-0:return a?a[2]?0:dJ(d,c[1],a[1]):a;case
+fx(d,c,a){switch(c[0]){case
+0:return a?a[2]?0:dL(d,c[1],a[1]):a;case
 1:if(a){var
 e=a[2];if(e){var
 f=e[2];if(f){if(f[2])return 0;var
-l=dJ(d,c[1],a[1]),m=l?dJ(d,c[2],e[1]):l;if(m)return dJ(d,c[3],f[1]);var
+l=dL(d,c[1],a[1]),m=l?dL(d,c[2],e[1]):l;if(m)return dL(d,c[3],f[1]);var
 n=m}else
 var
 n=f;var
@@ -3764,7 +3764,7 @@ p=a;return p;case
 2:if(a){var
 g=a[2];if(g){var
 h=g[2];if(h){if(h[2])return 0;var
-q=h[1],r=g[1],s=a[1],C=w([0,s,r,q],[0,s,r,q]);return m9(d,c[1],C,[0,b,b])}var
+q=h[1],r=g[1],s=a[1],C=w([0,s,r,q],[0,s,r,q]);return np(d,c[1],C,[0,b,b])}var
 t=h}else
 var
 t=g;var
@@ -3773,7 +3773,7 @@ var
 u=a;return u;default:if(a){var
 i=a[2];if(i){var
 j=i[2];if(j){if(j[2])return 0;var
-k=j[1],v=i[1],x=a[1],y=m9(d,c[1],[2,[4,x,x],[4,v,v]],[2,[0,b,b],[4,k,k]]);if(y)return dJ(d,c$(c[2]),k);var
+k=j[1],v=i[1],x=a[1],y=np(d,c[1],[2,[4,x,x],[4,v,v]],[2,[0,b,b],[4,k,k]]);if(y)return dL(d,db(c[2]),k);var
 z=y}else
 var
 z=j;var
@@ -3783,90 +3783,92 @@ A=i;var
 B=A}else
 var
 B=a;return B}}var
-k=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))));function
-bF(b){var
-a=an(function(f,e){var
-a=aC(k,f);if(a)var
-b=a[1],c=bj(cr(b[1]),cr(b[2]));else
+i=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))));function
+bE(b){var
+a=ao(function(f,e){var
+a=aD(i,f);if(a)var
+b=a[1],c=bl(cr(b[1]),cr(b[2]));else
 var
-c=d;return bj(c,e)},d,b);return I(d,a)?aL(le(a),k):d}function
-et(a){return[0,a[1],[0,a[2],0]]}function
-a9(a){var
-b=et(a[3]),c=f(et(a[2]),b);return f(et(a[1]),c)}function
-gZ(a){return gR(k,a,bF(a9(a)))}function
-m_(b,a){if(a){var
-g=m_([0,b],a[2]),c=a[1];if(0===c[0])var
-d=c[1],e=c6([0,[0,d,d],c[2]],b);else
+c=d;return bl(c,e)},d,b);return I(d,a)?aM(lw(a),i):d}function
+ev(a){return[0,a[1],[0,a[2],0]]}function
+ba(a){var
+b=ev(a[3]),c=f(ev(a[2]),b);return f(ev(a[1]),c)}function
+g8(a){return g0(i,a,bE(ba(a)))}function
+nq(b,a){if(a){var
+g=nq([0,b],a[2]),c=a[1];if(0===c[0])var
+d=c[1],e=c8([0,[0,d,d],c[2]],b);else
 var
 e=[0,[1,b]];var
 f=[0,e,g]}else
 var
 f=a;return f}function
-m$(c,b,a){var
-d=ec(b);return[2,[2,ec(c),d],a]}function
-g0(b,a){return b?T(a):d}function
-fq(g,b,a){if(typeof
+nr(c,b,a){var
+d=ee(b);return[2,[2,ee(c),d],a]}function
+g9(b,a){return b?T(a):d}function
+fy(g,b,a){if(typeof
 a!=="number")switch(a[0]){case
 4:var
 i=a[3],j=a[2];return[0,[2,j],[0,[3,j],[0,[2,i],[0,[3,i],0]]]];case
 6:return[0,[0,[5,a[3],a[2]],d],0];case
 8:var
 q=a[2],r=a[1];return e(function(a){var
-c=g0(g,b);return[0,[5,q,a],E(g0(g,b),c)]},r);case
+c=g9(g,b);return[0,[5,q,a],E(g9(g,b),c)]},r);case
 9:return[0,[1,[5,a[3],a[2]],T(b)],0];case
 10:return[0,[0,a[2],d],0];case
 11:return[0,[2,a[2]],0];case
 12:return[0,[0,a[1],d],0];case
 13:var
-c=a[3],h=bF([0,c[1],[0,c[2],[0,c[3],0]]]);return[0,[2,a[4]],[0,[0,c[1],h],[0,[0,c[2],h],[0,[0,c[3],h],0]]]];case
+c=a[3],h=bE([0,c[1],[0,c[2],[0,c[3],0]]]);return[0,[2,a[4]],[0,[0,c[1],h],[0,[0,c[2],h],[0,[0,c[3],h],0]]]];case
 14:var
-k=a[2],l=a[1],s=ep(b,k),t=f(ep(b,l),s),u=e(function(a){return[0,a[1][2],a[2]]},t);return[0,[0,m$(l,k,a[3]),b],u];case
+k=a[2],l=a[1],s=er(b,k),t=f(er(b,l),s),u=e(function(a){return[0,a[1][2],a[2]]},t);return[0,[0,nr(l,k,a[3]),b],u];case
 15:var
 m=a[4],n=a[3];return[0,[0,[5,a[2],m],d],[0,[0,[5,[4,n,n],m],b],0]];case
 16:var
-o=a[2],p=bF([0,o,0]);return[0,[4,a[3],aL(p,b)],[0,[0,o,p],0]];case
+o=a[2],p=bE([0,o,0]);return[0,[4,a[3],aM(p,b)],[0,[0,o,p],0]];case
 17:var
-v=a[3],w=a[2];return e(function(a){return[0,[5,a,v],g0(g,b)]},w);case
+v=a[3],w=a[2];return e(function(a){return[0,[5,a,v],g9(g,b)]},w);case
 2:case
 3:return[0,[0,a[2],b],0]}return 0}function
-db(h,c,b,e,a){if(a){var
-d=a[1],i=a[2],j=db(h,c,b,N(e,g(fq(c,b,d))),i);return f(aq(h,m_(e,fq(c,b,d)),d),j)}return a}function
-g1(b,a){var
+dc(h,c,b,e,a){if(a){var
+d=a[1],i=a[2],j=dc(h,c,b,L(e,g(fy(c,b,d))),i);return f(ar(h,nq(e,fy(c,b,d)),d),j)}return a}function
+g_(b,a){var
 c=W(b,a);return e(function(a){var
 b=s(a[1][2],a[2]);return[0,a[1][1],b]},c)}function
-i2(b,a){switch(a[0]){case
+jc(b,a){switch(a[0]){case
 0:var
-d=a[1];return ao(b,[0,[0,d,d],a[2]]);case
+d=a[1];return ap(b,[0,[0,d,d],a[2]]);case
 1:var
-e=a[1],c=ao(b,[0,[0,e,e],a[2]]);return c?lD(b,c[1]):c;case
-2:return cZ(b,a[1]);case
-3:return gt(b,a[1]);default:var
-f=a[1],g=cH(b,f);return g?m8(b,a[2],f):g}}function
-bG(a){return 1===a?tY:tZ}function
-bY(d,c,b,a){var
-e=a[1],f=c_(d,c,a[2]),g=J(function(b,a){return[2,b,a]},b,f);return J(function(b,a){return[3,b,a]},g,e)}function
-i3(c,b,a){switch(c){case
+e=a[1],c=ap(b,[0,[0,e,e],a[2]]);return c?lV(b,c[1]):c;case
+2:return c1(b,a[1]);case
+3:return gC(b,a[1]);default:var
+f=a[1],g=cI(b,f);return g?no(b,a[2],f):g}}function
+bF(a){return 1===a?t5:t6}function
+bX(d,c,b,a){var
+e=a[1],f=da(d,c,a[2]),g=J(function(b,a){return[2,b,a]},b,f);return J(function(b,a){return[3,b,a]},g,e)}function
+jd(c,b,a){switch(c){case
 0:return[0,b[1],[0,b[2],[0,a[3],0]]];case
 1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}}function
-i4(h,g,d,c,f,a){var
-e=bY(d,c,f,a);return i3(h,e,P([5,[0,b,b],g],c9(c_(d,c,a[2]),e)))}function
-i5(c,j,i){var
-b=j,a=i;for(;;){if(b){if(a){var
-d=a[1],e=b[1],f=bn(c,e[1],d[1]),g=f?bn(c,e[2],d[2]):f;if(g){var
+je(h,g,d,c,f,a){var
+e=bX(d,c,f,a);return jd(h,e,P([5,[0,b,b],g],c$(da(d,c,a[2]),e)))}function
+ew(c,d,n,m,l){var
+b=d[2],a=n;for(;;){if(b){if(a){var
+f=a[1],g=b[1],h=bp(c,g[1],f[1]),i=h?bp(c,g[2],f[2]):h;if(i){var
 b=b[2],a=a[2];continue}var
-h=g}else
+j=i}else
 var
-h=a;return h}return a?0:1}}function
-i6(b,a,g,f,e){var
-c=i5(b,a[2],g),d=c?bD(b,a[4],f):c;return d?da(b,a[5],e):d}function
+j=a;var
+e=j}else
+var
+e=a?0:1;var
+k=e?cE(c,d[4],m):e;return k?fx(c,d[5],l):k}}function
 bx(b,d){var
 a=d[1];if(8===a[0]){var
-c=a[1][1];return 0===c[0]?[0,[0,N(b,c[1])]]:[0,bU(function(a){return bx(b,a)},a)]}return[0,bU(function(a){return bx(b,a)},a)]}function
-dK(d,b,h){var
+c=a[1][1];return 0===c[0]?[0,[0,L(b,c[1])]]:[0,bT(function(a){return bx(b,a)},a)]}return[0,bT(function(a){return bx(b,a)},a)]}function
+dM(d,b,h){var
 c=h;for(;;){var
 a=c[1];switch(a[0]){case
 0:var
-e=a[1],f=M(o(e,b));return f?M(o(e,N(d,b))):f;case
+e=a[1],f=N(o(e,b));return f?N(o(e,L(d,b))):f;case
 10:return 0;case
 1:case
 2:return 1;case
@@ -3874,31 +3876,31 @@ e=a[1],f=M(o(e,b));return f?M(o(e,N(d,b))):f;case
 8:case
 9:var
 c=a[1];continue;default:var
-g=dK(d,b,a[1]);if(g){var
+g=dM(d,b,a[1]);if(g){var
 c=a[2];continue}return g}}}function
-eu(c,b,m){var
+ex(c,b,m){var
 d=m;for(;;){var
 a=d[1];switch(a[0]){case
 5:var
 d=a[1];continue;case
 6:var
-f=a[2],g=a[1],h=dK(c,b,g),i=h?eu(c,b,f):h;if(i)var
+f=a[2],g=a[1],h=dM(c,b,g),i=h?ex(c,b,f):h;if(i)var
 j=i;else{var
-k=eu(c,b,g);if(k)return dK(c,b,f);var
+k=ex(c,b,g);if(k)return dM(c,b,f);var
 j=k}return j;case
 7:var
-l=eu(c,b,a[1]);return l?dK(c,b,a[2]):l;case
+l=ex(c,b,a[1]);return l?dM(c,b,a[2]):l;case
 10:return 0;case
 3:case
 4:var
-e=eu(c,b,a[1]);if(e){var
+e=ex(c,b,a[1]);if(e){var
 d=a[2];continue}return e;case
 8:case
-9:return dK(c,b,a[1]);default:return 1}}}function
-cI(c,e){var
+9:return dM(c,b,a[1]);default:return 1}}}function
+cJ(c,e){var
 b=e;for(;;){var
 a=b[1];switch(a[0]){case
-0:return M(o(a[1],c));case
+0:return N(o(a[1],c));case
 10:return 0;case
 1:case
 2:return 1;case
@@ -3906,19 +3908,19 @@ a=b[1];switch(a[0]){case
 8:case
 9:var
 b=a[1];continue;default:var
-d=cI(c,a[1]);if(d){var
+d=cJ(c,a[1]);if(d){var
 b=a[2];continue}return d}}}function
-g2(d,b,m){var
+g$(d,b,m){var
 c=m;for(;;){var
 a=c[1];switch(a[0]){case
 3:var
-f=g2(d,b,a[1]);if(f){var
+f=g$(d,b,a[1]);if(f){var
 c=a[2];continue}return f;case
 4:var
-g=g2(d,b,a[1]);return g?cI(b,a[2]):g;case
+g=g$(d,b,a[1]);return g?cJ(b,a[2]):g;case
 6:var
-h=a[2],i=a[1],j=cI(b,i);if(j){var
-k=cI(b,h);if(k)var
+h=a[2],i=a[1],j=cJ(b,i);if(j){var
+k=cJ(b,h);if(k)var
 e=k;else{var
 l=aN(i,d);if(l){var
 c=h;continue}var
@@ -3927,11 +3929,11 @@ var
 e=j;return e;case
 0:case
 1:case
-2:return 1;default:return cI(b,c)}}}function
-g3(c,e){var
+2:return 1;default:return cJ(b,c)}}}function
+ha(c,e){var
 b=e;for(;;){var
 a=b[1];switch(a[0]){case
-0:return aI(a[1],c);case
+0:return aK(a[1],c);case
 10:return 0;case
 1:case
 2:return 1;case
@@ -3939,82 +3941,82 @@ a=b[1];switch(a[0]){case
 8:case
 9:var
 b=a[1];continue;default:var
-d=g3(c,a[1]);if(d){var
+d=ha(c,a[1]);if(d){var
 b=a[2];continue}return d}}}function
-g4(a,b){if(a){var
+hb(a,b){if(a){var
 c=a[2],d=a[1];if(b){var
-e=b[2];return b[1]?[0,d,g4(c,an(e7,e,lp(d)))]:[0,t2,g4(c,e)]}var
-f=[0,d,g4(c,0)]}else
+e=b[2];return b[1]?[0,d,hb(c,ao(fc,e,lH(d)))]:[0,t9,hb(c,e)]}var
+f=[0,d,hb(c,0)]}else
 var
 f=a;return f}function
-dc(b,a){return a?j(b,a[1]):a}function
-dd(c,b,a){return dc(function(b){return dc(j(c,b),a)},b)}function
-na(b,a){switch(a[0]){case
+dd(b,a){return a?k(b,a[1]):a}function
+de(c,b,a){return dd(function(b){return dd(k(c,b),a)},b)}function
+ns(b,a){switch(a[0]){case
 0:return a;case
 1:return a[1];default:var
 c=a[3],d=a[2],e=a[1];switch(b){case
 0:return e;case
 1:return d;default:return c}}}function
-nb(a){return 0===a[0]?a[1]:0}function
-nc(d,c){var
+nt(a){return 0===a[0]?a[1]:0}function
+nu(d,c){var
 b=d,a=c;for(;;){if(a){var
-e=a[2],b=na(a[1],b),a=e;continue}return nb(b)}}function
+e=a[2],b=ns(a[1],b),a=e;continue}return nt(b)}}function
 cj(b,a){switch(a[0]){case
-0:return[0,j(b,a[1])];case
+0:return[0,k(b,a[1])];case
 1:return[1,cj(b,a[1])];default:var
 c=cj(b,a[3]),d=cj(b,a[2]);return[2,cj(b,a[1]),d,c]}}function
-bp(b,c,a){switch(c[0]){case
-0:return cj(j(b,c[1]),a);case
+br(b,c,a){switch(c[0]){case
+0:return cj(k(b,c[1]),a);case
 1:var
 d=c[1];switch(a[0]){case
 0:var
-k=a[1];return[1,cj(function(a){return aq(b,a,k)},d)];case
-1:return[1,bp(b,d,a[1])];default:var
-l=bp(b,d,a[3]),m=bp(b,d,a[2]);return[2,bp(b,d,a[1]),m,l]}default:var
+j=a[1];return[1,cj(function(a){return ar(b,a,j)},d)];case
+1:return[1,br(b,d,a[1])];default:var
+l=br(b,d,a[3]),m=br(b,d,a[2]);return[2,br(b,d,a[1]),m,l]}default:var
 e=c[3],f=c[2],g=c[1];switch(a[0]){case
 0:var
-n=a[1],o=function(a){return aq(b,a,n)},h=function(a){return cj(o,a)},p=h(e),q=h(f);return[2,h(g),q,p];case
+n=a[1],o=function(a){return ar(b,a,n)},h=function(a){return cj(o,a)},p=h(e),q=h(f);return[2,h(g),q,p];case
 1:var
-i=a[1],r=bp(b,e,i),s=bp(b,f,i);return[2,bp(b,g,i),s,r];default:var
-t=bp(b,e,a[3]),u=bp(b,f,a[2]);return[2,bp(b,g,a[1]),u,t]}}}function
-i7(c,f,a){if(a)var
+i=a[1],r=br(b,e,i),s=br(b,f,i);return[2,br(b,g,i),s,r];default:var
+t=br(b,e,a[3]),u=br(b,f,a[2]);return[2,br(b,g,a[1]),u,t]}}}function
+jf(c,f,a){if(a)var
 d=a[1],b=function(h){var
 a=[0,d[1],d[1]],b=[0,d[2],d[2]];switch(h){case
 0:var
 e=[0,a,U(c,a)];break;case
 1:var
-g=t(c,a,b),e=[0,at(A(a,b)),g];break;default:var
-e=[0,b,U(c,b)]}return[0,[0,j(f,e)]]},h=i7(c,f,a[2]),i=e(function(a){return[1,a]},h),k=b(2),l=b(1),g=[0,[2,b(0),l,k],i];else
+g=t(c,a,b),e=[0,aw(A(a,b)),g];break;default:var
+e=[0,b,U(c,b)]}return[0,[0,k(f,e)]]},h=jf(c,f,a[2]),i=e(function(a){return[1,a]},h),j=b(2),l=b(1),g=[0,[2,b(0),l,j],i];else
 var
 g=a;return g}function
-i8(b,x,c,a){var
-e=i7(b,aT,a),d=0,y=f(i7(b,ay,a),e);return bc(t4,function(a){switch(a[0]){case
+jg(b,x,c,a){var
+e=jf(b,aO,a),d=0,y=f(jf(b,aA,a),e);return bf(t$,function(a){switch(a[0]){case
 0:return r(a[1],y,[0,[0,u]]);case
 1:return[0,[0,r(a[1],x,u)]];case
 2:return[0,[0,O(b,a[1])]];case
 3:var
-c=a[2],d=a[1],e=function(b,a){return[0,A(b,a)]};return bp(function(a,b){return dd(e,a,b)},d,c);case
+c=a[2],d=a[1],e=function(b,a){return[0,A(b,a)]};return br(function(a,b){return de(e,a,b)},d,c);case
 4:var
-f=a[2],g=a[1],h=function(b,a){return[0,F(b,a)]};return bp(function(a,b){return dd(h,a,b)},g,f);case
+f=a[2],g=a[1],h=function(b,a){return[0,F(b,a)]};return br(function(a,b){return de(h,a,b)},g,f);case
 5:var
-i=a[1],j=function(a){return[0,ab(a)]};return cj(function(a){return dc(j,a)},i);case
+i=a[1],j=function(a){return[0,ab(a)]};return cj(function(a){return dd(j,a)},i);case
 6:var
-k=a[2],l=a[1],m=function(c,a){return[0,t(b,c,a)]};return bp(function(a,b){return dd(m,a,b)},l,k);case
+k=a[2],l=a[1],m=function(c,a){return[0,t(b,c,a)]};return br(function(a,b){return de(m,a,b)},l,k);case
 7:var
 n=a[2],o=a[1],p=function(c,a){var
-d=b9(b,a);return z(function(a){return t(b,c,a)},d)};return bp(function(a,b){return dd(p,a,b)},o,n);case
+d=b9(b,a);return z(function(a){return t(b,c,a)},d)};return br(function(a,b){return de(p,a,b)},o,n);case
 8:var
-q=a[1],s=function(a){return[0,U(b,a)]};return cj(function(a){return dc(s,a)},q);case
+q=a[1],s=function(a){return[0,U(b,a)]};return cj(function(a){return dd(s,a)},q);case
 9:var
-v=a[1],w=function(a){return b_(b,a)};return cj(function(a){return dc(w,a)},v);default:return t3}},c,d)}function
-g5(a){if(a){var
+v=a[1],w=function(a){return b_(b,a)};return cj(function(a){return dd(w,a)},v);default:return t_}},c,d)}function
+hc(a){if(a){var
 b=a[1];if(b)var
-c=g5(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+c=hc(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return t5}function
-ev(a){if(a){var
-g=a[1],b=g[2],c=g5(g[1]);if(c)if(b){var
-h=b[1],e=ev(a[2]);if(e)var
+d=b;return d}return ua}function
+ey(a){if(a){var
+g=a[1],b=g[2],c=hc(g[1]);if(c)if(b){var
+h=b[1],e=ey(a[2]);if(e)var
 i=I(d,h[1]),j=i?[0,[0,[0,c[1],h],e[1]]]:i;else
 var
 j=e;var
@@ -4022,56 +4024,56 @@ f=j}else
 var
 f=b;else
 var
-f=c;return f}return t6}function
-ew(b,a){var
+f=c;return f}return ub}function
+ez(b,a){var
 c=a[3],d=z(function(a){var
-c=a[2],d=a[1][2];return[0,[0,j(b,a[1][1]),d],c]},c),e=j(b,a[2]),f=a[1];return[0,j(au(b),f),e,d]}function
-i9(c,g,f,b,a,e){if(b){var
+c=a[2],d=a[1][2];return[0,[0,k(b,a[1][1]),d],c]},c),e=k(b,a[2]),f=a[1];return[0,k(ax(b),f),e,d]}function
+jh(c,g,f,b,a,e){if(b){var
 h=b[1],l=b[2],d=function(b,a){var
-d=kf(c,e1,e1,function(a){return na(b,a)},e);return i9(c,g,bz(f),l,a,d)},i=d(0,aL(a,h));if(i){var
+d=kx(c,e8,e8,function(a){return ns(b,a)},e);return jh(c,g,bz(f),l,a,d)},i=d(0,aM(a,h));if(i){var
 j=d(2,E(a,h));if(j)return f?1:d(1,a);var
 k=j}else
 var
-k=i;return k}return aq(g,a,kf(c,e1,e1,nb,e))}function
-i_(e,c,b,a){var
-f=al(d,b);function
-g(b){return a}return function(a){return i9(e,g,c,f,d,a)}}function
-de(a){if(a){var
+k=i;return k}return ar(g,a,kx(c,e8,e8,nt,e))}function
+ji(e,c,b,a){var
+f=af(d,b);function
+g(b){return a}return function(a){return jh(e,g,c,f,d,a)}}function
+df(a){if(a){var
 b=a[1],c=b[1],d=c[1],e=b[2],f=c[2];return z(function(a){return aU(f,e,a)},d)}return[0,u]}function
-nd(f,e,k,j,i,a){var
-b=ev(a[1]);if(b){var
+nv(f,e,k,j,i,a){var
+b=ey(a[1]);if(b){var
 c=a[2];if(c){var
-d=de(a[3]);if(d){var
-l=d[1],m=al([0,F(ab(t(f,i,c[1])),l),0],e);return a6(f,e,gv(k,j,b[1],m))}var
+d=df(a[3]);if(d){var
+l=d[1],m=af([0,F(ab(t(f,i,c[1])),l),0],e);return a9(f,e,gE(k,j,b[1],m))}var
 g=d}else
 var
 g=c;var
 h=g}else
 var
 h=b;return h}function
-ne(i,d,h,g,c){var
-a=ev(c[1]);if(a){var
-b=de(c[3]);if(b){var
-j=al([0,F(u,b[1]),0],d),k=a[1];return a6(i,d,gv(h,g,e(function(a){return[0,a[1],u]},k),j))}var
+nw(i,d,h,g,c){var
+a=ey(c[1]);if(a){var
+b=df(c[3]);if(b){var
+j=af([0,F(u,b[1]),0],d),k=a[1];return a9(i,d,gE(h,g,e(function(a){return[0,a[1],u]},k),j))}var
 f=b}else
 var
 f=a;return f}function
-nf(a,c,D,i){var
-j=ev(i[1]);if(j){var
+nx(a,c,D,i){var
+j=ey(i[1]);if(j){var
 k=i[2];if(k){var
-l=de(i[3]);if(l){var
+l=df(i[3]);if(l){var
 G=l[1],e=F(t(a,D,k[1]),G),b=j[1];if(b){var
 m=b[1],n=m[2];if(b[2]){var
-f=gw(a,b,al([0,e,0],c));if(f){var
-p=f[1],q=o(g(p),c);if(q)return eg(a,p);var
+f=gF(a,b,af([0,e,0],c));if(f){var
+p=f[1],q=o(g(p),c);if(q)return ei(a,p);var
 r=q}else
 var
 r=f;return r}var
 s=I(d,e[1]),u=s?I(d,n[1]):s;if(u){var
-A=C(e[1],n[1]),B=m[1];return I(an(function(a,b){var
+A=C(e[1],n[1]),B=m[1];return I(ao(function(a,b){var
 c=b$(a);return E(C(b$(a),c),b)},d,B),A)}return u}var
-h=gw(a,b,al([0,e,0],c));if(h){var
-v=h[1],w=o(g(v),c);if(w)return eg(a,v);var
+h=gF(a,b,af([0,e,0],c));if(h){var
+v=h[1],w=o(g(v),c);if(w)return ei(a,v);var
 x=w}else
 var
 x=h;return x}var
@@ -4081,155 +4083,158 @@ y=k;var
 z=y}else
 var
 z=j;return z}function
-t7(c){var
+uc(c){var
 a=c[2];if(a){var
-b=de(c[3]);if(b)return D(d,F(a[1],b[1])[1]);var
+b=df(c[3]);if(b)return D(d,F(a[1],b[1])[1]);var
 e=b}else
 var
 e=a;return e}function
-i$(a){return y(function(a){return f(a[1],[0,a[2],0])},a)}function
-ng(a,c,b){var
-e=r(b,c,m(d)),f=aB(0,a);return l(function(b){return eu(a,b,e)},f)}function
-fr(a){var
+jj(a){return y(function(a){return f(a[1],[0,a[2],0])},a)}function
+ny(a,c,b){var
+e=r(b,c,m(d)),f=aC(0,a);return l(function(b){return ex(a,b,e)},f)}function
+fz(a){var
 c=V(a);return B(m(b),c)}function
-g6(i,g){var
-h=fr(g),j=V(g),e=x(m(b),j),f=s(m(c(2,b)),g),a=m(d);return i?i[1]?[0,[0,e,bl(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,bl(f),a,e]]:[0,[0,h,a,a],[0,a,e,bl(f)],[0,a,f,e]]}function
-fs(b,a){var
+hd(i,g){var
+h=fz(g),j=V(g),e=x(m(b),j),f=s(m(c(2,b)),g),a=m(d);return i?i[1]?[0,[0,e,bn(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,bn(f),a,e]]:[0,[0,h,a,a],[0,a,e,bn(f)],[0,a,f,e]]}function
+fA(b,a){var
 c=Z(b[3],a),d=Z(b[2],a);return[0,Z(b[1],a),d,c]}function
-nh(b,a){function
+nz(b,a){function
 c(b){var
-c=j(b,a[3]),d=j(b,a[2]);return[0,j(b,a[1]),d,c]}function
+c=k(b,a[3]),d=k(b,a[2]);return[0,k(b,a[1]),d,c]}function
 d(a){var
 b=Z(a,c(function(a){return a[3]})),d=Z(a,c(function(a){return a[2]}));return[0,Z(a,c(function(a){return a[1]})),d,b]}var
 e=d(b[3]),f=d(b[2]);return[0,d(b[1]),f,e]}function
-ni(v,u){function
-a(a){return[0,[0,N(u,a)]]}switch(v[0]){case
+nA(v,u){function
+a(a){return[0,[0,L(u,a)]]}switch(v[0]){case
 0:var
-w=fr(a(0));return[0,g6(t8,a(0)),w];case
+w=fz(a(0));return[0,hd(ud,a(0)),w];case
 1:var
-y=fr(a(0)),z=s(fr(a(t9)),y),A=s(fr(a(t_)),z),C=g6(0,a(0)),D=nh(g6(ua,a(t$)),C);return[0,nh(g6(uc,a(ub)),D),A];default:var
-E=a(ud),F=a(ue),g=[0,a(0),F,E],G=Z(g,g),H=B(m(b),G),j=Z(g,g),d=g[1],e=g[2],f=g[3],i=function(a){var
+y=fz(a(0)),z=s(fz(a(ue)),y),A=s(fz(a(uf)),z),C=hd(0,a(0)),D=nz(hd(uh,a(ug)),C);return[0,nz(hd(uj,a(ui)),D),A];default:var
+E=a(uk),F=a(ul),g=[0,a(0),F,E],G=Z(g,g),H=B(m(b),G),j=Z(g,g),d=g[1],e=g[2],f=g[3],i=function(a){var
 d=V(a),e=s(m(c(2,b)),d);return B(x(m(b),j),e)},h=function(f,e,d,a){var
-g=aq(f,s(e,d),a);return s(m(c(2,b)),g)},k=i(f),l=h(B,e,f,d),n=[0,h(x,d,f,e),l,k],o=h(x,e,f,d),p=i(e),q=[0,h(B,d,e,f),p,o],r=h(B,d,f,e),t=h(x,d,e,f);return[0,[0,[0,i(d),t,r],q,n],H]}}function
-nj(a){return 1<a[0]?[0,a[1],0]:0}function
-g7(a){switch(a[0]){case
+g=ar(f,s(e,d),a);return s(m(c(2,b)),g)},k=i(f),l=h(B,e,f,d),n=[0,h(x,d,f,e),l,k],o=h(x,e,f,d),p=i(e),q=[0,h(B,d,e,f),p,o],r=h(B,d,f,e),t=h(x,d,e,f);return[0,[0,[0,i(d),t,r],q,n],H]}}function
+nB(a){return 1<a[0]?[0,a[1],0]:0}function
+he(a){switch(a[0]){case
 0:return[0,a[1],0];case
 1:return[0,a[1],[0,a[2],[0,a[3],0]]];case
-2:return[0,c$(a[1]),0];default:var
-b=[0,c$(a[2]),0];return[0,c$(a[1]),b]}}function
-ex(a){return[0,[0,a[1]],[0,a[2]]]}function
-nk(a){switch(a[0]){case
-0:return[0,ex(a[1]),0];case
+2:return[0,db(a[1]),0];default:var
+b=[0,db(a[2]),0];return[0,db(a[1]),b]}}function
+eA(a){return[0,[0,a[1]],[0,a[2]]]}function
+nC(a){switch(a[0]){case
+0:return[0,eA(a[1]),0];case
 1:var
-f=[0,ex(a[3]),0],g=[0,ex(a[2]),f];return[0,ex(a[1]),g];case
+f=[0,eA(a[3]),0],g=[0,eA(a[2]),f];return[0,eA(a[1]),g];case
 2:var
-b=ex(c$(a[1]));return[0,b,[0,b,[0,b,0]]];default:var
-c=a[2],d=a[1],e=[0,[1,c$(d)[1],c],[1,d,c]];return[0,e,[0,e,[0,ex(c$(c)),0]]]}}function
-nl(a,c){if(0===c[0]){var
-g=c[1];return j(cG(a),g)}var
-h=c[1],d=j(cG(a),h);if(d){var
-i=c[2],e=j(cG(a),i);if(e){var
-k=U(a,e[1]),l=b_(a,A(O(a,b),k)),m=d[1];return z(function(b){return t(a,m,b)},l)}var
+b=eA(db(a[1]));return[0,b,[0,b,[0,b,0]]];default:var
+c=a[2],d=a[1],e=[0,[1,db(d)[1],c],[1,d,c]];return[0,e,[0,e,[0,eA(db(c)),0]]]}}function
+nD(a,c){if(0===c[0]){var
+g=c[1];return k(cH(a),g)}var
+h=c[1],d=k(cH(a),h);if(d){var
+i=c[2],e=k(cH(a),i);if(e){var
+j=U(a,e[1]),l=b_(a,A(O(a,b),j)),m=d[1];return z(function(b){return t(a,m,b)},l)}var
 f=e}else
 var
 f=d;return f}function
-nm(d,c){var
-a=nl(d,c[1]);if(a)var
-b=nl(d,c[2]),f=b?[0,[0,a[1][1],b[1][2]]]:b,e=f;else
+nE(d,c){var
+a=nD(d,c[1]);if(a)var
+b=nD(d,c[2]),f=b?[0,[0,a[1][1],b[1][2]]]:b,e=f;else
 var
 e=a;return e}function
-nn(a,e,c){var
+nF(a,e,c){var
 b=c[1];if(1===b[0]){var
-f=b[1];if(aI(f,a))return c;var
-g=m(d);return r(d9(f,a),e,g)}return[0,bU(function(b){return nn(a,e,b)},b)]}function
-ja(g,a,n,f,c){var
-h=g?[0,a,[0,[0,a],[0,[0,[0,a]],0]]]:[0,a,[0,[0,a],0]],i=ml(h,c),j=bW(f),b=e(function(b){return nn(a,j,b)},i),k=r(uj,b,m(d)),l=r(uk,b,m(d));return[0,r(0,b,m(d)),l,k]}function
-bH(b,a){var
+f=b[1];if(aK(f,a))return c;var
+g=m(d);return r(dw(f,a),e,g)}return[0,bT(function(b){return nF(a,e,b)},b)]}function
+jk(g,a,n,f,c){var
+h=g?[0,a,[0,[0,a],[0,[0,[0,a]],0]]]:[0,a,[0,[0,a],0]],i=mD(h,c),j=bV(f),b=e(function(b){return nF(a,j,b)},i),k=r(uq,b,m(d)),l=r(ur,b,m(d));return[0,r(0,b,m(d)),l,k]}function
+bG(b,a){var
 c=s(b[2],a[1]),d=x(s(b[1],a[2]),c),e=s(b[1],a[3]),f=x(s(b[3],a[1]),e),g=s(b[3],a[2]);return[0,x(s(b[2],a[3]),g),f,d]}function
-dL(b,a){return b?b[1]?a[3]:a[2]:a[1]}function
-no(c){function
+dN(b,a){return b?b[1]?a[3]:a[2]:a[1]}function
+nG(c){function
 a(a){var
 e=o(c,a)?b:d;return m(e)}var
-e=a(ul),f=a(um);return[0,a(0),f,e]}function
-np(b,a){if(a)var
-d=np(b,a[2]),c=[0,e(j(b,a[1]),a),d];else
+e=a(us),f=a(ut);return[0,a(0),f,e]}function
+nH(b,a){if(a)var
+d=nH(b,a[2]),c=[0,e(k(b,a[1]),a),d];else
 var
 c=a;return c}function
-g8(c,b,a){switch(c){case
+hf(c,b,a){switch(c){case
 0:return[0,b[1],[0,b[2],[0,a[3],0]]];case
 1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}}function
-nq(b,c,a){return c?aM(b,a):aA(b,a)}function
-nr(a){if(a){var
-f=a[1],b=f[2],c=g5(f[1]);if(c)if(b)var
-d=nr(a[2]),g=d?[0,[0,[0,c[1],b[1]],d[1]]]:d,e=g;else
+nI(b,c,a){return c?av(b,a):an(b,a)}function
+nJ(a){if(a){var
+f=a[1],b=f[2],c=hc(f[1]);if(c)if(b)var
+d=nJ(a[2]),g=d?[0,[0,[0,c[1],b[1]],d[1]]]:d,e=g;else
 var
 e=b;else
 var
-e=c;return e}return ux}function
-ns(c,b,a){var
-d=W(b,a);return an(function(a,d){var
+e=c;return e}return uE}function
+nK(c,b,a){var
+d=W(b,a);return ao(function(a,d){var
 b=b$(a[2]);return A(t(c,a[1],[0,b,b]),d)},u,d)}function
-nt(a,h,e,f,d){if(e)if(d)var
-i=d[1],o=nt(a,h,e[2],f,d[2]),p=i[2],q=aM(h,i[1]),c=e[1],j=at(t(a,c[3],f)),k=c[3],l=A(at(ed(p,O(a,b),k)),j),m=t(a,c[2],l),n=t(a,c[1],f),g=[0,cx(A(A(at(ns(a,c[4],q)),n),m)),o];else
+nL(a,h,e,f,d){if(e)if(d)var
+i=d[1],o=nL(a,h,e[2],f,d[2]),p=i[2],q=av(h,i[1]),c=e[1],j=aw(t(a,c[3],f)),k=c[3],l=A(aw(ef(p,O(a,b),k)),j),m=t(a,c[2],l),n=t(a,c[1],f),g=[0,cx(A(A(aw(nK(a,c[4],q)),n),m)),o];else
 var
 g=d;else
 var
 g=e;return g}function
-uz(a){return[0,a[1][1],a[2][1][2][1],a[1][2],a[2][2]]}function
-nu(b,a){return ac(e(function(a){return r(a,b,0)},a))}function
-cJ(a){switch(a){case
-0:return uD;case
-1:return uE;default:return 0}}function
-dM(a){switch(a){case
-0:return[0,uG,uF,m(d)];case
-1:return dD;default:var
+uG(a){return[0,a[1][1],a[2][1][2][1],a[1][2],a[2][2]]}function
+nM(b,a){return ac(e(function(a){return r(a,b,0)},a))}function
+cK(a){switch(a){case
+0:return uK;case
+1:return uL;default:return 0}}function
+dO(a){switch(a){case
+0:return[0,uN,uM,m(d)];case
+1:return dF;default:var
 b=m(d),c=m(d);return[0,m(d),c,b]}}function
-g9(c,b,a){return bm(fs(c,a),b)}function
-nv(a){var
+hg(c,b,a){return bo(fA(c,a),b)}function
+nN(a){var
 d=Z(a,a),e=B(m(b),d);return am(m(c(2,b)),e)}function
-nw(k,j,i,h,g,a){var
-e=g9(j,i,g),c=bH(a,e),f=af(B,c,bH(a,c)),d=af(B,e,a1(nv(a),f)),b=af(x,af(B,dM(k),d),h);return[0,[0,d,b],aJ(Z(b,b))]}function
-aw(a){return typeof
-a==="number"?a?uH:uI:bG(a[1])}function
-jb(b,a,c){return typeof
-b==="number"?b?[0,a[1],[0,a[2],0]]:[0,a[1],[0,a[2],[0,a[3],0]]]:i3(b[1],a,c)}function
-ey(a){if(0===a[0]){var
+nO(k,j,i,h,g,a){var
+e=hg(j,i,g),c=bG(a,e),f=ag(B,c,bG(a,c)),d=ag(B,e,a3(nN(a),f)),b=ag(x,ag(B,dO(k),d),h);return[0,[0,d,b],aL(Z(b,b))]}function
+at(a){return typeof
+a==="number"?a?uO:uP:bF(a[1])}function
+jl(b,a,c){return typeof
+b==="number"?b?[0,a[1],[0,a[2],0]]:[0,a[1],[0,a[2],[0,a[3],0]]]:jd(b[1],a,c)}function
+eB(a){if(0===a[0]){var
 c=a[1];switch(c[0]){case
 0:return c[3];case
 1:return c[2];default:return[0,[0,d,b],[0,d,b],[0,d,b]]}}return a[1][4]}function
-ez(b,c,a){return b?c_(b[1],c,a):a}function
-bq(d,c,b,a){var
-e=ey(a),f=ez(d,c,ey(a)),g=J(function(b,a){return[2,b,a]},b,f);return J(function(b,a){return[3,b,a]},g,e)}function
-nx(d,c,b,a){if(0===a[0]){var
-f=bq(d,c,b,a);return[0,cF(a[1],f)]}var
-e=a[1],g=m3(e,bq(d,c,b,a));return[1,m2(e,bq(d,c,b,a)),g]}function
-ny(b,a){var
+eC(b,c,a){return b?da(b[1],c,a):a}function
+bs(d,c,b,a){var
+e=eB(a),f=eC(d,c,eB(a)),g=J(function(b,a){return[2,b,a]},b,f);return J(function(b,a){return[3,b,a]},g,e)}function
+eD(d,c,b,a){if(0===a[0]){var
+f=bs(d,c,b,a);return[0,cG(a[1],f)]}var
+e=a[1],g=nj(e,bs(d,c,b,a));return[1,ni(e,bs(d,c,b,a)),g]}function
+nP(b,a){var
 c=typeof
 b==="number"?1:0;if(c){if(b)return[0,a[1],[0,a[2],0]];var
 d=[0,a[1],[0,a[2],[0,a[3],0]]]}else
 var
 d=c;return d}function
-nz(b,f,d){if(0===f[0])return 0===d[0]?mC(b,f[1],d[1]):0;if(0===d[0])return 0;var
-a=d[1],c=f[1],g=bn(b,c[1],a[1]),i=g?bn(b,c[2],a[2]):g,j=i?bn(b,c[3],a[3]):i,k=j?bn(b,c[4],a[4]):j,l=k?c7(b,c[5],a[5]):k,m=l?c7(b,c[6],a[6]):l,n=m?h(b,1,a[5]):m,o=n?h(b,1,a[6]):n,p=o?h(b,1,w(a[1],a[1])):o;if(p)var
-q=iY(a),e=h(b,1,w(iY(a),q));else
+jm(e,d,c,a){if(0===a[0]){var
+f=bs(e,d,c,a),b=i5(a[1],f),g=b?[0,b[1],0]:b;return g}var
+h=bs(e,d,c,a);return[0,i$(a[1],h),0]}function
+nQ(b,f,d){if(0===f[0])return 0===d[0]?mU(b,f[1],d[1]):0;if(0===d[0])return 0;var
+a=d[1],c=f[1],g=bp(b,c[1],a[1]),i=g?bp(b,c[2],a[2]):g,j=i?bp(b,c[3],a[3]):i,k=j?bp(b,c[4],a[4]):j,l=k?c9(b,c[5],a[5]):k,m=l?c9(b,c[6],a[6]):l,n=m?h(b,1,a[5]):m,o=n?h(b,1,a[6]):n,p=o?h(b,1,w(a[1],a[1])):o;if(p)var
+q=i_(a),e=h(b,1,w(i_(a),q));else
 var
 e=p;return e?ct(c[7],a[7]):e}function
-g_(g,f,e){var
+fB(g,f,e){var
 b=f,a=e;for(;;){if(b){if(a){var
-c=nz(g,b[1],a[1]);if(c){var
+c=nQ(g,b[1],a[1]);if(c){var
 b=b[2],a=a[2];continue}var
 d=c}else
 var
 d=a;return d}return a?0:1}}function
-nA(c,b,g,a){var
-d=bD(c,b[4],g);if(d){var
-e=b[5];if(e)return da(c,e[1],a);if(a)return 0;var
+jn(c,b,g,a){var
+d=cE(c,b[4],g);if(d){var
+e=b[5];if(e)return fx(c,e[1],a);if(a)return 0;var
 f=1}else
 var
 f=d;return f}function
-jc(a){return typeof
-a==="number"?uJ:2<=a[1]?uK:uL}function
-nB(v,m,l){if(l){var
+hh(a){return typeof
+a==="number"?uQ:2<=a[1]?uR:uS}function
+nR(v,m,l){if(l){var
 a=l[1],e=function(c,a){return h(v,1,[3,[0,a,b],c])},g=function(a){return[3,a[2],a[1]]};switch(a[0]){case
 0:var
 n=c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),f=e(g(a[1]),n);break;case
@@ -4245,28 +4250,28 @@ f=i;break;case
 t=c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),f=e(a[1],t);break;default:var
 u=c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),f=e([2,a[1],a[2]],u)}return f?typeof
 m==="number"?0:m[1]?1:0===a[0]?1:0:f}return 1}function
-bZ(e,j){var
+bY(e,j){var
 a=j[1];switch(a[0]){case
 1:var
 k=o(a[1],e)?b:d;return m(k);case
 3:var
-l=bZ(e,a[2]);return B(bZ(e,a[1]),l);case
+l=bY(e,a[2]);return B(bY(e,a[1]),l);case
 4:var
-n=bZ(e,a[2]);return x(bZ(e,a[1]),n);case
-5:return bl(bZ(e,a[1]));case
+n=bY(e,a[2]);return x(bY(e,a[1]),n);case
+5:return bn(bY(e,a[1]));case
 6:var
-g=a[2],h=a[1],p=s(h,bZ(e,g));return B(s(g,bZ(e,h)),p);case
+g=a[2],h=a[1],p=s(h,bY(e,g));return B(s(g,bY(e,h)),p);case
 7:var
-f=bZ(e,a[1]);return a5(d,f)?f:am(f,a[2]);case
+f=bY(e,a[1]);return a8(d,f)?f:am(f,a[2]);case
 8:var
-i=a[1],q=bZ(e,i);return s(s(m(c(2,b)),i),q);default:return m(d)}}function
-g$(c,b,k){var
+i=a[1],q=bY(e,i);return s(s(m(c(2,b)),i),q);default:return m(d)}}function
+hi(c,b,k){var
 e=k;for(;;){var
 a=e[1];switch(a[0]){case
 7:var
-g=g$(c,b,a[1]);if(g){var
+g=hi(c,b,a[1]);if(g){var
 h=a[2][1];if(1===h[0]){var
-i=h[1],j=I(d,r(i,c,u)[1]);return j?M(aj(function(a){return o(i,a)},b)):j}return 0}return g;case
+i=h[1],j=I(d,r(i,c,u)[1]);return j?N(aj(function(a){return o(i,a)},b)):j}return 0}return g;case
 5:case
 8:var
 e=a[1];continue;case
@@ -4275,9 +4280,9 @@ e=a[1];continue;case
 0:case
 1:case
 2:return 1;default:var
-f=g$(c,b,a[1]);if(f){var
+f=hi(c,b,a[1]);if(f){var
 e=a[2];continue}return f}}}function
-nC(d){var
+nS(d){var
 b=d;for(;;){var
 a=b[1];switch(a[0]){case
 0:case
@@ -4288,72 +4293,72 @@ a=b[1];switch(a[0]){case
 8:case
 9:var
 b=a[1];continue;default:var
-c=nC(a[1]);if(c){var
+c=nS(a[1]);if(c){var
 b=a[2];continue}return c}}}function
-nD(c,b,a){var
-d=e(b,a[2]);return[0,j(c,a[1]),d]}function
-jd(b,a,c){return e(function(c){var
-d=nD(b,a,c[2]),f=c[1];return[0,e(function(c){return nD(b,a,c)},f),d]},c)}function
-nE(b,a){return z(function(a){var
-c=a[2],d=a[1][2];return[0,[0,j(b,a[1][1]),d],c]},a)}function
-uM(a,b){var
-c=nE(a,b[3]),d=j(a,b[2]);return[0,jd(a,a,b[1]),d,c]}function
-nF(c){var
+nT(c,b,a){var
+d=e(b,a[2]);return[0,k(c,a[1]),d]}function
+jo(b,a,c){return e(function(c){var
+d=nT(b,a,c[2]),f=c[1];return[0,e(function(c){return nT(b,a,c)},f),d]},c)}function
+nU(b,a){return z(function(a){var
+c=a[2],d=a[1][2];return[0,[0,k(b,a[1][1]),d],c]},a)}function
+uT(a,b){var
+c=nU(a,b[3]),d=k(a,b[2]);return[0,jo(a,a,b[1]),d,c]}function
+nV(c){var
 a=c[1];if(a){var
-b=g5(c[2]);if(b)var
+b=hc(c[2]);if(b)var
 g=e($,b[1]),d=[0,[0,$(a[1]),g]];else
 var
 d=b;var
 f=d}else
 var
 f=a;return f}function
-uN(c){var
-a=ac(e(nF,c[1]));if(a)var
-b=nF(c[2]),f=b?[0,[0,a[1],b[1]]]:b,d=f;else
+uU(c){var
+a=ac(e(nV,c[1]));if(a)var
+b=nV(c[2]),f=b?[0,[0,a[1],b[1]]]:b,d=f;else
 var
 d=a;return d}function
-uO(a){return M(iz([0,a[2],a[1]]))}function
-je(a){return[0,a[1],a[2]]}function
-nG(b,c,a){var
-d=e(function(c){return bx(b,bZ(c,a))},c);return[0,bx(b,a),d]}function
-jf(b,e,a,d){var
+uV(a){return N(iL([0,a[2],a[1]]))}function
+jp(a){return[0,a[1],a[2]]}function
+nW(b,c,a){var
+d=e(function(c){return bx(b,bY(c,a))},c);return[0,bx(b,a),d]}function
+jq(b,e,a,d){var
 c=y(function(a){var
-b=je(a[2]);return f(y(je,a[1]),b)},d),g=a?[0,bx(b,a[1]),0]:a,h=f(g,c);return[0,bx(b,e),h]}function
-nH(c,f,b,a){var
-d=g$(f,b,a),e=d?g3(c,a):d;return e?l(function(b){return g3(c,bZ(b,a))},b):e}function
-nI(a){switch(a[0]){case
+b=jp(a[2]);return f(y(jp,a[1]),b)},d),g=a?[0,bx(b,a[1]),0]:a,h=f(g,c);return[0,bx(b,e),h]}function
+nX(c,f,b,a){var
+d=hi(f,b,a),e=d?ha(c,a):d;return e?l(function(b){return ha(c,bY(b,a))},b):e}function
+nY(a){switch(a[0]){case
 3:var
-d=i$(a[2]);return[0,a[3],d];case
+d=jj(a[2]);return[0,a[3],d];case
 4:return[0,a[1],0];case
 8:var
-b=a[1],e=i$(b[1]);return[0,b[2],e];case
+b=a[1],e=jj(b[1]);return[0,b[2],e];case
 9:return 0;default:var
-c=i$(a[1]);return[0,a[2],c]}}function
-nJ(a,aw,br,k,n,R,av,x,Q,i,h){switch(i[0]){case
+c=jj(a[1]);return[0,a[2],c]}}function
+nZ(a,ay,br,j,n,R,ax,x,Q,i,h){switch(i[0]){case
 0:var
-ax=i[4],S=i[3],az=i[2],aC=i[1],V=0;if(typeof
+az=i[4],S=i[3],aB=i[2],aD=i[1],V=0;if(typeof
 h==="number")V=1;else
 switch(h[0]){case
 0:var
-bs=h[2],bt=h[1],v=az,s=aC,q=function(b){return nd(a,n,bt,bs,S,b)},p=ax;break;case
+bs=h[2],bt=h[1],v=aB,s=aD,q=function(b){return nv(a,n,bt,bs,S,b)},p=az;break;case
 2:var
-aD=K(S[1],d),aE=aD?K(S[2],d):aD;if(!aE)return aE;var
-bw=h[2],bx=h[1],v=az,s=aC,q=function(b){return ne(a,n,bx,bw,b)},p=ax;break;default:V=1}if(V)return 0;break;case
+aE=K(S[1],d),aF=aE?K(S[2],d):aE;if(!aF)return aF;var
+bw=h[2],bx=h[1],v=aB,s=aD,q=function(b){return nw(a,n,bx,bw,b)},p=az;break;default:V=1}if(V)return 0;break;case
 1:var
 aQ=0;if(typeof
 h==="number"&&!h)var
-by=i[2],bA=i[1],bC=i[3],v=by,s=bA,bD=0,q=function(b){return nf(a,n,bC,b)},p=bD;else
+by=i[2],bA=i[1],bC=i[3],v=by,s=bA,bD=0,q=function(b){return nx(a,n,bC,b)},p=bD;else
 aQ=1;if(aQ)return 0;break;case
 2:if(typeof
 h!=="number"&&3===h[0]){var
 B=h[3];if(B){var
-aF=B[2],aG=o(g(aF),k);if(aG){var
-bE=[0,i[1],i[2],Q],bF=ew(function(a){return r(a,x,uR)},bE),aH=h[1],bG=0,bH=B[1],bI=h[2],bJ=i[3],bK=function(w,i){var
-c=ev(i[1]);if(c){var
+aG=B[2],aH=o(g(aG),j);if(aH){var
+bE=[0,i[1],i[2],Q],bF=ez(function(a){return r(a,x,uY)},bE),aI=h[1],bG=0,bH=B[1],bI=h[2],bJ=i[3],bK=function(w,i){var
+c=ey(i[1]);if(c){var
 j=c[1],e=i[2];if(e){var
-f=de(i[3]);if(f){var
-k=f[1],l=function(c){return aU(c,aH,O(a,b))},u=l(w),v=e[1],g=A(t(a,l(bH),v),u),m=I(d,g[1]),o=m?a6(a,n,gv(aH,bI,j,al([0,F(ab(g),k),0],n))):m;if(o){var
-h=gw(a,j,al([0,F(t(a,bJ,g),k),0],n));if(h)return a6(a,n,h[1]);var
+f=df(i[3]);if(f){var
+k=f[1],l=function(c){return aU(c,aI,O(a,b))},u=l(w),v=e[1],g=A(t(a,l(bH),v),u),m=I(d,g[1]),o=m?a9(a,n,gE(aI,bI,j,af([0,F(ab(g),k),0],n))):m;if(o){var
+h=gF(a,j,af([0,F(t(a,bJ,g),k),0],n));if(h)return a9(a,n,h[1]);var
 p=h}else
 var
 p=o;var
@@ -4365,20 +4370,20 @@ var
 r=e;var
 s=r}else
 var
-s=c;return s};return i9(function(b,a){return ew},bK,bG,aF,d,bF)}var
-aJ=aG}else
+s=c;return s};return jh(function(b,a){return ez},bK,bG,aG,d,bF)}var
+aJ=aH}else
 var
 aJ=B;return aJ}return 0;case
 3:var
-aS=0;if(typeof
-h==="number"||!(0===h[0]))aS=1;else
+aR=0;if(typeof
+h==="number"||!(0===h[0]))aR=1;else
 var
-aK=h[2],aL=h[1],bL=i[3],bM=i[2],bN=i[4],bO=i[1],bP=function(f){var
-b=ev(f[1]);if(b){var
+aL=h[2],aM=h[1],bL=i[3],bM=i[2],bN=i[4],bO=i[1],bP=function(f){var
+b=ey(f[1]);if(b){var
 c=b[1],d=f[2];if(d){var
-e=de(f[3]);if(e){var
-h=o(g(c),n),i=h?o(g(aK),n):h;if(i){var
-m=ek(aL,el(aL,aK,d[1],c));return a6(a,n,be(gA(a,bO,bN,e[1],c),m))}var
+e=df(f[3]);if(e){var
+h=o(g(c),n),i=h?o(g(aL),n):h;if(i){var
+m=em(aM,en(aM,aL,d[1],c));return a9(a,n,bh(gJ(a,bO,bN,e[1],c),m))}var
 j=i}else
 var
 j=e;var
@@ -4387,18 +4392,18 @@ var
 k=d;var
 l=k}else
 var
-l=b;return l},v=bL,s=bM,q=bP,p=i[5];if(aS)return 0;break;case
+l=b;return l},v=bL,s=bM,q=bP,p=i[5];if(aR)return 0;break;case
 4:var
 aT=0;if(typeof
 h==="number"&&!h)var
-v=i[1],s=0,q=t7,p=0;else
+v=i[1],s=0,q=uc,p=0;else
 aT=1;if(aT)return 0;break;case
 5:var
 aV=0;if(typeof
 h==="number"||!(0===h[0]))aV=1;else{var
 C=h[2],aW=0;if(C){var
 D=C[1];if(D){if(D[2])return 0;if(C[2])return 0;var
-bQ=i[2],bR=i[1],bS=O(a,b),bT=[0,[0,D[1],0],0],bU=h[1],v=bQ,s=bR,bV=0,q=function(b){return nd(a,uS,bU,bT,bS,b)},p=bV;aW=1}else
+bQ=i[2],bR=i[1],bS=O(a,b),bT=[0,[0,D[1],0],0],bU=h[1],v=bQ,s=bR,bV=0,q=function(b){return nv(a,uZ,bU,bT,bS,b)},p=bV;aW=1}else
 var
 aN=D}else
 var
@@ -4406,30 +4411,30 @@ aN=C;if(!aW)return aN}if(aV)return 0;break;case
 6:var
 aX=0;if(typeof
 h==="number"&&!h)var
-bW=i[2],bX=i[1],bY=O(a,b),v=bW,s=bX,bZ=0,q=function(b){return nf(a,uT,bY,b)},p=bZ;else
+bW=i[2],bX=i[1],bY=O(a,b),v=bW,s=bX,bZ=0,q=function(b){return nx(a,u0,bY,b)},p=bZ;else
 aX=1;if(aX)return 0;break;case
 7:var
 aY=0;if(typeof
 h==="number"&&5<=h)var
-b0=i[2],b1=i[1],b2=i[4],b3=i[3],v=b0,s=b1,b4=0,q=function(b){return ne(a,n,b3,b2,b)},p=b4;else
+b0=i[2],b1=i[1],b2=i[4],b3=i[3],v=b0,s=b1,b4=0,q=function(b){return nw(a,n,b3,b2,b)},p=b4;else
 aY=1;if(aY)return 0;break;case
 8:if(typeof
 h!=="number"&&9===h[0]){var
-E=h[4],aP=h[2],T=h[1],m=i[1],w=m[9],b5=h[3],a3=m[5],a4=gq(f(ea(m[4]),a3),aw),a5=e($,br),y=m[9],a7=m[8],a8=m[7],a1=gB(y,al(u,d9(k,y)),a7),a2=f(e($,aM(y,R)),a1),Y=lo(0,bB(a,f(gB(0,aA(y,R),a8),a2),a5),a4,aw,0),Z=0<aR(E)?0<aR(d)?gg(E,d):0:0<aR(d)?0:1;if(Z)var
+E=h[4],aO=h[2],T=h[1],m=i[1],w=m[9],b5=h[3],a3=m[5],a4=gz(f(ec(m[4]),a3),ay),a5=e($,br),y=m[9],a6=m[8],a7=m[7],a1=gK(y,af(u,dw(j,y)),a6),a2=f(e($,av(y,R)),a1),Y=lG(0,bB(a,f(gK(0,an(y,R),a7),a2),a5),a4,ay,0),Z=0<aS(E)?0<aS(d)?gp(E,d):0:0<aS(d)?0:1;if(Z)var
 G=Z;else
 var
-as=2<=lb(E,c(2,c(2,c(2,c(2,b)))))?0:1,au=as?aI(0,w):as,G=au?aI(w,k):au;var
-_=G?aa(w,k):G,ad=_?o(g(R),k):_,ae=ad?o(g(aP),k):ad,af=ae?o(g(m[1]),k):ae,ag=af?o(g(m[6]),k):af,ah=ag?o(g(m[4]),k):ag;if(ah)var
-a9=m[4],H=l(function(a){return o(g(a),k)},a9);else
+at=2<=lt(E,c(2,c(2,c(2,c(2,b)))))?0:1,au=at?aK(0,w):at,G=au?aK(w,j):au;var
+_=G?aa(w,j):G,ad=_?o(g(R),j):_,ae=ad?o(g(aO),j):ad,ag=ae?o(g(m[1]),j):ae,ah=ag?o(g(m[6]),j):ag,ai=ah?o(g(m[4]),j):ah;if(ai)var
+a8=m[4],H=l(function(a){return o(g(a),j)},a8);else
 var
-H=ah;if(H){var
-a_=m[4],J=ac(e(function(a){return nu(Y,a)},a_));if(J){var
-ai=nu(Y,m[5]);if(ai){var
+H=ai;if(H){var
+a_=m[4],J=ac(e(function(a){return nM(Y,a)},a_));if(J){var
+aj=nM(Y,m[5]);if(aj){var
 a$=m[6],L=ac(e(function(j){var
-c=j[1],k=m[7],d=r(c[1],av,0);if(d){var
+c=j[1],k=m[7],d=r(c[1],ax,0);if(d){var
 h=c[2][2],b=ac(e(function(a){var
-b=r(a[2],av,0);return z(function(a){return a[2]},b)},h));if(b)var
-i=b[1],f=[0,cx(at(t(a,k,U(a,ns(a,e(ay,c[2][2]),i)))))];else
+b=r(a[2],ax,0);return z(function(a){return a[2]},b)},h));if(b)var
+i=b[1],f=[0,cx(aw(t(a,k,U(a,nK(a,e(aA,c[2][2]),i)))))];else
 var
 f=b;var
 g=f}else
@@ -4437,40 +4442,40 @@ var
 g=d;return g},a$));if(L){var
 ba=m[1],bb=m[2],M=ac(e(function(m){function
 f(e){var
-g=al(e,k),c=nc(r(m[2],x,uA),g);if(c){var
-h=al(e,k),d=nc(r(bb,x,uB),h);if(d){var
-i=d[1],j=O(a,b);return b_(a,ca(ed(c[1],j,i)))}var
+g=af(e,j),c=nu(r(m[2],x,uH),g);if(c){var
+h=af(e,j),d=nu(r(bb,x,uI),h);if(d){var
+i=d[1],k=O(a,b);return b_(a,ca(ef(c[1],k,i)))}var
 f=d}else
 var
 f=c;return f}var
 c=f(0);if(c){var
 e=f(2);if(e)var
-g=ca(at(A(c[1],e[1]))),h=I(d,g[1]),l=h?[0,g]:h,i=l;else
+g=ca(aw(A(c[1],e[1]))),h=I(d,g[1]),l=h?[0,g]:h,i=l;else
 var
 i=e;var
-j=i}else
+k=i}else
 var
-j=c;return j},ba));if(M){var
-bc=J[1],X=ei(a,an(function(i,h){var
+k=c;return k},ba));if(M){var
+bc=J[1],X=ek(a,ao(function(i,h){var
 o=e(function(b){var
-a=aB(0,k);return e(function(a){return b$(r(a,b[3],u))},a)},i);function
+a=aC(0,j);return e(function(a){return b$(r(a,b[3],u))},a)},i);function
 b(m,l){var
-n=nq(w,m,o),g=e(function(a){return nq(w,l,a)},n);function
-b(a){return an(bj,d,a)}var
+n=nI(w,m,o),g=e(function(a){return nI(w,l,a)},n);function
+b(a){return ao(bl,d,a)}var
 h=0;function
 i(a){return a}function
 j(a){return a}var
-c=b(an(function(a,b){return aO(j,i,lc,a,b)},h,g)),k=[0,c,c],f=b(e(function(a){return an(lc,d,a)},g));return ei(a,t(a,[0,f,f],k))}var
-c=b(1,1),f=b(1,0),g=b(0,1);return A(h,U(a,A(A(A(b(0,0),g),f),c)))},u,bc)),N=aU(b5,T,O(a,b)),aj=I(d,F(N,X)[1]);if(aj){var
+c=b(ao(function(a,b){return aP(j,i,lu,a,b)},h,g)),k=[0,c,c],f=b(e(function(a){return ao(lu,d,a)},g));return ek(a,t(a,[0,f,f],k))}var
+c=b(1,1),f=b(1,0),g=b(0,1);return A(h,U(a,A(A(A(b(0,0),g),f),c)))},u,bc)),N=aU(b5,T,O(a,b)),ak=I(d,F(N,X)[1]);if(ak){var
 P=b9(a,N);if(P){var
-bd=at(t(a,X,P[1])),bg=F(O(a,b),bd),bh=[0,m[1],m[2],Q],bi=ew(function(a){return r(a,x,uC)},bh),bk=m[6],bl=e(uz,W(W(L[1],M[1]),bk)),bm=U(a,bg),bn=U(a,N),bo=m[10],aZ=aB(0,k),a0=e(function(a){var
-d=bo?aa(w,a):aI(a,w);return d?b:b8(c(2,b),E)},aZ),bp=function(r){var
-h=nr(r[1]);if(h){var
+bd=aw(t(a,X,P[1])),be=F(O(a,b),bd),bf=[0,m[1],m[2],Q],bg=ez(function(a){return r(a,x,uJ)},bf),bj=m[6],bk=e(uG,W(W(L[1],M[1]),bj)),bm=U(a,be),bn=U(a,N),bo=m[10],aZ=aC(0,j),a0=e(function(a){var
+d=bo?aa(w,a):aK(a,w);return d?b:b8(c(2,b),E)},aZ),bp=function(r){var
+h=nJ(r[1]);if(h){var
 v=h[1],i=r[2];if(i){var
-j=i[1],m=de(r[3]);if(m){var
-w=m[1],x=nt(a,k,bl,j,v),n=e(function(a){var
-c=a[2],b=W(a0,a[1]);return[0,e(function(a){return aU(a[1],d,a[2])},b),c]},v),G=ek(T,el(T,aP,j,n)),p=be(al([0,ab(w),0],k),G),H=F(t(a,j,bm),w),y=o(g(n),k),z=y?o(g(x),k):y;if(z){var
-b=k,c=p;for(;;){if(c){if(b){var
+k=i[1],m=df(r[3]);if(m){var
+w=m[1],x=nL(a,j,bk,k,v),n=e(function(a){var
+c=a[2],b=W(a0,a[1]);return[0,e(function(a){return aU(a[1],d,a[2])},b),c]},v),G=em(T,en(T,aO,k,n)),p=bh(af([0,ab(w),0],j),G),H=F(t(a,k,bm),w),y=o(g(n),j),z=y?o(g(x),j):y;if(z){var
+b=j,c=p;for(;;){if(c){if(b){var
 s=o(g(c[1]),b);if(s){var
 b=b[1],c=c[2];continue}var
 u=s}else
@@ -4482,9 +4487,9 @@ A=b?0:1;var
 q=A;break}}else
 var
 q=z;var
-B=q?a6(a,k,be(e(function(b){return[0,ab(t(a,bn,b[2])),0]},n),p)):q;if(B){var
-I=bf(bz(k));return l(function(g){var
-d=W(f(g,uy),x),b=[0,[0,H,0],0],c=W(p,e(function(a){return a[1]?ab(a[2]):a[2]},d));return a6(a,[0,k],f(e(function(a){return f(a[1],[0,a[2],0])},c),b))},I)}var
+B=q?a9(a,j,bh(e(function(b){return[0,ab(t(a,bn,b[2])),0]},n),p)):q;if(B){var
+I=bi(bz(j));return l(function(g){var
+d=W(f(g,uF),x),b=[0,[0,H,0],0],c=W(p,e(function(a){return a[1]?ab(a[2]):a[2]},d));return a9(a,[0,j],f(e(function(a){return f(a[1],[0,a[2],0])},c),b))},I)}var
 C=B}else
 var
 C=m;var
@@ -4493,86 +4498,86 @@ var
 D=i;var
 E=D}else
 var
-E=h;return E},bq=m[3];return j(i_(function(b,a){return ew},bq,k,bp),bi)}var
-ak=P}else
+E=h;return E},bq=m[3];return k(ji(function(b,a){return ez},bq,j,bp),bg)}var
+al=P}else
 var
-ak=aj;var
-am=ak}else
+al=ak;var
+am=al}else
 var
 am=M;var
-ao=am}else
+ap=am}else
 var
-ao=L;var
-ap=ao}else
-var
-ap=ai;var
+ap=L;var
 aq=ap}else
 var
-aq=J;var
+aq=aj;var
 ar=aq}else
 var
-ar=H;return ar}return 0;default:return 0}var
-bu=[0,s,v,Q],bv=ew(function(a){return r(a,x,uQ)},bu);return j(i_(function(b,a){return ew},p,k,q),bv)}function
-uU(b,a){var
-c=ij(id,b[1],a[1]);return c?id(b[2],a[2]):c}function
-nK(i,r,q,h,p,k,A,z,y,j,n,g,a,e){if(typeof
-e==="number"){if(0===e)return 9===a[0]?ff(i,0,0,0,g,h,0,a[1],e):0}else
+ar=J;var
+as=ar}else
+var
+as=H;return as}return 0;default:return 0}var
+bu=[0,s,v,Q],bv=ez(function(a){return r(a,x,uX)},bu);return k(ji(function(b,a){return ez},p,j,q),bv)}function
+u1(b,a){var
+c=iw(ir,b[1],a[1]);return c?ir(b[2],a[2]):c}function
+n0(i,r,q,h,p,k,A,z,y,j,n,g,a,e){if(typeof
+e==="number"){if(0===e)return 9===a[0]?fm(i,0,0,0,g,h,0,a[1],e):0}else
 switch(e[0]){case
 6:var
 f=e[1];if(typeof
 f!=="number"&&7===f[0]){if(k){var
-s=f[3],t=f[2],u=D(d,t),v=u?ig(s,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):u;if(v)return nJ(i,r,q,h,p,j,g,n,[0,[0,[0,k[1],t],s]],a,f[1]);var
+s=f[3],t=f[2],u=D(d,t),v=u?it(s,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):u;if(v)return nZ(i,r,q,h,p,j,g,n,[0,[0,[0,k[1],t],s]],a,f[1]);var
 w=v}else
 var
-w=k;return w}return nJ(i,r,q,h,p,j,g,n,0,a,f);case
-8:return 9===a[0]?ff(i,0,0,0,g,h,0,a[1],e):0;case
+w=k;return w}return nZ(i,r,q,h,p,j,g,n,0,a,f);case
+8:return 9===a[0]?fm(i,0,0,0,g,h,0,a[1],e):0;case
 10:if(0===a[0]){var
-l=ij(uU,a[1],A),m=l?1:l,x=m?o(a[2],z):m;return x?kf(y,j,a[3],a[4],e):x}return 0}return 0}function
-nL(b){var
+l=iw(u1,a[1],A),m=l?1:l,x=m?o(a[2],z):m;return x?kx(y,j,a[3],a[4],e):x}return 0}return 0}function
+n1(b){var
 a=b[2];if(typeof
 a!=="number"&&6===a[0])return 1;return 0}function
-uV(c){var
+u2(c){var
 b=0,a=c[2];if(typeof
 a==="number"){if(0!==a)b=1}else
 switch(a[0]){case
 6:case
 8:break;default:b=1}return b?0:1}function
-uW(a){switch(a[0]){case
+u3(a){switch(a[0]){case
 8:return 0;case
-9:return iJ(a[1]);default:return 1}}function
-ft(a,o,m,i,x,w,b,v,s,C,h,k,at,c){switch(c[0]){case
+9:return iV(a[1]);default:return 1}}function
+fC(a,o,m,i,x,w,b,v,s,C,h,j,at,c){switch(c[0]){case
 0:var
-au=function(a){return l(M,a)},P=au,p=c[1];break;case
+au=function(a){return l(N,a)},P=au,p=c[1];break;case
 1:var
-av=c[4],aw=c[3],ax=c[2],az=function(c){var
-d=c1(ax,k),e=ft(a,o,m,i,x,w,b,v,s,C,h,d[1],c,aw);return e?ft(a,o,m,i,x,w,b,v,s,C,h,d[2],c,av):e},P=az,p=c[1];break;default:var
-aA=c[4],aB=c[3],aC=c[2],aD=function(c){var
-d=mj(uW,i,c);if(d){var
-e=c1(aC,h),f=ft(a,o,m,i,x,w,b,v,s,C,e[1],k,c,aB);if(f)return ft(a,o,m,i,x,w,b,v,s,C,e[2],k,c,aA);var
+av=c[4],aw=c[3],ax=c[2],ay=function(c){var
+d=c3(ax,j),e=fC(a,o,m,i,x,w,b,v,s,C,h,d[1],c,aw);return e?fC(a,o,m,i,x,w,b,v,s,C,h,d[2],c,av):e},P=ay,p=c[1];break;default:var
+az=c[4],aB=c[3],aC=c[2],aD=function(c){var
+d=mB(u3,i,c);if(d){var
+e=c3(aC,h),f=fC(a,o,m,i,x,w,b,v,s,C,e[1],j,c,aB);if(f)return fC(a,o,m,i,x,w,b,v,s,C,e[2],j,c,az);var
 g=f}else
 var
 g=d;return g},P=aD,p=c[1]}var
-ae=j(C,h),aa=aj(uV,p),ac=aa?iD(a,m,h,gq(y(function(c){var
+ae=k(C,h),aa=aj(u2,p),ac=aa?iP(a,m,h,gz(y(function(c){var
 a=H(i,c[1]);if(a){var
 b=a[1];switch(b[0]){case
 8:var
 d=b[1][6];return y(function(a){var
-b=e(aT,a[1][2][2]);return[0,a[1][1],b]},d);case
-9:return iK(0,0,0,b[1],c[2]);default:return 0}}return a},p),m),k):aa,ad=aj(nL,p);if(ad)var
+b=e(aO,a[1][2][2]);return[0,a[1][1],b]},d);case
+9:return iW(0,0,0,b[1],c[2]);default:return 0}}return a},p),m),j):aa,ad=aj(n1,p);if(ad)var
 aq=y(function(b){var
-c=nL(b);if(c){var
-a=H(i,b[1]);if(a)return nI(a[1]);var
+c=n1(b);if(c){var
+a=H(i,b[1]);if(a)return nY(a[1]);var
 d=a}else
 var
-d=c;return d},p),ar=b?[0,b[1],0]:b,as=f(ar,aq),ah=0,ai=an(e7,e(function(a){return 0},o),as),N=i8(a,h,e4(g4(e4(o,0),ai),ah),k);else
+d=c;return d},p),ar=b?[0,b[1],0]:b,as=f(ar,aq),ah=0,ai=ao(fc,e(function(a){return 0},o),as),M=jg(a,h,e$(hb(e$(o,0),ai),ah),j);else
 var
-N=ad;var
+M=ad;var
 q=p,g=at;for(;;){if(q){var
 S=q[1],D=S[2],n=S[1],G=q[2];if(n){var
 T=r(n,g,0);if(T){var
 J=H(i,n);if(J){var
-V=nK(a,m,h,x,w,b,v,s,ae,k,N,ac,J[1],D);if(V){var
-q=G,g=gM(n,g);continue}var
+V=n0(a,m,h,x,w,b,v,s,ae,j,M,ac,J[1],D);if(V){var
+q=G,g=gV(n,g);continue}var
 W=V}else
 var
 W=J;var
@@ -4583,25 +4588,25 @@ B=X}else{var
 af=0;if(typeof
 D==="number"&&4===D){var
 ag=0;if(b){var
-ap=0,Q=e(function(b){return[0,b,U(a,b)]},k),al=e(aT,Q),ak=0,am=f(e(ay,Q),al),ao=bc(0,function(o){return function(b){switch(b[0]){case
+ap=0,Q=e(function(b){return[0,b,U(a,b)]},j),al=e(aO,Q),ak=0,am=f(e(aA,Q),al),an=bf(0,function(o){return function(b){switch(b[0]){case
 0:return[0,r(b[1],o,u)];case
 1:return[0,r(b[1],h,u)];case
 2:return[0,O(a,b[1])];case
 3:var
-c=b[2],d=b[1];return dd(function(b,a){return[0,A(b,a)]},d,c);case
+c=b[2],d=b[1];return de(function(b,a){return[0,A(b,a)]},d,c);case
 4:var
-e=b[2],f=b[1];return dd(function(b,a){return[0,F(b,a)]},f,e);case
+e=b[2],f=b[1];return de(function(b,a){return[0,F(b,a)]},f,e);case
 5:var
-g=b[1];return dc(function(a){return[0,ab(a)]},g);case
+g=b[1];return dd(function(a){return[0,ab(a)]},g);case
 6:var
-i=b[2],j=b[1];return dd(function(c,b){return[0,t(a,c,b)]},j,i);case
+i=b[2],j=b[1];return de(function(c,b){return[0,t(a,c,b)]},j,i);case
 7:var
-k=b[2],l=b[1];return dd(function(c,b){var
+k=b[2],l=b[1];return de(function(c,b){var
 d=b9(a,b);return z(function(b){return t(a,c,b)},d)},l,k);case
 8:var
-m=b[1];return dc(function(b){return[0,U(a,b)]},m);case
+m=b[1];return dd(function(b){return[0,U(a,b)]},m);case
 9:var
-n=b[1];return dc(function(b){return b_(a,b)},n);default:return 0}}}(am),o,ak),E=r(b[1],ao,ap);if(E){var
+n=b[1];return dd(function(b){return b_(a,b)},n);default:return 0}}}(am),o,ak),E=r(b[1],an,ap);if(E){var
 K=I(E[1][2],d);ag=1}else
 var
 R=E}else
@@ -4613,8 +4618,8 @@ B=K}else
 af=1;if(af){var
 Y=r(n,g,0);if(Y){var
 L=H(i,n);if(L){var
-Z=nK(a,m,h,x,w,b,v,s,ae,k,N,ac,L[1],D);if(Z){var
-q=G,g=gM(n,g);continue}var
+Z=n0(a,m,h,x,w,b,v,s,ae,j,M,ac,L[1],D);if(Z){var
+q=G,g=gV(n,g);continue}var
 _=Z}else
 var
 _=L;var
@@ -4624,26 +4629,26 @@ $=Y;var
 B=$}}}else
 var
 B=[0,g];return B?P(B[1]):B}}function
-jg(d,a){var
+jr(d,a){var
 e=V(a),f=s(s(m(c(2,b)),a),d);return B(x(V(d),f),e)}function
-jh(k,a,d,i,c,h){var
-e=af(x,dM(k),i);if(h){var
+js(j,a,d,i,c,h){var
+e=ag(x,dO(j),i);if(h){var
 b=function(b){var
-c=j(b,a[3]),d=j(b,a[2]);return[0,j(b,a[1]),d,c]},f=b(function(a){return a[3]}),g=b(function(a){return a[2]}),l=fs([0,b(function(a){return a[1]}),g,f],e);return af(B,a1(d,c),l)}var
-m=fs(a,c);return af(B,a1(d,e),m)}function
-nM(f,h,g,k,a,d){var
-e=dM(f),i=af(x,e,a),j=fs(h,d),l=jg(e[3],a[3]),n=jg(e[2],a[2]),o=jg(e[1],a[1]),p=B(B(B(Z(d,d),o),n),l),q=Z(j,i),r=s(m(c(2,b)),q),t=B(s(g,p),r),u=bm(bH(j,i),k);return[0,g8(f,jh(f,h,g,a,d,0),u),t]}function
-nN(d,c,b,a){var
-e=g9(c,b,a);return af(B,dM(d),e)}function
-nO(g,f,e,d,c){var
-b=nN(g,f,e,c),a=af(x,b,d);return[0,[0,b,a],aJ(Z(a,a))]}function
-ha(b,a){var
-c=a8(a[2],b);return f(a8(a[1],b),c)}function
-ji(d,b,a,c){if(a)var
-e=a[1],f=cD(c,ha(b,e)),i=N(c,g(ha(b,e))),j=ji(d,b,a[2],i),k=ak(f,uX),h=[0,aq(d,ak(f,0),k),j];else
+c=k(b,a[3]),d=k(b,a[2]);return[0,k(b,a[1]),d,c]},f=b(function(a){return a[3]}),g=b(function(a){return a[2]}),l=fA([0,b(function(a){return a[1]}),g,f],e);return ag(B,a3(d,c),l)}var
+m=fA(a,c);return ag(B,a3(d,e),m)}function
+n2(f,h,g,k,a,d){var
+e=dO(f),i=ag(x,e,a),j=fA(h,d),l=jr(e[3],a[3]),n=jr(e[2],a[2]),o=jr(e[1],a[1]),p=B(B(B(Z(d,d),o),n),l),q=Z(j,i),r=s(m(c(2,b)),q),t=B(s(g,p),r),u=bo(bG(j,i),k);return[0,hf(f,js(f,h,g,a,d,0),u),t]}function
+n3(d,c,b,a){var
+e=hg(c,b,a);return ag(B,dO(d),e)}function
+n4(g,f,e,d,c){var
+b=n3(g,f,e,c),a=ag(x,b,d);return[0,[0,b,a],aL(Z(a,a))]}function
+hj(b,a){var
+c=a$(a[2],b);return f(a$(a[1],b),c)}function
+jt(d,b,a,c){if(a)var
+e=a[1],f=cD(c,hj(b,e)),i=L(c,g(hj(b,e))),j=jt(d,b,a[2],i),k=ak(f,u4),h=[0,ar(d,ak(f,0),k),j];else
 var
 h=a;return h}function
-jj(f,o,e,n,a){var
+ju(f,o,e,n,a){var
 g=s(V(r(0,n,m(d))),o);if(typeof
 a!=="number")switch(a[0]){case
 2:var
@@ -4656,190 +4661,190 @@ c=H(e,a[1]);if(c)var
 k=h(f,0,a[2]),l=k?[0,x(g,c[1][1][2])]:k;else
 var
 l=c;return l}return 0}function
-nP(c,b,a){if(typeof
+n5(c,b,a){if(typeof
 a!=="number"&&6===a[0]){var
 e=H(c,a[1]);return z(function(a){var
-c=r(0,b,m(d)),e=j(a[2][2],c);return[0,a[2][1],e]},e)}return 0}function
-hb(a){return h(k,0,[3,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b],a])}function
-nQ(a){var
-b=ak(a,uY),c=aJ(Z(ak(a,uZ),b));return s(r(0,a,m(d)),c)}function
-nR(b,a){var
-c=Z(a,ak(b,u0));return[0,bW(a1(nQ(b),a)),c]}function
-nS(e,d,a,c,b){var
-f=b[2],g=s(nQ(a),f),h=c?g9(e,d,ak(a,u1)):ak(a,u2);return x(Z(b[1][2],h),g)}function
-nT(h,g,f,d,c,b,a){var
+c=r(0,b,m(d)),e=k(a[2][2],c);return[0,a[2][1],e]},e)}return 0}function
+hk(a){return h(i,0,[3,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b],a])}function
+n6(a){var
+b=ak(a,u5),c=aL(Z(ak(a,u6),b));return s(r(0,a,m(d)),c)}function
+n7(b,a){var
+c=Z(a,ak(b,u7));return[0,bV(a3(n6(b),a)),c]}function
+n8(e,d,a,c,b){var
+f=b[2],g=s(n6(a),f),h=c?hg(e,d,ak(a,u8)):ak(a,u9);return x(Z(b[1][2],h),g)}function
+n9(h,g,f,d,c,b,a){var
 i=bA(c);function
-j(a){return nN(h,g,f,a)}return mq(e(function(a){return[0,a[4]]},d),j,i,b,a)}function
-fu(a){var
-b=r(u3,a,m(d));return am(r(0,a,m(d)),b)}function
-jk(a){return a[4][2]}function
-nU(g,o,n,l,a){var
-p=a[1][2],q=e(aT,gQ(n,a[1][2])),h=fu(l),i=s(s(m(c(2,b)),o),h),d=a[1][1],j=aM(cJ(g),d),k=e(function(a){return s(a,i)},j);return[0,f(f(aA(cJ(g),d),k),q),p]}function
-nV(a){var
-b=a[3],c=a[2],d=a[1];return gZ([0,[0,d,d],[0,c,c],[0,b,b]])}function
-va(a){if(typeof
+j(a){return n3(h,g,f,a)}return mI(e(function(a){return[0,a[4]]},d),j,i,b,a)}function
+fD(a){var
+b=r(u_,a,m(d));return am(r(0,a,m(d)),b)}function
+jv(a){return a[4][2]}function
+n_(g,o,n,l,a){var
+p=a[1][2],q=e(aO,gZ(n,a[1][2])),h=fD(l),i=s(s(m(c(2,b)),o),h),d=a[1][1],j=av(cK(g),d),k=e(function(a){return s(a,i)},j);return[0,f(f(an(cK(g),d),k),q),p]}function
+n$(a){var
+b=a[3],c=a[2],d=a[1];return g8([0,[0,d,d],[0,c,c],[0,b,b]])}function
+vh(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-nW(b,a){switch(b){case
+oa(b,a){switch(b){case
 0:return[0,a[1],[0,a[2],0]];case
 1:return[0,a[1],[0,a[2],[0,a[3],0]]];default:return 0}}function
-hc(a){var
+hl(a){var
 c=cc(a[1],[0,d,b]);return c?cc(a[2],[0,d,b]):c}function
-jl(d,a){switch(d){case
-0:return hc(a[3]);case
+jw(d,a){switch(d){case
+0:return hl(a[3]);case
 1:return 1;default:var
-b=hc(a[1]),c=b?hc(a[2]):b;return c?hc(a[3]):c}}function
-jm(c,b){var
-a=y(function(a){return ha(c,a)},b),d=W(aB(0,g(a)),a);return e(ay,bu(function(a){return iS(a[2])},d))}function
-nX(b){var
+b=hl(a[1]),c=b?hl(a[2]):b;return c?hl(a[3]):c}}function
+jx(c,b){var
+a=y(function(a){return hj(c,a)},b),d=W(aC(0,g(a)),a);return e(aA,bu(function(a){return i4(a[2])},d))}function
+ob(b){var
 a=b[2];if(typeof
 a!=="number"&&10===a[0])return 1;return 0}function
-nY(c){var
-a=c;for(;;){if(0===a[0])return aj(nX,a[1]);var
-d=aj(nX,a[1]),b=d||nY(a[3]);if(b)return b;var
+oc(c){var
+a=c;for(;;){if(0===a[0])return aj(ob,a[1]);var
+d=aj(ob,a[1]),b=d||oc(a[3]);if(b)return b;var
 a=a[4];continue}}function
-vb(a,aQ,bz,A,C,aP){var
-n=A[1],i=bG(n),X=A[6],bA=A[2],K=y(function(a){return ha(C,a)},bA),aR=A[3],R=[0,[0,aR,aR],C],$=[0,g(K)],bB=0,aS=y(function(a){return fq(bB,C,a)},X),bD=cJ(n),aU=ni(A[5],bD),p=aU[2],G=aU[1],J=c6(R,g(K)),bF=A[2],S=g(K),bE=0,w=ji(function(e,a){function
+vi(a,aR,bz,A,C,aQ){var
+n=A[1],j=bF(n),X=A[6],bA=A[2],K=y(function(a){return hj(C,a)},bA),aS=A[3],R=[0,[0,aS,aS],C],$=[0,g(K)],bB=0,aT=y(function(a){return fy(bB,C,a)},X),bD=cK(n),aU=nA(A[5],bD),p=aU[2],G=aU[1],J=c8(R,g(K)),bH=A[2],S=g(K),bE=0,w=jt(function(e,a){function
 i(g){var
-c=bG(n);if(n)var
+c=bF(n);if(n)var
 b=[0,[0,[0,c]],[0,[0,[0,c]]],[0,[0,[0,[0,c]]]]];else
 var
 l=m(d),b=[0,m(d),l,[0,[0,c]]];var
-t=nw(n,G,p,e,a,b)[2],h=nw(n,G,p,e,a,b),i=h[1],j=bm(i[2],h[2]),k=bH(i[1],j),o=af(B,k,bH(k,b)),f=a1(nv(b),o),q=s(f[3],g),r=s(f[2],g);return[0,g8(n,j,[0,s(f[1],g),r,q]),t]}function
+t=nO(n,G,p,e,a,b)[2],h=nO(n,G,p,e,a,b),i=h[1],j=bo(i[2],h[2]),k=bG(i[1],j),o=ag(B,k,bG(k,b)),f=a3(nN(b),o),q=s(f[3],g),r=s(f[2],g);return[0,hf(n,j,[0,s(f[1],g),r,q]),t]}function
 j(X){var
-v=nO(n,G,p,e,a),w=v[1],U=af(x,dM(n),e),y=v[2],r=w[1],W=w[2],g=g9(G,p,a),i=bm(W,y),N=am(Z(g,i),J),O=V(J),P=am(Z(a,a),O),Q=2<=n?d:b,R=B(m(Q),P);function
-h(a){return[0,no(a),0]}function
-f(a){return[0,bm(bH(no(a),g),J),[0,a]]}switch(n){case
+v=n4(n,G,p,e,a),w=v[1],U=ag(x,dO(n),e),y=v[2],r=w[1],W=w[2],g=hg(G,p,a),i=bo(W,y),N=am(Z(g,i),J),O=V(J),P=am(Z(a,a),O),Q=2<=n?d:b,R=B(m(Q),P);function
+h(a){return[0,nG(a),0]}function
+f(a){return[0,bo(bG(nG(a),g),J),[0,a]]}switch(n){case
 0:var
-C=[0,f(un),0],D=[0,h(uo),C],q=[0,h(0),D];break;case
+C=[0,f(uu),0],D=[0,h(uv),C],q=[0,h(0),D];break;case
 1:var
-E=[0,f(up),0],F=[0,f(uq),E],H=[0,f(0),F],I=[0,h(ur),H],K=[0,h(us),I],q=[0,h(0),K];break;default:var
-L=[0,f(ut),0],M=[0,f(uu),L],q=[0,f(0),M]}var
-j=af(x,[0,[0,[1,S]],[0,[1,[0,S]]],[0,[1,[0,[0,S]]]]],e),k=bm(j,aJ(Z(j,j)));if(n)var
-l=ja(n,S,e,r,k[3]);else
+E=[0,f(uw),0],F=[0,f(ux),E],H=[0,f(0),F],I=[0,h(uy),H],K=[0,h(uz),I],q=[0,h(0),K];break;default:var
+L=[0,f(uA),0],M=[0,f(uB),L],q=[0,f(0),M]}var
+j=ag(x,[0,[0,[1,S]],[0,[1,[0,S]]],[0,[1,[0,[0,S]]]]],e),k=bo(j,aL(Z(j,j)));if(n)var
+l=jk(n,S,e,r,k[3]);else
 var
 z=m(d),A=m(d),l=[0,m(d),A,z];var
-t=ja(n,S,e,r,k[2]),u=ja(n,S,e,r,k[1]),T=np(function(r,v){var
+t=jk(n,S,e,r,k[2]),u=jk(n,S,e,r,k[1]),T=nH(function(r,v){var
 e=v[1];function
 a(b,a){var
-c=e[3],f=dL(a,l),g=s(B(b[3],f),c),h=e[2],i=dL(a,t),j=s(B(b[2],i),h),k=e[1],n=dL(a,u),o=s(B(b[1],n),k);return B(B(B(m(d),o),j),g)}var
-w=a(l,uv),y=a(t,uw),z=[0,a(u,0),y,w],f=Z(r[1],z),k=r[2];if(k){var
+c=e[3],f=dN(a,l),g=s(B(b[3],f),c),h=e[2],i=dN(a,t),j=s(B(b[2],i),h),k=e[1],n=dN(a,u),o=s(B(b[1],n),k);return B(B(B(m(d),o),j),g)}var
+w=a(l,uC),y=a(t,uD),z=[0,a(u,0),y,w],f=Z(r[1],z),k=r[2];if(k){var
 h=k[1],n=v[2];if(n){var
-j=n[1],A=dL(h,g),C=s(dL(j,i),A),D=dL(j,g),p=B(s(dL(h,i),D),C),E=V(J);if(o(h,j))var
+j=n[1],A=dN(h,g),C=s(dN(j,i),A),D=dN(j,g),p=B(s(dN(h,i),D),C),E=V(J);if(o(h,j))var
 F=Z(i,g),q=x(p,s(m(c(2,b)),F));else
 var
-q=p;return B(f,am(q,E))}return f}return f},q);return[0,g8(n,i,bm(bH(g,bm(U,y)),J)),T,R,N]}var
-k=nO(n,G,p,e,a);function
-l(b){return jh(n,G,p,e,a,b)}var
+q=p;return B(f,am(q,E))}return f}return f},q);return[0,hf(n,i,bo(bG(g,bo(U,y)),J)),T,R,N]}var
+k=n4(n,G,p,e,a);function
+l(b){return js(n,G,p,e,a,b)}var
 f=2<=n?d:b;function
 g(b){var
 c=V(J),d=m(f),e=s(x(V(b),d),c);return s(p,x(Z(a,a),e))}var
-h=[0,Z(jh(n,G,p,e,a,1),a),g];return[0,nM(n,G,p,J,e,a),h,l,k,j,i]},C,bF,bE),T=e(function(a){return a[1]},w),bI=N($,g(aS)),bJ=cJ(n),bK=A[5];function
-Q(a){return[0,[0,N(bJ,a)]]}var
+h=[0,Z(js(n,G,p,e,a,1),a),g];return[0,n2(n,G,p,J,e,a),h,l,k,j,i]},C,bH,bE),T=e(function(a){return a[1]},w),bI=L($,g(aT)),bJ=cK(n),bK=A[5];function
+Q(a){return[0,[0,L(bJ,a)]]}var
 aG=V([0,[1,bI]]);switch(bK[0]){case
 2:var
-bo=Q(uf),bp=Q(ug),aH=[0,Q(0),bp,bo],E=[0,x(aG,Z(aH,aH))];break;case
+bn=Q(um),bp=Q(un),aH=[0,Q(0),bp,bn],E=[0,x(aG,Z(aH,aH))];break;case
 3:var
-bq=V(Q(uh)),br=V(Q(0)),bs=V(Q(ui)),E=[0,x(x(s(aG,B(m(b),bs)),br),bq)];break;default:var
+bq=V(Q(uo)),br=V(Q(0)),bs=V(Q(up)),E=[0,x(x(s(aG,B(m(b),bs)),br),bq)];break;default:var
 E=0}var
 aV=A[7];if(aV)var
-bL=0,bM=A[2],ak=ji(function(k,t){var
-a=nM(n,G,p,c6(R,g(K)),k,t);switch(n){case
+bL=0,bM=A[2],al=jt(function(k,t){var
+a=n2(n,G,p,c8(R,g(K)),k,t);switch(n){case
 0:var
 c=a[1];if(c){var
 l=c[2],e=c[1];if(l){var
-o=l[1],s=a[2];return[0,[0,e,[0,o,[0,bH(k,[0,e,o,m(d)])[3],0]]],s]}return[0,[0,e,0],a[2]]}return[0,0,a[2]];case
+o=l[1],s=a[2];return[0,[0,e,[0,o,[0,bG(k,[0,e,o,m(d)])[3],0]]],s]}return[0,[0,e,0],a[2]]}return[0,0,a[2]];case
 1:var
 f=a[1];if(f){var
 h=f[2],b=f[1];if(h){var
 q=h[2],i=h[1];if(q){var
-r=q[1],j=bH(k,[0,b,i,r]);return[0,[0,b,[0,i,[0,r,[0,j[1],[0,j[2],[0,j[3],0]]]]]],a[2]]}return[0,[0,b,[0,i,0]],a[2]]}return[0,[0,b,0],a[2]]}return[0,0,a[2]];default:return[0,a[1],a[2]]}},C,bM,bL);else
+r=q[1],j=bG(k,[0,b,i,r]);return[0,[0,b,[0,i,[0,r,[0,j[1],[0,j[2],[0,j[3],0]]]]]],a[2]]}return[0,[0,b,[0,i,0]],a[2]]}return[0,[0,b,0],a[2]]}return[0,0,a[2]];default:return[0,a[1],a[2]]}},C,bM,bL);else
 var
-ak=aV;var
-bN=bC(ak),bO=E?[0,E[1],0]:E,bP=f(bO,bN),bQ=0,bR=f(K,[0,R,0]),by=e(function(a){return a[1]},w),bS=[0,p,f(db(function(c,b){if(typeof
+al=aV;var
+bN=bC(al),bO=E?[0,E[1],0]:E,bP=f(bO,bN),bQ=0,bR=f(K,[0,R,0]),by=e(function(a){return a[1]},w),bS=[0,p,f(dc(function(c,b){if(typeof
 b!=="number")switch(b[0]){case
 6:var
-g=nP(w,c,b);if(g)var
-i=g[1],k=[0,i[1],[0,i[2],0]];else
+g=n5(w,c,b);if(g)var
+i=g[1],j=[0,i[1],[0,i[2],0]];else
 var
-k=g;return k;case
-8:return e(aT,g1(by,c));case
+j=g;return j;case
+8:return e(aO,g_(by,c));case
 13:var
 h=H(w,b[1]);if(h){var
-l=hb(b[4]);if(l){var
-m=nR(c,j(h[1][3],b[2]));return f(m[1],[0,m[2],0])}var
+l=hk(b[4]);if(l){var
+m=n7(c,k(h[1][3],b[2]));return f(m[1],[0,m[2],0])}var
 o=l}else
 var
 o=h;return o;case
-16:return y(function(a){return nU(n,J,bR,c,a)[1]},w)}var
-d=jj(a,p,w,c,b),q=d?[0,d[1],0]:d;return q},bQ,C,$,X),bP)],an=f(bC(T),bS),bT=0,bU=f(K,[0,R,0]),aW=db(function(b,a){if(typeof
+16:return y(function(a){return n_(n,J,bR,c,a)[1]},w)}var
+d=ju(a,p,w,c,b),q=d?[0,d[1],0]:d;return q},bQ,C,$,X),bP)],an=f(bC(T),bS),bT=0,bU=f(K,[0,R,0]),aW=dc(function(b,a){if(typeof
 a!=="number")switch(a[0]){case
 13:var
-g=H(w,a[1]);if(g){if(hb(a[4]))return 0;var
-k=[0,nS(G,p,b,a[2],g[1][4]),0]}else
+g=H(w,a[1]);if(g){if(hk(a[4]))return 0;var
+j=[0,n8(G,p,b,a[2],g[1][4]),0]}else
 var
-k=g;return k;case
+j=g;return j;case
 14:var
-h=nT(n,G,p,w,b,a[1],a[2]);if(h){var
-l=h[1],o=l[2],q=l[1];return y(bW,[0,q[1],[0,q[2],[0,o[1],[0,o[2],0]]]])}return h;case
+h=n9(n,G,p,w,b,a[1],a[2]);if(h){var
+l=h[1],o=l[2],q=l[1];return y(bV,[0,q[1],[0,q[2],[0,o[1],[0,o[2],0]]]])}return h;case
 15:var
 i=H(w,a[1]);if(i){var
-c=j(i[1][5],0),s=[0,c[3],[0,c[4],0]],t=[0,r(u4,b,m(d)),s],u=[0,r(0,b,m(d)),t],v=f(ea(c[2]),u);return f(c[1],v)}return i;case
+c=k(i[1][5],0),s=[0,c[3],[0,c[4],0]],t=[0,r(u$,b,m(d)),s],u=[0,r(0,b,m(d)),t],v=f(ec(c[2]),u);return f(c[1],v)}return i;case
 16:var
 x=y(function(a){var
-b=e(aT,gQ(bU,jk(a)));return[0,jk(a),b]},w);return f(y(function(a){var
-c=fu(b),d=[0,j(a[6],c)[2],0],e=fu(b);return f(j(a[6],e)[1],d)},w),x)}return 0},bT,C,$,X),aX=cW(e(function(a){return bx(i,a)},an))[1],aY=cW(aW)[1],Y=cV(aX),ap=cV(aY);function
-v(a){return bd(Y,bx(i,a))}function
-aZ(j){if(0===A[4][0]){var
-s=z(v,E),t=v(p),e=cJ(n),f=o(g(j),i);if(f)var
-h=z(function(a){return[0,[0,a,d],d]},s),a=function(a){return r(a,Y,m(d))},c=a(t),k=aB(0,e),b=l(function(b){var
-d=dK(i,b,c),e=d?l(function(d){var
+b=e(aO,gZ(bU,jv(a)));return[0,jv(a),b]},w);return f(y(function(a){var
+c=fD(b),d=[0,k(a[6],c)[2],0],e=fD(b);return f(k(a[6],e)[1],d)},w),x)}return 0},bT,C,$,X),aX=cY(e(function(a){return bx(j,a)},an))[1],aY=cY(aW)[1],Y=cX(aX),ao=cX(aY);function
+v(a){return bg(Y,bx(j,a))}function
+aZ(i){if(0===A[4][0]){var
+s=z(v,E),t=v(p),e=cK(n),f=o(g(i),j);if(f)var
+h=z(function(a){return[0,[0,a,d],d]},s),a=function(a){return r(a,Y,m(d))},c=a(t),k=aC(0,e),b=l(function(b){var
+d=dM(j,b,c),e=d?l(function(d){var
 f=d[1],e=l(function(c){var
-d=a(c);return cI(N(i,b),d)},f);if(e){var
-g=a(d[2]);return g2(c,N(i,b),g)}return e},j):d;if(e){if(h){var
-g=a(h[1][1][1]);return cI(N(i,b),g)}var
+d=a(c);return cJ(L(j,b),d)},f);if(e){var
+g=a(d[2]);return g$(c,L(j,b),g)}return e},i):d;if(e){if(h){var
+g=a(h[1][1][1]);return cJ(L(j,b),g)}var
 f=1}else
 var
 f=e;return f},k);else
 var
 b=f;var
 q=b?e:b;return q}return 0}var
-W=aZ(j(au(v),T)),a0=l(function(a){var
-b=bx(i,a),c=m(d);return aN(r(v(a),Y,c),b)},an),a2=a0?l(function(a){return g3(i,a)},an):a0,a3=a2?l(function(a){var
-b=m(d);return aN(r(bd(ap,a),ap,b),a)},aW):a2,a4=a3?aj(va,X):a3;if(a4)var
-bV=M(A[7]),aq=bV||nB(a,[0,n],[0,A[5]]);else
+W=aZ(k(ax(v),T)),a0=l(function(a){var
+b=bx(j,a),c=m(d);return aN(r(v(a),Y,c),b)},an),a1=a0?l(function(a){return ha(j,a)},an):a0,a2=a1?l(function(a){var
+b=m(d);return aN(r(bg(ao,a),ao,b),a)},aW):a1,a4=a2?aj(vh,X):a2;if(a4)var
+bW=N(A[7]),aq=bW||nR(a,[0,n],[0,A[5]]);else
 var
 aq=a4;var
-a5=aq?jl(n,eq(A[4])):aq,a7=a5?h(a,1,A[3]):a5;if(a7)var
-bX=g7(A[5]),ar=l(function(b){var
-c=cH(a,b[1]);return c?cH(a,b[2]):c},bX);else
+a5=aq?jw(n,es(A[4])):aq,a6=a5?h(a,1,A[3]):a5;if(a6)var
+bX=he(A[5]),ar=l(function(b){var
+c=cI(a,b[1]);return c?cI(a,b[2]):c},bX);else
 var
-ar=a7;if(ar){var
-bY=f(K,[0,R,0]),as=ac(e(function(b){return ao(a,b)},bY));if(as){var
-at=ac(e(function(b){return i2(a,b)},aS));if(at){var
-bZ=nW(n,eq(A[4])),av=ac(e(function(b){return ao(a,[0,b,C])},bZ));if(av){var
-a8=av[1],b0=nk(A[5]),aw=ac(e(function(b){return nm(a,b)},b0));if(aw){var
-a9=aw[1],b1=nj(A[5]),ax=ac(e(cG(a),b1));if(ax){var
-b2=0,I=function(a){return bd(ap,a)},az=f(K,[0,R,0]),aA=ac(db(function(i,f){if(typeof
+ar=a6;if(ar){var
+bY=f(K,[0,R,0]),as=ac(e(function(b){return ap(a,b)},bY));if(as){var
+at=ac(e(function(b){return jc(a,b)},aT));if(at){var
+bZ=oa(n,es(A[4])),au=ac(e(function(b){return ap(a,[0,b,C])},bZ));if(au){var
+a7=au[1],b0=nC(A[5]),av=ac(e(function(b){return nE(a,b)},b0));if(av){var
+a8=av[1],b1=nB(A[5]),aw=ac(e(cH(a),b1));if(aw){var
+b2=0,I=function(a){return bg(ao,a)},ay=f(K,[0,R,0]),az=ac(dc(function(j,f){if(typeof
 f!=="number")switch(f[0]){case
 13:var
-E=f[4],aM=H(w,f[1]);if(aM){if(nV(f[3])&&h(a,0,E)&&h(a,0,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],E])){var
-aN=f[2],aO=aM[1];if(hb(E)){var
-aG=nR(i,j(aO[3],aN)),V=aG[2];if(h(k,0,[3,E,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b]]))var
+E=f[4],aM=H(w,f[1]);if(aM){if(n$(f[3])&&h(a,0,E)&&h(a,0,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],E])){var
+aN=f[2],aO=aM[1];if(hk(E)){var
+aG=n7(j,k(aO[3],aN)),V=aG[2];if(h(i,0,[3,E,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b]]))var
 aH=0;else
 var
 be=v(V),bf=v(V),aH=[0,[6,[0,[0,e(v,aG[1]),bf],0],be],0];var
 aP=[0,[4,v(V)],aH]}else
 var
-aP=[0,[9,[3,I(nS(G,p,i,aN,aO[4]))]],0];return e(function(a){return[0,a]},aP)}return u_}return u$;case
+aP=[0,[9,[3,I(n8(G,p,j,aN,aO[4]))]],0];return e(function(a){return[0,a]},aP)}return vf}return vg;case
 16:var
-Y=f[3],t=f[2],aQ=f[1],bg=bG(n);if(o(g(w),bg)&&h(a,0,aQ)&&h(a,1,t)&&h(a,1,Y)&&cH(a,Y)){var
-aI=ao(a,[0,[0,t,t],C]);if(aI){var
-bh=aI[1],aJ=j(cG(a),Y);if(aJ){var
+Y=f[3],t=f[2],aQ=f[1],bg=bF(n);if(o(g(w),bg)&&h(a,0,aQ)&&h(a,1,t)&&h(a,1,Y)&&cI(a,Y)){var
+aI=ap(a,[0,[0,t,t],C]);if(aI){var
+bh=aI[1],aJ=k(cH(a),Y);if(aJ){var
 bi=aJ[1],aK=ac(e(function(f){var
-b=mz(a,I,az,C,aQ,t,jk(f));if(b){var
-c=my(a,v,az,C,t,f[1][2]);if(c){var
-g=g$(0,0,f[1][2]);if(g)var
-i=e(ay,c[1]),d=[0,[0,b[1],i]];else
+b=mR(a,I,ay,C,aQ,t,jv(f));if(b){var
+c=mQ(a,v,ay,C,t,f[1][2]);if(c){var
+g=hi(0,0,f[1][2]);if(g)var
+i=e(aA,c[1]),d=[0,[0,b[1],i]];else
 var
 d=g}else
 var
@@ -4847,31 +4852,31 @@ d=c;var
 h=d}else
 var
 h=b;return h},w));if(aK){var
-bj=aK[1],bk=e(function(a){return nU(n,J,az,i,a)},w),aL=j(au(v),bk),X=function(a){var
-b=cJ(n),c=e(function(a){var
-b=fu(i);return I(j(a[6],b)[2])},w),d=e(function(a){var
-b=fu(i);return e(I,j(a[6],b)[1])},w),f=aZ(aL);return[0,[8,[0,aL,v(p),f,d,c,bj,bh,bi,b,a]]]};if(2<=n)return[0,X(1),0];var
-bl=[0,X(1),0];return[0,X(0),bl]}return u6}return u7}return u8}return u9}var
+bj=aK[1],bk=e(function(a){return n_(n,J,ay,j,a)},w),aL=k(ax(v),bk),X=function(a){var
+b=cK(n),c=e(function(a){var
+b=fD(j);return I(k(a[6],b)[2])},w),d=e(function(a){var
+b=fD(j);return e(I,k(a[6],b)[1])},w),f=aZ(aL);return[0,[8,[0,aL,v(p),f,d,c,bj,bh,bi,b,a]]]};if(2<=n)return[0,X(1),0];var
+bl=[0,X(1),0];return[0,X(0),bl]}return vb}return vc}return vd}return ve}var
 bm=0,x=e(function(a){return a[1]},w);function
 Z(c,b,a){return[0,c,b,a,W]}var
 F=0;if(typeof
 f==="number")var
-aS=v(p),s=[0,Z(j(au(v),x),aS,u)];else
+aS=v(p),s=[0,Z(k(ax(v),x),aS,u)];else
 switch(f[0]){case
 0:var
 y=[5,[0,b,b],f[1]],K=Z;F=1;break;case
 1:var
 aU=[5,[0,b,b],f[1]],y=aU,K=function(c,b,a){return[1,c,b,a]};F=1;break;case
 2:var
-aV=jj(a,p,w,i,f),s=z(function(a){return[4,v(a)]},aV);break;case
+aV=ju(a,p,w,j,f),s=z(function(a){return[4,v(a)]},aV);break;case
 3:var
-aW=jj(a,p,w,i,f),s=z(function(a){return[4,v(a)]},aW);break;case
+aW=ju(a,p,w,j,f),s=z(function(a){return[4,v(a)]},aW);break;case
 5:var
-_=f[1],aX=ao(a,[0,[0,_,_],d]),s=z(function(b){var
-c=U(a,b),d=v(p);return[2,j(au(v),x),d,c]},aX);break;case
+_=f[1],aX=ap(a,[0,[0,_,_],d]),s=z(function(b){var
+c=U(a,b),d=v(p);return[2,k(ax(v),x),d,c]},aX);break;case
 6:var
 L=H(w,f[1]);if(L){var
-M=nP(w,i,f);if(M){var
+M=n5(w,j,f);if(M){var
 $=M[1],aa=h(a,1,f[2]),ab=aa?h(a,1,f[3]):aa;if(ab)var
 aY=v($[2]),a0=v(L[1][1][2]),ad=[0,[5,[0,[0,[0,v($[1]),0],a0],0],aY]];else
 var
@@ -4897,17 +4902,17 @@ an=h(a,1,f[2]);if(an)var
 a2=f[1],a3=1,N=l(function(b){return h(a,a3,b)},a2);else
 var
 N=an;if(N)var
-a4=O(a,b),a5=v(p),a6=g1(x,i),ap=[0,[0,j(au(v),a6),a5,a4,0]];else
+a4=O(a,b),a5=v(p),a6=g_(x,j),ao=[0,[0,k(ax(v),a6),a5,a4,0]];else
 var
-ap=N;var
-s=ap;break;case
+ao=N;var
+s=ao;break;case
 14:var
-aq=f[2],ar=f[1],P=nT(n,G,p,w,i,ar,aq);if(P){var
-as=P[1],at=as[2],av=as[1],aw=m$(ar,aq,f[3]),Q=ao(a,[0,[0,aw,aw],C]);if(Q){var
-ax=Q[1],aA=D(d,ax[1]);if(aA)var
-A=function(a){return mx(I,a)},a7=A(at[2]),a8=A(at[1]),a9=A(av[2]),aB=[0,[9,[6,A(av[1]),a9,a8,a7,ax]]];else
+aq=f[2],ar=f[1],P=n9(n,G,p,w,j,ar,aq);if(P){var
+as=P[1],at=as[2],au=as[1],av=nr(ar,aq,f[3]),Q=ap(a,[0,[0,av,av],C]);if(Q){var
+aw=Q[1],az=D(d,aw[1]);if(az)var
+A=function(a){return mP(I,a)},a7=A(at[2]),a8=A(at[1]),a9=A(au[2]),aB=[0,[9,[6,A(au[1]),a9,a8,a7,aw]]];else
 var
-aB=aA;var
+aB=az;var
 aC=aB}else
 var
 aC=Q;var
@@ -4921,108 +4926,108 @@ aE=h(a,1,f[4]);if(aE)var
 aF=h(a,0,f[2]),S=aF?h(a,0,f[3]):aF;else
 var
 S=aE;if(S)var
-B=j(R[1][5],0),a_=I(B[4]),a$=I(B[3]),ba=I(r(u5,i,m(d))),bb=I(r(0,i,m(d))),bc=B[2],bd=e(function(a){return e(I,a)},bc),T=[0,[9,[10,e(I,B[1]),bd,bb,ba,a$,a_]]];else
+B=k(R[1][5],0),a_=I(B[4]),a$=I(B[3]),ba=I(r(va,j,m(d))),bb=I(r(0,j,m(d))),bc=B[2],bd=e(function(a){return e(I,a)},bc),T=[0,[9,[10,e(I,B[1]),bd,bb,ba,a$,a_]]];else
 var
 T=S}else
 var
 T=R;var
 s=T;break;default:var
 s=0}if(F)var
-aT=ao(a,[0,[0,y,y],d]),s=z(function(b){var
-c=U(a,b),d=v(p);return K(j(au(v),x),d,c)},aT);return[0,s,bm]},b2,C,$,X));if(aA){var
-a_=aA[1];if(A[7])var
-b3=aQ[2],b4=aQ[1],b5=v(p),aa=iW(bz,a_,[7,j(au(v),ak),b5,b4,b3]);else
+aT=ap(a,[0,[0,y,y],d]),s=z(function(b){var
+c=U(a,b),d=v(p);return K(k(ax(v),x),d,c)},aT);return[0,s,bm]},b2,C,$,X));if(az){var
+a_=az[1];if(A[7])var
+b3=aR[2],b4=aR[1],b5=v(p),aa=i8(bz,a_,[7,k(ax(v),al),b5,b4,b3]);else
 var
 aa=a_;var
-a$=o(g(f(a8,a9)),i),ba=a$?l(function(a){var
-b=nI(a);return l(function(a){return ng(i,Y,a)},b)},aa):a$,bb=ba?E?ng(i,Y,v(E[1])):1:ba;if(bb){var
-b6=f(at[1],ax[1]),aC=f(as[1],b6),L=nY(aP),P=jm(C,A[2]),_=L?e(function(a){var
-b=nG(i,P,a[2]),c=a[1];return[0,e(function(a){return nG(i,P,a)},c),b]},T):L,aD=L?cW(jf(i,p,E,_))[1]:L,aE=cV(aD),ad=function(a){return bd(aE,a)},b7=jd(ad,ad,_),b8=ad(bx(i,p)),aF=z(function(a){return ad(bx(i,a))},E),bc=M(L);if(bc)var
+a$=o(g(f(a7,a8)),j),ba=a$?l(function(a){var
+b=nY(a);return l(function(a){return ny(j,Y,a)},b)},aa):a$,bb=ba?E?ny(j,Y,v(E[1])):1:ba;if(bb){var
+b6=f(at[1],aw[1]),aB=f(as[1],b6),M=oc(aQ),P=jx(C,A[2]),_=M?e(function(a){var
+b=nW(j,P,a[2]),c=a[1];return[0,e(function(a){return nW(j,P,a)},c),b]},T):M,aD=M?cY(jq(j,p,E,_))[1]:M,aE=cX(aD),ad=function(a){return bg(aE,a)},b7=jo(ad,ad,_),b8=ad(bx(j,p)),aF=z(function(a){return ad(bx(j,a))},E),bc=N(M);if(bc)var
 ae=bc;else{var
-bn=o(g(T),i);if(bn){var
-bv=jf(i,p,E,_),aL=l(function(a){var
-b=m(d);return aN(r(bd(aE,a),aE,b),a)},bv);if(aL)var
-bw=jf(i,p,E,_),ag=l(function(a){var
-b=aB(0,i);return l(function(b){return eu(i,b,a)},b)},bw);else
+bm=o(g(T),j);if(bm){var
+bv=jq(j,p,E,_),aJ=l(function(a){var
+b=m(d);return aN(r(bg(aE,a),aE,b),a)},bv);if(aJ)var
+bw=jq(j,p,E,_),ah=l(function(a){var
+b=aC(0,j);return l(function(b){return ex(j,b,a)},b)},bw);else
 var
-ag=aL;if(ag){var
-aM=z(function(a){return bx(i,a)},E),ah=bx(i,p),aK=nC(ah);if(aK)var
-bt=aB(0,W),aO=l(function(a){var
-b=dK(i,a,ah),c=b?l(function(b){var
-d=b[2][2],e=f(y(je,b[1]),d),g=N(i,a),c=l(function(a){return cI(g,a)},e);if(c){var
-h=b[2][1];return g2(ah,N(i,a),h)}return c},_):b;if(c){if(aM){var
-e=aM[1];return cI(N(i,a),e)}var
+ah=aJ;if(ah){var
+aM=z(function(a){return bx(j,a)},E),ai=bx(j,p),aI=nS(ai);if(aI)var
+bt=aC(0,W),aP=l(function(a){var
+b=dM(j,a,ai),c=b?l(function(b){var
+d=b[2][2],e=f(y(jp,b[1]),d),g=L(j,a),c=l(function(a){return cJ(g,a)},e);if(c){var
+h=b[2][1];return g$(ai,L(j,a),h)}return c},_):b;if(c){if(aM){var
+e=aM[1];return cJ(L(j,a),e)}var
 d=1}else
 var
 d=c;return d},bt);else
 var
-aO=aK;var
-ai=aO}else
+aP=aI;var
+ak=aP}else
 var
-ai=ag;var
-cc=ai?l(function(a){var
-c=a[1],b=l(function(a){return nH(i,aC,P,a)},c);return b?nH(i,aC,P,a[2]):b},T):ai,ae=cc}else
+ak=ah;var
+cc=ak?l(function(a){var
+c=a[1],b=l(function(a){return nX(j,aB,P,a)},c);return b?nX(j,aB,P,a[2]):b},T):ak,ae=cc}else
 var
-ae=bn}if(ae){var
-b9=e(function(a){return 1},aa),b_=f(a8,a9),b$=function(m,N,aa,$,c){if(L){if(typeof
+ae=bm}if(ae){var
+b9=e(function(a){return 1},aa),b_=f(a7,a8),b$=function(m,N,aa,$,c){if(M){if(typeof
 c!=="number"&&10===c[0]){var
 h=c[3],p=c[2],q=c[1];if(typeof
 q!=="number"&&6===q[0]){if(h){if(h[2])return 0;var
-w=h[1],b=q[1],x=o($,W),y=x?aI(0,W):x;if(y)var
-v=ij(id,e(ay,p),P),Y=v?1:v,s=Y;else
+w=h[1],b=q[1],x=o($,W),y=x?aK(0,W):x;if(y)var
+v=iw(ir,e(aA,p),P),Y=v?1:v,s=Y;else
 var
 s=y;var
-z=s?gJ(P):s,A=z?l(function(a){return aI(a,g(m))},P):z,B=A?o(g(w),i):A;if(B){var
+z=s?gS(P):s,A=z?l(function(a){return aK(a,g(m))},P):z,B=A?o(g(w),j):A;if(B){var
 u=0;if(typeof
 b!=="number")switch(b[0]){case
 0:var
 I=b[2],H=b[1],G=0;u=1;break;case
 7:var
-J=b[2],k=b[1],Q=0;if(typeof
-k!=="number"&&0===k[0]){var
+J=b[2],i=b[1],Q=0;if(typeof
+i!=="number"&&0===i[0]){var
 R=0;if(aF){var
 K=D(d,J);if(K){var
-I=k[2],H=k[1],G=[0,[0,[0,aF[1],J],b[3]]];u=1;Q=1;R=1}else
+I=i[2],H=i[1],G=[0,[0,[0,aF[1],J],b[3]]];u=1;Q=1;R=1}else
 var
-M=K}else
+L=K}else
 var
-M=aF;if(!R)return M}if(!Q)return 0;break}if(u){var
-S=i8(a,fd(p,0,m),aD,N),n=i8(a,m,aD,N),f=function(b,a){return r(a,b,uP)},T=nE(function(a){return f(n,a)},G),U=f(n,b8),V=function(a){return f(n,a)},X=[0,jd(function(a){return f(S,a)},V,b7),U,T],Z=gD(p,m),_=function(g){var
-b=ac(e(uN,g[1]));if(b){var
+L=aF;if(!R)return L}if(!Q)return 0;break}if(u){var
+S=jg(a,fk(p,0,m),aD,N),n=jg(a,m,aD,N),f=function(b,a){return r(a,b,uW)},T=nU(function(a){return f(n,a)},G),U=f(n,b8),V=function(a){return f(n,a)},X=[0,jo(function(a){return f(S,a)},V,b7),U,T],Z=gM(p,m),_=function(g){var
+b=ac(e(uU,g[1]));if(b){var
 c=g[2];if(c){var
-d=de(g[3]);if(d){var
-l=d[1],m=al([0,F(ab(t(a,aa,c[1])),l),0],i),n=b[1],o=e(function(d){var
-b=gE(a,0,Z,d),c=bu(uO,b[2]);return[0,b[1],c]},n),f=iC(a,e(function(b){return O(a,b)},w),H,I,o,m);if(f)return a6(a,i,f[1]);var
+d=df(g[3]);if(d){var
+l=d[1],m=af([0,F(ab(t(a,aa,c[1])),l),0],j),n=b[1],o=e(function(d){var
+b=gN(a,0,Z,d),c=bu(uV,b[2]);return[0,b[1],c]},n),f=iO(a,e(function(b){return O(a,b)},w),H,I,o,m);if(f)return a9(a,j,f[1]);var
 h=f}else
 var
 h=d;var
-j=h}else
+i=h}else
 var
-j=c;var
-k=j}else
+i=c;var
+k=i}else
 var
-k=b;return k};return j(i_(function(b,a){return uM},W,i,_),X)}var
+k=b;return k};return k(ji(function(b,a){return uT},W,j,_),X)}var
 C=0}else
 var
 C=B;var
 E=C}else
 var
-E=h;return E}return 0}return 0}return L},ca=v(p),cb=j(au(v),T);return ft(a,aX,aY,aa,i,i,z(v,E),cb,ca,b$,aC,b_,b9,aP)}var
-be=ae}else
+E=h;return E}return 0}return 0}return M},ca=v(p),cb=k(ax(v),T);return fC(a,aX,aY,aa,j,j,z(v,E),cb,ca,b$,aB,b_,b9,aQ)}var
+bd=ae}else
 var
-be=bb;var
+bd=bb;var
+be=bd}else
+var
+be=az;var
 bf=be}else
 var
-bf=aA;var
-bg=bf}else
+bf=aw;var
+bh=bf}else
 var
-bg=ax;var
-bh=bg}else
-var
-bh=aw;var
+bh=av;var
 bi=bh}else
 var
-bi=av;var
+bi=au;var
 bj=bi}else
 var
 bj=at;var
@@ -5032,49 +5037,49 @@ bk=as;var
 bl=bk}else
 var
 bl=ar;return bl}function
-fv(b,a){return bw(b,a[1],a[2])}function
-nZ(b,a){var
-c=fv(b,a[1]),d=c?fv(b,a[2]):c;return d?fv(b,a[3]):d}function
-jn(a){return typeof
-a==="number"?a?dM(0):dD:dM(a[1])}function
-n0(b,a,c){return typeof
-b==="number"?b?[0,a[1],[0,a[2],0]]:bW(a):g8(b[1],a,c)}function
-jo(b,d,c){if(0===c[0])return gN(b,d[1],c[1]);var
-a=c[1],e=[0,[0,a[5],b],[0,[0,a[6],b],0]],g=f(a8(a[4],b),e),h=f(a8(a[3],b),g),i=f(a8(a[2],d[2]),h);return f(a8(a[1],d[1]),i)}function
-jp(b,a){if(b){var
-c=b[1],d=c[2];return bm(fs(c[1],a),d)}return a}function
-n1(h,t,al,J,aj,q,ai){if(q){var
-j=q[1],an=bS([0,d,d],aj),a=cD(ai,jo(J,an,j)),y=function(c,b){var
-d=ak(a,c);return af(x,af(B,jn(h),b),d)};if(0===j[0]){var
+fE(b,a){return bw(b,a[1],a[2])}function
+od(b,a){var
+c=fE(b,a[1]),d=c?fE(b,a[2]):c;return d?fE(b,a[3]):d}function
+jy(a){return typeof
+a==="number"?a?dO(0):dF:dO(a[1])}function
+oe(b,a,c){return typeof
+b==="number"?b?[0,a[1],[0,a[2],0]]:bV(a):hf(b[1],a,c)}function
+jz(b,d,c){if(0===c[0])return gW(b,d[1],c[1]);var
+a=c[1],e=[0,[0,a[5],b],[0,[0,a[6],b],0]],g=f(a$(a[4],b),e),h=f(a$(a[3],b),g),i=f(a$(a[2],d[2]),h);return f(a$(a[1],d[1]),i)}function
+jA(b,a){if(b){var
+c=b[1],d=c[2];return bo(fA(c[1],a),d)}return a}function
+of(h,t,al,J,aj,q,ai){if(q){var
+j=q[1],an=bR([0,d,d],aj),a=cD(ai,jz(J,an,j)),y=function(c,b){var
+d=ak(a,c);return ag(x,ag(B,jy(h),b),d)};if(0===j[0]){var
 z=j[1];switch(z[0]){case
 0:var
-$=jp(t,ak(a,vc)),aE=z[1][5],A=r(vd,a,m(d)),C=ak(a,0),aa=y(ve,$),i=lQ(aa,dC(C),aa,A,aE),aq=[0,aJ(A),0],ar=[0,aJ(Z(C,C)),aq],k=[0,[0,i[1],i[2],i[3],[0,i[4]],[0,[0,i[2],A]],ar],$];break;case
+$=jA(t,ak(a,vj)),aE=z[1][5],A=r(vk,a,m(d)),C=ak(a,0),aa=y(vl,$),i=l8(aa,dE(C),aa,A,aE),aq=[0,aL(A),0],ar=[0,aL(Z(C,C)),aq],k=[0,[0,i[1],i[2],i[3],[0,i[4]],[0,[0,i[2],A]],ar],$];break;case
 1:var
-ab=jp(t,ak(a,vf)),ac=z[3],D=ac?[0,ak(a,vg)]:ac,ad=y(0,ab),l=lR(ad,ad,0);if(D)var
-K=D[1],L=[0,aJ(Z(K,K)),0];else
+ab=jA(t,ak(a,vm)),ac=z[3],D=ac?[0,ak(a,vn)]:ac,ad=y(0,ab),l=l9(ad,ad,0);if(D)var
+K=D[1],M=[0,aL(Z(K,K)),0];else
 var
-L=D;var
-k=[0,[0,l[1],l[2],l[3],[0,l[4]],0,L],ab];break;default:var
-aF=m(d),aG=m(d),aH=[0,m(d),aG,aF],E=ak(a,0),aI=jn(h),n=lS(aI,dC(E)),as=[0,aJ(Z(E,E)),0],k=[0,[0,n[1],n[2],n[3],[0,n[4]],0,as],aH]}}else
+M=D;var
+k=[0,[0,l[1],l[2],l[3],[0,l[4]],0,M],ab];break;default:var
+aF=m(d),aG=m(d),aH=[0,m(d),aG,aF],E=ak(a,0),aI=jy(h),n=l_(aI,dE(E)),as=[0,aL(Z(E,E)),0],k=[0,[0,n[1],n[2],n[3],[0,n[4]],0,as],aH]}}else
 var
-ae=jp(t,ak(a,vh)),F=j[1][7],G=r(vi,a,m(d)),e=r(vj,a,m(d)),ag=ak(a,vk),H=ak(a,0),p=y(vl,ae),o=dC(H),u=af(x,ag,a1(Z(o,ag),o)),v=dC(u),M=bH(o,v),O=Z(p,v),P=Z(p,M),at=Z(o,p),au=V(P),Q=B(V(O),au),av=V(at),R=x(V(G),av),aw=s(m(c(2,b)),e),w=x(Q,V(am(B(Q,x(V(e),R)),aw))),ax=gy(F,s(e,aJ(w))),S=am(O,e),T=gy(F,am(P,e)),U=am(R,V(e)),W=ln(0,S,T,U),X=gy(F,ln(1,S,T,U)),ay=a1(X,M),Y=af(x,p,a1(e,af(B,a1(W,v),ay))),az=[0,aJ(G),0],aA=[0,aJ(e),az],aB=[0,aJ(Z(u,u)),aA],aC=[0,aJ(Z(H,H)),aB],aD=bm(Y,ax),k=[0,[0,Y,s(V(e),w),aD,[1,W,X],[0,[0,w,G]],aC],ae];var
-aT=N(ai,g(jo(J,an,j))),aU=q[2],aV=n1(h,t,al,J,bA(aj),aU,aT),ao=k[2],f=k[1],ah=function(a){return n0(h,a,bm(bH(ao,a),al))},aK=f[1],aL=bH(af(B,jn(h),ao),aK),aM=n0(h,f[1],aL),I=f[1],_=typeof
-h==="number"?1:0,aN=f[6],aO=f[5],aP=_?h?[0,I[1],[0,I[2],0]]:bW(I):_,aQ=f[4],aR=ah(f[3]),aS=f[2],ap=[0,[0,ah(f[1]),aS,aR,aQ,aP,aO,aN,aM],aV]}else
+ae=jA(t,ak(a,vo)),F=j[1][7],G=r(vp,a,m(d)),e=r(vq,a,m(d)),af=ak(a,vr),H=ak(a,0),p=y(vs,ae),o=dE(H),u=ag(x,af,a3(Z(o,af),o)),v=dE(u),N=bG(o,v),O=Z(p,v),P=Z(p,N),at=Z(o,p),au=V(P),Q=B(V(O),au),av=V(at),R=x(V(G),av),aw=s(m(c(2,b)),e),w=x(Q,V(am(B(Q,x(V(e),R)),aw))),ax=gH(F,s(e,aL(w))),S=am(O,e),T=gH(F,am(P,e)),U=am(R,V(e)),W=lF(0,S,T,U),X=gH(F,lF(1,S,T,U)),ay=a3(X,N),Y=ag(x,p,a3(e,ag(B,a3(W,v),ay))),az=[0,aL(G),0],aA=[0,aL(e),az],aB=[0,aL(Z(u,u)),aA],aC=[0,aL(Z(H,H)),aB],aD=bo(Y,ax),k=[0,[0,Y,s(V(e),w),aD,[1,W,X],[0,[0,w,G]],aC],ae];var
+aT=L(ai,g(jz(J,an,j))),aU=q[2],aV=of(h,t,al,J,bA(aj),aU,aT),ao=k[2],f=k[1],ah=function(a){return oe(h,a,bo(bG(ao,a),al))},aJ=f[1],aK=bG(ag(B,jy(h),ao),aJ),aM=oe(h,f[1],aK),I=f[1],_=typeof
+h==="number"?1:0,aN=f[6],aO=f[5],aP=_?h?[0,I[1],[0,I[2],0]]:bV(I):_,aQ=f[4],aR=ah(f[3]),aS=f[2],ap=[0,[0,ah(f[1]),aS,aR,aQ,aP,aO,aN,aM],aV]}else
 var
 ap=q;return ap}function
-jq(c,b,a){if(a){var
-e=a[2],g=jq(c,bA(b),e),h=a[1];return f(jo(c,bS([0,d,d],b),h),g)}return a}function
-n2(b,h,g,d,c,a){if(a){var
-i=a[2],k=a[1],l=n2(b,h,g,d,f(c,[0,k,0]),i),m=j(d,e(bA,f(c,i)));return aq(h,aq(g,bS(b,k),m),l)}return b}function
-n3(a,f,e,d,c,b){if(c){var
-g=0,h=c[1];return n2(a,e,d,function(b){return n3(a,f,e,d,h,b)},g,b)}return b?a:f}function
-n4(a,d,c){var
-e=gT(a,c);function
+jB(c,b,a){if(a){var
+e=a[2],g=jB(c,bA(b),e),h=a[1];return f(jz(c,bR([0,d,d],b),h),g)}return a}function
+og(b,h,g,d,c,a){if(a){var
+i=a[2],j=a[1],l=og(b,h,g,d,f(c,[0,j,0]),i),m=k(d,e(bA,f(c,i)));return ar(h,ar(g,bR(b,j),m),l)}return b}function
+oh(a,f,e,d,c,b){if(c){var
+g=0,h=c[1];return og(a,e,d,function(b){return oh(a,f,e,d,h,b)},g,b)}return b?a:f}function
+oi(a,d,c){var
+e=g2(a,c);function
 f(b,c){return t(a,b,c)}var
-g=O(a,b);return z(function(a){return n3(u,g,F,f,d,a)},e)}function
-jr(e,c,o,n){var
-a=n4(e,c,o);if(a){var
-f=a[1],b=n4(e,c,n);if(b){var
+g=O(a,b);return z(function(a){return oh(u,g,F,f,d,a)},e)}function
+jC(e,c,o,n){var
+a=oi(e,c,o);if(a){var
+f=a[1],b=oi(e,c,n);if(b){var
 g=b[1],h=I(d,f[1]),i=h?I(g[2],d):h;if(i)var
 j=i;else{var
 m=I(f[2],d);if(m)return I(d,g[1]);var
@@ -5085,7 +5090,7 @@ k=b;var
 l=k}else
 var
 l=a;return l}function
-js(b){if(b){var
+jD(b){if(b){var
 a=b[2],c=b[1];if(c){var
 e=c[2],q=c[1];if(e){var
 f=e[2],r=e[1];if(f){if(f[2])return m(d);if(a){var
@@ -5097,18 +5102,18 @@ k=g[1];if(k){var
 l=k[2],w=k[1];if(l){var
 n=l[2],y=l[1];if(n){var
 z=n[1];if(n[2])return m(d);if(g[2])return m(d);var
-A=dG(t,u,w,y),C=s(f[1],A),D=s(r,dG(t,v,w,z));return B(x(s(q,dG(u,v,y,z)),D),C)}return m(d)}return m(d)}return m(d)}return m(d)}return m(d)}return m(d)}return m(d)}return m(d)}if(a){var
+A=dI(t,u,w,y),C=s(f[1],A),D=s(r,dI(t,v,w,z));return B(x(s(q,dI(u,v,y,z)),D),C)}return m(d)}return m(d)}return m(d)}return m(d)}return m(d)}return m(d)}return m(d)}return m(d)}if(a){var
 o=a[1];if(o){var
-p=o[2];return p?p[2]?m(d):a[2]?m(d):dG(q,r,o[1],p[1]):m(d)}return m(d)}return m(d)}return m(d)}return m(d)}return m(d)}function
-n5(a){if(a){var
+p=o[2];return p?p[2]?m(d):a[2]?m(d):dI(q,r,o[1],p[1]):m(d)}return m(d)}return m(d)}return m(d)}return m(d)}return m(d)}function
+oj(a){if(a){var
 b=a[1][6];if(b)var
-c=n5(a[2]),e=c?[0,[0,b[1][2],c[1]]]:c,d=e;else
+c=oj(a[2]),e=c?[0,[0,b[1][2],c[1]]]:c,d=e;else
 var
-d=b;return d}return vm}function
-n6(g,k,a){function
+d=b;return d}return vt}function
+ok(g,k,a){function
 b(a){return r(a,k,m(d))}function
 l(a){var
-e=a[2],f=s(V(b(0)),e),c=0,d=0,g=a[1];return[0,[0,bT(function(b,a){return x(b,V(a))},g,f),d],c]}function
+e=a[2],f=s(V(b(0)),e),c=0,d=0,g=a[1];return[0,[0,bS(function(b,a){return x(b,V(a))},g,f),d],c]}function
 n(e){var
 a=e[6];if(a)var
 c=a[1],f=V(c[2]),g=s(V(b(0)),f),d=[0,[0,x(c[1],g),0],0];else
@@ -5131,7 +5136,7 @@ d=a[1];return[0,[0,x(b(0),d),0],0]}return 0},f=v,c=a[1];break;case
 w=function(e){var
 a=e[4];if(typeof
 a!=="number"&&1===a[0]){var
-c=a[2],d=a[1],f=s(b(vn),c),g=[0,[0,x(s(b(vo),d),f),0],0],h=s(d,b(vp));return[0,[0,x(s(c,b(0)),h),0],g]}return 0},f=w,c=a[1];break;case
+c=a[2],d=a[1],f=s(b(vu),c),g=[0,[0,x(s(b(vv),d),f),0],0],h=s(d,b(vw));return[0,[0,x(s(c,b(0)),h),0],g]}return 0},f=w,c=a[1];break;case
 6:var
 y=function(a){var
 b=a[4];if(typeof
@@ -5147,23 +5152,23 @@ A=function(a){var
 b=a[4];if(typeof
 b!=="number"&&0===b[0])return n(a);return 0},f=A,c=a[1];break;case
 12:var
-i=n5(g);if(i)var
-C=b(0),o=bT(s,i[1],C),p=js(e(function(a){return a[5]},g)),D=[0,bl(B(p,o)),0],q=[0,[0,x(p,o),D],0];else
+i=oj(g);if(i)var
+C=b(0),o=bS(s,i[1],C),p=jD(e(function(a){return a[5]},g)),D=[0,bn(B(p,o)),0],q=[0,[0,x(p,o),D],0];else
 var
 q=i;return q;case
 17:var
 t=a[1],f=function(d){var
-a=js(e(function(a){return a[1]},g));function
+a=jD(e(function(a){return a[1]},g));function
 b(b){var
-c=[0,bl(B(a,b)),0];return[0,x(a,b),c]}var
-f=js(mQ(t,k,e(function(a){return a[1]},g))),c=s(aJ(d[2]),f),h=[0,b(bl(c)),0];return[0,b(c),h]},c=t;break;default:j=1}if(j)return 0;var
+c=[0,bn(B(a,b)),0];return[0,x(a,b),c]}var
+f=jD(m8(t,k,e(function(a){return a[1]},g))),c=s(aL(d[2]),f),h=[0,b(bn(c)),0];return[0,b(c),h]},c=t;break;default:j=1}if(j)return 0;var
 h=H(g,c);return h?f(h[1]):h}function
-eA(a){return e(function(a){return[0,a[1],a[2]]},a)}function
-fw(a){return e(function(a){var
+eE(a){return e(function(a){return[0,a[1],a[2]]},a)}function
+fF(a){return e(function(a){var
 c=m(b);return[0,a[3],c]},a)}function
-n7(c,b,a){if(typeof
-a!=="number"&&8===a[0])return bC(g1(eA(c),b));return ea(n6(c,b,a))}function
-n8(f,m,k,K,J,t,a){if(typeof
+ol(c,b,a){if(typeof
+a!=="number"&&8===a[0])return bC(g_(eE(c),b));return ec(ok(c,b,a))}function
+om(f,m,j,K,J,t,a){if(typeof
 a==="number")return[0,[0,[0,u]],0];else
 switch(a[0]){case
 0:var
@@ -5171,18 +5176,18 @@ L=[5,[0,b,b],a[1]],n=L,o=function(a){return[0,a]};break;case
 1:var
 P=[5,[0,b,b],a[1]],n=P,o=function(a){return[1,a]};break;case
 5:var
-B=a[1],T=0,V=ao(f,[0,[0,B,B],d]);return[0,z(function(a){return[2,U(f,a)]},V),T];case
+B=a[1],T=0,V=ap(f,[0,[0,B,B],d]);return[0,z(function(a){return[2,U(f,a)]},V),T];case
 7:var
-C=a[3],D=a[2],E=a[1];if(!H(k,E))return vs;var
+C=a[3],D=a[2],E=a[1];if(!H(j,E))return vz;var
 I=0;if(h(f,1,D)&&h(f,1,C))var
 W=[5,D,C],n=W,o=function(a){return[7,E,a]};else
-I=1;if(I)return vr;break;case
+I=1;if(I)return vy;break;case
 8:var
 F=h(f,1,a[2]),X=0;if(F)var
 Y=a[1],Z=1,r=l(function(a){return h(f,Z,a)},Y);else
 var
 r=F;if(r)var
-_=O(f,b),$=g1(eA(k),t),G=[0,[4,j(au(m),$),_]];else
+_=O(f,b),$=g_(eE(j),t),G=[0,[4,k(ax(m),$),_]];else
 var
 G=r;return[0,G,X];default:var
 s=0;if(typeof
@@ -5192,48 +5197,48 @@ switch(a[0]){case
 v=a[3],w=a[2],x=h(f,1,[3,v,w]),R=x?h(f,1,[3,[2,w,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b]],v]):x,i=R;break;case
 17:var
 A=h(f,1,a[3]);if(A)var
-S=e(function(a){return a[1]},k),i=mR(g(a[2]),S);else
+S=e(function(a){return a[1]},j),i=m9(g(a[2]),S);else
 var
 i=A;break;case
 6:case
 9:var
 y=h(f,1,a[2]),i=y?h(f,0,a[3]):y;break;default:s=1}if(s)var
 i=1;var
-p=i?n6(k,t,a):i;if(p){var
+p=i?ok(j,t,a):i;if(p){var
 Q=[0,p[1],p[2]];return e(function(a){if(a){var
 b=a[2],c=a[1];if(b){if(b[2])return 0;var
-e=j(m,b[1]);return[0,[5,j(m,c),e]]}var
-d=[0,[3,j(m,c)]]}else
+e=k(m,b[1]);return[0,[5,k(m,c),e]]}var
+d=[0,[3,k(m,c)]]}else
 var
-d=a;return d},Q)}return vq}var
-M=0,N=ao(f,[0,[0,n,n],g0(K,J)]);return[0,z(function(a){return o(U(f,a))},N),M]}function
-n9(a){if(typeof
+d=a;return d},Q)}return vx}var
+M=0,N=ap(f,[0,[0,n,n],g9(K,J)]);return[0,z(function(a){return o(U(f,a))},N),M]}function
+on(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-vt(a){return 0===a[0]?2===a[1][0]?0:1:1}function
-vu(c,R,aB,a,i,Q,aA){var
-b=a[1],aC=aw(b),s=a[6],A=jq(i,Q,a[2]),S=a[3],T=[0,[0,S,S],i],U=[0,g(A)],B=a[2],q=B?0===B[1][0]?0:1:B,aD=a[5],aE=z(function(a){var
+vA(a){return 0===a[0]?2===a[1][0]?0:1:1}function
+vB(c,R,aB,a,i,Q,aA){var
+b=a[1],aC=at(b),s=a[6],A=jB(i,Q,a[2]),S=a[3],T=[0,[0,S,S],i],U=[0,g(A)],B=a[2],q=B?0===B[1][0]?0:1:B,aD=a[5],aE=z(function(a){var
 c=typeof
-b==="number"?0:cJ(b[1]);return ni(a,c)},aD),aF=a[2],k=n1(b,aE,c6(T,g(A)),i,Q,aF,0),V=y(function(a){return a[7]},k),W=a[7],X=W?e(function(a){return[0,a[8],a[2]]},k):W,aG=bC(X),aH=f(V,f(db(function(a,b){return n7(k,a,b)},q,i,U,s),aG)),aI=f(bC(fw(k)),aH),Y=f(bC(eA(k)),aI),Z=cW(Y)[1],_=cV(Z);function
-p(a){return bd(_,a)}var
+b==="number"?0:cK(b[1]);return nA(a,c)},aD),aF=a[2],j=of(b,aE,c8(T,g(A)),i,Q,aF,0),V=y(function(a){return a[7]},j),W=a[7],X=W?e(function(a){return[0,a[8],a[2]]},j):W,aG=bC(X),aH=f(V,f(dc(function(a,b){return ol(j,a,b)},q,i,U,s),aG)),aI=f(bC(fF(j)),aH),Y=f(bC(eE(j)),aI),Z=cY(Y)[1],_=cX(Z);function
+p(a){return bg(_,a)}var
 $=l(function(a){var
-b=m(d);return aN(r(p(a),_,b),a)},Y),aa=$?aj(n9,s):$;if(aa){var
+b=m(d);return aN(r(p(a),_,b),a)},Y),aa=$?aj(on,s):$;if(aa){var
 ab=a[4];if(typeof
 b==="number")var
-ad=b?jl(0,eq(ab)):1;else
+ad=b?jw(0,es(ab)):1;else
 var
-ay=eq(ab),ad=jl(b[1],ay);var
+ay=es(ab),ad=jw(b[1],ay);var
 C=ad}else
 var
 C=aa;if(C){var
-N=a[1];if(typeof
-N==="number")var
+M=a[1];if(typeof
+M==="number")var
 t=a[5]?0:1;else
-if(2<=N[1])var
+if(2<=M[1])var
 t=0;else{var
 w=a[5],L=0;if(w){var
 O=h(c,1,a[3]);if(O)var
-az=g7(w[1]),t=l(function(a){var
-b=cH(c,a[1]);return b?cH(c,a[2]):b},az);else{var
+az=he(w[1]),t=l(function(a){var
+b=cI(c,a[1]);return b?cI(c,a[2]):b},az);else{var
 P=O;L=1}}else{var
 P=w;L=1}if(L)var
 t=P}var
@@ -5244,42 +5249,42 @@ aJ=a[2],E=l(function(a){var
 b=0===a[0]?0:1;return ct(b,q)},aJ);else
 var
 E=D;if(E){var
-ae=M(a[7]);if(ae)var
+ae=N(a[7]);if(ae)var
 u=ae;else
 var
-av=nB(c,b,a[5]),u=av?l(vt,a[2]):av}else
+av=nR(c,b,a[5]),u=av?l(vA,a[2]):av}else
 var
 u=E;if(u){var
-aK=f(A,[0,T,0]),F=ac(e(function(a){return ao(c,a)},aK));if(F){var
-aL=y(function(a){return fq(q,i,a)},s),G=ac(e(function(a){return i2(c,a)},aL));if(G){var
-n=eq(a[4]),aM=typeof
-b==="number"?b?[0,n[1],[0,n[2],0]]:[0,n[1],[0,n[2],[0,n[3],0]]]:nW(b[1],n),H=ac(e(function(a){return ao(c,[0,a,i])},aM));if(H){var
+aK=f(A,[0,T,0]),F=ac(e(function(a){return ap(c,a)},aK));if(F){var
+aL=y(function(a){return fy(q,i,a)},s),G=ac(e(function(a){return jc(c,a)},aL));if(G){var
+n=es(a[4]),aM=typeof
+b==="number"?b?[0,n[1],[0,n[2],0]]:[0,n[1],[0,n[2],[0,n[3],0]]]:oa(b[1],n),H=ac(e(function(a){return ap(c,[0,a,i])},aM));if(H){var
 af=H[1],ag=a[5];if(ag)var
-aO=nk(ag[1]),v=ac(e(function(a){return nm(c,a)},aO));else
+aO=nC(ag[1]),v=ac(e(function(a){return nE(c,a)},aO));else
 var
-v=vv;if(v){var
-ah=v[1],x=a[5],aP=x?nj(x[1]):x,I=ac(e(cG(c),aP));if(I){var
-J=ac(db(function(a,b){return n8(c,p,k,q,i,a,b)},q,i,U,s));if(J){var
+v=vC;if(v){var
+ah=v[1],x=a[5],aP=x?nB(x[1]):x,I=ac(e(cH(c),aP));if(I){var
+J=ac(dc(function(a,b){return om(c,p,j,q,i,a,b)},q,i,U,s));if(J){var
 ai=J[1];if(a[7])var
-aQ=R[2],aR=R[1],K=iW(aB,ai,[8,j(au(p),X),aR,aQ]);else
+aQ=R[2],aR=R[1],K=i8(aB,ai,[8,k(ax(p),X),aR,aQ]);else
 var
 K=ai;var
 ak=o(g(f(af,ah)),aC);if(ak){var
-aS=iO(K),aT=f(af,ah),ax=0,aU=a[4];if(typeof
+aS=i0(K),aT=f(af,ah),aw=0,aU=a[4];if(typeof
 b==="number"&&!b){var
-al=function(a){return mB(c,aU,i,a)};ax=1}if(!ax)var
+al=function(a){return mT(c,aU,i,a)};aw=1}if(!aw)var
 al=function(a){return 0};var
-aV=f(G[1],I[1]),aW=f(F[1],aV),aX=e(p,V),aY=fw(k),aZ=j(au(p),aY),a0=eA(k);return fS(iN(c,Z,j(au(p),a0),aZ,aX,aW,K,al),aT,aS,aA)}var
+aV=f(G[1],I[1]),aW=f(F[1],aV),aX=e(p,V),aY=fF(j),aZ=k(ax(p),aY),a0=eE(j);return f1(iZ(c,Z,k(ax(p),a0),aZ,aX,aW,K,al),aT,aS,aA)}var
 am=ak}else
 var
 am=J;var
 an=am}else
 var
 an=I;var
-ap=an}else
+ao=an}else
 var
-ap=v;var
-aq=ap}else
+ao=v;var
+aq=ao}else
 var
 aq=H;var
 ar=aq}else
@@ -5288,18 +5293,18 @@ ar=G;var
 as=ar}else
 var
 as=F;var
-at=as}else
+au=as}else
 var
-at=u;return at}function
-vw(b){if(0===b[0])return[0,mM(b[1])];var
-a=b[1],c=a[7],d=a[6][1],e=a[5][1],f=bE(a[4]),g=bE(a[3]),h=bE(a[2]);return[1,[0,bE(a[1]),h,g,f,e,d,c]]}function
-n_(e,d,c){var
+au=u;return au}function
+vD(b){if(0===b[0])return[0,m4(b[1])];var
+a=b[1],c=a[7],d=a[6][1],e=a[5][1],f=bD(a[4]),g=bD(a[3]),h=bD(a[2]);return[1,[0,bD(a[1]),h,g,f,e,d,c]]}function
+oo(e,d,c){var
 a=d;for(;;){if(a){var
-b=a[1];if(r6(b[1],c))return b[2];var
+b=a[1];if(sb(b[1],c))return b[2];var
 a=a[2];continue}return e}}function
-n$(a,c,b){var
-d=W(e(ay,a[2]),b);return f(W(a[1],c),d)}function
-b0(c){var
+jE(a,c,b){var
+d=W(e(aA,a[2]),b);return f(W(a[1],c),d)}function
+bZ(c){var
 a=c;for(;;)switch(a[0]){case
 0:var
 b=a[1];return[0,[0,[0,b,b],d],0];case
@@ -5308,13 +5313,13 @@ b=a[1];return[0,[0,[0,b,b],d],0];case
 7:case
 8:var
 a=a[1];continue;default:var
-e=b0(a[2]);return f(b0(a[1]),e)}}function
-bI(e,a,c){switch(a[0]){case
+e=bZ(a[2]);return f(bZ(a[1]),e)}}function
+bH(e,a,c){switch(a[0]){case
 0:var
-o=a[1];return c6([0,[0,o,o],d],c);case
+o=a[1];return c8([0,[0,o,o],d],c);case
 1:var
-q=a[1];return n_(m(d),e,q);case
-2:return bl(bI(e,a[1],c));case
+q=a[1];return oo(m(d),e,q);case
+2:return bn(bH(e,a[1],c));case
 3:var
 i=a[2],f=a[1],h=B;break;case
 4:var
@@ -5324,86 +5329,86 @@ i=a[2],f=a[1],h=s;break;case
 6:var
 i=a[2],f=a[1],h=am;break;case
 7:var
-j=e2(a[2]),k=bI(e,a[1],c);if(j){if(j[1]){var
-l=V(k),p=function(a){return s(a,l)},n=gb(bz(k7(j)),p,l);return k6(j)?n:s(n,k)}return k}return m(b);default:return aJ(bI(e,a[1],c))}var
-r=bI(e,i,N(c,g(b0(f))));return h(bI(e,f,c),r)}function
-df(c,h,b){var
+j=e9(a[2]),k=bH(e,a[1],c);if(j){if(j[1]){var
+l=V(k),p=function(a){return s(a,l)},n=gk(bz(ln(j)),p,l);return lm(j)?n:s(n,k)}return k}return m(b);default:return aL(bH(e,a[1],c))}var
+r=bH(e,i,L(c,g(bZ(f))));return h(bH(e,f,c),r)}function
+dg(c,h,b){var
 a=h;for(;;)switch(a[0]){case
 6:var
-e=a[1],k=N(b,g(b0(e))),l=df(c,a[2],k),m=f(df(c,e,b),l);return[0,bI(c,a,b),m];case
+e=a[1],k=L(b,g(bZ(e))),l=dg(c,a[2],k),m=f(dg(c,e,b),l);return[0,bH(c,a,b),m];case
 8:var
-n=df(c,a[1],b);return[0,bI(c,a,b),n];case
+n=dg(c,a[1],b);return[0,bH(c,a,b),n];case
 2:case
 7:var
 a=a[1];continue;case
 0:case
 1:return 0;default:var
-d=a[1],i=N(b,g(b0(d))),j=df(c,a[2],i);return f(df(c,d,b),j)}}function
-oa(i,h,f){var
+d=a[1],i=L(b,g(bZ(d))),j=dg(c,a[2],i);return f(dg(c,d,b),j)}}function
+op(i,h,f){var
 b=i,a=h,c=f;for(;;){if(a){var
-d=a[1],e=d[2],j=N(c,g(b0(e))),k=a[2],l=bI(b,e,c),b=[0,[0,d[1],l],b],a=k,c=j;continue}return b}}function
-jt(c,a,b){if(a){var
-e=a[1],d=e[2],h=N(b,g(b0(d))),i=a[2],j=bI(c,d,b),k=jt([0,[0,e[1],j],c],i,h);return f(df(c,d,b),k)}return a}function
-fx(a){return y(b0,a)}function
-ob(c,a,b){if(a)var
-d=a[1],f=N(b,g(b0(d))),h=ob(c,a[2],f),e=[0,bI(c,d,b),h];else
+d=a[1],e=d[2],j=L(c,g(bZ(e))),k=a[2],l=bH(b,e,c),b=[0,[0,d[1],l],b],a=k,c=j;continue}return b}}function
+jF(c,a,b){if(a){var
+e=a[1],d=e[2],h=L(b,g(bZ(d))),i=a[2],j=bH(c,d,b),k=jF([0,[0,e[1],j],c],i,h);return f(dg(c,d,b),k)}return a}function
+fG(a){return y(bZ,a)}function
+oq(c,a,b){if(a)var
+d=a[1],f=L(b,g(bZ(d))),h=oq(c,a[2],f),e=[0,bH(c,d,b),h];else
 var
 e=a;return e}function
-oc(c,a,b){if(a){var
-d=a[1],e=N(b,g(b0(d))),h=oc(c,a[2],e);return f(df(c,d,b),h)}return a}function
-hd(a){return 0===a[0]?fx(a[1]):b0(a[1])}function
-ju(c,b,a){if(b){var
-d=b[1],j=N(a,g(hd(d))),k=ju(c,b[2],j);if(0===d[0])var
-h=oc(c,d[1],a);else
+or(c,a,b){if(a){var
+d=a[1],e=L(b,g(bZ(d))),h=or(c,a[2],e);return f(dg(c,d,b),h)}return a}function
+hm(a){return 0===a[0]?fG(a[1]):bZ(a[1])}function
+jG(c,b,a){if(b){var
+d=b[1],j=L(a,g(hm(d))),k=jG(c,b[2],j);if(0===d[0])var
+h=or(c,d[1],a);else
 var
-e=d[1],i=df(c,e,a),h=[0,bI(c,e,a),i];return f(h,k)}return b}function
-he(c){var
+e=d[1],i=dg(c,e,a),h=[0,bH(c,e,a),i];return f(h,k)}return b}function
+hn(c){var
 a=c[1];switch(a[0]){case
 0:var
 b=[1,a[1]];break;case
 1:var
 b=[0,a[1]];break;default:var
-b=bU(he,a)}return[0,b]}function
-jv(c){var
+b=bT(hn,a)}return[0,b]}function
+jH(c){var
 b=c;for(;;){var
 a=b[1];switch(a[0]){case
 5:var
 b=a[1];continue;case
 6:var
-d=jv(a[2]);return s(jv(a[1]),d);case
+d=jH(a[2]);return s(jH(a[1]),d);case
 9:return a[1];default:return V(b)}}}function
-jw(n,h,a,f){if(a){var
-c=a[1],x=N(f,g(hd(c))),y=jw(n,h,a[2],x);if(0===c[0])var
-k=ob(h,c[1],f),o=[0,k,m(b),k,0,0,0,0,0];else
+jI(n,h,a,f){if(a){var
+c=a[1],x=L(f,g(hm(c))),y=jI(n,h,a[2],x);if(0===c[0])var
+k=oq(h,c[1],f),o=[0,k,m(b),k,0,0,0,0,0];else
 var
-l=bI(h,c[1],f),q=he(l),i=a7(aB(0,n),q),d=he(i[2]),j=e(he,i[1]),r=0,s=0,t=0,u=0,v=[0,l],w=e(function(a){return aN(a,d)?m(b):am(a,d)},j),o=[0,j,jv(d),w,v,u,t,s,r];var
+l=bH(h,c[1],f),q=hn(l),i=a_(aC(0,n),q),d=hn(i[2]),j=e(hn,i[1]),r=0,s=0,t=0,u=0,v=[0,l],w=e(function(a){return aN(a,d)?m(b):am(a,d)},j),o=[0,j,jH(d),w,v,u,t,s,r];var
 p=[0,o,y]}else
 var
 p=a;return p}function
-od(a){return e(function(a){return[0,a[2],d]},a)}function
-jx(a){var
-b=y(hd,a[4]),c=f(fx(e(aT,a[3])),b);return f(od(a[2]),c)}function
-hf(a){var
-b=cD(0,od(a[2])),c=aB(0,g(a[1]));return n$(a,e(function(a){return[0,[0,a]]},c),b)}function
-jy(b,d){var
+os(a){return e(function(a){return[0,a[2],d]},a)}function
+jJ(a){var
+b=y(hm,a[4]),c=f(fG(e(aO,a[3])),b);return f(os(a[2]),c)}function
+ho(a){var
+b=cD(0,os(a[2])),c=aC(0,g(a[1]));return jE(a,e(function(a){return[0,[0,a]]},c),b)}function
+jK(b,d){var
 a=d;for(;;)switch(a[0]){case
 0:return 1;case
 1:var
-e=a[1];return aj(function(a){return az(e,a)},b);case
+e=a[1];return aj(function(a){return aB(e,a)},b);case
 2:case
 7:case
 8:var
 a=a[1];continue;default:var
-c=jy(b,a[1]);if(c){var
+c=jK(b,a[1]);if(c){var
 a=a[2];continue}return c}}function
-oe(d){var
+ot(d){var
 a=d;for(;;){if(a){var
-b=a[2],e=a[1],c=M(aj(function(b){return function(a){return r6(b,a)}}(e),b));if(c){var
+b=a[2],e=a[1],c=N(aj(function(b){return function(a){return sb(b,a)}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-of(a){var
-u=e(ay,a[2]),d=f(a[1],u),h=g(a[1]),o=aa(vx,h),p=o?aa(h,vy):o,q=p?aa(h,g(a[4])):p,r=q?aa(g(a[4]),vz):q,s=r?oe(d):r;if(s){var
+ou(a){var
+u=e(aA,a[2]),d=f(a[1],u),h=g(a[1]),o=aa(vE,h),p=o?aa(h,vF):o,q=p?aa(h,g(a[4])):p,r=q?aa(g(a[4]),vG):q,s=r?ot(d):r;if(s){var
 c=d,b=a[3];for(;;){if(b){var
-j=b[1],k=j[1],m=M(aj(function(b){return function(a){return az(b,a)}}(k),c)),n=m?jy(c,j[2]):m;if(n){var
+j=b[1],k=j[1],m=N(aj(function(b){return function(a){return aB(b,a)}}(k),c)),n=m?jK(c,j[2]):m;if(n){var
 c=[0,k,c],b=b[2];continue}var
 t=n}else
 var
@@ -5412,9 +5417,9 @@ i=t;break}}else
 var
 i=s;if(i){var
 v=a[4];return l(function(b){var
-c=0===b[0]?b[1]:[0,b[1],0],g=f(e(ay,a[3]),d);return l(function(a){return jy(g,a)},c)},v)}return i}function
-dN(f,e,g){var
-h=g[1],a=bU(function(a){return dN(f,e,a)},h);switch(a[0]){case
+c=0===b[0]?b[1]:[0,b[1],0],g=f(e(aA,a[3]),d);return l(function(a){return jK(g,a)},c)},v)}return i}function
+dP(f,e,g){var
+h=g[1],a=bT(function(a){return dP(f,e,a)},h);switch(a[0]){case
 0:return r(a[1],f,[0,d,b]);case
 1:return r(a[1],e,[0,d,b]);case
 2:return[0,a[1],b];case
@@ -5426,7 +5431,7 @@ h=g[1],a=bU(function(a){return dN(f,e,a)},h);switch(a[0]){case
 8:var
 c=a[1];return[4,c,c];case
 9:return[6,a[1]];default:return[0,d,b]}}function
-jz(d){var
+jL(d){var
 b=d;for(;;){var
 a=b[1];switch(a[0]){case
 10:return 0;case
@@ -5437,103 +5442,105 @@ b=a[1];continue;case
 0:case
 1:case
 2:return 1;default:var
-c=jz(a[1]);if(c){var
+c=jL(a[1]);if(c){var
 b=a[2];continue}return c}}}function
-dO(g,f,e){var
+b0(g,f,e){var
 b=f,a=e;for(;;){if(b){if(a){var
-c=c7(g,b[1],a[1]);if(c){var
+c=c9(g,b[1],a[1]);if(c){var
 b=b[2],a=a[2];continue}var
 d=c}else
 var
 d=a;return d}return a?0:1}}function
-vA(a){var
+vH(a){var
 b=a[4],d=0;if(typeof
 b!=="number"&&0===b[0]){var
 c=[0,b[1],0];d=1}if(!d)var
 c=0;var
 e=f(a[3],c);return f(a[1],e)}function
-hg(a){return g(a[1])}function
-og(a){var
-b=g(fx(e(aT,a[3])));return N(g(a[2]),b)}function
-oh(a){var
-b=g(a[2]),c=a[3];return oa(hf(a),c,b)}function
-oi(a){var
-b=og(a),c=a[4],d=oh(a);return jw(hg(a),d,c,b)}function
-oj(a,b){var
-c=y(hd,a[4]),d=f(fx(e(aT,a[3])),c);return f(b,e(function(a){return a[1][1]},d))}function
-ok(b,a){return l(function(a){if(0===a[0]){var
-c=hg(b);return o(g(a[1]),c)}return 1},a)}function
-ol(f,e){function
+hp(a){return g(a[1])}function
+ov(a){var
+b=g(fG(e(aO,a[3])));return L(g(a[2]),b)}function
+ow(a){var
+b=g(a[2]),c=a[3];return op(ho(a),c,b)}function
+ox(a){var
+b=ov(a),c=a[4],d=ow(a);return jI(hp(a),d,c,b)}function
+oy(a,b){var
+c=y(hm,a[4]),d=f(fG(e(aO,a[3])),c);return f(b,e(function(a){return a[1][1]},d))}function
+oz(b,a){return l(function(a){if(0===a[0]){var
+c=hp(b);return o(g(a[1]),c)}return 1},a)}function
+oA(f,e){function
 a(a){return r(a,e,[0,d,b])}var
 c=[0,d,b];switch(f){case
 0:var
-g=a(vC);return[0,a(0),g,c];case
+g=a(vJ);return[0,a(0),g,c];case
 1:var
-h=a(vD),i=a(vE);return[0,a(0),i,h];default:return[0,c,c,c]}}function
-om(f,e){function
+h=a(vK),i=a(vL);return[0,a(0),i,h];default:return[0,c,c,c]}}function
+oB(f,e){function
 a(a){return r(a,e,[0,d,b])}var
 c=[0,d,b];switch(f){case
-0:return[0,c,c,a(vF)];case
+0:return[0,c,c,a(vM)];case
 1:var
-g=a(vG),h=a(vH);return[0,a(vI),h,g];default:var
-i=a(vJ),j=a(vK);return[0,a(0),j,i]}}function
-on(t,s,k,j,r,d){var
-c=bq(k,j,r,d);if(0===d[0])var
+g=a(vN),h=a(vO);return[0,a(vP),h,g];default:var
+i=a(vQ),j=a(vR);return[0,a(0),j,i]}}function
+oC(t,s,k,j,r,d){var
+c=bs(k,j,r,d);if(0===d[0])var
 e=ch(d[1],c);else
 var
-a=d[1],f=fo(a,c),g=fp(a,c),h=gY(a,c),i=es(a,c),l=P([3,[4,h,g],[4,i,f]],gV(a)),m=P([2,[4,h,f],[4,i,g]],fn(a)),n=J(function(b,a){return[2,b,a]},m,l),o=P(a[5],n),p=gW(a,c),q=P(gX(a,c),p),e=J(function(b,a){return[3,b,a]},q,o);return jb(t,e,P([5,[0,b,b],s],c9(ez(k,j,ey(d)),e)))}function
-oo(c,b,a){return b?da(c,b[1],a):a?0:1}function
-op(d,b,i,a,c,n,h,m,f){var
-p=aw(b),j=o(g(c),p),k=j?oo(d,a,h):j,l=k?oo(d,a,f):k;if(l){var
-q=e(function(c){return on(b,i,a,f,m,c)},c),r=e(function(c){return on(b,i,a,h,n,c)},c);return jr(d,aw(b),r,q)}return l}function
-oq(c,j,d,b,a){var
-e=aI(d,j),g=e?bb(b,a):e;if(g)var
-k=cB(c,a)[2],h=[0,cB(c,b)[1],k],l=[0,cB(c,dx(a,b)),0],i=[0,[0,h,h,f(al(u,d),l)]];else
+a=d[1],f=fv(a,c),g=fw(a,c),h=g7(a,c),i=eu(a,c),l=P([3,[4,h,g],[4,i,f]],g4(a)),m=P([2,[4,h,f],[4,i,g]],fu(a)),n=J(function(b,a){return[2,b,a]},m,l),o=P(a[5],n),p=g5(a,c),q=P(g6(a,c),p),e=J(function(b,a){return[3,b,a]},q,o);return jl(t,e,P([5,[0,b,b],s],c$(eC(k,j,eB(d)),e)))}function
+oD(c,b,a){return b?fx(c,b[1],a):a?0:1}function
+oE(d,b,i,a,c,n,h,m,f){var
+p=at(b),j=o(g(c),p),k=j?oD(d,a,h):j,l=k?oD(d,a,f):k;if(l){var
+q=e(function(c){return oC(b,i,a,f,m,c)},c),r=e(function(c){return oC(b,i,a,h,n,c)},c);return jC(d,at(b),r,q)}return l}function
+oF(c,j,d,b,a){var
+e=aK(d,j),g=e?be(b,a):e;if(g)var
+k=cB(c,a)[2],h=[0,cB(c,b)[1],k],l=[0,cB(c,dz(a,b)),0],i=[0,[0,h,h,f(af(u,d),l)]];else
 var
 i=g;return i}function
-jA(a){if(a){var
+jM(a){if(a){var
 b=a[1];if(b)var
-c=jA(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+c=jM(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return vN}function
-or(c,b,a){if(b){if(a){var
-d=b[1],f=or(c,b[2],a[2]),g=a[1],h=function(b,a){return A(t(c,d,b),a)},i=function(a){return a};return aO(function(a){return t(c,d,a)},i,h,g,f)}var
+d=b;return d}return vU}function
+oG(c,b,a){if(b){if(a){var
+d=b[1],f=oG(c,b[2],a[2]),g=a[1],h=function(b,a){return A(t(c,d,b),a)},i=function(a){return a};return aP(function(a){return t(c,d,a)},i,h,g,f)}var
 e=a}else
 var
 e=b;return e}function
-os(c,b,a){if(b){if(a){var
-d=os(c,b[2],a[2]);return A(t(c,b[1],a[1]),d)}return u}return u}function
-hh(a){return an(function(d,a){var
+oH(c,b,a){if(b){if(a){var
+d=oH(c,b[2],a[2]);return A(t(c,b[1],a[1]),d)}return u}return u}function
+hq(a){return ao(function(d,a){var
 e=c(2,b);return E(b8(b$(d),e),a)},d,a)}function
-ot(a,i,h){var
+hr(a,i,h){var
 d=g(i);function
 t(g,e,f){var
-d=[0,b,c(2,b)];return[0,$(cB(a,a0(dw(e,f),d)))]}var
-j=jA(e(function(b){return ef(a,t,b)},i));if(j){var
-v=j[1],w=function(b,c,e){return oq(a,d,b,c,e)},k=jA(e(function(b){return ef(a,w,b)},i));if(k){var
-x=function(b){return cB(a,b)},n=e(function(a){return e(x,a)},h),y=k[1],z=e(function(a){return a[3]},y),A=e(function(b){return os(a,b,e(function(a){return a[2]},v))},n),B=W(aB(0,d),n),E=e(function(c){var
-i=or(a,c[2],z),j=c[1],d=[0,O(a,b),0],e=f(al(u,j),d);function
-g(b,a){return F(b,at(a))}function
-h(a){return ab(at(a))}return aO(function(a){return a},h,g,e,i)},B),p=o(g(h),d),q=p?l(function(a){return o(g(a),d)},h):p;if(q)var
-G=c(2,b),H=b8(cw(a),G),I=hh(A),m=D(C(c(2,c(2,b)),I),H);else
+d=[0,b,c(2,b)];return[0,$(cB(a,a2(dy(e,f),d)))]}var
+j=jM(e(function(b){return eh(a,t,b)},i));if(j){var
+v=j[1],w=function(b,c,e){return oF(a,d,b,c,e)},k=jM(e(function(b){return eh(a,w,b)},i));if(k){var
+x=function(b){return cB(a,b)},n=e(function(a){return e(x,a)},h),y=k[1],z=e(function(a){return a[3]},y),A=e(function(b){return oH(a,b,e(function(a){return a[2]},v))},n),B=W(aC(0,d),n),E=e(function(c){var
+i=oG(a,c[2],z),j=c[1],d=[0,O(a,b),0],e=f(af(u,j),d);function
+g(b,a){return F(b,aw(a))}function
+h(a){return ab(aw(a))}return aP(function(a){return a},h,g,e,i)},B),p=o(g(h),d),q=p?l(function(a){return o(g(a),d)},h):p;if(q)var
+G=c(2,b),H=b8(cw(a),G),I=hq(A),m=D(C(c(2,c(2,b)),I),H);else
 var
 m=q;if(m){var
-J=c(2,b),K=b8(cw(a),J),L=hh(ea(E));return D(C(c(2,c(2,b)),L),K)}var
+J=c(2,b),K=b8(cw(a),J),L=hq(ec(E));return D(C(c(2,c(2,b)),L),K)}var
 r=m}else
 var
 r=k;var
 s=r}else
 var
 s=j;return s}function
-hi(a){return l(function(a){return M(dA(a))},a)}function
-br(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-bg(a){return[0,a[1],a[2]]}function
-ou(b,a){var
+eF(a){return l(function(a){return N(dC(a))},a)}function
+aW(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+a4(a){return[0,a[1],a[2]]}function
+hs(b,a){var
 d=g(a),c=o(g(b),d);if(c){var
-e=W(b,a);return l(function(a){return bb(a[1],a[2])},e)}return c}function
-jB(e,k,j,i){var
+e=W(b,a);return l(function(a){return be(a[1],a[2])},e)}return c}function
+jN(c,a,b){var
+d=W(a,b),f=W(aC(c,g(a)),d);return e(function(a){return[1,a[1],a[2][1],a[2][2]]},f)}function
+eG(e,k,j,i){var
 c=k,b=j,a=i;for(;;){if(c)if(b)if(a){var
-f=a[1],l=h(e,1,[3,bg(c[1]),f]),g=l||h(e,1,[3,f,bg(b[1])]);if(!g){var
+f=a[1],l=h(e,1,[3,a4(c[1]),f]),g=l||h(e,1,[3,f,a4(b[1])]);if(!g){var
 c=c[2],b=b[2],a=a[2];continue}var
 d=g}else
 var
@@ -5542,211 +5549,169 @@ var
 d=b;else
 var
 d=c;return d}}function
-ov(f,e,b,a){var
+jO(b,e,c){var
+a=eh(b,function(a,c,d){return oF(b,e,a,c,d)},c);return a?I(d,a[1][2][1]):a}function
+jP(f,e,b,a){var
 c=a[1],d=b[1],g=c[2],h=a[2],i=d[2],j=b[2],k=[0,d[1],[0,c[1],0]];return l(function(a){var
 b=[0,i,[0,g,0]];return l(function(b){var
 c=[0,j,[0,h,0]];return l(function(c){var
-d=bg(c),g=bg(b);return bD(f,e,[0,bg(a),g,d])},c)},b)},k)}function
-ow(a){switch(a[0]){case
+d=a4(c),g=a4(b);return cE(f,e,[0,a4(a),g,d])},c)},b)},k)}function
+jQ(a){switch(a[0]){case
 0:var
-c=[0,a[4],0],d=f(br(a[3]),c),e=f(br(a[2]),d);return f(br(a[1]),e);case
+c=[0,a[4],0],d=f(aW(a[3]),c),e=f(aW(a[2]),d);return f(aW(a[1]),e);case
 1:var
-b=a[3],g=b?br(b[1]):b,h=f(br(a[2]),g);return f(br(a[1]),h);default:return br(a[1])}}function
-fy(b,a){var
-c=a0(a,a);return bb(a0(b,b),c)?a:b}function
-fz(b,a,e,d){var
-c=dJ(b,a,bg(e));return c?dJ(b,a,bg(d)):c}function
-ox(a){var
-c=r(vT,a,[0,d,b]),e=r(vU,a,[0,d,b]);return[0,[0,r(0,a,[0,d,b]),e],c]}function
-jC(d,c,b,a){var
-e=bY(d,c,b,a);return w(bY(d,c,b,a),e)}function
-vV(i,k,t,S,H,p,m,n,aS){var
-j=t[5],aJ=W(m,n),aK=W(aB(0,g(m)),aJ),ag=e(function(a){return[1,a[1],a[2][1],a[2][2]]},aK),ax=t[7],ay=ax?i5(i,t[2],S):ax,az=ay?bD(i,t[4],H):ay,aC=az?da(i,j,p):az,aD=aC?aa(k,vW):aC;if(aD)var
-aT=N(k,g(p)),T=o(g(m),aT);else
+b=a[3],g=b?aW(b[1]):b,h=f(aW(a[2]),g);return f(aW(a[1]),h);default:return aW(a[1])}}function
+oI(a){return 1===a[0]?0:1}function
+fH(b,a){var
+c=a2(a,a);return be(a2(b,b),c)?a:b}function
+fI(b,a,e,d){var
+c=dL(b,a,a4(e));return c?dL(b,a,a4(d)):c}function
+oJ(f,e,c,a){switch(e[0]){case
+0:if(c){if(c[2])return 0;if(a)return a[2]?0:fI(f,e[1],c[1],a[1]);var
+x=a}else
 var
-T=aD;if(T)var
-aU=0===j[0]?vX:vY,U=o(g(p),aU);else
+x=c;return x;case
+1:if(c){var
+i=c[2];if(i){var
+j=i[2];if(j){if(j[2])return 0;if(a){var
+k=a[2];if(k){var
+l=k[2];if(l){if(l[2])return 0;var
+y=fI(f,e[1],c[1],a[1]),z=y?fI(f,e[2],i[1],k[1]):y;if(z)return fI(f,e[3],j[1],l[1]);var
+A=z}else
 var
-U=T;var
-aE=U?ou(m,n):U;if(aE)var
-aV=ox(aA(k,n)),aW=ox(aA(k,m)),V=ov(i,t[4],aW,aV);else
+A=l;var
+B=A}else
 var
-V=aE;if(V){var
-a=aM(k,n),c=aM(k,m);switch(j[0]){case
-0:var
-Y=0;if(c)if(c[2])var
-h=0;else
-if(a)var
-h=a[2]?0:fz(i,j[1],c[1],a[1]);else{var
-ah=a;Y=1}else{var
-ah=c;Y=1}if(Y)var
-h=ah;break;case
-1:var
-Z=0;if(c){var
-v=c[2],I=0;if(v){var
-w=v[2],J=0;if(w)if(w[2]){var
-h=0;I=1;J=1}else
-if(a){var
-x=a[2],_=0;if(x){var
-y=x[2],$=0;if(y)if(y[2]){var
-h=0;I=1;J=1;_=1;$=1}else{var
-ai=fz(i,j[1],c[1],a[1]),aj=ai?fz(i,j[2],v[1],x[1]):ai;if(aj){var
-h=fz(i,j[3],w[1],y[1]);I=1;J=1;_=1;$=1}else
+B=k;var
+u=B}else
 var
-ak=aj}else
+u=a}else
 var
-ak=y;if(!$)var
-al=ak}else
+u=j;var
+C=u}else
 var
-al=x;if(!_)var
-P=al}else
+C=i;var
+D=C}else
 var
-P=a;else
+D=c;return D;case
+2:if(c){var
+m=c[2];if(m){var
+n=m[2];if(n){if(n[2])return 0;if(a){var
+o=a[2];if(o){var
+p=o[2];if(p){if(p[2])return 0;var
+P=[0,a4(fH(n[1],p[1])),0],Q=[0,a4(fH(m[1],o[1])),P];return fx(f,e,[0,a4(fH(c[1],a[1])),Q])}var
+E=p}else
 var
-P=w;if(!J)var
-am=P}else
+E=o;var
+v=E}else
 var
-am=v;if(!I){var
-an=am;Z=1}}else{var
-an=c;Z=1}if(Z)var
-h=an;break;case
-2:var
-ab=0;if(c){var
-z=c[2],K=0;if(z){var
-A=z[2],L=0;if(A)if(A[2]){var
-h=0;K=1;L=1}else
-if(a){var
-B=a[2],ac=0;if(B){var
-C=B[2];if(C)if(C[2]){var
-h=0;K=1;L=1;ac=1}else{var
-aN=[0,bg(fy(A[1],C[1])),0],aO=[0,bg(fy(z[1],B[1])),aN],h=da(i,j,[0,bg(fy(c[1],a[1])),aO]);K=1;L=1;ac=1}else
+v=a}else
 var
-ao=C}else
+v=n;var
+F=v}else
 var
-ao=B;if(!ac)var
-Q=ao}else
+F=m;var
+G=F}else
 var
-Q=a;else
+G=c;return G;default:if(c){var
+q=c[2];if(q){var
+r=q[2];if(r){if(r[2])return 0;if(a){var
+s=a[2];if(s){var
+t=s[2];if(t){if(t[2])return 0;var
+g=t[1],h=r[1],N=0,R=0;if(be(h,[0,d,b])&&be([0,d,b],g))var
+H=[0,d,b];else
+N=1;if(N)var
+O=a2(g,g),H=be(a2(h,h),O)?h:g;var
+S=[0,a4(H),R],T=[0,a4(fH(q[1],s[1])),S],I=fx(f,e,[0,a4(fH(c[1],a[1])),T]);if(I)return fI(f,db(e[2]),h,g);var
+J=I}else
 var
-Q=A;if(!L)var
-ap=Q}else
+J=t;var
+K=J}else
 var
-ap=z;if(!K){var
-aq=ap;ab=1}}else{var
-aq=c;ab=1}if(ab)var
-h=aq;break;default:var
-ad=0;if(c){var
-D=c[2],M=0;if(D){var
-E=D[2],O=0;if(E)if(E[2]){var
-h=0;M=1;O=1}else
-if(a){var
-F=a[2],ae=0;if(F){var
-G=F[2],af=0;if(G)if(G[2]){var
-h=0;M=1;O=1;ae=1;af=1}else{var
-q=G[1],s=E[1],aI=0,aP=0;if(bb(s,[0,d,b])&&bb([0,d,b],q))var
-ar=[0,d,b];else
-aI=1;if(aI)var
-aL=a0(q,q),ar=bb(a0(s,s),aL)?s:q;var
-aQ=[0,bg(ar),aP],aR=[0,bg(fy(D[1],F[1])),aQ],as=da(i,j,[0,bg(fy(c[1],a[1])),aR]);if(as){var
-h=fz(i,c$(j[2]),s,q);M=1;O=1;ae=1;af=1}else
+K=s;var
+w=K}else
 var
-at=as}else
+w=a}else
 var
-at=G;if(!af)var
-au=at}else
+w=r;var
+L=w}else
 var
-au=F;if(!ae)var
-R=au}else
+L=q;var
+M=L}else
 var
-R=a;else
-var
-R=E;if(!O)var
-av=R}else
-var
-av=D;if(!M){var
-aw=av;ad=1}}else{var
-aw=c;ad=1}if(ad)var
-h=aw}var
-X=h}else
-var
-X=V;if(X){var
-aX=aA(k,br(H)),aY=aA(k,n),aF=jB(i,aA(k,m),aY,aX);if(aF)var
-u=aF;else{var
-aH=1===j[0]?0:1;if(aH)var
-aZ=aM(k,n),u=jB(i,aM(k,m),aZ,p);else
-var
-u=aH}}else
-var
-u=X;var
-aG=u?l(function(a){var
-c=br(a[2]),b=hi(f(br(a[1]),c));return b?hi([0,jC(j,p,H,a),0]):b},S):u;return aG?ot(i,e(function(c){var
-h=[6,jC(j,p,H,c)],a=aA(k,ag),e=r(vR,a,[0,d,b]),f=r(vS,a,[0,d,b]),g=[0,r(0,a,[0,d,b]),f,e];return[3,[6,jC(j,aM(k,ag),g,c)],h]},S),aS):aG}var
-cK=c(2,c(2,c(2,c(2,c(2,q(c(2,b)))))));function
-dP(e){var
-a=aC(cK,e);if(a){var
-f=j(gd(c(2,b)),cK);return[0,a[1][2],f]}return[0,d,b]}var
-jD=[0,[0,d,b],[0,d,b],[0,d,b]];function
-eB(c,a){var
-e=[0,d,b];return an(function(b,a){return[2,j(c,b),a]},e,a)}function
-fA(b,a){return an(function(c,a){var
-d=j(b,c);return J(function(b,a){return[2,b,a]},d,a)},jD,a)}function
-oy(c){var
+M=c;return M}}function
+oK(a){var
+c=r(vY,a,[0,d,b]),e=r(vZ,a,[0,d,b]);return[0,r(0,a,[0,d,b]),e,c]}function
+ht(a){var
+c=r(v0,a,[0,d,b]),e=r(v1,a,[0,d,b]);return[0,[0,r(0,a,[0,d,b]),e],c]}function
+jR(d,c,b,a){var
+e=bX(d,c,b,a);return w(bX(d,c,b,a),e)}var
+cL=c(2,c(2,c(2,c(2,c(2,q(c(2,b)))))));function
+dQ(e){var
+a=aD(cL,e);if(a){var
+f=k(gm(c(2,b)),cL);return[0,a[1][2],f]}return[0,d,b]}var
+jS=[0,[0,d,b],[0,d,b],[0,d,b]];function
+eH(c,a){var
+e=[0,d,b];return ao(function(b,a){return[2,k(c,b),a]},e,a)}function
+fJ(b,a){return ao(function(c,a){var
+d=k(b,c);return J(function(b,a){return[2,b,a]},d,a)},jS,a)}function
+oL(c){var
 a=c;for(;;)switch(a[0]){case
 0:return 1;case
-1:return aI(a[1],dB);case
+1:return aK(a[1],dD);case
 6:var
 a=a[1];continue;default:var
-b=oy(a[1]);if(b){var
+b=oL(a[1]);if(b){var
 a=a[2];continue}return b}}function
-dg(a){return l(oy,a)}function
-jE(d,h,c,f){var
-a=ef(d,function(c,e,f){var
-a=aI(c,N(dB,h)),b=a?bb(e,f):a,g=b?[0,ls(d,c,e,f)]:b;return g},f);if(a){var
-b=a[1],e=aM(dB,b[3]),g=il(hh(aM(c,e))),i=il(hh(aA(c,e))),j=T(E(E(e8(aA(dB,b[3])),i),g));return I(b[1][2],j)}return a}function
-hj(b,a,c){if(b)if(a)var
-f=a[1],g=hj(b[2],a[2],c),h=I(b[1],d)?[3,f,c]:[2,f,c],e=[0,h,g];else
+dh(a){return l(oL,a)}function
+jT(d,h,c,f){var
+a=eh(d,function(c,e,f){var
+a=aK(c,L(dD,h)),b=a?be(e,f):a,g=b?[0,lK(d,c,e,f)]:b;return g},f);if(a){var
+b=a[1],e=av(dD,b[3]),g=iy(hq(av(c,e))),i=iy(hq(an(c,e))),j=T(E(E(fd(an(dD,b[3])),i),g));return I(b[1][2],j)}return a}function
+hu(b,a,c){if(b)if(a)var
+f=a[1],g=hu(b[2],a[2],c),h=I(b[1],d)?[3,f,c]:[2,f,c],e=[0,h,g];else
 var
 e=a;else
 var
 e=b;return e}function
-hk(a){return z(function(a){var
-d=j(gd(c(2,b)),cK);return[0,a[2],d]},a)}function
+hv(a){return z(function(a){var
+d=k(gm(c(2,b)),cL);return[0,a[2],d]},a)}function
 ck(b,a){var
-c=gm(a);return[1,N(dB,b),c,a]}function
-dQ(a){if(cc(a[1],a[2]))return a[1];var
+c=gv(a);return[1,L(dD,b),c,a]}function
+dR(a){if(cc(a[1],a[2]))return a[1];var
 d=[0,c(2,b),b];return[5,[2,a[1],a[2]],d]}function
 by(a){var
-b=dQ(a[3]),c=dQ(a[2]);return[0,dQ(a[1]),c,b]}function
-oz(a){switch(a[0]){case
+b=dR(a[3]),c=dR(a[2]);return[0,dR(a[1]),c,b]}function
+oM(a){switch(a[0]){case
 0:var
-b=a[1],c=b[5],d=dQ(b[4]),e=by(b[3]),f=by(b[2]);return[0,by(b[1]),f,e,d,c];case
+b=a[1],c=b[5],d=dR(b[4]),e=by(b[3]),f=by(b[2]);return[0,by(b[1]),f,e,d,c];case
 1:var
 g=z(by,a[3]),h=by(a[2]);return[1,by(a[1]),h,g];default:return[2,by(a[1])]}}function
-fB(i,f,p,a,Q,n){var
-x=fj(i,f,p,a),y=x?dg(br(a)):x;if(y){var
+fK(i,f,p,a,Q,n){var
+x=fq(i,f,p,a),y=x?dh(aW(a)):x;if(y){var
 q=H(f[3],Q);if(q){var
 j=q[1];if(typeof
 j!=="number"&&14===j[0]){var
-B=j[2],C=j[1],r=hk(aC(cK,B));if(r){var
-s=r[1],R=ck(vZ,s),S=ck(v0,s),t=[0,ck(0,s),S,R],D=h(i,1,B),E=D?h(i,0,C):D;if(E)var
+B=j[2],C=j[1],r=hv(aD(cL,B));if(r){var
+s=r[1],R=ck(v8,s),S=ck(v9,s),t=[0,ck(0,s),S,R],D=h(i,1,B),E=D?h(i,0,C):D;if(E)var
 T=g(f[1]),u=o(g(n),T);else
 var
 u=E;var
-F=u?l(function(a){return dg(ow(a))},p):u;if(F){var
-U=f[1],G=hj(n,e(function(b){return cF(oz(b),a)},U),C),I=dg(G);if(I){var
+F=u?l(function(a){return dh(jQ(a))},p):u;if(F){var
+U=f[1],G=hu(n,e(function(b){return cG(oM(b),a)},U),C),I=dh(G);if(I){var
 v=W(W(p,G),n),k=function(k){var
 f=k[1][2],e=k[1][1];switch(e[0]){case
 0:var
-i=e[4],l=P(f,av(e[1])),m=aV(e[2],e[3],a),g=J(function(b,a){return[3,b,a]},m,l),n=P([0,c(2,b),b],g);return[0,[3,w(g,g),[4,i,i]],n,[0,b,b]];case
+i=e[4],l=P(f,ay(e[1])),m=aV(e[2],e[3],a),g=J(function(b,a){return[3,b,a]},m,l),n=P([0,c(2,b),b],g);return[0,[3,w(g,g),[4,i,i]],n,[0,b,b]];case
 1:var
 h=aV(e[1],e[2],a),o=P([0,c(2,b),b],h);return[0,[3,w(h,h),[4,f,f]],o,[0,b,b]];default:var
-j=e[1],p=av(j);return[0,[3,w(av(j),a),f],p,[0,d,b]]}},m=function(j){var
+j=e[1],p=ay(j);return[0,[3,w(ay(j),a),f],p,[0,d,b]]}},m=function(j){var
 e=j[1],f=e[2],c=e[1],d=j[2];switch(c[0]){case
 0:var
-g=c[3],h=c[2],i=c[1],k=aV(h,g,a),l=[3,w(av(i),k),f],m=cf(i,h,g,c[4],a);return dP([5,[0,d,b],[2,cE(c[5],m),l]]);case
-1:return dP([5,[0,d,b],[2,f,cF(c,a)]]);default:return[0,d,b]}},M=w(t,t),N=[4,eB(function(a){var
-b=k(a)[3];return[4,m(a),b]},v),M],O=w(fA(function(a){var
-b=k(a)[2];return P(m(a),b)},v),t);return jE(i,v2,v1,[2,[2,eB(function(a){var
+g=c[3],h=c[2],i=c[1],k=aV(h,g,a),l=[3,w(ay(i),k),f],m=cf(i,h,g,c[4],a);return dQ([5,[0,d,b],[2,cF(c[5],m),l]]);case
+1:return dQ([5,[0,d,b],[2,f,cG(c,a)]]);default:return[0,d,b]}},M=w(t,t),N=[4,eH(function(a){var
+b=k(a)[3];return[4,m(a),b]},v),M],O=w(fJ(function(a){var
+b=k(a)[2];return P(m(a),b)},v),t);return jT(i,v$,v_,[2,[2,eH(function(a){var
 b=k(a)[1];return[4,m(a),b]},v),O],N])}var
 K=I}else
 var
@@ -5760,96 +5725,121 @@ z=q;var
 A=z}else
 var
 A=y;return A}function
-v3(a){var
-b=dg(br(a[3])),c=b?dg(br(a[4])):b;return c?dg([0,a[2],0]):c}function
-oA(a,d,c){var
-b=aB(0,bG(a));return e(function(b){var
-e=aI(b,cJ(a))?d:c;return ck(b,e)},b)}function
-oB(e,a,f){if(typeof
+wa(a){var
+b=dh(aW(a[3])),c=b?dh(aW(a[4])):b;return c?dh([0,a[2],0]):c}function
+oN(a,d,c){var
+b=aC(0,bF(a));return e(function(b){var
+e=aK(b,cK(a))?d:c;return ck(b,e)},b)}function
+oO(e,a,f){if(typeof
 e==="number"){if(e){var
-g=ck(v4,a);return[0,[0,ck(0,a),g,[0,d,b]],jD]}var
-h=ck(v5,a),i=ck(v6,a);return[0,[0,ck(0,a),i,h],jD]}var
-c=e[1],j=om(c,oA(c,a,f));return[0,ol(c,oA(c,a,f)),j]}function
-oC(g,e,u,o,a){var
-p=hk(aC(cK,u));if(p){var
+g=ck(wb,a);return[0,[0,ck(0,a),g,[0,d,b]],jS]}var
+h=ck(wc,a),i=ck(wd,a);return[0,[0,ck(0,a),i,h],jS]}var
+c=e[1],j=oB(c,oN(c,a,f));return[0,oA(c,oN(c,a,f)),j]}function
+oP(g,e,u,o,a){var
+p=hv(aD(cL,u));if(p){var
 v=p[1],q=typeof
-e==="number"?[0,[0,b,b]]:hk(j(cG(cK),o));if(q){var
+e==="number"?[0,[0,b,b]]:hv(k(cH(cL),o));if(q){var
 r=q[1],x=h(g,1,u);if(x)if(typeof
 e==="number")var
 i=1;else
 var
-B=h(g,1,o),C=B?cH(g,o):B,i=C?M(bb(r,[0,d,b])):C;else
+B=h(g,1,o),C=B?cI(g,o):B,i=C?N(be(r,[0,d,b])):C;else
 var
 i=x;var
-y=i?l(v3,a):i;if(y){var
-f=oB(e,v,r)[2],k=oB(e,v,r)[1],m=[0,c(2,b),b],n=function(b){return fA(function(a){var
-c=a[3],d=j(b,a[4]);return P([4,a[1],d],c)},a)},s=eB(function(a){var
-b=w(a[3],a[4]);return[4,a[1],b]},a),t=w(f,f),D=n(function(a){return a[3]}),E=P(f[3],D),F=n(function(a){return a[2]}),G=P(f[2],F),H=n(function(a){return a[1]}),I=P(f[1],H),K=J(function(b,a){return[2,b,a]},I,G),L=[4,t,s],N=w(f,J(function(b,a){return[2,b,a]},K,E)),O=[3,[2,w(f,fA(function(a){var
-b=c9(a[4],a[3]);return P(a[1],b)},a)),N],L],Q=[2,[4,m,s],[4,[5,[0,c(2,c(2,b)),b],[2,[0,b,b],t]],O]],R=[4,m,w(k,m5(f,fA(function(a){return P(a[1],a[4])},a)))],S=w(k,k),T=[2,[4,eB(function(a){return a[1]},a),S],R],U=[4,m,w(fA(function(a){return P(a[1],a[3])},a),k)],V=[2,[2,[2,eB(function(a){var
+y=i?l(wa,a):i;if(y){var
+f=oO(e,v,r)[2],j=oO(e,v,r)[1],m=[0,c(2,b),b],n=function(b){return fJ(function(a){var
+c=a[3],d=k(b,a[4]);return P([4,a[1],d],c)},a)},s=eH(function(a){var
+b=w(a[3],a[4]);return[4,a[1],b]},a),t=w(f,f),D=n(function(a){return a[3]}),E=P(f[3],D),F=n(function(a){return a[2]}),G=P(f[2],F),H=n(function(a){return a[1]}),I=P(f[1],H),K=J(function(b,a){return[2,b,a]},I,G),L=[4,t,s],M=w(f,J(function(b,a){return[2,b,a]},K,E)),O=[3,[2,w(f,fJ(function(a){var
+b=c$(a[4],a[3]);return P(a[1],b)},a)),M],L],Q=[2,[4,m,s],[4,[5,[0,c(2,c(2,b)),b],[2,[0,b,b],t]],O]],R=[4,m,w(j,nl(f,fJ(function(a){return P(a[1],a[4])},a)))],S=w(j,j),T=[2,[4,eH(function(a){return a[1]},a),S],R],U=[4,m,w(fJ(function(a){return P(a[1],a[3])},a),j)],V=[2,[2,[2,eH(function(a){var
 b=[4,a[2],a[2]],c=w(a[4],a[4]),d=[3,[2,w(a[3],a[3]),c],b];return[4,a[1],d]},a),U],T],Q],W=typeof
-e==="number"?aw(e):cJ(e[1]);return jE(g,aw(e),W,V)}var
+e==="number"?at(e):cK(e[1]);return jT(g,at(e),W,V)}var
 z=y}else
 var
 z=q;var
 A=z}else
 var
 A=p;return A}function
-oD(a){return[6,w(a,a)]}function
-oE(b){if(0===b[0])return[0,oz(b[1])];var
-a=b[1],c=a[7],d=dQ(a[6]),e=dQ(a[5]),f=by(a[4]),g=by(a[3]),h=by(a[2]);return[1,[0,by(a[1]),h,g,f,e,d,c]]}function
-hl(f,e,c,a){if(typeof
+oQ(a){return[6,w(a,a)]}function
+oR(b){if(0===b[0])return[0,oM(b[1])];var
+a=b[1],c=a[7],d=dR(a[6]),e=dR(a[5]),f=by(a[4]),g=by(a[3]),h=by(a[2]);return[1,[0,by(a[1]),h,g,f,e,d,c]]}function
+hw(f,e,c,a){if(typeof
 a==="number")return 0;else{if(0===a[0]){var
 g=a[1],j=I(c,d)?[3,g,f]:[2,g,f];return[0,j]}var
-h=a[2],i=a[1],k=I(c,d)?gm(e):e,b=bg(k),l=[4,i,dI(b)],m=[2,[4,h,dH(b)],l],n=[4,h,dI(b)];return[1,[3,[4,i,dH(b)],n],m]}}function
-jF(a,c){if(D(c,b))return a;var
-g=aS(c,aH(2)),h=g[1];if(K(g[2],d)){var
-e=jF(a,h);return[4,e,e]}var
-f=jF(a,h);return[4,[4,f,f],a]}function
-bs(c,a){switch(a[0]){case
+h=a[2],i=a[1],k=I(c,d)?gv(e):e,b=a4(k),l=[4,i,dK(b)],m=[2,[4,h,dJ(b)],l],n=[4,h,dK(b)];return[1,[3,[4,i,dJ(b)],n],m]}}function
+jU(a,c){if(D(c,b))return a;var
+g=aT(c,aJ(2)),h=g[1];if(K(g[2],d)){var
+e=jU(a,h);return[4,e,e]}var
+f=jU(a,h);return[4,[4,f,f],a]}function
+aX(c,a){switch(a[0]){case
 0:return a[1];case
-1:return n_([0,d,b],c,a[1]);case
-2:return[3,[0,d,b],bs(c,a[1])];case
+1:return oo([0,d,b],c,a[1]);case
+2:return[3,[0,d,b],aX(c,a[1])];case
 3:var
-e=bs(c,a[2]);return[2,bs(c,a[1]),e];case
+e=aX(c,a[2]);return[2,aX(c,a[1]),e];case
 4:var
-f=bs(c,a[2]);return[3,bs(c,a[1]),f];case
+f=aX(c,a[2]);return[3,aX(c,a[1]),f];case
 5:var
-g=bs(c,a[2]);return[4,bs(c,a[1]),g];case
+g=aX(c,a[2]);return[4,aX(c,a[1]),g];case
 6:var
-h=bs(c,a[2]);return[5,bs(c,a[1]),h];case
+h=aX(c,a[2]);return[5,aX(c,a[1]),h];case
 7:var
-i=a[2];return jF(bs(c,a[1]),i);default:return[6,bs(c,a[1])]}}function
-oF(d,h,g){var
-i=d[3],b=n$(d,g,h),a=i;for(;;){if(a){var
-c=a[1],e=a[2],f=bs(b,c[2]),b=[0,[0,c[1],f],b],a=e;continue}return b}}function
-jG(c){var
+i=a[2];return jU(aX(c,a[1]),i);default:return[6,aX(c,a[1])]}}function
+fL(d,h,g){var
+i=d[3],b=jE(d,g,h),a=i;for(;;){if(a){var
+c=a[1],e=a[2],f=aX(b,c[2]),b=[0,[0,c[1],f],b],a=e;continue}return b}}function
+fM(c){var
 a=c;for(;;)switch(a[0]){case
-0:return M(dA(a[1]));case
+0:return N(dC(a[1]));case
 1:return 1;case
 2:case
 7:case
 8:var
 a=a[1];continue;default:var
-b=jG(a[1]);if(b){var
+b=fM(a[1]);if(b){var
 a=a[2];continue}return b}}function
-oG(a){if(a){var
+jV(a){if(a){var
 b=a[1];if(0===b[0])return 0;var
-c=b[1],d=oG(a[2]);return z(function(a){return[0,c,a]},d)}return v9}var
-hn=x(m(b),hm);function
-oH(e){var
-a=V(hn);if(e)var
+c=b[1],d=jV(a[2]);return z(function(a){return[0,c,a]},d)}return wg}function
+eI(c,e,p){var
+a=p;for(;;)switch(a[0]){case
+6:var
+g=a[2],h=eI(c,e,a[1]),i=h?eI(c,e,g):h;if(i){var
+j=aX(e,g),l=k(c,j);if(!l)return k(c,[3,[0,d,b],j]);var
+m=l}else
+var
+m=i;return m;case
+8:var
+n=a[1],o=eI(c,e,n);return o?k(c,aX(e,n)):o;case
+2:case
+7:var
+a=a[1];continue;case
+0:case
+1:return 1;default:var
+f=eI(c,e,a[1]);if(f){var
+a=a[2];continue}return f}}function
+oS(j,c,i,h,n){var
+o=c[3],b=jE(c,h,i),a=o;for(;;){if(a){var
+e=a[1],f=e[2],g=eI(j,b,f);if(g){var
+k=a[2],m=aX(b,f),b=[0,[0,e[1],m],b],a=k;continue}var
+d=g}else
+var
+d=1;if(d){var
+p=fL(c,i,h);return l(function(a){return eI(j,p,a)},n)}return d}}var
+hy=x(m(b),hx);function
+oT(e){var
+a=V(hy);if(e)var
 f=s(m(c(2,b)),a),g=B(m(c(2,c(2,b))),f),h=s(m(c(2,b)),a),d=am(B(m(b),h),g);else
 var
-i=B(m(c(2,b)),a),j=V(hm),d=am(B(s(m(c(2,b)),j),a),i);return aJ(d)}function
-oI(d,c,a){if(d){var
-e=oH(c),f=B(m(b),e),g=s(x(m(b),a),f);return x(m(b),g)}var
-h=m(b),i=oH(c),j=am(m(b),i);return x(s(a,B(m(b),j)),h)}function
-eC(f,e,d,a){var
-g=V(a),h=V(d),i=x(x(m(c(2,b)),h),g),j=f?e?hn:am(hn,s(m(c(2,b)),hm)):am(hn,m(c(2,b))),k=s(V(j),i);return aJ(B(m(b),k))}function
-oJ(g,d){var
+i=B(m(c(2,b)),a),j=V(hx),d=am(B(s(m(c(2,b)),j),a),i);return aL(d)}function
+oU(d,c,a){if(d){var
+e=oT(c),f=B(m(b),e),g=s(x(m(b),a),f);return x(m(b),g)}var
+h=m(b),i=oT(c),j=am(m(b),i);return x(s(a,B(m(b),j)),h)}function
+eJ(f,e,d,a){var
+g=V(a),h=V(d),i=x(x(m(c(2,b)),h),g),j=f?e?hy:am(hy,s(m(c(2,b)),hx)):am(hy,m(c(2,b))),k=s(V(j),i);return aL(B(m(b),k))}function
+oV(g,d){var
 c=g,a=d[1],b=d[3];for(;;){if(c){if(b){var
 e=b[2],f=c[1]?A(a,b[1]):a,c=c[2],a=f,b=e;continue}return a}return a}}function
-jH(w,v,u,t){var
+jW(w,v,u,t){var
 a=e(function(a){return r(a,u,0)},v);if(a){var
 f=a[1];if(f){var
 b=a[2];if(b){var
@@ -5859,11 +5849,11 @@ h=c[1];if(h){var
 d=c[2];if(d){var
 i=d[1];if(i){if(d[2])return 0;var
 x=i[1],y=h[1],z=g[1],A=f[1];return l(function(a){var
-c=j(a,x),d=j(a,y),e=j(a,z),b=j(a,A);return eg(w,[0,[0,b,[0,e,[0,d,0]]],[0,[0,b,[0,c,0]],[0,[0,b,0],0]]])},t)}var
-k=i}else
+c=k(a,x),d=k(a,y),e=k(a,z),b=k(a,A);return ei(w,[0,[0,b,[0,e,[0,d,0]]],[0,[0,b,[0,c,0]],[0,[0,b,0],0]]])},t)}var
+j=i}else
 var
-k=d;var
-m=k}else
+j=d;var
+m=j}else
 var
 m=h;var
 n=m}else
@@ -5881,12 +5871,12 @@ q=f;var
 s=q}else
 var
 s=a;return s}function
-oK(f,i,e,c,h){var
+oW(f,i,e,c,h){var
 j=f?b:d,a=O(i,j);function
 g(b){var
 c=f?ca(b):cx(b);return F(c,a)}var
 k=[0,$(h),0],l=[0,[0,a,c,[0,u,[0,g(c),0]]],k];return[0,[0,a,e,[0,g(e),0]],l]}function
-oL(r,b,q,p,g,o,n){if(o){var
+oX(r,b,q,p,g,o,n){if(o){var
 x=o[1];if(x[1])return 0;if(o[2])return 0;if(n){var
 j=x[2],s=0;if(g){var
 h=g[2],c=0;if(h){var
@@ -5895,16 +5885,16 @@ a=0;c=1;d=1}else{var
 t=i[1],k=h[1],l=g[1],f=0;if(typeof
 j==="number")switch(j){case
 0:var
-A=e(aG,bf(wb)),z=e($,0),a=jH(b,p,bc(0,bB(b,dE(0,g),z),q,0),A);c=1;d=1;f=1;break;case
+A=e(aH,bi(wk)),z=e($,0),a=jW(b,p,bf(0,bB(b,dG(0,g),z),q,0),A);c=1;d=1;f=1;break;case
 3:var
 a=D(k[2],l[1]);c=1;d=1;f=1;break}else
 if(4===j[0]){var
 m=j[1];if(r)if(m){var
-B=e(oJ,wc),a=jH(b,p,bc(0,bB(b,oK(r,b,l,k,t),0),q,0),B);c=1;d=1;f=1}else{var
+B=e(oV,wl),a=jW(b,p,bf(0,bB(b,oW(r,b,l,k,t),0),q,0),B);c=1;d=1;f=1}else{var
 a=m;c=1;d=1;f=1}else
 if(m){var
 a=0;c=1;d=1;f=1}else{var
-C=e(oJ,wd),a=jH(b,p,bc(0,bB(b,oK(r,b,l,k,t),0),q,0),C);c=1;d=1;f=1}}if(!f)var
+C=e(oV,wm),a=jW(b,p,bf(0,bB(b,oW(r,b,l,k,t),0),q,0),C);c=1;d=1;f=1}}if(!f)var
 u=0}else
 var
 u=i;if(!d)var
@@ -5914,29 +5904,29 @@ v=h;if(!c){var
 w=v;s=1}}else{var
 w=g;s=1}if(s)var
 a=w;var
-y=a?we:a}else
+y=a?wn:a}else
 var
 y=n;return y}return[0,n]}function
-oM(f,e,d,c,p,o,n){var
+oY(f,e,d,c,p,o,n){var
 b=p,g=o,a=n;for(;;)switch(a[0]){case
 0:var
-h=oL(f,e,d,c,b,a[1],g);return h?M(h[1]):h;case
+h=oX(f,e,d,c,b,a[1],g);return h?N(h[1]):h;case
 1:var
-i=oL(f,e,d,c,b,a[1],g);if(i){var
-j=i[1],k=c1(a[2],b),l=oM(f,e,d,c,k[1],j,a[3]);if(l){var
+i=oX(f,e,d,c,b,a[1],g);if(i){var
+j=i[1],k=c3(a[2],b),l=oY(f,e,d,c,k[1],j,a[3]);if(l){var
 b=k[2],g=j,a=a[4];continue}var
 m=l}else
 var
 m=i;return m;default:return 0}}function
-jI(a){return b8(c(2,b),aL(a,b))}function
-eD(i,a,e,w,v){var
-l=a?b:T(b),f=m(l),g=oI(a,e,v$),h=oI(a,e,wa),n=am(g,eC(a,e,f,g)),o=[0,B(am(h,eC(a,e,h,f)),n),0],p=am(f,eC(a,e,f,g)),q=[0,B(am(h,eC(a,e,g,h)),p),o],r=am(f,eC(a,e,h,f)),t=[0,B(am(g,eC(a,e,g,h)),r),q],u=a?e?m(c(2,b)):s(m(c(2,c(2,b))),hm):m(c(2,c(2,b))),j=cW([0,u,t]),k=[0,d,cw(i)];return oM(a,i,j[1],j[2],[0,k,[0,k,[0,w,0]]],1,v)}function
-oN(a,g,b){if(I(g,jI(a))){if(b){var
+jX(a){return b8(c(2,b),aM(a,b))}function
+eK(i,a,e,w,v){var
+l=a?b:T(b),f=m(l),g=oU(a,e,wi),h=oU(a,e,wj),n=am(g,eJ(a,e,f,g)),o=[0,B(am(h,eJ(a,e,h,f)),n),0],p=am(f,eJ(a,e,f,g)),q=[0,B(am(h,eJ(a,e,g,h)),p),o],r=am(f,eJ(a,e,h,f)),t=[0,B(am(g,eJ(a,e,g,h)),r),q],u=a?e?m(c(2,b)):s(m(c(2,c(2,b))),hx):m(c(2,c(2,b))),j=cY([0,u,t]),k=[0,d,cw(i)];return oY(a,i,j[1],j[2],[0,k,[0,k,[0,w,0]]],1,v)}function
+oZ(a,g,b){if(I(g,jX(a))){if(b){var
 c=b[2];if(c){var
 d=c[2];if(d){var
 e=d[2];if(e){if(e[2])return 0;var
-h=[0,g,jI(a)],v=cw(a),i=[0,jI(a),v],j=eD(a,0,1,h,b[1]),k=j?eD(a,0,0,i,c[1]):j;if(k){var
-l=eD(a,1,1,h,d[1]);if(l)return eD(a,1,0,i,e[1]);var
+h=[0,g,jX(a)],v=cw(a),i=[0,jX(a),v],j=eK(a,0,1,h,b[1]),k=j?eK(a,0,0,i,c[1]):j;if(k){var
+l=eK(a,1,1,h,d[1]);if(l)return eK(a,1,0,i,e[1]);var
 m=l}else
 var
 m=k;var
@@ -5953,301 +5943,301 @@ q=p}else
 var
 q=b;return q}if(b){var
 f=b[2];if(f){if(f[2])return 0;var
-r=[0,g,cw(a)],s=eD(a,0,0,r,b[1]);if(s)return eD(a,1,0,r,f[1]);var
+r=[0,g,cw(a)],s=eK(a,0,0,r,b[1]);if(s)return eK(a,1,0,r,f[1]);var
 t=s}else
 var
 t=f;var
 u=t}else
 var
 u=b;return u}function
-jJ(a){var
-b=[1,[2,d]];return bT(function(b,a){return[1,[3,b,a]]},a,b)}function
-ho(a){return jJ(e(function(a){return[1,[8,[1,[2,a]]]]},a))}function
-hp(a,c){return jJ(e(function(a){var
-d=[0,a[2]],b=W(a[1],c);return[1,[7,[1,[8,jJ(e(function(a){return[1,[6,[0,a[1]],[1,[2,a[2]]]]]},b))]],d]]},a))}function
-oO(e,d,c,b,a){if(0===a[0])return r(a[1],b,0);var
-f=a[1],g=bU(function(a){return oO(e,d,c,b,a)},f);return j(bB(e,d,c),g)}function
-oP(a){return a?I(d,a[1][2][1]):a}function
-wf(a){var
-b=o(g(a),wg);return b?aj(function(a){return M(K(a,d))},a):b}function
-oQ(c,f,b,a){if(b)if(a)var
-d=b[1],g=t(c,O(c,a[1]),f),h=oQ(c,f,b[2],a[2]),i=d[3],j=A(d[2],g),e=[0,[0,A(d[1],g),j,i],h];else
+jY(a){var
+b=[1,[2,d]];return bS(function(b,a){return[1,[3,b,a]]},a,b)}function
+hz(a){return jY(e(function(a){return[1,[8,[1,[2,a]]]]},a))}function
+hA(a,c){return jY(e(function(a){var
+d=[0,a[2]],b=W(a[1],c);return[1,[7,[1,[8,jY(e(function(a){return[1,[6,[0,a[1]],[1,[2,a[2]]]]]},b))]],d]]},a))}function
+o0(e,d,c,b,a){if(0===a[0])return r(a[1],b,0);var
+f=a[1],g=bT(function(a){return o0(e,d,c,b,a)},f);return k(bB(e,d,c),g)}function
+o1(a){return a?I(d,a[1][2][1]):a}function
+wo(a){var
+b=o(g(a),wp);return b?aj(function(a){return N(K(a,d))},a):b}function
+o2(c,f,b,a){if(b)if(a)var
+d=b[1],g=t(c,O(c,a[1]),f),h=o2(c,f,b[2],a[2]),i=d[3],j=A(d[2],g),e=[0,[0,A(d[1],g),j,i],h];else
 var
 e=a;else
 var
 e=b;return e}function
-oR(d,c){var
+o3(d,c){var
 a=H(c,d);if(a){var
-b=a[1],e=b[1];return M(K(cd(b),e))}return a}function
-hq(b,a){return e4(e4(b,0),a)}function
-jK(a){if(a){var
-b=a[2],c=a[1];if(b)return hq(c,[0,wi,jK(b)]);var
+b=a[1],e=b[1];return N(K(cd(b),e))}return a}function
+hB(b,a){return e$(e$(b,0),a)}function
+jZ(a){if(a){var
+b=a[2],c=a[1];if(b)return hB(c,[0,wr,jZ(b)]);var
 d=c}else
 var
 d=a;return d}function
-G(a){return[0,wk,hq(jK(a),wj)]}function
-ag(a){return[0,wm,hq(jK(a),wl)]}function
-ap(a){return[0,wo,[0,a,wn]]}function
-n(b,a){return[0,ba(wq,ba(b,wp)),a]}function
-Q(b,a){return ag([0,n(b,a),0])}function
-cL(d){var
-b=d,a=sz,e=0;for(;;){if(b){var
-c=k4(a),b=b[1],a=c;continue}return[0,e5(ga(a)),e]}}function
-jL(a){return[0,e5(gj(a)),0]}function
-fC(a){var
-c=aR(a),f=0,b=0===c?sF:0<c?[0,gj(a)]:[1,gj(T(a))];if(0===b[0])var
-d=e5(b[1]);else
+G(a){return[0,wt,hB(jZ(a),ws)]}function
+ah(a){return[0,wv,hB(jZ(a),wu)]}function
+aq(a){return[0,wx,[0,a,ww]]}function
+n(b,a){return[0,bd(wz,bd(b,wy)),a]}function
+Q(b,a){return ah([0,n(b,a),0])}function
+cM(d){var
+b=d,a=sG,e=0;for(;;){if(b){var
+c=lk(a),b=b[1],a=c;continue}return[0,fa(gj(a)),e]}}function
+j0(a){return[0,fa(gs(a)),0]}function
+fN(a){var
+c=aS(a),f=0,b=0===c?sM:0<c?[0,gs(a)]:[1,gs(T(a))];if(0===b[0])var
+d=fa(b[1]);else
 var
-e=e5(b[1]),d=ba(bP(1,45),e);return[0,d,f]}function
-eE(a){var
-b=0,c=0<aR(a)?gj(a):sD;return[0,e5(c),b]}function
-jM(a){switch(a[0]){case
-2:return ws;case
-3:return 2<=a[1]?wt:wu;case
-4:return wv;default:return wr}}function
-fD(b,a){function
-c(c,a){return aa(c,jM(a))?fD(b,a):[0,wB,f(fD(b,a),wA)]}switch(a[0]){case
+e=fa(b[1]),d=bd(bO(1,45),e);return[0,d,f]}function
+eL(a){var
+b=0,c=0<aS(a)?gs(a):sK;return[0,fa(c),b]}function
+j1(a){switch(a[0]){case
+2:return wB;case
+3:return 2<=a[1]?wC:wD;case
+4:return wE;default:return wA}}function
+fO(b,a){function
+c(c,a){return aa(c,j1(a))?fO(b,a):[0,wK,f(fO(b,a),wJ)]}switch(a[0]){case
 0:var
 e=a[2],g=a[1];if(typeof
-e==="number")return[0,bk(g),0];var
-h=[0,wC,[0,bk(e),0]];return[0,bk(g),h];case
-1:return[0,j(b,a[1]),0];case
-2:return[0,wE,c(wD,a[1])];case
+e==="number")return[0,bm(g),0];var
+h=[0,wL,[0,bm(e),0]];return[0,bm(g),h];case
+1:return[0,k(b,a[1]),0];case
+2:return[0,wN,c(wM,a[1])];case
 3:var
-i=a[3],k=c([0,jM(a)],i);switch(a[1]){case
+i=a[3],j=c([0,j1(a)],i);switch(a[1]){case
 0:var
-d=ww;break;case
+d=wF;break;case
 1:var
-d=wx;break;case
+d=wG;break;case
 2:var
-d=wy;break;default:var
-d=wz}var
-l=a[2];return f(c(jM(a),l),[0,d,k]);case
+d=wH;break;default:var
+d=wI}var
+l=a[2];return f(c(j1(a),l),[0,d,j]);case
 4:var
-m=[0,wF,jL(a[2])];return f(c(wG,a[1]),m);default:return[0,wI,f(fD(b,a[1]),wH)]}}function
-L(a){return[0,wL,f(fD(function(a){return 0===a[0]?a[1]:wK},a),wJ)]}function
-jN(a){return[0,wN,f(fD(function(a){return a},a),wM)]}function
-cM(a){if(0===a[0])return L(a[1]);var
-b=[0,n(wO,L(a[2])),0];return ag([0,n(wP,L(a[1])),b])}function
-hr(b,a){var
-c=[0,j(b,a[3]),0],d=[0,j(b,a[2]),c];return G([0,j(b,a[1]),d])}function
-wQ(a){function
-b(a){return hr(cM,a)}switch(a[0]){case
+m=[0,wO,j0(a[2])];return f(c(wP,a[1]),m);default:return[0,wR,f(fO(b,a[1]),wQ)]}}function
+M(a){return[0,wU,f(fO(function(a){return 0===a[0]?a[1]:wT},a),wS)]}function
+j2(a){return[0,wW,f(fO(function(a){return a},a),wV)]}function
+cN(a){if(0===a[0])return M(a[1]);var
+b=[0,n(wX,M(a[2])),0];return ah([0,n(wY,M(a[1])),b])}function
+hC(b,a){var
+c=[0,k(b,a[3]),0],d=[0,k(b,a[2]),c];return G([0,k(b,a[1]),d])}function
+wZ(a){function
+b(a){return hC(cN,a)}switch(a[0]){case
 0:var
-e=0,g=a[5]?wR:wZ,h=[0,n(wS,ap(g)),e],i=[0,n(wT,cM(a[4])),h],j=[0,n(wU,b(a[3])),i],k=[0,n(wV,b(a[2])),j],l=[0,n(wW,b(a[1])),k],c=[0,n(wY,ap(wX)),l];break;case
+e=0,g=a[5]?w0:w8,h=[0,n(w1,aq(g)),e],i=[0,n(w2,cN(a[4])),h],j=[0,n(w3,b(a[3])),i],k=[0,n(w4,b(a[2])),j],l=[0,n(w5,b(a[1])),k],c=[0,n(w7,aq(w6)),l];break;case
 1:var
-d=a[3],m=d?[0,n(w0,b(d[1])),0]:d,o=[0,n(w1,b(a[2])),0],p=[0,n(w2,b(a[1])),o],c=f([0,n(w4,ap(w3)),p],m);break;default:var
-q=[0,n(w5,b(a[1])),0],c=[0,n(w7,ap(w6)),q]}return ag(c)}function
-w8(a){function
-b(a){return G(e(cM,a))}function
+d=a[3],m=d?[0,n(w9,b(d[1])),0]:d,o=[0,n(w_,b(a[2])),0],p=[0,n(w$,b(a[1])),o],c=f([0,n(xb,aq(xa)),p],m);break;default:var
+q=[0,n(xc,b(a[1])),0],c=[0,n(xe,aq(xd)),q]}return ah(c)}function
+xf(a){function
+b(a){return G(e(cN,a))}function
 g(a){var
-b=a?w9:w$;return n(w_,ap(b))}switch(a[0]){case
+b=a?xg:xi;return n(xh,aq(b))}switch(a[0]){case
 0:var
-h=[0,g(a[5]),0],i=[0,n(xa,cM(a[4])),h],j=[0,n(xb,b(a[3])),i],k=[0,n(xc,b(a[2])),j],l=[0,n(xd,b(a[1])),k],c=[0,n(xf,ap(xe)),l];break;case
+h=[0,g(a[5]),0],i=[0,n(xj,cN(a[4])),h],j=[0,n(xk,b(a[3])),i],k=[0,n(xl,b(a[2])),j],l=[0,n(xm,b(a[1])),k],c=[0,n(xo,aq(xn)),l];break;case
 1:var
-d=a[3],m=d?[0,n(xg,b(d[1])),0]:d,o=[0,n(xh,b(a[2])),0],p=[0,n(xi,b(a[1])),o],c=f([0,n(xk,ap(xj)),p],m);break;case
+d=a[3],m=d?[0,n(xp,b(d[1])),0]:d,o=[0,n(xq,b(a[2])),0],p=[0,n(xr,b(a[1])),o],c=f([0,n(xt,aq(xs)),p],m);break;case
 2:var
-q=[0,n(xl,b(a[1])),0],c=[0,n(xn,ap(xm)),q];break;default:var
-r=[0,g(a[7]),0],s=[0,n(xo,cM(a[6])),r],t=[0,n(xp,cM(a[5])),s],u=[0,n(xq,b(a[4])),t],v=[0,n(xr,b(a[3])),u],w=[0,n(xs,b(a[2])),v],x=[0,n(xt,b(a[1])),w],c=[0,n(xv,ap(xu)),x]}return ag(c)}function
-jO(a){switch(a){case
-0:return xw;case
-1:return xx;case
-2:return xy;case
-3:return xz;case
-4:return xA;case
-5:return xB;case
-6:return xC;case
-7:return xD;case
-8:return xE;case
-9:return xF;case
-10:return xG;case
-11:return xH;case
-12:return xI;case
-13:return xJ;case
-14:return xK;case
-15:return xL;default:return xM}}function
-jP(a){if(typeof
-a==="number")return xN;else
+q=[0,n(xu,b(a[1])),0],c=[0,n(xw,aq(xv)),q];break;default:var
+r=[0,g(a[7]),0],s=[0,n(xx,cN(a[6])),r],t=[0,n(xy,cN(a[5])),s],u=[0,n(xz,b(a[4])),t],v=[0,n(xA,b(a[3])),u],w=[0,n(xB,b(a[2])),v],x=[0,n(xC,b(a[1])),w],c=[0,n(xE,aq(xD)),x]}return ah(c)}function
+j3(a){switch(a){case
+0:return xF;case
+1:return xG;case
+2:return xH;case
+3:return xI;case
+4:return xJ;case
+5:return xK;case
+6:return xL;case
+7:return xM;case
+8:return xN;case
+9:return xO;case
+10:return xP;case
+11:return xQ;case
+12:return xR;case
+13:return xS;case
+14:return xT;case
+15:return xU;default:return xV}}function
+j4(a){if(typeof
+a==="number")return xW;else
 switch(a[0]){case
-0:return xO;case
-1:return xP;default:return xQ}}function
-fE(a){var
+0:return xX;case
+1:return xY;default:return xZ}}function
+fP(a){var
 c=a[4];if(typeof
 c==="number")var
 d=0;else
 switch(c[0]){case
 0:var
-d=[0,n(xR,L(c[1])),0];break;case
+d=[0,n(x0,M(c[1])),0];break;case
 1:var
-d=[0,n(xS,L(c[1])),0];break;default:var
-o=[0,L(c[2]),0],d=[0,n(xT,G([0,L(c[1]),o])),0]}var
-p=[0,n(xU,ap(jP(a[4]))),d],i=a[3];if(i){var
+d=[0,n(x1,M(c[1])),0];break;default:var
+o=[0,M(c[2]),0],d=[0,n(x2,G([0,M(c[1]),o])),0]}var
+p=[0,n(x3,aq(j4(a[4]))),d],i=a[3];if(i){var
 b=i[1];switch(b[0]){case
 0:var
-r=G([0,L(b[1]),0]),k=a[1],q=0,s=6===k?xV:12===k?xZ:x0,g=[0,n(xW,Q(s,r)),q];break;case
+r=G([0,M(b[1]),0]),k=a[1],q=0,s=6===k?x4:12===k?x8:x9,g=[0,n(x5,Q(s,r)),q];break;case
 1:var
-x=G(e(L,b[1])),m=a[1],w=0;if(14<=m)switch(m+qS|0){case
+x=G(e(M,b[1])),m=a[1],w=0;if(14<=m)switch(m+q0|0){case
 0:var
-h=x1;break;case
+h=x_;break;case
 1:var
-h=x3;break;default:var
-h=x4}else
+h=ya;break;default:var
+h=yb}else
 var
-h=x5;var
-g=[0,n(x2,Q(h,x)),w];break;case
+h=yc;var
+g=[0,n(x$,Q(h,x)),w];break;case
 2:var
-y=[0,n(x6,G([0,L(b[2]),0])),0],g=[0,n(x8,ag([0,n(x7,G([0,L(b[1]),0])),y])),0];break;default:var
-z=[0,n(x9,G([0,L(b[2]),0])),0],g=[0,n(x$,ag([0,n(x_,G([0,L(b[1]),0])),z])),0]}var
+y=[0,n(yd,G([0,M(b[2]),0])),0],g=[0,n(yf,ah([0,n(ye,G([0,M(b[1]),0])),y])),0];break;default:var
+z=[0,n(yg,G([0,M(b[2]),0])),0],g=[0,n(yi,ah([0,n(yh,G([0,M(b[1]),0])),z])),0]}var
 l=g}else
 var
 l=i;var
-t=f(l,p),j=a[2],u=j?[0,n(xX,cL(j[1])),0]:j,v=f(u,t);return ag([0,n(xY,ap(jO(a[1]))),v])}function
-oS(a){if(0===a[0]){var
-b=[0,n(ya,hr(L,a[2])),0];return Q(yc,ag([0,n(yb,hr(L,a[1])),b]))}var
-c=[0,L(a[5]),0],d=[0,n(yd,G([0,L(a[4]),c])),0],e=[0,n(ye,L(a[3])),d],f=[0,L(a[2]),0];return Q(yg,ag([0,n(yf,G([0,L(a[1]),f])),e]))}function
-oT(a){if(0===a[0]){var
-b=[0,n(yh,G(e(L,a[2]))),0];return Q(yj,ag([0,n(yi,G(e(L,a[1]))),b]))}return oS([1,a[1],a[2],a[3],a[4],a[5]])}function
-oU(a){switch(a){case
-0:return yk;case
-1:return yl;default:return ym}}function
-yn(a){function
-b(a){return G(e(cM,a))}var
-c=[0,n(yo,b(a[2])),0],d=[0,n(yp,b(a[1])),c];return ag([0,n(yr,ap(yq)),d])}function
-oV(a){function
+t=f(l,p),j=a[2],u=j?[0,n(x6,cM(j[1])),0]:j,v=f(u,t);return ah([0,n(x7,aq(j3(a[1]))),v])}function
+o4(a){if(0===a[0]){var
+b=[0,n(yj,hC(M,a[2])),0];return Q(yl,ah([0,n(yk,hC(M,a[1])),b]))}var
+c=[0,M(a[5]),0],d=[0,n(ym,G([0,M(a[4]),c])),0],e=[0,n(yn,M(a[3])),d],f=[0,M(a[2]),0];return Q(yp,ah([0,n(yo,G([0,M(a[1]),f])),e]))}function
+o5(a){if(0===a[0]){var
+b=[0,n(yq,G(e(M,a[2]))),0];return Q(ys,ah([0,n(yr,G(e(M,a[1]))),b]))}return o4([1,a[1],a[2],a[3],a[4],a[5]])}function
+o6(a){switch(a){case
+0:return yt;case
+1:return yu;default:return yv}}function
+yw(a){function
+b(a){return G(e(cN,a))}var
+c=[0,n(yx,b(a[2])),0],d=[0,n(yy,b(a[1])),c];return ah([0,n(yA,aq(yz)),d])}function
+o7(a){function
 b(b,a){var
-c=[0,L(a),0];return G([0,L(b),c])}switch(a[0]){case
-0:return Q(ys,b(a[1],a[2]));case
+c=[0,M(a),0];return G([0,M(b),c])}switch(a[0]){case
+0:return Q(yB,b(a[1],a[2]));case
 1:var
-c=a[3],d=a[2],e=a[1],f=[0,n(yt,b(c[1],c[2])),0],g=[0,n(yu,b(d[1],d[2])),f];return Q(yw,ag([0,n(yv,b(e[1],e[2])),g]));case
-2:return Q(yx,L(a[1]));default:var
-h=[0,n(yy,L(a[2])),0];return Q(yA,ag([0,n(yz,L(a[1])),h]))}}function
-yB(a){function
-b(a){return hr(L,a)}if(0===a[0])var
-c=a[5],e=c?[0,n(yC,b(c[1])),0]:c,g=[0,L(a[4]),0],h=[0,n(yD,G([0,L(a[3]),g])),0],i=[0,n(yE,L(a[2])),h],j=[0,n(yF,cL(a[1])),i],d=f([0,n(yH,ap(yG)),j],e);else
+c=a[3],d=a[2],e=a[1],f=[0,n(yC,b(c[1],c[2])),0],g=[0,n(yD,b(d[1],d[2])),f];return Q(yF,ah([0,n(yE,b(e[1],e[2])),g]));case
+2:return Q(yG,M(a[1]));default:var
+h=[0,n(yH,M(a[2])),0];return Q(yJ,ah([0,n(yI,M(a[1])),h]))}}function
+yK(a){function
+b(a){return hC(M,a)}if(0===a[0])var
+c=a[5],e=c?[0,n(yL,b(c[1])),0]:c,g=[0,M(a[4]),0],h=[0,n(yM,G([0,M(a[3]),g])),0],i=[0,n(yN,M(a[2])),h],j=[0,n(yO,cM(a[1])),i],d=f([0,n(yQ,aq(yP)),j],e);else
 var
-k=[0,n(yI,L(a[4])),0],l=[0,n(yJ,b(a[3])),k],m=[0,n(yK,b(a[2])),l],o=a[1]?yL:yN,d=[0,n(yM,ap(o)),m];return ag(d)}function
-oW(a){var
-b=a?[0,n(yO,G(e(yB,a))),0]:a;return b}function
-jQ(d,c,b,a){var
-g=[0,n(yP,G(e(fE,a))),0],h=f(oW(b),g),i=[0,n(yQ,oS(c)),0];return ag(f([0,n(yS,Q(yR,G(e(wQ,d)))),i],h))}function
-yT(a){switch(a[0]){case
-0:return Q(yU,jQ(a[1],a[2],a[3],a[4]));case
+k=[0,n(yR,M(a[4])),0],l=[0,n(yS,b(a[3])),k],m=[0,n(yT,b(a[2])),l],o=a[1]?yU:yW,d=[0,n(yV,aq(o)),m];return ah(d)}function
+o8(a){var
+b=a?[0,n(yX,G(e(yK,a))),0]:a;return b}function
+j5(d,c,b,a){var
+g=[0,n(yY,G(e(fP,a))),0],h=f(o8(b),g),i=[0,n(yZ,o4(c)),0];return ah(f([0,n(y1,Q(y0,G(e(wZ,d)))),i],h))}function
+y2(a){switch(a[0]){case
+0:return Q(y3,j5(a[1],a[2],a[3],a[4]));case
 1:var
-b=a[5],c=a[3],d=a[1],g=G(e(w8,a[2])),l=[0,n(yV,G(e(fE,a[6]))),0],m=b?[0,n(yW,oV(b[1])),0]:b,o=f(m,l),k=0,p=[0,n(yX,oT(a[4])),o];if(typeof
+b=a[5],c=a[3],d=a[1],g=G(e(xf,a[2])),l=[0,n(y4,G(e(fP,a[6]))),0],m=b?[0,n(y5,o7(b[1])),0]:b,o=f(m,l),k=0,p=[0,n(y6,o5(a[4])),o];if(typeof
 d==="number")if(d)var
-h=yY;else{var
-i=Q(y3,g);k=1}else
+h=y7;else{var
+i=Q(za,g);k=1}else
 var
-h=oU(d[1]);if(!k)var
-q=c?[0,n(yZ,L(c[1])),0]:c,i=Q(h,ag([0,n(y0,g),q]));return Q(y2,ag([0,n(y1,i),p]));case
+h=o6(d[1]);if(!k)var
+q=c?[0,n(y8,M(c[1])),0]:c,i=Q(h,ah([0,n(y9,g),q]));return Q(y$,ah([0,n(y_,i),p]));case
 2:var
-r=[0,n(y4,G(e(fE,a[7]))),0],s=f(oW(a[6]),r),t=[0,n(y5,oV(a[5])),0],u=[0,n(y6,oT(a[4])),t],v=[0,n(y7,L(a[3])),0],w=ag([0,n(y8,G(e(yn,a[2]))),v]);return Q(y_,ag(f([0,n(y9,Q(oU(a[1]),w)),u],s)));case
+r=[0,n(zb,G(e(fP,a[7]))),0],s=f(o8(a[6]),r),t=[0,n(zc,o7(a[5])),0],u=[0,n(zd,o5(a[4])),t],v=[0,n(ze,M(a[3])),0],w=ah([0,n(zf,G(e(yw,a[2]))),v]);return Q(zh,ah(f([0,n(zg,Q(o6(a[1]),w)),u],s)));case
 3:var
-x=[0,n(y$,G(e(fE,a[7]))),0],y=[0,n(za,G(e(L,a[6]))),0],z=[0,n(zd,Q(zc,ag([0,n(zb,G(e(L,a[5]))),y]))),x],A=0,B=a[4],C=[0,n(zg,G(e(function(a){return 0===a[0]?Q(ze,G(e(jN,a[1]))):Q(zf,jN(a[1]))},B))),A],D=a[3],E=[0,n(zh,G(e(function(a){var
-b=[0,jN(a[2]),0];return G([0,ap(a[1]),b])},D))),C],F=a[2],H=[0,n(zi,G(e(function(a){var
-b=[0,cM(a[2]),0];return G([0,ap(a[1]),b])},F))),E];return Q(zm,ag([0,n(zl,Q(zk,ag([0,n(zj,G(e(ap,a[1]))),H]))),z]));case
+x=[0,n(zi,G(e(fP,a[7]))),0],y=[0,n(zj,G(e(M,a[6]))),0],z=[0,n(zm,Q(zl,ah([0,n(zk,G(e(M,a[5]))),y]))),x],A=0,B=a[4],C=[0,n(zp,G(e(function(a){return 0===a[0]?Q(zn,G(e(j2,a[1]))):Q(zo,j2(a[1]))},B))),A],D=a[3],E=[0,n(zq,G(e(function(a){var
+b=[0,j2(a[2]),0];return G([0,aq(a[1]),b])},D))),C],F=a[2],H=[0,n(zr,G(e(function(a){var
+b=[0,cN(a[2]),0];return G([0,aq(a[1]),b])},F))),E];return Q(zv,ah([0,n(zu,Q(zt,ah([0,n(zs,G(e(aq,a[1]))),H]))),z]));case
 4:var
-I=[0,n(zn,G(e(fE,a[3]))),0],J=[0,n(zq,Q(zp,ag([0,n(zo,L(a[2])),0]))),I];return Q(zu,ag([0,n(zt,Q(zs,ag([0,n(zr,L(a[1])),0]))),J]));case
+I=[0,n(zw,G(e(fP,a[3]))),0],J=[0,n(zz,Q(zy,ah([0,n(zx,M(a[2])),0]))),I];return Q(zD,ah([0,n(zC,Q(zB,ah([0,n(zA,M(a[1])),0]))),J]));case
 5:var
-K=[0,n(zv,L(a[5])),0];return Q(zx,ag([0,n(zw,jQ(a[1],[0,a[2],a[3]],0,a[4])),K]));case
+K=[0,n(zE,M(a[5])),0];return Q(zG,ah([0,n(zF,j5(a[1],[0,a[2],a[3]],0,a[4])),K]));case
 6:var
-j=a[1],M=0,N=j?cM(j[1]):ap(zA);return Q(zz,ag([0,n(zy,N),M]));default:var
-O=[0,n(zB,L(a[6])),0],P=[0,n(zC,L(a[5])),O],R=[0,n(zD,jQ(a[2],a[3],0,a[4])),P],S=a[1];return Q(zI,ag([0,n(zH,G(e(function(a){var
-b=[0,n(zE,L(a[2][2])),0],c=[0,n(zF,L(a[2][1])),b];return ag([0,n(zG,ap(a[1])),c])},S))),R]))}}function
-dR(a){return G(e(fC,a))}function
-fF(b,a){var
-c=[0,n(zJ,eE(a)),0];return ag([0,n(zK,G(e(dR,b))),c])}function
-dh(a){switch(a[0]){case
-0:return ap(a[1]);case
+j=a[1],L=0,N=j?cN(j[1]):aq(zJ);return Q(zI,ah([0,n(zH,N),L]));default:var
+O=[0,n(zK,M(a[6])),0],P=[0,n(zL,M(a[5])),O],R=[0,n(zM,j5(a[2],a[3],0,a[4])),P],S=a[1];return Q(zR,ah([0,n(zQ,G(e(function(a){var
+b=[0,n(zN,M(a[2][2])),0],c=[0,n(zO,M(a[2][1])),b];return ah([0,n(zP,aq(a[1])),c])},S))),R]))}}function
+dS(a){return G(e(fN,a))}function
+fQ(b,a){var
+c=[0,n(zS,eL(a)),0];return ah([0,n(zT,G(e(dS,b))),c])}function
+di(a){switch(a[0]){case
+0:return aq(a[1]);case
 1:var
-b=fF(a[2],a[3]);return Q(a[1],b);case
+b=fQ(a[2],a[3]);return Q(a[1],b);case
 2:var
-c=a[1]?zL:zN;return Q(zM,ap(c));case
+c=a[1]?zU:zW;return Q(zV,aq(c));case
 3:var
-d=[0,dR(a[3]),0];return Q(zO,G([0,fF(a[1],a[2]),d]));case
+d=[0,dS(a[3]),0];return Q(zX,G([0,fQ(a[1],a[2]),d]));case
 4:var
-f=[0,eE(a[4]),0],g=[0,fC(a[3]),f];return Q(zP,G([0,fF(a[1],a[2]),g]));case
+f=[0,eL(a[4]),0],g=[0,fN(a[3]),f];return Q(zY,G([0,fQ(a[1],a[2]),g]));case
 5:var
-h=[0,eE(a[3]),0],i=[0,fC(a[2]),h];return Q(zQ,G([0,dh(a[1]),i]));case
+h=[0,eL(a[3]),0],i=[0,fN(a[2]),h];return Q(zZ,G([0,di(a[1]),i]));case
 6:var
-j=[0,eE(a[3]),0],k=[0,fC(a[2]),j];return Q(zR,G([0,dh(a[1]),k]));case
-7:return Q(zS,dh(a[1]));case
+j=[0,eL(a[3]),0],k=[0,fN(a[2]),j];return Q(z0,G([0,di(a[1]),k]));case
+7:return Q(z1,di(a[1]));case
 8:var
-l=[0,G(e(dR,a[3])),0],m=[0,ap(a[2]),l];return Q(zT,G([0,dh(a[1]),m]));case
+l=[0,G(e(dS,a[3])),0],m=[0,aq(a[2]),l];return Q(z2,G([0,di(a[1]),m]));case
 9:var
-n=a[1];return Q(zU,G(e(function(a){var
-b=a[1],c=b[1],d=[0,dh(a[2]),0],e=[0,eE(b[2]),d],f=[0,fC(c[2]),e];return G([0,dR(c[1]),f])},n)));default:var
-o=[0,dh(a[4]),0],p=[0,dh(a[3]),o],q=[0,eE(a[2]),p];return Q(zV,G([0,dR(a[1]),q]))}}function
-zW(a){var
-b=[0,dh(a[2]),0];return G([0,cL(a[1]),b])}function
-oX(a){if(typeof
-a==="number")return 0===a?ap(zX):ap(zY);else
+n=a[1];return Q(z3,G(e(function(a){var
+b=a[1],c=b[1],d=[0,di(a[2]),0],e=[0,eL(b[2]),d],f=[0,fN(c[2]),e];return G([0,dS(c[1]),f])},n)));default:var
+o=[0,di(a[4]),0],p=[0,di(a[3]),o],q=[0,eL(a[2]),p];return Q(z4,G([0,dS(a[1]),q]))}}function
+z5(a){var
+b=[0,di(a[2]),0];return G([0,cM(a[1]),b])}function
+o9(a){if(typeof
+a==="number")return 0===a?aq(z6):aq(z7);else
 switch(a[0]){case
 0:var
-b=[0,G(e(dR,a[2])),0];return Q(zZ,G([0,cL(a[1]),b]));case
+b=[0,G(e(dS,a[2])),0];return Q(z8,G([0,cM(a[1]),b]));case
 1:var
-c=[0,cL(a[2]),0];return Q(z0,G([0,cL(a[1]),c]));case
-2:return Q(z1,G(e(L,a[1])));default:var
-d=[0,n(z2,fF(a[4],a[5])),0],f=[0,n(z3,G(e(L,a[3]))),d],g=[0,n(z4,G(e(L,a[2]))),f];return Q(z6,ag([0,n(z5,cL(a[1])),g]))}}function
-z7(a){var
-b=a[4],h=b?[0,n(z8,dR([0,b[1],b[2]])),0]:b,d=a[3],i=d?[0,n(z9,oX(d[1])),0]:d,j=f(i,h),g=a[2],k=g?[0,n(z_,cL(g[1])),0]:g,l=f(k,j),c=a[1],m=c?[0,n(z$,G(e(zW,[0,c[1],c[2]]))),0]:c;return ag(f(m,l))}function
-oY(g,a,d){var
-h=[0,n(Aa,G(e(z7,d))),0];if(a)var
-b=a[1],c=[0,n(Ab,fF(b[1],b[2])),0];else
+c=[0,cM(a[2]),0];return Q(z9,G([0,cM(a[1]),c]));case
+2:return Q(z_,G(e(M,a[1])));default:var
+d=[0,n(z$,fQ(a[4],a[5])),0],f=[0,n(Aa,G(e(M,a[3]))),d],g=[0,n(Ab,G(e(M,a[2]))),f];return Q(Ad,ah([0,n(Ac,cM(a[1])),g]))}}function
+Ae(a){var
+b=a[4],h=b?[0,n(Af,dS([0,b[1],b[2]])),0]:b,d=a[3],i=d?[0,n(Ag,o9(d[1])),0]:d,j=f(i,h),g=a[2],k=g?[0,n(Ah,cM(g[1])),0]:g,l=f(k,j),c=a[1],m=c?[0,n(Ai,G(e(z5,[0,c[1],c[2]]))),0]:c;return ah(f(m,l))}function
+o_(g,a,d){var
+h=[0,n(Aj,G(e(Ae,d))),0];if(a)var
+b=a[1],c=[0,n(Ak,fQ(b[1],b[2])),0];else
 var
 c=a;var
-i=f(c,h);return ag([0,n(Ac,jL(g)),i])}function
-oZ(d,c,a,b){var
-g=[0,n(Ad,oX(b)),0],h=a?[0,n(Ae,G(e(L,a))),0]:a,i=f(h,g),j=[0,n(Af,G(e(L,c))),0];return ag(f([0,n(Ag,jL(d)),j],i))}function
-Ah(a){if(typeof
-a==="number")return ap(Ai);else
+i=f(c,h);return ah([0,n(Al,j0(g)),i])}function
+o$(d,c,a,b){var
+g=[0,n(Am,o9(b)),0],h=a?[0,n(An,G(e(M,a))),0]:a,i=f(h,g),j=[0,n(Ao,G(e(M,c))),0];return ah(f([0,n(Ap,j0(d)),j],i))}function
+Aq(a){if(typeof
+a==="number")return aq(Ar);else
 switch(a[0]){case
-0:return Q(Aj,cL(a[1]));case
-1:return Q(Ak,oY(a[1],a[2],a[3]));default:return Q(Al,oZ(a[1],a[2],a[3],a[4]))}}function
-hs(a){var
-b=ib(ia(ax(a),function(b){return a4(a,b)}));return l(function(a){var
-b=M(34===a?1:0),c=b?M(92===a?1:0):b,d=c?aa(AA,gl(a)):c;return d?aa(gl(a),AB):d},b)}function
-jR(d){var
+0:return Q(As,cM(a[1]));case
+1:return Q(At,o_(a[1],a[2],a[3]));default:return Q(Au,o$(a[1],a[2],a[3],a[4]))}}function
+hD(a){var
+b=ip(io(az(a),function(b){return a7(a,b)}));return l(function(a){var
+b=N(34===a?1:0),c=b?N(92===a?1:0):b,d=c?aa(AJ,gu(a)):c;return d?aa(gu(a),AK):d},b)}function
+j6(d){var
 a=d;for(;;)switch(a[0]){case
 8:var
-b=hs(a[2]);if(b){var
+b=hD(a[2]);if(b){var
 a=a[1];continue}return b;case
 9:var
-e=a[1];return l(function(a){return jR(a[2])},e);case
+e=a[1];return l(function(a){return j6(a[2])},e);case
 10:var
-c=jR(a[3]);if(c){var
+c=j6(a[3]);if(c){var
 a=a[4];continue}return c;case
 0:case
-1:return hs(a[1]);case
+1:return hD(a[1]);case
 5:case
 6:case
 7:var
 a=a[1];continue;default:return 1}}function
-fG(b){function
+fR(b){function
 c(f){var
-a=gl(f),b=aa(AC,a),c=b?aa(a,AD):b;if(c)var
+a=gu(f),b=aa(AL,a),c=b?aa(a,AM):b;if(c)var
 d=c;else{var
-e=aa(AE,a);if(e)return aa(a,AF);var
+e=aa(AN,a);if(e)return aa(a,AO);var
 d=e}return d}var
-a=ib(ia(ax(b),function(a){return a4(b,a)}));if(a){var
+a=ip(io(az(b),function(a){return a7(b,a)}));if(a){var
 d=a[2],e=c(a[1]),f=e?l(function(a){var
 b=c(a);if(b)var
 d=b;else
 var
-e=gl(a),f=aa(AG,e),h=f?aa(e,AH):f,d=h;var
-g=d||(95===a?1:0);return g},d):e,h=f?aa(g(d),AI):f;if(h)return M(az(b,AJ));var
+e=gu(a),f=aa(AP,e),h=f?aa(e,AQ):f,d=h;var
+g=d||(95===a?1:0);return g},d):e,h=f?aa(g(d),AR):f;if(h)return N(aB(b,AS));var
 i=h}else
 var
 i=a;return i}function
-jS(c){var
+j7(c){var
 a=c;for(;;)switch(a[0]){case
 0:return 1;case
-1:return fG(a[1]);case
+1:return fR(a[1]);case
 3:var
-b=jS(a[2]);if(b){var
+b=j7(a[2]);if(b){var
 a=a[3];continue}return b;default:var
 a=a[1];continue}}function
-fH(m){var
+fS(m){var
 a=m;for(;;)switch(a[0]){case
 0:var
 e=a[1];if(typeof
@@ -6258,42 +6248,42 @@ h=typeof
 e[1]==="number"?1:0,d=h?1:h;else
 var
 d=1;if(d){var
-f=ga(a[2]);if(typeof
+f=gj(a[2]);if(typeof
 f!=="number"&&0===f[0])return 0;var
 g=1}else
 var
 g=d;return g;case
 1:return 1;case
 3:var
-i=fH(a[2]);if(i){var
+i=fS(a[2]);if(i){var
 a=a[3];continue}return i;case
 4:var
-j=a[2],k=fH(a[1]),l=k?gh(c(2,b),j):k;return l?gh(j,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):l;default:var
+j=a[2],k=fS(a[1]),l=k?gq(c(2,b),j):k;return l?gq(j,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):l;default:var
 a=a[1];continue}}function
-eF(a){return 0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
+eM(a){return 0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
 b1(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-dS(a){return y(eF,b1(a))}function
-jT(a){switch(a[0]){case
+dT(a){return y(eM,b1(a))}function
+j8(a){switch(a[0]){case
 0:var
-c=eF(a[4]),d=f(dS(a[3]),c),e=f(dS(a[2]),d);return f(dS(a[1]),e);case
+c=eM(a[4]),d=f(dT(a[3]),c),e=f(dT(a[2]),d);return f(dT(a[1]),e);case
 1:var
-b=a[3],g=b?dS(b[1]):b,h=f(dS(a[2]),g);return f(dS(a[1]),h);default:return dS(a[1])}}function
-AK(a){switch(a[0]){case
+b=a[3],g=b?dT(b[1]):b,h=f(dT(a[2]),g);return f(dT(a[1]),h);default:return dT(a[1])}}function
+AT(a){switch(a[0]){case
 0:var
 d=f(a[3],[0,a[4],0]),e=f(a[2],d),b=f(a[1],e);break;case
 1:var
 c=a[3],g=c?c[1]:c,h=f(a[2],g),b=f(a[1],h);break;case
 2:var
 b=a[1];break;default:var
-i=f(a[4],[0,a[5],[0,a[6],0]]),j=f(a[3],i),k=f(a[2],j),b=f(a[1],k)}return y(eF,b)}function
-o0(a){return 0===a[0]?f(a[1],a[2]):[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
-o1(a){if(0===a[0]){var
+i=f(a[4],[0,a[5],[0,a[6],0]]),j=f(a[3],i),k=f(a[2],j),b=f(a[1],k)}return y(eM,b)}function
+pa(a){return 0===a[0]?f(a[1],a[2]):[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
+pb(a){if(0===a[0]){var
 b=b1(a[2]);return f(b1(a[1]),b)}return[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
-o2(a){switch(a[0]){case
+pc(a){switch(a[0]){case
 1:var
 b=a[3],c=a[2],d=a[1];return[0,d[1],[0,d[2],[0,c[1],[0,c[2],[0,b[1],[0,b[2],0]]]]]];case
 2:return[0,a[1],0];default:return[0,a[1],[0,a[2],0]]}}function
-dT(e){var
+dU(e){var
 a=e[4],h=typeof
 a==="number"?0:2===a[0]?[0,a[1],[0,a[2],0]]:[0,a[1],0],c=e[3];if(c){var
 b=c[1];switch(b[0]){case
@@ -6305,150 +6295,150 @@ d=[0,b[1],[0,b[2],0]]}var
 g=d}else
 var
 g=c;return f(g,h)}function
-o3(a){if(0===a[0]){var
+pd(a){if(0===a[0]){var
 b=a[5],c=b?b1(b[1]):b;return[0,a[2],[0,a[3],[0,a[4],c]]]}var
 d=[0,a[4],0],e=f(b1(a[3]),d);return f(b1(a[2]),e)}function
-o4(b,e){var
+pe(b,e){var
 a=e;for(;;)switch(a[0]){case
 0:return 1;case
 1:var
 c=a[1];if(0===c[0]){var
-f=c[1];return aj(function(a){return az(f,a)},b)}return 0;case
+f=c[1];return aj(function(a){return aB(f,a)},b)}return 0;case
 3:var
-d=o4(b,a[2]);if(d){var
+d=pe(b,a[2]);if(d){var
 a=a[3];continue}return d;default:var
 a=a[1];continue}}function
-fI(c,a){return l(function(a){var
-b=fH(a);return b?o4(c,a):b},a)}function
-o5(a){if(typeof
+fT(c,a){return l(function(a){var
+b=fS(a);return b?pe(c,a):b},a)}function
+pf(a){if(typeof
 a!=="number")switch(a[0]){case
 2:return a[1];case
 3:return f(a[2],a[3])}return 0}function
-o6(a){var
-d=gh(c(2,c(2,c(2,c(2,c(2,b))))),a);return d?gh(a,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b))))))))))):d}function
-o7(a,b){return b?[4,o7(a,b[1]),a]:a}function
-i(a){switch(a[0]){case
+pg(a){var
+d=gq(c(2,c(2,c(2,c(2,c(2,b))))),a);return d?gq(a,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b))))))))))):d}function
+ph(a,b){return b?[4,ph(a,b[1]),a]:a}function
+j(a){switch(a[0]){case
 0:var
-j=a[2],k=c(2,q(c(2,c(2,b)))),l=function(a){return C(k,a)},m=gb(k2(j),l,b);return[0,ld(k3(ga(a[1]),j)),m];case
+i=a[2],k=c(2,q(c(2,c(2,b)))),l=function(a){return C(k,a)},m=gk(li(i),l,b);return[0,lv(lj(gj(a[1]),i)),m];case
 1:var
 e=a[1];return 0===e[0]?[5,[0,b,b],[0,d,b]]:[1,e[1],e[2],e[3]];case
 2:var
-f=i(a[1]);return 0===f[0]?[0,T(f[1]),f[2]]:[3,[0,d,b],f];case
+f=j(a[1]);return 0===f[0]?[0,T(f[1]),f[2]]:[3,[0,d,b],f];case
 3:var
-g=i(a[2]),h=i(a[3]);switch(a[1]){case
+g=j(a[2]),h=j(a[3]);switch(a[1]){case
 0:return[2,g,h];case
 1:return[3,g,h];case
 2:return[4,g,h];default:return[5,g,h]}case
 4:var
-n=bz(e2(a[2]));return o7(i(a[1]),n);default:return[6,i(a[1])]}}function
+n=bz(e9(a[2]));return ph(j(a[1]),n);default:return[6,j(a[1])]}}function
 b2(a){if(0===a[0]){var
-b=i(a[1]);return[0,b,b]}var
-c=i(a[2]);return[0,i(a[1]),c]}function
-dU(a){var
+b=j(a[1]);return[0,b,b]}var
+c=j(a[2]);return[0,j(a[1]),c]}function
+dV(a){var
 b=b2(a[3]),c=b2(a[2]);return[0,b2(a[1]),c,b]}function
-AL(a){switch(a[0]){case
+AU(a){switch(a[0]){case
 0:var
-b=a[5],c=b2(a[4]),d=dU(a[3]),e=dU(a[2]);return[0,[0,dU(a[1]),e,d,c,b]];case
+b=a[5],c=b2(a[4]),d=dV(a[3]),e=dV(a[2]);return[0,[0,dV(a[1]),e,d,c,b]];case
 1:var
-f=z(dU,a[3]),g=dU(a[2]);return[1,dU(a[1]),g,f];default:return[2,dU(a[1])]}}function
-o8(a){if(0===a[0]){var
+f=z(dV,a[3]),g=dV(a[2]);return[1,dV(a[1]),g,f];default:return[2,dV(a[1])]}}function
+pi(a){if(0===a[0]){var
 c=a[2],d=a[1],b=function(a){var
-b=i(j(a,c));return[0,i(j(a,d)),b]},e=b(function(a){return a[3]}),f=b(function(a){return a[2]});return[0,[0,b(function(a){return a[1]}),f,e]]}var
-g=i(a[5]),h=[0,i(a[4]),g],k=i(a[3]),l=i(a[2]);return[1,i(a[1]),l,k,h]}function
-eG(a){var
-b=i(a[3]),c=i(a[2]);return[0,i(a[1]),c,b]}function
-di(a){if(0===a[0]){var
-c=a[5],h=c?eG(c[1]):[0,[0,d,b],[0,d,b],[0,d,b]],j=i(a[4]),k=i(a[3]),l=i(a[2]);return[0,bz(a[1]),l,k,j,h]}var
+b=j(k(a,c));return[0,j(k(a,d)),b]},e=b(function(a){return a[3]}),f=b(function(a){return a[2]});return[0,[0,b(function(a){return a[1]}),f,e]]}var
+g=j(a[5]),h=[0,j(a[4]),g],i=j(a[3]),l=j(a[2]);return[1,j(a[1]),l,i,h]}function
+eN(a){var
+b=j(a[3]),c=j(a[2]);return[0,j(a[1]),c,b]}function
+dj(a){if(0===a[0]){var
+c=a[5],h=c?eN(c[1]):[0,[0,d,b],[0,d,b],[0,d,b]],i=j(a[4]),k=j(a[3]),l=j(a[2]);return[0,bz(a[1]),l,k,i,h]}var
 e=a[4],f=a[3],g=a[2];if(a[1]){var
-m=eG(f),n=eG(g);return[2,i(e),n,m]}var
-o=eG(f),p=eG(g);return[1,i(e),p,o]}function
-ht(b,a){if(a){var
-c=a[1],d=a[2],g=ht(f(b,[0,c,0]),d),h=e(function(a){return[0,c,a]},b);return f(bu(function(c){var
-a=c[2],b=c[1],d=0===b[0]?b[5]?0:0===a[0]?a[5]?0:o(b[1],a[1]):0:0===a[0]?0:ct(b[1],a[1]);return M(d)},h),g)}return a}function
-AM(b){if(b[1])return 0;var
+m=eN(f),n=eN(g);return[2,j(e),n,m]}var
+o=eN(f),p=eN(g);return[1,j(e),p,o]}function
+hE(b,a){if(a){var
+c=a[1],d=a[2],g=hE(f(b,[0,c,0]),d),h=e(function(a){return[0,c,a]},b);return f(bu(function(c){var
+a=c[2],b=c[1],d=0===b[0]?b[5]?0:0===a[0]?a[5]?0:o(b[1],a[1]):0:0===a[0]?0:ct(b[1],a[1]);return N(d)},h),g)}return a}function
+AV(b){if(b[1])return 0;var
 a=b[4];if(typeof
-a!=="number"&&1===a[0])return[0,[0,i(a[1])],0];return 0}function
-AN(N,M,a){switch(a[1]){case
+a!=="number"&&1===a[0])return[0,[0,j(a[1])],0];return 0}function
+AW(N,M,a){switch(a[1]){case
 0:var
 g=a[4];if(typeof
-g!=="number"&&0===g[0])return[0,[1,i(g[1])],0];return 0;case
+g!=="number"&&0===g[0])return[0,[1,j(g[1])],0];return 0;case
 1:var
 f=a[4],A=0;if(typeof
 f==="number")A=1;else
 switch(f[0]){case
 0:var
-O=f[1],c=function(a){return[2,a,i(O)]};break;case
+O=f[1],c=function(a){return[2,a,j(O)]};break;case
 1:var
-Q=f[1],c=function(a){return[3,a,i(Q)]};break;default:A=1}if(A)return 0;break;case
+Q=f[1],c=function(a){return[3,a,j(Q)]};break;default:A=1}if(A)return 0;break;case
 2:var
 h=a[4],I=0;if(typeof
 h==="number"||!(1===h[0]))I=1;else{var
-j=a[3],R=h[1];if(!j)return j;var
-C=j[1];if(0!==C[0])return 0;var
+i=a[3],R=h[1];if(!i)return i;var
+C=i[1];if(0!==C[0])return 0;var
 S=C[1],c=function(a){var
-b=i(R);return[4,a,i(S),b]}}if(I)return 0;break;case
+b=j(R);return[4,a,j(S),b]}}if(I)return 0;break;case
 3:var
 k=a[4];if(typeof
-k!=="number"&&1===k[0])return[0,[5,i(k[1])],0];return 0;case
+k!=="number"&&1===k[0])return[0,[5,j(k[1])],0];return 0;case
 4:var
 l=a[4],J=0;if(typeof
 l==="number"||!(0===l[0]))J=1;else
 var
-T=l[1],c=function(a){return[6,a,i(T)]};if(J)return 0;break;case
+T=l[1],c=function(a){return[6,a,j(T)]};if(J)return 0;break;case
 5:var
 m=a[4];if(typeof
-m!=="number"&&0===m[0])return[0,[7,i(m[1])],0];return 0;case
+m!=="number"&&0===m[0])return[0,[7,j(m[1])],0];return 0;case
 6:var
 n=a[4];if(typeof
 n!=="number"&&0===n[0]){var
 D=n[1],p=a[3];if(p){var
 q=p[1];switch(q[0]){case
 0:var
-U=i(D);return[0,[8,i(q[1]),U],0];case
+U=j(D);return[0,[8,j(q[1]),U],0];case
 1:var
-V=i(D);return[0,[15,e(i,q[1]),V],0];default:var
+V=j(D);return[0,[15,e(j,q[1]),V],0];default:var
 E=0}}else
 var
 E=p;return E}return 0;case
 7:var
 r=a[4];if(typeof
-r!=="number"&&0===r[0])return[0,[9,i(r[1])],0];return 0;case
+r!=="number"&&0===r[0])return[0,[9,j(r[1])],0];return 0;case
 8:var
 s=a[4],K=0;if(typeof
 s==="number"||!(1===s[0]))K=1;else{var
 t=a[3],W=s[1];if(!t)return t;var
 F=t[1];if(0!==F[0])return 0;var
 X=F[1],c=function(a){var
-b=i(W);return[13,a,i(X),b]}}if(K)return 0;break;case
+b=j(W);return[13,a,j(X),b]}}if(K)return 0;break;case
 9:var
 u=a[4];if(typeof
 u!=="number"&&0===u[0]){var
-Y=u[1],Z=ht(0,M);return e(function(h){var
-e=i(Y),a=h[2],c=h[1];if(0===c[0]){var
+Y=u[1],Z=hE(0,M);return e(function(h){var
+e=j(Y),a=h[2],c=h[1];if(0===c[0]){var
 f=c[1];if(0===a[0]){var
-g=function(a){return a?eG(a[1]):[0,[0,d,b],[0,d,b],[0,d,b]]};if(o(f,a[1])){var
-j=i(a[2]),k=[2,[2,i(c[2]),j],e],l=g(a[5]),m=g(c[5]);return[11,bz(f),m,l,k]}var
-n=di(a);return[10,di(c),n,e]}var
-p=di(a);return[10,di(c),p,e]}var
-q=di(a);return[10,di(c),q,e]},Z)}return 0;case
+g=function(a){return a?eN(a[1]):[0,[0,d,b],[0,d,b],[0,d,b]]};if(o(f,a[1])){var
+i=j(a[2]),k=[2,[2,j(c[2]),i],e],l=g(a[5]),m=g(c[5]);return[11,bz(f),m,l,k]}var
+n=dj(a);return[10,dj(c),n,e]}var
+p=dj(a);return[10,dj(c),p,e]}var
+q=dj(a);return[10,dj(c),q,e]},Z)}return 0;case
 10:var
 v=a[4],L=0;if(typeof
 v==="number"||!(1===v[0]))L=1;else{var
 w=a[3],_=v[1];if(!w)return w;var
 x=w[1];if(2!==x[0])return 0;var
 $=x[2],aa=x[1],c=function(a){var
-b=i(_),c=i($);return[12,a,i(aa),c,b]}}if(L)return 0;break;case
+b=j(_),c=j($);return[12,a,j(aa),c,b]}}if(L)return 0;break;case
 11:var
 G=typeof
-a[4]==="number"?1:0,ab=G?AO:G;return ab;case
+a[4]==="number"?1:0,ab=G?AX:G;return ab;case
 12:var
 y=a[4];if(typeof
 y!=="number"&&1===y[0]){var
 z=a[3];if(z){var
 H=z[1];if(0===H[0]){var
-ac=i(y[1]);return[0,[14,i(H[1]),ac],0]}return 0}return z}return 0;default:return 0}var
-B=a[2],P=B?[0,bz(B[1]),0]:aB(0,N);return e(c,P)}function
-AP(c,a){switch(a[1]){case
+ac=j(y[1]);return[0,[14,j(H[1]),ac],0]}return 0}return z}return 0;default:return 0}var
+B=a[2],P=B?[0,bz(B[1]),0]:aC(0,N);return e(c,P)}function
+AY(c,a){switch(a[1]){case
 0:var
 l=a[4];if(typeof
 l!=="number"&&2!==l[0])return a[2]?0:a[3]?0:1;return 0;case
@@ -6492,7 +6482,7 @@ z!=="number"&&0===z[0])return a[2]?0:a[3]?0:1;return 0;case
 N=0,A=a[4];if(typeof
 A==="number"||!(1===A[0]))N=1;else{var
 h=a[3];if(!h)return h;if(0!==h[1][0])return 0;var
-B=o(c,AR),O=0;if(B){var
+B=o(c,A0),O=0;if(B){var
 C=a[2];if(C){var
 b=C[1];O=1}else
 var
@@ -6518,88 +6508,88 @@ I=H;return I;case
 12:var
 J=a[4];if(typeof
 J!=="number"&&1===J[0]){if(a[2])return 0;var
-k=a[3];return k?0===k[1][0]?o(c,AS):0:k}return 0;default:return 0}var
-p=aa(AQ,b);return p?aa(b,c):p}function
-jU(c,k,j,b){var
-l=g(c),d=y(function(a){return AN(l,j,a)},b),a=y(AM,b),h=a?[0,a[1],a[2]]:AT,i=f(h,d),m=o8(k);return[0,e(AL,c),m,i]}function
-o9(b){if(b[1])return 0;var
+k=a[3];return k?0===k[1][0]?o(c,A1):0:k}return 0;default:return 0}var
+p=aa(AZ,b);return p?aa(b,c):p}function
+j9(c,k,j,b){var
+l=g(c),d=y(function(a){return AW(l,j,a)},b),a=y(AV,b),h=a?[0,a[1],a[2]]:A2,i=f(h,d),m=pi(k);return[0,e(AU,c),m,i]}function
+pj(b){if(b[1])return 0;var
 a=b[4];if(typeof
-a!=="number"&&1===a[0])return[0,[0,i(a[1])],0];return 0}function
-o_(c){function
-a(a){return r(a,e(i,c),[0,d,b])}var
-f=a(AU),g=a(AV);return[0,a(0),g,f]}function
-jV(_,G,Z,a){switch(a[1]){case
+a!=="number"&&1===a[0])return[0,[0,j(a[1])],0];return 0}function
+pk(c){function
+a(a){return r(a,e(j,c),[0,d,b])}var
+f=a(A3),g=a(A4);return[0,a(0),g,f]}function
+j_(_,G,Z,a){switch(a[1]){case
 0:var
 h=a[4];if(typeof
-h!=="number"&&0===h[0])return[0,[1,i(h[1])],0];return 0;case
+h!=="number"&&0===h[0])return[0,[1,j(h[1])],0];return 0;case
 1:var
 f=a[4];if(typeof
 f==="number")return 0;else
 switch(f[0]){case
 0:var
-$=f[1],c=function(a){return[2,a,i($)]};break;case
+$=f[1],c=function(a){return[2,a,j($)]};break;case
 1:var
-ab=f[1],c=function(a){return[3,a,i(ab)]};break;default:var
+ab=f[1],c=function(a){return[3,a,j(ab)]};break;default:var
 ac=f[2],ad=f[1],c=function(a){var
-b=i(ac);return[4,a,i(ad),b]}}break;case
+b=j(ac);return[4,a,j(ad),b]}}break;case
 2:var
-j=a[4],R=0;if(typeof
-j==="number"||!(1===j[0]))R=1;else{var
-k=a[3],ae=j[1];if(!k)return k;var
+i=a[4],R=0;if(typeof
+i==="number"||!(1===i[0]))R=1;else{var
+k=a[3],ae=i[1];if(!k)return k;var
 I=k[1];if(0!==I[0])return 0;var
-af=I[1],c=function(a){var
-b=i(af),c=i(ae);return _?[9,a,b,c]:[6,a,b,c]}}if(R)return 0;break;case
+ag=I[1],c=function(a){var
+b=j(ag),c=j(ae);return _?[9,a,b,c]:[6,a,b,c]}}if(R)return 0;break;case
 3:var
 l=a[4];if(typeof
-l!=="number"&&1===l[0])return[0,[5,i(l[1])],0];return 0;case
+l!=="number"&&1===l[0])return[0,[5,j(l[1])],0];return 0;case
 4:var
 m=a[4],S=0;if(typeof
 m==="number"||!(0===m[0]))S=1;else
 var
-ag=m[1],c=function(a){return[10,a,i(ag)]};if(S)return 0;break;case
+ah=m[1],c=function(a){return[10,a,j(ah)]};if(S)return 0;break;case
 5:var
 n=a[4];if(typeof
-n!=="number"&&0===n[0])return[0,[12,i(n[1])],0];return 0;case
+n!=="number"&&0===n[0])return[0,[12,j(n[1])],0];return 0;case
 6:var
 o=a[4];if(typeof
 o!=="number"&&0===o[0]){var
 J=o[1],p=a[3];if(p){var
 q=p[1];switch(q[0]){case
 0:var
-ah=i(J);return[0,[8,al(i(q[1]),G),ah],0];case
+ai=j(J);return[0,[8,af(j(q[1]),G),ai],0];case
 1:var
-ai=i(J);return[0,[8,e(i,q[1]),ai],0];default:var
+aj=j(J);return[0,[8,e(j,q[1]),aj],0];default:var
 K=0}}else
 var
 K=p;return K}return 0;case
 8:var
 r=a[4],T=0;if(typeof
 r==="number"||!(1===r[0]))T=1;else{var
-s=a[3],aj=r[1];if(!s)return s;var
+s=a[3],ak=r[1];if(!s)return s;var
 L=s[1];if(0!==L[0])return 0;var
-ak=L[1],c=function(a){var
-b=i(aj);return[7,a,i(ak),b]}}if(T)return 0;break;case
+al=L[1],c=function(a){var
+b=j(ak);return[7,a,j(al),b]}}if(T)return 0;break;case
 9:var
 t=a[4];if(typeof
 t!=="number"&&0===t[0]){var
-am=t[1],an=ht(0,Z);return e(function(a){var
-b=i(am),c=di(a[2]);return[14,di(a[1]),c,b]},an)}return 0;case
+am=t[1],an=hE(0,Z);return e(function(a){var
+b=j(am),c=dj(a[2]);return[14,dj(a[1]),c,b]},an)}return 0;case
 10:var
 u=a[4],U=0;if(typeof
 u==="number"||!(1===u[0]))U=1;else{var
 v=a[3],ao=u[1];if(!v)return v;var
 w=v[1];if(2!==w[0])return 0;var
 ap=w[2],aq=w[1],c=function(a){var
-b=i(ao),c=i(ap);return[15,a,i(aq),c,b]}}if(U)return 0;break;case
+b=j(ao),c=j(ap);return[15,a,j(aq),c,b]}}if(U)return 0;break;case
 12:var
 x=a[4];if(typeof
 x!=="number"&&1===x[0]){var
 M=x[1],y=a[3];if(y){var
 g=y[1];switch(g[0]){case
 0:var
-ar=i(M);return[0,[16,i(g[1]),ar,[0,d,b]],0];case
+ar=j(M);return[0,[16,j(g[1]),ar,[0,d,b]],0];case
 3:var
-as=i(g[2]),at=i(M);return[0,[16,i(g[1]),at,as],0];default:var
+as=j(g[2]),at=j(M);return[0,[16,j(g[1]),at,as],0];default:var
 N=0}}else
 var
 N=y;return N}return 0;case
@@ -6607,32 +6597,32 @@ N=y;return N}return 0;case
 z=a[4],V=0;if(typeof
 z==="number"||!(1===z[0]))V=1;else
 var
-au=z[1],c=function(a){return[11,a,i(au)]};if(V)return 0;break;case
+au=z[1],c=function(a){return[11,a,j(au)]};if(V)return 0;break;case
 14:var
 A=a[4],W=0;if(typeof
 A==="number"||!(1===A[0]))W=1;else{var
 B=a[3],av=A[1];if(!B)return B;var
 O=B[1];if(1!==O[0])return 0;var
 aw=O[1],c=function(a){var
-b=i(av);return[13,a,0,o_(aw),b]}}if(W)return 0;break;case
+b=j(av);return[13,a,0,pk(aw),b]}}if(W)return 0;break;case
 15:var
 C=a[4],X=0;if(typeof
 C==="number"||!(1===C[0]))X=1;else{var
 D=a[3],ax=C[1];if(!D)return D;var
 P=D[1];if(1!==P[0])return 0;var
 ay=P[1],c=function(a){var
-b=i(ax);return[13,a,1,o_(ay),b]}}if(X)return 0;break;case
+b=j(ax);return[13,a,1,pk(ay),b]}}if(X)return 0;break;case
 16:var
 E=a[4],Y=0;if(typeof
 E==="number"||!(1===E[0]))Y=1;else{var
 F=a[3],az=E[1];if(!F)return F;var
 Q=F[1];if(1!==Q[0])return 0;var
 aA=Q[1],c=function(a){var
-b=i(az);return[17,a,e(i,aA),b]}}if(Y)return 0;break;default:return 0}var
-H=a[2],aa=H?[0,bz(H[1]),0]:aB(0,G);return e(c,aa)}function
-eH(e,d,c,b){var
-g=y(function(a){return jV(e,d,c,a)},b),a=y(o9,b),h=a?[0,a[1],a[2]]:AW;return f(h,g)}function
-cN(a){return 11===a[1]?1:0}function
+b=j(az);return[17,a,e(j,aA),b]}}if(Y)return 0;break;default:return 0}var
+H=a[2],aa=H?[0,bz(H[1]),0]:aC(0,G);return e(c,aa)}function
+eO(e,d,c,b){var
+g=y(function(a){return j_(e,d,c,a)},b),a=y(pj,b),h=a?[0,a[1],a[2]]:A5;return f(h,g)}function
+cO(a){return 11===a[1]?1:0}function
 cl(n,m,a){var
 b=a[1];if(!(4<=b))switch(b){case
 0:var
@@ -6645,16 +6635,16 @@ e=1;l=1}if(!l)var
 e=0;var
 f=ct(n,e);if(f){var
 g=a[2];if(g){var
-h=g[1],i=aa(AX,h);return i?aa(h,m):i}var
+h=g[1],i=aa(A6,h);return i?aa(h,m):i}var
 j=1}else
 var
 j=f;return j;case
 3:var
 k=a[4];if(typeof
 k!=="number"&&1===k[0])return a[2]?0:a[3]?0:1;return 0}return 0}function
-a2(s,b,a){var
+a5(s,b,a){var
 d=a[2];if(d)var
-e=d[1],f=aa(AY,e),t=f?aa(e,b):f,c=t;else
+e=d[1],f=aa(A7,e),t=f?aa(e,b):f,c=t;else
 var
 c=1;var
 h=a[1];if(!(9<=h))switch(h){case
@@ -6677,90 +6667,90 @@ p=n;return p;default:return cl(0,b,a)}}return cl(0,b,a)}return cl(0,b,a);case
 q=a[4];if(typeof
 q!=="number"&&1===q[0]){var
 r=a[3];return r?0===r[1][0]?c?o(b,s):c:cl(0,b,a):cl(0,b,a)}return cl(0,b,a)}return cl(0,b,a)}function
-aD(c,b,a){return 11===a[1]?typeof
-a[4]==="number"?a[2]?a2(c,b,a):a[3]?a2(c,b,a):1:a2(c,b,a):a2(c,b,a)}function
-o$(f,b,c,a){var
+aE(c,b,a){return 11===a[1]?typeof
+a[4]==="number"?a[2]?a5(c,b,a):a[3]?a5(c,b,a):1:a5(c,b,a):a5(c,b,a)}function
+pl(f,b,c,a){var
 h=a[2];if(h)var
-i=h[1],j=aa(A0,i),E=j?aa(i,c):j,d=E;else
+i=h[1],j=aa(A9,i),E=j?aa(i,c):j,d=E;else
 var
 d=1;switch(a[1]){case
-1:if(a[3])return a2(aw(b),c,a);if(d){var
+1:if(a[3])return a5(at(b),c,a);if(d){var
 D=0,k=a[4];if(typeof
 k!=="number"&&2===k[0]){var
 l=1;D=1}if(!D)var
 l=0;return ct(f,l)}return d;case
 4:var
 m=a[4];if(typeof
-m!=="number"&&0===m[0])return a[3]?a2(aw(b),c,a):d;return a2(aw(b),c,a);case
+m!=="number"&&0===m[0])return a[3]?a5(at(b),c,a):d;return a5(at(b),c,a);case
 5:var
 n=a[4];if(typeof
-n!=="number"&&0===n[0]){if(a[3])return a2(aw(b),c,a);var
-p=o(c,aw(b));if(p){var
+n!=="number"&&0===n[0]){if(a[3])return a5(at(b),c,a);var
+p=o(c,at(b));if(p){var
 q=typeof
 b==="number"?1:0;if(q){if(a[2])return 0;var
 e=1}else
 var
 e=q}else
 var
-e=p;return e}return a2(aw(b),c,a);case
+e=p;return e}return a5(at(b),c,a);case
 12:var
 r=a[4];if(typeof
 r!=="number"&&1===r[0]){var
 s=a[3];if(s){var
-t=s[1],u=o(c,aw(b));return u?typeof
-b==="number"?a[2]?0:0===t[0]?1:0:a[2]?0:3===t[0]?1:0:u}return a2(aw(b),c,a)}return a2(aw(b),c,a);case
+t=s[1],u=o(c,at(b));return u?typeof
+b==="number"?a[2]?0:0===t[0]?1:0:a[2]?0:3===t[0]?1:0:u}return a5(at(b),c,a)}return a5(at(b),c,a);case
 13:var
 v=a[4];if(typeof
-v!=="number"&&1===v[0])return a[3]?a2(aw(b),c,a):d?M(f):d;return a2(aw(b),c,a);case
+v!=="number"&&1===v[0])return a[3]?a5(at(b),c,a):d?N(f):d;return a5(at(b),c,a);case
 16:var
 w=a[4];if(typeof
 w!=="number"&&1===w[0]){var
 x=a[3];if(x){var
 y=x[1];if(1===y[0]){var
-z=d?o(c,aw(b)):d,A=z?o(g(y[1]),c):z;if(A)var
+z=d?o(c,at(b)):d,A=z?o(g(y[1]),c):z;if(A)var
 B=typeof
 b==="number"?1:0,C=B?1:B;else
 var
-C=A;return C}return a2(aw(b),c,a)}return a2(aw(b),c,a)}return a2(aw(b),c,a);default:return a2(aw(b),c,a)}}function
-dj(a){switch(a[0]){case
-0:return[0,i([0,a[1],a[2]])];case
+C=A;return C}return a5(at(b),c,a)}return a5(at(b),c,a)}return a5(at(b),c,a);default:return a5(at(b),c,a)}}function
+dk(a){switch(a[0]){case
+0:return[0,j([0,a[1],a[2]])];case
 1:return[1,a[1]];case
-2:return[2,dj(a[1])];case
+2:return[2,dk(a[1])];case
 3:var
-b=dj(a[2]),c=dj(a[3]);switch(a[1]){case
+b=dk(a[2]),c=dk(a[3]);switch(a[1]){case
 0:return[3,b,c];case
 1:return[4,b,c];case
 2:return[5,b,c];default:return[6,b,c]}case
 4:var
-d=a[2];return[7,dj(a[1]),d];default:return[8,dj(a[1])]}}function
-jW(j,h,f,b,d,c,a){var
-k=aj(cN,a),l=eH(0,g(b),0,a),m=W(d,c),n=e(function(a){var
-b=i(a[2]);return[0,i(a[1]),b]},m),o=e(function(a){return 0===a[0]?[0,e(dj,a[1])]:[1,dj(a[1])]},b),p=e(function(a){var
-b=dj(a[2]);return[0,a[1],b]},f);return[0,[0,j,e(function(a){var
+d=a[2];return[7,dk(a[1]),d];default:return[8,dk(a[1])]}}function
+j$(i,h,f,b,d,c,a){var
+k=aj(cO,a),l=eO(0,g(b),0,a),m=W(d,c),n=e(function(a){var
+b=j(a[2]);return[0,j(a[1]),b]},m),o=e(function(a){return 0===a[0]?[0,e(dk,a[1])]:[1,dk(a[1])]},b),p=e(function(a){var
+b=dk(a[2]);return[0,a[1],b]},f);return[0,[0,i,e(function(a){var
 b=b2(a[2]);return[0,a[1],b]},h),p,o],n,l,k]}function
-jX(c){function
+ka(c){function
 a(e){var
 a=[0,d,b];return r(e,c,[0,a,a])}var
-e=a(A1),f=a(A2);return[0,a(0),f,e]}function
-dV(a){function
+e=a(A_),f=a(A$);return[0,a(0),f,e]}function
+dW(a){function
 b(a){var
-b=i(a[2]);return[0,i(a[1]),b]}switch(a[0]){case
+b=j(a[2]);return[0,j(a[1]),b]}switch(a[0]){case
 0:return[0,b([0,a[1],a[2]])];case
 1:var
 c=b(a[3]),d=b(a[2]);return[1,b(a[1]),d,c];case
-2:return[2,i(a[1])];default:var
-e=i(a[2]);return[3,i(a[1]),e]}}function
-pa(a){if(0===a[0]){var
-b=W(a[1],a[2]);return[0,jX(e(function(a){var
-b=i(a[2]);return[0,i(a[1]),b]},b))]}return o8([1,a[1],a[2],a[3],a[4],a[5]])}function
-pb(k,b,j,h,f,d,a){function
-c(a){return jX(e(b2,a))}var
-l=aj(cN,a),m=eH(0,g(b),d,a),n=dV(f),o=pa(h),p=i(j);return[0,k,e(function(a){var
+2:return[2,j(a[1])];default:var
+e=j(a[2]);return[3,j(a[1]),e]}}function
+pm(a){if(0===a[0]){var
+b=W(a[1],a[2]);return[0,ka(e(function(a){var
+b=j(a[2]);return[0,j(a[1]),b]},b))]}return pi([1,a[1],a[2],a[3],a[4],a[5]])}function
+pn(k,b,i,h,f,d,a){function
+c(a){return ka(e(b2,a))}var
+l=aj(cO,a),m=eO(0,g(b),d,a),n=dW(f),o=pm(h),p=j(i);return[0,k,e(function(a){var
 b=c(a[2]);return[0,c(a[1]),b]},b),p,o,n,m,l]}function
-fJ(a){return aj(function(a){return 3===a[0]?1:0},a)}function
-pc(k,a,f,j,h,c){var
-l=aj(cN,c),m=g(a),n=eH(fJ(a),m,0,c),o=z(dV,h),p=pa(j),q=f?i(f[1]):[0,b,b];return[0,k,e(function(a){function
-c(a){return jX(e(b2,a))}switch(a[0]){case
+dX(a){return aj(function(a){return 3===a[0]?1:0},a)}function
+kb(k,a,f,i,h,c){var
+l=aj(cO,c),m=g(a),n=eO(dX(a),m,0,c),o=z(dW,h),p=pm(i),q=f?j(f[1]):[0,b,b];return[0,k,e(function(a){function
+c(a){return ka(e(b2,a))}switch(a[0]){case
 0:var
 k=a[5],l=b2(a[4]),m=c(a[3]),n=c(a[2]);return[0,[0,[0,c(a[1]),n,m,l,k]]];case
 1:var
@@ -6771,9 +6761,9 @@ g=c(f);else
 var
 h=[0,b,b],i=[0,d,b],j=[0,d,b],g=[0,[0,j,j],[0,i,i],[0,h,h]];var
 q=a[7],r=b2(a[6]),s=b2(a[5]),t=c(a[4]),u=c(a[3]);return[1,[0,g,c(a[2]),u,t,s,r,q]]}},a),q,p,o,n,l]}function
-pd(a){return a[1]?0:1}function
-pe(l){var
-b=bu(pd,l);if(b){var
+po(a){return a[1]?0:1}function
+pp(l){var
+b=bu(po,l);if(b){var
 d=b[1];if(d[2])return 0;if(d[3])return 0;var
 c=d[4],a=b[2];if(typeof
 c!=="number")switch(c[0]){case
@@ -6794,69 +6784,69 @@ k=a;return k}var
 i=0}else
 var
 i=b;return i}function
-pf(a){var
-c=pd(a);if(c)return c;if(1===a[1]){var
+pq(a){var
+c=po(a);if(c)return c;if(1===a[1]){var
 b=a[4];if(typeof
 b!=="number"&&0===b[0])return 1;return 0}return 0}function
-hu(i,h,b){function
+hF(i,h,b){function
 c(b,a){return[3,1,b,a]}function
 a(b,a){return[3,3,b,a]}function
 d(b,a){return[3,2,b,a]}function
 e(b,a){return[3,0,b,a]}var
-f=c(hv,a(hv,b)),j=a(f,jY),k=i?f:a(c(b,hv),jY);function
-g(b){return a(b,[5,e(hv,d(jY,d(b,b)))])}var
+f=c(hG,a(hG,b)),j=a(f,kc),k=i?f:a(c(b,hG),kc);function
+g(b){return a(b,[5,e(hG,d(kc,d(b,b)))])}var
 l=g(k);return a(h,e(g(j),l))}function
-hw(f,e,d){function
+hH(f,e,d){function
 a(b,a){return[3,3,b,a]}function
 b(b,a){return[3,2,b,a]}var
-c=a([3,1,jZ,a(jZ,d)],pg),g=a(c,[5,[3,0,jZ,b(pg,b(c,c))]]);return[2,b(hu(f,e,d),g)]}function
-j0(e,g,a){function
+c=a([3,1,kd,a(kd,d)],pr),g=a(c,[5,[3,0,kd,b(pr,b(c,c))]]);return[2,b(hF(f,e,d),g)]}function
+ke(e,g,a){function
 f(b,a){return[3,1,b,a]}function
 b(b,a){return[3,3,b,a]}function
 c(b,a){return[3,2,b,a]}var
-h=f(hx,b(hx,a)),d=e?h:b(f(a,hx),ph),i=b(d,[5,[3,0,hx,c(ph,c(d,d))]]);return c(hu(e,g,a),i)}function
-pi(c,g,b,a){function
+h=f(hI,b(hI,a)),d=e?h:b(f(a,hI),ps),i=b(d,[5,[3,0,hI,c(ps,c(d,d))]]);return c(hF(e,g,a),i)}function
+pt(c,g,b,a){function
 d(b,a){return e(function(c){var
-d=o(b,c)?a:A3;return[0,d]},A5)}return e(function(e){var
-j=[0,hu(c,b,a)],i=1,k=d(e,[2,g]);function
+d=o(b,c)?a:Ba;return[0,d]},Bc)}return e(function(e){var
+j=[0,hF(c,b,a)],i=1,k=d(e,[2,g]);function
 f(b,a){return[3,1,b,a]}var
-h=hu(c,b,a),l=d(e,f(f(hw(c,b,a),g),h));return[0,d(e,A4),l,k,j,i]},A6)}function
-pj(c,b,a){var
-d=[0,j0(c,b,a),0],e=[0,j0(c,b,a),d],f=[0,j0(c,b,a),e],g=[0,hw(c,b,a),0],h=[0,hw(c,b,a),g];return[0,[0,hw(c,b,a),h],f]}function
-pk(o,e,a){if(e)if(a){var
-g=e[1],h=a[1],k=cA(i(g[2][1]));if(k){var
-l=k[1],m=cA(i(g[2][2]));if(m)var
+h=hF(c,b,a),l=d(e,f(f(hH(c,b,a),g),h));return[0,d(e,Bb),l,k,j,i]},Bd)}function
+pu(c,b,a){var
+d=[0,ke(c,b,a),0],e=[0,ke(c,b,a),d],f=[0,ke(c,b,a),e],g=[0,hH(c,b,a),0],h=[0,hH(c,b,a),g];return[0,[0,hH(c,b,a),h],f]}function
+pv(o,e,a){if(e)if(a){var
+g=e[1],h=a[1],k=cA(j(g[2][1]));if(k){var
+l=k[1],m=cA(j(g[2][2]));if(m)var
 p=m[1],n=function(a){function
 d(a){return c(2,a)}var
-e=[0,a,gb(h[2],d,b)];return dw(l,a0(dx(p,l),e))},q=n(E(h[1],b)),f=[0,n(h[1]),q];else
+e=[0,a,gk(h[2],d,b)];return dy(l,a2(dz(p,l),e))},q=n(E(h[1],b)),f=[0,n(h[1]),q];else
 var
 f=[0,[0,d,b],[0,d,b]]}else
 var
 f=[0,[0,d,b],[0,d,b]];var
-r=pk([0,o],e[2],a[2]),j=[0,[0,g[1],[1,o,f[1],f[2]]],r]}else
+r=pv([0,o],e[2],a[2]),i=[0,[0,g[1],[1,o,f[1],f[2]]],r]}else
 var
-j=a;else
+i=a;else
 var
-j=e;return j}function
-as(b,a){switch(a[0]){case
+i=e;return i}function
+au(b,a){switch(a[0]){case
 0:return[0,a[1],a[2]];case
 1:var
 c=a[1];if(0===c[0]){var
-e=c[1],d=lg(function(a){return az(e,a[1])},b);return d?[1,d[1][2]]:a}return a;case
-2:return[2,as(b,a[1])];case
+e=c[1],d=ly(function(a){return aB(e,a[1])},b);return d?[1,d[1][2]]:a}return a;case
+2:return[2,au(b,a[1])];case
 3:var
-f=as(b,a[3]),g=as(b,a[2]);return[3,a[1],g,f];case
+f=au(b,a[3]),g=au(b,a[2]);return[3,a[1],g,f];case
 4:var
-h=a[2];return[4,as(b,a[1]),h];default:return[5,as(b,a[1])]}}function
-pl(b,a){if(0===a[0])return[0,as(b,a[1])];var
-c=as(b,a[2]);return[1,as(b,a[1]),c]}function
-j1(b,a){var
-c=j(b,a[3]),d=j(b,a[2]);return[0,j(b,a[1]),d,c]}function
-j2(c,a){if(c)if(a){var
+h=a[2];return[4,au(b,a[1]),h];default:return[5,au(b,a[1])]}}function
+pw(b,a){if(0===a[0])return[0,au(b,a[1])];var
+c=au(b,a[2]);return[1,au(b,a[1]),c]}function
+kf(b,a){var
+c=k(b,a[3]),d=k(b,a[2]);return[0,k(b,a[1]),d,c]}function
+kg(c,a){if(c)if(a){var
 g=a[2],b=a[1],h=c[1];if(typeof
 b!=="number"&&0===b[0]){var
-e=j2(h,g);if(e){var
-i=e[1],f=j2(h,i[2]);if(f)var
+e=kg(h,g);if(e){var
+i=e[1],f=kg(h,i[2]);if(f)var
 j=f[1],k=[0,[0,[0,b[1],i[1],j[1]],j[2]]];else
 var
 k=f;var
@@ -6868,62 +6858,62 @@ var
 d=a;else
 var
 d=c;return d}function
-j3(g,f,a){if(a){var
-e=a[1],h=a[2];if(f)return[0,e,j3(g,f[1],h)];var
+kh(g,f,a){if(a){var
+e=a[1],h=a[2];if(f)return[0,e,kh(g,f[1],h)];var
 j=[0,e[2]],k=g?b:d,l=e[1],i=[0,[0,E(C(c(2,b),l),k),j],h]}else
 var
 i=a;return i}function
-A7(a){if(typeof
+Be(a){if(typeof
 a!=="number"&&1===a[0])return 1;return 0}function
-A8(a){if(typeof
+Bf(a){if(typeof
 a!=="number"&&2===a[0])return 1;return 0}function
-hy(e,a){if(0===a[0]){var
-f=[0,b,c(2,b)],g=hy(e,a[3]);return a0(dw(hy(e,a[2]),g),f)}return j(e,a[1])?[0,b,b]:[0,d,b]}function
-pm(a){return 0===a[0]?et(a[1][4]):0}function
-pn(a){switch(a[0]){case
+hJ(e,a){if(0===a[0]){var
+f=[0,b,c(2,b)],g=hJ(e,a[3]);return a2(dy(hJ(e,a[2]),g),f)}return k(e,a[1])?[0,b,b]:[0,d,b]}function
+px(a){return 0===a[0]?ev(a[1][4]):0}function
+py(a){switch(a[0]){case
 0:var
-b=a[1],c=a9(b[3]);return f(a9(b[2]),c);case
+b=a[1],c=ba(b[3]);return f(ba(b[2]),c);case
 1:var
-d=a9(a[2]);return f(a9(a[1]),d);default:return 0}}function
-hz(a){switch(a[0]){case
-0:return bF(a9(a[1][1]));case
+d=ba(a[2]);return f(ba(a[1]),d);default:return 0}}function
+hK(a){switch(a[0]){case
+0:return bE(ba(a[1][1]));case
 1:var
-b=a[3];return b?bF(a9(b[1])):d;default:return bF(a9(a[1]))}}function
-hA(c){var
-a=y(pm,c),d=a?[0,a[1],a[2]]:y(pn,c);return E(b,bF(d))}function
-po(d,a){if(d){if(a){var
-b=a[1],g=d[1],e=po(d[2],a[2]);if(e){var
+b=a[3];return b?bE(ba(b[1])):d;default:return bE(ba(a[1]))}}function
+hL(c){var
+a=y(px,c),d=a?[0,a[1],a[2]]:y(py,c);return E(b,bE(d))}function
+pz(d,a){if(d){if(a){var
+b=a[1],g=d[1],e=pz(d[2],a[2]);if(e){var
 h=e[1],i=h[2],j=h[1];if(45===b)var
-c=A9;else
+c=Bg;else
 if(43===b)var
-c=A_;else
+c=Bh;else
 var
-f=48===b?1:0,n=f?A$:f,c=n;if(c)return[0,[0,[0,[0,g,c[1]],j],i]];var
+f=48===b?1:0,n=f?Bi:f,c=n;if(c)return[0,[0,[0,[0,g,c[1]],j],i]];var
 k=49===b?1:0,o=k?[0,[0,j,[0,g,i]]]:k,l=o}else
 var
 l=e;var
 m=l}else
 var
-m=a;return m}return a?0:Ba}function
-dk(b,c,a){switch(a[0]){case
+m=a;return m}return a?0:Bj}function
+dl(b,c,a){switch(a[0]){case
 0:var
-d=a[1];if(az(d,Bb))return Bc;if(az(d,Bd))return Be;if(az(d,Bf))return Bg;if(az(d,Bh))return Bi;if(az(d,Bj))return Bk;var
-n=az(d,Bl),B=n?Bm:n;return B;case
+d=a[1];if(aB(d,Bk))return Bl;if(aB(d,Bm))return Bn;if(aB(d,Bo))return Bp;if(aB(d,Bq))return Br;if(aB(d,Bs))return Bt;var
+n=aB(d,Bu),B=n?Bv:n;return B;case
 1:var
-e=a[3],f=a[2],g=a[1];if(az(g,Bn))return[0,[0,e,f]];if(az(g,Bo))return[0,[1,e,f]];if(az(g,Bp))return[0,[2,e,f]];var
-o=az(g,Bq),C=o?[0,[8,e,f]]:o;return C;case
+e=a[3],f=a[2],g=a[1];if(aB(g,Bw))return[0,[0,e,f]];if(aB(g,Bx))return[0,[1,e,f]];if(aB(g,By))return[0,[2,e,f]];var
+o=aB(g,Bz),C=o?[0,[8,e,f]]:o;return C;case
 2:return[0,[4,a[1]]];case
 3:return[0,[3,a[2],a[1],a[3]]];case
 4:return[0,[9,a[2],a[1],a[3],a[4]]];case
 5:var
-h=dk(b,c,a[1]),D=h?[0,[5,h[1],a[2],a[3]]]:h;return D;case
+h=dl(b,c,a[1]),D=h?[0,[5,h[1],a[2],a[3]]]:h;return D;case
 6:var
-i=dk(b,c,a[1]),E=i?[0,[7,i[1],a[2],a[3]]]:i;return E;case
+i=dl(b,c,a[1]),E=i?[0,[7,i[1],a[2],a[3]]]:i;return E;case
 7:var
-F=dk(b,c,a[1]);return z(function(a){return[6,a]},F);case
+F=dl(b,c,a[1]);return z(function(a){return[6,a]},F);case
 8:if(b){var
-p=a[3],q=a[2],j=dk(b,c,a[1]);if(j){var
-r=j[1],k=po(b,ib(ia(ax(q),function(a){return a4(q,a)})));if(k){var
+p=a[3],q=a[2],j=dl(b,c,a[1]);if(j){var
+r=j[1],k=pz(b,ip(io(az(q),function(a){return a7(q,a)})));if(k){var
 s=k[1],t=s[2],u=s[1];if(t)return[0,[11,c,t,[10,r,u,p]]];var
 v=[0,[10,r,u,p]]}else
 var
@@ -6936,29 +6926,29 @@ var
 x=b;return x;case
 9:var
 y=function(a){if(a){var
-f=a[1],d=dk(b,c,f[2]);if(d)var
+f=a[1],d=dl(b,c,f[2]);if(d)var
 e=y(a[2]),h=e?[0,[0,[0,f[1],d[1]],e[1]]]:e,g=h;else
 var
-g=d;return g}return Br},G=y(a[1]);return z(function(a){return[12,a]},G);default:var
-l=dk(b,c,a[3]);if(l)var
-m=dk(b,c,a[4]),H=m?[0,[13,a[2],a[1],l[1],m[1]]]:m,A=H;else
+g=d;return g}return BA},G=y(a[1]);return z(function(a){return[12,a]},G);default:var
+l=dl(b,c,a[3]);if(l)var
+m=dl(b,c,a[4]),H=m?[0,[13,a[2],a[1],l[1],m[1]]]:m,A=H;else
 var
 A=l;return A}}function
-pp(e,d,a){if(a){var
-f=a[1],b=dk(e,d,f[2]);if(b)var
-c=pp(e,d,a[2]),h=c?[0,[0,[0,f[1],b[1]],c[1]]]:c,g=h;else
+pA(e,d,a){if(a){var
+f=a[1],b=dl(e,d,f[2]);if(b)var
+c=pA(e,d,a[2]),h=c?[0,[0,[0,f[1],b[1]],c[1]]]:c,g=h;else
 var
-g=b;return g}return Bs}function
-dW(b,g,f,e,d,a){if(d)if(a){var
+g=b;return g}return BB}function
+dY(b,g,f,e,d,a){if(d)if(a){var
 c=a[1];if(c[3])return 0;if(c[4])return 0;var
-n=c[2],o=a[2],p=d[1],h=pp(f,e,c[1]);if(h){var
+n=c[2],o=a[2],p=d[1],h=pA(f,e,c[1]);if(h){var
 i=h[1];if(n){var
-j=dW(b,g,f,e,p,o);if(j){var
-q=j[1],k=dW(b,g,f,e,p,q[2]);if(k){var
-r=k[1],s=r[1],t=q[1],l=n[1],y=r[2];if(aI(l,b))var
+j=dY(b,g,f,e,p,o);if(j){var
+q=j[1],k=dY(b,g,f,e,p,q[2]);if(k){var
+r=k[1],s=r[1],t=q[1],l=n[1],y=r[2];if(aK(l,b))var
 u=[0,[1,i,l,t,s]];else
 var
-x=H(g,d9(l,b)),u=z(function(a){return[2,i,a,t,s]},x);return z(function(a){return[0,a,y]},u)}var
+x=H(g,dw(l,b)),u=z(function(a){return[2,i,a,t,s]},x);return z(function(a){return[0,a,y]},u)}var
 v=k}else
 var
 v=j;return v}var
@@ -6970,56 +6960,56 @@ var
 m=a;else
 var
 m=d;return m}function
-j4(i,h,f,e,d,a){if(d){if(a){var
-b=dW(i,h,f,e,g(a),a);if(b)var
-j=b[1],c=j4(i,h,f,e,d[1],j[2]),l=c?[0,[0,j[1],c[1]]]:c,k=l;else
+ki(i,h,f,e,d,a){if(d){if(a){var
+b=dY(i,h,f,e,g(a),a);if(b)var
+j=b[1],c=ki(i,h,f,e,d[1],j[2]),l=c?[0,[0,j[1],c[1]]]:c,k=l;else
 var
-k=b;return k}return Bt}return a?0:Bu}function
-pq(a){if(typeof
-a==="number")return 0===a?Bv:Bw;else
+k=b;return k}return BC}return a?0:BD}function
+pB(a){if(typeof
+a==="number")return 0===a?BE:BF;else
 switch(a[0]){case
 0:return[0,[0,a[1],a[2]]];case
 1:return[0,[1,a[1],a[2]]];default:return 0}}function
-j5(e,d,a){if(d)if(a){var
+kj(e,d,a){if(d)if(a){var
 b=a[1];if(b[1])return 0;var
 j=b[4],c=b[3],k=b[2],l=a[2],m=d[1];if(k){if(c)return 0;if(j)return 0;var
-f=k[1],g=j5(e,m,l);if(g){var
-n=g[1],o=n[1],h=j5(e,m,n[2]);if(h){var
-p=h[1],q=p[2],r=p[1];if(aI(f,Bx))return[0,[0,[1,f,o,r],q]];var
-t=H(e,d9(f,By));return z(function(a){return[0,[2,a,o,r],q]},t)}var
+f=k[1],g=kj(e,m,l);if(g){var
+n=g[1],o=n[1],h=kj(e,m,n[2]);if(h){var
+p=h[1],q=p[2],r=p[1];if(aK(f,BG))return[0,[0,[1,f,o,r],q]];var
+t=H(e,dw(f,BH));return z(function(a){return[0,[2,a,o,r],q]},t)}var
 s=h}else
 var
 s=g;return s}if(c){var
-u=pq(c[1]);return z(function(a){return[0,[0,j,a],l]},u)}var
+u=pB(c[1]);return z(function(a){return[0,[0,j,a],l]},u)}var
 i=c}else
 var
 i=a;else
 var
 i=d;return i}function
-dl(b,a){return 0===b[0]?[0,i(b[1]),a]:a?[0,a[1],a[2]]:[0,i(b[1]),0]}function
-dX(a,e){var
-b=dl(a[1],e),c=dl(a[2],b[2]),d=dl(a[3],c[2]);return[0,[0,b[1],c[1],d[1]],d[2]]}function
-pr(d,c){if(d){var
+dm(b,a){return 0===b[0]?[0,j(b[1]),a]:a?[0,a[1],a[2]]:[0,j(b[1]),0]}function
+dZ(a,e){var
+b=dm(a[1],e),c=dm(a[2],b[2]),d=dm(a[3],c[2]);return[0,[0,b[1],c[1],d[1]],d[2]]}function
+pC(d,c){if(d){var
 a=d[1];switch(a[0]){case
 0:var
-e=dX(a[1],c),f=dX(a[2],e[2]),g=dX(a[3],f[2]),h=dl(a[4],g[2]),b=[0,[0,e[1],f[1],g[1],h[1],a[5]],h[2]];break;case
+e=dZ(a[1],c),f=dZ(a[2],e[2]),g=dZ(a[3],f[2]),h=dm(a[4],g[2]),b=[0,[0,e[1],f[1],g[1],h[1],a[5]],h[2]];break;case
 1:var
-i=a[3],j=dX(a[1],c),k=j[1],l=dX(a[2],j[2]),m=l[2],n=l[1];if(i)var
-o=dX(i[1],m),b=[0,[1,k,n,[0,o[1]]],o[2]];else
+i=a[3],j=dZ(a[1],c),k=j[1],l=dZ(a[2],j[2]),m=l[2],n=l[1];if(i)var
+o=dZ(i[1],m),b=[0,[1,k,n,[0,o[1]]],o[2]];else
 var
 b=[0,[1,k,n,0],m];break;default:var
-p=dX(a[1],c),b=[0,[2,p[1]],p[2]]}var
-q=pr(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
-fK(t,f){var
+p=dZ(a[1],c),b=[0,[2,p[1]],p[2]]}var
+q=pC(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
+fU(t,f){var
 u=t[3];if(typeof
-f==="number")return 0===f?BC:BD;else
+f==="number")return 0===f?BL:BM;else
 switch(f[0]){case
 0:var
 v=f[2],h=f[1],B=H(u,h);if(B){var
 ab=0,E=B[1];if(typeof
 E==="number"||!(13===E[0]))ab=1;else
 var
-x=t[1],A=hA(x),a=e(function(a){var
+x=t[1],A=hL(x),a=e(function(a){var
 f=g(x);if(o(g(a),f)){var
 h=W(x,a);return e(function(a){var
 e=a[2],f=D(d,A),g=2===a[1][0]?1:0;return ct(g,f)?C(e,b8(c(2,b),cr(A))):e},h)}return a},v);if(ab)var
@@ -7028,9 +7018,9 @@ var
 a=v;var
 ac=H(u,h),ad=t[1],w=z(function(b){if(typeof
 b!=="number")switch(b[0]){case
-5:return BA;case
+5:return BJ;case
 12:var
-a=H(ad,b[1]);if(a){if(2===a[1][0])return BB;var
+a=H(ad,b[1]);if(a){if(2===a[1][0])return BK;var
 c=0}else
 var
 c=a;return c;case
@@ -7039,7 +7029,7 @@ c=a;return c;case
 4:case
 6:case
 7:case
-11:return 0}return Bz},ac);if(w){var
+11:return 0}return BI},ac);if(w){var
 F=w[1];if(F){var
 G=F[1];if(G){if(G[1])return 0;if(a){var
 i=a[1];if(i){var
@@ -7098,79 +7088,79 @@ $!=="number"&&1===$[0])return[0,[1,_,f[2]]];var
 aa=0}else
 var
 aa=y;return aa;default:return 0}}function
-bh(a,b){if(a){var
-c=dl(a[1],b),d=bh(a[2],c[2]);return[0,[0,c[1],d[1]],d[2]]}return[0,0,b]}function
-aK(c){function
+bj(a,b){if(a){var
+c=dm(a[1],b),d=bj(a[2],c[2]);return[0,[0,c[1],d[1]],d[2]]}return[0,0,b]}function
+aI(c){function
 a(a){return r(a,c,[0,d,b])}var
-e=a(BE),f=a(BF);return[0,a(0),f,e]}function
-ps(a,b){if(a){var
-c=a[1],d=bh(c[1],b),e=bh(c[2],d[2]),f=ps(a[2],e[2]),g=f[2],h=f[1],i=aK(e[1]);return[0,[0,[0,aK(d[1]),i],h],g]}return[0,0,b]}function
-pt(f,e){if(f){var
+e=a(BN),f=a(BO);return[0,a(0),f,e]}function
+pD(a,b){if(a){var
+c=a[1],d=bj(c[1],b),e=bj(c[2],d[2]),f=pD(a[2],e[2]),g=f[2],h=f[1],i=aI(e[1]);return[0,[0,[0,aI(d[1]),i],h],g]}return[0,0,b]}function
+kk(f,e){if(f){var
 a=f[1];switch(a[0]){case
 0:var
-g=bh(a[1],e),h=bh(a[2],g[2]),i=bh(a[3],h[2]),j=dl(a[4],i[2]),A=j[2],B=a[5],C=j[1],D=aK(i[1]),E=aK(h[1]),c=[0,[0,[0,aK(g[1]),E,D,C,B]],A];break;case
+g=bj(a[1],e),h=bj(a[2],g[2]),i=bj(a[3],h[2]),j=dm(a[4],i[2]),A=j[2],B=a[5],C=j[1],D=aI(i[1]),E=aI(h[1]),c=[0,[0,[0,aI(g[1]),E,D,C,B]],A];break;case
 1:var
-k=a[3],l=bh(a[1],e),m=l[1],n=bh(a[2],l[2]),o=n[2],p=n[1];if(k)var
-q=bh(k[1],o),F=q[2],G=[0,aK(q[1])],H=aK(p),c=[0,[0,[1,aK(m),H,G]],F];else
+k=a[3],l=bj(a[1],e),m=l[1],n=bj(a[2],l[2]),o=n[2],p=n[1];if(k)var
+q=bj(k[1],o),F=q[2],G=[0,aI(q[1])],H=aI(p),c=[0,[0,[1,aI(m),H,G]],F];else
 var
-I=aK(p),c=[0,[0,[1,aK(m),I,0]],o];break;case
+I=aI(p),c=[0,[0,[1,aI(m),I,0]],o];break;case
 2:var
-r=bh(a[1],e),J=r[2],c=[0,[0,[2,aK(r[1])]],J];break;default:var
-s=a[1],t=bh(s,e),u=bh(a[2],t[2]),v=bh(a[3],u[2]),w=bh(a[4],v[2]),x=dl(a[5],w[2]),y=dl(a[6],x[2]),K=s?aK(t[1]):[0,[0,d,b],[0,d,b],[0,b,b]],L=y[2],M=a[7],N=y[1],O=x[1],P=aK(w[1]),Q=aK(v[1]),c=[0,[1,[0,K,aK(u[1]),Q,P,O,N,M]],L]}var
-z=pt(f[2],c[2]);return[0,[0,c[1],z[1]],z[2]]}return[0,0,e]}function
-dm(a){return lE(k,a)}function
-BG(a){if(typeof
+r=bj(a[1],e),J=r[2],c=[0,[0,[2,aI(r[1])]],J];break;default:var
+s=a[1],t=bj(s,e),u=bj(a[2],t[2]),v=bj(a[3],u[2]),w=bj(a[4],v[2]),x=dm(a[5],w[2]),y=dm(a[6],x[2]),K=s?aI(t[1]):[0,[0,d,b],[0,d,b],[0,b,b]],L=y[2],M=a[7],N=y[1],O=x[1],P=aI(w[1]),Q=aI(v[1]),c=[0,[1,[0,K,aI(u[1]),Q,P,O,N,M]],L]}var
+z=kk(f[2],c[2]);return[0,[0,c[1],z[1]],z[2]]}return[0,0,e]}function
+dn(a){return lW(i,a)}function
+BP(a){if(typeof
 a==="number")return 1;else
 switch(a[0]){case
-5:return h(k,1,[3,a[1],[0,b,b]]);case
-6:return h(k,1,a[2]);case
+5:return h(i,1,[3,a[1],[0,b,b]]);case
+6:return h(i,1,a[2]);case
 8:var
-d=h(k,1,a[1]);return d?h(k,1,a[2]):d;case
-10:return h(k,0,a[3]);case
+d=h(i,1,a[1]);return d?h(i,1,a[2]):d;case
+10:return h(i,0,a[3]);case
 11:var
-e=a[4];return 2===e[0]?h(k,0,e[2]):0;case
+e=a[4];return 2===e[0]?h(i,0,e[2]):0;case
 12:var
-f=h(k,0,a[2]),g=f?h(k,0,a[3]):f;return g?h(k,1,a[4]):g;case
+f=h(i,0,a[2]),g=f?h(i,0,a[3]):f;return g?h(i,1,a[4]):g;case
 14:var
-i=h(k,0,a[1]);return i?h(k,1,a[2]):i;case
+j=h(i,0,a[1]);return j?h(i,1,a[2]):j;case
 15:var
-j=[0,a[2],a[1]],m=1;return l(function(a){return h(k,m,a)},j);case
+k=[0,a[2],a[1]],m=1;return l(function(a){return h(i,m,a)},k);case
 2:case
-3:return dm(a[2]);case
+3:return dn(a[2]);case
 4:case
 13:var
-c=h(k,1,a[2]);return c?h(k,1,a[3]):c;default:return h(k,1,a[1])}}function
-j6(a){if(typeof
+c=h(i,1,a[2]);return c?h(i,1,a[3]):c;default:return h(i,1,a[1])}}function
+kl(a){if(typeof
 a==="number")return 1;else
 switch(a[0]){case
 4:var
-d=a[3],e=a[2],f=h(k,1,[3,d,e]),g=f?h(k,1,[3,[2,e,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b]],d]):f,i=g?h(k,0,[2,e,[0,c(2,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))))),b]]):g;return i?h(k,0,[3,[0,c(2,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))))),b],d]):i;case
-5:return h(k,1,[3,a[1],[0,b,b]]);case
+d=a[3],e=a[2],f=h(i,1,[3,d,e]),g=f?h(i,1,[3,[2,e,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b]],d]):f,j=g?h(i,0,[2,e,[0,c(2,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))))),b]]):g;return j?h(i,0,[3,[0,c(2,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))))),b],d]):j;case
+5:return h(i,1,[3,a[1],[0,b,b]]);case
 8:var
-B=[0,a[2],a[1]],C=1;return l(function(a){return h(k,C,a)},B);case
-10:return h(k,1,a[2]);case
+B=[0,a[2],a[1]],C=1;return l(function(a){return h(i,C,a)},B);case
+10:return h(i,1,a[2]);case
 11:var
-m=a[2],n=h(k,1,m);return n?h(k,0,[3,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b],m]):n;case
+m=a[2],n=h(i,1,m);return n?h(i,0,[3,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b],m]):n;case
 13:var
-o=a[4],p=nV(a[3]),r=p?h(k,1,o):p;return r?h(k,0,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],o]):r;case
-14:return h(k,0,a[3]);case
+o=a[4],p=n$(a[3]),r=p?h(i,1,o):p;return r?h(i,0,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],o]):r;case
+14:return h(i,0,a[3]);case
 15:var
-s=h(k,0,a[2]),t=s?h(k,0,a[3]):s;return t?h(k,1,a[4]):t;case
+s=h(i,0,a[2]),t=s?h(i,0,a[3]):s;return t?h(i,1,a[4]):t;case
 16:var
-u=a[3],v=h(k,0,a[1]),w=v?h(k,1,a[2]):v,x=w?h(k,0,u):w;return x?h(k,1,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],u]):x;case
+u=a[3],v=h(i,0,a[1]),w=v?h(i,1,a[2]):v,x=w?h(i,0,u):w;return x?h(i,1,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],u]):x;case
 17:var
-y=a[2],z=l(dm,y),A=z?aj(function(a){return h(k,1,[4,a,a])},y):z;return A?h(k,1,a[3]):A;case
+y=a[2],z=l(dn,y),A=z?aj(function(a){return h(i,1,[4,a,a])},y):z;return A?h(i,1,a[3]):A;case
 2:case
-3:return dm(a[2]);case
-6:case
-7:case
-9:var
-j=h(k,1,a[2]);return j?h(k,1,a[3]):j;default:return h(k,1,a[1])}}function
-hB(d){var
+3:return dn(a[2]);case
+0:case
+1:case
+12:return h(i,1,a[1]);default:var
+k=h(i,1,a[2]);return k?h(i,1,a[3]):k}}function
+hM(d){var
 a=d;for(;;){if(a){var
-b=a[2],e=a[1],c=M(aj(function(d){return function(a){var
-h=jO(a[1]),e=az(jO(d[1]),h);if(e)var
-i=jP(a[4]),b=az(jP(d[4]),i);else
+b=a[2],e=a[1],c=N(aj(function(d){return function(a){var
+h=j3(a[1]),e=aB(j3(d[1]),h);if(e)var
+i=j4(a[4]),b=aB(j4(d[4]),i);else
 var
 b=e;if(b){var
 f=d[2];if(f){var
@@ -7179,125 +7169,125 @@ g=1}else
 var
 g=b;return g}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-fL(a){if(0===a[0])return dm(i(a[1]));var
-b=a[2],c=a[1];if(!dA(i(c))&&!dA(i(b))){var
-e=i(c);return h(k,1,[3,i(b),e])}var
-d=i(b);return bw(k,i(c),d)}function
-dY(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-pu(a){switch(a[0]){case
+fV(a){if(0===a[0])return dn(j(a[1]));var
+b=a[2],c=a[1];if(!dC(j(c))&&!dC(j(b))){var
+e=j(c);return h(i,1,[3,j(b),e])}var
+d=j(b);return bw(i,j(c),d)}function
+d0(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+pE(a){switch(a[0]){case
 0:var
-c=[0,a[4],0],d=f(dY(a[3]),c),e=f(dY(a[2]),d);return f(dY(a[1]),e);case
+c=[0,a[4],0],d=f(d0(a[3]),c),e=f(d0(a[2]),d);return f(d0(a[1]),e);case
 1:var
-b=a[3],g=b?dY(b[1]):b,h=f(dY(a[2]),g);return f(dY(a[1]),h);default:return dY(a[1])}}function
-pv(s,a,m){if(aj(function(a){return 9===a[1]?1:0},m)){var
-b=aa(g(a),BJ),c=b?l(function(a){if(0===a[0]){var
-d=a[5],e=h(k,1,i(a[2])),g=e?h(k,0,i(a[3])):e,m=g?h(k,0,i(a[4])):g,c=0;if(m)if(d)var
-p=b1(d[1]),b=l(function(a){return dm(i(a))},p);else{var
+b=a[3],g=b?d0(b[1]):b,h=f(d0(a[2]),g);return f(d0(a[1]),h);default:return d0(a[1])}}function
+pF(s,a,m){if(aj(function(a){return 9===a[1]?1:0},m)){var
+b=aa(g(a),BS),c=b?l(function(a){if(0===a[0]){var
+d=a[5],e=h(i,1,j(a[2])),g=e?h(i,0,j(a[3])):e,m=g?h(i,0,j(a[4])):g,c=0;if(m)if(d)var
+p=b1(d[1]),b=l(function(a){return dn(j(a))},p);else{var
 n=1;c=1}else{var
 n=m;c=1}if(c)var
 b=n}else{var
-o=h(k,1,i(a[4]));if(o)var
-q=b1(a[3]),r=f(b1(a[2]),q),b=l(function(a){return dm(i(a))},r);else
+o=h(i,1,j(a[4]));if(o)var
+q=b1(a[3]),r=f(b1(a[2]),q),b=l(function(a){return dn(j(a))},r);else
 var
-b=o}return b?j(s,a):b},a):b;if(c)var
-d=ht(0,a),n=d?1:d,e=n;else
+b=o}return b?k(s,a):b},a):b;if(c)var
+d=hE(0,a),n=d?1:d,e=n;else
 var
 e=c;return e}return a?0:1}function
-pw(a){return a?BK:BL}function
-j7(a){switch(a){case
-0:return BM;case
-1:return BN;default:return 0}}function
-dn(a){var
-f=a[1],d=h(k,1,[2,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],f]),e=d?bw(k,a[1],a[2]):d;if(e){var
-g=a[2];return h(k,1,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],g])}return e}function
-eI(a){var
-e=bw(k,[0,d,b],a);return e?h(k,1,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],a]):e}function
-px(c,b,a){if(0===a[0]){var
-d=a[2],e=a[1],f=o(g(e),c),j=f?o(g(d),c):f;if(j){var
+pG(a){return a?BT:BU}function
+hN(a){switch(a){case
+0:return BV;case
+1:return BW;default:return 0}}function
+dp(a){var
+f=a[1],d=h(i,1,[2,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],f]),e=d?bw(i,a[1],a[2]):d;if(e){var
+g=a[2];return h(i,1,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],g])}return e}function
+eP(a){var
+e=bw(i,[0,d,b],a);return e?h(i,1,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],a]):e}function
+pH(c,b,a){if(0===a[0]){var
+d=a[2],e=a[1],f=o(g(e),c),k=f?o(g(d),c):f;if(k){var
 n=W(e,d);return l(function(a){var
-b=i(a[2]);return bw(k,i(a[1]),b)},n)}return j}var
-m=b?h(k,1,i(a[3])):b;if(m){var
-p=i(a[5]);return bw(k,i(a[4]),p)}return m}function
-py(a,e,F,E,t,s,f){function
+b=j(a[2]);return bw(i,j(a[1]),b)},n)}return k}var
+m=b?h(i,1,j(a[3])):b;if(m){var
+p=j(a[5]);return bw(i,j(a[4]),p)}return m}function
+pI(a,e,F,E,t,s,f){function
 u(b){var
-d=pw(a),c=o(g(b),d);return c?l(fL,b):c}var
+d=pG(a),c=o(g(b),d);return c?l(fV,b):c}var
 v=l(function(a){var
 b=u(a[1]);return b?u(a[2]):b},e);if(v)var
-G=g(e),n=aa(bG(a),G);else
+G=g(e),n=aa(bF(a),G);else
 var
 n=v;var
-w=n?aa(g(e),BO):n,x=w?h(k,1,i(F)):w;if(x)var
-H=1===a?1:0,p=px(j7(a),H,E);else
+w=n?aa(g(e),BX):n,x=w?h(i,1,j(F)):w;if(x)var
+H=1===a?1:0,p=pH(hN(a),H,E);else
 var
 p=x;if(p)if(a){var
-d=dV(t);switch(d[0]){case
+d=dW(t);switch(d[0]){case
 0:var
-j=0;break;case
+k=0;break;case
 1:var
-A=dn(d[1]),B=A?dn(d[2]):A,j=B?dn(d[3]):B;break;case
+A=dp(d[1]),B=A?dp(d[2]):A,k=B?dp(d[3]):B;break;case
 2:var
-j=eI(d[1]);break;default:var
-C=eI(d[1]),j=C?eI(d[2]):C}var
-m=j}else
+k=eP(d[1]);break;default:var
+C=eP(d[1]),k=C?eP(d[2]):C}var
+m=k}else
 var
-D=dV(t),J=0===D[0]?dn(D[1]):0,m=J;else
+D=dW(t),J=0===D[0]?dp(D[1]):0,m=J;else
 var
 m=p;if(m)var
-I=g(e),q=pv(function(a){if(0===a[0]){var
-b=a[1],c=aa(BI,b),d=c?aa(b,I):c;if(d){if(a[5])return 0;var
+I=g(e),q=pF(function(a){if(0===a[0]){var
+b=a[1],c=aa(BR,b),d=c?aa(b,I):c;if(d){if(a[5])return 0;var
 e=1}else
 var
 e=d;return e}return 1},s,f);else
 var
 q=m;if(q)var
-b=g(e),c=bG(a),y=pw(a),r=l(function(a){var
+b=g(e),c=bF(a),y=pG(a),r=l(function(a){var
 e=a[2];if(e)var
-f=e[1],h=aa(AZ,f),w=h?aa(f,b):h,d=w;else
+f=e[1],h=aa(A8,f),w=h?aa(f,b):h,d=w;else
 var
 d=1;switch(a[1]){case
 9:var
 i=a[4];if(typeof
-i!=="number"&&0===i[0])return a[2]?aD(c,b,a):a[3]?aD(c,b,a):1;return aD(c,b,a);case
+i!=="number"&&0===i[0])return a[2]?aE(c,b,a):a[3]?aE(c,b,a):1;return aE(c,b,a);case
 10:var
 j=a[4];if(typeof
 j!=="number"&&1===j[0]){var
-k=a[3];return k?2===k[1][0]?d:aD(c,b,a):aD(c,b,a)}return aD(c,b,a);case
+k=a[3];return k?2===k[1][0]?d:aE(c,b,a):aE(c,b,a)}return aE(c,b,a);case
 12:var
 l=a[4];if(typeof
-l!=="number"&&1===l[0]){if(a[2])return aD(c,b,a);var
-m=a[3];return m?3===m[1][0]?o(b,c):aD(c,b,a):aD(c,b,a)}return aD(c,b,a);case
+l!=="number"&&1===l[0]){if(a[2])return aE(c,b,a);var
+m=a[3];return m?3===m[1][0]?o(b,c):aE(c,b,a):aE(c,b,a)}return aE(c,b,a);case
 14:var
 n=a[4];if(typeof
 n!=="number"&&1===n[0]){var
 p=a[3];if(p){var
 q=p[1];if(1===q[0]){var
-r=o(g(q[1]),y),x=r?d:r;return x}return aD(c,b,a)}return aD(c,b,a)}return aD(c,b,a);case
+r=o(g(q[1]),y),x=r?d:r;return x}return aE(c,b,a)}return aE(c,b,a)}return aE(c,b,a);case
 15:var
 s=a[4];if(typeof
 s!=="number"&&1===s[0]){var
 t=a[3];if(t){var
 u=t[1];if(1===u[0]){var
-v=o(g(u[1]),y),z=v?d:v;return z}return aD(c,b,a)}return aD(c,b,a)}return aD(c,b,a);default:return aD(c,b,a)}},f);else
+v=o(g(u[1]),y),z=v?d:v;return z}return aE(c,b,a)}return aE(c,b,a)}return aE(c,b,a);default:return aE(c,b,a)}},f);else
 var
 r=q;var
-z=r?hB(f):r;return z?l(j6,eH(0,g(e),s,f)):z}function
-pz(a){switch(a[0]){case
+z=r?hM(f):r;return z?l(kl,eO(0,g(e),s,f)):z}function
+km(a){switch(a[0]){case
 0:var
 c=f(a[3],[0,a[4],0]),d=f(a[2],c);return f(a[1],d);case
 1:var
 b=a[3],e=b?b[1]:b,g=f(a[2],e);return f(a[1],g);case
 2:return a[1];default:var
 h=f(a[4],[0,a[5],[0,a[6],0]]),i=f(a[3],h),j=f(a[2],i);return f(a[1],j)}}function
-pA(a,e,d,R,p,n){var
+kn(a,e,d,R,p,n){var
 q=typeof
 a==="number"?a?1:a:a[1]?0:1;function
 c(a){var
-b=q?BP:BQ;return o(g(a),b)}var
-j=fJ(e),w=l(function(b){switch(b[0]){case
+b=q?BY:BZ;return o(g(a),b)}var
+k=dX(e),w=l(function(b){switch(b[0]){case
 0:var
-f=M(j),g=f?c(b[1]):f,h=g?c(b[2]):g;return h?c(b[3]):h;case
+f=N(k),g=f?c(b[1]):f,h=g?c(b[2]):g;return h?c(b[3]):h;case
 1:var
-d=b[3],i=M(j),k=i?c(b[1]):i,l=k?c(b[2]):k;if(l){var
+d=b[3],i=N(k),j=i?c(b[1]):i,l=j?c(b[2]):j;if(l){var
 m=typeof
 a==="number"?1:0;if(m){if(a)return d?0:1;if(d)return c(d[1]);var
 e=1}else
@@ -7306,32 +7296,32 @@ e=m}else
 var
 e=l;return e;case
 2:var
-n=M(j),o=n?c(b[1]):n;if(o){if(typeof
+n=N(k),o=n?c(b[1]):n;if(o){if(typeof
 a==="number"&&!a)return 1;var
 p=0}else
 var
 p=o;return p;default:var
 r=b[1],s=q?r?0:1:c(r),t=s?c(b[2]):s,u=t?c(b[3]):t;return u?c(b[4]):u}},e);if(w)var
-S=g(e),r=aa(aw(a),S);else
+S=g(e),r=aa(at(a),S);else
 var
 r=w;var
-x=r?aa(g(e),BR):r,A=x?l(fL,y(pz,e)):x;if(A){var
+x=r?aa(g(e),B0):r,A=x?l(fV,y(km,e)):x;if(A){var
 Q=0;if(typeof
 a==="number"&&!a){var
 B=1;Q=1}if(!Q)var
 B=0;var
-T=q?BS:BT,s=px(T,B,R)}else
+T=q?B1:B2,s=pH(T,B,R)}else
 var
 s=A;if(s)if(typeof
 a==="number")if(d)var
 b=0;else
 var
-U=z(dV,p)?0:1,b=U;else
+U=z(dW,p)?0:1,b=U;else
 switch(a[1]){case
 0:if(d){var
-t=z(dV,p);if(t){var
+t=z(dW,p);if(t){var
 E=t[1];if(0===E[0])var
-F=h(k,1,i(d[1])),G=F?dn(E[1]):F;else
+F=h(i,1,j(d[1])),G=F?dp(E[1]):F;else
 var
 G=0;var
 H=G}else
@@ -7341,15 +7331,15 @@ b=H}else
 var
 b=d;break;case
 1:if(d){var
-u=d[1],v=z(dV,p);if(v){var
+u=d[1],v=z(dW,p);if(v){var
 f=v[1];switch(f[0]){case
 0:var
 m=0;break;case
 1:var
-J=h(k,1,i(u)),K=J?dn(f[1]):J,L=K?dn(f[2]):K,m=L?dn(f[3]):L;break;case
+J=h(i,1,j(u)),K=J?dp(f[1]):J,L=K?dp(f[2]):K,m=L?dp(f[3]):L;break;case
 2:var
-N=h(k,1,i(u)),m=N?eI(f[1]):N;break;default:var
-O=h(k,1,i(u)),P=O?eI(f[1]):O,m=P?eI(f[2]):P}var
+M=h(i,1,j(u)),m=M?eP(f[1]):M;break;default:var
+O=h(i,1,j(u)),P=O?eP(f[1]):O,m=P?eP(f[2]):P}var
 I=m}else
 var
 I=v;var
@@ -7360,123 +7350,123 @@ b=0}else
 var
 b=s;var
 C=b?l(function(b){var
-c=o$(j,a,g(e),b);if(c)var
+c=pl(k,a,g(e),b);if(c)var
 d=c;else{var
-f=cN(b);if(f)return aD(0,0,b);var
-d=f}return d},n):b,D=C?hB(n):C;return D?l(j6,eH(j,g(e),0,n)):D}function
-BU(a){switch(a[0]){case
-0:return gZ(a[1][1]);case
+f=cO(b);if(f)return aE(0,0,b);var
+d=f}return d},n):b,D=C?hM(n):C;return D?l(kl,eO(k,g(e),0,n)):D}function
+B3(a){switch(a[0]){case
+0:return g8(a[1][1]);case
 1:var
-b=a[3];return b?gZ(b[1]):1;default:return gZ(a[1])}}function
-j8(a,k,b,d){var
-e=pv(function(g){if(0===g[0]){var
-c=g[1],d=aa(BH,c);if(d){var
+b=a[3];return b?g8(b[1]):1;default:return g8(a[1])}}function
+ko(a,k,b,d){var
+e=pF(function(g){if(0===g[0]){var
+c=g[1],d=aa(BQ,c);if(d){var
 b=H(a,bz(c));if(b){if(2===b[1][0])return 0;var
 e=1}else
 var
 e=b;var
 f=e}else
 var
-f=d;return f}return 1},k,b),f=e?l(BU,d[1]):e,h=f?aa(BV,g(a)):f;if(h)var
-m=g(a),c=l(function(a){return AP(m,a)},b);else
+f=d;return f}return 1},k,b),f=e?l(B3,d[1]):e,h=f?aa(B4,g(a)):f;if(h)var
+m=g(a),c=l(function(a){return AY(m,a)},b);else
 var
 c=h;var
-i=c?hB(b):c,j=i?l(fL,y(pu,a)):i;return j?l(BG,d[3]):j}function
-pB(m,k,a,j,i,b){var
+i=c?hM(b):c,j=i?l(fV,y(pE,a)):i;return j?l(BP,d[3]):j}function
+pJ(m,k,a,j,i,b){var
 c=g(m),n=g(i),d=o(g(j),n),e=d?l(function(b){if(12===b[1]){var
 n=0,e=b[4];if(typeof
 e!=="number"&&1===e[0]){if(b[2])var
-k=aD(c,g(a),b);else
+k=aE(c,g(a),b);else
 var
-m=b[3],q=m?0===m[1][0]?o(c,g(a)):aD(c,g(a),b):aD(c,g(a),b),k=q;var
+m=b[3],q=m?0===m[1][0]?o(c,g(a)):aE(c,g(a),b):aE(c,g(a),b),k=q;var
 f=k;n=1}if(!n)var
-f=aD(c,g(a),b);var
+f=aE(c,g(a),b);var
 d=f}else
 var
-d=aD(c,g(a),b);if(d){var
+d=aE(c,g(a),b);if(d){var
 h=b[1]-1|0;if(!(11<h>>>0))switch(h){case
 0:var
-j=b[2],p=j?[0,bz(j[1]),0]:aB(0,g(a));return l(function(c){var
+j=b[2],p=j?[0,bz(j[1]),0]:aC(0,g(a));return l(function(c){var
 b=H(a,c);return b?0===b[1][0]?0:1:b},p);case
 10:return l(function(a){return 0===a[0]?0:1},a);case
 11:return l(function(a){return 0===a[0]?0:1},a)}var
 i=1}else
 var
-i=d;return i},b):d,f=e?hB(b):e,h=f?l(function(a){return fL(a[2])},k):f;return h?l(j6,eH(0,g(a),0,b)):h}function
-pC(a){if(a){var
-b=a[1];if(cN(b))return 0;var
-c=[0,b,pC(a[2])]}else
+i=d;return i},b):d,f=e?hM(b):e,h=f?l(function(a){return fV(a[2])},k):f;return h?l(kl,eO(0,g(a),0,b)):h}function
+pK(a){if(a){var
+b=a[1];if(cO(b))return 0;var
+c=[0,b,pK(a[2])]}else
 var
 c=a;return c}function
-fM(i,h,f,d,b){var
-j=pC(b),l=y(function(a){return jV(i,f,d,a)},j),c=an(N,0,e(function(a){return gU(k,h,a)},l)),a=y(o9,b),m=a?[0,a[1],a[2]]:BW;return N(g(m),c)}function
-j9(a){return 2<=a?BX:BY}function
-j_(m,l,k,j,f,i){var
-g=fM(m,l,k,j,f),c=pq(i);if(c){var
+d1(j,h,f,d,b){var
+k=pK(b),l=y(function(a){return j_(j,f,d,a)},k),c=ao(L,0,e(function(a){return g3(i,h,a)},l)),a=y(pj,b),m=a?[0,a[1],a[2]]:B5;return L(g(m),c)}function
+kp(a){return 2<=a?B6:B7}function
+kq(m,l,k,j,f,i){var
+g=d1(m,l,k,j,f),c=pB(i);if(c){var
 a=c[1],e=0;if(typeof
 a==="number")var
 h=[0,a];else
 if(0===a[0]){var
 n=a[2],p=a[1],b=p,d=function(a){return[0,a,n]};e=1}else{var
-q=a[2],r=a[1],b=r,d=function(a){return[1,a,q]};e=1}if(e){if(!M(aj(cN,f))&&!aI(b,g))return o(b,g)?0:[0,d(bz(b))];return[0,d(b)]}}else
+q=a[2],r=a[1],b=r,d=function(a){return[1,a,q]};e=1}if(e){if(!N(aj(cO,f))&&!aK(b,g))return o(b,g)?0:[0,d(bz(b))];return[0,d(b)]}}else
 var
 h=c;return h}function
-hC(b,a){var
+fW(b,a){var
 c=g(bu(function(a){return 0===a[0]?0:1},b));return o(g(a),c)}function
-hD(a){var
-b=W(aB(0,g(a)),a);return e(ay,bu(function(a){return iS(a[2])},b))}function
-pD(a){var
-b=a[1],c=e(hz,a[1]);return gO(hA(a[1]),c,b)}function
-j$(a){return hD(pD(a))}function
-pE(b,a){if(a){var
-c=a[1],d=a[2],g=pE(N(b,c[1]),d),h=c[2];return f(e(function(a){return aB(N(b,a),BZ)},h),g)}return a}function
-pF(e,a){function
+hO(a){var
+b=W(aC(0,g(a)),a);return e(aA,bu(function(a){return i4(a[2])},b))}function
+pL(a){var
+b=a[1],c=e(hK,a[1]);return gX(hL(a[1]),c,b)}function
+kr(a){return hO(pL(a))}function
+pM(b,a){if(a){var
+c=a[1],d=a[2],g=pM(L(b,c[1]),d),h=c[2];return f(e(function(a){return aC(L(b,a),B8)},h),g)}return a}function
+pN(e,a){function
 b(f){var
 a=H(e,f);if(a){var
-b=mm(a[1]);if(b)return K(b[1],d);var
+b=mE(a[1]);if(b)return K(b[1],d);var
 c=1}else
 var
 c=a;return c}var
-c=pE(0,a);return bu(function(a){return l(b,a)},c)}function
-pG(a){switch(a[0]){case
-0:return B0;case
-1:return a[3]?B1:B2;default:return B3}}function
-B4(a){return 0===a[0]?pG(a[1]):B5}function
-hE(a){if(a){var
+c=pM(0,a);return bu(function(a){return l(b,a)},c)}function
+pO(a){switch(a[0]){case
+0:return B9;case
+1:return a[3]?B_:B$;default:return Ca}}function
+Cb(a){return 0===a[0]?pO(a[1]):Cc}function
+hP(a){if(a){var
 b=a[1];return[0,b[2],b[1]]}return[0,d,0]}function
-pH(aC,Y,aB,X,W,b,aA,V){var
-a=jU(Y,aB,X,W),aD=g(V),aE=e(pG,a[1]),aF=pF(pD(a),aE),aG=aC?0:j$(a),B=dW(B6,j$(a),aG,aF,aD,V);if(B){var
+pP(aC,Y,aB,X,W,b,aA,V){var
+a=j9(Y,aB,X,W),aD=g(V),aE=e(pO,a[1]),aF=pN(pL(a),aE),aG=aC?0:kr(a),B=dY(Cd,kr(a),aG,aF,aD,V);if(B){var
 Z=B[1];if(Z[2])return 0;var
-_=j8(Y,X,W,a);if(_){var
-aH=Z[1],C=e(hz,a[1]),c=hA(a[1]),aI=hE(aA),U=mN(k,a);if(U){var
-n=gO(c,C,a[1]),h=iP(c,C,a[1],0),ab=g(a[3]),ad=N(g(n),ab),K=[0,g(n),ad],ae=a[3],E=aj(function(a){if(typeof
+_=ko(Y,X,W,a);if(_){var
+aH=Z[1],C=e(hK,a[1]),c=hL(a[1]),aI=hP(aA),U=m5(i,a);if(U){var
+n=gX(c,C,a[1]),h=i1(c,C,a[1],0),ab=g(a[3]),ad=L(g(n),ab),K=[0,g(n),ad],ae=a[3],E=aj(function(a){if(typeof
 a!=="number"&&14===a[0])return 1;return 0},ae),af=E?y(function(a){var
-b=e(aT,gQ(n,a[4]));return[0,a[4],b]},h):E,ag=f(iR(h,c,K,a[3]),af),ah=f(bC(lT(h)),ag),L=f(bC(fb(h)),ah),M=cW(L)[1],o=cV(M),O=l(function(a){var
-b=m(d);return aN(r(bd(o,a),o,b),a)},L);if(O){var
-P=aj(tJ,a[3]);if(P){var
+b=e(aO,gZ(n,a[4]));return[0,a[4],b]},h):E,ag=f(i3(h,c,K,a[3]),af),ah=f(bC(l$(h)),ag),M=f(bC(fi(h)),ah),N=cY(M)[1],o=cX(N),O=l(function(a){var
+b=m(d);return aN(r(bg(o,a),o,b),a)},M);if(O){var
+P=aj(tQ,a[3]);if(P){var
 t=C,p=a[1];for(;;){if(p){var
-q=p[1],u=bS(d,t);switch(q[0]){case
+q=p[1],u=bR(d,t);switch(q[0]){case
 0:var
-F=q[1],G=gR(b,F[1],u),D=0;if(G){var
-s=ao(b,[0,F[4],c]);if(s)var
-i=I(d,s[1][1]);else{var
+F=q[1],G=g0(b,F[1],u),D=0;if(G){var
+s=ap(b,[0,F[4],c]);if(s)var
+j=I(d,s[1][1]);else{var
 H=s;D=1}}else{var
 H=G;D=1}if(D)var
-i=H;break;case
+j=H;break;case
 1:var
-J=q[3],i=J?gR(b,J[1],u):1;break;default:var
-i=gR(b,q[1],u)}if(i){var
+J=q[3],j=J?g0(b,J[1],u):1;break;default:var
+j=g0(b,q[1],u)}if(j){var
 aa=p[2],t=bA(t),p=aa;continue}var
-Q=i}else
+Q=j}else
 var
 Q=1;var
 v=Q;break}}else
 var
 v=P;if(v){var
-ai=a[3],ak=y(function(a){return dF(c,a)},ai),al=a[3],am=f(n,f(e(function(a){return bX(c,a)},al),ak)),w=ac(e(function(a){return ao(b,a)},am));if(w){var
-an=a8(eq(a[2]),c),x=ac(e(function(a){return ao(b,a)},an));if(x){var
-ap=a[3],z=ac(mA(b,aI,function(a){return bd(o,a)},n,h,c,K,ap));if(z){var
-R=z[1],aq=iO(R),ar=x[1],as=a[2],at=function(a){return mB(b,as,c,a)},av=w[1],aw=0,ax=lT(h),ay=j(au(function(a){return bd(o,a)}),ax),az=fb(h);return fS(iN(b,M,j(au(function(a){return bd(o,a)}),az),ay,aw,av,R,at),ar,aq,aH)}var
+ai=a[3],ak=y(function(a){return dH(c,a)},ai),al=a[3],am=f(n,f(e(function(a){return bW(c,a)},al),ak)),w=ac(e(function(a){return ap(b,a)},am));if(w){var
+an=a$(es(a[2]),c),x=ac(e(function(a){return ap(b,a)},an));if(x){var
+ao=a[3],z=ac(mS(b,aI,function(a){return bg(o,a)},n,h,c,K,ao));if(z){var
+R=z[1],aq=i0(R),ar=x[1],as=a[2],at=function(a){return mT(b,as,c,a)},au=w[1],av=0,aw=l$(h),ay=k(ax(function(a){return bg(o,a)}),aw),az=fi(h);return f1(iZ(b,N,k(ax(function(a){return bg(o,a)}),az),ay,av,au,R,at),ar,aq,aH)}var
 S=z}else
 var
 S=x;var
@@ -7491,101 +7481,101 @@ A=O;return A}return U}var
 $=_}else
 var
 $=B;return $}function
-B7(a){if(0===a[0])return pm(a[1]);var
-b=a[1],c=et(b[6]);return f(et(b[5]),c)}function
-B8(a){if(0===a[0])return pn(a[1]);var
-b=a[1],c=a9(b[4]);return f(a9(b[3]),c)}function
-B9(a){if(0===a[0])return[0,hz(a[1]),d];var
-b=a[1],c=bF(a9(b[2]));return[0,bF(a9(b[1])),c]}function
-pI(j,c,v,u,t,i,I,H,s){var
-a=pc(j,c,v,u,t,i),w=a[2],h=y(B7,w),G=h?[0,h[1],h[2]]:y(B8,w),r=E(b,bF(G)),x=e(B9,a[2]),m=jq(r,x,a[2]),J=g(s),K=pF(m,e(B4,a[2])),L=hD(m),M=hD(m),n=dW(aw(j),M,L,K,J,s);if(n){var
-z=n[1];if(z[2])return 0;var
-A=pA(j,c,v,u,t,i);if(A){var
-N=z[1],O=g(c),P=fM(fJ(c),B_,O,0,i),Q=hE(H),C=e(vw,a[2]),o=g_(k,a[2],C);if(o)var
-D=iV(a[4]),d=bD(k,a[4],D);else
+Ce(a){if(0===a[0])return px(a[1]);var
+b=a[1],c=ev(b[6]);return f(ev(b[5]),c)}function
+Cf(a){if(0===a[0])return py(a[1]);var
+b=a[1],c=ba(b[4]);return f(ba(b[3]),c)}function
+pQ(c){var
+a=y(Ce,c),d=a?[0,a[1],a[2]]:y(Cf,c);return E(b,bE(d))}function
+Cg(a){if(0===a[0])return[0,hK(a[1]),d];var
+b=a[1],c=bE(ba(b[2]));return[0,bE(ba(b[1])),c]}function
+pR(h,b,s,r,q,f,C,B,p){var
+a=kb(h,b,s,r,q,f),t=pQ(a[2]),u=e(Cg,a[2]),j=jB(t,u,a[2]),D=g(p),E=pN(j,e(Cb,a[2])),F=hO(j),G=hO(j),k=dY(at(h),G,F,E,D,p);if(k){var
+v=k[1];if(v[2])return 0;var
+w=kn(h,b,s,r,q,f);if(w){var
+H=v[1],I=g(b),J=d1(dX(b),Ch,I,0,f),K=hP(B),y=e(vD,a[2]),m=fB(i,a[2],y);if(m)var
+z=i7(a[4]),c=cE(i,a[4],z);else
 var
-d=o;if(d){var
-p=a[5];if(p)var
-F=g7(p[1]),q=l(function(a){return fv(k,a)},F);else
+c=m;if(c){var
+n=a[5];if(n)var
+A=he(n[1]),o=l(function(a){return fE(i,a)},A);else
 var
-q=1;var
-f=q}else
+o=1;var
+d=o}else
 var
-f=d;return f?vu(I,Q,P,a,r,x,N):f}var
-B=A}else
+d=c;return d?vB(C,K,J,a,t,u,H):d}var
+x=w}else
 var
-B=n;return B}function
-pJ(r,t,ai,ah,ag,I,aP,af,v){var
+x=k;return x}function
+pS(r,t,ai,ah,ag,I,aP,af,v){var
 x=typeof
-r==="number"?r?B$:Ca:j7(r[1]),A=e(i,aP),a=pc(r,t,ai,ah,ag,I),aj=pt(t,e(i,af));if(aj[2])return 0;var
-p=aj[1],ak=hC(y(pz,t),af),al=ak?pA(r,t,ai,ah,ag,I):ak;if(al)var
-aQ=aw(r),K=o(g(A),aQ);else
+r==="number"?r?Ci:Cj:hN(r[1]),A=e(j,aP),a=kb(r,t,ai,ah,ag,I),aj=kk(t,e(j,af));if(aj[2])return 0;var
+p=aj[1],ak=fW(y(km,t),af),al=ak?kn(r,t,ai,ah,ag,I):ak;if(al)var
+aQ=at(r),K=o(g(A),aQ);else
 var
 K=al;if(K){if(typeof
 v!=="number"&&2===v[0]){var
-S=e(i,v[1]),aU=aM(x,S),ao=aK(aA(x,S)),aW=aM(x,A),ap=aK(aA(x,A)),X=g_(k,a[2],p),Y=X?bD(k,a[4],ap):X,Z=Y?bD(k,a[4],ao):Y,aq=Z?op(k,a[1],a[3],a[5],p,ap,aW,ao,aU):Z;if(aq){var
-aX=aw(r);return o(g(S),aX)}return aq}var
-aR=g(t),aS=jc(r),L=j_(fJ(t),aS,aR,0,I,v);if(L){var
-B=L[1],f=aK(aA(x,A)),m=aM(x,A),ar=0;if(typeof
+S=e(j,v[1]),aU=av(x,S),ap=aI(an(x,S)),aW=av(x,A),aq=aI(an(x,A)),X=fB(i,a[2],p),Y=X?cE(i,a[4],aq):X,Z=Y?cE(i,a[4],ap):Y,ar=Z?oE(i,a[1],a[3],a[5],p,aq,aW,ap,aU):Z;if(ar){var
+aX=at(r);return o(g(S),aX)}return ar}var
+aR=g(t),aS=hh(r),L=kq(dX(t),aS,aR,0,I,v);if(L){var
+B=L[1],f=aI(an(x,A)),m=av(x,A),as=0;if(typeof
 v==="number"&&v){var
-N=M(fJ(t));ar=1}if(!ar)var
-N=1;if(N){var
-T=g_(k,a[2],p),U=T?nA(k,a,f,m):T;if(U)var
-n=a[5],V=a[3],C=a[1],aC=a[6],as=e(function(a){if(0===a[0])var
-e=bq(n,m,f,a),c=ch(a[1],e);else
+M=N(dX(t));as=1}if(!as)var
+M=1;if(M){var
+T=fB(i,a[2],p),U=T?jn(i,a,f,m):T;if(U)var
+n=a[5],V=a[3],C=a[1],aD=a[6],au=e(function(a){if(0===a[0])var
+e=bs(n,m,f,a),c=ch(a[1],e);else
 var
-d=a[1],g=i0(d,bq(n,m,f,a)),h=d[4],i=bq(n,m,f,a),j=J(function(b,a){return[2,b,a]},i,h),c=J(function(b,a){return[3,b,a]},j,g);return[0,jb(C,c,P([5,[0,b,b],V],c9(ez(n,m,ey(a)),c)))]},p),at=y(function(a){if(0===a[0]){var
-c=bq(n,m,f,a),b=iT(a[1],c),d=b?[0,b[1],0]:b;return d}var
-e=bq(n,m,f,a);return[0,iZ(a[1],e),0]},p),au=function(a){var
-b=ez(n,m,a);return J(function(b,a){return[2,b,a]},f,b)},ax=0,ay=e(function(d){var
-b=bq(n,m,f,d);if(0===d[0]){var
+d=a[1],g=ja(d,bs(n,m,f,a)),h=d[4],i=bs(n,m,f,a),j=J(function(b,a){return[2,b,a]},i,h),c=J(function(b,a){return[3,b,a]},j,g);return[0,jl(C,c,P([5,[0,b,b],V],c$(eC(n,m,eB(a)),c)))]},p),aw=y(function(a){return jm(n,m,f,a)},p),ax=function(a){var
+b=eC(n,m,a);return J(function(b,a){return[2,b,a]},f,b)},az=0,aA=e(function(d){var
+b=bs(n,m,f,d);if(0===d[0]){var
 a=d[1];if(0===a[0]){var
-g=a[4],h=a[3],i=a[2],e=a[1],k=cf(e,i,h,g,b),j=cE(a[5],k),l=P(j,av(e)),o=fk(e,i,h,b);return[0,[0,ny(C,J(function(b,a){return[2,b,a]},o,l)),j,g]]}return 0}var
-c=d[1],p=c[6],q=es(c,b),r=i0(c,b),s=c[4],t=J(function(b,a){return[2,b,a]},b,s);return[0,[0,ny(C,J(function(b,a){return[3,b,a]},t,r)),q,p]]},p),az=e(function(a){return nx(n,m,f,a)},p),aB=[0,e(function(a){if(0===a[0])var
-l=bq(n,m,f,a),d=cg(a[1],l);else
+g=a[4],h=a[3],i=a[2],e=a[1],k=cf(e,i,h,g,b),j=cF(a[5],k),l=P(j,ay(e)),o=fr(e,i,h,b);return[0,[0,nP(C,J(function(b,a){return[2,b,a]},o,l)),j,g]]}return 0}var
+c=d[1],p=c[6],q=eu(c,b),r=ja(c,b),s=c[4],t=J(function(b,a){return[2,b,a]},b,s);return[0,[0,nP(C,J(function(b,a){return[3,b,a]},t,r)),q,p]]},p),aB=e(function(a){return eD(n,m,f,a)},p),aC=[0,e(function(a){if(0===a[0])var
+l=bs(n,m,f,a),d=cg(a[1],l);else
 var
-e=bq(n,m,f,a),c=a[1],g=i0(c,e),h=c[4],i=J(function(b,a){return[2,b,a]},e,h),j=J(function(b,a){return[3,b,a]},i,g),k=es(c,e),d=P([5,[0,b,b],[4,c[5],k]],j);return jb(C,d,P([5,[0,b,b],V],c9(ez(n,m,ey(a)),d)))},p),az,ay,ax,au,at,as],aD=aw(a[1]),O=iX(k,jc(a[1]),aD,aB,aC,B);else
+e=bs(n,m,f,a),c=a[1],g=ja(c,e),h=c[4],i=J(function(b,a){return[2,b,a]},e,h),j=J(function(b,a){return[3,b,a]},i,g),k=eu(c,e),d=P([5,[0,b,b],[4,c[5],k]],j);return jl(C,d,P([5,[0,b,b],V],c$(eC(n,m,eB(a)),d)))},p),aB,aA,az,ax,aw,au],aE=at(a[1]),O=i9(i,hh(a[1]),aE,aC,aD,B);else
 var
 O=U;if(O)var
 Q=O;else{if(typeof
 B!=="number"&&0===B[0]){var
 E=B[2];if(E){if(E[2])return 0;var
-R=E[1],_=a[1],D=a[5],aT=B[1],$=g_(k,a[2],p),aa=$?nA(k,a,f,m):$;if(aa){var
-aF=a[6],F=er(k,jc(_),aT,aF);if(F){var
+R=E[1],_=a[1],D=a[5],aT=B[1],$=fB(i,a[2],p),aa=$?jn(i,a,f,m):$;if(aa){var
+aG=a[6],F=et(i,hh(_),aT,aG);if(F){var
 z=F[1][1];if(typeof
 z!=="number"&&16===z[0]){var
-s=z[1],aG=a[2],aH=e(function(a){return nx(D,m,f,oE(a))},aG),ad=j(cG(cK),s);if(ad)var
-aE=j(gd(c(2,b)),cK),u=[0,bj(d,ad[1][1]),aE];else
+s=z[1],aH=a[2],aJ=e(function(a){return eD(D,m,f,oR(a))},aH),ad=k(cH(cL),s);if(ad)var
+aF=k(gm(c(2,b)),cL),u=[0,bl(d,ad[1][1]),aF];else
 var
 u=[0,d,b];var
-ae=h(k,0,s);if(ae)var
-aI=a[2],G=l(function(a){var
-b=oE(a);if(0===b[0])return 1;var
-c=b[1],d=[1,c],e=cH(k,s),g=e?nz(k,a,d):e;return g?h(k,1,iZ(c,bq(D,m,f,d))):g},aI);else
+ae=h(i,0,s);if(ae)var
+aK=a[2],G=l(function(a){var
+b=oR(a);if(0===b[0])return 1;var
+c=b[1],d=[1,c],e=cI(i,s),g=e?nQ(i,a,d):e;return g?h(i,1,i$(c,bs(D,m,f,d))):g},aK);else
 var
 G=ae;if(G)var
-aJ=g(a[2]),H=o(g(R),aJ);else
+aL=g(a[2]),H=o(g(R),aL);else
 var
 H=G;if(H){var
-aL=W(R,aH),aN=W(W(p,e(function(o){var
+aM=W(R,aJ),aN=W(W(p,e(function(o){var
 a=o[2],f=o[1];if(typeof
 a!=="number"&&1===a[0]){var
-g=a[2],i=a[1],p=c(2,c(2,c(2,q(c(2,c(2,b)))))),e=hl(s,a0(u,dx([0,b,b],[0,b,j(gd(c(2,b)),p)])),f,[1,i,g]);if(typeof
+g=a[2],j=a[1],p=c(2,c(2,c(2,q(c(2,c(2,b)))))),e=hw(s,a2(u,dz([0,b,b],[0,b,k(gm(c(2,b)),p)])),f,[1,j,g]);if(typeof
 e!=="number"&&1===e[0]){var
-d=dP([5,e[2],[2,[0,b,b],e[1]]]),r=[4,g,dI(d)],l=[2,[4,i,dH(d)],r],t=[4,g,dH(d)],m=[3,[4,i,dI(d)],t],n=[4,bg(u),[2,[0,b,b],l]];if(h(k,1,[2,[0,b,b],l])&&h(k,0,[3,n,m])&&h(k,0,[2,n,m])){var
-v=dI(d);return[1,dH(d),v]}return hl(s,u,f,a)}return hl(s,u,f,a)}return hl(s,u,f,a)},aL)),R),aO=y(function(t){var
-l=t[1],a=l[2],g=l[1],h=t[2],i=ez(D,m,ey(g)),e=bq(D,m,f,g);if(0===g[0]){var
+d=dQ([5,e[2],[2,[0,b,b],e[1]]]),r=[4,g,dK(d)],l=[2,[4,j,dJ(d)],r],t=[4,g,dJ(d)],m=[3,[4,j,dK(d)],t],n=[4,a4(u),[2,[0,b,b],l]];if(h(i,1,[2,[0,b,b],l])&&h(i,0,[3,n,m])&&h(i,0,[2,n,m])){var
+v=dK(d);return[1,dJ(d),v]}return hw(s,u,f,a)}return hw(s,u,f,a)}return hw(s,u,f,a)},aM)),R),aO=y(function(t){var
+l=t[1],a=l[2],g=l[1],h=t[2],i=eC(D,m,eB(g)),e=bs(D,m,f,g);if(0===g[0]){var
 d=g[1];switch(d[0]){case
 0:var
 n=d[4],o=d[3],j=d[2],k=d[1];if(typeof
 a!=="number"&&0===a[0]){var
-p=a[1],u=0,v=P(p,av(k)),x=J(function(b,a){return[3,b,a]},f,j),y=J(function(b,a){return[3,b,a]},x,v),z=aV(j,o,e),A=[3,w(av(k),z),p],B=cf(k,j,o,n,e);return[0,[0,dP([5,[0,h,b],[2,cE(d[5],B),A]]),n,y,i],u]}return 0;case
+p=a[1],u=0,v=P(p,ay(k)),x=J(function(b,a){return[3,b,a]},f,j),y=J(function(b,a){return[3,b,a]},x,v),z=aV(j,o,e),A=[3,w(ay(k),z),p],B=cf(k,j,o,n,e);return[0,[0,dQ([5,[0,h,b],[2,cF(d[5],B),A]]),n,y,i],u]}return 0;case
 1:if(typeof
 a!=="number"&&0===a[0]){var
-q=a[1],C=0,E=d[1],F=J(function(b,a){return[3,b,a]},f,E);return[0,[0,dP([5,[0,h,b],[2,q,cF(d,e)]]),q,F,i],C]}return 0;default:return 0}}var
+q=a[1],C=0,E=d[1],F=J(function(b,a){return[3,b,a]},f,E);return[0,[0,dQ([5,[0,h,b],[2,q,cG(d,e)]]),q,F,i],C]}return 0;default:return 0}}var
 c=g[1];if(typeof
 a!=="number"&&1===a[0]){var
-r=a[2],s=a[1],G=[4,r,fo(c,e)],H=[3,[4,s,fp(c,e)],G],K=P(r,gV(c)),I=0,L=P(s,fn(c)),M=J(function(b,a){return[2,b,a]},L,K),N=P(c[5],M),O=c[3],Q=J(function(b,a){return[2,b,a]},O,N),R=J(function(b,a){return[3,b,a]},f,Q),S=c[6],T=[2,es(c,e),H];return[0,[0,dP([5,[0,h,b],[4,c[5],T]]),S,R,i],I]}return 0},aN);return oC(k,_,z[2],z[3],aO)}return H}var
+r=a[2],s=a[1],G=[4,r,fv(c,e)],H=[3,[4,s,fw(c,e)],G],K=P(r,g4(c)),I=0,L=P(s,fu(c)),M=J(function(b,a){return[2,b,a]},L,K),N=P(c[5],M),O=c[3],Q=J(function(b,a){return[2,b,a]},O,N),R=J(function(b,a){return[3,b,a]},f,Q),S=c[6],T=[2,eu(c,e),H];return[0,[0,dQ([5,[0,h,b],[4,c[5],T]]),S,R,i],I]}return 0},aN);return oP(i,_,z[2],z[3],aO)}return H}var
 ab=0}else
 var
 ab=F;var
@@ -7594,579 +7584,708 @@ var
 ac=aa;return ac}return E}var
 Q=0}}else
 var
-Q=N;var
+Q=M;var
 am=Q}else
 var
 am=L;var
-an=am}else
+ao=am}else
 var
-an=K;return an}function
-fN(a){if(a){var
-b=cA(i(a[1]));if(b){var
-c=fN(a[2]);if(c)var
-f=c[1],d=[0,[0,dy(b[1]),f]];else
+ao=K;return ao}function
+cP(a){if(a){var
+b=cA(j(a[1]));if(b){var
+c=cP(a[2]);if(c)var
+f=c[1],d=[0,[0,dA(b[1]),f]];else
 var
 d=c;var
 e=d}else
 var
-e=b;return e}return Cb}function
-pK(f,k,j,a,i){var
+e=b;return e}return Ck}function
+hQ(f,k,j,a,i){var
 l=g(f),h=o(g(a),l);if(h){var
 m=W(W(f,W(k,j)),a);return e(function(f){var
-g=f[1],h=g[2],j=dx(h[2],h[1]),a=aL(g[1],i),k=D(d,a)?li(b8(c(2,b),a)):[0,b,d$(b8(c(2,b),T(a)))],l=dy(gn(a0([0,c(2,b),b],k),j)),m=f[2];return e(function(a){return dy(a0(li(a),l))},m)},m)}return h}function
-pL(u,aV,ar,aq,t,ap,a){var
-c=jU(u,aV,ar,aq),as=hC(y(pu,u),ap),g=as?j8(u,ar,aq,c):as;if(t){var
+g=f[1],h=g[2],j=dz(h[2],h[1]),a=aM(g[1],i),k=D(d,a)?lA(b8(c(2,b),a)):[0,b,eb(b8(c(2,b),T(a)))],l=dA(gw(a2([0,c(2,b),b],k),j)),m=f[2];return e(function(a){return dA(a2(lA(a),l))},m)},m)}return h}function
+pT(u,aU,aq,ap,t,ao,a){var
+c=j9(u,aU,aq,ap),ar=fW(y(pE,u),ao),g=ar?ko(u,aq,ap,c):ar;if(t){var
 v=t[2];if(v){var
 w=v[2];if(w){if(w[2])return 0;var
-h=w[1],j=v[1],m=t[1],at=pr(u,e(i,ap));if(at[2])return 0;var
-f=at[1];if(typeof
+h=w[1],k=v[1],m=t[1],as=pC(u,e(j,ao));if(as[2])return 0;var
+f=as[1];if(typeof
 a!=="number")switch(a[0]){case
 2:var
-K=a[1];if(K){var
-L=K[2];if(L){var
-M=L[2];if(M){if(M[2]){var
-N=fK(c,a);if(N){var
-aY=i(h),aZ=i(j),aA=[0,i(m),aZ,aY];if(g){var
-aB=fm(k,c,f,aA,N[1]);if(aB)var
-O=aB;else{if(typeof
+J=a[1];if(J){var
+K=J[2];if(K){var
+L=K[2];if(L){if(L[2]){var
+M=fU(c,a);if(M){var
+aY=j(h),aZ=j(k),az=[0,j(m),aZ,aY];if(g){var
+aA=ft(i,c,f,az,M[1]);if(aA)var
+N=aA;else{if(typeof
 a!=="number"&&0===a[0]){var
-z=a[2];return z?z[2]?0:fB(k,c,f,aA,a[1],z[1]):z}var
-O=0}}else
+z=a[2];return z?z[2]?0:fK(i,c,f,az,a[1],z[1]):z}var
+N=0}}else
 var
-O=g;var
-aC=O}else
+N=g;var
+aB=N}else
 var
-aC=N;return aC}if(g){var
-a0=i(M[1]),a1=i(L[1]),aD=[0,i(K[1]),a1,a0],a2=i(h),a3=i(j),aE=[0,i(m),a3,a2],Y=fj(k,c,f,aE),Z=Y?bD(k,c[2],aD):Y;if(Z){var
-aS=0,aT=0;return op(k,0,[0,b,b],0,e(function(a){return[0,a]},f),aE,aT,aD,aS)}return Z}return g}var
-P=fK(c,a);if(P){var
-a4=i(h),a5=i(j),aF=[0,i(m),a5,a4];if(g){var
-aG=fm(k,c,f,aF,P[1]);if(aG)var
-Q=aG;else{if(typeof
+aB=M;return aB}if(g){var
+a0=j(L[1]),a1=j(K[1]),aC=[0,j(J[1]),a1,a0],a2=j(h),a3=j(k),aD=[0,j(m),a3,a2],X=fq(i,c,f,aD),Y=X?cE(i,c[2],aC):X;if(Y){var
+aR=0,aS=0;return oE(i,0,[0,b,b],0,e(function(a){return[0,a]},f),aD,aS,aC,aR)}return Y}return g}var
+O=fU(c,a);if(O){var
+a4=j(h),a5=j(k),aE=[0,j(m),a5,a4];if(g){var
+aF=ft(i,c,f,aE,O[1]);if(aF)var
+P=aF;else{if(typeof
 a!=="number"&&0===a[0]){var
-A=a[2];return A?A[2]?0:fB(k,c,f,aF,a[1],A[1]):A}var
-Q=0}}else
+A=a[2];return A?A[2]?0:fK(i,c,f,aE,a[1],A[1]):A}var
+P=0}}else
 var
-Q=g;var
-aH=Q}else
+P=g;var
+aG=P}else
 var
-aH=P;return aH}var
-R=fK(c,a);if(R){var
-a6=i(h),a7=i(j),aI=[0,i(m),a7,a6];if(g){var
-aJ=fm(k,c,f,aI,R[1]);if(aJ)var
-S=aJ;else{if(typeof
+aG=O;return aG}var
+Q=fU(c,a);if(Q){var
+a6=j(h),a7=j(k),aH=[0,j(m),a7,a6];if(g){var
+aI=ft(i,c,f,aH,Q[1]);if(aI)var
+R=aI;else{if(typeof
 a!=="number"&&0===a[0]){var
-B=a[2];return B?B[2]?0:fB(k,c,f,aI,a[1],B[1]):B}var
-S=0}}else
+B=a[2];return B?B[2]?0:fK(i,c,f,aH,a[1],B[1]):B}var
+R=0}}else
 var
-S=g;var
-aK=S}else
+R=g;var
+aJ=R}else
 var
-aK=R;return aK}var
-T=fK(c,a);if(T){var
-a8=i(h),a9=i(j),aL=[0,i(m),a9,a8];if(g){var
-aM=fm(k,c,f,aL,T[1]);if(aM)var
-U=aM;else{if(typeof
+aJ=Q;return aJ}var
+S=fU(c,a);if(S){var
+a8=j(h),a9=j(k),aK=[0,j(m),a9,a8];if(g){var
+aL=ft(i,c,f,aK,S[1]);if(aL)var
+T=aL;else{if(typeof
 a!=="number"&&0===a[0]){var
-C=a[2];return C?C[2]?0:fB(k,c,f,aL,a[1],C[1]):C}var
-U=0}}else
+C=a[2];return C?C[2]?0:fK(i,c,f,aK,a[1],C[1]):C}var
+T=0}}else
 var
-U=g;var
-aN=U}else
+T=g;var
+aM=T}else
 var
-aN=T;return aN;case
+aM=S;return aM;case
 3:var
-V=H(c[3],a[1]);if(V){var
-aO=V[1];if(typeof
-aO==="number"&&aO){var
-W=fN(a[2]);if(W){var
-n=W[1],X=fN(a[3]);if(X){var
-o=X[1];if(g){var
-a_=pK([0,d,[0,d,[0,d,0]]],n,o,a[4],a[5]),a$=i(h),ba=i(j),D=[0,i(m),ba,a$];if(n){var
+U=H(c[3],a[1]);if(U){var
+aN=U[1];if(typeof
+aN==="number"&&aN){var
+V=cP(a[2]);if(V){var
+n=V[1],W=cP(a[3]);if(W){var
+o=W[1];if(g){var
+a_=hQ([0,d,[0,d,[0,d,0]]],n,o,a[4],a[5]),a$=j(h),ba=j(k),D=[0,j(m),ba,a$];if(n){var
 p=n[2];if(p){var
 q=p[2];if(q){if(q[2])return 0;if(o){var
 r=o[2];if(r){var
 s=r[2];if(s){if(s[2])return 0;var
-_=s[1],$=r[1],aa=o[1],ab=q[1],ac=p[1],ad=n[1],ae=[0,[1,0,ad,aa],[1,vP,ac,$],[1,vO,ab,_]],af=fj(k,c,f,D);if(af)var
-aU=c[3],E=aj(function(a){if(typeof
-a==="number"&&a)return 1;return 0},aU);else
+Z=s[1],_=r[1],$=o[1],aa=q[1],ab=p[1],ac=n[1],ad=[0,[1,0,ac,$],[1,vW,ab,_],[1,vV,aa,Z]],ae=fq(i,c,f,D);if(ae)var
+aT=c[3],E=aj(function(a){if(typeof
+a==="number"&&a)return 1;return 0},aT);else
 var
-E=af;var
-ag=E?ou(n,o):E,ah=ag?ov(k,c[2],[0,[0,ad,ac],ab],[0,[0,aa,$],_]):ag,ai=ah?jB(k,n,o,br(D)):ah,ak=ai?l(function(b){var
-c=hi(ow(b)),e=c?hi([0,cF(b,D),0]):c;if(e){var
-f=iT(b,ae);if(f){var
-h=f[1],a=ef(k,function(a,b,c){return oq(k,vQ,a,b,c)},h);return a?I(d,a[1][2][1]):a}var
-g=1}else
+E=ae;var
+af=E?hs(n,o):E,ag=af?jP(i,c[2],[0,[0,ac,ab],aa],[0,[0,$,_],Z]):af,ah=ag?eG(i,n,o,aW(D)):ag,ai=ah?l(function(a){var
+b=eF(jQ(a)),c=b?eF([0,cG(a,D),0]):b;if(c){var
+d=i5(a,ad);if(d)return jO(i,vX,d[1]);var
+e=1}else
 var
-g=e;return g},f):ai;if(ak)return ot(k,e(function(a){var
-b=cF(a,D);return[3,cF(a,ae),b]},f),a_);var
+e=c;return e},f):ah;if(ai)return hr(i,e(function(a){var
+b=cG(a,D);return[3,cG(a,ad),b]},f),a_);var
+ak=ai}else
+var
+ak=s;var
 al=ak}else
 var
-al=s;var
-am=al}else
-var
-am=r;var
-F=am}else
+al=r;var
+F=al}else
 var
 F=o}else
 var
 F=q;var
-an=F}else
+am=F}else
 var
-an=p;var
-ao=an}else
+am=p;var
+an=am}else
 var
-ao=n;return ao}var
-aP=g}else
+an=n;return an}var
+aO=g}else
 var
-aP=X;var
-aQ=aP}else
+aO=W;var
+aP=aO}else
 var
-aQ=W;return aQ}var
-aR=0}else
+aP=V;return aP}var
+aQ=0}else
 var
-aR=V;return aR}var
-G=fK(c,a);if(G){var
-aW=i(h),aX=i(j),au=[0,i(m),aX,aW];if(g){var
-av=fm(k,c,f,au,G[1]);if(av)var
-J=av;else{if(typeof
+aQ=U;return aQ}var
+G=fU(c,a);if(G){var
+aV=j(h),aX=j(k),at=[0,j(m),aX,aV];if(g){var
+au=ft(i,c,f,at,G[1]);if(au)var
+I=au;else{if(typeof
 a!=="number"&&0===a[0]){var
-x=a[2];return x?x[2]?0:fB(k,c,f,au,a[1],x[1]):x}var
-J=0}}else
+x=a[2];return x?x[2]?0:fK(i,c,f,at,a[1],x[1]):x}var
+I=0}}else
 var
-J=g;var
-aw=J}else
+I=g;var
+av=I}else
 var
-aw=G;var
+av=G;var
+aw=av}else
+var
+aw=w;var
 ax=aw}else
 var
-ax=w;var
+ax=v;var
 ay=ax}else
 var
-ay=v;var
-az=ay}else
-var
-az=t;return az}function
-pM(n,m,b,l,C,B){var
+ay=t;return ay}function
+pU(n,m,b,l,C,B){var
 f=C,d=B;for(;;){if(0===d[0]){var
-h=d[1],i=H(f,h),o=i?aI(i[1][2],Cc):i;if(o)var
-D=d[2],j=pM(n,m,b,l,j3(0,h,f),D);else
+h=d[1],i=H(f,h),o=i?aK(i[1][2],Cn):i;if(o)var
+D=d[2],j=pU(n,m,b,l,kh(0,h,f),D);else
 var
 j=o;if(j){var
-E=d[3],f=j3(1,h,f),d=E;continue}return j}var
-c=d[1],a=pk(0,n,f),p=e(function(b){function
-d(b){return pl(a,b)}function
-c(a){return j1(d,a)}switch(b[0]){case
+E=d[3],f=kh(1,h,f),d=E;continue}return j}var
+c=d[1],a=pv(0,n,f),p=e(function(b){function
+d(b){return pw(a,b)}function
+c(a){return kf(d,a)}switch(b[0]){case
 0:var
-e=b[5],f=pl(a,b[4]),g=c(b[3]),h=c(b[2]);return[0,c(b[1]),h,g,f,e];case
+e=b[5],f=pw(a,b[4]),g=c(b[3]),h=c(b[2]);return[0,c(b[1]),h,g,f,e];case
 1:var
 i=z(c,b[3]),j=c(b[2]);return[1,c(b[1]),j,i];default:return[2,c(b[1])]}},m);if(0===b[0])var
-t=b[2],u=j1(function(b){return as(a,b)},t),v=b[1],k=[0,j1(function(b){return as(a,b)},v),u];else
+t=b[2],u=kf(function(b){return au(a,b)},t),v=b[1],k=[0,kf(function(b){return au(a,b)},v),u];else
 var
-w=as(a,b[5]),x=as(a,b[4]),y=as(a,b[3]),A=as(a,b[2]),k=[1,as(a,b[1]),A,y,x,w];var
+w=au(a,b[5]),x=au(a,b[4]),y=au(a,b[3]),A=au(a,b[2]),k=[1,au(a,b[1]),A,y,x,w];var
 q=e(function(g){var
 c=g[4];if(typeof
 c==="number")var
 d=0;else
 switch(c[0]){case
 0:var
-d=[0,as(a,c[1])];break;case
+d=[0,au(a,c[1])];break;case
 1:var
-d=[1,as(a,c[1])];break;default:var
-m=as(a,c[2]),d=[2,as(a,c[1]),m]}var
+d=[1,au(a,c[1])];break;default:var
+m=au(a,c[2]),d=[2,au(a,c[1]),m]}var
 h=g[3];if(h){var
 b=h[1];switch(b[0]){case
 0:var
-f=[0,[0,as(a,b[1])]];break;case
+f=[0,[0,au(a,b[1])]];break;case
 1:var
-j=b[1],f=[0,[1,e(function(b){return as(a,b)},j)]];break;case
+j=b[1],f=[0,[1,e(function(b){return au(a,b)},j)]];break;case
 2:var
-k=as(a,b[2]),f=[0,[2,as(a,b[1]),k]];break;default:var
-l=as(a,b[2]),f=[0,[3,as(a,b[1]),l]]}var
+k=au(a,b[2]),f=[0,[2,au(a,b[1]),k]];break;default:var
+l=au(a,b[2]),f=[0,[3,au(a,b[1]),l]]}var
 i=f}else
 var
 i=h;return[0,g[1],g[2],i,d]},l);if(typeof
 c==="number")return 1;else
 switch(c[0]){case
 0:return 0;case
-1:return pH(1,p,k,0,q,c[1],c[2],c[3]);default:var
+1:return pP(1,p,k,0,q,c[1],c[2],c[3]);default:var
 g=c[4],s=0;if(typeof
 g!=="number"&&2===g[0]){var
-J=g[1],r=[2,e(function(b){return as(a,b)},J)];s=1}if(!s)var
+J=g[1],r=[2,e(function(b){return au(a,b)},J)];s=1}if(!s)var
 r=g;var
-F=c[3],G=e(function(b){return as(a,b)},F),I=c[2];return pL(p,k,0,q,e(function(b){return as(a,b)},I),G,r)}}}function
-pN(h,g){var
-a=cA(i(h));if(a){var
-c=a[1],e=bb([0,d,b],c);if(e)return bb(c,g);var
+F=c[3],G=e(function(b){return au(a,b)},F),I=c[2];return pT(p,k,0,q,e(function(b){return au(a,b)},I),G,r)}}}function
+pV(h,g){var
+a=cA(j(h));if(a){var
+c=a[1],e=be([0,d,b],c);if(e)return be(c,g);var
 f=e}else
 var
 f=a;return f}function
-Ck(s){var
-eS=hs(s[3]),eT=eS?hs(s[4]):eS;if(eT){var
-S=s[1];switch(S[0]){case
+Cv(v){var
+gr=hD(v[3]),gs=gr?hD(v[4]):gr;if(gs){var
+ab=v[1];switch(ab[0]){case
 3:var
-eZ=l(fG,S[1]);if(eZ)var
-iZ=S[2],co=l(function(a){return fG(a[1])},iZ);else
+gy=l(fR,ab[1]);if(gy)var
+lo=ab[2],dk=l(function(a){return fR(a[1])},lo);else
 var
-co=eZ;if(co)var
-i0=S[3],cp=l(function(a){var
-b=fG(a[1]),c=b?jS(a[2]):b;return c?fH(a[2]):c},i0);else
+dk=gy;if(dk)var
+lp=ab[3],dl=l(function(a){var
+b=fR(a[1]),c=b?j7(a[2]):b;return c?fS(a[2]):c},lp);else
 var
-cp=co;if(cp)var
-i1=S[4],be=l(function(a){var
+dl=dk;if(dl)var
+lq=ab[4],bO=l(function(a){var
 b=0===a[0]?a[1]:[0,a[1],0];return l(function(a){var
-b=jS(a);return b?fH(a):b},b)},i1);else
+b=j7(a);return b?fS(a):b},b)},lq);else
 var
-be=cp;break;case
+bO=dl;break;case
 7:var
-i7=S[1],e0=l(function(a){var
-b=fG(a[1]);return b?fI(0,[0,a[2][1],[0,a[2][2],0]]):b},i7),be=e0?fI(0,[0,S[5],[0,S[6],0]]):e0;break;default:var
-be=1}var
-cm=be}else
+lr=ab[1],gz=l(function(a){var
+b=fR(a[1]);return b?fT(0,[0,a[2][1],[0,a[2][2],0]]):b},lr),bO=gz?fT(0,[0,ab[5],[0,ab[6],0]]):gz;break;default:var
+bO=1}var
+di=bO}else
 var
-cm=eT;var
-c3=0;if(cm){var
-eU=s[1],cn=7===eU[0]?e(ay,eU[1]):0,eV=function(c,b){var
-a=o6(c);return a?l(function(a){var
-e=a[1],b=l(function(a){return jR(a[2])},e);if(b){var
-c=a[3];if(c)return fI(cn,o5(c[1]));var
+di=gs;var
+d$=0;if(di){var
+gt=v[1],dj=7===gt[0]?e(aA,gt[1]):0,gu=function(c,b){var
+a=pg(c);return a?l(function(a){var
+e=a[1],b=l(function(a){return j6(a[2])},e);if(b){var
+c=a[3];if(c)return fT(dj,pf(c[1]));var
 d=1}else
 var
-d=b;return d},b):a},eW=function(e,d,c,b){var
-a=o6(e);return a?fI(cn,f(d,f(c,o5(b)))):a},n=s[1];switch(n[0]){case
+d=b;return d},b):a},gv=function(e,d,c,b){var
+a=pg(e);return a?fT(dj,f(d,f(c,pf(b)))):a},n=v[1];switch(n[0]){case
 0:var
-ir=y(dT,n[4]),is=f(y(o3,n[3]),ir),it=f(o1(n[2]),is),U=f(y(jT,n[1]),it);break;case
+kZ=y(dU,n[4]),k0=f(y(pd,n[3]),kZ),k1=f(pb(n[2]),k0),ad=f(y(j8,n[1]),k1);break;case
 1:var
-ci=n[5],cj=n[3],iu=y(dT,n[6]),iv=ci?o2(ci[1]):ci,iw=f(iv,iu),ix=f(o0(n[4]),iw),iy=cj?[0,cj[1],0]:cj,iz=f(iy,ix),U=f(y(AK,n[2]),iz);break;case
+de=n[5],df=n[3],k2=y(dU,n[6]),k3=de?pc(de[1]):de,k4=f(k3,k2),k5=f(pa(n[4]),k4),k6=df?[0,df[1],0]:df,k7=f(k6,k5),ad=f(y(AT,n[2]),k7);break;case
 2:var
-iA=y(dT,n[7]),iB=f(y(o3,n[6]),iA),iC=f(o2(n[5]),iB),iD=f(o0(n[4]),iC),iE=[0,n[3],iD],iF=n[2],U=f(y(function(a){return y(eF,f(a[1],a[2]))},iF),iE);break;case
+k8=y(dU,n[7]),k9=f(y(pd,n[6]),k8),k_=f(pc(n[5]),k9),k$=f(pa(n[4]),k_),la=[0,n[3],k$],lb=n[2],ad=f(y(function(a){return y(eM,f(a[1],a[2]))},lb),la);break;case
 3:var
-iG=y(dT,n[7]),iH=f(n[6],iG),iI=f(n[5],iH),iJ=n[2],U=f(y(function(a){return eF(a[2])},iJ),iI);break;case
+lc=y(dU,n[7]),ld=f(n[6],lc),le=f(n[5],ld),lf=n[2],ad=f(y(function(a){return eM(a[2])},lf),le);break;case
 4:var
-iK=y(dT,n[3]),U=[0,n[1],[0,n[2],iK]];break;case
+lg=y(dU,n[3]),ad=[0,n[1],[0,n[2],lg]];break;case
 5:var
-iL=y(dT,n[4]),iM=f(b1(n[3]),iL),iQ=f(b1(n[2]),iM),iS=f(y(jT,n[1]),iQ),U=[0,n[5],iS];break;case
+lh=y(dU,n[4]),li=f(b1(n[3]),lh),lj=f(b1(n[2]),li),lk=f(y(j8,n[1]),lj),ad=[0,n[5],lk];break;case
 6:var
-cl=n[1],U=cl?eF(cl[1]):cl;break;default:var
-iT=y(dT,n[4]),iU=f(o1(n[3]),iT),U=f(y(jT,n[2]),iU)}var
-eX=fI(cn,U);if(eX){var
-V=s[2];switch(V[0]){case
+dg=n[1],ad=dg?eM(dg[1]):dg;break;default:var
+ll=y(dU,n[4]),lm=f(pb(n[3]),ll),ad=f(y(j8,n[2]),lm)}var
+gw=fT(dj,ad);if(gw){var
+ae=v[2];switch(ae[0]){case
 0:var
-aU=eV(V[1],V[3]);break;case
+bl=gu(ae[1],ae[3]);break;case
 1:var
-aU=eW(V[1],V[2],V[3],V[4]);break;default:var
-iY=V[1],aU=l(function(a){if(typeof
+bl=gv(ae[1],ae[2],ae[3],ae[4]);break;default:var
+ln=ae[1],bl=l(function(a){if(typeof
 a!=="number")switch(a[0]){case
-1:return eV(a[1],a[3]);case
-2:return eW(a[1],a[2],a[3],a[4])}return 1},iY)}}else{var
-eY=eX;c3=1}}else{var
-eY=cm;c3=1}if(c3)var
-aU=eY;if(aU){var
-a=s[1];switch(a[0]){case
+1:return gu(a[1],a[3]);case
+2:return gv(a[1],a[2],a[3],a[4])}return 1},ln)}}else{var
+gx=gw;d$=1}}else{var
+gx=di;d$=1}if(d$)var
+bl=gx;if(bl){var
+a=v[1];switch(a[0]){case
 0:var
-fk=a[4],fl=a[3],fm=a[2],fn=a[1],ad=s[2];switch(ad[0]){case
-0:return pH(0,fn,fm,fl,fk,ad[1],ad[2],ad[3]);case
-1:return pL(fn,fm,fl,fk,ad[2],ad[3],ad[4]);default:return 0}case
+g4=a[4],g5=a[3],g6=a[2],g7=a[1],az=v[2];switch(az[0]){case
+0:return pP(0,g7,g6,g5,g4,az[1],az[2],az[3]);case
+1:return pT(g7,g6,g5,g4,az[2],az[3],az[4]);default:return 0}case
 1:var
-fo=a[6],fp=a[5],fr=a[4],fs=a[3],ft=a[2],fu=a[1],ae=s[2];switch(ae[0]){case
-0:return pI(fu,ft,fs,fr,fp,fo,ae[1],ae[2],ae[3]);case
-1:return pJ(fu,ft,fs,fr,fp,fo,ae[2],ae[3],ae[4]);default:return 0}case
+bm=a[6],bS=a[5],bT=a[4],bU=a[3],R=a[2],M=a[1],aB=v[2];switch(aB[0]){case
+0:return pR(M,R,bU,bT,bS,bm,aB[1],aB[2],aB[3]);case
+1:var
+ah=aB[4],dz=aB[3],g8=aB[2];if(typeof
+ah!=="number"&&3===ah[0]){var
+lI=ah[5],lJ=ah[4],lK=ah[3],lL=ah[2],lM=ah[1],s=typeof
+M==="number"?M?Cl:Cm:hN(M[1]),gA=dw(at(M),s),dp=e(j,g8),aZ=kb(M,R,bU,bT,bS,bm),gB=pQ(aZ[2]),gC=kk(R,e(j,dz));if(gC[2])return 0;var
+dq=cP(lL);if(dq){var
+Q=dq[1],dr=cP(lK);if(dr){var
+aw=dr[1],gD=fW(y(km,R),dz),gE=gD?kn(M,R,bU,bT,bS,bm):gD;if(gE)var
+lt=at(M),ds=o(g(dp),lt);else
+var
+ds=gE;if(ds)var
+lu=g(R),lv=hh(M),dt=o(lM,d1(dX(R),lv,lu,0,bm));else
+var
+dt=ds;if(dt){if(dX(R))var
+lw=af(d,gA),gF=f(af(gB,s),lw);else
+var
+ly=af(T(gB),gA),gF=f(af(d,s),ly);var
+lx=hQ(gF,Q,aw,lJ,lI),ag=av(s,dp),bh=aI(an(s,dp)),du=gC[1],K=aZ[5],fk=jN(0,Q,aw),cC=oK(an(s,fk)),cD=av(s,fk),fl=aZ[7],fm=fl?fB(i,aZ[2],du):fl,fn=fm?jn(i,aZ,bh,ag):fm,fo=fn?aa(s,v7):fn;if(fo)var
+j1=L(s,g(ag)),cF=o(g(Q),j1);else
+var
+cF=fo;var
+fq=cF?hs(Q,aw):cF;if(fq)var
+j2=ht(an(s,aw)),j3=ht(an(s,Q)),cG=jP(i,aZ[4],j3,j2);else
+var
+cG=fq;if(cG){var
+j4=av(s,aw),j5=av(s,Q);if(K)var
+fh=K[1],j0=0===fh[0]?v5:v6,fj=o(g(ag),j0),fr=fj?oJ(i,fh,j5,j4):fj;else
+var
+fr=o(g(ag),0);var
+cH=fr}else
+var
+cH=cG;if(cH){var
+ka=an(s,aW(bh)),kc=an(s,aw),fs=eG(i,an(s,Q),kc,ka);if(fs)var
+aY=fs;else
+if(K){var
+fu=oI(K[1]);if(fu)var
+kd=av(s,aw),aY=eG(i,av(s,Q),kd,ag);else
+var
+aY=fu}else
+var
+aY=K}else
+var
+aY=cH;var
+ft=aY?l(function(b){var
+a=eD(K,ag,bh,b),t=typeof
+a==="number"?0:0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]];if(0===b[0])var
+k=jQ(b[1]);else
+var
+c=b[1],p=[0,c[5],[0,c[6],0]],q=f(aW(c[4]),p),r=f(aW(c[3]),q),s=f(aW(c[2]),r),k=f(aW(c[1]),s);var
+m=eF(f(k,t));if(m)var
+u=jm(K,ag,bh,b),v=1,e=l(function(a){return h(i,v,a)},u);else
+var
+e=m;if(e){var
+d=eD(K,cD,cC,b),n=0;if(typeof
+d==="number"||!(1===d[0]))n=1;else{var
+o=0;if(typeof
+a!=="number"&&1===a[0]){var
+j=[0,[2,[4,d[1],a[1]],[4,d[2],a[2]]],0];o=1}if(!o)var
+j=0}if(n)var
+j=0;var
+w=f(jm(K,cD,cC,b),j),x=g(Q);return l(function(a){return jO(i,x,a)},w)}return e},du):aY;return ft?hr(i,e(function(d){var
+a=eD(K,ag,bh,d),c=eD(K,cD,cC,d);if(typeof
+c==="number")return[0,b,b];else{if(0===c[0]){if(typeof
+a!=="number"&&0===a[0])return[3,c[1],a[1]];return[0,b,b]}if(typeof
+a!=="number"&&1===a[0])return[3,[4,c[2],a[1]],[4,c[1],a[2]]];return[0,b,b]}},du),lx):ft}var
+gG=dt}else
+var
+gG=dr;var
+gH=gG}else
+var
+gH=dq;return gH}return pS(M,R,bU,bT,bS,bm,g8,dz,ah);default:return 0}case
 2:var
-af=a[7],ag=a[6],bj=a[5],bk=a[4],bl=a[3],G=a[2],K=a[1],ah=s[2];switch(ah[0]){case
+aF=a[7],aG=a[6],bV=a[5],bY=a[4],bZ=a[3],S=a[2],U=a[1],aH=v[2];switch(aH[0]){case
 0:var
-fy=ah[3],X=pb(K,G,bl,bk,bj,ag,af),jg=X[2],cu=E(b,bF(y(function(a){var
-b=a9(a[2]);return f(a9(a[1]),b)},jg))),jh=g(fy),ji=jm(cu,X[2]),jj=jm(cu,X[2]),cv=dW(bG(K),jj,ji,0,jh,fy);if(cv){var
-fz=cv[1];if(fz[2])return 0;var
-fA=py(K,G,bl,bk,bj,ag,af);if(fA){var
-jk=fz[1],jl=g(G),jn=fM(0,j9(K),jl,ag,af),jo=hE(ah[2]),jp=ah[1],gI=X[2],c8=l(function(a){var
-b=nZ(k,a[1]);return b?nZ(k,a[2]):b},gI);if(c8)var
-gJ=iV(X[4]),bA=bD(k,X[4],gJ);else
+g9=aH[3],ai=pn(U,S,bZ,bY,bV,aG,aF),lN=ai[2],dA=E(b,bE(y(function(a){var
+b=ba(a[2]);return f(ba(a[1]),b)},lN))),lO=g(g9),lP=jx(dA,ai[2]),lQ=jx(dA,ai[2]),dB=dY(bF(U),lQ,lP,0,lO,g9);if(dB){var
+g_=dB[1];if(g_[2])return 0;var
+g$=pI(U,S,bZ,bY,bV,aG,aF);if(g$){var
+lR=g_[1],lS=g(S),lT=d1(0,kp(U),lS,aG,aF),lU=hP(aH[2]),lV=aH[1],iw=ai[2],ee=l(function(a){var
+b=od(i,a[1]);return b?od(i,a[2]):b},iw);if(ee)var
+ix=i7(ai[4]),cb=cE(i,ai[4],ix);else
 var
-bA=c8;if(bA)var
-gK=g7(X[5]),bE=l(function(a){return fv(k,a)},gK);else
+cb=ee;if(cb)var
+iy=he(ai[5]),cc=l(function(a){return fE(i,a)},iy);else
 var
-bE=bA;return bE?vb(jp,jo,jn,X,cu,jk):bE}var
-fB=fA}else
+cc=cb;return cc?vi(lV,lU,lT,ai,dA,lR):cc}var
+ha=g$}else
 var
-fB=cv;return fB;case
+ha=dB;return ha;case
 1:var
-L=ah[4],fC=ah[3],ai=e(i,ah[2]),B=j7(K),fD=ps(G,e(i,fC));if(fD[2])return 0;var
-u=fD[1],fE=hC(y(function(a){return f(a[1],a[2])},G),fC),fF=fE?py(K,G,bl,bk,bj,ag,af):fE;if(fF){var
-p=pb(K,G,bl,bk,bj,ag,af);if(typeof
-L!=="number")switch(L[0]){case
+V=aH[4],hb=aH[3],aJ=e(j,aH[2]),q=hN(U),hc=pD(S,e(j,hb));if(hc[2])return 0;var
+t=hc[1],hd=fW(y(function(a){return f(a[1],a[2])},S),hb),hf=hd?pI(U,S,bZ,bY,bV,aG,aF):hd;if(hf){var
+p=pn(U,S,bZ,bY,bV,aG,aF);if(typeof
+V!=="number")switch(V[0]){case
 2:var
-fR=e(i,L[1]),fT=aM(B,fR),fU=aK(aA(B,fR)),fV=aM(B,ai),fW=aK(aA(B,ai)),c$=i5(k,p[2],u);if(c$)var
-gL=bG(p[1]),bH=o(g(u),gL);else
+hm=e(j,V[1]),hn=av(q,hm),hq=aI(an(q,hm)),hw=av(q,aJ),hx=aI(an(q,aJ)),ef=ew(i,p,t,hx,hw),eg=ef?ew(i,p,t,hq,hn):ef;if(eg)var
+iz=bF(p[1]),cd=o(g(t),iz);else
 var
-bH=c$;var
-dc=bH?bD(k,p[4],fW):bH,dd=dc?bD(k,p[4],fU):dc,de=dd?da(k,p[5],fV):dd,df=de?da(k,p[5],fT):de;if(df){var
-dh=function(b,a){var
-c=p[5],d=p[3],f=p[1];return e(function(e){return i4(f,d,c,a,b,e)},u)},gM=dh(fU,fT),gN=dh(fW,fV);return jr(k,bG(p[1]),gN,gM)}return df;case
+cd=eg;if(cd){var
+eh=function(b,a){var
+c=p[5],d=p[3],f=p[1];return e(function(e){return je(f,d,c,a,b,e)},t)},iA=eh(hq,hn),iB=eh(hx,hw);return jC(i,bF(p[1]),iB,iA)}return cd;case
 3:var
-cz=fN(L[2]);if(cz){var
-fX=cz[1],cB=fN(L[3]);if(cB){var
-fY=cB[1],js=p[2],jv=E(b,bF(y(function(a){var
-b=a9(a[2]);return f(a9(a[1]),b)},js))),jy=g(G),jA=fM(0,j9(K),jy,ag,af),fZ=o(L[1],jA);if(fZ){var
-jB=L[5],jC=L[4],jD=al(T(jv),d9(g(ai),B)),jF=pK(f(al(d,B),jD),fX,fY,jC,jB),jH=aM(B,ai);return vV(k,B,p,u,aK(aA(B,ai)),jH,fX,fY,jF)}var
-f0=fZ}else
+dF=cP(V[2]);if(dF){var
+ak=dF[1],dI=cP(V[3]);if(dI){var
+aK=dI[1],lX=p[2],lY=E(b,bE(y(function(a){var
+b=ba(a[2]);return f(ba(a[1]),b)},lX))),lZ=g(S),l0=d1(0,kp(U),lZ,aG,aF),hy=o(V[1],l0);if(hy){var
+l1=V[5],l2=V[4],l3=af(T(lY),dw(g(aJ),q)),l4=hQ(f(af(d,q),l3),ak,aK,l2,l1),a0=av(q,aJ),b5=aI(an(q,aJ)),aV=p[5],e$=jN(0,ak,aK),fa=p[7],fb=fa?ew(i,p,t,b5,a0):fa,fc=fb?aa(q,v2):fb;if(fc)var
+jK=L(q,g(a0)),cx=o(g(ak),jK);else
 var
-f0=cB;var
-f1=f0}else
+cx=fc;if(cx)var
+jM=0===aV[0]?v3:v4,cy=o(g(a0),jM);else
 var
-f1=cz;return f1}var
-jq=g(G),cx=j_(0,j9(K),jq,ag,af,L);if(cx){var
-aV=cx[1],t=aK(aA(B,ai)),q=aM(B,ai),c5=i6(k,p,u,t,q);if(c5)var
-Q=p[5],c6=p[3],c7=p[1],gF=p[6],bz=function(a){var
-b=bY(Q,q,t,a);return w(bY(Q,q,t,a),b)},gy=e(function(a){return[0,i4(c7,c6,Q,q,t,a)]},u),gz=e(bz,u),gA=function(a){var
-b=c_(Q,q,a);return J(function(b,a){return[2,b,a]},t,b)},gB=e(function(a){var
-b=[6,bz(a)],c=bY(Q,q,t,a),d=c_(Q,q,a[2]);return[0,[0,[0,J(function(b,a){return[2,b,a]},t,d),c],b]]},u),gC=e(function(a){return 0},u),gD=e(function(a){return[0,[6,bz(a)]]},u),gE=[0,e(function(c){var
-a=av(bY(Q,q,t,c));return i3(c7,a,P([5,[0,b,b],c6],c9(c_(Q,q,c[2]),a)))},u),gD,gC,gB,gA,gz,gy],gG=bG(p[1]),gH=2<=p[1]?t0:t1,cy=iX(k,gH,gG,gE,gF,aV);else
+cy=cx;var
+fd=cy?hs(ak,aK):cy;if(fd)var
+jS=ht(an(q,aK)),jU=ht(an(q,ak)),cz=jP(i,p[4],jU,jS);else
 var
-cy=c5;if(cy)var
-fJ=cy;else{if(typeof
-aV!=="number"&&0===aV[0]){var
-bm=aV[2];if(bm){if(bm[2])return 0;var
-bn=bm[1],fP=aV[1],aL=p[1],d0=i6(k,p,u,t,q),c4=0;if(d0){var
-hP=p[6],hQ=2<=aL?vL:vM,bW=er(k,hQ,fP,hP),bv=0;if(bW){var
-ax=bW[1][1],bx=0;if(typeof
-ax!=="number"&&15===ax[0]){var
-bZ=H(u,ax[1]);if(bZ){var
-aO=m0(bn),d3=ax[3],a4=bZ[1],a5=p[5],b0=p[3],hR=ax[4],hS=ax[2],dK=i4(aL,b0,a5,q,t,a4),dL=bY(a5,q,t,a4),bV=bo(aO,aO),dM=[4,[4,hS,[6,bo(dK,dK)]],bV],aI=bY(a5,q,t,a4),bT=c_(a5,q,a4[2]),aJ=P([5,[0,b,b],b0],om(aL,aO)),hH=c9(aJ,bT),hI=ol(aL,aO),bU=J(function(b,a){return[2,b,a]},hI,hH),dJ=w(aI,bU),hJ=w(aJ,aJ),hK=[4,w(aI,bT),hJ],hL=w(bT,aJ),hM=[3,[4,w(aI,aJ),hL],hK],hN=[5,[4,dJ,dJ],w(aI,aI)],dR=[4,[4,d3,d3],[2,[3,w(bU,bU),hN],hM]],dS=[4,[4,hR,bV],[6,w(dL,dL)]],hO=bG(aL),dU=o(g(aO),hO),dV=dU?h(k,1,bV):dU,dX=dV?h(k,1,b0):dV,gx=0;if(dX){var
-dY=h(k,1,[3,[2,dM,dR],dS]);if(dY)var
-dZ=dY;else{var
-aW=h(k,1,[3,[3,dM,dR],dS]);bv=1;bx=1;gx=1}}else
+cz=fd;if(cz)var
+jW=av(q,aK),cB=oJ(i,aV,av(q,ak),jW);else
 var
-dZ=dX;if(!gx){var
-aW=dZ;bv=1;bx=1}}else{var
-aW=bZ;bv=1;bx=1}}if(!bx)var
-d1=0}else
+cB=cz;if(cB){var
+jX=an(q,aW(b5)),jY=an(q,aK),fe=eG(i,an(q,ak),jY,jX);if(fe)var
+bb=fe;else{var
+fg=oI(aV);if(fg)var
+jZ=av(q,aK),bb=eG(i,av(q,ak),jZ,a0);else
 var
-d1=bW;if(!bv){var
-d2=d1;c4=1}}else{var
-d2=d0;c4=1}if(c4)var
-aW=d2;if(!aW){var
-ed=p[1],b3=p[5],ee=i6(k,p,u,t,q);if(ee){var
-hV=p[6],hW=2<=ed?v7:v8,b4=er(k,hW,fP,hV);if(b4){var
-aP=b4[1][1];if(typeof
-aP!=="number"&&16===aP[0]){var
-eh=aP[1],ei=h(k,0,eh);if(ei)var
-hX=g(p[2]),b5=o(g(bn),hX);else
+bb=fg}}else
 var
-b5=ei;if(b5){var
-hY=p[2],hZ=W(W(u,hj(bn,e(function(a){var
-b=by(a[2]);return oD(bY(b3,q,t,[0,by(a[1]),b]))},hY),eh)),bn),h0=e(function(e){var
-c=e[1],d=c[2],a=c[1],f=c_(b3,q,a[2]),g=a[1],h=J(function(b,a){return[3,b,a]},t,g),i=[2,d,oD(bY(b3,q,t,a))];return[0,dP([5,[0,e[2],b],i]),d,h,f]},hZ);return oC(k,[0,ed],aP[2],aP[3],h0)}return b5}var
-ef=0}else
+bb=cB;var
+ff=bb?l(function(a){var
+c=aW(a[2]),b=eF(f(aW(a[1]),c));return b?eF([0,jR(aV,a0,b5,a),0]):b},t):bb;return ff?hr(i,e(function(a){var
+b=[6,jR(aV,a0,b5,a)],c=oK(an(q,e$));return[3,[6,jR(aV,av(q,e$),c,a)],b]},t),l4):ff}var
+hB=hy}else
 var
-ef=b4;var
-eg=ef}else
+hB=dI;var
+hC=hB}else
 var
-eg=ee;return eg}var
-fQ=aW}else
+hC=dF;return hC}var
+lW=g(S),dC=kq(0,kp(U),lW,aG,aF,V);if(dC){var
+bn=dC[1],x=aI(an(q,aJ)),u=av(q,aJ),eb=ew(i,p,t,x,u);if(eb)var
+Z=p[5],ec=p[3],ed=p[1],it=p[6],ca=function(a){var
+b=bX(Z,u,x,a);return w(bX(Z,u,x,a),b)},il=e(function(a){return[0,je(ed,ec,Z,u,x,a)]},t),im=e(ca,t),io=function(a){var
+b=da(Z,u,a);return J(function(b,a){return[2,b,a]},x,b)},ip=e(function(a){var
+b=[6,ca(a)],c=bX(Z,u,x,a),d=da(Z,u,a[2]);return[0,[0,[0,J(function(b,a){return[2,b,a]},x,d),c],b]]},t),iq=e(function(a){return 0},t),ir=e(function(a){return[0,[6,ca(a)]]},t),is=[0,e(function(c){var
+a=ay(bX(Z,u,x,c));return jd(ed,a,P([5,[0,b,b],ec],c$(da(Z,u,c[2]),a)))},t),ir,iq,ip,io,im,il],iu=bF(p[1]),iv=2<=p[1]?t7:t8,dE=i9(i,iv,iu,is,it,bn);else
 var
-fQ=bm;return fQ}var
-fJ=0}var
-fK=fJ}else
+dE=eb;if(dE)var
+hg=dE;else{if(typeof
+bn!=="number"&&0===bn[0]){var
+b3=bn[2];if(b3){if(b3[2])return 0;var
+b4=b3[1],hk=bn[1],a9=p[1],eX=ew(i,p,t,x,u),ea=0;if(eX){var
+jz=p[6],jA=2<=a9?vS:vT,ct=et(i,jA,hk,jz),b_=0;if(ct){var
+aU=ct[1][1],b$=0;if(typeof
+aU!=="number"&&15===aU[0]){var
+cu=H(t,aU[1]);if(cu){var
+a_=ng(b4),e0=aU[3],bG=cu[1],bH=p[5],cv=p[3],jB=aU[4],jD=aU[2],eN=je(a9,cv,bH,u,x,bG),eO=bX(bH,u,x,bG),cs=bq(a_,a_),eP=[4,[4,jD,[6,bq(eN,eN)]],cs],a7=bX(bH,u,x,bG),cq=da(bH,u,bG[2]),a8=P([5,[0,b,b],cv],oB(a9,a_)),jq=c$(a8,cq),jr=oA(a9,a_),cr=J(function(b,a){return[2,b,a]},jr,jq),eL=w(a7,cr),js=w(a8,a8),jt=[4,w(a7,cq),js],ju=w(cq,a8),jv=[3,[4,w(a7,a8),ju],jt],jw=[5,[4,eL,eL],w(a7,a7)],eQ=[4,[4,e0,e0],[2,[3,w(cr,cr),jw],jv]],eR=[4,[4,jB,cs],[6,w(eO,eO)]],jy=bF(a9),eS=o(g(a_),jy),eT=eS?h(i,1,cs):eS,eU=eT?h(i,1,cv):eT,ik=0;if(eU){var
+eV=h(i,1,[3,[2,eP,eQ],eR]);if(eV)var
+eW=eV;else{var
+bo=h(i,1,[3,[3,eP,eQ],eR]);b_=1;b$=1;ik=1}}else
 var
-fK=cx;var
-fO=fK}else
+eW=eU;if(!ik){var
+bo=eW;b_=1;b$=1}}else{var
+bo=cu;b_=1;b$=1}}if(!b$)var
+eY=0}else
 var
-fO=fF;return fO;default:return 0}case
+eY=ct;if(!b_){var
+eZ=eY;ea=1}}else{var
+eZ=eX;ea=1}if(ea)var
+bo=eZ;if(!bo){var
+fv=p[1],cI=p[5],fw=ew(i,p,t,x,u);if(fw){var
+ke=p[6],kf=2<=fv?we:wf,cJ=et(i,kf,hk,ke);if(cJ){var
+bc=cJ[1][1];if(typeof
+bc!=="number"&&16===bc[0]){var
+fA=bc[1],fC=h(i,0,fA);if(fC)var
+kh=g(p[2]),cK=o(g(b4),kh);else
+var
+cK=fC;if(cK){var
+kl=p[2],ks=W(W(t,hu(b4,e(function(a){var
+b=by(a[2]);return oQ(bX(cI,u,x,[0,by(a[1]),b]))},kl),fA)),b4),kt=e(function(e){var
+c=e[1],d=c[2],a=c[1],f=da(cI,u,a[2]),g=a[1],h=J(function(b,a){return[3,b,a]},x,g),i=[2,d,oQ(bX(cI,u,x,a))];return[0,dQ([5,[0,e[2],b],i]),d,h,f]},ks);return oP(i,[0,fv],bc[2],bc[3],kt)}return cK}var
+fx=0}else
+var
+fx=cJ;var
+fz=fx}else
+var
+fz=fw;return fz}var
+hl=bo}else
+var
+hl=b3;return hl}var
+hg=0}var
+hi=hg}else
+var
+hi=dC;var
+hj=hi}else
+var
+hj=hf;return hj;default:return 0}case
 3:var
-ak=a[7],aX=a[6],aY=a[5],am=a[4],cC=a[3],an=a[2],az=a[1],ap=s[2];switch(ap[0]){case
+al=a[7],bp=a[6],br=a[5],am=a[4],dJ=a[3],aL=a[2],aM=a[1],aP=v[2];switch(aP[0]){case
 0:var
-f2=ap[3],jI=g(f2),jJ=hD(jx(jW(az,an,cC,am,aY,aX,ak)[1])),cD=dW(g(az),jJ,0,0,jI,f2);if(cD){var
-f3=cD[1];if(f3[2])return 0;var
-f4=pB(az,an,am,aY,aX,ak);if(f4){var
-jK=f3[1],O=jW(az,an,cC,am,aY,aX,ak),jL=fM(0,Cl,g(am),0,ak),f5=hE(ap[2]),aZ=ap[1],dy=of(O[1]);if(dy)var
-hi=O[1][2],bR=l(function(a){return bw(k,a[2][1],a[2][2])},hi);else
+hE=aP[3],l5=g(hE),l6=hO(jJ(j$(aM,aL,dJ,am,br,bp,al)[1])),dK=dY(g(aM),l6,0,0,l5,hE);if(dK){var
+hF=dK[1];if(hF[2])return 0;var
+hG=pJ(aM,aL,am,br,bp,al);if(hG){var
+l7=hF[1],X=j$(aM,aL,dJ,am,br,bp,al),l8=d1(0,Cw,g(am),0,al),hH=hP(aP[2]),bs=aP[1],ey=ou(X[1]);if(ey)var
+i6=X[1][2],co=l(function(a){return bw(i,a[2][1],a[2][2])},i6);else
 var
-bR=dy;if(bR)var
-hl=O[2],bS=l(function(a){return bw(k,a[1],a[2])},hl);else
+co=ey;if(co)var
+i_=X[2],cp=l(function(a){return bw(i,a[1],a[2])},i_);else
 var
-bS=bR;if(bS){var
-x=O[1],bI=g(x[1]),a2=O[3],bJ=g(x[2]),di=N(bJ,g(fx(e(aT,x[3])))),gQ=x[3],dj=oa(hf(x),gQ,bJ),Z=jw(bI,dj,x[4],di),gR=ju(dj,x[4],di),gS=x[3],dk=f(jt(hf(x),gS,bJ),gR),dl=g(jx(x)),gT=0,gV=f(dk,db(function(a,b){return n7(Z,a,b)},gT,d,dl,a2)),gW=f(bC(fw(Z)),gV),dn=f(bC(eA(Z)),gW),bK=cW(dn)[1],gX=cV(bK),aw=function(a){return bd(gX,a)},dp=o(g(O[2]),bI);if(dp)var
-gY=x[4],bL=l(function(a){return 0===a[0]?o(g(a[1]),bI):1},gY);else
+cp=co;if(cp){var
+C=X[1],ce=g(C[1]),bA=X[3],cf=g(C[2]),ei=L(cf,g(fG(e(aO,C[3])))),iC=C[3],ej=op(ho(C),iC,cf),aq=jI(ce,ej,C[4],ei),iD=jG(ej,C[4],ei),iE=C[3],ek=f(jF(ho(C),iE,cf),iD),el=g(jJ(C)),iF=0,iG=f(ek,dc(function(a,b){return ol(aq,a,b)},iF,d,el,bA)),iH=f(bC(fF(aq)),iG),em=f(bC(eE(aq)),iH),cg=cY(em)[1],iI=cX(cg),aT=function(a){return bg(iI,a)},en=o(g(X[2]),ce);if(en)var
+iJ=C[4],ch=l(function(a){return 0===a[0]?o(g(a[1]),ce):1},iJ);else
 var
-bL=dp;var
-dq=bL?l(function(a){var
-b=m(d),c=cV(bK);return aN(r(aw(a),c,b),a)},dn):bL,dr=dq?aj(n9,a2):dq;if(dr){var
-ds=M(O[4]);if(ds)var
-a3=ds;else
+ch=en;var
+eo=ch?l(function(a){var
+b=m(d),c=cX(cg);return aN(r(aT(a),c,b),a)},em):ch,ep=eo?aj(on,bA):eo;if(ep){var
+eq=N(X[4]);if(eq)var
+bD=eq;else
 var
-hh=x[4],a3=l(function(a){return 0===a[0]?0:1},hh)}else
+i5=C[4],bD=l(function(a){return 0===a[0]?0:1},i5)}else
 var
-a3=dr;if(a3){var
-gZ=jx(x),bM=ac(e(function(a){return ao(aZ,a)},gZ));if(bM){var
-g0=0,g1=y(function(a){return fq(g0,d,a)},a2),bN=ac(e(function(a){return i2(aZ,a)},g1));if(bN){var
-g2=O[2],bO=ac(e(function(a){return ao(aZ,[0,a,d])},g2));if(bO){var
-g3=0,g4=0,bP=ac(db(function(a,b){return n8(aZ,aw,Z,g4,d,a,b)},g3,d,dl,a2));if(bP){var
-dt=bP[1];if(O[4])var
-g5=f5[2],g6=f5[1],g8=fw(Z),bQ=iW(jL,dt,[8,j(au(aw),g8),g6,g5]);else
+bD=ep;if(bD){var
+iK=jJ(C),ci=ac(e(function(a){return ap(bs,a)},iK));if(ci){var
+iL=0,iM=y(function(a){return fy(iL,d,a)},bA),cj=ac(e(function(a){return jc(bs,a)},iM));if(cj){var
+iN=X[2],cl=ac(e(function(a){return ap(bs,[0,a,d])},iN));if(cl){var
+iO=0,iP=0,cm=ac(dc(function(a,b){return om(bs,aT,aq,iP,d,a,b)},iO,d,el,bA));if(cm){var
+er=cm[1];if(X[4])var
+iQ=hH[2],iR=hH[1],iS=fF(aq),cn=i8(l8,er,[8,k(ax(aT),iS),iR,iQ]);else
 var
-bQ=dt;var
-g9=iO(bQ),g_=bO[1],g$=function(a){return 0},ha=f(bM[1],bN[1]),hb=e(aw,dk),hc=fw(Z),hd=j(au(aw),hc),he=eA(Z);return fS(iN(aZ,bK,j(au(aw),he),hd,hb,ha,bQ,g$),g_,g9,jK)}var
-du=bP}else
+cn=er;var
+iT=i0(cn),iU=cl[1],iV=function(a){return 0},iW=f(ci[1],cj[1]),iX=e(aT,ek),iY=fF(aq),i2=k(ax(aT),iY),i4=eE(aq);return f1(iZ(bs,cg,k(ax(aT),i4),i2,iX,iW,cn,iV),iU,iT,l7)}var
+es=cm}else
 var
-du=bO;var
-dv=du}else
+es=cl;var
+eu=es}else
 var
-dv=bN;var
-dw=dv}else
+eu=cj;var
+ev=eu}else
 var
-dw=bM;var
-dx=dw}else
+ev=ci;var
+ex=ev}else
 var
-dx=a3;return dx}return bS}var
-f6=f4}else
+ex=bD;return ex}return cp}var
+hI=hG}else
 var
-f6=cD;return f6;case
+hI=dK;return hI;case
 1:var
-bp=ap[4],f7=ap[3],cE=ap[2],C=jW(az,an,cC,am,aY,aX,ak),jM=e(i,f7),f8=bh(e(aT,an),jM);if(f8[2])return 0;var
-aq=f8[1],f9=hC(e(aT,an),f7),f_=f9?pB(az,an,am,aY,aX,ak):f9,f$=f_?of(C[1]):f_;if(f$)var
-jN=C[2],cF=l(function(a){return bw(k,a[1],a[2])},jN);else
+Y=aP[4],hM=aP[3],b6=aP[2],A=j$(aM,aL,dJ,am,br,bp,al),l9=e(j,hM),hR=bj(e(aO,aL),l9);if(hR[2])return 0;var
+F=hR[1],hS=fW(e(aO,aL),hM),hT=hS?pJ(aM,aL,am,br,bp,al):hS,hU=hT?ou(A[1]):hT;if(hU)var
+l_=A[2],dL=l(function(a){return bw(i,a[1],a[2])},l_);else
 var
-cF=f$;if(cF){if(typeof
-bp!=="number"&&2===bp[0]){var
-cJ=e(i,bp[1]),cL=e(i,cE),_=C[1],a6=hg(_),hT=oi(_),d4=e(function(a){return a[3]},hT),d5=function(a){var
-b=oj(_,aq);function
-c(c){return dN(a,b,c)}return e(function(a){return e(c,a)},d4)},d6=dO(k,e(aT,_[2]),aq),d7=d6?dO(k,C[2],cL):d6,d8=d7?dO(k,C[2],cJ):d7,d_=d8?o(g(cL),a6):d8,d$=d_?o(g(cJ),a6):d_,ea=d$?ok(_,_[4]):d$,eb=ea?o(g(_[4]),a6):ea,ec=eb?l(function(a){return l(jz,a)},d4):eb;if(ec){var
-hU=d5(cJ);return jr(k,a6,d5(cL),hU)}return ec}var
-cG=j_(0,Cm,g(am),0,ak,bp);if(cG){var
-a0=cG[1],ar=e(i,cE),A=C[1],dA=hg(A),aG=oi(A),hv=og(A),hw=A[4],hx=ju(oh(A),hw,hv),hB=g(A[2]),hF=A[3],dz=f(jt(hf(A),hF,hB),hx),aH=oj(A,aq),dC=dO(k,e(aT,A[2]),aq),dD=dC?dO(k,C[2],ar):dC,dG=dD?o(g(ar),dA):dD,dH=dG?ok(A,A[4]):dG,dI=dH?l(jz,f(y(vA,aG),dz)):dH;if(dI)var
-hG=C[3],hm=e(function(a){var
-b=a[1];return[0,e(function(a){return dN(ar,aH,a)},b)]},aG),hn=y(function(c){var
-a=c[1];switch(a[0]){case
-7:var
-b=dN(ar,aH,a[2]);return[0,[4,b,b],0];case
-9:return[0,dN(ar,aH,a[1]),0];default:return 0}},dz),hq=function(a){return a},hr=0,ht=e(function(a){return 0},aG),hu=e(function(b){var
-a=b[4];if(typeof
-a!=="number"&&0===a[0])return[0,dN(ar,aH,a[1])];return 0},aG),cH=iX(k,vB,dA,[0,e(function(a){var
-b=a[3];return e(function(a){return dN(ar,aH,a)},b)},aG),hu,ht,hr,hq,hn,hm],hG,a0);else
+dL=hU;if(dL){if(typeof
+Y!=="number")switch(Y[0]){case
+2:var
+dS=e(j,Y[1]),dT=e(j,b6),ar=A[1],bI=hp(ar),jE=ox(ar),e1=e(function(a){return a[3]},jE),e2=function(a){var
+b=oy(ar,F);function
+c(c){return dP(a,b,c)}return e(function(a){return e(c,a)},e1)},e3=b0(i,e(aO,ar[2]),F),e4=e3?b0(i,A[2],dT):e3,e5=e4?b0(i,A[2],dS):e4,e6=e5?o(g(dT),bI):e5,e7=e6?o(g(dS),bI):e6,e8=e7?oz(ar,ar[4]):e7,e9=e8?o(g(ar[4]),bI):e8,e_=e9?l(function(a){return l(jL,a)},e1):e9;if(e_){var
+jH=e2(dS);return jC(i,bI,e2(dT),jH)}return e_;case
+3:var
+dV=cP(Y[2]);if(dV){var
+a1=dV[1],dW=cP(Y[3]);if(dW){var
+bx=dW[1],ma=d1(0,Cy,g(am),0,al),hY=o(Y[1],ma);if(hY){var
+mb=Y[5],mc=Y[4],md=hQ(af(d,g(aM)),a1,bx,mc,mb),bz=e(j,b6),au=A[1],f4=jN(0,a1,bx),f5=A[4],f6=f5?b0(i,e(aO,au[2]),F):f5,f7=f6?b0(i,A[2],bz):f6;if(f7)var
+kC=e(a4,a1),cT=b0(i,A[2],kC);else
 var
-cH=dI;if(cH)var
-ga=cH;else{if(typeof
-a0!=="number"&&0===a0[0]){var
-bq=a0[2];if(bq){if(bq[2])return 0;var
-cI=bq[1],jO=a0[1],a1=e(i,cE),ab=C[1],a7=g(ab[1]),ej=dO(k,e(aT,ab[2]),aq),ek=ej?dO(k,C[2],a1):ej,el=ek?o(g(a1),a7):ek,em=el?dg(f(aq,a1)):el;if(em)var
-h1=ab[3],b6=l(function(a){return jG(a[2])},h1);else
+cT=f7;if(cT)var
+kD=e(a4,bx),cU=b0(i,A[2],kD);else
 var
-b6=em;if(b6){var
-b7=er(k,v_,jO,C[3]);if(b7){var
-a_=b7[1][1];if(typeof
-a_!=="number"&&16===a_[0]){var
-ep=a_[2],eq=a_[1],b8=oG(ab[4]);if(b8){var
-a$=b8[1],b9=hk(aC(cK,ep));if(b9){var
-h2=b9[1],es=h(k,1,ep),et=es?h(k,0,eq):es;if(et)var
-h3=g(a$),b_=o(g(cI),h3);else
+cU=cT;var
+f8=cU?hs(a1,bx):cU,f9=f8?eG(i,a1,bx,bz):f8,f_=f9?eF(f(F,bz)):f9;if(f_)var
+kE=au[3],cV=l(function(a){return fM(a[2])},kE);else
 var
-b_=et;var
-eu=b_?l(jG,a$):b_;if(eu){var
-h4=ab[2],h5=oF(ab,e(function(a){return dQ(a[2])},h4),a1),ev=hj(cI,e(function(a){return bs(h5,a)},a$),eq),ew=dg(ev);if(ew){var
-h6=W(a1,aB(0,a7)),h7=oF(ab,aq,e(function(a){var
-b=ck(a[2],h2);return[2,a[1],b]},h6)),h8=W(W(e(function(a){return bs(h7,a)},a$),ev),cI);return jE(k,a7,a7,eB(function(a){return[4,[0,a[2],b],[3,a[1][1],a[1][2]]]},h8))}var
-ex=ew}else
+cV=f_;if(cV){var
+cW=jV(au[4]);if(cW){var
+bM=cW[1],f$=l(fM,bM);if(f$)var
+kF=1,cZ=oS(function(a){return h(i,kF,a)},au,F,bz,bM);else
 var
-ex=eu;var
-ey=ex}else
+cZ=f$;if(cZ)var
+kG=g(a1),c1=oS(function(a){return jO(i,kG,a)},au,F,f4,bM);else
 var
-ey=b9;var
-ez=ey}else
+c1=cZ;if(c1)return hr(i,e(function(a){var
+b=aX(fL(au,F,bz),a);return[3,aX(fL(au,F,f4),a),b]},bM),md);var
+ga=c1}else
 var
-ez=b8;return ez}var
-en=0}else
-var
-en=b7;var
-eo=en}else
-var
-eo=b6;return eo}return bq}var
-ga=0}var
+ga=cW;var
 gb=ga}else
 var
-gb=cG;var
-gc=gb}else
+gb=cV;return gb}var
+hZ=hY}else
 var
-gc=cF;return gc;default:return 0}case
+hZ=dW;var
+h0=hZ}else
+var
+h0=dV;return h0}var
+dM=kq(0,Cx,g(am),0,al,Y);if(dM){var
+bt=dM[1],aQ=e(j,b6),G=A[1],eA=hp(G),a5=ox(G),ji=ov(G),jj=G[4],jk=jG(ow(G),jj,ji),jl=g(G[2]),jo=G[3],ez=f(jF(ho(G),jo,jl),jk),a6=oy(G,F),eB=b0(i,e(aO,G[2]),F),eC=eB?b0(i,A[2],aQ):eB,eI=eC?o(g(aQ),eA):eC,eJ=eI?oz(G,G[4]):eI,eK=eJ?l(jL,f(y(vH,a5),ez)):eJ;if(eK)var
+jp=A[3],i$=e(function(a){var
+b=a[1];return[0,e(function(a){return dP(aQ,a6,a)},b)]},a5),ja=y(function(c){var
+a=c[1];switch(a[0]){case
+7:var
+b=dP(aQ,a6,a[2]);return[0,[4,b,b],0];case
+9:return[0,dP(aQ,a6,a[1]),0];default:return 0}},ez),jb=function(a){return a},jf=0,jg=e(function(a){return 0},a5),jh=e(function(b){var
+a=b[4];if(typeof
+a!=="number"&&0===a[0])return[0,dP(aQ,a6,a[1])];return 0},a5),dN=i9(i,vI,eA,[0,e(function(a){var
+b=a[3];return e(function(a){return dP(aQ,a6,a)},b)},a5),jh,jg,jf,jb,ja,i$],jp,bt);else
+var
+dN=eK;if(dN)var
+hV=dN;else{if(typeof
+bt!=="number"&&0===bt[0]){var
+b7=bt[2];if(b7){if(b7[2])return 0;var
+dO=b7[1],l$=bt[1],bv=e(j,b6),as=A[1],bJ=g(as[1]),fD=b0(i,e(aO,as[2]),F),fH=fD?b0(i,A[2],bv):fD,fI=fH?o(g(bv),bJ):fH,fJ=fI?dh(f(F,bv)):fI;if(fJ)var
+ku=as[3],cM=l(function(a){return fM(a[2])},ku);else
+var
+cM=fJ;if(cM){var
+cN=et(i,wh,l$,A[3]);if(cN){var
+bK=cN[1][1];if(typeof
+bK!=="number"&&16===bK[0]){var
+fO=bK[2],fP=bK[1],cQ=jV(as[4]);if(cQ){var
+bL=cQ[1],cR=hv(aD(cL,fO));if(cR){var
+kv=cR[1],fQ=h(i,1,fO),fU=fQ?h(i,0,fP):fQ;if(fU)var
+kw=g(bL),cS=o(g(dO),kw);else
+var
+cS=fU;var
+fX=cS?l(fM,bL):cS;if(fX){var
+kx=as[2],ky=fL(as,e(function(a){return dR(a[2])},kx),bv),fY=hu(dO,e(function(a){return aX(ky,a)},bL),fP),fZ=dh(fY);if(fZ){var
+kz=W(bv,aC(0,bJ)),kA=fL(as,F,e(function(a){var
+b=ck(a[2],kv);return[2,a[1],b]},kz)),kB=W(W(e(function(a){return aX(kA,a)},bL),fY),dO);return jT(i,bJ,bJ,eH(function(a){return[4,[0,a[2],b],[3,a[1][1],a[1][2]]]},kB))}var
+f0=fZ}else
+var
+f0=fX;var
+f2=f0}else
+var
+f2=cR;var
+f3=f2}else
+var
+f3=cQ;return f3}var
+fK=0}else
+var
+fK=cN;var
+fN=fK}else
+var
+fN=cM;return fN}return b7}var
+hV=0}var
+hW=hV}else
+var
+hW=dM;var
+hX=hW}else
+var
+hX=dL;return hX;default:return 0}case
 4:var
-as=a[3],aE=a[2],br=a[1],at=s[2];switch(at[0]){case
+aR=a[3],a2=a[2],b8=a[1],aS=v[2];switch(aS[0]){case
 0:var
-jP=at[3],jQ=at[2],jX=at[1],e5=dm(i(br));if(e5){var
-cr=pe(as);if(cr){var
-e6=cr[1],aR=e6[2],e7=i(aR),e8=i(e6[1]),eG=h(k,1,i(aE)),eH=eG?h(k,1,[3,e7,[0,b,b]]):eG,eI=eH?h(k,1,e8):eH,e9=eI?h(k,0,[3,[5,[0,b,b],e7],e8]):eI,e_=e9?l(function(a){var
-b=o$(0,0,Cj,a);if(b)var
+me=aS[3],mf=aS[2],mg=aS[1],gM=dn(j(b8));if(gM){var
+dv=pp(aR);if(dv){var
+gN=dv[1],bi=gN[2],gO=j(bi),gP=j(gN[1]),gf=h(i,1,j(a2)),gg=gf?h(i,1,[3,gO,[0,b,b]]):gf,gh=gg?h(i,1,gP):gg,gQ=gh?h(i,0,[3,[5,[0,b,b],gO],gP]):gh,gR=gQ?l(function(a){var
+b=pl(0,0,Cu,a);if(b)var
 c=b;else{var
-d=cN(a);if(d)return aD(0,0,a);var
-c=d}return c},as):e9,e$=e_?l(function(c){if(1===c[1]){var
+d=cO(a);if(d)return aE(0,0,a);var
+c=d}return c},aR):gQ,gS=gR?l(function(c){if(1===c[1]){var
 a=c[4];if(typeof
-a!=="number"&&0===a[0])return h(k,0,[3,[0,d,b],i(a[1])]);return 1}return 1},as):e_;if(e$){var
-cq=bu(function(a){return M(pf(a))},as);if(cq){var
-i$=[0,c(2,b),b],bf=h(k,0,[3,i(aR),i$]);if(bf)var
-cs=bf;else
+a!=="number"&&0===a[0])return h(i,0,[3,[0,d,b],j(a[1])]);return 1}return 1},aR):gR;if(gS){var
+dm=bu(function(a){return N(pq(a))},aR);if(dm){var
+lB=[0,c(2,b),b],bP=h(i,0,[3,j(bi),lB]);if(bP)var
+dx=bP;else
 var
-jc=i(aR),cs=h(k,0,[3,[0,c(2,b),b],jc]);if(cs){var
-e4=y(function(a){if(cN(a))return Ce;var
-b=jV(0,Cf,0,a);return y(function(b){var
-c=gU(k,Cg,b);return al(M(pf(a)),c)},b)},as),i9=function(f){var
+lE=j(bi),dx=h(i,0,[3,[0,c(2,b),b],lE]);if(dx){var
+gL=y(function(a){if(cO(a))return Cp;var
+b=j_(0,Cq,0,a);return y(function(b){var
+c=g3(i,Cr,b);return af(N(pq(a)),c)},b)},aR),lz=function(f){var
 h=f[1];if(h){var
-i=h[1],j=r(i,e4,0);if(j)var
-l=aA(i,e4),k=[0,[0,g(bu(function(a){return a},l))]];else
+i=h[1],j=r(i,gL,0);if(j)var
+l=an(i,gL),k=[0,[0,g(bu(function(a){return a},l))]];else
 var
 k=j;var
 a=k}else
 var
-a=Ci;if(a){var
+a=Ct;if(a){var
 c=a[1],e=f[2];switch(e[0]){case
 0:return[0,[0,c,[0,e[1]]],0];case
-2:return[0,[0,c,[1,Ch,[0,[0,b,[0,d,[0,d,0]]],[0,[0,d,[0,b,[0,d,0]]],[0,[0,d,[0,d,[0,b,0]]],0]]],d]],0];default:return[0,[0,c,e],0]}}return a},i_=e(function(a){var
-b=a[4],c=a[3],d=a[2];return[0,y(i9,a[1]),d,c,b]},jP),ja=[0,cq[1],cq[2]],jb=pj(bf,aE,aR);return pI(0,pi(bf,br,aE,aR),0,jb,0,ja,jX,jQ,i_)}return cs}var
-fa=1}else
+2:return[0,[0,c,[1,Cs,[0,[0,b,[0,d,[0,d,0]]],[0,[0,d,[0,b,[0,d,0]]],[0,[0,d,[0,d,[0,b,0]]],0]]],d]],0];default:return[0,[0,c,e],0]}}return a},lA=e(function(a){var
+b=a[4],c=a[3],d=a[2];return[0,y(lz,a[1]),d,c,b]},me),lC=[0,dm[1],dm[2]],lD=pu(bP,a2,bi);return pR(0,pt(bP,b8,a2,bi),0,lD,0,lC,mg,mf,lA)}return dx}var
+gT=1}else
 var
-fa=e$;var
-fc=fa}else
+gT=gS;var
+gU=gT}else
 var
-fc=cr;var
-fd=fc}else
+gU=dv;var
+gV=gU}else
 var
-fd=e5;return fd;case
+gV=gM;return gV;case
 1:var
-jY=at[4],jZ=at[3],j0=at[2],fe=dm(i(br));if(fe){var
-ct=pe(as);if(ct){var
-aS=ct[1][2],jd=[0,c(2,b),b],bg=h(k,0,[3,i(aS),jd]),ff=h(k,1,i(aE)),fg=ff?h(k,1,[3,i(aS),[0,b,b]]):ff;if(fg)if(bg)var
-bi=bg;else
+mh=aS[4],mi=aS[3],mj=aS[2],gW=dn(j(b8));if(gW){var
+dy=pp(aR);if(dy){var
+bk=dy[1][2],lF=[0,c(2,b),b],bQ=h(i,0,[3,j(bk),lF]),gZ=h(i,1,j(a2)),g0=gZ?h(i,1,[3,j(bk),[0,b,b]]):gZ;if(g0)if(bQ)var
+bR=bQ;else
 var
-jf=i(aS),bi=h(k,0,[3,[0,c(2,b),b],jf]);else
+lH=j(bk),bR=h(i,0,[3,[0,c(2,b),b],lH]);else
 var
-bi=fg;if(bi){var
-je=pj(bg,aE,aS);return pJ(0,pi(bg,br,aE,aS),0,je,0,as,j0,jZ,jY)}var
-fh=bi}else
+bR=g0;if(bR){var
+lG=pu(bQ,a2,bk);return pS(0,pt(bQ,b8,a2,bk),0,lG,0,aR,mj,mi,mh)}var
+g1=bR}else
 var
-fh=ct;var
-fj=fh}else
+g1=dy;var
+g2=g1}else
 var
-fj=fe;return fj;default:return 0}case
+g2=gW;return g2;default:return 0}case
 5:var
-cM=a[4],gd=a[1],cO=s[2];if(0===cO[0]){var
-ge=cO[3],v=jU(gd,[0,a[2],a[3]],0,cM),j1=g(ge),cP=j5(j$(v),j1,ge);if(cP){var
-gf=cP[1];if(gf[2])return 0;var
-gg=j8(gd,0,cM,v),gh=gg?M(aj(cN,cM)):gg;if(gh){var
-gi=mN(k,v);if(gi){var
-j3=gf[1],gj=e(hz,v[1]),F=hA(v[1]),gk=i(a[5]),Y=cO[1],cc=gO(F,gj,v[1]),R=iP(F,gj,v[1],0),ib=g(v[3]),ic=N(g(cc),ib),ba=[0,g(cc),ic],id=iR(R,F,ba,v[3]),ie=f(e(c0,R),id),eK=f(bC(fb(R)),ie),eL=cW(eK)[1],cd=cV(eL),eM=v[2];if(0===eM[0]){var
-eN=l(function(a){var
-b=m(d);return aN(r(bd(cd,a),cd,b),a)},eK),eO=eN?h(k,1,gk):eN;if(eO){var
-ig=v[3],ih=y(function(a){return dF(F,a)},ig),ii=v[3],ij=f(cc,f(e(function(a){return bX(F,a)},ii),ih)),ce=ac(e(function(a){return ao(Y,a)},ij));if(ce){var
-ik=a8(eM[1],F),cf=ac(e(function(a){return ao(Y,a)},ik));if(cf){var
-cg=cY(Y,F,[5,gk,[0,c(2,c(2,c(2,c(2,b)))),b]]);if(cg){var
-ch=v[3],il=cf[1],im=ce[1],io=cg[1],aQ=function(a){return bd(cd,a)},h_=aB(0,g(ch)),h$=e(function(k){var
-l=H(ch,k);if(l){var
-a=l[1],u=aA(k,ch),v=g(y(function(a){return dF(F,a)},u)),w=N(ba[2],v),i=[0,N(ba[1],k),w],r=fb(R),f=j(au(aQ),r),c=[1,[8,[1,[1,i[1]]]]],d=gP(R,F,i,a),n=d?[0,[3,e(aQ,[0,d[1],d[2]])]]:d,m=0;if(typeof
+dZ=a[4],h1=a[1],d0=v[2];if(0===d0[0]){var
+h2=d0[3],B=j9(h1,[0,a[2],a[3]],0,dZ),mk=g(h2),d2=kj(kr(B),mk,h2);if(d2){var
+h3=d2[1];if(h3[2])return 0;var
+h4=ko(h1,0,dZ,B),h5=h4?N(aj(cO,dZ)):h4;if(h5){var
+h6=m5(i,B);if(h6){var
+ml=h3[1],h7=e(hK,B[1]),O=hL(B[1]),h8=j(a[5]),ao=d0[1],c7=gX(O,h7,B[1]),_=i1(O,h7,B[1],0),kL=g(B[3]),kM=L(g(c7),kL),bN=[0,g(c7),kM],kN=i3(_,O,bN,B[3]),kO=f(e(c2,_),kN),gj=f(bC(fi(_)),kO),gk=cY(gj)[1],c8=cX(gk),gl=B[2];if(0===gl[0]){var
+gm=l(function(a){var
+b=m(d);return aN(r(bg(c8,a),c8,b),a)},gj),gn=gm?h(i,1,h8):gm;if(gn){var
+kP=B[3],kQ=y(function(a){return dH(O,a)},kP),kR=B[3],kS=f(c7,f(e(function(a){return bW(O,a)},kR),kQ)),c9=ac(e(function(a){return ap(ao,a)},kS));if(c9){var
+kT=a$(gl[1],O),c_=ac(e(function(a){return ap(ao,a)},kT));if(c_){var
+db=c0(ao,O,[5,h8,[0,c(2,c(2,c(2,c(2,b)))),b]]);if(db){var
+dd=B[3],kU=c_[1],kV=c9[1],kW=db[1],bd=function(a){return bg(c8,a)},kI=aC(0,g(dd)),kJ=e(function(j){var
+l=H(dd,j);if(l){var
+a=l[1],u=an(j,dd),v=g(y(function(a){return dH(O,a)},u)),w=L(bN[2],v),i=[0,L(bN[1],j),w],r=fi(_),f=k(ax(bd),r),c=[1,[8,[1,[1,i[1]]]]],d=gY(_,O,i,a),n=d?[0,[3,e(bd,[0,d[1],d[2]])]]:d,m=0;if(typeof
 a!=="number")switch(a[0]){case
 0:return[0,[0,f,c]];case
 1:return[0,[1,f,c]];case
 4:var
-o=h(Y,1,a[2]),s=o?n:o;return s;case
+o=h(ao,1,a[2]),s=o?n:o;return s;case
 5:return[0,[2,f,c]];case
 8:var
-p=h(Y,1,[5,a[2],a[1]]);if(!p)return p;var
+p=h(ao,1,[5,a[2],a[1]]);if(!p)return p;var
 q=[1,[2,b]];m=1;break;case
 9:var
 q=c;m=1;break;case
@@ -8174,44 +8293,44 @@ q=c;m=1;break;case
 3:case
 6:case
 7:return n}if(m){var
-t=fi(R,F,i,a);return z(function(a){return[0,j(au(aQ),a),q]},t)}return 0}return l},h_),ia=e(function(a){return aQ(c0(a))},R),eJ=e(function(a){return aQ(a[2])},R),ip=v[3],iq=ba[1],cb=function(aC,aB,aA){var
+t=fp(_,O,i,a);return z(function(a){return[0,k(ax(bd),a),q]},t)}return 0}return l},kI),kK=e(function(a){return bd(c2(a))},_),gi=e(function(a){return bd(a[2])},_),kX=B[3],kY=bN[1],c6=function(aC,aB,aA){var
 k=aC,m=aB,f=aA;for(;;)switch(f[0]){case
 0:var
-v=f[1],aa=o(g(v),wh),ab=aa?l(function(a){var
-d=D(T(c(2,c(2,c(2,b)))),a);return d?D(a,c(2,c(2,c(2,b)))):d},v):aa;if(ab){var
-ac=oQ(Y,io,dE(0,m),v),j=f[2],w=bc(0,bB(Y,ac,e($,k)),eL,0),aD=e($,k),M=function(a){return oP(oO(Y,ac,aD,w,a))};if(typeof
+v=f[1],_=o(g(v),wq),aa=_?l(function(a){var
+d=D(T(c(2,c(2,c(2,b)))),a);return d?D(a,c(2,c(2,c(2,b)))):d},v):_;if(aa){var
+ab=o2(ao,kW,dG(0,m),v),j=f[2],w=bf(0,bB(ao,ab,e($,k)),gk,0),aD=e($,k),N=function(a){return o1(o0(ao,ab,aD,w,a))};if(typeof
 j==="number")return 0===j?aj(function(b){var
-a=r(b,w,0);return a?D(a[1][2][2],d):a},eJ):0;else{if(0===j[0]){var
-a=j[2],O=l(wf,a);if(O){var
-q=r(j[1],h$,0);if(q){var
+a=r(b,w,0);return a?D(a[1][2][2],d):a},gi):0;else{if(0===j[0]){var
+a=j[2],O=l(wo,a);if(O){var
+q=r(j[1],kJ,0);if(q){var
 i=q[1];switch(i[0]){case
 0:var
 x=0;if(a)if(a[2])var
 h=0;else{var
-A=a[1],B=i[1],ap=hp(B,A),aq=ho(A),C=[0,[0,B,[0,[1,[4,[1,[6,i[2],aq]],ap]],0]]];x=1}else{var
+A=a[1],B=i[1],ap=hA(B,A),aq=hz(A),C=[0,[0,B,[0,[1,[4,[1,[6,i[2],aq]],ap]],0]]];x=1}else{var
 C=a;x=1}if(x)var
 h=C;break;case
 1:var
 y=0;if(a)if(a[2])var
 h=0;else{var
-E=a[1],F=i[1],ar=ho(E),as=[1,[6,i[2],ar]],G=[0,[0,F,[0,[1,[4,hp(F,E),as]],0]]];y=1}else{var
+E=a[1],F=i[1],ar=hz(E),as=[1,[6,i[2],ar]],G=[0,[0,F,[0,[1,[4,hA(F,E),as]],0]]];y=1}else{var
 G=a;y=1}if(y)var
 h=G;break;case
 2:var
 z=0;if(a){var
-n=a[2],ao=0;if(n)if(n[2]){var
-h=0;ao=1}else
+n=a[2],an=0;if(n)if(n[2]){var
+h=0;an=1}else
 var
-I=n[1],J=a[1],p=i[1],at=ho(J),au=[1,[6,hp(p,I),at]],av=[1,[6,i[2],au]],aw=ho(I),K=[0,[0,p,[0,[1,[4,[1,[6,hp(p,J),aw]],av]],0]]];else
+I=n[1],J=a[1],p=i[1],at=hz(J),au=[1,[6,hA(p,I),at]],av=[1,[6,i[2],au]],aw=hz(I),K=[0,[0,p,[0,[1,[4,[1,[6,hA(p,J),aw]],av]],0]]];else
 var
-K=n;if(!ao){var
-L=K;z=1}}else{var
-L=a;z=1}if(z)var
-h=L;break;default:if(a)var
+K=n;if(!an){var
+M=K;z=1}}else{var
+M=a;z=1}if(z)var
+h=M;break;default:if(a)var
 h=0;else
 var
 ax=i[1],h=[0,[0,0,e(function(a){return[1,[5,[0,a]]]},ax)]]}if(h){var
-P=h[1],ay=P[1],Q=l(function(a){return oP(r(a[2],w,0))},ay);if(Q)return l(M,P[2]);var
+P=h[1],ay=P[1],Q=l(function(a){return o1(r(a[2],w,0))},ay);if(Q)return l(N,P[2]);var
 R=Q}else
 var
 R=h;var
@@ -8221,118 +8340,118 @@ S=q;var
 U=S}else
 var
 U=O;return U}var
-V=j[2],W=j[1],s=H(ip,W);if(s){var
+V=j[2],W=j[1],s=H(kX,W);if(s){var
 X=s[1];if(typeof
 X!=="number"&&1===X[0]){var
-t=H(eJ,V);if(t){var
-u=H(ia,V);if(u){var
-az=N(iq,W);return M([1,[4,[1,[8,[0,u[1]]]],[1,[6,[1,[8,[1,[1,az]]]],[0,t[1]]]]]])}var
-_=u}else
+t=H(gi,V);if(t){var
+u=H(kK,V);if(u){var
+az=L(kY,W);return N([1,[4,[1,[8,[0,u[1]]]],[1,[6,[1,[8,[1,[1,az]]]],[0,t[1]]]]]])}var
+Z=u}else
 var
-_=t;return _}var
-Z=0}else
+Z=t;return Z}var
+Y=0}else
 var
-Z=s;return Z}}return ab;case
+Y=s;return Y}}return aa;case
 1:var
-ad=f[1],ae=oR(ad,m);if(ae){var
-af=c1(ad,m),ag=cb(k,af[1],f[2]);if(ag){var
-m=af[2],f=f[3];continue}var
-ah=ag}else
+ac=f[1],ad=o3(ac,m);if(ad){var
+ae=c3(ac,m),af=c6(k,ae[1],f[2]);if(af){var
+m=ae[2],f=f[3];continue}var
+ag=af}else
 var
-ah=ae;return ah;default:var
-ai=f[1],ak=oR(ai,k);if(ak){var
-al=c1(ai,k),am=cb(al[1],m,f[2]);if(am){var
-k=al[2],f=f[3];continue}var
-an=am}else
+ag=ad;return ag;default:var
+ah=f[1],ai=o3(ah,k);if(ai){var
+ak=c3(ah,k),al=c6(ak[1],m,f[2]);if(al){var
+k=ak[2],f=f[3];continue}var
+am=al}else
 var
-an=ak;return an}};return cb(im,il,j3)}var
-eP=cg}else
+am=ai;return am}};return c6(kV,kU,ml)}var
+go=db}else
 var
-eP=cf;var
-eQ=eP}else
+go=c_;var
+gp=go}else
 var
-eQ=ce;var
-eR=eQ}else
+gp=c9;var
+gq=gp}else
 var
-eR=eO;return eR}return 0}var
-gl=gi}else
+gq=gn;return gq}return 0}var
+h9=h6}else
 var
-gl=gh;var
-gm=gl}else
+h9=h5;var
+h_=h9}else
 var
-gm=cP;return gm}return 0;case
+h_=d2;return h_}return 0;case
 6:var
-gn=a[1];if(gn){var
-go=gn[1],cQ=s[2];if(0===cQ[0]){var
-cR=j4(Co,0,0,0,Cn,cQ[3]);if(cR){var
-gp=fL(go);if(gp){var
-j6=cR[1],gq=b2(go)[2],bt=cQ[1],b$=cY(bt,d,gq);if(b$){var
-ca=cY(bt,d,[5,[0,b,b],gq]);if(ca){var
-h9=b$[1][1],eC=I(cw(bt),h9);if(eC)return oN(bt,ca[1][1],j6);var
-eD=eC}else
+h$=a[1];if(h$){var
+ia=h$[1],d3=v[2];if(0===d3[0]){var
+d4=ki(CA,0,0,0,Cz,d3[3]);if(d4){var
+ib=fV(ia);if(ib){var
+mm=d4[1],ic=b2(ia)[2],b9=d3[1],c4=c0(b9,d,ic);if(c4){var
+c5=c0(b9,d,[5,[0,b,b],ic]);if(c5){var
+kH=c4[1][1],gc=I(cw(b9),kH);if(gc)return oZ(b9,c5[1][1],mm);var
+gd=gc}else
 var
-eD=ca;var
-eE=eD}else
+gd=c5;var
+ge=gd}else
 var
-eE=b$;return eE}var
-gr=gp}else
+ge=c4;return ge}var
+id=ib}else
 var
-gr=cR;return gr}return 0}var
-cS=s[2];if(0===cS[0]){var
-cT=j4(Cq,0,0,0,Cp,cS[3]);return cT?oN(cS[1],d,cT[1]):cT}return 0;default:var
-aF=a[1],gs=s[2];if(2===gs[0]){var
-gt=gs[1],cU=j2(g(gt),gt);if(cU){var
-gu=cU[1];if(gu[2])return 0;var
-cX=gu[1],e1=aa(Cd,g(aF)),e2=e1?aa(g(aF),dB):e1,e3=e2?oe(e(ay,aF)):e2,gv=e3?l(function(c){var
-a=cA(i(c[2][1]));if(a){var
-b=cA(i(c[2][2]));if(b)return M(bb(b[1],a[1]));var
+id=d4;return id}return 0}var
+d5=v[2];if(0===d5[0]){var
+d6=ki(CC,0,0,0,CB,d5[3]);return d6?oZ(d5[1],d,d6[1]):d6}return 0;default:var
+a3=a[1],ie=v[2];if(2===ie[0]){var
+ig=ie[1],d7=kg(g(ig),ig);if(d7){var
+ih=d7[1];if(ih[2])return 0;var
+d8=ih[1],gI=aa(Co,g(a3)),gJ=gI?aa(g(a3),dD):gI,gK=gJ?ot(e(aA,a3)):gJ,ii=gK?l(function(c){var
+a=cA(j(c[2][1]));if(a){var
+b=cA(j(c[2][2]));if(b)return N(be(b[1],a[1]));var
 d=b}else
 var
-d=a;return d},aF):e3;if(gv)var
-ka=hy(A7,cX),cZ=pN(a[5],ka);else
+d=a;return d},a3):gK;if(ii)var
+mn=hJ(Be,d8),d9=pV(a[5],mn);else
 var
-cZ=gv;if(cZ)var
-kb=hy(A8,cX),c2=pN(a[6],kb);else
+d9=ii;if(d9)var
+mo=hJ(Bf,d8),d_=pV(a[6],mo);else
 var
-c2=cZ;if(c2){var
-i8=e(function(a){return[0,d,0]},aF);return pM(aF,a[2],a[3],a[4],i8,cX)}var
-gw=c2}else
+d_=d9;if(d_){var
+ls=e(function(a){return[0,d,0]},a3);return pU(a3,a[2],a[3],a[4],ls,d8)}var
+ij=d_}else
 var
-gw=cU;return gw}return 0}}return aU}var
-X=[a3,Ct,r8(0)],pO=[a3,Cu,r8(0)];function
-Cr(l,b){var
-f=[0,n(Aq,ap(b[4])),0],g=[0,n(As,ag([0,n(Ar,ap(b[3])),f])),0],a=b[2];switch(a[0]){case
+ij=d7;return ij}return 0}}return bl}var
+X=[a6,CF,sd(0)],pW=[a6,CG,sd(0)];function
+CD(l,b){var
+f=[0,n(Az,aq(b[4])),0],g=[0,n(AB,ah([0,n(AA,aq(b[3])),f])),0],a=b[2];switch(a[0]){case
 0:var
-c=Q(Am,oY(a[1],a[2],a[3]));break;case
+c=Q(Av,o_(a[1],a[2],a[3]));break;case
 1:var
-c=Q(An,oZ(a[1],a[2],a[3],a[4]));break;default:var
-c=Q(Ao,G(e(Ah,a[1])))}var
-h=[0,n(At,c),g],i=1===b[2][0]?Az:Au,j=[0,n(Av,ap(i)),h],k=[0,n(Aw,yT(b[1])),j],d=az(k0(Cs,hq(ag([0,n(Ay,ap(Ax)),k]),Ap)),l);return d?Ck(b):d}function
-ah(a){if(0===a[0])return a[1];throw X}function
+c=Q(Aw,o$(a[1],a[2],a[3],a[4]));break;default:var
+c=Q(Ax,G(e(Aq,a[1])))}var
+h=[0,n(AC,c),g],i=1===b[2][0]?AI:AD,j=[0,n(AE,aq(i)),h],k=[0,n(AF,y2(b[1])),j],d=aB(lg(CE,hB(ah([0,n(AH,aq(AG)),k]),Ay)),l);return d?Cv(b):d}function
+ai(a){if(0===a[0])return a[1];throw X}function
 ad(a){if(1===a[0])return a[1];throw X}function
-aZ(a){if(2===a[0])return a[1];throw X}function
-fO(a){if(3===a[0])return a[1];throw X}function
-a_(f,e){var
+a1(a){if(2===a[0])return a[1];throw X}function
+fX(a){if(3===a[0])return a[1];throw X}function
+bb(f,e){var
 a=f;for(;;){if(a){var
-b=a[1],c=a[2],d=b[2];if(0===IR(b[1],e))return[0,d];var
+b=a[1],c=a[2],d=b[2];if(0===I2(b[1],e))return[0,d];var
 a=c;continue}return 0}}function
 v(c,b){var
-a=a_(c,b);if(a)return a[1];throw X}function
+a=bb(c,b);if(a)return a[1];throw X}function
 cm(b,a){var
-c=a?[0,j(b,a[1])]:a;return c}function
-dZ(a){switch(a[0]){case
+c=a?[0,k(b,a[1])]:a;return c}function
+d2(a){switch(a[0]){case
 0:var
 b=a[1];if(b&&!b[2]){var
 c=b[1];return[0,c[1],c[2]]}break;case
-2:return[0,a[1],Cw]}throw X}function
-fP(e,d){var
+2:return[0,a[1],CI]}throw X}function
+fY(e,d){var
 a=_(e,ad(d));if(a){var
 b=a[2];if(b){var
 c=b[2];if(c&&!c[2])return[0,a[1],b[1],c[1]]}}throw X}function
-hF(i){var
-f=eW(i),d=[0,0],e=h7(f)-1|0;if(!(e<0)){var
+hR(i){var
+f=e3(i),d=[0,0],e=ii(f)-1|0;if(!(e<0)){var
 c=e;for(;;){var
-a=d[1],g=kG(f,c)-48|0;if(9<g>>>0)throw X;switch(g){case
+a=d[1],g=kY(f,c)-48|0;if(9<g>>>0)throw X;switch(g){case
 0:var
 b=[0,a];break;case
 1:var
@@ -8354,48 +8473,48 @@ b=[8,a];break;default:var
 b=[9,a]}d[1]=b;var
 h=c-1|0;if(0!==c){var
 c=h;continue}break}}return d[1]}function
-fQ(a){return ld(hF(a))}function
-eJ(b){var
-a=fO(b);return 45===a4(a,0)?T(fQ(d8(a,1,ax(a)-1|0))):fQ(a)}function
-pP(a){return d$(fQ(fO(a)))}function
-dp(b){var
-a=fO(b);if(!(2<ax(a))&&!(64<=h6(a)))return ii(fQ(a));throw X}function
-cO(c){var
-a=fO(c);if(6<ax(a))throw X;function
-b(a){return 0<a?[0,b(a-1|0)]:0}return b(h6(a))}function
-pQ(a){var
-b=97<=a?1:0,c=b?a<=rK?1:0:b;if(c)var
+fZ(a){return lv(hR(a))}function
+eQ(b){var
+a=fX(b);return 45===a7(a,0)?T(fZ(d$(a,1,az(a)-1|0))):fZ(a)}function
+pX(a){return eb(fZ(fX(a)))}function
+dq(b){var
+a=fX(b);if(!(2<az(a))&&!(64<=ih(a)))return iv(fZ(a));throw X}function
+cQ(c){var
+a=fX(c);if(6<az(a))throw X;function
+b(a){return 0<a?[0,b(a-1|0)]:0}return b(ih(a))}function
+pY(a){var
+b=97<=a?1:0,c=b?a<=rR?1:0:b;if(c)var
 d=c;else
 var
 e=65<=a?1:0,d=e?a<=90?1:0:e;return d}function
-pR(y,b){var
-d=ax(b),a=[0,0];function
+pZ(y,b){var
+d=az(b),a=[0,0];function
 c(e){var
-c=a[1]<d?1:0,f=c?a4(b,a[1])===e?1:0:c;return f}function
+c=a[1]<d?1:0,f=c?a7(b,a[1])===e?1:0:c;return f}function
 l(e){var
-c=a[1];for(;;){if(a[1]<d&&48<=a4(b,a[1])&&!(57<a4(b,a[1]))){a[1]++;continue}return d8(b,c,a[1]-c|0)}}function
+c=a[1];for(;;){if(a[1]<d&&48<=a7(b,a[1])&&!(57<a7(b,a[1]))){a[1]++;continue}return d$(b,c,a[1]-c|0)}}function
 m(b){a[1]++;var
 d=f(b+1|0);if(c(41)){a[1]++;return d}throw X}function
 h(i){if(64<i)throw X;if(c(45)){a[1]++;return[2,h(i+1|0)]}if(c(40))var
 e=m(i);else{var
-u=0;if((a[1]+5|0)<=d&&az(d8(b,a[1],5),Cy)){a[1]=a[1]+4|0;var
+u=0;if((a[1]+5|0)<=d&&aB(d$(b,a[1],5),CK)){a[1]=a[1]+4|0;var
 e=[5,m(i)]}else
 u=1;if(u){var
-v=0;if(a[1]<d&&pQ(a4(b,a[1]))){var
+v=0;if(a[1]<d&&pY(a7(b,a[1]))){var
 n=a[1];for(;;){if(a[1]<d){var
-w=0;if(!pQ(a4(b,a[1]))&&95!==a4(b,a[1])&&(!(48<=a4(b,a[1]))||57<a4(b,a[1])))w=1;if(!w){a[1]++;continue}}var
-e=[1,j(y,d8(b,n,a[1]-n|0))];break}}else
+w=0;if(!pY(a7(b,a[1]))&&95!==a7(b,a[1])&&(!(48<=a7(b,a[1]))||57<a7(b,a[1])))w=1;if(!w){a[1]++;continue}}var
+e=[1,k(y,d$(b,n,a[1]-n|0))];break}}else
 v=1;if(v){var
-g=l(0),o=c(46),q=o?(a[1]++,[0,l(0)]):o,r=az(g,Cz);if(r)var
+g=l(0),o=c(46),q=o?(a[1]++,[0,l(0)]):o,r=aB(g,CL);if(r)var
 s=r;else
 var
-t=1<ax(g)?1:0,s=t?48===a4(g,0)?1:0:t;if(s)throw X;if(q){var
-k=q[1],x=0;if(az(k,CA)||48===a4(k,ax(k)-1|0))x=1;else
+t=1<az(g)?1:0,s=t?48===a7(g,0)?1:0:t;if(s)throw X;if(q){var
+j=q[1],x=0;if(aB(j,CM)||48===a7(j,az(j)-1|0))x=1;else
 var
-z=hF(k),e=[0,hF(g),z];if(x)throw X}else
+z=hR(j),e=[0,hR(g),z];if(x)throw X}else
 var
-e=[0,hF(g),0]}}}if(c(94)){a[1]++;var
-f=l(0);if(p(f,Cx)){if(!(2<ax(f))&&2<=h6(f)&&!(64<h6(f)))return[4,e,d$(fQ(f))];throw X}throw X}return e}function
+e=[0,hR(g),0]}}}if(c(94)){a[1]++;var
+f=l(0);if(p(f,CJ)){if(!(2<az(f))&&2<=ih(f)&&!(64<ih(f)))return[4,e,eb(fZ(f))];throw X}throw X}return e}function
 e(d){var
 b=h(d);for(;;){if(c(42)){a[1]++;var
 b=[3,2,b,h(d)];continue}if(c(47)){a[1]++;var
@@ -8405,47 +8524,47 @@ b=e(d);for(;;){if(c(43)){a[1]++;var
 b=[3,0,b,e(d)];continue}if(c(45)){a[1]++;var
 b=[3,1,b,e(d)];continue}return b}}var
 g=f(0);if(a[1]<d)throw X;return g}function
-hG(a){return pR(function(a){return[0,a]},a)}function
-ka(a){var
-b=aZ(a);return pR(function(a){return a},b)}function
-Y(a){return hG(aZ(a))}function
-b3(a){if(2===a[0])return[0,hG(a[1])];var
-b=ah(a),c=Y(v(b,CB));return[1,Y(v(b,CC)),c]}function
-ai(a){throw[0,pO,ba(k0(CE,a),CD)]}function
-kb(c){var
-a=aZ(c);if(p(a,CF)){var
-b=p(a,CG);if(b)throw X;return b}return 1}function
-CH(d){var
-b=ah(d);function
-a(a){return fP(b3,v(b,a))}var
-c=aZ(v(b,CI));if(p(c,CJ)){if(p(c,CK)){if(p(c,CL))return ai([0,CN,[0,c,CM]]);var
-e=a_(b,CO),f=cm(function(a){return fP(b3,a)},e),g=a(CP);return[1,a(CQ),g,f]}var
-h=kb(v(b,CR)),i=b3(v(b,CS)),j=a(CT),k=a(CU);return[0,a(CV),k,j,i,h]}return[2,a(CW)]}function
-CX(d){var
-a=ah(d);if(a){var
-b=a[1];if(!p(b[1],CY)){var
-c=b[2];if(2===c[0]&&!p(c[1],CZ))return 1}}return 0}function
-pS(e){var
-b=ah(e);function
+hS(a){return pZ(function(a){return[0,a]},a)}function
+ks(a){var
+b=a1(a);return pZ(function(a){return a},b)}function
+Y(a){return hS(a1(a))}function
+b3(a){if(2===a[0])return[0,hS(a[1])];var
+b=ai(a),c=Y(v(b,CN));return[1,Y(v(b,CO)),c]}function
+al(a){throw[0,pW,bd(lg(CQ,a),CP)]}function
+kt(c){var
+a=a1(c);if(p(a,CR)){var
+b=p(a,CS);if(b)throw X;return b}return 1}function
+CT(d){var
+b=ai(d);function
+a(a){return fY(b3,v(b,a))}var
+c=a1(v(b,CU));if(p(c,CV)){if(p(c,CW)){if(p(c,CX))return al([0,CZ,[0,c,CY]]);var
+e=bb(b,C0),f=cm(function(a){return fY(b3,a)},e),g=a(C1);return[1,a(C2),g,f]}var
+h=kt(v(b,C3)),i=b3(v(b,C4)),j=a(C5),k=a(C6);return[0,a(C7),k,j,i,h]}return[2,a(C8)]}function
+C9(d){var
+a=ai(d);if(a){var
+b=a[1];if(!p(b[1],C_)){var
+c=b[2];if(2===c[0]&&!p(c[1],C$))return 1}}return 0}function
+p0(e){var
+b=ai(e);function
 a(a){return _(b3,ad(v(b,a)))}var
-c=aZ(v(b,C0)),f=a_(b,C1),d=cm(function(a){return _(b3,ad(a))},f);if(p(c,C2)){if(p(c,C3)){if(p(c,C4)){if(!p(c,C5)){var
-g=a(C8);return[1,a(C9),g,d]}}else
+c=a1(v(b,Da)),f=bb(b,Db),d=cm(function(a){return _(b3,ad(a))},f);if(p(c,Dc)){if(p(c,Dd)){if(p(c,De)){if(!p(c,Df)){var
+g=a(Di);return[1,a(Dj),g,d]}}else
 if(!d){var
-h=kb(v(b,C_)),i=b3(v(b,C$)),j=a(Da),k=a(Db);return[0,a(Dc),k,j,i,h]}}else
-if(!d)return[2,a(Dd)]}else
+h=kt(v(b,Dk)),i=b3(v(b,Dl)),j=a(Dm),k=a(Dn);return[0,a(Do),k,j,i,h]}}else
+if(!d)return[2,a(Dp)]}else
 if(!d){var
-l=kb(v(b,De)),m=b3(v(b,Df)),n=b3(v(b,Dg)),o=a(Dh),q=a(Di),r=a(Dj);return[3,a(Dk),r,q,o,n,m,l]}return ai([0,C7,[0,c,C6]])}function
-pT(d){var
-a=ah(d);if(a){var
-b=a[1];if(!p(b[1],Dl)){var
-c=b[2];if(2===c[0]&&!p(c[1],Dm))return 1}}return 0}function
-dq(c,d){var
+l=kt(v(b,Dq)),m=b3(v(b,Dr)),n=b3(v(b,Ds)),o=a(Dt),q=a(Du),r=a(Dv);return[3,a(Dw),r,q,o,n,m,l]}return al([0,Dh,[0,c,Dg]])}function
+p1(d){var
+a=ai(d);if(a){var
+b=a[1];if(!p(b[1],Dx)){var
+c=b[2];if(2===c[0]&&!p(c[1],Dy))return 1}}return 0}function
+dr(c,d){var
 a=ad(d);if(a){var
 b=a[2];if(b&&!b[2]){var
-e=j(c,b[1]);return[0,j(c,a[1]),e]}}throw X}function
-d0(g,o){var
-h=g?g[1]:g,c=ah(o),a=aZ(v(c,Dn)),j=sj(a,Do),f=0;if(0<=j)if(0<j)if(p(a,Dp))if(p(a,Dq))if(p(a,Dr))if(p(a,Ds))if(p(a,Dt))if(p(a,Du))if(p(a,Dv)){var
-k=p(a,Dw);if(k)f=1;else
+e=k(c,b[1]);return[0,k(c,a[1]),e]}}throw X}function
+d3(g,o){var
+h=g?g[1]:g,c=ai(o),a=a1(v(c,Dz)),j=sq(a,DA),f=0;if(0<=j)if(0<j)if(p(a,DB))if(p(a,DC))if(p(a,DD))if(p(a,DE))if(p(a,DF))if(p(a,DG))if(p(a,DH)){var
+k=p(a,DI);if(k)f=1;else
 var
 b=k}else
 var
@@ -8465,7 +8584,7 @@ var
 b=13;else
 var
 b=2;else
-if(p(a,DR))if(p(a,DS))if(p(a,DT))if(p(a,DU))if(p(a,DV))if(p(a,DW))if(p(a,DX))if(p(a,DY))f=1;else
+if(p(a,D3))if(p(a,D4))if(p(a,D5))if(p(a,D6))if(p(a,D7))if(p(a,D8))if(p(a,D9))if(p(a,D_))f=1;else
 var
 b=1;else
 var
@@ -8483,12 +8602,12 @@ b=14;else
 f=1;else
 var
 b=12;var
-n=f?ai([0,Dy,[0,a,Dx]]):b;function
-i(a){return v(c,Dz)}var
-d=aZ(v(c,DA)),l=p(d,DB);if(l)if(p(d,DC))if(p(d,DD))if(p(d,DE))var
-e=ai([0,DG,[0,d,DF]]);else
+n=f?al([0,DK,[0,a,DJ]]):b;function
+i(a){return v(c,DL)}var
+d=a1(v(c,DM)),l=p(d,DN);if(l)if(p(d,DO))if(p(d,DP))if(p(d,DQ))var
+e=al([0,DS,[0,d,DR]]);else
 var
-m=dq(Y,i(0)),e=[2,m[1],m[2]];else
+m=dr(Y,i(0)),e=[2,m[1],m[2]];else
 var
 e=[0,Y(i(0))];else
 var
@@ -8496,109 +8615,109 @@ e=[1,Y(i(0))];else
 var
 e=l;function
 q(H){var
-a=ah(H),b=0;switch(n){case
+a=ai(H),b=0;switch(n){case
 6:if(a){var
-r=a[1];if(!p(r[1],DI)){var
+r=a[1];if(!p(r[1],DU)){var
 s=r[2];if(1===s[0]){var
 c=s[1],m=0;if(c&&!c[2])if(a[2])m=1;else{var
 e=c[1];b=1;m=1}if(!m&&!a[2]){var
 t=c;b=2}}}}break;case
 10:if(a){var
-u=a[1];if(!p(u[1],DJ)){var
+u=a[1];if(!p(u[1],DV)){var
 v=u[2];if(1===v[0]){var
 f=v[1];if(f&&!f[2]){var
 g=a[2];if(g){var
-w=g[1];if(!p(w[1],DK)){var
+w=g[1];if(!p(w[1],DW)){var
 x=w[2];if(1===x[0]){var
 i=x[1];if(i&&!i[2]&&!g[2]){var
 I=Y(i[1]);return[2,Y(f[1]),I]}}}}}}}}break;case
 12:if(a){var
-y=a[1];if(!p(y[1],DL)){var
+y=a[1];if(!p(y[1],DX)){var
 z=y[2];if(1===z[0]){var
 j=z[1];if(j&&!j[2]){var
 k=a[2],A=j[1];if(k){var
-B=k[1];if(!p(B[1],DM)){var
+B=k[1];if(!p(B[1],DY)){var
 C=B[2];if(1===C[0]){var
 l=C[1];if(l&&!l[2]&&!k[2]&&h){var
 J=Y(l[1]);return[3,Y(A),J]}}}}else{var
 e=A;b=1}}}}}break;case
 16:if(a){var
-F=a[1];if(!p(F[1],DO)){var
+F=a[1];if(!p(F[1],D0)){var
 G=F[2];if(1===G[0]&&!a[2]){var
 t=G[1];b=2}}}break;case
 14:case
 15:if(a){var
-D=a[1];if(!p(D[1],DN)){var
+D=a[1];if(!p(D[1],DZ)){var
 E=D[2];if(1===E[0]&&!a[2])return[1,_(Y,E[1])]}}break;case
 2:case
 8:if(a){var
-o=a[1];if(!p(o[1],DH)){var
+o=a[1];if(!p(o[1],DT)){var
 q=o[2];if(1===q[0]){var
 d=q[1];if(d&&!d[2]&&!a[2]){var
 e=d[1];b=1}}}}break}switch(b){case
 0:throw X;case
 1:return[0,Y(e)];default:return[1,_(Y,t)]}}var
-r=cm(q,a_(c,DP));return[0,n,cm(cO,a_(c,DQ)),r,e]}function
-pU(c){var
-d=d0(D1,c),e=d[1];if(!(9<=e))switch(e){case
+r=cm(q,bb(c,D1));return[0,n,cm(cQ,bb(c,D2)),r,e]}function
+p2(c){var
+d=d3(Eb,c),e=d[1];if(!(9<=e))switch(e){case
 2:case
 6:case
 8:return d}var
-a=d0(DZ,c),b=a[1];if(2!==b&&!(4<=b))return a;return ai(D0)}function
-pV(a){var
-b=d0(D2,a);return 11===b[1]?b:pU(a)}function
-D3(a){var
-b=d0(D4,a);return 12===b[1]?b:pV(a)}function
-D5(a){var
-b=d0(D6,a),c=b[1];if(9<=c)switch(c-9|0){case
+a=d3(D$,c),b=a[1];if(2!==b&&!(4<=b))return a;return al(Ea)}function
+p3(a){var
+b=d3(Ec,a);return 11===b[1]?b:p2(a)}function
+Ed(a){var
+b=d3(Ee,a);return 12===b[1]?b:p3(a)}function
+Ef(a){var
+b=d3(Eg,a),c=b[1];if(9<=c)switch(c-9|0){case
 2:case
 4:case
-7:break;default:return b}return pV(a)}function
-kc(c){var
-d=d0(D7,c),a=d[1];if(4<=a){var
+7:break;default:return b}return p3(a)}function
+ku(c){var
+d=d3(Eh,c),a=d[1];if(4<=a){var
 b=0;if(6<=a)switch(a-6|0){case
 5:case
 6:case
 7:case
 10:b=1;break}else
-b=1;if(b)return d}return pU(c)}function
-kd(b){var
-a=ah(b[2]);if(p(b[1],Ec)){var
-c=dq(Y,v(a,Ed)),d=dq(Y,v(a,Ee)),e=d[2],f=d[1],g=Y(v(a,Ef));return[1,c[1],c[2],g,f,e]}var
-h=_(Y,ad(v(a,Eg)));return[0,_(Y,ad(v(a,Eh))),h]}function
-Ei(f){var
-a=ah(f);function
+b=1;if(b)return d}return p2(c)}function
+kv(b){var
+a=ai(b[2]);if(p(b[1],Eo)){var
+c=dr(Y,v(a,Ep)),d=dr(Y,v(a,Eq)),e=d[2],f=d[1],g=Y(v(a,Er));return[1,c[1],c[2],g,f,e]}var
+h=_(Y,ad(v(a,Es)));return[0,_(Y,ad(v(a,Et))),h]}function
+Eu(f){var
+a=ai(f);function
 d(b){return Y(v(a,b))}function
-c(b){return fP(Y,v(a,b))}var
-b=aZ(v(a,Ej));if(p(b,Ek)){if(!p(b,El)){var
-j=v(a,Er),e=dq(function(a){return a},j),k=a_(a,Es),l=cm(function(a){return c(Et)},k),m=hG(aZ(e[2])),n=hG(aZ(e[1])),o=d(Eu);return[0,cO(v(a,Ev)),o,n,m,l]}if(p(b,Em))throw X}var
-g=d(En),h=c(Eo),i=c(Ep);return[1,az(b,Eq),i,h,g]}function
-ke(an){var
-g=dZ(an),h=g[1];if(p(h,Ew)){if(p(h,Ex)){if(p(h,Ey)){if(p(h,Ez))return ai([0,EB,[0,h,EA]]);var
-w=v(ah(g[2]),EC),ab=0;if(2===w[0]){var
-K=p(w[1],ED);if(!K){var
+c(b){return fY(Y,v(a,b))}var
+b=a1(v(a,Ev));if(p(b,Ew)){if(!p(b,Ex)){var
+j=v(a,ED),e=dr(function(a){return a},j),k=bb(a,EE),l=cm(function(a){return c(EF)},k),m=hS(a1(e[2])),n=hS(a1(e[1])),o=d(EG);return[0,cQ(v(a,EH)),o,n,m,l]}if(p(b,Ey))throw X}var
+g=d(Ez),h=c(EA),i=c(EB);return[1,aB(b,EC),i,h,g]}function
+kw(an){var
+g=d2(an),h=g[1];if(p(h,EI)){if(p(h,EJ)){if(p(h,EK)){if(p(h,EL))return al([0,EN,[0,h,EM]]);var
+w=v(ai(g[2]),EO),ab=0;if(2===w[0]){var
+K=p(w[1],EP);if(!K){var
 J=K;ab=1}}if(!ab)var
 J=[0,b3(w)];return[6,J]}var
-L=ah(g[2]),i=ke([0,[0,[0,EF,v(L,EE)],0]]);if(0===i[0]){var
+L=ai(g[2]),i=kw([0,[0,[0,ER,v(L,EQ)],0]]);if(0===i[0]){var
 x=i[2];if(0===x[0]&&!i[3]){var
-ao=Y(v(L,EH));return[5,i[1],x[1],x[2],i[4],ao]}}return ai(EG)}var
-a=ah(g[2]),y=a_(a,EI),z=y?_(Ei,ad(y[1])):y,n=function(b){var
-a=0!==z?1:0;return a?ai(EJ):a},k=dZ(v(a,EK)),b=dZ(v(a,EL)),c=k[1];if(p(c,EM)&&p(c,EN)&&p(c,EO)){if(0===a_(a,EP)){if(p(c,EQ)){var
-ac=0;if(p(c,ER)){if(!p(c,ES)){var
-M=b[1],ae=0;if(p(M,EV)&&p(M,EW)){ac=1;ae=1}if(!ae){var
-A=ad(k[2]),ap=ad(v(a,EZ)),N=_(function(a){return d0(0,a)},ap);if(!aF(CX,A)&&!aF(function(a){var
+ao=Y(v(L,ET));return[5,i[1],x[1],x[2],i[4],ao]}}return al(ES)}var
+a=ai(g[2]),y=bb(a,EU),z=y?_(Eu,ad(y[1])):y,n=function(b){var
+a=0!==z?1:0;return a?al(EV):a},j=d2(v(a,EW)),b=d2(v(a,EX)),c=j[1];if(p(c,EY)&&p(c,EZ)&&p(c,E0)){if(0===bb(a,E1)){if(p(c,E2)){var
+ac=0;if(p(c,E3)){if(!p(c,E4)){var
+M=b[1],ae=0;if(p(M,E7)&&p(M,E8)){ac=1;ae=1}if(!ae){var
+A=ad(j[2]),ap=ad(v(a,E$)),N=_(function(a){return d3(0,a)},ap);if(!aG(C9,A)&&!aG(function(a){var
 b=13===a[1]?1:0,c=b||(16===a[1]?1:0);return c},N)){var
-as=_(CH,A),f=ah(b[2]);if(p(b[1],D8))var
-H=dq(Y,v(f,D9)),I=dq(Y,v(f,D_)),aj=I[2],ak=I[1],al=Y(v(f,D$)),O=[1,H[1],H[2],al,ak,aj];else
+as=_(CT,A),f=ai(b[2]);if(p(b[1],Ei))var
+H=dr(Y,v(f,Ej)),I=dr(Y,v(f,Ek)),ah=I[2],aj=I[1],ak=Y(v(f,El)),O=[1,H[1],H[2],ak,aj,ah];else
 var
-am=fP(Y,v(f,Ea)),O=[0,fP(Y,v(f,Eb)),am];return[0,as,O,z,N]}n(0);var
-aq=_(kc,ad(v(a,E0))),ar=kd(b);return[1,0,_(pS,A),0,ar,0,aq]}}}else
-if(!p(b[1],E1)){n(0);var
-P=_(kc,ad(v(a,E2))),u=0,e=P;for(;;){if(e){var
+am=fY(Y,v(f,Em)),O=[0,fY(Y,v(f,En)),am];return[0,as,O,z,N]}n(0);var
+aq=_(ku,ad(v(a,Fa))),ar=kv(b);return[1,0,_(p0,A),0,ar,0,aq]}}}else
+if(!p(b[1],Fb)){n(0);var
+P=_(ku,ad(v(a,Fc))),u=0,e=P;for(;;){if(e){var
 F=e[2],G=e[1];if(0===G[1]){var
 u=[0,G,u],e=F;continue}var
 e=F;continue}var
-m=kZ(u),af=0;if(m){var
+m=lf(u),af=0;if(m){var
 d=0,Q=m[1][4];if(typeof
 Q==="number")d=1;else
 switch(Q[0]){case
@@ -8613,65 +8732,65 @@ C=m[2];if(C){var
 E=0,S=C[1][4];if(typeof
 S!=="number"&&0===S[0])if(C[2]){d=1;E=1}else
 E=1;if(!E)d=1}else
-d=1;break;default:d=1}if(!d)af=1}if(!af)ai(E3);var
-at=Y(v(ah(b[2]),E4));return[4,Y(v(ah(k[2]),E5)),at,P]}}if(!ac)return ai([0,EU,[0,c,ET]])}else
-if(!p(b[1],E6)){n(0);var
-o=ah(k[2]),T=ah(b[2]),U=function(c,a){var
+d=1;break;default:d=1}if(!d)af=1}if(!af)al(Fd);var
+at=Y(v(ai(b[2]),Fe));return[4,Y(v(ai(j[2]),Ff)),at,P]}}if(!ac)return al([0,E6,[0,c,E5]])}else
+if(!p(b[1],Fg)){n(0);var
+o=ai(j[2]),T=ai(b[2]),U=function(c,a){var
 b=ad(a);return _(function(d){var
 a=ad(d);if(a){var
 b=a[2];if(b&&!b[2]){var
-e=j(c,b[1]);return[0,aZ(a[1]),e]}}throw X},b)},au=function(d){var
-a=ah(d);if(a){var
-b=a[1],c=b[1];if(p(c,E7)){if(!p(c,E8)&&!a[2])return[0,_(ka,ad(b[2]))]}else
-if(!a[2])return[1,ka(b[2])]}throw X},av=_(D3,ad(v(a,E9))),aw=_(Y,ad(v(T,E_))),ax=_(Y,ad(v(T,E$))),ay=_(au,ad(v(o,Fa))),aA=U(ka,v(o,Fb)),aB=U(b3,v(o,Fc));return[3,_(aZ,ad(v(o,Fd))),aB,aA,ay,ax,aw,av]}return ai([0,EY,[0,b[1],EX]])}throw X}var
-V=ah(k[2]),q=cm(Y,a_(V,Fe)),aC=function(f){var
-a=dZ(f),b=a[1];if(p(b,Ff)){if(p(b,Fg)){if(p(b,Fh)){if(p(b,Fi))throw X;var
-d=a[2],g=Y(v(ah(d),Fj));return[3,Y(v(ah(d),Fk)),g]}var
-h=a[2],c=function(a){return dq(Y,v(ah(h),a))},i=c(Fl),j=c(Fm);return[1,c(Fn),j,i]}var
-e=dq(Y,a[2]);return[0,e[1],e[2]]}return[2,Y(a[2])]},r=cm(aC,a_(a,Fo)),W=p(c,Fp),Z=W?p(c,Fq)?2:1:W,s=ad(v(V,Fr));if(q&&r&&h$(pT,s)){var
+e=k(c,b[1]);return[0,a1(a[1]),e]}}throw X},b)},au=function(d){var
+a=ai(d);if(a){var
+b=a[1],c=b[1];if(p(c,Fh)){if(!p(c,Fi)&&!a[2])return[0,_(ks,ad(b[2]))]}else
+if(!a[2])return[1,ks(b[2])]}throw X},av=_(Ed,ad(v(a,Fj))),aw=_(Y,ad(v(T,Fk))),ax=_(Y,ad(v(T,Fl))),ay=_(au,ad(v(o,Fm))),az=U(ks,v(o,Fn)),aA=U(b3,v(o,Fo));return[3,_(a1,ad(v(o,Fp))),aA,az,ay,ax,aw,av]}return al([0,E_,[0,b[1],E9]])}throw X}var
+V=ai(j[2]),q=cm(Y,bb(V,Fq)),aC=function(f){var
+a=d2(f),b=a[1];if(p(b,Fr)){if(p(b,Fs)){if(p(b,Ft)){if(p(b,Fu))throw X;var
+d=a[2],g=Y(v(ai(d),Fv));return[3,Y(v(ai(d),Fw)),g]}var
+h=a[2],c=function(a){return dr(Y,v(ai(h),a))},i=c(Fx),j=c(Fy);return[1,c(Fz),j,i]}var
+e=dr(Y,a[2]);return[0,e[1],e[2]]}return[2,Y(a[2])]},r=cm(aC,bb(a,FA)),W=p(c,FB),Z=W?p(c,FC)?2:1:W,s=ad(v(V,FD));if(q&&r&&im(p1,s)){var
 aD=function(c){var
-a=ah(c);function
-b(b){return _(b3,ad(v(a,b)))}if(0!==a_(a,Fs))ai(Ft);var
-d=b(Fu);return[0,b(Fv),d]},aE=_(D5,ad(v(a,Fw))),aG=r[1],aH=kd(b),aI=q[1];return[2,Z,_(aD,s),aI,aH,aG,z,aE]}n(0);var
-ag=0;if(!q&&az(c,Fz)){var
+a=ai(c);function
+b(b){return _(b3,ad(v(a,b)))}if(0!==bb(a,FE))al(FF);var
+d=b(FG);return[0,b(FH),d]},aE=_(Ef,ad(v(a,FI))),aF=r[1],aH=kv(b),aI=q[1];return[2,Z,_(aD,s),aI,aH,aF,z,aE]}n(0);var
+ag=0;if(!q&&aB(c,FL)){var
 $=1;ag=1}if(!ag)var
 $=[0,Z];var
-aa=0!==r?1:0,aJ=aa?aF(pT,s):aa;if(aJ)ai(Fx);var
-aK=_(kc,ad(v(a,Fy))),aL=kd(b);return[1,$,_(pS,s),q,aL,r,aK]}var
-t=ah(g[2]);function
+aa=0!==r?1:0,aJ=aa?aG(p1,s):aa;if(aJ)al(FJ);var
+aK=_(ku,ad(v(a,FK))),aL=kv(b);return[1,$,_(p0,s),q,aL,r,aK]}var
+t=ai(g[2]);function
 aM(b){var
-a=ah(b),c=Y(v(a,FA)),d=[0,Y(v(a,FB)),c];return[0,aZ(v(a,FC)),d]}var
-l=ke([0,[0,[0,FE,v(t,FD)],0]]);if(0===l[0]&&!l[3]){var
-aN=Y(v(t,FG)),aO=Y(v(t,FH)),aP=l[4],aQ=l[2],aR=l[1];return[7,_(aM,ad(v(t,FI))),aR,aQ,aP,aO,aN]}return ai(FF)}function
-fR(a){return _(eJ,ad(a))}function
-hH(c,b){var
-a=fR(b);if(cs(a)!==c)throw X;return a}function
-pW(a,d){var
-b=ah(d),e=ad(v(b,FL)),f=a[2],c=_(function(a){return hH(f,a)},e),g=a[1];if(cs(c)!==g)throw X;return[0,c,dp(v(b,FM))]}function
-dr(au,i){var
+a=ai(b),c=Y(v(a,FM)),d=[0,Y(v(a,FN)),c];return[0,a1(v(a,FO)),d]}var
+l=kw([0,[0,[0,FQ,v(t,FP)],0]]);if(0===l[0]&&!l[3]){var
+aN=Y(v(t,FS)),aO=Y(v(t,FT)),aP=l[4],aQ=l[2],aR=l[1];return[7,_(aM,ad(v(t,FU))),aR,aQ,aP,aO,aN]}return al(FR)}function
+f0(a){return _(eQ,ad(a))}function
+hT(c,b){var
+a=f0(b);if(cs(a)!==c)throw X;return a}function
+p4(a,d){var
+b=ai(d),e=ad(v(b,FX)),f=a[2],c=_(function(a){return hT(f,a)},e),g=a[1];if(cs(c)!==g)throw X;return[0,c,dq(v(b,FY))]}function
+ds(au,i){var
 as=0;if(0===i[0]){var
 q=i[1];if(q){var
-U=q[1];if(!p(U[1],FN)){var
+U=q[1];if(!p(U[1],FZ)){var
 ag=U[2];if(0===ag[0]){var
 L=ag[1];if(L){var
-aj=L[1];if(!p(aj[1],F$)){var
-ak=aj[2];if(1===ak[0]){var
-M=ak[1];if(M){var
-al=M[1];if(1===al[0]){var
-am=al[1];if(am&&!am[2]&&!M[2]){var
+ah=L[1];if(!p(ah[1],Gl)){var
+aj=ah[2];if(1===aj[0]){var
+M=aj[1];if(M){var
+ak=M[1];if(1===ak[0]){var
+am=ak[1];if(am&&!am[2]&&!M[2]){var
 an=L[2];if(an&&!an[2]&&!q[2]){var
-f=Ga;as=1}}}}}}}}}}}if(!as)var
+f=Gm;as=1}}}}}}}}}}}if(!as)var
 f=au;var
 r=f[2];switch(i[0]){case
 0:var
 c=i[1];if(c){var
-e=c[1],a=e[1],V=sj(a,FO),b=0;if(0<=V)if(0<V)if(p(a,FP)){var
-g=0;if(p(a,FQ)&&p(a,FR)&&p(a,FS))if(p(a,FT))g=1;else{var
+e=c[1],a=e[1],V=sq(a,F0),b=0;if(0<=V)if(0<V)if(p(a,F1)){var
+g=0;if(p(a,F2)&&p(a,F3)&&p(a,F4))if(p(a,F5))g=1;else{var
 W=e[2];if(1===W[0]){var
 s=W[1];if(s){var
 t=s[2];if(t){var
 u=t[2];if(u&&!u[2]){if(!c[2]){var
-av=_(fR,ad(u[1])),aw=aZ(t[1]);return[8,dr(f,s[1]),aw,av]}b=1;g=1}else
+av=_(f0,ad(u[1])),aw=a1(t[1]);return[8,ds(f,s[1]),aw,av]}b=1;g=1}else
 g=1}else
 g=1}else
 g=1}else
@@ -8681,7 +8800,7 @@ Z=e[2];if(1===Z[0]){var
 y=Z[1];if(y){var
 z=y[2];if(z){var
 A=z[2];if(A&&!A[2]){if(!c[2]){var
-ay=dp(A[1]),az=eJ(z[1]);return[5,dr(f,y[1]),az,ay]}b=1}}}}}else{var
+ay=dq(A[1]),az=eQ(z[1]);return[5,ds(f,y[1]),az,ay]}b=1}}}}}else{var
 $=e[2];if(1===$[0]){if(!c[2]){var
 aA=function(m){if(1===m[0]){var
 d=m[1];if(d){var
@@ -8692,290 +8811,268 @@ n=h[1],a=n;for(;;){var
 i=0;switch(a[0]){case
 0:var
 b=a[1];if(b){var
-j=b[1],c=j[1];if(p(c,FW)){var
-o=0;if(p(c,FX)&&p(c,FY)&&p(c,FZ))o=1;if(!o&&!b[2])i=1}else{var
+j=b[1],c=j[1];if(p(c,F8)){var
+o=0;if(p(c,F9)&&p(c,F_)&&p(c,F$))o=1;if(!o&&!b[2])i=1}else{var
 k=j[2];if(1===k[0]){var
 l=k[1];if(l&&!b[2]){var
 a=l[1];continue}}}}break;case
-2:if(!p(a[1],F0))i=1;break}var
+2:if(!p(a[1],Ga))i=1;break}var
 q=i?1:0;if(q){var
-r=dr(f,n),s=dp(g[1]),t=eJ(e[1]);return[0,[0,[0,fR(d[1]),t],s],r]}return ai(F1)}}}}}}throw X};return[9,_(aA,$[1])]}b=1}}else
-if(p(a,F2))if(p(a,F3))if(p(a,F4))if(p(a,F5))if(p(a,F6)){if(!p(a,F7)){if(!c[2]){var
-aa=ah(e[2]),aB=ad(v(aa,F8)),aC=r+1|0,ab=_(function(a){return hH(aC,a)},aB);if(3===cs(ab))return[1,F_,ab,dp(v(aa,F9))];throw X}b=1}}else{if(!c[2]){var
-R=aZ(e[2]),S=p(R,FJ);if(S){if(p(R,FK))throw X;var
+r=ds(f,n),s=dq(g[1]),t=eQ(e[1]);return[0,[0,[0,f0(d[1]),t],s],r]}return al(Gb)}}}}}}throw X};return[9,_(aA,$[1])]}b=1}}else
+if(p(a,Gc))if(p(a,Gd))if(p(a,Ge))if(p(a,Gf))if(p(a,Gg)){if(!p(a,Gh)){if(!c[2]){var
+aa=ai(e[2]),aB=ad(v(aa,Gi)),aC=r+1|0,ab=_(function(a){return hT(aC,a)},aB);if(3===cs(ab))return[1,Gk,ab,dq(v(aa,Gj))];throw X}b=1}}else{if(!c[2]){var
+R=a1(e[2]),S=p(R,FV);if(S){if(p(R,FW))throw X;var
 T=1}else
 var
 T=S;return[2,T]}b=1}else{if(!c[2]){var
 k=e[2],o=0;switch(k[0]){case
 0:var
 l=k[1];if(l){var
-ao=l[1],j=ao[1],d=0;if(p(j,Gb)&&p(j,Gc)&&p(j,Gd)&&p(j,Ge))if(p(j,Gf))d=1;else{var
+ao=l[1],j=ao[1],d=0;if(p(j,Gn)&&p(j,Go)&&p(j,Gp)&&p(j,Gq))if(p(j,Gr))d=1;else{var
 ap=ao[2];if(1===ap[0]){var
 N=ap[1];if(N){var
 m=N[1],h=0;switch(m[0]){case
 0:var
 O=m[1];if(O){var
-n=O[1][1],at=0;if(p(n,Gh)&&p(n,Gi)&&p(n,Gj)&&p(n,Gk)){d=1;h=1;at=1}if(!at&&O[2]){d=1;h=1}}else{d=1;h=1}break;case
+n=O[1][1],at=0;if(p(n,Gt)&&p(n,Gu)&&p(n,Gv)&&p(n,Gw)){d=1;h=1;at=1}if(!at&&O[2]){d=1;h=1}}else{d=1;h=1}break;case
 2:var
-aq=m[1];if(p(aq,Gl)&&p(aq,Gm)){d=1;h=1}break;default:d=1;h=1}if(!h){var
+aq=m[1];if(p(aq,Gx)&&p(aq,Gy)){d=1;h=1}break;default:d=1;h=1}if(!h){var
 P=N[2];if(P){var
 Q=P[2];if(Q&&!(Q[2]||l[2])){var
-aL=dp(Q[1]),aM=eJ(P[1]),B=[6,dr(f,m),aM,aL];o=2;d=1}else
+aL=dq(Q[1]),aM=eQ(P[1]),B=[6,ds(f,m),aM,aL];o=2;d=1}else
 d=1}else
 d=1}}else
 d=1}else
 d=1}if(!d&&!l[2])o=1}break;case
 2:var
-ar=k[1];if(!p(ar,Gn)||!p(ar,Go))o=1;break}switch(o){case
+ar=k[1];if(!p(ar,Gz)||!p(ar,GA))o=1;break}switch(o){case
 0:var
-B=ai(Gg);break;case
+B=al(Gs);break;case
 1:var
-B=dr(f,k);break}return[7,B]}b=1}else{var
+B=ds(f,k);break}return[7,B]}b=1}else{var
 ac=e[2];if(1===ac[0]){var
 C=ac[1];if(C){var
 D=C[2];if(D&&!D[2])if(c[2])b=1;else{var
-aD=D[1],aE=C[1],x=aE,w=function(b,a){return[3,b,a,hH(r+1|0,aD)]};b=2}}}}else{var
+aD=D[1],aE=C[1],x=aE,w=function(b,a){return[3,b,a,hT(r+1|0,aD)]};b=2}}}}else{var
 ae=e[2];if(1===ae[0]){var
 E=ae[1];if(E){var
 F=E[2];if(F){var
 G=F[2];if(G){var
 H=G[2];if(H&&!H[2]){if(!c[2]){var
-aF=dr(f,H[1]),aG=dr(f,G[1]),aH=dp(F[1]);return[10,hH(r+1|0,E[1]),aH,aG,aF]}b=1}}}}}}else{var
+aF=ds(f,H[1]),aG=ds(f,G[1]),aH=dq(F[1]);return[10,hT(r+1|0,E[1]),aH,aG,aF]}b=1}}}}}}else{var
 af=e[2];if(1===af[0]){var
 I=af[1];if(I){var
 J=I[2];if(J){var
 K=J[2];if(K&&!K[2])if(c[2])b=1;else{var
 aI=K[1],aJ=J[1],aK=I[1],x=aK,w=function(b,a){var
-c=dp(aI);return[4,b,a,eJ(aJ),c]};b=2}}}}}switch(b){case
-0:if(!c[2])return ai([0,FV,[0,a,FU]]);break;case
+c=dq(aI);return[4,b,a,eQ(aJ),c]};b=2}}}}}switch(b){case
+0:if(!c[2])return al([0,F7,[0,a,F6]]);break;case
 1:break;default:var
-Y=pW(f,x);return w(Y[1],Y[2])}}break;case
+Y=p4(f,x);return w(Y[1],Y[2])}}break;case
 2:return[0,i[1]]}throw X}function
-pX(n){var
-b=dZ(n),a=b[1];if(p(a,Gr))if(p(a,Gs)){var
-h=p(a,Gt);if(!h)return h;if(p(a,Gu)){if(!p(a,Gv)){var
-c=ah(b[2]),i=function(a){return _(Y,ad(v(c,a)))},j=ah(v(c,Gz)),o=dp(v(j,GA)),q=_(fR,ad(v(j,GB))),r=i(GC),s=i(GD);return[3,cO(v(c,GE)),s,r,q,o]}if(!p(a,Gw))return[2,_(Y,ad(b[2]))]}else{var
+p5(n){var
+b=d2(n),a=b[1];if(p(a,GD))if(p(a,GE)){var
+h=p(a,GF);if(!h)return h;if(p(a,GG)){if(!p(a,GH)){var
+c=ai(b[2]),i=function(a){return _(Y,ad(v(c,a)))},j=ai(v(c,GL)),o=dq(v(j,GM)),q=_(f0,ad(v(j,GN))),r=i(GO),s=i(GP);return[3,cQ(v(c,GQ)),s,r,q,o]}if(!p(a,GI))return[2,_(Y,ad(b[2]))]}else{var
 k=b[2];if(1===k[0]){var
 d=k[1];if(d){var
 e=d[2];if(e&&!e[2]){var
-t=cO(e[1]);return[1,cO(d[1]),t]}}}}}else{var
+t=cQ(e[1]);return[1,cQ(d[1]),t]}}}}}else{var
 l=b[2];if(1===l[0]){var
 f=l[1];if(f){var
 g=f[2];if(g&&!g[2]){var
-u=_(fR,ad(g[1]));return[0,cO(f[1]),u]}}}}else{var
-m=b[2];if(1===m[0]&&!m[1])return 1}return ai([0,Gy,[0,a,Gx]])}function
-pY(f,b){var
-a=ah(b),c=ad(v(a,GJ)),d=_(function(g){var
-a=ah(g);function
+u=_(f0,ad(g[1]));return[0,cQ(f[1]),u]}}}}else{var
+m=b[2];if(1===m[0]&&!m[1])return 1}return al([0,GK,[0,a,GJ]])}function
+p6(f,b){var
+a=ai(b),c=ad(v(a,GV)),d=_(function(g){var
+a=ai(g);function
 b(d,c){var
-b=a_(a,c);return b?_(d,ad(b[1])):b}var
-c=b(eJ,GF),d=cm(pX,a_(a,GG)),e=cm(cO,a_(a,GH));return[0,b(function(h){var
+b=bb(a,c);return b?_(d,ad(b[1])):b}var
+c=b(eQ,GR),d=cm(p5,bb(a,GS)),e=cm(cQ,bb(a,GT));return[0,b(function(h){var
 b=ad(h);if(b){var
 a=b[2];if(a){var
-c=a[1],e=b[1],d=0;if(2===c[0]&&!p(c[1],Gp)){if(!a[2]){if(p(fO(e),Gq))throw X;d=1}}else
+c=a[1],e=b[1],d=0;if(2===c[0]&&!p(c[1],GB)){if(!a[2]){if(p(fX(e),GC))throw X;d=1}}else
 d=1;if(d&&!a[2]){var
-g=dr(f,c);return[0,cO(e),g]}}}throw X},GI),e,d,c]},c),e=a_(a,GK),g=cm(function(a){return pW(f,a)},e);return[0,pP(v(a,GL)),g,d]}function
-pZ(c){var
-a=ah(c),b=a_(a,GM),d=b?_(Y,ad(b[1])):b,e=pX(v(a,GN)),f=_(Y,ad(v(a,GO)));return[0,pP(v(a,GP)),f,d,e]}function
-GZ(c){var
+g=ds(f,c);return[0,cQ(e),g]}}}throw X},GU),e,d,c]},c),e=bb(a,GW),g=cm(function(a){return p4(f,a)},e);return[0,pX(v(a,GX)),g,d]}function
+p7(c){var
+a=ai(c),b=bb(a,GY),d=b?_(Y,ad(b[1])):b,e=p5(v(a,GZ)),f=_(Y,ad(v(a,G0)));return[0,pX(v(a,G1)),f,d,e]}function
+G$(c){var
 a=c[1],b=0;if(10<=a){if(!(13<=a))b=1}else
 if(8===a)b=1;return b?1:0}function
-G0(b){var
+Ha(b){var
 a=b[3];if(a&&1===a[1][0])return 1;return 0}function
-G1(b){var
-c=b[1],a=b[4];if(!(1<c+qS>>>0)&&typeof
-a!=="number"&&1===a[0])return 1-hb(i(a[1]));return 10===c?1:0}function
-G5(i){var
-l=ax(i),c=[0,0];function
-m(a){if(c[1]<l)return a4(i,c[1]);throw X}function
-n(a){if(m(0)===a){c[1]++;return 0}throw X}function
-F(a,b){for(;;){if(c[1]<l&&j(b,a4(i,c[1]))){c[1]++;continue}return d8(i,a,c[1]-a|0)}}function
-G(d){n(34);function
+Hb(b){var
+c=b[1],a=b[4];if(!(1<c+q0>>>0)&&typeof
+a!=="number"&&1===a[0])return 1-hk(j(a[1]));return 10===c?1:0}function
+Hf(g){var
+i=az(g),c=[0,0];function
+j(a){if(c[1]<i)return a7(g,c[1]);throw X}function
+l(a){if(j(0)===a){c[1]++;return 0}throw X}function
+D(a,b){for(;;){if(c[1]<i&&k(b,a7(g,c[1]))){c[1]++;continue}return d$(g,a,c[1]-a|0)}}function
+E(d){l(34);function
 a(a){var
 b=34!==a?1:0;if(b)var
 c=92!==a?1:0,d=c?32<=a?1:0:c;else
 var
 d=b;return d}var
-b=F(c[1],a);n(34);return b}function
-H(e,a){if(m(0)===a){c[1]++;return 0}var
+b=D(c[1],a);l(34);return b}function
+F(e,a){if(j(0)===a){c[1]++;return 0}var
 b=0;for(;;){var
-d=[0,j(e,0),b];if(44===m(0)){c[1]++;var
-b=d;continue}n(a);return kZ(d)}}function
-u(b,j){if(64<b)throw X;var
-a=m(0),d=0;if(48<=a){if(91===a){c[1]++;var
-f=93,g=b+1|0;return[1,H(function(a){return u(g,a)},f)]}if(123===a){c[1]++;var
-h=125;return[0,H(function(c){var
-a=G(0);n(58);return[0,a,u(b+1|0,0)]},h)]}if(!(58<=a))d=1}else{if(34===a)return[2,G(0)];if(45===a)d=1}if(d){var
+d=[0,k(e,0),b];if(44===j(0)){c[1]++;var
+b=d;continue}l(a);return lf(d)}}function
+r(b,k){if(64<b)throw X;var
+a=j(0),d=0;if(48<=a){if(91===a){c[1]++;var
+f=93,g=b+1|0;return[1,F(function(a){return r(g,a)},f)]}if(123===a){c[1]++;var
+h=125;return[0,F(function(c){var
+a=E(0);l(58);return[0,a,r(b+1|0,0)]},h)]}if(!(58<=a))d=1}else{if(34===a)return[2,E(0)];if(45===a)d=1}if(d){var
 i=c[1];c[1]++;var
-e=F(i,function(a){var
-b=48<=a?1:0,c=b?a<=57?1:0:b;return c});if(p(e,Cv))return[3,e];throw X}throw X}var
-ab=u(0,0),I=c[1]<l?1:0,ac=I?10===a4(i,c[1])?1:0:I;if(ac)c[1]++;if(c[1]<l)throw X;var
-s=ah(ab);if(p(aZ(v(s,G6)),G7))throw X;var
-a=ke(v(s,G8)),B=0;switch(a[0]){case
+e=D(i,function(a){var
+b=48<=a?1:0,c=b?a<=57?1:0:b;return c});if(p(e,CH))return[3,e];throw X}throw X}var
+V=r(0,0),G=c[1]<i?1:0,W=G?10===a7(g,c[1])?1:0:G;if(W)c[1]++;if(c[1]<i)throw X;var
+q=ai(V);if(p(a1(v(q,Hg)),Hh))throw X;var
+a=kw(v(q,Hi)),y=0;switch(a[0]){case
 1:var
-z=a[1],C=0;if(typeof
-z==="number")if(z)var
-A=2;else
-C=1;else
-if(1===z[1])var
-A=6;else
-C=1;if(C)var
-A=3;var
-h=[0,cs(a[2]),A];break;case
+w=a[1],z=0;if(typeof
+w==="number")if(w)var
+x=2;else
+z=1;else
+if(1===w[1])var
+x=6;else
+z=1;if(z)var
+x=3;var
+f=[0,cs(a[2]),x];break;case
 2:var
-at=1===a[1]?6:3,h=[0,cs(a[2]),at];break;case
+an=1===a[1]?6:3,f=[0,cs(a[2]),an];break;case
 3:var
-au=cs(a[1]),h=[0,cs(a[4]),au];break;case
+ao=cs(a[1]),f=[0,cs(a[4]),ao];break;case
 7:var
-J=a[2];B=1;break;case
+H=a[2];y=1;break;case
 0:case
 5:var
-J=a[1];B=1;break;default:var
-h=Hs}if(B)var
-h=[0,cs(J),3];var
-o=dZ(v(s,G9)),q=o[1];if(p(q,GU))if(p(q,GV))if(p(q,GW))var
-b=ai([0,GY,[0,q,GX]]);else
+H=a[1];y=1;break;default:var
+f=HD}if(y)var
+f=[0,cs(H),3];var
+m=d2(v(q,Hj)),n=m[1];if(p(n,G6))if(p(n,G7))if(p(n,G8))var
+b=al([0,G_,[0,n,G9]]);else
 var
-r=pZ(o[2]),b=[1,r[1],r[2],r[3],r[4]];else
+o=p7(m[2]),b=[1,o[1],o[2],o[3],o[4]];else
 var
-w=pY(h,o[2]),b=[0,w[1],w[2],w[3]];else
+s=p6(f,m[2]),b=[0,s[1],s[2],s[3]];else
 var
-ae=ad(o[2]),b=[2,_(function(f){var
-a=dZ(f),b=a[1];if(p(b,GQ)){if(p(b,GR)){if(p(b,GS)){var
-e=p(b,GT);if(e)throw X;return e}return[0,cO(a[2])]}var
-c=pZ(a[2]);return[2,c[1],c[2],c[3],c[4]]}var
-d=pY(h,a[2]);return[1,d[1],d[2],d[3]]},ae)];function
-af(a){var
-b=a[1];return aF(function(a){return 7<a[2][0]?1:0},b)}function
-ag(a){return 0!==a[3]?1:0}function
-K(a){return aF(ag,a)}var
+Y=ad(m[2]),b=[2,_(function(g){var
+a=d2(g),b=a[1];if(p(b,G2)){if(p(b,G3)){if(p(b,G4)){var
+e=p(b,G5);if(e)throw X;return e}return[0,cQ(a[2])]}var
+c=p7(a[2]);return[2,c[1],c[2],c[3],c[4]]}var
+d=p6(f,a[2]);return[1,d[1],d[2],d[3]]},Y)];function
+Z(a){var
+b=a[1];return aG(function(a){return 7<a[2][0]?1:0},b)}function
+$(a){return 0!==a[3]?1:0}function
+I(a){return aG($,a)}var
 d=0;switch(a[0]){case
 0:if(0===b[0]){var
-M=a[4],L=a[1];d=5}else
-d=4;break;case
+K=a[4],J=a[1];d=4}else
+d=2;break;case
 1:var
-P=a[6],Q=a[2],D=0;if(0===b[0]){var
-al=b[3];if(aF(function(a){var
-b=a[1];return aF(function(a){switch(a[2][0]){case
+M=a[6],N=a[2],A=0;if(0===b[0]){var
+ac=b[3];if(aG(function(a){var
+b=a[1];return aG(function(a){switch(a[2][0]){case
 6:case
-7:return 1;default:return 0}},b)},al))ai(Hf);else
-D=1}else
-D=1;var
-av=0;if(D){var
-U=0;if(aF(function(a){return 5===a[1]?1:0},P)&&aF(function(a){switch(a[0]){case
+7:return 1;default:return 0}},b)},ac))al(Hr);else
+A=1}else
+A=1;var
+ap=0;if(A){var
+Q=0;if(aG(function(a){return 5===a[1]?1:0},M)&&aG(function(a){switch(a[0]){case
 0:case
-3:return 0;default:return 1}},Q)){ai(Hg);U=1}if(!U){var
-V=0;if(0===b[0]){var
-aw=0;if(aF(function(a){return 11===a[1]?1:0},P)&&aF(function(a){return 2===a[0]?1:0},Q)){ai(Hh);V=1;aw=1}}if(!V){var
-x=a[6];d=2;av=1}}}break;case
+3:return 0;default:return 1}},N)){al(Hs);Q=1}if(!Q){var
+R=0;if(0===b[0]){var
+aq=0;if(aG(function(a){return 11===a[1]?1:0},M)&&aG(function(a){return 2===a[0]?1:0},N)){al(Ht);R=1;aq=1}}if(!R){var
+t=a[6];d=3;ap=1}}}break;case
 2:var
-S=a[1],W=0,an=a[7];if(0===b[0]){var
-ao=1===S?6:3,T=cs(a[2])===ao?1:0;if(T){var
-Y=0;if(2<=S||!(0===a[4][0]))Y=1;else
+O=a[1],ae=a[7];if(0===b[0]){var
+af=1===O?6:3,P=cs(a[2])===af?1:0;if(P){var
+S=0;if(2<=O||!(0===a[4][0]))S=1;else
 var
-y=1;if(Y)var
-y=0}else
+u=1;if(S)var
+u=0}else
 var
-y=T;var
-ap=function(b){var
+u=P;var
+ag=function(b){var
 g=0;if(!b[1]){var
 d=b[2];if(8===d[0]){var
 e=d[1];if(7===e[0]){var
 c=e[1],a=0;switch(c[0]){case
-1:if(p(c[1],Hm))a=1;break;case
+1:if(p(c[1],Hv))a=1;break;case
 6:var
-f=c[1];if(1!==f[0]||p(f[1],Hn))a=1;break;default:a=1}if(!a)return 1-y}}else
-g=1}if(!g&&8===b[2][0])return 1;return 0},aq=b[3],Z=0;if(aF(function(a){return aF(ap,a[1])},aq))ai(Ho);else{var
-ar=b[3];if(h$(function(a){var
-b=a[1];return h$(function(d){var
+f=c[1];if(1!==f[0]||p(f[1],Hw))a=1;break;default:a=1}if(!a)return 1-u}}else
+g=1}if(!g&&8===b[2][0])return 1;return 0},ah=b[3],ar=0;if(aG(function(a){return aG(ag,a[1])},ah))al(Hx);else{var
+aj=b[3];if(im(function(a){var
+b=a[1];return im(function(d){var
 b=d[2],a=0;switch(b[0]){case
 0:var
-c=b[1];if(p(c,G2)){if(!p(c,G3))return aF(G1,an)}else
+c=b[1];if(p(c,Hc)){if(!p(c,Hd))return aG(Hb,ae)}else
 a=1;break;case
-1:if(!p(b[1],G4))a=1;break;case
+1:if(!p(b[1],He))a=1;break;case
 7:case
-8:a=1;break}return a?1:0},b)},ar))Z=1;else
-ai(Hp)}if(!Z)W=1}if(!W)d=4;break;case
+8:a=1;break}return a?1:0},b)},aj)){d=1;ar=1}else
+al(Hy)}}else
+d=2;break;case
 3:var
-$=0;if(0===b[0]&&aF(af,b[3]))ai(Hq);else
-$=1;if($){var
-x=a[7];d=2}break;case
+T=0;if(0===b[0]&&aG(Z,b[3]))al(Hz);else
+T=1;if(T){var
+t=a[7];d=3}break;case
 4:var
-x=a[3];d=2;break;case
-7:switch(b[0]){case
-2:var
-as=b[1];if(aF(function(a){if(typeof
+t=a[3];d=3;break;case
+5:if(aG(G$,a[4]))al(HA);else
+if(0===b[0]){var
+ak=b[3];if(aG(function(a){return 0!==a[1]?1:0},ak))al(HB);else
+d=1}else
+d=1;break;case
+6:d=1;break;default:var
+B=0;if(2===b[0]){var
+am=b[1];if(aG(function(a){if(typeof
 a!=="number"&&2===a[0]){var
 b=a[4];if(typeof
-b!=="number"&&3===b[0])return 1}return 0},as))ai(Hr);else
-d=1;break;case
-1:d=3;break;default:d=1}break;default:d=3}var
+b!=="number"&&3===b[0])return 1}return 0},am))al(HC);else
+B=1}else
+B=1;if(B){var
+K=a[4],J=a[2];d=4}}var
 e=0;switch(d){case
-2:switch(b[0]){case
-0:if(aF(function(a){return 12===a[1]?1:0},x)){ai(Hi);e=1}else
-e=2;break;case
-1:e=4;break}break;case
-4:switch(b[0]){case
-0:e=2;break;case
-1:var
-ay=0,O=b[4];if(typeof
-O!=="number"&&3===O[0]){e=1;ay=1}break}break;case
-3:e=4;break;case
-1:e=3;break;case
-0:e=1;break;default:e=5}var
-f=0;switch(e){case
-4:if(1===b[0]){var
-R=b[4];if(typeof
-R==="number"||!(3===R[0]))f=2;else{ai(Hl);f=3}}else
-f=2;break;case
-3:f=2;break;case
-1:f=3;break;case
-5:f=4;break;case
-2:break;default:f=1}var
-g=0;switch(f){case
-2:switch(a[0]){case
-5:if(aF(GZ,a[4])){ai(Hj);g=2}else
-if(0===b[0]){var
-am=b[3];if(aF(function(a){return 0!==a[1]?1:0},am)){ai(Hk);g=2}}break;case
-6:break;case
-7:var
-M=a[4],L=a[2];g=3;break;default:g=1}break;case
-3:g=2;break;case
-4:g=3;break;case
-0:break;default:g=1}var
-t=0;switch(g){case
-2:break;case
-3:var
-aa=0;if(aF(function(a){return 10===a[1]?1:0},M)&&aF(function(a){return 2===a[0]?1:0},L)){ai(G_);aa=1}if(!aa)t=2;break;case
-0:t=2;break;default:t=1}var
-E=0;switch(t){case
+3:if(0===b[0])if(aG(function(a){return 12===a[1]?1:0},t)){al(Hu);e=3}else
+e=2;else
+e=1;break;case
+0:e=3;break;case
+4:var
+U=0;if(aG(function(a){return 10===a[1]?1:0},K)&&aG(function(a){return 2===a[0]?1:0},J)){al(Hk);U=1}if(!U)e=2;break;case
+1:e=2;break;default:e=1}var
+C=0;switch(e){case
+3:break;case
 2:var
-k=0;switch(a[0]){case
+h=0;switch(a[0]){case
 5:case
-7:if(aF(G0,a[4])){ai(Hd);k=1}else
+7:if(aG(Ha,a[4])){al(Hp);h=1}else
 if(7===a[0])switch(b[0]){case
 2:var
-ak=function(a){if(typeof
-a!=="number"&&1===a[0])return K(a[3]);return 0};if(aF(ak,b[1]))ai(He);k=1;break;case
-0:break;default:E=1;k=1}else
-k=1;break}if(!k)if(0===b[0]&&K(b[3]))ai(Hc);else
-E=1;break;case
-1:E=1;break}var
-N=ah(v(s,G$)),aj=aZ(v(N,Ha));return[0,a,b,aZ(v(N,Hb)),aj]}function
-Ht(b){var
-c=ax(b),g=64,h=I6(64,c)?g:c,a=0,i=h-18|0;for(;;){var
+ab=function(a){if(typeof
+a!=="number"&&1===a[0])return I(a[3]);return 0};if(aG(ab,b[1]))al(Hq);h=1;break;case
+0:break;default:C=1;h=1}else
+h=1;break}if(!h)if(0===b[0]&&I(b[3]))al(Ho);else
+C=1;break;case
+1:C=1;break}var
+L=ai(v(q,Hl)),aa=a1(v(L,Hm));return[0,a,b,a1(v(L,Hn)),aa]}function
+HE(b){var
+c=az(b),g=64,h=Jf(64,c)?g:c,a=0,i=h-18|0;for(;;){var
 d=a<=i?1:0;if(d){var
-e=az(d8(b,a,18),Hu);if(!e){var
+e=aB(d$(b,a,18),HF);if(!e){var
 a=a+1|0;continue}var
 f=e}else
 var
-f=d;return f}}Jp(function(b){try{if(Ht(b))var
-a=Hw;else{try{var
-e=0,d=G5(b);e=1}catch(a){a=sl(a);if(a[1]===pO)var
+f=d;return f}}JA(function(b){try{if(HE(b))var
+a=HH;else{try{var
+e=0,d=Hf(b);e=1}catch(a){a=ss(a);if(a[1]===pW)var
 c=[0,a[2]];else{if(a!==X)throw a;var
 c=2}}if(e)var
-c=Cr(b,d)?1===d[2][0]?1:0:2;var
-a=c}}catch(a){return Hv}if(typeof
+c=CD(b,d)?1===d[2][0]?1:0:2;var
+a=c}}catch(a){return HG}if(typeof
 a==="number")switch(a){case
-0:return Hx;case
-1:return Hy;default:return Hz}return ba(HA,a[1])});kY(0);return}(globalThis));
+0:return HI;case
+1:return HJ;default:return HK}return bd(HL,a[1])});le(0);return}(globalThis));

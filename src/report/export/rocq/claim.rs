@@ -67,6 +67,8 @@ impl Subject<'_> {
                  Statement.in_region (positions the_claim) P' /\\ Orientation.in_orientations (turned the_claim) Q' /\\\n  \
                  Forall (fun l => strut_length l P' Q' = strut_length l P Q) m /\\ ~ (P' = P /\\ Q' = Q)"
             }
+            (Kind::Legs, true) if is_same(proof) => "has_two_poses the_claim",
+            (Kind::Formulas, true) if is_same(proof) => "has_two_points the_claim",
             (Kind::Machine, false) => "holds the_claim /\\ exists m P, is_about the_claim m P",
             (Kind::Machine, true) => "exists m P, is_about the_claim m P /\\ ~ meets the_claim m P",
             (Kind::Legs, false) => {

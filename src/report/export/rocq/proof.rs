@@ -38,20 +38,8 @@ fn covered(proof: &Proof, subject: &Subject<'_>) -> Exported<()> {
     let has_sign = subject.requirements.iter().any(is_by_slopes);
     let fails = |tree: &Tree| tree.nodes.iter().any(|node| node.fails.is_some());
     let is_outside = |cell: &AtlasCell| matches!(cell, AtlasCell::Certified(tree) if fails(tree));
-    let refuted: Vec<&Failure> = match proof {
-        Proof::Tree(_) => Vec::new(),
-        Proof::Witness(witness) => vec![&witness.fails],
-        Proof::Atlas(cells) => cells
-            .iter()
-            .filter_map(|cell| match cell {
-                AtlasCell::Refuted(witness) => Some(&witness.fails),
-                _ => None,
-            })
-            .collect(),
-    };
-    let is_same = refuted.iter().any(|fails| matches!(fails, Failure::Same { .. }));
-    let is_of_two_points = |kind, proof: &Proof| {
-        matches!((kind, proof), (Kind::Machine | Kind::Turning, Proof::Witness(_)))
+    let is_same = |cell: &AtlasCell| {
+        matches!(cell, AtlasCell::Refuted(Witness { fails: Failure::Same { .. }, .. }))
     };
     let what = match (subject.kind, proof) {
         (Kind::Formulas, _)
@@ -90,7 +78,7 @@ fn covered(proof: &Proof, subject: &Subject<'_>) -> Exported<()> {
         {
             "a step of a platform that turns that is not at control points"
         }
-        (kind, proof) if is_same && !is_of_two_points(kind, proof) => {
+        (Kind::Atlas, Proof::Atlas(cells)) if cells.iter().any(is_same) => {
             "the failure \"same\" of such a mechanism"
         }
         (Kind::Machine, Proof::Tree(_)) | (Kind::Atlas, _) if accelerates_plane => {
