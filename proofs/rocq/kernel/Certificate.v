@@ -743,6 +743,23 @@ Definition driven_claim_of (k : mobility) (ls : list written_driven) (ell : opti
   MakeDrivenClaim k (map (any_drive_of k) ls) (match ell with Some x => denoted x | None => 1 // 1 end) (place_in w) (option_map orientation_of o)
     (demands (has_arms ls) (length ls) [] rs) (existsb is_of_two_points rs).
 
+(** Of legs that do not turn the platform: what is asked of them in the words of Legs.v alone, whatever else is. *)
+Definition is_of_legs (r : written_requirement) : bool := match about_ r with Load_ | LegAngle_ => true | _ => false end.
+Definition driven_leg (l : written_leg) : written_driven :=
+  let three {A : Type} (t : triple A) := [first t; second t; third t] in
+  match l with
+  | Slider_ d a p len m => AnySlider_ (three d) (three a) (three p) len m
+  | Strut_ a p k => AnyStrut_ (three a) (three p) (option_map three k)
+  | Planar_ d => AnyPlanar_ (three d)
+  end.
+Definition any_place (w : written_region) : written_place :=
+  match w with
+  | Box_ a b => AnyBox_ [first a; second a; third a] [first b; second b; third b]
+  | Cylinder_ x y r bottom top => AnyCylinder_ x y r bottom top
+  end.
+Definition claim_of_legs (ls : list written_leg) (w : written_region) (rs : list written_requirement) : driven_claim :=
+  driven_claim_of Translates (map driven_leg ls) None (any_place w) None (filter is_of_legs rs).
+
 (** *** The closed design *)
 
 (** Its bounds on psi. *)
@@ -918,9 +935,11 @@ Definition postulate_for (psi : R) : Prop := forall L a e, 0 < L -> let m := ort
 Definition means (c : certificate) : Prop :=
   match subject_ c, proof_ c with
   | Machine_ ls w bs rs, Nodes _ _ _ =>
-      Statement.holds (claim_of ls w bs rs) /\ exists m P, is_about (claim_of ls w bs rs) m P
+      let whole := Statement.holds (claim_of ls w bs rs) /\ exists m P, is_about (claim_of ls w bs rs) m P in
+      if existsb is_of_legs rs then whole /\ driven_holds (claim_of_legs ls w rs) else whole
   | Machine_ ls w bs rs, ByWitness _ _ _ _ =>
-      exists m P, is_about (claim_of ls w bs rs) m P /\ ~ meets (claim_of ls w bs rs) m P
+      let whole := exists m P, is_about (claim_of ls w bs rs) m P /\ ~ meets (claim_of ls w bs rs) m P in let c := claim_of_legs ls w rs in
+      if existsb is_of_legs rs then whole \/ (exists m P Q, Forall well_formed_driven m /\ is_about_driven c m P Q /\ ~ meets_driven c m P Q) else whole
   | Legs_ k ls ell w o rs, Nodes _ _ _ => let c := driven_claim_of k ls ell w o rs in
       driven_holds c /\ exists m P Q, is_about_driven c m P Q
   | Legs_ k ls ell w o rs, ByWitness _ _ _ (Same_ _ _ _ _ _) => has_two_poses (driven_claim_of k ls ell w o rs)
@@ -1475,14 +1494,45 @@ Fixpoint accept_cells (ps : parameters_) (ls : list written_leg) (w : written_re
 Definition is_share (x : expression) (found : Q) : bool :=
   match rational (denoted x) with Some q => Qle_bool 0 q && Qle_bool q found | None => false end.
 
+(** The number of a test among those that are left, but for the first. *)
+Definition number_in (left : list bool) (i : nat) : option nat :=
+  match i with
+  | O => Some O
+  | S j => if nth j left false then Some (S (length (filter (fun x => x) (firstn j left)))) else None
+  end.
+(** Which tests are of requirements of Legs.v. *)
+Definition tests_of_legs (legs : nat) (bs : list written_body) (rs : list written_requirement) : list bool :=
+  flat_map (fun r => if is_of_legs r then repeat true (list_sum (map (Configuration.tests_of exact_bits 1) (demand_of false legs [] r)))
+    else repeat false (length (other_of legs bs r))) rs.
+Definition nodes_in (left : list bool) (nodes : list node) : list node :=
+  map (fun n => Node (flat_map (fun s => match number_in left (fst s) with Some i => [(i, snd s)] | None => [] end) (by_ n)) (split_ n) (fails_ n) (offset_ n)) nodes.
+Definition violation_in (left : list bool) (how : violation) : option violation :=
+  match how with
+  | Obligation i vs => option_map (fun i => Obligation i vs) (number_in left i)
+  | Row i leg => option_map (fun i => Row i leg) (number_in left i)
+  | Same_ i a b y places => option_map (fun i => Same_ i a b y places) (number_in left i)
+  | how => Some how
+  end.
+Definition accept_parts_tree (ls : list written_leg) (w : written_region) (bs : list written_body) (rs : list written_requirement)
+    (bits : positive) (chords : option (list (list Z) * N)) (nodes : list node) : bool :=
+  let left := tests_of_legs (length ls) bs rs in let others := filter (fun r => negb (is_of_legs r)) rs in
+  if existsb is_of_legs rs then accept_tree false ls w bs others bits chords (nodes_in (map negb left) nodes) &&
+    accept_driven_tree Translates (map driven_leg ls) None (any_place w) None (filter is_of_legs rs) bits None (nodes_in left nodes)
+  else accept_tree false ls w bs rs bits chords nodes.
+Definition accept_parts_witness (ls : list written_leg) (w : written_region) (bs : list written_body) (rs : list written_requirement)
+    (point machine : list expression) (how : violation) : bool :=
+  let left := tests_of_legs (length ls) bs rs in let others := filter (fun r => negb (is_of_legs r)) rs in
+  if existsb is_of_legs rs then
+    are_well_formed_legs Translates (map driven_leg ls) None (any_place w) None (filter is_of_legs rs) &&
+    match violation_in (map negb left) how with Some how => accept_witness ls w bs others point machine how | None => false end ||
+    is_well_formed ls bs others (claim_of ls w bs others) &&
+    match violation_in left how with Some how => accept_driven_witness Translates (map driven_leg ls) None (any_place w) None (filter is_of_legs rs) point machine how | None => false end
+  else accept_witness ls w bs rs point machine how.
+
 (** Of the tree of a closed design, what it says of the rest; about a tight corner M has full rank, which is asked there. *)
 Definition closed_nodes (rs : list written_requirement) (nodes : list node) : list node :=
   let left := flat_map (fun r => if is_of_two_points r then [true] else flat_map (fun d => repeat (negb (is_by_theorem r)) (Configuration.tests_of exact_bits 1 d)) (demand_of false 3 [] r)) rs in
-  let number_of i := match i with
-    | O => Some O
-    | S j => if nth j left false then Some (S (length (filter (fun x => x) (firstn j left)))) else None
-    end in
-  let step_of (s : nat * step) := match number_of (fst s), snd s with
+  let step_of (s : nat * step) := match number_in left (fst s), snd s with
     | Some i, AtCorner _ => [(i, Multiplied "rank" [[1; 0; 0]; [0; 1; 0]; [0; 0; 1]]%Z 0)]
     | Some i, s => [(i, s)]
     | None, _ => []
@@ -1513,8 +1563,8 @@ Definition accept_closed_witness (offset side : expression) (rs : list written_r
 Definition accept (c : certificate) : bool :=
   is_plain_certificate c &&
   match subject_ c, proof_ c with
-  | Machine_ ls w bs rs, Nodes bits chords nodes => accept_tree false ls w bs rs bits chords nodes
-  | Machine_ ls w bs rs, ByWitness _ point machine how => accept_witness ls w bs rs point machine how
+  | Machine_ ls w bs rs, Nodes bits chords nodes => accept_parts_tree ls w bs rs bits chords nodes
+  | Machine_ ls w bs rs, ByWitness _ point machine how => accept_parts_witness ls w bs rs point machine how
   | Atlas_ ps ls w rs certified refuted, Cells cells =>
       match atlas_of (length cells) cells with
       | Some (t, []) => are_parameters ps && is_share certified (share is_proved t) && is_share refuted (share is_disproved t) &&
@@ -1654,6 +1704,26 @@ Proof.
   destruct (all_rational a); [| discriminate]. destruct (all_rational b); [| discriminate]. apply andb_true_iff in h as [_ h]. exact (refute_same_driven_sound _ _ _ _ _ _ _ _ _ h).
 Qed.
 
+Lemma claim_of_others : forall ls w bs rs, claim_of ls w bs (filter (fun r => negb (is_of_legs r)) rs) = claim_of ls w bs rs.
+Proof.
+  assert (K : forall (A : Type) (f : written_requirement -> list A), (forall r, is_of_legs r = true -> f r = []) -> forall rs, flat_map f (filter (fun r => negb (is_of_legs r)) rs) = flat_map f rs).
+  { intros A f h. induction rs as [| r rs IH]; [reflexivity |]. cbn [filter flat_map]. destruct (is_of_legs r) eqn:e; cbn [negb]; [rewrite (h r e); exact IH | cbn [flat_map]; rewrite IH; reflexivity]. }
+  intros ls w bs rs. unfold claim_of, obligations. rewrite !K; [reflexivity | |]; intros [a l g e] h; destruct a; try discriminate h; reflexivity.
+Qed.
+Lemma accept_parts_tree_sound : forall ls w bs rs bits chords nodes tool version, accept_parts_tree ls w bs rs bits chords nodes = true -> means (Certificate (Machine_ ls w bs rs) (Nodes bits chords nodes) tool version).
+Proof.
+  intros ls w bs rs bits chords nodes tool version h. unfold means, accept_parts_tree in *. cbn [subject_ proof_]. cbv zeta in *. destruct (existsb is_of_legs rs); [| exact (accept_tree_sound _ _ _ _ _ _ _ _ _ h)].
+  apply andb_true_iff in h as [h h']. pose proof (accept_tree_sound _ _ _ _ _ _ _ _ _ h) as H. cbv zeta in H. rewrite claim_of_others in H. split; [exact H |]. exact (proj1 (accept_driven_tree_sound _ _ _ _ _ _ _ _ _ h')).
+Qed.
+Lemma accept_parts_witness_sound : forall ls w bs rs bits point machine how tool version, accept_parts_witness ls w bs rs point machine how = true ->
+  means (Certificate (Machine_ ls w bs rs) (ByWitness bits point machine how) tool version).
+Proof.
+  intros ls w bs rs bits point machine how tool version h. unfold means, accept_parts_witness in *. cbn [subject_ proof_]. cbv zeta in *. destruct (existsb is_of_legs rs); [| exact (accept_witness_sound _ _ _ _ _ _ _ _ h)].
+  apply orb_true_iff in h as [h | h]; apply andb_true_iff in h as [_ h]; (destruct (violation_in _ how) as [how' |]; [| discriminate]).
+  - left. pose proof (accept_witness_sound _ _ _ _ _ _ _ _ h) as H. cbv zeta in H. rewrite claim_of_others in H. exact H.
+  - right. exact (accept_driven_witness_sound _ _ _ _ _ _ _ _ _ h).
+Qed.
+
 Lemma accept_closed_witness_sound : forall offset side rs bits point machine how tool version, accept_closed_witness offset side rs point machine how = true ->
   means (Certificate (Closed_ offset side rs) (ByWitness bits point machine how) tool version).
 Proof.
@@ -1686,8 +1756,8 @@ Proof.
   intros [s p t v] h. unfold accept in h. apply andb_true_iff in h as [_ h]. unfold means. cbn [subject_ proof_] in *.
   destruct s as [ls w bs rs | k ls ell w o rs | k ls ell w o bs rs | xs ps ds rows a b rs | offset side rs | ls a b rs side | [q |] | ps ls w rs certified refuted],
     p as [bits chords nodes | bits point machine how | cells]; try discriminate.
-  - exact (accept_tree_sound _ _ _ _ _ _ _ _ _ h).
-  - exact (accept_witness_sound _ _ _ _ _ _ _ _ h).
+  - exact (accept_parts_tree_sound ls w bs rs bits chords nodes t v h).
+  - exact (accept_parts_witness_sound ls w bs rs bits point machine how t v h).
   - exact (accept_driven_tree_sound _ _ _ _ _ _ _ _ _ h).
   - destruct how; try exact (accept_driven_witness_sound _ _ _ _ _ _ _ _ _ h). exact (accept_driven_twins_sound _ _ _ _ _ _ _ _ _ _ _ _ _ h).
   - cbv zeta in h. destruct (tree_of _ _ _ _ _ nodes) as [[tr [|]] |]; try discriminate. apply andb_true_iff in h as [_ h].

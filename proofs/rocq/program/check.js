@@ -296,6 +296,47 @@ for (const [name, force, stated, edits] of [
   }
 }
 console.log(`loads: ${loads} bounds with one answer, and ${no_loads} refused`);
+// Loads and angles of legs beside what is asked of whole machines: bodies, couples, accelerations, accuracy, two points, and determinants of struts.
+let parts = 0, no_parts = 0;
+for (const [name, requirements, most, wrong, steps] of [
+  ["kernel/upu-base-axes", 'transmission = { max = "1.25" }\nconstraint_margin = { min = "0.8" }\nload = { force = [1, -3, 9], max = 9.5 }', "9.5", 'constraint_margin = { min = "0.99" }', 8],
+  ["tripteron", "one_to_one = true\nload = { force = [1, 2, -3], max = 9 }", "9", "", 8],
+  ["upu-struts", 'parallel_margin = { min = "0.1" }\nload = { force = [1, -3, 9], max = 9.5 }', "9.5", 'parallel_margin = { min = "0.99" }', 8],
+  ["delta-parallel-margin", "joint_acceleration = { speed = 100, acceleration = 1000, max = 9000 }\nleg_angle = { max = 80 }\nload = { force = [10, 5, -100], max = 83 }", "83", "joint_acceleration = { speed = 100, acceleration = 1000, max = 100 }", 14],
+  ["delta-parallel-margin", "load = { force = [10, 5, -100], max = 83 }\naccuracy = { joint_error = 0.01, max = 1 }", "83", "accuracy = { joint_error = 0.01, max = 0.001 }", 14],
+  ["orthoglide-prototype-whole", "load = { force = [0, 1, 3], max = 9 }\nleg_angle = { max = 75 }", "9", "clearance = { min = 200 }", 0],
+]) {
+  const design = path.join(made, "parts.toml"), file = path.join(made, "parts.cert.json");
+  const made_of = (requirements) => {
+    const text = fs.readFileSync(path.join(__dirname, "../../../tests/designs", `${name}.toml`), "utf8");
+    fs.writeFileSync(design, name.includes("whole") ? text.replace("[requirements]", `[requirements]\n${requirements}`) : text.replace(/\[requirements\][^]*/, `[requirements]\n${requirements}\n`));
+    spawnSync(orthocert, ["verify", design, "-o", file]);
+    const made_text = fs.readFileSync(file, "latin1");
+    agrees(file, verify(made_text));
+    return made_text;
+  };
+  const text = made_of(requirements), own = three_answers(text);
+  if (own.some((answer) => answer !== "CERTIFIED")) fail(`parts of ${name}: ${own}`);
+  if (steps) read.push(last_number((b) => text.replace(`"end":"max","bound":"${most}"`, `"end":"max","bound":"${b}"`), 0.3 * most, +most, steps, `parts of ${name}`)), parts += steps;
+  const fails = [requirements.replace(/(load = .*max = )[\d.]*/, (_, all) => `${all}${most / 100}`)];
+  if (wrong) fails.push(name.includes("whole") ? null : requirements.replace(new RegExp(`^${wrong.split(" ")[0]} = .*$`, "m"), wrong));
+  for (const requirements of fails.filter((x) => x)) {
+    const text = made_of(requirements), answers = three_answers(text);
+    if (answers.some((answer) => answer !== "REFUTED")) fail(`parts of ${name}: ${answers}: ${requirements}`);
+    else read.push(text);
+    for (const by of [-1, 1, 2, 9]) {
+      const other = text.replace(/"fails":\{"obligation":\[(\d+)/, (all, i) => all.replace(i, Math.max(0, +i + by))), answers = three_answers(other);
+      if (new Set(answers).size > 1 || answers[0] === "CERTIFIED") fail(`parts of ${name}: ${answers}: ${by}`);
+      no_parts++;
+    }
+  }
+  for (const [from, to] of [['"load","given"', '"load","leg":4,"given"'], [/"force":\["[^"]*",/, '"force":['], [/(\{"quantity":"load".*?"\})/, "$1,$1"], [/\[([1-9]),"test"/, '[$1,"negative"']]) {
+    const other = text.replace(from, to), answers = three_answers(other);
+    if (other !== text && answers.some((answer) => answer !== "REJECTED")) fail(`parts of ${name}: ${answers}: ${from} ${to}`);
+    no_parts++;
+  }
+}
+console.log(`loads beside other requirements: ${parts} bounds with one answer, and ${no_parts} others`);
 // Refutations: of quantities on machines of each kind, at bounds ever nearer to the last with which the witness refutes; and in no directions, or others.
 const refutations = [
   ["skew-guides", "joint_force = { tool = 10, max = 1 }", 90], ["skew-guides", "joint_acceleration = { speed = 50, acceleration = 1000, max = 10 }", 9000],

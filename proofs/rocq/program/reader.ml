@@ -161,6 +161,8 @@ let driven v =
   | "planar", None -> AnyPlanar_ (vector "direction")
   | "arm", None -> AnyArm_ (vector "axis", vector "reference", vector "anchor", vector "platform", quantity (get l "arm"), quantity (get l "length"), mode (get l "mode"))
   | drive, _ -> not_covered [ "the drive \""; drive; "\" of such a machine" ]
+let is_slider v = match members v with ("drive", String "slider") :: _ -> true | _ -> false
+let is_plane v = match members v with ("drive", String "planar") :: _ -> true | _ -> false
 let is_strut v = match members v with ("drive", String "strut") :: _ -> true | _ -> false
 
 let two f v = match array v with [ x; y ] -> (f x, f y) | _ -> raise Malformed
@@ -297,7 +299,12 @@ let rec subject v =
      | ("translational", legs), (("box" | "cylinder"), _ as workspace) ->
        let legs = array legs in
        let require = require () in
-       if List.exists is_arm legs || List.exists (fun r -> r.about_ = LegAngle_ || r.about_ = Load_) require then begin
+       let asks = List.exists (fun r -> match r.about_ with
+         | Constraint_ | Clearance_ | Acceleration_ | Accuracy_ -> true
+         | OneToOne_ -> List.exists is_plane legs
+         | Parallel_ -> not (List.for_all is_slider legs)
+         | _ -> false) require in
+       if List.exists is_arm legs || List.exists is_of_legs require && not asks then begin
          without_bodies ();
          Legs_ (Translates, List.map driven legs, None, place workspace, None, List.map driven_demand (array (get l "require")))
        end else begin
@@ -327,13 +334,13 @@ let rec subject v =
   | "no_cube", v ->
     let l = members v in
     (match subject (Object [ ("machine", get l "machine") ]) with
-     | Machine_ (legs, Box_ (min, max), [], require) -> NoCube_ (legs, min, max, require, number (get l "side"))
+     | Machine_ (legs, Box_ (min, max), [], require) when not (List.exists is_of_legs require) -> NoCube_ (legs, min, max, require, number (get l "side"))
      | _ -> not_covered [ "a claim that no cube of such a machine fits" ])
   | "atlas", v ->
     let l = members v in
     let parameter v = let p = members v in (string (get p "name"), (number (get p "min"), number (get p "max"))) in
     (match subject (Object [ ("machine", get l "machine") ]) with
-     | Machine_ (legs, region, [], require) ->
+     | Machine_ (legs, region, [], require) when not (List.exists is_of_legs require) ->
        Atlas_ (List.map parameter (array (get l "parameters")), legs, region, require, number (get l "certified"), number (get l "refuted"))
      | _ -> not_covered [ "an atlas of such a machine" ])
   | claim, _ -> not_covered [ "a claim of the kind \""; claim; "\"" ]

@@ -4,56 +4,56 @@ globalThis!=="object"&&(this?b():(a.defineProperty(a.prototype,"_T_",{configurab
 b(){var
 b=this||self;b.globalThis=b;delete
 a.prototype._T_}}(Object));(function(S){"use strict";var
-kK="spatial",rZ="Invalid_argument",h6="precision",aR='"',kJ=1255,kW="inside",qX="(",qY=0x800,rY="yaw",qU="range",qV="tree",qW="jsError",cn=0x8000,rX="sqrt(",qT=256,h5="obligation",rW="load",gc="offset",bt="machine",qS="End_of_file",e0="strut",kI="center",gb="arm",kH="Failure",rV="serial_margin",ib="parameters",cT=0xff,rU="bodies",rT="max_angle",kV="outside",ga="base_axis",kG="ENOENT",rS="singular",rR=122,qR="([^/]+)",rQ="0",kF=0xf,f$=128,qQ=0xdc00,rO="Sys_blocked_io",rP="fd ",f4="given",qP="ENOTEMPTY",a6=248,h4="bound",qO="Division_by_zero",rM="by",rN=1027,qN="Sys_error",ia="slider",qM="torsion",rL="postulate",qL="proof",kU="joint_error",f_="refuted",eT="mechanism",h3="row",qK="EEXIST",rK="roll_pitch_yaw",f9="y",qJ="cube",dt="lower",rJ="within",qI="clearance",rI="turned",qH="control",h2="int_of_string",qG="between",rG="definitions",rH="dependent",f8=1024,qE="from",qF="name",rF=" : flags Open_rdonly and Open_wronly are not compatible",qD="orthocert/2",rE="reach",qC=512,rC="base_joint",rD="witness",eZ="-",bk="platform",qB=0x7ff0,qA="pitch",kT=": Not a directory",bK="min",rA="trim",eY="workspace",rB=" : file already exists",h1="split",kS="legs",rz="claim",kE="joint",d6=0xffffff,qz="platform_joint",qy="formulas",qx="roll",h0="atlas",rw="greatest",rx="nodes",ry="Out_of_memory",qw="psi_max",h$="orientation",hZ=254,rv="angle",kR="index out of bounds",qv="end",ru="one_to_one",h_="_bigarr02",qu=" : flags Open_text and Open_binary are not compatible",rt="inverse",bJ="drive",qt="coordinates",rs="holds",qs="lower_divided",qr="speed",rq="cylinder",rr="joints",cS=0xffff,rm="a leaf that fails",rn="acceleration",ro="force",f6="certified",f7="chords",rp=12520,kD="on",rl="same",eS="accuracy",f5="axis",rk="no_cube",rj="parallel_margin",qq='the drive "',kC="Unix.Unix_error",h9="fails",hY="tool",kB="mkdir",rh="rho",ri="least",h8=1000,kA="translational",kQ="tolerances",qp="Stack_overflow",kP="characteristic_length",ae="",kO="^",hW="places",hX=": No such file or directory",qo="/static/",eX=0x3f,qm="stiffness",qn="Not_found",cR="planar",f3="mode",rg="joint_speed",rf="Match_failure",ql="transmission",bI="anchor",re="at",qk="joint_force",eW="leg",qj="joint_acceleration",h7="+",kz="rmdir",rd=0xf0,rc="spherical",qi=1026,ra="REJECTED",rb="undecided",bM="max",bL="direction",qg="leg_angle",qh="orthoglide",eV="rank",q_="constraint_margin",q$="fan",f2="test",qe="Pervasives.do_at_exit",qf="utf8",b4=0x80,eU="conditioning",eR="length",qd="Undefined_recursive_module",kN=")",qc="base",q9="quantity",qb="joint_range",hV="tilt",qa="Q2",q8="reference",p$="point",q6="corner",q7=0xe0,p_="version",kM="z",q4="to",q5=0xdfff,ky="compare: functional value",q3="Assert_failure",b6="/",q2="provenance",d5="radius",hU="side",q0=-14,b5="require",q1="format",p9="Q1",kL="ENOTDIR",p8="all",d4="box",qZ=250;function
-k8(c,b,a){var
+kS="spatial",r8="Invalid_argument",ic="precision",aR='"',kR=1255,k4="inside",q6="(",q7=0x800,r7="yaw",q3="range",q4="tree",q5="jsError",cp=0x8000,r6="sqrt(",q2=256,ib="obligation",r5="load",gg="offset",bv="machine",q1="End_of_file",e1="strut",kQ="center",gf="arm",kP="Failure",r4="serial_margin",ij="parameters",cU=0xff,r3="bodies",r2="max_angle",k3="outside",ge="base_axis",kO="ENOENT",r1="singular",r0=122,q0="([^/]+)",rZ="0",kN=0xf,gd=128,qZ=0xdc00,rX="Sys_blocked_io",rY="fd ",f7="given",qY="ENOTEMPTY",a7=248,ia="bound",qX="Division_by_zero",rV="by",rW=1027,qW="Sys_error",gc="slider",qV="torsion",rU="postulate",qU="proof",k2="joint_error",gb="refuted",eU="mechanism",h$="row",qT="EEXIST",rT="roll_pitch_yaw",ga="y",qS="cube",du="lower",rS="within",qR="clearance",rR="turned",qQ="control",h_="int_of_string",qP="between",rP="definitions",rQ="dependent",f$=1024,qN="from",qO="name",rO=" : flags Open_rdonly and Open_wronly are not compatible",qM="orthocert/2",rN="reach",qL=512,rL="base_joint",rM="witness",e0="-",bl="platform",qK=0x7ff0,qJ="pitch",k1=": Not a directory",bK="min",rJ="trim",eZ="workspace",rK=" : file already exists",h9="split",k0="legs",rI="claim",kM="joint",d7=0xffffff,qI="platform_joint",qH="formulas",qG="roll",h8="atlas",rF="greatest",rG="nodes",rH="Out_of_memory",qF="psi_max",ii="orientation",h7=254,rE="angle",kZ="index out of bounds",qE="end",rD="one_to_one",ih="_bigarr02",qD=" : flags Open_text and Open_binary are not compatible",rC="inverse",bu="drive",qC="coordinates",rB="holds",qB="lower_divided",qA="speed",rz="cylinder",rA="joints",cT=0xffff,rv="a leaf that fails",rw="acceleration",rx="force",f9="certified",f_="chords",ry=12520,kL="on",ru="same",eT="accuracy",f8="axis",rt="no_cube",rs="parallel_margin",qz='the drive "',kK="Unix.Unix_error",ig="fails",h6="tool",kJ="mkdir",rq="rho",rr="least",ie=1000,kI="translational",kY="tolerances",qy="Stack_overflow",kX="characteristic_length",af="",kW="^",h4="places",h5=": No such file or directory",qx="/static/",eY=0x3f,qv="stiffness",qw="Not_found",co="planar",f6="mode",rp="joint_speed",ro="Match_failure",qu="transmission",bJ="anchor",rn="at",qt="joint_force",eX="leg",qs="joint_acceleration",id="+",kH="rmdir",rm=0xf0,rl="spherical",qr=1026,rj="REJECTED",rk="undecided",bM="max",bL="direction",qp="leg_angle",qq="orthoglide",eW="rank",rh="constraint_margin",ri="fan",f5="test",qn="Pervasives.do_at_exit",qo="utf8",b5=0x80,eV="conditioning",eS="length",qm="Undefined_recursive_module",kV=")",ql="base",rg="quantity",qk="joint_range",h3="tilt",qj="Q2",rf="reference",qi="point",rd="corner",re=0xe0,qh="version",kU="z",rb="to",rc=0xdfff,kG="compare: functional value",ra="Assert_failure",b7="/",q$="provenance",d6="radius",h2="side",q9=-14,b6="require",q_="format",qg="Q1",kT="ENOTDIR",qf="all",d5="box",q8=250;function
+le(c,b,a){var
 d=String.fromCharCode;if(b==0&&a<=4096&&a==c.length)return d.apply(null,c);var
-e=ae;for(;0<a;b+=f8,a-=f8)e+=d.apply(null,c.slice(b,b+Math.min(a,f8)));return e}function
-id(b){if(S.Uint8Array)var
+e=af;for(;0<a;b+=f$,a-=f$)e+=d.apply(null,c.slice(b,b+Math.min(a,f$)));return e}function
+il(b){if(S.Uint8Array)var
 c=new(S.Uint8Array)(b.l);else
 var
 c=new
 Array(b.l);var
 e=b.c,d=e.length,a=0;for(;a<d;a++)c[a]=e.charCodeAt(a);for(d=b.l;a<d;a++)c[a]=0;b.c=c;b.t=4;return c}function
-gd(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?k8(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
-if(b.t==2&&f==b.c.length){b.c+=d.t==4?k8(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)id(b);var
+gh(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?le(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
+if(b.t==2&&f==b.c.length){b.c+=d.t==4?le(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)il(b);var
 g=d.c,h=b.c;if(d.t==4)if(f<=e)for(var
 a=0;a<c;a++)h[f+a]=g[e+a];else
 for(var
 a=c-1;a>=0;a--)h[f+a]=g[e+a];else{var
 i=Math.min(c,g.length-e);for(var
 a=0;a<i;a++)h[f+a]=g.charCodeAt(e+a);for(;a<c;a++)h[f+a]=0}}return 0}function
-e3(a){return a}function
-e2(a,b,c,d,e){gd(e3(a),b,c,d,e);return 0}function
-kY(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
+e4(a){return a}function
+e3(a,b,c,d,e){gh(e4(a),b,c,d,e);return 0}function
+k6(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
 0:return a.c.charCodeAt(b);case
 4:return a.c[b]}}function
-dv(c,a){if(c.fun)return dv(c.fun,a);if(typeof
+dw(c,a){if(c.fun)return dw(c.fun,a);if(typeof
 c!=="function")return c;var
 b=c.length|0;if(b===0)return c.apply(null,a);var
 e=a.length|0,d=b-e|0;if(d==0)return c.apply(null,a);else
-if(d<0)return dv(c.apply(null,a.slice(0,b)),a.slice(b));else
+if(d<0)return dw(c.apply(null,a.slice(0,b)),a.slice(b));else
 return function(){var
 e=arguments.length==0?1:arguments.length,d=new
 Array(a.length+e);for(var
 b=0;b<a.length;b++)d[b]=a[b];for(var
-b=0;b<arguments.length;b++)d[a.length+b]=arguments[b];return dv(c,d)}}function
-sp(b,a){if(b==0)return ae;if(a.repeat)return a.repeat(b);var
-d=ae,c=0;for(;;){if(b&1)d+=a;b>>=1;if(b==0)return d;a+=a;c++;if(c==9)a.slice(0,1)}}function
-e4(a){if(a.t==2)a.c+=sp(a.l-a.c.length,"\0");else
-a.c=k8(a.c,0,a.c.length);a.t=0}function
-e5(a){a.t&6&&e4(a);return a.c}var
-Jy=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
-Jx(a){if(Jy)return Math.floor(Math.log2(a));var
+b=0;b<arguments.length;b++)d[a.length+b]=arguments[b];return dw(c,d)}}function
+sy(b,a){if(b==0)return af;if(a.repeat)return a.repeat(b);var
+d=af,c=0;for(;;){if(b&1)d+=a;b>>=1;if(b==0)return d;a+=a;c++;if(c==9)a.slice(0,1)}}function
+e5(a){if(a.t==2)a.c+=sy(a.l-a.c.length,"\0");else
+a.c=le(a.c,0,a.c.length);a.t=0}function
+e6(a){a.t&6&&e5(a);return a.c}var
+JN=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
+JM(a){if(JN)return Math.floor(Math.log2(a));var
 b=0;if(a==0)return-Infinity;if(a>=1)while(a>=2){a/=2;b++}else
 while(a<1){a*=2;b--}return b}function
-k1(c){var
+k9(c){var
 a=new(S.Float32Array)(1);a[0]=c;var
 b=new(S.Int32Array)(a.buffer);return b[0]|0}var
-sg=Math.pow(2,-24);function
-Jo(a){throw a}var
-aF=[0];function
-sm(){Jo(aF.Division_by_zero)}function
-R(b,c,a){this.lo=b&d6;this.mi=c&d6;this.hi=a&cS}R.prototype.caml_custom="_j";R.prototype.copy=function(){return new
+sp=Math.pow(2,-24);function
+JD(a){throw a}var
+aG=[0];function
+sv(){JD(aG.Division_by_zero)}function
+R(b,c,a){this.lo=b&d7;this.mi=c&d7;this.hi=a&cT}R.prototype.caml_custom="_j";R.prototype.copy=function(){return new
 R(this.lo,this.mi,this.hi)};R.prototype.ucompare=function(a){if(this.hi>a.hi)return 1;if(this.hi<a.hi)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};R.prototype.compare=function(a){var
 b=this.hi<<16,c=a.hi<<16;if(b>c)return 1;if(b<c)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};R.prototype.neg=function(){var
 a=-this.lo,b=-this.mi+(a>>24),c=-this.hi+(b>>24);return new
@@ -62,7 +62,7 @@ b=this.lo+a.lo,c=this.mi+a.mi+(b>>24),d=this.hi+a.hi+(c>>24);return new
 R(b,c,d)};R.prototype.sub=function(a){var
 b=this.lo-a.lo,c=this.mi-a.mi+(b>>24),d=this.hi-a.hi+(c>>24);return new
 R(b,c,d)};R.prototype.mul=function(a){var
-b=this.lo*a.lo,c=(b*sg|0)+this.mi*a.lo+this.lo*a.mi,d=(c*sg|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
+b=this.lo*a.lo,c=(b*sp|0)+this.mi*a.lo+this.lo*a.mi,d=(c*sp|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
 R(b,c,d)};R.prototype.isZero=function(){return(this.lo|this.mi|this.hi)==0};R.prototype.isNeg=function(){return this.hi<<16<0};R.prototype.and=function(a){return new
 R(this.lo&a.lo,this.mi&a.mi,this.hi&a.hi)};R.prototype.or=function(a){return new
 R(this.lo|a.lo,this.mi|a.mi,this.hi|a.hi)};R.prototype.xor=function(a){return new
@@ -76,27 +76,27 @@ R(this.hi>>a-48,0,0)};R.prototype.shift_right=function(a){a=a&63;if(a==0)return 
 c=this.hi<<16>>16;if(a<24)return new
 R(this.lo>>a|this.mi<<24-a,this.mi>>a|c<<24-a,this.hi<<16>>a>>>16);var
 b=this.hi<<16>>31;if(a<48)return new
-R(this.mi>>a-24|this.hi<<48-a,this.hi<<16>>a-24>>16,b&cS);return new
-R(this.hi<<16>>a-32,b,b)};R.prototype.lsl1=function(){this.hi=this.hi<<1|this.mi>>23;this.mi=(this.mi<<1|this.lo>>23)&d6;this.lo=this.lo<<1&d6};R.prototype.lsr1=function(){this.lo=(this.lo>>>1|this.mi<<23)&d6;this.mi=(this.mi>>>1|this.hi<<23)&d6;this.hi=this.hi>>>1};R.prototype.udivmod=function(e){var
+R(this.mi>>a-24|this.hi<<48-a,this.hi<<16>>a-24>>16,b&cT);return new
+R(this.hi<<16>>a-32,b,b)};R.prototype.lsl1=function(){this.hi=this.hi<<1|this.mi>>23;this.mi=(this.mi<<1|this.lo>>23)&d7;this.lo=this.lo<<1&d7};R.prototype.lsr1=function(){this.lo=(this.lo>>>1|this.mi<<23)&d7;this.mi=(this.mi>>>1|this.hi<<23)&d7;this.hi=this.hi>>>1};R.prototype.udivmod=function(e){var
 c=0,b=this.copy(),a=e.copy(),d=new
 R(0,0,0);while(b.ucompare(a)>0){c++;a.lsl1()}while(c>=0){c--;d.lsl1();if(b.ucompare(a)>=0){d.lo++;b=b.sub(a)}a.lsr1()}return{quotient:d,modulus:b}};R.prototype.div=function(a){var
-b=this;if(a.isZero())sm();var
-d=b.hi^a.hi;if(b.hi&cn)b=b.neg();if(a.hi&cn)a=a.neg();var
-c=b.udivmod(a).quotient;if(d&cn)c=c.neg();return c};R.prototype.mod=function(b){var
-a=this;if(b.isZero())sm();var
-d=a.hi;if(a.hi&cn)a=a.neg();if(b.hi&cn)b=b.neg();var
-c=a.udivmod(b).modulus;if(d&cn)c=c.neg();return c};R.prototype.toInt=function(){return this.lo|this.mi<<24};R.prototype.toFloat=function(){return(this.hi<<16)*Math.pow(2,32)+this.mi*Math.pow(2,24)+this.lo};R.prototype.toArray=function(){return[this.hi>>8,this.hi&cT,this.mi>>16,this.mi>>8&cT,this.mi&cT,this.lo>>16,this.lo>>8&cT,this.lo&cT]};R.prototype.lo32=function(){return this.lo|(this.mi&cT)<<24};R.prototype.hi32=function(){return this.mi>>>8&cS|this.hi<<16};function
-ig(b,c,a){return new
+b=this;if(a.isZero())sv();var
+d=b.hi^a.hi;if(b.hi&cp)b=b.neg();if(a.hi&cp)a=a.neg();var
+c=b.udivmod(a).quotient;if(d&cp)c=c.neg();return c};R.prototype.mod=function(b){var
+a=this;if(b.isZero())sv();var
+d=a.hi;if(a.hi&cp)a=a.neg();if(b.hi&cp)b=b.neg();var
+c=a.udivmod(b).modulus;if(d&cp)c=c.neg();return c};R.prototype.toInt=function(){return this.lo|this.mi<<24};R.prototype.toFloat=function(){return(this.hi<<16)*Math.pow(2,32)+this.mi*Math.pow(2,24)+this.lo};R.prototype.toArray=function(){return[this.hi>>8,this.hi&cU,this.mi>>16,this.mi>>8&cU,this.mi&cU,this.lo>>16,this.lo>>8&cU,this.lo&cU]};R.prototype.lo32=function(){return this.lo|(this.mi&cU)<<24};R.prototype.hi32=function(){return this.mi>>>8&cT|this.hi<<16};function
+io(b,c,a){return new
 R(b,c,a)}function
-ie(a){if(!isFinite(a)){if(isNaN(a))return ig(1,0,qB);return a>0?ig(0,0,qB):ig(0,0,0xfff0)}var
-f=a==0&&1/a==-Infinity?cn:a>=0?0:cn;if(f)a=-a;var
-b=Jx(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-qi)}else{a/=Math.pow(2,b-rN);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
+im(a){if(!isFinite(a)){if(isNaN(a))return io(1,0,qK);return a>0?io(0,0,qK):io(0,0,0xfff0)}var
+f=a==0&&1/a==-Infinity?cp:a>=0?0:cp;if(f)a=-a;var
+b=JM(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-qr)}else{a/=Math.pow(2,b-rW);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
 d=Math.pow(2,24),c=a|0;a=(a-c)*d;var
 e=a|0;a=(a-e)*d;var
-g=a|0;c=c&kF|f|b<<4;return ig(g,e,c)}function
-gg(a){return a.toArray()}function
-r6(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==h_)for(var
-a=0;a<b.dims.length;a++)if(b.dims[a]<cS)c.write(16,b.dims[a]);else{c.write(16,cS);c.write(32,0);c.write(32,b.dims[a])}else
+g=a|0;c=c&kN|f|b<<4;return io(g,e,c)}function
+gk(a){return a.toArray()}function
+sd(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==ih)for(var
+a=0;a<b.dims.length;a++)if(b.dims[a]<cT)c.write(16,b.dims[a]);else{c.write(16,cT);c.write(32,0);c.write(32,b.dims[a])}else
 for(var
 a=0;a<b.dims.length;a++)c.write(32,b.dims[a]);switch(b.kind){case
 2:case
@@ -113,51 +113,51 @@ a=0;a<b.data.length;a++)c.write(32,b.data[a]);break;case
 a=0;a<b.data.length;a++)c.write(32,b.data[a]);break;case
 7:for(var
 a=0;a<b.data.length/2;a++){var
-e=gg(b.get(a));for(var
+e=gk(b.get(a));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 1:for(var
 a=0;a<b.data.length;a++){var
-e=gg(ie(b.get(a)));for(var
+e=gk(im(b.get(a)));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 0:for(var
 a=0;a<b.data.length;a++){var
-e=k1(b.get(a));c.write(32,e)}break;case
+e=k9(b.get(a));c.write(32,e)}break;case
 10:for(var
 a=0;a<b.data.length/2;a++){var
-d=b.get(a);c.write(32,k1(d[1]));c.write(32,k1(d[2]))}break;case
+d=b.get(a);c.write(32,k9(d[1]));c.write(32,k9(d[2]))}break;case
 11:for(var
 a=0;a<b.data.length/2;a++){var
-f=b.get(a),e=gg(ie(f[1]));for(var
+f=b.get(a),e=gk(im(f[1]));for(var
 d=0;d<8;d++)c.write(8,e[d]);var
-e=gg(ie(f[2]));for(var
+e=gk(im(f[2]));for(var
 d=0;d<8;d++)c.write(8,e[d])}break}g[0]=(4+b.dims.length)*4;g[1]=(4+b.dims.length)*8}function
-Jq(b,a){throw[0,b,a]}function
-su(a){if(a.length<24){for(var
+JF(b,a){throw[0,b,a]}function
+sD(a){if(a.length<24){for(var
 b=0;b<a.length;b++)if(a.charCodeAt(b)>127)return false;return true}else
 return!/[^\x00-\x7f]/.test(a)}function
-k9(e){for(var
-j=ae,c=ae,g,f,h,a,b=0,i=e.length;b<i;b++){f=e.charCodeAt(b);if(f<b4){for(var
-d=b+1;d<i&&(f=e.charCodeAt(d))<b4;d++);if(d-b>qC){c.substr(0,1);j+=c;c=ae;j+=e.slice(b,d)}else
-c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==f$){g=h+(f<<6);if(f<q7){a=g-0x3080;if(a<b4)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==f$){g=h+(g<<6);if(f<rd){a=g-0xe2080;if(a<qY||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==f$&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
-if(a>cS)c+=String.fromCharCode(0xd7c0+(a>>10),qQ+(a&0x3FF));else
-c+=String.fromCharCode(a);if(c.length>f8){c.substr(0,1);j+=c;c=ae}}return j+c}function
-co(c,a,b){this.t=c;this.c=a;this.l=b}co.prototype.toString=function(){switch(this.t){case
-9:return this.c;default:e4(this);case
-0:if(su(this.c)){this.t=9;return this.c}this.t=8;case
-8:return this.c}};co.prototype.toUtf16=function(){var
-a=this.toString();if(this.t==9)return a;return k9(a)};co.prototype.slice=function(){var
+lf(e){for(var
+j=af,c=af,g,f,h,a,b=0,i=e.length;b<i;b++){f=e.charCodeAt(b);if(f<b5){for(var
+d=b+1;d<i&&(f=e.charCodeAt(d))<b5;d++);if(d-b>qL){c.substr(0,1);j+=c;c=af;j+=e.slice(b,d)}else
+c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==gd){g=h+(f<<6);if(f<re){a=g-0x3080;if(a<b5)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==gd){g=h+(g<<6);if(f<rm){a=g-0xe2080;if(a<q7||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==gd&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
+if(a>cT)c+=String.fromCharCode(0xd7c0+(a>>10),qZ+(a&0x3FF));else
+c+=String.fromCharCode(a);if(c.length>f$){c.substr(0,1);j+=c;c=af}}return j+c}function
+cq(c,a,b){this.t=c;this.c=a;this.l=b}cq.prototype.toString=function(){switch(this.t){case
+9:return this.c;default:e5(this);case
+0:if(sD(this.c)){this.t=9;return this.c}this.t=8;case
+8:return this.c}};cq.prototype.toUtf16=function(){var
+a=this.toString();if(this.t==9)return a;return lf(a)};cq.prototype.slice=function(){var
 a=this.t==4?this.c.slice():this.c;return new
-co(this.t,a,this.l)};function
-r9(a){return new
-co(0,a,a.length)}function
-a(a){return r9(a)}function
-k7(c,b){Jq(c,a(b))}function
-a0(a){k7(aF.Invalid_argument,a)}function
-r4(a){switch(a){case
+cq(this.t,a,this.l)};function
+sg(a){return new
+cq(0,a,a.length)}function
+a(a){return sg(a)}function
+ld(c,b){JF(c,a(b))}function
+a0(a){ld(aG.Invalid_argument,a)}function
+sb(a){switch(a){case
 7:case
 10:case
 11:return 2;default:return 1}}function
-IU(c,e){var
+I9(c,e){var
 b=S,a;switch(c){case
 0:a=b.Float32Array;break;case
 1:a=b.Float64Array;break;case
@@ -173,50 +173,50 @@ b=S,a;switch(c){case
 11:a=b.Float64Array;break;case
 12:a=b.Uint8Array;break}if(!a)a0("Bigarray.create: unsupported kind");var
 d=new
-a(e*r4(c));return d}function
-k2(c){var
+a(e*sb(c));return d}function
+k_(c){var
 a=new(S.Int32Array)(1);a[0]=c;var
 b=new(S.Float32Array)(a.buffer);return b[0]}function
-gf(a){return new
+gj(a){return new
 R(a[7]<<0|a[6]<<8|a[5]<<16,a[4]<<0|a[3]<<8|a[2]<<16,a[1]<<0|a[0]<<8)}function
-k3(d){var
-f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&kF)==0?b&cn?-Infinity:Infinity:NaN;var
-e=Math.pow(2,-24),a=(f*e+g)*e+(b&kF);if(c>0){a+=16;a*=Math.pow(2,c-rN)}else
-a*=Math.pow(2,-qi);if(b&cn)a=-a;return a}function
-kX(b){var
+k$(d){var
+f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&kN)==0?b&cp?-Infinity:Infinity:NaN;var
+e=Math.pow(2,-24),a=(f*e+g)*e+(b&kN);if(c>0){a+=16;a*=Math.pow(2,c-rW)}else
+a*=Math.pow(2,-qr);if(b&cp)a=-a;return a}function
+k5(b){var
 d=b.length,c=1;for(var
 a=0;a<d;a++){if(b[a]<0)a0("Bigarray.create: negative dimension");c=c*b[a]}return c}function
-I_(b,a){return new
-R(b&d6,b>>>24&cT|(a&cS)<<8,a>>>16&cS)}function
-k4(a){return a.hi32()}function
-k5(a){return a.lo32()}function
-ic(){a0(kR)}var
-IV=h_;function
-du(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}du.prototype.caml_custom=IV;du.prototype.offset=function(b){var
+Jn(b,a){return new
+R(b&d7,b>>>24&cU|(a&cT)<<8,a>>>16&cT)}function
+la(a){return a.hi32()}function
+lb(a){return a.lo32()}function
+ik(){a0(kZ)}var
+I_=ih;function
+dv(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}dv.prototype.caml_custom=I_;dv.prototype.offset=function(b){var
 c=0;if(typeof
 b==="number")b=[b];if(!(b
 instanceof
 Array))a0("bigarray.js: invalid offset");if(this.dims.length!=b.length)a0("Bigarray.get/set: bad number of dimensions");if(this.layout==0)for(var
-a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])ic();c=c*this.dims[a]+b[a]}else
+a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])ik();c=c*this.dims[a]+b[a]}else
 for(var
-a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])ic();c=c*this.dims[a]+(b[a]-1)}return c};du.prototype.get=function(a){switch(this.kind){case
+a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])ik();c=c*this.dims[a]+(b[a]-1)}return c};dv.prototype.get=function(a){switch(this.kind){case
 7:var
-d=this.data[a*2+0],b=this.data[a*2+1];return I_(d,b);case
+d=this.data[a*2+0],b=this.data[a*2+1];return Jn(d,b);case
 10:case
 11:var
-e=this.data[a*2+0],c=this.data[a*2+1];return[hZ,e,c];default:return this.data[a]}};du.prototype.set=function(a,b){switch(this.kind){case
-7:this.data[a*2+0]=k5(b);this.data[a*2+1]=k4(b);break;case
+e=this.data[a*2+0],c=this.data[a*2+1];return[h7,e,c];default:return this.data[a]}};dv.prototype.set=function(a,b){switch(this.kind){case
+7:this.data[a*2+0]=lb(b);this.data[a*2+1]=la(b);break;case
 10:case
-11:this.data[a*2+0]=b[1];this.data[a*2+1]=b[2];break;default:this.data[a]=b;break}return 0};du.prototype.fill=function(b){switch(this.kind){case
+11:this.data[a*2+0]=b[1];this.data[a*2+1]=b[2];break;default:this.data[a]=b;break}return 0};dv.prototype.fill=function(b){switch(this.kind){case
 7:var
-c=k5(b),e=k4(b);if(c==e)this.data.fill(c);else
+c=lb(b),e=la(b);if(c==e)this.data.fill(c);else
 for(var
 a=0;a<this.data.length;a++)this.data[a]=a%2==0?c:e;break;case
 10:case
 11:var
 d=b[1],f=b[2];if(d==f)this.data.fill(d);else
 for(var
-a=0;a<this.data.length;a++)this.data[a]=a%2==0?d:f;break;default:this.data.fill(b);break}};du.prototype.compare=function(b,g){if(this.layout!=b.layout||this.kind!=b.kind){var
+a=0;a<this.data.length;a++)this.data[a]=a%2==0?d:f;break;default:this.data.fill(b);break}};dv.prototype.compare=function(b,g){if(this.layout!=b.layout||this.kind!=b.kind){var
 e=this.kind|this.layout<<8,f=b.kind|b.layout<<8;return f-e}if(this.dims.length!=b.dims.length)return b.dims.length-this.dims.length;for(var
 a=0;a<this.dims.length;a++)if(this.dims[a]!=b.dims[a])return this.dims[a]<b.dims[a]?-1:1;switch(this.kind){case
 0:case
@@ -236,26 +236,26 @@ a=0;a<this.data.length;a+=2){if(this.data[a+1]<b.data[a+1])return-1;if(this.data
 9:case
 12:for(var
 a=0;a<this.data.length;a++){if(this.data[a]<b.data[a])return-1;if(this.data[a]>b.data[a])return 1}break}return 0};function
-e1(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}e1.prototype=new
-du();e1.prototype.offset=function(a){if(typeof
+e2(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}e2.prototype=new
+dv();e2.prototype.offset=function(a){if(typeof
 a!=="number")if(a
 instanceof
 Array&&a.length==1)a=a[0];else
-a0("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])ic();return a};e1.prototype.get=function(a){return this.data[a]};e1.prototype.set=function(a,b){this.data[a]=b;return 0};e1.prototype.fill=function(a){this.data.fill(a);return 0};function
-r2(c,d,a,b){var
-e=r4(c);if(kX(a)*e!=b.length)a0("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
-e1(c,d,a,b);return new
-du(c,d,a,b)}function
-b7(b){if(!aF.Failure)aF.Failure=[a6,a(kH),-3];k7(aF.Failure,b)}function
-r3(b,v,r){var
-i=b.read32s();if(i<0||i>16)b7("input_value: wrong number of bigarray dimensions");var
-p=b.read32s(),j=p&cT,o=p>>8&1,h=[];if(r==h_)for(var
+a0("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])ik();return a};e2.prototype.get=function(a){return this.data[a]};e2.prototype.set=function(a,b){this.data[a]=b;return 0};e2.prototype.fill=function(a){this.data.fill(a);return 0};function
+r$(c,d,a,b){var
+e=sb(c);if(k5(a)*e!=b.length)a0("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
+e2(c,d,a,b);return new
+dv(c,d,a,b)}function
+b8(b){if(!aG.Failure)aG.Failure=[a7,a(kP),-3];ld(aG.Failure,b)}function
+sa(b,v,r){var
+i=b.read32s();if(i<0||i>16)b8("input_value: wrong number of bigarray dimensions");var
+p=b.read32s(),j=p&cU,o=p>>8&1,h=[];if(r==ih)for(var
 a=0;a<i;a++){var
-n=b.read16u();if(n==cS){var
-t=b.read32u(),u=b.read32u();if(t!=0)b7("input_value: bigarray dimension overflow in 32bit");n=u}h.push(n)}else
+n=b.read16u();if(n==cT){var
+t=b.read32u(),u=b.read32u();if(t!=0)b8("input_value: bigarray dimension overflow in 32bit");n=u}h.push(n)}else
 for(var
 a=0;a<i;a++)h.push(b.read32u());var
-d=kX(h),f=IU(j,d),g=r2(j,o,h,f);switch(j){case
+d=k5(h),f=I9(j,d),g=r$(j,o,h,f);switch(j){case
 2:for(var
 a=0;a<d;a++)f[a]=b.read8s();break;case
 3:case
@@ -269,129 +269,129 @@ a=0;a<d;a++)f[a]=b.read16u();break;case
 a=0;a<d;a++)f[a]=b.read32s();break;case
 8:case
 9:var
-s=b.read8u();if(s)b7("input_value: cannot read bigarray with 64-bit OCaml ints");for(var
+s=b.read8u();if(s)b8("input_value: cannot read bigarray with 64-bit OCaml ints");for(var
 a=0;a<d;a++)f[a]=b.read32s();break;case
 7:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-q=gf(e);g.set(a,q)}break;case
+q=gj(e);g.set(a,q)}break;case
 1:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-k=k3(gf(e));g.set(a,k)}break;case
+k=k$(gj(e));g.set(a,k)}break;case
 0:for(var
 a=0;a<d;a++){var
-k=k2(b.read32s());g.set(a,k)}break;case
+k=k_(b.read32s());g.set(a,k)}break;case
 10:for(var
 a=0;a<d;a++){var
-m=k2(b.read32s()),l=k2(b.read32s());g.set(a,[hZ,m,l])}break;case
+m=k_(b.read32s()),l=k_(b.read32s());g.set(a,[h7,m,l])}break;case
 11:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-m=k3(gf(e));for(var
+m=k$(gj(e));for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-l=k3(gf(e));g.set(a,[hZ,m,l])}break}v[0]=(4+i)*4;return r2(j,o,h,f)}function
-r1(a,b,c){return a.compare(b,c)}function
-sj(a,b){return Math.imul(a,b)}function
-cU(b,a){a=sj(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=sj(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
-I7(a,b){a=cU(a,k5(b));a=cU(a,k4(b));return a}function
-sf(a,b){return I7(a,ie(b))}function
-r5(c){var
-b=kX(c.dims),d=0;switch(c.kind){case
+l=k$(gj(e));g.set(a,[h7,m,l])}break}v[0]=(4+i)*4;return r$(j,o,h,f)}function
+r_(a,b,c){return a.compare(b,c)}function
+ss(a,b){return Math.imul(a,b)}function
+cV(b,a){a=ss(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=ss(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
+Jk(a,b){a=cV(a,lb(b));a=cV(a,la(b));return a}function
+so(a,b){return Jk(a,im(b))}function
+sc(c){var
+b=k5(c.dims),d=0;switch(c.kind){case
 2:case
 3:case
-12:if(b>qT)b=qT;var
-e=0,a=0;for(a=0;a+4<=c.data.length;a+=4){e=c.data[a+0]|c.data[a+1]<<8|c.data[a+2]<<16|c.data[a+3]<<24;d=cU(d,e)}e=0;switch(b&3){case
+12:if(b>q2)b=q2;var
+e=0,a=0;for(a=0;a+4<=c.data.length;a+=4){e=c.data[a+0]|c.data[a+1]<<8|c.data[a+2]<<16|c.data[a+3]<<24;d=cV(d,e)}e=0;switch(b&3){case
 3:e=c.data[a+2]<<16;case
 2:e|=c.data[a+1]<<8;case
-1:e|=c.data[a+0];d=cU(d,e)}break;case
+1:e|=c.data[a+0];d=cV(d,e)}break;case
 4:case
-5:if(b>f$)b=f$;var
-e=0,a=0;for(a=0;a+2<=c.data.length;a+=2){e=c.data[a+0]|c.data[a+1]<<16;d=cU(d,e)}if((b&1)!=0)d=cU(d,c.data[a]);break;case
+5:if(b>gd)b=gd;var
+e=0,a=0;for(a=0;a+2<=c.data.length;a+=2){e=c.data[a+0]|c.data[a+1]<<16;d=cV(d,e)}if((b&1)!=0)d=cV(d,c.data[a]);break;case
 6:if(b>64)b=64;for(var
-a=0;a<b;a++)d=cU(d,c.data[a]);break;case
+a=0;a<b;a++)d=cV(d,c.data[a]);break;case
 8:case
 9:if(b>64)b=64;for(var
-a=0;a<b;a++)d=cU(d,c.data[a]);break;case
+a=0;a<b;a++)d=cV(d,c.data[a]);break;case
 7:if(b>32)b=32;b*=2;for(var
-a=0;a<b;a++)d=cU(d,c.data[a]);break;case
+a=0;a<b;a++)d=cV(d,c.data[a]);break;case
 10:b*=2;case
 0:if(b>64)b=64;for(var
-a=0;a<b;a++)d=sf(d,c.data[a]);break;case
+a=0;a<b;a++)d=so(d,c.data[a]);break;case
 11:b*=2;case
 1:if(b>32)b=32;for(var
-a=0;a<b;a++)d=sf(d,c.data[a]);break}return d}function
-I8(a,b){b[0]=4;return a.read32s()}function
-Jl(a,b){switch(a.read8u()){case
+a=0;a<b;a++)d=so(d,c.data[a]);break}return d}function
+Jl(a,b){b[0]=4;return a.read32s()}function
+JA(a,b){switch(a.read8u()){case
 1:b[0]=4;return a.read32s();case
-2:b7("input_value: native integer value too large");default:b7("input_value: ill-formed native integer")}}function
-Jb(c,d){var
+2:b8("input_value: native integer value too large");default:b8("input_value: ill-formed native integer")}}function
+Jq(c,d){var
 b=new
 Array(8);for(var
-a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return gf(b)}function
-Ja(e,d,b){var
-c=gg(d);for(var
+a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return gj(b)}function
+Jp(e,d,b){var
+c=gk(d);for(var
 a=0;a<8;a++)e.write(8,c[a]);b[0]=8;b[1]=8}function
-I9(a,b,c){return a.compare(b)}function
-I$(a){return a.lo32()^a.hi32()}var
-sa={"_j":{deserialize:Jb,serialize:Ja,fixed_length:8,compare:I9,hash:I$},"_i":{deserialize:I8,fixed_length:4},"_n":{deserialize:Jl,fixed_length:4},"_bigarray":{deserialize:function(a,b){return r3(a,b,"_bigarray")},serialize:r6,compare:r1,hash:r5},"_bigarr02":{deserialize:function(a,b){return r3(a,b,h_)},serialize:r6,compare:r1,hash:r5}};function
-k0(a){return sa[a.caml_custom]&&sa[a.caml_custom].compare}function
-r_(f,c,d,e){var
-b=k0(c);if(b){var
+Jm(a,b,c){return a.compare(b)}function
+Jo(a){return a.lo32()^a.hi32()}var
+sj={"_j":{deserialize:Jq,serialize:Jp,fixed_length:8,compare:Jm,hash:Jo},"_i":{deserialize:Jl,fixed_length:4},"_n":{deserialize:JA,fixed_length:4},"_bigarray":{deserialize:function(a,b){return sa(a,b,"_bigarray")},serialize:sd,compare:r_,hash:sc},"_bigarr02":{deserialize:function(a,b){return sa(a,b,ih)},serialize:sd,compare:r_,hash:sc}};function
+k8(a){return sj[a.caml_custom]&&sj[a.caml_custom].compare}function
+sh(f,c,d,e){var
+b=k8(c);if(b){var
 a=d>0?b(c,f,e):b(f,c,e);if(e&&a!=a)return d;if(+a!=+a)return+a;if((a|0)!=0)return a|0}return d}function
-k6(a){return a
+lc(a){return a
 instanceof
-co}function
-sh(a){return k6(a)}function
-r$(a){if(typeof
-a==="number")return h8;else
-if(k6(a))return 252;else
-if(sh(a))return 1252;else
+cq}function
+sq(a){return lc(a)}function
+si(a){if(typeof
+a==="number")return ie;else
+if(lc(a))return 252;else
+if(sq(a))return 1252;else
 if(a
 instanceof
 Array&&a[0]===a[0]>>>0&&a[0]<=255){var
-b=a[0]|0;return b==hZ?0:b}else
+b=a[0]|0;return b==h7?0:b}else
 if(a
 instanceof
-String)return rp;else
+String)return ry;else
 if(typeof
-a=="string")return rp;else
+a=="string")return ry;else
 if(a
 instanceof
-Number)return h8;else
-if(a&&a.caml_custom)return kJ;else
+Number)return ie;else
+if(a&&a.caml_custom)return kR;else
 if(a&&a.compare)return 1256;else
 if(typeof
 a=="function")return 1247;else
 if(typeof
 a=="symbol")return 1251;return 1001}function
-Jc(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
-r8(a,b){a.t&6&&e4(a);b.t&6&&e4(b);return a.c<b.c?-1:a.c>b.c?1:0}function
-sq(a,b){return r8(a,b)}function
-kZ(a,b,d){var
+Jr(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
+sf(a,b){a.t&6&&e5(a);b.t&6&&e5(b);return a.c<b.c?-1:a.c>b.c?1:0}function
+sz(a,b){return sf(a,b)}function
+k7(a,b,d){var
 e=[];for(;;){if(!(d&&a===b)){var
-f=r$(a);if(f==qZ){a=a[1];continue}var
-g=r$(b);if(g==qZ){b=b[1];continue}if(f!==g){if(f==h8){if(g==kJ)return r_(a,b,-1,d);return-1}if(g==h8){if(f==kJ)return r_(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
-247:a0(ky);break;case
+f=si(a);if(f==q8){a=a[1];continue}var
+g=si(b);if(g==q8){b=b[1];continue}if(f!==g){if(f==ie){if(g==kR)return sh(a,b,-1,d);return-1}if(g==ie){if(f==kR)return sh(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
+247:a0(kG);break;case
 248:var
-c=Jc(a[2],b[2]);if(c!=0)return c|0;break;case
-249:a0(ky);break;case
+c=Jr(a[2],b[2]);if(c!=0)return c|0;break;case
+249:a0(kG);break;case
 250:a0("equal: got Forward_tag, should not happen");break;case
 251:a0("equal: abstract value");break;case
 252:if(a!==b){var
-c=r8(a,b);if(c!=0)return c|0}break;case
+c=sf(a,b);if(c!=0)return c|0}break;case
 253:a0("equal: got Double_tag, should not happen");break;case
 254:a0("equal: got Double_array_tag, should not happen");break;case
 255:a0("equal: got Custom_tag, should not happen");break;case
-1247:a0(ky);break;case
+1247:a0(kG);break;case
 1255:var
-i=k0(a);if(i!=k0(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)a0("compare: abstract value");var
+i=k8(a);if(i!=k8(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)a0("compare: abstract value");var
 c=i(a,b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
 1256:var
 c=a.compare(b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
@@ -399,136 +399,136 @@ c=a.compare(b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;
 1001:if(a<b)return-1;if(a>b)return 1;if(a!=b){if(!d)return NaN;if(a==a)return 1;if(b==b)return-1}break;case
 1251:if(a!==b){if(!d)return NaN;return 1}break;case
 1252:var
-a=e5(a),b=e5(b);if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
+a=e6(a),b=e6(b);if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
 12520:var
 a=a.toString(),b=b.toString();if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
 246:case
 254:default:if(a.length!=b.length)return a.length<b.length?-1:1;if(a.length>1)e.push(a,b,1);break}}if(e.length==0)return 0;var
 h=e.pop();b=e.pop();a=e.pop();if(h+1<a.length)e.push(a,b,h+1);a=a[h];b=b[h]}}function
-I2(a,b){return kZ(a,b,true)}function
-cq(a){if(a<0)a0("Bytes.create");return new
-co(a?2:9,ae,a)}function
-sb(a,b){return+(kZ(a,b,false)==0)}function
-I4(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=ae;a.t=2}else{a.c=sp(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)id(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}var
-Jm=0;function
-sd(){return Jm++}function
-Je(a){return a.toUtf16()}function
-gh(){return typeof
+Jf(a,b){return k7(a,b,true)}function
+cs(a){if(a<0)a0("Bytes.create");return new
+cq(a?2:9,af,a)}function
+sk(a,b){return+(k7(a,b,false)==0)}function
+Jh(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=af;a.t=2}else{a.c=sy(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)il(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}var
+JB=0;function
+sm(){return JB++}function
+Jt(a){return a.toUtf16()}function
+gl(){return typeof
 S.process!=="undefined"&&typeof
 S.process.versions!=="undefined"&&typeof
 S.process.versions.node!=="undefined"}function
-Jz(){function
-a(a){if(a.charAt(0)===b6)return[ae,a.substring(1)];return}function
+JO(){function
+a(a){if(a.charAt(0)===b7)return[af,a.substring(1)];return}function
 b(c){var
-g=/^([a-zA-Z]:|[\\/]{2}[^\\/]+[\\/]+[^\\/]+)?([\\/])?([\s\S]*?)$/,a=g.exec(c),b=a[1]||ae,e=Boolean(b&&b.charAt(1)!==":");if(Boolean(a[2]||e)){var
-d=a[1]||ae,f=a[2]||ae;return[d,c.substring(d.length+f.length)]}return}return gh()&&S.process&&S.process.platform?S.process.platform==="win32"?b:a:a}var
-lb=Jz();function
-sr(a){return a.slice(-1)!==b6?a+b6:a}if(gh()&&S.process&&S.process.cwd)var
-ge=S.process.cwd().replace(/\\/g,b6);else
+g=/^([a-zA-Z]:|[\\/]{2}[^\\/]+[\\/]+[^\\/]+)?([\\/])?([\s\S]*?)$/,a=g.exec(c),b=a[1]||af,e=Boolean(b&&b.charAt(1)!==":");if(Boolean(a[2]||e)){var
+d=a[1]||af,f=a[2]||af;return[d,c.substring(d.length+f.length)]}return}return gl()&&S.process&&S.process.platform?S.process.platform==="win32"?b:a:a}var
+lj=JO();function
+sA(a){return a.slice(-1)!==b7?a+b7:a}if(gl()&&S.process&&S.process.cwd)var
+gi=S.process.cwd().replace(/\\/g,b7);else
 var
-ge="/static";ge=sr(ge);function
-Jg(a){a=Je(a);if(!lb(a))a=ge+a;var
-e=lb(a),d=e[1].split(b6),b=[];for(var
+gi="/static";gi=sA(gi);function
+Jv(a){a=Jt(a);if(!lj(a))a=gi+a;var
+e=lj(a),d=e[1].split(b7),b=[];for(var
 c=0;c<d.length;c++)switch(d[c]){case"..":if(b.length>1)b.pop();break;case".":break;default:b.push(d[c]);break}b.unshift(e[0]);b.orig=a;return b}function
-Ju(e){for(var
-f=ae,b=f,a,h,c=0,g=e.length;c<g;c++){a=e.charCodeAt(c);if(a<b4){for(var
-d=c+1;d<g&&(a=e.charCodeAt(d))<b4;d++);if(d-c>qC){b.substr(0,1);f+=b;b=ae;f+=e.slice(c,d)}else
-b+=e.slice(c,d);if(d==g)break;c=d}if(a<qY){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(b4|a&eX)}else
-if(a<0xd800||a>=q5)b+=String.fromCharCode(q7|a>>12,b4|a>>6&eX,b4|a&eX);else
-if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<qQ||h>q5)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(rd|a>>18,b4|a>>12&eX,b4|a>>6&eX,b4|a&eX)}if(b.length>f8){b.substr(0,1);f+=b;b=ae}}return f+b}function
-IZ(a){var
-b=9;if(!su(a))b=8,a=Ju(a);return new
-co(b,a,a.length)}function
-e6(a){return IZ(a)}var
-JC=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",qK,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",kG,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",kL,qP,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
-d_(d,f,e,a){var
-b=JC.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
-c=[b,e6(f||ae),e6(e||ae)];return c}var
-sk={};function
-d7(a){return sk[a]}function
-d8(b,a){throw[0,b].concat(a)}function
-IY(a){return new
-co(4,a,a.length)}function
-as(a){k7(aF.Sys_error,a)}function
-Jp(a){as(a+hX)}function
-r7(){a0(kR)}function
-IX(b,a){if(a>>>0>=b.l)r7();return kY(b,a)}function
-ii(a){return a.l}function
-r0(){}function
+JJ(e){for(var
+f=af,b=f,a,h,c=0,g=e.length;c<g;c++){a=e.charCodeAt(c);if(a<b5){for(var
+d=c+1;d<g&&(a=e.charCodeAt(d))<b5;d++);if(d-c>qL){b.substr(0,1);f+=b;b=af;f+=e.slice(c,d)}else
+b+=e.slice(c,d);if(d==g)break;c=d}if(a<q7){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(b5|a&eY)}else
+if(a<0xd800||a>=rc)b+=String.fromCharCode(re|a>>12,b5|a>>6&eY,b5|a&eY);else
+if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<qZ||h>rc)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(rm|a>>18,b5|a>>12&eY,b5|a>>6&eY,b5|a&eY)}if(b.length>f$){b.substr(0,1);f+=b;b=af}}return f+b}function
+Jc(a){var
+b=9;if(!sD(a))b=8,a=JJ(a);return new
+cq(b,a,a.length)}function
+e7(a){return Jc(a)}var
+JR=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",qT,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",kO,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",kT,qY,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
+d$(d,f,e,a){var
+b=JR.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
+c=[b,e7(f||af),e7(e||af)];return c}var
+st={};function
+d8(a){return st[a]}function
+d9(b,a){throw[0,b].concat(a)}function
+Jb(a){return new
+cq(4,a,a.length)}function
+as(a){ld(aG.Sys_error,a)}function
+JE(a){as(a+h5)}function
+se(){a0(kZ)}function
+Ja(b,a){if(a>>>0>=b.l)se();return k6(b,a)}function
+iq(a){return a.l}function
+r9(){}function
 aY(a){this.data=a}aY.prototype=new
-r0();aY.prototype.truncate=function(a){var
-b=this.data;this.data=cq(a|0);gd(b,0,this.data,0,a)};aY.prototype.length=function(){return ii(this.data)};aY.prototype.write=function(b,d,g,a){var
+r9();aY.prototype.truncate=function(a){var
+b=this.data;this.data=cs(a|0);gh(b,0,this.data,0,a)};aY.prototype.length=function(){return iq(this.data)};aY.prototype.write=function(b,d,g,a){var
 c=this.length();if(b+a>=c){var
-e=cq(b+a),f=this.data;this.data=e;gd(f,0,this.data,0,c)}e2(d,g,this.data,b,a);return 0};aY.prototype.read=function(c,a,d,b){var
-e=this.length();gd(this.data,c,a,d,b);return 0};aY.prototype.read_one=function(a){return IX(this.data,a)};aY.prototype.close=function(){};aY.prototype.constructor=aY;function
-bc(b,a){this.content={};this.root=b;this.lookupFun=a}bc.prototype.nm=function(a){return this.root+a};bc.prototype.create_dir_if_needed=function(d){var
-c=d.split(b6),b=ae;for(var
-a=0;a<c.length-1;a++){b+=c[a]+b6;if(this.content[b])continue;this.content[b]=Symbol("directory")}};bc.prototype.slash=function(a){return/\/$/.test(a)?a:a+b6};bc.prototype.lookup=function(b){if(!this.content[b]&&this.lookupFun){var
+e=cs(b+a),f=this.data;this.data=e;gh(f,0,this.data,0,c)}e3(d,g,this.data,b,a);return 0};aY.prototype.read=function(c,a,d,b){var
+e=this.length();gh(this.data,c,a,d,b);return 0};aY.prototype.read_one=function(a){return Ja(this.data,a)};aY.prototype.close=function(){};aY.prototype.constructor=aY;function
+bd(b,a){this.content={};this.root=b;this.lookupFun=a}bd.prototype.nm=function(a){return this.root+a};bd.prototype.create_dir_if_needed=function(d){var
+c=d.split(b7),b=af;for(var
+a=0;a<c.length-1;a++){b+=c[a]+b7;if(this.content[b])continue;this.content[b]=Symbol("directory")}};bd.prototype.slash=function(a){return/\/$/.test(a)?a:a+b7};bd.prototype.lookup=function(b){if(!this.content[b]&&this.lookupFun){var
 c=this.lookupFun(a(this.root),a(b));if(c!==0){this.create_dir_if_needed(b);this.content[b]=new
-aY(e3(c[1]))}}};bc.prototype.exists=function(a){if(a==ae)return 1;var
-b=this.slash(a);if(this.content[b])return 1;this.lookup(a);return this.content[a]?1:0};bc.prototype.mkdir=function(c,e,d){var
-b=d&&d7(kC);if(this.exists(c))if(b)d8(b,d_(qK,kB,this.nm(c)));else
+aY(e4(c[1]))}}};bd.prototype.exists=function(a){if(a==af)return 1;var
+b=this.slash(a);if(this.content[b])return 1;this.lookup(a);return this.content[a]?1:0};bd.prototype.mkdir=function(c,e,d){var
+b=d&&d8(kK);if(this.exists(c))if(b)d9(b,d$(qT,kJ,this.nm(c)));else
 as(c+": File exists");var
-a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||ae;if(!this.exists(a))if(b)d8(b,d_(kG,kB,this.nm(a)));else
-as(a+hX);if(!this.is_dir(a))if(b)d8(b,d_(kL,kB,this.nm(a)));else
-as(a+kT);this.create_dir_if_needed(this.slash(c))};bc.prototype.rmdir=function(a,f){var
-b=f&&d7(kC),c=a==ae?ae:this.slash(a),e=new
-RegExp(kO+c+qR);if(!this.exists(a))if(b)d8(b,d_(kG,kz,this.nm(a)));else
-as(a+hX);if(!this.is_dir(a))if(b)d8(b,d_(kL,kz,this.nm(a)));else
-as(a+kT);for(var
+a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||af;if(!this.exists(a))if(b)d9(b,d$(kO,kJ,this.nm(a)));else
+as(a+h5);if(!this.is_dir(a))if(b)d9(b,d$(kT,kJ,this.nm(a)));else
+as(a+k1);this.create_dir_if_needed(this.slash(c))};bd.prototype.rmdir=function(a,f){var
+b=f&&d8(kK),c=a==af?af:this.slash(a),e=new
+RegExp(kW+c+q0);if(!this.exists(a))if(b)d9(b,d$(kO,kH,this.nm(a)));else
+as(a+h5);if(!this.is_dir(a))if(b)d9(b,d$(kT,kH,this.nm(a)));else
+as(a+k1);for(var
 d
 in
-this.content)if(d.match(e))if(b)d8(b,d_(qP,kz,this.nm(a)));else
+this.content)if(d.match(e))if(b)d9(b,d$(qY,kH,this.nm(a)));else
 as(this.nm(a)+": Directory not empty");delete
-this.content[c]};bc.prototype.readdir=function(a){var
-f=a==ae?ae:this.slash(a);if(!this.exists(a))as(a+hX);if(!this.is_dir(a))as(a+kT);var
+this.content[c]};bd.prototype.readdir=function(a){var
+f=a==af?af:this.slash(a);if(!this.exists(a))as(a+h5);if(!this.is_dir(a))as(a+k1);var
 g=new
-RegExp(kO+f+qR),d={},c=[];for(var
+RegExp(kW+f+q0),d={},c=[];for(var
 e
 in
 this.content){var
-b=e.match(g);if(b&&!d[b[1]]){d[b[1]]=true;c.push(b[1])}}return c};bc.prototype.is_dir=function(a){if(a==ae)return true;var
-b=this.slash(a);return this.content[b]?1:0};bc.prototype.unlink=function(a){var
+b=e.match(g);if(b&&!d[b[1]]){d[b[1]]=true;c.push(b[1])}}return c};bd.prototype.is_dir=function(a){if(a==af)return true;var
+b=this.slash(a);return this.content[b]?1:0};bd.prototype.unlink=function(a){var
 b=this.content[a]?true:false;delete
-this.content[a];return b};bc.prototype.open=function(a,b){if(b.rdonly&&b.wronly)as(this.nm(a)+rF);if(b.text&&b.binary)as(this.nm(a)+qu);this.lookup(a);if(this.content[a]){if(this.is_dir(a))as(this.nm(a)+" : is a directory");if(b.create&&b.excl)as(this.nm(a)+rB);var
+this.content[a];return b};bd.prototype.open=function(a,b){if(b.rdonly&&b.wronly)as(this.nm(a)+rO);if(b.text&&b.binary)as(this.nm(a)+qD);this.lookup(a);if(this.content[a]){if(this.is_dir(a))as(this.nm(a)+" : is a directory");if(b.create&&b.excl)as(this.nm(a)+rK);var
 c=this.content[a];if(b.truncate)c.truncate();return c}else
 if(b.create){this.create_dir_if_needed(a);this.content[a]=new
-aY(cq(0));return this.content[a]}else
-Jp(this.nm(a))};bc.prototype.register=function(c,a){var
-b;if(this.content[c])as(this.nm(c)+rB);if(k6(a))b=new
-aY(a);if(sh(a))b=new
-aY(e3(a));else
+aY(cs(0));return this.content[a]}else
+JE(this.nm(a))};bd.prototype.register=function(c,a){var
+b;if(this.content[c])as(this.nm(c)+rK);if(lc(a))b=new
+aY(a);if(sq(a))b=new
+aY(e4(a));else
 if(a
 instanceof
 Array)b=new
-aY(IY(a));else
+aY(Jb(a));else
 if(typeof
 a==="string")b=new
-aY(r9(a));else
+aY(sg(a));else
 if(a.toString){var
-d=e3(e6(a.toString()));b=new
+d=e4(e7(a.toString()));b=new
 aY(d)}if(b){this.create_dir_if_needed(c);this.content[c]=b}else
-as(this.nm(c)+" : registering file with invalid content type")};bc.prototype.constructor=bc;function
-az(a){return ii(a)}function
-d9(b,a){return kY(b,a)}function
-IT(d){var
-c=az(d),b=new
-Array(c),a=0;for(;a<c;a++)b[a]=d9(d,a);return b}function
-IS(a){if(a.t!=4)id(a);return a.c}function
-I1(a,c,b){b&=cT;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}id(a)}a.c[c]=b;return 0}function
-I0(b,a,c){if(a>>>0>=b.l)r7();return I1(b,a,c)}function
-cp(a){this.fs=require("fs");this.fd=a}cp.prototype=new
-r0();cp.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){as(a.toString())}};cp.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){as(a.toString())}};cp.prototype.write=function(f,b,c,e){var
-a=IT(b);if(!(a
+as(this.nm(c)+" : registering file with invalid content type")};bd.prototype.constructor=bd;function
+aA(a){return iq(a)}function
+d_(b,a){return k6(b,a)}function
+I8(d){var
+c=aA(d),b=new
+Array(c),a=0;for(;a<c;a++)b[a]=d_(d,a);return b}function
+I7(a){if(a.t!=4)il(a);return a.c}function
+Je(a,c,b){b&=cU;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}il(a)}a.c[c]=b;return 0}function
+Jd(b,a,c){if(a>>>0>=b.l)se();return Je(b,a,c)}function
+cr(a){this.fs=require("fs");this.fd=a}cr.prototype=new
+r9();cr.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){as(a.toString())}};cr.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){as(a.toString())}};cr.prototype.write=function(f,b,c,e){var
+a=I8(b);if(!(a
 instanceof
 S.Uint8Array))a=new(S.Uint8Array)(a);var
-d=S.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){as(a.toString())}return 0};cp.prototype.read=function(g,d,c,f){var
-a=IS(d);if(!(a
+d=S.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){as(a.toString())}return 0};cr.prototype.read=function(g,d,c,f){var
+a=I7(d);if(!(a
 instanceof
 S.Uint8Array))a=new(S.Uint8Array)(a);var
 e=S.Buffer.from(a);try{this.fs.readSync(this.fd,e,c,f,g)}catch(a){as(a.toString())}for(var
-b=0;b<f;b++)I0(d,c+b,e[c+b]);return 0};cp.prototype.read_one=function(c){var
-b=new(S.Uint8Array)(1),a=S.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){as(a.toString())}return a[0]};cp.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){as(a.toString())}};cp.prototype.constructor=cp;function
+b=0;b<f;b++)Jd(d,c+b,e[c+b]);return 0};cr.prototype.read_one=function(c){var
+b=new(S.Uint8Array)(1),a=S.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){as(a.toString())}return a[0]};cr.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){as(a.toString())}};cr.prototype.constructor=cr;function
 aZ(a){this.fs=require("fs");this.root=a}aZ.prototype.nm=function(a){return this.root+a};aZ.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};aZ.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};aZ.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};aZ.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};aZ.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){as(a.toString())}};aZ.prototype.unlink=function(a,c){try{var
 b=this.fs.existsSync(this.nm(a))?1:0;this.fs.unlinkSync(this.nm(a));return b}catch(a){this.raise_nodejs_error(a,c)}};aZ.prototype.open=function(f,c,g){var
 a=require("constants"),b=0;for(var
@@ -536,12 +536,12 @@ e
 in
 c)switch(e){case"rdonly":b|=a.O_RDONLY;break;case"wronly":b|=a.O_WRONLY;break;case"append":b|=a.O_WRONLY|a.O_APPEND;break;case"create":b|=a.O_CREAT;break;case"truncate":b|=a.O_TRUNC;break;case"excl":b|=a.O_EXCL;break;case"binary":b|=a.O_BINARY;break;case"text":b|=a.O_TEXT;break;case"nonblock":b|=a.O_NONBLOCK;break}try{var
 d=this.fs.openSync(this.nm(f),b);return new
-cp(d)}catch(a){this.raise_nodejs_error(a,g)}};aZ.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};aZ.prototype.stat=function(b,c){try{var
+cr(d)}catch(a){this.raise_nodejs_error(a,g)}};aZ.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};aZ.prototype.stat=function(b,c){try{var
 a=this.fs.statSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aZ.prototype.lstat=function(b,c){try{var
 a=this.fs.lstatSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aZ.prototype.symlink=function(d,c,a,b){try{this.fs.symlinkSync(this.nm(c),this.nm(a),d?"dir":"file");return 0}catch(a){this.raise_nodejs_error(a,b)}};aZ.prototype.readlink=function(b,c){try{var
-a=this.fs.readlinkSync(this.nm(b),qf);return e6(a)}catch(a){this.raise_nodejs_error(a,c)}};aZ.prototype.raise_nodejs_error=function(a,d){var
-b=d7(kC);if(d&&b){var
-c=d_(a.code,a.syscall,a.path,a.errno);d8(b,c)}else
+a=this.fs.readlinkSync(this.nm(b),qo);return e7(a)}catch(a){this.raise_nodejs_error(a,c)}};aZ.prototype.raise_nodejs_error=function(a,d){var
+b=d8(kK);if(d&&b){var
+c=d$(a.code,a.syscall,a.path,a.errno);d9(b,c)}else
 as(a.toString())};aZ.prototype.stats_from_js=function(a){var
 b;if(a.isFile())b=0;else
 if(a.isDirectory())b=1;else
@@ -550,31 +550,31 @@ if(a.isBlockDevice())b=3;else
 if(a.isSymbolicLink())b=4;else
 if(a.isFIFO())b=5;else
 if(a.isSocket())b=6;return[0,a.dev,a.ino,b,a.mode,a.nlink,a.uid,a.gid,a.rdev,a.size,a.atimeMs,a.mtimeMs,a.ctimeMs]};aZ.prototype.constructor=aZ;function
-se(b){var
-a=lb(b);if(!a)return;return a[0]+b6}var
-ij=se(ge)||b7("unable to compute caml_root"),e7=[];if(gh())e7.push({path:ij,device:new
-aZ(ij)});else
-e7.push({path:ij,device:new
-bc(ij)});e7.push({path:qo,device:new
-bc(qo)});function
-sy(b){var
-g=Jg(b),b=g.join(b6),f=sr(b),c;for(var
-e=0;e<e7.length;e++){var
-a=e7[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&gh()){var
-d=se(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
+sn(b){var
+a=lj(b);if(!a)return;return a[0]+b7}var
+ir=sn(gi)||b8("unable to compute caml_root"),e8=[];if(gl())e8.push({path:ir,device:new
+aZ(ir)});else
+e8.push({path:ir,device:new
+bd(ir)});e8.push({path:qx,device:new
+bd(qx)});function
+sH(b){var
+g=Jv(b),b=g.join(b7),f=sA(b),c;for(var
+e=0;e<e8.length;e++){var
+a=e8[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&gl()){var
+d=sn(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
 a={path:d,device:new
-aZ(d)};e7.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;as("no device found for "+f)}function
-I3(c,b){var
-a=sy(c);if(!a.device.register)b7("cannot register file");a.device.register(a.rest,b);return 0}function
-st(c,b){var
-c=a(c),b=a(b);return I3(c,b)}function
-I6(){var
+aZ(d)};e8.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;as("no device found for "+f)}function
+Jg(c,b){var
+a=sH(c);if(!a.device.register)b8("cannot register file");a.device.register(a.rest,b);return 0}function
+sC(c,b){var
+c=a(c),b=a(b);return Jg(c,b)}function
+Jj(){var
 b=S.caml_fs_tmp;if(b)for(var
-a=0;a<b.length;a++)st(b[a].name,b[a].content);S.jsoo_create_file=st;S.caml_fs_tmp=[];return 0}function
-Jn(c){var
-a=0,e=az(c),b=10,d=1;if(e>0)switch(d9(c,a)){case
+a=0;a<b.length;a++)sC(b[a].name,b[a].content);S.jsoo_create_file=sC;S.caml_fs_tmp=[];return 0}function
+JC(c){var
+a=0,e=aA(c),b=10,d=1;if(e>0)switch(d_(c,a)){case
 45:a++;d=-1;break;case
-43:a++;d=1;break}if(a+1<e&&d9(c,a)==48)switch(d9(c,a+1)){case
+43:a++;d=1;break}if(a+1<e&&d_(c,a)==48)switch(d_(c,a+1)){case
 120:case
 88:b=16;a+=2;break;case
 111:case
@@ -583,33 +583,33 @@ a=0,e=az(c),b=10,d=1;if(e>0)switch(d9(c,a)){case
 66:b=2;a+=2;break;case
 117:case
 85:a+=2;break}return[a,d,b]}function
-sl(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=rR)return a-87;return-1}function
-ih(f){var
-h=Jn(f),c=h[0],i=h[1],d=h[2],g=az(f),j=-1>>>0,e=c<g?d9(f,c):0,b=sl(e);if(b<0||b>=d)b7(h2);var
-a=b;for(c++;c<g;c++){e=d9(f,c);if(e==95)continue;b=sl(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)b7(h2)}if(c!=g)b7(h2);a=i*a;if(d==10&&(a|0)!=a)b7(h2);return a|0}function
-Jf(a,b){return+(kZ(a,b,false)<=0)}function
-Jh(a,d){if(a<0)ic();var
+su(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=r0)return a-87;return-1}function
+ip(f){var
+h=JC(f),c=h[0],i=h[1],d=h[2],g=aA(f),j=-1>>>0,e=c<g?d_(f,c):0,b=su(e);if(b<0||b>=d)b8(h_);var
+a=b;for(c++;c<g;c++){e=d_(f,c);if(e==95)continue;b=su(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)b8(h_)}if(c!=g)b8(h_);a=i*a;if(d==10&&(a|0)!=a)b8(h_);return a|0}function
+Ju(a,b){return+(k7(a,b,false)<=0)}function
+Jw(a,d){if(a<0)ik();var
 a=a+1|0,b=new
 Array(a);b[0]=0;for(var
 c=1;c<a;c++)b[c]=d;return b}var
-cV=new
+cW=new
 Array();function
-Ji(c){var
-a=cV[c];if(!a.opened)as("Cannot flush a closed channel");if(!a.buffer||a.buffer==ae)return 0;if(a.fd&&aF.fds[a.fd]&&aF.fds[a.fd].output){var
-b=aF.fds[a.fd].output;switch(b.length){case
-2:b(c,a.buffer);break;default:b(a.buffer)}}a.buffer=ae;return 0}function
-so(e,f){var
-b=cV[e],d=a(f),c=az(d);b.file.write(b.offset,d,0,c);b.offset+=c;return 0}function
-Jv(a){var
-a=k9(a),b=S;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+Jx(c){var
+a=cW[c];if(!a.opened)as("Cannot flush a closed channel");if(!a.buffer||a.buffer==af)return 0;if(a.fd&&aG.fds[a.fd]&&aG.fds[a.fd].output){var
+b=aG.fds[a.fd].output;switch(b.length){case
+2:b(c,a.buffer);break;default:b(a.buffer)}}a.buffer=af;return 0}function
+sx(e,f){var
+b=cW[e],d=a(f),c=aA(d);b.file.write(b.offset,d,0,c);b.offset+=c;return 0}function
+JK(a){var
+a=lf(a),b=S;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.error&&c.error(a)}}function
-Jw(a){var
-a=k9(a),b=S;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+JL(a){var
+a=lf(a),b=S;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.log&&c.log(a)}}function
-il(c,e,d,a){if(aF.fds===undefined)aF.fds=new
+it(c,e,d,a){if(aG.fds===undefined)aG.fds=new
 Array();a=a?a:{};var
-b={};b.file=d;b.offset=a.append?d.length():0;b.flags=a;b.output=e;aF.fds[c]=b;if(!aF.fd_last_idx||c>aF.fd_last_idx)aF.fd_last_idx=c;return c}function
-JD(c,b,g){var
+b={};b.file=d;b.offset=a.append?d.length():0;b.flags=a;b.output=e;aG.fds[c]=b;if(!aG.fd_last_idx||c>aG.fd_last_idx)aG.fd_last_idx=c;return c}function
+JS(c,b,g){var
 a={};while(b){switch(b[1]){case
 0:a.rdonly=1;break;case
 1:a.wronly=1;break;case
@@ -619,162 +619,162 @@ a={};while(b){switch(b[1]){case
 5:a.excl=1;break;case
 6:a.binary=1;break;case
 7:a.text=1;break;case
-8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)as(e5(c)+rF);if(a.text&&a.binary)as(e5(c)+qu);var
-d=sy(c),e=d.device.open(d.rest,a),f=aF.fd_last_idx?aF.fd_last_idx:0;return il(f+1,so,e,a)}il(0,so,new
-aY(cq(0)));il(1,Jw,new
-aY(cq(0)));il(2,Jv,new
-aY(cq(0)));function
-Jj(a){var
-c=aF.fds[a];if(c.flags.wronly)as(rP+a+" is writeonly");var
-d=null;if(a==0&&gh()){var
-e=require("fs");d=function(){return e6(e.readFileSync(0,qf))}}var
-b={file:c.file,offset:c.offset,fd:a,opened:true,out:false,refill:d};cV[b.fd]=b;return b.fd}function
-si(c){var
-b=aF.fds[c];if(b.flags.rdonly)as(rP+c+" is readonly");var
-a={file:b.file,offset:b.offset,fd:c,opened:true,out:true,buffer:ae};cV[a.fd]=a;return a.fd}function
-Jk(){var
+8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)as(e6(c)+rO);if(a.text&&a.binary)as(e6(c)+qD);var
+d=sH(c),e=d.device.open(d.rest,a),f=aG.fd_last_idx?aG.fd_last_idx:0;return it(f+1,sx,e,a)}it(0,sx,new
+aY(cs(0)));it(1,JL,new
+aY(cs(0)));it(2,JK,new
+aY(cs(0)));function
+Jy(a){var
+c=aG.fds[a];if(c.flags.wronly)as(rY+a+" is writeonly");var
+d=null;if(a==0&&gl()){var
+e=require("fs");d=function(){return e7(e.readFileSync(0,qo))}}var
+b={file:c.file,offset:c.offset,fd:a,opened:true,out:false,refill:d};cW[b.fd]=b;return b.fd}function
+sr(c){var
+b=aG.fds[c];if(b.flags.rdonly)as(rY+c+" is readonly");var
+a={file:b.file,offset:b.offset,fd:c,opened:true,out:true,buffer:af};cW[a.fd]=a;return a.fd}function
+Jz(){var
 b=0;for(var
-a=0;a<cV.length;a++)if(cV[a]&&cV[a].opened&&cV[a].out)b=[0,cV[a].fd,b];return b}function
-bN(b,c,a){if(a&&S.toplevelReloc)b=S.toplevelReloc(a);aF[b+1]=c;if(a)aF[a]=c}function
-Jr(a,b){sk[e5(a)]=b;return 0}function
-IW(a,b){if(a===b)return 1;a.t&6&&e4(a);b.t&6&&e4(b);return a.c==b.c?1:0}function
-aB(a,b){return IW(a,b)}function
-Jt(){a0(kR)}function
-a7(b,a){if(a>>>0>=az(b))Jt();return d9(b,a)}function
-p(a,b){return 1-aB(a,b)}function
-ik(a){return a}function
-sn(a){return a}function
-ss(a){if(a
+a=0;a<cW.length;a++)if(cW[a]&&cW[a].opened&&cW[a].out)b=[0,cW[a].fd,b];return b}function
+bN(b,c,a){if(a&&S.toplevelReloc)b=S.toplevelReloc(a);aG[b+1]=c;if(a)aG[a]=c}function
+JG(a,b){st[e6(a)]=b;return 0}function
+I$(a,b){if(a===b)return 1;a.t&6&&e5(a);b.t&6&&e5(b);return a.c==b.c?1:0}function
+aC(a,b){return I$(a,b)}function
+JI(){a0(kZ)}function
+a8(b,a){if(a>>>0>=aA(b))JI();return d_(b,a)}function
+p(a,b){return 1-aC(a,b)}function
+is(a){return a}function
+sw(a){return a}function
+sB(a){if(a
 instanceof
 Array)return a;if(S.RangeError&&a
 instanceof
-S.RangeError&&a.message&&a.message.match(/maximum call stack/i))return sn(aF.Stack_overflow);if(S.InternalError&&a
+S.RangeError&&a.message&&a.message.match(/maximum call stack/i))return sw(aG.Stack_overflow);if(S.InternalError&&a
 instanceof
-S.InternalError&&a.message&&a.message.match(/too much recursion/i))return sn(aF.Stack_overflow);if(a
+S.InternalError&&a.message&&a.message.match(/too much recursion/i))return sw(aG.Stack_overflow);if(a
 instanceof
-S.Error&&d7(qW))return[0,d7(qW),a];return[0,aF.Failure,e6(String(a))]}function
-cr(a){return a<0?-a:a}function
+S.Error&&d8(q5))return[0,d8(q5),a];return[0,aG.Failure,e7(String(a))]}function
+ct(a){return a<0?-a:a}function
 E(a,b){return a+b}function
-k_(a,b){return a<b?-1:a>b?1:0}function
-sv(c,b){var
-a=c%b;return a<0?a+cr(b):a}function
-k$(a,b){return(a-sv(a,b))/b}function
-K(a,b){return a==b?1:0}function
-JA(c){S.orthocert_verify=function(b){return e5(dv(c,[a(b)]))}}function
+lg(a,b){return a<b?-1:a>b?1:0}function
+sE(c,b){var
+a=c%b;return a<0?a+ct(b):a}function
+lh(a,b){return(a-sE(a,b))/b}function
+L(a,b){return a==b?1:0}function
+JP(c){S.orthocert_verify=function(b){return e6(dw(c,[a(b)]))}}function
 D(a,b){return a<=b?1:0}function
 I(a,b){return a<b?1:0}function
 C(a,b){return a*b}function
 T(a){return-a}function
 aJ(a){return S.BigInt(a)}function
-sw(a,b){return a<<S.BigInt(b)}function
-sx(a,b){return a>>S.BigInt(b)}function
+sF(a,b){return a<<S.BigInt(b)}function
+sG(a,b){return a>>S.BigInt(b)}function
 aS(a){return a<0?-1:a>0?1:0}function
-JB(a){if(a<0)throw new(S.Error)("a root of a negative number");if(a<2)return a;var
+JQ(a){if(a<0)throw new(S.Error)("a root of a negative number");if(a<2)return a;var
 d=S.BigInt(1),b=d<<S.BigInt((a.toString(16).length*4+1)/2|0),c;for(;;){c=b+a/b>>d;if(c>=b)return b;b=c}}function
 aM(a,b){return a-b}function
-la(a){if(a>0x7fffffff||a<-0x80000000)throw new(S.Error)("a number of more than 32 bits");return S.Number(a)}function
-Jd(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
-I5(b){var
-a=ae;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&Jd(b[1]))var
+li(a){if(a>0x7fffffff||a<-0x80000000)throw new(S.Error)("a number of more than 32 bits");return S.Number(a)}function
+Js(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
+Ji(b){var
+a=af;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&Js(b[1]))var
 e=b[2],f=1;else
 var
-f=2,e=b;a+=qX;for(var
+f=2,e=b;a+=q6;for(var
 d=f;d<e.length;d++){if(d>f)a+=", ";var
 c=e[d];if(typeof
 c=="number")a+=c.toString();else
 if(c
 instanceof
-co)a+=aR+c.toString()+aR;else
+cq)a+=aR+c.toString()+aR;else
 if(typeof
 c=="string")a+=aR+c.toString()+aR;else
-a+="_"}a+=kN}else
-if(b[0]==a6)a+=b[1];return a}function
-sc(a){if(a
+a+="_"}a+=kV}else
+if(b[0]==a7)a+=b[1];return a}function
+sl(a){if(a
 instanceof
-Array&&(a[0]==0||a[0]==a6)){var
-c=d7("Printexc.handle_uncaught_exception");if(c)c(a,false);else{var
-d=I5(a),b=d7(qe);if(b)b(0);S.console.error("Fatal error: exception "+d+"\n")}}else
+Array&&(a[0]==0||a[0]==a7)){var
+c=d8("Printexc.handle_uncaught_exception");if(c)c(a,false);else{var
+d=Ji(a),b=d8(qn);if(b)b(0);S.console.error("Fatal error: exception "+d+"\n")}}else
 throw a}function
-Js(){var
-a=S;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){sc(b);a.process.exit(2)});else
-if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)sc(a.error)})}Js();function
-k(a,b){return a.length==1?a(b):dv(a,[b])}function
-ar(a,b,c){return a.length==2?a(b,c):dv(a,[b,c])}function
-f1(a,b,c,d){return a.length==3?a(b,c,d):dv(a,[b,c,d])}function
-kx(a,b,c,d,e){return a.length==4?a(b,c,d,e):dv(a,[b,c,d,e])}I6();var
-ld=[a6,a(qN),-2],lc=[a6,a(rZ),-4],HM=[0,[0,[0,[0,0]]]],HN=[0,0],HO=[0,0],HP=[0,[0,0]],HQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HP]]]]]]]]]]],hI=[0,[1,0],0],ps=[0,[2,0],0],kd=[0,[1,0],0],pr=[0,[2,0],0],hG=[0,[1,0],0],kc=[0,[2,0],0],HR=[0,[0,[0,[0,0]]]],HS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HR]]]]]]]]]]],HT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HS]]]]]]]]]]],HU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HT]]]]]]]]]]],HV=[0,[0,0]],HW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HV]]]]]]]]]]],HX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HW]]]]]]]]]]],HY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HX]]]]]]]]]]],HZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HY]]]]]]]]]]],H0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],H1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H0]]]]]]]]]]],H2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H1]]]]]]]]]]],H3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H2]]]]]]]]]]],H4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H3]]]]]]]]]]],H5=[0,[0,0]],H6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H5]]]]]]]]]]],H7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H6]]]]]]]]]]],H8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H7]]]]]]]]]]],H9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H8]]]]]]]]]]],H_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H9]]]]]]]]]]],H$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H_]]]]]]]]]]],Ia=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H$]]]]]]]]]]],Ib=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],Ic=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ib]]]]]]]]]]],Id=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ic]]]]]]]]]]],Ie=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Id]]]]]]]]]]],If=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ie]]]]]]]]]]],Ig=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,If]]]]]]]]]]],Ih=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ig]]]]]]]]]]],Ii=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ih]]]]]]]]]]],Ij=[0,0],Ik=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ij]]]]]]]]]]],Il=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ik]]]]]]]]]]],Im=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Il]]]]]]]]]]],In=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Im]]]]]]]]]]],Io=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,In]]]]]]]]]]],Ip=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Io]]]]]]]]]]],Iq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ip]]]]]]]]]]],Ir=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Iq]]]]]]]]]]],Is=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ir]]]]]]]]]]],It=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Is]]]]]]]]]]],Iu=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],Iv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Iu]]]]]]]]]]],Iw=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],Ix=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Iw]]]]]]]]]]],Iy=[0,[0,[0,[0,[0,0]]]]],Iz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Iy]]]]]]]]]]],IA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Iz]]]]]]]]]]],IB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IA]]]]]]]]]]],IC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IB]]]]]]]]]]],ID=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IC]]]]]]]]]]],IE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,ID]]]]]]]]]]],IF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IE]]]]]]]]]]],IG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IF]]]]]]]]]]],IH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IG]]]]]]]]]]],II=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IH]]]]]]]]]]],IJ=[0,0],IK=[0,[0,0]],IL=[0,0],IM=[0,[0,[0,[0,[0,0]]]]],dD=[0,[0,[0,0]]],dF=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],hx=[0,[0,[0,[0,0]]]],IN=[0,[0,[0,[0,[0,0]]]]],IO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IN]]]]]]]]]]],IP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IO]]]]]]]]]]],IQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IP]]]]]]]]]]],IR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IQ]]]]]]]]]]];bN(11,[a6,a(qd),-12],qd);bN(10,[a6,a(q3),-11],q3);bN(9,[a6,a(rO),-10],rO);bN(8,[a6,a(qp),-9],qp);bN(7,[a6,a(rf),-8],rf);bN(6,[a6,a(qn),-7],qn);bN(5,[a6,a(qO),-6],qO);bN(4,[a6,a(qS),-5],qS);bN(3,lc,rZ);bN(2,[a6,a(kH),-3],kH);bN(1,ld,qN);bN(0,[a6,a(ry),-1],ry);var
-sz=a("String.sub / Bytes.sub"),sB=a(ae),sA=a("String.concat"),sC=a("Array.init"),sD=a("power"),sW=[0,0],sX=[0,0],s3=[0,0,0],s4=[0,0,0],s5=[0,0],tp=[0,0],tq=[0,0],tt=[0,0],tO=[0,0],tR=[0,0],tV=[0,0],tW=[0,0],tX=[0,0],tY=[0,0],ua=[0,0],ub=[0,0],uE=[0,0],u4=[0,[0,[0,0]]],vt=[0,0],vU=[0,0],wg=[0,0],wr=a(","),wJ=[0,a(kN),0],wK=a(qX),wL=a("."),wM=[0,[0,[0,0]]],wN=a(eZ),wO=a(kO),wP=[0,[0,[0,[0,[0,0]]]]],wQ=[0,a(kN),0],wR=a(rX),zU=a(qa),zW=a(p9),zV=a(q6),zX=a(eU),zY=a(eS),zZ=a(kW),z0=a(rI),z1=a(qH),z2=a(kQ),z3=a(q$),z4=a(qG),Bj=[0,[0,0,0]],BA=[0,0],Bk=a(f2),Bl=[0,0],Bm=a("divided"),Bn=[0,1],Bo=a("mirror"),Bp=[0,3],Bq=a("negative"),Br=[0,2],Bs=a(f7),Bt=[0,5],Bu=a(kV),Bv=[0,4],Bw=a(dt),Bx=a(qs),By=a(eV),Bz=a(bL),BB=[0,0],BC=[0,0],BD=[0,0],BG=[0,[0,[0,0]]],BH=[0,[0,[0,0]]],B8=[0,[0,[0,0]]],Ck=[0,0],CE=a(ae),Cw=[0,0],Cy=[0,0],Cx=[0,0],Cz=[0,[0,[0,[0,0]]]],CA=[0,[0,[0,0]]],CB=[0,[0,[0,[0,0]]]],CC=[0,[0,[0,0]]],Cu=[0,[0,[0,0]]],Ct=[0,0],Cs=a(eV),Cr=[0,0],Cp=[0,1,0],Cq=[0,[0,[0,0]]],Co=[0,0],Cl=[0,[0,0]],Cm=[0,[0,[0,0]]],Ci=[0,[0,0]],Cj=[0,[0,[0,0]]],Ch=[0,0],Cd=[0,[0,[0,0]]],Cc=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HM]]]]]]]]]],[0,0,[0,[0,[0,[0,0]]],0]]],B9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],[0,0,0]],B_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],[0,[0,[0,[0,[0,[0,[0,0]]]]]],0]],B$=[0,[0,[0,[0,[0,[0,[0,0]]]]]],0],Ca=[0,[0,[0,[0,0]]],[0,0,0]],B6=[0,0],B7=[0,[0,0]],B5=[0,0,0],B4=[0,[0,[0,0]]],BY=[0,[0,0]],BZ=[0,[0,[0,0]]],B0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HN]]]]]]]]]]],B1=[0,[0,0]],B2=[0,[0,[0,0]]],BX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HO]]]]]]]]]]],BV=[0,[0,0]],BW=[0,[0,[0,0]]],BT=[0,[0,[0,0]]],BU=[0,[0,0]],BS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HQ]]]]]]]]]]],BR=[0,0],BQ=[0,0],BN=[0,[0,0]],BO=[0,0],BL=[0,0],BM=[0,1],BJ=[0,[0,0]],BK=[0,0],BI=[0,0],BE=[0,0],BF=[0,1],Bg=[0,0],Bh=[0,1],Bi=[0,2],Bc=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],Ba=[0,[0,0],0],Bb=[0,[1,0],0],Bd=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],A_=[0,[0,0]],A$=[0,0],A9=[0,0],A8=[0,0],A7=[0,0],A6=[0,0],A5=[0,0,0],A3=[0,[0,0]],A4=[0,0],A2=[0,0,0],A0=[0,[0,[0,0]]],A1=[0,[0,[0,0]]],AZ=[0,0],AX=[0,1,0],AP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HU]]]]]]]]]]],AQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HZ]]]]]]]]]]],AL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H4]]]]]]]]]]],AM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ia]]]]]]]]]]],AN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ii]]]]]]]]]]],AO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,It]]]]]]]]]]],AR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Iv]]]]]]]]]]],AS=a("sqrt"),AJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ix]]]]]]]]]]],AK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,II]]]]]]]]]]],Ay=[0,a("\n"),0],Az=a(p_),AA=a(hY),AB=a(q2),AC=a(qL),AI=a(f_),AD=a(f6),AE=a("verdict"),AF=a(rz),AG=a(qD),AH=a(q1),Av=a(qV),Aw=a(rD),Ax=a(h0),Ar=a(rb),As=a(h1),At=a(f6),Au=a(f_),Am=a(h9),An=a(bt),Ao=a(p$),Ap=a(h6),Aj=a(rx),Ak=a(f7),Al=a(h6),Af=a(re),Ag=a(h9),Ah=a(h1),Ai=a(rM),z6=a(rE),z7=a(rH),z8=a(h5),z9=a(h3),z_=a(rS),z$=a(rt),Aa=a(rw),Ab=a(ri),Ac=a(h5),Ad=a(rl),zS=a(hW),zT=a(f9),zN=a(bM),zO=a(bK),zP=a(qF),zn=a(h3),zo=a(rh),y3=a(bt),y4=a(b5),y5=a(h$),y6=a(eY),y7=a(cR),za=a(kA),y8=a(kP),y9=a(kS),y_=a(eT),y$=a(bt),zb=a(b5),zc=a(h$),zd=a(eY),ze=a(kP),zf=a(kS),zg=a(eT),zh=a(bt),zi=a(b5),zj=a(bM),zk=a(bK),zl=a(d4),zm=a(eY),zp=a(rr),zq=a(rG),zr=a(ib),zs=a(qt),zt=a(qy),zu=a(eT),zv=a(bt),zw=a(b5),zx=a(hU),zy=a(qJ),zz=a(eY),zA=a(gc),zB=a(qh),zC=a(eT),zD=a(bt),zE=a(hU),zF=a(bt),zG=a(rk),zJ=a(p8),zH=a(qw),zI=a(rL),zK=a(f_),zL=a(f6),zM=a(bt),zQ=a(ib),zR=a(h0),yY=a(b5),yZ=a(eY),y0=a(kA),y1=a(eT),yX=a(rU),yL=a(gc),yM=a(rA),yN=a(d5),yO=a(eW),yP=a(eW),yQ=a(kD),yR=a(d5),yS=a(q4),yT=a(qE),yU=a(bk),yW=a(qc),yV=a(kD),yB=a(qU),yC=a(rY),yD=a(qA),yE=a(qx),yF=a(rK),yG=a(rv),yH=a(qM),yI=a(hV),yJ=a(hV),yx=a(bk),yy=a(bI),yz=a(e0),yA=a(bJ),yt=a(cR),yu=a(kK),yv=a(rc),yq=a(bM),yr=a(bK),ys=a(d4),yj=a(bM),yk=a(bK),yl=a(d4),ym=a(kM),yn=a(d5),yo=a(kI),yp=a(rq),x3=a(qv),x9=a(hY),x8=a(kU),x4=a(kE),x5=a(f4),x_=a(f5),ya=a(f5),yb=a(ro),yc=a(kE),x$=a(f4),yd=a(qr),ye=a(rn),yf=a(f4),yg=a(rT),yh=a(kU),yi=a(f4),x6=a(eW),x7=a(q9),x0=a(h4),x1=a(h4),x2=a(h4),xW=a(rs),xX=a(bK),xY=a(bM),xZ=a(rJ),xF=a(ql),xG=a(qb),xH=a(rg),xI=a(eU),xJ=a(rV),xK=a(rj),xL=a(qm),xM=a(q_),xN=a(qk),xO=a(qI),xP=a(qj),xQ=a(ru),xR=a(eS),xS=a(qg),xT=a(rC),xU=a(qz),xV=a(rW),xg=a(h7),xi=a(eZ),xh=a(f3),xj=a(eR),xk=a(bk),xl=a(bI),xm=a(bL),xn=a(ia),xo=a(bJ),xp=a(ga),xq=a(bk),xr=a(bI),xs=a(e0),xt=a(bJ),xu=a(bL),xv=a(cR),xw=a(bJ),xx=a(eR),xy=a(gb),xz=a(bk),xA=a(bI),xB=a(q8),xC=a(f5),xD=a(gb),xE=a(bJ),w0=a(h7),w8=a(eZ),w1=a(f3),w2=a(eR),w3=a(bk),w4=a(bI),w5=a(bL),w6=a(ia),w7=a(bJ),w9=a(ga),w_=a(bk),w$=a(bI),xa=a(e0),xb=a(bJ),xc=a(bL),xd=a(cR),xe=a(bJ),wX=a(bM),wY=a(bK),wV=[0,a(aR),0],wW=a(aR),wT=a(ae),wS=[0,a(aR),0],wU=a(aR),wF=a(h7),wG=a(eZ),wH=a("*"),wI=a(b6),wA=[0,[0,[0,[0,[0,0]]]]],wB=[0,[0,[0,0]]],wC=[0,[0,0]],wD=[0,0],wE=[0,[0,[0,[0,0]]]],wy=a('":'),wz=a(aR),ww=[0,a(aR),0],wx=a(aR),wu=[0,a("}"),0],wv=a("{"),ws=[0,a("]"),0],wt=a("["),wq=[0,[0,[0,0]]],wp=[0,[0,[0,0]]],wn=[0,0],wk=[0,[0,[0,0]]],wl=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],wm=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],wi=[0,[0,0]],wj=[0,[0,[0,0]]],wh=[0,0],we=[0,0],wf=[0,[0,0]],wb=[0,0],wc=[0,[0,0]],wd=[0,0],v8=[0,[0,0]],v9=[0,0],v_=[0,[0,[0,0]]],v$=[0,[0,[0,0]]],v7=[0,[0,[0,0]]],v6=[0,[0,[0,0]]],v5=[0,0],v2=[0,[0,[0,0]]],v4=[0,[0,[0,0]]],v3=[0,0],v0=[0,[0,0]],v1=[0,0],vY=[0,[0,0]],vZ=[0,0],vX=[0,[0,[0,0]]],vV=[0,[0,0]],vW=[0,0],vS=[0,0],vT=[0,[0,0]],vM=[0,[0,0]],vN=[0,[0,[0,[0,[0,0]]]]],vO=[0,[0,[0,[0,0]]]],vP=[0,[0,[0,0]]],vQ=[0,[0,0]],vR=[0,0],vJ=[0,0],vK=[0,[0,0]],vL=[0,0],vI=[0,0],vE=[0,0],vF=[0,[0,[0,[0,[0,[0,0]]]]]],vG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IJ]]]]]]]]]]],vC=[0,0],vx=[0,0,0],vy=[0,0,0],vz=[0,0,0],vu=[0,[0,0]],vv=[0,[0,[0,0]]],vw=[0,0],vj=[0,[0,[0,[0,[0,[0,0]]]]]],vk=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],vl=[0,[0,[0,0]]],vm=[0,[0,[0,0]]],vn=[0,[0,[0,[0,[0,[0,0]]]]]],vo=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],vp=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IK]]]]]]]]]]],vq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IL]]]]]]]]]]],vr=[0,[0,[0,0]]],vs=[0,[0,[0,[0,[0,[0,0]]]]]],vf=[0,0,0],vg=[0,0,0],vb=[0,0,0],vc=[0,0,0],vd=[0,0,0],ve=[0,0,0],va=[0,0],u$=[0,0],u_=[0,0],u8=[0,0],u9=[0,0],u7=[0,0],u5=[0,0],u6=[0,0],uX=[0,0],uY=[0,0],uZ=[0,0],u0=[0,[0,[0,0]]],uW=[0,0],uQ=[0,0],uR=[0,0],uS=[0,[0,0]],uO=[0,[0,0]],uP=[0,[0,[0,0]]],uM=[0,[0,[0,0]]],uN=[0,[0,0]],uK=[0,[0,0]],uL=[0,[0,[0,0]]],uJ=[0,0],uH=[0,0],uI=[0,0],uF=[0,0,0],uC=[0,[0,0]],uD=[0,0],uu=[0,[0,0]],uv=[0,0],uw=[0,[0,0]],ux=[0,0],uy=[0,[0,0]],uz=[0,0],uA=[0,[0,0]],uB=[0,0],us=[0,[0,0]],ut=[0,0],uq=[0,[0,0]],ur=[0,0],um=[0,[0,0]],un=[0,0],uo=[0,0],up=[0,[0,0]],ud=[0,[0,0]],ue=[0,0],uf=[0,[0,0]],ug=[0,0],uh=[0,0],ui=[0,[0,0]],uj=[0,[0,0]],uk=[0,[0,0]],ul=[0,0],t$=[0,0],t_=[0,0],t7=[0,0],t8=[0,[0,0]],t6=[0,[0,[0,0]]],t5=[0,[0,[0,[0,[0,[0,0]]]]]],t3=[0,[0,0]],t4=[0,0],t2=[0,[0,0]],t1=[0,0],tZ=[0,0],t0=[0,[0,[0,0]]],tT=[0,[0,0]],tU=[0,[0,[0,0]]],tS=[0,[0,[0,0]]],tP=[0,[0,[0,0]]],tN=[0,[0,[0,0]]],tL=[0,[0,[0,[0,[0,[0,0]]]]]],tM=[0,[0,[0,[0,[0,[0,0]]]]]],tG=[0,[0,0]],tH=[0,0],tI=[0,[0,0]],tJ=[0,[0,[0,0]]],tK=[0,[0,[0,0]]],tz=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],tA=[0,[0,[0,[0,[0,[0,0]]]]]],tB=[0,[0,[0,[0,[0,[0,0]]]]]],tC=[0,[0,[0,0]]],tD=[0,[0,[0,[0,[0,[0,0]]]]]],tE=[0,[0,[0,0]]],tF=[0,[0,[0,0]]],tx=[0,[0,0]],ty=[0,0],tw=[0,0,0],tv=[0,0,0],tu=[0,0,0],ts=[0,0,0],tr=[0,[0,[0,0]]],tl=[0,0],tm=[0,0],tn=[0,0],to=[0,0],tj=[0,0],tk=[0,0],tf=[0,[0,[0,0]]],tg=[0,[0,[0,0]]],th=[0,[0,[0,0]]],te=[0,[0,[0,[0,0]]]],ta=[0,[0,[0,0]]],tb=[0,[0,[0,0]]],tc=[0,[0,[0,0]]],td=[0,[0,1,1],[0,[0,0,1],[0,[0,1,0],[0,[0,0,0],0]]]],s_=[0,[0,0]],s$=[0,0],s8=[0,[0,0]],s9=[0,0],s6=[0,[0,0]],s7=[0,0],sT=[0,0],sU=[0,[0,0]],sR=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],sS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IM]]]]]]]]]]],sP=[0,0,0],sO=a(rQ),sN=a(ae),sM=[0,[0,0]],sK=[0,0],sH=[0,0],sJ=[1,0],sI=[0,0],sG=[0,0],sE=[1,0],sF=[1,0],t9=[10,0,0,0,0],Cn=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IR]]]]]]]]]]],FM=a(bM),FN=a(bK),FO=a(qF),FE=a(ga),FF=[0,a("a base axis of such a platform"),0],FG=a(bk),FH=a(bI),Fr=a(rv),Fs=a(qU),Ft=a(rK),Fu=a(hV),Fv=a(qM),Fw=a(hV),Fx=a(rY),Fy=a(qA),Fz=a(qx),Fh=a(rh),Fi=a(h3),EV=[0,a("such a machine with bodies"),0],EI=a(h0),EJ=a(bt),EK=a(rk),EL=a(rL),EO=a(qw),EP=a(p8),EQ=a(bt),ER=a(bt),ET=a(hU),ES=[0,a("a claim that no cube of such a machine fits"),0],EU=a(rU),EW=a(eT),EX=a(eY),EY=a(cR),EZ=a(kK),E0=a(rc),E1=a(h$),E2=a(qy),E3=a(qh),E4=a(kA),E7=a(d4),E8=a(rq),E$=a(b5),Fa=a(b5),Fb=a(qJ),Fc=a(b5),Fd=[0,a("the closed design with other bounds on psi than one from below and one from above"),0],Fe=a(hU),Ff=a(gc),Fg=a(d4),Fj=a(b5),Fk=a(bM),Fl=a(bK),Fm=a(rr),Fn=a(rG),Fo=a(ib),Fp=a(qt),E5=[0,a(aR),0],E6=a('the mechanism "'),Fq=a(kP),FA=a(h$),FB=a(cR),FC=a(kK),FD=a(kS),FI=a(b5),FL=a(cR),FJ=[0,a("a platform that turns on struts and other drives"),0],FK=a(b5),E9=[0,a(aR),0],E_=a('the workspace "'),FP=a(bt),FQ=a(bt),FS=a(f_),FT=a(f6),FU=a(ib),FR=[0,a("an atlas of such a machine"),0],EM=[0,a(aR),0],EN=a('a claim of the kind "'),F8=a(kW),F9=a(dt),F_=a(eV),F$=a(kQ),Ga=a(f2),Gb=[0,a('this evidence "fan"'),0],FZ=a(dt),Gl=a(f9),Gm=[0,1,1],F0=a(q$),Gc=a(eS),Gd=a(qG),Ge=a(eU),Gf=a(qH),Gg=a(q6),Gh=a(bL),Gi=a(f9),Gj=a(hW),Gk=a(bL),F1=a(kW),F2=a(dt),F3=a(qs),F4=a(eV),F5=a(kQ),F6=[0,a(aR),0],F7=a('the evidence "'),Gn=a(eS),Go=a(eU),Gp=a(dt),Gq=a(eV),Gr=a(rI),Gt=a(eS),Gu=a(eU),Gv=a(dt),Gw=a(eV),Gx=a(f7),Gy=a(f2),Gz=a(f7),GA=a(f2),Gs=[0,a("this evidence at control points"),0],HF=a('"orthocert-paving/'),Hv=a(dt),Hw=a(dt),Hg=a(q1),Hh=a(qD),Hi=a(rz),HD=[0,3,3],Hj=a(qL),Hr=[0,a("this set of orientations with such drives"),0],Hs=[0,a('"parallel_margin" of struts in such a claim'),0],Ht=[0,a('"one_to_one" of planes in such a claim'),0],Hx=[0,a('this evidence "tolerances" of a platform that turns'),0],Hy=[0,a("a step of a platform that turns that is not at control points"),0],Hz=[0,a('the evidence "tolerances" of such a mechanism'),0],HA=[0,a("this quantity in a claim that is refuted"),0],HB=[0,a("a step in a proof that no cube fits"),0],HC=[0,a('the failure "same" of such a mechanism'),0],Hu=[0,a('"accuracy" of such a mechanism'),0],Hk=[0,a("the acceleration of a joint of a machine with a plane"),0],Hp=[0,a("a stiffness for each joint in such a claim"),0],Hq=[0,a(rm),0],Ho=[0,a(rm),0],Hl=a(q2),Hm=a(p_),Hn=a(hY),Hc=a(kV),Hd=a(f2),He=a(bL),G6=a(h0),G7=a(qV),G8=a(rD),G9=[0,a(aR),0],G_=a('a proof of the kind "'),G2=a(f6),G3=a(f_),G4=a(h1),G5=a(rb),GY=a(bt),GZ=a(h9),G0=a(p$),G1=a(h6),GV=a(rx),GW=a(f7),GX=a(h6),GR=a(re),GS=a(h9),GT=a(h1),GU=a(rM),GD=a(rH),GE=a(h5),GF=a(rE),GG=a(h3),GH=a(rl),GI=a(rS),GL=a(rt),GM=a(hW),GN=a(f9),GO=a(rw),GP=a(ri),GQ=a(h5),GJ=[0,a(aR),0],GK=a('the failure "'),GB=a(kV),GC=a(rQ),FX=a(f9),FY=a(hW),FV=a(p9),FW=a(qa),EF=a(gc),Ev=a(kD),Ew=a(qc),Ex=a(eW),Ey=a(bk),ED=a(rA),EE=a(gc),EG=a(d5),EH=a(eW),Ez=a(d5),EA=a(q4),EB=a(qE),EC=a(bk),Eo=a(d4),Es=a(bM),Et=a(bK),Ep=a(kI),Eq=a(kM),Er=a(d5),Ei=a(d4),Em=a(bM),En=a(bK),Ej=a(kI),Ek=a(kM),El=a(d5),Eh=[0,1],Eg=[0,1],Ee=[0,1],Ec=[0,1],Eb=[0,1],D$=[0,1],Ea=[0,a("this quantity of such a mechanism"),0],DU=a(kE),DV=a(rn),DW=a(qr),DX=a(kU),DY=a(rT),D0=a(ro),DZ=a(f5),DT=a(hY),DL=a(h4),Dz=a(q9),DA=a(rg),D3=a(eS),D4=a(rC),D5=a(qI),D6=a(eU),D7=a(q_),D8=a(qj),D9=a(qk),D_=a(qb),DB=a(qg),DC=a(rW),DD=a(ru),DE=a(rj),DF=a(qz),DG=a(rV),DH=a(qm),DI=a(ql),DJ=[0,a(aR),0],DK=a('the quantity "'),DM=a(qv),DN=a(rs),DO=a(bM),DP=a(bK),DQ=a(rJ),DR=[0,a(aR),0],DS=a('a bound "'),D1=a(f4),D2=a(eW),Dx=a(bJ),Dy=a(e0),Da=a(bJ),Db=a(ga),Dc=a(gb),Dd=a(cR),De=a(ia),Df=a(e0),Di=a(bk),Dj=a(bI),Dk=a(f3),Dl=a(eR),Dm=a(bk),Dn=a(bI),Do=a(bL),Dp=a(bL),Dq=a(f3),Dr=a(eR),Ds=a(gb),Dt=a(bk),Du=a(bI),Dv=a(q8),Dw=a(f5),Dg=[0,a('" of such a machine'),0],Dh=a(qq),C_=a(bJ),C$=a(gb),CU=a(bJ),CV=a(cR),CW=a(ia),CX=a(e0),C0=a(ga),C1=a(bk),C2=a(bI),C3=a(f3),C4=a(eR),C5=a(bk),C6=a(bI),C7=a(bL),C8=a(bL),CY=[0,a(aR),0],CZ=a(qq),CR=a(h7),CS=a(eZ),CP=a(" is not covered by the verified checker"),CQ=a(ae),CN=a(bM),CO=a(bK),CJ=a(ae),CK=a(rX),CL=a(ae),CM=a(ae),CI=[1,0],CH=a(eZ),CF=a("Reader.Malformed"),CG=a("Reader.Not_covered"),HH=[0,a("a paving is checked by orthocert-verified")],HG=a(ra),HI=a("CERTIFIED"),HJ=a("REFUTED"),HK=a(ra),HL=a("NOT COVERED: ");function
-gi(a){throw[0,lc,a]}function
-bd(d,c){var
-a=az(d),e=az(c),b=cq(a+e|0);e2(d,0,b,0,a);e2(c,0,b,a,e);return ik(b)}Jj(0);si(1);si(2);function
-le(b){function
+JH(){var
+a=S;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){sl(b);a.process.exit(2)});else
+if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)sl(a.error)})}JH();function
+k(a,b){return a.length==1?a(b):dw(a,[b])}function
+ar(a,b,c){return a.length==2?a(b,c):dw(a,[b,c])}function
+f4(a,b,c,d){return a.length==3?a(b,c,d):dw(a,[b,c,d])}function
+kF(a,b,c,d,e){return a.length==4?a(b,c,d,e):dw(a,[b,c,d,e])}Jj();var
+ll=[a7,a(qW),-2],lk=[a7,a(r8),-4],H1=[0,[0,[0,[0,0]]]],H2=[0,0],H3=[0,0],H4=[0,[0,0]],H5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H4]]]]]]]]]]],hO=[0,[1,0],0],pC=[0,[2,0],0],kj=[0,[1,0],0],pB=[0,[2,0],0],hM=[0,[1,0],0],ki=[0,[2,0],0],H6=[0,[0,[0,[0,0]]]],H7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H6]]]]]]]]]]],H8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H7]]]]]]]]]]],H9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H8]]]]]]]]]]],H_=[0,[0,0]],H$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H_]]]]]]]]]]],Ia=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H$]]]]]]]]]]],Ib=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ia]]]]]]]]]]],Ic=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ib]]]]]]]]]]],Id=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],Ie=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Id]]]]]]]]]]],If=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ie]]]]]]]]]]],Ig=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,If]]]]]]]]]]],Ih=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ig]]]]]]]]]]],Ii=[0,[0,0]],Ij=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ii]]]]]]]]]]],Ik=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ij]]]]]]]]]]],Il=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ik]]]]]]]]]]],Im=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Il]]]]]]]]]]],In=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Im]]]]]]]]]]],Io=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,In]]]]]]]]]]],Ip=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Io]]]]]]]]]]],Iq=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],Ir=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Iq]]]]]]]]]]],Is=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ir]]]]]]]]]]],It=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Is]]]]]]]]]]],Iu=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,It]]]]]]]]]]],Iv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Iu]]]]]]]]]]],Iw=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Iv]]]]]]]]]]],Ix=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Iw]]]]]]]]]]],Iy=[0,0],Iz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Iy]]]]]]]]]]],IA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Iz]]]]]]]]]]],IB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IA]]]]]]]]]]],IC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IB]]]]]]]]]]],ID=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IC]]]]]]]]]]],IE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,ID]]]]]]]]]]],IF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IE]]]]]]]]]]],IG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IF]]]]]]]]]]],IH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IG]]]]]]]]]]],II=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IH]]]]]]]]]]],IJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],IK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IJ]]]]]]]]]]],IL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],IM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IL]]]]]]]]]]],IN=[0,[0,[0,[0,[0,0]]]]],IO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IN]]]]]]]]]]],IP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IO]]]]]]]]]]],IQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IP]]]]]]]]]]],IR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IQ]]]]]]]]]]],IS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IR]]]]]]]]]]],IT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IS]]]]]]]]]]],IU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IT]]]]]]]]]]],IV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IU]]]]]]]]]]],IW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IV]]]]]]]]]]],IX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IW]]]]]]]]]]],IY=[0,0],IZ=[0,[0,0]],I0=[0,0],I1=[0,[0,[0,[0,[0,0]]]]],dE=[0,[0,[0,0]]],dG=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],hB=[0,[0,[0,[0,0]]]],I2=[0,[0,[0,[0,[0,0]]]]],I3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,I2]]]]]]]]]]],I4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,I3]]]]]]]]]]],I5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,I4]]]]]]]]]]],I6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,I5]]]]]]]]]]];bN(11,[a7,a(qm),-12],qm);bN(10,[a7,a(ra),-11],ra);bN(9,[a7,a(rX),-10],rX);bN(8,[a7,a(qy),-9],qy);bN(7,[a7,a(ro),-8],ro);bN(6,[a7,a(qw),-7],qw);bN(5,[a7,a(qX),-6],qX);bN(4,[a7,a(q1),-5],q1);bN(3,lk,r8);bN(2,[a7,a(kP),-3],kP);bN(1,ll,qW);bN(0,[a7,a(rH),-1],rH);var
+sI=a("String.sub / Bytes.sub"),sK=a(af),sJ=a("String.concat"),sL=a("Array.init"),sM=a("power"),s5=[0,0],s6=[0,0],ta=[0,0,0],tb=[0,0,0],tc=[0,0],ty=[0,0],tz=[0,0],tC=[0,0],tX=[0,0],t0=[0,0],t4=[0,0],t5=[0,0],t6=[0,0],t7=[0,0],uj=[0,0],uk=[0,0],uN=[0,0],vb=[0,[0,[0,0]]],vC=[0,0],v3=[0,0],wp=[0,0],wA=a(","),wS=[0,a(kV),0],wT=a(q6),wU=a("."),wV=[0,[0,[0,0]]],wW=a(e0),wX=a(kW),wY=[0,[0,[0,[0,[0,0]]]]],wZ=[0,a(kV),0],w0=a(r6),z3=a(qj),z5=a(qg),z4=a(rd),z6=a(eV),z7=a(eT),z8=a(k4),z9=a(rR),z_=a(qQ),z$=a(kY),Aa=a(ri),Ab=a(qP),Br=[0,[0,0,0]],BI=[0,0],Bs=a(f5),Bt=[0,0],Bu=a("divided"),Bv=[0,1],Bw=a("mirror"),Bx=[0,3],By=a("negative"),Bz=[0,2],BA=a(f_),BB=[0,5],BC=a(k3),BD=[0,4],BE=a(du),BF=a(qB),BG=a(eW),BH=a(bL),BJ=[0,0],BK=[0,0],BL=[0,0],BO=[0,[0,[0,0]]],BP=[0,[0,[0,0]]],Ce=[0,[0,[0,0]]],Cs=[0,0],CN=a(af),CF=[0,0],CH=[0,0],CG=[0,0],CI=[0,[0,[0,[0,0]]]],CJ=[0,[0,[0,0]]],CK=[0,[0,[0,[0,0]]]],CL=[0,[0,[0,0]]],CD=[0,[0,[0,0]]],CC=a(eW),CB=[0,0],Cz=[0,1,0],CA=[0,[0,[0,0]]],Cy=[0,0],Cx=[0,0],Cw=[0,0],Ct=[0,[0,0]],Cu=[0,[0,[0,0]]],Cq=[0,[0,0]],Cr=[0,[0,[0,0]]],Cp=[0,0],Cl=[0,[0,[0,0]]],Ck=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H1]]]]]]]]]],[0,0,[0,[0,[0,[0,0]]],0]]],Cf=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],[0,0,0]],Cg=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],[0,[0,[0,[0,[0,[0,[0,0]]]]]],0]],Ch=[0,[0,[0,[0,[0,[0,[0,0]]]]]],0],Ci=[0,[0,[0,[0,0]]],[0,0,0]],Cc=[0,0],Cd=[0,[0,0]],Cb=[0,0,0],Ca=[0,[0,[0,0]]],B6=[0,[0,0]],B7=[0,[0,[0,0]]],B8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H2]]]]]]]]]]],B9=[0,[0,0]],B_=[0,[0,[0,0]]],B5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H3]]]]]]]]]]],B3=[0,[0,0]],B4=[0,[0,[0,0]]],B1=[0,[0,[0,0]]],B2=[0,[0,0]],B0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H5]]]]]]]]]]],BZ=[0,0],BY=[0,0],BV=[0,[0,0]],BW=[0,0],BT=[0,0],BU=[0,1],BR=[0,[0,0]],BS=[0,0],BQ=[0,0],BM=[0,0],BN=[0,1],Bo=[0,0],Bp=[0,1],Bq=[0,2],Bk=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],Bi=[0,[0,0],0],Bj=[0,[1,0],0],Bl=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],Bg=[0,[0,0]],Bh=[0,0],Bf=[0,0],Be=[0,0],Bd=[0,0],Bc=[0,0],Bb=[0,0,0],A$=[0,[0,0]],Ba=[0,0],A_=[0,0,0],A8=[0,[0,[0,0]]],A9=[0,[0,[0,0]]],A7=[0,0],A5=[0,1,0],AY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H9]]]]]]]]]]],AZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ic]]]]]]]]]]],AU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ih]]]]]]]]]]],AV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ip]]]]]]]]]]],AW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ix]]]]]]]]]]],AX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,II]]]]]]]]]]],A0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IK]]]]]]]]]]],A1=a("sqrt"),AS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IM]]]]]]]]]]],AT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IX]]]]]]]]]]],AH=[0,a("\n"),0],AI=a(qh),AJ=a(h6),AK=a(q$),AL=a(qU),AR=a(gb),AM=a(f9),AN=a("verdict"),AO=a(rI),AP=a(qM),AQ=a(q_),AE=a(q4),AF=a(rM),AG=a(h8),AA=a(rk),AB=a(h9),AC=a(f9),AD=a(gb),Av=a(ig),Aw=a(bv),Ax=a(qi),Ay=a(ic),As=a(rG),At=a(f_),Au=a(ic),Ao=a(rn),Ap=a(ig),Aq=a(h9),Ar=a(rV),Ad=a(rN),Ae=a(rQ),Af=a(ib),Ag=a(h$),Ah=a(r1),Ai=a(rC),Aj=a(rF),Ak=a(rr),Al=a(ib),Am=a(ru),z1=a(h4),z2=a(ga),zW=a(bM),zX=a(bK),zY=a(qO),zw=a(h$),zx=a(rq),za=a(bv),zb=a(b6),zc=a(ii),zd=a(eZ),ze=a(co),zj=a(kI),zf=a(kX),zg=a(k0),zh=a(eU),zi=a(bv),zk=a(b6),zl=a(ii),zm=a(eZ),zn=a(kX),zo=a(k0),zp=a(eU),zq=a(bv),zr=a(b6),zs=a(bM),zt=a(bK),zu=a(d5),zv=a(eZ),zy=a(rA),zz=a(rP),zA=a(ij),zB=a(qC),zC=a(qH),zD=a(eU),zE=a(bv),zF=a(b6),zG=a(h2),zH=a(qS),zI=a(eZ),zJ=a(gg),zK=a(qq),zL=a(eU),zM=a(bv),zN=a(h2),zO=a(bv),zP=a(rt),zS=a(qf),zQ=a(qF),zR=a(rU),zT=a(gb),zU=a(f9),zV=a(bv),zZ=a(ij),z0=a(h8),y7=a(b6),y8=a(eZ),y9=a(kI),y_=a(eU),y6=a(r3),yU=a(gg),yV=a(rJ),yW=a(d6),yX=a(eX),yY=a(eX),yZ=a(kL),y0=a(d6),y1=a(rb),y2=a(qN),y3=a(bl),y5=a(ql),y4=a(kL),yK=a(q3),yL=a(r7),yM=a(qJ),yN=a(qG),yO=a(rT),yP=a(rE),yQ=a(qV),yR=a(h3),yS=a(h3),yG=a(bl),yH=a(bJ),yI=a(e1),yJ=a(bu),yC=a(co),yD=a(kS),yE=a(rl),yz=a(bM),yA=a(bK),yB=a(d5),ys=a(bM),yt=a(bK),yu=a(d5),yv=a(kU),yw=a(d6),yx=a(kQ),yy=a(rz),ya=a(qE),yg=a(h6),yf=a(k2),yb=a(kM),yc=a(f7),yh=a(f8),yj=a(f8),yk=a(rx),yl=a(kM),yi=a(f7),ym=a(qA),yn=a(rw),yo=a(f7),yp=a(r2),yq=a(k2),yr=a(f7),yd=a(eX),ye=a(rg),x9=a(ia),x_=a(ia),x$=a(ia),x5=a(rB),x6=a(bK),x7=a(bM),x8=a(rS),xO=a(qu),xP=a(qk),xQ=a(rp),xR=a(eV),xS=a(r4),xT=a(rs),xU=a(qv),xV=a(rh),xW=a(qt),xX=a(qR),xY=a(qs),xZ=a(rD),x0=a(eT),x1=a(qp),x2=a(rL),x3=a(qI),x4=a(r5),xp=a(id),xr=a(e0),xq=a(f6),xs=a(eS),xt=a(bl),xu=a(bJ),xv=a(bL),xw=a(gc),xx=a(bu),xy=a(ge),xz=a(bl),xA=a(bJ),xB=a(e1),xC=a(bu),xD=a(bL),xE=a(co),xF=a(bu),xG=a(eS),xH=a(gf),xI=a(bl),xJ=a(bJ),xK=a(rf),xL=a(f8),xM=a(gf),xN=a(bu),w9=a(id),xf=a(e0),w_=a(f6),w$=a(eS),xa=a(bl),xb=a(bJ),xc=a(bL),xd=a(gc),xe=a(bu),xg=a(ge),xh=a(bl),xi=a(bJ),xj=a(e1),xk=a(bu),xl=a(bL),xm=a(co),xn=a(bu),w6=a(bM),w7=a(bK),w4=[0,a(aR),0],w5=a(aR),w2=a(af),w1=[0,a(aR),0],w3=a(aR),wO=a(id),wP=a(e0),wQ=a("*"),wR=a(b7),wJ=[0,[0,[0,[0,[0,0]]]]],wK=[0,[0,[0,0]]],wL=[0,[0,0]],wM=[0,0],wN=[0,[0,[0,[0,0]]]],wH=a('":'),wI=a(aR),wF=[0,a(aR),0],wG=a(aR),wD=[0,a("}"),0],wE=a("{"),wB=[0,a("]"),0],wC=a("["),wz=[0,[0,[0,0]]],wy=[0,[0,[0,0]]],ww=[0,0],wt=[0,[0,[0,0]]],wu=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],wv=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],wr=[0,[0,0]],ws=[0,[0,[0,0]]],wq=[0,0],wn=[0,0],wo=[0,[0,0]],wk=[0,0],wl=[0,[0,0]],wm=[0,0],wf=[0,[0,0]],wg=[0,0],wh=[0,[0,[0,0]]],wi=[0,[0,[0,0]]],we=[0,[0,[0,0]]],wd=[0,[0,[0,0]]],wc=[0,0],v$=[0,[0,[0,0]]],wb=[0,[0,[0,0]]],wa=[0,0],v9=[0,[0,0]],v_=[0,0],v7=[0,[0,0]],v8=[0,0],v6=[0,[0,[0,0]]],v4=[0,[0,0]],v5=[0,0],v1=[0,0],v2=[0,[0,0]],vV=[0,[0,0]],vW=[0,[0,[0,[0,[0,0]]]]],vX=[0,[0,[0,[0,0]]]],vY=[0,[0,[0,0]]],vZ=[0,[0,0]],v0=[0,0],vS=[0,0],vT=[0,[0,0]],vU=[0,0],vR=[0,0],vN=[0,0],vO=[0,[0,[0,[0,[0,[0,0]]]]]],vP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IY]]]]]]]]]]],vL=[0,0],vG=[0,0,0],vH=[0,0,0],vI=[0,0,0],vD=[0,[0,0]],vE=[0,[0,[0,0]]],vF=[0,0],vs=[0,[0,[0,[0,[0,[0,0]]]]]],vt=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],vu=[0,[0,[0,0]]],vv=[0,[0,[0,0]]],vw=[0,[0,[0,[0,[0,[0,0]]]]]],vx=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],vy=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IZ]]]]]]]]]]],vz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,I0]]]]]]]]]]],vA=[0,[0,[0,0]]],vB=[0,[0,[0,[0,[0,[0,0]]]]]],vo=[0,0,0],vp=[0,0,0],vk=[0,0,0],vl=[0,0,0],vm=[0,0,0],vn=[0,0,0],vj=[0,0],vi=[0,0],vh=[0,0],vf=[0,0],vg=[0,0],ve=[0,0],vc=[0,0],vd=[0,0],u6=[0,0],u7=[0,0],u8=[0,0],u9=[0,[0,[0,0]]],u5=[0,0],uZ=[0,0],u0=[0,0],u1=[0,[0,0]],uX=[0,[0,0]],uY=[0,[0,[0,0]]],uV=[0,[0,[0,0]]],uW=[0,[0,0]],uT=[0,[0,0]],uU=[0,[0,[0,0]]],uS=[0,0],uQ=[0,0],uR=[0,0],uO=[0,0,0],uL=[0,[0,0]],uM=[0,0],uD=[0,[0,0]],uE=[0,0],uF=[0,[0,0]],uG=[0,0],uH=[0,[0,0]],uI=[0,0],uJ=[0,[0,0]],uK=[0,0],uB=[0,[0,0]],uC=[0,0],uz=[0,[0,0]],uA=[0,0],uv=[0,[0,0]],uw=[0,0],ux=[0,0],uy=[0,[0,0]],um=[0,[0,0]],un=[0,0],uo=[0,[0,0]],up=[0,0],uq=[0,0],ur=[0,[0,0]],us=[0,[0,0]],ut=[0,[0,0]],uu=[0,0],ui=[0,0],uh=[0,0],ue=[0,0],uf=[0,[0,0]],ud=[0,[0,[0,0]]],uc=[0,[0,[0,[0,[0,[0,0]]]]]],ua=[0,[0,0]],ub=[0,0],t$=[0,[0,0]],t_=[0,0],t8=[0,0],t9=[0,[0,[0,0]]],t2=[0,[0,0]],t3=[0,[0,[0,0]]],t1=[0,[0,[0,0]]],tY=[0,[0,[0,0]]],tW=[0,[0,[0,0]]],tU=[0,[0,[0,[0,[0,[0,0]]]]]],tV=[0,[0,[0,[0,[0,[0,0]]]]]],tP=[0,[0,0]],tQ=[0,0],tR=[0,[0,0]],tS=[0,[0,[0,0]]],tT=[0,[0,[0,0]]],tI=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],tJ=[0,[0,[0,[0,[0,[0,0]]]]]],tK=[0,[0,[0,[0,[0,[0,0]]]]]],tL=[0,[0,[0,0]]],tM=[0,[0,[0,[0,[0,[0,0]]]]]],tN=[0,[0,[0,0]]],tO=[0,[0,[0,0]]],tG=[0,[0,0]],tH=[0,0],tF=[0,0,0],tE=[0,0,0],tD=[0,0,0],tB=[0,0,0],tA=[0,[0,[0,0]]],tu=[0,0],tv=[0,0],tw=[0,0],tx=[0,0],ts=[0,0],tt=[0,0],to=[0,[0,[0,0]]],tp=[0,[0,[0,0]]],tq=[0,[0,[0,0]]],tn=[0,[0,[0,[0,0]]]],tj=[0,[0,[0,0]]],tk=[0,[0,[0,0]]],tl=[0,[0,[0,0]]],tm=[0,[0,1,1],[0,[0,0,1],[0,[0,1,0],[0,[0,0,0],0]]]],th=[0,[0,0]],ti=[0,0],tf=[0,[0,0]],tg=[0,0],td=[0,[0,0]],te=[0,0],s2=[0,0],s3=[0,[0,0]],s0=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],s1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,I1]]]]]]]]]]],sY=[0,0,0],sX=a(rZ),sW=a(af),sV=[0,[0,0]],sT=[0,0],sQ=[0,0],sS=[1,0],sR=[0,0],sP=[0,0],sN=[1,0],sO=[1,0],ug=[10,0,0,0,0],Cv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,I6]]]]]]]]]]],F1=a(bM),F2=a(bK),F3=a(qO),FT=a(ge),FU=[0,a("a base axis of such a platform"),0],FV=a(bl),FW=a(bJ),FG=a(rE),FH=a(q3),FI=a(rT),FJ=a(h3),FK=a(qV),FL=a(h3),FM=a(r7),FN=a(qJ),FO=a(qG),Fw=a(rq),Fx=a(h$),E_=[0,a("such a machine with bodies"),0],EX=a(h8),EY=a(bv),EZ=a(rt),E0=a(rU),E3=a(qF),E4=a(qf),E5=a(bv),E6=a(bv),E8=a(h2),E7=[0,a("a claim that no cube of such a machine fits"),0],E9=a(r3),E$=a(eU),Fa=a(eZ),Fb=a(co),Fc=a(kS),Fd=a(rl),Fe=a(ii),Ff=a(qH),Fg=a(qq),Fh=a(kI),Fk=a(d5),Fl=a(rz),Fo=a(b6),Fp=a(b6),Fq=a(qS),Fr=a(b6),Fs=[0,a("the closed design with other bounds on psi than one from below and one from above"),0],Ft=a(h2),Fu=a(gg),Fv=a(d5),Fy=a(b6),Fz=a(bM),FA=a(bK),FB=a(rA),FC=a(rP),FD=a(ij),FE=a(qC),Fi=[0,a(aR),0],Fj=a('the mechanism "'),FF=a(kX),FP=a(ii),FQ=a(co),FR=a(kS),FS=a(k0),FX=a(b6),F0=a(co),FY=[0,a("a platform that turns on struts and other drives"),0],FZ=a(b6),Fm=[0,a(aR),0],Fn=a('the workspace "'),F4=a(bv),F5=a(bv),F7=a(gb),F8=a(f9),F9=a(ij),F6=[0,a("an atlas of such a machine"),0],E1=[0,a(aR),0],E2=a('a claim of the kind "'),Gl=a(k4),Gm=a(du),Gn=a(eW),Go=a(kY),Gp=a(f5),Gq=[0,a('this evidence "fan"'),0],Gc=a(du),GA=a(ga),GB=[0,1,1],Gd=a(ri),Gr=a(eT),Gs=a(qP),Gt=a(eV),Gu=a(qQ),Gv=a(rd),Gw=a(bL),Gx=a(ga),Gy=a(h4),Gz=a(bL),Ge=a(k4),Gf=a(du),Gg=a(qB),Gh=a(eW),Gi=a(kY),Gj=[0,a(aR),0],Gk=a('the evidence "'),GC=a(eT),GD=a(eV),GE=a(du),GF=a(eW),GG=a(rR),GI=a(eT),GJ=a(eV),GK=a(du),GL=a(eW),GM=a(f_),GN=a(f5),GO=a(f_),GP=a(f5),GH=[0,a("this evidence at control points"),0],HU=a('"orthocert-paving/'),HK=a(du),HL=a(du),Hv=a(q_),Hw=a(qM),Hx=a(rI),HS=[0,3,3],Hy=a(qU),HG=[0,a("this set of orientations with such drives"),0],HH=[0,a('"parallel_margin" of struts in such a claim'),0],HI=[0,a('"one_to_one" of planes in such a claim'),0],HM=[0,a('this evidence "tolerances" of a platform that turns'),0],HN=[0,a("a step of a platform that turns that is not at control points"),0],HO=[0,a('the evidence "tolerances" of such a mechanism'),0],HP=[0,a("this quantity in a claim that is refuted"),0],HQ=[0,a("a step in a proof that no cube fits"),0],HR=[0,a('the failure "same" of such a mechanism'),0],HJ=[0,a('"accuracy" of such a mechanism'),0],Hz=[0,a("the acceleration of a joint of a machine with a plane"),0],HE=[0,a("a stiffness for each joint in such a claim"),0],HF=[0,a(rv),0],HD=[0,a(rv),0],HA=a(q$),HB=a(qh),HC=a(h6),Hr=a(k3),Hs=a(f5),Ht=a(bL),Hj=a(h8),Hk=a(q4),Hl=a(rM),Hm=[0,a(aR),0],Hn=a('a proof of the kind "'),Hf=a(f9),Hg=a(gb),Hh=a(h9),Hi=a(rk),Hb=a(bv),Hc=a(ig),Hd=a(qi),He=a(ic),G_=a(rG),G$=a(f_),Ha=a(ic),G6=a(rn),G7=a(ig),G8=a(h9),G9=a(rV),GS=a(rQ),GT=a(ib),GU=a(rN),GV=a(h$),GW=a(ru),GX=a(r1),G0=a(rC),G1=a(h4),G2=a(ga),G3=a(rF),G4=a(rr),G5=a(ib),GY=[0,a(aR),0],GZ=a('the failure "'),GQ=a(k3),GR=a(rZ),Ga=a(ga),Gb=a(h4),F_=a(qg),F$=a(qj),EU=a(gg),EK=a(kL),EL=a(ql),EM=a(eX),EN=a(bl),ES=a(rJ),ET=a(gg),EV=a(d6),EW=a(eX),EO=a(d6),EP=a(rb),EQ=a(qN),ER=a(bl),ED=a(d5),EH=a(bM),EI=a(bK),EE=a(kQ),EF=a(kU),EG=a(d6),Ex=a(d5),EB=a(bM),EC=a(bK),Ey=a(kQ),Ez=a(kU),EA=a(d6),Ew=[0,1],Ev=[0,1],Et=[0,1],Er=[0,1],Eq=[0,1],Eo=[0,1],Ep=[0,a("this quantity of such a mechanism"),0],D9=a(kM),D_=a(rw),D$=a(qA),Ea=a(k2),Eb=a(r2),Ed=a(rx),Ec=a(f8),D8=a(h6),D0=a(ia),DO=a(rg),DP=a(rp),Eg=a(eT),Eh=a(rL),Ei=a(qR),Ej=a(eV),Ek=a(rh),El=a(qs),Em=a(qt),En=a(qk),DQ=a(qp),DR=a(r5),DS=a(rD),DT=a(rs),DU=a(qI),DV=a(r4),DW=a(qv),DX=a(qu),DY=[0,a(aR),0],DZ=a('the quantity "'),D1=a(qE),D2=a(rB),D3=a(bM),D4=a(bK),D5=a(rS),D6=[0,a(aR),0],D7=a('a bound "'),Ee=a(f7),Ef=a(eX),DM=a(bu),DN=a(e1),DK=a(bu),DL=a(co),DH=a(bu),DI=a(gc),Dj=a(bu),Dk=a(ge),Dl=a(gf),Dm=a(co),Dn=a(gc),Do=a(e1),Dr=a(bl),Ds=a(bJ),Dt=a(f6),Du=a(eS),Dv=a(bl),Dw=a(bJ),Dx=a(bL),Dy=a(bL),Dz=a(f6),DA=a(eS),DB=a(gf),DC=a(bl),DD=a(bJ),DE=a(rf),DF=a(f8),Dp=[0,a('" of such a machine'),0],Dq=a(qz),Dh=a(bu),Di=a(gf),C3=a(bu),C4=a(co),C5=a(gc),C6=a(e1),C9=a(ge),C_=a(bl),C$=a(bJ),Da=a(f6),Db=a(eS),Dc=a(bl),Dd=a(bJ),De=a(bL),Df=a(bL),C7=[0,a(aR),0],C8=a(qz),C0=a(id),C1=a(e0),CY=a(" is not covered by the verified checker"),CZ=a(af),CW=a(bM),CX=a(bK),CS=a(af),CT=a(r6),CU=a(af),CV=a(af),CR=[1,0],CQ=a(e0),CO=a("Reader.Malformed"),CP=a("Reader.Not_covered"),HW=[0,a("a paving is checked by orthocert-verified")],HV=a(rj),HX=a("CERTIFIED"),HY=a("REFUTED"),HZ=a(rj),H0=a("NOT COVERED: ");function
+gm(a){throw[0,lk,a]}function
+be(d,c){var
+a=aA(d),e=aA(c),b=cs(a+e|0);e3(d,0,b,0,a);e3(c,0,b,a,e);return is(b)}Jy(0);sr(1);sr(2);function
+lm(b){function
 a(b){var
 a=b;for(;;){if(a){var
-c=a[2],d=a[1];try{Ji(d)}catch(a){a=ss(a);if(a[1]!==ld)throw a;var
+c=a[2],d=a[1];try{Jx(d)}catch(a){a=sB(a);if(a[1]!==ll)throw a;var
 e=a}var
-a=c;continue}return 0}}return a(Jk(0))}Jr(a(qe),le);function
-cs(c){var
+a=c;continue}return 0}}return a(Jz(0))}JG(a(qn),lm);function
+cu(c){var
 b=0,a=c;for(;;){if(a){var
 b=b+1|0,a=a[2];continue}return b}}function
-lf(d){var
+ln(d){var
 a=d,b=0;for(;;){if(a){var
 c=[0,a[1],b],a=a[2],b=c;continue}return b}}function
 _(b,a){if(a){var
 c=a[2],d=k(b,a[1]);return[0,d,_(b,c)]}return 0}function
-im(d,c){var
+gn(d,c){var
 a=c;for(;;){if(a){var
 e=a[2],b=k(d,a[1]);if(b){var
 a=e;continue}return b}return 1}}function
-aG(d,c){var
+av(d,c){var
 a=c;for(;;){if(a){var
 e=a[2],b=k(d,a[1]);if(b)return b;var
 a=e;continue}return 0}}function
 bO(b,c){var
-a=cq(b);I4(a,0,b,c);return ik(a)}function
-d$(g,b,a){var
-d=e3(g),f=0;if(0<=b&&0<=a&&!((ii(d)-a|0)<b)){var
-c=cq(a);gd(d,b,c,0,a);var
+a=cs(b);Jh(a,0,b,c);return is(a)}function
+ea(g,b,a){var
+d=e4(g),f=0;if(0<=b&&0<=a&&!((iq(d)-a|0)<b)){var
+c=cs(a);gh(d,b,c,0,a);var
 e=c;f=1}if(!f)var
-e=gi(sz);return ik(e)}function
-lg(k,g){if(g){var
-h=az(k),c=0,b=g,p=0;for(;;){if(b){var
+e=gm(sI);return is(e)}function
+lo(k,g){if(g){var
+h=aA(k),c=0,b=g,p=0;for(;;){if(b){var
 i=b[1];if(b[2]){var
-j=(az(i)+h|0)+c|0,m=b[2],n=c<=j?j:gi(sA),c=n,b=m;continue}var
-l=az(i)+c|0}else
+j=(aA(i)+h|0)+c|0,m=b[2],n=c<=j?j:gm(sJ),c=n,b=m;continue}var
+l=aA(i)+c|0}else
 var
 l=c;var
-f=cq(l),e=p,d=g;for(;;){if(d){var
+f=cs(l),e=p,d=g;for(;;){if(d){var
 a=d[1];if(d[2]){var
-o=d[2];e2(a,0,f,e,az(a));e2(k,0,f,e+az(a)|0,h);var
-e=(e+az(a)|0)+h|0,d=o;continue}e2(a,0,f,e,az(a))}return ik(f)}}}return sB}function
-io(b,c){if(0===b)return[0];if(0<=b){var
-d=Jh(b,k(c,0)),e=b-1|0,f=1;if(!(e<1)){var
+o=d[2];e3(a,0,f,e,aA(a));e3(k,0,f,e+aA(a)|0,h);var
+e=(e+aA(a)|0)+h|0,d=o;continue}e3(a,0,f,e,aA(a))}return is(f)}}}return sK}function
+iu(b,c){if(0===b)return[0];if(0<=b){var
+d=Jw(b,k(c,0)),e=b-1|0,f=1;if(!(e<1)){var
 a=f;for(;;){d[1+a]=k(c,a);var
 g=a+1|0;if(e!==a){var
-a=g;continue}break}}return d}return gi(sC)}function
-ip(c){var
+a=g;continue}break}}return d}return gm(sL)}function
+iv(c){var
 a=c.length-1-1|0,b=0;for(;;){if(0<=a){var
 d=[0,c[1+a],b],a=a-1|0,b=d;continue}return b}}var
 d=aJ(0),b=aJ(1);function
 q(a){return E(a,b)}function
-lh(b,a){return E(aJ(b),a)}function
+lp(b,a){return E(aJ(b),a)}function
 c(b,a){return C(aJ(b),a)}function
-aT(b,a){return[0,k$(b,a),sv(b,a)]}function
-iq(b,a){return D(b,a)?b:a}function
-bl(b,a){return D(b,a)?a:b}function
-e8(a){return e8}function
-N(a){return a?0:1}function
-z(b,a){var
+aT(b,a){return[0,lh(b,a),sE(b,a)]}function
+iw(b,a){return D(b,a)?b:a}function
+bm(b,a){return D(b,a)?a:b}function
+e9(a){return e9}function
+J(a){return a?0:1}function
+y(b,a){var
 c=a?[0,k(b,a[1])]:a;return c}function
-aA(a){return a[1]}function
+aB(a){return a[1]}function
 aO(a){return a[2]}function
 g(a){var
 b=a?[0,g(a[2])]:a;return b}function
 f(a,b){if(a){var
 c=f(a[2],b);return[0,a[1],c]}return b}function
-li(a){return typeof
-a==="number"?0:[0,li(a[1])]}function
-lj(d,c){var
+lq(a){return typeof
+a==="number"?0:[0,lq(a[1])]}function
+lr(d,c){var
 a=d,b=c;for(;;)if(typeof
 a==="number")return b;else
 switch(a[0]){case
@@ -797,9 +797,9 @@ a=a[1],b=[7,b];continue;case
 8:var
 a=a[1],b=[8,b];continue;default:var
 a=a[1],b=[9,b];continue}}function
-gj(a){return lj(a,0)}function
-lk(a){if(typeof
-a==="number")return sE;else
+go(a){return lr(a,0)}function
+ls(a){if(typeof
+a==="number")return sN;else
 switch(a[0]){case
 0:return[1,a[1]];case
 1:return[2,a[1]];case
@@ -809,9 +809,9 @@ switch(a[0]){case
 5:return[6,a[1]];case
 6:return[7,a[1]];case
 7:return[8,a[1]];case
-8:return[9,a[1]];default:return[0,lk(a[1])]}}function
+8:return[9,a[1]];default:return[0,ls(a[1])]}}function
 bQ(a){if(typeof
-a==="number")return sF;else
+a==="number")return sO;else
 switch(a[0]){case
 0:return[1,bP(a[1])];case
 1:return[3,bP(a[1])];case
@@ -834,13 +834,13 @@ switch(a[0]){case
 6:return[2,bQ(a[1])];case
 7:return[4,bQ(a[1])];case
 8:return[6,bQ(a[1])];default:return[8,bQ(a[1])]}}function
-bz(a){return a?a[1]:a}function
-L(b,a){return b?[0,L(b[1],a)]:a}function
-ll(a,b){return a?L(b,ll(a[1],b)):a}function
-dw(d,c){var
+bA(a){return a?a[1]:a}function
+M(b,a){return b?[0,M(b[1],a)]:a}function
+lt(a,b){return a?M(b,lt(a[1],b)):a}function
+dx(d,c){var
 a=d,b=c;for(;;){if(a){if(b){var
 a=a[1],b=b[1];continue}return a}return a}}function
-ct(b,a){return b?a:a?0:1}function
+cv(b,a){return b?a:a?0:1}function
 o(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return a?0:1}}function
@@ -848,62 +848,62 @@ aa(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return 1}}function
 aK(b,a){return aa([0,b],a)}function
-lm(c){var
+lu(c){var
 a=c;for(;;){if(a){var
 b=a[1];if(b){var
 a=b[1];continue}return b}return 1}}function
-gk(c,b,a){return c?k(b,gk(c[1],b,a)):a}function
-ln(a){if(a)var
-b=a[1],d=b?[0,ln(b[1])]:b,c=d;else
+gp(c,b,a){return c?k(b,gp(c[1],b,a)):a}function
+lv(a){if(a)var
+b=a[1],d=b?[0,lv(b[1])]:b,c=d;else
 var
 c=a;return c}function
-ir(d,c){var
+ix(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return a?0:1}}function
-lo(a){if(D(a,b))return b;var
-e=aT(a,aJ(2)),f=e[1];return K(e[2],d)?q(c(2,lo(f))):q(c(2,c(2,f)))}function
-lp(c,a){return bl(b,aM(c,a))}function
-gl(a,i,h){var
+lw(a){if(D(a,b))return b;var
+e=aT(a,aJ(2)),f=e[1];return L(e[2],d)?q(c(2,lw(f))):q(c(2,c(2,f)))}function
+lx(c,a){return bm(b,aM(c,a))}function
+gq(a,i,h){var
 c=i,f=h;for(;;){if(D(f,b))return k(a,c);var
-g=aT(f,aJ(2)),e=g[1];if(K(g[2],d)){var
-c=gl(a,c,e),f=e;continue}return k(a,gl(a,gl(a,c,e),e))}}function
-gm(a){function
-c(b){return C(a,b)}return function(a){return gl(c,b,a)}}function
-gn(a){if(D(a,b))return sH;var
-c=aT(a,aJ(2)),e=c[1];return K(c[2],d)?[0,gn(e)]:[0,gn(e)]}function
-go(a){if(D(a,b))return b;var
-c=aT(a,aJ(2)),e=c[1];return K(c[2],d)?q(go(e)):q(go(e))}function
-lq(c,b){var
-a=k_(c,b);return 0===a?0:0<=a?2:1}function
-gp(j,i){var
-c=j,a=i;for(;;){if(D(c,b))return D(a,b)?1:K(aT(a,aJ(2))[2],d)?0:0;var
-g=aT(c,aJ(2)),h=g[1];if(K(g[2],d)){if(D(a,b))return 0;var
-e=aT(a,aJ(2)),k=e[1];if(K(e[2],d)){var
+g=aT(f,aJ(2)),e=g[1];if(L(g[2],d)){var
+c=gq(a,c,e),f=e;continue}return k(a,gq(a,gq(a,c,e),e))}}function
+gr(a){function
+c(b){return C(a,b)}return function(a){return gq(c,b,a)}}function
+gs(a){if(D(a,b))return sQ;var
+c=aT(a,aJ(2)),e=c[1];return L(c[2],d)?[0,gs(e)]:[0,gs(e)]}function
+gt(a){if(D(a,b))return b;var
+c=aT(a,aJ(2)),e=c[1];return L(c[2],d)?q(gt(e)):q(gt(e))}function
+ly(c,b){var
+a=lg(c,b);return 0===a?0:0<=a?2:1}function
+gu(j,i){var
+c=j,a=i;for(;;){if(D(c,b))return D(a,b)?1:L(aT(a,aJ(2))[2],d)?0:0;var
+g=aT(c,aJ(2)),h=g[1];if(L(g[2],d)){if(D(a,b))return 0;var
+e=aT(a,aJ(2)),k=e[1];if(L(e[2],d)){var
 c=h,a=k;continue}return 0}if(D(a,b))return 0;var
-f=aT(a,aJ(2)),l=f[1];if(K(f[2],d))return 0;var
+f=aT(a,aJ(2)),l=f[1];if(L(f[2],d))return 0;var
 c=h,a=l;continue}}function
-gq(b,a){return 2<=lq(b,a)?0:1}function
-ea(i,e,a){if(i){var
+gv(b,a){return 2<=ly(b,a)?0:1}function
+eb(i,e,a){if(i){var
 f=i[1];if(D(e,b))return[0,b,[0,b,a]];var
-w=aT(e,aJ(2)),g=w[1];if(K(w[2],d)){if(D(a,b))return[0,b,[0,e,b]];var
-m=aT(a,aJ(2)),A=m[1];if(K(m[2],d)){var
-j=ea(f,g,A),x=j[2];return[0,c(2,j[1]),x]}var
-k=ea(f,g,a),l=k[2],y=l[2],z=[0,c(2,l[1]),y];return[0,k[1],z]}if(D(a,b))return[0,b,[0,e,b]];var
-v=aT(a,aJ(2)),h=v[1];if(K(v[2],d)){var
-n=ea(f,e,h),o=n[2],B=c(2,o[2]);return[0,n[1],[0,o[1],B]]}switch(lq(g,h)){case
+w=aT(e,aJ(2)),g=w[1];if(L(w[2],d)){if(D(a,b))return[0,b,[0,e,b]];var
+m=aT(a,aJ(2)),A=m[1];if(L(m[2],d)){var
+j=eb(f,g,A),x=j[2];return[0,c(2,j[1]),x]}var
+k=eb(f,g,a),l=k[2],y=l[2],z=[0,c(2,l[1]),y];return[0,k[1],z]}if(D(a,b))return[0,b,[0,e,b]];var
+v=aT(a,aJ(2)),h=v[1];if(L(v[2],d)){var
+n=eb(f,e,h),o=n[2],B=c(2,o[2]);return[0,n[1],[0,o[1],B]]}switch(ly(g,h)){case
 0:return[0,e,[0,b,b]];case
 1:var
-p=ea(f,lp(h,g),e),q=p[2],r=q[2],C=[0,r,E(r,c(2,q[1]))];return[0,p[1],C];default:var
-s=ea(f,lp(g,h),a),t=s[2],u=t[2],F=[0,E(u,c(2,t[1])),u];return[0,s[1],F]}}return[0,b,[0,e,a]]}function
-gr(b,a){var
-c=gn(a);return ea(L(gn(b),c),b,a)}function
-lr(c,i,h){var
+p=eb(f,lx(h,g),e),q=p[2],r=q[2],C=[0,r,E(r,c(2,q[1]))];return[0,p[1],C];default:var
+s=eb(f,lx(g,h),a),t=s[2],u=t[2],F=[0,E(u,c(2,t[1])),u];return[0,s[1],F]}}return[0,b,[0,e,a]]}function
+gw(b,a){var
+c=gs(a);return eb(M(gs(b),c),b,a)}function
+lz(c,i,h){var
 e=i,a=h;for(;;){if(D(e,b))return a;var
-f=aT(e,aJ(2)),g=f[1];if(K(f[2],d)){var
-e=g,a=ar(c,a,a);continue}return ar(c,a,lr(c,g,ar(c,a,a)))}}function
-e9(a){return lr(L,a,sI)}function
-ls(a){return a?q(ls(a[1])):b}function
-cu(f,e){var
+f=aT(e,aJ(2)),g=f[1];if(L(f[2],d)){var
+e=g,a=ar(c,a,a);continue}return ar(c,a,lz(c,g,ar(c,a,a)))}}function
+e_(a){return lz(M,a,sR)}function
+lA(a){return a?q(lA(a[1])):b}function
+cw(f,e){var
 a=f,d=e;for(;;)if(typeof
 a==="number")return d;else
 switch(a[0]){case
@@ -926,56 +926,56 @@ t=C(c(2,q(c(2,c(2,b)))),d),u=E(q(c(2,q(c(2,b)))),t),a=a[1],d=u;continue;case
 8:var
 v=C(c(2,q(c(2,c(2,b)))),d),w=E(c(2,c(2,c(2,b))),v),a=a[1],d=w;continue;default:var
 x=C(c(2,q(c(2,c(2,b)))),d),y=E(q(c(2,c(2,c(2,b)))),x),a=a[1],d=y;continue}}function
-is(a){if(D(a,b))return sJ;var
-c=aT(a,aJ(2)),e=c[1];return K(c[2],d)?bP(is(e)):bQ(is(e))}function
-gs(a){return gj(is(a))}function
-lt(c,b){var
-a=k_(c,b);return 0===a?0:0<=a?2:1}function
-it(b,a){return 1===lt(b,a)?1:0}var
-lu=E,sL=T;function
-b8(k,f){if(0<=aS(f)){var
-g=la(f);if(0<=g){var
+iy(a){if(D(a,b))return sS;var
+c=aT(a,aJ(2)),e=c[1];return L(c[2],d)?bP(iy(e)):bQ(iy(e))}function
+gx(a){return go(iy(a))}function
+lB(c,b){var
+a=lg(c,b);return 0===a?0:0<=a?2:1}function
+iz(b,a){return 1===lB(b,a)?1:0}var
+lC=E,sU=T;function
+b9(k,f){if(0<=aS(f)){var
+g=li(f);if(0<=g){var
 e=b,c=k,a=g;for(;;){if(0===a)return e;var
-h=a>>>1|0,i=C(c,c),j=1===(a&1)?C(e,c):e,e=j,c=i,a=h;continue}}return gi(sD)}return d}function
-iu(c){var
+h=a>>>1|0,i=C(c,c),j=1===(a&1)?C(e,c):e,e=j,c=i,a=h;continue}}return gm(sM)}return d}function
+iA(c){var
 a=aS(c);return 0===a?d:0<a?b:T(b)}function
-iv(a){return 0<=aS(a)?a:d}function
-eb(a){var
+iB(a){return 0<=aS(a)?a:d}function
+ec(a){var
 c=aS(a);return 0===c?b:0<c?a:b}function
-lv(m){var
+lD(m){var
 a=m;for(;;)if(typeof
 a==="number")return d;else
 switch(a[0]){case
 0:var
 a=a[1];continue;case
-1:return cu(a[1],b);case
+1:return cw(a[1],b);case
 2:var
-e=c(2,b);return cu(a[1],e);case
+e=c(2,b);return cw(a[1],e);case
 3:var
-f=q(c(2,b));return cu(a[1],f);case
+f=q(c(2,b));return cw(a[1],f);case
 4:var
-g=c(2,c(2,b));return cu(a[1],g);case
+g=c(2,c(2,b));return cw(a[1],g);case
 5:var
-h=q(c(2,c(2,b)));return cu(a[1],h);case
+h=q(c(2,c(2,b)));return cw(a[1],h);case
 6:var
-i=c(2,q(c(2,b)));return cu(a[1],i);case
+i=c(2,q(c(2,b)));return cw(a[1],i);case
 7:var
-j=q(c(2,q(c(2,b))));return cu(a[1],j);case
+j=q(c(2,q(c(2,b))));return cw(a[1],j);case
 8:var
-k=c(2,c(2,c(2,b)));return cu(a[1],k);default:var
-l=q(c(2,c(2,c(2,b))));return cu(a[1],l)}}function
-cv(b,a){var
-c=aS(a);return 0===c?d:1===c?k$(b,a):lh(-1,k$(lh(-1,b),a))}function
-lw(a){var
+k=c(2,c(2,c(2,b)));return cw(a[1],k);default:var
+l=q(c(2,c(2,c(2,b))));return cw(a[1],l)}}function
+cx(b,a){var
+c=aS(a);return 0===c?d:1===c?lh(b,a):lp(-1,lh(lp(-1,b),a))}function
+lE(a){var
 f=aS(a);if(0===f)return d;if(0<f){if(D(a,b))return d;var
-c=aT(a,aJ(2)),e=c[1];return K(c[2],d)?go(e):go(e)}return d}function
-gt(a){return 0<aS(a)?JB(a):d}function
-e_(b,c){var
-a=la(c);return 0<=a?sw(b,a):sx(b,-a|0)}function
-dx(b,c){var
-a=la(c);return 0<=a?sx(b,a):sw(b,-a|0)}function
+c=aT(a,aJ(2)),e=c[1];return L(c[2],d)?gt(e):gt(e)}return d}function
+gy(a){return 0<aS(a)?JQ(a):d}function
+e$(b,c){var
+a=li(c);return 0<=a?sF(b,a):sG(b,-a|0)}function
+dy(b,c){var
+a=li(c);return 0<=a?sG(b,a):sF(b,-a|0)}function
 bR(b,a){return a?a[1]:b}function
-bA(a){var
+bB(a){var
 b=a?a[2]:a;return b}function
 r(e,d,c){var
 b=e,a=d;for(;;){if(b){if(a){var
@@ -984,14 +984,14 @@ H(d,c){var
 a=d,b=c;for(;;){if(b){if(a){var
 a=a[2],b=b[1];continue}return a}var
 e=a?[0,a[1]]:a;return e}}function
-lx(a){if(a){var
-b=[0,a[1],0];return f(lx(a[2]),b)}return a}function
-e$(d,c){var
+lF(a){if(a){var
+b=[0,a[1],0];return f(lF(a[2]),b)}return a}function
+fa(d,c){var
 a=d,b=c;for(;;){if(a){var
 e=[0,a[1],b],a=a[2],b=e;continue}return b}}function
-ec(a){if(a){var
-b=ec(a[2]);return f(a[1],b)}return a}function
-iw(g,f,e){var
+ed(a){if(a){var
+b=ed(a[2]);return f(a[1],b)}return a}function
+iC(g,f,e){var
 b=f,a=e;for(;;){if(b){if(a){var
 c=ar(g,b[1],a[1]);if(c){var
 b=b[2],a=a[2];continue}var
@@ -1002,8 +1002,8 @@ e(b,a){if(a)var
 d=e(b,a[2]),c=[0,k(b,a[1]),d];else
 var
 c=a;return c}function
-y(b,a){if(a){var
-c=y(b,a[2]);return f(k(b,a[1]),c)}return a}function
+z(b,a){if(a){var
+c=z(b,a[2]);return f(k(b,a[1]),c)}return a}function
 bS(e,d,c){var
 a=d,b=c;for(;;){if(a){var
 f=ar(e,b,a[1]),a=a[2],b=f;continue}return b}}function
@@ -1020,11 +1020,11 @@ l(d,c){var
 a=c;for(;;){if(a){var
 b=k(d,a[1]);if(b){var
 a=a[2];continue}return b}return 1}}function
-bu(b,e){var
+a1(b,e){var
 a=e;for(;;){if(a){var
-c=a[2],d=a[1];if(k(b,d))return[0,d,bu(b,c)];var
+c=a[2],d=a[1];if(k(b,d))return[0,d,a1(b,c)];var
 a=c;continue}return a}}function
-ly(d,c){var
+lG(d,c){var
 a=c;for(;;){if(a){var
 b=a[1];if(k(d,b))return[0,b];var
 a=a[2];continue}return a}}function
@@ -1040,114 +1040,115 @@ var
 c=a;else
 var
 c=b;return c}function
-av(d,c){var
+aw(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[2];continue}return a}return a}}function
-aC(b,a){var
-c=a?[0,b,aC([0,b],a[1])]:a;return c}function
-af(b,a){var
-c=a?[0,b,af(b,a[1])]:a;return c}function
-lz(a){if(a){var
-e=lz(a[2]),f=C(c(2,b),e),g=a[1]?b:d;return E(g,f)}return d}function
-gu(j){function
+aD(b,a){var
+c=a?[0,b,aD([0,b],a[1])]:a;return c}function
+ab(b,a){var
+c=a?[0,b,ab(b,a[1])]:a;return c}function
+lH(a){return ao(M,0,a)}function
+lI(a){if(a){var
+e=lI(a[2]),f=C(c(2,b),e),g=a[1]?b:d;return E(g,f)}return d}function
+gz(j){function
 a(a){return 0!==(j&1<<a)?1:0}var
-c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=lz([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<aS(b)?e9(b):0}function
-lA(a){return[0,a,b]}function
-ed(c,b){var
-a=k_(C(c[1],b[2]),C(b[1],c[2])),d=0===a?0:0<=a?2:1;return d?0:1}function
-be(b,a){return D(C(b[1],a[2]),C(a[1],b[2]))}function
-dy(b,a){return[0,E(C(b[1],a[2]),C(a[1],b[2])),C(b[2],a[2])]}function
-a2(b,a){return[0,C(b[1],a[1]),C(b[2],a[2])]}function
-gv(a){return[0,T(a[1]),a[2]]}function
-dz(b,a){return dy(b,gv(a))}function
-gw(f,c){var
-a=c[1],e=aS(a),g=0===e?[0,d,b]:0<e?[0,c[2],a]:[0,T(c[2]),T(a)];return a2(f,g)}function
-dA(q){var
+c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=lI([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<aS(b)?e_(b):0}function
+lJ(a){return[0,a,b]}function
+ee(c,b){var
+a=lg(C(c[1],b[2]),C(b[1],c[2])),d=0===a?0:0<=a?2:1;return d?0:1}function
+bf(b,a){return D(C(b[1],a[2]),C(a[1],b[2]))}function
+dz(b,a){return[0,E(C(b[1],a[2]),C(a[1],b[2])),C(b[2],a[2])]}function
+a3(b,a){return[0,C(b[1],a[1]),C(b[2],a[2])]}function
+gA(a){return[0,T(a[1]),a[2]]}function
+dA(b,a){return dz(b,gA(a))}function
+gB(f,c){var
+a=c[1],e=aS(a),g=0===e?[0,d,b]:0<e?[0,c[2],a]:[0,T(c[2]),T(a)];return a3(f,g)}function
+dB(q){var
 a=q[2],b=q[1],o=aS(b);if(0===o)var
-c=[0,cr(a),[0,d,iu(a)]];else
+c=[0,ct(a),[0,d,iA(a)]];else
 if(0<o){var
 n=aS(a);if(0===n)var
-c=[0,cr(b),[0,iu(b),d]];else
+c=[0,ct(b),[0,iA(b),d]];else
 if(0<n)var
-l=gr(b,a),m=l[2],c=[0,l[1],[0,m[1],m[2]]];else
+l=gw(b,a),m=l[2],c=[0,l[1],[0,m[1],m[2]]];else
 var
-j=gr(b,T(a)),k=j[2],c=[0,j[1],[0,k[1],T(k[2])]]}else{var
+j=gw(b,T(a)),k=j[2],c=[0,j[1],[0,k[1],T(k[2])]]}else{var
 p=T(b),i=aS(a);if(0===i)var
-c=[0,cr(b),[0,iu(b),d]];else
+c=[0,ct(b),[0,iA(b),d]];else
 if(0<i)var
-g=gr(p,a),h=g[2],c=[0,g[1],[0,T(h[1]),h[2]]];else
+g=gw(p,a),h=g[2],c=[0,g[1],[0,T(h[1]),h[2]]];else
 var
-e=gr(p,T(a)),f=e[2],c=[0,e[1],[0,T(f[1]),T(f[2])]]}var
-r=c[2],s=eb(r[2]);return[0,r[1],s]}function
-bm(a){if(typeof
-a==="number")return sN;else
+e=gw(p,T(a)),f=e[2],c=[0,e[1],[0,T(f[1]),T(f[2])]]}var
+r=c[2],s=ec(r[2]);return[0,r[1],s]}function
+bn(a){if(typeof
+a==="number")return sW;else
 switch(a[0]){case
 0:var
-b=bm(a[1]);return bd(bO(1,48),b);case
+b=bn(a[1]);return be(bO(1,48),b);case
 1:var
-c=bm(a[1]);return bd(bO(1,49),c);case
+c=bn(a[1]);return be(bO(1,49),c);case
 2:var
-d=bm(a[1]);return bd(bO(1,50),d);case
+d=bn(a[1]);return be(bO(1,50),d);case
 3:var
-e=bm(a[1]);return bd(bO(1,51),e);case
+e=bn(a[1]);return be(bO(1,51),e);case
 4:var
-f=bm(a[1]);return bd(bO(1,52),f);case
+f=bn(a[1]);return be(bO(1,52),f);case
 5:var
-g=bm(a[1]);return bd(bO(1,53),g);case
+g=bn(a[1]);return be(bO(1,53),g);case
 6:var
-h=bm(a[1]);return bd(bO(1,54),h);case
+h=bn(a[1]);return be(bO(1,54),h);case
 7:var
-i=bm(a[1]);return bd(bO(1,55),i);case
+i=bn(a[1]);return be(bO(1,55),i);case
 8:var
-j=bm(a[1]);return bd(bO(1,56),j);default:var
-k=bm(a[1]);return bd(bO(1,57),k)}}function
-fa(a){return typeof
-a==="number"?sO:bm(a)}function
-cw(a){return b8(c(2,b),a)}function
-lB(b,a){return dx(a,b)}function
-lC(b,a){return T(dx(T(a),b))}function
-gx(b,a){return T(cv(T(b),a))}function
+j=bn(a[1]);return be(bO(1,56),j);default:var
+k=bn(a[1]);return be(bO(1,57),k)}}function
+fb(a){return typeof
+a==="number"?sX:bn(a)}function
+cy(a){return b9(c(2,b),a)}function
+lK(b,a){return dy(a,b)}function
+lL(b,a){return T(dy(T(a),b))}function
+gC(b,a){return T(cx(T(b),a))}function
 O(c,b){var
-a=e_(b,c);return[0,a,a]}function
-lD(d,c,a){var
-b=e_(c,d),e=gx(b,a);return[0,cv(b,a),e]}function
+a=e$(b,c);return[0,a,a]}function
+lM(d,c,a){var
+b=e$(c,d),e=gC(b,a);return[0,cx(b,a),e]}function
 A(b,a){return[0,E(b[1],a[1]),E(b[2],a[2])]}function
 F(b,a){return[0,aM(b[1],a[2]),aM(b[2],a[1])]}function
-ab(a){return[0,T(a[2]),T(a[1])]}function
-lE(e,c,b,a){if(D(d,e))return D(d,b)?[0,C(e,b),C(c,a)]:D(a,d)?[0,C(c,b),C(e,a)]:[0,C(c,b),C(c,a)];if(D(c,d))return D(d,b)?[0,C(e,a),C(c,b)]:D(a,d)?[0,C(c,a),C(e,b)]:[0,C(e,a),C(e,b)];if(D(d,b))return[0,C(e,a),C(c,a)];if(D(a,d))return[0,C(c,b),C(e,b)];var
-f=bl(C(e,b),C(c,a));return[0,iq(C(e,a),C(c,b)),f]}function
+ac(a){return[0,T(a[2]),T(a[1])]}function
+lN(e,c,b,a){if(D(d,e))return D(d,b)?[0,C(e,b),C(c,a)]:D(a,d)?[0,C(c,b),C(e,a)]:[0,C(c,b),C(c,a)];if(D(c,d))return D(d,b)?[0,C(e,a),C(c,b)]:D(a,d)?[0,C(c,a),C(e,b)]:[0,C(e,a),C(e,b)];if(D(d,b))return[0,C(e,a),C(c,a)];if(D(a,d))return[0,C(c,b),C(e,b)];var
+f=bm(C(e,b),C(c,a));return[0,iw(C(e,a),C(c,b)),f]}function
 t(c,b,a){var
-d=lE(b[1],b[2],a[1],a[2]),e=lC(c,d[2]);return[0,lB(c,d[1]),e]}function
+d=lN(b[1],b[2],a[1],a[2]),e=lL(c,d[2]);return[0,lK(c,d[1]),e]}function
 U(b,a){var
-c=C(a[1],a[1]),e=C(a[2],a[2]),h=lC(b,bl(c,e)),g=0;if(I(a[1],d)&&I(d,a[2])){var
+c=C(a[1],a[1]),e=C(a[2],a[2]),h=lL(b,bm(c,e)),g=0;if(I(a[1],d)&&I(d,a[2])){var
 f=d;g=1}if(!g)var
-f=lB(b,iq(c,e));return[0,f,h]}function
-ix(b,a){var
-c=e_(cw(b),b),d=gx(c,a[1]);return[0,cv(c,a[2]),d]}function
-b9(b,a){if(I(d,a[1]))return[0,ix(b,a)];var
-c=I(a[2],d),e=c?[0,ab(ix(b,ab(a)))]:c;return e}function
-iy(c){var
-a=gt(c);return K(C(a,a),c)?a:E(a,b)}function
-b_(b,a){var
+f=lK(b,iw(c,e));return[0,f,h]}function
+iD(b,a){var
+c=e$(cy(b),b),d=gC(c,a[1]);return[0,cx(c,a[2]),d]}function
+b_(b,a){if(I(d,a[1]))return[0,iD(b,a)];var
+c=I(a[2],d),e=c?[0,ac(iD(b,ac(a)))]:c;return e}function
+iE(c){var
+a=gy(c);return L(C(a,a),c)?a:E(a,b)}function
+b$(b,a){var
 c=I(d,a[1]);if(c)var
-f=iy(e_(a[2],b)),e=[0,[0,gt(e_(a[1],b)),f]];else
+f=iE(e$(a[2],b)),e=[0,[0,gy(e$(a[1],b)),f]];else
 var
 e=c;return e}function
-ee(a){return 0===a[0]?a[2]:a[1]}function
+ef(a){return 0===a[0]?a[2]:a[1]}function
 aP(f,d,c,b,a){if(b){if(a){var
 g=aP(f,d,c,b[2],a[2]);return[0,ar(c,b[1],a[1]),g]}return e(f,b)}return e(d,a)}function
-cW(b,a){return dx(b,a)}function
+cX(b,a){return dy(b,a)}function
 aU(a,c,b){if(D(d,a)){var
-e=b[1],f=T(cW(T(C(a,b[2])),c));return[0,cW(C(a,e),c),f]}var
-g=b[2],h=T(cW(T(C(a,b[1])),c));return[0,cW(C(a,g),c),h]}function
-aw(a){var
-c=T(dx(T(a[2]),b));return[0,dx(a[1],b),c]}function
-ef(c,b,a){var
-e=lE(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=I(f,d)?a[2]:a[1],i=gx(f,h),j=I(g,d)?a[1]:a[2];return[0,cv(g,j),i]}function
-b$(a){return bl(a[2],T(a[1]))}var
+e=b[1],f=T(cX(T(C(a,b[2])),c));return[0,cX(C(a,e),c),f]}var
+g=b[2],h=T(cX(T(C(a,b[1])),c));return[0,cX(C(a,g),c),h]}function
+ax(a){var
+c=T(dy(T(a[2]),b));return[0,dy(a[1],b),c]}function
+eg(c,b,a){var
+e=lN(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=I(f,d)?a[2]:a[1],i=gC(f,h),j=I(g,d)?a[1]:a[2];return[0,cx(g,j),i]}function
+ca(a){return bm(a[2],T(a[1]))}var
 u=[0,d,d];function
-ca(a){return[0,a[1],a[1]]}function
-cx(a){return[0,a[2],a[2]]}function
+cb(a){return[0,a[1],a[1]]}function
+cz(a){return[0,a[2],a[2]]}function
 bT(b,a){switch(a[0]){case
 0:return[0,a[1]];case
 1:return[1,a[1]];case
@@ -1169,7 +1170,7 @@ d=n,c=m;for(;;){var
 a=c[1],b=d[1];switch(b[0]){case
 0:return 0===a[0]?o(b[1],a[1]):0;case
 1:return 1===a[0]?o(b[1],a[1]):0;case
-2:return 2===a[0]?K(b[1],a[1]):0;case
+2:return 2===a[0]?L(b[1],a[1]):0;case
 3:if(3===a[0]){var
 f=aN(b[1],a[1]);if(f){var
 d=b[2],c=a[2];continue}return f}return 0;case
@@ -1188,7 +1189,7 @@ d=b[2],c=a[2];continue}return i}return 0;case
 d=b[1],c=a[1];continue}return 0;case
 9:if(9===a[0]){var
 d=b[1],c=a[1];continue}return 0;default:if(10===a[0]){var
-j=ct(b[1],a[1]);if(j){var
+j=cv(b[1],a[1]);if(j){var
 k=aN(b[2],a[2]);if(k){var
 l=aN(b[3],a[3]);if(l){var
 d=b[4],c=a[4];continue}var
@@ -1197,47 +1198,47 @@ var
 e=k}else
 var
 e=j;return e}return 0}}}function
-gy(b){var
+gD(b){var
 a=b[1];return 2===a[0]?[0,a[1]]:0}function
-a8(c,b){var
-a=gy(b);return a?K(c,a[1]):a}function
-fb(a){return I(cr(a),c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b))))))))))))))))}function
+a9(c,b){var
+a=gD(b);return a?L(c,a[1]):a}function
+fc(a){return I(ct(a),c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b))))))))))))))))}function
 m(a){return[0,[2,a]]}function
-B(b,a){if(a8(d,b))return a;if(a8(d,a))return b;var
-c=gy(b);if(c){var
-e=c[1],f=gy(a);if(f){var
-g=f[1];if(fb(e)&&fb(g))return m(E(e,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
-bn(a){var
+B(b,a){if(a9(d,b))return a;if(a9(d,a))return b;var
+c=gD(b);if(c){var
+e=c[1],f=gD(a);if(f){var
+g=f[1];if(fc(e)&&fc(g))return m(E(e,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
+bo(a){var
 b=a[1];switch(b[0]){case
 2:var
-c=b[1];return fb(c)?m(T(c)):[0,[5,a]];case
+c=b[1];return fc(c)?m(T(c)):[0,[5,a]];case
 5:return b[1];default:return[0,[5,a]]}}function
-x(b,a){if(a8(d,a))return b;if(a8(d,b))return bn(a);var
+x(b,a){if(a9(d,a))return b;if(a9(d,b))return bo(a);var
 c=b[1];if(0===c[0]){var
 e=a[1];return 0===e[0]?o(c[1],e[1])?m(d):[0,[4,b,a]]:[0,[4,b,a]]}return[0,[4,b,a]]}function
 V(a){var
-c=gy(a);if(c){var
-b=c[1];return fb(b)?m(C(b,b)):[0,[8,a]]}return[0,[8,a]]}function
-s(a,c){if(!a8(d,a)&&!a8(b,c)){if(!a8(d,c)&&!a8(b,a))return aN(a,c)?V(a):[0,[6,a,c]];return c}return a}function
-am(c,a){return a8(b,a)?c:[0,[7,c,a]]}function
-aL(a){return a8(b,a)?a:[0,[9,a]]}function
-lF(d,c,b,a){return[0,[10,d,c,b,a]]}function
-bf(f,e,d,c){var
+c=gD(a);if(c){var
+b=c[1];return fc(b)?m(C(b,b)):[0,[8,a]]}return[0,[8,a]]}function
+s(a,c){if(!a9(d,a)&&!a9(b,c)){if(!a9(d,c)&&!a9(b,a))return aN(a,c)?V(a):[0,[6,a,c]];return c}return a}function
+am(c,a){return a9(b,a)?c:[0,[7,c,a]]}function
+aL(a){return a9(b,a)?a:[0,[9,a]]}function
+lO(d,c,b,a){return[0,[10,d,c,b,a]]}function
+bg(f,e,d,c){var
 b=d,a=c;for(;;){if(b){var
 g=b[1],h=[0,k(e,bT(function(b){return function(a){return r(a,b,f)}}(a),g)),a],b=b[2],a=h;continue}return a}}function
-lG(d,f,j,i,h){var
+lP(d,f,j,i,h){var
 b=j,c=i,a=h;for(;;){if(c){var
 e=c[2],g=c[1];if(b){if(b[1]){var
-l=[0,k(f,bT(function(b){return function(a){return r(a,b,d)}}(a),g)),a],b=bA(b),c=e,a=l;continue}var
+l=[0,k(f,bT(function(b){return function(a){return r(a,b,d)}}(a),g)),a],b=bB(b),c=e,a=l;continue}var
 b=b[2],c=e,a=[0,d,a];continue}var
-m=[0,k(f,bT(function(b){return function(a){return r(a,b,d)}}(a),g)),a],b=bA(b),c=e,a=m;continue}return a}}function
-fc(b,a){if(a){var
+m=[0,k(f,bT(function(b){return function(a){return r(a,b,d)}}(a),g)),a],b=bB(b),c=e,a=m;continue}return a}}function
+fd(b,a){if(a){var
 c=a[2];if(b){var
-e=fc(b[1],c);return[0,a[1],e]}var
+e=fd(b[1],c);return[0,a[1],e]}var
 d=[0,1,c]}else
 var
 d=a;return d}function
-lH(a){switch(a[0]){case
+lQ(a){switch(a[0]){case
 10:return[0,a[2],[0,a[3],[0,a[4],0]]];case
 5:case
 8:case
@@ -1245,57 +1246,57 @@ lH(a){switch(a[0]){case
 0:case
 1:case
 2:return 0;default:return[0,a[1],[0,a[2],0]]}}function
-gz(j,g){var
-k=0,l=ao(fc,e(function(a){return 0},g),j),c=e$(g,0),b=l,a=k;for(;;){if(c){if(b){var
-d=b[2],f=b[1],h=[0,f,a],i=f?ao(fc,d,lH(c[1])):d,c=c[2],b=i,a=h;continue}return a}return a}}function
-cX(a){var
+gE(j,g){var
+k=0,l=ao(fd,e(function(a){return 0},g),j),c=fa(g,0),b=l,a=k;for(;;){if(c){if(b){var
+d=b[2],f=b[1],h=[0,f,a],i=f?ao(fd,d,lQ(c[1])):d,c=c[2],b=i,a=h;continue}return a}return a}}function
+cY(a){var
 b=0;function
-c(a){return[0,a]}return bf(m(d),c,a,b)}function
-bg(d,c){var
+c(a){return[0,a]}return bg(m(d),c,a,b)}function
+bh(d,c){var
 a=d,b=0;for(;;){if(a){if(aN(c,a[1]))return b;var
 a=a[2],b=[0,b];continue}return a}}function
-dB(d,b){var
+dC(d,b){var
 e=b[1];if(aj(function(a){return aN(d,a)},e))return b;var
 a=d[1];switch(a[0]){case
 10:var
-j=dB(a[2],b),k=dB(a[3],j),c=dB(a[4],k);break;case
+j=dC(a[2],b),k=dC(a[3],j),c=dC(a[4],k);break;case
 5:case
 8:case
 9:var
-c=dB(a[1],b);break;case
+c=dC(a[1],b);break;case
 0:case
 1:case
 2:var
 c=b;break;default:var
-i=dB(a[1],b),c=dB(a[2],i)}var
-f=c[2],g=c[1],h=[0,bT(function(a){return bg(g,a)},a),f];return[0,[0,d,c[1]],h]}function
-cY(a){var
-b=bS(function(b,a){return dB(a,b)},a,sP),c=b[1],d=e(function(a){return bg(c,a)},a);return[0,lx(b[2]),d]}function
-fd(a){return ao(function(b,a){return E(b$(b),a)},d,a)}function
-cy(b,c,a){var
-d=fd(a),e=iq(c[2],E(b[2],d)),f=fd(a);return[0,b,[0,bl(c[1],aM(b[1],f)),e],a]}function
+i=dC(a[1],b),c=dC(a[2],i)}var
+f=c[2],g=c[1],h=[0,bT(function(a){return bh(g,a)},a),f];return[0,[0,d,c[1]],h]}function
+cZ(a){var
+b=bS(function(b,a){return dC(a,b)},a,sY),c=b[1],d=e(function(a){return bh(c,a)},a);return[0,lF(b[2]),d]}function
+fe(a){return ao(function(b,a){return E(ca(b),a)},d,a)}function
+cA(b,c,a){var
+d=fe(a),e=iw(c[2],E(b[2],d)),f=fe(a);return[0,b,[0,bm(c[1],aM(b[1],f)),e],a]}function
 $(a){return[0,a,a,0]}function
-cb(b,a){var
+cc(b,a){var
 c=a[3],d=b[3];function
 e(a){return a}var
-f=aP(function(a){return a},e,A,d,c),g=A(b[2],a[2]);return cy(A(b[1],a[1]),g,f)}function
-bv(b,a){var
-c=a[3],d=b[3],e=aP(function(a){return a},ab,F,d,c),f=F(b[2],a[2]);return cy(F(b[1],a[1]),f,e)}function
-fe(a){var
-b=e(ab,a[3]),c=ab(a[2]);return[0,ab(a[1]),c,b]}function
+f=aP(function(a){return a},e,A,d,c),g=A(b[2],a[2]);return cA(A(b[1],a[1]),g,f)}function
+bw(b,a){var
+c=a[3],d=b[3],e=aP(function(a){return a},ac,F,d,c),f=F(b[2],a[2]);return cA(F(b[1],a[1]),f,e)}function
+ff(a){var
+b=e(ac,a[3]),c=ac(a[2]);return[0,ac(a[1]),c,b]}function
 aQ(a,c,b){var
 d=A(b[2],b[1]),e=A(c[2],c[1]),f=b[3],g=c[3];function
 h(c,b){var
-f=t(a,e,b);return aw(A(t(a,d,c),f))}function
-i(b){return aw(t(a,e,b))}var
-j=aP(function(b){return aw(t(a,d,b))},i,h,g,f),k=t(a,c[2],b[2]);return cy(t(a,c[1],b[1]),k,j)}function
-ff(b,a){var
-c=a[3],d=A(a[2],a[1]),f=e(function(a){return t(b,d,a)},c),g=U(b,a[2]);return cy(U(b,a[1]),g,f)}function
-iz(a,b){var
-c=b_(a,b[1]);if(c){var
-g=c[1],d=b_(a,b[2]);if(d){var
-h=d[1],f=b9(a,A(h,g));if(f)var
-l=b[3],m=f[1],i=[0,cy(g,h,e(function(b){return t(a,m,b)},l))];else
+f=t(a,e,b);return ax(A(t(a,d,c),f))}function
+i(b){return ax(t(a,e,b))}var
+j=aP(function(b){return ax(t(a,d,b))},i,h,g,f),k=t(a,c[2],b[2]);return cA(t(a,c[1],b[1]),k,j)}function
+fg(b,a){var
+c=a[3],d=A(a[2],a[1]),f=e(function(a){return t(b,d,a)},c),g=U(b,a[2]);return cA(U(b,a[1]),g,f)}function
+iF(a,b){var
+c=b$(a,b[1]);if(c){var
+g=c[1],d=b$(a,b[2]);if(d){var
+h=d[1],f=b_(a,A(h,g));if(f)var
+l=b[3],m=f[1],i=[0,cA(g,h,e(function(b){return t(a,m,b)},l))];else
 var
 i=f;var
 j=i}else
@@ -1304,116 +1305,116 @@ j=d;var
 k=j}else
 var
 k=c;return k}function
-eg(a,c,b){var
-d=b9(a,b[1]);if(d){var
-f=b9(a,b[2]);if(f)var
-h=f[1],g=t(a,c[1],d[1]),k=b[3],l=c[3],m=function(c,b){return F(c,t(a,g,b))},n=function(b){return ab(t(a,g,b))},o=aP(function(a){return a},n,m,l,k),p=e(function(b){return t(a,h,b)},o),i=[0,cy(g,t(a,c[2],h),p)];else
+eh(a,c,b){var
+d=b_(a,b[1]);if(d){var
+f=b_(a,b[2]);if(f)var
+h=f[1],g=t(a,c[1],d[1]),k=b[3],l=c[3],m=function(c,b){return F(c,t(a,g,b))},n=function(b){return ac(t(a,g,b))},o=aP(function(a){return a},n,m,l,k),p=e(function(b){return t(a,h,b)},o),i=[0,cA(g,t(a,c[2],h),p)];else
 var
 i=f;var
 j=i}else
 var
 j=d;return j}function
-cZ(b,a){return a?k(b,a[1]):a}function
-gA(a){var
-b=e(aw,a[3]),c=aw(A(a[2],a[1]));return cy(a[1],c,b)}function
-lI(a,k,j,r,c){var
-l=gA(k),m=gA(j),g=gA(c[1]),h=gA(c[2]),s=aQ(a,l,h),u=bv(aQ(a,m,g),s),i=eg(a,$(O(a,b)),u);if(i)var
-f=i[1],n=aQ(a,bv(l,g),f),o=aQ(a,bv(m,h),f),d=function(c,b){return aQ(a,c,$(b))},v=j[3],w=k[3],x=function(b,a){var
-c=d(o,a);return cb(d(n,b),c)},y=function(a){return d(o,a)},z=aP(function(a){return d(n,a)},y,x,w,v),A=r[3],B=function(b,a){return bv(b,d(f,aw(a)))[2]},C=function(a){return fe(d(f,aw(a)))[2]},p=aP(function(a){return a[2]},C,B,z,A),D=g[2],E=e(function(b){return t(a,D,b)},p),F=cy(c[2][1],c[2][2],E),G=ab(h[2]),H=e(function(b){return t(a,G,b)},p),q=[0,[0,cy(c[1][1],c[1][2],H),F]];else
+c0(b,a){return a?k(b,a[1]):a}function
+gF(a){var
+b=e(ax,a[3]),c=ax(A(a[2],a[1]));return cA(a[1],c,b)}function
+lR(a,k,j,r,c){var
+l=gF(k),m=gF(j),g=gF(c[1]),h=gF(c[2]),s=aQ(a,l,h),u=bw(aQ(a,m,g),s),i=eh(a,$(O(a,b)),u);if(i)var
+f=i[1],n=aQ(a,bw(l,g),f),o=aQ(a,bw(m,h),f),d=function(c,b){return aQ(a,c,$(b))},v=j[3],w=k[3],x=function(b,a){var
+c=d(o,a);return cc(d(n,b),c)},y=function(a){return d(o,a)},z=aP(function(a){return d(n,a)},y,x,w,v),A=r[3],B=function(b,a){return bw(b,d(f,ax(a)))[2]},C=function(a){return ff(d(f,ax(a)))[2]},p=aP(function(a){return a[2]},C,B,z,A),D=g[2],E=e(function(b){return t(a,D,b)},p),F=cA(c[2][1],c[2][2],E),G=ac(h[2]),H=e(function(b){return t(a,G,b)},p),q=[0,[0,cA(c[1][1],c[1][2],H),F]];else
 var
 q=i;return q}function
-lJ(a,e,d,k){var
-p=ff(a,d),f=cb(ff(a,e),p),g=bv(cb(f,$(O(a,b))),k),l=aQ(a,$(O(a,c(2,b))),f),q=ff(a,g),h=iz(a,bv(aQ(a,$(O(a,c(2,c(2,b)))),f),q));if(h){var
-m=h[1],r=aQ(a,m,d),i=eg(a,cb(aQ(a,g,e),r),l);if(i)var
-s=aQ(a,m,e),j=eg(a,bv(aQ(a,g,d),s),l),t=j?[0,[0,i[1],j[1]]]:j,n=t;else
+lS(a,e,d,k){var
+p=fg(a,d),f=cc(fg(a,e),p),g=bw(cc(f,$(O(a,b))),k),l=aQ(a,$(O(a,c(2,b))),f),q=fg(a,g),h=iF(a,bw(aQ(a,$(O(a,c(2,c(2,b)))),f),q));if(h){var
+m=h[1],r=aQ(a,m,d),i=eh(a,cc(aQ(a,g,e),r),l);if(i)var
+s=aQ(a,m,e),j=eh(a,bw(aQ(a,g,d),s),l),t=j?[0,[0,i[1],j[1]]]:j,n=t;else
 var
 n=i;var
 o=n}else
 var
 o=h;var
-u=cZ(function(b){return lI(a,e,d,k,b)},o);return cZ(function(b){return lI(a,e,d,k,b)},u)}function
-cz(d,b,a){if(b){if(a)return ar(d,b[1],a[1]);var
+u=c0(function(b){return lR(a,e,d,k,b)},o);return c0(function(b){return lR(a,e,d,k,b)},u)}function
+cB(d,b,a){if(b){if(a)return ar(d,b[1],a[1]);var
 c=a}else
 var
 c=b;return c}function
-bB(b,j,i){var
+bC(b,j,i){var
 f=$(u);return function(a){switch(a[0]){case
 0:return[0,r(a[1],j,f)];case
 1:return[0,r(a[1],i,f)];case
 2:return[0,$(O(b,a[1]))];case
 3:var
-k=a[2],l=a[1];return cz(function(b,a){return[0,cb(b,a)]},l,k);case
+k=a[2],l=a[1];return cB(function(b,a){return[0,cc(b,a)]},l,k);case
 4:var
-m=a[2],n=a[1];return cz(function(b,a){return[0,bv(b,a)]},n,m);case
+m=a[2],n=a[1];return cB(function(b,a){return[0,bw(b,a)]},n,m);case
 5:var
-o=a[1];return cZ(function(a){return[0,fe(a)]},o);case
+o=a[1];return c0(function(a){return[0,ff(a)]},o);case
 6:var
-p=a[2],q=a[1];return cz(function(c,a){return[0,aQ(b,c,a)]},q,p);case
+p=a[2],q=a[1];return cB(function(c,a){return[0,aQ(b,c,a)]},q,p);case
 7:var
-s=a[2],t=a[1];return cz(function(a,c){return eg(b,a,c)},t,s);case
+s=a[2],t=a[1];return cB(function(a,c){return eh(b,a,c)},t,s);case
 8:var
-u=a[1];return cZ(function(a){return[0,ff(b,a)]},u);case
+u=a[1];return c0(function(a){return[0,fg(b,a)]},u);case
 9:var
-v=a[1];return cZ(function(a){return iz(b,a)},v);default:var
+v=a[1];return c0(function(a){return iF(b,a)},v);default:var
 c=a[2];if(c){var
 d=a[3];if(d){var
 e=a[4];if(e){var
-w=lJ(b,c[1],d[1],e[1]),x=a[1]?aO:aA;return z(x,w)}var
+w=lS(b,c[1],d[1],e[1]),x=a[1]?aO:aB;return y(x,w)}var
 g=e}else
 var
 g=d;var
 h=g}else
 var
 h=c;return h}}}function
-dC(c){var
+dD(c){var
 a=c;for(;;)switch(a[0]){case
 0:return 0;case
 1:return 1;case
 6:var
 a=a[1];continue;default:var
-b=dC(a[1]);if(b)return b;var
+b=dD(a[1]);if(b)return b;var
 a=a[2];continue}}function
-cc(r,q){var
+cd(r,q){var
 b=r,a=q;for(;;)switch(b[0]){case
 0:if(0===a[0]){var
-c=K(b[1],a[1]);return c?gp(b[2],a[2]):c}return 0;case
+c=L(b[1],a[1]);return c?gu(b[2],a[2]):c}return 0;case
 1:var
 d=b[3],e=b[2];if(1===a[0]){var
-f=a[3],g=a[2],h=o(b[1],a[1]),i=h?K(e[1],g[1]):h,j=i?gp(e[2],g[2]):i,k=j?K(d[1],f[1]):j;return k?gp(d[2],f[2]):k}return 0;case
+f=a[3],g=a[2],h=o(b[1],a[1]),i=h?L(e[1],g[1]):h,j=i?gu(e[2],g[2]):i,k=j?L(d[1],f[1]):j;return k?gu(d[2],f[2]):k}return 0;case
 2:if(2===a[0]){var
-l=cc(b[1],a[1]);if(l){var
+l=cd(b[1],a[1]);if(l){var
 b=b[2],a=a[2];continue}return l}return 0;case
 3:if(3===a[0]){var
-m=cc(b[1],a[1]);if(m){var
+m=cd(b[1],a[1]);if(m){var
 b=b[2],a=a[2];continue}return m}return 0;case
 4:if(4===a[0]){var
-n=cc(b[1],a[1]);if(n){var
+n=cd(b[1],a[1]);if(n){var
 b=b[2],a=a[2];continue}return n}return 0;case
 5:if(5===a[0]){var
-p=cc(b[1],a[1]);if(p){var
+p=cd(b[1],a[1]);if(p){var
 b=b[2],a=a[2];continue}return p}return 0;default:if(6===a[0]){var
 b=b[1],a=a[1];continue}return 0}}function
-fg(c,a){switch(a[0]){case
+fh(c,a){switch(a[0]){case
 0:return[0,[0,a[1],a[2]]];case
 1:return 0;case
 2:var
-m=a[2],n=a[1],g=m,f=n,e=function(b,a){return[0,dy(b,a)]};break;case
+m=a[2],n=a[1],g=m,f=n,e=function(b,a){return[0,dz(b,a)]};break;case
 3:var
-o=a[2],p=a[1],g=o,f=p,e=function(b,a){return[0,dz(b,a)]};break;case
+o=a[2],p=a[1],g=o,f=p,e=function(b,a){return[0,dA(b,a)]};break;case
 4:var
-q=a[2],r=a[1],g=q,f=r,e=function(b,a){return[0,a2(b,a)]};break;case
+q=a[2],r=a[1],g=q,f=r,e=function(b,a){return[0,a3(b,a)]};break;case
 5:var
-s=a[2],t=a[1],g=s,f=t,e=function(c,a){return ed(a,[0,d,b])?0:[0,gw(c,a)]};break;default:var
-j=fg(c,a[1]);return j?k(c,j[1]):j}var
-h=fg(c,f);if(h){var
-i=fg(c,g);if(i)return e(h[1],i[1]);var
+s=a[2],t=a[1],g=s,f=t,e=function(c,a){return ee(a,[0,d,b])?0:[0,gB(c,a)]};break;default:var
+j=fh(c,a[1]);return j?k(c,j[1]):j}var
+h=fh(c,f);if(h){var
+i=fh(c,g);if(i)return e(h[1],i[1]);var
 l=i}else
 var
 l=h;return l}function
-sQ(a){return 0}function
-cA(a){return fg(sQ,a)}function
+sZ(a){return 0}function
+cC(a){return fh(sZ,a)}function
 bU(a,c){switch(c[0]){case
-0:return[0,lD(a,c[1],c[2])];case
+0:return[0,lM(a,c[1],c[2])];case
 1:return 0;case
 2:var
 g=bU(a,c[1]);if(g)var
@@ -1433,366 +1434,366 @@ v=k;return v;case
 5:var
 m=bU(a,c[1]);if(m){var
 n=bU(a,c[2]);if(n)var
-o=b9(a,n[1]),H=o?[0,t(a,m[1],o[1])]:o,w=H;else
+o=b_(a,n[1]),H=o?[0,t(a,m[1],o[1])]:o,w=H;else
 var
 w=n;var
 x=w}else
 var
 x=m;return x;default:var
-y=c[1],p=bU(a,y);if(p){var
-e=p[1];if(I(d,e[1]))return b_(a,e);var
-f=cA(y),J=f?N(be([0,d,b],f[1])):f;if(J)return 0;if(I(d,e[2])){var
-B=b_(a,[0,e[2],e[2]]);return z(function(a){return[0,d,a[2]]},B)}var
-q=K(e[2],d),C=q?[0,u]:q;return C}return p}}function
-cB(b,a){return lD(b,a[1],a[2])}function
-lK(a,g,e,d){var
-h=[0,b,c(2,b)],i=[0,cB(a,a2(dz(d,e),h)),0],j=f(af(u,g),i),k=cB(a,d)[2],l=[0,cB(a,e)[1],k],m=[0,b,c(2,b)];return[0,cB(a,a2(dy(e,d),m)),l,j]}function
-eh(c,e,a){function
-b(a){return eh(c,e,a)}if(dC(a))switch(a[0]){case
+z=c[1],p=bU(a,z);if(p){var
+e=p[1];if(I(d,e[1]))return b$(a,e);var
+f=cC(z),K=f?J(bf([0,d,b],f[1])):f;if(K)return 0;if(I(d,e[2])){var
+B=b$(a,[0,e[2],e[2]]);return y(function(a){return[0,d,a[2]]},B)}var
+q=L(e[2],d),C=q?[0,u]:q;return C}return p}}function
+cD(b,a){return lM(b,a[1],a[2])}function
+lT(a,g,e,d){var
+h=[0,b,c(2,b)],i=[0,cD(a,a3(dA(d,e),h)),0],j=f(ab(u,g),i),k=cD(a,d)[2],l=[0,cD(a,e)[1],k],m=[0,b,c(2,b)];return[0,cD(a,a3(dz(e,d),m)),l,j]}function
+ei(c,e,a){function
+b(a){return ei(c,e,a)}if(dD(a))switch(a[0]){case
 0:return 0;case
-1:return f1(e,a[1],a[2],a[3]);case
+1:return f4(e,a[1],a[2],a[3]);case
 2:var
-g=b(a[2]),h=b(a[1]);return cz(function(b,a){return[0,cb(b,a)]},h,g);case
+g=b(a[2]),h=b(a[1]);return cB(function(b,a){return[0,cc(b,a)]},h,g);case
 3:var
-i=b(a[2]),j=b(a[1]);return cz(function(b,a){return[0,bv(b,a)]},j,i);case
+i=b(a[2]),j=b(a[1]);return cB(function(b,a){return[0,bw(b,a)]},j,i);case
 4:var
-f=a[2],d=a[1];if(cc(d,f)){var
-k=b(d);return cZ(function(a){return[0,ff(c,a)]},k)}var
-l=b(f),m=b(d);return cz(function(b,a){return[0,aQ(c,b,a)]},m,l);case
+f=a[2],d=a[1];if(cd(d,f)){var
+k=b(d);return c0(function(a){return[0,fg(c,a)]},k)}var
+l=b(f),m=b(d);return cB(function(b,a){return[0,aQ(c,b,a)]},m,l);case
 5:var
-n=b(a[2]),o=b(a[1]);return cz(function(a,b){return eg(c,a,b)},o,n);default:var
-p=b(a[1]);return cZ(function(a){return iz(c,a)},p)}return z($,bU(c,a))}function
-aD(b,a){if(dC(a)){var
-c=eh(b,function(d,c,a){var
-e=aK(d,dD),f=e?be(c,a):e,g=f?[0,lK(b,d,c,a)]:f;return g},a);return z(function(a){return a[2]},c)}return bU(b,a)}function
-iA(a){var
-e=bl(T(a),d);return eb(E(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e))}function
-lL(a){return iv(E(iA(a),a))}function
-lM(b,a){var
-c=lL(b),d=T(cW(T(a[2]),c)),e=lL(b);return[0,cW(a[1],e),d]}function
-c0(c,a,b){var
-d=aD(E(c,iA(a)),b);return z(function(b){return lM(a,b)},d)}function
+n=b(a[2]),o=b(a[1]);return cB(function(a,b){return eh(c,a,b)},o,n);default:var
+p=b(a[1]);return c0(function(a){return iF(c,a)},p)}return y($,bU(c,a))}function
+aE(b,a){if(dD(a)){var
+c=ei(b,function(d,c,a){var
+e=aK(d,dE),f=e?bf(c,a):e,g=f?[0,lT(b,d,c,a)]:f;return g},a);return y(function(a){return a[2]},c)}return bU(b,a)}function
+iG(a){var
+e=bm(T(a),d);return ec(E(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e))}function
+lU(a){return iB(E(iG(a),a))}function
+lV(b,a){var
+c=lU(b),d=T(cX(T(a[2]),c)),e=lU(b);return[0,cX(a[1],e),d]}function
+c1(c,a,b){var
+d=aE(E(c,iG(a)),b);return y(function(b){return lV(a,b)},d)}function
 ap(d,a){var
-b=c0(d,a[2],a[1][1]);if(b)var
-c=c0(d,a[2],a[1][2]),f=c?[0,[0,b[1][1],c[1][2]]]:c,e=f;else
+b=c1(d,a[2],a[1][1]);if(b)var
+c=c1(d,a[2],a[1][2]),f=c?[0,[0,b[1][1],c[1][2]]]:c,e=f;else
 var
 e=b;return e}function
-lN(b,a){var
-c=T(cW(T(a[2]),b));return[0,cW(a[1],b),c]}function
-gB(b,a){var
-c=gx(b[2],a);return[0,cv(b[1],a),c]}function
-lO(h,g,d,b){var
-e=b[2],f=ls(d),i=c(2,f),j=C(lo(f),i),a=gB(t(h,b[1],g),j),k=lm(d)?F(e,a):A(e,a);return[0,a,k]}function
-lP(a,d,c){if(c){var
-e=c[1];return lO(a,d,e,lP(a,d,e))}var
+lW(b,a){var
+c=T(cX(T(a[2]),b));return[0,cX(a[1],b),c]}function
+gG(b,a){var
+c=gC(b[2],a);return[0,cx(b[1],a),c]}function
+lX(h,g,d,b){var
+e=b[2],f=lA(d),i=c(2,f),j=C(lw(f),i),a=gG(t(h,b[1],g),j),k=lu(d)?F(e,a):A(e,a);return[0,a,k]}function
+lY(a,d,c){if(c){var
+e=c[1];return lX(a,d,e,lY(a,d,e))}var
 f=O(a,b);return[0,O(a,b),f]}function
-lQ(e,g){var
-o=cw(e),p=C(c(2,c(2,b)),o),j=D(g[2],p);if(j){var
-n=e9(e),i=sR[1],d=n,f=0,a=i;for(;;){if(d){var
+lZ(e,g){var
+o=cy(e),p=C(c(2,c(2,b)),o),j=D(g[2],p);if(j){var
+n=e_(e),i=s0[1],d=n,f=0,a=i;for(;;){if(d){var
 h=d[1];if(a){var
 d=h,a=a[1];continue}var
 d=h,f=[0,f],a=i;continue}var
-k=L(ll(sU,L(sS,f)),sT),l=lP(e,g,k),q=lO(e,g,k,l)[2][2],m=[0,[0,l[2][1],q]];break}}else
+k=M(lt(s3,M(s1,f)),s2),l=lY(e,g,k),q=lX(e,g,k,l)[2][2],m=[0,[0,l[2][1],q]];break}}else
 var
 m=j;return m}function
-lR(i){function
+l0(i){function
 a(h){var
-m=cv(cw(i),h),g=e9(i),f=m,e=d,a=b;for(;;){if(g){var
-j=E(a,c(2,b)),k=E(e,cv(f,a)),l=T(cv(f,C(h,h))),g=g[1],f=l,e=k,a=j;continue}return e}}var
+m=cx(cy(i),h),g=e_(i),f=m,e=d,a=b;for(;;){if(g){var
+j=E(a,c(2,b)),k=E(e,cx(f,a)),l=T(cx(f,C(h,h))),g=g[1],f=l,e=k,a=j;continue}return e}}var
 e=a(q(c(2,q(c(2,q(c(2,q(c(2,c(2,q(c(2,q(c(2,b)))))))))))))),f=C(c(2,c(2,b)),e),g=a(q(c(2,c(2,b))));return aM(C(c(2,c(2,c(2,c(2,b)))),g),f)}function
-lS(e,a){var
+l1(e,a){var
 f=D(d,a);if(f){var
-g=c(2,c(2,b));return lQ(e,gB(U(e,[0,a,a]),g))}return f}function
-lT(a){var
-m=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),g=aM(lR(a),m),n=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),h=E(lR(a),n),e=lS(a,g);if(e){var
-f=lS(a,h);if(f)var
+g=c(2,c(2,b));return lZ(e,gG(U(e,[0,a,a]),g))}return f}function
+l2(a){var
+m=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),g=aM(l0(a),m),n=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),h=E(l0(a),n),e=l1(a,g);if(e){var
+f=l1(a,h);if(f)var
 i=I(d,e[1][1]),j=i?I(f[1][2],d):i,k=j?[0,[0,g,h]]:j;else
 var
 k=f;var
 l=k}else
 var
 l=e;return l}function
-lU(a,d){var
+l3(a,d){var
 c=U(a,d),e=O(a,b);return F(A(c,c),e)}function
-c1(f,j){var
-e=aD(E(f,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),j);if(e){var
-k=e[1],a=E(f,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),d=lT(a);if(d)var
-h=c(2,c(2,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))))),i=lQ(a,U(a,gB(t(a,k,d[1]),h))),g=z(function(b){return lU(a,lU(a,b))},i);else
+c2(f,j){var
+e=aE(E(f,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),j);if(e){var
+k=e[1],a=E(f,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),d=l2(a);if(d)var
+h=c(2,c(2,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))))),i=lZ(a,U(a,gG(t(a,k,d[1]),h))),g=y(function(b){return l3(a,l3(a,b))},i);else
 var
 g=d;var
-l=c(2,c(2,c(2,c(2,c(2,c(2,b))))));return z(function(a){return lN(l,a)},g)}return e}function
-lV(a,d){var
-e=lT(E(a,c(2,c(2,c(2,c(2,c(2,c(2,b))))))));return z(function(e){var
-f=c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))));return gB(t(a,d,lN(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e)),f)},e)}function
-gC(d,a){return c1(d,[3,a,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b]])}function
+l=c(2,c(2,c(2,c(2,c(2,c(2,b))))));return y(function(a){return lW(l,a)},g)}return e}function
+l4(a,d){var
+e=l2(E(a,c(2,c(2,c(2,c(2,c(2,c(2,b))))))));return y(function(e){var
+f=c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))));return gG(t(a,d,lW(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e)),f)},e)}function
+gH(d,a){return c2(d,[3,a,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b]])}function
 h(i,e,c){var
-f=cA(c);if(f){var
-g=f[1];return e?N(be(g,[0,d,b])):be([0,d,b],g)}var
-a=aD(i,c);if(a){var
+f=cC(c);if(f){var
+g=f[1];return e?J(bf(g,[0,d,b])):bf([0,d,b],g)}var
+a=aE(i,c);if(a){var
 h=a[1];return e?I(d,h[1]):D(d,h[1])}return a}function
-lW(c,b){var
-a=aD(c,b),d=a?1:a;return d}function
-bw(c,a,b){var
-d=cc(a,b),e=d?lW(c,a):d;return e?e:h(c,0,[3,b,a])}function
-sV(c){var
-a=dA(c),g=eb(gt(a[2])),b=[0,gt(a[1]),g],e=I(d,a[1]),f=e?ed(a2(b,b),c):e,h=f?[0,b]:f;return h}function
-lX(a){if(a){var
-e=a[2],c=a[1];if(ed(bR([0,d,b],c),[0,d,b])){var
-g=lX(e);return z(function(a){return[0,a[1],[0,c,a[2]]]},g)}var
+l5(c,b){var
+a=aE(c,b),d=a?1:a;return d}function
+bx(c,a,b){var
+d=cd(a,b),e=d?l5(c,a):d;return e?e:h(c,0,[3,b,a])}function
+s4(c){var
+a=dB(c),g=ec(gy(a[2])),b=[0,gy(a[1]),g],e=I(d,a[1]),f=e?ee(a3(b,b),c):e,h=f?[0,b]:f;return h}function
+l6(a){if(a){var
+e=a[2],c=a[1];if(ee(bR([0,d,b],c),[0,d,b])){var
+g=l6(e);return y(function(a){return[0,a[1],[0,c,a[2]]]},g)}var
 f=[0,[0,c,e]]}else
 var
 f=a;return f}function
-lY(c,a){var
-e=W(c,a),f=[0,d,b];return ao(function(a,b){return dA(dy(a2(a[1],a[2]),b))},f,e)}function
-lZ(c,j){if(c){var
-f=c[1],g=lX(j);if(g){var
+l7(c,a){var
+e=W(c,a),f=[0,d,b];return ao(function(a,b){return dB(dz(a3(a[1],a[2]),b))},f,e)}function
+l8(c,j){if(c){var
+f=c[1],g=l6(j);if(g){var
 h=g[1],a=h[1],k=function(c){var
-f=bR([0,d,b],a),g=gw(bR([0,d,b],c),f),h=bA(a),i=W(bA(c),h);return e(function(a){var
-b=a2(g,a[2]);return dA(dz(a[1],b))},i)},l=lZ(f,e(k,h[2]));return z(function(c){var
-e=bR([0,d,b],a);return[0,dA(gw(gv(lY(bA(a),c)),e)),c]},l)}var
-i=[0,[0,[0,b,b],af([0,d,b],f)]]}else
+f=bR([0,d,b],a),g=gB(bR([0,d,b],c),f),h=bB(a),i=W(bB(c),h);return e(function(a){var
+b=a3(g,a[2]);return dB(dA(a[1],b))},i)},l=l8(f,e(k,h[2]));return y(function(c){var
+e=bR([0,d,b],a);return[0,dB(gB(gA(l7(bB(a),c)),e)),c]},l)}var
+i=[0,[0,[0,b,b],ab([0,d,b],f)]]}else
 var
 i=c;return i}function
-l0(a){if(a){var
-b=fg(sV,a[1]);if(b)var
-c=l0(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+l9(a){if(a){var
+b=fh(s4,a[1]);if(b)var
+c=l9(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return sW}function
-l1(a){if(a){var
-b=l0(a[1]);if(b)var
-c=l1(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+d=b;return d}return s5}function
+l_(a){if(a){var
+b=l9(a[1]);if(b)var
+c=l_(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return sX}function
-l2(i,m){var
-a=l1(m);if(a){var
-j=a[1],c=lZ(i,j);if(c){var
-e=c[1],f=o(g(e),i),h=f?aj(function(a){return N(ed(a,[0,d,b]))},e):f;return h?l(function(a){return ed(lY(a,e),[0,d,b])},j):h}var
+d=b;return d}return s6}function
+l$(i,m){var
+a=l_(m);if(a){var
+j=a[1],c=l8(i,j);if(c){var
+e=c[1],f=o(g(e),i),h=f?aj(function(a){return J(ee(a,[0,d,b]))},e):f;return h?l(function(a){return ee(l7(a,e),[0,d,b])},j):h}var
 k=c}else
 var
 k=a;return k}function
-sY(a){return a}function
-sZ(a){return a}function
-s0(a,b){return aP(sZ,sY,A,a,b)}function
-s1(a){return a}function
-s2(a){return a}function
-bh(a,b){return aP(s2,s1,s0,a,b)}function
-iB(a,f,c,d){if(c){var
-h=c[2],i=O(a,b),g=ef(c[1],i,f);if(d){var
-j=iB(a,f,h,d[2]),k=d[1],l=function(c,b){return F(c,t(a,g,b))},m=function(b){return ab(t(a,g,b))};return[0,aP(function(a){return a},m,l,k,c),j]}var
-n=iB(a,f,h,0);return[0,e(function(b){return ab(t(a,g,b))},c),n]}return d}function
-gD(h,a){if(a){var
+s7(a){return a}function
+s8(a){return a}function
+s9(a,b){return aP(s8,s7,A,a,b)}function
+s_(a){return a}function
+s$(a){return a}function
+bi(a,b){return aP(s$,s_,s9,a,b)}function
+iH(a,f,c,d){if(c){var
+h=c[2],i=O(a,b),g=eg(c[1],i,f);if(d){var
+j=iH(a,f,h,d[2]),k=d[1],l=function(c,b){return F(c,t(a,g,b))},m=function(b){return ac(t(a,g,b))};return[0,aP(function(a){return a},m,l,k,c),j]}var
+n=iH(a,f,h,0);return[0,e(function(b){return ac(t(a,g,b))},c),n]}return d}function
+gI(h,a){if(a){var
 b=a[1];if(b)var
-c=b[1],e=I(d,c[1]),i=e?[0,iB(h,c,b[2],a[2])]:e,f=i;else
+c=b[1],e=I(d,c[1]),i=e?[0,iH(h,c,b[2],a[2])]:e,f=i;else
 var
 f=b;var
 g=f}else
 var
 g=a;return g}function
-l3(g,f,e){var
+ma(g,f,e){var
 a=f,b=e;for(;;){if(b){if(a){var
-c=gD(g,b);if(c){var
+c=gI(g,b);if(c){var
 a=a[1],b=c[1];continue}var
 d=c}else
 var
 d=a;return d}return 1}}function
-l4(d,b,a){if(b)if(a)var
-e=a[1],f=l4(d,b[2],a[2]),g=ct(d,b[1])?ca(e):cx(e),c=[0,g,f];else
+mb(d,b,a){if(b)if(a)var
+e=a[1],f=mb(d,b[2],a[2]),g=cv(d,b[1])?cb(e):cz(e),c=[0,g,f];else
 var
 c=a;else
 var
 c=b;return c}function
-l5(a,b){if(a)if(b)var
-d=l5(a[2],b[2]),c=[0,l4(a[1],a,b[1]),d];else
+mc(a,b){if(a)if(b)var
+d=mc(a[2],b[2]),c=[0,mb(a[1],a,b[1]),d];else
 var
 c=b;else
 var
 c=a;return c}function
-bi(a){if(a){var
-b=a[1],c=bi(b),d=e(function(a){return[0,1,a]},c),g=bi(b);return f(e(function(a){return[0,0,a]},g),d)}return s3}function
-ei(c,a){var
-b=g(a);if(l3(c,b,a))return 1;var
-d=bi(bz(b));return l(function(d){return l3(c,b,l5([0,0,d],a))},d)}function
-ax(a){function
+bj(a){if(a){var
+b=a[1],c=bj(b),d=e(function(a){return[0,1,a]},c),g=bj(b);return f(e(function(a){return[0,0,a]},g),d)}return ta}function
+ej(c,a){var
+b=g(a);if(ma(c,b,a))return 1;var
+d=bj(bA(b));return l(function(d){return ma(c,b,mc([0,0,d],a))},d)}function
+ay(a){function
 b(b){var
 c=k(a,b[2]);return[0,e(a,b[1]),c]}return function(a){return e(b,a)}}function
 aH(h,e){var
 c=h,a=e[1],b=e[3];for(;;){if(c){if(b){var
 d=b[1],f=b[2],g=c[1]?A(a,d):F(a,d),c=c[2],a=g,b=f;continue}return a}return a}}function
-iC(c,b,a){var
-d=bi(c);return l(function(c){return k(a,k(ax(function(a){return aH(c,a)}),b))},d)}function
-iD(h,d,c){if(d)if(c)var
-i=c[2],e=c[1],j=d[2],f=d[1],a=function(c,a){return aU(c,E(h,b),a)},k=iD(h,j,i),l=function(c,b){var
+iI(c,b,a){var
+d=bj(c);return l(function(c){return k(a,k(ay(function(a){return aH(c,a)}),b))},d)}function
+iJ(h,d,c){if(d)if(c)var
+i=c[2],e=c[1],j=d[2],f=d[1],a=function(c,a){return aU(c,E(h,b),a)},k=iJ(h,j,i),l=function(c,b){var
 d=a(b,e);return A(a(f,c),d)},m=function(b){return a(b,e)},n=aP(function(b){return a(f,b)},m,l,i,j),o=a(f,e),g=[0,[0,A(a(f,e),o),n],k];else
 var
 g=c;else
 var
 g=d;return g}function
-ej(b,d,a,c){function
+ek(b,d,a,c){function
 e(c,d){var
 e=aU(d,b,a);return F(A(c,c),e)}function
-f(c){return ab(aU(c,b,a))}return aP(function(a){return A(a,a)},f,e,d,c)}function
-gE(d,i,h,g){var
+f(c){return ac(aU(c,b,a))}return aP(function(a){return A(a,a)},f,e,d,c)}function
+gJ(d,i,h,g){var
 c=i,b=h,a=g;for(;;){if(c){if(b){var
-e=b[1],f=c[1],j=cx(e[2]),k=bh(a,iD(d,f,ej(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
-iE(b,a){return[0,[0,0,b],a]}function
-fh(i,b,c,h,f,a){function
+e=b[1],f=c[1],j=cz(e[2]),k=bi(a,iJ(d,f,ek(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
+iK(b,a){return[0,[0,0,b],a]}function
+fi(i,b,c,h,f,a){function
 d(a){if(a){var
-j=af([0,ab(a[1][2]),0],b),c=gE(h,f,a[2],j),d=o(g(c),b);if(d)return ei(i,c);var
+j=ab([0,ac(a[1][2]),0],b),c=gJ(h,f,a[2],j),d=o(g(c),b);if(d)return ej(i,c);var
 e=d}else
 var
-e=a;return e}return iC(b,iE(c,a),d)}function
-gF(g,f,e){var
+e=a;return e}return iI(b,iK(c,a),d)}function
+gK(g,f,e){var
 a=f,b=e;for(;;){if(a){var
-d=a[1],h=d[1],c=gD(g,[0,[0,ca(d[2]),h],b]);if(c){var
+d=a[1],h=d[1],c=gI(g,[0,[0,cb(d[2]),h],b]);if(c){var
 a=a[2],b=c[1];continue}return c}return[0,b]}}function
-iF(d,b,c,a){function
+iL(d,b,c,a){function
 e(a){if(a){var
-j=af([0,a[1][2],0],b),c=gF(d,a[2],j);if(c){var
-e=c[1],f=o(g(e),b);if(f)return ei(d,e);var
+j=ab([0,a[1][2],0],b),c=gK(d,a[2],j);if(c){var
+e=c[1],f=o(g(e),b);if(f)return ej(d,e);var
 h=f}else
 var
 h=c;var
 i=h}else
 var
-i=a;return i}return iC(b,iE(c,a),e)}function
-l6(h,g,a,f,d,c){var
-i=[0,u,u,0],b=e(function(a){return[0,a[1],i]},c),j=a?a[1]:[0,u,u,0];return fh(h,g,j,f,d,b)}function
-iG(b,a){var
-c=bi(b);return l(function(b){return I(d,aH(b,a)[1])},c)}function
-gG(c,b,a){var
+i=a;return i}return iI(b,iK(c,a),e)}function
+md(h,g,a,f,d,c){var
+i=[0,u,u,0],b=e(function(a){return[0,a[1],i]},c),j=a?a[1]:[0,u,u,0];return fi(h,g,j,f,d,b)}function
+iM(b,a){var
+c=bj(b);return l(function(b){return I(d,aH(b,a)[1])},c)}function
+gL(c,b,a){var
 d=a[3],f=e(function(a){return aU(c,b,a)},d),g=a[2];return[0,aU(c,b,a[1]),g,f]}function
-l7(a,b){var
-c=b[3],d=a[3],e=aP(function(a){return a},ab,F,d,c),f=a[2];return[0,F(a[1],b[1]),f,e]}function
+me(a,b){var
+c=b[3],d=a[3],e=aP(function(a){return a},ac,F,d,c),f=a[2];return[0,F(a[1],b[1]),f,e]}function
 bV(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
 ag(c,b,a){var
 d=ar(c,b[3],a[3]),e=ar(c,b[2],a[2]);return[0,ar(c,b[1],a[1]),e,d]}function
-a3(b,a){var
+a4(b,a){var
 c=s(b,a[3]),d=s(b,a[2]);return[0,s(b,a[1]),d,c]}function
-bo(b,a){var
+bp(b,a){var
 c=am(b[3],a),d=am(b[2],a);return[0,am(b[1],a),d,c]}function
 Z(b,a){var
 c=s(b[3],a[3]),d=s(b[2],a[2]);return B(B(s(b[1],a[1]),d),c)}function
-dE(a){return bo(a,aL(Z(a,a)))}function
-c2(a){var
+dF(a){return bp(a,aL(Z(a,a)))}function
+c3(a){var
 b=a[5];return b?b[1]:aL(a[2])}function
-gH(b,a){return b?a:bn(a)}function
-l8(e,a,i,d,h){var
-f=Z(a,e),b=ag(x,e,a3(f,a)),j=Z(b,b),g=x(V(d),j),c=gH(h,aL(g)),k=x(f,c),l=ag(B,a,bo(b,c));return[0,ag(B,b,a3(c,a)),g,l,k,[0,d],0,[0,i]]}function
-l9(a,e,d){var
-b=Z(a,a),c=aL(b),f=[0,e],g=z(function(b){return ag(x,a,a3(Z(b,a),b))},d);return[0,a,b,bo(a,c),c,0,g,f]}function
-l_(c,a){var
+gM(b,a){return b?a:bo(a)}function
+mf(e,a,i,d,h){var
+f=Z(a,e),b=ag(x,e,a4(f,a)),j=Z(b,b),g=x(V(d),j),c=gM(h,aL(g)),k=x(f,c),l=ag(B,a,bp(b,c));return[0,ag(B,b,a4(c,a)),g,l,k,[0,d],0,[0,i]]}function
+mg(a,e,d){var
+b=Z(a,a),c=aL(b),f=[0,e],g=y(function(b){return ag(x,a,a4(Z(b,a),b))},d);return[0,a,b,bp(a,c),c,0,g,f]}function
+mh(c,a){var
 d=Z(a,c);return[0,a,m(b),a,d,0,0,0]}function
-fi(a){return e(function(a){var
+fj(a){return e(function(a){var
 b=a[2];return[0,bV(a[1]),b]},a)}function
-l$(a){return e(function(a){var
+mi(a){return e(function(a){var
 c=m(b);return[0,bV(a[3]),c]},a)}function
-ma(b,a){var
+mj(b,a){var
 c=k(b,a[3]),d=k(b,a[2]);return[0,k(b,a[1]),d,c]}function
-mb(c,b,a){var
+mk(c,b,a){var
 d=ar(c,b[3],a[3]),e=ar(c,b[2],a[2]);return[0,ar(c,b[1],a[1]),e,d]}function
-ek(d,a){var
-b=b_(d,[0,a[2],a[2]]);if(b){var
+el(d,a){var
+b=b$(d,[0,a[2],a[2]]);if(b){var
 c=b[1];return[0,c[2],c[2]]}return[0,a[2],a[2]]}function
-gI(a,n,f,m,e,k,j){var
-o=mb(bv,k,j),b=mb(function(b,c){return aQ(a,b,c)},e,o),c=b[3],g=b[2],h=b[1],i=cb(cb(cb($(O(a,d)),h),g),c),p=bi(n);return l(function(c){var
-b=ma(function(b){return U(a,aH(c,b))},e),h=b[3],j=b[2],k=b[1],l=t(a,m,ek(a,A(A(A(O(a,d),k),j),h))),g=F(aH(c,i),l),n=f?F(g,aH(c,f[1])):g;return I(d,n[1])},p)}function
-cd(a){return dx(E(a[1],a[2]),b)}function
-el(a){var
-b=cd(a);return aM(a[2],b)}function
-dG(c,b){if(b)var
-a=b[1],e=dG([0,c],b[2]),g=el(a),h=[0,[0,el(a),g],0],i=f(af(u,c),h),j=cd(a),d=[0,[0,[0,cd(a),j],a,i],e];else
+gN(a,n,f,m,e,k,j){var
+o=mk(bw,k,j),b=mk(function(b,c){return aQ(a,b,c)},e,o),c=b[3],g=b[2],h=b[1],i=cc(cc(cc($(O(a,d)),h),g),c),p=bj(n);return l(function(c){var
+b=mj(function(b){return U(a,aH(c,b))},e),h=b[3],j=b[2],k=b[1],l=t(a,m,el(a,A(A(A(O(a,d),k),j),h))),g=F(aH(c,i),l),n=f?F(g,aH(c,f[1])):g;return I(d,n[1])},p)}function
+ce(a){return dy(E(a[1],a[2]),b)}function
+em(a){var
+b=ce(a);return aM(a[2],b)}function
+dH(c,b){if(b)var
+a=b[1],e=dH([0,c],b[2]),g=em(a),h=[0,[0,em(a),g],0],i=f(ab(u,c),h),j=ce(a),d=[0,[0,[0,ce(a),j],a,i],e];else
 var
 d=b;return d}function
-c3(d,b){if(b){var
+c4(d,b){if(b){var
 c=b[2],a=b[1];if(d){var
-e=c3(d[1],c);return[0,[0,a,e[1]],[0,a,e[2]]]}var
-f=a[2],g=[0,[0,cd(a),f],c],h=cd(a);return[0,[0,[0,a[1],h],c],g]}return s4}function
-mc(d,c,a){if(c){if(a){var
-e=mc(d,c[2],a[2]);return A(aU(c[1],E(d,b),a[1]),e)}return u}return u}function
-em(f,a){if(a)var
-g=a[1],c=g[2],d=g[1],h=a[2],b=function(a,b){return mc(f,a,b)},j=em(f,h),k=e(function(a){var
+e=c4(d[1],c);return[0,[0,a,e[1]],[0,a,e[2]]]}var
+f=a[2],g=[0,[0,ce(a),f],c],h=ce(a);return[0,[0,[0,a[1],h],c],g]}return tb}function
+ml(d,c,a){if(c){if(a){var
+e=ml(d,c[2],a[2]);return A(aU(c[1],E(d,b),a[1]),e)}return u}return u}function
+en(f,a){if(a)var
+g=a[1],c=g[2],d=g[1],h=a[2],b=function(a,b){return ml(f,a,b)},j=en(f,h),k=e(function(a){var
 e=b(d,a[2]);return A(b(a[1],c),e)},h),l=b(d,c),i=[0,[0,A(b(d,c),l),k],j];else
 var
 i=a;return i}function
-en(e,b,d,a){if(b)if(a)var
-f=b[1],g=en(e,b[2],d,a[2]),c=[0,[0,f,ej(e,a[1][1],d,f)],g];else
+eo(e,b,d,a){if(b)if(a)var
+f=b[1],g=eo(e,b[2],d,a[2]),c=[0,[0,f,ek(e,a[1][1],d,f)],g];else
 var
 c=a;else
 var
 c=b;return c}function
-gJ(f,d,c,b,a){if(a){var
+gO(f,d,c,b,a){if(a){var
 g=a[2];if(d){var
-i=gJ(f,d[1],c,b,g);return[0,[0,F(u,b),0],i]}var
-j=e(function(a){return[0,F(u,b),0]},g),h=[0,[0,F(ab(t(f,c,cx(a[1][2]))),b),0],j]}else
+i=gO(f,d[1],c,b,g);return[0,[0,F(u,b),0],i]}var
+j=e(function(a){return[0,F(u,b),0]},g),h=[0,[0,F(ac(t(f,c,cz(a[1][2]))),b),0],j]}else
 var
 h=a;return h}function
-a9(d,c,a){var
-b=o(g(a),c);return b?ei(d,a):b}function
-gK(d,b,a){if(b)var
-c=b[1],g=gK([0,d],b[2],a),h=f(af(u,d),[0,a,0]),e=[0,[0,c,[0,aM(c[1],a[2]),E(c[2],a[2])],h],g];else
+a_(d,c,a){var
+b=o(g(a),c);return b?ej(d,a):b}function
+gP(d,b,a){if(b)var
+c=b[1],g=gP([0,d],b[2],a),h=f(ab(u,d),[0,a,0]),e=[0,[0,c,[0,aM(c[1],a[2]),E(c[2],a[2])],h],g];else
 var
 e=b;return e}function
-md(d){if(d){var
+mm(d){if(d){var
 a=d[1][1];if(a){var
 b=a[2];if(b){var
 c=b[2];if(c){if(c[2])return 0;var
-g=c[1],h=b[1],i=a[1],j=md(d[2]);return z(function(a){return[0,[0,[0,i,h],g],a]},j)}var
+g=c[1],h=b[1],i=a[1],j=mm(d[2]);return y(function(a){return[0,[0,[0,i,h],g],a]},j)}var
 e=c}else
 var
 e=b;var
 f=e}else
 var
-f=a;return f}return s5}function
-iH(a){return z(function(a){return z(fe,a)},a)}function
-c4(c,b,a){function
-d(a){return aQ(c,b,a)}return z(function(a){return z(d,a)},a)}function
-iI(c,b,a){function
-d(a){return eg(c,a,b)}return z(function(a){return cZ(d,a)},a)}function
-eo(b,a){var
+f=a;return f}return tc}function
+iN(a){return y(function(a){return y(ff,a)},a)}function
+c5(c,b,a){function
+d(a){return aQ(c,b,a)}return y(function(a){return y(d,a)},a)}function
+iO(c,b,a){function
+d(a){return eh(c,a,b)}return y(function(a){return c0(d,a)},a)}function
+ep(b,a){var
 c=W(b,a);return e(function(c){var
 a=c[2],b=c[1];if(b){if(a){var
-d=a[1],e=b[1];return[0,cz(function(b,a){return[0,cb(b,a)]},e,d)]}return b}return a},c)}function
-gL(a){return $(O(a,c(2,b)))}function
-iJ(a,au,at,K,c){var
-av=bT(aA,c),f=k(bB(a,au,at),av);switch(c[0]){case
+d=a[1],e=b[1];return[0,cB(function(b,a){return[0,cc(b,a)]},e,d)]}return b}return a},c)}function
+gQ(a){return $(O(a,c(2,b)))}function
+iP(a,au,at,K,c){var
+av=bT(aB,c),f=k(bC(a,au,at),av);switch(c[0]){case
 1:var
 N=c[1],d=e(function(d){var
 c=o(N,d),e=c?[0,[0,$(O(a,b))]]:c;return e},K);break;case
 3:var
-d=eo(c[1][2],c[2][2]);break;case
+d=ep(c[1][2],c[2][2]);break;case
 4:var
-P=e(iH,c[2][2]),d=eo(c[1][2],P);break;case
+P=e(iN,c[2][2]),d=ep(c[1][2],P);break;case
 5:var
-d=e(iH,c[1][2]);break;case
+d=e(iN,c[1][2]);break;case
 6:var
 x=c[2],y=c[1],g=y[1],u=0;if(g){var
 h=x[1];if(h)var
-Q=x[2],R=g[1],S=e(function(b){return c4(a,R,b)},Q),T=y[2],U=h[1],d=eo(e(function(b){return c4(a,U,b)},T),S);else{var
+Q=x[2],R=g[1],S=e(function(b){return c5(a,R,b)},Q),T=y[2],U=h[1],d=ep(e(function(b){return c5(a,U,b)},T),S);else{var
 z=h;u=1}}else{var
 z=g;u=1}if(u)var
 d=z;break;case
 7:var
 v=0;if(f){var
 A=c[2],i=A[1];if(i)var
-V=A[2],W=fe(f[1]),X=e(function(b){return c4(a,W,b)},V),Y=eo(c[1][2],X),Z=i[1],d=e(function(b){return iI(a,Z,b)},Y);else{var
+V=A[2],W=ff(f[1]),X=e(function(b){return c5(a,W,b)},V),Y=ep(c[1][2],X),Z=i[1],d=e(function(b){return iO(a,Z,b)},Y);else{var
 B=i;v=1}}else{var
 B=f;v=1}if(v)var
 d=B;break;case
 8:var
 C=c[1],j=C[1];if(j)var
-_=C[2],aa=j[1],ab=aQ(a,gL(a),aa),d=e(function(b){return c4(a,ab,b)},_);else
+_=C[2],aa=j[1],ab=aQ(a,gQ(a),aa),d=e(function(b){return c5(a,ab,b)},_);else
 var
 d=j;break;case
 9:if(f)var
-ac=c[1][2],ad=f[1],ae=aQ(a,gL(a),ad),d=e(function(b){return iI(a,ae,b)},ac);else
+ac=c[1][2],ad=f[1],ae=aQ(a,gQ(a),ad),d=e(function(b){return iO(a,ae,b)},ac);else
 var
 d=f;break;case
 10:var
 D=c[4],E=c[3],F=c[2],l=F[1],w=0;if(l){var
 m=l[1],n=E[1],L=0;if(n){var
 p=n[1],q=D[1],M=0;if(q){var
-r=lJ(a,m,p,q[1]);if(r){var
-G=r[1],s=G[2],t=G[1],af=E[2],ag=bv(p,s),ah=e(function(b){return c4(a,ag,b)},af),ai=F[2],aj=bv(m,t),ak=eo(e(function(b){return c4(a,aj,b)},ai),ah),al=e(iH,D[2]),am=gL(a),an=eo(e(function(b){return c4(a,am,b)},ak),al),ao=c[1]?t:fe(s),ap=e(function(b){return c4(a,ao,b)},an),aq=aQ(a,m,s),ar=bv(aQ(a,p,t),aq),as=aQ(a,gL(a),ar),d=e(function(b){return iI(a,as,b)},ap);L=1;M=1}else
+r=lS(a,m,p,q[1]);if(r){var
+G=r[1],s=G[2],t=G[1],af=E[2],ag=bw(p,s),ah=e(function(b){return c5(a,ag,b)},af),ai=F[2],aj=bw(m,t),ak=ep(e(function(b){return c5(a,aj,b)},ai),ah),al=e(iN,D[2]),am=gQ(a),an=ep(e(function(b){return c5(a,am,b)},ak),al),ao=c[1]?t:ff(s),ap=e(function(b){return c5(a,ao,b)},an),aq=aQ(a,m,s),ar=bw(aQ(a,p,t),aq),as=aQ(a,gQ(a),ar),d=e(function(b){return iO(a,as,b)},ap);L=1;M=1}else
 var
 H=r}else
 var
@@ -1804,151 +1805,151 @@ J=I;w=1}}else{var
 J=l;w=1}if(w)var
 d=J;break;default:var
 d=e(function(a){return 0},K)}return[0,f,d]}function
-iK(b,c,a){if(a)var
-f=a[1],g=iK(b,c,a[2]),d=[0,e(function(a){return ab(t(b,t(b,c,f),a))},a),g];else
+iQ(b,c,a){if(a)var
+f=a[1],g=iQ(b,c,a[2]),d=[0,e(function(a){return ac(t(b,t(b,c,f),a))},a),g];else
 var
 d=a;return d}function
-iL(a){return l(function(a){var
-b=K(a[1],d);return b?K(a[2],d):b},a)}function
-iM(c,b,a){var
+iR(a){return l(function(a){var
+b=L(a[1],d);return b?L(a[2],d):b},a)}function
+iS(c,b,a){var
 d=W(b,a);return ao(function(a,b){return A(t(c,a[1],a[2]),b)},u,d)}function
-iN(c,b,a){var
-d=b$(iM(c,a,b));return ao(function(b,a){return E(b$(b),a)},d,a)}function
-ce(a){return O(a,b)}function
-fj(a,i,c,v,u){var
+iT(c,b,a){var
+d=ca(iS(c,a,b));return ao(function(b,a){return E(ca(b),a)},d,a)}function
+cf(a){return O(a,b)}function
+fk(a,i,c,v,u){var
 f=v,e=u;for(;;){if(f){var
-j=f[1],n=0;if(!iL(c)&&!iL(j)){var
-h=iN(a,i,j),o=ce(a),p=iN(a,i,c),b=ef([0,iN(a,i,c),p],o,[0,h,h])[1],k=I(d,h),l=k?I(d,b):k;if(l)var
-q=aw(ix(a,[0,b,b])),r=function(b){return function(d,c){return F(t(a,[0,b,b],d),c)}}(b),s=[0,b,b],m=[0,bh(e,iK(a,q,aP(function(c){return function(b){return t(a,c,b)}}(s),ab,r,j,c)))];else
+j=f[1],n=0;if(!iR(c)&&!iR(j)){var
+h=iT(a,i,j),o=cf(a),p=iT(a,i,c),b=eg([0,iT(a,i,c),p],o,[0,h,h])[1],k=I(d,h),l=k?I(d,b):k;if(l)var
+q=ax(iD(a,[0,b,b])),r=function(b){return function(d,c){return F(t(a,[0,b,b],d),c)}}(b),s=[0,b,b],m=[0,bi(e,iQ(a,q,aP(function(c){return function(b){return t(a,c,b)}}(s),ac,r,j,c)))];else
 var
 m=l;var
 g=m;n=1}if(!n)var
 g=[0,e];if(g){var
 f=f[2],e=g[1];continue}return g}return[0,e]}}function
-me(a){var
+mn(a){var
 b=a[2],c=e(function(a){return[0,a[1],u]},b);return[0,[0,a[1][1],u],c]}function
-iO(h,n,a,m,l,k){var
+iU(h,n,a,m,l,k){var
 d=m,c=l,b=k;for(;;){if(d){if(c){var
-i=c[1],j=i[1],f=d[1],o=cx(j[2]),p=bh(b,iD(a,f,ej(a,j[1],o,f))),q=i[2],r=e(function(c){return function(b){return e(aw,ej(a,b[1],b[2],c))}}(f),q),g=fj(h,n,e(function(b){return aU(b,a,ce(h))},f),r,p);if(g){var
+i=c[1],j=i[1],f=d[1],o=cz(j[2]),p=bi(b,iJ(a,f,ek(a,j[1],o,f))),q=i[2],r=e(function(c){return function(b){return e(ax,ek(a,b[1],b[2],c))}}(f),q),g=fk(h,n,e(function(b){return aU(b,a,cf(h))},f),r,p);if(g){var
 d=d[2],c=c[2],b=g[1];continue}return g}return[0,b]}return[0,b]}}function
-mf(a,j,r,q){var
+mo(a,j,r,q){var
 c=r,f=q;for(;;){if(c){var
-k=c[1],l=k[1],g=l[2],h=l[1],m=k[2],n=[0,[0,ca(g),h],f];if(m){var
+k=c[1],l=k[1],g=l[2],h=l[1],m=k[2],n=[0,[0,cb(g),h],f];if(m){var
 o=I(d,g[1]);if(o)var
 s=e(function(a){var
-b=a[1];return[0,aw(a[2]),b]},m),t=e(function(a){return u},h),v=[0,ce(a),t],w=ce(a),b=fj(a,[0,ab(ef(iM(a,h,j),w,g)),j],v,s,n);else
+b=a[1];return[0,ax(a[2]),b]},m),t=e(function(a){return u},h),v=[0,cf(a),t],w=cf(a),b=fk(a,[0,ac(eg(iS(a,h,j),w,g)),j],v,s,n);else
 var
 b=o}else
 var
 b=[0,n];if(b){var
-i=gD(a,b[1]);if(i){var
+i=gI(a,b[1]);if(i){var
 c=c[2],f=i[1];continue}var
 p=i}else
 var
 p=b;return p}return[0,f]}}function
-mg(c,b,a){var
-d=aC(0,a);return e(function(a){return o(a,b)?ce(c):u},d)}function
-mh(c,b,a){if(b){if(a){var
-d=mh(c,b[2],a[2]);return A(aU(b[1],c,a[1]),d)}return u}return u}function
-mi(a,j){switch(j){case
+mp(c,b,a){var
+d=aD(0,a);return e(function(a){return o(a,b)?cf(c):u},d)}function
+mq(c,b,a){if(b){if(a){var
+d=mq(c,b[2],a[2]);return A(aU(b[1],c,a[1]),d)}return u}return u}function
+mr(a,j){switch(j){case
 0:var
 d=aM(a[2],a[1]),e=a[1];return[0,[0,e,e],[0,[0,d,d],0]];case
 1:var
 f=aM(a[1],a[2]),g=a[2];return[0,[0,g,g],[0,[0,f,f],0]];default:var
-c=dx(E(a[1],a[2]),b),h=aM(c,a[2]),i=aM(a[2],c);return[0,[0,c,c],[0,[0,i,i],[0,[0,h,h],0]]]}}function
-fk(d,c,a){if(a)var
-e=a[1],g=fk(d,[0,c],a[2]),b=z(aO,ly(function(a){return o(a[1],c)},d)),h=b?mi(e,b[1])[1]:e,f=[0,h,g];else
+c=dy(E(a[1],a[2]),b),h=aM(c,a[2]),i=aM(a[2],c);return[0,[0,c,c],[0,[0,i,i],[0,[0,h,h],0]]]}}function
+fl(d,c,a){if(a)var
+e=a[1],g=fl(d,[0,c],a[2]),b=y(aO,lG(function(a){return o(a[1],c)},d)),h=b?mr(e,b[1])[1]:e,f=[0,h,g];else
 var
 f=a;return f}function
-gM(a,b){return e(function(a){var
-c=a[2];return mi(r(a[1],b,u),c)[2]},a)}function
-gN(i,b,g,a){function
+gR(a,b){return e(function(a){var
+c=a[2];return mr(r(a[1],b,u),c)[2]},a)}function
+gS(i,b,g,a){function
 d(a){return aH(b,a[1])}var
 h=0,j=$(u);function
 c(g,d,a,b){if(a){var
 h=function(a){return aH(g,r(d,a[2],j))},k=e(h,b[1]),l=h(b[2]),m=c(g,[0,d],a[2],b),n=a[1];return f(e(function(a){var
 b=t(i,a,l);return[0,e(function(b){return t(i,a,b)},k),b]},n),m)}return a}var
 k=c(b,h,g,a),l=d(a[2]);return[0,[0,e(d,a[1]),l],k]}var
-ti=$(u);function
-mj(e,d,c){if(d){var
-f=r(e,c[2],tj),a=f?f[1]:[0,ti];if(a)var
-b=mj([0,e],d[2],c),h=b?[0,[0,a[1],b[1]]]:b,g=h;else
+tr=$(u);function
+ms(e,d,c){if(d){var
+f=r(e,c[2],ts),a=f?f[1]:[0,tr];if(a)var
+b=ms([0,e],d[2],c),h=b?[0,[0,a[1],b[1]]]:b,g=h;else
 var
-g=a;return g}return tk}function
-mk(a,c,h,p,o,g,n){var
-d=bi(c);return l(function(d){var
+g=a;return g}return tt}function
+mt(a,c,h,p,o,g,n){var
+d=bj(c);return l(function(d){var
 f=k(n,d);if(f){var
 q=t(a,o,f[1]),i=F(O(a,b),q),r=h?F(i,aH(d,h[1])):i,j=function(b){function
 f(c){return t(a,b,aH(d,c))}var
-g=e(function(a){return e(f,a)},p);return a9(a,c,bh(af([0,r,0],c),g))},l=j(aw(g));if(l)return j(ab(aw(g)));var
+g=e(function(a){return e(f,a)},p);return a_(a,c,bi(ab([0,r,0],c),g))},l=j(ax(g));if(l)return j(ac(ax(g)));var
 m=l}else
 var
 m=f;return m},d)}function
-ml(c,b,a){if(a){var
+mu(c,b,a){if(a){var
 d=a[2];if(c){var
-f=ml(c[1],b,d);return[0,a[1],f]}var
+f=mu(c[1],b,d);return[0,a[1],f]}var
 e=[0,b,d]}else
 var
 e=a;return e}function
-fl(a,g){var
-b=bu(function(e){var
-c=r(e,a,u),b=D(c[1],d),f=b?D(d,c[2]):b;return N(f)},g);if(b){if(b[2])return a;var
-f=b[1],c=r(f,a,u),e=I(d,c[1])?c[1]:c[2];return ml(f,[0,e,e],a)}return a}function
-mm(c,a){if(a)var
-b=a[2],f=mm(c,b),g=b?b[1]:e(sL,c),d=[0,[0,a[1],g],f];else
+fm(a,g){var
+b=a1(function(e){var
+c=r(e,a,u),b=D(c[1],d),f=b?D(d,c[2]):b;return J(f)},g);if(b){if(b[2])return a;var
+f=b[1],c=r(f,a,u),e=I(d,c[1])?c[1]:c[2];return mu(f,[0,e,e],a)}return a}function
+mv(c,a){if(a)var
+b=a[2],f=mv(c,b),g=b?b[1]:e(sU,c),d=[0,[0,a[1],g],f];else
 var
 d=a;return d}function
-mn(a){return a?mm(a[1],a):a}function
-c5(c,d,b,a){if(d){var
+mw(a){return a?mv(a[1],a):a}function
+c6(c,d,b,a){if(d){var
 e=d[1];if(a){var
-f=c5(c,e,b,a[2]);return[0,a[1],f]}return[0,c,c5(c,e,b,0)]}return a?[0,b,a[2]]:[0,b,0]}function
-gO(a,c,b){if(c)if(b)var
-g=b[2],e=b[1],h=c[2],d=c[1],i=gO(a,h,g),j=function(c,b){var
+f=c6(c,e,b,a[2]);return[0,a[1],f]}return[0,c,c6(c,e,b,0)]}return a?[0,b,a[2]]:[0,b,0]}function
+gT(a,c,b){if(c)if(b)var
+g=b[2],e=b[1],h=c[2],d=c[1],i=gT(a,h,g),j=function(c,b){var
 f=t(a,e,b);return A(t(a,d,c),f)},k=function(b){return t(a,e,b)},l=aP(function(b){return t(a,d,b)},k,j,g,h),f=[0,[0,t(a,A(d,d),e),l],i];else
 var
 f=b;else
 var
 f=c;return f}function
-c6(d,c,b,a){return c5(u,c,iM(d,a,b),a)}function
-mo(a,f,e,b,d,c){var
-g=aC(0,b);return ao(function(g,c){var
-h=c6(a,f,e,mg(a,g,b));return bh(c,iK(a,ab(d),h))},c,g)}function
-mp(a,d,c,j,i,h,g,f){var
-k=c6(a,d,c,e(function(b){return O(a,C(h,b))},i));return bh(f,gO(a,c6(a,d,c,e(function(c){return aU(c,E(g,b),ce(a))},j)),k))}function
-mq(a,h,g,q,f,p,o,n){var
+c7(d,c,b,a){return c6(u,c,iS(d,a,b),a)}function
+mx(a,f,e,b,d,c){var
+g=aD(0,b);return ao(function(g,c){var
+h=c7(a,f,e,mp(a,g,b));return bi(c,iQ(a,ac(d),h))},c,g)}function
+my(a,d,c,j,i,h,g,f){var
+k=c7(a,d,c,e(function(b){return O(a,C(h,b))},i));return bi(f,gT(a,c7(a,d,c,e(function(c){return aU(c,E(g,b),cf(a))},j)),k))}function
+mz(a,h,g,q,f,p,o,n){var
 d=p,c=o,b=n;for(;;){if(d){if(c){var
-k=c[1],l=k[1],i=d[1],m=c6(a,h,g,e(function(b){return aU(b,f,ce(a))},i)),r=cx(l[2]),s=c6(a,h,g,ej(f,l[1],r,i)),t=bh(b,gO(a,e(aw,m),s)),u=k[2],j=fj(a,q,m,e(function(c){return function(b){return c6(a,h,g,e(aw,ej(f,b[1],b[2],c)))}}(i),u),t);if(j){var
+k=c[1],l=k[1],i=d[1],m=c7(a,h,g,e(function(b){return aU(b,f,cf(a))},i)),r=cz(l[2]),s=c7(a,h,g,ek(f,l[1],r,i)),t=bi(b,gT(a,e(ax,m),s)),u=k[2],j=fk(a,q,m,e(function(c){return function(b){return c7(a,h,g,e(ax,ek(f,b[1],b[2],c)))}}(i),u),t);if(j){var
 d=d[2],c=c[2],b=j[1];continue}return j}return[0,b]}return[0,b]}}function
-mr(g,b,f,a){if(a)var
-c=a[2],d=a[1],h=r(b,c,u),e=[0,d,c5(u,b,A(t(g,f,d),h),c)];else
+mA(g,b,f,a){if(a)var
+c=a[2],d=a[1],h=r(b,c,u),e=[0,d,c6(u,b,A(t(g,f,d),h),c)];else
 var
 e=a;return e}function
-ms(a,b,m,D,C,B){var
+mB(a,b,m,D,C,B){var
 i=C,h=B;for(;;){if(i){var
-n=i[1],o=n[1],j=o[2],p=n[2],c=c6(a,b,m,o[1]);if(p){var
+n=i[1],o=n[1],j=o[2],p=n[2],c=c7(a,b,m,o[1]);if(p){var
 q=I(d,j[1]);if(q)var
-E=ce(a),f=ca(ab(ef(r(b,c,u),E,j))),k=ca(j),v=c5(u,b,f,0),w=r(b,c,u),x=bh(h,gO(a,v,c5(u,b,A(aw(t(a,f,k)),w),c))),y=r(b,c,u),z=[0,[0,k,c5(u,b,A(t(a,f,k),y),c)],x],F=e(function(e){return function(c){var
-d=c6(a,b,m,c[1]);return mr(a,b,e,[0,aw(c[2]),d])}}(f),p),G=e(function(a){return u},c),g=fj(a,[0,u,D],mr(a,b,f,[0,ce(a),G]),F,z);else
+E=cf(a),f=cb(ac(eg(r(b,c,u),E,j))),k=cb(j),v=c6(u,b,f,0),w=r(b,c,u),x=bi(h,gT(a,v,c6(u,b,A(ax(t(a,f,k)),w),c))),y=r(b,c,u),z=[0,[0,k,c6(u,b,A(t(a,f,k),y),c)],x],F=e(function(e){return function(c){var
+d=c7(a,b,m,c[1]);return mA(a,b,e,[0,ax(c[2]),d])}}(f),p),G=e(function(a){return u},c),g=fk(a,[0,u,D],mA(a,b,f,[0,cf(a),G]),F,z);else
 var
 g=q}else
 var
-g=[0,[0,[0,ca(j),c],h]];if(g){var
-l=gD(a,g[1]);if(l){var
+g=[0,[0,[0,cb(j),c],h]];if(g){var
+l=gI(a,g[1]);if(l){var
 i=i[2],h=l[1];continue}var
 s=l}else
 var
 s=g;return s}return[0,h]}}function
-iP(f,d,c,b,a){var
-g=e($,c);return lG(0,bB(f,dG(0,a),g),b,d,0)}function
-ac(a){if(a){var
+iV(f,d,c,b,a){var
+g=e($,c);return lP(0,bC(f,dH(0,a),g),b,d,0)}function
+ad(a){if(a){var
 b=a[1];if(b)var
-c=ac(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+c=ad(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return tp}function
-gP(b,a){if(a){var
-h=a[1],n=h[1],c=ac(e(function(a){return r(a,b,0)},n));if(c){var
+d=b;return d}return ty}function
+gU(b,a){if(a){var
+h=a[1],n=h[1],c=ad(e(function(a){return r(a,b,0)},n));if(c){var
 f=r(h[2],b,0);if(f){var
-i=f[1],g=gP(b,a[2]);if(g)var
+i=f[1],g=gU(b,a[2]);if(g)var
 j=I(d,i[2][1]),k=j?[0,[0,[0,c[1],i],g[1]]]:j;else
 var
 k=g;var
@@ -1957,22 +1958,22 @@ var
 l=f;var
 m=l}else
 var
-m=c;return m}return tq}function
-cC(d,c,b){var
-a=gP(d,c);return a?k(b,a[1]):a}function
-c7(a,b){return l(function(c){var
+m=c;return m}return tz}function
+cE(d,c,b){var
+a=gU(d,c);return a?k(b,a[1]):a}function
+c8(a,b){return l(function(c){var
 a=r(c,b,0),d=a?1:a;return d},a)}function
-gQ(b,a){if(b){var
+gV(b,a){if(b){var
 c=b[1],d=c[3],e=a[3],f=function(a){return a},g=aP(function(a){return a},f,A,e,d),h=a[2];return[0,A(a[1],c[1]),h,g]}return a}function
-iQ(b,a){return b?l7(a,b[1]):a}function
-iR(h,g,b,f){var
+iW(b,a){return b?me(a,b[1]):a}function
+iX(h,g,b,f){var
 a=r(f,h,0);if(a){var
 c=a[1];if(b){var
-i=l7(c,b[1]),e=bi(g);return l(function(a){return D(d,aH(a,i)[1])},e)}return D(d,c[2][1])}return a}function
-iS(f,d,a){function
+i=me(c,b[1]),e=bj(g);return l(function(a){return D(d,aH(a,i)[1])},e)}return D(d,c[2][1])}return a}function
+iY(f,d,a){function
 c(a){return aU(a,d,O(f,b))}if(a){var
 g=e(c,a[2]);return[0,c(a[1]),u,g]}return $(u)}function
-gR(b,a){var
+gW(b,a){var
 c=r(a[1],b,0);if(c){var
 d=r(a[2],b,0);if(d)var
 e=r(a[3],b,0),h=e?[0,[0,c[1],d[1],e[1]]]:e,f=h;else
@@ -1981,55 +1982,55 @@ f=d;var
 g=f}else
 var
 g=c;return g}function
-iT(b,a){return ac(e(function(a){return r(a,b,0)},a))}function
-fm(c,k,X,C,i,h,j,f,a){switch(f[0]){case
+iZ(b,a){return ad(e(function(a){return r(a,b,0)},a))}function
+fn(c,k,X,C,i,h,j,f,a){switch(f[0]){case
 0:var
 s=f[1];if(typeof
 a!=="number")switch(a[0]){case
 0:var
-Y=c7(C,i);if(Y){var
-aD=a[2],aE=a[1],aF=gQ(j,$(s));return cC(i,k,function(a){return fh(c,h,aF,aE,aD,a)})}return Y;case
+Y=c8(C,i);if(Y){var
+aD=a[2],aE=a[1],aF=gV(j,$(s));return cE(i,k,function(a){return fi(c,h,aF,aE,aD,a)})}return Y;case
 1:var
-Z=c7(C,i);if(Z){var
-aG=a[2],aI=a[1],aJ=gQ(j,$(s));return cC(i,X,function(a){return fh(c,h,aJ,aI,aG,a)})}return Z;case
+Z=c8(C,i);if(Z){var
+aG=a[2],aI=a[1],aJ=gV(j,$(s));return cE(i,X,function(a){return fi(c,h,aJ,aI,aG,a)})}return Z;case
 2:var
-_=c7(C,i);if(_){var
-aa=K(s[1],d),ab=aa?K(s[2],d):aa;if(ab){var
-aK=a[2],aL=a[1];return cC(i,k,function(a){return l6(c,h,j,aL,aK,a)})}var
-ad=ab}else
+_=c8(C,i);if(_){var
+aa=L(s[1],d),ab=aa?L(s[2],d):aa;if(ab){var
+aK=a[2],aL=a[1];return cE(i,k,function(a){return md(c,h,j,aL,aK,a)})}var
+ac=ab}else
 var
-ad=_;return ad}return 0;case
+ac=_;return ac}return 0;case
 1:var
 ae=f[1];if(typeof
 a==="number"){if(1===a){var
-aN=iQ(j,$(ae));return cC(i,X,function(a){return iF(c,h,aN,a)})}if(!a){var
-aO=iQ(j,$(ae));return cC(i,k,function(a){return iF(c,h,aO,a)})}}return 0;case
+aN=iW(j,$(ae));return cE(i,X,function(a){return iL(c,h,aN,a)})}if(!a){var
+aO=iW(j,$(ae));return cE(i,k,function(a){return iL(c,h,aO,a)})}}return 0;case
 2:if(typeof
 a!=="number"&&3===a[0]){var
-af=a[1],m=iS(c,af,a[3]),ag=f[1],aP=a[2];return cC(i,k,function(d){var
-a=iG(h,m),b=a?fh(c,h,gQ(j,m),af,aP,d):a;if(b){var
-f=m[3],g=e(function(a){return t(c,ag,a)},f),i=m[2];return iF(c,h,iQ(j,[0,t(c,ag,m[1]),i,g]),d)}return b})}return 0;case
+af=a[1],m=iY(c,af,a[3]),ag=f[1],aP=a[2];return cE(i,k,function(d){var
+a=iM(h,m),b=a?fi(c,h,gV(j,m),af,aP,d):a;if(b){var
+f=m[3],g=e(function(a){return t(c,ag,a)},f),i=m[2];return iL(c,h,iW(j,[0,t(c,ag,m[1]),i,g]),d)}return b})}return 0;case
 3:if(typeof
-a==="number"&&!a)return iR(i,h,j,f[1]);return 0;case
+a==="number"&&!a)return iX(i,h,j,f[1]);return 0;case
 4:if(typeof
 a!=="number"&&0===a[0]){var
-aQ=a[2],aR=a[1],aS=gQ(j,$(f[2])),aT=function(a){return fh(c,h,aS,aR,aQ,a)};return cC(i,f[1],aT)}return 0;case
+aQ=a[2],aR=a[1],aS=gV(j,$(f[2])),aT=function(a){return fi(c,h,aS,aR,aQ,a)};return cE(i,f[1],aT)}return 0;case
 5:if(typeof
 a==="number"&&!(3<=a))switch(a){case
-0:return iR(i,h,j,f[1]);case
-2:return iR(i,h,j,f[2])}return 0;case
+0:return iX(i,h,j,f[1]);case
+2:return iX(i,h,j,f[2])}return 0;case
 6:if(typeof
 a!=="number"&&8===a[0]){var
-D=gR(i,f[1]);if(D){var
-G=gR(i,f[2]);if(G){var
-H=gR(i,f[3]);if(H){var
-I=gR(i,f[4]);if(I){var
+D=gW(i,f[1]);if(D){var
+G=gW(i,f[2]);if(G){var
+H=gW(i,f[3]);if(H){var
+I=gW(i,f[4]);if(I){var
 ah=I[1],ai=H[1],aj=G[1],ak=D[1],n=a[2],v=f[5],aV=a[1];if(n){var
 p=n[2];if(p){var
 q=p[2];if(q){if(q[2])return 0;var
-aC=[0,n[1],p[1],q[1]],r=ma(function(f){function
+aC=[0,n[1],p[1],q[1]],r=mj(function(f){function
 g(a){return aU(a,aV,O(c,b))}if(f){var
-a=e(g,f[2]),d=g(f[1]),h=fd(a),i=E(d[2],h),j=fd(a);return[0,d,[0,aM(d[1],j),i],a]}return $(u)},aC),N=l(function(a){return o(g(a),[0,h])},n),P=N?gI(c,h,j,v,r,ak,ai):N,Q=P?gI(c,h,j,v,r,ak,ah):P,R=Q?gI(c,h,j,v,r,aj,ai):Q;if(R)return gI(c,h,j,v,r,aj,ah);var
+a=e(g,f[2]),d=g(f[1]),h=fe(a),i=E(d[2],h),j=fe(a);return[0,d,[0,aM(d[1],j),i],a]}return $(u)},aC),N=l(function(a){return o(g(a),[0,h])},n),P=N?gN(c,h,j,v,r,ak,ai):N,Q=P?gN(c,h,j,v,r,ak,ah):P,R=Q?gN(c,h,j,v,r,aj,ai):Q;if(R)return gN(c,h,j,v,r,aj,ah);var
 S=R}else
 var
 S=q;var
@@ -2050,32 +2051,32 @@ var
 an=D;return an}return 0;case
 7:if(typeof
 a!=="number"&&0===a[0]){var
-ap=a[2],aq=a[1],aW=f[2],aX=f[1];return cC(i,k,function(e){var
+ap=a[2],aq=a[1],aW=f[2],aX=f[1];return cE(i,k,function(e){var
 a=o(g(e),h),d=a?o(g(ap),h):a;if(d){var
 f=function(a){if(a){var
 d=a[2],e=o(g(d),h);if(e){var
-i=em(aq,en(aq,ap,O(c,b),d));return a9(c,h,bh(gJ(c,aX,aW,a[1][2],d),i))}var
+i=en(aq,eo(aq,ap,O(c,b),d));return a_(c,h,bi(gO(c,aX,aW,a[1][2],d),i))}var
 f=e}else
 var
-f=a;return f},i=j?j[1]:$(u);return iC(h,iE(i,e),f)}return d})}return 0;case
+f=a;return f},i=j?j[1]:$(u);return iI(h,iK(i,e),f)}return d})}return 0;case
 8:if(typeof
 a==="number"&&5<=a){var
-aY=f[3],aZ=f[2],a0=function(a){return l6(c,h,j,aZ,aY,a)};return cC(i,f[1],a0)}return 0;case
+aY=f[3],aZ=f[2],a0=function(a){return md(c,h,j,aZ,aY,a)};return cE(i,f[1],a0)}return 0;case
 9:return 0;default:if(typeof
 a==="number"&&!a){var
-J=iT(i,f[1]);if(J){var
-a1=f[2],L=ac(e(function(a){return iT(i,a)},a1));if(L){var
-M=iT(i,[0,f[3],[0,f[4],[0,f[5],[0,f[6],0]]]]);if(M){var
+J=iZ(i,f[1]);if(J){var
+a1=f[2],K=ad(e(function(a){return iZ(i,a)},a1));if(K){var
+M=iZ(i,[0,f[3],[0,f[4],[0,f[5],[0,f[6],0]]]]);if(M){var
 w=M[1];if(w){var
 x=w[2];if(x){var
-y=x[2];if(y){var
-B=y[2];if(B){if(B[2])return 0;var
-ar=B[1],as=y[1][2],at=x[1][2],au=w[1][2],av=L[1],a2=J[1],W=mk(c,h,j,av,au,at,function(d){return[0,ek(c,ao(function(b,a){return A(U(c,aH(d,b)),a)},u,a2))]});return W?W:mk(c,h,j,av,au,at,function(f){var
-b=ca(ar[1]),a=b_(c,F(as,U(c,b)));if(a){var
-d=b9(c,a[1]),e=F(as,t(c,b,aH(f,ar)));return z(function(a){return t(c,e,a)},d)}return a})}var
+z=x[2];if(z){var
+B=z[2];if(B){if(B[2])return 0;var
+ar=B[1],as=z[1][2],at=x[1][2],au=w[1][2],av=K[1],a2=J[1],W=mt(c,h,j,av,au,at,function(d){return[0,el(c,ao(function(b,a){return A(U(c,aH(d,b)),a)},u,a2))]});return W?W:mt(c,h,j,av,au,at,function(f){var
+b=cb(ar[1]),a=b$(c,F(as,U(c,b)));if(a){var
+d=b_(c,a[1]),e=F(as,t(c,b,aH(f,ar)));return y(function(a){return t(c,e,a)},d)}return a})}var
 aw=B}else
 var
-aw=y;var
+aw=z;var
 ax=aw}else
 var
 ax=x;var
@@ -2087,41 +2088,41 @@ var
 az=M;var
 aA=az}else
 var
-aA=L;var
+aA=K;var
 aB=aA}else
 var
 aB=J;return aB}return 0}}function
-mt(a,_,s,m,n,Z,h,j,i,f,c){if(9===f[0]){var
-aa=f[2],ad=f[1];if(typeof
+mC(a,_,s,m,n,Z,h,j,i,f,c){if(9===f[0]){var
+aa=f[2],ae=f[1];if(typeof
 c!=="number"&&9===c[0]){var
-L=c[2],v=c[1],ae=c[3];if(0<aS(c[4]))return fm(a,s,m,n,h,g(j),i,f,c);var
-V=e($,Z),C=bf(0,bB(a,gK(0,j,ad),V),_,0),M=o(g(j),tr),N=M?c7(n,C):M;if(N){var
-w=gP(C,m);if(w){var
-x=gP(h,m);if(x){var
-y=ac(e(function(b){var
+L=c[2],v=c[1],af=c[3];if(0<aS(c[4]))return fn(a,s,m,n,h,g(j),i,f,c);var
+V=e($,Z),C=bg(0,bC(a,gP(0,j,ae),V),_,0),M=o(g(j),tA),N=M?c8(n,C):M;if(N){var
+w=gU(C,m);if(w){var
+x=gU(h,m);if(x){var
+z=ad(e(function(b){var
 c=r(b[1],h,0);if(c)var
-f=b[2][2],a=ac(e(function(a){var
-b=r(a[2],h,0);return z(function(b){return[0,a[1],b]},b)},f)),g=a?[0,[0,b[2][1],a[1]]]:a,d=g;else
+f=b[2][2],a=ad(e(function(a){var
+b=r(a[2],h,0);return y(function(b){return[0,a[1],b]},b)},f)),g=a?[0,[0,b[2][1],a[1]]]:a,d=g;else
 var
-d=c;return d},aa));if(y){var
-B=md(w[1]);if(B){var
-P=x[1],ag=y[1],ah=B[1],D=ek(a,ao(function(f,h){function
+d=c;return d},aa));if(z){var
+B=mm(w[1]);if(B){var
+P=x[1],ag=z[1],ah=B[1],D=el(a,ao(function(f,h){function
 b(b,d){var
-a=f[1],c=b?b[1]?f[2]:a[2]:a[1];return b$(r(d,c[3],u))}function
+a=f[1],c=b?b[1]?f[2]:a[2]:a[1];return ca(r(d,c[3],u))}function
 c(a){var
-b=k(a,s6),c=bl(k(a,s7),b);return bl(k(a,0),c)}var
+b=k(a,td),c=bm(k(a,te),b);return bm(k(a,0),c)}var
 d=c(function(a){var
-c=b(s8,a),d=b(s9,a);return E(E(b(0,a),d),c)}),g=[0,d,d],e=c(function(a){var
-c=b(a,s_),d=b(a,s$);return E(E(b(a,0),d),c)});return A(h,U(a,ek(a,t(a,[0,e,e],g))))},u,ah)),p=aU(ae,v,O(a,b)),G=I(d,F(p,D)[1]),H=G?o(g(L),tf):G,J=H?o(g(P),tg):H;if(J){var
-q=b9(a,p);if(q){var
-W=aw(t(a,D,q[1])),X=F(O(a,b),W),Y=bi(th);return l(function(h){var
+c=b(tf,a),d=b(tg,a);return E(E(b(0,a),d),c)}),g=[0,d,d],e=c(function(a){var
+c=b(a,th),d=b(a,ti);return E(E(b(a,0),d),c)});return A(h,U(a,el(a,t(a,[0,e,e],g))))},u,ah)),p=aU(af,v,O(a,b)),G=I(d,F(p,D)[1]),H=G?o(g(L),to):G,J=H?o(g(P),tp):H;if(J){var
+q=b_(a,p);if(q){var
+W=ax(t(a,D,q[1])),X=F(O(a,b),W),Y=bj(tq);return l(function(h){var
 g=e(function(b){var
-c=b[2],d=b[1];return cx(bS(function(d,b){var
-c=b$(aH(h,b[2]));return A(d,t(a,b[1],[0,c,c]))},c,d))},ag),r=k(ax(function(a){return aH(h,a)}),P),E=i?aH(h,i[1]):u,M=U(a,X),s=U(a,p),q=em(v,en(v,L,O(a,b),r)),c=bh(af([0,ab(E),0],ta),q);if(g){var
+c=b[2],d=b[1];return cz(bS(function(d,b){var
+c=ca(aH(h,b[2]));return A(d,t(a,b[1],[0,c,c]))},c,d))},ag),r=k(ay(function(a){return aH(h,a)}),P),E=i?aH(h,i[1]):u,M=U(a,X),s=U(a,p),q=en(v,eo(v,L,O(a,b),r)),c=bi(ab([0,ac(E),0],tj),q);if(g){var
 d=g[2];if(d){var
 f=d[2];if(f){if(f[2])return 0;var
-B=d[1],C=g[1],I=f[1],j=a9(a,tc,bh(af([0,ab(s),0],tb),c));if(j)return l(function(D){var
-J=F(M,E),K=D[2]?B:ab(B),L=D[1]?C:ab(C),o=0;if(c){var
+B=d[1],C=g[1],I=f[1],j=a_(a,tl,bi(ab([0,ac(s),0],tk),c));if(j)return l(function(D){var
+J=F(M,E),K=D[2]?B:ac(B),L=D[1]?C:ac(C),o=0;if(c){var
 b=c[1],l=0;if(b){var
 d=b[2],m=0;if(d){var
 e=d[2],n=0;if(e)if(e[2]){var
@@ -2160,7 +2161,7 @@ var
 z=b;if(!l){var
 A=z;o=1}}else{var
 A=c;o=1}if(o)var
-k=A;return a9(a,te,k)},td);var
+k=A;return a_(a,tn,k)},tm);var
 m=j}else
 var
 m=f;var
@@ -2175,7 +2176,7 @@ var
 K=J;return K}var
 Q=B}else
 var
-Q=y;var
+Q=z;var
 R=Q}else
 var
 R=x;var
@@ -2184,25 +2185,25 @@ var
 S=w;var
 T=S}else
 var
-T=N;return T}return fm(a,s,m,n,h,g(j),i,f,c)}return fm(a,s,m,n,h,g(j),i,f,c)}function
-gS(d){var
+T=N;return T}return fn(a,s,m,n,h,g(j),i,f,c)}return fn(a,s,m,n,h,g(j),i,f,c)}function
+gX(d){var
 a=d;for(;;){if(a){var
-b=a[2],e=a[1],c=N(aj(function(b){return function(a){return o(b,a)}}(e),b));if(c){var
+b=a[2],e=a[1],c=J(aj(function(b){return function(a){return o(b,a)}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-iU(j,i,h,g,a){var
+i0(j,i,h,g,a){var
 d=r(a,j,0);if(d){var
 b=r(a,i,0);if(b)var
-c=mj(0,g,r(a,h,ts)),k=c?[0,[0,b[1],c[1]]]:c,e=k;else
+c=ms(0,g,r(a,h,tB)),k=c?[0,[0,b[1],c[1]]]:c,e=k;else
 var
 e=b;var
 f=e}else
 var
 f=d;return f}function
-gT(i,b,a){if(a){var
-j=a[1],l=j[2],c=ac(e(b,j[1]));if(c){var
+gY(i,b,a){if(a){var
+j=a[1],l=j[2],c=ad(e(b,j[1]));if(c){var
 f=k(b,l);if(f){var
 g=r(l,i,0);if(g){var
-h=gT(i,b,a[2]);if(h)var
+h=gY(i,b,a[2]);if(h)var
 m=I(d,g[1][2][1]),n=m?[0,[0,[0,c[1],f[1]],h[1]]]:m;else
 var
 n=h;var
@@ -2214,25 +2215,25 @@ var
 p=f;var
 q=p}else
 var
-q=c;return q}return tt}function
-mu(c,M,j,L,q,p,J,I,f,b,i,a){var
-h=g(J),N=dG(0,J),aF=bf(0,bB(c,N,e($,fk(i,0,q))),M,0),aI=e(aA,i),aG=0,aJ=e($,q),aL=bf(tu,function(a){return iJ(c,N,aJ,aI,a)},M,aG),aN=gM(i,q);function
-P(a){return iU(p,aF,aL,i,a)}function
+q=c;return q}return tC}function
+mD(c,M,j,K,q,p,J,I,f,b,i,a){var
+h=g(J),N=dH(0,J),aF=bg(0,bC(c,N,e($,fl(i,0,q))),M,0),aI=e(aB,i),aG=0,aJ=e($,q),aL=bg(tD,function(a){return iP(c,N,aJ,aI,a)},M,aG),aN=gR(i,q);function
+P(a){return i0(p,aF,aL,i,a)}function
 w(a){return e(function(a){return O(c,a)},a)}var
 aO=I?I[1]:$(u);function
-Q(a){return a?a9(c,h,a[1]):a}function
+Q(a){return a?a_(c,h,a[1]):a}function
 r(f,e,d,b,a){var
-g=af([0,ab(e),0],h);return Q(iO(c,w(f),d,b,a,g))}function
+g=ab([0,ac(e),0],h);return Q(iU(c,w(f),d,b,a,g))}function
 R(d,b,a){var
-e=af([0,b,0],h);return Q(mf(c,w(d),a,e))}var
-aP=e(aA,i),S=l(function(a){return aK(a,g(q))},aP),U=S?gS(e(aA,i)):S,V=U?l(function(a){return o(g(a),h)},a):U;if(V){var
+e=ab([0,b,0],h);return Q(mo(c,w(d),a,e))}var
+aP=e(aB,i),S=l(function(a){return aK(a,g(q))},aP),U=S?gX(e(aB,i)):S,V=U?l(function(a){return o(g(a),h)},a):U;if(V){var
 v=0;switch(f[0]){case
 0:var
 x=f[1],G=0;if(typeof
 b!=="number")switch(b[0]){case
 0:var
 ar=0;if(a){if(a[2])return 0;var
-aQ=a[1],aR=b[2],aS=b[1],X=c7(L,p);if(X){var
+aQ=a[1],aR=b[2],aS=b[1],X=c8(K,p);if(X){var
 m=function(c,a){var
 b=A(x,a);return function(a){return r(aQ,b,aS,aR,a)}},k=j;G=1;ar=1}else
 var
@@ -2241,14 +2242,14 @@ var
 _=a;if(!ar)return _;break;case
 2:var
 as=0;if(a){if(a[2])return 0;var
-aU=a[1],aV=b[2],aW=b[1],aa=c7(L,p),at=0;if(aa){var
-ac=K(x[1],d),ad=ac?K(x[2],d):ac;if(ad){var
-m=function(c,b,a){return r(aU,b,aW,aV,e(me,a))},k=j;G=1;as=1;at=1}else
+aU=a[1],aV=b[2],aW=b[1],aa=c8(K,p),at=0;if(aa){var
+ad=L(x[1],d),ae=ad?L(x[2],d):ad;if(ae){var
+m=function(c,b,a){return r(aU,b,aW,aV,e(mn,a))},k=j;G=1;as=1;at=1}else
 var
-ae=ad}else
+af=ae}else
 var
-ae=aa;if(!at)var
-ag=ae}else
+af=aa;if(!at)var
+ag=af}else
 var
 ag=a;if(!as)return ag;break}if(!G)return 0;break;case
 1:var
@@ -2259,28 +2260,28 @@ b=F(aX,a);return function(a){return R(aY,b,a)}},k=j;au=1}if(!au)return 0;break;c
 2:var
 av=0,aZ=f[1];if(typeof
 b==="number"||!(3===b[0]))av=1;else{var
-ax=0;if(a){var
+aw=0;if(a){var
 s=a[2],ay=0;if(s){if(s[2])return 0;var
-ah=b[1],a0=s[1],a1=a[1],a2=b[2],ai=iS(c,ah,b[3]),aj=iG(h,ai);if(aj){var
+ah=b[1],a0=s[1],a1=a[1],a2=b[2],ai=iY(c,ah,b[3]),aj=iM(h,ai);if(aj){var
 m=function(f,b,a){var
-d=aH(f,ai),e=r(a1,A(d,b),ah,a2,a);return e?R(a0,F(t(c,aZ,d),b),a):e},k=j;ax=1;ay=1}else
+d=aH(f,ai),e=r(a1,A(d,b),ah,a2,a);return e?R(a0,F(t(c,aZ,d),b),a):e},k=j;aw=1;ay=1}else
 var
 ak=aj}else
 var
 ak=s;if(!ay)var
 al=ak}else
 var
-al=a;if(!ax)return al}if(av)return 0;break;case
+al=a;if(!aw)return al}if(av)return 0;break;case
 3:var
 az=0;if(typeof
 b==="number"&&!b){if(a)return 0;var
 z=f[1];v=1}else
 az=1;if(az)return 0;break;case
 4:var
-aB=0,a4=f[2];if(typeof
-b==="number"||!(0===b[0]))aB=1;else{if(!a)return a;if(a[2])return 0;var
+aA=0,a4=f[2];if(typeof
+b==="number"||!(0===b[0]))aA=1;else{if(!a)return a;if(a[2])return 0;var
 a5=a[1],a6=b[2],a7=b[1],a8=function(c,a){var
-b=A(a4,a);return function(a){return r(a5,b,a7,a6,a)}},m=a8,k=f[1]}if(aB)return 0;break;case
+b=A(a4,a);return function(a){return r(a5,b,a7,a6,a)}},m=a8,k=f[1]}if(aA)return 0;break;case
 5:var
 H=0;if(typeof
 b==="number"&&!(3<=b))switch(b){case
@@ -2290,64 +2291,64 @@ z=f[1];v=1;break;case
 z=f[2];v=1;break;default:H=1}else
 H=1;if(H)return 0;break;case
 7:var
-am=f[2],an=f[1],aD=0;if(typeof
-b==="number"||!(0===b[0]))aD=1;else{var
+am=f[2],an=f[1],aC=0;if(typeof
+b==="number"||!(0===b[0]))aC=1;else{var
 aE=0;if(a){if(a[2])return 0;var
-n=b[2],C=b[1],a_=a[1],ap=o(g(j),h);if(ap){var
+n=b[2],C=b[1],a9=a[1],ap=o(g(j),h);if(ap){var
 m=function(a,x){var
-y=w(a_);return function(f){var
+y=w(a9);return function(f){var
 k=o(g(f),h),l=k?o(g(n),h):k;if(l){var
-s=e(aA,f),u=em(C,en(C,n,ce(c),s)),v=bh(gJ(c,an,am,x,e(aA,f)),u),a=0,b=f,i=v,w=g(n);for(;;){if(b){var
+s=e(aB,f),u=en(C,eo(C,n,cf(c),s)),v=bi(gO(c,an,am,x,e(aB,f)),u),a=0,b=f,i=v,w=g(n);for(;;){if(b){var
 p=b[1][2],q=o(a,an),r=e(function(f,h){return function(d){var
-a=W(aC(0,g(n)),n);return e(function(a){var
-b=mh(C,a[2],d[1]);if(h&&o(a[1],f))return F(b,aw(t(c,am,d[2])));return b},a)}}(a,q),p),j=fj(c,y,mg(c,a,w),r,i);if(j){var
+a=W(aD(0,g(n)),n);return e(function(a){var
+b=mq(C,a[2],d[1]);if(h&&o(a[1],f))return F(b,ax(t(c,am,d[2])));return b},a)}}(a,q),p),j=fk(c,y,mp(c,a,w),r,i);if(j){var
 a=[0,a],b=b[2],i=j[1];continue}var
 d=j}else
 var
-d=[0,i];if(d)return a9(c,h,d[1]);var
+d=[0,i];if(d)return a_(c,h,d[1]);var
 m=d;break}}else
 var
 m=l;return m}},k=j;aE=1}else
 var
 aq=ap}else
 var
-aq=a;if(!aE)return aq}if(aD)return 0;break;default:return 0}if(v){var
+aq=a;if(!aE)return aq}if(aC)return 0;break;default:return 0}if(v){var
 B=P(z);if(!B)return B;var
 a3=function(b,f,a){return l(function(a){var
-b=f[2],c=a[2],e=ao(function(b,a){return E(bl(d,T(b[2][1])),a)},d,c);return D(d,aM(aM(a[1][2][1],e),b))},a)},Z=a3,Y=[0,[0,0,B[1]],0]}else{var
-y=gT(p,P,k);if(!y)return y;var
+b=f[2],c=a[2],e=ao(function(b,a){return E(bm(d,T(b[2][1])),a)},d,c);return D(d,aM(aM(a[1][2][1],e),b))},a)},Z=a3,Y=[0,[0,0,B[1]],0]}else{var
+y=gY(p,P,k);if(!y)return y;var
 Z=m,Y=y[1]}var
-aT=bi(h);return l(function(a){var
-b=e(function(b){return gN(c,a,aN,b)},Y);return f1(Z,a,aH(a,aO),b)},aT)}return V}function
-mv(j,a){var
-f=ao(function(b,a){return bl(cr(b),a)},d,a);function
-g(a){if(a){if(K(cr(a[1]),f))return 0;var
+aT=bj(h);return l(function(a){var
+b=e(function(b){return gS(c,a,aN,b)},Y);return f4(Z,a,aH(a,aO),b)},aT)}return V}function
+mE(j,a){var
+f=ao(function(b,a){return bm(ct(b),a)},d,a);function
+g(a){if(a){if(L(ct(a[1]),f))return 0;var
 b=[0,g(a[2])]}else
 var
 b=a;return b}var
-h=g(a);if(K(f,d)){var
+h=g(a);if(L(f,d)){var
 k=e(function(a){return u},a),l=a?[0,b,a[2]]:a;return[0,[0,[0,0,l],d],k]}var
-i=iv(E(lw(f),b)),m=e(function(a){return u},a);return[0,[0,[0,h,a],i],c5(u,h,O(j,b8(c(2,b),i)),m)]}function
-gU(f,J,t,I,n,m,H,G,k,a,h,al,E,ak,C,B){var
-i=g(H),L=dG(0,H),am=bf(0,bB(f,L,e($,fk(h,0,n))),J,0),ao=e(aA,h),an=0,ap=e($,n),aq=bf(tv,function(a){return iJ(f,L,ap,ao,a)},J,an),as=gM(h,n);function
-at(a){return iU(m,am,aq,h,a)}var
-au=G?G[1]:$(u),M=mv(f,al),P=M[1],Q=P[1],v=Q[2],j=Q[1],R=M[2],av=P[2],p=e(function(a){return aU(a,av,O(f,b))},v);function
-S(a){return mp(f,j,p,E,ak,C,B,mo(f,j,p,i,a,0))}function
-T(a){return a?a9(f,i,a[1]):a}function
-w(d,c,b,a){return T(mq(f,j,p,R,c,b,a,S(ab(d))))}var
-aw=e(aA,h),U=l(function(a){return aK(a,g(n))},aw),V=U?gS(e(aA,h)):U,W=V?o(g(v),i):V,X=W?o(g(E),i):W,Y=X?D(d,C):X,Z=Y?it(B,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):Y,_=Z?aK(j,i):Z,aa=_?N(K(r(j,v,d),d)):_;if(aa){switch(k[0]){case
+i=iB(E(lE(f),b)),m=e(function(a){return u},a);return[0,[0,[0,h,a],i],c6(u,h,O(j,b9(c(2,b),i)),m)]}function
+gZ(f,K,t,I,n,m,H,G,k,a,h,al,E,ak,C,B){var
+i=g(H),M=dH(0,H),am=bg(0,bC(f,M,e($,fl(h,0,n))),K,0),ao=e(aB,h),an=0,ap=e($,n),aq=bg(tE,function(a){return iP(f,M,ap,ao,a)},K,an),as=gR(h,n);function
+at(a){return i0(m,am,aq,h,a)}var
+au=G?G[1]:$(u),N=mE(f,al),P=N[1],Q=P[1],v=Q[2],j=Q[1],R=N[2],av=P[2],p=e(function(a){return aU(a,av,O(f,b))},v);function
+S(a){return my(f,j,p,E,ak,C,B,mx(f,j,p,i,a,0))}function
+T(a){return a?a_(f,i,a[1]):a}function
+w(d,c,b,a){return T(mz(f,j,p,R,c,b,a,S(ac(d))))}var
+aw=e(aB,h),U=l(function(a){return aK(a,g(n))},aw),V=U?gX(e(aB,h)):U,W=V?o(g(v),i):V,X=W?o(g(E),i):W,Y=X?D(d,C):X,Z=Y?iz(B,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):Y,_=Z?aK(j,i):Z,aa=_?J(L(r(j,v,d),d)):_;if(aa){switch(k[0]){case
 0:var
 x=k[1],z=0;if(typeof
 a==="number")z=1;else
 switch(a[0]){case
 0:var
-ax=a[2],ay=a[1],ac=c7(I,m);if(!ac)return ac;var
+ax=a[2],ay=a[1],ab=c8(I,m);if(!ab)return ab;var
 s=function(a){var
 b=A(x,a);return function(a){return w(b,ay,ax,a)}},q=t;break;case
 2:var
-aC=a[2],aD=a[1],ad=c7(I,m),ah=0;if(ad){var
-ae=K(x[1],d),af=ae?K(x[2],d):ae;if(af){var
-s=function(b,a){return w(b,aD,aC,e(me,a))},q=t;ah=1}else
+aC=a[2],aD=a[1],ad=c8(I,m),ah=0;if(ad){var
+ae=L(x[1],d),af=ae?L(x[2],d):ae;if(af){var
+s=function(b,a){return w(b,aD,aC,e(mn,a))},q=t;ah=1}else
 var
 ag=af}else
 var
@@ -2356,7 +2357,7 @@ ag=ad;if(!ah)return ag;break;default:z=1}if(z)return 0;break;case
 ai=0,aE=k[1];if(typeof
 a==="number"&&!a)var
 s=function(a){var
-b=F(aE,a);return function(a){return T(ms(f,j,p,R,a,S(b)))}},q=t;else
+b=F(aE,a);return function(a){return T(mB(f,j,p,R,a,S(b)))}},q=t;else
 ai=1;if(ai)return 0;break;case
 4:var
 aj=0,aF=k[2];if(typeof
@@ -2364,57 +2365,57 @@ a==="number"||!(0===a[0]))aj=1;else
 var
 aG=a[2],aI=a[1],aJ=function(a){var
 b=A(aF,a);return function(a){return w(b,aI,aG,a)}},s=aJ,q=k[1];if(aj)return 0;break;default:return 0}var
-y=gT(m,at,q);if(y){var
-az=y[1],aB=bi(i);return l(function(a){var
-b=e(function(b){return gN(f,a,as,b)},az);return ar(s,aH(a,au),b)},aB)}return y}return aa}function
-mw(r,q,p,o,n,C,m,c,l,j,i,h,g,a){var
+y=gY(m,at,q);if(y){var
+az=y[1],aA=bj(i);return l(function(a){var
+b=e(function(b){return gS(f,a,as,b)},az);return ar(s,aH(a,au),b)},aA)}return y}return aa}function
+mF(r,q,p,o,n,C,m,c,l,j,i,h,g,a){var
 v=e(function(a){return d},c),u=0;if(typeof
 a!=="number")switch(a[0]){case
 5:var
-E=a[1],F=function(a){return gU(r,q,p,o,n,m,c,a,l,E,0,v,j,i,h,g)},x=F,w=a[3],s=a[2];u=1;break;case
+E=a[1],F=function(a){return gZ(r,q,p,o,n,m,c,a,l,E,0,v,j,i,h,g)},x=F,w=a[3],s=a[2];u=1;break;case
 10:var
 b=a[3],A=a[2],f=a[1],B=0;if(typeof
 f!=="number"&&5===f[0]){if(!b)return b;if(b[2])return 0;var
-G=b[1],H=f[1],I=function(a){return gU(r,q,p,o,n,m,c,a,l,H,A,G,j,i,h,g)},x=I,w=f[3],s=f[2];u=1;B=1}if(!B)return b?b[2]?0:gU(r,q,p,o,n,m,c,0,l,f,A,b[1],j,i,h,g):b;break}if(u){var
+G=b[1],H=f[1],I=function(a){return gZ(r,q,p,o,n,m,c,a,l,H,A,G,j,i,h,g)},x=I,w=f[3],s=f[2];u=1;B=1}if(!B)return b?b[2]?0:gZ(r,q,p,o,n,m,c,0,l,f,A,b[1],j,i,h,g):b;break}if(u){var
 t=k(C,c);if(t){var
-y=D(d,s);if(y)return x([0,gG(s,w,t[1])]);var
+y=D(d,s);if(y)return x([0,gL(s,w,t[1])]);var
 z=y}else
 var
-z=t;return z}return gU(r,q,p,o,n,m,c,0,l,a,0,v,j,i,h,g)}function
-mx(a,aj,aL,s,G,ai,q,p,ah,ag,h){function
+z=t;return z}return gZ(r,q,p,o,n,m,c,0,l,a,0,v,j,i,h,g)}function
+mG(a,aj,aL,s,G,ai,q,p,ah,ag,h){function
 j(ak,f,j,x){var
-h=g(q),z=dG(0,q),aq=bf(0,bB(a,z,e($,fk(j,0,s))),aj,0),as=e(aA,j),ar=0,at=e($,s),au=bf(tw,function(b){return iJ(a,z,at,as,b)},aj,ar);function
-av(a){return iU(ai,aq,au,j,a)}var
+h=g(q),z=dH(0,q),aq=bg(0,bC(a,z,e($,fl(j,0,s))),aj,0),as=e(aB,j),ar=0,at=e($,s),au=bg(tF,function(b){return iP(a,z,at,as,b)},aj,ar);function
+av(a){return i0(ai,aq,au,j,a)}var
 aw=ak?ak[1]:$(u);function
-k(b){return b?a9(a,h,b[1]):b}function
-B(b,a){return ab(A(aH(b,ah),a))}function
+k(b){return b?a_(a,h,b[1]):b}function
+B(b,a){return ac(A(aH(b,ah),a))}function
 C(d,c,b){return F(t(a,d,aH(c,ah)),b)}var
-ax=e(aA,j),E=l(function(a){return aK(a,g(s))},ax),G=E?gS(e(aA,j)):E,H=G?o(g(x),h):G;if(H){var
+ax=e(aB,j),E=l(function(a){return aK(a,g(s))},ax),G=E?gX(e(aB,j)):E,H=G?o(g(x),h):G;if(H){var
 al=0;if(ag){var
-I=ag[1],J=I[1],L=J[1],M=L[1],P=J[2],Q=I[2],ay=L[2],R=mv(a,x),S=R[1],T=S[1],v=T[2],i=T[1],U=R[2],az=S[2],m=e(function(c){return aU(c,az,O(a,b))},v),V=function(b){return mp(a,i,m,M,ay,P,Q,mo(a,i,m,h,b,0))},W=o(g(v),h),X=W?o(g(M),h):W,Y=X?D(d,P):X,Z=Y?it(Q,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):Y,_=Z?aK(i,h):Z,aa=_?N(K(r(i,v,d),d)):_,y=0;if(aa)if(p){var
-am=0,aB=p[1];if(typeof
+I=ag[1],K=I[1],M=K[1],N=M[1],P=K[2],Q=I[2],ay=M[2],R=mE(a,x),S=R[1],T=S[1],v=T[2],i=T[1],U=R[2],az=S[2],m=e(function(c){return aU(c,az,O(a,b))},v),V=function(b){return my(a,i,m,N,ay,P,Q,mx(a,i,m,h,b,0))},W=o(g(v),h),X=W?o(g(N),h):W,Y=X?D(d,P):X,Z=Y?iz(Q,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):Y,_=Z?aK(i,h):Z,aa=_?J(L(r(i,v,d),d)):_,y=0;if(aa)if(p){var
+am=0,aA=p[1];if(typeof
 f==="number"&&!f){var
-n=function(d,c,b){return k(ms(a,i,m,U,b,V(C(aB,d,c))))};y=1;am=1}if(!am)return 0}else{var
+n=function(d,c,b){return k(mB(a,i,m,U,b,V(C(aA,d,c))))};y=1;am=1}if(!am)return 0}else{var
 an=0;if(typeof
 f!=="number"&&0===f[0]){var
-aE=f[2],aF=f[1],n=function(d,c,b){return k(mq(a,i,m,U,aF,aE,b,V(B(d,c))))};y=1;an=1}if(!an)var
-ac=0}else
+aE=f[2],aF=f[1],n=function(d,c,b){return k(mz(a,i,m,U,aF,aE,b,V(B(d,c))))};y=1;an=1}if(!an)var
+ad=0}else
 var
-ac=aa;if(!y)return ac}else{var
-ad=e(function(b){return O(a,b)},x);if(p){var
+ad=aa;if(!y)return ad}else{var
+ae=e(function(b){return O(a,b)},x);if(p){var
 ao=0,aG=p[1];if(typeof
 f==="number"&&!f){var
-n=function(d,c,b){return k(mf(a,ad,b,af([0,C(aG,d,c),0],h)))};ao=1}if(!ao)return 0}else{var
+n=function(d,c,b){return k(mo(a,ae,b,ab([0,C(aG,d,c),0],h)))};ao=1}if(!ao)return 0}else{var
 ap=0;if(typeof
 f==="number"||!(0===f[0]))ap=1;else
 var
-aI=f[2],aJ=f[1],n=function(d,c,b){return k(iO(a,ad,aJ,aI,b,af([0,B(d,c),0],h)))};if(ap){var
-ae=0;al=1}}}if(!al){var
-w=gT(ai,av,aL);if(w){var
-aC=w[1],aD=bi(h);return l(function(b){var
-c=gM(j,s),d=e(function(d){return gN(a,b,c,d)},aC);return n(b,aH(b,aw),d)},aD)}return w}}else
+aI=f[2],aJ=f[1],n=function(d,c,b){return k(iU(a,ae,aJ,aI,b,ab([0,B(d,c),0],h)))};if(ap){var
+af=0;al=1}}}if(!al){var
+w=gY(ai,av,aL);if(w){var
+aC=w[1],aD=bj(h);return l(function(b){var
+c=gR(j,s),d=e(function(d){return gS(a,b,c,d)},aC);return n(b,aH(b,aw),d)},aD)}return w}}else
 var
-ae=H;return ae}var
+af=H;return af}var
 x=e(function(a){return d},q),w=0;if(typeof
 h!=="number")switch(h[0]){case
 5:var
@@ -2423,7 +2424,7 @@ H=h[1],I=function(a){return j(a,H,0,x)},z=I,y=h[3],m=h[2];w=1;break;case
 f=h[3],v=h[2],i=h[1],E=0;if(typeof
 i!=="number")switch(i[0]){case
 5:if(!f)return f;if(f[2])return 0;var
-J=f[1],L=i[1],M=function(a){return j(a,L,v,J)},z=M,y=i[3],m=i[2];w=1;E=1;break;case
+K=f[1],M=i[1],N=function(a){return j(a,M,v,K)},z=N,y=i[3],m=i[2];w=1;E=1;break;case
 3:case
 7:case
 9:case
@@ -2431,16 +2432,16 @@ J=f[1],L=i[1],M=function(a){return j(a,L,v,J)},z=M,y=i[3],m=i[2];w=1;E=1;break;c
 11:case
 13:return f?f[2]?0:j(0,i,v,f[1]):f}if(!E)return f?f[2]?0:j(0,i,v,f[1]):f;break}if(w){var
 n=k(G,q);if(n){var
-B=D(d,m);if(B)return z([0,gG(m,y,n[1])]);var
+B=D(d,m);if(B)return z([0,gL(m,y,n[1])]);var
 C=B}else
 var
 C=n;return C}return j(0,h,0,x)}function
-my(l,j,i,p,h,g,o,f,b,e,a){if(typeof
+mH(l,j,i,p,h,g,o,f,b,e,a){if(typeof
 a!=="number")switch(a[0]){case
 5:var
 q=a[2],m=k(o,b);if(m){var
 r=D(d,q);if(r){var
-y=a[1];return mt(l,j,i,p,h,g,f,b,[0,gG(q,a[3],m[1])],e,y)}var
+y=a[1];return mC(l,j,i,p,h,g,f,b,[0,gL(q,a[3],m[1])],e,y)}var
 s=r}else
 var
 s=m;return s;case
@@ -2449,13 +2450,13 @@ t=a[3],u=a[2],c=a[1];if(typeof
 c!=="number"&&5===c[0]){var
 v=c[2],n=k(o,b);if(n){var
 w=D(d,v);if(w){var
-z=c[1];return mu(l,j,i,h,g,f,b,[0,gG(v,c[3],n[1])],e,z,u,t)}var
+z=c[1];return mD(l,j,i,h,g,f,b,[0,gL(v,c[3],n[1])],e,z,u,t)}var
 x=w}else
 var
-x=n;return x}return mu(l,j,i,h,g,f,b,0,e,c,u,t)}return mt(l,j,i,p,h,g,f,b,0,e,a)}function
-iV(a){return 9===a[0]?0:1}function
-ep(a){return y(function(a){return f(a[1],[0,a[2],0])},a)}function
-iW(j,d,i,a,h){var
+x=n;return x}return mD(l,j,i,h,g,f,b,0,e,c,u,t)}return mC(l,j,i,p,h,g,f,b,0,e,a)}function
+i1(a){return 9===a[0]?0:1}function
+eq(a){return z(function(a){return f(a[1],[0,a[2],0])},a)}function
+i2(j,d,i,a,h){var
 b=h;for(;;){var
 c=0;if(typeof
 b==="number"){if(1!==b)c=1}else
@@ -2466,26 +2467,26 @@ b=b[3];continue;case
 5:case
 10:var
 b=b[1];continue;default:c=1}var
-k=c?0:1,l=k?d:j,g=ep(l);switch(a[0]){case
+k=c?0:1,l=k?d:j,g=eq(l);switch(a[0]){case
 0:return f(i,g);case
 3:return[0,a[1],0];case
 5:return[0,a[1],[0,a[2],0]];case
 6:var
-m=[0,a[1],[0,a[2],[0,a[3],[0,a[4],0]]]];return y(function(a){return[0,a[1],[0,a[2],[0,a[3],0]]]},m);case
+m=[0,a[1],[0,a[2],[0,a[3],[0,a[4],0]]]];return z(function(a){return[0,a[1],[0,a[2],[0,a[3],0]]]},m);case
 9:var
-n=a[2],o=y(function(a){var
-b=e(aO,a[2][2]);return[0,a[1],b]},n);return f(ep(d),o);case
+n=a[2],o=z(function(a){var
+b=e(aO,a[2][2]);return[0,a[1],b]},n);return f(eq(d),o);case
 10:var
-p=[0,a[3],[0,a[4],[0,a[5],[0,a[6],0]]]],q=f(ec(a[2]),p);return f(a[1],q);case
+p=[0,a[3],[0,a[4],[0,a[5],[0,a[6],0]]]],q=f(ed(a[2]),p);return f(a[1],q);case
 4:case
-8:return ep(a[1]);default:return g}}}function
-iX(v,t,s,q,k,a,g,j){var
-h=iV(a),i=h?l(function(b){var
-a=r(b,bS(fl,g,k),u);return K(a[1],a[2])},j):h;return i?l(function(ao){switch(a[0]){case
+8:return eq(a[1]);default:return g}}}function
+i3(v,t,s,q,k,a,g,j){var
+h=i1(a),i=h?l(function(b){var
+a=r(b,bS(fm,g,k),u);return L(a[1],a[2])},j):h;return i?l(function(ao){switch(a[0]){case
 3:var
 g=[0,a[1],0];break;case
 4:var
-g=ep(a[1]);break;case
+g=eq(a[1]);break;case
 5:var
 g=[0,a[1],[0,a[2],0]];break;case
 6:case
@@ -2493,17 +2494,17 @@ g=[0,a[1],[0,a[2],0]];break;case
 9:case
 10:return 0;default:var
 g=0}var
-j=0,k=bf(0,function(a){switch(a[0]){case
+j=0,k=bg(0,function(a){switch(a[0]){case
 0:return[0,[0,d]];case
 1:var
 ad=a[1],ae=aj(function(a){return o(ad,a)},ao)?b:d;return[0,[0,ae]];case
 2:var
-af=K(a[1],d)?0:[0,d];return[0,af];case
+af=L(a[1],d)?0:[0,d];return[0,af];case
 3:var
 e=a[2],j=a[1];if(j){var
 z=j[1];if(z){if(e){var
 A=e[1];if(A){var
-B=z[1],C=K(B,A[1]),ag=C?[0,[0,B]]:C;return ag}var
+B=z[1],C=L(B,A[1]),ag=C?[0,[0,B]]:C;return ag}var
 F=j}else
 var
 F=e;return F}return e}if(e){if(e[1])return 0;var
@@ -2514,7 +2515,7 @@ G=e;return G;case
 f=a[2],k=a[1];if(k){var
 H=k[1];if(H){if(f){var
 I=f[1];if(I){var
-J=H[1],L=K(J,I[1]),ah=L?[0,[0,J]]:L;return ah}var
+J=H[1],K=L(J,I[1]),ah=K?[0,[0,J]]:K;return ah}var
 M=k}else
 var
 M=f;return M}return f}if(f){if(f[1])return 0;var
@@ -2526,10 +2527,10 @@ N=f;return N;case
 n=a[1];if(n){var
 O=n[1],g=a[2];if(O){if(g){var
 P=g[1];if(P)return[0,[0,E(O[1],P[1])]];var
-Q=tl}else
+Q=tu}else
 var
 Q=g;return Q}var
-ai=g?tm:g,R=ai}else
+ai=g?tv:g,R=ai}else
 var
 R=n;return R;case
 7:var
@@ -2538,14 +2539,14 @@ S=p[1],h=a[2];if(S){if(h)var
 q=h[1],ak=q?[0,[0,aM(S[1],q[1])]]:q,U=ak;else
 var
 U=h;return U}var
-al=h?tn:h,V=al}else
+al=h?tw:h,V=al}else
 var
 V=p;return V;case
 8:var
 r=a[1];if(r){var
 W=r[1];if(W){var
 X=W[1];return[0,[0,E(X,X)]]}var
-Y=to}else
+Y=tx}else
 var
 Y=r;return Y;case
 9:var
@@ -2554,10 +2555,10 @@ t=s[1];if(t){var
 i=t[1],x=aS(i);if(0===x)var
 m=1;else
 if(0<x)var
-m=D(i,b)?0:K(aT(i,aJ(2))[2],d)?1:0;else
+m=D(i,b)?0:L(aT(i,aJ(2))[2],d)?1:0;else
 var
-y=T(i),m=D(y,b)?0:K(aT(y,aJ(2))[2],d)?1:0;var
-am=m?[0,[0,cv(i,c(2,b))]]:m,Z=am}else
+y=T(i),m=D(y,b)?0:L(aT(y,aJ(2))[2],d)?1:0;var
+am=m?[0,[0,cx(i,c(2,b))]]:m,Z=am}else
 var
 Z=t;var
 _=Z}else
@@ -2566,7 +2567,7 @@ _=s;return _;default:var
 u=a[2];if(u){var
 v=a[3];if(v){var
 w=a[4];if(w)var
-an=[0,u[1],[0,v[1],[0,w[1],0]]],$=l(function(a){return a?K(a[1],d):1},an),aa=$?[0,[0,d]]:$;else
+an=[0,u[1],[0,v[1],[0,w[1],0]]],$=l(function(a){return a?L(a[1],d):1},an),aa=$?[0,[0,d]]:$;else
 var
 aa=w;var
 ab=aa}else
@@ -2576,52 +2577,52 @@ ac=ab}else
 var
 ac=u;return ac}},v,j);function
 m(a){return a?a[1]:d}var
-h=e(function(a){return z(m,a)},k),i=l(function(c){var
+h=e(function(a){return y(m,a)},k),i=l(function(c){var
 a=r(c,h,0),b=a?1:a;return b},q);if(i){var
-n=f(ep(s),g),p=f(ep(t),n);return l(function(c){var
+n=f(eq(s),g),p=f(eq(t),n);return l(function(c){var
 a=r(c,h,0);if(a){var
 b=aS(a[1]);return 0===b?1:0<b?0:0}return a},p)}return i},g):i}function
-iY(j,a,i,h,g,f,e,d,c,b){var
-k=gz(iW(i,h,g,c,b),a);return iP(j,a,bS(fl,e,f),k,d)}function
-mz(f,d,c,n,m,b,l,q,e,k,j,i,h,a){if(typeof
+i4(j,a,i,h,g,f,e,d,c,b){var
+k=gE(i2(i,h,g,c,b),a);return iV(j,a,bS(fm,e,f),k,d)}function
+mI(f,d,c,n,m,b,l,q,e,k,j,i,h,a){if(typeof
 a!=="number"&&11===a[0]){var
-o=a[3],g=a[1],p=iX(d,c,n,m,b,k,g,a[2]);if(p){var
-r=iY(f,d,c,n,m,b,g,e,k,o);return mx(f,d,c,bS(fl,g,b),l,r,e,j,i,h,o)}return p}return mx(f,d,c,b,l,q,e,j,i,h,a)}function
-mA(r,q,p,n,m,k,j,i,h,f,d,c,a){if(typeof
+o=a[3],g=a[1],p=i3(d,c,n,m,b,k,g,a[2]);if(p){var
+r=i4(f,d,c,n,m,b,g,e,k,o);return mG(f,d,c,bS(fm,g,b),l,r,e,j,i,h,o)}return p}return mG(f,d,c,b,l,q,e,j,i,h,a)}function
+mJ(r,q,p,n,m,k,j,i,h,f,d,c,a){if(typeof
 a!=="number"&&12===a[0]){var
-b=a[1],s=N(o(g(b),0));if(s){var
-t=W(mn(e(function(a){return a[1][1][1]},b)),b);return l(function(a){var
-b=a[2],e=b[1];return mz(r,q,p,n,m,k,j,i,h,f,d,c,[0,[0,[0,[0,a[1][1],a[1][2]],e[1][2]],e[2]]],b[2])},t)}return s}return mz(r,q,p,n,m,k,j,i,h,f,d,c,0,a)}function
-gV(b,a){if(a){var
+b=a[1],s=J(o(g(b),0));if(s){var
+t=W(mw(e(function(a){return a[1][1][1]},b)),b);return l(function(a){var
+b=a[2],e=b[1];return mI(r,q,p,n,m,k,j,i,h,f,d,c,[0,[0,[0,[0,a[1][1],a[1][2]],e[1][2]],e[2]]],b[2])},t)}return s}return mI(r,q,p,n,m,k,j,i,h,f,d,c,0,a)}function
+g0(b,a){if(a){var
 c=a[2];if(b){var
-e=gV(b[1],c);return[0,a[1],e]}var
+e=g0(b[1],c);return[0,a[1],e]}var
 d=[0,0,c]}else
 var
 d=a;return d}function
-mB(c,b,a){var
+mK(c,b,a){var
 d=W(b,a);return l(function(a){var
-b=k(c,a[1]);return b?b:N(a[2])},d)}function
-fn(i,a,f,m,c,t,n,h,b,X,p){switch(p[0]){case
+b=k(c,a[1]);return b?b:J(a[2])},d)}function
+fo(i,a,f,m,c,t,n,h,b,X,p){switch(p[0]){case
 0:var
-ab=function(a){return l(N,a)},J=ab,x=p[1];break;case
+ab=function(a){return l(J,a)},K=ab,x=p[1];break;case
 1:var
 ac=p[4],ad=p[3],ae=p[2],af=function(d){var
-e=c3(ae,b),g=fn(i,a,f,m,c,t,n,h,e[1],d,ad);return g?fn(i,a,f,m,c,t,n,h,e[2],d,ac):g},J=af,x=p[1];break;default:var
+e=c4(ae,b),g=fo(i,a,f,m,c,t,n,h,e[1],d,ad);return g?fo(i,a,f,m,c,t,n,h,e[2],d,ac):g},K=af,x=p[1];break;default:var
 ag=p[4],ah=p[3],ai=p[2],aj=function(d){var
-e=mB(iV,t,d);if(e){var
-g=c3(ai,h),j=fn(i,a,f,m,c,t,n,g[1],b,d,ah);if(j)return fn(i,a,f,m,c,t,n,g[2],b,d,ag);var
+e=mK(i1,t,d);if(e){var
+g=c4(ai,h),j=fo(i,a,f,m,c,t,n,g[1],b,d,ah);if(j)return fo(i,a,f,m,c,t,n,g[2],b,d,ag);var
 k=j}else
 var
-k=e;return k},J=aj,x=p[1]}if(x){var
-z=iP(i,a,h,gz(y(function(e){var
+k=e;return k},K=aj,x=p[1]}if(x){var
+y=iV(i,a,h,gE(z(function(e){var
 a=e[2],d=0;if(typeof
 a==="number"){if(4!==a)d=1}else
 if(11!==a[0])d=1;if(d){var
-b=H(t,e[1]);return b?iW(f,m,c,b[1],a):b}return 0},x),a),b),w=x,u=X;for(;;){if(w){var
+b=H(t,e[1]);return b?i2(f,m,c,b[1],a):b}return 0},x),a),b),w=x,u=X;for(;;){if(w){var
 R=w[1],j=R[2],E=R[1],S=w[2],Y=0;if(typeof
 j==="number"&&4===j){var
 A=k(n,b);if(A)var
-_=A[1],Z=bi(g(b)),F=l(function(b){return function(a){return I(aH(a,b)[2],d)}}(_),Z);else
+_=A[1],Z=bj(g(b)),F=l(function(b){return function(a){return I(aH(a,b)[2],d)}}(_),Z);else
 var
 F=A;if(F){var
 w=S,u=e(function(a){return 0},u);continue}var
@@ -2629,29 +2630,29 @@ v=F}else
 Y=1;if(Y){var
 T=r(E,u,0);if(T){var
 G=H(t,E);if(G){var
-q=G[1],K=0;if(typeof
-j==="number")K=1;else
+q=G[1],L=0;if(typeof
+j==="number")L=1;else
 switch(j[0]){case
 11:var
-L=j[3],B=j[1],M=iX(a,f,m,c,h,q,B,j[2]);if(M)var
-$=iY(i,a,f,m,c,h,B,b,q,L),s=my(i,a,f,m,c,bS(fl,B,h),n,$,b,q,L);else
+M=j[3],B=j[1],N=i3(a,f,m,c,h,q,B,j[2]);if(N)var
+$=i4(i,a,f,m,c,h,B,b,q,M),s=mH(i,a,f,m,c,bS(fm,B,h),n,$,b,q,M);else
 var
-s=M;break;case
+s=N;break;case
 12:var
-C=j[1],O=N(o(g(C),0));if(O)var
-aa=W(mn(e(function(a){return a[1][1][1]},C)),C),s=l(function(g){return function(r){var
+C=j[1],O=J(o(g(C),0));if(O)var
+aa=W(mw(e(function(a){return a[1][1][1]},C)),C),s=l(function(g){return function(r){var
 s=r[2],e=r[1],k=s[1],l=k[1][2],o=k[2],d=s[2];if(typeof
 d!=="number"&&11===d[0]){var
-p=d[3],j=d[1],q=iX(a,f,m,c,h,g,j,d[2]);if(q){var
-t=e[2],u=e[1],v=iY(i,a,f,m,c,h,j,b,g,p);return mw(i,a,f,c,bS(fl,j,h),n,v,b,g,u,t,l,o,p)}return q}return mw(i,a,f,c,h,n,z,b,g,e[1],e[2],l,o,d)}}(q),aa);else
+p=d[3],j=d[1],q=i3(a,f,m,c,h,g,j,d[2]);if(q){var
+t=e[2],u=e[1],v=i4(i,a,f,m,c,h,j,b,g,p);return mF(i,a,f,c,bS(fm,j,h),n,v,b,g,u,t,l,o,p)}return q}return mF(i,a,f,c,h,n,y,b,g,e[1],e[2],l,o,d)}}(q),aa);else
 var
 s=O;break;case
 13:if(2===q[0])var
-D=iS(i,j[1],j[2]),P=iG(g(b),D),Q=P?mA(i,a,f,m,c,h,n,z,b,q,0,D,j[3]):P,s=Q?mA(i,a,f,m,c,h,n,z,b,q,[0,q[1]],D,j[4]):Q;else
+D=iY(i,j[1],j[2]),P=iM(g(b),D),Q=P?mJ(i,a,f,m,c,h,n,y,b,q,0,D,j[3]):P,s=Q?mJ(i,a,f,m,c,h,n,y,b,q,[0,q[1]],D,j[4]):Q;else
 var
-s=0;break;default:K=1}if(K)var
-s=my(i,a,f,m,c,h,n,z,b,q,j);if(s){var
-w=S,u=gV(E,u);continue}var
+s=0;break;default:L=1}if(L)var
+s=mH(i,a,f,m,c,h,n,y,b,q,j);if(s){var
+w=S,u=g0(E,u);continue}var
 U=s}else
 var
 U=G;var
@@ -2662,78 +2663,78 @@ v=V}}else
 var
 v=[0,u];break}}else
 var
-v=[0,X];return v?J(v[1]):v}function
-iZ(h,g,f,e,d,c,b,a){return function(i,j,k){return fn(h,g,f,e,d,b,a,c,i,j,k)}}function
-i0(a){return e(function(a){return 1},a)}function
-eq(a,d,b,c){function
+v=[0,X];return v?K(v[1]):v}function
+i5(h,g,f,e,d,c,b,a){return function(i,j,k){return fo(h,g,f,e,d,b,a,c,i,j,k)}}function
+i6(a){return e(function(a){return 1},a)}function
+er(a,d,b,c){function
 f(d,c){var
 f=W(a[1],b[1]);return e(function(a){var
 b=s(c,a[2]);return B(s(d,a[1]),b)},f)}if(aN(a[2],b[2])){var
 g=a[2];return[0,f(d,c),g]}var
 h=s(a[2],b[2]),i=s(c,a[2]);return[0,f(s(d,b[2]),i),h]}function
-mC(a){var
+mL(a){var
 c=m(b);return[0,e(function(a){return m(d)},a),c]}function
-a_(a,k){var
+a$(a,k){var
 f=k[1];switch(f[0]){case
 1:var
 u=f[1];if(aj(function(a){return o(u,a)},a)){var
 C=m(b);return[0,e(function(a){var
-c=o(a,u)?b:d;return m(c)},a),C]}return mC(a);case
+c=o(a,u)?b:d;return m(c)},a),C]}return mL(a);case
 3:var
-D=m(b),E=a_(a,f[2]),F=m(b);return eq(a_(a,f[1]),F,E,D);case
+D=m(b),E=a$(a,f[2]),F=m(b);return er(a$(a,f[1]),F,E,D);case
 4:var
-G=m(T(b)),H=a_(a,f[2]),I=m(b);return eq(a_(a,f[1]),I,H,G);case
+G=m(T(b)),H=a$(a,f[2]),I=m(b);return er(a$(a,f[1]),I,H,G);case
 5:var
-v=a_(a,f[1]),J=v[2];return[0,e(bn,v[1]),J];case
+v=a$(a,f[1]),J=v[2];return[0,e(bo,v[1]),J];case
 6:var
-w=f[2],y=f[1],K=a_(a,w);return eq(a_(a,y),w,K,y);case
+w=f[2],y=f[1],K=a$(a,w);return er(a$(a,y),w,K,y);case
 7:var
-z=f[2],L=bn(k),M=a_(a,z),N=m(b),i=eq(a_(a,f[1]),N,M,L),O=i[1];if(l(function(a){return a8(d,a)},O))return i;var
+z=f[2],L=bo(k),M=a$(a,z),N=m(b),i=er(a$(a,f[1]),N,M,L),O=i[1];if(l(function(a){return a9(d,a)},O))return i;var
 P=s(i[2],z);return[0,i[1],P];case
 8:var
-A=f[1],B=a_(a,A),Q=B[2],R=B[1],S=s(m(c(2,b)),A);return[0,e(function(a){return s(S,a)},R),Q];case
+A=f[1],B=a$(a,A),Q=B[2],R=B[1],S=s(m(c(2,b)),A);return[0,e(function(a){return s(S,a)},R),Q];case
 9:var
-j=a_(a,f[1]),U=j[1];if(l(function(a){return a8(d,a)},U)){var
+j=a$(a,f[1]),U=j[1];if(l(function(a){return a9(d,a)},U)){var
 V=m(b);return[0,j[1],V]}var
 W=s(m(c(2,b)),k),X=s(j[2],W);return[0,j[1],X];case
 10:var
-n=f[4],g=f[3],h=f[2],p=[0,[10,0,h,g,n]],q=[0,[10,1,h,g,n]],Y=x(g,q),Z=a_(a,g),_=x(h,p),$=eq(a_(a,h),_,Z,Y),aa=m(T(b)),ab=a_(a,n),r=eq($,m(c(2,b)),ab,aa),ac=r[1],ad=f[1]?p:bn(q),t=e(function(a){return s(ad,a)},ac);if(l(function(a){return a8(d,a)},t))return[0,t,r[2]];var
-ae=s(h,q),af=x(s(g,p),ae),ag=s(m(c(2,b)),af);return[0,t,s(r[2],ag)];default:return mC(a)}}function
-mD(c,a){var
-b=a_(c,a),f=b[1];return e(function(a){return a8(d,a)?a:am(a,b[2])},f)}function
-mE(g){var
+n=f[4],g=f[3],h=f[2],p=[0,[10,0,h,g,n]],q=[0,[10,1,h,g,n]],Y=x(g,q),Z=a$(a,g),_=x(h,p),$=er(a$(a,h),_,Z,Y),aa=m(T(b)),ab=a$(a,n),r=er($,m(c(2,b)),ab,aa),ac=r[1],ad=f[1]?p:bo(q),t=e(function(a){return s(ad,a)},ac);if(l(function(a){return a9(d,a)},t))return[0,t,r[2]];var
+ae=s(h,q),af=x(s(g,p),ae),ag=s(m(c(2,b)),af);return[0,t,s(r[2],ag)];default:return mL(a)}}function
+mM(c,a){var
+b=a$(c,a),f=b[1];return e(function(a){return a9(d,a)?a:am(a,b[2])},f)}function
+mN(g){var
 h=g[1],c=h[2],e=h[1];if(0===e[0]){var
 i=e[2],a=e[1];if(D(i,b)){if(0===c[0]){var
 j=c[2],m=c[1];if(D(j,b)){var
-k=K(a,m),l=k?fb(a):k;if(l)var
-n=K(g[2],d),f=n||K(a,d);else
+k=L(a,m),l=k?fc(a):k;if(l)var
+n=L(g[2],d),f=n||L(a,d);else
 var
 f=l;var
-o=f?[0,a]:f;return o}return K(aT(j,aJ(2))[2],d)?0:0}return 0}return K(aT(i,aJ(2))[2],d)?0:0}return 0}function
-c8(c,b){var
-a=mE(c);return a?m(a[1]):[0,[1,b]]}function
-cD(b,a){if(a)var
-d=cD([0,b],a[2]),c=[0,c8(a[1],b),d];else
+o=f?[0,a]:f;return o}return L(aT(j,aJ(2))[2],d)?0:0}return 0}return L(aT(i,aJ(2))[2],d)?0:0}return 0}function
+c9(c,b){var
+a=mN(c);return a?m(a[1]):[0,[1,b]]}function
+cF(b,a){if(a)var
+d=cF([0,b],a[2]),c=[0,c9(a[1],b),d];else
 var
 c=a;return c}function
-a$(b,a){return[0,[0,b[1],a],[0,[0,b[2],a],[0,[0,b[3],a],0]]]}function
-gW(b,d,a){switch(a[0]){case
+ba(b,a){return[0,[0,b[1],a],[0,[0,b[2],a],[0,[0,b[3],a],0]]]}function
+g1(b,d,a){switch(a[0]){case
 0:var
-c=a[1],g=[0,[0,c[4],b],0],h=f(a$(c[3],b),g),i=f(a$(c[2],b),h);return f(a$(c[1],d),i);case
+c=a[1],g=[0,[0,c[4],b],0],h=f(ba(c[3],b),g),i=f(ba(c[2],b),h);return f(ba(c[1],d),i);case
 1:var
-e=a[3],j=e?a$(e[1],d):e,k=f(a$(a[2],b),j);return f(a$(a[1],b),k);default:return a$(a[1],d)}}function
+e=a[3],j=e?ba(e[1],d):e,k=f(ba(a[2],b),j);return f(ba(a[1],b),k);default:return ba(a[1],d)}}function
 ak(b,a){var
-c=m(d),e=r(L(tx,a),b,c),f=m(d),g=r(L(ty,a),b,f);return[0,r(a,b,m(d)),g,e]}function
-mF(b,a){return ag(x,ag(B,dF,a),b)}function
-gX(c,b,a){if(a){var
-e=a[2],g=gX(c,bA(b),e),h=a[1];return f(gW(c,bR(d,b),h),g)}return a}function
-i1(f,e,c,j){if(c){var
-b=c[1],v=L(j,g(gW(f,bR(d,e),b))),w=c[2],x=i1(f,bA(e),w,v),a=cD(j,gW(f,bR(d,e),b));switch(b[0]){case
+c=m(d),e=r(M(tG,a),b,c),f=m(d),g=r(M(tH,a),b,f);return[0,r(a,b,m(d)),g,e]}function
+mO(b,a){return ag(x,ag(B,dG,a),b)}function
+g2(c,b,a){if(a){var
+e=a[2],g=g2(c,bB(b),e),h=a[1];return f(g1(c,bR(d,b),h),g)}return a}function
+i7(f,e,c,j){if(c){var
+b=c[1],v=M(j,g(g1(f,bR(d,e),b))),w=c[2],x=i7(f,bB(e),w,v),a=cF(j,g1(f,bR(d,e),b));switch(b[0]){case
 0:var
-l=b[1][5],n=r(tz,a,m(d)),o=ag(B,dF,ak(a,tA)),p=dE(ak(a,0)),q=ak(a,tB),h=l8(mF(ak(a,tC),q),p,o,n,l);break;case
+l=b[1][5],n=r(tI,a,m(d)),o=ag(B,dG,ak(a,tJ)),p=dF(ak(a,0)),q=ak(a,tK),h=mf(mO(ak(a,tL),q),p,o,n,l);break;case
 1:var
-i=b[3],s=i?[0,dE(ak(a,tD))]:i,t=ag(B,dF,ak(a,tE)),u=ak(a,tF),h=l9(mF(ak(a,0),u),t,s);break;default:var
-h=l_(dF,dE(ak(a,0)))}var
+i=b[3],s=i?[0,dF(ak(a,tM))]:i,t=ag(B,dG,ak(a,tN)),u=ak(a,tO),h=mg(mO(ak(a,0),u),t,s);break;default:var
+h=mh(dG,dF(ak(a,0)))}var
 k=[0,h,x]}else
 var
 k=c;return k}function
@@ -2746,7 +2747,7 @@ j=a[2];return[0,[0,j,j],d];case
 8:var
 k=[5,a[2],a[1]];return[0,[0,k,k],d];case
 10:var
-p=a[3],q=ee(a[2]),l=[2,[2,ee(a[1]),q],p];return[0,[0,l,l],c];case
+p=a[3],q=ef(a[2]),l=[2,[2,ef(a[1]),q],p];return[0,[0,l,l],c];case
 11:var
 m=a[4];return[0,[0,m,m],c];case
 12:var
@@ -2763,41 +2764,41 @@ f=[5,[0,b,b],a[1]];return[0,[0,f,f],d];case
 g=a[2];return[0,[0,g,g],c];default:var
 i=a[1];return[0,[0,i,i],d]}var
 e=[0,d,b];return[0,[0,e,e],d]}function
-fo(b,a){var
+fp(b,a){var
 c=a[3],d=a[2],e=a[1];return[0,[0,[0,e,e],b],[0,[0,[0,d,d],b],[0,[0,[0,c,c],b],0]]]}function
-er(c,a){if(0===a[0]){var
-e=[0,d,b],i=f(fo(c,a[5]),[0,[0,[0,e,e],d],0]),g=a[4],h=a[3];return f([0,[0,[0,h,h],c],[0,[0,[0,g,g],c],0]],i)}var
-j=fo(c,a[3]);return f(fo(c,a[2]),j)}function
-dH(b,a){if(typeof
+es(c,a){if(0===a[0]){var
+e=[0,d,b],i=f(fp(c,a[5]),[0,[0,[0,e,e],d],0]),g=a[4],h=a[3];return f([0,[0,[0,h,h],c],[0,[0,[0,g,g],c],0]],i)}var
+j=fp(c,a[3]);return f(fp(c,a[2]),j)}function
+dI(b,a){if(typeof
 a!=="number")switch(a[0]){case
 10:var
-h=er(b,a[2]);return f(er(b,a[1]),h);case
+h=es(b,a[2]);return f(es(b,a[1]),h);case
 11:var
-i=fo(b,a[3]);return f(fo(b,a[2]),i);case
+i=fp(b,a[3]);return f(fp(b,a[2]),i);case
 12:var
 c=a[3],g=[5,[4,c,c],a[4]];return[0,[0,[0,g,g],b],0];case
 15:var
 j=a[2],k=a[1];return e(function(b){var
 a=[5,j,b];return[0,[0,a,a],d]},k)}return 0}function
-mG(c,b,a){var
-d=g(dH(c,b)),e=L(a[2],d);return[0,[0,a[1]],e]}function
-i2(c,b){if(aN(b,c))return[0,m(d)];var
+mP(c,b,a){var
+d=g(dI(c,b)),e=M(a[2],d);return[0,[0,a[1]],e]}function
+i8(c,b){if(aN(b,c))return[0,m(d)];var
 a=b[1];if(4===a[0]){var
 e=aN(a[1],c),f=e?[0,a[2]]:e;return f}return 0}function
-mH(y,p,a,o){switch(o[0]){case
+mQ(y,p,a,o){switch(o[0]){case
 0:var
 h=H(y,o[1]);if(h){var
 i=h[1];if(i){var
-q=i[1],s=q[1],c=s[2],e=s[1],t=q[2],z=ak(a,tG),A=ag(B,ag(x,e,a3(am(r(tH,a,m(d)),t),c)),z),C=ak(a,tI),f=am(r(0,a,m(d)),t),j=i2(e[1],c[1]);if(j){var
-l=i2(e[2],c[2]);if(l){var
-n=i2(e[3],c[3]);if(n)var
-w=a3(f,c),g=ag(B,[0,j[1],l[1],n[1]],w);else
+q=i[1],s=q[1],c=s[2],e=s[1],t=q[2],z=ak(a,tP),A=ag(B,ag(x,e,a4(am(r(tQ,a,m(d)),t),c)),z),C=ak(a,tR),f=am(r(0,a,m(d)),t),j=i8(e[1],c[1]);if(j){var
+l=i8(e[2],c[2]);if(l){var
+n=i8(e[3],c[3]);if(n)var
+w=a4(f,c),g=ag(B,[0,j[1],l[1],n[1]],w);else
 var
-g=ag(x,e,a3(x(m(b),f),c))}else
+g=ag(x,e,a4(x(m(b),f),c))}else
 var
-g=ag(x,e,a3(x(m(b),f),c))}else
+g=ag(x,e,a4(x(m(b),f),c))}else
 var
-g=ag(x,e,a3(x(m(b),f),c));var
+g=ag(x,e,a4(x(m(b),f),c));var
 u=[0,[0,ag(B,g,C),A]]}else
 var
 u=i;var
@@ -2805,49 +2806,49 @@ v=u}else
 var
 v=h;return v;case
 1:var
-D=ak(a,tJ);return[0,[0,ak(a,0),D]];default:var
-E=k(p,ak(a,tK));return[0,[0,k(p,ak(a,0)),E]]}}function
-mI(e,d,c,h,g){var
-a=mH(e,d,an(tL,c),h);if(a)var
-b=mH(e,d,av(tM,c),g),i=b?[0,[0,a[1],b[1]]]:b,f=i;else
+D=ak(a,tS);return[0,[0,ak(a,0),D]];default:var
+E=k(p,ak(a,tT));return[0,[0,k(p,ak(a,0)),E]]}}function
+mR(e,d,c,h,g){var
+a=mQ(e,d,an(tU,c),h);if(a)var
+b=mQ(e,d,aw(tV,c),g),i=b?[0,[0,a[1],b[1]]]:b,f=i;else
 var
 f=a;return f}function
-mJ(g,c,d,b,a){var
-h=er(c,a),i=cD(d,f(er(c,b),h));function
-j(a){return ag(B,dF,a)}return mI(e(function(a){var
-b=a[7];return z(function(b){var
-c=c2(a);return[0,[0,b,a[1]],c]},b)},g),j,i,b,a)}function
-dI(d,c,b,a){var
+mS(g,c,d,b,a){var
+h=es(c,a),i=cF(d,f(es(c,b),h));function
+j(a){return ag(B,dG,a)}return mR(e(function(a){var
+b=a[7];return y(function(b){var
+c=c3(a);return[0,[0,b,a[1]],c]},b)},g),j,i,b,a)}function
+dJ(d,c,b,a){var
 e=s(c,b);return x(s(d,a),e)}function
-bC(a){return y(function(a){return f(a[1],[0,a[2],0])},a)}function
-mK(b,a){if(b)if(a)var
-d=b[1],e=mK(b[2],a[2]),f=s(d[2],a[1]),c=[0,[0,bV(d[1]),f],e];else
+bD(a){return z(function(a){return f(a[1],[0,a[2],0])},a)}function
+mT(b,a){if(b)if(a)var
+d=b[1],e=mT(b[2],a[2]),f=s(d[2],a[1]),c=[0,[0,bV(d[1]),f],e];else
 var
 c=a;else
 var
 c=b;return c}function
-mL(a){if(a){var
+mU(a){if(a){var
 b=a[1][6];if(b){var
-c=b[1],d=mL(a[2]);if(d)var
+c=b[1],d=mU(a[2]);if(d)var
 g=d[1],h=Z(c,c),e=[0,[0,[0,bV(c),h],g]];else
 var
 e=d;var
 f=e}else
 var
-f=b;return f}return tO}function
-fp(b,d,c,a){if(typeof
+f=b;return f}return tX}function
+fq(b,d,c,a){if(typeof
 a!=="number")switch(a[0]){case
 8:var
-i=c[1],j=c8(bW(d,a),i);return[0,e(function(a){var
+i=c[1],j=c9(bW(d,a),i);return[0,e(function(a){var
 b=s(a[2],j);return[0,bV(a[1]),b]},b)];case
-9:return mL(b);case
+9:return mU(b);case
 15:var
 k=g(b),f=o(g(a[1]),k);if(f)var
-l=dH(d,a),h=[0,mK(b,cD(c[2],l))];else
+l=dI(d,a),h=[0,mT(b,cF(c[2],l))];else
 var
 h=f;return h}return 0}function
-gY(e,k,j,a){var
-P=j[1],c=c8(bW(k,a),P),u=0;if(typeof
+g3(e,k,j,a){var
+P=j[1],c=c9(bW(k,a),P),u=0;if(typeof
 a==="number")u=1;else
 switch(a[0]){case
 2:var
@@ -2866,7 +2867,7 @@ d=a;return d},g=T,f=a[1];break;case
 7:if(e){var
 l=e[2];if(l){var
 n=l[2];if(n){if(n[2])return 0;var
-w=n[1],z=l[1],A=e[1],h=w[1],i=z[1],p=A[1],K=dI(i[1],i[2],h[1],h[2]),L=s(p[3],K),M=dI(i[1],i[3],h[1],h[3]),N=s(p[2],M),O=dI(i[2],i[3],h[2],h[3]),v=B(x(s(p[1],O),N),L),U=c2(w),W=c2(z),C=s(s(s(c,c2(A)),W),U),X=[0,bn(B(v,C)),0],D=[0,x(v,C),X]}else
+w=n[1],y=l[1],A=e[1],h=w[1],i=y[1],p=A[1],K=dJ(i[1],i[2],h[1],h[2]),L=s(p[3],K),M=dJ(i[1],i[3],h[1],h[3]),N=s(p[2],M),O=dJ(i[2],i[3],h[2],h[3]),v=B(x(s(p[1],O),N),L),U=c3(w),W=c3(y),C=s(s(s(c,c3(A)),W),U),X=[0,bo(B(v,C)),0],D=[0,x(v,C),X]}else
 var
 D=n;var
 E=D}else
@@ -2876,66 +2877,66 @@ F=E}else
 var
 F=e;return F;case
 10:var
-t=mJ(e,k,j[2],a[1],a[2]);if(t){var
-G=t[1],I=G[2],J=G[1];return y(bV,[0,J[1],[0,J[2],[0,I[1],[0,I[2],0]]]])}return t;case
+t=mS(e,k,j[2],a[1],a[2]);if(t){var
+G=t[1],I=G[2],J=G[1];return z(bV,[0,J[1],[0,J[2],[0,I[1],[0,I[2],0]]]])}return t;case
 11:var
 Y=function(d){var
 e=d[7];if(e)var
-n=dH(k,a),f=cD(j[2],n),h=ak(f,tN),b=ag(x,ak(f,0),h),i=V(c),l=V(c2(d)),m=am(V(Z(b,d[1])),l),g=[0,x(x(Z(b,b),m),i),0];else
+n=dI(k,a),f=cF(j[2],n),h=ak(f,tW),b=ag(x,ak(f,0),h),i=V(c),l=V(c3(d)),m=am(V(Z(b,d[1])),l),g=[0,x(x(Z(b,b),m),i),0];else
 var
 g=e;return g},g=Y,f=a[1];break;case
 12:var
 _=function(e){var
-p=m(d),q=dH(k,a),t=r(0,cD(j[2],q),p),f=am(t,c2(e)),g=e[5];if(g){var
+p=m(d),q=dI(k,a),t=r(0,cF(j[2],q),p),f=am(t,c3(e)),g=e[5];if(g){var
 l=aL(e[2]),h=am(g[1],l),n=s(h,B(c,s(f,V(h))));return[0,x(m(b),n),0]}var
 i=e[7],o=i?[0,x(x(m(b),c),f),0]:i;return o},g=_,f=a[1];break;case
 8:case
 9:case
 15:var
-q=fp(e,k,j,a);return q?bC(q[1]):q;default:u=1}if(u)return 0;var
+q=fq(e,k,j,a);return q?bD(q[1]):q;default:u=1}if(u)return 0;var
 o=H(e,f);return o?g(o[1]):o}function
-i3(d,b,c,a){if(a){var
-e=a[1],g=a[2],h=i3(d,b,mG(b,e,c),g);return f(gY(d,b,c,e),h)}return a}var
-mM=[0,d,b],mN=[0,[0,mM,mM],d];function
-i4(a){return N(cc(a[1][1],a[1][2]))}function
-mO(a){var
-b=aC(0,g(a));return bu(function(b){return i4(r(b,a,mN))},b)}function
-gZ(a,b){var
-c=mD(mO(a),b),e=W(mO(a),c);return bu(function(a){return N(a8(d,a[2]))},e)}function
-mP(b,a){var
+i9(d,b,c,a){if(a){var
+e=a[1],g=a[2],h=i9(d,b,mP(b,e,c),g);return f(g3(d,b,c,e),h)}return a}var
+mV=[0,d,b],mW=[0,[0,mV,mV],d];function
+i_(a){return J(cd(a[1][1],a[1][2]))}function
+mX(a){var
+b=aD(0,g(a));return a1(function(b){return i_(r(b,a,mW))},b)}function
+g4(a,b){var
+c=mM(mX(a),b),e=W(mX(a),c);return a1(function(a){return J(a9(d,a[2]))},e)}function
+mY(b,a){var
 c=k(b,a[3]),d=k(b,a[2]);return[0,k(b,a[1]),d,c]}function
-mQ(m,l,f,j,i,a){var
-d=gZ(f,a);return ac(e(function(e){var
-a=r(e[1],f,mN),g=aM(a[2],j),h=[4,[0,c(2,b),b],i],d=[5,[3,a[1][2],a[1][1]],h],n=ap(m,[0,[0,d,d],g]);return z(function(a){return[0,a,k(l,e[2])]},n)},d))}function
-mR(g,f,n,m,l,e,c){var
+mZ(m,l,f,j,i,a){var
+d=g4(f,a);return ad(e(function(e){var
+a=r(e[1],f,mW),g=aM(a[2],j),h=[4,[0,c(2,b),b],i],d=[5,[3,a[1][2],a[1][1]],h],n=ap(m,[0,[0,d,d],g]);return y(function(a){return[0,a,k(l,e[2])]},n)},d))}function
+m0(g,f,n,m,l,e,c){var
 h=[5,l,e],a=ap(g,[0,[0,h,h],d]);if(a){var
-b=mQ(g,f,n,m,e,c);if(b)var
+b=mZ(g,f,n,m,e,c);if(b)var
 o=[0,a[1],b[1]],i=[0,[0,k(f,c),o]];else
 var
 i=b;var
 j=i}else
 var
 j=a;return j}function
-mS(c,F,m,al,j,i,n,s){if(s){var
-a=s[1],aH=s[2],aI=mS(c,F,m,al,j,i,mG(i,a,n),aH);if(typeof
+m1(c,F,m,al,j,i,n,s){if(s){var
+a=s[1],aH=s[2],aI=m1(c,F,m,al,j,i,mP(i,a,n),aH);if(typeof
 a==="number")if(0===a)var
 f=[0,[0,u]];else
 var
-an=F[2],ao=F[1],aq=fi(j),f=[0,[8,k(ax(m),aq),ao,an]];else
+an=F[2],ao=F[1],aq=fj(j),f=[0,[8,k(ay(m),aq),ao,an]];else
 switch(a[0]){case
 0:var
-ar=ap(c,bW(i,a)),f=z(function(a){return[0,U(c,a)]},ar);break;case
+ar=ap(c,bW(i,a)),f=y(function(a){return[0,U(c,a)]},ar);break;case
 1:var
-as=ap(c,bW(i,a)),f=z(function(a){return[1,U(c,a)]},as);break;case
+as=ap(c,bW(i,a)),f=y(function(a){return[1,U(c,a)]},as);break;case
 5:var
-au=ap(c,bW(i,a)),f=z(function(a){return[2,U(c,a)]},au);break;case
+au=ap(c,bW(i,a)),f=y(function(a){return[2,U(c,a)]},au);break;case
 8:var
-av=fp(j,i,n,a),f=z(function(a){var
-d=O(c,b);return[4,k(ax(m),a),d]},av);break;case
+av=fq(j,i,n,a),f=y(function(a){var
+d=O(c,b);return[4,k(ay(m),a),d]},av);break;case
 9:var
-w=fp(j,i,n,a);if(w){var
+w=fq(j,i,n,a);if(w){var
 x=ap(c,bW(i,a));if(x)var
-aw=U(c,x[1]),ay=w[1],L=[0,[4,k(ax(m),ay),aw]];else
+aw=U(c,x[1]),ax=w[1],L=[0,[4,k(ay(m),ax),aw]];else
 var
 L=x;var
 M=L}else
@@ -2943,10 +2944,10 @@ var
 M=w;var
 f=M;break;case
 10:var
-y=mJ(j,i,n[2],a[1],a[2]);if(y){var
-N=y[1],P=N[2],Q=N[1],A=ap(c,bW(i,a));if(A){var
+z=mS(j,i,n[2],a[1],a[2]);if(z){var
+N=z[1],P=N[2],Q=N[1],A=ap(c,bW(i,a));if(A){var
 R=A[1],S=D(d,R[1]);if(S)var
-q=function(a){return mP(m,a)},az=q(P[2]),aA=q(P[1]),aB=q(Q[2]),T=[0,[6,q(Q[1]),aB,aA,az,R]];else
+q=function(a){return mY(m,a)},az=q(P[2]),aA=q(P[1]),aB=q(Q[2]),T=[0,[6,q(Q[1]),aB,aA,az,R]];else
 var
 T=S;var
 V=T}else
@@ -2954,10 +2955,10 @@ var
 V=A;var
 W=V}else
 var
-W=y;var
+W=z;var
 f=W;break;case
 12:var
-r=gY(j,i,n,a),t=0;if(r)if(r[2])var
+r=g3(j,i,n,a),t=0;if(r)if(r[2])var
 f=0;else{var
 X=h(c,0,a[2]),Y=X?h(c,1,a[4]):X;if(Y){var
 B=[0,[3,k(m,r[1])]];t=1}else{var
@@ -2967,14 +2968,14 @@ f=B;break;case
 13:var
 Z=a[1],_=H(j,Z),G=0;if(_){var
 $=h(c,1,a[2]),aa=$?h(c,1,a[3]):$;if(aa)var
-aC=ap(c,bW(i,a)),f=z(function(a){return[7,Z,U(c,a)]},aC);else{var
+aC=ap(c,bW(i,a)),f=y(function(a){return[7,Z,U(c,a)]},aC);else{var
 ab=aa;G=1}}else{var
 ab=_;G=1}if(G)var
 f=ab;break;case
 14:var
-ad=a[2],ae=a[1],af=o(g(j),tP),ag=af?h(c,0,ae):af,ah=ag?h(c,1,ad):ag;if(ah){var
+ac=a[2],ae=a[1],af=o(g(j),tY),ag=af?h(c,0,ae):af,ah=ag?h(c,1,ac):ag;if(ah){var
 C=ap(c,bW(i,a));if(C)var
-E=ac(e(function(a){return mR(c,m,al,i,ae,ad,a[4])},j)),aD=E?[0,[9,C[1],E[1]]]:E,ai=aD;else
+E=ad(e(function(a){return m0(c,m,al,i,ae,ac,a[4])},j)),aD=E?[0,[9,C[1],E[1]]]:E,ai=aD;else
 var
 ai=C;var
 aj=ai}else
@@ -2983,11 +2984,11 @@ aj=ah;var
 f=aj;break;case
 15:var
 aE=[0,a[2],a[1]],aF=1,ak=l(function(a){return h(c,aF,a)},aE);if(ak)var
-aG=fp(j,i,n,a),f=z(function(a){var
-d=O(c,b);return[4,k(ax(m),a),d]},aG);else
+aG=fq(j,i,n,a),f=y(function(a){var
+d=O(c,b);return[4,k(ay(m),a),d]},aG);else
 var
 f=ak;break;default:var
-p=gY(j,i,n,a),I=0;if(p){var
+p=g3(j,i,n,a),I=0;if(p){var
 v=p[2],J=p[1];if(v)if(v[2])var
 f=0;else
 var
@@ -2998,19 +2999,19 @@ f=K}var
 am=[0,f,aI]}else
 var
 am=s;return am}function
-tQ(a){var
+tZ(a){var
 b=0;if(typeof
 a==="number"){if(0!==a)b=1}else
 if(0!==a[0])b=1;return b?0:1}function
-es(a){if(0===a[0])return a[1];var
+et(a){if(0===a[0])return a[1];var
 b=a[3],c=a[2],d=a[1];return[0,[0,[3,d,b],[2,d,b]],[0,[3,c,b],[2,c,b]],a[4]]}function
-mT(a,c,g,b){if(0===c[0])return 0;if(b){var
+m2(a,c,g,b){if(0===c[0])return 0;if(b){var
 d=b[2];if(d){var
 h=d[2];if(h){if(h[2])return 0;var
-e=d[1],f=b[1],i=c0(a,g,c[1]);if(i){var
-j=c0(a,g,c[2]);if(j){var
-k=c0(a,g,c[3]);if(k)var
-v=i[1],w=cd(f),l=F([0,cd(f),w],v),x=j[1],y=cd(e),m=F([0,cd(e),y],x),z=el(e),B=[0,el(e),z],C=[0,t(a,ab(A(m,m)),B),0],D=el(f),E=[0,el(f),D],G=[0,t(a,ab(A(l,l)),E),C],H=U(a,m),I=U(a,l),n=[0,[0,F(F(U(a,k[1]),I),H),u,G]];else
+e=d[1],f=b[1],i=c1(a,g,c[1]);if(i){var
+j=c1(a,g,c[2]);if(j){var
+k=c1(a,g,c[3]);if(k)var
+v=i[1],w=ce(f),l=F([0,ce(f),w],v),x=j[1],y=ce(e),m=F([0,ce(e),y],x),z=em(e),B=[0,em(e),z],C=[0,t(a,ac(A(m,m)),B),0],D=em(f),E=[0,em(f),D],G=[0,t(a,ac(A(l,l)),E),C],H=U(a,m),I=U(a,l),n=[0,[0,F(F(U(a,k[1]),I),H),u,G]];else
 var
 n=k;var
 o=n}else
@@ -3028,8 +3029,8 @@ r=d;var
 s=r}else
 var
 s=b;return s}function
-g0(a,p,o){var
-q=a$(p,o),b=e(function(b){return ap(a,b)},q);if(b){var
+g5(a,p,o){var
+q=ba(p,o),b=e(function(b){return ap(a,b)},q);if(b){var
 g=b[1];if(g){var
 c=b[2];if(c){var
 h=c[1];if(h){var
@@ -3051,153 +3052,153 @@ m=g;var
 n=m}else
 var
 n=b;return n}function
-J(c,b,a){var
+K(c,b,a){var
 d=ar(c,b[3],a[3]),e=ar(c,b[2],a[2]);return[0,ar(c,b[1],a[1]),e,d]}function
 P(b,a){return[0,[4,b,a[1]],[4,b,a[2]],[4,b,a[3]]]}function
 w(b,a){return[2,[2,[4,b[1],a[1]],[4,b[2],a[2]]],[4,b[3],a[3]]]}function
-ay(a){return P([5,[0,b,b],[6,w(a,a)]],a)}function
-c9(c,b,a){var
-d=bw(c,b[1],a);return d?bw(c,a,b[2]):d}function
-bp(c,b,a){var
-d=c9(c,b[1],a[1]),e=d?c9(c,b[2],a[2]):d;return e?c9(c,b[3],a[3]):e}function
-mU(b,c,a){switch(c[0]){case
+az(a){return P([5,[0,b,b],[6,w(a,a)]],a)}function
+c_(c,b,a){var
+d=bx(c,b[1],a);return d?bx(c,a,b[2]):d}function
+bq(c,b,a){var
+d=c_(c,b[1],a[1]),e=d?c_(c,b[2],a[2]):d;return e?c_(c,b[3],a[3]):e}function
+m3(b,c,a){switch(c[0]){case
 0:var
 d=c[1];if(0===a[0]){var
-j=a[4],f=a[1],k=bp(b,d[1],f),l=k?h(b,1,w(f,f)):k,m=l?bp(b,d[2],a[2]):l,n=m?bp(b,d[3],a[3]):m,o=n?c9(b,d[4],j):n,p=o?h(b,1,j):o;return p?ct(d[5],a[5]):p}return 0;case
+j=a[4],f=a[1],k=bq(b,d[1],f),l=k?h(b,1,w(f,f)):k,m=l?bq(b,d[2],a[2]):l,n=m?bq(b,d[3],a[3]):m,o=n?c_(b,d[4],j):n,p=o?h(b,1,j):o;return p?cv(d[5],a[5]):p}return 0;case
 1:var
 q=c[3];if(1===a[0]){var
-e=a[3],r=bp(b,c[1],a[1]),s=r?bp(b,c[2],a[2]):r;if(s){if(q){if(e){var
-g=e[1],t=bp(b,q[1],g);if(t)return h(b,1,w(g,g));var
+e=a[3],r=bq(b,c[1],a[1]),s=r?bq(b,c[2],a[2]):r;if(s){if(q){if(e){var
+g=e[1],t=bq(b,q[1],g);if(t)return h(b,1,w(g,g));var
 u=t}else
 var
 u=e;return u}if(e)return 0;var
 v=1}else
 var
 v=s;return v}return 0;default:if(2===a[0]){var
-i=a[1],x=bp(b,c[1],i);return x?h(b,1,w(i,i)):x}return 0}}function
-cE(c,a,b){if(0===a[0])return bp(c,a[1],b);var
-d=a[3],e=[3,b[1],a[1]],f=[3,b[2],a[2]],g=h(c,0,[3,[3,[4,d,d],[4,e,e]],[4,f,f]]),i=g?h(c,0,d):g;return i?c9(c,a[4],b[3]):i}function
-fq(g,f,i,h){var
+i=a[1],x=bq(b,c[1],i);return x?h(b,1,w(i,i)):x}return 0}}function
+cG(c,a,b){if(0===a[0])return bq(c,a[1],b);var
+d=a[3],e=[3,b[1],a[1]],f=[3,b[2],a[2]],g=h(c,0,[3,[3,[4,d,d],[4,e,e]],[4,f,f]]),i=g?h(c,0,d):g;return i?c_(c,a[4],b[3]):i}function
+fr(g,f,i,h){var
 b=f[1],a=i;for(;;){if(b){if(a){var
-d=mU(g,b[1],a[1]);if(d){var
+d=m3(g,b[1],a[1]);if(d){var
 b=b[2],a=a[2];continue}var
 e=d}else
 var
 e=a;var
 c=e}else
 var
-c=a?0:1;return c?cE(g,f[2],h):c}}function
+c=a?0:1;return c?cG(g,f[2],h):c}}function
 aV(c,b,a){var
-d=J(function(b,a){return[2,b,a]},a,b);return J(function(b,a){return[3,b,a]},d,c)}function
-fr(a,e,d,c){var
-b=aV(e,d,c),f=ay(a),g=P(w(ay(a),b),f);return J(function(b,a){return[3,b,a]},b,g)}function
-cf(f,e,d,a,c){var
-b=fr(f,e,d,c);return[3,[4,a,a],w(b,b)]}function
-cF(c,a){return c?[6,a]:[3,[0,d,b],[6,a]]}function
-cg(a,c){switch(a[0]){case
+d=K(function(b,a){return[2,b,a]},a,b);return K(function(b,a){return[3,b,a]},d,c)}function
+fs(a,e,d,c){var
+b=aV(e,d,c),f=az(a),g=P(w(az(a),b),f);return K(function(b,a){return[3,b,a]},b,g)}function
+cg(f,e,d,a,c){var
+b=fs(f,e,d,c);return[3,[4,a,a],w(b,b)]}function
+cH(c,a){return c?[6,a]:[3,[0,d,b],[6,a]]}function
+ch(a,c){switch(a[0]){case
 0:var
-e=a[3],f=a[2],d=a[1],g=fr(d,f,e,c),h=cf(d,f,e,a[4],c),i=P([5,[0,b,b],cF(a[5],h)],g),j=ay(d);return J(function(b,a){return[2,b,a]},j,i);case
-1:return ay(aV(a[1],a[2],c));default:return ay(a[1])}}function
-ch(a,b){switch(a[0]){case
+e=a[3],f=a[2],d=a[1],g=fs(d,f,e,c),h=cg(d,f,e,a[4],c),i=P([5,[0,b,b],cH(a[5],h)],g),j=az(d);return K(function(b,a){return[2,b,a]},j,i);case
+1:return az(aV(a[1],a[2],c));default:return az(a[1])}}function
+ci(a,b){switch(a[0]){case
 0:var
-d=a[3],e=a[2],c=a[1],f=ay(c),g=cf(c,e,d,a[4],b),h=P(cF(a[5],g),f),i=fr(c,e,d,b);return J(function(b,a){return[2,b,a]},i,h);case
-1:return aV(a[1],a[2],b);default:return ay(a[1])}}function
-cG(a,b){switch(a[0]){case
+d=a[3],e=a[2],c=a[1],f=az(c),g=cg(c,e,d,a[4],b),h=P(cH(a[5],g),f),i=fs(c,e,d,b);return K(function(b,a){return[2,b,a]},i,h);case
+1:return aV(a[1],a[2],b);default:return az(a[1])}}function
+cI(a,b){switch(a[0]){case
 0:var
-c=a[3],d=a[2],e=a[1],h=cf(e,d,c,a[4],b),i=cF(a[5],h),j=aV(d,c,b);return[3,w(ay(e),j),i];case
+c=a[3],d=a[2],e=a[1],h=cg(e,d,c,a[4],b),i=cH(a[5],h),j=aV(d,c,b);return[3,w(az(e),j),i];case
 1:var
-f=a[2],g=a[1],k=aV(g,f,b);return[6,w(aV(g,f,b),k)];default:return w(ay(a[1]),b)}}function
-i5(a,b){switch(a[0]){case
-0:return[0,cf(a[1],a[2],a[3],a[4],b)];case
+f=a[2],g=a[1],k=aV(g,f,b);return[6,w(aV(g,f,b),k)];default:return w(az(a[1]),b)}}function
+i$(a,b){switch(a[0]){case
+0:return[0,cg(a[1],a[2],a[3],a[4],b)];case
 1:var
 c=a[2],d=a[1],e=aV(d,c,b);return[0,w(aV(d,c,b),e)];default:return 0}}function
-fs(e,c,a){var
+ft(e,c,a){var
 f=[0,d,b];return ao(function(b,d){var
-e=w(cg(b,c),a);return[2,[4,w(cg(b,c),a),e],d]},f,e)}function
-mV(f,e,c,a){if(f){if(e){var
-g=e[1],h=mV(f[2],e[2],c,a),i=w(cg(g,c),a),j=[4,w(cg(g,c),a),i];return[2,[4,f[1],j],h]}return[0,d,b]}return[0,d,b]}function
-mW(a){var
+e=w(ch(b,c),a);return[2,[4,w(ch(b,c),a),e],d]},f,e)}function
+m4(f,e,c,a){if(f){if(e){var
+g=e[1],h=m4(f[2],e[2],c,a),i=w(ch(g,c),a),j=[4,w(ch(g,c),a),i];return[2,[4,f[1],j],h]}return[0,d,b]}return[0,d,b]}function
+m5(a){var
 c=a[1];return[0,[0,c[1],b],[0,c[2],b],[0,a[2],b]]}function
-i6(a,c){switch(a[0]){case
+ja(a,c){switch(a[0]){case
 0:return a[4];case
 1:var
 d=a[2],e=a[1],f=aV(e,d,c);return[6,w(aV(e,d,c),f)];default:return[0,b,b]}}function
-mX(d,i){if(d){var
+m6(d,i){if(d){var
 a=d[1];if(1===a[0]){var
 c=a[3];if(c)var
-f=c[1],g=aV(a[1],a[2],i),k=ay(f),l=P(w(ay(f),g),k),h=[0,J(function(b,a){return[3,b,a]},g,l)];else
+f=c[1],g=aV(a[1],a[2],i),k=az(f),l=P(w(az(f),g),k),h=[0,K(function(b,a){return[3,b,a]},g,l)];else
 var
 h=c;var
 b=h}else
 var
 b=0;if(b)var
-e=mX(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
+e=m6(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
 var
-j=b;return j}return tR}function
-c_(a){return[0,a[1],a[2],a[3]]}function
-mY(a,b){switch(a[0]){case
+j=b;return j}return t0}function
+c$(a){return[0,a[1],a[2],a[3]]}function
+m7(a,b){switch(a[0]){case
 0:var
-f=a[4],c=a[3],g=a[2],d=a[1],i=ay(d),j=cf(d,g,c,f,b),k=P(cF(a[5],j),i),l=fr(d,g,c,b),m=J(function(b,a){return[2,b,a]},l,k);return[0,[0,[0,J(function(b,a){return[2,b,a]},b,c),m],f]];case
+f=a[4],c=a[3],g=a[2],d=a[1],i=az(d),j=cg(d,g,c,f,b),k=P(cH(a[5],j),i),l=fs(d,g,c,b),m=K(function(b,a){return[2,b,a]},l,k);return[0,[0,[0,K(function(b,a){return[2,b,a]},b,c),m],f]];case
 1:var
-h=a[2],e=aV(a[1],h,b),n=[6,w(e,e)];return[0,[0,[0,J(function(b,a){return[2,b,a]},b,h),e],n]];default:return 0}}function
-mZ(m,e,a){switch(a[0]){case
+h=a[2],e=aV(a[1],h,b),n=[6,w(e,e)];return[0,[0,[0,K(function(b,a){return[2,b,a]},b,h),e],n]];default:return 0}}function
+m8(m,e,a){switch(a[0]){case
 0:var
 n=a[5],c=H(m,a[1]);if(c){var
 d=c[1];if(d)var
 f=d[1],g=f[1],h=f[2],o=g[2],p=g[1],i=function(a){var
-b=c_(n),c=P(a,o),d=J(function(b,a){return[3,b,a]},p,c);return J(function(b,a){return[2,b,a]},d,b)},q=i([5,a[4],h]),j=[0,[0,i([3,[0,b,b],[5,a[3],h]]),q]];else
+b=c$(n),c=P(a,o),d=K(function(b,a){return[3,b,a]},p,c);return K(function(b,a){return[2,b,a]},d,b)},q=i([5,a[4],h]),j=[0,[0,i([3,[0,b,b],[5,a[3],h]]),q]];else
 var
 j=d;var
 l=j}else
 var
 l=c;return l;case
 1:var
-r=c_(a[3]);return[0,[0,c_(a[2]),r]];default:var
-s=k(e,c_(a[3]));return[0,[0,k(e,c_(a[2])),s]]}}function
-m0(d,a,c,b){var
-e=P(a,b),f=P([3,d,a],c);return J(function(b,a){return[2,b,a]},f,e)}function
-m1(a,l,c,j,i,y){var
+r=c$(a[3]);return[0,[0,c$(a[2]),r]];default:var
+s=k(e,c$(a[3]));return[0,[0,k(e,c$(a[2])),s]]}}function
+m9(d,a,c,b){var
+e=P(a,b),f=P([3,d,a],c);return K(function(b,a){return[2,b,a]},f,e)}function
+m_(a,l,c,j,i,y){var
 d=k(l,j);if(d){var
 m=d[1],e=k(l,i);if(e){var
-n=e[1],f=c[1],g=c[2],b=c[3],z=m0(b,g,n[1],n[2]),A=m0(b,f,m[1],m[2]),o=J(function(b,a){return[3,b,a]},A,z),B=ee(i),p=[4,b,[2,[2,ee(j),B],y]],q=h(a,1,b),r=q?h(a,0,f):q,s=r?h(a,0,[3,b,f]):r,t=s?h(a,0,g):s,u=t?h(a,0,[3,b,g]):t;if(u)return h(a,1,[3,[4,p,p],w(o,o)]);var
+n=e[1],f=c[1],g=c[2],b=c[3],z=m9(b,g,n[1],n[2]),A=m9(b,f,m[1],m[2]),o=K(function(b,a){return[3,b,a]},A,z),B=ef(i),p=[4,b,[2,[2,ef(j),B],y]],q=h(a,1,b),r=q?h(a,0,f):q,s=r?h(a,0,[3,b,f]):r,t=s?h(a,0,g):s,u=t?h(a,0,[3,b,g]):t;if(u)return h(a,1,[3,[4,p,p],w(o,o)]);var
 v=u}else
 var
 v=e;var
 x=v}else
 var
 x=d;return x}function
-m2(d,c,b,a,i,g,f,e){var
+m$(d,c,b,a,i,g,f,e){var
 j=h(d,1,b),k=j?h(d,1,a):j;if(k){var
 l=ar(c,f,f),m=[4,[4,a,a],[4,ar(c,g,g),l]];return h(d,1,[3,[4,[4,[4,b,b],[4,i,i]],ar(c,e,e)],m])}return k}function
-m3(i,g,c,f,y,a){function
+na(i,g,c,f,y,a){function
 T(a){return[4,[4,[5,[0,b,b],a],[5,[0,b,b],a]],w(f,f)]}var
 O=0;if(typeof
 a==="number")O=1;else
 switch(a[0]){case
 0:var
-aG=fs(g,c,f);return h(i,1,[3,T(a[1]),aG]);case
+aG=ft(g,c,f);return h(i,1,[3,T(a[1]),aG]);case
 1:var
-aH=T(a[1]);return h(i,1,[3,fs(g,c,f),aH]);case
+aH=T(a[1]);return h(i,1,[3,ft(g,c,f),aH]);case
 2:var
-aI=a[2],aJ=function(a){return[3,aI,cG(a,c)]},A=aJ,z=a[1];break;case
+aI=a[2],aJ=function(a){return[3,aI,cI(a,c)]},A=aJ,z=a[1];break;case
 3:var
-aK=a[2],aL=function(a){return[3,cG(a,c),aK]},A=aL,z=a[1];break;case
+aK=a[2],aL=function(a){return[3,cI(a,c),aK]},A=aL,z=a[1];break;case
 4:var
 U=a[3],V=a[2],aM=function(a){var
-b=cg(a,c);return[3,[4,[4,V,V],w(cg(a,c),b)],[4,U,U]]},A=aM,z=a[1];break;case
+b=ch(a,c);return[3,[4,[4,V,V],w(ch(a,c),b)],[4,U,U]]},A=aM,z=a[1];break;case
 5:var
-W=a[1],aN=w(f,f),aO=[4,[4,W,W],[4,fs(g,c,y),aN]],aP=w(y,y);return h(i,1,[3,[4,fs(g,c,f),aP],aO]);case
+W=a[1],aN=w(f,f),aO=[4,[4,W,W],[4,ft(g,c,y),aN]],aP=w(y,y);return h(i,1,[3,[4,ft(g,c,f),aP],aO]);case
 6:var
 X=a[2],C=H(g,a[1]);if(C){var
 k=C[1];if(0===k[0]){var
-D=k[4],aQ=cf(k[1],k[2],k[3],D,c),Y=cF(k[5],aQ);return h(i,1,[3,[4,[4,X,D],[4,X,D]],[4,Y,Y]])}var
+D=k[4],aQ=cg(k[1],k[2],k[3],D,c),Y=cH(k[5],aQ);return h(i,1,[3,[4,[4,X,D],[4,X,D]],[4,Y,Y]])}var
 Z=0}else
 var
 Z=C;return Z;case
 7:if(g){var
 p=g[2];if(p){var
 q=p[2];if(q){if(q[2])return 0;var
-_=q[1],$=p[1],aa=g[1],aR=i6(_,c),aS=i6($,c),aT=i6(aa,c),ab=[4,[4,[4,a[1],aT],aS],aR],l=ch(_,c),m=ch($,c),aU=ch(aa,c),Q=w(aU,[0,[3,[4,m[2],l[3]],[4,m[3],l[2]]],[3,[4,m[3],l[1]],[4,m[1],l[3]]],[3,[4,m[1],l[2]],[4,m[2],l[1]]]]),ac=h(i,1,[3,ab,Q]);if(ac)return h(i,1,[2,ab,Q]);var
+_=q[1],$=p[1],aa=g[1],aR=ja(_,c),aS=ja($,c),aT=ja(aa,c),ab=[4,[4,[4,a[1],aT],aS],aR],l=ci(_,c),m=ci($,c),aU=ci(aa,c),Q=w(aU,[0,[3,[4,m[2],l[3]],[4,m[3],l[2]]],[3,[4,m[3],l[1]],[4,m[1],l[3]]],[3,[4,m[1],l[2]],[4,m[2],l[1]]]]),ac=h(i,1,[3,ab,Q]);if(ac)return h(i,1,[2,ab,Q]);var
 ad=ac}else
 var
 ad=q;var
@@ -3208,17 +3209,17 @@ af=ae}else
 var
 af=g;return af;case
 8:var
-aW=fs(g,c,f),aX=w(f,f);return h(i,1,[3,[4,[5,a[2],a[1]],aX],aW]);case
+aW=ft(g,c,f),aX=w(f,f);return h(i,1,[3,[4,[5,a[2],a[1]],aX],aW]);case
 9:var
-ag=a[1],E=mX(g,c);if(E){var
+ag=a[1],E=m6(g,c);if(E){var
 aY=E[1],aA=[0,d,b],aB=ao(function(a,b){var
-c=w(ay(a),f);return[2,[4,w(ay(a),f),c],b]},aA,aY);return h(i,1,[3,[4,[4,ag,ag],w(f,f)],aB])}return E;case
+c=w(az(a),f);return[2,[4,w(az(a),f),c],b]},aA,aY);return h(i,1,[3,[4,[4,ag,ag],w(f,f)],aB])}return E;case
 10:var
-aZ=a[3],a0=a[2],a1=a[1],aC=function(b,a){return[2,b,a]},aD=function(a){return J(aC,c,a)},aE=e(function(a){return mY(a,c)},g);return m1(i,function(a){return mZ(aE,aD,a)},f,a1,a0,aZ);case
+aZ=a[3],a0=a[2],a1=a[1],aC=function(b,a){return[2,b,a]},aD=function(a){return K(aC,c,a)},aE=e(function(a){return m7(a,c)},g);return m_(i,function(a){return m8(aE,aD,a)},f,a1,a0,aZ);case
 11:var
 ah=a[4],F=H(g,a[1]);if(F){var
-G=mY(F[1],c);if(G){var
-n=G[1][1][2],a2=c_(a[3]),a3=c_(a[2]),r=J(function(b,a){return[3,b,a]},a3,a2),ai=h(i,1,w(n,n));if(ai){var
+G=m7(F[1],c);if(G){var
+n=G[1][1][2],a2=c$(a[3]),a3=c$(a[2]),r=K(function(b,a){return[3,b,a]},a3,a2),ai=h(i,1,w(n,n));if(ai){var
 a4=w(n,n),a5=w(r,n),a6=[5,[4,w(r,n),a5],a4];return h(i,1,[3,[4,ah,ah],[3,w(r,r),a6]])}var
 aj=ai}else
 var
@@ -3231,11 +3232,11 @@ o=a[3],s=a[2],I=H(g,a[1]);if(I){var
 j=I[1],al=h(i,0,s),am=al?h(i,0,o):al;if(am){var
 a7=a[4];switch(j[0]){case
 0:var
-v=j[4],x=[5,v,[6,cf(j[1],j[2],j[3],v,c)]],K=[4,x,[2,s,[4,[5,[4,o,o],v],[4,x,x]]]];break;case
+v=j[4],x=[5,v,[6,cg(j[1],j[2],j[3],v,c)]],J=[4,x,[2,s,[4,[5,[4,o,o],v],[4,x,x]]]];break;case
 1:var
-R=j[2],S=j[1],aF=aV(S,R,c),K=[2,s,[5,[4,o,o],[6,w(aV(S,R,c),aF)]]];break;default:var
-K=s}var
-L=h(i,1,[3,K,a7])}else
+R=j[2],S=j[1],aF=aV(S,R,c),J=[2,s,[5,[4,o,o],[6,w(aV(S,R,c),aF)]]];break;default:var
+J=s}var
+L=h(i,1,[3,J,a7])}else
 var
 L=am;if(L){if(2===j[0])return h(i,1,w(f,f));var
 an=1}else
@@ -3249,7 +3250,7 @@ t=g[2];if(t){var
 u=t[2];if(u){if(u[2])return 0;var
 aq=u[1],ar=t[1],as=g[1],at=a[1],M=H([0,f[1],[0,f[2],[0,f[3],0]]],at);if(M){var
 N=H([0,as,[0,ar,[0,aq,0]]],at);if(N){var
-au=N[1],a8=ch(au,c),a9=cg(au,c),a_=ch(aq,c),a$=P(f[3],a_),ba=ch(ar,c),bb=P(f[2],ba),bc=ch(as,c),bd=P(f[1],bc),be=J(function(b,a){return[2,b,a]},bd,bb),bf=J(function(b,a){return[2,b,a]},be,a$);return m2(i,w,a[2],a[3],M[1],bf,a9,a8)}var
+au=N[1],a8=ci(au,c),a9=ch(au,c),a_=ci(aq,c),a$=P(f[3],a_),ba=ci(ar,c),bb=P(f[2],ba),bc=ci(as,c),bd=P(f[1],bc),be=K(function(b,a){return[2,b,a]},bd,bb),bf=K(function(b,a){return[2,b,a]},be,a$);return m$(i,w,a[2],a[3],M[1],bf,a9,a8)}var
 av=N}else
 var
 av=M;var
@@ -3259,60 +3260,60 @@ aw=u;var
 ax=aw}else
 var
 ax=t;var
-az=ax}else
+ay=ax}else
 var
-az=g;return az;case
+ay=g;return ay;case
 15:var
-bg=mV(a[1],g,c,f),bh=w(f,f);return h(i,1,[3,[4,a[2],bh],bg]);default:O=1}if(O)return 0;var
+bg=m4(a[1],g,c,f),bh=w(f,f);return h(i,1,[3,[4,a[2],bh],bg]);default:O=1}if(O)return 0;var
 B=H(g,z);return B?h(i,1,A(B[1])):B}function
-ft(g,i,f,c,a){var
-m=fq(g,i,f,c);if(m)if(typeof
+fu(g,i,f,c,a){var
+m=fr(g,i,f,c);if(m)if(typeof
 a==="number")return 0===a?aj(function(e){var
-a=i5(e,c);return a?h(g,0,[3,[0,d,b],a[1]]):a},f):l2(tS,e(function(b){var
-a=ch(b,c);return[0,a[1],[0,a[2],[0,a[3],0]]]},f));else{if(0===a[0]){var
+a=i$(e,c);return a?h(g,0,[3,[0,d,b],a[1]]):a},f):l$(t1,e(function(b){var
+a=ci(b,c);return[0,a[1],[0,a[2],[0,a[3],0]]]},f));else{if(0===a[0]){var
 j=H(i[3],a[1]);if(j){var
-p=j[1],q=mW(a[3]);return m3(g,f,c,mW(a[2]),q,p)}return j}var
+p=j[1],q=m5(a[3]);return na(g,f,c,m5(a[2]),q,p)}return j}var
 k=H(i[3],a[1]);if(k){var
 l=H(f,a[2]);if(l){var
-n=l[1],r=k[1],s=cg(n,c);return m3(g,f,c,cg(n,c),s,r)}var
+n=l[1],r=k[1],s=ch(n,c);return na(g,f,c,ch(n,c),s,r)}var
 o=l}else
 var
 o=k;return o}return m}function
-bD(a){return[0,a[1][1],a[2][1],a[3][1]]}function
-m4(a){switch(a[0]){case
+bE(a){return[0,a[1][1],a[2][1],a[3][1]]}function
+nb(a){switch(a[0]){case
 0:var
-b=a[1],c=b[5],d=b[4][1],e=bD(b[3]),f=bD(b[2]);return[0,bD(b[1]),f,e,d,c];case
+b=a[1],c=b[5],d=b[4][1],e=bE(b[3]),f=bE(b[2]);return[0,bE(b[1]),f,e,d,c];case
 1:var
-g=z(bD,a[3]),h=bD(a[2]);return[1,bD(a[1]),h,g];default:return[2,bD(a[1])]}}function
-i7(a){return 0===a[0]?bD(a[1]):[0,a[1],a[2],a[4][1]]}function
-m5(b,a){var
-c=i7(a[2]);return fq(b,a,e(m4,a[1]),c)}function
-i8(b,a,c){var
-d=[0,c,av(b,a)];return f(an(b,a),d)}function
-bq(c,a){if(c){if(a){var
-e=bq(c[2],a[2]);return[2,[4,c[1],a[1]],e]}return[0,d,b]}return[0,d,b]}function
-m6(e,c,a){if(e){if(c){var
-f=c[1],g=m6(e[2],c[2],a),h=bq(f,a),i=[4,bq(f,a),h];return[2,[4,e[1],i],g]}return[0,d,b]}return[0,d,b]}function
-m7(b,a){if(b){if(a){var
-c=b[1],e=m7(b[2],a[2]),f=a[1],g=function(b,a){return[2,[4,c,b],a]},h=function(a){return a};return aP(function(a){return[4,c,a]},h,g,f,e)}var
+g=y(bE,a[3]),h=bE(a[2]);return[1,bE(a[1]),h,g];default:return[2,bE(a[1])]}}function
+jb(a){return 0===a[0]?bE(a[1]):[0,a[1],a[2],a[4][1]]}function
+nc(b,a){var
+c=jb(a[2]);return fr(b,a,e(nb,a[1]),c)}function
+jc(b,a,c){var
+d=[0,c,aw(b,a)];return f(an(b,a),d)}function
+br(c,a){if(c){if(a){var
+e=br(c[2],a[2]);return[2,[4,c[1],a[1]],e]}return[0,d,b]}return[0,d,b]}function
+nd(e,c,a){if(e){if(c){var
+f=c[1],g=nd(e[2],c[2],a),h=br(f,a),i=[4,br(f,a),h];return[2,[4,e[1],i],g]}return[0,d,b]}return[0,d,b]}function
+ne(b,a){if(b){if(a){var
+c=b[1],e=ne(b[2],a[2]),f=a[1],g=function(b,a){return[2,[4,c,b],a]},h=function(a){return a};return aP(function(a){return[4,c,a]},h,g,f,e)}var
 d=a}else
 var
 d=b;return d}function
-m8(b,c,a){var
-d=[0,c,av([0,b],a)];return f(an(b,a),d)}function
-m9(a,b){var
-e=o(a,tT),c=e||o(a,tU),d=c?o(g(b),a):c;return d?l(function(b){return o(g(b),a)},b):d}function
-m_(a){if(a){var
+nf(b,c,a){var
+d=[0,c,aw([0,b],a)];return f(an(b,a),d)}function
+ng(a,b){var
+e=o(a,t2),c=e||o(a,t3),d=c?o(g(b),a):c;return d?l(function(b){return o(g(b),a)},b):d}function
+nh(a){if(a){var
 b=a[1];if(b){var
-c=b[1],d=m_(a[2]);return z(function(a){return[0,c,a]},d)}return b}return tV}function
-g1(a){if(a){var
+c=b[1],d=nh(a[2]);return y(function(a){return[0,c,a]},d)}return b}return t4}function
+g6(a){if(a){var
 b=a[1];if(b){var
-c=b[1],d=g1(a[2]);return z(function(a){return[0,c,a]},d)}return b}return tW}function
-m$(a,l,k,f){var
-b=aD(a,l);if(b){var
-c=aD(a,k);if(c){var
-d=c1(a,f);if(d){var
-e=gC(a,f);if(e)var
+c=b[1],d=g6(a[2]);return y(function(a){return[0,c,a]},d)}return b}return t5}function
+ni(a,l,k,f){var
+b=aE(a,l);if(b){var
+c=aE(a,k);if(c){var
+d=c2(a,f);if(d){var
+e=gH(a,f);if(e)var
 m=t(a,b[1],e[1]),g=[0,F(t(a,c[1],d[1]),m)];else
 var
 g=e;var
@@ -3325,21 +3326,21 @@ i=c;var
 j=i}else
 var
 j=b;return j}function
-na(a){return a?I(a[1][2],d):a}function
-ci(a){return a?I(d,a[1][1]):a}function
-nb(d,a){return h(d,0,[3,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b],a])}function
-nc(d,a){if(a){var
-b=aD(d,a[1]);if(b)var
-c=nc(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
+nj(a){return a?I(a[1][2],d):a}function
+cj(a){return a?I(d,a[1][1]):a}function
+nk(d,a){return h(d,0,[3,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b],a])}function
+nl(d,a){if(a){var
+b=aE(d,a[1]);if(b)var
+c=nl(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
 var
-e=b;return e}return tX}function
-g2(d,a){if(a){var
-b=nc(d,a[1]);if(b)var
-c=g2(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
+e=b;return e}return t6}function
+g7(d,a){if(a){var
+b=nl(d,a[1]);if(b)var
+c=g7(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
 var
-e=b;return e}return tY}function
-nd(b,a){return ao(function(c,a){return A(U(b,c),a)},u,a)}function
-ne(b,d){function
+e=b;return e}return t7}function
+nm(b,a){return ao(function(c,a){return A(U(b,c),a)},u,a)}function
+nn(b,d){function
 c(e,d,c,a){var
 f=t(b,d,c);return F(t(b,e,a),f)}if(d){var
 e=d[1];if(e){var
@@ -3355,12 +3356,12 @@ n=m[2];if(n){if(n[2])return u;if(k[2])return u;var
 s=n[1],v=m[1],w=l[1],x=j[1],y=i[1],z=h[1],B=c(z,y,w,v),C=t(b,g[1],B),D=t(b,q,c(z,x,w,s));return A(F(t(b,r,c(y,x,v,s)),D),C)}return u}return u}return u}return u}return u}return u}return u}return u}if(a){var
 o=a[1];if(o){var
 p=o[2];return p?p[2]?u:a[2]?u:c(r,q,o[1],p[1]):u}return u}return u}return u}return u}return u}function
-nf(a,p,m,s,f,i){function
-a1(c,a){return[4,[4,[5,[0,b,b],c],[5,[0,b,b],c]],bq(a,a)]}var
+no(a,p,m,s,f,i){function
+a1(c,a){return[4,[4,[5,[0,b,b],c],[5,[0,b,b],c]],br(a,a)]}var
 bL=m[1];function
 B(c){var
 a=[0,d,b];return ao(function(a,b){var
-d=bq(a,c);return[2,[4,bq(a,c),d],b]},a,bL)}function
+d=br(a,c);return[2,[4,br(a,c),d],b]},a,bL)}function
 C(f,e){var
 a=H(m[1],f);if(a){var
 b=a[1],c=o(g(b),p);if(c)return k(e,b);var
@@ -3372,10 +3373,10 @@ b=0;if(typeof
 i==="number")b=1;else
 switch(i[0]){case
 6:var
-a=tZ;break;case
+a=t8;break;case
 13:case
 14:var
-a=t0;break;default:b=1}if(b)var
+a=t9;break;default:b=1}if(b)var
 a=p;return o(g(c),a)},f);if(a2){var
 v=0;if(typeof
 i==="number")v=1;else
@@ -3394,16 +3395,16 @@ b!=="number"&&0===b[0])return h(a,1,[3,b[1],bQ]);return 0},ai=bR,ah=i[1];break;c
 a6=i[3],a7=i[2],bT=function(d){var
 i=o(s,0);if(typeof
 d!=="number"&&1===d[0]){var
-e=d[2],f=d[1],g=h(a,0,[3,[2,a7,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b]],a6]);return g?i?na(m$(a,f,e,a7)):ci(m$(a,f,e,a6)):g}return 0},ai=bT,ah=i[1];break;case
+e=d[2],f=d[1],g=h(a,0,[3,[2,a7,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b]],a6]);return g?i?nj(ni(a,f,e,a7)):cj(ni(a,f,e,a6)):g}return 0},ai=bT,ah=i[1];break;case
 5:if(f){var
 D=f[2];if(D){if(D[2])return 0;var
-ak=D[1],al=f[1],a8=i[1],bU=bq(al,al),bV=[4,[4,a8,a8],[4,B(ak),bU]],bW=bq(ak,ak);return h(a,1,[3,[4,B(al),bW],bV])}var
+ak=D[1],al=f[1],a8=i[1],bU=br(al,al),bV=[4,[4,a8,a8],[4,B(ak),bU]],bW=br(ak,ak);return h(a,1,[3,[4,B(al),bW],bV])}var
 a9=D}else
 var
 a9=f;return a9;case
 6:var
 a_=i[2],bX=i[3],bY=function(b){var
-c=[5,bX,a_],d=h(a,1,a_);return d?h(a,1,[3,bq(b,b),[4,c,c]]):d},a$=C(i[1],bY);if(a$){if(m[4]){if(f){var
+c=[5,bX,a_],d=h(a,1,a_);return d?h(a,1,[3,br(b,b),[4,c,c]]):d},a$=C(i[1],bY);if(a$){if(m[4]){if(f){var
 E=f[1];if(E){if(E[2])return 0;if(f[2])return 0;var
 ba=E[1];return h(a,1,[4,ba,ba])}var
 bb=E}else
@@ -3413,11 +3414,11 @@ bc=1}else
 var
 bc=a$;return bc;case
 7:if(f){if(f[2])return 0;var
-bd=f[1],am=i[1],bZ=i[3],b0=i[2],an=g1(m[7]);if(an){var
+bd=f[1],am=i[1],bZ=i[3],b0=i[2],an=g6(m[7]);if(an){var
 G=an[1],ap=H(bd,am);if(ap){var
 b1=ap[1],be=o(g(G),p),bf=be?l(function(a){return o(g(a),p)},G):be;if(bf){var
 aq=H(G,am);if(aq){var
-b2=aq[1];return C(am,function(b){return m2(a,bq,b0,bZ,b1,m7(bd,G),b,b2)})}var
+b2=aq[1];return C(am,function(b){return m$(a,br,b0,bZ,b1,ne(bd,G),b,b2)})}var
 bg=aq}else
 var
 bg=bf;var
@@ -3431,14 +3432,14 @@ bj=bi}else
 var
 bj=f;return bj;case
 8:if(f){if(f[2])return 0;var
-ar=f[1],b3=m6(i[1],m[1],ar),b4=bq(ar,ar);return h(a,1,[3,[4,i[2],b4],b3])}return f;case
+ar=f[1],b3=nd(i[1],m[1],ar),b4=br(ar,ar);return h(a,1,[3,[4,i[2],b4],b3])}return f;case
 9:if(f)return 0;var
 bk=i[3],bl=i[2],b5=function(e){var
 f=h(a,1,bl),g=f?h(a,0,bk):f;if(g){var
-b=aD(a,bq(e,e));if(b){var
-c=aD(a,[5,bk,bl]);if(c){var
-d=lV(a,c[1]);if(d){var
-l=U(a,d[1]);return ci([0,F(b[1],l)])}var
+b=aE(a,br(e,e));if(b){var
+c=aE(a,[5,bk,bl]);if(c){var
+d=l4(a,c[1]);if(d){var
+l=U(a,d[1]);return cj([0,F(b[1],l)])}var
 i=d}else
 var
 i=c;var
@@ -3453,11 +3454,11 @@ b6=i[2],b7=function(b){var
 c=[4,b6,b[3]],d=h(a,1,c);return d?h(a,1,[3,[4,c,c],[4,b[2],b[2]]]):d},bn=b7,bm=i[1];v=2;break;case
 11:if(f)return 0;var
 b8=i[2],b9=function(e){var
-b=c1(a,b8);if(b){var
-c=aD(a,e[3]);if(c){var
-d=aD(a,e[2]);if(d){var
-f=t(a,b[1],c[1]),g=ci([0,f]);if(g){var
-k=U(a,d[1]);return ci([0,F(U(a,f),k)])}var
+b=c2(a,b8);if(b){var
+c=aE(a,e[3]);if(c){var
+d=aE(a,e[2]);if(d){var
+f=t(a,b[1],c[1]),g=cj([0,f]);if(g){var
+k=U(a,d[1]);return cj([0,F(U(a,f),k)])}var
 h=g}else
 var
 h=d;var
@@ -3468,11 +3469,11 @@ j=i}else
 var
 j=b;return j},bn=b9,bm=i[1];v=2;break;case
 12:if(f)return 0;var
-au=m_(m[3]);if(au){var
-bp=au[1],b_=i[1],br=bS(function(b,a){return[4,b,a[3]]},bp,b_),av=e(function(a){return a[1]},bp),x=function(d,c,b,a){return[3,[4,d,a],[4,c,b]]};if(av){var
+au=nh(m[3]);if(au){var
+bp=au[1],b_=i[1],bq=bS(function(b,a){return[4,b,a[3]]},bp,b_),av=e(function(a){return a[1]},bp),x=function(d,c,b,a){return[3,[4,d,a],[4,c,b]]};if(av){var
 O=av[1];if(O){var
 P=O[2];if(P){var
-Q=P[2],aC=P[1],aE=O[1],n=av[2];if(Q)if(Q[2]||!n)var
+Q=P[2],aC=P[1],aD=O[1],n=av[2];if(Q)if(Q[2]||!n)var
 j=[0,d,b];else{var
 R=n[1];if(R){var
 S=R[2];if(S){var
@@ -3481,7 +3482,7 @@ V=n[2];if(V){var
 W=V[1];if(W){var
 X=W[2];if(X){var
 Y=X[2];if(Y&&!(Y[2]||V[2]))var
-aF=Y[1],aG=X[1],aH=W[1],aI=T[1],aJ=S[1],aK=R[1],bE=x(aK,aJ,aH,aG),bF=[4,Q[1],bE],bG=[4,aC,x(aK,aI,aH,aF)],j=[2,[3,[4,aE,x(aJ,aI,aG,aF)],bG],bF];else
+aF=Y[1],aG=X[1],aH=W[1],aI=T[1],aJ=S[1],aK=R[1],bE=x(aK,aJ,aH,aG),bF=[4,Q[1],bE],bG=[4,aC,x(aK,aI,aH,aF)],j=[2,[3,[4,aD,x(aJ,aI,aG,aF)],bG],bF];else
 var
 j=[0,d,b]}else
 var
@@ -3498,7 +3499,7 @@ var
 j=[0,d,b]}else
 if(n){var
 Z=n[1];if(Z)var
-_=Z[2],j=_?_[2]?[0,d,b]:n[2]?[0,d,b]:x(aE,aC,Z[1],_[1]):[0,d,b];else
+_=Z[2],j=_?_[2]?[0,d,b]:n[2]?[0,d,b]:x(aD,aC,Z[1],_[1]):[0,d,b];else
 var
 j=[0,d,b]}else
 var
@@ -3509,7 +3510,7 @@ var
 j=[0,d,b]}else
 var
 j=[0,d,b];var
-bs=h(a,1,[3,br,j]);if(bs)return h(a,1,[2,br,j]);var
+bs=h(a,1,[3,bq,j]);if(bs)return h(a,1,[2,bq,j]);var
 bt=bs}else
 var
 bt=au;return bt;case
@@ -3517,22 +3518,22 @@ bt=au;return bt;case
 b$=i[2],aw=H(m[4],i[1]);if(aw){var
 ax=aw[1];if(ax){var
 bu=function(a){if(b$){var
-c=k(m[5],[0,[0,d,b],[0,d,b],[0,d,b]]),e=k(m[5],a);return J(function(b,a){return[3,b,a]},e,c)}return a},I=i[4],u=bu(c_(i[3])),K=ax[1][1][2],r=w(K,u);if(nb(a,I)){if(s){if(s[1])return 0;if(f){var
+c=k(m[5],[0,[0,d,b],[0,d,b],[0,d,b]]),e=k(m[5],a);return K(function(b,a){return[3,b,a]},e,c)}return a},I=i[4],u=bu(c$(i[3])),J=ax[1][1][2],r=w(J,u);if(nk(a,I)){if(s){if(s[1])return 0;if(f){var
 y=f[1];if(y){var
 z=y[2];if(z){var
 A=z[2];if(A){if(A[2])return 0;if(f[2])return 0;var
-$=bu([0,y[1],z[1],A[1]]),aL=w(K,$),aM=h(a,1,r);if(aM){var
-aa=c1(a,I);if(aa){var
-aN=aa[1],ac=aD(a,[4,w(u,u),[4,aL,aL]]);if(ac){var
-ad=aD(a,[4,[4,r,r],w($,$)]);if(ad){var
-aO=ci([0,aN]);if(aO){var
-bH=ad[1],bI=ac[1];return ci([0,F(t(a,U(a,aN),bI),bH)])}var
+$=bu([0,y[1],z[1],A[1]]),aL=w(J,$),aM=h(a,1,r);if(aM){var
+aa=c2(a,I);if(aa){var
+aN=aa[1],ab=aE(a,[4,w(u,u),[4,aL,aL]]);if(ab){var
+ad=aE(a,[4,[4,r,r],w($,$)]);if(ad){var
+aO=cj([0,aN]);if(aO){var
+bH=ad[1],bI=ab[1];return cj([0,F(t(a,U(a,aN),bI),bH)])}var
 aP=aO}else
 var
 aP=ad;var
 aQ=aP}else
 var
-aQ=ac;var
+aQ=ab;var
 aR=aQ}else
 var
 aR=aa;var
@@ -3552,10 +3553,10 @@ aW=aV}else
 var
 aW=f;return aW}return f?0:h(a,1,[3,[0,d,b],r])}if(s)return 0;if(f)return 0;var
 aX=h(a,0,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],I]);if(aX){var
-ae=c1(a,I);if(ae){var
-af=aD(a,r);if(af){var
-bJ=w(K,K),ag=aD(a,[6,[4,w(u,u),bJ]]);if(ag){var
-bK=t(a,ae[1],ag[1]);return na([0,F(af[1],bK)])}var
+ae=c2(a,I);if(ae){var
+af=aE(a,r);if(af){var
+bJ=w(J,J),ag=aE(a,[6,[4,w(u,u),bJ]]);if(ag){var
+bK=t(a,ae[1],ag[1]);return nj([0,F(af[1],bK)])}var
 aY=ag}else
 var
 aY=af;var
@@ -3572,7 +3573,7 @@ bv=aw;return bv;case
 L=f[1];if(L){var
 M=L[2];if(M){var
 N=M[2];if(N){if(N[2])return 0;if(f[2])return 0;var
-ca=i[3],cb=i[2],cc=i[1],cd=[0,L[1],M[1],N[1]],ce=m[5],cf=m[4];return m1(a,function(a){return mZ(cf,ce,a)},cd,cc,cb,ca)}var
+ca=i[3],cb=i[2],cc=i[1],cd=[0,L[1],M[1],N[1]],ce=m[5],cf=m[4];return m_(a,function(a){return m8(cf,ce,a)},cd,cc,cb,ca)}var
 bw=N}else
 var
 bw=M;var
@@ -3583,21 +3584,21 @@ by=bx}else
 var
 by=f;return by;case
 17:if(f)return 0;var
-bz=i[2],ay=i[1],cg=i[3],az=g1(m[7]);if(az){var
-aA=az[1],bA=m9(p,aA),bB=bA?o(g(bz),p):bA;if(bB){var
+bz=i[2],ay=i[1],cg=i[3],az=g6(m[7]);if(az){var
+aA=az[1],bA=ng(p,aA),bB=bA?o(g(bz),p):bA;if(bB){var
 aB=H(aA,ay);if(aB){var
 ch=aB[1];return C(ay,function(x){var
-e=g2(a,aA);if(e){var
-j=e[1],f=g2(a,[0,bz,[0,x,[0,ch,0]]]);if(f){var
+e=g7(a,aA);if(e){var
+j=e[1],f=g7(a,[0,bz,[0,x,[0,ch,0]]]);if(f){var
 b=f[1];if(b){var
 c=b[2];if(c){var
 d=c[2];if(d){if(d[2])return 0;var
-g=aD(a,cg);if(g){var
-k=g[1],l=U(a,ne(a,j)),h=ne(a,m8(ay,b[1],j)),m=ci([0,k]),n=m?ci([0,l]):m;if(n)var
-y=o(s,0)?h:ab(h),i=ci([0,y]);else
+g=aE(a,cg);if(g){var
+k=g[1],l=U(a,nn(a,j)),h=nn(a,nf(ay,b[1],j)),m=cj([0,k]),n=m?cj([0,l]):m;if(n)var
+y=o(s,0)?h:ac(h),i=cj([0,y]);else
 var
 i=n;if(i){var
-z=nd(a,c[1]),A=t(a,t(a,U(a,k),l),z),B=nd(a,d[1]);return ci([0,F(t(a,U(a,h),B),A)])}var
+z=nm(a,c[1]),A=t(a,t(a,U(a,k),l),z),B=nm(a,d[1]);return cj([0,F(t(a,U(a,h),B),A)])}var
 p=i}else
 var
 p=g;var
@@ -3633,81 +3634,81 @@ bo=as;return bo;default:var
 aj=H(m[2],ah);return aj?ai(aj[1]):aj}}else
 var
 a3=a2;return a3}function
-g3(d,f,a){if(typeof
+fv(d,f,a){if(typeof
 a!=="number")switch(a[0]){case
 13:var
-e=a[4];if(nb(d,e)&&N(h(d,0,[3,e,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b]])))return t3;return t4;case
+e=a[4];if(nk(d,e)&&J(h(d,0,[3,e,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b]])))return ua;return ub;case
 16:return f;case
 4:case
-17:return t2}return t1}function
-et(e,d,g,f){var
+17:return t$}return t_}function
+eu(e,d,g,f){var
 b=g,a=f;for(;;){if(a){var
-c=a[1];if(aK(b,g3(e,d,c)))return[0,[0,c,b]];var
-h=a[2],b=dw(b,g3(e,d,c)),a=h;continue}return a}}function
-ng(a){return e(function(a){return[0,a,b]},a)}function
-i9(f,o,g,c,n,a){if(typeof
+c=a[1];if(aK(b,fv(e,d,c)))return[0,[0,c,b]];var
+h=a[2],b=dx(b,fv(e,d,c)),a=h;continue}return a}}function
+np(a){return e(function(a){return[0,a,b]},a)}function
+jd(f,o,g,c,n,a){if(typeof
 a==="number"){if(0===a){var
 s=c[6];return aj(function(a){return h(f,0,[3,[0,d,b],a])},s)}var
-i=g1(c[7]);return i?l2(g,i[1]):i}else{if(0===a[0]){var
-j=et(f,o,a[1],n);if(j){var
-p=j[1],t=p[1],u=e(ng,a[2]);return nf(f,g,c,p[2],u,t)}return j}var
-k=et(f,o,a[1],n);if(k){var
+i=g6(c[7]);return i?l$(g,i[1]):i}else{if(0===a[0]){var
+j=eu(f,o,a[1],n);if(j){var
+p=j[1],t=p[1],u=e(np,a[2]);return no(f,g,c,p[2],u,t)}return j}var
+k=eu(f,o,a[1],n);if(k){var
 q=k[1],l=q[1];if(typeof
 l!=="number"&&1===l[0]){var
-m=H(c[1],a[2]);return m?nf(f,g,c,q[2],[0,m[1],0],[1,l[1]]):m}var
+m=H(c[1],a[2]);return m?no(f,g,c,q[2],[0,m[1],0],[1,l[1]]):m}var
 r=0}else
 var
 r=k;return r}}function
-i_(a){var
-b=ay(a[1]),c=P(w(b,a[2]),b),d=a[2];return J(function(b,a){return[3,b,a]},d,c)}function
-fu(a){return ay(i_(a))}function
-g4(c){var
-a=fu(c),b=ay(c[1]);return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
-g5(a,b){return aV(a[3],a[4],b)}function
-fv(a,b){var
-c=g5(a,b);return w(fu(a),c)}function
-fw(a,b){var
-c=g5(a,b);return w(g4(a),c)}function
-nh(a,b){var
-c=g5(a,b);return w(ay(a[1]),c)}function
-g6(b,a){var
-c=fw(b,a),d=fv(b,a);return[2,[4,d,d],[4,c,c]]}function
-g7(a,d){var
-h=a[5],i=[4,[0,c(2,b),b],h],e=a[6],f=a[5],g=nh(a,d);return[5,[2,g6(a,d),[2,[4,g,g],[3,[4,f,f],[4,e,e]]]],i]}function
-i$(a,b){var
-f=a[5],c=[3,g7(a,b),f],d=nh(a,b),e=a[6];return[3,[3,[4,e,e],[4,d,d]],[4,c,c]]}function
-eu(a,b){var
-c=i$(a,b);return cF(a[7],c)}function
-ni(b,a){var
-c=g6(b,a),d=fw(b,a),e=[4,eu(b,a),d],f=fv(b,a);return[5,[2,[4,g7(b,a),f],e],c]}function
-nj(b,a){var
-c=g6(b,a),d=fv(b,a),e=[4,eu(b,a),d],f=fw(b,a);return[5,[3,[4,g7(b,a),f],e],c]}function
-ja(a,b){var
-c=g4(a),d=P(nj(a,b),c),e=fu(a),f=P(ni(a,b),e),g=J(function(b,a){return[2,b,a]},f,d),h=P(a[5],g),i=a[3];return J(function(b,a){return[2,b,a]},i,h)}function
-dJ(a){return[5,[3,[0,b,b],[4,a,a]],[2,[0,b,b],[4,a,a]]]}function
-dK(a){return[5,[4,[0,c(2,b),b],a],[2,[0,b,b],[4,a,a]]]}function
-jb(a,c,b){var
-d=[4,dJ(a),b],e=[2,[4,dK(a),c],d],f=[4,dK(a),b];return[0,[3,[4,dJ(a),c],f],e]}function
-nk(c,a){var
-b=jb(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
-c$(b,a){return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
-nl(a,d){var
-e=w(a,a),f=c$(a,d),g=P([0,c(2,b),b],f),h=w(a,d),i=P([4,[0,c(2,b),b],h],a),j=P([3,[0,b,b],e],d),k=J(function(b,a){return[2,b,a]},j,i);return P([5,[0,b,b],[2,[0,b,b],e]],J(function(b,a){return[2,b,a]},k,g))}function
-da(j,b,a){switch(j[0]){case
-0:return b?b[2]?a:nk(b[1],a):a;case
+je(a){var
+b=az(a[1]),c=P(w(b,a[2]),b),d=a[2];return K(function(b,a){return[3,b,a]},d,c)}function
+fw(a){return az(je(a))}function
+g8(c){var
+a=fw(c),b=az(c[1]);return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
+g9(a,b){return aV(a[3],a[4],b)}function
+fx(a,b){var
+c=g9(a,b);return w(fw(a),c)}function
+fy(a,b){var
+c=g9(a,b);return w(g8(a),c)}function
+nq(a,b){var
+c=g9(a,b);return w(az(a[1]),c)}function
+g_(b,a){var
+c=fy(b,a),d=fx(b,a);return[2,[4,d,d],[4,c,c]]}function
+g$(a,d){var
+h=a[5],i=[4,[0,c(2,b),b],h],e=a[6],f=a[5],g=nq(a,d);return[5,[2,g_(a,d),[2,[4,g,g],[3,[4,f,f],[4,e,e]]]],i]}function
+jf(a,b){var
+f=a[5],c=[3,g$(a,b),f],d=nq(a,b),e=a[6];return[3,[3,[4,e,e],[4,d,d]],[4,c,c]]}function
+ev(a,b){var
+c=jf(a,b);return cH(a[7],c)}function
+nr(b,a){var
+c=g_(b,a),d=fy(b,a),e=[4,ev(b,a),d],f=fx(b,a);return[5,[2,[4,g$(b,a),f],e],c]}function
+ns(b,a){var
+c=g_(b,a),d=fx(b,a),e=[4,ev(b,a),d],f=fy(b,a);return[5,[3,[4,g$(b,a),f],e],c]}function
+jg(a,b){var
+c=g8(a),d=P(ns(a,b),c),e=fw(a),f=P(nr(a,b),e),g=K(function(b,a){return[2,b,a]},f,d),h=P(a[5],g),i=a[3];return K(function(b,a){return[2,b,a]},i,h)}function
+dK(a){return[5,[3,[0,b,b],[4,a,a]],[2,[0,b,b],[4,a,a]]]}function
+dL(a){return[5,[4,[0,c(2,b),b],a],[2,[0,b,b],[4,a,a]]]}function
+jh(a,c,b){var
+d=[4,dK(a),b],e=[2,[4,dL(a),c],d],f=[4,dL(a),b];return[0,[3,[4,dK(a),c],f],e]}function
+nt(c,a){var
+b=jh(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
+da(b,a){return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
+nu(a,d){var
+e=w(a,a),f=da(a,d),g=P([0,c(2,b),b],f),h=w(a,d),i=P([4,[0,c(2,b),b],h],a),j=P([3,[0,b,b],e],d),k=K(function(b,a){return[2,b,a]},j,i);return P([5,[0,b,b],[2,[0,b,b],e]],K(function(b,a){return[2,b,a]},k,g))}function
+db(j,b,a){switch(j[0]){case
+0:return b?b[2]?a:nt(b[1],a):a;case
 1:if(b){var
 c=b[2];if(c){var
 d=c[2];if(d){if(d[2])return a;var
-g=jb(b[1],a[2],a[3]),i=g[1],h=jb(c[1],g[2],a[1]);return nk(d[1],[0,h[2],i,h[1]])}return a}return a}return a;default:if(b){var
+g=jh(b[1],a[2],a[3]),i=g[1],h=jh(c[1],g[2],a[1]);return nt(d[1],[0,h[2],i,h[1]])}return a}return a}return a;default:if(b){var
 e=b[2];if(e){var
-f=e[2];return f?f[2]?a:nl([0,b[1],e[1],f[1]],a):a}return a}return a}}function
-nm(c){var
-a=cA(c);return a?ed(a[1],[0,d,b]):a}function
-nn(a,n,k,j){if(nm(j)){var
+f=e[2];return f?f[2]?a:nu([0,b[1],e[1],f[1]],a):a}return a}return a}}function
+nv(c){var
+a=cC(c);return a?ee(a[1],[0,d,b]):a}function
+nw(a,n,k,j){if(nv(j)){var
 q=n?[3,[0,d,b],k]:k;return h(a,0,q)}var
-f=aD(a,k);if(f){var
-g=c1(a,[5,j,[0,c(2,b),b]]);if(g){var
-i=gC(a,[5,j,[0,c(2,b),b]]);if(i)var
+f=aE(a,k);if(f){var
+g=c2(a,[5,j,[0,c(2,b),b]]);if(g){var
+i=gH(a,[5,j,[0,c(2,b),b]]);if(i)var
 p=t(a,f[1],g[1]),l=[0,F(i[1],p)];else
 var
 l=i;var
@@ -3718,24 +3719,24 @@ e=m}else
 var
 e=f;if(e){var
 o=e[1];return n?D(d,o[1]):D(o[2],d)}return e}function
-dL(b,a,c){var
-d=bw(b,a[1],a[2]),e=d?nn(b,0,c,a[1]):d;return e?nn(b,1,c,a[2]):e}function
-no(h,f,c){if(nm(c))return[0,u];var
-a=E(h,iA(f)),d=c1(a,c);if(d){var
-e=gC(a,c);if(e){var
-i=e[1],j=d[1],k=b9(a,A(O(a,b),j));return z(function(b){return lM(f,t(a,i,b))},k)}var
+dM(b,a,c){var
+d=bx(b,a[1],a[2]),e=d?nw(b,0,c,a[1]):d;return e?nw(b,1,c,a[2]):e}function
+nx(h,f,c){if(nv(c))return[0,u];var
+a=E(h,iG(f)),d=c2(a,c);if(d){var
+e=gH(a,c);if(e){var
+i=e[1],j=d[1],k=b_(a,A(O(a,b),j));return y(function(b){return lV(f,t(a,i,b))},k)}var
 g=e}else
 var
 g=d;return g}function
-cH(a){return function(b){return no(a,d,b)}}function
-cI(d,a){var
+cJ(a){return function(b){return nx(a,d,b)}}function
+cK(d,a){var
 e=h(d,1,[2,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],a]);return e?h(d,1,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],a]):e}function
-db(a){return[0,[3,[0,d,b],a],a]}function
-np(a,c,o,n){var
-h=bw(a,[0,d,b],c),i=h?cI(a,c):h;if(i){var
-e=k(cH(a),c);if(e){var
-f=aD(a,o);if(f){var
-g=aD(a,n);if(g){var
+dc(a){return[0,[3,[0,d,b],a],a]}function
+ny(a,c,o,n){var
+h=bx(a,[0,d,b],c),i=h?cK(a,c):h;if(i){var
+e=k(cJ(a),c);if(e){var
+f=aE(a,o);if(f){var
+g=aE(a,n);if(g){var
 p=f[1],q=g[1];return D(d,F(t(a,U(a,e[1]),q),p)[1])}var
 j=g}else
 var
@@ -3746,12 +3747,12 @@ l=e;var
 m=l}else
 var
 m=i;return m}function
-fx(d,c,a){switch(c[0]){case
-0:return a?a[2]?0:dL(d,c[1],a[1]):a;case
+fz(d,c,a){switch(c[0]){case
+0:return a?a[2]?0:dM(d,c[1],a[1]):a;case
 1:if(a){var
 e=a[2];if(e){var
 f=e[2];if(f){if(f[2])return 0;var
-l=dL(d,c[1],a[1]),m=l?dL(d,c[2],e[1]):l;if(m)return dL(d,c[3],f[1]);var
+l=dM(d,c[1],a[1]),m=l?dM(d,c[2],e[1]):l;if(m)return dM(d,c[3],f[1]);var
 n=m}else
 var
 n=f;var
@@ -3764,7 +3765,7 @@ p=a;return p;case
 2:if(a){var
 g=a[2];if(g){var
 h=g[2];if(h){if(h[2])return 0;var
-q=h[1],r=g[1],s=a[1],C=w([0,s,r,q],[0,s,r,q]);return np(d,c[1],C,[0,b,b])}var
+q=h[1],r=g[1],s=a[1],C=w([0,s,r,q],[0,s,r,q]);return ny(d,c[1],C,[0,b,b])}var
 t=h}else
 var
 t=g;var
@@ -3773,7 +3774,7 @@ var
 u=a;return u;default:if(a){var
 i=a[2];if(i){var
 j=i[2];if(j){if(j[2])return 0;var
-k=j[1],v=i[1],x=a[1],y=np(d,c[1],[2,[4,x,x],[4,v,v]],[2,[0,b,b],[4,k,k]]);if(y)return dL(d,db(c[2]),k);var
+k=j[1],v=i[1],x=a[1],y=ny(d,c[1],[2,[4,x,x],[4,v,v]],[2,[0,b,b],[4,k,k]]);if(y)return dM(d,dc(c[2]),k);var
 z=y}else
 var
 z=j;var
@@ -3784,75 +3785,75 @@ B=A}else
 var
 B=a;return B}}var
 i=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))));function
-bE(b){var
+bF(b){var
 a=ao(function(f,e){var
-a=aD(i,f);if(a)var
-b=a[1],c=bl(cr(b[1]),cr(b[2]));else
+a=aE(i,f);if(a)var
+b=a[1],c=bm(ct(b[1]),ct(b[2]));else
 var
-c=d;return bl(c,e)},d,b);return I(d,a)?aM(lw(a),i):d}function
-ev(a){return[0,a[1],[0,a[2],0]]}function
-ba(a){var
-b=ev(a[3]),c=f(ev(a[2]),b);return f(ev(a[1]),c)}function
-g8(a){return g0(i,a,bE(ba(a)))}function
-nq(b,a){if(a){var
-g=nq([0,b],a[2]),c=a[1];if(0===c[0])var
-d=c[1],e=c8([0,[0,d,d],c[2]],b);else
+c=d;return bm(c,e)},d,b);return I(d,a)?aM(lE(a),i):d}function
+ew(a){return[0,a[1],[0,a[2],0]]}function
+bb(a){var
+b=ew(a[3]),c=f(ew(a[2]),b);return f(ew(a[1]),c)}function
+ha(a){return g5(i,a,bF(bb(a)))}function
+nz(b,a){if(a){var
+g=nz([0,b],a[2]),c=a[1];if(0===c[0])var
+d=c[1],e=c9([0,[0,d,d],c[2]],b);else
 var
 e=[0,[1,b]];var
 f=[0,e,g]}else
 var
 f=a;return f}function
-nr(c,b,a){var
-d=ee(b);return[2,[2,ee(c),d],a]}function
-g9(b,a){return b?T(a):d}function
-fy(g,b,a){if(typeof
+nA(c,b,a){var
+d=ef(b);return[2,[2,ef(c),d],a]}function
+hb(b,a){return b?T(a):d}function
+fA(g,b,a){if(typeof
 a!=="number")switch(a[0]){case
 4:var
 i=a[3],j=a[2];return[0,[2,j],[0,[3,j],[0,[2,i],[0,[3,i],0]]]];case
 6:return[0,[0,[5,a[3],a[2]],d],0];case
 8:var
 q=a[2],r=a[1];return e(function(a){var
-c=g9(g,b);return[0,[5,q,a],E(g9(g,b),c)]},r);case
+c=hb(g,b);return[0,[5,q,a],E(hb(g,b),c)]},r);case
 9:return[0,[1,[5,a[3],a[2]],T(b)],0];case
 10:return[0,[0,a[2],d],0];case
 11:return[0,[2,a[2]],0];case
 12:return[0,[0,a[1],d],0];case
 13:var
-c=a[3],h=bE([0,c[1],[0,c[2],[0,c[3],0]]]);return[0,[2,a[4]],[0,[0,c[1],h],[0,[0,c[2],h],[0,[0,c[3],h],0]]]];case
+c=a[3],h=bF([0,c[1],[0,c[2],[0,c[3],0]]]);return[0,[2,a[4]],[0,[0,c[1],h],[0,[0,c[2],h],[0,[0,c[3],h],0]]]];case
 14:var
-k=a[2],l=a[1],s=er(b,k),t=f(er(b,l),s),u=e(function(a){return[0,a[1][2],a[2]]},t);return[0,[0,nr(l,k,a[3]),b],u];case
+k=a[2],l=a[1],s=es(b,k),t=f(es(b,l),s),u=e(function(a){return[0,a[1][2],a[2]]},t);return[0,[0,nA(l,k,a[3]),b],u];case
 15:var
 m=a[4],n=a[3];return[0,[0,[5,a[2],m],d],[0,[0,[5,[4,n,n],m],b],0]];case
 16:var
-o=a[2],p=bE([0,o,0]);return[0,[4,a[3],aM(p,b)],[0,[0,o,p],0]];case
+o=a[2],p=bF([0,o,0]);return[0,[4,a[3],aM(p,b)],[0,[0,o,p],0]];case
 17:var
-v=a[3],w=a[2];return e(function(a){return[0,[5,a,v],g9(g,b)]},w);case
+v=a[3],w=a[2];return e(function(a){return[0,[5,a,v],hb(g,b)]},w);case
 2:case
 3:return[0,[0,a[2],b],0]}return 0}function
-dc(h,c,b,e,a){if(a){var
-d=a[1],i=a[2],j=dc(h,c,b,L(e,g(fy(c,b,d))),i);return f(ar(h,nq(e,fy(c,b,d)),d),j)}return a}function
-g_(b,a){var
+dd(h,c,b,e,a){if(a){var
+d=a[1],i=a[2],j=dd(h,c,b,M(e,g(fA(c,b,d))),i);return f(ar(h,nz(e,fA(c,b,d)),d),j)}return a}function
+hc(b,a){var
 c=W(b,a);return e(function(a){var
 b=s(a[1][2],a[2]);return[0,a[1][1],b]},c)}function
-jc(b,a){switch(a[0]){case
+ji(b,a){switch(a[0]){case
 0:var
 d=a[1];return ap(b,[0,[0,d,d],a[2]]);case
 1:var
-e=a[1],c=ap(b,[0,[0,e,e],a[2]]);return c?lV(b,c[1]):c;case
-2:return c1(b,a[1]);case
-3:return gC(b,a[1]);default:var
-f=a[1],g=cI(b,f);return g?no(b,a[2],f):g}}function
-bF(a){return 1===a?t5:t6}function
+e=a[1],c=ap(b,[0,[0,e,e],a[2]]);return c?l4(b,c[1]):c;case
+2:return c2(b,a[1]);case
+3:return gH(b,a[1]);default:var
+f=a[1],g=cK(b,f);return g?nx(b,a[2],f):g}}function
+bG(a){return 1===a?uc:ud}function
 bX(d,c,b,a){var
-e=a[1],f=da(d,c,a[2]),g=J(function(b,a){return[2,b,a]},b,f);return J(function(b,a){return[3,b,a]},g,e)}function
-jd(c,b,a){switch(c){case
+e=a[1],f=db(d,c,a[2]),g=K(function(b,a){return[2,b,a]},b,f);return K(function(b,a){return[3,b,a]},g,e)}function
+jj(c,b,a){switch(c){case
 0:return[0,b[1],[0,b[2],[0,a[3],0]]];case
 1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}}function
-je(h,g,d,c,f,a){var
-e=bX(d,c,f,a);return jd(h,e,P([5,[0,b,b],g],c$(da(d,c,a[2]),e)))}function
-ew(c,d,n,m,l){var
+jk(h,g,d,c,f,a){var
+e=bX(d,c,f,a);return jj(h,e,P([5,[0,b,b],g],da(db(d,c,a[2]),e)))}function
+ex(c,d,n,m,l){var
 b=d[2],a=n;for(;;){if(b){if(a){var
-f=a[1],g=b[1],h=bp(c,g[1],f[1]),i=h?bp(c,g[2],f[2]):h;if(i){var
+f=a[1],g=b[1],h=bq(c,g[1],f[1]),i=h?bq(c,g[2],f[2]):h;if(i){var
 b=b[2],a=a[2];continue}var
 j=i}else
 var
@@ -3860,15 +3861,15 @@ j=a;var
 e=j}else
 var
 e=a?0:1;var
-k=e?cE(c,d[4],m):e;return k?fx(c,d[5],l):k}}function
-bx(b,d){var
+k=e?cG(c,d[4],m):e;return k?fz(c,d[5],l):k}}function
+by(b,d){var
 a=d[1];if(8===a[0]){var
-c=a[1][1];return 0===c[0]?[0,[0,L(b,c[1])]]:[0,bT(function(a){return bx(b,a)},a)]}return[0,bT(function(a){return bx(b,a)},a)]}function
-dM(d,b,h){var
+c=a[1][1];return 0===c[0]?[0,[0,M(b,c[1])]]:[0,bT(function(a){return by(b,a)},a)]}return[0,bT(function(a){return by(b,a)},a)]}function
+dN(d,b,h){var
 c=h;for(;;){var
 a=c[1];switch(a[0]){case
 0:var
-e=a[1],f=N(o(e,b));return f?N(o(e,L(d,b))):f;case
+e=a[1],f=J(o(e,b));return f?J(o(e,M(d,b))):f;case
 10:return 0;case
 1:case
 2:return 1;case
@@ -3876,31 +3877,31 @@ e=a[1],f=N(o(e,b));return f?N(o(e,L(d,b))):f;case
 8:case
 9:var
 c=a[1];continue;default:var
-g=dM(d,b,a[1]);if(g){var
+g=dN(d,b,a[1]);if(g){var
 c=a[2];continue}return g}}}function
-ex(c,b,m){var
+ey(c,b,m){var
 d=m;for(;;){var
 a=d[1];switch(a[0]){case
 5:var
 d=a[1];continue;case
 6:var
-f=a[2],g=a[1],h=dM(c,b,g),i=h?ex(c,b,f):h;if(i)var
+f=a[2],g=a[1],h=dN(c,b,g),i=h?ey(c,b,f):h;if(i)var
 j=i;else{var
-k=ex(c,b,g);if(k)return dM(c,b,f);var
+k=ey(c,b,g);if(k)return dN(c,b,f);var
 j=k}return j;case
 7:var
-l=ex(c,b,a[1]);return l?dM(c,b,a[2]):l;case
+l=ey(c,b,a[1]);return l?dN(c,b,a[2]):l;case
 10:return 0;case
 3:case
 4:var
-e=ex(c,b,a[1]);if(e){var
+e=ey(c,b,a[1]);if(e){var
 d=a[2];continue}return e;case
 8:case
-9:return dM(c,b,a[1]);default:return 1}}}function
-cJ(c,e){var
+9:return dN(c,b,a[1]);default:return 1}}}function
+cL(c,e){var
 b=e;for(;;){var
 a=b[1];switch(a[0]){case
-0:return N(o(a[1],c));case
+0:return J(o(a[1],c));case
 10:return 0;case
 1:case
 2:return 1;case
@@ -3908,19 +3909,19 @@ a=b[1];switch(a[0]){case
 8:case
 9:var
 b=a[1];continue;default:var
-d=cJ(c,a[1]);if(d){var
+d=cL(c,a[1]);if(d){var
 b=a[2];continue}return d}}}function
-g$(d,b,m){var
+hd(d,b,m){var
 c=m;for(;;){var
 a=c[1];switch(a[0]){case
 3:var
-f=g$(d,b,a[1]);if(f){var
+f=hd(d,b,a[1]);if(f){var
 c=a[2];continue}return f;case
 4:var
-g=g$(d,b,a[1]);return g?cJ(b,a[2]):g;case
+g=hd(d,b,a[1]);return g?cL(b,a[2]):g;case
 6:var
-h=a[2],i=a[1],j=cJ(b,i);if(j){var
-k=cJ(b,h);if(k)var
+h=a[2],i=a[1],j=cL(b,i);if(j){var
+k=cL(b,h);if(k)var
 e=k;else{var
 l=aN(i,d);if(l){var
 c=h;continue}var
@@ -3929,8 +3930,8 @@ var
 e=j;return e;case
 0:case
 1:case
-2:return 1;default:return cJ(b,c)}}}function
-ha(c,e){var
+2:return 1;default:return cL(b,c)}}}function
+he(c,e){var
 b=e;for(;;){var
 a=b[1];switch(a[0]){case
 0:return aK(a[1],c);case
@@ -3941,82 +3942,82 @@ a=b[1];switch(a[0]){case
 8:case
 9:var
 b=a[1];continue;default:var
-d=ha(c,a[1]);if(d){var
+d=he(c,a[1]);if(d){var
 b=a[2];continue}return d}}}function
-hb(a,b){if(a){var
+hf(a,b){if(a){var
 c=a[2],d=a[1];if(b){var
-e=b[2];return b[1]?[0,d,hb(c,ao(fc,e,lH(d)))]:[0,t9,hb(c,e)]}var
-f=[0,d,hb(c,0)]}else
+e=b[2];return b[1]?[0,d,hf(c,ao(fd,e,lQ(d)))]:[0,ug,hf(c,e)]}var
+f=[0,d,hf(c,0)]}else
 var
 f=a;return f}function
-dd(b,a){return a?k(b,a[1]):a}function
-de(c,b,a){return dd(function(b){return dd(k(c,b),a)},b)}function
-ns(b,a){switch(a[0]){case
+de(b,a){return a?k(b,a[1]):a}function
+df(c,b,a){return de(function(b){return de(k(c,b),a)},b)}function
+nB(b,a){switch(a[0]){case
 0:return a;case
 1:return a[1];default:var
 c=a[3],d=a[2],e=a[1];switch(b){case
 0:return e;case
 1:return d;default:return c}}}function
-nt(a){return 0===a[0]?a[1]:0}function
-nu(d,c){var
+nC(a){return 0===a[0]?a[1]:0}function
+nD(d,c){var
 b=d,a=c;for(;;){if(a){var
-e=a[2],b=ns(a[1],b),a=e;continue}return nt(b)}}function
-cj(b,a){switch(a[0]){case
+e=a[2],b=nB(a[1],b),a=e;continue}return nC(b)}}function
+ck(b,a){switch(a[0]){case
 0:return[0,k(b,a[1])];case
-1:return[1,cj(b,a[1])];default:var
-c=cj(b,a[3]),d=cj(b,a[2]);return[2,cj(b,a[1]),d,c]}}function
-br(b,c,a){switch(c[0]){case
-0:return cj(k(b,c[1]),a);case
+1:return[1,ck(b,a[1])];default:var
+c=ck(b,a[3]),d=ck(b,a[2]);return[2,ck(b,a[1]),d,c]}}function
+bs(b,c,a){switch(c[0]){case
+0:return ck(k(b,c[1]),a);case
 1:var
 d=c[1];switch(a[0]){case
 0:var
-j=a[1];return[1,cj(function(a){return ar(b,a,j)},d)];case
-1:return[1,br(b,d,a[1])];default:var
-l=br(b,d,a[3]),m=br(b,d,a[2]);return[2,br(b,d,a[1]),m,l]}default:var
+j=a[1];return[1,ck(function(a){return ar(b,a,j)},d)];case
+1:return[1,bs(b,d,a[1])];default:var
+l=bs(b,d,a[3]),m=bs(b,d,a[2]);return[2,bs(b,d,a[1]),m,l]}default:var
 e=c[3],f=c[2],g=c[1];switch(a[0]){case
 0:var
-n=a[1],o=function(a){return ar(b,a,n)},h=function(a){return cj(o,a)},p=h(e),q=h(f);return[2,h(g),q,p];case
+n=a[1],o=function(a){return ar(b,a,n)},h=function(a){return ck(o,a)},p=h(e),q=h(f);return[2,h(g),q,p];case
 1:var
-i=a[1],r=br(b,e,i),s=br(b,f,i);return[2,br(b,g,i),s,r];default:var
-t=br(b,e,a[3]),u=br(b,f,a[2]);return[2,br(b,g,a[1]),u,t]}}}function
-jf(c,f,a){if(a)var
+i=a[1],r=bs(b,e,i),s=bs(b,f,i);return[2,bs(b,g,i),s,r];default:var
+t=bs(b,e,a[3]),u=bs(b,f,a[2]);return[2,bs(b,g,a[1]),u,t]}}}function
+jl(c,f,a){if(a)var
 d=a[1],b=function(h){var
 a=[0,d[1],d[1]],b=[0,d[2],d[2]];switch(h){case
 0:var
 e=[0,a,U(c,a)];break;case
 1:var
-g=t(c,a,b),e=[0,aw(A(a,b)),g];break;default:var
-e=[0,b,U(c,b)]}return[0,[0,k(f,e)]]},h=jf(c,f,a[2]),i=e(function(a){return[1,a]},h),j=b(2),l=b(1),g=[0,[2,b(0),l,j],i];else
+g=t(c,a,b),e=[0,ax(A(a,b)),g];break;default:var
+e=[0,b,U(c,b)]}return[0,[0,k(f,e)]]},h=jl(c,f,a[2]),i=e(function(a){return[1,a]},h),j=b(2),l=b(1),g=[0,[2,b(0),l,j],i];else
 var
 g=a;return g}function
-jg(b,x,c,a){var
-e=jf(b,aO,a),d=0,y=f(jf(b,aA,a),e);return bf(t$,function(a){switch(a[0]){case
-0:return r(a[1],y,[0,[0,u]]);case
+jm(b,x,c,a){var
+e=jl(b,aO,a),d=0,z=f(jl(b,aB,a),e);return bg(ui,function(a){switch(a[0]){case
+0:return r(a[1],z,[0,[0,u]]);case
 1:return[0,[0,r(a[1],x,u)]];case
 2:return[0,[0,O(b,a[1])]];case
 3:var
-c=a[2],d=a[1],e=function(b,a){return[0,A(b,a)]};return br(function(a,b){return de(e,a,b)},d,c);case
+c=a[2],d=a[1],e=function(b,a){return[0,A(b,a)]};return bs(function(a,b){return df(e,a,b)},d,c);case
 4:var
-f=a[2],g=a[1],h=function(b,a){return[0,F(b,a)]};return br(function(a,b){return de(h,a,b)},g,f);case
+f=a[2],g=a[1],h=function(b,a){return[0,F(b,a)]};return bs(function(a,b){return df(h,a,b)},g,f);case
 5:var
-i=a[1],j=function(a){return[0,ab(a)]};return cj(function(a){return dd(j,a)},i);case
+i=a[1],j=function(a){return[0,ac(a)]};return ck(function(a){return de(j,a)},i);case
 6:var
-k=a[2],l=a[1],m=function(c,a){return[0,t(b,c,a)]};return br(function(a,b){return de(m,a,b)},l,k);case
+k=a[2],l=a[1],m=function(c,a){return[0,t(b,c,a)]};return bs(function(a,b){return df(m,a,b)},l,k);case
 7:var
 n=a[2],o=a[1],p=function(c,a){var
-d=b9(b,a);return z(function(a){return t(b,c,a)},d)};return br(function(a,b){return de(p,a,b)},o,n);case
+d=b_(b,a);return y(function(a){return t(b,c,a)},d)};return bs(function(a,b){return df(p,a,b)},o,n);case
 8:var
-q=a[1],s=function(a){return[0,U(b,a)]};return cj(function(a){return dd(s,a)},q);case
+q=a[1],s=function(a){return[0,U(b,a)]};return ck(function(a){return de(s,a)},q);case
 9:var
-v=a[1],w=function(a){return b_(b,a)};return cj(function(a){return dd(w,a)},v);default:return t_}},c,d)}function
-hc(a){if(a){var
+v=a[1],w=function(a){return b$(b,a)};return ck(function(a){return de(w,a)},v);default:return uh}},c,d)}function
+hg(a){if(a){var
 b=a[1];if(b)var
-c=hc(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+c=hg(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return ua}function
-ey(a){if(a){var
-g=a[1],b=g[2],c=hc(g[1]);if(c)if(b){var
-h=b[1],e=ey(a[2]);if(e)var
+d=b;return d}return uj}function
+ez(a){if(a){var
+g=a[1],b=g[2],c=hg(g[1]);if(c)if(b){var
+h=b[1],e=ez(a[2]);if(e)var
 i=I(d,h[1]),j=i?[0,[0,[0,c[1],h],e[1]]]:i;else
 var
 j=e;var
@@ -4024,56 +4025,56 @@ f=j}else
 var
 f=b;else
 var
-f=c;return f}return ub}function
-ez(b,a){var
-c=a[3],d=z(function(a){var
-c=a[2],d=a[1][2];return[0,[0,k(b,a[1][1]),d],c]},c),e=k(b,a[2]),f=a[1];return[0,k(ax(b),f),e,d]}function
-jh(c,g,f,b,a,e){if(b){var
+f=c;return f}return uk}function
+eA(b,a){var
+c=a[3],d=y(function(a){var
+c=a[2],d=a[1][2];return[0,[0,k(b,a[1][1]),d],c]},c),e=k(b,a[2]),f=a[1];return[0,k(ay(b),f),e,d]}function
+jn(c,g,f,b,a,e){if(b){var
 h=b[1],l=b[2],d=function(b,a){var
-d=kx(c,e8,e8,function(a){return ns(b,a)},e);return jh(c,g,bz(f),l,a,d)},i=d(0,aM(a,h));if(i){var
+d=kF(c,e9,e9,function(a){return nB(b,a)},e);return jn(c,g,bA(f),l,a,d)},i=d(0,aM(a,h));if(i){var
 j=d(2,E(a,h));if(j)return f?1:d(1,a);var
 k=j}else
 var
-k=i;return k}return ar(g,a,kx(c,e8,e8,nt,e))}function
-ji(e,c,b,a){var
-f=af(d,b);function
-g(b){return a}return function(a){return jh(e,g,c,f,d,a)}}function
-df(a){if(a){var
-b=a[1],c=b[1],d=c[1],e=b[2],f=c[2];return z(function(a){return aU(f,e,a)},d)}return[0,u]}function
-nv(f,e,k,j,i,a){var
-b=ey(a[1]);if(b){var
+k=i;return k}return ar(g,a,kF(c,e9,e9,nC,e))}function
+jo(e,c,b,a){var
+f=ab(d,b);function
+g(b){return a}return function(a){return jn(e,g,c,f,d,a)}}function
+dg(a){if(a){var
+b=a[1],c=b[1],d=c[1],e=b[2],f=c[2];return y(function(a){return aU(f,e,a)},d)}return[0,u]}function
+nE(f,e,k,j,i,a){var
+b=ez(a[1]);if(b){var
 c=a[2];if(c){var
-d=df(a[3]);if(d){var
-l=d[1],m=af([0,F(ab(t(f,i,c[1])),l),0],e);return a9(f,e,gE(k,j,b[1],m))}var
+d=dg(a[3]);if(d){var
+l=d[1],m=ab([0,F(ac(t(f,i,c[1])),l),0],e);return a_(f,e,gJ(k,j,b[1],m))}var
 g=d}else
 var
 g=c;var
 h=g}else
 var
 h=b;return h}function
-nw(i,d,h,g,c){var
-a=ey(c[1]);if(a){var
-b=df(c[3]);if(b){var
-j=af([0,F(u,b[1]),0],d),k=a[1];return a9(i,d,gE(h,g,e(function(a){return[0,a[1],u]},k),j))}var
+nF(i,d,h,g,c){var
+a=ez(c[1]);if(a){var
+b=dg(c[3]);if(b){var
+j=ab([0,F(u,b[1]),0],d),k=a[1];return a_(i,d,gJ(h,g,e(function(a){return[0,a[1],u]},k),j))}var
 f=b}else
 var
 f=a;return f}function
-nx(a,c,D,i){var
-j=ey(i[1]);if(j){var
+nG(a,c,D,i){var
+j=ez(i[1]);if(j){var
 k=i[2];if(k){var
-l=df(i[3]);if(l){var
+l=dg(i[3]);if(l){var
 G=l[1],e=F(t(a,D,k[1]),G),b=j[1];if(b){var
 m=b[1],n=m[2];if(b[2]){var
-f=gF(a,b,af([0,e,0],c));if(f){var
-p=f[1],q=o(g(p),c);if(q)return ei(a,p);var
+f=gK(a,b,ab([0,e,0],c));if(f){var
+p=f[1],q=o(g(p),c);if(q)return ej(a,p);var
 r=q}else
 var
 r=f;return r}var
 s=I(d,e[1]),u=s?I(d,n[1]):s;if(u){var
 A=C(e[1],n[1]),B=m[1];return I(ao(function(a,b){var
-c=b$(a);return E(C(b$(a),c),b)},d,B),A)}return u}var
-h=gF(a,b,af([0,e,0],c));if(h){var
-v=h[1],w=o(g(v),c);if(w)return ei(a,v);var
+c=ca(a);return E(C(ca(a),c),b)},d,B),A)}return u}var
+h=gK(a,b,ab([0,e,0],c));if(h){var
+v=h[1],w=o(g(v),c);if(w)return ej(a,v);var
 x=w}else
 var
 x=h;return x}var
@@ -4083,158 +4084,158 @@ y=k;var
 z=y}else
 var
 z=j;return z}function
-uc(c){var
+ul(c){var
 a=c[2];if(a){var
-b=df(c[3]);if(b)return D(d,F(a[1],b[1])[1]);var
+b=dg(c[3]);if(b)return D(d,F(a[1],b[1])[1]);var
 e=b}else
 var
 e=a;return e}function
-jj(a){return y(function(a){return f(a[1],[0,a[2],0])},a)}function
-ny(a,c,b){var
-e=r(b,c,m(d)),f=aC(0,a);return l(function(b){return ex(a,b,e)},f)}function
-fz(a){var
+jp(a){return z(function(a){return f(a[1],[0,a[2],0])},a)}function
+nH(a,c,b){var
+e=r(b,c,m(d)),f=aD(0,a);return l(function(b){return ey(a,b,e)},f)}function
+fB(a){var
 c=V(a);return B(m(b),c)}function
-hd(i,g){var
-h=fz(g),j=V(g),e=x(m(b),j),f=s(m(c(2,b)),g),a=m(d);return i?i[1]?[0,[0,e,bn(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,bn(f),a,e]]:[0,[0,h,a,a],[0,a,e,bn(f)],[0,a,f,e]]}function
-fA(b,a){var
+hh(i,g){var
+h=fB(g),j=V(g),e=x(m(b),j),f=s(m(c(2,b)),g),a=m(d);return i?i[1]?[0,[0,e,bo(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,bo(f),a,e]]:[0,[0,h,a,a],[0,a,e,bo(f)],[0,a,f,e]]}function
+fC(b,a){var
 c=Z(b[3],a),d=Z(b[2],a);return[0,Z(b[1],a),d,c]}function
-nz(b,a){function
+nI(b,a){function
 c(b){var
 c=k(b,a[3]),d=k(b,a[2]);return[0,k(b,a[1]),d,c]}function
 d(a){var
 b=Z(a,c(function(a){return a[3]})),d=Z(a,c(function(a){return a[2]}));return[0,Z(a,c(function(a){return a[1]})),d,b]}var
 e=d(b[3]),f=d(b[2]);return[0,d(b[1]),f,e]}function
-nA(v,u){function
-a(a){return[0,[0,L(u,a)]]}switch(v[0]){case
+nJ(v,u){function
+a(a){return[0,[0,M(u,a)]]}switch(v[0]){case
 0:var
-w=fz(a(0));return[0,hd(ud,a(0)),w];case
+w=fB(a(0));return[0,hh(um,a(0)),w];case
 1:var
-y=fz(a(0)),z=s(fz(a(ue)),y),A=s(fz(a(uf)),z),C=hd(0,a(0)),D=nz(hd(uh,a(ug)),C);return[0,nz(hd(uj,a(ui)),D),A];default:var
-E=a(uk),F=a(ul),g=[0,a(0),F,E],G=Z(g,g),H=B(m(b),G),j=Z(g,g),d=g[1],e=g[2],f=g[3],i=function(a){var
+y=fB(a(0)),z=s(fB(a(un)),y),A=s(fB(a(uo)),z),C=hh(0,a(0)),D=nI(hh(uq,a(up)),C);return[0,nI(hh(us,a(ur)),D),A];default:var
+E=a(ut),F=a(uu),g=[0,a(0),F,E],G=Z(g,g),H=B(m(b),G),j=Z(g,g),d=g[1],e=g[2],f=g[3],i=function(a){var
 d=V(a),e=s(m(c(2,b)),d);return B(x(m(b),j),e)},h=function(f,e,d,a){var
 g=ar(f,s(e,d),a);return s(m(c(2,b)),g)},k=i(f),l=h(B,e,f,d),n=[0,h(x,d,f,e),l,k],o=h(x,e,f,d),p=i(e),q=[0,h(B,d,e,f),p,o],r=h(B,d,f,e),t=h(x,d,e,f);return[0,[0,[0,i(d),t,r],q,n],H]}}function
-nB(a){return 1<a[0]?[0,a[1],0]:0}function
-he(a){switch(a[0]){case
+nK(a){return 1<a[0]?[0,a[1],0]:0}function
+hi(a){switch(a[0]){case
 0:return[0,a[1],0];case
 1:return[0,a[1],[0,a[2],[0,a[3],0]]];case
-2:return[0,db(a[1]),0];default:var
-b=[0,db(a[2]),0];return[0,db(a[1]),b]}}function
-eA(a){return[0,[0,a[1]],[0,a[2]]]}function
-nC(a){switch(a[0]){case
-0:return[0,eA(a[1]),0];case
+2:return[0,dc(a[1]),0];default:var
+b=[0,dc(a[2]),0];return[0,dc(a[1]),b]}}function
+eB(a){return[0,[0,a[1]],[0,a[2]]]}function
+nL(a){switch(a[0]){case
+0:return[0,eB(a[1]),0];case
 1:var
-f=[0,eA(a[3]),0],g=[0,eA(a[2]),f];return[0,eA(a[1]),g];case
+f=[0,eB(a[3]),0],g=[0,eB(a[2]),f];return[0,eB(a[1]),g];case
 2:var
-b=eA(db(a[1]));return[0,b,[0,b,[0,b,0]]];default:var
-c=a[2],d=a[1],e=[0,[1,db(d)[1],c],[1,d,c]];return[0,e,[0,e,[0,eA(db(c)),0]]]}}function
-nD(a,c){if(0===c[0]){var
-g=c[1];return k(cH(a),g)}var
-h=c[1],d=k(cH(a),h);if(d){var
-i=c[2],e=k(cH(a),i);if(e){var
-j=U(a,e[1]),l=b_(a,A(O(a,b),j)),m=d[1];return z(function(b){return t(a,m,b)},l)}var
+b=eB(dc(a[1]));return[0,b,[0,b,[0,b,0]]];default:var
+c=a[2],d=a[1],e=[0,[1,dc(d)[1],c],[1,d,c]];return[0,e,[0,e,[0,eB(dc(c)),0]]]}}function
+nM(a,c){if(0===c[0]){var
+g=c[1];return k(cJ(a),g)}var
+h=c[1],d=k(cJ(a),h);if(d){var
+i=c[2],e=k(cJ(a),i);if(e){var
+j=U(a,e[1]),l=b$(a,A(O(a,b),j)),m=d[1];return y(function(b){return t(a,m,b)},l)}var
 f=e}else
 var
 f=d;return f}function
-nE(d,c){var
-a=nD(d,c[1]);if(a)var
-b=nD(d,c[2]),f=b?[0,[0,a[1][1],b[1][2]]]:b,e=f;else
+nN(d,c){var
+a=nM(d,c[1]);if(a)var
+b=nM(d,c[2]),f=b?[0,[0,a[1][1],b[1][2]]]:b,e=f;else
 var
 e=a;return e}function
-nF(a,e,c){var
+nO(a,e,c){var
 b=c[1];if(1===b[0]){var
 f=b[1];if(aK(f,a))return c;var
-g=m(d);return r(dw(f,a),e,g)}return[0,bT(function(b){return nF(a,e,b)},b)]}function
-jk(g,a,n,f,c){var
-h=g?[0,a,[0,[0,a],[0,[0,[0,a]],0]]]:[0,a,[0,[0,a],0]],i=mD(h,c),j=bV(f),b=e(function(b){return nF(a,j,b)},i),k=r(uq,b,m(d)),l=r(ur,b,m(d));return[0,r(0,b,m(d)),l,k]}function
-bG(b,a){var
+g=m(d);return r(dx(f,a),e,g)}return[0,bT(function(b){return nO(a,e,b)},b)]}function
+jq(g,a,n,f,c){var
+h=g?[0,a,[0,[0,a],[0,[0,[0,a]],0]]]:[0,a,[0,[0,a],0]],i=mM(h,c),j=bV(f),b=e(function(b){return nO(a,j,b)},i),k=r(uz,b,m(d)),l=r(uA,b,m(d));return[0,r(0,b,m(d)),l,k]}function
+bH(b,a){var
 c=s(b[2],a[1]),d=x(s(b[1],a[2]),c),e=s(b[1],a[3]),f=x(s(b[3],a[1]),e),g=s(b[3],a[2]);return[0,x(s(b[2],a[3]),g),f,d]}function
-dN(b,a){return b?b[1]?a[3]:a[2]:a[1]}function
-nG(c){function
+dO(b,a){return b?b[1]?a[3]:a[2]:a[1]}function
+nP(c){function
 a(a){var
 e=o(c,a)?b:d;return m(e)}var
-e=a(us),f=a(ut);return[0,a(0),f,e]}function
-nH(b,a){if(a)var
-d=nH(b,a[2]),c=[0,e(k(b,a[1]),a),d];else
+e=a(uB),f=a(uC);return[0,a(0),f,e]}function
+nQ(b,a){if(a)var
+d=nQ(b,a[2]),c=[0,e(k(b,a[1]),a),d];else
 var
 c=a;return c}function
-hf(c,b,a){switch(c){case
+hj(c,b,a){switch(c){case
 0:return[0,b[1],[0,b[2],[0,a[3],0]]];case
 1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}}function
-nI(b,c,a){return c?av(b,a):an(b,a)}function
-nJ(a){if(a){var
-f=a[1],b=f[2],c=hc(f[1]);if(c)if(b)var
-d=nJ(a[2]),g=d?[0,[0,[0,c[1],b[1]],d[1]]]:d,e=g;else
+nR(b,c,a){return c?aw(b,a):an(b,a)}function
+nS(a){if(a){var
+f=a[1],b=f[2],c=hg(f[1]);if(c)if(b)var
+d=nS(a[2]),g=d?[0,[0,[0,c[1],b[1]],d[1]]]:d,e=g;else
 var
 e=b;else
 var
-e=c;return e}return uE}function
-nK(c,b,a){var
+e=c;return e}return uN}function
+nT(c,b,a){var
 d=W(b,a);return ao(function(a,d){var
-b=b$(a[2]);return A(t(c,a[1],[0,b,b]),d)},u,d)}function
-nL(a,h,e,f,d){if(e)if(d)var
-i=d[1],o=nL(a,h,e[2],f,d[2]),p=i[2],q=av(h,i[1]),c=e[1],j=aw(t(a,c[3],f)),k=c[3],l=A(aw(ef(p,O(a,b),k)),j),m=t(a,c[2],l),n=t(a,c[1],f),g=[0,cx(A(A(aw(nK(a,c[4],q)),n),m)),o];else
+b=ca(a[2]);return A(t(c,a[1],[0,b,b]),d)},u,d)}function
+nU(a,h,e,f,d){if(e)if(d)var
+i=d[1],o=nU(a,h,e[2],f,d[2]),p=i[2],q=aw(h,i[1]),c=e[1],j=ax(t(a,c[3],f)),k=c[3],l=A(ax(eg(p,O(a,b),k)),j),m=t(a,c[2],l),n=t(a,c[1],f),g=[0,cz(A(A(ax(nT(a,c[4],q)),n),m)),o];else
 var
 g=d;else
 var
 g=e;return g}function
-uG(a){return[0,a[1][1],a[2][1][2][1],a[1][2],a[2][2]]}function
-nM(b,a){return ac(e(function(a){return r(a,b,0)},a))}function
-cK(a){switch(a){case
-0:return uK;case
-1:return uL;default:return 0}}function
-dO(a){switch(a){case
-0:return[0,uN,uM,m(d)];case
-1:return dF;default:var
+uP(a){return[0,a[1][1],a[2][1][2][1],a[1][2],a[2][2]]}function
+nV(b,a){return ad(e(function(a){return r(a,b,0)},a))}function
+cM(a){switch(a){case
+0:return uT;case
+1:return uU;default:return 0}}function
+dP(a){switch(a){case
+0:return[0,uW,uV,m(d)];case
+1:return dG;default:var
 b=m(d),c=m(d);return[0,m(d),c,b]}}function
-hg(c,b,a){return bo(fA(c,a),b)}function
-nN(a){var
+hk(c,b,a){return bp(fC(c,a),b)}function
+nW(a){var
 d=Z(a,a),e=B(m(b),d);return am(m(c(2,b)),e)}function
-nO(k,j,i,h,g,a){var
-e=hg(j,i,g),c=bG(a,e),f=ag(B,c,bG(a,c)),d=ag(B,e,a3(nN(a),f)),b=ag(x,ag(B,dO(k),d),h);return[0,[0,d,b],aL(Z(b,b))]}function
+nX(k,j,i,h,g,a){var
+e=hk(j,i,g),c=bH(a,e),f=ag(B,c,bH(a,c)),d=ag(B,e,a4(nW(a),f)),b=ag(x,ag(B,dP(k),d),h);return[0,[0,d,b],aL(Z(b,b))]}function
 at(a){return typeof
-a==="number"?a?uO:uP:bF(a[1])}function
-jl(b,a,c){return typeof
-b==="number"?b?[0,a[1],[0,a[2],0]]:[0,a[1],[0,a[2],[0,a[3],0]]]:jd(b[1],a,c)}function
-eB(a){if(0===a[0]){var
+a==="number"?a?uX:uY:bG(a[1])}function
+jr(b,a,c){return typeof
+b==="number"?b?[0,a[1],[0,a[2],0]]:[0,a[1],[0,a[2],[0,a[3],0]]]:jj(b[1],a,c)}function
+eC(a){if(0===a[0]){var
 c=a[1];switch(c[0]){case
 0:return c[3];case
 1:return c[2];default:return[0,[0,d,b],[0,d,b],[0,d,b]]}}return a[1][4]}function
-eC(b,c,a){return b?da(b[1],c,a):a}function
-bs(d,c,b,a){var
-e=eB(a),f=eC(d,c,eB(a)),g=J(function(b,a){return[2,b,a]},b,f);return J(function(b,a){return[3,b,a]},g,e)}function
-eD(d,c,b,a){if(0===a[0]){var
-f=bs(d,c,b,a);return[0,cG(a[1],f)]}var
-e=a[1],g=nj(e,bs(d,c,b,a));return[1,ni(e,bs(d,c,b,a)),g]}function
-nP(b,a){var
+eD(b,c,a){return b?db(b[1],c,a):a}function
+bt(d,c,b,a){var
+e=eC(a),f=eD(d,c,eC(a)),g=K(function(b,a){return[2,b,a]},b,f);return K(function(b,a){return[3,b,a]},g,e)}function
+eE(d,c,b,a){if(0===a[0]){var
+f=bt(d,c,b,a);return[0,cI(a[1],f)]}var
+e=a[1],g=ns(e,bt(d,c,b,a));return[1,nr(e,bt(d,c,b,a)),g]}function
+nY(b,a){var
 c=typeof
 b==="number"?1:0;if(c){if(b)return[0,a[1],[0,a[2],0]];var
 d=[0,a[1],[0,a[2],[0,a[3],0]]]}else
 var
 d=c;return d}function
-jm(e,d,c,a){if(0===a[0]){var
-f=bs(e,d,c,a),b=i5(a[1],f),g=b?[0,b[1],0]:b;return g}var
-h=bs(e,d,c,a);return[0,i$(a[1],h),0]}function
-nQ(b,f,d){if(0===f[0])return 0===d[0]?mU(b,f[1],d[1]):0;if(0===d[0])return 0;var
-a=d[1],c=f[1],g=bp(b,c[1],a[1]),i=g?bp(b,c[2],a[2]):g,j=i?bp(b,c[3],a[3]):i,k=j?bp(b,c[4],a[4]):j,l=k?c9(b,c[5],a[5]):k,m=l?c9(b,c[6],a[6]):l,n=m?h(b,1,a[5]):m,o=n?h(b,1,a[6]):n,p=o?h(b,1,w(a[1],a[1])):o;if(p)var
-q=i_(a),e=h(b,1,w(i_(a),q));else
+js(e,d,c,a){if(0===a[0]){var
+f=bt(e,d,c,a),b=i$(a[1],f),g=b?[0,b[1],0]:b;return g}var
+h=bt(e,d,c,a);return[0,jf(a[1],h),0]}function
+nZ(b,f,d){if(0===f[0])return 0===d[0]?m3(b,f[1],d[1]):0;if(0===d[0])return 0;var
+a=d[1],c=f[1],g=bq(b,c[1],a[1]),i=g?bq(b,c[2],a[2]):g,j=i?bq(b,c[3],a[3]):i,k=j?bq(b,c[4],a[4]):j,l=k?c_(b,c[5],a[5]):k,m=l?c_(b,c[6],a[6]):l,n=m?h(b,1,a[5]):m,o=n?h(b,1,a[6]):n,p=o?h(b,1,w(a[1],a[1])):o;if(p)var
+q=je(a),e=h(b,1,w(je(a),q));else
 var
-e=p;return e?ct(c[7],a[7]):e}function
-fB(g,f,e){var
+e=p;return e?cv(c[7],a[7]):e}function
+fD(g,f,e){var
 b=f,a=e;for(;;){if(b){if(a){var
-c=nQ(g,b[1],a[1]);if(c){var
+c=nZ(g,b[1],a[1]);if(c){var
 b=b[2],a=a[2];continue}var
 d=c}else
 var
 d=a;return d}return a?0:1}}function
-jn(c,b,g,a){var
-d=cE(c,b[4],g);if(d){var
-e=b[5];if(e)return fx(c,e[1],a);if(a)return 0;var
+jt(c,b,g,a){var
+d=cG(c,b[4],g);if(d){var
+e=b[5];if(e)return fz(c,e[1],a);if(a)return 0;var
 f=1}else
 var
 f=d;return f}function
-hh(a){return typeof
-a==="number"?uQ:2<=a[1]?uR:uS}function
-nR(v,m,l){if(l){var
+hl(a){return typeof
+a==="number"?uZ:2<=a[1]?u0:u1}function
+n0(v,m,l){if(l){var
 a=l[1],e=function(c,a){return h(v,1,[3,[0,a,b],c])},g=function(a){return[3,a[2],a[1]]};switch(a[0]){case
 0:var
 n=c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),f=e(g(a[1]),n);break;case
@@ -4258,20 +4259,20 @@ k=o(a[1],e)?b:d;return m(k);case
 l=bY(e,a[2]);return B(bY(e,a[1]),l);case
 4:var
 n=bY(e,a[2]);return x(bY(e,a[1]),n);case
-5:return bn(bY(e,a[1]));case
+5:return bo(bY(e,a[1]));case
 6:var
 g=a[2],h=a[1],p=s(h,bY(e,g));return B(s(g,bY(e,h)),p);case
 7:var
-f=bY(e,a[1]);return a8(d,f)?f:am(f,a[2]);case
+f=bY(e,a[1]);return a9(d,f)?f:am(f,a[2]);case
 8:var
 i=a[1],q=bY(e,i);return s(s(m(c(2,b)),i),q);default:return m(d)}}function
-hi(c,b,k){var
+hm(c,b,k){var
 e=k;for(;;){var
 a=e[1];switch(a[0]){case
 7:var
-g=hi(c,b,a[1]);if(g){var
+g=hm(c,b,a[1]);if(g){var
 h=a[2][1];if(1===h[0]){var
-i=h[1],j=I(d,r(i,c,u)[1]);return j?N(aj(function(a){return o(i,a)},b)):j}return 0}return g;case
+i=h[1],j=I(d,r(i,c,u)[1]);return j?J(aj(function(a){return o(i,a)},b)):j}return 0}return g;case
 5:case
 8:var
 e=a[1];continue;case
@@ -4280,9 +4281,9 @@ e=a[1];continue;case
 0:case
 1:case
 2:return 1;default:var
-f=hi(c,b,a[1]);if(f){var
+f=hm(c,b,a[1]);if(f){var
 e=a[2];continue}return f}}}function
-nS(d){var
+n1(d){var
 b=d;for(;;){var
 a=b[1];switch(a[0]){case
 0:case
@@ -4293,72 +4294,72 @@ a=b[1];switch(a[0]){case
 8:case
 9:var
 b=a[1];continue;default:var
-c=nS(a[1]);if(c){var
+c=n1(a[1]);if(c){var
 b=a[2];continue}return c}}}function
-nT(c,b,a){var
+n2(c,b,a){var
 d=e(b,a[2]);return[0,k(c,a[1]),d]}function
-jo(b,a,c){return e(function(c){var
-d=nT(b,a,c[2]),f=c[1];return[0,e(function(c){return nT(b,a,c)},f),d]},c)}function
-nU(b,a){return z(function(a){var
+ju(b,a,c){return e(function(c){var
+d=n2(b,a,c[2]),f=c[1];return[0,e(function(c){return n2(b,a,c)},f),d]},c)}function
+n3(b,a){return y(function(a){var
 c=a[2],d=a[1][2];return[0,[0,k(b,a[1][1]),d],c]},a)}function
-uT(a,b){var
-c=nU(a,b[3]),d=k(a,b[2]);return[0,jo(a,a,b[1]),d,c]}function
-nV(c){var
+u2(a,b){var
+c=n3(a,b[3]),d=k(a,b[2]);return[0,ju(a,a,b[1]),d,c]}function
+n4(c){var
 a=c[1];if(a){var
-b=hc(c[2]);if(b)var
+b=hg(c[2]);if(b)var
 g=e($,b[1]),d=[0,[0,$(a[1]),g]];else
 var
 d=b;var
 f=d}else
 var
 f=a;return f}function
-uU(c){var
-a=ac(e(nV,c[1]));if(a)var
-b=nV(c[2]),f=b?[0,[0,a[1],b[1]]]:b,d=f;else
+u3(c){var
+a=ad(e(n4,c[1]));if(a)var
+b=n4(c[2]),f=b?[0,[0,a[1],b[1]]]:b,d=f;else
 var
 d=a;return d}function
-uV(a){return N(iL([0,a[2],a[1]]))}function
-jp(a){return[0,a[1],a[2]]}function
-nW(b,c,a){var
-d=e(function(c){return bx(b,bY(c,a))},c);return[0,bx(b,a),d]}function
-jq(b,e,a,d){var
-c=y(function(a){var
-b=jp(a[2]);return f(y(jp,a[1]),b)},d),g=a?[0,bx(b,a[1]),0]:a,h=f(g,c);return[0,bx(b,e),h]}function
-nX(c,f,b,a){var
-d=hi(f,b,a),e=d?ha(c,a):d;return e?l(function(b){return ha(c,bY(b,a))},b):e}function
-nY(a){switch(a[0]){case
+u4(a){return J(iR([0,a[2],a[1]]))}function
+jv(a){return[0,a[1],a[2]]}function
+n5(b,c,a){var
+d=e(function(c){return by(b,bY(c,a))},c);return[0,by(b,a),d]}function
+jw(b,e,a,d){var
+c=z(function(a){var
+b=jv(a[2]);return f(z(jv,a[1]),b)},d),g=a?[0,by(b,a[1]),0]:a,h=f(g,c);return[0,by(b,e),h]}function
+n6(c,f,b,a){var
+d=hm(f,b,a),e=d?he(c,a):d;return e?l(function(b){return he(c,bY(b,a))},b):e}function
+n7(a){switch(a[0]){case
 3:var
-d=jj(a[2]);return[0,a[3],d];case
+d=jp(a[2]);return[0,a[3],d];case
 4:return[0,a[1],0];case
 8:var
-b=a[1],e=jj(b[1]);return[0,b[2],e];case
+b=a[1],e=jp(b[1]);return[0,b[2],e];case
 9:return 0;default:var
-c=jj(a[1]);return[0,a[2],c]}}function
-nZ(a,ay,br,j,n,R,ax,x,Q,i,h){switch(i[0]){case
+c=jp(a[1]);return[0,a[2],c]}}function
+n8(a,ay,br,j,n,R,av,x,Q,i,h){switch(i[0]){case
 0:var
-az=i[4],S=i[3],aB=i[2],aD=i[1],V=0;if(typeof
+az=i[4],S=i[3],aA=i[2],aC=i[1],V=0;if(typeof
 h==="number")V=1;else
 switch(h[0]){case
 0:var
-bs=h[2],bt=h[1],v=aB,s=aD,q=function(b){return nv(a,n,bt,bs,S,b)},p=az;break;case
+bs=h[2],bt=h[1],v=aA,s=aC,q=function(b){return nE(a,n,bt,bs,S,b)},p=az;break;case
 2:var
-aE=K(S[1],d),aF=aE?K(S[2],d):aE;if(!aF)return aF;var
-bw=h[2],bx=h[1],v=aB,s=aD,q=function(b){return nw(a,n,bx,bw,b)},p=az;break;default:V=1}if(V)return 0;break;case
+aE=L(S[1],d),aF=aE?L(S[2],d):aE;if(!aF)return aF;var
+bw=h[2],bx=h[1],v=aA,s=aC,q=function(b){return nF(a,n,bx,bw,b)},p=az;break;default:V=1}if(V)return 0;break;case
 1:var
 aQ=0;if(typeof
 h==="number"&&!h)var
-by=i[2],bA=i[1],bC=i[3],v=by,s=bA,bD=0,q=function(b){return nx(a,n,bC,b)},p=bD;else
+by=i[2],bz=i[1],bB=i[3],v=by,s=bz,bD=0,q=function(b){return nG(a,n,bB,b)},p=bD;else
 aQ=1;if(aQ)return 0;break;case
 2:if(typeof
 h!=="number"&&3===h[0]){var
 B=h[3];if(B){var
 aG=B[2],aH=o(g(aG),j);if(aH){var
-bE=[0,i[1],i[2],Q],bF=ez(function(a){return r(a,x,uY)},bE),aI=h[1],bG=0,bH=B[1],bI=h[2],bJ=i[3],bK=function(w,i){var
-c=ey(i[1]);if(c){var
+bE=[0,i[1],i[2],Q],bF=eA(function(a){return r(a,x,u7)},bE),aI=h[1],bG=0,bH=B[1],bI=h[2],bJ=i[3],bK=function(w,i){var
+c=ez(i[1]);if(c){var
 j=c[1],e=i[2];if(e){var
-f=df(i[3]);if(f){var
-k=f[1],l=function(c){return aU(c,aI,O(a,b))},u=l(w),v=e[1],g=A(t(a,l(bH),v),u),m=I(d,g[1]),o=m?a9(a,n,gE(aI,bI,j,af([0,F(ab(g),k),0],n))):m;if(o){var
-h=gF(a,j,af([0,F(t(a,bJ,g),k),0],n));if(h)return a9(a,n,h[1]);var
+f=dg(i[3]);if(f){var
+k=f[1],l=function(c){return aU(c,aI,O(a,b))},u=l(w),v=e[1],g=A(t(a,l(bH),v),u),m=I(d,g[1]),o=m?a_(a,n,gJ(aI,bI,j,ab([0,F(ac(g),k),0],n))):m;if(o){var
+h=gK(a,j,ab([0,F(t(a,bJ,g),k),0],n));if(h)return a_(a,n,h[1]);var
 p=h}else
 var
 p=o;var
@@ -4370,7 +4371,7 @@ var
 r=e;var
 s=r}else
 var
-s=c;return s};return jh(function(b,a){return ez},bK,bG,aG,d,bF)}var
+s=c;return s};return jn(function(b,a){return eA},bK,bG,aG,d,bF)}var
 aJ=aH}else
 var
 aJ=B;return aJ}return 0;case
@@ -4379,11 +4380,11 @@ aR=0;if(typeof
 h==="number"||!(0===h[0]))aR=1;else
 var
 aL=h[2],aM=h[1],bL=i[3],bM=i[2],bN=i[4],bO=i[1],bP=function(f){var
-b=ey(f[1]);if(b){var
+b=ez(f[1]);if(b){var
 c=b[1],d=f[2];if(d){var
-e=df(f[3]);if(e){var
+e=dg(f[3]);if(e){var
 h=o(g(c),n),i=h?o(g(aL),n):h;if(i){var
-m=em(aM,en(aM,aL,d[1],c));return a9(a,n,bh(gJ(a,bO,bN,e[1],c),m))}var
+m=en(aM,eo(aM,aL,d[1],c));return a_(a,n,bi(gO(a,bO,bN,e[1],c),m))}var
 j=i}else
 var
 j=e;var
@@ -4396,14 +4397,14 @@ l=b;return l},v=bL,s=bM,q=bP,p=i[5];if(aR)return 0;break;case
 4:var
 aT=0;if(typeof
 h==="number"&&!h)var
-v=i[1],s=0,q=uc,p=0;else
+v=i[1],s=0,q=ul,p=0;else
 aT=1;if(aT)return 0;break;case
 5:var
 aV=0;if(typeof
 h==="number"||!(0===h[0]))aV=1;else{var
 C=h[2],aW=0;if(C){var
 D=C[1];if(D){if(D[2])return 0;if(C[2])return 0;var
-bQ=i[2],bR=i[1],bS=O(a,b),bT=[0,[0,D[1],0],0],bU=h[1],v=bQ,s=bR,bV=0,q=function(b){return nv(a,uZ,bU,bT,bS,b)},p=bV;aW=1}else
+bQ=i[2],bR=i[1],bS=O(a,b),bT=[0,[0,D[1],0],0],bU=h[1],v=bQ,s=bR,bV=0,q=function(b){return nE(a,u8,bU,bT,bS,b)},p=bV;aW=1}else
 var
 aN=D}else
 var
@@ -4411,70 +4412,70 @@ aN=C;if(!aW)return aN}if(aV)return 0;break;case
 6:var
 aX=0;if(typeof
 h==="number"&&!h)var
-bW=i[2],bX=i[1],bY=O(a,b),v=bW,s=bX,bZ=0,q=function(b){return nx(a,u0,bY,b)},p=bZ;else
+bW=i[2],bX=i[1],bY=O(a,b),v=bW,s=bX,bZ=0,q=function(b){return nG(a,u9,bY,b)},p=bZ;else
 aX=1;if(aX)return 0;break;case
 7:var
 aY=0;if(typeof
 h==="number"&&5<=h)var
-b0=i[2],b1=i[1],b2=i[4],b3=i[3],v=b0,s=b1,b4=0,q=function(b){return nw(a,n,b3,b2,b)},p=b4;else
+b0=i[2],b1=i[1],b2=i[4],b3=i[3],v=b0,s=b1,b4=0,q=function(b){return nF(a,n,b3,b2,b)},p=b4;else
 aY=1;if(aY)return 0;break;case
 8:if(typeof
 h!=="number"&&9===h[0]){var
-E=h[4],aO=h[2],T=h[1],m=i[1],w=m[9],b5=h[3],a3=m[5],a4=gz(f(ec(m[4]),a3),ay),a5=e($,br),y=m[9],a6=m[8],a7=m[7],a1=gK(y,af(u,dw(j,y)),a6),a2=f(e($,av(y,R)),a1),Y=lG(0,bB(a,f(gK(0,an(y,R),a7),a2),a5),a4,ay,0),Z=0<aS(E)?0<aS(d)?gp(E,d):0:0<aS(d)?0:1;if(Z)var
+E=h[4],aO=h[2],T=h[1],m=i[1],w=m[9],b5=h[3],a3=m[5],a4=gE(f(ed(m[4]),a3),ay),a5=e($,br),z=m[9],a6=m[8],a7=m[7],a1=gP(z,ab(u,dx(j,z)),a6),a2=f(e($,aw(z,R)),a1),Y=lP(0,bC(a,f(gP(0,an(z,R),a7),a2),a5),a4,ay,0),Z=0<aS(E)?0<aS(d)?gu(E,d):0:0<aS(d)?0:1;if(Z)var
 G=Z;else
 var
-at=2<=lt(E,c(2,c(2,c(2,c(2,b)))))?0:1,au=at?aK(0,w):at,G=au?aK(w,j):au;var
-_=G?aa(w,j):G,ad=_?o(g(R),j):_,ae=ad?o(g(aO),j):ad,ag=ae?o(g(m[1]),j):ae,ah=ag?o(g(m[6]),j):ag,ai=ah?o(g(m[4]),j):ah;if(ai)var
+at=2<=lB(E,c(2,c(2,c(2,c(2,b)))))?0:1,au=at?aK(0,w):at,G=au?aK(w,j):au;var
+_=G?aa(w,j):G,ae=_?o(g(R),j):_,af=ae?o(g(aO),j):ae,ag=af?o(g(m[1]),j):af,ah=ag?o(g(m[6]),j):ag,ai=ah?o(g(m[4]),j):ah;if(ai)var
 a8=m[4],H=l(function(a){return o(g(a),j)},a8);else
 var
 H=ai;if(H){var
-a_=m[4],J=ac(e(function(a){return nM(Y,a)},a_));if(J){var
-aj=nM(Y,m[5]);if(aj){var
-a$=m[6],L=ac(e(function(j){var
-c=j[1],k=m[7],d=r(c[1],ax,0);if(d){var
-h=c[2][2],b=ac(e(function(a){var
-b=r(a[2],ax,0);return z(function(a){return a[2]},b)},h));if(b)var
-i=b[1],f=[0,cx(aw(t(a,k,U(a,nK(a,e(aA,c[2][2]),i)))))];else
+a9=m[4],J=ad(e(function(a){return nV(Y,a)},a9));if(J){var
+aj=nV(Y,m[5]);if(aj){var
+a$=m[6],K=ad(e(function(j){var
+c=j[1],k=m[7],d=r(c[1],av,0);if(d){var
+h=c[2][2],b=ad(e(function(a){var
+b=r(a[2],av,0);return y(function(a){return a[2]},b)},h));if(b)var
+i=b[1],f=[0,cz(ax(t(a,k,U(a,nT(a,e(aB,c[2][2]),i)))))];else
 var
 f=b;var
 g=f}else
 var
-g=d;return g},a$));if(L){var
-ba=m[1],bb=m[2],M=ac(e(function(m){function
+g=d;return g},a$));if(K){var
+ba=m[1],bb=m[2],M=ad(e(function(m){function
 f(e){var
-g=af(e,j),c=nu(r(m[2],x,uH),g);if(c){var
-h=af(e,j),d=nu(r(bb,x,uI),h);if(d){var
-i=d[1],k=O(a,b);return b_(a,ca(ef(c[1],k,i)))}var
+g=ab(e,j),c=nD(r(m[2],x,uQ),g);if(c){var
+h=ab(e,j),d=nD(r(bb,x,uR),h);if(d){var
+i=d[1],k=O(a,b);return b$(a,cb(eg(c[1],k,i)))}var
 f=d}else
 var
 f=c;return f}var
 c=f(0);if(c){var
 e=f(2);if(e)var
-g=ca(aw(A(c[1],e[1]))),h=I(d,g[1]),l=h?[0,g]:h,i=l;else
+g=cb(ax(A(c[1],e[1]))),h=I(d,g[1]),l=h?[0,g]:h,i=l;else
 var
 i=e;var
 k=i}else
 var
 k=c;return k},ba));if(M){var
-bc=J[1],X=ek(a,ao(function(i,h){var
+bc=J[1],X=el(a,ao(function(i,h){var
 o=e(function(b){var
-a=aC(0,j);return e(function(a){return b$(r(a,b[3],u))},a)},i);function
+a=aD(0,j);return e(function(a){return ca(r(a,b[3],u))},a)},i);function
 b(m,l){var
-n=nI(w,m,o),g=e(function(a){return nI(w,l,a)},n);function
-b(a){return ao(bl,d,a)}var
+n=nR(w,m,o),g=e(function(a){return nR(w,l,a)},n);function
+b(a){return ao(bm,d,a)}var
 h=0;function
 i(a){return a}function
 j(a){return a}var
-c=b(ao(function(a,b){return aP(j,i,lu,a,b)},h,g)),k=[0,c,c],f=b(e(function(a){return ao(lu,d,a)},g));return ek(a,t(a,[0,f,f],k))}var
+c=b(ao(function(a,b){return aP(j,i,lC,a,b)},h,g)),k=[0,c,c],f=b(e(function(a){return ao(lC,d,a)},g));return el(a,t(a,[0,f,f],k))}var
 c=b(1,1),f=b(1,0),g=b(0,1);return A(h,U(a,A(A(A(b(0,0),g),f),c)))},u,bc)),N=aU(b5,T,O(a,b)),ak=I(d,F(N,X)[1]);if(ak){var
-P=b9(a,N);if(P){var
-bd=aw(t(a,X,P[1])),be=F(O(a,b),bd),bf=[0,m[1],m[2],Q],bg=ez(function(a){return r(a,x,uJ)},bf),bj=m[6],bk=e(uG,W(W(L[1],M[1]),bj)),bm=U(a,be),bn=U(a,N),bo=m[10],aZ=aC(0,j),a0=e(function(a){var
-d=bo?aa(w,a):aK(a,w);return d?b:b8(c(2,b),E)},aZ),bp=function(r){var
-h=nJ(r[1]);if(h){var
+P=b_(a,N);if(P){var
+bd=ax(t(a,X,P[1])),be=F(O(a,b),bd),bf=[0,m[1],m[2],Q],bg=eA(function(a){return r(a,x,uS)},bf),bh=m[6],bk=e(uP,W(W(K[1],M[1]),bh)),bl=U(a,be),bn=U(a,N),bo=m[10],aZ=aD(0,j),a0=e(function(a){var
+d=bo?aa(w,a):aK(a,w);return d?b:b9(c(2,b),E)},aZ),bp=function(r){var
+h=nS(r[1]);if(h){var
 v=h[1],i=r[2];if(i){var
-k=i[1],m=df(r[3]);if(m){var
-w=m[1],x=nL(a,j,bk,k,v),n=e(function(a){var
-c=a[2],b=W(a0,a[1]);return[0,e(function(a){return aU(a[1],d,a[2])},b),c]},v),G=em(T,en(T,aO,k,n)),p=bh(af([0,ab(w),0],j),G),H=F(t(a,k,bm),w),y=o(g(n),j),z=y?o(g(x),j):y;if(z){var
+k=i[1],m=dg(r[3]);if(m){var
+w=m[1],x=nU(a,j,bk,k,v),n=e(function(a){var
+c=a[2],b=W(a0,a[1]);return[0,e(function(a){return aU(a[1],d,a[2])},b),c]},v),G=en(T,eo(T,aO,k,n)),p=bi(ab([0,ac(w),0],j),G),H=F(t(a,k,bl),w),y=o(g(n),j),z=y?o(g(x),j):y;if(z){var
 b=j,c=p;for(;;){if(c){if(b){var
 s=o(g(c[1]),b);if(s){var
 b=b[1],c=c[2];continue}var
@@ -4487,9 +4488,9 @@ A=b?0:1;var
 q=A;break}}else
 var
 q=z;var
-B=q?a9(a,j,bh(e(function(b){return[0,ab(t(a,bn,b[2])),0]},n),p)):q;if(B){var
-I=bi(bz(j));return l(function(g){var
-d=W(f(g,uF),x),b=[0,[0,H,0],0],c=W(p,e(function(a){return a[1]?ab(a[2]):a[2]},d));return a9(a,[0,j],f(e(function(a){return f(a[1],[0,a[2],0])},c),b))},I)}var
+B=q?a_(a,j,bi(e(function(b){return[0,ac(t(a,bn,b[2])),0]},n),p)):q;if(B){var
+I=bj(bA(j));return l(function(g){var
+d=W(f(g,uO),x),b=[0,[0,H,0],0],c=W(p,e(function(a){return a[1]?ac(a[2]):a[2]},d));return a_(a,[0,j],f(e(function(a){return f(a[1],[0,a[2],0])},c),b))},I)}var
 C=B}else
 var
 C=m;var
@@ -4498,7 +4499,7 @@ var
 D=i;var
 E=D}else
 var
-E=h;return E},bq=m[3];return k(ji(function(b,a){return ez},bq,j,bp),bg)}var
+E=h;return E},bq=m[3];return k(jo(function(b,a){return eA},bq,j,bp),bg)}var
 al=P}else
 var
 al=ak;var
@@ -4507,7 +4508,7 @@ var
 am=M;var
 ap=am}else
 var
-ap=L;var
+ap=K;var
 aq=ap}else
 var
 aq=aj;var
@@ -4517,70 +4518,70 @@ ar=J;var
 as=ar}else
 var
 as=H;return as}return 0;default:return 0}var
-bu=[0,s,v,Q],bv=ez(function(a){return r(a,x,uX)},bu);return k(ji(function(b,a){return ez},p,j,q),bv)}function
-u1(b,a){var
-c=iw(ir,b[1],a[1]);return c?ir(b[2],a[2]):c}function
-n0(i,r,q,h,p,k,A,z,y,j,n,g,a,e){if(typeof
-e==="number"){if(0===e)return 9===a[0]?fm(i,0,0,0,g,h,0,a[1],e):0}else
+bu=[0,s,v,Q],bv=eA(function(a){return r(a,x,u6)},bu);return k(jo(function(b,a){return eA},p,j,q),bv)}function
+u_(b,a){var
+c=iC(ix,b[1],a[1]);return c?ix(b[2],a[2]):c}function
+n9(i,r,q,h,p,k,A,z,y,j,n,g,a,e){if(typeof
+e==="number"){if(0===e)return 9===a[0]?fn(i,0,0,0,g,h,0,a[1],e):0}else
 switch(e[0]){case
 6:var
 f=e[1];if(typeof
 f!=="number"&&7===f[0]){if(k){var
-s=f[3],t=f[2],u=D(d,t),v=u?it(s,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):u;if(v)return nZ(i,r,q,h,p,j,g,n,[0,[0,[0,k[1],t],s]],a,f[1]);var
+s=f[3],t=f[2],u=D(d,t),v=u?iz(s,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):u;if(v)return n8(i,r,q,h,p,j,g,n,[0,[0,[0,k[1],t],s]],a,f[1]);var
 w=v}else
 var
-w=k;return w}return nZ(i,r,q,h,p,j,g,n,0,a,f);case
-8:return 9===a[0]?fm(i,0,0,0,g,h,0,a[1],e):0;case
+w=k;return w}return n8(i,r,q,h,p,j,g,n,0,a,f);case
+8:return 9===a[0]?fn(i,0,0,0,g,h,0,a[1],e):0;case
 10:if(0===a[0]){var
-l=iw(u1,a[1],A),m=l?1:l,x=m?o(a[2],z):m;return x?kx(y,j,a[3],a[4],e):x}return 0}return 0}function
-n1(b){var
+l=iC(u_,a[1],A),m=l?1:l,x=m?o(a[2],z):m;return x?kF(y,j,a[3],a[4],e):x}return 0}return 0}function
+n_(b){var
 a=b[2];if(typeof
 a!=="number"&&6===a[0])return 1;return 0}function
-u2(c){var
+u$(c){var
 b=0,a=c[2];if(typeof
 a==="number"){if(0!==a)b=1}else
 switch(a[0]){case
 6:case
 8:break;default:b=1}return b?0:1}function
-u3(a){switch(a[0]){case
+va(a){switch(a[0]){case
 8:return 0;case
-9:return iV(a[1]);default:return 1}}function
-fC(a,o,m,i,x,w,b,v,s,C,h,j,at,c){switch(c[0]){case
+9:return i1(a[1]);default:return 1}}function
+fE(a,o,m,i,x,w,b,v,s,C,h,j,at,c){switch(c[0]){case
 0:var
-au=function(a){return l(N,a)},P=au,p=c[1];break;case
+au=function(a){return l(J,a)},P=au,p=c[1];break;case
 1:var
 av=c[4],aw=c[3],ax=c[2],ay=function(c){var
-d=c3(ax,j),e=fC(a,o,m,i,x,w,b,v,s,C,h,d[1],c,aw);return e?fC(a,o,m,i,x,w,b,v,s,C,h,d[2],c,av):e},P=ay,p=c[1];break;default:var
-az=c[4],aB=c[3],aC=c[2],aD=function(c){var
-d=mB(u3,i,c);if(d){var
-e=c3(aC,h),f=fC(a,o,m,i,x,w,b,v,s,C,e[1],j,c,aB);if(f)return fC(a,o,m,i,x,w,b,v,s,C,e[2],j,c,az);var
+d=c4(ax,j),e=fE(a,o,m,i,x,w,b,v,s,C,h,d[1],c,aw);return e?fE(a,o,m,i,x,w,b,v,s,C,h,d[2],c,av):e},P=ay,p=c[1];break;default:var
+az=c[4],aA=c[3],aC=c[2],aD=function(c){var
+d=mK(va,i,c);if(d){var
+e=c4(aC,h),f=fE(a,o,m,i,x,w,b,v,s,C,e[1],j,c,aA);if(f)return fE(a,o,m,i,x,w,b,v,s,C,e[2],j,c,az);var
 g=f}else
 var
 g=d;return g},P=aD,p=c[1]}var
-ae=k(C,h),aa=aj(u2,p),ac=aa?iP(a,m,h,gz(y(function(c){var
+ae=k(C,h),aa=aj(u$,p),ab=aa?iV(a,m,h,gE(z(function(c){var
 a=H(i,c[1]);if(a){var
 b=a[1];switch(b[0]){case
 8:var
-d=b[1][6];return y(function(a){var
+d=b[1][6];return z(function(a){var
 b=e(aO,a[1][2][2]);return[0,a[1][1],b]},d);case
-9:return iW(0,0,0,b[1],c[2]);default:return 0}}return a},p),m),j):aa,ad=aj(n1,p);if(ad)var
-aq=y(function(b){var
-c=n1(b);if(c){var
-a=H(i,b[1]);if(a)return nY(a[1]);var
+9:return i2(0,0,0,b[1],c[2]);default:return 0}}return a},p),m),j):aa,ad=aj(n_,p);if(ad)var
+aq=z(function(b){var
+c=n_(b);if(c){var
+a=H(i,b[1]);if(a)return n7(a[1]);var
 d=a}else
 var
-d=c;return d},p),ar=b?[0,b[1],0]:b,as=f(ar,aq),ah=0,ai=ao(fc,e(function(a){return 0},o),as),M=jg(a,h,e$(hb(e$(o,0),ai),ah),j);else
+d=c;return d},p),ar=b?[0,b[1],0]:b,as=f(ar,aq),ah=0,ai=ao(fd,e(function(a){return 0},o),as),N=jm(a,h,fa(hf(fa(o,0),ai),ah),j);else
 var
-M=ad;var
+N=ad;var
 q=p,g=at;for(;;){if(q){var
 S=q[1],D=S[2],n=S[1],G=q[2];if(n){var
 T=r(n,g,0);if(T){var
-J=H(i,n);if(J){var
-V=n0(a,m,h,x,w,b,v,s,ae,j,M,ac,J[1],D);if(V){var
-q=G,g=gV(n,g);continue}var
+K=H(i,n);if(K){var
+V=n9(a,m,h,x,w,b,v,s,ae,j,N,ab,K[1],D);if(V){var
+q=G,g=g0(n,g);continue}var
 W=V}else
 var
-W=J;var
+W=K;var
 X=W}else
 var
 X=T;var
@@ -4588,67 +4589,67 @@ B=X}else{var
 af=0;if(typeof
 D==="number"&&4===D){var
 ag=0;if(b){var
-ap=0,Q=e(function(b){return[0,b,U(a,b)]},j),al=e(aO,Q),ak=0,am=f(e(aA,Q),al),an=bf(0,function(o){return function(b){switch(b[0]){case
+ap=0,Q=e(function(b){return[0,b,U(a,b)]},j),al=e(aO,Q),ak=0,am=f(e(aB,Q),al),an=bg(0,function(o){return function(b){switch(b[0]){case
 0:return[0,r(b[1],o,u)];case
 1:return[0,r(b[1],h,u)];case
 2:return[0,O(a,b[1])];case
 3:var
-c=b[2],d=b[1];return de(function(b,a){return[0,A(b,a)]},d,c);case
+c=b[2],d=b[1];return df(function(b,a){return[0,A(b,a)]},d,c);case
 4:var
-e=b[2],f=b[1];return de(function(b,a){return[0,F(b,a)]},f,e);case
+e=b[2],f=b[1];return df(function(b,a){return[0,F(b,a)]},f,e);case
 5:var
-g=b[1];return dd(function(a){return[0,ab(a)]},g);case
+g=b[1];return de(function(a){return[0,ac(a)]},g);case
 6:var
-i=b[2],j=b[1];return de(function(c,b){return[0,t(a,c,b)]},j,i);case
+i=b[2],j=b[1];return df(function(c,b){return[0,t(a,c,b)]},j,i);case
 7:var
-k=b[2],l=b[1];return de(function(c,b){var
-d=b9(a,b);return z(function(b){return t(a,c,b)},d)},l,k);case
+k=b[2],l=b[1];return df(function(c,b){var
+d=b_(a,b);return y(function(b){return t(a,c,b)},d)},l,k);case
 8:var
-m=b[1];return dd(function(b){return[0,U(a,b)]},m);case
+m=b[1];return de(function(b){return[0,U(a,b)]},m);case
 9:var
-n=b[1];return dd(function(b){return b_(a,b)},n);default:return 0}}}(am),o,ak),E=r(b[1],an,ap);if(E){var
-K=I(E[1][2],d);ag=1}else
+n=b[1];return de(function(b){return b$(a,b)},n);default:return 0}}}(am),o,ak),E=r(b[1],an,ap);if(E){var
+L=I(E[1][2],d);ag=1}else
 var
 R=E}else
 var
 R=b;if(!ag)var
-K=R;if(K){var
+L=R;if(L){var
 q=G,g=e(function(a){return 0},g);continue}var
-B=K}else
+B=L}else
 af=1;if(af){var
 Y=r(n,g,0);if(Y){var
-L=H(i,n);if(L){var
-Z=n0(a,m,h,x,w,b,v,s,ae,j,M,ac,L[1],D);if(Z){var
-q=G,g=gV(n,g);continue}var
+M=H(i,n);if(M){var
+Z=n9(a,m,h,x,w,b,v,s,ae,j,N,ab,M[1],D);if(Z){var
+q=G,g=g0(n,g);continue}var
 _=Z}else
 var
-_=L;var
+_=M;var
 $=_}else
 var
 $=Y;var
 B=$}}}else
 var
 B=[0,g];return B?P(B[1]):B}}function
-jr(d,a){var
+jx(d,a){var
 e=V(a),f=s(s(m(c(2,b)),a),d);return B(x(V(d),f),e)}function
-js(j,a,d,i,c,h){var
-e=ag(x,dO(j),i);if(h){var
+jy(j,a,d,i,c,h){var
+e=ag(x,dP(j),i);if(h){var
 b=function(b){var
-c=k(b,a[3]),d=k(b,a[2]);return[0,k(b,a[1]),d,c]},f=b(function(a){return a[3]}),g=b(function(a){return a[2]}),l=fA([0,b(function(a){return a[1]}),g,f],e);return ag(B,a3(d,c),l)}var
-m=fA(a,c);return ag(B,a3(d,e),m)}function
-n2(f,h,g,k,a,d){var
-e=dO(f),i=ag(x,e,a),j=fA(h,d),l=jr(e[3],a[3]),n=jr(e[2],a[2]),o=jr(e[1],a[1]),p=B(B(B(Z(d,d),o),n),l),q=Z(j,i),r=s(m(c(2,b)),q),t=B(s(g,p),r),u=bo(bG(j,i),k);return[0,hf(f,js(f,h,g,a,d,0),u),t]}function
-n3(d,c,b,a){var
-e=hg(c,b,a);return ag(B,dO(d),e)}function
-n4(g,f,e,d,c){var
-b=n3(g,f,e,c),a=ag(x,b,d);return[0,[0,b,a],aL(Z(a,a))]}function
-hj(b,a){var
-c=a$(a[2],b);return f(a$(a[1],b),c)}function
-jt(d,b,a,c){if(a)var
-e=a[1],f=cD(c,hj(b,e)),i=L(c,g(hj(b,e))),j=jt(d,b,a[2],i),k=ak(f,u4),h=[0,ar(d,ak(f,0),k),j];else
+c=k(b,a[3]),d=k(b,a[2]);return[0,k(b,a[1]),d,c]},f=b(function(a){return a[3]}),g=b(function(a){return a[2]}),l=fC([0,b(function(a){return a[1]}),g,f],e);return ag(B,a4(d,c),l)}var
+m=fC(a,c);return ag(B,a4(d,e),m)}function
+n$(f,h,g,k,a,d){var
+e=dP(f),i=ag(x,e,a),j=fC(h,d),l=jx(e[3],a[3]),n=jx(e[2],a[2]),o=jx(e[1],a[1]),p=B(B(B(Z(d,d),o),n),l),q=Z(j,i),r=s(m(c(2,b)),q),t=B(s(g,p),r),u=bp(bH(j,i),k);return[0,hj(f,jy(f,h,g,a,d,0),u),t]}function
+oa(d,c,b,a){var
+e=hk(c,b,a);return ag(B,dP(d),e)}function
+ob(g,f,e,d,c){var
+b=oa(g,f,e,c),a=ag(x,b,d);return[0,[0,b,a],aL(Z(a,a))]}function
+hn(b,a){var
+c=ba(a[2],b);return f(ba(a[1],b),c)}function
+jz(d,b,a,c){if(a)var
+e=a[1],f=cF(c,hn(b,e)),i=M(c,g(hn(b,e))),j=jz(d,b,a[2],i),k=ak(f,vb),h=[0,ar(d,ak(f,0),k),j];else
 var
 h=a;return h}function
-ju(f,o,e,n,a){var
+jA(f,o,e,n,a){var
 g=s(V(r(0,n,m(d))),o);if(typeof
 a!=="number")switch(a[0]){case
 2:var
@@ -4661,190 +4662,190 @@ c=H(e,a[1]);if(c)var
 k=h(f,0,a[2]),l=k?[0,x(g,c[1][1][2])]:k;else
 var
 l=c;return l}return 0}function
-n5(c,b,a){if(typeof
+oc(c,b,a){if(typeof
 a!=="number"&&6===a[0]){var
-e=H(c,a[1]);return z(function(a){var
+e=H(c,a[1]);return y(function(a){var
 c=r(0,b,m(d)),e=k(a[2][2],c);return[0,a[2][1],e]},e)}return 0}function
-hk(a){return h(i,0,[3,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b],a])}function
-n6(a){var
-b=ak(a,u5),c=aL(Z(ak(a,u6),b));return s(r(0,a,m(d)),c)}function
-n7(b,a){var
-c=Z(a,ak(b,u7));return[0,bV(a3(n6(b),a)),c]}function
-n8(e,d,a,c,b){var
-f=b[2],g=s(n6(a),f),h=c?hg(e,d,ak(a,u8)):ak(a,u9);return x(Z(b[1][2],h),g)}function
-n9(h,g,f,d,c,b,a){var
-i=bA(c);function
-j(a){return n3(h,g,f,a)}return mI(e(function(a){return[0,a[4]]},d),j,i,b,a)}function
-fD(a){var
-b=r(u_,a,m(d));return am(r(0,a,m(d)),b)}function
-jv(a){return a[4][2]}function
-n_(g,o,n,l,a){var
-p=a[1][2],q=e(aO,gZ(n,a[1][2])),h=fD(l),i=s(s(m(c(2,b)),o),h),d=a[1][1],j=av(cK(g),d),k=e(function(a){return s(a,i)},j);return[0,f(f(an(cK(g),d),k),q),p]}function
-n$(a){var
-b=a[3],c=a[2],d=a[1];return g8([0,[0,d,d],[0,c,c],[0,b,b]])}function
-vh(a){if(typeof
+ho(a){return h(i,0,[3,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b],a])}function
+od(a){var
+b=ak(a,vc),c=aL(Z(ak(a,vd),b));return s(r(0,a,m(d)),c)}function
+oe(b,a){var
+c=Z(a,ak(b,ve));return[0,bV(a4(od(b),a)),c]}function
+of(e,d,a,c,b){var
+f=b[2],g=s(od(a),f),h=c?hk(e,d,ak(a,vf)):ak(a,vg);return x(Z(b[1][2],h),g)}function
+og(h,g,f,d,c,b,a){var
+i=bB(c);function
+j(a){return oa(h,g,f,a)}return mR(e(function(a){return[0,a[4]]},d),j,i,b,a)}function
+fF(a){var
+b=r(vh,a,m(d));return am(r(0,a,m(d)),b)}function
+jB(a){return a[4][2]}function
+oh(g,o,n,l,a){var
+p=a[1][2],q=e(aO,g4(n,a[1][2])),h=fF(l),i=s(s(m(c(2,b)),o),h),d=a[1][1],j=aw(cM(g),d),k=e(function(a){return s(a,i)},j);return[0,f(f(an(cM(g),d),k),q),p]}function
+oi(a){var
+b=a[3],c=a[2],d=a[1];return ha([0,[0,d,d],[0,c,c],[0,b,b]])}function
+vq(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-oa(b,a){switch(b){case
+oj(b,a){switch(b){case
 0:return[0,a[1],[0,a[2],0]];case
 1:return[0,a[1],[0,a[2],[0,a[3],0]]];default:return 0}}function
-hl(a){var
-c=cc(a[1],[0,d,b]);return c?cc(a[2],[0,d,b]):c}function
-jw(d,a){switch(d){case
-0:return hl(a[3]);case
+hp(a){var
+c=cd(a[1],[0,d,b]);return c?cd(a[2],[0,d,b]):c}function
+jC(d,a){switch(d){case
+0:return hp(a[3]);case
 1:return 1;default:var
-b=hl(a[1]),c=b?hl(a[2]):b;return c?hl(a[3]):c}}function
-jx(c,b){var
-a=y(function(a){return hj(c,a)},b),d=W(aC(0,g(a)),a);return e(aA,bu(function(a){return i4(a[2])},d))}function
-ob(b){var
+b=hp(a[1]),c=b?hp(a[2]):b;return c?hp(a[3]):c}}function
+jD(c,b){var
+a=z(function(a){return hn(c,a)},b),d=W(aD(0,g(a)),a);return e(aB,a1(function(a){return i_(a[2])},d))}function
+ok(b){var
 a=b[2];if(typeof
 a!=="number"&&10===a[0])return 1;return 0}function
-oc(c){var
-a=c;for(;;){if(0===a[0])return aj(ob,a[1]);var
-d=aj(ob,a[1]),b=d||oc(a[3]);if(b)return b;var
+ol(c){var
+a=c;for(;;){if(0===a[0])return aj(ok,a[1]);var
+d=aj(ok,a[1]),b=d||ol(a[3]);if(b)return b;var
 a=a[4];continue}}function
-vi(a,aR,bz,A,C,aQ){var
-n=A[1],j=bF(n),X=A[6],bA=A[2],K=y(function(a){return hj(C,a)},bA),aS=A[3],R=[0,[0,aS,aS],C],$=[0,g(K)],bB=0,aT=y(function(a){return fy(bB,C,a)},X),bD=cK(n),aU=nA(A[5],bD),p=aU[2],G=aU[1],J=c8(R,g(K)),bH=A[2],S=g(K),bE=0,w=jt(function(e,a){function
+vr(a,aR,bz,A,C,aQ){var
+n=A[1],j=bG(n),X=A[6],bA=A[2],L=z(function(a){return hn(C,a)},bA),aS=A[3],R=[0,[0,aS,aS],C],$=[0,g(L)],bB=0,aT=z(function(a){return fA(bB,C,a)},X),bC=cM(n),aU=nJ(A[5],bC),p=aU[2],G=aU[1],K=c9(R,g(L)),bF=A[2],S=g(L),bE=0,w=jz(function(e,a){function
 i(g){var
-c=bF(n);if(n)var
+c=bG(n);if(n)var
 b=[0,[0,[0,c]],[0,[0,[0,c]]],[0,[0,[0,[0,c]]]]];else
 var
 l=m(d),b=[0,m(d),l,[0,[0,c]]];var
-t=nO(n,G,p,e,a,b)[2],h=nO(n,G,p,e,a,b),i=h[1],j=bo(i[2],h[2]),k=bG(i[1],j),o=ag(B,k,bG(k,b)),f=a3(nN(b),o),q=s(f[3],g),r=s(f[2],g);return[0,hf(n,j,[0,s(f[1],g),r,q]),t]}function
+t=nX(n,G,p,e,a,b)[2],h=nX(n,G,p,e,a,b),i=h[1],j=bp(i[2],h[2]),k=bH(i[1],j),o=ag(B,k,bH(k,b)),f=a4(nW(b),o),q=s(f[3],g),r=s(f[2],g);return[0,hj(n,j,[0,s(f[1],g),r,q]),t]}function
 j(X){var
-v=n4(n,G,p,e,a),w=v[1],U=ag(x,dO(n),e),y=v[2],r=w[1],W=w[2],g=hg(G,p,a),i=bo(W,y),N=am(Z(g,i),J),O=V(J),P=am(Z(a,a),O),Q=2<=n?d:b,R=B(m(Q),P);function
-h(a){return[0,nG(a),0]}function
-f(a){return[0,bo(bG(nG(a),g),J),[0,a]]}switch(n){case
+v=ob(n,G,p,e,a),w=v[1],U=ag(x,dP(n),e),y=v[2],r=w[1],W=w[2],g=hk(G,p,a),i=bp(W,y),N=am(Z(g,i),K),O=V(K),P=am(Z(a,a),O),Q=2<=n?d:b,R=B(m(Q),P);function
+h(a){return[0,nP(a),0]}function
+f(a){return[0,bp(bH(nP(a),g),K),[0,a]]}switch(n){case
 0:var
-C=[0,f(uu),0],D=[0,h(uv),C],q=[0,h(0),D];break;case
+C=[0,f(uD),0],D=[0,h(uE),C],q=[0,h(0),D];break;case
 1:var
-E=[0,f(uw),0],F=[0,f(ux),E],H=[0,f(0),F],I=[0,h(uy),H],K=[0,h(uz),I],q=[0,h(0),K];break;default:var
-L=[0,f(uA),0],M=[0,f(uB),L],q=[0,f(0),M]}var
-j=ag(x,[0,[0,[1,S]],[0,[1,[0,S]]],[0,[1,[0,[0,S]]]]],e),k=bo(j,aL(Z(j,j)));if(n)var
-l=jk(n,S,e,r,k[3]);else
+E=[0,f(uF),0],F=[0,f(uG),E],H=[0,f(0),F],I=[0,h(uH),H],J=[0,h(uI),I],q=[0,h(0),J];break;default:var
+L=[0,f(uJ),0],M=[0,f(uK),L],q=[0,f(0),M]}var
+j=ag(x,[0,[0,[1,S]],[0,[1,[0,S]]],[0,[1,[0,[0,S]]]]],e),k=bp(j,aL(Z(j,j)));if(n)var
+l=jq(n,S,e,r,k[3]);else
 var
 z=m(d),A=m(d),l=[0,m(d),A,z];var
-t=jk(n,S,e,r,k[2]),u=jk(n,S,e,r,k[1]),T=nH(function(r,v){var
+t=jq(n,S,e,r,k[2]),u=jq(n,S,e,r,k[1]),T=nQ(function(r,v){var
 e=v[1];function
 a(b,a){var
-c=e[3],f=dN(a,l),g=s(B(b[3],f),c),h=e[2],i=dN(a,t),j=s(B(b[2],i),h),k=e[1],n=dN(a,u),o=s(B(b[1],n),k);return B(B(B(m(d),o),j),g)}var
-w=a(l,uC),y=a(t,uD),z=[0,a(u,0),y,w],f=Z(r[1],z),k=r[2];if(k){var
+c=e[3],f=dO(a,l),g=s(B(b[3],f),c),h=e[2],i=dO(a,t),j=s(B(b[2],i),h),k=e[1],n=dO(a,u),o=s(B(b[1],n),k);return B(B(B(m(d),o),j),g)}var
+w=a(l,uL),y=a(t,uM),z=[0,a(u,0),y,w],f=Z(r[1],z),k=r[2];if(k){var
 h=k[1],n=v[2];if(n){var
-j=n[1],A=dN(h,g),C=s(dN(j,i),A),D=dN(j,g),p=B(s(dN(h,i),D),C),E=V(J);if(o(h,j))var
+j=n[1],A=dO(h,g),C=s(dO(j,i),A),D=dO(j,g),p=B(s(dO(h,i),D),C),E=V(K);if(o(h,j))var
 F=Z(i,g),q=x(p,s(m(c(2,b)),F));else
 var
-q=p;return B(f,am(q,E))}return f}return f},q);return[0,hf(n,i,bo(bG(g,bo(U,y)),J)),T,R,N]}var
-k=n4(n,G,p,e,a);function
-l(b){return js(n,G,p,e,a,b)}var
+q=p;return B(f,am(q,E))}return f}return f},q);return[0,hj(n,i,bp(bH(g,bp(U,y)),K)),T,R,N]}var
+k=ob(n,G,p,e,a);function
+l(b){return jy(n,G,p,e,a,b)}var
 f=2<=n?d:b;function
 g(b){var
-c=V(J),d=m(f),e=s(x(V(b),d),c);return s(p,x(Z(a,a),e))}var
-h=[0,Z(js(n,G,p,e,a,1),a),g];return[0,n2(n,G,p,J,e,a),h,l,k,j,i]},C,bH,bE),T=e(function(a){return a[1]},w),bI=L($,g(aT)),bJ=cK(n),bK=A[5];function
-Q(a){return[0,[0,L(bJ,a)]]}var
+c=V(K),d=m(f),e=s(x(V(b),d),c);return s(p,x(Z(a,a),e))}var
+h=[0,Z(jy(n,G,p,e,a,1),a),g];return[0,n$(n,G,p,K,e,a),h,l,k,j,i]},C,bF,bE),T=e(function(a){return a[1]},w),bI=M($,g(aT)),bJ=cM(n),bK=A[5];function
+Q(a){return[0,[0,M(bJ,a)]]}var
 aG=V([0,[1,bI]]);switch(bK[0]){case
 2:var
-bn=Q(um),bp=Q(un),aH=[0,Q(0),bp,bn],E=[0,x(aG,Z(aH,aH))];break;case
+bo=Q(uv),bq=Q(uw),aH=[0,Q(0),bq,bo],E=[0,x(aG,Z(aH,aH))];break;case
 3:var
-bq=V(Q(uo)),br=V(Q(0)),bs=V(Q(up)),E=[0,x(x(s(aG,B(m(b),bs)),br),bq)];break;default:var
+br=V(Q(ux)),bs=V(Q(0)),bt=V(Q(uy)),E=[0,x(x(s(aG,B(m(b),bt)),bs),br)];break;default:var
 E=0}var
 aV=A[7];if(aV)var
-bL=0,bM=A[2],al=jt(function(k,t){var
-a=n2(n,G,p,c8(R,g(K)),k,t);switch(n){case
+bL=0,bM=A[2],al=jz(function(k,t){var
+a=n$(n,G,p,c9(R,g(L)),k,t);switch(n){case
 0:var
 c=a[1];if(c){var
 l=c[2],e=c[1];if(l){var
-o=l[1],s=a[2];return[0,[0,e,[0,o,[0,bG(k,[0,e,o,m(d)])[3],0]]],s]}return[0,[0,e,0],a[2]]}return[0,0,a[2]];case
+o=l[1],s=a[2];return[0,[0,e,[0,o,[0,bH(k,[0,e,o,m(d)])[3],0]]],s]}return[0,[0,e,0],a[2]]}return[0,0,a[2]];case
 1:var
 f=a[1];if(f){var
 h=f[2],b=f[1];if(h){var
 q=h[2],i=h[1];if(q){var
-r=q[1],j=bG(k,[0,b,i,r]);return[0,[0,b,[0,i,[0,r,[0,j[1],[0,j[2],[0,j[3],0]]]]]],a[2]]}return[0,[0,b,[0,i,0]],a[2]]}return[0,[0,b,0],a[2]]}return[0,0,a[2]];default:return[0,a[1],a[2]]}},C,bM,bL);else
+r=q[1],j=bH(k,[0,b,i,r]);return[0,[0,b,[0,i,[0,r,[0,j[1],[0,j[2],[0,j[3],0]]]]]],a[2]]}return[0,[0,b,[0,i,0]],a[2]]}return[0,[0,b,0],a[2]]}return[0,0,a[2]];default:return[0,a[1],a[2]]}},C,bM,bL);else
 var
 al=aV;var
-bN=bC(al),bO=E?[0,E[1],0]:E,bP=f(bO,bN),bQ=0,bR=f(K,[0,R,0]),by=e(function(a){return a[1]},w),bS=[0,p,f(dc(function(c,b){if(typeof
+bN=bD(al),bO=E?[0,E[1],0]:E,bP=f(bO,bN),bQ=0,bR=f(L,[0,R,0]),bx=e(function(a){return a[1]},w),bS=[0,p,f(dd(function(c,b){if(typeof
 b!=="number")switch(b[0]){case
 6:var
-g=n5(w,c,b);if(g)var
+g=oc(w,c,b);if(g)var
 i=g[1],j=[0,i[1],[0,i[2],0]];else
 var
 j=g;return j;case
-8:return e(aO,g_(by,c));case
+8:return e(aO,hc(bx,c));case
 13:var
 h=H(w,b[1]);if(h){var
-l=hk(b[4]);if(l){var
-m=n7(c,k(h[1][3],b[2]));return f(m[1],[0,m[2],0])}var
+l=ho(b[4]);if(l){var
+m=oe(c,k(h[1][3],b[2]));return f(m[1],[0,m[2],0])}var
 o=l}else
 var
 o=h;return o;case
-16:return y(function(a){return n_(n,J,bR,c,a)[1]},w)}var
-d=ju(a,p,w,c,b),q=d?[0,d[1],0]:d;return q},bQ,C,$,X),bP)],an=f(bC(T),bS),bT=0,bU=f(K,[0,R,0]),aW=dc(function(b,a){if(typeof
+16:return z(function(a){return oh(n,K,bR,c,a)[1]},w)}var
+d=jA(a,p,w,c,b),q=d?[0,d[1],0]:d;return q},bQ,C,$,X),bP)],an=f(bD(T),bS),bT=0,bU=f(L,[0,R,0]),aW=dd(function(b,a){if(typeof
 a!=="number")switch(a[0]){case
 13:var
-g=H(w,a[1]);if(g){if(hk(a[4]))return 0;var
-j=[0,n8(G,p,b,a[2],g[1][4]),0]}else
+g=H(w,a[1]);if(g){if(ho(a[4]))return 0;var
+j=[0,of(G,p,b,a[2],g[1][4]),0]}else
 var
 j=g;return j;case
 14:var
-h=n9(n,G,p,w,b,a[1],a[2]);if(h){var
-l=h[1],o=l[2],q=l[1];return y(bV,[0,q[1],[0,q[2],[0,o[1],[0,o[2],0]]]])}return h;case
+h=og(n,G,p,w,b,a[1],a[2]);if(h){var
+l=h[1],o=l[2],q=l[1];return z(bV,[0,q[1],[0,q[2],[0,o[1],[0,o[2],0]]]])}return h;case
 15:var
 i=H(w,a[1]);if(i){var
-c=k(i[1][5],0),s=[0,c[3],[0,c[4],0]],t=[0,r(u$,b,m(d)),s],u=[0,r(0,b,m(d)),t],v=f(ec(c[2]),u);return f(c[1],v)}return i;case
+c=k(i[1][5],0),s=[0,c[3],[0,c[4],0]],t=[0,r(vi,b,m(d)),s],u=[0,r(0,b,m(d)),t],v=f(ed(c[2]),u);return f(c[1],v)}return i;case
 16:var
-x=y(function(a){var
-b=e(aO,gZ(bU,jv(a)));return[0,jv(a),b]},w);return f(y(function(a){var
-c=fD(b),d=[0,k(a[6],c)[2],0],e=fD(b);return f(k(a[6],e)[1],d)},w),x)}return 0},bT,C,$,X),aX=cY(e(function(a){return bx(j,a)},an))[1],aY=cY(aW)[1],Y=cX(aX),ao=cX(aY);function
-v(a){return bg(Y,bx(j,a))}function
+x=z(function(a){var
+b=e(aO,g4(bU,jB(a)));return[0,jB(a),b]},w);return f(z(function(a){var
+c=fF(b),d=[0,k(a[6],c)[2],0],e=fF(b);return f(k(a[6],e)[1],d)},w),x)}return 0},bT,C,$,X),aX=cZ(e(function(a){return by(j,a)},an))[1],aY=cZ(aW)[1],Y=cY(aX),ao=cY(aY);function
+v(a){return bh(Y,by(j,a))}function
 aZ(i){if(0===A[4][0]){var
-s=z(v,E),t=v(p),e=cK(n),f=o(g(i),j);if(f)var
-h=z(function(a){return[0,[0,a,d],d]},s),a=function(a){return r(a,Y,m(d))},c=a(t),k=aC(0,e),b=l(function(b){var
-d=dM(j,b,c),e=d?l(function(d){var
+s=y(v,E),t=v(p),e=cM(n),f=o(g(i),j);if(f)var
+h=y(function(a){return[0,[0,a,d],d]},s),a=function(a){return r(a,Y,m(d))},c=a(t),k=aD(0,e),b=l(function(b){var
+d=dN(j,b,c),e=d?l(function(d){var
 f=d[1],e=l(function(c){var
-d=a(c);return cJ(L(j,b),d)},f);if(e){var
-g=a(d[2]);return g$(c,L(j,b),g)}return e},i):d;if(e){if(h){var
-g=a(h[1][1][1]);return cJ(L(j,b),g)}var
+d=a(c);return cL(M(j,b),d)},f);if(e){var
+g=a(d[2]);return hd(c,M(j,b),g)}return e},i):d;if(e){if(h){var
+g=a(h[1][1][1]);return cL(M(j,b),g)}var
 f=1}else
 var
 f=e;return f},k);else
 var
 b=f;var
 q=b?e:b;return q}return 0}var
-W=aZ(k(ax(v),T)),a0=l(function(a){var
-b=bx(j,a),c=m(d);return aN(r(v(a),Y,c),b)},an),a1=a0?l(function(a){return ha(j,a)},an):a0,a2=a1?l(function(a){var
-b=m(d);return aN(r(bg(ao,a),ao,b),a)},aW):a1,a4=a2?aj(vh,X):a2;if(a4)var
-bW=N(A[7]),aq=bW||nR(a,[0,n],[0,A[5]]);else
+W=aZ(k(ay(v),T)),a0=l(function(a){var
+b=by(j,a),c=m(d);return aN(r(v(a),Y,c),b)},an),a2=a0?l(function(a){return he(j,a)},an):a0,a3=a2?l(function(a){var
+b=m(d);return aN(r(bh(ao,a),ao,b),a)},aW):a2,a5=a3?aj(vq,X):a3;if(a5)var
+bW=J(A[7]),aq=bW||n0(a,[0,n],[0,A[5]]);else
 var
-aq=a4;var
-a5=aq?jw(n,es(A[4])):aq,a6=a5?h(a,1,A[3]):a5;if(a6)var
-bX=he(A[5]),ar=l(function(b){var
-c=cI(a,b[1]);return c?cI(a,b[2]):c},bX);else
+aq=a5;var
+a6=aq?jC(n,et(A[4])):aq,a7=a6?h(a,1,A[3]):a6;if(a7)var
+bX=hi(A[5]),ar=l(function(b){var
+c=cK(a,b[1]);return c?cK(a,b[2]):c},bX);else
 var
-ar=a6;if(ar){var
-bY=f(K,[0,R,0]),as=ac(e(function(b){return ap(a,b)},bY));if(as){var
-at=ac(e(function(b){return jc(a,b)},aT));if(at){var
-bZ=oa(n,es(A[4])),au=ac(e(function(b){return ap(a,[0,b,C])},bZ));if(au){var
-a7=au[1],b0=nC(A[5]),av=ac(e(function(b){return nE(a,b)},b0));if(av){var
-a8=av[1],b1=nB(A[5]),aw=ac(e(cH(a),b1));if(aw){var
-b2=0,I=function(a){return bg(ao,a)},ay=f(K,[0,R,0]),az=ac(dc(function(j,f){if(typeof
+ar=a7;if(ar){var
+bY=f(L,[0,R,0]),as=ad(e(function(b){return ap(a,b)},bY));if(as){var
+at=ad(e(function(b){return ji(a,b)},aT));if(at){var
+bZ=oj(n,et(A[4])),au=ad(e(function(b){return ap(a,[0,b,C])},bZ));if(au){var
+a8=au[1],b0=nL(A[5]),av=ad(e(function(b){return nN(a,b)},b0));if(av){var
+a9=av[1],b1=nK(A[5]),aw=ad(e(cJ(a),b1));if(aw){var
+b2=0,I=function(a){return bh(ao,a)},ax=f(L,[0,R,0]),az=ad(dd(function(j,f){if(typeof
 f!=="number")switch(f[0]){case
 13:var
-E=f[4],aM=H(w,f[1]);if(aM){if(n$(f[3])&&h(a,0,E)&&h(a,0,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],E])){var
-aN=f[2],aO=aM[1];if(hk(E)){var
-aG=n7(j,k(aO[3],aN)),V=aG[2];if(h(i,0,[3,E,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b]]))var
+E=f[4],aM=H(w,f[1]);if(aM){if(oi(f[3])&&h(a,0,E)&&h(a,0,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],E])){var
+aN=f[2],aO=aM[1];if(ho(E)){var
+aG=oe(j,k(aO[3],aN)),V=aG[2];if(h(i,0,[3,E,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b]]))var
 aH=0;else
 var
 be=v(V),bf=v(V),aH=[0,[6,[0,[0,e(v,aG[1]),bf],0],be],0];var
 aP=[0,[4,v(V)],aH]}else
 var
-aP=[0,[9,[3,I(n8(G,p,j,aN,aO[4]))]],0];return e(function(a){return[0,a]},aP)}return vf}return vg;case
+aP=[0,[9,[3,I(of(G,p,j,aN,aO[4]))]],0];return e(function(a){return[0,a]},aP)}return vo}return vp;case
 16:var
-Y=f[3],t=f[2],aQ=f[1],bg=bF(n);if(o(g(w),bg)&&h(a,0,aQ)&&h(a,1,t)&&h(a,1,Y)&&cI(a,Y)){var
+Y=f[3],t=f[2],aQ=f[1],bg=bG(n);if(o(g(w),bg)&&h(a,0,aQ)&&h(a,1,t)&&h(a,1,Y)&&cK(a,Y)){var
 aI=ap(a,[0,[0,t,t],C]);if(aI){var
-bh=aI[1],aJ=k(cH(a),Y);if(aJ){var
-bi=aJ[1],aK=ac(e(function(f){var
-b=mR(a,I,ay,C,aQ,t,jv(f));if(b){var
-c=mQ(a,v,ay,C,t,f[1][2]);if(c){var
-g=hi(0,0,f[1][2]);if(g)var
-i=e(aA,c[1]),d=[0,[0,b[1],i]];else
+bh=aI[1],aJ=k(cJ(a),Y);if(aJ){var
+bi=aJ[1],aK=ad(e(function(f){var
+b=m0(a,I,ax,C,aQ,t,jB(f));if(b){var
+c=mZ(a,v,ax,C,t,f[1][2]);if(c){var
+g=hm(0,0,f[1][2]);if(g)var
+i=e(aB,c[1]),d=[0,[0,b[1],i]];else
 var
 d=g}else
 var
@@ -4852,36 +4853,36 @@ d=c;var
 h=d}else
 var
 h=b;return h},w));if(aK){var
-bj=aK[1],bk=e(function(a){return n_(n,J,ay,j,a)},w),aL=k(ax(v),bk),X=function(a){var
-b=cK(n),c=e(function(a){var
-b=fD(j);return I(k(a[6],b)[2])},w),d=e(function(a){var
-b=fD(j);return e(I,k(a[6],b)[1])},w),f=aZ(aL);return[0,[8,[0,aL,v(p),f,d,c,bj,bh,bi,b,a]]]};if(2<=n)return[0,X(1),0];var
-bl=[0,X(1),0];return[0,X(0),bl]}return vb}return vc}return vd}return ve}var
+bj=aK[1],bk=e(function(a){return oh(n,K,ax,j,a)},w),aL=k(ay(v),bk),X=function(a){var
+b=cM(n),c=e(function(a){var
+b=fF(j);return I(k(a[6],b)[2])},w),d=e(function(a){var
+b=fF(j);return e(I,k(a[6],b)[1])},w),f=aZ(aL);return[0,[8,[0,aL,v(p),f,d,c,bj,bh,bi,b,a]]]};if(2<=n)return[0,X(1),0];var
+bl=[0,X(1),0];return[0,X(0),bl]}return vk}return vl}return vm}return vn}var
 bm=0,x=e(function(a){return a[1]},w);function
 Z(c,b,a){return[0,c,b,a,W]}var
 F=0;if(typeof
 f==="number")var
-aS=v(p),s=[0,Z(k(ax(v),x),aS,u)];else
+aS=v(p),s=[0,Z(k(ay(v),x),aS,u)];else
 switch(f[0]){case
 0:var
-y=[5,[0,b,b],f[1]],K=Z;F=1;break;case
+z=[5,[0,b,b],f[1]],J=Z;F=1;break;case
 1:var
-aU=[5,[0,b,b],f[1]],y=aU,K=function(c,b,a){return[1,c,b,a]};F=1;break;case
+aU=[5,[0,b,b],f[1]],z=aU,J=function(c,b,a){return[1,c,b,a]};F=1;break;case
 2:var
-aV=ju(a,p,w,j,f),s=z(function(a){return[4,v(a)]},aV);break;case
+aV=jA(a,p,w,j,f),s=y(function(a){return[4,v(a)]},aV);break;case
 3:var
-aW=ju(a,p,w,j,f),s=z(function(a){return[4,v(a)]},aW);break;case
+aW=jA(a,p,w,j,f),s=y(function(a){return[4,v(a)]},aW);break;case
 5:var
-_=f[1],aX=ap(a,[0,[0,_,_],d]),s=z(function(b){var
-c=U(a,b),d=v(p);return[2,k(ax(v),x),d,c]},aX);break;case
+_=f[1],aX=ap(a,[0,[0,_,_],d]),s=y(function(b){var
+c=U(a,b),d=v(p);return[2,k(ay(v),x),d,c]},aX);break;case
 6:var
 L=H(w,f[1]);if(L){var
-M=n5(w,j,f);if(M){var
+M=oc(w,j,f);if(M){var
 $=M[1],aa=h(a,1,f[2]),ab=aa?h(a,1,f[3]):aa;if(ab)var
-aY=v($[2]),a0=v(L[1][1][2]),ad=[0,[5,[0,[0,[0,v($[1]),0],a0],0],aY]];else
+aY=v($[2]),a0=v(L[1][1][2]),ac=[0,[5,[0,[0,[0,v($[1]),0],a0],0],aY]];else
 var
-ad=ab;var
-ae=ad}else
+ac=ab;var
+ae=ac}else
 var
 ae=M;var
 af=ae}else
@@ -4891,7 +4892,7 @@ s=af;break;case
 7:var
 ag=f[3],ah=f[2],ai=f[1],aj=H(w,ai),aR=0;if(aj){var
 ak=h(a,1,ah),al=ak?h(a,1,ag):ak;if(al){var
-a1=[5,ah,ag],y=a1,K=function(c,b,a){return[3,ai,c,b,a,W]};F=1;aR=1}else
+a1=[5,ah,ag],z=a1,J=function(c,b,a){return[3,ai,c,b,a,W]};F=1;aR=1}else
 var
 am=al}else
 var
@@ -4902,18 +4903,18 @@ an=h(a,1,f[2]);if(an)var
 a2=f[1],a3=1,N=l(function(b){return h(a,a3,b)},a2);else
 var
 N=an;if(N)var
-a4=O(a,b),a5=v(p),a6=g_(x,j),ao=[0,[0,k(ax(v),a6),a5,a4,0]];else
+a4=O(a,b),a5=v(p),a6=hc(x,j),ao=[0,[0,k(ay(v),a6),a5,a4,0]];else
 var
 ao=N;var
 s=ao;break;case
 14:var
-aq=f[2],ar=f[1],P=n9(n,G,p,w,j,ar,aq);if(P){var
-as=P[1],at=as[2],au=as[1],av=nr(ar,aq,f[3]),Q=ap(a,[0,[0,av,av],C]);if(Q){var
+aq=f[2],ar=f[1],P=og(n,G,p,w,j,ar,aq);if(P){var
+as=P[1],at=as[2],au=as[1],av=nA(ar,aq,f[3]),Q=ap(a,[0,[0,av,av],C]);if(Q){var
 aw=Q[1],az=D(d,aw[1]);if(az)var
-A=function(a){return mP(I,a)},a7=A(at[2]),a8=A(at[1]),a9=A(au[2]),aB=[0,[9,[6,A(au[1]),a9,a8,a7,aw]]];else
+A=function(a){return mY(I,a)},a7=A(at[2]),a8=A(at[1]),a9=A(au[2]),aA=[0,[9,[6,A(au[1]),a9,a8,a7,aw]]];else
 var
-aB=az;var
-aC=aB}else
+aA=az;var
+aC=aA}else
 var
 aC=Q;var
 aD=aC}else
@@ -4926,58 +4927,58 @@ aE=h(a,1,f[4]);if(aE)var
 aF=h(a,0,f[2]),S=aF?h(a,0,f[3]):aF;else
 var
 S=aE;if(S)var
-B=k(R[1][5],0),a_=I(B[4]),a$=I(B[3]),ba=I(r(va,j,m(d))),bb=I(r(0,j,m(d))),bc=B[2],bd=e(function(a){return e(I,a)},bc),T=[0,[9,[10,e(I,B[1]),bd,bb,ba,a$,a_]]];else
+B=k(R[1][5],0),a_=I(B[4]),a$=I(B[3]),ba=I(r(vj,j,m(d))),bb=I(r(0,j,m(d))),bc=B[2],bd=e(function(a){return e(I,a)},bc),T=[0,[9,[10,e(I,B[1]),bd,bb,ba,a$,a_]]];else
 var
 T=S}else
 var
 T=R;var
 s=T;break;default:var
 s=0}if(F)var
-aT=ap(a,[0,[0,y,y],d]),s=z(function(b){var
-c=U(a,b),d=v(p);return K(k(ax(v),x),d,c)},aT);return[0,s,bm]},b2,C,$,X));if(az){var
-a_=az[1];if(A[7])var
-b3=aR[2],b4=aR[1],b5=v(p),aa=i8(bz,a_,[7,k(ax(v),al),b5,b4,b3]);else
+aT=ap(a,[0,[0,z,z],d]),s=y(function(b){var
+c=U(a,b),d=v(p);return J(k(ay(v),x),d,c)},aT);return[0,s,bm]},b2,C,$,X));if(az){var
+a$=az[1];if(A[7])var
+b3=aR[2],b4=aR[1],b5=v(p),aa=jc(bz,a$,[7,k(ay(v),al),b5,b4,b3]);else
 var
-aa=a_;var
-a$=o(g(f(a7,a8)),j),ba=a$?l(function(a){var
-b=nY(a);return l(function(a){return ny(j,Y,a)},b)},aa):a$,bb=ba?E?ny(j,Y,v(E[1])):1:ba;if(bb){var
-b6=f(at[1],aw[1]),aB=f(as[1],b6),M=oc(aQ),P=jx(C,A[2]),_=M?e(function(a){var
-b=nW(j,P,a[2]),c=a[1];return[0,e(function(a){return nW(j,P,a)},c),b]},T):M,aD=M?cY(jq(j,p,E,_))[1]:M,aE=cX(aD),ad=function(a){return bg(aE,a)},b7=jo(ad,ad,_),b8=ad(bx(j,p)),aF=z(function(a){return ad(bx(j,a))},E),bc=N(M);if(bc)var
-ae=bc;else{var
-bm=o(g(T),j);if(bm){var
-bv=jq(j,p,E,_),aJ=l(function(a){var
-b=m(d);return aN(r(bg(aE,a),aE,b),a)},bv);if(aJ)var
-bw=jq(j,p,E,_),ah=l(function(a){var
-b=aC(0,j);return l(function(b){return ex(j,b,a)},b)},bw);else
+aa=a$;var
+ba=o(g(f(a8,a9)),j),bb=ba?l(function(a){var
+b=n7(a);return l(function(a){return nH(j,Y,a)},b)},aa):ba,bc=bb?E?nH(j,Y,v(E[1])):1:bb;if(bc){var
+b6=f(at[1],aw[1]),aA=f(as[1],b6),N=ol(aQ),P=jD(C,A[2]),_=N?e(function(a){var
+b=n5(j,P,a[2]),c=a[1];return[0,e(function(a){return n5(j,P,a)},c),b]},T):N,aC=N?cZ(jw(j,p,E,_))[1]:N,aE=cY(aC),ae=function(a){return bh(aE,a)},b7=ju(ae,ae,_),b8=ae(by(j,p)),aF=y(function(a){return ae(by(j,a))},E),bd=J(N);if(bd)var
+af=bd;else{var
+bn=o(g(T),j);if(bn){var
+bv=jw(j,p,E,_),aJ=l(function(a){var
+b=m(d);return aN(r(bh(aE,a),aE,b),a)},bv);if(aJ)var
+bw=jw(j,p,E,_),ah=l(function(a){var
+b=aD(0,j);return l(function(b){return ey(j,b,a)},b)},bw);else
 var
 ah=aJ;if(ah){var
-aM=z(function(a){return bx(j,a)},E),ai=bx(j,p),aI=nS(ai);if(aI)var
-bt=aC(0,W),aP=l(function(a){var
-b=dM(j,a,ai),c=b?l(function(b){var
-d=b[2][2],e=f(y(jp,b[1]),d),g=L(j,a),c=l(function(a){return cJ(g,a)},e);if(c){var
-h=b[2][1];return g$(ai,L(j,a),h)}return c},_):b;if(c){if(aM){var
-e=aM[1];return cJ(L(j,a),e)}var
+aM=y(function(a){return by(j,a)},E),ai=by(j,p),aI=n1(ai);if(aI)var
+bu=aD(0,W),aP=l(function(a){var
+b=dN(j,a,ai),c=b?l(function(b){var
+d=b[2][2],e=f(z(jv,b[1]),d),g=M(j,a),c=l(function(a){return cL(g,a)},e);if(c){var
+h=b[2][1];return hd(ai,M(j,a),h)}return c},_):b;if(c){if(aM){var
+e=aM[1];return cL(M(j,a),e)}var
 d=1}else
 var
-d=c;return d},bt);else
+d=c;return d},bu);else
 var
 aP=aI;var
 ak=aP}else
 var
 ak=ah;var
 cc=ak?l(function(a){var
-c=a[1],b=l(function(a){return nX(j,aB,P,a)},c);return b?nX(j,aB,P,a[2]):b},T):ak,ae=cc}else
+c=a[1],b=l(function(a){return n6(j,aA,P,a)},c);return b?n6(j,aA,P,a[2]):b},T):ak,af=cc}else
 var
-ae=bm}if(ae){var
-b9=e(function(a){return 1},aa),b_=f(a7,a8),b$=function(m,N,aa,$,c){if(M){if(typeof
+af=bn}if(af){var
+b9=e(function(a){return 1},aa),b_=f(a8,a9),b$=function(m,M,aa,$,c){if(N){if(typeof
 c!=="number"&&10===c[0]){var
 h=c[3],p=c[2],q=c[1];if(typeof
 q!=="number"&&6===q[0]){if(h){if(h[2])return 0;var
 w=h[1],b=q[1],x=o($,W),y=x?aK(0,W):x;if(y)var
-v=iw(ir,e(aA,p),P),Y=v?1:v,s=Y;else
+v=iC(ix,e(aB,p),P),Y=v?1:v,s=Y;else
 var
 s=y;var
-z=s?gS(P):s,A=z?l(function(a){return aK(a,g(m))},P):z,B=A?o(g(w),j):A;if(B){var
+z=s?gX(P):s,A=z?l(function(a){return aK(a,g(m))},P):z,B=A?o(g(w),j):A;if(B){var
 u=0;if(typeof
 b!=="number")switch(b[0]){case
 0:var
@@ -4992,12 +4993,12 @@ var
 L=K}else
 var
 L=aF;if(!R)return L}if(!Q)return 0;break}if(u){var
-S=jg(a,fk(p,0,m),aD,N),n=jg(a,m,aD,N),f=function(b,a){return r(a,b,uW)},T=nU(function(a){return f(n,a)},G),U=f(n,b8),V=function(a){return f(n,a)},X=[0,jo(function(a){return f(S,a)},V,b7),U,T],Z=gM(p,m),_=function(g){var
-b=ac(e(uU,g[1]));if(b){var
+S=jm(a,fl(p,0,m),aC,M),n=jm(a,m,aC,M),f=function(b,a){return r(a,b,u5)},T=n3(function(a){return f(n,a)},G),U=f(n,b8),V=function(a){return f(n,a)},X=[0,ju(function(a){return f(S,a)},V,b7),U,T],Z=gR(p,m),_=function(g){var
+b=ad(e(u3,g[1]));if(b){var
 c=g[2];if(c){var
-d=df(g[3]);if(d){var
-l=d[1],m=af([0,F(ab(t(a,aa,c[1])),l),0],j),n=b[1],o=e(function(d){var
-b=gN(a,0,Z,d),c=bu(uV,b[2]);return[0,b[1],c]},n),f=iO(a,e(function(b){return O(a,b)},w),H,I,o,m);if(f)return a9(a,j,f[1]);var
+d=dg(g[3]);if(d){var
+l=d[1],m=ab([0,F(ac(t(a,aa,c[1])),l),0],j),n=b[1],o=e(function(d){var
+b=gS(a,0,Z,d),c=a1(u4,b[2]);return[0,b[1],c]},n),f=iU(a,e(function(b){return O(a,b)},w),H,I,o,m);if(f)return a_(a,j,f[1]);var
 h=f}else
 var
 h=d;var
@@ -5006,80 +5007,80 @@ var
 i=c;var
 k=i}else
 var
-k=b;return k};return k(ji(function(b,a){return uT},W,j,_),X)}var
+k=b;return k};return k(jo(function(b,a){return u2},W,j,_),X)}var
 C=0}else
 var
 C=B;var
 E=C}else
 var
-E=h;return E}return 0}return 0}return M},ca=v(p),cb=k(ax(v),T);return fC(a,aX,aY,aa,j,j,z(v,E),cb,ca,b$,aB,b_,b9,aQ)}var
-bd=ae}else
+E=h;return E}return 0}return 0}return N},ca=v(p),cb=k(ay(v),T);return fE(a,aX,aY,aa,j,j,y(v,E),cb,ca,b$,aA,b_,b9,aQ)}var
+be=af}else
 var
-bd=bb;var
-be=bd}else
-var
-be=az;var
+be=bc;var
 bf=be}else
 var
-bf=aw;var
-bh=bf}else
+bf=az;var
+bg=bf}else
 var
-bh=av;var
-bi=bh}else
+bg=aw;var
+bi=bg}else
 var
-bi=au;var
+bi=av;var
 bj=bi}else
 var
-bj=at;var
+bj=au;var
 bk=bj}else
 var
-bk=as;var
+bk=at;var
 bl=bk}else
 var
-bl=ar;return bl}function
-fE(b,a){return bw(b,a[1],a[2])}function
-od(b,a){var
-c=fE(b,a[1]),d=c?fE(b,a[2]):c;return d?fE(b,a[3]):d}function
-jy(a){return typeof
-a==="number"?a?dO(0):dF:dO(a[1])}function
-oe(b,a,c){return typeof
-b==="number"?b?[0,a[1],[0,a[2],0]]:bV(a):hf(b[1],a,c)}function
-jz(b,d,c){if(0===c[0])return gW(b,d[1],c[1]);var
-a=c[1],e=[0,[0,a[5],b],[0,[0,a[6],b],0]],g=f(a$(a[4],b),e),h=f(a$(a[3],b),g),i=f(a$(a[2],d[2]),h);return f(a$(a[1],d[1]),i)}function
-jA(b,a){if(b){var
-c=b[1],d=c[2];return bo(fA(c[1],a),d)}return a}function
-of(h,t,al,J,aj,q,ai){if(q){var
-j=q[1],an=bR([0,d,d],aj),a=cD(ai,jz(J,an,j)),y=function(c,b){var
-d=ak(a,c);return ag(x,ag(B,jy(h),b),d)};if(0===j[0]){var
+bl=as;var
+bm=bl}else
+var
+bm=ar;return bm}function
+fG(b,a){return bx(b,a[1],a[2])}function
+om(b,a){var
+c=fG(b,a[1]),d=c?fG(b,a[2]):c;return d?fG(b,a[3]):d}function
+jE(a){return typeof
+a==="number"?a?dP(0):dG:dP(a[1])}function
+on(b,a,c){return typeof
+b==="number"?b?[0,a[1],[0,a[2],0]]:bV(a):hj(b[1],a,c)}function
+jF(b,d,c){if(0===c[0])return g1(b,d[1],c[1]);var
+a=c[1],e=[0,[0,a[5],b],[0,[0,a[6],b],0]],g=f(ba(a[4],b),e),h=f(ba(a[3],b),g),i=f(ba(a[2],d[2]),h);return f(ba(a[1],d[1]),i)}function
+jG(b,a){if(b){var
+c=b[1],d=c[2];return bp(fC(c[1],a),d)}return a}function
+oo(h,t,al,J,aj,q,ai){if(q){var
+j=q[1],an=bR([0,d,d],aj),a=cF(ai,jF(J,an,j)),y=function(c,b){var
+d=ak(a,c);return ag(x,ag(B,jE(h),b),d)};if(0===j[0]){var
 z=j[1];switch(z[0]){case
 0:var
-$=jA(t,ak(a,vj)),aE=z[1][5],A=r(vk,a,m(d)),C=ak(a,0),aa=y(vl,$),i=l8(aa,dE(C),aa,A,aE),aq=[0,aL(A),0],ar=[0,aL(Z(C,C)),aq],k=[0,[0,i[1],i[2],i[3],[0,i[4]],[0,[0,i[2],A]],ar],$];break;case
+$=jG(t,ak(a,vs)),aE=z[1][5],A=r(vt,a,m(d)),C=ak(a,0),aa=y(vu,$),i=mf(aa,dF(C),aa,A,aE),aq=[0,aL(A),0],ar=[0,aL(Z(C,C)),aq],k=[0,[0,i[1],i[2],i[3],[0,i[4]],[0,[0,i[2],A]],ar],$];break;case
 1:var
-ab=jA(t,ak(a,vm)),ac=z[3],D=ac?[0,ak(a,vn)]:ac,ad=y(0,ab),l=l9(ad,ad,0);if(D)var
-K=D[1],M=[0,aL(Z(K,K)),0];else
+ab=jG(t,ak(a,vv)),ac=z[3],D=ac?[0,ak(a,vw)]:ac,ad=y(0,ab),l=mg(ad,ad,0);if(D)var
+K=D[1],L=[0,aL(Z(K,K)),0];else
 var
-M=D;var
-k=[0,[0,l[1],l[2],l[3],[0,l[4]],0,M],ab];break;default:var
-aF=m(d),aG=m(d),aH=[0,m(d),aG,aF],E=ak(a,0),aI=jy(h),n=l_(aI,dE(E)),as=[0,aL(Z(E,E)),0],k=[0,[0,n[1],n[2],n[3],[0,n[4]],0,as],aH]}}else
+L=D;var
+k=[0,[0,l[1],l[2],l[3],[0,l[4]],0,L],ab];break;default:var
+aF=m(d),aG=m(d),aH=[0,m(d),aG,aF],E=ak(a,0),aI=jE(h),n=mh(aI,dF(E)),as=[0,aL(Z(E,E)),0],k=[0,[0,n[1],n[2],n[3],[0,n[4]],0,as],aH]}}else
 var
-ae=jA(t,ak(a,vo)),F=j[1][7],G=r(vp,a,m(d)),e=r(vq,a,m(d)),af=ak(a,vr),H=ak(a,0),p=y(vs,ae),o=dE(H),u=ag(x,af,a3(Z(o,af),o)),v=dE(u),N=bG(o,v),O=Z(p,v),P=Z(p,N),at=Z(o,p),au=V(P),Q=B(V(O),au),av=V(at),R=x(V(G),av),aw=s(m(c(2,b)),e),w=x(Q,V(am(B(Q,x(V(e),R)),aw))),ax=gH(F,s(e,aL(w))),S=am(O,e),T=gH(F,am(P,e)),U=am(R,V(e)),W=lF(0,S,T,U),X=gH(F,lF(1,S,T,U)),ay=a3(X,N),Y=ag(x,p,a3(e,ag(B,a3(W,v),ay))),az=[0,aL(G),0],aA=[0,aL(e),az],aB=[0,aL(Z(u,u)),aA],aC=[0,aL(Z(H,H)),aB],aD=bo(Y,ax),k=[0,[0,Y,s(V(e),w),aD,[1,W,X],[0,[0,w,G]],aC],ae];var
-aT=L(ai,g(jz(J,an,j))),aU=q[2],aV=of(h,t,al,J,bA(aj),aU,aT),ao=k[2],f=k[1],ah=function(a){return oe(h,a,bo(bG(ao,a),al))},aJ=f[1],aK=bG(ag(B,jy(h),ao),aJ),aM=oe(h,f[1],aK),I=f[1],_=typeof
+ae=jG(t,ak(a,vx)),F=j[1][7],G=r(vy,a,m(d)),e=r(vz,a,m(d)),af=ak(a,vA),H=ak(a,0),p=y(vB,ae),o=dF(H),u=ag(x,af,a4(Z(o,af),o)),v=dF(u),N=bH(o,v),O=Z(p,v),P=Z(p,N),at=Z(o,p),au=V(P),Q=B(V(O),au),av=V(at),R=x(V(G),av),aw=s(m(c(2,b)),e),w=x(Q,V(am(B(Q,x(V(e),R)),aw))),ax=gM(F,s(e,aL(w))),S=am(O,e),T=gM(F,am(P,e)),U=am(R,V(e)),W=lO(0,S,T,U),X=gM(F,lO(1,S,T,U)),ay=a4(X,N),Y=ag(x,p,a4(e,ag(B,a4(W,v),ay))),az=[0,aL(G),0],aA=[0,aL(e),az],aB=[0,aL(Z(u,u)),aA],aC=[0,aL(Z(H,H)),aB],aD=bp(Y,ax),k=[0,[0,Y,s(V(e),w),aD,[1,W,X],[0,[0,w,G]],aC],ae];var
+aT=M(ai,g(jF(J,an,j))),aU=q[2],aV=oo(h,t,al,J,bB(aj),aU,aT),ao=k[2],f=k[1],ah=function(a){return on(h,a,bp(bH(ao,a),al))},aJ=f[1],aK=bH(ag(B,jE(h),ao),aJ),aM=on(h,f[1],aK),I=f[1],_=typeof
 h==="number"?1:0,aN=f[6],aO=f[5],aP=_?h?[0,I[1],[0,I[2],0]]:bV(I):_,aQ=f[4],aR=ah(f[3]),aS=f[2],ap=[0,[0,ah(f[1]),aS,aR,aQ,aP,aO,aN,aM],aV]}else
 var
 ap=q;return ap}function
-jB(c,b,a){if(a){var
-e=a[2],g=jB(c,bA(b),e),h=a[1];return f(jz(c,bR([0,d,d],b),h),g)}return a}function
-og(b,h,g,d,c,a){if(a){var
-i=a[2],j=a[1],l=og(b,h,g,d,f(c,[0,j,0]),i),m=k(d,e(bA,f(c,i)));return ar(h,ar(g,bR(b,j),m),l)}return b}function
-oh(a,f,e,d,c,b){if(c){var
-g=0,h=c[1];return og(a,e,d,function(b){return oh(a,f,e,d,h,b)},g,b)}return b?a:f}function
-oi(a,d,c){var
-e=g2(a,c);function
+jH(c,b,a){if(a){var
+e=a[2],g=jH(c,bB(b),e),h=a[1];return f(jF(c,bR([0,d,d],b),h),g)}return a}function
+op(b,h,g,d,c,a){if(a){var
+i=a[2],j=a[1],l=op(b,h,g,d,f(c,[0,j,0]),i),m=k(d,e(bB,f(c,i)));return ar(h,ar(g,bR(b,j),m),l)}return b}function
+oq(a,f,e,d,c,b){if(c){var
+g=0,h=c[1];return op(a,e,d,function(b){return oq(a,f,e,d,h,b)},g,b)}return b?a:f}function
+or(a,d,c){var
+e=g7(a,c);function
 f(b,c){return t(a,b,c)}var
-g=O(a,b);return z(function(a){return oh(u,g,F,f,d,a)},e)}function
-jC(e,c,o,n){var
-a=oi(e,c,o);if(a){var
-f=a[1],b=oi(e,c,n);if(b){var
+g=O(a,b);return y(function(a){return oq(u,g,F,f,d,a)},e)}function
+jI(e,c,o,n){var
+a=or(e,c,o);if(a){var
+f=a[1],b=or(e,c,n);if(b){var
 g=b[1],h=I(d,f[1]),i=h?I(g[2],d):h;if(i)var
 j=i;else{var
 m=I(f[2],d);if(m)return I(d,g[1]);var
@@ -5090,7 +5091,7 @@ k=b;var
 l=k}else
 var
 l=a;return l}function
-jD(b){if(b){var
+jJ(b){if(b){var
 a=b[2],c=b[1];if(c){var
 e=c[2],q=c[1];if(e){var
 f=e[2],r=e[1];if(f){if(f[2])return m(d);if(a){var
@@ -5102,15 +5103,15 @@ k=g[1];if(k){var
 l=k[2],w=k[1];if(l){var
 n=l[2],y=l[1];if(n){var
 z=n[1];if(n[2])return m(d);if(g[2])return m(d);var
-A=dI(t,u,w,y),C=s(f[1],A),D=s(r,dI(t,v,w,z));return B(x(s(q,dI(u,v,y,z)),D),C)}return m(d)}return m(d)}return m(d)}return m(d)}return m(d)}return m(d)}return m(d)}return m(d)}if(a){var
+A=dJ(t,u,w,y),C=s(f[1],A),D=s(r,dJ(t,v,w,z));return B(x(s(q,dJ(u,v,y,z)),D),C)}return m(d)}return m(d)}return m(d)}return m(d)}return m(d)}return m(d)}return m(d)}return m(d)}if(a){var
 o=a[1];if(o){var
-p=o[2];return p?p[2]?m(d):a[2]?m(d):dI(q,r,o[1],p[1]):m(d)}return m(d)}return m(d)}return m(d)}return m(d)}return m(d)}function
-oj(a){if(a){var
+p=o[2];return p?p[2]?m(d):a[2]?m(d):dJ(q,r,o[1],p[1]):m(d)}return m(d)}return m(d)}return m(d)}return m(d)}return m(d)}function
+os(a){if(a){var
 b=a[1][6];if(b)var
-c=oj(a[2]),e=c?[0,[0,b[1][2],c[1]]]:c,d=e;else
+c=os(a[2]),e=c?[0,[0,b[1][2],c[1]]]:c,d=e;else
 var
-d=b;return d}return vt}function
-ok(g,k,a){function
+d=b;return d}return vC}function
+ot(g,k,a){function
 b(a){return r(a,k,m(d))}function
 l(a){var
 e=a[2],f=s(V(b(0)),e),c=0,d=0,g=a[1];return[0,[0,bS(function(b,a){return x(b,V(a))},g,f),d],c]}function
@@ -5136,7 +5137,7 @@ d=a[1];return[0,[0,x(b(0),d),0],0]}return 0},f=v,c=a[1];break;case
 w=function(e){var
 a=e[4];if(typeof
 a!=="number"&&1===a[0]){var
-c=a[2],d=a[1],f=s(b(vu),c),g=[0,[0,x(s(b(vv),d),f),0],0],h=s(d,b(vw));return[0,[0,x(s(c,b(0)),h),0],g]}return 0},f=w,c=a[1];break;case
+c=a[2],d=a[1],f=s(b(vD),c),g=[0,[0,x(s(b(vE),d),f),0],0],h=s(d,b(vF));return[0,[0,x(s(c,b(0)),h),0],g]}return 0},f=w,c=a[1];break;case
 6:var
 y=function(a){var
 b=a[4];if(typeof
@@ -5152,23 +5153,23 @@ A=function(a){var
 b=a[4];if(typeof
 b!=="number"&&0===b[0])return n(a);return 0},f=A,c=a[1];break;case
 12:var
-i=oj(g);if(i)var
-C=b(0),o=bS(s,i[1],C),p=jD(e(function(a){return a[5]},g)),D=[0,bn(B(p,o)),0],q=[0,[0,x(p,o),D],0];else
+i=os(g);if(i)var
+C=b(0),o=bS(s,i[1],C),p=jJ(e(function(a){return a[5]},g)),D=[0,bo(B(p,o)),0],q=[0,[0,x(p,o),D],0];else
 var
 q=i;return q;case
 17:var
 t=a[1],f=function(d){var
-a=jD(e(function(a){return a[1]},g));function
+a=jJ(e(function(a){return a[1]},g));function
 b(b){var
-c=[0,bn(B(a,b)),0];return[0,x(a,b),c]}var
-f=jD(m8(t,k,e(function(a){return a[1]},g))),c=s(aL(d[2]),f),h=[0,b(bn(c)),0];return[0,b(c),h]},c=t;break;default:j=1}if(j)return 0;var
+c=[0,bo(B(a,b)),0];return[0,x(a,b),c]}var
+f=jJ(nf(t,k,e(function(a){return a[1]},g))),c=s(aL(d[2]),f),h=[0,b(bo(c)),0];return[0,b(c),h]},c=t;break;default:j=1}if(j)return 0;var
 h=H(g,c);return h?f(h[1]):h}function
-eE(a){return e(function(a){return[0,a[1],a[2]]},a)}function
-fF(a){return e(function(a){var
+eF(a){return e(function(a){return[0,a[1],a[2]]},a)}function
+fH(a){return e(function(a){var
 c=m(b);return[0,a[3],c]},a)}function
-ol(c,b,a){if(typeof
-a!=="number"&&8===a[0])return bC(g_(eE(c),b));return ec(ok(c,b,a))}function
-om(f,m,j,K,J,t,a){if(typeof
+ou(c,b,a){if(typeof
+a!=="number"&&8===a[0])return bD(hc(eF(c),b));return ed(ot(c,b,a))}function
+ov(f,m,j,K,J,t,a){if(typeof
 a==="number")return[0,[0,[0,u]],0];else
 switch(a[0]){case
 0:var
@@ -5176,18 +5177,18 @@ L=[5,[0,b,b],a[1]],n=L,o=function(a){return[0,a]};break;case
 1:var
 P=[5,[0,b,b],a[1]],n=P,o=function(a){return[1,a]};break;case
 5:var
-B=a[1],T=0,V=ap(f,[0,[0,B,B],d]);return[0,z(function(a){return[2,U(f,a)]},V),T];case
+B=a[1],T=0,V=ap(f,[0,[0,B,B],d]);return[0,y(function(a){return[2,U(f,a)]},V),T];case
 7:var
-C=a[3],D=a[2],E=a[1];if(!H(j,E))return vz;var
+C=a[3],D=a[2],E=a[1];if(!H(j,E))return vI;var
 I=0;if(h(f,1,D)&&h(f,1,C))var
 W=[5,D,C],n=W,o=function(a){return[7,E,a]};else
-I=1;if(I)return vy;break;case
+I=1;if(I)return vH;break;case
 8:var
 F=h(f,1,a[2]),X=0;if(F)var
 Y=a[1],Z=1,r=l(function(a){return h(f,Z,a)},Y);else
 var
 r=F;if(r)var
-_=O(f,b),$=g_(eE(j),t),G=[0,[4,k(ax(m),$),_]];else
+_=O(f,b),$=hc(eF(j),t),G=[0,[4,k(ay(m),$),_]];else
 var
 G=r;return[0,G,X];default:var
 s=0;if(typeof
@@ -5197,87 +5198,87 @@ switch(a[0]){case
 v=a[3],w=a[2],x=h(f,1,[3,v,w]),R=x?h(f,1,[3,[2,w,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b]],v]):x,i=R;break;case
 17:var
 A=h(f,1,a[3]);if(A)var
-S=e(function(a){return a[1]},j),i=m9(g(a[2]),S);else
+S=e(function(a){return a[1]},j),i=ng(g(a[2]),S);else
 var
 i=A;break;case
 6:case
 9:var
-y=h(f,1,a[2]),i=y?h(f,0,a[3]):y;break;default:s=1}if(s)var
+z=h(f,1,a[2]),i=z?h(f,0,a[3]):z;break;default:s=1}if(s)var
 i=1;var
-p=i?ok(j,t,a):i;if(p){var
+p=i?ot(j,t,a):i;if(p){var
 Q=[0,p[1],p[2]];return e(function(a){if(a){var
 b=a[2],c=a[1];if(b){if(b[2])return 0;var
 e=k(m,b[1]);return[0,[5,k(m,c),e]]}var
 d=[0,[3,k(m,c)]]}else
 var
-d=a;return d},Q)}return vx}var
-M=0,N=ap(f,[0,[0,n,n],g9(K,J)]);return[0,z(function(a){return o(U(f,a))},N),M]}function
-on(a){if(typeof
+d=a;return d},Q)}return vG}var
+M=0,N=ap(f,[0,[0,n,n],hb(K,J)]);return[0,y(function(a){return o(U(f,a))},N),M]}function
+ow(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-vA(a){return 0===a[0]?2===a[1][0]?0:1:1}function
-vB(c,R,aB,a,i,Q,aA){var
-b=a[1],aC=at(b),s=a[6],A=jB(i,Q,a[2]),S=a[3],T=[0,[0,S,S],i],U=[0,g(A)],B=a[2],q=B?0===B[1][0]?0:1:B,aD=a[5],aE=z(function(a){var
+vJ(a){return 0===a[0]?2===a[1][0]?0:1:1}function
+vK(c,R,aB,a,i,Q,aA){var
+b=a[1],aC=at(b),s=a[6],A=jH(i,Q,a[2]),S=a[3],T=[0,[0,S,S],i],U=[0,g(A)],B=a[2],q=B?0===B[1][0]?0:1:B,aD=a[5],aE=y(function(a){var
 c=typeof
-b==="number"?0:cK(b[1]);return nA(a,c)},aD),aF=a[2],j=of(b,aE,c8(T,g(A)),i,Q,aF,0),V=y(function(a){return a[7]},j),W=a[7],X=W?e(function(a){return[0,a[8],a[2]]},j):W,aG=bC(X),aH=f(V,f(dc(function(a,b){return ol(j,a,b)},q,i,U,s),aG)),aI=f(bC(fF(j)),aH),Y=f(bC(eE(j)),aI),Z=cY(Y)[1],_=cX(Z);function
-p(a){return bg(_,a)}var
+b==="number"?0:cM(b[1]);return nJ(a,c)},aD),aF=a[2],j=oo(b,aE,c9(T,g(A)),i,Q,aF,0),V=z(function(a){return a[7]},j),W=a[7],X=W?e(function(a){return[0,a[8],a[2]]},j):W,aG=bD(X),aH=f(V,f(dd(function(a,b){return ou(j,a,b)},q,i,U,s),aG)),aI=f(bD(fH(j)),aH),Y=f(bD(eF(j)),aI),Z=cZ(Y)[1],_=cY(Z);function
+p(a){return bh(_,a)}var
 $=l(function(a){var
-b=m(d);return aN(r(p(a),_,b),a)},Y),aa=$?aj(on,s):$;if(aa){var
+b=m(d);return aN(r(p(a),_,b),a)},Y),aa=$?aj(ow,s):$;if(aa){var
 ab=a[4];if(typeof
 b==="number")var
-ad=b?jw(0,es(ab)):1;else
+ac=b?jC(0,et(ab)):1;else
 var
-ay=es(ab),ad=jw(b[1],ay);var
-C=ad}else
+ax=et(ab),ac=jC(b[1],ax);var
+C=ac}else
 var
 C=aa;if(C){var
-M=a[1];if(typeof
-M==="number")var
+N=a[1];if(typeof
+N==="number")var
 t=a[5]?0:1;else
-if(2<=M[1])var
+if(2<=N[1])var
 t=0;else{var
-w=a[5],L=0;if(w){var
+w=a[5],M=0;if(w){var
 O=h(c,1,a[3]);if(O)var
-az=he(w[1]),t=l(function(a){var
-b=cI(c,a[1]);return b?cI(c,a[2]):b},az);else{var
-P=O;L=1}}else{var
-P=w;L=1}if(L)var
+az=hi(w[1]),t=l(function(a){var
+b=cK(c,a[1]);return b?cK(c,a[2]):b},az);else{var
+P=O;M=1}}else{var
+P=w;M=1}if(M)var
 t=P}var
 D=t}else
 var
 D=C;if(D)var
 aJ=a[2],E=l(function(a){var
-b=0===a[0]?0:1;return ct(b,q)},aJ);else
+b=0===a[0]?0:1;return cv(b,q)},aJ);else
 var
 E=D;if(E){var
-ae=N(a[7]);if(ae)var
+ae=J(a[7]);if(ae)var
 u=ae;else
 var
-av=nR(c,b,a[5]),u=av?l(vA,a[2]):av}else
+av=n0(c,b,a[5]),u=av?l(vJ,a[2]):av}else
 var
 u=E;if(u){var
-aK=f(A,[0,T,0]),F=ac(e(function(a){return ap(c,a)},aK));if(F){var
-aL=y(function(a){return fy(q,i,a)},s),G=ac(e(function(a){return jc(c,a)},aL));if(G){var
-n=es(a[4]),aM=typeof
-b==="number"?b?[0,n[1],[0,n[2],0]]:[0,n[1],[0,n[2],[0,n[3],0]]]:oa(b[1],n),H=ac(e(function(a){return ap(c,[0,a,i])},aM));if(H){var
+aK=f(A,[0,T,0]),F=ad(e(function(a){return ap(c,a)},aK));if(F){var
+aL=z(function(a){return fA(q,i,a)},s),G=ad(e(function(a){return ji(c,a)},aL));if(G){var
+n=et(a[4]),aM=typeof
+b==="number"?b?[0,n[1],[0,n[2],0]]:[0,n[1],[0,n[2],[0,n[3],0]]]:oj(b[1],n),H=ad(e(function(a){return ap(c,[0,a,i])},aM));if(H){var
 af=H[1],ag=a[5];if(ag)var
-aO=nC(ag[1]),v=ac(e(function(a){return nE(c,a)},aO));else
+aO=nL(ag[1]),v=ad(e(function(a){return nN(c,a)},aO));else
 var
-v=vC;if(v){var
-ah=v[1],x=a[5],aP=x?nB(x[1]):x,I=ac(e(cH(c),aP));if(I){var
-J=ac(dc(function(a,b){return om(c,p,j,q,i,a,b)},q,i,U,s));if(J){var
-ai=J[1];if(a[7])var
-aQ=R[2],aR=R[1],K=i8(aB,ai,[8,k(ax(p),X),aR,aQ]);else
+v=vL;if(v){var
+ah=v[1],x=a[5],aP=x?nK(x[1]):x,I=ad(e(cJ(c),aP));if(I){var
+K=ad(dd(function(a,b){return ov(c,p,j,q,i,a,b)},q,i,U,s));if(K){var
+ai=K[1];if(a[7])var
+aQ=R[2],aR=R[1],L=jc(aB,ai,[8,k(ay(p),X),aR,aQ]);else
 var
-K=ai;var
+L=ai;var
 ak=o(g(f(af,ah)),aC);if(ak){var
-aS=i0(K),aT=f(af,ah),aw=0,aU=a[4];if(typeof
+aS=i6(L),aT=f(af,ah),aw=0,aU=a[4];if(typeof
 b==="number"&&!b){var
-al=function(a){return mT(c,aU,i,a)};aw=1}if(!aw)var
+al=function(a){return m2(c,aU,i,a)};aw=1}if(!aw)var
 al=function(a){return 0};var
-aV=f(G[1],I[1]),aW=f(F[1],aV),aX=e(p,V),aY=fF(j),aZ=k(ax(p),aY),a0=eE(j);return f1(iZ(c,Z,k(ax(p),a0),aZ,aX,aW,K,al),aT,aS,aA)}var
+aV=f(G[1],I[1]),aW=f(F[1],aV),aX=e(p,V),aY=fH(j),aZ=k(ay(p),aY),a0=eF(j);return f4(i5(c,Z,k(ay(p),a0),aZ,aX,aW,L,al),aT,aS,aA)}var
 am=ak}else
 var
-am=J;var
+am=K;var
 an=am}else
 var
 an=I;var
@@ -5296,14 +5297,14 @@ as=F;var
 au=as}else
 var
 au=u;return au}function
-vD(b){if(0===b[0])return[0,m4(b[1])];var
-a=b[1],c=a[7],d=a[6][1],e=a[5][1],f=bD(a[4]),g=bD(a[3]),h=bD(a[2]);return[1,[0,bD(a[1]),h,g,f,e,d,c]]}function
-oo(e,d,c){var
+vM(b){if(0===b[0])return[0,nb(b[1])];var
+a=b[1],c=a[7],d=a[6][1],e=a[5][1],f=bE(a[4]),g=bE(a[3]),h=bE(a[2]);return[1,[0,bE(a[1]),h,g,f,e,d,c]]}function
+ox(e,d,c){var
 a=d;for(;;){if(a){var
-b=a[1];if(sb(b[1],c))return b[2];var
+b=a[1];if(sk(b[1],c))return b[2];var
 a=a[2];continue}return e}}function
-jE(a,c,b){var
-d=W(e(aA,a[2]),b);return f(W(a[1],c),d)}function
+jK(a,c,b){var
+d=W(e(aB,a[2]),b);return f(W(a[1],c),d)}function
 bZ(c){var
 a=c;for(;;)switch(a[0]){case
 0:var
@@ -5314,12 +5315,12 @@ b=a[1];return[0,[0,[0,b,b],d],0];case
 8:var
 a=a[1];continue;default:var
 e=bZ(a[2]);return f(bZ(a[1]),e)}}function
-bH(e,a,c){switch(a[0]){case
+bI(e,a,c){switch(a[0]){case
 0:var
-o=a[1];return c8([0,[0,o,o],d],c);case
+o=a[1];return c9([0,[0,o,o],d],c);case
 1:var
-q=a[1];return oo(m(d),e,q);case
-2:return bn(bH(e,a[1],c));case
+q=a[1];return ox(m(d),e,q);case
+2:return bo(bI(e,a[1],c));case
 3:var
 i=a[2],f=a[1],h=B;break;case
 4:var
@@ -5329,86 +5330,86 @@ i=a[2],f=a[1],h=s;break;case
 6:var
 i=a[2],f=a[1],h=am;break;case
 7:var
-j=e9(a[2]),k=bH(e,a[1],c);if(j){if(j[1]){var
-l=V(k),p=function(a){return s(a,l)},n=gk(bz(ln(j)),p,l);return lm(j)?n:s(n,k)}return k}return m(b);default:return aL(bH(e,a[1],c))}var
-r=bH(e,i,L(c,g(bZ(f))));return h(bH(e,f,c),r)}function
-dg(c,h,b){var
+j=e_(a[2]),k=bI(e,a[1],c);if(j){if(j[1]){var
+l=V(k),p=function(a){return s(a,l)},n=gp(bA(lv(j)),p,l);return lu(j)?n:s(n,k)}return k}return m(b);default:return aL(bI(e,a[1],c))}var
+r=bI(e,i,M(c,g(bZ(f))));return h(bI(e,f,c),r)}function
+dh(c,h,b){var
 a=h;for(;;)switch(a[0]){case
 6:var
-e=a[1],k=L(b,g(bZ(e))),l=dg(c,a[2],k),m=f(dg(c,e,b),l);return[0,bH(c,a,b),m];case
+e=a[1],k=M(b,g(bZ(e))),l=dh(c,a[2],k),m=f(dh(c,e,b),l);return[0,bI(c,a,b),m];case
 8:var
-n=dg(c,a[1],b);return[0,bH(c,a,b),n];case
+n=dh(c,a[1],b);return[0,bI(c,a,b),n];case
 2:case
 7:var
 a=a[1];continue;case
 0:case
 1:return 0;default:var
-d=a[1],i=L(b,g(bZ(d))),j=dg(c,a[2],i);return f(dg(c,d,b),j)}}function
-op(i,h,f){var
+d=a[1],i=M(b,g(bZ(d))),j=dh(c,a[2],i);return f(dh(c,d,b),j)}}function
+oy(i,h,f){var
 b=i,a=h,c=f;for(;;){if(a){var
-d=a[1],e=d[2],j=L(c,g(bZ(e))),k=a[2],l=bH(b,e,c),b=[0,[0,d[1],l],b],a=k,c=j;continue}return b}}function
-jF(c,a,b){if(a){var
-e=a[1],d=e[2],h=L(b,g(bZ(d))),i=a[2],j=bH(c,d,b),k=jF([0,[0,e[1],j],c],i,h);return f(dg(c,d,b),k)}return a}function
-fG(a){return y(bZ,a)}function
-oq(c,a,b){if(a)var
-d=a[1],f=L(b,g(bZ(d))),h=oq(c,a[2],f),e=[0,bH(c,d,b),h];else
+d=a[1],e=d[2],j=M(c,g(bZ(e))),k=a[2],l=bI(b,e,c),b=[0,[0,d[1],l],b],a=k,c=j;continue}return b}}function
+jL(c,a,b){if(a){var
+e=a[1],d=e[2],h=M(b,g(bZ(d))),i=a[2],j=bI(c,d,b),k=jL([0,[0,e[1],j],c],i,h);return f(dh(c,d,b),k)}return a}function
+fI(a){return z(bZ,a)}function
+oz(c,a,b){if(a)var
+d=a[1],f=M(b,g(bZ(d))),h=oz(c,a[2],f),e=[0,bI(c,d,b),h];else
 var
 e=a;return e}function
-or(c,a,b){if(a){var
-d=a[1],e=L(b,g(bZ(d))),h=or(c,a[2],e);return f(dg(c,d,b),h)}return a}function
-hm(a){return 0===a[0]?fG(a[1]):bZ(a[1])}function
-jG(c,b,a){if(b){var
-d=b[1],j=L(a,g(hm(d))),k=jG(c,b[2],j);if(0===d[0])var
-h=or(c,d[1],a);else
+oA(c,a,b){if(a){var
+d=a[1],e=M(b,g(bZ(d))),h=oA(c,a[2],e);return f(dh(c,d,b),h)}return a}function
+hq(a){return 0===a[0]?fI(a[1]):bZ(a[1])}function
+jM(c,b,a){if(b){var
+d=b[1],j=M(a,g(hq(d))),k=jM(c,b[2],j);if(0===d[0])var
+h=oA(c,d[1],a);else
 var
-e=d[1],i=dg(c,e,a),h=[0,bH(c,e,a),i];return f(h,k)}return b}function
-hn(c){var
+e=d[1],i=dh(c,e,a),h=[0,bI(c,e,a),i];return f(h,k)}return b}function
+hr(c){var
 a=c[1];switch(a[0]){case
 0:var
 b=[1,a[1]];break;case
 1:var
 b=[0,a[1]];break;default:var
-b=bT(hn,a)}return[0,b]}function
-jH(c){var
+b=bT(hr,a)}return[0,b]}function
+jN(c){var
 b=c;for(;;){var
 a=b[1];switch(a[0]){case
 5:var
 b=a[1];continue;case
 6:var
-d=jH(a[2]);return s(jH(a[1]),d);case
+d=jN(a[2]);return s(jN(a[1]),d);case
 9:return a[1];default:return V(b)}}}function
-jI(n,h,a,f){if(a){var
-c=a[1],x=L(f,g(hm(c))),y=jI(n,h,a[2],x);if(0===c[0])var
-k=oq(h,c[1],f),o=[0,k,m(b),k,0,0,0,0,0];else
+jO(n,h,a,f){if(a){var
+c=a[1],x=M(f,g(hq(c))),y=jO(n,h,a[2],x);if(0===c[0])var
+k=oz(h,c[1],f),o=[0,k,m(b),k,0,0,0,0,0];else
 var
-l=bH(h,c[1],f),q=hn(l),i=a_(aC(0,n),q),d=hn(i[2]),j=e(hn,i[1]),r=0,s=0,t=0,u=0,v=[0,l],w=e(function(a){return aN(a,d)?m(b):am(a,d)},j),o=[0,j,jH(d),w,v,u,t,s,r];var
+l=bI(h,c[1],f),q=hr(l),i=a$(aD(0,n),q),d=hr(i[2]),j=e(hr,i[1]),r=0,s=0,t=0,u=0,v=[0,l],w=e(function(a){return aN(a,d)?m(b):am(a,d)},j),o=[0,j,jN(d),w,v,u,t,s,r];var
 p=[0,o,y]}else
 var
 p=a;return p}function
-os(a){return e(function(a){return[0,a[2],d]},a)}function
-jJ(a){var
-b=y(hm,a[4]),c=f(fG(e(aO,a[3])),b);return f(os(a[2]),c)}function
-ho(a){var
-b=cD(0,os(a[2])),c=aC(0,g(a[1]));return jE(a,e(function(a){return[0,[0,a]]},c),b)}function
-jK(b,d){var
+oB(a){return e(function(a){return[0,a[2],d]},a)}function
+jP(a){var
+b=z(hq,a[4]),c=f(fI(e(aO,a[3])),b);return f(oB(a[2]),c)}function
+hs(a){var
+b=cF(0,oB(a[2])),c=aD(0,g(a[1]));return jK(a,e(function(a){return[0,[0,a]]},c),b)}function
+jQ(b,d){var
 a=d;for(;;)switch(a[0]){case
 0:return 1;case
 1:var
-e=a[1];return aj(function(a){return aB(e,a)},b);case
+e=a[1];return aj(function(a){return aC(e,a)},b);case
 2:case
 7:case
 8:var
 a=a[1];continue;default:var
-c=jK(b,a[1]);if(c){var
+c=jQ(b,a[1]);if(c){var
 a=a[2];continue}return c}}function
-ot(d){var
+oC(d){var
 a=d;for(;;){if(a){var
-b=a[2],e=a[1],c=N(aj(function(b){return function(a){return sb(b,a)}}(e),b));if(c){var
+b=a[2],e=a[1],c=J(aj(function(b){return function(a){return sk(b,a)}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-ou(a){var
-u=e(aA,a[2]),d=f(a[1],u),h=g(a[1]),o=aa(vE,h),p=o?aa(h,vF):o,q=p?aa(h,g(a[4])):p,r=q?aa(g(a[4]),vG):q,s=r?ot(d):r;if(s){var
+oD(a){var
+u=e(aB,a[2]),d=f(a[1],u),h=g(a[1]),o=aa(vN,h),p=o?aa(h,vO):o,q=p?aa(h,g(a[4])):p,r=q?aa(g(a[4]),vP):q,s=r?oC(d):r;if(s){var
 c=d,b=a[3];for(;;){if(b){var
-j=b[1],k=j[1],m=N(aj(function(b){return function(a){return aB(b,a)}}(k),c)),n=m?jK(c,j[2]):m;if(n){var
+j=b[1],k=j[1],m=J(aj(function(b){return function(a){return aC(b,a)}}(k),c)),n=m?jQ(c,j[2]):m;if(n){var
 c=[0,k,c],b=b[2];continue}var
 t=n}else
 var
@@ -5417,9 +5418,9 @@ i=t;break}}else
 var
 i=s;if(i){var
 v=a[4];return l(function(b){var
-c=0===b[0]?b[1]:[0,b[1],0],g=f(e(aA,a[3]),d);return l(function(a){return jK(g,a)},c)},v)}return i}function
-dP(f,e,g){var
-h=g[1],a=bT(function(a){return dP(f,e,a)},h);switch(a[0]){case
+c=0===b[0]?b[1]:[0,b[1],0],g=f(e(aB,a[3]),d);return l(function(a){return jQ(g,a)},c)},v)}return i}function
+dQ(f,e,g){var
+h=g[1],a=bT(function(a){return dQ(f,e,a)},h);switch(a[0]){case
 0:return r(a[1],f,[0,d,b]);case
 1:return r(a[1],e,[0,d,b]);case
 2:return[0,a[1],b];case
@@ -5431,7 +5432,7 @@ h=g[1],a=bT(function(a){return dP(f,e,a)},h);switch(a[0]){case
 8:var
 c=a[1];return[4,c,c];case
 9:return[6,a[1]];default:return[0,d,b]}}function
-jL(d){var
+jR(d){var
 b=d;for(;;){var
 a=b[1];switch(a[0]){case
 10:return 0;case
@@ -5442,105 +5443,105 @@ b=a[1];continue;case
 0:case
 1:case
 2:return 1;default:var
-c=jL(a[1]);if(c){var
+c=jR(a[1]);if(c){var
 b=a[2];continue}return c}}}function
 b0(g,f,e){var
 b=f,a=e;for(;;){if(b){if(a){var
-c=c9(g,b[1],a[1]);if(c){var
+c=c_(g,b[1],a[1]);if(c){var
 b=b[2],a=a[2];continue}var
 d=c}else
 var
 d=a;return d}return a?0:1}}function
-vH(a){var
+vQ(a){var
 b=a[4],d=0;if(typeof
 b!=="number"&&0===b[0]){var
 c=[0,b[1],0];d=1}if(!d)var
 c=0;var
 e=f(a[3],c);return f(a[1],e)}function
-hp(a){return g(a[1])}function
-ov(a){var
-b=g(fG(e(aO,a[3])));return L(g(a[2]),b)}function
-ow(a){var
-b=g(a[2]),c=a[3];return op(ho(a),c,b)}function
-ox(a){var
-b=ov(a),c=a[4],d=ow(a);return jI(hp(a),d,c,b)}function
-oy(a,b){var
-c=y(hm,a[4]),d=f(fG(e(aO,a[3])),c);return f(b,e(function(a){return a[1][1]},d))}function
-oz(b,a){return l(function(a){if(0===a[0]){var
-c=hp(b);return o(g(a[1]),c)}return 1},a)}function
-oA(f,e){function
+ht(a){return g(a[1])}function
+oE(a){var
+b=g(fI(e(aO,a[3])));return M(g(a[2]),b)}function
+oF(a){var
+b=g(a[2]),c=a[3];return oy(hs(a),c,b)}function
+oG(a){var
+b=oE(a),c=a[4],d=oF(a);return jO(ht(a),d,c,b)}function
+oH(a,b){var
+c=z(hq,a[4]),d=f(fI(e(aO,a[3])),c);return f(b,e(function(a){return a[1][1]},d))}function
+oI(b,a){return l(function(a){if(0===a[0]){var
+c=ht(b);return o(g(a[1]),c)}return 1},a)}function
+oJ(f,e){function
 a(a){return r(a,e,[0,d,b])}var
 c=[0,d,b];switch(f){case
 0:var
-g=a(vJ);return[0,a(0),g,c];case
+g=a(vS);return[0,a(0),g,c];case
 1:var
-h=a(vK),i=a(vL);return[0,a(0),i,h];default:return[0,c,c,c]}}function
-oB(f,e){function
+h=a(vT),i=a(vU);return[0,a(0),i,h];default:return[0,c,c,c]}}function
+oK(f,e){function
 a(a){return r(a,e,[0,d,b])}var
 c=[0,d,b];switch(f){case
-0:return[0,c,c,a(vM)];case
+0:return[0,c,c,a(vV)];case
 1:var
-g=a(vN),h=a(vO);return[0,a(vP),h,g];default:var
-i=a(vQ),j=a(vR);return[0,a(0),j,i]}}function
-oC(t,s,k,j,r,d){var
-c=bs(k,j,r,d);if(0===d[0])var
-e=ch(d[1],c);else
+g=a(vW),h=a(vX);return[0,a(vY),h,g];default:var
+i=a(vZ),j=a(v0);return[0,a(0),j,i]}}function
+oL(t,s,k,j,r,d){var
+c=bt(k,j,r,d);if(0===d[0])var
+e=ci(d[1],c);else
 var
-a=d[1],f=fv(a,c),g=fw(a,c),h=g7(a,c),i=eu(a,c),l=P([3,[4,h,g],[4,i,f]],g4(a)),m=P([2,[4,h,f],[4,i,g]],fu(a)),n=J(function(b,a){return[2,b,a]},m,l),o=P(a[5],n),p=g5(a,c),q=P(g6(a,c),p),e=J(function(b,a){return[3,b,a]},q,o);return jl(t,e,P([5,[0,b,b],s],c$(eC(k,j,eB(d)),e)))}function
-oD(c,b,a){return b?fx(c,b[1],a):a?0:1}function
-oE(d,b,i,a,c,n,h,m,f){var
-p=at(b),j=o(g(c),p),k=j?oD(d,a,h):j,l=k?oD(d,a,f):k;if(l){var
-q=e(function(c){return oC(b,i,a,f,m,c)},c),r=e(function(c){return oC(b,i,a,h,n,c)},c);return jC(d,at(b),r,q)}return l}function
-oF(c,j,d,b,a){var
-e=aK(d,j),g=e?be(b,a):e;if(g)var
-k=cB(c,a)[2],h=[0,cB(c,b)[1],k],l=[0,cB(c,dz(a,b)),0],i=[0,[0,h,h,f(af(u,d),l)]];else
+a=d[1],f=fx(a,c),g=fy(a,c),h=g$(a,c),i=ev(a,c),l=P([3,[4,h,g],[4,i,f]],g8(a)),m=P([2,[4,h,f],[4,i,g]],fw(a)),n=K(function(b,a){return[2,b,a]},m,l),o=P(a[5],n),p=g9(a,c),q=P(g_(a,c),p),e=K(function(b,a){return[3,b,a]},q,o);return jr(t,e,P([5,[0,b,b],s],da(eD(k,j,eC(d)),e)))}function
+oM(c,b,a){return b?fz(c,b[1],a):a?0:1}function
+oN(d,b,i,a,c,n,h,m,f){var
+p=at(b),j=o(g(c),p),k=j?oM(d,a,h):j,l=k?oM(d,a,f):k;if(l){var
+q=e(function(c){return oL(b,i,a,f,m,c)},c),r=e(function(c){return oL(b,i,a,h,n,c)},c);return jI(d,at(b),r,q)}return l}function
+oO(c,j,d,b,a){var
+e=aK(d,j),g=e?bf(b,a):e;if(g)var
+k=cD(c,a)[2],h=[0,cD(c,b)[1],k],l=[0,cD(c,dA(a,b)),0],i=[0,[0,h,h,f(ab(u,d),l)]];else
 var
 i=g;return i}function
-jM(a){if(a){var
+jS(a){if(a){var
 b=a[1];if(b)var
-c=jM(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+c=jS(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return vU}function
-oG(c,b,a){if(b){if(a){var
-d=b[1],f=oG(c,b[2],a[2]),g=a[1],h=function(b,a){return A(t(c,d,b),a)},i=function(a){return a};return aP(function(a){return t(c,d,a)},i,h,g,f)}var
+d=b;return d}return v3}function
+oP(c,b,a){if(b){if(a){var
+d=b[1],f=oP(c,b[2],a[2]),g=a[1],h=function(b,a){return A(t(c,d,b),a)},i=function(a){return a};return aP(function(a){return t(c,d,a)},i,h,g,f)}var
 e=a}else
 var
 e=b;return e}function
-oH(c,b,a){if(b){if(a){var
-d=oH(c,b[2],a[2]);return A(t(c,b[1],a[1]),d)}return u}return u}function
-hq(a){return ao(function(d,a){var
-e=c(2,b);return E(b8(b$(d),e),a)},d,a)}function
-hr(a,i,h){var
+oQ(c,b,a){if(b){if(a){var
+d=oQ(c,b[2],a[2]);return A(t(c,b[1],a[1]),d)}return u}return u}function
+hu(a){return ao(function(d,a){var
+e=c(2,b);return E(b9(ca(d),e),a)},d,a)}function
+hv(a,i,h){var
 d=g(i);function
 t(g,e,f){var
-d=[0,b,c(2,b)];return[0,$(cB(a,a2(dy(e,f),d)))]}var
-j=jM(e(function(b){return eh(a,t,b)},i));if(j){var
-v=j[1],w=function(b,c,e){return oF(a,d,b,c,e)},k=jM(e(function(b){return eh(a,w,b)},i));if(k){var
-x=function(b){return cB(a,b)},n=e(function(a){return e(x,a)},h),y=k[1],z=e(function(a){return a[3]},y),A=e(function(b){return oH(a,b,e(function(a){return a[2]},v))},n),B=W(aC(0,d),n),E=e(function(c){var
-i=oG(a,c[2],z),j=c[1],d=[0,O(a,b),0],e=f(af(u,j),d);function
-g(b,a){return F(b,aw(a))}function
-h(a){return ab(aw(a))}return aP(function(a){return a},h,g,e,i)},B),p=o(g(h),d),q=p?l(function(a){return o(g(a),d)},h):p;if(q)var
-G=c(2,b),H=b8(cw(a),G),I=hq(A),m=D(C(c(2,c(2,b)),I),H);else
+d=[0,b,c(2,b)];return[0,$(cD(a,a3(dz(e,f),d)))]}var
+j=jS(e(function(b){return ei(a,t,b)},i));if(j){var
+v=j[1],w=function(b,c,e){return oO(a,d,b,c,e)},k=jS(e(function(b){return ei(a,w,b)},i));if(k){var
+x=function(b){return cD(a,b)},n=e(function(a){return e(x,a)},h),y=k[1],z=e(function(a){return a[3]},y),A=e(function(b){return oQ(a,b,e(function(a){return a[2]},v))},n),B=W(aD(0,d),n),E=e(function(c){var
+i=oP(a,c[2],z),j=c[1],d=[0,O(a,b),0],e=f(ab(u,j),d);function
+g(b,a){return F(b,ax(a))}function
+h(a){return ac(ax(a))}return aP(function(a){return a},h,g,e,i)},B),p=o(g(h),d),q=p?l(function(a){return o(g(a),d)},h):p;if(q)var
+G=c(2,b),H=b9(cy(a),G),I=hu(A),m=D(C(c(2,c(2,b)),I),H);else
 var
 m=q;if(m){var
-J=c(2,b),K=b8(cw(a),J),L=hq(ec(E));return D(C(c(2,c(2,b)),L),K)}var
+J=c(2,b),K=b9(cy(a),J),L=hu(ed(E));return D(C(c(2,c(2,b)),L),K)}var
 r=m}else
 var
 r=k;var
 s=r}else
 var
 s=j;return s}function
-eF(a){return l(function(a){return N(dC(a))},a)}function
+eG(a){return l(function(a){return J(dD(a))},a)}function
 aW(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-a4(a){return[0,a[1],a[2]]}function
-hs(b,a){var
+a5(a){return[0,a[1],a[2]]}function
+hw(b,a){var
 d=g(a),c=o(g(b),d);if(c){var
-e=W(b,a);return l(function(a){return be(a[1],a[2])},e)}return c}function
-jN(c,a,b){var
-d=W(a,b),f=W(aC(c,g(a)),d);return e(function(a){return[1,a[1],a[2][1],a[2][2]]},f)}function
-eG(e,k,j,i){var
+e=W(b,a);return l(function(a){return bf(a[1],a[2])},e)}return c}function
+jT(c,a,b){var
+d=W(a,b),f=W(aD(c,g(a)),d);return e(function(a){return[1,a[1],a[2][1],a[2][2]]},f)}function
+eH(e,k,j,i){var
 c=k,b=j,a=i;for(;;){if(c)if(b)if(a){var
-f=a[1],l=h(e,1,[3,a4(c[1]),f]),g=l||h(e,1,[3,f,a4(b[1])]);if(!g){var
+f=a[1],l=h(e,1,[3,a5(c[1]),f]),g=l||h(e,1,[3,f,a5(b[1])]);if(!g){var
 c=c[2],b=b[2],a=a[2];continue}var
 d=g}else
 var
@@ -5549,25 +5550,25 @@ var
 d=b;else
 var
 d=c;return d}}function
-jO(b,e,c){var
-a=eh(b,function(a,c,d){return oF(b,e,a,c,d)},c);return a?I(d,a[1][2][1]):a}function
-jP(f,e,b,a){var
+jU(b,e,c){var
+a=ei(b,function(a,c,d){return oO(b,e,a,c,d)},c);return a?I(d,a[1][2][1]):a}function
+jV(f,e,b,a){var
 c=a[1],d=b[1],g=c[2],h=a[2],i=d[2],j=b[2],k=[0,d[1],[0,c[1],0]];return l(function(a){var
 b=[0,i,[0,g,0]];return l(function(b){var
 c=[0,j,[0,h,0]];return l(function(c){var
-d=a4(c),g=a4(b);return cE(f,e,[0,a4(a),g,d])},c)},b)},k)}function
-jQ(a){switch(a[0]){case
+d=a5(c),g=a5(b);return cG(f,e,[0,a5(a),g,d])},c)},b)},k)}function
+jW(a){switch(a[0]){case
 0:var
 c=[0,a[4],0],d=f(aW(a[3]),c),e=f(aW(a[2]),d);return f(aW(a[1]),e);case
 1:var
 b=a[3],g=b?aW(b[1]):b,h=f(aW(a[2]),g);return f(aW(a[1]),h);default:return aW(a[1])}}function
-oI(a){return 1===a[0]?0:1}function
-fH(b,a){var
-c=a2(a,a);return be(a2(b,b),c)?a:b}function
-fI(b,a,e,d){var
-c=dL(b,a,a4(e));return c?dL(b,a,a4(d)):c}function
-oJ(f,e,c,a){switch(e[0]){case
-0:if(c){if(c[2])return 0;if(a)return a[2]?0:fI(f,e[1],c[1],a[1]);var
+oR(a){return 1===a[0]?0:1}function
+fJ(b,a){var
+c=a3(a,a);return bf(a3(b,b),c)?a:b}function
+fK(b,a,e,d){var
+c=dM(b,a,a5(e));return c?dM(b,a,a5(d)):c}function
+oS(f,e,c,a){switch(e[0]){case
+0:if(c){if(c[2])return 0;if(a)return a[2]?0:fK(f,e[1],c[1],a[1]);var
 x=a}else
 var
 x=c;return x;case
@@ -5576,7 +5577,7 @@ i=c[2];if(i){var
 j=i[2];if(j){if(j[2])return 0;if(a){var
 k=a[2];if(k){var
 l=k[2];if(l){if(l[2])return 0;var
-y=fI(f,e[1],c[1],a[1]),z=y?fI(f,e[2],i[1],k[1]):y;if(z)return fI(f,e[3],j[1],l[1]);var
+y=fK(f,e[1],c[1],a[1]),z=y?fK(f,e[2],i[1],k[1]):y;if(z)return fK(f,e[3],j[1],l[1]);var
 A=z}else
 var
 A=l;var
@@ -5599,7 +5600,7 @@ m=c[2];if(m){var
 n=m[2];if(n){if(n[2])return 0;if(a){var
 o=a[2];if(o){var
 p=o[2];if(p){if(p[2])return 0;var
-P=[0,a4(fH(n[1],p[1])),0],Q=[0,a4(fH(m[1],o[1])),P];return fx(f,e,[0,a4(fH(c[1],a[1])),Q])}var
+P=[0,a5(fJ(n[1],p[1])),0],Q=[0,a5(fJ(m[1],o[1])),P];return fz(f,e,[0,a5(fJ(c[1],a[1])),Q])}var
 E=p}else
 var
 E=o;var
@@ -5618,11 +5619,11 @@ q=c[2];if(q){var
 r=q[2];if(r){if(r[2])return 0;if(a){var
 s=a[2];if(s){var
 t=s[2];if(t){if(t[2])return 0;var
-g=t[1],h=r[1],N=0,R=0;if(be(h,[0,d,b])&&be([0,d,b],g))var
+g=t[1],h=r[1],N=0,R=0;if(bf(h,[0,d,b])&&bf([0,d,b],g))var
 H=[0,d,b];else
 N=1;if(N)var
-O=a2(g,g),H=be(a2(h,h),O)?h:g;var
-S=[0,a4(H),R],T=[0,a4(fH(q[1],s[1])),S],I=fx(f,e,[0,a4(fH(c[1],a[1])),T]);if(I)return fI(f,db(e[2]),h,g);var
+O=a3(g,g),H=bf(a3(h,h),O)?h:g;var
+S=[0,a5(H),R],T=[0,a5(fJ(q[1],s[1])),S],I=fz(f,e,[0,a5(fJ(c[1],a[1])),T]);if(I)return fK(f,dc(e[2]),h,g);var
 J=I}else
 var
 J=t;var
@@ -5640,83 +5641,83 @@ L=q;var
 M=L}else
 var
 M=c;return M}}function
-oK(a){var
-c=r(vY,a,[0,d,b]),e=r(vZ,a,[0,d,b]);return[0,r(0,a,[0,d,b]),e,c]}function
-ht(a){var
-c=r(v0,a,[0,d,b]),e=r(v1,a,[0,d,b]);return[0,[0,r(0,a,[0,d,b]),e],c]}function
-jR(d,c,b,a){var
+oT(a){var
+c=r(v7,a,[0,d,b]),e=r(v8,a,[0,d,b]);return[0,r(0,a,[0,d,b]),e,c]}function
+hx(a){var
+c=r(v9,a,[0,d,b]),e=r(v_,a,[0,d,b]);return[0,[0,r(0,a,[0,d,b]),e],c]}function
+jX(d,c,b,a){var
 e=bX(d,c,b,a);return w(bX(d,c,b,a),e)}var
-cL=c(2,c(2,c(2,c(2,c(2,q(c(2,b)))))));function
-dQ(e){var
-a=aD(cL,e);if(a){var
-f=k(gm(c(2,b)),cL);return[0,a[1][2],f]}return[0,d,b]}var
-jS=[0,[0,d,b],[0,d,b],[0,d,b]];function
-eH(c,a){var
+cN=c(2,c(2,c(2,c(2,c(2,q(c(2,b)))))));function
+dR(e){var
+a=aE(cN,e);if(a){var
+f=k(gr(c(2,b)),cN);return[0,a[1][2],f]}return[0,d,b]}var
+jY=[0,[0,d,b],[0,d,b],[0,d,b]];function
+eI(c,a){var
 e=[0,d,b];return ao(function(b,a){return[2,k(c,b),a]},e,a)}function
-fJ(b,a){return ao(function(c,a){var
-d=k(b,c);return J(function(b,a){return[2,b,a]},d,a)},jS,a)}function
-oL(c){var
+fL(b,a){return ao(function(c,a){var
+d=k(b,c);return K(function(b,a){return[2,b,a]},d,a)},jY,a)}function
+oU(c){var
 a=c;for(;;)switch(a[0]){case
 0:return 1;case
-1:return aK(a[1],dD);case
+1:return aK(a[1],dE);case
 6:var
 a=a[1];continue;default:var
-b=oL(a[1]);if(b){var
+b=oU(a[1]);if(b){var
 a=a[2];continue}return b}}function
-dh(a){return l(oL,a)}function
-jT(d,h,c,f){var
-a=eh(d,function(c,e,f){var
-a=aK(c,L(dD,h)),b=a?be(e,f):a,g=b?[0,lK(d,c,e,f)]:b;return g},f);if(a){var
-b=a[1],e=av(dD,b[3]),g=iy(hq(av(c,e))),i=iy(hq(an(c,e))),j=T(E(E(fd(an(dD,b[3])),i),g));return I(b[1][2],j)}return a}function
-hu(b,a,c){if(b)if(a)var
-f=a[1],g=hu(b[2],a[2],c),h=I(b[1],d)?[3,f,c]:[2,f,c],e=[0,h,g];else
+di(a){return l(oU,a)}function
+jZ(d,h,c,f){var
+a=ei(d,function(c,e,f){var
+a=aK(c,M(dE,h)),b=a?bf(e,f):a,g=b?[0,lT(d,c,e,f)]:b;return g},f);if(a){var
+b=a[1],e=aw(dE,b[3]),g=iE(hu(aw(c,e))),i=iE(hu(an(c,e))),j=T(E(E(fe(an(dE,b[3])),i),g));return I(b[1][2],j)}return a}function
+hy(b,a,c){if(b)if(a)var
+f=a[1],g=hy(b[2],a[2],c),h=I(b[1],d)?[3,f,c]:[2,f,c],e=[0,h,g];else
 var
 e=a;else
 var
 e=b;return e}function
-hv(a){return z(function(a){var
-d=k(gm(c(2,b)),cL);return[0,a[2],d]},a)}function
-ck(b,a){var
-c=gv(a);return[1,L(dD,b),c,a]}function
-dR(a){if(cc(a[1],a[2]))return a[1];var
+hz(a){return y(function(a){var
+d=k(gr(c(2,b)),cN);return[0,a[2],d]},a)}function
+cl(b,a){var
+c=gA(a);return[1,M(dE,b),c,a]}function
+dS(a){if(cd(a[1],a[2]))return a[1];var
 d=[0,c(2,b),b];return[5,[2,a[1],a[2]],d]}function
-by(a){var
-b=dR(a[3]),c=dR(a[2]);return[0,dR(a[1]),c,b]}function
-oM(a){switch(a[0]){case
+bz(a){var
+b=dS(a[3]),c=dS(a[2]);return[0,dS(a[1]),c,b]}function
+oV(a){switch(a[0]){case
 0:var
-b=a[1],c=b[5],d=dR(b[4]),e=by(b[3]),f=by(b[2]);return[0,by(b[1]),f,e,d,c];case
+b=a[1],c=b[5],d=dS(b[4]),e=bz(b[3]),f=bz(b[2]);return[0,bz(b[1]),f,e,d,c];case
 1:var
-g=z(by,a[3]),h=by(a[2]);return[1,by(a[1]),h,g];default:return[2,by(a[1])]}}function
-fK(i,f,p,a,Q,n){var
-x=fq(i,f,p,a),y=x?dh(aW(a)):x;if(y){var
+g=y(bz,a[3]),h=bz(a[2]);return[1,bz(a[1]),h,g];default:return[2,bz(a[1])]}}function
+fM(i,f,p,a,Q,n){var
+x=fr(i,f,p,a),y=x?di(aW(a)):x;if(y){var
 q=H(f[3],Q);if(q){var
 j=q[1];if(typeof
 j!=="number"&&14===j[0]){var
-B=j[2],C=j[1],r=hv(aD(cL,B));if(r){var
-s=r[1],R=ck(v8,s),S=ck(v9,s),t=[0,ck(0,s),S,R],D=h(i,1,B),E=D?h(i,0,C):D;if(E)var
+B=j[2],C=j[1],r=hz(aE(cN,B));if(r){var
+s=r[1],R=cl(wf,s),S=cl(wg,s),t=[0,cl(0,s),S,R],D=h(i,1,B),E=D?h(i,0,C):D;if(E)var
 T=g(f[1]),u=o(g(n),T);else
 var
 u=E;var
-F=u?l(function(a){return dh(jQ(a))},p):u;if(F){var
-U=f[1],G=hu(n,e(function(b){return cG(oM(b),a)},U),C),I=dh(G);if(I){var
+F=u?l(function(a){return di(jW(a))},p):u;if(F){var
+U=f[1],G=hy(n,e(function(b){return cI(oV(b),a)},U),C),I=di(G);if(I){var
 v=W(W(p,G),n),k=function(k){var
 f=k[1][2],e=k[1][1];switch(e[0]){case
 0:var
-i=e[4],l=P(f,ay(e[1])),m=aV(e[2],e[3],a),g=J(function(b,a){return[3,b,a]},m,l),n=P([0,c(2,b),b],g);return[0,[3,w(g,g),[4,i,i]],n,[0,b,b]];case
+i=e[4],l=P(f,az(e[1])),m=aV(e[2],e[3],a),g=K(function(b,a){return[3,b,a]},m,l),n=P([0,c(2,b),b],g);return[0,[3,w(g,g),[4,i,i]],n,[0,b,b]];case
 1:var
 h=aV(e[1],e[2],a),o=P([0,c(2,b),b],h);return[0,[3,w(h,h),[4,f,f]],o,[0,b,b]];default:var
-j=e[1],p=ay(j);return[0,[3,w(ay(j),a),f],p,[0,d,b]]}},m=function(j){var
+j=e[1],p=az(j);return[0,[3,w(az(j),a),f],p,[0,d,b]]}},m=function(j){var
 e=j[1],f=e[2],c=e[1],d=j[2];switch(c[0]){case
 0:var
-g=c[3],h=c[2],i=c[1],k=aV(h,g,a),l=[3,w(ay(i),k),f],m=cf(i,h,g,c[4],a);return dQ([5,[0,d,b],[2,cF(c[5],m),l]]);case
-1:return dQ([5,[0,d,b],[2,f,cG(c,a)]]);default:return[0,d,b]}},M=w(t,t),N=[4,eH(function(a){var
-b=k(a)[3];return[4,m(a),b]},v),M],O=w(fJ(function(a){var
-b=k(a)[2];return P(m(a),b)},v),t);return jT(i,v$,v_,[2,[2,eH(function(a){var
+g=c[3],h=c[2],i=c[1],k=aV(h,g,a),l=[3,w(az(i),k),f],m=cg(i,h,g,c[4],a);return dR([5,[0,d,b],[2,cH(c[5],m),l]]);case
+1:return dR([5,[0,d,b],[2,f,cI(c,a)]]);default:return[0,d,b]}},M=w(t,t),N=[4,eI(function(a){var
+b=k(a)[3];return[4,m(a),b]},v),M],O=w(fL(function(a){var
+b=k(a)[2];return P(m(a),b)},v),t);return jZ(i,wi,wh,[2,[2,eI(function(a){var
 b=k(a)[1];return[4,m(a),b]},v),O],N])}var
-K=I}else
+J=I}else
 var
-K=F;var
-L=K}else
+J=F;var
+L=J}else
 var
 L=r;return L}var
 z=0}else
@@ -5725,54 +5726,54 @@ z=q;var
 A=z}else
 var
 A=y;return A}function
-wa(a){var
-b=dh(aW(a[3])),c=b?dh(aW(a[4])):b;return c?dh([0,a[2],0]):c}function
-oN(a,d,c){var
-b=aC(0,bF(a));return e(function(b){var
-e=aK(b,cK(a))?d:c;return ck(b,e)},b)}function
-oO(e,a,f){if(typeof
+wj(a){var
+b=di(aW(a[3])),c=b?di(aW(a[4])):b;return c?di([0,a[2],0]):c}function
+oW(a,d,c){var
+b=aD(0,bG(a));return e(function(b){var
+e=aK(b,cM(a))?d:c;return cl(b,e)},b)}function
+oX(e,a,f){if(typeof
 e==="number"){if(e){var
-g=ck(wb,a);return[0,[0,ck(0,a),g,[0,d,b]],jS]}var
-h=ck(wc,a),i=ck(wd,a);return[0,[0,ck(0,a),i,h],jS]}var
-c=e[1],j=oB(c,oN(c,a,f));return[0,oA(c,oN(c,a,f)),j]}function
-oP(g,e,u,o,a){var
-p=hv(aD(cL,u));if(p){var
+g=cl(wk,a);return[0,[0,cl(0,a),g,[0,d,b]],jY]}var
+h=cl(wl,a),i=cl(wm,a);return[0,[0,cl(0,a),i,h],jY]}var
+c=e[1],j=oK(c,oW(c,a,f));return[0,oJ(c,oW(c,a,f)),j]}function
+oY(g,e,u,o,a){var
+p=hz(aE(cN,u));if(p){var
 v=p[1],q=typeof
-e==="number"?[0,[0,b,b]]:hv(k(cH(cL),o));if(q){var
+e==="number"?[0,[0,b,b]]:hz(k(cJ(cN),o));if(q){var
 r=q[1],x=h(g,1,u);if(x)if(typeof
 e==="number")var
 i=1;else
 var
-B=h(g,1,o),C=B?cI(g,o):B,i=C?N(be(r,[0,d,b])):C;else
+B=h(g,1,o),C=B?cK(g,o):B,i=C?J(bf(r,[0,d,b])):C;else
 var
 i=x;var
-y=i?l(wa,a):i;if(y){var
-f=oO(e,v,r)[2],j=oO(e,v,r)[1],m=[0,c(2,b),b],n=function(b){return fJ(function(a){var
-c=a[3],d=k(b,a[4]);return P([4,a[1],d],c)},a)},s=eH(function(a){var
-b=w(a[3],a[4]);return[4,a[1],b]},a),t=w(f,f),D=n(function(a){return a[3]}),E=P(f[3],D),F=n(function(a){return a[2]}),G=P(f[2],F),H=n(function(a){return a[1]}),I=P(f[1],H),K=J(function(b,a){return[2,b,a]},I,G),L=[4,t,s],M=w(f,J(function(b,a){return[2,b,a]},K,E)),O=[3,[2,w(f,fJ(function(a){var
-b=c$(a[4],a[3]);return P(a[1],b)},a)),M],L],Q=[2,[4,m,s],[4,[5,[0,c(2,c(2,b)),b],[2,[0,b,b],t]],O]],R=[4,m,w(j,nl(f,fJ(function(a){return P(a[1],a[4])},a)))],S=w(j,j),T=[2,[4,eH(function(a){return a[1]},a),S],R],U=[4,m,w(fJ(function(a){return P(a[1],a[3])},a),j)],V=[2,[2,[2,eH(function(a){var
+y=i?l(wj,a):i;if(y){var
+f=oX(e,v,r)[2],j=oX(e,v,r)[1],m=[0,c(2,b),b],n=function(b){return fL(function(a){var
+c=a[3],d=k(b,a[4]);return P([4,a[1],d],c)},a)},s=eI(function(a){var
+b=w(a[3],a[4]);return[4,a[1],b]},a),t=w(f,f),D=n(function(a){return a[3]}),E=P(f[3],D),F=n(function(a){return a[2]}),G=P(f[2],F),H=n(function(a){return a[1]}),I=P(f[1],H),L=K(function(b,a){return[2,b,a]},I,G),M=[4,t,s],N=w(f,K(function(b,a){return[2,b,a]},L,E)),O=[3,[2,w(f,fL(function(a){var
+b=da(a[4],a[3]);return P(a[1],b)},a)),N],M],Q=[2,[4,m,s],[4,[5,[0,c(2,c(2,b)),b],[2,[0,b,b],t]],O]],R=[4,m,w(j,nu(f,fL(function(a){return P(a[1],a[4])},a)))],S=w(j,j),T=[2,[4,eI(function(a){return a[1]},a),S],R],U=[4,m,w(fL(function(a){return P(a[1],a[3])},a),j)],V=[2,[2,[2,eI(function(a){var
 b=[4,a[2],a[2]],c=w(a[4],a[4]),d=[3,[2,w(a[3],a[3]),c],b];return[4,a[1],d]},a),U],T],Q],W=typeof
-e==="number"?at(e):cK(e[1]);return jT(g,at(e),W,V)}var
+e==="number"?at(e):cM(e[1]);return jZ(g,at(e),W,V)}var
 z=y}else
 var
 z=q;var
 A=z}else
 var
 A=p;return A}function
-oQ(a){return[6,w(a,a)]}function
-oR(b){if(0===b[0])return[0,oM(b[1])];var
-a=b[1],c=a[7],d=dR(a[6]),e=dR(a[5]),f=by(a[4]),g=by(a[3]),h=by(a[2]);return[1,[0,by(a[1]),h,g,f,e,d,c]]}function
-hw(f,e,c,a){if(typeof
+oZ(a){return[6,w(a,a)]}function
+o0(b){if(0===b[0])return[0,oV(b[1])];var
+a=b[1],c=a[7],d=dS(a[6]),e=dS(a[5]),f=bz(a[4]),g=bz(a[3]),h=bz(a[2]);return[1,[0,bz(a[1]),h,g,f,e,d,c]]}function
+hA(f,e,c,a){if(typeof
 a==="number")return 0;else{if(0===a[0]){var
 g=a[1],j=I(c,d)?[3,g,f]:[2,g,f];return[0,j]}var
-h=a[2],i=a[1],k=I(c,d)?gv(e):e,b=a4(k),l=[4,i,dK(b)],m=[2,[4,h,dJ(b)],l],n=[4,h,dK(b)];return[1,[3,[4,i,dJ(b)],n],m]}}function
-jU(a,c){if(D(c,b))return a;var
-g=aT(c,aJ(2)),h=g[1];if(K(g[2],d)){var
-e=jU(a,h);return[4,e,e]}var
-f=jU(a,h);return[4,[4,f,f],a]}function
+h=a[2],i=a[1],k=I(c,d)?gA(e):e,b=a5(k),l=[4,i,dL(b)],m=[2,[4,h,dK(b)],l],n=[4,h,dL(b)];return[1,[3,[4,i,dK(b)],n],m]}}function
+j0(a,c){if(D(c,b))return a;var
+g=aT(c,aJ(2)),h=g[1];if(L(g[2],d)){var
+e=j0(a,h);return[4,e,e]}var
+f=j0(a,h);return[4,[4,f,f],a]}function
 aX(c,a){switch(a[0]){case
 0:return a[1];case
-1:return oo([0,d,b],c,a[1]);case
+1:return ox([0,d,b],c,a[1]);case
 2:return[3,[0,d,b],aX(c,a[1])];case
 3:var
 e=aX(c,a[2]);return[2,aX(c,a[1]),e];case
@@ -5783,63 +5784,63 @@ g=aX(c,a[2]);return[4,aX(c,a[1]),g];case
 6:var
 h=aX(c,a[2]);return[5,aX(c,a[1]),h];case
 7:var
-i=a[2];return jU(aX(c,a[1]),i);default:return[6,aX(c,a[1])]}}function
-fL(d,h,g){var
-i=d[3],b=jE(d,g,h),a=i;for(;;){if(a){var
+i=a[2];return j0(aX(c,a[1]),i);default:return[6,aX(c,a[1])]}}function
+fN(d,h,g){var
+i=d[3],b=jK(d,g,h),a=i;for(;;){if(a){var
 c=a[1],e=a[2],f=aX(b,c[2]),b=[0,[0,c[1],f],b],a=e;continue}return b}}function
-fM(c){var
+fO(c){var
 a=c;for(;;)switch(a[0]){case
-0:return N(dC(a[1]));case
+0:return J(dD(a[1]));case
 1:return 1;case
 2:case
 7:case
 8:var
 a=a[1];continue;default:var
-b=fM(a[1]);if(b){var
+b=fO(a[1]);if(b){var
 a=a[2];continue}return b}}function
-jV(a){if(a){var
+j1(a){if(a){var
 b=a[1];if(0===b[0])return 0;var
-c=b[1],d=jV(a[2]);return z(function(a){return[0,c,a]},d)}return wg}function
-eI(c,e,p){var
+c=b[1],d=j1(a[2]);return y(function(a){return[0,c,a]},d)}return wp}function
+eJ(c,e,p){var
 a=p;for(;;)switch(a[0]){case
 6:var
-g=a[2],h=eI(c,e,a[1]),i=h?eI(c,e,g):h;if(i){var
+g=a[2],h=eJ(c,e,a[1]),i=h?eJ(c,e,g):h;if(i){var
 j=aX(e,g),l=k(c,j);if(!l)return k(c,[3,[0,d,b],j]);var
 m=l}else
 var
 m=i;return m;case
 8:var
-n=a[1],o=eI(c,e,n);return o?k(c,aX(e,n)):o;case
+n=a[1],o=eJ(c,e,n);return o?k(c,aX(e,n)):o;case
 2:case
 7:var
 a=a[1];continue;case
 0:case
 1:return 1;default:var
-f=eI(c,e,a[1]);if(f){var
+f=eJ(c,e,a[1]);if(f){var
 a=a[2];continue}return f}}function
-oS(j,c,i,h,n){var
-o=c[3],b=jE(c,h,i),a=o;for(;;){if(a){var
-e=a[1],f=e[2],g=eI(j,b,f);if(g){var
+o1(j,c,i,h,n){var
+o=c[3],b=jK(c,h,i),a=o;for(;;){if(a){var
+e=a[1],f=e[2],g=eJ(j,b,f);if(g){var
 k=a[2],m=aX(b,f),b=[0,[0,e[1],m],b],a=k;continue}var
 d=g}else
 var
 d=1;if(d){var
-p=fL(c,i,h);return l(function(a){return eI(j,p,a)},n)}return d}}var
-hy=x(m(b),hx);function
-oT(e){var
-a=V(hy);if(e)var
+p=fN(c,i,h);return l(function(a){return eJ(j,p,a)},n)}return d}}var
+hC=x(m(b),hB);function
+o2(e){var
+a=V(hC);if(e)var
 f=s(m(c(2,b)),a),g=B(m(c(2,c(2,b))),f),h=s(m(c(2,b)),a),d=am(B(m(b),h),g);else
 var
-i=B(m(c(2,b)),a),j=V(hx),d=am(B(s(m(c(2,b)),j),a),i);return aL(d)}function
-oU(d,c,a){if(d){var
-e=oT(c),f=B(m(b),e),g=s(x(m(b),a),f);return x(m(b),g)}var
-h=m(b),i=oT(c),j=am(m(b),i);return x(s(a,B(m(b),j)),h)}function
-eJ(f,e,d,a){var
-g=V(a),h=V(d),i=x(x(m(c(2,b)),h),g),j=f?e?hy:am(hy,s(m(c(2,b)),hx)):am(hy,m(c(2,b))),k=s(V(j),i);return aL(B(m(b),k))}function
-oV(g,d){var
+i=B(m(c(2,b)),a),j=V(hB),d=am(B(s(m(c(2,b)),j),a),i);return aL(d)}function
+o3(d,c,a){if(d){var
+e=o2(c),f=B(m(b),e),g=s(x(m(b),a),f);return x(m(b),g)}var
+h=m(b),i=o2(c),j=am(m(b),i);return x(s(a,B(m(b),j)),h)}function
+eK(f,e,d,a){var
+g=V(a),h=V(d),i=x(x(m(c(2,b)),h),g),j=f?e?hC:am(hC,s(m(c(2,b)),hB)):am(hC,m(c(2,b))),k=s(V(j),i);return aL(B(m(b),k))}function
+o4(g,d){var
 c=g,a=d[1],b=d[3];for(;;){if(c){if(b){var
 e=b[2],f=c[1]?A(a,b[1]):a,c=c[2],a=f,b=e;continue}return a}return a}}function
-jW(w,v,u,t){var
+j2(w,v,u,t){var
 a=e(function(a){return r(a,u,0)},v);if(a){var
 f=a[1];if(f){var
 b=a[2];if(b){var
@@ -5849,7 +5850,7 @@ h=c[1];if(h){var
 d=c[2];if(d){var
 i=d[1];if(i){if(d[2])return 0;var
 x=i[1],y=h[1],z=g[1],A=f[1];return l(function(a){var
-c=k(a,x),d=k(a,y),e=k(a,z),b=k(a,A);return ei(w,[0,[0,b,[0,e,[0,d,0]]],[0,[0,b,[0,c,0]],[0,[0,b,0],0]]])},t)}var
+c=k(a,x),d=k(a,y),e=k(a,z),b=k(a,A);return ej(w,[0,[0,b,[0,e,[0,d,0]]],[0,[0,b,[0,c,0]],[0,[0,b,0],0]]])},t)}var
 j=i}else
 var
 j=d;var
@@ -5871,12 +5872,12 @@ q=f;var
 s=q}else
 var
 s=a;return s}function
-oW(f,i,e,c,h){var
+o5(f,i,e,c,h){var
 j=f?b:d,a=O(i,j);function
 g(b){var
-c=f?ca(b):cx(b);return F(c,a)}var
+c=f?cb(b):cz(b);return F(c,a)}var
 k=[0,$(h),0],l=[0,[0,a,c,[0,u,[0,g(c),0]]],k];return[0,[0,a,e,[0,g(e),0]],l]}function
-oX(r,b,q,p,g,o,n){if(o){var
+o6(r,b,q,p,g,o,n){if(o){var
 x=o[1];if(x[1])return 0;if(o[2])return 0;if(n){var
 j=x[2],s=0;if(g){var
 h=g[2],c=0;if(h){var
@@ -5885,16 +5886,16 @@ a=0;c=1;d=1}else{var
 t=i[1],k=h[1],l=g[1],f=0;if(typeof
 j==="number")switch(j){case
 0:var
-A=e(aH,bi(wk)),z=e($,0),a=jW(b,p,bf(0,bB(b,dG(0,g),z),q,0),A);c=1;d=1;f=1;break;case
+A=e(aH,bj(wt)),z=e($,0),a=j2(b,p,bg(0,bC(b,dH(0,g),z),q,0),A);c=1;d=1;f=1;break;case
 3:var
 a=D(k[2],l[1]);c=1;d=1;f=1;break}else
 if(4===j[0]){var
 m=j[1];if(r)if(m){var
-B=e(oV,wl),a=jW(b,p,bf(0,bB(b,oW(r,b,l,k,t),0),q,0),B);c=1;d=1;f=1}else{var
+B=e(o4,wu),a=j2(b,p,bg(0,bC(b,o5(r,b,l,k,t),0),q,0),B);c=1;d=1;f=1}else{var
 a=m;c=1;d=1;f=1}else
 if(m){var
 a=0;c=1;d=1;f=1}else{var
-C=e(oV,wm),a=jW(b,p,bf(0,bB(b,oW(r,b,l,k,t),0),q,0),C);c=1;d=1;f=1}}if(!f)var
+C=e(o4,wv),a=j2(b,p,bg(0,bC(b,o5(r,b,l,k,t),0),q,0),C);c=1;d=1;f=1}}if(!f)var
 u=0}else
 var
 u=i;if(!d)var
@@ -5904,29 +5905,29 @@ v=h;if(!c){var
 w=v;s=1}}else{var
 w=g;s=1}if(s)var
 a=w;var
-y=a?wn:a}else
+y=a?ww:a}else
 var
 y=n;return y}return[0,n]}function
-oY(f,e,d,c,p,o,n){var
+o7(f,e,d,c,p,o,n){var
 b=p,g=o,a=n;for(;;)switch(a[0]){case
 0:var
-h=oX(f,e,d,c,b,a[1],g);return h?N(h[1]):h;case
+h=o6(f,e,d,c,b,a[1],g);return h?J(h[1]):h;case
 1:var
-i=oX(f,e,d,c,b,a[1],g);if(i){var
-j=i[1],k=c3(a[2],b),l=oY(f,e,d,c,k[1],j,a[3]);if(l){var
+i=o6(f,e,d,c,b,a[1],g);if(i){var
+j=i[1],k=c4(a[2],b),l=o7(f,e,d,c,k[1],j,a[3]);if(l){var
 b=k[2],g=j,a=a[4];continue}var
 m=l}else
 var
 m=i;return m;default:return 0}}function
-jX(a){return b8(c(2,b),aM(a,b))}function
-eK(i,a,e,w,v){var
-l=a?b:T(b),f=m(l),g=oU(a,e,wi),h=oU(a,e,wj),n=am(g,eJ(a,e,f,g)),o=[0,B(am(h,eJ(a,e,h,f)),n),0],p=am(f,eJ(a,e,f,g)),q=[0,B(am(h,eJ(a,e,g,h)),p),o],r=am(f,eJ(a,e,h,f)),t=[0,B(am(g,eJ(a,e,g,h)),r),q],u=a?e?m(c(2,b)):s(m(c(2,c(2,b))),hx):m(c(2,c(2,b))),j=cY([0,u,t]),k=[0,d,cw(i)];return oY(a,i,j[1],j[2],[0,k,[0,k,[0,w,0]]],1,v)}function
-oZ(a,g,b){if(I(g,jX(a))){if(b){var
+j3(a){return b9(c(2,b),aM(a,b))}function
+eL(i,a,e,w,v){var
+l=a?b:T(b),f=m(l),g=o3(a,e,wr),h=o3(a,e,ws),n=am(g,eK(a,e,f,g)),o=[0,B(am(h,eK(a,e,h,f)),n),0],p=am(f,eK(a,e,f,g)),q=[0,B(am(h,eK(a,e,g,h)),p),o],r=am(f,eK(a,e,h,f)),t=[0,B(am(g,eK(a,e,g,h)),r),q],u=a?e?m(c(2,b)):s(m(c(2,c(2,b))),hB):m(c(2,c(2,b))),j=cZ([0,u,t]),k=[0,d,cy(i)];return o7(a,i,j[1],j[2],[0,k,[0,k,[0,w,0]]],1,v)}function
+o8(a,g,b){if(I(g,j3(a))){if(b){var
 c=b[2];if(c){var
 d=c[2];if(d){var
 e=d[2];if(e){if(e[2])return 0;var
-h=[0,g,jX(a)],v=cw(a),i=[0,jX(a),v],j=eK(a,0,1,h,b[1]),k=j?eK(a,0,0,i,c[1]):j;if(k){var
-l=eK(a,1,1,h,d[1]);if(l)return eK(a,1,0,i,e[1]);var
+h=[0,g,j3(a)],v=cy(a),i=[0,j3(a),v],j=eL(a,0,1,h,b[1]),k=j?eL(a,0,0,i,c[1]):j;if(k){var
+l=eL(a,1,1,h,d[1]);if(l)return eL(a,1,0,i,e[1]);var
 m=l}else
 var
 m=k;var
@@ -5943,301 +5944,301 @@ q=p}else
 var
 q=b;return q}if(b){var
 f=b[2];if(f){if(f[2])return 0;var
-r=[0,g,cw(a)],s=eK(a,0,0,r,b[1]);if(s)return eK(a,1,0,r,f[1]);var
+r=[0,g,cy(a)],s=eL(a,0,0,r,b[1]);if(s)return eL(a,1,0,r,f[1]);var
 t=s}else
 var
 t=f;var
 u=t}else
 var
 u=b;return u}function
-jY(a){var
+j4(a){var
 b=[1,[2,d]];return bS(function(b,a){return[1,[3,b,a]]},a,b)}function
-hz(a){return jY(e(function(a){return[1,[8,[1,[2,a]]]]},a))}function
-hA(a,c){return jY(e(function(a){var
-d=[0,a[2]],b=W(a[1],c);return[1,[7,[1,[8,jY(e(function(a){return[1,[6,[0,a[1]],[1,[2,a[2]]]]]},b))]],d]]},a))}function
-o0(e,d,c,b,a){if(0===a[0])return r(a[1],b,0);var
-f=a[1],g=bT(function(a){return o0(e,d,c,b,a)},f);return k(bB(e,d,c),g)}function
-o1(a){return a?I(d,a[1][2][1]):a}function
-wo(a){var
-b=o(g(a),wp);return b?aj(function(a){return N(K(a,d))},a):b}function
-o2(c,f,b,a){if(b)if(a)var
-d=b[1],g=t(c,O(c,a[1]),f),h=o2(c,f,b[2],a[2]),i=d[3],j=A(d[2],g),e=[0,[0,A(d[1],g),j,i],h];else
+hD(a){return j4(e(function(a){return[1,[8,[1,[2,a]]]]},a))}function
+hE(a,c){return j4(e(function(a){var
+d=[0,a[2]],b=W(a[1],c);return[1,[7,[1,[8,j4(e(function(a){return[1,[6,[0,a[1]],[1,[2,a[2]]]]]},b))]],d]]},a))}function
+o9(e,d,c,b,a){if(0===a[0])return r(a[1],b,0);var
+f=a[1],g=bT(function(a){return o9(e,d,c,b,a)},f);return k(bC(e,d,c),g)}function
+o_(a){return a?I(d,a[1][2][1]):a}function
+wx(a){var
+b=o(g(a),wy);return b?aj(function(a){return J(L(a,d))},a):b}function
+o$(c,f,b,a){if(b)if(a)var
+d=b[1],g=t(c,O(c,a[1]),f),h=o$(c,f,b[2],a[2]),i=d[3],j=A(d[2],g),e=[0,[0,A(d[1],g),j,i],h];else
 var
 e=a;else
 var
 e=b;return e}function
-o3(d,c){var
+pa(d,c){var
 a=H(c,d);if(a){var
-b=a[1],e=b[1];return N(K(cd(b),e))}return a}function
-hB(b,a){return e$(e$(b,0),a)}function
-jZ(a){if(a){var
-b=a[2],c=a[1];if(b)return hB(c,[0,wr,jZ(b)]);var
+b=a[1],e=b[1];return J(L(ce(b),e))}return a}function
+hF(b,a){return fa(fa(b,0),a)}function
+j5(a){if(a){var
+b=a[2],c=a[1];if(b)return hF(c,[0,wA,j5(b)]);var
 d=c}else
 var
 d=a;return d}function
-G(a){return[0,wt,hB(jZ(a),ws)]}function
-ah(a){return[0,wv,hB(jZ(a),wu)]}function
-aq(a){return[0,wx,[0,a,ww]]}function
-n(b,a){return[0,bd(wz,bd(b,wy)),a]}function
+G(a){return[0,wC,hF(j5(a),wB)]}function
+ah(a){return[0,wE,hF(j5(a),wD)]}function
+aq(a){return[0,wG,[0,a,wF]]}function
+n(b,a){return[0,be(wI,be(b,wH)),a]}function
 Q(b,a){return ah([0,n(b,a),0])}function
-cM(d){var
-b=d,a=sG,e=0;for(;;){if(b){var
-c=lk(a),b=b[1],a=c;continue}return[0,fa(gj(a)),e]}}function
-j0(a){return[0,fa(gs(a)),0]}function
-fN(a){var
-c=aS(a),f=0,b=0===c?sM:0<c?[0,gs(a)]:[1,gs(T(a))];if(0===b[0])var
-d=fa(b[1]);else
+cO(d){var
+b=d,a=sP,e=0;for(;;){if(b){var
+c=ls(a),b=b[1],a=c;continue}return[0,fb(go(a)),e]}}function
+j6(a){return[0,fb(gx(a)),0]}function
+fP(a){var
+c=aS(a),f=0,b=0===c?sV:0<c?[0,gx(a)]:[1,gx(T(a))];if(0===b[0])var
+d=fb(b[1]);else
 var
-e=fa(b[1]),d=bd(bO(1,45),e);return[0,d,f]}function
-eL(a){var
-b=0,c=0<aS(a)?gs(a):sK;return[0,fa(c),b]}function
-j1(a){switch(a[0]){case
-2:return wB;case
-3:return 2<=a[1]?wC:wD;case
-4:return wE;default:return wA}}function
-fO(b,a){function
-c(c,a){return aa(c,j1(a))?fO(b,a):[0,wK,f(fO(b,a),wJ)]}switch(a[0]){case
+e=fb(b[1]),d=be(bO(1,45),e);return[0,d,f]}function
+eM(a){var
+b=0,c=0<aS(a)?gx(a):sT;return[0,fb(c),b]}function
+j7(a){switch(a[0]){case
+2:return wK;case
+3:return 2<=a[1]?wL:wM;case
+4:return wN;default:return wJ}}function
+fQ(b,a){function
+c(c,a){return aa(c,j7(a))?fQ(b,a):[0,wT,f(fQ(b,a),wS)]}switch(a[0]){case
 0:var
 e=a[2],g=a[1];if(typeof
-e==="number")return[0,bm(g),0];var
-h=[0,wL,[0,bm(e),0]];return[0,bm(g),h];case
+e==="number")return[0,bn(g),0];var
+h=[0,wU,[0,bn(e),0]];return[0,bn(g),h];case
 1:return[0,k(b,a[1]),0];case
-2:return[0,wN,c(wM,a[1])];case
+2:return[0,wW,c(wV,a[1])];case
 3:var
-i=a[3],j=c([0,j1(a)],i);switch(a[1]){case
+i=a[3],j=c([0,j7(a)],i);switch(a[1]){case
 0:var
-d=wF;break;case
+d=wO;break;case
 1:var
-d=wG;break;case
+d=wP;break;case
 2:var
-d=wH;break;default:var
-d=wI}var
-l=a[2];return f(c(j1(a),l),[0,d,j]);case
+d=wQ;break;default:var
+d=wR}var
+l=a[2];return f(c(j7(a),l),[0,d,j]);case
 4:var
-m=[0,wO,j0(a[2])];return f(c(wP,a[1]),m);default:return[0,wR,f(fO(b,a[1]),wQ)]}}function
-M(a){return[0,wU,f(fO(function(a){return 0===a[0]?a[1]:wT},a),wS)]}function
-j2(a){return[0,wW,f(fO(function(a){return a},a),wV)]}function
-cN(a){if(0===a[0])return M(a[1]);var
-b=[0,n(wX,M(a[2])),0];return ah([0,n(wY,M(a[1])),b])}function
-hC(b,a){var
+m=[0,wX,j6(a[2])];return f(c(wY,a[1]),m);default:return[0,w0,f(fQ(b,a[1]),wZ)]}}function
+N(a){return[0,w3,f(fQ(function(a){return 0===a[0]?a[1]:w2},a),w1)]}function
+j8(a){return[0,w5,f(fQ(function(a){return a},a),w4)]}function
+cP(a){if(0===a[0])return N(a[1]);var
+b=[0,n(w6,N(a[2])),0];return ah([0,n(w7,N(a[1])),b])}function
+hG(b,a){var
 c=[0,k(b,a[3]),0],d=[0,k(b,a[2]),c];return G([0,k(b,a[1]),d])}function
-wZ(a){function
-b(a){return hC(cN,a)}switch(a[0]){case
+w8(a){function
+b(a){return hG(cP,a)}switch(a[0]){case
 0:var
-e=0,g=a[5]?w0:w8,h=[0,n(w1,aq(g)),e],i=[0,n(w2,cN(a[4])),h],j=[0,n(w3,b(a[3])),i],k=[0,n(w4,b(a[2])),j],l=[0,n(w5,b(a[1])),k],c=[0,n(w7,aq(w6)),l];break;case
+e=0,g=a[5]?w9:xf,h=[0,n(w_,aq(g)),e],i=[0,n(w$,cP(a[4])),h],j=[0,n(xa,b(a[3])),i],k=[0,n(xb,b(a[2])),j],l=[0,n(xc,b(a[1])),k],c=[0,n(xe,aq(xd)),l];break;case
 1:var
-d=a[3],m=d?[0,n(w9,b(d[1])),0]:d,o=[0,n(w_,b(a[2])),0],p=[0,n(w$,b(a[1])),o],c=f([0,n(xb,aq(xa)),p],m);break;default:var
-q=[0,n(xc,b(a[1])),0],c=[0,n(xe,aq(xd)),q]}return ah(c)}function
-xf(a){function
-b(a){return G(e(cN,a))}function
+d=a[3],m=d?[0,n(xg,b(d[1])),0]:d,o=[0,n(xh,b(a[2])),0],p=[0,n(xi,b(a[1])),o],c=f([0,n(xk,aq(xj)),p],m);break;default:var
+q=[0,n(xl,b(a[1])),0],c=[0,n(xn,aq(xm)),q]}return ah(c)}function
+xo(a){function
+b(a){return G(e(cP,a))}function
 g(a){var
-b=a?xg:xi;return n(xh,aq(b))}switch(a[0]){case
+b=a?xp:xr;return n(xq,aq(b))}switch(a[0]){case
 0:var
-h=[0,g(a[5]),0],i=[0,n(xj,cN(a[4])),h],j=[0,n(xk,b(a[3])),i],k=[0,n(xl,b(a[2])),j],l=[0,n(xm,b(a[1])),k],c=[0,n(xo,aq(xn)),l];break;case
+h=[0,g(a[5]),0],i=[0,n(xs,cP(a[4])),h],j=[0,n(xt,b(a[3])),i],k=[0,n(xu,b(a[2])),j],l=[0,n(xv,b(a[1])),k],c=[0,n(xx,aq(xw)),l];break;case
 1:var
-d=a[3],m=d?[0,n(xp,b(d[1])),0]:d,o=[0,n(xq,b(a[2])),0],p=[0,n(xr,b(a[1])),o],c=f([0,n(xt,aq(xs)),p],m);break;case
+d=a[3],m=d?[0,n(xy,b(d[1])),0]:d,o=[0,n(xz,b(a[2])),0],p=[0,n(xA,b(a[1])),o],c=f([0,n(xC,aq(xB)),p],m);break;case
 2:var
-q=[0,n(xu,b(a[1])),0],c=[0,n(xw,aq(xv)),q];break;default:var
-r=[0,g(a[7]),0],s=[0,n(xx,cN(a[6])),r],t=[0,n(xy,cN(a[5])),s],u=[0,n(xz,b(a[4])),t],v=[0,n(xA,b(a[3])),u],w=[0,n(xB,b(a[2])),v],x=[0,n(xC,b(a[1])),w],c=[0,n(xE,aq(xD)),x]}return ah(c)}function
-j3(a){switch(a){case
-0:return xF;case
-1:return xG;case
-2:return xH;case
-3:return xI;case
-4:return xJ;case
-5:return xK;case
-6:return xL;case
-7:return xM;case
-8:return xN;case
-9:return xO;case
-10:return xP;case
-11:return xQ;case
-12:return xR;case
-13:return xS;case
-14:return xT;case
-15:return xU;default:return xV}}function
-j4(a){if(typeof
-a==="number")return xW;else
+q=[0,n(xD,b(a[1])),0],c=[0,n(xF,aq(xE)),q];break;default:var
+r=[0,g(a[7]),0],s=[0,n(xG,cP(a[6])),r],t=[0,n(xH,cP(a[5])),s],u=[0,n(xI,b(a[4])),t],v=[0,n(xJ,b(a[3])),u],w=[0,n(xK,b(a[2])),v],x=[0,n(xL,b(a[1])),w],c=[0,n(xN,aq(xM)),x]}return ah(c)}function
+j9(a){switch(a){case
+0:return xO;case
+1:return xP;case
+2:return xQ;case
+3:return xR;case
+4:return xS;case
+5:return xT;case
+6:return xU;case
+7:return xV;case
+8:return xW;case
+9:return xX;case
+10:return xY;case
+11:return xZ;case
+12:return x0;case
+13:return x1;case
+14:return x2;case
+15:return x3;default:return x4}}function
+j_(a){if(typeof
+a==="number")return x5;else
 switch(a[0]){case
-0:return xX;case
-1:return xY;default:return xZ}}function
-fP(a){var
+0:return x6;case
+1:return x7;default:return x8}}function
+fR(a){var
 c=a[4];if(typeof
 c==="number")var
 d=0;else
 switch(c[0]){case
 0:var
-d=[0,n(x0,M(c[1])),0];break;case
+d=[0,n(x9,N(c[1])),0];break;case
 1:var
-d=[0,n(x1,M(c[1])),0];break;default:var
-o=[0,M(c[2]),0],d=[0,n(x2,G([0,M(c[1]),o])),0]}var
-p=[0,n(x3,aq(j4(a[4]))),d],i=a[3];if(i){var
+d=[0,n(x_,N(c[1])),0];break;default:var
+o=[0,N(c[2]),0],d=[0,n(x$,G([0,N(c[1]),o])),0]}var
+p=[0,n(ya,aq(j_(a[4]))),d],i=a[3];if(i){var
 b=i[1];switch(b[0]){case
 0:var
-r=G([0,M(b[1]),0]),k=a[1],q=0,s=6===k?x4:12===k?x8:x9,g=[0,n(x5,Q(s,r)),q];break;case
+r=G([0,N(b[1]),0]),k=a[1],q=0,s=6===k?yb:12===k?yf:yg,g=[0,n(yc,Q(s,r)),q];break;case
 1:var
-x=G(e(M,b[1])),m=a[1],w=0;if(14<=m)switch(m+q0|0){case
+x=G(e(N,b[1])),m=a[1],w=0;if(14<=m)switch(m+q9|0){case
 0:var
-h=x_;break;case
+h=yh;break;case
 1:var
-h=ya;break;default:var
-h=yb}else
+h=yj;break;default:var
+h=yk}else
 var
-h=yc;var
-g=[0,n(x$,Q(h,x)),w];break;case
+h=yl;var
+g=[0,n(yi,Q(h,x)),w];break;case
 2:var
-y=[0,n(yd,G([0,M(b[2]),0])),0],g=[0,n(yf,ah([0,n(ye,G([0,M(b[1]),0])),y])),0];break;default:var
-z=[0,n(yg,G([0,M(b[2]),0])),0],g=[0,n(yi,ah([0,n(yh,G([0,M(b[1]),0])),z])),0]}var
+y=[0,n(ym,G([0,N(b[2]),0])),0],g=[0,n(yo,ah([0,n(yn,G([0,N(b[1]),0])),y])),0];break;default:var
+z=[0,n(yp,G([0,N(b[2]),0])),0],g=[0,n(yr,ah([0,n(yq,G([0,N(b[1]),0])),z])),0]}var
 l=g}else
 var
 l=i;var
-t=f(l,p),j=a[2],u=j?[0,n(x6,cM(j[1])),0]:j,v=f(u,t);return ah([0,n(x7,aq(j3(a[1]))),v])}function
-o4(a){if(0===a[0]){var
-b=[0,n(yj,hC(M,a[2])),0];return Q(yl,ah([0,n(yk,hC(M,a[1])),b]))}var
-c=[0,M(a[5]),0],d=[0,n(ym,G([0,M(a[4]),c])),0],e=[0,n(yn,M(a[3])),d],f=[0,M(a[2]),0];return Q(yp,ah([0,n(yo,G([0,M(a[1]),f])),e]))}function
-o5(a){if(0===a[0]){var
-b=[0,n(yq,G(e(M,a[2]))),0];return Q(ys,ah([0,n(yr,G(e(M,a[1]))),b]))}return o4([1,a[1],a[2],a[3],a[4],a[5]])}function
-o6(a){switch(a){case
-0:return yt;case
-1:return yu;default:return yv}}function
-yw(a){function
-b(a){return G(e(cN,a))}var
-c=[0,n(yx,b(a[2])),0],d=[0,n(yy,b(a[1])),c];return ah([0,n(yA,aq(yz)),d])}function
-o7(a){function
+t=f(l,p),j=a[2],u=j?[0,n(yd,cO(j[1])),0]:j,v=f(u,t);return ah([0,n(ye,aq(j9(a[1]))),v])}function
+pb(a){if(0===a[0]){var
+b=[0,n(ys,hG(N,a[2])),0];return Q(yu,ah([0,n(yt,hG(N,a[1])),b]))}var
+c=[0,N(a[5]),0],d=[0,n(yv,G([0,N(a[4]),c])),0],e=[0,n(yw,N(a[3])),d],f=[0,N(a[2]),0];return Q(yy,ah([0,n(yx,G([0,N(a[1]),f])),e]))}function
+pc(a){if(0===a[0]){var
+b=[0,n(yz,G(e(N,a[2]))),0];return Q(yB,ah([0,n(yA,G(e(N,a[1]))),b]))}return pb([1,a[1],a[2],a[3],a[4],a[5]])}function
+pd(a){switch(a){case
+0:return yC;case
+1:return yD;default:return yE}}function
+yF(a){function
+b(a){return G(e(cP,a))}var
+c=[0,n(yG,b(a[2])),0],d=[0,n(yH,b(a[1])),c];return ah([0,n(yJ,aq(yI)),d])}function
+pe(a){function
 b(b,a){var
-c=[0,M(a),0];return G([0,M(b),c])}switch(a[0]){case
-0:return Q(yB,b(a[1],a[2]));case
+c=[0,N(a),0];return G([0,N(b),c])}switch(a[0]){case
+0:return Q(yK,b(a[1],a[2]));case
 1:var
-c=a[3],d=a[2],e=a[1],f=[0,n(yC,b(c[1],c[2])),0],g=[0,n(yD,b(d[1],d[2])),f];return Q(yF,ah([0,n(yE,b(e[1],e[2])),g]));case
-2:return Q(yG,M(a[1]));default:var
-h=[0,n(yH,M(a[2])),0];return Q(yJ,ah([0,n(yI,M(a[1])),h]))}}function
-yK(a){function
-b(a){return hC(M,a)}if(0===a[0])var
-c=a[5],e=c?[0,n(yL,b(c[1])),0]:c,g=[0,M(a[4]),0],h=[0,n(yM,G([0,M(a[3]),g])),0],i=[0,n(yN,M(a[2])),h],j=[0,n(yO,cM(a[1])),i],d=f([0,n(yQ,aq(yP)),j],e);else
+c=a[3],d=a[2],e=a[1],f=[0,n(yL,b(c[1],c[2])),0],g=[0,n(yM,b(d[1],d[2])),f];return Q(yO,ah([0,n(yN,b(e[1],e[2])),g]));case
+2:return Q(yP,N(a[1]));default:var
+h=[0,n(yQ,N(a[2])),0];return Q(yS,ah([0,n(yR,N(a[1])),h]))}}function
+yT(a){function
+b(a){return hG(N,a)}if(0===a[0])var
+c=a[5],e=c?[0,n(yU,b(c[1])),0]:c,g=[0,N(a[4]),0],h=[0,n(yV,G([0,N(a[3]),g])),0],i=[0,n(yW,N(a[2])),h],j=[0,n(yX,cO(a[1])),i],d=f([0,n(yZ,aq(yY)),j],e);else
 var
-k=[0,n(yR,M(a[4])),0],l=[0,n(yS,b(a[3])),k],m=[0,n(yT,b(a[2])),l],o=a[1]?yU:yW,d=[0,n(yV,aq(o)),m];return ah(d)}function
-o8(a){var
-b=a?[0,n(yX,G(e(yK,a))),0]:a;return b}function
-j5(d,c,b,a){var
-g=[0,n(yY,G(e(fP,a))),0],h=f(o8(b),g),i=[0,n(yZ,o4(c)),0];return ah(f([0,n(y1,Q(y0,G(e(wZ,d)))),i],h))}function
-y2(a){switch(a[0]){case
-0:return Q(y3,j5(a[1],a[2],a[3],a[4]));case
+k=[0,n(y0,N(a[4])),0],l=[0,n(y1,b(a[3])),k],m=[0,n(y2,b(a[2])),l],o=a[1]?y3:y5,d=[0,n(y4,aq(o)),m];return ah(d)}function
+pf(a){var
+b=a?[0,n(y6,G(e(yT,a))),0]:a;return b}function
+j$(d,c,b,a){var
+g=[0,n(y7,G(e(fR,a))),0],h=f(pf(b),g),i=[0,n(y8,pb(c)),0];return ah(f([0,n(y_,Q(y9,G(e(w8,d)))),i],h))}function
+y$(a){switch(a[0]){case
+0:return Q(za,j$(a[1],a[2],a[3],a[4]));case
 1:var
-b=a[5],c=a[3],d=a[1],g=G(e(xf,a[2])),l=[0,n(y4,G(e(fP,a[6]))),0],m=b?[0,n(y5,o7(b[1])),0]:b,o=f(m,l),k=0,p=[0,n(y6,o5(a[4])),o];if(typeof
+b=a[5],c=a[3],d=a[1],g=G(e(xo,a[2])),l=[0,n(zb,G(e(fR,a[6]))),0],m=b?[0,n(zc,pe(b[1])),0]:b,o=f(m,l),k=0,p=[0,n(zd,pc(a[4])),o];if(typeof
 d==="number")if(d)var
-h=y7;else{var
-i=Q(za,g);k=1}else
+h=ze;else{var
+i=Q(zj,g);k=1}else
 var
-h=o6(d[1]);if(!k)var
-q=c?[0,n(y8,M(c[1])),0]:c,i=Q(h,ah([0,n(y9,g),q]));return Q(y$,ah([0,n(y_,i),p]));case
+h=pd(d[1]);if(!k)var
+q=c?[0,n(zf,N(c[1])),0]:c,i=Q(h,ah([0,n(zg,g),q]));return Q(zi,ah([0,n(zh,i),p]));case
 2:var
-r=[0,n(zb,G(e(fP,a[7]))),0],s=f(o8(a[6]),r),t=[0,n(zc,o7(a[5])),0],u=[0,n(zd,o5(a[4])),t],v=[0,n(ze,M(a[3])),0],w=ah([0,n(zf,G(e(yw,a[2]))),v]);return Q(zh,ah(f([0,n(zg,Q(o6(a[1]),w)),u],s)));case
+r=[0,n(zk,G(e(fR,a[7]))),0],s=f(pf(a[6]),r),t=[0,n(zl,pe(a[5])),0],u=[0,n(zm,pc(a[4])),t],v=[0,n(zn,N(a[3])),0],w=ah([0,n(zo,G(e(yF,a[2]))),v]);return Q(zq,ah(f([0,n(zp,Q(pd(a[1]),w)),u],s)));case
 3:var
-x=[0,n(zi,G(e(fP,a[7]))),0],y=[0,n(zj,G(e(M,a[6]))),0],z=[0,n(zm,Q(zl,ah([0,n(zk,G(e(M,a[5]))),y]))),x],A=0,B=a[4],C=[0,n(zp,G(e(function(a){return 0===a[0]?Q(zn,G(e(j2,a[1]))):Q(zo,j2(a[1]))},B))),A],D=a[3],E=[0,n(zq,G(e(function(a){var
-b=[0,j2(a[2]),0];return G([0,aq(a[1]),b])},D))),C],F=a[2],H=[0,n(zr,G(e(function(a){var
-b=[0,cN(a[2]),0];return G([0,aq(a[1]),b])},F))),E];return Q(zv,ah([0,n(zu,Q(zt,ah([0,n(zs,G(e(aq,a[1]))),H]))),z]));case
+x=[0,n(zr,G(e(fR,a[7]))),0],y=[0,n(zs,G(e(N,a[6]))),0],z=[0,n(zv,Q(zu,ah([0,n(zt,G(e(N,a[5]))),y]))),x],A=0,B=a[4],C=[0,n(zy,G(e(function(a){return 0===a[0]?Q(zw,G(e(j8,a[1]))):Q(zx,j8(a[1]))},B))),A],D=a[3],E=[0,n(zz,G(e(function(a){var
+b=[0,j8(a[2]),0];return G([0,aq(a[1]),b])},D))),C],F=a[2],H=[0,n(zA,G(e(function(a){var
+b=[0,cP(a[2]),0];return G([0,aq(a[1]),b])},F))),E];return Q(zE,ah([0,n(zD,Q(zC,ah([0,n(zB,G(e(aq,a[1]))),H]))),z]));case
 4:var
-I=[0,n(zw,G(e(fP,a[3]))),0],J=[0,n(zz,Q(zy,ah([0,n(zx,M(a[2])),0]))),I];return Q(zD,ah([0,n(zC,Q(zB,ah([0,n(zA,M(a[1])),0]))),J]));case
+I=[0,n(zF,G(e(fR,a[3]))),0],J=[0,n(zI,Q(zH,ah([0,n(zG,N(a[2])),0]))),I];return Q(zM,ah([0,n(zL,Q(zK,ah([0,n(zJ,N(a[1])),0]))),J]));case
 5:var
-K=[0,n(zE,M(a[5])),0];return Q(zG,ah([0,n(zF,j5(a[1],[0,a[2],a[3]],0,a[4])),K]));case
+K=[0,n(zN,N(a[5])),0];return Q(zP,ah([0,n(zO,j$(a[1],[0,a[2],a[3]],0,a[4])),K]));case
 6:var
-j=a[1],L=0,N=j?cN(j[1]):aq(zJ);return Q(zI,ah([0,n(zH,N),L]));default:var
-O=[0,n(zK,M(a[6])),0],P=[0,n(zL,M(a[5])),O],R=[0,n(zM,j5(a[2],a[3],0,a[4])),P],S=a[1];return Q(zR,ah([0,n(zQ,G(e(function(a){var
-b=[0,n(zN,M(a[2][2])),0],c=[0,n(zO,M(a[2][1])),b];return ah([0,n(zP,aq(a[1])),c])},S))),R]))}}function
-dS(a){return G(e(fN,a))}function
-fQ(b,a){var
-c=[0,n(zS,eL(a)),0];return ah([0,n(zT,G(e(dS,b))),c])}function
-di(a){switch(a[0]){case
+j=a[1],L=0,M=j?cP(j[1]):aq(zS);return Q(zR,ah([0,n(zQ,M),L]));default:var
+O=[0,n(zT,N(a[6])),0],P=[0,n(zU,N(a[5])),O],R=[0,n(zV,j$(a[2],a[3],0,a[4])),P],S=a[1];return Q(z0,ah([0,n(zZ,G(e(function(a){var
+b=[0,n(zW,N(a[2][2])),0],c=[0,n(zX,N(a[2][1])),b];return ah([0,n(zY,aq(a[1])),c])},S))),R]))}}function
+dT(a){return G(e(fP,a))}function
+fS(b,a){var
+c=[0,n(z1,eM(a)),0];return ah([0,n(z2,G(e(dT,b))),c])}function
+dj(a){switch(a[0]){case
 0:return aq(a[1]);case
 1:var
-b=fQ(a[2],a[3]);return Q(a[1],b);case
+b=fS(a[2],a[3]);return Q(a[1],b);case
 2:var
-c=a[1]?zU:zW;return Q(zV,aq(c));case
+c=a[1]?z3:z5;return Q(z4,aq(c));case
 3:var
-d=[0,dS(a[3]),0];return Q(zX,G([0,fQ(a[1],a[2]),d]));case
+d=[0,dT(a[3]),0];return Q(z6,G([0,fS(a[1],a[2]),d]));case
 4:var
-f=[0,eL(a[4]),0],g=[0,fN(a[3]),f];return Q(zY,G([0,fQ(a[1],a[2]),g]));case
+f=[0,eM(a[4]),0],g=[0,fP(a[3]),f];return Q(z7,G([0,fS(a[1],a[2]),g]));case
 5:var
-h=[0,eL(a[3]),0],i=[0,fN(a[2]),h];return Q(zZ,G([0,di(a[1]),i]));case
+h=[0,eM(a[3]),0],i=[0,fP(a[2]),h];return Q(z8,G([0,dj(a[1]),i]));case
 6:var
-j=[0,eL(a[3]),0],k=[0,fN(a[2]),j];return Q(z0,G([0,di(a[1]),k]));case
-7:return Q(z1,di(a[1]));case
+j=[0,eM(a[3]),0],k=[0,fP(a[2]),j];return Q(z9,G([0,dj(a[1]),k]));case
+7:return Q(z_,dj(a[1]));case
 8:var
-l=[0,G(e(dS,a[3])),0],m=[0,aq(a[2]),l];return Q(z2,G([0,di(a[1]),m]));case
+l=[0,G(e(dT,a[3])),0],m=[0,aq(a[2]),l];return Q(z$,G([0,dj(a[1]),m]));case
 9:var
-n=a[1];return Q(z3,G(e(function(a){var
-b=a[1],c=b[1],d=[0,di(a[2]),0],e=[0,eL(b[2]),d],f=[0,fN(c[2]),e];return G([0,dS(c[1]),f])},n)));default:var
-o=[0,di(a[4]),0],p=[0,di(a[3]),o],q=[0,eL(a[2]),p];return Q(z4,G([0,dS(a[1]),q]))}}function
-z5(a){var
-b=[0,di(a[2]),0];return G([0,cM(a[1]),b])}function
-o9(a){if(typeof
-a==="number")return 0===a?aq(z6):aq(z7);else
+n=a[1];return Q(Aa,G(e(function(a){var
+b=a[1],c=b[1],d=[0,dj(a[2]),0],e=[0,eM(b[2]),d],f=[0,fP(c[2]),e];return G([0,dT(c[1]),f])},n)));default:var
+o=[0,dj(a[4]),0],p=[0,dj(a[3]),o],q=[0,eM(a[2]),p];return Q(Ab,G([0,dT(a[1]),q]))}}function
+Ac(a){var
+b=[0,dj(a[2]),0];return G([0,cO(a[1]),b])}function
+pg(a){if(typeof
+a==="number")return 0===a?aq(Ad):aq(Ae);else
 switch(a[0]){case
 0:var
-b=[0,G(e(dS,a[2])),0];return Q(z8,G([0,cM(a[1]),b]));case
+b=[0,G(e(dT,a[2])),0];return Q(Af,G([0,cO(a[1]),b]));case
 1:var
-c=[0,cM(a[2]),0];return Q(z9,G([0,cM(a[1]),c]));case
-2:return Q(z_,G(e(M,a[1])));default:var
-d=[0,n(z$,fQ(a[4],a[5])),0],f=[0,n(Aa,G(e(M,a[3]))),d],g=[0,n(Ab,G(e(M,a[2]))),f];return Q(Ad,ah([0,n(Ac,cM(a[1])),g]))}}function
-Ae(a){var
-b=a[4],h=b?[0,n(Af,dS([0,b[1],b[2]])),0]:b,d=a[3],i=d?[0,n(Ag,o9(d[1])),0]:d,j=f(i,h),g=a[2],k=g?[0,n(Ah,cM(g[1])),0]:g,l=f(k,j),c=a[1],m=c?[0,n(Ai,G(e(z5,[0,c[1],c[2]]))),0]:c;return ah(f(m,l))}function
-o_(g,a,d){var
-h=[0,n(Aj,G(e(Ae,d))),0];if(a)var
-b=a[1],c=[0,n(Ak,fQ(b[1],b[2])),0];else
+c=[0,cO(a[2]),0];return Q(Ag,G([0,cO(a[1]),c]));case
+2:return Q(Ah,G(e(N,a[1])));default:var
+d=[0,n(Ai,fS(a[4],a[5])),0],f=[0,n(Aj,G(e(N,a[3]))),d],g=[0,n(Ak,G(e(N,a[2]))),f];return Q(Am,ah([0,n(Al,cO(a[1])),g]))}}function
+An(a){var
+b=a[4],h=b?[0,n(Ao,dT([0,b[1],b[2]])),0]:b,d=a[3],i=d?[0,n(Ap,pg(d[1])),0]:d,j=f(i,h),g=a[2],k=g?[0,n(Aq,cO(g[1])),0]:g,l=f(k,j),c=a[1],m=c?[0,n(Ar,G(e(Ac,[0,c[1],c[2]]))),0]:c;return ah(f(m,l))}function
+ph(g,a,d){var
+h=[0,n(As,G(e(An,d))),0];if(a)var
+b=a[1],c=[0,n(At,fS(b[1],b[2])),0];else
 var
 c=a;var
-i=f(c,h);return ah([0,n(Al,j0(g)),i])}function
-o$(d,c,a,b){var
-g=[0,n(Am,o9(b)),0],h=a?[0,n(An,G(e(M,a))),0]:a,i=f(h,g),j=[0,n(Ao,G(e(M,c))),0];return ah(f([0,n(Ap,j0(d)),j],i))}function
-Aq(a){if(typeof
-a==="number")return aq(Ar);else
+i=f(c,h);return ah([0,n(Au,j6(g)),i])}function
+pi(d,c,a,b){var
+g=[0,n(Av,pg(b)),0],h=a?[0,n(Aw,G(e(N,a))),0]:a,i=f(h,g),j=[0,n(Ax,G(e(N,c))),0];return ah(f([0,n(Ay,j6(d)),j],i))}function
+Az(a){if(typeof
+a==="number")return aq(AA);else
 switch(a[0]){case
-0:return Q(As,cM(a[1]));case
-1:return Q(At,o_(a[1],a[2],a[3]));default:return Q(Au,o$(a[1],a[2],a[3],a[4]))}}function
-hD(a){var
-b=ip(io(az(a),function(b){return a7(a,b)}));return l(function(a){var
-b=N(34===a?1:0),c=b?N(92===a?1:0):b,d=c?aa(AJ,gu(a)):c;return d?aa(gu(a),AK):d},b)}function
-j6(d){var
+0:return Q(AB,cO(a[1]));case
+1:return Q(AC,ph(a[1],a[2],a[3]));default:return Q(AD,pi(a[1],a[2],a[3],a[4]))}}function
+hH(a){var
+b=iv(iu(aA(a),function(b){return a8(a,b)}));return l(function(a){var
+b=J(34===a?1:0),c=b?J(92===a?1:0):b,d=c?aa(AS,gz(a)):c;return d?aa(gz(a),AT):d},b)}function
+ka(d){var
 a=d;for(;;)switch(a[0]){case
 8:var
-b=hD(a[2]);if(b){var
+b=hH(a[2]);if(b){var
 a=a[1];continue}return b;case
 9:var
-e=a[1];return l(function(a){return j6(a[2])},e);case
+e=a[1];return l(function(a){return ka(a[2])},e);case
 10:var
-c=j6(a[3]);if(c){var
+c=ka(a[3]);if(c){var
 a=a[4];continue}return c;case
 0:case
-1:return hD(a[1]);case
+1:return hH(a[1]);case
 5:case
 6:case
 7:var
 a=a[1];continue;default:return 1}}function
-fR(b){function
+fT(b){function
 c(f){var
-a=gu(f),b=aa(AL,a),c=b?aa(a,AM):b;if(c)var
+a=gz(f),b=aa(AU,a),c=b?aa(a,AV):b;if(c)var
 d=c;else{var
-e=aa(AN,a);if(e)return aa(a,AO);var
+e=aa(AW,a);if(e)return aa(a,AX);var
 d=e}return d}var
-a=ip(io(az(b),function(a){return a7(b,a)}));if(a){var
+a=iv(iu(aA(b),function(a){return a8(b,a)}));if(a){var
 d=a[2],e=c(a[1]),f=e?l(function(a){var
 b=c(a);if(b)var
 d=b;else
 var
-e=gu(a),f=aa(AP,e),h=f?aa(e,AQ):f,d=h;var
-g=d||(95===a?1:0);return g},d):e,h=f?aa(g(d),AR):f;if(h)return N(aB(b,AS));var
+e=gz(a),f=aa(AY,e),h=f?aa(e,AZ):f,d=h;var
+g=d||(95===a?1:0);return g},d):e,h=f?aa(g(d),A0):f;if(h)return J(aC(b,A1));var
 i=h}else
 var
 i=a;return i}function
-j7(c){var
+kb(c){var
 a=c;for(;;)switch(a[0]){case
 0:return 1;case
-1:return fR(a[1]);case
+1:return fT(a[1]);case
 3:var
-b=j7(a[2]);if(b){var
+b=kb(a[2]);if(b){var
 a=a[3];continue}return b;default:var
 a=a[1];continue}}function
-fS(m){var
+fU(m){var
 a=m;for(;;)switch(a[0]){case
 0:var
 e=a[1];if(typeof
@@ -6248,42 +6249,42 @@ h=typeof
 e[1]==="number"?1:0,d=h?1:h;else
 var
 d=1;if(d){var
-f=gj(a[2]);if(typeof
+f=go(a[2]);if(typeof
 f!=="number"&&0===f[0])return 0;var
 g=1}else
 var
 g=d;return g;case
 1:return 1;case
 3:var
-i=fS(a[2]);if(i){var
+i=fU(a[2]);if(i){var
 a=a[3];continue}return i;case
 4:var
-j=a[2],k=fS(a[1]),l=k?gq(c(2,b),j):k;return l?gq(j,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):l;default:var
+j=a[2],k=fU(a[1]),l=k?gv(c(2,b),j):k;return l?gv(j,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):l;default:var
 a=a[1];continue}}function
-eM(a){return 0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
+eN(a){return 0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
 b1(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-dT(a){return y(eM,b1(a))}function
-j8(a){switch(a[0]){case
+dU(a){return z(eN,b1(a))}function
+kc(a){switch(a[0]){case
 0:var
-c=eM(a[4]),d=f(dT(a[3]),c),e=f(dT(a[2]),d);return f(dT(a[1]),e);case
+c=eN(a[4]),d=f(dU(a[3]),c),e=f(dU(a[2]),d);return f(dU(a[1]),e);case
 1:var
-b=a[3],g=b?dT(b[1]):b,h=f(dT(a[2]),g);return f(dT(a[1]),h);default:return dT(a[1])}}function
-AT(a){switch(a[0]){case
+b=a[3],g=b?dU(b[1]):b,h=f(dU(a[2]),g);return f(dU(a[1]),h);default:return dU(a[1])}}function
+A2(a){switch(a[0]){case
 0:var
 d=f(a[3],[0,a[4],0]),e=f(a[2],d),b=f(a[1],e);break;case
 1:var
 c=a[3],g=c?c[1]:c,h=f(a[2],g),b=f(a[1],h);break;case
 2:var
 b=a[1];break;default:var
-i=f(a[4],[0,a[5],[0,a[6],0]]),j=f(a[3],i),k=f(a[2],j),b=f(a[1],k)}return y(eM,b)}function
-pa(a){return 0===a[0]?f(a[1],a[2]):[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
-pb(a){if(0===a[0]){var
+i=f(a[4],[0,a[5],[0,a[6],0]]),j=f(a[3],i),k=f(a[2],j),b=f(a[1],k)}return z(eN,b)}function
+pj(a){return 0===a[0]?f(a[1],a[2]):[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
+pk(a){if(0===a[0]){var
 b=b1(a[2]);return f(b1(a[1]),b)}return[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
-pc(a){switch(a[0]){case
+pl(a){switch(a[0]){case
 1:var
 b=a[3],c=a[2],d=a[1];return[0,d[1],[0,d[2],[0,c[1],[0,c[2],[0,b[1],[0,b[2],0]]]]]];case
 2:return[0,a[1],0];default:return[0,a[1],[0,a[2],0]]}}function
-dU(e){var
+dV(e){var
 a=e[4],h=typeof
 a==="number"?0:2===a[0]?[0,a[1],[0,a[2],0]]:[0,a[1],0],c=e[3];if(c){var
 b=c[1];switch(b[0]){case
@@ -6295,31 +6296,31 @@ d=[0,b[1],[0,b[2],0]]}var
 g=d}else
 var
 g=c;return f(g,h)}function
-pd(a){if(0===a[0]){var
+pm(a){if(0===a[0]){var
 b=a[5],c=b?b1(b[1]):b;return[0,a[2],[0,a[3],[0,a[4],c]]]}var
 d=[0,a[4],0],e=f(b1(a[3]),d);return f(b1(a[2]),e)}function
-pe(b,e){var
+pn(b,e){var
 a=e;for(;;)switch(a[0]){case
 0:return 1;case
 1:var
 c=a[1];if(0===c[0]){var
-f=c[1];return aj(function(a){return aB(f,a)},b)}return 0;case
+f=c[1];return aj(function(a){return aC(f,a)},b)}return 0;case
 3:var
-d=pe(b,a[2]);if(d){var
+d=pn(b,a[2]);if(d){var
 a=a[3];continue}return d;default:var
 a=a[1];continue}}function
-fT(c,a){return l(function(a){var
-b=fS(a);return b?pe(c,a):b},a)}function
-pf(a){if(typeof
+fV(c,a){return l(function(a){var
+b=fU(a);return b?pn(c,a):b},a)}function
+po(a){if(typeof
 a!=="number")switch(a[0]){case
 2:return a[1];case
 3:return f(a[2],a[3])}return 0}function
-pg(a){var
-d=gq(c(2,c(2,c(2,c(2,c(2,b))))),a);return d?gq(a,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b))))))))))):d}function
-ph(a,b){return b?[4,ph(a,b[1]),a]:a}function
+pp(a){var
+d=gv(c(2,c(2,c(2,c(2,c(2,b))))),a);return d?gv(a,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b))))))))))):d}function
+pq(a,b){return b?[4,pq(a,b[1]),a]:a}function
 j(a){switch(a[0]){case
 0:var
-i=a[2],k=c(2,q(c(2,c(2,b)))),l=function(a){return C(k,a)},m=gk(li(i),l,b);return[0,lv(lj(gj(a[1]),i)),m];case
+i=a[2],k=c(2,q(c(2,c(2,b)))),l=function(a){return C(k,a)},m=gp(lq(i),l,b);return[0,lD(lr(go(a[1]),i)),m];case
 1:var
 e=a[1];return 0===e[0]?[5,[0,b,b],[0,d,b]]:[1,e[1],e[2],e[3]];case
 2:var
@@ -6330,35 +6331,35 @@ g=j(a[2]),h=j(a[3]);switch(a[1]){case
 1:return[3,g,h];case
 2:return[4,g,h];default:return[5,g,h]}case
 4:var
-n=bz(e9(a[2]));return ph(j(a[1]),n);default:return[6,j(a[1])]}}function
+n=bA(e_(a[2]));return pq(j(a[1]),n);default:return[6,j(a[1])]}}function
 b2(a){if(0===a[0]){var
 b=j(a[1]);return[0,b,b]}var
 c=j(a[2]);return[0,j(a[1]),c]}function
-dV(a){var
+dW(a){var
 b=b2(a[3]),c=b2(a[2]);return[0,b2(a[1]),c,b]}function
-AU(a){switch(a[0]){case
+A3(a){switch(a[0]){case
 0:var
-b=a[5],c=b2(a[4]),d=dV(a[3]),e=dV(a[2]);return[0,[0,dV(a[1]),e,d,c,b]];case
+b=a[5],c=b2(a[4]),d=dW(a[3]),e=dW(a[2]);return[0,[0,dW(a[1]),e,d,c,b]];case
 1:var
-f=z(dV,a[3]),g=dV(a[2]);return[1,dV(a[1]),g,f];default:return[2,dV(a[1])]}}function
-pi(a){if(0===a[0]){var
+f=y(dW,a[3]),g=dW(a[2]);return[1,dW(a[1]),g,f];default:return[2,dW(a[1])]}}function
+pr(a){if(0===a[0]){var
 c=a[2],d=a[1],b=function(a){var
 b=j(k(a,c));return[0,j(k(a,d)),b]},e=b(function(a){return a[3]}),f=b(function(a){return a[2]});return[0,[0,b(function(a){return a[1]}),f,e]]}var
 g=j(a[5]),h=[0,j(a[4]),g],i=j(a[3]),l=j(a[2]);return[1,j(a[1]),l,i,h]}function
-eN(a){var
+eO(a){var
 b=j(a[3]),c=j(a[2]);return[0,j(a[1]),c,b]}function
-dj(a){if(0===a[0]){var
-c=a[5],h=c?eN(c[1]):[0,[0,d,b],[0,d,b],[0,d,b]],i=j(a[4]),k=j(a[3]),l=j(a[2]);return[0,bz(a[1]),l,k,i,h]}var
+dk(a){if(0===a[0]){var
+c=a[5],h=c?eO(c[1]):[0,[0,d,b],[0,d,b],[0,d,b]],i=j(a[4]),k=j(a[3]),l=j(a[2]);return[0,bA(a[1]),l,k,i,h]}var
 e=a[4],f=a[3],g=a[2];if(a[1]){var
-m=eN(f),n=eN(g);return[2,j(e),n,m]}var
-o=eN(f),p=eN(g);return[1,j(e),p,o]}function
-hE(b,a){if(a){var
-c=a[1],d=a[2],g=hE(f(b,[0,c,0]),d),h=e(function(a){return[0,c,a]},b);return f(bu(function(c){var
-a=c[2],b=c[1],d=0===b[0]?b[5]?0:0===a[0]?a[5]?0:o(b[1],a[1]):0:0===a[0]?0:ct(b[1],a[1]);return N(d)},h),g)}return a}function
-AV(b){if(b[1])return 0;var
+m=eO(f),n=eO(g);return[2,j(e),n,m]}var
+o=eO(f),p=eO(g);return[1,j(e),p,o]}function
+hI(b,a){if(a){var
+c=a[1],d=a[2],g=hI(f(b,[0,c,0]),d),h=e(function(a){return[0,c,a]},b);return f(a1(function(c){var
+a=c[2],b=c[1],d=0===b[0]?b[5]?0:0===a[0]?a[5]?0:o(b[1],a[1]):0:0===a[0]?0:cv(b[1],a[1]);return J(d)},h),g)}return a}function
+A4(b){if(b[1])return 0;var
 a=b[4];if(typeof
 a!=="number"&&1===a[0])return[0,[0,j(a[1])],0];return 0}function
-AW(N,M,a){switch(a[1]){case
+ps(N,M,a){switch(a[1]){case
 0:var
 g=a[4];if(typeof
 g!=="number"&&0===g[0])return[0,[1,j(g[1])],0];return 0;case
@@ -6413,14 +6414,14 @@ b=j(W);return[13,a,j(X),b]}}if(K)return 0;break;case
 9:var
 u=a[4];if(typeof
 u!=="number"&&0===u[0]){var
-Y=u[1],Z=hE(0,M);return e(function(h){var
+Y=u[1],Z=hI(0,M);return e(function(h){var
 e=j(Y),a=h[2],c=h[1];if(0===c[0]){var
 f=c[1];if(0===a[0]){var
-g=function(a){return a?eN(a[1]):[0,[0,d,b],[0,d,b],[0,d,b]]};if(o(f,a[1])){var
-i=j(a[2]),k=[2,[2,j(c[2]),i],e],l=g(a[5]),m=g(c[5]);return[11,bz(f),m,l,k]}var
-n=dj(a);return[10,dj(c),n,e]}var
-p=dj(a);return[10,dj(c),p,e]}var
-q=dj(a);return[10,dj(c),q,e]},Z)}return 0;case
+g=function(a){return a?eO(a[1]):[0,[0,d,b],[0,d,b],[0,d,b]]};if(o(f,a[1])){var
+i=j(a[2]),k=[2,[2,j(c[2]),i],e],l=g(a[5]),m=g(c[5]);return[11,bA(f),m,l,k]}var
+n=dk(a);return[10,dk(c),n,e]}var
+p=dk(a);return[10,dk(c),p,e]}var
+q=dk(a);return[10,dk(c),q,e]},Z)}return 0;case
 10:var
 v=a[4],L=0;if(typeof
 v==="number"||!(1===v[0]))L=1;else{var
@@ -6430,15 +6431,15 @@ $=x[2],aa=x[1],c=function(a){var
 b=j(_),c=j($);return[12,a,j(aa),c,b]}}if(L)return 0;break;case
 11:var
 G=typeof
-a[4]==="number"?1:0,ab=G?AX:G;return ab;case
+a[4]==="number"?1:0,ab=G?A5:G;return ab;case
 12:var
 y=a[4];if(typeof
 y!=="number"&&1===y[0]){var
 z=a[3];if(z){var
 H=z[1];if(0===H[0]){var
 ac=j(y[1]);return[0,[14,j(H[1]),ac],0]}return 0}return z}return 0;default:return 0}var
-B=a[2],P=B?[0,bz(B[1]),0]:aC(0,N);return e(c,P)}function
-AY(c,a){switch(a[1]){case
+B=a[2],P=B?[0,bA(B[1]),0]:aD(0,N);return e(c,P)}function
+A6(c,a){switch(a[1]){case
 0:var
 l=a[4];if(typeof
 l!=="number"&&2!==l[0])return a[2]?0:a[3]?0:1;return 0;case
@@ -6482,7 +6483,7 @@ z!=="number"&&0===z[0])return a[2]?0:a[3]?0:1;return 0;case
 N=0,A=a[4];if(typeof
 A==="number"||!(1===A[0]))N=1;else{var
 h=a[3];if(!h)return h;if(0!==h[1][0])return 0;var
-B=o(c,A0),O=0;if(B){var
+B=o(c,A8),O=0;if(B){var
 C=a[2];if(C){var
 b=C[1];O=1}else
 var
@@ -6508,17 +6509,17 @@ I=H;return I;case
 12:var
 J=a[4];if(typeof
 J!=="number"&&1===J[0]){if(a[2])return 0;var
-k=a[3];return k?0===k[1][0]?o(c,A1):0:k}return 0;default:return 0}var
-p=aa(AZ,b);return p?aa(b,c):p}function
-j9(c,k,j,b){var
-l=g(c),d=y(function(a){return AW(l,j,a)},b),a=y(AV,b),h=a?[0,a[1],a[2]]:A2,i=f(h,d),m=pi(k);return[0,e(AU,c),m,i]}function
-pj(b){if(b[1])return 0;var
+k=a[3];return k?0===k[1][0]?o(c,A9):0:k}return 0;default:return 0}var
+p=aa(A7,b);return p?aa(b,c):p}function
+hJ(c,k,j,b){var
+l=g(c),d=z(function(a){return ps(l,j,a)},b),a=z(A4,b),h=a?[0,a[1],a[2]]:A_,i=f(h,d),m=pr(k);return[0,e(A3,c),m,i]}function
+pt(b){if(b[1])return 0;var
 a=b[4];if(typeof
 a!=="number"&&1===a[0])return[0,[0,j(a[1])],0];return 0}function
-pk(c){function
+pu(c){function
 a(a){return r(a,e(j,c),[0,d,b])}var
-f=a(A3),g=a(A4);return[0,a(0),g,f]}function
-j_(_,G,Z,a){switch(a[1]){case
+f=a(A$),g=a(Ba);return[0,a(0),g,f]}function
+hK(_,G,Z,a){switch(a[1]){case
 0:var
 h=a[4];if(typeof
 h!=="number"&&0===h[0])return[0,[1,j(h[1])],0];return 0;case
@@ -6529,16 +6530,16 @@ switch(f[0]){case
 0:var
 $=f[1],c=function(a){return[2,a,j($)]};break;case
 1:var
-ab=f[1],c=function(a){return[3,a,j(ab)]};break;default:var
-ac=f[2],ad=f[1],c=function(a){var
-b=j(ac);return[4,a,j(ad),b]}}break;case
+ac=f[1],c=function(a){return[3,a,j(ac)]};break;default:var
+ad=f[2],ae=f[1],c=function(a){var
+b=j(ad);return[4,a,j(ae),b]}}break;case
 2:var
 i=a[4],R=0;if(typeof
 i==="number"||!(1===i[0]))R=1;else{var
-k=a[3],ae=i[1];if(!k)return k;var
+k=a[3],af=i[1];if(!k)return k;var
 I=k[1];if(0!==I[0])return 0;var
 ag=I[1],c=function(a){var
-b=j(ag),c=j(ae);return _?[9,a,b,c]:[6,a,b,c]}}if(R)return 0;break;case
+b=j(ag),c=j(af);return _?[9,a,b,c]:[6,a,b,c]}}if(R)return 0;break;case
 3:var
 l=a[4];if(typeof
 l!=="number"&&1===l[0])return[0,[5,j(l[1])],0];return 0;case
@@ -6556,7 +6557,7 @@ o!=="number"&&0===o[0]){var
 J=o[1],p=a[3];if(p){var
 q=p[1];switch(q[0]){case
 0:var
-ai=j(J);return[0,[8,af(j(q[1]),G),ai],0];case
+ai=j(J);return[0,[8,ab(j(q[1]),G),ai],0];case
 1:var
 aj=j(J);return[0,[8,e(j,q[1]),aj],0];default:var
 K=0}}else
@@ -6572,8 +6573,8 @@ b=j(ak);return[7,a,j(al),b]}}if(T)return 0;break;case
 9:var
 t=a[4];if(typeof
 t!=="number"&&0===t[0]){var
-am=t[1],an=hE(0,Z);return e(function(a){var
-b=j(am),c=dj(a[2]);return[14,dj(a[1]),c,b]},an)}return 0;case
+am=t[1],an=hI(0,Z);return e(function(a){var
+b=j(am),c=dk(a[2]);return[14,dk(a[1]),c,b]},an)}return 0;case
 10:var
 u=a[4],U=0;if(typeof
 u==="number"||!(1===u[0]))U=1;else{var
@@ -6604,14 +6605,14 @@ A==="number"||!(1===A[0]))W=1;else{var
 B=a[3],av=A[1];if(!B)return B;var
 O=B[1];if(1!==O[0])return 0;var
 aw=O[1],c=function(a){var
-b=j(av);return[13,a,0,pk(aw),b]}}if(W)return 0;break;case
+b=j(av);return[13,a,0,pu(aw),b]}}if(W)return 0;break;case
 15:var
 C=a[4],X=0;if(typeof
 C==="number"||!(1===C[0]))X=1;else{var
 D=a[3],ax=C[1];if(!D)return D;var
 P=D[1];if(1!==P[0])return 0;var
 ay=P[1],c=function(a){var
-b=j(ax);return[13,a,1,pk(ay),b]}}if(X)return 0;break;case
+b=j(ax);return[13,a,1,pu(ay),b]}}if(X)return 0;break;case
 16:var
 E=a[4],Y=0;if(typeof
 E==="number"||!(1===E[0]))Y=1;else{var
@@ -6619,11 +6620,11 @@ F=a[3],az=E[1];if(!F)return F;var
 Q=F[1];if(1!==Q[0])return 0;var
 aA=Q[1],c=function(a){var
 b=j(az);return[17,a,e(j,aA),b]}}if(Y)return 0;break;default:return 0}var
-H=a[2],aa=H?[0,bz(H[1]),0]:aC(0,G);return e(c,aa)}function
-eO(e,d,c,b){var
-g=y(function(a){return j_(e,d,c,a)},b),a=y(pj,b),h=a?[0,a[1],a[2]]:A5;return f(h,g)}function
-cO(a){return 11===a[1]?1:0}function
-cl(n,m,a){var
+H=a[2],aa=H?[0,bA(H[1]),0]:aD(0,G);return e(c,aa)}function
+eP(e,d,c,b){var
+g=z(function(a){return hK(e,d,c,a)},b),a=z(pt,b),h=a?[0,a[1],a[2]]:Bb;return f(h,g)}function
+cQ(a){return 11===a[1]?1:0}function
+cm(n,m,a){var
 b=a[1];if(!(4<=b))switch(b){case
 0:var
 c=a[4];if(typeof
@@ -6633,25 +6634,25 @@ l=0,d=a[4];if(typeof
 d!=="number"&&2===d[0]){var
 e=1;l=1}if(!l)var
 e=0;var
-f=ct(n,e);if(f){var
+f=cv(n,e);if(f){var
 g=a[2];if(g){var
-h=g[1],i=aa(A6,h);return i?aa(h,m):i}var
+h=g[1],i=aa(Bc,h);return i?aa(h,m):i}var
 j=1}else
 var
 j=f;return j;case
 3:var
 k=a[4];if(typeof
 k!=="number"&&1===k[0])return a[2]?0:a[3]?0:1;return 0}return 0}function
-a5(s,b,a){var
+a6(s,b,a){var
 d=a[2];if(d)var
-e=d[1],f=aa(A7,e),t=f?aa(e,b):f,c=t;else
+e=d[1],f=aa(Bd,e),t=f?aa(e,b):f,c=t;else
 var
 c=1;var
 h=a[1];if(!(9<=h))switch(h){case
 2:var
 i=a[4];if(typeof
 i!=="number"&&1===i[0]){var
-j=a[3];return j?0===j[1][0]?c:cl(0,b,a):cl(0,b,a)}return cl(0,b,a);case
+j=a[3];return j?0===j[1][0]?c:cm(0,b,a):cm(0,b,a)}return cm(0,b,a);case
 6:var
 k=a[4];if(typeof
 k!=="number"&&0===k[0]){var
@@ -6662,29 +6663,29 @@ m=l[1];switch(m[0]){case
 n=o(g(m[1]),b);if(n){if(a[2])return 0;var
 p=1}else
 var
-p=n;return p;default:return cl(0,b,a)}}return cl(0,b,a)}return cl(0,b,a);case
+p=n;return p;default:return cm(0,b,a)}}return cm(0,b,a)}return cm(0,b,a);case
 8:var
 q=a[4];if(typeof
 q!=="number"&&1===q[0]){var
-r=a[3];return r?0===r[1][0]?c?o(b,s):c:cl(0,b,a):cl(0,b,a)}return cl(0,b,a)}return cl(0,b,a)}function
-aE(c,b,a){return 11===a[1]?typeof
-a[4]==="number"?a[2]?a5(c,b,a):a[3]?a5(c,b,a):1:a5(c,b,a):a5(c,b,a)}function
-pl(f,b,c,a){var
+r=a[3];return r?0===r[1][0]?c?o(b,s):c:cm(0,b,a):cm(0,b,a)}return cm(0,b,a)}return cm(0,b,a)}function
+aF(c,b,a){return 11===a[1]?typeof
+a[4]==="number"?a[2]?a6(c,b,a):a[3]?a6(c,b,a):1:a6(c,b,a):a6(c,b,a)}function
+pv(f,b,c,a){var
 h=a[2];if(h)var
-i=h[1],j=aa(A9,i),E=j?aa(i,c):j,d=E;else
+i=h[1],j=aa(Bf,i),E=j?aa(i,c):j,d=E;else
 var
 d=1;switch(a[1]){case
-1:if(a[3])return a5(at(b),c,a);if(d){var
+1:if(a[3])return a6(at(b),c,a);if(d){var
 D=0,k=a[4];if(typeof
 k!=="number"&&2===k[0]){var
 l=1;D=1}if(!D)var
-l=0;return ct(f,l)}return d;case
+l=0;return cv(f,l)}return d;case
 4:var
 m=a[4];if(typeof
-m!=="number"&&0===m[0])return a[3]?a5(at(b),c,a):d;return a5(at(b),c,a);case
+m!=="number"&&0===m[0])return a[3]?a6(at(b),c,a):d;return a6(at(b),c,a);case
 5:var
 n=a[4];if(typeof
-n!=="number"&&0===n[0]){if(a[3])return a5(at(b),c,a);var
+n!=="number"&&0===n[0]){if(a[3])return a6(at(b),c,a);var
 p=o(c,at(b));if(p){var
 q=typeof
 b==="number"?1:0;if(q){if(a[2])return 0;var
@@ -6692,16 +6693,16 @@ e=1}else
 var
 e=q}else
 var
-e=p;return e}return a5(at(b),c,a);case
+e=p;return e}return a6(at(b),c,a);case
 12:var
 r=a[4];if(typeof
 r!=="number"&&1===r[0]){var
 s=a[3];if(s){var
 t=s[1],u=o(c,at(b));return u?typeof
-b==="number"?a[2]?0:0===t[0]?1:0:a[2]?0:3===t[0]?1:0:u}return a5(at(b),c,a)}return a5(at(b),c,a);case
+b==="number"?a[2]?0:0===t[0]?1:0:a[2]?0:3===t[0]?1:0:u}return a6(at(b),c,a)}return a6(at(b),c,a);case
 13:var
 v=a[4];if(typeof
-v!=="number"&&1===v[0])return a[3]?a5(at(b),c,a):d?N(f):d;return a5(at(b),c,a);case
+v!=="number"&&1===v[0])return a[3]?a6(at(b),c,a):d?J(f):d;return a6(at(b),c,a);case
 16:var
 w=a[4];if(typeof
 w!=="number"&&1===w[0]){var
@@ -6711,28 +6712,28 @@ z=d?o(c,at(b)):d,A=z?o(g(y[1]),c):z;if(A)var
 B=typeof
 b==="number"?1:0,C=B?1:B;else
 var
-C=A;return C}return a5(at(b),c,a)}return a5(at(b),c,a)}return a5(at(b),c,a);default:return a5(at(b),c,a)}}function
-dk(a){switch(a[0]){case
+C=A;return C}return a6(at(b),c,a)}return a6(at(b),c,a)}return a6(at(b),c,a);default:return a6(at(b),c,a)}}function
+dl(a){switch(a[0]){case
 0:return[0,j([0,a[1],a[2]])];case
 1:return[1,a[1]];case
-2:return[2,dk(a[1])];case
+2:return[2,dl(a[1])];case
 3:var
-b=dk(a[2]),c=dk(a[3]);switch(a[1]){case
+b=dl(a[2]),c=dl(a[3]);switch(a[1]){case
 0:return[3,b,c];case
 1:return[4,b,c];case
 2:return[5,b,c];default:return[6,b,c]}case
 4:var
-d=a[2];return[7,dk(a[1]),d];default:return[8,dk(a[1])]}}function
-j$(i,h,f,b,d,c,a){var
-k=aj(cO,a),l=eO(0,g(b),0,a),m=W(d,c),n=e(function(a){var
-b=j(a[2]);return[0,j(a[1]),b]},m),o=e(function(a){return 0===a[0]?[0,e(dk,a[1])]:[1,dk(a[1])]},b),p=e(function(a){var
-b=dk(a[2]);return[0,a[1],b]},f);return[0,[0,i,e(function(a){var
+d=a[2];return[7,dl(a[1]),d];default:return[8,dl(a[1])]}}function
+kd(i,h,f,b,d,c,a){var
+k=aj(cQ,a),l=eP(0,g(b),0,a),m=W(d,c),n=e(function(a){var
+b=j(a[2]);return[0,j(a[1]),b]},m),o=e(function(a){return 0===a[0]?[0,e(dl,a[1])]:[1,dl(a[1])]},b),p=e(function(a){var
+b=dl(a[2]);return[0,a[1],b]},f);return[0,[0,i,e(function(a){var
 b=b2(a[2]);return[0,a[1],b]},h),p,o],n,l,k]}function
-ka(c){function
+ke(c){function
 a(e){var
 a=[0,d,b];return r(e,c,[0,a,a])}var
-e=a(A_),f=a(A$);return[0,a(0),f,e]}function
-dW(a){function
+e=a(Bg),f=a(Bh);return[0,a(0),f,e]}function
+dX(a){function
 b(a){var
 b=j(a[2]);return[0,j(a[1]),b]}switch(a[0]){case
 0:return[0,b([0,a[1],a[2]])];case
@@ -6740,30 +6741,41 @@ b=j(a[2]);return[0,j(a[1]),b]}switch(a[0]){case
 c=b(a[3]),d=b(a[2]);return[1,b(a[1]),d,c];case
 2:return[2,j(a[1])];default:var
 e=j(a[2]);return[3,j(a[1]),e]}}function
-pm(a){if(0===a[0]){var
-b=W(a[1],a[2]);return[0,ka(e(function(a){var
-b=j(a[2]);return[0,j(a[1]),b]},b))]}return pi([1,a[1],a[2],a[3],a[4],a[5]])}function
-pn(k,b,i,h,f,d,a){function
-c(a){return ka(e(b2,a))}var
-l=aj(cO,a),m=eO(0,g(b),d,a),n=dW(f),o=pm(h),p=j(i);return[0,k,e(function(a){var
+pw(a){if(0===a[0]){var
+b=W(a[1],a[2]);return[0,ke(e(function(a){var
+b=j(a[2]);return[0,j(a[1]),b]},b))]}return pr([1,a[1],a[2],a[3],a[4],a[5]])}function
+px(k,b,i,h,f,d,a){function
+c(a){return ke(e(b2,a))}var
+l=aj(cQ,a),m=eP(0,g(b),d,a),n=dX(f),o=pw(h),p=j(i);return[0,k,e(function(a){var
 b=c(a[2]);return[0,c(a[1]),b]},b),p,o,n,m,l]}function
-dX(a){return aj(function(a){return 3===a[0]?1:0},a)}function
-kb(k,a,f,i,h,c){var
-l=aj(cO,c),m=g(a),n=eO(dX(a),m,0,c),o=z(dW,h),p=pm(i),q=f?j(f[1]):[0,b,b];return[0,k,e(function(a){function
-c(a){return ka(e(b2,a))}switch(a[0]){case
+dY(a){return aj(function(a){return 3===a[0]?1:0},a)}function
+kf(k,a,f,i,h,c){var
+l=aj(cQ,c),m=g(a),n=eP(dY(a),m,0,c),o=y(dX,h),p=pw(i),q=f?j(f[1]):[0,b,b];return[0,k,e(function(a){function
+c(a){return ke(e(b2,a))}switch(a[0]){case
 0:var
 k=a[5],l=b2(a[4]),m=c(a[3]),n=c(a[2]);return[0,[0,[0,c(a[1]),n,m,l,k]]];case
 1:var
-o=z(c,a[3]),p=c(a[2]);return[0,[1,c(a[1]),p,o]];case
+o=y(c,a[3]),p=c(a[2]);return[0,[1,c(a[1]),p,o]];case
 2:return[0,[2,c(a[1])]];default:var
 f=a[1];if(f)var
 g=c(f);else
 var
 h=[0,b,b],i=[0,d,b],j=[0,d,b],g=[0,[0,j,j],[0,i,i],[0,h,h]];var
 q=a[7],r=b2(a[6]),s=b2(a[5]),t=c(a[4]),u=c(a[3]);return[1,[0,g,c(a[2]),u,t,s,r,q]]}},a),q,p,o,n,l]}function
-po(a){return a[1]?0:1}function
-pp(l){var
-b=bu(po,l);if(b){var
+b3(c){var
+a=c[1];if(13!==a){var
+b=16<=a?1:0;if(!b)return b}return 1}function
+kg(a){function
+b(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}switch(a[0]){case
+0:var
+c=a[5],d=a[4],e=b(a[3]),f=b(a[2]);return[0,b(a[1]),f,e,d,c];case
+1:var
+g=y(b,a[3]),h=b(a[2]);return[1,b(a[1]),h,g];default:return[2,b(a[1])]}}function
+kh(a){if(0===a[0]){var
+b=a[2],c=a[1];return[0,[0,c[1],[0,c[2],[0,c[3],0]]],[0,b[1],[0,b[2],[0,b[3],0]]]]}return[1,a[1],a[2],a[3],a[4],a[5]]}function
+py(a){return a[1]?0:1}function
+pz(l){var
+b=a1(py,l);if(b){var
 d=b[1];if(d[2])return 0;if(d[3])return 0;var
 c=d[4],a=b[2];if(typeof
 c!=="number")switch(c[0]){case
@@ -6784,46 +6796,46 @@ k=a;return k}var
 i=0}else
 var
 i=b;return i}function
-pq(a){var
-c=po(a);if(c)return c;if(1===a[1]){var
+pA(a){var
+c=py(a);if(c)return c;if(1===a[1]){var
 b=a[4];if(typeof
 b!=="number"&&0===b[0])return 1;return 0}return 0}function
-hF(i,h,b){function
+hL(i,h,b){function
 c(b,a){return[3,1,b,a]}function
 a(b,a){return[3,3,b,a]}function
 d(b,a){return[3,2,b,a]}function
 e(b,a){return[3,0,b,a]}var
-f=c(hG,a(hG,b)),j=a(f,kc),k=i?f:a(c(b,hG),kc);function
-g(b){return a(b,[5,e(hG,d(kc,d(b,b)))])}var
+f=c(hM,a(hM,b)),j=a(f,ki),k=i?f:a(c(b,hM),ki);function
+g(b){return a(b,[5,e(hM,d(ki,d(b,b)))])}var
 l=g(k);return a(h,e(g(j),l))}function
-hH(f,e,d){function
+hN(f,e,d){function
 a(b,a){return[3,3,b,a]}function
 b(b,a){return[3,2,b,a]}var
-c=a([3,1,kd,a(kd,d)],pr),g=a(c,[5,[3,0,kd,b(pr,b(c,c))]]);return[2,b(hF(f,e,d),g)]}function
-ke(e,g,a){function
+c=a([3,1,kj,a(kj,d)],pB),g=a(c,[5,[3,0,kj,b(pB,b(c,c))]]);return[2,b(hL(f,e,d),g)]}function
+kk(e,g,a){function
 f(b,a){return[3,1,b,a]}function
 b(b,a){return[3,3,b,a]}function
 c(b,a){return[3,2,b,a]}var
-h=f(hI,b(hI,a)),d=e?h:b(f(a,hI),ps),i=b(d,[5,[3,0,hI,c(ps,c(d,d))]]);return c(hF(e,g,a),i)}function
-pt(c,g,b,a){function
+h=f(hO,b(hO,a)),d=e?h:b(f(a,hO),pC),i=b(d,[5,[3,0,hO,c(pC,c(d,d))]]);return c(hL(e,g,a),i)}function
+pD(c,g,b,a){function
 d(b,a){return e(function(c){var
-d=o(b,c)?a:Ba;return[0,d]},Bc)}return e(function(e){var
-j=[0,hF(c,b,a)],i=1,k=d(e,[2,g]);function
+d=o(b,c)?a:Bi;return[0,d]},Bk)}return e(function(e){var
+j=[0,hL(c,b,a)],i=1,k=d(e,[2,g]);function
 f(b,a){return[3,1,b,a]}var
-h=hF(c,b,a),l=d(e,f(f(hH(c,b,a),g),h));return[0,d(e,Bb),l,k,j,i]},Bd)}function
-pu(c,b,a){var
-d=[0,ke(c,b,a),0],e=[0,ke(c,b,a),d],f=[0,ke(c,b,a),e],g=[0,hH(c,b,a),0],h=[0,hH(c,b,a),g];return[0,[0,hH(c,b,a),h],f]}function
-pv(o,e,a){if(e)if(a){var
-g=e[1],h=a[1],k=cA(j(g[2][1]));if(k){var
-l=k[1],m=cA(j(g[2][2]));if(m)var
+h=hL(c,b,a),l=d(e,f(f(hN(c,b,a),g),h));return[0,d(e,Bj),l,k,j,i]},Bl)}function
+pE(c,b,a){var
+d=[0,kk(c,b,a),0],e=[0,kk(c,b,a),d],f=[0,kk(c,b,a),e],g=[0,hN(c,b,a),0],h=[0,hN(c,b,a),g];return[0,[0,hN(c,b,a),h],f]}function
+pF(o,e,a){if(e)if(a){var
+g=e[1],h=a[1],k=cC(j(g[2][1]));if(k){var
+l=k[1],m=cC(j(g[2][2]));if(m)var
 p=m[1],n=function(a){function
 d(a){return c(2,a)}var
-e=[0,a,gk(h[2],d,b)];return dy(l,a2(dz(p,l),e))},q=n(E(h[1],b)),f=[0,n(h[1]),q];else
+e=[0,a,gp(h[2],d,b)];return dz(l,a3(dA(p,l),e))},q=n(E(h[1],b)),f=[0,n(h[1]),q];else
 var
 f=[0,[0,d,b],[0,d,b]]}else
 var
 f=[0,[0,d,b],[0,d,b]];var
-r=pv([0,o],e[2],a[2]),i=[0,[0,g[1],[1,o,f[1],f[2]]],r]}else
+r=pF([0,o],e[2],a[2]),i=[0,[0,g[1],[1,o,f[1],f[2]]],r]}else
 var
 i=a;else
 var
@@ -6832,21 +6844,21 @@ au(b,a){switch(a[0]){case
 0:return[0,a[1],a[2]];case
 1:var
 c=a[1];if(0===c[0]){var
-e=c[1],d=ly(function(a){return aB(e,a[1])},b);return d?[1,d[1][2]]:a}return a;case
+e=c[1],d=lG(function(a){return aC(e,a[1])},b);return d?[1,d[1][2]]:a}return a;case
 2:return[2,au(b,a[1])];case
 3:var
 f=au(b,a[3]),g=au(b,a[2]);return[3,a[1],g,f];case
 4:var
 h=a[2];return[4,au(b,a[1]),h];default:return[5,au(b,a[1])]}}function
-pw(b,a){if(0===a[0])return[0,au(b,a[1])];var
+pG(b,a){if(0===a[0])return[0,au(b,a[1])];var
 c=au(b,a[2]);return[1,au(b,a[1]),c]}function
-kf(b,a){var
+kl(b,a){var
 c=k(b,a[3]),d=k(b,a[2]);return[0,k(b,a[1]),d,c]}function
-kg(c,a){if(c)if(a){var
+km(c,a){if(c)if(a){var
 g=a[2],b=a[1],h=c[1];if(typeof
 b!=="number"&&0===b[0]){var
-e=kg(h,g);if(e){var
-i=e[1],f=kg(h,i[2]);if(f)var
+e=km(h,g);if(e){var
+i=e[1],f=km(h,i[2]);if(f)var
 j=f[1],k=[0,[0,[0,b[1],i[1],j[1]],j[2]]];else
 var
 k=f;var
@@ -6858,62 +6870,62 @@ var
 d=a;else
 var
 d=c;return d}function
-kh(g,f,a){if(a){var
-e=a[1],h=a[2];if(f)return[0,e,kh(g,f[1],h)];var
+kn(g,f,a){if(a){var
+e=a[1],h=a[2];if(f)return[0,e,kn(g,f[1],h)];var
 j=[0,e[2]],k=g?b:d,l=e[1],i=[0,[0,E(C(c(2,b),l),k),j],h]}else
 var
 i=a;return i}function
-Be(a){if(typeof
+Bm(a){if(typeof
 a!=="number"&&1===a[0])return 1;return 0}function
-Bf(a){if(typeof
+Bn(a){if(typeof
 a!=="number"&&2===a[0])return 1;return 0}function
-hJ(e,a){if(0===a[0]){var
-f=[0,b,c(2,b)],g=hJ(e,a[3]);return a2(dy(hJ(e,a[2]),g),f)}return k(e,a[1])?[0,b,b]:[0,d,b]}function
-px(a){return 0===a[0]?ev(a[1][4]):0}function
-py(a){switch(a[0]){case
+hP(e,a){if(0===a[0]){var
+f=[0,b,c(2,b)],g=hP(e,a[3]);return a3(dz(hP(e,a[2]),g),f)}return k(e,a[1])?[0,b,b]:[0,d,b]}function
+pH(a){return 0===a[0]?ew(a[1][4]):0}function
+pI(a){switch(a[0]){case
 0:var
-b=a[1],c=ba(b[3]);return f(ba(b[2]),c);case
+b=a[1],c=bb(b[3]);return f(bb(b[2]),c);case
 1:var
-d=ba(a[2]);return f(ba(a[1]),d);default:return 0}}function
-hK(a){switch(a[0]){case
-0:return bE(ba(a[1][1]));case
+d=bb(a[2]);return f(bb(a[1]),d);default:return 0}}function
+hQ(a){switch(a[0]){case
+0:return bF(bb(a[1][1]));case
 1:var
-b=a[3];return b?bE(ba(b[1])):d;default:return bE(ba(a[1]))}}function
-hL(c){var
-a=y(px,c),d=a?[0,a[1],a[2]]:y(py,c);return E(b,bE(d))}function
-pz(d,a){if(d){if(a){var
-b=a[1],g=d[1],e=pz(d[2],a[2]);if(e){var
+b=a[3];return b?bF(bb(b[1])):d;default:return bF(bb(a[1]))}}function
+hR(c){var
+a=z(pH,c),d=a?[0,a[1],a[2]]:z(pI,c);return E(b,bF(d))}function
+pJ(d,a){if(d){if(a){var
+b=a[1],g=d[1],e=pJ(d[2],a[2]);if(e){var
 h=e[1],i=h[2],j=h[1];if(45===b)var
-c=Bg;else
+c=Bo;else
 if(43===b)var
-c=Bh;else
+c=Bp;else
 var
-f=48===b?1:0,n=f?Bi:f,c=n;if(c)return[0,[0,[0,[0,g,c[1]],j],i]];var
+f=48===b?1:0,n=f?Bq:f,c=n;if(c)return[0,[0,[0,[0,g,c[1]],j],i]];var
 k=49===b?1:0,o=k?[0,[0,j,[0,g,i]]]:k,l=o}else
 var
 l=e;var
 m=l}else
 var
-m=a;return m}return a?0:Bj}function
-dl(b,c,a){switch(a[0]){case
+m=a;return m}return a?0:Br}function
+dm(b,c,a){switch(a[0]){case
 0:var
-d=a[1];if(aB(d,Bk))return Bl;if(aB(d,Bm))return Bn;if(aB(d,Bo))return Bp;if(aB(d,Bq))return Br;if(aB(d,Bs))return Bt;var
-n=aB(d,Bu),B=n?Bv:n;return B;case
+d=a[1];if(aC(d,Bs))return Bt;if(aC(d,Bu))return Bv;if(aC(d,Bw))return Bx;if(aC(d,By))return Bz;if(aC(d,BA))return BB;var
+n=aC(d,BC),B=n?BD:n;return B;case
 1:var
-e=a[3],f=a[2],g=a[1];if(aB(g,Bw))return[0,[0,e,f]];if(aB(g,Bx))return[0,[1,e,f]];if(aB(g,By))return[0,[2,e,f]];var
-o=aB(g,Bz),C=o?[0,[8,e,f]]:o;return C;case
+e=a[3],f=a[2],g=a[1];if(aC(g,BE))return[0,[0,e,f]];if(aC(g,BF))return[0,[1,e,f]];if(aC(g,BG))return[0,[2,e,f]];var
+o=aC(g,BH),C=o?[0,[8,e,f]]:o;return C;case
 2:return[0,[4,a[1]]];case
 3:return[0,[3,a[2],a[1],a[3]]];case
 4:return[0,[9,a[2],a[1],a[3],a[4]]];case
 5:var
-h=dl(b,c,a[1]),D=h?[0,[5,h[1],a[2],a[3]]]:h;return D;case
+h=dm(b,c,a[1]),D=h?[0,[5,h[1],a[2],a[3]]]:h;return D;case
 6:var
-i=dl(b,c,a[1]),E=i?[0,[7,i[1],a[2],a[3]]]:i;return E;case
+i=dm(b,c,a[1]),E=i?[0,[7,i[1],a[2],a[3]]]:i;return E;case
 7:var
-F=dl(b,c,a[1]);return z(function(a){return[6,a]},F);case
+F=dm(b,c,a[1]);return y(function(a){return[6,a]},F);case
 8:if(b){var
-p=a[3],q=a[2],j=dl(b,c,a[1]);if(j){var
-r=j[1],k=pz(b,ip(io(az(q),function(a){return a7(q,a)})));if(k){var
+p=a[3],q=a[2],j=dm(b,c,a[1]);if(j){var
+r=j[1],k=pJ(b,iv(iu(aA(q),function(a){return a8(q,a)})));if(k){var
 s=k[1],t=s[2],u=s[1];if(t)return[0,[11,c,t,[10,r,u,p]]];var
 v=[0,[10,r,u,p]]}else
 var
@@ -6925,30 +6937,30 @@ x=w}else
 var
 x=b;return x;case
 9:var
-y=function(a){if(a){var
-f=a[1],d=dl(b,c,f[2]);if(d)var
-e=y(a[2]),h=e?[0,[0,[0,f[1],d[1]],e[1]]]:e,g=h;else
+z=function(a){if(a){var
+f=a[1],d=dm(b,c,f[2]);if(d)var
+e=z(a[2]),h=e?[0,[0,[0,f[1],d[1]],e[1]]]:e,g=h;else
 var
-g=d;return g}return BA},G=y(a[1]);return z(function(a){return[12,a]},G);default:var
-l=dl(b,c,a[3]);if(l)var
-m=dl(b,c,a[4]),H=m?[0,[13,a[2],a[1],l[1],m[1]]]:m,A=H;else
+g=d;return g}return BI},G=z(a[1]);return y(function(a){return[12,a]},G);default:var
+l=dm(b,c,a[3]);if(l)var
+m=dm(b,c,a[4]),H=m?[0,[13,a[2],a[1],l[1],m[1]]]:m,A=H;else
 var
 A=l;return A}}function
-pA(e,d,a){if(a){var
-f=a[1],b=dl(e,d,f[2]);if(b)var
-c=pA(e,d,a[2]),h=c?[0,[0,[0,f[1],b[1]],c[1]]]:c,g=h;else
+pK(e,d,a){if(a){var
+f=a[1],b=dm(e,d,f[2]);if(b)var
+c=pK(e,d,a[2]),h=c?[0,[0,[0,f[1],b[1]],c[1]]]:c,g=h;else
 var
-g=b;return g}return BB}function
-dY(b,g,f,e,d,a){if(d)if(a){var
+g=b;return g}return BJ}function
+dZ(b,g,f,e,d,a){if(d)if(a){var
 c=a[1];if(c[3])return 0;if(c[4])return 0;var
-n=c[2],o=a[2],p=d[1],h=pA(f,e,c[1]);if(h){var
+n=c[2],o=a[2],p=d[1],h=pK(f,e,c[1]);if(h){var
 i=h[1];if(n){var
-j=dY(b,g,f,e,p,o);if(j){var
-q=j[1],k=dY(b,g,f,e,p,q[2]);if(k){var
-r=k[1],s=r[1],t=q[1],l=n[1],y=r[2];if(aK(l,b))var
+j=dZ(b,g,f,e,p,o);if(j){var
+q=j[1],k=dZ(b,g,f,e,p,q[2]);if(k){var
+r=k[1],s=r[1],t=q[1],l=n[1],z=r[2];if(aK(l,b))var
 u=[0,[1,i,l,t,s]];else
 var
-x=H(g,dw(l,b)),u=z(function(a){return[2,i,a,t,s]},x);return z(function(a){return[0,a,y]},u)}var
+x=H(g,dx(l,b)),u=y(function(a){return[2,i,a,t,s]},x);return y(function(a){return[0,a,z]},u)}var
 v=k}else
 var
 v=j;return v}var
@@ -6960,67 +6972,67 @@ var
 m=a;else
 var
 m=d;return m}function
-ki(i,h,f,e,d,a){if(d){if(a){var
-b=dY(i,h,f,e,g(a),a);if(b)var
-j=b[1],c=ki(i,h,f,e,d[1],j[2]),l=c?[0,[0,j[1],c[1]]]:c,k=l;else
+ko(i,h,f,e,d,a){if(d){if(a){var
+b=dZ(i,h,f,e,g(a),a);if(b)var
+j=b[1],c=ko(i,h,f,e,d[1],j[2]),l=c?[0,[0,j[1],c[1]]]:c,k=l;else
 var
-k=b;return k}return BC}return a?0:BD}function
-pB(a){if(typeof
-a==="number")return 0===a?BE:BF;else
+k=b;return k}return BK}return a?0:BL}function
+pL(a){if(typeof
+a==="number")return 0===a?BM:BN;else
 switch(a[0]){case
 0:return[0,[0,a[1],a[2]]];case
 1:return[0,[1,a[1],a[2]]];default:return 0}}function
-kj(e,d,a){if(d)if(a){var
+kp(e,d,a){if(d)if(a){var
 b=a[1];if(b[1])return 0;var
 j=b[4],c=b[3],k=b[2],l=a[2],m=d[1];if(k){if(c)return 0;if(j)return 0;var
-f=k[1],g=kj(e,m,l);if(g){var
-n=g[1],o=n[1],h=kj(e,m,n[2]);if(h){var
-p=h[1],q=p[2],r=p[1];if(aK(f,BG))return[0,[0,[1,f,o,r],q]];var
-t=H(e,dw(f,BH));return z(function(a){return[0,[2,a,o,r],q]},t)}var
+f=k[1],g=kp(e,m,l);if(g){var
+n=g[1],o=n[1],h=kp(e,m,n[2]);if(h){var
+p=h[1],q=p[2],r=p[1];if(aK(f,BO))return[0,[0,[1,f,o,r],q]];var
+t=H(e,dx(f,BP));return y(function(a){return[0,[2,a,o,r],q]},t)}var
 s=h}else
 var
 s=g;return s}if(c){var
-u=pB(c[1]);return z(function(a){return[0,[0,j,a],l]},u)}var
+u=pL(c[1]);return y(function(a){return[0,[0,j,a],l]},u)}var
 i=c}else
 var
 i=a;else
 var
 i=d;return i}function
-dm(b,a){return 0===b[0]?[0,j(b[1]),a]:a?[0,a[1],a[2]]:[0,j(b[1]),0]}function
-dZ(a,e){var
-b=dm(a[1],e),c=dm(a[2],b[2]),d=dm(a[3],c[2]);return[0,[0,b[1],c[1],d[1]],d[2]]}function
-pC(d,c){if(d){var
+dn(b,a){return 0===b[0]?[0,j(b[1]),a]:a?[0,a[1],a[2]]:[0,j(b[1]),0]}function
+d0(a,e){var
+b=dn(a[1],e),c=dn(a[2],b[2]),d=dn(a[3],c[2]);return[0,[0,b[1],c[1],d[1]],d[2]]}function
+pM(d,c){if(d){var
 a=d[1];switch(a[0]){case
 0:var
-e=dZ(a[1],c),f=dZ(a[2],e[2]),g=dZ(a[3],f[2]),h=dm(a[4],g[2]),b=[0,[0,e[1],f[1],g[1],h[1],a[5]],h[2]];break;case
+e=d0(a[1],c),f=d0(a[2],e[2]),g=d0(a[3],f[2]),h=dn(a[4],g[2]),b=[0,[0,e[1],f[1],g[1],h[1],a[5]],h[2]];break;case
 1:var
-i=a[3],j=dZ(a[1],c),k=j[1],l=dZ(a[2],j[2]),m=l[2],n=l[1];if(i)var
-o=dZ(i[1],m),b=[0,[1,k,n,[0,o[1]]],o[2]];else
+i=a[3],j=d0(a[1],c),k=j[1],l=d0(a[2],j[2]),m=l[2],n=l[1];if(i)var
+o=d0(i[1],m),b=[0,[1,k,n,[0,o[1]]],o[2]];else
 var
 b=[0,[1,k,n,0],m];break;default:var
-p=dZ(a[1],c),b=[0,[2,p[1]],p[2]]}var
-q=pC(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
-fU(t,f){var
+p=d0(a[1],c),b=[0,[2,p[1]],p[2]]}var
+q=pM(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
+fW(t,f){var
 u=t[3];if(typeof
-f==="number")return 0===f?BL:BM;else
+f==="number")return 0===f?BT:BU;else
 switch(f[0]){case
 0:var
 v=f[2],h=f[1],B=H(u,h);if(B){var
 ab=0,E=B[1];if(typeof
 E==="number"||!(13===E[0]))ab=1;else
 var
-x=t[1],A=hL(x),a=e(function(a){var
+x=t[1],A=hR(x),a=e(function(a){var
 f=g(x);if(o(g(a),f)){var
 h=W(x,a);return e(function(a){var
-e=a[2],f=D(d,A),g=2===a[1][0]?1:0;return ct(g,f)?C(e,b8(c(2,b),cr(A))):e},h)}return a},v);if(ab)var
+e=a[2],f=D(d,A),g=2===a[1][0]?1:0;return cv(g,f)?C(e,b9(c(2,b),ct(A))):e},h)}return a},v);if(ab)var
 a=v}else
 var
 a=v;var
-ac=H(u,h),ad=t[1],w=z(function(b){if(typeof
+ac=H(u,h),ad=t[1],w=y(function(b){if(typeof
 b!=="number")switch(b[0]){case
-5:return BJ;case
+5:return BR;case
 12:var
-a=H(ad,b[1]);if(a){if(2===a[1][0])return BK;var
+a=H(ad,b[1]);if(a){if(2===a[1][0])return BS;var
 c=0}else
 var
 c=a;return c;case
@@ -7029,7 +7041,7 @@ c=a;return c;case
 4:case
 6:case
 7:case
-11:return 0}return BI},ac);if(w){var
+11:return 0}return BQ},ac);if(w){var
 F=w[1];if(F){var
 G=F[1];if(G){if(G[1])return 0;if(a){var
 i=a[1];if(i){var
@@ -7082,34 +7094,34 @@ Y=[0,[0,d,d],d],Z=[0,[0,h,Y,Y]]}else
 var
 Z=w;return Z;case
 1:var
-_=f[1],y=H(u,_);if(y){var
-$=y[1];if(typeof
+_=f[1],z=H(u,_);if(z){var
+$=z[1];if(typeof
 $!=="number"&&1===$[0])return[0,[1,_,f[2]]];var
 aa=0}else
 var
-aa=y;return aa;default:return 0}}function
-bj(a,b){if(a){var
-c=dm(a[1],b),d=bj(a[2],c[2]);return[0,[0,c[1],d[1]],d[2]]}return[0,0,b]}function
+aa=z;return aa;default:return 0}}function
+bk(a,b){if(a){var
+c=dn(a[1],b),d=bk(a[2],c[2]);return[0,[0,c[1],d[1]],d[2]]}return[0,0,b]}function
 aI(c){function
 a(a){return r(a,c,[0,d,b])}var
-e=a(BN),f=a(BO);return[0,a(0),f,e]}function
-pD(a,b){if(a){var
-c=a[1],d=bj(c[1],b),e=bj(c[2],d[2]),f=pD(a[2],e[2]),g=f[2],h=f[1],i=aI(e[1]);return[0,[0,[0,aI(d[1]),i],h],g]}return[0,0,b]}function
-kk(f,e){if(f){var
+e=a(BV),f=a(BW);return[0,a(0),f,e]}function
+pN(a,b){if(a){var
+c=a[1],d=bk(c[1],b),e=bk(c[2],d[2]),f=pN(a[2],e[2]),g=f[2],h=f[1],i=aI(e[1]);return[0,[0,[0,aI(d[1]),i],h],g]}return[0,0,b]}function
+kq(f,e){if(f){var
 a=f[1];switch(a[0]){case
 0:var
-g=bj(a[1],e),h=bj(a[2],g[2]),i=bj(a[3],h[2]),j=dm(a[4],i[2]),A=j[2],B=a[5],C=j[1],D=aI(i[1]),E=aI(h[1]),c=[0,[0,[0,aI(g[1]),E,D,C,B]],A];break;case
+g=bk(a[1],e),h=bk(a[2],g[2]),i=bk(a[3],h[2]),j=dn(a[4],i[2]),A=j[2],B=a[5],C=j[1],D=aI(i[1]),E=aI(h[1]),c=[0,[0,[0,aI(g[1]),E,D,C,B]],A];break;case
 1:var
-k=a[3],l=bj(a[1],e),m=l[1],n=bj(a[2],l[2]),o=n[2],p=n[1];if(k)var
-q=bj(k[1],o),F=q[2],G=[0,aI(q[1])],H=aI(p),c=[0,[0,[1,aI(m),H,G]],F];else
+k=a[3],l=bk(a[1],e),m=l[1],n=bk(a[2],l[2]),o=n[2],p=n[1];if(k)var
+q=bk(k[1],o),F=q[2],G=[0,aI(q[1])],H=aI(p),c=[0,[0,[1,aI(m),H,G]],F];else
 var
 I=aI(p),c=[0,[0,[1,aI(m),I,0]],o];break;case
 2:var
-r=bj(a[1],e),J=r[2],c=[0,[0,[2,aI(r[1])]],J];break;default:var
-s=a[1],t=bj(s,e),u=bj(a[2],t[2]),v=bj(a[3],u[2]),w=bj(a[4],v[2]),x=dm(a[5],w[2]),y=dm(a[6],x[2]),K=s?aI(t[1]):[0,[0,d,b],[0,d,b],[0,b,b]],L=y[2],M=a[7],N=y[1],O=x[1],P=aI(w[1]),Q=aI(v[1]),c=[0,[1,[0,K,aI(u[1]),Q,P,O,N,M]],L]}var
-z=kk(f[2],c[2]);return[0,[0,c[1],z[1]],z[2]]}return[0,0,e]}function
-dn(a){return lW(i,a)}function
-BP(a){if(typeof
+r=bk(a[1],e),J=r[2],c=[0,[0,[2,aI(r[1])]],J];break;default:var
+s=a[1],t=bk(s,e),u=bk(a[2],t[2]),v=bk(a[3],u[2]),w=bk(a[4],v[2]),x=dn(a[5],w[2]),y=dn(a[6],x[2]),K=s?aI(t[1]):[0,[0,d,b],[0,d,b],[0,b,b]],L=y[2],M=a[7],N=y[1],O=x[1],P=aI(w[1]),Q=aI(v[1]),c=[0,[1,[0,K,aI(u[1]),Q,P,O,N,M]],L]}var
+z=kq(f[2],c[2]);return[0,[0,c[1],z[1]],z[2]]}return[0,0,e]}function
+dp(a){return l5(i,a)}function
+BX(a){if(typeof
 a==="number")return 1;else
 switch(a[0]){case
 5:return h(i,1,[3,a[1],[0,b,b]]);case
@@ -7126,11 +7138,11 @@ j=h(i,0,a[1]);return j?h(i,1,a[2]):j;case
 15:var
 k=[0,a[2],a[1]],m=1;return l(function(a){return h(i,m,a)},k);case
 2:case
-3:return dn(a[2]);case
+3:return dp(a[2]);case
 4:case
 13:var
 c=h(i,1,a[2]);return c?h(i,1,a[3]):c;default:return h(i,1,a[1])}}function
-kl(a){if(typeof
+kr(a){if(typeof
 a==="number")return 1;else
 switch(a[0]){case
 4:var
@@ -7142,25 +7154,25 @@ B=[0,a[2],a[1]],C=1;return l(function(a){return h(i,C,a)},B);case
 11:var
 m=a[2],n=h(i,1,m);return n?h(i,0,[3,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b],m]):n;case
 13:var
-o=a[4],p=n$(a[3]),r=p?h(i,1,o):p;return r?h(i,0,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],o]):r;case
+o=a[4],p=oi(a[3]),r=p?h(i,1,o):p;return r?h(i,0,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],o]):r;case
 14:return h(i,0,a[3]);case
 15:var
 s=h(i,0,a[2]),t=s?h(i,0,a[3]):s;return t?h(i,1,a[4]):t;case
 16:var
 u=a[3],v=h(i,0,a[1]),w=v?h(i,1,a[2]):v,x=w?h(i,0,u):w;return x?h(i,1,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],u]):x;case
 17:var
-y=a[2],z=l(dn,y),A=z?aj(function(a){return h(i,1,[4,a,a])},y):z;return A?h(i,1,a[3]):A;case
+y=a[2],z=l(dp,y),A=z?aj(function(a){return h(i,1,[4,a,a])},y):z;return A?h(i,1,a[3]):A;case
 2:case
-3:return dn(a[2]);case
-0:case
-1:case
-12:return h(i,1,a[1]);default:var
-k=h(i,1,a[2]);return k?h(i,1,a[3]):k}}function
-hM(d){var
+3:return dp(a[2]);case
+6:case
+7:case
+9:var
+k=h(i,1,a[2]);return k?h(i,1,a[3]):k;default:return h(i,1,a[1])}}function
+hS(d){var
 a=d;for(;;){if(a){var
-b=a[2],e=a[1],c=N(aj(function(d){return function(a){var
-h=j3(a[1]),e=aB(j3(d[1]),h);if(e)var
-i=j4(a[4]),b=aB(j4(d[4]),i);else
+b=a[2],e=a[1],c=J(aj(function(d){return function(a){var
+h=j9(a[1]),e=aC(j9(d[1]),h);if(e)var
+i=j_(a[4]),b=aC(j_(d[4]),i);else
 var
 b=e;if(b){var
 f=d[2];if(f){var
@@ -7169,125 +7181,125 @@ g=1}else
 var
 g=b;return g}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-fV(a){if(0===a[0])return dn(j(a[1]));var
-b=a[2],c=a[1];if(!dC(j(c))&&!dC(j(b))){var
+fX(a){if(0===a[0])return dp(j(a[1]));var
+b=a[2],c=a[1];if(!dD(j(c))&&!dD(j(b))){var
 e=j(c);return h(i,1,[3,j(b),e])}var
-d=j(b);return bw(i,j(c),d)}function
-d0(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-pE(a){switch(a[0]){case
+d=j(b);return bx(i,j(c),d)}function
+d1(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+pO(a){switch(a[0]){case
 0:var
-c=[0,a[4],0],d=f(d0(a[3]),c),e=f(d0(a[2]),d);return f(d0(a[1]),e);case
+c=[0,a[4],0],d=f(d1(a[3]),c),e=f(d1(a[2]),d);return f(d1(a[1]),e);case
 1:var
-b=a[3],g=b?d0(b[1]):b,h=f(d0(a[2]),g);return f(d0(a[1]),h);default:return d0(a[1])}}function
-pF(s,a,m){if(aj(function(a){return 9===a[1]?1:0},m)){var
-b=aa(g(a),BS),c=b?l(function(a){if(0===a[0]){var
+b=a[3],g=b?d1(b[1]):b,h=f(d1(a[2]),g);return f(d1(a[1]),h);default:return d1(a[1])}}function
+pP(s,a,m){if(aj(function(a){return 9===a[1]?1:0},m)){var
+b=aa(g(a),B0),c=b?l(function(a){if(0===a[0]){var
 d=a[5],e=h(i,1,j(a[2])),g=e?h(i,0,j(a[3])):e,m=g?h(i,0,j(a[4])):g,c=0;if(m)if(d)var
-p=b1(d[1]),b=l(function(a){return dn(j(a))},p);else{var
+p=b1(d[1]),b=l(function(a){return dp(j(a))},p);else{var
 n=1;c=1}else{var
 n=m;c=1}if(c)var
 b=n}else{var
 o=h(i,1,j(a[4]));if(o)var
-q=b1(a[3]),r=f(b1(a[2]),q),b=l(function(a){return dn(j(a))},r);else
+q=b1(a[3]),r=f(b1(a[2]),q),b=l(function(a){return dp(j(a))},r);else
 var
 b=o}return b?k(s,a):b},a):b;if(c)var
-d=hE(0,a),n=d?1:d,e=n;else
+d=hI(0,a),n=d?1:d,e=n;else
 var
 e=c;return e}return a?0:1}function
-pG(a){return a?BT:BU}function
-hN(a){switch(a){case
-0:return BV;case
-1:return BW;default:return 0}}function
-dp(a){var
-f=a[1],d=h(i,1,[2,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],f]),e=d?bw(i,a[1],a[2]):d;if(e){var
+pQ(a){return a?B1:B2}function
+hT(a){switch(a){case
+0:return B3;case
+1:return B4;default:return 0}}function
+dq(a){var
+f=a[1],d=h(i,1,[2,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],f]),e=d?bx(i,a[1],a[2]):d;if(e){var
 g=a[2];return h(i,1,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],g])}return e}function
-eP(a){var
-e=bw(i,[0,d,b],a);return e?h(i,1,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],a]):e}function
-pH(c,b,a){if(0===a[0]){var
+eQ(a){var
+e=bx(i,[0,d,b],a);return e?h(i,1,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],a]):e}function
+pR(c,b,a){if(0===a[0]){var
 d=a[2],e=a[1],f=o(g(e),c),k=f?o(g(d),c):f;if(k){var
 n=W(e,d);return l(function(a){var
-b=j(a[2]);return bw(i,j(a[1]),b)},n)}return k}var
+b=j(a[2]);return bx(i,j(a[1]),b)},n)}return k}var
 m=b?h(i,1,j(a[3])):b;if(m){var
-p=j(a[5]);return bw(i,j(a[4]),p)}return m}function
-pI(a,e,F,E,t,s,f){function
+p=j(a[5]);return bx(i,j(a[4]),p)}return m}function
+pS(a,e,F,E,t,s,f){function
 u(b){var
-d=pG(a),c=o(g(b),d);return c?l(fV,b):c}var
+d=pQ(a),c=o(g(b),d);return c?l(fX,b):c}var
 v=l(function(a){var
 b=u(a[1]);return b?u(a[2]):b},e);if(v)var
-G=g(e),n=aa(bF(a),G);else
+G=g(e),n=aa(bG(a),G);else
 var
 n=v;var
-w=n?aa(g(e),BX):n,x=w?h(i,1,j(F)):w;if(x)var
-H=1===a?1:0,p=pH(hN(a),H,E);else
+w=n?aa(g(e),B5):n,x=w?h(i,1,j(F)):w;if(x)var
+H=1===a?1:0,p=pR(hT(a),H,E);else
 var
 p=x;if(p)if(a){var
-d=dW(t);switch(d[0]){case
+d=dX(t);switch(d[0]){case
 0:var
 k=0;break;case
 1:var
-A=dp(d[1]),B=A?dp(d[2]):A,k=B?dp(d[3]):B;break;case
+A=dq(d[1]),B=A?dq(d[2]):A,k=B?dq(d[3]):B;break;case
 2:var
-k=eP(d[1]);break;default:var
-C=eP(d[1]),k=C?eP(d[2]):C}var
+k=eQ(d[1]);break;default:var
+C=eQ(d[1]),k=C?eQ(d[2]):C}var
 m=k}else
 var
-D=dW(t),J=0===D[0]?dp(D[1]):0,m=J;else
+D=dX(t),J=0===D[0]?dq(D[1]):0,m=J;else
 var
 m=p;if(m)var
-I=g(e),q=pF(function(a){if(0===a[0]){var
-b=a[1],c=aa(BR,b),d=c?aa(b,I):c;if(d){if(a[5])return 0;var
+I=g(e),q=pP(function(a){if(0===a[0]){var
+b=a[1],c=aa(BZ,b),d=c?aa(b,I):c;if(d){if(a[5])return 0;var
 e=1}else
 var
 e=d;return e}return 1},s,f);else
 var
 q=m;if(q)var
-b=g(e),c=bF(a),y=pG(a),r=l(function(a){var
+b=g(e),c=bG(a),y=pQ(a),r=l(function(a){var
 e=a[2];if(e)var
-f=e[1],h=aa(A8,f),w=h?aa(f,b):h,d=w;else
+f=e[1],h=aa(Be,f),w=h?aa(f,b):h,d=w;else
 var
 d=1;switch(a[1]){case
 9:var
 i=a[4];if(typeof
-i!=="number"&&0===i[0])return a[2]?aE(c,b,a):a[3]?aE(c,b,a):1;return aE(c,b,a);case
+i!=="number"&&0===i[0])return a[2]?aF(c,b,a):a[3]?aF(c,b,a):1;return aF(c,b,a);case
 10:var
 j=a[4];if(typeof
 j!=="number"&&1===j[0]){var
-k=a[3];return k?2===k[1][0]?d:aE(c,b,a):aE(c,b,a)}return aE(c,b,a);case
+k=a[3];return k?2===k[1][0]?d:aF(c,b,a):aF(c,b,a)}return aF(c,b,a);case
 12:var
 l=a[4];if(typeof
-l!=="number"&&1===l[0]){if(a[2])return aE(c,b,a);var
-m=a[3];return m?3===m[1][0]?o(b,c):aE(c,b,a):aE(c,b,a)}return aE(c,b,a);case
+l!=="number"&&1===l[0]){if(a[2])return aF(c,b,a);var
+m=a[3];return m?3===m[1][0]?o(b,c):aF(c,b,a):aF(c,b,a)}return aF(c,b,a);case
 14:var
 n=a[4];if(typeof
 n!=="number"&&1===n[0]){var
 p=a[3];if(p){var
 q=p[1];if(1===q[0]){var
-r=o(g(q[1]),y),x=r?d:r;return x}return aE(c,b,a)}return aE(c,b,a)}return aE(c,b,a);case
+r=o(g(q[1]),y),x=r?d:r;return x}return aF(c,b,a)}return aF(c,b,a)}return aF(c,b,a);case
 15:var
 s=a[4];if(typeof
 s!=="number"&&1===s[0]){var
 t=a[3];if(t){var
 u=t[1];if(1===u[0]){var
-v=o(g(u[1]),y),z=v?d:v;return z}return aE(c,b,a)}return aE(c,b,a)}return aE(c,b,a);default:return aE(c,b,a)}},f);else
+v=o(g(u[1]),y),z=v?d:v;return z}return aF(c,b,a)}return aF(c,b,a)}return aF(c,b,a);default:return aF(c,b,a)}},f);else
 var
 r=q;var
-z=r?hM(f):r;return z?l(kl,eO(0,g(e),s,f)):z}function
-km(a){switch(a[0]){case
+z=r?hS(f):r;return z?l(kr,eP(0,g(e),s,f)):z}function
+ks(a){switch(a[0]){case
 0:var
 c=f(a[3],[0,a[4],0]),d=f(a[2],c);return f(a[1],d);case
 1:var
 b=a[3],e=b?b[1]:b,g=f(a[2],e);return f(a[1],g);case
 2:return a[1];default:var
 h=f(a[4],[0,a[5],[0,a[6],0]]),i=f(a[3],h),j=f(a[2],i);return f(a[1],j)}}function
-kn(a,e,d,R,p,n){var
+hU(a,e,d,R,p,n){var
 q=typeof
 a==="number"?a?1:a:a[1]?0:1;function
 c(a){var
-b=q?BY:BZ;return o(g(a),b)}var
-k=dX(e),w=l(function(b){switch(b[0]){case
+b=q?B6:B7;return o(g(a),b)}var
+k=dY(e),w=l(function(b){switch(b[0]){case
 0:var
-f=N(k),g=f?c(b[1]):f,h=g?c(b[2]):g;return h?c(b[3]):h;case
+f=J(k),g=f?c(b[1]):f,h=g?c(b[2]):g;return h?c(b[3]):h;case
 1:var
-d=b[3],i=N(k),j=i?c(b[1]):i,l=j?c(b[2]):j;if(l){var
+d=b[3],i=J(k),j=i?c(b[1]):i,l=j?c(b[2]):j;if(l){var
 m=typeof
 a==="number"?1:0;if(m){if(a)return d?0:1;if(d)return c(d[1]);var
 e=1}else
@@ -7296,7 +7308,7 @@ e=m}else
 var
 e=l;return e;case
 2:var
-n=N(k),o=n?c(b[1]):n;if(o){if(typeof
+n=J(k),o=n?c(b[1]):n;if(o){if(typeof
 a==="number"&&!a)return 1;var
 p=0}else
 var
@@ -7305,23 +7317,23 @@ r=b[1],s=q?r?0:1:c(r),t=s?c(b[2]):s,u=t?c(b[3]):t;return u?c(b[4]):u}},e);if(w)v
 S=g(e),r=aa(at(a),S);else
 var
 r=w;var
-x=r?aa(g(e),B0):r,A=x?l(fV,y(km,e)):x;if(A){var
+x=r?aa(g(e),B8):r,A=x?l(fX,z(ks,e)):x;if(A){var
 Q=0;if(typeof
 a==="number"&&!a){var
 B=1;Q=1}if(!Q)var
 B=0;var
-T=q?B1:B2,s=pH(T,B,R)}else
+T=q?B9:B_,s=pR(T,B,R)}else
 var
 s=A;if(s)if(typeof
 a==="number")if(d)var
 b=0;else
 var
-U=z(dW,p)?0:1,b=U;else
+U=y(dX,p)?0:1,b=U;else
 switch(a[1]){case
 0:if(d){var
-t=z(dW,p);if(t){var
+t=y(dX,p);if(t){var
 E=t[1];if(0===E[0])var
-F=h(i,1,j(d[1])),G=F?dp(E[1]):F;else
+F=h(i,1,j(d[1])),G=F?dq(E[1]):F;else
 var
 G=0;var
 H=G}else
@@ -7331,15 +7343,15 @@ b=H}else
 var
 b=d;break;case
 1:if(d){var
-u=d[1],v=z(dW,p);if(v){var
+u=d[1],v=y(dX,p);if(v){var
 f=v[1];switch(f[0]){case
 0:var
 m=0;break;case
 1:var
-J=h(i,1,j(u)),K=J?dp(f[1]):J,L=K?dp(f[2]):K,m=L?dp(f[3]):L;break;case
+K=h(i,1,j(u)),L=K?dq(f[1]):K,M=L?dq(f[2]):L,m=M?dq(f[3]):M;break;case
 2:var
-M=h(i,1,j(u)),m=M?eP(f[1]):M;break;default:var
-O=h(i,1,j(u)),P=O?eP(f[1]):O,m=P?eP(f[2]):P}var
+N=h(i,1,j(u)),m=N?eQ(f[1]):N;break;default:var
+O=h(i,1,j(u)),P=O?eQ(f[1]):O,m=P?eQ(f[2]):P}var
 I=m}else
 var
 I=v;var
@@ -7350,124 +7362,124 @@ b=0}else
 var
 b=s;var
 C=b?l(function(b){var
-c=pl(k,a,g(e),b);if(c)var
+c=pv(k,a,g(e),b);if(c)var
 d=c;else{var
-f=cO(b);if(f)return aE(0,0,b);var
-d=f}return d},n):b,D=C?hM(n):C;return D?l(kl,eO(k,g(e),0,n)):D}function
-B3(a){switch(a[0]){case
-0:return g8(a[1][1]);case
+f=cQ(b);if(f)return aF(0,0,b);var
+d=f}return d},n):b,D=C?hS(n):C;return D?l(kr,eP(k,g(e),0,n)):D}function
+B$(a){switch(a[0]){case
+0:return ha(a[1][1]);case
 1:var
-b=a[3];return b?g8(b[1]):1;default:return g8(a[1])}}function
-ko(a,k,b,d){var
-e=pF(function(g){if(0===g[0]){var
-c=g[1],d=aa(BQ,c);if(d){var
-b=H(a,bz(c));if(b){if(2===b[1][0])return 0;var
+b=a[3];return b?ha(b[1]):1;default:return ha(a[1])}}function
+hV(a,k,b,d){var
+e=pP(function(g){if(0===g[0]){var
+c=g[1],d=aa(BY,c);if(d){var
+b=H(a,bA(c));if(b){if(2===b[1][0])return 0;var
 e=1}else
 var
 e=b;var
 f=e}else
 var
-f=d;return f}return 1},k,b),f=e?l(B3,d[1]):e,h=f?aa(B4,g(a)):f;if(h)var
-m=g(a),c=l(function(a){return AY(m,a)},b);else
+f=d;return f}return 1},k,b),f=e?l(B$,d[1]):e,h=f?aa(Ca,g(a)):f;if(h)var
+m=g(a),c=l(function(a){return A6(m,a)},b);else
 var
 c=h;var
-i=c?hM(b):c,j=i?l(fV,y(pE,a)):i;return j?l(BP,d[3]):j}function
-pJ(m,k,a,j,i,b){var
+i=c?hS(b):c,j=i?l(fX,z(pO,a)):i;return j?l(BX,d[3]):j}function
+pT(m,k,a,j,i,b){var
 c=g(m),n=g(i),d=o(g(j),n),e=d?l(function(b){if(12===b[1]){var
 n=0,e=b[4];if(typeof
 e!=="number"&&1===e[0]){if(b[2])var
-k=aE(c,g(a),b);else
+k=aF(c,g(a),b);else
 var
-m=b[3],q=m?0===m[1][0]?o(c,g(a)):aE(c,g(a),b):aE(c,g(a),b),k=q;var
+m=b[3],q=m?0===m[1][0]?o(c,g(a)):aF(c,g(a),b):aF(c,g(a),b),k=q;var
 f=k;n=1}if(!n)var
-f=aE(c,g(a),b);var
+f=aF(c,g(a),b);var
 d=f}else
 var
-d=aE(c,g(a),b);if(d){var
+d=aF(c,g(a),b);if(d){var
 h=b[1]-1|0;if(!(11<h>>>0))switch(h){case
 0:var
-j=b[2],p=j?[0,bz(j[1]),0]:aC(0,g(a));return l(function(c){var
+j=b[2],p=j?[0,bA(j[1]),0]:aD(0,g(a));return l(function(c){var
 b=H(a,c);return b?0===b[1][0]?0:1:b},p);case
 10:return l(function(a){return 0===a[0]?0:1},a);case
 11:return l(function(a){return 0===a[0]?0:1},a)}var
 i=1}else
 var
-i=d;return i},b):d,f=e?hM(b):e,h=f?l(function(a){return fV(a[2])},k):f;return h?l(kl,eO(0,g(a),0,b)):h}function
-pK(a){if(a){var
-b=a[1];if(cO(b))return 0;var
-c=[0,b,pK(a[2])]}else
+i=d;return i},b):d,f=e?hS(b):e,h=f?l(function(a){return fX(a[2])},k):f;return h?l(kr,eP(0,g(a),0,b)):h}function
+pU(a){if(a){var
+b=a[1];if(cQ(b))return 0;var
+c=[0,b,pU(a[2])]}else
 var
 c=a;return c}function
-d1(j,h,f,d,b){var
-k=pK(b),l=y(function(a){return j_(j,f,d,a)},k),c=ao(L,0,e(function(a){return g3(i,h,a)},l)),a=y(pj,b),m=a?[0,a[1],a[2]]:B5;return L(g(m),c)}function
-kp(a){return 2<=a?B6:B7}function
-kq(m,l,k,j,f,i){var
-g=d1(m,l,k,j,f),c=pB(i);if(c){var
+d2(h,f,d,c,b){var
+j=pU(b),k=z(function(a){return hK(h,d,c,a)},j),l=lH(e(function(a){return fv(i,f,a)},k)),a=z(pt,b),m=a?[0,a[1],a[2]]:Cb;return M(g(m),l)}function
+kt(a){return 2<=a?Cc:Cd}function
+ku(m,l,k,j,f,i){var
+g=d2(m,l,k,j,f),c=pL(i);if(c){var
 a=c[1],e=0;if(typeof
 a==="number")var
 h=[0,a];else
 if(0===a[0]){var
 n=a[2],p=a[1],b=p,d=function(a){return[0,a,n]};e=1}else{var
-q=a[2],r=a[1],b=r,d=function(a){return[1,a,q]};e=1}if(e){if(!N(aj(cO,f))&&!aK(b,g))return o(b,g)?0:[0,d(bz(b))];return[0,d(b)]}}else
+q=a[2],r=a[1],b=r,d=function(a){return[1,a,q]};e=1}if(e){if(!J(aj(cQ,f))&&!aK(b,g))return o(b,g)?0:[0,d(bA(b))];return[0,d(b)]}}else
 var
 h=c;return h}function
-fW(b,a){var
-c=g(bu(function(a){return 0===a[0]?0:1},b));return o(g(a),c)}function
-hO(a){var
-b=W(aC(0,g(a)),a);return e(aA,bu(function(a){return i4(a[2])},b))}function
-pL(a){var
-b=a[1],c=e(hK,a[1]);return gX(hL(a[1]),c,b)}function
-kr(a){return hO(pL(a))}function
-pM(b,a){if(a){var
-c=a[1],d=a[2],g=pM(L(b,c[1]),d),h=c[2];return f(e(function(a){return aC(L(b,a),B8)},h),g)}return a}function
-pN(e,a){function
+fY(b,a){var
+c=g(a1(function(a){return 0===a[0]?0:1},b));return o(g(a),c)}function
+hW(a){var
+b=W(aD(0,g(a)),a);return e(aB,a1(function(a){return i_(a[2])},b))}function
+pV(a){var
+b=a[1],c=e(hQ,a[1]);return g2(hR(a[1]),c,b)}function
+kv(a){return hW(pV(a))}function
+pW(b,a){if(a){var
+c=a[1],d=a[2],g=pW(M(b,c[1]),d),h=c[2];return f(e(function(a){return aD(M(b,a),Ce)},h),g)}return a}function
+pX(e,a){function
 b(f){var
 a=H(e,f);if(a){var
-b=mE(a[1]);if(b)return K(b[1],d);var
+b=mN(a[1]);if(b)return L(b[1],d);var
 c=1}else
 var
 c=a;return c}var
-c=pM(0,a);return bu(function(a){return l(b,a)},c)}function
-pO(a){switch(a[0]){case
-0:return B9;case
-1:return a[3]?B_:B$;default:return Ca}}function
-Cb(a){return 0===a[0]?pO(a[1]):Cc}function
-hP(a){if(a){var
+c=pW(0,a);return a1(function(a){return l(b,a)},c)}function
+pY(a){switch(a[0]){case
+0:return Cf;case
+1:return a[3]?Cg:Ch;default:return Ci}}function
+Cj(a){return 0===a[0]?pY(a[1]):Ck}function
+hX(a){if(a){var
 b=a[1];return[0,b[2],b[1]]}return[0,d,0]}function
-pP(aC,Y,aB,X,W,b,aA,V){var
-a=j9(Y,aB,X,W),aD=g(V),aE=e(pO,a[1]),aF=pN(pL(a),aE),aG=aC?0:kr(a),B=dY(Cd,kr(a),aG,aF,aD,V);if(B){var
+kw(aC,Y,aB,X,W,b,aA,V){var
+a=hJ(Y,aB,X,W),aD=g(V),aE=e(pY,a[1]),aF=pX(pV(a),aE),aG=aC?0:kv(a),B=dZ(Cl,kv(a),aG,aF,aD,V);if(B){var
 Z=B[1];if(Z[2])return 0;var
-_=ko(Y,X,W,a);if(_){var
-aH=Z[1],C=e(hK,a[1]),c=hL(a[1]),aI=hP(aA),U=m5(i,a);if(U){var
-n=gX(c,C,a[1]),h=i1(c,C,a[1],0),ab=g(a[3]),ad=L(g(n),ab),K=[0,g(n),ad],ae=a[3],E=aj(function(a){if(typeof
-a!=="number"&&14===a[0])return 1;return 0},ae),af=E?y(function(a){var
-b=e(aO,gZ(n,a[4]));return[0,a[4],b]},h):E,ag=f(i3(h,c,K,a[3]),af),ah=f(bC(l$(h)),ag),M=f(bC(fi(h)),ah),N=cY(M)[1],o=cX(N),O=l(function(a){var
-b=m(d);return aN(r(bg(o,a),o,b),a)},M);if(O){var
-P=aj(tQ,a[3]);if(P){var
+_=hV(Y,X,W,a);if(_){var
+aH=Z[1],C=e(hQ,a[1]),c=hR(a[1]),aI=hX(aA),U=nc(i,a);if(U){var
+n=g2(c,C,a[1]),h=i7(c,C,a[1],0),ab=g(a[3]),ac=M(g(n),ab),K=[0,g(n),ac],ae=a[3],E=aj(function(a){if(typeof
+a!=="number"&&14===a[0])return 1;return 0},ae),af=E?z(function(a){var
+b=e(aO,g4(n,a[4]));return[0,a[4],b]},h):E,ag=f(i9(h,c,K,a[3]),af),ah=f(bD(mi(h)),ag),L=f(bD(fj(h)),ah),N=cZ(L)[1],o=cY(N),O=l(function(a){var
+b=m(d);return aN(r(bh(o,a),o,b),a)},L);if(O){var
+P=aj(tZ,a[3]);if(P){var
 t=C,p=a[1];for(;;){if(p){var
 q=p[1],u=bR(d,t);switch(q[0]){case
 0:var
-F=q[1],G=g0(b,F[1],u),D=0;if(G){var
+F=q[1],G=g5(b,F[1],u),D=0;if(G){var
 s=ap(b,[0,F[4],c]);if(s)var
 j=I(d,s[1][1]);else{var
 H=s;D=1}}else{var
 H=G;D=1}if(D)var
 j=H;break;case
 1:var
-J=q[3],j=J?g0(b,J[1],u):1;break;default:var
-j=g0(b,q[1],u)}if(j){var
-aa=p[2],t=bA(t),p=aa;continue}var
+J=q[3],j=J?g5(b,J[1],u):1;break;default:var
+j=g5(b,q[1],u)}if(j){var
+aa=p[2],t=bB(t),p=aa;continue}var
 Q=j}else
 var
 Q=1;var
 v=Q;break}}else
 var
 v=P;if(v){var
-ai=a[3],ak=y(function(a){return dH(c,a)},ai),al=a[3],am=f(n,f(e(function(a){return bW(c,a)},al),ak)),w=ac(e(function(a){return ap(b,a)},am));if(w){var
-an=a$(es(a[2]),c),x=ac(e(function(a){return ap(b,a)},an));if(x){var
-ao=a[3],z=ac(mS(b,aI,function(a){return bg(o,a)},n,h,c,K,ao));if(z){var
-R=z[1],aq=i0(R),ar=x[1],as=a[2],at=function(a){return mT(b,as,c,a)},au=w[1],av=0,aw=l$(h),ay=k(ax(function(a){return bg(o,a)}),aw),az=fi(h);return f1(iZ(b,N,k(ax(function(a){return bg(o,a)}),az),ay,av,au,R,at),ar,aq,aH)}var
-S=z}else
+ai=a[3],ak=z(function(a){return dI(c,a)},ai),al=a[3],am=f(n,f(e(function(a){return bW(c,a)},al),ak)),w=ad(e(function(a){return ap(b,a)},am));if(w){var
+an=ba(et(a[2]),c),x=ad(e(function(a){return ap(b,a)},an));if(x){var
+ao=a[3],y=ad(m1(b,aI,function(a){return bh(o,a)},n,h,c,K,ao));if(y){var
+R=y[1],aq=i6(R),ar=x[1],as=a[2],at=function(a){return m2(b,as,c,a)},au=w[1],av=0,aw=mi(h),ax=k(ay(function(a){return bh(o,a)}),aw),az=fj(h);return f4(i5(b,N,k(ay(function(a){return bh(o,a)}),az),ax,av,au,R,at),ar,aq,aH)}var
+S=y}else
 var
 S=x;var
 T=S}else
@@ -7481,77 +7493,77 @@ A=O;return A}return U}var
 $=_}else
 var
 $=B;return $}function
-Ce(a){if(0===a[0])return px(a[1]);var
-b=a[1],c=ev(b[6]);return f(ev(b[5]),c)}function
-Cf(a){if(0===a[0])return py(a[1]);var
-b=a[1],c=ba(b[4]);return f(ba(b[3]),c)}function
-pQ(c){var
-a=y(Ce,c),d=a?[0,a[1],a[2]]:y(Cf,c);return E(b,bE(d))}function
-Cg(a){if(0===a[0])return[0,hK(a[1]),d];var
-b=a[1],c=bE(ba(b[2]));return[0,bE(ba(b[1])),c]}function
-pR(h,b,s,r,q,f,C,B,p){var
-a=kb(h,b,s,r,q,f),t=pQ(a[2]),u=e(Cg,a[2]),j=jB(t,u,a[2]),D=g(p),E=pN(j,e(Cb,a[2])),F=hO(j),G=hO(j),k=dY(at(h),G,F,E,D,p);if(k){var
+Cm(a){if(0===a[0])return pH(a[1]);var
+b=a[1],c=ew(b[6]);return f(ew(b[5]),c)}function
+Cn(a){if(0===a[0])return pI(a[1]);var
+b=a[1],c=bb(b[4]);return f(bb(b[3]),c)}function
+pZ(c){var
+a=z(Cm,c),d=a?[0,a[1],a[2]]:z(Cn,c);return E(b,bF(d))}function
+Co(a){if(0===a[0])return[0,hQ(a[1]),d];var
+b=a[1],c=bF(bb(b[2]));return[0,bF(bb(b[1])),c]}function
+kx(h,b,s,r,q,f,C,B,p){var
+a=kf(h,b,s,r,q,f),t=pZ(a[2]),u=e(Co,a[2]),j=jH(t,u,a[2]),D=g(p),E=pX(j,e(Cj,a[2])),F=hW(j),G=hW(j),k=dZ(at(h),G,F,E,D,p);if(k){var
 v=k[1];if(v[2])return 0;var
-w=kn(h,b,s,r,q,f);if(w){var
-H=v[1],I=g(b),J=d1(dX(b),Ch,I,0,f),K=hP(B),y=e(vD,a[2]),m=fB(i,a[2],y);if(m)var
-z=i7(a[4]),c=cE(i,a[4],z);else
+w=hU(h,b,s,r,q,f);if(w){var
+H=v[1],I=g(b),J=d2(dY(b),Cp,I,0,f),K=hX(B),y=e(vM,a[2]),m=fD(i,a[2],y);if(m)var
+z=jb(a[4]),c=cG(i,a[4],z);else
 var
 c=m;if(c){var
 n=a[5];if(n)var
-A=he(n[1]),o=l(function(a){return fE(i,a)},A);else
+A=hi(n[1]),o=l(function(a){return fG(i,a)},A);else
 var
 o=1;var
 d=o}else
 var
-d=c;return d?vB(C,K,J,a,t,u,H):d}var
+d=c;return d?vK(C,K,J,a,t,u,H):d}var
 x=w}else
 var
 x=k;return x}function
-pS(r,t,ai,ah,ag,I,aP,af,v){var
+ky(r,t,ai,ah,ag,I,aP,af,v){var
 x=typeof
-r==="number"?r?Ci:Cj:hN(r[1]),A=e(j,aP),a=kb(r,t,ai,ah,ag,I),aj=kk(t,e(j,af));if(aj[2])return 0;var
-p=aj[1],ak=fW(y(km,t),af),al=ak?kn(r,t,ai,ah,ag,I):ak;if(al)var
-aQ=at(r),K=o(g(A),aQ);else
+r==="number"?r?Cq:Cr:hT(r[1]),A=e(j,aP),a=kf(r,t,ai,ah,ag,I),aj=kq(t,e(j,af));if(aj[2])return 0;var
+p=aj[1],ak=fY(z(ks,t),af),al=ak?hU(r,t,ai,ah,ag,I):ak;if(al)var
+aQ=at(r),L=o(g(A),aQ);else
 var
-K=al;if(K){if(typeof
+L=al;if(L){if(typeof
 v!=="number"&&2===v[0]){var
-S=e(j,v[1]),aU=av(x,S),ap=aI(an(x,S)),aW=av(x,A),aq=aI(an(x,A)),X=fB(i,a[2],p),Y=X?cE(i,a[4],aq):X,Z=Y?cE(i,a[4],ap):Y,ar=Z?oE(i,a[1],a[3],a[5],p,aq,aW,ap,aU):Z;if(ar){var
+S=e(j,v[1]),aU=aw(x,S),ap=aI(an(x,S)),aW=aw(x,A),aq=aI(an(x,A)),X=fD(i,a[2],p),Y=X?cG(i,a[4],aq):X,Z=Y?cG(i,a[4],ap):Y,ar=Z?oN(i,a[1],a[3],a[5],p,aq,aW,ap,aU):Z;if(ar){var
 aX=at(r);return o(g(S),aX)}return ar}var
-aR=g(t),aS=hh(r),L=kq(dX(t),aS,aR,0,I,v);if(L){var
-B=L[1],f=aI(an(x,A)),m=av(x,A),as=0;if(typeof
+aR=g(t),aS=hl(r),M=ku(dY(t),aS,aR,0,I,v);if(M){var
+B=M[1],f=aI(an(x,A)),m=aw(x,A),as=0;if(typeof
 v==="number"&&v){var
-M=N(dX(t));as=1}if(!as)var
-M=1;if(M){var
-T=fB(i,a[2],p),U=T?jn(i,a,f,m):T;if(U)var
+N=J(dY(t));as=1}if(!as)var
+N=1;if(N){var
+T=fD(i,a[2],p),U=T?jt(i,a,f,m):T;if(U)var
 n=a[5],V=a[3],C=a[1],aD=a[6],au=e(function(a){if(0===a[0])var
-e=bs(n,m,f,a),c=ch(a[1],e);else
+e=bt(n,m,f,a),c=ci(a[1],e);else
 var
-d=a[1],g=ja(d,bs(n,m,f,a)),h=d[4],i=bs(n,m,f,a),j=J(function(b,a){return[2,b,a]},i,h),c=J(function(b,a){return[3,b,a]},j,g);return[0,jl(C,c,P([5,[0,b,b],V],c$(eC(n,m,eB(a)),c)))]},p),aw=y(function(a){return jm(n,m,f,a)},p),ax=function(a){var
-b=eC(n,m,a);return J(function(b,a){return[2,b,a]},f,b)},az=0,aA=e(function(d){var
-b=bs(n,m,f,d);if(0===d[0]){var
+d=a[1],g=jg(d,bt(n,m,f,a)),h=d[4],i=bt(n,m,f,a),j=K(function(b,a){return[2,b,a]},i,h),c=K(function(b,a){return[3,b,a]},j,g);return[0,jr(C,c,P([5,[0,b,b],V],da(eD(n,m,eC(a)),c)))]},p),av=z(function(a){return js(n,m,f,a)},p),ax=function(a){var
+b=eD(n,m,a);return K(function(b,a){return[2,b,a]},f,b)},ay=0,aA=e(function(d){var
+b=bt(n,m,f,d);if(0===d[0]){var
 a=d[1];if(0===a[0]){var
-g=a[4],h=a[3],i=a[2],e=a[1],k=cf(e,i,h,g,b),j=cF(a[5],k),l=P(j,ay(e)),o=fr(e,i,h,b);return[0,[0,nP(C,J(function(b,a){return[2,b,a]},o,l)),j,g]]}return 0}var
-c=d[1],p=c[6],q=eu(c,b),r=ja(c,b),s=c[4],t=J(function(b,a){return[2,b,a]},b,s);return[0,[0,nP(C,J(function(b,a){return[3,b,a]},t,r)),q,p]]},p),aB=e(function(a){return eD(n,m,f,a)},p),aC=[0,e(function(a){if(0===a[0])var
-l=bs(n,m,f,a),d=cg(a[1],l);else
+g=a[4],h=a[3],i=a[2],e=a[1],k=cg(e,i,h,g,b),j=cH(a[5],k),l=P(j,az(e)),o=fs(e,i,h,b);return[0,[0,nY(C,K(function(b,a){return[2,b,a]},o,l)),j,g]]}return 0}var
+c=d[1],p=c[6],q=ev(c,b),r=jg(c,b),s=c[4],t=K(function(b,a){return[2,b,a]},b,s);return[0,[0,nY(C,K(function(b,a){return[3,b,a]},t,r)),q,p]]},p),aB=e(function(a){return eE(n,m,f,a)},p),aC=[0,e(function(a){if(0===a[0])var
+l=bt(n,m,f,a),d=ch(a[1],l);else
 var
-e=bs(n,m,f,a),c=a[1],g=ja(c,e),h=c[4],i=J(function(b,a){return[2,b,a]},e,h),j=J(function(b,a){return[3,b,a]},i,g),k=eu(c,e),d=P([5,[0,b,b],[4,c[5],k]],j);return jl(C,d,P([5,[0,b,b],V],c$(eC(n,m,eB(a)),d)))},p),aB,aA,az,ax,aw,au],aE=at(a[1]),O=i9(i,hh(a[1]),aE,aC,aD,B);else
+e=bt(n,m,f,a),c=a[1],g=jg(c,e),h=c[4],i=K(function(b,a){return[2,b,a]},e,h),j=K(function(b,a){return[3,b,a]},i,g),k=ev(c,e),d=P([5,[0,b,b],[4,c[5],k]],j);return jr(C,d,P([5,[0,b,b],V],da(eD(n,m,eC(a)),d)))},p),aB,aA,ay,ax,av,au],aE=at(a[1]),O=jd(i,hl(a[1]),aE,aC,aD,B);else
 var
 O=U;if(O)var
 Q=O;else{if(typeof
 B!=="number"&&0===B[0]){var
 E=B[2];if(E){if(E[2])return 0;var
-R=E[1],_=a[1],D=a[5],aT=B[1],$=fB(i,a[2],p),aa=$?jn(i,a,f,m):$;if(aa){var
-aG=a[6],F=et(i,hh(_),aT,aG);if(F){var
-z=F[1][1];if(typeof
-z!=="number"&&16===z[0]){var
-s=z[1],aH=a[2],aJ=e(function(a){return eD(D,m,f,oR(a))},aH),ad=k(cH(cL),s);if(ad)var
-aF=k(gm(c(2,b)),cL),u=[0,bl(d,ad[1][1]),aF];else
+R=E[1],_=a[1],D=a[5],aT=B[1],$=fD(i,a[2],p),aa=$?jt(i,a,f,m):$;if(aa){var
+aG=a[6],F=eu(i,hl(_),aT,aG);if(F){var
+y=F[1][1];if(typeof
+y!=="number"&&16===y[0]){var
+s=y[1],aH=a[2],aJ=e(function(a){return eE(D,m,f,o0(a))},aH),ad=k(cJ(cN),s);if(ad)var
+aF=k(gr(c(2,b)),cN),u=[0,bm(d,ad[1][1]),aF];else
 var
 u=[0,d,b];var
 ae=h(i,0,s);if(ae)var
 aK=a[2],G=l(function(a){var
-b=oR(a);if(0===b[0])return 1;var
-c=b[1],d=[1,c],e=cI(i,s),g=e?nQ(i,a,d):e;return g?h(i,1,i$(c,bs(D,m,f,d))):g},aK);else
+b=o0(a);if(0===b[0])return 1;var
+c=b[1],d=[1,c],e=cK(i,s),g=e?nZ(i,a,d):e;return g?h(i,1,jf(c,bt(D,m,f,d))):g},aK);else
 var
 G=ae;if(G)var
 aL=g(a[2]),H=o(g(R),aL);else
@@ -7560,22 +7572,22 @@ H=G;if(H){var
 aM=W(R,aJ),aN=W(W(p,e(function(o){var
 a=o[2],f=o[1];if(typeof
 a!=="number"&&1===a[0]){var
-g=a[2],j=a[1],p=c(2,c(2,c(2,q(c(2,c(2,b)))))),e=hw(s,a2(u,dz([0,b,b],[0,b,k(gm(c(2,b)),p)])),f,[1,j,g]);if(typeof
+g=a[2],j=a[1],p=c(2,c(2,c(2,q(c(2,c(2,b)))))),e=hA(s,a3(u,dA([0,b,b],[0,b,k(gr(c(2,b)),p)])),f,[1,j,g]);if(typeof
 e!=="number"&&1===e[0]){var
-d=dQ([5,e[2],[2,[0,b,b],e[1]]]),r=[4,g,dK(d)],l=[2,[4,j,dJ(d)],r],t=[4,g,dJ(d)],m=[3,[4,j,dK(d)],t],n=[4,a4(u),[2,[0,b,b],l]];if(h(i,1,[2,[0,b,b],l])&&h(i,0,[3,n,m])&&h(i,0,[2,n,m])){var
-v=dK(d);return[1,dJ(d),v]}return hw(s,u,f,a)}return hw(s,u,f,a)}return hw(s,u,f,a)},aM)),R),aO=y(function(t){var
-l=t[1],a=l[2],g=l[1],h=t[2],i=eC(D,m,eB(g)),e=bs(D,m,f,g);if(0===g[0]){var
+d=dR([5,e[2],[2,[0,b,b],e[1]]]),r=[4,g,dL(d)],l=[2,[4,j,dK(d)],r],t=[4,g,dK(d)],m=[3,[4,j,dL(d)],t],n=[4,a5(u),[2,[0,b,b],l]];if(h(i,1,[2,[0,b,b],l])&&h(i,0,[3,n,m])&&h(i,0,[2,n,m])){var
+v=dL(d);return[1,dK(d),v]}return hA(s,u,f,a)}return hA(s,u,f,a)}return hA(s,u,f,a)},aM)),R),aO=z(function(t){var
+l=t[1],a=l[2],g=l[1],h=t[2],i=eD(D,m,eC(g)),e=bt(D,m,f,g);if(0===g[0]){var
 d=g[1];switch(d[0]){case
 0:var
 n=d[4],o=d[3],j=d[2],k=d[1];if(typeof
 a!=="number"&&0===a[0]){var
-p=a[1],u=0,v=P(p,ay(k)),x=J(function(b,a){return[3,b,a]},f,j),y=J(function(b,a){return[3,b,a]},x,v),z=aV(j,o,e),A=[3,w(ay(k),z),p],B=cf(k,j,o,n,e);return[0,[0,dQ([5,[0,h,b],[2,cF(d[5],B),A]]),n,y,i],u]}return 0;case
+p=a[1],u=0,v=P(p,az(k)),x=K(function(b,a){return[3,b,a]},f,j),y=K(function(b,a){return[3,b,a]},x,v),z=aV(j,o,e),A=[3,w(az(k),z),p],B=cg(k,j,o,n,e);return[0,[0,dR([5,[0,h,b],[2,cH(d[5],B),A]]),n,y,i],u]}return 0;case
 1:if(typeof
 a!=="number"&&0===a[0]){var
-q=a[1],C=0,E=d[1],F=J(function(b,a){return[3,b,a]},f,E);return[0,[0,dQ([5,[0,h,b],[2,q,cG(d,e)]]),q,F,i],C]}return 0;default:return 0}}var
+q=a[1],C=0,E=d[1],F=K(function(b,a){return[3,b,a]},f,E);return[0,[0,dR([5,[0,h,b],[2,q,cI(d,e)]]),q,F,i],C]}return 0;default:return 0}}var
 c=g[1];if(typeof
 a!=="number"&&1===a[0]){var
-r=a[2],s=a[1],G=[4,r,fv(c,e)],H=[3,[4,s,fw(c,e)],G],K=P(r,g4(c)),I=0,L=P(s,fu(c)),M=J(function(b,a){return[2,b,a]},L,K),N=P(c[5],M),O=c[3],Q=J(function(b,a){return[2,b,a]},O,N),R=J(function(b,a){return[3,b,a]},f,Q),S=c[6],T=[2,eu(c,e),H];return[0,[0,dQ([5,[0,h,b],[4,c[5],T]]),S,R,i],I]}return 0},aN);return oP(i,_,z[2],z[3],aO)}return H}var
+r=a[2],s=a[1],G=[4,r,fx(c,e)],H=[3,[4,s,fy(c,e)],G],J=P(r,g8(c)),I=0,L=P(s,fw(c)),M=K(function(b,a){return[2,b,a]},L,J),N=P(c[5],M),O=c[3],Q=K(function(b,a){return[2,b,a]},O,N),R=K(function(b,a){return[3,b,a]},f,Q),S=c[6],T=[2,ev(c,e),H];return[0,[0,dR([5,[0,h,b],[4,c[5],T]]),S,R,i],I]}return 0},aN);return oY(i,_,y[2],y[3],aO)}return H}var
 ab=0}else
 var
 ab=F;var
@@ -7584,81 +7596,81 @@ var
 ac=aa;return ac}return E}var
 Q=0}}else
 var
-Q=M;var
+Q=N;var
 am=Q}else
 var
-am=L;var
+am=M;var
 ao=am}else
 var
-ao=K;return ao}function
-cP(a){if(a){var
-b=cA(j(a[1]));if(b){var
-c=cP(a[2]);if(c)var
-f=c[1],d=[0,[0,dA(b[1]),f]];else
+ao=L;return ao}function
+cR(a){if(a){var
+b=cC(j(a[1]));if(b){var
+c=cR(a[2]);if(c)var
+f=c[1],d=[0,[0,dB(b[1]),f]];else
 var
 d=c;var
 e=d}else
 var
-e=b;return e}return Ck}function
-hQ(f,k,j,a,i){var
+e=b;return e}return Cs}function
+hY(f,k,j,a,i){var
 l=g(f),h=o(g(a),l);if(h){var
 m=W(W(f,W(k,j)),a);return e(function(f){var
-g=f[1],h=g[2],j=dz(h[2],h[1]),a=aM(g[1],i),k=D(d,a)?lA(b8(c(2,b),a)):[0,b,eb(b8(c(2,b),T(a)))],l=dA(gw(a2([0,c(2,b),b],k),j)),m=f[2];return e(function(a){return dA(a2(lA(a),l))},m)},m)}return h}function
-pT(u,aU,aq,ap,t,ao,a){var
-c=j9(u,aU,aq,ap),ar=fW(y(pE,u),ao),g=ar?ko(u,aq,ap,c):ar;if(t){var
+g=f[1],h=g[2],j=dA(h[2],h[1]),a=aM(g[1],i),k=D(d,a)?lJ(b9(c(2,b),a)):[0,b,ec(b9(c(2,b),T(a)))],l=dB(gB(a3([0,c(2,b),b],k),j)),m=f[2];return e(function(a){return dB(a3(lJ(a),l))},m)},m)}return h}function
+kz(u,aU,aq,ap,t,ao,a){var
+c=hJ(u,aU,aq,ap),ar=fY(z(pO,u),ao),g=ar?hV(u,aq,ap,c):ar;if(t){var
 v=t[2];if(v){var
 w=v[2];if(w){if(w[2])return 0;var
-h=w[1],k=v[1],m=t[1],as=pC(u,e(j,ao));if(as[2])return 0;var
+h=w[1],k=v[1],m=t[1],as=pM(u,e(j,ao));if(as[2])return 0;var
 f=as[1];if(typeof
 a!=="number")switch(a[0]){case
 2:var
 J=a[1];if(J){var
 K=J[2];if(K){var
 L=K[2];if(L){if(L[2]){var
-M=fU(c,a);if(M){var
+M=fW(c,a);if(M){var
 aY=j(h),aZ=j(k),az=[0,j(m),aZ,aY];if(g){var
-aA=ft(i,c,f,az,M[1]);if(aA)var
+aA=fu(i,c,f,az,M[1]);if(aA)var
 N=aA;else{if(typeof
 a!=="number"&&0===a[0]){var
-z=a[2];return z?z[2]?0:fK(i,c,f,az,a[1],z[1]):z}var
+y=a[2];return y?y[2]?0:fM(i,c,f,az,a[1],y[1]):y}var
 N=0}}else
 var
 N=g;var
 aB=N}else
 var
 aB=M;return aB}if(g){var
-a0=j(L[1]),a1=j(K[1]),aC=[0,j(J[1]),a1,a0],a2=j(h),a3=j(k),aD=[0,j(m),a3,a2],X=fq(i,c,f,aD),Y=X?cE(i,c[2],aC):X;if(Y){var
-aR=0,aS=0;return oE(i,0,[0,b,b],0,e(function(a){return[0,a]},f),aD,aS,aC,aR)}return Y}return g}var
-O=fU(c,a);if(O){var
+a0=j(L[1]),a1=j(K[1]),aC=[0,j(J[1]),a1,a0],a2=j(h),a3=j(k),aD=[0,j(m),a3,a2],X=fr(i,c,f,aD),Y=X?cG(i,c[2],aC):X;if(Y){var
+aR=0,aS=0;return oN(i,0,[0,b,b],0,e(function(a){return[0,a]},f),aD,aS,aC,aR)}return Y}return g}var
+O=fW(c,a);if(O){var
 a4=j(h),a5=j(k),aE=[0,j(m),a5,a4];if(g){var
-aF=ft(i,c,f,aE,O[1]);if(aF)var
+aF=fu(i,c,f,aE,O[1]);if(aF)var
 P=aF;else{if(typeof
 a!=="number"&&0===a[0]){var
-A=a[2];return A?A[2]?0:fK(i,c,f,aE,a[1],A[1]):A}var
+A=a[2];return A?A[2]?0:fM(i,c,f,aE,a[1],A[1]):A}var
 P=0}}else
 var
 P=g;var
 aG=P}else
 var
 aG=O;return aG}var
-Q=fU(c,a);if(Q){var
+Q=fW(c,a);if(Q){var
 a6=j(h),a7=j(k),aH=[0,j(m),a7,a6];if(g){var
-aI=ft(i,c,f,aH,Q[1]);if(aI)var
+aI=fu(i,c,f,aH,Q[1]);if(aI)var
 R=aI;else{if(typeof
 a!=="number"&&0===a[0]){var
-B=a[2];return B?B[2]?0:fK(i,c,f,aH,a[1],B[1]):B}var
+B=a[2];return B?B[2]?0:fM(i,c,f,aH,a[1],B[1]):B}var
 R=0}}else
 var
 R=g;var
 aJ=R}else
 var
 aJ=Q;return aJ}var
-S=fU(c,a);if(S){var
+S=fW(c,a);if(S){var
 a8=j(h),a9=j(k),aK=[0,j(m),a9,a8];if(g){var
-aL=ft(i,c,f,aK,S[1]);if(aL)var
+aL=fu(i,c,f,aK,S[1]);if(aL)var
 T=aL;else{if(typeof
 a!=="number"&&0===a[0]){var
-C=a[2];return C?C[2]?0:fK(i,c,f,aK,a[1],C[1]):C}var
+C=a[2];return C?C[2]?0:fM(i,c,f,aK,a[1],C[1]):C}var
 T=0}}else
 var
 T=g;var
@@ -7669,26 +7681,26 @@ aM=S;return aM;case
 U=H(c[3],a[1]);if(U){var
 aN=U[1];if(typeof
 aN==="number"&&aN){var
-V=cP(a[2]);if(V){var
-n=V[1],W=cP(a[3]);if(W){var
+V=cR(a[2]);if(V){var
+n=V[1],W=cR(a[3]);if(W){var
 o=W[1];if(g){var
-a_=hQ([0,d,[0,d,[0,d,0]]],n,o,a[4],a[5]),a$=j(h),ba=j(k),D=[0,j(m),ba,a$];if(n){var
+a_=hY([0,d,[0,d,[0,d,0]]],n,o,a[4],a[5]),a$=j(h),ba=j(k),D=[0,j(m),ba,a$];if(n){var
 p=n[2];if(p){var
 q=p[2];if(q){if(q[2])return 0;if(o){var
 r=o[2];if(r){var
 s=r[2];if(s){if(s[2])return 0;var
-Z=s[1],_=r[1],$=o[1],aa=q[1],ab=p[1],ac=n[1],ad=[0,[1,0,ac,$],[1,vW,ab,_],[1,vV,aa,Z]],ae=fq(i,c,f,D);if(ae)var
+Z=s[1],_=r[1],$=o[1],aa=q[1],ab=p[1],ac=n[1],ad=[0,[1,0,ac,$],[1,v5,ab,_],[1,v4,aa,Z]],ae=fr(i,c,f,D);if(ae)var
 aT=c[3],E=aj(function(a){if(typeof
 a==="number"&&a)return 1;return 0},aT);else
 var
 E=ae;var
-af=E?hs(n,o):E,ag=af?jP(i,c[2],[0,[0,ac,ab],aa],[0,[0,$,_],Z]):af,ah=ag?eG(i,n,o,aW(D)):ag,ai=ah?l(function(a){var
-b=eF(jQ(a)),c=b?eF([0,cG(a,D),0]):b;if(c){var
-d=i5(a,ad);if(d)return jO(i,vX,d[1]);var
+af=E?hw(n,o):E,ag=af?jV(i,c[2],[0,[0,ac,ab],aa],[0,[0,$,_],Z]):af,ah=ag?eH(i,n,o,aW(D)):ag,ai=ah?l(function(a){var
+b=eG(jW(a)),c=b?eG([0,cI(a,D),0]):b;if(c){var
+d=i$(a,ad);if(d)return jU(i,v6,d[1]);var
 e=1}else
 var
-e=c;return e},f):ah;if(ai)return hr(i,e(function(a){var
-b=cG(a,D);return[3,cG(a,ad),b]},f),a_);var
+e=c;return e},f):ah;if(ai)return hv(i,e(function(a){var
+b=cI(a,D);return[3,cI(a,ad),b]},f),a_);var
 ak=ai}else
 var
 ak=s;var
@@ -7715,12 +7727,12 @@ aP=V;return aP}var
 aQ=0}else
 var
 aQ=U;return aQ}var
-G=fU(c,a);if(G){var
+G=fW(c,a);if(G){var
 aV=j(h),aX=j(k),at=[0,j(m),aX,aV];if(g){var
-au=ft(i,c,f,at,G[1]);if(au)var
+au=fu(i,c,f,at,G[1]);if(au)var
 I=au;else{if(typeof
 a!=="number"&&0===a[0]){var
-x=a[2];return x?x[2]?0:fK(i,c,f,at,a[1],x[1]):x}var
+x=a[2];return x?x[2]?0:fM(i,c,f,at,a[1],x[1]):x}var
 I=0}}else
 var
 I=g;var
@@ -7736,23 +7748,23 @@ ax=v;var
 ay=ax}else
 var
 ay=t;return ay}function
-pU(n,m,b,l,C,B){var
+p0(n,m,b,l,C,B){var
 f=C,d=B;for(;;){if(0===d[0]){var
-h=d[1],i=H(f,h),o=i?aK(i[1][2],Cn):i;if(o)var
-D=d[2],j=pU(n,m,b,l,kh(0,h,f),D);else
+h=d[1],i=H(f,h),o=i?aK(i[1][2],Cv):i;if(o)var
+D=d[2],j=p0(n,m,b,l,kn(0,h,f),D);else
 var
 j=o;if(j){var
-E=d[3],f=kh(1,h,f),d=E;continue}return j}var
-c=d[1],a=pv(0,n,f),p=e(function(b){function
-d(b){return pw(a,b)}function
-c(a){return kf(d,a)}switch(b[0]){case
+E=d[3],f=kn(1,h,f),d=E;continue}return j}var
+c=d[1],a=pF(0,n,f),p=e(function(b){function
+d(b){return pG(a,b)}function
+c(a){return kl(d,a)}switch(b[0]){case
 0:var
-e=b[5],f=pw(a,b[4]),g=c(b[3]),h=c(b[2]);return[0,c(b[1]),h,g,f,e];case
+e=b[5],f=pG(a,b[4]),g=c(b[3]),h=c(b[2]);return[0,c(b[1]),h,g,f,e];case
 1:var
-i=z(c,b[3]),j=c(b[2]);return[1,c(b[1]),j,i];default:return[2,c(b[1])]}},m);if(0===b[0])var
-t=b[2],u=kf(function(b){return au(a,b)},t),v=b[1],k=[0,kf(function(b){return au(a,b)},v),u];else
+i=y(c,b[3]),j=c(b[2]);return[1,c(b[1]),j,i];default:return[2,c(b[1])]}},m);if(0===b[0])var
+t=b[2],u=kl(function(b){return au(a,b)},t),v=b[1],k=[0,kl(function(b){return au(a,b)},v),u];else
 var
-w=au(a,b[5]),x=au(a,b[4]),y=au(a,b[3]),A=au(a,b[2]),k=[1,au(a,b[1]),A,y,x,w];var
+w=au(a,b[5]),x=au(a,b[4]),z=au(a,b[3]),A=au(a,b[2]),k=[1,au(a,b[1]),A,z,x,w];var
 q=e(function(g){var
 c=g[4];if(typeof
 c==="number")var
@@ -7778,514 +7790,540 @@ i=h;return[0,g[1],g[2],i,d]},l);if(typeof
 c==="number")return 1;else
 switch(c[0]){case
 0:return 0;case
-1:return pP(1,p,k,0,q,c[1],c[2],c[3]);default:var
+1:return kw(1,p,k,0,q,c[1],c[2],c[3]);default:var
 g=c[4],s=0;if(typeof
 g!=="number"&&2===g[0]){var
 J=g[1],r=[2,e(function(b){return au(a,b)},J)];s=1}if(!s)var
 r=g;var
-F=c[3],G=e(function(b){return au(a,b)},F),I=c[2];return pT(p,k,0,q,e(function(b){return au(a,b)},I),G,r)}}}function
-pV(h,g){var
-a=cA(j(h));if(a){var
-c=a[1],e=be([0,d,b],c);if(e)return be(c,g);var
+F=c[3],G=e(function(b){return au(a,b)},F),I=c[2];return kz(p,k,0,q,e(function(b){return au(a,b)},I),G,r)}}}function
+p1(h,g){var
+a=cC(j(h));if(a){var
+c=a[1],e=bf([0,d,b],c);if(e)return bf(c,g);var
 f=e}else
 var
 f=a;return f}function
-Cv(v){var
-gr=hD(v[3]),gs=gr?hD(v[4]):gr;if(gs){var
-ab=v[1];switch(ab[0]){case
+fZ(b,a){if(a){var
+c=a[1],d=r(c,b,0);if(d)var
+f=an(c,b),e=[0,[0,g(a1(function(a){return a},f))]];else
+var
+e=d;return e}return Cx}function
+p2(b,c,a){return z(function(a){if(b3(a)){var
+d=hK(0,b,0,a);return ab(1,lH(e(function(a){return fv(i,Cy,a)},d)))}return ab(0,g(ps(b,c,a)))},a)}function
+p3(c,a){return e(function(a){var
+b=a[4],d=a[3],e=a[2],f=a[1];return[0,z(function(b){var
+a=fZ(c,b[1]),d=a?[0,[0,a[1],b[2]],0]:a;return d},f),e,d,b]},a)}function
+p4(b,a){if(typeof
+a!=="number")switch(a[0]){case
+0:var
+c=a[2],d=fZ(b,a[1]);return y(function(a){return[0,a,c]},d);case
+1:var
+e=a[2],f=fZ(b,a[1]);return y(function(a){return[1,a,e]},f);case
 3:var
-gy=l(fR,ab[1]);if(gy)var
-lo=ab[2],dk=l(function(a){return fR(a[1])},lo);else
+g=a[5],h=a[4],i=a[3],j=a[2],k=fZ(b,a[1]);return y(function(a){return[3,a,j,i,h,g]},k)}return[0,a]}function
+CE(v){var
+gI=hH(v[3]),gJ=gI?hH(v[4]):gI;if(gJ){var
+af=v[1];switch(af[0]){case
+3:var
+gP=l(fT,af[1]);if(gP)var
+lL=af[2],dr=l(function(a){return fT(a[1])},lL);else
 var
-dk=gy;if(dk)var
-lp=ab[3],dl=l(function(a){var
-b=fR(a[1]),c=b?j7(a[2]):b;return c?fS(a[2]):c},lp);else
+dr=gP;if(dr)var
+lM=af[3],ds=l(function(a){var
+b=fT(a[1]),c=b?kb(a[2]):b;return c?fU(a[2]):c},lM);else
 var
-dl=dk;if(dl)var
-lq=ab[4],bO=l(function(a){var
+ds=dr;if(ds)var
+lN=af[4],bS=l(function(a){var
 b=0===a[0]?a[1]:[0,a[1],0];return l(function(a){var
-b=j7(a);return b?fS(a):b},b)},lq);else
+b=kb(a);return b?fU(a):b},b)},lN);else
 var
-bO=dl;break;case
+bS=ds;break;case
 7:var
-lr=ab[1],gz=l(function(a){var
-b=fR(a[1]);return b?fT(0,[0,a[2][1],[0,a[2][2],0]]):b},lr),bO=gz?fT(0,[0,ab[5],[0,ab[6],0]]):gz;break;default:var
-bO=1}var
-di=bO}else
+lO=af[1],gQ=l(function(a){var
+b=fT(a[1]);return b?fV(0,[0,a[2][1],[0,a[2][2],0]]):b},lO),bS=gQ?fV(0,[0,af[5],[0,af[6],0]]):gQ;break;default:var
+bS=1}var
+dn=bS}else
 var
-di=gs;var
-d$=0;if(di){var
-gt=v[1],dj=7===gt[0]?e(aA,gt[1]):0,gu=function(c,b){var
-a=pg(c);return a?l(function(a){var
-e=a[1],b=l(function(a){return j6(a[2])},e);if(b){var
-c=a[3];if(c)return fT(dj,pf(c[1]));var
+dn=gJ;var
+eo=0;if(dn){var
+gK=v[1],dq=7===gK[0]?e(aB,gK[1]):0,gL=function(c,b){var
+a=pp(c);return a?l(function(a){var
+e=a[1],b=l(function(a){return ka(a[2])},e);if(b){var
+c=a[3];if(c)return fV(dq,po(c[1]));var
 d=1}else
 var
-d=b;return d},b):a},gv=function(e,d,c,b){var
-a=pg(e);return a?fT(dj,f(d,f(c,pf(b)))):a},n=v[1];switch(n[0]){case
+d=b;return d},b):a},gM=function(e,d,c,b){var
+a=pp(e);return a?fV(dq,f(d,f(c,po(b)))):a},n=v[1];switch(n[0]){case
 0:var
-kZ=y(dU,n[4]),k0=f(y(pd,n[3]),kZ),k1=f(pb(n[2]),k0),ad=f(y(j8,n[1]),k1);break;case
+lk=z(dV,n[4]),ll=f(z(pm,n[3]),lk),lm=f(pk(n[2]),ll),ag=f(z(kc,n[1]),lm);break;case
 1:var
-de=n[5],df=n[3],k2=y(dU,n[6]),k3=de?pc(de[1]):de,k4=f(k3,k2),k5=f(pa(n[4]),k4),k6=df?[0,df[1],0]:df,k7=f(k6,k5),ad=f(y(AT,n[2]),k7);break;case
+dk=n[5],dl=n[3],ln=z(dV,n[6]),lo=dk?pl(dk[1]):dk,lp=f(lo,ln),lq=f(pj(n[4]),lp),lr=dl?[0,dl[1],0]:dl,ls=f(lr,lq),ag=f(z(A2,n[2]),ls);break;case
 2:var
-k8=y(dU,n[7]),k9=f(y(pd,n[6]),k8),k_=f(pc(n[5]),k9),k$=f(pa(n[4]),k_),la=[0,n[3],k$],lb=n[2],ad=f(y(function(a){return y(eM,f(a[1],a[2]))},lb),la);break;case
+lt=z(dV,n[7]),lu=f(z(pm,n[6]),lt),lv=f(pl(n[5]),lu),lw=f(pj(n[4]),lv),lx=[0,n[3],lw],ly=n[2],ag=f(z(function(a){return z(eN,f(a[1],a[2]))},ly),lx);break;case
 3:var
-lc=y(dU,n[7]),ld=f(n[6],lc),le=f(n[5],ld),lf=n[2],ad=f(y(function(a){return eM(a[2])},lf),le);break;case
+lz=z(dV,n[7]),lA=f(n[6],lz),lB=f(n[5],lA),lC=n[2],ag=f(z(function(a){return eN(a[2])},lC),lB);break;case
 4:var
-lg=y(dU,n[3]),ad=[0,n[1],[0,n[2],lg]];break;case
+lD=z(dV,n[3]),ag=[0,n[1],[0,n[2],lD]];break;case
 5:var
-lh=y(dU,n[4]),li=f(b1(n[3]),lh),lj=f(b1(n[2]),li),lk=f(y(j8,n[1]),lj),ad=[0,n[5],lk];break;case
+lE=z(dV,n[4]),lF=f(b1(n[3]),lE),lG=f(b1(n[2]),lF),lH=f(z(kc,n[1]),lG),ag=[0,n[5],lH];break;case
 6:var
-dg=n[1],ad=dg?eM(dg[1]):dg;break;default:var
-ll=y(dU,n[4]),lm=f(pb(n[3]),ll),ad=f(y(j8,n[2]),lm)}var
-gw=fT(dj,ad);if(gw){var
-ae=v[2];switch(ae[0]){case
+dm=n[1],ag=dm?eN(dm[1]):dm;break;default:var
+lI=z(dV,n[4]),lJ=f(pk(n[3]),lI),ag=f(z(kc,n[2]),lJ)}var
+gN=fV(dq,ag);if(gN){var
+ah=v[2];switch(ah[0]){case
 0:var
-bl=gu(ae[1],ae[3]);break;case
+bq=gL(ah[1],ah[3]);break;case
 1:var
-bl=gv(ae[1],ae[2],ae[3],ae[4]);break;default:var
-ln=ae[1],bl=l(function(a){if(typeof
+bq=gM(ah[1],ah[2],ah[3],ah[4]);break;default:var
+lK=ah[1],bq=l(function(a){if(typeof
 a!=="number")switch(a[0]){case
-1:return gu(a[1],a[3]);case
-2:return gv(a[1],a[2],a[3],a[4])}return 1},ln)}}else{var
-gx=gw;d$=1}}else{var
-gx=di;d$=1}if(d$)var
-bl=gx;if(bl){var
+1:return gL(a[1],a[3]);case
+2:return gM(a[1],a[2],a[3],a[4])}return 1},lK)}}else{var
+gO=gN;eo=1}}else{var
+gO=dn;eo=1}if(eo)var
+bq=gO;if(bq){var
 a=v[1];switch(a[0]){case
 0:var
-g4=a[4],g5=a[3],g6=a[2],g7=a[1],az=v[2];switch(az[0]){case
-0:return pP(0,g7,g6,g5,g4,az[1],az[2],az[3]);case
-1:return pT(g7,g6,g5,g4,az[2],az[3],az[4]);default:return 0}case
+N=a[4],ak=a[3],al=a[2],O=a[1],aH=v[2];switch(aH[0]){case
+0:var
+dM=aH[3],ho=aH[2],dN=aH[1],g4=p2(g(O),ak,N),lW=a1(function(a){return J(b3(a))},N);if(aj(b3,N)){var
+g5=kw(0,O,al,ak,lW,dN,ho,p3(e(J,g4),dM));if(g5){var
+lX=p3(g4,dM),lY=a1(b3,N),lZ=kh(al);return kx(0,e(kg,O),0,lZ,0,lY,dN,0,lX)}return g5}return kw(0,O,al,ak,N,dN,ho,dM);case
 1:var
-bm=a[6],bS=a[5],bT=a[4],bU=a[3],R=a[2],M=a[1],aB=v[2];switch(aB[0]){case
-0:return pR(M,R,bU,bT,bS,bm,aB[1],aB[2],aB[3]);case
+dO=aH[4],dP=aH[3],dT=aH[2],g6=p2(g(O),ak,N),dB=a1(function(a){return J(b3(a))},N);if(aj(b3,N)){var
+l0=a1(b3,N),l1=kh(al),g7=hU(0,e(kg,O),0,l1,0,l0);if(g7)var
+dC=p4(e(J,g6),dO),l2=dC?kz(O,al,ak,dB,dT,dP,dC[1]):dC,dD=l2;else
+var
+dD=g7;if(dD)var
+dF=dD;else{var
+g8=hV(O,ak,dB,hJ(O,al,ak,dB));if(g8){var
+dG=p4(g6,dO);if(dG){var
+l3=dG[1],l4=a1(b3,N),l5=kh(al);return ky(0,e(kg,O),0,l5,0,l4,dT,dP,l3)}var
+dF=dG}else
+var
+dF=g8}return dF}return kz(O,al,ak,N,dT,dP,dO);default:return 0}case
 1:var
-ah=aB[4],dz=aB[3],g8=aB[2];if(typeof
-ah!=="number"&&3===ah[0]){var
-lI=ah[5],lJ=ah[4],lK=ah[3],lL=ah[2],lM=ah[1],s=typeof
-M==="number"?M?Cl:Cm:hN(M[1]),gA=dw(at(M),s),dp=e(j,g8),aZ=kb(M,R,bU,bT,bS,bm),gB=pQ(aZ[2]),gC=kk(R,e(j,dz));if(gC[2])return 0;var
-dq=cP(lL);if(dq){var
-Q=dq[1],dr=cP(lK);if(dr){var
-aw=dr[1],gD=fW(y(km,R),dz),gE=gD?kn(M,R,bU,bT,bS,bm):gD;if(gE)var
-lt=at(M),ds=o(g(dp),lt);else
+bs=a[6],bY=a[5],bZ=a[4],b4=a[3],U=a[2],Q=a[1],aJ=v[2];switch(aJ[0]){case
+0:return kx(Q,U,b4,bZ,bY,bs,aJ[1],aJ[2],aJ[3]);case
+1:var
+am=aJ[4],dU=aJ[3],hp=aJ[2];if(typeof
+am!=="number"&&3===am[0]){var
+me=am[5],mf=am[4],mg=am[3],mh=am[2],mi=am[1],s=typeof
+Q==="number"?Q?Ct:Cu:hT(Q[1]),gR=dx(at(Q),s),du=e(j,hp),a4=kf(Q,U,b4,bZ,bY,bs),gS=pZ(a4[2]),gT=kq(U,e(j,dU));if(gT[2])return 0;var
+dv=cR(mh);if(dv){var
+S=dv[1],dw=cR(mg);if(dw){var
+aG=dw[1],gU=fY(z(ks,U),dU),gV=gU?hU(Q,U,b4,bZ,bY,bs):gU;if(gV)var
+lQ=at(Q),dy=o(g(du),lQ);else
 var
-ds=gE;if(ds)var
-lu=g(R),lv=hh(M),dt=o(lM,d1(dX(R),lv,lu,0,bm));else
+dy=gV;if(dy)var
+lR=g(U),lS=hl(Q),dz=o(mi,d2(dY(U),lS,lR,0,bs));else
 var
-dt=ds;if(dt){if(dX(R))var
-lw=af(d,gA),gF=f(af(gB,s),lw);else
+dz=dy;if(dz){if(dY(U))var
+lT=ab(d,gR),gW=f(ab(gS,s),lT);else
 var
-ly=af(T(gB),gA),gF=f(af(d,s),ly);var
-lx=hQ(gF,Q,aw,lJ,lI),ag=av(s,dp),bh=aI(an(s,dp)),du=gC[1],K=aZ[5],fk=jN(0,Q,aw),cC=oK(an(s,fk)),cD=av(s,fk),fl=aZ[7],fm=fl?fB(i,aZ[2],du):fl,fn=fm?jn(i,aZ,bh,ag):fm,fo=fn?aa(s,v7):fn;if(fo)var
-j1=L(s,g(ag)),cF=o(g(Q),j1);else
+lV=ab(T(gS),gR),gW=f(ab(d,s),lV);var
+lU=hY(gW,S,aG,mf,me),ai=aw(s,du),bn=aI(an(s,du)),dA=gT[1],L=a4[5],fC=jT(0,S,aG),cI=oT(an(s,fC)),cJ=aw(s,fC),fE=a4[7],fF=fE?fD(i,a4[2],dA):fE,fJ=fF?jt(i,a4,bn,ai):fF,fK=fJ?aa(s,we):fJ;if(fK)var
+kD=M(s,g(ai)),cK=o(g(S),kD);else
 var
-cF=fo;var
-fq=cF?hs(Q,aw):cF;if(fq)var
-j2=ht(an(s,aw)),j3=ht(an(s,Q)),cG=jP(i,aZ[4],j3,j2);else
+cK=fK;var
+fL=cK?hw(S,aG):cK;if(fL)var
+kE=hx(an(s,aG)),kF=hx(an(s,S)),cL=jV(i,a4[4],kF,kE);else
 var
-cG=fq;if(cG){var
-j4=av(s,aw),j5=av(s,Q);if(K)var
-fh=K[1],j0=0===fh[0]?v5:v6,fj=o(g(ag),j0),fr=fj?oJ(i,fh,j5,j4):fj;else
+cL=fL;if(cL){var
+kG=aw(s,aG),kH=aw(s,S);if(L)var
+fz=L[1],kC=0===fz[0]?wc:wd,fB=o(g(ai),kC),fM=fB?oS(i,fz,kH,kG):fB;else
 var
-fr=o(g(ag),0);var
-cH=fr}else
+fM=o(g(ai),0);var
+cM=fM}else
 var
-cH=cG;if(cH){var
-ka=an(s,aW(bh)),kc=an(s,aw),fs=eG(i,an(s,Q),kc,ka);if(fs)var
-aY=fs;else
-if(K){var
-fu=oI(K[1]);if(fu)var
-kd=av(s,aw),aY=eG(i,av(s,Q),kd,ag);else
+cM=cL;if(cM){var
+kI=an(s,aW(bn)),kJ=an(s,aG),fP=eH(i,an(s,S),kJ,kI);if(fP)var
+a3=fP;else
+if(L){var
+fR=oR(L[1]);if(fR)var
+kK=aw(s,aG),a3=eH(i,aw(s,S),kK,ai);else
 var
-aY=fu}else
+a3=fR}else
 var
-aY=K}else
+a3=L}else
 var
-aY=cH;var
-ft=aY?l(function(b){var
-a=eD(K,ag,bh,b),t=typeof
+a3=cM;var
+fQ=a3?l(function(b){var
+a=eE(L,ai,bn,b),t=typeof
 a==="number"?0:0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]];if(0===b[0])var
-k=jQ(b[1]);else
+k=jW(b[1]);else
 var
 c=b[1],p=[0,c[5],[0,c[6],0]],q=f(aW(c[4]),p),r=f(aW(c[3]),q),s=f(aW(c[2]),r),k=f(aW(c[1]),s);var
-m=eF(f(k,t));if(m)var
-u=jm(K,ag,bh,b),v=1,e=l(function(a){return h(i,v,a)},u);else
+m=eG(f(k,t));if(m)var
+u=js(L,ai,bn,b),v=1,e=l(function(a){return h(i,v,a)},u);else
 var
 e=m;if(e){var
-d=eD(K,cD,cC,b),n=0;if(typeof
+d=eE(L,cJ,cI,b),n=0;if(typeof
 d==="number"||!(1===d[0]))n=1;else{var
 o=0;if(typeof
 a!=="number"&&1===a[0]){var
 j=[0,[2,[4,d[1],a[1]],[4,d[2],a[2]]],0];o=1}if(!o)var
 j=0}if(n)var
 j=0;var
-w=f(jm(K,cD,cC,b),j),x=g(Q);return l(function(a){return jO(i,x,a)},w)}return e},du):aY;return ft?hr(i,e(function(d){var
-a=eD(K,ag,bh,d),c=eD(K,cD,cC,d);if(typeof
+w=f(js(L,cJ,cI,b),j),x=g(S);return l(function(a){return jU(i,x,a)},w)}return e},dA):a3;return fQ?hv(i,e(function(d){var
+a=eE(L,ai,bn,d),c=eE(L,cJ,cI,d);if(typeof
 c==="number")return[0,b,b];else{if(0===c[0]){if(typeof
 a!=="number"&&0===a[0])return[3,c[1],a[1]];return[0,b,b]}if(typeof
-a!=="number"&&1===a[0])return[3,[4,c[2],a[1]],[4,c[1],a[2]]];return[0,b,b]}},du),lx):ft}var
-gG=dt}else
+a!=="number"&&1===a[0])return[3,[4,c[2],a[1]],[4,c[1],a[2]]];return[0,b,b]}},dA),lU):fQ}var
+gX=dz}else
 var
-gG=dr;var
-gH=gG}else
+gX=dw;var
+gY=gX}else
 var
-gH=dq;return gH}return pS(M,R,bU,bT,bS,bm,g8,dz,ah);default:return 0}case
+gY=dv;return gY}return ky(Q,U,b4,bZ,bY,bs,hp,dU,am);default:return 0}case
 2:var
-aF=a[7],aG=a[6],bV=a[5],bY=a[4],bZ=a[3],S=a[2],U=a[1],aH=v[2];switch(aH[0]){case
+aK=a[7],aL=a[6],b5=a[5],b6=a[4],b7=a[3],V=a[2],X=a[1],aM=v[2];switch(aM[0]){case
 0:var
-g9=aH[3],ai=pn(U,S,bZ,bY,bV,aG,aF),lN=ai[2],dA=E(b,bE(y(function(a){var
-b=ba(a[2]);return f(ba(a[1]),b)},lN))),lO=g(g9),lP=jx(dA,ai[2]),lQ=jx(dA,ai[2]),dB=dY(bF(U),lQ,lP,0,lO,g9);if(dB){var
-g_=dB[1];if(g_[2])return 0;var
-g$=pI(U,S,bZ,bY,bV,aG,aF);if(g$){var
-lR=g_[1],lS=g(S),lT=d1(0,kp(U),lS,aG,aF),lU=hP(aH[2]),lV=aH[1],iw=ai[2],ee=l(function(a){var
-b=od(i,a[1]);return b?od(i,a[2]):b},iw);if(ee)var
-ix=i7(ai[4]),cb=cE(i,ai[4],ix);else
+hq=aM[3],ao=px(X,V,b7,b6,b5,aL,aK),mj=ao[2],dW=E(b,bF(z(function(a){var
+b=bb(a[2]);return f(bb(a[1]),b)},mj))),mk=g(hq),ml=jD(dW,ao[2]),mm=jD(dW,ao[2]),dX=dZ(bG(X),mm,ml,0,mk,hq);if(dX){var
+hr=dX[1];if(hr[2])return 0;var
+hu=pS(X,V,b7,b6,b5,aL,aK);if(hu){var
+mn=hr[1],mo=g(V),mp=d2(0,kt(X),mo,aL,aK),mq=hX(aM[2]),mr=aM[1],iR=ao[2],et=l(function(a){var
+b=om(i,a[1]);return b?om(i,a[2]):b},iR);if(et)var
+iS=jb(ao[4]),cg=cG(i,ao[4],iS);else
 var
-cb=ee;if(cb)var
-iy=he(ai[5]),cc=l(function(a){return fE(i,a)},iy);else
+cg=et;if(cg)var
+iT=hi(ao[5]),ch=l(function(a){return fG(i,a)},iT);else
 var
-cc=cb;return cc?vi(lV,lU,lT,ai,dA,lR):cc}var
-ha=g$}else
+ch=cg;return ch?vr(mr,mq,mp,ao,dW,mn):ch}var
+hA=hu}else
 var
-ha=dB;return ha;case
+hA=dX;return hA;case
 1:var
-V=aH[4],hb=aH[3],aJ=e(j,aH[2]),q=hN(U),hc=pD(S,e(j,hb));if(hc[2])return 0;var
-t=hc[1],hd=fW(y(function(a){return f(a[1],a[2])},S),hb),hf=hd?pI(U,S,bZ,bY,bV,aG,aF):hd;if(hf){var
-p=pn(U,S,bZ,bY,bV,aG,aF);if(typeof
-V!=="number")switch(V[0]){case
-2:var
-hm=e(j,V[1]),hn=av(q,hm),hq=aI(an(q,hm)),hw=av(q,aJ),hx=aI(an(q,aJ)),ef=ew(i,p,t,hx,hw),eg=ef?ew(i,p,t,hq,hn):ef;if(eg)var
-iz=bF(p[1]),cd=o(g(t),iz);else
-var
-cd=eg;if(cd){var
-eh=function(b,a){var
-c=p[5],d=p[3],f=p[1];return e(function(e){return je(f,d,c,a,b,e)},t)},iA=eh(hq,hn),iB=eh(hx,hw);return jC(i,bF(p[1]),iB,iA)}return cd;case
-3:var
-dF=cP(V[2]);if(dF){var
-ak=dF[1],dI=cP(V[3]);if(dI){var
-aK=dI[1],lX=p[2],lY=E(b,bE(y(function(a){var
-b=ba(a[2]);return f(ba(a[1]),b)},lX))),lZ=g(S),l0=d1(0,kp(U),lZ,aG,aF),hy=o(V[1],l0);if(hy){var
-l1=V[5],l2=V[4],l3=af(T(lY),dw(g(aJ),q)),l4=hQ(f(af(d,q),l3),ak,aK,l2,l1),a0=av(q,aJ),b5=aI(an(q,aJ)),aV=p[5],e$=jN(0,ak,aK),fa=p[7],fb=fa?ew(i,p,t,b5,a0):fa,fc=fb?aa(q,v2):fb;if(fc)var
-jK=L(q,g(a0)),cx=o(g(ak),jK);else
-var
-cx=fc;if(cx)var
-jM=0===aV[0]?v3:v4,cy=o(g(a0),jM);else
-var
-cy=cx;var
-fd=cy?hs(ak,aK):cy;if(fd)var
-jS=ht(an(q,aK)),jU=ht(an(q,ak)),cz=jP(i,p[4],jU,jS);else
-var
-cz=fd;if(cz)var
-jW=av(q,aK),cB=oJ(i,aV,av(q,ak),jW);else
-var
-cB=cz;if(cB){var
-jX=an(q,aW(b5)),jY=an(q,aK),fe=eG(i,an(q,ak),jY,jX);if(fe)var
-bb=fe;else{var
-fg=oI(aV);if(fg)var
-jZ=av(q,aK),bb=eG(i,av(q,ak),jZ,a0);else
-var
-bb=fg}}else
-var
-bb=cB;var
-ff=bb?l(function(a){var
-c=aW(a[2]),b=eF(f(aW(a[1]),c));return b?eF([0,jR(aV,a0,b5,a),0]):b},t):bb;return ff?hr(i,e(function(a){var
-b=[6,jR(aV,a0,b5,a)],c=oK(an(q,e$));return[3,[6,jR(aV,av(q,e$),c,a)],b]},t),l4):ff}var
-hB=hy}else
-var
-hB=dI;var
-hC=hB}else
-var
-hC=dF;return hC}var
-lW=g(S),dC=kq(0,kp(U),lW,aG,aF,V);if(dC){var
-bn=dC[1],x=aI(an(q,aJ)),u=av(q,aJ),eb=ew(i,p,t,x,u);if(eb)var
-Z=p[5],ec=p[3],ed=p[1],it=p[6],ca=function(a){var
-b=bX(Z,u,x,a);return w(bX(Z,u,x,a),b)},il=e(function(a){return[0,je(ed,ec,Z,u,x,a)]},t),im=e(ca,t),io=function(a){var
-b=da(Z,u,a);return J(function(b,a){return[2,b,a]},x,b)},ip=e(function(a){var
-b=[6,ca(a)],c=bX(Z,u,x,a),d=da(Z,u,a[2]);return[0,[0,[0,J(function(b,a){return[2,b,a]},x,d),c],b]]},t),iq=e(function(a){return 0},t),ir=e(function(a){return[0,[6,ca(a)]]},t),is=[0,e(function(c){var
-a=ay(bX(Z,u,x,c));return jd(ed,a,P([5,[0,b,b],ec],c$(da(Z,u,c[2]),a)))},t),ir,iq,ip,io,im,il],iu=bF(p[1]),iv=2<=p[1]?t7:t8,dE=i9(i,iv,iu,is,it,bn);else
-var
-dE=eb;if(dE)var
-hg=dE;else{if(typeof
-bn!=="number"&&0===bn[0]){var
-b3=bn[2];if(b3){if(b3[2])return 0;var
-b4=b3[1],hk=bn[1],a9=p[1],eX=ew(i,p,t,x,u),ea=0;if(eX){var
-jz=p[6],jA=2<=a9?vS:vT,ct=et(i,jA,hk,jz),b_=0;if(ct){var
-aU=ct[1][1],b$=0;if(typeof
-aU!=="number"&&15===aU[0]){var
-cu=H(t,aU[1]);if(cu){var
-a_=ng(b4),e0=aU[3],bG=cu[1],bH=p[5],cv=p[3],jB=aU[4],jD=aU[2],eN=je(a9,cv,bH,u,x,bG),eO=bX(bH,u,x,bG),cs=bq(a_,a_),eP=[4,[4,jD,[6,bq(eN,eN)]],cs],a7=bX(bH,u,x,bG),cq=da(bH,u,bG[2]),a8=P([5,[0,b,b],cv],oB(a9,a_)),jq=c$(a8,cq),jr=oA(a9,a_),cr=J(function(b,a){return[2,b,a]},jr,jq),eL=w(a7,cr),js=w(a8,a8),jt=[4,w(a7,cq),js],ju=w(cq,a8),jv=[3,[4,w(a7,a8),ju],jt],jw=[5,[4,eL,eL],w(a7,a7)],eQ=[4,[4,e0,e0],[2,[3,w(cr,cr),jw],jv]],eR=[4,[4,jB,cs],[6,w(eO,eO)]],jy=bF(a9),eS=o(g(a_),jy),eT=eS?h(i,1,cs):eS,eU=eT?h(i,1,cv):eT,ik=0;if(eU){var
-eV=h(i,1,[3,[2,eP,eQ],eR]);if(eV)var
-eW=eV;else{var
-bo=h(i,1,[3,[3,eP,eQ],eR]);b_=1;b$=1;ik=1}}else
-var
-eW=eU;if(!ik){var
-bo=eW;b_=1;b$=1}}else{var
-bo=cu;b_=1;b$=1}}if(!b$)var
-eY=0}else
-var
-eY=ct;if(!b_){var
-eZ=eY;ea=1}}else{var
-eZ=eX;ea=1}if(ea)var
-bo=eZ;if(!bo){var
-fv=p[1],cI=p[5],fw=ew(i,p,t,x,u);if(fw){var
-ke=p[6],kf=2<=fv?we:wf,cJ=et(i,kf,hk,ke);if(cJ){var
-bc=cJ[1][1];if(typeof
-bc!=="number"&&16===bc[0]){var
-fA=bc[1],fC=h(i,0,fA);if(fC)var
-kh=g(p[2]),cK=o(g(b4),kh);else
-var
-cK=fC;if(cK){var
-kl=p[2],ks=W(W(t,hu(b4,e(function(a){var
-b=by(a[2]);return oQ(bX(cI,u,x,[0,by(a[1]),b]))},kl),fA)),b4),kt=e(function(e){var
-c=e[1],d=c[2],a=c[1],f=da(cI,u,a[2]),g=a[1],h=J(function(b,a){return[3,b,a]},x,g),i=[2,d,oQ(bX(cI,u,x,a))];return[0,dQ([5,[0,e[2],b],i]),d,h,f]},ks);return oP(i,[0,fv],bc[2],bc[3],kt)}return cK}var
-fx=0}else
-var
-fx=cJ;var
-fz=fx}else
-var
-fz=fw;return fz}var
-hl=bo}else
-var
-hl=b3;return hl}var
-hg=0}var
-hi=hg}else
-var
-hi=dC;var
-hj=hi}else
-var
-hj=hf;return hj;default:return 0}case
-3:var
-al=a[7],bp=a[6],br=a[5],am=a[4],dJ=a[3],aL=a[2],aM=a[1],aP=v[2];switch(aP[0]){case
-0:var
-hE=aP[3],l5=g(hE),l6=hO(jJ(j$(aM,aL,dJ,am,br,bp,al)[1])),dK=dY(g(aM),l6,0,0,l5,hE);if(dK){var
-hF=dK[1];if(hF[2])return 0;var
-hG=pJ(aM,aL,am,br,bp,al);if(hG){var
-l7=hF[1],X=j$(aM,aL,dJ,am,br,bp,al),l8=d1(0,Cw,g(am),0,al),hH=hP(aP[2]),bs=aP[1],ey=ou(X[1]);if(ey)var
-i6=X[1][2],co=l(function(a){return bw(i,a[2][1],a[2][2])},i6);else
-var
-co=ey;if(co)var
-i_=X[2],cp=l(function(a){return bw(i,a[1],a[2])},i_);else
-var
-cp=co;if(cp){var
-C=X[1],ce=g(C[1]),bA=X[3],cf=g(C[2]),ei=L(cf,g(fG(e(aO,C[3])))),iC=C[3],ej=op(ho(C),iC,cf),aq=jI(ce,ej,C[4],ei),iD=jG(ej,C[4],ei),iE=C[3],ek=f(jF(ho(C),iE,cf),iD),el=g(jJ(C)),iF=0,iG=f(ek,dc(function(a,b){return ol(aq,a,b)},iF,d,el,bA)),iH=f(bC(fF(aq)),iG),em=f(bC(eE(aq)),iH),cg=cY(em)[1],iI=cX(cg),aT=function(a){return bg(iI,a)},en=o(g(X[2]),ce);if(en)var
-iJ=C[4],ch=l(function(a){return 0===a[0]?o(g(a[1]),ce):1},iJ);else
-var
-ch=en;var
-eo=ch?l(function(a){var
-b=m(d),c=cX(cg);return aN(r(aT(a),c,b),a)},em):ch,ep=eo?aj(on,bA):eo;if(ep){var
-eq=N(X[4]);if(eq)var
-bD=eq;else
-var
-i5=C[4],bD=l(function(a){return 0===a[0]?0:1},i5)}else
-var
-bD=ep;if(bD){var
-iK=jJ(C),ci=ac(e(function(a){return ap(bs,a)},iK));if(ci){var
-iL=0,iM=y(function(a){return fy(iL,d,a)},bA),cj=ac(e(function(a){return jc(bs,a)},iM));if(cj){var
-iN=X[2],cl=ac(e(function(a){return ap(bs,[0,a,d])},iN));if(cl){var
-iO=0,iP=0,cm=ac(dc(function(a,b){return om(bs,aT,aq,iP,d,a,b)},iO,d,el,bA));if(cm){var
-er=cm[1];if(X[4])var
-iQ=hH[2],iR=hH[1],iS=fF(aq),cn=i8(l8,er,[8,k(ax(aT),iS),iR,iQ]);else
-var
-cn=er;var
-iT=i0(cn),iU=cl[1],iV=function(a){return 0},iW=f(ci[1],cj[1]),iX=e(aT,ek),iY=fF(aq),i2=k(ax(aT),iY),i4=eE(aq);return f1(iZ(bs,cg,k(ax(aT),i4),i2,iX,iW,cn,iV),iU,iT,l7)}var
-es=cm}else
-var
-es=cl;var
-eu=es}else
-var
-eu=cj;var
-ev=eu}else
-var
-ev=ci;var
-ex=ev}else
-var
-ex=bD;return ex}return cp}var
-hI=hG}else
-var
-hI=dK;return hI;case
-1:var
-Y=aP[4],hM=aP[3],b6=aP[2],A=j$(aM,aL,dJ,am,br,bp,al),l9=e(j,hM),hR=bj(e(aO,aL),l9);if(hR[2])return 0;var
-F=hR[1],hS=fW(e(aO,aL),hM),hT=hS?pJ(aM,aL,am,br,bp,al):hS,hU=hT?ou(A[1]):hT;if(hU)var
-l_=A[2],dL=l(function(a){return bw(i,a[1],a[2])},l_);else
-var
-dL=hU;if(dL){if(typeof
+Y=aM[4],hB=aM[3],aP=e(j,aM[2]),q=hT(X),hC=pN(V,e(j,hB));if(hC[2])return 0;var
+t=hC[1],hF=fY(z(function(a){return f(a[1],a[2])},V),hB),hG=hF?pS(X,V,b7,b6,b5,aL,aK):hF;if(hG){var
+p=px(X,V,b7,b6,b5,aL,aK);if(typeof
 Y!=="number")switch(Y[0]){case
 2:var
-dS=e(j,Y[1]),dT=e(j,b6),ar=A[1],bI=hp(ar),jE=ox(ar),e1=e(function(a){return a[3]},jE),e2=function(a){var
-b=oy(ar,F);function
-c(c){return dP(a,b,c)}return e(function(a){return e(c,a)},e1)},e3=b0(i,e(aO,ar[2]),F),e4=e3?b0(i,A[2],dT):e3,e5=e4?b0(i,A[2],dS):e4,e6=e5?o(g(dT),bI):e5,e7=e6?o(g(dS),bI):e6,e8=e7?oz(ar,ar[4]):e7,e9=e8?o(g(ar[4]),bI):e8,e_=e9?l(function(a){return l(jL,a)},e1):e9;if(e_){var
-jH=e2(dS);return jC(i,bI,e2(dT),jH)}return e_;case
+hS=e(j,Y[1]),hZ=aw(q,hS),h0=aI(an(q,hS)),h1=aw(q,aP),h2=aI(an(q,aP)),ev=ex(i,p,t,h2,h1),ew=ev?ex(i,p,t,h0,hZ):ev;if(ew)var
+iU=bG(p[1]),ci=o(g(t),iU);else
+var
+ci=ew;if(ci){var
+ey=function(b,a){var
+c=p[5],d=p[3],f=p[1];return e(function(e){return jk(f,d,c,a,b,e)},t)},iV=ey(h0,hZ),iW=ey(h2,h1);return jI(i,bG(p[1]),iW,iV)}return ci;case
 3:var
-dV=cP(Y[2]);if(dV){var
-a1=dV[1],dW=cP(Y[3]);if(dW){var
-bx=dW[1],ma=d1(0,Cy,g(am),0,al),hY=o(Y[1],ma);if(hY){var
-mb=Y[5],mc=Y[4],md=hQ(af(d,g(aM)),a1,bx,mc,mb),bz=e(j,b6),au=A[1],f4=jN(0,a1,bx),f5=A[4],f6=f5?b0(i,e(aO,au[2]),F):f5,f7=f6?b0(i,A[2],bz):f6;if(f7)var
-kC=e(a4,a1),cT=b0(i,A[2],kC);else
+d3=cR(Y[2]);if(d3){var
+aq=d3[1],d4=cR(Y[3]);if(d4){var
+aQ=d4[1],mt=p[2],mu=E(b,bF(z(function(a){var
+b=bb(a[2]);return f(bb(a[1]),b)},mt))),mv=g(V),mw=d2(0,kt(X),mv,aL,aK),h3=o(Y[1],mw);if(h3){var
+mx=Y[5],my=Y[4],mz=ab(T(mu),dx(g(aP),q)),mA=hY(f(ab(d,q),mz),aq,aQ,my,mx),a6=aw(q,aP),b_=aI(an(q,aP)),a2=p[5],fp=jT(0,aq,aQ),fr=p[7],fs=fr?ex(i,p,t,b_,a6):fr,ft=fs?aa(q,v$):fs;if(ft)var
+ki=M(q,g(a6)),cD=o(g(aq),ki);else
 var
-cT=f7;if(cT)var
-kD=e(a4,bx),cU=b0(i,A[2],kD);else
+cD=ft;if(cD)var
+kj=0===a2[0]?wa:wb,cE=o(g(a6),kj);else
 var
-cU=cT;var
-f8=cU?hs(a1,bx):cU,f9=f8?eG(i,a1,bx,bz):f8,f_=f9?eF(f(F,bz)):f9;if(f_)var
-kE=au[3],cV=l(function(a){return fM(a[2])},kE);else
+cE=cD;var
+fu=cE?hw(aq,aQ):cE;if(fu)var
+kk=hx(an(q,aQ)),kl=hx(an(q,aq)),cF=jV(i,p[4],kl,kk);else
 var
-cV=f_;if(cV){var
-cW=jV(au[4]);if(cW){var
-bM=cW[1],f$=l(fM,bM);if(f$)var
-kF=1,cZ=oS(function(a){return h(i,kF,a)},au,F,bz,bM);else
+cF=fu;if(cF)var
+kn=aw(q,aQ),cH=oS(i,a2,aw(q,aq),kn);else
 var
-cZ=f$;if(cZ)var
-kG=g(a1),c1=oS(function(a){return jO(i,kG,a)},au,F,f4,bM);else
+cH=cF;if(cH){var
+kr=an(q,aW(b_)),kA=an(q,aQ),fw=eH(i,an(q,aq),kA,kr);if(fw)var
+bj=fw;else{var
+fy=oR(a2);if(fy)var
+kB=aw(q,aQ),bj=eH(i,aw(q,aq),kB,a6);else
 var
-c1=cZ;if(c1)return hr(i,e(function(a){var
-b=aX(fL(au,F,bz),a);return[3,aX(fL(au,F,f4),a),b]},bM),md);var
-ga=c1}else
+bj=fy}}else
 var
-ga=cW;var
-gb=ga}else
+bj=cH;var
+fx=bj?l(function(a){var
+c=aW(a[2]),b=eG(f(aW(a[1]),c));return b?eG([0,jX(a2,a6,b_,a),0]):b},t):bj;return fx?hv(i,e(function(a){var
+b=[6,jX(a2,a6,b_,a)],c=oT(an(q,fp));return[3,[6,jX(a2,aw(q,fp),c,a)],b]},t),mA):fx}var
+h4=h3}else
 var
-gb=cV;return gb}var
-hZ=hY}else
+h4=d4;var
+h5=h4}else
 var
-hZ=dW;var
-h0=hZ}else
+h5=d3;return h5}var
+ms=g(V),d0=ku(0,kt(X),ms,aL,aK,Y);if(d0){var
+bt=d0[1],x=aI(an(q,aP)),u=aw(q,aP),eq=ex(i,p,t,x,u);if(eq)var
+ac=p[5],er=p[3],es=p[1],iO=p[6],cf=function(a){var
+b=bX(ac,u,x,a);return w(bX(ac,u,x,a),b)},iH=e(function(a){return[0,jk(es,er,ac,u,x,a)]},t),iI=e(cf,t),iJ=function(a){var
+b=db(ac,u,a);return K(function(b,a){return[2,b,a]},x,b)},iK=e(function(a){var
+b=[6,cf(a)],c=bX(ac,u,x,a),d=db(ac,u,a[2]);return[0,[0,[0,K(function(b,a){return[2,b,a]},x,d),c],b]]},t),iL=e(function(a){return 0},t),iM=e(function(a){return[0,[6,cf(a)]]},t),iN=[0,e(function(c){var
+a=az(bX(ac,u,x,c));return jj(es,a,P([5,[0,b,b],er],da(db(ac,u,c[2]),a)))},t),iM,iL,iK,iJ,iI,iH],iP=bG(p[1]),iQ=2<=p[1]?ue:uf,d1=jd(i,iQ,iP,iN,iO,bt);else
 var
-h0=dV;return h0}var
-dM=kq(0,Cx,g(am),0,al,Y);if(dM){var
-bt=dM[1],aQ=e(j,b6),G=A[1],eA=hp(G),a5=ox(G),ji=ov(G),jj=G[4],jk=jG(ow(G),jj,ji),jl=g(G[2]),jo=G[3],ez=f(jF(ho(G),jo,jl),jk),a6=oy(G,F),eB=b0(i,e(aO,G[2]),F),eC=eB?b0(i,A[2],aQ):eB,eI=eC?o(g(aQ),eA):eC,eJ=eI?oz(G,G[4]):eI,eK=eJ?l(jL,f(y(vH,a5),ez)):eJ;if(eK)var
-jp=A[3],i$=e(function(a){var
-b=a[1];return[0,e(function(a){return dP(aQ,a6,a)},b)]},a5),ja=y(function(c){var
+d1=eq;if(d1)var
+hI=d1;else{if(typeof
+bt!=="number"&&0===bt[0]){var
+b8=bt[2];if(b8){if(b8[2])return 0;var
+b9=b8[1],hN=bt[1],be=p[1],fa=ex(i,p,t,x,u),ep=0;if(fa){var
+j7=p[6],j8=2<=be?v1:v2,cz=eu(i,j8,hN,j7),cd=0;if(cz){var
+a0=cz[1][1],ce=0;if(typeof
+a0!=="number"&&15===a0[0]){var
+cA=H(t,a0[1]);if(cA){var
+bi=np(b9),fd=a0[3],bK=cA[1],bL=p[5],cB=p[3],j9=a0[4],j_=a0[2],e2=jk(be,cB,bL,u,x,bK),e3=bX(bL,u,x,bK),cx=br(bi,bi),e4=[4,[4,j_,[6,br(e2,e2)]],cx],bc=bX(bL,u,x,bK),cv=db(bL,u,bK[2]),bd=P([5,[0,b,b],cB],oK(be,bi)),jS=da(bd,cv),jY=oJ(be,bi),cw=K(function(b,a){return[2,b,a]},jY,jS),e1=w(bc,cw),j0=w(bd,bd),j2=[4,w(bc,cv),j0],j3=w(cv,bd),j4=[3,[4,w(bc,bd),j3],j2],j5=[5,[4,e1,e1],w(bc,bc)],e5=[4,[4,fd,fd],[2,[3,w(cw,cw),j5],j4]],e6=[4,[4,j9,cx],[6,w(e3,e3)]],j6=bG(be),e7=o(g(bi),j6),e8=e7?h(i,1,cx):e7,e9=e8?h(i,1,cB):e8,iG=0;if(e9){var
+e_=h(i,1,[3,[2,e4,e5],e6]);if(e_)var
+e$=e_;else{var
+bu=h(i,1,[3,[3,e4,e5],e6]);cd=1;ce=1;iG=1}}else
+var
+e$=e9;if(!iG){var
+bu=e$;cd=1;ce=1}}else{var
+bu=cA;cd=1;ce=1}}if(!ce)var
+fb=0}else
+var
+fb=cz;if(!cd){var
+fc=fb;ep=1}}else{var
+fc=fa;ep=1}if(ep)var
+bu=fc;if(!bu){var
+fS=p[1],cO=p[5],fW=ex(i,p,t,x,u);if(fW){var
+kL=p[6],kM=2<=fS?wn:wo,cP=eu(i,kM,hN,kL);if(cP){var
+bl=cP[1][1];if(typeof
+bl!=="number"&&16===bl[0]){var
+f2=bl[1],f3=h(i,0,f2);if(f3)var
+kN=g(p[2]),cS=o(g(b9),kN);else
+var
+cS=f3;if(cS){var
+kO=p[2],kP=W(W(t,hy(b9,e(function(a){var
+b=bz(a[2]);return oZ(bX(cO,u,x,[0,bz(a[1]),b]))},kO),f2)),b9),kQ=e(function(e){var
+c=e[1],d=c[2],a=c[1],f=db(cO,u,a[2]),g=a[1],h=K(function(b,a){return[3,b,a]},x,g),i=[2,d,oZ(bX(cO,u,x,a))];return[0,dR([5,[0,e[2],b],i]),d,h,f]},kP);return oY(i,[0,fS],bl[2],bl[3],kQ)}return cS}var
+f0=0}else
+var
+f0=cP;var
+f1=f0}else
+var
+f1=fW;return f1}var
+hO=bu}else
+var
+hO=b8;return hO}var
+hI=0}var
+hL=hI}else
+var
+hL=d0;var
+hM=hL}else
+var
+hM=hG;return hM;default:return 0}case
+3:var
+ar=a[7],bv=a[6],bw=a[5],as=a[4],d5=a[3],aR=a[2],aS=a[1],aT=v[2];switch(aT[0]){case
+0:var
+h6=aT[3],mB=g(h6),mC=hW(jP(kd(aS,aR,d5,as,bw,bv,ar)[1])),d6=dZ(g(aS),mC,0,0,mB,h6);if(d6){var
+h7=d6[1];if(h7[2])return 0;var
+h8=pT(aS,aR,as,bw,bv,ar);if(h8){var
+mD=h7[1],Z=kd(aS,aR,d5,as,bw,bv,ar),mE=d2(0,CF,g(as),0,ar),h9=hX(aT[2]),by=aT[1],eT=oD(Z[1]);if(eT)var
+jx=Z[1][2],ct=l(function(a){return bx(i,a[2][1],a[2][2])},jx);else
+var
+ct=eT;if(ct)var
+jy=Z[2],cu=l(function(a){return bx(i,a[1],a[2])},jy);else
+var
+cu=ct;if(cu){var
+C=Z[1],cj=g(C[1]),bI=Z[3],ck=g(C[2]),ez=M(ck,g(fI(e(aO,C[3])))),iX=C[3],eA=oy(hs(C),iX,ck),av=jO(cj,eA,C[4],ez),iY=jM(eA,C[4],ez),iZ=C[3],eB=f(jL(hs(C),iZ,ck),iY),eC=g(jP(C)),i0=0,i1=f(eB,dd(function(a,b){return ou(av,a,b)},i0,d,eC,bI)),i2=f(bD(fH(av)),i1),eD=f(bD(eF(av)),i2),cm=cZ(eD)[1],i3=cY(cm),aZ=function(a){return bh(i3,a)},eJ=o(g(Z[2]),cj);if(eJ)var
+i4=C[4],cn=l(function(a){return 0===a[0]?o(g(a[1]),cj):1},i4);else
+var
+cn=eJ;var
+eK=cn?l(function(a){var
+b=m(d),c=cY(cm);return aN(r(aZ(a),c,b),a)},eD):cn,eL=eK?aj(ow,bI):eK;if(eL){var
+eM=J(Z[4]);if(eM)var
+bJ=eM;else
+var
+jw=C[4],bJ=l(function(a){return 0===a[0]?0:1},jw)}else
+var
+bJ=eL;if(bJ){var
+i8=jP(C),co=ad(e(function(a){return ap(by,a)},i8));if(co){var
+i_=0,i$=z(function(a){return fA(i_,d,a)},bI),cp=ad(e(function(a){return ji(by,a)},i$));if(cp){var
+ja=Z[2],cq=ad(e(function(a){return ap(by,[0,a,d])},ja));if(cq){var
+je=0,jf=0,cr=ad(dd(function(a,b){return ov(by,aZ,av,jf,d,a,b)},je,d,eC,bI));if(cr){var
+eO=cr[1];if(Z[4])var
+jg=h9[2],jh=h9[1],jl=fH(av),cs=jc(mE,eO,[8,k(ay(aZ),jl),jh,jg]);else
+var
+cs=eO;var
+jm=i6(cs),jn=cq[1],jo=function(a){return 0},jp=f(co[1],cp[1]),jq=e(aZ,eB),jr=fH(av),ju=k(ay(aZ),jr),jv=eF(av);return f4(i5(by,cm,k(ay(aZ),jv),ju,jq,jp,cs,jo),jn,jm,mD)}var
+eP=cr}else
+var
+eP=cq;var
+eQ=eP}else
+var
+eQ=cp;var
+eR=eQ}else
+var
+eR=co;var
+eS=eR}else
+var
+eS=bJ;return eS}return cu}var
+h_=h8}else
+var
+h_=d6;return h_;case
+1:var
+_=aT[4],h$=aT[3],b$=aT[2],A=kd(aS,aR,d5,as,bw,bv,ar),mF=e(j,h$),ia=bk(e(aO,aR),mF);if(ia[2])return 0;var
+F=ia[1],ib=fY(e(aO,aR),h$),ic=ib?pT(aS,aR,as,bw,bv,ar):ib,id=ic?oD(A[1]):ic;if(id)var
+mG=A[2],d7=l(function(a){return bx(i,a[1],a[2])},mG);else
+var
+d7=id;if(d7){if(typeof
+_!=="number")switch(_[0]){case
+2:var
+d$=e(j,_[1]),ea=e(j,b$),ax=A[1],bM=ht(ax),j$=oG(ax),fe=e(function(a){return a[3]},j$),ff=function(a){var
+b=oH(ax,F);function
+c(c){return dQ(a,b,c)}return e(function(a){return e(c,a)},fe)},fg=b0(i,e(aO,ax[2]),F),fh=fg?b0(i,A[2],ea):fg,fi=fh?b0(i,A[2],d$):fh,fk=fi?o(g(ea),bM):fi,fl=fk?o(g(d$),bM):fk,fm=fl?oI(ax,ax[4]):fl,fn=fm?o(g(ax[4]),bM):fm,fo=fn?l(function(a){return l(jR,a)},fe):fn;if(fo){var
+ke=ff(d$);return jI(i,bM,ff(ea),ke)}return fo;case
+3:var
+eb=cR(_[2]);if(eb){var
+a7=eb[1],ec=cR(_[3]);if(ec){var
+bE=ec[1],mI=d2(0,CH,g(as),0,ar),ii=o(_[1],mI);if(ii){var
+mJ=_[5],mK=_[4],mL=hY(ab(d,g(aS)),a7,bE,mK,mJ),bH=e(j,b$),aC=A[1],gj=jT(0,a7,bE),gk=A[4],gl=gk?b0(i,e(aO,aC[2]),F):gk,gm=gl?b0(i,A[2],bH):gl;if(gm)var
+kZ=e(a5,a7),c0=b0(i,A[2],kZ);else
+var
+c0=gm;if(c0)var
+k0=e(a5,bE),c2=b0(i,A[2],k0);else
+var
+c2=c0;var
+gn=c2?hw(a7,bE):c2,go=gn?eH(i,a7,bE,bH):gn,gp=go?eG(f(F,bH)):go;if(gp)var
+k1=aC[3],c5=l(function(a){return fO(a[2])},k1);else
+var
+c5=gp;if(c5){var
+c6=j1(aC[4]);if(c6){var
+bQ=c6[1],gq=l(fO,bQ);if(gq)var
+k2=1,c7=o1(function(a){return h(i,k2,a)},aC,F,bH,bQ);else
+var
+c7=gq;if(c7)var
+k3=g(a7),c8=o1(function(a){return jU(i,k3,a)},aC,F,gj,bQ);else
+var
+c8=c7;if(c8)return hv(i,e(function(a){var
+b=aX(fN(aC,F,bH),a);return[3,aX(fN(aC,F,gj),a),b]},bQ),mL);var
+gr=c8}else
+var
+gr=c6;var
+gs=gr}else
+var
+gs=c5;return gs}var
+ij=ii}else
+var
+ij=ec;var
+ik=ij}else
+var
+ik=eb;return ik}var
+d8=ku(0,CG,g(as),0,ar,_);if(d8){var
+bA=d8[1],aU=e(j,b$),G=A[1],eV=ht(G),a_=oG(G),jG=oE(G),jH=G[4],jJ=jM(oF(G),jH,jG),jK=g(G[2]),jN=G[3],eU=f(jL(hs(G),jN,jK),jJ),a$=oH(G,F),eW=b0(i,e(aO,G[2]),F),eX=eW?b0(i,A[2],aU):eW,eY=eX?o(g(aU),eV):eX,eZ=eY?oI(G,G[4]):eY,e0=eZ?l(jR,f(z(vQ,a_),eU)):eZ;if(e0)var
+jQ=A[3],jz=e(function(a){var
+b=a[1];return[0,e(function(a){return dQ(aU,a$,a)},b)]},a_),jA=z(function(c){var
 a=c[1];switch(a[0]){case
 7:var
-b=dP(aQ,a6,a[2]);return[0,[4,b,b],0];case
-9:return[0,dP(aQ,a6,a[1]),0];default:return 0}},ez),jb=function(a){return a},jf=0,jg=e(function(a){return 0},a5),jh=e(function(b){var
+b=dQ(aU,a$,a[2]);return[0,[4,b,b],0];case
+9:return[0,dQ(aU,a$,a[1]),0];default:return 0}},eU),jB=function(a){return a},jC=0,jE=e(function(a){return 0},a_),jF=e(function(b){var
 a=b[4];if(typeof
-a!=="number"&&0===a[0])return[0,dP(aQ,a6,a[1])];return 0},a5),dN=i9(i,vI,eA,[0,e(function(a){var
-b=a[3];return e(function(a){return dP(aQ,a6,a)},b)},a5),jh,jg,jf,jb,ja,i$],jp,bt);else
+a!=="number"&&0===a[0])return[0,dQ(aU,a$,a[1])];return 0},a_),d9=jd(i,vR,eV,[0,e(function(a){var
+b=a[3];return e(function(a){return dQ(aU,a$,a)},b)},a_),jF,jE,jC,jB,jA,jz],jQ,bA);else
 var
-dN=eK;if(dN)var
-hV=dN;else{if(typeof
-bt!=="number"&&0===bt[0]){var
-b7=bt[2];if(b7){if(b7[2])return 0;var
-dO=b7[1],l$=bt[1],bv=e(j,b6),as=A[1],bJ=g(as[1]),fD=b0(i,e(aO,as[2]),F),fH=fD?b0(i,A[2],bv):fD,fI=fH?o(g(bv),bJ):fH,fJ=fI?dh(f(F,bv)):fI;if(fJ)var
-ku=as[3],cM=l(function(a){return fM(a[2])},ku);else
+d9=e0;if(d9)var
+ie=d9;else{if(typeof
+bA!=="number"&&0===bA[0]){var
+ca=bA[2];if(ca){if(ca[2])return 0;var
+d_=ca[1],mH=bA[1],bB=e(j,b$),aA=A[1],bN=g(aA[1]),f5=b0(i,e(aO,aA[2]),F),f6=f5?b0(i,A[2],bB):f5,f7=f6?o(g(bB),bN):f6,f8=f7?di(f(F,bB)):f7;if(f8)var
+kR=aA[3],cT=l(function(a){return fO(a[2])},kR);else
 var
-cM=fJ;if(cM){var
-cN=et(i,wh,l$,A[3]);if(cN){var
-bK=cN[1][1];if(typeof
-bK!=="number"&&16===bK[0]){var
-fO=bK[2],fP=bK[1],cQ=jV(as[4]);if(cQ){var
-bL=cQ[1],cR=hv(aD(cL,fO));if(cR){var
-kv=cR[1],fQ=h(i,1,fO),fU=fQ?h(i,0,fP):fQ;if(fU)var
-kw=g(bL),cS=o(g(dO),kw);else
+cT=f8;if(cT){var
+cU=eu(i,wq,mH,A[3]);if(cU){var
+bO=cU[1][1];if(typeof
+bO!=="number"&&16===bO[0]){var
+f$=bO[2],ga=bO[1],cV=j1(aA[4]);if(cV){var
+bP=cV[1],cW=hz(aE(cN,f$));if(cW){var
+kS=cW[1],gb=h(i,1,f$),gc=gb?h(i,0,ga):gb;if(gc)var
+kT=g(bP),cX=o(g(d_),kT);else
 var
-cS=fU;var
-fX=cS?l(fM,bL):cS;if(fX){var
-kx=as[2],ky=fL(as,e(function(a){return dR(a[2])},kx),bv),fY=hu(dO,e(function(a){return aX(ky,a)},bL),fP),fZ=dh(fY);if(fZ){var
-kz=W(bv,aC(0,bJ)),kA=fL(as,F,e(function(a){var
-b=ck(a[2],kv);return[2,a[1],b]},kz)),kB=W(W(e(function(a){return aX(kA,a)},bL),fY),dO);return jT(i,bJ,bJ,eH(function(a){return[4,[0,a[2],b],[3,a[1][1],a[1][2]]]},kB))}var
-f0=fZ}else
+cX=gc;var
+gd=cX?l(fO,bP):cX;if(gd){var
+kU=aA[2],kV=fN(aA,e(function(a){return dS(a[2])},kU),bB),ge=hy(d_,e(function(a){return aX(kV,a)},bP),ga),gf=di(ge);if(gf){var
+kW=W(bB,aD(0,bN)),kX=fN(aA,F,e(function(a){var
+b=cl(a[2],kS);return[2,a[1],b]},kW)),kY=W(W(e(function(a){return aX(kX,a)},bP),ge),d_);return jZ(i,bN,bN,eI(function(a){return[4,[0,a[2],b],[3,a[1][1],a[1][2]]]},kY))}var
+gg=gf}else
 var
-f0=fX;var
-f2=f0}else
+gg=gd;var
+gh=gg}else
 var
-f2=cR;var
-f3=f2}else
+gh=cW;var
+gi=gh}else
 var
-f3=cQ;return f3}var
-fK=0}else
+gi=cV;return gi}var
+f9=0}else
 var
-fK=cN;var
-fN=fK}else
+f9=cU;var
+f_=f9}else
 var
-fN=cM;return fN}return b7}var
-hV=0}var
-hW=hV}else
+f_=cT;return f_}return ca}var
+ie=0}var
+ig=ie}else
 var
-hW=dM;var
-hX=hW}else
+ig=d8;var
+ih=ig}else
 var
-hX=dL;return hX;default:return 0}case
+ih=d7;return ih;default:return 0}case
 4:var
-aR=a[3],a2=a[2],b8=a[1],aS=v[2];switch(aS[0]){case
+aV=a[3],a8=a[2],cb=a[1],aY=v[2];switch(aY[0]){case
 0:var
-me=aS[3],mf=aS[2],mg=aS[1],gM=dn(j(b8));if(gM){var
-dv=pp(aR);if(dv){var
-gN=dv[1],bi=gN[2],gO=j(bi),gP=j(gN[1]),gf=h(i,1,j(a2)),gg=gf?h(i,1,[3,gO,[0,b,b]]):gf,gh=gg?h(i,1,gP):gg,gQ=gh?h(i,0,[3,[5,[0,b,b],gO],gP]):gh,gR=gQ?l(function(a){var
-b=pl(0,0,Cu,a);if(b)var
+mM=aY[3],mN=aY[2],mO=aY[1],g9=dp(j(cb));if(g9){var
+dJ=pz(aV);if(dJ){var
+g_=dJ[1],bo=g_[2],g$=j(bo),ha=j(g_[1]),gw=h(i,1,j(a8)),gx=gw?h(i,1,[3,g$,[0,b,b]]):gw,gy=gx?h(i,1,ha):gx,hb=gy?h(i,0,[3,[5,[0,b,b],g$],ha]):gy,hc=hb?l(function(a){var
+b=pv(0,0,CD,a);if(b)var
 c=b;else{var
-d=cO(a);if(d)return aE(0,0,a);var
-c=d}return c},aR):gQ,gS=gR?l(function(c){if(1===c[1]){var
+d=cQ(a);if(d)return aF(0,0,a);var
+c=d}return c},aV):hb,hd=hc?l(function(c){if(1===c[1]){var
 a=c[4];if(typeof
-a!=="number"&&0===a[0])return h(i,0,[3,[0,d,b],j(a[1])]);return 1}return 1},aR):gR;if(gS){var
-dm=bu(function(a){return N(pq(a))},aR);if(dm){var
-lB=[0,c(2,b),b],bP=h(i,0,[3,j(bi),lB]);if(bP)var
-dx=bP;else
+a!=="number"&&0===a[0])return h(i,0,[3,[0,d,b],j(a[1])]);return 1}return 1},aV):hc;if(hd){var
+dt=a1(function(a){return J(pA(a))},aV);if(dt){var
+l9=[0,c(2,b),b],bT=h(i,0,[3,j(bo),l9]);if(bT)var
+dK=bT;else
 var
-lE=j(bi),dx=h(i,0,[3,[0,c(2,b),b],lE]);if(dx){var
-gL=y(function(a){if(cO(a))return Cp;var
-b=j_(0,Cq,0,a);return y(function(b){var
-c=g3(i,Cr,b);return af(N(pq(a)),c)},b)},aR),lz=function(f){var
-h=f[1];if(h){var
-i=h[1],j=r(i,gL,0);if(j)var
-l=an(i,gL),k=[0,[0,g(bu(function(a){return a},l))]];else
-var
-k=j;var
-a=k}else
-var
-a=Ct;if(a){var
+ma=j(bo),dK=h(i,0,[3,[0,c(2,b),b],ma]);if(dK){var
+l6=z(function(a){if(cQ(a))return Cz;var
+b=hK(0,CA,0,a);return z(function(b){var
+c=fv(i,CB,b);return ab(J(pA(a)),c)},b)},aV),l7=function(f){var
+a=fZ(l6,f[1]);if(a){var
 c=a[1],e=f[2];switch(e[0]){case
 0:return[0,[0,c,[0,e[1]]],0];case
-2:return[0,[0,c,[1,Cs,[0,[0,b,[0,d,[0,d,0]]],[0,[0,d,[0,b,[0,d,0]]],[0,[0,d,[0,d,[0,b,0]]],0]]],d]],0];default:return[0,[0,c,e],0]}}return a},lA=e(function(a){var
-b=a[4],c=a[3],d=a[2];return[0,y(lz,a[1]),d,c,b]},me),lC=[0,dm[1],dm[2]],lD=pu(bP,a2,bi);return pR(0,pt(bP,b8,a2,bi),0,lD,0,lC,mg,mf,lA)}return dx}var
-gT=1}else
+2:return[0,[0,c,[1,CC,[0,[0,b,[0,d,[0,d,0]]],[0,[0,d,[0,b,[0,d,0]]],[0,[0,d,[0,d,[0,b,0]]],0]]],d]],0];default:return[0,[0,c,e],0]}}return a},l8=e(function(a){var
+b=a[4],c=a[3],d=a[2];return[0,z(l7,a[1]),d,c,b]},mM),l_=[0,dt[1],dt[2]],l$=pE(bT,a8,bo);return kx(0,pD(bT,cb,a8,bo),0,l$,0,l_,mO,mN,l8)}return dK}var
+he=1}else
 var
-gT=gS;var
-gU=gT}else
+he=hd;var
+hf=he}else
 var
-gU=dv;var
-gV=gU}else
+hf=dJ;var
+hg=hf}else
 var
-gV=gM;return gV;case
+hg=g9;return hg;case
 1:var
-mh=aS[4],mi=aS[3],mj=aS[2],gW=dn(j(b8));if(gW){var
-dy=pp(aR);if(dy){var
-bk=dy[1][2],lF=[0,c(2,b),b],bQ=h(i,0,[3,j(bk),lF]),gZ=h(i,1,j(a2)),g0=gZ?h(i,1,[3,j(bk),[0,b,b]]):gZ;if(g0)if(bQ)var
-bR=bQ;else
+mP=aY[4],mQ=aY[3],mR=aY[2],hh=dp(j(cb));if(hh){var
+dL=pz(aV);if(dL){var
+bp=dL[1][2],mb=[0,c(2,b),b],bU=h(i,0,[3,j(bp),mb]),hj=h(i,1,j(a8)),hk=hj?h(i,1,[3,j(bp),[0,b,b]]):hj;if(hk)if(bU)var
+bV=bU;else
 var
-lH=j(bk),bR=h(i,0,[3,[0,c(2,b),b],lH]);else
+md=j(bp),bV=h(i,0,[3,[0,c(2,b),b],md]);else
 var
-bR=g0;if(bR){var
-lG=pu(bQ,a2,bk);return pS(0,pt(bQ,b8,a2,bk),0,lG,0,aR,mj,mi,mh)}var
-g1=bR}else
+bV=hk;if(bV){var
+mc=pE(bU,a8,bp);return ky(0,pD(bU,cb,a8,bp),0,mc,0,aV,mR,mQ,mP)}var
+hm=bV}else
 var
-g1=dy;var
-g2=g1}else
+hm=dL;var
+hn=hm}else
 var
-g2=gW;return g2;default:return 0}case
+hn=hh;return hn;default:return 0}case
 5:var
-dZ=a[4],h1=a[1],d0=v[2];if(0===d0[0]){var
-h2=d0[3],B=j9(h1,[0,a[2],a[3]],0,dZ),mk=g(h2),d2=kj(kr(B),mk,h2);if(d2){var
-h3=d2[1];if(h3[2])return 0;var
-h4=ko(h1,0,dZ,B),h5=h4?N(aj(cO,dZ)):h4;if(h5){var
-h6=m5(i,B);if(h6){var
-ml=h3[1],h7=e(hK,B[1]),O=hL(B[1]),h8=j(a[5]),ao=d0[1],c7=gX(O,h7,B[1]),_=i1(O,h7,B[1],0),kL=g(B[3]),kM=L(g(c7),kL),bN=[0,g(c7),kM],kN=i3(_,O,bN,B[3]),kO=f(e(c2,_),kN),gj=f(bC(fi(_)),kO),gk=cY(gj)[1],c8=cX(gk),gl=B[2];if(0===gl[0]){var
-gm=l(function(a){var
-b=m(d);return aN(r(bg(c8,a),c8,b),a)},gj),gn=gm?h(i,1,h8):gm;if(gn){var
-kP=B[3],kQ=y(function(a){return dH(O,a)},kP),kR=B[3],kS=f(c7,f(e(function(a){return bW(O,a)},kR),kQ)),c9=ac(e(function(a){return ap(ao,a)},kS));if(c9){var
-kT=a$(gl[1],O),c_=ac(e(function(a){return ap(ao,a)},kT));if(c_){var
-db=c0(ao,O,[5,h8,[0,c(2,c(2,c(2,c(2,b)))),b]]);if(db){var
-dd=B[3],kU=c_[1],kV=c9[1],kW=db[1],bd=function(a){return bg(c8,a)},kI=aC(0,g(dd)),kJ=e(function(j){var
-l=H(dd,j);if(l){var
-a=l[1],u=an(j,dd),v=g(y(function(a){return dH(O,a)},u)),w=L(bN[2],v),i=[0,L(bN[1],j),w],r=fi(_),f=k(ax(bd),r),c=[1,[8,[1,[1,i[1]]]]],d=gY(_,O,i,a),n=d?[0,[3,e(bd,[0,d[1],d[2]])]]:d,m=0;if(typeof
+ed=a[4],il=a[1],ee=v[2];if(0===ee[0]){var
+im=ee[3],B=hJ(il,[0,a[2],a[3]],0,ed),mS=g(im),ef=kp(kv(B),mS,im);if(ef){var
+io=ef[1];if(io[2])return 0;var
+ip=hV(il,0,ed,B),iq=ip?J(aj(cQ,ed)):ip;if(iq){var
+ir=nc(i,B);if(ir){var
+mT=io[1],is=e(hQ,B[1]),R=hR(B[1]),it=j(a[5]),au=ee[1],dc=g2(R,is,B[1]),ae=i7(R,is,B[1],0),k8=g(B[3]),k9=M(g(dc),k8),bR=[0,g(dc),k9],k_=i9(ae,R,bR,B[3]),k$=f(e(c3,ae),k_),gA=f(bD(fj(ae)),k$),gB=cZ(gA)[1],de=cY(gB),gC=B[2];if(0===gC[0]){var
+gD=l(function(a){var
+b=m(d);return aN(r(bh(de,a),de,b),a)},gA),gE=gD?h(i,1,it):gD;if(gE){var
+la=B[3],lb=z(function(a){return dI(R,a)},la),lc=B[3],ld=f(dc,f(e(function(a){return bW(R,a)},lc),lb)),df=ad(e(function(a){return ap(au,a)},ld));if(df){var
+le=ba(gC[1],R),dg=ad(e(function(a){return ap(au,a)},le));if(dg){var
+dh=c1(au,R,[5,it,[0,c(2,c(2,c(2,c(2,b)))),b]]);if(dh){var
+dj=B[3],lf=dg[1],lg=df[1],lh=dh[1],bm=function(a){return bh(de,a)},k5=aD(0,g(dj)),k6=e(function(j){var
+l=H(dj,j);if(l){var
+a=l[1],u=an(j,dj),v=g(z(function(a){return dI(R,a)},u)),w=M(bR[2],v),i=[0,M(bR[1],j),w],r=fj(ae),f=k(ay(bm),r),c=[1,[8,[1,[1,i[1]]]]],d=g3(ae,R,i,a),n=d?[0,[3,e(bm,[0,d[1],d[2]])]]:d,m=0;if(typeof
 a!=="number")switch(a[0]){case
 0:return[0,[0,f,c]];case
 1:return[0,[1,f,c]];case
 4:var
-o=h(ao,1,a[2]),s=o?n:o;return s;case
+o=h(au,1,a[2]),s=o?n:o;return s;case
 5:return[0,[2,f,c]];case
 8:var
-p=h(ao,1,[5,a[2],a[1]]);if(!p)return p;var
+p=h(au,1,[5,a[2],a[1]]);if(!p)return p;var
 q=[1,[2,b]];m=1;break;case
 9:var
 q=c;m=1;break;case
@@ -8293,27 +8331,27 @@ q=c;m=1;break;case
 3:case
 6:case
 7:return n}if(m){var
-t=fp(_,O,i,a);return z(function(a){return[0,k(ax(bd),a),q]},t)}return 0}return l},kI),kK=e(function(a){return bd(c2(a))},_),gi=e(function(a){return bd(a[2])},_),kX=B[3],kY=bN[1],c6=function(aC,aB,aA){var
+t=fq(ae,R,i,a);return y(function(a){return[0,k(ay(bm),a),q]},t)}return 0}return l},k5),k7=e(function(a){return bm(c3(a))},ae),gz=e(function(a){return bm(a[2])},ae),li=B[3],lj=bR[1],c$=function(aC,aB,aA){var
 k=aC,m=aB,f=aA;for(;;)switch(f[0]){case
 0:var
-v=f[1],_=o(g(v),wq),aa=_?l(function(a){var
+v=f[1],_=o(g(v),wz),aa=_?l(function(a){var
 d=D(T(c(2,c(2,c(2,b)))),a);return d?D(a,c(2,c(2,c(2,b)))):d},v):_;if(aa){var
-ab=o2(ao,kW,dG(0,m),v),j=f[2],w=bf(0,bB(ao,ab,e($,k)),gk,0),aD=e($,k),N=function(a){return o1(o0(ao,ab,aD,w,a))};if(typeof
+ab=o$(au,lh,dH(0,m),v),j=f[2],w=bg(0,bC(au,ab,e($,k)),gB,0),aD=e($,k),N=function(a){return o_(o9(au,ab,aD,w,a))};if(typeof
 j==="number")return 0===j?aj(function(b){var
-a=r(b,w,0);return a?D(a[1][2][2],d):a},gi):0;else{if(0===j[0]){var
-a=j[2],O=l(wo,a);if(O){var
-q=r(j[1],kJ,0);if(q){var
+a=r(b,w,0);return a?D(a[1][2][2],d):a},gz):0;else{if(0===j[0]){var
+a=j[2],O=l(wx,a);if(O){var
+q=r(j[1],k6,0);if(q){var
 i=q[1];switch(i[0]){case
 0:var
 x=0;if(a)if(a[2])var
 h=0;else{var
-A=a[1],B=i[1],ap=hA(B,A),aq=hz(A),C=[0,[0,B,[0,[1,[4,[1,[6,i[2],aq]],ap]],0]]];x=1}else{var
+A=a[1],B=i[1],ao=hE(B,A),ap=hD(A),C=[0,[0,B,[0,[1,[4,[1,[6,i[2],ap]],ao]],0]]];x=1}else{var
 C=a;x=1}if(x)var
 h=C;break;case
 1:var
 y=0;if(a)if(a[2])var
 h=0;else{var
-E=a[1],F=i[1],ar=hz(E),as=[1,[6,i[2],ar]],G=[0,[0,F,[0,[1,[4,hA(F,E),as]],0]]];y=1}else{var
+E=a[1],F=i[1],aq=hD(E),ar=[1,[6,i[2],aq]],G=[0,[0,F,[0,[1,[4,hE(F,E),ar]],0]]];y=1}else{var
 G=a;y=1}if(y)var
 h=G;break;case
 2:var
@@ -8321,16 +8359,16 @@ z=0;if(a){var
 n=a[2],an=0;if(n)if(n[2]){var
 h=0;an=1}else
 var
-I=n[1],J=a[1],p=i[1],at=hz(J),au=[1,[6,hA(p,I),at]],av=[1,[6,i[2],au]],aw=hz(I),K=[0,[0,p,[0,[1,[4,[1,[6,hA(p,J),aw]],av]],0]]];else
+I=n[1],J=a[1],p=i[1],as=hD(J),at=[1,[6,hE(p,I),as]],av=[1,[6,i[2],at]],aw=hD(I),K=[0,[0,p,[0,[1,[4,[1,[6,hE(p,J),aw]],av]],0]]];else
 var
 K=n;if(!an){var
-M=K;z=1}}else{var
-M=a;z=1}if(z)var
-h=M;break;default:if(a)var
+L=K;z=1}}else{var
+L=a;z=1}if(z)var
+h=L;break;default:if(a)var
 h=0;else
 var
 ax=i[1],h=[0,[0,0,e(function(a){return[1,[5,[0,a]]]},ax)]]}if(h){var
-P=h[1],ay=P[1],Q=l(function(a){return o1(r(a[2],w,0))},ay);if(Q)return l(N,P[2]);var
+P=h[1],ay=P[1],Q=l(function(a){return o_(r(a[2],w,0))},ay);if(Q)return l(N,P[2]);var
 R=Q}else
 var
 R=h;var
@@ -8340,12 +8378,12 @@ S=q;var
 U=S}else
 var
 U=O;return U}var
-V=j[2],W=j[1],s=H(kX,W);if(s){var
+V=j[2],W=j[1],s=H(li,W);if(s){var
 X=s[1];if(typeof
 X!=="number"&&1===X[0]){var
-t=H(gi,V);if(t){var
-u=H(kK,V);if(u){var
-az=L(kY,W);return N([1,[4,[1,[8,[0,u[1]]]],[1,[6,[1,[8,[1,[1,az]]]],[0,t[1]]]]]])}var
+t=H(gz,V);if(t){var
+u=H(k7,V);if(u){var
+az=M(lj,W);return N([1,[4,[1,[8,[0,u[1]]]],[1,[6,[1,[8,[1,[1,az]]]],[0,t[1]]]]]])}var
 Z=u}else
 var
 Z=t;return Z}var
@@ -8353,105 +8391,105 @@ Y=0}else
 var
 Y=s;return Y}}return aa;case
 1:var
-ac=f[1],ad=o3(ac,m);if(ad){var
-ae=c3(ac,m),af=c6(k,ae[1],f[2]);if(af){var
+ac=f[1],ad=pa(ac,m);if(ad){var
+ae=c4(ac,m),af=c$(k,ae[1],f[2]);if(af){var
 m=ae[2],f=f[3];continue}var
 ag=af}else
 var
 ag=ad;return ag;default:var
-ah=f[1],ai=o3(ah,k);if(ai){var
-ak=c3(ah,k),al=c6(ak[1],m,f[2]);if(al){var
+ah=f[1],ai=pa(ah,k);if(ai){var
+ak=c4(ah,k),al=c$(ak[1],m,f[2]);if(al){var
 k=ak[2],f=f[3];continue}var
 am=al}else
 var
-am=ai;return am}};return c6(kV,kU,ml)}var
-go=db}else
+am=ai;return am}};return c$(lg,lf,mT)}var
+gF=dh}else
 var
-go=c_;var
-gp=go}else
+gF=dg;var
+gG=gF}else
 var
-gp=c9;var
-gq=gp}else
+gG=df;var
+gH=gG}else
 var
-gq=gn;return gq}return 0}var
-h9=h6}else
+gH=gE;return gH}return 0}var
+iu=ir}else
 var
-h9=h5;var
-h_=h9}else
+iu=iq;var
+iv=iu}else
 var
-h_=d2;return h_}return 0;case
+iv=ef;return iv}return 0;case
 6:var
-h$=a[1];if(h$){var
-ia=h$[1],d3=v[2];if(0===d3[0]){var
-d4=ki(CA,0,0,0,Cz,d3[3]);if(d4){var
-ib=fV(ia);if(ib){var
-mm=d4[1],ic=b2(ia)[2],b9=d3[1],c4=c0(b9,d,ic);if(c4){var
-c5=c0(b9,d,[5,[0,b,b],ic]);if(c5){var
-kH=c4[1][1],gc=I(cw(b9),kH);if(gc)return oZ(b9,c5[1][1],mm);var
-gd=gc}else
+iw=a[1];if(iw){var
+ix=iw[1],eg=v[2];if(0===eg[0]){var
+eh=ko(CJ,0,0,0,CI,eg[3]);if(eh){var
+iy=fX(ix);if(iy){var
+mU=eh[1],iz=b2(ix)[2],cc=eg[1],c9=c1(cc,d,iz);if(c9){var
+c_=c1(cc,d,[5,[0,b,b],iz]);if(c_){var
+k4=c9[1][1],gt=I(cy(cc),k4);if(gt)return o8(cc,c_[1][1],mU);var
+gu=gt}else
 var
-gd=c5;var
-ge=gd}else
+gu=c_;var
+gv=gu}else
 var
-ge=c4;return ge}var
-id=ib}else
+gv=c9;return gv}var
+iA=iy}else
 var
-id=d4;return id}return 0}var
-d5=v[2];if(0===d5[0]){var
-d6=ki(CC,0,0,0,CB,d5[3]);return d6?oZ(d5[1],d,d6[1]):d6}return 0;default:var
-a3=a[1],ie=v[2];if(2===ie[0]){var
-ig=ie[1],d7=kg(g(ig),ig);if(d7){var
-ih=d7[1];if(ih[2])return 0;var
-d8=ih[1],gI=aa(Co,g(a3)),gJ=gI?aa(g(a3),dD):gI,gK=gJ?ot(e(aA,a3)):gJ,ii=gK?l(function(c){var
-a=cA(j(c[2][1]));if(a){var
-b=cA(j(c[2][2]));if(b)return N(be(b[1],a[1]));var
+iA=eh;return iA}return 0}var
+ei=v[2];if(0===ei[0]){var
+ej=ko(CL,0,0,0,CK,ei[3]);return ej?o8(ei[1],d,ej[1]):ej}return 0;default:var
+a9=a[1],iB=v[2];if(2===iB[0]){var
+iC=iB[1],ek=km(g(iC),iC);if(ek){var
+iD=ek[1];if(iD[2])return 0;var
+el=iD[1],gZ=aa(Cw,g(a9)),g0=gZ?aa(g(a9),dE):gZ,g1=g0?oC(e(aB,a9)):g0,iE=g1?l(function(c){var
+a=cC(j(c[2][1]));if(a){var
+b=cC(j(c[2][2]));if(b)return J(bf(b[1],a[1]));var
 d=b}else
 var
-d=a;return d},a3):gK;if(ii)var
-mn=hJ(Be,d8),d9=pV(a[5],mn);else
+d=a;return d},a9):g1;if(iE)var
+mV=hP(Bm,el),em=p1(a[5],mV);else
 var
-d9=ii;if(d9)var
-mo=hJ(Bf,d8),d_=pV(a[6],mo);else
+em=iE;if(em)var
+mW=hP(Bn,el),en=p1(a[6],mW);else
 var
-d_=d9;if(d_){var
-ls=e(function(a){return[0,d,0]},a3);return pU(a3,a[2],a[3],a[4],ls,d8)}var
-ij=d_}else
+en=em;if(en){var
+lP=e(function(a){return[0,d,0]},a9);return p0(a9,a[2],a[3],a[4],lP,el)}var
+iF=en}else
 var
-ij=d7;return ij}return 0}}return bl}var
-X=[a6,CF,sd(0)],pW=[a6,CG,sd(0)];function
-CD(l,b){var
-f=[0,n(Az,aq(b[4])),0],g=[0,n(AB,ah([0,n(AA,aq(b[3])),f])),0],a=b[2];switch(a[0]){case
+iF=ek;return iF}return 0}}return bq}var
+X=[a7,CO,sm(0)],p5=[a7,CP,sm(0)];function
+CM(l,b){var
+f=[0,n(AI,aq(b[4])),0],g=[0,n(AK,ah([0,n(AJ,aq(b[3])),f])),0],a=b[2];switch(a[0]){case
 0:var
-c=Q(Av,o_(a[1],a[2],a[3]));break;case
+c=Q(AE,ph(a[1],a[2],a[3]));break;case
 1:var
-c=Q(Aw,o$(a[1],a[2],a[3],a[4]));break;default:var
-c=Q(Ax,G(e(Aq,a[1])))}var
-h=[0,n(AC,c),g],i=1===b[2][0]?AI:AD,j=[0,n(AE,aq(i)),h],k=[0,n(AF,y2(b[1])),j],d=aB(lg(CE,hB(ah([0,n(AH,aq(AG)),k]),Ay)),l);return d?Cv(b):d}function
+c=Q(AF,pi(a[1],a[2],a[3],a[4]));break;default:var
+c=Q(AG,G(e(Az,a[1])))}var
+h=[0,n(AL,c),g],i=1===b[2][0]?AR:AM,j=[0,n(AN,aq(i)),h],k=[0,n(AO,y$(b[1])),j],d=aC(lo(CN,hF(ah([0,n(AQ,aq(AP)),k]),AH)),l);return d?CE(b):d}function
 ai(a){if(0===a[0])return a[1];throw X}function
-ad(a){if(1===a[0])return a[1];throw X}function
-a1(a){if(2===a[0])return a[1];throw X}function
-fX(a){if(3===a[0])return a[1];throw X}function
-bb(f,e){var
+ae(a){if(1===a[0])return a[1];throw X}function
+a2(a){if(2===a[0])return a[1];throw X}function
+f0(a){if(3===a[0])return a[1];throw X}function
+bc(f,e){var
 a=f;for(;;){if(a){var
-b=a[1],c=a[2],d=b[2];if(0===I2(b[1],e))return[0,d];var
+b=a[1],c=a[2],d=b[2];if(0===Jf(b[1],e))return[0,d];var
 a=c;continue}return 0}}function
 v(c,b){var
-a=bb(c,b);if(a)return a[1];throw X}function
-cm(b,a){var
+a=bc(c,b);if(a)return a[1];throw X}function
+cn(b,a){var
 c=a?[0,k(b,a[1])]:a;return c}function
-d2(a){switch(a[0]){case
+d3(a){switch(a[0]){case
 0:var
 b=a[1];if(b&&!b[2]){var
 c=b[1];return[0,c[1],c[2]]}break;case
-2:return[0,a[1],CI]}throw X}function
-fY(e,d){var
-a=_(e,ad(d));if(a){var
+2:return[0,a[1],CR]}throw X}function
+f1(e,d){var
+a=_(e,ae(d));if(a){var
 b=a[2];if(b){var
 c=b[2];if(c&&!c[2])return[0,a[1],b[1],c[1]]}}throw X}function
-hR(i){var
-f=e3(i),d=[0,0],e=ii(f)-1|0;if(!(e<0)){var
+hZ(i){var
+f=e4(i),d=[0,0],e=iq(f)-1|0;if(!(e<0)){var
 c=e;for(;;){var
-a=d[1],g=kY(f,c)-48|0;if(9<g>>>0)throw X;switch(g){case
+a=d[1],g=k6(f,c)-48|0;if(9<g>>>0)throw X;switch(g){case
 0:var
 b=[0,a];break;case
 1:var
@@ -8473,48 +8511,48 @@ b=[8,a];break;default:var
 b=[9,a]}d[1]=b;var
 h=c-1|0;if(0!==c){var
 c=h;continue}break}}return d[1]}function
-fZ(a){return lv(hR(a))}function
-eQ(b){var
-a=fX(b);return 45===a7(a,0)?T(fZ(d$(a,1,az(a)-1|0))):fZ(a)}function
-pX(a){return eb(fZ(fX(a)))}function
-dq(b){var
-a=fX(b);if(!(2<az(a))&&!(64<=ih(a)))return iv(fZ(a));throw X}function
-cQ(c){var
-a=fX(c);if(6<az(a))throw X;function
-b(a){return 0<a?[0,b(a-1|0)]:0}return b(ih(a))}function
-pY(a){var
-b=97<=a?1:0,c=b?a<=rR?1:0:b;if(c)var
+f2(a){return lD(hZ(a))}function
+eR(b){var
+a=f0(b);return 45===a8(a,0)?T(f2(ea(a,1,aA(a)-1|0))):f2(a)}function
+p6(a){return ec(f2(f0(a)))}function
+dr(b){var
+a=f0(b);if(!(2<aA(a))&&!(64<=ip(a)))return iB(f2(a));throw X}function
+cS(c){var
+a=f0(c);if(6<aA(a))throw X;function
+b(a){return 0<a?[0,b(a-1|0)]:0}return b(ip(a))}function
+p7(a){var
+b=97<=a?1:0,c=b?a<=r0?1:0:b;if(c)var
 d=c;else
 var
 e=65<=a?1:0,d=e?a<=90?1:0:e;return d}function
-pZ(y,b){var
-d=az(b),a=[0,0];function
+p8(y,b){var
+d=aA(b),a=[0,0];function
 c(e){var
-c=a[1]<d?1:0,f=c?a7(b,a[1])===e?1:0:c;return f}function
+c=a[1]<d?1:0,f=c?a8(b,a[1])===e?1:0:c;return f}function
 l(e){var
-c=a[1];for(;;){if(a[1]<d&&48<=a7(b,a[1])&&!(57<a7(b,a[1]))){a[1]++;continue}return d$(b,c,a[1]-c|0)}}function
+c=a[1];for(;;){if(a[1]<d&&48<=a8(b,a[1])&&!(57<a8(b,a[1]))){a[1]++;continue}return ea(b,c,a[1]-c|0)}}function
 m(b){a[1]++;var
 d=f(b+1|0);if(c(41)){a[1]++;return d}throw X}function
 h(i){if(64<i)throw X;if(c(45)){a[1]++;return[2,h(i+1|0)]}if(c(40))var
 e=m(i);else{var
-u=0;if((a[1]+5|0)<=d&&aB(d$(b,a[1],5),CK)){a[1]=a[1]+4|0;var
+u=0;if((a[1]+5|0)<=d&&aC(ea(b,a[1],5),CT)){a[1]=a[1]+4|0;var
 e=[5,m(i)]}else
 u=1;if(u){var
-v=0;if(a[1]<d&&pY(a7(b,a[1]))){var
+v=0;if(a[1]<d&&p7(a8(b,a[1]))){var
 n=a[1];for(;;){if(a[1]<d){var
-w=0;if(!pY(a7(b,a[1]))&&95!==a7(b,a[1])&&(!(48<=a7(b,a[1]))||57<a7(b,a[1])))w=1;if(!w){a[1]++;continue}}var
-e=[1,k(y,d$(b,n,a[1]-n|0))];break}}else
+w=0;if(!p7(a8(b,a[1]))&&95!==a8(b,a[1])&&(!(48<=a8(b,a[1]))||57<a8(b,a[1])))w=1;if(!w){a[1]++;continue}}var
+e=[1,k(y,ea(b,n,a[1]-n|0))];break}}else
 v=1;if(v){var
-g=l(0),o=c(46),q=o?(a[1]++,[0,l(0)]):o,r=aB(g,CL);if(r)var
+g=l(0),o=c(46),q=o?(a[1]++,[0,l(0)]):o,r=aC(g,CU);if(r)var
 s=r;else
 var
-t=1<az(g)?1:0,s=t?48===a7(g,0)?1:0:t;if(s)throw X;if(q){var
-j=q[1],x=0;if(aB(j,CM)||48===a7(j,az(j)-1|0))x=1;else
+t=1<aA(g)?1:0,s=t?48===a8(g,0)?1:0:t;if(s)throw X;if(q){var
+j=q[1],x=0;if(aC(j,CV)||48===a8(j,aA(j)-1|0))x=1;else
 var
-z=hR(j),e=[0,hR(g),z];if(x)throw X}else
+z=hZ(j),e=[0,hZ(g),z];if(x)throw X}else
 var
-e=[0,hR(g),0]}}}if(c(94)){a[1]++;var
-f=l(0);if(p(f,CJ)){if(!(2<az(f))&&2<=ih(f)&&!(64<ih(f)))return[4,e,eb(fZ(f))];throw X}throw X}return e}function
+e=[0,hZ(g),0]}}}if(c(94)){a[1]++;var
+f=l(0);if(p(f,CS)){if(!(2<aA(f))&&2<=ip(f)&&!(64<ip(f)))return[4,e,ec(f2(f))];throw X}throw X}return e}function
 e(d){var
 b=h(d);for(;;){if(c(42)){a[1]++;var
 b=[3,2,b,h(d)];continue}if(c(47)){a[1]++;var
@@ -8524,47 +8562,55 @@ b=e(d);for(;;){if(c(43)){a[1]++;var
 b=[3,0,b,e(d)];continue}if(c(45)){a[1]++;var
 b=[3,1,b,e(d)];continue}return b}}var
 g=f(0);if(a[1]<d)throw X;return g}function
-hS(a){return pZ(function(a){return[0,a]},a)}function
-ks(a){var
-b=a1(a);return pZ(function(a){return a},b)}function
-Y(a){return hS(a1(a))}function
-b3(a){if(2===a[0])return[0,hS(a[1])];var
-b=ai(a),c=Y(v(b,CN));return[1,Y(v(b,CO)),c]}function
-al(a){throw[0,pW,bd(lg(CQ,a),CP)]}function
-kt(c){var
-a=a1(c);if(p(a,CR)){var
-b=p(a,CS);if(b)throw X;return b}return 1}function
-CT(d){var
+h0(a){return p8(function(a){return[0,a]},a)}function
+kA(a){var
+b=a2(a);return p8(function(a){return a},b)}function
+Y(a){return h0(a2(a))}function
+b4(a){if(2===a[0])return[0,h0(a[1])];var
+b=ai(a),c=Y(v(b,CW));return[1,Y(v(b,CX)),c]}function
+al(a){throw[0,p5,be(lo(CZ,a),CY)]}function
+kB(c){var
+a=a2(c);if(p(a,C0)){var
+b=p(a,C1);if(b)throw X;return b}return 1}function
+C2(d){var
 b=ai(d);function
-a(a){return fY(b3,v(b,a))}var
-c=a1(v(b,CU));if(p(c,CV)){if(p(c,CW)){if(p(c,CX))return al([0,CZ,[0,c,CY]]);var
-e=bb(b,C0),f=cm(function(a){return fY(b3,a)},e),g=a(C1);return[1,a(C2),g,f]}var
-h=kt(v(b,C3)),i=b3(v(b,C4)),j=a(C5),k=a(C6);return[0,a(C7),k,j,i,h]}return[2,a(C8)]}function
-C9(d){var
+a(a){return f1(b4,v(b,a))}var
+c=a2(v(b,C3));if(p(c,C4)){if(p(c,C5)){if(p(c,C6))return al([0,C8,[0,c,C7]]);var
+e=bc(b,C9),f=cn(function(a){return f1(b4,a)},e),g=a(C_);return[1,a(C$),g,f]}var
+h=kB(v(b,Da)),i=b4(v(b,Db)),j=a(Dc),k=a(Dd);return[0,a(De),k,j,i,h]}return[2,a(Df)]}function
+Dg(d){var
 a=ai(d);if(a){var
-b=a[1];if(!p(b[1],C_)){var
-c=b[2];if(2===c[0]&&!p(c[1],C$))return 1}}return 0}function
-p0(e){var
+b=a[1];if(!p(b[1],Dh)){var
+c=b[2];if(2===c[0]&&!p(c[1],Di))return 1}}return 0}function
+p9(e){var
 b=ai(e);function
-a(a){return _(b3,ad(v(b,a)))}var
-c=a1(v(b,Da)),f=bb(b,Db),d=cm(function(a){return _(b3,ad(a))},f);if(p(c,Dc)){if(p(c,Dd)){if(p(c,De)){if(!p(c,Df)){var
-g=a(Di);return[1,a(Dj),g,d]}}else
+a(a){return _(b4,ae(v(b,a)))}var
+c=a2(v(b,Dj)),f=bc(b,Dk),d=cn(function(a){return _(b4,ae(a))},f);if(p(c,Dl)){if(p(c,Dm)){if(p(c,Dn)){if(!p(c,Do)){var
+g=a(Dr);return[1,a(Ds),g,d]}}else
 if(!d){var
-h=kt(v(b,Dk)),i=b3(v(b,Dl)),j=a(Dm),k=a(Dn);return[0,a(Do),k,j,i,h]}}else
-if(!d)return[2,a(Dp)]}else
+h=kB(v(b,Dt)),i=b4(v(b,Du)),j=a(Dv),k=a(Dw);return[0,a(Dx),k,j,i,h]}}else
+if(!d)return[2,a(Dy)]}else
 if(!d){var
-l=kt(v(b,Dq)),m=b3(v(b,Dr)),n=b3(v(b,Ds)),o=a(Dt),q=a(Du),r=a(Dv);return[3,a(Dw),r,q,o,n,m,l]}return al([0,Dh,[0,c,Dg]])}function
-p1(d){var
+l=kB(v(b,Dz)),m=b4(v(b,DA)),n=b4(v(b,DB)),o=a(DC),q=a(DD),r=a(DE);return[3,a(DF),r,q,o,n,m,l]}return al([0,Dq,[0,c,Dp]])}function
+DG(d){var
 a=ai(d);if(a){var
-b=a[1];if(!p(b[1],Dx)){var
-c=b[2];if(2===c[0]&&!p(c[1],Dy))return 1}}return 0}function
-dr(c,d){var
-a=ad(d);if(a){var
+b=a[1];if(!p(b[1],DH)){var
+c=b[2];if(2===c[0]&&!p(c[1],DI))return 1}}return 0}function
+DJ(d){var
+a=ai(d);if(a){var
+b=a[1];if(!p(b[1],DK)){var
+c=b[2];if(2===c[0]&&!p(c[1],DL))return 1}}return 0}function
+p_(d){var
+a=ai(d);if(a){var
+b=a[1];if(!p(b[1],DM)){var
+c=b[2];if(2===c[0]&&!p(c[1],DN))return 1}}return 0}function
+ds(c,d){var
+a=ae(d);if(a){var
 b=a[2];if(b&&!b[2]){var
 e=k(c,b[1]);return[0,k(c,a[1]),e]}}throw X}function
-d3(g,o){var
-h=g?g[1]:g,c=ai(o),a=a1(v(c,Dz)),j=sq(a,DA),f=0;if(0<=j)if(0<j)if(p(a,DB))if(p(a,DC))if(p(a,DD))if(p(a,DE))if(p(a,DF))if(p(a,DG))if(p(a,DH)){var
-k=p(a,DI);if(k)f=1;else
+d4(g,o){var
+h=g?g[1]:g,c=ai(o),a=a2(v(c,DO)),j=sz(a,DP),f=0;if(0<=j)if(0<j)if(p(a,DQ))if(p(a,DR))if(p(a,DS))if(p(a,DT))if(p(a,DU))if(p(a,DV))if(p(a,DW)){var
+k=p(a,DX);if(k)f=1;else
 var
 b=k}else
 var
@@ -8584,7 +8630,7 @@ var
 b=13;else
 var
 b=2;else
-if(p(a,D3))if(p(a,D4))if(p(a,D5))if(p(a,D6))if(p(a,D7))if(p(a,D8))if(p(a,D9))if(p(a,D_))f=1;else
+if(p(a,Eg))if(p(a,Eh))if(p(a,Ei))if(p(a,Ej))if(p(a,Ek))if(p(a,El))if(p(a,Em))if(p(a,En))f=1;else
 var
 b=1;else
 var
@@ -8602,12 +8648,12 @@ b=14;else
 f=1;else
 var
 b=12;var
-n=f?al([0,DK,[0,a,DJ]]):b;function
-i(a){return v(c,DL)}var
-d=a1(v(c,DM)),l=p(d,DN);if(l)if(p(d,DO))if(p(d,DP))if(p(d,DQ))var
-e=al([0,DS,[0,d,DR]]);else
+n=f?al([0,DZ,[0,a,DY]]):b;function
+i(a){return v(c,D0)}var
+d=a2(v(c,D1)),l=p(d,D2);if(l)if(p(d,D3))if(p(d,D4))if(p(d,D5))var
+e=al([0,D7,[0,d,D6]]);else
 var
-m=dr(Y,i(0)),e=[2,m[1],m[2]];else
+m=ds(Y,i(0)),e=[2,m[1],m[2]];else
 var
 e=[0,Y(i(0))];else
 var
@@ -8617,180 +8663,188 @@ e=l;function
 q(H){var
 a=ai(H),b=0;switch(n){case
 6:if(a){var
-r=a[1];if(!p(r[1],DU)){var
+r=a[1];if(!p(r[1],D9)){var
 s=r[2];if(1===s[0]){var
 c=s[1],m=0;if(c&&!c[2])if(a[2])m=1;else{var
 e=c[1];b=1;m=1}if(!m&&!a[2]){var
 t=c;b=2}}}}break;case
 10:if(a){var
-u=a[1];if(!p(u[1],DV)){var
+u=a[1];if(!p(u[1],D_)){var
 v=u[2];if(1===v[0]){var
 f=v[1];if(f&&!f[2]){var
 g=a[2];if(g){var
-w=g[1];if(!p(w[1],DW)){var
+w=g[1];if(!p(w[1],D$)){var
 x=w[2];if(1===x[0]){var
 i=x[1];if(i&&!i[2]&&!g[2]){var
 I=Y(i[1]);return[2,Y(f[1]),I]}}}}}}}}break;case
 12:if(a){var
-y=a[1];if(!p(y[1],DX)){var
+y=a[1];if(!p(y[1],Ea)){var
 z=y[2];if(1===z[0]){var
 j=z[1];if(j&&!j[2]){var
 k=a[2],A=j[1];if(k){var
-B=k[1];if(!p(B[1],DY)){var
+B=k[1];if(!p(B[1],Eb)){var
 C=B[2];if(1===C[0]){var
 l=C[1];if(l&&!l[2]&&!k[2]&&h){var
 J=Y(l[1]);return[3,Y(A),J]}}}}else{var
 e=A;b=1}}}}}break;case
 16:if(a){var
-F=a[1];if(!p(F[1],D0)){var
+F=a[1];if(!p(F[1],Ed)){var
 G=F[2];if(1===G[0]&&!a[2]){var
 t=G[1];b=2}}}break;case
 14:case
 15:if(a){var
-D=a[1];if(!p(D[1],DZ)){var
+D=a[1];if(!p(D[1],Ec)){var
 E=D[2];if(1===E[0]&&!a[2])return[1,_(Y,E[1])]}}break;case
 2:case
 8:if(a){var
-o=a[1];if(!p(o[1],DT)){var
+o=a[1];if(!p(o[1],D8)){var
 q=o[2];if(1===q[0]){var
 d=q[1];if(d&&!d[2]&&!a[2]){var
 e=d[1];b=1}}}}break}switch(b){case
 0:throw X;case
 1:return[0,Y(e)];default:return[1,_(Y,t)]}}var
-r=cm(q,bb(c,D1));return[0,n,cm(cQ,bb(c,D2)),r,e]}function
-p2(c){var
-d=d3(Eb,c),e=d[1];if(!(9<=e))switch(e){case
+r=cn(q,bc(c,Ee));return[0,n,cn(cS,bc(c,Ef)),r,e]}function
+p$(c){var
+d=d4(Eq,c),e=d[1];if(!(9<=e))switch(e){case
 2:case
 6:case
 8:return d}var
-a=d3(D$,c),b=a[1];if(2!==b&&!(4<=b))return a;return al(Ea)}function
-p3(a){var
-b=d3(Ec,a);return 11===b[1]?b:p2(a)}function
-Ed(a){var
-b=d3(Ee,a);return 12===b[1]?b:p3(a)}function
-Ef(a){var
-b=d3(Eg,a),c=b[1];if(9<=c)switch(c-9|0){case
+a=d4(Eo,c),b=a[1];if(2!==b&&!(4<=b))return a;return al(Ep)}function
+qa(a){var
+b=d4(Er,a);return 11===b[1]?b:p$(a)}function
+Es(a){var
+b=d4(Et,a);return 12===b[1]?b:qa(a)}function
+Eu(a){var
+b=d4(Ev,a),c=b[1];if(9<=c)switch(c-9|0){case
 2:case
 4:case
-7:break;default:return b}return p3(a)}function
-ku(c){var
-d=d3(Eh,c),a=d[1];if(4<=a){var
+7:break;default:return b}return qa(a)}function
+kC(c){var
+d=d4(Ew,c),a=d[1];if(4<=a){var
 b=0;if(6<=a)switch(a-6|0){case
 5:case
 6:case
 7:case
 10:b=1;break}else
-b=1;if(b)return d}return p2(c)}function
-kv(b){var
-a=ai(b[2]);if(p(b[1],Eo)){var
-c=dr(Y,v(a,Ep)),d=dr(Y,v(a,Eq)),e=d[2],f=d[1],g=Y(v(a,Er));return[1,c[1],c[2],g,f,e]}var
-h=_(Y,ad(v(a,Es)));return[0,_(Y,ad(v(a,Et))),h]}function
-Eu(f){var
+b=1;if(b)return d}return p$(c)}function
+kD(b){var
+a=ai(b[2]);if(p(b[1],ED)){var
+c=ds(Y,v(a,EE)),d=ds(Y,v(a,EF)),e=d[2],f=d[1],g=Y(v(a,EG));return[1,c[1],c[2],g,f,e]}var
+h=_(Y,ae(v(a,EH)));return[0,_(Y,ae(v(a,EI))),h]}function
+EJ(f){var
 a=ai(f);function
 d(b){return Y(v(a,b))}function
-c(b){return fY(Y,v(a,b))}var
-b=a1(v(a,Ev));if(p(b,Ew)){if(!p(b,Ex)){var
-j=v(a,ED),e=dr(function(a){return a},j),k=bb(a,EE),l=cm(function(a){return c(EF)},k),m=hS(a1(e[2])),n=hS(a1(e[1])),o=d(EG);return[0,cQ(v(a,EH)),o,n,m,l]}if(p(b,Ey))throw X}var
-g=d(Ez),h=c(EA),i=c(EB);return[1,aB(b,EC),i,h,g]}function
-kw(an){var
-g=d2(an),h=g[1];if(p(h,EI)){if(p(h,EJ)){if(p(h,EK)){if(p(h,EL))return al([0,EN,[0,h,EM]]);var
-w=v(ai(g[2]),EO),ab=0;if(2===w[0]){var
-K=p(w[1],EP);if(!K){var
-J=K;ab=1}}if(!ab)var
-J=[0,b3(w)];return[6,J]}var
-L=ai(g[2]),i=kw([0,[0,[0,ER,v(L,EQ)],0]]);if(0===i[0]){var
-x=i[2];if(0===x[0]&&!i[3]){var
-ao=Y(v(L,ET));return[5,i[1],x[1],x[2],i[4],ao]}}return al(ES)}var
-a=ai(g[2]),y=bb(a,EU),z=y?_(Eu,ad(y[1])):y,n=function(b){var
-a=0!==z?1:0;return a?al(EV):a},j=d2(v(a,EW)),b=d2(v(a,EX)),c=j[1];if(p(c,EY)&&p(c,EZ)&&p(c,E0)){if(0===bb(a,E1)){if(p(c,E2)){var
-ac=0;if(p(c,E3)){if(!p(c,E4)){var
-M=b[1],ae=0;if(p(M,E7)&&p(M,E8)){ac=1;ae=1}if(!ae){var
-A=ad(j[2]),ap=ad(v(a,E$)),N=_(function(a){return d3(0,a)},ap);if(!aG(C9,A)&&!aG(function(a){var
-b=13===a[1]?1:0,c=b||(16===a[1]?1:0);return c},N)){var
-as=_(CT,A),f=ai(b[2]);if(p(b[1],Ei))var
-H=dr(Y,v(f,Ej)),I=dr(Y,v(f,Ek)),ah=I[2],aj=I[1],ak=Y(v(f,El)),O=[1,H[1],H[2],ak,aj,ah];else
+c(b){return f1(Y,v(a,b))}var
+b=a2(v(a,EK));if(p(b,EL)){if(!p(b,EM)){var
+j=v(a,ES),e=ds(function(a){return a},j),k=bc(a,ET),l=cn(function(a){return c(EU)},k),m=h0(a2(e[2])),n=h0(a2(e[1])),o=d(EV);return[0,cS(v(a,EW)),o,n,m,l]}if(p(b,EN))throw X}var
+g=d(EO),h=c(EP),i=c(EQ);return[1,aC(b,ER),i,h,g]}function
+kE(aq){var
+g=d3(aq),h=g[1];if(p(h,EX)){if(p(h,EY)){if(p(h,EZ)){if(p(h,E0))return al([0,E2,[0,h,E1]]);var
+x=v(ai(g[2]),E3),ad=0;if(2===x[0]){var
+L=p(x[1],E4);if(!L){var
+K=L;ad=1}}if(!ad)var
+K=[0,b4(x)];return[6,K]}var
+M=ai(g[2]),i=kE([0,[0,[0,E6,v(M,E5)],0]]);if(0===i[0]){var
+y=i[2];if(0===y[0]&&!i[3]){var
+N=i[4];if(!av(b3,N)){var
+ar=Y(v(M,E8));return[5,i[1],y[1],y[2],N,ar]}}}return al(E7)}var
+a=ai(g[2]),z=bc(a,E9),A=z?_(EJ,ae(z[1])):z,o=function(b){var
+a=0!==A?1:0;return a?al(E_):a},j=d3(v(a,E$)),b=d3(v(a,Fa)),c=j[1];if(p(c,Fb)&&p(c,Fc)&&p(c,Fd)){if(0===bc(a,Fe)){if(p(c,Ff)){var
+af=0;if(p(c,Fg)){if(!p(c,Fh)){var
+O=b[1],ag=0;if(p(O,Fk)&&p(O,Fl)){af=1;ag=1}if(!ag){var
+l=ae(j[2]),as=ae(v(a,Fo)),B=_(function(a){return d4(0,a)},as),at=av(function(a){switch(a[1]){case
+5:return 1-gn(DG,l);case
+11:return av(DJ,l);case
+7:case
+9:case
+10:case
+12:return 1;default:return 0}},B);if(!av(Dg,l)){var
+ah=0;if(!av(b3,B)||at)ah=1;if(ah){var
+ax=_(C2,l),f=ai(b[2]);if(p(b[1],Ex))var
+I=ds(Y,v(f,Ey)),J=ds(Y,v(f,Ez)),am=J[2],an=J[1],ao=Y(v(f,EA)),P=[1,I[1],I[2],ao,an,am];else
 var
-am=fY(Y,v(f,Em)),O=[0,fY(Y,v(f,En)),am];return[0,as,O,z,N]}n(0);var
-aq=_(ku,ad(v(a,Fa))),ar=kv(b);return[1,0,_(p0,A),0,ar,0,aq]}}}else
-if(!p(b[1],Fb)){n(0);var
-P=_(ku,ad(v(a,Fc))),u=0,e=P;for(;;){if(e){var
-F=e[2],G=e[1];if(0===G[1]){var
-u=[0,G,u],e=F;continue}var
-e=F;continue}var
-m=lf(u),af=0;if(m){var
-d=0,Q=m[1][4];if(typeof
-Q==="number")d=1;else
-switch(Q[0]){case
+ap=f1(Y,v(f,EB)),P=[0,f1(Y,v(f,EC)),ap];return[0,ax,P,A,B]}}o(0);var
+au=_(kC,ae(v(a,Fp))),aw=kD(b);return[1,0,_(p9,l),0,aw,0,au]}}}else
+if(!p(b[1],Fq)){o(0);var
+Q=_(kC,ae(v(a,Fr))),w=0,e=Q;for(;;){if(e){var
+G=e[2],H=e[1];if(0===H[1]){var
+w=[0,H,w],e=G;continue}var
+e=G;continue}var
+n=ln(w),aj=0;if(n){var
+d=0,R=n[1][4];if(typeof
+R==="number")d=1;else
+switch(R[0]){case
 0:var
-B=m[2];if(B){var
-D=0,R=B[1][4];if(typeof
-R!=="number"&&1===R[0])if(B[2]){d=1;D=1}else
-D=1;if(!D)d=1}else
+C=n[2];if(C){var
+E=0,S=C[1][4];if(typeof
+S!=="number"&&1===S[0])if(C[2]){d=1;E=1}else
+E=1;if(!E)d=1}else
 d=1;break;case
 1:var
-C=m[2];if(C){var
-E=0,S=C[1][4];if(typeof
-S!=="number"&&0===S[0])if(C[2]){d=1;E=1}else
-E=1;if(!E)d=1}else
-d=1;break;default:d=1}if(!d)af=1}if(!af)al(Fd);var
-at=Y(v(ai(b[2]),Fe));return[4,Y(v(ai(j[2]),Ff)),at,P]}}if(!ac)return al([0,E6,[0,c,E5]])}else
-if(!p(b[1],Fg)){n(0);var
-o=ai(j[2]),T=ai(b[2]),U=function(c,a){var
-b=ad(a);return _(function(d){var
-a=ad(d);if(a){var
+D=n[2];if(D){var
+F=0,T=D[1][4];if(typeof
+T!=="number"&&0===T[0])if(D[2]){d=1;F=1}else
+F=1;if(!F)d=1}else
+d=1;break;default:d=1}if(!d)aj=1}if(!aj)al(Fs);var
+ay=Y(v(ai(b[2]),Ft));return[4,Y(v(ai(j[2]),Fu)),ay,Q]}}if(!af)return al([0,Fj,[0,c,Fi]])}else
+if(!p(b[1],Fv)){o(0);var
+q=ai(j[2]),U=ai(b[2]),V=function(c,a){var
+b=ae(a);return _(function(d){var
+a=ae(d);if(a){var
 b=a[2];if(b&&!b[2]){var
-e=k(c,b[1]);return[0,a1(a[1]),e]}}throw X},b)},au=function(d){var
+e=k(c,b[1]);return[0,a2(a[1]),e]}}throw X},b)},az=function(d){var
 a=ai(d);if(a){var
-b=a[1],c=b[1];if(p(c,Fh)){if(!p(c,Fi)&&!a[2])return[0,_(ks,ad(b[2]))]}else
-if(!a[2])return[1,ks(b[2])]}throw X},av=_(Ed,ad(v(a,Fj))),aw=_(Y,ad(v(T,Fk))),ax=_(Y,ad(v(T,Fl))),ay=_(au,ad(v(o,Fm))),az=U(ks,v(o,Fn)),aA=U(b3,v(o,Fo));return[3,_(a1,ad(v(o,Fp))),aA,az,ay,ax,aw,av]}return al([0,E_,[0,b[1],E9]])}throw X}var
-V=ai(j[2]),q=cm(Y,bb(V,Fq)),aC=function(f){var
-a=d2(f),b=a[1];if(p(b,Fr)){if(p(b,Fs)){if(p(b,Ft)){if(p(b,Fu))throw X;var
-d=a[2],g=Y(v(ai(d),Fv));return[3,Y(v(ai(d),Fw)),g]}var
-h=a[2],c=function(a){return dr(Y,v(ai(h),a))},i=c(Fx),j=c(Fy);return[1,c(Fz),j,i]}var
-e=dr(Y,a[2]);return[0,e[1],e[2]]}return[2,Y(a[2])]},r=cm(aC,bb(a,FA)),W=p(c,FB),Z=W?p(c,FC)?2:1:W,s=ad(v(V,FD));if(q&&r&&im(p1,s)){var
-aD=function(c){var
+b=a[1],c=b[1];if(p(c,Fw)){if(!p(c,Fx)&&!a[2])return[0,_(kA,ae(b[2]))]}else
+if(!a[2])return[1,kA(b[2])]}throw X},aA=_(Es,ae(v(a,Fy))),aB=_(Y,ae(v(U,Fz))),aD=_(Y,ae(v(U,FA))),aE=_(az,ae(v(q,FB))),aF=V(kA,v(q,FC)),aG=V(b4,v(q,FD));return[3,_(a2,ae(v(q,FE))),aG,aF,aE,aD,aB,aA]}return al([0,Fn,[0,b[1],Fm]])}throw X}var
+W=ai(j[2]),r=cn(Y,bc(W,FF)),aH=function(f){var
+a=d3(f),b=a[1];if(p(b,FG)){if(p(b,FH)){if(p(b,FI)){if(p(b,FJ))throw X;var
+d=a[2],g=Y(v(ai(d),FK));return[3,Y(v(ai(d),FL)),g]}var
+h=a[2],c=function(a){return ds(Y,v(ai(h),a))},i=c(FM),j=c(FN);return[1,c(FO),j,i]}var
+e=ds(Y,a[2]);return[0,e[1],e[2]]}return[2,Y(a[2])]},s=cn(aH,bc(a,FP)),Z=p(c,FQ),$=Z?p(c,FR)?2:1:Z,t=ae(v(W,FS));if(r&&s&&gn(p_,t)){var
+aI=function(c){var
 a=ai(c);function
-b(b){return _(b3,ad(v(a,b)))}if(0!==bb(a,FE))al(FF);var
-d=b(FG);return[0,b(FH),d]},aE=_(Ef,ad(v(a,FI))),aF=r[1],aH=kv(b),aI=q[1];return[2,Z,_(aD,s),aI,aH,aF,z,aE]}n(0);var
-ag=0;if(!q&&aB(c,FL)){var
-$=1;ag=1}if(!ag)var
-$=[0,Z];var
-aa=0!==r?1:0,aJ=aa?aG(p1,s):aa;if(aJ)al(FJ);var
-aK=_(ku,ad(v(a,FK))),aL=kv(b);return[1,$,_(p0,s),q,aL,r,aK]}var
-t=ai(g[2]);function
-aM(b){var
-a=ai(b),c=Y(v(a,FM)),d=[0,Y(v(a,FN)),c];return[0,a1(v(a,FO)),d]}var
-l=kw([0,[0,[0,FQ,v(t,FP)],0]]);if(0===l[0]&&!l[3]){var
-aN=Y(v(t,FS)),aO=Y(v(t,FT)),aP=l[4],aQ=l[2],aR=l[1];return[7,_(aM,ad(v(t,FU))),aR,aQ,aP,aO,aN]}return al(FR)}function
-f0(a){return _(eQ,ad(a))}function
-hT(c,b){var
-a=f0(b);if(cs(a)!==c)throw X;return a}function
-p4(a,d){var
-b=ai(d),e=ad(v(b,FX)),f=a[2],c=_(function(a){return hT(f,a)},e),g=a[1];if(cs(c)!==g)throw X;return[0,c,dq(v(b,FY))]}function
-ds(au,i){var
+b(b){return _(b4,ae(v(a,b)))}if(0!==bc(a,FT))al(FU);var
+d=b(FV);return[0,b(FW),d]},aJ=_(Eu,ae(v(a,FX))),aK=s[1],aL=kD(b),aM=r[1];return[2,$,_(aI,t),aM,aL,aK,A,aJ]}o(0);var
+ak=0;if(!r&&aC(c,F0)){var
+aa=1;ak=1}if(!ak)var
+aa=[0,$];var
+ab=0!==s?1:0,aN=ab?av(p_,t):ab;if(aN)al(FY);var
+aO=_(kC,ae(v(a,FZ))),aP=kD(b);return[1,aa,_(p9,t),r,aP,s,aO]}var
+u=ai(g[2]);function
+aQ(b){var
+a=ai(b),c=Y(v(a,F1)),d=[0,Y(v(a,F2)),c];return[0,a2(v(a,F3)),d]}var
+m=kE([0,[0,[0,F5,v(u,F4)],0]]);if(0===m[0]&&!m[3]){var
+ac=m[4];if(!av(b3,ac)){var
+aR=Y(v(u,F7)),aS=Y(v(u,F8)),aT=m[2],aU=m[1];return[7,_(aQ,ae(v(u,F9))),aU,aT,ac,aS,aR]}}return al(F6)}function
+f3(a){return _(eR,ae(a))}function
+h1(c,b){var
+a=f3(b);if(cu(a)!==c)throw X;return a}function
+qb(a,d){var
+b=ai(d),e=ae(v(b,Ga)),f=a[2],c=_(function(a){return h1(f,a)},e),g=a[1];if(cu(c)!==g)throw X;return[0,c,dr(v(b,Gb))]}function
+dt(au,i){var
 as=0;if(0===i[0]){var
 q=i[1];if(q){var
-U=q[1];if(!p(U[1],FZ)){var
+U=q[1];if(!p(U[1],Gc)){var
 ag=U[2];if(0===ag[0]){var
 L=ag[1];if(L){var
-ah=L[1];if(!p(ah[1],Gl)){var
+ah=L[1];if(!p(ah[1],GA)){var
 aj=ah[2];if(1===aj[0]){var
 M=aj[1];if(M){var
 ak=M[1];if(1===ak[0]){var
 am=ak[1];if(am&&!am[2]&&!M[2]){var
 an=L[2];if(an&&!an[2]&&!q[2]){var
-f=Gm;as=1}}}}}}}}}}}if(!as)var
+f=GB;as=1}}}}}}}}}}}if(!as)var
 f=au;var
 r=f[2];switch(i[0]){case
 0:var
 c=i[1];if(c){var
-e=c[1],a=e[1],V=sq(a,F0),b=0;if(0<=V)if(0<V)if(p(a,F1)){var
-g=0;if(p(a,F2)&&p(a,F3)&&p(a,F4))if(p(a,F5))g=1;else{var
+e=c[1],a=e[1],V=sz(a,Gd),b=0;if(0<=V)if(0<V)if(p(a,Ge)){var
+g=0;if(p(a,Gf)&&p(a,Gg)&&p(a,Gh))if(p(a,Gi))g=1;else{var
 W=e[2];if(1===W[0]){var
 s=W[1];if(s){var
 t=s[2];if(t){var
 u=t[2];if(u&&!u[2]){if(!c[2]){var
-av=_(f0,ad(u[1])),aw=a1(t[1]);return[8,ds(f,s[1]),aw,av]}b=1;g=1}else
+av=_(f3,ae(u[1])),aw=a2(t[1]);return[8,dt(f,s[1]),aw,av]}b=1;g=1}else
 g=1}else
 g=1}else
 g=1}else
@@ -8800,7 +8854,7 @@ Z=e[2];if(1===Z[0]){var
 y=Z[1];if(y){var
 z=y[2];if(z){var
 A=z[2];if(A&&!A[2]){if(!c[2]){var
-ay=dq(A[1]),az=eQ(z[1]);return[5,ds(f,y[1]),az,ay]}b=1}}}}}else{var
+ay=dr(A[1]),az=eR(z[1]);return[5,dt(f,y[1]),az,ay]}b=1}}}}}else{var
 $=e[2];if(1===$[0]){if(!c[2]){var
 aA=function(m){if(1===m[0]){var
 d=m[1];if(d){var
@@ -8811,104 +8865,104 @@ n=h[1],a=n;for(;;){var
 i=0;switch(a[0]){case
 0:var
 b=a[1];if(b){var
-j=b[1],c=j[1];if(p(c,F8)){var
-o=0;if(p(c,F9)&&p(c,F_)&&p(c,F$))o=1;if(!o&&!b[2])i=1}else{var
+j=b[1],c=j[1];if(p(c,Gl)){var
+o=0;if(p(c,Gm)&&p(c,Gn)&&p(c,Go))o=1;if(!o&&!b[2])i=1}else{var
 k=j[2];if(1===k[0]){var
 l=k[1];if(l&&!b[2]){var
 a=l[1];continue}}}}break;case
-2:if(!p(a[1],Ga))i=1;break}var
+2:if(!p(a[1],Gp))i=1;break}var
 q=i?1:0;if(q){var
-r=ds(f,n),s=dq(g[1]),t=eQ(e[1]);return[0,[0,[0,f0(d[1]),t],s],r]}return al(Gb)}}}}}}throw X};return[9,_(aA,$[1])]}b=1}}else
-if(p(a,Gc))if(p(a,Gd))if(p(a,Ge))if(p(a,Gf))if(p(a,Gg)){if(!p(a,Gh)){if(!c[2]){var
-aa=ai(e[2]),aB=ad(v(aa,Gi)),aC=r+1|0,ab=_(function(a){return hT(aC,a)},aB);if(3===cs(ab))return[1,Gk,ab,dq(v(aa,Gj))];throw X}b=1}}else{if(!c[2]){var
-R=a1(e[2]),S=p(R,FV);if(S){if(p(R,FW))throw X;var
+r=dt(f,n),s=dr(g[1]),t=eR(e[1]);return[0,[0,[0,f3(d[1]),t],s],r]}return al(Gq)}}}}}}throw X};return[9,_(aA,$[1])]}b=1}}else
+if(p(a,Gr))if(p(a,Gs))if(p(a,Gt))if(p(a,Gu))if(p(a,Gv)){if(!p(a,Gw)){if(!c[2]){var
+aa=ai(e[2]),aB=ae(v(aa,Gx)),aC=r+1|0,ab=_(function(a){return h1(aC,a)},aB);if(3===cu(ab))return[1,Gz,ab,dr(v(aa,Gy))];throw X}b=1}}else{if(!c[2]){var
+R=a2(e[2]),S=p(R,F_);if(S){if(p(R,F$))throw X;var
 T=1}else
 var
 T=S;return[2,T]}b=1}else{if(!c[2]){var
 k=e[2],o=0;switch(k[0]){case
 0:var
 l=k[1];if(l){var
-ao=l[1],j=ao[1],d=0;if(p(j,Gn)&&p(j,Go)&&p(j,Gp)&&p(j,Gq))if(p(j,Gr))d=1;else{var
+ao=l[1],j=ao[1],d=0;if(p(j,GC)&&p(j,GD)&&p(j,GE)&&p(j,GF))if(p(j,GG))d=1;else{var
 ap=ao[2];if(1===ap[0]){var
 N=ap[1];if(N){var
 m=N[1],h=0;switch(m[0]){case
 0:var
 O=m[1];if(O){var
-n=O[1][1],at=0;if(p(n,Gt)&&p(n,Gu)&&p(n,Gv)&&p(n,Gw)){d=1;h=1;at=1}if(!at&&O[2]){d=1;h=1}}else{d=1;h=1}break;case
+n=O[1][1],at=0;if(p(n,GI)&&p(n,GJ)&&p(n,GK)&&p(n,GL)){d=1;h=1;at=1}if(!at&&O[2]){d=1;h=1}}else{d=1;h=1}break;case
 2:var
-aq=m[1];if(p(aq,Gx)&&p(aq,Gy)){d=1;h=1}break;default:d=1;h=1}if(!h){var
+aq=m[1];if(p(aq,GM)&&p(aq,GN)){d=1;h=1}break;default:d=1;h=1}if(!h){var
 P=N[2];if(P){var
 Q=P[2];if(Q&&!(Q[2]||l[2])){var
-aL=dq(Q[1]),aM=eQ(P[1]),B=[6,ds(f,m),aM,aL];o=2;d=1}else
+aL=dr(Q[1]),aM=eR(P[1]),B=[6,dt(f,m),aM,aL];o=2;d=1}else
 d=1}else
 d=1}}else
 d=1}else
 d=1}if(!d&&!l[2])o=1}break;case
 2:var
-ar=k[1];if(!p(ar,Gz)||!p(ar,GA))o=1;break}switch(o){case
+ar=k[1];if(!p(ar,GO)||!p(ar,GP))o=1;break}switch(o){case
 0:var
-B=al(Gs);break;case
+B=al(GH);break;case
 1:var
-B=ds(f,k);break}return[7,B]}b=1}else{var
+B=dt(f,k);break}return[7,B]}b=1}else{var
 ac=e[2];if(1===ac[0]){var
 C=ac[1];if(C){var
 D=C[2];if(D&&!D[2])if(c[2])b=1;else{var
-aD=D[1],aE=C[1],x=aE,w=function(b,a){return[3,b,a,hT(r+1|0,aD)]};b=2}}}}else{var
-ae=e[2];if(1===ae[0]){var
-E=ae[1];if(E){var
+aD=D[1],aE=C[1],x=aE,w=function(b,a){return[3,b,a,h1(r+1|0,aD)]};b=2}}}}else{var
+ad=e[2];if(1===ad[0]){var
+E=ad[1];if(E){var
 F=E[2];if(F){var
 G=F[2];if(G){var
 H=G[2];if(H&&!H[2]){if(!c[2]){var
-aF=ds(f,H[1]),aG=ds(f,G[1]),aH=dq(F[1]);return[10,hT(r+1|0,E[1]),aH,aG,aF]}b=1}}}}}}else{var
+aF=dt(f,H[1]),aG=dt(f,G[1]),aH=dr(F[1]);return[10,h1(r+1|0,E[1]),aH,aG,aF]}b=1}}}}}}else{var
 af=e[2];if(1===af[0]){var
 I=af[1];if(I){var
 J=I[2];if(J){var
 K=J[2];if(K&&!K[2])if(c[2])b=1;else{var
 aI=K[1],aJ=J[1],aK=I[1],x=aK,w=function(b,a){var
-c=dq(aI);return[4,b,a,eQ(aJ),c]};b=2}}}}}switch(b){case
-0:if(!c[2])return al([0,F7,[0,a,F6]]);break;case
+c=dr(aI);return[4,b,a,eR(aJ),c]};b=2}}}}}switch(b){case
+0:if(!c[2])return al([0,Gk,[0,a,Gj]]);break;case
 1:break;default:var
-Y=p4(f,x);return w(Y[1],Y[2])}}break;case
+Y=qb(f,x);return w(Y[1],Y[2])}}break;case
 2:return[0,i[1]]}throw X}function
-p5(n){var
-b=d2(n),a=b[1];if(p(a,GD))if(p(a,GE)){var
-h=p(a,GF);if(!h)return h;if(p(a,GG)){if(!p(a,GH)){var
-c=ai(b[2]),i=function(a){return _(Y,ad(v(c,a)))},j=ai(v(c,GL)),o=dq(v(j,GM)),q=_(f0,ad(v(j,GN))),r=i(GO),s=i(GP);return[3,cQ(v(c,GQ)),s,r,q,o]}if(!p(a,GI))return[2,_(Y,ad(b[2]))]}else{var
+qc(n){var
+b=d3(n),a=b[1];if(p(a,GS))if(p(a,GT)){var
+h=p(a,GU);if(!h)return h;if(p(a,GV)){if(!p(a,GW)){var
+c=ai(b[2]),i=function(a){return _(Y,ae(v(c,a)))},j=ai(v(c,G0)),o=dr(v(j,G1)),q=_(f3,ae(v(j,G2))),r=i(G3),s=i(G4);return[3,cS(v(c,G5)),s,r,q,o]}if(!p(a,GX))return[2,_(Y,ae(b[2]))]}else{var
 k=b[2];if(1===k[0]){var
 d=k[1];if(d){var
 e=d[2];if(e&&!e[2]){var
-t=cQ(e[1]);return[1,cQ(d[1]),t]}}}}}else{var
+t=cS(e[1]);return[1,cS(d[1]),t]}}}}}else{var
 l=b[2];if(1===l[0]){var
 f=l[1];if(f){var
 g=f[2];if(g&&!g[2]){var
-u=_(f0,ad(g[1]));return[0,cQ(f[1]),u]}}}}else{var
-m=b[2];if(1===m[0]&&!m[1])return 1}return al([0,GK,[0,a,GJ]])}function
-p6(f,b){var
-a=ai(b),c=ad(v(a,GV)),d=_(function(g){var
+u=_(f3,ae(g[1]));return[0,cS(f[1]),u]}}}}else{var
+m=b[2];if(1===m[0]&&!m[1])return 1}return al([0,GZ,[0,a,GY]])}function
+qd(f,b){var
+a=ai(b),c=ae(v(a,G_)),d=_(function(g){var
 a=ai(g);function
 b(d,c){var
-b=bb(a,c);return b?_(d,ad(b[1])):b}var
-c=b(eQ,GR),d=cm(p5,bb(a,GS)),e=cm(cQ,bb(a,GT));return[0,b(function(h){var
-b=ad(h);if(b){var
+b=bc(a,c);return b?_(d,ae(b[1])):b}var
+c=b(eR,G6),d=cn(qc,bc(a,G7)),e=cn(cS,bc(a,G8));return[0,b(function(h){var
+b=ae(h);if(b){var
 a=b[2];if(a){var
-c=a[1],e=b[1],d=0;if(2===c[0]&&!p(c[1],GB)){if(!a[2]){if(p(fX(e),GC))throw X;d=1}}else
+c=a[1],e=b[1],d=0;if(2===c[0]&&!p(c[1],GQ)){if(!a[2]){if(p(f0(e),GR))throw X;d=1}}else
 d=1;if(d&&!a[2]){var
-g=ds(f,c);return[0,cQ(e),g]}}}throw X},GU),e,d,c]},c),e=bb(a,GW),g=cm(function(a){return p4(f,a)},e);return[0,pX(v(a,GX)),g,d]}function
-p7(c){var
-a=ai(c),b=bb(a,GY),d=b?_(Y,ad(b[1])):b,e=p5(v(a,GZ)),f=_(Y,ad(v(a,G0)));return[0,pX(v(a,G1)),f,d,e]}function
-G$(c){var
+g=dt(f,c);return[0,cS(e),g]}}}throw X},G9),e,d,c]},c),e=bc(a,G$),g=cn(function(a){return qb(f,a)},e);return[0,p6(v(a,Ha)),g,d]}function
+qe(c){var
+a=ai(c),b=bc(a,Hb),d=b?_(Y,ae(b[1])):b,e=qc(v(a,Hc)),f=_(Y,ae(v(a,Hd)));return[0,p6(v(a,He)),f,d,e]}function
+Ho(c){var
 a=c[1],b=0;if(10<=a){if(!(13<=a))b=1}else
 if(8===a)b=1;return b?1:0}function
-Ha(b){var
+Hp(b){var
 a=b[3];if(a&&1===a[1][0])return 1;return 0}function
-Hb(b){var
-c=b[1],a=b[4];if(!(1<c+q0>>>0)&&typeof
-a!=="number"&&1===a[0])return 1-hk(j(a[1]));return 10===c?1:0}function
-Hf(g){var
-i=az(g),c=[0,0];function
-j(a){if(c[1]<i)return a7(g,c[1]);throw X}function
+Hq(b){var
+c=b[1],a=b[4];if(!(1<c+q9>>>0)&&typeof
+a!=="number"&&1===a[0])return 1-ho(j(a[1]));return 10===c?1:0}function
+Hu(g){var
+i=aA(g),c=[0,0];function
+j(a){if(c[1]<i)return a8(g,c[1]);throw X}function
 l(a){if(j(0)===a){c[1]++;return 0}throw X}function
-D(a,b){for(;;){if(c[1]<i&&k(b,a7(g,c[1]))){c[1]++;continue}return d$(g,a,c[1]-a|0)}}function
+D(a,b){for(;;){if(c[1]<i&&k(b,a8(g,c[1]))){c[1]++;continue}return ea(g,a,c[1]-a|0)}}function
 E(d){l(34);function
 a(a){var
 b=34!==a?1:0;if(b)var
@@ -8919,7 +8973,7 @@ b=D(c[1],a);l(34);return b}function
 F(e,a){if(j(0)===a){c[1]++;return 0}var
 b=0;for(;;){var
 d=[0,k(e,0),b];if(44===j(0)){c[1]++;var
-b=d;continue}l(a);return lf(d)}}function
+b=d;continue}l(a);return ln(d)}}function
 r(b,k){if(64<b)throw X;var
 a=j(0),d=0;if(48<=a){if(91===a){c[1]++;var
 f=93,g=b+1|0;return[1,F(function(a){return r(g,a)},f)]}if(123===a){c[1]++;var
@@ -8927,10 +8981,10 @@ h=125;return[0,F(function(c){var
 a=E(0);l(58);return[0,a,r(b+1|0,0)]},h)]}if(!(58<=a))d=1}else{if(34===a)return[2,E(0)];if(45===a)d=1}if(d){var
 i=c[1];c[1]++;var
 e=D(i,function(a){var
-b=48<=a?1:0,c=b?a<=57?1:0:b;return c});if(p(e,CH))return[3,e];throw X}throw X}var
-V=r(0,0),G=c[1]<i?1:0,W=G?10===a7(g,c[1])?1:0:G;if(W)c[1]++;if(c[1]<i)throw X;var
-q=ai(V);if(p(a1(v(q,Hg)),Hh))throw X;var
-a=kw(v(q,Hi)),y=0;switch(a[0]){case
+b=48<=a?1:0,c=b?a<=57?1:0:b;return c});if(p(e,CQ))return[3,e];throw X}throw X}var
+V=r(0,0),G=c[1]<i?1:0,W=G?10===a8(g,c[1])?1:0:G;if(W)c[1]++;if(c[1]<i)throw X;var
+q=ai(V);if(p(a2(v(q,Hv)),Hw))throw X;var
+a=kE(v(q,Hx)),y=0;switch(a[0]){case
 1:var
 w=a[1],z=0;if(typeof
 w==="number")if(w)var
@@ -8940,56 +8994,56 @@ if(1===w[1])var
 x=6;else
 z=1;if(z)var
 x=3;var
-f=[0,cs(a[2]),x];break;case
+f=[0,cu(a[2]),x];break;case
 2:var
-an=1===a[1]?6:3,f=[0,cs(a[2]),an];break;case
+an=1===a[1]?6:3,f=[0,cu(a[2]),an];break;case
 3:var
-ao=cs(a[1]),f=[0,cs(a[4]),ao];break;case
+ao=cu(a[1]),f=[0,cu(a[4]),ao];break;case
 7:var
 H=a[2];y=1;break;case
 0:case
 5:var
 H=a[1];y=1;break;default:var
-f=HD}if(y)var
-f=[0,cs(H),3];var
-m=d2(v(q,Hj)),n=m[1];if(p(n,G6))if(p(n,G7))if(p(n,G8))var
-b=al([0,G_,[0,n,G9]]);else
+f=HS}if(y)var
+f=[0,cu(H),3];var
+m=d3(v(q,Hy)),n=m[1];if(p(n,Hj))if(p(n,Hk))if(p(n,Hl))var
+b=al([0,Hn,[0,n,Hm]]);else
 var
-o=p7(m[2]),b=[1,o[1],o[2],o[3],o[4]];else
+o=qe(m[2]),b=[1,o[1],o[2],o[3],o[4]];else
 var
-s=p6(f,m[2]),b=[0,s[1],s[2],s[3]];else
+s=qd(f,m[2]),b=[0,s[1],s[2],s[3]];else
 var
-Y=ad(m[2]),b=[2,_(function(g){var
-a=d2(g),b=a[1];if(p(b,G2)){if(p(b,G3)){if(p(b,G4)){var
-e=p(b,G5);if(e)throw X;return e}return[0,cQ(a[2])]}var
-c=p7(a[2]);return[2,c[1],c[2],c[3],c[4]]}var
-d=p6(f,a[2]);return[1,d[1],d[2],d[3]]},Y)];function
+Y=ae(m[2]),b=[2,_(function(g){var
+a=d3(g),b=a[1];if(p(b,Hf)){if(p(b,Hg)){if(p(b,Hh)){var
+e=p(b,Hi);if(e)throw X;return e}return[0,cS(a[2])]}var
+c=qe(a[2]);return[2,c[1],c[2],c[3],c[4]]}var
+d=qd(f,a[2]);return[1,d[1],d[2],d[3]]},Y)];function
 Z(a){var
-b=a[1];return aG(function(a){return 7<a[2][0]?1:0},b)}function
+b=a[1];return av(function(a){return 7<a[2][0]?1:0},b)}function
 $(a){return 0!==a[3]?1:0}function
-I(a){return aG($,a)}var
+I(a){return av($,a)}var
 d=0;switch(a[0]){case
 0:if(0===b[0]){var
 K=a[4],J=a[1];d=4}else
 d=2;break;case
 1:var
 M=a[6],N=a[2],A=0;if(0===b[0]){var
-ac=b[3];if(aG(function(a){var
-b=a[1];return aG(function(a){switch(a[2][0]){case
+ac=b[3];if(av(function(a){var
+b=a[1];return av(function(a){switch(a[2][0]){case
 6:case
-7:return 1;default:return 0}},b)},ac))al(Hr);else
+7:return 1;default:return 0}},b)},ac))al(HG);else
 A=1}else
 A=1;var
 ap=0;if(A){var
-Q=0;if(aG(function(a){return 5===a[1]?1:0},M)&&aG(function(a){switch(a[0]){case
+Q=0;if(av(function(a){return 5===a[1]?1:0},M)&&av(function(a){switch(a[0]){case
 0:case
-3:return 0;default:return 1}},N)){al(Hs);Q=1}if(!Q){var
+3:return 0;default:return 1}},N)){al(HH);Q=1}if(!Q){var
 R=0;if(0===b[0]){var
-aq=0;if(aG(function(a){return 11===a[1]?1:0},M)&&aG(function(a){return 2===a[0]?1:0},N)){al(Ht);R=1;aq=1}}if(!R){var
+aq=0;if(av(function(a){return 11===a[1]?1:0},M)&&av(function(a){return 2===a[0]?1:0},N)){al(HI);R=1;aq=1}}if(!R){var
 t=a[6];d=3;ap=1}}}break;case
 2:var
-O=a[1],ae=a[7];if(0===b[0]){var
-af=1===O?6:3,P=cs(a[2])===af?1:0;if(P){var
+O=a[1],ad=a[7];if(0===b[0]){var
+af=1===O?6:3,P=cu(a[2])===af?1:0;if(P){var
 S=0;if(2<=O||!(0===a[4][0]))S=1;else
 var
 u=1;if(S)var
@@ -9001,78 +9055,78 @@ g=0;if(!b[1]){var
 d=b[2];if(8===d[0]){var
 e=d[1];if(7===e[0]){var
 c=e[1],a=0;switch(c[0]){case
-1:if(p(c[1],Hv))a=1;break;case
+1:if(p(c[1],HK))a=1;break;case
 6:var
-f=c[1];if(1!==f[0]||p(f[1],Hw))a=1;break;default:a=1}if(!a)return 1-u}}else
-g=1}if(!g&&8===b[2][0])return 1;return 0},ah=b[3],ar=0;if(aG(function(a){return aG(ag,a[1])},ah))al(Hx);else{var
-aj=b[3];if(im(function(a){var
-b=a[1];return im(function(d){var
+f=c[1];if(1!==f[0]||p(f[1],HL))a=1;break;default:a=1}if(!a)return 1-u}}else
+g=1}if(!g&&8===b[2][0])return 1;return 0},ah=b[3],ar=0;if(av(function(a){return av(ag,a[1])},ah))al(HM);else{var
+aj=b[3];if(gn(function(a){var
+b=a[1];return gn(function(d){var
 b=d[2],a=0;switch(b[0]){case
 0:var
-c=b[1];if(p(c,Hc)){if(!p(c,Hd))return aG(Hb,ae)}else
+c=b[1];if(p(c,Hr)){if(!p(c,Hs))return av(Hq,ad)}else
 a=1;break;case
-1:if(!p(b[1],He))a=1;break;case
+1:if(!p(b[1],Ht))a=1;break;case
 7:case
 8:a=1;break}return a?1:0},b)},aj)){d=1;ar=1}else
-al(Hy)}}else
+al(HN)}}else
 d=2;break;case
 3:var
-T=0;if(0===b[0]&&aG(Z,b[3]))al(Hz);else
+T=0;if(0===b[0]&&av(Z,b[3]))al(HO);else
 T=1;if(T){var
 t=a[7];d=3}break;case
 4:var
 t=a[3];d=3;break;case
-5:if(aG(G$,a[4]))al(HA);else
+5:if(av(Ho,a[4]))al(HP);else
 if(0===b[0]){var
-ak=b[3];if(aG(function(a){return 0!==a[1]?1:0},ak))al(HB);else
+ak=b[3];if(av(function(a){return 0!==a[1]?1:0},ak))al(HQ);else
 d=1}else
 d=1;break;case
 6:d=1;break;default:var
 B=0;if(2===b[0]){var
-am=b[1];if(aG(function(a){if(typeof
+am=b[1];if(av(function(a){if(typeof
 a!=="number"&&2===a[0]){var
 b=a[4];if(typeof
-b!=="number"&&3===b[0])return 1}return 0},am))al(HC);else
+b!=="number"&&3===b[0])return 1}return 0},am))al(HR);else
 B=1}else
 B=1;if(B){var
 K=a[4],J=a[2];d=4}}var
 e=0;switch(d){case
-3:if(0===b[0])if(aG(function(a){return 12===a[1]?1:0},t)){al(Hu);e=3}else
+3:if(0===b[0])if(av(function(a){return 12===a[1]?1:0},t)){al(HJ);e=3}else
 e=2;else
 e=1;break;case
 0:e=3;break;case
 4:var
-U=0;if(aG(function(a){return 10===a[1]?1:0},K)&&aG(function(a){return 2===a[0]?1:0},J)){al(Hk);U=1}if(!U)e=2;break;case
+U=0;if(av(function(a){return 10===a[1]?1:0},K)&&av(function(a){return 2===a[0]?1:0},J)){al(Hz);U=1}if(!U)e=2;break;case
 1:e=2;break;default:e=1}var
 C=0;switch(e){case
 3:break;case
 2:var
 h=0;switch(a[0]){case
 5:case
-7:if(aG(Ha,a[4])){al(Hp);h=1}else
+7:if(av(Hp,a[4])){al(HE);h=1}else
 if(7===a[0])switch(b[0]){case
 2:var
 ab=function(a){if(typeof
-a!=="number"&&1===a[0])return I(a[3]);return 0};if(aG(ab,b[1]))al(Hq);h=1;break;case
+a!=="number"&&1===a[0])return I(a[3]);return 0};if(av(ab,b[1]))al(HF);h=1;break;case
 0:break;default:C=1;h=1}else
-h=1;break}if(!h)if(0===b[0]&&I(b[3]))al(Ho);else
+h=1;break}if(!h)if(0===b[0]&&I(b[3]))al(HD);else
 C=1;break;case
 1:C=1;break}var
-L=ai(v(q,Hl)),aa=a1(v(L,Hm));return[0,a,b,a1(v(L,Hn)),aa]}function
-HE(b){var
-c=az(b),g=64,h=Jf(64,c)?g:c,a=0,i=h-18|0;for(;;){var
+L=ai(v(q,HA)),aa=a2(v(L,HB));return[0,a,b,a2(v(L,HC)),aa]}function
+HT(b){var
+c=aA(b),g=64,h=Ju(64,c)?g:c,a=0,i=h-18|0;for(;;){var
 d=a<=i?1:0;if(d){var
-e=aB(d$(b,a,18),HF);if(!e){var
+e=aC(ea(b,a,18),HU);if(!e){var
 a=a+1|0;continue}var
 f=e}else
 var
-f=d;return f}}JA(function(b){try{if(HE(b))var
-a=HH;else{try{var
-e=0,d=Hf(b);e=1}catch(a){a=ss(a);if(a[1]===pW)var
+f=d;return f}}JP(function(b){try{if(HT(b))var
+a=HW;else{try{var
+e=0,d=Hu(b);e=1}catch(a){a=sB(a);if(a[1]===p5)var
 c=[0,a[2]];else{if(a!==X)throw a;var
 c=2}}if(e)var
-c=CD(b,d)?1===d[2][0]?1:0:2;var
-a=c}}catch(a){return HG}if(typeof
+c=CM(b,d)?1===d[2][0]?1:0:2;var
+a=c}}catch(a){return HV}if(typeof
 a==="number")switch(a){case
-0:return HI;case
-1:return HJ;default:return HK}return bd(HL,a[1])});le(0);return}(globalThis));
+0:return HX;case
+1:return HY;default:return HZ}return be(H0,a[1])});lm(0);return}(globalThis));

@@ -61,6 +61,7 @@ impl Subject<'_> {
     /// What `means` says of a certificate of it, with a witness or without.
     pub fn means(&self, proof: &Proof) -> &'static str {
         let is_refuted = matches!(proof, Proof::Witness(_));
+        let has_parts = self.requirements.iter().any(is_of_legs_alone);
         match (self.kind, is_refuted) {
             (Kind::Turning, true) if is_same(proof) => {
                 "one_pose the_claim = true /\\ exists m P Q P' Q', is_about_struts the_claim m P Q /\\\n  \
@@ -69,6 +70,15 @@ impl Subject<'_> {
             }
             (Kind::Legs, true) if is_same(proof) => "has_two_poses the_claim",
             (Kind::Formulas, true) if is_same(proof) => "has_two_points the_claim",
+            (Kind::Machine, false) if has_parts => {
+                "(holds the_claim /\\ exists m P, is_about the_claim m P) /\\\n  \
+                 driven_holds (claim_of_legs the_legs the_workspace the_requirements)"
+            }
+            (Kind::Machine, true) if has_parts => {
+                "(exists m P, is_about the_claim m P /\\ ~ meets the_claim m P) \\/\n  \
+                 let c := claim_of_legs the_legs the_workspace the_requirements in\n  \
+                 exists m P Q, Forall well_formed_driven m /\\ is_about_driven c m P Q /\\ ~ meets_driven c m P Q"
+            }
             (Kind::Machine, false) => "holds the_claim /\\ exists m P, is_about the_claim m P",
             (Kind::Machine, true) => "exists m P, is_about the_claim m P /\\ ~ meets the_claim m P",
             (Kind::Legs, false) => {
@@ -177,7 +187,9 @@ pub fn subject(claim: &Claim) -> Exported<Subject<'_>> {
 fn alone<'a>(claim: &'a MachineClaim, what: &str) -> Exported<(Subject<'a>, [Argument; 3])> {
     let subject = machine(claim)?;
     match (subject.kind, subject.arguments.as_slice()) {
-        (Kind::Machine, [legs, workspace, _, requirements]) if claim.bodies.is_empty() => {
+        (Kind::Machine, [legs, workspace, _, requirements])
+            if claim.bodies.is_empty() && !claim.require.iter().any(is_of_legs_alone) =>
+        {
             let arguments = [legs.clone(), workspace.clone(), requirements.clone()];
             Ok((subject, arguments))
         }
@@ -185,12 +197,23 @@ fn alone<'a>(claim: &'a MachineClaim, what: &str) -> Exported<(Subject<'a>, [Arg
     }
 }
 
+/// What is asked of legs that do not turn the platform in the words of Legs.v alone.
+fn is_of_legs_alone(requirement: &Requirement) -> bool {
+    ["leg_angle", "load"].contains(&requirement.quantity.as_str())
+}
+
 fn machine(claim: &MachineClaim) -> Exported<Subject<'_>> {
     let MachineClaim { mechanism, workspace, bodies, require, .. } = claim;
     let is_of_legs = |legs: &[Leg]| {
         let is_arm = |leg: &Leg| matches!(leg, Leg::Arm { .. });
-        let is_of_any = |r: &Requirement| ["leg_angle", "load"].contains(&r.quantity.as_str());
-        legs.iter().any(is_arm) || require.iter().any(is_of_any)
+        let is_whole = |r: &Requirement| match r.quantity.as_str() {
+            "constraint_margin" | "clearance" | "joint_acceleration" | "accuracy" => true,
+            "one_to_one" => legs.iter().any(|leg| matches!(leg, Leg::Planar { .. })),
+            "parallel_margin" => !legs.iter().all(|leg| matches!(leg, Leg::Slider { .. })),
+            _ => false,
+        };
+        legs.iter().any(is_arm)
+            || require.iter().any(is_of_legs_alone) && !require.iter().any(is_whole)
     };
     let (kind, arguments, legs) = match (mechanism, workspace) {
         (Mechanism::Planar(turning), _) => turning_machine(claim, turning, "InPlane")?,
