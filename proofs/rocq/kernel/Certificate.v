@@ -1329,7 +1329,12 @@ Definition are_well_formed_legs (k : mobility) (ls : list written_driven) (ell :
   | Turns InSpace, Some x, Some (Tilted a b) => certainly exact_bits true (denoted x) && is_less_than_half_turn a && is_less_than_half_turn b
   | _, _, _ => false
   end &&
-  forallb (fun r => is_driven_demand arms k (length ls) r || is_of_two_points r && is_asked 0 0 r) rs && is_each_once rs && forallb is_demand_bound (demands arms (length ls) [] rs).
+  forallb (fun r => is_driven_demand arms k (length ls) r || is_of_two_points r && is_asked 0 0 r) rs &&
+  forallb (fun r => match about_ r with
+    | Serial_ | LegAngle_ => forallb (fun l => match l with AnySlider_ _ _ _ _ _ | AnyArm_ _ _ _ _ _ _ _ => true | _ => false end)
+        match leg_ r with Some n => match nth_error ls (pred n) with Some l => [l] | None => [] end | None => ls end
+    | _ => true
+    end) rs && is_each_once rs && forallb is_demand_bound (demands arms (length ls) [] rs).
 
 (** No machine within the tolerances has a direction that is zero. *)
 Definition has_direction (d : drive) : bool :=
@@ -1613,7 +1618,8 @@ Definition accept (c : certificate) : bool :=
       | _ => false
       end
   | Formulas_ xs ps ds rows a b rs, Nodes bits chords nodes =>
-      match tree_of (length xs) (with_two_ends (Written.inputs (by_formulas (written_claim_of xs ps ds rows a b rs)))) [] [] (length nodes) nodes with
+      let free := with_two_ends (Written.inputs (by_formulas (written_claim_of xs ps ds rows a b rs))) in
+      match tree_of (length xs) free free [] (length nodes) nodes with
       | Some (t, []) => are_well_formed_formulas xs ps rows a b rs &&
           certify_written exact_bits bits (matrix_of chords) (place_of_two_points false 1 (length rows) [] rs) (written_claim_of xs ps ds rows a b rs) t
       | _ => false
@@ -1767,7 +1773,7 @@ Proof.
       try (destruct (all_rational least); [| discriminate]; destruct (all_rational greatest); [| discriminate]; apply andb_true_iff in h as [_ h]; exact (refute_same_pose_sound _ _ _ _ _ _ _ _ _ h));
       (destruct (failure_at _ _ _ _ _ _) as [f |]; [| discriminate]; apply orb_true_iff in h as [h | h]; [exact (refute_turning_sound _ _ _ _ _ _ h) |]; destruct f as [| i [| d [|]] | |]; try discriminate;
        apply orb_true_iff in h as [h | h]; [exact (refute_accelerated_sound _ _ _ _ _ _ _ h) | exact (refute_far_pose_sound _ _ _ _ _ _ _ h)]).
-  - destruct (tree_of _ _ _ _ _ nodes) as [[tr [|]] |]; try discriminate. apply andb_true_iff in h as [_ h].
+  - cbv zeta in h. destruct (tree_of _ _ _ _ _ nodes) as [[tr [|]] |]; try discriminate. apply andb_true_iff in h as [_ h].
     exact (certify_written_sound _ _ _ _ _ _ h).
   - cbv zeta in h. destruct (take_list _ _) as [thetas [|]]; [| discriminate]. apply andb_true_iff in h as [_ h].
     destruct how; try exact (refute_between_written_sound _ _ _ _ _ h);

@@ -25,7 +25,7 @@ Definition slider_drive (w d : evec) (len : formula) (mode : bool) : drive_formu
   DriveFormulas (f_A f) (f_D f) (f_divided f) (ELength (f_joint f)) (Some (f_D f, len)) [root (Machine.product d d); root len].
 Definition strut_drive (w : evec) (axis : option evec) : drive_formulas :=
   let f := strut_formulas w w None in
-  DriveFormulas (f_A f) (f_D f) (f_divided f) (ELength (f_joint f)) None (match axis with Some k => [root (Machine.product k k)] | None => [] end).
+  DriveFormulas (f_A f) (f_D f) (f_divided f) (ELength (f_joint f)) (Some (integer 0, f_joint f)) (match axis with Some k => [root (Machine.product k k)] | None => [] end).
 Definition plane_drive (w d : evec) : drive_formulas :=
   let f := planar_formulas w (unit_vector d) in
   DriveFormulas (f_A f) (f_D f) (f_divided f) (ELength (f_joint f)) None [root (Machine.product d d)].
@@ -143,9 +143,10 @@ Proof.
   - cbn [divided_by ex]. intro h. apply defined_over in h. rewrite L in h. destruct (norm2_nonneg (span base platform C)) as [p | z]; [exact p |].
     exfalso. apply h. rewrite <- z, sqrt_0. ring.
   - intro reach. pose proof (sqrt_lt_R0 _ reach) as s0. assert (S : sqrt (norm2 (span base platform C)) ^ 2 = norm2 (span base platform C)) by (rewrite <- Rsqr_pow2; apply Rsqr_sqrt; lra).
-    split; [| split; [| split; [exact L | split; [exact I | right; exact hw]]]].
+    split; [| split; [| split; [exact L | split; [| right; exact hw]]]].
     + exists (u * sqrt (norm2 (span base platform C))). split; [rewrite D, Rpow_mult_distr, S; reflexivity |]. rewrite hw. unfold normalised. set (h := span base platform C) in *. clearbody h. unfold vscale. cbn [vx vy vz]. f_equal; field; lra.
     + rewrite val3_divided, L, hw. unfold normalised. set (h := span base platform C) in *. clearbody h. unfold vscale. cbn [vx vy vz]. f_equal; field; lra.
+    + exists (span base platform C), 0, (sqrt (norm2 (span base platform C))). split; [reflexivity |]. split; [cbn; ring |]. split; [exact L | exact hw].
 Qed.
 
 Lemma plane_drives : forall w d n C, val3 w = vscale u C -> (exists c, 0 < c /\ val3 d = vscale c n) -> drives_as (plane_drive w d) (Linear (Plane n)) C.

@@ -40,10 +40,11 @@ Definition own_reach (l : driven) (C : vec) : Prop := match l with Linear k => r
 (** Where the driven end is, of planes nowhere. *)
 Definition driven_end (l : driven) (C : vec) : vec :=
   match l with Linear (Guided k) => B_point k C | Linear (Extensible a _ _) => a | Linear (Plane _) => vzero | Rotary k => elbow k C end.
-(** The vector of a leg of fixed length, eta, and its length. *)
+(** The vector of a leg, eta, which of struts is put at 0, and its length. *)
 Definition own_rod (l : driven) (C : vec) : option (vec * R * R) :=
   match l with
   | Linear (Guided k) => Some (leg_vector k C, eta k C, leg_length k)
+  | Linear (Extensible a p _) => Some (span a p C, 0, sqrt (norm2 (span a p C)))
   | Rotary k => Some (Arm.rod k C, arm_eta k C, rod_length k)
   | _ => None
   end.
@@ -169,6 +170,7 @@ Definition xdriven_rod (l : exact_driven) : option nrod :=
   match l with
   | XLinear (ExactSlider d a p len m) =>
       let eta := signed_root m (clearance2 d a p len C) in Some (NRod (ncomponents (each2 Plus (Witness.across d a p C) (scaled eta (unit_of d)))) eta len)
+  | XLinear (ExactStrut a p k as i) => Some (NRod (ncomponents (nray i C)) (0 // 1) (Root (product (nray i C) (nray i C))))
   | XRotary i => Some (NRod (ncomponents (each2 Minus (each2 Plus C (xplatform i)) (xelbow i C))) (xeta i C) (xrod i))
   | _ => None
   end.
@@ -205,6 +207,9 @@ Proof.
     + unfold real_rod. cbn [nrod_vector nrod_eta nrod_size]. rewrite value_signed_root.
       destruct (values_vector (ExactSlider d a p len m) (xcarried (XLinear (ExactSlider d a p len m)))) as [e2 _]. cbn [leg_of vector_of nray] in e2.
       rewrite <- e2. f_equal. f_equal. unfold ncomponents. destruct k as [| | []]; reflexivity.
+    + unfold real_rod. cbn [nrod_vector nrod_eta nrod_size value]. rewrite value_product.
+      destruct (values_vector (ExactStrut a p q) (xcarried (XLinear (ExactStrut a p q)))) as [e2 _]. cbn [leg_of vector_of] in e2.
+      rewrite e2, <- norm2_dot, <- e2. f_equal. f_equal; [unfold ncomponents; destruct k as [| | []]; reflexivity | lra].
     + unfold real_rod. cbn [nrod_vector nrod_eta nrod_size]. rewrite value_xeta.
       rewrite <- Elbow. f_equal. f_equal. unfold ncomponents. destruct k as [| | []]; reflexivity.
   - reflexivity.

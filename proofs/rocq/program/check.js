@@ -336,6 +336,23 @@ for (const [name, requirements, most, wrong, steps] of [
     no_parts++;
   }
 }
+// Determinants of struts in the plane, beside those of a slider too; serial singularities these have none.
+for (const [name, legs] of Object.entries({ struts: [[0, 0], [10, 0]].map((a) => crossed_strut(a)), "a strut and a slider": [crossed_strut([0, 0]), crossed_slider(10, "-")] })) {
+  const design = path.join(made, "parts.toml"), file = path.join(made, "parts.cert.json");
+  for (const [min, right] of [["0.3", "CERTIFIED"], ["0.99", "REFUTED"]]) {
+    fs.writeFileSync(design, `${crossed("planar", legs, [4, 1], [6, 2])}[requirements]\nparallel_margin = { min = "${min}" }\nload = { force = [1, 2], max = 90 }\n`);
+    spawnSync(orthocert, ["verify", design, "-o", file]);
+    const text = fs.readFileSync(file, "latin1"), own = three_answers(text), at = (b) => text.replace(`"bound":"${min}"`, `"bound":"${b}"`);
+    agrees(file, own[1]);
+    if (own.some((answer) => answer !== right)) fail(`${name}: ${own}`);
+    read.push(right === "CERTIFIED" ? last_number(at, 0.99, 0.3, 14, name) : last_number(at, 0.3, 0.99, 14, name, "REFUTED")), parts += 14;
+    for (const quantity of ["serial_margin", "leg_angle"]) {
+      const answers = three_answers(text.replace('"quantity":"parallel_margin"', `"quantity":"${quantity}"`).replace('"end":"min"', quantity === "leg_angle" ? '"end":"max"' : '"end":"min"'));
+      if (answers.some((answer) => answer !== "REJECTED")) fail(`${name}: ${answers}: ${quantity}`);
+      no_parts++;
+    }
+  }
+}
 console.log(`loads beside other requirements: ${parts} bounds with one answer, and ${no_parts} others`);
 // Refutations: of quantities on machines of each kind, at bounds ever nearer to the last with which the witness refutes; and in no directions, or others.
 const refutations = [
@@ -435,6 +452,27 @@ for (const [name, angle, part, changed] of [
   read.push(cell(b("0.001", "0.002"), "b", "310"), cell(r("310.0001"), "0.001", "r"));
 }
 console.log(`accuracy refuted: 18 machines, ${at_accuracy} bounds, and ${no_accuracy} refused`);
+// Tolerances apart of mechanisms by formulas: the last bound with which the tree shows what is claimed; and by other evidence.
+let by_formulas_apart = 0;
+for (const [name, edits, from, to] of [
+  ["five-bar-formulas", [["r = 90", 'r = "90 ± 3"']], [/"end":"max","bound":"300"/, '"300"', 100], 300],
+  ["linear-delta-formulas", [["333 ± 0.01", "333 ± 1"], ["r = 174.75", 'r = "174.75 ± 1"'], [/joint_range.*/, ""]], [/"end":"max","bound":"1.4"/, '"1.4"', 1.39], 1.4],
+  ["orthoglide-formulas", [["l = 312", 'l = "313.5 ± 1"'], [/transmission = .*/, "conditioning = { max = 4 }"]], [/"end":"max","bound":"4"/, '"4"', 1.5], 4],
+]) {
+  const design = path.join(made, "apart.toml"), file = path.join(made, "apart.cert.json");
+  fs.writeFileSync(design, edits.reduce((text, [from, to]) => text.replace(from, to), fs.readFileSync(path.join(__dirname, `../../../tests/designs/kernel/${name}.toml`), "utf8")));
+  spawnSync(orthocert, ["verify", design, "-o", file]);
+  const text = fs.readFileSync(file, "latin1"), own = three_answers(text), apart = text.match(/\{"tolerances"/g)?.length ?? 0;
+  agrees(file, own[1]);
+  if (!apart || own.some((answer) => answer !== "CERTIFIED")) fail(`apart, ${name}: ${own}, ${apart} times`);
+  read.push(last_number((b) => text.replace(from[0], (all) => all.replace(from[1], `"${b}"`)), from[2], to, 12, `apart, ${name}`));
+  for (const [from, to] of [[/(\{"tolerances":\[.*?,")([-+0])/, (_, all, end) => `${all}${end === "+" ? "-" : "+"}`], [/(\{"tolerances":\[.*?,"[-+0])/, "$1+"], [/(\{"tolerances":\[.*?,"[-+0]*",\[\[)/, "$10,"], [/(\{"tolerances":\[.*?,"[-+0]*",\[\[)-?(\d)/, "$19$2"]]) {
+    const other = text.replace(from, to), answers = three_answers(other);
+    if (other === text || new Set(answers).size > 1) fail(`apart, ${name}: ${answers}: ${from} ${to}`);
+  }
+  by_formulas_apart += 16;
+}
+console.log(`tolerances apart by formulas: ${by_formulas_apart} with one answer`);
 // Tolerances halved at the root of a tree, above twice its nodes: at bounds ever nearer to the last with which they are certified, and beyond that of the tree alone.
 for (const [name, m, numbers, beyond, further] of [
   ["orthoglide-tolerance", 3, 3, 0.8, 0], ["planar-3-prr", 3, 3, 0.8, 1], ["five-bar", 2, 2, 0.8, 1], ["hexapod-rubin-camera-as-made", 6, 36, 0.8, 17], ["five-bar-formulas", 2, 1, 0.8, 0],

@@ -458,7 +458,6 @@ let certificate text =
   let proof_ = proof shape (get l "proof") in
   let plane_accelerates legs rs =
     List.exists (fun r -> r.about_ = Acceleration_) rs && List.exists (function Planar_ _ -> true | _ -> false) legs in
-  let has_apart = List.exists (fun n -> List.exists (fun (_, s) -> match s with Apart_ _ | Fan_ _ | Between_ _ -> true | _ -> false) n.by_) in
   (* Apart are all that is shown of M, at control points, of as many struts as coordinates, over a box. *)
   let has_other_apart kind legs w nodes =
     let is_square = List.length legs = (match kind with InSpace -> 6 | _ -> 3) && (match kind, w with AboutPoint, _ | _, AnyCylinder_ _ -> false | _ -> true) in
@@ -469,15 +468,10 @@ let certificate text =
     List.exists (fun n -> List.exists is_other n.by_) nodes in
   let has_failure = List.exists (fun n -> n.fails_ <> None) in
   (match subject_, proof_ with
-   | Formulas_ _, Nodes (_, _, nodes) when has_apart nodes -> not_covered [ "the evidence \"tolerances\" of such a mechanism" ]
    | Turning_ (kind, legs, _, w, _, _, _), Nodes (_, _, nodes) when has_other_apart kind legs w nodes ->
      not_covered [ "this evidence \"tolerances\" of a platform that turns" ]
    | Legs_ _, Nodes (_, _, nodes) when List.exists (fun n -> List.exists (fun (_, s) -> match s with Turned_ _ | AtControls_ _ -> true | _ -> false) n.by_) nodes ->
      not_covered [ "this set of orientations with such drives" ]
-   | Legs_ (_, legs, _, _, _, rs), _ when List.exists (fun r -> r.about_ = Parallel_) rs && List.exists (function AnyStrut_ _ | AnyPlanar_ _ -> true | _ -> false) legs ->
-     not_covered [ "\"parallel_margin\" of struts in such a claim" ]
-   | Legs_ (_, legs, _, _, _, rs), Nodes _ when List.exists (fun r -> r.about_ = OneToOne_) rs && List.exists (function AnyPlanar_ _ -> true | _ -> false) legs ->
-     not_covered [ "\"one_to_one\" of planes in such a claim" ]
    | (Legs_ (_, _, _, _, _, rs) | Closed_ (_, _, rs) | Formulas_ (_, _, _, _, _, _, rs)), Nodes _ when List.exists (fun r -> r.about_ = Accuracy_) rs -> not_covered [ "\"accuracy\" of such a mechanism" ]
    | Turning_ (_, _, _, _, _, _, rs), Nodes (_, _, nodes) when not (List.for_all (fun n -> List.for_all (is_pose_step rs) n.by_) nodes) ->
      not_covered [ "a step of a platform that turns that is not at control points" ]

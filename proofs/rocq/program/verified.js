@@ -4,8 +4,8 @@ globalThis!=="object"&&(this?b():(a.defineProperty(a.prototype,"_T_",{configurab
 b(){var
 b=this||self;b.globalThis=b;delete
 a.prototype._T_}}(Object));(function(S){"use strict";var
-kS="spatial",r8="Invalid_argument",ic="precision",aR='"',kR=1255,k4="inside",q6="(",q7=0x800,r7="yaw",q3="range",q4="tree",q5="jsError",cp=0x8000,r6="sqrt(",q2=256,ib="obligation",r5="load",gg="offset",bv="machine",q1="End_of_file",e1="strut",kQ="center",gf="arm",kP="Failure",r4="serial_margin",ij="parameters",cU=0xff,r3="bodies",r2="max_angle",k3="outside",ge="base_axis",kO="ENOENT",r1="singular",r0=122,q0="([^/]+)",rZ="0",kN=0xf,gd=128,qZ=0xdc00,rX="Sys_blocked_io",rY="fd ",f7="given",qY="ENOTEMPTY",a7=248,ia="bound",qX="Division_by_zero",rV="by",rW=1027,qW="Sys_error",gc="slider",qV="torsion",rU="postulate",qU="proof",k2="joint_error",gb="refuted",eU="mechanism",h$="row",qT="EEXIST",rT="roll_pitch_yaw",ga="y",qS="cube",du="lower",rS="within",qR="clearance",rR="turned",qQ="control",h_="int_of_string",qP="between",rP="definitions",rQ="dependent",f$=1024,qN="from",qO="name",rO=" : flags Open_rdonly and Open_wronly are not compatible",qM="orthocert/2",rN="reach",qL=512,rL="base_joint",rM="witness",e0="-",bl="platform",qK=0x7ff0,qJ="pitch",k1=": Not a directory",bK="min",rJ="trim",eZ="workspace",rK=" : file already exists",h9="split",k0="legs",rI="claim",kM="joint",d7=0xffffff,qI="platform_joint",qH="formulas",qG="roll",h8="atlas",rF="greatest",rG="nodes",rH="Out_of_memory",qF="psi_max",ii="orientation",h7=254,rE="angle",kZ="index out of bounds",qE="end",rD="one_to_one",ih="_bigarr02",qD=" : flags Open_text and Open_binary are not compatible",rC="inverse",bu="drive",qC="coordinates",rB="holds",qB="lower_divided",qA="speed",rz="cylinder",rA="joints",cT=0xffff,rv="a leaf that fails",rw="acceleration",rx="force",f9="certified",f_="chords",ry=12520,kL="on",ru="same",eT="accuracy",f8="axis",rt="no_cube",rs="parallel_margin",qz='the drive "',kK="Unix.Unix_error",ig="fails",h6="tool",kJ="mkdir",rq="rho",rr="least",ie=1000,kI="translational",kY="tolerances",qy="Stack_overflow",kX="characteristic_length",af="",kW="^",h4="places",h5=": No such file or directory",qx="/static/",eY=0x3f,qv="stiffness",qw="Not_found",co="planar",f6="mode",rp="joint_speed",ro="Match_failure",qu="transmission",bJ="anchor",rn="at",qt="joint_force",eX="leg",qs="joint_acceleration",id="+",kH="rmdir",rm=0xf0,rl="spherical",qr=1026,rj="REJECTED",rk="undecided",bM="max",bL="direction",qp="leg_angle",qq="orthoglide",eW="rank",rh="constraint_margin",ri="fan",f5="test",qn="Pervasives.do_at_exit",qo="utf8",b5=0x80,eV="conditioning",eS="length",qm="Undefined_recursive_module",kV=")",ql="base",rg="quantity",qk="joint_range",h3="tilt",qj="Q2",rf="reference",qi="point",rd="corner",re=0xe0,qh="version",kU="z",rb="to",rc=0xdfff,kG="compare: functional value",ra="Assert_failure",b7="/",q$="provenance",d6="radius",h2="side",q9=-14,b6="require",q_="format",qg="Q1",kT="ENOTDIR",qf="all",d5="box",q8=250;function
-le(c,b,a){var
+kT="spatial",r8="Invalid_argument",ic="precision",aR='"',kS=1255,k5="inside",q6="(",q7=0x800,r7="yaw",q3="range",q4="tree",q5="jsError",cp=0x8000,r6="sqrt(",q2=256,ib="obligation",r5="load",gg="offset",bw="machine",q1="End_of_file",e1="strut",kR="center",gf="arm",kQ="Failure",r4="serial_margin",ij="parameters",cU=0xff,r3="bodies",r2="max_angle",k4="outside",ge="base_axis",kP="ENOENT",r1="singular",r0=122,q0="([^/]+)",rZ="0",kO=0xf,gd=128,qZ=0xdc00,rX="Sys_blocked_io",rY="fd ",f7="given",qY="ENOTEMPTY",a7=248,ia="bound",qX="Division_by_zero",rV="by",rW=1027,qW="Sys_error",gc="slider",qV="torsion",rU="postulate",qU="proof",k3="joint_error",gb="refuted",eU="mechanism",h$="row",qT="EEXIST",rT="roll_pitch_yaw",ga="y",qS="cube",du="lower",rS="within",qR="clearance",rR="turned",qQ="control",h_="int_of_string",qP="between",rP="definitions",rQ="dependent",f$=1024,qN="from",qO="name",rO=" : flags Open_rdonly and Open_wronly are not compatible",qM="orthocert/2",rN="reach",qL=512,rL="base_joint",rM="witness",e0="-",bl="platform",qK=0x7ff0,qJ="pitch",k2=": Not a directory",bL="min",rJ="trim",eZ="workspace",rK=" : file already exists",h9="split",k1="legs",rI="claim",kN="joint",d7=0xffffff,qI="platform_joint",qH="formulas",qG="roll",h8="atlas",rF="greatest",rG="nodes",rH="Out_of_memory",qF="psi_max",ii="orientation",h7=254,rE="angle",k0="index out of bounds",qE="end",rD="one_to_one",ih="_bigarr02",qD=" : flags Open_text and Open_binary are not compatible",rC="inverse",bv="drive",qC="coordinates",rB="holds",qB="lower_divided",qA="speed",rz="cylinder",rA="joints",cT=0xffff,rv="a leaf that fails",rw="acceleration",rx="force",f9="certified",f_="chords",ry=12520,kM="on",ru="same",eT="accuracy",f8="axis",rt="no_cube",rs="parallel_margin",qz='the drive "',kL="Unix.Unix_error",ig="fails",h6="tool",kK="mkdir",rq="rho",rr="least",ie=1000,kJ="translational",kZ="tolerances",qy="Stack_overflow",kY="characteristic_length",af="",kX="^",h4="places",h5=": No such file or directory",qx="/static/",eY=0x3f,qv="stiffness",qw="Not_found",co="planar",f6="mode",rp="joint_speed",ro="Match_failure",qu="transmission",bK="anchor",rn="at",qt="joint_force",eX="leg",qs="joint_acceleration",id="+",kI="rmdir",rm=0xf0,rl="spherical",qr=1026,rj="REJECTED",rk="undecided",bN="max",bM="direction",qp="leg_angle",qq="orthoglide",eW="rank",rh="constraint_margin",ri="fan",f5="test",qn="Pervasives.do_at_exit",qo="utf8",b6=0x80,eV="conditioning",eS="length",qm="Undefined_recursive_module",kW=")",ql="base",rg="quantity",qk="joint_range",h3="tilt",qj="Q2",rf="reference",qi="point",rd="corner",re=0xe0,qh="version",kV="z",rb="to",rc=0xdfff,kH="compare: functional value",ra="Assert_failure",b8="/",q$="provenance",d6="radius",h2="side",q9=-14,b7="require",q_="format",qg="Q1",kU="ENOTDIR",qf="all",d5="box",q8=250;function
+lf(c,b,a){var
 d=String.fromCharCode;if(b==0&&a<=4096&&a==c.length)return d.apply(null,c);var
 e=af;for(;0<a;b+=f$,a-=f$)e+=d.apply(null,c.slice(b,b+Math.min(a,f$)));return e}function
 il(b){if(S.Uint8Array)var
@@ -14,8 +14,8 @@ var
 c=new
 Array(b.l);var
 e=b.c,d=e.length,a=0;for(;a<d;a++)c[a]=e.charCodeAt(a);for(d=b.l;a<d;a++)c[a]=0;b.c=c;b.t=4;return c}function
-gh(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?le(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
-if(b.t==2&&f==b.c.length){b.c+=d.t==4?le(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)il(b);var
+gh(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?lf(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
+if(b.t==2&&f==b.c.length){b.c+=d.t==4?lf(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)il(b);var
 g=d.c,h=b.c;if(d.t==4)if(f<=e)for(var
 a=0;a<c;a++)h[f+a]=g[e+a];else
 for(var
@@ -24,7 +24,7 @@ i=Math.min(c,g.length-e);for(var
 a=0;a<i;a++)h[f+a]=g.charCodeAt(e+a);for(;a<c;a++)h[f+a]=0}}return 0}function
 e4(a){return a}function
 e3(a,b,c,d,e){gh(e4(a),b,c,d,e);return 0}function
-k6(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
+k7(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
 0:return a.c.charCodeAt(b);case
 4:return a.c[b]}}function
 dw(c,a){if(c.fun)return dw(c.fun,a);if(typeof
@@ -40,19 +40,19 @@ b=0;b<arguments.length;b++)d[a.length+b]=arguments[b];return dw(c,d)}}function
 sy(b,a){if(b==0)return af;if(a.repeat)return a.repeat(b);var
 d=af,c=0;for(;;){if(b&1)d+=a;b>>=1;if(b==0)return d;a+=a;c++;if(c==9)a.slice(0,1)}}function
 e5(a){if(a.t==2)a.c+=sy(a.l-a.c.length,"\0");else
-a.c=le(a.c,0,a.c.length);a.t=0}function
+a.c=lf(a.c,0,a.c.length);a.t=0}function
 e6(a){a.t&6&&e5(a);return a.c}var
-JN=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
-JM(a){if(JN)return Math.floor(Math.log2(a));var
+JK=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
+JJ(a){if(JK)return Math.floor(Math.log2(a));var
 b=0;if(a==0)return-Infinity;if(a>=1)while(a>=2){a/=2;b++}else
 while(a<1){a*=2;b--}return b}function
-k9(c){var
+k_(c){var
 a=new(S.Float32Array)(1);a[0]=c;var
 b=new(S.Int32Array)(a.buffer);return b[0]|0}var
 sp=Math.pow(2,-24);function
-JD(a){throw a}var
-aG=[0];function
-sv(){JD(aG.Division_by_zero)}function
+JA(a){throw a}var
+aF=[0];function
+sv(){JA(aF.Division_by_zero)}function
 R(b,c,a){this.lo=b&d7;this.mi=c&d7;this.hi=a&cT}R.prototype.caml_custom="_j";R.prototype.copy=function(){return new
 R(this.lo,this.mi,this.hi)};R.prototype.ucompare=function(a){if(this.hi>a.hi)return 1;if(this.hi<a.hi)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};R.prototype.compare=function(a){var
 b=this.hi<<16,c=a.hi<<16;if(b>c)return 1;if(b<c)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};R.prototype.neg=function(){var
@@ -90,10 +90,10 @@ io(b,c,a){return new
 R(b,c,a)}function
 im(a){if(!isFinite(a)){if(isNaN(a))return io(1,0,qK);return a>0?io(0,0,qK):io(0,0,0xfff0)}var
 f=a==0&&1/a==-Infinity?cp:a>=0?0:cp;if(f)a=-a;var
-b=JM(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-qr)}else{a/=Math.pow(2,b-rW);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
+b=JJ(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-qr)}else{a/=Math.pow(2,b-rW);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
 d=Math.pow(2,24),c=a|0;a=(a-c)*d;var
 e=a|0;a=(a-e)*d;var
-g=a|0;c=c&kN|f|b<<4;return io(g,e,c)}function
+g=a|0;c=c&kO|f|b<<4;return io(g,e,c)}function
 gk(a){return a.toArray()}function
 sd(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==ih)for(var
 a=0;a<b.dims.length;a++)if(b.dims[a]<cT)c.write(16,b.dims[a]);else{c.write(16,cT);c.write(32,0);c.write(32,b.dims[a])}else
@@ -121,43 +121,43 @@ e=gk(im(b.get(a)));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 0:for(var
 a=0;a<b.data.length;a++){var
-e=k9(b.get(a));c.write(32,e)}break;case
+e=k_(b.get(a));c.write(32,e)}break;case
 10:for(var
 a=0;a<b.data.length/2;a++){var
-d=b.get(a);c.write(32,k9(d[1]));c.write(32,k9(d[2]))}break;case
+d=b.get(a);c.write(32,k_(d[1]));c.write(32,k_(d[2]))}break;case
 11:for(var
 a=0;a<b.data.length/2;a++){var
 f=b.get(a),e=gk(im(f[1]));for(var
 d=0;d<8;d++)c.write(8,e[d]);var
 e=gk(im(f[2]));for(var
 d=0;d<8;d++)c.write(8,e[d])}break}g[0]=(4+b.dims.length)*4;g[1]=(4+b.dims.length)*8}function
-JF(b,a){throw[0,b,a]}function
+JC(b,a){throw[0,b,a]}function
 sD(a){if(a.length<24){for(var
 b=0;b<a.length;b++)if(a.charCodeAt(b)>127)return false;return true}else
 return!/[^\x00-\x7f]/.test(a)}function
-lf(e){for(var
-j=af,c=af,g,f,h,a,b=0,i=e.length;b<i;b++){f=e.charCodeAt(b);if(f<b5){for(var
-d=b+1;d<i&&(f=e.charCodeAt(d))<b5;d++);if(d-b>qL){c.substr(0,1);j+=c;c=af;j+=e.slice(b,d)}else
-c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==gd){g=h+(f<<6);if(f<re){a=g-0x3080;if(a<b5)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==gd){g=h+(g<<6);if(f<rm){a=g-0xe2080;if(a<q7||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==gd&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
+lg(e){for(var
+j=af,c=af,g,f,h,a,b=0,i=e.length;b<i;b++){f=e.charCodeAt(b);if(f<b6){for(var
+d=b+1;d<i&&(f=e.charCodeAt(d))<b6;d++);if(d-b>qL){c.substr(0,1);j+=c;c=af;j+=e.slice(b,d)}else
+c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==gd){g=h+(f<<6);if(f<re){a=g-0x3080;if(a<b6)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==gd){g=h+(g<<6);if(f<rm){a=g-0xe2080;if(a<q7||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==gd&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
 if(a>cT)c+=String.fromCharCode(0xd7c0+(a>>10),qZ+(a&0x3FF));else
 c+=String.fromCharCode(a);if(c.length>f$){c.substr(0,1);j+=c;c=af}}return j+c}function
 cq(c,a,b){this.t=c;this.c=a;this.l=b}cq.prototype.toString=function(){switch(this.t){case
 9:return this.c;default:e5(this);case
 0:if(sD(this.c)){this.t=9;return this.c}this.t=8;case
 8:return this.c}};cq.prototype.toUtf16=function(){var
-a=this.toString();if(this.t==9)return a;return lf(a)};cq.prototype.slice=function(){var
+a=this.toString();if(this.t==9)return a;return lg(a)};cq.prototype.slice=function(){var
 a=this.t==4?this.c.slice():this.c;return new
 cq(this.t,a,this.l)};function
 sg(a){return new
 cq(0,a,a.length)}function
 a(a){return sg(a)}function
-ld(c,b){JF(c,a(b))}function
-a0(a){ld(aG.Invalid_argument,a)}function
+le(c,b){JC(c,a(b))}function
+a0(a){le(aF.Invalid_argument,a)}function
 sb(a){switch(a){case
 7:case
 10:case
 11:return 2;default:return 1}}function
-I9(c,e){var
+I6(c,e){var
 b=S,a;switch(c){case
 0:a=b.Float32Array;break;case
 1:a=b.Float64Array;break;case
@@ -174,25 +174,25 @@ b=S,a;switch(c){case
 12:a=b.Uint8Array;break}if(!a)a0("Bigarray.create: unsupported kind");var
 d=new
 a(e*sb(c));return d}function
-k_(c){var
+k$(c){var
 a=new(S.Int32Array)(1);a[0]=c;var
 b=new(S.Float32Array)(a.buffer);return b[0]}function
 gj(a){return new
 R(a[7]<<0|a[6]<<8|a[5]<<16,a[4]<<0|a[3]<<8|a[2]<<16,a[1]<<0|a[0]<<8)}function
-k$(d){var
-f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&kN)==0?b&cp?-Infinity:Infinity:NaN;var
-e=Math.pow(2,-24),a=(f*e+g)*e+(b&kN);if(c>0){a+=16;a*=Math.pow(2,c-rW)}else
+la(d){var
+f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&kO)==0?b&cp?-Infinity:Infinity:NaN;var
+e=Math.pow(2,-24),a=(f*e+g)*e+(b&kO);if(c>0){a+=16;a*=Math.pow(2,c-rW)}else
 a*=Math.pow(2,-qr);if(b&cp)a=-a;return a}function
-k5(b){var
+k6(b){var
 d=b.length,c=1;for(var
 a=0;a<d;a++){if(b[a]<0)a0("Bigarray.create: negative dimension");c=c*b[a]}return c}function
-Jn(b,a){return new
+Jk(b,a){return new
 R(b&d7,b>>>24&cU|(a&cT)<<8,a>>>16&cT)}function
-la(a){return a.hi32()}function
-lb(a){return a.lo32()}function
-ik(){a0(kZ)}var
-I_=ih;function
-dv(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}dv.prototype.caml_custom=I_;dv.prototype.offset=function(b){var
+lb(a){return a.hi32()}function
+lc(a){return a.lo32()}function
+ik(){a0(k0)}var
+I7=ih;function
+dv(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}dv.prototype.caml_custom=I7;dv.prototype.offset=function(b){var
 c=0;if(typeof
 b==="number")b=[b];if(!(b
 instanceof
@@ -201,15 +201,15 @@ a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])ik();c=c*this.dims[a]+
 for(var
 a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])ik();c=c*this.dims[a]+(b[a]-1)}return c};dv.prototype.get=function(a){switch(this.kind){case
 7:var
-d=this.data[a*2+0],b=this.data[a*2+1];return Jn(d,b);case
+d=this.data[a*2+0],b=this.data[a*2+1];return Jk(d,b);case
 10:case
 11:var
 e=this.data[a*2+0],c=this.data[a*2+1];return[h7,e,c];default:return this.data[a]}};dv.prototype.set=function(a,b){switch(this.kind){case
-7:this.data[a*2+0]=lb(b);this.data[a*2+1]=la(b);break;case
+7:this.data[a*2+0]=lc(b);this.data[a*2+1]=lb(b);break;case
 10:case
 11:this.data[a*2+0]=b[1];this.data[a*2+1]=b[2];break;default:this.data[a]=b;break}return 0};dv.prototype.fill=function(b){switch(this.kind){case
 7:var
-c=lb(b),e=la(b);if(c==e)this.data.fill(c);else
+c=lc(b),e=lb(b);if(c==e)this.data.fill(c);else
 for(var
 a=0;a<this.data.length;a++)this.data[a]=a%2==0?c:e;break;case
 10:case
@@ -243,19 +243,19 @@ instanceof
 Array&&a.length==1)a=a[0];else
 a0("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])ik();return a};e2.prototype.get=function(a){return this.data[a]};e2.prototype.set=function(a,b){this.data[a]=b;return 0};e2.prototype.fill=function(a){this.data.fill(a);return 0};function
 r$(c,d,a,b){var
-e=sb(c);if(k5(a)*e!=b.length)a0("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
+e=sb(c);if(k6(a)*e!=b.length)a0("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
 e2(c,d,a,b);return new
 dv(c,d,a,b)}function
-b8(b){if(!aG.Failure)aG.Failure=[a7,a(kP),-3];ld(aG.Failure,b)}function
+b9(b){if(!aF.Failure)aF.Failure=[a7,a(kQ),-3];le(aF.Failure,b)}function
 sa(b,v,r){var
-i=b.read32s();if(i<0||i>16)b8("input_value: wrong number of bigarray dimensions");var
+i=b.read32s();if(i<0||i>16)b9("input_value: wrong number of bigarray dimensions");var
 p=b.read32s(),j=p&cU,o=p>>8&1,h=[];if(r==ih)for(var
 a=0;a<i;a++){var
 n=b.read16u();if(n==cT){var
-t=b.read32u(),u=b.read32u();if(t!=0)b8("input_value: bigarray dimension overflow in 32bit");n=u}h.push(n)}else
+t=b.read32u(),u=b.read32u();if(t!=0)b9("input_value: bigarray dimension overflow in 32bit");n=u}h.push(n)}else
 for(var
 a=0;a<i;a++)h.push(b.read32u());var
-d=k5(h),f=I9(j,d),g=r$(j,o,h,f);switch(j){case
+d=k6(h),f=I6(j,d),g=r$(j,o,h,f);switch(j){case
 2:for(var
 a=0;a<d;a++)f[a]=b.read8s();break;case
 3:case
@@ -269,7 +269,7 @@ a=0;a<d;a++)f[a]=b.read16u();break;case
 a=0;a<d;a++)f[a]=b.read32s();break;case
 8:case
 9:var
-s=b.read8u();if(s)b8("input_value: cannot read bigarray with 64-bit OCaml ints");for(var
+s=b.read8u();if(s)b9("input_value: cannot read bigarray with 64-bit OCaml ints");for(var
 a=0;a<d;a++)f[a]=b.read32s();break;case
 7:var
 e=new
@@ -282,28 +282,28 @@ e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-k=k$(gj(e));g.set(a,k)}break;case
+k=la(gj(e));g.set(a,k)}break;case
 0:for(var
 a=0;a<d;a++){var
-k=k_(b.read32s());g.set(a,k)}break;case
+k=k$(b.read32s());g.set(a,k)}break;case
 10:for(var
 a=0;a<d;a++){var
-m=k_(b.read32s()),l=k_(b.read32s());g.set(a,[h7,m,l])}break;case
+m=k$(b.read32s()),l=k$(b.read32s());g.set(a,[h7,m,l])}break;case
 11:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-m=k$(gj(e));for(var
+m=la(gj(e));for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-l=k$(gj(e));g.set(a,[h7,m,l])}break}v[0]=(4+i)*4;return r$(j,o,h,f)}function
+l=la(gj(e));g.set(a,[h7,m,l])}break}v[0]=(4+i)*4;return r$(j,o,h,f)}function
 r_(a,b,c){return a.compare(b,c)}function
 ss(a,b){return Math.imul(a,b)}function
 cV(b,a){a=ss(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=ss(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
-Jk(a,b){a=cV(a,lb(b));a=cV(a,la(b));return a}function
-so(a,b){return Jk(a,im(b))}function
+Jh(a,b){a=cV(a,lc(b));a=cV(a,lb(b));return a}function
+so(a,b){return Jh(a,im(b))}function
 sc(c){var
-b=k5(c.dims),d=0;switch(c.kind){case
+b=k6(c.dims),d=0;switch(c.kind){case
 2:case
 3:case
 12:if(b>q2)b=q2;var
@@ -327,31 +327,31 @@ a=0;a<b;a++)d=so(d,c.data[a]);break;case
 11:b*=2;case
 1:if(b>32)b=32;for(var
 a=0;a<b;a++)d=so(d,c.data[a]);break}return d}function
-Jl(a,b){b[0]=4;return a.read32s()}function
-JA(a,b){switch(a.read8u()){case
+Ji(a,b){b[0]=4;return a.read32s()}function
+Jx(a,b){switch(a.read8u()){case
 1:b[0]=4;return a.read32s();case
-2:b8("input_value: native integer value too large");default:b8("input_value: ill-formed native integer")}}function
-Jq(c,d){var
+2:b9("input_value: native integer value too large");default:b9("input_value: ill-formed native integer")}}function
+Jn(c,d){var
 b=new
 Array(8);for(var
 a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return gj(b)}function
-Jp(e,d,b){var
+Jm(e,d,b){var
 c=gk(d);for(var
 a=0;a<8;a++)e.write(8,c[a]);b[0]=8;b[1]=8}function
-Jm(a,b,c){return a.compare(b)}function
-Jo(a){return a.lo32()^a.hi32()}var
-sj={"_j":{deserialize:Jq,serialize:Jp,fixed_length:8,compare:Jm,hash:Jo},"_i":{deserialize:Jl,fixed_length:4},"_n":{deserialize:JA,fixed_length:4},"_bigarray":{deserialize:function(a,b){return sa(a,b,"_bigarray")},serialize:sd,compare:r_,hash:sc},"_bigarr02":{deserialize:function(a,b){return sa(a,b,ih)},serialize:sd,compare:r_,hash:sc}};function
-k8(a){return sj[a.caml_custom]&&sj[a.caml_custom].compare}function
+Jj(a,b,c){return a.compare(b)}function
+Jl(a){return a.lo32()^a.hi32()}var
+sj={"_j":{deserialize:Jn,serialize:Jm,fixed_length:8,compare:Jj,hash:Jl},"_i":{deserialize:Ji,fixed_length:4},"_n":{deserialize:Jx,fixed_length:4},"_bigarray":{deserialize:function(a,b){return sa(a,b,"_bigarray")},serialize:sd,compare:r_,hash:sc},"_bigarr02":{deserialize:function(a,b){return sa(a,b,ih)},serialize:sd,compare:r_,hash:sc}};function
+k9(a){return sj[a.caml_custom]&&sj[a.caml_custom].compare}function
 sh(f,c,d,e){var
-b=k8(c);if(b){var
+b=k9(c);if(b){var
 a=d>0?b(c,f,e):b(f,c,e);if(e&&a!=a)return d;if(+a!=+a)return+a;if((a|0)!=0)return a|0}return d}function
-lc(a){return a
+ld(a){return a
 instanceof
 cq}function
-sq(a){return lc(a)}function
+sq(a){return ld(a)}function
 si(a){if(typeof
 a==="number")return ie;else
-if(lc(a))return 252;else
+if(ld(a))return 252;else
 if(sq(a))return 1252;else
 if(a
 instanceof
@@ -365,23 +365,23 @@ a=="string")return ry;else
 if(a
 instanceof
 Number)return ie;else
-if(a&&a.caml_custom)return kR;else
+if(a&&a.caml_custom)return kS;else
 if(a&&a.compare)return 1256;else
 if(typeof
 a=="function")return 1247;else
 if(typeof
 a=="symbol")return 1251;return 1001}function
-Jr(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
+Jo(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
 sf(a,b){a.t&6&&e5(a);b.t&6&&e5(b);return a.c<b.c?-1:a.c>b.c?1:0}function
 sz(a,b){return sf(a,b)}function
-k7(a,b,d){var
+k8(a,b,d){var
 e=[];for(;;){if(!(d&&a===b)){var
 f=si(a);if(f==q8){a=a[1];continue}var
-g=si(b);if(g==q8){b=b[1];continue}if(f!==g){if(f==ie){if(g==kR)return sh(a,b,-1,d);return-1}if(g==ie){if(f==kR)return sh(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
-247:a0(kG);break;case
+g=si(b);if(g==q8){b=b[1];continue}if(f!==g){if(f==ie){if(g==kS)return sh(a,b,-1,d);return-1}if(g==ie){if(f==kS)return sh(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
+247:a0(kH);break;case
 248:var
-c=Jr(a[2],b[2]);if(c!=0)return c|0;break;case
-249:a0(kG);break;case
+c=Jo(a[2],b[2]);if(c!=0)return c|0;break;case
+249:a0(kH);break;case
 250:a0("equal: got Forward_tag, should not happen");break;case
 251:a0("equal: abstract value");break;case
 252:if(a!==b){var
@@ -389,9 +389,9 @@ c=sf(a,b);if(c!=0)return c|0}break;case
 253:a0("equal: got Double_tag, should not happen");break;case
 254:a0("equal: got Double_array_tag, should not happen");break;case
 255:a0("equal: got Custom_tag, should not happen");break;case
-1247:a0(kG);break;case
+1247:a0(kH);break;case
 1255:var
-i=k8(a);if(i!=k8(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)a0("compare: abstract value");var
+i=k9(a);if(i!=k9(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)a0("compare: abstract value");var
 c=i(a,b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
 1256:var
 c=a.compare(b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
@@ -405,54 +405,54 @@ a=a.toString(),b=b.toString();if(a!==b){if(a<b)return-1;if(a>b)return 1}break;ca
 246:case
 254:default:if(a.length!=b.length)return a.length<b.length?-1:1;if(a.length>1)e.push(a,b,1);break}}if(e.length==0)return 0;var
 h=e.pop();b=e.pop();a=e.pop();if(h+1<a.length)e.push(a,b,h+1);a=a[h];b=b[h]}}function
-Jf(a,b){return k7(a,b,true)}function
+Jc(a,b){return k8(a,b,true)}function
 cs(a){if(a<0)a0("Bytes.create");return new
 cq(a?2:9,af,a)}function
-sk(a,b){return+(k7(a,b,false)==0)}function
-Jh(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=af;a.t=2}else{a.c=sy(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)il(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}var
-JB=0;function
-sm(){return JB++}function
-Jt(a){return a.toUtf16()}function
+sk(a,b){return+(k8(a,b,false)==0)}function
+Je(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=af;a.t=2}else{a.c=sy(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)il(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}var
+Jy=0;function
+sm(){return Jy++}function
+Jq(a){return a.toUtf16()}function
 gl(){return typeof
 S.process!=="undefined"&&typeof
 S.process.versions!=="undefined"&&typeof
 S.process.versions.node!=="undefined"}function
-JO(){function
-a(a){if(a.charAt(0)===b7)return[af,a.substring(1)];return}function
+JL(){function
+a(a){if(a.charAt(0)===b8)return[af,a.substring(1)];return}function
 b(c){var
 g=/^([a-zA-Z]:|[\\/]{2}[^\\/]+[\\/]+[^\\/]+)?([\\/])?([\s\S]*?)$/,a=g.exec(c),b=a[1]||af,e=Boolean(b&&b.charAt(1)!==":");if(Boolean(a[2]||e)){var
 d=a[1]||af,f=a[2]||af;return[d,c.substring(d.length+f.length)]}return}return gl()&&S.process&&S.process.platform?S.process.platform==="win32"?b:a:a}var
-lj=JO();function
-sA(a){return a.slice(-1)!==b7?a+b7:a}if(gl()&&S.process&&S.process.cwd)var
-gi=S.process.cwd().replace(/\\/g,b7);else
+lk=JL();function
+sA(a){return a.slice(-1)!==b8?a+b8:a}if(gl()&&S.process&&S.process.cwd)var
+gi=S.process.cwd().replace(/\\/g,b8);else
 var
 gi="/static";gi=sA(gi);function
-Jv(a){a=Jt(a);if(!lj(a))a=gi+a;var
-e=lj(a),d=e[1].split(b7),b=[];for(var
+Js(a){a=Jq(a);if(!lk(a))a=gi+a;var
+e=lk(a),d=e[1].split(b8),b=[];for(var
 c=0;c<d.length;c++)switch(d[c]){case"..":if(b.length>1)b.pop();break;case".":break;default:b.push(d[c]);break}b.unshift(e[0]);b.orig=a;return b}function
-JJ(e){for(var
-f=af,b=f,a,h,c=0,g=e.length;c<g;c++){a=e.charCodeAt(c);if(a<b5){for(var
-d=c+1;d<g&&(a=e.charCodeAt(d))<b5;d++);if(d-c>qL){b.substr(0,1);f+=b;b=af;f+=e.slice(c,d)}else
-b+=e.slice(c,d);if(d==g)break;c=d}if(a<q7){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(b5|a&eY)}else
-if(a<0xd800||a>=rc)b+=String.fromCharCode(re|a>>12,b5|a>>6&eY,b5|a&eY);else
-if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<qZ||h>rc)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(rm|a>>18,b5|a>>12&eY,b5|a>>6&eY,b5|a&eY)}if(b.length>f$){b.substr(0,1);f+=b;b=af}}return f+b}function
-Jc(a){var
-b=9;if(!sD(a))b=8,a=JJ(a);return new
+JG(e){for(var
+f=af,b=f,a,h,c=0,g=e.length;c<g;c++){a=e.charCodeAt(c);if(a<b6){for(var
+d=c+1;d<g&&(a=e.charCodeAt(d))<b6;d++);if(d-c>qL){b.substr(0,1);f+=b;b=af;f+=e.slice(c,d)}else
+b+=e.slice(c,d);if(d==g)break;c=d}if(a<q7){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(b6|a&eY)}else
+if(a<0xd800||a>=rc)b+=String.fromCharCode(re|a>>12,b6|a>>6&eY,b6|a&eY);else
+if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<qZ||h>rc)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(rm|a>>18,b6|a>>12&eY,b6|a>>6&eY,b6|a&eY)}if(b.length>f$){b.substr(0,1);f+=b;b=af}}return f+b}function
+I$(a){var
+b=9;if(!sD(a))b=8,a=JG(a);return new
 cq(b,a,a.length)}function
-e7(a){return Jc(a)}var
-JR=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",qT,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",kO,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",kT,qY,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
+e7(a){return I$(a)}var
+JO=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",qT,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",kP,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",kU,qY,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
 d$(d,f,e,a){var
-b=JR.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
+b=JO.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
 c=[b,e7(f||af),e7(e||af)];return c}var
 st={};function
 d8(a){return st[a]}function
 d9(b,a){throw[0,b].concat(a)}function
-Jb(a){return new
+I_(a){return new
 cq(4,a,a.length)}function
-as(a){ld(aG.Sys_error,a)}function
-JE(a){as(a+h5)}function
-se(){a0(kZ)}function
-Ja(b,a){if(a>>>0>=b.l)se();return k6(b,a)}function
+as(a){le(aF.Sys_error,a)}function
+JB(a){as(a+h5)}function
+se(){a0(k0)}function
+I9(b,a){if(a>>>0>=b.l)se();return k7(b,a)}function
 iq(a){return a.l}function
 r9(){}function
 aY(a){this.data=a}aY.prototype=new
@@ -460,30 +460,30 @@ r9();aY.prototype.truncate=function(a){var
 b=this.data;this.data=cs(a|0);gh(b,0,this.data,0,a)};aY.prototype.length=function(){return iq(this.data)};aY.prototype.write=function(b,d,g,a){var
 c=this.length();if(b+a>=c){var
 e=cs(b+a),f=this.data;this.data=e;gh(f,0,this.data,0,c)}e3(d,g,this.data,b,a);return 0};aY.prototype.read=function(c,a,d,b){var
-e=this.length();gh(this.data,c,a,d,b);return 0};aY.prototype.read_one=function(a){return Ja(this.data,a)};aY.prototype.close=function(){};aY.prototype.constructor=aY;function
+e=this.length();gh(this.data,c,a,d,b);return 0};aY.prototype.read_one=function(a){return I9(this.data,a)};aY.prototype.close=function(){};aY.prototype.constructor=aY;function
 bd(b,a){this.content={};this.root=b;this.lookupFun=a}bd.prototype.nm=function(a){return this.root+a};bd.prototype.create_dir_if_needed=function(d){var
-c=d.split(b7),b=af;for(var
-a=0;a<c.length-1;a++){b+=c[a]+b7;if(this.content[b])continue;this.content[b]=Symbol("directory")}};bd.prototype.slash=function(a){return/\/$/.test(a)?a:a+b7};bd.prototype.lookup=function(b){if(!this.content[b]&&this.lookupFun){var
+c=d.split(b8),b=af;for(var
+a=0;a<c.length-1;a++){b+=c[a]+b8;if(this.content[b])continue;this.content[b]=Symbol("directory")}};bd.prototype.slash=function(a){return/\/$/.test(a)?a:a+b8};bd.prototype.lookup=function(b){if(!this.content[b]&&this.lookupFun){var
 c=this.lookupFun(a(this.root),a(b));if(c!==0){this.create_dir_if_needed(b);this.content[b]=new
 aY(e4(c[1]))}}};bd.prototype.exists=function(a){if(a==af)return 1;var
 b=this.slash(a);if(this.content[b])return 1;this.lookup(a);return this.content[a]?1:0};bd.prototype.mkdir=function(c,e,d){var
-b=d&&d8(kK);if(this.exists(c))if(b)d9(b,d$(qT,kJ,this.nm(c)));else
+b=d&&d8(kL);if(this.exists(c))if(b)d9(b,d$(qT,kK,this.nm(c)));else
 as(c+": File exists");var
-a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||af;if(!this.exists(a))if(b)d9(b,d$(kO,kJ,this.nm(a)));else
-as(a+h5);if(!this.is_dir(a))if(b)d9(b,d$(kT,kJ,this.nm(a)));else
-as(a+k1);this.create_dir_if_needed(this.slash(c))};bd.prototype.rmdir=function(a,f){var
-b=f&&d8(kK),c=a==af?af:this.slash(a),e=new
-RegExp(kW+c+q0);if(!this.exists(a))if(b)d9(b,d$(kO,kH,this.nm(a)));else
-as(a+h5);if(!this.is_dir(a))if(b)d9(b,d$(kT,kH,this.nm(a)));else
-as(a+k1);for(var
+a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||af;if(!this.exists(a))if(b)d9(b,d$(kP,kK,this.nm(a)));else
+as(a+h5);if(!this.is_dir(a))if(b)d9(b,d$(kU,kK,this.nm(a)));else
+as(a+k2);this.create_dir_if_needed(this.slash(c))};bd.prototype.rmdir=function(a,f){var
+b=f&&d8(kL),c=a==af?af:this.slash(a),e=new
+RegExp(kX+c+q0);if(!this.exists(a))if(b)d9(b,d$(kP,kI,this.nm(a)));else
+as(a+h5);if(!this.is_dir(a))if(b)d9(b,d$(kU,kI,this.nm(a)));else
+as(a+k2);for(var
 d
 in
-this.content)if(d.match(e))if(b)d9(b,d$(qY,kH,this.nm(a)));else
+this.content)if(d.match(e))if(b)d9(b,d$(qY,kI,this.nm(a)));else
 as(this.nm(a)+": Directory not empty");delete
 this.content[c]};bd.prototype.readdir=function(a){var
-f=a==af?af:this.slash(a);if(!this.exists(a))as(a+h5);if(!this.is_dir(a))as(a+k1);var
+f=a==af?af:this.slash(a);if(!this.exists(a))as(a+h5);if(!this.is_dir(a))as(a+k2);var
 g=new
-RegExp(kW+f+q0),d={},c=[];for(var
+RegExp(kX+f+q0),d={},c=[];for(var
 e
 in
 this.content){var
@@ -494,14 +494,14 @@ this.content[a];return b};bd.prototype.open=function(a,b){if(b.rdonly&&b.wronly)
 c=this.content[a];if(b.truncate)c.truncate();return c}else
 if(b.create){this.create_dir_if_needed(a);this.content[a]=new
 aY(cs(0));return this.content[a]}else
-JE(this.nm(a))};bd.prototype.register=function(c,a){var
-b;if(this.content[c])as(this.nm(c)+rK);if(lc(a))b=new
+JB(this.nm(a))};bd.prototype.register=function(c,a){var
+b;if(this.content[c])as(this.nm(c)+rK);if(ld(a))b=new
 aY(a);if(sq(a))b=new
 aY(e4(a));else
 if(a
 instanceof
 Array)b=new
-aY(Jb(a));else
+aY(I_(a));else
 if(typeof
 a==="string")b=new
 aY(sg(a));else
@@ -509,25 +509,25 @@ if(a.toString){var
 d=e4(e7(a.toString()));b=new
 aY(d)}if(b){this.create_dir_if_needed(c);this.content[c]=b}else
 as(this.nm(c)+" : registering file with invalid content type")};bd.prototype.constructor=bd;function
-aA(a){return iq(a)}function
-d_(b,a){return k6(b,a)}function
-I8(d){var
-c=aA(d),b=new
+az(a){return iq(a)}function
+d_(b,a){return k7(b,a)}function
+I5(d){var
+c=az(d),b=new
 Array(c),a=0;for(;a<c;a++)b[a]=d_(d,a);return b}function
-I7(a){if(a.t!=4)il(a);return a.c}function
-Je(a,c,b){b&=cU;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}il(a)}a.c[c]=b;return 0}function
-Jd(b,a,c){if(a>>>0>=b.l)se();return Je(b,a,c)}function
+I4(a){if(a.t!=4)il(a);return a.c}function
+Jb(a,c,b){b&=cU;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}il(a)}a.c[c]=b;return 0}function
+Ja(b,a,c){if(a>>>0>=b.l)se();return Jb(b,a,c)}function
 cr(a){this.fs=require("fs");this.fd=a}cr.prototype=new
 r9();cr.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){as(a.toString())}};cr.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){as(a.toString())}};cr.prototype.write=function(f,b,c,e){var
-a=I8(b);if(!(a
+a=I5(b);if(!(a
 instanceof
 S.Uint8Array))a=new(S.Uint8Array)(a);var
 d=S.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){as(a.toString())}return 0};cr.prototype.read=function(g,d,c,f){var
-a=I7(d);if(!(a
+a=I4(d);if(!(a
 instanceof
 S.Uint8Array))a=new(S.Uint8Array)(a);var
 e=S.Buffer.from(a);try{this.fs.readSync(this.fd,e,c,f,g)}catch(a){as(a.toString())}for(var
-b=0;b<f;b++)Jd(d,c+b,e[c+b]);return 0};cr.prototype.read_one=function(c){var
+b=0;b<f;b++)Ja(d,c+b,e[c+b]);return 0};cr.prototype.read_one=function(c){var
 b=new(S.Uint8Array)(1),a=S.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){as(a.toString())}return a[0]};cr.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){as(a.toString())}};cr.prototype.constructor=cr;function
 aZ(a){this.fs=require("fs");this.root=a}aZ.prototype.nm=function(a){return this.root+a};aZ.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};aZ.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};aZ.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};aZ.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};aZ.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){as(a.toString())}};aZ.prototype.unlink=function(a,c){try{var
 b=this.fs.existsSync(this.nm(a))?1:0;this.fs.unlinkSync(this.nm(a));return b}catch(a){this.raise_nodejs_error(a,c)}};aZ.prototype.open=function(f,c,g){var
@@ -540,7 +540,7 @@ cr(d)}catch(a){this.raise_nodejs_error(a,g)}};aZ.prototype.rename=function(b,a,c
 a=this.fs.statSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aZ.prototype.lstat=function(b,c){try{var
 a=this.fs.lstatSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aZ.prototype.symlink=function(d,c,a,b){try{this.fs.symlinkSync(this.nm(c),this.nm(a),d?"dir":"file");return 0}catch(a){this.raise_nodejs_error(a,b)}};aZ.prototype.readlink=function(b,c){try{var
 a=this.fs.readlinkSync(this.nm(b),qo);return e7(a)}catch(a){this.raise_nodejs_error(a,c)}};aZ.prototype.raise_nodejs_error=function(a,d){var
-b=d8(kK);if(d&&b){var
+b=d8(kL);if(d&&b){var
 c=d$(a.code,a.syscall,a.path,a.errno);d9(b,c)}else
 as(a.toString())};aZ.prototype.stats_from_js=function(a){var
 b;if(a.isFile())b=0;else
@@ -551,28 +551,28 @@ if(a.isSymbolicLink())b=4;else
 if(a.isFIFO())b=5;else
 if(a.isSocket())b=6;return[0,a.dev,a.ino,b,a.mode,a.nlink,a.uid,a.gid,a.rdev,a.size,a.atimeMs,a.mtimeMs,a.ctimeMs]};aZ.prototype.constructor=aZ;function
 sn(b){var
-a=lj(b);if(!a)return;return a[0]+b7}var
-ir=sn(gi)||b8("unable to compute caml_root"),e8=[];if(gl())e8.push({path:ir,device:new
+a=lk(b);if(!a)return;return a[0]+b8}var
+ir=sn(gi)||b9("unable to compute caml_root"),e8=[];if(gl())e8.push({path:ir,device:new
 aZ(ir)});else
 e8.push({path:ir,device:new
 bd(ir)});e8.push({path:qx,device:new
 bd(qx)});function
 sH(b){var
-g=Jv(b),b=g.join(b7),f=sA(b),c;for(var
+g=Js(b),b=g.join(b8),f=sA(b),c;for(var
 e=0;e<e8.length;e++){var
 a=e8[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&gl()){var
 d=sn(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
 a={path:d,device:new
 aZ(d)};e8.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;as("no device found for "+f)}function
-Jg(c,b){var
-a=sH(c);if(!a.device.register)b8("cannot register file");a.device.register(a.rest,b);return 0}function
+Jd(c,b){var
+a=sH(c);if(!a.device.register)b9("cannot register file");a.device.register(a.rest,b);return 0}function
 sC(c,b){var
-c=a(c),b=a(b);return Jg(c,b)}function
-Jj(){var
+c=a(c),b=a(b);return Jd(c,b)}function
+Jg(){var
 b=S.caml_fs_tmp;if(b)for(var
 a=0;a<b.length;a++)sC(b[a].name,b[a].content);S.jsoo_create_file=sC;S.caml_fs_tmp=[];return 0}function
-JC(c){var
-a=0,e=aA(c),b=10,d=1;if(e>0)switch(d_(c,a)){case
+Jz(c){var
+a=0,e=az(c),b=10,d=1;if(e>0)switch(d_(c,a)){case
 45:a++;d=-1;break;case
 43:a++;d=1;break}if(a+1<e&&d_(c,a)==48)switch(d_(c,a+1)){case
 120:case
@@ -585,31 +585,31 @@ a=0,e=aA(c),b=10,d=1;if(e>0)switch(d_(c,a)){case
 85:a+=2;break}return[a,d,b]}function
 su(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=r0)return a-87;return-1}function
 ip(f){var
-h=JC(f),c=h[0],i=h[1],d=h[2],g=aA(f),j=-1>>>0,e=c<g?d_(f,c):0,b=su(e);if(b<0||b>=d)b8(h_);var
-a=b;for(c++;c<g;c++){e=d_(f,c);if(e==95)continue;b=su(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)b8(h_)}if(c!=g)b8(h_);a=i*a;if(d==10&&(a|0)!=a)b8(h_);return a|0}function
-Ju(a,b){return+(k7(a,b,false)<=0)}function
-Jw(a,d){if(a<0)ik();var
+h=Jz(f),c=h[0],i=h[1],d=h[2],g=az(f),j=-1>>>0,e=c<g?d_(f,c):0,b=su(e);if(b<0||b>=d)b9(h_);var
+a=b;for(c++;c<g;c++){e=d_(f,c);if(e==95)continue;b=su(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)b9(h_)}if(c!=g)b9(h_);a=i*a;if(d==10&&(a|0)!=a)b9(h_);return a|0}function
+Jr(a,b){return+(k8(a,b,false)<=0)}function
+Jt(a,d){if(a<0)ik();var
 a=a+1|0,b=new
 Array(a);b[0]=0;for(var
 c=1;c<a;c++)b[c]=d;return b}var
 cW=new
 Array();function
-Jx(c){var
-a=cW[c];if(!a.opened)as("Cannot flush a closed channel");if(!a.buffer||a.buffer==af)return 0;if(a.fd&&aG.fds[a.fd]&&aG.fds[a.fd].output){var
-b=aG.fds[a.fd].output;switch(b.length){case
+Ju(c){var
+a=cW[c];if(!a.opened)as("Cannot flush a closed channel");if(!a.buffer||a.buffer==af)return 0;if(a.fd&&aF.fds[a.fd]&&aF.fds[a.fd].output){var
+b=aF.fds[a.fd].output;switch(b.length){case
 2:b(c,a.buffer);break;default:b(a.buffer)}}a.buffer=af;return 0}function
 sx(e,f){var
-b=cW[e],d=a(f),c=aA(d);b.file.write(b.offset,d,0,c);b.offset+=c;return 0}function
-JK(a){var
-a=lf(a),b=S;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+b=cW[e],d=a(f),c=az(d);b.file.write(b.offset,d,0,c);b.offset+=c;return 0}function
+JH(a){var
+a=lg(a),b=S;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.error&&c.error(a)}}function
-JL(a){var
-a=lf(a),b=S;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+JI(a){var
+a=lg(a),b=S;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.log&&c.log(a)}}function
-it(c,e,d,a){if(aG.fds===undefined)aG.fds=new
+it(c,e,d,a){if(aF.fds===undefined)aF.fds=new
 Array();a=a?a:{};var
-b={};b.file=d;b.offset=a.append?d.length():0;b.flags=a;b.output=e;aG.fds[c]=b;if(!aG.fd_last_idx||c>aG.fd_last_idx)aG.fd_last_idx=c;return c}function
-JS(c,b,g){var
+b={};b.file=d;b.offset=a.append?d.length():0;b.flags=a;b.output=e;aF.fds[c]=b;if(!aF.fd_last_idx||c>aF.fd_last_idx)aF.fd_last_idx=c;return c}function
+JP(c,b,g){var
 a={};while(b){switch(b[1]){case
 0:a.rdonly=1;break;case
 1:a.wronly=1;break;case
@@ -620,62 +620,62 @@ a={};while(b){switch(b[1]){case
 6:a.binary=1;break;case
 7:a.text=1;break;case
 8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)as(e6(c)+rO);if(a.text&&a.binary)as(e6(c)+qD);var
-d=sH(c),e=d.device.open(d.rest,a),f=aG.fd_last_idx?aG.fd_last_idx:0;return it(f+1,sx,e,a)}it(0,sx,new
-aY(cs(0)));it(1,JL,new
-aY(cs(0)));it(2,JK,new
+d=sH(c),e=d.device.open(d.rest,a),f=aF.fd_last_idx?aF.fd_last_idx:0;return it(f+1,sx,e,a)}it(0,sx,new
+aY(cs(0)));it(1,JI,new
+aY(cs(0)));it(2,JH,new
 aY(cs(0)));function
-Jy(a){var
-c=aG.fds[a];if(c.flags.wronly)as(rY+a+" is writeonly");var
+Jv(a){var
+c=aF.fds[a];if(c.flags.wronly)as(rY+a+" is writeonly");var
 d=null;if(a==0&&gl()){var
 e=require("fs");d=function(){return e7(e.readFileSync(0,qo))}}var
 b={file:c.file,offset:c.offset,fd:a,opened:true,out:false,refill:d};cW[b.fd]=b;return b.fd}function
 sr(c){var
-b=aG.fds[c];if(b.flags.rdonly)as(rY+c+" is readonly");var
+b=aF.fds[c];if(b.flags.rdonly)as(rY+c+" is readonly");var
 a={file:b.file,offset:b.offset,fd:c,opened:true,out:true,buffer:af};cW[a.fd]=a;return a.fd}function
-Jz(){var
+Jw(){var
 b=0;for(var
 a=0;a<cW.length;a++)if(cW[a]&&cW[a].opened&&cW[a].out)b=[0,cW[a].fd,b];return b}function
-bN(b,c,a){if(a&&S.toplevelReloc)b=S.toplevelReloc(a);aG[b+1]=c;if(a)aG[a]=c}function
-JG(a,b){st[e6(a)]=b;return 0}function
-I$(a,b){if(a===b)return 1;a.t&6&&e5(a);b.t&6&&e5(b);return a.c==b.c?1:0}function
-aC(a,b){return I$(a,b)}function
-JI(){a0(kZ)}function
-a8(b,a){if(a>>>0>=aA(b))JI();return d_(b,a)}function
-p(a,b){return 1-aC(a,b)}function
+bO(b,c,a){if(a&&S.toplevelReloc)b=S.toplevelReloc(a);aF[b+1]=c;if(a)aF[a]=c}function
+JD(a,b){st[e6(a)]=b;return 0}function
+I8(a,b){if(a===b)return 1;a.t&6&&e5(a);b.t&6&&e5(b);return a.c==b.c?1:0}function
+aB(a,b){return I8(a,b)}function
+JF(){a0(k0)}function
+a8(b,a){if(a>>>0>=az(b))JF();return d_(b,a)}function
+p(a,b){return 1-aB(a,b)}function
 is(a){return a}function
 sw(a){return a}function
 sB(a){if(a
 instanceof
 Array)return a;if(S.RangeError&&a
 instanceof
-S.RangeError&&a.message&&a.message.match(/maximum call stack/i))return sw(aG.Stack_overflow);if(S.InternalError&&a
+S.RangeError&&a.message&&a.message.match(/maximum call stack/i))return sw(aF.Stack_overflow);if(S.InternalError&&a
 instanceof
-S.InternalError&&a.message&&a.message.match(/too much recursion/i))return sw(aG.Stack_overflow);if(a
+S.InternalError&&a.message&&a.message.match(/too much recursion/i))return sw(aF.Stack_overflow);if(a
 instanceof
-S.Error&&d8(q5))return[0,d8(q5),a];return[0,aG.Failure,e7(String(a))]}function
+S.Error&&d8(q5))return[0,d8(q5),a];return[0,aF.Failure,e7(String(a))]}function
 ct(a){return a<0?-a:a}function
 E(a,b){return a+b}function
-lg(a,b){return a<b?-1:a>b?1:0}function
+lh(a,b){return a<b?-1:a>b?1:0}function
 sE(c,b){var
 a=c%b;return a<0?a+ct(b):a}function
-lh(a,b){return(a-sE(a,b))/b}function
+li(a,b){return(a-sE(a,b))/b}function
 L(a,b){return a==b?1:0}function
-JP(c){S.orthocert_verify=function(b){return e6(dw(c,[a(b)]))}}function
+JM(c){S.orthocert_verify=function(b){return e6(dw(c,[a(b)]))}}function
 D(a,b){return a<=b?1:0}function
 I(a,b){return a<b?1:0}function
 C(a,b){return a*b}function
 T(a){return-a}function
-aJ(a){return S.BigInt(a)}function
+aI(a){return S.BigInt(a)}function
 sF(a,b){return a<<S.BigInt(b)}function
 sG(a,b){return a>>S.BigInt(b)}function
 aS(a){return a<0?-1:a>0?1:0}function
-JQ(a){if(a<0)throw new(S.Error)("a root of a negative number");if(a<2)return a;var
+JN(a){if(a<0)throw new(S.Error)("a root of a negative number");if(a<2)return a;var
 d=S.BigInt(1),b=d<<S.BigInt((a.toString(16).length*4+1)/2|0),c;for(;;){c=b+a/b>>d;if(c>=b)return b;b=c}}function
-aM(a,b){return a-b}function
-li(a){if(a>0x7fffffff||a<-0x80000000)throw new(S.Error)("a number of more than 32 bits");return S.Number(a)}function
-Js(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
-Ji(b){var
-a=af;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&Js(b[1]))var
+aL(a,b){return a-b}function
+lj(a){if(a>0x7fffffff||a<-0x80000000)throw new(S.Error)("a number of more than 32 bits");return S.Number(a)}function
+Jp(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
+Jf(b){var
+a=af;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&Jp(b[1]))var
 e=b[2],f=1;else
 var
 f=2,e=b;a+=q6;for(var
@@ -687,36 +687,36 @@ instanceof
 cq)a+=aR+c.toString()+aR;else
 if(typeof
 c=="string")a+=aR+c.toString()+aR;else
-a+="_"}a+=kV}else
+a+="_"}a+=kW}else
 if(b[0]==a7)a+=b[1];return a}function
 sl(a){if(a
 instanceof
 Array&&(a[0]==0||a[0]==a7)){var
 c=d8("Printexc.handle_uncaught_exception");if(c)c(a,false);else{var
-d=Ji(a),b=d8(qn);if(b)b(0);S.console.error("Fatal error: exception "+d+"\n")}}else
+d=Jf(a),b=d8(qn);if(b)b(0);S.console.error("Fatal error: exception "+d+"\n")}}else
 throw a}function
-JH(){var
+JE(){var
 a=S;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){sl(b);a.process.exit(2)});else
-if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)sl(a.error)})}JH();function
+if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)sl(a.error)})}JE();function
 k(a,b){return a.length==1?a(b):dw(a,[b])}function
 ar(a,b,c){return a.length==2?a(b,c):dw(a,[b,c])}function
 f4(a,b,c,d){return a.length==3?a(b,c,d):dw(a,[b,c,d])}function
-kF(a,b,c,d,e){return a.length==4?a(b,c,d,e):dw(a,[b,c,d,e])}Jj();var
-ll=[a7,a(qW),-2],lk=[a7,a(r8),-4],H1=[0,[0,[0,[0,0]]]],H2=[0,0],H3=[0,0],H4=[0,[0,0]],H5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H4]]]]]]]]]]],hO=[0,[1,0],0],pC=[0,[2,0],0],kj=[0,[1,0],0],pB=[0,[2,0],0],hM=[0,[1,0],0],ki=[0,[2,0],0],H6=[0,[0,[0,[0,0]]]],H7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H6]]]]]]]]]]],H8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H7]]]]]]]]]]],H9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H8]]]]]]]]]]],H_=[0,[0,0]],H$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H_]]]]]]]]]]],Ia=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H$]]]]]]]]]]],Ib=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ia]]]]]]]]]]],Ic=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ib]]]]]]]]]]],Id=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],Ie=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Id]]]]]]]]]]],If=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ie]]]]]]]]]]],Ig=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,If]]]]]]]]]]],Ih=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ig]]]]]]]]]]],Ii=[0,[0,0]],Ij=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ii]]]]]]]]]]],Ik=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ij]]]]]]]]]]],Il=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ik]]]]]]]]]]],Im=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Il]]]]]]]]]]],In=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Im]]]]]]]]]]],Io=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,In]]]]]]]]]]],Ip=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Io]]]]]]]]]]],Iq=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],Ir=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Iq]]]]]]]]]]],Is=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ir]]]]]]]]]]],It=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Is]]]]]]]]]]],Iu=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,It]]]]]]]]]]],Iv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Iu]]]]]]]]]]],Iw=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Iv]]]]]]]]]]],Ix=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Iw]]]]]]]]]]],Iy=[0,0],Iz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Iy]]]]]]]]]]],IA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Iz]]]]]]]]]]],IB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IA]]]]]]]]]]],IC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IB]]]]]]]]]]],ID=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IC]]]]]]]]]]],IE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,ID]]]]]]]]]]],IF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IE]]]]]]]]]]],IG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IF]]]]]]]]]]],IH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IG]]]]]]]]]]],II=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IH]]]]]]]]]]],IJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],IK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IJ]]]]]]]]]]],IL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],IM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IL]]]]]]]]]]],IN=[0,[0,[0,[0,[0,0]]]]],IO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IN]]]]]]]]]]],IP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IO]]]]]]]]]]],IQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IP]]]]]]]]]]],IR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IQ]]]]]]]]]]],IS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IR]]]]]]]]]]],IT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IS]]]]]]]]]]],IU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IT]]]]]]]]]]],IV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IU]]]]]]]]]]],IW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IV]]]]]]]]]]],IX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IW]]]]]]]]]]],IY=[0,0],IZ=[0,[0,0]],I0=[0,0],I1=[0,[0,[0,[0,[0,0]]]]],dE=[0,[0,[0,0]]],dG=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],hB=[0,[0,[0,[0,0]]]],I2=[0,[0,[0,[0,[0,0]]]]],I3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,I2]]]]]]]]]]],I4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,I3]]]]]]]]]]],I5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,I4]]]]]]]]]]],I6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,I5]]]]]]]]]]];bN(11,[a7,a(qm),-12],qm);bN(10,[a7,a(ra),-11],ra);bN(9,[a7,a(rX),-10],rX);bN(8,[a7,a(qy),-9],qy);bN(7,[a7,a(ro),-8],ro);bN(6,[a7,a(qw),-7],qw);bN(5,[a7,a(qX),-6],qX);bN(4,[a7,a(q1),-5],q1);bN(3,lk,r8);bN(2,[a7,a(kP),-3],kP);bN(1,ll,qW);bN(0,[a7,a(rH),-1],rH);var
-sI=a("String.sub / Bytes.sub"),sK=a(af),sJ=a("String.concat"),sL=a("Array.init"),sM=a("power"),s5=[0,0],s6=[0,0],ta=[0,0,0],tb=[0,0,0],tc=[0,0],ty=[0,0],tz=[0,0],tC=[0,0],tX=[0,0],t0=[0,0],t4=[0,0],t5=[0,0],t6=[0,0],t7=[0,0],uj=[0,0],uk=[0,0],uN=[0,0],vb=[0,[0,[0,0]]],vC=[0,0],v3=[0,0],wp=[0,0],wA=a(","),wS=[0,a(kV),0],wT=a(q6),wU=a("."),wV=[0,[0,[0,0]]],wW=a(e0),wX=a(kW),wY=[0,[0,[0,[0,[0,0]]]]],wZ=[0,a(kV),0],w0=a(r6),z3=a(qj),z5=a(qg),z4=a(rd),z6=a(eV),z7=a(eT),z8=a(k4),z9=a(rR),z_=a(qQ),z$=a(kY),Aa=a(ri),Ab=a(qP),Br=[0,[0,0,0]],BI=[0,0],Bs=a(f5),Bt=[0,0],Bu=a("divided"),Bv=[0,1],Bw=a("mirror"),Bx=[0,3],By=a("negative"),Bz=[0,2],BA=a(f_),BB=[0,5],BC=a(k3),BD=[0,4],BE=a(du),BF=a(qB),BG=a(eW),BH=a(bL),BJ=[0,0],BK=[0,0],BL=[0,0],BO=[0,[0,[0,0]]],BP=[0,[0,[0,0]]],Ce=[0,[0,[0,0]]],Cs=[0,0],CN=a(af),CF=[0,0],CH=[0,0],CG=[0,0],CI=[0,[0,[0,[0,0]]]],CJ=[0,[0,[0,0]]],CK=[0,[0,[0,[0,0]]]],CL=[0,[0,[0,0]]],CD=[0,[0,[0,0]]],CC=a(eW),CB=[0,0],Cz=[0,1,0],CA=[0,[0,[0,0]]],Cy=[0,0],Cx=[0,0],Cw=[0,0],Ct=[0,[0,0]],Cu=[0,[0,[0,0]]],Cq=[0,[0,0]],Cr=[0,[0,[0,0]]],Cp=[0,0],Cl=[0,[0,[0,0]]],Ck=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H1]]]]]]]]]],[0,0,[0,[0,[0,[0,0]]],0]]],Cf=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],[0,0,0]],Cg=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],[0,[0,[0,[0,[0,[0,[0,0]]]]]],0]],Ch=[0,[0,[0,[0,[0,[0,[0,0]]]]]],0],Ci=[0,[0,[0,[0,0]]],[0,0,0]],Cc=[0,0],Cd=[0,[0,0]],Cb=[0,0,0],Ca=[0,[0,[0,0]]],B6=[0,[0,0]],B7=[0,[0,[0,0]]],B8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H2]]]]]]]]]]],B9=[0,[0,0]],B_=[0,[0,[0,0]]],B5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H3]]]]]]]]]]],B3=[0,[0,0]],B4=[0,[0,[0,0]]],B1=[0,[0,[0,0]]],B2=[0,[0,0]],B0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H5]]]]]]]]]]],BZ=[0,0],BY=[0,0],BV=[0,[0,0]],BW=[0,0],BT=[0,0],BU=[0,1],BR=[0,[0,0]],BS=[0,0],BQ=[0,0],BM=[0,0],BN=[0,1],Bo=[0,0],Bp=[0,1],Bq=[0,2],Bk=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],Bi=[0,[0,0],0],Bj=[0,[1,0],0],Bl=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],Bg=[0,[0,0]],Bh=[0,0],Bf=[0,0],Be=[0,0],Bd=[0,0],Bc=[0,0],Bb=[0,0,0],A$=[0,[0,0]],Ba=[0,0],A_=[0,0,0],A8=[0,[0,[0,0]]],A9=[0,[0,[0,0]]],A7=[0,0],A5=[0,1,0],AY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H9]]]]]]]]]]],AZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ic]]]]]]]]]]],AU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ih]]]]]]]]]]],AV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ip]]]]]]]]]]],AW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ix]]]]]]]]]]],AX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,II]]]]]]]]]]],A0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IK]]]]]]]]]]],A1=a("sqrt"),AS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IM]]]]]]]]]]],AT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IX]]]]]]]]]]],AH=[0,a("\n"),0],AI=a(qh),AJ=a(h6),AK=a(q$),AL=a(qU),AR=a(gb),AM=a(f9),AN=a("verdict"),AO=a(rI),AP=a(qM),AQ=a(q_),AE=a(q4),AF=a(rM),AG=a(h8),AA=a(rk),AB=a(h9),AC=a(f9),AD=a(gb),Av=a(ig),Aw=a(bv),Ax=a(qi),Ay=a(ic),As=a(rG),At=a(f_),Au=a(ic),Ao=a(rn),Ap=a(ig),Aq=a(h9),Ar=a(rV),Ad=a(rN),Ae=a(rQ),Af=a(ib),Ag=a(h$),Ah=a(r1),Ai=a(rC),Aj=a(rF),Ak=a(rr),Al=a(ib),Am=a(ru),z1=a(h4),z2=a(ga),zW=a(bM),zX=a(bK),zY=a(qO),zw=a(h$),zx=a(rq),za=a(bv),zb=a(b6),zc=a(ii),zd=a(eZ),ze=a(co),zj=a(kI),zf=a(kX),zg=a(k0),zh=a(eU),zi=a(bv),zk=a(b6),zl=a(ii),zm=a(eZ),zn=a(kX),zo=a(k0),zp=a(eU),zq=a(bv),zr=a(b6),zs=a(bM),zt=a(bK),zu=a(d5),zv=a(eZ),zy=a(rA),zz=a(rP),zA=a(ij),zB=a(qC),zC=a(qH),zD=a(eU),zE=a(bv),zF=a(b6),zG=a(h2),zH=a(qS),zI=a(eZ),zJ=a(gg),zK=a(qq),zL=a(eU),zM=a(bv),zN=a(h2),zO=a(bv),zP=a(rt),zS=a(qf),zQ=a(qF),zR=a(rU),zT=a(gb),zU=a(f9),zV=a(bv),zZ=a(ij),z0=a(h8),y7=a(b6),y8=a(eZ),y9=a(kI),y_=a(eU),y6=a(r3),yU=a(gg),yV=a(rJ),yW=a(d6),yX=a(eX),yY=a(eX),yZ=a(kL),y0=a(d6),y1=a(rb),y2=a(qN),y3=a(bl),y5=a(ql),y4=a(kL),yK=a(q3),yL=a(r7),yM=a(qJ),yN=a(qG),yO=a(rT),yP=a(rE),yQ=a(qV),yR=a(h3),yS=a(h3),yG=a(bl),yH=a(bJ),yI=a(e1),yJ=a(bu),yC=a(co),yD=a(kS),yE=a(rl),yz=a(bM),yA=a(bK),yB=a(d5),ys=a(bM),yt=a(bK),yu=a(d5),yv=a(kU),yw=a(d6),yx=a(kQ),yy=a(rz),ya=a(qE),yg=a(h6),yf=a(k2),yb=a(kM),yc=a(f7),yh=a(f8),yj=a(f8),yk=a(rx),yl=a(kM),yi=a(f7),ym=a(qA),yn=a(rw),yo=a(f7),yp=a(r2),yq=a(k2),yr=a(f7),yd=a(eX),ye=a(rg),x9=a(ia),x_=a(ia),x$=a(ia),x5=a(rB),x6=a(bK),x7=a(bM),x8=a(rS),xO=a(qu),xP=a(qk),xQ=a(rp),xR=a(eV),xS=a(r4),xT=a(rs),xU=a(qv),xV=a(rh),xW=a(qt),xX=a(qR),xY=a(qs),xZ=a(rD),x0=a(eT),x1=a(qp),x2=a(rL),x3=a(qI),x4=a(r5),xp=a(id),xr=a(e0),xq=a(f6),xs=a(eS),xt=a(bl),xu=a(bJ),xv=a(bL),xw=a(gc),xx=a(bu),xy=a(ge),xz=a(bl),xA=a(bJ),xB=a(e1),xC=a(bu),xD=a(bL),xE=a(co),xF=a(bu),xG=a(eS),xH=a(gf),xI=a(bl),xJ=a(bJ),xK=a(rf),xL=a(f8),xM=a(gf),xN=a(bu),w9=a(id),xf=a(e0),w_=a(f6),w$=a(eS),xa=a(bl),xb=a(bJ),xc=a(bL),xd=a(gc),xe=a(bu),xg=a(ge),xh=a(bl),xi=a(bJ),xj=a(e1),xk=a(bu),xl=a(bL),xm=a(co),xn=a(bu),w6=a(bM),w7=a(bK),w4=[0,a(aR),0],w5=a(aR),w2=a(af),w1=[0,a(aR),0],w3=a(aR),wO=a(id),wP=a(e0),wQ=a("*"),wR=a(b7),wJ=[0,[0,[0,[0,[0,0]]]]],wK=[0,[0,[0,0]]],wL=[0,[0,0]],wM=[0,0],wN=[0,[0,[0,[0,0]]]],wH=a('":'),wI=a(aR),wF=[0,a(aR),0],wG=a(aR),wD=[0,a("}"),0],wE=a("{"),wB=[0,a("]"),0],wC=a("["),wz=[0,[0,[0,0]]],wy=[0,[0,[0,0]]],ww=[0,0],wt=[0,[0,[0,0]]],wu=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],wv=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],wr=[0,[0,0]],ws=[0,[0,[0,0]]],wq=[0,0],wn=[0,0],wo=[0,[0,0]],wk=[0,0],wl=[0,[0,0]],wm=[0,0],wf=[0,[0,0]],wg=[0,0],wh=[0,[0,[0,0]]],wi=[0,[0,[0,0]]],we=[0,[0,[0,0]]],wd=[0,[0,[0,0]]],wc=[0,0],v$=[0,[0,[0,0]]],wb=[0,[0,[0,0]]],wa=[0,0],v9=[0,[0,0]],v_=[0,0],v7=[0,[0,0]],v8=[0,0],v6=[0,[0,[0,0]]],v4=[0,[0,0]],v5=[0,0],v1=[0,0],v2=[0,[0,0]],vV=[0,[0,0]],vW=[0,[0,[0,[0,[0,0]]]]],vX=[0,[0,[0,[0,0]]]],vY=[0,[0,[0,0]]],vZ=[0,[0,0]],v0=[0,0],vS=[0,0],vT=[0,[0,0]],vU=[0,0],vR=[0,0],vN=[0,0],vO=[0,[0,[0,[0,[0,[0,0]]]]]],vP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IY]]]]]]]]]]],vL=[0,0],vG=[0,0,0],vH=[0,0,0],vI=[0,0,0],vD=[0,[0,0]],vE=[0,[0,[0,0]]],vF=[0,0],vs=[0,[0,[0,[0,[0,[0,0]]]]]],vt=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],vu=[0,[0,[0,0]]],vv=[0,[0,[0,0]]],vw=[0,[0,[0,[0,[0,[0,0]]]]]],vx=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],vy=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IZ]]]]]]]]]]],vz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,I0]]]]]]]]]]],vA=[0,[0,[0,0]]],vB=[0,[0,[0,[0,[0,[0,0]]]]]],vo=[0,0,0],vp=[0,0,0],vk=[0,0,0],vl=[0,0,0],vm=[0,0,0],vn=[0,0,0],vj=[0,0],vi=[0,0],vh=[0,0],vf=[0,0],vg=[0,0],ve=[0,0],vc=[0,0],vd=[0,0],u6=[0,0],u7=[0,0],u8=[0,0],u9=[0,[0,[0,0]]],u5=[0,0],uZ=[0,0],u0=[0,0],u1=[0,[0,0]],uX=[0,[0,0]],uY=[0,[0,[0,0]]],uV=[0,[0,[0,0]]],uW=[0,[0,0]],uT=[0,[0,0]],uU=[0,[0,[0,0]]],uS=[0,0],uQ=[0,0],uR=[0,0],uO=[0,0,0],uL=[0,[0,0]],uM=[0,0],uD=[0,[0,0]],uE=[0,0],uF=[0,[0,0]],uG=[0,0],uH=[0,[0,0]],uI=[0,0],uJ=[0,[0,0]],uK=[0,0],uB=[0,[0,0]],uC=[0,0],uz=[0,[0,0]],uA=[0,0],uv=[0,[0,0]],uw=[0,0],ux=[0,0],uy=[0,[0,0]],um=[0,[0,0]],un=[0,0],uo=[0,[0,0]],up=[0,0],uq=[0,0],ur=[0,[0,0]],us=[0,[0,0]],ut=[0,[0,0]],uu=[0,0],ui=[0,0],uh=[0,0],ue=[0,0],uf=[0,[0,0]],ud=[0,[0,[0,0]]],uc=[0,[0,[0,[0,[0,[0,0]]]]]],ua=[0,[0,0]],ub=[0,0],t$=[0,[0,0]],t_=[0,0],t8=[0,0],t9=[0,[0,[0,0]]],t2=[0,[0,0]],t3=[0,[0,[0,0]]],t1=[0,[0,[0,0]]],tY=[0,[0,[0,0]]],tW=[0,[0,[0,0]]],tU=[0,[0,[0,[0,[0,[0,0]]]]]],tV=[0,[0,[0,[0,[0,[0,0]]]]]],tP=[0,[0,0]],tQ=[0,0],tR=[0,[0,0]],tS=[0,[0,[0,0]]],tT=[0,[0,[0,0]]],tI=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],tJ=[0,[0,[0,[0,[0,[0,0]]]]]],tK=[0,[0,[0,[0,[0,[0,0]]]]]],tL=[0,[0,[0,0]]],tM=[0,[0,[0,[0,[0,[0,0]]]]]],tN=[0,[0,[0,0]]],tO=[0,[0,[0,0]]],tG=[0,[0,0]],tH=[0,0],tF=[0,0,0],tE=[0,0,0],tD=[0,0,0],tB=[0,0,0],tA=[0,[0,[0,0]]],tu=[0,0],tv=[0,0],tw=[0,0],tx=[0,0],ts=[0,0],tt=[0,0],to=[0,[0,[0,0]]],tp=[0,[0,[0,0]]],tq=[0,[0,[0,0]]],tn=[0,[0,[0,[0,0]]]],tj=[0,[0,[0,0]]],tk=[0,[0,[0,0]]],tl=[0,[0,[0,0]]],tm=[0,[0,1,1],[0,[0,0,1],[0,[0,1,0],[0,[0,0,0],0]]]],th=[0,[0,0]],ti=[0,0],tf=[0,[0,0]],tg=[0,0],td=[0,[0,0]],te=[0,0],s2=[0,0],s3=[0,[0,0]],s0=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],s1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,I1]]]]]]]]]]],sY=[0,0,0],sX=a(rZ),sW=a(af),sV=[0,[0,0]],sT=[0,0],sQ=[0,0],sS=[1,0],sR=[0,0],sP=[0,0],sN=[1,0],sO=[1,0],ug=[10,0,0,0,0],Cv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,I6]]]]]]]]]]],F1=a(bM),F2=a(bK),F3=a(qO),FT=a(ge),FU=[0,a("a base axis of such a platform"),0],FV=a(bl),FW=a(bJ),FG=a(rE),FH=a(q3),FI=a(rT),FJ=a(h3),FK=a(qV),FL=a(h3),FM=a(r7),FN=a(qJ),FO=a(qG),Fw=a(rq),Fx=a(h$),E_=[0,a("such a machine with bodies"),0],EX=a(h8),EY=a(bv),EZ=a(rt),E0=a(rU),E3=a(qF),E4=a(qf),E5=a(bv),E6=a(bv),E8=a(h2),E7=[0,a("a claim that no cube of such a machine fits"),0],E9=a(r3),E$=a(eU),Fa=a(eZ),Fb=a(co),Fc=a(kS),Fd=a(rl),Fe=a(ii),Ff=a(qH),Fg=a(qq),Fh=a(kI),Fk=a(d5),Fl=a(rz),Fo=a(b6),Fp=a(b6),Fq=a(qS),Fr=a(b6),Fs=[0,a("the closed design with other bounds on psi than one from below and one from above"),0],Ft=a(h2),Fu=a(gg),Fv=a(d5),Fy=a(b6),Fz=a(bM),FA=a(bK),FB=a(rA),FC=a(rP),FD=a(ij),FE=a(qC),Fi=[0,a(aR),0],Fj=a('the mechanism "'),FF=a(kX),FP=a(ii),FQ=a(co),FR=a(kS),FS=a(k0),FX=a(b6),F0=a(co),FY=[0,a("a platform that turns on struts and other drives"),0],FZ=a(b6),Fm=[0,a(aR),0],Fn=a('the workspace "'),F4=a(bv),F5=a(bv),F7=a(gb),F8=a(f9),F9=a(ij),F6=[0,a("an atlas of such a machine"),0],E1=[0,a(aR),0],E2=a('a claim of the kind "'),Gl=a(k4),Gm=a(du),Gn=a(eW),Go=a(kY),Gp=a(f5),Gq=[0,a('this evidence "fan"'),0],Gc=a(du),GA=a(ga),GB=[0,1,1],Gd=a(ri),Gr=a(eT),Gs=a(qP),Gt=a(eV),Gu=a(qQ),Gv=a(rd),Gw=a(bL),Gx=a(ga),Gy=a(h4),Gz=a(bL),Ge=a(k4),Gf=a(du),Gg=a(qB),Gh=a(eW),Gi=a(kY),Gj=[0,a(aR),0],Gk=a('the evidence "'),GC=a(eT),GD=a(eV),GE=a(du),GF=a(eW),GG=a(rR),GI=a(eT),GJ=a(eV),GK=a(du),GL=a(eW),GM=a(f_),GN=a(f5),GO=a(f_),GP=a(f5),GH=[0,a("this evidence at control points"),0],HU=a('"orthocert-paving/'),HK=a(du),HL=a(du),Hv=a(q_),Hw=a(qM),Hx=a(rI),HS=[0,3,3],Hy=a(qU),HG=[0,a("this set of orientations with such drives"),0],HH=[0,a('"parallel_margin" of struts in such a claim'),0],HI=[0,a('"one_to_one" of planes in such a claim'),0],HM=[0,a('this evidence "tolerances" of a platform that turns'),0],HN=[0,a("a step of a platform that turns that is not at control points"),0],HO=[0,a('the evidence "tolerances" of such a mechanism'),0],HP=[0,a("this quantity in a claim that is refuted"),0],HQ=[0,a("a step in a proof that no cube fits"),0],HR=[0,a('the failure "same" of such a mechanism'),0],HJ=[0,a('"accuracy" of such a mechanism'),0],Hz=[0,a("the acceleration of a joint of a machine with a plane"),0],HE=[0,a("a stiffness for each joint in such a claim"),0],HF=[0,a(rv),0],HD=[0,a(rv),0],HA=a(q$),HB=a(qh),HC=a(h6),Hr=a(k3),Hs=a(f5),Ht=a(bL),Hj=a(h8),Hk=a(q4),Hl=a(rM),Hm=[0,a(aR),0],Hn=a('a proof of the kind "'),Hf=a(f9),Hg=a(gb),Hh=a(h9),Hi=a(rk),Hb=a(bv),Hc=a(ig),Hd=a(qi),He=a(ic),G_=a(rG),G$=a(f_),Ha=a(ic),G6=a(rn),G7=a(ig),G8=a(h9),G9=a(rV),GS=a(rQ),GT=a(ib),GU=a(rN),GV=a(h$),GW=a(ru),GX=a(r1),G0=a(rC),G1=a(h4),G2=a(ga),G3=a(rF),G4=a(rr),G5=a(ib),GY=[0,a(aR),0],GZ=a('the failure "'),GQ=a(k3),GR=a(rZ),Ga=a(ga),Gb=a(h4),F_=a(qg),F$=a(qj),EU=a(gg),EK=a(kL),EL=a(ql),EM=a(eX),EN=a(bl),ES=a(rJ),ET=a(gg),EV=a(d6),EW=a(eX),EO=a(d6),EP=a(rb),EQ=a(qN),ER=a(bl),ED=a(d5),EH=a(bM),EI=a(bK),EE=a(kQ),EF=a(kU),EG=a(d6),Ex=a(d5),EB=a(bM),EC=a(bK),Ey=a(kQ),Ez=a(kU),EA=a(d6),Ew=[0,1],Ev=[0,1],Et=[0,1],Er=[0,1],Eq=[0,1],Eo=[0,1],Ep=[0,a("this quantity of such a mechanism"),0],D9=a(kM),D_=a(rw),D$=a(qA),Ea=a(k2),Eb=a(r2),Ed=a(rx),Ec=a(f8),D8=a(h6),D0=a(ia),DO=a(rg),DP=a(rp),Eg=a(eT),Eh=a(rL),Ei=a(qR),Ej=a(eV),Ek=a(rh),El=a(qs),Em=a(qt),En=a(qk),DQ=a(qp),DR=a(r5),DS=a(rD),DT=a(rs),DU=a(qI),DV=a(r4),DW=a(qv),DX=a(qu),DY=[0,a(aR),0],DZ=a('the quantity "'),D1=a(qE),D2=a(rB),D3=a(bM),D4=a(bK),D5=a(rS),D6=[0,a(aR),0],D7=a('a bound "'),Ee=a(f7),Ef=a(eX),DM=a(bu),DN=a(e1),DK=a(bu),DL=a(co),DH=a(bu),DI=a(gc),Dj=a(bu),Dk=a(ge),Dl=a(gf),Dm=a(co),Dn=a(gc),Do=a(e1),Dr=a(bl),Ds=a(bJ),Dt=a(f6),Du=a(eS),Dv=a(bl),Dw=a(bJ),Dx=a(bL),Dy=a(bL),Dz=a(f6),DA=a(eS),DB=a(gf),DC=a(bl),DD=a(bJ),DE=a(rf),DF=a(f8),Dp=[0,a('" of such a machine'),0],Dq=a(qz),Dh=a(bu),Di=a(gf),C3=a(bu),C4=a(co),C5=a(gc),C6=a(e1),C9=a(ge),C_=a(bl),C$=a(bJ),Da=a(f6),Db=a(eS),Dc=a(bl),Dd=a(bJ),De=a(bL),Df=a(bL),C7=[0,a(aR),0],C8=a(qz),C0=a(id),C1=a(e0),CY=a(" is not covered by the verified checker"),CZ=a(af),CW=a(bM),CX=a(bK),CS=a(af),CT=a(r6),CU=a(af),CV=a(af),CR=[1,0],CQ=a(e0),CO=a("Reader.Malformed"),CP=a("Reader.Not_covered"),HW=[0,a("a paving is checked by orthocert-verified")],HV=a(rj),HX=a("CERTIFIED"),HY=a("REFUTED"),HZ=a(rj),H0=a("NOT COVERED: ");function
-gm(a){throw[0,lk,a]}function
+kG(a,b,c,d,e){return a.length==4?a(b,c,d,e):dw(a,[b,c,d,e])}Jg();var
+lm=[a7,a(qW),-2],ll=[a7,a(r8),-4],HY=[0,[0,[0,[0,0]]]],HZ=[0,0],H0=[0,0],H1=[0,[0,0]],H2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H1]]]]]]]]]]],hO=[0,[1,0],0],pC=[0,[2,0],0],kk=[0,[1,0],0],pB=[0,[2,0],0],hM=[0,[1,0],0],kj=[0,[2,0],0],H3=[0,[0,[0,[0,0]]]],H4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H3]]]]]]]]]]],H5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H4]]]]]]]]]]],H6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H5]]]]]]]]]]],H7=[0,[0,0]],H8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H7]]]]]]]]]]],H9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H8]]]]]]]]]]],H_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H9]]]]]]]]]]],H$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H_]]]]]]]]]]],Ia=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],Ib=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ia]]]]]]]]]]],Ic=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ib]]]]]]]]]]],Id=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ic]]]]]]]]]]],Ie=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Id]]]]]]]]]]],If=[0,[0,0]],Ig=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,If]]]]]]]]]]],Ih=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ig]]]]]]]]]]],Ii=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ih]]]]]]]]]]],Ij=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ii]]]]]]]]]]],Ik=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ij]]]]]]]]]]],Il=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ik]]]]]]]]]]],Im=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Il]]]]]]]]]]],In=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],Io=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,In]]]]]]]]]]],Ip=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Io]]]]]]]]]]],Iq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ip]]]]]]]]]]],Ir=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Iq]]]]]]]]]]],Is=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ir]]]]]]]]]]],It=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Is]]]]]]]]]]],Iu=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,It]]]]]]]]]]],Iv=[0,0],Iw=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Iv]]]]]]]]]]],Ix=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Iw]]]]]]]]]]],Iy=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ix]]]]]]]]]]],Iz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Iy]]]]]]]]]]],IA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Iz]]]]]]]]]]],IB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IA]]]]]]]]]]],IC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IB]]]]]]]]]]],ID=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IC]]]]]]]]]]],IE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,ID]]]]]]]]]]],IF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IE]]]]]]]]]]],IG=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],IH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IG]]]]]]]]]]],II=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],IJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,II]]]]]]]]]]],IK=[0,[0,[0,[0,[0,0]]]]],IL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IK]]]]]]]]]]],IM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IL]]]]]]]]]]],IN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IM]]]]]]]]]]],IO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IN]]]]]]]]]]],IP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IO]]]]]]]]]]],IQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IP]]]]]]]]]]],IR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IQ]]]]]]]]]]],IS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IR]]]]]]]]]]],IT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IS]]]]]]]]]]],IU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IT]]]]]]]]]]],IV=[0,0],IW=[0,[0,0]],IX=[0,0],IY=[0,[0,[0,[0,[0,0]]]]],dE=[0,[0,[0,0]]],dG=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],hB=[0,[0,[0,[0,0]]]],IZ=[0,[0,[0,[0,[0,0]]]]],I0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IZ]]]]]]]]]]],I1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,I0]]]]]]]]]]],I2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,I1]]]]]]]]]]],I3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,I2]]]]]]]]]]];bO(11,[a7,a(qm),-12],qm);bO(10,[a7,a(ra),-11],ra);bO(9,[a7,a(rX),-10],rX);bO(8,[a7,a(qy),-9],qy);bO(7,[a7,a(ro),-8],ro);bO(6,[a7,a(qw),-7],qw);bO(5,[a7,a(qX),-6],qX);bO(4,[a7,a(q1),-5],q1);bO(3,ll,r8);bO(2,[a7,a(kQ),-3],kQ);bO(1,lm,qW);bO(0,[a7,a(rH),-1],rH);var
+sI=a("String.sub / Bytes.sub"),sK=a(af),sJ=a("String.concat"),sL=a("Array.init"),sM=a("power"),s5=[0,0],s6=[0,0],ta=[0,0,0],tb=[0,0,0],tc=[0,0],ty=[0,0],tz=[0,0],tC=[0,0],tX=[0,0],t0=[0,0],t4=[0,0],t5=[0,0],t6=[0,0],t7=[0,0],uj=[0,0],uk=[0,0],uN=[0,0],vb=[0,[0,[0,0]]],vC=[0,0],v3=[0,0],wp=[0,0],wA=a(","),wS=[0,a(kW),0],wT=a(q6),wU=a("."),wV=[0,[0,[0,0]]],wW=a(e0),wX=a(kX),wY=[0,[0,[0,[0,[0,0]]]]],wZ=[0,a(kW),0],w0=a(r6),z3=a(qj),z5=a(qg),z4=a(rd),z6=a(eV),z7=a(eT),z8=a(k5),z9=a(rR),z_=a(qQ),z$=a(kZ),Aa=a(ri),Ab=a(qP),Br=[0,[0,0,0]],BI=[0,0],Bs=a(f5),Bt=[0,0],Bu=a("divided"),Bv=[0,1],Bw=a("mirror"),Bx=[0,3],By=a("negative"),Bz=[0,2],BA=a(f_),BB=[0,5],BC=a(k4),BD=[0,4],BE=a(du),BF=a(qB),BG=a(eW),BH=a(bM),BJ=[0,0],BK=[0,0],BL=[0,0],BO=[0,[0,[0,0]]],BP=[0,[0,[0,0]]],Ce=[0,[0,[0,0]]],Cs=[0,0],CN=a(af),CF=[0,0],CH=[0,0],CG=[0,0],CI=[0,[0,[0,[0,0]]]],CJ=[0,[0,[0,0]]],CK=[0,[0,[0,[0,0]]]],CL=[0,[0,[0,0]]],CD=[0,[0,[0,0]]],CC=a(eW),CB=[0,0],Cz=[0,1,0],CA=[0,[0,[0,0]]],Cy=[0,0],Cx=[0,0],Cw=[0,0],Ct=[0,[0,0]],Cu=[0,[0,[0,0]]],Cq=[0,[0,0]],Cr=[0,[0,[0,0]]],Cp=[0,0],Cl=[0,[0,[0,0]]],Ck=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HY]]]]]]]]]],[0,0,[0,[0,[0,[0,0]]],0]]],Cf=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],[0,0,0]],Cg=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],[0,[0,[0,[0,[0,[0,[0,0]]]]]],0]],Ch=[0,[0,[0,[0,[0,[0,[0,0]]]]]],0],Ci=[0,[0,[0,[0,0]]],[0,0,0]],Cc=[0,0],Cd=[0,[0,0]],Cb=[0,0,0],Ca=[0,[0,[0,0]]],B6=[0,[0,0]],B7=[0,[0,[0,0]]],B8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HZ]]]]]]]]]]],B9=[0,[0,0]],B_=[0,[0,[0,0]]],B5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H0]]]]]]]]]]],B3=[0,[0,0]],B4=[0,[0,[0,0]]],B1=[0,[0,[0,0]]],B2=[0,[0,0]],B0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H2]]]]]]]]]]],BZ=[0,0],BY=[0,0],BV=[0,[0,0]],BW=[0,0],BT=[0,0],BU=[0,1],BR=[0,[0,0]],BS=[0,0],BQ=[0,0],BM=[0,0],BN=[0,1],Bo=[0,0],Bp=[0,1],Bq=[0,2],Bk=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],Bi=[0,[0,0],0],Bj=[0,[1,0],0],Bl=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],Bg=[0,[0,0]],Bh=[0,0],Bf=[0,0],Be=[0,0],Bd=[0,0],Bc=[0,0],Bb=[0,0,0],A$=[0,[0,0]],Ba=[0,0],A_=[0,0,0],A8=[0,[0,[0,0]]],A9=[0,[0,[0,0]]],A7=[0,0],A5=[0,1,0],AY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H6]]]]]]]]]]],AZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H$]]]]]]]]]]],AU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ie]]]]]]]]]]],AV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Im]]]]]]]]]]],AW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Iu]]]]]]]]]]],AX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IF]]]]]]]]]]],A0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IH]]]]]]]]]]],A1=a("sqrt"),AS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IJ]]]]]]]]]]],AT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IU]]]]]]]]]]],AH=[0,a("\n"),0],AI=a(qh),AJ=a(h6),AK=a(q$),AL=a(qU),AR=a(gb),AM=a(f9),AN=a("verdict"),AO=a(rI),AP=a(qM),AQ=a(q_),AE=a(q4),AF=a(rM),AG=a(h8),AA=a(rk),AB=a(h9),AC=a(f9),AD=a(gb),Av=a(ig),Aw=a(bw),Ax=a(qi),Ay=a(ic),As=a(rG),At=a(f_),Au=a(ic),Ao=a(rn),Ap=a(ig),Aq=a(h9),Ar=a(rV),Ad=a(rN),Ae=a(rQ),Af=a(ib),Ag=a(h$),Ah=a(r1),Ai=a(rC),Aj=a(rF),Ak=a(rr),Al=a(ib),Am=a(ru),z1=a(h4),z2=a(ga),zW=a(bN),zX=a(bL),zY=a(qO),zw=a(h$),zx=a(rq),za=a(bw),zb=a(b7),zc=a(ii),zd=a(eZ),ze=a(co),zj=a(kJ),zf=a(kY),zg=a(k1),zh=a(eU),zi=a(bw),zk=a(b7),zl=a(ii),zm=a(eZ),zn=a(kY),zo=a(k1),zp=a(eU),zq=a(bw),zr=a(b7),zs=a(bN),zt=a(bL),zu=a(d5),zv=a(eZ),zy=a(rA),zz=a(rP),zA=a(ij),zB=a(qC),zC=a(qH),zD=a(eU),zE=a(bw),zF=a(b7),zG=a(h2),zH=a(qS),zI=a(eZ),zJ=a(gg),zK=a(qq),zL=a(eU),zM=a(bw),zN=a(h2),zO=a(bw),zP=a(rt),zS=a(qf),zQ=a(qF),zR=a(rU),zT=a(gb),zU=a(f9),zV=a(bw),zZ=a(ij),z0=a(h8),y7=a(b7),y8=a(eZ),y9=a(kJ),y_=a(eU),y6=a(r3),yU=a(gg),yV=a(rJ),yW=a(d6),yX=a(eX),yY=a(eX),yZ=a(kM),y0=a(d6),y1=a(rb),y2=a(qN),y3=a(bl),y5=a(ql),y4=a(kM),yK=a(q3),yL=a(r7),yM=a(qJ),yN=a(qG),yO=a(rT),yP=a(rE),yQ=a(qV),yR=a(h3),yS=a(h3),yG=a(bl),yH=a(bK),yI=a(e1),yJ=a(bv),yC=a(co),yD=a(kT),yE=a(rl),yz=a(bN),yA=a(bL),yB=a(d5),ys=a(bN),yt=a(bL),yu=a(d5),yv=a(kV),yw=a(d6),yx=a(kR),yy=a(rz),ya=a(qE),yg=a(h6),yf=a(k3),yb=a(kN),yc=a(f7),yh=a(f8),yj=a(f8),yk=a(rx),yl=a(kN),yi=a(f7),ym=a(qA),yn=a(rw),yo=a(f7),yp=a(r2),yq=a(k3),yr=a(f7),yd=a(eX),ye=a(rg),x9=a(ia),x_=a(ia),x$=a(ia),x5=a(rB),x6=a(bL),x7=a(bN),x8=a(rS),xO=a(qu),xP=a(qk),xQ=a(rp),xR=a(eV),xS=a(r4),xT=a(rs),xU=a(qv),xV=a(rh),xW=a(qt),xX=a(qR),xY=a(qs),xZ=a(rD),x0=a(eT),x1=a(qp),x2=a(rL),x3=a(qI),x4=a(r5),xp=a(id),xr=a(e0),xq=a(f6),xs=a(eS),xt=a(bl),xu=a(bK),xv=a(bM),xw=a(gc),xx=a(bv),xy=a(ge),xz=a(bl),xA=a(bK),xB=a(e1),xC=a(bv),xD=a(bM),xE=a(co),xF=a(bv),xG=a(eS),xH=a(gf),xI=a(bl),xJ=a(bK),xK=a(rf),xL=a(f8),xM=a(gf),xN=a(bv),w9=a(id),xf=a(e0),w_=a(f6),w$=a(eS),xa=a(bl),xb=a(bK),xc=a(bM),xd=a(gc),xe=a(bv),xg=a(ge),xh=a(bl),xi=a(bK),xj=a(e1),xk=a(bv),xl=a(bM),xm=a(co),xn=a(bv),w6=a(bN),w7=a(bL),w4=[0,a(aR),0],w5=a(aR),w2=a(af),w1=[0,a(aR),0],w3=a(aR),wO=a(id),wP=a(e0),wQ=a("*"),wR=a(b8),wJ=[0,[0,[0,[0,[0,0]]]]],wK=[0,[0,[0,0]]],wL=[0,[0,0]],wM=[0,0],wN=[0,[0,[0,[0,0]]]],wH=a('":'),wI=a(aR),wF=[0,a(aR),0],wG=a(aR),wD=[0,a("}"),0],wE=a("{"),wB=[0,a("]"),0],wC=a("["),wz=[0,[0,[0,0]]],wy=[0,[0,[0,0]]],ww=[0,0],wt=[0,[0,[0,0]]],wu=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],wv=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],wr=[0,[0,0]],ws=[0,[0,[0,0]]],wq=[0,0],wn=[0,0],wo=[0,[0,0]],wk=[0,0],wl=[0,[0,0]],wm=[0,0],wf=[0,[0,0]],wg=[0,0],wh=[0,[0,[0,0]]],wi=[0,[0,[0,0]]],we=[0,[0,[0,0]]],wd=[0,[0,[0,0]]],wc=[0,0],v$=[0,[0,[0,0]]],wb=[0,[0,[0,0]]],wa=[0,0],v9=[0,[0,0]],v_=[0,0],v7=[0,[0,0]],v8=[0,0],v6=[0,[0,[0,0]]],v4=[0,[0,0]],v5=[0,0],v1=[0,0],v2=[0,[0,0]],vV=[0,[0,0]],vW=[0,[0,[0,[0,[0,0]]]]],vX=[0,[0,[0,[0,0]]]],vY=[0,[0,[0,0]]],vZ=[0,[0,0]],v0=[0,0],vS=[0,0],vT=[0,[0,0]],vU=[0,0],vR=[0,0],vN=[0,0],vO=[0,[0,[0,[0,[0,[0,0]]]]]],vP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IV]]]]]]]]]]],vL=[0,0],vG=[0,0,0],vH=[0,0,0],vI=[0,0,0],vD=[0,[0,0]],vE=[0,[0,[0,0]]],vF=[0,0],vs=[0,[0,[0,[0,[0,[0,0]]]]]],vt=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],vu=[0,[0,[0,0]]],vv=[0,[0,[0,0]]],vw=[0,[0,[0,[0,[0,[0,0]]]]]],vx=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],vy=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IW]]]]]]]]]]],vz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IX]]]]]]]]]]],vA=[0,[0,[0,0]]],vB=[0,[0,[0,[0,[0,[0,0]]]]]],vo=[0,0,0],vp=[0,0,0],vk=[0,0,0],vl=[0,0,0],vm=[0,0,0],vn=[0,0,0],vj=[0,0],vi=[0,0],vh=[0,0],vf=[0,0],vg=[0,0],ve=[0,0],vc=[0,0],vd=[0,0],u6=[0,0],u7=[0,0],u8=[0,0],u9=[0,[0,[0,0]]],u5=[0,0],uZ=[0,0],u0=[0,0],u1=[0,[0,0]],uX=[0,[0,0]],uY=[0,[0,[0,0]]],uV=[0,[0,[0,0]]],uW=[0,[0,0]],uT=[0,[0,0]],uU=[0,[0,[0,0]]],uS=[0,0],uQ=[0,0],uR=[0,0],uO=[0,0,0],uL=[0,[0,0]],uM=[0,0],uD=[0,[0,0]],uE=[0,0],uF=[0,[0,0]],uG=[0,0],uH=[0,[0,0]],uI=[0,0],uJ=[0,[0,0]],uK=[0,0],uB=[0,[0,0]],uC=[0,0],uz=[0,[0,0]],uA=[0,0],uv=[0,[0,0]],uw=[0,0],ux=[0,0],uy=[0,[0,0]],um=[0,[0,0]],un=[0,0],uo=[0,[0,0]],up=[0,0],uq=[0,0],ur=[0,[0,0]],us=[0,[0,0]],ut=[0,[0,0]],uu=[0,0],ui=[0,0],uh=[0,0],ue=[0,0],uf=[0,[0,0]],ud=[0,[0,[0,0]]],uc=[0,[0,[0,[0,[0,[0,0]]]]]],ua=[0,[0,0]],ub=[0,0],t$=[0,[0,0]],t_=[0,0],t8=[0,0],t9=[0,[0,[0,0]]],t2=[0,[0,0]],t3=[0,[0,[0,0]]],t1=[0,[0,[0,0]]],tY=[0,[0,[0,0]]],tW=[0,[0,[0,0]]],tU=[0,[0,[0,[0,[0,[0,0]]]]]],tV=[0,[0,[0,[0,[0,[0,0]]]]]],tP=[0,[0,0]],tQ=[0,0],tR=[0,[0,0]],tS=[0,[0,[0,0]]],tT=[0,[0,[0,0]]],tI=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],tJ=[0,[0,[0,[0,[0,[0,0]]]]]],tK=[0,[0,[0,[0,[0,[0,0]]]]]],tL=[0,[0,[0,0]]],tM=[0,[0,[0,[0,[0,[0,0]]]]]],tN=[0,[0,[0,0]]],tO=[0,[0,[0,0]]],tG=[0,[0,0]],tH=[0,0],tF=[0,0,0],tE=[0,0,0],tD=[0,0,0],tB=[0,0,0],tA=[0,[0,[0,0]]],tu=[0,0],tv=[0,0],tw=[0,0],tx=[0,0],ts=[0,0],tt=[0,0],to=[0,[0,[0,0]]],tp=[0,[0,[0,0]]],tq=[0,[0,[0,0]]],tn=[0,[0,[0,[0,0]]]],tj=[0,[0,[0,0]]],tk=[0,[0,[0,0]]],tl=[0,[0,[0,0]]],tm=[0,[0,1,1],[0,[0,0,1],[0,[0,1,0],[0,[0,0,0],0]]]],th=[0,[0,0]],ti=[0,0],tf=[0,[0,0]],tg=[0,0],td=[0,[0,0]],te=[0,0],s2=[0,0],s3=[0,[0,0]],s0=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],s1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IY]]]]]]]]]]],sY=[0,0,0],sX=a(rZ),sW=a(af),sV=[0,[0,0]],sT=[0,0],sQ=[0,0],sS=[1,0],sR=[0,0],sP=[0,0],sN=[1,0],sO=[1,0],ug=[10,0,0,0,0],Cv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,I3]]]]]]]]]]],F1=a(bN),F2=a(bL),F3=a(qO),FT=a(ge),FU=[0,a("a base axis of such a platform"),0],FV=a(bl),FW=a(bK),FG=a(rE),FH=a(q3),FI=a(rT),FJ=a(h3),FK=a(qV),FL=a(h3),FM=a(r7),FN=a(qJ),FO=a(qG),Fw=a(rq),Fx=a(h$),E_=[0,a("such a machine with bodies"),0],EX=a(h8),EY=a(bw),EZ=a(rt),E0=a(rU),E3=a(qF),E4=a(qf),E5=a(bw),E6=a(bw),E8=a(h2),E7=[0,a("a claim that no cube of such a machine fits"),0],E9=a(r3),E$=a(eU),Fa=a(eZ),Fb=a(co),Fc=a(kT),Fd=a(rl),Fe=a(ii),Ff=a(qH),Fg=a(qq),Fh=a(kJ),Fk=a(d5),Fl=a(rz),Fo=a(b7),Fp=a(b7),Fq=a(qS),Fr=a(b7),Fs=[0,a("the closed design with other bounds on psi than one from below and one from above"),0],Ft=a(h2),Fu=a(gg),Fv=a(d5),Fy=a(b7),Fz=a(bN),FA=a(bL),FB=a(rA),FC=a(rP),FD=a(ij),FE=a(qC),Fi=[0,a(aR),0],Fj=a('the mechanism "'),FF=a(kY),FP=a(ii),FQ=a(co),FR=a(kT),FS=a(k1),FX=a(b7),F0=a(co),FY=[0,a("a platform that turns on struts and other drives"),0],FZ=a(b7),Fm=[0,a(aR),0],Fn=a('the workspace "'),F4=a(bw),F5=a(bw),F7=a(gb),F8=a(f9),F9=a(ij),F6=[0,a("an atlas of such a machine"),0],E1=[0,a(aR),0],E2=a('a claim of the kind "'),Gl=a(k5),Gm=a(du),Gn=a(eW),Go=a(kZ),Gp=a(f5),Gq=[0,a('this evidence "fan"'),0],Gc=a(du),GA=a(ga),GB=[0,1,1],Gd=a(ri),Gr=a(eT),Gs=a(qP),Gt=a(eV),Gu=a(qQ),Gv=a(rd),Gw=a(bM),Gx=a(ga),Gy=a(h4),Gz=a(bM),Ge=a(k5),Gf=a(du),Gg=a(qB),Gh=a(eW),Gi=a(kZ),Gj=[0,a(aR),0],Gk=a('the evidence "'),GC=a(eT),GD=a(eV),GE=a(du),GF=a(eW),GG=a(rR),GI=a(eT),GJ=a(eV),GK=a(du),GL=a(eW),GM=a(f_),GN=a(f5),GO=a(f_),GP=a(f5),GH=[0,a("this evidence at control points"),0],HR=a('"orthocert-paving/'),HI=a(du),HJ=a(du),Hv=a(q_),Hw=a(qM),Hx=a(rI),HP=[0,3,3],Hy=a(qU),HG=[0,a("this set of orientations with such drives"),0],HK=[0,a('this evidence "tolerances" of a platform that turns'),0],HL=[0,a("a step of a platform that turns that is not at control points"),0],HM=[0,a("this quantity in a claim that is refuted"),0],HN=[0,a("a step in a proof that no cube fits"),0],HO=[0,a('the failure "same" of such a mechanism'),0],HH=[0,a('"accuracy" of such a mechanism'),0],Hz=[0,a("the acceleration of a joint of a machine with a plane"),0],HE=[0,a("a stiffness for each joint in such a claim"),0],HF=[0,a(rv),0],HD=[0,a(rv),0],HA=a(q$),HB=a(qh),HC=a(h6),Hr=a(k4),Hs=a(f5),Ht=a(bM),Hj=a(h8),Hk=a(q4),Hl=a(rM),Hm=[0,a(aR),0],Hn=a('a proof of the kind "'),Hf=a(f9),Hg=a(gb),Hh=a(h9),Hi=a(rk),Hb=a(bw),Hc=a(ig),Hd=a(qi),He=a(ic),G_=a(rG),G$=a(f_),Ha=a(ic),G6=a(rn),G7=a(ig),G8=a(h9),G9=a(rV),GS=a(rQ),GT=a(ib),GU=a(rN),GV=a(h$),GW=a(ru),GX=a(r1),G0=a(rC),G1=a(h4),G2=a(ga),G3=a(rF),G4=a(rr),G5=a(ib),GY=[0,a(aR),0],GZ=a('the failure "'),GQ=a(k4),GR=a(rZ),Ga=a(ga),Gb=a(h4),F_=a(qg),F$=a(qj),EU=a(gg),EK=a(kM),EL=a(ql),EM=a(eX),EN=a(bl),ES=a(rJ),ET=a(gg),EV=a(d6),EW=a(eX),EO=a(d6),EP=a(rb),EQ=a(qN),ER=a(bl),ED=a(d5),EH=a(bN),EI=a(bL),EE=a(kR),EF=a(kV),EG=a(d6),Ex=a(d5),EB=a(bN),EC=a(bL),Ey=a(kR),Ez=a(kV),EA=a(d6),Ew=[0,1],Ev=[0,1],Et=[0,1],Er=[0,1],Eq=[0,1],Eo=[0,1],Ep=[0,a("this quantity of such a mechanism"),0],D9=a(kN),D_=a(rw),D$=a(qA),Ea=a(k3),Eb=a(r2),Ed=a(rx),Ec=a(f8),D8=a(h6),D0=a(ia),DO=a(rg),DP=a(rp),Eg=a(eT),Eh=a(rL),Ei=a(qR),Ej=a(eV),Ek=a(rh),El=a(qs),Em=a(qt),En=a(qk),DQ=a(qp),DR=a(r5),DS=a(rD),DT=a(rs),DU=a(qI),DV=a(r4),DW=a(qv),DX=a(qu),DY=[0,a(aR),0],DZ=a('the quantity "'),D1=a(qE),D2=a(rB),D3=a(bN),D4=a(bL),D5=a(rS),D6=[0,a(aR),0],D7=a('a bound "'),Ee=a(f7),Ef=a(eX),DM=a(bv),DN=a(e1),DK=a(bv),DL=a(co),DH=a(bv),DI=a(gc),Dj=a(bv),Dk=a(ge),Dl=a(gf),Dm=a(co),Dn=a(gc),Do=a(e1),Dr=a(bl),Ds=a(bK),Dt=a(f6),Du=a(eS),Dv=a(bl),Dw=a(bK),Dx=a(bM),Dy=a(bM),Dz=a(f6),DA=a(eS),DB=a(gf),DC=a(bl),DD=a(bK),DE=a(rf),DF=a(f8),Dp=[0,a('" of such a machine'),0],Dq=a(qz),Dh=a(bv),Di=a(gf),C3=a(bv),C4=a(co),C5=a(gc),C6=a(e1),C9=a(ge),C_=a(bl),C$=a(bK),Da=a(f6),Db=a(eS),Dc=a(bl),Dd=a(bK),De=a(bM),Df=a(bM),C7=[0,a(aR),0],C8=a(qz),C0=a(id),C1=a(e0),CY=a(" is not covered by the verified checker"),CZ=a(af),CW=a(bN),CX=a(bL),CS=a(af),CT=a(r6),CU=a(af),CV=a(af),CR=[1,0],CQ=a(e0),CO=a("Reader.Malformed"),CP=a("Reader.Not_covered"),HT=[0,a("a paving is checked by orthocert-verified")],HS=a(rj),HU=a("CERTIFIED"),HV=a("REFUTED"),HW=a(rj),HX=a("NOT COVERED: ");function
+gm(a){throw[0,ll,a]}function
 be(d,c){var
-a=aA(d),e=aA(c),b=cs(a+e|0);e3(d,0,b,0,a);e3(c,0,b,a,e);return is(b)}Jy(0);sr(1);sr(2);function
-lm(b){function
+a=az(d),e=az(c),b=cs(a+e|0);e3(d,0,b,0,a);e3(c,0,b,a,e);return is(b)}Jv(0);sr(1);sr(2);function
+ln(b){function
 a(b){var
 a=b;for(;;){if(a){var
-c=a[2],d=a[1];try{Jx(d)}catch(a){a=sB(a);if(a[1]!==ll)throw a;var
+c=a[2],d=a[1];try{Ju(d)}catch(a){a=sB(a);if(a[1]!==lm)throw a;var
 e=a}var
-a=c;continue}return 0}}return a(Jz(0))}JG(a(qn),lm);function
+a=c;continue}return 0}}return a(Jw(0))}JD(a(qn),ln);function
 cu(c){var
 b=0,a=c;for(;;){if(a){var
 b=b+1|0,a=a[2];continue}return b}}function
-ln(d){var
+lo(d){var
 a=d,b=0;for(;;){if(a){var
 c=[0,a[1],b],a=a[2],b=c;continue}return b}}function
 _(b,a){if(a){var
@@ -725,56 +725,56 @@ gn(d,c){var
 a=c;for(;;){if(a){var
 e=a[2],b=k(d,a[1]);if(b){var
 a=e;continue}return b}return 1}}function
-av(d,c){var
+aM(d,c){var
 a=c;for(;;){if(a){var
 e=a[2],b=k(d,a[1]);if(b)return b;var
 a=e;continue}return 0}}function
-bO(b,c){var
-a=cs(b);Jh(a,0,b,c);return is(a)}function
+bP(b,c){var
+a=cs(b);Je(a,0,b,c);return is(a)}function
 ea(g,b,a){var
 d=e4(g),f=0;if(0<=b&&0<=a&&!((iq(d)-a|0)<b)){var
 c=cs(a);gh(d,b,c,0,a);var
 e=c;f=1}if(!f)var
 e=gm(sI);return is(e)}function
-lo(k,g){if(g){var
-h=aA(k),c=0,b=g,p=0;for(;;){if(b){var
+lp(k,g){if(g){var
+h=az(k),c=0,b=g,p=0;for(;;){if(b){var
 i=b[1];if(b[2]){var
-j=(aA(i)+h|0)+c|0,m=b[2],n=c<=j?j:gm(sJ),c=n,b=m;continue}var
-l=aA(i)+c|0}else
+j=(az(i)+h|0)+c|0,m=b[2],n=c<=j?j:gm(sJ),c=n,b=m;continue}var
+l=az(i)+c|0}else
 var
 l=c;var
 f=cs(l),e=p,d=g;for(;;){if(d){var
 a=d[1];if(d[2]){var
-o=d[2];e3(a,0,f,e,aA(a));e3(k,0,f,e+aA(a)|0,h);var
-e=(e+aA(a)|0)+h|0,d=o;continue}e3(a,0,f,e,aA(a))}return is(f)}}}return sK}function
+o=d[2];e3(a,0,f,e,az(a));e3(k,0,f,e+az(a)|0,h);var
+e=(e+az(a)|0)+h|0,d=o;continue}e3(a,0,f,e,az(a))}return is(f)}}}return sK}function
 iu(b,c){if(0===b)return[0];if(0<=b){var
-d=Jw(b,k(c,0)),e=b-1|0,f=1;if(!(e<1)){var
+d=Jt(b,k(c,0)),e=b-1|0,f=1;if(!(e<1)){var
 a=f;for(;;){d[1+a]=k(c,a);var
 g=a+1|0;if(e!==a){var
 a=g;continue}break}}return d}return gm(sL)}function
 iv(c){var
 a=c.length-1-1|0,b=0;for(;;){if(0<=a){var
 d=[0,c[1+a],b],a=a-1|0,b=d;continue}return b}}var
-d=aJ(0),b=aJ(1);function
+d=aI(0),b=aI(1);function
 q(a){return E(a,b)}function
-lp(b,a){return E(aJ(b),a)}function
-c(b,a){return C(aJ(b),a)}function
-aT(b,a){return[0,lh(b,a),sE(b,a)]}function
+lq(b,a){return E(aI(b),a)}function
+c(b,a){return C(aI(b),a)}function
+aT(b,a){return[0,li(b,a),sE(b,a)]}function
 iw(b,a){return D(b,a)?b:a}function
 bm(b,a){return D(b,a)?a:b}function
 e9(a){return e9}function
 J(a){return a?0:1}function
 y(b,a){var
 c=a?[0,k(b,a[1])]:a;return c}function
-aB(a){return a[1]}function
+aA(a){return a[1]}function
 aO(a){return a[2]}function
 g(a){var
 b=a?[0,g(a[2])]:a;return b}function
 f(a,b){if(a){var
 c=f(a[2],b);return[0,a[1],c]}return b}function
-lq(a){return typeof
-a==="number"?0:[0,lq(a[1])]}function
-lr(d,c){var
+lr(a){return typeof
+a==="number"?0:[0,lr(a[1])]}function
+ls(d,c){var
 a=d,b=c;for(;;)if(typeof
 a==="number")return b;else
 switch(a[0]){case
@@ -797,8 +797,8 @@ a=a[1],b=[7,b];continue;case
 8:var
 a=a[1],b=[8,b];continue;default:var
 a=a[1],b=[9,b];continue}}function
-go(a){return lr(a,0)}function
-ls(a){if(typeof
+go(a){return ls(a,0)}function
+lt(a){if(typeof
 a==="number")return sN;else
 switch(a[0]){case
 0:return[1,a[1]];case
@@ -809,34 +809,34 @@ switch(a[0]){case
 5:return[6,a[1]];case
 6:return[7,a[1]];case
 7:return[8,a[1]];case
-8:return[9,a[1]];default:return[0,ls(a[1])]}}function
-bQ(a){if(typeof
+8:return[9,a[1]];default:return[0,lt(a[1])]}}function
+bR(a){if(typeof
 a==="number")return sO;else
 switch(a[0]){case
-0:return[1,bP(a[1])];case
-1:return[3,bP(a[1])];case
-2:return[5,bP(a[1])];case
-3:return[7,bP(a[1])];case
-4:return[9,bP(a[1])];case
-5:return[1,bQ(a[1])];case
-6:return[3,bQ(a[1])];case
-7:return[5,bQ(a[1])];case
-8:return[7,bQ(a[1])];default:return[9,bQ(a[1])]}}function
-bP(a){if(typeof
+0:return[1,bQ(a[1])];case
+1:return[3,bQ(a[1])];case
+2:return[5,bQ(a[1])];case
+3:return[7,bQ(a[1])];case
+4:return[9,bQ(a[1])];case
+5:return[1,bR(a[1])];case
+6:return[3,bR(a[1])];case
+7:return[5,bR(a[1])];case
+8:return[7,bR(a[1])];default:return[9,bR(a[1])]}}function
+bQ(a){if(typeof
 a==="number")return 0;else
 switch(a[0]){case
-0:return[0,bP(a[1])];case
-1:return[2,bP(a[1])];case
-2:return[4,bP(a[1])];case
-3:return[6,bP(a[1])];case
-4:return[8,bP(a[1])];case
-5:return[0,bQ(a[1])];case
-6:return[2,bQ(a[1])];case
-7:return[4,bQ(a[1])];case
-8:return[6,bQ(a[1])];default:return[8,bQ(a[1])]}}function
-bA(a){return a?a[1]:a}function
+0:return[0,bQ(a[1])];case
+1:return[2,bQ(a[1])];case
+2:return[4,bQ(a[1])];case
+3:return[6,bQ(a[1])];case
+4:return[8,bQ(a[1])];case
+5:return[0,bR(a[1])];case
+6:return[2,bR(a[1])];case
+7:return[4,bR(a[1])];case
+8:return[6,bR(a[1])];default:return[8,bR(a[1])]}}function
+bn(a){return a?a[1]:a}function
 M(b,a){return b?[0,M(b[1],a)]:a}function
-lt(a,b){return a?M(b,lt(a[1],b)):a}function
+lu(a,b){return a?M(b,lu(a[1],b)):a}function
 dx(d,c){var
 a=d,b=c;for(;;){if(a){if(b){var
 a=a[1],b=b[1];continue}return a}return a}}function
@@ -847,62 +847,62 @@ b=b[1],a=a[1];continue}return a}return a?0:1}}function
 aa(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return 1}}function
-aK(b,a){return aa([0,b],a)}function
-lu(c){var
+aJ(b,a){return aa([0,b],a)}function
+lv(c){var
 a=c;for(;;){if(a){var
 b=a[1];if(b){var
 a=b[1];continue}return b}return 1}}function
 gp(c,b,a){return c?k(b,gp(c[1],b,a)):a}function
-lv(a){if(a)var
-b=a[1],d=b?[0,lv(b[1])]:b,c=d;else
+lw(a){if(a)var
+b=a[1],d=b?[0,lw(b[1])]:b,c=d;else
 var
 c=a;return c}function
 ix(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return a?0:1}}function
-lw(a){if(D(a,b))return b;var
-e=aT(a,aJ(2)),f=e[1];return L(e[2],d)?q(c(2,lw(f))):q(c(2,c(2,f)))}function
-lx(c,a){return bm(b,aM(c,a))}function
+lx(a){if(D(a,b))return b;var
+e=aT(a,aI(2)),f=e[1];return L(e[2],d)?q(c(2,lx(f))):q(c(2,c(2,f)))}function
+ly(c,a){return bm(b,aL(c,a))}function
 gq(a,i,h){var
 c=i,f=h;for(;;){if(D(f,b))return k(a,c);var
-g=aT(f,aJ(2)),e=g[1];if(L(g[2],d)){var
+g=aT(f,aI(2)),e=g[1];if(L(g[2],d)){var
 c=gq(a,c,e),f=e;continue}return k(a,gq(a,gq(a,c,e),e))}}function
 gr(a){function
 c(b){return C(a,b)}return function(a){return gq(c,b,a)}}function
 gs(a){if(D(a,b))return sQ;var
-c=aT(a,aJ(2)),e=c[1];return L(c[2],d)?[0,gs(e)]:[0,gs(e)]}function
+c=aT(a,aI(2)),e=c[1];return L(c[2],d)?[0,gs(e)]:[0,gs(e)]}function
 gt(a){if(D(a,b))return b;var
-c=aT(a,aJ(2)),e=c[1];return L(c[2],d)?q(gt(e)):q(gt(e))}function
-ly(c,b){var
-a=lg(c,b);return 0===a?0:0<=a?2:1}function
+c=aT(a,aI(2)),e=c[1];return L(c[2],d)?q(gt(e)):q(gt(e))}function
+lz(c,b){var
+a=lh(c,b);return 0===a?0:0<=a?2:1}function
 gu(j,i){var
-c=j,a=i;for(;;){if(D(c,b))return D(a,b)?1:L(aT(a,aJ(2))[2],d)?0:0;var
-g=aT(c,aJ(2)),h=g[1];if(L(g[2],d)){if(D(a,b))return 0;var
-e=aT(a,aJ(2)),k=e[1];if(L(e[2],d)){var
+c=j,a=i;for(;;){if(D(c,b))return D(a,b)?1:L(aT(a,aI(2))[2],d)?0:0;var
+g=aT(c,aI(2)),h=g[1];if(L(g[2],d)){if(D(a,b))return 0;var
+e=aT(a,aI(2)),k=e[1];if(L(e[2],d)){var
 c=h,a=k;continue}return 0}if(D(a,b))return 0;var
-f=aT(a,aJ(2)),l=f[1];if(L(f[2],d))return 0;var
+f=aT(a,aI(2)),l=f[1];if(L(f[2],d))return 0;var
 c=h,a=l;continue}}function
-gv(b,a){return 2<=ly(b,a)?0:1}function
+gv(b,a){return 2<=lz(b,a)?0:1}function
 eb(i,e,a){if(i){var
 f=i[1];if(D(e,b))return[0,b,[0,b,a]];var
-w=aT(e,aJ(2)),g=w[1];if(L(w[2],d)){if(D(a,b))return[0,b,[0,e,b]];var
-m=aT(a,aJ(2)),A=m[1];if(L(m[2],d)){var
+w=aT(e,aI(2)),g=w[1];if(L(w[2],d)){if(D(a,b))return[0,b,[0,e,b]];var
+m=aT(a,aI(2)),A=m[1];if(L(m[2],d)){var
 j=eb(f,g,A),x=j[2];return[0,c(2,j[1]),x]}var
 k=eb(f,g,a),l=k[2],y=l[2],z=[0,c(2,l[1]),y];return[0,k[1],z]}if(D(a,b))return[0,b,[0,e,b]];var
-v=aT(a,aJ(2)),h=v[1];if(L(v[2],d)){var
-n=eb(f,e,h),o=n[2],B=c(2,o[2]);return[0,n[1],[0,o[1],B]]}switch(ly(g,h)){case
+v=aT(a,aI(2)),h=v[1];if(L(v[2],d)){var
+n=eb(f,e,h),o=n[2],B=c(2,o[2]);return[0,n[1],[0,o[1],B]]}switch(lz(g,h)){case
 0:return[0,e,[0,b,b]];case
 1:var
-p=eb(f,lx(h,g),e),q=p[2],r=q[2],C=[0,r,E(r,c(2,q[1]))];return[0,p[1],C];default:var
-s=eb(f,lx(g,h),a),t=s[2],u=t[2],F=[0,E(u,c(2,t[1])),u];return[0,s[1],F]}}return[0,b,[0,e,a]]}function
+p=eb(f,ly(h,g),e),q=p[2],r=q[2],C=[0,r,E(r,c(2,q[1]))];return[0,p[1],C];default:var
+s=eb(f,ly(g,h),a),t=s[2],u=t[2],F=[0,E(u,c(2,t[1])),u];return[0,s[1],F]}}return[0,b,[0,e,a]]}function
 gw(b,a){var
 c=gs(a);return eb(M(gs(b),c),b,a)}function
-lz(c,i,h){var
+lA(c,i,h){var
 e=i,a=h;for(;;){if(D(e,b))return a;var
-f=aT(e,aJ(2)),g=f[1];if(L(f[2],d)){var
-e=g,a=ar(c,a,a);continue}return ar(c,a,lz(c,g,ar(c,a,a)))}}function
-e_(a){return lz(M,a,sR)}function
-lA(a){return a?q(lA(a[1])):b}function
+f=aT(e,aI(2)),g=f[1];if(L(f[2],d)){var
+e=g,a=ar(c,a,a);continue}return ar(c,a,lA(c,g,ar(c,a,a)))}}function
+e_(a){return lA(M,a,sR)}function
+lB(a){return a?q(lB(a[1])):b}function
 cw(f,e){var
 a=f,d=e;for(;;)if(typeof
 a==="number")return d;else
@@ -927,14 +927,14 @@ t=C(c(2,q(c(2,c(2,b)))),d),u=E(q(c(2,q(c(2,b)))),t),a=a[1],d=u;continue;case
 v=C(c(2,q(c(2,c(2,b)))),d),w=E(c(2,c(2,c(2,b))),v),a=a[1],d=w;continue;default:var
 x=C(c(2,q(c(2,c(2,b)))),d),y=E(q(c(2,c(2,c(2,b)))),x),a=a[1],d=y;continue}}function
 iy(a){if(D(a,b))return sS;var
-c=aT(a,aJ(2)),e=c[1];return L(c[2],d)?bP(iy(e)):bQ(iy(e))}function
+c=aT(a,aI(2)),e=c[1];return L(c[2],d)?bQ(iy(e)):bR(iy(e))}function
 gx(a){return go(iy(a))}function
-lB(c,b){var
-a=lg(c,b);return 0===a?0:0<=a?2:1}function
-iz(b,a){return 1===lB(b,a)?1:0}var
-lC=E,sU=T;function
-b9(k,f){if(0<=aS(f)){var
-g=li(f);if(0<=g){var
+lC(c,b){var
+a=lh(c,b);return 0===a?0:0<=a?2:1}function
+iz(b,a){return 1===lC(b,a)?1:0}var
+lD=E,sU=T;function
+b_(k,f){if(0<=aS(f)){var
+g=lj(f);if(0<=g){var
 e=b,c=k,a=g;for(;;){if(0===a)return e;var
 h=a>>>1|0,i=C(c,c),j=1===(a&1)?C(e,c):e,e=j,c=i,a=h;continue}}return gm(sM)}return d}function
 iA(c){var
@@ -942,7 +942,7 @@ a=aS(c);return 0===a?d:0<a?b:T(b)}function
 iB(a){return 0<=aS(a)?a:d}function
 ec(a){var
 c=aS(a);return 0===c?b:0<c?a:b}function
-lD(m){var
+lE(m){var
 a=m;for(;;)if(typeof
 a==="number")return d;else
 switch(a[0]){case
@@ -965,27 +965,27 @@ j=q(c(2,q(c(2,b))));return cw(a[1],j);case
 k=c(2,c(2,c(2,b)));return cw(a[1],k);default:var
 l=q(c(2,c(2,c(2,b))));return cw(a[1],l)}}function
 cx(b,a){var
-c=aS(a);return 0===c?d:1===c?lh(b,a):lp(-1,lh(lp(-1,b),a))}function
-lE(a){var
+c=aS(a);return 0===c?d:1===c?li(b,a):lq(-1,li(lq(-1,b),a))}function
+lF(a){var
 f=aS(a);if(0===f)return d;if(0<f){if(D(a,b))return d;var
-c=aT(a,aJ(2)),e=c[1];return L(c[2],d)?gt(e):gt(e)}return d}function
-gy(a){return 0<aS(a)?JQ(a):d}function
+c=aT(a,aI(2)),e=c[1];return L(c[2],d)?gt(e):gt(e)}return d}function
+gy(a){return 0<aS(a)?JN(a):d}function
 e$(b,c){var
-a=li(c);return 0<=a?sF(b,a):sG(b,-a|0)}function
+a=lj(c);return 0<=a?sF(b,a):sG(b,-a|0)}function
 dy(b,c){var
-a=li(c);return 0<=a?sG(b,a):sF(b,-a|0)}function
-bR(b,a){return a?a[1]:b}function
-bB(a){var
+a=lj(c);return 0<=a?sG(b,a):sF(b,-a|0)}function
+bS(b,a){return a?a[1]:b}function
+bC(a){var
 b=a?a[2]:a;return b}function
 r(e,d,c){var
 b=e,a=d;for(;;){if(b){if(a){var
 b=b[1],a=a[2];continue}return c}return a?a[1]:c}}function
-H(d,c){var
+F(d,c){var
 a=d,b=c;for(;;){if(b){if(a){var
 a=a[2],b=b[1];continue}return a}var
 e=a?[0,a[1]]:a;return e}}function
-lF(a){if(a){var
-b=[0,a[1],0];return f(lF(a[2]),b)}return a}function
+lG(a){if(a){var
+b=[0,a[1],0];return f(lG(a[2]),b)}return a}function
 fa(d,c){var
 a=d,b=c;for(;;){if(a){var
 e=[0,a[1],b],a=a[2],b=e;continue}return b}}function
@@ -1004,7 +1004,7 @@ var
 c=a;return c}function
 z(b,a){if(a){var
 c=z(b,a[2]);return f(k(b,a[1]),c)}return a}function
-bS(e,d,c){var
+bT(e,d,c){var
 a=d,b=c;for(;;){if(a){var
 f=ar(e,b,a[1]),a=a[2],b=f;continue}return b}}function
 ao(c,b,a){if(a){var
@@ -1024,7 +1024,7 @@ a1(b,e){var
 a=e;for(;;){if(a){var
 c=a[2],d=a[1];if(k(b,d))return[0,d,a1(b,c)];var
 a=c;continue}return a}}function
-lG(d,c){var
+lH(d,c){var
 a=c;for(;;){if(a){var
 b=a[1];if(k(d,b))return[0,b];var
 a=a[2];continue}return a}}function
@@ -1034,28 +1034,28 @@ var
 c=a;else
 var
 c=b;return c}function
-an(b,a){if(b)if(a)var
-d=an(b[1],a[2]),c=[0,a[1],d];else
+am(b,a){if(b)if(a)var
+d=am(b[1],a[2]),c=[0,a[1],d];else
 var
 c=a;else
 var
 c=b;return c}function
-aw(d,c){var
+av(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[2];continue}return a}return a}}function
-aD(b,a){var
-c=a?[0,b,aD([0,b],a[1])]:a;return c}function
+aC(b,a){var
+c=a?[0,b,aC([0,b],a[1])]:a;return c}function
 ab(b,a){var
 c=a?[0,b,ab(b,a[1])]:a;return c}function
-lH(a){return ao(M,0,a)}function
-lI(a){if(a){var
-e=lI(a[2]),f=C(c(2,b),e),g=a[1]?b:d;return E(g,f)}return d}function
+lI(a){return ao(M,0,a)}function
+lJ(a){if(a){var
+e=lJ(a[2]),f=C(c(2,b),e),g=a[1]?b:d;return E(g,f)}return d}function
 gz(j){function
 a(a){return 0!==(j&1<<a)?1:0}var
-c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=lI([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<aS(b)?e_(b):0}function
-lJ(a){return[0,a,b]}function
+c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=lJ([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<aS(b)?e_(b):0}function
+lK(a){return[0,a,b]}function
 ee(c,b){var
-a=lg(C(c[1],b[2]),C(b[1],c[2])),d=0===a?0:0<=a?2:1;return d?0:1}function
+a=lh(C(c[1],b[2]),C(b[1],c[2])),d=0===a?0:0<=a?2:1;return d?0:1}function
 bf(b,a){return D(C(b[1],a[2]),C(a[1],b[2]))}function
 dz(b,a){return[0,E(C(b[1],a[2]),C(a[1],b[2])),C(b[2],a[2])]}function
 a3(b,a){return[0,C(b[1],a[1]),C(b[2],a[2])]}function
@@ -1080,56 +1080,56 @@ g=gw(p,a),h=g[2],c=[0,g[1],[0,T(h[1]),h[2]]];else
 var
 e=gw(p,T(a)),f=e[2],c=[0,e[1],[0,T(f[1]),T(f[2])]]}var
 r=c[2],s=ec(r[2]);return[0,r[1],s]}function
-bn(a){if(typeof
+bo(a){if(typeof
 a==="number")return sW;else
 switch(a[0]){case
 0:var
-b=bn(a[1]);return be(bO(1,48),b);case
+b=bo(a[1]);return be(bP(1,48),b);case
 1:var
-c=bn(a[1]);return be(bO(1,49),c);case
+c=bo(a[1]);return be(bP(1,49),c);case
 2:var
-d=bn(a[1]);return be(bO(1,50),d);case
+d=bo(a[1]);return be(bP(1,50),d);case
 3:var
-e=bn(a[1]);return be(bO(1,51),e);case
+e=bo(a[1]);return be(bP(1,51),e);case
 4:var
-f=bn(a[1]);return be(bO(1,52),f);case
+f=bo(a[1]);return be(bP(1,52),f);case
 5:var
-g=bn(a[1]);return be(bO(1,53),g);case
+g=bo(a[1]);return be(bP(1,53),g);case
 6:var
-h=bn(a[1]);return be(bO(1,54),h);case
+h=bo(a[1]);return be(bP(1,54),h);case
 7:var
-i=bn(a[1]);return be(bO(1,55),i);case
+i=bo(a[1]);return be(bP(1,55),i);case
 8:var
-j=bn(a[1]);return be(bO(1,56),j);default:var
-k=bn(a[1]);return be(bO(1,57),k)}}function
+j=bo(a[1]);return be(bP(1,56),j);default:var
+k=bo(a[1]);return be(bP(1,57),k)}}function
 fb(a){return typeof
-a==="number"?sX:bn(a)}function
-cy(a){return b9(c(2,b),a)}function
-lK(b,a){return dy(a,b)}function
-lL(b,a){return T(dy(T(a),b))}function
+a==="number"?sX:bo(a)}function
+cy(a){return b_(c(2,b),a)}function
+lL(b,a){return dy(a,b)}function
+lM(b,a){return T(dy(T(a),b))}function
 gC(b,a){return T(cx(T(b),a))}function
 O(c,b){var
 a=e$(b,c);return[0,a,a]}function
-lM(d,c,a){var
+lN(d,c,a){var
 b=e$(c,d),e=gC(b,a);return[0,cx(b,a),e]}function
 A(b,a){return[0,E(b[1],a[1]),E(b[2],a[2])]}function
-F(b,a){return[0,aM(b[1],a[2]),aM(b[2],a[1])]}function
+G(b,a){return[0,aL(b[1],a[2]),aL(b[2],a[1])]}function
 ac(a){return[0,T(a[2]),T(a[1])]}function
-lN(e,c,b,a){if(D(d,e))return D(d,b)?[0,C(e,b),C(c,a)]:D(a,d)?[0,C(c,b),C(e,a)]:[0,C(c,b),C(c,a)];if(D(c,d))return D(d,b)?[0,C(e,a),C(c,b)]:D(a,d)?[0,C(c,a),C(e,b)]:[0,C(e,a),C(e,b)];if(D(d,b))return[0,C(e,a),C(c,a)];if(D(a,d))return[0,C(c,b),C(e,b)];var
+lO(e,c,b,a){if(D(d,e))return D(d,b)?[0,C(e,b),C(c,a)]:D(a,d)?[0,C(c,b),C(e,a)]:[0,C(c,b),C(c,a)];if(D(c,d))return D(d,b)?[0,C(e,a),C(c,b)]:D(a,d)?[0,C(c,a),C(e,b)]:[0,C(e,a),C(e,b)];if(D(d,b))return[0,C(e,a),C(c,a)];if(D(a,d))return[0,C(c,b),C(e,b)];var
 f=bm(C(e,b),C(c,a));return[0,iw(C(e,a),C(c,b)),f]}function
 t(c,b,a){var
-d=lN(b[1],b[2],a[1],a[2]),e=lL(c,d[2]);return[0,lK(c,d[1]),e]}function
+d=lO(b[1],b[2],a[1],a[2]),e=lM(c,d[2]);return[0,lL(c,d[1]),e]}function
 U(b,a){var
-c=C(a[1],a[1]),e=C(a[2],a[2]),h=lL(b,bm(c,e)),g=0;if(I(a[1],d)&&I(d,a[2])){var
+c=C(a[1],a[1]),e=C(a[2],a[2]),h=lM(b,bm(c,e)),g=0;if(I(a[1],d)&&I(d,a[2])){var
 f=d;g=1}if(!g)var
-f=lK(b,iw(c,e));return[0,f,h]}function
+f=lL(b,iw(c,e));return[0,f,h]}function
 iD(b,a){var
 c=e$(cy(b),b),d=gC(c,a[1]);return[0,cx(c,a[2]),d]}function
-b_(b,a){if(I(d,a[1]))return[0,iD(b,a)];var
+b$(b,a){if(I(d,a[1]))return[0,iD(b,a)];var
 c=I(a[2],d),e=c?[0,ac(iD(b,ac(a)))]:c;return e}function
 iE(c){var
 a=gy(c);return L(C(a,a),c)?a:E(a,b)}function
-b$(b,a){var
+ca(b,a){var
 c=I(d,a[1]);if(c)var
 f=iE(e$(a[2],b)),e=[0,[0,gy(e$(a[1],b)),f]];else
 var
@@ -1141,15 +1141,15 @@ cX(b,a){return dy(b,a)}function
 aU(a,c,b){if(D(d,a)){var
 e=b[1],f=T(cX(T(C(a,b[2])),c));return[0,cX(C(a,e),c),f]}var
 g=b[2],h=T(cX(T(C(a,b[1])),c));return[0,cX(C(a,g),c),h]}function
-ax(a){var
+aw(a){var
 c=T(dy(T(a[2]),b));return[0,dy(a[1],b),c]}function
 eg(c,b,a){var
-e=lN(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=I(f,d)?a[2]:a[1],i=gC(f,h),j=I(g,d)?a[1]:a[2];return[0,cx(g,j),i]}function
-ca(a){return bm(a[2],T(a[1]))}var
+e=lO(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=I(f,d)?a[2]:a[1],i=gC(f,h),j=I(g,d)?a[1]:a[2];return[0,cx(g,j),i]}function
+cb(a){return bm(a[2],T(a[1]))}var
 u=[0,d,d];function
-cb(a){return[0,a[1],a[1]]}function
+cc(a){return[0,a[1],a[1]]}function
 cz(a){return[0,a[2],a[2]]}function
-bT(b,a){switch(a[0]){case
+bU(b,a){switch(a[0]){case
 0:return[0,a[1]];case
 1:return[1,a[1]];case
 2:return[2,a[1]];case
@@ -1208,37 +1208,37 @@ B(b,a){if(a9(d,b))return a;if(a9(d,a))return b;var
 c=gD(b);if(c){var
 e=c[1],f=gD(a);if(f){var
 g=f[1];if(fc(e)&&fc(g))return m(E(e,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
-bo(a){var
+bp(a){var
 b=a[1];switch(b[0]){case
 2:var
 c=b[1];return fc(c)?m(T(c)):[0,[5,a]];case
 5:return b[1];default:return[0,[5,a]]}}function
-x(b,a){if(a9(d,a))return b;if(a9(d,b))return bo(a);var
+x(b,a){if(a9(d,a))return b;if(a9(d,b))return bp(a);var
 c=b[1];if(0===c[0]){var
 e=a[1];return 0===e[0]?o(c[1],e[1])?m(d):[0,[4,b,a]]:[0,[4,b,a]]}return[0,[4,b,a]]}function
 V(a){var
 c=gD(a);if(c){var
 b=c[1];return fc(b)?m(C(b,b)):[0,[8,a]]}return[0,[8,a]]}function
 s(a,c){if(!a9(d,a)&&!a9(b,c)){if(!a9(d,c)&&!a9(b,a))return aN(a,c)?V(a):[0,[6,a,c]];return c}return a}function
-am(c,a){return a9(b,a)?c:[0,[7,c,a]]}function
-aL(a){return a9(b,a)?a:[0,[9,a]]}function
-lO(d,c,b,a){return[0,[10,d,c,b,a]]}function
+al(c,a){return a9(b,a)?c:[0,[7,c,a]]}function
+aK(a){return a9(b,a)?a:[0,[9,a]]}function
+lP(d,c,b,a){return[0,[10,d,c,b,a]]}function
 bg(f,e,d,c){var
 b=d,a=c;for(;;){if(b){var
-g=b[1],h=[0,k(e,bT(function(b){return function(a){return r(a,b,f)}}(a),g)),a],b=b[2],a=h;continue}return a}}function
-lP(d,f,j,i,h){var
+g=b[1],h=[0,k(e,bU(function(b){return function(a){return r(a,b,f)}}(a),g)),a],b=b[2],a=h;continue}return a}}function
+lQ(d,f,j,i,h){var
 b=j,c=i,a=h;for(;;){if(c){var
 e=c[2],g=c[1];if(b){if(b[1]){var
-l=[0,k(f,bT(function(b){return function(a){return r(a,b,d)}}(a),g)),a],b=bB(b),c=e,a=l;continue}var
+l=[0,k(f,bU(function(b){return function(a){return r(a,b,d)}}(a),g)),a],b=bC(b),c=e,a=l;continue}var
 b=b[2],c=e,a=[0,d,a];continue}var
-m=[0,k(f,bT(function(b){return function(a){return r(a,b,d)}}(a),g)),a],b=bB(b),c=e,a=m;continue}return a}}function
+m=[0,k(f,bU(function(b){return function(a){return r(a,b,d)}}(a),g)),a],b=bC(b),c=e,a=m;continue}return a}}function
 fd(b,a){if(a){var
 c=a[2];if(b){var
 e=fd(b[1],c);return[0,a[1],e]}var
 d=[0,1,c]}else
 var
 d=a;return d}function
-lQ(a){switch(a[0]){case
+lR(a){switch(a[0]){case
 10:return[0,a[2],[0,a[3],[0,a[4],0]]];case
 5:case
 8:case
@@ -1248,7 +1248,7 @@ lQ(a){switch(a[0]){case
 2:return 0;default:return[0,a[1],[0,a[2],0]]}}function
 gE(j,g){var
 k=0,l=ao(fd,e(function(a){return 0},g),j),c=fa(g,0),b=l,a=k;for(;;){if(c){if(b){var
-d=b[2],f=b[1],h=[0,f,a],i=f?ao(fd,d,lQ(c[1])):d,c=c[2],b=i,a=h;continue}return a}return a}}function
+d=b[2],f=b[1],h=[0,f,a],i=f?ao(fd,d,lR(c[1])):d,c=c[2],b=i,a=h;continue}return a}return a}}function
 cY(a){var
 b=0;function
 c(a){return[0,a]}return bg(m(d),c,a,b)}function
@@ -1269,33 +1269,33 @@ c=dC(a[1],b);break;case
 2:var
 c=b;break;default:var
 i=dC(a[1],b),c=dC(a[2],i)}var
-f=c[2],g=c[1],h=[0,bT(function(a){return bh(g,a)},a),f];return[0,[0,d,c[1]],h]}function
+f=c[2],g=c[1],h=[0,bU(function(a){return bh(g,a)},a),f];return[0,[0,d,c[1]],h]}function
 cZ(a){var
-b=bS(function(b,a){return dC(a,b)},a,sY),c=b[1],d=e(function(a){return bh(c,a)},a);return[0,lF(b[2]),d]}function
-fe(a){return ao(function(b,a){return E(ca(b),a)},d,a)}function
+b=bT(function(b,a){return dC(a,b)},a,sY),c=b[1],d=e(function(a){return bh(c,a)},a);return[0,lG(b[2]),d]}function
+fe(a){return ao(function(b,a){return E(cb(b),a)},d,a)}function
 cA(b,c,a){var
-d=fe(a),e=iw(c[2],E(b[2],d)),f=fe(a);return[0,b,[0,bm(c[1],aM(b[1],f)),e],a]}function
+d=fe(a),e=iw(c[2],E(b[2],d)),f=fe(a);return[0,b,[0,bm(c[1],aL(b[1],f)),e],a]}function
 $(a){return[0,a,a,0]}function
-cc(b,a){var
+cd(b,a){var
 c=a[3],d=b[3];function
 e(a){return a}var
 f=aP(function(a){return a},e,A,d,c),g=A(b[2],a[2]);return cA(A(b[1],a[1]),g,f)}function
-bw(b,a){var
-c=a[3],d=b[3],e=aP(function(a){return a},ac,F,d,c),f=F(b[2],a[2]);return cA(F(b[1],a[1]),f,e)}function
+bx(b,a){var
+c=a[3],d=b[3],e=aP(function(a){return a},ac,G,d,c),f=G(b[2],a[2]);return cA(G(b[1],a[1]),f,e)}function
 ff(a){var
 b=e(ac,a[3]),c=ac(a[2]);return[0,ac(a[1]),c,b]}function
 aQ(a,c,b){var
 d=A(b[2],b[1]),e=A(c[2],c[1]),f=b[3],g=c[3];function
 h(c,b){var
-f=t(a,e,b);return ax(A(t(a,d,c),f))}function
-i(b){return ax(t(a,e,b))}var
-j=aP(function(b){return ax(t(a,d,b))},i,h,g,f),k=t(a,c[2],b[2]);return cA(t(a,c[1],b[1]),k,j)}function
+f=t(a,e,b);return aw(A(t(a,d,c),f))}function
+i(b){return aw(t(a,e,b))}var
+j=aP(function(b){return aw(t(a,d,b))},i,h,g,f),k=t(a,c[2],b[2]);return cA(t(a,c[1],b[1]),k,j)}function
 fg(b,a){var
 c=a[3],d=A(a[2],a[1]),f=e(function(a){return t(b,d,a)},c),g=U(b,a[2]);return cA(U(b,a[1]),g,f)}function
 iF(a,b){var
-c=b$(a,b[1]);if(c){var
-g=c[1],d=b$(a,b[2]);if(d){var
-h=d[1],f=b_(a,A(h,g));if(f)var
+c=ca(a,b[1]);if(c){var
+g=c[1],d=ca(a,b[2]);if(d){var
+h=d[1],f=b$(a,A(h,g));if(f)var
 l=b[3],m=f[1],i=[0,cA(g,h,e(function(b){return t(a,m,b)},l))];else
 var
 i=f;var
@@ -1306,9 +1306,9 @@ k=j}else
 var
 k=c;return k}function
 eh(a,c,b){var
-d=b_(a,b[1]);if(d){var
-f=b_(a,b[2]);if(f)var
-h=f[1],g=t(a,c[1],d[1]),k=b[3],l=c[3],m=function(c,b){return F(c,t(a,g,b))},n=function(b){return ac(t(a,g,b))},o=aP(function(a){return a},n,m,l,k),p=e(function(b){return t(a,h,b)},o),i=[0,cA(g,t(a,c[2],h),p)];else
+d=b$(a,b[1]);if(d){var
+f=b$(a,b[2]);if(f)var
+h=f[1],g=t(a,c[1],d[1]),k=b[3],l=c[3],m=function(c,b){return G(c,t(a,g,b))},n=function(b){return ac(t(a,g,b))},o=aP(function(a){return a},n,m,l,k),p=e(function(b){return t(a,h,b)},o),i=[0,cA(g,t(a,c[2],h),p)];else
 var
 i=f;var
 j=i}else
@@ -1316,36 +1316,36 @@ var
 j=d;return j}function
 c0(b,a){return a?k(b,a[1]):a}function
 gF(a){var
-b=e(ax,a[3]),c=ax(A(a[2],a[1]));return cA(a[1],c,b)}function
-lR(a,k,j,r,c){var
-l=gF(k),m=gF(j),g=gF(c[1]),h=gF(c[2]),s=aQ(a,l,h),u=bw(aQ(a,m,g),s),i=eh(a,$(O(a,b)),u);if(i)var
-f=i[1],n=aQ(a,bw(l,g),f),o=aQ(a,bw(m,h),f),d=function(c,b){return aQ(a,c,$(b))},v=j[3],w=k[3],x=function(b,a){var
-c=d(o,a);return cc(d(n,b),c)},y=function(a){return d(o,a)},z=aP(function(a){return d(n,a)},y,x,w,v),A=r[3],B=function(b,a){return bw(b,d(f,ax(a)))[2]},C=function(a){return ff(d(f,ax(a)))[2]},p=aP(function(a){return a[2]},C,B,z,A),D=g[2],E=e(function(b){return t(a,D,b)},p),F=cA(c[2][1],c[2][2],E),G=ac(h[2]),H=e(function(b){return t(a,G,b)},p),q=[0,[0,cA(c[1][1],c[1][2],H),F]];else
+b=e(aw,a[3]),c=aw(A(a[2],a[1]));return cA(a[1],c,b)}function
+lS(a,k,j,r,c){var
+l=gF(k),m=gF(j),g=gF(c[1]),h=gF(c[2]),s=aQ(a,l,h),u=bx(aQ(a,m,g),s),i=eh(a,$(O(a,b)),u);if(i)var
+f=i[1],n=aQ(a,bx(l,g),f),o=aQ(a,bx(m,h),f),d=function(c,b){return aQ(a,c,$(b))},v=j[3],w=k[3],x=function(b,a){var
+c=d(o,a);return cd(d(n,b),c)},y=function(a){return d(o,a)},z=aP(function(a){return d(n,a)},y,x,w,v),A=r[3],B=function(b,a){return bx(b,d(f,aw(a)))[2]},C=function(a){return ff(d(f,aw(a)))[2]},p=aP(function(a){return a[2]},C,B,z,A),D=g[2],E=e(function(b){return t(a,D,b)},p),F=cA(c[2][1],c[2][2],E),G=ac(h[2]),H=e(function(b){return t(a,G,b)},p),q=[0,[0,cA(c[1][1],c[1][2],H),F]];else
 var
 q=i;return q}function
-lS(a,e,d,k){var
-p=fg(a,d),f=cc(fg(a,e),p),g=bw(cc(f,$(O(a,b))),k),l=aQ(a,$(O(a,c(2,b))),f),q=fg(a,g),h=iF(a,bw(aQ(a,$(O(a,c(2,c(2,b)))),f),q));if(h){var
-m=h[1],r=aQ(a,m,d),i=eh(a,cc(aQ(a,g,e),r),l);if(i)var
-s=aQ(a,m,e),j=eh(a,bw(aQ(a,g,d),s),l),t=j?[0,[0,i[1],j[1]]]:j,n=t;else
+lT(a,e,d,k){var
+p=fg(a,d),f=cd(fg(a,e),p),g=bx(cd(f,$(O(a,b))),k),l=aQ(a,$(O(a,c(2,b))),f),q=fg(a,g),h=iF(a,bx(aQ(a,$(O(a,c(2,c(2,b)))),f),q));if(h){var
+m=h[1],r=aQ(a,m,d),i=eh(a,cd(aQ(a,g,e),r),l);if(i)var
+s=aQ(a,m,e),j=eh(a,bx(aQ(a,g,d),s),l),t=j?[0,[0,i[1],j[1]]]:j,n=t;else
 var
 n=i;var
 o=n}else
 var
 o=h;var
-u=c0(function(b){return lR(a,e,d,k,b)},o);return c0(function(b){return lR(a,e,d,k,b)},u)}function
+u=c0(function(b){return lS(a,e,d,k,b)},o);return c0(function(b){return lS(a,e,d,k,b)},u)}function
 cB(d,b,a){if(b){if(a)return ar(d,b[1],a[1]);var
 c=a}else
 var
 c=b;return c}function
-bC(b,j,i){var
+bD(b,j,i){var
 f=$(u);return function(a){switch(a[0]){case
 0:return[0,r(a[1],j,f)];case
 1:return[0,r(a[1],i,f)];case
 2:return[0,$(O(b,a[1]))];case
 3:var
-k=a[2],l=a[1];return cB(function(b,a){return[0,cc(b,a)]},l,k);case
+k=a[2],l=a[1];return cB(function(b,a){return[0,cd(b,a)]},l,k);case
 4:var
-m=a[2],n=a[1];return cB(function(b,a){return[0,bw(b,a)]},n,m);case
+m=a[2],n=a[1];return cB(function(b,a){return[0,bx(b,a)]},n,m);case
 5:var
 o=a[1];return c0(function(a){return[0,ff(a)]},o);case
 6:var
@@ -1359,7 +1359,7 @@ v=a[1];return c0(function(a){return iF(b,a)},v);default:var
 c=a[2];if(c){var
 d=a[3];if(d){var
 e=a[4];if(e){var
-w=lS(b,c[1],d[1],e[1]),x=a[1]?aO:aB;return y(x,w)}var
+w=lT(b,c[1],d[1],e[1]),x=a[1]?aO:aA;return y(x,w)}var
 g=e}else
 var
 g=d;var
@@ -1374,7 +1374,7 @@ a=c;for(;;)switch(a[0]){case
 a=a[1];continue;default:var
 b=dD(a[1]);if(b)return b;var
 a=a[2];continue}}function
-cd(r,q){var
+ce(r,q){var
 b=r,a=q;for(;;)switch(b[0]){case
 0:if(0===a[0]){var
 c=L(b[1],a[1]);return c?gu(b[2],a[2]):c}return 0;case
@@ -1382,16 +1382,16 @@ c=L(b[1],a[1]);return c?gu(b[2],a[2]):c}return 0;case
 d=b[3],e=b[2];if(1===a[0]){var
 f=a[3],g=a[2],h=o(b[1],a[1]),i=h?L(e[1],g[1]):h,j=i?gu(e[2],g[2]):i,k=j?L(d[1],f[1]):j;return k?gu(d[2],f[2]):k}return 0;case
 2:if(2===a[0]){var
-l=cd(b[1],a[1]);if(l){var
+l=ce(b[1],a[1]);if(l){var
 b=b[2],a=a[2];continue}return l}return 0;case
 3:if(3===a[0]){var
-m=cd(b[1],a[1]);if(m){var
+m=ce(b[1],a[1]);if(m){var
 b=b[2],a=a[2];continue}return m}return 0;case
 4:if(4===a[0]){var
-n=cd(b[1],a[1]);if(n){var
+n=ce(b[1],a[1]);if(n){var
 b=b[2],a=a[2];continue}return n}return 0;case
 5:if(5===a[0]){var
-p=cd(b[1],a[1]);if(p){var
+p=ce(b[1],a[1]);if(p){var
 b=b[2],a=a[2];continue}return p}return 0;default:if(6===a[0]){var
 b=b[1],a=a[1];continue}return 0}}function
 fh(c,a){switch(a[0]){case
@@ -1413,161 +1413,161 @@ var
 l=h;return l}function
 sZ(a){return 0}function
 cC(a){return fh(sZ,a)}function
-bU(a,c){switch(c[0]){case
-0:return[0,lM(a,c[1],c[2])];case
+bV(a,c){switch(c[0]){case
+0:return[0,lN(a,c[1],c[2])];case
 1:return 0;case
 2:var
-g=bU(a,c[1]);if(g)var
-h=bU(a,c[2]),D=h?[0,A(g[1],h[1])]:h,r=D;else
+g=bV(a,c[1]);if(g)var
+h=bV(a,c[2]),D=h?[0,A(g[1],h[1])]:h,r=D;else
 var
 r=g;return r;case
 3:var
-i=bU(a,c[1]);if(i)var
-j=bU(a,c[2]),E=j?[0,F(i[1],j[1])]:j,s=E;else
+i=bV(a,c[1]);if(i)var
+j=bV(a,c[2]),E=j?[0,G(i[1],j[1])]:j,s=E;else
 var
 s=i;return s;case
 4:var
-k=bU(a,c[1]);if(k)var
-l=bU(a,c[2]),G=l?[0,t(a,k[1],l[1])]:l,v=G;else
+k=bV(a,c[1]);if(k)var
+l=bV(a,c[2]),F=l?[0,t(a,k[1],l[1])]:l,v=F;else
 var
 v=k;return v;case
 5:var
-m=bU(a,c[1]);if(m){var
-n=bU(a,c[2]);if(n)var
-o=b_(a,n[1]),H=o?[0,t(a,m[1],o[1])]:o,w=H;else
+m=bV(a,c[1]);if(m){var
+n=bV(a,c[2]);if(n)var
+o=b$(a,n[1]),H=o?[0,t(a,m[1],o[1])]:o,w=H;else
 var
 w=n;var
 x=w}else
 var
 x=m;return x;default:var
-z=c[1],p=bU(a,z);if(p){var
-e=p[1];if(I(d,e[1]))return b$(a,e);var
+z=c[1],p=bV(a,z);if(p){var
+e=p[1];if(I(d,e[1]))return ca(a,e);var
 f=cC(z),K=f?J(bf([0,d,b],f[1])):f;if(K)return 0;if(I(d,e[2])){var
-B=b$(a,[0,e[2],e[2]]);return y(function(a){return[0,d,a[2]]},B)}var
+B=ca(a,[0,e[2],e[2]]);return y(function(a){return[0,d,a[2]]},B)}var
 q=L(e[2],d),C=q?[0,u]:q;return C}return p}}function
-cD(b,a){return lM(b,a[1],a[2])}function
-lT(a,g,e,d){var
+cD(b,a){return lN(b,a[1],a[2])}function
+lU(a,g,e,d){var
 h=[0,b,c(2,b)],i=[0,cD(a,a3(dA(d,e),h)),0],j=f(ab(u,g),i),k=cD(a,d)[2],l=[0,cD(a,e)[1],k],m=[0,b,c(2,b)];return[0,cD(a,a3(dz(e,d),m)),l,j]}function
 ei(c,e,a){function
 b(a){return ei(c,e,a)}if(dD(a))switch(a[0]){case
 0:return 0;case
 1:return f4(e,a[1],a[2],a[3]);case
 2:var
-g=b(a[2]),h=b(a[1]);return cB(function(b,a){return[0,cc(b,a)]},h,g);case
+g=b(a[2]),h=b(a[1]);return cB(function(b,a){return[0,cd(b,a)]},h,g);case
 3:var
-i=b(a[2]),j=b(a[1]);return cB(function(b,a){return[0,bw(b,a)]},j,i);case
+i=b(a[2]),j=b(a[1]);return cB(function(b,a){return[0,bx(b,a)]},j,i);case
 4:var
-f=a[2],d=a[1];if(cd(d,f)){var
+f=a[2],d=a[1];if(ce(d,f)){var
 k=b(d);return c0(function(a){return[0,fg(c,a)]},k)}var
 l=b(f),m=b(d);return cB(function(b,a){return[0,aQ(c,b,a)]},m,l);case
 5:var
 n=b(a[2]),o=b(a[1]);return cB(function(a,b){return eh(c,a,b)},o,n);default:var
-p=b(a[1]);return c0(function(a){return iF(c,a)},p)}return y($,bU(c,a))}function
-aE(b,a){if(dD(a)){var
+p=b(a[1]);return c0(function(a){return iF(c,a)},p)}return y($,bV(c,a))}function
+aD(b,a){if(dD(a)){var
 c=ei(b,function(d,c,a){var
-e=aK(d,dE),f=e?bf(c,a):e,g=f?[0,lT(b,d,c,a)]:f;return g},a);return y(function(a){return a[2]},c)}return bU(b,a)}function
+e=aJ(d,dE),f=e?bf(c,a):e,g=f?[0,lU(b,d,c,a)]:f;return g},a);return y(function(a){return a[2]},c)}return bV(b,a)}function
 iG(a){var
 e=bm(T(a),d);return ec(E(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e))}function
-lU(a){return iB(E(iG(a),a))}function
-lV(b,a){var
-c=lU(b),d=T(cX(T(a[2]),c)),e=lU(b);return[0,cX(a[1],e),d]}function
+lV(a){return iB(E(iG(a),a))}function
+lW(b,a){var
+c=lV(b),d=T(cX(T(a[2]),c)),e=lV(b);return[0,cX(a[1],e),d]}function
 c1(c,a,b){var
-d=aE(E(c,iG(a)),b);return y(function(b){return lV(a,b)},d)}function
+d=aD(E(c,iG(a)),b);return y(function(b){return lW(a,b)},d)}function
 ap(d,a){var
 b=c1(d,a[2],a[1][1]);if(b)var
 c=c1(d,a[2],a[1][2]),f=c?[0,[0,b[1][1],c[1][2]]]:c,e=f;else
 var
 e=b;return e}function
-lW(b,a){var
+lX(b,a){var
 c=T(cX(T(a[2]),b));return[0,cX(a[1],b),c]}function
 gG(b,a){var
 c=gC(b[2],a);return[0,cx(b[1],a),c]}function
-lX(h,g,d,b){var
-e=b[2],f=lA(d),i=c(2,f),j=C(lw(f),i),a=gG(t(h,b[1],g),j),k=lu(d)?F(e,a):A(e,a);return[0,a,k]}function
-lY(a,d,c){if(c){var
-e=c[1];return lX(a,d,e,lY(a,d,e))}var
+lY(h,g,d,b){var
+e=b[2],f=lB(d),i=c(2,f),j=C(lx(f),i),a=gG(t(h,b[1],g),j),k=lv(d)?G(e,a):A(e,a);return[0,a,k]}function
+lZ(a,d,c){if(c){var
+e=c[1];return lY(a,d,e,lZ(a,d,e))}var
 f=O(a,b);return[0,O(a,b),f]}function
-lZ(e,g){var
+l0(e,g){var
 o=cy(e),p=C(c(2,c(2,b)),o),j=D(g[2],p);if(j){var
 n=e_(e),i=s0[1],d=n,f=0,a=i;for(;;){if(d){var
 h=d[1];if(a){var
 d=h,a=a[1];continue}var
 d=h,f=[0,f],a=i;continue}var
-k=M(lt(s3,M(s1,f)),s2),l=lY(e,g,k),q=lX(e,g,k,l)[2][2],m=[0,[0,l[2][1],q]];break}}else
+k=M(lu(s3,M(s1,f)),s2),l=lZ(e,g,k),q=lY(e,g,k,l)[2][2],m=[0,[0,l[2][1],q]];break}}else
 var
 m=j;return m}function
-l0(i){function
+l1(i){function
 a(h){var
 m=cx(cy(i),h),g=e_(i),f=m,e=d,a=b;for(;;){if(g){var
 j=E(a,c(2,b)),k=E(e,cx(f,a)),l=T(cx(f,C(h,h))),g=g[1],f=l,e=k,a=j;continue}return e}}var
-e=a(q(c(2,q(c(2,q(c(2,q(c(2,c(2,q(c(2,q(c(2,b)))))))))))))),f=C(c(2,c(2,b)),e),g=a(q(c(2,c(2,b))));return aM(C(c(2,c(2,c(2,c(2,b)))),g),f)}function
-l1(e,a){var
+e=a(q(c(2,q(c(2,q(c(2,q(c(2,c(2,q(c(2,q(c(2,b)))))))))))))),f=C(c(2,c(2,b)),e),g=a(q(c(2,c(2,b))));return aL(C(c(2,c(2,c(2,c(2,b)))),g),f)}function
+l2(e,a){var
 f=D(d,a);if(f){var
-g=c(2,c(2,b));return lZ(e,gG(U(e,[0,a,a]),g))}return f}function
-l2(a){var
-m=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),g=aM(l0(a),m),n=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),h=E(l0(a),n),e=l1(a,g);if(e){var
-f=l1(a,h);if(f)var
+g=c(2,c(2,b));return l0(e,gG(U(e,[0,a,a]),g))}return f}function
+l3(a){var
+m=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),g=aL(l1(a),m),n=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),h=E(l1(a),n),e=l2(a,g);if(e){var
+f=l2(a,h);if(f)var
 i=I(d,e[1][1]),j=i?I(f[1][2],d):i,k=j?[0,[0,g,h]]:j;else
 var
 k=f;var
 l=k}else
 var
 l=e;return l}function
-l3(a,d){var
-c=U(a,d),e=O(a,b);return F(A(c,c),e)}function
+l4(a,d){var
+c=U(a,d),e=O(a,b);return G(A(c,c),e)}function
 c2(f,j){var
-e=aE(E(f,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),j);if(e){var
-k=e[1],a=E(f,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),d=l2(a);if(d)var
-h=c(2,c(2,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))))),i=lZ(a,U(a,gG(t(a,k,d[1]),h))),g=y(function(b){return l3(a,l3(a,b))},i);else
+e=aD(E(f,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),j);if(e){var
+k=e[1],a=E(f,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),d=l3(a);if(d)var
+h=c(2,c(2,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))))),i=l0(a,U(a,gG(t(a,k,d[1]),h))),g=y(function(b){return l4(a,l4(a,b))},i);else
 var
 g=d;var
-l=c(2,c(2,c(2,c(2,c(2,c(2,b))))));return y(function(a){return lW(l,a)},g)}return e}function
-l4(a,d){var
-e=l2(E(a,c(2,c(2,c(2,c(2,c(2,c(2,b))))))));return y(function(e){var
-f=c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))));return gG(t(a,d,lW(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e)),f)},e)}function
+l=c(2,c(2,c(2,c(2,c(2,c(2,b))))));return y(function(a){return lX(l,a)},g)}return e}function
+l5(a,d){var
+e=l3(E(a,c(2,c(2,c(2,c(2,c(2,c(2,b))))))));return y(function(e){var
+f=c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))));return gG(t(a,d,lX(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e)),f)},e)}function
 gH(d,a){return c2(d,[3,a,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b]])}function
 h(i,e,c){var
 f=cC(c);if(f){var
 g=f[1];return e?J(bf(g,[0,d,b])):bf([0,d,b],g)}var
-a=aE(i,c);if(a){var
+a=aD(i,c);if(a){var
 h=a[1];return e?I(d,h[1]):D(d,h[1])}return a}function
-l5(c,b){var
-a=aE(c,b),d=a?1:a;return d}function
-bx(c,a,b){var
-d=cd(a,b),e=d?l5(c,a):d;return e?e:h(c,0,[3,b,a])}function
+l6(c,b){var
+a=aD(c,b),d=a?1:a;return d}function
+by(c,a,b){var
+d=ce(a,b),e=d?l6(c,a):d;return e?e:h(c,0,[3,b,a])}function
 s4(c){var
 a=dB(c),g=ec(gy(a[2])),b=[0,gy(a[1]),g],e=I(d,a[1]),f=e?ee(a3(b,b),c):e,h=f?[0,b]:f;return h}function
-l6(a){if(a){var
-e=a[2],c=a[1];if(ee(bR([0,d,b],c),[0,d,b])){var
-g=l6(e);return y(function(a){return[0,a[1],[0,c,a[2]]]},g)}var
+l7(a){if(a){var
+e=a[2],c=a[1];if(ee(bS([0,d,b],c),[0,d,b])){var
+g=l7(e);return y(function(a){return[0,a[1],[0,c,a[2]]]},g)}var
 f=[0,[0,c,e]]}else
 var
 f=a;return f}function
-l7(c,a){var
+l8(c,a){var
 e=W(c,a),f=[0,d,b];return ao(function(a,b){return dB(dz(a3(a[1],a[2]),b))},f,e)}function
-l8(c,j){if(c){var
-f=c[1],g=l6(j);if(g){var
+l9(c,j){if(c){var
+f=c[1],g=l7(j);if(g){var
 h=g[1],a=h[1],k=function(c){var
-f=bR([0,d,b],a),g=gB(bR([0,d,b],c),f),h=bB(a),i=W(bB(c),h);return e(function(a){var
-b=a3(g,a[2]);return dB(dA(a[1],b))},i)},l=l8(f,e(k,h[2]));return y(function(c){var
-e=bR([0,d,b],a);return[0,dB(gB(gA(l7(bB(a),c)),e)),c]},l)}var
+f=bS([0,d,b],a),g=gB(bS([0,d,b],c),f),h=bC(a),i=W(bC(c),h);return e(function(a){var
+b=a3(g,a[2]);return dB(dA(a[1],b))},i)},l=l9(f,e(k,h[2]));return y(function(c){var
+e=bS([0,d,b],a);return[0,dB(gB(gA(l8(bC(a),c)),e)),c]},l)}var
 i=[0,[0,[0,b,b],ab([0,d,b],f)]]}else
 var
 i=c;return i}function
-l9(a){if(a){var
-b=fh(s4,a[1]);if(b)var
-c=l9(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
-var
-d=b;return d}return s5}function
 l_(a){if(a){var
-b=l9(a[1]);if(b)var
+b=fh(s4,a[1]);if(b)var
 c=l_(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
+d=b;return d}return s5}function
+l$(a){if(a){var
+b=l_(a[1]);if(b)var
+c=l$(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+var
 d=b;return d}return s6}function
-l$(i,m){var
-a=l_(m);if(a){var
-j=a[1],c=l8(i,j);if(c){var
-e=c[1],f=o(g(e),i),h=f?aj(function(a){return J(ee(a,[0,d,b]))},e):f;return h?l(function(a){return ee(l7(a,e),[0,d,b])},j):h}var
+ma(i,m){var
+a=l$(m);if(a){var
+j=a[1],c=l9(i,j);if(c){var
+e=c[1],f=o(g(e),i),h=f?aj(function(a){return J(ee(a,[0,d,b]))},e):f;return h?l(function(a){return ee(l8(a,e),[0,d,b])},j):h}var
 k=c}else
 var
 k=a;return k}function
@@ -1579,7 +1579,7 @@ s$(a){return a}function
 bi(a,b){return aP(s$,s_,s9,a,b)}function
 iH(a,f,c,d){if(c){var
 h=c[2],i=O(a,b),g=eg(c[1],i,f);if(d){var
-j=iH(a,f,h,d[2]),k=d[1],l=function(c,b){return F(c,t(a,g,b))},m=function(b){return ac(t(a,g,b))};return[0,aP(function(a){return a},m,l,k,c),j]}var
+j=iH(a,f,h,d[2]),k=d[1],l=function(c,b){return G(c,t(a,g,b))},m=function(b){return ac(t(a,g,b))};return[0,aP(function(a){return a},m,l,k,c),j]}var
 n=iH(a,f,h,0);return[0,e(function(b){return ac(t(a,g,b))},c),n]}return d}function
 gI(h,a){if(a){var
 b=a[1];if(b)var
@@ -1589,21 +1589,21 @@ f=b;var
 g=f}else
 var
 g=a;return g}function
-ma(g,f,e){var
+mb(g,f,e){var
 a=f,b=e;for(;;){if(b){if(a){var
 c=gI(g,b);if(c){var
 a=a[1],b=c[1];continue}var
 d=c}else
 var
 d=a;return d}return 1}}function
-mb(d,b,a){if(b)if(a)var
-e=a[1],f=mb(d,b[2],a[2]),g=cv(d,b[1])?cb(e):cz(e),c=[0,g,f];else
+mc(d,b,a){if(b)if(a)var
+e=a[1],f=mc(d,b[2],a[2]),g=cv(d,b[1])?cc(e):cz(e),c=[0,g,f];else
 var
 c=a;else
 var
 c=b;return c}function
-mc(a,b){if(a)if(b)var
-d=mc(a[2],b[2]),c=[0,mb(a[1],a,b[1]),d];else
+md(a,b){if(a)if(b)var
+d=md(a[2],b[2]),c=[0,mc(a[1],a,b[1]),d];else
 var
 c=b;else
 var
@@ -1611,16 +1611,16 @@ c=a;return c}function
 bj(a){if(a){var
 b=a[1],c=bj(b),d=e(function(a){return[0,1,a]},c),g=bj(b);return f(e(function(a){return[0,0,a]},g),d)}return ta}function
 ej(c,a){var
-b=g(a);if(ma(c,b,a))return 1;var
-d=bj(bA(b));return l(function(d){return ma(c,b,mc([0,0,d],a))},d)}function
-ay(a){function
+b=g(a);if(mb(c,b,a))return 1;var
+d=bj(bn(b));return l(function(d){return mb(c,b,md([0,0,d],a))},d)}function
+ax(a){function
 b(b){var
 c=k(a,b[2]);return[0,e(a,b[1]),c]}return function(a){return e(b,a)}}function
-aH(h,e){var
+aG(h,e){var
 c=h,a=e[1],b=e[3];for(;;){if(c){if(b){var
-d=b[1],f=b[2],g=c[1]?A(a,d):F(a,d),c=c[2],a=g,b=f;continue}return a}return a}}function
+d=b[1],f=b[2],g=c[1]?A(a,d):G(a,d),c=c[2],a=g,b=f;continue}return a}return a}}function
 iI(c,b,a){var
-d=bj(c);return l(function(c){return k(a,k(ay(function(a){return aH(c,a)}),b))},d)}function
+d=bj(c);return l(function(c){return k(a,k(ax(function(a){return aG(c,a)}),b))},d)}function
 iJ(h,d,c){if(d)if(c)var
 i=c[2],e=c[1],j=d[2],f=d[1],a=function(c,a){return aU(c,E(h,b),a)},k=iJ(h,j,i),l=function(c,b){var
 d=a(b,e);return A(a(f,c),d)},m=function(b){return a(b,e)},n=aP(function(b){return a(f,b)},m,l,i,j),o=a(f,e),g=[0,[0,A(a(f,e),o),n],k];else
@@ -1630,7 +1630,7 @@ var
 g=d;return g}function
 ek(b,d,a,c){function
 e(c,d){var
-e=aU(d,b,a);return F(A(c,c),e)}function
+e=aU(d,b,a);return G(A(c,c),e)}function
 f(c){return ac(aU(c,b,a))}return aP(function(a){return A(a,a)},f,e,d,c)}function
 gJ(d,i,h,g){var
 c=i,b=h,a=g;for(;;){if(c){if(b){var
@@ -1644,7 +1644,7 @@ var
 e=a;return e}return iI(b,iK(c,a),d)}function
 gK(g,f,e){var
 a=f,b=e;for(;;){if(a){var
-d=a[1],h=d[1],c=gI(g,[0,[0,cb(d[2]),h],b]);if(c){var
+d=a[1],h=d[1],c=gI(g,[0,[0,cc(d[2]),h],b]);if(c){var
 a=a[2],b=c[1];continue}return c}return[0,b]}}function
 iL(d,b,c,a){function
 e(a){if(a){var
@@ -1656,62 +1656,62 @@ h=c;var
 i=h}else
 var
 i=a;return i}return iI(b,iK(c,a),e)}function
-md(h,g,a,f,d,c){var
+me(h,g,a,f,d,c){var
 i=[0,u,u,0],b=e(function(a){return[0,a[1],i]},c),j=a?a[1]:[0,u,u,0];return fi(h,g,j,f,d,b)}function
 iM(b,a){var
-c=bj(b);return l(function(b){return I(d,aH(b,a)[1])},c)}function
+c=bj(b);return l(function(b){return I(d,aG(b,a)[1])},c)}function
 gL(c,b,a){var
 d=a[3],f=e(function(a){return aU(c,b,a)},d),g=a[2];return[0,aU(c,b,a[1]),g,f]}function
-me(a,b){var
-c=b[3],d=a[3],e=aP(function(a){return a},ac,F,d,c),f=a[2];return[0,F(a[1],b[1]),f,e]}function
-bV(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+mf(a,b){var
+c=b[3],d=a[3],e=aP(function(a){return a},ac,G,d,c),f=a[2];return[0,G(a[1],b[1]),f,e]}function
+bW(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
 ag(c,b,a){var
 d=ar(c,b[3],a[3]),e=ar(c,b[2],a[2]);return[0,ar(c,b[1],a[1]),e,d]}function
 a4(b,a){var
 c=s(b,a[3]),d=s(b,a[2]);return[0,s(b,a[1]),d,c]}function
-bp(b,a){var
-c=am(b[3],a),d=am(b[2],a);return[0,am(b[1],a),d,c]}function
+bq(b,a){var
+c=al(b[3],a),d=al(b[2],a);return[0,al(b[1],a),d,c]}function
 Z(b,a){var
 c=s(b[3],a[3]),d=s(b[2],a[2]);return B(B(s(b[1],a[1]),d),c)}function
-dF(a){return bp(a,aL(Z(a,a)))}function
+dF(a){return bq(a,aK(Z(a,a)))}function
 c3(a){var
-b=a[5];return b?b[1]:aL(a[2])}function
-gM(b,a){return b?a:bo(a)}function
-mf(e,a,i,d,h){var
-f=Z(a,e),b=ag(x,e,a4(f,a)),j=Z(b,b),g=x(V(d),j),c=gM(h,aL(g)),k=x(f,c),l=ag(B,a,bp(b,c));return[0,ag(B,b,a4(c,a)),g,l,k,[0,d],0,[0,i]]}function
-mg(a,e,d){var
-b=Z(a,a),c=aL(b),f=[0,e],g=y(function(b){return ag(x,a,a4(Z(b,a),b))},d);return[0,a,b,bp(a,c),c,0,g,f]}function
-mh(c,a){var
+b=a[5];return b?b[1]:aK(a[2])}function
+gM(b,a){return b?a:bp(a)}function
+mg(e,a,i,d,h){var
+f=Z(a,e),b=ag(x,e,a4(f,a)),j=Z(b,b),g=x(V(d),j),c=gM(h,aK(g)),k=x(f,c),l=ag(B,a,bq(b,c));return[0,ag(B,b,a4(c,a)),g,l,k,[0,d],0,[0,i]]}function
+mh(a,e,d){var
+b=Z(a,a),c=aK(b),f=[0,e],g=y(function(b){return ag(x,a,a4(Z(b,a),b))},d);return[0,a,b,bq(a,c),c,0,g,f]}function
+mi(c,a){var
 d=Z(a,c);return[0,a,m(b),a,d,0,0,0]}function
 fj(a){return e(function(a){var
-b=a[2];return[0,bV(a[1]),b]},a)}function
-mi(a){return e(function(a){var
-c=m(b);return[0,bV(a[3]),c]},a)}function
-mj(b,a){var
+b=a[2];return[0,bW(a[1]),b]},a)}function
+mj(a){return e(function(a){var
+c=m(b);return[0,bW(a[3]),c]},a)}function
+mk(b,a){var
 c=k(b,a[3]),d=k(b,a[2]);return[0,k(b,a[1]),d,c]}function
-mk(c,b,a){var
+ml(c,b,a){var
 d=ar(c,b[3],a[3]),e=ar(c,b[2],a[2]);return[0,ar(c,b[1],a[1]),e,d]}function
 el(d,a){var
-b=b$(d,[0,a[2],a[2]]);if(b){var
+b=ca(d,[0,a[2],a[2]]);if(b){var
 c=b[1];return[0,c[2],c[2]]}return[0,a[2],a[2]]}function
 gN(a,n,f,m,e,k,j){var
-o=mk(bw,k,j),b=mk(function(b,c){return aQ(a,b,c)},e,o),c=b[3],g=b[2],h=b[1],i=cc(cc(cc($(O(a,d)),h),g),c),p=bj(n);return l(function(c){var
-b=mj(function(b){return U(a,aH(c,b))},e),h=b[3],j=b[2],k=b[1],l=t(a,m,el(a,A(A(A(O(a,d),k),j),h))),g=F(aH(c,i),l),n=f?F(g,aH(c,f[1])):g;return I(d,n[1])},p)}function
-ce(a){return dy(E(a[1],a[2]),b)}function
+o=ml(bx,k,j),b=ml(function(b,c){return aQ(a,b,c)},e,o),c=b[3],g=b[2],h=b[1],i=cd(cd(cd($(O(a,d)),h),g),c),p=bj(n);return l(function(c){var
+b=mk(function(b){return U(a,aG(c,b))},e),h=b[3],j=b[2],k=b[1],l=t(a,m,el(a,A(A(A(O(a,d),k),j),h))),g=G(aG(c,i),l),n=f?G(g,aG(c,f[1])):g;return I(d,n[1])},p)}function
+cf(a){return dy(E(a[1],a[2]),b)}function
 em(a){var
-b=ce(a);return aM(a[2],b)}function
+b=cf(a);return aL(a[2],b)}function
 dH(c,b){if(b)var
-a=b[1],e=dH([0,c],b[2]),g=em(a),h=[0,[0,em(a),g],0],i=f(ab(u,c),h),j=ce(a),d=[0,[0,[0,ce(a),j],a,i],e];else
+a=b[1],e=dH([0,c],b[2]),g=em(a),h=[0,[0,em(a),g],0],i=f(ab(u,c),h),j=cf(a),d=[0,[0,[0,cf(a),j],a,i],e];else
 var
 d=b;return d}function
 c4(d,b){if(b){var
 c=b[2],a=b[1];if(d){var
 e=c4(d[1],c);return[0,[0,a,e[1]],[0,a,e[2]]]}var
-f=a[2],g=[0,[0,ce(a),f],c],h=ce(a);return[0,[0,[0,a[1],h],c],g]}return tb}function
-ml(d,c,a){if(c){if(a){var
-e=ml(d,c[2],a[2]);return A(aU(c[1],E(d,b),a[1]),e)}return u}return u}function
+f=a[2],g=[0,[0,cf(a),f],c],h=cf(a);return[0,[0,[0,a[1],h],c],g]}return tb}function
+mm(d,c,a){if(c){if(a){var
+e=mm(d,c[2],a[2]);return A(aU(c[1],E(d,b),a[1]),e)}return u}return u}function
 en(f,a){if(a)var
-g=a[1],c=g[2],d=g[1],h=a[2],b=function(a,b){return ml(f,a,b)},j=en(f,h),k=e(function(a){var
+g=a[1],c=g[2],d=g[1],h=a[2],b=function(a,b){return mm(f,a,b)},j=en(f,h),k=e(function(a){var
 e=b(d,a[2]);return A(b(a[1],c),e)},h),l=b(d,c),i=[0,[0,A(b(d,c),l),k],j];else
 var
 i=a;return i}function
@@ -1723,21 +1723,21 @@ var
 c=b;return c}function
 gO(f,d,c,b,a){if(a){var
 g=a[2];if(d){var
-i=gO(f,d[1],c,b,g);return[0,[0,F(u,b),0],i]}var
-j=e(function(a){return[0,F(u,b),0]},g),h=[0,[0,F(ac(t(f,c,cz(a[1][2]))),b),0],j]}else
+i=gO(f,d[1],c,b,g);return[0,[0,G(u,b),0],i]}var
+j=e(function(a){return[0,G(u,b),0]},g),h=[0,[0,G(ac(t(f,c,cz(a[1][2]))),b),0],j]}else
 var
 h=a;return h}function
 a_(d,c,a){var
 b=o(g(a),c);return b?ej(d,a):b}function
 gP(d,b,a){if(b)var
-c=b[1],g=gP([0,d],b[2],a),h=f(ab(u,d),[0,a,0]),e=[0,[0,c,[0,aM(c[1],a[2]),E(c[2],a[2])],h],g];else
+c=b[1],g=gP([0,d],b[2],a),h=f(ab(u,d),[0,a,0]),e=[0,[0,c,[0,aL(c[1],a[2]),E(c[2],a[2])],h],g];else
 var
 e=b;return e}function
-mm(d){if(d){var
+mn(d){if(d){var
 a=d[1][1];if(a){var
 b=a[2];if(b){var
 c=b[2];if(c){if(c[2])return 0;var
-g=c[1],h=b[1],i=a[1],j=mm(d[2]);return y(function(a){return[0,[0,[0,i,h],g],a]},j)}var
+g=c[1],h=b[1],i=a[1],j=mn(d[2]);return y(function(a){return[0,[0,[0,i,h],g],a]},j)}var
 e=c}else
 var
 e=b;var
@@ -1752,10 +1752,10 @@ d(a){return eh(c,a,b)}return y(function(a){return c0(d,a)},a)}function
 ep(b,a){var
 c=W(b,a);return e(function(c){var
 a=c[2],b=c[1];if(b){if(a){var
-d=a[1],e=b[1];return[0,cB(function(b,a){return[0,cc(b,a)]},e,d)]}return b}return a},c)}function
+d=a[1],e=b[1];return[0,cB(function(b,a){return[0,cd(b,a)]},e,d)]}return b}return a},c)}function
 gQ(a){return $(O(a,c(2,b)))}function
 iP(a,au,at,K,c){var
-av=bT(aB,c),f=k(bC(a,au,at),av);switch(c[0]){case
+av=bU(aA,c),f=k(bD(a,au,at),av);switch(c[0]){case
 1:var
 N=c[1],d=e(function(d){var
 c=o(N,d),e=c?[0,[0,$(O(a,b))]]:c;return e},K);break;case
@@ -1792,8 +1792,8 @@ d=f;break;case
 D=c[4],E=c[3],F=c[2],l=F[1],w=0;if(l){var
 m=l[1],n=E[1],L=0;if(n){var
 p=n[1],q=D[1],M=0;if(q){var
-r=lS(a,m,p,q[1]);if(r){var
-G=r[1],s=G[2],t=G[1],af=E[2],ag=bw(p,s),ah=e(function(b){return c5(a,ag,b)},af),ai=F[2],aj=bw(m,t),ak=ep(e(function(b){return c5(a,aj,b)},ai),ah),al=e(iN,D[2]),am=gQ(a),an=ep(e(function(b){return c5(a,am,b)},ak),al),ao=c[1]?t:ff(s),ap=e(function(b){return c5(a,ao,b)},an),aq=aQ(a,m,s),ar=bw(aQ(a,p,t),aq),as=aQ(a,gQ(a),ar),d=e(function(b){return iO(a,as,b)},ap);L=1;M=1}else
+r=lT(a,m,p,q[1]);if(r){var
+G=r[1],s=G[2],t=G[1],af=E[2],ag=bx(p,s),ah=e(function(b){return c5(a,ag,b)},af),ai=F[2],aj=bx(m,t),ak=ep(e(function(b){return c5(a,aj,b)},ai),ah),al=e(iN,D[2]),am=gQ(a),an=ep(e(function(b){return c5(a,am,b)},ak),al),ao=c[1]?t:ff(s),ap=e(function(b){return c5(a,ao,b)},an),aq=aQ(a,m,s),ar=bx(aQ(a,p,t),aq),as=aQ(a,gQ(a),ar),d=e(function(b){return iO(a,as,b)},ap);L=1;M=1}else
 var
 H=r}else
 var
@@ -1814,30 +1814,30 @@ b=L(a[1],d);return b?L(a[2],d):b},a)}function
 iS(c,b,a){var
 d=W(b,a);return ao(function(a,b){return A(t(c,a[1],a[2]),b)},u,d)}function
 iT(c,b,a){var
-d=ca(iS(c,a,b));return ao(function(b,a){return E(ca(b),a)},d,a)}function
-cf(a){return O(a,b)}function
+d=cb(iS(c,a,b));return ao(function(b,a){return E(cb(b),a)},d,a)}function
+cg(a){return O(a,b)}function
 fk(a,i,c,v,u){var
 f=v,e=u;for(;;){if(f){var
 j=f[1],n=0;if(!iR(c)&&!iR(j)){var
-h=iT(a,i,j),o=cf(a),p=iT(a,i,c),b=eg([0,iT(a,i,c),p],o,[0,h,h])[1],k=I(d,h),l=k?I(d,b):k;if(l)var
-q=ax(iD(a,[0,b,b])),r=function(b){return function(d,c){return F(t(a,[0,b,b],d),c)}}(b),s=[0,b,b],m=[0,bi(e,iQ(a,q,aP(function(c){return function(b){return t(a,c,b)}}(s),ac,r,j,c)))];else
+h=iT(a,i,j),o=cg(a),p=iT(a,i,c),b=eg([0,iT(a,i,c),p],o,[0,h,h])[1],k=I(d,h),l=k?I(d,b):k;if(l)var
+q=aw(iD(a,[0,b,b])),r=function(b){return function(d,c){return G(t(a,[0,b,b],d),c)}}(b),s=[0,b,b],m=[0,bi(e,iQ(a,q,aP(function(c){return function(b){return t(a,c,b)}}(s),ac,r,j,c)))];else
 var
 m=l;var
 g=m;n=1}if(!n)var
 g=[0,e];if(g){var
 f=f[2],e=g[1];continue}return g}return[0,e]}}function
-mn(a){var
+mo(a){var
 b=a[2],c=e(function(a){return[0,a[1],u]},b);return[0,[0,a[1][1],u],c]}function
 iU(h,n,a,m,l,k){var
 d=m,c=l,b=k;for(;;){if(d){if(c){var
-i=c[1],j=i[1],f=d[1],o=cz(j[2]),p=bi(b,iJ(a,f,ek(a,j[1],o,f))),q=i[2],r=e(function(c){return function(b){return e(ax,ek(a,b[1],b[2],c))}}(f),q),g=fk(h,n,e(function(b){return aU(b,a,cf(h))},f),r,p);if(g){var
+i=c[1],j=i[1],f=d[1],o=cz(j[2]),p=bi(b,iJ(a,f,ek(a,j[1],o,f))),q=i[2],r=e(function(c){return function(b){return e(aw,ek(a,b[1],b[2],c))}}(f),q),g=fk(h,n,e(function(b){return aU(b,a,cg(h))},f),r,p);if(g){var
 d=d[2],c=c[2],b=g[1];continue}return g}return[0,b]}return[0,b]}}function
-mo(a,j,r,q){var
+mp(a,j,r,q){var
 c=r,f=q;for(;;){if(c){var
-k=c[1],l=k[1],g=l[2],h=l[1],m=k[2],n=[0,[0,cb(g),h],f];if(m){var
+k=c[1],l=k[1],g=l[2],h=l[1],m=k[2],n=[0,[0,cc(g),h],f];if(m){var
 o=I(d,g[1]);if(o)var
 s=e(function(a){var
-b=a[1];return[0,ax(a[2]),b]},m),t=e(function(a){return u},h),v=[0,cf(a),t],w=cf(a),b=fk(a,[0,ac(eg(iS(a,h,j),w,g)),j],v,s,n);else
+b=a[1];return[0,aw(a[2]),b]},m),t=e(function(a){return u},h),v=[0,cg(a),t],w=cg(a),b=fk(a,[0,ac(eg(iS(a,h,j),w,g)),j],v,s,n);else
 var
 b=o}else
 var
@@ -1847,59 +1847,59 @@ c=c[2],f=i[1];continue}var
 p=i}else
 var
 p=b;return p}return[0,f]}}function
-mp(c,b,a){var
-d=aD(0,a);return e(function(a){return o(a,b)?cf(c):u},d)}function
-mq(c,b,a){if(b){if(a){var
-d=mq(c,b[2],a[2]);return A(aU(b[1],c,a[1]),d)}return u}return u}function
-mr(a,j){switch(j){case
+mq(c,b,a){var
+d=aC(0,a);return e(function(a){return o(a,b)?cg(c):u},d)}function
+mr(c,b,a){if(b){if(a){var
+d=mr(c,b[2],a[2]);return A(aU(b[1],c,a[1]),d)}return u}return u}function
+ms(a,j){switch(j){case
 0:var
-d=aM(a[2],a[1]),e=a[1];return[0,[0,e,e],[0,[0,d,d],0]];case
+d=aL(a[2],a[1]),e=a[1];return[0,[0,e,e],[0,[0,d,d],0]];case
 1:var
-f=aM(a[1],a[2]),g=a[2];return[0,[0,g,g],[0,[0,f,f],0]];default:var
-c=dy(E(a[1],a[2]),b),h=aM(c,a[2]),i=aM(a[2],c);return[0,[0,c,c],[0,[0,i,i],[0,[0,h,h],0]]]}}function
+f=aL(a[1],a[2]),g=a[2];return[0,[0,g,g],[0,[0,f,f],0]];default:var
+c=dy(E(a[1],a[2]),b),h=aL(c,a[2]),i=aL(a[2],c);return[0,[0,c,c],[0,[0,i,i],[0,[0,h,h],0]]]}}function
 fl(d,c,a){if(a)var
-e=a[1],g=fl(d,[0,c],a[2]),b=y(aO,lG(function(a){return o(a[1],c)},d)),h=b?mr(e,b[1])[1]:e,f=[0,h,g];else
+e=a[1],g=fl(d,[0,c],a[2]),b=y(aO,lH(function(a){return o(a[1],c)},d)),h=b?ms(e,b[1])[1]:e,f=[0,h,g];else
 var
 f=a;return f}function
 gR(a,b){return e(function(a){var
-c=a[2];return mr(r(a[1],b,u),c)[2]},a)}function
+c=a[2];return ms(r(a[1],b,u),c)[2]},a)}function
 gS(i,b,g,a){function
-d(a){return aH(b,a[1])}var
+d(a){return aG(b,a[1])}var
 h=0,j=$(u);function
 c(g,d,a,b){if(a){var
-h=function(a){return aH(g,r(d,a[2],j))},k=e(h,b[1]),l=h(b[2]),m=c(g,[0,d],a[2],b),n=a[1];return f(e(function(a){var
+h=function(a){return aG(g,r(d,a[2],j))},k=e(h,b[1]),l=h(b[2]),m=c(g,[0,d],a[2],b),n=a[1];return f(e(function(a){var
 b=t(i,a,l);return[0,e(function(b){return t(i,a,b)},k),b]},n),m)}return a}var
 k=c(b,h,g,a),l=d(a[2]);return[0,[0,e(d,a[1]),l],k]}var
 tr=$(u);function
-ms(e,d,c){if(d){var
+mt(e,d,c){if(d){var
 f=r(e,c[2],ts),a=f?f[1]:[0,tr];if(a)var
-b=ms([0,e],d[2],c),h=b?[0,[0,a[1],b[1]]]:b,g=h;else
+b=mt([0,e],d[2],c),h=b?[0,[0,a[1],b[1]]]:b,g=h;else
 var
 g=a;return g}return tt}function
-mt(a,c,h,p,o,g,n){var
+mu(a,c,h,p,o,g,n){var
 d=bj(c);return l(function(d){var
 f=k(n,d);if(f){var
-q=t(a,o,f[1]),i=F(O(a,b),q),r=h?F(i,aH(d,h[1])):i,j=function(b){function
-f(c){return t(a,b,aH(d,c))}var
-g=e(function(a){return e(f,a)},p);return a_(a,c,bi(ab([0,r,0],c),g))},l=j(ax(g));if(l)return j(ac(ax(g)));var
+q=t(a,o,f[1]),i=G(O(a,b),q),r=h?G(i,aG(d,h[1])):i,j=function(b){function
+f(c){return t(a,b,aG(d,c))}var
+g=e(function(a){return e(f,a)},p);return a_(a,c,bi(ab([0,r,0],c),g))},l=j(aw(g));if(l)return j(ac(aw(g)));var
 m=l}else
 var
 m=f;return m},d)}function
-mu(c,b,a){if(a){var
+mv(c,b,a){if(a){var
 d=a[2];if(c){var
-f=mu(c[1],b,d);return[0,a[1],f]}var
+f=mv(c[1],b,d);return[0,a[1],f]}var
 e=[0,b,d]}else
 var
 e=a;return e}function
 fm(a,g){var
 b=a1(function(e){var
 c=r(e,a,u),b=D(c[1],d),f=b?D(d,c[2]):b;return J(f)},g);if(b){if(b[2])return a;var
-f=b[1],c=r(f,a,u),e=I(d,c[1])?c[1]:c[2];return mu(f,[0,e,e],a)}return a}function
-mv(c,a){if(a)var
-b=a[2],f=mv(c,b),g=b?b[1]:e(sU,c),d=[0,[0,a[1],g],f];else
+f=b[1],c=r(f,a,u),e=I(d,c[1])?c[1]:c[2];return mv(f,[0,e,e],a)}return a}function
+mw(c,a){if(a)var
+b=a[2],f=mw(c,b),g=b?b[1]:e(sU,c),d=[0,[0,a[1],g],f];else
 var
 d=a;return d}function
-mw(a){return a?mv(a[1],a):a}function
+mx(a){return a?mw(a[1],a):a}function
 c6(c,d,b,a){if(d){var
 e=d[1];if(a){var
 f=c6(c,e,b,a[2]);return[0,a[1],f]}return[0,c,c6(c,e,b,0)]}return a?[0,b,a[2]]:[0,b,0]}function
@@ -1911,36 +1911,36 @@ f=b;else
 var
 f=c;return f}function
 c7(d,c,b,a){return c6(u,c,iS(d,a,b),a)}function
-mx(a,f,e,b,d,c){var
-g=aD(0,b);return ao(function(g,c){var
-h=c7(a,f,e,mp(a,g,b));return bi(c,iQ(a,ac(d),h))},c,g)}function
-my(a,d,c,j,i,h,g,f){var
-k=c7(a,d,c,e(function(b){return O(a,C(h,b))},i));return bi(f,gT(a,c7(a,d,c,e(function(c){return aU(c,E(g,b),cf(a))},j)),k))}function
-mz(a,h,g,q,f,p,o,n){var
+my(a,f,e,b,d,c){var
+g=aC(0,b);return ao(function(g,c){var
+h=c7(a,f,e,mq(a,g,b));return bi(c,iQ(a,ac(d),h))},c,g)}function
+mz(a,d,c,j,i,h,g,f){var
+k=c7(a,d,c,e(function(b){return O(a,C(h,b))},i));return bi(f,gT(a,c7(a,d,c,e(function(c){return aU(c,E(g,b),cg(a))},j)),k))}function
+mA(a,h,g,q,f,p,o,n){var
 d=p,c=o,b=n;for(;;){if(d){if(c){var
-k=c[1],l=k[1],i=d[1],m=c7(a,h,g,e(function(b){return aU(b,f,cf(a))},i)),r=cz(l[2]),s=c7(a,h,g,ek(f,l[1],r,i)),t=bi(b,gT(a,e(ax,m),s)),u=k[2],j=fk(a,q,m,e(function(c){return function(b){return c7(a,h,g,e(ax,ek(f,b[1],b[2],c)))}}(i),u),t);if(j){var
+k=c[1],l=k[1],i=d[1],m=c7(a,h,g,e(function(b){return aU(b,f,cg(a))},i)),r=cz(l[2]),s=c7(a,h,g,ek(f,l[1],r,i)),t=bi(b,gT(a,e(aw,m),s)),u=k[2],j=fk(a,q,m,e(function(c){return function(b){return c7(a,h,g,e(aw,ek(f,b[1],b[2],c)))}}(i),u),t);if(j){var
 d=d[2],c=c[2],b=j[1];continue}return j}return[0,b]}return[0,b]}}function
-mA(g,b,f,a){if(a)var
+mB(g,b,f,a){if(a)var
 c=a[2],d=a[1],h=r(b,c,u),e=[0,d,c6(u,b,A(t(g,f,d),h),c)];else
 var
 e=a;return e}function
-mB(a,b,m,D,C,B){var
+mC(a,b,m,D,C,B){var
 i=C,h=B;for(;;){if(i){var
 n=i[1],o=n[1],j=o[2],p=n[2],c=c7(a,b,m,o[1]);if(p){var
 q=I(d,j[1]);if(q)var
-E=cf(a),f=cb(ac(eg(r(b,c,u),E,j))),k=cb(j),v=c6(u,b,f,0),w=r(b,c,u),x=bi(h,gT(a,v,c6(u,b,A(ax(t(a,f,k)),w),c))),y=r(b,c,u),z=[0,[0,k,c6(u,b,A(t(a,f,k),y),c)],x],F=e(function(e){return function(c){var
-d=c7(a,b,m,c[1]);return mA(a,b,e,[0,ax(c[2]),d])}}(f),p),G=e(function(a){return u},c),g=fk(a,[0,u,D],mA(a,b,f,[0,cf(a),G]),F,z);else
+E=cg(a),f=cc(ac(eg(r(b,c,u),E,j))),k=cc(j),v=c6(u,b,f,0),w=r(b,c,u),x=bi(h,gT(a,v,c6(u,b,A(aw(t(a,f,k)),w),c))),y=r(b,c,u),z=[0,[0,k,c6(u,b,A(t(a,f,k),y),c)],x],F=e(function(e){return function(c){var
+d=c7(a,b,m,c[1]);return mB(a,b,e,[0,aw(c[2]),d])}}(f),p),G=e(function(a){return u},c),g=fk(a,[0,u,D],mB(a,b,f,[0,cg(a),G]),F,z);else
 var
 g=q}else
 var
-g=[0,[0,[0,cb(j),c],h]];if(g){var
+g=[0,[0,[0,cc(j),c],h]];if(g){var
 l=gI(a,g[1]);if(l){var
 i=i[2],h=l[1];continue}var
 s=l}else
 var
 s=g;return s}return[0,h]}}function
 iV(f,d,c,b,a){var
-g=e($,c);return lP(0,bC(f,dH(0,a),g),b,d,0)}function
+g=e($,c);return lQ(0,bD(f,dH(0,a),g),b,d,0)}function
 ad(a){if(a){var
 b=a[1];if(b)var
 c=ad(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
@@ -1965,11 +1965,11 @@ c8(a,b){return l(function(c){var
 a=r(c,b,0),d=a?1:a;return d},a)}function
 gV(b,a){if(b){var
 c=b[1],d=c[3],e=a[3],f=function(a){return a},g=aP(function(a){return a},f,A,e,d),h=a[2];return[0,A(a[1],c[1]),h,g]}return a}function
-iW(b,a){return b?me(a,b[1]):a}function
+iW(b,a){return b?mf(a,b[1]):a}function
 iX(h,g,b,f){var
 a=r(f,h,0);if(a){var
 c=a[1];if(b){var
-i=me(c,b[1]),e=bj(g);return l(function(a){return D(d,aH(a,i)[1])},e)}return D(d,c[2][1])}return a}function
+i=mf(c,b[1]),e=bj(g);return l(function(a){return D(d,aG(a,i)[1])},e)}return D(d,c[2][1])}return a}function
 iY(f,d,a){function
 c(a){return aU(a,d,O(f,b))}if(a){var
 g=e(c,a[2]);return[0,c(a[1]),u,g]}return $(u)}function
@@ -1992,11 +1992,11 @@ Y=c8(C,i);if(Y){var
 aD=a[2],aE=a[1],aF=gV(j,$(s));return cE(i,k,function(a){return fi(c,h,aF,aE,aD,a)})}return Y;case
 1:var
 Z=c8(C,i);if(Z){var
-aG=a[2],aI=a[1],aJ=gV(j,$(s));return cE(i,X,function(a){return fi(c,h,aJ,aI,aG,a)})}return Z;case
+aH=a[2],aI=a[1],aJ=gV(j,$(s));return cE(i,X,function(a){return fi(c,h,aJ,aI,aH,a)})}return Z;case
 2:var
 _=c8(C,i);if(_){var
 aa=L(s[1],d),ab=aa?L(s[2],d):aa;if(ab){var
-aK=a[2],aL=a[1];return cE(i,k,function(a){return md(c,h,j,aL,aK,a)})}var
+aK=a[2],aM=a[1];return cE(i,k,function(a){return me(c,h,j,aM,aK,a)})}var
 ac=ab}else
 var
 ac=_;return ac}return 0;case
@@ -2022,15 +2022,15 @@ a==="number"&&!(3<=a))switch(a){case
 6:if(typeof
 a!=="number"&&8===a[0]){var
 D=gW(i,f[1]);if(D){var
-G=gW(i,f[2]);if(G){var
+F=gW(i,f[2]);if(F){var
 H=gW(i,f[3]);if(H){var
 I=gW(i,f[4]);if(I){var
-ah=I[1],ai=H[1],aj=G[1],ak=D[1],n=a[2],v=f[5],aV=a[1];if(n){var
+ah=I[1],ai=H[1],aj=F[1],ak=D[1],n=a[2],v=f[5],aV=a[1];if(n){var
 p=n[2];if(p){var
 q=p[2];if(q){if(q[2])return 0;var
-aC=[0,n[1],p[1],q[1]],r=mj(function(f){function
+aC=[0,n[1],p[1],q[1]],r=mk(function(f){function
 g(a){return aU(a,aV,O(c,b))}if(f){var
-a=e(g,f[2]),d=g(f[1]),h=fe(a),i=E(d[2],h),j=fe(a);return[0,d,[0,aM(d[1],j),i],a]}return $(u)},aC),N=l(function(a){return o(g(a),[0,h])},n),P=N?gN(c,h,j,v,r,ak,ai):N,Q=P?gN(c,h,j,v,r,ak,ah):P,R=Q?gN(c,h,j,v,r,aj,ai):Q;if(R)return gN(c,h,j,v,r,aj,ah);var
+a=e(g,f[2]),d=g(f[1]),h=fe(a),i=E(d[2],h),j=fe(a);return[0,d,[0,aL(d[1],j),i],a]}return $(u)},aC),N=l(function(a){return o(g(a),[0,h])},n),P=N?gN(c,h,j,v,r,ak,ai):N,Q=P?gN(c,h,j,v,r,ak,ah):P,R=Q?gN(c,h,j,v,r,aj,ai):Q;if(R)return gN(c,h,j,v,r,aj,ah);var
 S=R}else
 var
 S=q;var
@@ -2045,7 +2045,7 @@ var
 al=H;var
 am=al}else
 var
-am=G;var
+am=F;var
 an=am}else
 var
 an=D;return an}return 0;case
@@ -2061,7 +2061,7 @@ var
 f=a;return f},i=j?j[1]:$(u);return iI(h,iK(i,e),f)}return d})}return 0;case
 8:if(typeof
 a==="number"&&5<=a){var
-aY=f[3],aZ=f[2],a0=function(a){return md(c,h,j,aZ,aY,a)};return cE(i,f[1],a0)}return 0;case
+aY=f[3],aZ=f[2],a0=function(a){return me(c,h,j,aZ,aY,a)};return cE(i,f[1],a0)}return 0;case
 9:return 0;default:if(typeof
 a==="number"&&!a){var
 J=iZ(i,f[1]);if(J){var
@@ -2071,9 +2071,9 @@ w=M[1];if(w){var
 x=w[2];if(x){var
 z=x[2];if(z){var
 B=z[2];if(B){if(B[2])return 0;var
-ar=B[1],as=z[1][2],at=x[1][2],au=w[1][2],av=K[1],a2=J[1],W=mt(c,h,j,av,au,at,function(d){return[0,el(c,ao(function(b,a){return A(U(c,aH(d,b)),a)},u,a2))]});return W?W:mt(c,h,j,av,au,at,function(f){var
-b=cb(ar[1]),a=b$(c,F(as,U(c,b)));if(a){var
-d=b_(c,a[1]),e=F(as,t(c,b,aH(f,ar)));return y(function(a){return t(c,e,a)},d)}return a})}var
+ar=B[1],as=z[1][2],at=x[1][2],au=w[1][2],av=K[1],a2=J[1],W=mu(c,h,j,av,au,at,function(d){return[0,el(c,ao(function(b,a){return A(U(c,aG(d,b)),a)},u,a2))]});return W?W:mu(c,h,j,av,au,at,function(f){var
+b=cc(ar[1]),a=ca(c,G(as,U(c,b)));if(a){var
+d=b$(c,a[1]),e=G(as,t(c,b,aG(f,ar)));return y(function(a){return t(c,e,a)},d)}return a})}var
 aw=B}else
 var
 aw=z;var
@@ -2092,11 +2092,11 @@ aA=K;var
 aB=aA}else
 var
 aB=J;return aB}return 0}}function
-mC(a,_,s,m,n,Z,h,j,i,f,c){if(9===f[0]){var
+mD(a,_,s,m,n,Z,h,j,i,f,c){if(9===f[0]){var
 aa=f[2],ae=f[1];if(typeof
 c!=="number"&&9===c[0]){var
 L=c[2],v=c[1],af=c[3];if(0<aS(c[4]))return fn(a,s,m,n,h,g(j),i,f,c);var
-V=e($,Z),C=bg(0,bC(a,gP(0,j,ae),V),_,0),M=o(g(j),tA),N=M?c8(n,C):M;if(N){var
+V=e($,Z),C=bg(0,bD(a,gP(0,j,ae),V),_,0),M=o(g(j),tA),N=M?c8(n,C):M;if(N){var
 w=gU(C,m);if(w){var
 x=gU(h,m);if(x){var
 z=ad(e(function(b){var
@@ -2105,24 +2105,24 @@ f=b[2][2],a=ad(e(function(a){var
 b=r(a[2],h,0);return y(function(b){return[0,a[1],b]},b)},f)),g=a?[0,[0,b[2][1],a[1]]]:a,d=g;else
 var
 d=c;return d},aa));if(z){var
-B=mm(w[1]);if(B){var
+B=mn(w[1]);if(B){var
 P=x[1],ag=z[1],ah=B[1],D=el(a,ao(function(f,h){function
 b(b,d){var
-a=f[1],c=b?b[1]?f[2]:a[2]:a[1];return ca(r(d,c[3],u))}function
+a=f[1],c=b?b[1]?f[2]:a[2]:a[1];return cb(r(d,c[3],u))}function
 c(a){var
 b=k(a,td),c=bm(k(a,te),b);return bm(k(a,0),c)}var
 d=c(function(a){var
 c=b(tf,a),d=b(tg,a);return E(E(b(0,a),d),c)}),g=[0,d,d],e=c(function(a){var
-c=b(a,th),d=b(a,ti);return E(E(b(a,0),d),c)});return A(h,U(a,el(a,t(a,[0,e,e],g))))},u,ah)),p=aU(af,v,O(a,b)),G=I(d,F(p,D)[1]),H=G?o(g(L),to):G,J=H?o(g(P),tp):H;if(J){var
-q=b_(a,p);if(q){var
-W=ax(t(a,D,q[1])),X=F(O(a,b),W),Y=bj(tq);return l(function(h){var
+c=b(a,th),d=b(a,ti);return E(E(b(a,0),d),c)});return A(h,U(a,el(a,t(a,[0,e,e],g))))},u,ah)),p=aU(af,v,O(a,b)),F=I(d,G(p,D)[1]),H=F?o(g(L),to):F,J=H?o(g(P),tp):H;if(J){var
+q=b$(a,p);if(q){var
+W=aw(t(a,D,q[1])),X=G(O(a,b),W),Y=bj(tq);return l(function(h){var
 g=e(function(b){var
-c=b[2],d=b[1];return cz(bS(function(d,b){var
-c=ca(aH(h,b[2]));return A(d,t(a,b[1],[0,c,c]))},c,d))},ag),r=k(ay(function(a){return aH(h,a)}),P),E=i?aH(h,i[1]):u,M=U(a,X),s=U(a,p),q=en(v,eo(v,L,O(a,b),r)),c=bi(ab([0,ac(E),0],tj),q);if(g){var
+c=b[2],d=b[1];return cz(bT(function(d,b){var
+c=cb(aG(h,b[2]));return A(d,t(a,b[1],[0,c,c]))},c,d))},ag),r=k(ax(function(a){return aG(h,a)}),P),E=i?aG(h,i[1]):u,M=U(a,X),s=U(a,p),q=en(v,eo(v,L,O(a,b),r)),c=bi(ab([0,ac(E),0],tj),q);if(g){var
 d=g[2];if(d){var
 f=d[2];if(f){if(f[2])return 0;var
 B=d[1],C=g[1],I=f[1],j=a_(a,tl,bi(ab([0,ac(s),0],tk),c));if(j)return l(function(D){var
-J=F(M,E),K=D[2]?B:ac(B),L=D[1]?C:ac(C),o=0;if(c){var
+J=G(M,E),K=D[2]?B:ac(B),L=D[1]?C:ac(C),o=0;if(c){var
 b=c[1],l=0;if(b){var
 d=b[2],m=0;if(d){var
 e=d[2],n=0;if(e)if(e[2]){var
@@ -2131,16 +2131,16 @@ f=c[2],p=0;if(f){var
 g=f[1],q=0;if(g){var
 h=g[2],r=0;if(h)if(h[2]){var
 k=0;l=1;m=1;n=1;p=1;q=1;r=1}else{var
-i=f[2],G=0;if(i){var
+i=f[2],F=0;if(i){var
 j=i[1],H=0;if(j)if(j[2]||i[2]){var
-k=0;l=1;m=1;n=1;p=1;q=1;r=1;G=1;H=1}else
+k=0;l=1;m=1;n=1;p=1;q=1;r=1;F=1;H=1}else
 var
 s=[0,[0,b[1],[0,d[1],[0,e[1],[0,L,0]]]],[0,[0,g[1],[0,h[1],[0,K,0]]],[0,[0,j[1],[0,I,0]],[0,[0,J,0],0]]]];else
 var
 s=j;if(!H)var
 t=s}else
 var
-t=i;if(!G)var
+t=i;if(!F)var
 u=t}else
 var
 u=h;if(!r)var
@@ -2193,7 +2193,7 @@ a=b;continue}return c}return 1}}function
 i0(j,i,h,g,a){var
 d=r(a,j,0);if(d){var
 b=r(a,i,0);if(b)var
-c=ms(0,g,r(a,h,tB)),k=c?[0,[0,b[1],c[1]]]:c,e=k;else
+c=mt(0,g,r(a,h,tB)),k=c?[0,[0,b[1],c[1]]]:c,e=k;else
 var
 e=b;var
 f=e}else
@@ -2216,26 +2216,26 @@ p=f;var
 q=p}else
 var
 q=c;return q}return tC}function
-mD(c,M,j,K,q,p,J,I,f,b,i,a){var
-h=g(J),N=dH(0,J),aF=bg(0,bC(c,N,e($,fl(i,0,q))),M,0),aI=e(aB,i),aG=0,aJ=e($,q),aL=bg(tD,function(a){return iP(c,N,aJ,aI,a)},M,aG),aN=gR(i,q);function
-P(a){return i0(p,aF,aL,i,a)}function
+mE(c,M,j,K,q,p,J,I,f,b,i,a){var
+h=g(J),N=dH(0,J),aF=bg(0,bD(c,N,e($,fl(i,0,q))),M,0),aI=e(aA,i),aH=0,aK=e($,q),aM=bg(tD,function(a){return iP(c,N,aK,aI,a)},M,aH),aN=gR(i,q);function
+P(a){return i0(p,aF,aM,i,a)}function
 w(a){return e(function(a){return O(c,a)},a)}var
 aO=I?I[1]:$(u);function
 Q(a){return a?a_(c,h,a[1]):a}function
 r(f,e,d,b,a){var
 g=ab([0,ac(e),0],h);return Q(iU(c,w(f),d,b,a,g))}function
 R(d,b,a){var
-e=ab([0,b,0],h);return Q(mo(c,w(d),a,e))}var
-aP=e(aB,i),S=l(function(a){return aK(a,g(q))},aP),U=S?gX(e(aB,i)):S,V=U?l(function(a){return o(g(a),h)},a):U;if(V){var
+e=ab([0,b,0],h);return Q(mp(c,w(d),a,e))}var
+aP=e(aA,i),S=l(function(a){return aJ(a,g(q))},aP),U=S?gX(e(aA,i)):S,V=U?l(function(a){return o(g(a),h)},a):U;if(V){var
 v=0;switch(f[0]){case
 0:var
-x=f[1],G=0;if(typeof
+x=f[1],F=0;if(typeof
 b!=="number")switch(b[0]){case
 0:var
 ar=0;if(a){if(a[2])return 0;var
 aQ=a[1],aR=b[2],aS=b[1],X=c8(K,p);if(X){var
 m=function(c,a){var
-b=A(x,a);return function(a){return r(aQ,b,aS,aR,a)}},k=j;G=1;ar=1}else
+b=A(x,a);return function(a){return r(aQ,b,aS,aR,a)}},k=j;F=1;ar=1}else
 var
 _=X}else
 var
@@ -2244,44 +2244,44 @@ _=a;if(!ar)return _;break;case
 as=0;if(a){if(a[2])return 0;var
 aU=a[1],aV=b[2],aW=b[1],aa=c8(K,p),at=0;if(aa){var
 ad=L(x[1],d),ae=ad?L(x[2],d):ad;if(ae){var
-m=function(c,b,a){return r(aU,b,aW,aV,e(mn,a))},k=j;G=1;as=1;at=1}else
+m=function(c,b,a){return r(aU,b,aW,aV,e(mo,a))},k=j;F=1;as=1;at=1}else
 var
 af=ae}else
 var
 af=aa;if(!at)var
 ag=af}else
 var
-ag=a;if(!as)return ag;break}if(!G)return 0;break;case
+ag=a;if(!as)return ag;break}if(!F)return 0;break;case
 1:var
 au=0,aX=f[1];if(typeof
 b==="number"&&!b){if(!a)return a;if(a[2])return 0;var
 aY=a[1],m=function(c,a){var
-b=F(aX,a);return function(a){return R(aY,b,a)}},k=j;au=1}if(!au)return 0;break;case
+b=G(aX,a);return function(a){return R(aY,b,a)}},k=j;au=1}if(!au)return 0;break;case
 2:var
 av=0,aZ=f[1];if(typeof
 b==="number"||!(3===b[0]))av=1;else{var
-aw=0;if(a){var
+ax=0;if(a){var
 s=a[2],ay=0;if(s){if(s[2])return 0;var
 ah=b[1],a0=s[1],a1=a[1],a2=b[2],ai=iY(c,ah,b[3]),aj=iM(h,ai);if(aj){var
 m=function(f,b,a){var
-d=aH(f,ai),e=r(a1,A(d,b),ah,a2,a);return e?R(a0,F(t(c,aZ,d),b),a):e},k=j;aw=1;ay=1}else
+d=aG(f,ai),e=r(a1,A(d,b),ah,a2,a);return e?R(a0,G(t(c,aZ,d),b),a):e},k=j;ax=1;ay=1}else
 var
 ak=aj}else
 var
 ak=s;if(!ay)var
 al=ak}else
 var
-al=a;if(!aw)return al}if(av)return 0;break;case
+al=a;if(!ax)return al}if(av)return 0;break;case
 3:var
 az=0;if(typeof
 b==="number"&&!b){if(a)return 0;var
 z=f[1];v=1}else
 az=1;if(az)return 0;break;case
 4:var
-aA=0,a4=f[2];if(typeof
-b==="number"||!(0===b[0]))aA=1;else{if(!a)return a;if(a[2])return 0;var
+aB=0,a4=f[2];if(typeof
+b==="number"||!(0===b[0]))aB=1;else{if(!a)return a;if(a[2])return 0;var
 a5=a[1],a6=b[2],a7=b[1],a8=function(c,a){var
-b=A(a4,a);return function(a){return r(a5,b,a7,a6,a)}},m=a8,k=f[1]}if(aA)return 0;break;case
+b=A(a4,a);return function(a){return r(a5,b,a7,a6,a)}},m=a8,k=f[1]}if(aB)return 0;break;case
 5:var
 H=0;if(typeof
 b==="number"&&!(3<=b))switch(b){case
@@ -2291,17 +2291,17 @@ z=f[1];v=1;break;case
 z=f[2];v=1;break;default:H=1}else
 H=1;if(H)return 0;break;case
 7:var
-am=f[2],an=f[1],aC=0;if(typeof
-b==="number"||!(0===b[0]))aC=1;else{var
+am=f[2],an=f[1],aD=0;if(typeof
+b==="number"||!(0===b[0]))aD=1;else{var
 aE=0;if(a){if(a[2])return 0;var
 n=b[2],C=b[1],a9=a[1],ap=o(g(j),h);if(ap){var
 m=function(a,x){var
 y=w(a9);return function(f){var
 k=o(g(f),h),l=k?o(g(n),h):k;if(l){var
-s=e(aB,f),u=en(C,eo(C,n,cf(c),s)),v=bi(gO(c,an,am,x,e(aB,f)),u),a=0,b=f,i=v,w=g(n);for(;;){if(b){var
+s=e(aA,f),u=en(C,eo(C,n,cg(c),s)),v=bi(gO(c,an,am,x,e(aA,f)),u),a=0,b=f,i=v,w=g(n);for(;;){if(b){var
 p=b[1][2],q=o(a,an),r=e(function(f,h){return function(d){var
-a=W(aD(0,g(n)),n);return e(function(a){var
-b=mq(C,a[2],d[1]);if(h&&o(a[1],f))return F(b,ax(t(c,am,d[2])));return b},a)}}(a,q),p),j=fk(c,y,mp(c,a,w),r,i);if(j){var
+a=W(aC(0,g(n)),n);return e(function(a){var
+b=mr(C,a[2],d[1]);if(h&&o(a[1],f))return G(b,aw(t(c,am,d[2])));return b},a)}}(a,q),p),j=fk(c,y,mq(c,a,w),r,i);if(j){var
 a=[0,a],b=b[2],i=j[1];continue}var
 d=j}else
 var
@@ -2312,15 +2312,15 @@ m=l;return m}},k=j;aE=1}else
 var
 aq=ap}else
 var
-aq=a;if(!aE)return aq}if(aC)return 0;break;default:return 0}if(v){var
+aq=a;if(!aE)return aq}if(aD)return 0;break;default:return 0}if(v){var
 B=P(z);if(!B)return B;var
 a3=function(b,f,a){return l(function(a){var
-b=f[2],c=a[2],e=ao(function(b,a){return E(bm(d,T(b[2][1])),a)},d,c);return D(d,aM(aM(a[1][2][1],e),b))},a)},Z=a3,Y=[0,[0,0,B[1]],0]}else{var
+b=f[2],c=a[2],e=ao(function(b,a){return E(bm(d,T(b[2][1])),a)},d,c);return D(d,aL(aL(a[1][2][1],e),b))},a)},Z=a3,Y=[0,[0,0,B[1]],0]}else{var
 y=gY(p,P,k);if(!y)return y;var
 Z=m,Y=y[1]}var
 aT=bj(h);return l(function(a){var
-b=e(function(b){return gS(c,a,aN,b)},Y);return f4(Z,a,aH(a,aO),b)},aT)}return V}function
-mE(j,a){var
+b=e(function(b){return gS(c,a,aN,b)},Y);return f4(Z,a,aG(a,aO),b)},aT)}return V}function
+mF(j,a){var
 f=ao(function(b,a){return bm(ct(b),a)},d,a);function
 g(a){if(a){if(L(ct(a[1]),f))return 0;var
 b=[0,g(a[2])]}else
@@ -2328,15 +2328,15 @@ var
 b=a;return b}var
 h=g(a);if(L(f,d)){var
 k=e(function(a){return u},a),l=a?[0,b,a[2]]:a;return[0,[0,[0,0,l],d],k]}var
-i=iB(E(lE(f),b)),m=e(function(a){return u},a);return[0,[0,[0,h,a],i],c6(u,h,O(j,b9(c(2,b),i)),m)]}function
-gZ(f,K,t,I,n,m,H,G,k,a,h,al,E,ak,C,B){var
-i=g(H),M=dH(0,H),am=bg(0,bC(f,M,e($,fl(h,0,n))),K,0),ao=e(aB,h),an=0,ap=e($,n),aq=bg(tE,function(a){return iP(f,M,ap,ao,a)},K,an),as=gR(h,n);function
+i=iB(E(lF(f),b)),m=e(function(a){return u},a);return[0,[0,[0,h,a],i],c6(u,h,O(j,b_(c(2,b),i)),m)]}function
+gZ(f,K,t,I,n,m,H,F,k,a,h,al,E,ak,C,B){var
+i=g(H),M=dH(0,H),am=bg(0,bD(f,M,e($,fl(h,0,n))),K,0),ao=e(aA,h),an=0,ap=e($,n),aq=bg(tE,function(a){return iP(f,M,ap,ao,a)},K,an),as=gR(h,n);function
 at(a){return i0(m,am,aq,h,a)}var
-au=G?G[1]:$(u),N=mE(f,al),P=N[1],Q=P[1],v=Q[2],j=Q[1],R=N[2],av=P[2],p=e(function(a){return aU(a,av,O(f,b))},v);function
-S(a){return my(f,j,p,E,ak,C,B,mx(f,j,p,i,a,0))}function
+au=F?F[1]:$(u),N=mF(f,al),P=N[1],Q=P[1],v=Q[2],j=Q[1],R=N[2],av=P[2],p=e(function(a){return aU(a,av,O(f,b))},v);function
+S(a){return mz(f,j,p,E,ak,C,B,my(f,j,p,i,a,0))}function
 T(a){return a?a_(f,i,a[1]):a}function
-w(d,c,b,a){return T(mz(f,j,p,R,c,b,a,S(ac(d))))}var
-aw=e(aB,h),U=l(function(a){return aK(a,g(n))},aw),V=U?gX(e(aB,h)):U,W=V?o(g(v),i):V,X=W?o(g(E),i):W,Y=X?D(d,C):X,Z=Y?iz(B,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):Y,_=Z?aK(j,i):Z,aa=_?J(L(r(j,v,d),d)):_;if(aa){switch(k[0]){case
+w(d,c,b,a){return T(mA(f,j,p,R,c,b,a,S(ac(d))))}var
+aw=e(aA,h),U=l(function(a){return aJ(a,g(n))},aw),V=U?gX(e(aA,h)):U,W=V?o(g(v),i):V,X=W?o(g(E),i):W,Y=X?D(d,C):X,Z=Y?iz(B,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):Y,_=Z?aJ(j,i):Z,aa=_?J(L(r(j,v,d),d)):_;if(aa){switch(k[0]){case
 0:var
 x=k[1],z=0;if(typeof
 a==="number")z=1;else
@@ -2348,7 +2348,7 @@ b=A(x,a);return function(a){return w(b,ay,ax,a)}},q=t;break;case
 2:var
 aC=a[2],aD=a[1],ad=c8(I,m),ah=0;if(ad){var
 ae=L(x[1],d),af=ae?L(x[2],d):ae;if(af){var
-s=function(b,a){return w(b,aD,aC,e(mn,a))},q=t;ah=1}else
+s=function(b,a){return w(b,aD,aC,e(mo,a))},q=t;ah=1}else
 var
 ag=af}else
 var
@@ -2357,18 +2357,18 @@ ag=ad;if(!ah)return ag;break;default:z=1}if(z)return 0;break;case
 ai=0,aE=k[1];if(typeof
 a==="number"&&!a)var
 s=function(a){var
-b=F(aE,a);return function(a){return T(mB(f,j,p,R,a,S(b)))}},q=t;else
+b=G(aE,a);return function(a){return T(mC(f,j,p,R,a,S(b)))}},q=t;else
 ai=1;if(ai)return 0;break;case
 4:var
 aj=0,aF=k[2];if(typeof
 a==="number"||!(0===a[0]))aj=1;else
 var
-aG=a[2],aI=a[1],aJ=function(a){var
-b=A(aF,a);return function(a){return w(b,aI,aG,a)}},s=aJ,q=k[1];if(aj)return 0;break;default:return 0}var
+aH=a[2],aI=a[1],aK=function(a){var
+b=A(aF,a);return function(a){return w(b,aI,aH,a)}},s=aK,q=k[1];if(aj)return 0;break;default:return 0}var
 y=gY(m,at,q);if(y){var
-az=y[1],aA=bj(i);return l(function(a){var
-b=e(function(b){return gS(f,a,as,b)},az);return ar(s,aH(a,au),b)},aA)}return y}return aa}function
-mF(r,q,p,o,n,C,m,c,l,j,i,h,g,a){var
+az=y[1],aB=bj(i);return l(function(a){var
+b=e(function(b){return gS(f,a,as,b)},az);return ar(s,aG(a,au),b)},aB)}return y}return aa}function
+mG(r,q,p,o,n,C,m,c,l,j,i,h,g,a){var
 v=e(function(a){return d},c),u=0;if(typeof
 a!=="number")switch(a[0]){case
 5:var
@@ -2382,38 +2382,38 @@ y=D(d,s);if(y)return x([0,gL(s,w,t[1])]);var
 z=y}else
 var
 z=t;return z}return gZ(r,q,p,o,n,m,c,0,l,a,0,v,j,i,h,g)}function
-mG(a,aj,aL,s,G,ai,q,p,ah,ag,h){function
+mH(a,aj,aL,s,F,ai,q,p,ah,ag,h){function
 j(ak,f,j,x){var
-h=g(q),z=dH(0,q),aq=bg(0,bC(a,z,e($,fl(j,0,s))),aj,0),as=e(aB,j),ar=0,at=e($,s),au=bg(tF,function(b){return iP(a,z,at,as,b)},aj,ar);function
+h=g(q),z=dH(0,q),aq=bg(0,bD(a,z,e($,fl(j,0,s))),aj,0),as=e(aA,j),ar=0,at=e($,s),au=bg(tF,function(b){return iP(a,z,at,as,b)},aj,ar);function
 av(a){return i0(ai,aq,au,j,a)}var
 aw=ak?ak[1]:$(u);function
 k(b){return b?a_(a,h,b[1]):b}function
-B(b,a){return ac(A(aH(b,ah),a))}function
-C(d,c,b){return F(t(a,d,aH(c,ah)),b)}var
-ax=e(aB,j),E=l(function(a){return aK(a,g(s))},ax),G=E?gX(e(aB,j)):E,H=G?o(g(x),h):G;if(H){var
+B(b,a){return ac(A(aG(b,ah),a))}function
+C(d,c,b){return G(t(a,d,aG(c,ah)),b)}var
+ax=e(aA,j),E=l(function(a){return aJ(a,g(s))},ax),F=E?gX(e(aA,j)):E,H=F?o(g(x),h):F;if(H){var
 al=0;if(ag){var
-I=ag[1],K=I[1],M=K[1],N=M[1],P=K[2],Q=I[2],ay=M[2],R=mE(a,x),S=R[1],T=S[1],v=T[2],i=T[1],U=R[2],az=S[2],m=e(function(c){return aU(c,az,O(a,b))},v),V=function(b){return my(a,i,m,N,ay,P,Q,mx(a,i,m,h,b,0))},W=o(g(v),h),X=W?o(g(N),h):W,Y=X?D(d,P):X,Z=Y?iz(Q,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):Y,_=Z?aK(i,h):Z,aa=_?J(L(r(i,v,d),d)):_,y=0;if(aa)if(p){var
-am=0,aA=p[1];if(typeof
+I=ag[1],K=I[1],M=K[1],N=M[1],P=K[2],Q=I[2],ay=M[2],R=mF(a,x),S=R[1],T=S[1],v=T[2],i=T[1],U=R[2],az=S[2],m=e(function(c){return aU(c,az,O(a,b))},v),V=function(b){return mz(a,i,m,N,ay,P,Q,my(a,i,m,h,b,0))},W=o(g(v),h),X=W?o(g(N),h):W,Y=X?D(d,P):X,Z=Y?iz(Q,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):Y,_=Z?aJ(i,h):Z,aa=_?J(L(r(i,v,d),d)):_,y=0;if(aa)if(p){var
+am=0,aB=p[1];if(typeof
 f==="number"&&!f){var
-n=function(d,c,b){return k(mB(a,i,m,U,b,V(C(aA,d,c))))};y=1;am=1}if(!am)return 0}else{var
+n=function(d,c,b){return k(mC(a,i,m,U,b,V(C(aB,d,c))))};y=1;am=1}if(!am)return 0}else{var
 an=0;if(typeof
 f!=="number"&&0===f[0]){var
-aE=f[2],aF=f[1],n=function(d,c,b){return k(mz(a,i,m,U,aF,aE,b,V(B(d,c))))};y=1;an=1}if(!an)var
+aE=f[2],aF=f[1],n=function(d,c,b){return k(mA(a,i,m,U,aF,aE,b,V(B(d,c))))};y=1;an=1}if(!an)var
 ad=0}else
 var
 ad=aa;if(!y)return ad}else{var
 ae=e(function(b){return O(a,b)},x);if(p){var
-ao=0,aG=p[1];if(typeof
+ao=0,aH=p[1];if(typeof
 f==="number"&&!f){var
-n=function(d,c,b){return k(mo(a,ae,b,ab([0,C(aG,d,c),0],h)))};ao=1}if(!ao)return 0}else{var
+n=function(d,c,b){return k(mp(a,ae,b,ab([0,C(aH,d,c),0],h)))};ao=1}if(!ao)return 0}else{var
 ap=0;if(typeof
 f==="number"||!(0===f[0]))ap=1;else
 var
-aI=f[2],aJ=f[1],n=function(d,c,b){return k(iU(a,ae,aJ,aI,b,ab([0,B(d,c),0],h)))};if(ap){var
+aI=f[2],aK=f[1],n=function(d,c,b){return k(iU(a,ae,aK,aI,b,ab([0,B(d,c),0],h)))};if(ap){var
 af=0;al=1}}}if(!al){var
 w=gY(ai,av,aL);if(w){var
 aC=w[1],aD=bj(h);return l(function(b){var
-c=gR(j,s),d=e(function(d){return gS(a,b,c,d)},aC);return n(b,aH(b,aw),d)},aD)}return w}}else
+c=gR(j,s),d=e(function(d){return gS(a,b,c,d)},aC);return n(b,aG(b,aw),d)},aD)}return w}}else
 var
 af=H;return af}var
 x=e(function(a){return d},q),w=0;if(typeof
@@ -2431,17 +2431,17 @@ K=f[1],M=i[1],N=function(a){return j(a,M,v,K)},z=N,y=i[3],m=i[2];w=1;E=1;break;c
 10:case
 11:case
 13:return f?f[2]?0:j(0,i,v,f[1]):f}if(!E)return f?f[2]?0:j(0,i,v,f[1]):f;break}if(w){var
-n=k(G,q);if(n){var
+n=k(F,q);if(n){var
 B=D(d,m);if(B)return z([0,gL(m,y,n[1])]);var
 C=B}else
 var
 C=n;return C}return j(0,h,0,x)}function
-mH(l,j,i,p,h,g,o,f,b,e,a){if(typeof
+mI(l,j,i,p,h,g,o,f,b,e,a){if(typeof
 a!=="number")switch(a[0]){case
 5:var
 q=a[2],m=k(o,b);if(m){var
 r=D(d,q);if(r){var
-y=a[1];return mC(l,j,i,p,h,g,f,b,[0,gL(q,a[3],m[1])],e,y)}var
+y=a[1];return mD(l,j,i,p,h,g,f,b,[0,gL(q,a[3],m[1])],e,y)}var
 s=r}else
 var
 s=m;return s;case
@@ -2450,10 +2450,10 @@ t=a[3],u=a[2],c=a[1];if(typeof
 c!=="number"&&5===c[0]){var
 v=c[2],n=k(o,b);if(n){var
 w=D(d,v);if(w){var
-z=c[1];return mD(l,j,i,h,g,f,b,[0,gL(v,c[3],n[1])],e,z,u,t)}var
+z=c[1];return mE(l,j,i,h,g,f,b,[0,gL(v,c[3],n[1])],e,z,u,t)}var
 x=w}else
 var
-x=n;return x}return mD(l,j,i,h,g,f,b,0,e,c,u,t)}return mC(l,j,i,p,h,g,f,b,0,e,a)}function
+x=n;return x}return mE(l,j,i,h,g,f,b,0,e,c,u,t)}return mD(l,j,i,p,h,g,f,b,0,e,a)}function
 i1(a){return 9===a[0]?0:1}function
 eq(a){return z(function(a){return f(a[1],[0,a[2],0])},a)}function
 i2(j,d,i,a,h){var
@@ -2482,7 +2482,7 @@ p=[0,a[3],[0,a[4],[0,a[5],[0,a[6],0]]]],q=f(ed(a[2]),p);return f(a[1],q);case
 8:return eq(a[1]);default:return g}}}function
 i3(v,t,s,q,k,a,g,j){var
 h=i1(a),i=h?l(function(b){var
-a=r(b,bS(fm,g,k),u);return L(a[1],a[2])},j):h;return i?l(function(ao){switch(a[0]){case
+a=r(b,bT(fm,g,k),u);return L(a[1],a[2])},j):h;return i?l(function(ao){switch(a[0]){case
 3:var
 g=[0,a[1],0];break;case
 4:var
@@ -2536,7 +2536,7 @@ R=n;return R;case
 7:var
 p=a[1];if(p){var
 S=p[1],h=a[2];if(S){if(h)var
-q=h[1],ak=q?[0,[0,aM(S[1],q[1])]]:q,U=ak;else
+q=h[1],ak=q?[0,[0,aL(S[1],q[1])]]:q,U=ak;else
 var
 U=h;return U}var
 al=h?tw:h,V=al}else
@@ -2555,9 +2555,9 @@ t=s[1];if(t){var
 i=t[1],x=aS(i);if(0===x)var
 m=1;else
 if(0<x)var
-m=D(i,b)?0:L(aT(i,aJ(2))[2],d)?1:0;else
+m=D(i,b)?0:L(aT(i,aI(2))[2],d)?1:0;else
 var
-y=T(i),m=D(y,b)?0:L(aT(y,aJ(2))[2],d)?1:0;var
+y=T(i),m=D(y,b)?0:L(aT(y,aI(2))[2],d)?1:0;var
 am=m?[0,[0,cx(i,c(2,b))]]:m,Z=am}else
 var
 Z=t;var
@@ -2583,23 +2583,23 @@ n=f(eq(s),g),p=f(eq(t),n);return l(function(c){var
 a=r(c,h,0);if(a){var
 b=aS(a[1]);return 0===b?1:0<b?0:0}return a},p)}return i},g):i}function
 i4(j,a,i,h,g,f,e,d,c,b){var
-k=gE(i2(i,h,g,c,b),a);return iV(j,a,bS(fm,e,f),k,d)}function
-mI(f,d,c,n,m,b,l,q,e,k,j,i,h,a){if(typeof
+k=gE(i2(i,h,g,c,b),a);return iV(j,a,bT(fm,e,f),k,d)}function
+mJ(f,d,c,n,m,b,l,q,e,k,j,i,h,a){if(typeof
 a!=="number"&&11===a[0]){var
 o=a[3],g=a[1],p=i3(d,c,n,m,b,k,g,a[2]);if(p){var
-r=i4(f,d,c,n,m,b,g,e,k,o);return mG(f,d,c,bS(fm,g,b),l,r,e,j,i,h,o)}return p}return mG(f,d,c,b,l,q,e,j,i,h,a)}function
-mJ(r,q,p,n,m,k,j,i,h,f,d,c,a){if(typeof
+r=i4(f,d,c,n,m,b,g,e,k,o);return mH(f,d,c,bT(fm,g,b),l,r,e,j,i,h,o)}return p}return mH(f,d,c,b,l,q,e,j,i,h,a)}function
+mK(r,q,p,n,m,k,j,i,h,f,d,c,a){if(typeof
 a!=="number"&&12===a[0]){var
 b=a[1],s=J(o(g(b),0));if(s){var
-t=W(mw(e(function(a){return a[1][1][1]},b)),b);return l(function(a){var
-b=a[2],e=b[1];return mI(r,q,p,n,m,k,j,i,h,f,d,c,[0,[0,[0,[0,a[1][1],a[1][2]],e[1][2]],e[2]]],b[2])},t)}return s}return mI(r,q,p,n,m,k,j,i,h,f,d,c,0,a)}function
+t=W(mx(e(function(a){return a[1][1][1]},b)),b);return l(function(a){var
+b=a[2],e=b[1];return mJ(r,q,p,n,m,k,j,i,h,f,d,c,[0,[0,[0,[0,a[1][1],a[1][2]],e[1][2]],e[2]]],b[2])},t)}return s}return mJ(r,q,p,n,m,k,j,i,h,f,d,c,0,a)}function
 g0(b,a){if(a){var
 c=a[2];if(b){var
 e=g0(b[1],c);return[0,a[1],e]}var
 d=[0,0,c]}else
 var
 d=a;return d}function
-mK(c,b,a){var
+mL(c,b,a){var
 d=W(b,a);return l(function(a){var
 b=k(c,a[1]);return b?b:J(a[2])},d)}function
 fo(i,a,f,m,c,t,n,h,b,X,p){switch(p[0]){case
@@ -2609,7 +2609,7 @@ ab=function(a){return l(J,a)},K=ab,x=p[1];break;case
 ac=p[4],ad=p[3],ae=p[2],af=function(d){var
 e=c4(ae,b),g=fo(i,a,f,m,c,t,n,h,e[1],d,ad);return g?fo(i,a,f,m,c,t,n,h,e[2],d,ac):g},K=af,x=p[1];break;default:var
 ag=p[4],ah=p[3],ai=p[2],aj=function(d){var
-e=mK(i1,t,d);if(e){var
+e=mL(i1,t,d);if(e){var
 g=c4(ai,h),j=fo(i,a,f,m,c,t,n,g[1],b,d,ah);if(j)return fo(i,a,f,m,c,t,n,g[2],b,d,ag);var
 k=j}else
 var
@@ -2618,44 +2618,44 @@ y=iV(i,a,h,gE(z(function(e){var
 a=e[2],d=0;if(typeof
 a==="number"){if(4!==a)d=1}else
 if(11!==a[0])d=1;if(d){var
-b=H(t,e[1]);return b?i2(f,m,c,b[1],a):b}return 0},x),a),b),w=x,u=X;for(;;){if(w){var
+b=F(t,e[1]);return b?i2(f,m,c,b[1],a):b}return 0},x),a),b),w=x,u=X;for(;;){if(w){var
 R=w[1],j=R[2],E=R[1],S=w[2],Y=0;if(typeof
 j==="number"&&4===j){var
 A=k(n,b);if(A)var
-_=A[1],Z=bj(g(b)),F=l(function(b){return function(a){return I(aH(a,b)[2],d)}}(_),Z);else
+_=A[1],Z=bj(g(b)),G=l(function(b){return function(a){return I(aG(a,b)[2],d)}}(_),Z);else
 var
-F=A;if(F){var
+G=A;if(G){var
 w=S,u=e(function(a){return 0},u);continue}var
-v=F}else
+v=G}else
 Y=1;if(Y){var
 T=r(E,u,0);if(T){var
-G=H(t,E);if(G){var
-q=G[1],L=0;if(typeof
+H=F(t,E);if(H){var
+q=H[1],L=0;if(typeof
 j==="number")L=1;else
 switch(j[0]){case
 11:var
 M=j[3],B=j[1],N=i3(a,f,m,c,h,q,B,j[2]);if(N)var
-$=i4(i,a,f,m,c,h,B,b,q,M),s=mH(i,a,f,m,c,bS(fm,B,h),n,$,b,q,M);else
+$=i4(i,a,f,m,c,h,B,b,q,M),s=mI(i,a,f,m,c,bT(fm,B,h),n,$,b,q,M);else
 var
 s=N;break;case
 12:var
 C=j[1],O=J(o(g(C),0));if(O)var
-aa=W(mw(e(function(a){return a[1][1][1]},C)),C),s=l(function(g){return function(r){var
+aa=W(mx(e(function(a){return a[1][1][1]},C)),C),s=l(function(g){return function(r){var
 s=r[2],e=r[1],k=s[1],l=k[1][2],o=k[2],d=s[2];if(typeof
 d!=="number"&&11===d[0]){var
 p=d[3],j=d[1],q=i3(a,f,m,c,h,g,j,d[2]);if(q){var
-t=e[2],u=e[1],v=i4(i,a,f,m,c,h,j,b,g,p);return mF(i,a,f,c,bS(fm,j,h),n,v,b,g,u,t,l,o,p)}return q}return mF(i,a,f,c,h,n,y,b,g,e[1],e[2],l,o,d)}}(q),aa);else
+t=e[2],u=e[1],v=i4(i,a,f,m,c,h,j,b,g,p);return mG(i,a,f,c,bT(fm,j,h),n,v,b,g,u,t,l,o,p)}return q}return mG(i,a,f,c,h,n,y,b,g,e[1],e[2],l,o,d)}}(q),aa);else
 var
 s=O;break;case
 13:if(2===q[0])var
-D=iY(i,j[1],j[2]),P=iM(g(b),D),Q=P?mJ(i,a,f,m,c,h,n,y,b,q,0,D,j[3]):P,s=Q?mJ(i,a,f,m,c,h,n,y,b,q,[0,q[1]],D,j[4]):Q;else
+D=iY(i,j[1],j[2]),P=iM(g(b),D),Q=P?mK(i,a,f,m,c,h,n,y,b,q,0,D,j[3]):P,s=Q?mK(i,a,f,m,c,h,n,y,b,q,[0,q[1]],D,j[4]):Q;else
 var
 s=0;break;default:L=1}if(L)var
-s=mH(i,a,f,m,c,h,n,y,b,q,j);if(s){var
+s=mI(i,a,f,m,c,h,n,y,b,q,j);if(s){var
 w=S,u=g0(E,u);continue}var
 U=s}else
 var
-U=G;var
+U=H;var
 V=U}else
 var
 V=T;var
@@ -2672,24 +2672,24 @@ f=W(a[1],b[1]);return e(function(a){var
 b=s(c,a[2]);return B(s(d,a[1]),b)},f)}if(aN(a[2],b[2])){var
 g=a[2];return[0,f(d,c),g]}var
 h=s(a[2],b[2]),i=s(c,a[2]);return[0,f(s(d,b[2]),i),h]}function
-mL(a){var
+mM(a){var
 c=m(b);return[0,e(function(a){return m(d)},a),c]}function
 a$(a,k){var
 f=k[1];switch(f[0]){case
 1:var
 u=f[1];if(aj(function(a){return o(u,a)},a)){var
 C=m(b);return[0,e(function(a){var
-c=o(a,u)?b:d;return m(c)},a),C]}return mL(a);case
+c=o(a,u)?b:d;return m(c)},a),C]}return mM(a);case
 3:var
 D=m(b),E=a$(a,f[2]),F=m(b);return er(a$(a,f[1]),F,E,D);case
 4:var
 G=m(T(b)),H=a$(a,f[2]),I=m(b);return er(a$(a,f[1]),I,H,G);case
 5:var
-v=a$(a,f[1]),J=v[2];return[0,e(bo,v[1]),J];case
+v=a$(a,f[1]),J=v[2];return[0,e(bp,v[1]),J];case
 6:var
 w=f[2],y=f[1],K=a$(a,w);return er(a$(a,y),w,K,y);case
 7:var
-z=f[2],L=bo(k),M=a$(a,z),N=m(b),i=er(a$(a,f[1]),N,M,L),O=i[1];if(l(function(a){return a9(d,a)},O))return i;var
+z=f[2],L=bp(k),M=a$(a,z),N=m(b),i=er(a$(a,f[1]),N,M,L),O=i[1];if(l(function(a){return a9(d,a)},O))return i;var
 P=s(i[2],z);return[0,i[1],P];case
 8:var
 A=f[1],B=a$(a,A),Q=B[2],R=B[1],S=s(m(c(2,b)),A);return[0,e(function(a){return s(S,a)},R),Q];case
@@ -2698,11 +2698,11 @@ j=a$(a,f[1]),U=j[1];if(l(function(a){return a9(d,a)},U)){var
 V=m(b);return[0,j[1],V]}var
 W=s(m(c(2,b)),k),X=s(j[2],W);return[0,j[1],X];case
 10:var
-n=f[4],g=f[3],h=f[2],p=[0,[10,0,h,g,n]],q=[0,[10,1,h,g,n]],Y=x(g,q),Z=a$(a,g),_=x(h,p),$=er(a$(a,h),_,Z,Y),aa=m(T(b)),ab=a$(a,n),r=er($,m(c(2,b)),ab,aa),ac=r[1],ad=f[1]?p:bo(q),t=e(function(a){return s(ad,a)},ac);if(l(function(a){return a9(d,a)},t))return[0,t,r[2]];var
-ae=s(h,q),af=x(s(g,p),ae),ag=s(m(c(2,b)),af);return[0,t,s(r[2],ag)];default:return mL(a)}}function
-mM(c,a){var
-b=a$(c,a),f=b[1];return e(function(a){return a9(d,a)?a:am(a,b[2])},f)}function
-mN(g){var
+n=f[4],g=f[3],h=f[2],p=[0,[10,0,h,g,n]],q=[0,[10,1,h,g,n]],Y=x(g,q),Z=a$(a,g),_=x(h,p),$=er(a$(a,h),_,Z,Y),aa=m(T(b)),ab=a$(a,n),r=er($,m(c(2,b)),ab,aa),ac=r[1],ad=f[1]?p:bp(q),t=e(function(a){return s(ad,a)},ac);if(l(function(a){return a9(d,a)},t))return[0,t,r[2]];var
+ae=s(h,q),af=x(s(g,p),ae),ag=s(m(c(2,b)),af);return[0,t,s(r[2],ag)];default:return mM(a)}}function
+mN(c,a){var
+b=a$(c,a),f=b[1];return e(function(a){return a9(d,a)?a:al(a,b[2])},f)}function
+mO(g){var
 h=g[1],c=h[2],e=h[1];if(0===e[0]){var
 i=e[2],a=e[1];if(D(i,b)){if(0===c[0]){var
 j=c[2],m=c[1];if(D(j,b)){var
@@ -2710,9 +2710,9 @@ k=L(a,m),l=k?fc(a):k;if(l)var
 n=L(g[2],d),f=n||L(a,d);else
 var
 f=l;var
-o=f?[0,a]:f;return o}return L(aT(j,aJ(2))[2],d)?0:0}return 0}return L(aT(i,aJ(2))[2],d)?0:0}return 0}function
+o=f?[0,a]:f;return o}return L(aT(j,aI(2))[2],d)?0:0}return 0}return L(aT(i,aI(2))[2],d)?0:0}return 0}function
 c9(c,b){var
-a=mN(c);return a?m(a[1]):[0,[1,b]]}function
+a=mO(c);return a?m(a[1]):[0,[1,b]]}function
 cF(b,a){if(a)var
 d=cF([0,b],a[2]),c=[0,c9(a[1],b),d];else
 var
@@ -2725,20 +2725,20 @@ c=a[1],g=[0,[0,c[4],b],0],h=f(ba(c[3],b),g),i=f(ba(c[2],b),h);return f(ba(c[1],d
 e=a[3],j=e?ba(e[1],d):e,k=f(ba(a[2],b),j);return f(ba(a[1],b),k);default:return ba(a[1],d)}}function
 ak(b,a){var
 c=m(d),e=r(M(tG,a),b,c),f=m(d),g=r(M(tH,a),b,f);return[0,r(a,b,m(d)),g,e]}function
-mO(b,a){return ag(x,ag(B,dG,a),b)}function
+mP(b,a){return ag(x,ag(B,dG,a),b)}function
 g2(c,b,a){if(a){var
-e=a[2],g=g2(c,bB(b),e),h=a[1];return f(g1(c,bR(d,b),h),g)}return a}function
+e=a[2],g=g2(c,bC(b),e),h=a[1];return f(g1(c,bS(d,b),h),g)}return a}function
 i7(f,e,c,j){if(c){var
-b=c[1],v=M(j,g(g1(f,bR(d,e),b))),w=c[2],x=i7(f,bB(e),w,v),a=cF(j,g1(f,bR(d,e),b));switch(b[0]){case
+b=c[1],v=M(j,g(g1(f,bS(d,e),b))),w=c[2],x=i7(f,bC(e),w,v),a=cF(j,g1(f,bS(d,e),b));switch(b[0]){case
 0:var
-l=b[1][5],n=r(tI,a,m(d)),o=ag(B,dG,ak(a,tJ)),p=dF(ak(a,0)),q=ak(a,tK),h=mf(mO(ak(a,tL),q),p,o,n,l);break;case
+l=b[1][5],n=r(tI,a,m(d)),o=ag(B,dG,ak(a,tJ)),p=dF(ak(a,0)),q=ak(a,tK),h=mg(mP(ak(a,tL),q),p,o,n,l);break;case
 1:var
-i=b[3],s=i?[0,dF(ak(a,tM))]:i,t=ag(B,dG,ak(a,tN)),u=ak(a,tO),h=mg(mO(ak(a,0),u),t,s);break;default:var
-h=mh(dG,dF(ak(a,0)))}var
+i=b[3],s=i?[0,dF(ak(a,tM))]:i,t=ag(B,dG,ak(a,tN)),u=ak(a,tO),h=mh(mP(ak(a,0),u),t,s);break;default:var
+h=mi(dG,dF(ak(a,0)))}var
 k=[0,h,x]}else
 var
 k=c;return k}function
-bW(c,a){if(typeof
+bX(c,a){if(typeof
 a!=="number")switch(a[0]){case
 4:var
 h=[5,a[3],a[2]];return[0,[0,h,h],d];case
@@ -2780,16 +2780,16 @@ c=a[3],g=[5,[4,c,c],a[4]];return[0,[0,[0,g,g],b],0];case
 15:var
 j=a[2],k=a[1];return e(function(b){var
 a=[5,j,b];return[0,[0,a,a],d]},k)}return 0}function
-mP(c,b,a){var
+mQ(c,b,a){var
 d=g(dI(c,b)),e=M(a[2],d);return[0,[0,a[1]],e]}function
 i8(c,b){if(aN(b,c))return[0,m(d)];var
 a=b[1];if(4===a[0]){var
 e=aN(a[1],c),f=e?[0,a[2]]:e;return f}return 0}function
-mQ(y,p,a,o){switch(o[0]){case
+mR(y,p,a,o){switch(o[0]){case
 0:var
-h=H(y,o[1]);if(h){var
+h=F(y,o[1]);if(h){var
 i=h[1];if(i){var
-q=i[1],s=q[1],c=s[2],e=s[1],t=q[2],z=ak(a,tP),A=ag(B,ag(x,e,a4(am(r(tQ,a,m(d)),t),c)),z),C=ak(a,tR),f=am(r(0,a,m(d)),t),j=i8(e[1],c[1]);if(j){var
+q=i[1],s=q[1],c=s[2],e=s[1],t=q[2],z=ak(a,tP),A=ag(B,ag(x,e,a4(al(r(tQ,a,m(d)),t),c)),z),C=ak(a,tR),f=al(r(0,a,m(d)),t),j=i8(e[1],c[1]);if(j){var
 l=i8(e[2],c[2]);if(l){var
 n=i8(e[3],c[3]);if(n)var
 w=a4(f,c),g=ag(B,[0,j[1],l[1],n[1]],w);else
@@ -2808,29 +2808,29 @@ v=h;return v;case
 1:var
 D=ak(a,tS);return[0,[0,ak(a,0),D]];default:var
 E=k(p,ak(a,tT));return[0,[0,k(p,ak(a,0)),E]]}}function
-mR(e,d,c,h,g){var
-a=mQ(e,d,an(tU,c),h);if(a)var
-b=mQ(e,d,aw(tV,c),g),i=b?[0,[0,a[1],b[1]]]:b,f=i;else
+mS(e,d,c,h,g){var
+a=mR(e,d,am(tU,c),h);if(a)var
+b=mR(e,d,av(tV,c),g),i=b?[0,[0,a[1],b[1]]]:b,f=i;else
 var
 f=a;return f}function
-mS(g,c,d,b,a){var
+mT(g,c,d,b,a){var
 h=es(c,a),i=cF(d,f(es(c,b),h));function
-j(a){return ag(B,dG,a)}return mR(e(function(a){var
+j(a){return ag(B,dG,a)}return mS(e(function(a){var
 b=a[7];return y(function(b){var
 c=c3(a);return[0,[0,b,a[1]],c]},b)},g),j,i,b,a)}function
 dJ(d,c,b,a){var
 e=s(c,b);return x(s(d,a),e)}function
-bD(a){return z(function(a){return f(a[1],[0,a[2],0])},a)}function
-mT(b,a){if(b)if(a)var
-d=b[1],e=mT(b[2],a[2]),f=s(d[2],a[1]),c=[0,[0,bV(d[1]),f],e];else
+bE(a){return z(function(a){return f(a[1],[0,a[2],0])},a)}function
+mU(b,a){if(b)if(a)var
+d=b[1],e=mU(b[2],a[2]),f=s(d[2],a[1]),c=[0,[0,bW(d[1]),f],e];else
 var
 c=a;else
 var
 c=b;return c}function
-mU(a){if(a){var
+mV(a){if(a){var
 b=a[1][6];if(b){var
-c=b[1],d=mU(a[2]);if(d)var
-g=d[1],h=Z(c,c),e=[0,[0,[0,bV(c),h],g]];else
+c=b[1],d=mV(a[2]);if(d)var
+g=d[1],h=Z(c,c),e=[0,[0,[0,bW(c),h],g]];else
 var
 e=d;var
 f=e}else
@@ -2839,16 +2839,16 @@ f=b;return f}return tX}function
 fq(b,d,c,a){if(typeof
 a!=="number")switch(a[0]){case
 8:var
-i=c[1],j=c9(bW(d,a),i);return[0,e(function(a){var
-b=s(a[2],j);return[0,bV(a[1]),b]},b)];case
-9:return mU(b);case
+i=c[1],j=c9(bX(d,a),i);return[0,e(function(a){var
+b=s(a[2],j);return[0,bW(a[1]),b]},b)];case
+9:return mV(b);case
 15:var
 k=g(b),f=o(g(a[1]),k);if(f)var
-l=dI(d,a),h=[0,mT(b,cF(c[2],l))];else
+l=dI(d,a),h=[0,mU(b,cF(c[2],l))];else
 var
 h=f;return h}return 0}function
 g3(e,k,j,a){var
-P=j[1],c=c9(bW(k,a),P),u=0;if(typeof
+P=j[1],c=c9(bX(k,a),P),u=0;if(typeof
 a==="number")u=1;else
 switch(a[0]){case
 2:var
@@ -2867,76 +2867,76 @@ d=a;return d},g=T,f=a[1];break;case
 7:if(e){var
 l=e[2];if(l){var
 n=l[2];if(n){if(n[2])return 0;var
-w=n[1],y=l[1],A=e[1],h=w[1],i=y[1],p=A[1],K=dJ(i[1],i[2],h[1],h[2]),L=s(p[3],K),M=dJ(i[1],i[3],h[1],h[3]),N=s(p[2],M),O=dJ(i[2],i[3],h[2],h[3]),v=B(x(s(p[1],O),N),L),U=c3(w),W=c3(y),C=s(s(s(c,c3(A)),W),U),X=[0,bo(B(v,C)),0],D=[0,x(v,C),X]}else
+w=n[1],y=l[1],A=e[1],h=w[1],i=y[1],p=A[1],K=dJ(i[1],i[2],h[1],h[2]),L=s(p[3],K),M=dJ(i[1],i[3],h[1],h[3]),N=s(p[2],M),O=dJ(i[2],i[3],h[2],h[3]),v=B(x(s(p[1],O),N),L),U=c3(w),W=c3(y),C=s(s(s(c,c3(A)),W),U),X=[0,bp(B(v,C)),0],D=[0,x(v,C),X]}else
 var
 D=n;var
 E=D}else
 var
 E=l;var
-F=E}else
+G=E}else
 var
-F=e;return F;case
+G=e;return G;case
 10:var
-t=mS(e,k,j[2],a[1],a[2]);if(t){var
-G=t[1],I=G[2],J=G[1];return z(bV,[0,J[1],[0,J[2],[0,I[1],[0,I[2],0]]]])}return t;case
+t=mT(e,k,j[2],a[1],a[2]);if(t){var
+H=t[1],I=H[2],J=H[1];return z(bW,[0,J[1],[0,J[2],[0,I[1],[0,I[2],0]]]])}return t;case
 11:var
 Y=function(d){var
 e=d[7];if(e)var
-n=dI(k,a),f=cF(j[2],n),h=ak(f,tW),b=ag(x,ak(f,0),h),i=V(c),l=V(c3(d)),m=am(V(Z(b,d[1])),l),g=[0,x(x(Z(b,b),m),i),0];else
+n=dI(k,a),f=cF(j[2],n),h=ak(f,tW),b=ag(x,ak(f,0),h),i=V(c),l=V(c3(d)),m=al(V(Z(b,d[1])),l),g=[0,x(x(Z(b,b),m),i),0];else
 var
 g=e;return g},g=Y,f=a[1];break;case
 12:var
 _=function(e){var
-p=m(d),q=dI(k,a),t=r(0,cF(j[2],q),p),f=am(t,c3(e)),g=e[5];if(g){var
-l=aL(e[2]),h=am(g[1],l),n=s(h,B(c,s(f,V(h))));return[0,x(m(b),n),0]}var
+p=m(d),q=dI(k,a),t=r(0,cF(j[2],q),p),f=al(t,c3(e)),g=e[5];if(g){var
+l=aK(e[2]),h=al(g[1],l),n=s(h,B(c,s(f,V(h))));return[0,x(m(b),n),0]}var
 i=e[7],o=i?[0,x(x(m(b),c),f),0]:i;return o},g=_,f=a[1];break;case
 8:case
 9:case
 15:var
-q=fq(e,k,j,a);return q?bD(q[1]):q;default:u=1}if(u)return 0;var
-o=H(e,f);return o?g(o[1]):o}function
+q=fq(e,k,j,a);return q?bE(q[1]):q;default:u=1}if(u)return 0;var
+o=F(e,f);return o?g(o[1]):o}function
 i9(d,b,c,a){if(a){var
-e=a[1],g=a[2],h=i9(d,b,mP(b,e,c),g);return f(g3(d,b,c,e),h)}return a}var
-mV=[0,d,b],mW=[0,[0,mV,mV],d];function
-i_(a){return J(cd(a[1][1],a[1][2]))}function
-mX(a){var
-b=aD(0,g(a));return a1(function(b){return i_(r(b,a,mW))},b)}function
+e=a[1],g=a[2],h=i9(d,b,mQ(b,e,c),g);return f(g3(d,b,c,e),h)}return a}var
+mW=[0,d,b],mX=[0,[0,mW,mW],d];function
+i_(a){return J(ce(a[1][1],a[1][2]))}function
+mY(a){var
+b=aC(0,g(a));return a1(function(b){return i_(r(b,a,mX))},b)}function
 g4(a,b){var
-c=mM(mX(a),b),e=W(mX(a),c);return a1(function(a){return J(a9(d,a[2]))},e)}function
-mY(b,a){var
+c=mN(mY(a),b),e=W(mY(a),c);return a1(function(a){return J(a9(d,a[2]))},e)}function
+mZ(b,a){var
 c=k(b,a[3]),d=k(b,a[2]);return[0,k(b,a[1]),d,c]}function
-mZ(m,l,f,j,i,a){var
+m0(m,l,f,j,i,a){var
 d=g4(f,a);return ad(e(function(e){var
-a=r(e[1],f,mW),g=aM(a[2],j),h=[4,[0,c(2,b),b],i],d=[5,[3,a[1][2],a[1][1]],h],n=ap(m,[0,[0,d,d],g]);return y(function(a){return[0,a,k(l,e[2])]},n)},d))}function
-m0(g,f,n,m,l,e,c){var
+a=r(e[1],f,mX),g=aL(a[2],j),h=[4,[0,c(2,b),b],i],d=[5,[3,a[1][2],a[1][1]],h],n=ap(m,[0,[0,d,d],g]);return y(function(a){return[0,a,k(l,e[2])]},n)},d))}function
+m1(g,f,n,m,l,e,c){var
 h=[5,l,e],a=ap(g,[0,[0,h,h],d]);if(a){var
-b=mZ(g,f,n,m,e,c);if(b)var
+b=m0(g,f,n,m,e,c);if(b)var
 o=[0,a[1],b[1]],i=[0,[0,k(f,c),o]];else
 var
 i=b;var
 j=i}else
 var
 j=a;return j}function
-m1(c,F,m,al,j,i,n,s){if(s){var
-a=s[1],aH=s[2],aI=m1(c,F,m,al,j,i,mP(i,a,n),aH);if(typeof
+m2(c,G,m,al,j,i,n,s){if(s){var
+a=s[1],aH=s[2],aI=m2(c,G,m,al,j,i,mQ(i,a,n),aH);if(typeof
 a==="number")if(0===a)var
 f=[0,[0,u]];else
 var
-an=F[2],ao=F[1],aq=fj(j),f=[0,[8,k(ay(m),aq),ao,an]];else
+an=G[2],ao=G[1],aq=fj(j),f=[0,[8,k(ax(m),aq),ao,an]];else
 switch(a[0]){case
 0:var
-ar=ap(c,bW(i,a)),f=y(function(a){return[0,U(c,a)]},ar);break;case
+ar=ap(c,bX(i,a)),f=y(function(a){return[0,U(c,a)]},ar);break;case
 1:var
-as=ap(c,bW(i,a)),f=y(function(a){return[1,U(c,a)]},as);break;case
+as=ap(c,bX(i,a)),f=y(function(a){return[1,U(c,a)]},as);break;case
 5:var
-au=ap(c,bW(i,a)),f=y(function(a){return[2,U(c,a)]},au);break;case
+au=ap(c,bX(i,a)),f=y(function(a){return[2,U(c,a)]},au);break;case
 8:var
 av=fq(j,i,n,a),f=y(function(a){var
-d=O(c,b);return[4,k(ay(m),a),d]},av);break;case
+d=O(c,b);return[4,k(ax(m),a),d]},av);break;case
 9:var
 w=fq(j,i,n,a);if(w){var
-x=ap(c,bW(i,a));if(x)var
-aw=U(c,x[1]),ax=w[1],L=[0,[4,k(ay(m),ax),aw]];else
+x=ap(c,bX(i,a));if(x)var
+aw=U(c,x[1]),ay=w[1],L=[0,[4,k(ax(m),ay),aw]];else
 var
 L=x;var
 M=L}else
@@ -2944,10 +2944,10 @@ var
 M=w;var
 f=M;break;case
 10:var
-z=mS(j,i,n[2],a[1],a[2]);if(z){var
-N=z[1],P=N[2],Q=N[1],A=ap(c,bW(i,a));if(A){var
+z=mT(j,i,n[2],a[1],a[2]);if(z){var
+N=z[1],P=N[2],Q=N[1],A=ap(c,bX(i,a));if(A){var
 R=A[1],S=D(d,R[1]);if(S)var
-q=function(a){return mY(m,a)},az=q(P[2]),aA=q(P[1]),aB=q(Q[2]),T=[0,[6,q(Q[1]),aB,aA,az,R]];else
+q=function(a){return mZ(m,a)},az=q(P[2]),aA=q(P[1]),aB=q(Q[2]),T=[0,[6,q(Q[1]),aB,aA,az,R]];else
 var
 T=S;var
 V=T}else
@@ -2966,16 +2966,16 @@ B=Y;t=1}}else{var
 B=r;t=1}if(t)var
 f=B;break;case
 13:var
-Z=a[1],_=H(j,Z),G=0;if(_){var
+Z=a[1],_=F(j,Z),H=0;if(_){var
 $=h(c,1,a[2]),aa=$?h(c,1,a[3]):$;if(aa)var
-aC=ap(c,bW(i,a)),f=y(function(a){return[7,Z,U(c,a)]},aC);else{var
-ab=aa;G=1}}else{var
-ab=_;G=1}if(G)var
+aC=ap(c,bX(i,a)),f=y(function(a){return[7,Z,U(c,a)]},aC);else{var
+ab=aa;H=1}}else{var
+ab=_;H=1}if(H)var
 f=ab;break;case
 14:var
 ac=a[2],ae=a[1],af=o(g(j),tY),ag=af?h(c,0,ae):af,ah=ag?h(c,1,ac):ag;if(ah){var
-C=ap(c,bW(i,a));if(C)var
-E=ad(e(function(a){return m0(c,m,al,i,ae,ac,a[4])},j)),aD=E?[0,[9,C[1],E[1]]]:E,ai=aD;else
+C=ap(c,bX(i,a));if(C)var
+E=ad(e(function(a){return m1(c,m,al,i,ae,ac,a[4])},j)),aD=E?[0,[9,C[1],E[1]]]:E,ai=aD;else
 var
 ai=C;var
 aj=ai}else
@@ -2985,7 +2985,7 @@ f=aj;break;case
 15:var
 aE=[0,a[2],a[1]],aF=1,ak=l(function(a){return h(c,aF,a)},aE);if(ak)var
 aG=fq(j,i,n,a),f=y(function(a){var
-d=O(c,b);return[4,k(ay(m),a),d]},aG);else
+d=O(c,b);return[4,k(ax(m),a),d]},aG);else
 var
 f=ak;break;default:var
 p=g3(j,i,n,a),I=0;if(p){var
@@ -3005,13 +3005,13 @@ a==="number"){if(0!==a)b=1}else
 if(0!==a[0])b=1;return b?0:1}function
 et(a){if(0===a[0])return a[1];var
 b=a[3],c=a[2],d=a[1];return[0,[0,[3,d,b],[2,d,b]],[0,[3,c,b],[2,c,b]],a[4]]}function
-m2(a,c,g,b){if(0===c[0])return 0;if(b){var
+m3(a,c,g,b){if(0===c[0])return 0;if(b){var
 d=b[2];if(d){var
 h=d[2];if(h){if(h[2])return 0;var
 e=d[1],f=b[1],i=c1(a,g,c[1]);if(i){var
 j=c1(a,g,c[2]);if(j){var
 k=c1(a,g,c[3]);if(k)var
-v=i[1],w=ce(f),l=F([0,ce(f),w],v),x=j[1],y=ce(e),m=F([0,ce(e),y],x),z=em(e),B=[0,em(e),z],C=[0,t(a,ac(A(m,m)),B),0],D=em(f),E=[0,em(f),D],G=[0,t(a,ac(A(l,l)),E),C],H=U(a,m),I=U(a,l),n=[0,[0,F(F(U(a,k[1]),I),H),u,G]];else
+v=i[1],w=cf(f),l=G([0,cf(f),w],v),x=j[1],y=cf(e),m=G([0,cf(e),y],x),z=em(e),B=[0,em(e),z],C=[0,t(a,ac(A(m,m)),B),0],D=em(f),E=[0,em(f),D],F=[0,t(a,ac(A(l,l)),E),C],H=U(a,m),I=U(a,l),n=[0,[0,G(G(U(a,k[1]),I),H),u,F]];else
 var
 n=k;var
 o=n}else
@@ -3056,31 +3056,31 @@ K(c,b,a){var
 d=ar(c,b[3],a[3]),e=ar(c,b[2],a[2]);return[0,ar(c,b[1],a[1]),e,d]}function
 P(b,a){return[0,[4,b,a[1]],[4,b,a[2]],[4,b,a[3]]]}function
 w(b,a){return[2,[2,[4,b[1],a[1]],[4,b[2],a[2]]],[4,b[3],a[3]]]}function
-az(a){return P([5,[0,b,b],[6,w(a,a)]],a)}function
+ay(a){return P([5,[0,b,b],[6,w(a,a)]],a)}function
 c_(c,b,a){var
-d=bx(c,b[1],a);return d?bx(c,a,b[2]):d}function
-bq(c,b,a){var
+d=by(c,b[1],a);return d?by(c,a,b[2]):d}function
+br(c,b,a){var
 d=c_(c,b[1],a[1]),e=d?c_(c,b[2],a[2]):d;return e?c_(c,b[3],a[3]):e}function
-m3(b,c,a){switch(c[0]){case
+m4(b,c,a){switch(c[0]){case
 0:var
 d=c[1];if(0===a[0]){var
-j=a[4],f=a[1],k=bq(b,d[1],f),l=k?h(b,1,w(f,f)):k,m=l?bq(b,d[2],a[2]):l,n=m?bq(b,d[3],a[3]):m,o=n?c_(b,d[4],j):n,p=o?h(b,1,j):o;return p?cv(d[5],a[5]):p}return 0;case
+j=a[4],f=a[1],k=br(b,d[1],f),l=k?h(b,1,w(f,f)):k,m=l?br(b,d[2],a[2]):l,n=m?br(b,d[3],a[3]):m,o=n?c_(b,d[4],j):n,p=o?h(b,1,j):o;return p?cv(d[5],a[5]):p}return 0;case
 1:var
 q=c[3];if(1===a[0]){var
-e=a[3],r=bq(b,c[1],a[1]),s=r?bq(b,c[2],a[2]):r;if(s){if(q){if(e){var
-g=e[1],t=bq(b,q[1],g);if(t)return h(b,1,w(g,g));var
+e=a[3],r=br(b,c[1],a[1]),s=r?br(b,c[2],a[2]):r;if(s){if(q){if(e){var
+g=e[1],t=br(b,q[1],g);if(t)return h(b,1,w(g,g));var
 u=t}else
 var
 u=e;return u}if(e)return 0;var
 v=1}else
 var
 v=s;return v}return 0;default:if(2===a[0]){var
-i=a[1],x=bq(b,c[1],i);return x?h(b,1,w(i,i)):x}return 0}}function
-cG(c,a,b){if(0===a[0])return bq(c,a[1],b);var
+i=a[1],x=br(b,c[1],i);return x?h(b,1,w(i,i)):x}return 0}}function
+cG(c,a,b){if(0===a[0])return br(c,a[1],b);var
 d=a[3],e=[3,b[1],a[1]],f=[3,b[2],a[2]],g=h(c,0,[3,[3,[4,d,d],[4,e,e]],[4,f,f]]),i=g?h(c,0,d):g;return i?c_(c,a[4],b[3]):i}function
 fr(g,f,i,h){var
 b=f[1],a=i;for(;;){if(b){if(a){var
-d=m3(g,b[1],a[1]);if(d){var
+d=m4(g,b[1],a[1]);if(d){var
 b=b[2],a=a[2];continue}var
 e=d}else
 var
@@ -3091,59 +3091,59 @@ c=a?0:1;return c?cG(g,f[2],h):c}}function
 aV(c,b,a){var
 d=K(function(b,a){return[2,b,a]},a,b);return K(function(b,a){return[3,b,a]},d,c)}function
 fs(a,e,d,c){var
-b=aV(e,d,c),f=az(a),g=P(w(az(a),b),f);return K(function(b,a){return[3,b,a]},b,g)}function
-cg(f,e,d,a,c){var
+b=aV(e,d,c),f=ay(a),g=P(w(ay(a),b),f);return K(function(b,a){return[3,b,a]},b,g)}function
+ch(f,e,d,a,c){var
 b=fs(f,e,d,c);return[3,[4,a,a],w(b,b)]}function
 cH(c,a){return c?[6,a]:[3,[0,d,b],[6,a]]}function
-ch(a,c){switch(a[0]){case
+ci(a,c){switch(a[0]){case
 0:var
-e=a[3],f=a[2],d=a[1],g=fs(d,f,e,c),h=cg(d,f,e,a[4],c),i=P([5,[0,b,b],cH(a[5],h)],g),j=az(d);return K(function(b,a){return[2,b,a]},j,i);case
-1:return az(aV(a[1],a[2],c));default:return az(a[1])}}function
-ci(a,b){switch(a[0]){case
+e=a[3],f=a[2],d=a[1],g=fs(d,f,e,c),h=ch(d,f,e,a[4],c),i=P([5,[0,b,b],cH(a[5],h)],g),j=ay(d);return K(function(b,a){return[2,b,a]},j,i);case
+1:return ay(aV(a[1],a[2],c));default:return ay(a[1])}}function
+bz(a,b){switch(a[0]){case
 0:var
-d=a[3],e=a[2],c=a[1],f=az(c),g=cg(c,e,d,a[4],b),h=P(cH(a[5],g),f),i=fs(c,e,d,b);return K(function(b,a){return[2,b,a]},i,h);case
-1:return aV(a[1],a[2],b);default:return az(a[1])}}function
+d=a[3],e=a[2],c=a[1],f=ay(c),g=ch(c,e,d,a[4],b),h=P(cH(a[5],g),f),i=fs(c,e,d,b);return K(function(b,a){return[2,b,a]},i,h);case
+1:return aV(a[1],a[2],b);default:return ay(a[1])}}function
 cI(a,b){switch(a[0]){case
 0:var
-c=a[3],d=a[2],e=a[1],h=cg(e,d,c,a[4],b),i=cH(a[5],h),j=aV(d,c,b);return[3,w(az(e),j),i];case
+c=a[3],d=a[2],e=a[1],h=ch(e,d,c,a[4],b),i=cH(a[5],h),j=aV(d,c,b);return[3,w(ay(e),j),i];case
 1:var
-f=a[2],g=a[1],k=aV(g,f,b);return[6,w(aV(g,f,b),k)];default:return w(az(a[1]),b)}}function
+f=a[2],g=a[1],k=aV(g,f,b);return[6,w(aV(g,f,b),k)];default:return w(ay(a[1]),b)}}function
 i$(a,b){switch(a[0]){case
-0:return[0,cg(a[1],a[2],a[3],a[4],b)];case
+0:return[0,ch(a[1],a[2],a[3],a[4],b)];case
 1:var
 c=a[2],d=a[1],e=aV(d,c,b);return[0,w(aV(d,c,b),e)];default:return 0}}function
 ft(e,c,a){var
 f=[0,d,b];return ao(function(b,d){var
-e=w(ch(b,c),a);return[2,[4,w(ch(b,c),a),e],d]},f,e)}function
-m4(f,e,c,a){if(f){if(e){var
-g=e[1],h=m4(f[2],e[2],c,a),i=w(ch(g,c),a),j=[4,w(ch(g,c),a),i];return[2,[4,f[1],j],h]}return[0,d,b]}return[0,d,b]}function
-m5(a){var
+e=w(ci(b,c),a);return[2,[4,w(ci(b,c),a),e],d]},f,e)}function
+m5(f,e,c,a){if(f){if(e){var
+g=e[1],h=m5(f[2],e[2],c,a),i=w(ci(g,c),a),j=[4,w(ci(g,c),a),i];return[2,[4,f[1],j],h]}return[0,d,b]}return[0,d,b]}function
+m6(a){var
 c=a[1];return[0,[0,c[1],b],[0,c[2],b],[0,a[2],b]]}function
 ja(a,c){switch(a[0]){case
 0:return a[4];case
 1:var
 d=a[2],e=a[1],f=aV(e,d,c);return[6,w(aV(e,d,c),f)];default:return[0,b,b]}}function
-m6(d,i){if(d){var
+m7(d,i){if(d){var
 a=d[1];if(1===a[0]){var
 c=a[3];if(c)var
-f=c[1],g=aV(a[1],a[2],i),k=az(f),l=P(w(az(f),g),k),h=[0,K(function(b,a){return[3,b,a]},g,l)];else
+f=c[1],g=aV(a[1],a[2],i),k=ay(f),l=P(w(ay(f),g),k),h=[0,K(function(b,a){return[3,b,a]},g,l)];else
 var
 h=c;var
 b=h}else
 var
 b=0;if(b)var
-e=m6(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
+e=m7(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
 var
 j=b;return j}return t0}function
 c$(a){return[0,a[1],a[2],a[3]]}function
-m7(a,b){switch(a[0]){case
+m8(a,b){switch(a[0]){case
 0:var
-f=a[4],c=a[3],g=a[2],d=a[1],i=az(d),j=cg(d,g,c,f,b),k=P(cH(a[5],j),i),l=fs(d,g,c,b),m=K(function(b,a){return[2,b,a]},l,k);return[0,[0,[0,K(function(b,a){return[2,b,a]},b,c),m],f]];case
+f=a[4],c=a[3],g=a[2],d=a[1],i=ay(d),j=ch(d,g,c,f,b),k=P(cH(a[5],j),i),l=fs(d,g,c,b),m=K(function(b,a){return[2,b,a]},l,k);return[0,[0,[0,K(function(b,a){return[2,b,a]},b,c),m],f]];case
 1:var
 h=a[2],e=aV(a[1],h,b),n=[6,w(e,e)];return[0,[0,[0,K(function(b,a){return[2,b,a]},b,h),e],n]];default:return 0}}function
-m8(m,e,a){switch(a[0]){case
+m9(m,e,a){switch(a[0]){case
 0:var
-n=a[5],c=H(m,a[1]);if(c){var
+n=a[5],c=F(m,a[1]);if(c){var
 d=c[1];if(d)var
 f=d[1],g=f[1],h=f[2],o=g[2],p=g[1],i=function(a){var
 b=c$(n),c=P(a,o),d=K(function(b,a){return[3,b,a]},p,c);return K(function(b,a){return[2,b,a]},d,b)},q=i([5,a[4],h]),j=[0,[0,i([3,[0,b,b],[5,a[3],h]]),q]];else
@@ -3155,22 +3155,22 @@ l=c;return l;case
 1:var
 r=c$(a[3]);return[0,[0,c$(a[2]),r]];default:var
 s=k(e,c$(a[3]));return[0,[0,k(e,c$(a[2])),s]]}}function
-m9(d,a,c,b){var
+m_(d,a,c,b){var
 e=P(a,b),f=P([3,d,a],c);return K(function(b,a){return[2,b,a]},f,e)}function
-m_(a,l,c,j,i,y){var
+m$(a,l,c,j,i,y){var
 d=k(l,j);if(d){var
 m=d[1],e=k(l,i);if(e){var
-n=e[1],f=c[1],g=c[2],b=c[3],z=m9(b,g,n[1],n[2]),A=m9(b,f,m[1],m[2]),o=K(function(b,a){return[3,b,a]},A,z),B=ef(i),p=[4,b,[2,[2,ef(j),B],y]],q=h(a,1,b),r=q?h(a,0,f):q,s=r?h(a,0,[3,b,f]):r,t=s?h(a,0,g):s,u=t?h(a,0,[3,b,g]):t;if(u)return h(a,1,[3,[4,p,p],w(o,o)]);var
+n=e[1],f=c[1],g=c[2],b=c[3],z=m_(b,g,n[1],n[2]),A=m_(b,f,m[1],m[2]),o=K(function(b,a){return[3,b,a]},A,z),B=ef(i),p=[4,b,[2,[2,ef(j),B],y]],q=h(a,1,b),r=q?h(a,0,f):q,s=r?h(a,0,[3,b,f]):r,t=s?h(a,0,g):s,u=t?h(a,0,[3,b,g]):t;if(u)return h(a,1,[3,[4,p,p],w(o,o)]);var
 v=u}else
 var
 v=e;var
 x=v}else
 var
 x=d;return x}function
-m$(d,c,b,a,i,g,f,e){var
+na(d,c,b,a,i,g,f,e){var
 j=h(d,1,b),k=j?h(d,1,a):j;if(k){var
 l=ar(c,f,f),m=[4,[4,a,a],[4,ar(c,g,g),l]];return h(d,1,[3,[4,[4,[4,b,b],[4,i,i]],ar(c,e,e)],m])}return k}function
-na(i,g,c,f,y,a){function
+nb(i,g,c,f,y,a){function
 T(a){return[4,[4,[5,[0,b,b],a],[5,[0,b,b],a]],w(f,f)]}var
 O=0;if(typeof
 a==="number")O=1;else
@@ -3185,20 +3185,20 @@ aI=a[2],aJ=function(a){return[3,aI,cI(a,c)]},A=aJ,z=a[1];break;case
 aK=a[2],aL=function(a){return[3,cI(a,c),aK]},A=aL,z=a[1];break;case
 4:var
 U=a[3],V=a[2],aM=function(a){var
-b=ch(a,c);return[3,[4,[4,V,V],w(ch(a,c),b)],[4,U,U]]},A=aM,z=a[1];break;case
+b=ci(a,c);return[3,[4,[4,V,V],w(ci(a,c),b)],[4,U,U]]},A=aM,z=a[1];break;case
 5:var
 W=a[1],aN=w(f,f),aO=[4,[4,W,W],[4,ft(g,c,y),aN]],aP=w(y,y);return h(i,1,[3,[4,ft(g,c,f),aP],aO]);case
 6:var
-X=a[2],C=H(g,a[1]);if(C){var
+X=a[2],C=F(g,a[1]);if(C){var
 k=C[1];if(0===k[0]){var
-D=k[4],aQ=cg(k[1],k[2],k[3],D,c),Y=cH(k[5],aQ);return h(i,1,[3,[4,[4,X,D],[4,X,D]],[4,Y,Y]])}var
+D=k[4],aQ=ch(k[1],k[2],k[3],D,c),Y=cH(k[5],aQ);return h(i,1,[3,[4,[4,X,D],[4,X,D]],[4,Y,Y]])}var
 Z=0}else
 var
 Z=C;return Z;case
 7:if(g){var
 p=g[2];if(p){var
 q=p[2];if(q){if(q[2])return 0;var
-_=q[1],$=p[1],aa=g[1],aR=ja(_,c),aS=ja($,c),aT=ja(aa,c),ab=[4,[4,[4,a[1],aT],aS],aR],l=ci(_,c),m=ci($,c),aU=ci(aa,c),Q=w(aU,[0,[3,[4,m[2],l[3]],[4,m[3],l[2]]],[3,[4,m[3],l[1]],[4,m[1],l[3]]],[3,[4,m[1],l[2]],[4,m[2],l[1]]]]),ac=h(i,1,[3,ab,Q]);if(ac)return h(i,1,[2,ab,Q]);var
+_=q[1],$=p[1],aa=g[1],aR=ja(_,c),aS=ja($,c),aT=ja(aa,c),ab=[4,[4,[4,a[1],aT],aS],aR],l=bz(_,c),m=bz($,c),aU=bz(aa,c),Q=w(aU,[0,[3,[4,m[2],l[3]],[4,m[3],l[2]]],[3,[4,m[3],l[1]],[4,m[1],l[3]]],[3,[4,m[1],l[2]],[4,m[2],l[1]]]]),ac=h(i,1,[3,ab,Q]);if(ac)return h(i,1,[2,ab,Q]);var
 ad=ac}else
 var
 ad=q;var
@@ -3211,28 +3211,28 @@ af=g;return af;case
 8:var
 aW=ft(g,c,f),aX=w(f,f);return h(i,1,[3,[4,[5,a[2],a[1]],aX],aW]);case
 9:var
-ag=a[1],E=m6(g,c);if(E){var
+ag=a[1],E=m7(g,c);if(E){var
 aY=E[1],aA=[0,d,b],aB=ao(function(a,b){var
-c=w(az(a),f);return[2,[4,w(az(a),f),c],b]},aA,aY);return h(i,1,[3,[4,[4,ag,ag],w(f,f)],aB])}return E;case
+c=w(ay(a),f);return[2,[4,w(ay(a),f),c],b]},aA,aY);return h(i,1,[3,[4,[4,ag,ag],w(f,f)],aB])}return E;case
 10:var
-aZ=a[3],a0=a[2],a1=a[1],aC=function(b,a){return[2,b,a]},aD=function(a){return K(aC,c,a)},aE=e(function(a){return m7(a,c)},g);return m_(i,function(a){return m8(aE,aD,a)},f,a1,a0,aZ);case
+aZ=a[3],a0=a[2],a1=a[1],aC=function(b,a){return[2,b,a]},aD=function(a){return K(aC,c,a)},aE=e(function(a){return m8(a,c)},g);return m$(i,function(a){return m9(aE,aD,a)},f,a1,a0,aZ);case
 11:var
-ah=a[4],F=H(g,a[1]);if(F){var
-G=m7(F[1],c);if(G){var
-n=G[1][1][2],a2=c$(a[3]),a3=c$(a[2]),r=K(function(b,a){return[3,b,a]},a3,a2),ai=h(i,1,w(n,n));if(ai){var
+ah=a[4],G=F(g,a[1]);if(G){var
+H=m8(G[1],c);if(H){var
+n=H[1][1][2],a2=c$(a[3]),a3=c$(a[2]),r=K(function(b,a){return[3,b,a]},a3,a2),ai=h(i,1,w(n,n));if(ai){var
 a4=w(n,n),a5=w(r,n),a6=[5,[4,w(r,n),a5],a4];return h(i,1,[3,[4,ah,ah],[3,w(r,r),a6]])}var
 aj=ai}else
 var
-aj=G;var
+aj=H;var
 ak=aj}else
 var
-ak=F;return ak;case
+ak=G;return ak;case
 12:var
-o=a[3],s=a[2],I=H(g,a[1]);if(I){var
+o=a[3],s=a[2],I=F(g,a[1]);if(I){var
 j=I[1],al=h(i,0,s),am=al?h(i,0,o):al;if(am){var
 a7=a[4];switch(j[0]){case
 0:var
-v=j[4],x=[5,v,[6,cg(j[1],j[2],j[3],v,c)]],J=[4,x,[2,s,[4,[5,[4,o,o],v],[4,x,x]]]];break;case
+v=j[4],x=[5,v,[6,ch(j[1],j[2],j[3],v,c)]],J=[4,x,[2,s,[4,[5,[4,o,o],v],[4,x,x]]]];break;case
 1:var
 R=j[2],S=j[1],aF=aV(S,R,c),J=[2,s,[5,[4,o,o],[6,w(aV(S,R,c),aF)]]];break;default:var
 J=s}var
@@ -3248,9 +3248,9 @@ ap=I;return ap;case
 13:if(g){var
 t=g[2];if(t){var
 u=t[2];if(u){if(u[2])return 0;var
-aq=u[1],ar=t[1],as=g[1],at=a[1],M=H([0,f[1],[0,f[2],[0,f[3],0]]],at);if(M){var
-N=H([0,as,[0,ar,[0,aq,0]]],at);if(N){var
-au=N[1],a8=ci(au,c),a9=ch(au,c),a_=ci(aq,c),a$=P(f[3],a_),ba=ci(ar,c),bb=P(f[2],ba),bc=ci(as,c),bd=P(f[1],bc),be=K(function(b,a){return[2,b,a]},bd,bb),bf=K(function(b,a){return[2,b,a]},be,a$);return m$(i,w,a[2],a[3],M[1],bf,a9,a8)}var
+aq=u[1],ar=t[1],as=g[1],at=a[1],M=F([0,f[1],[0,f[2],[0,f[3],0]]],at);if(M){var
+N=F([0,as,[0,ar,[0,aq,0]]],at);if(N){var
+au=N[1],a8=bz(au,c),a9=ci(au,c),a_=bz(aq,c),a$=P(f[3],a_),ba=bz(ar,c),bb=P(f[2],ba),bc=bz(as,c),bd=P(f[1],bc),be=K(function(b,a){return[2,b,a]},bd,bb),bf=K(function(b,a){return[2,b,a]},be,a$);return na(i,w,a[2],a[3],M[1],bf,a9,a8)}var
 av=N}else
 var
 av=M;var
@@ -3260,61 +3260,61 @@ aw=u;var
 ax=aw}else
 var
 ax=t;var
-ay=ax}else
+az=ax}else
 var
-ay=g;return ay;case
+az=g;return az;case
 15:var
-bg=m4(a[1],g,c,f),bh=w(f,f);return h(i,1,[3,[4,a[2],bh],bg]);default:O=1}if(O)return 0;var
-B=H(g,z);return B?h(i,1,A(B[1])):B}function
+bg=m5(a[1],g,c,f),bh=w(f,f);return h(i,1,[3,[4,a[2],bh],bg]);default:O=1}if(O)return 0;var
+B=F(g,z);return B?h(i,1,A(B[1])):B}function
 fu(g,i,f,c,a){var
 m=fr(g,i,f,c);if(m)if(typeof
 a==="number")return 0===a?aj(function(e){var
-a=i$(e,c);return a?h(g,0,[3,[0,d,b],a[1]]):a},f):l$(t1,e(function(b){var
-a=ci(b,c);return[0,a[1],[0,a[2],[0,a[3],0]]]},f));else{if(0===a[0]){var
-j=H(i[3],a[1]);if(j){var
-p=j[1],q=m5(a[3]);return na(g,f,c,m5(a[2]),q,p)}return j}var
-k=H(i[3],a[1]);if(k){var
-l=H(f,a[2]);if(l){var
-n=l[1],r=k[1],s=ch(n,c);return na(g,f,c,ch(n,c),s,r)}var
+a=i$(e,c);return a?h(g,0,[3,[0,d,b],a[1]]):a},f):ma(t1,e(function(b){var
+a=bz(b,c);return[0,a[1],[0,a[2],[0,a[3],0]]]},f));else{if(0===a[0]){var
+j=F(i[3],a[1]);if(j){var
+p=j[1],q=m6(a[3]);return nb(g,f,c,m6(a[2]),q,p)}return j}var
+k=F(i[3],a[1]);if(k){var
+l=F(f,a[2]);if(l){var
+n=l[1],r=k[1],s=ci(n,c);return nb(g,f,c,ci(n,c),s,r)}var
 o=l}else
 var
 o=k;return o}return m}function
-bE(a){return[0,a[1][1],a[2][1],a[3][1]]}function
-nb(a){switch(a[0]){case
+bF(a){return[0,a[1][1],a[2][1],a[3][1]]}function
+nc(a){switch(a[0]){case
 0:var
-b=a[1],c=b[5],d=b[4][1],e=bE(b[3]),f=bE(b[2]);return[0,bE(b[1]),f,e,d,c];case
+b=a[1],c=b[5],d=b[4][1],e=bF(b[3]),f=bF(b[2]);return[0,bF(b[1]),f,e,d,c];case
 1:var
-g=y(bE,a[3]),h=bE(a[2]);return[1,bE(a[1]),h,g];default:return[2,bE(a[1])]}}function
-jb(a){return 0===a[0]?bE(a[1]):[0,a[1],a[2],a[4][1]]}function
-nc(b,a){var
-c=jb(a[2]);return fr(b,a,e(nb,a[1]),c)}function
+g=y(bF,a[3]),h=bF(a[2]);return[1,bF(a[1]),h,g];default:return[2,bF(a[1])]}}function
+jb(a){return 0===a[0]?bF(a[1]):[0,a[1],a[2],a[4][1]]}function
+nd(b,a){var
+c=jb(a[2]);return fr(b,a,e(nc,a[1]),c)}function
 jc(b,a,c){var
-d=[0,c,aw(b,a)];return f(an(b,a),d)}function
-br(c,a){if(c){if(a){var
-e=br(c[2],a[2]);return[2,[4,c[1],a[1]],e]}return[0,d,b]}return[0,d,b]}function
-nd(e,c,a){if(e){if(c){var
-f=c[1],g=nd(e[2],c[2],a),h=br(f,a),i=[4,br(f,a),h];return[2,[4,e[1],i],g]}return[0,d,b]}return[0,d,b]}function
-ne(b,a){if(b){if(a){var
-c=b[1],e=ne(b[2],a[2]),f=a[1],g=function(b,a){return[2,[4,c,b],a]},h=function(a){return a};return aP(function(a){return[4,c,a]},h,g,f,e)}var
+d=[0,c,av(b,a)];return f(am(b,a),d)}function
+bs(c,a){if(c){if(a){var
+e=bs(c[2],a[2]);return[2,[4,c[1],a[1]],e]}return[0,d,b]}return[0,d,b]}function
+ne(e,c,a){if(e){if(c){var
+f=c[1],g=ne(e[2],c[2],a),h=bs(f,a),i=[4,bs(f,a),h];return[2,[4,e[1],i],g]}return[0,d,b]}return[0,d,b]}function
+nf(b,a){if(b){if(a){var
+c=b[1],e=nf(b[2],a[2]),f=a[1],g=function(b,a){return[2,[4,c,b],a]},h=function(a){return a};return aP(function(a){return[4,c,a]},h,g,f,e)}var
 d=a}else
 var
 d=b;return d}function
-nf(b,c,a){var
-d=[0,c,aw([0,b],a)];return f(an(b,a),d)}function
-ng(a,b){var
+ng(b,c,a){var
+d=[0,c,av([0,b],a)];return f(am(b,a),d)}function
+nh(a,b){var
 e=o(a,t2),c=e||o(a,t3),d=c?o(g(b),a):c;return d?l(function(b){return o(g(b),a)},b):d}function
-nh(a){if(a){var
+ni(a){if(a){var
 b=a[1];if(b){var
-c=b[1],d=nh(a[2]);return y(function(a){return[0,c,a]},d)}return b}return t4}function
+c=b[1],d=ni(a[2]);return y(function(a){return[0,c,a]},d)}return b}return t4}function
 g6(a){if(a){var
 b=a[1];if(b){var
 c=b[1],d=g6(a[2]);return y(function(a){return[0,c,a]},d)}return b}return t5}function
-ni(a,l,k,f){var
-b=aE(a,l);if(b){var
-c=aE(a,k);if(c){var
+nj(a,l,k,f){var
+b=aD(a,l);if(b){var
+c=aD(a,k);if(c){var
 d=c2(a,f);if(d){var
 e=gH(a,f);if(e)var
-m=t(a,b[1],e[1]),g=[0,F(t(a,c[1],d[1]),m)];else
+m=t(a,b[1],e[1]),g=[0,G(t(a,c[1],d[1]),m)];else
 var
 g=e;var
 h=g}else
@@ -3326,23 +3326,23 @@ i=c;var
 j=i}else
 var
 j=b;return j}function
-nj(a){return a?I(a[1][2],d):a}function
+nk(a){return a?I(a[1][2],d):a}function
 cj(a){return a?I(d,a[1][1]):a}function
-nk(d,a){return h(d,0,[3,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b],a])}function
-nl(d,a){if(a){var
-b=aE(d,a[1]);if(b)var
-c=nl(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
+nl(d,a){return h(d,0,[3,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b],a])}function
+nm(d,a){if(a){var
+b=aD(d,a[1]);if(b)var
+c=nm(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
 var
 e=b;return e}return t6}function
 g7(d,a){if(a){var
-b=nl(d,a[1]);if(b)var
+b=nm(d,a[1]);if(b)var
 c=g7(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
 var
 e=b;return e}return t7}function
-nm(b,a){return ao(function(c,a){return A(U(b,c),a)},u,a)}function
-nn(b,d){function
+nn(b,a){return ao(function(c,a){return A(U(b,c),a)},u,a)}function
+no(b,d){function
 c(e,d,c,a){var
-f=t(b,d,c);return F(t(b,e,a),f)}if(d){var
+f=t(b,d,c);return G(t(b,e,a),f)}if(d){var
 e=d[1];if(e){var
 f=e[2];if(f){var
 g=f[2],q=f[1],r=e[1],a=d[2];if(g){if(g[2])return u;if(a){var
@@ -3353,17 +3353,17 @@ k=a[2];if(k){var
 l=k[1];if(l){var
 m=l[2];if(m){var
 n=m[2];if(n){if(n[2])return u;if(k[2])return u;var
-s=n[1],v=m[1],w=l[1],x=j[1],y=i[1],z=h[1],B=c(z,y,w,v),C=t(b,g[1],B),D=t(b,q,c(z,x,w,s));return A(F(t(b,r,c(y,x,v,s)),D),C)}return u}return u}return u}return u}return u}return u}return u}return u}if(a){var
+s=n[1],v=m[1],w=l[1],x=j[1],y=i[1],z=h[1],B=c(z,y,w,v),C=t(b,g[1],B),D=t(b,q,c(z,x,w,s));return A(G(t(b,r,c(y,x,v,s)),D),C)}return u}return u}return u}return u}return u}return u}return u}return u}if(a){var
 o=a[1];if(o){var
 p=o[2];return p?p[2]?u:a[2]?u:c(r,q,o[1],p[1]):u}return u}return u}return u}return u}return u}function
-no(a,p,m,s,f,i){function
-a1(c,a){return[4,[4,[5,[0,b,b],c],[5,[0,b,b],c]],br(a,a)]}var
+np(a,p,m,s,f,i){function
+a1(c,a){return[4,[4,[5,[0,b,b],c],[5,[0,b,b],c]],bs(a,a)]}var
 bL=m[1];function
 B(c){var
 a=[0,d,b];return ao(function(a,b){var
-d=br(a,c);return[2,[4,br(a,c),d],b]},a,bL)}function
+d=bs(a,c);return[2,[4,bs(a,c),d],b]},a,bL)}function
 C(f,e){var
-a=H(m[1],f);if(a){var
+a=F(m[1],f);if(a){var
 b=a[1],c=o(g(b),p);if(c)return k(e,b);var
 d=c}else
 var
@@ -3392,19 +3392,19 @@ b!=="number"&&0===b[0])return h(a,1,[3,bO,b[1]]);return 0},ai=bP,ah=i[1];break;c
 bQ=i[2],bR=function(b){if(typeof
 b!=="number"&&0===b[0])return h(a,1,[3,b[1],bQ]);return 0},ai=bR,ah=i[1];break;case
 4:if(f)return 0;var
-a6=i[3],a7=i[2],bT=function(d){var
+a6=i[3],a7=i[2],bS=function(d){var
 i=o(s,0);if(typeof
 d!=="number"&&1===d[0]){var
-e=d[2],f=d[1],g=h(a,0,[3,[2,a7,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b]],a6]);return g?i?nj(ni(a,f,e,a7)):cj(ni(a,f,e,a6)):g}return 0},ai=bT,ah=i[1];break;case
+e=d[2],f=d[1],g=h(a,0,[3,[2,a7,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b]],a6]);return g?i?nk(nj(a,f,e,a7)):cj(nj(a,f,e,a6)):g}return 0},ai=bS,ah=i[1];break;case
 5:if(f){var
 D=f[2];if(D){if(D[2])return 0;var
-ak=D[1],al=f[1],a8=i[1],bU=br(al,al),bV=[4,[4,a8,a8],[4,B(ak),bU]],bW=br(ak,ak);return h(a,1,[3,[4,B(al),bW],bV])}var
+ak=D[1],al=f[1],a8=i[1],bU=bs(al,al),bV=[4,[4,a8,a8],[4,B(ak),bU]],bW=bs(ak,ak);return h(a,1,[3,[4,B(al),bW],bV])}var
 a9=D}else
 var
 a9=f;return a9;case
 6:var
 a_=i[2],bX=i[3],bY=function(b){var
-c=[5,bX,a_],d=h(a,1,a_);return d?h(a,1,[3,br(b,b),[4,c,c]]):d},a$=C(i[1],bY);if(a$){if(m[4]){if(f){var
+c=[5,bX,a_],d=h(a,1,a_);return d?h(a,1,[3,bs(b,b),[4,c,c]]):d},a$=C(i[1],bY);if(a$){if(m[4]){if(f){var
 E=f[1];if(E){if(E[2])return 0;if(f[2])return 0;var
 ba=E[1];return h(a,1,[4,ba,ba])}var
 bb=E}else
@@ -3415,10 +3415,10 @@ var
 bc=a$;return bc;case
 7:if(f){if(f[2])return 0;var
 bd=f[1],am=i[1],bZ=i[3],b0=i[2],an=g6(m[7]);if(an){var
-G=an[1],ap=H(bd,am);if(ap){var
-b1=ap[1],be=o(g(G),p),bf=be?l(function(a){return o(g(a),p)},G):be;if(bf){var
-aq=H(G,am);if(aq){var
-b2=aq[1];return C(am,function(b){return m$(a,br,b0,bZ,b1,ne(bd,G),b,b2)})}var
+H=an[1],ap=F(bd,am);if(ap){var
+b1=ap[1],be=o(g(H),p),bf=be?l(function(a){return o(g(a),p)},H):be;if(bf){var
+aq=F(H,am);if(aq){var
+b2=aq[1];return C(am,function(b){return na(a,bs,b0,bZ,b1,nf(bd,H),b,b2)})}var
 bg=aq}else
 var
 bg=bf;var
@@ -3432,14 +3432,14 @@ bj=bi}else
 var
 bj=f;return bj;case
 8:if(f){if(f[2])return 0;var
-ar=f[1],b3=nd(i[1],m[1],ar),b4=br(ar,ar);return h(a,1,[3,[4,i[2],b4],b3])}return f;case
+ar=f[1],b3=ne(i[1],m[1],ar),b4=bs(ar,ar);return h(a,1,[3,[4,i[2],b4],b3])}return f;case
 9:if(f)return 0;var
 bk=i[3],bl=i[2],b5=function(e){var
 f=h(a,1,bl),g=f?h(a,0,bk):f;if(g){var
-b=aE(a,br(e,e));if(b){var
-c=aE(a,[5,bk,bl]);if(c){var
-d=l4(a,c[1]);if(d){var
-l=U(a,d[1]);return cj([0,F(b[1],l)])}var
+b=aD(a,bs(e,e));if(b){var
+c=aD(a,[5,bk,bl]);if(c){var
+d=l5(a,c[1]);if(d){var
+l=U(a,d[1]);return cj([0,G(b[1],l)])}var
 i=d}else
 var
 i=c;var
@@ -3455,10 +3455,10 @@ c=[4,b6,b[3]],d=h(a,1,c);return d?h(a,1,[3,[4,c,c],[4,b[2],b[2]]]):d},bn=b7,bm=i
 11:if(f)return 0;var
 b8=i[2],b9=function(e){var
 b=c2(a,b8);if(b){var
-c=aE(a,e[3]);if(c){var
-d=aE(a,e[2]);if(d){var
+c=aD(a,e[3]);if(c){var
+d=aD(a,e[2]);if(d){var
 f=t(a,b[1],c[1]),g=cj([0,f]);if(g){var
-k=U(a,d[1]);return cj([0,F(U(a,f),k)])}var
+k=U(a,d[1]);return cj([0,G(U(a,f),k)])}var
 h=g}else
 var
 h=d;var
@@ -3469,11 +3469,11 @@ j=i}else
 var
 j=b;return j},bn=b9,bm=i[1];v=2;break;case
 12:if(f)return 0;var
-au=nh(m[3]);if(au){var
-bp=au[1],b_=i[1],bq=bS(function(b,a){return[4,b,a[3]]},bp,b_),av=e(function(a){return a[1]},bp),x=function(d,c,b,a){return[3,[4,d,a],[4,c,b]]};if(av){var
+au=ni(m[3]);if(au){var
+bp=au[1],b_=i[1],bq=bT(function(b,a){return[4,b,a[3]]},bp,b_),av=e(function(a){return a[1]},bp),x=function(d,c,b,a){return[3,[4,d,a],[4,c,b]]};if(av){var
 O=av[1];if(O){var
 P=O[2];if(P){var
-Q=P[2],aC=P[1],aD=O[1],n=av[2];if(Q)if(Q[2]||!n)var
+Q=P[2],aC=P[1],aE=O[1],n=av[2];if(Q)if(Q[2]||!n)var
 j=[0,d,b];else{var
 R=n[1];if(R){var
 S=R[2];if(S){var
@@ -3482,7 +3482,7 @@ V=n[2];if(V){var
 W=V[1];if(W){var
 X=W[2];if(X){var
 Y=X[2];if(Y&&!(Y[2]||V[2]))var
-aF=Y[1],aG=X[1],aH=W[1],aI=T[1],aJ=S[1],aK=R[1],bE=x(aK,aJ,aH,aG),bF=[4,Q[1],bE],bG=[4,aC,x(aK,aI,aH,aF)],j=[2,[3,[4,aD,x(aJ,aI,aG,aF)],bG],bF];else
+aF=Y[1],aG=X[1],aH=W[1],aI=T[1],aJ=S[1],aK=R[1],bE=x(aK,aJ,aH,aG),bF=[4,Q[1],bE],bG=[4,aC,x(aK,aI,aH,aF)],j=[2,[3,[4,aE,x(aJ,aI,aG,aF)],bG],bF];else
 var
 j=[0,d,b]}else
 var
@@ -3499,7 +3499,7 @@ var
 j=[0,d,b]}else
 if(n){var
 Z=n[1];if(Z)var
-_=Z[2],j=_?_[2]?[0,d,b]:n[2]?[0,d,b]:x(aD,aC,Z[1],_[1]):[0,d,b];else
+_=Z[2],j=_?_[2]?[0,d,b]:n[2]?[0,d,b]:x(aE,aC,Z[1],_[1]):[0,d,b];else
 var
 j=[0,d,b]}else
 var
@@ -3510,24 +3510,24 @@ var
 j=[0,d,b]}else
 var
 j=[0,d,b];var
-bs=h(a,1,[3,bq,j]);if(bs)return h(a,1,[2,bq,j]);var
-bt=bs}else
+br=h(a,1,[3,bq,j]);if(br)return h(a,1,[2,bq,j]);var
+bt=br}else
 var
 bt=au;return bt;case
 13:var
-b$=i[2],aw=H(m[4],i[1]);if(aw){var
+b$=i[2],aw=F(m[4],i[1]);if(aw){var
 ax=aw[1];if(ax){var
 bu=function(a){if(b$){var
-c=k(m[5],[0,[0,d,b],[0,d,b],[0,d,b]]),e=k(m[5],a);return K(function(b,a){return[3,b,a]},e,c)}return a},I=i[4],u=bu(c$(i[3])),J=ax[1][1][2],r=w(J,u);if(nk(a,I)){if(s){if(s[1])return 0;if(f){var
+c=k(m[5],[0,[0,d,b],[0,d,b],[0,d,b]]),e=k(m[5],a);return K(function(b,a){return[3,b,a]},e,c)}return a},I=i[4],u=bu(c$(i[3])),J=ax[1][1][2],r=w(J,u);if(nl(a,I)){if(s){if(s[1])return 0;if(f){var
 y=f[1];if(y){var
 z=y[2];if(z){var
 A=z[2];if(A){if(A[2])return 0;if(f[2])return 0;var
 $=bu([0,y[1],z[1],A[1]]),aL=w(J,$),aM=h(a,1,r);if(aM){var
 aa=c2(a,I);if(aa){var
-aN=aa[1],ab=aE(a,[4,w(u,u),[4,aL,aL]]);if(ab){var
-ad=aE(a,[4,[4,r,r],w($,$)]);if(ad){var
+aN=aa[1],ab=aD(a,[4,w(u,u),[4,aL,aL]]);if(ab){var
+ad=aD(a,[4,[4,r,r],w($,$)]);if(ad){var
 aO=cj([0,aN]);if(aO){var
-bH=ad[1],bI=ab[1];return cj([0,F(t(a,U(a,aN),bI),bH)])}var
+bH=ad[1],bI=ab[1];return cj([0,G(t(a,U(a,aN),bI),bH)])}var
 aP=aO}else
 var
 aP=ad;var
@@ -3554,9 +3554,9 @@ var
 aW=f;return aW}return f?0:h(a,1,[3,[0,d,b],r])}if(s)return 0;if(f)return 0;var
 aX=h(a,0,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],I]);if(aX){var
 ae=c2(a,I);if(ae){var
-af=aE(a,r);if(af){var
-bJ=w(J,J),ag=aE(a,[6,[4,w(u,u),bJ]]);if(ag){var
-bK=t(a,ae[1],ag[1]);return nj([0,F(af[1],bK)])}var
+af=aD(a,r);if(af){var
+bJ=w(J,J),ag=aD(a,[6,[4,w(u,u),bJ]]);if(ag){var
+bK=t(a,ae[1],ag[1]);return nk([0,G(af[1],bK)])}var
 aY=ag}else
 var
 aY=af;var
@@ -3573,7 +3573,7 @@ bv=aw;return bv;case
 L=f[1];if(L){var
 M=L[2];if(M){var
 N=M[2];if(N){if(N[2])return 0;if(f[2])return 0;var
-ca=i[3],cb=i[2],cc=i[1],cd=[0,L[1],M[1],N[1]],ce=m[5],cf=m[4];return m_(a,function(a){return m8(cf,ce,a)},cd,cc,cb,ca)}var
+ca=i[3],cb=i[2],cc=i[1],cd=[0,L[1],M[1],N[1]],ce=m[5],cf=m[4];return m$(a,function(a){return m9(cf,ce,a)},cd,cc,cb,ca)}var
 bw=N}else
 var
 bw=M;var
@@ -3585,20 +3585,20 @@ var
 by=f;return by;case
 17:if(f)return 0;var
 bz=i[2],ay=i[1],cg=i[3],az=g6(m[7]);if(az){var
-aA=az[1],bA=ng(p,aA),bB=bA?o(g(bz),p):bA;if(bB){var
-aB=H(aA,ay);if(aB){var
+aA=az[1],bA=nh(p,aA),bB=bA?o(g(bz),p):bA;if(bB){var
+aB=F(aA,ay);if(aB){var
 ch=aB[1];return C(ay,function(x){var
 e=g7(a,aA);if(e){var
 j=e[1],f=g7(a,[0,bz,[0,x,[0,ch,0]]]);if(f){var
 b=f[1];if(b){var
 c=b[2];if(c){var
 d=c[2];if(d){if(d[2])return 0;var
-g=aE(a,cg);if(g){var
-k=g[1],l=U(a,nn(a,j)),h=nn(a,nf(ay,b[1],j)),m=cj([0,k]),n=m?cj([0,l]):m;if(n)var
+g=aD(a,cg);if(g){var
+k=g[1],l=U(a,no(a,j)),h=no(a,ng(ay,b[1],j)),m=cj([0,k]),n=m?cj([0,l]):m;if(n)var
 y=o(s,0)?h:ac(h),i=cj([0,y]);else
 var
 i=n;if(i){var
-z=nm(a,c[1]),A=t(a,t(a,U(a,k),l),z),B=nm(a,d[1]);return cj([0,F(t(a,U(a,h),B),A)])}var
+z=nn(a,c[1]),A=t(a,t(a,U(a,k),l),z),B=nn(a,d[1]);return cj([0,G(t(a,U(a,h),B),A)])}var
 p=i}else
 var
 p=g;var
@@ -3626,90 +3626,90 @@ bD=az;return bD;default:v=1}switch(v){case
 1:var
 a3=0;break;case
 2:var
-as=H(m[3],bm);if(as){var
+as=F(m[3],bm);if(as){var
 at=as[1];if(at)return bn(at[1]);var
 bo=at}else
 var
 bo=as;return bo;default:var
-aj=H(m[2],ah);return aj?ai(aj[1]):aj}}else
+aj=F(m[2],ah);return aj?ai(aj[1]):aj}}else
 var
 a3=a2;return a3}function
 fv(d,f,a){if(typeof
 a!=="number")switch(a[0]){case
 13:var
-e=a[4];if(nk(d,e)&&J(h(d,0,[3,e,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b]])))return ua;return ub;case
+e=a[4];if(nl(d,e)&&J(h(d,0,[3,e,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b]])))return ua;return ub;case
 16:return f;case
 4:case
 17:return t$}return t_}function
 eu(e,d,g,f){var
 b=g,a=f;for(;;){if(a){var
-c=a[1];if(aK(b,fv(e,d,c)))return[0,[0,c,b]];var
+c=a[1];if(aJ(b,fv(e,d,c)))return[0,[0,c,b]];var
 h=a[2],b=dx(b,fv(e,d,c)),a=h;continue}return a}}function
-np(a){return e(function(a){return[0,a,b]},a)}function
+nq(a){return e(function(a){return[0,a,b]},a)}function
 jd(f,o,g,c,n,a){if(typeof
 a==="number"){if(0===a){var
 s=c[6];return aj(function(a){return h(f,0,[3,[0,d,b],a])},s)}var
-i=g6(c[7]);return i?l$(g,i[1]):i}else{if(0===a[0]){var
+i=g6(c[7]);return i?ma(g,i[1]):i}else{if(0===a[0]){var
 j=eu(f,o,a[1],n);if(j){var
-p=j[1],t=p[1],u=e(np,a[2]);return no(f,g,c,p[2],u,t)}return j}var
+p=j[1],t=p[1],u=e(nq,a[2]);return np(f,g,c,p[2],u,t)}return j}var
 k=eu(f,o,a[1],n);if(k){var
 q=k[1],l=q[1];if(typeof
 l!=="number"&&1===l[0]){var
-m=H(c[1],a[2]);return m?no(f,g,c,q[2],[0,m[1],0],[1,l[1]]):m}var
+m=F(c[1],a[2]);return m?np(f,g,c,q[2],[0,m[1],0],[1,l[1]]):m}var
 r=0}else
 var
 r=k;return r}}function
 je(a){var
-b=az(a[1]),c=P(w(b,a[2]),b),d=a[2];return K(function(b,a){return[3,b,a]},d,c)}function
-fw(a){return az(je(a))}function
+b=ay(a[1]),c=P(w(b,a[2]),b),d=a[2];return K(function(b,a){return[3,b,a]},d,c)}function
+fw(a){return ay(je(a))}function
 g8(c){var
-a=fw(c),b=az(c[1]);return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
+a=fw(c),b=ay(c[1]);return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
 g9(a,b){return aV(a[3],a[4],b)}function
 fx(a,b){var
 c=g9(a,b);return w(fw(a),c)}function
 fy(a,b){var
 c=g9(a,b);return w(g8(a),c)}function
-nq(a,b){var
-c=g9(a,b);return w(az(a[1]),c)}function
+nr(a,b){var
+c=g9(a,b);return w(ay(a[1]),c)}function
 g_(b,a){var
 c=fy(b,a),d=fx(b,a);return[2,[4,d,d],[4,c,c]]}function
 g$(a,d){var
-h=a[5],i=[4,[0,c(2,b),b],h],e=a[6],f=a[5],g=nq(a,d);return[5,[2,g_(a,d),[2,[4,g,g],[3,[4,f,f],[4,e,e]]]],i]}function
+h=a[5],i=[4,[0,c(2,b),b],h],e=a[6],f=a[5],g=nr(a,d);return[5,[2,g_(a,d),[2,[4,g,g],[3,[4,f,f],[4,e,e]]]],i]}function
 jf(a,b){var
-f=a[5],c=[3,g$(a,b),f],d=nq(a,b),e=a[6];return[3,[3,[4,e,e],[4,d,d]],[4,c,c]]}function
+f=a[5],c=[3,g$(a,b),f],d=nr(a,b),e=a[6];return[3,[3,[4,e,e],[4,d,d]],[4,c,c]]}function
 ev(a,b){var
 c=jf(a,b);return cH(a[7],c)}function
-nr(b,a){var
-c=g_(b,a),d=fy(b,a),e=[4,ev(b,a),d],f=fx(b,a);return[5,[2,[4,g$(b,a),f],e],c]}function
 ns(b,a){var
+c=g_(b,a),d=fy(b,a),e=[4,ev(b,a),d],f=fx(b,a);return[5,[2,[4,g$(b,a),f],e],c]}function
+nt(b,a){var
 c=g_(b,a),d=fx(b,a),e=[4,ev(b,a),d],f=fy(b,a);return[5,[3,[4,g$(b,a),f],e],c]}function
 jg(a,b){var
-c=g8(a),d=P(ns(a,b),c),e=fw(a),f=P(nr(a,b),e),g=K(function(b,a){return[2,b,a]},f,d),h=P(a[5],g),i=a[3];return K(function(b,a){return[2,b,a]},i,h)}function
+c=g8(a),d=P(nt(a,b),c),e=fw(a),f=P(ns(a,b),e),g=K(function(b,a){return[2,b,a]},f,d),h=P(a[5],g),i=a[3];return K(function(b,a){return[2,b,a]},i,h)}function
 dK(a){return[5,[3,[0,b,b],[4,a,a]],[2,[0,b,b],[4,a,a]]]}function
 dL(a){return[5,[4,[0,c(2,b),b],a],[2,[0,b,b],[4,a,a]]]}function
 jh(a,c,b){var
 d=[4,dK(a),b],e=[2,[4,dL(a),c],d],f=[4,dL(a),b];return[0,[3,[4,dK(a),c],f],e]}function
-nt(c,a){var
+nu(c,a){var
 b=jh(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
 da(b,a){return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
-nu(a,d){var
+nv(a,d){var
 e=w(a,a),f=da(a,d),g=P([0,c(2,b),b],f),h=w(a,d),i=P([4,[0,c(2,b),b],h],a),j=P([3,[0,b,b],e],d),k=K(function(b,a){return[2,b,a]},j,i);return P([5,[0,b,b],[2,[0,b,b],e]],K(function(b,a){return[2,b,a]},k,g))}function
 db(j,b,a){switch(j[0]){case
-0:return b?b[2]?a:nt(b[1],a):a;case
+0:return b?b[2]?a:nu(b[1],a):a;case
 1:if(b){var
 c=b[2];if(c){var
 d=c[2];if(d){if(d[2])return a;var
-g=jh(b[1],a[2],a[3]),i=g[1],h=jh(c[1],g[2],a[1]);return nt(d[1],[0,h[2],i,h[1]])}return a}return a}return a;default:if(b){var
+g=jh(b[1],a[2],a[3]),i=g[1],h=jh(c[1],g[2],a[1]);return nu(d[1],[0,h[2],i,h[1]])}return a}return a}return a;default:if(b){var
 e=b[2];if(e){var
-f=e[2];return f?f[2]?a:nu([0,b[1],e[1],f[1]],a):a}return a}return a}}function
-nv(c){var
+f=e[2];return f?f[2]?a:nv([0,b[1],e[1],f[1]],a):a}return a}return a}}function
+nw(c){var
 a=cC(c);return a?ee(a[1],[0,d,b]):a}function
-nw(a,n,k,j){if(nv(j)){var
+nx(a,n,k,j){if(nw(j)){var
 q=n?[3,[0,d,b],k]:k;return h(a,0,q)}var
-f=aE(a,k);if(f){var
+f=aD(a,k);if(f){var
 g=c2(a,[5,j,[0,c(2,b),b]]);if(g){var
 i=gH(a,[5,j,[0,c(2,b),b]]);if(i)var
-p=t(a,f[1],g[1]),l=[0,F(i[1],p)];else
+p=t(a,f[1],g[1]),l=[0,G(i[1],p)];else
 var
 l=i;var
 m=l}else
@@ -3720,24 +3720,24 @@ var
 e=f;if(e){var
 o=e[1];return n?D(d,o[1]):D(o[2],d)}return e}function
 dM(b,a,c){var
-d=bx(b,a[1],a[2]),e=d?nw(b,0,c,a[1]):d;return e?nw(b,1,c,a[2]):e}function
-nx(h,f,c){if(nv(c))return[0,u];var
+d=by(b,a[1],a[2]),e=d?nx(b,0,c,a[1]):d;return e?nx(b,1,c,a[2]):e}function
+ny(h,f,c){if(nw(c))return[0,u];var
 a=E(h,iG(f)),d=c2(a,c);if(d){var
 e=gH(a,c);if(e){var
-i=e[1],j=d[1],k=b_(a,A(O(a,b),j));return y(function(b){return lV(f,t(a,i,b))},k)}var
+i=e[1],j=d[1],k=b$(a,A(O(a,b),j));return y(function(b){return lW(f,t(a,i,b))},k)}var
 g=e}else
 var
 g=d;return g}function
-cJ(a){return function(b){return nx(a,d,b)}}function
+cJ(a){return function(b){return ny(a,d,b)}}function
 cK(d,a){var
 e=h(d,1,[2,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],a]);return e?h(d,1,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],a]):e}function
 dc(a){return[0,[3,[0,d,b],a],a]}function
-ny(a,c,o,n){var
-h=bx(a,[0,d,b],c),i=h?cK(a,c):h;if(i){var
+nz(a,c,o,n){var
+h=by(a,[0,d,b],c),i=h?cK(a,c):h;if(i){var
 e=k(cJ(a),c);if(e){var
-f=aE(a,o);if(f){var
-g=aE(a,n);if(g){var
-p=f[1],q=g[1];return D(d,F(t(a,U(a,e[1]),q),p)[1])}var
+f=aD(a,o);if(f){var
+g=aD(a,n);if(g){var
+p=f[1],q=g[1];return D(d,G(t(a,U(a,e[1]),q),p)[1])}var
 j=g}else
 var
 j=f;var
@@ -3765,7 +3765,7 @@ p=a;return p;case
 2:if(a){var
 g=a[2];if(g){var
 h=g[2];if(h){if(h[2])return 0;var
-q=h[1],r=g[1],s=a[1],C=w([0,s,r,q],[0,s,r,q]);return ny(d,c[1],C,[0,b,b])}var
+q=h[1],r=g[1],s=a[1],C=w([0,s,r,q],[0,s,r,q]);return nz(d,c[1],C,[0,b,b])}var
 t=h}else
 var
 t=g;var
@@ -3774,7 +3774,7 @@ var
 u=a;return u;default:if(a){var
 i=a[2];if(i){var
 j=i[2];if(j){if(j[2])return 0;var
-k=j[1],v=i[1],x=a[1],y=ny(d,c[1],[2,[4,x,x],[4,v,v]],[2,[0,b,b],[4,k,k]]);if(y)return dM(d,dc(c[2]),k);var
+k=j[1],v=i[1],x=a[1],y=nz(d,c[1],[2,[4,x,x],[4,v,v]],[2,[0,b,b],[4,k,k]]);if(y)return dM(d,dc(c[2]),k);var
 z=y}else
 var
 z=j;var
@@ -3785,25 +3785,25 @@ B=A}else
 var
 B=a;return B}}var
 i=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))));function
-bF(b){var
+bG(b){var
 a=ao(function(f,e){var
-a=aE(i,f);if(a)var
+a=aD(i,f);if(a)var
 b=a[1],c=bm(ct(b[1]),ct(b[2]));else
 var
-c=d;return bm(c,e)},d,b);return I(d,a)?aM(lE(a),i):d}function
+c=d;return bm(c,e)},d,b);return I(d,a)?aL(lF(a),i):d}function
 ew(a){return[0,a[1],[0,a[2],0]]}function
 bb(a){var
 b=ew(a[3]),c=f(ew(a[2]),b);return f(ew(a[1]),c)}function
-ha(a){return g5(i,a,bF(bb(a)))}function
-nz(b,a){if(a){var
-g=nz([0,b],a[2]),c=a[1];if(0===c[0])var
+ha(a){return g5(i,a,bG(bb(a)))}function
+nA(b,a){if(a){var
+g=nA([0,b],a[2]),c=a[1];if(0===c[0])var
 d=c[1],e=c9([0,[0,d,d],c[2]],b);else
 var
 e=[0,[1,b]];var
 f=[0,e,g]}else
 var
 f=a;return f}function
-nA(c,b,a){var
+nB(c,b,a){var
 d=ef(b);return[2,[2,ef(c),d],a]}function
 hb(b,a){return b?T(a):d}function
 fA(g,b,a){if(typeof
@@ -3819,19 +3819,19 @@ c=hb(g,b);return[0,[5,q,a],E(hb(g,b),c)]},r);case
 11:return[0,[2,a[2]],0];case
 12:return[0,[0,a[1],d],0];case
 13:var
-c=a[3],h=bF([0,c[1],[0,c[2],[0,c[3],0]]]);return[0,[2,a[4]],[0,[0,c[1],h],[0,[0,c[2],h],[0,[0,c[3],h],0]]]];case
+c=a[3],h=bG([0,c[1],[0,c[2],[0,c[3],0]]]);return[0,[2,a[4]],[0,[0,c[1],h],[0,[0,c[2],h],[0,[0,c[3],h],0]]]];case
 14:var
-k=a[2],l=a[1],s=es(b,k),t=f(es(b,l),s),u=e(function(a){return[0,a[1][2],a[2]]},t);return[0,[0,nA(l,k,a[3]),b],u];case
+k=a[2],l=a[1],s=es(b,k),t=f(es(b,l),s),u=e(function(a){return[0,a[1][2],a[2]]},t);return[0,[0,nB(l,k,a[3]),b],u];case
 15:var
 m=a[4],n=a[3];return[0,[0,[5,a[2],m],d],[0,[0,[5,[4,n,n],m],b],0]];case
 16:var
-o=a[2],p=bF([0,o,0]);return[0,[4,a[3],aM(p,b)],[0,[0,o,p],0]];case
+o=a[2],p=bG([0,o,0]);return[0,[4,a[3],aL(p,b)],[0,[0,o,p],0]];case
 17:var
 v=a[3],w=a[2];return e(function(a){return[0,[5,a,v],hb(g,b)]},w);case
 2:case
 3:return[0,[0,a[2],b],0]}return 0}function
 dd(h,c,b,e,a){if(a){var
-d=a[1],i=a[2],j=dd(h,c,b,M(e,g(fA(c,b,d))),i);return f(ar(h,nz(e,fA(c,b,d)),d),j)}return a}function
+d=a[1],i=a[2],j=dd(h,c,b,M(e,g(fA(c,b,d))),i);return f(ar(h,nA(e,fA(c,b,d)),d),j)}return a}function
 hc(b,a){var
 c=W(b,a);return e(function(a){var
 b=s(a[1][2],a[2]);return[0,a[1][1],b]},c)}function
@@ -3839,21 +3839,21 @@ ji(b,a){switch(a[0]){case
 0:var
 d=a[1];return ap(b,[0,[0,d,d],a[2]]);case
 1:var
-e=a[1],c=ap(b,[0,[0,e,e],a[2]]);return c?l4(b,c[1]):c;case
+e=a[1],c=ap(b,[0,[0,e,e],a[2]]);return c?l5(b,c[1]):c;case
 2:return c2(b,a[1]);case
 3:return gH(b,a[1]);default:var
-f=a[1],g=cK(b,f);return g?nx(b,a[2],f):g}}function
-bG(a){return 1===a?uc:ud}function
-bX(d,c,b,a){var
+f=a[1],g=cK(b,f);return g?ny(b,a[2],f):g}}function
+bH(a){return 1===a?uc:ud}function
+bY(d,c,b,a){var
 e=a[1],f=db(d,c,a[2]),g=K(function(b,a){return[2,b,a]},b,f);return K(function(b,a){return[3,b,a]},g,e)}function
 jj(c,b,a){switch(c){case
 0:return[0,b[1],[0,b[2],[0,a[3],0]]];case
 1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}}function
 jk(h,g,d,c,f,a){var
-e=bX(d,c,f,a);return jj(h,e,P([5,[0,b,b],g],da(db(d,c,a[2]),e)))}function
+e=bY(d,c,f,a);return jj(h,e,P([5,[0,b,b],g],da(db(d,c,a[2]),e)))}function
 ex(c,d,n,m,l){var
 b=d[2],a=n;for(;;){if(b){if(a){var
-f=a[1],g=b[1],h=bq(c,g[1],f[1]),i=h?bq(c,g[2],f[2]):h;if(i){var
+f=a[1],g=b[1],h=br(c,g[1],f[1]),i=h?br(c,g[2],f[2]):h;if(i){var
 b=b[2],a=a[2];continue}var
 j=i}else
 var
@@ -3862,9 +3862,9 @@ e=j}else
 var
 e=a?0:1;var
 k=e?cG(c,d[4],m):e;return k?fz(c,d[5],l):k}}function
-by(b,d){var
+bA(b,d){var
 a=d[1];if(8===a[0]){var
-c=a[1][1];return 0===c[0]?[0,[0,M(b,c[1])]]:[0,bT(function(a){return by(b,a)},a)]}return[0,bT(function(a){return by(b,a)},a)]}function
+c=a[1][1];return 0===c[0]?[0,[0,M(b,c[1])]]:[0,bU(function(a){return bA(b,a)},a)]}return[0,bU(function(a){return bA(b,a)},a)]}function
 dN(d,b,h){var
 c=h;for(;;){var
 a=c[1];switch(a[0]){case
@@ -3934,7 +3934,7 @@ e=j;return e;case
 he(c,e){var
 b=e;for(;;){var
 a=b[1];switch(a[0]){case
-0:return aK(a[1],c);case
+0:return aJ(a[1],c);case
 10:return 0;case
 1:case
 2:return 1;case
@@ -3946,70 +3946,70 @@ d=he(c,a[1]);if(d){var
 b=a[2];continue}return d}}}function
 hf(a,b){if(a){var
 c=a[2],d=a[1];if(b){var
-e=b[2];return b[1]?[0,d,hf(c,ao(fd,e,lQ(d)))]:[0,ug,hf(c,e)]}var
+e=b[2];return b[1]?[0,d,hf(c,ao(fd,e,lR(d)))]:[0,ug,hf(c,e)]}var
 f=[0,d,hf(c,0)]}else
 var
 f=a;return f}function
 de(b,a){return a?k(b,a[1]):a}function
 df(c,b,a){return de(function(b){return de(k(c,b),a)},b)}function
-nB(b,a){switch(a[0]){case
+nC(b,a){switch(a[0]){case
 0:return a;case
 1:return a[1];default:var
 c=a[3],d=a[2],e=a[1];switch(b){case
 0:return e;case
 1:return d;default:return c}}}function
-nC(a){return 0===a[0]?a[1]:0}function
-nD(d,c){var
+nD(a){return 0===a[0]?a[1]:0}function
+nE(d,c){var
 b=d,a=c;for(;;){if(a){var
-e=a[2],b=nB(a[1],b),a=e;continue}return nC(b)}}function
+e=a[2],b=nC(a[1],b),a=e;continue}return nD(b)}}function
 ck(b,a){switch(a[0]){case
 0:return[0,k(b,a[1])];case
 1:return[1,ck(b,a[1])];default:var
 c=ck(b,a[3]),d=ck(b,a[2]);return[2,ck(b,a[1]),d,c]}}function
-bs(b,c,a){switch(c[0]){case
+bt(b,c,a){switch(c[0]){case
 0:return ck(k(b,c[1]),a);case
 1:var
 d=c[1];switch(a[0]){case
 0:var
 j=a[1];return[1,ck(function(a){return ar(b,a,j)},d)];case
-1:return[1,bs(b,d,a[1])];default:var
-l=bs(b,d,a[3]),m=bs(b,d,a[2]);return[2,bs(b,d,a[1]),m,l]}default:var
+1:return[1,bt(b,d,a[1])];default:var
+l=bt(b,d,a[3]),m=bt(b,d,a[2]);return[2,bt(b,d,a[1]),m,l]}default:var
 e=c[3],f=c[2],g=c[1];switch(a[0]){case
 0:var
 n=a[1],o=function(a){return ar(b,a,n)},h=function(a){return ck(o,a)},p=h(e),q=h(f);return[2,h(g),q,p];case
 1:var
-i=a[1],r=bs(b,e,i),s=bs(b,f,i);return[2,bs(b,g,i),s,r];default:var
-t=bs(b,e,a[3]),u=bs(b,f,a[2]);return[2,bs(b,g,a[1]),u,t]}}}function
+i=a[1],r=bt(b,e,i),s=bt(b,f,i);return[2,bt(b,g,i),s,r];default:var
+t=bt(b,e,a[3]),u=bt(b,f,a[2]);return[2,bt(b,g,a[1]),u,t]}}}function
 jl(c,f,a){if(a)var
 d=a[1],b=function(h){var
 a=[0,d[1],d[1]],b=[0,d[2],d[2]];switch(h){case
 0:var
 e=[0,a,U(c,a)];break;case
 1:var
-g=t(c,a,b),e=[0,ax(A(a,b)),g];break;default:var
+g=t(c,a,b),e=[0,aw(A(a,b)),g];break;default:var
 e=[0,b,U(c,b)]}return[0,[0,k(f,e)]]},h=jl(c,f,a[2]),i=e(function(a){return[1,a]},h),j=b(2),l=b(1),g=[0,[2,b(0),l,j],i];else
 var
 g=a;return g}function
 jm(b,x,c,a){var
-e=jl(b,aO,a),d=0,z=f(jl(b,aB,a),e);return bg(ui,function(a){switch(a[0]){case
+e=jl(b,aO,a),d=0,z=f(jl(b,aA,a),e);return bg(ui,function(a){switch(a[0]){case
 0:return r(a[1],z,[0,[0,u]]);case
 1:return[0,[0,r(a[1],x,u)]];case
 2:return[0,[0,O(b,a[1])]];case
 3:var
-c=a[2],d=a[1],e=function(b,a){return[0,A(b,a)]};return bs(function(a,b){return df(e,a,b)},d,c);case
+c=a[2],d=a[1],e=function(b,a){return[0,A(b,a)]};return bt(function(a,b){return df(e,a,b)},d,c);case
 4:var
-f=a[2],g=a[1],h=function(b,a){return[0,F(b,a)]};return bs(function(a,b){return df(h,a,b)},g,f);case
+f=a[2],g=a[1],h=function(b,a){return[0,G(b,a)]};return bt(function(a,b){return df(h,a,b)},g,f);case
 5:var
 i=a[1],j=function(a){return[0,ac(a)]};return ck(function(a){return de(j,a)},i);case
 6:var
-k=a[2],l=a[1],m=function(c,a){return[0,t(b,c,a)]};return bs(function(a,b){return df(m,a,b)},l,k);case
+k=a[2],l=a[1],m=function(c,a){return[0,t(b,c,a)]};return bt(function(a,b){return df(m,a,b)},l,k);case
 7:var
 n=a[2],o=a[1],p=function(c,a){var
-d=b_(b,a);return y(function(a){return t(b,c,a)},d)};return bs(function(a,b){return df(p,a,b)},o,n);case
+d=b$(b,a);return y(function(a){return t(b,c,a)},d)};return bt(function(a,b){return df(p,a,b)},o,n);case
 8:var
 q=a[1],s=function(a){return[0,U(b,a)]};return ck(function(a){return de(s,a)},q);case
 9:var
-v=a[1],w=function(a){return b$(b,a)};return ck(function(a){return de(w,a)},v);default:return uh}},c,d)}function
+v=a[1],w=function(a){return ca(b,a)};return ck(function(a){return de(w,a)},v);default:return uh}},c,d)}function
 hg(a){if(a){var
 b=a[1];if(b)var
 c=hg(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
@@ -4028,42 +4028,42 @@ var
 f=c;return f}return uk}function
 eA(b,a){var
 c=a[3],d=y(function(a){var
-c=a[2],d=a[1][2];return[0,[0,k(b,a[1][1]),d],c]},c),e=k(b,a[2]),f=a[1];return[0,k(ay(b),f),e,d]}function
+c=a[2],d=a[1][2];return[0,[0,k(b,a[1][1]),d],c]},c),e=k(b,a[2]),f=a[1];return[0,k(ax(b),f),e,d]}function
 jn(c,g,f,b,a,e){if(b){var
 h=b[1],l=b[2],d=function(b,a){var
-d=kF(c,e9,e9,function(a){return nB(b,a)},e);return jn(c,g,bA(f),l,a,d)},i=d(0,aM(a,h));if(i){var
+d=kG(c,e9,e9,function(a){return nC(b,a)},e);return jn(c,g,bn(f),l,a,d)},i=d(0,aL(a,h));if(i){var
 j=d(2,E(a,h));if(j)return f?1:d(1,a);var
 k=j}else
 var
-k=i;return k}return ar(g,a,kF(c,e9,e9,nC,e))}function
+k=i;return k}return ar(g,a,kG(c,e9,e9,nD,e))}function
 jo(e,c,b,a){var
 f=ab(d,b);function
 g(b){return a}return function(a){return jn(e,g,c,f,d,a)}}function
 dg(a){if(a){var
 b=a[1],c=b[1],d=c[1],e=b[2],f=c[2];return y(function(a){return aU(f,e,a)},d)}return[0,u]}function
-nE(f,e,k,j,i,a){var
+nF(f,e,k,j,i,a){var
 b=ez(a[1]);if(b){var
 c=a[2];if(c){var
 d=dg(a[3]);if(d){var
-l=d[1],m=ab([0,F(ac(t(f,i,c[1])),l),0],e);return a_(f,e,gJ(k,j,b[1],m))}var
+l=d[1],m=ab([0,G(ac(t(f,i,c[1])),l),0],e);return a_(f,e,gJ(k,j,b[1],m))}var
 g=d}else
 var
 g=c;var
 h=g}else
 var
 h=b;return h}function
-nF(i,d,h,g,c){var
+nG(i,d,h,g,c){var
 a=ez(c[1]);if(a){var
 b=dg(c[3]);if(b){var
-j=ab([0,F(u,b[1]),0],d),k=a[1];return a_(i,d,gJ(h,g,e(function(a){return[0,a[1],u]},k),j))}var
+j=ab([0,G(u,b[1]),0],d),k=a[1];return a_(i,d,gJ(h,g,e(function(a){return[0,a[1],u]},k),j))}var
 f=b}else
 var
 f=a;return f}function
-nG(a,c,D,i){var
+nH(a,c,D,i){var
 j=ez(i[1]);if(j){var
 k=i[2];if(k){var
 l=dg(i[3]);if(l){var
-G=l[1],e=F(t(a,D,k[1]),G),b=j[1];if(b){var
+F=l[1],e=G(t(a,D,k[1]),F),b=j[1];if(b){var
 m=b[1],n=m[2];if(b[2]){var
 f=gK(a,b,ab([0,e,0],c));if(f){var
 p=f[1],q=o(g(p),c);if(q)return ej(a,p);var
@@ -4072,7 +4072,7 @@ var
 r=f;return r}var
 s=I(d,e[1]),u=s?I(d,n[1]):s;if(u){var
 A=C(e[1],n[1]),B=m[1];return I(ao(function(a,b){var
-c=ca(a);return E(C(ca(a),c),b)},d,B),A)}return u}var
+c=cb(a);return E(C(cb(a),c),b)},d,B),A)}return u}var
 h=gK(a,b,ab([0,e,0],c));if(h){var
 v=h[1],w=o(g(v),c);if(w)return ej(a,v);var
 x=w}else
@@ -4086,100 +4086,100 @@ var
 z=j;return z}function
 ul(c){var
 a=c[2];if(a){var
-b=dg(c[3]);if(b)return D(d,F(a[1],b[1])[1]);var
+b=dg(c[3]);if(b)return D(d,G(a[1],b[1])[1]);var
 e=b}else
 var
 e=a;return e}function
 jp(a){return z(function(a){return f(a[1],[0,a[2],0])},a)}function
-nH(a,c,b){var
-e=r(b,c,m(d)),f=aD(0,a);return l(function(b){return ey(a,b,e)},f)}function
+nI(a,c,b){var
+e=r(b,c,m(d)),f=aC(0,a);return l(function(b){return ey(a,b,e)},f)}function
 fB(a){var
 c=V(a);return B(m(b),c)}function
 hh(i,g){var
-h=fB(g),j=V(g),e=x(m(b),j),f=s(m(c(2,b)),g),a=m(d);return i?i[1]?[0,[0,e,bo(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,bo(f),a,e]]:[0,[0,h,a,a],[0,a,e,bo(f)],[0,a,f,e]]}function
+h=fB(g),j=V(g),e=x(m(b),j),f=s(m(c(2,b)),g),a=m(d);return i?i[1]?[0,[0,e,bp(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,bp(f),a,e]]:[0,[0,h,a,a],[0,a,e,bp(f)],[0,a,f,e]]}function
 fC(b,a){var
 c=Z(b[3],a),d=Z(b[2],a);return[0,Z(b[1],a),d,c]}function
-nI(b,a){function
+nJ(b,a){function
 c(b){var
 c=k(b,a[3]),d=k(b,a[2]);return[0,k(b,a[1]),d,c]}function
 d(a){var
 b=Z(a,c(function(a){return a[3]})),d=Z(a,c(function(a){return a[2]}));return[0,Z(a,c(function(a){return a[1]})),d,b]}var
 e=d(b[3]),f=d(b[2]);return[0,d(b[1]),f,e]}function
-nJ(v,u){function
+nK(v,u){function
 a(a){return[0,[0,M(u,a)]]}switch(v[0]){case
 0:var
 w=fB(a(0));return[0,hh(um,a(0)),w];case
 1:var
-y=fB(a(0)),z=s(fB(a(un)),y),A=s(fB(a(uo)),z),C=hh(0,a(0)),D=nI(hh(uq,a(up)),C);return[0,nI(hh(us,a(ur)),D),A];default:var
+y=fB(a(0)),z=s(fB(a(un)),y),A=s(fB(a(uo)),z),C=hh(0,a(0)),D=nJ(hh(uq,a(up)),C);return[0,nJ(hh(us,a(ur)),D),A];default:var
 E=a(ut),F=a(uu),g=[0,a(0),F,E],G=Z(g,g),H=B(m(b),G),j=Z(g,g),d=g[1],e=g[2],f=g[3],i=function(a){var
 d=V(a),e=s(m(c(2,b)),d);return B(x(m(b),j),e)},h=function(f,e,d,a){var
 g=ar(f,s(e,d),a);return s(m(c(2,b)),g)},k=i(f),l=h(B,e,f,d),n=[0,h(x,d,f,e),l,k],o=h(x,e,f,d),p=i(e),q=[0,h(B,d,e,f),p,o],r=h(B,d,f,e),t=h(x,d,e,f);return[0,[0,[0,i(d),t,r],q,n],H]}}function
-nK(a){return 1<a[0]?[0,a[1],0]:0}function
+nL(a){return 1<a[0]?[0,a[1],0]:0}function
 hi(a){switch(a[0]){case
 0:return[0,a[1],0];case
 1:return[0,a[1],[0,a[2],[0,a[3],0]]];case
 2:return[0,dc(a[1]),0];default:var
 b=[0,dc(a[2]),0];return[0,dc(a[1]),b]}}function
 eB(a){return[0,[0,a[1]],[0,a[2]]]}function
-nL(a){switch(a[0]){case
+nM(a){switch(a[0]){case
 0:return[0,eB(a[1]),0];case
 1:var
 f=[0,eB(a[3]),0],g=[0,eB(a[2]),f];return[0,eB(a[1]),g];case
 2:var
 b=eB(dc(a[1]));return[0,b,[0,b,[0,b,0]]];default:var
 c=a[2],d=a[1],e=[0,[1,dc(d)[1],c],[1,d,c]];return[0,e,[0,e,[0,eB(dc(c)),0]]]}}function
-nM(a,c){if(0===c[0]){var
+nN(a,c){if(0===c[0]){var
 g=c[1];return k(cJ(a),g)}var
 h=c[1],d=k(cJ(a),h);if(d){var
 i=c[2],e=k(cJ(a),i);if(e){var
-j=U(a,e[1]),l=b$(a,A(O(a,b),j)),m=d[1];return y(function(b){return t(a,m,b)},l)}var
+j=U(a,e[1]),l=ca(a,A(O(a,b),j)),m=d[1];return y(function(b){return t(a,m,b)},l)}var
 f=e}else
 var
 f=d;return f}function
-nN(d,c){var
-a=nM(d,c[1]);if(a)var
-b=nM(d,c[2]),f=b?[0,[0,a[1][1],b[1][2]]]:b,e=f;else
+nO(d,c){var
+a=nN(d,c[1]);if(a)var
+b=nN(d,c[2]),f=b?[0,[0,a[1][1],b[1][2]]]:b,e=f;else
 var
 e=a;return e}function
-nO(a,e,c){var
+nP(a,e,c){var
 b=c[1];if(1===b[0]){var
-f=b[1];if(aK(f,a))return c;var
-g=m(d);return r(dx(f,a),e,g)}return[0,bT(function(b){return nO(a,e,b)},b)]}function
+f=b[1];if(aJ(f,a))return c;var
+g=m(d);return r(dx(f,a),e,g)}return[0,bU(function(b){return nP(a,e,b)},b)]}function
 jq(g,a,n,f,c){var
-h=g?[0,a,[0,[0,a],[0,[0,[0,a]],0]]]:[0,a,[0,[0,a],0]],i=mM(h,c),j=bV(f),b=e(function(b){return nO(a,j,b)},i),k=r(uz,b,m(d)),l=r(uA,b,m(d));return[0,r(0,b,m(d)),l,k]}function
-bH(b,a){var
+h=g?[0,a,[0,[0,a],[0,[0,[0,a]],0]]]:[0,a,[0,[0,a],0]],i=mN(h,c),j=bW(f),b=e(function(b){return nP(a,j,b)},i),k=r(uz,b,m(d)),l=r(uA,b,m(d));return[0,r(0,b,m(d)),l,k]}function
+bI(b,a){var
 c=s(b[2],a[1]),d=x(s(b[1],a[2]),c),e=s(b[1],a[3]),f=x(s(b[3],a[1]),e),g=s(b[3],a[2]);return[0,x(s(b[2],a[3]),g),f,d]}function
 dO(b,a){return b?b[1]?a[3]:a[2]:a[1]}function
-nP(c){function
+nQ(c){function
 a(a){var
 e=o(c,a)?b:d;return m(e)}var
 e=a(uB),f=a(uC);return[0,a(0),f,e]}function
-nQ(b,a){if(a)var
-d=nQ(b,a[2]),c=[0,e(k(b,a[1]),a),d];else
+nR(b,a){if(a)var
+d=nR(b,a[2]),c=[0,e(k(b,a[1]),a),d];else
 var
 c=a;return c}function
 hj(c,b,a){switch(c){case
 0:return[0,b[1],[0,b[2],[0,a[3],0]]];case
 1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}}function
-nR(b,c,a){return c?aw(b,a):an(b,a)}function
-nS(a){if(a){var
+nS(b,c,a){return c?av(b,a):am(b,a)}function
+nT(a){if(a){var
 f=a[1],b=f[2],c=hg(f[1]);if(c)if(b)var
-d=nS(a[2]),g=d?[0,[0,[0,c[1],b[1]],d[1]]]:d,e=g;else
+d=nT(a[2]),g=d?[0,[0,[0,c[1],b[1]],d[1]]]:d,e=g;else
 var
 e=b;else
 var
 e=c;return e}return uN}function
-nT(c,b,a){var
+nU(c,b,a){var
 d=W(b,a);return ao(function(a,d){var
-b=ca(a[2]);return A(t(c,a[1],[0,b,b]),d)},u,d)}function
-nU(a,h,e,f,d){if(e)if(d)var
-i=d[1],o=nU(a,h,e[2],f,d[2]),p=i[2],q=aw(h,i[1]),c=e[1],j=ax(t(a,c[3],f)),k=c[3],l=A(ax(eg(p,O(a,b),k)),j),m=t(a,c[2],l),n=t(a,c[1],f),g=[0,cz(A(A(ax(nT(a,c[4],q)),n),m)),o];else
+b=cb(a[2]);return A(t(c,a[1],[0,b,b]),d)},u,d)}function
+nV(a,h,e,f,d){if(e)if(d)var
+i=d[1],o=nV(a,h,e[2],f,d[2]),p=i[2],q=av(h,i[1]),c=e[1],j=aw(t(a,c[3],f)),k=c[3],l=A(aw(eg(p,O(a,b),k)),j),m=t(a,c[2],l),n=t(a,c[1],f),g=[0,cz(A(A(aw(nU(a,c[4],q)),n),m)),o];else
 var
 g=d;else
 var
 g=e;return g}function
 uP(a){return[0,a[1][1],a[2][1][2][1],a[1][2],a[2][2]]}function
-nV(b,a){return ad(e(function(a){return r(a,b,0)},a))}function
+nW(b,a){return ad(e(function(a){return r(a,b,0)},a))}function
 cM(a){switch(a){case
 0:return uT;case
 1:return uU;default:return 0}}function
@@ -4187,13 +4187,13 @@ dP(a){switch(a){case
 0:return[0,uW,uV,m(d)];case
 1:return dG;default:var
 b=m(d),c=m(d);return[0,m(d),c,b]}}function
-hk(c,b,a){return bp(fC(c,a),b)}function
-nW(a){var
-d=Z(a,a),e=B(m(b),d);return am(m(c(2,b)),e)}function
-nX(k,j,i,h,g,a){var
-e=hk(j,i,g),c=bH(a,e),f=ag(B,c,bH(a,c)),d=ag(B,e,a4(nW(a),f)),b=ag(x,ag(B,dP(k),d),h);return[0,[0,d,b],aL(Z(b,b))]}function
+hk(c,b,a){return bq(fC(c,a),b)}function
+nX(a){var
+d=Z(a,a),e=B(m(b),d);return al(m(c(2,b)),e)}function
+nY(k,j,i,h,g,a){var
+e=hk(j,i,g),c=bI(a,e),f=ag(B,c,bI(a,c)),d=ag(B,e,a4(nX(a),f)),b=ag(x,ag(B,dP(k),d),h);return[0,[0,d,b],aK(Z(b,b))]}function
 at(a){return typeof
-a==="number"?a?uX:uY:bG(a[1])}function
+a==="number"?a?uX:uY:bH(a[1])}function
 jr(b,a,c){return typeof
 b==="number"?b?[0,a[1],[0,a[2],0]]:[0,a[1],[0,a[2],[0,a[3],0]]]:jj(b[1],a,c)}function
 eC(a){if(0===a[0]){var
@@ -4201,22 +4201,22 @@ c=a[1];switch(c[0]){case
 0:return c[3];case
 1:return c[2];default:return[0,[0,d,b],[0,d,b],[0,d,b]]}}return a[1][4]}function
 eD(b,c,a){return b?db(b[1],c,a):a}function
-bt(d,c,b,a){var
+bu(d,c,b,a){var
 e=eC(a),f=eD(d,c,eC(a)),g=K(function(b,a){return[2,b,a]},b,f);return K(function(b,a){return[3,b,a]},g,e)}function
 eE(d,c,b,a){if(0===a[0]){var
-f=bt(d,c,b,a);return[0,cI(a[1],f)]}var
-e=a[1],g=ns(e,bt(d,c,b,a));return[1,nr(e,bt(d,c,b,a)),g]}function
-nY(b,a){var
+f=bu(d,c,b,a);return[0,cI(a[1],f)]}var
+e=a[1],g=nt(e,bu(d,c,b,a));return[1,ns(e,bu(d,c,b,a)),g]}function
+js(b,a){var
 c=typeof
 b==="number"?1:0;if(c){if(b)return[0,a[1],[0,a[2],0]];var
 d=[0,a[1],[0,a[2],[0,a[3],0]]]}else
 var
 d=c;return d}function
-js(e,d,c,a){if(0===a[0]){var
-f=bt(e,d,c,a),b=i$(a[1],f),g=b?[0,b[1],0]:b;return g}var
-h=bt(e,d,c,a);return[0,jf(a[1],h),0]}function
-nZ(b,f,d){if(0===f[0])return 0===d[0]?m3(b,f[1],d[1]):0;if(0===d[0])return 0;var
-a=d[1],c=f[1],g=bq(b,c[1],a[1]),i=g?bq(b,c[2],a[2]):g,j=i?bq(b,c[3],a[3]):i,k=j?bq(b,c[4],a[4]):j,l=k?c_(b,c[5],a[5]):k,m=l?c_(b,c[6],a[6]):l,n=m?h(b,1,a[5]):m,o=n?h(b,1,a[6]):n,p=o?h(b,1,w(a[1],a[1])):o;if(p)var
+jt(e,d,c,a){if(0===a[0]){var
+f=bu(e,d,c,a),b=i$(a[1],f),g=b?[0,b[1],0]:b;return g}var
+h=bu(e,d,c,a);return[0,jf(a[1],h),0]}function
+nZ(b,f,d){if(0===f[0])return 0===d[0]?m4(b,f[1],d[1]):0;if(0===d[0])return 0;var
+a=d[1],c=f[1],g=br(b,c[1],a[1]),i=g?br(b,c[2],a[2]):g,j=i?br(b,c[3],a[3]):i,k=j?br(b,c[4],a[4]):j,l=k?c_(b,c[5],a[5]):k,m=l?c_(b,c[6],a[6]):l,n=m?h(b,1,a[5]):m,o=n?h(b,1,a[6]):n,p=o?h(b,1,w(a[1],a[1])):o;if(p)var
 q=je(a),e=h(b,1,w(je(a),q));else
 var
 e=p;return e?cv(c[7],a[7]):e}function
@@ -4227,7 +4227,7 @@ b=b[2],a=a[2];continue}var
 d=c}else
 var
 d=a;return d}return a?0:1}}function
-jt(c,b,g,a){var
+ju(c,b,g,a){var
 d=cG(c,b[4],g);if(d){var
 e=b[5];if(e)return fz(c,e[1],a);if(a)return 0;var
 f=1}else
@@ -4251,21 +4251,21 @@ f=i;break;case
 t=c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),f=e(a[1],t);break;default:var
 u=c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),f=e([2,a[1],a[2]],u)}return f?typeof
 m==="number"?0:m[1]?1:0===a[0]?1:0:f}return 1}function
-bY(e,j){var
+bZ(e,j){var
 a=j[1];switch(a[0]){case
 1:var
 k=o(a[1],e)?b:d;return m(k);case
 3:var
-l=bY(e,a[2]);return B(bY(e,a[1]),l);case
+l=bZ(e,a[2]);return B(bZ(e,a[1]),l);case
 4:var
-n=bY(e,a[2]);return x(bY(e,a[1]),n);case
-5:return bo(bY(e,a[1]));case
+n=bZ(e,a[2]);return x(bZ(e,a[1]),n);case
+5:return bp(bZ(e,a[1]));case
 6:var
-g=a[2],h=a[1],p=s(h,bY(e,g));return B(s(g,bY(e,h)),p);case
+g=a[2],h=a[1],p=s(h,bZ(e,g));return B(s(g,bZ(e,h)),p);case
 7:var
-f=bY(e,a[1]);return a9(d,f)?f:am(f,a[2]);case
+f=bZ(e,a[1]);return a9(d,f)?f:al(f,a[2]);case
 8:var
-i=a[1],q=bY(e,i);return s(s(m(c(2,b)),i),q);default:return m(d)}}function
+i=a[1],q=bZ(e,i);return s(s(m(c(2,b)),i),q);default:return m(d)}}function
 hm(c,b,k){var
 e=k;for(;;){var
 a=e[1];switch(a[0]){case
@@ -4298,12 +4298,12 @@ c=n1(a[1]);if(c){var
 b=a[2];continue}return c}}}function
 n2(c,b,a){var
 d=e(b,a[2]);return[0,k(c,a[1]),d]}function
-ju(b,a,c){return e(function(c){var
+jv(b,a,c){return e(function(c){var
 d=n2(b,a,c[2]),f=c[1];return[0,e(function(c){return n2(b,a,c)},f),d]},c)}function
 n3(b,a){return y(function(a){var
 c=a[2],d=a[1][2];return[0,[0,k(b,a[1][1]),d],c]},a)}function
 u2(a,b){var
-c=n3(a,b[3]),d=k(a,b[2]);return[0,ju(a,a,b[1]),d,c]}function
+c=n3(a,b[3]),d=k(a,b[2]);return[0,jv(a,a,b[1]),d,c]}function
 n4(c){var
 a=c[1];if(a){var
 b=hg(c[2]);if(b)var
@@ -4319,14 +4319,14 @@ b=n4(c[2]),f=b?[0,[0,a[1],b[1]]]:b,d=f;else
 var
 d=a;return d}function
 u4(a){return J(iR([0,a[2],a[1]]))}function
-jv(a){return[0,a[1],a[2]]}function
+jw(a){return[0,a[1],a[2]]}function
 n5(b,c,a){var
-d=e(function(c){return by(b,bY(c,a))},c);return[0,by(b,a),d]}function
-jw(b,e,a,d){var
+d=e(function(c){return bA(b,bZ(c,a))},c);return[0,bA(b,a),d]}function
+jx(b,e,a,d){var
 c=z(function(a){var
-b=jv(a[2]);return f(z(jv,a[1]),b)},d),g=a?[0,by(b,a[1]),0]:a,h=f(g,c);return[0,by(b,e),h]}function
+b=jw(a[2]);return f(z(jw,a[1]),b)},d),g=a?[0,bA(b,a[1]),0]:a,h=f(g,c);return[0,bA(b,e),h]}function
 n6(c,f,b,a){var
-d=hm(f,b,a),e=d?he(c,a):d;return e?l(function(b){return he(c,bY(b,a))},b):e}function
+d=hm(f,b,a),e=d?he(c,a):d;return e?l(function(b){return he(c,bZ(b,a))},b):e}function
 n7(a){switch(a[0]){case
 3:var
 d=jp(a[2]);return[0,a[3],d];case
@@ -4335,20 +4335,20 @@ d=jp(a[2]);return[0,a[3],d];case
 b=a[1],e=jp(b[1]);return[0,b[2],e];case
 9:return 0;default:var
 c=jp(a[1]);return[0,a[2],c]}}function
-n8(a,ay,br,j,n,R,av,x,Q,i,h){switch(i[0]){case
+n8(a,ay,bs,j,n,R,ax,x,Q,i,h){switch(i[0]){case
 0:var
-az=i[4],S=i[3],aA=i[2],aC=i[1],V=0;if(typeof
+az=i[4],S=i[3],aB=i[2],aD=i[1],V=0;if(typeof
 h==="number")V=1;else
 switch(h[0]){case
 0:var
-bs=h[2],bt=h[1],v=aA,s=aC,q=function(b){return nE(a,n,bt,bs,S,b)},p=az;break;case
+bt=h[2],bu=h[1],v=aB,s=aD,q=function(b){return nF(a,n,bu,bt,S,b)},p=az;break;case
 2:var
 aE=L(S[1],d),aF=aE?L(S[2],d):aE;if(!aF)return aF;var
-bw=h[2],bx=h[1],v=aA,s=aC,q=function(b){return nF(a,n,bx,bw,b)},p=az;break;default:V=1}if(V)return 0;break;case
+bx=h[2],by=h[1],v=aB,s=aD,q=function(b){return nG(a,n,by,bx,b)},p=az;break;default:V=1}if(V)return 0;break;case
 1:var
 aQ=0;if(typeof
 h==="number"&&!h)var
-by=i[2],bz=i[1],bB=i[3],v=by,s=bz,bD=0,q=function(b){return nG(a,n,bB,b)},p=bD;else
+bz=i[2],bA=i[1],bB=i[3],v=bz,s=bA,bC=0,q=function(b){return nH(a,n,bB,b)},p=bC;else
 aQ=1;if(aQ)return 0;break;case
 2:if(typeof
 h!=="number"&&3===h[0]){var
@@ -4358,8 +4358,8 @@ bE=[0,i[1],i[2],Q],bF=eA(function(a){return r(a,x,u7)},bE),aI=h[1],bG=0,bH=B[1],
 c=ez(i[1]);if(c){var
 j=c[1],e=i[2];if(e){var
 f=dg(i[3]);if(f){var
-k=f[1],l=function(c){return aU(c,aI,O(a,b))},u=l(w),v=e[1],g=A(t(a,l(bH),v),u),m=I(d,g[1]),o=m?a_(a,n,gJ(aI,bI,j,ab([0,F(ac(g),k),0],n))):m;if(o){var
-h=gK(a,j,ab([0,F(t(a,bJ,g),k),0],n));if(h)return a_(a,n,h[1]);var
+k=f[1],l=function(c){return aU(c,aI,O(a,b))},u=l(w),v=e[1],g=A(t(a,l(bH),v),u),m=I(d,g[1]),o=m?a_(a,n,gJ(aI,bI,j,ab([0,G(ac(g),k),0],n))):m;if(o){var
+h=gK(a,j,ab([0,G(t(a,bJ,g),k),0],n));if(h)return a_(a,n,h[1]);var
 p=h}else
 var
 p=o;var
@@ -4372,9 +4372,9 @@ r=e;var
 s=r}else
 var
 s=c;return s};return jn(function(b,a){return eA},bK,bG,aG,d,bF)}var
-aJ=aH}else
+aK=aH}else
 var
-aJ=B;return aJ}return 0;case
+aK=B;return aK}return 0;case
 3:var
 aR=0;if(typeof
 h==="number"||!(0===h[0]))aR=1;else
@@ -4404,7 +4404,7 @@ aV=0;if(typeof
 h==="number"||!(0===h[0]))aV=1;else{var
 C=h[2],aW=0;if(C){var
 D=C[1];if(D){if(D[2])return 0;if(C[2])return 0;var
-bQ=i[2],bR=i[1],bS=O(a,b),bT=[0,[0,D[1],0],0],bU=h[1],v=bQ,s=bR,bV=0,q=function(b){return nE(a,u8,bU,bT,bS,b)},p=bV;aW=1}else
+bQ=i[2],bR=i[1],bS=O(a,b),bT=[0,[0,D[1],0],0],bU=h[1],v=bQ,s=bR,bV=0,q=function(b){return nF(a,u8,bU,bT,bS,b)},p=bV;aW=1}else
 var
 aN=D}else
 var
@@ -4412,30 +4412,30 @@ aN=C;if(!aW)return aN}if(aV)return 0;break;case
 6:var
 aX=0;if(typeof
 h==="number"&&!h)var
-bW=i[2],bX=i[1],bY=O(a,b),v=bW,s=bX,bZ=0,q=function(b){return nG(a,u9,bY,b)},p=bZ;else
+bW=i[2],bX=i[1],bY=O(a,b),v=bW,s=bX,bZ=0,q=function(b){return nH(a,u9,bY,b)},p=bZ;else
 aX=1;if(aX)return 0;break;case
 7:var
 aY=0;if(typeof
 h==="number"&&5<=h)var
-b0=i[2],b1=i[1],b2=i[4],b3=i[3],v=b0,s=b1,b4=0,q=function(b){return nF(a,n,b3,b2,b)},p=b4;else
+b0=i[2],b1=i[1],b2=i[4],b3=i[3],v=b0,s=b1,b4=0,q=function(b){return nG(a,n,b3,b2,b)},p=b4;else
 aY=1;if(aY)return 0;break;case
 8:if(typeof
 h!=="number"&&9===h[0]){var
-E=h[4],aO=h[2],T=h[1],m=i[1],w=m[9],b5=h[3],a3=m[5],a4=gE(f(ed(m[4]),a3),ay),a5=e($,br),z=m[9],a6=m[8],a7=m[7],a1=gP(z,ab(u,dx(j,z)),a6),a2=f(e($,aw(z,R)),a1),Y=lP(0,bC(a,f(gP(0,an(z,R),a7),a2),a5),a4,ay,0),Z=0<aS(E)?0<aS(d)?gu(E,d):0:0<aS(d)?0:1;if(Z)var
-G=Z;else
+E=h[4],aO=h[2],T=h[1],m=i[1],w=m[9],b5=h[3],a3=m[5],a4=gE(f(ed(m[4]),a3),ay),a5=e($,bs),z=m[9],a6=m[8],a7=m[7],a1=gP(z,ab(u,dx(j,z)),a6),a2=f(e($,av(z,R)),a1),Y=lQ(0,bD(a,f(gP(0,am(z,R),a7),a2),a5),a4,ay,0),Z=0<aS(E)?0<aS(d)?gu(E,d):0:0<aS(d)?0:1;if(Z)var
+F=Z;else
 var
-at=2<=lB(E,c(2,c(2,c(2,c(2,b)))))?0:1,au=at?aK(0,w):at,G=au?aK(w,j):au;var
-_=G?aa(w,j):G,ae=_?o(g(R),j):_,af=ae?o(g(aO),j):ae,ag=af?o(g(m[1]),j):af,ah=ag?o(g(m[6]),j):ag,ai=ah?o(g(m[4]),j):ah;if(ai)var
+at=2<=lC(E,c(2,c(2,c(2,c(2,b)))))?0:1,au=at?aJ(0,w):at,F=au?aJ(w,j):au;var
+_=F?aa(w,j):F,ae=_?o(g(R),j):_,af=ae?o(g(aO),j):ae,ag=af?o(g(m[1]),j):af,ah=ag?o(g(m[6]),j):ag,ai=ah?o(g(m[4]),j):ah;if(ai)var
 a8=m[4],H=l(function(a){return o(g(a),j)},a8);else
 var
 H=ai;if(H){var
-a9=m[4],J=ad(e(function(a){return nV(Y,a)},a9));if(J){var
-aj=nV(Y,m[5]);if(aj){var
+a9=m[4],J=ad(e(function(a){return nW(Y,a)},a9));if(J){var
+aj=nW(Y,m[5]);if(aj){var
 a$=m[6],K=ad(e(function(j){var
-c=j[1],k=m[7],d=r(c[1],av,0);if(d){var
+c=j[1],k=m[7],d=r(c[1],ax,0);if(d){var
 h=c[2][2],b=ad(e(function(a){var
-b=r(a[2],av,0);return y(function(a){return a[2]},b)},h));if(b)var
-i=b[1],f=[0,cz(ax(t(a,k,U(a,nT(a,e(aB,c[2][2]),i)))))];else
+b=r(a[2],ax,0);return y(function(a){return a[2]},b)},h));if(b)var
+i=b[1],f=[0,cz(aw(t(a,k,U(a,nU(a,e(aA,c[2][2]),i)))))];else
 var
 f=b;var
 g=f}else
@@ -4443,15 +4443,15 @@ var
 g=d;return g},a$));if(K){var
 ba=m[1],bb=m[2],M=ad(e(function(m){function
 f(e){var
-g=ab(e,j),c=nD(r(m[2],x,uQ),g);if(c){var
-h=ab(e,j),d=nD(r(bb,x,uR),h);if(d){var
-i=d[1],k=O(a,b);return b$(a,cb(eg(c[1],k,i)))}var
+g=ab(e,j),c=nE(r(m[2],x,uQ),g);if(c){var
+h=ab(e,j),d=nE(r(bb,x,uR),h);if(d){var
+i=d[1],k=O(a,b);return ca(a,cc(eg(c[1],k,i)))}var
 f=d}else
 var
 f=c;return f}var
 c=f(0);if(c){var
 e=f(2);if(e)var
-g=cb(ax(A(c[1],e[1]))),h=I(d,g[1]),l=h?[0,g]:h,i=l;else
+g=cc(aw(A(c[1],e[1]))),h=I(d,g[1]),l=h?[0,g]:h,i=l;else
 var
 i=e;var
 k=i}else
@@ -4459,23 +4459,23 @@ var
 k=c;return k},ba));if(M){var
 bc=J[1],X=el(a,ao(function(i,h){var
 o=e(function(b){var
-a=aD(0,j);return e(function(a){return ca(r(a,b[3],u))},a)},i);function
+a=aC(0,j);return e(function(a){return cb(r(a,b[3],u))},a)},i);function
 b(m,l){var
-n=nR(w,m,o),g=e(function(a){return nR(w,l,a)},n);function
+n=nS(w,m,o),g=e(function(a){return nS(w,l,a)},n);function
 b(a){return ao(bm,d,a)}var
 h=0;function
 i(a){return a}function
 j(a){return a}var
-c=b(ao(function(a,b){return aP(j,i,lC,a,b)},h,g)),k=[0,c,c],f=b(e(function(a){return ao(lC,d,a)},g));return el(a,t(a,[0,f,f],k))}var
-c=b(1,1),f=b(1,0),g=b(0,1);return A(h,U(a,A(A(A(b(0,0),g),f),c)))},u,bc)),N=aU(b5,T,O(a,b)),ak=I(d,F(N,X)[1]);if(ak){var
-P=b_(a,N);if(P){var
-bd=ax(t(a,X,P[1])),be=F(O(a,b),bd),bf=[0,m[1],m[2],Q],bg=eA(function(a){return r(a,x,uS)},bf),bh=m[6],bk=e(uP,W(W(K[1],M[1]),bh)),bl=U(a,be),bn=U(a,N),bo=m[10],aZ=aD(0,j),a0=e(function(a){var
-d=bo?aa(w,a):aK(a,w);return d?b:b9(c(2,b),E)},aZ),bp=function(r){var
-h=nS(r[1]);if(h){var
+c=b(ao(function(a,b){return aP(j,i,lD,a,b)},h,g)),k=[0,c,c],f=b(e(function(a){return ao(lD,d,a)},g));return el(a,t(a,[0,f,f],k))}var
+c=b(1,1),f=b(1,0),g=b(0,1);return A(h,U(a,A(A(A(b(0,0),g),f),c)))},u,bc)),N=aU(b5,T,O(a,b)),ak=I(d,G(N,X)[1]);if(ak){var
+P=b$(a,N);if(P){var
+bd=aw(t(a,X,P[1])),be=G(O(a,b),bd),bf=[0,m[1],m[2],Q],bg=eA(function(a){return r(a,x,uS)},bf),bh=m[6],bk=e(uP,W(W(K[1],M[1]),bh)),bl=U(a,be),bo=U(a,N),bp=m[10],aZ=aC(0,j),a0=e(function(a){var
+d=bp?aa(w,a):aJ(a,w);return d?b:b_(c(2,b),E)},aZ),bq=function(r){var
+h=nT(r[1]);if(h){var
 v=h[1],i=r[2];if(i){var
 k=i[1],m=dg(r[3]);if(m){var
-w=m[1],x=nU(a,j,bk,k,v),n=e(function(a){var
-c=a[2],b=W(a0,a[1]);return[0,e(function(a){return aU(a[1],d,a[2])},b),c]},v),G=en(T,eo(T,aO,k,n)),p=bi(ab([0,ac(w),0],j),G),H=F(t(a,k,bl),w),y=o(g(n),j),z=y?o(g(x),j):y;if(z){var
+w=m[1],x=nV(a,j,bk,k,v),n=e(function(a){var
+c=a[2],b=W(a0,a[1]);return[0,e(function(a){return aU(a[1],d,a[2])},b),c]},v),F=en(T,eo(T,aO,k,n)),p=bi(ab([0,ac(w),0],j),F),H=G(t(a,k,bl),w),y=o(g(n),j),z=y?o(g(x),j):y;if(z){var
 b=j,c=p;for(;;){if(c){if(b){var
 s=o(g(c[1]),b);if(s){var
 b=b[1],c=c[2];continue}var
@@ -4488,8 +4488,8 @@ A=b?0:1;var
 q=A;break}}else
 var
 q=z;var
-B=q?a_(a,j,bi(e(function(b){return[0,ac(t(a,bn,b[2])),0]},n),p)):q;if(B){var
-I=bj(bA(j));return l(function(g){var
+B=q?a_(a,j,bi(e(function(b){return[0,ac(t(a,bo,b[2])),0]},n),p)):q;if(B){var
+I=bj(bn(j));return l(function(g){var
 d=W(f(g,uO),x),b=[0,[0,H,0],0],c=W(p,e(function(a){return a[1]?ac(a[2]):a[2]},d));return a_(a,[0,j],f(e(function(a){return f(a[1],[0,a[2],0])},c),b))},I)}var
 C=B}else
 var
@@ -4499,14 +4499,14 @@ var
 D=i;var
 E=D}else
 var
-E=h;return E},bq=m[3];return k(jo(function(b,a){return eA},bq,j,bp),bg)}var
+E=h;return E},br=m[3];return k(jo(function(b,a){return eA},br,j,bq),bg)}var
 al=P}else
 var
 al=ak;var
-am=al}else
+an=al}else
 var
-am=M;var
-ap=am}else
+an=M;var
+ap=an}else
 var
 ap=K;var
 aq=ap}else
@@ -4518,7 +4518,7 @@ ar=J;var
 as=ar}else
 var
 as=H;return as}return 0;default:return 0}var
-bu=[0,s,v,Q],bv=eA(function(a){return r(a,x,u6)},bu);return k(jo(function(b,a){return eA},p,j,q),bv)}function
+bv=[0,s,v,Q],bw=eA(function(a){return r(a,x,u6)},bv);return k(jo(function(b,a){return eA},p,j,q),bw)}function
 u_(b,a){var
 c=iC(ix,b[1],a[1]);return c?ix(b[2],a[2]):c}function
 n9(i,r,q,h,p,k,A,z,y,j,n,g,a,e){if(typeof
@@ -4533,7 +4533,7 @@ var
 w=k;return w}return n8(i,r,q,h,p,j,g,n,0,a,f);case
 8:return 9===a[0]?fn(i,0,0,0,g,h,0,a[1],e):0;case
 10:if(0===a[0]){var
-l=iC(u_,a[1],A),m=l?1:l,x=m?o(a[2],z):m;return x?kF(y,j,a[3],a[4],e):x}return 0}return 0}function
+l=iC(u_,a[1],A),m=l?1:l,x=m?o(a[2],z):m;return x?kG(y,j,a[3],a[4],e):x}return 0}return 0}function
 n_(b){var
 a=b[2];if(typeof
 a!=="number"&&6===a[0])return 1;return 0}function
@@ -4552,14 +4552,14 @@ au=function(a){return l(J,a)},P=au,p=c[1];break;case
 1:var
 av=c[4],aw=c[3],ax=c[2],ay=function(c){var
 d=c4(ax,j),e=fE(a,o,m,i,x,w,b,v,s,C,h,d[1],c,aw);return e?fE(a,o,m,i,x,w,b,v,s,C,h,d[2],c,av):e},P=ay,p=c[1];break;default:var
-az=c[4],aA=c[3],aC=c[2],aD=function(c){var
-d=mK(va,i,c);if(d){var
-e=c4(aC,h),f=fE(a,o,m,i,x,w,b,v,s,C,e[1],j,c,aA);if(f)return fE(a,o,m,i,x,w,b,v,s,C,e[2],j,c,az);var
+az=c[4],aB=c[3],aC=c[2],aD=function(c){var
+d=mL(va,i,c);if(d){var
+e=c4(aC,h),f=fE(a,o,m,i,x,w,b,v,s,C,e[1],j,c,aB);if(f)return fE(a,o,m,i,x,w,b,v,s,C,e[2],j,c,az);var
 g=f}else
 var
 g=d;return g},P=aD,p=c[1]}var
 ae=k(C,h),aa=aj(u$,p),ab=aa?iV(a,m,h,gE(z(function(c){var
-a=H(i,c[1]);if(a){var
+a=F(i,c[1]);if(a){var
 b=a[1];switch(b[0]){case
 8:var
 d=b[1][6];return z(function(a){var
@@ -4567,18 +4567,18 @@ b=e(aO,a[1][2][2]);return[0,a[1][1],b]},d);case
 9:return i2(0,0,0,b[1],c[2]);default:return 0}}return a},p),m),j):aa,ad=aj(n_,p);if(ad)var
 aq=z(function(b){var
 c=n_(b);if(c){var
-a=H(i,b[1]);if(a)return n7(a[1]);var
+a=F(i,b[1]);if(a)return n7(a[1]);var
 d=a}else
 var
 d=c;return d},p),ar=b?[0,b[1],0]:b,as=f(ar,aq),ah=0,ai=ao(fd,e(function(a){return 0},o),as),N=jm(a,h,fa(hf(fa(o,0),ai),ah),j);else
 var
 N=ad;var
 q=p,g=at;for(;;){if(q){var
-S=q[1],D=S[2],n=S[1],G=q[2];if(n){var
+S=q[1],D=S[2],n=S[1],H=q[2];if(n){var
 T=r(n,g,0);if(T){var
-K=H(i,n);if(K){var
+K=F(i,n);if(K){var
 V=n9(a,m,h,x,w,b,v,s,ae,j,N,ab,K[1],D);if(V){var
-q=G,g=g0(n,g);continue}var
+q=H,g=g0(n,g);continue}var
 W=V}else
 var
 W=K;var
@@ -4589,38 +4589,38 @@ B=X}else{var
 af=0;if(typeof
 D==="number"&&4===D){var
 ag=0;if(b){var
-ap=0,Q=e(function(b){return[0,b,U(a,b)]},j),al=e(aO,Q),ak=0,am=f(e(aB,Q),al),an=bg(0,function(o){return function(b){switch(b[0]){case
+ap=0,Q=e(function(b){return[0,b,U(a,b)]},j),al=e(aO,Q),ak=0,am=f(e(aA,Q),al),an=bg(0,function(o){return function(b){switch(b[0]){case
 0:return[0,r(b[1],o,u)];case
 1:return[0,r(b[1],h,u)];case
 2:return[0,O(a,b[1])];case
 3:var
 c=b[2],d=b[1];return df(function(b,a){return[0,A(b,a)]},d,c);case
 4:var
-e=b[2],f=b[1];return df(function(b,a){return[0,F(b,a)]},f,e);case
+e=b[2],f=b[1];return df(function(b,a){return[0,G(b,a)]},f,e);case
 5:var
 g=b[1];return de(function(a){return[0,ac(a)]},g);case
 6:var
 i=b[2],j=b[1];return df(function(c,b){return[0,t(a,c,b)]},j,i);case
 7:var
 k=b[2],l=b[1];return df(function(c,b){var
-d=b_(a,b);return y(function(b){return t(a,c,b)},d)},l,k);case
+d=b$(a,b);return y(function(b){return t(a,c,b)},d)},l,k);case
 8:var
 m=b[1];return de(function(b){return[0,U(a,b)]},m);case
 9:var
-n=b[1];return de(function(b){return b$(a,b)},n);default:return 0}}}(am),o,ak),E=r(b[1],an,ap);if(E){var
+n=b[1];return de(function(b){return ca(a,b)},n);default:return 0}}}(am),o,ak),E=r(b[1],an,ap);if(E){var
 L=I(E[1][2],d);ag=1}else
 var
 R=E}else
 var
 R=b;if(!ag)var
 L=R;if(L){var
-q=G,g=e(function(a){return 0},g);continue}var
+q=H,g=e(function(a){return 0},g);continue}var
 B=L}else
 af=1;if(af){var
 Y=r(n,g,0);if(Y){var
-M=H(i,n);if(M){var
+M=F(i,n);if(M){var
 Z=n9(a,m,h,x,w,b,v,s,ae,j,N,ab,M[1],D);if(Z){var
-q=G,g=g0(n,g);continue}var
+q=H,g=g0(n,g);continue}var
 _=Z}else
 var
 _=M;var
@@ -4630,57 +4630,57 @@ $=Y;var
 B=$}}}else
 var
 B=[0,g];return B?P(B[1]):B}}function
-jx(d,a){var
+jy(d,a){var
 e=V(a),f=s(s(m(c(2,b)),a),d);return B(x(V(d),f),e)}function
-jy(j,a,d,i,c,h){var
+jz(j,a,d,i,c,h){var
 e=ag(x,dP(j),i);if(h){var
 b=function(b){var
 c=k(b,a[3]),d=k(b,a[2]);return[0,k(b,a[1]),d,c]},f=b(function(a){return a[3]}),g=b(function(a){return a[2]}),l=fC([0,b(function(a){return a[1]}),g,f],e);return ag(B,a4(d,c),l)}var
 m=fC(a,c);return ag(B,a4(d,e),m)}function
 n$(f,h,g,k,a,d){var
-e=dP(f),i=ag(x,e,a),j=fC(h,d),l=jx(e[3],a[3]),n=jx(e[2],a[2]),o=jx(e[1],a[1]),p=B(B(B(Z(d,d),o),n),l),q=Z(j,i),r=s(m(c(2,b)),q),t=B(s(g,p),r),u=bp(bH(j,i),k);return[0,hj(f,jy(f,h,g,a,d,0),u),t]}function
+e=dP(f),i=ag(x,e,a),j=fC(h,d),l=jy(e[3],a[3]),n=jy(e[2],a[2]),o=jy(e[1],a[1]),p=B(B(B(Z(d,d),o),n),l),q=Z(j,i),r=s(m(c(2,b)),q),t=B(s(g,p),r),u=bq(bI(j,i),k);return[0,hj(f,jz(f,h,g,a,d,0),u),t]}function
 oa(d,c,b,a){var
 e=hk(c,b,a);return ag(B,dP(d),e)}function
 ob(g,f,e,d,c){var
-b=oa(g,f,e,c),a=ag(x,b,d);return[0,[0,b,a],aL(Z(a,a))]}function
+b=oa(g,f,e,c),a=ag(x,b,d);return[0,[0,b,a],aK(Z(a,a))]}function
 hn(b,a){var
 c=ba(a[2],b);return f(ba(a[1],b),c)}function
-jz(d,b,a,c){if(a)var
-e=a[1],f=cF(c,hn(b,e)),i=M(c,g(hn(b,e))),j=jz(d,b,a[2],i),k=ak(f,vb),h=[0,ar(d,ak(f,0),k),j];else
+jA(d,b,a,c){if(a)var
+e=a[1],f=cF(c,hn(b,e)),i=M(c,g(hn(b,e))),j=jA(d,b,a[2],i),k=ak(f,vb),h=[0,ar(d,ak(f,0),k),j];else
 var
 h=a;return h}function
-jA(f,o,e,n,a){var
+jB(f,o,e,n,a){var
 g=s(V(r(0,n,m(d))),o);if(typeof
 a!=="number")switch(a[0]){case
 2:var
-b=H(e,a[1]);if(b)var
+b=F(e,a[1]);if(b)var
 i=h(f,0,a[2]),j=i?[0,x(b[1][1][2],g)]:i;else
 var
 j=b;return j;case
 3:var
-c=H(e,a[1]);if(c)var
+c=F(e,a[1]);if(c)var
 k=h(f,0,a[2]),l=k?[0,x(g,c[1][1][2])]:k;else
 var
 l=c;return l}return 0}function
 oc(c,b,a){if(typeof
 a!=="number"&&6===a[0]){var
-e=H(c,a[1]);return y(function(a){var
+e=F(c,a[1]);return y(function(a){var
 c=r(0,b,m(d)),e=k(a[2][2],c);return[0,a[2][1],e]},e)}return 0}function
 ho(a){return h(i,0,[3,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b],a])}function
 od(a){var
-b=ak(a,vc),c=aL(Z(ak(a,vd),b));return s(r(0,a,m(d)),c)}function
+b=ak(a,vc),c=aK(Z(ak(a,vd),b));return s(r(0,a,m(d)),c)}function
 oe(b,a){var
-c=Z(a,ak(b,ve));return[0,bV(a4(od(b),a)),c]}function
+c=Z(a,ak(b,ve));return[0,bW(a4(od(b),a)),c]}function
 of(e,d,a,c,b){var
 f=b[2],g=s(od(a),f),h=c?hk(e,d,ak(a,vf)):ak(a,vg);return x(Z(b[1][2],h),g)}function
 og(h,g,f,d,c,b,a){var
-i=bB(c);function
-j(a){return oa(h,g,f,a)}return mR(e(function(a){return[0,a[4]]},d),j,i,b,a)}function
+i=bC(c);function
+j(a){return oa(h,g,f,a)}return mS(e(function(a){return[0,a[4]]},d),j,i,b,a)}function
 fF(a){var
-b=r(vh,a,m(d));return am(r(0,a,m(d)),b)}function
-jB(a){return a[4][2]}function
+b=r(vh,a,m(d));return al(r(0,a,m(d)),b)}function
+jC(a){return a[4][2]}function
 oh(g,o,n,l,a){var
-p=a[1][2],q=e(aO,g4(n,a[1][2])),h=fF(l),i=s(s(m(c(2,b)),o),h),d=a[1][1],j=aw(cM(g),d),k=e(function(a){return s(a,i)},j);return[0,f(f(an(cM(g),d),k),q),p]}function
+p=a[1][2],q=e(aO,g4(n,a[1][2])),h=fF(l),i=s(s(m(c(2,b)),o),h),d=a[1][1],j=av(cM(g),d),k=e(function(a){return s(a,i)},j);return[0,f(f(am(cM(g),d),k),q),p]}function
 oi(a){var
 b=a[3],c=a[2],d=a[1];return ha([0,[0,d,d],[0,c,c],[0,b,b]])}function
 vq(a){if(typeof
@@ -4689,13 +4689,13 @@ oj(b,a){switch(b){case
 0:return[0,a[1],[0,a[2],0]];case
 1:return[0,a[1],[0,a[2],[0,a[3],0]]];default:return 0}}function
 hp(a){var
-c=cd(a[1],[0,d,b]);return c?cd(a[2],[0,d,b]):c}function
-jC(d,a){switch(d){case
+c=ce(a[1],[0,d,b]);return c?ce(a[2],[0,d,b]):c}function
+jD(d,a){switch(d){case
 0:return hp(a[3]);case
 1:return 1;default:var
 b=hp(a[1]),c=b?hp(a[2]):b;return c?hp(a[3]):c}}function
-jD(c,b){var
-a=z(function(a){return hn(c,a)},b),d=W(aD(0,g(a)),a);return e(aB,a1(function(a){return i_(a[2])},d))}function
+jE(c,b){var
+a=z(function(a){return hn(c,a)},b),d=W(aC(0,g(a)),a);return e(aA,a1(function(a){return i_(a[2])},d))}function
 ok(b){var
 a=b[2];if(typeof
 a!=="number"&&10===a[0])return 1;return 0}function
@@ -4703,28 +4703,28 @@ ol(c){var
 a=c;for(;;){if(0===a[0])return aj(ok,a[1]);var
 d=aj(ok,a[1]),b=d||ol(a[3]);if(b)return b;var
 a=a[4];continue}}function
-vr(a,aR,bz,A,C,aQ){var
-n=A[1],j=bG(n),X=A[6],bA=A[2],L=z(function(a){return hn(C,a)},bA),aS=A[3],R=[0,[0,aS,aS],C],$=[0,g(L)],bB=0,aT=z(function(a){return fA(bB,C,a)},X),bC=cM(n),aU=nJ(A[5],bC),p=aU[2],G=aU[1],K=c9(R,g(L)),bF=A[2],S=g(L),bE=0,w=jz(function(e,a){function
+vr(a,aR,by,A,C,aQ){var
+n=A[1],j=bH(n),X=A[6],bz=A[2],L=z(function(a){return hn(C,a)},bz),aS=A[3],R=[0,[0,aS,aS],C],$=[0,g(L)],bB=0,aT=z(function(a){return fA(bB,C,a)},X),bC=cM(n),aU=nK(A[5],bC),p=aU[2],H=aU[1],K=c9(R,g(L)),bF=A[2],S=g(L),bD=0,w=jA(function(e,a){function
 i(g){var
-c=bG(n);if(n)var
+c=bH(n);if(n)var
 b=[0,[0,[0,c]],[0,[0,[0,c]]],[0,[0,[0,[0,c]]]]];else
 var
 l=m(d),b=[0,m(d),l,[0,[0,c]]];var
-t=nX(n,G,p,e,a,b)[2],h=nX(n,G,p,e,a,b),i=h[1],j=bp(i[2],h[2]),k=bH(i[1],j),o=ag(B,k,bH(k,b)),f=a4(nW(b),o),q=s(f[3],g),r=s(f[2],g);return[0,hj(n,j,[0,s(f[1],g),r,q]),t]}function
+t=nY(n,H,p,e,a,b)[2],h=nY(n,H,p,e,a,b),i=h[1],j=bq(i[2],h[2]),k=bI(i[1],j),o=ag(B,k,bI(k,b)),f=a4(nX(b),o),q=s(f[3],g),r=s(f[2],g);return[0,hj(n,j,[0,s(f[1],g),r,q]),t]}function
 j(X){var
-v=ob(n,G,p,e,a),w=v[1],U=ag(x,dP(n),e),y=v[2],r=w[1],W=w[2],g=hk(G,p,a),i=bp(W,y),N=am(Z(g,i),K),O=V(K),P=am(Z(a,a),O),Q=2<=n?d:b,R=B(m(Q),P);function
-h(a){return[0,nP(a),0]}function
-f(a){return[0,bp(bH(nP(a),g),K),[0,a]]}switch(n){case
+v=ob(n,H,p,e,a),w=v[1],U=ag(x,dP(n),e),y=v[2],r=w[1],W=w[2],g=hk(H,p,a),i=bq(W,y),N=al(Z(g,i),K),O=V(K),P=al(Z(a,a),O),Q=2<=n?d:b,R=B(m(Q),P);function
+h(a){return[0,nQ(a),0]}function
+f(a){return[0,bq(bI(nQ(a),g),K),[0,a]]}switch(n){case
 0:var
 C=[0,f(uD),0],D=[0,h(uE),C],q=[0,h(0),D];break;case
 1:var
-E=[0,f(uF),0],F=[0,f(uG),E],H=[0,f(0),F],I=[0,h(uH),H],J=[0,h(uI),I],q=[0,h(0),J];break;default:var
+E=[0,f(uF),0],F=[0,f(uG),E],G=[0,f(0),F],I=[0,h(uH),G],J=[0,h(uI),I],q=[0,h(0),J];break;default:var
 L=[0,f(uJ),0],M=[0,f(uK),L],q=[0,f(0),M]}var
-j=ag(x,[0,[0,[1,S]],[0,[1,[0,S]]],[0,[1,[0,[0,S]]]]],e),k=bp(j,aL(Z(j,j)));if(n)var
+j=ag(x,[0,[0,[1,S]],[0,[1,[0,S]]],[0,[1,[0,[0,S]]]]],e),k=bq(j,aK(Z(j,j)));if(n)var
 l=jq(n,S,e,r,k[3]);else
 var
 z=m(d),A=m(d),l=[0,m(d),A,z];var
-t=jq(n,S,e,r,k[2]),u=jq(n,S,e,r,k[1]),T=nQ(function(r,v){var
+t=jq(n,S,e,r,k[2]),u=jq(n,S,e,r,k[1]),T=nR(function(r,v){var
 e=v[1];function
 a(b,a){var
 c=e[3],f=dO(a,l),g=s(B(b[3],f),c),h=e[2],i=dO(a,t),j=s(B(b[2],i),h),k=e[1],n=dO(a,u),o=s(B(b[1],n),k);return B(B(B(m(d),o),j),g)}var
@@ -4733,35 +4733,35 @@ h=k[1],n=v[2];if(n){var
 j=n[1],A=dO(h,g),C=s(dO(j,i),A),D=dO(j,g),p=B(s(dO(h,i),D),C),E=V(K);if(o(h,j))var
 F=Z(i,g),q=x(p,s(m(c(2,b)),F));else
 var
-q=p;return B(f,am(q,E))}return f}return f},q);return[0,hj(n,i,bp(bH(g,bp(U,y)),K)),T,R,N]}var
-k=ob(n,G,p,e,a);function
-l(b){return jy(n,G,p,e,a,b)}var
+q=p;return B(f,al(q,E))}return f}return f},q);return[0,hj(n,i,bq(bI(g,bq(U,y)),K)),T,R,N]}var
+k=ob(n,H,p,e,a);function
+l(b){return jz(n,H,p,e,a,b)}var
 f=2<=n?d:b;function
 g(b){var
 c=V(K),d=m(f),e=s(x(V(b),d),c);return s(p,x(Z(a,a),e))}var
-h=[0,Z(jy(n,G,p,e,a,1),a),g];return[0,n$(n,G,p,K,e,a),h,l,k,j,i]},C,bF,bE),T=e(function(a){return a[1]},w),bI=M($,g(aT)),bJ=cM(n),bK=A[5];function
+h=[0,Z(jz(n,H,p,e,a,1),a),g];return[0,n$(n,H,p,K,e,a),h,l,k,j,i]},C,bF,bD),T=e(function(a){return a[1]},w),bG=M($,g(aT)),bJ=cM(n),bK=A[5];function
 Q(a){return[0,[0,M(bJ,a)]]}var
-aG=V([0,[1,bI]]);switch(bK[0]){case
+aG=V([0,[1,bG]]);switch(bK[0]){case
 2:var
-bo=Q(uv),bq=Q(uw),aH=[0,Q(0),bq,bo],E=[0,x(aG,Z(aH,aH))];break;case
+bo=Q(uv),bp=Q(uw),aH=[0,Q(0),bp,bo],E=[0,x(aG,Z(aH,aH))];break;case
 3:var
 br=V(Q(ux)),bs=V(Q(0)),bt=V(Q(uy)),E=[0,x(x(s(aG,B(m(b),bt)),bs),br)];break;default:var
 E=0}var
 aV=A[7];if(aV)var
-bL=0,bM=A[2],al=jz(function(k,t){var
-a=n$(n,G,p,c9(R,g(L)),k,t);switch(n){case
+bL=0,bM=A[2],am=jA(function(k,t){var
+a=n$(n,H,p,c9(R,g(L)),k,t);switch(n){case
 0:var
 c=a[1];if(c){var
 l=c[2],e=c[1];if(l){var
-o=l[1],s=a[2];return[0,[0,e,[0,o,[0,bH(k,[0,e,o,m(d)])[3],0]]],s]}return[0,[0,e,0],a[2]]}return[0,0,a[2]];case
+o=l[1],s=a[2];return[0,[0,e,[0,o,[0,bI(k,[0,e,o,m(d)])[3],0]]],s]}return[0,[0,e,0],a[2]]}return[0,0,a[2]];case
 1:var
 f=a[1];if(f){var
 h=f[2],b=f[1];if(h){var
 q=h[2],i=h[1];if(q){var
-r=q[1],j=bH(k,[0,b,i,r]);return[0,[0,b,[0,i,[0,r,[0,j[1],[0,j[2],[0,j[3],0]]]]]],a[2]]}return[0,[0,b,[0,i,0]],a[2]]}return[0,[0,b,0],a[2]]}return[0,0,a[2]];default:return[0,a[1],a[2]]}},C,bM,bL);else
+r=q[1],j=bI(k,[0,b,i,r]);return[0,[0,b,[0,i,[0,r,[0,j[1],[0,j[2],[0,j[3],0]]]]]],a[2]]}return[0,[0,b,[0,i,0]],a[2]]}return[0,[0,b,0],a[2]]}return[0,0,a[2]];default:return[0,a[1],a[2]]}},C,bM,bL);else
 var
-al=aV;var
-bN=bD(al),bO=E?[0,E[1],0]:E,bP=f(bO,bN),bQ=0,bR=f(L,[0,R,0]),bx=e(function(a){return a[1]},w),bS=[0,p,f(dd(function(c,b){if(typeof
+am=aV;var
+bN=bE(am),bO=E?[0,E[1],0]:E,bP=f(bO,bN),bQ=0,bR=f(L,[0,R,0]),bx=e(function(a){return a[1]},w),bS=[0,p,f(dd(function(c,b){if(typeof
 b!=="number")switch(b[0]){case
 6:var
 g=oc(w,c,b);if(g)var
@@ -4770,34 +4770,34 @@ var
 j=g;return j;case
 8:return e(aO,hc(bx,c));case
 13:var
-h=H(w,b[1]);if(h){var
+h=F(w,b[1]);if(h){var
 l=ho(b[4]);if(l){var
 m=oe(c,k(h[1][3],b[2]));return f(m[1],[0,m[2],0])}var
 o=l}else
 var
 o=h;return o;case
 16:return z(function(a){return oh(n,K,bR,c,a)[1]},w)}var
-d=jA(a,p,w,c,b),q=d?[0,d[1],0]:d;return q},bQ,C,$,X),bP)],an=f(bD(T),bS),bT=0,bU=f(L,[0,R,0]),aW=dd(function(b,a){if(typeof
+d=jB(a,p,w,c,b),q=d?[0,d[1],0]:d;return q},bQ,C,$,X),bP)],an=f(bE(T),bS),bT=0,bU=f(L,[0,R,0]),aW=dd(function(b,a){if(typeof
 a!=="number")switch(a[0]){case
 13:var
-g=H(w,a[1]);if(g){if(ho(a[4]))return 0;var
-j=[0,of(G,p,b,a[2],g[1][4]),0]}else
+g=F(w,a[1]);if(g){if(ho(a[4]))return 0;var
+j=[0,of(H,p,b,a[2],g[1][4]),0]}else
 var
 j=g;return j;case
 14:var
-h=og(n,G,p,w,b,a[1],a[2]);if(h){var
-l=h[1],o=l[2],q=l[1];return z(bV,[0,q[1],[0,q[2],[0,o[1],[0,o[2],0]]]])}return h;case
+h=og(n,H,p,w,b,a[1],a[2]);if(h){var
+l=h[1],o=l[2],q=l[1];return z(bW,[0,q[1],[0,q[2],[0,o[1],[0,o[2],0]]]])}return h;case
 15:var
-i=H(w,a[1]);if(i){var
+i=F(w,a[1]);if(i){var
 c=k(i[1][5],0),s=[0,c[3],[0,c[4],0]],t=[0,r(vi,b,m(d)),s],u=[0,r(0,b,m(d)),t],v=f(ed(c[2]),u);return f(c[1],v)}return i;case
 16:var
 x=z(function(a){var
-b=e(aO,g4(bU,jB(a)));return[0,jB(a),b]},w);return f(z(function(a){var
-c=fF(b),d=[0,k(a[6],c)[2],0],e=fF(b);return f(k(a[6],e)[1],d)},w),x)}return 0},bT,C,$,X),aX=cZ(e(function(a){return by(j,a)},an))[1],aY=cZ(aW)[1],Y=cY(aX),ao=cY(aY);function
-v(a){return bh(Y,by(j,a))}function
+b=e(aO,g4(bU,jC(a)));return[0,jC(a),b]},w);return f(z(function(a){var
+c=fF(b),d=[0,k(a[6],c)[2],0],e=fF(b);return f(k(a[6],e)[1],d)},w),x)}return 0},bT,C,$,X),aX=cZ(e(function(a){return bA(j,a)},an))[1],aY=cZ(aW)[1],Y=cY(aX),ao=cY(aY);function
+v(a){return bh(Y,bA(j,a))}function
 aZ(i){if(0===A[4][0]){var
 s=y(v,E),t=v(p),e=cM(n),f=o(g(i),j);if(f)var
-h=y(function(a){return[0,[0,a,d],d]},s),a=function(a){return r(a,Y,m(d))},c=a(t),k=aD(0,e),b=l(function(b){var
+h=y(function(a){return[0,[0,a,d],d]},s),a=function(a){return r(a,Y,m(d))},c=a(t),k=aC(0,e),b=l(function(b){var
 d=dN(j,b,c),e=d?l(function(d){var
 f=d[1],e=l(function(c){var
 d=a(c);return cL(M(j,b),d)},f);if(e){var
@@ -4809,13 +4809,13 @@ f=e;return f},k);else
 var
 b=f;var
 q=b?e:b;return q}return 0}var
-W=aZ(k(ay(v),T)),a0=l(function(a){var
-b=by(j,a),c=m(d);return aN(r(v(a),Y,c),b)},an),a2=a0?l(function(a){return he(j,a)},an):a0,a3=a2?l(function(a){var
+W=aZ(k(ax(v),T)),a0=l(function(a){var
+b=bA(j,a),c=m(d);return aN(r(v(a),Y,c),b)},an),a2=a0?l(function(a){return he(j,a)},an):a0,a3=a2?l(function(a){var
 b=m(d);return aN(r(bh(ao,a),ao,b),a)},aW):a2,a5=a3?aj(vq,X):a3;if(a5)var
-bW=J(A[7]),aq=bW||n0(a,[0,n],[0,A[5]]);else
+bV=J(A[7]),aq=bV||n0(a,[0,n],[0,A[5]]);else
 var
 aq=a5;var
-a6=aq?jC(n,et(A[4])):aq,a7=a6?h(a,1,A[3]):a6;if(a7)var
+a6=aq?jD(n,et(A[4])):aq,a7=a6?h(a,1,A[3]):a6;if(a7)var
 bX=hi(A[5]),ar=l(function(b){var
 c=cK(a,b[1]);return c?cK(a,b[2]):c},bX);else
 var
@@ -4823,12 +4823,12 @@ ar=a7;if(ar){var
 bY=f(L,[0,R,0]),as=ad(e(function(b){return ap(a,b)},bY));if(as){var
 at=ad(e(function(b){return ji(a,b)},aT));if(at){var
 bZ=oj(n,et(A[4])),au=ad(e(function(b){return ap(a,[0,b,C])},bZ));if(au){var
-a8=au[1],b0=nL(A[5]),av=ad(e(function(b){return nN(a,b)},b0));if(av){var
-a9=av[1],b1=nK(A[5]),aw=ad(e(cJ(a),b1));if(aw){var
-b2=0,I=function(a){return bh(ao,a)},ax=f(L,[0,R,0]),az=ad(dd(function(j,f){if(typeof
+a8=au[1],b0=nM(A[5]),av=ad(e(function(b){return nO(a,b)},b0));if(av){var
+a9=av[1],b1=nL(A[5]),aw=ad(e(cJ(a),b1));if(aw){var
+b2=0,I=function(a){return bh(ao,a)},ay=f(L,[0,R,0]),az=ad(dd(function(j,f){if(typeof
 f!=="number")switch(f[0]){case
 13:var
-E=f[4],aM=H(w,f[1]);if(aM){if(oi(f[3])&&h(a,0,E)&&h(a,0,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],E])){var
+E=f[4],aM=F(w,f[1]);if(aM){if(oi(f[3])&&h(a,0,E)&&h(a,0,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],E])){var
 aN=f[2],aO=aM[1];if(ho(E)){var
 aG=oe(j,k(aO[3],aN)),V=aG[2];if(h(i,0,[3,E,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b]]))var
 aH=0;else
@@ -4836,16 +4836,16 @@ var
 be=v(V),bf=v(V),aH=[0,[6,[0,[0,e(v,aG[1]),bf],0],be],0];var
 aP=[0,[4,v(V)],aH]}else
 var
-aP=[0,[9,[3,I(of(G,p,j,aN,aO[4]))]],0];return e(function(a){return[0,a]},aP)}return vo}return vp;case
+aP=[0,[9,[3,I(of(H,p,j,aN,aO[4]))]],0];return e(function(a){return[0,a]},aP)}return vo}return vp;case
 16:var
-Y=f[3],t=f[2],aQ=f[1],bg=bG(n);if(o(g(w),bg)&&h(a,0,aQ)&&h(a,1,t)&&h(a,1,Y)&&cK(a,Y)){var
+Y=f[3],t=f[2],aQ=f[1],bg=bH(n);if(o(g(w),bg)&&h(a,0,aQ)&&h(a,1,t)&&h(a,1,Y)&&cK(a,Y)){var
 aI=ap(a,[0,[0,t,t],C]);if(aI){var
 bh=aI[1],aJ=k(cJ(a),Y);if(aJ){var
 bi=aJ[1],aK=ad(e(function(f){var
-b=m0(a,I,ax,C,aQ,t,jB(f));if(b){var
-c=mZ(a,v,ax,C,t,f[1][2]);if(c){var
+b=m1(a,I,ay,C,aQ,t,jC(f));if(b){var
+c=m0(a,v,ay,C,t,f[1][2]);if(c){var
 g=hm(0,0,f[1][2]);if(g)var
-i=e(aB,c[1]),d=[0,[0,b[1],i]];else
+i=e(aA,c[1]),d=[0,[0,b[1],i]];else
 var
 d=g}else
 var
@@ -4853,30 +4853,30 @@ d=c;var
 h=d}else
 var
 h=b;return h},w));if(aK){var
-bj=aK[1],bk=e(function(a){return oh(n,K,ax,j,a)},w),aL=k(ay(v),bk),X=function(a){var
+bj=aK[1],bk=e(function(a){return oh(n,K,ay,j,a)},w),aL=k(ax(v),bk),X=function(a){var
 b=cM(n),c=e(function(a){var
 b=fF(j);return I(k(a[6],b)[2])},w),d=e(function(a){var
 b=fF(j);return e(I,k(a[6],b)[1])},w),f=aZ(aL);return[0,[8,[0,aL,v(p),f,d,c,bj,bh,bi,b,a]]]};if(2<=n)return[0,X(1),0];var
 bl=[0,X(1),0];return[0,X(0),bl]}return vk}return vl}return vm}return vn}var
 bm=0,x=e(function(a){return a[1]},w);function
 Z(c,b,a){return[0,c,b,a,W]}var
-F=0;if(typeof
+G=0;if(typeof
 f==="number")var
-aS=v(p),s=[0,Z(k(ay(v),x),aS,u)];else
+aS=v(p),s=[0,Z(k(ax(v),x),aS,u)];else
 switch(f[0]){case
 0:var
-z=[5,[0,b,b],f[1]],J=Z;F=1;break;case
+z=[5,[0,b,b],f[1]],J=Z;G=1;break;case
 1:var
-aU=[5,[0,b,b],f[1]],z=aU,J=function(c,b,a){return[1,c,b,a]};F=1;break;case
+aU=[5,[0,b,b],f[1]],z=aU,J=function(c,b,a){return[1,c,b,a]};G=1;break;case
 2:var
-aV=jA(a,p,w,j,f),s=y(function(a){return[4,v(a)]},aV);break;case
+aV=jB(a,p,w,j,f),s=y(function(a){return[4,v(a)]},aV);break;case
 3:var
-aW=jA(a,p,w,j,f),s=y(function(a){return[4,v(a)]},aW);break;case
+aW=jB(a,p,w,j,f),s=y(function(a){return[4,v(a)]},aW);break;case
 5:var
 _=f[1],aX=ap(a,[0,[0,_,_],d]),s=y(function(b){var
-c=U(a,b),d=v(p);return[2,k(ay(v),x),d,c]},aX);break;case
+c=U(a,b),d=v(p);return[2,k(ax(v),x),d,c]},aX);break;case
 6:var
-L=H(w,f[1]);if(L){var
+L=F(w,f[1]);if(L){var
 M=oc(w,j,f);if(M){var
 $=M[1],aa=h(a,1,f[2]),ab=aa?h(a,1,f[3]):aa;if(ab)var
 aY=v($[2]),a0=v(L[1][1][2]),ac=[0,[5,[0,[0,[0,v($[1]),0],a0],0],aY]];else
@@ -4890,9 +4890,9 @@ var
 af=L;var
 s=af;break;case
 7:var
-ag=f[3],ah=f[2],ai=f[1],aj=H(w,ai),aR=0;if(aj){var
+ag=f[3],ah=f[2],ai=f[1],aj=F(w,ai),aR=0;if(aj){var
 ak=h(a,1,ah),al=ak?h(a,1,ag):ak;if(al){var
-a1=[5,ah,ag],z=a1,J=function(c,b,a){return[3,ai,c,b,a,W]};F=1;aR=1}else
+a1=[5,ah,ag],z=a1,J=function(c,b,a){return[3,ai,c,b,a,W]};G=1;aR=1}else
 var
 am=al}else
 var
@@ -4903,18 +4903,18 @@ an=h(a,1,f[2]);if(an)var
 a2=f[1],a3=1,N=l(function(b){return h(a,a3,b)},a2);else
 var
 N=an;if(N)var
-a4=O(a,b),a5=v(p),a6=hc(x,j),ao=[0,[0,k(ay(v),a6),a5,a4,0]];else
+a4=O(a,b),a5=v(p),a6=hc(x,j),ao=[0,[0,k(ax(v),a6),a5,a4,0]];else
 var
 ao=N;var
 s=ao;break;case
 14:var
-aq=f[2],ar=f[1],P=og(n,G,p,w,j,ar,aq);if(P){var
-as=P[1],at=as[2],au=as[1],av=nA(ar,aq,f[3]),Q=ap(a,[0,[0,av,av],C]);if(Q){var
+aq=f[2],ar=f[1],P=og(n,H,p,w,j,ar,aq);if(P){var
+as=P[1],at=as[2],au=as[1],av=nB(ar,aq,f[3]),Q=ap(a,[0,[0,av,av],C]);if(Q){var
 aw=Q[1],az=D(d,aw[1]);if(az)var
-A=function(a){return mY(I,a)},a7=A(at[2]),a8=A(at[1]),a9=A(au[2]),aA=[0,[9,[6,A(au[1]),a9,a8,a7,aw]]];else
+A=function(a){return mZ(I,a)},a7=A(at[2]),a8=A(at[1]),a9=A(au[2]),aB=[0,[9,[6,A(au[1]),a9,a8,a7,aw]]];else
 var
-aA=az;var
-aC=aA}else
+aB=az;var
+aC=aB}else
 var
 aC=Q;var
 aD=aC}else
@@ -4922,7 +4922,7 @@ var
 aD=P;var
 s=aD;break;case
 15:var
-R=H(w,f[1]);if(R){var
+R=F(w,f[1]);if(R){var
 aE=h(a,1,f[4]);if(aE)var
 aF=h(a,0,f[2]),S=aF?h(a,0,f[3]):aF;else
 var
@@ -4933,29 +4933,29 @@ T=S}else
 var
 T=R;var
 s=T;break;default:var
-s=0}if(F)var
+s=0}if(G)var
 aT=ap(a,[0,[0,z,z],d]),s=y(function(b){var
-c=U(a,b),d=v(p);return J(k(ay(v),x),d,c)},aT);return[0,s,bm]},b2,C,$,X));if(az){var
+c=U(a,b),d=v(p);return J(k(ax(v),x),d,c)},aT);return[0,s,bm]},b2,C,$,X));if(az){var
 a$=az[1];if(A[7])var
-b3=aR[2],b4=aR[1],b5=v(p),aa=jc(bz,a$,[7,k(ay(v),al),b5,b4,b3]);else
+b3=aR[2],b4=aR[1],b5=v(p),aa=jc(by,a$,[7,k(ax(v),am),b5,b4,b3]);else
 var
 aa=a$;var
 ba=o(g(f(a8,a9)),j),bb=ba?l(function(a){var
-b=n7(a);return l(function(a){return nH(j,Y,a)},b)},aa):ba,bc=bb?E?nH(j,Y,v(E[1])):1:bb;if(bc){var
-b6=f(at[1],aw[1]),aA=f(as[1],b6),N=ol(aQ),P=jD(C,A[2]),_=N?e(function(a){var
-b=n5(j,P,a[2]),c=a[1];return[0,e(function(a){return n5(j,P,a)},c),b]},T):N,aC=N?cZ(jw(j,p,E,_))[1]:N,aE=cY(aC),ae=function(a){return bh(aE,a)},b7=ju(ae,ae,_),b8=ae(by(j,p)),aF=y(function(a){return ae(by(j,a))},E),bd=J(N);if(bd)var
+b=n7(a);return l(function(a){return nI(j,Y,a)},b)},aa):ba,bc=bb?E?nI(j,Y,v(E[1])):1:bb;if(bc){var
+b6=f(at[1],aw[1]),aB=f(as[1],b6),N=ol(aQ),P=jE(C,A[2]),_=N?e(function(a){var
+b=n5(j,P,a[2]),c=a[1];return[0,e(function(a){return n5(j,P,a)},c),b]},T):N,aD=N?cZ(jx(j,p,E,_))[1]:N,aE=cY(aD),ae=function(a){return bh(aE,a)},b7=jv(ae,ae,_),b8=ae(bA(j,p)),aF=y(function(a){return ae(bA(j,a))},E),bd=J(N);if(bd)var
 af=bd;else{var
 bn=o(g(T),j);if(bn){var
-bv=jw(j,p,E,_),aJ=l(function(a){var
-b=m(d);return aN(r(bh(aE,a),aE,b),a)},bv);if(aJ)var
-bw=jw(j,p,E,_),ah=l(function(a){var
-b=aD(0,j);return l(function(b){return ey(j,b,a)},b)},bw);else
+bv=jx(j,p,E,_),aL=l(function(a){var
+b=m(d);return aN(r(bh(aE,a),aE,b),a)},bv);if(aL)var
+bw=jx(j,p,E,_),ah=l(function(a){var
+b=aC(0,j);return l(function(b){return ey(j,b,a)},b)},bw);else
 var
-ah=aJ;if(ah){var
-aM=y(function(a){return by(j,a)},E),ai=by(j,p),aI=n1(ai);if(aI)var
-bu=aD(0,W),aP=l(function(a){var
+ah=aL;if(ah){var
+aM=y(function(a){return bA(j,a)},E),ai=bA(j,p),aI=n1(ai);if(aI)var
+bu=aC(0,W),aP=l(function(a){var
 b=dN(j,a,ai),c=b?l(function(b){var
-d=b[2][2],e=f(z(jv,b[1]),d),g=M(j,a),c=l(function(a){return cL(g,a)},e);if(c){var
+d=b[2][2],e=f(z(jw,b[1]),d),g=M(j,a),c=l(function(a){return cL(g,a)},e);if(c){var
 h=b[2][1];return hd(ai,M(j,a),h)}return c},_):b;if(c){if(aM){var
 e=aM[1];return cL(M(j,a),e)}var
 d=1}else
@@ -4967,37 +4967,37 @@ ak=aP}else
 var
 ak=ah;var
 cc=ak?l(function(a){var
-c=a[1],b=l(function(a){return n6(j,aA,P,a)},c);return b?n6(j,aA,P,a[2]):b},T):ak,af=cc}else
+c=a[1],b=l(function(a){return n6(j,aB,P,a)},c);return b?n6(j,aB,P,a[2]):b},T):ak,af=cc}else
 var
 af=bn}if(af){var
 b9=e(function(a){return 1},aa),b_=f(a8,a9),b$=function(m,M,aa,$,c){if(N){if(typeof
 c!=="number"&&10===c[0]){var
 h=c[3],p=c[2],q=c[1];if(typeof
 q!=="number"&&6===q[0]){if(h){if(h[2])return 0;var
-w=h[1],b=q[1],x=o($,W),y=x?aK(0,W):x;if(y)var
-v=iC(ix,e(aB,p),P),Y=v?1:v,s=Y;else
+w=h[1],b=q[1],x=o($,W),y=x?aJ(0,W):x;if(y)var
+v=iC(ix,e(aA,p),P),Y=v?1:v,s=Y;else
 var
 s=y;var
-z=s?gX(P):s,A=z?l(function(a){return aK(a,g(m))},P):z,B=A?o(g(w),j):A;if(B){var
+z=s?gX(P):s,A=z?l(function(a){return aJ(a,g(m))},P):z,B=A?o(g(w),j):A;if(B){var
 u=0;if(typeof
 b!=="number")switch(b[0]){case
 0:var
-I=b[2],H=b[1],G=0;u=1;break;case
+I=b[2],H=b[1],F=0;u=1;break;case
 7:var
 J=b[2],i=b[1],Q=0;if(typeof
 i!=="number"&&0===i[0]){var
 R=0;if(aF){var
 K=D(d,J);if(K){var
-I=i[2],H=i[1],G=[0,[0,[0,aF[1],J],b[3]]];u=1;Q=1;R=1}else
+I=i[2],H=i[1],F=[0,[0,[0,aF[1],J],b[3]]];u=1;Q=1;R=1}else
 var
 L=K}else
 var
 L=aF;if(!R)return L}if(!Q)return 0;break}if(u){var
-S=jm(a,fl(p,0,m),aC,M),n=jm(a,m,aC,M),f=function(b,a){return r(a,b,u5)},T=n3(function(a){return f(n,a)},G),U=f(n,b8),V=function(a){return f(n,a)},X=[0,ju(function(a){return f(S,a)},V,b7),U,T],Z=gR(p,m),_=function(g){var
+S=jm(a,fl(p,0,m),aD,M),n=jm(a,m,aD,M),f=function(b,a){return r(a,b,u5)},T=n3(function(a){return f(n,a)},F),U=f(n,b8),V=function(a){return f(n,a)},X=[0,jv(function(a){return f(S,a)},V,b7),U,T],Z=gR(p,m),_=function(g){var
 b=ad(e(u3,g[1]));if(b){var
 c=g[2];if(c){var
 d=dg(g[3]);if(d){var
-l=d[1],m=ab([0,F(ac(t(a,aa,c[1])),l),0],j),n=b[1],o=e(function(d){var
+l=d[1],m=ab([0,G(ac(t(a,aa,c[1])),l),0],j),n=b[1],o=e(function(d){var
 b=gS(a,0,Z,d),c=a1(u4,b[2]);return[0,b[1],c]},n),f=iU(a,e(function(b){return O(a,b)},w),H,I,o,m);if(f)return a_(a,j,f[1]);var
 h=f}else
 var
@@ -5013,7 +5013,7 @@ var
 C=B;var
 E=C}else
 var
-E=h;return E}return 0}return 0}return N},ca=v(p),cb=k(ay(v),T);return fE(a,aX,aY,aa,j,j,y(v,E),cb,ca,b$,aA,b_,b9,aQ)}var
+E=h;return E}return 0}return 0}return N},ca=v(p),cb=k(ax(v),T);return fE(a,aX,aY,aa,j,j,y(v,E),cb,ca,b$,aB,b_,b9,aQ)}var
 be=af}else
 var
 be=bc;var
@@ -5038,47 +5038,47 @@ bl=as;var
 bm=bl}else
 var
 bm=ar;return bm}function
-fG(b,a){return bx(b,a[1],a[2])}function
+fG(b,a){return by(b,a[1],a[2])}function
 om(b,a){var
 c=fG(b,a[1]),d=c?fG(b,a[2]):c;return d?fG(b,a[3]):d}function
-jE(a){return typeof
+jF(a){return typeof
 a==="number"?a?dP(0):dG:dP(a[1])}function
 on(b,a,c){return typeof
-b==="number"?b?[0,a[1],[0,a[2],0]]:bV(a):hj(b[1],a,c)}function
-jF(b,d,c){if(0===c[0])return g1(b,d[1],c[1]);var
+b==="number"?b?[0,a[1],[0,a[2],0]]:bW(a):hj(b[1],a,c)}function
+jG(b,d,c){if(0===c[0])return g1(b,d[1],c[1]);var
 a=c[1],e=[0,[0,a[5],b],[0,[0,a[6],b],0]],g=f(ba(a[4],b),e),h=f(ba(a[3],b),g),i=f(ba(a[2],d[2]),h);return f(ba(a[1],d[1]),i)}function
-jG(b,a){if(b){var
-c=b[1],d=c[2];return bp(fC(c[1],a),d)}return a}function
-oo(h,t,al,J,aj,q,ai){if(q){var
-j=q[1],an=bR([0,d,d],aj),a=cF(ai,jF(J,an,j)),y=function(c,b){var
-d=ak(a,c);return ag(x,ag(B,jE(h),b),d)};if(0===j[0]){var
-z=j[1];switch(z[0]){case
+jH(b,a){if(b){var
+c=b[1],d=c[2];return bq(fC(c[1],a),d)}return a}function
+oo(h,t,am,J,aj,q,ai){if(q){var
+k=q[1],an=bS([0,d,d],aj),a=cF(ai,jG(J,an,k)),y=function(c,b){var
+d=ak(a,c);return ag(x,ag(B,jF(h),b),d)};if(0===k[0]){var
+z=k[1];switch(z[0]){case
 0:var
-$=jG(t,ak(a,vs)),aE=z[1][5],A=r(vt,a,m(d)),C=ak(a,0),aa=y(vu,$),i=mf(aa,dF(C),aa,A,aE),aq=[0,aL(A),0],ar=[0,aL(Z(C,C)),aq],k=[0,[0,i[1],i[2],i[3],[0,i[4]],[0,[0,i[2],A]],ar],$];break;case
+$=jH(t,ak(a,vs)),aG=z[1][5],A=r(vt,a,m(d)),C=ak(a,0),aa=y(vu,$),i=mg(aa,dF(C),aa,A,aG),aq=[0,aK(A),0],ar=[0,aK(Z(C,C)),aq],l=[0,[0,i[1],i[2],i[3],[0,i[4]],[0,[0,i[2],A]],ar],$];break;case
 1:var
-ab=jG(t,ak(a,vv)),ac=z[3],D=ac?[0,ak(a,vw)]:ac,ad=y(0,ab),l=mg(ad,ad,0);if(D)var
-K=D[1],L=[0,aL(Z(K,K)),0];else
+ab=jH(t,ak(a,vv)),ac=z[3],D=ac?[0,ak(a,vw)]:ac,ad=y(0,ab),j=mh(ad,ad,0);if(D)var
+K=D[1],L=[0,aK(Z(K,K)),0];else
 var
 L=D;var
-k=[0,[0,l[1],l[2],l[3],[0,l[4]],0,L],ab];break;default:var
-aF=m(d),aG=m(d),aH=[0,m(d),aG,aF],E=ak(a,0),aI=jE(h),n=mh(aI,dF(E)),as=[0,aL(Z(E,E)),0],k=[0,[0,n[1],n[2],n[3],[0,n[4]],0,as],aH]}}else
+as=j[4],at=[0,[0,m(d),as]],l=[0,[0,j[1],j[2],j[3],[0,j[4]],at,L],ab];break;default:var
+aH=m(d),aI=m(d),aJ=[0,m(d),aI,aH],E=ak(a,0),aL=jF(h),n=mi(aL,dF(E)),au=[0,aK(Z(E,E)),0],l=[0,[0,n[1],n[2],n[3],[0,n[4]],0,au],aJ]}}else
 var
-ae=jG(t,ak(a,vx)),F=j[1][7],G=r(vy,a,m(d)),e=r(vz,a,m(d)),af=ak(a,vA),H=ak(a,0),p=y(vB,ae),o=dF(H),u=ag(x,af,a4(Z(o,af),o)),v=dF(u),N=bH(o,v),O=Z(p,v),P=Z(p,N),at=Z(o,p),au=V(P),Q=B(V(O),au),av=V(at),R=x(V(G),av),aw=s(m(c(2,b)),e),w=x(Q,V(am(B(Q,x(V(e),R)),aw))),ax=gM(F,s(e,aL(w))),S=am(O,e),T=gM(F,am(P,e)),U=am(R,V(e)),W=lO(0,S,T,U),X=gM(F,lO(1,S,T,U)),ay=a4(X,N),Y=ag(x,p,a4(e,ag(B,a4(W,v),ay))),az=[0,aL(G),0],aA=[0,aL(e),az],aB=[0,aL(Z(u,u)),aA],aC=[0,aL(Z(H,H)),aB],aD=bp(Y,ax),k=[0,[0,Y,s(V(e),w),aD,[1,W,X],[0,[0,w,G]],aC],ae];var
-aT=M(ai,g(jF(J,an,j))),aU=q[2],aV=oo(h,t,al,J,bB(aj),aU,aT),ao=k[2],f=k[1],ah=function(a){return on(h,a,bp(bH(ao,a),al))},aJ=f[1],aK=bH(ag(B,jE(h),ao),aJ),aM=on(h,f[1],aK),I=f[1],_=typeof
-h==="number"?1:0,aN=f[6],aO=f[5],aP=_?h?[0,I[1],[0,I[2],0]]:bV(I):_,aQ=f[4],aR=ah(f[3]),aS=f[2],ap=[0,[0,ah(f[1]),aS,aR,aQ,aP,aO,aN,aM],aV]}else
+ae=jH(t,ak(a,vx)),F=k[1][7],G=r(vy,a,m(d)),e=r(vz,a,m(d)),af=ak(a,vA),H=ak(a,0),p=y(vB,ae),o=dF(H),u=ag(x,af,a4(Z(o,af),o)),v=dF(u),N=bI(o,v),O=Z(p,v),P=Z(p,N),av=Z(o,p),aw=V(P),Q=B(V(O),aw),ax=V(av),R=x(V(G),ax),ay=s(m(c(2,b)),e),w=x(Q,V(al(B(Q,x(V(e),R)),ay))),az=gM(F,s(e,aK(w))),S=al(O,e),T=gM(F,al(P,e)),U=al(R,V(e)),W=lP(0,S,T,U),X=gM(F,lP(1,S,T,U)),aA=a4(X,N),Y=ag(x,p,a4(e,ag(B,a4(W,v),aA))),aB=[0,aK(G),0],aC=[0,aK(e),aB],aD=[0,aK(Z(u,u)),aC],aE=[0,aK(Z(H,H)),aD],aF=bq(Y,az),l=[0,[0,Y,s(V(e),w),aF,[1,W,X],[0,[0,w,G]],aE],ae];var
+aV=M(ai,g(jG(J,an,k))),aW=q[2],aX=oo(h,t,am,J,bC(aj),aW,aV),ao=l[2],f=l[1],ah=function(a){return on(h,a,bq(bI(ao,a),am))},aM=f[1],aN=bI(ag(B,jF(h),ao),aM),aO=on(h,f[1],aN),I=f[1],_=typeof
+h==="number"?1:0,aP=f[6],aQ=f[5],aR=_?h?[0,I[1],[0,I[2],0]]:bW(I):_,aS=f[4],aT=ah(f[3]),aU=f[2],ap=[0,[0,ah(f[1]),aU,aT,aS,aR,aQ,aP,aO],aX]}else
 var
 ap=q;return ap}function
-jH(c,b,a){if(a){var
-e=a[2],g=jH(c,bB(b),e),h=a[1];return f(jF(c,bR([0,d,d],b),h),g)}return a}function
+jI(c,b,a){if(a){var
+e=a[2],g=jI(c,bC(b),e),h=a[1];return f(jG(c,bS([0,d,d],b),h),g)}return a}function
 op(b,h,g,d,c,a){if(a){var
-i=a[2],j=a[1],l=op(b,h,g,d,f(c,[0,j,0]),i),m=k(d,e(bB,f(c,i)));return ar(h,ar(g,bR(b,j),m),l)}return b}function
+i=a[2],j=a[1],l=op(b,h,g,d,f(c,[0,j,0]),i),m=k(d,e(bC,f(c,i)));return ar(h,ar(g,bS(b,j),m),l)}return b}function
 oq(a,f,e,d,c,b){if(c){var
 g=0,h=c[1];return op(a,e,d,function(b){return oq(a,f,e,d,h,b)},g,b)}return b?a:f}function
 or(a,d,c){var
 e=g7(a,c);function
 f(b,c){return t(a,b,c)}var
-g=O(a,b);return y(function(a){return oq(u,g,F,f,d,a)},e)}function
-jI(e,c,o,n){var
+g=O(a,b);return y(function(a){return oq(u,g,G,f,d,a)},e)}function
+jJ(e,c,o,n){var
 a=or(e,c,o);if(a){var
 f=a[1],b=or(e,c,n);if(b){var
 g=b[1],h=I(d,f[1]),i=h?I(g[2],d):h;if(i)var
@@ -5091,7 +5091,7 @@ k=b;var
 l=k}else
 var
 l=a;return l}function
-jJ(b){if(b){var
+jK(b){if(b){var
 a=b[2],c=b[1];if(c){var
 e=c[2],q=c[1];if(e){var
 f=e[2],r=e[1];if(f){if(f[2])return m(d);if(a){var
@@ -5114,7 +5114,7 @@ d=b;return d}return vC}function
 ot(g,k,a){function
 b(a){return r(a,k,m(d))}function
 l(a){var
-e=a[2],f=s(V(b(0)),e),c=0,d=0,g=a[1];return[0,[0,bS(function(b,a){return x(b,V(a))},g,f),d],c]}function
+e=a[2],f=s(V(b(0)),e),c=0,d=0,g=a[1];return[0,[0,bT(function(b,a){return x(b,V(a))},g,f),d],c]}function
 n(e){var
 a=e[6];if(a)var
 c=a[1],f=V(c[2]),g=s(V(b(0)),f),d=[0,[0,x(c[1],g),0],0];else
@@ -5154,21 +5154,21 @@ b=a[4];if(typeof
 b!=="number"&&0===b[0])return n(a);return 0},f=A,c=a[1];break;case
 12:var
 i=os(g);if(i)var
-C=b(0),o=bS(s,i[1],C),p=jJ(e(function(a){return a[5]},g)),D=[0,bo(B(p,o)),0],q=[0,[0,x(p,o),D],0];else
+C=b(0),o=bT(s,i[1],C),p=jK(e(function(a){return a[5]},g)),D=[0,bp(B(p,o)),0],q=[0,[0,x(p,o),D],0];else
 var
 q=i;return q;case
 17:var
 t=a[1],f=function(d){var
-a=jJ(e(function(a){return a[1]},g));function
+a=jK(e(function(a){return a[1]},g));function
 b(b){var
-c=[0,bo(B(a,b)),0];return[0,x(a,b),c]}var
-f=jJ(nf(t,k,e(function(a){return a[1]},g))),c=s(aL(d[2]),f),h=[0,b(bo(c)),0];return[0,b(c),h]},c=t;break;default:j=1}if(j)return 0;var
-h=H(g,c);return h?f(h[1]):h}function
+c=[0,bp(B(a,b)),0];return[0,x(a,b),c]}var
+f=jK(ng(t,k,e(function(a){return a[1]},g))),c=s(aK(d[2]),f),h=[0,b(bp(c)),0];return[0,b(c),h]},c=t;break;default:j=1}if(j)return 0;var
+h=F(g,c);return h?f(h[1]):h}function
 eF(a){return e(function(a){return[0,a[1],a[2]]},a)}function
 fH(a){return e(function(a){var
 c=m(b);return[0,a[3],c]},a)}function
 ou(c,b,a){if(typeof
-a!=="number"&&8===a[0])return bD(hc(eF(c),b));return ed(ot(c,b,a))}function
+a!=="number"&&8===a[0])return bE(hc(eF(c),b));return ed(ot(c,b,a))}function
 ov(f,m,j,K,J,t,a){if(typeof
 a==="number")return[0,[0,[0,u]],0];else
 switch(a[0]){case
@@ -5179,18 +5179,18 @@ P=[5,[0,b,b],a[1]],n=P,o=function(a){return[1,a]};break;case
 5:var
 B=a[1],T=0,V=ap(f,[0,[0,B,B],d]);return[0,y(function(a){return[2,U(f,a)]},V),T];case
 7:var
-C=a[3],D=a[2],E=a[1];if(!H(j,E))return vI;var
+C=a[3],D=a[2],E=a[1];if(!F(j,E))return vI;var
 I=0;if(h(f,1,D)&&h(f,1,C))var
 W=[5,D,C],n=W,o=function(a){return[7,E,a]};else
 I=1;if(I)return vH;break;case
 8:var
-F=h(f,1,a[2]),X=0;if(F)var
+G=h(f,1,a[2]),X=0;if(G)var
 Y=a[1],Z=1,r=l(function(a){return h(f,Z,a)},Y);else
 var
-r=F;if(r)var
-_=O(f,b),$=hc(eF(j),t),G=[0,[4,k(ay(m),$),_]];else
+r=G;if(r)var
+_=O(f,b),$=hc(eF(j),t),H=[0,[4,k(ax(m),$),_]];else
 var
-G=r;return[0,G,X];default:var
+H=r;return[0,H,X];default:var
 s=0;if(typeof
 a==="number")s=1;else
 switch(a[0]){case
@@ -5198,7 +5198,7 @@ switch(a[0]){case
 v=a[3],w=a[2],x=h(f,1,[3,v,w]),R=x?h(f,1,[3,[2,w,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b]],v]):x,i=R;break;case
 17:var
 A=h(f,1,a[3]);if(A)var
-S=e(function(a){return a[1]},j),i=ng(g(a[2]),S);else
+S=e(function(a){return a[1]},j),i=nh(g(a[2]),S);else
 var
 i=A;break;case
 6:case
@@ -5217,17 +5217,17 @@ ow(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
 vJ(a){return 0===a[0]?2===a[1][0]?0:1:1}function
 vK(c,R,aB,a,i,Q,aA){var
-b=a[1],aC=at(b),s=a[6],A=jH(i,Q,a[2]),S=a[3],T=[0,[0,S,S],i],U=[0,g(A)],B=a[2],q=B?0===B[1][0]?0:1:B,aD=a[5],aE=y(function(a){var
+b=a[1],aC=at(b),s=a[6],A=jI(i,Q,a[2]),S=a[3],T=[0,[0,S,S],i],U=[0,g(A)],B=a[2],q=B?0===B[1][0]?0:1:B,aD=a[5],aE=y(function(a){var
 c=typeof
-b==="number"?0:cM(b[1]);return nJ(a,c)},aD),aF=a[2],j=oo(b,aE,c9(T,g(A)),i,Q,aF,0),V=z(function(a){return a[7]},j),W=a[7],X=W?e(function(a){return[0,a[8],a[2]]},j):W,aG=bD(X),aH=f(V,f(dd(function(a,b){return ou(j,a,b)},q,i,U,s),aG)),aI=f(bD(fH(j)),aH),Y=f(bD(eF(j)),aI),Z=cZ(Y)[1],_=cY(Z);function
+b==="number"?0:cM(b[1]);return nK(a,c)},aD),aF=a[2],j=oo(b,aE,c9(T,g(A)),i,Q,aF,0),V=z(function(a){return a[7]},j),W=a[7],X=W?e(function(a){return[0,a[8],a[2]]},j):W,aG=bE(X),aH=f(V,f(dd(function(a,b){return ou(j,a,b)},q,i,U,s),aG)),aI=f(bE(fH(j)),aH),Y=f(bE(eF(j)),aI),Z=cZ(Y)[1],_=cY(Z);function
 p(a){return bh(_,a)}var
 $=l(function(a){var
 b=m(d);return aN(r(p(a),_,b),a)},Y),aa=$?aj(ow,s):$;if(aa){var
 ab=a[4];if(typeof
 b==="number")var
-ac=b?jC(0,et(ab)):1;else
+ac=b?jD(0,et(ab)):1;else
 var
-ax=et(ab),ac=jC(b[1],ax);var
+ay=et(ab),ac=jD(b[1],ay);var
 C=ac}else
 var
 C=aa;if(C){var
@@ -5261,21 +5261,21 @@ aL=z(function(a){return fA(q,i,a)},s),G=ad(e(function(a){return ji(c,a)},aL));if
 n=et(a[4]),aM=typeof
 b==="number"?b?[0,n[1],[0,n[2],0]]:[0,n[1],[0,n[2],[0,n[3],0]]]:oj(b[1],n),H=ad(e(function(a){return ap(c,[0,a,i])},aM));if(H){var
 af=H[1],ag=a[5];if(ag)var
-aO=nL(ag[1]),v=ad(e(function(a){return nN(c,a)},aO));else
+aO=nM(ag[1]),v=ad(e(function(a){return nO(c,a)},aO));else
 var
 v=vL;if(v){var
-ah=v[1],x=a[5],aP=x?nK(x[1]):x,I=ad(e(cJ(c),aP));if(I){var
+ah=v[1],x=a[5],aP=x?nL(x[1]):x,I=ad(e(cJ(c),aP));if(I){var
 K=ad(dd(function(a,b){return ov(c,p,j,q,i,a,b)},q,i,U,s));if(K){var
 ai=K[1];if(a[7])var
-aQ=R[2],aR=R[1],L=jc(aB,ai,[8,k(ay(p),X),aR,aQ]);else
+aQ=R[2],aR=R[1],L=jc(aB,ai,[8,k(ax(p),X),aR,aQ]);else
 var
 L=ai;var
 ak=o(g(f(af,ah)),aC);if(ak){var
 aS=i6(L),aT=f(af,ah),aw=0,aU=a[4];if(typeof
 b==="number"&&!b){var
-al=function(a){return m2(c,aU,i,a)};aw=1}if(!aw)var
+al=function(a){return m3(c,aU,i,a)};aw=1}if(!aw)var
 al=function(a){return 0};var
-aV=f(G[1],I[1]),aW=f(F[1],aV),aX=e(p,V),aY=fH(j),aZ=k(ay(p),aY),a0=eF(j);return f4(i5(c,Z,k(ay(p),a0),aZ,aX,aW,L,al),aT,aS,aA)}var
+aV=f(G[1],I[1]),aW=f(F[1],aV),aX=e(p,V),aY=fH(j),aZ=k(ax(p),aY),a0=eF(j);return f4(i5(c,Z,k(ax(p),a0),aZ,aX,aW,L,al),aT,aS,aA)}var
 am=ak}else
 var
 am=K;var
@@ -5297,15 +5297,15 @@ as=F;var
 au=as}else
 var
 au=u;return au}function
-vM(b){if(0===b[0])return[0,nb(b[1])];var
-a=b[1],c=a[7],d=a[6][1],e=a[5][1],f=bE(a[4]),g=bE(a[3]),h=bE(a[2]);return[1,[0,bE(a[1]),h,g,f,e,d,c]]}function
+vM(b){if(0===b[0])return[0,nc(b[1])];var
+a=b[1],c=a[7],d=a[6][1],e=a[5][1],f=bF(a[4]),g=bF(a[3]),h=bF(a[2]);return[1,[0,bF(a[1]),h,g,f,e,d,c]]}function
 ox(e,d,c){var
 a=d;for(;;){if(a){var
 b=a[1];if(sk(b[1],c))return b[2];var
 a=a[2];continue}return e}}function
-jK(a,c,b){var
-d=W(e(aB,a[2]),b);return f(W(a[1],c),d)}function
-bZ(c){var
+jL(a,c,b){var
+d=W(e(aA,a[2]),b);return f(W(a[1],c),d)}function
+b0(c){var
 a=c;for(;;)switch(a[0]){case
 0:var
 b=a[1];return[0,[0,[0,b,b],d],0];case
@@ -5314,13 +5314,13 @@ b=a[1];return[0,[0,[0,b,b],d],0];case
 7:case
 8:var
 a=a[1];continue;default:var
-e=bZ(a[2]);return f(bZ(a[1]),e)}}function
-bI(e,a,c){switch(a[0]){case
+e=b0(a[2]);return f(b0(a[1]),e)}}function
+bJ(e,a,c){switch(a[0]){case
 0:var
 o=a[1];return c9([0,[0,o,o],d],c);case
 1:var
 q=a[1];return ox(m(d),e,q);case
-2:return bo(bI(e,a[1],c));case
+2:return bp(bJ(e,a[1],c));case
 3:var
 i=a[2],f=a[1],h=B;break;case
 4:var
@@ -5328,88 +5328,88 @@ i=a[2],f=a[1],h=x;break;case
 5:var
 i=a[2],f=a[1],h=s;break;case
 6:var
-i=a[2],f=a[1],h=am;break;case
+i=a[2],f=a[1],h=al;break;case
 7:var
-j=e_(a[2]),k=bI(e,a[1],c);if(j){if(j[1]){var
-l=V(k),p=function(a){return s(a,l)},n=gp(bA(lv(j)),p,l);return lu(j)?n:s(n,k)}return k}return m(b);default:return aL(bI(e,a[1],c))}var
-r=bI(e,i,M(c,g(bZ(f))));return h(bI(e,f,c),r)}function
+j=e_(a[2]),k=bJ(e,a[1],c);if(j){if(j[1]){var
+l=V(k),p=function(a){return s(a,l)},n=gp(bn(lw(j)),p,l);return lv(j)?n:s(n,k)}return k}return m(b);default:return aK(bJ(e,a[1],c))}var
+r=bJ(e,i,M(c,g(b0(f))));return h(bJ(e,f,c),r)}function
 dh(c,h,b){var
 a=h;for(;;)switch(a[0]){case
 6:var
-e=a[1],k=M(b,g(bZ(e))),l=dh(c,a[2],k),m=f(dh(c,e,b),l);return[0,bI(c,a,b),m];case
+e=a[1],k=M(b,g(b0(e))),l=dh(c,a[2],k),m=f(dh(c,e,b),l);return[0,bJ(c,a,b),m];case
 8:var
-n=dh(c,a[1],b);return[0,bI(c,a,b),n];case
+n=dh(c,a[1],b);return[0,bJ(c,a,b),n];case
 2:case
 7:var
 a=a[1];continue;case
 0:case
 1:return 0;default:var
-d=a[1],i=M(b,g(bZ(d))),j=dh(c,a[2],i);return f(dh(c,d,b),j)}}function
+d=a[1],i=M(b,g(b0(d))),j=dh(c,a[2],i);return f(dh(c,d,b),j)}}function
 oy(i,h,f){var
 b=i,a=h,c=f;for(;;){if(a){var
-d=a[1],e=d[2],j=M(c,g(bZ(e))),k=a[2],l=bI(b,e,c),b=[0,[0,d[1],l],b],a=k,c=j;continue}return b}}function
-jL(c,a,b){if(a){var
-e=a[1],d=e[2],h=M(b,g(bZ(d))),i=a[2],j=bI(c,d,b),k=jL([0,[0,e[1],j],c],i,h);return f(dh(c,d,b),k)}return a}function
-fI(a){return z(bZ,a)}function
+d=a[1],e=d[2],j=M(c,g(b0(e))),k=a[2],l=bJ(b,e,c),b=[0,[0,d[1],l],b],a=k,c=j;continue}return b}}function
+jM(c,a,b){if(a){var
+e=a[1],d=e[2],h=M(b,g(b0(d))),i=a[2],j=bJ(c,d,b),k=jM([0,[0,e[1],j],c],i,h);return f(dh(c,d,b),k)}return a}function
+fI(a){return z(b0,a)}function
 oz(c,a,b){if(a)var
-d=a[1],f=M(b,g(bZ(d))),h=oz(c,a[2],f),e=[0,bI(c,d,b),h];else
+d=a[1],f=M(b,g(b0(d))),h=oz(c,a[2],f),e=[0,bJ(c,d,b),h];else
 var
 e=a;return e}function
 oA(c,a,b){if(a){var
-d=a[1],e=M(b,g(bZ(d))),h=oA(c,a[2],e);return f(dh(c,d,b),h)}return a}function
-hq(a){return 0===a[0]?fI(a[1]):bZ(a[1])}function
-jM(c,b,a){if(b){var
-d=b[1],j=M(a,g(hq(d))),k=jM(c,b[2],j);if(0===d[0])var
+d=a[1],e=M(b,g(b0(d))),h=oA(c,a[2],e);return f(dh(c,d,b),h)}return a}function
+hq(a){return 0===a[0]?fI(a[1]):b0(a[1])}function
+jN(c,b,a){if(b){var
+d=b[1],j=M(a,g(hq(d))),k=jN(c,b[2],j);if(0===d[0])var
 h=oA(c,d[1],a);else
 var
-e=d[1],i=dh(c,e,a),h=[0,bI(c,e,a),i];return f(h,k)}return b}function
+e=d[1],i=dh(c,e,a),h=[0,bJ(c,e,a),i];return f(h,k)}return b}function
 hr(c){var
 a=c[1];switch(a[0]){case
 0:var
 b=[1,a[1]];break;case
 1:var
 b=[0,a[1]];break;default:var
-b=bT(hr,a)}return[0,b]}function
-jN(c){var
+b=bU(hr,a)}return[0,b]}function
+jO(c){var
 b=c;for(;;){var
 a=b[1];switch(a[0]){case
 5:var
 b=a[1];continue;case
 6:var
-d=jN(a[2]);return s(jN(a[1]),d);case
+d=jO(a[2]);return s(jO(a[1]),d);case
 9:return a[1];default:return V(b)}}}function
-jO(n,h,a,f){if(a){var
-c=a[1],x=M(f,g(hq(c))),y=jO(n,h,a[2],x);if(0===c[0])var
+jP(n,h,a,f){if(a){var
+c=a[1],x=M(f,g(hq(c))),y=jP(n,h,a[2],x);if(0===c[0])var
 k=oz(h,c[1],f),o=[0,k,m(b),k,0,0,0,0,0];else
 var
-l=bI(h,c[1],f),q=hr(l),i=a$(aD(0,n),q),d=hr(i[2]),j=e(hr,i[1]),r=0,s=0,t=0,u=0,v=[0,l],w=e(function(a){return aN(a,d)?m(b):am(a,d)},j),o=[0,j,jN(d),w,v,u,t,s,r];var
+l=bJ(h,c[1],f),q=hr(l),i=a$(aC(0,n),q),d=hr(i[2]),j=e(hr,i[1]),r=0,s=0,t=0,u=0,v=[0,l],w=e(function(a){return aN(a,d)?m(b):al(a,d)},j),o=[0,j,jO(d),w,v,u,t,s,r];var
 p=[0,o,y]}else
 var
 p=a;return p}function
 oB(a){return e(function(a){return[0,a[2],d]},a)}function
-jP(a){var
+jQ(a){var
 b=z(hq,a[4]),c=f(fI(e(aO,a[3])),b);return f(oB(a[2]),c)}function
 hs(a){var
-b=cF(0,oB(a[2])),c=aD(0,g(a[1]));return jK(a,e(function(a){return[0,[0,a]]},c),b)}function
-jQ(b,d){var
+b=cF(0,oB(a[2])),c=aC(0,g(a[1]));return jL(a,e(function(a){return[0,[0,a]]},c),b)}function
+jR(b,d){var
 a=d;for(;;)switch(a[0]){case
 0:return 1;case
 1:var
-e=a[1];return aj(function(a){return aC(e,a)},b);case
+e=a[1];return aj(function(a){return aB(e,a)},b);case
 2:case
 7:case
 8:var
 a=a[1];continue;default:var
-c=jQ(b,a[1]);if(c){var
+c=jR(b,a[1]);if(c){var
 a=a[2];continue}return c}}function
 oC(d){var
 a=d;for(;;){if(a){var
 b=a[2],e=a[1],c=J(aj(function(b){return function(a){return sk(b,a)}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
 oD(a){var
-u=e(aB,a[2]),d=f(a[1],u),h=g(a[1]),o=aa(vN,h),p=o?aa(h,vO):o,q=p?aa(h,g(a[4])):p,r=q?aa(g(a[4]),vP):q,s=r?oC(d):r;if(s){var
+u=e(aA,a[2]),d=f(a[1],u),h=g(a[1]),o=aa(vN,h),p=o?aa(h,vO):o,q=p?aa(h,g(a[4])):p,r=q?aa(g(a[4]),vP):q,s=r?oC(d):r;if(s){var
 c=d,b=a[3];for(;;){if(b){var
-j=b[1],k=j[1],m=J(aj(function(b){return function(a){return aC(b,a)}}(k),c)),n=m?jQ(c,j[2]):m;if(n){var
+j=b[1],k=j[1],m=J(aj(function(b){return function(a){return aB(b,a)}}(k),c)),n=m?jR(c,j[2]):m;if(n){var
 c=[0,k,c],b=b[2];continue}var
 t=n}else
 var
@@ -5418,9 +5418,9 @@ i=t;break}}else
 var
 i=s;if(i){var
 v=a[4];return l(function(b){var
-c=0===b[0]?b[1]:[0,b[1],0],g=f(e(aB,a[3]),d);return l(function(a){return jQ(g,a)},c)},v)}return i}function
+c=0===b[0]?b[1]:[0,b[1],0],g=f(e(aA,a[3]),d);return l(function(a){return jR(g,a)},c)},v)}return i}function
 dQ(f,e,g){var
-h=g[1],a=bT(function(a){return dQ(f,e,a)},h);switch(a[0]){case
+h=g[1],a=bU(function(a){return dQ(f,e,a)},h);switch(a[0]){case
 0:return r(a[1],f,[0,d,b]);case
 1:return r(a[1],e,[0,d,b]);case
 2:return[0,a[1],b];case
@@ -5432,7 +5432,7 @@ h=g[1],a=bT(function(a){return dQ(f,e,a)},h);switch(a[0]){case
 8:var
 c=a[1];return[4,c,c];case
 9:return[6,a[1]];default:return[0,d,b]}}function
-jR(d){var
+jS(d){var
 b=d;for(;;){var
 a=b[1];switch(a[0]){case
 10:return 0;case
@@ -5443,9 +5443,9 @@ b=a[1];continue;case
 0:case
 1:case
 2:return 1;default:var
-c=jR(a[1]);if(c){var
+c=jS(a[1]);if(c){var
 b=a[2];continue}return c}}}function
-b0(g,f,e){var
+b1(g,f,e){var
 b=f,a=e;for(;;){if(b){if(a){var
 c=c_(g,b[1],a[1]);if(c){var
 b=b[2],a=a[2];continue}var
@@ -5464,7 +5464,7 @@ b=g(fI(e(aO,a[3])));return M(g(a[2]),b)}function
 oF(a){var
 b=g(a[2]),c=a[3];return oy(hs(a),c,b)}function
 oG(a){var
-b=oE(a),c=a[4],d=oF(a);return jO(ht(a),d,c,b)}function
+b=oE(a),c=a[4],d=oF(a);return jP(ht(a),d,c,b)}function
 oH(a,b){var
 c=z(hq,a[4]),d=f(fI(e(aO,a[3])),c);return f(b,e(function(a){return a[1][1]},d))}function
 oI(b,a){return l(function(a){if(0===a[0]){var
@@ -5484,22 +5484,22 @@ c=[0,d,b];switch(f){case
 g=a(vW),h=a(vX);return[0,a(vY),h,g];default:var
 i=a(vZ),j=a(v0);return[0,a(0),j,i]}}function
 oL(t,s,k,j,r,d){var
-c=bt(k,j,r,d);if(0===d[0])var
-e=ci(d[1],c);else
+c=bu(k,j,r,d);if(0===d[0])var
+e=bz(d[1],c);else
 var
 a=d[1],f=fx(a,c),g=fy(a,c),h=g$(a,c),i=ev(a,c),l=P([3,[4,h,g],[4,i,f]],g8(a)),m=P([2,[4,h,f],[4,i,g]],fw(a)),n=K(function(b,a){return[2,b,a]},m,l),o=P(a[5],n),p=g9(a,c),q=P(g_(a,c),p),e=K(function(b,a){return[3,b,a]},q,o);return jr(t,e,P([5,[0,b,b],s],da(eD(k,j,eC(d)),e)))}function
 oM(c,b,a){return b?fz(c,b[1],a):a?0:1}function
 oN(d,b,i,a,c,n,h,m,f){var
 p=at(b),j=o(g(c),p),k=j?oM(d,a,h):j,l=k?oM(d,a,f):k;if(l){var
-q=e(function(c){return oL(b,i,a,f,m,c)},c),r=e(function(c){return oL(b,i,a,h,n,c)},c);return jI(d,at(b),r,q)}return l}function
+q=e(function(c){return oL(b,i,a,f,m,c)},c),r=e(function(c){return oL(b,i,a,h,n,c)},c);return jJ(d,at(b),r,q)}return l}function
 oO(c,j,d,b,a){var
-e=aK(d,j),g=e?bf(b,a):e;if(g)var
+e=aJ(d,j),g=e?bf(b,a):e;if(g)var
 k=cD(c,a)[2],h=[0,cD(c,b)[1],k],l=[0,cD(c,dA(a,b)),0],i=[0,[0,h,h,f(ab(u,d),l)]];else
 var
 i=g;return i}function
-jS(a){if(a){var
+jT(a){if(a){var
 b=a[1];if(b)var
-c=jS(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+c=jT(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
 d=b;return d}return v3}function
 oP(c,b,a){if(b){if(a){var
@@ -5510,21 +5510,21 @@ e=b;return e}function
 oQ(c,b,a){if(b){if(a){var
 d=oQ(c,b[2],a[2]);return A(t(c,b[1],a[1]),d)}return u}return u}function
 hu(a){return ao(function(d,a){var
-e=c(2,b);return E(b9(ca(d),e),a)},d,a)}function
+e=c(2,b);return E(b_(cb(d),e),a)},d,a)}function
 hv(a,i,h){var
 d=g(i);function
 t(g,e,f){var
 d=[0,b,c(2,b)];return[0,$(cD(a,a3(dz(e,f),d)))]}var
-j=jS(e(function(b){return ei(a,t,b)},i));if(j){var
-v=j[1],w=function(b,c,e){return oO(a,d,b,c,e)},k=jS(e(function(b){return ei(a,w,b)},i));if(k){var
-x=function(b){return cD(a,b)},n=e(function(a){return e(x,a)},h),y=k[1],z=e(function(a){return a[3]},y),A=e(function(b){return oQ(a,b,e(function(a){return a[2]},v))},n),B=W(aD(0,d),n),E=e(function(c){var
+j=jT(e(function(b){return ei(a,t,b)},i));if(j){var
+v=j[1],w=function(b,c,e){return oO(a,d,b,c,e)},k=jT(e(function(b){return ei(a,w,b)},i));if(k){var
+x=function(b){return cD(a,b)},n=e(function(a){return e(x,a)},h),y=k[1],z=e(function(a){return a[3]},y),A=e(function(b){return oQ(a,b,e(function(a){return a[2]},v))},n),B=W(aC(0,d),n),E=e(function(c){var
 i=oP(a,c[2],z),j=c[1],d=[0,O(a,b),0],e=f(ab(u,j),d);function
-g(b,a){return F(b,ax(a))}function
-h(a){return ac(ax(a))}return aP(function(a){return a},h,g,e,i)},B),p=o(g(h),d),q=p?l(function(a){return o(g(a),d)},h):p;if(q)var
-G=c(2,b),H=b9(cy(a),G),I=hu(A),m=D(C(c(2,c(2,b)),I),H);else
+g(b,a){return G(b,aw(a))}function
+h(a){return ac(aw(a))}return aP(function(a){return a},h,g,e,i)},B),p=o(g(h),d),q=p?l(function(a){return o(g(a),d)},h):p;if(q)var
+F=c(2,b),H=b_(cy(a),F),I=hu(A),m=D(C(c(2,c(2,b)),I),H);else
 var
 m=q;if(m){var
-J=c(2,b),K=b9(cy(a),J),L=hu(ed(E));return D(C(c(2,c(2,b)),L),K)}var
+J=c(2,b),K=b_(cy(a),J),L=hu(ed(E));return D(C(c(2,c(2,b)),L),K)}var
 r=m}else
 var
 r=k;var
@@ -5537,8 +5537,8 @@ a5(a){return[0,a[1],a[2]]}function
 hw(b,a){var
 d=g(a),c=o(g(b),d);if(c){var
 e=W(b,a);return l(function(a){return bf(a[1],a[2])},e)}return c}function
-jT(c,a,b){var
-d=W(a,b),f=W(aD(c,g(a)),d);return e(function(a){return[1,a[1],a[2][1],a[2][2]]},f)}function
+jU(c,a,b){var
+d=W(a,b),f=W(aC(c,g(a)),d);return e(function(a){return[1,a[1],a[2][1],a[2][2]]},f)}function
 eH(e,k,j,i){var
 c=k,b=j,a=i;for(;;){if(c)if(b)if(a){var
 f=a[1],l=h(e,1,[3,a5(c[1]),f]),g=l||h(e,1,[3,f,a5(b[1])]);if(!g){var
@@ -5550,14 +5550,14 @@ var
 d=b;else
 var
 d=c;return d}}function
-jU(b,e,c){var
+jV(b,e,c){var
 a=ei(b,function(a,c,d){return oO(b,e,a,c,d)},c);return a?I(d,a[1][2][1]):a}function
-jV(f,e,b,a){var
+jW(f,e,b,a){var
 c=a[1],d=b[1],g=c[2],h=a[2],i=d[2],j=b[2],k=[0,d[1],[0,c[1],0]];return l(function(a){var
 b=[0,i,[0,g,0]];return l(function(b){var
 c=[0,j,[0,h,0]];return l(function(c){var
 d=a5(c),g=a5(b);return cG(f,e,[0,a5(a),g,d])},c)},b)},k)}function
-jW(a){switch(a[0]){case
+jX(a){switch(a[0]){case
 0:var
 c=[0,a[4],0],d=f(aW(a[3]),c),e=f(aW(a[2]),d);return f(aW(a[1]),e);case
 1:var
@@ -5645,30 +5645,30 @@ oT(a){var
 c=r(v7,a,[0,d,b]),e=r(v8,a,[0,d,b]);return[0,r(0,a,[0,d,b]),e,c]}function
 hx(a){var
 c=r(v9,a,[0,d,b]),e=r(v_,a,[0,d,b]);return[0,[0,r(0,a,[0,d,b]),e],c]}function
-jX(d,c,b,a){var
-e=bX(d,c,b,a);return w(bX(d,c,b,a),e)}var
+jY(d,c,b,a){var
+e=bY(d,c,b,a);return w(bY(d,c,b,a),e)}var
 cN=c(2,c(2,c(2,c(2,c(2,q(c(2,b)))))));function
 dR(e){var
-a=aE(cN,e);if(a){var
+a=aD(cN,e);if(a){var
 f=k(gr(c(2,b)),cN);return[0,a[1][2],f]}return[0,d,b]}var
-jY=[0,[0,d,b],[0,d,b],[0,d,b]];function
+jZ=[0,[0,d,b],[0,d,b],[0,d,b]];function
 eI(c,a){var
 e=[0,d,b];return ao(function(b,a){return[2,k(c,b),a]},e,a)}function
 fL(b,a){return ao(function(c,a){var
-d=k(b,c);return K(function(b,a){return[2,b,a]},d,a)},jY,a)}function
+d=k(b,c);return K(function(b,a){return[2,b,a]},d,a)},jZ,a)}function
 oU(c){var
 a=c;for(;;)switch(a[0]){case
 0:return 1;case
-1:return aK(a[1],dE);case
+1:return aJ(a[1],dE);case
 6:var
 a=a[1];continue;default:var
 b=oU(a[1]);if(b){var
 a=a[2];continue}return b}}function
 di(a){return l(oU,a)}function
-jZ(d,h,c,f){var
+j0(d,h,c,f){var
 a=ei(d,function(c,e,f){var
-a=aK(c,M(dE,h)),b=a?bf(e,f):a,g=b?[0,lT(d,c,e,f)]:b;return g},f);if(a){var
-b=a[1],e=aw(dE,b[3]),g=iE(hu(aw(c,e))),i=iE(hu(an(c,e))),j=T(E(E(fe(an(dE,b[3])),i),g));return I(b[1][2],j)}return a}function
+a=aJ(c,M(dE,h)),b=a?bf(e,f):a,g=b?[0,lU(d,c,e,f)]:b;return g},f);if(a){var
+b=a[1],e=av(dE,b[3]),g=iE(hu(av(c,e))),i=iE(hu(am(c,e))),j=T(E(E(fe(am(dE,b[3])),i),g));return I(b[1][2],j)}return a}function
 hy(b,a,c){if(b)if(a)var
 f=a[1],g=hy(b[2],a[2],c),h=I(b[1],d)?[3,f,c]:[2,f,c],e=[0,h,g];else
 var
@@ -5679,44 +5679,44 @@ hz(a){return y(function(a){var
 d=k(gr(c(2,b)),cN);return[0,a[2],d]},a)}function
 cl(b,a){var
 c=gA(a);return[1,M(dE,b),c,a]}function
-dS(a){if(cd(a[1],a[2]))return a[1];var
+dS(a){if(ce(a[1],a[2]))return a[1];var
 d=[0,c(2,b),b];return[5,[2,a[1],a[2]],d]}function
-bz(a){var
+bB(a){var
 b=dS(a[3]),c=dS(a[2]);return[0,dS(a[1]),c,b]}function
 oV(a){switch(a[0]){case
 0:var
-b=a[1],c=b[5],d=dS(b[4]),e=bz(b[3]),f=bz(b[2]);return[0,bz(b[1]),f,e,d,c];case
+b=a[1],c=b[5],d=dS(b[4]),e=bB(b[3]),f=bB(b[2]);return[0,bB(b[1]),f,e,d,c];case
 1:var
-g=y(bz,a[3]),h=bz(a[2]);return[1,bz(a[1]),h,g];default:return[2,bz(a[1])]}}function
+g=y(bB,a[3]),h=bB(a[2]);return[1,bB(a[1]),h,g];default:return[2,bB(a[1])]}}function
 fM(i,f,p,a,Q,n){var
 x=fr(i,f,p,a),y=x?di(aW(a)):x;if(y){var
-q=H(f[3],Q);if(q){var
+q=F(f[3],Q);if(q){var
 j=q[1];if(typeof
 j!=="number"&&14===j[0]){var
-B=j[2],C=j[1],r=hz(aE(cN,B));if(r){var
+B=j[2],C=j[1],r=hz(aD(cN,B));if(r){var
 s=r[1],R=cl(wf,s),S=cl(wg,s),t=[0,cl(0,s),S,R],D=h(i,1,B),E=D?h(i,0,C):D;if(E)var
 T=g(f[1]),u=o(g(n),T);else
 var
 u=E;var
-F=u?l(function(a){return di(jW(a))},p):u;if(F){var
-U=f[1],G=hy(n,e(function(b){return cI(oV(b),a)},U),C),I=di(G);if(I){var
-v=W(W(p,G),n),k=function(k){var
+G=u?l(function(a){return di(jX(a))},p):u;if(G){var
+U=f[1],H=hy(n,e(function(b){return cI(oV(b),a)},U),C),I=di(H);if(I){var
+v=W(W(p,H),n),k=function(k){var
 f=k[1][2],e=k[1][1];switch(e[0]){case
 0:var
-i=e[4],l=P(f,az(e[1])),m=aV(e[2],e[3],a),g=K(function(b,a){return[3,b,a]},m,l),n=P([0,c(2,b),b],g);return[0,[3,w(g,g),[4,i,i]],n,[0,b,b]];case
+i=e[4],l=P(f,ay(e[1])),m=aV(e[2],e[3],a),g=K(function(b,a){return[3,b,a]},m,l),n=P([0,c(2,b),b],g);return[0,[3,w(g,g),[4,i,i]],n,[0,b,b]];case
 1:var
 h=aV(e[1],e[2],a),o=P([0,c(2,b),b],h);return[0,[3,w(h,h),[4,f,f]],o,[0,b,b]];default:var
-j=e[1],p=az(j);return[0,[3,w(az(j),a),f],p,[0,d,b]]}},m=function(j){var
+j=e[1],p=ay(j);return[0,[3,w(ay(j),a),f],p,[0,d,b]]}},m=function(j){var
 e=j[1],f=e[2],c=e[1],d=j[2];switch(c[0]){case
 0:var
-g=c[3],h=c[2],i=c[1],k=aV(h,g,a),l=[3,w(az(i),k),f],m=cg(i,h,g,c[4],a);return dR([5,[0,d,b],[2,cH(c[5],m),l]]);case
+g=c[3],h=c[2],i=c[1],k=aV(h,g,a),l=[3,w(ay(i),k),f],m=ch(i,h,g,c[4],a);return dR([5,[0,d,b],[2,cH(c[5],m),l]]);case
 1:return dR([5,[0,d,b],[2,f,cI(c,a)]]);default:return[0,d,b]}},M=w(t,t),N=[4,eI(function(a){var
 b=k(a)[3];return[4,m(a),b]},v),M],O=w(fL(function(a){var
-b=k(a)[2];return P(m(a),b)},v),t);return jZ(i,wi,wh,[2,[2,eI(function(a){var
+b=k(a)[2];return P(m(a),b)},v),t);return j0(i,wi,wh,[2,[2,eI(function(a){var
 b=k(a)[1];return[4,m(a),b]},v),O],N])}var
 J=I}else
 var
-J=F;var
+J=G;var
 L=J}else
 var
 L=r;return L}var
@@ -5729,15 +5729,15 @@ A=y;return A}function
 wj(a){var
 b=di(aW(a[3])),c=b?di(aW(a[4])):b;return c?di([0,a[2],0]):c}function
 oW(a,d,c){var
-b=aD(0,bG(a));return e(function(b){var
-e=aK(b,cM(a))?d:c;return cl(b,e)},b)}function
+b=aC(0,bH(a));return e(function(b){var
+e=aJ(b,cM(a))?d:c;return cl(b,e)},b)}function
 oX(e,a,f){if(typeof
 e==="number"){if(e){var
-g=cl(wk,a);return[0,[0,cl(0,a),g,[0,d,b]],jY]}var
-h=cl(wl,a),i=cl(wm,a);return[0,[0,cl(0,a),i,h],jY]}var
+g=cl(wk,a);return[0,[0,cl(0,a),g,[0,d,b]],jZ]}var
+h=cl(wl,a),i=cl(wm,a);return[0,[0,cl(0,a),i,h],jZ]}var
 c=e[1],j=oK(c,oW(c,a,f));return[0,oJ(c,oW(c,a,f)),j]}function
 oY(g,e,u,o,a){var
-p=hz(aE(cN,u));if(p){var
+p=hz(aD(cN,u));if(p){var
 v=p[1],q=typeof
 e==="number"?[0,[0,b,b]]:hz(k(cJ(cN),o));if(q){var
 r=q[1],x=h(g,1,u);if(x)if(typeof
@@ -5751,9 +5751,9 @@ y=i?l(wj,a):i;if(y){var
 f=oX(e,v,r)[2],j=oX(e,v,r)[1],m=[0,c(2,b),b],n=function(b){return fL(function(a){var
 c=a[3],d=k(b,a[4]);return P([4,a[1],d],c)},a)},s=eI(function(a){var
 b=w(a[3],a[4]);return[4,a[1],b]},a),t=w(f,f),D=n(function(a){return a[3]}),E=P(f[3],D),F=n(function(a){return a[2]}),G=P(f[2],F),H=n(function(a){return a[1]}),I=P(f[1],H),L=K(function(b,a){return[2,b,a]},I,G),M=[4,t,s],N=w(f,K(function(b,a){return[2,b,a]},L,E)),O=[3,[2,w(f,fL(function(a){var
-b=da(a[4],a[3]);return P(a[1],b)},a)),N],M],Q=[2,[4,m,s],[4,[5,[0,c(2,c(2,b)),b],[2,[0,b,b],t]],O]],R=[4,m,w(j,nu(f,fL(function(a){return P(a[1],a[4])},a)))],S=w(j,j),T=[2,[4,eI(function(a){return a[1]},a),S],R],U=[4,m,w(fL(function(a){return P(a[1],a[3])},a),j)],V=[2,[2,[2,eI(function(a){var
+b=da(a[4],a[3]);return P(a[1],b)},a)),N],M],Q=[2,[4,m,s],[4,[5,[0,c(2,c(2,b)),b],[2,[0,b,b],t]],O]],R=[4,m,w(j,nv(f,fL(function(a){return P(a[1],a[4])},a)))],S=w(j,j),T=[2,[4,eI(function(a){return a[1]},a),S],R],U=[4,m,w(fL(function(a){return P(a[1],a[3])},a),j)],V=[2,[2,[2,eI(function(a){var
 b=[4,a[2],a[2]],c=w(a[4],a[4]),d=[3,[2,w(a[3],a[3]),c],b];return[4,a[1],d]},a),U],T],Q],W=typeof
-e==="number"?at(e):cM(e[1]);return jZ(g,at(e),W,V)}var
+e==="number"?at(e):cM(e[1]);return j0(g,at(e),W,V)}var
 z=y}else
 var
 z=q;var
@@ -5762,15 +5762,15 @@ var
 A=p;return A}function
 oZ(a){return[6,w(a,a)]}function
 o0(b){if(0===b[0])return[0,oV(b[1])];var
-a=b[1],c=a[7],d=dS(a[6]),e=dS(a[5]),f=bz(a[4]),g=bz(a[3]),h=bz(a[2]);return[1,[0,bz(a[1]),h,g,f,e,d,c]]}function
+a=b[1],c=a[7],d=dS(a[6]),e=dS(a[5]),f=bB(a[4]),g=bB(a[3]),h=bB(a[2]);return[1,[0,bB(a[1]),h,g,f,e,d,c]]}function
 hA(f,e,c,a){if(typeof
 a==="number")return 0;else{if(0===a[0]){var
 g=a[1],j=I(c,d)?[3,g,f]:[2,g,f];return[0,j]}var
 h=a[2],i=a[1],k=I(c,d)?gA(e):e,b=a5(k),l=[4,i,dL(b)],m=[2,[4,h,dK(b)],l],n=[4,h,dL(b)];return[1,[3,[4,i,dK(b)],n],m]}}function
-j0(a,c){if(D(c,b))return a;var
-g=aT(c,aJ(2)),h=g[1];if(L(g[2],d)){var
-e=j0(a,h);return[4,e,e]}var
-f=j0(a,h);return[4,[4,f,f],a]}function
+j1(a,c){if(D(c,b))return a;var
+g=aT(c,aI(2)),h=g[1];if(L(g[2],d)){var
+e=j1(a,h);return[4,e,e]}var
+f=j1(a,h);return[4,[4,f,f],a]}function
 aX(c,a){switch(a[0]){case
 0:return a[1];case
 1:return ox([0,d,b],c,a[1]);case
@@ -5784,9 +5784,9 @@ g=aX(c,a[2]);return[4,aX(c,a[1]),g];case
 6:var
 h=aX(c,a[2]);return[5,aX(c,a[1]),h];case
 7:var
-i=a[2];return j0(aX(c,a[1]),i);default:return[6,aX(c,a[1])]}}function
+i=a[2];return j1(aX(c,a[1]),i);default:return[6,aX(c,a[1])]}}function
 fN(d,h,g){var
-i=d[3],b=jK(d,g,h),a=i;for(;;){if(a){var
+i=d[3],b=jL(d,g,h),a=i;for(;;){if(a){var
 c=a[1],e=a[2],f=aX(b,c[2]),b=[0,[0,c[1],f],b],a=e;continue}return b}}function
 fO(c){var
 a=c;for(;;)switch(a[0]){case
@@ -5798,9 +5798,9 @@ a=c;for(;;)switch(a[0]){case
 a=a[1];continue;default:var
 b=fO(a[1]);if(b){var
 a=a[2];continue}return b}}function
-j1(a){if(a){var
+j2(a){if(a){var
 b=a[1];if(0===b[0])return 0;var
-c=b[1],d=j1(a[2]);return y(function(a){return[0,c,a]},d)}return wp}function
+c=b[1],d=j2(a[2]);return y(function(a){return[0,c,a]},d)}return wp}function
 eJ(c,e,p){var
 a=p;for(;;)switch(a[0]){case
 6:var
@@ -5819,7 +5819,7 @@ a=a[1];continue;case
 f=eJ(c,e,a[1]);if(f){var
 a=a[2];continue}return f}}function
 o1(j,c,i,h,n){var
-o=c[3],b=jK(c,h,i),a=o;for(;;){if(a){var
+o=c[3],b=jL(c,h,i),a=o;for(;;){if(a){var
 e=a[1],f=e[2],g=eJ(j,b,f);if(g){var
 k=a[2],m=aX(b,f),b=[0,[0,e[1],m],b],a=k;continue}var
 d=g}else
@@ -5829,18 +5829,18 @@ p=fN(c,i,h);return l(function(a){return eJ(j,p,a)},n)}return d}}var
 hC=x(m(b),hB);function
 o2(e){var
 a=V(hC);if(e)var
-f=s(m(c(2,b)),a),g=B(m(c(2,c(2,b))),f),h=s(m(c(2,b)),a),d=am(B(m(b),h),g);else
+f=s(m(c(2,b)),a),g=B(m(c(2,c(2,b))),f),h=s(m(c(2,b)),a),d=al(B(m(b),h),g);else
 var
-i=B(m(c(2,b)),a),j=V(hB),d=am(B(s(m(c(2,b)),j),a),i);return aL(d)}function
+i=B(m(c(2,b)),a),j=V(hB),d=al(B(s(m(c(2,b)),j),a),i);return aK(d)}function
 o3(d,c,a){if(d){var
 e=o2(c),f=B(m(b),e),g=s(x(m(b),a),f);return x(m(b),g)}var
-h=m(b),i=o2(c),j=am(m(b),i);return x(s(a,B(m(b),j)),h)}function
+h=m(b),i=o2(c),j=al(m(b),i);return x(s(a,B(m(b),j)),h)}function
 eK(f,e,d,a){var
-g=V(a),h=V(d),i=x(x(m(c(2,b)),h),g),j=f?e?hC:am(hC,s(m(c(2,b)),hB)):am(hC,m(c(2,b))),k=s(V(j),i);return aL(B(m(b),k))}function
+g=V(a),h=V(d),i=x(x(m(c(2,b)),h),g),j=f?e?hC:al(hC,s(m(c(2,b)),hB)):al(hC,m(c(2,b))),k=s(V(j),i);return aK(B(m(b),k))}function
 o4(g,d){var
 c=g,a=d[1],b=d[3];for(;;){if(c){if(b){var
 e=b[2],f=c[1]?A(a,b[1]):a,c=c[2],a=f,b=e;continue}return a}return a}}function
-j2(w,v,u,t){var
+j3(w,v,u,t){var
 a=e(function(a){return r(a,u,0)},v);if(a){var
 f=a[1];if(f){var
 b=a[2];if(b){var
@@ -5875,7 +5875,7 @@ s=a;return s}function
 o5(f,i,e,c,h){var
 j=f?b:d,a=O(i,j);function
 g(b){var
-c=f?cb(b):cz(b);return F(c,a)}var
+c=f?cc(b):cz(b);return G(c,a)}var
 k=[0,$(h),0],l=[0,[0,a,c,[0,u,[0,g(c),0]]],k];return[0,[0,a,e,[0,g(e),0]],l]}function
 o6(r,b,q,p,g,o,n){if(o){var
 x=o[1];if(x[1])return 0;if(o[2])return 0;if(n){var
@@ -5886,16 +5886,16 @@ a=0;c=1;d=1}else{var
 t=i[1],k=h[1],l=g[1],f=0;if(typeof
 j==="number")switch(j){case
 0:var
-A=e(aH,bj(wt)),z=e($,0),a=j2(b,p,bg(0,bC(b,dH(0,g),z),q,0),A);c=1;d=1;f=1;break;case
+A=e(aG,bj(wt)),z=e($,0),a=j3(b,p,bg(0,bD(b,dH(0,g),z),q,0),A);c=1;d=1;f=1;break;case
 3:var
 a=D(k[2],l[1]);c=1;d=1;f=1;break}else
 if(4===j[0]){var
 m=j[1];if(r)if(m){var
-B=e(o4,wu),a=j2(b,p,bg(0,bC(b,o5(r,b,l,k,t),0),q,0),B);c=1;d=1;f=1}else{var
+B=e(o4,wu),a=j3(b,p,bg(0,bD(b,o5(r,b,l,k,t),0),q,0),B);c=1;d=1;f=1}else{var
 a=m;c=1;d=1;f=1}else
 if(m){var
 a=0;c=1;d=1;f=1}else{var
-C=e(o4,wv),a=j2(b,p,bg(0,bC(b,o5(r,b,l,k,t),0),q,0),C);c=1;d=1;f=1}}if(!f)var
+C=e(o4,wv),a=j3(b,p,bg(0,bD(b,o5(r,b,l,k,t),0),q,0),C);c=1;d=1;f=1}}if(!f)var
 u=0}else
 var
 u=i;if(!d)var
@@ -5919,14 +5919,14 @@ b=k[2],g=j,a=a[4];continue}var
 m=l}else
 var
 m=i;return m;default:return 0}}function
-j3(a){return b9(c(2,b),aM(a,b))}function
+j4(a){return b_(c(2,b),aL(a,b))}function
 eL(i,a,e,w,v){var
-l=a?b:T(b),f=m(l),g=o3(a,e,wr),h=o3(a,e,ws),n=am(g,eK(a,e,f,g)),o=[0,B(am(h,eK(a,e,h,f)),n),0],p=am(f,eK(a,e,f,g)),q=[0,B(am(h,eK(a,e,g,h)),p),o],r=am(f,eK(a,e,h,f)),t=[0,B(am(g,eK(a,e,g,h)),r),q],u=a?e?m(c(2,b)):s(m(c(2,c(2,b))),hB):m(c(2,c(2,b))),j=cZ([0,u,t]),k=[0,d,cy(i)];return o7(a,i,j[1],j[2],[0,k,[0,k,[0,w,0]]],1,v)}function
-o8(a,g,b){if(I(g,j3(a))){if(b){var
+l=a?b:T(b),f=m(l),g=o3(a,e,wr),h=o3(a,e,ws),n=al(g,eK(a,e,f,g)),o=[0,B(al(h,eK(a,e,h,f)),n),0],p=al(f,eK(a,e,f,g)),q=[0,B(al(h,eK(a,e,g,h)),p),o],r=al(f,eK(a,e,h,f)),t=[0,B(al(g,eK(a,e,g,h)),r),q],u=a?e?m(c(2,b)):s(m(c(2,c(2,b))),hB):m(c(2,c(2,b))),j=cZ([0,u,t]),k=[0,d,cy(i)];return o7(a,i,j[1],j[2],[0,k,[0,k,[0,w,0]]],1,v)}function
+o8(a,g,b){if(I(g,j4(a))){if(b){var
 c=b[2];if(c){var
 d=c[2];if(d){var
 e=d[2];if(e){if(e[2])return 0;var
-h=[0,g,j3(a)],v=cy(a),i=[0,j3(a),v],j=eL(a,0,1,h,b[1]),k=j?eL(a,0,0,i,c[1]):j;if(k){var
+h=[0,g,j4(a)],v=cy(a),i=[0,j4(a),v],j=eL(a,0,1,h,b[1]),k=j?eL(a,0,0,i,c[1]):j;if(k){var
 l=eL(a,1,1,h,d[1]);if(l)return eL(a,1,0,i,e[1]);var
 m=l}else
 var
@@ -5951,13 +5951,13 @@ t=f;var
 u=t}else
 var
 u=b;return u}function
-j4(a){var
-b=[1,[2,d]];return bS(function(b,a){return[1,[3,b,a]]},a,b)}function
-hD(a){return j4(e(function(a){return[1,[8,[1,[2,a]]]]},a))}function
-hE(a,c){return j4(e(function(a){var
-d=[0,a[2]],b=W(a[1],c);return[1,[7,[1,[8,j4(e(function(a){return[1,[6,[0,a[1]],[1,[2,a[2]]]]]},b))]],d]]},a))}function
+j5(a){var
+b=[1,[2,d]];return bT(function(b,a){return[1,[3,b,a]]},a,b)}function
+hD(a){return j5(e(function(a){return[1,[8,[1,[2,a]]]]},a))}function
+hE(a,c){return j5(e(function(a){var
+d=[0,a[2]],b=W(a[1],c);return[1,[7,[1,[8,j5(e(function(a){return[1,[6,[0,a[1]],[1,[2,a[2]]]]]},b))]],d]]},a))}function
 o9(e,d,c,b,a){if(0===a[0])return r(a[1],b,0);var
-f=a[1],g=bT(function(a){return o9(e,d,c,b,a)},f);return k(bC(e,d,c),g)}function
+f=a[1],g=bU(function(a){return o9(e,d,c,b,a)},f);return k(bD(e,d,c),g)}function
 o_(a){return a?I(d,a[1][2][1]):a}function
 wx(a){var
 b=o(g(a),wy);return b?aj(function(a){return J(L(a,d))},a):b}function
@@ -5968,44 +5968,44 @@ e=a;else
 var
 e=b;return e}function
 pa(d,c){var
-a=H(c,d);if(a){var
-b=a[1],e=b[1];return J(L(ce(b),e))}return a}function
+a=F(c,d);if(a){var
+b=a[1],e=b[1];return J(L(cf(b),e))}return a}function
 hF(b,a){return fa(fa(b,0),a)}function
-j5(a){if(a){var
-b=a[2],c=a[1];if(b)return hF(c,[0,wA,j5(b)]);var
+j6(a){if(a){var
+b=a[2],c=a[1];if(b)return hF(c,[0,wA,j6(b)]);var
 d=c}else
 var
 d=a;return d}function
-G(a){return[0,wC,hF(j5(a),wB)]}function
-ah(a){return[0,wE,hF(j5(a),wD)]}function
+H(a){return[0,wC,hF(j6(a),wB)]}function
+ah(a){return[0,wE,hF(j6(a),wD)]}function
 aq(a){return[0,wG,[0,a,wF]]}function
 n(b,a){return[0,be(wI,be(b,wH)),a]}function
 Q(b,a){return ah([0,n(b,a),0])}function
 cO(d){var
 b=d,a=sP,e=0;for(;;){if(b){var
-c=ls(a),b=b[1],a=c;continue}return[0,fb(go(a)),e]}}function
-j6(a){return[0,fb(gx(a)),0]}function
+c=lt(a),b=b[1],a=c;continue}return[0,fb(go(a)),e]}}function
+j7(a){return[0,fb(gx(a)),0]}function
 fP(a){var
 c=aS(a),f=0,b=0===c?sV:0<c?[0,gx(a)]:[1,gx(T(a))];if(0===b[0])var
 d=fb(b[1]);else
 var
-e=fb(b[1]),d=be(bO(1,45),e);return[0,d,f]}function
+e=fb(b[1]),d=be(bP(1,45),e);return[0,d,f]}function
 eM(a){var
 b=0,c=0<aS(a)?gx(a):sT;return[0,fb(c),b]}function
-j7(a){switch(a[0]){case
+j8(a){switch(a[0]){case
 2:return wK;case
 3:return 2<=a[1]?wL:wM;case
 4:return wN;default:return wJ}}function
 fQ(b,a){function
-c(c,a){return aa(c,j7(a))?fQ(b,a):[0,wT,f(fQ(b,a),wS)]}switch(a[0]){case
+c(c,a){return aa(c,j8(a))?fQ(b,a):[0,wT,f(fQ(b,a),wS)]}switch(a[0]){case
 0:var
 e=a[2],g=a[1];if(typeof
-e==="number")return[0,bn(g),0];var
-h=[0,wU,[0,bn(e),0]];return[0,bn(g),h];case
+e==="number")return[0,bo(g),0];var
+h=[0,wU,[0,bo(e),0]];return[0,bo(g),h];case
 1:return[0,k(b,a[1]),0];case
 2:return[0,wW,c(wV,a[1])];case
 3:var
-i=a[3],j=c([0,j7(a)],i);switch(a[1]){case
+i=a[3],j=c([0,j8(a)],i);switch(a[1]){case
 0:var
 d=wO;break;case
 1:var
@@ -6013,15 +6013,15 @@ d=wP;break;case
 2:var
 d=wQ;break;default:var
 d=wR}var
-l=a[2];return f(c(j7(a),l),[0,d,j]);case
+l=a[2];return f(c(j8(a),l),[0,d,j]);case
 4:var
-m=[0,wX,j6(a[2])];return f(c(wY,a[1]),m);default:return[0,w0,f(fQ(b,a[1]),wZ)]}}function
+m=[0,wX,j7(a[2])];return f(c(wY,a[1]),m);default:return[0,w0,f(fQ(b,a[1]),wZ)]}}function
 N(a){return[0,w3,f(fQ(function(a){return 0===a[0]?a[1]:w2},a),w1)]}function
-j8(a){return[0,w5,f(fQ(function(a){return a},a),w4)]}function
+j9(a){return[0,w5,f(fQ(function(a){return a},a),w4)]}function
 cP(a){if(0===a[0])return N(a[1]);var
 b=[0,n(w6,N(a[2])),0];return ah([0,n(w7,N(a[1])),b])}function
 hG(b,a){var
-c=[0,k(b,a[3]),0],d=[0,k(b,a[2]),c];return G([0,k(b,a[1]),d])}function
+c=[0,k(b,a[3]),0],d=[0,k(b,a[2]),c];return H([0,k(b,a[1]),d])}function
 w8(a){function
 b(a){return hG(cP,a)}switch(a[0]){case
 0:var
@@ -6030,7 +6030,7 @@ e=0,g=a[5]?w9:xf,h=[0,n(w_,aq(g)),e],i=[0,n(w$,cP(a[4])),h],j=[0,n(xa,b(a[3])),i
 d=a[3],m=d?[0,n(xg,b(d[1])),0]:d,o=[0,n(xh,b(a[2])),0],p=[0,n(xi,b(a[1])),o],c=f([0,n(xk,aq(xj)),p],m);break;default:var
 q=[0,n(xl,b(a[1])),0],c=[0,n(xn,aq(xm)),q]}return ah(c)}function
 xo(a){function
-b(a){return G(e(cP,a))}function
+b(a){return H(e(cP,a))}function
 g(a){var
 b=a?xp:xr;return n(xq,aq(b))}switch(a[0]){case
 0:var
@@ -6040,7 +6040,7 @@ d=a[3],m=d?[0,n(xy,b(d[1])),0]:d,o=[0,n(xz,b(a[2])),0],p=[0,n(xA,b(a[1])),o],c=f
 2:var
 q=[0,n(xD,b(a[1])),0],c=[0,n(xF,aq(xE)),q];break;default:var
 r=[0,g(a[7]),0],s=[0,n(xG,cP(a[6])),r],t=[0,n(xH,cP(a[5])),s],u=[0,n(xI,b(a[4])),t],v=[0,n(xJ,b(a[3])),u],w=[0,n(xK,b(a[2])),v],x=[0,n(xL,b(a[1])),w],c=[0,n(xN,aq(xM)),x]}return ah(c)}function
-j9(a){switch(a){case
+j_(a){switch(a){case
 0:return xO;case
 1:return xP;case
 2:return xQ;case
@@ -6057,7 +6057,7 @@ j9(a){switch(a){case
 13:return x1;case
 14:return x2;case
 15:return x3;default:return x4}}function
-j_(a){if(typeof
+j$(a){if(typeof
 a==="number")return x5;else
 switch(a[0]){case
 0:return x6;case
@@ -6071,13 +6071,13 @@ switch(c[0]){case
 d=[0,n(x9,N(c[1])),0];break;case
 1:var
 d=[0,n(x_,N(c[1])),0];break;default:var
-o=[0,N(c[2]),0],d=[0,n(x$,G([0,N(c[1]),o])),0]}var
-p=[0,n(ya,aq(j_(a[4]))),d],i=a[3];if(i){var
+o=[0,N(c[2]),0],d=[0,n(x$,H([0,N(c[1]),o])),0]}var
+p=[0,n(ya,aq(j$(a[4]))),d],i=a[3];if(i){var
 b=i[1];switch(b[0]){case
 0:var
-r=G([0,N(b[1]),0]),k=a[1],q=0,s=6===k?yb:12===k?yf:yg,g=[0,n(yc,Q(s,r)),q];break;case
+r=H([0,N(b[1]),0]),k=a[1],q=0,s=6===k?yb:12===k?yf:yg,g=[0,n(yc,Q(s,r)),q];break;case
 1:var
-x=G(e(N,b[1])),m=a[1],w=0;if(14<=m)switch(m+q9|0){case
+x=H(e(N,b[1])),m=a[1],w=0;if(14<=m)switch(m+q9|0){case
 0:var
 h=yh;break;case
 1:var
@@ -6087,26 +6087,26 @@ var
 h=yl;var
 g=[0,n(yi,Q(h,x)),w];break;case
 2:var
-y=[0,n(ym,G([0,N(b[2]),0])),0],g=[0,n(yo,ah([0,n(yn,G([0,N(b[1]),0])),y])),0];break;default:var
-z=[0,n(yp,G([0,N(b[2]),0])),0],g=[0,n(yr,ah([0,n(yq,G([0,N(b[1]),0])),z])),0]}var
+y=[0,n(ym,H([0,N(b[2]),0])),0],g=[0,n(yo,ah([0,n(yn,H([0,N(b[1]),0])),y])),0];break;default:var
+z=[0,n(yp,H([0,N(b[2]),0])),0],g=[0,n(yr,ah([0,n(yq,H([0,N(b[1]),0])),z])),0]}var
 l=g}else
 var
 l=i;var
-t=f(l,p),j=a[2],u=j?[0,n(yd,cO(j[1])),0]:j,v=f(u,t);return ah([0,n(ye,aq(j9(a[1]))),v])}function
+t=f(l,p),j=a[2],u=j?[0,n(yd,cO(j[1])),0]:j,v=f(u,t);return ah([0,n(ye,aq(j_(a[1]))),v])}function
 pb(a){if(0===a[0]){var
 b=[0,n(ys,hG(N,a[2])),0];return Q(yu,ah([0,n(yt,hG(N,a[1])),b]))}var
-c=[0,N(a[5]),0],d=[0,n(yv,G([0,N(a[4]),c])),0],e=[0,n(yw,N(a[3])),d],f=[0,N(a[2]),0];return Q(yy,ah([0,n(yx,G([0,N(a[1]),f])),e]))}function
+c=[0,N(a[5]),0],d=[0,n(yv,H([0,N(a[4]),c])),0],e=[0,n(yw,N(a[3])),d],f=[0,N(a[2]),0];return Q(yy,ah([0,n(yx,H([0,N(a[1]),f])),e]))}function
 pc(a){if(0===a[0]){var
-b=[0,n(yz,G(e(N,a[2]))),0];return Q(yB,ah([0,n(yA,G(e(N,a[1]))),b]))}return pb([1,a[1],a[2],a[3],a[4],a[5]])}function
+b=[0,n(yz,H(e(N,a[2]))),0];return Q(yB,ah([0,n(yA,H(e(N,a[1]))),b]))}return pb([1,a[1],a[2],a[3],a[4],a[5]])}function
 pd(a){switch(a){case
 0:return yC;case
 1:return yD;default:return yE}}function
 yF(a){function
-b(a){return G(e(cP,a))}var
+b(a){return H(e(cP,a))}var
 c=[0,n(yG,b(a[2])),0],d=[0,n(yH,b(a[1])),c];return ah([0,n(yJ,aq(yI)),d])}function
 pe(a){function
 b(b,a){var
-c=[0,N(a),0];return G([0,N(b),c])}switch(a[0]){case
+c=[0,N(a),0];return H([0,N(b),c])}switch(a[0]){case
 0:return Q(yK,b(a[1],a[2]));case
 1:var
 c=a[3],d=a[2],e=a[1],f=[0,n(yL,b(c[1],c[2])),0],g=[0,n(yM,b(d[1],d[2])),f];return Q(yO,ah([0,n(yN,b(e[1],e[2])),g]));case
@@ -6114,17 +6114,17 @@ c=a[3],d=a[2],e=a[1],f=[0,n(yL,b(c[1],c[2])),0],g=[0,n(yM,b(d[1],d[2])),f];retur
 h=[0,n(yQ,N(a[2])),0];return Q(yS,ah([0,n(yR,N(a[1])),h]))}}function
 yT(a){function
 b(a){return hG(N,a)}if(0===a[0])var
-c=a[5],e=c?[0,n(yU,b(c[1])),0]:c,g=[0,N(a[4]),0],h=[0,n(yV,G([0,N(a[3]),g])),0],i=[0,n(yW,N(a[2])),h],j=[0,n(yX,cO(a[1])),i],d=f([0,n(yZ,aq(yY)),j],e);else
+c=a[5],e=c?[0,n(yU,b(c[1])),0]:c,g=[0,N(a[4]),0],h=[0,n(yV,H([0,N(a[3]),g])),0],i=[0,n(yW,N(a[2])),h],j=[0,n(yX,cO(a[1])),i],d=f([0,n(yZ,aq(yY)),j],e);else
 var
 k=[0,n(y0,N(a[4])),0],l=[0,n(y1,b(a[3])),k],m=[0,n(y2,b(a[2])),l],o=a[1]?y3:y5,d=[0,n(y4,aq(o)),m];return ah(d)}function
 pf(a){var
-b=a?[0,n(y6,G(e(yT,a))),0]:a;return b}function
-j$(d,c,b,a){var
-g=[0,n(y7,G(e(fR,a))),0],h=f(pf(b),g),i=[0,n(y8,pb(c)),0];return ah(f([0,n(y_,Q(y9,G(e(w8,d)))),i],h))}function
+b=a?[0,n(y6,H(e(yT,a))),0]:a;return b}function
+ka(d,c,b,a){var
+g=[0,n(y7,H(e(fR,a))),0],h=f(pf(b),g),i=[0,n(y8,pb(c)),0];return ah(f([0,n(y_,Q(y9,H(e(w8,d)))),i],h))}function
 y$(a){switch(a[0]){case
-0:return Q(za,j$(a[1],a[2],a[3],a[4]));case
+0:return Q(za,ka(a[1],a[2],a[3],a[4]));case
 1:var
-b=a[5],c=a[3],d=a[1],g=G(e(xo,a[2])),l=[0,n(zb,G(e(fR,a[6]))),0],m=b?[0,n(zc,pe(b[1])),0]:b,o=f(m,l),k=0,p=[0,n(zd,pc(a[4])),o];if(typeof
+b=a[5],c=a[3],d=a[1],g=H(e(xo,a[2])),l=[0,n(zb,H(e(fR,a[6]))),0],m=b?[0,n(zc,pe(b[1])),0]:b,o=f(m,l),k=0,p=[0,n(zd,pc(a[4])),o];if(typeof
 d==="number")if(d)var
 h=ze;else{var
 i=Q(zj,g);k=1}else
@@ -6132,22 +6132,22 @@ var
 h=pd(d[1]);if(!k)var
 q=c?[0,n(zf,N(c[1])),0]:c,i=Q(h,ah([0,n(zg,g),q]));return Q(zi,ah([0,n(zh,i),p]));case
 2:var
-r=[0,n(zk,G(e(fR,a[7]))),0],s=f(pf(a[6]),r),t=[0,n(zl,pe(a[5])),0],u=[0,n(zm,pc(a[4])),t],v=[0,n(zn,N(a[3])),0],w=ah([0,n(zo,G(e(yF,a[2]))),v]);return Q(zq,ah(f([0,n(zp,Q(pd(a[1]),w)),u],s)));case
+r=[0,n(zk,H(e(fR,a[7]))),0],s=f(pf(a[6]),r),t=[0,n(zl,pe(a[5])),0],u=[0,n(zm,pc(a[4])),t],v=[0,n(zn,N(a[3])),0],w=ah([0,n(zo,H(e(yF,a[2]))),v]);return Q(zq,ah(f([0,n(zp,Q(pd(a[1]),w)),u],s)));case
 3:var
-x=[0,n(zr,G(e(fR,a[7]))),0],y=[0,n(zs,G(e(N,a[6]))),0],z=[0,n(zv,Q(zu,ah([0,n(zt,G(e(N,a[5]))),y]))),x],A=0,B=a[4],C=[0,n(zy,G(e(function(a){return 0===a[0]?Q(zw,G(e(j8,a[1]))):Q(zx,j8(a[1]))},B))),A],D=a[3],E=[0,n(zz,G(e(function(a){var
-b=[0,j8(a[2]),0];return G([0,aq(a[1]),b])},D))),C],F=a[2],H=[0,n(zA,G(e(function(a){var
-b=[0,cP(a[2]),0];return G([0,aq(a[1]),b])},F))),E];return Q(zE,ah([0,n(zD,Q(zC,ah([0,n(zB,G(e(aq,a[1]))),H]))),z]));case
+x=[0,n(zr,H(e(fR,a[7]))),0],y=[0,n(zs,H(e(N,a[6]))),0],z=[0,n(zv,Q(zu,ah([0,n(zt,H(e(N,a[5]))),y]))),x],A=0,B=a[4],C=[0,n(zy,H(e(function(a){return 0===a[0]?Q(zw,H(e(j9,a[1]))):Q(zx,j9(a[1]))},B))),A],D=a[3],E=[0,n(zz,H(e(function(a){var
+b=[0,j9(a[2]),0];return H([0,aq(a[1]),b])},D))),C],F=a[2],G=[0,n(zA,H(e(function(a){var
+b=[0,cP(a[2]),0];return H([0,aq(a[1]),b])},F))),E];return Q(zE,ah([0,n(zD,Q(zC,ah([0,n(zB,H(e(aq,a[1]))),G]))),z]));case
 4:var
-I=[0,n(zF,G(e(fR,a[3]))),0],J=[0,n(zI,Q(zH,ah([0,n(zG,N(a[2])),0]))),I];return Q(zM,ah([0,n(zL,Q(zK,ah([0,n(zJ,N(a[1])),0]))),J]));case
+I=[0,n(zF,H(e(fR,a[3]))),0],J=[0,n(zI,Q(zH,ah([0,n(zG,N(a[2])),0]))),I];return Q(zM,ah([0,n(zL,Q(zK,ah([0,n(zJ,N(a[1])),0]))),J]));case
 5:var
-K=[0,n(zN,N(a[5])),0];return Q(zP,ah([0,n(zO,j$(a[1],[0,a[2],a[3]],0,a[4])),K]));case
+K=[0,n(zN,N(a[5])),0];return Q(zP,ah([0,n(zO,ka(a[1],[0,a[2],a[3]],0,a[4])),K]));case
 6:var
 j=a[1],L=0,M=j?cP(j[1]):aq(zS);return Q(zR,ah([0,n(zQ,M),L]));default:var
-O=[0,n(zT,N(a[6])),0],P=[0,n(zU,N(a[5])),O],R=[0,n(zV,j$(a[2],a[3],0,a[4])),P],S=a[1];return Q(z0,ah([0,n(zZ,G(e(function(a){var
+O=[0,n(zT,N(a[6])),0],P=[0,n(zU,N(a[5])),O],R=[0,n(zV,ka(a[2],a[3],0,a[4])),P],S=a[1];return Q(z0,ah([0,n(zZ,H(e(function(a){var
 b=[0,n(zW,N(a[2][2])),0],c=[0,n(zX,N(a[2][1])),b];return ah([0,n(zY,aq(a[1])),c])},S))),R]))}}function
-dT(a){return G(e(fP,a))}function
+dT(a){return H(e(fP,a))}function
 fS(b,a){var
-c=[0,n(z1,eM(a)),0];return ah([0,n(z2,G(e(dT,b))),c])}function
+c=[0,n(z1,eM(a)),0];return ah([0,n(z2,H(e(dT,b))),c])}function
 dj(a){switch(a[0]){case
 0:return aq(a[1]);case
 1:var
@@ -6155,87 +6155,87 @@ b=fS(a[2],a[3]);return Q(a[1],b);case
 2:var
 c=a[1]?z3:z5;return Q(z4,aq(c));case
 3:var
-d=[0,dT(a[3]),0];return Q(z6,G([0,fS(a[1],a[2]),d]));case
+d=[0,dT(a[3]),0];return Q(z6,H([0,fS(a[1],a[2]),d]));case
 4:var
-f=[0,eM(a[4]),0],g=[0,fP(a[3]),f];return Q(z7,G([0,fS(a[1],a[2]),g]));case
+f=[0,eM(a[4]),0],g=[0,fP(a[3]),f];return Q(z7,H([0,fS(a[1],a[2]),g]));case
 5:var
-h=[0,eM(a[3]),0],i=[0,fP(a[2]),h];return Q(z8,G([0,dj(a[1]),i]));case
+h=[0,eM(a[3]),0],i=[0,fP(a[2]),h];return Q(z8,H([0,dj(a[1]),i]));case
 6:var
-j=[0,eM(a[3]),0],k=[0,fP(a[2]),j];return Q(z9,G([0,dj(a[1]),k]));case
+j=[0,eM(a[3]),0],k=[0,fP(a[2]),j];return Q(z9,H([0,dj(a[1]),k]));case
 7:return Q(z_,dj(a[1]));case
 8:var
-l=[0,G(e(dT,a[3])),0],m=[0,aq(a[2]),l];return Q(z$,G([0,dj(a[1]),m]));case
+l=[0,H(e(dT,a[3])),0],m=[0,aq(a[2]),l];return Q(z$,H([0,dj(a[1]),m]));case
 9:var
-n=a[1];return Q(Aa,G(e(function(a){var
-b=a[1],c=b[1],d=[0,dj(a[2]),0],e=[0,eM(b[2]),d],f=[0,fP(c[2]),e];return G([0,dT(c[1]),f])},n)));default:var
-o=[0,dj(a[4]),0],p=[0,dj(a[3]),o],q=[0,eM(a[2]),p];return Q(Ab,G([0,dT(a[1]),q]))}}function
+n=a[1];return Q(Aa,H(e(function(a){var
+b=a[1],c=b[1],d=[0,dj(a[2]),0],e=[0,eM(b[2]),d],f=[0,fP(c[2]),e];return H([0,dT(c[1]),f])},n)));default:var
+o=[0,dj(a[4]),0],p=[0,dj(a[3]),o],q=[0,eM(a[2]),p];return Q(Ab,H([0,dT(a[1]),q]))}}function
 Ac(a){var
-b=[0,dj(a[2]),0];return G([0,cO(a[1]),b])}function
+b=[0,dj(a[2]),0];return H([0,cO(a[1]),b])}function
 pg(a){if(typeof
 a==="number")return 0===a?aq(Ad):aq(Ae);else
 switch(a[0]){case
 0:var
-b=[0,G(e(dT,a[2])),0];return Q(Af,G([0,cO(a[1]),b]));case
+b=[0,H(e(dT,a[2])),0];return Q(Af,H([0,cO(a[1]),b]));case
 1:var
-c=[0,cO(a[2]),0];return Q(Ag,G([0,cO(a[1]),c]));case
-2:return Q(Ah,G(e(N,a[1])));default:var
-d=[0,n(Ai,fS(a[4],a[5])),0],f=[0,n(Aj,G(e(N,a[3]))),d],g=[0,n(Ak,G(e(N,a[2]))),f];return Q(Am,ah([0,n(Al,cO(a[1])),g]))}}function
+c=[0,cO(a[2]),0];return Q(Ag,H([0,cO(a[1]),c]));case
+2:return Q(Ah,H(e(N,a[1])));default:var
+d=[0,n(Ai,fS(a[4],a[5])),0],f=[0,n(Aj,H(e(N,a[3]))),d],g=[0,n(Ak,H(e(N,a[2]))),f];return Q(Am,ah([0,n(Al,cO(a[1])),g]))}}function
 An(a){var
-b=a[4],h=b?[0,n(Ao,dT([0,b[1],b[2]])),0]:b,d=a[3],i=d?[0,n(Ap,pg(d[1])),0]:d,j=f(i,h),g=a[2],k=g?[0,n(Aq,cO(g[1])),0]:g,l=f(k,j),c=a[1],m=c?[0,n(Ar,G(e(Ac,[0,c[1],c[2]]))),0]:c;return ah(f(m,l))}function
+b=a[4],h=b?[0,n(Ao,dT([0,b[1],b[2]])),0]:b,d=a[3],i=d?[0,n(Ap,pg(d[1])),0]:d,j=f(i,h),g=a[2],k=g?[0,n(Aq,cO(g[1])),0]:g,l=f(k,j),c=a[1],m=c?[0,n(Ar,H(e(Ac,[0,c[1],c[2]]))),0]:c;return ah(f(m,l))}function
 ph(g,a,d){var
-h=[0,n(As,G(e(An,d))),0];if(a)var
+h=[0,n(As,H(e(An,d))),0];if(a)var
 b=a[1],c=[0,n(At,fS(b[1],b[2])),0];else
 var
 c=a;var
-i=f(c,h);return ah([0,n(Au,j6(g)),i])}function
+i=f(c,h);return ah([0,n(Au,j7(g)),i])}function
 pi(d,c,a,b){var
-g=[0,n(Av,pg(b)),0],h=a?[0,n(Aw,G(e(N,a))),0]:a,i=f(h,g),j=[0,n(Ax,G(e(N,c))),0];return ah(f([0,n(Ay,j6(d)),j],i))}function
+g=[0,n(Av,pg(b)),0],h=a?[0,n(Aw,H(e(N,a))),0]:a,i=f(h,g),j=[0,n(Ax,H(e(N,c))),0];return ah(f([0,n(Ay,j7(d)),j],i))}function
 Az(a){if(typeof
 a==="number")return aq(AA);else
 switch(a[0]){case
 0:return Q(AB,cO(a[1]));case
 1:return Q(AC,ph(a[1],a[2],a[3]));default:return Q(AD,pi(a[1],a[2],a[3],a[4]))}}function
 hH(a){var
-b=iv(iu(aA(a),function(b){return a8(a,b)}));return l(function(a){var
+b=iv(iu(az(a),function(b){return a8(a,b)}));return l(function(a){var
 b=J(34===a?1:0),c=b?J(92===a?1:0):b,d=c?aa(AS,gz(a)):c;return d?aa(gz(a),AT):d},b)}function
-ka(d){var
+kb(d){var
 a=d;for(;;)switch(a[0]){case
 8:var
 b=hH(a[2]);if(b){var
 a=a[1];continue}return b;case
 9:var
-e=a[1];return l(function(a){return ka(a[2])},e);case
+e=a[1];return l(function(a){return kb(a[2])},e);case
 10:var
-c=ka(a[3]);if(c){var
+c=kb(a[3]);if(c){var
 a=a[4];continue}return c;case
 0:case
 1:return hH(a[1]);case
-5:case
-6:case
-7:var
-a=a[1];continue;default:return 1}}function
+2:case
+3:case
+4:return 1;default:var
+a=a[1];continue}}function
 fT(b){function
 c(f){var
 a=gz(f),b=aa(AU,a),c=b?aa(a,AV):b;if(c)var
 d=c;else{var
 e=aa(AW,a);if(e)return aa(a,AX);var
 d=e}return d}var
-a=iv(iu(aA(b),function(a){return a8(b,a)}));if(a){var
+a=iv(iu(az(b),function(a){return a8(b,a)}));if(a){var
 d=a[2],e=c(a[1]),f=e?l(function(a){var
 b=c(a);if(b)var
 d=b;else
 var
 e=gz(a),f=aa(AY,e),h=f?aa(e,AZ):f,d=h;var
-g=d||(95===a?1:0);return g},d):e,h=f?aa(g(d),A0):f;if(h)return J(aC(b,A1));var
+g=d||(95===a?1:0);return g},d):e,h=f?aa(g(d),A0):f;if(h)return J(aB(b,A1));var
 i=h}else
 var
 i=a;return i}function
-kb(c){var
+kc(c){var
 a=c;for(;;)switch(a[0]){case
 0:return 1;case
 1:return fT(a[1]);case
 3:var
-b=kb(a[2]);if(b){var
+b=kc(a[2]);if(b){var
 a=a[3];continue}return b;default:var
 a=a[1];continue}}function
 fU(m){var
@@ -6262,9 +6262,9 @@ a=a[3];continue}return i;case
 j=a[2],k=fU(a[1]),l=k?gv(c(2,b),j):k;return l?gv(j,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):l;default:var
 a=a[1];continue}}function
 eN(a){return 0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
-b1(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-dU(a){return z(eN,b1(a))}function
-kc(a){switch(a[0]){case
+b2(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+dU(a){return z(eN,b2(a))}function
+kd(a){switch(a[0]){case
 0:var
 c=eN(a[4]),d=f(dU(a[3]),c),e=f(dU(a[2]),d);return f(dU(a[1]),e);case
 1:var
@@ -6279,7 +6279,7 @@ b=a[1];break;default:var
 i=f(a[4],[0,a[5],[0,a[6],0]]),j=f(a[3],i),k=f(a[2],j),b=f(a[1],k)}return z(eN,b)}function
 pj(a){return 0===a[0]?f(a[1],a[2]):[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
 pk(a){if(0===a[0]){var
-b=b1(a[2]);return f(b1(a[1]),b)}return[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
+b=b2(a[2]);return f(b2(a[1]),b)}return[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
 pl(a){switch(a[0]){case
 1:var
 b=a[3],c=a[2],d=a[1];return[0,d[1],[0,d[2],[0,c[1],[0,c[2],[0,b[1],[0,b[2],0]]]]]];case
@@ -6297,14 +6297,14 @@ g=d}else
 var
 g=c;return f(g,h)}function
 pm(a){if(0===a[0]){var
-b=a[5],c=b?b1(b[1]):b;return[0,a[2],[0,a[3],[0,a[4],c]]]}var
-d=[0,a[4],0],e=f(b1(a[3]),d);return f(b1(a[2]),e)}function
+b=a[5],c=b?b2(b[1]):b;return[0,a[2],[0,a[3],[0,a[4],c]]]}var
+d=[0,a[4],0],e=f(b2(a[3]),d);return f(b2(a[2]),e)}function
 pn(b,e){var
 a=e;for(;;)switch(a[0]){case
 0:return 1;case
 1:var
 c=a[1];if(0===c[0]){var
-f=c[1];return aj(function(a){return aC(f,a)},b)}return 0;case
+f=c[1];return aj(function(a){return aB(f,a)},b)}return 0;case
 3:var
 d=pn(b,a[2]);if(d){var
 a=a[3];continue}return d;default:var
@@ -6320,7 +6320,7 @@ d=gv(c(2,c(2,c(2,c(2,c(2,b))))),a);return d?gv(a,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2
 pq(a,b){return b?[4,pq(a,b[1]),a]:a}function
 j(a){switch(a[0]){case
 0:var
-i=a[2],k=c(2,q(c(2,c(2,b)))),l=function(a){return C(k,a)},m=gp(lq(i),l,b);return[0,lD(lr(go(a[1]),i)),m];case
+i=a[2],k=c(2,q(c(2,c(2,b)))),l=function(a){return C(k,a)},m=gp(lr(i),l,b);return[0,lE(ls(go(a[1]),i)),m];case
 1:var
 e=a[1];return 0===e[0]?[5,[0,b,b],[0,d,b]]:[1,e[1],e[2],e[3]];case
 2:var
@@ -6331,15 +6331,15 @@ g=j(a[2]),h=j(a[3]);switch(a[1]){case
 1:return[3,g,h];case
 2:return[4,g,h];default:return[5,g,h]}case
 4:var
-n=bA(e_(a[2]));return pq(j(a[1]),n);default:return[6,j(a[1])]}}function
-b2(a){if(0===a[0]){var
+n=bn(e_(a[2]));return pq(j(a[1]),n);default:return[6,j(a[1])]}}function
+b3(a){if(0===a[0]){var
 b=j(a[1]);return[0,b,b]}var
 c=j(a[2]);return[0,j(a[1]),c]}function
 dW(a){var
-b=b2(a[3]),c=b2(a[2]);return[0,b2(a[1]),c,b]}function
+b=b3(a[3]),c=b3(a[2]);return[0,b3(a[1]),c,b]}function
 A3(a){switch(a[0]){case
 0:var
-b=a[5],c=b2(a[4]),d=dW(a[3]),e=dW(a[2]);return[0,[0,dW(a[1]),e,d,c,b]];case
+b=a[5],c=b3(a[4]),d=dW(a[3]),e=dW(a[2]);return[0,[0,dW(a[1]),e,d,c,b]];case
 1:var
 f=y(dW,a[3]),g=dW(a[2]);return[1,dW(a[1]),g,f];default:return[2,dW(a[1])]}}function
 pr(a){if(0===a[0]){var
@@ -6349,7 +6349,7 @@ g=j(a[5]),h=[0,j(a[4]),g],i=j(a[3]),l=j(a[2]);return[1,j(a[1]),l,i,h]}function
 eO(a){var
 b=j(a[3]),c=j(a[2]);return[0,j(a[1]),c,b]}function
 dk(a){if(0===a[0]){var
-c=a[5],h=c?eO(c[1]):[0,[0,d,b],[0,d,b],[0,d,b]],i=j(a[4]),k=j(a[3]),l=j(a[2]);return[0,bA(a[1]),l,k,i,h]}var
+c=a[5],h=c?eO(c[1]):[0,[0,d,b],[0,d,b],[0,d,b]],i=j(a[4]),k=j(a[3]),l=j(a[2]);return[0,bn(a[1]),l,k,i,h]}var
 e=a[4],f=a[3],g=a[2];if(a[1]){var
 m=eO(f),n=eO(g);return[2,j(e),n,m]}var
 o=eO(f),p=eO(g);return[1,j(e),p,o]}function
@@ -6418,7 +6418,7 @@ Y=u[1],Z=hI(0,M);return e(function(h){var
 e=j(Y),a=h[2],c=h[1];if(0===c[0]){var
 f=c[1];if(0===a[0]){var
 g=function(a){return a?eO(a[1]):[0,[0,d,b],[0,d,b],[0,d,b]]};if(o(f,a[1])){var
-i=j(a[2]),k=[2,[2,j(c[2]),i],e],l=g(a[5]),m=g(c[5]);return[11,bA(f),m,l,k]}var
+i=j(a[2]),k=[2,[2,j(c[2]),i],e],l=g(a[5]),m=g(c[5]);return[11,bn(f),m,l,k]}var
 n=dk(a);return[10,dk(c),n,e]}var
 p=dk(a);return[10,dk(c),p,e]}var
 q=dk(a);return[10,dk(c),q,e]},Z)}return 0;case
@@ -6438,7 +6438,7 @@ y!=="number"&&1===y[0]){var
 z=a[3];if(z){var
 H=z[1];if(0===H[0]){var
 ac=j(y[1]);return[0,[14,j(H[1]),ac],0]}return 0}return z}return 0;default:return 0}var
-B=a[2],P=B?[0,bA(B[1]),0]:aD(0,N);return e(c,P)}function
+B=a[2],P=B?[0,bn(B[1]),0]:aC(0,N);return e(c,P)}function
 A6(c,a){switch(a[1]){case
 0:var
 l=a[4];if(typeof
@@ -6620,7 +6620,7 @@ F=a[3],az=E[1];if(!F)return F;var
 Q=F[1];if(1!==Q[0])return 0;var
 aA=Q[1],c=function(a){var
 b=j(az);return[17,a,e(j,aA),b]}}if(Y)return 0;break;default:return 0}var
-H=a[2],aa=H?[0,bA(H[1]),0]:aD(0,G);return e(c,aa)}function
+H=a[2],aa=H?[0,bn(H[1]),0]:aC(0,G);return e(c,aa)}function
 eP(e,d,c,b){var
 g=z(function(a){return hK(e,d,c,a)},b),a=z(pt,b),h=a?[0,a[1],a[2]]:Bb;return f(h,g)}function
 cQ(a){return 11===a[1]?1:0}function
@@ -6668,7 +6668,7 @@ p=n;return p;default:return cm(0,b,a)}}return cm(0,b,a)}return cm(0,b,a);case
 q=a[4];if(typeof
 q!=="number"&&1===q[0]){var
 r=a[3];return r?0===r[1][0]?c?o(b,s):c:cm(0,b,a):cm(0,b,a)}return cm(0,b,a)}return cm(0,b,a)}function
-aF(c,b,a){return 11===a[1]?typeof
+aE(c,b,a){return 11===a[1]?typeof
 a[4]==="number"?a[2]?a6(c,b,a):a[3]?a6(c,b,a):1:a6(c,b,a):a6(c,b,a)}function
 pv(f,b,c,a){var
 h=a[2];if(h)var
@@ -6724,12 +6724,12 @@ b=dl(a[2]),c=dl(a[3]);switch(a[1]){case
 2:return[5,b,c];default:return[6,b,c]}case
 4:var
 d=a[2];return[7,dl(a[1]),d];default:return[8,dl(a[1])]}}function
-kd(i,h,f,b,d,c,a){var
+ke(i,h,f,b,d,c,a){var
 k=aj(cQ,a),l=eP(0,g(b),0,a),m=W(d,c),n=e(function(a){var
 b=j(a[2]);return[0,j(a[1]),b]},m),o=e(function(a){return 0===a[0]?[0,e(dl,a[1])]:[1,dl(a[1])]},b),p=e(function(a){var
 b=dl(a[2]);return[0,a[1],b]},f);return[0,[0,i,e(function(a){var
-b=b2(a[2]);return[0,a[1],b]},h),p,o],n,l,k]}function
-ke(c){function
+b=b3(a[2]);return[0,a[1],b]},h),p,o],n,l,k]}function
+kf(c){function
 a(e){var
 a=[0,d,b];return r(e,c,[0,a,a])}var
 e=a(Bg),f=a(Bh);return[0,a(0),f,e]}function
@@ -6742,18 +6742,18 @@ c=b(a[3]),d=b(a[2]);return[1,b(a[1]),d,c];case
 2:return[2,j(a[1])];default:var
 e=j(a[2]);return[3,j(a[1]),e]}}function
 pw(a){if(0===a[0]){var
-b=W(a[1],a[2]);return[0,ke(e(function(a){var
+b=W(a[1],a[2]);return[0,kf(e(function(a){var
 b=j(a[2]);return[0,j(a[1]),b]},b))]}return pr([1,a[1],a[2],a[3],a[4],a[5]])}function
 px(k,b,i,h,f,d,a){function
-c(a){return ke(e(b2,a))}var
+c(a){return kf(e(b3,a))}var
 l=aj(cQ,a),m=eP(0,g(b),d,a),n=dX(f),o=pw(h),p=j(i);return[0,k,e(function(a){var
 b=c(a[2]);return[0,c(a[1]),b]},b),p,o,n,m,l]}function
 dY(a){return aj(function(a){return 3===a[0]?1:0},a)}function
-kf(k,a,f,i,h,c){var
+kg(k,a,f,i,h,c){var
 l=aj(cQ,c),m=g(a),n=eP(dY(a),m,0,c),o=y(dX,h),p=pw(i),q=f?j(f[1]):[0,b,b];return[0,k,e(function(a){function
-c(a){return ke(e(b2,a))}switch(a[0]){case
+c(a){return kf(e(b3,a))}switch(a[0]){case
 0:var
-k=a[5],l=b2(a[4]),m=c(a[3]),n=c(a[2]);return[0,[0,[0,c(a[1]),n,m,l,k]]];case
+k=a[5],l=b3(a[4]),m=c(a[3]),n=c(a[2]);return[0,[0,[0,c(a[1]),n,m,l,k]]];case
 1:var
 o=y(c,a[3]),p=c(a[2]);return[0,[1,c(a[1]),p,o]];case
 2:return[0,[2,c(a[1])]];default:var
@@ -6761,17 +6761,17 @@ f=a[1];if(f)var
 g=c(f);else
 var
 h=[0,b,b],i=[0,d,b],j=[0,d,b],g=[0,[0,j,j],[0,i,i],[0,h,h]];var
-q=a[7],r=b2(a[6]),s=b2(a[5]),t=c(a[4]),u=c(a[3]);return[1,[0,g,c(a[2]),u,t,s,r,q]]}},a),q,p,o,n,l]}function
-b3(c){var
+q=a[7],r=b3(a[6]),s=b3(a[5]),t=c(a[4]),u=c(a[3]);return[1,[0,g,c(a[2]),u,t,s,r,q]]}},a),q,p,o,n,l]}function
+b4(c){var
 a=c[1];if(13!==a){var
 b=16<=a?1:0;if(!b)return b}return 1}function
-kg(a){function
+kh(a){function
 b(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}switch(a[0]){case
 0:var
 c=a[5],d=a[4],e=b(a[3]),f=b(a[2]);return[0,b(a[1]),f,e,d,c];case
 1:var
 g=y(b,a[3]),h=b(a[2]);return[1,b(a[1]),h,g];default:return[2,b(a[1])]}}function
-kh(a){if(0===a[0]){var
+ki(a){if(0===a[0]){var
 b=a[2],c=a[1];return[0,[0,c[1],[0,c[2],[0,c[3],0]]],[0,b[1],[0,b[2],[0,b[3],0]]]]}return[1,a[1],a[2],a[3],a[4],a[5]]}function
 py(a){return a[1]?0:1}function
 pz(l){var
@@ -6805,14 +6805,14 @@ c(b,a){return[3,1,b,a]}function
 a(b,a){return[3,3,b,a]}function
 d(b,a){return[3,2,b,a]}function
 e(b,a){return[3,0,b,a]}var
-f=c(hM,a(hM,b)),j=a(f,ki),k=i?f:a(c(b,hM),ki);function
-g(b){return a(b,[5,e(hM,d(ki,d(b,b)))])}var
+f=c(hM,a(hM,b)),j=a(f,kj),k=i?f:a(c(b,hM),kj);function
+g(b){return a(b,[5,e(hM,d(kj,d(b,b)))])}var
 l=g(k);return a(h,e(g(j),l))}function
 hN(f,e,d){function
 a(b,a){return[3,3,b,a]}function
 b(b,a){return[3,2,b,a]}var
-c=a([3,1,kj,a(kj,d)],pB),g=a(c,[5,[3,0,kj,b(pB,b(c,c))]]);return[2,b(hL(f,e,d),g)]}function
-kk(e,g,a){function
+c=a([3,1,kk,a(kk,d)],pB),g=a(c,[5,[3,0,kk,b(pB,b(c,c))]]);return[2,b(hL(f,e,d),g)]}function
+kl(e,g,a){function
 f(b,a){return[3,1,b,a]}function
 b(b,a){return[3,3,b,a]}function
 c(b,a){return[3,2,b,a]}var
@@ -6824,7 +6824,7 @@ j=[0,hL(c,b,a)],i=1,k=d(e,[2,g]);function
 f(b,a){return[3,1,b,a]}var
 h=hL(c,b,a),l=d(e,f(f(hN(c,b,a),g),h));return[0,d(e,Bj),l,k,j,i]},Bl)}function
 pE(c,b,a){var
-d=[0,kk(c,b,a),0],e=[0,kk(c,b,a),d],f=[0,kk(c,b,a),e],g=[0,hN(c,b,a),0],h=[0,hN(c,b,a),g];return[0,[0,hN(c,b,a),h],f]}function
+d=[0,kl(c,b,a),0],e=[0,kl(c,b,a),d],f=[0,kl(c,b,a),e],g=[0,hN(c,b,a),0],h=[0,hN(c,b,a),g];return[0,[0,hN(c,b,a),h],f]}function
 pF(o,e,a){if(e)if(a){var
 g=e[1],h=a[1],k=cC(j(g[2][1]));if(k){var
 l=k[1],m=cC(j(g[2][2]));if(m)var
@@ -6844,7 +6844,7 @@ au(b,a){switch(a[0]){case
 0:return[0,a[1],a[2]];case
 1:var
 c=a[1];if(0===c[0]){var
-e=c[1],d=lG(function(a){return aC(e,a[1])},b);return d?[1,d[1][2]]:a}return a;case
+e=c[1],d=lH(function(a){return aB(e,a[1])},b);return d?[1,d[1][2]]:a}return a;case
 2:return[2,au(b,a[1])];case
 3:var
 f=au(b,a[3]),g=au(b,a[2]);return[3,a[1],g,f];case
@@ -6852,13 +6852,13 @@ f=au(b,a[3]),g=au(b,a[2]);return[3,a[1],g,f];case
 h=a[2];return[4,au(b,a[1]),h];default:return[5,au(b,a[1])]}}function
 pG(b,a){if(0===a[0])return[0,au(b,a[1])];var
 c=au(b,a[2]);return[1,au(b,a[1]),c]}function
-kl(b,a){var
+km(b,a){var
 c=k(b,a[3]),d=k(b,a[2]);return[0,k(b,a[1]),d,c]}function
-km(c,a){if(c)if(a){var
+kn(c,a){if(c)if(a){var
 g=a[2],b=a[1],h=c[1];if(typeof
 b!=="number"&&0===b[0]){var
-e=km(h,g);if(e){var
-i=e[1],f=km(h,i[2]);if(f)var
+e=kn(h,g);if(e){var
+i=e[1],f=kn(h,i[2]);if(f)var
 j=f[1],k=[0,[0,[0,b[1],i[1],j[1]],j[2]]];else
 var
 k=f;var
@@ -6870,8 +6870,8 @@ var
 d=a;else
 var
 d=c;return d}function
-kn(g,f,a){if(a){var
-e=a[1],h=a[2];if(f)return[0,e,kn(g,f[1],h)];var
+ko(g,f,a){if(a){var
+e=a[1],h=a[2];if(f)return[0,e,ko(g,f[1],h)];var
 j=[0,e[2]],k=g?b:d,l=e[1],i=[0,[0,E(C(c(2,b),l),k),j],h]}else
 var
 i=a;return i}function
@@ -6888,11 +6888,11 @@ b=a[1],c=bb(b[3]);return f(bb(b[2]),c);case
 1:var
 d=bb(a[2]);return f(bb(a[1]),d);default:return 0}}function
 hQ(a){switch(a[0]){case
-0:return bF(bb(a[1][1]));case
+0:return bG(bb(a[1][1]));case
 1:var
-b=a[3];return b?bF(bb(b[1])):d;default:return bF(bb(a[1]))}}function
+b=a[3];return b?bG(bb(b[1])):d;default:return bG(bb(a[1]))}}function
 hR(c){var
-a=z(pH,c),d=a?[0,a[1],a[2]]:z(pI,c);return E(b,bF(d))}function
+a=z(pH,c),d=a?[0,a[1],a[2]]:z(pI,c);return E(b,bG(d))}function
 pJ(d,a){if(d){if(a){var
 b=a[1],g=d[1],e=pJ(d[2],a[2]);if(e){var
 h=e[1],i=h[2],j=h[1];if(45===b)var
@@ -6909,11 +6909,11 @@ var
 m=a;return m}return a?0:Br}function
 dm(b,c,a){switch(a[0]){case
 0:var
-d=a[1];if(aC(d,Bs))return Bt;if(aC(d,Bu))return Bv;if(aC(d,Bw))return Bx;if(aC(d,By))return Bz;if(aC(d,BA))return BB;var
-n=aC(d,BC),B=n?BD:n;return B;case
+d=a[1];if(aB(d,Bs))return Bt;if(aB(d,Bu))return Bv;if(aB(d,Bw))return Bx;if(aB(d,By))return Bz;if(aB(d,BA))return BB;var
+n=aB(d,BC),B=n?BD:n;return B;case
 1:var
-e=a[3],f=a[2],g=a[1];if(aC(g,BE))return[0,[0,e,f]];if(aC(g,BF))return[0,[1,e,f]];if(aC(g,BG))return[0,[2,e,f]];var
-o=aC(g,BH),C=o?[0,[8,e,f]]:o;return C;case
+e=a[3],f=a[2],g=a[1];if(aB(g,BE))return[0,[0,e,f]];if(aB(g,BF))return[0,[1,e,f]];if(aB(g,BG))return[0,[2,e,f]];var
+o=aB(g,BH),C=o?[0,[8,e,f]]:o;return C;case
 2:return[0,[4,a[1]]];case
 3:return[0,[3,a[2],a[1],a[3]]];case
 4:return[0,[9,a[2],a[1],a[3],a[4]]];case
@@ -6925,7 +6925,7 @@ i=dm(b,c,a[1]),E=i?[0,[7,i[1],a[2],a[3]]]:i;return E;case
 F=dm(b,c,a[1]);return y(function(a){return[6,a]},F);case
 8:if(b){var
 p=a[3],q=a[2],j=dm(b,c,a[1]);if(j){var
-r=j[1],k=pJ(b,iv(iu(aA(q),function(a){return a8(q,a)})));if(k){var
+r=j[1],k=pJ(b,iv(iu(az(q),function(a){return a8(q,a)})));if(k){var
 s=k[1],t=s[2],u=s[1];if(t)return[0,[11,c,t,[10,r,u,p]]];var
 v=[0,[10,r,u,p]]}else
 var
@@ -6957,10 +6957,10 @@ n=c[2],o=a[2],p=d[1],h=pK(f,e,c[1]);if(h){var
 i=h[1];if(n){var
 j=dZ(b,g,f,e,p,o);if(j){var
 q=j[1],k=dZ(b,g,f,e,p,q[2]);if(k){var
-r=k[1],s=r[1],t=q[1],l=n[1],z=r[2];if(aK(l,b))var
+r=k[1],s=r[1],t=q[1],l=n[1],z=r[2];if(aJ(l,b))var
 u=[0,[1,i,l,t,s]];else
 var
-x=H(g,dx(l,b)),u=y(function(a){return[2,i,a,t,s]},x);return y(function(a){return[0,a,z]},u)}var
+x=F(g,dx(l,b)),u=y(function(a){return[2,i,a,t,s]},x);return y(function(a){return[0,a,z]},u)}var
 v=k}else
 var
 v=j;return v}var
@@ -6972,9 +6972,9 @@ var
 m=a;else
 var
 m=d;return m}function
-ko(i,h,f,e,d,a){if(d){if(a){var
+kp(i,h,f,e,d,a){if(d){if(a){var
 b=dZ(i,h,f,e,g(a),a);if(b)var
-j=b[1],c=ko(i,h,f,e,d[1],j[2]),l=c?[0,[0,j[1],c[1]]]:c,k=l;else
+j=b[1],c=kp(i,h,f,e,d[1],j[2]),l=c?[0,[0,j[1],c[1]]]:c,k=l;else
 var
 k=b;return k}return BK}return a?0:BL}function
 pL(a){if(typeof
@@ -6982,13 +6982,13 @@ a==="number")return 0===a?BM:BN;else
 switch(a[0]){case
 0:return[0,[0,a[1],a[2]]];case
 1:return[0,[1,a[1],a[2]]];default:return 0}}function
-kp(e,d,a){if(d)if(a){var
+kq(e,d,a){if(d)if(a){var
 b=a[1];if(b[1])return 0;var
 j=b[4],c=b[3],k=b[2],l=a[2],m=d[1];if(k){if(c)return 0;if(j)return 0;var
-f=k[1],g=kp(e,m,l);if(g){var
-n=g[1],o=n[1],h=kp(e,m,n[2]);if(h){var
-p=h[1],q=p[2],r=p[1];if(aK(f,BO))return[0,[0,[1,f,o,r],q]];var
-t=H(e,dx(f,BP));return y(function(a){return[0,[2,a,o,r],q]},t)}var
+f=k[1],g=kq(e,m,l);if(g){var
+n=g[1],o=n[1],h=kq(e,m,n[2]);if(h){var
+p=h[1],q=p[2],r=p[1];if(aJ(f,BO))return[0,[0,[1,f,o,r],q]];var
+t=F(e,dx(f,BP));return y(function(a){return[0,[2,a,o,r],q]},t)}var
 s=h}else
 var
 s=g;return s}if(c){var
@@ -7017,22 +7017,22 @@ u=t[3];if(typeof
 f==="number")return 0===f?BT:BU;else
 switch(f[0]){case
 0:var
-v=f[2],h=f[1],B=H(u,h);if(B){var
+v=f[2],h=f[1],B=F(u,h);if(B){var
 ab=0,E=B[1];if(typeof
 E==="number"||!(13===E[0]))ab=1;else
 var
 x=t[1],A=hR(x),a=e(function(a){var
 f=g(x);if(o(g(a),f)){var
 h=W(x,a);return e(function(a){var
-e=a[2],f=D(d,A),g=2===a[1][0]?1:0;return cv(g,f)?C(e,b9(c(2,b),ct(A))):e},h)}return a},v);if(ab)var
+e=a[2],f=D(d,A),g=2===a[1][0]?1:0;return cv(g,f)?C(e,b_(c(2,b),ct(A))):e},h)}return a},v);if(ab)var
 a=v}else
 var
 a=v;var
-ac=H(u,h),ad=t[1],w=y(function(b){if(typeof
+ac=F(u,h),ad=t[1],w=y(function(b){if(typeof
 b!=="number")switch(b[0]){case
 5:return BR;case
 12:var
-a=H(ad,b[1]);if(a){if(2===a[1][0])return BS;var
+a=F(ad,b[1]);if(a){if(2===a[1][0])return BS;var
 c=0}else
 var
 c=a;return c;case
@@ -7042,8 +7042,8 @@ c=a;return c;case
 6:case
 7:case
 11:return 0}return BQ},ac);if(w){var
-F=w[1];if(F){var
-G=F[1];if(G){if(G[1])return 0;if(a){var
+G=w[1];if(G){var
+H=G[1];if(H){if(H[1])return 0;if(a){var
 i=a[1];if(i){var
 j=i[2];if(j){var
 k=j[2];if(k){if(k[2])return 0;var
@@ -7094,7 +7094,7 @@ Y=[0,[0,d,d],d],Z=[0,[0,h,Y,Y]]}else
 var
 Z=w;return Z;case
 1:var
-_=f[1],z=H(u,_);if(z){var
+_=f[1],z=F(u,_);if(z){var
 $=z[1];if(typeof
 $!=="number"&&1===$[0])return[0,[1,_,f[2]]];var
 aa=0}else
@@ -7102,25 +7102,25 @@ var
 aa=z;return aa;default:return 0}}function
 bk(a,b){if(a){var
 c=dn(a[1],b),d=bk(a[2],c[2]);return[0,[0,c[1],d[1]],d[2]]}return[0,0,b]}function
-aI(c){function
+aH(c){function
 a(a){return r(a,c,[0,d,b])}var
 e=a(BV),f=a(BW);return[0,a(0),f,e]}function
 pN(a,b){if(a){var
-c=a[1],d=bk(c[1],b),e=bk(c[2],d[2]),f=pN(a[2],e[2]),g=f[2],h=f[1],i=aI(e[1]);return[0,[0,[0,aI(d[1]),i],h],g]}return[0,0,b]}function
-kq(f,e){if(f){var
+c=a[1],d=bk(c[1],b),e=bk(c[2],d[2]),f=pN(a[2],e[2]),g=f[2],h=f[1],i=aH(e[1]);return[0,[0,[0,aH(d[1]),i],h],g]}return[0,0,b]}function
+kr(f,e){if(f){var
 a=f[1];switch(a[0]){case
 0:var
-g=bk(a[1],e),h=bk(a[2],g[2]),i=bk(a[3],h[2]),j=dn(a[4],i[2]),A=j[2],B=a[5],C=j[1],D=aI(i[1]),E=aI(h[1]),c=[0,[0,[0,aI(g[1]),E,D,C,B]],A];break;case
+g=bk(a[1],e),h=bk(a[2],g[2]),i=bk(a[3],h[2]),j=dn(a[4],i[2]),A=j[2],B=a[5],C=j[1],D=aH(i[1]),E=aH(h[1]),c=[0,[0,[0,aH(g[1]),E,D,C,B]],A];break;case
 1:var
 k=a[3],l=bk(a[1],e),m=l[1],n=bk(a[2],l[2]),o=n[2],p=n[1];if(k)var
-q=bk(k[1],o),F=q[2],G=[0,aI(q[1])],H=aI(p),c=[0,[0,[1,aI(m),H,G]],F];else
+q=bk(k[1],o),F=q[2],G=[0,aH(q[1])],H=aH(p),c=[0,[0,[1,aH(m),H,G]],F];else
 var
-I=aI(p),c=[0,[0,[1,aI(m),I,0]],o];break;case
+I=aH(p),c=[0,[0,[1,aH(m),I,0]],o];break;case
 2:var
-r=bk(a[1],e),J=r[2],c=[0,[0,[2,aI(r[1])]],J];break;default:var
-s=a[1],t=bk(s,e),u=bk(a[2],t[2]),v=bk(a[3],u[2]),w=bk(a[4],v[2]),x=dn(a[5],w[2]),y=dn(a[6],x[2]),K=s?aI(t[1]):[0,[0,d,b],[0,d,b],[0,b,b]],L=y[2],M=a[7],N=y[1],O=x[1],P=aI(w[1]),Q=aI(v[1]),c=[0,[1,[0,K,aI(u[1]),Q,P,O,N,M]],L]}var
-z=kq(f[2],c[2]);return[0,[0,c[1],z[1]],z[2]]}return[0,0,e]}function
-dp(a){return l5(i,a)}function
+r=bk(a[1],e),J=r[2],c=[0,[0,[2,aH(r[1])]],J];break;default:var
+s=a[1],t=bk(s,e),u=bk(a[2],t[2]),v=bk(a[3],u[2]),w=bk(a[4],v[2]),x=dn(a[5],w[2]),y=dn(a[6],x[2]),K=s?aH(t[1]):[0,[0,d,b],[0,d,b],[0,b,b]],L=y[2],M=a[7],N=y[1],O=x[1],P=aH(w[1]),Q=aH(v[1]),c=[0,[1,[0,K,aH(u[1]),Q,P,O,N,M]],L]}var
+z=kr(f[2],c[2]);return[0,[0,c[1],z[1]],z[2]]}return[0,0,e]}function
+dp(a){return l6(i,a)}function
 BX(a){if(typeof
 a==="number")return 1;else
 switch(a[0]){case
@@ -7142,7 +7142,7 @@ k=[0,a[2],a[1]],m=1;return l(function(a){return h(i,m,a)},k);case
 4:case
 13:var
 c=h(i,1,a[2]);return c?h(i,1,a[3]):c;default:return h(i,1,a[1])}}function
-kr(a){if(typeof
+ks(a){if(typeof
 a==="number")return 1;else
 switch(a[0]){case
 4:var
@@ -7164,15 +7164,15 @@ u=a[3],v=h(i,0,a[1]),w=v?h(i,1,a[2]):v,x=w?h(i,0,u):w;return x?h(i,1,[3,[0,c(2,c
 y=a[2],z=l(dp,y),A=z?aj(function(a){return h(i,1,[4,a,a])},y):z;return A?h(i,1,a[3]):A;case
 2:case
 3:return dp(a[2]);case
-6:case
-7:case
-9:var
-k=h(i,1,a[2]);return k?h(i,1,a[3]):k;default:return h(i,1,a[1])}}function
+0:case
+1:case
+12:return h(i,1,a[1]);default:var
+k=h(i,1,a[2]);return k?h(i,1,a[3]):k}}function
 hS(d){var
 a=d;for(;;){if(a){var
 b=a[2],e=a[1],c=J(aj(function(d){return function(a){var
-h=j9(a[1]),e=aC(j9(d[1]),h);if(e)var
-i=j_(a[4]),b=aC(j_(d[4]),i);else
+h=j_(a[1]),e=aB(j_(d[1]),h);if(e)var
+i=j$(a[4]),b=aB(j$(d[4]),i);else
 var
 b=e;if(b){var
 f=d[2];if(f){var
@@ -7184,7 +7184,7 @@ a=b;continue}return c}return 1}}function
 fX(a){if(0===a[0])return dp(j(a[1]));var
 b=a[2],c=a[1];if(!dD(j(c))&&!dD(j(b))){var
 e=j(c);return h(i,1,[3,j(b),e])}var
-d=j(b);return bx(i,j(c),d)}function
+d=j(b);return by(i,j(c),d)}function
 d1(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
 pO(a){switch(a[0]){case
 0:var
@@ -7194,12 +7194,12 @@ b=a[3],g=b?d1(b[1]):b,h=f(d1(a[2]),g);return f(d1(a[1]),h);default:return d1(a[1
 pP(s,a,m){if(aj(function(a){return 9===a[1]?1:0},m)){var
 b=aa(g(a),B0),c=b?l(function(a){if(0===a[0]){var
 d=a[5],e=h(i,1,j(a[2])),g=e?h(i,0,j(a[3])):e,m=g?h(i,0,j(a[4])):g,c=0;if(m)if(d)var
-p=b1(d[1]),b=l(function(a){return dp(j(a))},p);else{var
+p=b2(d[1]),b=l(function(a){return dp(j(a))},p);else{var
 n=1;c=1}else{var
 n=m;c=1}if(c)var
 b=n}else{var
 o=h(i,1,j(a[4]));if(o)var
-q=b1(a[3]),r=f(b1(a[2]),q),b=l(function(a){return dp(j(a))},r);else
+q=b2(a[3]),r=f(b2(a[2]),q),b=l(function(a){return dp(j(a))},r);else
 var
 b=o}return b?k(s,a):b},a):b;if(c)var
 d=hI(0,a),n=d?1:d,e=n;else
@@ -7210,22 +7210,22 @@ hT(a){switch(a){case
 0:return B3;case
 1:return B4;default:return 0}}function
 dq(a){var
-f=a[1],d=h(i,1,[2,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],f]),e=d?bx(i,a[1],a[2]):d;if(e){var
+f=a[1],d=h(i,1,[2,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],f]),e=d?by(i,a[1],a[2]):d;if(e){var
 g=a[2];return h(i,1,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],g])}return e}function
 eQ(a){var
-e=bx(i,[0,d,b],a);return e?h(i,1,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],a]):e}function
+e=by(i,[0,d,b],a);return e?h(i,1,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],a]):e}function
 pR(c,b,a){if(0===a[0]){var
 d=a[2],e=a[1],f=o(g(e),c),k=f?o(g(d),c):f;if(k){var
 n=W(e,d);return l(function(a){var
-b=j(a[2]);return bx(i,j(a[1]),b)},n)}return k}var
+b=j(a[2]);return by(i,j(a[1]),b)},n)}return k}var
 m=b?h(i,1,j(a[3])):b;if(m){var
-p=j(a[5]);return bx(i,j(a[4]),p)}return m}function
+p=j(a[5]);return by(i,j(a[4]),p)}return m}function
 pS(a,e,F,E,t,s,f){function
 u(b){var
 d=pQ(a),c=o(g(b),d);return c?l(fX,b):c}var
 v=l(function(a){var
 b=u(a[1]);return b?u(a[2]):b},e);if(v)var
-G=g(e),n=aa(bG(a),G);else
+G=g(e),n=aa(bH(a),G);else
 var
 n=v;var
 w=n?aa(g(e),B5):n,x=w?h(i,1,j(F)):w;if(x)var
@@ -7252,50 +7252,50 @@ var
 e=d;return e}return 1},s,f);else
 var
 q=m;if(q)var
-b=g(e),c=bG(a),y=pQ(a),r=l(function(a){var
+b=g(e),c=bH(a),y=pQ(a),r=l(function(a){var
 e=a[2];if(e)var
 f=e[1],h=aa(Be,f),w=h?aa(f,b):h,d=w;else
 var
 d=1;switch(a[1]){case
 9:var
 i=a[4];if(typeof
-i!=="number"&&0===i[0])return a[2]?aF(c,b,a):a[3]?aF(c,b,a):1;return aF(c,b,a);case
+i!=="number"&&0===i[0])return a[2]?aE(c,b,a):a[3]?aE(c,b,a):1;return aE(c,b,a);case
 10:var
 j=a[4];if(typeof
 j!=="number"&&1===j[0]){var
-k=a[3];return k?2===k[1][0]?d:aF(c,b,a):aF(c,b,a)}return aF(c,b,a);case
+k=a[3];return k?2===k[1][0]?d:aE(c,b,a):aE(c,b,a)}return aE(c,b,a);case
 12:var
 l=a[4];if(typeof
-l!=="number"&&1===l[0]){if(a[2])return aF(c,b,a);var
-m=a[3];return m?3===m[1][0]?o(b,c):aF(c,b,a):aF(c,b,a)}return aF(c,b,a);case
+l!=="number"&&1===l[0]){if(a[2])return aE(c,b,a);var
+m=a[3];return m?3===m[1][0]?o(b,c):aE(c,b,a):aE(c,b,a)}return aE(c,b,a);case
 14:var
 n=a[4];if(typeof
 n!=="number"&&1===n[0]){var
 p=a[3];if(p){var
 q=p[1];if(1===q[0]){var
-r=o(g(q[1]),y),x=r?d:r;return x}return aF(c,b,a)}return aF(c,b,a)}return aF(c,b,a);case
+r=o(g(q[1]),y),x=r?d:r;return x}return aE(c,b,a)}return aE(c,b,a)}return aE(c,b,a);case
 15:var
 s=a[4];if(typeof
 s!=="number"&&1===s[0]){var
 t=a[3];if(t){var
 u=t[1];if(1===u[0]){var
-v=o(g(u[1]),y),z=v?d:v;return z}return aF(c,b,a)}return aF(c,b,a)}return aF(c,b,a);default:return aF(c,b,a)}},f);else
+v=o(g(u[1]),y),z=v?d:v;return z}return aE(c,b,a)}return aE(c,b,a)}return aE(c,b,a);default:return aE(c,b,a)}},f);else
 var
 r=q;var
-z=r?hS(f):r;return z?l(kr,eP(0,g(e),s,f)):z}function
-ks(a){switch(a[0]){case
+z=r?hS(f):r;return z?l(ks,eP(0,g(e),s,f)):z}function
+kt(a){switch(a[0]){case
 0:var
 c=f(a[3],[0,a[4],0]),d=f(a[2],c);return f(a[1],d);case
 1:var
 b=a[3],e=b?b[1]:b,g=f(a[2],e);return f(a[1],g);case
 2:return a[1];default:var
 h=f(a[4],[0,a[5],[0,a[6],0]]),i=f(a[3],h),j=f(a[2],i);return f(a[1],j)}}function
-hU(a,e,d,R,p,n){var
+hU(a,b,e,T,p,m){var
 q=typeof
 a==="number"?a?1:a:a[1]?0:1;function
 c(a){var
 b=q?B6:B7;return o(g(a),b)}var
-k=dY(e),w=l(function(b){switch(b[0]){case
+k=dY(b),w=l(function(b){switch(b[0]){case
 0:var
 f=J(k),g=f?c(b[1]):f,h=g?c(b[2]):g;return h?c(b[3]):h;case
 1:var
@@ -7313,59 +7313,72 @@ a==="number"&&!a)return 1;var
 p=0}else
 var
 p=o;return p;default:var
-r=b[1],s=q?r?0:1:c(r),t=s?c(b[2]):s,u=t?c(b[3]):t;return u?c(b[4]):u}},e);if(w)var
-S=g(e),r=aa(at(a),S);else
+r=b[1],s=q?r?0:1:c(r),t=s?c(b[2]):s,u=t?c(b[3]):t;return u?c(b[4]):u}},b);if(w)var
+U=g(b),r=aa(at(a),U);else
 var
 r=w;var
-x=r?aa(g(e),B8):r,A=x?l(fX,z(ks,e)):x;if(A){var
-Q=0;if(typeof
+x=r?aa(g(b),B8):r,A=x?l(fX,z(kt,b)):x;if(A){var
+S=0;if(typeof
 a==="number"&&!a){var
-B=1;Q=1}if(!Q)var
+B=1;S=1}if(!S)var
 B=0;var
-T=q?B9:B_,s=pR(T,B,R)}else
+V=q?B9:B_,s=pR(V,B,T)}else
 var
 s=A;if(s)if(typeof
-a==="number")if(d)var
-b=0;else
+a==="number")if(e)var
+d=0;else
 var
-U=y(dX,p)?0:1,b=U;else
+W=y(dX,p)?0:1,d=W;else
 switch(a[1]){case
-0:if(d){var
+0:if(e){var
 t=y(dX,p);if(t){var
-E=t[1];if(0===E[0])var
-F=h(i,1,j(d[1])),G=F?dq(E[1]):F;else
+G=t[1];if(0===G[0])var
+H=h(i,1,j(e[1])),I=H?dq(G[1]):H;else
 var
-G=0;var
-H=G}else
+I=0;var
+K=I}else
 var
-H=t;var
-b=H}else
+K=t;var
+d=K}else
 var
-b=d;break;case
-1:if(d){var
-u=d[1],v=y(dX,p);if(v){var
+d=e;break;case
+1:if(e){var
+u=e[1],v=y(dX,p);if(v){var
 f=v[1];switch(f[0]){case
 0:var
-m=0;break;case
+n=0;break;case
 1:var
-K=h(i,1,j(u)),L=K?dq(f[1]):K,M=L?dq(f[2]):L,m=M?dq(f[3]):M;break;case
+M=h(i,1,j(u)),N=M?dq(f[1]):M,O=N?dq(f[2]):N,n=O?dq(f[3]):O;break;case
 2:var
-N=h(i,1,j(u)),m=N?eQ(f[1]):N;break;default:var
-O=h(i,1,j(u)),P=O?eQ(f[1]):O,m=P?eQ(f[2]):P}var
-I=m}else
+P=h(i,1,j(u)),n=P?eQ(f[1]):P;break;default:var
+Q=h(i,1,j(u)),R=Q?eQ(f[1]):Q,n=R?eQ(f[2]):R}var
+L=n}else
 var
-I=v;var
-b=I}else
+L=v;var
+d=L}else
 var
-b=d;break;default:var
-b=0}else
+d=e;break;default:var
+d=0}else
 var
-b=s;var
-C=b?l(function(b){var
-c=pv(k,a,g(e),b);if(c)var
-d=c;else{var
-f=cQ(b);if(f)return aF(0,0,b);var
-d=f}return d},n):b,D=C?hS(n):C;return D?l(kr,eP(k,g(e),0,n)):D}function
+d=s;var
+C=d?l(function(c){var
+d=pv(k,a,g(b),c);if(d)var
+e=d;else{var
+f=cQ(c);if(f)return aE(0,0,c);var
+e=f}return e},m):d,D=C?l(function(a){var
+e=a[1];if(4===e){var
+f=a[2];if(f)var
+c=F(b,bn(f[1])),j=c?[0,c[1],0]:c,g=j;else
+var
+g=b;return l(function(a){switch(a[0]){case
+0:case
+3:return 1;default:return 0}},g)}if(13===e){var
+h=a[2];if(h)var
+d=F(b,bn(h[1])),k=d?[0,d[1],0]:d,i=k;else
+var
+i=b;return l(function(a){switch(a[0]){case
+0:case
+3:return 1;default:return 0}},i)}return 1},m):C,E=D?hS(m):D;return E?l(ks,eP(k,g(b),0,m)):E}function
 B$(a){switch(a[0]){case
 0:return ha(a[1][1]);case
 1:var
@@ -7373,7 +7386,7 @@ b=a[3];return b?ha(b[1]):1;default:return ha(a[1])}}function
 hV(a,k,b,d){var
 e=pP(function(g){if(0===g[0]){var
 c=g[1],d=aa(BY,c);if(d){var
-b=H(a,bA(c));if(b){if(2===b[1][0])return 0;var
+b=F(a,bn(c));if(b){if(2===b[1][0])return 0;var
 e=1}else
 var
 e=b;var
@@ -7388,54 +7401,54 @@ pT(m,k,a,j,i,b){var
 c=g(m),n=g(i),d=o(g(j),n),e=d?l(function(b){if(12===b[1]){var
 n=0,e=b[4];if(typeof
 e!=="number"&&1===e[0]){if(b[2])var
-k=aF(c,g(a),b);else
+k=aE(c,g(a),b);else
 var
-m=b[3],q=m?0===m[1][0]?o(c,g(a)):aF(c,g(a),b):aF(c,g(a),b),k=q;var
+m=b[3],q=m?0===m[1][0]?o(c,g(a)):aE(c,g(a),b):aE(c,g(a),b),k=q;var
 f=k;n=1}if(!n)var
-f=aF(c,g(a),b);var
+f=aE(c,g(a),b);var
 d=f}else
 var
-d=aF(c,g(a),b);if(d){var
+d=aE(c,g(a),b);if(d){var
 h=b[1]-1|0;if(!(11<h>>>0))switch(h){case
 0:var
-j=b[2],p=j?[0,bA(j[1]),0]:aD(0,g(a));return l(function(c){var
-b=H(a,c);return b?0===b[1][0]?0:1:b},p);case
+j=b[2],p=j?[0,bn(j[1]),0]:aC(0,g(a));return l(function(c){var
+b=F(a,c);return b?0===b[1][0]?0:1:b},p);case
 10:return l(function(a){return 0===a[0]?0:1},a);case
 11:return l(function(a){return 0===a[0]?0:1},a)}var
 i=1}else
 var
-i=d;return i},b):d,f=e?hS(b):e,h=f?l(function(a){return fX(a[2])},k):f;return h?l(kr,eP(0,g(a),0,b)):h}function
+i=d;return i},b):d,f=e?hS(b):e,h=f?l(function(a){return fX(a[2])},k):f;return h?l(ks,eP(0,g(a),0,b)):h}function
 pU(a){if(a){var
 b=a[1];if(cQ(b))return 0;var
 c=[0,b,pU(a[2])]}else
 var
 c=a;return c}function
 d2(h,f,d,c,b){var
-j=pU(b),k=z(function(a){return hK(h,d,c,a)},j),l=lH(e(function(a){return fv(i,f,a)},k)),a=z(pt,b),m=a?[0,a[1],a[2]]:Cb;return M(g(m),l)}function
-kt(a){return 2<=a?Cc:Cd}function
-ku(m,l,k,j,f,i){var
+j=pU(b),k=z(function(a){return hK(h,d,c,a)},j),l=lI(e(function(a){return fv(i,f,a)},k)),a=z(pt,b),m=a?[0,a[1],a[2]]:Cb;return M(g(m),l)}function
+ku(a){return 2<=a?Cc:Cd}function
+kv(m,l,k,j,f,i){var
 g=d2(m,l,k,j,f),c=pL(i);if(c){var
 a=c[1],e=0;if(typeof
 a==="number")var
 h=[0,a];else
 if(0===a[0]){var
 n=a[2],p=a[1],b=p,d=function(a){return[0,a,n]};e=1}else{var
-q=a[2],r=a[1],b=r,d=function(a){return[1,a,q]};e=1}if(e){if(!J(aj(cQ,f))&&!aK(b,g))return o(b,g)?0:[0,d(bA(b))];return[0,d(b)]}}else
+q=a[2],r=a[1],b=r,d=function(a){return[1,a,q]};e=1}if(e){if(!J(aj(cQ,f))&&!aJ(b,g))return o(b,g)?0:[0,d(bn(b))];return[0,d(b)]}}else
 var
 h=c;return h}function
 fY(b,a){var
 c=g(a1(function(a){return 0===a[0]?0:1},b));return o(g(a),c)}function
 hW(a){var
-b=W(aD(0,g(a)),a);return e(aB,a1(function(a){return i_(a[2])},b))}function
+b=W(aC(0,g(a)),a);return e(aA,a1(function(a){return i_(a[2])},b))}function
 pV(a){var
 b=a[1],c=e(hQ,a[1]);return g2(hR(a[1]),c,b)}function
-kv(a){return hW(pV(a))}function
+kw(a){return hW(pV(a))}function
 pW(b,a){if(a){var
-c=a[1],d=a[2],g=pW(M(b,c[1]),d),h=c[2];return f(e(function(a){return aD(M(b,a),Ce)},h),g)}return a}function
+c=a[1],d=a[2],g=pW(M(b,c[1]),d),h=c[2];return f(e(function(a){return aC(M(b,a),Ce)},h),g)}return a}function
 pX(e,a){function
 b(f){var
-a=H(e,f);if(a){var
-b=mN(a[1]);if(b)return L(b[1],d);var
+a=F(e,f);if(a){var
+b=mO(a[1]);if(b)return L(b[1],d);var
 c=1}else
 var
 c=a;return c}var
@@ -7446,18 +7459,18 @@ pY(a){switch(a[0]){case
 Cj(a){return 0===a[0]?pY(a[1]):Ck}function
 hX(a){if(a){var
 b=a[1];return[0,b[2],b[1]]}return[0,d,0]}function
-kw(aC,Y,aB,X,W,b,aA,V){var
-a=hJ(Y,aB,X,W),aD=g(V),aE=e(pY,a[1]),aF=pX(pV(a),aE),aG=aC?0:kv(a),B=dZ(Cl,kv(a),aG,aF,aD,V);if(B){var
+kx(aC,Y,aB,X,W,b,aA,V){var
+a=hJ(Y,aB,X,W),aD=g(V),aE=e(pY,a[1]),aF=pX(pV(a),aE),aG=aC?0:kw(a),B=dZ(Cl,kw(a),aG,aF,aD,V);if(B){var
 Z=B[1];if(Z[2])return 0;var
 _=hV(Y,X,W,a);if(_){var
-aH=Z[1],C=e(hQ,a[1]),c=hR(a[1]),aI=hX(aA),U=nc(i,a);if(U){var
+aH=Z[1],C=e(hQ,a[1]),c=hR(a[1]),aI=hX(aA),U=nd(i,a);if(U){var
 n=g2(c,C,a[1]),h=i7(c,C,a[1],0),ab=g(a[3]),ac=M(g(n),ab),K=[0,g(n),ac],ae=a[3],E=aj(function(a){if(typeof
 a!=="number"&&14===a[0])return 1;return 0},ae),af=E?z(function(a){var
-b=e(aO,g4(n,a[4]));return[0,a[4],b]},h):E,ag=f(i9(h,c,K,a[3]),af),ah=f(bD(mi(h)),ag),L=f(bD(fj(h)),ah),N=cZ(L)[1],o=cY(N),O=l(function(a){var
+b=e(aO,g4(n,a[4]));return[0,a[4],b]},h):E,ag=f(i9(h,c,K,a[3]),af),ah=f(bE(mj(h)),ag),L=f(bE(fj(h)),ah),N=cZ(L)[1],o=cY(N),O=l(function(a){var
 b=m(d);return aN(r(bh(o,a),o,b),a)},L);if(O){var
 P=aj(tZ,a[3]);if(P){var
 t=C,p=a[1];for(;;){if(p){var
-q=p[1],u=bR(d,t);switch(q[0]){case
+q=p[1],u=bS(d,t);switch(q[0]){case
 0:var
 F=q[1],G=g5(b,F[1],u),D=0;if(G){var
 s=ap(b,[0,F[4],c]);if(s)var
@@ -7468,17 +7481,17 @@ j=H;break;case
 1:var
 J=q[3],j=J?g5(b,J[1],u):1;break;default:var
 j=g5(b,q[1],u)}if(j){var
-aa=p[2],t=bB(t),p=aa;continue}var
+aa=p[2],t=bC(t),p=aa;continue}var
 Q=j}else
 var
 Q=1;var
 v=Q;break}}else
 var
 v=P;if(v){var
-ai=a[3],ak=z(function(a){return dI(c,a)},ai),al=a[3],am=f(n,f(e(function(a){return bW(c,a)},al),ak)),w=ad(e(function(a){return ap(b,a)},am));if(w){var
+ai=a[3],ak=z(function(a){return dI(c,a)},ai),al=a[3],am=f(n,f(e(function(a){return bX(c,a)},al),ak)),w=ad(e(function(a){return ap(b,a)},am));if(w){var
 an=ba(et(a[2]),c),x=ad(e(function(a){return ap(b,a)},an));if(x){var
-ao=a[3],y=ad(m1(b,aI,function(a){return bh(o,a)},n,h,c,K,ao));if(y){var
-R=y[1],aq=i6(R),ar=x[1],as=a[2],at=function(a){return m2(b,as,c,a)},au=w[1],av=0,aw=mi(h),ax=k(ay(function(a){return bh(o,a)}),aw),az=fj(h);return f4(i5(b,N,k(ay(function(a){return bh(o,a)}),az),ax,av,au,R,at),ar,aq,aH)}var
+ao=a[3],y=ad(m2(b,aI,function(a){return bh(o,a)},n,h,c,K,ao));if(y){var
+R=y[1],aq=i6(R),ar=x[1],as=a[2],at=function(a){return m3(b,as,c,a)},au=w[1],av=0,aw=mj(h),ay=k(ax(function(a){return bh(o,a)}),aw),az=fj(h);return f4(i5(b,N,k(ax(function(a){return bh(o,a)}),az),ay,av,au,R,at),ar,aq,aH)}var
 S=y}else
 var
 S=x;var
@@ -7498,11 +7511,11 @@ b=a[1],c=ew(b[6]);return f(ew(b[5]),c)}function
 Cn(a){if(0===a[0])return pI(a[1]);var
 b=a[1],c=bb(b[4]);return f(bb(b[3]),c)}function
 pZ(c){var
-a=z(Cm,c),d=a?[0,a[1],a[2]]:z(Cn,c);return E(b,bF(d))}function
+a=z(Cm,c),d=a?[0,a[1],a[2]]:z(Cn,c);return E(b,bG(d))}function
 Co(a){if(0===a[0])return[0,hQ(a[1]),d];var
-b=a[1],c=bF(bb(b[2]));return[0,bF(bb(b[1])),c]}function
-kx(h,b,s,r,q,f,C,B,p){var
-a=kf(h,b,s,r,q,f),t=pZ(a[2]),u=e(Co,a[2]),j=jH(t,u,a[2]),D=g(p),E=pX(j,e(Cj,a[2])),F=hW(j),G=hW(j),k=dZ(at(h),G,F,E,D,p);if(k){var
+b=a[1],c=bG(bb(b[2]));return[0,bG(bb(b[1])),c]}function
+ky(h,b,s,r,q,f,C,B,p){var
+a=kg(h,b,s,r,q,f),t=pZ(a[2]),u=e(Co,a[2]),j=jI(t,u,a[2]),D=g(p),E=pX(j,e(Cj,a[2])),F=hW(j),G=hW(j),k=dZ(at(h),G,F,E,D,p);if(k){var
 v=k[1];if(v[2])return 0;var
 w=hU(h,b,s,r,q,f);if(w){var
 H=v[1],I=g(b),J=d2(dY(b),Cp,I,0,f),K=hX(B),y=e(vM,a[2]),m=fD(i,a[2],y);if(m)var
@@ -7519,51 +7532,54 @@ d=c;return d?vK(C,K,J,a,t,u,H):d}var
 x=w}else
 var
 x=k;return x}function
-ky(r,t,ai,ah,ag,I,aP,af,v){var
+kz(r,t,ai,ah,ag,I,aP,af,v){var
 x=typeof
-r==="number"?r?Cq:Cr:hT(r[1]),A=e(j,aP),a=kf(r,t,ai,ah,ag,I),aj=kq(t,e(j,af));if(aj[2])return 0;var
-p=aj[1],ak=fY(z(ks,t),af),al=ak?hU(r,t,ai,ah,ag,I):ak;if(al)var
-aQ=at(r),L=o(g(A),aQ);else
+r==="number"?r?Cq:Cr:hT(r[1]),B=e(j,aP),a=kg(r,t,ai,ah,ag,I),aj=kr(t,e(j,af));if(aj[2])return 0;var
+p=aj[1],ak=fY(z(kt,t),af),al=ak?hU(r,t,ai,ah,ag,I):ak;if(al)var
+aQ=at(r),L=o(g(B),aQ);else
 var
 L=al;if(L){if(typeof
 v!=="number"&&2===v[0]){var
-S=e(j,v[1]),aU=aw(x,S),ap=aI(an(x,S)),aW=aw(x,A),aq=aI(an(x,A)),X=fD(i,a[2],p),Y=X?cG(i,a[4],aq):X,Z=Y?cG(i,a[4],ap):Y,ar=Z?oN(i,a[1],a[3],a[5],p,aq,aW,ap,aU):Z;if(ar){var
+S=e(j,v[1]),aU=av(x,S),ap=aH(am(x,S)),aW=av(x,B),aq=aH(am(x,B)),X=fD(i,a[2],p),Y=X?cG(i,a[4],aq):X,Z=Y?cG(i,a[4],ap):Y,ar=Z?oN(i,a[1],a[3],a[5],p,aq,aW,ap,aU):Z;if(ar){var
 aX=at(r);return o(g(S),aX)}return ar}var
-aR=g(t),aS=hl(r),M=ku(dY(t),aS,aR,0,I,v);if(M){var
-B=M[1],f=aI(an(x,A)),m=aw(x,A),as=0;if(typeof
+aR=g(t),aS=hl(r),M=kv(dY(t),aS,aR,0,I,v);if(M){var
+C=M[1],f=aH(am(x,B)),m=av(x,B),as=0;if(typeof
 v==="number"&&v){var
 N=J(dY(t));as=1}if(!as)var
 N=1;if(N){var
-T=fD(i,a[2],p),U=T?jt(i,a,f,m):T;if(U)var
-n=a[5],V=a[3],C=a[1],aD=a[6],au=e(function(a){if(0===a[0])var
-e=bt(n,m,f,a),c=ci(a[1],e);else
+T=fD(i,a[2],p),U=T?ju(i,a,f,m):T;if(U)var
+n=a[5],V=a[3],y=a[1],aD=a[6],au=e(function(a){if(0===a[0])var
+e=bu(n,m,f,a),c=bz(a[1],e);else
 var
-d=a[1],g=jg(d,bt(n,m,f,a)),h=d[4],i=bt(n,m,f,a),j=K(function(b,a){return[2,b,a]},i,h),c=K(function(b,a){return[3,b,a]},j,g);return[0,jr(C,c,P([5,[0,b,b],V],da(eD(n,m,eC(a)),c)))]},p),av=z(function(a){return js(n,m,f,a)},p),ax=function(a){var
-b=eD(n,m,a);return K(function(b,a){return[2,b,a]},f,b)},ay=0,aA=e(function(d){var
-b=bt(n,m,f,d);if(0===d[0]){var
-a=d[1];if(0===a[0]){var
-g=a[4],h=a[3],i=a[2],e=a[1],k=cg(e,i,h,g,b),j=cH(a[5],k),l=P(j,az(e)),o=fs(e,i,h,b);return[0,[0,nY(C,K(function(b,a){return[2,b,a]},o,l)),j,g]]}return 0}var
-c=d[1],p=c[6],q=ev(c,b),r=jg(c,b),s=c[4],t=K(function(b,a){return[2,b,a]},b,s);return[0,[0,nY(C,K(function(b,a){return[3,b,a]},t,r)),q,p]]},p),aB=e(function(a){return eE(n,m,f,a)},p),aC=[0,e(function(a){if(0===a[0])var
-l=bt(n,m,f,a),d=ch(a[1],l);else
+d=a[1],g=jg(d,bu(n,m,f,a)),h=d[4],i=bu(n,m,f,a),j=K(function(b,a){return[2,b,a]},i,h),c=K(function(b,a){return[3,b,a]},j,g);return[0,jr(y,c,P([5,[0,b,b],V],da(eD(n,m,eC(a)),c)))]},p),aw=z(function(a){return jt(n,m,f,a)},p),ax=function(a){var
+b=eD(n,m,a);return K(function(b,a){return[2,b,a]},f,b)},az=0,aA=e(function(g){var
+c=bu(n,m,f,g);if(0===g[0]){var
+a=g[1];switch(a[0]){case
+0:var
+i=a[4],j=a[3],k=a[2],h=a[1],o=ch(h,k,j,i,c),l=cH(a[5],o),p=P(l,ay(h)),q=fs(h,k,j,c);return[0,[0,js(y,K(function(b,a){return[2,b,a]},q,p)),l,i]];case
+1:var
+r=bz(a,c),s=[6,w(bz(a,c),r)];return[0,[0,js(y,bz(a,c)),[0,d,b],s]];default:return 0}}var
+e=g[1],t=e[6],u=ev(e,c),v=jg(e,c),x=e[4],z=K(function(b,a){return[2,b,a]},c,x);return[0,[0,js(y,K(function(b,a){return[3,b,a]},z,v)),u,t]]},p),aB=e(function(a){return eE(n,m,f,a)},p),aC=[0,e(function(a){if(0===a[0])var
+l=bu(n,m,f,a),d=ci(a[1],l);else
 var
-e=bt(n,m,f,a),c=a[1],g=jg(c,e),h=c[4],i=K(function(b,a){return[2,b,a]},e,h),j=K(function(b,a){return[3,b,a]},i,g),k=ev(c,e),d=P([5,[0,b,b],[4,c[5],k]],j);return jr(C,d,P([5,[0,b,b],V],da(eD(n,m,eC(a)),d)))},p),aB,aA,ay,ax,av,au],aE=at(a[1]),O=jd(i,hl(a[1]),aE,aC,aD,B);else
+e=bu(n,m,f,a),c=a[1],g=jg(c,e),h=c[4],i=K(function(b,a){return[2,b,a]},e,h),j=K(function(b,a){return[3,b,a]},i,g),k=ev(c,e),d=P([5,[0,b,b],[4,c[5],k]],j);return jr(y,d,P([5,[0,b,b],V],da(eD(n,m,eC(a)),d)))},p),aB,aA,az,ax,aw,au],aE=at(a[1]),O=jd(i,hl(a[1]),aE,aC,aD,C);else
 var
 O=U;if(O)var
 Q=O;else{if(typeof
-B!=="number"&&0===B[0]){var
-E=B[2];if(E){if(E[2])return 0;var
-R=E[1],_=a[1],D=a[5],aT=B[1],$=fD(i,a[2],p),aa=$?jt(i,a,f,m):$;if(aa){var
+C!=="number"&&0===C[0]){var
+E=C[2];if(E){if(E[2])return 0;var
+R=E[1],_=a[1],D=a[5],aT=C[1],$=fD(i,a[2],p),aa=$?ju(i,a,f,m):$;if(aa){var
 aG=a[6],F=eu(i,hl(_),aT,aG);if(F){var
-y=F[1][1];if(typeof
-y!=="number"&&16===y[0]){var
-s=y[1],aH=a[2],aJ=e(function(a){return eE(D,m,f,o0(a))},aH),ad=k(cJ(cN),s);if(ad)var
+A=F[1][1];if(typeof
+A!=="number"&&16===A[0]){var
+s=A[1],aI=a[2],aJ=e(function(a){return eE(D,m,f,o0(a))},aI),ad=k(cJ(cN),s);if(ad)var
 aF=k(gr(c(2,b)),cN),u=[0,bm(d,ad[1][1]),aF];else
 var
 u=[0,d,b];var
 ae=h(i,0,s);if(ae)var
 aK=a[2],G=l(function(a){var
 b=o0(a);if(0===b[0])return 1;var
-c=b[1],d=[1,c],e=cK(i,s),g=e?nZ(i,a,d):e;return g?h(i,1,jf(c,bt(D,m,f,d))):g},aK);else
+c=b[1],d=[1,c],e=cK(i,s),g=e?nZ(i,a,d):e;return g?h(i,1,jf(c,bu(D,m,f,d))):g},aK);else
 var
 G=ae;if(G)var
 aL=g(a[2]),H=o(g(R),aL);else
@@ -7576,18 +7592,18 @@ g=a[2],j=a[1],p=c(2,c(2,c(2,q(c(2,c(2,b)))))),e=hA(s,a3(u,dA([0,b,b],[0,b,k(gr(c
 e!=="number"&&1===e[0]){var
 d=dR([5,e[2],[2,[0,b,b],e[1]]]),r=[4,g,dL(d)],l=[2,[4,j,dK(d)],r],t=[4,g,dK(d)],m=[3,[4,j,dL(d)],t],n=[4,a5(u),[2,[0,b,b],l]];if(h(i,1,[2,[0,b,b],l])&&h(i,0,[3,n,m])&&h(i,0,[2,n,m])){var
 v=dL(d);return[1,dK(d),v]}return hA(s,u,f,a)}return hA(s,u,f,a)}return hA(s,u,f,a)},aM)),R),aO=z(function(t){var
-l=t[1],a=l[2],g=l[1],h=t[2],i=eD(D,m,eC(g)),e=bt(D,m,f,g);if(0===g[0]){var
+l=t[1],a=l[2],g=l[1],h=t[2],i=eD(D,m,eC(g)),e=bu(D,m,f,g);if(0===g[0]){var
 d=g[1];switch(d[0]){case
 0:var
 n=d[4],o=d[3],j=d[2],k=d[1];if(typeof
 a!=="number"&&0===a[0]){var
-p=a[1],u=0,v=P(p,az(k)),x=K(function(b,a){return[3,b,a]},f,j),y=K(function(b,a){return[3,b,a]},x,v),z=aV(j,o,e),A=[3,w(az(k),z),p],B=cg(k,j,o,n,e);return[0,[0,dR([5,[0,h,b],[2,cH(d[5],B),A]]),n,y,i],u]}return 0;case
+p=a[1],u=0,v=P(p,ay(k)),x=K(function(b,a){return[3,b,a]},f,j),y=K(function(b,a){return[3,b,a]},x,v),z=aV(j,o,e),A=[3,w(ay(k),z),p],B=ch(k,j,o,n,e);return[0,[0,dR([5,[0,h,b],[2,cH(d[5],B),A]]),n,y,i],u]}return 0;case
 1:if(typeof
 a!=="number"&&0===a[0]){var
 q=a[1],C=0,E=d[1],F=K(function(b,a){return[3,b,a]},f,E);return[0,[0,dR([5,[0,h,b],[2,q,cI(d,e)]]),q,F,i],C]}return 0;default:return 0}}var
 c=g[1];if(typeof
 a!=="number"&&1===a[0]){var
-r=a[2],s=a[1],G=[4,r,fx(c,e)],H=[3,[4,s,fy(c,e)],G],J=P(r,g8(c)),I=0,L=P(s,fw(c)),M=K(function(b,a){return[2,b,a]},L,J),N=P(c[5],M),O=c[3],Q=K(function(b,a){return[2,b,a]},O,N),R=K(function(b,a){return[3,b,a]},f,Q),S=c[6],T=[2,ev(c,e),H];return[0,[0,dR([5,[0,h,b],[4,c[5],T]]),S,R,i],I]}return 0},aN);return oY(i,_,y[2],y[3],aO)}return H}var
+r=a[2],s=a[1],G=[4,r,fx(c,e)],H=[3,[4,s,fy(c,e)],G],J=P(r,g8(c)),I=0,L=P(s,fw(c)),M=K(function(b,a){return[2,b,a]},L,J),N=P(c[5],M),O=c[3],Q=K(function(b,a){return[2,b,a]},O,N),R=K(function(b,a){return[3,b,a]},f,Q),S=c[6],T=[2,ev(c,e),H];return[0,[0,dR([5,[0,h,b],[4,c[5],T]]),S,R,i],I]}return 0},aN);return oY(i,_,A[2],A[3],aO)}return H}var
 ab=0}else
 var
 ab=F;var
@@ -7597,10 +7613,10 @@ ac=aa;return ac}return E}var
 Q=0}}else
 var
 Q=N;var
-am=Q}else
+an=Q}else
 var
-am=M;var
-ao=am}else
+an=M;var
+ao=an}else
 var
 ao=L;return ao}function
 cR(a){if(a){var
@@ -7615,8 +7631,8 @@ e=b;return e}return Cs}function
 hY(f,k,j,a,i){var
 l=g(f),h=o(g(a),l);if(h){var
 m=W(W(f,W(k,j)),a);return e(function(f){var
-g=f[1],h=g[2],j=dA(h[2],h[1]),a=aM(g[1],i),k=D(d,a)?lJ(b9(c(2,b),a)):[0,b,ec(b9(c(2,b),T(a)))],l=dB(gB(a3([0,c(2,b),b],k),j)),m=f[2];return e(function(a){return dB(a3(lJ(a),l))},m)},m)}return h}function
-kz(u,aU,aq,ap,t,ao,a){var
+g=f[1],h=g[2],j=dA(h[2],h[1]),a=aL(g[1],i),k=D(d,a)?lK(b_(c(2,b),a)):[0,b,ec(b_(c(2,b),T(a)))],l=dB(gB(a3([0,c(2,b),b],k),j)),m=f[2];return e(function(a){return dB(a3(lK(a),l))},m)},m)}return h}function
+kA(u,aU,aq,ap,t,ao,a){var
 c=hJ(u,aU,aq,ap),ar=fY(z(pO,u),ao),g=ar?hV(u,aq,ap,c):ar;if(t){var
 v=t[2];if(v){var
 w=v[2];if(w){if(w[2])return 0;var
@@ -7678,7 +7694,7 @@ aM=T}else
 var
 aM=S;return aM;case
 3:var
-U=H(c[3],a[1]);if(U){var
+U=F(c[3],a[1]);if(U){var
 aN=U[1];if(typeof
 aN==="number"&&aN){var
 V=cR(a[2]);if(V){var
@@ -7694,9 +7710,9 @@ aT=c[3],E=aj(function(a){if(typeof
 a==="number"&&a)return 1;return 0},aT);else
 var
 E=ae;var
-af=E?hw(n,o):E,ag=af?jV(i,c[2],[0,[0,ac,ab],aa],[0,[0,$,_],Z]):af,ah=ag?eH(i,n,o,aW(D)):ag,ai=ah?l(function(a){var
-b=eG(jW(a)),c=b?eG([0,cI(a,D),0]):b;if(c){var
-d=i$(a,ad);if(d)return jU(i,v6,d[1]);var
+af=E?hw(n,o):E,ag=af?jW(i,c[2],[0,[0,ac,ab],aa],[0,[0,$,_],Z]):af,ah=ag?eH(i,n,o,aW(D)):ag,ai=ah?l(function(a){var
+b=eG(jX(a)),c=b?eG([0,cI(a,D),0]):b;if(c){var
+d=i$(a,ad);if(d)return jV(i,v6,d[1]);var
 e=1}else
 var
 e=c;return e},f):ah;if(ai)return hv(i,e(function(a){var
@@ -7707,12 +7723,12 @@ ak=s;var
 al=ak}else
 var
 al=r;var
-F=al}else
+G=al}else
 var
-F=o}else
+G=o}else
 var
-F=q;var
-am=F}else
+G=q;var
+am=G}else
 var
 am=p;var
 an=am}else
@@ -7727,9 +7743,9 @@ aP=V;return aP}var
 aQ=0}else
 var
 aQ=U;return aQ}var
-G=fW(c,a);if(G){var
+H=fW(c,a);if(H){var
 aV=j(h),aX=j(k),at=[0,j(m),aX,aV];if(g){var
-au=fu(i,c,f,at,G[1]);if(au)var
+au=fu(i,c,f,at,H[1]);if(au)var
 I=au;else{if(typeof
 a!=="number"&&0===a[0]){var
 x=a[2];return x?x[2]?0:fM(i,c,f,at,a[1],x[1]):x}var
@@ -7738,7 +7754,7 @@ var
 I=g;var
 av=I}else
 var
-av=G;var
+av=H;var
 aw=av}else
 var
 aw=w;var
@@ -7750,19 +7766,19 @@ var
 ay=t;return ay}function
 p0(n,m,b,l,C,B){var
 f=C,d=B;for(;;){if(0===d[0]){var
-h=d[1],i=H(f,h),o=i?aK(i[1][2],Cv):i;if(o)var
-D=d[2],j=p0(n,m,b,l,kn(0,h,f),D);else
+h=d[1],i=F(f,h),o=i?aJ(i[1][2],Cv):i;if(o)var
+D=d[2],j=p0(n,m,b,l,ko(0,h,f),D);else
 var
 j=o;if(j){var
-E=d[3],f=kn(1,h,f),d=E;continue}return j}var
+E=d[3],f=ko(1,h,f),d=E;continue}return j}var
 c=d[1],a=pF(0,n,f),p=e(function(b){function
 d(b){return pG(a,b)}function
-c(a){return kl(d,a)}switch(b[0]){case
+c(a){return km(d,a)}switch(b[0]){case
 0:var
 e=b[5],f=pG(a,b[4]),g=c(b[3]),h=c(b[2]);return[0,c(b[1]),h,g,f,e];case
 1:var
 i=y(c,b[3]),j=c(b[2]);return[1,c(b[1]),j,i];default:return[2,c(b[1])]}},m);if(0===b[0])var
-t=b[2],u=kl(function(b){return au(a,b)},t),v=b[1],k=[0,kl(function(b){return au(a,b)},v),u];else
+t=b[2],u=km(function(b){return au(a,b)},t),v=b[1],k=[0,km(function(b){return au(a,b)},v),u];else
 var
 w=au(a,b[5]),x=au(a,b[4]),z=au(a,b[3]),A=au(a,b[2]),k=[1,au(a,b[1]),A,z,x,w];var
 q=e(function(g){var
@@ -7790,12 +7806,12 @@ i=h;return[0,g[1],g[2],i,d]},l);if(typeof
 c==="number")return 1;else
 switch(c[0]){case
 0:return 0;case
-1:return kw(1,p,k,0,q,c[1],c[2],c[3]);default:var
+1:return kx(1,p,k,0,q,c[1],c[2],c[3]);default:var
 g=c[4],s=0;if(typeof
 g!=="number"&&2===g[0]){var
 J=g[1],r=[2,e(function(b){return au(a,b)},J)];s=1}if(!s)var
 r=g;var
-F=c[3],G=e(function(b){return au(a,b)},F),I=c[2];return kz(p,k,0,q,e(function(b){return au(a,b)},I),G,r)}}}function
+G=c[3],H=e(function(b){return au(a,b)},G),I=c[2];return kA(p,k,0,q,e(function(b){return au(a,b)},I),H,r)}}}function
 p1(h,g){var
 a=cC(j(h));if(a){var
 c=a[1],e=bf([0,d,b],c);if(e)return bf(c,g);var
@@ -7804,11 +7820,11 @@ var
 f=a;return f}function
 fZ(b,a){if(a){var
 c=a[1],d=r(c,b,0);if(d)var
-f=an(c,b),e=[0,[0,g(a1(function(a){return a},f))]];else
+f=am(c,b),e=[0,[0,g(a1(function(a){return a},f))]];else
 var
 e=d;return e}return Cx}function
-p2(b,c,a){return z(function(a){if(b3(a)){var
-d=hK(0,b,0,a);return ab(1,lH(e(function(a){return fv(i,Cy,a)},d)))}return ab(0,g(ps(b,c,a)))},a)}function
+p2(b,c,a){return z(function(a){if(b4(a)){var
+d=hK(0,b,0,a);return ab(1,lI(e(function(a){return fv(i,Cy,a)},d)))}return ab(0,g(ps(b,c,a)))},a)}function
 p3(c,a){return e(function(a){var
 b=a[4],d=a[3],e=a[2],f=a[1];return[0,z(function(b){var
 a=fZ(c,b[1]),d=a?[0,[0,a[1],b[2]],0]:a;return d},f),e,d,b]},a)}function
@@ -7825,122 +7841,122 @@ gI=hH(v[3]),gJ=gI?hH(v[4]):gI;if(gJ){var
 af=v[1];switch(af[0]){case
 3:var
 gP=l(fT,af[1]);if(gP)var
-lL=af[2],dr=l(function(a){return fT(a[1])},lL);else
+lM=af[2],dr=l(function(a){return fT(a[1])},lM);else
 var
 dr=gP;if(dr)var
-lM=af[3],ds=l(function(a){var
-b=fT(a[1]),c=b?kb(a[2]):b;return c?fU(a[2]):c},lM);else
+lN=af[3],ds=l(function(a){var
+b=fT(a[1]),c=b?kc(a[2]):b;return c?fU(a[2]):c},lN);else
 var
 ds=dr;if(ds)var
-lN=af[4],bS=l(function(a){var
+lO=af[4],bS=l(function(a){var
 b=0===a[0]?a[1]:[0,a[1],0];return l(function(a){var
-b=kb(a);return b?fU(a):b},b)},lN);else
+b=kc(a);return b?fU(a):b},b)},lO);else
 var
 bS=ds;break;case
 7:var
-lO=af[1],gQ=l(function(a){var
-b=fT(a[1]);return b?fV(0,[0,a[2][1],[0,a[2][2],0]]):b},lO),bS=gQ?fV(0,[0,af[5],[0,af[6],0]]):gQ;break;default:var
+lP=af[1],gQ=l(function(a){var
+b=fT(a[1]);return b?fV(0,[0,a[2][1],[0,a[2][2],0]]):b},lP),bS=gQ?fV(0,[0,af[5],[0,af[6],0]]):gQ;break;default:var
 bS=1}var
 dn=bS}else
 var
 dn=gJ;var
 eo=0;if(dn){var
-gK=v[1],dq=7===gK[0]?e(aB,gK[1]):0,gL=function(c,b){var
+gK=v[1],dq=7===gK[0]?e(aA,gK[1]):0,gL=function(c,b){var
 a=pp(c);return a?l(function(a){var
-e=a[1],b=l(function(a){return ka(a[2])},e);if(b){var
+e=a[1],b=l(function(a){return kb(a[2])},e);if(b){var
 c=a[3];if(c)return fV(dq,po(c[1]));var
 d=1}else
 var
 d=b;return d},b):a},gM=function(e,d,c,b){var
 a=pp(e);return a?fV(dq,f(d,f(c,po(b)))):a},n=v[1];switch(n[0]){case
 0:var
-lk=z(dV,n[4]),ll=f(z(pm,n[3]),lk),lm=f(pk(n[2]),ll),ag=f(z(kc,n[1]),lm);break;case
+ll=z(dV,n[4]),lm=f(z(pm,n[3]),ll),ln=f(pk(n[2]),lm),ag=f(z(kd,n[1]),ln);break;case
 1:var
-dk=n[5],dl=n[3],ln=z(dV,n[6]),lo=dk?pl(dk[1]):dk,lp=f(lo,ln),lq=f(pj(n[4]),lp),lr=dl?[0,dl[1],0]:dl,ls=f(lr,lq),ag=f(z(A2,n[2]),ls);break;case
+dk=n[5],dl=n[3],lo=z(dV,n[6]),lp=dk?pl(dk[1]):dk,lq=f(lp,lo),lr=f(pj(n[4]),lq),ls=dl?[0,dl[1],0]:dl,lt=f(ls,lr),ag=f(z(A2,n[2]),lt);break;case
 2:var
-lt=z(dV,n[7]),lu=f(z(pm,n[6]),lt),lv=f(pl(n[5]),lu),lw=f(pj(n[4]),lv),lx=[0,n[3],lw],ly=n[2],ag=f(z(function(a){return z(eN,f(a[1],a[2]))},ly),lx);break;case
+lu=z(dV,n[7]),lv=f(z(pm,n[6]),lu),lw=f(pl(n[5]),lv),lx=f(pj(n[4]),lw),ly=[0,n[3],lx],lz=n[2],ag=f(z(function(a){return z(eN,f(a[1],a[2]))},lz),ly);break;case
 3:var
-lz=z(dV,n[7]),lA=f(n[6],lz),lB=f(n[5],lA),lC=n[2],ag=f(z(function(a){return eN(a[2])},lC),lB);break;case
+lA=z(dV,n[7]),lB=f(n[6],lA),lC=f(n[5],lB),lD=n[2],ag=f(z(function(a){return eN(a[2])},lD),lC);break;case
 4:var
-lD=z(dV,n[3]),ag=[0,n[1],[0,n[2],lD]];break;case
+lE=z(dV,n[3]),ag=[0,n[1],[0,n[2],lE]];break;case
 5:var
-lE=z(dV,n[4]),lF=f(b1(n[3]),lE),lG=f(b1(n[2]),lF),lH=f(z(kc,n[1]),lG),ag=[0,n[5],lH];break;case
+lF=z(dV,n[4]),lG=f(b2(n[3]),lF),lH=f(b2(n[2]),lG),lI=f(z(kd,n[1]),lH),ag=[0,n[5],lI];break;case
 6:var
 dm=n[1],ag=dm?eN(dm[1]):dm;break;default:var
-lI=z(dV,n[4]),lJ=f(pk(n[3]),lI),ag=f(z(kc,n[2]),lJ)}var
+lJ=z(dV,n[4]),lK=f(pk(n[3]),lJ),ag=f(z(kd,n[2]),lK)}var
 gN=fV(dq,ag);if(gN){var
 ah=v[2];switch(ah[0]){case
 0:var
 bq=gL(ah[1],ah[3]);break;case
 1:var
 bq=gM(ah[1],ah[2],ah[3],ah[4]);break;default:var
-lK=ah[1],bq=l(function(a){if(typeof
+lL=ah[1],bq=l(function(a){if(typeof
 a!=="number")switch(a[0]){case
 1:return gL(a[1],a[3]);case
-2:return gM(a[1],a[2],a[3],a[4])}return 1},lK)}}else{var
+2:return gM(a[1],a[2],a[3],a[4])}return 1},lL)}}else{var
 gO=gN;eo=1}}else{var
 gO=dn;eo=1}if(eo)var
 bq=gO;if(bq){var
 a=v[1];switch(a[0]){case
 0:var
-N=a[4],ak=a[3],al=a[2],O=a[1],aH=v[2];switch(aH[0]){case
+N=a[4],ak=a[3],al=a[2],O=a[1],aI=v[2];switch(aI[0]){case
 0:var
-dM=aH[3],ho=aH[2],dN=aH[1],g4=p2(g(O),ak,N),lW=a1(function(a){return J(b3(a))},N);if(aj(b3,N)){var
-g5=kw(0,O,al,ak,lW,dN,ho,p3(e(J,g4),dM));if(g5){var
-lX=p3(g4,dM),lY=a1(b3,N),lZ=kh(al);return kx(0,e(kg,O),0,lZ,0,lY,dN,0,lX)}return g5}return kw(0,O,al,ak,N,dN,ho,dM);case
+dM=aI[3],ho=aI[2],dN=aI[1],g4=p2(g(O),ak,N),lX=a1(function(a){return J(b4(a))},N);if(aj(b4,N)){var
+g5=kx(0,O,al,ak,lX,dN,ho,p3(e(J,g4),dM));if(g5){var
+lY=p3(g4,dM),lZ=a1(b4,N),l0=ki(al);return ky(0,e(kh,O),0,l0,0,lZ,dN,0,lY)}return g5}return kx(0,O,al,ak,N,dN,ho,dM);case
 1:var
-dO=aH[4],dP=aH[3],dT=aH[2],g6=p2(g(O),ak,N),dB=a1(function(a){return J(b3(a))},N);if(aj(b3,N)){var
-l0=a1(b3,N),l1=kh(al),g7=hU(0,e(kg,O),0,l1,0,l0);if(g7)var
-dC=p4(e(J,g6),dO),l2=dC?kz(O,al,ak,dB,dT,dP,dC[1]):dC,dD=l2;else
+dO=aI[4],dP=aI[3],dT=aI[2],g6=p2(g(O),ak,N),dB=a1(function(a){return J(b4(a))},N);if(aj(b4,N)){var
+l1=a1(b4,N),l2=ki(al),g7=hU(0,e(kh,O),0,l2,0,l1);if(g7)var
+dC=p4(e(J,g6),dO),l3=dC?kA(O,al,ak,dB,dT,dP,dC[1]):dC,dD=l3;else
 var
 dD=g7;if(dD)var
 dF=dD;else{var
 g8=hV(O,ak,dB,hJ(O,al,ak,dB));if(g8){var
 dG=p4(g6,dO);if(dG){var
-l3=dG[1],l4=a1(b3,N),l5=kh(al);return ky(0,e(kg,O),0,l5,0,l4,dT,dP,l3)}var
+l4=dG[1],l5=a1(b4,N),l6=ki(al);return kz(0,e(kh,O),0,l6,0,l5,dT,dP,l4)}var
 dF=dG}else
 var
-dF=g8}return dF}return kz(O,al,ak,N,dT,dP,dO);default:return 0}case
+dF=g8}return dF}return kA(O,al,ak,N,dT,dP,dO);default:return 0}case
 1:var
-bs=a[6],bY=a[5],bZ=a[4],b4=a[3],U=a[2],Q=a[1],aJ=v[2];switch(aJ[0]){case
-0:return kx(Q,U,b4,bZ,bY,bs,aJ[1],aJ[2],aJ[3]);case
+br=a[6],bW=a[5],bZ=a[4],b0=a[3],U=a[2],Q=a[1],aJ=v[2];switch(aJ[0]){case
+0:return ky(Q,U,b0,bZ,bW,br,aJ[1],aJ[2],aJ[3]);case
 1:var
-am=aJ[4],dU=aJ[3],hp=aJ[2];if(typeof
-am!=="number"&&3===am[0]){var
-me=am[5],mf=am[4],mg=am[3],mh=am[2],mi=am[1],s=typeof
-Q==="number"?Q?Ct:Cu:hT(Q[1]),gR=dx(at(Q),s),du=e(j,hp),a4=kf(Q,U,b4,bZ,bY,bs),gS=pZ(a4[2]),gT=kq(U,e(j,dU));if(gT[2])return 0;var
-dv=cR(mh);if(dv){var
-S=dv[1],dw=cR(mg);if(dw){var
-aG=dw[1],gU=fY(z(ks,U),dU),gV=gU?hU(Q,U,b4,bZ,bY,bs):gU;if(gV)var
-lQ=at(Q),dy=o(g(du),lQ);else
+an=aJ[4],dU=aJ[3],hp=aJ[2];if(typeof
+an!=="number"&&3===an[0]){var
+mf=an[5],mg=an[4],mh=an[3],mi=an[2],mj=an[1],s=typeof
+Q==="number"?Q?Ct:Cu:hT(Q[1]),gR=dx(at(Q),s),du=e(j,hp),a4=kg(Q,U,b0,bZ,bW,br),gS=pZ(a4[2]),gT=kr(U,e(j,dU));if(gT[2])return 0;var
+dv=cR(mi);if(dv){var
+S=dv[1],dw=cR(mh);if(dw){var
+aG=dw[1],gU=fY(z(kt,U),dU),gV=gU?hU(Q,U,b0,bZ,bW,br):gU;if(gV)var
+lR=at(Q),dy=o(g(du),lR);else
 var
 dy=gV;if(dy)var
-lR=g(U),lS=hl(Q),dz=o(mi,d2(dY(U),lS,lR,0,bs));else
+lS=g(U),lT=hl(Q),dz=o(mj,d2(dY(U),lT,lS,0,br));else
 var
 dz=dy;if(dz){if(dY(U))var
-lT=ab(d,gR),gW=f(ab(gS,s),lT);else
+lU=ab(d,gR),gW=f(ab(gS,s),lU);else
 var
-lV=ab(T(gS),gR),gW=f(ab(d,s),lV);var
-lU=hY(gW,S,aG,mf,me),ai=aw(s,du),bn=aI(an(s,du)),dA=gT[1],L=a4[5],fC=jT(0,S,aG),cI=oT(an(s,fC)),cJ=aw(s,fC),fE=a4[7],fF=fE?fD(i,a4[2],dA):fE,fJ=fF?jt(i,a4,bn,ai):fF,fK=fJ?aa(s,we):fJ;if(fK)var
-kD=M(s,g(ai)),cK=o(g(S),kD);else
+lW=ab(T(gS),gR),gW=f(ab(d,s),lW);var
+lV=hY(gW,S,aG,mg,mf),ai=av(s,du),bn=aH(am(s,du)),dA=gT[1],L=a4[5],fC=jU(0,S,aG),cI=oT(am(s,fC)),cJ=av(s,fC),fE=a4[7],fF=fE?fD(i,a4[2],dA):fE,fJ=fF?ju(i,a4,bn,ai):fF,fK=fJ?aa(s,we):fJ;if(fK)var
+kE=M(s,g(ai)),cK=o(g(S),kE);else
 var
 cK=fK;var
 fL=cK?hw(S,aG):cK;if(fL)var
-kE=hx(an(s,aG)),kF=hx(an(s,S)),cL=jV(i,a4[4],kF,kE);else
+kF=hx(am(s,aG)),kG=hx(am(s,S)),cL=jW(i,a4[4],kG,kF);else
 var
 cL=fL;if(cL){var
-kG=aw(s,aG),kH=aw(s,S);if(L)var
-fz=L[1],kC=0===fz[0]?wc:wd,fB=o(g(ai),kC),fM=fB?oS(i,fz,kH,kG):fB;else
+kH=av(s,aG),kI=av(s,S);if(L)var
+fz=L[1],kD=0===fz[0]?wc:wd,fB=o(g(ai),kD),fM=fB?oS(i,fz,kI,kH):fB;else
 var
 fM=o(g(ai),0);var
 cM=fM}else
 var
 cM=cL;if(cM){var
-kI=an(s,aW(bn)),kJ=an(s,aG),fP=eH(i,an(s,S),kJ,kI);if(fP)var
+kJ=am(s,aW(bn)),kK=am(s,aG),fP=eH(i,am(s,S),kK,kJ);if(fP)var
 a3=fP;else
 if(L){var
 fR=oR(L[1]);if(fR)var
-kK=aw(s,aG),a3=eH(i,aw(s,S),kK,ai);else
+kL=av(s,aG),a3=eH(i,av(s,S),kL,ai);else
 var
 a3=fR}else
 var
@@ -7950,11 +7966,11 @@ a3=cM;var
 fQ=a3?l(function(b){var
 a=eE(L,ai,bn,b),t=typeof
 a==="number"?0:0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]];if(0===b[0])var
-k=jW(b[1]);else
+k=jX(b[1]);else
 var
 c=b[1],p=[0,c[5],[0,c[6],0]],q=f(aW(c[4]),p),r=f(aW(c[3]),q),s=f(aW(c[2]),r),k=f(aW(c[1]),s);var
 m=eG(f(k,t));if(m)var
-u=js(L,ai,bn,b),v=1,e=l(function(a){return h(i,v,a)},u);else
+u=jt(L,ai,bn,b),v=1,e=l(function(a){return h(i,v,a)},u);else
 var
 e=m;if(e){var
 d=eE(L,cJ,cI,b),n=0;if(typeof
@@ -7964,32 +7980,32 @@ a!=="number"&&1===a[0]){var
 j=[0,[2,[4,d[1],a[1]],[4,d[2],a[2]]],0];o=1}if(!o)var
 j=0}if(n)var
 j=0;var
-w=f(js(L,cJ,cI,b),j),x=g(S);return l(function(a){return jU(i,x,a)},w)}return e},dA):a3;return fQ?hv(i,e(function(d){var
+w=f(jt(L,cJ,cI,b),j),x=g(S);return l(function(a){return jV(i,x,a)},w)}return e},dA):a3;return fQ?hv(i,e(function(d){var
 a=eE(L,ai,bn,d),c=eE(L,cJ,cI,d);if(typeof
 c==="number")return[0,b,b];else{if(0===c[0]){if(typeof
 a!=="number"&&0===a[0])return[3,c[1],a[1]];return[0,b,b]}if(typeof
-a!=="number"&&1===a[0])return[3,[4,c[2],a[1]],[4,c[1],a[2]]];return[0,b,b]}},dA),lU):fQ}var
+a!=="number"&&1===a[0])return[3,[4,c[2],a[1]],[4,c[1],a[2]]];return[0,b,b]}},dA),lV):fQ}var
 gX=dz}else
 var
 gX=dw;var
 gY=gX}else
 var
-gY=dv;return gY}return ky(Q,U,b4,bZ,bY,bs,hp,dU,am);default:return 0}case
+gY=dv;return gY}return kz(Q,U,b0,bZ,bW,br,hp,dU,an);default:return 0}case
 2:var
 aK=a[7],aL=a[6],b5=a[5],b6=a[4],b7=a[3],V=a[2],X=a[1],aM=v[2];switch(aM[0]){case
 0:var
-hq=aM[3],ao=px(X,V,b7,b6,b5,aL,aK),mj=ao[2],dW=E(b,bF(z(function(a){var
-b=bb(a[2]);return f(bb(a[1]),b)},mj))),mk=g(hq),ml=jD(dW,ao[2]),mm=jD(dW,ao[2]),dX=dZ(bG(X),mm,ml,0,mk,hq);if(dX){var
+hq=aM[3],ao=px(X,V,b7,b6,b5,aL,aK),mk=ao[2],dW=E(b,bG(z(function(a){var
+b=bb(a[2]);return f(bb(a[1]),b)},mk))),ml=g(hq),mm=jE(dW,ao[2]),mn=jE(dW,ao[2]),dX=dZ(bH(X),mn,mm,0,ml,hq);if(dX){var
 hr=dX[1];if(hr[2])return 0;var
 hu=pS(X,V,b7,b6,b5,aL,aK);if(hu){var
-mn=hr[1],mo=g(V),mp=d2(0,kt(X),mo,aL,aK),mq=hX(aM[2]),mr=aM[1],iR=ao[2],et=l(function(a){var
-b=om(i,a[1]);return b?om(i,a[2]):b},iR);if(et)var
-iS=jb(ao[4]),cg=cG(i,ao[4],iS);else
+mo=hr[1],mp=g(V),mq=d2(0,ku(X),mp,aL,aK),mr=hX(aM[2]),ms=aM[1],iS=ao[2],et=l(function(a){var
+b=om(i,a[1]);return b?om(i,a[2]):b},iS);if(et)var
+iT=jb(ao[4]),cg=cG(i,ao[4],iT);else
 var
 cg=et;if(cg)var
-iT=hi(ao[5]),ch=l(function(a){return fG(i,a)},iT);else
+iU=hi(ao[5]),ch=l(function(a){return fG(i,a)},iU);else
 var
-ch=cg;return ch?vr(mr,mq,mp,ao,dW,mn):ch}var
+ch=cg;return ch?vr(ms,mr,mq,ao,dW,mo):ch}var
 hA=hu}else
 var
 hA=dX;return hA;case
@@ -7999,71 +8015,71 @@ t=hC[1],hF=fY(z(function(a){return f(a[1],a[2])},V),hB),hG=hF?pS(X,V,b7,b6,b5,aL
 p=px(X,V,b7,b6,b5,aL,aK);if(typeof
 Y!=="number")switch(Y[0]){case
 2:var
-hS=e(j,Y[1]),hZ=aw(q,hS),h0=aI(an(q,hS)),h1=aw(q,aP),h2=aI(an(q,aP)),ev=ex(i,p,t,h2,h1),ew=ev?ex(i,p,t,h0,hZ):ev;if(ew)var
-iU=bG(p[1]),ci=o(g(t),iU);else
+hS=e(j,Y[1]),hZ=av(q,hS),h0=aH(am(q,hS)),h1=av(q,aP),h2=aH(am(q,aP)),ev=ex(i,p,t,h2,h1),ew=ev?ex(i,p,t,h0,hZ):ev;if(ew)var
+iV=bH(p[1]),ci=o(g(t),iV);else
 var
 ci=ew;if(ci){var
 ey=function(b,a){var
-c=p[5],d=p[3],f=p[1];return e(function(e){return jk(f,d,c,a,b,e)},t)},iV=ey(h0,hZ),iW=ey(h2,h1);return jI(i,bG(p[1]),iW,iV)}return ci;case
+c=p[5],d=p[3],f=p[1];return e(function(e){return jk(f,d,c,a,b,e)},t)},iW=ey(h0,hZ),iX=ey(h2,h1);return jJ(i,bH(p[1]),iX,iW)}return ci;case
 3:var
 d3=cR(Y[2]);if(d3){var
 aq=d3[1],d4=cR(Y[3]);if(d4){var
-aQ=d4[1],mt=p[2],mu=E(b,bF(z(function(a){var
-b=bb(a[2]);return f(bb(a[1]),b)},mt))),mv=g(V),mw=d2(0,kt(X),mv,aL,aK),h3=o(Y[1],mw);if(h3){var
-mx=Y[5],my=Y[4],mz=ab(T(mu),dx(g(aP),q)),mA=hY(f(ab(d,q),mz),aq,aQ,my,mx),a6=aw(q,aP),b_=aI(an(q,aP)),a2=p[5],fp=jT(0,aq,aQ),fr=p[7],fs=fr?ex(i,p,t,b_,a6):fr,ft=fs?aa(q,v$):fs;if(ft)var
-ki=M(q,g(a6)),cD=o(g(aq),ki);else
+aQ=d4[1],mu=p[2],mv=E(b,bG(z(function(a){var
+b=bb(a[2]);return f(bb(a[1]),b)},mu))),mw=g(V),mx=d2(0,ku(X),mw,aL,aK),h3=o(Y[1],mx);if(h3){var
+my=Y[5],mz=Y[4],mA=ab(T(mv),dx(g(aP),q)),mB=hY(f(ab(d,q),mA),aq,aQ,mz,my),a6=av(q,aP),b_=aH(am(q,aP)),a2=p[5],fp=jU(0,aq,aQ),fr=p[7],fs=fr?ex(i,p,t,b_,a6):fr,ft=fs?aa(q,v$):fs;if(ft)var
+kj=M(q,g(a6)),cD=o(g(aq),kj);else
 var
 cD=ft;if(cD)var
-kj=0===a2[0]?wa:wb,cE=o(g(a6),kj);else
+kk=0===a2[0]?wa:wb,cE=o(g(a6),kk);else
 var
 cE=cD;var
 fu=cE?hw(aq,aQ):cE;if(fu)var
-kk=hx(an(q,aQ)),kl=hx(an(q,aq)),cF=jV(i,p[4],kl,kk);else
+kl=hx(am(q,aQ)),km=hx(am(q,aq)),cF=jW(i,p[4],km,kl);else
 var
 cF=fu;if(cF)var
-kn=aw(q,aQ),cH=oS(i,a2,aw(q,aq),kn);else
+ko=av(q,aQ),cH=oS(i,a2,av(q,aq),ko);else
 var
 cH=cF;if(cH){var
-kr=an(q,aW(b_)),kA=an(q,aQ),fw=eH(i,an(q,aq),kA,kr);if(fw)var
+ks=am(q,aW(b_)),kB=am(q,aQ),fw=eH(i,am(q,aq),kB,ks);if(fw)var
 bj=fw;else{var
 fy=oR(a2);if(fy)var
-kB=aw(q,aQ),bj=eH(i,aw(q,aq),kB,a6);else
+kC=av(q,aQ),bj=eH(i,av(q,aq),kC,a6);else
 var
 bj=fy}}else
 var
 bj=cH;var
 fx=bj?l(function(a){var
-c=aW(a[2]),b=eG(f(aW(a[1]),c));return b?eG([0,jX(a2,a6,b_,a),0]):b},t):bj;return fx?hv(i,e(function(a){var
-b=[6,jX(a2,a6,b_,a)],c=oT(an(q,fp));return[3,[6,jX(a2,aw(q,fp),c,a)],b]},t),mA):fx}var
+c=aW(a[2]),b=eG(f(aW(a[1]),c));return b?eG([0,jY(a2,a6,b_,a),0]):b},t):bj;return fx?hv(i,e(function(a){var
+b=[6,jY(a2,a6,b_,a)],c=oT(am(q,fp));return[3,[6,jY(a2,av(q,fp),c,a)],b]},t),mB):fx}var
 h4=h3}else
 var
 h4=d4;var
 h5=h4}else
 var
 h5=d3;return h5}var
-ms=g(V),d0=ku(0,kt(X),ms,aL,aK,Y);if(d0){var
-bt=d0[1],x=aI(an(q,aP)),u=aw(q,aP),eq=ex(i,p,t,x,u);if(eq)var
-ac=p[5],er=p[3],es=p[1],iO=p[6],cf=function(a){var
-b=bX(ac,u,x,a);return w(bX(ac,u,x,a),b)},iH=e(function(a){return[0,jk(es,er,ac,u,x,a)]},t),iI=e(cf,t),iJ=function(a){var
-b=db(ac,u,a);return K(function(b,a){return[2,b,a]},x,b)},iK=e(function(a){var
-b=[6,cf(a)],c=bX(ac,u,x,a),d=db(ac,u,a[2]);return[0,[0,[0,K(function(b,a){return[2,b,a]},x,d),c],b]]},t),iL=e(function(a){return 0},t),iM=e(function(a){return[0,[6,cf(a)]]},t),iN=[0,e(function(c){var
-a=az(bX(ac,u,x,c));return jj(es,a,P([5,[0,b,b],er],da(db(ac,u,c[2]),a)))},t),iM,iL,iK,iJ,iI,iH],iP=bG(p[1]),iQ=2<=p[1]?ue:uf,d1=jd(i,iQ,iP,iN,iO,bt);else
+mt=g(V),d0=kv(0,ku(X),mt,aL,aK,Y);if(d0){var
+bt=d0[1],x=aH(am(q,aP)),u=av(q,aP),eq=ex(i,p,t,x,u);if(eq)var
+ac=p[5],er=p[3],es=p[1],iP=p[6],cf=function(a){var
+b=bY(ac,u,x,a);return w(bY(ac,u,x,a),b)},iI=e(function(a){return[0,jk(es,er,ac,u,x,a)]},t),iJ=e(cf,t),iK=function(a){var
+b=db(ac,u,a);return K(function(b,a){return[2,b,a]},x,b)},iL=e(function(a){var
+b=[6,cf(a)],c=bY(ac,u,x,a),d=db(ac,u,a[2]);return[0,[0,[0,K(function(b,a){return[2,b,a]},x,d),c],b]]},t),iM=e(function(a){return 0},t),iN=e(function(a){return[0,[6,cf(a)]]},t),iO=[0,e(function(c){var
+a=ay(bY(ac,u,x,c));return jj(es,a,P([5,[0,b,b],er],da(db(ac,u,c[2]),a)))},t),iN,iM,iL,iK,iJ,iI],iQ=bH(p[1]),iR=2<=p[1]?ue:uf,d1=jd(i,iR,iQ,iO,iP,bt);else
 var
 d1=eq;if(d1)var
 hI=d1;else{if(typeof
 bt!=="number"&&0===bt[0]){var
 b8=bt[2];if(b8){if(b8[2])return 0;var
 b9=b8[1],hN=bt[1],be=p[1],fa=ex(i,p,t,x,u),ep=0;if(fa){var
-j7=p[6],j8=2<=be?v1:v2,cz=eu(i,j8,hN,j7),cd=0;if(cz){var
+j8=p[6],j9=2<=be?v1:v2,cz=eu(i,j9,hN,j8),cd=0;if(cz){var
 a0=cz[1][1],ce=0;if(typeof
 a0!=="number"&&15===a0[0]){var
-cA=H(t,a0[1]);if(cA){var
-bi=np(b9),fd=a0[3],bK=cA[1],bL=p[5],cB=p[3],j9=a0[4],j_=a0[2],e2=jk(be,cB,bL,u,x,bK),e3=bX(bL,u,x,bK),cx=br(bi,bi),e4=[4,[4,j_,[6,br(e2,e2)]],cx],bc=bX(bL,u,x,bK),cv=db(bL,u,bK[2]),bd=P([5,[0,b,b],cB],oK(be,bi)),jS=da(bd,cv),jY=oJ(be,bi),cw=K(function(b,a){return[2,b,a]},jY,jS),e1=w(bc,cw),j0=w(bd,bd),j2=[4,w(bc,cv),j0],j3=w(cv,bd),j4=[3,[4,w(bc,bd),j3],j2],j5=[5,[4,e1,e1],w(bc,bc)],e5=[4,[4,fd,fd],[2,[3,w(cw,cw),j5],j4]],e6=[4,[4,j9,cx],[6,w(e3,e3)]],j6=bG(be),e7=o(g(bi),j6),e8=e7?h(i,1,cx):e7,e9=e8?h(i,1,cB):e8,iG=0;if(e9){var
+cA=F(t,a0[1]);if(cA){var
+bi=nq(b9),fd=a0[3],bK=cA[1],bL=p[5],cB=p[3],j_=a0[4],j$=a0[2],e2=jk(be,cB,bL,u,x,bK),e3=bY(bL,u,x,bK),cx=bs(bi,bi),e4=[4,[4,j$,[6,bs(e2,e2)]],cx],bc=bY(bL,u,x,bK),cv=db(bL,u,bK[2]),bd=P([5,[0,b,b],cB],oK(be,bi)),jT=da(bd,cv),jZ=oJ(be,bi),cw=K(function(b,a){return[2,b,a]},jZ,jT),e1=w(bc,cw),j1=w(bd,bd),j3=[4,w(bc,cv),j1],j4=w(cv,bd),j5=[3,[4,w(bc,bd),j4],j3],j6=[5,[4,e1,e1],w(bc,bc)],e5=[4,[4,fd,fd],[2,[3,w(cw,cw),j6],j5]],e6=[4,[4,j_,cx],[6,w(e3,e3)]],j7=bH(be),e7=o(g(bi),j7),e8=e7?h(i,1,cx):e7,e9=e8?h(i,1,cB):e8,iH=0;if(e9){var
 e_=h(i,1,[3,[2,e4,e5],e6]);if(e_)var
 e$=e_;else{var
-bu=h(i,1,[3,[3,e4,e5],e6]);cd=1;ce=1;iG=1}}else
+bu=h(i,1,[3,[3,e4,e5],e6]);cd=1;ce=1;iH=1}}else
 var
-e$=e9;if(!iG){var
+e$=e9;if(!iH){var
 bu=e$;cd=1;ce=1}}else{var
 bu=cA;cd=1;ce=1}}if(!ce)var
 fb=0}else
@@ -8073,16 +8089,16 @@ fc=fb;ep=1}}else{var
 fc=fa;ep=1}if(ep)var
 bu=fc;if(!bu){var
 fS=p[1],cO=p[5],fW=ex(i,p,t,x,u);if(fW){var
-kL=p[6],kM=2<=fS?wn:wo,cP=eu(i,kM,hN,kL);if(cP){var
+kM=p[6],kN=2<=fS?wn:wo,cP=eu(i,kN,hN,kM);if(cP){var
 bl=cP[1][1];if(typeof
 bl!=="number"&&16===bl[0]){var
 f2=bl[1],f3=h(i,0,f2);if(f3)var
-kN=g(p[2]),cS=o(g(b9),kN);else
+kO=g(p[2]),cS=o(g(b9),kO);else
 var
 cS=f3;if(cS){var
-kO=p[2],kP=W(W(t,hy(b9,e(function(a){var
-b=bz(a[2]);return oZ(bX(cO,u,x,[0,bz(a[1]),b]))},kO),f2)),b9),kQ=e(function(e){var
-c=e[1],d=c[2],a=c[1],f=db(cO,u,a[2]),g=a[1],h=K(function(b,a){return[3,b,a]},x,g),i=[2,d,oZ(bX(cO,u,x,a))];return[0,dR([5,[0,e[2],b],i]),d,h,f]},kP);return oY(i,[0,fS],bl[2],bl[3],kQ)}return cS}var
+kP=p[2],kQ=W(W(t,hy(b9,e(function(a){var
+b=bB(a[2]);return oZ(bY(cO,u,x,[0,bB(a[1]),b]))},kP),f2)),b9),kR=e(function(e){var
+c=e[1],d=c[2],a=c[1],f=db(cO,u,a[2]),g=a[1],h=K(function(b,a){return[3,b,a]},x,g),i=[2,d,oZ(bY(cO,u,x,a))];return[0,dR([5,[0,e[2],b],i]),d,h,f]},kQ);return oY(i,[0,fS],bl[2],bl[3],kR)}return cS}var
 f0=0}else
 var
 f0=cP;var
@@ -8102,18 +8118,18 @@ hM=hG;return hM;default:return 0}case
 3:var
 ar=a[7],bv=a[6],bw=a[5],as=a[4],d5=a[3],aR=a[2],aS=a[1],aT=v[2];switch(aT[0]){case
 0:var
-h6=aT[3],mB=g(h6),mC=hW(jP(kd(aS,aR,d5,as,bw,bv,ar)[1])),d6=dZ(g(aS),mC,0,0,mB,h6);if(d6){var
-h7=d6[1];if(h7[2])return 0;var
-h8=pT(aS,aR,as,bw,bv,ar);if(h8){var
-mD=h7[1],Z=kd(aS,aR,d5,as,bw,bv,ar),mE=d2(0,CF,g(as),0,ar),h9=hX(aT[2]),by=aT[1],eT=oD(Z[1]);if(eT)var
-jx=Z[1][2],ct=l(function(a){return bx(i,a[2][1],a[2][2])},jx);else
+h6=aT[3],h7=hW(jQ(ke(aS,aR,d5,as,bw,bv,ar)[1])),mC=g(h6),d6=dZ(g(aS),h7,h7,0,mC,h6);if(d6){var
+h8=d6[1];if(h8[2])return 0;var
+h9=pT(aS,aR,as,bw,bv,ar);if(h9){var
+mD=h8[1],Z=ke(aS,aR,d5,as,bw,bv,ar),mE=d2(0,CF,g(as),0,ar),h_=hX(aT[2]),bx=aT[1],eT=oD(Z[1]);if(eT)var
+jy=Z[1][2],ct=l(function(a){return by(i,a[2][1],a[2][2])},jy);else
 var
 ct=eT;if(ct)var
-jy=Z[2],cu=l(function(a){return bx(i,a[1],a[2])},jy);else
+jz=Z[2],cu=l(function(a){return by(i,a[1],a[2])},jz);else
 var
 cu=ct;if(cu){var
-C=Z[1],cj=g(C[1]),bI=Z[3],ck=g(C[2]),ez=M(ck,g(fI(e(aO,C[3])))),iX=C[3],eA=oy(hs(C),iX,ck),av=jO(cj,eA,C[4],ez),iY=jM(eA,C[4],ez),iZ=C[3],eB=f(jL(hs(C),iZ,ck),iY),eC=g(jP(C)),i0=0,i1=f(eB,dd(function(a,b){return ou(av,a,b)},i0,d,eC,bI)),i2=f(bD(fH(av)),i1),eD=f(bD(eF(av)),i2),cm=cZ(eD)[1],i3=cY(cm),aZ=function(a){return bh(i3,a)},eJ=o(g(Z[2]),cj);if(eJ)var
-i4=C[4],cn=l(function(a){return 0===a[0]?o(g(a[1]),cj):1},i4);else
+C=Z[1],cj=g(C[1]),bI=Z[3],ck=g(C[2]),ez=M(ck,g(fI(e(aO,C[3])))),iY=C[3],eA=oy(hs(C),iY,ck),aw=jP(cj,eA,C[4],ez),iZ=jN(eA,C[4],ez),i0=C[3],eB=f(jM(hs(C),i0,ck),iZ),eC=g(jQ(C)),i1=0,i2=f(eB,dd(function(a,b){return ou(aw,a,b)},i1,d,eC,bI)),i3=f(bE(fH(aw)),i2),eD=f(bE(eF(aw)),i3),cm=cZ(eD)[1],i4=cY(cm),aZ=function(a){return bh(i4,a)},eJ=o(g(Z[2]),cj);if(eJ)var
+i8=C[4],cn=l(function(a){return 0===a[0]?o(g(a[1]),cj):1},i8);else
 var
 cn=eJ;var
 eK=cn?l(function(a){var
@@ -8121,18 +8137,18 @@ b=m(d),c=cY(cm);return aN(r(aZ(a),c,b),a)},eD):cn,eL=eK?aj(ow,bI):eK;if(eL){var
 eM=J(Z[4]);if(eM)var
 bJ=eM;else
 var
-jw=C[4],bJ=l(function(a){return 0===a[0]?0:1},jw)}else
+jx=C[4],bJ=l(function(a){return 0===a[0]?0:1},jx)}else
 var
 bJ=eL;if(bJ){var
-i8=jP(C),co=ad(e(function(a){return ap(by,a)},i8));if(co){var
-i_=0,i$=z(function(a){return fA(i_,d,a)},bI),cp=ad(e(function(a){return ji(by,a)},i$));if(cp){var
-ja=Z[2],cq=ad(e(function(a){return ap(by,[0,a,d])},ja));if(cq){var
-je=0,jf=0,cr=ad(dd(function(a,b){return ov(by,aZ,av,jf,d,a,b)},je,d,eC,bI));if(cr){var
+i_=jQ(C),co=ad(e(function(a){return ap(bx,a)},i_));if(co){var
+i$=0,ja=z(function(a){return fA(i$,d,a)},bI),cp=ad(e(function(a){return ji(bx,a)},ja));if(cp){var
+je=Z[2],cq=ad(e(function(a){return ap(bx,[0,a,d])},je));if(cq){var
+jf=0,jg=0,cr=ad(dd(function(a,b){return ov(bx,aZ,aw,jg,d,a,b)},jf,d,eC,bI));if(cr){var
 eO=cr[1];if(Z[4])var
-jg=h9[2],jh=h9[1],jl=fH(av),cs=jc(mE,eO,[8,k(ay(aZ),jl),jh,jg]);else
+jh=h_[2],jl=h_[1],jm=fH(aw),cs=jc(mE,eO,[8,k(ax(aZ),jm),jl,jh]);else
 var
 cs=eO;var
-jm=i6(cs),jn=cq[1],jo=function(a){return 0},jp=f(co[1],cp[1]),jq=e(aZ,eB),jr=fH(av),ju=k(ay(aZ),jr),jv=eF(av);return f4(i5(by,cm,k(ay(aZ),jv),ju,jq,jp,cs,jo),jn,jm,mD)}var
+jn=i6(cs),jo=cq[1],jp=function(a){return 0},jq=f(co[1],cp[1]),jr=e(aZ,eB),js=fH(aw),jv=k(ax(aZ),js),jw=eF(aw);return f4(i5(bx,cm,k(ax(aZ),jw),jv,jr,jq,cs,jp),jo,jn,mD)}var
 eP=cr}else
 var
 eP=cq;var
@@ -8145,90 +8161,90 @@ eR=co;var
 eS=eR}else
 var
 eS=bJ;return eS}return cu}var
-h_=h8}else
+h$=h9}else
 var
-h_=d6;return h_;case
+h$=d6;return h$;case
 1:var
-_=aT[4],h$=aT[3],b$=aT[2],A=kd(aS,aR,d5,as,bw,bv,ar),mF=e(j,h$),ia=bk(e(aO,aR),mF);if(ia[2])return 0;var
-F=ia[1],ib=fY(e(aO,aR),h$),ic=ib?pT(aS,aR,as,bw,bv,ar):ib,id=ic?oD(A[1]):ic;if(id)var
-mG=A[2],d7=l(function(a){return bx(i,a[1],a[2])},mG);else
+_=aT[4],ia=aT[3],b$=aT[2],A=ke(aS,aR,d5,as,bw,bv,ar),mF=e(j,ia),ib=bk(e(aO,aR),mF);if(ib[2])return 0;var
+G=ib[1],ic=fY(e(aO,aR),ia),id=ic?pT(aS,aR,as,bw,bv,ar):ic,ie=id?oD(A[1]):id;if(ie)var
+mG=A[2],d7=l(function(a){return by(i,a[1],a[2])},mG);else
 var
-d7=id;if(d7){if(typeof
+d7=ie;if(d7){if(typeof
 _!=="number")switch(_[0]){case
 2:var
-d$=e(j,_[1]),ea=e(j,b$),ax=A[1],bM=ht(ax),j$=oG(ax),fe=e(function(a){return a[3]},j$),ff=function(a){var
-b=oH(ax,F);function
-c(c){return dQ(a,b,c)}return e(function(a){return e(c,a)},fe)},fg=b0(i,e(aO,ax[2]),F),fh=fg?b0(i,A[2],ea):fg,fi=fh?b0(i,A[2],d$):fh,fk=fi?o(g(ea),bM):fi,fl=fk?o(g(d$),bM):fk,fm=fl?oI(ax,ax[4]):fl,fn=fm?o(g(ax[4]),bM):fm,fo=fn?l(function(a){return l(jR,a)},fe):fn;if(fo){var
-ke=ff(d$);return jI(i,bM,ff(ea),ke)}return fo;case
+d$=e(j,_[1]),ea=e(j,b$),az=A[1],bM=ht(az),ka=oG(az),fe=e(function(a){return a[3]},ka),ff=function(a){var
+b=oH(az,G);function
+c(c){return dQ(a,b,c)}return e(function(a){return e(c,a)},fe)},fg=b1(i,e(aO,az[2]),G),fh=fg?b1(i,A[2],ea):fg,fi=fh?b1(i,A[2],d$):fh,fk=fi?o(g(ea),bM):fi,fl=fk?o(g(d$),bM):fk,fm=fl?oI(az,az[4]):fl,fn=fm?o(g(az[4]),bM):fm,fo=fn?l(function(a){return l(jS,a)},fe):fn;if(fo){var
+kf=ff(d$);return jJ(i,bM,ff(ea),kf)}return fo;case
 3:var
 eb=cR(_[2]);if(eb){var
 a7=eb[1],ec=cR(_[3]);if(ec){var
-bE=ec[1],mI=d2(0,CH,g(as),0,ar),ii=o(_[1],mI);if(ii){var
-mJ=_[5],mK=_[4],mL=hY(ab(d,g(aS)),a7,bE,mK,mJ),bH=e(j,b$),aC=A[1],gj=jT(0,a7,bE),gk=A[4],gl=gk?b0(i,e(aO,aC[2]),F):gk,gm=gl?b0(i,A[2],bH):gl;if(gm)var
-kZ=e(a5,a7),c0=b0(i,A[2],kZ);else
+bC=ec[1],mI=d2(0,CH,g(as),0,ar),ij=o(_[1],mI);if(ij){var
+mJ=_[5],mK=_[4],mL=hY(ab(d,g(aS)),a7,bC,mK,mJ),bF=e(j,b$),aF=A[1],gj=jU(0,a7,bC),gk=A[4],gl=gk?b1(i,e(aO,aF[2]),G):gk,gm=gl?b1(i,A[2],bF):gl;if(gm)var
+k0=e(a5,a7),c0=b1(i,A[2],k0);else
 var
 c0=gm;if(c0)var
-k0=e(a5,bE),c2=b0(i,A[2],k0);else
+k1=e(a5,bC),c2=b1(i,A[2],k1);else
 var
 c2=c0;var
-gn=c2?hw(a7,bE):c2,go=gn?eH(i,a7,bE,bH):gn,gp=go?eG(f(F,bH)):go;if(gp)var
-k1=aC[3],c5=l(function(a){return fO(a[2])},k1);else
+gn=c2?hw(a7,bC):c2,go=gn?eH(i,a7,bC,bF):gn,gp=go?eG(f(G,bF)):go;if(gp)var
+k2=aF[3],c5=l(function(a){return fO(a[2])},k2);else
 var
 c5=gp;if(c5){var
-c6=j1(aC[4]);if(c6){var
+c6=j2(aF[4]);if(c6){var
 bQ=c6[1],gq=l(fO,bQ);if(gq)var
-k2=1,c7=o1(function(a){return h(i,k2,a)},aC,F,bH,bQ);else
+k3=1,c7=o1(function(a){return h(i,k3,a)},aF,G,bF,bQ);else
 var
 c7=gq;if(c7)var
-k3=g(a7),c8=o1(function(a){return jU(i,k3,a)},aC,F,gj,bQ);else
+k4=g(a7),c8=o1(function(a){return jV(i,k4,a)},aF,G,gj,bQ);else
 var
 c8=c7;if(c8)return hv(i,e(function(a){var
-b=aX(fN(aC,F,bH),a);return[3,aX(fN(aC,F,gj),a),b]},bQ),mL);var
+b=aX(fN(aF,G,bF),a);return[3,aX(fN(aF,G,gj),a),b]},bQ),mL);var
 gr=c8}else
 var
 gr=c6;var
 gs=gr}else
 var
 gs=c5;return gs}var
-ij=ii}else
-var
-ij=ec;var
 ik=ij}else
 var
-ik=eb;return ik}var
-d8=ku(0,CG,g(as),0,ar,_);if(d8){var
-bA=d8[1],aU=e(j,b$),G=A[1],eV=ht(G),a_=oG(G),jG=oE(G),jH=G[4],jJ=jM(oF(G),jH,jG),jK=g(G[2]),jN=G[3],eU=f(jL(hs(G),jN,jK),jJ),a$=oH(G,F),eW=b0(i,e(aO,G[2]),F),eX=eW?b0(i,A[2],aU):eW,eY=eX?o(g(aU),eV):eX,eZ=eY?oI(G,G[4]):eY,e0=eZ?l(jR,f(z(vQ,a_),eU)):eZ;if(e0)var
-jQ=A[3],jz=e(function(a){var
-b=a[1];return[0,e(function(a){return dQ(aU,a$,a)},b)]},a_),jA=z(function(c){var
+ik=ec;var
+il=ik}else
+var
+il=eb;return il}var
+d8=kv(0,CG,g(as),0,ar,_);if(d8){var
+bz=d8[1],aU=e(j,b$),H=A[1],eV=ht(H),a_=oG(H),jH=oE(H),jI=H[4],jK=jN(oF(H),jI,jH),jL=g(H[2]),jO=H[3],eU=f(jM(hs(H),jO,jL),jK),a$=oH(H,G),eW=b1(i,e(aO,H[2]),G),eX=eW?b1(i,A[2],aU):eW,eY=eX?o(g(aU),eV):eX,eZ=eY?oI(H,H[4]):eY,e0=eZ?l(jS,f(z(vQ,a_),eU)):eZ;if(e0)var
+jR=A[3],jA=e(function(a){var
+b=a[1];return[0,e(function(a){return dQ(aU,a$,a)},b)]},a_),jB=z(function(c){var
 a=c[1];switch(a[0]){case
 7:var
 b=dQ(aU,a$,a[2]);return[0,[4,b,b],0];case
-9:return[0,dQ(aU,a$,a[1]),0];default:return 0}},eU),jB=function(a){return a},jC=0,jE=e(function(a){return 0},a_),jF=e(function(b){var
+9:return[0,dQ(aU,a$,a[1]),0];default:return 0}},eU),jC=function(a){return a},jD=0,jF=e(function(a){return 0},a_),jG=e(function(b){var
 a=b[4];if(typeof
 a!=="number"&&0===a[0])return[0,dQ(aU,a$,a[1])];return 0},a_),d9=jd(i,vR,eV,[0,e(function(a){var
-b=a[3];return e(function(a){return dQ(aU,a$,a)},b)},a_),jF,jE,jC,jB,jA,jz],jQ,bA);else
+b=a[3];return e(function(a){return dQ(aU,a$,a)},b)},a_),jG,jF,jD,jC,jB,jA],jR,bz);else
 var
 d9=e0;if(d9)var
-ie=d9;else{if(typeof
-bA!=="number"&&0===bA[0]){var
-ca=bA[2];if(ca){if(ca[2])return 0;var
-d_=ca[1],mH=bA[1],bB=e(j,b$),aA=A[1],bN=g(aA[1]),f5=b0(i,e(aO,aA[2]),F),f6=f5?b0(i,A[2],bB):f5,f7=f6?o(g(bB),bN):f6,f8=f7?di(f(F,bB)):f7;if(f8)var
-kR=aA[3],cT=l(function(a){return fO(a[2])},kR);else
+ig=d9;else{if(typeof
+bz!=="number"&&0===bz[0]){var
+ca=bz[2];if(ca){if(ca[2])return 0;var
+d_=ca[1],mH=bz[1],bA=e(j,b$),aB=A[1],bN=g(aB[1]),f5=b1(i,e(aO,aB[2]),G),f6=f5?b1(i,A[2],bA):f5,f7=f6?o(g(bA),bN):f6,f8=f7?di(f(G,bA)):f7;if(f8)var
+kS=aB[3],cT=l(function(a){return fO(a[2])},kS);else
 var
 cT=f8;if(cT){var
 cU=eu(i,wq,mH,A[3]);if(cU){var
 bO=cU[1][1];if(typeof
 bO!=="number"&&16===bO[0]){var
-f$=bO[2],ga=bO[1],cV=j1(aA[4]);if(cV){var
-bP=cV[1],cW=hz(aE(cN,f$));if(cW){var
-kS=cW[1],gb=h(i,1,f$),gc=gb?h(i,0,ga):gb;if(gc)var
-kT=g(bP),cX=o(g(d_),kT);else
+f$=bO[2],ga=bO[1],cV=j2(aB[4]);if(cV){var
+bP=cV[1],cW=hz(aD(cN,f$));if(cW){var
+kT=cW[1],gb=h(i,1,f$),gc=gb?h(i,0,ga):gb;if(gc)var
+kU=g(bP),cX=o(g(d_),kU);else
 var
 cX=gc;var
 gd=cX?l(fO,bP):cX;if(gd){var
-kU=aA[2],kV=fN(aA,e(function(a){return dS(a[2])},kU),bB),ge=hy(d_,e(function(a){return aX(kV,a)},bP),ga),gf=di(ge);if(gf){var
-kW=W(bB,aD(0,bN)),kX=fN(aA,F,e(function(a){var
-b=cl(a[2],kS);return[2,a[1],b]},kW)),kY=W(W(e(function(a){return aX(kX,a)},bP),ge),d_);return jZ(i,bN,bN,eI(function(a){return[4,[0,a[2],b],[3,a[1][1],a[1][2]]]},kY))}var
+kV=aB[2],kW=fN(aB,e(function(a){return dS(a[2])},kV),bA),ge=hy(d_,e(function(a){return aX(kW,a)},bP),ga),gf=di(ge);if(gf){var
+kX=W(bA,aC(0,bN)),kY=fN(aB,G,e(function(a){var
+b=cl(a[2],kT);return[2,a[1],b]},kX)),kZ=W(W(e(function(a){return aX(kY,a)},bP),ge),d_);return j0(i,bN,bN,eI(function(a){return[4,[0,a[2],b],[3,a[1][1],a[1][2]]]},kZ))}var
 gg=gf}else
 var
 gg=gd;var
@@ -8244,13 +8260,13 @@ f9=cU;var
 f_=f9}else
 var
 f_=cT;return f_}return ca}var
-ie=0}var
-ig=ie}else
-var
-ig=d8;var
+ig=0}var
 ih=ig}else
 var
-ih=d7;return ih;default:return 0}case
+ih=d8;var
+ii=ih}else
+var
+ii=d7;return ii;default:return 0}case
 4:var
 aV=a[3],a8=a[2],cb=a[1],aY=v[2];switch(aY[0]){case
 0:var
@@ -8259,23 +8275,23 @@ dJ=pz(aV);if(dJ){var
 g_=dJ[1],bo=g_[2],g$=j(bo),ha=j(g_[1]),gw=h(i,1,j(a8)),gx=gw?h(i,1,[3,g$,[0,b,b]]):gw,gy=gx?h(i,1,ha):gx,hb=gy?h(i,0,[3,[5,[0,b,b],g$],ha]):gy,hc=hb?l(function(a){var
 b=pv(0,0,CD,a);if(b)var
 c=b;else{var
-d=cQ(a);if(d)return aF(0,0,a);var
+d=cQ(a);if(d)return aE(0,0,a);var
 c=d}return c},aV):hb,hd=hc?l(function(c){if(1===c[1]){var
 a=c[4];if(typeof
 a!=="number"&&0===a[0])return h(i,0,[3,[0,d,b],j(a[1])]);return 1}return 1},aV):hc;if(hd){var
 dt=a1(function(a){return J(pA(a))},aV);if(dt){var
-l9=[0,c(2,b),b],bT=h(i,0,[3,j(bo),l9]);if(bT)var
+l_=[0,c(2,b),b],bT=h(i,0,[3,j(bo),l_]);if(bT)var
 dK=bT;else
 var
-ma=j(bo),dK=h(i,0,[3,[0,c(2,b),b],ma]);if(dK){var
-l6=z(function(a){if(cQ(a))return Cz;var
+mb=j(bo),dK=h(i,0,[3,[0,c(2,b),b],mb]);if(dK){var
+l7=z(function(a){if(cQ(a))return Cz;var
 b=hK(0,CA,0,a);return z(function(b){var
-c=fv(i,CB,b);return ab(J(pA(a)),c)},b)},aV),l7=function(f){var
-a=fZ(l6,f[1]);if(a){var
+c=fv(i,CB,b);return ab(J(pA(a)),c)},b)},aV),l8=function(f){var
+a=fZ(l7,f[1]);if(a){var
 c=a[1],e=f[2];switch(e[0]){case
 0:return[0,[0,c,[0,e[1]]],0];case
-2:return[0,[0,c,[1,CC,[0,[0,b,[0,d,[0,d,0]]],[0,[0,d,[0,b,[0,d,0]]],[0,[0,d,[0,d,[0,b,0]]],0]]],d]],0];default:return[0,[0,c,e],0]}}return a},l8=e(function(a){var
-b=a[4],c=a[3],d=a[2];return[0,z(l7,a[1]),d,c,b]},mM),l_=[0,dt[1],dt[2]],l$=pE(bT,a8,bo);return kx(0,pD(bT,cb,a8,bo),0,l$,0,l_,mO,mN,l8)}return dK}var
+2:return[0,[0,c,[1,CC,[0,[0,b,[0,d,[0,d,0]]],[0,[0,d,[0,b,[0,d,0]]],[0,[0,d,[0,d,[0,b,0]]],0]]],d]],0];default:return[0,[0,c,e],0]}}return a},l9=e(function(a){var
+b=a[4],c=a[3],d=a[2];return[0,z(l8,a[1]),d,c,b]},mM),l$=[0,dt[1],dt[2]],ma=pE(bT,a8,bo);return ky(0,pD(bT,cb,a8,bo),0,ma,0,l$,mO,mN,l9)}return dK}var
 he=1}else
 var
 he=hd;var
@@ -8288,13 +8304,13 @@ hg=g9;return hg;case
 1:var
 mP=aY[4],mQ=aY[3],mR=aY[2],hh=dp(j(cb));if(hh){var
 dL=pz(aV);if(dL){var
-bp=dL[1][2],mb=[0,c(2,b),b],bU=h(i,0,[3,j(bp),mb]),hj=h(i,1,j(a8)),hk=hj?h(i,1,[3,j(bp),[0,b,b]]):hj;if(hk)if(bU)var
+bp=dL[1][2],mc=[0,c(2,b),b],bU=h(i,0,[3,j(bp),mc]),hj=h(i,1,j(a8)),hk=hj?h(i,1,[3,j(bp),[0,b,b]]):hj;if(hk)if(bU)var
 bV=bU;else
 var
-md=j(bp),bV=h(i,0,[3,[0,c(2,b),b],md]);else
+me=j(bp),bV=h(i,0,[3,[0,c(2,b),b],me]);else
 var
 bV=hk;if(bV){var
-mc=pE(bU,a8,bp);return ky(0,pD(bU,cb,a8,bp),0,mc,0,aV,mR,mQ,mP)}var
+md=pE(bU,a8,bp);return kz(0,pD(bU,cb,a8,bp),0,md,0,aV,mR,mQ,mP)}var
 hm=bV}else
 var
 hm=dL;var
@@ -8302,20 +8318,20 @@ hn=hm}else
 var
 hn=hh;return hn;default:return 0}case
 5:var
-ed=a[4],il=a[1],ee=v[2];if(0===ee[0]){var
-im=ee[3],B=hJ(il,[0,a[2],a[3]],0,ed),mS=g(im),ef=kp(kv(B),mS,im);if(ef){var
-io=ef[1];if(io[2])return 0;var
-ip=hV(il,0,ed,B),iq=ip?J(aj(cQ,ed)):ip;if(iq){var
-ir=nc(i,B);if(ir){var
-mT=io[1],is=e(hQ,B[1]),R=hR(B[1]),it=j(a[5]),au=ee[1],dc=g2(R,is,B[1]),ae=i7(R,is,B[1],0),k8=g(B[3]),k9=M(g(dc),k8),bR=[0,g(dc),k9],k_=i9(ae,R,bR,B[3]),k$=f(e(c3,ae),k_),gA=f(bD(fj(ae)),k$),gB=cZ(gA)[1],de=cY(gB),gC=B[2];if(0===gC[0]){var
+ed=a[4],im=a[1],ee=v[2];if(0===ee[0]){var
+io=ee[3],B=hJ(im,[0,a[2],a[3]],0,ed),mS=g(io),ef=kq(kw(B),mS,io);if(ef){var
+ip=ef[1];if(ip[2])return 0;var
+iq=hV(im,0,ed,B),ir=iq?J(aj(cQ,ed)):iq;if(ir){var
+is=nd(i,B);if(is){var
+mT=ip[1],it=e(hQ,B[1]),R=hR(B[1]),iu=j(a[5]),au=ee[1],dc=g2(R,it,B[1]),ae=i7(R,it,B[1],0),k9=g(B[3]),k_=M(g(dc),k9),bR=[0,g(dc),k_],k$=i9(ae,R,bR,B[3]),la=f(e(c3,ae),k$),gA=f(bE(fj(ae)),la),gB=cZ(gA)[1],de=cY(gB),gC=B[2];if(0===gC[0]){var
 gD=l(function(a){var
-b=m(d);return aN(r(bh(de,a),de,b),a)},gA),gE=gD?h(i,1,it):gD;if(gE){var
-la=B[3],lb=z(function(a){return dI(R,a)},la),lc=B[3],ld=f(dc,f(e(function(a){return bW(R,a)},lc),lb)),df=ad(e(function(a){return ap(au,a)},ld));if(df){var
-le=ba(gC[1],R),dg=ad(e(function(a){return ap(au,a)},le));if(dg){var
-dh=c1(au,R,[5,it,[0,c(2,c(2,c(2,c(2,b)))),b]]);if(dh){var
-dj=B[3],lf=dg[1],lg=df[1],lh=dh[1],bm=function(a){return bh(de,a)},k5=aD(0,g(dj)),k6=e(function(j){var
-l=H(dj,j);if(l){var
-a=l[1],u=an(j,dj),v=g(z(function(a){return dI(R,a)},u)),w=M(bR[2],v),i=[0,M(bR[1],j),w],r=fj(ae),f=k(ay(bm),r),c=[1,[8,[1,[1,i[1]]]]],d=g3(ae,R,i,a),n=d?[0,[3,e(bm,[0,d[1],d[2]])]]:d,m=0;if(typeof
+b=m(d);return aN(r(bh(de,a),de,b),a)},gA),gE=gD?h(i,1,iu):gD;if(gE){var
+lb=B[3],lc=z(function(a){return dI(R,a)},lb),ld=B[3],le=f(dc,f(e(function(a){return bX(R,a)},ld),lc)),df=ad(e(function(a){return ap(au,a)},le));if(df){var
+lf=ba(gC[1],R),dg=ad(e(function(a){return ap(au,a)},lf));if(dg){var
+dh=c1(au,R,[5,iu,[0,c(2,c(2,c(2,c(2,b)))),b]]);if(dh){var
+dj=B[3],lg=dg[1],lh=df[1],li=dh[1],bm=function(a){return bh(de,a)},k6=aC(0,g(dj)),k7=e(function(j){var
+l=F(dj,j);if(l){var
+a=l[1],u=am(j,dj),v=g(z(function(a){return dI(R,a)},u)),w=M(bR[2],v),i=[0,M(bR[1],j),w],r=fj(ae),f=k(ax(bm),r),c=[1,[8,[1,[1,i[1]]]]],d=g3(ae,R,i,a),n=d?[0,[3,e(bm,[0,d[1],d[2]])]]:d,m=0;if(typeof
 a!=="number")switch(a[0]){case
 0:return[0,[0,f,c]];case
 1:return[0,[1,f,c]];case
@@ -8331,16 +8347,16 @@ q=c;m=1;break;case
 3:case
 6:case
 7:return n}if(m){var
-t=fq(ae,R,i,a);return y(function(a){return[0,k(ay(bm),a),q]},t)}return 0}return l},k5),k7=e(function(a){return bm(c3(a))},ae),gz=e(function(a){return bm(a[2])},ae),li=B[3],lj=bR[1],c$=function(aC,aB,aA){var
+t=fq(ae,R,i,a);return y(function(a){return[0,k(ax(bm),a),q]},t)}return 0}return l},k6),k8=e(function(a){return bm(c3(a))},ae),gz=e(function(a){return bm(a[2])},ae),lj=B[3],lk=bR[1],c$=function(aC,aB,aA){var
 k=aC,m=aB,f=aA;for(;;)switch(f[0]){case
 0:var
 v=f[1],_=o(g(v),wz),aa=_?l(function(a){var
 d=D(T(c(2,c(2,c(2,b)))),a);return d?D(a,c(2,c(2,c(2,b)))):d},v):_;if(aa){var
-ab=o$(au,lh,dH(0,m),v),j=f[2],w=bg(0,bC(au,ab,e($,k)),gB,0),aD=e($,k),N=function(a){return o_(o9(au,ab,aD,w,a))};if(typeof
+ab=o$(au,li,dH(0,m),v),j=f[2],w=bg(0,bD(au,ab,e($,k)),gB,0),aD=e($,k),N=function(a){return o_(o9(au,ab,aD,w,a))};if(typeof
 j==="number")return 0===j?aj(function(b){var
 a=r(b,w,0);return a?D(a[1][2][2],d):a},gz):0;else{if(0===j[0]){var
 a=j[2],O=l(wx,a);if(O){var
-q=r(j[1],k6,0);if(q){var
+q=r(j[1],k7,0);if(q){var
 i=q[1];switch(i[0]){case
 0:var
 x=0;if(a)if(a[2])var
@@ -8351,9 +8367,9 @@ h=C;break;case
 1:var
 y=0;if(a)if(a[2])var
 h=0;else{var
-E=a[1],F=i[1],aq=hD(E),ar=[1,[6,i[2],aq]],G=[0,[0,F,[0,[1,[4,hE(F,E),ar]],0]]];y=1}else{var
-G=a;y=1}if(y)var
-h=G;break;case
+E=a[1],G=i[1],aq=hD(E),ar=[1,[6,i[2],aq]],H=[0,[0,G,[0,[1,[4,hE(G,E),ar]],0]]];y=1}else{var
+H=a;y=1}if(y)var
+h=H;break;case
 2:var
 z=0;if(a){var
 n=a[2],an=0;if(n)if(n[2]){var
@@ -8378,12 +8394,12 @@ S=q;var
 U=S}else
 var
 U=O;return U}var
-V=j[2],W=j[1],s=H(li,W);if(s){var
+V=j[2],W=j[1],s=F(lj,W);if(s){var
 X=s[1];if(typeof
 X!=="number"&&1===X[0]){var
-t=H(gz,V);if(t){var
-u=H(k7,V);if(u){var
-az=M(lj,W);return N([1,[4,[1,[8,[0,u[1]]]],[1,[6,[1,[8,[1,[1,az]]]],[0,t[1]]]]]])}var
+t=F(gz,V);if(t){var
+u=F(k8,V);if(u){var
+az=M(lk,W);return N([1,[4,[1,[8,[0,u[1]]]],[1,[6,[1,[8,[1,[1,az]]]],[0,t[1]]]]]])}var
 Z=u}else
 var
 Z=t;return Z}var
@@ -8402,7 +8418,7 @@ ak=c4(ah,k),al=c$(ak[1],m,f[2]);if(al){var
 k=ak[2],f=f[3];continue}var
 am=al}else
 var
-am=ai;return am}};return c$(lg,lf,mT)}var
+am=ai;return am}};return c$(lh,lg,mT)}var
 gF=dh}else
 var
 gF=dg;var
@@ -8412,50 +8428,50 @@ gG=df;var
 gH=gG}else
 var
 gH=gE;return gH}return 0}var
-iu=ir}else
+iv=is}else
 var
-iu=iq;var
-iv=iu}else
+iv=ir;var
+iw=iv}else
 var
-iv=ef;return iv}return 0;case
+iw=ef;return iw}return 0;case
 6:var
-iw=a[1];if(iw){var
-ix=iw[1],eg=v[2];if(0===eg[0]){var
-eh=ko(CJ,0,0,0,CI,eg[3]);if(eh){var
-iy=fX(ix);if(iy){var
-mU=eh[1],iz=b2(ix)[2],cc=eg[1],c9=c1(cc,d,iz);if(c9){var
-c_=c1(cc,d,[5,[0,b,b],iz]);if(c_){var
-k4=c9[1][1],gt=I(cy(cc),k4);if(gt)return o8(cc,c_[1][1],mU);var
+ix=a[1];if(ix){var
+iy=ix[1],eg=v[2];if(0===eg[0]){var
+eh=kp(CJ,0,0,0,CI,eg[3]);if(eh){var
+iz=fX(iy);if(iz){var
+mU=eh[1],iA=b3(iy)[2],cc=eg[1],c9=c1(cc,d,iA);if(c9){var
+c_=c1(cc,d,[5,[0,b,b],iA]);if(c_){var
+k5=c9[1][1],gt=I(cy(cc),k5);if(gt)return o8(cc,c_[1][1],mU);var
 gu=gt}else
 var
 gu=c_;var
 gv=gu}else
 var
 gv=c9;return gv}var
-iA=iy}else
+iB=iz}else
 var
-iA=eh;return iA}return 0}var
+iB=eh;return iB}return 0}var
 ei=v[2];if(0===ei[0]){var
-ej=ko(CL,0,0,0,CK,ei[3]);return ej?o8(ei[1],d,ej[1]):ej}return 0;default:var
-a9=a[1],iB=v[2];if(2===iB[0]){var
-iC=iB[1],ek=km(g(iC),iC);if(ek){var
-iD=ek[1];if(iD[2])return 0;var
-el=iD[1],gZ=aa(Cw,g(a9)),g0=gZ?aa(g(a9),dE):gZ,g1=g0?oC(e(aB,a9)):g0,iE=g1?l(function(c){var
+ej=kp(CL,0,0,0,CK,ei[3]);return ej?o8(ei[1],d,ej[1]):ej}return 0;default:var
+a9=a[1],iC=v[2];if(2===iC[0]){var
+iD=iC[1],ek=kn(g(iD),iD);if(ek){var
+iE=ek[1];if(iE[2])return 0;var
+el=iE[1],gZ=aa(Cw,g(a9)),g0=gZ?aa(g(a9),dE):gZ,g1=g0?oC(e(aA,a9)):g0,iF=g1?l(function(c){var
 a=cC(j(c[2][1]));if(a){var
 b=cC(j(c[2][2]));if(b)return J(bf(b[1],a[1]));var
 d=b}else
 var
-d=a;return d},a9):g1;if(iE)var
+d=a;return d},a9):g1;if(iF)var
 mV=hP(Bm,el),em=p1(a[5],mV);else
 var
-em=iE;if(em)var
+em=iF;if(em)var
 mW=hP(Bn,el),en=p1(a[6],mW);else
 var
 en=em;if(en){var
-lP=e(function(a){return[0,d,0]},a9);return p0(a9,a[2],a[3],a[4],lP,el)}var
-iF=en}else
+lQ=e(function(a){return[0,d,0]},a9);return p0(a9,a[2],a[3],a[4],lQ,el)}var
+iG=en}else
 var
-iF=ek;return iF}return 0}}return bq}var
+iG=ek;return iG}return 0}}return bq}var
 X=[a7,CO,sm(0)],p5=[a7,CP,sm(0)];function
 CM(l,b){var
 f=[0,n(AI,aq(b[4])),0],g=[0,n(AK,ah([0,n(AJ,aq(b[3])),f])),0],a=b[2];switch(a[0]){case
@@ -8463,15 +8479,15 @@ f=[0,n(AI,aq(b[4])),0],g=[0,n(AK,ah([0,n(AJ,aq(b[3])),f])),0],a=b[2];switch(a[0]
 c=Q(AE,ph(a[1],a[2],a[3]));break;case
 1:var
 c=Q(AF,pi(a[1],a[2],a[3],a[4]));break;default:var
-c=Q(AG,G(e(Az,a[1])))}var
-h=[0,n(AL,c),g],i=1===b[2][0]?AR:AM,j=[0,n(AN,aq(i)),h],k=[0,n(AO,y$(b[1])),j],d=aC(lo(CN,hF(ah([0,n(AQ,aq(AP)),k]),AH)),l);return d?CE(b):d}function
+c=Q(AG,H(e(Az,a[1])))}var
+h=[0,n(AL,c),g],i=1===b[2][0]?AR:AM,j=[0,n(AN,aq(i)),h],k=[0,n(AO,y$(b[1])),j],d=aB(lp(CN,hF(ah([0,n(AQ,aq(AP)),k]),AH)),l);return d?CE(b):d}function
 ai(a){if(0===a[0])return a[1];throw X}function
 ae(a){if(1===a[0])return a[1];throw X}function
 a2(a){if(2===a[0])return a[1];throw X}function
 f0(a){if(3===a[0])return a[1];throw X}function
 bc(f,e){var
 a=f;for(;;){if(a){var
-b=a[1],c=a[2],d=b[2];if(0===Jf(b[1],e))return[0,d];var
+b=a[1],c=a[2],d=b[2];if(0===Jc(b[1],e))return[0,d];var
 a=c;continue}return 0}}function
 v(c,b){var
 a=bc(c,b);if(a)return a[1];throw X}function
@@ -8489,7 +8505,7 @@ c=b[2];if(c&&!c[2])return[0,a[1],b[1],c[1]]}}throw X}function
 hZ(i){var
 f=e4(i),d=[0,0],e=iq(f)-1|0;if(!(e<0)){var
 c=e;for(;;){var
-a=d[1],g=k6(f,c)-48|0;if(9<g>>>0)throw X;switch(g){case
+a=d[1],g=k7(f,c)-48|0;if(9<g>>>0)throw X;switch(g){case
 0:var
 b=[0,a];break;case
 1:var
@@ -8511,14 +8527,14 @@ b=[8,a];break;default:var
 b=[9,a]}d[1]=b;var
 h=c-1|0;if(0!==c){var
 c=h;continue}break}}return d[1]}function
-f2(a){return lD(hZ(a))}function
+f2(a){return lE(hZ(a))}function
 eR(b){var
-a=f0(b);return 45===a8(a,0)?T(f2(ea(a,1,aA(a)-1|0))):f2(a)}function
+a=f0(b);return 45===a8(a,0)?T(f2(ea(a,1,az(a)-1|0))):f2(a)}function
 p6(a){return ec(f2(f0(a)))}function
 dr(b){var
-a=f0(b);if(!(2<aA(a))&&!(64<=ip(a)))return iB(f2(a));throw X}function
+a=f0(b);if(!(2<az(a))&&!(64<=ip(a)))return iB(f2(a));throw X}function
 cS(c){var
-a=f0(c);if(6<aA(a))throw X;function
+a=f0(c);if(6<az(a))throw X;function
 b(a){return 0<a?[0,b(a-1|0)]:0}return b(ip(a))}function
 p7(a){var
 b=97<=a?1:0,c=b?a<=r0?1:0:b;if(c)var
@@ -8526,7 +8542,7 @@ d=c;else
 var
 e=65<=a?1:0,d=e?a<=90?1:0:e;return d}function
 p8(y,b){var
-d=aA(b),a=[0,0];function
+d=az(b),a=[0,0];function
 c(e){var
 c=a[1]<d?1:0,f=c?a8(b,a[1])===e?1:0:c;return f}function
 l(e){var
@@ -8535,7 +8551,7 @@ m(b){a[1]++;var
 d=f(b+1|0);if(c(41)){a[1]++;return d}throw X}function
 h(i){if(64<i)throw X;if(c(45)){a[1]++;return[2,h(i+1|0)]}if(c(40))var
 e=m(i);else{var
-u=0;if((a[1]+5|0)<=d&&aC(ea(b,a[1],5),CT)){a[1]=a[1]+4|0;var
+u=0;if((a[1]+5|0)<=d&&aB(ea(b,a[1],5),CT)){a[1]=a[1]+4|0;var
 e=[5,m(i)]}else
 u=1;if(u){var
 v=0;if(a[1]<d&&p7(a8(b,a[1]))){var
@@ -8543,16 +8559,16 @@ n=a[1];for(;;){if(a[1]<d){var
 w=0;if(!p7(a8(b,a[1]))&&95!==a8(b,a[1])&&(!(48<=a8(b,a[1]))||57<a8(b,a[1])))w=1;if(!w){a[1]++;continue}}var
 e=[1,k(y,ea(b,n,a[1]-n|0))];break}}else
 v=1;if(v){var
-g=l(0),o=c(46),q=o?(a[1]++,[0,l(0)]):o,r=aC(g,CU);if(r)var
+g=l(0),o=c(46),q=o?(a[1]++,[0,l(0)]):o,r=aB(g,CU);if(r)var
 s=r;else
 var
-t=1<aA(g)?1:0,s=t?48===a8(g,0)?1:0:t;if(s)throw X;if(q){var
-j=q[1],x=0;if(aC(j,CV)||48===a8(j,aA(j)-1|0))x=1;else
+t=1<az(g)?1:0,s=t?48===a8(g,0)?1:0:t;if(s)throw X;if(q){var
+j=q[1],x=0;if(aB(j,CV)||48===a8(j,az(j)-1|0))x=1;else
 var
 z=hZ(j),e=[0,hZ(g),z];if(x)throw X}else
 var
 e=[0,hZ(g),0]}}}if(c(94)){a[1]++;var
-f=l(0);if(p(f,CS)){if(!(2<aA(f))&&2<=ip(f)&&!(64<ip(f)))return[4,e,ec(f2(f))];throw X}throw X}return e}function
+f=l(0);if(p(f,CS)){if(!(2<az(f))&&2<=ip(f)&&!(64<ip(f)))return[4,e,ec(f2(f))];throw X}throw X}return e}function
 e(d){var
 b=h(d);for(;;){if(c(42)){a[1]++;var
 b=[3,2,b,h(d)];continue}if(c(47)){a[1]++;var
@@ -8563,35 +8579,35 @@ b=[3,0,b,e(d)];continue}if(c(45)){a[1]++;var
 b=[3,1,b,e(d)];continue}return b}}var
 g=f(0);if(a[1]<d)throw X;return g}function
 h0(a){return p8(function(a){return[0,a]},a)}function
-kA(a){var
+kB(a){var
 b=a2(a);return p8(function(a){return a},b)}function
 Y(a){return h0(a2(a))}function
-b4(a){if(2===a[0])return[0,h0(a[1])];var
+b5(a){if(2===a[0])return[0,h0(a[1])];var
 b=ai(a),c=Y(v(b,CW));return[1,Y(v(b,CX)),c]}function
-al(a){throw[0,p5,be(lo(CZ,a),CY)]}function
-kB(c){var
+an(a){throw[0,p5,be(lp(CZ,a),CY)]}function
+kC(c){var
 a=a2(c);if(p(a,C0)){var
 b=p(a,C1);if(b)throw X;return b}return 1}function
 C2(d){var
 b=ai(d);function
-a(a){return f1(b4,v(b,a))}var
-c=a2(v(b,C3));if(p(c,C4)){if(p(c,C5)){if(p(c,C6))return al([0,C8,[0,c,C7]]);var
-e=bc(b,C9),f=cn(function(a){return f1(b4,a)},e),g=a(C_);return[1,a(C$),g,f]}var
-h=kB(v(b,Da)),i=b4(v(b,Db)),j=a(Dc),k=a(Dd);return[0,a(De),k,j,i,h]}return[2,a(Df)]}function
+a(a){return f1(b5,v(b,a))}var
+c=a2(v(b,C3));if(p(c,C4)){if(p(c,C5)){if(p(c,C6))return an([0,C8,[0,c,C7]]);var
+e=bc(b,C9),f=cn(function(a){return f1(b5,a)},e),g=a(C_);return[1,a(C$),g,f]}var
+h=kC(v(b,Da)),i=b5(v(b,Db)),j=a(Dc),k=a(Dd);return[0,a(De),k,j,i,h]}return[2,a(Df)]}function
 Dg(d){var
 a=ai(d);if(a){var
 b=a[1];if(!p(b[1],Dh)){var
 c=b[2];if(2===c[0]&&!p(c[1],Di))return 1}}return 0}function
 p9(e){var
 b=ai(e);function
-a(a){return _(b4,ae(v(b,a)))}var
-c=a2(v(b,Dj)),f=bc(b,Dk),d=cn(function(a){return _(b4,ae(a))},f);if(p(c,Dl)){if(p(c,Dm)){if(p(c,Dn)){if(!p(c,Do)){var
+a(a){return _(b5,ae(v(b,a)))}var
+c=a2(v(b,Dj)),f=bc(b,Dk),d=cn(function(a){return _(b5,ae(a))},f);if(p(c,Dl)){if(p(c,Dm)){if(p(c,Dn)){if(!p(c,Do)){var
 g=a(Dr);return[1,a(Ds),g,d]}}else
 if(!d){var
-h=kB(v(b,Dt)),i=b4(v(b,Du)),j=a(Dv),k=a(Dw);return[0,a(Dx),k,j,i,h]}}else
+h=kC(v(b,Dt)),i=b5(v(b,Du)),j=a(Dv),k=a(Dw);return[0,a(Dx),k,j,i,h]}}else
 if(!d)return[2,a(Dy)]}else
 if(!d){var
-l=kB(v(b,Dz)),m=b4(v(b,DA)),n=b4(v(b,DB)),o=a(DC),q=a(DD),r=a(DE);return[3,a(DF),r,q,o,n,m,l]}return al([0,Dq,[0,c,Dp]])}function
+l=kC(v(b,Dz)),m=b5(v(b,DA)),n=b5(v(b,DB)),o=a(DC),q=a(DD),r=a(DE);return[3,a(DF),r,q,o,n,m,l]}return an([0,Dq,[0,c,Dp]])}function
 DG(d){var
 a=ai(d);if(a){var
 b=a[1];if(!p(b[1],DH)){var
@@ -8648,10 +8664,10 @@ b=14;else
 f=1;else
 var
 b=12;var
-n=f?al([0,DZ,[0,a,DY]]):b;function
+n=f?an([0,DZ,[0,a,DY]]):b;function
 i(a){return v(c,D0)}var
 d=a2(v(c,D1)),l=p(d,D2);if(l)if(p(d,D3))if(p(d,D4))if(p(d,D5))var
-e=al([0,D7,[0,d,D6]]);else
+e=an([0,D7,[0,d,D6]]);else
 var
 m=ds(Y,i(0)),e=[2,m[1],m[2]];else
 var
@@ -8709,7 +8725,7 @@ d=d4(Eq,c),e=d[1];if(!(9<=e))switch(e){case
 2:case
 6:case
 8:return d}var
-a=d4(Eo,c),b=a[1];if(2!==b&&!(4<=b))return a;return al(Ep)}function
+a=d4(Eo,c),b=a[1];if(2!==b&&!(4<=b))return a;return an(Ep)}function
 qa(a){var
 b=d4(Er,a);return 11===b[1]?b:p$(a)}function
 Es(a){var
@@ -8719,7 +8735,7 @@ b=d4(Ev,a),c=b[1];if(9<=c)switch(c-9|0){case
 2:case
 4:case
 7:break;default:return b}return qa(a)}function
-kC(c){var
+kD(c){var
 d=d4(Ew,c),a=d[1];if(4<=a){var
 b=0;if(6<=a)switch(a-6|0){case
 5:case
@@ -8727,7 +8743,7 @@ b=0;if(6<=a)switch(a-6|0){case
 7:case
 10:b=1;break}else
 b=1;if(b)return d}return p$(c)}function
-kD(b){var
+kE(b){var
 a=ai(b[2]);if(p(b[1],ED)){var
 c=ds(Y,v(a,EE)),d=ds(Y,v(a,EF)),e=d[2],f=d[1],g=Y(v(a,EG));return[1,c[1],c[2],g,f,e]}var
 h=_(Y,ae(v(a,EH)));return[0,_(Y,ae(v(a,EI))),h]}function
@@ -8737,40 +8753,40 @@ d(b){return Y(v(a,b))}function
 c(b){return f1(Y,v(a,b))}var
 b=a2(v(a,EK));if(p(b,EL)){if(!p(b,EM)){var
 j=v(a,ES),e=ds(function(a){return a},j),k=bc(a,ET),l=cn(function(a){return c(EU)},k),m=h0(a2(e[2])),n=h0(a2(e[1])),o=d(EV);return[0,cS(v(a,EW)),o,n,m,l]}if(p(b,EN))throw X}var
-g=d(EO),h=c(EP),i=c(EQ);return[1,aC(b,ER),i,h,g]}function
-kE(aq){var
-g=d3(aq),h=g[1];if(p(h,EX)){if(p(h,EY)){if(p(h,EZ)){if(p(h,E0))return al([0,E2,[0,h,E1]]);var
+g=d(EO),h=c(EP),i=c(EQ);return[1,aB(b,ER),i,h,g]}function
+kF(aq){var
+g=d3(aq),h=g[1];if(p(h,EX)){if(p(h,EY)){if(p(h,EZ)){if(p(h,E0))return an([0,E2,[0,h,E1]]);var
 x=v(ai(g[2]),E3),ad=0;if(2===x[0]){var
 L=p(x[1],E4);if(!L){var
 K=L;ad=1}}if(!ad)var
-K=[0,b4(x)];return[6,K]}var
-M=ai(g[2]),i=kE([0,[0,[0,E6,v(M,E5)],0]]);if(0===i[0]){var
+K=[0,b5(x)];return[6,K]}var
+M=ai(g[2]),i=kF([0,[0,[0,E6,v(M,E5)],0]]);if(0===i[0]){var
 y=i[2];if(0===y[0]&&!i[3]){var
-N=i[4];if(!av(b3,N)){var
-ar=Y(v(M,E8));return[5,i[1],y[1],y[2],N,ar]}}}return al(E7)}var
+N=i[4];if(!aM(b4,N)){var
+ar=Y(v(M,E8));return[5,i[1],y[1],y[2],N,ar]}}}return an(E7)}var
 a=ai(g[2]),z=bc(a,E9),A=z?_(EJ,ae(z[1])):z,o=function(b){var
-a=0!==A?1:0;return a?al(E_):a},j=d3(v(a,E$)),b=d3(v(a,Fa)),c=j[1];if(p(c,Fb)&&p(c,Fc)&&p(c,Fd)){if(0===bc(a,Fe)){if(p(c,Ff)){var
+a=0!==A?1:0;return a?an(E_):a},j=d3(v(a,E$)),b=d3(v(a,Fa)),c=j[1];if(p(c,Fb)&&p(c,Fc)&&p(c,Fd)){if(0===bc(a,Fe)){if(p(c,Ff)){var
 af=0;if(p(c,Fg)){if(!p(c,Fh)){var
 O=b[1],ag=0;if(p(O,Fk)&&p(O,Fl)){af=1;ag=1}if(!ag){var
-l=ae(j[2]),as=ae(v(a,Fo)),B=_(function(a){return d4(0,a)},as),at=av(function(a){switch(a[1]){case
+l=ae(j[2]),as=ae(v(a,Fo)),B=_(function(a){return d4(0,a)},as),at=aM(function(a){switch(a[1]){case
 5:return 1-gn(DG,l);case
-11:return av(DJ,l);case
+11:return aM(DJ,l);case
 7:case
 9:case
 10:case
-12:return 1;default:return 0}},B);if(!av(Dg,l)){var
-ah=0;if(!av(b3,B)||at)ah=1;if(ah){var
-ax=_(C2,l),f=ai(b[2]);if(p(b[1],Ex))var
-I=ds(Y,v(f,Ey)),J=ds(Y,v(f,Ez)),am=J[2],an=J[1],ao=Y(v(f,EA)),P=[1,I[1],I[2],ao,an,am];else
+12:return 1;default:return 0}},B);if(!aM(Dg,l)){var
+ah=0;if(!aM(b4,B)||at)ah=1;if(ah){var
+aw=_(C2,l),f=ai(b[2]);if(p(b[1],Ex))var
+I=ds(Y,v(f,Ey)),J=ds(Y,v(f,Ez)),al=J[2],am=J[1],ao=Y(v(f,EA)),P=[1,I[1],I[2],ao,am,al];else
 var
-ap=f1(Y,v(f,EB)),P=[0,f1(Y,v(f,EC)),ap];return[0,ax,P,A,B]}}o(0);var
-au=_(kC,ae(v(a,Fp))),aw=kD(b);return[1,0,_(p9,l),0,aw,0,au]}}}else
+ap=f1(Y,v(f,EB)),P=[0,f1(Y,v(f,EC)),ap];return[0,aw,P,A,B]}}o(0);var
+au=_(kD,ae(v(a,Fp))),av=kE(b);return[1,0,_(p9,l),0,av,0,au]}}}else
 if(!p(b[1],Fq)){o(0);var
-Q=_(kC,ae(v(a,Fr))),w=0,e=Q;for(;;){if(e){var
+Q=_(kD,ae(v(a,Fr))),w=0,e=Q;for(;;){if(e){var
 G=e[2],H=e[1];if(0===H[1]){var
 w=[0,H,w],e=G;continue}var
 e=G;continue}var
-n=ln(w),aj=0;if(n){var
+n=lo(w),aj=0;if(n){var
 d=0,R=n[1][4];if(typeof
 R==="number")d=1;else
 switch(R[0]){case
@@ -8785,37 +8801,37 @@ D=n[2];if(D){var
 F=0,T=D[1][4];if(typeof
 T!=="number"&&0===T[0])if(D[2]){d=1;F=1}else
 F=1;if(!F)d=1}else
-d=1;break;default:d=1}if(!d)aj=1}if(!aj)al(Fs);var
-ay=Y(v(ai(b[2]),Ft));return[4,Y(v(ai(j[2]),Fu)),ay,Q]}}if(!af)return al([0,Fj,[0,c,Fi]])}else
+d=1;break;default:d=1}if(!d)aj=1}if(!aj)an(Fs);var
+ax=Y(v(ai(b[2]),Ft));return[4,Y(v(ai(j[2]),Fu)),ax,Q]}}if(!af)return an([0,Fj,[0,c,Fi]])}else
 if(!p(b[1],Fv)){o(0);var
 q=ai(j[2]),U=ai(b[2]),V=function(c,a){var
 b=ae(a);return _(function(d){var
 a=ae(d);if(a){var
 b=a[2];if(b&&!b[2]){var
-e=k(c,b[1]);return[0,a2(a[1]),e]}}throw X},b)},az=function(d){var
+e=k(c,b[1]);return[0,a2(a[1]),e]}}throw X},b)},ay=function(d){var
 a=ai(d);if(a){var
-b=a[1],c=b[1];if(p(c,Fw)){if(!p(c,Fx)&&!a[2])return[0,_(kA,ae(b[2]))]}else
-if(!a[2])return[1,kA(b[2])]}throw X},aA=_(Es,ae(v(a,Fy))),aB=_(Y,ae(v(U,Fz))),aD=_(Y,ae(v(U,FA))),aE=_(az,ae(v(q,FB))),aF=V(kA,v(q,FC)),aG=V(b4,v(q,FD));return[3,_(a2,ae(v(q,FE))),aG,aF,aE,aD,aB,aA]}return al([0,Fn,[0,b[1],Fm]])}throw X}var
-W=ai(j[2]),r=cn(Y,bc(W,FF)),aH=function(f){var
+b=a[1],c=b[1];if(p(c,Fw)){if(!p(c,Fx)&&!a[2])return[0,_(kB,ae(b[2]))]}else
+if(!a[2])return[1,kB(b[2])]}throw X},az=_(Es,ae(v(a,Fy))),aA=_(Y,ae(v(U,Fz))),aC=_(Y,ae(v(U,FA))),aD=_(ay,ae(v(q,FB))),aE=V(kB,v(q,FC)),aF=V(b5,v(q,FD));return[3,_(a2,ae(v(q,FE))),aF,aE,aD,aC,aA,az]}return an([0,Fn,[0,b[1],Fm]])}throw X}var
+W=ai(j[2]),r=cn(Y,bc(W,FF)),aG=function(f){var
 a=d3(f),b=a[1];if(p(b,FG)){if(p(b,FH)){if(p(b,FI)){if(p(b,FJ))throw X;var
 d=a[2],g=Y(v(ai(d),FK));return[3,Y(v(ai(d),FL)),g]}var
 h=a[2],c=function(a){return ds(Y,v(ai(h),a))},i=c(FM),j=c(FN);return[1,c(FO),j,i]}var
-e=ds(Y,a[2]);return[0,e[1],e[2]]}return[2,Y(a[2])]},s=cn(aH,bc(a,FP)),Z=p(c,FQ),$=Z?p(c,FR)?2:1:Z,t=ae(v(W,FS));if(r&&s&&gn(p_,t)){var
-aI=function(c){var
+e=ds(Y,a[2]);return[0,e[1],e[2]]}return[2,Y(a[2])]},s=cn(aG,bc(a,FP)),Z=p(c,FQ),$=Z?p(c,FR)?2:1:Z,t=ae(v(W,FS));if(r&&s&&gn(p_,t)){var
+aH=function(c){var
 a=ai(c);function
-b(b){return _(b4,ae(v(a,b)))}if(0!==bc(a,FT))al(FU);var
-d=b(FV);return[0,b(FW),d]},aJ=_(Eu,ae(v(a,FX))),aK=s[1],aL=kD(b),aM=r[1];return[2,$,_(aI,t),aM,aL,aK,A,aJ]}o(0);var
-ak=0;if(!r&&aC(c,F0)){var
+b(b){return _(b5,ae(v(a,b)))}if(0!==bc(a,FT))an(FU);var
+d=b(FV);return[0,b(FW),d]},aI=_(Eu,ae(v(a,FX))),aJ=s[1],aK=kE(b),aL=r[1];return[2,$,_(aH,t),aL,aK,aJ,A,aI]}o(0);var
+ak=0;if(!r&&aB(c,F0)){var
 aa=1;ak=1}if(!ak)var
 aa=[0,$];var
-ab=0!==s?1:0,aN=ab?av(p_,t):ab;if(aN)al(FY);var
-aO=_(kC,ae(v(a,FZ))),aP=kD(b);return[1,aa,_(p9,t),r,aP,s,aO]}var
+ab=0!==s?1:0,aN=ab?aM(p_,t):ab;if(aN)an(FY);var
+aO=_(kD,ae(v(a,FZ))),aP=kE(b);return[1,aa,_(p9,t),r,aP,s,aO]}var
 u=ai(g[2]);function
 aQ(b){var
 a=ai(b),c=Y(v(a,F1)),d=[0,Y(v(a,F2)),c];return[0,a2(v(a,F3)),d]}var
-m=kE([0,[0,[0,F5,v(u,F4)],0]]);if(0===m[0]&&!m[3]){var
-ac=m[4];if(!av(b3,ac)){var
-aR=Y(v(u,F7)),aS=Y(v(u,F8)),aT=m[2],aU=m[1];return[7,_(aQ,ae(v(u,F9))),aU,aT,ac,aS,aR]}}return al(F6)}function
+m=kF([0,[0,[0,F5,v(u,F4)],0]]);if(0===m[0]&&!m[3]){var
+ac=m[4];if(!aM(b4,ac)){var
+aR=Y(v(u,F7)),aS=Y(v(u,F8)),aT=m[2],aU=m[1];return[7,_(aQ,ae(v(u,F9))),aU,aT,ac,aS,aR]}}return an(F6)}function
 f3(a){return _(eR,ae(a))}function
 h1(c,b){var
 a=f3(b);if(cu(a)!==c)throw X;return a}function
@@ -8831,8 +8847,8 @@ ah=L[1];if(!p(ah[1],GA)){var
 aj=ah[2];if(1===aj[0]){var
 M=aj[1];if(M){var
 ak=M[1];if(1===ak[0]){var
-am=ak[1];if(am&&!am[2]&&!M[2]){var
-an=L[2];if(an&&!an[2]&&!q[2]){var
+al=ak[1];if(al&&!al[2]&&!M[2]){var
+am=L[2];if(am&&!am[2]&&!q[2]){var
 f=GB;as=1}}}}}}}}}}}if(!as)var
 f=au;var
 r=f[2];switch(i[0]){case
@@ -8872,7 +8888,7 @@ l=k[1];if(l&&!b[2]){var
 a=l[1];continue}}}}break;case
 2:if(!p(a[1],Gp))i=1;break}var
 q=i?1:0;if(q){var
-r=dt(f,n),s=dr(g[1]),t=eR(e[1]);return[0,[0,[0,f3(d[1]),t],s],r]}return al(Gq)}}}}}}throw X};return[9,_(aA,$[1])]}b=1}}else
+r=dt(f,n),s=dr(g[1]),t=eR(e[1]);return[0,[0,[0,f3(d[1]),t],s],r]}return an(Gq)}}}}}}throw X};return[9,_(aA,$[1])]}b=1}}else
 if(p(a,Gr))if(p(a,Gs))if(p(a,Gt))if(p(a,Gu))if(p(a,Gv)){if(!p(a,Gw)){if(!c[2]){var
 aa=ai(e[2]),aB=ae(v(aa,Gx)),aC=r+1|0,ab=_(function(a){return h1(aC,a)},aB);if(3===cu(ab))return[1,Gz,ab,dr(v(aa,Gy))];throw X}b=1}}else{if(!c[2]){var
 R=a2(e[2]),S=p(R,F_);if(S){if(p(R,F$))throw X;var
@@ -8901,7 +8917,7 @@ d=1}if(!d&&!l[2])o=1}break;case
 2:var
 ar=k[1];if(!p(ar,GO)||!p(ar,GP))o=1;break}switch(o){case
 0:var
-B=al(GH);break;case
+B=an(GH);break;case
 1:var
 B=dt(f,k);break}return[7,B]}b=1}else{var
 ac=e[2];if(1===ac[0]){var
@@ -8920,7 +8936,7 @@ J=I[2];if(J){var
 K=J[2];if(K&&!K[2])if(c[2])b=1;else{var
 aI=K[1],aJ=J[1],aK=I[1],x=aK,w=function(b,a){var
 c=dr(aI);return[4,b,a,eR(aJ),c]};b=2}}}}}switch(b){case
-0:if(!c[2])return al([0,Gk,[0,a,Gj]]);break;case
+0:if(!c[2])return an([0,Gk,[0,a,Gj]]);break;case
 1:break;default:var
 Y=qb(f,x);return w(Y[1],Y[2])}}break;case
 2:return[0,i[1]]}throw X}function
@@ -8936,7 +8952,7 @@ l=b[2];if(1===l[0]){var
 f=l[1];if(f){var
 g=f[2];if(g&&!g[2]){var
 u=_(f3,ae(g[1]));return[0,cS(f[1]),u]}}}}else{var
-m=b[2];if(1===m[0]&&!m[1])return 1}return al([0,GZ,[0,a,GY]])}function
+m=b[2];if(1===m[0]&&!m[1])return 1}return an([0,GZ,[0,a,GY]])}function
 qd(f,b){var
 a=ai(b),c=ae(v(a,G_)),d=_(function(g){var
 a=ai(g);function
@@ -8959,32 +8975,32 @@ Hq(b){var
 c=b[1],a=b[4];if(!(1<c+q9>>>0)&&typeof
 a!=="number"&&1===a[0])return 1-ho(j(a[1]));return 10===c?1:0}function
 Hu(g){var
-i=aA(g),c=[0,0];function
+i=az(g),c=[0,0];function
 j(a){if(c[1]<i)return a8(g,c[1]);throw X}function
 l(a){if(j(0)===a){c[1]++;return 0}throw X}function
-D(a,b){for(;;){if(c[1]<i&&k(b,a8(g,c[1]))){c[1]++;continue}return ea(g,a,c[1]-a|0)}}function
-E(d){l(34);function
+C(a,b){for(;;){if(c[1]<i&&k(b,a8(g,c[1]))){c[1]++;continue}return ea(g,a,c[1]-a|0)}}function
+D(d){l(34);function
 a(a){var
 b=34!==a?1:0;if(b)var
 c=92!==a?1:0,d=c?32<=a?1:0:c;else
 var
 d=b;return d}var
-b=D(c[1],a);l(34);return b}function
-F(e,a){if(j(0)===a){c[1]++;return 0}var
+b=C(c[1],a);l(34);return b}function
+E(e,a){if(j(0)===a){c[1]++;return 0}var
 b=0;for(;;){var
 d=[0,k(e,0),b];if(44===j(0)){c[1]++;var
-b=d;continue}l(a);return ln(d)}}function
+b=d;continue}l(a);return lo(d)}}function
 r(b,k){if(64<b)throw X;var
 a=j(0),d=0;if(48<=a){if(91===a){c[1]++;var
-f=93,g=b+1|0;return[1,F(function(a){return r(g,a)},f)]}if(123===a){c[1]++;var
-h=125;return[0,F(function(c){var
-a=E(0);l(58);return[0,a,r(b+1|0,0)]},h)]}if(!(58<=a))d=1}else{if(34===a)return[2,E(0)];if(45===a)d=1}if(d){var
+f=93,g=b+1|0;return[1,E(function(a){return r(g,a)},f)]}if(123===a){c[1]++;var
+h=125;return[0,E(function(c){var
+a=D(0);l(58);return[0,a,r(b+1|0,0)]},h)]}if(!(58<=a))d=1}else{if(34===a)return[2,D(0)];if(45===a)d=1}if(d){var
 i=c[1];c[1]++;var
-e=D(i,function(a){var
+e=C(i,function(a){var
 b=48<=a?1:0,c=b?a<=57?1:0:b;return c});if(p(e,CQ))return[3,e];throw X}throw X}var
-V=r(0,0),G=c[1]<i?1:0,W=G?10===a8(g,c[1])?1:0:G;if(W)c[1]++;if(c[1]<i)throw X;var
-q=ai(V);if(p(a2(v(q,Hv)),Hw))throw X;var
-a=kE(v(q,Hx)),y=0;switch(a[0]){case
+Q=r(0,0),F=c[1]<i?1:0,R=F?10===a8(g,c[1])?1:0:F;if(R)c[1]++;if(c[1]<i)throw X;var
+q=ai(Q);if(p(a2(v(q,Hv)),Hw))throw X;var
+a=kF(v(q,Hx)),y=0;switch(a[0]){case
 1:var
 w=a[1],z=0;if(typeof
 w==="number")if(w)var
@@ -8996,137 +9012,125 @@ z=1;if(z)var
 x=3;var
 f=[0,cu(a[2]),x];break;case
 2:var
-an=1===a[1]?6:3,f=[0,cu(a[2]),an];break;case
+af=1===a[1]?6:3,f=[0,cu(a[2]),af];break;case
 3:var
-ao=cu(a[1]),f=[0,cu(a[4]),ao];break;case
+ag=cu(a[1]),f=[0,cu(a[4]),ag];break;case
 7:var
-H=a[2];y=1;break;case
+G=a[2];y=1;break;case
 0:case
 5:var
-H=a[1];y=1;break;default:var
-f=HS}if(y)var
-f=[0,cu(H),3];var
+G=a[1];y=1;break;default:var
+f=HP}if(y)var
+f=[0,cu(G),3];var
 m=d3(v(q,Hy)),n=m[1];if(p(n,Hj))if(p(n,Hk))if(p(n,Hl))var
-b=al([0,Hn,[0,n,Hm]]);else
+b=an([0,Hn,[0,n,Hm]]);else
 var
 o=qe(m[2]),b=[1,o[1],o[2],o[3],o[4]];else
 var
 s=qd(f,m[2]),b=[0,s[1],s[2],s[3]];else
 var
-Y=ae(m[2]),b=[2,_(function(g){var
+S=ae(m[2]),b=[2,_(function(g){var
 a=d3(g),b=a[1];if(p(b,Hf)){if(p(b,Hg)){if(p(b,Hh)){var
 e=p(b,Hi);if(e)throw X;return e}return[0,cS(a[2])]}var
 c=qe(a[2]);return[2,c[1],c[2],c[3],c[4]]}var
-d=qd(f,a[2]);return[1,d[1],d[2],d[3]]},Y)];function
-Z(a){var
-b=a[1];return av(function(a){return 7<a[2][0]?1:0},b)}function
-$(a){return 0!==a[3]?1:0}function
-I(a){return av($,a)}var
+d=qd(f,a[2]);return[1,d[1],d[2],d[3]]},S)];function
+T(a){return 0!==a[3]?1:0}function
+H(a){return aM(T,a)}var
 d=0;switch(a[0]){case
 0:if(0===b[0]){var
-K=a[4],J=a[1];d=4}else
+J=a[4],I=a[1];d=4}else
 d=2;break;case
 1:var
-M=a[6],N=a[2],A=0;if(0===b[0]){var
-ac=b[3];if(av(function(a){var
-b=a[1];return av(function(a){switch(a[2][0]){case
+N=0;if(0===b[0]){var
+W=b[3];if(aM(function(a){var
+b=a[1];return aM(function(a){switch(a[2][0]){case
 6:case
-7:return 1;default:return 0}},b)},ac))al(HG);else
-A=1}else
-A=1;var
-ap=0;if(A){var
-Q=0;if(av(function(a){return 5===a[1]?1:0},M)&&av(function(a){switch(a[0]){case
-0:case
-3:return 0;default:return 1}},N)){al(HH);Q=1}if(!Q){var
-R=0;if(0===b[0]){var
-aq=0;if(av(function(a){return 11===a[1]?1:0},M)&&av(function(a){return 2===a[0]?1:0},N)){al(HI);R=1;aq=1}}if(!R){var
-t=a[6];d=3;ap=1}}}break;case
+7:return 1;default:return 0}},b)},W)){an(HG);N=1}}if(!N){var
+t=a[6];d=3}break;case
 2:var
-O=a[1],ad=a[7];if(0===b[0]){var
-af=1===O?6:3,P=cu(a[2])===af?1:0;if(P){var
-S=0;if(2<=O||!(0===a[4][0]))S=1;else
+L=a[1],Y=a[7];if(0===b[0]){var
+Z=1===L?6:3,M=cu(a[2])===Z?1:0;if(M){var
+O=0;if(2<=L||!(0===a[4][0]))O=1;else
 var
-u=1;if(S)var
+u=1;if(O)var
 u=0}else
 var
-u=P;var
-ag=function(b){var
+u=M;var
+$=function(b){var
 g=0;if(!b[1]){var
 d=b[2];if(8===d[0]){var
 e=d[1];if(7===e[0]){var
 c=e[1],a=0;switch(c[0]){case
-1:if(p(c[1],HK))a=1;break;case
+1:if(p(c[1],HI))a=1;break;case
 6:var
-f=c[1];if(1!==f[0]||p(f[1],HL))a=1;break;default:a=1}if(!a)return 1-u}}else
-g=1}if(!g&&8===b[2][0])return 1;return 0},ah=b[3],ar=0;if(av(function(a){return av(ag,a[1])},ah))al(HM);else{var
-aj=b[3];if(gn(function(a){var
+f=c[1];if(1!==f[0]||p(f[1],HJ))a=1;break;default:a=1}if(!a)return 1-u}}else
+g=1}if(!g&&8===b[2][0])return 1;return 0},aa=b[3],ah=0;if(aM(function(a){return aM($,a[1])},aa))an(HK);else{var
+ab=b[3];if(gn(function(a){var
 b=a[1];return gn(function(d){var
 b=d[2],a=0;switch(b[0]){case
 0:var
-c=b[1];if(p(c,Hr)){if(!p(c,Hs))return av(Hq,ad)}else
+c=b[1];if(p(c,Hr)){if(!p(c,Hs))return aM(Hq,Y)}else
 a=1;break;case
 1:if(!p(b[1],Ht))a=1;break;case
 7:case
-8:a=1;break}return a?1:0},b)},aj)){d=1;ar=1}else
-al(HN)}}else
+8:a=1;break}return a?1:0},b)},ab)){d=1;ah=1}else
+an(HL)}}else
 d=2;break;case
 3:var
-T=0;if(0===b[0]&&av(Z,b[3]))al(HO);else
-T=1;if(T){var
-t=a[7];d=3}break;case
+t=a[7];d=3;break;case
 4:var
 t=a[3];d=3;break;case
-5:if(av(Ho,a[4]))al(HP);else
+5:if(aM(Ho,a[4]))an(HM);else
 if(0===b[0]){var
-ak=b[3];if(av(function(a){return 0!==a[1]?1:0},ak))al(HQ);else
+ac=b[3];if(aM(function(a){return 0!==a[1]?1:0},ac))an(HN);else
 d=1}else
 d=1;break;case
 6:d=1;break;default:var
-B=0;if(2===b[0]){var
-am=b[1];if(av(function(a){if(typeof
+A=0;if(2===b[0]){var
+ad=b[1];if(aM(function(a){if(typeof
 a!=="number"&&2===a[0]){var
 b=a[4];if(typeof
-b!=="number"&&3===b[0])return 1}return 0},am))al(HR);else
-B=1}else
-B=1;if(B){var
-K=a[4],J=a[2];d=4}}var
+b!=="number"&&3===b[0])return 1}return 0},ad))an(HO);else
+A=1}else
+A=1;if(A){var
+J=a[4],I=a[2];d=4}}var
 e=0;switch(d){case
-3:if(0===b[0])if(av(function(a){return 12===a[1]?1:0},t)){al(HJ);e=3}else
+3:if(0===b[0])if(aM(function(a){return 12===a[1]?1:0},t)){an(HH);e=3}else
 e=2;else
 e=1;break;case
 0:e=3;break;case
 4:var
-U=0;if(av(function(a){return 10===a[1]?1:0},K)&&av(function(a){return 2===a[0]?1:0},J)){al(Hz);U=1}if(!U)e=2;break;case
+P=0;if(aM(function(a){return 10===a[1]?1:0},J)&&aM(function(a){return 2===a[0]?1:0},I)){an(Hz);P=1}if(!P)e=2;break;case
 1:e=2;break;default:e=1}var
-C=0;switch(e){case
+B=0;switch(e){case
 3:break;case
 2:var
 h=0;switch(a[0]){case
 5:case
-7:if(av(Hp,a[4])){al(HE);h=1}else
+7:if(aM(Hp,a[4])){an(HE);h=1}else
 if(7===a[0])switch(b[0]){case
 2:var
-ab=function(a){if(typeof
-a!=="number"&&1===a[0])return I(a[3]);return 0};if(av(ab,b[1]))al(HF);h=1;break;case
-0:break;default:C=1;h=1}else
-h=1;break}if(!h)if(0===b[0]&&I(b[3]))al(HD);else
-C=1;break;case
-1:C=1;break}var
-L=ai(v(q,HA)),aa=a2(v(L,HB));return[0,a,b,a2(v(L,HC)),aa]}function
-HT(b){var
-c=aA(b),g=64,h=Ju(64,c)?g:c,a=0,i=h-18|0;for(;;){var
+V=function(a){if(typeof
+a!=="number"&&1===a[0])return H(a[3]);return 0};if(aM(V,b[1]))an(HF);h=1;break;case
+0:break;default:B=1;h=1}else
+h=1;break}if(!h)if(0===b[0]&&H(b[3]))an(HD);else
+B=1;break;case
+1:B=1;break}var
+K=ai(v(q,HA)),U=a2(v(K,HB));return[0,a,b,a2(v(K,HC)),U]}function
+HQ(b){var
+c=az(b),g=64,h=Jr(64,c)?g:c,a=0,i=h-18|0;for(;;){var
 d=a<=i?1:0;if(d){var
-e=aC(ea(b,a,18),HU);if(!e){var
+e=aB(ea(b,a,18),HR);if(!e){var
 a=a+1|0;continue}var
 f=e}else
 var
-f=d;return f}}JP(function(b){try{if(HT(b))var
-a=HW;else{try{var
+f=d;return f}}JM(function(b){try{if(HQ(b))var
+a=HT;else{try{var
 e=0,d=Hu(b);e=1}catch(a){a=sB(a);if(a[1]===p5)var
 c=[0,a[2]];else{if(a!==X)throw a;var
 c=2}}if(e)var
 c=CM(b,d)?1===d[2][0]?1:0:2;var
-a=c}}catch(a){return HV}if(typeof
+a=c}}catch(a){return HS}if(typeof
 a==="number")switch(a){case
-0:return HX;case
-1:return HY;default:return HZ}return be(H0,a[1])});lm(0);return}(globalThis));
+0:return HU;case
+1:return HV;default:return HW}return be(HX,a[1])});ln(0);return}(globalThis));

@@ -42,33 +42,11 @@ fn covered(proof: &Proof, subject: &Subject<'_>) -> Exported<()> {
         matches!(cell, AtlasCell::Refuted(Witness { fails: Failure::Same { .. }, .. }))
     };
     let what = match (subject.kind, proof) {
-        (Kind::Formulas, _)
-            if has(&|by| {
-                matches!(by, Evidence::Tolerances(..) | Evidence::Fan(_) | Evidence::Between(..))
-            }) =>
-        {
-            "the evidence \"tolerances\" of such a mechanism"
-        }
         (Kind::Turning, Proof::Tree(tree)) if has_other_apart(tree, subject) => {
             "this evidence \"tolerances\" of a platform that turns"
         }
         (Kind::Legs, _) if has(&|by| matches!(by, Evidence::Turned(..) | Evidence::Control(_))) => {
             "this set of orientations with such drives"
-        }
-        (Kind::Legs, _)
-            if requires(&["parallel_margin"])
-                && subject
-                    .legs
-                    .iter()
-                    .any(|l| matches!(l, Leg::Strut { .. } | Leg::Planar { .. })) =>
-        {
-            "\"parallel_margin\" of struts in such a claim"
-        }
-        (Kind::Legs, Proof::Tree(_))
-            if requires(&["one_to_one"])
-                && subject.legs.iter().any(|l| matches!(l, Leg::Planar { .. })) =>
-        {
-            "\"one_to_one\" of planes in such a claim"
         }
         (Kind::Legs | Kind::Closed | Kind::Formulas, Proof::Tree(_)) if requires(&["accuracy"]) => {
             "\"accuracy\" of such a mechanism"
