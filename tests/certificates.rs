@@ -165,7 +165,7 @@ fn committed_atlases_are_what_the_prover_writes() {
         let cancel = AtomicBool::new(false);
         let mut control = Control { cancel: &cancel, progress: &mut |_| {} };
         let top = grow(&mut Growing::new(&design, &mut control), design.whole(), None).unwrap();
-        let (certificate, _) = certify(&design, assemble(top, Vec::new()).unwrap()).unwrap();
+        let (certificate, ..) = certify(&design, assemble(top, Vec::new()).unwrap()).unwrap();
         is_committed(name, &certificate);
     }
 }

@@ -96,6 +96,16 @@ fn what_the_verified_checker_does_not_cover_is_refused_in_its_words() {
         let refused = exported(&with(FOUR, from, to)).expect_err("refused");
         assert_eq!(refused.to_string(), format!("{what} is not covered by the verified checker"));
     }
+    // Written out, the last definition of fifty has the first one 2^50 times.
+    let definitions: Vec<String> =
+        (1..51).map(|i| format!(r#"["d{i}","d{}*d{}"]"#, i - 1, i - 1)).collect();
+    let formulas = read_to_string("proofs/certificates/five-bar-formulas.cert.json");
+    let many = format!(r#""definitions":[["d0","x"],{},"#, definitions.join(","));
+    let refused = exported(&with(&formulas.expect("committed"), r#""definitions":["#, &many));
+    assert!(refused
+        .expect_err("refused")
+        .to_string()
+        .starts_with("a mechanism of more than 32768"));
     let refuted = exported(&with(FOUR, r#""verdict":"certified""#, r#""verdict":"refuted""#));
     assert_eq!(refuted, Err(ExportError::Verdict));
 }

@@ -5,7 +5,7 @@ use super::pave::not_taken_up;
 use super::{certify, interrupt, print, Failure, Format, Status};
 use crate::cli::progress::Bar;
 use crate::design::{AtlasDesign, Objective};
-use crate::exact::decimal::grouped;
+use crate::exact::decimal::{counted, grouped};
 use crate::exact::Exact;
 use crate::files::digest::sha256;
 use crate::files::folder::{self, FolderError, SUMS};
@@ -26,7 +26,7 @@ use crate::search::paving::unfinished as part_of;
 use crate::search::solver::{verify, Answer};
 use crate::search::{Budget, Control};
 use orthocert_checker::certificate::Certificate;
-use orthocert_kernel::certificate::{AtlasCell, Claim};
+use orthocert_kernel::certificate::{AtlasCell, Claim, Proof};
 use orthocert_kernel::number::Expression;
 use std::cmp::Ordering;
 use std::path::{Path, PathBuf};
@@ -197,37 +197,43 @@ pub fn publish(
     started: Instant,
 ) -> Result<AtlasReport, Failure> {
     let rejected = |reason| Failure::Rejected(format!("the map was not accepted: {reason}"));
-    let (certificate, accepted) = atlas::certify(design, cells.clone()).map_err(rejected)?;
-    let Claim::Atlas(claim) = &certificate.claim else {
+    let (certificate, accepted, too_long) = atlas::certify(design, cells).map_err(rejected)?;
+    let (Claim::Atlas(claim), Proof::Atlas(cells)) = (&certificate.claim, &certificate.proof)
+    else {
         return Err(Failure::Defect);
     };
+    if too_long > 0 {
+        print::diagnostic(&format!(
+            "{} left undecided, which would take the checker longer than it admits; accepted: a smaller \
+             claim, or wider bounds",
+            counted(too_long, "cell is", "cells are")
+        ));
+    }
     let share = |x: &Expression| x.rational().map(Exact::Rational).ok_or(Failure::Defect);
     let (certified, refuted) = (share(&claim.certified)?, share(&claim.refuted)?);
     let text = certify::as_written(&certificate).map_err(rejected)?;
     let mut files = Files { folder, all: Vec::new() };
     let best = match &design.objective {
         Some(Objective::Maximise(x)) => {
-            best_value(design, (x, Ordering::Greater), &cells, &mut files)?
+            best_value(design, (x, Ordering::Greater), cells, &mut files)?
         }
-        Some(Objective::Minimise(x)) => {
-            best_value(design, (x, Ordering::Less), &cells, &mut files)?
-        }
-        Some(Objective::WidestMargin) => widest_margin(design, &cells, &mut files)?,
+        Some(Objective::Minimise(x)) => best_value(design, (x, Ordering::Less), cells, &mut files)?,
+        Some(Objective::WidestMargin) => widest_margin(design, cells, &mut files)?,
         None => None,
     };
     let marks = design.marks.iter().map(|mark| MarkedDesign {
         label: mark.label.clone(),
         at: mark.at.clone(),
-        verdict: atlas::verdict_at(design, mark, &cells),
+        verdict: atlas::verdict_at(design, mark, cells),
     });
     let file = |name: &str| folder.join(name).to_string_lossy().into_owned();
     let mut report = AtlasReport {
         title: design.title.clone(),
         atlas: name,
         parameters: design.parameters.clone(),
-        undecided: part(&cells, rest(&certified, &refuted)?, Standing::Undecided),
-        certified: part(&cells, certified, Standing::Certified),
-        refuted: part(&cells, refuted, Standing::Refuted),
+        undecided: part(cells, rest(&certified, &refuted)?, Standing::Undecided),
+        certified: part(cells, certified, Standing::Certified),
+        refuted: part(cells, refuted, Standing::Refuted),
         nodes: accepted.size.nodes,
         best,
         marks: marks.collect(),
@@ -235,8 +241,8 @@ pub fn publish(
         files: vec![file(PICTURE), file(PAGE), file(SUMS)],
         seconds: 0.0,
     };
-    let contours = map::contours(design, &cells);
-    let svg = map::picture(design, &cells, &contours, &points(&report));
+    let contours = map::contours(design, cells);
+    let svg = map::picture(design, cells, &contours, &points(&report));
     let words = theorem(&certificate.claim, accepted.verdict);
     let title = design.title.as_deref().unwrap_or("Atlas");
     let page = map::page(title, (&svg, !contours.is_empty()), &report.facts(), &words);

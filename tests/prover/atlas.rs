@@ -10,9 +10,10 @@ use orthocert::questions::atlas::{
 use orthocert::search::solver::margin::margin;
 use orthocert::search::solver::{verify, Answer};
 use orthocert::search::{Budget, Control};
-use orthocert_checker::certificate::Verdict;
+use orthocert_checker::certificate::{Proof, Verdict};
 use orthocert_kernel::atlas::{walk, Part};
-use orthocert_kernel::certificate::AtlasCell;
+use orthocert_kernel::certificate::{AtlasCell, Claim};
+use orthocert_kernel::number::Expression;
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
 
@@ -67,7 +68,7 @@ fn margins_agree_with_the_closed_form() {
 fn orthoglides_agree_with_the_closed_form() {
     let design = atlas("orthoglide", 6);
     let cells = map(&design);
-    let (certificate, _) = certify(&design, cells.clone()).unwrap();
+    let (certificate, ..) = certify(&design, cells.clone()).unwrap();
     assert_eq!(certificate.verdict, Verdict::Certified);
     let (mut certified, mut refuted) = (0, 0);
     let shares = walk(&cells, 2, |_, part, said| {
@@ -197,7 +198,7 @@ fn maps_of_every_kind_of_machine() {
     for (name, text) in [("four", four), ("two", two), ("own", own)] {
         let design = AtlasDesign::parse(&text, name).unwrap_or_else(|error| panic!("{error}"));
         let cells = map(&design);
-        let (_, accepted) = certify(&design, cells.clone()).unwrap();
+        let (_, accepted, _) = certify(&design, cells.clone()).unwrap();
         assert!(accepted.size.leaves > 0, "{name}");
         let (mut certified, mut refuted) = (0, 0);
         walk(&cells, design.parameters.len(), |_, part, said| {
@@ -224,4 +225,28 @@ fn maps_of_every_kind_of_machine() {
         assert!(certified > 0, "{name}");
         assert!(refuted > 0 || name == "own", "{name}");
     }
+}
+
+/// The checker refuses a cell that asks for too much work: it is left undecided, and the others stay as they are.
+#[test]
+fn a_cell_that_asks_for_too_much_costs_no_other() {
+    let design = atlas("orthoglide", 5);
+    let mut cells = map(&design);
+    let (whole, _, none) = certify(&design, cells.clone()).unwrap();
+    assert_eq!(none, 0);
+    let is_refuted = |cell: &AtlasCell| matches!(cell, AtlasCell::Refuted(_));
+    let at = cells.iter().position(is_refuted).unwrap();
+    let AtlasCell::Refuted(witness) = &mut cells[at] else { unreachable!() };
+    let roots = Expression::try_from(vec!["sqrt(side)"; 400].join("+")).unwrap();
+    witness.machine = vec![roots; 200];
+    let (certificate, accepted, too_long) = certify(&design, cells).unwrap();
+    assert_eq!((too_long, accepted.verdict), (1, Verdict::Certified));
+    let (Proof::Atlas(cells), Claim::Atlas(claim)) = (&certificate.proof, &certificate.claim)
+    else {
+        unreachable!()
+    };
+    assert!(matches!(cells[at], AtlasCell::Undecided));
+    let Claim::Atlas(before) = &whole.claim else { unreachable!() };
+    assert_eq!(claim.certified, before.certified);
+    assert!(claim.refuted.rational() < before.refuted.rational());
 }

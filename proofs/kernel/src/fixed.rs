@@ -55,7 +55,7 @@ fn moderate(x: BigInt) -> Option<BigInt> {
 }
 
 impl Integer for BigInt {
-    const WORK: usize = 64;
+    const WORK: usize = 128;
 
     fn of(n: &BigInt) -> Option<Self> {
         Some(n.clone())

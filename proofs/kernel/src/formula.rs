@@ -232,17 +232,29 @@ impl Tape {
     }
 
     /// `a^2` without the roots that are factors of `a`: the same number where `a` is defined, and
-    /// with better slopes.
+    /// with better slopes. Each factor is squared once, however often it is one.
     pub fn square_without_roots(&mut self, a: Formula) -> Formula {
-        match self.op(a) {
-            Op::Sqrt(radicand) => radicand,
-            Op::Neg(a) => self.square_without_roots(a),
-            Op::Mul(a, b) => {
-                let (a, b) = (self.square_without_roots(a), self.square_without_roots(b));
-                self.mul(a, b)
+        let mut is_factor = vec![false; a.0 + 1];
+        is_factor[a.0] = true;
+        for k in (0..=a.0).rev() {
+            match self.ops[k] {
+                Op::Neg(b) if is_factor[k] => is_factor[b.0] = true,
+                Op::Mul(b, c) if is_factor[k] => (is_factor[b.0], is_factor[c.0]) = (true, true),
+                _ => {}
             }
-            _ => self.sqr(a),
         }
+        let mut squares = vec![a; a.0 + 1];
+        for k in 0..=a.0 {
+            if is_factor[k] {
+                squares[k] = match self.ops[k] {
+                    Op::Sqrt(radicand) => radicand,
+                    Op::Neg(b) => squares[b.0],
+                    Op::Mul(b, c) => self.mul(squares[b.0], squares[c.0]),
+                    _ => self.sqr(Formula(k)),
+                };
+            }
+        }
+        squares[a.0]
     }
 
     /// `sqrt(a)`.

@@ -1,7 +1,7 @@
 //! What it costs to check something, estimated before it is done: an atlas compiles its claim in every
 //! cell, and a short text may ask for much.
 //!
-//! A unit is a third of a microsecond or so. The estimates are of the dearest inputs that were found;
+//! A unit is a tenth of a microsecond or so. The estimates are of the dearest inputs that were found;
 //! that they are not exceeded by much is measured, not proved, and nothing that is accepted rests on
 //! it.
 
@@ -14,10 +14,10 @@ use crate::rejected::Rejected;
 use crate::vary::Numbers;
 use serde::Serialize;
 
-/// Units of work for each byte of a certificate, of a third of a microsecond or so.
-pub const WORK_A_BYTE: usize = 192;
+/// Units of work for each byte of a certificate: twice [`LEAST_BYTES`] take a second or so.
+pub const WORK_A_BYTE: usize = 36;
 /// Work of a tree (`step/work.rs`) that is a unit.
-pub(crate) const OF_TREES: usize = 16;
+pub(crate) const OF_TREES: usize = 96;
 /// A certificate may ask for the work of so many bytes, however short it is.
 pub const LEAST_BYTES: usize = 100_000;
 
@@ -41,10 +41,10 @@ pub(crate) fn spend(left: &mut usize, units: usize) -> Result<(), Rejected> {
     Ok(())
 }
 
-/// What numbers cost, each of which is evaluated six times or so: an operation on rational numbers of `b` bits
+/// What numbers cost, each of which is evaluated several times: an operation on rational numbers of `b` bits
 /// the square of `b`; one on slopes in parameters eight times as much as another.
 pub(crate) fn of_each(of: &mut impl Numbers) -> usize {
-    let each = of.numbers_mut().into_iter().map(|x| 6usize.saturating_mul(size(x).0));
+    let each = of.numbers_mut().into_iter().map(|x| 2usize.saturating_mul(size(x).0));
     each.fold(0, usize::saturating_add)
 }
 

@@ -614,14 +614,18 @@ console.log(`parts: ${by_parts} bounds with one answer, and ${no_parts} refused`
   const sliders = (direction) => ({ translational: [slider(direction, 0), slider(at(1, "1"), 1), slider(at(2, "1.5"), 2)] });
   const strut = (k) => ({ drive: "strut", anchor: at(k, "-2", 2), platform: ["0", "0"] });
   const box = (n) => ({ box: { min: Array(n).fill("-0.1"), max: Array(n).fill("0.1") } }), round = { cylinder: { center: ["0", "0"], radius: "0.1", z: ["-0.1", "0.1"] } };
+  // Of definitions that have the one before them twice.
+  const squares = (n) => ({ formulas: { coordinates: ["x"], parameters: [], definitions: [["d0", "x"], ...[...Array(n)].map((_, i) => [`d${i + 1}`, `d${i}*(d${i}-1)/2`])], joints: [{ rho: `x+d${n}` }] } });
+  const bounded = [{ quantity: "joint_range", leg: 1, end: "max", bound: "1" }];
   const long = { min: "0.9", max: "1" }, off = { min: "-0.01", max: "0.01" }, rank = (places, least) => ({ rank: unit(3, places, least) });
   const apart = (direction, ends) => written(sliders(direction), box(3), [], [[0, { tolerances: [rank(1), ends, [[1, 1, 1]]] }]]);
   for (const [text, exact_answer, answer] of [
     [apart([long, "0", "0"], "1"), "CERTIFIED"], [apart([long, off, "0"], "10"), "CERTIFIED"], [apart([long, "0.01", "0"], "1"), "REJECTED"], [apart([long, { min: "0.01", max: "0.02" }, "0"], "10"), "REJECTED"],
     [written(sliders(at(0, "1")), box(3), [], [[0, rank(63, 2 ** 40)]]), "CERTIFIED"], [written(sliders(at(0, "1")), box(3), [], [[0, rank(64, 2 ** 40)]]), "REJECTED"],
     [written(sliders(at(0, "1")), round, [], [[0, { inside: [rank(1), 1, 10] }]]), "CERTIFIED"],
-    [written({ planar: { legs: [strut(0), strut(1)] } }, box(2), [{ quantity: "parallel_margin", end: "min", bound: "0.9" }], [[0, { rank: unit(2, 1) }], [1, "test"]]), "CERTIFIED",
-      'NOT COVERED: "parallel_margin" of struts in such a claim'],
+    [written({ planar: { legs: [strut(0), strut(1)] } }, box(2), [{ quantity: "parallel_margin", end: "min", bound: "0.9" }], [[0, { rank: unit(2, 1) }], [1, "test"]]), "CERTIFIED"],
+    [written(squares(6), box(1), bounded, [[0, { rank: unit(1, 0) }], [1, "test"]]), "CERTIFIED"],
+    [written(squares(50), box(1), bounded, [[0, { rank: unit(1, 0) }], [1, "test"]]), "CERTIFIED", "NOT COVERED: a mechanism of more than 32768 operations, with its definitions written out,"],
   ]) {
     const answers = three_answers(text);
     if (answers[0] !== exact_answer || answers[1] !== answers[2] || !answers[1].startsWith(answer ?? exact_answer)) fail(`${answers}: ${text}`);

@@ -133,6 +133,18 @@ let term name text =
 let expression text = term (fun name -> Called name) text
 let formula v = term (fun name -> name) (string v)
 
+(* Formulas are proved with their definitions written out: at most so many operations of them, and of definitions. *)
+let most_written_out = 32768
+let written_out definitions terms =
+  let rec size known x = min (most_written_out + 1) (match x with
+    | Literal _ -> 1
+    | Name name -> Option.value (List.assoc_opt name known) ~default:1
+    | Negative x | SquareRoot x -> 1 + size known x
+    | Binary (_, x, y) -> 1 + size known x + size known y
+    | Power (x, n) -> size known x * Big_int_Z.int_of_big_int n) in
+  let known = List.fold_left (fun known (name, x) -> (name, size known x) :: known) [] definitions in
+  List.fold_left (+) 0 (List.map snd known @ List.map (size known) terms)
+
 let number v = expression (string v)
 let quantity = function
   | String s -> One (expression s)
@@ -319,8 +331,11 @@ let rec subject v =
          | [ ("row", row) ] -> Row_ (List.map formula (array row))
          | [ ("rho", rho) ] -> Rho_ (formula rho)
          | _ -> raise Malformed in
-       Formulas_ (List.map string (array (get f "coordinates")), pairs quantity (get f "parameters"), pairs formula (get f "definitions"),
-         List.map row (array (get f "joints")), List.map number (array (get box "min")), List.map number (array (get box "max")),
+       let definitions = pairs formula (get f "definitions") and rows = List.map row (array (get f "joints")) in
+       if written_out definitions (List.concat_map (function Row_ row -> row | Rho_ x -> [ x ]) rows) > most_written_out then
+         not_covered [ "a mechanism of more than "; string_of_int most_written_out; " operations, with its definitions written out," ];
+       Formulas_ (List.map string (array (get f "coordinates")), pairs quantity (get f "parameters"), definitions, rows,
+         List.map number (array (get box "min")), List.map number (array (get box "max")),
          List.map formulas_demand (array (get l "require")))
      | ("orthoglide", o), ("cube", cube) ->
        without_bodies ();

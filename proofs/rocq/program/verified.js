@@ -4,8 +4,8 @@ globalThis!=="object"&&(this?b():(a.defineProperty(a.prototype,"_T_",{configurab
 b(){var
 b=this||self;b.globalThis=b;delete
 a.prototype._T_}}(Object));(function(S){"use strict";var
-kT="spatial",r8="Invalid_argument",ic="precision",aR='"',kS=1255,k5="inside",q6="(",q7=0x800,r7="yaw",q3="range",q4="tree",q5="jsError",cp=0x8000,r6="sqrt(",q2=256,ib="obligation",r5="load",gg="offset",bw="machine",q1="End_of_file",e1="strut",kR="center",gf="arm",kQ="Failure",r4="serial_margin",ij="parameters",cU=0xff,r3="bodies",r2="max_angle",k4="outside",ge="base_axis",kP="ENOENT",r1="singular",r0=122,q0="([^/]+)",rZ="0",kO=0xf,gd=128,qZ=0xdc00,rX="Sys_blocked_io",rY="fd ",f7="given",qY="ENOTEMPTY",a7=248,ia="bound",qX="Division_by_zero",rV="by",rW=1027,qW="Sys_error",gc="slider",qV="torsion",rU="postulate",qU="proof",k3="joint_error",gb="refuted",eU="mechanism",h$="row",qT="EEXIST",rT="roll_pitch_yaw",ga="y",qS="cube",du="lower",rS="within",qR="clearance",rR="turned",qQ="control",h_="int_of_string",qP="between",rP="definitions",rQ="dependent",f$=1024,qN="from",qO="name",rO=" : flags Open_rdonly and Open_wronly are not compatible",qM="orthocert/2",rN="reach",qL=512,rL="base_joint",rM="witness",e0="-",bl="platform",qK=0x7ff0,qJ="pitch",k2=": Not a directory",bL="min",rJ="trim",eZ="workspace",rK=" : file already exists",h9="split",k1="legs",rI="claim",kN="joint",d7=0xffffff,qI="platform_joint",qH="formulas",qG="roll",h8="atlas",rF="greatest",rG="nodes",rH="Out_of_memory",qF="psi_max",ii="orientation",h7=254,rE="angle",k0="index out of bounds",qE="end",rD="one_to_one",ih="_bigarr02",qD=" : flags Open_text and Open_binary are not compatible",rC="inverse",bv="drive",qC="coordinates",rB="holds",qB="lower_divided",qA="speed",rz="cylinder",rA="joints",cT=0xffff,rv="a leaf that fails",rw="acceleration",rx="force",f9="certified",f_="chords",ry=12520,kM="on",ru="same",eT="accuracy",f8="axis",rt="no_cube",rs="parallel_margin",qz='the drive "',kL="Unix.Unix_error",ig="fails",h6="tool",kK="mkdir",rq="rho",rr="least",ie=1000,kJ="translational",kZ="tolerances",qy="Stack_overflow",kY="characteristic_length",af="",kX="^",h4="places",h5=": No such file or directory",qx="/static/",eY=0x3f,qv="stiffness",qw="Not_found",co="planar",f6="mode",rp="joint_speed",ro="Match_failure",qu="transmission",bK="anchor",rn="at",qt="joint_force",eX="leg",qs="joint_acceleration",id="+",kI="rmdir",rm=0xf0,rl="spherical",qr=1026,rj="REJECTED",rk="undecided",bN="max",bM="direction",qp="leg_angle",qq="orthoglide",eW="rank",rh="constraint_margin",ri="fan",f5="test",qn="Pervasives.do_at_exit",qo="utf8",b6=0x80,eV="conditioning",eS="length",qm="Undefined_recursive_module",kW=")",ql="base",rg="quantity",qk="joint_range",h3="tilt",qj="Q2",rf="reference",qi="point",rd="corner",re=0xe0,qh="version",kV="z",rb="to",rc=0xdfff,kH="compare: functional value",ra="Assert_failure",b8="/",q$="provenance",d6="radius",h2="side",q9=-14,b7="require",q_="format",qg="Q1",kU="ENOTDIR",qf="all",d5="box",q8=250;function
-lf(c,b,a){var
+kV="spatial",sc="Invalid_argument",ic="precision",aR='"',kU=1255,k7="inside",ra="(",rb=0x800,sb="yaw",q9="range",q_="tree",q$="jsError",cp=0x8000,sa="sqrt(",q8=256,ib="obligation",r$="load",gg="offset",bw="machine",q7="End_of_file",e1="strut",kT="center",gf="arm",kS="Failure",r_="serial_margin",ij="parameters",cU=0xff,r9="bodies",r8="max_angle",k6="outside",ge="base_axis",kR="ENOENT",r7="singular",r6=122,q6="([^/]+)",r5="0",kQ=0xf,gd=128,q5=0xdc00,r3="Sys_blocked_io",r4="fd ",f7="given",q4="ENOTEMPTY",a7=248,ia="bound",q3="Division_by_zero",r1="by",r2=1027,q2="Sys_error",gc="slider",q1="torsion",r0="postulate",q0="proof",k5="joint_error",gb="refuted",eU="mechanism",h$="row",qZ="EEXIST",rZ="roll_pitch_yaw",ga="y",qY="cube",du="lower",rY="within",qX="clearance",rX="turned",qW="control",h_="int_of_string",qV="between",rV="definitions",rW="dependent",f$=1024,qT="from",qU="name",rU=" : flags Open_rdonly and Open_wronly are not compatible",qS="orthocert/2",rT="reach",qR=512,rR="base_joint",rS="witness",e0="-",bl="platform",qQ=0x7ff0,qP="pitch",k4=": Not a directory",bL="min",rP="trim",eZ="workspace",rQ=" : file already exists",h9="split",k3="legs",rO="claim",kP="joint",d7=0xffffff,qO="platform_joint",qN="formulas",qM="roll",h8="atlas",rL="greatest",rM="nodes",rN="Out_of_memory",qL="psi_max",ii="orientation",h7=254,rK="angle",k2="index out of bounds",qK="end",rJ="one_to_one",ih="_bigarr02",qJ=" : flags Open_text and Open_binary are not compatible",rI="inverse",bv="drive",qI="coordinates",rH="holds",qH="lower_divided",qG="speed",rF="cylinder",rG="joints",cT=0xffff,rB="a leaf that fails",rC="acceleration",rD="force",f9="certified",f_="chords",rE=12520,kO="on",rA="same",eT="accuracy",f8="axis",rz="no_cube",ry="parallel_margin",qF='the drive "',kN="Unix.Unix_error",ig="fails",h6="tool",kM="mkdir",rw="rho",rx="least",ie=1000,kL="translational",k1="tolerances",qE="Stack_overflow",k0="characteristic_length",af="",kZ="^",h4="places",h5=": No such file or directory",qD="/static/",eY=0x3f,qB="stiffness",qC="Not_found",co="planar",f6="mode",rv="joint_speed",ru="Match_failure",qA="transmission",bK="anchor",rt="at",qz="joint_force",eX="leg",qy="joint_acceleration",id="+",kK="rmdir",rs=0xf0,rr="spherical",qx=1026,rp="REJECTED",rq="undecided",bN="max",bM="direction",qv="leg_angle",qw="orthoglide",eW="rank",rn="constraint_margin",ro="fan",f5="test",qt="Pervasives.do_at_exit",qu="utf8",b6=0x80,eV="conditioning",eS="length",qs="Undefined_recursive_module",kY=")",qr="base",rm="quantity",qq="joint_range",h3="tilt",qp="Q2",rl="reference",qo="point",rj="corner",rk=0xe0,qn="version",kX="z",rh="to",ri=0xdfff,kJ="compare: functional value",rg="Assert_failure",b8="/",rf="provenance",d6="radius",h2="side",rd=-14,b7="require",re="format",qm="Q1",kW="ENOTDIR",ql="all",d5="box",rc=250;function
+li(c,b,a){var
 d=String.fromCharCode;if(b==0&&a<=4096&&a==c.length)return d.apply(null,c);var
 e=af;for(;0<a;b+=f$,a-=f$)e+=d.apply(null,c.slice(b,b+Math.min(a,f$)));return e}function
 il(b){if(S.Uint8Array)var
@@ -14,8 +14,8 @@ var
 c=new
 Array(b.l);var
 e=b.c,d=e.length,a=0;for(;a<d;a++)c[a]=e.charCodeAt(a);for(d=b.l;a<d;a++)c[a]=0;b.c=c;b.t=4;return c}function
-gh(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?lf(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
-if(b.t==2&&f==b.c.length){b.c+=d.t==4?lf(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)il(b);var
+gh(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?li(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
+if(b.t==2&&f==b.c.length){b.c+=d.t==4?li(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)il(b);var
 g=d.c,h=b.c;if(d.t==4)if(f<=e)for(var
 a=0;a<c;a++)h[f+a]=g[e+a];else
 for(var
@@ -24,7 +24,7 @@ i=Math.min(c,g.length-e);for(var
 a=0;a<i;a++)h[f+a]=g.charCodeAt(e+a);for(;a<c;a++)h[f+a]=0}}return 0}function
 e4(a){return a}function
 e3(a,b,c,d,e){gh(e4(a),b,c,d,e);return 0}function
-k7(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
+k9(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
 0:return a.c.charCodeAt(b);case
 4:return a.c[b]}}function
 dw(c,a){if(c.fun)return dw(c.fun,a);if(typeof
@@ -37,22 +37,22 @@ e=arguments.length==0?1:arguments.length,d=new
 Array(a.length+e);for(var
 b=0;b<a.length;b++)d[b]=a[b];for(var
 b=0;b<arguments.length;b++)d[a.length+b]=arguments[b];return dw(c,d)}}function
-sy(b,a){if(b==0)return af;if(a.repeat)return a.repeat(b);var
+sD(b,a){if(b==0)return af;if(a.repeat)return a.repeat(b);var
 d=af,c=0;for(;;){if(b&1)d+=a;b>>=1;if(b==0)return d;a+=a;c++;if(c==9)a.slice(0,1)}}function
-e5(a){if(a.t==2)a.c+=sy(a.l-a.c.length,"\0");else
-a.c=lf(a.c,0,a.c.length);a.t=0}function
+e5(a){if(a.t==2)a.c+=sD(a.l-a.c.length,"\0");else
+a.c=li(a.c,0,a.c.length);a.t=0}function
 e6(a){a.t&6&&e5(a);return a.c}var
-JK=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
-JJ(a){if(JK)return Math.floor(Math.log2(a));var
+JR=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
+JQ(a){if(JR)return Math.floor(Math.log2(a));var
 b=0;if(a==0)return-Infinity;if(a>=1)while(a>=2){a/=2;b++}else
 while(a<1){a*=2;b--}return b}function
-k_(c){var
+la(c){var
 a=new(S.Float32Array)(1);a[0]=c;var
 b=new(S.Int32Array)(a.buffer);return b[0]|0}var
-sp=Math.pow(2,-24);function
-JA(a){throw a}var
+sv=Math.pow(2,-24);function
+JH(a){throw a}var
 aF=[0];function
-sv(){JA(aF.Division_by_zero)}function
+sA(){JH(aF.Division_by_zero)}function
 R(b,c,a){this.lo=b&d7;this.mi=c&d7;this.hi=a&cT}R.prototype.caml_custom="_j";R.prototype.copy=function(){return new
 R(this.lo,this.mi,this.hi)};R.prototype.ucompare=function(a){if(this.hi>a.hi)return 1;if(this.hi<a.hi)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};R.prototype.compare=function(a){var
 b=this.hi<<16,c=a.hi<<16;if(b>c)return 1;if(b<c)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};R.prototype.neg=function(){var
@@ -62,7 +62,7 @@ b=this.lo+a.lo,c=this.mi+a.mi+(b>>24),d=this.hi+a.hi+(c>>24);return new
 R(b,c,d)};R.prototype.sub=function(a){var
 b=this.lo-a.lo,c=this.mi-a.mi+(b>>24),d=this.hi-a.hi+(c>>24);return new
 R(b,c,d)};R.prototype.mul=function(a){var
-b=this.lo*a.lo,c=(b*sp|0)+this.mi*a.lo+this.lo*a.mi,d=(c*sp|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
+b=this.lo*a.lo,c=(b*sv|0)+this.mi*a.lo+this.lo*a.mi,d=(c*sv|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
 R(b,c,d)};R.prototype.isZero=function(){return(this.lo|this.mi|this.hi)==0};R.prototype.isNeg=function(){return this.hi<<16<0};R.prototype.and=function(a){return new
 R(this.lo&a.lo,this.mi&a.mi,this.hi&a.hi)};R.prototype.or=function(a){return new
 R(this.lo|a.lo,this.mi|a.mi,this.hi|a.hi)};R.prototype.xor=function(a){return new
@@ -80,22 +80,22 @@ R(this.mi>>a-24|this.hi<<48-a,this.hi<<16>>a-24>>16,b&cT);return new
 R(this.hi<<16>>a-32,b,b)};R.prototype.lsl1=function(){this.hi=this.hi<<1|this.mi>>23;this.mi=(this.mi<<1|this.lo>>23)&d7;this.lo=this.lo<<1&d7};R.prototype.lsr1=function(){this.lo=(this.lo>>>1|this.mi<<23)&d7;this.mi=(this.mi>>>1|this.hi<<23)&d7;this.hi=this.hi>>>1};R.prototype.udivmod=function(e){var
 c=0,b=this.copy(),a=e.copy(),d=new
 R(0,0,0);while(b.ucompare(a)>0){c++;a.lsl1()}while(c>=0){c--;d.lsl1();if(b.ucompare(a)>=0){d.lo++;b=b.sub(a)}a.lsr1()}return{quotient:d,modulus:b}};R.prototype.div=function(a){var
-b=this;if(a.isZero())sv();var
+b=this;if(a.isZero())sA();var
 d=b.hi^a.hi;if(b.hi&cp)b=b.neg();if(a.hi&cp)a=a.neg();var
 c=b.udivmod(a).quotient;if(d&cp)c=c.neg();return c};R.prototype.mod=function(b){var
-a=this;if(b.isZero())sv();var
+a=this;if(b.isZero())sA();var
 d=a.hi;if(a.hi&cp)a=a.neg();if(b.hi&cp)b=b.neg();var
 c=a.udivmod(b).modulus;if(d&cp)c=c.neg();return c};R.prototype.toInt=function(){return this.lo|this.mi<<24};R.prototype.toFloat=function(){return(this.hi<<16)*Math.pow(2,32)+this.mi*Math.pow(2,24)+this.lo};R.prototype.toArray=function(){return[this.hi>>8,this.hi&cU,this.mi>>16,this.mi>>8&cU,this.mi&cU,this.lo>>16,this.lo>>8&cU,this.lo&cU]};R.prototype.lo32=function(){return this.lo|(this.mi&cU)<<24};R.prototype.hi32=function(){return this.mi>>>8&cT|this.hi<<16};function
 io(b,c,a){return new
 R(b,c,a)}function
-im(a){if(!isFinite(a)){if(isNaN(a))return io(1,0,qK);return a>0?io(0,0,qK):io(0,0,0xfff0)}var
+im(a){if(!isFinite(a)){if(isNaN(a))return io(1,0,qQ);return a>0?io(0,0,qQ):io(0,0,0xfff0)}var
 f=a==0&&1/a==-Infinity?cp:a>=0?0:cp;if(f)a=-a;var
-b=JJ(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-qr)}else{a/=Math.pow(2,b-rW);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
+b=JQ(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-qx)}else{a/=Math.pow(2,b-r2);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
 d=Math.pow(2,24),c=a|0;a=(a-c)*d;var
 e=a|0;a=(a-e)*d;var
-g=a|0;c=c&kO|f|b<<4;return io(g,e,c)}function
+g=a|0;c=c&kQ|f|b<<4;return io(g,e,c)}function
 gk(a){return a.toArray()}function
-sd(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==ih)for(var
+sj(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==ih)for(var
 a=0;a<b.dims.length;a++)if(b.dims[a]<cT)c.write(16,b.dims[a]);else{c.write(16,cT);c.write(32,0);c.write(32,b.dims[a])}else
 for(var
 a=0;a<b.dims.length;a++)c.write(32,b.dims[a]);switch(b.kind){case
@@ -121,43 +121,43 @@ e=gk(im(b.get(a)));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 0:for(var
 a=0;a<b.data.length;a++){var
-e=k_(b.get(a));c.write(32,e)}break;case
+e=la(b.get(a));c.write(32,e)}break;case
 10:for(var
 a=0;a<b.data.length/2;a++){var
-d=b.get(a);c.write(32,k_(d[1]));c.write(32,k_(d[2]))}break;case
+d=b.get(a);c.write(32,la(d[1]));c.write(32,la(d[2]))}break;case
 11:for(var
 a=0;a<b.data.length/2;a++){var
 f=b.get(a),e=gk(im(f[1]));for(var
 d=0;d<8;d++)c.write(8,e[d]);var
 e=gk(im(f[2]));for(var
 d=0;d<8;d++)c.write(8,e[d])}break}g[0]=(4+b.dims.length)*4;g[1]=(4+b.dims.length)*8}function
-JC(b,a){throw[0,b,a]}function
-sD(a){if(a.length<24){for(var
+JJ(b,a){throw[0,b,a]}function
+sI(a){if(a.length<24){for(var
 b=0;b<a.length;b++)if(a.charCodeAt(b)>127)return false;return true}else
 return!/[^\x00-\x7f]/.test(a)}function
-lg(e){for(var
+lj(e){for(var
 j=af,c=af,g,f,h,a,b=0,i=e.length;b<i;b++){f=e.charCodeAt(b);if(f<b6){for(var
-d=b+1;d<i&&(f=e.charCodeAt(d))<b6;d++);if(d-b>qL){c.substr(0,1);j+=c;c=af;j+=e.slice(b,d)}else
-c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==gd){g=h+(f<<6);if(f<re){a=g-0x3080;if(a<b6)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==gd){g=h+(g<<6);if(f<rm){a=g-0xe2080;if(a<q7||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==gd&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
-if(a>cT)c+=String.fromCharCode(0xd7c0+(a>>10),qZ+(a&0x3FF));else
+d=b+1;d<i&&(f=e.charCodeAt(d))<b6;d++);if(d-b>qR){c.substr(0,1);j+=c;c=af;j+=e.slice(b,d)}else
+c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==gd){g=h+(f<<6);if(f<rk){a=g-0x3080;if(a<b6)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==gd){g=h+(g<<6);if(f<rs){a=g-0xe2080;if(a<rb||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==gd&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
+if(a>cT)c+=String.fromCharCode(0xd7c0+(a>>10),q5+(a&0x3FF));else
 c+=String.fromCharCode(a);if(c.length>f$){c.substr(0,1);j+=c;c=af}}return j+c}function
 cq(c,a,b){this.t=c;this.c=a;this.l=b}cq.prototype.toString=function(){switch(this.t){case
 9:return this.c;default:e5(this);case
-0:if(sD(this.c)){this.t=9;return this.c}this.t=8;case
+0:if(sI(this.c)){this.t=9;return this.c}this.t=8;case
 8:return this.c}};cq.prototype.toUtf16=function(){var
-a=this.toString();if(this.t==9)return a;return lg(a)};cq.prototype.slice=function(){var
+a=this.toString();if(this.t==9)return a;return lj(a)};cq.prototype.slice=function(){var
 a=this.t==4?this.c.slice():this.c;return new
 cq(this.t,a,this.l)};function
-sg(a){return new
+sm(a){return new
 cq(0,a,a.length)}function
-a(a){return sg(a)}function
-le(c,b){JC(c,a(b))}function
-a0(a){le(aF.Invalid_argument,a)}function
-sb(a){switch(a){case
+a(a){return sm(a)}function
+lh(c,b){JJ(c,a(b))}function
+a0(a){lh(aF.Invalid_argument,a)}function
+sh(a){switch(a){case
 7:case
 10:case
 11:return 2;default:return 1}}function
-I6(c,e){var
+Jb(c,e){var
 b=S,a;switch(c){case
 0:a=b.Float32Array;break;case
 1:a=b.Float64Array;break;case
@@ -173,26 +173,26 @@ b=S,a;switch(c){case
 11:a=b.Float64Array;break;case
 12:a=b.Uint8Array;break}if(!a)a0("Bigarray.create: unsupported kind");var
 d=new
-a(e*sb(c));return d}function
-k$(c){var
+a(e*sh(c));return d}function
+lb(c){var
 a=new(S.Int32Array)(1);a[0]=c;var
 b=new(S.Float32Array)(a.buffer);return b[0]}function
 gj(a){return new
 R(a[7]<<0|a[6]<<8|a[5]<<16,a[4]<<0|a[3]<<8|a[2]<<16,a[1]<<0|a[0]<<8)}function
-la(d){var
-f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&kO)==0?b&cp?-Infinity:Infinity:NaN;var
-e=Math.pow(2,-24),a=(f*e+g)*e+(b&kO);if(c>0){a+=16;a*=Math.pow(2,c-rW)}else
-a*=Math.pow(2,-qr);if(b&cp)a=-a;return a}function
-k6(b){var
+lc(d){var
+f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&kQ)==0?b&cp?-Infinity:Infinity:NaN;var
+e=Math.pow(2,-24),a=(f*e+g)*e+(b&kQ);if(c>0){a+=16;a*=Math.pow(2,c-r2)}else
+a*=Math.pow(2,-qx);if(b&cp)a=-a;return a}function
+k8(b){var
 d=b.length,c=1;for(var
 a=0;a<d;a++){if(b[a]<0)a0("Bigarray.create: negative dimension");c=c*b[a]}return c}function
-Jk(b,a){return new
+Jr(b,a){return new
 R(b&d7,b>>>24&cU|(a&cT)<<8,a>>>16&cT)}function
-lb(a){return a.hi32()}function
-lc(a){return a.lo32()}function
-ik(){a0(k0)}var
-I7=ih;function
-dv(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}dv.prototype.caml_custom=I7;dv.prototype.offset=function(b){var
+ld(a){return a.hi32()}function
+le(a){return a.lo32()}function
+ik(){a0(k2)}var
+Jc=ih;function
+dv(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}dv.prototype.caml_custom=Jc;dv.prototype.offset=function(b){var
 c=0;if(typeof
 b==="number")b=[b];if(!(b
 instanceof
@@ -201,15 +201,15 @@ a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])ik();c=c*this.dims[a]+
 for(var
 a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])ik();c=c*this.dims[a]+(b[a]-1)}return c};dv.prototype.get=function(a){switch(this.kind){case
 7:var
-d=this.data[a*2+0],b=this.data[a*2+1];return Jk(d,b);case
+d=this.data[a*2+0],b=this.data[a*2+1];return Jr(d,b);case
 10:case
 11:var
 e=this.data[a*2+0],c=this.data[a*2+1];return[h7,e,c];default:return this.data[a]}};dv.prototype.set=function(a,b){switch(this.kind){case
-7:this.data[a*2+0]=lc(b);this.data[a*2+1]=lb(b);break;case
+7:this.data[a*2+0]=le(b);this.data[a*2+1]=ld(b);break;case
 10:case
 11:this.data[a*2+0]=b[1];this.data[a*2+1]=b[2];break;default:this.data[a]=b;break}return 0};dv.prototype.fill=function(b){switch(this.kind){case
 7:var
-c=lc(b),e=lb(b);if(c==e)this.data.fill(c);else
+c=le(b),e=ld(b);if(c==e)this.data.fill(c);else
 for(var
 a=0;a<this.data.length;a++)this.data[a]=a%2==0?c:e;break;case
 10:case
@@ -242,12 +242,12 @@ a!=="number")if(a
 instanceof
 Array&&a.length==1)a=a[0];else
 a0("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])ik();return a};e2.prototype.get=function(a){return this.data[a]};e2.prototype.set=function(a,b){this.data[a]=b;return 0};e2.prototype.fill=function(a){this.data.fill(a);return 0};function
-r$(c,d,a,b){var
-e=sb(c);if(k6(a)*e!=b.length)a0("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
+sf(c,d,a,b){var
+e=sh(c);if(k8(a)*e!=b.length)a0("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
 e2(c,d,a,b);return new
 dv(c,d,a,b)}function
-b9(b){if(!aF.Failure)aF.Failure=[a7,a(kQ),-3];le(aF.Failure,b)}function
-sa(b,v,r){var
+b9(b){if(!aF.Failure)aF.Failure=[a7,a(kS),-3];lh(aF.Failure,b)}function
+sg(b,v,r){var
 i=b.read32s();if(i<0||i>16)b9("input_value: wrong number of bigarray dimensions");var
 p=b.read32s(),j=p&cU,o=p>>8&1,h=[];if(r==ih)for(var
 a=0;a<i;a++){var
@@ -255,7 +255,7 @@ n=b.read16u();if(n==cT){var
 t=b.read32u(),u=b.read32u();if(t!=0)b9("input_value: bigarray dimension overflow in 32bit");n=u}h.push(n)}else
 for(var
 a=0;a<i;a++)h.push(b.read32u());var
-d=k6(h),f=I6(j,d),g=r$(j,o,h,f);switch(j){case
+d=k8(h),f=Jb(j,d),g=sf(j,o,h,f);switch(j){case
 2:for(var
 a=0;a<d;a++)f[a]=b.read8s();break;case
 3:case
@@ -282,31 +282,31 @@ e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-k=la(gj(e));g.set(a,k)}break;case
+k=lc(gj(e));g.set(a,k)}break;case
 0:for(var
 a=0;a<d;a++){var
-k=k$(b.read32s());g.set(a,k)}break;case
+k=lb(b.read32s());g.set(a,k)}break;case
 10:for(var
 a=0;a<d;a++){var
-m=k$(b.read32s()),l=k$(b.read32s());g.set(a,[h7,m,l])}break;case
+m=lb(b.read32s()),l=lb(b.read32s());g.set(a,[h7,m,l])}break;case
 11:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-m=la(gj(e));for(var
+m=lc(gj(e));for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-l=la(gj(e));g.set(a,[h7,m,l])}break}v[0]=(4+i)*4;return r$(j,o,h,f)}function
-r_(a,b,c){return a.compare(b,c)}function
-ss(a,b){return Math.imul(a,b)}function
-cV(b,a){a=ss(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=ss(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
-Jh(a,b){a=cV(a,lc(b));a=cV(a,lb(b));return a}function
-so(a,b){return Jh(a,im(b))}function
-sc(c){var
-b=k6(c.dims),d=0;switch(c.kind){case
+l=lc(gj(e));g.set(a,[h7,m,l])}break}v[0]=(4+i)*4;return sf(j,o,h,f)}function
+se(a,b,c){return a.compare(b,c)}function
+lg(a,b){return Math.imul(a,b)}function
+cV(b,a){a=lg(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=lg(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
+Jo(a,b){a=cV(a,le(b));a=cV(a,ld(b));return a}function
+su(a,b){return Jo(a,im(b))}function
+si(c){var
+b=k8(c.dims),d=0;switch(c.kind){case
 2:case
 3:case
-12:if(b>q2)b=q2;var
+12:if(b>q8)b=q8;var
 e=0,a=0;for(a=0;a+4<=c.data.length;a+=4){e=c.data[a+0]|c.data[a+1]<<8|c.data[a+2]<<16|c.data[a+3]<<24;d=cV(d,e)}e=0;switch(b&3){case
 3:e=c.data[a+2]<<16;case
 2:e|=c.data[a+1]<<8;case
@@ -323,75 +323,75 @@ a=0;a<b;a++)d=cV(d,c.data[a]);break;case
 a=0;a<b;a++)d=cV(d,c.data[a]);break;case
 10:b*=2;case
 0:if(b>64)b=64;for(var
-a=0;a<b;a++)d=so(d,c.data[a]);break;case
+a=0;a<b;a++)d=su(d,c.data[a]);break;case
 11:b*=2;case
 1:if(b>32)b=32;for(var
-a=0;a<b;a++)d=so(d,c.data[a]);break}return d}function
-Ji(a,b){b[0]=4;return a.read32s()}function
-Jx(a,b){switch(a.read8u()){case
+a=0;a<b;a++)d=su(d,c.data[a]);break}return d}function
+Jp(a,b){b[0]=4;return a.read32s()}function
+JE(a,b){switch(a.read8u()){case
 1:b[0]=4;return a.read32s();case
 2:b9("input_value: native integer value too large");default:b9("input_value: ill-formed native integer")}}function
-Jn(c,d){var
+Ju(c,d){var
 b=new
 Array(8);for(var
 a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return gj(b)}function
-Jm(e,d,b){var
+Jt(e,d,b){var
 c=gk(d);for(var
 a=0;a<8;a++)e.write(8,c[a]);b[0]=8;b[1]=8}function
-Jj(a,b,c){return a.compare(b)}function
-Jl(a){return a.lo32()^a.hi32()}var
-sj={"_j":{deserialize:Jn,serialize:Jm,fixed_length:8,compare:Jj,hash:Jl},"_i":{deserialize:Ji,fixed_length:4},"_n":{deserialize:Jx,fixed_length:4},"_bigarray":{deserialize:function(a,b){return sa(a,b,"_bigarray")},serialize:sd,compare:r_,hash:sc},"_bigarr02":{deserialize:function(a,b){return sa(a,b,ih)},serialize:sd,compare:r_,hash:sc}};function
-k9(a){return sj[a.caml_custom]&&sj[a.caml_custom].compare}function
-sh(f,c,d,e){var
-b=k9(c);if(b){var
+Jq(a,b,c){return a.compare(b)}function
+Js(a){return a.lo32()^a.hi32()}var
+sp={"_j":{deserialize:Ju,serialize:Jt,fixed_length:8,compare:Jq,hash:Js},"_i":{deserialize:Jp,fixed_length:4},"_n":{deserialize:JE,fixed_length:4},"_bigarray":{deserialize:function(a,b){return sg(a,b,"_bigarray")},serialize:sj,compare:se,hash:si},"_bigarr02":{deserialize:function(a,b){return sg(a,b,ih)},serialize:sj,compare:se,hash:si}};function
+k$(a){return sp[a.caml_custom]&&sp[a.caml_custom].compare}function
+sn(f,c,d,e){var
+b=k$(c);if(b){var
 a=d>0?b(c,f,e):b(f,c,e);if(e&&a!=a)return d;if(+a!=+a)return+a;if((a|0)!=0)return a|0}return d}function
-ld(a){return a
+lf(a){return a
 instanceof
 cq}function
-sq(a){return ld(a)}function
-si(a){if(typeof
+sw(a){return lf(a)}function
+so(a){if(typeof
 a==="number")return ie;else
-if(ld(a))return 252;else
-if(sq(a))return 1252;else
+if(lf(a))return 252;else
+if(sw(a))return 1252;else
 if(a
 instanceof
 Array&&a[0]===a[0]>>>0&&a[0]<=255){var
 b=a[0]|0;return b==h7?0:b}else
 if(a
 instanceof
-String)return ry;else
+String)return rE;else
 if(typeof
-a=="string")return ry;else
+a=="string")return rE;else
 if(a
 instanceof
 Number)return ie;else
-if(a&&a.caml_custom)return kS;else
+if(a&&a.caml_custom)return kU;else
 if(a&&a.compare)return 1256;else
 if(typeof
 a=="function")return 1247;else
 if(typeof
 a=="symbol")return 1251;return 1001}function
-Jo(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
-sf(a,b){a.t&6&&e5(a);b.t&6&&e5(b);return a.c<b.c?-1:a.c>b.c?1:0}function
-sz(a,b){return sf(a,b)}function
-k8(a,b,d){var
+Jv(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
+sl(a,b){a.t&6&&e5(a);b.t&6&&e5(b);return a.c<b.c?-1:a.c>b.c?1:0}function
+sE(a,b){return sl(a,b)}function
+k_(a,b,d){var
 e=[];for(;;){if(!(d&&a===b)){var
-f=si(a);if(f==q8){a=a[1];continue}var
-g=si(b);if(g==q8){b=b[1];continue}if(f!==g){if(f==ie){if(g==kS)return sh(a,b,-1,d);return-1}if(g==ie){if(f==kS)return sh(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
-247:a0(kH);break;case
+f=so(a);if(f==rc){a=a[1];continue}var
+g=so(b);if(g==rc){b=b[1];continue}if(f!==g){if(f==ie){if(g==kU)return sn(a,b,-1,d);return-1}if(g==ie){if(f==kU)return sn(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
+247:a0(kJ);break;case
 248:var
-c=Jo(a[2],b[2]);if(c!=0)return c|0;break;case
-249:a0(kH);break;case
+c=Jv(a[2],b[2]);if(c!=0)return c|0;break;case
+249:a0(kJ);break;case
 250:a0("equal: got Forward_tag, should not happen");break;case
 251:a0("equal: abstract value");break;case
 252:if(a!==b){var
-c=sf(a,b);if(c!=0)return c|0}break;case
+c=sl(a,b);if(c!=0)return c|0}break;case
 253:a0("equal: got Double_tag, should not happen");break;case
 254:a0("equal: got Double_array_tag, should not happen");break;case
 255:a0("equal: got Custom_tag, should not happen");break;case
-1247:a0(kH);break;case
+1247:a0(kJ);break;case
 1255:var
-i=k9(a);if(i!=k9(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)a0("compare: abstract value");var
+i=k$(a);if(i!=k$(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)a0("compare: abstract value");var
 c=i(a,b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
 1256:var
 c=a.compare(b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
@@ -405,129 +405,129 @@ a=a.toString(),b=b.toString();if(a!==b){if(a<b)return-1;if(a>b)return 1}break;ca
 246:case
 254:default:if(a.length!=b.length)return a.length<b.length?-1:1;if(a.length>1)e.push(a,b,1);break}}if(e.length==0)return 0;var
 h=e.pop();b=e.pop();a=e.pop();if(h+1<a.length)e.push(a,b,h+1);a=a[h];b=b[h]}}function
-Jc(a,b){return k8(a,b,true)}function
+Jj(a,b){return k_(a,b,true)}function
 cs(a){if(a<0)a0("Bytes.create");return new
 cq(a?2:9,af,a)}function
-sk(a,b){return+(k8(a,b,false)==0)}function
-Je(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=af;a.t=2}else{a.c=sy(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)il(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}var
-Jy=0;function
-sm(){return Jy++}function
-Jq(a){return a.toUtf16()}function
+sq(a,b){return+(k_(a,b,false)==0)}function
+Jl(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=af;a.t=2}else{a.c=sD(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)il(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}var
+JF=0;function
+ss(){return JF++}function
+Jx(a){return a.toUtf16()}function
 gl(){return typeof
 S.process!=="undefined"&&typeof
 S.process.versions!=="undefined"&&typeof
 S.process.versions.node!=="undefined"}function
-JL(){function
+JS(){function
 a(a){if(a.charAt(0)===b8)return[af,a.substring(1)];return}function
 b(c){var
 g=/^([a-zA-Z]:|[\\/]{2}[^\\/]+[\\/]+[^\\/]+)?([\\/])?([\s\S]*?)$/,a=g.exec(c),b=a[1]||af,e=Boolean(b&&b.charAt(1)!==":");if(Boolean(a[2]||e)){var
 d=a[1]||af,f=a[2]||af;return[d,c.substring(d.length+f.length)]}return}return gl()&&S.process&&S.process.platform?S.process.platform==="win32"?b:a:a}var
-lk=JL();function
-sA(a){return a.slice(-1)!==b8?a+b8:a}if(gl()&&S.process&&S.process.cwd)var
+lm=JS();function
+sF(a){return a.slice(-1)!==b8?a+b8:a}if(gl()&&S.process&&S.process.cwd)var
 gi=S.process.cwd().replace(/\\/g,b8);else
 var
-gi="/static";gi=sA(gi);function
-Js(a){a=Jq(a);if(!lk(a))a=gi+a;var
-e=lk(a),d=e[1].split(b8),b=[];for(var
+gi="/static";gi=sF(gi);function
+Jz(a){a=Jx(a);if(!lm(a))a=gi+a;var
+e=lm(a),d=e[1].split(b8),b=[];for(var
 c=0;c<d.length;c++)switch(d[c]){case"..":if(b.length>1)b.pop();break;case".":break;default:b.push(d[c]);break}b.unshift(e[0]);b.orig=a;return b}function
-JG(e){for(var
+JN(e){for(var
 f=af,b=f,a,h,c=0,g=e.length;c<g;c++){a=e.charCodeAt(c);if(a<b6){for(var
-d=c+1;d<g&&(a=e.charCodeAt(d))<b6;d++);if(d-c>qL){b.substr(0,1);f+=b;b=af;f+=e.slice(c,d)}else
-b+=e.slice(c,d);if(d==g)break;c=d}if(a<q7){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(b6|a&eY)}else
-if(a<0xd800||a>=rc)b+=String.fromCharCode(re|a>>12,b6|a>>6&eY,b6|a&eY);else
-if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<qZ||h>rc)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(rm|a>>18,b6|a>>12&eY,b6|a>>6&eY,b6|a&eY)}if(b.length>f$){b.substr(0,1);f+=b;b=af}}return f+b}function
-I$(a){var
-b=9;if(!sD(a))b=8,a=JG(a);return new
+d=c+1;d<g&&(a=e.charCodeAt(d))<b6;d++);if(d-c>qR){b.substr(0,1);f+=b;b=af;f+=e.slice(c,d)}else
+b+=e.slice(c,d);if(d==g)break;c=d}if(a<rb){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(b6|a&eY)}else
+if(a<0xd800||a>=ri)b+=String.fromCharCode(rk|a>>12,b6|a>>6&eY,b6|a&eY);else
+if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<q5||h>ri)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(rs|a>>18,b6|a>>12&eY,b6|a>>6&eY,b6|a&eY)}if(b.length>f$){b.substr(0,1);f+=b;b=af}}return f+b}function
+Jg(a){var
+b=9;if(!sI(a))b=8,a=JN(a);return new
 cq(b,a,a.length)}function
-e7(a){return I$(a)}var
-JO=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",qT,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",kP,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",kU,qY,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
+e7(a){return Jg(a)}var
+JV=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",qZ,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",kR,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",kW,q4,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
 d$(d,f,e,a){var
-b=JO.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
+b=JV.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
 c=[b,e7(f||af),e7(e||af)];return c}var
-st={};function
-d8(a){return st[a]}function
+sy={};function
+d8(a){return sy[a]}function
 d9(b,a){throw[0,b].concat(a)}function
-I_(a){return new
+Jf(a){return new
 cq(4,a,a.length)}function
-as(a){le(aF.Sys_error,a)}function
-JB(a){as(a+h5)}function
-se(){a0(k0)}function
-I9(b,a){if(a>>>0>=b.l)se();return k7(b,a)}function
+as(a){lh(aF.Sys_error,a)}function
+JI(a){as(a+h5)}function
+sk(){a0(k2)}function
+Je(b,a){if(a>>>0>=b.l)sk();return k9(b,a)}function
 iq(a){return a.l}function
-r9(){}function
+sd(){}function
 aY(a){this.data=a}aY.prototype=new
-r9();aY.prototype.truncate=function(a){var
+sd();aY.prototype.truncate=function(a){var
 b=this.data;this.data=cs(a|0);gh(b,0,this.data,0,a)};aY.prototype.length=function(){return iq(this.data)};aY.prototype.write=function(b,d,g,a){var
 c=this.length();if(b+a>=c){var
 e=cs(b+a),f=this.data;this.data=e;gh(f,0,this.data,0,c)}e3(d,g,this.data,b,a);return 0};aY.prototype.read=function(c,a,d,b){var
-e=this.length();gh(this.data,c,a,d,b);return 0};aY.prototype.read_one=function(a){return I9(this.data,a)};aY.prototype.close=function(){};aY.prototype.constructor=aY;function
+e=this.length();gh(this.data,c,a,d,b);return 0};aY.prototype.read_one=function(a){return Je(this.data,a)};aY.prototype.close=function(){};aY.prototype.constructor=aY;function
 bd(b,a){this.content={};this.root=b;this.lookupFun=a}bd.prototype.nm=function(a){return this.root+a};bd.prototype.create_dir_if_needed=function(d){var
 c=d.split(b8),b=af;for(var
 a=0;a<c.length-1;a++){b+=c[a]+b8;if(this.content[b])continue;this.content[b]=Symbol("directory")}};bd.prototype.slash=function(a){return/\/$/.test(a)?a:a+b8};bd.prototype.lookup=function(b){if(!this.content[b]&&this.lookupFun){var
 c=this.lookupFun(a(this.root),a(b));if(c!==0){this.create_dir_if_needed(b);this.content[b]=new
 aY(e4(c[1]))}}};bd.prototype.exists=function(a){if(a==af)return 1;var
 b=this.slash(a);if(this.content[b])return 1;this.lookup(a);return this.content[a]?1:0};bd.prototype.mkdir=function(c,e,d){var
-b=d&&d8(kL);if(this.exists(c))if(b)d9(b,d$(qT,kK,this.nm(c)));else
+b=d&&d8(kN);if(this.exists(c))if(b)d9(b,d$(qZ,kM,this.nm(c)));else
 as(c+": File exists");var
-a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||af;if(!this.exists(a))if(b)d9(b,d$(kP,kK,this.nm(a)));else
-as(a+h5);if(!this.is_dir(a))if(b)d9(b,d$(kU,kK,this.nm(a)));else
-as(a+k2);this.create_dir_if_needed(this.slash(c))};bd.prototype.rmdir=function(a,f){var
-b=f&&d8(kL),c=a==af?af:this.slash(a),e=new
-RegExp(kX+c+q0);if(!this.exists(a))if(b)d9(b,d$(kP,kI,this.nm(a)));else
-as(a+h5);if(!this.is_dir(a))if(b)d9(b,d$(kU,kI,this.nm(a)));else
-as(a+k2);for(var
+a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||af;if(!this.exists(a))if(b)d9(b,d$(kR,kM,this.nm(a)));else
+as(a+h5);if(!this.is_dir(a))if(b)d9(b,d$(kW,kM,this.nm(a)));else
+as(a+k4);this.create_dir_if_needed(this.slash(c))};bd.prototype.rmdir=function(a,f){var
+b=f&&d8(kN),c=a==af?af:this.slash(a),e=new
+RegExp(kZ+c+q6);if(!this.exists(a))if(b)d9(b,d$(kR,kK,this.nm(a)));else
+as(a+h5);if(!this.is_dir(a))if(b)d9(b,d$(kW,kK,this.nm(a)));else
+as(a+k4);for(var
 d
 in
-this.content)if(d.match(e))if(b)d9(b,d$(qY,kI,this.nm(a)));else
+this.content)if(d.match(e))if(b)d9(b,d$(q4,kK,this.nm(a)));else
 as(this.nm(a)+": Directory not empty");delete
 this.content[c]};bd.prototype.readdir=function(a){var
-f=a==af?af:this.slash(a);if(!this.exists(a))as(a+h5);if(!this.is_dir(a))as(a+k2);var
+f=a==af?af:this.slash(a);if(!this.exists(a))as(a+h5);if(!this.is_dir(a))as(a+k4);var
 g=new
-RegExp(kX+f+q0),d={},c=[];for(var
+RegExp(kZ+f+q6),d={},c=[];for(var
 e
 in
 this.content){var
 b=e.match(g);if(b&&!d[b[1]]){d[b[1]]=true;c.push(b[1])}}return c};bd.prototype.is_dir=function(a){if(a==af)return true;var
 b=this.slash(a);return this.content[b]?1:0};bd.prototype.unlink=function(a){var
 b=this.content[a]?true:false;delete
-this.content[a];return b};bd.prototype.open=function(a,b){if(b.rdonly&&b.wronly)as(this.nm(a)+rO);if(b.text&&b.binary)as(this.nm(a)+qD);this.lookup(a);if(this.content[a]){if(this.is_dir(a))as(this.nm(a)+" : is a directory");if(b.create&&b.excl)as(this.nm(a)+rK);var
+this.content[a];return b};bd.prototype.open=function(a,b){if(b.rdonly&&b.wronly)as(this.nm(a)+rU);if(b.text&&b.binary)as(this.nm(a)+qJ);this.lookup(a);if(this.content[a]){if(this.is_dir(a))as(this.nm(a)+" : is a directory");if(b.create&&b.excl)as(this.nm(a)+rQ);var
 c=this.content[a];if(b.truncate)c.truncate();return c}else
 if(b.create){this.create_dir_if_needed(a);this.content[a]=new
 aY(cs(0));return this.content[a]}else
-JB(this.nm(a))};bd.prototype.register=function(c,a){var
-b;if(this.content[c])as(this.nm(c)+rK);if(ld(a))b=new
-aY(a);if(sq(a))b=new
+JI(this.nm(a))};bd.prototype.register=function(c,a){var
+b;if(this.content[c])as(this.nm(c)+rQ);if(lf(a))b=new
+aY(a);if(sw(a))b=new
 aY(e4(a));else
 if(a
 instanceof
 Array)b=new
-aY(I_(a));else
+aY(Jf(a));else
 if(typeof
 a==="string")b=new
-aY(sg(a));else
+aY(sm(a));else
 if(a.toString){var
 d=e4(e7(a.toString()));b=new
 aY(d)}if(b){this.create_dir_if_needed(c);this.content[c]=b}else
 as(this.nm(c)+" : registering file with invalid content type")};bd.prototype.constructor=bd;function
 az(a){return iq(a)}function
-d_(b,a){return k7(b,a)}function
-I5(d){var
+d_(b,a){return k9(b,a)}function
+Ja(d){var
 c=az(d),b=new
 Array(c),a=0;for(;a<c;a++)b[a]=d_(d,a);return b}function
-I4(a){if(a.t!=4)il(a);return a.c}function
-Jb(a,c,b){b&=cU;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}il(a)}a.c[c]=b;return 0}function
-Ja(b,a,c){if(a>>>0>=b.l)se();return Jb(b,a,c)}function
+I$(a){if(a.t!=4)il(a);return a.c}function
+Ji(a,c,b){b&=cU;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}il(a)}a.c[c]=b;return 0}function
+Jh(b,a,c){if(a>>>0>=b.l)sk();return Ji(b,a,c)}function
 cr(a){this.fs=require("fs");this.fd=a}cr.prototype=new
-r9();cr.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){as(a.toString())}};cr.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){as(a.toString())}};cr.prototype.write=function(f,b,c,e){var
-a=I5(b);if(!(a
+sd();cr.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){as(a.toString())}};cr.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){as(a.toString())}};cr.prototype.write=function(f,b,c,e){var
+a=Ja(b);if(!(a
 instanceof
 S.Uint8Array))a=new(S.Uint8Array)(a);var
 d=S.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){as(a.toString())}return 0};cr.prototype.read=function(g,d,c,f){var
-a=I4(d);if(!(a
+a=I$(d);if(!(a
 instanceof
 S.Uint8Array))a=new(S.Uint8Array)(a);var
 e=S.Buffer.from(a);try{this.fs.readSync(this.fd,e,c,f,g)}catch(a){as(a.toString())}for(var
-b=0;b<f;b++)Ja(d,c+b,e[c+b]);return 0};cr.prototype.read_one=function(c){var
+b=0;b<f;b++)Jh(d,c+b,e[c+b]);return 0};cr.prototype.read_one=function(c){var
 b=new(S.Uint8Array)(1),a=S.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){as(a.toString())}return a[0]};cr.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){as(a.toString())}};cr.prototype.constructor=cr;function
 aZ(a){this.fs=require("fs");this.root=a}aZ.prototype.nm=function(a){return this.root+a};aZ.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};aZ.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};aZ.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};aZ.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};aZ.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){as(a.toString())}};aZ.prototype.unlink=function(a,c){try{var
 b=this.fs.existsSync(this.nm(a))?1:0;this.fs.unlinkSync(this.nm(a));return b}catch(a){this.raise_nodejs_error(a,c)}};aZ.prototype.open=function(f,c,g){var
@@ -539,8 +539,8 @@ d=this.fs.openSync(this.nm(f),b);return new
 cr(d)}catch(a){this.raise_nodejs_error(a,g)}};aZ.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};aZ.prototype.stat=function(b,c){try{var
 a=this.fs.statSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aZ.prototype.lstat=function(b,c){try{var
 a=this.fs.lstatSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aZ.prototype.symlink=function(d,c,a,b){try{this.fs.symlinkSync(this.nm(c),this.nm(a),d?"dir":"file");return 0}catch(a){this.raise_nodejs_error(a,b)}};aZ.prototype.readlink=function(b,c){try{var
-a=this.fs.readlinkSync(this.nm(b),qo);return e7(a)}catch(a){this.raise_nodejs_error(a,c)}};aZ.prototype.raise_nodejs_error=function(a,d){var
-b=d8(kL);if(d&&b){var
+a=this.fs.readlinkSync(this.nm(b),qu);return e7(a)}catch(a){this.raise_nodejs_error(a,c)}};aZ.prototype.raise_nodejs_error=function(a,d){var
+b=d8(kN);if(d&&b){var
 c=d$(a.code,a.syscall,a.path,a.errno);d9(b,c)}else
 as(a.toString())};aZ.prototype.stats_from_js=function(a){var
 b;if(a.isFile())b=0;else
@@ -550,28 +550,28 @@ if(a.isBlockDevice())b=3;else
 if(a.isSymbolicLink())b=4;else
 if(a.isFIFO())b=5;else
 if(a.isSocket())b=6;return[0,a.dev,a.ino,b,a.mode,a.nlink,a.uid,a.gid,a.rdev,a.size,a.atimeMs,a.mtimeMs,a.ctimeMs]};aZ.prototype.constructor=aZ;function
-sn(b){var
-a=lk(b);if(!a)return;return a[0]+b8}var
-ir=sn(gi)||b9("unable to compute caml_root"),e8=[];if(gl())e8.push({path:ir,device:new
+st(b){var
+a=lm(b);if(!a)return;return a[0]+b8}var
+ir=st(gi)||b9("unable to compute caml_root"),e8=[];if(gl())e8.push({path:ir,device:new
 aZ(ir)});else
 e8.push({path:ir,device:new
-bd(ir)});e8.push({path:qx,device:new
-bd(qx)});function
-sH(b){var
-g=Js(b),b=g.join(b8),f=sA(b),c;for(var
+bd(ir)});e8.push({path:qD,device:new
+bd(qD)});function
+sM(b){var
+g=Jz(b),b=g.join(b8),f=sF(b),c;for(var
 e=0;e<e8.length;e++){var
 a=e8[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&gl()){var
-d=sn(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
+d=st(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
 a={path:d,device:new
 aZ(d)};e8.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;as("no device found for "+f)}function
-Jd(c,b){var
-a=sH(c);if(!a.device.register)b9("cannot register file");a.device.register(a.rest,b);return 0}function
-sC(c,b){var
-c=a(c),b=a(b);return Jd(c,b)}function
-Jg(){var
+Jk(c,b){var
+a=sM(c);if(!a.device.register)b9("cannot register file");a.device.register(a.rest,b);return 0}function
+sH(c,b){var
+c=a(c),b=a(b);return Jk(c,b)}function
+Jn(){var
 b=S.caml_fs_tmp;if(b)for(var
-a=0;a<b.length;a++)sC(b[a].name,b[a].content);S.jsoo_create_file=sC;S.caml_fs_tmp=[];return 0}function
-Jz(c){var
+a=0;a<b.length;a++)sH(b[a].name,b[a].content);S.jsoo_create_file=sH;S.caml_fs_tmp=[];return 0}function
+JG(c){var
 a=0,e=az(c),b=10,d=1;if(e>0)switch(d_(c,a)){case
 45:a++;d=-1;break;case
 43:a++;d=1;break}if(a+1<e&&d_(c,a)==48)switch(d_(c,a+1)){case
@@ -583,33 +583,33 @@ a=0,e=az(c),b=10,d=1;if(e>0)switch(d_(c,a)){case
 66:b=2;a+=2;break;case
 117:case
 85:a+=2;break}return[a,d,b]}function
-su(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=r0)return a-87;return-1}function
+sz(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=r6)return a-87;return-1}function
 ip(f){var
-h=Jz(f),c=h[0],i=h[1],d=h[2],g=az(f),j=-1>>>0,e=c<g?d_(f,c):0,b=su(e);if(b<0||b>=d)b9(h_);var
-a=b;for(c++;c<g;c++){e=d_(f,c);if(e==95)continue;b=su(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)b9(h_)}if(c!=g)b9(h_);a=i*a;if(d==10&&(a|0)!=a)b9(h_);return a|0}function
-Jr(a,b){return+(k8(a,b,false)<=0)}function
-Jt(a,d){if(a<0)ik();var
+h=JG(f),c=h[0],i=h[1],d=h[2],g=az(f),j=-1>>>0,e=c<g?d_(f,c):0,b=sz(e);if(b<0||b>=d)b9(h_);var
+a=b;for(c++;c<g;c++){e=d_(f,c);if(e==95)continue;b=sz(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)b9(h_)}if(c!=g)b9(h_);a=i*a;if(d==10&&(a|0)!=a)b9(h_);return a|0}function
+Jy(a,b){return+(k_(a,b,false)<=0)}function
+JA(a,d){if(a<0)ik();var
 a=a+1|0,b=new
 Array(a);b[0]=0;for(var
 c=1;c<a;c++)b[c]=d;return b}var
 cW=new
 Array();function
-Ju(c){var
+JB(c){var
 a=cW[c];if(!a.opened)as("Cannot flush a closed channel");if(!a.buffer||a.buffer==af)return 0;if(a.fd&&aF.fds[a.fd]&&aF.fds[a.fd].output){var
 b=aF.fds[a.fd].output;switch(b.length){case
 2:b(c,a.buffer);break;default:b(a.buffer)}}a.buffer=af;return 0}function
-sx(e,f){var
+sC(e,f){var
 b=cW[e],d=a(f),c=az(d);b.file.write(b.offset,d,0,c);b.offset+=c;return 0}function
-JH(a){var
-a=lg(a),b=S;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+JO(a){var
+a=lj(a),b=S;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.error&&c.error(a)}}function
-JI(a){var
-a=lg(a),b=S;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+JP(a){var
+a=lj(a),b=S;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.log&&c.log(a)}}function
 it(c,e,d,a){if(aF.fds===undefined)aF.fds=new
 Array();a=a?a:{};var
 b={};b.file=d;b.offset=a.append?d.length():0;b.flags=a;b.output=e;aF.fds[c]=b;if(!aF.fd_last_idx||c>aF.fd_last_idx)aF.fd_last_idx=c;return c}function
-JP(c,b,g){var
+JW(c,b,g){var
 a={};while(b){switch(b[1]){case
 0:a.rdonly=1;break;case
 1:a.wronly=1;break;case
@@ -619,66 +619,66 @@ a={};while(b){switch(b[1]){case
 5:a.excl=1;break;case
 6:a.binary=1;break;case
 7:a.text=1;break;case
-8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)as(e6(c)+rO);if(a.text&&a.binary)as(e6(c)+qD);var
-d=sH(c),e=d.device.open(d.rest,a),f=aF.fd_last_idx?aF.fd_last_idx:0;return it(f+1,sx,e,a)}it(0,sx,new
-aY(cs(0)));it(1,JI,new
-aY(cs(0)));it(2,JH,new
+8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)as(e6(c)+rU);if(a.text&&a.binary)as(e6(c)+qJ);var
+d=sM(c),e=d.device.open(d.rest,a),f=aF.fd_last_idx?aF.fd_last_idx:0;return it(f+1,sC,e,a)}it(0,sC,new
+aY(cs(0)));it(1,JP,new
+aY(cs(0)));it(2,JO,new
 aY(cs(0)));function
-Jv(a){var
-c=aF.fds[a];if(c.flags.wronly)as(rY+a+" is writeonly");var
+JC(a){var
+c=aF.fds[a];if(c.flags.wronly)as(r4+a+" is writeonly");var
 d=null;if(a==0&&gl()){var
-e=require("fs");d=function(){return e7(e.readFileSync(0,qo))}}var
+e=require("fs");d=function(){return e7(e.readFileSync(0,qu))}}var
 b={file:c.file,offset:c.offset,fd:a,opened:true,out:false,refill:d};cW[b.fd]=b;return b.fd}function
-sr(c){var
-b=aF.fds[c];if(b.flags.rdonly)as(rY+c+" is readonly");var
+sx(c){var
+b=aF.fds[c];if(b.flags.rdonly)as(r4+c+" is readonly");var
 a={file:b.file,offset:b.offset,fd:c,opened:true,out:true,buffer:af};cW[a.fd]=a;return a.fd}function
-Jw(){var
+JD(){var
 b=0;for(var
 a=0;a<cW.length;a++)if(cW[a]&&cW[a].opened&&cW[a].out)b=[0,cW[a].fd,b];return b}function
 bO(b,c,a){if(a&&S.toplevelReloc)b=S.toplevelReloc(a);aF[b+1]=c;if(a)aF[a]=c}function
-JD(a,b){st[e6(a)]=b;return 0}function
-I8(a,b){if(a===b)return 1;a.t&6&&e5(a);b.t&6&&e5(b);return a.c==b.c?1:0}function
-aB(a,b){return I8(a,b)}function
-JF(){a0(k0)}function
-a8(b,a){if(a>>>0>=az(b))JF();return d_(b,a)}function
+JK(a,b){sy[e6(a)]=b;return 0}function
+Jd(a,b){if(a===b)return 1;a.t&6&&e5(a);b.t&6&&e5(b);return a.c==b.c?1:0}function
+aB(a,b){return Jd(a,b)}function
+JM(){a0(k2)}function
+a8(b,a){if(a>>>0>=az(b))JM();return d_(b,a)}function
 p(a,b){return 1-aB(a,b)}function
 is(a){return a}function
-sw(a){return a}function
-sB(a){if(a
+sB(a){return a}function
+sG(a){if(a
 instanceof
 Array)return a;if(S.RangeError&&a
 instanceof
-S.RangeError&&a.message&&a.message.match(/maximum call stack/i))return sw(aF.Stack_overflow);if(S.InternalError&&a
+S.RangeError&&a.message&&a.message.match(/maximum call stack/i))return sB(aF.Stack_overflow);if(S.InternalError&&a
 instanceof
-S.InternalError&&a.message&&a.message.match(/too much recursion/i))return sw(aF.Stack_overflow);if(a
+S.InternalError&&a.message&&a.message.match(/too much recursion/i))return sB(aF.Stack_overflow);if(a
 instanceof
-S.Error&&d8(q5))return[0,d8(q5),a];return[0,aF.Failure,e7(String(a))]}function
+S.Error&&d8(q$))return[0,d8(q$),a];return[0,aF.Failure,e7(String(a))]}function
 ct(a){return a<0?-a:a}function
 E(a,b){return a+b}function
-lh(a,b){return a<b?-1:a>b?1:0}function
-sE(c,b){var
+lk(a,b){return a<b?-1:a>b?1:0}function
+sJ(c,b){var
 a=c%b;return a<0?a+ct(b):a}function
-li(a,b){return(a-sE(a,b))/b}function
+ll(a,b){return(a-sJ(a,b))/b}function
 L(a,b){return a==b?1:0}function
-JM(c){S.orthocert_verify=function(b){return e6(dw(c,[a(b)]))}}function
+JT(c){S.orthocert_verify=function(b){return e6(dw(c,[a(b)]))}}function
 D(a,b){return a<=b?1:0}function
 I(a,b){return a<b?1:0}function
 C(a,b){return a*b}function
 T(a){return-a}function
 aI(a){return S.BigInt(a)}function
-sF(a,b){return a<<S.BigInt(b)}function
-sG(a,b){return a>>S.BigInt(b)}function
+sK(a,b){return a<<S.BigInt(b)}function
+sL(a,b){return a>>S.BigInt(b)}function
 aS(a){return a<0?-1:a>0?1:0}function
-JN(a){if(a<0)throw new(S.Error)("a root of a negative number");if(a<2)return a;var
+JU(a){if(a<0)throw new(S.Error)("a root of a negative number");if(a<2)return a;var
 d=S.BigInt(1),b=d<<S.BigInt((a.toString(16).length*4+1)/2|0),c;for(;;){c=b+a/b>>d;if(c>=b)return b;b=c}}function
 aL(a,b){return a-b}function
-lj(a){if(a>0x7fffffff||a<-0x80000000)throw new(S.Error)("a number of more than 32 bits");return S.Number(a)}function
-Jp(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
-Jf(b){var
-a=af;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&Jp(b[1]))var
+iu(a){if(a>0x7fffffff||a<-0x80000000)throw new(S.Error)("a number of more than 32 bits");return S.Number(a)}function
+Jw(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
+Jm(b){var
+a=af;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&Jw(b[1]))var
 e=b[2],f=1;else
 var
-f=2,e=b;a+=q6;for(var
+f=2,e=b;a+=ra;for(var
 d=f;d<e.length;d++){if(d>f)a+=", ";var
 c=e[d];if(typeof
 c=="number")a+=c.toString();else
@@ -687,40 +687,47 @@ instanceof
 cq)a+=aR+c.toString()+aR;else
 if(typeof
 c=="string")a+=aR+c.toString()+aR;else
-a+="_"}a+=kW}else
+a+="_"}a+=kY}else
 if(b[0]==a7)a+=b[1];return a}function
-sl(a){if(a
+sr(a){if(a
 instanceof
 Array&&(a[0]==0||a[0]==a7)){var
 c=d8("Printexc.handle_uncaught_exception");if(c)c(a,false);else{var
-d=Jf(a),b=d8(qn);if(b)b(0);S.console.error("Fatal error: exception "+d+"\n")}}else
+d=Jm(a),b=d8(qt);if(b)b(0);S.console.error("Fatal error: exception "+d+"\n")}}else
 throw a}function
-JE(){var
-a=S;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){sl(b);a.process.exit(2)});else
-if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)sl(a.error)})}JE();function
+JL(){var
+a=S;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){sr(b);a.process.exit(2)});else
+if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)sr(a.error)})}JL();function
 k(a,b){return a.length==1?a(b):dw(a,[b])}function
-ar(a,b,c){return a.length==2?a(b,c):dw(a,[b,c])}function
+ao(a,b,c){return a.length==2?a(b,c):dw(a,[b,c])}function
 f4(a,b,c,d){return a.length==3?a(b,c,d):dw(a,[b,c,d])}function
-kG(a,b,c,d,e){return a.length==4?a(b,c,d,e):dw(a,[b,c,d,e])}Jg();var
-lm=[a7,a(qW),-2],ll=[a7,a(r8),-4],HY=[0,[0,[0,[0,0]]]],HZ=[0,0],H0=[0,0],H1=[0,[0,0]],H2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H1]]]]]]]]]]],hO=[0,[1,0],0],pC=[0,[2,0],0],kk=[0,[1,0],0],pB=[0,[2,0],0],hM=[0,[1,0],0],kj=[0,[2,0],0],H3=[0,[0,[0,[0,0]]]],H4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H3]]]]]]]]]]],H5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H4]]]]]]]]]]],H6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H5]]]]]]]]]]],H7=[0,[0,0]],H8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H7]]]]]]]]]]],H9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H8]]]]]]]]]]],H_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H9]]]]]]]]]]],H$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H_]]]]]]]]]]],Ia=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],Ib=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ia]]]]]]]]]]],Ic=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ib]]]]]]]]]]],Id=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ic]]]]]]]]]]],Ie=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Id]]]]]]]]]]],If=[0,[0,0]],Ig=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,If]]]]]]]]]]],Ih=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ig]]]]]]]]]]],Ii=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ih]]]]]]]]]]],Ij=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ii]]]]]]]]]]],Ik=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ij]]]]]]]]]]],Il=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ik]]]]]]]]]]],Im=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Il]]]]]]]]]]],In=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],Io=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,In]]]]]]]]]]],Ip=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Io]]]]]]]]]]],Iq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ip]]]]]]]]]]],Ir=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Iq]]]]]]]]]]],Is=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ir]]]]]]]]]]],It=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Is]]]]]]]]]]],Iu=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,It]]]]]]]]]]],Iv=[0,0],Iw=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Iv]]]]]]]]]]],Ix=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Iw]]]]]]]]]]],Iy=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ix]]]]]]]]]]],Iz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Iy]]]]]]]]]]],IA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Iz]]]]]]]]]]],IB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IA]]]]]]]]]]],IC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IB]]]]]]]]]]],ID=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IC]]]]]]]]]]],IE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,ID]]]]]]]]]]],IF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IE]]]]]]]]]]],IG=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],IH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IG]]]]]]]]]]],II=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],IJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,II]]]]]]]]]]],IK=[0,[0,[0,[0,[0,0]]]]],IL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IK]]]]]]]]]]],IM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IL]]]]]]]]]]],IN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IM]]]]]]]]]]],IO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IN]]]]]]]]]]],IP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IO]]]]]]]]]]],IQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IP]]]]]]]]]]],IR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IQ]]]]]]]]]]],IS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IR]]]]]]]]]]],IT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IS]]]]]]]]]]],IU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IT]]]]]]]]]]],IV=[0,0],IW=[0,[0,0]],IX=[0,0],IY=[0,[0,[0,[0,[0,0]]]]],dE=[0,[0,[0,0]]],dG=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],hB=[0,[0,[0,[0,0]]]],IZ=[0,[0,[0,[0,[0,0]]]]],I0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IZ]]]]]]]]]]],I1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,I0]]]]]]]]]]],I2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,I1]]]]]]]]]]],I3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,I2]]]]]]]]]]];bO(11,[a7,a(qm),-12],qm);bO(10,[a7,a(ra),-11],ra);bO(9,[a7,a(rX),-10],rX);bO(8,[a7,a(qy),-9],qy);bO(7,[a7,a(ro),-8],ro);bO(6,[a7,a(qw),-7],qw);bO(5,[a7,a(qX),-6],qX);bO(4,[a7,a(q1),-5],q1);bO(3,ll,r8);bO(2,[a7,a(kQ),-3],kQ);bO(1,lm,qW);bO(0,[a7,a(rH),-1],rH);var
-sI=a("String.sub / Bytes.sub"),sK=a(af),sJ=a("String.concat"),sL=a("Array.init"),sM=a("power"),s5=[0,0],s6=[0,0],ta=[0,0,0],tb=[0,0,0],tc=[0,0],ty=[0,0],tz=[0,0],tC=[0,0],tX=[0,0],t0=[0,0],t4=[0,0],t5=[0,0],t6=[0,0],t7=[0,0],uj=[0,0],uk=[0,0],uN=[0,0],vb=[0,[0,[0,0]]],vC=[0,0],v3=[0,0],wp=[0,0],wA=a(","),wS=[0,a(kW),0],wT=a(q6),wU=a("."),wV=[0,[0,[0,0]]],wW=a(e0),wX=a(kX),wY=[0,[0,[0,[0,[0,0]]]]],wZ=[0,a(kW),0],w0=a(r6),z3=a(qj),z5=a(qg),z4=a(rd),z6=a(eV),z7=a(eT),z8=a(k5),z9=a(rR),z_=a(qQ),z$=a(kZ),Aa=a(ri),Ab=a(qP),Br=[0,[0,0,0]],BI=[0,0],Bs=a(f5),Bt=[0,0],Bu=a("divided"),Bv=[0,1],Bw=a("mirror"),Bx=[0,3],By=a("negative"),Bz=[0,2],BA=a(f_),BB=[0,5],BC=a(k4),BD=[0,4],BE=a(du),BF=a(qB),BG=a(eW),BH=a(bM),BJ=[0,0],BK=[0,0],BL=[0,0],BO=[0,[0,[0,0]]],BP=[0,[0,[0,0]]],Ce=[0,[0,[0,0]]],Cs=[0,0],CN=a(af),CF=[0,0],CH=[0,0],CG=[0,0],CI=[0,[0,[0,[0,0]]]],CJ=[0,[0,[0,0]]],CK=[0,[0,[0,[0,0]]]],CL=[0,[0,[0,0]]],CD=[0,[0,[0,0]]],CC=a(eW),CB=[0,0],Cz=[0,1,0],CA=[0,[0,[0,0]]],Cy=[0,0],Cx=[0,0],Cw=[0,0],Ct=[0,[0,0]],Cu=[0,[0,[0,0]]],Cq=[0,[0,0]],Cr=[0,[0,[0,0]]],Cp=[0,0],Cl=[0,[0,[0,0]]],Ck=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HY]]]]]]]]]],[0,0,[0,[0,[0,[0,0]]],0]]],Cf=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],[0,0,0]],Cg=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],[0,[0,[0,[0,[0,[0,[0,0]]]]]],0]],Ch=[0,[0,[0,[0,[0,[0,[0,0]]]]]],0],Ci=[0,[0,[0,[0,0]]],[0,0,0]],Cc=[0,0],Cd=[0,[0,0]],Cb=[0,0,0],Ca=[0,[0,[0,0]]],B6=[0,[0,0]],B7=[0,[0,[0,0]]],B8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,HZ]]]]]]]]]]],B9=[0,[0,0]],B_=[0,[0,[0,0]]],B5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H0]]]]]]]]]]],B3=[0,[0,0]],B4=[0,[0,[0,0]]],B1=[0,[0,[0,0]]],B2=[0,[0,0]],B0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H2]]]]]]]]]]],BZ=[0,0],BY=[0,0],BV=[0,[0,0]],BW=[0,0],BT=[0,0],BU=[0,1],BR=[0,[0,0]],BS=[0,0],BQ=[0,0],BM=[0,0],BN=[0,1],Bo=[0,0],Bp=[0,1],Bq=[0,2],Bk=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],Bi=[0,[0,0],0],Bj=[0,[1,0],0],Bl=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],Bg=[0,[0,0]],Bh=[0,0],Bf=[0,0],Be=[0,0],Bd=[0,0],Bc=[0,0],Bb=[0,0,0],A$=[0,[0,0]],Ba=[0,0],A_=[0,0,0],A8=[0,[0,[0,0]]],A9=[0,[0,[0,0]]],A7=[0,0],A5=[0,1,0],AY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H6]]]]]]]]]]],AZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H$]]]]]]]]]]],AU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ie]]]]]]]]]]],AV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Im]]]]]]]]]]],AW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Iu]]]]]]]]]]],AX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IF]]]]]]]]]]],A0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IH]]]]]]]]]]],A1=a("sqrt"),AS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IJ]]]]]]]]]]],AT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IU]]]]]]]]]]],AH=[0,a("\n"),0],AI=a(qh),AJ=a(h6),AK=a(q$),AL=a(qU),AR=a(gb),AM=a(f9),AN=a("verdict"),AO=a(rI),AP=a(qM),AQ=a(q_),AE=a(q4),AF=a(rM),AG=a(h8),AA=a(rk),AB=a(h9),AC=a(f9),AD=a(gb),Av=a(ig),Aw=a(bw),Ax=a(qi),Ay=a(ic),As=a(rG),At=a(f_),Au=a(ic),Ao=a(rn),Ap=a(ig),Aq=a(h9),Ar=a(rV),Ad=a(rN),Ae=a(rQ),Af=a(ib),Ag=a(h$),Ah=a(r1),Ai=a(rC),Aj=a(rF),Ak=a(rr),Al=a(ib),Am=a(ru),z1=a(h4),z2=a(ga),zW=a(bN),zX=a(bL),zY=a(qO),zw=a(h$),zx=a(rq),za=a(bw),zb=a(b7),zc=a(ii),zd=a(eZ),ze=a(co),zj=a(kJ),zf=a(kY),zg=a(k1),zh=a(eU),zi=a(bw),zk=a(b7),zl=a(ii),zm=a(eZ),zn=a(kY),zo=a(k1),zp=a(eU),zq=a(bw),zr=a(b7),zs=a(bN),zt=a(bL),zu=a(d5),zv=a(eZ),zy=a(rA),zz=a(rP),zA=a(ij),zB=a(qC),zC=a(qH),zD=a(eU),zE=a(bw),zF=a(b7),zG=a(h2),zH=a(qS),zI=a(eZ),zJ=a(gg),zK=a(qq),zL=a(eU),zM=a(bw),zN=a(h2),zO=a(bw),zP=a(rt),zS=a(qf),zQ=a(qF),zR=a(rU),zT=a(gb),zU=a(f9),zV=a(bw),zZ=a(ij),z0=a(h8),y7=a(b7),y8=a(eZ),y9=a(kJ),y_=a(eU),y6=a(r3),yU=a(gg),yV=a(rJ),yW=a(d6),yX=a(eX),yY=a(eX),yZ=a(kM),y0=a(d6),y1=a(rb),y2=a(qN),y3=a(bl),y5=a(ql),y4=a(kM),yK=a(q3),yL=a(r7),yM=a(qJ),yN=a(qG),yO=a(rT),yP=a(rE),yQ=a(qV),yR=a(h3),yS=a(h3),yG=a(bl),yH=a(bK),yI=a(e1),yJ=a(bv),yC=a(co),yD=a(kT),yE=a(rl),yz=a(bN),yA=a(bL),yB=a(d5),ys=a(bN),yt=a(bL),yu=a(d5),yv=a(kV),yw=a(d6),yx=a(kR),yy=a(rz),ya=a(qE),yg=a(h6),yf=a(k3),yb=a(kN),yc=a(f7),yh=a(f8),yj=a(f8),yk=a(rx),yl=a(kN),yi=a(f7),ym=a(qA),yn=a(rw),yo=a(f7),yp=a(r2),yq=a(k3),yr=a(f7),yd=a(eX),ye=a(rg),x9=a(ia),x_=a(ia),x$=a(ia),x5=a(rB),x6=a(bL),x7=a(bN),x8=a(rS),xO=a(qu),xP=a(qk),xQ=a(rp),xR=a(eV),xS=a(r4),xT=a(rs),xU=a(qv),xV=a(rh),xW=a(qt),xX=a(qR),xY=a(qs),xZ=a(rD),x0=a(eT),x1=a(qp),x2=a(rL),x3=a(qI),x4=a(r5),xp=a(id),xr=a(e0),xq=a(f6),xs=a(eS),xt=a(bl),xu=a(bK),xv=a(bM),xw=a(gc),xx=a(bv),xy=a(ge),xz=a(bl),xA=a(bK),xB=a(e1),xC=a(bv),xD=a(bM),xE=a(co),xF=a(bv),xG=a(eS),xH=a(gf),xI=a(bl),xJ=a(bK),xK=a(rf),xL=a(f8),xM=a(gf),xN=a(bv),w9=a(id),xf=a(e0),w_=a(f6),w$=a(eS),xa=a(bl),xb=a(bK),xc=a(bM),xd=a(gc),xe=a(bv),xg=a(ge),xh=a(bl),xi=a(bK),xj=a(e1),xk=a(bv),xl=a(bM),xm=a(co),xn=a(bv),w6=a(bN),w7=a(bL),w4=[0,a(aR),0],w5=a(aR),w2=a(af),w1=[0,a(aR),0],w3=a(aR),wO=a(id),wP=a(e0),wQ=a("*"),wR=a(b8),wJ=[0,[0,[0,[0,[0,0]]]]],wK=[0,[0,[0,0]]],wL=[0,[0,0]],wM=[0,0],wN=[0,[0,[0,[0,0]]]],wH=a('":'),wI=a(aR),wF=[0,a(aR),0],wG=a(aR),wD=[0,a("}"),0],wE=a("{"),wB=[0,a("]"),0],wC=a("["),wz=[0,[0,[0,0]]],wy=[0,[0,[0,0]]],ww=[0,0],wt=[0,[0,[0,0]]],wu=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],wv=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],wr=[0,[0,0]],ws=[0,[0,[0,0]]],wq=[0,0],wn=[0,0],wo=[0,[0,0]],wk=[0,0],wl=[0,[0,0]],wm=[0,0],wf=[0,[0,0]],wg=[0,0],wh=[0,[0,[0,0]]],wi=[0,[0,[0,0]]],we=[0,[0,[0,0]]],wd=[0,[0,[0,0]]],wc=[0,0],v$=[0,[0,[0,0]]],wb=[0,[0,[0,0]]],wa=[0,0],v9=[0,[0,0]],v_=[0,0],v7=[0,[0,0]],v8=[0,0],v6=[0,[0,[0,0]]],v4=[0,[0,0]],v5=[0,0],v1=[0,0],v2=[0,[0,0]],vV=[0,[0,0]],vW=[0,[0,[0,[0,[0,0]]]]],vX=[0,[0,[0,[0,0]]]],vY=[0,[0,[0,0]]],vZ=[0,[0,0]],v0=[0,0],vS=[0,0],vT=[0,[0,0]],vU=[0,0],vR=[0,0],vN=[0,0],vO=[0,[0,[0,[0,[0,[0,0]]]]]],vP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IV]]]]]]]]]]],vL=[0,0],vG=[0,0,0],vH=[0,0,0],vI=[0,0,0],vD=[0,[0,0]],vE=[0,[0,[0,0]]],vF=[0,0],vs=[0,[0,[0,[0,[0,[0,0]]]]]],vt=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],vu=[0,[0,[0,0]]],vv=[0,[0,[0,0]]],vw=[0,[0,[0,[0,[0,[0,0]]]]]],vx=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],vy=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IW]]]]]]]]]]],vz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IX]]]]]]]]]]],vA=[0,[0,[0,0]]],vB=[0,[0,[0,[0,[0,[0,0]]]]]],vo=[0,0,0],vp=[0,0,0],vk=[0,0,0],vl=[0,0,0],vm=[0,0,0],vn=[0,0,0],vj=[0,0],vi=[0,0],vh=[0,0],vf=[0,0],vg=[0,0],ve=[0,0],vc=[0,0],vd=[0,0],u6=[0,0],u7=[0,0],u8=[0,0],u9=[0,[0,[0,0]]],u5=[0,0],uZ=[0,0],u0=[0,0],u1=[0,[0,0]],uX=[0,[0,0]],uY=[0,[0,[0,0]]],uV=[0,[0,[0,0]]],uW=[0,[0,0]],uT=[0,[0,0]],uU=[0,[0,[0,0]]],uS=[0,0],uQ=[0,0],uR=[0,0],uO=[0,0,0],uL=[0,[0,0]],uM=[0,0],uD=[0,[0,0]],uE=[0,0],uF=[0,[0,0]],uG=[0,0],uH=[0,[0,0]],uI=[0,0],uJ=[0,[0,0]],uK=[0,0],uB=[0,[0,0]],uC=[0,0],uz=[0,[0,0]],uA=[0,0],uv=[0,[0,0]],uw=[0,0],ux=[0,0],uy=[0,[0,0]],um=[0,[0,0]],un=[0,0],uo=[0,[0,0]],up=[0,0],uq=[0,0],ur=[0,[0,0]],us=[0,[0,0]],ut=[0,[0,0]],uu=[0,0],ui=[0,0],uh=[0,0],ue=[0,0],uf=[0,[0,0]],ud=[0,[0,[0,0]]],uc=[0,[0,[0,[0,[0,[0,0]]]]]],ua=[0,[0,0]],ub=[0,0],t$=[0,[0,0]],t_=[0,0],t8=[0,0],t9=[0,[0,[0,0]]],t2=[0,[0,0]],t3=[0,[0,[0,0]]],t1=[0,[0,[0,0]]],tY=[0,[0,[0,0]]],tW=[0,[0,[0,0]]],tU=[0,[0,[0,[0,[0,[0,0]]]]]],tV=[0,[0,[0,[0,[0,[0,0]]]]]],tP=[0,[0,0]],tQ=[0,0],tR=[0,[0,0]],tS=[0,[0,[0,0]]],tT=[0,[0,[0,0]]],tI=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],tJ=[0,[0,[0,[0,[0,[0,0]]]]]],tK=[0,[0,[0,[0,[0,[0,0]]]]]],tL=[0,[0,[0,0]]],tM=[0,[0,[0,[0,[0,[0,0]]]]]],tN=[0,[0,[0,0]]],tO=[0,[0,[0,0]]],tG=[0,[0,0]],tH=[0,0],tF=[0,0,0],tE=[0,0,0],tD=[0,0,0],tB=[0,0,0],tA=[0,[0,[0,0]]],tu=[0,0],tv=[0,0],tw=[0,0],tx=[0,0],ts=[0,0],tt=[0,0],to=[0,[0,[0,0]]],tp=[0,[0,[0,0]]],tq=[0,[0,[0,0]]],tn=[0,[0,[0,[0,0]]]],tj=[0,[0,[0,0]]],tk=[0,[0,[0,0]]],tl=[0,[0,[0,0]]],tm=[0,[0,1,1],[0,[0,0,1],[0,[0,1,0],[0,[0,0,0],0]]]],th=[0,[0,0]],ti=[0,0],tf=[0,[0,0]],tg=[0,0],td=[0,[0,0]],te=[0,0],s2=[0,0],s3=[0,[0,0]],s0=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],s1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IY]]]]]]]]]]],sY=[0,0,0],sX=a(rZ),sW=a(af),sV=[0,[0,0]],sT=[0,0],sQ=[0,0],sS=[1,0],sR=[0,0],sP=[0,0],sN=[1,0],sO=[1,0],ug=[10,0,0,0,0],Cv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,I3]]]]]]]]]]],F1=a(bN),F2=a(bL),F3=a(qO),FT=a(ge),FU=[0,a("a base axis of such a platform"),0],FV=a(bl),FW=a(bK),FG=a(rE),FH=a(q3),FI=a(rT),FJ=a(h3),FK=a(qV),FL=a(h3),FM=a(r7),FN=a(qJ),FO=a(qG),Fw=a(rq),Fx=a(h$),E_=[0,a("such a machine with bodies"),0],EX=a(h8),EY=a(bw),EZ=a(rt),E0=a(rU),E3=a(qF),E4=a(qf),E5=a(bw),E6=a(bw),E8=a(h2),E7=[0,a("a claim that no cube of such a machine fits"),0],E9=a(r3),E$=a(eU),Fa=a(eZ),Fb=a(co),Fc=a(kT),Fd=a(rl),Fe=a(ii),Ff=a(qH),Fg=a(qq),Fh=a(kJ),Fk=a(d5),Fl=a(rz),Fo=a(b7),Fp=a(b7),Fq=a(qS),Fr=a(b7),Fs=[0,a("the closed design with other bounds on psi than one from below and one from above"),0],Ft=a(h2),Fu=a(gg),Fv=a(d5),Fy=a(b7),Fz=a(bN),FA=a(bL),FB=a(rA),FC=a(rP),FD=a(ij),FE=a(qC),Fi=[0,a(aR),0],Fj=a('the mechanism "'),FF=a(kY),FP=a(ii),FQ=a(co),FR=a(kT),FS=a(k1),FX=a(b7),F0=a(co),FY=[0,a("a platform that turns on struts and other drives"),0],FZ=a(b7),Fm=[0,a(aR),0],Fn=a('the workspace "'),F4=a(bw),F5=a(bw),F7=a(gb),F8=a(f9),F9=a(ij),F6=[0,a("an atlas of such a machine"),0],E1=[0,a(aR),0],E2=a('a claim of the kind "'),Gl=a(k5),Gm=a(du),Gn=a(eW),Go=a(kZ),Gp=a(f5),Gq=[0,a('this evidence "fan"'),0],Gc=a(du),GA=a(ga),GB=[0,1,1],Gd=a(ri),Gr=a(eT),Gs=a(qP),Gt=a(eV),Gu=a(qQ),Gv=a(rd),Gw=a(bM),Gx=a(ga),Gy=a(h4),Gz=a(bM),Ge=a(k5),Gf=a(du),Gg=a(qB),Gh=a(eW),Gi=a(kZ),Gj=[0,a(aR),0],Gk=a('the evidence "'),GC=a(eT),GD=a(eV),GE=a(du),GF=a(eW),GG=a(rR),GI=a(eT),GJ=a(eV),GK=a(du),GL=a(eW),GM=a(f_),GN=a(f5),GO=a(f_),GP=a(f5),GH=[0,a("this evidence at control points"),0],HR=a('"orthocert-paving/'),HI=a(du),HJ=a(du),Hv=a(q_),Hw=a(qM),Hx=a(rI),HP=[0,3,3],Hy=a(qU),HG=[0,a("this set of orientations with such drives"),0],HK=[0,a('this evidence "tolerances" of a platform that turns'),0],HL=[0,a("a step of a platform that turns that is not at control points"),0],HM=[0,a("this quantity in a claim that is refuted"),0],HN=[0,a("a step in a proof that no cube fits"),0],HO=[0,a('the failure "same" of such a mechanism'),0],HH=[0,a('"accuracy" of such a mechanism'),0],Hz=[0,a("the acceleration of a joint of a machine with a plane"),0],HE=[0,a("a stiffness for each joint in such a claim"),0],HF=[0,a(rv),0],HD=[0,a(rv),0],HA=a(q$),HB=a(qh),HC=a(h6),Hr=a(k4),Hs=a(f5),Ht=a(bM),Hj=a(h8),Hk=a(q4),Hl=a(rM),Hm=[0,a(aR),0],Hn=a('a proof of the kind "'),Hf=a(f9),Hg=a(gb),Hh=a(h9),Hi=a(rk),Hb=a(bw),Hc=a(ig),Hd=a(qi),He=a(ic),G_=a(rG),G$=a(f_),Ha=a(ic),G6=a(rn),G7=a(ig),G8=a(h9),G9=a(rV),GS=a(rQ),GT=a(ib),GU=a(rN),GV=a(h$),GW=a(ru),GX=a(r1),G0=a(rC),G1=a(h4),G2=a(ga),G3=a(rF),G4=a(rr),G5=a(ib),GY=[0,a(aR),0],GZ=a('the failure "'),GQ=a(k4),GR=a(rZ),Ga=a(ga),Gb=a(h4),F_=a(qg),F$=a(qj),EU=a(gg),EK=a(kM),EL=a(ql),EM=a(eX),EN=a(bl),ES=a(rJ),ET=a(gg),EV=a(d6),EW=a(eX),EO=a(d6),EP=a(rb),EQ=a(qN),ER=a(bl),ED=a(d5),EH=a(bN),EI=a(bL),EE=a(kR),EF=a(kV),EG=a(d6),Ex=a(d5),EB=a(bN),EC=a(bL),Ey=a(kR),Ez=a(kV),EA=a(d6),Ew=[0,1],Ev=[0,1],Et=[0,1],Er=[0,1],Eq=[0,1],Eo=[0,1],Ep=[0,a("this quantity of such a mechanism"),0],D9=a(kN),D_=a(rw),D$=a(qA),Ea=a(k3),Eb=a(r2),Ed=a(rx),Ec=a(f8),D8=a(h6),D0=a(ia),DO=a(rg),DP=a(rp),Eg=a(eT),Eh=a(rL),Ei=a(qR),Ej=a(eV),Ek=a(rh),El=a(qs),Em=a(qt),En=a(qk),DQ=a(qp),DR=a(r5),DS=a(rD),DT=a(rs),DU=a(qI),DV=a(r4),DW=a(qv),DX=a(qu),DY=[0,a(aR),0],DZ=a('the quantity "'),D1=a(qE),D2=a(rB),D3=a(bN),D4=a(bL),D5=a(rS),D6=[0,a(aR),0],D7=a('a bound "'),Ee=a(f7),Ef=a(eX),DM=a(bv),DN=a(e1),DK=a(bv),DL=a(co),DH=a(bv),DI=a(gc),Dj=a(bv),Dk=a(ge),Dl=a(gf),Dm=a(co),Dn=a(gc),Do=a(e1),Dr=a(bl),Ds=a(bK),Dt=a(f6),Du=a(eS),Dv=a(bl),Dw=a(bK),Dx=a(bM),Dy=a(bM),Dz=a(f6),DA=a(eS),DB=a(gf),DC=a(bl),DD=a(bK),DE=a(rf),DF=a(f8),Dp=[0,a('" of such a machine'),0],Dq=a(qz),Dh=a(bv),Di=a(gf),C3=a(bv),C4=a(co),C5=a(gc),C6=a(e1),C9=a(ge),C_=a(bl),C$=a(bK),Da=a(f6),Db=a(eS),Dc=a(bl),Dd=a(bK),De=a(bM),Df=a(bM),C7=[0,a(aR),0],C8=a(qz),C0=a(id),C1=a(e0),CY=a(" is not covered by the verified checker"),CZ=a(af),CW=a(bN),CX=a(bL),CS=a(af),CT=a(r6),CU=a(af),CV=a(af),CR=[1,0],CQ=a(e0),CO=a("Reader.Malformed"),CP=a("Reader.Not_covered"),HT=[0,a("a paving is checked by orthocert-verified")],HS=a(rj),HU=a("CERTIFIED"),HV=a("REFUTED"),HW=a(rj),HX=a("NOT COVERED: ");function
-gm(a){throw[0,ll,a]}function
+kI(a,b,c,d,e){return a.length==4?a(b,c,d,e):dw(a,[b,c,d,e])}Jn();var
+lo=[a7,a(q2),-2],ln=[a7,a(sc),-4],H5=[0,[0,[0,[0,0]]]],H6=[0,0],H7=[0,0],H8=[0,[0,0]],H9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H8]]]]]]]]]]],hO=[0,[1,0],0],pI=[0,[2,0],0],km=[0,[1,0],0],pH=[0,[2,0],0],hM=[0,[1,0],0],kl=[0,[2,0],0],H_=[0,[0,[0,[0,0]]]],H$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H_]]]]]]]]]]],Ia=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H$]]]]]]]]]]],Ib=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ia]]]]]]]]]]],Ic=[0,[0,0]],Id=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ic]]]]]]]]]]],Ie=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Id]]]]]]]]]]],If=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ie]]]]]]]]]]],Ig=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,If]]]]]]]]]]],Ih=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],Ii=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ih]]]]]]]]]]],Ij=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ii]]]]]]]]]]],Ik=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ij]]]]]]]]]]],Il=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ik]]]]]]]]]]],Im=[0,[0,0]],In=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Im]]]]]]]]]]],Io=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,In]]]]]]]]]]],Ip=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Io]]]]]]]]]]],Iq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ip]]]]]]]]]]],Ir=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Iq]]]]]]]]]]],Is=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ir]]]]]]]]]]],It=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Is]]]]]]]]]]],Iu=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],Iv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Iu]]]]]]]]]]],Iw=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Iv]]]]]]]]]]],Ix=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Iw]]]]]]]]]]],Iy=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ix]]]]]]]]]]],Iz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Iy]]]]]]]]]]],IA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Iz]]]]]]]]]]],IB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IA]]]]]]]]]]],IC=[0,0],ID=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IC]]]]]]]]]]],IE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,ID]]]]]]]]]]],IF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IE]]]]]]]]]]],IG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IF]]]]]]]]]]],IH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IG]]]]]]]]]]],II=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IH]]]]]]]]]]],IJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,II]]]]]]]]]]],IK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IJ]]]]]]]]]]],IL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IK]]]]]]]]]]],IM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IL]]]]]]]]]]],IN=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],IO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IN]]]]]]]]]]],IP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],IQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IP]]]]]]]]]]],IR=[0,[0,[0,[0,[0,0]]]]],IS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IR]]]]]]]]]]],IT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IS]]]]]]]]]]],IU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IT]]]]]]]]]]],IV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IU]]]]]]]]]]],IW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IV]]]]]]]]]]],IX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IW]]]]]]]]]]],IY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IX]]]]]]]]]]],IZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IY]]]]]]]]]]],I0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IZ]]]]]]]]]]],I1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,I0]]]]]]]]]]],I2=[0,0],I3=[0,[0,0]],I4=[0,0],I5=[0,[0,[0,[0,[0,0]]]]],dE=[0,[0,[0,0]]],dG=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],hB=[0,[0,[0,[0,0]]]],I6=[0,[0,[0,[0,[0,0]]]]],I7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,I6]]]]]]]]]]],I8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,I7]]]]]]]]]]],I9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,I8]]]]]]]]]]],I_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,I9]]]]]]]]]]];bO(11,[a7,a(qs),-12],qs);bO(10,[a7,a(rg),-11],rg);bO(9,[a7,a(r3),-10],r3);bO(8,[a7,a(qE),-9],qE);bO(7,[a7,a(ru),-8],ru);bO(6,[a7,a(qC),-7],qC);bO(5,[a7,a(q3),-6],q3);bO(4,[a7,a(q7),-5],q7);bO(3,ln,sc);bO(2,[a7,a(kS),-3],kS);bO(1,lo,q2);bO(0,[a7,a(rN),-1],rN);var
+sN=a("String.sub / Bytes.sub"),sP=a(af),sO=a("String.concat"),sQ=a("Array.init"),sR=a("power"),s_=[0,0],s$=[0,0],tf=[0,0,0],tg=[0,0,0],th=[0,0],tD=[0,0],tE=[0,0],tH=[0,0],t2=[0,0],t5=[0,0],t9=[0,0],t_=[0,0],t$=[0,0],ua=[0,0],uo=[0,0],up=[0,0],uS=[0,0],vg=[0,[0,[0,0]]],vH=[0,0],v8=[0,0],wu=[0,0],wF=a(","),wX=[0,a(kY),0],wY=a(ra),wZ=a("."),w0=[0,[0,[0,0]]],w1=a(e0),w2=a(kZ),w3=[0,[0,[0,[0,[0,0]]]]],w4=[0,a(kY),0],w5=a(sa),z8=a(qp),z_=a(qm),z9=a(rj),z$=a(eV),Aa=a(eT),Ab=a(k7),Ac=a(rX),Ad=a(qW),Ae=a(k1),Af=a(ro),Ag=a(qV),Bw=[0,[0,0,0]],BN=[0,0],Bx=a(f5),By=[0,0],Bz=a("divided"),BA=[0,1],BB=a("mirror"),BC=[0,3],BD=a("negative"),BE=[0,2],BF=a(f_),BG=[0,5],BH=a(k6),BI=[0,4],BJ=a(du),BK=a(qH),BL=a(eW),BM=a(bM),BO=[0,0],BP=[0,0],BQ=[0,0],BT=[0,[0,[0,0]]],BU=[0,[0,[0,0]]],Cj=[0,[0,[0,0]]],Cx=[0,0],CS=a(af),CK=[0,0],CM=[0,0],CL=[0,0],CN=[0,[0,[0,[0,0]]]],CO=[0,[0,[0,0]]],CP=[0,[0,[0,[0,0]]]],CQ=[0,[0,[0,0]]],CI=[0,[0,[0,0]]],CH=a(eW),CG=[0,0],CE=[0,1,0],CF=[0,[0,[0,0]]],CD=[0,0],CC=[0,0],CB=[0,0],Cy=[0,[0,0]],Cz=[0,[0,[0,0]]],Cv=[0,[0,0]],Cw=[0,[0,[0,0]]],Cu=[0,0],Cq=[0,[0,[0,0]]],Cp=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H5]]]]]]]]]],[0,0,[0,[0,[0,[0,0]]],0]]],Ck=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],[0,0,0]],Cl=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],[0,[0,[0,[0,[0,[0,[0,0]]]]]],0]],Cm=[0,[0,[0,[0,[0,[0,[0,0]]]]]],0],Cn=[0,[0,[0,[0,0]]],[0,0,0]],Ch=[0,0],Ci=[0,[0,0]],Cg=[0,0,0],Cf=[0,[0,[0,0]]],B$=[0,[0,0]],Ca=[0,[0,[0,0]]],Cb=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H6]]]]]]]]]]],Cc=[0,[0,0]],Cd=[0,[0,[0,0]]],B_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H7]]]]]]]]]]],B8=[0,[0,0]],B9=[0,[0,[0,0]]],B6=[0,[0,[0,0]]],B7=[0,[0,0]],B5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H9]]]]]]]]]]],B4=[0,0],B3=[0,0],B0=[0,[0,0]],B1=[0,0],BY=[0,0],BZ=[0,1],BW=[0,[0,0]],BX=[0,0],BV=[0,0],BR=[0,0],BS=[0,1],Bt=[0,0],Bu=[0,1],Bv=[0,2],Bp=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],Bn=[0,[0,0],0],Bo=[0,[1,0],0],Bq=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],Bl=[0,[0,0]],Bm=[0,0],Bk=[0,0],Bj=[0,0],Bi=[0,0],Bh=[0,0],Bg=[0,0,0],Be=[0,[0,0]],Bf=[0,0],Bd=[0,0,0],Bb=[0,[0,[0,0]]],Bc=[0,[0,[0,0]]],Ba=[0,0],A_=[0,1,0],A3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ib]]]]]]]]]]],A4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ig]]]]]]]]]]],AZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Il]]]]]]]]]]],A0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,It]]]]]]]]]]],A1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IB]]]]]]]]]]],A2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IM]]]]]]]]]]],A5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IO]]]]]]]]]]],A6=a("sqrt"),AX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IQ]]]]]]]]]]],AY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,I1]]]]]]]]]]],AM=[0,a("\n"),0],AN=a(qn),AO=a(h6),AP=a(rf),AQ=a(q0),AW=a(gb),AR=a(f9),AS=a("verdict"),AT=a(rO),AU=a(qS),AV=a(re),AJ=a(q_),AK=a(rS),AL=a(h8),AF=a(rq),AG=a(h9),AH=a(f9),AI=a(gb),AA=a(ig),AB=a(bw),AC=a(qo),AD=a(ic),Ax=a(rM),Ay=a(f_),Az=a(ic),At=a(rt),Au=a(ig),Av=a(h9),Aw=a(r1),Ai=a(rT),Aj=a(rW),Ak=a(ib),Al=a(h$),Am=a(r7),An=a(rI),Ao=a(rL),Ap=a(rx),Aq=a(ib),Ar=a(rA),z6=a(h4),z7=a(ga),z1=a(bN),z2=a(bL),z3=a(qU),zB=a(h$),zC=a(rw),zf=a(bw),zg=a(b7),zh=a(ii),zi=a(eZ),zj=a(co),zo=a(kL),zk=a(k0),zl=a(k3),zm=a(eU),zn=a(bw),zp=a(b7),zq=a(ii),zr=a(eZ),zs=a(k0),zt=a(k3),zu=a(eU),zv=a(bw),zw=a(b7),zx=a(bN),zy=a(bL),zz=a(d5),zA=a(eZ),zD=a(rG),zE=a(rV),zF=a(ij),zG=a(qI),zH=a(qN),zI=a(eU),zJ=a(bw),zK=a(b7),zL=a(h2),zM=a(qY),zN=a(eZ),zO=a(gg),zP=a(qw),zQ=a(eU),zR=a(bw),zS=a(h2),zT=a(bw),zU=a(rz),zX=a(ql),zV=a(qL),zW=a(r0),zY=a(gb),zZ=a(f9),z0=a(bw),z4=a(ij),z5=a(h8),za=a(b7),zb=a(eZ),zc=a(kL),zd=a(eU),y$=a(r9),yZ=a(gg),y0=a(rP),y1=a(d6),y2=a(eX),y3=a(eX),y4=a(kO),y5=a(d6),y6=a(rh),y7=a(qT),y8=a(bl),y_=a(qr),y9=a(kO),yP=a(q9),yQ=a(sb),yR=a(qP),yS=a(qM),yT=a(rZ),yU=a(rK),yV=a(q1),yW=a(h3),yX=a(h3),yL=a(bl),yM=a(bK),yN=a(e1),yO=a(bv),yH=a(co),yI=a(kV),yJ=a(rr),yE=a(bN),yF=a(bL),yG=a(d5),yx=a(bN),yy=a(bL),yz=a(d5),yA=a(kX),yB=a(d6),yC=a(kT),yD=a(rF),yf=a(qK),yl=a(h6),yk=a(k5),yg=a(kP),yh=a(f7),ym=a(f8),yo=a(f8),yp=a(rD),yq=a(kP),yn=a(f7),yr=a(qG),ys=a(rC),yt=a(f7),yu=a(r8),yv=a(k5),yw=a(f7),yi=a(eX),yj=a(rm),yc=a(ia),yd=a(ia),ye=a(ia),x_=a(rH),x$=a(bL),ya=a(bN),yb=a(rY),xT=a(qA),xU=a(qq),xV=a(rv),xW=a(eV),xX=a(r_),xY=a(ry),xZ=a(qB),x0=a(rn),x1=a(qz),x2=a(qX),x3=a(qy),x4=a(rJ),x5=a(eT),x6=a(qv),x7=a(rR),x8=a(qO),x9=a(r$),xu=a(id),xw=a(e0),xv=a(f6),xx=a(eS),xy=a(bl),xz=a(bK),xA=a(bM),xB=a(gc),xC=a(bv),xD=a(ge),xE=a(bl),xF=a(bK),xG=a(e1),xH=a(bv),xI=a(bM),xJ=a(co),xK=a(bv),xL=a(eS),xM=a(gf),xN=a(bl),xO=a(bK),xP=a(rl),xQ=a(f8),xR=a(gf),xS=a(bv),xc=a(id),xk=a(e0),xd=a(f6),xe=a(eS),xf=a(bl),xg=a(bK),xh=a(bM),xi=a(gc),xj=a(bv),xl=a(ge),xm=a(bl),xn=a(bK),xo=a(e1),xp=a(bv),xq=a(bM),xr=a(co),xs=a(bv),w$=a(bN),xa=a(bL),w9=[0,a(aR),0],w_=a(aR),w7=a(af),w6=[0,a(aR),0],w8=a(aR),wT=a(id),wU=a(e0),wV=a("*"),wW=a(b8),wO=[0,[0,[0,[0,[0,0]]]]],wP=[0,[0,[0,0]]],wQ=[0,[0,0]],wR=[0,0],wS=[0,[0,[0,[0,0]]]],wM=a('":'),wN=a(aR),wK=[0,a(aR),0],wL=a(aR),wI=[0,a("}"),0],wJ=a("{"),wG=[0,a("]"),0],wH=a("["),wE=[0,[0,[0,0]]],wD=[0,[0,[0,0]]],wB=[0,0],wy=[0,[0,[0,0]]],wz=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],wA=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],ww=[0,[0,0]],wx=[0,[0,[0,0]]],wv=[0,0],ws=[0,0],wt=[0,[0,0]],wp=[0,0],wq=[0,[0,0]],wr=[0,0],wk=[0,[0,0]],wl=[0,0],wm=[0,[0,[0,0]]],wn=[0,[0,[0,0]]],wj=[0,[0,[0,0]]],wi=[0,[0,[0,0]]],wh=[0,0],we=[0,[0,[0,0]]],wg=[0,[0,[0,0]]],wf=[0,0],wc=[0,[0,0]],wd=[0,0],wa=[0,[0,0]],wb=[0,0],v$=[0,[0,[0,0]]],v9=[0,[0,0]],v_=[0,0],v6=[0,0],v7=[0,[0,0]],v0=[0,[0,0]],v1=[0,[0,[0,[0,[0,0]]]]],v2=[0,[0,[0,[0,0]]]],v3=[0,[0,[0,0]]],v4=[0,[0,0]],v5=[0,0],vX=[0,0],vY=[0,[0,0]],vZ=[0,0],vW=[0,0],vS=[0,0],vT=[0,[0,[0,[0,[0,[0,0]]]]]],vU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,I2]]]]]]]]]]],vQ=[0,0],vL=[0,0,0],vM=[0,0,0],vN=[0,0,0],vI=[0,[0,0]],vJ=[0,[0,[0,0]]],vK=[0,0],vx=[0,[0,[0,[0,[0,[0,0]]]]]],vy=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],vz=[0,[0,[0,0]]],vA=[0,[0,[0,0]]],vB=[0,[0,[0,[0,[0,[0,0]]]]]],vC=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],vD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,I3]]]]]]]]]]],vE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,I4]]]]]]]]]]],vF=[0,[0,[0,0]]],vG=[0,[0,[0,[0,[0,[0,0]]]]]],vt=[0,0,0],vu=[0,0,0],vp=[0,0,0],vq=[0,0,0],vr=[0,0,0],vs=[0,0,0],vo=[0,0],vn=[0,0],vm=[0,0],vk=[0,0],vl=[0,0],vj=[0,0],vh=[0,0],vi=[0,0],u$=[0,0],va=[0,0],vb=[0,0],vc=[0,[0,[0,0]]],u_=[0,0],u4=[0,0],u5=[0,0],u6=[0,[0,0]],u2=[0,[0,0]],u3=[0,[0,[0,0]]],u0=[0,[0,[0,0]]],u1=[0,[0,0]],uY=[0,[0,0]],uZ=[0,[0,[0,0]]],uX=[0,0],uV=[0,0],uW=[0,0],uT=[0,0,0],uQ=[0,[0,0]],uR=[0,0],uI=[0,[0,0]],uJ=[0,0],uK=[0,[0,0]],uL=[0,0],uM=[0,[0,0]],uN=[0,0],uO=[0,[0,0]],uP=[0,0],uG=[0,[0,0]],uH=[0,0],uE=[0,[0,0]],uF=[0,0],uA=[0,[0,0]],uB=[0,0],uC=[0,0],uD=[0,[0,0]],ur=[0,[0,0]],us=[0,0],ut=[0,[0,0]],uu=[0,0],uv=[0,0],uw=[0,[0,0]],ux=[0,[0,0]],uy=[0,[0,0]],uz=[0,0],un=[0,0],um=[0,0],uj=[0,0],uk=[0,[0,0]],ui=[0,[0,[0,0]]],uh=[0,[0,[0,[0,[0,[0,0]]]]]],uf=[0,[0,0]],ug=[0,0],ue=[0,[0,0]],ud=[0,0],ub=[0,0],uc=[0,[0,[0,0]]],t7=[0,[0,0]],t8=[0,[0,[0,0]]],t6=[0,[0,[0,0]]],t3=[0,[0,[0,0]]],t1=[0,[0,[0,0]]],tZ=[0,[0,[0,[0,[0,[0,0]]]]]],t0=[0,[0,[0,[0,[0,[0,0]]]]]],tU=[0,[0,0]],tV=[0,0],tW=[0,[0,0]],tX=[0,[0,[0,0]]],tY=[0,[0,[0,0]]],tN=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],tO=[0,[0,[0,[0,[0,[0,0]]]]]],tP=[0,[0,[0,[0,[0,[0,0]]]]]],tQ=[0,[0,[0,0]]],tR=[0,[0,[0,[0,[0,[0,0]]]]]],tS=[0,[0,[0,0]]],tT=[0,[0,[0,0]]],tL=[0,[0,0]],tM=[0,0],tK=[0,0,0],tJ=[0,0,0],tI=[0,0,0],tG=[0,0,0],tF=[0,[0,[0,0]]],tz=[0,0],tA=[0,0],tB=[0,0],tC=[0,0],tx=[0,0],ty=[0,0],tt=[0,[0,[0,0]]],tu=[0,[0,[0,0]]],tv=[0,[0,[0,0]]],ts=[0,[0,[0,[0,0]]]],to=[0,[0,[0,0]]],tp=[0,[0,[0,0]]],tq=[0,[0,[0,0]]],tr=[0,[0,1,1],[0,[0,0,1],[0,[0,1,0],[0,[0,0,0],0]]]],tm=[0,[0,0]],tn=[0,0],tk=[0,[0,0]],tl=[0,0],ti=[0,[0,0]],tj=[0,0],s7=[0,0],s8=[0,[0,0]],s5=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],s6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,I5]]]]]]]]]]],s3=[0,0,0],s2=a(r5),s1=a(af),s0=[0,[0,0]],sY=[0,0],sV=[0,0],sX=[1,0],sW=[0,0],sU=[0,0],sS=[1,0],sT=[1,0],ul=[10,0,0,0,0],CA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,I_]]]]]]]]]]],F8=a(bN),F9=a(bL),F_=a(qU),F0=a(ge),F1=[0,a("a base axis of such a platform"),0],F2=a(bl),F3=a(bK),FN=a(rK),FO=a(q9),FP=a(rZ),FQ=a(h3),FR=a(q1),FS=a(h3),FT=a(sb),FU=a(qP),FV=a(qM),FB=a(rw),FC=a(h$),Fd=[0,a("such a machine with bodies"),0],E2=a(h8),E3=a(bw),E4=a(rz),E5=a(r0),E8=a(qL),E9=a(ql),E_=a(bw),E$=a(bw),Fb=a(h2),Fa=[0,a("a claim that no cube of such a machine fits"),0],Fc=a(r9),Fe=a(eU),Ff=a(eZ),Fg=a(co),Fh=a(kV),Fi=a(rr),Fj=a(ii),Fk=a(qN),Fl=a(qw),Fm=a(kL),Fp=a(d5),Fq=a(rF),Ft=a(b7),Fu=a(b7),Fv=a(qY),Fw=a(b7),Fx=[0,a("the closed design with other bounds on psi than one from below and one from above"),0],Fy=a(h2),Fz=a(gg),FA=a(d5),FD=a(rV),FE=a(rG),FF=[0,a(" operations, with its definitions written out,"),0],FG=a("a mechanism of more than "),FH=a(b7),FI=a(bN),FJ=a(bL),FK=a(ij),FL=a(qI),Fn=[0,a(aR),0],Fo=a('the mechanism "'),FM=a(k0),FW=a(ii),FX=a(co),FY=a(kV),FZ=a(k3),F4=a(b7),F7=a(co),F5=[0,a("a platform that turns on struts and other drives"),0],F6=a(b7),Fr=[0,a(aR),0],Fs=a('the workspace "'),F$=a(bw),Ga=a(bw),Gc=a(gb),Gd=a(f9),Ge=a(ij),Gb=[0,a("an atlas of such a machine"),0],E6=[0,a(aR),0],E7=a('a claim of the kind "'),Gs=a(k7),Gt=a(du),Gu=a(eW),Gv=a(k1),Gw=a(f5),Gx=[0,a('this evidence "fan"'),0],Gj=a(du),GH=a(ga),GI=[0,1,1],Gk=a(ro),Gy=a(eT),Gz=a(qV),GA=a(eV),GB=a(qW),GC=a(rj),GD=a(bM),GE=a(ga),GF=a(h4),GG=a(bM),Gl=a(k7),Gm=a(du),Gn=a(qH),Go=a(eW),Gp=a(k1),Gq=[0,a(aR),0],Gr=a('the evidence "'),GJ=a(eT),GK=a(eV),GL=a(du),GM=a(eW),GN=a(rX),GP=a(eT),GQ=a(eV),GR=a(du),GS=a(eW),GT=a(f_),GU=a(f5),GV=a(f_),GW=a(f5),GO=[0,a("this evidence at control points"),0],HY=a('"orthocert-paving/'),HP=a(du),HQ=a(du),HC=a(re),HD=a(qS),HE=a(rO),HW=[0,3,3],HF=a(q0),HN=[0,a("this set of orientations with such drives"),0],HR=[0,a('this evidence "tolerances" of a platform that turns'),0],HS=[0,a("a step of a platform that turns that is not at control points"),0],HT=[0,a("this quantity in a claim that is refuted"),0],HU=[0,a("a step in a proof that no cube fits"),0],HV=[0,a('the failure "same" of such a mechanism'),0],HO=[0,a('"accuracy" of such a mechanism'),0],HG=[0,a("the acceleration of a joint of a machine with a plane"),0],HL=[0,a("a stiffness for each joint in such a claim"),0],HM=[0,a(rB),0],HK=[0,a(rB),0],HH=a(rf),HI=a(qn),HJ=a(h6),Hy=a(k6),Hz=a(f5),HA=a(bM),Hq=a(h8),Hr=a(q_),Hs=a(rS),Ht=[0,a(aR),0],Hu=a('a proof of the kind "'),Hm=a(f9),Hn=a(gb),Ho=a(h9),Hp=a(rq),Hi=a(bw),Hj=a(ig),Hk=a(qo),Hl=a(ic),Hf=a(rM),Hg=a(f_),Hh=a(ic),Hb=a(rt),Hc=a(ig),Hd=a(h9),He=a(r1),GZ=a(rW),G0=a(ib),G1=a(rT),G2=a(h$),G3=a(rA),G4=a(r7),G7=a(rI),G8=a(h4),G9=a(ga),G_=a(rL),G$=a(rx),Ha=a(ib),G5=[0,a(aR),0],G6=a('the failure "'),GX=a(k6),GY=a(r5),Gh=a(ga),Gi=a(h4),Gf=a(qm),Gg=a(qp),EZ=a(gg),EP=a(kO),EQ=a(qr),ER=a(eX),ES=a(bl),EX=a(rP),EY=a(gg),E0=a(d6),E1=a(eX),ET=a(d6),EU=a(rh),EV=a(qT),EW=a(bl),EI=a(d5),EM=a(bN),EN=a(bL),EJ=a(kT),EK=a(kX),EL=a(d6),EC=a(d5),EG=a(bN),EH=a(bL),ED=a(kT),EE=a(kX),EF=a(d6),EB=[0,1],EA=[0,1],Ey=[0,1],Ew=[0,1],Ev=[0,1],Et=[0,1],Eu=[0,a("this quantity of such a mechanism"),0],Ec=a(kP),Ed=a(rC),Ee=a(qG),Ef=a(k5),Eg=a(r8),Ei=a(rD),Eh=a(f8),Eb=a(h6),D5=a(ia),DT=a(rm),DU=a(rv),El=a(eT),Em=a(rR),En=a(qX),Eo=a(eV),Ep=a(rn),Eq=a(qy),Er=a(qz),Es=a(qq),DV=a(qv),DW=a(r$),DX=a(rJ),DY=a(ry),DZ=a(qO),D0=a(r_),D1=a(qB),D2=a(qA),D3=[0,a(aR),0],D4=a('the quantity "'),D6=a(qK),D7=a(rH),D8=a(bN),D9=a(bL),D_=a(rY),D$=[0,a(aR),0],Ea=a('a bound "'),Ej=a(f7),Ek=a(eX),DR=a(bv),DS=a(e1),DP=a(bv),DQ=a(co),DM=a(bv),DN=a(gc),Do=a(bv),Dp=a(ge),Dq=a(gf),Dr=a(co),Ds=a(gc),Dt=a(e1),Dw=a(bl),Dx=a(bK),Dy=a(f6),Dz=a(eS),DA=a(bl),DB=a(bK),DC=a(bM),DD=a(bM),DE=a(f6),DF=a(eS),DG=a(gf),DH=a(bl),DI=a(bK),DJ=a(rl),DK=a(f8),Du=[0,a('" of such a machine'),0],Dv=a(qF),Dm=a(bv),Dn=a(gf),C8=a(bv),C9=a(co),C_=a(gc),C$=a(e1),Dc=a(ge),Dd=a(bl),De=a(bK),Df=a(f6),Dg=a(eS),Dh=a(bl),Di=a(bK),Dj=a(bM),Dk=a(bM),Da=[0,a(aR),0],Db=a(qF),C5=a(id),C6=a(e0),C3=a(" is not covered by the verified checker"),C4=a(af),C1=a(bN),C2=a(bL),CX=a(af),CY=a(sa),CZ=a(af),C0=a(af),CW=[1,0],CV=a(e0),CT=a("Reader.Malformed"),CU=a("Reader.Not_covered"),H0=[0,a("a paving is checked by orthocert-verified")],HZ=a(rp),H1=a("CERTIFIED"),H2=a("REFUTED"),H3=a(rp),H4=a("NOT COVERED: ");function
+gm(a){throw[0,ln,a]}function
+lp(b,a){return Jy(b,a)?b:a}function
 be(d,c){var
-a=az(d),e=az(c),b=cs(a+e|0);e3(d,0,b,0,a);e3(c,0,b,a,e);return is(b)}Jv(0);sr(1);sr(2);function
-ln(b){function
+a=az(d),e=az(c),b=cs(a+e|0);e3(d,0,b,0,a);e3(c,0,b,a,e);return is(b)}function
+lq(a,b){if(a){var
+c=a[1];return[0,c,lq(a[2],b)]}return b}JC(0);sx(1);sx(2);function
+lr(b){function
 a(b){var
 a=b;for(;;){if(a){var
-c=a[2],d=a[1];try{Ju(d)}catch(a){a=sB(a);if(a[1]!==lm)throw a;var
+c=a[2],d=a[1];try{JB(d)}catch(a){a=sG(a);if(a[1]!==lo)throw a;var
 e=a}var
-a=c;continue}return 0}}return a(Jw(0))}JD(a(qn),ln);function
+a=c;continue}return 0}}return a(JD(0))}JK(a(qt),lr);function
 cu(c){var
 b=0,a=c;for(;;){if(a){var
 b=b+1|0,a=a[2];continue}return b}}function
-lo(d){var
-a=d,b=0;for(;;){if(a){var
-c=[0,a[1],b],a=a[2],b=c;continue}return b}}function
-_(b,a){if(a){var
-c=a[2],d=k(b,a[1]);return[0,d,_(b,c)]}return 0}function
+ls(d,c){var
+a=d,b=c;for(;;){if(a){var
+e=[0,a[1],b],a=a[2],b=e;continue}return b}}function
+iv(a){return ls(a,0)}function
+X(b,a){if(a){var
+c=a[2],d=k(b,a[1]);return[0,d,X(b,c)]}return 0}function
+lt(e,d,c){var
+b=d,a=c;for(;;){if(a){var
+f=a[2],b=ao(e,b,a[1]),a=f;continue}return b}}function
 gn(d,c){var
 a=c;for(;;){if(a){var
 e=a[2],b=k(d,a[1]);if(b){var
@@ -729,52 +736,56 @@ aM(d,c){var
 a=c;for(;;){if(a){var
 e=a[2],b=k(d,a[1]);if(b)return b;var
 a=e;continue}return 0}}function
+lu(d,c){var
+a=c;for(;;){if(a){var
+b=a[1],e=a[2],f=b[2];if(0===Jj(b[1],d))return[0,f];var
+a=e;continue}return 0}}function
 bP(b,c){var
-a=cs(b);Je(a,0,b,c);return is(a)}function
+a=cs(b);Jl(a,0,b,c);return is(a)}function
 ea(g,b,a){var
 d=e4(g),f=0;if(0<=b&&0<=a&&!((iq(d)-a|0)<b)){var
 c=cs(a);gh(d,b,c,0,a);var
 e=c;f=1}if(!f)var
-e=gm(sI);return is(e)}function
-lp(k,g){if(g){var
+e=gm(sN);return is(e)}function
+lv(k,g){if(g){var
 h=az(k),c=0,b=g,p=0;for(;;){if(b){var
 i=b[1];if(b[2]){var
-j=(az(i)+h|0)+c|0,m=b[2],n=c<=j?j:gm(sJ),c=n,b=m;continue}var
+j=(az(i)+h|0)+c|0,m=b[2],n=c<=j?j:gm(sO),c=n,b=m;continue}var
 l=az(i)+c|0}else
 var
 l=c;var
 f=cs(l),e=p,d=g;for(;;){if(d){var
 a=d[1];if(d[2]){var
 o=d[2];e3(a,0,f,e,az(a));e3(k,0,f,e+az(a)|0,h);var
-e=(e+az(a)|0)+h|0,d=o;continue}e3(a,0,f,e,az(a))}return is(f)}}}return sK}function
-iu(b,c){if(0===b)return[0];if(0<=b){var
-d=Jt(b,k(c,0)),e=b-1|0,f=1;if(!(e<1)){var
+e=(e+az(a)|0)+h|0,d=o;continue}e3(a,0,f,e,az(a))}return is(f)}}}return sP}function
+iw(b,c){if(0===b)return[0];if(0<=b){var
+d=JA(b,k(c,0)),e=b-1|0,f=1;if(!(e<1)){var
 a=f;for(;;){d[1+a]=k(c,a);var
 g=a+1|0;if(e!==a){var
-a=g;continue}break}}return d}return gm(sL)}function
-iv(c){var
+a=g;continue}break}}return d}return gm(sQ)}function
+ix(c){var
 a=c.length-1-1|0,b=0;for(;;){if(0<=a){var
 d=[0,c[1+a],b],a=a-1|0,b=d;continue}return b}}var
 d=aI(0),b=aI(1);function
 q(a){return E(a,b)}function
-lq(b,a){return E(aI(b),a)}function
+lw(b,a){return E(aI(b),a)}function
 c(b,a){return C(aI(b),a)}function
-aT(b,a){return[0,li(b,a),sE(b,a)]}function
-iw(b,a){return D(b,a)?b:a}function
+aT(b,a){return[0,ll(b,a),sJ(b,a)]}function
+iy(b,a){return D(b,a)?b:a}function
 bm(b,a){return D(b,a)?a:b}function
 e9(a){return e9}function
 J(a){return a?0:1}function
 y(b,a){var
 c=a?[0,k(b,a[1])]:a;return c}function
 aA(a){return a[1]}function
-aO(a){return a[2]}function
+aN(a){return a[2]}function
 g(a){var
 b=a?[0,g(a[2])]:a;return b}function
 f(a,b){if(a){var
 c=f(a[2],b);return[0,a[1],c]}return b}function
-lr(a){return typeof
-a==="number"?0:[0,lr(a[1])]}function
-ls(d,c){var
+lx(a){return typeof
+a==="number"?0:[0,lx(a[1])]}function
+ly(d,c){var
 a=d,b=c;for(;;)if(typeof
 a==="number")return b;else
 switch(a[0]){case
@@ -797,9 +808,9 @@ a=a[1],b=[7,b];continue;case
 8:var
 a=a[1],b=[8,b];continue;default:var
 a=a[1],b=[9,b];continue}}function
-go(a){return ls(a,0)}function
-lt(a){if(typeof
-a==="number")return sN;else
+go(a){return ly(a,0)}function
+lz(a){if(typeof
+a==="number")return sS;else
 switch(a[0]){case
 0:return[1,a[1]];case
 1:return[2,a[1]];case
@@ -809,9 +820,9 @@ switch(a[0]){case
 5:return[6,a[1]];case
 6:return[7,a[1]];case
 7:return[8,a[1]];case
-8:return[9,a[1]];default:return[0,lt(a[1])]}}function
+8:return[9,a[1]];default:return[0,lz(a[1])]}}function
 bR(a){if(typeof
-a==="number")return sO;else
+a==="number")return sT;else
 switch(a[0]){case
 0:return[1,bQ(a[1])];case
 1:return[3,bQ(a[1])];case
@@ -836,7 +847,7 @@ switch(a[0]){case
 8:return[6,bR(a[1])];default:return[8,bR(a[1])]}}function
 bn(a){return a?a[1]:a}function
 M(b,a){return b?[0,M(b[1],a)]:a}function
-lu(a,b){return a?M(b,lu(a[1],b)):a}function
+lA(a,b){return a?M(b,lA(a[1],b)):a}function
 dx(d,c){var
 a=d,b=c;for(;;){if(a){if(b){var
 a=a[1],b=b[1];continue}return a}return a}}function
@@ -848,33 +859,33 @@ aa(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return 1}}function
 aJ(b,a){return aa([0,b],a)}function
-lv(c){var
+lB(c){var
 a=c;for(;;){if(a){var
 b=a[1];if(b){var
 a=b[1];continue}return b}return 1}}function
 gp(c,b,a){return c?k(b,gp(c[1],b,a)):a}function
-lw(a){if(a)var
-b=a[1],d=b?[0,lw(b[1])]:b,c=d;else
+lC(a){if(a)var
+b=a[1],d=b?[0,lC(b[1])]:b,c=d;else
 var
 c=a;return c}function
-ix(d,c){var
+iz(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return a?0:1}}function
-lx(a){if(D(a,b))return b;var
-e=aT(a,aI(2)),f=e[1];return L(e[2],d)?q(c(2,lx(f))):q(c(2,c(2,f)))}function
-ly(c,a){return bm(b,aL(c,a))}function
+lD(a){if(D(a,b))return b;var
+e=aT(a,aI(2)),f=e[1];return L(e[2],d)?q(c(2,lD(f))):q(c(2,c(2,f)))}function
+lE(c,a){return bm(b,aL(c,a))}function
 gq(a,i,h){var
 c=i,f=h;for(;;){if(D(f,b))return k(a,c);var
 g=aT(f,aI(2)),e=g[1];if(L(g[2],d)){var
 c=gq(a,c,e),f=e;continue}return k(a,gq(a,gq(a,c,e),e))}}function
 gr(a){function
 c(b){return C(a,b)}return function(a){return gq(c,b,a)}}function
-gs(a){if(D(a,b))return sQ;var
+gs(a){if(D(a,b))return sV;var
 c=aT(a,aI(2)),e=c[1];return L(c[2],d)?[0,gs(e)]:[0,gs(e)]}function
 gt(a){if(D(a,b))return b;var
 c=aT(a,aI(2)),e=c[1];return L(c[2],d)?q(gt(e)):q(gt(e))}function
-lz(c,b){var
-a=lh(c,b);return 0===a?0:0<=a?2:1}function
+lF(c,b){var
+a=lk(c,b);return 0===a?0:0<=a?2:1}function
 gu(j,i){var
 c=j,a=i;for(;;){if(D(c,b))return D(a,b)?1:L(aT(a,aI(2))[2],d)?0:0;var
 g=aT(c,aI(2)),h=g[1];if(L(g[2],d)){if(D(a,b))return 0;var
@@ -882,7 +893,7 @@ e=aT(a,aI(2)),k=e[1];if(L(e[2],d)){var
 c=h,a=k;continue}return 0}if(D(a,b))return 0;var
 f=aT(a,aI(2)),l=f[1];if(L(f[2],d))return 0;var
 c=h,a=l;continue}}function
-gv(b,a){return 2<=lz(b,a)?0:1}function
+gv(b,a){return 2<=lF(b,a)?0:1}function
 eb(i,e,a){if(i){var
 f=i[1];if(D(e,b))return[0,b,[0,b,a]];var
 w=aT(e,aI(2)),g=w[1];if(L(w[2],d)){if(D(a,b))return[0,b,[0,e,b]];var
@@ -890,19 +901,19 @@ m=aT(a,aI(2)),A=m[1];if(L(m[2],d)){var
 j=eb(f,g,A),x=j[2];return[0,c(2,j[1]),x]}var
 k=eb(f,g,a),l=k[2],y=l[2],z=[0,c(2,l[1]),y];return[0,k[1],z]}if(D(a,b))return[0,b,[0,e,b]];var
 v=aT(a,aI(2)),h=v[1];if(L(v[2],d)){var
-n=eb(f,e,h),o=n[2],B=c(2,o[2]);return[0,n[1],[0,o[1],B]]}switch(lz(g,h)){case
+n=eb(f,e,h),o=n[2],B=c(2,o[2]);return[0,n[1],[0,o[1],B]]}switch(lF(g,h)){case
 0:return[0,e,[0,b,b]];case
 1:var
-p=eb(f,ly(h,g),e),q=p[2],r=q[2],C=[0,r,E(r,c(2,q[1]))];return[0,p[1],C];default:var
-s=eb(f,ly(g,h),a),t=s[2],u=t[2],F=[0,E(u,c(2,t[1])),u];return[0,s[1],F]}}return[0,b,[0,e,a]]}function
+p=eb(f,lE(h,g),e),q=p[2],r=q[2],C=[0,r,E(r,c(2,q[1]))];return[0,p[1],C];default:var
+s=eb(f,lE(g,h),a),t=s[2],u=t[2],F=[0,E(u,c(2,t[1])),u];return[0,s[1],F]}}return[0,b,[0,e,a]]}function
 gw(b,a){var
 c=gs(a);return eb(M(gs(b),c),b,a)}function
-lA(c,i,h){var
+lG(c,i,h){var
 e=i,a=h;for(;;){if(D(e,b))return a;var
 f=aT(e,aI(2)),g=f[1];if(L(f[2],d)){var
-e=g,a=ar(c,a,a);continue}return ar(c,a,lA(c,g,ar(c,a,a)))}}function
-e_(a){return lA(M,a,sR)}function
-lB(a){return a?q(lB(a[1])):b}function
+e=g,a=ao(c,a,a);continue}return ao(c,a,lG(c,g,ao(c,a,a)))}}function
+e_(a){return lG(M,a,sW)}function
+lH(a){return a?q(lH(a[1])):b}function
 cw(f,e){var
 a=f,d=e;for(;;)if(typeof
 a==="number")return d;else
@@ -926,23 +937,23 @@ t=C(c(2,q(c(2,c(2,b)))),d),u=E(q(c(2,q(c(2,b)))),t),a=a[1],d=u;continue;case
 8:var
 v=C(c(2,q(c(2,c(2,b)))),d),w=E(c(2,c(2,c(2,b))),v),a=a[1],d=w;continue;default:var
 x=C(c(2,q(c(2,c(2,b)))),d),y=E(q(c(2,c(2,c(2,b)))),x),a=a[1],d=y;continue}}function
-iy(a){if(D(a,b))return sS;var
-c=aT(a,aI(2)),e=c[1];return L(c[2],d)?bQ(iy(e)):bR(iy(e))}function
-gx(a){return go(iy(a))}function
-lC(c,b){var
-a=lh(c,b);return 0===a?0:0<=a?2:1}function
-iz(b,a){return 1===lC(b,a)?1:0}var
-lD=E,sU=T;function
+iA(a){if(D(a,b))return sX;var
+c=aT(a,aI(2)),e=c[1];return L(c[2],d)?bQ(iA(e)):bR(iA(e))}function
+gx(a){return go(iA(a))}function
+lI(c,b){var
+a=lk(c,b);return 0===a?0:0<=a?2:1}function
+iB(b,a){return 1===lI(b,a)?1:0}var
+lJ=E,sZ=T;function
 b_(k,f){if(0<=aS(f)){var
-g=lj(f);if(0<=g){var
+g=iu(f);if(0<=g){var
 e=b,c=k,a=g;for(;;){if(0===a)return e;var
-h=a>>>1|0,i=C(c,c),j=1===(a&1)?C(e,c):e,e=j,c=i,a=h;continue}}return gm(sM)}return d}function
-iA(c){var
+h=a>>>1|0,i=C(c,c),j=1===(a&1)?C(e,c):e,e=j,c=i,a=h;continue}}return gm(sR)}return d}function
+iC(c){var
 a=aS(c);return 0===a?d:0<a?b:T(b)}function
-iB(a){return 0<=aS(a)?a:d}function
+iD(a){return 0<=aS(a)?a:d}function
 ec(a){var
 c=aS(a);return 0===c?b:0<c?a:b}function
-lE(m){var
+lK(m){var
 a=m;for(;;)if(typeof
 a==="number")return d;else
 switch(a[0]){case
@@ -965,15 +976,15 @@ j=q(c(2,q(c(2,b))));return cw(a[1],j);case
 k=c(2,c(2,c(2,b)));return cw(a[1],k);default:var
 l=q(c(2,c(2,c(2,b))));return cw(a[1],l)}}function
 cx(b,a){var
-c=aS(a);return 0===c?d:1===c?li(b,a):lq(-1,li(lq(-1,b),a))}function
-lF(a){var
+c=aS(a);return 0===c?d:1===c?ll(b,a):lw(-1,ll(lw(-1,b),a))}function
+lL(a){var
 f=aS(a);if(0===f)return d;if(0<f){if(D(a,b))return d;var
 c=aT(a,aI(2)),e=c[1];return L(c[2],d)?gt(e):gt(e)}return d}function
-gy(a){return 0<aS(a)?JN(a):d}function
+gy(a){return 0<aS(a)?JU(a):d}function
 e$(b,c){var
-a=lj(c);return 0<=a?sF(b,a):sG(b,-a|0)}function
+a=iu(c);return 0<=a?sK(b,a):sL(b,-a|0)}function
 dy(b,c){var
-a=lj(c);return 0<=a?sG(b,a):sF(b,-a|0)}function
+a=iu(c);return 0<=a?sL(b,a):sK(b,-a|0)}function
 bS(b,a){return a?a[1]:b}function
 bC(a){var
 b=a?a[2]:a;return b}function
@@ -984,16 +995,16 @@ F(d,c){var
 a=d,b=c;for(;;){if(b){if(a){var
 a=a[2],b=b[1];continue}return a}var
 e=a?[0,a[1]]:a;return e}}function
-lG(a){if(a){var
-b=[0,a[1],0];return f(lG(a[2]),b)}return a}function
+lM(a){if(a){var
+b=[0,a[1],0];return f(lM(a[2]),b)}return a}function
 fa(d,c){var
 a=d,b=c;for(;;){if(a){var
 e=[0,a[1],b],a=a[2],b=e;continue}return b}}function
 ed(a){if(a){var
 b=ed(a[2]);return f(a[1],b)}return a}function
-iC(g,f,e){var
+iE(g,f,e){var
 b=f,a=e;for(;;){if(b){if(a){var
-c=ar(g,b[1],a[1]);if(c){var
+c=ao(g,b[1],a[1]);if(c){var
 b=b[2],a=a[2];continue}var
 d=c}else
 var
@@ -1006,9 +1017,9 @@ z(b,a){if(a){var
 c=z(b,a[2]);return f(k(b,a[1]),c)}return a}function
 bT(e,d,c){var
 a=d,b=c;for(;;){if(a){var
-f=ar(e,b,a[1]),a=a[2],b=f;continue}return b}}function
-ao(c,b,a){if(a){var
-d=ao(c,b,a[2]);return ar(c,a[1],d)}return b}function
+f=ao(e,b,a[1]),a=a[2],b=f;continue}return b}}function
+ap(c,b,a){if(a){var
+d=ap(c,b,a[2]);return ao(c,a[1],d)}return b}function
 aj(e,d){var
 a=d;for(;;){if(a){var
 b=k(e,a[1]);if(!b){var
@@ -1024,7 +1035,7 @@ a1(b,e){var
 a=e;for(;;){if(a){var
 c=a[2],d=a[1];if(k(b,d))return[0,d,a1(b,c)];var
 a=c;continue}return a}}function
-lH(d,c){var
+lN(d,c){var
 a=c;for(;;){if(a){var
 b=a[1];if(k(d,b))return[0,b];var
 a=a[2];continue}return a}}function
@@ -1047,15 +1058,15 @@ aC(b,a){var
 c=a?[0,b,aC([0,b],a[1])]:a;return c}function
 ab(b,a){var
 c=a?[0,b,ab(b,a[1])]:a;return c}function
-lI(a){return ao(M,0,a)}function
-lJ(a){if(a){var
-e=lJ(a[2]),f=C(c(2,b),e),g=a[1]?b:d;return E(g,f)}return d}function
+lO(a){return ap(M,0,a)}function
+lP(a){if(a){var
+e=lP(a[2]),f=C(c(2,b),e),g=a[1]?b:d;return E(g,f)}return d}function
 gz(j){function
 a(a){return 0!==(j&1<<a)?1:0}var
-c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=lJ([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<aS(b)?e_(b):0}function
-lK(a){return[0,a,b]}function
+c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=lP([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<aS(b)?e_(b):0}function
+lQ(a){return[0,a,b]}function
 ee(c,b){var
-a=lh(C(c[1],b[2]),C(b[1],c[2])),d=0===a?0:0<=a?2:1;return d?0:1}function
+a=lk(C(c[1],b[2]),C(b[1],c[2])),d=0===a?0:0<=a?2:1;return d?0:1}function
 bf(b,a){return D(C(b[1],a[2]),C(a[1],b[2]))}function
 dz(b,a){return[0,E(C(b[1],a[2]),C(a[1],b[2])),C(b[2],a[2])]}function
 a3(b,a){return[0,C(b[1],a[1]),C(b[2],a[2])]}function
@@ -1065,23 +1076,23 @@ gB(f,c){var
 a=c[1],e=aS(a),g=0===e?[0,d,b]:0<e?[0,c[2],a]:[0,T(c[2]),T(a)];return a3(f,g)}function
 dB(q){var
 a=q[2],b=q[1],o=aS(b);if(0===o)var
-c=[0,ct(a),[0,d,iA(a)]];else
+c=[0,ct(a),[0,d,iC(a)]];else
 if(0<o){var
 n=aS(a);if(0===n)var
-c=[0,ct(b),[0,iA(b),d]];else
+c=[0,ct(b),[0,iC(b),d]];else
 if(0<n)var
 l=gw(b,a),m=l[2],c=[0,l[1],[0,m[1],m[2]]];else
 var
 j=gw(b,T(a)),k=j[2],c=[0,j[1],[0,k[1],T(k[2])]]}else{var
 p=T(b),i=aS(a);if(0===i)var
-c=[0,ct(b),[0,iA(b),d]];else
+c=[0,ct(b),[0,iC(b),d]];else
 if(0<i)var
 g=gw(p,a),h=g[2],c=[0,g[1],[0,T(h[1]),h[2]]];else
 var
 e=gw(p,T(a)),f=e[2],c=[0,e[1],[0,T(f[1]),T(f[2])]]}var
 r=c[2],s=ec(r[2]);return[0,r[1],s]}function
 bo(a){if(typeof
-a==="number")return sW;else
+a==="number")return s1;else
 switch(a[0]){case
 0:var
 b=bo(a[1]);return be(bP(1,48),b);case
@@ -1103,40 +1114,40 @@ i=bo(a[1]);return be(bP(1,55),i);case
 j=bo(a[1]);return be(bP(1,56),j);default:var
 k=bo(a[1]);return be(bP(1,57),k)}}function
 fb(a){return typeof
-a==="number"?sX:bo(a)}function
+a==="number"?s2:bo(a)}function
 cy(a){return b_(c(2,b),a)}function
-lL(b,a){return dy(a,b)}function
-lM(b,a){return T(dy(T(a),b))}function
+lR(b,a){return dy(a,b)}function
+lS(b,a){return T(dy(T(a),b))}function
 gC(b,a){return T(cx(T(b),a))}function
 O(c,b){var
 a=e$(b,c);return[0,a,a]}function
-lN(d,c,a){var
+lT(d,c,a){var
 b=e$(c,d),e=gC(b,a);return[0,cx(b,a),e]}function
 A(b,a){return[0,E(b[1],a[1]),E(b[2],a[2])]}function
 G(b,a){return[0,aL(b[1],a[2]),aL(b[2],a[1])]}function
 ac(a){return[0,T(a[2]),T(a[1])]}function
-lO(e,c,b,a){if(D(d,e))return D(d,b)?[0,C(e,b),C(c,a)]:D(a,d)?[0,C(c,b),C(e,a)]:[0,C(c,b),C(c,a)];if(D(c,d))return D(d,b)?[0,C(e,a),C(c,b)]:D(a,d)?[0,C(c,a),C(e,b)]:[0,C(e,a),C(e,b)];if(D(d,b))return[0,C(e,a),C(c,a)];if(D(a,d))return[0,C(c,b),C(e,b)];var
-f=bm(C(e,b),C(c,a));return[0,iw(C(e,a),C(c,b)),f]}function
+lU(e,c,b,a){if(D(d,e))return D(d,b)?[0,C(e,b),C(c,a)]:D(a,d)?[0,C(c,b),C(e,a)]:[0,C(c,b),C(c,a)];if(D(c,d))return D(d,b)?[0,C(e,a),C(c,b)]:D(a,d)?[0,C(c,a),C(e,b)]:[0,C(e,a),C(e,b)];if(D(d,b))return[0,C(e,a),C(c,a)];if(D(a,d))return[0,C(c,b),C(e,b)];var
+f=bm(C(e,b),C(c,a));return[0,iy(C(e,a),C(c,b)),f]}function
 t(c,b,a){var
-d=lO(b[1],b[2],a[1],a[2]),e=lM(c,d[2]);return[0,lL(c,d[1]),e]}function
+d=lU(b[1],b[2],a[1],a[2]),e=lS(c,d[2]);return[0,lR(c,d[1]),e]}function
 U(b,a){var
-c=C(a[1],a[1]),e=C(a[2],a[2]),h=lM(b,bm(c,e)),g=0;if(I(a[1],d)&&I(d,a[2])){var
+c=C(a[1],a[1]),e=C(a[2],a[2]),h=lS(b,bm(c,e)),g=0;if(I(a[1],d)&&I(d,a[2])){var
 f=d;g=1}if(!g)var
-f=lL(b,iw(c,e));return[0,f,h]}function
-iD(b,a){var
+f=lR(b,iy(c,e));return[0,f,h]}function
+iF(b,a){var
 c=e$(cy(b),b),d=gC(c,a[1]);return[0,cx(c,a[2]),d]}function
-b$(b,a){if(I(d,a[1]))return[0,iD(b,a)];var
-c=I(a[2],d),e=c?[0,ac(iD(b,ac(a)))]:c;return e}function
-iE(c){var
+b$(b,a){if(I(d,a[1]))return[0,iF(b,a)];var
+c=I(a[2],d),e=c?[0,ac(iF(b,ac(a)))]:c;return e}function
+iG(c){var
 a=gy(c);return L(C(a,a),c)?a:E(a,b)}function
 ca(b,a){var
 c=I(d,a[1]);if(c)var
-f=iE(e$(a[2],b)),e=[0,[0,gy(e$(a[1],b)),f]];else
+f=iG(e$(a[2],b)),e=[0,[0,gy(e$(a[1],b)),f]];else
 var
 e=c;return e}function
 ef(a){return 0===a[0]?a[2]:a[1]}function
 aP(f,d,c,b,a){if(b){if(a){var
-g=aP(f,d,c,b[2],a[2]);return[0,ar(c,b[1],a[1]),g]}return e(f,b)}return e(d,a)}function
+g=aP(f,d,c,b[2],a[2]);return[0,ao(c,b[1],a[1]),g]}return e(f,b)}return e(d,a)}function
 cX(b,a){return dy(b,a)}function
 aU(a,c,b){if(D(d,a)){var
 e=b[1],f=T(cX(T(C(a,b[2])),c));return[0,cX(C(a,e),c),f]}var
@@ -1144,7 +1155,7 @@ g=b[2],h=T(cX(T(C(a,b[1])),c));return[0,cX(C(a,g),c),h]}function
 aw(a){var
 c=T(dy(T(a[2]),b));return[0,dy(a[1],b),c]}function
 eg(c,b,a){var
-e=lO(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=I(f,d)?a[2]:a[1],i=gC(f,h),j=I(g,d)?a[1]:a[2];return[0,cx(g,j),i]}function
+e=lU(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=I(f,d)?a[2]:a[1],i=gC(f,h),j=I(g,d)?a[1]:a[2];return[0,cx(g,j),i]}function
 cb(a){return bm(a[2],T(a[1]))}var
 u=[0,d,d];function
 cc(a){return[0,a[1],a[1]]}function
@@ -1165,33 +1176,33 @@ f=k(b,a[2]);return[7,k(b,a[1]),f];case
 8:return[8,k(b,a[1])];case
 9:return[9,k(b,a[1])];default:var
 g=k(b,a[4]),h=k(b,a[3]),i=k(b,a[2]);return[10,a[1],i,h,g]}}function
-aN(n,m){var
+aO(n,m){var
 d=n,c=m;for(;;){var
 a=c[1],b=d[1];switch(b[0]){case
 0:return 0===a[0]?o(b[1],a[1]):0;case
 1:return 1===a[0]?o(b[1],a[1]):0;case
 2:return 2===a[0]?L(b[1],a[1]):0;case
 3:if(3===a[0]){var
-f=aN(b[1],a[1]);if(f){var
+f=aO(b[1],a[1]);if(f){var
 d=b[2],c=a[2];continue}return f}return 0;case
 4:if(4===a[0]){var
-g=aN(b[1],a[1]);if(g){var
+g=aO(b[1],a[1]);if(g){var
 d=b[2],c=a[2];continue}return g}return 0;case
 5:if(5===a[0]){var
 d=b[1],c=a[1];continue}return 0;case
 6:if(6===a[0]){var
-h=aN(b[1],a[1]);if(h){var
+h=aO(b[1],a[1]);if(h){var
 d=b[2],c=a[2];continue}return h}return 0;case
 7:if(7===a[0]){var
-i=aN(b[1],a[1]);if(i){var
+i=aO(b[1],a[1]);if(i){var
 d=b[2],c=a[2];continue}return i}return 0;case
 8:if(8===a[0]){var
 d=b[1],c=a[1];continue}return 0;case
 9:if(9===a[0]){var
 d=b[1],c=a[1];continue}return 0;default:if(10===a[0]){var
 j=cv(b[1],a[1]);if(j){var
-k=aN(b[2],a[2]);if(k){var
-l=aN(b[3],a[3]);if(l){var
+k=aO(b[2],a[2]);if(k){var
+l=aO(b[3],a[3]);if(l){var
 d=b[4],c=a[4];continue}var
 e=l}else
 var
@@ -1219,14 +1230,14 @@ e=a[1];return 0===e[0]?o(c[1],e[1])?m(d):[0,[4,b,a]]:[0,[4,b,a]]}return[0,[4,b,a
 V(a){var
 c=gD(a);if(c){var
 b=c[1];return fc(b)?m(C(b,b)):[0,[8,a]]}return[0,[8,a]]}function
-s(a,c){if(!a9(d,a)&&!a9(b,c)){if(!a9(d,c)&&!a9(b,a))return aN(a,c)?V(a):[0,[6,a,c]];return c}return a}function
+s(a,c){if(!a9(d,a)&&!a9(b,c)){if(!a9(d,c)&&!a9(b,a))return aO(a,c)?V(a):[0,[6,a,c]];return c}return a}function
 al(c,a){return a9(b,a)?c:[0,[7,c,a]]}function
 aK(a){return a9(b,a)?a:[0,[9,a]]}function
-lP(d,c,b,a){return[0,[10,d,c,b,a]]}function
+lV(d,c,b,a){return[0,[10,d,c,b,a]]}function
 bg(f,e,d,c){var
 b=d,a=c;for(;;){if(b){var
 g=b[1],h=[0,k(e,bU(function(b){return function(a){return r(a,b,f)}}(a),g)),a],b=b[2],a=h;continue}return a}}function
-lQ(d,f,j,i,h){var
+lW(d,f,j,i,h){var
 b=j,c=i,a=h;for(;;){if(c){var
 e=c[2],g=c[1];if(b){if(b[1]){var
 l=[0,k(f,bU(function(b){return function(a){return r(a,b,d)}}(a),g)),a],b=bC(b),c=e,a=l;continue}var
@@ -1238,7 +1249,7 @@ e=fd(b[1],c);return[0,a[1],e]}var
 d=[0,1,c]}else
 var
 d=a;return d}function
-lR(a){switch(a[0]){case
+lX(a){switch(a[0]){case
 10:return[0,a[2],[0,a[3],[0,a[4],0]]];case
 5:case
 8:case
@@ -1247,16 +1258,16 @@ lR(a){switch(a[0]){case
 1:case
 2:return 0;default:return[0,a[1],[0,a[2],0]]}}function
 gE(j,g){var
-k=0,l=ao(fd,e(function(a){return 0},g),j),c=fa(g,0),b=l,a=k;for(;;){if(c){if(b){var
-d=b[2],f=b[1],h=[0,f,a],i=f?ao(fd,d,lR(c[1])):d,c=c[2],b=i,a=h;continue}return a}return a}}function
+k=0,l=ap(fd,e(function(a){return 0},g),j),c=fa(g,0),b=l,a=k;for(;;){if(c){if(b){var
+d=b[2],f=b[1],h=[0,f,a],i=f?ap(fd,d,lX(c[1])):d,c=c[2],b=i,a=h;continue}return a}return a}}function
 cY(a){var
 b=0;function
 c(a){return[0,a]}return bg(m(d),c,a,b)}function
 bh(d,c){var
-a=d,b=0;for(;;){if(a){if(aN(c,a[1]))return b;var
+a=d,b=0;for(;;){if(a){if(aO(c,a[1]))return b;var
 a=a[2],b=[0,b];continue}return a}}function
 dC(d,b){var
-e=b[1];if(aj(function(a){return aN(d,a)},e))return b;var
+e=b[1];if(aj(function(a){return aO(d,a)},e))return b;var
 a=d[1];switch(a[0]){case
 10:var
 j=dC(a[2],b),k=dC(a[3],j),c=dC(a[4],k);break;case
@@ -1271,10 +1282,10 @@ c=b;break;default:var
 i=dC(a[1],b),c=dC(a[2],i)}var
 f=c[2],g=c[1],h=[0,bU(function(a){return bh(g,a)},a),f];return[0,[0,d,c[1]],h]}function
 cZ(a){var
-b=bT(function(b,a){return dC(a,b)},a,sY),c=b[1],d=e(function(a){return bh(c,a)},a);return[0,lG(b[2]),d]}function
-fe(a){return ao(function(b,a){return E(cb(b),a)},d,a)}function
+b=bT(function(b,a){return dC(a,b)},a,s3),c=b[1],d=e(function(a){return bh(c,a)},a);return[0,lM(b[2]),d]}function
+fe(a){return ap(function(b,a){return E(cb(b),a)},d,a)}function
 cA(b,c,a){var
-d=fe(a),e=iw(c[2],E(b[2],d)),f=fe(a);return[0,b,[0,bm(c[1],aL(b[1],f)),e],a]}function
+d=fe(a),e=iy(c[2],E(b[2],d)),f=fe(a);return[0,b,[0,bm(c[1],aL(b[1],f)),e],a]}function
 $(a){return[0,a,a,0]}function
 cd(b,a){var
 c=a[3],d=b[3];function
@@ -1292,7 +1303,7 @@ i(b){return aw(t(a,e,b))}var
 j=aP(function(b){return aw(t(a,d,b))},i,h,g,f),k=t(a,c[2],b[2]);return cA(t(a,c[1],b[1]),k,j)}function
 fg(b,a){var
 c=a[3],d=A(a[2],a[1]),f=e(function(a){return t(b,d,a)},c),g=U(b,a[2]);return cA(U(b,a[1]),g,f)}function
-iF(a,b){var
+iH(a,b){var
 c=ca(a,b[1]);if(c){var
 g=c[1],d=ca(a,b[2]);if(d){var
 h=d[1],f=b$(a,A(h,g));if(f)var
@@ -1317,14 +1328,14 @@ j=d;return j}function
 c0(b,a){return a?k(b,a[1]):a}function
 gF(a){var
 b=e(aw,a[3]),c=aw(A(a[2],a[1]));return cA(a[1],c,b)}function
-lS(a,k,j,r,c){var
+lY(a,k,j,r,c){var
 l=gF(k),m=gF(j),g=gF(c[1]),h=gF(c[2]),s=aQ(a,l,h),u=bx(aQ(a,m,g),s),i=eh(a,$(O(a,b)),u);if(i)var
 f=i[1],n=aQ(a,bx(l,g),f),o=aQ(a,bx(m,h),f),d=function(c,b){return aQ(a,c,$(b))},v=j[3],w=k[3],x=function(b,a){var
 c=d(o,a);return cd(d(n,b),c)},y=function(a){return d(o,a)},z=aP(function(a){return d(n,a)},y,x,w,v),A=r[3],B=function(b,a){return bx(b,d(f,aw(a)))[2]},C=function(a){return ff(d(f,aw(a)))[2]},p=aP(function(a){return a[2]},C,B,z,A),D=g[2],E=e(function(b){return t(a,D,b)},p),F=cA(c[2][1],c[2][2],E),G=ac(h[2]),H=e(function(b){return t(a,G,b)},p),q=[0,[0,cA(c[1][1],c[1][2],H),F]];else
 var
 q=i;return q}function
-lT(a,e,d,k){var
-p=fg(a,d),f=cd(fg(a,e),p),g=bx(cd(f,$(O(a,b))),k),l=aQ(a,$(O(a,c(2,b))),f),q=fg(a,g),h=iF(a,bx(aQ(a,$(O(a,c(2,c(2,b)))),f),q));if(h){var
+lZ(a,e,d,k){var
+p=fg(a,d),f=cd(fg(a,e),p),g=bx(cd(f,$(O(a,b))),k),l=aQ(a,$(O(a,c(2,b))),f),q=fg(a,g),h=iH(a,bx(aQ(a,$(O(a,c(2,c(2,b)))),f),q));if(h){var
 m=h[1],r=aQ(a,m,d),i=eh(a,cd(aQ(a,g,e),r),l);if(i)var
 s=aQ(a,m,e),j=eh(a,bx(aQ(a,g,d),s),l),t=j?[0,[0,i[1],j[1]]]:j,n=t;else
 var
@@ -1332,8 +1343,8 @@ n=i;var
 o=n}else
 var
 o=h;var
-u=c0(function(b){return lS(a,e,d,k,b)},o);return c0(function(b){return lS(a,e,d,k,b)},u)}function
-cB(d,b,a){if(b){if(a)return ar(d,b[1],a[1]);var
+u=c0(function(b){return lY(a,e,d,k,b)},o);return c0(function(b){return lY(a,e,d,k,b)},u)}function
+cB(d,b,a){if(b){if(a)return ao(d,b[1],a[1]);var
 c=a}else
 var
 c=b;return c}function
@@ -1355,11 +1366,11 @@ s=a[2],t=a[1];return cB(function(a,c){return eh(b,a,c)},t,s);case
 8:var
 u=a[1];return c0(function(a){return[0,fg(b,a)]},u);case
 9:var
-v=a[1];return c0(function(a){return iF(b,a)},v);default:var
+v=a[1];return c0(function(a){return iH(b,a)},v);default:var
 c=a[2];if(c){var
 d=a[3];if(d){var
 e=a[4];if(e){var
-w=lT(b,c[1],d[1],e[1]),x=a[1]?aO:aA;return y(x,w)}var
+w=lZ(b,c[1],d[1],e[1]),x=a[1]?aN:aA;return y(x,w)}var
 g=e}else
 var
 g=d;var
@@ -1411,10 +1422,10 @@ i=fh(c,g);if(i)return e(h[1],i[1]);var
 l=i}else
 var
 l=h;return l}function
-sZ(a){return 0}function
-cC(a){return fh(sZ,a)}function
+s4(a){return 0}function
+cC(a){return fh(s4,a)}function
 bV(a,c){switch(c[0]){case
-0:return[0,lN(a,c[1],c[2])];case
+0:return[0,lT(a,c[1],c[2])];case
 1:return 0;case
 2:var
 g=bV(a,c[1]);if(g)var
@@ -1445,8 +1456,8 @@ e=p[1];if(I(d,e[1]))return ca(a,e);var
 f=cC(z),K=f?J(bf([0,d,b],f[1])):f;if(K)return 0;if(I(d,e[2])){var
 B=ca(a,[0,e[2],e[2]]);return y(function(a){return[0,d,a[2]]},B)}var
 q=L(e[2],d),C=q?[0,u]:q;return C}return p}}function
-cD(b,a){return lN(b,a[1],a[2])}function
-lU(a,g,e,d){var
+cD(b,a){return lT(b,a[1],a[2])}function
+l0(a,g,e,d){var
 h=[0,b,c(2,b)],i=[0,cD(a,a3(dA(d,e),h)),0],j=f(ab(u,g),i),k=cD(a,d)[2],l=[0,cD(a,e)[1],k],m=[0,b,c(2,b)];return[0,cD(a,a3(dz(e,d),m)),l,j]}function
 ei(c,e,a){function
 b(a){return ei(c,e,a)}if(dD(a))switch(a[0]){case
@@ -1462,167 +1473,167 @@ k=b(d);return c0(function(a){return[0,fg(c,a)]},k)}var
 l=b(f),m=b(d);return cB(function(b,a){return[0,aQ(c,b,a)]},m,l);case
 5:var
 n=b(a[2]),o=b(a[1]);return cB(function(a,b){return eh(c,a,b)},o,n);default:var
-p=b(a[1]);return c0(function(a){return iF(c,a)},p)}return y($,bV(c,a))}function
+p=b(a[1]);return c0(function(a){return iH(c,a)},p)}return y($,bV(c,a))}function
 aD(b,a){if(dD(a)){var
 c=ei(b,function(d,c,a){var
-e=aJ(d,dE),f=e?bf(c,a):e,g=f?[0,lU(b,d,c,a)]:f;return g},a);return y(function(a){return a[2]},c)}return bV(b,a)}function
-iG(a){var
+e=aJ(d,dE),f=e?bf(c,a):e,g=f?[0,l0(b,d,c,a)]:f;return g},a);return y(function(a){return a[2]},c)}return bV(b,a)}function
+iI(a){var
 e=bm(T(a),d);return ec(E(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e))}function
-lV(a){return iB(E(iG(a),a))}function
-lW(b,a){var
-c=lV(b),d=T(cX(T(a[2]),c)),e=lV(b);return[0,cX(a[1],e),d]}function
+l1(a){return iD(E(iI(a),a))}function
+l2(b,a){var
+c=l1(b),d=T(cX(T(a[2]),c)),e=l1(b);return[0,cX(a[1],e),d]}function
 c1(c,a,b){var
-d=aD(E(c,iG(a)),b);return y(function(b){return lW(a,b)},d)}function
-ap(d,a){var
+d=aD(E(c,iI(a)),b);return y(function(b){return l2(a,b)},d)}function
+aq(d,a){var
 b=c1(d,a[2],a[1][1]);if(b)var
 c=c1(d,a[2],a[1][2]),f=c?[0,[0,b[1][1],c[1][2]]]:c,e=f;else
 var
 e=b;return e}function
-lX(b,a){var
+l3(b,a){var
 c=T(cX(T(a[2]),b));return[0,cX(a[1],b),c]}function
 gG(b,a){var
 c=gC(b[2],a);return[0,cx(b[1],a),c]}function
-lY(h,g,d,b){var
-e=b[2],f=lB(d),i=c(2,f),j=C(lx(f),i),a=gG(t(h,b[1],g),j),k=lv(d)?G(e,a):A(e,a);return[0,a,k]}function
-lZ(a,d,c){if(c){var
-e=c[1];return lY(a,d,e,lZ(a,d,e))}var
+l4(h,g,d,b){var
+e=b[2],f=lH(d),i=c(2,f),j=C(lD(f),i),a=gG(t(h,b[1],g),j),k=lB(d)?G(e,a):A(e,a);return[0,a,k]}function
+l5(a,d,c){if(c){var
+e=c[1];return l4(a,d,e,l5(a,d,e))}var
 f=O(a,b);return[0,O(a,b),f]}function
-l0(e,g){var
+l6(e,g){var
 o=cy(e),p=C(c(2,c(2,b)),o),j=D(g[2],p);if(j){var
-n=e_(e),i=s0[1],d=n,f=0,a=i;for(;;){if(d){var
+n=e_(e),i=s5[1],d=n,f=0,a=i;for(;;){if(d){var
 h=d[1];if(a){var
 d=h,a=a[1];continue}var
 d=h,f=[0,f],a=i;continue}var
-k=M(lu(s3,M(s1,f)),s2),l=lZ(e,g,k),q=lY(e,g,k,l)[2][2],m=[0,[0,l[2][1],q]];break}}else
+k=M(lA(s8,M(s6,f)),s7),l=l5(e,g,k),q=l4(e,g,k,l)[2][2],m=[0,[0,l[2][1],q]];break}}else
 var
 m=j;return m}function
-l1(i){function
+l7(i){function
 a(h){var
 m=cx(cy(i),h),g=e_(i),f=m,e=d,a=b;for(;;){if(g){var
 j=E(a,c(2,b)),k=E(e,cx(f,a)),l=T(cx(f,C(h,h))),g=g[1],f=l,e=k,a=j;continue}return e}}var
 e=a(q(c(2,q(c(2,q(c(2,q(c(2,c(2,q(c(2,q(c(2,b)))))))))))))),f=C(c(2,c(2,b)),e),g=a(q(c(2,c(2,b))));return aL(C(c(2,c(2,c(2,c(2,b)))),g),f)}function
-l2(e,a){var
+l8(e,a){var
 f=D(d,a);if(f){var
-g=c(2,c(2,b));return l0(e,gG(U(e,[0,a,a]),g))}return f}function
-l3(a){var
-m=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),g=aL(l1(a),m),n=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),h=E(l1(a),n),e=l2(a,g);if(e){var
-f=l2(a,h);if(f)var
+g=c(2,c(2,b));return l6(e,gG(U(e,[0,a,a]),g))}return f}function
+l9(a){var
+m=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),g=aL(l7(a),m),n=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),h=E(l7(a),n),e=l8(a,g);if(e){var
+f=l8(a,h);if(f)var
 i=I(d,e[1][1]),j=i?I(f[1][2],d):i,k=j?[0,[0,g,h]]:j;else
 var
 k=f;var
 l=k}else
 var
 l=e;return l}function
-l4(a,d){var
+l_(a,d){var
 c=U(a,d),e=O(a,b);return G(A(c,c),e)}function
 c2(f,j){var
 e=aD(E(f,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),j);if(e){var
-k=e[1],a=E(f,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),d=l3(a);if(d)var
-h=c(2,c(2,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))))),i=l0(a,U(a,gG(t(a,k,d[1]),h))),g=y(function(b){return l4(a,l4(a,b))},i);else
+k=e[1],a=E(f,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),d=l9(a);if(d)var
+h=c(2,c(2,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))))),i=l6(a,U(a,gG(t(a,k,d[1]),h))),g=y(function(b){return l_(a,l_(a,b))},i);else
 var
 g=d;var
-l=c(2,c(2,c(2,c(2,c(2,c(2,b))))));return y(function(a){return lX(l,a)},g)}return e}function
-l5(a,d){var
-e=l3(E(a,c(2,c(2,c(2,c(2,c(2,c(2,b))))))));return y(function(e){var
-f=c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))));return gG(t(a,d,lX(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e)),f)},e)}function
+l=c(2,c(2,c(2,c(2,c(2,c(2,b))))));return y(function(a){return l3(l,a)},g)}return e}function
+l$(a,d){var
+e=l9(E(a,c(2,c(2,c(2,c(2,c(2,c(2,b))))))));return y(function(e){var
+f=c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))));return gG(t(a,d,l3(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e)),f)},e)}function
 gH(d,a){return c2(d,[3,a,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b]])}function
 h(i,e,c){var
 f=cC(c);if(f){var
 g=f[1];return e?J(bf(g,[0,d,b])):bf([0,d,b],g)}var
 a=aD(i,c);if(a){var
 h=a[1];return e?I(d,h[1]):D(d,h[1])}return a}function
-l6(c,b){var
+ma(c,b){var
 a=aD(c,b),d=a?1:a;return d}function
 by(c,a,b){var
-d=ce(a,b),e=d?l6(c,a):d;return e?e:h(c,0,[3,b,a])}function
-s4(c){var
+d=ce(a,b),e=d?ma(c,a):d;return e?e:h(c,0,[3,b,a])}function
+s9(c){var
 a=dB(c),g=ec(gy(a[2])),b=[0,gy(a[1]),g],e=I(d,a[1]),f=e?ee(a3(b,b),c):e,h=f?[0,b]:f;return h}function
-l7(a){if(a){var
+mb(a){if(a){var
 e=a[2],c=a[1];if(ee(bS([0,d,b],c),[0,d,b])){var
-g=l7(e);return y(function(a){return[0,a[1],[0,c,a[2]]]},g)}var
+g=mb(e);return y(function(a){return[0,a[1],[0,c,a[2]]]},g)}var
 f=[0,[0,c,e]]}else
 var
 f=a;return f}function
-l8(c,a){var
-e=W(c,a),f=[0,d,b];return ao(function(a,b){return dB(dz(a3(a[1],a[2]),b))},f,e)}function
-l9(c,j){if(c){var
-f=c[1],g=l7(j);if(g){var
+mc(c,a){var
+e=W(c,a),f=[0,d,b];return ap(function(a,b){return dB(dz(a3(a[1],a[2]),b))},f,e)}function
+md(c,j){if(c){var
+f=c[1],g=mb(j);if(g){var
 h=g[1],a=h[1],k=function(c){var
 f=bS([0,d,b],a),g=gB(bS([0,d,b],c),f),h=bC(a),i=W(bC(c),h);return e(function(a){var
-b=a3(g,a[2]);return dB(dA(a[1],b))},i)},l=l9(f,e(k,h[2]));return y(function(c){var
-e=bS([0,d,b],a);return[0,dB(gB(gA(l8(bC(a),c)),e)),c]},l)}var
+b=a3(g,a[2]);return dB(dA(a[1],b))},i)},l=md(f,e(k,h[2]));return y(function(c){var
+e=bS([0,d,b],a);return[0,dB(gB(gA(mc(bC(a),c)),e)),c]},l)}var
 i=[0,[0,[0,b,b],ab([0,d,b],f)]]}else
 var
 i=c;return i}function
-l_(a){if(a){var
-b=fh(s4,a[1]);if(b)var
-c=l_(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+me(a){if(a){var
+b=fh(s9,a[1]);if(b)var
+c=me(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return s5}function
-l$(a){if(a){var
-b=l_(a[1]);if(b)var
-c=l$(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+d=b;return d}return s_}function
+mf(a){if(a){var
+b=me(a[1]);if(b)var
+c=mf(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return s6}function
-ma(i,m){var
-a=l$(m);if(a){var
-j=a[1],c=l9(i,j);if(c){var
-e=c[1],f=o(g(e),i),h=f?aj(function(a){return J(ee(a,[0,d,b]))},e):f;return h?l(function(a){return ee(l8(a,e),[0,d,b])},j):h}var
+d=b;return d}return s$}function
+mg(i,m){var
+a=mf(m);if(a){var
+j=a[1],c=md(i,j);if(c){var
+e=c[1],f=o(g(e),i),h=f?aj(function(a){return J(ee(a,[0,d,b]))},e):f;return h?l(function(a){return ee(mc(a,e),[0,d,b])},j):h}var
 k=c}else
 var
 k=a;return k}function
-s7(a){return a}function
-s8(a){return a}function
-s9(a,b){return aP(s8,s7,A,a,b)}function
-s_(a){return a}function
-s$(a){return a}function
-bi(a,b){return aP(s$,s_,s9,a,b)}function
-iH(a,f,c,d){if(c){var
+ta(a){return a}function
+tb(a){return a}function
+tc(a,b){return aP(tb,ta,A,a,b)}function
+td(a){return a}function
+te(a){return a}function
+bi(a,b){return aP(te,td,tc,a,b)}function
+iJ(a,f,c,d){if(c){var
 h=c[2],i=O(a,b),g=eg(c[1],i,f);if(d){var
-j=iH(a,f,h,d[2]),k=d[1],l=function(c,b){return G(c,t(a,g,b))},m=function(b){return ac(t(a,g,b))};return[0,aP(function(a){return a},m,l,k,c),j]}var
-n=iH(a,f,h,0);return[0,e(function(b){return ac(t(a,g,b))},c),n]}return d}function
+j=iJ(a,f,h,d[2]),k=d[1],l=function(c,b){return G(c,t(a,g,b))},m=function(b){return ac(t(a,g,b))};return[0,aP(function(a){return a},m,l,k,c),j]}var
+n=iJ(a,f,h,0);return[0,e(function(b){return ac(t(a,g,b))},c),n]}return d}function
 gI(h,a){if(a){var
 b=a[1];if(b)var
-c=b[1],e=I(d,c[1]),i=e?[0,iH(h,c,b[2],a[2])]:e,f=i;else
+c=b[1],e=I(d,c[1]),i=e?[0,iJ(h,c,b[2],a[2])]:e,f=i;else
 var
 f=b;var
 g=f}else
 var
 g=a;return g}function
-mb(g,f,e){var
+mh(g,f,e){var
 a=f,b=e;for(;;){if(b){if(a){var
 c=gI(g,b);if(c){var
 a=a[1],b=c[1];continue}var
 d=c}else
 var
 d=a;return d}return 1}}function
-mc(d,b,a){if(b)if(a)var
-e=a[1],f=mc(d,b[2],a[2]),g=cv(d,b[1])?cc(e):cz(e),c=[0,g,f];else
+mi(d,b,a){if(b)if(a)var
+e=a[1],f=mi(d,b[2],a[2]),g=cv(d,b[1])?cc(e):cz(e),c=[0,g,f];else
 var
 c=a;else
 var
 c=b;return c}function
-md(a,b){if(a)if(b)var
-d=md(a[2],b[2]),c=[0,mc(a[1],a,b[1]),d];else
+mj(a,b){if(a)if(b)var
+d=mj(a[2],b[2]),c=[0,mi(a[1],a,b[1]),d];else
 var
 c=b;else
 var
 c=a;return c}function
 bj(a){if(a){var
-b=a[1],c=bj(b),d=e(function(a){return[0,1,a]},c),g=bj(b);return f(e(function(a){return[0,0,a]},g),d)}return ta}function
+b=a[1],c=bj(b),d=e(function(a){return[0,1,a]},c),g=bj(b);return f(e(function(a){return[0,0,a]},g),d)}return tf}function
 ej(c,a){var
-b=g(a);if(mb(c,b,a))return 1;var
-d=bj(bn(b));return l(function(d){return mb(c,b,md([0,0,d],a))},d)}function
+b=g(a);if(mh(c,b,a))return 1;var
+d=bj(bn(b));return l(function(d){return mh(c,b,mj([0,0,d],a))},d)}function
 ax(a){function
 b(b){var
 c=k(a,b[2]);return[0,e(a,b[1]),c]}return function(a){return e(b,a)}}function
 aG(h,e){var
 c=h,a=e[1],b=e[3];for(;;){if(c){if(b){var
 d=b[1],f=b[2],g=c[1]?A(a,d):G(a,d),c=c[2],a=g,b=f;continue}return a}return a}}function
-iI(c,b,a){var
+iK(c,b,a){var
 d=bj(c);return l(function(c){return k(a,k(ax(function(a){return aG(c,a)}),b))},d)}function
-iJ(h,d,c){if(d)if(c)var
-i=c[2],e=c[1],j=d[2],f=d[1],a=function(c,a){return aU(c,E(h,b),a)},k=iJ(h,j,i),l=function(c,b){var
+iL(h,d,c){if(d)if(c)var
+i=c[2],e=c[1],j=d[2],f=d[1],a=function(c,a){return aU(c,E(h,b),a)},k=iL(h,j,i),l=function(c,b){var
 d=a(b,e);return A(a(f,c),d)},m=function(b){return a(b,e)},n=aP(function(b){return a(f,b)},m,l,i,j),o=a(f,e),g=[0,[0,A(a(f,e),o),n],k];else
 var
 g=c;else
@@ -1634,19 +1645,19 @@ e=aU(d,b,a);return G(A(c,c),e)}function
 f(c){return ac(aU(c,b,a))}return aP(function(a){return A(a,a)},f,e,d,c)}function
 gJ(d,i,h,g){var
 c=i,b=h,a=g;for(;;){if(c){if(b){var
-e=b[1],f=c[1],j=cz(e[2]),k=bi(a,iJ(d,f,ek(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
-iK(b,a){return[0,[0,0,b],a]}function
+e=b[1],f=c[1],j=cz(e[2]),k=bi(a,iL(d,f,ek(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
+iM(b,a){return[0,[0,0,b],a]}function
 fi(i,b,c,h,f,a){function
 d(a){if(a){var
 j=ab([0,ac(a[1][2]),0],b),c=gJ(h,f,a[2],j),d=o(g(c),b);if(d)return ej(i,c);var
 e=d}else
 var
-e=a;return e}return iI(b,iK(c,a),d)}function
+e=a;return e}return iK(b,iM(c,a),d)}function
 gK(g,f,e){var
 a=f,b=e;for(;;){if(a){var
 d=a[1],h=d[1],c=gI(g,[0,[0,cc(d[2]),h],b]);if(c){var
 a=a[2],b=c[1];continue}return c}return[0,b]}}function
-iL(d,b,c,a){function
+iN(d,b,c,a){function
 e(a){if(a){var
 j=ab([0,a[1][2],0],b),c=gK(d,a[2],j);if(c){var
 e=c[1],f=o(g(e),b);if(f)return ej(d,e);var
@@ -1655,48 +1666,48 @@ var
 h=c;var
 i=h}else
 var
-i=a;return i}return iI(b,iK(c,a),e)}function
-me(h,g,a,f,d,c){var
+i=a;return i}return iK(b,iM(c,a),e)}function
+mk(h,g,a,f,d,c){var
 i=[0,u,u,0],b=e(function(a){return[0,a[1],i]},c),j=a?a[1]:[0,u,u,0];return fi(h,g,j,f,d,b)}function
-iM(b,a){var
+iO(b,a){var
 c=bj(b);return l(function(b){return I(d,aG(b,a)[1])},c)}function
 gL(c,b,a){var
 d=a[3],f=e(function(a){return aU(c,b,a)},d),g=a[2];return[0,aU(c,b,a[1]),g,f]}function
-mf(a,b){var
+ml(a,b){var
 c=b[3],d=a[3],e=aP(function(a){return a},ac,G,d,c),f=a[2];return[0,G(a[1],b[1]),f,e]}function
 bW(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
 ag(c,b,a){var
-d=ar(c,b[3],a[3]),e=ar(c,b[2],a[2]);return[0,ar(c,b[1],a[1]),e,d]}function
+d=ao(c,b[3],a[3]),e=ao(c,b[2],a[2]);return[0,ao(c,b[1],a[1]),e,d]}function
 a4(b,a){var
 c=s(b,a[3]),d=s(b,a[2]);return[0,s(b,a[1]),d,c]}function
 bq(b,a){var
 c=al(b[3],a),d=al(b[2],a);return[0,al(b[1],a),d,c]}function
-Z(b,a){var
+_(b,a){var
 c=s(b[3],a[3]),d=s(b[2],a[2]);return B(B(s(b[1],a[1]),d),c)}function
-dF(a){return bq(a,aK(Z(a,a)))}function
+dF(a){return bq(a,aK(_(a,a)))}function
 c3(a){var
 b=a[5];return b?b[1]:aK(a[2])}function
 gM(b,a){return b?a:bp(a)}function
-mg(e,a,i,d,h){var
-f=Z(a,e),b=ag(x,e,a4(f,a)),j=Z(b,b),g=x(V(d),j),c=gM(h,aK(g)),k=x(f,c),l=ag(B,a,bq(b,c));return[0,ag(B,b,a4(c,a)),g,l,k,[0,d],0,[0,i]]}function
-mh(a,e,d){var
-b=Z(a,a),c=aK(b),f=[0,e],g=y(function(b){return ag(x,a,a4(Z(b,a),b))},d);return[0,a,b,bq(a,c),c,0,g,f]}function
-mi(c,a){var
-d=Z(a,c);return[0,a,m(b),a,d,0,0,0]}function
+mm(e,a,i,d,h){var
+f=_(a,e),b=ag(x,e,a4(f,a)),j=_(b,b),g=x(V(d),j),c=gM(h,aK(g)),k=x(f,c),l=ag(B,a,bq(b,c));return[0,ag(B,b,a4(c,a)),g,l,k,[0,d],0,[0,i]]}function
+mn(a,e,d){var
+b=_(a,a),c=aK(b),f=[0,e],g=y(function(b){return ag(x,a,a4(_(b,a),b))},d);return[0,a,b,bq(a,c),c,0,g,f]}function
+mo(c,a){var
+d=_(a,c);return[0,a,m(b),a,d,0,0,0]}function
 fj(a){return e(function(a){var
 b=a[2];return[0,bW(a[1]),b]},a)}function
-mj(a){return e(function(a){var
+mp(a){return e(function(a){var
 c=m(b);return[0,bW(a[3]),c]},a)}function
-mk(b,a){var
+mq(b,a){var
 c=k(b,a[3]),d=k(b,a[2]);return[0,k(b,a[1]),d,c]}function
-ml(c,b,a){var
-d=ar(c,b[3],a[3]),e=ar(c,b[2],a[2]);return[0,ar(c,b[1],a[1]),e,d]}function
+mr(c,b,a){var
+d=ao(c,b[3],a[3]),e=ao(c,b[2],a[2]);return[0,ao(c,b[1],a[1]),e,d]}function
 el(d,a){var
 b=ca(d,[0,a[2],a[2]]);if(b){var
 c=b[1];return[0,c[2],c[2]]}return[0,a[2],a[2]]}function
 gN(a,n,f,m,e,k,j){var
-o=ml(bx,k,j),b=ml(function(b,c){return aQ(a,b,c)},e,o),c=b[3],g=b[2],h=b[1],i=cd(cd(cd($(O(a,d)),h),g),c),p=bj(n);return l(function(c){var
-b=mk(function(b){return U(a,aG(c,b))},e),h=b[3],j=b[2],k=b[1],l=t(a,m,el(a,A(A(A(O(a,d),k),j),h))),g=G(aG(c,i),l),n=f?G(g,aG(c,f[1])):g;return I(d,n[1])},p)}function
+o=mr(bx,k,j),b=mr(function(b,c){return aQ(a,b,c)},e,o),c=b[3],g=b[2],h=b[1],i=cd(cd(cd($(O(a,d)),h),g),c),p=bj(n);return l(function(c){var
+b=mq(function(b){return U(a,aG(c,b))},e),h=b[3],j=b[2],k=b[1],l=t(a,m,el(a,A(A(A(O(a,d),k),j),h))),g=G(aG(c,i),l),n=f?G(g,aG(c,f[1])):g;return I(d,n[1])},p)}function
 cf(a){return dy(E(a[1],a[2]),b)}function
 em(a){var
 b=cf(a);return aL(a[2],b)}function
@@ -1707,11 +1718,11 @@ d=b;return d}function
 c4(d,b){if(b){var
 c=b[2],a=b[1];if(d){var
 e=c4(d[1],c);return[0,[0,a,e[1]],[0,a,e[2]]]}var
-f=a[2],g=[0,[0,cf(a),f],c],h=cf(a);return[0,[0,[0,a[1],h],c],g]}return tb}function
-mm(d,c,a){if(c){if(a){var
-e=mm(d,c[2],a[2]);return A(aU(c[1],E(d,b),a[1]),e)}return u}return u}function
+f=a[2],g=[0,[0,cf(a),f],c],h=cf(a);return[0,[0,[0,a[1],h],c],g]}return tg}function
+ms(d,c,a){if(c){if(a){var
+e=ms(d,c[2],a[2]);return A(aU(c[1],E(d,b),a[1]),e)}return u}return u}function
 en(f,a){if(a)var
-g=a[1],c=g[2],d=g[1],h=a[2],b=function(a,b){return mm(f,a,b)},j=en(f,h),k=e(function(a){var
+g=a[1],c=g[2],d=g[1],h=a[2],b=function(a,b){return ms(f,a,b)},j=en(f,h),k=e(function(a){var
 e=b(d,a[2]);return A(b(a[1],c),e)},h),l=b(d,c),i=[0,[0,A(b(d,c),l),k],j];else
 var
 i=a;return i}function
@@ -1733,28 +1744,28 @@ gP(d,b,a){if(b)var
 c=b[1],g=gP([0,d],b[2],a),h=f(ab(u,d),[0,a,0]),e=[0,[0,c,[0,aL(c[1],a[2]),E(c[2],a[2])],h],g];else
 var
 e=b;return e}function
-mn(d){if(d){var
+mt(d){if(d){var
 a=d[1][1];if(a){var
 b=a[2];if(b){var
 c=b[2];if(c){if(c[2])return 0;var
-g=c[1],h=b[1],i=a[1],j=mn(d[2]);return y(function(a){return[0,[0,[0,i,h],g],a]},j)}var
+g=c[1],h=b[1],i=a[1],j=mt(d[2]);return y(function(a){return[0,[0,[0,i,h],g],a]},j)}var
 e=c}else
 var
 e=b;var
 f=e}else
 var
-f=a;return f}return tc}function
-iN(a){return y(function(a){return y(ff,a)},a)}function
+f=a;return f}return th}function
+iP(a){return y(function(a){return y(ff,a)},a)}function
 c5(c,b,a){function
 d(a){return aQ(c,b,a)}return y(function(a){return y(d,a)},a)}function
-iO(c,b,a){function
+iQ(c,b,a){function
 d(a){return eh(c,a,b)}return y(function(a){return c0(d,a)},a)}function
 ep(b,a){var
 c=W(b,a);return e(function(c){var
 a=c[2],b=c[1];if(b){if(a){var
 d=a[1],e=b[1];return[0,cB(function(b,a){return[0,cd(b,a)]},e,d)]}return b}return a},c)}function
 gQ(a){return $(O(a,c(2,b)))}function
-iP(a,au,at,K,c){var
+iR(a,au,at,K,c){var
 av=bU(aA,c),f=k(bD(a,au,at),av);switch(c[0]){case
 1:var
 N=c[1],d=e(function(d){var
@@ -1762,9 +1773,9 @@ c=o(N,d),e=c?[0,[0,$(O(a,b))]]:c;return e},K);break;case
 3:var
 d=ep(c[1][2],c[2][2]);break;case
 4:var
-P=e(iN,c[2][2]),d=ep(c[1][2],P);break;case
+P=e(iP,c[2][2]),d=ep(c[1][2],P);break;case
 5:var
-d=e(iN,c[1][2]);break;case
+d=e(iP,c[1][2]);break;case
 6:var
 x=c[2],y=c[1],g=y[1],u=0;if(g){var
 h=x[1];if(h)var
@@ -1775,7 +1786,7 @@ d=z;break;case
 7:var
 v=0;if(f){var
 A=c[2],i=A[1];if(i)var
-V=A[2],W=ff(f[1]),X=e(function(b){return c5(a,W,b)},V),Y=ep(c[1][2],X),Z=i[1],d=e(function(b){return iO(a,Z,b)},Y);else{var
+V=A[2],W=ff(f[1]),X=e(function(b){return c5(a,W,b)},V),Y=ep(c[1][2],X),Z=i[1],d=e(function(b){return iQ(a,Z,b)},Y);else{var
 B=i;v=1}}else{var
 B=f;v=1}if(v)var
 d=B;break;case
@@ -1785,15 +1796,15 @@ _=C[2],aa=j[1],ab=aQ(a,gQ(a),aa),d=e(function(b){return c5(a,ab,b)},_);else
 var
 d=j;break;case
 9:if(f)var
-ac=c[1][2],ad=f[1],ae=aQ(a,gQ(a),ad),d=e(function(b){return iO(a,ae,b)},ac);else
+ac=c[1][2],ad=f[1],ae=aQ(a,gQ(a),ad),d=e(function(b){return iQ(a,ae,b)},ac);else
 var
 d=f;break;case
 10:var
 D=c[4],E=c[3],F=c[2],l=F[1],w=0;if(l){var
 m=l[1],n=E[1],L=0;if(n){var
 p=n[1],q=D[1],M=0;if(q){var
-r=lT(a,m,p,q[1]);if(r){var
-G=r[1],s=G[2],t=G[1],af=E[2],ag=bx(p,s),ah=e(function(b){return c5(a,ag,b)},af),ai=F[2],aj=bx(m,t),ak=ep(e(function(b){return c5(a,aj,b)},ai),ah),al=e(iN,D[2]),am=gQ(a),an=ep(e(function(b){return c5(a,am,b)},ak),al),ao=c[1]?t:ff(s),ap=e(function(b){return c5(a,ao,b)},an),aq=aQ(a,m,s),ar=bx(aQ(a,p,t),aq),as=aQ(a,gQ(a),ar),d=e(function(b){return iO(a,as,b)},ap);L=1;M=1}else
+r=lZ(a,m,p,q[1]);if(r){var
+G=r[1],s=G[2],t=G[1],af=E[2],ag=bx(p,s),ah=e(function(b){return c5(a,ag,b)},af),ai=F[2],aj=bx(m,t),ak=ep(e(function(b){return c5(a,aj,b)},ai),ah),al=e(iP,D[2]),am=gQ(a),an=ep(e(function(b){return c5(a,am,b)},ak),al),ao=c[1]?t:ff(s),ap=e(function(b){return c5(a,ao,b)},an),aq=aQ(a,m,s),ar=bx(aQ(a,p,t),aq),as=aQ(a,gQ(a),ar),d=e(function(b){return iQ(a,as,b)},ap);L=1;M=1}else
 var
 H=r}else
 var
@@ -1805,39 +1816,39 @@ J=I;w=1}}else{var
 J=l;w=1}if(w)var
 d=J;break;default:var
 d=e(function(a){return 0},K)}return[0,f,d]}function
-iQ(b,c,a){if(a)var
-f=a[1],g=iQ(b,c,a[2]),d=[0,e(function(a){return ac(t(b,t(b,c,f),a))},a),g];else
+iS(b,c,a){if(a)var
+f=a[1],g=iS(b,c,a[2]),d=[0,e(function(a){return ac(t(b,t(b,c,f),a))},a),g];else
 var
 d=a;return d}function
-iR(a){return l(function(a){var
+iT(a){return l(function(a){var
 b=L(a[1],d);return b?L(a[2],d):b},a)}function
-iS(c,b,a){var
-d=W(b,a);return ao(function(a,b){return A(t(c,a[1],a[2]),b)},u,d)}function
-iT(c,b,a){var
-d=cb(iS(c,a,b));return ao(function(b,a){return E(cb(b),a)},d,a)}function
+iU(c,b,a){var
+d=W(b,a);return ap(function(a,b){return A(t(c,a[1],a[2]),b)},u,d)}function
+iV(c,b,a){var
+d=cb(iU(c,a,b));return ap(function(b,a){return E(cb(b),a)},d,a)}function
 cg(a){return O(a,b)}function
 fk(a,i,c,v,u){var
 f=v,e=u;for(;;){if(f){var
-j=f[1],n=0;if(!iR(c)&&!iR(j)){var
-h=iT(a,i,j),o=cg(a),p=iT(a,i,c),b=eg([0,iT(a,i,c),p],o,[0,h,h])[1],k=I(d,h),l=k?I(d,b):k;if(l)var
-q=aw(iD(a,[0,b,b])),r=function(b){return function(d,c){return G(t(a,[0,b,b],d),c)}}(b),s=[0,b,b],m=[0,bi(e,iQ(a,q,aP(function(c){return function(b){return t(a,c,b)}}(s),ac,r,j,c)))];else
+j=f[1],n=0;if(!iT(c)&&!iT(j)){var
+h=iV(a,i,j),o=cg(a),p=iV(a,i,c),b=eg([0,iV(a,i,c),p],o,[0,h,h])[1],k=I(d,h),l=k?I(d,b):k;if(l)var
+q=aw(iF(a,[0,b,b])),r=function(b){return function(d,c){return G(t(a,[0,b,b],d),c)}}(b),s=[0,b,b],m=[0,bi(e,iS(a,q,aP(function(c){return function(b){return t(a,c,b)}}(s),ac,r,j,c)))];else
 var
 m=l;var
 g=m;n=1}if(!n)var
 g=[0,e];if(g){var
 f=f[2],e=g[1];continue}return g}return[0,e]}}function
-mo(a){var
+mu(a){var
 b=a[2],c=e(function(a){return[0,a[1],u]},b);return[0,[0,a[1][1],u],c]}function
-iU(h,n,a,m,l,k){var
+iW(h,n,a,m,l,k){var
 d=m,c=l,b=k;for(;;){if(d){if(c){var
-i=c[1],j=i[1],f=d[1],o=cz(j[2]),p=bi(b,iJ(a,f,ek(a,j[1],o,f))),q=i[2],r=e(function(c){return function(b){return e(aw,ek(a,b[1],b[2],c))}}(f),q),g=fk(h,n,e(function(b){return aU(b,a,cg(h))},f),r,p);if(g){var
+i=c[1],j=i[1],f=d[1],o=cz(j[2]),p=bi(b,iL(a,f,ek(a,j[1],o,f))),q=i[2],r=e(function(c){return function(b){return e(aw,ek(a,b[1],b[2],c))}}(f),q),g=fk(h,n,e(function(b){return aU(b,a,cg(h))},f),r,p);if(g){var
 d=d[2],c=c[2],b=g[1];continue}return g}return[0,b]}return[0,b]}}function
-mp(a,j,r,q){var
+mv(a,j,r,q){var
 c=r,f=q;for(;;){if(c){var
 k=c[1],l=k[1],g=l[2],h=l[1],m=k[2],n=[0,[0,cc(g),h],f];if(m){var
 o=I(d,g[1]);if(o)var
 s=e(function(a){var
-b=a[1];return[0,aw(a[2]),b]},m),t=e(function(a){return u},h),v=[0,cg(a),t],w=cg(a),b=fk(a,[0,ac(eg(iS(a,h,j),w,g)),j],v,s,n);else
+b=a[1];return[0,aw(a[2]),b]},m),t=e(function(a){return u},h),v=[0,cg(a),t],w=cg(a),b=fk(a,[0,ac(eg(iU(a,h,j),w,g)),j],v,s,n);else
 var
 b=o}else
 var
@@ -1847,22 +1858,22 @@ c=c[2],f=i[1];continue}var
 p=i}else
 var
 p=b;return p}return[0,f]}}function
-mq(c,b,a){var
+mw(c,b,a){var
 d=aC(0,a);return e(function(a){return o(a,b)?cg(c):u},d)}function
-mr(c,b,a){if(b){if(a){var
-d=mr(c,b[2],a[2]);return A(aU(b[1],c,a[1]),d)}return u}return u}function
-ms(a,j){switch(j){case
+mx(c,b,a){if(b){if(a){var
+d=mx(c,b[2],a[2]);return A(aU(b[1],c,a[1]),d)}return u}return u}function
+my(a,j){switch(j){case
 0:var
 d=aL(a[2],a[1]),e=a[1];return[0,[0,e,e],[0,[0,d,d],0]];case
 1:var
 f=aL(a[1],a[2]),g=a[2];return[0,[0,g,g],[0,[0,f,f],0]];default:var
 c=dy(E(a[1],a[2]),b),h=aL(c,a[2]),i=aL(a[2],c);return[0,[0,c,c],[0,[0,i,i],[0,[0,h,h],0]]]}}function
 fl(d,c,a){if(a)var
-e=a[1],g=fl(d,[0,c],a[2]),b=y(aO,lH(function(a){return o(a[1],c)},d)),h=b?ms(e,b[1])[1]:e,f=[0,h,g];else
+e=a[1],g=fl(d,[0,c],a[2]),b=y(aN,lN(function(a){return o(a[1],c)},d)),h=b?my(e,b[1])[1]:e,f=[0,h,g];else
 var
 f=a;return f}function
 gR(a,b){return e(function(a){var
-c=a[2];return ms(r(a[1],b,u),c)[2]},a)}function
+c=a[2];return my(r(a[1],b,u),c)[2]},a)}function
 gS(i,b,g,a){function
 d(a){return aG(b,a[1])}var
 h=0,j=$(u);function
@@ -1870,13 +1881,13 @@ c(g,d,a,b){if(a){var
 h=function(a){return aG(g,r(d,a[2],j))},k=e(h,b[1]),l=h(b[2]),m=c(g,[0,d],a[2],b),n=a[1];return f(e(function(a){var
 b=t(i,a,l);return[0,e(function(b){return t(i,a,b)},k),b]},n),m)}return a}var
 k=c(b,h,g,a),l=d(a[2]);return[0,[0,e(d,a[1]),l],k]}var
-tr=$(u);function
-mt(e,d,c){if(d){var
-f=r(e,c[2],ts),a=f?f[1]:[0,tr];if(a)var
-b=mt([0,e],d[2],c),h=b?[0,[0,a[1],b[1]]]:b,g=h;else
+tw=$(u);function
+mz(e,d,c){if(d){var
+f=r(e,c[2],tx),a=f?f[1]:[0,tw];if(a)var
+b=mz([0,e],d[2],c),h=b?[0,[0,a[1],b[1]]]:b,g=h;else
 var
-g=a;return g}return tt}function
-mu(a,c,h,p,o,g,n){var
+g=a;return g}return ty}function
+mA(a,c,h,p,o,g,n){var
 d=bj(c);return l(function(d){var
 f=k(n,d);if(f){var
 q=t(a,o,f[1]),i=G(O(a,b),q),r=h?G(i,aG(d,h[1])):i,j=function(b){function
@@ -1885,21 +1896,21 @@ g=e(function(a){return e(f,a)},p);return a_(a,c,bi(ab([0,r,0],c),g))},l=j(aw(g))
 m=l}else
 var
 m=f;return m},d)}function
-mv(c,b,a){if(a){var
+mB(c,b,a){if(a){var
 d=a[2];if(c){var
-f=mv(c[1],b,d);return[0,a[1],f]}var
+f=mB(c[1],b,d);return[0,a[1],f]}var
 e=[0,b,d]}else
 var
 e=a;return e}function
 fm(a,g){var
 b=a1(function(e){var
 c=r(e,a,u),b=D(c[1],d),f=b?D(d,c[2]):b;return J(f)},g);if(b){if(b[2])return a;var
-f=b[1],c=r(f,a,u),e=I(d,c[1])?c[1]:c[2];return mv(f,[0,e,e],a)}return a}function
-mw(c,a){if(a)var
-b=a[2],f=mw(c,b),g=b?b[1]:e(sU,c),d=[0,[0,a[1],g],f];else
+f=b[1],c=r(f,a,u),e=I(d,c[1])?c[1]:c[2];return mB(f,[0,e,e],a)}return a}function
+mC(c,a){if(a)var
+b=a[2],f=mC(c,b),g=b?b[1]:e(sZ,c),d=[0,[0,a[1],g],f];else
 var
 d=a;return d}function
-mx(a){return a?mw(a[1],a):a}function
+mD(a){return a?mC(a[1],a):a}function
 c6(c,d,b,a){if(d){var
 e=d[1];if(a){var
 f=c6(c,e,b,a[2]);return[0,a[1],f]}return[0,c,c6(c,e,b,0)]}return a?[0,b,a[2]]:[0,b,0]}function
@@ -1910,26 +1921,26 @@ var
 f=b;else
 var
 f=c;return f}function
-c7(d,c,b,a){return c6(u,c,iS(d,a,b),a)}function
-my(a,f,e,b,d,c){var
-g=aC(0,b);return ao(function(g,c){var
-h=c7(a,f,e,mq(a,g,b));return bi(c,iQ(a,ac(d),h))},c,g)}function
-mz(a,d,c,j,i,h,g,f){var
+c7(d,c,b,a){return c6(u,c,iU(d,a,b),a)}function
+mE(a,f,e,b,d,c){var
+g=aC(0,b);return ap(function(g,c){var
+h=c7(a,f,e,mw(a,g,b));return bi(c,iS(a,ac(d),h))},c,g)}function
+mF(a,d,c,j,i,h,g,f){var
 k=c7(a,d,c,e(function(b){return O(a,C(h,b))},i));return bi(f,gT(a,c7(a,d,c,e(function(c){return aU(c,E(g,b),cg(a))},j)),k))}function
-mA(a,h,g,q,f,p,o,n){var
+mG(a,h,g,q,f,p,o,n){var
 d=p,c=o,b=n;for(;;){if(d){if(c){var
 k=c[1],l=k[1],i=d[1],m=c7(a,h,g,e(function(b){return aU(b,f,cg(a))},i)),r=cz(l[2]),s=c7(a,h,g,ek(f,l[1],r,i)),t=bi(b,gT(a,e(aw,m),s)),u=k[2],j=fk(a,q,m,e(function(c){return function(b){return c7(a,h,g,e(aw,ek(f,b[1],b[2],c)))}}(i),u),t);if(j){var
 d=d[2],c=c[2],b=j[1];continue}return j}return[0,b]}return[0,b]}}function
-mB(g,b,f,a){if(a)var
+mH(g,b,f,a){if(a)var
 c=a[2],d=a[1],h=r(b,c,u),e=[0,d,c6(u,b,A(t(g,f,d),h),c)];else
 var
 e=a;return e}function
-mC(a,b,m,D,C,B){var
+mI(a,b,m,D,C,B){var
 i=C,h=B;for(;;){if(i){var
 n=i[1],o=n[1],j=o[2],p=n[2],c=c7(a,b,m,o[1]);if(p){var
 q=I(d,j[1]);if(q)var
 E=cg(a),f=cc(ac(eg(r(b,c,u),E,j))),k=cc(j),v=c6(u,b,f,0),w=r(b,c,u),x=bi(h,gT(a,v,c6(u,b,A(aw(t(a,f,k)),w),c))),y=r(b,c,u),z=[0,[0,k,c6(u,b,A(t(a,f,k),y),c)],x],F=e(function(e){return function(c){var
-d=c7(a,b,m,c[1]);return mB(a,b,e,[0,aw(c[2]),d])}}(f),p),G=e(function(a){return u},c),g=fk(a,[0,u,D],mB(a,b,f,[0,cg(a),G]),F,z);else
+d=c7(a,b,m,c[1]);return mH(a,b,e,[0,aw(c[2]),d])}}(f),p),G=e(function(a){return u},c),g=fk(a,[0,u,D],mH(a,b,f,[0,cg(a),G]),F,z);else
 var
 g=q}else
 var
@@ -1939,13 +1950,13 @@ i=i[2],h=l[1];continue}var
 s=l}else
 var
 s=g;return s}return[0,h]}}function
-iV(f,d,c,b,a){var
-g=e($,c);return lQ(0,bD(f,dH(0,a),g),b,d,0)}function
+iX(f,d,c,b,a){var
+g=e($,c);return lW(0,bD(f,dH(0,a),g),b,d,0)}function
 ad(a){if(a){var
 b=a[1];if(b)var
 c=ad(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return ty}function
+d=b;return d}return tD}function
 gU(b,a){if(a){var
 h=a[1],n=h[1],c=ad(e(function(a){return r(a,b,0)},n));if(c){var
 f=r(h[2],b,0);if(f){var
@@ -1958,19 +1969,19 @@ var
 l=f;var
 m=l}else
 var
-m=c;return m}return tz}function
+m=c;return m}return tE}function
 cE(d,c,b){var
 a=gU(d,c);return a?k(b,a[1]):a}function
 c8(a,b){return l(function(c){var
 a=r(c,b,0),d=a?1:a;return d},a)}function
 gV(b,a){if(b){var
 c=b[1],d=c[3],e=a[3],f=function(a){return a},g=aP(function(a){return a},f,A,e,d),h=a[2];return[0,A(a[1],c[1]),h,g]}return a}function
-iW(b,a){return b?mf(a,b[1]):a}function
-iX(h,g,b,f){var
+iY(b,a){return b?ml(a,b[1]):a}function
+iZ(h,g,b,f){var
 a=r(f,h,0);if(a){var
 c=a[1];if(b){var
-i=mf(c,b[1]),e=bj(g);return l(function(a){return D(d,aG(a,i)[1])},e)}return D(d,c[2][1])}return a}function
-iY(f,d,a){function
+i=ml(c,b[1]),e=bj(g);return l(function(a){return D(d,aG(a,i)[1])},e)}return D(d,c[2][1])}return a}function
+i0(f,d,a){function
 c(a){return aU(a,d,O(f,b))}if(a){var
 g=e(c,a[2]);return[0,c(a[1]),u,g]}return $(u)}function
 gW(b,a){var
@@ -1982,7 +1993,7 @@ f=d;var
 g=f}else
 var
 g=c;return g}function
-iZ(b,a){return ad(e(function(a){return r(a,b,0)},a))}function
+i1(b,a){return ad(e(function(a){return r(a,b,0)},a))}function
 fn(c,k,X,C,i,h,j,f,a){switch(f[0]){case
 0:var
 s=f[1];if(typeof
@@ -1996,29 +2007,29 @@ aH=a[2],aI=a[1],aJ=gV(j,$(s));return cE(i,X,function(a){return fi(c,h,aJ,aI,aH,a
 2:var
 _=c8(C,i);if(_){var
 aa=L(s[1],d),ab=aa?L(s[2],d):aa;if(ab){var
-aK=a[2],aM=a[1];return cE(i,k,function(a){return me(c,h,j,aM,aK,a)})}var
+aK=a[2],aM=a[1];return cE(i,k,function(a){return mk(c,h,j,aM,aK,a)})}var
 ac=ab}else
 var
 ac=_;return ac}return 0;case
 1:var
 ae=f[1];if(typeof
 a==="number"){if(1===a){var
-aN=iW(j,$(ae));return cE(i,X,function(a){return iL(c,h,aN,a)})}if(!a){var
-aO=iW(j,$(ae));return cE(i,k,function(a){return iL(c,h,aO,a)})}}return 0;case
+aN=iY(j,$(ae));return cE(i,X,function(a){return iN(c,h,aN,a)})}if(!a){var
+aO=iY(j,$(ae));return cE(i,k,function(a){return iN(c,h,aO,a)})}}return 0;case
 2:if(typeof
 a!=="number"&&3===a[0]){var
-af=a[1],m=iY(c,af,a[3]),ag=f[1],aP=a[2];return cE(i,k,function(d){var
-a=iM(h,m),b=a?fi(c,h,gV(j,m),af,aP,d):a;if(b){var
-f=m[3],g=e(function(a){return t(c,ag,a)},f),i=m[2];return iL(c,h,iW(j,[0,t(c,ag,m[1]),i,g]),d)}return b})}return 0;case
+af=a[1],m=i0(c,af,a[3]),ag=f[1],aP=a[2];return cE(i,k,function(d){var
+a=iO(h,m),b=a?fi(c,h,gV(j,m),af,aP,d):a;if(b){var
+f=m[3],g=e(function(a){return t(c,ag,a)},f),i=m[2];return iN(c,h,iY(j,[0,t(c,ag,m[1]),i,g]),d)}return b})}return 0;case
 3:if(typeof
-a==="number"&&!a)return iX(i,h,j,f[1]);return 0;case
+a==="number"&&!a)return iZ(i,h,j,f[1]);return 0;case
 4:if(typeof
 a!=="number"&&0===a[0]){var
 aQ=a[2],aR=a[1],aS=gV(j,$(f[2])),aT=function(a){return fi(c,h,aS,aR,aQ,a)};return cE(i,f[1],aT)}return 0;case
 5:if(typeof
 a==="number"&&!(3<=a))switch(a){case
-0:return iX(i,h,j,f[1]);case
-2:return iX(i,h,j,f[2])}return 0;case
+0:return iZ(i,h,j,f[1]);case
+2:return iZ(i,h,j,f[2])}return 0;case
 6:if(typeof
 a!=="number"&&8===a[0]){var
 D=gW(i,f[1]);if(D){var
@@ -2028,7 +2039,7 @@ I=gW(i,f[4]);if(I){var
 ah=I[1],ai=H[1],aj=F[1],ak=D[1],n=a[2],v=f[5],aV=a[1];if(n){var
 p=n[2];if(p){var
 q=p[2];if(q){if(q[2])return 0;var
-aC=[0,n[1],p[1],q[1]],r=mk(function(f){function
+aC=[0,n[1],p[1],q[1]],r=mq(function(f){function
 g(a){return aU(a,aV,O(c,b))}if(f){var
 a=e(g,f[2]),d=g(f[1]),h=fe(a),i=E(d[2],h),j=fe(a);return[0,d,[0,aL(d[1],j),i],a]}return $(u)},aC),N=l(function(a){return o(g(a),[0,h])},n),P=N?gN(c,h,j,v,r,ak,ai):N,Q=P?gN(c,h,j,v,r,ak,ah):P,R=Q?gN(c,h,j,v,r,aj,ai):Q;if(R)return gN(c,h,j,v,r,aj,ah);var
 S=R}else
@@ -2051,27 +2062,27 @@ var
 an=D;return an}return 0;case
 7:if(typeof
 a!=="number"&&0===a[0]){var
-ap=a[2],aq=a[1],aW=f[2],aX=f[1];return cE(i,k,function(e){var
-a=o(g(e),h),d=a?o(g(ap),h):a;if(d){var
+ao=a[2],aq=a[1],aW=f[2],aX=f[1];return cE(i,k,function(e){var
+a=o(g(e),h),d=a?o(g(ao),h):a;if(d){var
 f=function(a){if(a){var
 d=a[2],e=o(g(d),h);if(e){var
-i=en(aq,eo(aq,ap,O(c,b),d));return a_(c,h,bi(gO(c,aX,aW,a[1][2],d),i))}var
+i=en(aq,eo(aq,ao,O(c,b),d));return a_(c,h,bi(gO(c,aX,aW,a[1][2],d),i))}var
 f=e}else
 var
-f=a;return f},i=j?j[1]:$(u);return iI(h,iK(i,e),f)}return d})}return 0;case
+f=a;return f},i=j?j[1]:$(u);return iK(h,iM(i,e),f)}return d})}return 0;case
 8:if(typeof
 a==="number"&&5<=a){var
-aY=f[3],aZ=f[2],a0=function(a){return me(c,h,j,aZ,aY,a)};return cE(i,f[1],a0)}return 0;case
+aY=f[3],aZ=f[2],a0=function(a){return mk(c,h,j,aZ,aY,a)};return cE(i,f[1],a0)}return 0;case
 9:return 0;default:if(typeof
 a==="number"&&!a){var
-J=iZ(i,f[1]);if(J){var
-a1=f[2],K=ad(e(function(a){return iZ(i,a)},a1));if(K){var
-M=iZ(i,[0,f[3],[0,f[4],[0,f[5],[0,f[6],0]]]]);if(M){var
+J=i1(i,f[1]);if(J){var
+a1=f[2],K=ad(e(function(a){return i1(i,a)},a1));if(K){var
+M=i1(i,[0,f[3],[0,f[4],[0,f[5],[0,f[6],0]]]]);if(M){var
 w=M[1];if(w){var
 x=w[2];if(x){var
 z=x[2];if(z){var
 B=z[2];if(B){if(B[2])return 0;var
-ar=B[1],as=z[1][2],at=x[1][2],au=w[1][2],av=K[1],a2=J[1],W=mu(c,h,j,av,au,at,function(d){return[0,el(c,ao(function(b,a){return A(U(c,aG(d,b)),a)},u,a2))]});return W?W:mu(c,h,j,av,au,at,function(f){var
+ar=B[1],as=z[1][2],at=x[1][2],au=w[1][2],av=K[1],a2=J[1],W=mA(c,h,j,av,au,at,function(d){return[0,el(c,ap(function(b,a){return A(U(c,aG(d,b)),a)},u,a2))]});return W?W:mA(c,h,j,av,au,at,function(f){var
 b=cc(ar[1]),a=ca(c,G(as,U(c,b)));if(a){var
 d=b$(c,a[1]),e=G(as,t(c,b,aG(f,ar)));return y(function(a){return t(c,e,a)},d)}return a})}var
 aw=B}else
@@ -2092,11 +2103,11 @@ aA=K;var
 aB=aA}else
 var
 aB=J;return aB}return 0}}function
-mD(a,_,s,m,n,Z,h,j,i,f,c){if(9===f[0]){var
+mJ(a,_,s,m,n,Z,h,j,i,f,c){if(9===f[0]){var
 aa=f[2],ae=f[1];if(typeof
 c!=="number"&&9===c[0]){var
 L=c[2],v=c[1],af=c[3];if(0<aS(c[4]))return fn(a,s,m,n,h,g(j),i,f,c);var
-V=e($,Z),C=bg(0,bD(a,gP(0,j,ae),V),_,0),M=o(g(j),tA),N=M?c8(n,C):M;if(N){var
+V=e($,Z),C=bg(0,bD(a,gP(0,j,ae),V),_,0),M=o(g(j),tF),N=M?c8(n,C):M;if(N){var
 w=gU(C,m);if(w){var
 x=gU(h,m);if(x){var
 z=ad(e(function(b){var
@@ -2105,23 +2116,23 @@ f=b[2][2],a=ad(e(function(a){var
 b=r(a[2],h,0);return y(function(b){return[0,a[1],b]},b)},f)),g=a?[0,[0,b[2][1],a[1]]]:a,d=g;else
 var
 d=c;return d},aa));if(z){var
-B=mn(w[1]);if(B){var
-P=x[1],ag=z[1],ah=B[1],D=el(a,ao(function(f,h){function
+B=mt(w[1]);if(B){var
+P=x[1],ag=z[1],ah=B[1],D=el(a,ap(function(f,h){function
 b(b,d){var
 a=f[1],c=b?b[1]?f[2]:a[2]:a[1];return cb(r(d,c[3],u))}function
 c(a){var
-b=k(a,td),c=bm(k(a,te),b);return bm(k(a,0),c)}var
+b=k(a,ti),c=bm(k(a,tj),b);return bm(k(a,0),c)}var
 d=c(function(a){var
-c=b(tf,a),d=b(tg,a);return E(E(b(0,a),d),c)}),g=[0,d,d],e=c(function(a){var
-c=b(a,th),d=b(a,ti);return E(E(b(a,0),d),c)});return A(h,U(a,el(a,t(a,[0,e,e],g))))},u,ah)),p=aU(af,v,O(a,b)),F=I(d,G(p,D)[1]),H=F?o(g(L),to):F,J=H?o(g(P),tp):H;if(J){var
+c=b(tk,a),d=b(tl,a);return E(E(b(0,a),d),c)}),g=[0,d,d],e=c(function(a){var
+c=b(a,tm),d=b(a,tn);return E(E(b(a,0),d),c)});return A(h,U(a,el(a,t(a,[0,e,e],g))))},u,ah)),p=aU(af,v,O(a,b)),F=I(d,G(p,D)[1]),H=F?o(g(L),tt):F,J=H?o(g(P),tu):H;if(J){var
 q=b$(a,p);if(q){var
-W=aw(t(a,D,q[1])),X=G(O(a,b),W),Y=bj(tq);return l(function(h){var
+W=aw(t(a,D,q[1])),X=G(O(a,b),W),Y=bj(tv);return l(function(h){var
 g=e(function(b){var
 c=b[2],d=b[1];return cz(bT(function(d,b){var
-c=cb(aG(h,b[2]));return A(d,t(a,b[1],[0,c,c]))},c,d))},ag),r=k(ax(function(a){return aG(h,a)}),P),E=i?aG(h,i[1]):u,M=U(a,X),s=U(a,p),q=en(v,eo(v,L,O(a,b),r)),c=bi(ab([0,ac(E),0],tj),q);if(g){var
+c=cb(aG(h,b[2]));return A(d,t(a,b[1],[0,c,c]))},c,d))},ag),r=k(ax(function(a){return aG(h,a)}),P),E=i?aG(h,i[1]):u,M=U(a,X),s=U(a,p),q=en(v,eo(v,L,O(a,b),r)),c=bi(ab([0,ac(E),0],to),q);if(g){var
 d=g[2];if(d){var
 f=d[2];if(f){if(f[2])return 0;var
-B=d[1],C=g[1],I=f[1],j=a_(a,tl,bi(ab([0,ac(s),0],tk),c));if(j)return l(function(D){var
+B=d[1],C=g[1],I=f[1],j=a_(a,tq,bi(ab([0,ac(s),0],tp),c));if(j)return l(function(D){var
 J=G(M,E),K=D[2]?B:ac(B),L=D[1]?C:ac(C),o=0;if(c){var
 b=c[1],l=0;if(b){var
 d=b[2],m=0;if(d){var
@@ -2161,7 +2172,7 @@ var
 z=b;if(!l){var
 A=z;o=1}}else{var
 A=c;o=1}if(o)var
-k=A;return a_(a,tn,k)},tm);var
+k=A;return a_(a,ts,k)},tr);var
 m=j}else
 var
 m=f;var
@@ -2190,10 +2201,10 @@ gX(d){var
 a=d;for(;;){if(a){var
 b=a[2],e=a[1],c=J(aj(function(b){return function(a){return o(b,a)}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-i0(j,i,h,g,a){var
+i2(j,i,h,g,a){var
 d=r(a,j,0);if(d){var
 b=r(a,i,0);if(b)var
-c=mt(0,g,r(a,h,tB)),k=c?[0,[0,b[1],c[1]]]:c,e=k;else
+c=mz(0,g,r(a,h,tG)),k=c?[0,[0,b[1],c[1]]]:c,e=k;else
 var
 e=b;var
 f=e}else
@@ -2215,17 +2226,17 @@ var
 p=f;var
 q=p}else
 var
-q=c;return q}return tC}function
-mE(c,M,j,K,q,p,J,I,f,b,i,a){var
-h=g(J),N=dH(0,J),aF=bg(0,bD(c,N,e($,fl(i,0,q))),M,0),aI=e(aA,i),aH=0,aK=e($,q),aM=bg(tD,function(a){return iP(c,N,aK,aI,a)},M,aH),aN=gR(i,q);function
-P(a){return i0(p,aF,aM,i,a)}function
+q=c;return q}return tH}function
+mK(c,M,j,K,q,p,J,I,f,b,i,a){var
+h=g(J),N=dH(0,J),aF=bg(0,bD(c,N,e($,fl(i,0,q))),M,0),aI=e(aA,i),aH=0,aK=e($,q),aM=bg(tI,function(a){return iR(c,N,aK,aI,a)},M,aH),aN=gR(i,q);function
+P(a){return i2(p,aF,aM,i,a)}function
 w(a){return e(function(a){return O(c,a)},a)}var
 aO=I?I[1]:$(u);function
 Q(a){return a?a_(c,h,a[1]):a}function
 r(f,e,d,b,a){var
-g=ab([0,ac(e),0],h);return Q(iU(c,w(f),d,b,a,g))}function
+g=ab([0,ac(e),0],h);return Q(iW(c,w(f),d,b,a,g))}function
 R(d,b,a){var
-e=ab([0,b,0],h);return Q(mp(c,w(d),a,e))}var
+e=ab([0,b,0],h);return Q(mv(c,w(d),a,e))}var
 aP=e(aA,i),S=l(function(a){return aJ(a,g(q))},aP),U=S?gX(e(aA,i)):S,V=U?l(function(a){return o(g(a),h)},a):U;if(V){var
 v=0;switch(f[0]){case
 0:var
@@ -2244,7 +2255,7 @@ _=a;if(!ar)return _;break;case
 as=0;if(a){if(a[2])return 0;var
 aU=a[1],aV=b[2],aW=b[1],aa=c8(K,p),at=0;if(aa){var
 ad=L(x[1],d),ae=ad?L(x[2],d):ad;if(ae){var
-m=function(c,b,a){return r(aU,b,aW,aV,e(mo,a))},k=j;F=1;as=1;at=1}else
+m=function(c,b,a){return r(aU,b,aW,aV,e(mu,a))},k=j;F=1;as=1;at=1}else
 var
 af=ae}else
 var
@@ -2262,7 +2273,7 @@ av=0,aZ=f[1];if(typeof
 b==="number"||!(3===b[0]))av=1;else{var
 ax=0;if(a){var
 s=a[2],ay=0;if(s){if(s[2])return 0;var
-ah=b[1],a0=s[1],a1=a[1],a2=b[2],ai=iY(c,ah,b[3]),aj=iM(h,ai);if(aj){var
+ah=b[1],a0=s[1],a1=a[1],a2=b[2],ai=i0(c,ah,b[3]),aj=iO(h,ai);if(aj){var
 m=function(f,b,a){var
 d=aG(f,ai),e=r(a1,A(d,b),ah,a2,a);return e?R(a0,G(t(c,aZ,d),b),a):e},k=j;ax=1;ay=1}else
 var
@@ -2294,14 +2305,14 @@ H=1;if(H)return 0;break;case
 am=f[2],an=f[1],aD=0;if(typeof
 b==="number"||!(0===b[0]))aD=1;else{var
 aE=0;if(a){if(a[2])return 0;var
-n=b[2],C=b[1],a9=a[1],ap=o(g(j),h);if(ap){var
+n=b[2],C=b[1],a9=a[1],ao=o(g(j),h);if(ao){var
 m=function(a,x){var
 y=w(a9);return function(f){var
 k=o(g(f),h),l=k?o(g(n),h):k;if(l){var
 s=e(aA,f),u=en(C,eo(C,n,cg(c),s)),v=bi(gO(c,an,am,x,e(aA,f)),u),a=0,b=f,i=v,w=g(n);for(;;){if(b){var
 p=b[1][2],q=o(a,an),r=e(function(f,h){return function(d){var
 a=W(aC(0,g(n)),n);return e(function(a){var
-b=mr(C,a[2],d[1]);if(h&&o(a[1],f))return G(b,aw(t(c,am,d[2])));return b},a)}}(a,q),p),j=fk(c,y,mq(c,a,w),r,i);if(j){var
+b=mx(C,a[2],d[1]);if(h&&o(a[1],f))return G(b,aw(t(c,am,d[2])));return b},a)}}(a,q),p),j=fk(c,y,mw(c,a,w),r,i);if(j){var
 a=[0,a],b=b[2],i=j[1];continue}var
 d=j}else
 var
@@ -2310,33 +2321,33 @@ m=d;break}}else
 var
 m=l;return m}},k=j;aE=1}else
 var
-aq=ap}else
+aq=ao}else
 var
 aq=a;if(!aE)return aq}if(aD)return 0;break;default:return 0}if(v){var
 B=P(z);if(!B)return B;var
 a3=function(b,f,a){return l(function(a){var
-b=f[2],c=a[2],e=ao(function(b,a){return E(bm(d,T(b[2][1])),a)},d,c);return D(d,aL(aL(a[1][2][1],e),b))},a)},Z=a3,Y=[0,[0,0,B[1]],0]}else{var
+b=f[2],c=a[2],e=ap(function(b,a){return E(bm(d,T(b[2][1])),a)},d,c);return D(d,aL(aL(a[1][2][1],e),b))},a)},Z=a3,Y=[0,[0,0,B[1]],0]}else{var
 y=gY(p,P,k);if(!y)return y;var
 Z=m,Y=y[1]}var
 aT=bj(h);return l(function(a){var
 b=e(function(b){return gS(c,a,aN,b)},Y);return f4(Z,a,aG(a,aO),b)},aT)}return V}function
-mF(j,a){var
-f=ao(function(b,a){return bm(ct(b),a)},d,a);function
+mL(j,a){var
+f=ap(function(b,a){return bm(ct(b),a)},d,a);function
 g(a){if(a){if(L(ct(a[1]),f))return 0;var
 b=[0,g(a[2])]}else
 var
 b=a;return b}var
 h=g(a);if(L(f,d)){var
 k=e(function(a){return u},a),l=a?[0,b,a[2]]:a;return[0,[0,[0,0,l],d],k]}var
-i=iB(E(lF(f),b)),m=e(function(a){return u},a);return[0,[0,[0,h,a],i],c6(u,h,O(j,b_(c(2,b),i)),m)]}function
+i=iD(E(lL(f),b)),m=e(function(a){return u},a);return[0,[0,[0,h,a],i],c6(u,h,O(j,b_(c(2,b),i)),m)]}function
 gZ(f,K,t,I,n,m,H,F,k,a,h,al,E,ak,C,B){var
-i=g(H),M=dH(0,H),am=bg(0,bD(f,M,e($,fl(h,0,n))),K,0),ao=e(aA,h),an=0,ap=e($,n),aq=bg(tE,function(a){return iP(f,M,ap,ao,a)},K,an),as=gR(h,n);function
-at(a){return i0(m,am,aq,h,a)}var
-au=F?F[1]:$(u),N=mF(f,al),P=N[1],Q=P[1],v=Q[2],j=Q[1],R=N[2],av=P[2],p=e(function(a){return aU(a,av,O(f,b))},v);function
-S(a){return mz(f,j,p,E,ak,C,B,my(f,j,p,i,a,0))}function
+i=g(H),M=dH(0,H),am=bg(0,bD(f,M,e($,fl(h,0,n))),K,0),ap=e(aA,h),an=0,aq=e($,n),ar=bg(tJ,function(a){return iR(f,M,aq,ap,a)},K,an),as=gR(h,n);function
+at(a){return i2(m,am,ar,h,a)}var
+au=F?F[1]:$(u),N=mL(f,al),P=N[1],Q=P[1],v=Q[2],j=Q[1],R=N[2],av=P[2],p=e(function(a){return aU(a,av,O(f,b))},v);function
+S(a){return mF(f,j,p,E,ak,C,B,mE(f,j,p,i,a,0))}function
 T(a){return a?a_(f,i,a[1]):a}function
-w(d,c,b,a){return T(mA(f,j,p,R,c,b,a,S(ac(d))))}var
-aw=e(aA,h),U=l(function(a){return aJ(a,g(n))},aw),V=U?gX(e(aA,h)):U,W=V?o(g(v),i):V,X=W?o(g(E),i):W,Y=X?D(d,C):X,Z=Y?iz(B,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):Y,_=Z?aJ(j,i):Z,aa=_?J(L(r(j,v,d),d)):_;if(aa){switch(k[0]){case
+w(d,c,b,a){return T(mG(f,j,p,R,c,b,a,S(ac(d))))}var
+aw=e(aA,h),U=l(function(a){return aJ(a,g(n))},aw),V=U?gX(e(aA,h)):U,W=V?o(g(v),i):V,X=W?o(g(E),i):W,Y=X?D(d,C):X,Z=Y?iB(B,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):Y,_=Z?aJ(j,i):Z,aa=_?J(L(r(j,v,d),d)):_;if(aa){switch(k[0]){case
 0:var
 x=k[1],z=0;if(typeof
 a==="number")z=1;else
@@ -2348,7 +2359,7 @@ b=A(x,a);return function(a){return w(b,ay,ax,a)}},q=t;break;case
 2:var
 aC=a[2],aD=a[1],ad=c8(I,m),ah=0;if(ad){var
 ae=L(x[1],d),af=ae?L(x[2],d):ae;if(af){var
-s=function(b,a){return w(b,aD,aC,e(mo,a))},q=t;ah=1}else
+s=function(b,a){return w(b,aD,aC,e(mu,a))},q=t;ah=1}else
 var
 ag=af}else
 var
@@ -2357,7 +2368,7 @@ ag=ad;if(!ah)return ag;break;default:z=1}if(z)return 0;break;case
 ai=0,aE=k[1];if(typeof
 a==="number"&&!a)var
 s=function(a){var
-b=G(aE,a);return function(a){return T(mC(f,j,p,R,a,S(b)))}},q=t;else
+b=G(aE,a);return function(a){return T(mI(f,j,p,R,a,S(b)))}},q=t;else
 ai=1;if(ai)return 0;break;case
 4:var
 aj=0,aF=k[2];if(typeof
@@ -2367,8 +2378,8 @@ aH=a[2],aI=a[1],aK=function(a){var
 b=A(aF,a);return function(a){return w(b,aI,aH,a)}},s=aK,q=k[1];if(aj)return 0;break;default:return 0}var
 y=gY(m,at,q);if(y){var
 az=y[1],aB=bj(i);return l(function(a){var
-b=e(function(b){return gS(f,a,as,b)},az);return ar(s,aG(a,au),b)},aB)}return y}return aa}function
-mG(r,q,p,o,n,C,m,c,l,j,i,h,g,a){var
+b=e(function(b){return gS(f,a,as,b)},az);return ao(s,aG(a,au),b)},aB)}return y}return aa}function
+mM(r,q,p,o,n,C,m,c,l,j,i,h,g,a){var
 v=e(function(a){return d},c),u=0;if(typeof
 a!=="number")switch(a[0]){case
 5:var
@@ -2382,34 +2393,34 @@ y=D(d,s);if(y)return x([0,gL(s,w,t[1])]);var
 z=y}else
 var
 z=t;return z}return gZ(r,q,p,o,n,m,c,0,l,a,0,v,j,i,h,g)}function
-mH(a,aj,aL,s,F,ai,q,p,ah,ag,h){function
+mN(a,aj,aL,s,F,ai,q,p,ah,ag,h){function
 j(ak,f,j,x){var
-h=g(q),z=dH(0,q),aq=bg(0,bD(a,z,e($,fl(j,0,s))),aj,0),as=e(aA,j),ar=0,at=e($,s),au=bg(tF,function(b){return iP(a,z,at,as,b)},aj,ar);function
-av(a){return i0(ai,aq,au,j,a)}var
+h=g(q),z=dH(0,q),aq=bg(0,bD(a,z,e($,fl(j,0,s))),aj,0),as=e(aA,j),ar=0,at=e($,s),au=bg(tK,function(b){return iR(a,z,at,as,b)},aj,ar);function
+av(a){return i2(ai,aq,au,j,a)}var
 aw=ak?ak[1]:$(u);function
 k(b){return b?a_(a,h,b[1]):b}function
 B(b,a){return ac(A(aG(b,ah),a))}function
 C(d,c,b){return G(t(a,d,aG(c,ah)),b)}var
 ax=e(aA,j),E=l(function(a){return aJ(a,g(s))},ax),F=E?gX(e(aA,j)):E,H=F?o(g(x),h):F;if(H){var
 al=0;if(ag){var
-I=ag[1],K=I[1],M=K[1],N=M[1],P=K[2],Q=I[2],ay=M[2],R=mF(a,x),S=R[1],T=S[1],v=T[2],i=T[1],U=R[2],az=S[2],m=e(function(c){return aU(c,az,O(a,b))},v),V=function(b){return mz(a,i,m,N,ay,P,Q,my(a,i,m,h,b,0))},W=o(g(v),h),X=W?o(g(N),h):W,Y=X?D(d,P):X,Z=Y?iz(Q,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):Y,_=Z?aJ(i,h):Z,aa=_?J(L(r(i,v,d),d)):_,y=0;if(aa)if(p){var
+I=ag[1],K=I[1],M=K[1],N=M[1],P=K[2],Q=I[2],ay=M[2],R=mL(a,x),S=R[1],T=S[1],v=T[2],i=T[1],U=R[2],az=S[2],m=e(function(c){return aU(c,az,O(a,b))},v),V=function(b){return mF(a,i,m,N,ay,P,Q,mE(a,i,m,h,b,0))},W=o(g(v),h),X=W?o(g(N),h):W,Y=X?D(d,P):X,Z=Y?iB(Q,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):Y,_=Z?aJ(i,h):Z,aa=_?J(L(r(i,v,d),d)):_,y=0;if(aa)if(p){var
 am=0,aB=p[1];if(typeof
 f==="number"&&!f){var
-n=function(d,c,b){return k(mC(a,i,m,U,b,V(C(aB,d,c))))};y=1;am=1}if(!am)return 0}else{var
+n=function(d,c,b){return k(mI(a,i,m,U,b,V(C(aB,d,c))))};y=1;am=1}if(!am)return 0}else{var
 an=0;if(typeof
 f!=="number"&&0===f[0]){var
-aE=f[2],aF=f[1],n=function(d,c,b){return k(mA(a,i,m,U,aF,aE,b,V(B(d,c))))};y=1;an=1}if(!an)var
+aE=f[2],aF=f[1],n=function(d,c,b){return k(mG(a,i,m,U,aF,aE,b,V(B(d,c))))};y=1;an=1}if(!an)var
 ad=0}else
 var
 ad=aa;if(!y)return ad}else{var
 ae=e(function(b){return O(a,b)},x);if(p){var
 ao=0,aH=p[1];if(typeof
 f==="number"&&!f){var
-n=function(d,c,b){return k(mp(a,ae,b,ab([0,C(aH,d,c),0],h)))};ao=1}if(!ao)return 0}else{var
+n=function(d,c,b){return k(mv(a,ae,b,ab([0,C(aH,d,c),0],h)))};ao=1}if(!ao)return 0}else{var
 ap=0;if(typeof
 f==="number"||!(0===f[0]))ap=1;else
 var
-aI=f[2],aK=f[1],n=function(d,c,b){return k(iU(a,ae,aK,aI,b,ab([0,B(d,c),0],h)))};if(ap){var
+aI=f[2],aK=f[1],n=function(d,c,b){return k(iW(a,ae,aK,aI,b,ab([0,B(d,c),0],h)))};if(ap){var
 af=0;al=1}}}if(!al){var
 w=gY(ai,av,aL);if(w){var
 aC=w[1],aD=bj(h);return l(function(b){var
@@ -2436,12 +2447,12 @@ B=D(d,m);if(B)return z([0,gL(m,y,n[1])]);var
 C=B}else
 var
 C=n;return C}return j(0,h,0,x)}function
-mI(l,j,i,p,h,g,o,f,b,e,a){if(typeof
+mO(l,j,i,p,h,g,o,f,b,e,a){if(typeof
 a!=="number")switch(a[0]){case
 5:var
 q=a[2],m=k(o,b);if(m){var
 r=D(d,q);if(r){var
-y=a[1];return mD(l,j,i,p,h,g,f,b,[0,gL(q,a[3],m[1])],e,y)}var
+y=a[1];return mJ(l,j,i,p,h,g,f,b,[0,gL(q,a[3],m[1])],e,y)}var
 s=r}else
 var
 s=m;return s;case
@@ -2450,13 +2461,13 @@ t=a[3],u=a[2],c=a[1];if(typeof
 c!=="number"&&5===c[0]){var
 v=c[2],n=k(o,b);if(n){var
 w=D(d,v);if(w){var
-z=c[1];return mE(l,j,i,h,g,f,b,[0,gL(v,c[3],n[1])],e,z,u,t)}var
+z=c[1];return mK(l,j,i,h,g,f,b,[0,gL(v,c[3],n[1])],e,z,u,t)}var
 x=w}else
 var
-x=n;return x}return mE(l,j,i,h,g,f,b,0,e,c,u,t)}return mD(l,j,i,p,h,g,f,b,0,e,a)}function
-i1(a){return 9===a[0]?0:1}function
+x=n;return x}return mK(l,j,i,h,g,f,b,0,e,c,u,t)}return mJ(l,j,i,p,h,g,f,b,0,e,a)}function
+i3(a){return 9===a[0]?0:1}function
 eq(a){return z(function(a){return f(a[1],[0,a[2],0])},a)}function
-i2(j,d,i,a,h){var
+i4(j,d,i,a,h){var
 b=h;for(;;){var
 c=0;if(typeof
 b==="number"){if(1!==b)c=1}else
@@ -2475,13 +2486,13 @@ k=c?0:1,l=k?d:j,g=eq(l);switch(a[0]){case
 m=[0,a[1],[0,a[2],[0,a[3],[0,a[4],0]]]];return z(function(a){return[0,a[1],[0,a[2],[0,a[3],0]]]},m);case
 9:var
 n=a[2],o=z(function(a){var
-b=e(aO,a[2][2]);return[0,a[1],b]},n);return f(eq(d),o);case
+b=e(aN,a[2][2]);return[0,a[1],b]},n);return f(eq(d),o);case
 10:var
 p=[0,a[3],[0,a[4],[0,a[5],[0,a[6],0]]]],q=f(ed(a[2]),p);return f(a[1],q);case
 4:case
 8:return eq(a[1]);default:return g}}}function
-i3(v,t,s,q,k,a,g,j){var
-h=i1(a),i=h?l(function(b){var
+i5(v,t,s,q,k,a,g,j){var
+h=i3(a),i=h?l(function(b){var
 a=r(b,bT(fm,g,k),u);return L(a[1],a[2])},j):h;return i?l(function(ao){switch(a[0]){case
 3:var
 g=[0,a[1],0];break;case
@@ -2527,10 +2538,10 @@ N=f;return N;case
 n=a[1];if(n){var
 O=n[1],g=a[2];if(O){if(g){var
 P=g[1];if(P)return[0,[0,E(O[1],P[1])]];var
-Q=tu}else
+Q=tz}else
 var
 Q=g;return Q}var
-ai=g?tv:g,R=ai}else
+ai=g?tA:g,R=ai}else
 var
 R=n;return R;case
 7:var
@@ -2539,14 +2550,14 @@ S=p[1],h=a[2];if(S){if(h)var
 q=h[1],ak=q?[0,[0,aL(S[1],q[1])]]:q,U=ak;else
 var
 U=h;return U}var
-al=h?tw:h,V=al}else
+al=h?tB:h,V=al}else
 var
 V=p;return V;case
 8:var
 r=a[1];if(r){var
 W=r[1];if(W){var
 X=W[1];return[0,[0,E(X,X)]]}var
-Y=tx}else
+Y=tC}else
 var
 Y=r;return Y;case
 9:var
@@ -2582,24 +2593,24 @@ a=r(c,h,0),b=a?1:a;return b},q);if(i){var
 n=f(eq(s),g),p=f(eq(t),n);return l(function(c){var
 a=r(c,h,0);if(a){var
 b=aS(a[1]);return 0===b?1:0<b?0:0}return a},p)}return i},g):i}function
-i4(j,a,i,h,g,f,e,d,c,b){var
-k=gE(i2(i,h,g,c,b),a);return iV(j,a,bT(fm,e,f),k,d)}function
-mJ(f,d,c,n,m,b,l,q,e,k,j,i,h,a){if(typeof
+i6(j,a,i,h,g,f,e,d,c,b){var
+k=gE(i4(i,h,g,c,b),a);return iX(j,a,bT(fm,e,f),k,d)}function
+mP(f,d,c,n,m,b,l,q,e,k,j,i,h,a){if(typeof
 a!=="number"&&11===a[0]){var
-o=a[3],g=a[1],p=i3(d,c,n,m,b,k,g,a[2]);if(p){var
-r=i4(f,d,c,n,m,b,g,e,k,o);return mH(f,d,c,bT(fm,g,b),l,r,e,j,i,h,o)}return p}return mH(f,d,c,b,l,q,e,j,i,h,a)}function
-mK(r,q,p,n,m,k,j,i,h,f,d,c,a){if(typeof
+o=a[3],g=a[1],p=i5(d,c,n,m,b,k,g,a[2]);if(p){var
+r=i6(f,d,c,n,m,b,g,e,k,o);return mN(f,d,c,bT(fm,g,b),l,r,e,j,i,h,o)}return p}return mN(f,d,c,b,l,q,e,j,i,h,a)}function
+mQ(r,q,p,n,m,k,j,i,h,f,d,c,a){if(typeof
 a!=="number"&&12===a[0]){var
 b=a[1],s=J(o(g(b),0));if(s){var
-t=W(mx(e(function(a){return a[1][1][1]},b)),b);return l(function(a){var
-b=a[2],e=b[1];return mJ(r,q,p,n,m,k,j,i,h,f,d,c,[0,[0,[0,[0,a[1][1],a[1][2]],e[1][2]],e[2]]],b[2])},t)}return s}return mJ(r,q,p,n,m,k,j,i,h,f,d,c,0,a)}function
+t=W(mD(e(function(a){return a[1][1][1]},b)),b);return l(function(a){var
+b=a[2],e=b[1];return mP(r,q,p,n,m,k,j,i,h,f,d,c,[0,[0,[0,[0,a[1][1],a[1][2]],e[1][2]],e[2]]],b[2])},t)}return s}return mP(r,q,p,n,m,k,j,i,h,f,d,c,0,a)}function
 g0(b,a){if(a){var
 c=a[2];if(b){var
 e=g0(b[1],c);return[0,a[1],e]}var
 d=[0,0,c]}else
 var
 d=a;return d}function
-mL(c,b,a){var
+mR(c,b,a){var
 d=W(b,a);return l(function(a){var
 b=k(c,a[1]);return b?b:J(a[2])},d)}function
 fo(i,a,f,m,c,t,n,h,b,X,p){switch(p[0]){case
@@ -2609,16 +2620,16 @@ ab=function(a){return l(J,a)},K=ab,x=p[1];break;case
 ac=p[4],ad=p[3],ae=p[2],af=function(d){var
 e=c4(ae,b),g=fo(i,a,f,m,c,t,n,h,e[1],d,ad);return g?fo(i,a,f,m,c,t,n,h,e[2],d,ac):g},K=af,x=p[1];break;default:var
 ag=p[4],ah=p[3],ai=p[2],aj=function(d){var
-e=mL(i1,t,d);if(e){var
+e=mR(i3,t,d);if(e){var
 g=c4(ai,h),j=fo(i,a,f,m,c,t,n,g[1],b,d,ah);if(j)return fo(i,a,f,m,c,t,n,g[2],b,d,ag);var
 k=j}else
 var
 k=e;return k},K=aj,x=p[1]}if(x){var
-y=iV(i,a,h,gE(z(function(e){var
+y=iX(i,a,h,gE(z(function(e){var
 a=e[2],d=0;if(typeof
 a==="number"){if(4!==a)d=1}else
 if(11!==a[0])d=1;if(d){var
-b=F(t,e[1]);return b?i2(f,m,c,b[1],a):b}return 0},x),a),b),w=x,u=X;for(;;){if(w){var
+b=F(t,e[1]);return b?i4(f,m,c,b[1],a):b}return 0},x),a),b),w=x,u=X;for(;;){if(w){var
 R=w[1],j=R[2],E=R[1],S=w[2],Y=0;if(typeof
 j==="number"&&4===j){var
 A=k(n,b);if(A)var
@@ -2634,24 +2645,24 @@ q=H[1],L=0;if(typeof
 j==="number")L=1;else
 switch(j[0]){case
 11:var
-M=j[3],B=j[1],N=i3(a,f,m,c,h,q,B,j[2]);if(N)var
-$=i4(i,a,f,m,c,h,B,b,q,M),s=mI(i,a,f,m,c,bT(fm,B,h),n,$,b,q,M);else
+M=j[3],B=j[1],N=i5(a,f,m,c,h,q,B,j[2]);if(N)var
+$=i6(i,a,f,m,c,h,B,b,q,M),s=mO(i,a,f,m,c,bT(fm,B,h),n,$,b,q,M);else
 var
 s=N;break;case
 12:var
 C=j[1],O=J(o(g(C),0));if(O)var
-aa=W(mx(e(function(a){return a[1][1][1]},C)),C),s=l(function(g){return function(r){var
+aa=W(mD(e(function(a){return a[1][1][1]},C)),C),s=l(function(g){return function(r){var
 s=r[2],e=r[1],k=s[1],l=k[1][2],o=k[2],d=s[2];if(typeof
 d!=="number"&&11===d[0]){var
-p=d[3],j=d[1],q=i3(a,f,m,c,h,g,j,d[2]);if(q){var
-t=e[2],u=e[1],v=i4(i,a,f,m,c,h,j,b,g,p);return mG(i,a,f,c,bT(fm,j,h),n,v,b,g,u,t,l,o,p)}return q}return mG(i,a,f,c,h,n,y,b,g,e[1],e[2],l,o,d)}}(q),aa);else
+p=d[3],j=d[1],q=i5(a,f,m,c,h,g,j,d[2]);if(q){var
+t=e[2],u=e[1],v=i6(i,a,f,m,c,h,j,b,g,p);return mM(i,a,f,c,bT(fm,j,h),n,v,b,g,u,t,l,o,p)}return q}return mM(i,a,f,c,h,n,y,b,g,e[1],e[2],l,o,d)}}(q),aa);else
 var
 s=O;break;case
 13:if(2===q[0])var
-D=iY(i,j[1],j[2]),P=iM(g(b),D),Q=P?mK(i,a,f,m,c,h,n,y,b,q,0,D,j[3]):P,s=Q?mK(i,a,f,m,c,h,n,y,b,q,[0,q[1]],D,j[4]):Q;else
+D=i0(i,j[1],j[2]),P=iO(g(b),D),Q=P?mQ(i,a,f,m,c,h,n,y,b,q,0,D,j[3]):P,s=Q?mQ(i,a,f,m,c,h,n,y,b,q,[0,q[1]],D,j[4]):Q;else
 var
 s=0;break;default:L=1}if(L)var
-s=mI(i,a,f,m,c,h,n,y,b,q,j);if(s){var
+s=mO(i,a,f,m,c,h,n,y,b,q,j);if(s){var
 w=S,u=g0(E,u);continue}var
 U=s}else
 var
@@ -2664,22 +2675,22 @@ var
 v=[0,u];break}}else
 var
 v=[0,X];return v?K(v[1]):v}function
-i5(h,g,f,e,d,c,b,a){return function(i,j,k){return fo(h,g,f,e,d,b,a,c,i,j,k)}}function
-i6(a){return e(function(a){return 1},a)}function
+i7(h,g,f,e,d,c,b,a){return function(i,j,k){return fo(h,g,f,e,d,b,a,c,i,j,k)}}function
+i8(a){return e(function(a){return 1},a)}function
 er(a,d,b,c){function
 f(d,c){var
 f=W(a[1],b[1]);return e(function(a){var
-b=s(c,a[2]);return B(s(d,a[1]),b)},f)}if(aN(a[2],b[2])){var
+b=s(c,a[2]);return B(s(d,a[1]),b)},f)}if(aO(a[2],b[2])){var
 g=a[2];return[0,f(d,c),g]}var
 h=s(a[2],b[2]),i=s(c,a[2]);return[0,f(s(d,b[2]),i),h]}function
-mM(a){var
+mS(a){var
 c=m(b);return[0,e(function(a){return m(d)},a),c]}function
 a$(a,k){var
 f=k[1];switch(f[0]){case
 1:var
 u=f[1];if(aj(function(a){return o(u,a)},a)){var
 C=m(b);return[0,e(function(a){var
-c=o(a,u)?b:d;return m(c)},a),C]}return mM(a);case
+c=o(a,u)?b:d;return m(c)},a),C]}return mS(a);case
 3:var
 D=m(b),E=a$(a,f[2]),F=m(b);return er(a$(a,f[1]),F,E,D);case
 4:var
@@ -2699,10 +2710,10 @@ V=m(b);return[0,j[1],V]}var
 W=s(m(c(2,b)),k),X=s(j[2],W);return[0,j[1],X];case
 10:var
 n=f[4],g=f[3],h=f[2],p=[0,[10,0,h,g,n]],q=[0,[10,1,h,g,n]],Y=x(g,q),Z=a$(a,g),_=x(h,p),$=er(a$(a,h),_,Z,Y),aa=m(T(b)),ab=a$(a,n),r=er($,m(c(2,b)),ab,aa),ac=r[1],ad=f[1]?p:bp(q),t=e(function(a){return s(ad,a)},ac);if(l(function(a){return a9(d,a)},t))return[0,t,r[2]];var
-ae=s(h,q),af=x(s(g,p),ae),ag=s(m(c(2,b)),af);return[0,t,s(r[2],ag)];default:return mM(a)}}function
-mN(c,a){var
+ae=s(h,q),af=x(s(g,p),ae),ag=s(m(c(2,b)),af);return[0,t,s(r[2],ag)];default:return mS(a)}}function
+mT(c,a){var
 b=a$(c,a),f=b[1];return e(function(a){return a9(d,a)?a:al(a,b[2])},f)}function
-mO(g){var
+mU(g){var
 h=g[1],c=h[2],e=h[1];if(0===e[0]){var
 i=e[2],a=e[1];if(D(i,b)){if(0===c[0]){var
 j=c[2],m=c[1];if(D(j,b)){var
@@ -2712,7 +2723,7 @@ var
 f=l;var
 o=f?[0,a]:f;return o}return L(aT(j,aI(2))[2],d)?0:0}return 0}return L(aT(i,aI(2))[2],d)?0:0}return 0}function
 c9(c,b){var
-a=mO(c);return a?m(a[1]):[0,[1,b]]}function
+a=mU(c);return a?m(a[1]):[0,[1,b]]}function
 cF(b,a){if(a)var
 d=cF([0,b],a[2]),c=[0,c9(a[1],b),d];else
 var
@@ -2724,17 +2735,17 @@ c=a[1],g=[0,[0,c[4],b],0],h=f(ba(c[3],b),g),i=f(ba(c[2],b),h);return f(ba(c[1],d
 1:var
 e=a[3],j=e?ba(e[1],d):e,k=f(ba(a[2],b),j);return f(ba(a[1],b),k);default:return ba(a[1],d)}}function
 ak(b,a){var
-c=m(d),e=r(M(tG,a),b,c),f=m(d),g=r(M(tH,a),b,f);return[0,r(a,b,m(d)),g,e]}function
-mP(b,a){return ag(x,ag(B,dG,a),b)}function
+c=m(d),e=r(M(tL,a),b,c),f=m(d),g=r(M(tM,a),b,f);return[0,r(a,b,m(d)),g,e]}function
+mV(b,a){return ag(x,ag(B,dG,a),b)}function
 g2(c,b,a){if(a){var
 e=a[2],g=g2(c,bC(b),e),h=a[1];return f(g1(c,bS(d,b),h),g)}return a}function
-i7(f,e,c,j){if(c){var
-b=c[1],v=M(j,g(g1(f,bS(d,e),b))),w=c[2],x=i7(f,bC(e),w,v),a=cF(j,g1(f,bS(d,e),b));switch(b[0]){case
+i9(f,e,c,j){if(c){var
+b=c[1],v=M(j,g(g1(f,bS(d,e),b))),w=c[2],x=i9(f,bC(e),w,v),a=cF(j,g1(f,bS(d,e),b));switch(b[0]){case
 0:var
-l=b[1][5],n=r(tI,a,m(d)),o=ag(B,dG,ak(a,tJ)),p=dF(ak(a,0)),q=ak(a,tK),h=mg(mP(ak(a,tL),q),p,o,n,l);break;case
+l=b[1][5],n=r(tN,a,m(d)),o=ag(B,dG,ak(a,tO)),p=dF(ak(a,0)),q=ak(a,tP),h=mm(mV(ak(a,tQ),q),p,o,n,l);break;case
 1:var
-i=b[3],s=i?[0,dF(ak(a,tM))]:i,t=ag(B,dG,ak(a,tN)),u=ak(a,tO),h=mh(mP(ak(a,0),u),t,s);break;default:var
-h=mi(dG,dF(ak(a,0)))}var
+i=b[3],s=i?[0,dF(ak(a,tR))]:i,t=ag(B,dG,ak(a,tS)),u=ak(a,tT),h=mn(mV(ak(a,0),u),t,s);break;default:var
+h=mo(dG,dF(ak(a,0)))}var
 k=[0,h,x]}else
 var
 k=c;return k}function
@@ -2780,18 +2791,18 @@ c=a[3],g=[5,[4,c,c],a[4]];return[0,[0,[0,g,g],b],0];case
 15:var
 j=a[2],k=a[1];return e(function(b){var
 a=[5,j,b];return[0,[0,a,a],d]},k)}return 0}function
-mQ(c,b,a){var
+mW(c,b,a){var
 d=g(dI(c,b)),e=M(a[2],d);return[0,[0,a[1]],e]}function
-i8(c,b){if(aN(b,c))return[0,m(d)];var
+i_(c,b){if(aO(b,c))return[0,m(d)];var
 a=b[1];if(4===a[0]){var
-e=aN(a[1],c),f=e?[0,a[2]]:e;return f}return 0}function
-mR(y,p,a,o){switch(o[0]){case
+e=aO(a[1],c),f=e?[0,a[2]]:e;return f}return 0}function
+mX(y,p,a,o){switch(o[0]){case
 0:var
 h=F(y,o[1]);if(h){var
 i=h[1];if(i){var
-q=i[1],s=q[1],c=s[2],e=s[1],t=q[2],z=ak(a,tP),A=ag(B,ag(x,e,a4(al(r(tQ,a,m(d)),t),c)),z),C=ak(a,tR),f=al(r(0,a,m(d)),t),j=i8(e[1],c[1]);if(j){var
-l=i8(e[2],c[2]);if(l){var
-n=i8(e[3],c[3]);if(n)var
+q=i[1],s=q[1],c=s[2],e=s[1],t=q[2],z=ak(a,tU),A=ag(B,ag(x,e,a4(al(r(tV,a,m(d)),t),c)),z),C=ak(a,tW),f=al(r(0,a,m(d)),t),j=i_(e[1],c[1]);if(j){var
+l=i_(e[2],c[2]);if(l){var
+n=i_(e[3],c[3]);if(n)var
 w=a4(f,c),g=ag(B,[0,j[1],l[1],n[1]],w);else
 var
 g=ag(x,e,a4(x(m(b),f),c))}else
@@ -2806,45 +2817,45 @@ v=u}else
 var
 v=h;return v;case
 1:var
-D=ak(a,tS);return[0,[0,ak(a,0),D]];default:var
-E=k(p,ak(a,tT));return[0,[0,k(p,ak(a,0)),E]]}}function
-mS(e,d,c,h,g){var
-a=mR(e,d,am(tU,c),h);if(a)var
-b=mR(e,d,av(tV,c),g),i=b?[0,[0,a[1],b[1]]]:b,f=i;else
+D=ak(a,tX);return[0,[0,ak(a,0),D]];default:var
+E=k(p,ak(a,tY));return[0,[0,k(p,ak(a,0)),E]]}}function
+mY(e,d,c,h,g){var
+a=mX(e,d,am(tZ,c),h);if(a)var
+b=mX(e,d,av(t0,c),g),i=b?[0,[0,a[1],b[1]]]:b,f=i;else
 var
 f=a;return f}function
-mT(g,c,d,b,a){var
+mZ(g,c,d,b,a){var
 h=es(c,a),i=cF(d,f(es(c,b),h));function
-j(a){return ag(B,dG,a)}return mS(e(function(a){var
+j(a){return ag(B,dG,a)}return mY(e(function(a){var
 b=a[7];return y(function(b){var
 c=c3(a);return[0,[0,b,a[1]],c]},b)},g),j,i,b,a)}function
 dJ(d,c,b,a){var
 e=s(c,b);return x(s(d,a),e)}function
 bE(a){return z(function(a){return f(a[1],[0,a[2],0])},a)}function
-mU(b,a){if(b)if(a)var
-d=b[1],e=mU(b[2],a[2]),f=s(d[2],a[1]),c=[0,[0,bW(d[1]),f],e];else
+m0(b,a){if(b)if(a)var
+d=b[1],e=m0(b[2],a[2]),f=s(d[2],a[1]),c=[0,[0,bW(d[1]),f],e];else
 var
 c=a;else
 var
 c=b;return c}function
-mV(a){if(a){var
+m1(a){if(a){var
 b=a[1][6];if(b){var
-c=b[1],d=mV(a[2]);if(d)var
-g=d[1],h=Z(c,c),e=[0,[0,[0,bW(c),h],g]];else
+c=b[1],d=m1(a[2]);if(d)var
+g=d[1],h=_(c,c),e=[0,[0,[0,bW(c),h],g]];else
 var
 e=d;var
 f=e}else
 var
-f=b;return f}return tX}function
+f=b;return f}return t2}function
 fq(b,d,c,a){if(typeof
 a!=="number")switch(a[0]){case
 8:var
 i=c[1],j=c9(bX(d,a),i);return[0,e(function(a){var
 b=s(a[2],j);return[0,bW(a[1]),b]},b)];case
-9:return mV(b);case
+9:return m1(b);case
 15:var
 k=g(b),f=o(g(a[1]),k);if(f)var
-l=dI(d,a),h=[0,mU(b,cF(c[2],l))];else
+l=dI(d,a),h=[0,m0(b,cF(c[2],l))];else
 var
 h=f;return h}return 0}function
 g3(e,k,j,a){var
@@ -2877,65 +2888,65 @@ G=E}else
 var
 G=e;return G;case
 10:var
-t=mT(e,k,j[2],a[1],a[2]);if(t){var
+t=mZ(e,k,j[2],a[1],a[2]);if(t){var
 H=t[1],I=H[2],J=H[1];return z(bW,[0,J[1],[0,J[2],[0,I[1],[0,I[2],0]]]])}return t;case
 11:var
 Y=function(d){var
 e=d[7];if(e)var
-n=dI(k,a),f=cF(j[2],n),h=ak(f,tW),b=ag(x,ak(f,0),h),i=V(c),l=V(c3(d)),m=al(V(Z(b,d[1])),l),g=[0,x(x(Z(b,b),m),i),0];else
+n=dI(k,a),f=cF(j[2],n),h=ak(f,t1),b=ag(x,ak(f,0),h),i=V(c),l=V(c3(d)),m=al(V(_(b,d[1])),l),g=[0,x(x(_(b,b),m),i),0];else
 var
 g=e;return g},g=Y,f=a[1];break;case
 12:var
-_=function(e){var
+Z=function(e){var
 p=m(d),q=dI(k,a),t=r(0,cF(j[2],q),p),f=al(t,c3(e)),g=e[5];if(g){var
 l=aK(e[2]),h=al(g[1],l),n=s(h,B(c,s(f,V(h))));return[0,x(m(b),n),0]}var
-i=e[7],o=i?[0,x(x(m(b),c),f),0]:i;return o},g=_,f=a[1];break;case
+i=e[7],o=i?[0,x(x(m(b),c),f),0]:i;return o},g=Z,f=a[1];break;case
 8:case
 9:case
 15:var
 q=fq(e,k,j,a);return q?bE(q[1]):q;default:u=1}if(u)return 0;var
 o=F(e,f);return o?g(o[1]):o}function
-i9(d,b,c,a){if(a){var
-e=a[1],g=a[2],h=i9(d,b,mQ(b,e,c),g);return f(g3(d,b,c,e),h)}return a}var
-mW=[0,d,b],mX=[0,[0,mW,mW],d];function
-i_(a){return J(ce(a[1][1],a[1][2]))}function
-mY(a){var
-b=aC(0,g(a));return a1(function(b){return i_(r(b,a,mX))},b)}function
+i$(d,b,c,a){if(a){var
+e=a[1],g=a[2],h=i$(d,b,mW(b,e,c),g);return f(g3(d,b,c,e),h)}return a}var
+m2=[0,d,b],m3=[0,[0,m2,m2],d];function
+ja(a){return J(ce(a[1][1],a[1][2]))}function
+m4(a){var
+b=aC(0,g(a));return a1(function(b){return ja(r(b,a,m3))},b)}function
 g4(a,b){var
-c=mN(mY(a),b),e=W(mY(a),c);return a1(function(a){return J(a9(d,a[2]))},e)}function
-mZ(b,a){var
+c=mT(m4(a),b),e=W(m4(a),c);return a1(function(a){return J(a9(d,a[2]))},e)}function
+m5(b,a){var
 c=k(b,a[3]),d=k(b,a[2]);return[0,k(b,a[1]),d,c]}function
-m0(m,l,f,j,i,a){var
+m6(m,l,f,j,i,a){var
 d=g4(f,a);return ad(e(function(e){var
-a=r(e[1],f,mX),g=aL(a[2],j),h=[4,[0,c(2,b),b],i],d=[5,[3,a[1][2],a[1][1]],h],n=ap(m,[0,[0,d,d],g]);return y(function(a){return[0,a,k(l,e[2])]},n)},d))}function
-m1(g,f,n,m,l,e,c){var
-h=[5,l,e],a=ap(g,[0,[0,h,h],d]);if(a){var
-b=m0(g,f,n,m,e,c);if(b)var
+a=r(e[1],f,m3),g=aL(a[2],j),h=[4,[0,c(2,b),b],i],d=[5,[3,a[1][2],a[1][1]],h],n=aq(m,[0,[0,d,d],g]);return y(function(a){return[0,a,k(l,e[2])]},n)},d))}function
+m7(g,f,n,m,l,e,c){var
+h=[5,l,e],a=aq(g,[0,[0,h,h],d]);if(a){var
+b=m6(g,f,n,m,e,c);if(b)var
 o=[0,a[1],b[1]],i=[0,[0,k(f,c),o]];else
 var
 i=b;var
 j=i}else
 var
 j=a;return j}function
-m2(c,G,m,al,j,i,n,s){if(s){var
-a=s[1],aH=s[2],aI=m2(c,G,m,al,j,i,mQ(i,a,n),aH);if(typeof
+m8(c,G,m,al,j,i,n,s){if(s){var
+a=s[1],aH=s[2],aI=m8(c,G,m,al,j,i,mW(i,a,n),aH);if(typeof
 a==="number")if(0===a)var
 f=[0,[0,u]];else
 var
-an=G[2],ao=G[1],aq=fj(j),f=[0,[8,k(ax(m),aq),ao,an]];else
+an=G[2],ao=G[1],ap=fj(j),f=[0,[8,k(ax(m),ap),ao,an]];else
 switch(a[0]){case
 0:var
-ar=ap(c,bX(i,a)),f=y(function(a){return[0,U(c,a)]},ar);break;case
+ar=aq(c,bX(i,a)),f=y(function(a){return[0,U(c,a)]},ar);break;case
 1:var
-as=ap(c,bX(i,a)),f=y(function(a){return[1,U(c,a)]},as);break;case
+as=aq(c,bX(i,a)),f=y(function(a){return[1,U(c,a)]},as);break;case
 5:var
-au=ap(c,bX(i,a)),f=y(function(a){return[2,U(c,a)]},au);break;case
+au=aq(c,bX(i,a)),f=y(function(a){return[2,U(c,a)]},au);break;case
 8:var
 av=fq(j,i,n,a),f=y(function(a){var
 d=O(c,b);return[4,k(ax(m),a),d]},av);break;case
 9:var
 w=fq(j,i,n,a);if(w){var
-x=ap(c,bX(i,a));if(x)var
+x=aq(c,bX(i,a));if(x)var
 aw=U(c,x[1]),ay=w[1],L=[0,[4,k(ax(m),ay),aw]];else
 var
 L=x;var
@@ -2944,10 +2955,10 @@ var
 M=w;var
 f=M;break;case
 10:var
-z=mT(j,i,n[2],a[1],a[2]);if(z){var
-N=z[1],P=N[2],Q=N[1],A=ap(c,bX(i,a));if(A){var
+z=mZ(j,i,n[2],a[1],a[2]);if(z){var
+N=z[1],P=N[2],Q=N[1],A=aq(c,bX(i,a));if(A){var
 R=A[1],S=D(d,R[1]);if(S)var
-q=function(a){return mZ(m,a)},az=q(P[2]),aA=q(P[1]),aB=q(Q[2]),T=[0,[6,q(Q[1]),aB,aA,az,R]];else
+q=function(a){return m5(m,a)},az=q(P[2]),aA=q(P[1]),aB=q(Q[2]),T=[0,[6,q(Q[1]),aB,aA,az,R]];else
 var
 T=S;var
 V=T}else
@@ -2968,14 +2979,14 @@ f=B;break;case
 13:var
 Z=a[1],_=F(j,Z),H=0;if(_){var
 $=h(c,1,a[2]),aa=$?h(c,1,a[3]):$;if(aa)var
-aC=ap(c,bX(i,a)),f=y(function(a){return[7,Z,U(c,a)]},aC);else{var
+aC=aq(c,bX(i,a)),f=y(function(a){return[7,Z,U(c,a)]},aC);else{var
 ab=aa;H=1}}else{var
 ab=_;H=1}if(H)var
 f=ab;break;case
 14:var
-ac=a[2],ae=a[1],af=o(g(j),tY),ag=af?h(c,0,ae):af,ah=ag?h(c,1,ac):ag;if(ah){var
-C=ap(c,bX(i,a));if(C)var
-E=ad(e(function(a){return m1(c,m,al,i,ae,ac,a[4])},j)),aD=E?[0,[9,C[1],E[1]]]:E,ai=aD;else
+ac=a[2],ae=a[1],af=o(g(j),t3),ag=af?h(c,0,ae):af,ah=ag?h(c,1,ac):ag;if(ah){var
+C=aq(c,bX(i,a));if(C)var
+E=ad(e(function(a){return m7(c,m,al,i,ae,ac,a[4])},j)),aD=E?[0,[9,C[1],E[1]]]:E,ai=aD;else
 var
 ai=C;var
 aj=ai}else
@@ -2999,13 +3010,13 @@ f=K}var
 am=[0,f,aI]}else
 var
 am=s;return am}function
-tZ(a){var
+t4(a){var
 b=0;if(typeof
 a==="number"){if(0!==a)b=1}else
 if(0!==a[0])b=1;return b?0:1}function
 et(a){if(0===a[0])return a[1];var
 b=a[3],c=a[2],d=a[1];return[0,[0,[3,d,b],[2,d,b]],[0,[3,c,b],[2,c,b]],a[4]]}function
-m3(a,c,g,b){if(0===c[0])return 0;if(b){var
+m9(a,c,g,b){if(0===c[0])return 0;if(b){var
 d=b[2];if(d){var
 h=d[2];if(h){if(h[2])return 0;var
 e=d[1],f=b[1],i=c1(a,g,c[1]);if(i){var
@@ -3030,7 +3041,7 @@ s=r}else
 var
 s=b;return s}function
 g5(a,p,o){var
-q=ba(p,o),b=e(function(b){return ap(a,b)},q);if(b){var
+q=ba(p,o),b=e(function(b){return aq(a,b)},q);if(b){var
 g=b[1];if(g){var
 c=b[2];if(c){var
 h=c[1];if(h){var
@@ -3053,7 +3064,7 @@ n=m}else
 var
 n=b;return n}function
 K(c,b,a){var
-d=ar(c,b[3],a[3]),e=ar(c,b[2],a[2]);return[0,ar(c,b[1],a[1]),e,d]}function
+d=ao(c,b[3],a[3]),e=ao(c,b[2],a[2]);return[0,ao(c,b[1],a[1]),e,d]}function
 P(b,a){return[0,[4,b,a[1]],[4,b,a[2]],[4,b,a[3]]]}function
 w(b,a){return[2,[2,[4,b[1],a[1]],[4,b[2],a[2]]],[4,b[3],a[3]]]}function
 ay(a){return P([5,[0,b,b],[6,w(a,a)]],a)}function
@@ -3061,7 +3072,7 @@ c_(c,b,a){var
 d=by(c,b[1],a);return d?by(c,a,b[2]):d}function
 br(c,b,a){var
 d=c_(c,b[1],a[1]),e=d?c_(c,b[2],a[2]):d;return e?c_(c,b[3],a[3]):e}function
-m4(b,c,a){switch(c[0]){case
+m_(b,c,a){switch(c[0]){case
 0:var
 d=c[1];if(0===a[0]){var
 j=a[4],f=a[1],k=br(b,d[1],f),l=k?h(b,1,w(f,f)):k,m=l?br(b,d[2],a[2]):l,n=m?br(b,d[3],a[3]):m,o=n?c_(b,d[4],j):n,p=o?h(b,1,j):o;return p?cv(d[5],a[5]):p}return 0;case
@@ -3080,7 +3091,7 @@ cG(c,a,b){if(0===a[0])return br(c,a[1],b);var
 d=a[3],e=[3,b[1],a[1]],f=[3,b[2],a[2]],g=h(c,0,[3,[3,[4,d,d],[4,e,e]],[4,f,f]]),i=g?h(c,0,d):g;return i?c_(c,a[4],b[3]):i}function
 fr(g,f,i,h){var
 b=f[1],a=i;for(;;){if(b){if(a){var
-d=m4(g,b[1],a[1]);if(d){var
+d=m_(g,b[1],a[1]);if(d){var
 b=b[2],a=a[2];continue}var
 e=d}else
 var
@@ -3108,22 +3119,22 @@ cI(a,b){switch(a[0]){case
 c=a[3],d=a[2],e=a[1],h=ch(e,d,c,a[4],b),i=cH(a[5],h),j=aV(d,c,b);return[3,w(ay(e),j),i];case
 1:var
 f=a[2],g=a[1],k=aV(g,f,b);return[6,w(aV(g,f,b),k)];default:return w(ay(a[1]),b)}}function
-i$(a,b){switch(a[0]){case
+jb(a,b){switch(a[0]){case
 0:return[0,ch(a[1],a[2],a[3],a[4],b)];case
 1:var
 c=a[2],d=a[1],e=aV(d,c,b);return[0,w(aV(d,c,b),e)];default:return 0}}function
 ft(e,c,a){var
-f=[0,d,b];return ao(function(b,d){var
+f=[0,d,b];return ap(function(b,d){var
 e=w(ci(b,c),a);return[2,[4,w(ci(b,c),a),e],d]},f,e)}function
-m5(f,e,c,a){if(f){if(e){var
-g=e[1],h=m5(f[2],e[2],c,a),i=w(ci(g,c),a),j=[4,w(ci(g,c),a),i];return[2,[4,f[1],j],h]}return[0,d,b]}return[0,d,b]}function
-m6(a){var
+m$(f,e,c,a){if(f){if(e){var
+g=e[1],h=m$(f[2],e[2],c,a),i=w(ci(g,c),a),j=[4,w(ci(g,c),a),i];return[2,[4,f[1],j],h]}return[0,d,b]}return[0,d,b]}function
+na(a){var
 c=a[1];return[0,[0,c[1],b],[0,c[2],b],[0,a[2],b]]}function
-ja(a,c){switch(a[0]){case
+jc(a,c){switch(a[0]){case
 0:return a[4];case
 1:var
 d=a[2],e=a[1],f=aV(e,d,c);return[6,w(aV(e,d,c),f)];default:return[0,b,b]}}function
-m7(d,i){if(d){var
+nb(d,i){if(d){var
 a=d[1];if(1===a[0]){var
 c=a[3];if(c)var
 f=c[1],g=aV(a[1],a[2],i),k=ay(f),l=P(w(ay(f),g),k),h=[0,K(function(b,a){return[3,b,a]},g,l)];else
@@ -3132,16 +3143,16 @@ h=c;var
 b=h}else
 var
 b=0;if(b)var
-e=m7(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
+e=nb(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
 var
-j=b;return j}return t0}function
+j=b;return j}return t5}function
 c$(a){return[0,a[1],a[2],a[3]]}function
-m8(a,b){switch(a[0]){case
+nc(a,b){switch(a[0]){case
 0:var
 f=a[4],c=a[3],g=a[2],d=a[1],i=ay(d),j=ch(d,g,c,f,b),k=P(cH(a[5],j),i),l=fs(d,g,c,b),m=K(function(b,a){return[2,b,a]},l,k);return[0,[0,[0,K(function(b,a){return[2,b,a]},b,c),m],f]];case
 1:var
 h=a[2],e=aV(a[1],h,b),n=[6,w(e,e)];return[0,[0,[0,K(function(b,a){return[2,b,a]},b,h),e],n]];default:return 0}}function
-m9(m,e,a){switch(a[0]){case
+nd(m,e,a){switch(a[0]){case
 0:var
 n=a[5],c=F(m,a[1]);if(c){var
 d=c[1];if(d)var
@@ -3155,22 +3166,22 @@ l=c;return l;case
 1:var
 r=c$(a[3]);return[0,[0,c$(a[2]),r]];default:var
 s=k(e,c$(a[3]));return[0,[0,k(e,c$(a[2])),s]]}}function
-m_(d,a,c,b){var
+ne(d,a,c,b){var
 e=P(a,b),f=P([3,d,a],c);return K(function(b,a){return[2,b,a]},f,e)}function
-m$(a,l,c,j,i,y){var
+nf(a,l,c,j,i,y){var
 d=k(l,j);if(d){var
 m=d[1],e=k(l,i);if(e){var
-n=e[1],f=c[1],g=c[2],b=c[3],z=m_(b,g,n[1],n[2]),A=m_(b,f,m[1],m[2]),o=K(function(b,a){return[3,b,a]},A,z),B=ef(i),p=[4,b,[2,[2,ef(j),B],y]],q=h(a,1,b),r=q?h(a,0,f):q,s=r?h(a,0,[3,b,f]):r,t=s?h(a,0,g):s,u=t?h(a,0,[3,b,g]):t;if(u)return h(a,1,[3,[4,p,p],w(o,o)]);var
+n=e[1],f=c[1],g=c[2],b=c[3],z=ne(b,g,n[1],n[2]),A=ne(b,f,m[1],m[2]),o=K(function(b,a){return[3,b,a]},A,z),B=ef(i),p=[4,b,[2,[2,ef(j),B],y]],q=h(a,1,b),r=q?h(a,0,f):q,s=r?h(a,0,[3,b,f]):r,t=s?h(a,0,g):s,u=t?h(a,0,[3,b,g]):t;if(u)return h(a,1,[3,[4,p,p],w(o,o)]);var
 v=u}else
 var
 v=e;var
 x=v}else
 var
 x=d;return x}function
-na(d,c,b,a,i,g,f,e){var
+ng(d,c,b,a,i,g,f,e){var
 j=h(d,1,b),k=j?h(d,1,a):j;if(k){var
-l=ar(c,f,f),m=[4,[4,a,a],[4,ar(c,g,g),l]];return h(d,1,[3,[4,[4,[4,b,b],[4,i,i]],ar(c,e,e)],m])}return k}function
-nb(i,g,c,f,y,a){function
+l=ao(c,f,f),m=[4,[4,a,a],[4,ao(c,g,g),l]];return h(d,1,[3,[4,[4,[4,b,b],[4,i,i]],ao(c,e,e)],m])}return k}function
+nh(i,g,c,f,y,a){function
 T(a){return[4,[4,[5,[0,b,b],a],[5,[0,b,b],a]],w(f,f)]}var
 O=0;if(typeof
 a==="number")O=1;else
@@ -3198,7 +3209,7 @@ Z=C;return Z;case
 7:if(g){var
 p=g[2];if(p){var
 q=p[2];if(q){if(q[2])return 0;var
-_=q[1],$=p[1],aa=g[1],aR=ja(_,c),aS=ja($,c),aT=ja(aa,c),ab=[4,[4,[4,a[1],aT],aS],aR],l=bz(_,c),m=bz($,c),aU=bz(aa,c),Q=w(aU,[0,[3,[4,m[2],l[3]],[4,m[3],l[2]]],[3,[4,m[3],l[1]],[4,m[1],l[3]]],[3,[4,m[1],l[2]],[4,m[2],l[1]]]]),ac=h(i,1,[3,ab,Q]);if(ac)return h(i,1,[2,ab,Q]);var
+_=q[1],$=p[1],aa=g[1],aR=jc(_,c),aS=jc($,c),aT=jc(aa,c),ab=[4,[4,[4,a[1],aT],aS],aR],l=bz(_,c),m=bz($,c),aU=bz(aa,c),Q=w(aU,[0,[3,[4,m[2],l[3]],[4,m[3],l[2]]],[3,[4,m[3],l[1]],[4,m[1],l[3]]],[3,[4,m[1],l[2]],[4,m[2],l[1]]]]),ac=h(i,1,[3,ab,Q]);if(ac)return h(i,1,[2,ab,Q]);var
 ad=ac}else
 var
 ad=q;var
@@ -3211,14 +3222,14 @@ af=g;return af;case
 8:var
 aW=ft(g,c,f),aX=w(f,f);return h(i,1,[3,[4,[5,a[2],a[1]],aX],aW]);case
 9:var
-ag=a[1],E=m7(g,c);if(E){var
-aY=E[1],aA=[0,d,b],aB=ao(function(a,b){var
+ag=a[1],E=nb(g,c);if(E){var
+aY=E[1],aA=[0,d,b],aB=ap(function(a,b){var
 c=w(ay(a),f);return[2,[4,w(ay(a),f),c],b]},aA,aY);return h(i,1,[3,[4,[4,ag,ag],w(f,f)],aB])}return E;case
 10:var
-aZ=a[3],a0=a[2],a1=a[1],aC=function(b,a){return[2,b,a]},aD=function(a){return K(aC,c,a)},aE=e(function(a){return m8(a,c)},g);return m$(i,function(a){return m9(aE,aD,a)},f,a1,a0,aZ);case
+aZ=a[3],a0=a[2],a1=a[1],aC=function(b,a){return[2,b,a]},aD=function(a){return K(aC,c,a)},aE=e(function(a){return nc(a,c)},g);return nf(i,function(a){return nd(aE,aD,a)},f,a1,a0,aZ);case
 11:var
 ah=a[4],G=F(g,a[1]);if(G){var
-H=m8(G[1],c);if(H){var
+H=nc(G[1],c);if(H){var
 n=H[1][1][2],a2=c$(a[3]),a3=c$(a[2]),r=K(function(b,a){return[3,b,a]},a3,a2),ai=h(i,1,w(n,n));if(ai){var
 a4=w(n,n),a5=w(r,n),a6=[5,[4,w(r,n),a5],a4];return h(i,1,[3,[4,ah,ah],[3,w(r,r),a6]])}var
 aj=ai}else
@@ -3242,15 +3253,15 @@ L=am;if(L){if(2===j[0])return h(i,1,w(f,f));var
 an=1}else
 var
 an=L;var
-ap=an}else
+ao=an}else
 var
-ap=I;return ap;case
+ao=I;return ao;case
 13:if(g){var
 t=g[2];if(t){var
 u=t[2];if(u){if(u[2])return 0;var
 aq=u[1],ar=t[1],as=g[1],at=a[1],M=F([0,f[1],[0,f[2],[0,f[3],0]]],at);if(M){var
 N=F([0,as,[0,ar,[0,aq,0]]],at);if(N){var
-au=N[1],a8=bz(au,c),a9=ci(au,c),a_=bz(aq,c),a$=P(f[3],a_),ba=bz(ar,c),bb=P(f[2],ba),bc=bz(as,c),bd=P(f[1],bc),be=K(function(b,a){return[2,b,a]},bd,bb),bf=K(function(b,a){return[2,b,a]},be,a$);return na(i,w,a[2],a[3],M[1],bf,a9,a8)}var
+au=N[1],a8=bz(au,c),a9=ci(au,c),a_=bz(aq,c),a$=P(f[3],a_),ba=bz(ar,c),bb=P(f[2],ba),bc=bz(as,c),bd=P(f[1],bc),be=K(function(b,a){return[2,b,a]},bd,bb),bf=K(function(b,a){return[2,b,a]},be,a$);return ng(i,w,a[2],a[3],M[1],bf,a9,a8)}var
 av=N}else
 var
 av=M;var
@@ -3264,52 +3275,52 @@ az=ax}else
 var
 az=g;return az;case
 15:var
-bg=m5(a[1],g,c,f),bh=w(f,f);return h(i,1,[3,[4,a[2],bh],bg]);default:O=1}if(O)return 0;var
+bg=m$(a[1],g,c,f),bh=w(f,f);return h(i,1,[3,[4,a[2],bh],bg]);default:O=1}if(O)return 0;var
 B=F(g,z);return B?h(i,1,A(B[1])):B}function
 fu(g,i,f,c,a){var
 m=fr(g,i,f,c);if(m)if(typeof
 a==="number")return 0===a?aj(function(e){var
-a=i$(e,c);return a?h(g,0,[3,[0,d,b],a[1]]):a},f):ma(t1,e(function(b){var
+a=jb(e,c);return a?h(g,0,[3,[0,d,b],a[1]]):a},f):mg(t6,e(function(b){var
 a=bz(b,c);return[0,a[1],[0,a[2],[0,a[3],0]]]},f));else{if(0===a[0]){var
 j=F(i[3],a[1]);if(j){var
-p=j[1],q=m6(a[3]);return nb(g,f,c,m6(a[2]),q,p)}return j}var
+p=j[1],q=na(a[3]);return nh(g,f,c,na(a[2]),q,p)}return j}var
 k=F(i[3],a[1]);if(k){var
 l=F(f,a[2]);if(l){var
-n=l[1],r=k[1],s=ci(n,c);return nb(g,f,c,ci(n,c),s,r)}var
+n=l[1],r=k[1],s=ci(n,c);return nh(g,f,c,ci(n,c),s,r)}var
 o=l}else
 var
 o=k;return o}return m}function
 bF(a){return[0,a[1][1],a[2][1],a[3][1]]}function
-nc(a){switch(a[0]){case
+ni(a){switch(a[0]){case
 0:var
 b=a[1],c=b[5],d=b[4][1],e=bF(b[3]),f=bF(b[2]);return[0,bF(b[1]),f,e,d,c];case
 1:var
 g=y(bF,a[3]),h=bF(a[2]);return[1,bF(a[1]),h,g];default:return[2,bF(a[1])]}}function
-jb(a){return 0===a[0]?bF(a[1]):[0,a[1],a[2],a[4][1]]}function
-nd(b,a){var
-c=jb(a[2]);return fr(b,a,e(nc,a[1]),c)}function
-jc(b,a,c){var
+jd(a){return 0===a[0]?bF(a[1]):[0,a[1],a[2],a[4][1]]}function
+nj(b,a){var
+c=jd(a[2]);return fr(b,a,e(ni,a[1]),c)}function
+je(b,a,c){var
 d=[0,c,av(b,a)];return f(am(b,a),d)}function
 bs(c,a){if(c){if(a){var
 e=bs(c[2],a[2]);return[2,[4,c[1],a[1]],e]}return[0,d,b]}return[0,d,b]}function
-ne(e,c,a){if(e){if(c){var
-f=c[1],g=ne(e[2],c[2],a),h=bs(f,a),i=[4,bs(f,a),h];return[2,[4,e[1],i],g]}return[0,d,b]}return[0,d,b]}function
-nf(b,a){if(b){if(a){var
-c=b[1],e=nf(b[2],a[2]),f=a[1],g=function(b,a){return[2,[4,c,b],a]},h=function(a){return a};return aP(function(a){return[4,c,a]},h,g,f,e)}var
+nk(e,c,a){if(e){if(c){var
+f=c[1],g=nk(e[2],c[2],a),h=bs(f,a),i=[4,bs(f,a),h];return[2,[4,e[1],i],g]}return[0,d,b]}return[0,d,b]}function
+nl(b,a){if(b){if(a){var
+c=b[1],e=nl(b[2],a[2]),f=a[1],g=function(b,a){return[2,[4,c,b],a]},h=function(a){return a};return aP(function(a){return[4,c,a]},h,g,f,e)}var
 d=a}else
 var
 d=b;return d}function
-ng(b,c,a){var
+nm(b,c,a){var
 d=[0,c,av([0,b],a)];return f(am(b,a),d)}function
-nh(a,b){var
-e=o(a,t2),c=e||o(a,t3),d=c?o(g(b),a):c;return d?l(function(b){return o(g(b),a)},b):d}function
-ni(a){if(a){var
+nn(a,b){var
+e=o(a,t7),c=e||o(a,t8),d=c?o(g(b),a):c;return d?l(function(b){return o(g(b),a)},b):d}function
+no(a){if(a){var
 b=a[1];if(b){var
-c=b[1],d=ni(a[2]);return y(function(a){return[0,c,a]},d)}return b}return t4}function
+c=b[1],d=no(a[2]);return y(function(a){return[0,c,a]},d)}return b}return t9}function
 g6(a){if(a){var
 b=a[1];if(b){var
-c=b[1],d=g6(a[2]);return y(function(a){return[0,c,a]},d)}return b}return t5}function
-nj(a,l,k,f){var
+c=b[1],d=g6(a[2]);return y(function(a){return[0,c,a]},d)}return b}return t_}function
+np(a,l,k,f){var
 b=aD(a,l);if(b){var
 c=aD(a,k);if(c){var
 d=c2(a,f);if(d){var
@@ -3326,21 +3337,21 @@ i=c;var
 j=i}else
 var
 j=b;return j}function
-nk(a){return a?I(a[1][2],d):a}function
+nq(a){return a?I(a[1][2],d):a}function
 cj(a){return a?I(d,a[1][1]):a}function
-nl(d,a){return h(d,0,[3,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b],a])}function
-nm(d,a){if(a){var
+nr(d,a){return h(d,0,[3,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b],a])}function
+ns(d,a){if(a){var
 b=aD(d,a[1]);if(b)var
-c=nm(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
+c=ns(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
 var
-e=b;return e}return t6}function
+e=b;return e}return t$}function
 g7(d,a){if(a){var
-b=nm(d,a[1]);if(b)var
+b=ns(d,a[1]);if(b)var
 c=g7(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
 var
-e=b;return e}return t7}function
-nn(b,a){return ao(function(c,a){return A(U(b,c),a)},u,a)}function
-no(b,d){function
+e=b;return e}return ua}function
+nt(b,a){return ap(function(c,a){return A(U(b,c),a)},u,a)}function
+nu(b,d){function
 c(e,d,c,a){var
 f=t(b,d,c);return G(t(b,e,a),f)}if(d){var
 e=d[1];if(e){var
@@ -3356,11 +3367,11 @@ n=m[2];if(n){if(n[2])return u;if(k[2])return u;var
 s=n[1],v=m[1],w=l[1],x=j[1],y=i[1],z=h[1],B=c(z,y,w,v),C=t(b,g[1],B),D=t(b,q,c(z,x,w,s));return A(G(t(b,r,c(y,x,v,s)),D),C)}return u}return u}return u}return u}return u}return u}return u}return u}if(a){var
 o=a[1];if(o){var
 p=o[2];return p?p[2]?u:a[2]?u:c(r,q,o[1],p[1]):u}return u}return u}return u}return u}return u}function
-np(a,p,m,s,f,i){function
+nv(a,p,m,s,f,i){function
 a1(c,a){return[4,[4,[5,[0,b,b],c],[5,[0,b,b],c]],bs(a,a)]}var
 bL=m[1];function
 B(c){var
-a=[0,d,b];return ao(function(a,b){var
+a=[0,d,b];return ap(function(a,b){var
 d=bs(a,c);return[2,[4,bs(a,c),d],b]},a,bL)}function
 C(f,e){var
 a=F(m[1],f);if(a){var
@@ -3373,10 +3384,10 @@ b=0;if(typeof
 i==="number")b=1;else
 switch(i[0]){case
 6:var
-a=t8;break;case
+a=ub;break;case
 13:case
 14:var
-a=t9;break;default:b=1}if(b)var
+a=uc;break;default:b=1}if(b)var
 a=p;return o(g(c),a)},f);if(a2){var
 v=0;if(typeof
 i==="number")v=1;else
@@ -3395,7 +3406,7 @@ b!=="number"&&0===b[0])return h(a,1,[3,b[1],bQ]);return 0},ai=bR,ah=i[1];break;c
 a6=i[3],a7=i[2],bS=function(d){var
 i=o(s,0);if(typeof
 d!=="number"&&1===d[0]){var
-e=d[2],f=d[1],g=h(a,0,[3,[2,a7,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b]],a6]);return g?i?nk(nj(a,f,e,a7)):cj(nj(a,f,e,a6)):g}return 0},ai=bS,ah=i[1];break;case
+e=d[2],f=d[1],g=h(a,0,[3,[2,a7,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b]],a6]);return g?i?nq(np(a,f,e,a7)):cj(np(a,f,e,a6)):g}return 0},ai=bS,ah=i[1];break;case
 5:if(f){var
 D=f[2];if(D){if(D[2])return 0;var
 ak=D[1],al=f[1],a8=i[1],bU=bs(al,al),bV=[4,[4,a8,a8],[4,B(ak),bU]],bW=bs(ak,ak);return h(a,1,[3,[4,B(al),bW],bV])}var
@@ -3415,16 +3426,16 @@ var
 bc=a$;return bc;case
 7:if(f){if(f[2])return 0;var
 bd=f[1],am=i[1],bZ=i[3],b0=i[2],an=g6(m[7]);if(an){var
-H=an[1],ap=F(bd,am);if(ap){var
-b1=ap[1],be=o(g(H),p),bf=be?l(function(a){return o(g(a),p)},H):be;if(bf){var
+H=an[1],ao=F(bd,am);if(ao){var
+b1=ao[1],be=o(g(H),p),bf=be?l(function(a){return o(g(a),p)},H):be;if(bf){var
 aq=F(H,am);if(aq){var
-b2=aq[1];return C(am,function(b){return na(a,bs,b0,bZ,b1,nf(bd,H),b,b2)})}var
+b2=aq[1];return C(am,function(b){return ng(a,bs,b0,bZ,b1,nl(bd,H),b,b2)})}var
 bg=aq}else
 var
 bg=bf;var
 bh=bg}else
 var
-bh=ap;var
+bh=ao;var
 bi=bh}else
 var
 bi=an;var
@@ -3432,13 +3443,13 @@ bj=bi}else
 var
 bj=f;return bj;case
 8:if(f){if(f[2])return 0;var
-ar=f[1],b3=ne(i[1],m[1],ar),b4=bs(ar,ar);return h(a,1,[3,[4,i[2],b4],b3])}return f;case
+ar=f[1],b3=nk(i[1],m[1],ar),b4=bs(ar,ar);return h(a,1,[3,[4,i[2],b4],b3])}return f;case
 9:if(f)return 0;var
 bk=i[3],bl=i[2],b5=function(e){var
 f=h(a,1,bl),g=f?h(a,0,bk):f;if(g){var
 b=aD(a,bs(e,e));if(b){var
 c=aD(a,[5,bk,bl]);if(c){var
-d=l5(a,c[1]);if(d){var
+d=l$(a,c[1]);if(d){var
 l=U(a,d[1]);return cj([0,G(b[1],l)])}var
 i=d}else
 var
@@ -3469,7 +3480,7 @@ j=i}else
 var
 j=b;return j},bn=b9,bm=i[1];v=2;break;case
 12:if(f)return 0;var
-au=ni(m[3]);if(au){var
+au=no(m[3]);if(au){var
 bp=au[1],b_=i[1],bq=bT(function(b,a){return[4,b,a[3]]},bp,b_),av=e(function(a){return a[1]},bp),x=function(d,c,b,a){return[3,[4,d,a],[4,c,b]]};if(av){var
 O=av[1];if(O){var
 P=O[2];if(P){var
@@ -3518,7 +3529,7 @@ bt=au;return bt;case
 b$=i[2],aw=F(m[4],i[1]);if(aw){var
 ax=aw[1];if(ax){var
 bu=function(a){if(b$){var
-c=k(m[5],[0,[0,d,b],[0,d,b],[0,d,b]]),e=k(m[5],a);return K(function(b,a){return[3,b,a]},e,c)}return a},I=i[4],u=bu(c$(i[3])),J=ax[1][1][2],r=w(J,u);if(nl(a,I)){if(s){if(s[1])return 0;if(f){var
+c=k(m[5],[0,[0,d,b],[0,d,b],[0,d,b]]),e=k(m[5],a);return K(function(b,a){return[3,b,a]},e,c)}return a},I=i[4],u=bu(c$(i[3])),J=ax[1][1][2],r=w(J,u);if(nr(a,I)){if(s){if(s[1])return 0;if(f){var
 y=f[1];if(y){var
 z=y[2];if(z){var
 A=z[2];if(A){if(A[2])return 0;if(f[2])return 0;var
@@ -3556,7 +3567,7 @@ aX=h(a,0,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],I]);if(aX){var
 ae=c2(a,I);if(ae){var
 af=aD(a,r);if(af){var
 bJ=w(J,J),ag=aD(a,[6,[4,w(u,u),bJ]]);if(ag){var
-bK=t(a,ae[1],ag[1]);return nk([0,G(af[1],bK)])}var
+bK=t(a,ae[1],ag[1]);return nq([0,G(af[1],bK)])}var
 aY=ag}else
 var
 aY=af;var
@@ -3573,7 +3584,7 @@ bv=aw;return bv;case
 L=f[1];if(L){var
 M=L[2];if(M){var
 N=M[2];if(N){if(N[2])return 0;if(f[2])return 0;var
-ca=i[3],cb=i[2],cc=i[1],cd=[0,L[1],M[1],N[1]],ce=m[5],cf=m[4];return m$(a,function(a){return m9(cf,ce,a)},cd,cc,cb,ca)}var
+ca=i[3],cb=i[2],cc=i[1],cd=[0,L[1],M[1],N[1]],ce=m[5],cf=m[4];return nf(a,function(a){return nd(cf,ce,a)},cd,cc,cb,ca)}var
 bw=N}else
 var
 bw=M;var
@@ -3585,7 +3596,7 @@ var
 by=f;return by;case
 17:if(f)return 0;var
 bz=i[2],ay=i[1],cg=i[3],az=g6(m[7]);if(az){var
-aA=az[1],bA=nh(p,aA),bB=bA?o(g(bz),p):bA;if(bB){var
+aA=az[1],bA=nn(p,aA),bB=bA?o(g(bz),p):bA;if(bB){var
 aB=F(aA,ay);if(aB){var
 ch=aB[1];return C(ay,function(x){var
 e=g7(a,aA);if(e){var
@@ -3594,11 +3605,11 @@ b=f[1];if(b){var
 c=b[2];if(c){var
 d=c[2];if(d){if(d[2])return 0;var
 g=aD(a,cg);if(g){var
-k=g[1],l=U(a,no(a,j)),h=no(a,ng(ay,b[1],j)),m=cj([0,k]),n=m?cj([0,l]):m;if(n)var
+k=g[1],l=U(a,nu(a,j)),h=nu(a,nm(ay,b[1],j)),m=cj([0,k]),n=m?cj([0,l]):m;if(n)var
 y=o(s,0)?h:ac(h),i=cj([0,y]);else
 var
 i=n;if(i){var
-z=nn(a,c[1]),A=t(a,t(a,U(a,k),l),z),B=nn(a,d[1]);return cj([0,G(t(a,U(a,h),B),A)])}var
+z=nt(a,c[1]),A=t(a,t(a,U(a,k),l),z),B=nt(a,d[1]);return cj([0,G(t(a,U(a,h),B),A)])}var
 p=i}else
 var
 p=g;var
@@ -3637,31 +3648,31 @@ a3=a2;return a3}function
 fv(d,f,a){if(typeof
 a!=="number")switch(a[0]){case
 13:var
-e=a[4];if(nl(d,e)&&J(h(d,0,[3,e,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b]])))return ua;return ub;case
+e=a[4];if(nr(d,e)&&J(h(d,0,[3,e,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b]])))return uf;return ug;case
 16:return f;case
 4:case
-17:return t$}return t_}function
+17:return ue}return ud}function
 eu(e,d,g,f){var
 b=g,a=f;for(;;){if(a){var
 c=a[1];if(aJ(b,fv(e,d,c)))return[0,[0,c,b]];var
 h=a[2],b=dx(b,fv(e,d,c)),a=h;continue}return a}}function
-nq(a){return e(function(a){return[0,a,b]},a)}function
-jd(f,o,g,c,n,a){if(typeof
+nw(a){return e(function(a){return[0,a,b]},a)}function
+jf(f,o,g,c,n,a){if(typeof
 a==="number"){if(0===a){var
 s=c[6];return aj(function(a){return h(f,0,[3,[0,d,b],a])},s)}var
-i=g6(c[7]);return i?ma(g,i[1]):i}else{if(0===a[0]){var
+i=g6(c[7]);return i?mg(g,i[1]):i}else{if(0===a[0]){var
 j=eu(f,o,a[1],n);if(j){var
-p=j[1],t=p[1],u=e(nq,a[2]);return np(f,g,c,p[2],u,t)}return j}var
+p=j[1],t=p[1],u=e(nw,a[2]);return nv(f,g,c,p[2],u,t)}return j}var
 k=eu(f,o,a[1],n);if(k){var
 q=k[1],l=q[1];if(typeof
 l!=="number"&&1===l[0]){var
-m=F(c[1],a[2]);return m?np(f,g,c,q[2],[0,m[1],0],[1,l[1]]):m}var
+m=F(c[1],a[2]);return m?nv(f,g,c,q[2],[0,m[1],0],[1,l[1]]):m}var
 r=0}else
 var
 r=k;return r}}function
-je(a){var
+jg(a){var
 b=ay(a[1]),c=P(w(b,a[2]),b),d=a[2];return K(function(b,a){return[3,b,a]},d,c)}function
-fw(a){return ay(je(a))}function
+fw(a){return ay(jg(a))}function
 g8(c){var
 a=fw(c),b=ay(c[1]);return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
 g9(a,b){return aV(a[3],a[4],b)}function
@@ -3669,42 +3680,42 @@ fx(a,b){var
 c=g9(a,b);return w(fw(a),c)}function
 fy(a,b){var
 c=g9(a,b);return w(g8(a),c)}function
-nr(a,b){var
+nx(a,b){var
 c=g9(a,b);return w(ay(a[1]),c)}function
 g_(b,a){var
 c=fy(b,a),d=fx(b,a);return[2,[4,d,d],[4,c,c]]}function
 g$(a,d){var
-h=a[5],i=[4,[0,c(2,b),b],h],e=a[6],f=a[5],g=nr(a,d);return[5,[2,g_(a,d),[2,[4,g,g],[3,[4,f,f],[4,e,e]]]],i]}function
-jf(a,b){var
-f=a[5],c=[3,g$(a,b),f],d=nr(a,b),e=a[6];return[3,[3,[4,e,e],[4,d,d]],[4,c,c]]}function
+h=a[5],i=[4,[0,c(2,b),b],h],e=a[6],f=a[5],g=nx(a,d);return[5,[2,g_(a,d),[2,[4,g,g],[3,[4,f,f],[4,e,e]]]],i]}function
+jh(a,b){var
+f=a[5],c=[3,g$(a,b),f],d=nx(a,b),e=a[6];return[3,[3,[4,e,e],[4,d,d]],[4,c,c]]}function
 ev(a,b){var
-c=jf(a,b);return cH(a[7],c)}function
-ns(b,a){var
+c=jh(a,b);return cH(a[7],c)}function
+ny(b,a){var
 c=g_(b,a),d=fy(b,a),e=[4,ev(b,a),d],f=fx(b,a);return[5,[2,[4,g$(b,a),f],e],c]}function
-nt(b,a){var
+nz(b,a){var
 c=g_(b,a),d=fx(b,a),e=[4,ev(b,a),d],f=fy(b,a);return[5,[3,[4,g$(b,a),f],e],c]}function
-jg(a,b){var
-c=g8(a),d=P(nt(a,b),c),e=fw(a),f=P(ns(a,b),e),g=K(function(b,a){return[2,b,a]},f,d),h=P(a[5],g),i=a[3];return K(function(b,a){return[2,b,a]},i,h)}function
+ji(a,b){var
+c=g8(a),d=P(nz(a,b),c),e=fw(a),f=P(ny(a,b),e),g=K(function(b,a){return[2,b,a]},f,d),h=P(a[5],g),i=a[3];return K(function(b,a){return[2,b,a]},i,h)}function
 dK(a){return[5,[3,[0,b,b],[4,a,a]],[2,[0,b,b],[4,a,a]]]}function
 dL(a){return[5,[4,[0,c(2,b),b],a],[2,[0,b,b],[4,a,a]]]}function
-jh(a,c,b){var
+jj(a,c,b){var
 d=[4,dK(a),b],e=[2,[4,dL(a),c],d],f=[4,dL(a),b];return[0,[3,[4,dK(a),c],f],e]}function
-nu(c,a){var
-b=jh(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
+nA(c,a){var
+b=jj(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
 da(b,a){return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
-nv(a,d){var
+nB(a,d){var
 e=w(a,a),f=da(a,d),g=P([0,c(2,b),b],f),h=w(a,d),i=P([4,[0,c(2,b),b],h],a),j=P([3,[0,b,b],e],d),k=K(function(b,a){return[2,b,a]},j,i);return P([5,[0,b,b],[2,[0,b,b],e]],K(function(b,a){return[2,b,a]},k,g))}function
 db(j,b,a){switch(j[0]){case
-0:return b?b[2]?a:nu(b[1],a):a;case
+0:return b?b[2]?a:nA(b[1],a):a;case
 1:if(b){var
 c=b[2];if(c){var
 d=c[2];if(d){if(d[2])return a;var
-g=jh(b[1],a[2],a[3]),i=g[1],h=jh(c[1],g[2],a[1]);return nu(d[1],[0,h[2],i,h[1]])}return a}return a}return a;default:if(b){var
+g=jj(b[1],a[2],a[3]),i=g[1],h=jj(c[1],g[2],a[1]);return nA(d[1],[0,h[2],i,h[1]])}return a}return a}return a;default:if(b){var
 e=b[2];if(e){var
-f=e[2];return f?f[2]?a:nv([0,b[1],e[1],f[1]],a):a}return a}return a}}function
-nw(c){var
+f=e[2];return f?f[2]?a:nB([0,b[1],e[1],f[1]],a):a}return a}return a}}function
+nC(c){var
 a=cC(c);return a?ee(a[1],[0,d,b]):a}function
-nx(a,n,k,j){if(nw(j)){var
+nD(a,n,k,j){if(nC(j)){var
 q=n?[3,[0,d,b],k]:k;return h(a,0,q)}var
 f=aD(a,k);if(f){var
 g=c2(a,[5,j,[0,c(2,b),b]]);if(g){var
@@ -3720,19 +3731,19 @@ var
 e=f;if(e){var
 o=e[1];return n?D(d,o[1]):D(o[2],d)}return e}function
 dM(b,a,c){var
-d=by(b,a[1],a[2]),e=d?nx(b,0,c,a[1]):d;return e?nx(b,1,c,a[2]):e}function
-ny(h,f,c){if(nw(c))return[0,u];var
-a=E(h,iG(f)),d=c2(a,c);if(d){var
+d=by(b,a[1],a[2]),e=d?nD(b,0,c,a[1]):d;return e?nD(b,1,c,a[2]):e}function
+nE(h,f,c){if(nC(c))return[0,u];var
+a=E(h,iI(f)),d=c2(a,c);if(d){var
 e=gH(a,c);if(e){var
-i=e[1],j=d[1],k=b$(a,A(O(a,b),j));return y(function(b){return lW(f,t(a,i,b))},k)}var
+i=e[1],j=d[1],k=b$(a,A(O(a,b),j));return y(function(b){return l2(f,t(a,i,b))},k)}var
 g=e}else
 var
 g=d;return g}function
-cJ(a){return function(b){return ny(a,d,b)}}function
+cJ(a){return function(b){return nE(a,d,b)}}function
 cK(d,a){var
 e=h(d,1,[2,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],a]);return e?h(d,1,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],a]):e}function
 dc(a){return[0,[3,[0,d,b],a],a]}function
-nz(a,c,o,n){var
+nF(a,c,o,n){var
 h=by(a,[0,d,b],c),i=h?cK(a,c):h;if(i){var
 e=k(cJ(a),c);if(e){var
 f=aD(a,o);if(f){var
@@ -3765,7 +3776,7 @@ p=a;return p;case
 2:if(a){var
 g=a[2];if(g){var
 h=g[2];if(h){if(h[2])return 0;var
-q=h[1],r=g[1],s=a[1],C=w([0,s,r,q],[0,s,r,q]);return nz(d,c[1],C,[0,b,b])}var
+q=h[1],r=g[1],s=a[1],C=w([0,s,r,q],[0,s,r,q]);return nF(d,c[1],C,[0,b,b])}var
 t=h}else
 var
 t=g;var
@@ -3774,7 +3785,7 @@ var
 u=a;return u;default:if(a){var
 i=a[2];if(i){var
 j=i[2];if(j){if(j[2])return 0;var
-k=j[1],v=i[1],x=a[1],y=nz(d,c[1],[2,[4,x,x],[4,v,v]],[2,[0,b,b],[4,k,k]]);if(y)return dM(d,dc(c[2]),k);var
+k=j[1],v=i[1],x=a[1],y=nF(d,c[1],[2,[4,x,x],[4,v,v]],[2,[0,b,b],[4,k,k]]);if(y)return dM(d,dc(c[2]),k);var
 z=y}else
 var
 z=j;var
@@ -3786,24 +3797,24 @@ var
 B=a;return B}}var
 i=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))));function
 bG(b){var
-a=ao(function(f,e){var
+a=ap(function(f,e){var
 a=aD(i,f);if(a)var
 b=a[1],c=bm(ct(b[1]),ct(b[2]));else
 var
-c=d;return bm(c,e)},d,b);return I(d,a)?aL(lF(a),i):d}function
+c=d;return bm(c,e)},d,b);return I(d,a)?aL(lL(a),i):d}function
 ew(a){return[0,a[1],[0,a[2],0]]}function
 bb(a){var
 b=ew(a[3]),c=f(ew(a[2]),b);return f(ew(a[1]),c)}function
 ha(a){return g5(i,a,bG(bb(a)))}function
-nA(b,a){if(a){var
-g=nA([0,b],a[2]),c=a[1];if(0===c[0])var
+nG(b,a){if(a){var
+g=nG([0,b],a[2]),c=a[1];if(0===c[0])var
 d=c[1],e=c9([0,[0,d,d],c[2]],b);else
 var
 e=[0,[1,b]];var
 f=[0,e,g]}else
 var
 f=a;return f}function
-nB(c,b,a){var
+nH(c,b,a){var
 d=ef(b);return[2,[2,ef(c),d],a]}function
 hb(b,a){return b?T(a):d}function
 fA(g,b,a){if(typeof
@@ -3821,7 +3832,7 @@ c=hb(g,b);return[0,[5,q,a],E(hb(g,b),c)]},r);case
 13:var
 c=a[3],h=bG([0,c[1],[0,c[2],[0,c[3],0]]]);return[0,[2,a[4]],[0,[0,c[1],h],[0,[0,c[2],h],[0,[0,c[3],h],0]]]];case
 14:var
-k=a[2],l=a[1],s=es(b,k),t=f(es(b,l),s),u=e(function(a){return[0,a[1][2],a[2]]},t);return[0,[0,nB(l,k,a[3]),b],u];case
+k=a[2],l=a[1],s=es(b,k),t=f(es(b,l),s),u=e(function(a){return[0,a[1][2],a[2]]},t);return[0,[0,nH(l,k,a[3]),b],u];case
 15:var
 m=a[4],n=a[3];return[0,[0,[5,a[2],m],d],[0,[0,[5,[4,n,n],m],b],0]];case
 16:var
@@ -3831,26 +3842,26 @@ v=a[3],w=a[2];return e(function(a){return[0,[5,a,v],hb(g,b)]},w);case
 2:case
 3:return[0,[0,a[2],b],0]}return 0}function
 dd(h,c,b,e,a){if(a){var
-d=a[1],i=a[2],j=dd(h,c,b,M(e,g(fA(c,b,d))),i);return f(ar(h,nA(e,fA(c,b,d)),d),j)}return a}function
+d=a[1],i=a[2],j=dd(h,c,b,M(e,g(fA(c,b,d))),i);return f(ao(h,nG(e,fA(c,b,d)),d),j)}return a}function
 hc(b,a){var
 c=W(b,a);return e(function(a){var
 b=s(a[1][2],a[2]);return[0,a[1][1],b]},c)}function
-ji(b,a){switch(a[0]){case
+jk(b,a){switch(a[0]){case
 0:var
-d=a[1];return ap(b,[0,[0,d,d],a[2]]);case
+d=a[1];return aq(b,[0,[0,d,d],a[2]]);case
 1:var
-e=a[1],c=ap(b,[0,[0,e,e],a[2]]);return c?l5(b,c[1]):c;case
+e=a[1],c=aq(b,[0,[0,e,e],a[2]]);return c?l$(b,c[1]):c;case
 2:return c2(b,a[1]);case
 3:return gH(b,a[1]);default:var
-f=a[1],g=cK(b,f);return g?ny(b,a[2],f):g}}function
-bH(a){return 1===a?uc:ud}function
+f=a[1],g=cK(b,f);return g?nE(b,a[2],f):g}}function
+bH(a){return 1===a?uh:ui}function
 bY(d,c,b,a){var
 e=a[1],f=db(d,c,a[2]),g=K(function(b,a){return[2,b,a]},b,f);return K(function(b,a){return[3,b,a]},g,e)}function
-jj(c,b,a){switch(c){case
+jl(c,b,a){switch(c){case
 0:return[0,b[1],[0,b[2],[0,a[3],0]]];case
 1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}}function
-jk(h,g,d,c,f,a){var
-e=bY(d,c,f,a);return jj(h,e,P([5,[0,b,b],g],da(db(d,c,a[2]),e)))}function
+jm(h,g,d,c,f,a){var
+e=bY(d,c,f,a);return jl(h,e,P([5,[0,b,b],g],da(db(d,c,a[2]),e)))}function
 ex(c,d,n,m,l){var
 b=d[2],a=n;for(;;){if(b){if(a){var
 f=a[1],g=b[1],h=br(c,g[1],f[1]),i=h?br(c,g[2],f[2]):h;if(i){var
@@ -3923,7 +3934,7 @@ g=hd(d,b,a[1]);return g?cL(b,a[2]):g;case
 h=a[2],i=a[1],j=cL(b,i);if(j){var
 k=cL(b,h);if(k)var
 e=k;else{var
-l=aN(i,d);if(l){var
+l=aO(i,d);if(l){var
 c=h;continue}var
 e=l}}else
 var
@@ -3946,22 +3957,22 @@ d=he(c,a[1]);if(d){var
 b=a[2];continue}return d}}}function
 hf(a,b){if(a){var
 c=a[2],d=a[1];if(b){var
-e=b[2];return b[1]?[0,d,hf(c,ao(fd,e,lR(d)))]:[0,ug,hf(c,e)]}var
+e=b[2];return b[1]?[0,d,hf(c,ap(fd,e,lX(d)))]:[0,ul,hf(c,e)]}var
 f=[0,d,hf(c,0)]}else
 var
 f=a;return f}function
 de(b,a){return a?k(b,a[1]):a}function
 df(c,b,a){return de(function(b){return de(k(c,b),a)},b)}function
-nC(b,a){switch(a[0]){case
+nI(b,a){switch(a[0]){case
 0:return a;case
 1:return a[1];default:var
 c=a[3],d=a[2],e=a[1];switch(b){case
 0:return e;case
 1:return d;default:return c}}}function
-nD(a){return 0===a[0]?a[1]:0}function
-nE(d,c){var
+nJ(a){return 0===a[0]?a[1]:0}function
+nK(d,c){var
 b=d,a=c;for(;;){if(a){var
-e=a[2],b=nC(a[1],b),a=e;continue}return nD(b)}}function
+e=a[2],b=nI(a[1],b),a=e;continue}return nJ(b)}}function
 ck(b,a){switch(a[0]){case
 0:return[0,k(b,a[1])];case
 1:return[1,ck(b,a[1])];default:var
@@ -3971,27 +3982,27 @@ bt(b,c,a){switch(c[0]){case
 1:var
 d=c[1];switch(a[0]){case
 0:var
-j=a[1];return[1,ck(function(a){return ar(b,a,j)},d)];case
+j=a[1];return[1,ck(function(a){return ao(b,a,j)},d)];case
 1:return[1,bt(b,d,a[1])];default:var
 l=bt(b,d,a[3]),m=bt(b,d,a[2]);return[2,bt(b,d,a[1]),m,l]}default:var
 e=c[3],f=c[2],g=c[1];switch(a[0]){case
 0:var
-n=a[1],o=function(a){return ar(b,a,n)},h=function(a){return ck(o,a)},p=h(e),q=h(f);return[2,h(g),q,p];case
+n=a[1],o=function(a){return ao(b,a,n)},h=function(a){return ck(o,a)},p=h(e),q=h(f);return[2,h(g),q,p];case
 1:var
 i=a[1],r=bt(b,e,i),s=bt(b,f,i);return[2,bt(b,g,i),s,r];default:var
 t=bt(b,e,a[3]),u=bt(b,f,a[2]);return[2,bt(b,g,a[1]),u,t]}}}function
-jl(c,f,a){if(a)var
+jn(c,f,a){if(a)var
 d=a[1],b=function(h){var
 a=[0,d[1],d[1]],b=[0,d[2],d[2]];switch(h){case
 0:var
 e=[0,a,U(c,a)];break;case
 1:var
 g=t(c,a,b),e=[0,aw(A(a,b)),g];break;default:var
-e=[0,b,U(c,b)]}return[0,[0,k(f,e)]]},h=jl(c,f,a[2]),i=e(function(a){return[1,a]},h),j=b(2),l=b(1),g=[0,[2,b(0),l,j],i];else
+e=[0,b,U(c,b)]}return[0,[0,k(f,e)]]},h=jn(c,f,a[2]),i=e(function(a){return[1,a]},h),j=b(2),l=b(1),g=[0,[2,b(0),l,j],i];else
 var
 g=a;return g}function
-jm(b,x,c,a){var
-e=jl(b,aO,a),d=0,z=f(jl(b,aA,a),e);return bg(ui,function(a){switch(a[0]){case
+jo(b,x,c,a){var
+e=jn(b,aN,a),d=0,z=f(jn(b,aA,a),e);return bg(un,function(a){switch(a[0]){case
 0:return r(a[1],z,[0,[0,u]]);case
 1:return[0,[0,r(a[1],x,u)]];case
 2:return[0,[0,O(b,a[1])]];case
@@ -4009,12 +4020,12 @@ d=b$(b,a);return y(function(a){return t(b,c,a)},d)};return bt(function(a,b){retu
 8:var
 q=a[1],s=function(a){return[0,U(b,a)]};return ck(function(a){return de(s,a)},q);case
 9:var
-v=a[1],w=function(a){return ca(b,a)};return ck(function(a){return de(w,a)},v);default:return uh}},c,d)}function
+v=a[1],w=function(a){return ca(b,a)};return ck(function(a){return de(w,a)},v);default:return um}},c,d)}function
 hg(a){if(a){var
 b=a[1];if(b)var
 c=hg(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return uj}function
+d=b;return d}return uo}function
 ez(a){if(a){var
 g=a[1],b=g[2],c=hg(g[1]);if(c)if(b){var
 h=b[1],e=ez(a[2]);if(e)var
@@ -4025,23 +4036,23 @@ f=j}else
 var
 f=b;else
 var
-f=c;return f}return uk}function
+f=c;return f}return up}function
 eA(b,a){var
 c=a[3],d=y(function(a){var
 c=a[2],d=a[1][2];return[0,[0,k(b,a[1][1]),d],c]},c),e=k(b,a[2]),f=a[1];return[0,k(ax(b),f),e,d]}function
-jn(c,g,f,b,a,e){if(b){var
+jp(c,g,f,b,a,e){if(b){var
 h=b[1],l=b[2],d=function(b,a){var
-d=kG(c,e9,e9,function(a){return nC(b,a)},e);return jn(c,g,bn(f),l,a,d)},i=d(0,aL(a,h));if(i){var
+d=kI(c,e9,e9,function(a){return nI(b,a)},e);return jp(c,g,bn(f),l,a,d)},i=d(0,aL(a,h));if(i){var
 j=d(2,E(a,h));if(j)return f?1:d(1,a);var
 k=j}else
 var
-k=i;return k}return ar(g,a,kG(c,e9,e9,nD,e))}function
-jo(e,c,b,a){var
+k=i;return k}return ao(g,a,kI(c,e9,e9,nJ,e))}function
+jq(e,c,b,a){var
 f=ab(d,b);function
-g(b){return a}return function(a){return jn(e,g,c,f,d,a)}}function
+g(b){return a}return function(a){return jp(e,g,c,f,d,a)}}function
 dg(a){if(a){var
 b=a[1],c=b[1],d=c[1],e=b[2],f=c[2];return y(function(a){return aU(f,e,a)},d)}return[0,u]}function
-nF(f,e,k,j,i,a){var
+nL(f,e,k,j,i,a){var
 b=ez(a[1]);if(b){var
 c=a[2];if(c){var
 d=dg(a[3]);if(d){var
@@ -4052,14 +4063,14 @@ g=c;var
 h=g}else
 var
 h=b;return h}function
-nG(i,d,h,g,c){var
+nM(i,d,h,g,c){var
 a=ez(c[1]);if(a){var
 b=dg(c[3]);if(b){var
 j=ab([0,G(u,b[1]),0],d),k=a[1];return a_(i,d,gJ(h,g,e(function(a){return[0,a[1],u]},k),j))}var
 f=b}else
 var
 f=a;return f}function
-nH(a,c,D,i){var
+nN(a,c,D,i){var
 j=ez(i[1]);if(j){var
 k=i[2];if(k){var
 l=dg(i[3]);if(l){var
@@ -4071,7 +4082,7 @@ r=q}else
 var
 r=f;return r}var
 s=I(d,e[1]),u=s?I(d,n[1]):s;if(u){var
-A=C(e[1],n[1]),B=m[1];return I(ao(function(a,b){var
+A=C(e[1],n[1]),B=m[1];return I(ap(function(a,b){var
 c=cb(a);return E(C(cb(a),c),b)},d,B),A)}return u}var
 h=gK(a,b,ab([0,e,0],c));if(h){var
 v=h[1],w=o(g(v),c);if(w)return ej(a,v);var
@@ -4084,51 +4095,51 @@ y=k;var
 z=y}else
 var
 z=j;return z}function
-ul(c){var
+uq(c){var
 a=c[2];if(a){var
 b=dg(c[3]);if(b)return D(d,G(a[1],b[1])[1]);var
 e=b}else
 var
 e=a;return e}function
-jp(a){return z(function(a){return f(a[1],[0,a[2],0])},a)}function
-nI(a,c,b){var
+jr(a){return z(function(a){return f(a[1],[0,a[2],0])},a)}function
+nO(a,c,b){var
 e=r(b,c,m(d)),f=aC(0,a);return l(function(b){return ey(a,b,e)},f)}function
 fB(a){var
 c=V(a);return B(m(b),c)}function
 hh(i,g){var
 h=fB(g),j=V(g),e=x(m(b),j),f=s(m(c(2,b)),g),a=m(d);return i?i[1]?[0,[0,e,bp(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,bp(f),a,e]]:[0,[0,h,a,a],[0,a,e,bp(f)],[0,a,f,e]]}function
 fC(b,a){var
-c=Z(b[3],a),d=Z(b[2],a);return[0,Z(b[1],a),d,c]}function
-nJ(b,a){function
+c=_(b[3],a),d=_(b[2],a);return[0,_(b[1],a),d,c]}function
+nP(b,a){function
 c(b){var
 c=k(b,a[3]),d=k(b,a[2]);return[0,k(b,a[1]),d,c]}function
 d(a){var
-b=Z(a,c(function(a){return a[3]})),d=Z(a,c(function(a){return a[2]}));return[0,Z(a,c(function(a){return a[1]})),d,b]}var
+b=_(a,c(function(a){return a[3]})),d=_(a,c(function(a){return a[2]}));return[0,_(a,c(function(a){return a[1]})),d,b]}var
 e=d(b[3]),f=d(b[2]);return[0,d(b[1]),f,e]}function
-nK(v,u){function
+nQ(v,u){function
 a(a){return[0,[0,M(u,a)]]}switch(v[0]){case
 0:var
-w=fB(a(0));return[0,hh(um,a(0)),w];case
+w=fB(a(0));return[0,hh(ur,a(0)),w];case
 1:var
-y=fB(a(0)),z=s(fB(a(un)),y),A=s(fB(a(uo)),z),C=hh(0,a(0)),D=nJ(hh(uq,a(up)),C);return[0,nJ(hh(us,a(ur)),D),A];default:var
-E=a(ut),F=a(uu),g=[0,a(0),F,E],G=Z(g,g),H=B(m(b),G),j=Z(g,g),d=g[1],e=g[2],f=g[3],i=function(a){var
+y=fB(a(0)),z=s(fB(a(us)),y),A=s(fB(a(ut)),z),C=hh(0,a(0)),D=nP(hh(uv,a(uu)),C);return[0,nP(hh(ux,a(uw)),D),A];default:var
+E=a(uy),F=a(uz),g=[0,a(0),F,E],G=_(g,g),H=B(m(b),G),j=_(g,g),d=g[1],e=g[2],f=g[3],i=function(a){var
 d=V(a),e=s(m(c(2,b)),d);return B(x(m(b),j),e)},h=function(f,e,d,a){var
-g=ar(f,s(e,d),a);return s(m(c(2,b)),g)},k=i(f),l=h(B,e,f,d),n=[0,h(x,d,f,e),l,k],o=h(x,e,f,d),p=i(e),q=[0,h(B,d,e,f),p,o],r=h(B,d,f,e),t=h(x,d,e,f);return[0,[0,[0,i(d),t,r],q,n],H]}}function
-nL(a){return 1<a[0]?[0,a[1],0]:0}function
+g=ao(f,s(e,d),a);return s(m(c(2,b)),g)},k=i(f),l=h(B,e,f,d),n=[0,h(x,d,f,e),l,k],o=h(x,e,f,d),p=i(e),q=[0,h(B,d,e,f),p,o],r=h(B,d,f,e),t=h(x,d,e,f);return[0,[0,[0,i(d),t,r],q,n],H]}}function
+nR(a){return 1<a[0]?[0,a[1],0]:0}function
 hi(a){switch(a[0]){case
 0:return[0,a[1],0];case
 1:return[0,a[1],[0,a[2],[0,a[3],0]]];case
 2:return[0,dc(a[1]),0];default:var
 b=[0,dc(a[2]),0];return[0,dc(a[1]),b]}}function
 eB(a){return[0,[0,a[1]],[0,a[2]]]}function
-nM(a){switch(a[0]){case
+nS(a){switch(a[0]){case
 0:return[0,eB(a[1]),0];case
 1:var
 f=[0,eB(a[3]),0],g=[0,eB(a[2]),f];return[0,eB(a[1]),g];case
 2:var
 b=eB(dc(a[1]));return[0,b,[0,b,[0,b,0]]];default:var
 c=a[2],d=a[1],e=[0,[1,dc(d)[1],c],[1,d,c]];return[0,e,[0,e,[0,eB(dc(c)),0]]]}}function
-nN(a,c){if(0===c[0]){var
+nT(a,c){if(0===c[0]){var
 g=c[1];return k(cJ(a),g)}var
 h=c[1],d=k(cJ(a),h);if(d){var
 i=c[2],e=k(cJ(a),i);if(e){var
@@ -4136,66 +4147,66 @@ j=U(a,e[1]),l=ca(a,A(O(a,b),j)),m=d[1];return y(function(b){return t(a,m,b)},l)}
 f=e}else
 var
 f=d;return f}function
-nO(d,c){var
-a=nN(d,c[1]);if(a)var
-b=nN(d,c[2]),f=b?[0,[0,a[1][1],b[1][2]]]:b,e=f;else
+nU(d,c){var
+a=nT(d,c[1]);if(a)var
+b=nT(d,c[2]),f=b?[0,[0,a[1][1],b[1][2]]]:b,e=f;else
 var
 e=a;return e}function
-nP(a,e,c){var
+nV(a,e,c){var
 b=c[1];if(1===b[0]){var
 f=b[1];if(aJ(f,a))return c;var
-g=m(d);return r(dx(f,a),e,g)}return[0,bU(function(b){return nP(a,e,b)},b)]}function
-jq(g,a,n,f,c){var
-h=g?[0,a,[0,[0,a],[0,[0,[0,a]],0]]]:[0,a,[0,[0,a],0]],i=mN(h,c),j=bW(f),b=e(function(b){return nP(a,j,b)},i),k=r(uz,b,m(d)),l=r(uA,b,m(d));return[0,r(0,b,m(d)),l,k]}function
+g=m(d);return r(dx(f,a),e,g)}return[0,bU(function(b){return nV(a,e,b)},b)]}function
+js(g,a,n,f,c){var
+h=g?[0,a,[0,[0,a],[0,[0,[0,a]],0]]]:[0,a,[0,[0,a],0]],i=mT(h,c),j=bW(f),b=e(function(b){return nV(a,j,b)},i),k=r(uE,b,m(d)),l=r(uF,b,m(d));return[0,r(0,b,m(d)),l,k]}function
 bI(b,a){var
 c=s(b[2],a[1]),d=x(s(b[1],a[2]),c),e=s(b[1],a[3]),f=x(s(b[3],a[1]),e),g=s(b[3],a[2]);return[0,x(s(b[2],a[3]),g),f,d]}function
 dO(b,a){return b?b[1]?a[3]:a[2]:a[1]}function
-nQ(c){function
+nW(c){function
 a(a){var
 e=o(c,a)?b:d;return m(e)}var
-e=a(uB),f=a(uC);return[0,a(0),f,e]}function
-nR(b,a){if(a)var
-d=nR(b,a[2]),c=[0,e(k(b,a[1]),a),d];else
+e=a(uG),f=a(uH);return[0,a(0),f,e]}function
+nX(b,a){if(a)var
+d=nX(b,a[2]),c=[0,e(k(b,a[1]),a),d];else
 var
 c=a;return c}function
 hj(c,b,a){switch(c){case
 0:return[0,b[1],[0,b[2],[0,a[3],0]]];case
 1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}}function
-nS(b,c,a){return c?av(b,a):am(b,a)}function
-nT(a){if(a){var
+nY(b,c,a){return c?av(b,a):am(b,a)}function
+nZ(a){if(a){var
 f=a[1],b=f[2],c=hg(f[1]);if(c)if(b)var
-d=nT(a[2]),g=d?[0,[0,[0,c[1],b[1]],d[1]]]:d,e=g;else
+d=nZ(a[2]),g=d?[0,[0,[0,c[1],b[1]],d[1]]]:d,e=g;else
 var
 e=b;else
 var
-e=c;return e}return uN}function
-nU(c,b,a){var
-d=W(b,a);return ao(function(a,d){var
+e=c;return e}return uS}function
+n0(c,b,a){var
+d=W(b,a);return ap(function(a,d){var
 b=cb(a[2]);return A(t(c,a[1],[0,b,b]),d)},u,d)}function
-nV(a,h,e,f,d){if(e)if(d)var
-i=d[1],o=nV(a,h,e[2],f,d[2]),p=i[2],q=av(h,i[1]),c=e[1],j=aw(t(a,c[3],f)),k=c[3],l=A(aw(eg(p,O(a,b),k)),j),m=t(a,c[2],l),n=t(a,c[1],f),g=[0,cz(A(A(aw(nU(a,c[4],q)),n),m)),o];else
+n1(a,h,e,f,d){if(e)if(d)var
+i=d[1],o=n1(a,h,e[2],f,d[2]),p=i[2],q=av(h,i[1]),c=e[1],j=aw(t(a,c[3],f)),k=c[3],l=A(aw(eg(p,O(a,b),k)),j),m=t(a,c[2],l),n=t(a,c[1],f),g=[0,cz(A(A(aw(n0(a,c[4],q)),n),m)),o];else
 var
 g=d;else
 var
 g=e;return g}function
-uP(a){return[0,a[1][1],a[2][1][2][1],a[1][2],a[2][2]]}function
-nW(b,a){return ad(e(function(a){return r(a,b,0)},a))}function
+uU(a){return[0,a[1][1],a[2][1][2][1],a[1][2],a[2][2]]}function
+n2(b,a){return ad(e(function(a){return r(a,b,0)},a))}function
 cM(a){switch(a){case
-0:return uT;case
-1:return uU;default:return 0}}function
+0:return uY;case
+1:return uZ;default:return 0}}function
 dP(a){switch(a){case
-0:return[0,uW,uV,m(d)];case
+0:return[0,u1,u0,m(d)];case
 1:return dG;default:var
 b=m(d),c=m(d);return[0,m(d),c,b]}}function
 hk(c,b,a){return bq(fC(c,a),b)}function
-nX(a){var
-d=Z(a,a),e=B(m(b),d);return al(m(c(2,b)),e)}function
-nY(k,j,i,h,g,a){var
-e=hk(j,i,g),c=bI(a,e),f=ag(B,c,bI(a,c)),d=ag(B,e,a4(nX(a),f)),b=ag(x,ag(B,dP(k),d),h);return[0,[0,d,b],aK(Z(b,b))]}function
+n3(a){var
+d=_(a,a),e=B(m(b),d);return al(m(c(2,b)),e)}function
+n4(k,j,i,h,g,a){var
+e=hk(j,i,g),c=bI(a,e),f=ag(B,c,bI(a,c)),d=ag(B,e,a4(n3(a),f)),b=ag(x,ag(B,dP(k),d),h);return[0,[0,d,b],aK(_(b,b))]}function
 at(a){return typeof
-a==="number"?a?uX:uY:bH(a[1])}function
-jr(b,a,c){return typeof
-b==="number"?b?[0,a[1],[0,a[2],0]]:[0,a[1],[0,a[2],[0,a[3],0]]]:jj(b[1],a,c)}function
+a==="number"?a?u2:u3:bH(a[1])}function
+jt(b,a,c){return typeof
+b==="number"?b?[0,a[1],[0,a[2],0]]:[0,a[1],[0,a[2],[0,a[3],0]]]:jl(b[1],a,c)}function
 eC(a){if(0===a[0]){var
 c=a[1];switch(c[0]){case
 0:return c[3];case
@@ -4205,37 +4216,37 @@ bu(d,c,b,a){var
 e=eC(a),f=eD(d,c,eC(a)),g=K(function(b,a){return[2,b,a]},b,f);return K(function(b,a){return[3,b,a]},g,e)}function
 eE(d,c,b,a){if(0===a[0]){var
 f=bu(d,c,b,a);return[0,cI(a[1],f)]}var
-e=a[1],g=nt(e,bu(d,c,b,a));return[1,ns(e,bu(d,c,b,a)),g]}function
-js(b,a){var
+e=a[1],g=nz(e,bu(d,c,b,a));return[1,ny(e,bu(d,c,b,a)),g]}function
+ju(b,a){var
 c=typeof
 b==="number"?1:0;if(c){if(b)return[0,a[1],[0,a[2],0]];var
 d=[0,a[1],[0,a[2],[0,a[3],0]]]}else
 var
 d=c;return d}function
-jt(e,d,c,a){if(0===a[0]){var
-f=bu(e,d,c,a),b=i$(a[1],f),g=b?[0,b[1],0]:b;return g}var
-h=bu(e,d,c,a);return[0,jf(a[1],h),0]}function
-nZ(b,f,d){if(0===f[0])return 0===d[0]?m4(b,f[1],d[1]):0;if(0===d[0])return 0;var
+jv(e,d,c,a){if(0===a[0]){var
+f=bu(e,d,c,a),b=jb(a[1],f),g=b?[0,b[1],0]:b;return g}var
+h=bu(e,d,c,a);return[0,jh(a[1],h),0]}function
+n5(b,f,d){if(0===f[0])return 0===d[0]?m_(b,f[1],d[1]):0;if(0===d[0])return 0;var
 a=d[1],c=f[1],g=br(b,c[1],a[1]),i=g?br(b,c[2],a[2]):g,j=i?br(b,c[3],a[3]):i,k=j?br(b,c[4],a[4]):j,l=k?c_(b,c[5],a[5]):k,m=l?c_(b,c[6],a[6]):l,n=m?h(b,1,a[5]):m,o=n?h(b,1,a[6]):n,p=o?h(b,1,w(a[1],a[1])):o;if(p)var
-q=je(a),e=h(b,1,w(je(a),q));else
+q=jg(a),e=h(b,1,w(jg(a),q));else
 var
 e=p;return e?cv(c[7],a[7]):e}function
 fD(g,f,e){var
 b=f,a=e;for(;;){if(b){if(a){var
-c=nZ(g,b[1],a[1]);if(c){var
+c=n5(g,b[1],a[1]);if(c){var
 b=b[2],a=a[2];continue}var
 d=c}else
 var
 d=a;return d}return a?0:1}}function
-ju(c,b,g,a){var
+jw(c,b,g,a){var
 d=cG(c,b[4],g);if(d){var
 e=b[5];if(e)return fz(c,e[1],a);if(a)return 0;var
 f=1}else
 var
 f=d;return f}function
 hl(a){return typeof
-a==="number"?uZ:2<=a[1]?u0:u1}function
-n0(v,m,l){if(l){var
+a==="number"?u4:2<=a[1]?u5:u6}function
+n6(v,m,l){if(l){var
 a=l[1],e=function(c,a){return h(v,1,[3,[0,a,b],c])},g=function(a){return[3,a[2],a[1]]};switch(a[0]){case
 0:var
 n=c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),f=e(g(a[1]),n);break;case
@@ -4283,7 +4294,7 @@ e=a[1];continue;case
 2:return 1;default:var
 f=hm(c,b,a[1]);if(f){var
 e=a[2];continue}return f}}}function
-n1(d){var
+n7(d){var
 b=d;for(;;){var
 a=b[1];switch(a[0]){case
 0:case
@@ -4294,17 +4305,17 @@ a=b[1];switch(a[0]){case
 8:case
 9:var
 b=a[1];continue;default:var
-c=n1(a[1]);if(c){var
+c=n7(a[1]);if(c){var
 b=a[2];continue}return c}}}function
-n2(c,b,a){var
+n8(c,b,a){var
 d=e(b,a[2]);return[0,k(c,a[1]),d]}function
-jv(b,a,c){return e(function(c){var
-d=n2(b,a,c[2]),f=c[1];return[0,e(function(c){return n2(b,a,c)},f),d]},c)}function
-n3(b,a){return y(function(a){var
+jx(b,a,c){return e(function(c){var
+d=n8(b,a,c[2]),f=c[1];return[0,e(function(c){return n8(b,a,c)},f),d]},c)}function
+n9(b,a){return y(function(a){var
 c=a[2],d=a[1][2];return[0,[0,k(b,a[1][1]),d],c]},a)}function
-u2(a,b){var
-c=n3(a,b[3]),d=k(a,b[2]);return[0,jv(a,a,b[1]),d,c]}function
-n4(c){var
+u7(a,b){var
+c=n9(a,b[3]),d=k(a,b[2]);return[0,jx(a,a,b[1]),d,c]}function
+n_(c){var
 a=c[1];if(a){var
 b=hg(c[2]);if(b)var
 g=e($,b[1]),d=[0,[0,$(a[1]),g]];else
@@ -4313,48 +4324,48 @@ d=b;var
 f=d}else
 var
 f=a;return f}function
-u3(c){var
-a=ad(e(n4,c[1]));if(a)var
-b=n4(c[2]),f=b?[0,[0,a[1],b[1]]]:b,d=f;else
+u8(c){var
+a=ad(e(n_,c[1]));if(a)var
+b=n_(c[2]),f=b?[0,[0,a[1],b[1]]]:b,d=f;else
 var
 d=a;return d}function
-u4(a){return J(iR([0,a[2],a[1]]))}function
-jw(a){return[0,a[1],a[2]]}function
-n5(b,c,a){var
+u9(a){return J(iT([0,a[2],a[1]]))}function
+jy(a){return[0,a[1],a[2]]}function
+n$(b,c,a){var
 d=e(function(c){return bA(b,bZ(c,a))},c);return[0,bA(b,a),d]}function
-jx(b,e,a,d){var
+jz(b,e,a,d){var
 c=z(function(a){var
-b=jw(a[2]);return f(z(jw,a[1]),b)},d),g=a?[0,bA(b,a[1]),0]:a,h=f(g,c);return[0,bA(b,e),h]}function
-n6(c,f,b,a){var
+b=jy(a[2]);return f(z(jy,a[1]),b)},d),g=a?[0,bA(b,a[1]),0]:a,h=f(g,c);return[0,bA(b,e),h]}function
+oa(c,f,b,a){var
 d=hm(f,b,a),e=d?he(c,a):d;return e?l(function(b){return he(c,bZ(b,a))},b):e}function
-n7(a){switch(a[0]){case
+ob(a){switch(a[0]){case
 3:var
-d=jp(a[2]);return[0,a[3],d];case
+d=jr(a[2]);return[0,a[3],d];case
 4:return[0,a[1],0];case
 8:var
-b=a[1],e=jp(b[1]);return[0,b[2],e];case
+b=a[1],e=jr(b[1]);return[0,b[2],e];case
 9:return 0;default:var
-c=jp(a[1]);return[0,a[2],c]}}function
-n8(a,ay,bs,j,n,R,ax,x,Q,i,h){switch(i[0]){case
+c=jr(a[1]);return[0,a[2],c]}}function
+oc(a,ay,bs,j,n,R,ax,x,Q,i,h){switch(i[0]){case
 0:var
 az=i[4],S=i[3],aB=i[2],aD=i[1],V=0;if(typeof
 h==="number")V=1;else
 switch(h[0]){case
 0:var
-bt=h[2],bu=h[1],v=aB,s=aD,q=function(b){return nF(a,n,bu,bt,S,b)},p=az;break;case
+bt=h[2],bu=h[1],v=aB,s=aD,q=function(b){return nL(a,n,bu,bt,S,b)},p=az;break;case
 2:var
 aE=L(S[1],d),aF=aE?L(S[2],d):aE;if(!aF)return aF;var
-bx=h[2],by=h[1],v=aB,s=aD,q=function(b){return nG(a,n,by,bx,b)},p=az;break;default:V=1}if(V)return 0;break;case
+bx=h[2],by=h[1],v=aB,s=aD,q=function(b){return nM(a,n,by,bx,b)},p=az;break;default:V=1}if(V)return 0;break;case
 1:var
 aQ=0;if(typeof
 h==="number"&&!h)var
-bz=i[2],bA=i[1],bB=i[3],v=bz,s=bA,bC=0,q=function(b){return nH(a,n,bB,b)},p=bC;else
+bz=i[2],bA=i[1],bB=i[3],v=bz,s=bA,bC=0,q=function(b){return nN(a,n,bB,b)},p=bC;else
 aQ=1;if(aQ)return 0;break;case
 2:if(typeof
 h!=="number"&&3===h[0]){var
 B=h[3];if(B){var
 aG=B[2],aH=o(g(aG),j);if(aH){var
-bE=[0,i[1],i[2],Q],bF=eA(function(a){return r(a,x,u7)},bE),aI=h[1],bG=0,bH=B[1],bI=h[2],bJ=i[3],bK=function(w,i){var
+bE=[0,i[1],i[2],Q],bF=eA(function(a){return r(a,x,va)},bE),aI=h[1],bG=0,bH=B[1],bI=h[2],bJ=i[3],bK=function(w,i){var
 c=ez(i[1]);if(c){var
 j=c[1],e=i[2];if(e){var
 f=dg(i[3]);if(f){var
@@ -4371,7 +4382,7 @@ var
 r=e;var
 s=r}else
 var
-s=c;return s};return jn(function(b,a){return eA},bK,bG,aG,d,bF)}var
+s=c;return s};return jp(function(b,a){return eA},bK,bG,aG,d,bF)}var
 aK=aH}else
 var
 aK=B;return aK}return 0;case
@@ -4397,14 +4408,14 @@ l=b;return l},v=bL,s=bM,q=bP,p=i[5];if(aR)return 0;break;case
 4:var
 aT=0;if(typeof
 h==="number"&&!h)var
-v=i[1],s=0,q=ul,p=0;else
+v=i[1],s=0,q=uq,p=0;else
 aT=1;if(aT)return 0;break;case
 5:var
 aV=0;if(typeof
 h==="number"||!(0===h[0]))aV=1;else{var
 C=h[2],aW=0;if(C){var
 D=C[1];if(D){if(D[2])return 0;if(C[2])return 0;var
-bQ=i[2],bR=i[1],bS=O(a,b),bT=[0,[0,D[1],0],0],bU=h[1],v=bQ,s=bR,bV=0,q=function(b){return nF(a,u8,bU,bT,bS,b)},p=bV;aW=1}else
+bQ=i[2],bR=i[1],bS=O(a,b),bT=[0,[0,D[1],0],0],bU=h[1],v=bQ,s=bR,bV=0,q=function(b){return nL(a,vb,bU,bT,bS,b)},p=bV;aW=1}else
 var
 aN=D}else
 var
@@ -4412,30 +4423,30 @@ aN=C;if(!aW)return aN}if(aV)return 0;break;case
 6:var
 aX=0;if(typeof
 h==="number"&&!h)var
-bW=i[2],bX=i[1],bY=O(a,b),v=bW,s=bX,bZ=0,q=function(b){return nH(a,u9,bY,b)},p=bZ;else
+bW=i[2],bX=i[1],bY=O(a,b),v=bW,s=bX,bZ=0,q=function(b){return nN(a,vc,bY,b)},p=bZ;else
 aX=1;if(aX)return 0;break;case
 7:var
 aY=0;if(typeof
 h==="number"&&5<=h)var
-b0=i[2],b1=i[1],b2=i[4],b3=i[3],v=b0,s=b1,b4=0,q=function(b){return nG(a,n,b3,b2,b)},p=b4;else
+b0=i[2],b1=i[1],b2=i[4],b3=i[3],v=b0,s=b1,b4=0,q=function(b){return nM(a,n,b3,b2,b)},p=b4;else
 aY=1;if(aY)return 0;break;case
 8:if(typeof
 h!=="number"&&9===h[0]){var
-E=h[4],aO=h[2],T=h[1],m=i[1],w=m[9],b5=h[3],a3=m[5],a4=gE(f(ed(m[4]),a3),ay),a5=e($,bs),z=m[9],a6=m[8],a7=m[7],a1=gP(z,ab(u,dx(j,z)),a6),a2=f(e($,av(z,R)),a1),Y=lQ(0,bD(a,f(gP(0,am(z,R),a7),a2),a5),a4,ay,0),Z=0<aS(E)?0<aS(d)?gu(E,d):0:0<aS(d)?0:1;if(Z)var
+E=h[4],aO=h[2],T=h[1],m=i[1],w=m[9],b5=h[3],a3=m[5],a4=gE(f(ed(m[4]),a3),ay),a5=e($,bs),z=m[9],a6=m[8],a7=m[7],a1=gP(z,ab(u,dx(j,z)),a6),a2=f(e($,av(z,R)),a1),Y=lW(0,bD(a,f(gP(0,am(z,R),a7),a2),a5),a4,ay,0),Z=0<aS(E)?0<aS(d)?gu(E,d):0:0<aS(d)?0:1;if(Z)var
 F=Z;else
 var
-at=2<=lC(E,c(2,c(2,c(2,c(2,b)))))?0:1,au=at?aJ(0,w):at,F=au?aJ(w,j):au;var
+at=2<=lI(E,c(2,c(2,c(2,c(2,b)))))?0:1,au=at?aJ(0,w):at,F=au?aJ(w,j):au;var
 _=F?aa(w,j):F,ae=_?o(g(R),j):_,af=ae?o(g(aO),j):ae,ag=af?o(g(m[1]),j):af,ah=ag?o(g(m[6]),j):ag,ai=ah?o(g(m[4]),j):ah;if(ai)var
 a8=m[4],H=l(function(a){return o(g(a),j)},a8);else
 var
 H=ai;if(H){var
-a9=m[4],J=ad(e(function(a){return nW(Y,a)},a9));if(J){var
-aj=nW(Y,m[5]);if(aj){var
+a9=m[4],J=ad(e(function(a){return n2(Y,a)},a9));if(J){var
+aj=n2(Y,m[5]);if(aj){var
 a$=m[6],K=ad(e(function(j){var
 c=j[1],k=m[7],d=r(c[1],ax,0);if(d){var
 h=c[2][2],b=ad(e(function(a){var
 b=r(a[2],ax,0);return y(function(a){return a[2]},b)},h));if(b)var
-i=b[1],f=[0,cz(aw(t(a,k,U(a,nU(a,e(aA,c[2][2]),i)))))];else
+i=b[1],f=[0,cz(aw(t(a,k,U(a,n0(a,e(aA,c[2][2]),i)))))];else
 var
 f=b;var
 g=f}else
@@ -4443,8 +4454,8 @@ var
 g=d;return g},a$));if(K){var
 ba=m[1],bb=m[2],M=ad(e(function(m){function
 f(e){var
-g=ab(e,j),c=nE(r(m[2],x,uQ),g);if(c){var
-h=ab(e,j),d=nE(r(bb,x,uR),h);if(d){var
+g=ab(e,j),c=nK(r(m[2],x,uV),g);if(c){var
+h=ab(e,j),d=nK(r(bb,x,uW),h);if(d){var
 i=d[1],k=O(a,b);return ca(a,cc(eg(c[1],k,i)))}var
 f=d}else
 var
@@ -4457,24 +4468,24 @@ i=e;var
 k=i}else
 var
 k=c;return k},ba));if(M){var
-bc=J[1],X=el(a,ao(function(i,h){var
+bc=J[1],X=el(a,ap(function(i,h){var
 o=e(function(b){var
 a=aC(0,j);return e(function(a){return cb(r(a,b[3],u))},a)},i);function
 b(m,l){var
-n=nS(w,m,o),g=e(function(a){return nS(w,l,a)},n);function
-b(a){return ao(bm,d,a)}var
+n=nY(w,m,o),g=e(function(a){return nY(w,l,a)},n);function
+b(a){return ap(bm,d,a)}var
 h=0;function
 i(a){return a}function
 j(a){return a}var
-c=b(ao(function(a,b){return aP(j,i,lD,a,b)},h,g)),k=[0,c,c],f=b(e(function(a){return ao(lD,d,a)},g));return el(a,t(a,[0,f,f],k))}var
+c=b(ap(function(a,b){return aP(j,i,lJ,a,b)},h,g)),k=[0,c,c],f=b(e(function(a){return ap(lJ,d,a)},g));return el(a,t(a,[0,f,f],k))}var
 c=b(1,1),f=b(1,0),g=b(0,1);return A(h,U(a,A(A(A(b(0,0),g),f),c)))},u,bc)),N=aU(b5,T,O(a,b)),ak=I(d,G(N,X)[1]);if(ak){var
 P=b$(a,N);if(P){var
-bd=aw(t(a,X,P[1])),be=G(O(a,b),bd),bf=[0,m[1],m[2],Q],bg=eA(function(a){return r(a,x,uS)},bf),bh=m[6],bk=e(uP,W(W(K[1],M[1]),bh)),bl=U(a,be),bo=U(a,N),bp=m[10],aZ=aC(0,j),a0=e(function(a){var
+bd=aw(t(a,X,P[1])),be=G(O(a,b),bd),bf=[0,m[1],m[2],Q],bg=eA(function(a){return r(a,x,uX)},bf),bh=m[6],bk=e(uU,W(W(K[1],M[1]),bh)),bl=U(a,be),bo=U(a,N),bp=m[10],aZ=aC(0,j),a0=e(function(a){var
 d=bp?aa(w,a):aJ(a,w);return d?b:b_(c(2,b),E)},aZ),bq=function(r){var
-h=nT(r[1]);if(h){var
+h=nZ(r[1]);if(h){var
 v=h[1],i=r[2];if(i){var
 k=i[1],m=dg(r[3]);if(m){var
-w=m[1],x=nV(a,j,bk,k,v),n=e(function(a){var
+w=m[1],x=n1(a,j,bk,k,v),n=e(function(a){var
 c=a[2],b=W(a0,a[1]);return[0,e(function(a){return aU(a[1],d,a[2])},b),c]},v),F=en(T,eo(T,aO,k,n)),p=bi(ab([0,ac(w),0],j),F),H=G(t(a,k,bl),w),y=o(g(n),j),z=y?o(g(x),j):y;if(z){var
 b=j,c=p;for(;;){if(c){if(b){var
 s=o(g(c[1]),b);if(s){var
@@ -4490,7 +4501,7 @@ var
 q=z;var
 B=q?a_(a,j,bi(e(function(b){return[0,ac(t(a,bo,b[2])),0]},n),p)):q;if(B){var
 I=bj(bn(j));return l(function(g){var
-d=W(f(g,uO),x),b=[0,[0,H,0],0],c=W(p,e(function(a){return a[1]?ac(a[2]):a[2]},d));return a_(a,[0,j],f(e(function(a){return f(a[1],[0,a[2],0])},c),b))},I)}var
+d=W(f(g,uT),x),b=[0,[0,H,0],0],c=W(p,e(function(a){return a[1]?ac(a[2]):a[2]},d));return a_(a,[0,j],f(e(function(a){return f(a[1],[0,a[2],0])},c),b))},I)}var
 C=B}else
 var
 C=m;var
@@ -4499,17 +4510,17 @@ var
 D=i;var
 E=D}else
 var
-E=h;return E},br=m[3];return k(jo(function(b,a){return eA},br,j,bq),bg)}var
+E=h;return E},br=m[3];return k(jq(function(b,a){return eA},br,j,bq),bg)}var
 al=P}else
 var
 al=ak;var
 an=al}else
 var
 an=M;var
-ap=an}else
+ao=an}else
 var
-ap=K;var
-aq=ap}else
+ao=K;var
+aq=ao}else
 var
 aq=aj;var
 ar=aq}else
@@ -4518,34 +4529,34 @@ ar=J;var
 as=ar}else
 var
 as=H;return as}return 0;default:return 0}var
-bv=[0,s,v,Q],bw=eA(function(a){return r(a,x,u6)},bv);return k(jo(function(b,a){return eA},p,j,q),bw)}function
-u_(b,a){var
-c=iC(ix,b[1],a[1]);return c?ix(b[2],a[2]):c}function
-n9(i,r,q,h,p,k,A,z,y,j,n,g,a,e){if(typeof
+bv=[0,s,v,Q],bw=eA(function(a){return r(a,x,u$)},bv);return k(jq(function(b,a){return eA},p,j,q),bw)}function
+vd(b,a){var
+c=iE(iz,b[1],a[1]);return c?iz(b[2],a[2]):c}function
+od(i,r,q,h,p,k,A,z,y,j,n,g,a,e){if(typeof
 e==="number"){if(0===e)return 9===a[0]?fn(i,0,0,0,g,h,0,a[1],e):0}else
 switch(e[0]){case
 6:var
 f=e[1];if(typeof
 f!=="number"&&7===f[0]){if(k){var
-s=f[3],t=f[2],u=D(d,t),v=u?iz(s,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):u;if(v)return n8(i,r,q,h,p,j,g,n,[0,[0,[0,k[1],t],s]],a,f[1]);var
+s=f[3],t=f[2],u=D(d,t),v=u?iB(s,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):u;if(v)return oc(i,r,q,h,p,j,g,n,[0,[0,[0,k[1],t],s]],a,f[1]);var
 w=v}else
 var
-w=k;return w}return n8(i,r,q,h,p,j,g,n,0,a,f);case
+w=k;return w}return oc(i,r,q,h,p,j,g,n,0,a,f);case
 8:return 9===a[0]?fn(i,0,0,0,g,h,0,a[1],e):0;case
 10:if(0===a[0]){var
-l=iC(u_,a[1],A),m=l?1:l,x=m?o(a[2],z):m;return x?kG(y,j,a[3],a[4],e):x}return 0}return 0}function
-n_(b){var
+l=iE(vd,a[1],A),m=l?1:l,x=m?o(a[2],z):m;return x?kI(y,j,a[3],a[4],e):x}return 0}return 0}function
+oe(b){var
 a=b[2];if(typeof
 a!=="number"&&6===a[0])return 1;return 0}function
-u$(c){var
+ve(c){var
 b=0,a=c[2];if(typeof
 a==="number"){if(0!==a)b=1}else
 switch(a[0]){case
 6:case
 8:break;default:b=1}return b?0:1}function
-va(a){switch(a[0]){case
+vf(a){switch(a[0]){case
 8:return 0;case
-9:return i1(a[1]);default:return 1}}function
+9:return i3(a[1]);default:return 1}}function
 fE(a,o,m,i,x,w,b,v,s,C,h,j,at,c){switch(c[0]){case
 0:var
 au=function(a){return l(J,a)},P=au,p=c[1];break;case
@@ -4553,31 +4564,31 @@ au=function(a){return l(J,a)},P=au,p=c[1];break;case
 av=c[4],aw=c[3],ax=c[2],ay=function(c){var
 d=c4(ax,j),e=fE(a,o,m,i,x,w,b,v,s,C,h,d[1],c,aw);return e?fE(a,o,m,i,x,w,b,v,s,C,h,d[2],c,av):e},P=ay,p=c[1];break;default:var
 az=c[4],aB=c[3],aC=c[2],aD=function(c){var
-d=mL(va,i,c);if(d){var
+d=mR(vf,i,c);if(d){var
 e=c4(aC,h),f=fE(a,o,m,i,x,w,b,v,s,C,e[1],j,c,aB);if(f)return fE(a,o,m,i,x,w,b,v,s,C,e[2],j,c,az);var
 g=f}else
 var
 g=d;return g},P=aD,p=c[1]}var
-ae=k(C,h),aa=aj(u$,p),ab=aa?iV(a,m,h,gE(z(function(c){var
+ae=k(C,h),aa=aj(ve,p),ab=aa?iX(a,m,h,gE(z(function(c){var
 a=F(i,c[1]);if(a){var
 b=a[1];switch(b[0]){case
 8:var
 d=b[1][6];return z(function(a){var
-b=e(aO,a[1][2][2]);return[0,a[1][1],b]},d);case
-9:return i2(0,0,0,b[1],c[2]);default:return 0}}return a},p),m),j):aa,ad=aj(n_,p);if(ad)var
+b=e(aN,a[1][2][2]);return[0,a[1][1],b]},d);case
+9:return i4(0,0,0,b[1],c[2]);default:return 0}}return a},p),m),j):aa,ad=aj(oe,p);if(ad)var
 aq=z(function(b){var
-c=n_(b);if(c){var
-a=F(i,b[1]);if(a)return n7(a[1]);var
+c=oe(b);if(c){var
+a=F(i,b[1]);if(a)return ob(a[1]);var
 d=a}else
 var
-d=c;return d},p),ar=b?[0,b[1],0]:b,as=f(ar,aq),ah=0,ai=ao(fd,e(function(a){return 0},o),as),N=jm(a,h,fa(hf(fa(o,0),ai),ah),j);else
+d=c;return d},p),ar=b?[0,b[1],0]:b,as=f(ar,aq),ah=0,ai=ap(fd,e(function(a){return 0},o),as),N=jo(a,h,fa(hf(fa(o,0),ai),ah),j);else
 var
 N=ad;var
 q=p,g=at;for(;;){if(q){var
 S=q[1],D=S[2],n=S[1],H=q[2];if(n){var
 T=r(n,g,0);if(T){var
 K=F(i,n);if(K){var
-V=n9(a,m,h,x,w,b,v,s,ae,j,N,ab,K[1],D);if(V){var
+V=od(a,m,h,x,w,b,v,s,ae,j,N,ab,K[1],D);if(V){var
 q=H,g=g0(n,g);continue}var
 W=V}else
 var
@@ -4589,7 +4600,7 @@ B=X}else{var
 af=0;if(typeof
 D==="number"&&4===D){var
 ag=0;if(b){var
-ap=0,Q=e(function(b){return[0,b,U(a,b)]},j),al=e(aO,Q),ak=0,am=f(e(aA,Q),al),an=bg(0,function(o){return function(b){switch(b[0]){case
+ao=0,Q=e(function(b){return[0,b,U(a,b)]},j),al=e(aN,Q),ak=0,am=f(e(aA,Q),al),an=bg(0,function(o){return function(b){switch(b[0]){case
 0:return[0,r(b[1],o,u)];case
 1:return[0,r(b[1],h,u)];case
 2:return[0,O(a,b[1])];case
@@ -4607,7 +4618,7 @@ d=b$(a,b);return y(function(b){return t(a,c,b)},d)},l,k);case
 8:var
 m=b[1];return de(function(b){return[0,U(a,b)]},m);case
 9:var
-n=b[1];return de(function(b){return ca(a,b)},n);default:return 0}}}(am),o,ak),E=r(b[1],an,ap);if(E){var
+n=b[1];return de(function(b){return ca(a,b)},n);default:return 0}}}(am),o,ak),E=r(b[1],an,ao);if(E){var
 L=I(E[1][2],d);ag=1}else
 var
 R=E}else
@@ -4619,7 +4630,7 @@ B=L}else
 af=1;if(af){var
 Y=r(n,g,0);if(Y){var
 M=F(i,n);if(M){var
-Z=n9(a,m,h,x,w,b,v,s,ae,j,N,ab,M[1],D);if(Z){var
+Z=od(a,m,h,x,w,b,v,s,ae,j,N,ab,M[1],D);if(Z){var
 q=H,g=g0(n,g);continue}var
 _=Z}else
 var
@@ -4630,26 +4641,26 @@ $=Y;var
 B=$}}}else
 var
 B=[0,g];return B?P(B[1]):B}}function
-jy(d,a){var
+jA(d,a){var
 e=V(a),f=s(s(m(c(2,b)),a),d);return B(x(V(d),f),e)}function
-jz(j,a,d,i,c,h){var
+jB(j,a,d,i,c,h){var
 e=ag(x,dP(j),i);if(h){var
 b=function(b){var
 c=k(b,a[3]),d=k(b,a[2]);return[0,k(b,a[1]),d,c]},f=b(function(a){return a[3]}),g=b(function(a){return a[2]}),l=fC([0,b(function(a){return a[1]}),g,f],e);return ag(B,a4(d,c),l)}var
 m=fC(a,c);return ag(B,a4(d,e),m)}function
-n$(f,h,g,k,a,d){var
-e=dP(f),i=ag(x,e,a),j=fC(h,d),l=jy(e[3],a[3]),n=jy(e[2],a[2]),o=jy(e[1],a[1]),p=B(B(B(Z(d,d),o),n),l),q=Z(j,i),r=s(m(c(2,b)),q),t=B(s(g,p),r),u=bq(bI(j,i),k);return[0,hj(f,jz(f,h,g,a,d,0),u),t]}function
-oa(d,c,b,a){var
+of(f,h,g,k,a,d){var
+e=dP(f),i=ag(x,e,a),j=fC(h,d),l=jA(e[3],a[3]),n=jA(e[2],a[2]),o=jA(e[1],a[1]),p=B(B(B(_(d,d),o),n),l),q=_(j,i),r=s(m(c(2,b)),q),t=B(s(g,p),r),u=bq(bI(j,i),k);return[0,hj(f,jB(f,h,g,a,d,0),u),t]}function
+og(d,c,b,a){var
 e=hk(c,b,a);return ag(B,dP(d),e)}function
-ob(g,f,e,d,c){var
-b=oa(g,f,e,c),a=ag(x,b,d);return[0,[0,b,a],aK(Z(a,a))]}function
+oh(g,f,e,d,c){var
+b=og(g,f,e,c),a=ag(x,b,d);return[0,[0,b,a],aK(_(a,a))]}function
 hn(b,a){var
 c=ba(a[2],b);return f(ba(a[1],b),c)}function
-jA(d,b,a,c){if(a)var
-e=a[1],f=cF(c,hn(b,e)),i=M(c,g(hn(b,e))),j=jA(d,b,a[2],i),k=ak(f,vb),h=[0,ar(d,ak(f,0),k),j];else
+jC(d,b,a,c){if(a)var
+e=a[1],f=cF(c,hn(b,e)),i=M(c,g(hn(b,e))),j=jC(d,b,a[2],i),k=ak(f,vg),h=[0,ao(d,ak(f,0),k),j];else
 var
 h=a;return h}function
-jB(f,o,e,n,a){var
+jD(f,o,e,n,a){var
 g=s(V(r(0,n,m(d))),o);if(typeof
 a!=="number")switch(a[0]){case
 2:var
@@ -4662,94 +4673,94 @@ c=F(e,a[1]);if(c)var
 k=h(f,0,a[2]),l=k?[0,x(g,c[1][1][2])]:k;else
 var
 l=c;return l}return 0}function
-oc(c,b,a){if(typeof
+oi(c,b,a){if(typeof
 a!=="number"&&6===a[0]){var
 e=F(c,a[1]);return y(function(a){var
 c=r(0,b,m(d)),e=k(a[2][2],c);return[0,a[2][1],e]},e)}return 0}function
 ho(a){return h(i,0,[3,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b],a])}function
-od(a){var
-b=ak(a,vc),c=aK(Z(ak(a,vd),b));return s(r(0,a,m(d)),c)}function
-oe(b,a){var
-c=Z(a,ak(b,ve));return[0,bW(a4(od(b),a)),c]}function
-of(e,d,a,c,b){var
-f=b[2],g=s(od(a),f),h=c?hk(e,d,ak(a,vf)):ak(a,vg);return x(Z(b[1][2],h),g)}function
-og(h,g,f,d,c,b,a){var
+oj(a){var
+b=ak(a,vh),c=aK(_(ak(a,vi),b));return s(r(0,a,m(d)),c)}function
+ok(b,a){var
+c=_(a,ak(b,vj));return[0,bW(a4(oj(b),a)),c]}function
+ol(e,d,a,c,b){var
+f=b[2],g=s(oj(a),f),h=c?hk(e,d,ak(a,vk)):ak(a,vl);return x(_(b[1][2],h),g)}function
+om(h,g,f,d,c,b,a){var
 i=bC(c);function
-j(a){return oa(h,g,f,a)}return mS(e(function(a){return[0,a[4]]},d),j,i,b,a)}function
+j(a){return og(h,g,f,a)}return mY(e(function(a){return[0,a[4]]},d),j,i,b,a)}function
 fF(a){var
-b=r(vh,a,m(d));return al(r(0,a,m(d)),b)}function
-jC(a){return a[4][2]}function
-oh(g,o,n,l,a){var
-p=a[1][2],q=e(aO,g4(n,a[1][2])),h=fF(l),i=s(s(m(c(2,b)),o),h),d=a[1][1],j=av(cM(g),d),k=e(function(a){return s(a,i)},j);return[0,f(f(am(cM(g),d),k),q),p]}function
-oi(a){var
+b=r(vm,a,m(d));return al(r(0,a,m(d)),b)}function
+jE(a){return a[4][2]}function
+on(g,o,n,l,a){var
+p=a[1][2],q=e(aN,g4(n,a[1][2])),h=fF(l),i=s(s(m(c(2,b)),o),h),d=a[1][1],j=av(cM(g),d),k=e(function(a){return s(a,i)},j);return[0,f(f(am(cM(g),d),k),q),p]}function
+oo(a){var
 b=a[3],c=a[2],d=a[1];return ha([0,[0,d,d],[0,c,c],[0,b,b]])}function
-vq(a){if(typeof
+vv(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-oj(b,a){switch(b){case
+op(b,a){switch(b){case
 0:return[0,a[1],[0,a[2],0]];case
 1:return[0,a[1],[0,a[2],[0,a[3],0]]];default:return 0}}function
 hp(a){var
 c=ce(a[1],[0,d,b]);return c?ce(a[2],[0,d,b]):c}function
-jD(d,a){switch(d){case
+jF(d,a){switch(d){case
 0:return hp(a[3]);case
 1:return 1;default:var
 b=hp(a[1]),c=b?hp(a[2]):b;return c?hp(a[3]):c}}function
-jE(c,b){var
-a=z(function(a){return hn(c,a)},b),d=W(aC(0,g(a)),a);return e(aA,a1(function(a){return i_(a[2])},d))}function
-ok(b){var
+jG(c,b){var
+a=z(function(a){return hn(c,a)},b),d=W(aC(0,g(a)),a);return e(aA,a1(function(a){return ja(a[2])},d))}function
+oq(b){var
 a=b[2];if(typeof
 a!=="number"&&10===a[0])return 1;return 0}function
-ol(c){var
-a=c;for(;;){if(0===a[0])return aj(ok,a[1]);var
-d=aj(ok,a[1]),b=d||ol(a[3]);if(b)return b;var
+or(c){var
+a=c;for(;;){if(0===a[0])return aj(oq,a[1]);var
+d=aj(oq,a[1]),b=d||or(a[3]);if(b)return b;var
 a=a[4];continue}}function
-vr(a,aR,by,A,C,aQ){var
-n=A[1],j=bH(n),X=A[6],bz=A[2],L=z(function(a){return hn(C,a)},bz),aS=A[3],R=[0,[0,aS,aS],C],$=[0,g(L)],bB=0,aT=z(function(a){return fA(bB,C,a)},X),bC=cM(n),aU=nK(A[5],bC),p=aU[2],H=aU[1],K=c9(R,g(L)),bF=A[2],S=g(L),bD=0,w=jA(function(e,a){function
+vw(a,aR,by,A,C,aQ){var
+n=A[1],j=bH(n),X=A[6],bz=A[2],L=z(function(a){return hn(C,a)},bz),aS=A[3],R=[0,[0,aS,aS],C],$=[0,g(L)],bB=0,aT=z(function(a){return fA(bB,C,a)},X),bC=cM(n),aU=nQ(A[5],bC),p=aU[2],H=aU[1],K=c9(R,g(L)),bF=A[2],S=g(L),bD=0,w=jC(function(e,a){function
 i(g){var
 c=bH(n);if(n)var
 b=[0,[0,[0,c]],[0,[0,[0,c]]],[0,[0,[0,[0,c]]]]];else
 var
 l=m(d),b=[0,m(d),l,[0,[0,c]]];var
-t=nY(n,H,p,e,a,b)[2],h=nY(n,H,p,e,a,b),i=h[1],j=bq(i[2],h[2]),k=bI(i[1],j),o=ag(B,k,bI(k,b)),f=a4(nX(b),o),q=s(f[3],g),r=s(f[2],g);return[0,hj(n,j,[0,s(f[1],g),r,q]),t]}function
+t=n4(n,H,p,e,a,b)[2],h=n4(n,H,p,e,a,b),i=h[1],j=bq(i[2],h[2]),k=bI(i[1],j),o=ag(B,k,bI(k,b)),f=a4(n3(b),o),q=s(f[3],g),r=s(f[2],g);return[0,hj(n,j,[0,s(f[1],g),r,q]),t]}function
 j(X){var
-v=ob(n,H,p,e,a),w=v[1],U=ag(x,dP(n),e),y=v[2],r=w[1],W=w[2],g=hk(H,p,a),i=bq(W,y),N=al(Z(g,i),K),O=V(K),P=al(Z(a,a),O),Q=2<=n?d:b,R=B(m(Q),P);function
-h(a){return[0,nQ(a),0]}function
-f(a){return[0,bq(bI(nQ(a),g),K),[0,a]]}switch(n){case
+v=oh(n,H,p,e,a),w=v[1],U=ag(x,dP(n),e),y=v[2],r=w[1],W=w[2],g=hk(H,p,a),i=bq(W,y),N=al(_(g,i),K),O=V(K),P=al(_(a,a),O),Q=2<=n?d:b,R=B(m(Q),P);function
+h(a){return[0,nW(a),0]}function
+f(a){return[0,bq(bI(nW(a),g),K),[0,a]]}switch(n){case
 0:var
-C=[0,f(uD),0],D=[0,h(uE),C],q=[0,h(0),D];break;case
+C=[0,f(uI),0],D=[0,h(uJ),C],q=[0,h(0),D];break;case
 1:var
-E=[0,f(uF),0],F=[0,f(uG),E],G=[0,f(0),F],I=[0,h(uH),G],J=[0,h(uI),I],q=[0,h(0),J];break;default:var
-L=[0,f(uJ),0],M=[0,f(uK),L],q=[0,f(0),M]}var
-j=ag(x,[0,[0,[1,S]],[0,[1,[0,S]]],[0,[1,[0,[0,S]]]]],e),k=bq(j,aK(Z(j,j)));if(n)var
-l=jq(n,S,e,r,k[3]);else
+E=[0,f(uK),0],F=[0,f(uL),E],G=[0,f(0),F],I=[0,h(uM),G],J=[0,h(uN),I],q=[0,h(0),J];break;default:var
+L=[0,f(uO),0],M=[0,f(uP),L],q=[0,f(0),M]}var
+j=ag(x,[0,[0,[1,S]],[0,[1,[0,S]]],[0,[1,[0,[0,S]]]]],e),k=bq(j,aK(_(j,j)));if(n)var
+l=js(n,S,e,r,k[3]);else
 var
 z=m(d),A=m(d),l=[0,m(d),A,z];var
-t=jq(n,S,e,r,k[2]),u=jq(n,S,e,r,k[1]),T=nR(function(r,v){var
+t=js(n,S,e,r,k[2]),u=js(n,S,e,r,k[1]),T=nX(function(r,v){var
 e=v[1];function
 a(b,a){var
 c=e[3],f=dO(a,l),g=s(B(b[3],f),c),h=e[2],i=dO(a,t),j=s(B(b[2],i),h),k=e[1],n=dO(a,u),o=s(B(b[1],n),k);return B(B(B(m(d),o),j),g)}var
-w=a(l,uL),y=a(t,uM),z=[0,a(u,0),y,w],f=Z(r[1],z),k=r[2];if(k){var
+w=a(l,uQ),y=a(t,uR),z=[0,a(u,0),y,w],f=_(r[1],z),k=r[2];if(k){var
 h=k[1],n=v[2];if(n){var
 j=n[1],A=dO(h,g),C=s(dO(j,i),A),D=dO(j,g),p=B(s(dO(h,i),D),C),E=V(K);if(o(h,j))var
-F=Z(i,g),q=x(p,s(m(c(2,b)),F));else
+F=_(i,g),q=x(p,s(m(c(2,b)),F));else
 var
 q=p;return B(f,al(q,E))}return f}return f},q);return[0,hj(n,i,bq(bI(g,bq(U,y)),K)),T,R,N]}var
-k=ob(n,H,p,e,a);function
-l(b){return jz(n,H,p,e,a,b)}var
+k=oh(n,H,p,e,a);function
+l(b){return jB(n,H,p,e,a,b)}var
 f=2<=n?d:b;function
 g(b){var
-c=V(K),d=m(f),e=s(x(V(b),d),c);return s(p,x(Z(a,a),e))}var
-h=[0,Z(jz(n,H,p,e,a,1),a),g];return[0,n$(n,H,p,K,e,a),h,l,k,j,i]},C,bF,bD),T=e(function(a){return a[1]},w),bG=M($,g(aT)),bJ=cM(n),bK=A[5];function
+c=V(K),d=m(f),e=s(x(V(b),d),c);return s(p,x(_(a,a),e))}var
+h=[0,_(jB(n,H,p,e,a,1),a),g];return[0,of(n,H,p,K,e,a),h,l,k,j,i]},C,bF,bD),T=e(function(a){return a[1]},w),bG=M($,g(aT)),bJ=cM(n),bK=A[5];function
 Q(a){return[0,[0,M(bJ,a)]]}var
 aG=V([0,[1,bG]]);switch(bK[0]){case
 2:var
-bo=Q(uv),bp=Q(uw),aH=[0,Q(0),bp,bo],E=[0,x(aG,Z(aH,aH))];break;case
+bo=Q(uA),bp=Q(uB),aH=[0,Q(0),bp,bo],E=[0,x(aG,_(aH,aH))];break;case
 3:var
-br=V(Q(ux)),bs=V(Q(0)),bt=V(Q(uy)),E=[0,x(x(s(aG,B(m(b),bt)),bs),br)];break;default:var
+br=V(Q(uC)),bs=V(Q(0)),bt=V(Q(uD)),E=[0,x(x(s(aG,B(m(b),bt)),bs),br)];break;default:var
 E=0}var
 aV=A[7];if(aV)var
-bL=0,bM=A[2],am=jA(function(k,t){var
-a=n$(n,H,p,c9(R,g(L)),k,t);switch(n){case
+bL=0,bM=A[2],am=jC(function(k,t){var
+a=of(n,H,p,c9(R,g(L)),k,t);switch(n){case
 0:var
 c=a[1];if(c){var
 l=c[2],e=c[1];if(l){var
@@ -4764,35 +4775,35 @@ am=aV;var
 bN=bE(am),bO=E?[0,E[1],0]:E,bP=f(bO,bN),bQ=0,bR=f(L,[0,R,0]),bx=e(function(a){return a[1]},w),bS=[0,p,f(dd(function(c,b){if(typeof
 b!=="number")switch(b[0]){case
 6:var
-g=oc(w,c,b);if(g)var
+g=oi(w,c,b);if(g)var
 i=g[1],j=[0,i[1],[0,i[2],0]];else
 var
 j=g;return j;case
-8:return e(aO,hc(bx,c));case
+8:return e(aN,hc(bx,c));case
 13:var
 h=F(w,b[1]);if(h){var
 l=ho(b[4]);if(l){var
-m=oe(c,k(h[1][3],b[2]));return f(m[1],[0,m[2],0])}var
+m=ok(c,k(h[1][3],b[2]));return f(m[1],[0,m[2],0])}var
 o=l}else
 var
 o=h;return o;case
-16:return z(function(a){return oh(n,K,bR,c,a)[1]},w)}var
-d=jB(a,p,w,c,b),q=d?[0,d[1],0]:d;return q},bQ,C,$,X),bP)],an=f(bE(T),bS),bT=0,bU=f(L,[0,R,0]),aW=dd(function(b,a){if(typeof
+16:return z(function(a){return on(n,K,bR,c,a)[1]},w)}var
+d=jD(a,p,w,c,b),q=d?[0,d[1],0]:d;return q},bQ,C,$,X),bP)],an=f(bE(T),bS),bT=0,bU=f(L,[0,R,0]),aW=dd(function(b,a){if(typeof
 a!=="number")switch(a[0]){case
 13:var
 g=F(w,a[1]);if(g){if(ho(a[4]))return 0;var
-j=[0,of(H,p,b,a[2],g[1][4]),0]}else
+j=[0,ol(H,p,b,a[2],g[1][4]),0]}else
 var
 j=g;return j;case
 14:var
-h=og(n,H,p,w,b,a[1],a[2]);if(h){var
+h=om(n,H,p,w,b,a[1],a[2]);if(h){var
 l=h[1],o=l[2],q=l[1];return z(bW,[0,q[1],[0,q[2],[0,o[1],[0,o[2],0]]]])}return h;case
 15:var
 i=F(w,a[1]);if(i){var
-c=k(i[1][5],0),s=[0,c[3],[0,c[4],0]],t=[0,r(vi,b,m(d)),s],u=[0,r(0,b,m(d)),t],v=f(ed(c[2]),u);return f(c[1],v)}return i;case
+c=k(i[1][5],0),s=[0,c[3],[0,c[4],0]],t=[0,r(vn,b,m(d)),s],u=[0,r(0,b,m(d)),t],v=f(ed(c[2]),u);return f(c[1],v)}return i;case
 16:var
 x=z(function(a){var
-b=e(aO,g4(bU,jC(a)));return[0,jC(a),b]},w);return f(z(function(a){var
+b=e(aN,g4(bU,jE(a)));return[0,jE(a),b]},w);return f(z(function(a){var
 c=fF(b),d=[0,k(a[6],c)[2],0],e=fF(b);return f(k(a[6],e)[1],d)},w),x)}return 0},bT,C,$,X),aX=cZ(e(function(a){return bA(j,a)},an))[1],aY=cZ(aW)[1],Y=cY(aX),ao=cY(aY);function
 v(a){return bh(Y,bA(j,a))}function
 aZ(i){if(0===A[4][0]){var
@@ -4810,40 +4821,40 @@ var
 b=f;var
 q=b?e:b;return q}return 0}var
 W=aZ(k(ax(v),T)),a0=l(function(a){var
-b=bA(j,a),c=m(d);return aN(r(v(a),Y,c),b)},an),a2=a0?l(function(a){return he(j,a)},an):a0,a3=a2?l(function(a){var
-b=m(d);return aN(r(bh(ao,a),ao,b),a)},aW):a2,a5=a3?aj(vq,X):a3;if(a5)var
-bV=J(A[7]),aq=bV||n0(a,[0,n],[0,A[5]]);else
+b=bA(j,a),c=m(d);return aO(r(v(a),Y,c),b)},an),a2=a0?l(function(a){return he(j,a)},an):a0,a3=a2?l(function(a){var
+b=m(d);return aO(r(bh(ao,a),ao,b),a)},aW):a2,a5=a3?aj(vv,X):a3;if(a5)var
+bV=J(A[7]),ap=bV||n6(a,[0,n],[0,A[5]]);else
 var
-aq=a5;var
-a6=aq?jD(n,et(A[4])):aq,a7=a6?h(a,1,A[3]):a6;if(a7)var
+ap=a5;var
+a6=ap?jF(n,et(A[4])):ap,a7=a6?h(a,1,A[3]):a6;if(a7)var
 bX=hi(A[5]),ar=l(function(b){var
 c=cK(a,b[1]);return c?cK(a,b[2]):c},bX);else
 var
 ar=a7;if(ar){var
-bY=f(L,[0,R,0]),as=ad(e(function(b){return ap(a,b)},bY));if(as){var
-at=ad(e(function(b){return ji(a,b)},aT));if(at){var
-bZ=oj(n,et(A[4])),au=ad(e(function(b){return ap(a,[0,b,C])},bZ));if(au){var
-a8=au[1],b0=nM(A[5]),av=ad(e(function(b){return nO(a,b)},b0));if(av){var
-a9=av[1],b1=nL(A[5]),aw=ad(e(cJ(a),b1));if(aw){var
+bY=f(L,[0,R,0]),as=ad(e(function(b){return aq(a,b)},bY));if(as){var
+at=ad(e(function(b){return jk(a,b)},aT));if(at){var
+bZ=op(n,et(A[4])),au=ad(e(function(b){return aq(a,[0,b,C])},bZ));if(au){var
+a8=au[1],b0=nS(A[5]),av=ad(e(function(b){return nU(a,b)},b0));if(av){var
+a9=av[1],b1=nR(A[5]),aw=ad(e(cJ(a),b1));if(aw){var
 b2=0,I=function(a){return bh(ao,a)},ay=f(L,[0,R,0]),az=ad(dd(function(j,f){if(typeof
 f!=="number")switch(f[0]){case
 13:var
-E=f[4],aM=F(w,f[1]);if(aM){if(oi(f[3])&&h(a,0,E)&&h(a,0,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],E])){var
+E=f[4],aM=F(w,f[1]);if(aM){if(oo(f[3])&&h(a,0,E)&&h(a,0,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],E])){var
 aN=f[2],aO=aM[1];if(ho(E)){var
-aG=oe(j,k(aO[3],aN)),V=aG[2];if(h(i,0,[3,E,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b]]))var
+aG=ok(j,k(aO[3],aN)),V=aG[2];if(h(i,0,[3,E,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b]]))var
 aH=0;else
 var
 be=v(V),bf=v(V),aH=[0,[6,[0,[0,e(v,aG[1]),bf],0],be],0];var
 aP=[0,[4,v(V)],aH]}else
 var
-aP=[0,[9,[3,I(of(H,p,j,aN,aO[4]))]],0];return e(function(a){return[0,a]},aP)}return vo}return vp;case
+aP=[0,[9,[3,I(ol(H,p,j,aN,aO[4]))]],0];return e(function(a){return[0,a]},aP)}return vt}return vu;case
 16:var
 Y=f[3],t=f[2],aQ=f[1],bg=bH(n);if(o(g(w),bg)&&h(a,0,aQ)&&h(a,1,t)&&h(a,1,Y)&&cK(a,Y)){var
-aI=ap(a,[0,[0,t,t],C]);if(aI){var
+aI=aq(a,[0,[0,t,t],C]);if(aI){var
 bh=aI[1],aJ=k(cJ(a),Y);if(aJ){var
 bi=aJ[1],aK=ad(e(function(f){var
-b=m1(a,I,ay,C,aQ,t,jC(f));if(b){var
-c=m0(a,v,ay,C,t,f[1][2]);if(c){var
+b=m7(a,I,ay,C,aQ,t,jE(f));if(b){var
+c=m6(a,v,ay,C,t,f[1][2]);if(c){var
 g=hm(0,0,f[1][2]);if(g)var
 i=e(aA,c[1]),d=[0,[0,b[1],i]];else
 var
@@ -4853,11 +4864,11 @@ d=c;var
 h=d}else
 var
 h=b;return h},w));if(aK){var
-bj=aK[1],bk=e(function(a){return oh(n,K,ay,j,a)},w),aL=k(ax(v),bk),X=function(a){var
+bj=aK[1],bk=e(function(a){return on(n,K,ay,j,a)},w),aL=k(ax(v),bk),X=function(a){var
 b=cM(n),c=e(function(a){var
 b=fF(j);return I(k(a[6],b)[2])},w),d=e(function(a){var
 b=fF(j);return e(I,k(a[6],b)[1])},w),f=aZ(aL);return[0,[8,[0,aL,v(p),f,d,c,bj,bh,bi,b,a]]]};if(2<=n)return[0,X(1),0];var
-bl=[0,X(1),0];return[0,X(0),bl]}return vk}return vl}return vm}return vn}var
+bl=[0,X(1),0];return[0,X(0),bl]}return vp}return vq}return vr}return vs}var
 bm=0,x=e(function(a){return a[1]},w);function
 Z(c,b,a){return[0,c,b,a,W]}var
 G=0;if(typeof
@@ -4869,15 +4880,15 @@ z=[5,[0,b,b],f[1]],J=Z;G=1;break;case
 1:var
 aU=[5,[0,b,b],f[1]],z=aU,J=function(c,b,a){return[1,c,b,a]};G=1;break;case
 2:var
-aV=jB(a,p,w,j,f),s=y(function(a){return[4,v(a)]},aV);break;case
+aV=jD(a,p,w,j,f),s=y(function(a){return[4,v(a)]},aV);break;case
 3:var
-aW=jB(a,p,w,j,f),s=y(function(a){return[4,v(a)]},aW);break;case
+aW=jD(a,p,w,j,f),s=y(function(a){return[4,v(a)]},aW);break;case
 5:var
-_=f[1],aX=ap(a,[0,[0,_,_],d]),s=y(function(b){var
+_=f[1],aX=aq(a,[0,[0,_,_],d]),s=y(function(b){var
 c=U(a,b),d=v(p);return[2,k(ax(v),x),d,c]},aX);break;case
 6:var
 L=F(w,f[1]);if(L){var
-M=oc(w,j,f);if(M){var
+M=oi(w,j,f);if(M){var
 $=M[1],aa=h(a,1,f[2]),ab=aa?h(a,1,f[3]):aa;if(ab)var
 aY=v($[2]),a0=v(L[1][1][2]),ac=[0,[5,[0,[0,[0,v($[1]),0],a0],0],aY]];else
 var
@@ -4908,10 +4919,10 @@ var
 ao=N;var
 s=ao;break;case
 14:var
-aq=f[2],ar=f[1],P=og(n,H,p,w,j,ar,aq);if(P){var
-as=P[1],at=as[2],au=as[1],av=nB(ar,aq,f[3]),Q=ap(a,[0,[0,av,av],C]);if(Q){var
+ap=f[2],ar=f[1],P=om(n,H,p,w,j,ar,ap);if(P){var
+as=P[1],at=as[2],au=as[1],av=nH(ar,ap,f[3]),Q=aq(a,[0,[0,av,av],C]);if(Q){var
 aw=Q[1],az=D(d,aw[1]);if(az)var
-A=function(a){return mZ(I,a)},a7=A(at[2]),a8=A(at[1]),a9=A(au[2]),aB=[0,[9,[6,A(au[1]),a9,a8,a7,aw]]];else
+A=function(a){return m5(I,a)},a7=A(at[2]),a8=A(at[1]),a9=A(au[2]),aB=[0,[9,[6,A(au[1]),a9,a8,a7,aw]]];else
 var
 aB=az;var
 aC=aB}else
@@ -4927,36 +4938,36 @@ aE=h(a,1,f[4]);if(aE)var
 aF=h(a,0,f[2]),S=aF?h(a,0,f[3]):aF;else
 var
 S=aE;if(S)var
-B=k(R[1][5],0),a_=I(B[4]),a$=I(B[3]),ba=I(r(vj,j,m(d))),bb=I(r(0,j,m(d))),bc=B[2],bd=e(function(a){return e(I,a)},bc),T=[0,[9,[10,e(I,B[1]),bd,bb,ba,a$,a_]]];else
+B=k(R[1][5],0),a_=I(B[4]),a$=I(B[3]),ba=I(r(vo,j,m(d))),bb=I(r(0,j,m(d))),bc=B[2],bd=e(function(a){return e(I,a)},bc),T=[0,[9,[10,e(I,B[1]),bd,bb,ba,a$,a_]]];else
 var
 T=S}else
 var
 T=R;var
 s=T;break;default:var
 s=0}if(G)var
-aT=ap(a,[0,[0,z,z],d]),s=y(function(b){var
+aT=aq(a,[0,[0,z,z],d]),s=y(function(b){var
 c=U(a,b),d=v(p);return J(k(ax(v),x),d,c)},aT);return[0,s,bm]},b2,C,$,X));if(az){var
 a$=az[1];if(A[7])var
-b3=aR[2],b4=aR[1],b5=v(p),aa=jc(by,a$,[7,k(ax(v),am),b5,b4,b3]);else
+b3=aR[2],b4=aR[1],b5=v(p),aa=je(by,a$,[7,k(ax(v),am),b5,b4,b3]);else
 var
 aa=a$;var
 ba=o(g(f(a8,a9)),j),bb=ba?l(function(a){var
-b=n7(a);return l(function(a){return nI(j,Y,a)},b)},aa):ba,bc=bb?E?nI(j,Y,v(E[1])):1:bb;if(bc){var
-b6=f(at[1],aw[1]),aB=f(as[1],b6),N=ol(aQ),P=jE(C,A[2]),_=N?e(function(a){var
-b=n5(j,P,a[2]),c=a[1];return[0,e(function(a){return n5(j,P,a)},c),b]},T):N,aD=N?cZ(jx(j,p,E,_))[1]:N,aE=cY(aD),ae=function(a){return bh(aE,a)},b7=jv(ae,ae,_),b8=ae(bA(j,p)),aF=y(function(a){return ae(bA(j,a))},E),bd=J(N);if(bd)var
+b=ob(a);return l(function(a){return nO(j,Y,a)},b)},aa):ba,bc=bb?E?nO(j,Y,v(E[1])):1:bb;if(bc){var
+b6=f(at[1],aw[1]),aB=f(as[1],b6),N=or(aQ),P=jG(C,A[2]),Z=N?e(function(a){var
+b=n$(j,P,a[2]),c=a[1];return[0,e(function(a){return n$(j,P,a)},c),b]},T):N,aD=N?cZ(jz(j,p,E,Z))[1]:N,aE=cY(aD),ae=function(a){return bh(aE,a)},b7=jx(ae,ae,Z),b8=ae(bA(j,p)),aF=y(function(a){return ae(bA(j,a))},E),bd=J(N);if(bd)var
 af=bd;else{var
 bn=o(g(T),j);if(bn){var
-bv=jx(j,p,E,_),aL=l(function(a){var
-b=m(d);return aN(r(bh(aE,a),aE,b),a)},bv);if(aL)var
-bw=jx(j,p,E,_),ah=l(function(a){var
+bv=jz(j,p,E,Z),aL=l(function(a){var
+b=m(d);return aO(r(bh(aE,a),aE,b),a)},bv);if(aL)var
+bw=jz(j,p,E,Z),ah=l(function(a){var
 b=aC(0,j);return l(function(b){return ey(j,b,a)},b)},bw);else
 var
 ah=aL;if(ah){var
-aM=y(function(a){return bA(j,a)},E),ai=bA(j,p),aI=n1(ai);if(aI)var
+aM=y(function(a){return bA(j,a)},E),ai=bA(j,p),aI=n7(ai);if(aI)var
 bu=aC(0,W),aP=l(function(a){var
 b=dN(j,a,ai),c=b?l(function(b){var
-d=b[2][2],e=f(z(jw,b[1]),d),g=M(j,a),c=l(function(a){return cL(g,a)},e);if(c){var
-h=b[2][1];return hd(ai,M(j,a),h)}return c},_):b;if(c){if(aM){var
+d=b[2][2],e=f(z(jy,b[1]),d),g=M(j,a),c=l(function(a){return cL(g,a)},e);if(c){var
+h=b[2][1];return hd(ai,M(j,a),h)}return c},Z):b;if(c){if(aM){var
 e=aM[1];return cL(M(j,a),e)}var
 d=1}else
 var
@@ -4967,7 +4978,7 @@ ak=aP}else
 var
 ak=ah;var
 cc=ak?l(function(a){var
-c=a[1],b=l(function(a){return n6(j,aB,P,a)},c);return b?n6(j,aB,P,a[2]):b},T):ak,af=cc}else
+c=a[1],b=l(function(a){return oa(j,aB,P,a)},c);return b?oa(j,aB,P,a[2]):b},T):ak,af=cc}else
 var
 af=bn}if(af){var
 b9=e(function(a){return 1},aa),b_=f(a8,a9),b$=function(m,M,aa,$,c){if(N){if(typeof
@@ -4975,7 +4986,7 @@ c!=="number"&&10===c[0]){var
 h=c[3],p=c[2],q=c[1];if(typeof
 q!=="number"&&6===q[0]){if(h){if(h[2])return 0;var
 w=h[1],b=q[1],x=o($,W),y=x?aJ(0,W):x;if(y)var
-v=iC(ix,e(aA,p),P),Y=v?1:v,s=Y;else
+v=iE(iz,e(aA,p),P),Y=v?1:v,s=Y;else
 var
 s=y;var
 z=s?gX(P):s,A=z?l(function(a){return aJ(a,g(m))},P):z,B=A?o(g(w),j):A;if(B){var
@@ -4993,12 +5004,12 @@ var
 L=K}else
 var
 L=aF;if(!R)return L}if(!Q)return 0;break}if(u){var
-S=jm(a,fl(p,0,m),aD,M),n=jm(a,m,aD,M),f=function(b,a){return r(a,b,u5)},T=n3(function(a){return f(n,a)},F),U=f(n,b8),V=function(a){return f(n,a)},X=[0,jv(function(a){return f(S,a)},V,b7),U,T],Z=gR(p,m),_=function(g){var
-b=ad(e(u3,g[1]));if(b){var
+S=jo(a,fl(p,0,m),aD,M),n=jo(a,m,aD,M),f=function(b,a){return r(a,b,u_)},T=n9(function(a){return f(n,a)},F),U=f(n,b8),V=function(a){return f(n,a)},X=[0,jx(function(a){return f(S,a)},V,b7),U,T],Z=gR(p,m),_=function(g){var
+b=ad(e(u8,g[1]));if(b){var
 c=g[2];if(c){var
 d=dg(g[3]);if(d){var
 l=d[1],m=ab([0,G(ac(t(a,aa,c[1])),l),0],j),n=b[1],o=e(function(d){var
-b=gS(a,0,Z,d),c=a1(u4,b[2]);return[0,b[1],c]},n),f=iU(a,e(function(b){return O(a,b)},w),H,I,o,m);if(f)return a_(a,j,f[1]);var
+b=gS(a,0,Z,d),c=a1(u9,b[2]);return[0,b[1],c]},n),f=iW(a,e(function(b){return O(a,b)},w),H,I,o,m);if(f)return a_(a,j,f[1]);var
 h=f}else
 var
 h=d;var
@@ -5007,7 +5018,7 @@ var
 i=c;var
 k=i}else
 var
-k=b;return k};return k(jo(function(b,a){return u2},W,j,_),X)}var
+k=b;return k};return k(jq(function(b,a){return u7},W,j,_),X)}var
 C=0}else
 var
 C=B;var
@@ -5039,48 +5050,48 @@ bm=bl}else
 var
 bm=ar;return bm}function
 fG(b,a){return by(b,a[1],a[2])}function
-om(b,a){var
+os(b,a){var
 c=fG(b,a[1]),d=c?fG(b,a[2]):c;return d?fG(b,a[3]):d}function
-jF(a){return typeof
+jH(a){return typeof
 a==="number"?a?dP(0):dG:dP(a[1])}function
-on(b,a,c){return typeof
+ot(b,a,c){return typeof
 b==="number"?b?[0,a[1],[0,a[2],0]]:bW(a):hj(b[1],a,c)}function
-jG(b,d,c){if(0===c[0])return g1(b,d[1],c[1]);var
+jI(b,d,c){if(0===c[0])return g1(b,d[1],c[1]);var
 a=c[1],e=[0,[0,a[5],b],[0,[0,a[6],b],0]],g=f(ba(a[4],b),e),h=f(ba(a[3],b),g),i=f(ba(a[2],d[2]),h);return f(ba(a[1],d[1]),i)}function
-jH(b,a){if(b){var
+jJ(b,a){if(b){var
 c=b[1],d=c[2];return bq(fC(c[1],a),d)}return a}function
-oo(h,t,am,J,aj,q,ai){if(q){var
-k=q[1],an=bS([0,d,d],aj),a=cF(ai,jG(J,an,k)),y=function(c,b){var
-d=ak(a,c);return ag(x,ag(B,jF(h),b),d)};if(0===k[0]){var
+ou(h,t,am,J,aj,q,ai){if(q){var
+k=q[1],an=bS([0,d,d],aj),a=cF(ai,jI(J,an,k)),y=function(c,b){var
+d=ak(a,c);return ag(x,ag(B,jH(h),b),d)};if(0===k[0]){var
 z=k[1];switch(z[0]){case
 0:var
-$=jH(t,ak(a,vs)),aG=z[1][5],A=r(vt,a,m(d)),C=ak(a,0),aa=y(vu,$),i=mg(aa,dF(C),aa,A,aG),aq=[0,aK(A),0],ar=[0,aK(Z(C,C)),aq],l=[0,[0,i[1],i[2],i[3],[0,i[4]],[0,[0,i[2],A]],ar],$];break;case
+$=jJ(t,ak(a,vx)),aG=z[1][5],A=r(vy,a,m(d)),C=ak(a,0),aa=y(vz,$),i=mm(aa,dF(C),aa,A,aG),aq=[0,aK(A),0],ar=[0,aK(_(C,C)),aq],l=[0,[0,i[1],i[2],i[3],[0,i[4]],[0,[0,i[2],A]],ar],$];break;case
 1:var
-ab=jH(t,ak(a,vv)),ac=z[3],D=ac?[0,ak(a,vw)]:ac,ad=y(0,ab),j=mh(ad,ad,0);if(D)var
-K=D[1],L=[0,aK(Z(K,K)),0];else
+ab=jJ(t,ak(a,vA)),ac=z[3],D=ac?[0,ak(a,vB)]:ac,ad=y(0,ab),j=mn(ad,ad,0);if(D)var
+K=D[1],L=[0,aK(_(K,K)),0];else
 var
 L=D;var
 as=j[4],at=[0,[0,m(d),as]],l=[0,[0,j[1],j[2],j[3],[0,j[4]],at,L],ab];break;default:var
-aH=m(d),aI=m(d),aJ=[0,m(d),aI,aH],E=ak(a,0),aL=jF(h),n=mi(aL,dF(E)),au=[0,aK(Z(E,E)),0],l=[0,[0,n[1],n[2],n[3],[0,n[4]],0,au],aJ]}}else
+aH=m(d),aI=m(d),aJ=[0,m(d),aI,aH],E=ak(a,0),aL=jH(h),n=mo(aL,dF(E)),au=[0,aK(_(E,E)),0],l=[0,[0,n[1],n[2],n[3],[0,n[4]],0,au],aJ]}}else
 var
-ae=jH(t,ak(a,vx)),F=k[1][7],G=r(vy,a,m(d)),e=r(vz,a,m(d)),af=ak(a,vA),H=ak(a,0),p=y(vB,ae),o=dF(H),u=ag(x,af,a4(Z(o,af),o)),v=dF(u),N=bI(o,v),O=Z(p,v),P=Z(p,N),av=Z(o,p),aw=V(P),Q=B(V(O),aw),ax=V(av),R=x(V(G),ax),ay=s(m(c(2,b)),e),w=x(Q,V(al(B(Q,x(V(e),R)),ay))),az=gM(F,s(e,aK(w))),S=al(O,e),T=gM(F,al(P,e)),U=al(R,V(e)),W=lP(0,S,T,U),X=gM(F,lP(1,S,T,U)),aA=a4(X,N),Y=ag(x,p,a4(e,ag(B,a4(W,v),aA))),aB=[0,aK(G),0],aC=[0,aK(e),aB],aD=[0,aK(Z(u,u)),aC],aE=[0,aK(Z(H,H)),aD],aF=bq(Y,az),l=[0,[0,Y,s(V(e),w),aF,[1,W,X],[0,[0,w,G]],aE],ae];var
-aV=M(ai,g(jG(J,an,k))),aW=q[2],aX=oo(h,t,am,J,bC(aj),aW,aV),ao=l[2],f=l[1],ah=function(a){return on(h,a,bq(bI(ao,a),am))},aM=f[1],aN=bI(ag(B,jF(h),ao),aM),aO=on(h,f[1],aN),I=f[1],_=typeof
-h==="number"?1:0,aP=f[6],aQ=f[5],aR=_?h?[0,I[1],[0,I[2],0]]:bW(I):_,aS=f[4],aT=ah(f[3]),aU=f[2],ap=[0,[0,ah(f[1]),aU,aT,aS,aR,aQ,aP,aO],aX]}else
+ae=jJ(t,ak(a,vC)),F=k[1][7],G=r(vD,a,m(d)),e=r(vE,a,m(d)),af=ak(a,vF),H=ak(a,0),p=y(vG,ae),o=dF(H),u=ag(x,af,a4(_(o,af),o)),v=dF(u),N=bI(o,v),O=_(p,v),P=_(p,N),av=_(o,p),aw=V(P),Q=B(V(O),aw),ax=V(av),R=x(V(G),ax),ay=s(m(c(2,b)),e),w=x(Q,V(al(B(Q,x(V(e),R)),ay))),az=gM(F,s(e,aK(w))),S=al(O,e),T=gM(F,al(P,e)),U=al(R,V(e)),W=lV(0,S,T,U),X=gM(F,lV(1,S,T,U)),aA=a4(X,N),Y=ag(x,p,a4(e,ag(B,a4(W,v),aA))),aB=[0,aK(G),0],aC=[0,aK(e),aB],aD=[0,aK(_(u,u)),aC],aE=[0,aK(_(H,H)),aD],aF=bq(Y,az),l=[0,[0,Y,s(V(e),w),aF,[1,W,X],[0,[0,w,G]],aE],ae];var
+aV=M(ai,g(jI(J,an,k))),aW=q[2],aX=ou(h,t,am,J,bC(aj),aW,aV),ao=l[2],f=l[1],ah=function(a){return ot(h,a,bq(bI(ao,a),am))},aM=f[1],aN=bI(ag(B,jH(h),ao),aM),aO=ot(h,f[1],aN),I=f[1],Z=typeof
+h==="number"?1:0,aP=f[6],aQ=f[5],aR=Z?h?[0,I[1],[0,I[2],0]]:bW(I):Z,aS=f[4],aT=ah(f[3]),aU=f[2],ap=[0,[0,ah(f[1]),aU,aT,aS,aR,aQ,aP,aO],aX]}else
 var
 ap=q;return ap}function
-jI(c,b,a){if(a){var
-e=a[2],g=jI(c,bC(b),e),h=a[1];return f(jG(c,bS([0,d,d],b),h),g)}return a}function
-op(b,h,g,d,c,a){if(a){var
-i=a[2],j=a[1],l=op(b,h,g,d,f(c,[0,j,0]),i),m=k(d,e(bC,f(c,i)));return ar(h,ar(g,bS(b,j),m),l)}return b}function
-oq(a,f,e,d,c,b){if(c){var
-g=0,h=c[1];return op(a,e,d,function(b){return oq(a,f,e,d,h,b)},g,b)}return b?a:f}function
-or(a,d,c){var
+jK(c,b,a){if(a){var
+e=a[2],g=jK(c,bC(b),e),h=a[1];return f(jI(c,bS([0,d,d],b),h),g)}return a}function
+ov(b,h,g,d,c,a){if(a){var
+i=a[2],j=a[1],l=ov(b,h,g,d,f(c,[0,j,0]),i),m=k(d,e(bC,f(c,i)));return ao(h,ao(g,bS(b,j),m),l)}return b}function
+ow(a,f,e,d,c,b){if(c){var
+g=0,h=c[1];return ov(a,e,d,function(b){return ow(a,f,e,d,h,b)},g,b)}return b?a:f}function
+ox(a,d,c){var
 e=g7(a,c);function
 f(b,c){return t(a,b,c)}var
-g=O(a,b);return y(function(a){return oq(u,g,G,f,d,a)},e)}function
-jJ(e,c,o,n){var
-a=or(e,c,o);if(a){var
-f=a[1],b=or(e,c,n);if(b){var
+g=O(a,b);return y(function(a){return ow(u,g,G,f,d,a)},e)}function
+jL(e,c,o,n){var
+a=ox(e,c,o);if(a){var
+f=a[1],b=ox(e,c,n);if(b){var
 g=b[1],h=I(d,f[1]),i=h?I(g[2],d):h;if(i)var
 j=i;else{var
 m=I(f[2],d);if(m)return I(d,g[1]);var
@@ -5091,7 +5102,7 @@ k=b;var
 l=k}else
 var
 l=a;return l}function
-jK(b){if(b){var
+jM(b){if(b){var
 a=b[2],c=b[1];if(c){var
 e=c[2],q=c[1];if(e){var
 f=e[2],r=e[1];if(f){if(f[2])return m(d);if(a){var
@@ -5106,12 +5117,12 @@ z=n[1];if(n[2])return m(d);if(g[2])return m(d);var
 A=dJ(t,u,w,y),C=s(f[1],A),D=s(r,dJ(t,v,w,z));return B(x(s(q,dJ(u,v,y,z)),D),C)}return m(d)}return m(d)}return m(d)}return m(d)}return m(d)}return m(d)}return m(d)}return m(d)}if(a){var
 o=a[1];if(o){var
 p=o[2];return p?p[2]?m(d):a[2]?m(d):dJ(q,r,o[1],p[1]):m(d)}return m(d)}return m(d)}return m(d)}return m(d)}return m(d)}function
-os(a){if(a){var
+oy(a){if(a){var
 b=a[1][6];if(b)var
-c=os(a[2]),e=c?[0,[0,b[1][2],c[1]]]:c,d=e;else
+c=oy(a[2]),e=c?[0,[0,b[1][2],c[1]]]:c,d=e;else
 var
-d=b;return d}return vC}function
-ot(g,k,a){function
+d=b;return d}return vH}function
+oz(g,k,a){function
 b(a){return r(a,k,m(d))}function
 l(a){var
 e=a[2],f=s(V(b(0)),e),c=0,d=0,g=a[1];return[0,[0,bT(function(b,a){return x(b,V(a))},g,f),d],c]}function
@@ -5137,7 +5148,7 @@ d=a[1];return[0,[0,x(b(0),d),0],0]}return 0},f=v,c=a[1];break;case
 w=function(e){var
 a=e[4];if(typeof
 a!=="number"&&1===a[0]){var
-c=a[2],d=a[1],f=s(b(vD),c),g=[0,[0,x(s(b(vE),d),f),0],0],h=s(d,b(vF));return[0,[0,x(s(c,b(0)),h),0],g]}return 0},f=w,c=a[1];break;case
+c=a[2],d=a[1],f=s(b(vI),c),g=[0,[0,x(s(b(vJ),d),f),0],0],h=s(d,b(vK));return[0,[0,x(s(c,b(0)),h),0],g]}return 0},f=w,c=a[1];break;case
 6:var
 y=function(a){var
 b=a[4];if(typeof
@@ -5153,23 +5164,23 @@ A=function(a){var
 b=a[4];if(typeof
 b!=="number"&&0===b[0])return n(a);return 0},f=A,c=a[1];break;case
 12:var
-i=os(g);if(i)var
-C=b(0),o=bT(s,i[1],C),p=jK(e(function(a){return a[5]},g)),D=[0,bp(B(p,o)),0],q=[0,[0,x(p,o),D],0];else
+i=oy(g);if(i)var
+C=b(0),o=bT(s,i[1],C),p=jM(e(function(a){return a[5]},g)),D=[0,bp(B(p,o)),0],q=[0,[0,x(p,o),D],0];else
 var
 q=i;return q;case
 17:var
 t=a[1],f=function(d){var
-a=jK(e(function(a){return a[1]},g));function
+a=jM(e(function(a){return a[1]},g));function
 b(b){var
 c=[0,bp(B(a,b)),0];return[0,x(a,b),c]}var
-f=jK(ng(t,k,e(function(a){return a[1]},g))),c=s(aK(d[2]),f),h=[0,b(bp(c)),0];return[0,b(c),h]},c=t;break;default:j=1}if(j)return 0;var
+f=jM(nm(t,k,e(function(a){return a[1]},g))),c=s(aK(d[2]),f),h=[0,b(bp(c)),0];return[0,b(c),h]},c=t;break;default:j=1}if(j)return 0;var
 h=F(g,c);return h?f(h[1]):h}function
 eF(a){return e(function(a){return[0,a[1],a[2]]},a)}function
 fH(a){return e(function(a){var
 c=m(b);return[0,a[3],c]},a)}function
-ou(c,b,a){if(typeof
-a!=="number"&&8===a[0])return bE(hc(eF(c),b));return ed(ot(c,b,a))}function
-ov(f,m,j,K,J,t,a){if(typeof
+oA(c,b,a){if(typeof
+a!=="number"&&8===a[0])return bE(hc(eF(c),b));return ed(oz(c,b,a))}function
+oB(f,m,j,K,J,t,a){if(typeof
 a==="number")return[0,[0,[0,u]],0];else
 switch(a[0]){case
 0:var
@@ -5177,12 +5188,12 @@ L=[5,[0,b,b],a[1]],n=L,o=function(a){return[0,a]};break;case
 1:var
 P=[5,[0,b,b],a[1]],n=P,o=function(a){return[1,a]};break;case
 5:var
-B=a[1],T=0,V=ap(f,[0,[0,B,B],d]);return[0,y(function(a){return[2,U(f,a)]},V),T];case
+B=a[1],T=0,V=aq(f,[0,[0,B,B],d]);return[0,y(function(a){return[2,U(f,a)]},V),T];case
 7:var
-C=a[3],D=a[2],E=a[1];if(!F(j,E))return vI;var
+C=a[3],D=a[2],E=a[1];if(!F(j,E))return vN;var
 I=0;if(h(f,1,D)&&h(f,1,C))var
 W=[5,D,C],n=W,o=function(a){return[7,E,a]};else
-I=1;if(I)return vH;break;case
+I=1;if(I)return vM;break;case
 8:var
 G=h(f,1,a[2]),X=0;if(G)var
 Y=a[1],Z=1,r=l(function(a){return h(f,Z,a)},Y);else
@@ -5198,36 +5209,36 @@ switch(a[0]){case
 v=a[3],w=a[2],x=h(f,1,[3,v,w]),R=x?h(f,1,[3,[2,w,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b]],v]):x,i=R;break;case
 17:var
 A=h(f,1,a[3]);if(A)var
-S=e(function(a){return a[1]},j),i=nh(g(a[2]),S);else
+S=e(function(a){return a[1]},j),i=nn(g(a[2]),S);else
 var
 i=A;break;case
 6:case
 9:var
 z=h(f,1,a[2]),i=z?h(f,0,a[3]):z;break;default:s=1}if(s)var
 i=1;var
-p=i?ot(j,t,a):i;if(p){var
+p=i?oz(j,t,a):i;if(p){var
 Q=[0,p[1],p[2]];return e(function(a){if(a){var
 b=a[2],c=a[1];if(b){if(b[2])return 0;var
 e=k(m,b[1]);return[0,[5,k(m,c),e]]}var
 d=[0,[3,k(m,c)]]}else
 var
-d=a;return d},Q)}return vG}var
-M=0,N=ap(f,[0,[0,n,n],hb(K,J)]);return[0,y(function(a){return o(U(f,a))},N),M]}function
-ow(a){if(typeof
+d=a;return d},Q)}return vL}var
+M=0,N=aq(f,[0,[0,n,n],hb(K,J)]);return[0,y(function(a){return o(U(f,a))},N),M]}function
+oC(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-vJ(a){return 0===a[0]?2===a[1][0]?0:1:1}function
-vK(c,R,aB,a,i,Q,aA){var
-b=a[1],aC=at(b),s=a[6],A=jI(i,Q,a[2]),S=a[3],T=[0,[0,S,S],i],U=[0,g(A)],B=a[2],q=B?0===B[1][0]?0:1:B,aD=a[5],aE=y(function(a){var
+vO(a){return 0===a[0]?2===a[1][0]?0:1:1}function
+vP(c,R,aB,a,i,Q,aA){var
+b=a[1],aC=at(b),s=a[6],A=jK(i,Q,a[2]),S=a[3],T=[0,[0,S,S],i],U=[0,g(A)],B=a[2],q=B?0===B[1][0]?0:1:B,aD=a[5],aE=y(function(a){var
 c=typeof
-b==="number"?0:cM(b[1]);return nK(a,c)},aD),aF=a[2],j=oo(b,aE,c9(T,g(A)),i,Q,aF,0),V=z(function(a){return a[7]},j),W=a[7],X=W?e(function(a){return[0,a[8],a[2]]},j):W,aG=bE(X),aH=f(V,f(dd(function(a,b){return ou(j,a,b)},q,i,U,s),aG)),aI=f(bE(fH(j)),aH),Y=f(bE(eF(j)),aI),Z=cZ(Y)[1],_=cY(Z);function
+b==="number"?0:cM(b[1]);return nQ(a,c)},aD),aF=a[2],j=ou(b,aE,c9(T,g(A)),i,Q,aF,0),V=z(function(a){return a[7]},j),W=a[7],X=W?e(function(a){return[0,a[8],a[2]]},j):W,aG=bE(X),aH=f(V,f(dd(function(a,b){return oA(j,a,b)},q,i,U,s),aG)),aI=f(bE(fH(j)),aH),Y=f(bE(eF(j)),aI),Z=cZ(Y)[1],_=cY(Z);function
 p(a){return bh(_,a)}var
 $=l(function(a){var
-b=m(d);return aN(r(p(a),_,b),a)},Y),aa=$?aj(ow,s):$;if(aa){var
+b=m(d);return aO(r(p(a),_,b),a)},Y),aa=$?aj(oC,s):$;if(aa){var
 ab=a[4];if(typeof
 b==="number")var
-ac=b?jD(0,et(ab)):1;else
+ac=b?jF(0,et(ab)):1;else
 var
-ay=et(ab),ac=jD(b[1],ay);var
+ay=et(ab),ac=jF(b[1],ay);var
 C=ac}else
 var
 C=aa;if(C){var
@@ -5253,29 +5264,29 @@ E=D;if(E){var
 ae=J(a[7]);if(ae)var
 u=ae;else
 var
-av=n0(c,b,a[5]),u=av?l(vJ,a[2]):av}else
+av=n6(c,b,a[5]),u=av?l(vO,a[2]):av}else
 var
 u=E;if(u){var
-aK=f(A,[0,T,0]),F=ad(e(function(a){return ap(c,a)},aK));if(F){var
-aL=z(function(a){return fA(q,i,a)},s),G=ad(e(function(a){return ji(c,a)},aL));if(G){var
+aK=f(A,[0,T,0]),F=ad(e(function(a){return aq(c,a)},aK));if(F){var
+aL=z(function(a){return fA(q,i,a)},s),G=ad(e(function(a){return jk(c,a)},aL));if(G){var
 n=et(a[4]),aM=typeof
-b==="number"?b?[0,n[1],[0,n[2],0]]:[0,n[1],[0,n[2],[0,n[3],0]]]:oj(b[1],n),H=ad(e(function(a){return ap(c,[0,a,i])},aM));if(H){var
+b==="number"?b?[0,n[1],[0,n[2],0]]:[0,n[1],[0,n[2],[0,n[3],0]]]:op(b[1],n),H=ad(e(function(a){return aq(c,[0,a,i])},aM));if(H){var
 af=H[1],ag=a[5];if(ag)var
-aO=nM(ag[1]),v=ad(e(function(a){return nO(c,a)},aO));else
+aN=nS(ag[1]),v=ad(e(function(a){return nU(c,a)},aN));else
 var
-v=vL;if(v){var
-ah=v[1],x=a[5],aP=x?nL(x[1]):x,I=ad(e(cJ(c),aP));if(I){var
-K=ad(dd(function(a,b){return ov(c,p,j,q,i,a,b)},q,i,U,s));if(K){var
+v=vQ;if(v){var
+ah=v[1],x=a[5],aP=x?nR(x[1]):x,I=ad(e(cJ(c),aP));if(I){var
+K=ad(dd(function(a,b){return oB(c,p,j,q,i,a,b)},q,i,U,s));if(K){var
 ai=K[1];if(a[7])var
-aQ=R[2],aR=R[1],L=jc(aB,ai,[8,k(ax(p),X),aR,aQ]);else
+aQ=R[2],aR=R[1],L=je(aB,ai,[8,k(ax(p),X),aR,aQ]);else
 var
 L=ai;var
 ak=o(g(f(af,ah)),aC);if(ak){var
-aS=i6(L),aT=f(af,ah),aw=0,aU=a[4];if(typeof
+aS=i8(L),aT=f(af,ah),aw=0,aU=a[4];if(typeof
 b==="number"&&!b){var
-al=function(a){return m3(c,aU,i,a)};aw=1}if(!aw)var
+al=function(a){return m9(c,aU,i,a)};aw=1}if(!aw)var
 al=function(a){return 0};var
-aV=f(G[1],I[1]),aW=f(F[1],aV),aX=e(p,V),aY=fH(j),aZ=k(ax(p),aY),a0=eF(j);return f4(i5(c,Z,k(ax(p),a0),aZ,aX,aW,L,al),aT,aS,aA)}var
+aV=f(G[1],I[1]),aW=f(F[1],aV),aX=e(p,V),aY=fH(j),aZ=k(ax(p),aY),a0=eF(j);return f4(i7(c,Z,k(ax(p),a0),aZ,aX,aW,L,al),aT,aS,aA)}var
 am=ak}else
 var
 am=K;var
@@ -5285,10 +5296,10 @@ an=I;var
 ao=an}else
 var
 ao=v;var
-aq=ao}else
+ap=ao}else
 var
-aq=H;var
-ar=aq}else
+ap=H;var
+ar=ap}else
 var
 ar=G;var
 as=ar}else
@@ -5297,13 +5308,13 @@ as=F;var
 au=as}else
 var
 au=u;return au}function
-vM(b){if(0===b[0])return[0,nc(b[1])];var
+vR(b){if(0===b[0])return[0,ni(b[1])];var
 a=b[1],c=a[7],d=a[6][1],e=a[5][1],f=bF(a[4]),g=bF(a[3]),h=bF(a[2]);return[1,[0,bF(a[1]),h,g,f,e,d,c]]}function
-ox(e,d,c){var
+oD(e,d,c){var
 a=d;for(;;){if(a){var
-b=a[1];if(sk(b[1],c))return b[2];var
+b=a[1];if(sq(b[1],c))return b[2];var
 a=a[2];continue}return e}}function
-jL(a,c,b){var
+jN(a,c,b){var
 d=W(e(aA,a[2]),b);return f(W(a[1],c),d)}function
 b0(c){var
 a=c;for(;;)switch(a[0]){case
@@ -5319,7 +5330,7 @@ bJ(e,a,c){switch(a[0]){case
 0:var
 o=a[1];return c9([0,[0,o,o],d],c);case
 1:var
-q=a[1];return ox(m(d),e,q);case
+q=a[1];return oD(m(d),e,q);case
 2:return bp(bJ(e,a[1],c));case
 3:var
 i=a[2],f=a[1],h=B;break;case
@@ -5331,7 +5342,7 @@ i=a[2],f=a[1],h=s;break;case
 i=a[2],f=a[1],h=al;break;case
 7:var
 j=e_(a[2]),k=bJ(e,a[1],c);if(j){if(j[1]){var
-l=V(k),p=function(a){return s(a,l)},n=gp(bn(lw(j)),p,l);return lv(j)?n:s(n,k)}return k}return m(b);default:return aK(bJ(e,a[1],c))}var
+l=V(k),p=function(a){return s(a,l)},n=gp(bn(lC(j)),p,l);return lB(j)?n:s(n,k)}return k}return m(b);default:return aK(bJ(e,a[1],c))}var
 r=bJ(e,i,M(c,g(b0(f))));return h(bJ(e,f,c),r)}function
 dh(c,h,b){var
 a=h;for(;;)switch(a[0]){case
@@ -5345,22 +5356,22 @@ a=a[1];continue;case
 0:case
 1:return 0;default:var
 d=a[1],i=M(b,g(b0(d))),j=dh(c,a[2],i);return f(dh(c,d,b),j)}}function
-oy(i,h,f){var
+oE(i,h,f){var
 b=i,a=h,c=f;for(;;){if(a){var
 d=a[1],e=d[2],j=M(c,g(b0(e))),k=a[2],l=bJ(b,e,c),b=[0,[0,d[1],l],b],a=k,c=j;continue}return b}}function
-jM(c,a,b){if(a){var
-e=a[1],d=e[2],h=M(b,g(b0(d))),i=a[2],j=bJ(c,d,b),k=jM([0,[0,e[1],j],c],i,h);return f(dh(c,d,b),k)}return a}function
+jO(c,a,b){if(a){var
+e=a[1],d=e[2],h=M(b,g(b0(d))),i=a[2],j=bJ(c,d,b),k=jO([0,[0,e[1],j],c],i,h);return f(dh(c,d,b),k)}return a}function
 fI(a){return z(b0,a)}function
-oz(c,a,b){if(a)var
-d=a[1],f=M(b,g(b0(d))),h=oz(c,a[2],f),e=[0,bJ(c,d,b),h];else
+oF(c,a,b){if(a)var
+d=a[1],f=M(b,g(b0(d))),h=oF(c,a[2],f),e=[0,bJ(c,d,b),h];else
 var
 e=a;return e}function
-oA(c,a,b){if(a){var
-d=a[1],e=M(b,g(b0(d))),h=oA(c,a[2],e);return f(dh(c,d,b),h)}return a}function
+oG(c,a,b){if(a){var
+d=a[1],e=M(b,g(b0(d))),h=oG(c,a[2],e);return f(dh(c,d,b),h)}return a}function
 hq(a){return 0===a[0]?fI(a[1]):b0(a[1])}function
-jN(c,b,a){if(b){var
-d=b[1],j=M(a,g(hq(d))),k=jN(c,b[2],j);if(0===d[0])var
-h=oA(c,d[1],a);else
+jP(c,b,a){if(b){var
+d=b[1],j=M(a,g(hq(d))),k=jP(c,b[2],j);if(0===d[0])var
+h=oG(c,d[1],a);else
 var
 e=d[1],i=dh(c,e,a),h=[0,bJ(c,e,a),i];return f(h,k)}return b}function
 hr(c){var
@@ -5370,28 +5381,28 @@ b=[1,a[1]];break;case
 1:var
 b=[0,a[1]];break;default:var
 b=bU(hr,a)}return[0,b]}function
-jO(c){var
+jQ(c){var
 b=c;for(;;){var
 a=b[1];switch(a[0]){case
 5:var
 b=a[1];continue;case
 6:var
-d=jO(a[2]);return s(jO(a[1]),d);case
+d=jQ(a[2]);return s(jQ(a[1]),d);case
 9:return a[1];default:return V(b)}}}function
-jP(n,h,a,f){if(a){var
-c=a[1],x=M(f,g(hq(c))),y=jP(n,h,a[2],x);if(0===c[0])var
-k=oz(h,c[1],f),o=[0,k,m(b),k,0,0,0,0,0];else
+jR(n,h,a,f){if(a){var
+c=a[1],x=M(f,g(hq(c))),y=jR(n,h,a[2],x);if(0===c[0])var
+k=oF(h,c[1],f),o=[0,k,m(b),k,0,0,0,0,0];else
 var
-l=bJ(h,c[1],f),q=hr(l),i=a$(aC(0,n),q),d=hr(i[2]),j=e(hr,i[1]),r=0,s=0,t=0,u=0,v=[0,l],w=e(function(a){return aN(a,d)?m(b):al(a,d)},j),o=[0,j,jO(d),w,v,u,t,s,r];var
+l=bJ(h,c[1],f),q=hr(l),i=a$(aC(0,n),q),d=hr(i[2]),j=e(hr,i[1]),r=0,s=0,t=0,u=0,v=[0,l],w=e(function(a){return aO(a,d)?m(b):al(a,d)},j),o=[0,j,jQ(d),w,v,u,t,s,r];var
 p=[0,o,y]}else
 var
 p=a;return p}function
-oB(a){return e(function(a){return[0,a[2],d]},a)}function
-jQ(a){var
-b=z(hq,a[4]),c=f(fI(e(aO,a[3])),b);return f(oB(a[2]),c)}function
+oH(a){return e(function(a){return[0,a[2],d]},a)}function
+jS(a){var
+b=z(hq,a[4]),c=f(fI(e(aN,a[3])),b);return f(oH(a[2]),c)}function
 hs(a){var
-b=cF(0,oB(a[2])),c=aC(0,g(a[1]));return jL(a,e(function(a){return[0,[0,a]]},c),b)}function
-jR(b,d){var
+b=cF(0,oH(a[2])),c=aC(0,g(a[1]));return jN(a,e(function(a){return[0,[0,a]]},c),b)}function
+jT(b,d){var
 a=d;for(;;)switch(a[0]){case
 0:return 1;case
 1:var
@@ -5400,16 +5411,16 @@ e=a[1];return aj(function(a){return aB(e,a)},b);case
 7:case
 8:var
 a=a[1];continue;default:var
-c=jR(b,a[1]);if(c){var
+c=jT(b,a[1]);if(c){var
 a=a[2];continue}return c}}function
-oC(d){var
+oI(d){var
 a=d;for(;;){if(a){var
-b=a[2],e=a[1],c=J(aj(function(b){return function(a){return sk(b,a)}}(e),b));if(c){var
+b=a[2],e=a[1],c=J(aj(function(b){return function(a){return sq(b,a)}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-oD(a){var
-u=e(aA,a[2]),d=f(a[1],u),h=g(a[1]),o=aa(vN,h),p=o?aa(h,vO):o,q=p?aa(h,g(a[4])):p,r=q?aa(g(a[4]),vP):q,s=r?oC(d):r;if(s){var
+oJ(a){var
+u=e(aA,a[2]),d=f(a[1],u),h=g(a[1]),o=aa(vS,h),p=o?aa(h,vT):o,q=p?aa(h,g(a[4])):p,r=q?aa(g(a[4]),vU):q,s=r?oI(d):r;if(s){var
 c=d,b=a[3];for(;;){if(b){var
-j=b[1],k=j[1],m=J(aj(function(b){return function(a){return aB(b,a)}}(k),c)),n=m?jR(c,j[2]):m;if(n){var
+j=b[1],k=j[1],m=J(aj(function(b){return function(a){return aB(b,a)}}(k),c)),n=m?jT(c,j[2]):m;if(n){var
 c=[0,k,c],b=b[2];continue}var
 t=n}else
 var
@@ -5418,7 +5429,7 @@ i=t;break}}else
 var
 i=s;if(i){var
 v=a[4];return l(function(b){var
-c=0===b[0]?b[1]:[0,b[1],0],g=f(e(aA,a[3]),d);return l(function(a){return jR(g,a)},c)},v)}return i}function
+c=0===b[0]?b[1]:[0,b[1],0],g=f(e(aA,a[3]),d);return l(function(a){return jT(g,a)},c)},v)}return i}function
 dQ(f,e,g){var
 h=g[1],a=bU(function(a){return dQ(f,e,a)},h);switch(a[0]){case
 0:return r(a[1],f,[0,d,b]);case
@@ -5432,7 +5443,7 @@ h=g[1],a=bU(function(a){return dQ(f,e,a)},h);switch(a[0]){case
 8:var
 c=a[1];return[4,c,c];case
 9:return[6,a[1]];default:return[0,d,b]}}function
-jS(d){var
+jU(d){var
 b=d;for(;;){var
 a=b[1];switch(a[0]){case
 10:return 0;case
@@ -5443,7 +5454,7 @@ b=a[1];continue;case
 0:case
 1:case
 2:return 1;default:var
-c=jS(a[1]);if(c){var
+c=jU(a[1]);if(c){var
 b=a[2];continue}return c}}}function
 b1(g,f,e){var
 b=f,a=e;for(;;){if(b){if(a){var
@@ -5452,73 +5463,73 @@ b=b[2],a=a[2];continue}var
 d=c}else
 var
 d=a;return d}return a?0:1}}function
-vQ(a){var
+vV(a){var
 b=a[4],d=0;if(typeof
 b!=="number"&&0===b[0]){var
 c=[0,b[1],0];d=1}if(!d)var
 c=0;var
 e=f(a[3],c);return f(a[1],e)}function
 ht(a){return g(a[1])}function
-oE(a){var
-b=g(fI(e(aO,a[3])));return M(g(a[2]),b)}function
-oF(a){var
-b=g(a[2]),c=a[3];return oy(hs(a),c,b)}function
-oG(a){var
-b=oE(a),c=a[4],d=oF(a);return jP(ht(a),d,c,b)}function
-oH(a,b){var
-c=z(hq,a[4]),d=f(fI(e(aO,a[3])),c);return f(b,e(function(a){return a[1][1]},d))}function
-oI(b,a){return l(function(a){if(0===a[0]){var
+oK(a){var
+b=g(fI(e(aN,a[3])));return M(g(a[2]),b)}function
+oL(a){var
+b=g(a[2]),c=a[3];return oE(hs(a),c,b)}function
+oM(a){var
+b=oK(a),c=a[4],d=oL(a);return jR(ht(a),d,c,b)}function
+oN(a,b){var
+c=z(hq,a[4]),d=f(fI(e(aN,a[3])),c);return f(b,e(function(a){return a[1][1]},d))}function
+oO(b,a){return l(function(a){if(0===a[0]){var
 c=ht(b);return o(g(a[1]),c)}return 1},a)}function
-oJ(f,e){function
+oP(f,e){function
 a(a){return r(a,e,[0,d,b])}var
 c=[0,d,b];switch(f){case
 0:var
-g=a(vS);return[0,a(0),g,c];case
+g=a(vX);return[0,a(0),g,c];case
 1:var
-h=a(vT),i=a(vU);return[0,a(0),i,h];default:return[0,c,c,c]}}function
-oK(f,e){function
+h=a(vY),i=a(vZ);return[0,a(0),i,h];default:return[0,c,c,c]}}function
+oQ(f,e){function
 a(a){return r(a,e,[0,d,b])}var
 c=[0,d,b];switch(f){case
-0:return[0,c,c,a(vV)];case
+0:return[0,c,c,a(v0)];case
 1:var
-g=a(vW),h=a(vX);return[0,a(vY),h,g];default:var
-i=a(vZ),j=a(v0);return[0,a(0),j,i]}}function
-oL(t,s,k,j,r,d){var
+g=a(v1),h=a(v2);return[0,a(v3),h,g];default:var
+i=a(v4),j=a(v5);return[0,a(0),j,i]}}function
+oR(t,s,k,j,r,d){var
 c=bu(k,j,r,d);if(0===d[0])var
 e=bz(d[1],c);else
 var
-a=d[1],f=fx(a,c),g=fy(a,c),h=g$(a,c),i=ev(a,c),l=P([3,[4,h,g],[4,i,f]],g8(a)),m=P([2,[4,h,f],[4,i,g]],fw(a)),n=K(function(b,a){return[2,b,a]},m,l),o=P(a[5],n),p=g9(a,c),q=P(g_(a,c),p),e=K(function(b,a){return[3,b,a]},q,o);return jr(t,e,P([5,[0,b,b],s],da(eD(k,j,eC(d)),e)))}function
-oM(c,b,a){return b?fz(c,b[1],a):a?0:1}function
-oN(d,b,i,a,c,n,h,m,f){var
-p=at(b),j=o(g(c),p),k=j?oM(d,a,h):j,l=k?oM(d,a,f):k;if(l){var
-q=e(function(c){return oL(b,i,a,f,m,c)},c),r=e(function(c){return oL(b,i,a,h,n,c)},c);return jJ(d,at(b),r,q)}return l}function
-oO(c,j,d,b,a){var
+a=d[1],f=fx(a,c),g=fy(a,c),h=g$(a,c),i=ev(a,c),l=P([3,[4,h,g],[4,i,f]],g8(a)),m=P([2,[4,h,f],[4,i,g]],fw(a)),n=K(function(b,a){return[2,b,a]},m,l),o=P(a[5],n),p=g9(a,c),q=P(g_(a,c),p),e=K(function(b,a){return[3,b,a]},q,o);return jt(t,e,P([5,[0,b,b],s],da(eD(k,j,eC(d)),e)))}function
+oS(c,b,a){return b?fz(c,b[1],a):a?0:1}function
+oT(d,b,i,a,c,n,h,m,f){var
+p=at(b),j=o(g(c),p),k=j?oS(d,a,h):j,l=k?oS(d,a,f):k;if(l){var
+q=e(function(c){return oR(b,i,a,f,m,c)},c),r=e(function(c){return oR(b,i,a,h,n,c)},c);return jL(d,at(b),r,q)}return l}function
+oU(c,j,d,b,a){var
 e=aJ(d,j),g=e?bf(b,a):e;if(g)var
 k=cD(c,a)[2],h=[0,cD(c,b)[1],k],l=[0,cD(c,dA(a,b)),0],i=[0,[0,h,h,f(ab(u,d),l)]];else
 var
 i=g;return i}function
-jT(a){if(a){var
+jV(a){if(a){var
 b=a[1];if(b)var
-c=jT(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+c=jV(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return v3}function
-oP(c,b,a){if(b){if(a){var
-d=b[1],f=oP(c,b[2],a[2]),g=a[1],h=function(b,a){return A(t(c,d,b),a)},i=function(a){return a};return aP(function(a){return t(c,d,a)},i,h,g,f)}var
+d=b;return d}return v8}function
+oV(c,b,a){if(b){if(a){var
+d=b[1],f=oV(c,b[2],a[2]),g=a[1],h=function(b,a){return A(t(c,d,b),a)},i=function(a){return a};return aP(function(a){return t(c,d,a)},i,h,g,f)}var
 e=a}else
 var
 e=b;return e}function
-oQ(c,b,a){if(b){if(a){var
-d=oQ(c,b[2],a[2]);return A(t(c,b[1],a[1]),d)}return u}return u}function
-hu(a){return ao(function(d,a){var
+oW(c,b,a){if(b){if(a){var
+d=oW(c,b[2],a[2]);return A(t(c,b[1],a[1]),d)}return u}return u}function
+hu(a){return ap(function(d,a){var
 e=c(2,b);return E(b_(cb(d),e),a)},d,a)}function
 hv(a,i,h){var
 d=g(i);function
 t(g,e,f){var
 d=[0,b,c(2,b)];return[0,$(cD(a,a3(dz(e,f),d)))]}var
-j=jT(e(function(b){return ei(a,t,b)},i));if(j){var
-v=j[1],w=function(b,c,e){return oO(a,d,b,c,e)},k=jT(e(function(b){return ei(a,w,b)},i));if(k){var
-x=function(b){return cD(a,b)},n=e(function(a){return e(x,a)},h),y=k[1],z=e(function(a){return a[3]},y),A=e(function(b){return oQ(a,b,e(function(a){return a[2]},v))},n),B=W(aC(0,d),n),E=e(function(c){var
-i=oP(a,c[2],z),j=c[1],d=[0,O(a,b),0],e=f(ab(u,j),d);function
+j=jV(e(function(b){return ei(a,t,b)},i));if(j){var
+v=j[1],w=function(b,c,e){return oU(a,d,b,c,e)},k=jV(e(function(b){return ei(a,w,b)},i));if(k){var
+x=function(b){return cD(a,b)},n=e(function(a){return e(x,a)},h),y=k[1],z=e(function(a){return a[3]},y),A=e(function(b){return oW(a,b,e(function(a){return a[2]},v))},n),B=W(aC(0,d),n),E=e(function(c){var
+i=oV(a,c[2],z),j=c[1],d=[0,O(a,b),0],e=f(ab(u,j),d);function
 g(b,a){return G(b,aw(a))}function
 h(a){return ac(aw(a))}return aP(function(a){return a},h,g,e,i)},B),p=o(g(h),d),q=p?l(function(a){return o(g(a),d)},h):p;if(q)var
 F=c(2,b),H=b_(cy(a),F),I=hu(A),m=D(C(c(2,c(2,b)),I),H);else
@@ -5537,7 +5548,7 @@ a5(a){return[0,a[1],a[2]]}function
 hw(b,a){var
 d=g(a),c=o(g(b),d);if(c){var
 e=W(b,a);return l(function(a){return bf(a[1],a[2])},e)}return c}function
-jU(c,a,b){var
+jW(c,a,b){var
 d=W(a,b),f=W(aC(c,g(a)),d);return e(function(a){return[1,a[1],a[2][1],a[2][2]]},f)}function
 eH(e,k,j,i){var
 c=k,b=j,a=i;for(;;){if(c)if(b)if(a){var
@@ -5550,24 +5561,24 @@ var
 d=b;else
 var
 d=c;return d}}function
-jV(b,e,c){var
-a=ei(b,function(a,c,d){return oO(b,e,a,c,d)},c);return a?I(d,a[1][2][1]):a}function
-jW(f,e,b,a){var
+jX(b,e,c){var
+a=ei(b,function(a,c,d){return oU(b,e,a,c,d)},c);return a?I(d,a[1][2][1]):a}function
+jY(f,e,b,a){var
 c=a[1],d=b[1],g=c[2],h=a[2],i=d[2],j=b[2],k=[0,d[1],[0,c[1],0]];return l(function(a){var
 b=[0,i,[0,g,0]];return l(function(b){var
 c=[0,j,[0,h,0]];return l(function(c){var
 d=a5(c),g=a5(b);return cG(f,e,[0,a5(a),g,d])},c)},b)},k)}function
-jX(a){switch(a[0]){case
+jZ(a){switch(a[0]){case
 0:var
 c=[0,a[4],0],d=f(aW(a[3]),c),e=f(aW(a[2]),d);return f(aW(a[1]),e);case
 1:var
 b=a[3],g=b?aW(b[1]):b,h=f(aW(a[2]),g);return f(aW(a[1]),h);default:return aW(a[1])}}function
-oR(a){return 1===a[0]?0:1}function
+oX(a){return 1===a[0]?0:1}function
 fJ(b,a){var
 c=a3(a,a);return bf(a3(b,b),c)?a:b}function
 fK(b,a,e,d){var
 c=dM(b,a,a5(e));return c?dM(b,a,a5(d)):c}function
-oS(f,e,c,a){switch(e[0]){case
+oY(f,e,c,a){switch(e[0]){case
 0:if(c){if(c[2])return 0;if(a)return a[2]?0:fK(f,e[1],c[1],a[1]);var
 x=a}else
 var
@@ -5641,34 +5652,34 @@ L=q;var
 M=L}else
 var
 M=c;return M}}function
-oT(a){var
-c=r(v7,a,[0,d,b]),e=r(v8,a,[0,d,b]);return[0,r(0,a,[0,d,b]),e,c]}function
+oZ(a){var
+c=r(wa,a,[0,d,b]),e=r(wb,a,[0,d,b]);return[0,r(0,a,[0,d,b]),e,c]}function
 hx(a){var
-c=r(v9,a,[0,d,b]),e=r(v_,a,[0,d,b]);return[0,[0,r(0,a,[0,d,b]),e],c]}function
-jY(d,c,b,a){var
+c=r(wc,a,[0,d,b]),e=r(wd,a,[0,d,b]);return[0,[0,r(0,a,[0,d,b]),e],c]}function
+j0(d,c,b,a){var
 e=bY(d,c,b,a);return w(bY(d,c,b,a),e)}var
 cN=c(2,c(2,c(2,c(2,c(2,q(c(2,b)))))));function
 dR(e){var
 a=aD(cN,e);if(a){var
 f=k(gr(c(2,b)),cN);return[0,a[1][2],f]}return[0,d,b]}var
-jZ=[0,[0,d,b],[0,d,b],[0,d,b]];function
+j1=[0,[0,d,b],[0,d,b],[0,d,b]];function
 eI(c,a){var
-e=[0,d,b];return ao(function(b,a){return[2,k(c,b),a]},e,a)}function
-fL(b,a){return ao(function(c,a){var
-d=k(b,c);return K(function(b,a){return[2,b,a]},d,a)},jZ,a)}function
-oU(c){var
+e=[0,d,b];return ap(function(b,a){return[2,k(c,b),a]},e,a)}function
+fL(b,a){return ap(function(c,a){var
+d=k(b,c);return K(function(b,a){return[2,b,a]},d,a)},j1,a)}function
+o0(c){var
 a=c;for(;;)switch(a[0]){case
 0:return 1;case
 1:return aJ(a[1],dE);case
 6:var
 a=a[1];continue;default:var
-b=oU(a[1]);if(b){var
+b=o0(a[1]);if(b){var
 a=a[2];continue}return b}}function
-di(a){return l(oU,a)}function
-j0(d,h,c,f){var
+di(a){return l(o0,a)}function
+j2(d,h,c,f){var
 a=ei(d,function(c,e,f){var
-a=aJ(c,M(dE,h)),b=a?bf(e,f):a,g=b?[0,lU(d,c,e,f)]:b;return g},f);if(a){var
-b=a[1],e=av(dE,b[3]),g=iE(hu(av(c,e))),i=iE(hu(am(c,e))),j=T(E(E(fe(am(dE,b[3])),i),g));return I(b[1][2],j)}return a}function
+a=aJ(c,M(dE,h)),b=a?bf(e,f):a,g=b?[0,l0(d,c,e,f)]:b;return g},f);if(a){var
+b=a[1],e=av(dE,b[3]),g=iG(hu(av(c,e))),i=iG(hu(am(c,e))),j=T(E(E(fe(am(dE,b[3])),i),g));return I(b[1][2],j)}return a}function
 hy(b,a,c){if(b)if(a)var
 f=a[1],g=hy(b[2],a[2],c),h=I(b[1],d)?[3,f,c]:[2,f,c],e=[0,h,g];else
 var
@@ -5683,7 +5694,7 @@ dS(a){if(ce(a[1],a[2]))return a[1];var
 d=[0,c(2,b),b];return[5,[2,a[1],a[2]],d]}function
 bB(a){var
 b=dS(a[3]),c=dS(a[2]);return[0,dS(a[1]),c,b]}function
-oV(a){switch(a[0]){case
+o1(a){switch(a[0]){case
 0:var
 b=a[1],c=b[5],d=dS(b[4]),e=bB(b[3]),f=bB(b[2]);return[0,bB(b[1]),f,e,d,c];case
 1:var
@@ -5694,12 +5705,12 @@ q=F(f[3],Q);if(q){var
 j=q[1];if(typeof
 j!=="number"&&14===j[0]){var
 B=j[2],C=j[1],r=hz(aD(cN,B));if(r){var
-s=r[1],R=cl(wf,s),S=cl(wg,s),t=[0,cl(0,s),S,R],D=h(i,1,B),E=D?h(i,0,C):D;if(E)var
+s=r[1],R=cl(wk,s),S=cl(wl,s),t=[0,cl(0,s),S,R],D=h(i,1,B),E=D?h(i,0,C):D;if(E)var
 T=g(f[1]),u=o(g(n),T);else
 var
 u=E;var
-G=u?l(function(a){return di(jX(a))},p):u;if(G){var
-U=f[1],H=hy(n,e(function(b){return cI(oV(b),a)},U),C),I=di(H);if(I){var
+G=u?l(function(a){return di(jZ(a))},p):u;if(G){var
+U=f[1],H=hy(n,e(function(b){return cI(o1(b),a)},U),C),I=di(H);if(I){var
 v=W(W(p,H),n),k=function(k){var
 f=k[1][2],e=k[1][1];switch(e[0]){case
 0:var
@@ -5712,7 +5723,7 @@ e=j[1],f=e[2],c=e[1],d=j[2];switch(c[0]){case
 g=c[3],h=c[2],i=c[1],k=aV(h,g,a),l=[3,w(ay(i),k),f],m=ch(i,h,g,c[4],a);return dR([5,[0,d,b],[2,cH(c[5],m),l]]);case
 1:return dR([5,[0,d,b],[2,f,cI(c,a)]]);default:return[0,d,b]}},M=w(t,t),N=[4,eI(function(a){var
 b=k(a)[3];return[4,m(a),b]},v),M],O=w(fL(function(a){var
-b=k(a)[2];return P(m(a),b)},v),t);return j0(i,wi,wh,[2,[2,eI(function(a){var
+b=k(a)[2];return P(m(a),b)},v),t);return j2(i,wn,wm,[2,[2,eI(function(a){var
 b=k(a)[1];return[4,m(a),b]},v),O],N])}var
 J=I}else
 var
@@ -5726,17 +5737,17 @@ z=q;var
 A=z}else
 var
 A=y;return A}function
-wj(a){var
+wo(a){var
 b=di(aW(a[3])),c=b?di(aW(a[4])):b;return c?di([0,a[2],0]):c}function
-oW(a,d,c){var
+o2(a,d,c){var
 b=aC(0,bH(a));return e(function(b){var
 e=aJ(b,cM(a))?d:c;return cl(b,e)},b)}function
-oX(e,a,f){if(typeof
+o3(e,a,f){if(typeof
 e==="number"){if(e){var
-g=cl(wk,a);return[0,[0,cl(0,a),g,[0,d,b]],jZ]}var
-h=cl(wl,a),i=cl(wm,a);return[0,[0,cl(0,a),i,h],jZ]}var
-c=e[1],j=oK(c,oW(c,a,f));return[0,oJ(c,oW(c,a,f)),j]}function
-oY(g,e,u,o,a){var
+g=cl(wp,a);return[0,[0,cl(0,a),g,[0,d,b]],j1]}var
+h=cl(wq,a),i=cl(wr,a);return[0,[0,cl(0,a),i,h],j1]}var
+c=e[1],j=oQ(c,o2(c,a,f));return[0,oP(c,o2(c,a,f)),j]}function
+o4(g,e,u,o,a){var
 p=hz(aD(cN,u));if(p){var
 v=p[1],q=typeof
 e==="number"?[0,[0,b,b]]:hz(k(cJ(cN),o));if(q){var
@@ -5747,33 +5758,33 @@ var
 B=h(g,1,o),C=B?cK(g,o):B,i=C?J(bf(r,[0,d,b])):C;else
 var
 i=x;var
-y=i?l(wj,a):i;if(y){var
-f=oX(e,v,r)[2],j=oX(e,v,r)[1],m=[0,c(2,b),b],n=function(b){return fL(function(a){var
+y=i?l(wo,a):i;if(y){var
+f=o3(e,v,r)[2],j=o3(e,v,r)[1],m=[0,c(2,b),b],n=function(b){return fL(function(a){var
 c=a[3],d=k(b,a[4]);return P([4,a[1],d],c)},a)},s=eI(function(a){var
 b=w(a[3],a[4]);return[4,a[1],b]},a),t=w(f,f),D=n(function(a){return a[3]}),E=P(f[3],D),F=n(function(a){return a[2]}),G=P(f[2],F),H=n(function(a){return a[1]}),I=P(f[1],H),L=K(function(b,a){return[2,b,a]},I,G),M=[4,t,s],N=w(f,K(function(b,a){return[2,b,a]},L,E)),O=[3,[2,w(f,fL(function(a){var
-b=da(a[4],a[3]);return P(a[1],b)},a)),N],M],Q=[2,[4,m,s],[4,[5,[0,c(2,c(2,b)),b],[2,[0,b,b],t]],O]],R=[4,m,w(j,nv(f,fL(function(a){return P(a[1],a[4])},a)))],S=w(j,j),T=[2,[4,eI(function(a){return a[1]},a),S],R],U=[4,m,w(fL(function(a){return P(a[1],a[3])},a),j)],V=[2,[2,[2,eI(function(a){var
+b=da(a[4],a[3]);return P(a[1],b)},a)),N],M],Q=[2,[4,m,s],[4,[5,[0,c(2,c(2,b)),b],[2,[0,b,b],t]],O]],R=[4,m,w(j,nB(f,fL(function(a){return P(a[1],a[4])},a)))],S=w(j,j),T=[2,[4,eI(function(a){return a[1]},a),S],R],U=[4,m,w(fL(function(a){return P(a[1],a[3])},a),j)],V=[2,[2,[2,eI(function(a){var
 b=[4,a[2],a[2]],c=w(a[4],a[4]),d=[3,[2,w(a[3],a[3]),c],b];return[4,a[1],d]},a),U],T],Q],W=typeof
-e==="number"?at(e):cM(e[1]);return j0(g,at(e),W,V)}var
+e==="number"?at(e):cM(e[1]);return j2(g,at(e),W,V)}var
 z=y}else
 var
 z=q;var
 A=z}else
 var
 A=p;return A}function
-oZ(a){return[6,w(a,a)]}function
-o0(b){if(0===b[0])return[0,oV(b[1])];var
+o5(a){return[6,w(a,a)]}function
+o6(b){if(0===b[0])return[0,o1(b[1])];var
 a=b[1],c=a[7],d=dS(a[6]),e=dS(a[5]),f=bB(a[4]),g=bB(a[3]),h=bB(a[2]);return[1,[0,bB(a[1]),h,g,f,e,d,c]]}function
 hA(f,e,c,a){if(typeof
 a==="number")return 0;else{if(0===a[0]){var
 g=a[1],j=I(c,d)?[3,g,f]:[2,g,f];return[0,j]}var
 h=a[2],i=a[1],k=I(c,d)?gA(e):e,b=a5(k),l=[4,i,dL(b)],m=[2,[4,h,dK(b)],l],n=[4,h,dL(b)];return[1,[3,[4,i,dK(b)],n],m]}}function
-j1(a,c){if(D(c,b))return a;var
+j3(a,c){if(D(c,b))return a;var
 g=aT(c,aI(2)),h=g[1];if(L(g[2],d)){var
-e=j1(a,h);return[4,e,e]}var
-f=j1(a,h);return[4,[4,f,f],a]}function
+e=j3(a,h);return[4,e,e]}var
+f=j3(a,h);return[4,[4,f,f],a]}function
 aX(c,a){switch(a[0]){case
 0:return a[1];case
-1:return ox([0,d,b],c,a[1]);case
+1:return oD([0,d,b],c,a[1]);case
 2:return[3,[0,d,b],aX(c,a[1])];case
 3:var
 e=aX(c,a[2]);return[2,aX(c,a[1]),e];case
@@ -5784,9 +5795,9 @@ g=aX(c,a[2]);return[4,aX(c,a[1]),g];case
 6:var
 h=aX(c,a[2]);return[5,aX(c,a[1]),h];case
 7:var
-i=a[2];return j1(aX(c,a[1]),i);default:return[6,aX(c,a[1])]}}function
+i=a[2];return j3(aX(c,a[1]),i);default:return[6,aX(c,a[1])]}}function
 fN(d,h,g){var
-i=d[3],b=jL(d,g,h),a=i;for(;;){if(a){var
+i=d[3],b=jN(d,g,h),a=i;for(;;){if(a){var
 c=a[1],e=a[2],f=aX(b,c[2]),b=[0,[0,c[1],f],b],a=e;continue}return b}}function
 fO(c){var
 a=c;for(;;)switch(a[0]){case
@@ -5798,9 +5809,9 @@ a=c;for(;;)switch(a[0]){case
 a=a[1];continue;default:var
 b=fO(a[1]);if(b){var
 a=a[2];continue}return b}}function
-j2(a){if(a){var
+j4(a){if(a){var
 b=a[1];if(0===b[0])return 0;var
-c=b[1],d=j2(a[2]);return y(function(a){return[0,c,a]},d)}return wp}function
+c=b[1],d=j4(a[2]);return y(function(a){return[0,c,a]},d)}return wu}function
 eJ(c,e,p){var
 a=p;for(;;)switch(a[0]){case
 6:var
@@ -5818,8 +5829,8 @@ a=a[1];continue;case
 1:return 1;default:var
 f=eJ(c,e,a[1]);if(f){var
 a=a[2];continue}return f}}function
-o1(j,c,i,h,n){var
-o=c[3],b=jL(c,h,i),a=o;for(;;){if(a){var
+o7(j,c,i,h,n){var
+o=c[3],b=jN(c,h,i),a=o;for(;;){if(a){var
 e=a[1],f=e[2],g=eJ(j,b,f);if(g){var
 k=a[2],m=aX(b,f),b=[0,[0,e[1],m],b],a=k;continue}var
 d=g}else
@@ -5827,20 +5838,20 @@ var
 d=1;if(d){var
 p=fN(c,i,h);return l(function(a){return eJ(j,p,a)},n)}return d}}var
 hC=x(m(b),hB);function
-o2(e){var
+o8(e){var
 a=V(hC);if(e)var
 f=s(m(c(2,b)),a),g=B(m(c(2,c(2,b))),f),h=s(m(c(2,b)),a),d=al(B(m(b),h),g);else
 var
 i=B(m(c(2,b)),a),j=V(hB),d=al(B(s(m(c(2,b)),j),a),i);return aK(d)}function
-o3(d,c,a){if(d){var
-e=o2(c),f=B(m(b),e),g=s(x(m(b),a),f);return x(m(b),g)}var
-h=m(b),i=o2(c),j=al(m(b),i);return x(s(a,B(m(b),j)),h)}function
+o9(d,c,a){if(d){var
+e=o8(c),f=B(m(b),e),g=s(x(m(b),a),f);return x(m(b),g)}var
+h=m(b),i=o8(c),j=al(m(b),i);return x(s(a,B(m(b),j)),h)}function
 eK(f,e,d,a){var
 g=V(a),h=V(d),i=x(x(m(c(2,b)),h),g),j=f?e?hC:al(hC,s(m(c(2,b)),hB)):al(hC,m(c(2,b))),k=s(V(j),i);return aK(B(m(b),k))}function
-o4(g,d){var
+o_(g,d){var
 c=g,a=d[1],b=d[3];for(;;){if(c){if(b){var
 e=b[2],f=c[1]?A(a,b[1]):a,c=c[2],a=f,b=e;continue}return a}return a}}function
-j3(w,v,u,t){var
+j5(w,v,u,t){var
 a=e(function(a){return r(a,u,0)},v);if(a){var
 f=a[1];if(f){var
 b=a[2];if(b){var
@@ -5872,12 +5883,12 @@ q=f;var
 s=q}else
 var
 s=a;return s}function
-o5(f,i,e,c,h){var
+o$(f,i,e,c,h){var
 j=f?b:d,a=O(i,j);function
 g(b){var
 c=f?cc(b):cz(b);return G(c,a)}var
 k=[0,$(h),0],l=[0,[0,a,c,[0,u,[0,g(c),0]]],k];return[0,[0,a,e,[0,g(e),0]],l]}function
-o6(r,b,q,p,g,o,n){if(o){var
+pa(r,b,q,p,g,o,n){if(o){var
 x=o[1];if(x[1])return 0;if(o[2])return 0;if(n){var
 j=x[2],s=0;if(g){var
 h=g[2],c=0;if(h){var
@@ -5886,16 +5897,16 @@ a=0;c=1;d=1}else{var
 t=i[1],k=h[1],l=g[1],f=0;if(typeof
 j==="number")switch(j){case
 0:var
-A=e(aG,bj(wt)),z=e($,0),a=j3(b,p,bg(0,bD(b,dH(0,g),z),q,0),A);c=1;d=1;f=1;break;case
+A=e(aG,bj(wy)),z=e($,0),a=j5(b,p,bg(0,bD(b,dH(0,g),z),q,0),A);c=1;d=1;f=1;break;case
 3:var
 a=D(k[2],l[1]);c=1;d=1;f=1;break}else
 if(4===j[0]){var
 m=j[1];if(r)if(m){var
-B=e(o4,wu),a=j3(b,p,bg(0,bD(b,o5(r,b,l,k,t),0),q,0),B);c=1;d=1;f=1}else{var
+B=e(o_,wz),a=j5(b,p,bg(0,bD(b,o$(r,b,l,k,t),0),q,0),B);c=1;d=1;f=1}else{var
 a=m;c=1;d=1;f=1}else
 if(m){var
 a=0;c=1;d=1;f=1}else{var
-C=e(o4,wv),a=j3(b,p,bg(0,bD(b,o5(r,b,l,k,t),0),q,0),C);c=1;d=1;f=1}}if(!f)var
+C=e(o_,wA),a=j5(b,p,bg(0,bD(b,o$(r,b,l,k,t),0),q,0),C);c=1;d=1;f=1}}if(!f)var
 u=0}else
 var
 u=i;if(!d)var
@@ -5905,28 +5916,28 @@ v=h;if(!c){var
 w=v;s=1}}else{var
 w=g;s=1}if(s)var
 a=w;var
-y=a?ww:a}else
+y=a?wB:a}else
 var
 y=n;return y}return[0,n]}function
-o7(f,e,d,c,p,o,n){var
+pb(f,e,d,c,p,o,n){var
 b=p,g=o,a=n;for(;;)switch(a[0]){case
 0:var
-h=o6(f,e,d,c,b,a[1],g);return h?J(h[1]):h;case
+h=pa(f,e,d,c,b,a[1],g);return h?J(h[1]):h;case
 1:var
-i=o6(f,e,d,c,b,a[1],g);if(i){var
-j=i[1],k=c4(a[2],b),l=o7(f,e,d,c,k[1],j,a[3]);if(l){var
+i=pa(f,e,d,c,b,a[1],g);if(i){var
+j=i[1],k=c4(a[2],b),l=pb(f,e,d,c,k[1],j,a[3]);if(l){var
 b=k[2],g=j,a=a[4];continue}var
 m=l}else
 var
 m=i;return m;default:return 0}}function
-j4(a){return b_(c(2,b),aL(a,b))}function
+j6(a){return b_(c(2,b),aL(a,b))}function
 eL(i,a,e,w,v){var
-l=a?b:T(b),f=m(l),g=o3(a,e,wr),h=o3(a,e,ws),n=al(g,eK(a,e,f,g)),o=[0,B(al(h,eK(a,e,h,f)),n),0],p=al(f,eK(a,e,f,g)),q=[0,B(al(h,eK(a,e,g,h)),p),o],r=al(f,eK(a,e,h,f)),t=[0,B(al(g,eK(a,e,g,h)),r),q],u=a?e?m(c(2,b)):s(m(c(2,c(2,b))),hB):m(c(2,c(2,b))),j=cZ([0,u,t]),k=[0,d,cy(i)];return o7(a,i,j[1],j[2],[0,k,[0,k,[0,w,0]]],1,v)}function
-o8(a,g,b){if(I(g,j4(a))){if(b){var
+l=a?b:T(b),f=m(l),g=o9(a,e,ww),h=o9(a,e,wx),n=al(g,eK(a,e,f,g)),o=[0,B(al(h,eK(a,e,h,f)),n),0],p=al(f,eK(a,e,f,g)),q=[0,B(al(h,eK(a,e,g,h)),p),o],r=al(f,eK(a,e,h,f)),t=[0,B(al(g,eK(a,e,g,h)),r),q],u=a?e?m(c(2,b)):s(m(c(2,c(2,b))),hB):m(c(2,c(2,b))),j=cZ([0,u,t]),k=[0,d,cy(i)];return pb(a,i,j[1],j[2],[0,k,[0,k,[0,w,0]]],1,v)}function
+pc(a,g,b){if(I(g,j6(a))){if(b){var
 c=b[2];if(c){var
 d=c[2];if(d){var
 e=d[2];if(e){if(e[2])return 0;var
-h=[0,g,j4(a)],v=cy(a),i=[0,j4(a),v],j=eL(a,0,1,h,b[1]),k=j?eL(a,0,0,i,c[1]):j;if(k){var
+h=[0,g,j6(a)],v=cy(a),i=[0,j6(a),v],j=eL(a,0,1,h,b[1]),k=j?eL(a,0,0,i,c[1]):j;if(k){var
 l=eL(a,1,1,h,d[1]);if(l)return eL(a,1,0,i,e[1]);var
 m=l}else
 var
@@ -5951,262 +5962,262 @@ t=f;var
 u=t}else
 var
 u=b;return u}function
-j5(a){var
+j7(a){var
 b=[1,[2,d]];return bT(function(b,a){return[1,[3,b,a]]},a,b)}function
-hD(a){return j5(e(function(a){return[1,[8,[1,[2,a]]]]},a))}function
-hE(a,c){return j5(e(function(a){var
-d=[0,a[2]],b=W(a[1],c);return[1,[7,[1,[8,j5(e(function(a){return[1,[6,[0,a[1]],[1,[2,a[2]]]]]},b))]],d]]},a))}function
-o9(e,d,c,b,a){if(0===a[0])return r(a[1],b,0);var
-f=a[1],g=bU(function(a){return o9(e,d,c,b,a)},f);return k(bD(e,d,c),g)}function
-o_(a){return a?I(d,a[1][2][1]):a}function
-wx(a){var
-b=o(g(a),wy);return b?aj(function(a){return J(L(a,d))},a):b}function
-o$(c,f,b,a){if(b)if(a)var
-d=b[1],g=t(c,O(c,a[1]),f),h=o$(c,f,b[2],a[2]),i=d[3],j=A(d[2],g),e=[0,[0,A(d[1],g),j,i],h];else
+hD(a){return j7(e(function(a){return[1,[8,[1,[2,a]]]]},a))}function
+hE(a,c){return j7(e(function(a){var
+d=[0,a[2]],b=W(a[1],c);return[1,[7,[1,[8,j7(e(function(a){return[1,[6,[0,a[1]],[1,[2,a[2]]]]]},b))]],d]]},a))}function
+pd(e,d,c,b,a){if(0===a[0])return r(a[1],b,0);var
+f=a[1],g=bU(function(a){return pd(e,d,c,b,a)},f);return k(bD(e,d,c),g)}function
+pe(a){return a?I(d,a[1][2][1]):a}function
+wC(a){var
+b=o(g(a),wD);return b?aj(function(a){return J(L(a,d))},a):b}function
+pf(c,f,b,a){if(b)if(a)var
+d=b[1],g=t(c,O(c,a[1]),f),h=pf(c,f,b[2],a[2]),i=d[3],j=A(d[2],g),e=[0,[0,A(d[1],g),j,i],h];else
 var
 e=a;else
 var
 e=b;return e}function
-pa(d,c){var
+pg(d,c){var
 a=F(c,d);if(a){var
 b=a[1],e=b[1];return J(L(cf(b),e))}return a}function
 hF(b,a){return fa(fa(b,0),a)}function
-j6(a){if(a){var
-b=a[2],c=a[1];if(b)return hF(c,[0,wA,j6(b)]);var
+j8(a){if(a){var
+b=a[2],c=a[1];if(b)return hF(c,[0,wF,j8(b)]);var
 d=c}else
 var
 d=a;return d}function
-H(a){return[0,wC,hF(j6(a),wB)]}function
-ah(a){return[0,wE,hF(j6(a),wD)]}function
-aq(a){return[0,wG,[0,a,wF]]}function
-n(b,a){return[0,be(wI,be(b,wH)),a]}function
+H(a){return[0,wH,hF(j8(a),wG)]}function
+ah(a){return[0,wJ,hF(j8(a),wI)]}function
+ar(a){return[0,wL,[0,a,wK]]}function
+n(b,a){return[0,be(wN,be(b,wM)),a]}function
 Q(b,a){return ah([0,n(b,a),0])}function
 cO(d){var
-b=d,a=sP,e=0;for(;;){if(b){var
-c=lt(a),b=b[1],a=c;continue}return[0,fb(go(a)),e]}}function
-j7(a){return[0,fb(gx(a)),0]}function
+b=d,a=sU,e=0;for(;;){if(b){var
+c=lz(a),b=b[1],a=c;continue}return[0,fb(go(a)),e]}}function
+j9(a){return[0,fb(gx(a)),0]}function
 fP(a){var
-c=aS(a),f=0,b=0===c?sV:0<c?[0,gx(a)]:[1,gx(T(a))];if(0===b[0])var
+c=aS(a),f=0,b=0===c?s0:0<c?[0,gx(a)]:[1,gx(T(a))];if(0===b[0])var
 d=fb(b[1]);else
 var
 e=fb(b[1]),d=be(bP(1,45),e);return[0,d,f]}function
 eM(a){var
-b=0,c=0<aS(a)?gx(a):sT;return[0,fb(c),b]}function
-j8(a){switch(a[0]){case
-2:return wK;case
-3:return 2<=a[1]?wL:wM;case
-4:return wN;default:return wJ}}function
+b=0,c=0<aS(a)?gx(a):sY;return[0,fb(c),b]}function
+j_(a){switch(a[0]){case
+2:return wP;case
+3:return 2<=a[1]?wQ:wR;case
+4:return wS;default:return wO}}function
 fQ(b,a){function
-c(c,a){return aa(c,j8(a))?fQ(b,a):[0,wT,f(fQ(b,a),wS)]}switch(a[0]){case
+c(c,a){return aa(c,j_(a))?fQ(b,a):[0,wY,f(fQ(b,a),wX)]}switch(a[0]){case
 0:var
 e=a[2],g=a[1];if(typeof
 e==="number")return[0,bo(g),0];var
-h=[0,wU,[0,bo(e),0]];return[0,bo(g),h];case
+h=[0,wZ,[0,bo(e),0]];return[0,bo(g),h];case
 1:return[0,k(b,a[1]),0];case
-2:return[0,wW,c(wV,a[1])];case
+2:return[0,w1,c(w0,a[1])];case
 3:var
-i=a[3],j=c([0,j8(a)],i);switch(a[1]){case
+i=a[3],j=c([0,j_(a)],i);switch(a[1]){case
 0:var
-d=wO;break;case
+d=wT;break;case
 1:var
-d=wP;break;case
+d=wU;break;case
 2:var
-d=wQ;break;default:var
-d=wR}var
-l=a[2];return f(c(j8(a),l),[0,d,j]);case
+d=wV;break;default:var
+d=wW}var
+l=a[2];return f(c(j_(a),l),[0,d,j]);case
 4:var
-m=[0,wX,j7(a[2])];return f(c(wY,a[1]),m);default:return[0,w0,f(fQ(b,a[1]),wZ)]}}function
-N(a){return[0,w3,f(fQ(function(a){return 0===a[0]?a[1]:w2},a),w1)]}function
-j9(a){return[0,w5,f(fQ(function(a){return a},a),w4)]}function
+m=[0,w2,j9(a[2])];return f(c(w3,a[1]),m);default:return[0,w5,f(fQ(b,a[1]),w4)]}}function
+N(a){return[0,w8,f(fQ(function(a){return 0===a[0]?a[1]:w7},a),w6)]}function
+j$(a){return[0,w_,f(fQ(function(a){return a},a),w9)]}function
 cP(a){if(0===a[0])return N(a[1]);var
-b=[0,n(w6,N(a[2])),0];return ah([0,n(w7,N(a[1])),b])}function
+b=[0,n(w$,N(a[2])),0];return ah([0,n(xa,N(a[1])),b])}function
 hG(b,a){var
 c=[0,k(b,a[3]),0],d=[0,k(b,a[2]),c];return H([0,k(b,a[1]),d])}function
-w8(a){function
+xb(a){function
 b(a){return hG(cP,a)}switch(a[0]){case
 0:var
-e=0,g=a[5]?w9:xf,h=[0,n(w_,aq(g)),e],i=[0,n(w$,cP(a[4])),h],j=[0,n(xa,b(a[3])),i],k=[0,n(xb,b(a[2])),j],l=[0,n(xc,b(a[1])),k],c=[0,n(xe,aq(xd)),l];break;case
+e=0,g=a[5]?xc:xk,h=[0,n(xd,ar(g)),e],i=[0,n(xe,cP(a[4])),h],j=[0,n(xf,b(a[3])),i],k=[0,n(xg,b(a[2])),j],l=[0,n(xh,b(a[1])),k],c=[0,n(xj,ar(xi)),l];break;case
 1:var
-d=a[3],m=d?[0,n(xg,b(d[1])),0]:d,o=[0,n(xh,b(a[2])),0],p=[0,n(xi,b(a[1])),o],c=f([0,n(xk,aq(xj)),p],m);break;default:var
-q=[0,n(xl,b(a[1])),0],c=[0,n(xn,aq(xm)),q]}return ah(c)}function
-xo(a){function
+d=a[3],m=d?[0,n(xl,b(d[1])),0]:d,o=[0,n(xm,b(a[2])),0],p=[0,n(xn,b(a[1])),o],c=f([0,n(xp,ar(xo)),p],m);break;default:var
+q=[0,n(xq,b(a[1])),0],c=[0,n(xs,ar(xr)),q]}return ah(c)}function
+xt(a){function
 b(a){return H(e(cP,a))}function
 g(a){var
-b=a?xp:xr;return n(xq,aq(b))}switch(a[0]){case
+b=a?xu:xw;return n(xv,ar(b))}switch(a[0]){case
 0:var
-h=[0,g(a[5]),0],i=[0,n(xs,cP(a[4])),h],j=[0,n(xt,b(a[3])),i],k=[0,n(xu,b(a[2])),j],l=[0,n(xv,b(a[1])),k],c=[0,n(xx,aq(xw)),l];break;case
+h=[0,g(a[5]),0],i=[0,n(xx,cP(a[4])),h],j=[0,n(xy,b(a[3])),i],k=[0,n(xz,b(a[2])),j],l=[0,n(xA,b(a[1])),k],c=[0,n(xC,ar(xB)),l];break;case
 1:var
-d=a[3],m=d?[0,n(xy,b(d[1])),0]:d,o=[0,n(xz,b(a[2])),0],p=[0,n(xA,b(a[1])),o],c=f([0,n(xC,aq(xB)),p],m);break;case
+d=a[3],m=d?[0,n(xD,b(d[1])),0]:d,o=[0,n(xE,b(a[2])),0],p=[0,n(xF,b(a[1])),o],c=f([0,n(xH,ar(xG)),p],m);break;case
 2:var
-q=[0,n(xD,b(a[1])),0],c=[0,n(xF,aq(xE)),q];break;default:var
-r=[0,g(a[7]),0],s=[0,n(xG,cP(a[6])),r],t=[0,n(xH,cP(a[5])),s],u=[0,n(xI,b(a[4])),t],v=[0,n(xJ,b(a[3])),u],w=[0,n(xK,b(a[2])),v],x=[0,n(xL,b(a[1])),w],c=[0,n(xN,aq(xM)),x]}return ah(c)}function
-j_(a){switch(a){case
-0:return xO;case
-1:return xP;case
-2:return xQ;case
-3:return xR;case
-4:return xS;case
-5:return xT;case
-6:return xU;case
-7:return xV;case
-8:return xW;case
-9:return xX;case
-10:return xY;case
-11:return xZ;case
-12:return x0;case
-13:return x1;case
-14:return x2;case
-15:return x3;default:return x4}}function
-j$(a){if(typeof
-a==="number")return x5;else
+q=[0,n(xI,b(a[1])),0],c=[0,n(xK,ar(xJ)),q];break;default:var
+r=[0,g(a[7]),0],s=[0,n(xL,cP(a[6])),r],t=[0,n(xM,cP(a[5])),s],u=[0,n(xN,b(a[4])),t],v=[0,n(xO,b(a[3])),u],w=[0,n(xP,b(a[2])),v],x=[0,n(xQ,b(a[1])),w],c=[0,n(xS,ar(xR)),x]}return ah(c)}function
+ka(a){switch(a){case
+0:return xT;case
+1:return xU;case
+2:return xV;case
+3:return xW;case
+4:return xX;case
+5:return xY;case
+6:return xZ;case
+7:return x0;case
+8:return x1;case
+9:return x2;case
+10:return x3;case
+11:return x4;case
+12:return x5;case
+13:return x6;case
+14:return x7;case
+15:return x8;default:return x9}}function
+kb(a){if(typeof
+a==="number")return x_;else
 switch(a[0]){case
-0:return x6;case
-1:return x7;default:return x8}}function
+0:return x$;case
+1:return ya;default:return yb}}function
 fR(a){var
 c=a[4];if(typeof
 c==="number")var
 d=0;else
 switch(c[0]){case
 0:var
-d=[0,n(x9,N(c[1])),0];break;case
+d=[0,n(yc,N(c[1])),0];break;case
 1:var
-d=[0,n(x_,N(c[1])),0];break;default:var
-o=[0,N(c[2]),0],d=[0,n(x$,H([0,N(c[1]),o])),0]}var
-p=[0,n(ya,aq(j$(a[4]))),d],i=a[3];if(i){var
+d=[0,n(yd,N(c[1])),0];break;default:var
+o=[0,N(c[2]),0],d=[0,n(ye,H([0,N(c[1]),o])),0]}var
+p=[0,n(yf,ar(kb(a[4]))),d],i=a[3];if(i){var
 b=i[1];switch(b[0]){case
 0:var
-r=H([0,N(b[1]),0]),k=a[1],q=0,s=6===k?yb:12===k?yf:yg,g=[0,n(yc,Q(s,r)),q];break;case
+r=H([0,N(b[1]),0]),k=a[1],q=0,s=6===k?yg:12===k?yk:yl,g=[0,n(yh,Q(s,r)),q];break;case
 1:var
-x=H(e(N,b[1])),m=a[1],w=0;if(14<=m)switch(m+q9|0){case
+x=H(e(N,b[1])),m=a[1],w=0;if(14<=m)switch(m+rd|0){case
 0:var
-h=yh;break;case
+h=ym;break;case
 1:var
-h=yj;break;default:var
-h=yk}else
+h=yo;break;default:var
+h=yp}else
 var
-h=yl;var
-g=[0,n(yi,Q(h,x)),w];break;case
+h=yq;var
+g=[0,n(yn,Q(h,x)),w];break;case
 2:var
-y=[0,n(ym,H([0,N(b[2]),0])),0],g=[0,n(yo,ah([0,n(yn,H([0,N(b[1]),0])),y])),0];break;default:var
-z=[0,n(yp,H([0,N(b[2]),0])),0],g=[0,n(yr,ah([0,n(yq,H([0,N(b[1]),0])),z])),0]}var
+y=[0,n(yr,H([0,N(b[2]),0])),0],g=[0,n(yt,ah([0,n(ys,H([0,N(b[1]),0])),y])),0];break;default:var
+z=[0,n(yu,H([0,N(b[2]),0])),0],g=[0,n(yw,ah([0,n(yv,H([0,N(b[1]),0])),z])),0]}var
 l=g}else
 var
 l=i;var
-t=f(l,p),j=a[2],u=j?[0,n(yd,cO(j[1])),0]:j,v=f(u,t);return ah([0,n(ye,aq(j_(a[1]))),v])}function
-pb(a){if(0===a[0]){var
-b=[0,n(ys,hG(N,a[2])),0];return Q(yu,ah([0,n(yt,hG(N,a[1])),b]))}var
-c=[0,N(a[5]),0],d=[0,n(yv,H([0,N(a[4]),c])),0],e=[0,n(yw,N(a[3])),d],f=[0,N(a[2]),0];return Q(yy,ah([0,n(yx,H([0,N(a[1]),f])),e]))}function
-pc(a){if(0===a[0]){var
-b=[0,n(yz,H(e(N,a[2]))),0];return Q(yB,ah([0,n(yA,H(e(N,a[1]))),b]))}return pb([1,a[1],a[2],a[3],a[4],a[5]])}function
-pd(a){switch(a){case
-0:return yC;case
-1:return yD;default:return yE}}function
-yF(a){function
+t=f(l,p),j=a[2],u=j?[0,n(yi,cO(j[1])),0]:j,v=f(u,t);return ah([0,n(yj,ar(ka(a[1]))),v])}function
+ph(a){if(0===a[0]){var
+b=[0,n(yx,hG(N,a[2])),0];return Q(yz,ah([0,n(yy,hG(N,a[1])),b]))}var
+c=[0,N(a[5]),0],d=[0,n(yA,H([0,N(a[4]),c])),0],e=[0,n(yB,N(a[3])),d],f=[0,N(a[2]),0];return Q(yD,ah([0,n(yC,H([0,N(a[1]),f])),e]))}function
+pi(a){if(0===a[0]){var
+b=[0,n(yE,H(e(N,a[2]))),0];return Q(yG,ah([0,n(yF,H(e(N,a[1]))),b]))}return ph([1,a[1],a[2],a[3],a[4],a[5]])}function
+pj(a){switch(a){case
+0:return yH;case
+1:return yI;default:return yJ}}function
+yK(a){function
 b(a){return H(e(cP,a))}var
-c=[0,n(yG,b(a[2])),0],d=[0,n(yH,b(a[1])),c];return ah([0,n(yJ,aq(yI)),d])}function
-pe(a){function
+c=[0,n(yL,b(a[2])),0],d=[0,n(yM,b(a[1])),c];return ah([0,n(yO,ar(yN)),d])}function
+pk(a){function
 b(b,a){var
 c=[0,N(a),0];return H([0,N(b),c])}switch(a[0]){case
-0:return Q(yK,b(a[1],a[2]));case
+0:return Q(yP,b(a[1],a[2]));case
 1:var
-c=a[3],d=a[2],e=a[1],f=[0,n(yL,b(c[1],c[2])),0],g=[0,n(yM,b(d[1],d[2])),f];return Q(yO,ah([0,n(yN,b(e[1],e[2])),g]));case
-2:return Q(yP,N(a[1]));default:var
-h=[0,n(yQ,N(a[2])),0];return Q(yS,ah([0,n(yR,N(a[1])),h]))}}function
-yT(a){function
+c=a[3],d=a[2],e=a[1],f=[0,n(yQ,b(c[1],c[2])),0],g=[0,n(yR,b(d[1],d[2])),f];return Q(yT,ah([0,n(yS,b(e[1],e[2])),g]));case
+2:return Q(yU,N(a[1]));default:var
+h=[0,n(yV,N(a[2])),0];return Q(yX,ah([0,n(yW,N(a[1])),h]))}}function
+yY(a){function
 b(a){return hG(N,a)}if(0===a[0])var
-c=a[5],e=c?[0,n(yU,b(c[1])),0]:c,g=[0,N(a[4]),0],h=[0,n(yV,H([0,N(a[3]),g])),0],i=[0,n(yW,N(a[2])),h],j=[0,n(yX,cO(a[1])),i],d=f([0,n(yZ,aq(yY)),j],e);else
+c=a[5],e=c?[0,n(yZ,b(c[1])),0]:c,g=[0,N(a[4]),0],h=[0,n(y0,H([0,N(a[3]),g])),0],i=[0,n(y1,N(a[2])),h],j=[0,n(y2,cO(a[1])),i],d=f([0,n(y4,ar(y3)),j],e);else
 var
-k=[0,n(y0,N(a[4])),0],l=[0,n(y1,b(a[3])),k],m=[0,n(y2,b(a[2])),l],o=a[1]?y3:y5,d=[0,n(y4,aq(o)),m];return ah(d)}function
-pf(a){var
-b=a?[0,n(y6,H(e(yT,a))),0]:a;return b}function
-ka(d,c,b,a){var
-g=[0,n(y7,H(e(fR,a))),0],h=f(pf(b),g),i=[0,n(y8,pb(c)),0];return ah(f([0,n(y_,Q(y9,H(e(w8,d)))),i],h))}function
-y$(a){switch(a[0]){case
-0:return Q(za,ka(a[1],a[2],a[3],a[4]));case
+k=[0,n(y5,N(a[4])),0],l=[0,n(y6,b(a[3])),k],m=[0,n(y7,b(a[2])),l],o=a[1]?y8:y_,d=[0,n(y9,ar(o)),m];return ah(d)}function
+pl(a){var
+b=a?[0,n(y$,H(e(yY,a))),0]:a;return b}function
+kc(d,c,b,a){var
+g=[0,n(za,H(e(fR,a))),0],h=f(pl(b),g),i=[0,n(zb,ph(c)),0];return ah(f([0,n(zd,Q(zc,H(e(xb,d)))),i],h))}function
+ze(a){switch(a[0]){case
+0:return Q(zf,kc(a[1],a[2],a[3],a[4]));case
 1:var
-b=a[5],c=a[3],d=a[1],g=H(e(xo,a[2])),l=[0,n(zb,H(e(fR,a[6]))),0],m=b?[0,n(zc,pe(b[1])),0]:b,o=f(m,l),k=0,p=[0,n(zd,pc(a[4])),o];if(typeof
+b=a[5],c=a[3],d=a[1],g=H(e(xt,a[2])),l=[0,n(zg,H(e(fR,a[6]))),0],m=b?[0,n(zh,pk(b[1])),0]:b,o=f(m,l),k=0,p=[0,n(zi,pi(a[4])),o];if(typeof
 d==="number")if(d)var
-h=ze;else{var
-i=Q(zj,g);k=1}else
+h=zj;else{var
+i=Q(zo,g);k=1}else
 var
-h=pd(d[1]);if(!k)var
-q=c?[0,n(zf,N(c[1])),0]:c,i=Q(h,ah([0,n(zg,g),q]));return Q(zi,ah([0,n(zh,i),p]));case
+h=pj(d[1]);if(!k)var
+q=c?[0,n(zk,N(c[1])),0]:c,i=Q(h,ah([0,n(zl,g),q]));return Q(zn,ah([0,n(zm,i),p]));case
 2:var
-r=[0,n(zk,H(e(fR,a[7]))),0],s=f(pf(a[6]),r),t=[0,n(zl,pe(a[5])),0],u=[0,n(zm,pc(a[4])),t],v=[0,n(zn,N(a[3])),0],w=ah([0,n(zo,H(e(yF,a[2]))),v]);return Q(zq,ah(f([0,n(zp,Q(pd(a[1]),w)),u],s)));case
+r=[0,n(zp,H(e(fR,a[7]))),0],s=f(pl(a[6]),r),t=[0,n(zq,pk(a[5])),0],u=[0,n(zr,pi(a[4])),t],v=[0,n(zs,N(a[3])),0],w=ah([0,n(zt,H(e(yK,a[2]))),v]);return Q(zv,ah(f([0,n(zu,Q(pj(a[1]),w)),u],s)));case
 3:var
-x=[0,n(zr,H(e(fR,a[7]))),0],y=[0,n(zs,H(e(N,a[6]))),0],z=[0,n(zv,Q(zu,ah([0,n(zt,H(e(N,a[5]))),y]))),x],A=0,B=a[4],C=[0,n(zy,H(e(function(a){return 0===a[0]?Q(zw,H(e(j9,a[1]))):Q(zx,j9(a[1]))},B))),A],D=a[3],E=[0,n(zz,H(e(function(a){var
-b=[0,j9(a[2]),0];return H([0,aq(a[1]),b])},D))),C],F=a[2],G=[0,n(zA,H(e(function(a){var
-b=[0,cP(a[2]),0];return H([0,aq(a[1]),b])},F))),E];return Q(zE,ah([0,n(zD,Q(zC,ah([0,n(zB,H(e(aq,a[1]))),G]))),z]));case
+x=[0,n(zw,H(e(fR,a[7]))),0],y=[0,n(zx,H(e(N,a[6]))),0],z=[0,n(zA,Q(zz,ah([0,n(zy,H(e(N,a[5]))),y]))),x],A=0,B=a[4],C=[0,n(zD,H(e(function(a){return 0===a[0]?Q(zB,H(e(j$,a[1]))):Q(zC,j$(a[1]))},B))),A],D=a[3],E=[0,n(zE,H(e(function(a){var
+b=[0,j$(a[2]),0];return H([0,ar(a[1]),b])},D))),C],F=a[2],G=[0,n(zF,H(e(function(a){var
+b=[0,cP(a[2]),0];return H([0,ar(a[1]),b])},F))),E];return Q(zJ,ah([0,n(zI,Q(zH,ah([0,n(zG,H(e(ar,a[1]))),G]))),z]));case
 4:var
-I=[0,n(zF,H(e(fR,a[3]))),0],J=[0,n(zI,Q(zH,ah([0,n(zG,N(a[2])),0]))),I];return Q(zM,ah([0,n(zL,Q(zK,ah([0,n(zJ,N(a[1])),0]))),J]));case
+I=[0,n(zK,H(e(fR,a[3]))),0],J=[0,n(zN,Q(zM,ah([0,n(zL,N(a[2])),0]))),I];return Q(zR,ah([0,n(zQ,Q(zP,ah([0,n(zO,N(a[1])),0]))),J]));case
 5:var
-K=[0,n(zN,N(a[5])),0];return Q(zP,ah([0,n(zO,ka(a[1],[0,a[2],a[3]],0,a[4])),K]));case
+K=[0,n(zS,N(a[5])),0];return Q(zU,ah([0,n(zT,kc(a[1],[0,a[2],a[3]],0,a[4])),K]));case
 6:var
-j=a[1],L=0,M=j?cP(j[1]):aq(zS);return Q(zR,ah([0,n(zQ,M),L]));default:var
-O=[0,n(zT,N(a[6])),0],P=[0,n(zU,N(a[5])),O],R=[0,n(zV,ka(a[2],a[3],0,a[4])),P],S=a[1];return Q(z0,ah([0,n(zZ,H(e(function(a){var
-b=[0,n(zW,N(a[2][2])),0],c=[0,n(zX,N(a[2][1])),b];return ah([0,n(zY,aq(a[1])),c])},S))),R]))}}function
+j=a[1],L=0,M=j?cP(j[1]):ar(zX);return Q(zW,ah([0,n(zV,M),L]));default:var
+O=[0,n(zY,N(a[6])),0],P=[0,n(zZ,N(a[5])),O],R=[0,n(z0,kc(a[2],a[3],0,a[4])),P],S=a[1];return Q(z5,ah([0,n(z4,H(e(function(a){var
+b=[0,n(z1,N(a[2][2])),0],c=[0,n(z2,N(a[2][1])),b];return ah([0,n(z3,ar(a[1])),c])},S))),R]))}}function
 dT(a){return H(e(fP,a))}function
 fS(b,a){var
-c=[0,n(z1,eM(a)),0];return ah([0,n(z2,H(e(dT,b))),c])}function
+c=[0,n(z6,eM(a)),0];return ah([0,n(z7,H(e(dT,b))),c])}function
 dj(a){switch(a[0]){case
-0:return aq(a[1]);case
+0:return ar(a[1]);case
 1:var
 b=fS(a[2],a[3]);return Q(a[1],b);case
 2:var
-c=a[1]?z3:z5;return Q(z4,aq(c));case
+c=a[1]?z8:z_;return Q(z9,ar(c));case
 3:var
-d=[0,dT(a[3]),0];return Q(z6,H([0,fS(a[1],a[2]),d]));case
+d=[0,dT(a[3]),0];return Q(z$,H([0,fS(a[1],a[2]),d]));case
 4:var
-f=[0,eM(a[4]),0],g=[0,fP(a[3]),f];return Q(z7,H([0,fS(a[1],a[2]),g]));case
+f=[0,eM(a[4]),0],g=[0,fP(a[3]),f];return Q(Aa,H([0,fS(a[1],a[2]),g]));case
 5:var
-h=[0,eM(a[3]),0],i=[0,fP(a[2]),h];return Q(z8,H([0,dj(a[1]),i]));case
+h=[0,eM(a[3]),0],i=[0,fP(a[2]),h];return Q(Ab,H([0,dj(a[1]),i]));case
 6:var
-j=[0,eM(a[3]),0],k=[0,fP(a[2]),j];return Q(z9,H([0,dj(a[1]),k]));case
-7:return Q(z_,dj(a[1]));case
+j=[0,eM(a[3]),0],k=[0,fP(a[2]),j];return Q(Ac,H([0,dj(a[1]),k]));case
+7:return Q(Ad,dj(a[1]));case
 8:var
-l=[0,H(e(dT,a[3])),0],m=[0,aq(a[2]),l];return Q(z$,H([0,dj(a[1]),m]));case
+l=[0,H(e(dT,a[3])),0],m=[0,ar(a[2]),l];return Q(Ae,H([0,dj(a[1]),m]));case
 9:var
-n=a[1];return Q(Aa,H(e(function(a){var
+n=a[1];return Q(Af,H(e(function(a){var
 b=a[1],c=b[1],d=[0,dj(a[2]),0],e=[0,eM(b[2]),d],f=[0,fP(c[2]),e];return H([0,dT(c[1]),f])},n)));default:var
-o=[0,dj(a[4]),0],p=[0,dj(a[3]),o],q=[0,eM(a[2]),p];return Q(Ab,H([0,dT(a[1]),q]))}}function
-Ac(a){var
+o=[0,dj(a[4]),0],p=[0,dj(a[3]),o],q=[0,eM(a[2]),p];return Q(Ag,H([0,dT(a[1]),q]))}}function
+Ah(a){var
 b=[0,dj(a[2]),0];return H([0,cO(a[1]),b])}function
-pg(a){if(typeof
-a==="number")return 0===a?aq(Ad):aq(Ae);else
+pm(a){if(typeof
+a==="number")return 0===a?ar(Ai):ar(Aj);else
 switch(a[0]){case
 0:var
-b=[0,H(e(dT,a[2])),0];return Q(Af,H([0,cO(a[1]),b]));case
+b=[0,H(e(dT,a[2])),0];return Q(Ak,H([0,cO(a[1]),b]));case
 1:var
-c=[0,cO(a[2]),0];return Q(Ag,H([0,cO(a[1]),c]));case
-2:return Q(Ah,H(e(N,a[1])));default:var
-d=[0,n(Ai,fS(a[4],a[5])),0],f=[0,n(Aj,H(e(N,a[3]))),d],g=[0,n(Ak,H(e(N,a[2]))),f];return Q(Am,ah([0,n(Al,cO(a[1])),g]))}}function
-An(a){var
-b=a[4],h=b?[0,n(Ao,dT([0,b[1],b[2]])),0]:b,d=a[3],i=d?[0,n(Ap,pg(d[1])),0]:d,j=f(i,h),g=a[2],k=g?[0,n(Aq,cO(g[1])),0]:g,l=f(k,j),c=a[1],m=c?[0,n(Ar,H(e(Ac,[0,c[1],c[2]]))),0]:c;return ah(f(m,l))}function
-ph(g,a,d){var
-h=[0,n(As,H(e(An,d))),0];if(a)var
-b=a[1],c=[0,n(At,fS(b[1],b[2])),0];else
+c=[0,cO(a[2]),0];return Q(Al,H([0,cO(a[1]),c]));case
+2:return Q(Am,H(e(N,a[1])));default:var
+d=[0,n(An,fS(a[4],a[5])),0],f=[0,n(Ao,H(e(N,a[3]))),d],g=[0,n(Ap,H(e(N,a[2]))),f];return Q(Ar,ah([0,n(Aq,cO(a[1])),g]))}}function
+As(a){var
+b=a[4],h=b?[0,n(At,dT([0,b[1],b[2]])),0]:b,d=a[3],i=d?[0,n(Au,pm(d[1])),0]:d,j=f(i,h),g=a[2],k=g?[0,n(Av,cO(g[1])),0]:g,l=f(k,j),c=a[1],m=c?[0,n(Aw,H(e(Ah,[0,c[1],c[2]]))),0]:c;return ah(f(m,l))}function
+pn(g,a,d){var
+h=[0,n(Ax,H(e(As,d))),0];if(a)var
+b=a[1],c=[0,n(Ay,fS(b[1],b[2])),0];else
 var
 c=a;var
-i=f(c,h);return ah([0,n(Au,j7(g)),i])}function
-pi(d,c,a,b){var
-g=[0,n(Av,pg(b)),0],h=a?[0,n(Aw,H(e(N,a))),0]:a,i=f(h,g),j=[0,n(Ax,H(e(N,c))),0];return ah(f([0,n(Ay,j7(d)),j],i))}function
-Az(a){if(typeof
-a==="number")return aq(AA);else
+i=f(c,h);return ah([0,n(Az,j9(g)),i])}function
+po(d,c,a,b){var
+g=[0,n(AA,pm(b)),0],h=a?[0,n(AB,H(e(N,a))),0]:a,i=f(h,g),j=[0,n(AC,H(e(N,c))),0];return ah(f([0,n(AD,j9(d)),j],i))}function
+AE(a){if(typeof
+a==="number")return ar(AF);else
 switch(a[0]){case
-0:return Q(AB,cO(a[1]));case
-1:return Q(AC,ph(a[1],a[2],a[3]));default:return Q(AD,pi(a[1],a[2],a[3],a[4]))}}function
+0:return Q(AG,cO(a[1]));case
+1:return Q(AH,pn(a[1],a[2],a[3]));default:return Q(AI,po(a[1],a[2],a[3],a[4]))}}function
 hH(a){var
-b=iv(iu(az(a),function(b){return a8(a,b)}));return l(function(a){var
-b=J(34===a?1:0),c=b?J(92===a?1:0):b,d=c?aa(AS,gz(a)):c;return d?aa(gz(a),AT):d},b)}function
-kb(d){var
+b=ix(iw(az(a),function(b){return a8(a,b)}));return l(function(a){var
+b=J(34===a?1:0),c=b?J(92===a?1:0):b,d=c?aa(AX,gz(a)):c;return d?aa(gz(a),AY):d},b)}function
+kd(d){var
 a=d;for(;;)switch(a[0]){case
 8:var
 b=hH(a[2]);if(b){var
 a=a[1];continue}return b;case
 9:var
-e=a[1];return l(function(a){return kb(a[2])},e);case
+e=a[1];return l(function(a){return kd(a[2])},e);case
 10:var
-c=kb(a[3]);if(c){var
+c=kd(a[3]);if(c){var
 a=a[4];continue}return c;case
 0:case
 1:return hH(a[1]);case
@@ -6216,26 +6227,26 @@ a=a[4];continue}return c;case
 a=a[1];continue}}function
 fT(b){function
 c(f){var
-a=gz(f),b=aa(AU,a),c=b?aa(a,AV):b;if(c)var
+a=gz(f),b=aa(AZ,a),c=b?aa(a,A0):b;if(c)var
 d=c;else{var
-e=aa(AW,a);if(e)return aa(a,AX);var
+e=aa(A1,a);if(e)return aa(a,A2);var
 d=e}return d}var
-a=iv(iu(az(b),function(a){return a8(b,a)}));if(a){var
+a=ix(iw(az(b),function(a){return a8(b,a)}));if(a){var
 d=a[2],e=c(a[1]),f=e?l(function(a){var
 b=c(a);if(b)var
 d=b;else
 var
-e=gz(a),f=aa(AY,e),h=f?aa(e,AZ):f,d=h;var
-g=d||(95===a?1:0);return g},d):e,h=f?aa(g(d),A0):f;if(h)return J(aB(b,A1));var
+e=gz(a),f=aa(A3,e),h=f?aa(e,A4):f,d=h;var
+g=d||(95===a?1:0);return g},d):e,h=f?aa(g(d),A5):f;if(h)return J(aB(b,A6));var
 i=h}else
 var
 i=a;return i}function
-kc(c){var
+ke(c){var
 a=c;for(;;)switch(a[0]){case
 0:return 1;case
 1:return fT(a[1]);case
 3:var
-b=kc(a[2]);if(b){var
+b=ke(a[2]);if(b){var
 a=a[3];continue}return b;default:var
 a=a[1];continue}}function
 fU(m){var
@@ -6264,12 +6275,12 @@ a=a[1];continue}}function
 eN(a){return 0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
 b2(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
 dU(a){return z(eN,b2(a))}function
-kd(a){switch(a[0]){case
+kf(a){switch(a[0]){case
 0:var
 c=eN(a[4]),d=f(dU(a[3]),c),e=f(dU(a[2]),d);return f(dU(a[1]),e);case
 1:var
 b=a[3],g=b?dU(b[1]):b,h=f(dU(a[2]),g);return f(dU(a[1]),h);default:return dU(a[1])}}function
-A2(a){switch(a[0]){case
+A7(a){switch(a[0]){case
 0:var
 d=f(a[3],[0,a[4],0]),e=f(a[2],d),b=f(a[1],e);break;case
 1:var
@@ -6277,10 +6288,10 @@ c=a[3],g=c?c[1]:c,h=f(a[2],g),b=f(a[1],h);break;case
 2:var
 b=a[1];break;default:var
 i=f(a[4],[0,a[5],[0,a[6],0]]),j=f(a[3],i),k=f(a[2],j),b=f(a[1],k)}return z(eN,b)}function
-pj(a){return 0===a[0]?f(a[1],a[2]):[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
-pk(a){if(0===a[0]){var
+pp(a){return 0===a[0]?f(a[1],a[2]):[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
+pq(a){if(0===a[0]){var
 b=b2(a[2]);return f(b2(a[1]),b)}return[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
-pl(a){switch(a[0]){case
+pr(a){switch(a[0]){case
 1:var
 b=a[3],c=a[2],d=a[1];return[0,d[1],[0,d[2],[0,c[1],[0,c[2],[0,b[1],[0,b[2],0]]]]]];case
 2:return[0,a[1],0];default:return[0,a[1],[0,a[2],0]]}}function
@@ -6296,31 +6307,31 @@ d=[0,b[1],[0,b[2],0]]}var
 g=d}else
 var
 g=c;return f(g,h)}function
-pm(a){if(0===a[0]){var
+ps(a){if(0===a[0]){var
 b=a[5],c=b?b2(b[1]):b;return[0,a[2],[0,a[3],[0,a[4],c]]]}var
 d=[0,a[4],0],e=f(b2(a[3]),d);return f(b2(a[2]),e)}function
-pn(b,e){var
+pt(b,e){var
 a=e;for(;;)switch(a[0]){case
 0:return 1;case
 1:var
 c=a[1];if(0===c[0]){var
 f=c[1];return aj(function(a){return aB(f,a)},b)}return 0;case
 3:var
-d=pn(b,a[2]);if(d){var
+d=pt(b,a[2]);if(d){var
 a=a[3];continue}return d;default:var
 a=a[1];continue}}function
 fV(c,a){return l(function(a){var
-b=fU(a);return b?pn(c,a):b},a)}function
-po(a){if(typeof
+b=fU(a);return b?pt(c,a):b},a)}function
+pu(a){if(typeof
 a!=="number")switch(a[0]){case
 2:return a[1];case
 3:return f(a[2],a[3])}return 0}function
-pp(a){var
+pv(a){var
 d=gv(c(2,c(2,c(2,c(2,c(2,b))))),a);return d?gv(a,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b))))))))))):d}function
-pq(a,b){return b?[4,pq(a,b[1]),a]:a}function
+pw(a,b){return b?[4,pw(a,b[1]),a]:a}function
 j(a){switch(a[0]){case
 0:var
-i=a[2],k=c(2,q(c(2,c(2,b)))),l=function(a){return C(k,a)},m=gp(lr(i),l,b);return[0,lE(ls(go(a[1]),i)),m];case
+i=a[2],k=c(2,q(c(2,c(2,b)))),l=function(a){return C(k,a)},m=gp(lx(i),l,b);return[0,lK(ly(go(a[1]),i)),m];case
 1:var
 e=a[1];return 0===e[0]?[5,[0,b,b],[0,d,b]]:[1,e[1],e[2],e[3]];case
 2:var
@@ -6331,18 +6342,18 @@ g=j(a[2]),h=j(a[3]);switch(a[1]){case
 1:return[3,g,h];case
 2:return[4,g,h];default:return[5,g,h]}case
 4:var
-n=bn(e_(a[2]));return pq(j(a[1]),n);default:return[6,j(a[1])]}}function
+n=bn(e_(a[2]));return pw(j(a[1]),n);default:return[6,j(a[1])]}}function
 b3(a){if(0===a[0]){var
 b=j(a[1]);return[0,b,b]}var
 c=j(a[2]);return[0,j(a[1]),c]}function
 dW(a){var
 b=b3(a[3]),c=b3(a[2]);return[0,b3(a[1]),c,b]}function
-A3(a){switch(a[0]){case
+A8(a){switch(a[0]){case
 0:var
 b=a[5],c=b3(a[4]),d=dW(a[3]),e=dW(a[2]);return[0,[0,dW(a[1]),e,d,c,b]];case
 1:var
 f=y(dW,a[3]),g=dW(a[2]);return[1,dW(a[1]),g,f];default:return[2,dW(a[1])]}}function
-pr(a){if(0===a[0]){var
+px(a){if(0===a[0]){var
 c=a[2],d=a[1],b=function(a){var
 b=j(k(a,c));return[0,j(k(a,d)),b]},e=b(function(a){return a[3]}),f=b(function(a){return a[2]});return[0,[0,b(function(a){return a[1]}),f,e]]}var
 g=j(a[5]),h=[0,j(a[4]),g],i=j(a[3]),l=j(a[2]);return[1,j(a[1]),l,i,h]}function
@@ -6356,10 +6367,10 @@ o=eO(f),p=eO(g);return[1,j(e),p,o]}function
 hI(b,a){if(a){var
 c=a[1],d=a[2],g=hI(f(b,[0,c,0]),d),h=e(function(a){return[0,c,a]},b);return f(a1(function(c){var
 a=c[2],b=c[1],d=0===b[0]?b[5]?0:0===a[0]?a[5]?0:o(b[1],a[1]):0:0===a[0]?0:cv(b[1],a[1]);return J(d)},h),g)}return a}function
-A4(b){if(b[1])return 0;var
+A9(b){if(b[1])return 0;var
 a=b[4];if(typeof
 a!=="number"&&1===a[0])return[0,[0,j(a[1])],0];return 0}function
-ps(N,M,a){switch(a[1]){case
+py(N,M,a){switch(a[1]){case
 0:var
 g=a[4];if(typeof
 g!=="number"&&0===g[0])return[0,[1,j(g[1])],0];return 0;case
@@ -6431,7 +6442,7 @@ $=x[2],aa=x[1],c=function(a){var
 b=j(_),c=j($);return[12,a,j(aa),c,b]}}if(L)return 0;break;case
 11:var
 G=typeof
-a[4]==="number"?1:0,ab=G?A5:G;return ab;case
+a[4]==="number"?1:0,ab=G?A_:G;return ab;case
 12:var
 y=a[4];if(typeof
 y!=="number"&&1===y[0]){var
@@ -6439,7 +6450,7 @@ z=a[3];if(z){var
 H=z[1];if(0===H[0]){var
 ac=j(y[1]);return[0,[14,j(H[1]),ac],0]}return 0}return z}return 0;default:return 0}var
 B=a[2],P=B?[0,bn(B[1]),0]:aC(0,N);return e(c,P)}function
-A6(c,a){switch(a[1]){case
+A$(c,a){switch(a[1]){case
 0:var
 l=a[4];if(typeof
 l!=="number"&&2!==l[0])return a[2]?0:a[3]?0:1;return 0;case
@@ -6483,7 +6494,7 @@ z!=="number"&&0===z[0])return a[2]?0:a[3]?0:1;return 0;case
 N=0,A=a[4];if(typeof
 A==="number"||!(1===A[0]))N=1;else{var
 h=a[3];if(!h)return h;if(0!==h[1][0])return 0;var
-B=o(c,A8),O=0;if(B){var
+B=o(c,Bb),O=0;if(B){var
 C=a[2];if(C){var
 b=C[1];O=1}else
 var
@@ -6509,16 +6520,16 @@ I=H;return I;case
 12:var
 J=a[4];if(typeof
 J!=="number"&&1===J[0]){if(a[2])return 0;var
-k=a[3];return k?0===k[1][0]?o(c,A9):0:k}return 0;default:return 0}var
-p=aa(A7,b);return p?aa(b,c):p}function
+k=a[3];return k?0===k[1][0]?o(c,Bc):0:k}return 0;default:return 0}var
+p=aa(Ba,b);return p?aa(b,c):p}function
 hJ(c,k,j,b){var
-l=g(c),d=z(function(a){return ps(l,j,a)},b),a=z(A4,b),h=a?[0,a[1],a[2]]:A_,i=f(h,d),m=pr(k);return[0,e(A3,c),m,i]}function
-pt(b){if(b[1])return 0;var
+l=g(c),d=z(function(a){return py(l,j,a)},b),a=z(A9,b),h=a?[0,a[1],a[2]]:Bd,i=f(h,d),m=px(k);return[0,e(A8,c),m,i]}function
+pz(b){if(b[1])return 0;var
 a=b[4];if(typeof
 a!=="number"&&1===a[0])return[0,[0,j(a[1])],0];return 0}function
-pu(c){function
+pA(c){function
 a(a){return r(a,e(j,c),[0,d,b])}var
-f=a(A$),g=a(Ba);return[0,a(0),g,f]}function
+f=a(Be),g=a(Bf);return[0,a(0),g,f]}function
 hK(_,G,Z,a){switch(a[1]){case
 0:var
 h=a[4];if(typeof
@@ -6605,14 +6616,14 @@ A==="number"||!(1===A[0]))W=1;else{var
 B=a[3],av=A[1];if(!B)return B;var
 O=B[1];if(1!==O[0])return 0;var
 aw=O[1],c=function(a){var
-b=j(av);return[13,a,0,pu(aw),b]}}if(W)return 0;break;case
+b=j(av);return[13,a,0,pA(aw),b]}}if(W)return 0;break;case
 15:var
 C=a[4],X=0;if(typeof
 C==="number"||!(1===C[0]))X=1;else{var
 D=a[3],ax=C[1];if(!D)return D;var
 P=D[1];if(1!==P[0])return 0;var
 ay=P[1],c=function(a){var
-b=j(ax);return[13,a,1,pu(ay),b]}}if(X)return 0;break;case
+b=j(ax);return[13,a,1,pA(ay),b]}}if(X)return 0;break;case
 16:var
 E=a[4],Y=0;if(typeof
 E==="number"||!(1===E[0]))Y=1;else{var
@@ -6622,7 +6633,7 @@ aA=Q[1],c=function(a){var
 b=j(az);return[17,a,e(j,aA),b]}}if(Y)return 0;break;default:return 0}var
 H=a[2],aa=H?[0,bn(H[1]),0]:aC(0,G);return e(c,aa)}function
 eP(e,d,c,b){var
-g=z(function(a){return hK(e,d,c,a)},b),a=z(pt,b),h=a?[0,a[1],a[2]]:Bb;return f(h,g)}function
+g=z(function(a){return hK(e,d,c,a)},b),a=z(pz,b),h=a?[0,a[1],a[2]]:Bg;return f(h,g)}function
 cQ(a){return 11===a[1]?1:0}function
 cm(n,m,a){var
 b=a[1];if(!(4<=b))switch(b){case
@@ -6636,7 +6647,7 @@ e=1;l=1}if(!l)var
 e=0;var
 f=cv(n,e);if(f){var
 g=a[2];if(g){var
-h=g[1],i=aa(Bc,h);return i?aa(h,m):i}var
+h=g[1],i=aa(Bh,h);return i?aa(h,m):i}var
 j=1}else
 var
 j=f;return j;case
@@ -6645,7 +6656,7 @@ k=a[4];if(typeof
 k!=="number"&&1===k[0])return a[2]?0:a[3]?0:1;return 0}return 0}function
 a6(s,b,a){var
 d=a[2];if(d)var
-e=d[1],f=aa(Bd,e),t=f?aa(e,b):f,c=t;else
+e=d[1],f=aa(Bi,e),t=f?aa(e,b):f,c=t;else
 var
 c=1;var
 h=a[1];if(!(9<=h))switch(h){case
@@ -6670,9 +6681,9 @@ q!=="number"&&1===q[0]){var
 r=a[3];return r?0===r[1][0]?c?o(b,s):c:cm(0,b,a):cm(0,b,a)}return cm(0,b,a)}return cm(0,b,a)}function
 aE(c,b,a){return 11===a[1]?typeof
 a[4]==="number"?a[2]?a6(c,b,a):a[3]?a6(c,b,a):1:a6(c,b,a):a6(c,b,a)}function
-pv(f,b,c,a){var
+pB(f,b,c,a){var
 h=a[2];if(h)var
-i=h[1],j=aa(Bf,i),E=j?aa(i,c):j,d=E;else
+i=h[1],j=aa(Bk,i),E=j?aa(i,c):j,d=E;else
 var
 d=1;switch(a[1]){case
 1:if(a[3])return a6(at(b),c,a);if(d){var
@@ -6724,15 +6735,15 @@ b=dl(a[2]),c=dl(a[3]);switch(a[1]){case
 2:return[5,b,c];default:return[6,b,c]}case
 4:var
 d=a[2];return[7,dl(a[1]),d];default:return[8,dl(a[1])]}}function
-ke(i,h,f,b,d,c,a){var
+kg(i,h,f,b,d,c,a){var
 k=aj(cQ,a),l=eP(0,g(b),0,a),m=W(d,c),n=e(function(a){var
 b=j(a[2]);return[0,j(a[1]),b]},m),o=e(function(a){return 0===a[0]?[0,e(dl,a[1])]:[1,dl(a[1])]},b),p=e(function(a){var
 b=dl(a[2]);return[0,a[1],b]},f);return[0,[0,i,e(function(a){var
 b=b3(a[2]);return[0,a[1],b]},h),p,o],n,l,k]}function
-kf(c){function
+kh(c){function
 a(e){var
 a=[0,d,b];return r(e,c,[0,a,a])}var
-e=a(Bg),f=a(Bh);return[0,a(0),f,e]}function
+e=a(Bl),f=a(Bm);return[0,a(0),f,e]}function
 dX(a){function
 b(a){var
 b=j(a[2]);return[0,j(a[1]),b]}switch(a[0]){case
@@ -6741,17 +6752,17 @@ b=j(a[2]);return[0,j(a[1]),b]}switch(a[0]){case
 c=b(a[3]),d=b(a[2]);return[1,b(a[1]),d,c];case
 2:return[2,j(a[1])];default:var
 e=j(a[2]);return[3,j(a[1]),e]}}function
-pw(a){if(0===a[0]){var
-b=W(a[1],a[2]);return[0,kf(e(function(a){var
-b=j(a[2]);return[0,j(a[1]),b]},b))]}return pr([1,a[1],a[2],a[3],a[4],a[5]])}function
-px(k,b,i,h,f,d,a){function
-c(a){return kf(e(b3,a))}var
-l=aj(cQ,a),m=eP(0,g(b),d,a),n=dX(f),o=pw(h),p=j(i);return[0,k,e(function(a){var
+pC(a){if(0===a[0]){var
+b=W(a[1],a[2]);return[0,kh(e(function(a){var
+b=j(a[2]);return[0,j(a[1]),b]},b))]}return px([1,a[1],a[2],a[3],a[4],a[5]])}function
+pD(k,b,i,h,f,d,a){function
+c(a){return kh(e(b3,a))}var
+l=aj(cQ,a),m=eP(0,g(b),d,a),n=dX(f),o=pC(h),p=j(i);return[0,k,e(function(a){var
 b=c(a[2]);return[0,c(a[1]),b]},b),p,o,n,m,l]}function
 dY(a){return aj(function(a){return 3===a[0]?1:0},a)}function
-kg(k,a,f,i,h,c){var
-l=aj(cQ,c),m=g(a),n=eP(dY(a),m,0,c),o=y(dX,h),p=pw(i),q=f?j(f[1]):[0,b,b];return[0,k,e(function(a){function
-c(a){return kf(e(b3,a))}switch(a[0]){case
+ki(k,a,f,i,h,c){var
+l=aj(cQ,c),m=g(a),n=eP(dY(a),m,0,c),o=y(dX,h),p=pC(i),q=f?j(f[1]):[0,b,b];return[0,k,e(function(a){function
+c(a){return kh(e(b3,a))}switch(a[0]){case
 0:var
 k=a[5],l=b3(a[4]),m=c(a[3]),n=c(a[2]);return[0,[0,[0,c(a[1]),n,m,l,k]]];case
 1:var
@@ -6765,17 +6776,17 @@ q=a[7],r=b3(a[6]),s=b3(a[5]),t=c(a[4]),u=c(a[3]);return[1,[0,g,c(a[2]),u,t,s,r,q
 b4(c){var
 a=c[1];if(13!==a){var
 b=16<=a?1:0;if(!b)return b}return 1}function
-kh(a){function
+kj(a){function
 b(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}switch(a[0]){case
 0:var
 c=a[5],d=a[4],e=b(a[3]),f=b(a[2]);return[0,b(a[1]),f,e,d,c];case
 1:var
 g=y(b,a[3]),h=b(a[2]);return[1,b(a[1]),h,g];default:return[2,b(a[1])]}}function
-ki(a){if(0===a[0]){var
+kk(a){if(0===a[0]){var
 b=a[2],c=a[1];return[0,[0,c[1],[0,c[2],[0,c[3],0]]],[0,b[1],[0,b[2],[0,b[3],0]]]]}return[1,a[1],a[2],a[3],a[4],a[5]]}function
-py(a){return a[1]?0:1}function
-pz(l){var
-b=a1(py,l);if(b){var
+pE(a){return a[1]?0:1}function
+pF(l){var
+b=a1(pE,l);if(b){var
 d=b[1];if(d[2])return 0;if(d[3])return 0;var
 c=d[4],a=b[2];if(typeof
 c!=="number")switch(c[0]){case
@@ -6796,8 +6807,8 @@ k=a;return k}var
 i=0}else
 var
 i=b;return i}function
-pA(a){var
-c=py(a);if(c)return c;if(1===a[1]){var
+pG(a){var
+c=pE(a);if(c)return c;if(1===a[1]){var
 b=a[4];if(typeof
 b!=="number"&&0===b[0])return 1;return 0}return 0}function
 hL(i,h,b){function
@@ -6805,27 +6816,27 @@ c(b,a){return[3,1,b,a]}function
 a(b,a){return[3,3,b,a]}function
 d(b,a){return[3,2,b,a]}function
 e(b,a){return[3,0,b,a]}var
-f=c(hM,a(hM,b)),j=a(f,kj),k=i?f:a(c(b,hM),kj);function
-g(b){return a(b,[5,e(hM,d(kj,d(b,b)))])}var
+f=c(hM,a(hM,b)),j=a(f,kl),k=i?f:a(c(b,hM),kl);function
+g(b){return a(b,[5,e(hM,d(kl,d(b,b)))])}var
 l=g(k);return a(h,e(g(j),l))}function
 hN(f,e,d){function
 a(b,a){return[3,3,b,a]}function
 b(b,a){return[3,2,b,a]}var
-c=a([3,1,kk,a(kk,d)],pB),g=a(c,[5,[3,0,kk,b(pB,b(c,c))]]);return[2,b(hL(f,e,d),g)]}function
-kl(e,g,a){function
+c=a([3,1,km,a(km,d)],pH),g=a(c,[5,[3,0,km,b(pH,b(c,c))]]);return[2,b(hL(f,e,d),g)]}function
+kn(e,g,a){function
 f(b,a){return[3,1,b,a]}function
 b(b,a){return[3,3,b,a]}function
 c(b,a){return[3,2,b,a]}var
-h=f(hO,b(hO,a)),d=e?h:b(f(a,hO),pC),i=b(d,[5,[3,0,hO,c(pC,c(d,d))]]);return c(hL(e,g,a),i)}function
-pD(c,g,b,a){function
+h=f(hO,b(hO,a)),d=e?h:b(f(a,hO),pI),i=b(d,[5,[3,0,hO,c(pI,c(d,d))]]);return c(hL(e,g,a),i)}function
+pJ(c,g,b,a){function
 d(b,a){return e(function(c){var
-d=o(b,c)?a:Bi;return[0,d]},Bk)}return e(function(e){var
+d=o(b,c)?a:Bn;return[0,d]},Bp)}return e(function(e){var
 j=[0,hL(c,b,a)],i=1,k=d(e,[2,g]);function
 f(b,a){return[3,1,b,a]}var
-h=hL(c,b,a),l=d(e,f(f(hN(c,b,a),g),h));return[0,d(e,Bj),l,k,j,i]},Bl)}function
-pE(c,b,a){var
-d=[0,kl(c,b,a),0],e=[0,kl(c,b,a),d],f=[0,kl(c,b,a),e],g=[0,hN(c,b,a),0],h=[0,hN(c,b,a),g];return[0,[0,hN(c,b,a),h],f]}function
-pF(o,e,a){if(e)if(a){var
+h=hL(c,b,a),l=d(e,f(f(hN(c,b,a),g),h));return[0,d(e,Bo),l,k,j,i]},Bq)}function
+pK(c,b,a){var
+d=[0,kn(c,b,a),0],e=[0,kn(c,b,a),d],f=[0,kn(c,b,a),e],g=[0,hN(c,b,a),0],h=[0,hN(c,b,a),g];return[0,[0,hN(c,b,a),h],f]}function
+pL(o,e,a){if(e)if(a){var
 g=e[1],h=a[1],k=cC(j(g[2][1]));if(k){var
 l=k[1],m=cC(j(g[2][2]));if(m)var
 p=m[1],n=function(a){function
@@ -6835,7 +6846,7 @@ var
 f=[0,[0,d,b],[0,d,b]]}else
 var
 f=[0,[0,d,b],[0,d,b]];var
-r=pF([0,o],e[2],a[2]),i=[0,[0,g[1],[1,o,f[1],f[2]]],r]}else
+r=pL([0,o],e[2],a[2]),i=[0,[0,g[1],[1,o,f[1],f[2]]],r]}else
 var
 i=a;else
 var
@@ -6844,21 +6855,21 @@ au(b,a){switch(a[0]){case
 0:return[0,a[1],a[2]];case
 1:var
 c=a[1];if(0===c[0]){var
-e=c[1],d=lH(function(a){return aB(e,a[1])},b);return d?[1,d[1][2]]:a}return a;case
+e=c[1],d=lN(function(a){return aB(e,a[1])},b);return d?[1,d[1][2]]:a}return a;case
 2:return[2,au(b,a[1])];case
 3:var
 f=au(b,a[3]),g=au(b,a[2]);return[3,a[1],g,f];case
 4:var
 h=a[2];return[4,au(b,a[1]),h];default:return[5,au(b,a[1])]}}function
-pG(b,a){if(0===a[0])return[0,au(b,a[1])];var
+pM(b,a){if(0===a[0])return[0,au(b,a[1])];var
 c=au(b,a[2]);return[1,au(b,a[1]),c]}function
-km(b,a){var
+ko(b,a){var
 c=k(b,a[3]),d=k(b,a[2]);return[0,k(b,a[1]),d,c]}function
-kn(c,a){if(c)if(a){var
+kp(c,a){if(c)if(a){var
 g=a[2],b=a[1],h=c[1];if(typeof
 b!=="number"&&0===b[0]){var
-e=kn(h,g);if(e){var
-i=e[1],f=kn(h,i[2]);if(f)var
+e=kp(h,g);if(e){var
+i=e[1],f=kp(h,i[2]);if(f)var
 j=f[1],k=[0,[0,[0,b[1],i[1],j[1]],j[2]]];else
 var
 k=f;var
@@ -6870,19 +6881,19 @@ var
 d=a;else
 var
 d=c;return d}function
-ko(g,f,a){if(a){var
-e=a[1],h=a[2];if(f)return[0,e,ko(g,f[1],h)];var
+kq(g,f,a){if(a){var
+e=a[1],h=a[2];if(f)return[0,e,kq(g,f[1],h)];var
 j=[0,e[2]],k=g?b:d,l=e[1],i=[0,[0,E(C(c(2,b),l),k),j],h]}else
 var
 i=a;return i}function
-Bm(a){if(typeof
+Br(a){if(typeof
 a!=="number"&&1===a[0])return 1;return 0}function
-Bn(a){if(typeof
+Bs(a){if(typeof
 a!=="number"&&2===a[0])return 1;return 0}function
 hP(e,a){if(0===a[0]){var
 f=[0,b,c(2,b)],g=hP(e,a[3]);return a3(dz(hP(e,a[2]),g),f)}return k(e,a[1])?[0,b,b]:[0,d,b]}function
-pH(a){return 0===a[0]?ew(a[1][4]):0}function
-pI(a){switch(a[0]){case
+pN(a){return 0===a[0]?ew(a[1][4]):0}function
+pO(a){switch(a[0]){case
 0:var
 b=a[1],c=bb(b[3]);return f(bb(b[2]),c);case
 1:var
@@ -6892,28 +6903,28 @@ hQ(a){switch(a[0]){case
 1:var
 b=a[3];return b?bG(bb(b[1])):d;default:return bG(bb(a[1]))}}function
 hR(c){var
-a=z(pH,c),d=a?[0,a[1],a[2]]:z(pI,c);return E(b,bG(d))}function
-pJ(d,a){if(d){if(a){var
-b=a[1],g=d[1],e=pJ(d[2],a[2]);if(e){var
+a=z(pN,c),d=a?[0,a[1],a[2]]:z(pO,c);return E(b,bG(d))}function
+pP(d,a){if(d){if(a){var
+b=a[1],g=d[1],e=pP(d[2],a[2]);if(e){var
 h=e[1],i=h[2],j=h[1];if(45===b)var
-c=Bo;else
+c=Bt;else
 if(43===b)var
-c=Bp;else
+c=Bu;else
 var
-f=48===b?1:0,n=f?Bq:f,c=n;if(c)return[0,[0,[0,[0,g,c[1]],j],i]];var
+f=48===b?1:0,n=f?Bv:f,c=n;if(c)return[0,[0,[0,[0,g,c[1]],j],i]];var
 k=49===b?1:0,o=k?[0,[0,j,[0,g,i]]]:k,l=o}else
 var
 l=e;var
 m=l}else
 var
-m=a;return m}return a?0:Br}function
+m=a;return m}return a?0:Bw}function
 dm(b,c,a){switch(a[0]){case
 0:var
-d=a[1];if(aB(d,Bs))return Bt;if(aB(d,Bu))return Bv;if(aB(d,Bw))return Bx;if(aB(d,By))return Bz;if(aB(d,BA))return BB;var
-n=aB(d,BC),B=n?BD:n;return B;case
+d=a[1];if(aB(d,Bx))return By;if(aB(d,Bz))return BA;if(aB(d,BB))return BC;if(aB(d,BD))return BE;if(aB(d,BF))return BG;var
+n=aB(d,BH),B=n?BI:n;return B;case
 1:var
-e=a[3],f=a[2],g=a[1];if(aB(g,BE))return[0,[0,e,f]];if(aB(g,BF))return[0,[1,e,f]];if(aB(g,BG))return[0,[2,e,f]];var
-o=aB(g,BH),C=o?[0,[8,e,f]]:o;return C;case
+e=a[3],f=a[2],g=a[1];if(aB(g,BJ))return[0,[0,e,f]];if(aB(g,BK))return[0,[1,e,f]];if(aB(g,BL))return[0,[2,e,f]];var
+o=aB(g,BM),C=o?[0,[8,e,f]]:o;return C;case
 2:return[0,[4,a[1]]];case
 3:return[0,[3,a[2],a[1],a[3]]];case
 4:return[0,[9,a[2],a[1],a[3],a[4]]];case
@@ -6925,7 +6936,7 @@ i=dm(b,c,a[1]),E=i?[0,[7,i[1],a[2],a[3]]]:i;return E;case
 F=dm(b,c,a[1]);return y(function(a){return[6,a]},F);case
 8:if(b){var
 p=a[3],q=a[2],j=dm(b,c,a[1]);if(j){var
-r=j[1],k=pJ(b,iv(iu(az(q),function(a){return a8(q,a)})));if(k){var
+r=j[1],k=pP(b,ix(iw(az(q),function(a){return a8(q,a)})));if(k){var
 s=k[1],t=s[2],u=s[1];if(t)return[0,[11,c,t,[10,r,u,p]]];var
 v=[0,[10,r,u,p]]}else
 var
@@ -6941,19 +6952,19 @@ z=function(a){if(a){var
 f=a[1],d=dm(b,c,f[2]);if(d)var
 e=z(a[2]),h=e?[0,[0,[0,f[1],d[1]],e[1]]]:e,g=h;else
 var
-g=d;return g}return BI},G=z(a[1]);return y(function(a){return[12,a]},G);default:var
+g=d;return g}return BN},G=z(a[1]);return y(function(a){return[12,a]},G);default:var
 l=dm(b,c,a[3]);if(l)var
 m=dm(b,c,a[4]),H=m?[0,[13,a[2],a[1],l[1],m[1]]]:m,A=H;else
 var
 A=l;return A}}function
-pK(e,d,a){if(a){var
+pQ(e,d,a){if(a){var
 f=a[1],b=dm(e,d,f[2]);if(b)var
-c=pK(e,d,a[2]),h=c?[0,[0,[0,f[1],b[1]],c[1]]]:c,g=h;else
+c=pQ(e,d,a[2]),h=c?[0,[0,[0,f[1],b[1]],c[1]]]:c,g=h;else
 var
-g=b;return g}return BJ}function
+g=b;return g}return BO}function
 dZ(b,g,f,e,d,a){if(d)if(a){var
 c=a[1];if(c[3])return 0;if(c[4])return 0;var
-n=c[2],o=a[2],p=d[1],h=pK(f,e,c[1]);if(h){var
+n=c[2],o=a[2],p=d[1],h=pQ(f,e,c[1]);if(h){var
 i=h[1];if(n){var
 j=dZ(b,g,f,e,p,o);if(j){var
 q=j[1],k=dZ(b,g,f,e,p,q[2]);if(k){var
@@ -6972,27 +6983,27 @@ var
 m=a;else
 var
 m=d;return m}function
-kp(i,h,f,e,d,a){if(d){if(a){var
+kr(i,h,f,e,d,a){if(d){if(a){var
 b=dZ(i,h,f,e,g(a),a);if(b)var
-j=b[1],c=kp(i,h,f,e,d[1],j[2]),l=c?[0,[0,j[1],c[1]]]:c,k=l;else
+j=b[1],c=kr(i,h,f,e,d[1],j[2]),l=c?[0,[0,j[1],c[1]]]:c,k=l;else
 var
-k=b;return k}return BK}return a?0:BL}function
-pL(a){if(typeof
-a==="number")return 0===a?BM:BN;else
+k=b;return k}return BP}return a?0:BQ}function
+pR(a){if(typeof
+a==="number")return 0===a?BR:BS;else
 switch(a[0]){case
 0:return[0,[0,a[1],a[2]]];case
 1:return[0,[1,a[1],a[2]]];default:return 0}}function
-kq(e,d,a){if(d)if(a){var
+ks(e,d,a){if(d)if(a){var
 b=a[1];if(b[1])return 0;var
 j=b[4],c=b[3],k=b[2],l=a[2],m=d[1];if(k){if(c)return 0;if(j)return 0;var
-f=k[1],g=kq(e,m,l);if(g){var
-n=g[1],o=n[1],h=kq(e,m,n[2]);if(h){var
-p=h[1],q=p[2],r=p[1];if(aJ(f,BO))return[0,[0,[1,f,o,r],q]];var
-t=F(e,dx(f,BP));return y(function(a){return[0,[2,a,o,r],q]},t)}var
+f=k[1],g=ks(e,m,l);if(g){var
+n=g[1],o=n[1],h=ks(e,m,n[2]);if(h){var
+p=h[1],q=p[2],r=p[1];if(aJ(f,BT))return[0,[0,[1,f,o,r],q]];var
+t=F(e,dx(f,BU));return y(function(a){return[0,[2,a,o,r],q]},t)}var
 s=h}else
 var
 s=g;return s}if(c){var
-u=pL(c[1]);return y(function(a){return[0,[0,j,a],l]},u)}var
+u=pR(c[1]);return y(function(a){return[0,[0,j,a],l]},u)}var
 i=c}else
 var
 i=a;else
@@ -7001,7 +7012,7 @@ i=d;return i}function
 dn(b,a){return 0===b[0]?[0,j(b[1]),a]:a?[0,a[1],a[2]]:[0,j(b[1]),0]}function
 d0(a,e){var
 b=dn(a[1],e),c=dn(a[2],b[2]),d=dn(a[3],c[2]);return[0,[0,b[1],c[1],d[1]],d[2]]}function
-pM(d,c){if(d){var
+pS(d,c){if(d){var
 a=d[1];switch(a[0]){case
 0:var
 e=d0(a[1],c),f=d0(a[2],e[2]),g=d0(a[3],f[2]),h=dn(a[4],g[2]),b=[0,[0,e[1],f[1],g[1],h[1],a[5]],h[2]];break;case
@@ -7011,10 +7022,10 @@ o=d0(i[1],m),b=[0,[1,k,n,[0,o[1]]],o[2]];else
 var
 b=[0,[1,k,n,0],m];break;default:var
 p=d0(a[1],c),b=[0,[2,p[1]],p[2]]}var
-q=pM(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
+q=pS(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
 fW(t,f){var
 u=t[3];if(typeof
-f==="number")return 0===f?BT:BU;else
+f==="number")return 0===f?BY:BZ;else
 switch(f[0]){case
 0:var
 v=f[2],h=f[1],B=F(u,h);if(B){var
@@ -7030,9 +7041,9 @@ var
 a=v;var
 ac=F(u,h),ad=t[1],w=y(function(b){if(typeof
 b!=="number")switch(b[0]){case
-5:return BR;case
+5:return BW;case
 12:var
-a=F(ad,b[1]);if(a){if(2===a[1][0])return BS;var
+a=F(ad,b[1]);if(a){if(2===a[1][0])return BX;var
 c=0}else
 var
 c=a;return c;case
@@ -7041,7 +7052,7 @@ c=a;return c;case
 4:case
 6:case
 7:case
-11:return 0}return BQ},ac);if(w){var
+11:return 0}return BV},ac);if(w){var
 G=w[1];if(G){var
 H=G[1];if(H){if(H[1])return 0;if(a){var
 i=a[1];if(i){var
@@ -7104,10 +7115,10 @@ bk(a,b){if(a){var
 c=dn(a[1],b),d=bk(a[2],c[2]);return[0,[0,c[1],d[1]],d[2]]}return[0,0,b]}function
 aH(c){function
 a(a){return r(a,c,[0,d,b])}var
-e=a(BV),f=a(BW);return[0,a(0),f,e]}function
-pN(a,b){if(a){var
-c=a[1],d=bk(c[1],b),e=bk(c[2],d[2]),f=pN(a[2],e[2]),g=f[2],h=f[1],i=aH(e[1]);return[0,[0,[0,aH(d[1]),i],h],g]}return[0,0,b]}function
-kr(f,e){if(f){var
+e=a(B0),f=a(B1);return[0,a(0),f,e]}function
+pT(a,b){if(a){var
+c=a[1],d=bk(c[1],b),e=bk(c[2],d[2]),f=pT(a[2],e[2]),g=f[2],h=f[1],i=aH(e[1]);return[0,[0,[0,aH(d[1]),i],h],g]}return[0,0,b]}function
+kt(f,e){if(f){var
 a=f[1];switch(a[0]){case
 0:var
 g=bk(a[1],e),h=bk(a[2],g[2]),i=bk(a[3],h[2]),j=dn(a[4],i[2]),A=j[2],B=a[5],C=j[1],D=aH(i[1]),E=aH(h[1]),c=[0,[0,[0,aH(g[1]),E,D,C,B]],A];break;case
@@ -7119,9 +7130,9 @@ I=aH(p),c=[0,[0,[1,aH(m),I,0]],o];break;case
 2:var
 r=bk(a[1],e),J=r[2],c=[0,[0,[2,aH(r[1])]],J];break;default:var
 s=a[1],t=bk(s,e),u=bk(a[2],t[2]),v=bk(a[3],u[2]),w=bk(a[4],v[2]),x=dn(a[5],w[2]),y=dn(a[6],x[2]),K=s?aH(t[1]):[0,[0,d,b],[0,d,b],[0,b,b]],L=y[2],M=a[7],N=y[1],O=x[1],P=aH(w[1]),Q=aH(v[1]),c=[0,[1,[0,K,aH(u[1]),Q,P,O,N,M]],L]}var
-z=kr(f[2],c[2]);return[0,[0,c[1],z[1]],z[2]]}return[0,0,e]}function
-dp(a){return l6(i,a)}function
-BX(a){if(typeof
+z=kt(f[2],c[2]);return[0,[0,c[1],z[1]],z[2]]}return[0,0,e]}function
+dp(a){return ma(i,a)}function
+B2(a){if(typeof
 a==="number")return 1;else
 switch(a[0]){case
 5:return h(i,1,[3,a[1],[0,b,b]]);case
@@ -7142,7 +7153,7 @@ k=[0,a[2],a[1]],m=1;return l(function(a){return h(i,m,a)},k);case
 4:case
 13:var
 c=h(i,1,a[2]);return c?h(i,1,a[3]):c;default:return h(i,1,a[1])}}function
-ks(a){if(typeof
+ku(a){if(typeof
 a==="number")return 1;else
 switch(a[0]){case
 4:var
@@ -7154,7 +7165,7 @@ B=[0,a[2],a[1]],C=1;return l(function(a){return h(i,C,a)},B);case
 11:var
 m=a[2],n=h(i,1,m);return n?h(i,0,[3,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b],m]):n;case
 13:var
-o=a[4],p=oi(a[3]),r=p?h(i,1,o):p;return r?h(i,0,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],o]):r;case
+o=a[4],p=oo(a[3]),r=p?h(i,1,o):p;return r?h(i,0,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],o]):r;case
 14:return h(i,0,a[3]);case
 15:var
 s=h(i,0,a[2]),t=s?h(i,0,a[3]):s;return t?h(i,1,a[4]):t;case
@@ -7171,8 +7182,8 @@ k=h(i,1,a[2]);return k?h(i,1,a[3]):k}}function
 hS(d){var
 a=d;for(;;){if(a){var
 b=a[2],e=a[1],c=J(aj(function(d){return function(a){var
-h=j_(a[1]),e=aB(j_(d[1]),h);if(e)var
-i=j$(a[4]),b=aB(j$(d[4]),i);else
+h=ka(a[1]),e=aB(ka(d[1]),h);if(e)var
+i=kb(a[4]),b=aB(kb(d[4]),i);else
 var
 b=e;if(b){var
 f=d[2];if(f){var
@@ -7186,13 +7197,13 @@ b=a[2],c=a[1];if(!dD(j(c))&&!dD(j(b))){var
 e=j(c);return h(i,1,[3,j(b),e])}var
 d=j(b);return by(i,j(c),d)}function
 d1(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-pO(a){switch(a[0]){case
+pU(a){switch(a[0]){case
 0:var
 c=[0,a[4],0],d=f(d1(a[3]),c),e=f(d1(a[2]),d);return f(d1(a[1]),e);case
 1:var
 b=a[3],g=b?d1(b[1]):b,h=f(d1(a[2]),g);return f(d1(a[1]),h);default:return d1(a[1])}}function
-pP(s,a,m){if(aj(function(a){return 9===a[1]?1:0},m)){var
-b=aa(g(a),B0),c=b?l(function(a){if(0===a[0]){var
+pV(s,a,m){if(aj(function(a){return 9===a[1]?1:0},m)){var
+b=aa(g(a),B5),c=b?l(function(a){if(0===a[0]){var
 d=a[5],e=h(i,1,j(a[2])),g=e?h(i,0,j(a[3])):e,m=g?h(i,0,j(a[4])):g,c=0;if(m)if(d)var
 p=b2(d[1]),b=l(function(a){return dp(j(a))},p);else{var
 n=1;c=1}else{var
@@ -7205,31 +7216,31 @@ b=o}return b?k(s,a):b},a):b;if(c)var
 d=hI(0,a),n=d?1:d,e=n;else
 var
 e=c;return e}return a?0:1}function
-pQ(a){return a?B1:B2}function
+pW(a){return a?B6:B7}function
 hT(a){switch(a){case
-0:return B3;case
-1:return B4;default:return 0}}function
+0:return B8;case
+1:return B9;default:return 0}}function
 dq(a){var
 f=a[1],d=h(i,1,[2,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],f]),e=d?by(i,a[1],a[2]):d;if(e){var
 g=a[2];return h(i,1,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],g])}return e}function
 eQ(a){var
 e=by(i,[0,d,b],a);return e?h(i,1,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],a]):e}function
-pR(c,b,a){if(0===a[0]){var
+pX(c,b,a){if(0===a[0]){var
 d=a[2],e=a[1],f=o(g(e),c),k=f?o(g(d),c):f;if(k){var
 n=W(e,d);return l(function(a){var
 b=j(a[2]);return by(i,j(a[1]),b)},n)}return k}var
 m=b?h(i,1,j(a[3])):b;if(m){var
 p=j(a[5]);return by(i,j(a[4]),p)}return m}function
-pS(a,e,F,E,t,s,f){function
+pY(a,e,F,E,t,s,f){function
 u(b){var
-d=pQ(a),c=o(g(b),d);return c?l(fX,b):c}var
+d=pW(a),c=o(g(b),d);return c?l(fX,b):c}var
 v=l(function(a){var
 b=u(a[1]);return b?u(a[2]):b},e);if(v)var
 G=g(e),n=aa(bH(a),G);else
 var
 n=v;var
-w=n?aa(g(e),B5):n,x=w?h(i,1,j(F)):w;if(x)var
-H=1===a?1:0,p=pR(hT(a),H,E);else
+w=n?aa(g(e),B_):n,x=w?h(i,1,j(F)):w;if(x)var
+H=1===a?1:0,p=pX(hT(a),H,E);else
 var
 p=x;if(p)if(a){var
 d=dX(t);switch(d[0]){case
@@ -7245,16 +7256,16 @@ var
 D=dX(t),J=0===D[0]?dq(D[1]):0,m=J;else
 var
 m=p;if(m)var
-I=g(e),q=pP(function(a){if(0===a[0]){var
-b=a[1],c=aa(BZ,b),d=c?aa(b,I):c;if(d){if(a[5])return 0;var
+I=g(e),q=pV(function(a){if(0===a[0]){var
+b=a[1],c=aa(B4,b),d=c?aa(b,I):c;if(d){if(a[5])return 0;var
 e=1}else
 var
 e=d;return e}return 1},s,f);else
 var
 q=m;if(q)var
-b=g(e),c=bH(a),y=pQ(a),r=l(function(a){var
+b=g(e),c=bH(a),y=pW(a),r=l(function(a){var
 e=a[2];if(e)var
-f=e[1],h=aa(Be,f),w=h?aa(f,b):h,d=w;else
+f=e[1],h=aa(Bj,f),w=h?aa(f,b):h,d=w;else
 var
 d=1;switch(a[1]){case
 9:var
@@ -7282,8 +7293,8 @@ u=t[1];if(1===u[0]){var
 v=o(g(u[1]),y),z=v?d:v;return z}return aE(c,b,a)}return aE(c,b,a)}return aE(c,b,a);default:return aE(c,b,a)}},f);else
 var
 r=q;var
-z=r?hS(f):r;return z?l(ks,eP(0,g(e),s,f)):z}function
-kt(a){switch(a[0]){case
+z=r?hS(f):r;return z?l(ku,eP(0,g(e),s,f)):z}function
+kv(a){switch(a[0]){case
 0:var
 c=f(a[3],[0,a[4],0]),d=f(a[2],c);return f(a[1],d);case
 1:var
@@ -7294,7 +7305,7 @@ hU(a,b,e,T,p,m){var
 q=typeof
 a==="number"?a?1:a:a[1]?0:1;function
 c(a){var
-b=q?B6:B7;return o(g(a),b)}var
+b=q?B$:Ca;return o(g(a),b)}var
 k=dY(b),w=l(function(b){switch(b[0]){case
 0:var
 f=J(k),g=f?c(b[1]):f,h=g?c(b[2]):g;return h?c(b[3]):h;case
@@ -7317,12 +7328,12 @@ r=b[1],s=q?r?0:1:c(r),t=s?c(b[2]):s,u=t?c(b[3]):t;return u?c(b[4]):u}},b);if(w)v
 U=g(b),r=aa(at(a),U);else
 var
 r=w;var
-x=r?aa(g(b),B8):r,A=x?l(fX,z(kt,b)):x;if(A){var
+x=r?aa(g(b),Cb):r,A=x?l(fX,z(kv,b)):x;if(A){var
 S=0;if(typeof
 a==="number"&&!a){var
 B=1;S=1}if(!S)var
 B=0;var
-V=q?B9:B_,s=pR(V,B,T)}else
+V=q?Cc:Cd,s=pX(V,B,T)}else
 var
 s=A;if(s)if(typeof
 a==="number")if(e)var
@@ -7362,7 +7373,7 @@ d=0}else
 var
 d=s;var
 C=d?l(function(c){var
-d=pv(k,a,g(b),c);if(d)var
+d=pB(k,a,g(b),c);if(d)var
 e=d;else{var
 f=cQ(c);if(f)return aE(0,0,c);var
 e=f}return e},m):d,D=C?l(function(a){var
@@ -7378,26 +7389,26 @@ d=F(b,bn(h[1])),k=d?[0,d[1],0]:d,i=k;else
 var
 i=b;return l(function(a){switch(a[0]){case
 0:case
-3:return 1;default:return 0}},i)}return 1},m):C,E=D?hS(m):D;return E?l(ks,eP(k,g(b),0,m)):E}function
-B$(a){switch(a[0]){case
+3:return 1;default:return 0}},i)}return 1},m):C,E=D?hS(m):D;return E?l(ku,eP(k,g(b),0,m)):E}function
+Ce(a){switch(a[0]){case
 0:return ha(a[1][1]);case
 1:var
 b=a[3];return b?ha(b[1]):1;default:return ha(a[1])}}function
 hV(a,k,b,d){var
-e=pP(function(g){if(0===g[0]){var
-c=g[1],d=aa(BY,c);if(d){var
+e=pV(function(g){if(0===g[0]){var
+c=g[1],d=aa(B3,c);if(d){var
 b=F(a,bn(c));if(b){if(2===b[1][0])return 0;var
 e=1}else
 var
 e=b;var
 f=e}else
 var
-f=d;return f}return 1},k,b),f=e?l(B$,d[1]):e,h=f?aa(Ca,g(a)):f;if(h)var
-m=g(a),c=l(function(a){return A6(m,a)},b);else
+f=d;return f}return 1},k,b),f=e?l(Ce,d[1]):e,h=f?aa(Cf,g(a)):f;if(h)var
+m=g(a),c=l(function(a){return A$(m,a)},b);else
 var
 c=h;var
-i=c?hS(b):c,j=i?l(fX,z(pO,a)):i;return j?l(BX,d[3]):j}function
-pT(m,k,a,j,i,b){var
+i=c?hS(b):c,j=i?l(fX,z(pU,a)):i;return j?l(B2,d[3]):j}function
+pZ(m,k,a,j,i,b){var
 c=g(m),n=g(i),d=o(g(j),n),e=d?l(function(b){if(12===b[1]){var
 n=0,e=b[4];if(typeof
 e!=="number"&&1===e[0]){if(b[2])var
@@ -7417,17 +7428,17 @@ b=F(a,c);return b?0===b[1][0]?0:1:b},p);case
 11:return l(function(a){return 0===a[0]?0:1},a)}var
 i=1}else
 var
-i=d;return i},b):d,f=e?hS(b):e,h=f?l(function(a){return fX(a[2])},k):f;return h?l(ks,eP(0,g(a),0,b)):h}function
-pU(a){if(a){var
+i=d;return i},b):d,f=e?hS(b):e,h=f?l(function(a){return fX(a[2])},k):f;return h?l(ku,eP(0,g(a),0,b)):h}function
+p0(a){if(a){var
 b=a[1];if(cQ(b))return 0;var
-c=[0,b,pU(a[2])]}else
+c=[0,b,p0(a[2])]}else
 var
 c=a;return c}function
 d2(h,f,d,c,b){var
-j=pU(b),k=z(function(a){return hK(h,d,c,a)},j),l=lI(e(function(a){return fv(i,f,a)},k)),a=z(pt,b),m=a?[0,a[1],a[2]]:Cb;return M(g(m),l)}function
-ku(a){return 2<=a?Cc:Cd}function
-kv(m,l,k,j,f,i){var
-g=d2(m,l,k,j,f),c=pL(i);if(c){var
+j=p0(b),k=z(function(a){return hK(h,d,c,a)},j),l=lO(e(function(a){return fv(i,f,a)},k)),a=z(pz,b),m=a?[0,a[1],a[2]]:Cg;return M(g(m),l)}function
+kw(a){return 2<=a?Ch:Ci}function
+kx(m,l,k,j,f,i){var
+g=d2(m,l,k,j,f),c=pR(i);if(c){var
 a=c[1],e=0;if(typeof
 a==="number")var
 h=[0,a];else
@@ -7439,41 +7450,41 @@ h=c;return h}function
 fY(b,a){var
 c=g(a1(function(a){return 0===a[0]?0:1},b));return o(g(a),c)}function
 hW(a){var
-b=W(aC(0,g(a)),a);return e(aA,a1(function(a){return i_(a[2])},b))}function
-pV(a){var
+b=W(aC(0,g(a)),a);return e(aA,a1(function(a){return ja(a[2])},b))}function
+p1(a){var
 b=a[1],c=e(hQ,a[1]);return g2(hR(a[1]),c,b)}function
-kw(a){return hW(pV(a))}function
-pW(b,a){if(a){var
-c=a[1],d=a[2],g=pW(M(b,c[1]),d),h=c[2];return f(e(function(a){return aC(M(b,a),Ce)},h),g)}return a}function
-pX(e,a){function
+ky(a){return hW(p1(a))}function
+p2(b,a){if(a){var
+c=a[1],d=a[2],g=p2(M(b,c[1]),d),h=c[2];return f(e(function(a){return aC(M(b,a),Cj)},h),g)}return a}function
+p3(e,a){function
 b(f){var
 a=F(e,f);if(a){var
-b=mO(a[1]);if(b)return L(b[1],d);var
+b=mU(a[1]);if(b)return L(b[1],d);var
 c=1}else
 var
 c=a;return c}var
-c=pW(0,a);return a1(function(a){return l(b,a)},c)}function
-pY(a){switch(a[0]){case
-0:return Cf;case
-1:return a[3]?Cg:Ch;default:return Ci}}function
-Cj(a){return 0===a[0]?pY(a[1]):Ck}function
+c=p2(0,a);return a1(function(a){return l(b,a)},c)}function
+p4(a){switch(a[0]){case
+0:return Ck;case
+1:return a[3]?Cl:Cm;default:return Cn}}function
+Co(a){return 0===a[0]?p4(a[1]):Cp}function
 hX(a){if(a){var
 b=a[1];return[0,b[2],b[1]]}return[0,d,0]}function
-kx(aC,Y,aB,X,W,b,aA,V){var
-a=hJ(Y,aB,X,W),aD=g(V),aE=e(pY,a[1]),aF=pX(pV(a),aE),aG=aC?0:kw(a),B=dZ(Cl,kw(a),aG,aF,aD,V);if(B){var
+kz(aC,Y,aB,X,W,b,aA,V){var
+a=hJ(Y,aB,X,W),aD=g(V),aE=e(p4,a[1]),aF=p3(p1(a),aE),aG=aC?0:ky(a),B=dZ(Cq,ky(a),aG,aF,aD,V);if(B){var
 Z=B[1];if(Z[2])return 0;var
 _=hV(Y,X,W,a);if(_){var
-aH=Z[1],C=e(hQ,a[1]),c=hR(a[1]),aI=hX(aA),U=nd(i,a);if(U){var
-n=g2(c,C,a[1]),h=i7(c,C,a[1],0),ab=g(a[3]),ac=M(g(n),ab),K=[0,g(n),ac],ae=a[3],E=aj(function(a){if(typeof
+aH=Z[1],C=e(hQ,a[1]),c=hR(a[1]),aI=hX(aA),U=nj(i,a);if(U){var
+n=g2(c,C,a[1]),h=i9(c,C,a[1],0),ab=g(a[3]),ac=M(g(n),ab),K=[0,g(n),ac],ae=a[3],E=aj(function(a){if(typeof
 a!=="number"&&14===a[0])return 1;return 0},ae),af=E?z(function(a){var
-b=e(aO,g4(n,a[4]));return[0,a[4],b]},h):E,ag=f(i9(h,c,K,a[3]),af),ah=f(bE(mj(h)),ag),L=f(bE(fj(h)),ah),N=cZ(L)[1],o=cY(N),O=l(function(a){var
-b=m(d);return aN(r(bh(o,a),o,b),a)},L);if(O){var
-P=aj(tZ,a[3]);if(P){var
+b=e(aN,g4(n,a[4]));return[0,a[4],b]},h):E,ag=f(i$(h,c,K,a[3]),af),ah=f(bE(mp(h)),ag),L=f(bE(fj(h)),ah),N=cZ(L)[1],o=cY(N),O=l(function(a){var
+b=m(d);return aO(r(bh(o,a),o,b),a)},L);if(O){var
+P=aj(t4,a[3]);if(P){var
 t=C,p=a[1];for(;;){if(p){var
 q=p[1],u=bS(d,t);switch(q[0]){case
 0:var
 F=q[1],G=g5(b,F[1],u),D=0;if(G){var
-s=ap(b,[0,F[4],c]);if(s)var
+s=aq(b,[0,F[4],c]);if(s)var
 j=I(d,s[1][1]);else{var
 H=s;D=1}}else{var
 H=G;D=1}if(D)var
@@ -7488,10 +7499,10 @@ Q=1;var
 v=Q;break}}else
 var
 v=P;if(v){var
-ai=a[3],ak=z(function(a){return dI(c,a)},ai),al=a[3],am=f(n,f(e(function(a){return bX(c,a)},al),ak)),w=ad(e(function(a){return ap(b,a)},am));if(w){var
-an=ba(et(a[2]),c),x=ad(e(function(a){return ap(b,a)},an));if(x){var
-ao=a[3],y=ad(m2(b,aI,function(a){return bh(o,a)},n,h,c,K,ao));if(y){var
-R=y[1],aq=i6(R),ar=x[1],as=a[2],at=function(a){return m3(b,as,c,a)},au=w[1],av=0,aw=mj(h),ay=k(ax(function(a){return bh(o,a)}),aw),az=fj(h);return f4(i5(b,N,k(ax(function(a){return bh(o,a)}),az),ay,av,au,R,at),ar,aq,aH)}var
+ai=a[3],ak=z(function(a){return dI(c,a)},ai),al=a[3],am=f(n,f(e(function(a){return bX(c,a)},al),ak)),w=ad(e(function(a){return aq(b,a)},am));if(w){var
+an=ba(et(a[2]),c),x=ad(e(function(a){return aq(b,a)},an));if(x){var
+ao=a[3],y=ad(m8(b,aI,function(a){return bh(o,a)},n,h,c,K,ao));if(y){var
+R=y[1],ap=i8(R),ar=x[1],as=a[2],at=function(a){return m9(b,as,c,a)},au=w[1],av=0,aw=mp(h),ay=k(ax(function(a){return bh(o,a)}),aw),az=fj(h);return f4(i7(b,N,k(ax(function(a){return bh(o,a)}),az),ay,av,au,R,at),ar,ap,aH)}var
 S=y}else
 var
 S=x;var
@@ -7506,20 +7517,20 @@ A=O;return A}return U}var
 $=_}else
 var
 $=B;return $}function
-Cm(a){if(0===a[0])return pH(a[1]);var
+Cr(a){if(0===a[0])return pN(a[1]);var
 b=a[1],c=ew(b[6]);return f(ew(b[5]),c)}function
-Cn(a){if(0===a[0])return pI(a[1]);var
+Cs(a){if(0===a[0])return pO(a[1]);var
 b=a[1],c=bb(b[4]);return f(bb(b[3]),c)}function
-pZ(c){var
-a=z(Cm,c),d=a?[0,a[1],a[2]]:z(Cn,c);return E(b,bG(d))}function
-Co(a){if(0===a[0])return[0,hQ(a[1]),d];var
+p5(c){var
+a=z(Cr,c),d=a?[0,a[1],a[2]]:z(Cs,c);return E(b,bG(d))}function
+Ct(a){if(0===a[0])return[0,hQ(a[1]),d];var
 b=a[1],c=bG(bb(b[2]));return[0,bG(bb(b[1])),c]}function
-ky(h,b,s,r,q,f,C,B,p){var
-a=kg(h,b,s,r,q,f),t=pZ(a[2]),u=e(Co,a[2]),j=jI(t,u,a[2]),D=g(p),E=pX(j,e(Cj,a[2])),F=hW(j),G=hW(j),k=dZ(at(h),G,F,E,D,p);if(k){var
+kA(h,b,s,r,q,f,C,B,p){var
+a=ki(h,b,s,r,q,f),t=p5(a[2]),u=e(Ct,a[2]),j=jK(t,u,a[2]),D=g(p),E=p3(j,e(Co,a[2])),F=hW(j),G=hW(j),k=dZ(at(h),G,F,E,D,p);if(k){var
 v=k[1];if(v[2])return 0;var
 w=hU(h,b,s,r,q,f);if(w){var
-H=v[1],I=g(b),J=d2(dY(b),Cp,I,0,f),K=hX(B),y=e(vM,a[2]),m=fD(i,a[2],y);if(m)var
-z=jb(a[4]),c=cG(i,a[4],z);else
+H=v[1],I=g(b),J=d2(dY(b),Cu,I,0,f),K=hX(B),y=e(vR,a[2]),m=fD(i,a[2],y);if(m)var
+z=jd(a[4]),c=cG(i,a[4],z);else
 var
 c=m;if(c){var
 n=a[5];if(n)var
@@ -7528,58 +7539,58 @@ var
 o=1;var
 d=o}else
 var
-d=c;return d?vK(C,K,J,a,t,u,H):d}var
+d=c;return d?vP(C,K,J,a,t,u,H):d}var
 x=w}else
 var
 x=k;return x}function
-kz(r,t,ai,ah,ag,I,aP,af,v){var
+kB(r,t,ai,ah,ag,I,aP,af,v){var
 x=typeof
-r==="number"?r?Cq:Cr:hT(r[1]),B=e(j,aP),a=kg(r,t,ai,ah,ag,I),aj=kr(t,e(j,af));if(aj[2])return 0;var
-p=aj[1],ak=fY(z(kt,t),af),al=ak?hU(r,t,ai,ah,ag,I):ak;if(al)var
+r==="number"?r?Cv:Cw:hT(r[1]),B=e(j,aP),a=ki(r,t,ai,ah,ag,I),aj=kt(t,e(j,af));if(aj[2])return 0;var
+p=aj[1],ak=fY(z(kv,t),af),al=ak?hU(r,t,ai,ah,ag,I):ak;if(al)var
 aQ=at(r),L=o(g(B),aQ);else
 var
 L=al;if(L){if(typeof
 v!=="number"&&2===v[0]){var
-S=e(j,v[1]),aU=av(x,S),ap=aH(am(x,S)),aW=av(x,B),aq=aH(am(x,B)),X=fD(i,a[2],p),Y=X?cG(i,a[4],aq):X,Z=Y?cG(i,a[4],ap):Y,ar=Z?oN(i,a[1],a[3],a[5],p,aq,aW,ap,aU):Z;if(ar){var
+S=e(j,v[1]),aU=av(x,S),ap=aH(am(x,S)),aW=av(x,B),aq=aH(am(x,B)),X=fD(i,a[2],p),Y=X?cG(i,a[4],aq):X,Z=Y?cG(i,a[4],ap):Y,ar=Z?oT(i,a[1],a[3],a[5],p,aq,aW,ap,aU):Z;if(ar){var
 aX=at(r);return o(g(S),aX)}return ar}var
-aR=g(t),aS=hl(r),M=kv(dY(t),aS,aR,0,I,v);if(M){var
+aR=g(t),aS=hl(r),M=kx(dY(t),aS,aR,0,I,v);if(M){var
 C=M[1],f=aH(am(x,B)),m=av(x,B),as=0;if(typeof
 v==="number"&&v){var
 N=J(dY(t));as=1}if(!as)var
 N=1;if(N){var
-T=fD(i,a[2],p),U=T?ju(i,a,f,m):T;if(U)var
+T=fD(i,a[2],p),U=T?jw(i,a,f,m):T;if(U)var
 n=a[5],V=a[3],y=a[1],aD=a[6],au=e(function(a){if(0===a[0])var
 e=bu(n,m,f,a),c=bz(a[1],e);else
 var
-d=a[1],g=jg(d,bu(n,m,f,a)),h=d[4],i=bu(n,m,f,a),j=K(function(b,a){return[2,b,a]},i,h),c=K(function(b,a){return[3,b,a]},j,g);return[0,jr(y,c,P([5,[0,b,b],V],da(eD(n,m,eC(a)),c)))]},p),aw=z(function(a){return jt(n,m,f,a)},p),ax=function(a){var
+d=a[1],g=ji(d,bu(n,m,f,a)),h=d[4],i=bu(n,m,f,a),j=K(function(b,a){return[2,b,a]},i,h),c=K(function(b,a){return[3,b,a]},j,g);return[0,jt(y,c,P([5,[0,b,b],V],da(eD(n,m,eC(a)),c)))]},p),aw=z(function(a){return jv(n,m,f,a)},p),ax=function(a){var
 b=eD(n,m,a);return K(function(b,a){return[2,b,a]},f,b)},az=0,aA=e(function(g){var
 c=bu(n,m,f,g);if(0===g[0]){var
 a=g[1];switch(a[0]){case
 0:var
-i=a[4],j=a[3],k=a[2],h=a[1],o=ch(h,k,j,i,c),l=cH(a[5],o),p=P(l,ay(h)),q=fs(h,k,j,c);return[0,[0,js(y,K(function(b,a){return[2,b,a]},q,p)),l,i]];case
+i=a[4],j=a[3],k=a[2],h=a[1],o=ch(h,k,j,i,c),l=cH(a[5],o),p=P(l,ay(h)),q=fs(h,k,j,c);return[0,[0,ju(y,K(function(b,a){return[2,b,a]},q,p)),l,i]];case
 1:var
-r=bz(a,c),s=[6,w(bz(a,c),r)];return[0,[0,js(y,bz(a,c)),[0,d,b],s]];default:return 0}}var
-e=g[1],t=e[6],u=ev(e,c),v=jg(e,c),x=e[4],z=K(function(b,a){return[2,b,a]},c,x);return[0,[0,js(y,K(function(b,a){return[3,b,a]},z,v)),u,t]]},p),aB=e(function(a){return eE(n,m,f,a)},p),aC=[0,e(function(a){if(0===a[0])var
+r=bz(a,c),s=[6,w(bz(a,c),r)];return[0,[0,ju(y,bz(a,c)),[0,d,b],s]];default:return 0}}var
+e=g[1],t=e[6],u=ev(e,c),v=ji(e,c),x=e[4],z=K(function(b,a){return[2,b,a]},c,x);return[0,[0,ju(y,K(function(b,a){return[3,b,a]},z,v)),u,t]]},p),aB=e(function(a){return eE(n,m,f,a)},p),aC=[0,e(function(a){if(0===a[0])var
 l=bu(n,m,f,a),d=ci(a[1],l);else
 var
-e=bu(n,m,f,a),c=a[1],g=jg(c,e),h=c[4],i=K(function(b,a){return[2,b,a]},e,h),j=K(function(b,a){return[3,b,a]},i,g),k=ev(c,e),d=P([5,[0,b,b],[4,c[5],k]],j);return jr(y,d,P([5,[0,b,b],V],da(eD(n,m,eC(a)),d)))},p),aB,aA,az,ax,aw,au],aE=at(a[1]),O=jd(i,hl(a[1]),aE,aC,aD,C);else
+e=bu(n,m,f,a),c=a[1],g=ji(c,e),h=c[4],i=K(function(b,a){return[2,b,a]},e,h),j=K(function(b,a){return[3,b,a]},i,g),k=ev(c,e),d=P([5,[0,b,b],[4,c[5],k]],j);return jt(y,d,P([5,[0,b,b],V],da(eD(n,m,eC(a)),d)))},p),aB,aA,az,ax,aw,au],aE=at(a[1]),O=jf(i,hl(a[1]),aE,aC,aD,C);else
 var
 O=U;if(O)var
 Q=O;else{if(typeof
 C!=="number"&&0===C[0]){var
 E=C[2];if(E){if(E[2])return 0;var
-R=E[1],_=a[1],D=a[5],aT=C[1],$=fD(i,a[2],p),aa=$?ju(i,a,f,m):$;if(aa){var
+R=E[1],_=a[1],D=a[5],aT=C[1],$=fD(i,a[2],p),aa=$?jw(i,a,f,m):$;if(aa){var
 aG=a[6],F=eu(i,hl(_),aT,aG);if(F){var
 A=F[1][1];if(typeof
 A!=="number"&&16===A[0]){var
-s=A[1],aI=a[2],aJ=e(function(a){return eE(D,m,f,o0(a))},aI),ad=k(cJ(cN),s);if(ad)var
+s=A[1],aI=a[2],aJ=e(function(a){return eE(D,m,f,o6(a))},aI),ad=k(cJ(cN),s);if(ad)var
 aF=k(gr(c(2,b)),cN),u=[0,bm(d,ad[1][1]),aF];else
 var
 u=[0,d,b];var
 ae=h(i,0,s);if(ae)var
 aK=a[2],G=l(function(a){var
-b=o0(a);if(0===b[0])return 1;var
-c=b[1],d=[1,c],e=cK(i,s),g=e?nZ(i,a,d):e;return g?h(i,1,jf(c,bu(D,m,f,d))):g},aK);else
+b=o6(a);if(0===b[0])return 1;var
+c=b[1],d=[1,c],e=cK(i,s),g=e?n5(i,a,d):e;return g?h(i,1,jh(c,bu(D,m,f,d))):g},aK);else
 var
 G=ae;if(G)var
 aL=g(a[2]),H=o(g(R),aL);else
@@ -7603,7 +7614,7 @@ a!=="number"&&0===a[0]){var
 q=a[1],C=0,E=d[1],F=K(function(b,a){return[3,b,a]},f,E);return[0,[0,dR([5,[0,h,b],[2,q,cI(d,e)]]),q,F,i],C]}return 0;default:return 0}}var
 c=g[1];if(typeof
 a!=="number"&&1===a[0]){var
-r=a[2],s=a[1],G=[4,r,fx(c,e)],H=[3,[4,s,fy(c,e)],G],J=P(r,g8(c)),I=0,L=P(s,fw(c)),M=K(function(b,a){return[2,b,a]},L,J),N=P(c[5],M),O=c[3],Q=K(function(b,a){return[2,b,a]},O,N),R=K(function(b,a){return[3,b,a]},f,Q),S=c[6],T=[2,ev(c,e),H];return[0,[0,dR([5,[0,h,b],[4,c[5],T]]),S,R,i],I]}return 0},aN);return oY(i,_,A[2],A[3],aO)}return H}var
+r=a[2],s=a[1],G=[4,r,fx(c,e)],H=[3,[4,s,fy(c,e)],G],J=P(r,g8(c)),I=0,L=P(s,fw(c)),M=K(function(b,a){return[2,b,a]},L,J),N=P(c[5],M),O=c[3],Q=K(function(b,a){return[2,b,a]},O,N),R=K(function(b,a){return[3,b,a]},f,Q),S=c[6],T=[2,ev(c,e),H];return[0,[0,dR([5,[0,h,b],[4,c[5],T]]),S,R,i],I]}return 0},aN);return o4(i,_,A[2],A[3],aO)}return H}var
 ab=0}else
 var
 ab=F;var
@@ -7627,16 +7638,16 @@ var
 d=c;var
 e=d}else
 var
-e=b;return e}return Cs}function
+e=b;return e}return Cx}function
 hY(f,k,j,a,i){var
 l=g(f),h=o(g(a),l);if(h){var
 m=W(W(f,W(k,j)),a);return e(function(f){var
-g=f[1],h=g[2],j=dA(h[2],h[1]),a=aL(g[1],i),k=D(d,a)?lK(b_(c(2,b),a)):[0,b,ec(b_(c(2,b),T(a)))],l=dB(gB(a3([0,c(2,b),b],k),j)),m=f[2];return e(function(a){return dB(a3(lK(a),l))},m)},m)}return h}function
-kA(u,aU,aq,ap,t,ao,a){var
-c=hJ(u,aU,aq,ap),ar=fY(z(pO,u),ao),g=ar?hV(u,aq,ap,c):ar;if(t){var
+g=f[1],h=g[2],j=dA(h[2],h[1]),a=aL(g[1],i),k=D(d,a)?lQ(b_(c(2,b),a)):[0,b,ec(b_(c(2,b),T(a)))],l=dB(gB(a3([0,c(2,b),b],k),j)),m=f[2];return e(function(a){return dB(a3(lQ(a),l))},m)},m)}return h}function
+kC(u,aU,aq,ap,t,ao,a){var
+c=hJ(u,aU,aq,ap),ar=fY(z(pU,u),ao),g=ar?hV(u,aq,ap,c):ar;if(t){var
 v=t[2];if(v){var
 w=v[2];if(w){if(w[2])return 0;var
-h=w[1],k=v[1],m=t[1],as=pM(u,e(j,ao));if(as[2])return 0;var
+h=w[1],k=v[1],m=t[1],as=pS(u,e(j,ao));if(as[2])return 0;var
 f=as[1];if(typeof
 a!=="number")switch(a[0]){case
 2:var
@@ -7656,7 +7667,7 @@ aB=N}else
 var
 aB=M;return aB}if(g){var
 a0=j(L[1]),a1=j(K[1]),aC=[0,j(J[1]),a1,a0],a2=j(h),a3=j(k),aD=[0,j(m),a3,a2],X=fr(i,c,f,aD),Y=X?cG(i,c[2],aC):X;if(Y){var
-aR=0,aS=0;return oN(i,0,[0,b,b],0,e(function(a){return[0,a]},f),aD,aS,aC,aR)}return Y}return g}var
+aR=0,aS=0;return oT(i,0,[0,b,b],0,e(function(a){return[0,a]},f),aD,aS,aC,aR)}return Y}return g}var
 O=fW(c,a);if(O){var
 a4=j(h),a5=j(k),aE=[0,j(m),a5,a4];if(g){var
 aF=fu(i,c,f,aE,O[1]);if(aF)var
@@ -7705,14 +7716,14 @@ p=n[2];if(p){var
 q=p[2];if(q){if(q[2])return 0;if(o){var
 r=o[2];if(r){var
 s=r[2];if(s){if(s[2])return 0;var
-Z=s[1],_=r[1],$=o[1],aa=q[1],ab=p[1],ac=n[1],ad=[0,[1,0,ac,$],[1,v5,ab,_],[1,v4,aa,Z]],ae=fr(i,c,f,D);if(ae)var
+Z=s[1],_=r[1],$=o[1],aa=q[1],ab=p[1],ac=n[1],ad=[0,[1,0,ac,$],[1,v_,ab,_],[1,v9,aa,Z]],ae=fr(i,c,f,D);if(ae)var
 aT=c[3],E=aj(function(a){if(typeof
 a==="number"&&a)return 1;return 0},aT);else
 var
 E=ae;var
-af=E?hw(n,o):E,ag=af?jW(i,c[2],[0,[0,ac,ab],aa],[0,[0,$,_],Z]):af,ah=ag?eH(i,n,o,aW(D)):ag,ai=ah?l(function(a){var
-b=eG(jX(a)),c=b?eG([0,cI(a,D),0]):b;if(c){var
-d=i$(a,ad);if(d)return jV(i,v6,d[1]);var
+af=E?hw(n,o):E,ag=af?jY(i,c[2],[0,[0,ac,ab],aa],[0,[0,$,_],Z]):af,ah=ag?eH(i,n,o,aW(D)):ag,ai=ah?l(function(a){var
+b=eG(jZ(a)),c=b?eG([0,cI(a,D),0]):b;if(c){var
+d=jb(a,ad);if(d)return jX(i,v$,d[1]);var
 e=1}else
 var
 e=c;return e},f):ah;if(ai)return hv(i,e(function(a){var
@@ -7764,21 +7775,21 @@ ax=v;var
 ay=ax}else
 var
 ay=t;return ay}function
-p0(n,m,b,l,C,B){var
+p6(n,m,b,l,C,B){var
 f=C,d=B;for(;;){if(0===d[0]){var
-h=d[1],i=F(f,h),o=i?aJ(i[1][2],Cv):i;if(o)var
-D=d[2],j=p0(n,m,b,l,ko(0,h,f),D);else
+h=d[1],i=F(f,h),o=i?aJ(i[1][2],CA):i;if(o)var
+D=d[2],j=p6(n,m,b,l,kq(0,h,f),D);else
 var
 j=o;if(j){var
-E=d[3],f=ko(1,h,f),d=E;continue}return j}var
-c=d[1],a=pF(0,n,f),p=e(function(b){function
-d(b){return pG(a,b)}function
-c(a){return km(d,a)}switch(b[0]){case
+E=d[3],f=kq(1,h,f),d=E;continue}return j}var
+c=d[1],a=pL(0,n,f),p=e(function(b){function
+d(b){return pM(a,b)}function
+c(a){return ko(d,a)}switch(b[0]){case
 0:var
-e=b[5],f=pG(a,b[4]),g=c(b[3]),h=c(b[2]);return[0,c(b[1]),h,g,f,e];case
+e=b[5],f=pM(a,b[4]),g=c(b[3]),h=c(b[2]);return[0,c(b[1]),h,g,f,e];case
 1:var
 i=y(c,b[3]),j=c(b[2]);return[1,c(b[1]),j,i];default:return[2,c(b[1])]}},m);if(0===b[0])var
-t=b[2],u=km(function(b){return au(a,b)},t),v=b[1],k=[0,km(function(b){return au(a,b)},v),u];else
+t=b[2],u=ko(function(b){return au(a,b)},t),v=b[1],k=[0,ko(function(b){return au(a,b)},v),u];else
 var
 w=au(a,b[5]),x=au(a,b[4]),z=au(a,b[3]),A=au(a,b[2]),k=[1,au(a,b[1]),A,z,x,w];var
 q=e(function(g){var
@@ -7806,13 +7817,13 @@ i=h;return[0,g[1],g[2],i,d]},l);if(typeof
 c==="number")return 1;else
 switch(c[0]){case
 0:return 0;case
-1:return kx(1,p,k,0,q,c[1],c[2],c[3]);default:var
+1:return kz(1,p,k,0,q,c[1],c[2],c[3]);default:var
 g=c[4],s=0;if(typeof
 g!=="number"&&2===g[0]){var
 J=g[1],r=[2,e(function(b){return au(a,b)},J)];s=1}if(!s)var
 r=g;var
-G=c[3],H=e(function(b){return au(a,b)},G),I=c[2];return kA(p,k,0,q,e(function(b){return au(a,b)},I),H,r)}}}function
-p1(h,g){var
+G=c[3],H=e(function(b){return au(a,b)},G),I=c[2];return kC(p,k,0,q,e(function(b){return au(a,b)},I),H,r)}}}function
+p7(h,g){var
 a=cC(j(h));if(a){var
 c=a[1],e=bf([0,d,b],c);if(e)return bf(c,g);var
 f=e}else
@@ -7822,13 +7833,13 @@ fZ(b,a){if(a){var
 c=a[1],d=r(c,b,0);if(d)var
 f=am(c,b),e=[0,[0,g(a1(function(a){return a},f))]];else
 var
-e=d;return e}return Cx}function
-p2(b,c,a){return z(function(a){if(b4(a)){var
-d=hK(0,b,0,a);return ab(1,lI(e(function(a){return fv(i,Cy,a)},d)))}return ab(0,g(ps(b,c,a)))},a)}function
-p3(c,a){return e(function(a){var
+e=d;return e}return CC}function
+p8(b,c,a){return z(function(a){if(b4(a)){var
+d=hK(0,b,0,a);return ab(1,lO(e(function(a){return fv(i,CD,a)},d)))}return ab(0,g(py(b,c,a)))},a)}function
+p9(c,a){return e(function(a){var
 b=a[4],d=a[3],e=a[2],f=a[1];return[0,z(function(b){var
 a=fZ(c,b[1]),d=a?[0,[0,a[1],b[2]],0]:a;return d},f),e,d,b]},a)}function
-p4(b,a){if(typeof
+p_(b,a){if(typeof
 a!=="number")switch(a[0]){case
 0:var
 c=a[2],d=fZ(b,a[1]);return y(function(a){return[0,a,c]},d);case
@@ -7836,7 +7847,7 @@ c=a[2],d=fZ(b,a[1]);return y(function(a){return[0,a,c]},d);case
 e=a[2],f=fZ(b,a[1]);return y(function(a){return[1,a,e]},f);case
 3:var
 g=a[5],h=a[4],i=a[3],j=a[2],k=fZ(b,a[1]);return y(function(a){return[3,a,j,i,h,g]},k)}return[0,a]}function
-CE(v){var
+CJ(v){var
 gI=hH(v[3]),gJ=gI?hH(v[4]):gI;if(gJ){var
 af=v[1];switch(af[0]){case
 3:var
@@ -7845,12 +7856,12 @@ lM=af[2],dr=l(function(a){return fT(a[1])},lM);else
 var
 dr=gP;if(dr)var
 lN=af[3],ds=l(function(a){var
-b=fT(a[1]),c=b?kc(a[2]):b;return c?fU(a[2]):c},lN);else
+b=fT(a[1]),c=b?ke(a[2]):b;return c?fU(a[2]):c},lN);else
 var
 ds=dr;if(ds)var
 lO=af[4],bS=l(function(a){var
 b=0===a[0]?a[1]:[0,a[1],0];return l(function(a){var
-b=kc(a);return b?fU(a):b},b)},lO);else
+b=ke(a);return b?fU(a):b},b)},lO);else
 var
 bS=ds;break;case
 7:var
@@ -7862,28 +7873,28 @@ var
 dn=gJ;var
 eo=0;if(dn){var
 gK=v[1],dq=7===gK[0]?e(aA,gK[1]):0,gL=function(c,b){var
-a=pp(c);return a?l(function(a){var
-e=a[1],b=l(function(a){return kb(a[2])},e);if(b){var
-c=a[3];if(c)return fV(dq,po(c[1]));var
+a=pv(c);return a?l(function(a){var
+e=a[1],b=l(function(a){return kd(a[2])},e);if(b){var
+c=a[3];if(c)return fV(dq,pu(c[1]));var
 d=1}else
 var
 d=b;return d},b):a},gM=function(e,d,c,b){var
-a=pp(e);return a?fV(dq,f(d,f(c,po(b)))):a},n=v[1];switch(n[0]){case
+a=pv(e);return a?fV(dq,f(d,f(c,pu(b)))):a},n=v[1];switch(n[0]){case
 0:var
-ll=z(dV,n[4]),lm=f(z(pm,n[3]),ll),ln=f(pk(n[2]),lm),ag=f(z(kd,n[1]),ln);break;case
+ll=z(dV,n[4]),lm=f(z(ps,n[3]),ll),ln=f(pq(n[2]),lm),ag=f(z(kf,n[1]),ln);break;case
 1:var
-dk=n[5],dl=n[3],lo=z(dV,n[6]),lp=dk?pl(dk[1]):dk,lq=f(lp,lo),lr=f(pj(n[4]),lq),ls=dl?[0,dl[1],0]:dl,lt=f(ls,lr),ag=f(z(A2,n[2]),lt);break;case
+dk=n[5],dl=n[3],lo=z(dV,n[6]),lp=dk?pr(dk[1]):dk,lq=f(lp,lo),lr=f(pp(n[4]),lq),ls=dl?[0,dl[1],0]:dl,lt=f(ls,lr),ag=f(z(A7,n[2]),lt);break;case
 2:var
-lu=z(dV,n[7]),lv=f(z(pm,n[6]),lu),lw=f(pl(n[5]),lv),lx=f(pj(n[4]),lw),ly=[0,n[3],lx],lz=n[2],ag=f(z(function(a){return z(eN,f(a[1],a[2]))},lz),ly);break;case
+lu=z(dV,n[7]),lv=f(z(ps,n[6]),lu),lw=f(pr(n[5]),lv),lx=f(pp(n[4]),lw),ly=[0,n[3],lx],lz=n[2],ag=f(z(function(a){return z(eN,f(a[1],a[2]))},lz),ly);break;case
 3:var
 lA=z(dV,n[7]),lB=f(n[6],lA),lC=f(n[5],lB),lD=n[2],ag=f(z(function(a){return eN(a[2])},lD),lC);break;case
 4:var
 lE=z(dV,n[3]),ag=[0,n[1],[0,n[2],lE]];break;case
 5:var
-lF=z(dV,n[4]),lG=f(b2(n[3]),lF),lH=f(b2(n[2]),lG),lI=f(z(kd,n[1]),lH),ag=[0,n[5],lI];break;case
+lF=z(dV,n[4]),lG=f(b2(n[3]),lF),lH=f(b2(n[2]),lG),lI=f(z(kf,n[1]),lH),ag=[0,n[5],lI];break;case
 6:var
 dm=n[1],ag=dm?eN(dm[1]):dm;break;default:var
-lJ=z(dV,n[4]),lK=f(pk(n[3]),lJ),ag=f(z(kd,n[2]),lK)}var
+lJ=z(dV,n[4]),lK=f(pq(n[3]),lJ),ag=f(z(kf,n[2]),lK)}var
 gN=fV(dq,ag);if(gN){var
 ah=v[2];switch(ah[0]){case
 0:var
@@ -7901,33 +7912,33 @@ a=v[1];switch(a[0]){case
 0:var
 N=a[4],ak=a[3],al=a[2],O=a[1],aI=v[2];switch(aI[0]){case
 0:var
-dM=aI[3],ho=aI[2],dN=aI[1],g4=p2(g(O),ak,N),lX=a1(function(a){return J(b4(a))},N);if(aj(b4,N)){var
-g5=kx(0,O,al,ak,lX,dN,ho,p3(e(J,g4),dM));if(g5){var
-lY=p3(g4,dM),lZ=a1(b4,N),l0=ki(al);return ky(0,e(kh,O),0,l0,0,lZ,dN,0,lY)}return g5}return kx(0,O,al,ak,N,dN,ho,dM);case
+dM=aI[3],ho=aI[2],dN=aI[1],g4=p8(g(O),ak,N),lX=a1(function(a){return J(b4(a))},N);if(aj(b4,N)){var
+g5=kz(0,O,al,ak,lX,dN,ho,p9(e(J,g4),dM));if(g5){var
+lY=p9(g4,dM),lZ=a1(b4,N),l0=kk(al);return kA(0,e(kj,O),0,l0,0,lZ,dN,0,lY)}return g5}return kz(0,O,al,ak,N,dN,ho,dM);case
 1:var
-dO=aI[4],dP=aI[3],dT=aI[2],g6=p2(g(O),ak,N),dB=a1(function(a){return J(b4(a))},N);if(aj(b4,N)){var
-l1=a1(b4,N),l2=ki(al),g7=hU(0,e(kh,O),0,l2,0,l1);if(g7)var
-dC=p4(e(J,g6),dO),l3=dC?kA(O,al,ak,dB,dT,dP,dC[1]):dC,dD=l3;else
+dO=aI[4],dP=aI[3],dT=aI[2],g6=p8(g(O),ak,N),dB=a1(function(a){return J(b4(a))},N);if(aj(b4,N)){var
+l1=a1(b4,N),l2=kk(al),g7=hU(0,e(kj,O),0,l2,0,l1);if(g7)var
+dC=p_(e(J,g6),dO),l3=dC?kC(O,al,ak,dB,dT,dP,dC[1]):dC,dD=l3;else
 var
 dD=g7;if(dD)var
 dF=dD;else{var
 g8=hV(O,ak,dB,hJ(O,al,ak,dB));if(g8){var
-dG=p4(g6,dO);if(dG){var
-l4=dG[1],l5=a1(b4,N),l6=ki(al);return kz(0,e(kh,O),0,l6,0,l5,dT,dP,l4)}var
+dG=p_(g6,dO);if(dG){var
+l4=dG[1],l5=a1(b4,N),l6=kk(al);return kB(0,e(kj,O),0,l6,0,l5,dT,dP,l4)}var
 dF=dG}else
 var
-dF=g8}return dF}return kA(O,al,ak,N,dT,dP,dO);default:return 0}case
+dF=g8}return dF}return kC(O,al,ak,N,dT,dP,dO);default:return 0}case
 1:var
 br=a[6],bW=a[5],bZ=a[4],b0=a[3],U=a[2],Q=a[1],aJ=v[2];switch(aJ[0]){case
-0:return ky(Q,U,b0,bZ,bW,br,aJ[1],aJ[2],aJ[3]);case
+0:return kA(Q,U,b0,bZ,bW,br,aJ[1],aJ[2],aJ[3]);case
 1:var
 an=aJ[4],dU=aJ[3],hp=aJ[2];if(typeof
 an!=="number"&&3===an[0]){var
 mf=an[5],mg=an[4],mh=an[3],mi=an[2],mj=an[1],s=typeof
-Q==="number"?Q?Ct:Cu:hT(Q[1]),gR=dx(at(Q),s),du=e(j,hp),a4=kg(Q,U,b0,bZ,bW,br),gS=pZ(a4[2]),gT=kr(U,e(j,dU));if(gT[2])return 0;var
+Q==="number"?Q?Cy:Cz:hT(Q[1]),gR=dx(at(Q),s),du=e(j,hp),a4=ki(Q,U,b0,bZ,bW,br),gS=p5(a4[2]),gT=kt(U,e(j,dU));if(gT[2])return 0;var
 dv=cR(mi);if(dv){var
 S=dv[1],dw=cR(mh);if(dw){var
-aG=dw[1],gU=fY(z(kt,U),dU),gV=gU?hU(Q,U,b0,bZ,bW,br):gU;if(gV)var
+aG=dw[1],gU=fY(z(kv,U),dU),gV=gU?hU(Q,U,b0,bZ,bW,br):gU;if(gV)var
 lR=at(Q),dy=o(g(du),lR);else
 var
 dy=gV;if(dy)var
@@ -7937,16 +7948,16 @@ dz=dy;if(dz){if(dY(U))var
 lU=ab(d,gR),gW=f(ab(gS,s),lU);else
 var
 lW=ab(T(gS),gR),gW=f(ab(d,s),lW);var
-lV=hY(gW,S,aG,mg,mf),ai=av(s,du),bn=aH(am(s,du)),dA=gT[1],L=a4[5],fC=jU(0,S,aG),cI=oT(am(s,fC)),cJ=av(s,fC),fE=a4[7],fF=fE?fD(i,a4[2],dA):fE,fJ=fF?ju(i,a4,bn,ai):fF,fK=fJ?aa(s,we):fJ;if(fK)var
+lV=hY(gW,S,aG,mg,mf),ai=av(s,du),bn=aH(am(s,du)),dA=gT[1],L=a4[5],fC=jW(0,S,aG),cI=oZ(am(s,fC)),cJ=av(s,fC),fE=a4[7],fF=fE?fD(i,a4[2],dA):fE,fJ=fF?jw(i,a4,bn,ai):fF,fK=fJ?aa(s,wj):fJ;if(fK)var
 kE=M(s,g(ai)),cK=o(g(S),kE);else
 var
 cK=fK;var
 fL=cK?hw(S,aG):cK;if(fL)var
-kF=hx(am(s,aG)),kG=hx(am(s,S)),cL=jW(i,a4[4],kG,kF);else
+kF=hx(am(s,aG)),kG=hx(am(s,S)),cL=jY(i,a4[4],kG,kF);else
 var
 cL=fL;if(cL){var
 kH=av(s,aG),kI=av(s,S);if(L)var
-fz=L[1],kD=0===fz[0]?wc:wd,fB=o(g(ai),kD),fM=fB?oS(i,fz,kI,kH):fB;else
+fz=L[1],kD=0===fz[0]?wh:wi,fB=o(g(ai),kD),fM=fB?oY(i,fz,kI,kH):fB;else
 var
 fM=o(g(ai),0);var
 cM=fM}else
@@ -7955,7 +7966,7 @@ cM=cL;if(cM){var
 kJ=am(s,aW(bn)),kK=am(s,aG),fP=eH(i,am(s,S),kK,kJ);if(fP)var
 a3=fP;else
 if(L){var
-fR=oR(L[1]);if(fR)var
+fR=oX(L[1]);if(fR)var
 kL=av(s,aG),a3=eH(i,av(s,S),kL,ai);else
 var
 a3=fR}else
@@ -7966,11 +7977,11 @@ a3=cM;var
 fQ=a3?l(function(b){var
 a=eE(L,ai,bn,b),t=typeof
 a==="number"?0:0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]];if(0===b[0])var
-k=jX(b[1]);else
+k=jZ(b[1]);else
 var
 c=b[1],p=[0,c[5],[0,c[6],0]],q=f(aW(c[4]),p),r=f(aW(c[3]),q),s=f(aW(c[2]),r),k=f(aW(c[1]),s);var
 m=eG(f(k,t));if(m)var
-u=jt(L,ai,bn,b),v=1,e=l(function(a){return h(i,v,a)},u);else
+u=jv(L,ai,bn,b),v=1,e=l(function(a){return h(i,v,a)},u);else
 var
 e=m;if(e){var
 d=eE(L,cJ,cI,b),n=0;if(typeof
@@ -7980,7 +7991,7 @@ a!=="number"&&1===a[0]){var
 j=[0,[2,[4,d[1],a[1]],[4,d[2],a[2]]],0];o=1}if(!o)var
 j=0}if(n)var
 j=0;var
-w=f(jt(L,cJ,cI,b),j),x=g(S);return l(function(a){return jV(i,x,a)},w)}return e},dA):a3;return fQ?hv(i,e(function(d){var
+w=f(jv(L,cJ,cI,b),j),x=g(S);return l(function(a){return jX(i,x,a)},w)}return e},dA):a3;return fQ?hv(i,e(function(d){var
 a=eE(L,ai,bn,d),c=eE(L,cJ,cI,d);if(typeof
 c==="number")return[0,b,b];else{if(0===c[0]){if(typeof
 a!=="number"&&0===a[0])return[3,c[1],a[1]];return[0,b,b]}if(typeof
@@ -7990,29 +8001,29 @@ var
 gX=dw;var
 gY=gX}else
 var
-gY=dv;return gY}return kz(Q,U,b0,bZ,bW,br,hp,dU,an);default:return 0}case
+gY=dv;return gY}return kB(Q,U,b0,bZ,bW,br,hp,dU,an);default:return 0}case
 2:var
 aK=a[7],aL=a[6],b5=a[5],b6=a[4],b7=a[3],V=a[2],X=a[1],aM=v[2];switch(aM[0]){case
 0:var
-hq=aM[3],ao=px(X,V,b7,b6,b5,aL,aK),mk=ao[2],dW=E(b,bG(z(function(a){var
-b=bb(a[2]);return f(bb(a[1]),b)},mk))),ml=g(hq),mm=jE(dW,ao[2]),mn=jE(dW,ao[2]),dX=dZ(bH(X),mn,mm,0,ml,hq);if(dX){var
+hq=aM[3],ao=pD(X,V,b7,b6,b5,aL,aK),mk=ao[2],dW=E(b,bG(z(function(a){var
+b=bb(a[2]);return f(bb(a[1]),b)},mk))),ml=g(hq),mm=jG(dW,ao[2]),mn=jG(dW,ao[2]),dX=dZ(bH(X),mn,mm,0,ml,hq);if(dX){var
 hr=dX[1];if(hr[2])return 0;var
-hu=pS(X,V,b7,b6,b5,aL,aK);if(hu){var
-mo=hr[1],mp=g(V),mq=d2(0,ku(X),mp,aL,aK),mr=hX(aM[2]),ms=aM[1],iS=ao[2],et=l(function(a){var
-b=om(i,a[1]);return b?om(i,a[2]):b},iS);if(et)var
-iT=jb(ao[4]),cg=cG(i,ao[4],iT);else
+hu=pY(X,V,b7,b6,b5,aL,aK);if(hu){var
+mo=hr[1],mp=g(V),mq=d2(0,kw(X),mp,aL,aK),mr=hX(aM[2]),ms=aM[1],iS=ao[2],et=l(function(a){var
+b=os(i,a[1]);return b?os(i,a[2]):b},iS);if(et)var
+iT=jd(ao[4]),cg=cG(i,ao[4],iT);else
 var
 cg=et;if(cg)var
 iU=hi(ao[5]),ch=l(function(a){return fG(i,a)},iU);else
 var
-ch=cg;return ch?vr(ms,mr,mq,ao,dW,mo):ch}var
+ch=cg;return ch?vw(ms,mr,mq,ao,dW,mo):ch}var
 hA=hu}else
 var
 hA=dX;return hA;case
 1:var
-Y=aM[4],hB=aM[3],aP=e(j,aM[2]),q=hT(X),hC=pN(V,e(j,hB));if(hC[2])return 0;var
-t=hC[1],hF=fY(z(function(a){return f(a[1],a[2])},V),hB),hG=hF?pS(X,V,b7,b6,b5,aL,aK):hF;if(hG){var
-p=px(X,V,b7,b6,b5,aL,aK);if(typeof
+Y=aM[4],hB=aM[3],aP=e(j,aM[2]),q=hT(X),hC=pT(V,e(j,hB));if(hC[2])return 0;var
+t=hC[1],hF=fY(z(function(a){return f(a[1],a[2])},V),hB),hG=hF?pY(X,V,b7,b6,b5,aL,aK):hF;if(hG){var
+p=pD(X,V,b7,b6,b5,aL,aK);if(typeof
 Y!=="number")switch(Y[0]){case
 2:var
 hS=e(j,Y[1]),hZ=av(q,hS),h0=aH(am(q,hS)),h1=av(q,aP),h2=aH(am(q,aP)),ev=ex(i,p,t,h2,h1),ew=ev?ex(i,p,t,h0,hZ):ev;if(ew)var
@@ -8020,61 +8031,61 @@ iV=bH(p[1]),ci=o(g(t),iV);else
 var
 ci=ew;if(ci){var
 ey=function(b,a){var
-c=p[5],d=p[3],f=p[1];return e(function(e){return jk(f,d,c,a,b,e)},t)},iW=ey(h0,hZ),iX=ey(h2,h1);return jJ(i,bH(p[1]),iX,iW)}return ci;case
+c=p[5],d=p[3],f=p[1];return e(function(e){return jm(f,d,c,a,b,e)},t)},iW=ey(h0,hZ),iX=ey(h2,h1);return jL(i,bH(p[1]),iX,iW)}return ci;case
 3:var
 d3=cR(Y[2]);if(d3){var
-aq=d3[1],d4=cR(Y[3]);if(d4){var
+ap=d3[1],d4=cR(Y[3]);if(d4){var
 aQ=d4[1],mu=p[2],mv=E(b,bG(z(function(a){var
-b=bb(a[2]);return f(bb(a[1]),b)},mu))),mw=g(V),mx=d2(0,ku(X),mw,aL,aK),h3=o(Y[1],mx);if(h3){var
-my=Y[5],mz=Y[4],mA=ab(T(mv),dx(g(aP),q)),mB=hY(f(ab(d,q),mA),aq,aQ,mz,my),a6=av(q,aP),b_=aH(am(q,aP)),a2=p[5],fp=jU(0,aq,aQ),fr=p[7],fs=fr?ex(i,p,t,b_,a6):fr,ft=fs?aa(q,v$):fs;if(ft)var
-kj=M(q,g(a6)),cD=o(g(aq),kj);else
+b=bb(a[2]);return f(bb(a[1]),b)},mu))),mw=g(V),mx=d2(0,kw(X),mw,aL,aK),h3=o(Y[1],mx);if(h3){var
+my=Y[5],mz=Y[4],mA=ab(T(mv),dx(g(aP),q)),mB=hY(f(ab(d,q),mA),ap,aQ,mz,my),a6=av(q,aP),b_=aH(am(q,aP)),a2=p[5],fp=jW(0,ap,aQ),fr=p[7],fs=fr?ex(i,p,t,b_,a6):fr,ft=fs?aa(q,we):fs;if(ft)var
+kc=M(q,g(a6)),cD=o(g(ap),kc);else
 var
 cD=ft;if(cD)var
-kk=0===a2[0]?wa:wb,cE=o(g(a6),kk);else
+kh=0===a2[0]?wf:wg,cE=o(g(a6),kh);else
 var
 cE=cD;var
-fu=cE?hw(aq,aQ):cE;if(fu)var
-kl=hx(am(q,aQ)),km=hx(am(q,aq)),cF=jW(i,p[4],km,kl);else
+fu=cE?hw(ap,aQ):cE;if(fu)var
+kl=hx(am(q,aQ)),km=hx(am(q,ap)),cF=jY(i,p[4],km,kl);else
 var
 cF=fu;if(cF)var
-ko=av(q,aQ),cH=oS(i,a2,av(q,aq),ko);else
+kn=av(q,aQ),cH=oY(i,a2,av(q,ap),kn);else
 var
 cH=cF;if(cH){var
-ks=am(q,aW(b_)),kB=am(q,aQ),fw=eH(i,am(q,aq),kB,ks);if(fw)var
+ko=am(q,aW(b_)),kq=am(q,aQ),fw=eH(i,am(q,ap),kq,ko);if(fw)var
 bj=fw;else{var
-fy=oR(a2);if(fy)var
-kC=av(q,aQ),bj=eH(i,av(q,aq),kC,a6);else
+fy=oX(a2);if(fy)var
+ku=av(q,aQ),bj=eH(i,av(q,ap),ku,a6);else
 var
 bj=fy}}else
 var
 bj=cH;var
 fx=bj?l(function(a){var
-c=aW(a[2]),b=eG(f(aW(a[1]),c));return b?eG([0,jY(a2,a6,b_,a),0]):b},t):bj;return fx?hv(i,e(function(a){var
-b=[6,jY(a2,a6,b_,a)],c=oT(am(q,fp));return[3,[6,jY(a2,av(q,fp),c,a)],b]},t),mB):fx}var
+c=aW(a[2]),b=eG(f(aW(a[1]),c));return b?eG([0,j0(a2,a6,b_,a),0]):b},t):bj;return fx?hv(i,e(function(a){var
+b=[6,j0(a2,a6,b_,a)],c=oZ(am(q,fp));return[3,[6,j0(a2,av(q,fp),c,a)],b]},t),mB):fx}var
 h4=h3}else
 var
 h4=d4;var
 h5=h4}else
 var
 h5=d3;return h5}var
-mt=g(V),d0=kv(0,ku(X),mt,aL,aK,Y);if(d0){var
+mt=g(V),d0=kx(0,kw(X),mt,aL,aK,Y);if(d0){var
 bt=d0[1],x=aH(am(q,aP)),u=av(q,aP),eq=ex(i,p,t,x,u);if(eq)var
 ac=p[5],er=p[3],es=p[1],iP=p[6],cf=function(a){var
-b=bY(ac,u,x,a);return w(bY(ac,u,x,a),b)},iI=e(function(a){return[0,jk(es,er,ac,u,x,a)]},t),iJ=e(cf,t),iK=function(a){var
+b=bY(ac,u,x,a);return w(bY(ac,u,x,a),b)},iI=e(function(a){return[0,jm(es,er,ac,u,x,a)]},t),iJ=e(cf,t),iK=function(a){var
 b=db(ac,u,a);return K(function(b,a){return[2,b,a]},x,b)},iL=e(function(a){var
 b=[6,cf(a)],c=bY(ac,u,x,a),d=db(ac,u,a[2]);return[0,[0,[0,K(function(b,a){return[2,b,a]},x,d),c],b]]},t),iM=e(function(a){return 0},t),iN=e(function(a){return[0,[6,cf(a)]]},t),iO=[0,e(function(c){var
-a=ay(bY(ac,u,x,c));return jj(es,a,P([5,[0,b,b],er],da(db(ac,u,c[2]),a)))},t),iN,iM,iL,iK,iJ,iI],iQ=bH(p[1]),iR=2<=p[1]?ue:uf,d1=jd(i,iR,iQ,iO,iP,bt);else
+a=ay(bY(ac,u,x,c));return jl(es,a,P([5,[0,b,b],er],da(db(ac,u,c[2]),a)))},t),iN,iM,iL,iK,iJ,iI],iQ=bH(p[1]),iR=2<=p[1]?uj:uk,d1=jf(i,iR,iQ,iO,iP,bt);else
 var
 d1=eq;if(d1)var
 hI=d1;else{if(typeof
 bt!=="number"&&0===bt[0]){var
 b8=bt[2];if(b8){if(b8[2])return 0;var
 b9=b8[1],hN=bt[1],be=p[1],fa=ex(i,p,t,x,u),ep=0;if(fa){var
-j8=p[6],j9=2<=be?v1:v2,cz=eu(i,j9,hN,j8),cd=0;if(cz){var
+j8=p[6],j9=2<=be?v6:v7,cz=eu(i,j9,hN,j8),cd=0;if(cz){var
 a0=cz[1][1],ce=0;if(typeof
 a0!=="number"&&15===a0[0]){var
 cA=F(t,a0[1]);if(cA){var
-bi=nq(b9),fd=a0[3],bK=cA[1],bL=p[5],cB=p[3],j_=a0[4],j$=a0[2],e2=jk(be,cB,bL,u,x,bK),e3=bY(bL,u,x,bK),cx=bs(bi,bi),e4=[4,[4,j$,[6,bs(e2,e2)]],cx],bc=bY(bL,u,x,bK),cv=db(bL,u,bK[2]),bd=P([5,[0,b,b],cB],oK(be,bi)),jT=da(bd,cv),jZ=oJ(be,bi),cw=K(function(b,a){return[2,b,a]},jZ,jT),e1=w(bc,cw),j1=w(bd,bd),j3=[4,w(bc,cv),j1],j4=w(cv,bd),j5=[3,[4,w(bc,bd),j4],j3],j6=[5,[4,e1,e1],w(bc,bc)],e5=[4,[4,fd,fd],[2,[3,w(cw,cw),j6],j5]],e6=[4,[4,j_,cx],[6,w(e3,e3)]],j7=bH(be),e7=o(g(bi),j7),e8=e7?h(i,1,cx):e7,e9=e8?h(i,1,cB):e8,iH=0;if(e9){var
+bi=nw(b9),fd=a0[3],bK=cA[1],bL=p[5],cB=p[3],j_=a0[4],j$=a0[2],e2=jm(be,cB,bL,u,x,bK),e3=bY(bL,u,x,bK),cx=bs(bi,bi),e4=[4,[4,j$,[6,bs(e2,e2)]],cx],bc=bY(bL,u,x,bK),cv=db(bL,u,bK[2]),bd=P([5,[0,b,b],cB],oQ(be,bi)),jQ=da(bd,cv),jT=oP(be,bi),cw=K(function(b,a){return[2,b,a]},jT,jQ),e1=w(bc,cw),jV=w(bd,bd),j1=[4,w(bc,cv),jV],j3=w(cv,bd),j5=[3,[4,w(bc,bd),j3],j1],j6=[5,[4,e1,e1],w(bc,bc)],e5=[4,[4,fd,fd],[2,[3,w(cw,cw),j6],j5]],e6=[4,[4,j_,cx],[6,w(e3,e3)]],j7=bH(be),e7=o(g(bi),j7),e8=e7?h(i,1,cx):e7,e9=e8?h(i,1,cB):e8,iH=0;if(e9){var
 e_=h(i,1,[3,[2,e4,e5],e6]);if(e_)var
 e$=e_;else{var
 bu=h(i,1,[3,[3,e4,e5],e6]);cd=1;ce=1;iH=1}}else
@@ -8089,7 +8100,7 @@ fc=fb;ep=1}}else{var
 fc=fa;ep=1}if(ep)var
 bu=fc;if(!bu){var
 fS=p[1],cO=p[5],fW=ex(i,p,t,x,u);if(fW){var
-kM=p[6],kN=2<=fS?wn:wo,cP=eu(i,kN,hN,kM);if(cP){var
+kM=p[6],kN=2<=fS?ws:wt,cP=eu(i,kN,hN,kM);if(cP){var
 bl=cP[1][1];if(typeof
 bl!=="number"&&16===bl[0]){var
 f2=bl[1],f3=h(i,0,f2);if(f3)var
@@ -8097,8 +8108,8 @@ kO=g(p[2]),cS=o(g(b9),kO);else
 var
 cS=f3;if(cS){var
 kP=p[2],kQ=W(W(t,hy(b9,e(function(a){var
-b=bB(a[2]);return oZ(bY(cO,u,x,[0,bB(a[1]),b]))},kP),f2)),b9),kR=e(function(e){var
-c=e[1],d=c[2],a=c[1],f=db(cO,u,a[2]),g=a[1],h=K(function(b,a){return[3,b,a]},x,g),i=[2,d,oZ(bY(cO,u,x,a))];return[0,dR([5,[0,e[2],b],i]),d,h,f]},kQ);return oY(i,[0,fS],bl[2],bl[3],kR)}return cS}var
+b=bB(a[2]);return o5(bY(cO,u,x,[0,bB(a[1]),b]))},kP),f2)),b9),kR=e(function(e){var
+c=e[1],d=c[2],a=c[1],f=db(cO,u,a[2]),g=a[1],h=K(function(b,a){return[3,b,a]},x,g),i=[2,d,o5(bY(cO,u,x,a))];return[0,dR([5,[0,e[2],b],i]),d,h,f]},kQ);return o4(i,[0,fS],bl[2],bl[3],kR)}return cS}var
 f0=0}else
 var
 f0=cP;var
@@ -8118,37 +8129,37 @@ hM=hG;return hM;default:return 0}case
 3:var
 ar=a[7],bv=a[6],bw=a[5],as=a[4],d5=a[3],aR=a[2],aS=a[1],aT=v[2];switch(aT[0]){case
 0:var
-h6=aT[3],h7=hW(jQ(ke(aS,aR,d5,as,bw,bv,ar)[1])),mC=g(h6),d6=dZ(g(aS),h7,h7,0,mC,h6);if(d6){var
+h6=aT[3],h7=hW(jS(kg(aS,aR,d5,as,bw,bv,ar)[1])),mC=g(h6),d6=dZ(g(aS),h7,h7,0,mC,h6);if(d6){var
 h8=d6[1];if(h8[2])return 0;var
-h9=pT(aS,aR,as,bw,bv,ar);if(h9){var
-mD=h8[1],Z=ke(aS,aR,d5,as,bw,bv,ar),mE=d2(0,CF,g(as),0,ar),h_=hX(aT[2]),bx=aT[1],eT=oD(Z[1]);if(eT)var
+h9=pZ(aS,aR,as,bw,bv,ar);if(h9){var
+mD=h8[1],Z=kg(aS,aR,d5,as,bw,bv,ar),mE=d2(0,CK,g(as),0,ar),h_=hX(aT[2]),bx=aT[1],eT=oJ(Z[1]);if(eT)var
 jy=Z[1][2],ct=l(function(a){return by(i,a[2][1],a[2][2])},jy);else
 var
 ct=eT;if(ct)var
 jz=Z[2],cu=l(function(a){return by(i,a[1],a[2])},jz);else
 var
 cu=ct;if(cu){var
-C=Z[1],cj=g(C[1]),bI=Z[3],ck=g(C[2]),ez=M(ck,g(fI(e(aO,C[3])))),iY=C[3],eA=oy(hs(C),iY,ck),aw=jP(cj,eA,C[4],ez),iZ=jN(eA,C[4],ez),i0=C[3],eB=f(jM(hs(C),i0,ck),iZ),eC=g(jQ(C)),i1=0,i2=f(eB,dd(function(a,b){return ou(aw,a,b)},i1,d,eC,bI)),i3=f(bE(fH(aw)),i2),eD=f(bE(eF(aw)),i3),cm=cZ(eD)[1],i4=cY(cm),aZ=function(a){return bh(i4,a)},eJ=o(g(Z[2]),cj);if(eJ)var
-i8=C[4],cn=l(function(a){return 0===a[0]?o(g(a[1]),cj):1},i8);else
+C=Z[1],cj=g(C[1]),bI=Z[3],ck=g(C[2]),ez=M(ck,g(fI(e(aN,C[3])))),iY=C[3],eA=oE(hs(C),iY,ck),aw=jR(cj,eA,C[4],ez),iZ=jP(eA,C[4],ez),i0=C[3],eB=f(jO(hs(C),i0,ck),iZ),eC=g(jS(C)),i1=0,i2=f(eB,dd(function(a,b){return oA(aw,a,b)},i1,d,eC,bI)),i3=f(bE(fH(aw)),i2),eD=f(bE(eF(aw)),i3),cm=cZ(eD)[1],i4=cY(cm),aZ=function(a){return bh(i4,a)},eJ=o(g(Z[2]),cj);if(eJ)var
+i5=C[4],cn=l(function(a){return 0===a[0]?o(g(a[1]),cj):1},i5);else
 var
 cn=eJ;var
 eK=cn?l(function(a){var
-b=m(d),c=cY(cm);return aN(r(aZ(a),c,b),a)},eD):cn,eL=eK?aj(ow,bI):eK;if(eL){var
+b=m(d),c=cY(cm);return aO(r(aZ(a),c,b),a)},eD):cn,eL=eK?aj(oC,bI):eK;if(eL){var
 eM=J(Z[4]);if(eM)var
 bJ=eM;else
 var
 jx=C[4],bJ=l(function(a){return 0===a[0]?0:1},jx)}else
 var
 bJ=eL;if(bJ){var
-i_=jQ(C),co=ad(e(function(a){return ap(bx,a)},i_));if(co){var
-i$=0,ja=z(function(a){return fA(i$,d,a)},bI),cp=ad(e(function(a){return ji(bx,a)},ja));if(cp){var
-je=Z[2],cq=ad(e(function(a){return ap(bx,[0,a,d])},je));if(cq){var
-jf=0,jg=0,cr=ad(dd(function(a,b){return ov(bx,aZ,aw,jg,d,a,b)},jf,d,eC,bI));if(cr){var
+i6=jS(C),co=ad(e(function(a){return aq(bx,a)},i6));if(co){var
+i_=0,ja=z(function(a){return fA(i_,d,a)},bI),cp=ad(e(function(a){return jk(bx,a)},ja));if(cp){var
+jb=Z[2],cq=ad(e(function(a){return aq(bx,[0,a,d])},jb));if(cq){var
+jc=0,jg=0,cr=ad(dd(function(a,b){return oB(bx,aZ,aw,jg,d,a,b)},jc,d,eC,bI));if(cr){var
 eO=cr[1];if(Z[4])var
-jh=h_[2],jl=h_[1],jm=fH(aw),cs=jc(mE,eO,[8,k(ax(aZ),jm),jl,jh]);else
+jh=h_[2],ji=h_[1],jj=fH(aw),cs=je(mE,eO,[8,k(ax(aZ),jj),ji,jh]);else
 var
 cs=eO;var
-jn=i6(cs),jo=cq[1],jp=function(a){return 0},jq=f(co[1],cp[1]),jr=e(aZ,eB),js=fH(aw),jv=k(ax(aZ),js),jw=eF(aw);return f4(i5(bx,cm,k(ax(aZ),jw),jv,jr,jq,cs,jp),jo,jn,mD)}var
+jn=i8(cs),jo=cq[1],jp=function(a){return 0},jq=f(co[1],cp[1]),jr=e(aZ,eB),js=fH(aw),jt=k(ax(aZ),js),ju=eF(aw);return f4(i7(bx,cm,k(ax(aZ),ju),jt,jr,jq,cs,jp),jo,jn,mD)}var
 eP=cr}else
 var
 eP=cq;var
@@ -8165,22 +8176,22 @@ h$=h9}else
 var
 h$=d6;return h$;case
 1:var
-_=aT[4],ia=aT[3],b$=aT[2],A=ke(aS,aR,d5,as,bw,bv,ar),mF=e(j,ia),ib=bk(e(aO,aR),mF);if(ib[2])return 0;var
-G=ib[1],ic=fY(e(aO,aR),ia),id=ic?pT(aS,aR,as,bw,bv,ar):ic,ie=id?oD(A[1]):id;if(ie)var
+_=aT[4],ia=aT[3],b$=aT[2],A=kg(aS,aR,d5,as,bw,bv,ar),mF=e(j,ia),ib=bk(e(aN,aR),mF);if(ib[2])return 0;var
+G=ib[1],ic=fY(e(aN,aR),ia),id=ic?pZ(aS,aR,as,bw,bv,ar):ic,ie=id?oJ(A[1]):id;if(ie)var
 mG=A[2],d7=l(function(a){return by(i,a[1],a[2])},mG);else
 var
 d7=ie;if(d7){if(typeof
 _!=="number")switch(_[0]){case
 2:var
-d$=e(j,_[1]),ea=e(j,b$),az=A[1],bM=ht(az),ka=oG(az),fe=e(function(a){return a[3]},ka),ff=function(a){var
-b=oH(az,G);function
-c(c){return dQ(a,b,c)}return e(function(a){return e(c,a)},fe)},fg=b1(i,e(aO,az[2]),G),fh=fg?b1(i,A[2],ea):fg,fi=fh?b1(i,A[2],d$):fh,fk=fi?o(g(ea),bM):fi,fl=fk?o(g(d$),bM):fk,fm=fl?oI(az,az[4]):fl,fn=fm?o(g(az[4]),bM):fm,fo=fn?l(function(a){return l(jS,a)},fe):fn;if(fo){var
-kf=ff(d$);return jJ(i,bM,ff(ea),kf)}return fo;case
+d$=e(j,_[1]),ea=e(j,b$),az=A[1],bM=ht(az),ka=oM(az),fe=e(function(a){return a[3]},ka),ff=function(a){var
+b=oN(az,G);function
+c(c){return dQ(a,b,c)}return e(function(a){return e(c,a)},fe)},fg=b1(i,e(aN,az[2]),G),fh=fg?b1(i,A[2],ea):fg,fi=fh?b1(i,A[2],d$):fh,fk=fi?o(g(ea),bM):fi,fl=fk?o(g(d$),bM):fk,fm=fl?oO(az,az[4]):fl,fn=fm?o(g(az[4]),bM):fm,fo=fn?l(function(a){return l(jU,a)},fe):fn;if(fo){var
+kb=ff(d$);return jL(i,bM,ff(ea),kb)}return fo;case
 3:var
 eb=cR(_[2]);if(eb){var
 a7=eb[1],ec=cR(_[3]);if(ec){var
-bC=ec[1],mI=d2(0,CH,g(as),0,ar),ij=o(_[1],mI);if(ij){var
-mJ=_[5],mK=_[4],mL=hY(ab(d,g(aS)),a7,bC,mK,mJ),bF=e(j,b$),aF=A[1],gj=jU(0,a7,bC),gk=A[4],gl=gk?b1(i,e(aO,aF[2]),G):gk,gm=gl?b1(i,A[2],bF):gl;if(gm)var
+bC=ec[1],mI=d2(0,CM,g(as),0,ar),ij=o(_[1],mI);if(ij){var
+mJ=_[5],mK=_[4],mL=hY(ab(d,g(aS)),a7,bC,mK,mJ),bF=e(j,b$),aF=A[1],gj=jW(0,a7,bC),gk=A[4],gl=gk?b1(i,e(aN,aF[2]),G):gk,gm=gl?b1(i,A[2],bF):gl;if(gm)var
 k0=e(a5,a7),c0=b1(i,A[2],k0);else
 var
 c0=gm;if(c0)var
@@ -8191,12 +8202,12 @@ gn=c2?hw(a7,bC):c2,go=gn?eH(i,a7,bC,bF):gn,gp=go?eG(f(G,bF)):go;if(gp)var
 k2=aF[3],c5=l(function(a){return fO(a[2])},k2);else
 var
 c5=gp;if(c5){var
-c6=j2(aF[4]);if(c6){var
+c6=j4(aF[4]);if(c6){var
 bQ=c6[1],gq=l(fO,bQ);if(gq)var
-k3=1,c7=o1(function(a){return h(i,k3,a)},aF,G,bF,bQ);else
+k3=1,c7=o7(function(a){return h(i,k3,a)},aF,G,bF,bQ);else
 var
 c7=gq;if(c7)var
-k4=g(a7),c8=o1(function(a){return jV(i,k4,a)},aF,G,gj,bQ);else
+k4=g(a7),c8=o7(function(a){return jX(i,k4,a)},aF,G,gj,bQ);else
 var
 c8=c7;if(c8)return hv(i,e(function(a){var
 b=aX(fN(aF,G,bF),a);return[3,aX(fN(aF,G,gj),a),b]},bQ),mL);var
@@ -8212,30 +8223,30 @@ ik=ec;var
 il=ik}else
 var
 il=eb;return il}var
-d8=kv(0,CG,g(as),0,ar,_);if(d8){var
-bz=d8[1],aU=e(j,b$),H=A[1],eV=ht(H),a_=oG(H),jH=oE(H),jI=H[4],jK=jN(oF(H),jI,jH),jL=g(H[2]),jO=H[3],eU=f(jM(hs(H),jO,jL),jK),a$=oH(H,G),eW=b1(i,e(aO,H[2]),G),eX=eW?b1(i,A[2],aU):eW,eY=eX?o(g(aU),eV):eX,eZ=eY?oI(H,H[4]):eY,e0=eZ?l(jS,f(z(vQ,a_),eU)):eZ;if(e0)var
-jR=A[3],jA=e(function(a){var
+d8=kx(0,CL,g(as),0,ar,_);if(d8){var
+bz=d8[1],aU=e(j,b$),H=A[1],eV=ht(H),a_=oM(H),jH=oK(H),jI=H[4],jJ=jP(oL(H),jI,jH),jK=g(H[2]),jM=H[3],eU=f(jO(hs(H),jM,jK),jJ),a$=oN(H,G),eW=b1(i,e(aN,H[2]),G),eX=eW?b1(i,A[2],aU):eW,eY=eX?o(g(aU),eV):eX,eZ=eY?oO(H,H[4]):eY,e0=eZ?l(jU,f(z(vV,a_),eU)):eZ;if(e0)var
+jN=A[3],jA=e(function(a){var
 b=a[1];return[0,e(function(a){return dQ(aU,a$,a)},b)]},a_),jB=z(function(c){var
 a=c[1];switch(a[0]){case
 7:var
 b=dQ(aU,a$,a[2]);return[0,[4,b,b],0];case
-9:return[0,dQ(aU,a$,a[1]),0];default:return 0}},eU),jC=function(a){return a},jD=0,jF=e(function(a){return 0},a_),jG=e(function(b){var
+9:return[0,dQ(aU,a$,a[1]),0];default:return 0}},eU),jC=function(a){return a},jD=0,jE=e(function(a){return 0},a_),jF=e(function(b){var
 a=b[4];if(typeof
-a!=="number"&&0===a[0])return[0,dQ(aU,a$,a[1])];return 0},a_),d9=jd(i,vR,eV,[0,e(function(a){var
-b=a[3];return e(function(a){return dQ(aU,a$,a)},b)},a_),jG,jF,jD,jC,jB,jA],jR,bz);else
+a!=="number"&&0===a[0])return[0,dQ(aU,a$,a[1])];return 0},a_),d9=jf(i,vW,eV,[0,e(function(a){var
+b=a[3];return e(function(a){return dQ(aU,a$,a)},b)},a_),jF,jE,jD,jC,jB,jA],jN,bz);else
 var
 d9=e0;if(d9)var
 ig=d9;else{if(typeof
 bz!=="number"&&0===bz[0]){var
 ca=bz[2];if(ca){if(ca[2])return 0;var
-d_=ca[1],mH=bz[1],bA=e(j,b$),aB=A[1],bN=g(aB[1]),f5=b1(i,e(aO,aB[2]),G),f6=f5?b1(i,A[2],bA):f5,f7=f6?o(g(bA),bN):f6,f8=f7?di(f(G,bA)):f7;if(f8)var
+d_=ca[1],mH=bz[1],bA=e(j,b$),aB=A[1],bN=g(aB[1]),f5=b1(i,e(aN,aB[2]),G),f6=f5?b1(i,A[2],bA):f5,f7=f6?o(g(bA),bN):f6,f8=f7?di(f(G,bA)):f7;if(f8)var
 kS=aB[3],cT=l(function(a){return fO(a[2])},kS);else
 var
 cT=f8;if(cT){var
-cU=eu(i,wq,mH,A[3]);if(cU){var
+cU=eu(i,wv,mH,A[3]);if(cU){var
 bO=cU[1][1];if(typeof
 bO!=="number"&&16===bO[0]){var
-f$=bO[2],ga=bO[1],cV=j2(aB[4]);if(cV){var
+f$=bO[2],ga=bO[1],cV=j4(aB[4]);if(cV){var
 bP=cV[1],cW=hz(aD(cN,f$));if(cW){var
 kT=cW[1],gb=h(i,1,f$),gc=gb?h(i,0,ga):gb;if(gc)var
 kU=g(bP),cX=o(g(d_),kU);else
@@ -8244,7 +8255,7 @@ cX=gc;var
 gd=cX?l(fO,bP):cX;if(gd){var
 kV=aB[2],kW=fN(aB,e(function(a){return dS(a[2])},kV),bA),ge=hy(d_,e(function(a){return aX(kW,a)},bP),ga),gf=di(ge);if(gf){var
 kX=W(bA,aC(0,bN)),kY=fN(aB,G,e(function(a){var
-b=cl(a[2],kT);return[2,a[1],b]},kX)),kZ=W(W(e(function(a){return aX(kY,a)},bP),ge),d_);return j0(i,bN,bN,eI(function(a){return[4,[0,a[2],b],[3,a[1][1],a[1][2]]]},kZ))}var
+b=cl(a[2],kT);return[2,a[1],b]},kX)),kZ=W(W(e(function(a){return aX(kY,a)},bP),ge),d_);return j2(i,bN,bN,eI(function(a){return[4,[0,a[2],b],[3,a[1][1],a[1][2]]]},kZ))}var
 gg=gf}else
 var
 gg=gd;var
@@ -8271,27 +8282,27 @@ ii=d7;return ii;default:return 0}case
 aV=a[3],a8=a[2],cb=a[1],aY=v[2];switch(aY[0]){case
 0:var
 mM=aY[3],mN=aY[2],mO=aY[1],g9=dp(j(cb));if(g9){var
-dJ=pz(aV);if(dJ){var
+dJ=pF(aV);if(dJ){var
 g_=dJ[1],bo=g_[2],g$=j(bo),ha=j(g_[1]),gw=h(i,1,j(a8)),gx=gw?h(i,1,[3,g$,[0,b,b]]):gw,gy=gx?h(i,1,ha):gx,hb=gy?h(i,0,[3,[5,[0,b,b],g$],ha]):gy,hc=hb?l(function(a){var
-b=pv(0,0,CD,a);if(b)var
+b=pB(0,0,CI,a);if(b)var
 c=b;else{var
 d=cQ(a);if(d)return aE(0,0,a);var
 c=d}return c},aV):hb,hd=hc?l(function(c){if(1===c[1]){var
 a=c[4];if(typeof
 a!=="number"&&0===a[0])return h(i,0,[3,[0,d,b],j(a[1])]);return 1}return 1},aV):hc;if(hd){var
-dt=a1(function(a){return J(pA(a))},aV);if(dt){var
+dt=a1(function(a){return J(pG(a))},aV);if(dt){var
 l_=[0,c(2,b),b],bT=h(i,0,[3,j(bo),l_]);if(bT)var
 dK=bT;else
 var
 mb=j(bo),dK=h(i,0,[3,[0,c(2,b),b],mb]);if(dK){var
-l7=z(function(a){if(cQ(a))return Cz;var
-b=hK(0,CA,0,a);return z(function(b){var
-c=fv(i,CB,b);return ab(J(pA(a)),c)},b)},aV),l8=function(f){var
+l7=z(function(a){if(cQ(a))return CE;var
+b=hK(0,CF,0,a);return z(function(b){var
+c=fv(i,CG,b);return ab(J(pG(a)),c)},b)},aV),l8=function(f){var
 a=fZ(l7,f[1]);if(a){var
 c=a[1],e=f[2];switch(e[0]){case
 0:return[0,[0,c,[0,e[1]]],0];case
-2:return[0,[0,c,[1,CC,[0,[0,b,[0,d,[0,d,0]]],[0,[0,d,[0,b,[0,d,0]]],[0,[0,d,[0,d,[0,b,0]]],0]]],d]],0];default:return[0,[0,c,e],0]}}return a},l9=e(function(a){var
-b=a[4],c=a[3],d=a[2];return[0,z(l8,a[1]),d,c,b]},mM),l$=[0,dt[1],dt[2]],ma=pE(bT,a8,bo);return ky(0,pD(bT,cb,a8,bo),0,ma,0,l$,mO,mN,l9)}return dK}var
+2:return[0,[0,c,[1,CH,[0,[0,b,[0,d,[0,d,0]]],[0,[0,d,[0,b,[0,d,0]]],[0,[0,d,[0,d,[0,b,0]]],0]]],d]],0];default:return[0,[0,c,e],0]}}return a},l9=e(function(a){var
+b=a[4],c=a[3],d=a[2];return[0,z(l8,a[1]),d,c,b]},mM),l$=[0,dt[1],dt[2]],ma=pK(bT,a8,bo);return kA(0,pJ(bT,cb,a8,bo),0,ma,0,l$,mO,mN,l9)}return dK}var
 he=1}else
 var
 he=hd;var
@@ -8303,14 +8314,14 @@ var
 hg=g9;return hg;case
 1:var
 mP=aY[4],mQ=aY[3],mR=aY[2],hh=dp(j(cb));if(hh){var
-dL=pz(aV);if(dL){var
+dL=pF(aV);if(dL){var
 bp=dL[1][2],mc=[0,c(2,b),b],bU=h(i,0,[3,j(bp),mc]),hj=h(i,1,j(a8)),hk=hj?h(i,1,[3,j(bp),[0,b,b]]):hj;if(hk)if(bU)var
 bV=bU;else
 var
 me=j(bp),bV=h(i,0,[3,[0,c(2,b),b],me]);else
 var
 bV=hk;if(bV){var
-md=pE(bU,a8,bp);return kz(0,pD(bU,cb,a8,bp),0,md,0,aV,mR,mQ,mP)}var
+md=pK(bU,a8,bp);return kB(0,pJ(bU,cb,a8,bp),0,md,0,aV,mR,mQ,mP)}var
 hm=bV}else
 var
 hm=dL;var
@@ -8319,15 +8330,15 @@ var
 hn=hh;return hn;default:return 0}case
 5:var
 ed=a[4],im=a[1],ee=v[2];if(0===ee[0]){var
-io=ee[3],B=hJ(im,[0,a[2],a[3]],0,ed),mS=g(io),ef=kq(kw(B),mS,io);if(ef){var
+io=ee[3],B=hJ(im,[0,a[2],a[3]],0,ed),mS=g(io),ef=ks(ky(B),mS,io);if(ef){var
 ip=ef[1];if(ip[2])return 0;var
 iq=hV(im,0,ed,B),ir=iq?J(aj(cQ,ed)):iq;if(ir){var
-is=nd(i,B);if(is){var
-mT=ip[1],it=e(hQ,B[1]),R=hR(B[1]),iu=j(a[5]),au=ee[1],dc=g2(R,it,B[1]),ae=i7(R,it,B[1],0),k9=g(B[3]),k_=M(g(dc),k9),bR=[0,g(dc),k_],k$=i9(ae,R,bR,B[3]),la=f(e(c3,ae),k$),gA=f(bE(fj(ae)),la),gB=cZ(gA)[1],de=cY(gB),gC=B[2];if(0===gC[0]){var
+is=nj(i,B);if(is){var
+mT=ip[1],it=e(hQ,B[1]),R=hR(B[1]),iu=j(a[5]),au=ee[1],dc=g2(R,it,B[1]),ae=i9(R,it,B[1],0),k9=g(B[3]),k_=M(g(dc),k9),bR=[0,g(dc),k_],k$=i$(ae,R,bR,B[3]),la=f(e(c3,ae),k$),gA=f(bE(fj(ae)),la),gB=cZ(gA)[1],de=cY(gB),gC=B[2];if(0===gC[0]){var
 gD=l(function(a){var
-b=m(d);return aN(r(bh(de,a),de,b),a)},gA),gE=gD?h(i,1,iu):gD;if(gE){var
-lb=B[3],lc=z(function(a){return dI(R,a)},lb),ld=B[3],le=f(dc,f(e(function(a){return bX(R,a)},ld),lc)),df=ad(e(function(a){return ap(au,a)},le));if(df){var
-lf=ba(gC[1],R),dg=ad(e(function(a){return ap(au,a)},lf));if(dg){var
+b=m(d);return aO(r(bh(de,a),de,b),a)},gA),gE=gD?h(i,1,iu):gD;if(gE){var
+lb=B[3],lc=z(function(a){return dI(R,a)},lb),ld=B[3],le=f(dc,f(e(function(a){return bX(R,a)},ld),lc)),df=ad(e(function(a){return aq(au,a)},le));if(df){var
+lf=ba(gC[1],R),dg=ad(e(function(a){return aq(au,a)},lf));if(dg){var
 dh=c1(au,R,[5,iu,[0,c(2,c(2,c(2,c(2,b)))),b]]);if(dh){var
 dj=B[3],lg=dg[1],lh=df[1],li=dh[1],bm=function(a){return bh(de,a)},k6=aC(0,g(dj)),k7=e(function(j){var
 l=F(dj,j);if(l){var
@@ -8350,12 +8361,12 @@ q=c;m=1;break;case
 t=fq(ae,R,i,a);return y(function(a){return[0,k(ax(bm),a),q]},t)}return 0}return l},k6),k8=e(function(a){return bm(c3(a))},ae),gz=e(function(a){return bm(a[2])},ae),lj=B[3],lk=bR[1],c$=function(aC,aB,aA){var
 k=aC,m=aB,f=aA;for(;;)switch(f[0]){case
 0:var
-v=f[1],_=o(g(v),wz),aa=_?l(function(a){var
+v=f[1],_=o(g(v),wE),aa=_?l(function(a){var
 d=D(T(c(2,c(2,c(2,b)))),a);return d?D(a,c(2,c(2,c(2,b)))):d},v):_;if(aa){var
-ab=o$(au,li,dH(0,m),v),j=f[2],w=bg(0,bD(au,ab,e($,k)),gB,0),aD=e($,k),N=function(a){return o_(o9(au,ab,aD,w,a))};if(typeof
+ab=pf(au,li,dH(0,m),v),j=f[2],w=bg(0,bD(au,ab,e($,k)),gB,0),aD=e($,k),N=function(a){return pe(pd(au,ab,aD,w,a))};if(typeof
 j==="number")return 0===j?aj(function(b){var
 a=r(b,w,0);return a?D(a[1][2][2],d):a},gz):0;else{if(0===j[0]){var
-a=j[2],O=l(wx,a);if(O){var
+a=j[2],O=l(wC,a);if(O){var
 q=r(j[1],k7,0);if(q){var
 i=q[1];switch(i[0]){case
 0:var
@@ -8384,7 +8395,7 @@ h=L;break;default:if(a)var
 h=0;else
 var
 ax=i[1],h=[0,[0,0,e(function(a){return[1,[5,[0,a]]]},ax)]]}if(h){var
-P=h[1],ay=P[1],Q=l(function(a){return o_(r(a[2],w,0))},ay);if(Q)return l(N,P[2]);var
+P=h[1],ay=P[1],Q=l(function(a){return pe(r(a[2],w,0))},ay);if(Q)return l(N,P[2]);var
 R=Q}else
 var
 R=h;var
@@ -8407,13 +8418,13 @@ Y=0}else
 var
 Y=s;return Y}}return aa;case
 1:var
-ac=f[1],ad=pa(ac,m);if(ad){var
+ac=f[1],ad=pg(ac,m);if(ad){var
 ae=c4(ac,m),af=c$(k,ae[1],f[2]);if(af){var
 m=ae[2],f=f[3];continue}var
 ag=af}else
 var
 ag=ad;return ag;default:var
-ah=f[1],ai=pa(ah,k);if(ai){var
+ah=f[1],ai=pg(ah,k);if(ai){var
 ak=c4(ah,k),al=c$(ak[1],m,f[2]);if(al){var
 k=ak[2],f=f[3];continue}var
 am=al}else
@@ -8437,11 +8448,11 @@ iw=ef;return iw}return 0;case
 6:var
 ix=a[1];if(ix){var
 iy=ix[1],eg=v[2];if(0===eg[0]){var
-eh=kp(CJ,0,0,0,CI,eg[3]);if(eh){var
+eh=kr(CO,0,0,0,CN,eg[3]);if(eh){var
 iz=fX(iy);if(iz){var
 mU=eh[1],iA=b3(iy)[2],cc=eg[1],c9=c1(cc,d,iA);if(c9){var
 c_=c1(cc,d,[5,[0,b,b],iA]);if(c_){var
-k5=c9[1][1],gt=I(cy(cc),k5);if(gt)return o8(cc,c_[1][1],mU);var
+k5=c9[1][1],gt=I(cy(cc),k5);if(gt)return pc(cc,c_[1][1],mU);var
 gu=gt}else
 var
 gu=c_;var
@@ -8452,60 +8463,57 @@ iB=iz}else
 var
 iB=eh;return iB}return 0}var
 ei=v[2];if(0===ei[0]){var
-ej=kp(CL,0,0,0,CK,ei[3]);return ej?o8(ei[1],d,ej[1]):ej}return 0;default:var
+ej=kr(CQ,0,0,0,CP,ei[3]);return ej?pc(ei[1],d,ej[1]):ej}return 0;default:var
 a9=a[1],iC=v[2];if(2===iC[0]){var
-iD=iC[1],ek=kn(g(iD),iD);if(ek){var
+iD=iC[1],ek=kp(g(iD),iD);if(ek){var
 iE=ek[1];if(iE[2])return 0;var
-el=iE[1],gZ=aa(Cw,g(a9)),g0=gZ?aa(g(a9),dE):gZ,g1=g0?oC(e(aA,a9)):g0,iF=g1?l(function(c){var
+el=iE[1],gZ=aa(CB,g(a9)),g0=gZ?aa(g(a9),dE):gZ,g1=g0?oI(e(aA,a9)):g0,iF=g1?l(function(c){var
 a=cC(j(c[2][1]));if(a){var
 b=cC(j(c[2][2]));if(b)return J(bf(b[1],a[1]));var
 d=b}else
 var
 d=a;return d},a9):g1;if(iF)var
-mV=hP(Bm,el),em=p1(a[5],mV);else
+mV=hP(Br,el),em=p7(a[5],mV);else
 var
 em=iF;if(em)var
-mW=hP(Bn,el),en=p1(a[6],mW);else
+mW=hP(Bs,el),en=p7(a[6],mW);else
 var
 en=em;if(en){var
-lQ=e(function(a){return[0,d,0]},a9);return p0(a9,a[2],a[3],a[4],lQ,el)}var
+lQ=e(function(a){return[0,d,0]},a9);return p6(a9,a[2],a[3],a[4],lQ,el)}var
 iG=en}else
 var
 iG=ek;return iG}return 0}}return bq}var
-X=[a7,CO,sm(0)],p5=[a7,CP,sm(0)];function
-CM(l,b){var
-f=[0,n(AI,aq(b[4])),0],g=[0,n(AK,ah([0,n(AJ,aq(b[3])),f])),0],a=b[2];switch(a[0]){case
+Y=[a7,CT,ss(0)],p$=[a7,CU,ss(0)];function
+CR(l,b){var
+f=[0,n(AN,ar(b[4])),0],g=[0,n(AP,ah([0,n(AO,ar(b[3])),f])),0],a=b[2];switch(a[0]){case
 0:var
-c=Q(AE,ph(a[1],a[2],a[3]));break;case
+c=Q(AJ,pn(a[1],a[2],a[3]));break;case
 1:var
-c=Q(AF,pi(a[1],a[2],a[3],a[4]));break;default:var
-c=Q(AG,H(e(Az,a[1])))}var
-h=[0,n(AL,c),g],i=1===b[2][0]?AR:AM,j=[0,n(AN,aq(i)),h],k=[0,n(AO,y$(b[1])),j],d=aB(lp(CN,hF(ah([0,n(AQ,aq(AP)),k]),AH)),l);return d?CE(b):d}function
-ai(a){if(0===a[0])return a[1];throw X}function
-ae(a){if(1===a[0])return a[1];throw X}function
-a2(a){if(2===a[0])return a[1];throw X}function
-f0(a){if(3===a[0])return a[1];throw X}function
-bc(f,e){var
-a=f;for(;;){if(a){var
-b=a[1],c=a[2],d=b[2];if(0===Jc(b[1],e))return[0,d];var
-a=c;continue}return 0}}function
+c=Q(AK,po(a[1],a[2],a[3],a[4]));break;default:var
+c=Q(AL,H(e(AE,a[1])))}var
+h=[0,n(AQ,c),g],i=1===b[2][0]?AW:AR,j=[0,n(AS,ar(i)),h],k=[0,n(AT,ze(b[1])),j],d=aB(lv(CS,hF(ah([0,n(AV,ar(AU)),k]),AM)),l);return d?CJ(b):d}function
+ai(a){if(0===a[0])return a[1];throw Y}function
+ae(a){if(1===a[0])return a[1];throw Y}function
+a2(a){if(2===a[0])return a[1];throw Y}function
+f0(a){if(3===a[0])return a[1];throw Y}function
+bc(b,a){return lu(a,b)}function
 v(c,b){var
-a=bc(c,b);if(a)return a[1];throw X}function
+a=bc(c,b);if(a)return a[1];throw Y}function
 cn(b,a){var
 c=a?[0,k(b,a[1])]:a;return c}function
 d3(a){switch(a[0]){case
 0:var
 b=a[1];if(b&&!b[2]){var
 c=b[1];return[0,c[1],c[2]]}break;case
-2:return[0,a[1],CR]}throw X}function
+2:return[0,a[1],CW]}throw Y}function
 f1(e,d){var
-a=_(e,ae(d));if(a){var
+a=X(e,ae(d));if(a){var
 b=a[2];if(b){var
-c=b[2];if(c&&!c[2])return[0,a[1],b[1],c[1]]}}throw X}function
+c=b[2];if(c&&!c[2])return[0,a[1],b[1],c[1]]}}throw Y}function
 hZ(i){var
 f=e4(i),d=[0,0],e=iq(f)-1|0;if(!(e<0)){var
 c=e;for(;;){var
-a=d[1],g=k7(f,c)-48|0;if(9<g>>>0)throw X;switch(g){case
+a=d[1],g=k9(f,c)-48|0;if(9<g>>>0)throw Y;switch(g){case
 0:var
 b=[0,a];break;case
 1:var
@@ -8527,106 +8535,106 @@ b=[8,a];break;default:var
 b=[9,a]}d[1]=b;var
 h=c-1|0;if(0!==c){var
 c=h;continue}break}}return d[1]}function
-f2(a){return lE(hZ(a))}function
+f2(a){return lK(hZ(a))}function
 eR(b){var
 a=f0(b);return 45===a8(a,0)?T(f2(ea(a,1,az(a)-1|0))):f2(a)}function
-p6(a){return ec(f2(f0(a)))}function
+qa(a){return ec(f2(f0(a)))}function
 dr(b){var
-a=f0(b);if(!(2<az(a))&&!(64<=ip(a)))return iB(f2(a));throw X}function
+a=f0(b);if(!(2<az(a))&&!(64<=ip(a)))return iD(f2(a));throw Y}function
 cS(c){var
-a=f0(c);if(6<az(a))throw X;function
+a=f0(c);if(6<az(a))throw Y;function
 b(a){return 0<a?[0,b(a-1|0)]:0}return b(ip(a))}function
-p7(a){var
-b=97<=a?1:0,c=b?a<=r0?1:0:b;if(c)var
+qb(a){var
+b=97<=a?1:0,c=b?a<=r6?1:0:b;if(c)var
 d=c;else
 var
 e=65<=a?1:0,d=e?a<=90?1:0:e;return d}function
-p8(y,b){var
+qc(y,b){var
 d=az(b),a=[0,0];function
 c(e){var
 c=a[1]<d?1:0,f=c?a8(b,a[1])===e?1:0:c;return f}function
 l(e){var
 c=a[1];for(;;){if(a[1]<d&&48<=a8(b,a[1])&&!(57<a8(b,a[1]))){a[1]++;continue}return ea(b,c,a[1]-c|0)}}function
 m(b){a[1]++;var
-d=f(b+1|0);if(c(41)){a[1]++;return d}throw X}function
-h(i){if(64<i)throw X;if(c(45)){a[1]++;return[2,h(i+1|0)]}if(c(40))var
+d=f(b+1|0);if(c(41)){a[1]++;return d}throw Y}function
+h(i){if(64<i)throw Y;if(c(45)){a[1]++;return[2,h(i+1|0)]}if(c(40))var
 e=m(i);else{var
-u=0;if((a[1]+5|0)<=d&&aB(ea(b,a[1],5),CT)){a[1]=a[1]+4|0;var
+u=0;if((a[1]+5|0)<=d&&aB(ea(b,a[1],5),CY)){a[1]=a[1]+4|0;var
 e=[5,m(i)]}else
 u=1;if(u){var
-v=0;if(a[1]<d&&p7(a8(b,a[1]))){var
+v=0;if(a[1]<d&&qb(a8(b,a[1]))){var
 n=a[1];for(;;){if(a[1]<d){var
-w=0;if(!p7(a8(b,a[1]))&&95!==a8(b,a[1])&&(!(48<=a8(b,a[1]))||57<a8(b,a[1])))w=1;if(!w){a[1]++;continue}}var
+w=0;if(!qb(a8(b,a[1]))&&95!==a8(b,a[1])&&(!(48<=a8(b,a[1]))||57<a8(b,a[1])))w=1;if(!w){a[1]++;continue}}var
 e=[1,k(y,ea(b,n,a[1]-n|0))];break}}else
 v=1;if(v){var
-g=l(0),o=c(46),q=o?(a[1]++,[0,l(0)]):o,r=aB(g,CU);if(r)var
+g=l(0),o=c(46),q=o?(a[1]++,[0,l(0)]):o,r=aB(g,CZ);if(r)var
 s=r;else
 var
-t=1<az(g)?1:0,s=t?48===a8(g,0)?1:0:t;if(s)throw X;if(q){var
-j=q[1],x=0;if(aB(j,CV)||48===a8(j,az(j)-1|0))x=1;else
+t=1<az(g)?1:0,s=t?48===a8(g,0)?1:0:t;if(s)throw Y;if(q){var
+j=q[1],x=0;if(aB(j,C0)||48===a8(j,az(j)-1|0))x=1;else
 var
-z=hZ(j),e=[0,hZ(g),z];if(x)throw X}else
+z=hZ(j),e=[0,hZ(g),z];if(x)throw Y}else
 var
 e=[0,hZ(g),0]}}}if(c(94)){a[1]++;var
-f=l(0);if(p(f,CS)){if(!(2<az(f))&&2<=ip(f)&&!(64<ip(f)))return[4,e,ec(f2(f))];throw X}throw X}return e}function
+f=l(0);if(p(f,CX)){if(!(2<az(f))&&2<=ip(f)&&!(64<ip(f)))return[4,e,ec(f2(f))];throw Y}throw Y}return e}function
 e(d){var
 b=h(d);for(;;){if(c(42)){a[1]++;var
 b=[3,2,b,h(d)];continue}if(c(47)){a[1]++;var
 b=[3,3,b,h(d)];continue}return b}}function
-f(d){if(64<d)throw X;var
+f(d){if(64<d)throw Y;var
 b=e(d);for(;;){if(c(43)){a[1]++;var
 b=[3,0,b,e(d)];continue}if(c(45)){a[1]++;var
 b=[3,1,b,e(d)];continue}return b}}var
-g=f(0);if(a[1]<d)throw X;return g}function
-h0(a){return p8(function(a){return[0,a]},a)}function
-kB(a){var
-b=a2(a);return p8(function(a){return a},b)}function
-Y(a){return h0(a2(a))}function
+g=f(0);if(a[1]<d)throw Y;return g}function
+h0(a){return qc(function(a){return[0,a]},a)}function
+kD(a){var
+b=a2(a);return qc(function(a){return a},b)}function
+Z(a){return h0(a2(a))}function
 b5(a){if(2===a[0])return[0,h0(a[1])];var
-b=ai(a),c=Y(v(b,CW));return[1,Y(v(b,CX)),c]}function
-an(a){throw[0,p5,be(lp(CZ,a),CY)]}function
-kC(c){var
-a=a2(c);if(p(a,C0)){var
-b=p(a,C1);if(b)throw X;return b}return 1}function
-C2(d){var
+b=ai(a),c=Z(v(b,C1));return[1,Z(v(b,C2)),c]}function
+an(a){throw[0,p$,be(lv(C4,a),C3)]}function
+kE(c){var
+a=a2(c);if(p(a,C5)){var
+b=p(a,C6);if(b)throw Y;return b}return 1}function
+C7(d){var
 b=ai(d);function
 a(a){return f1(b5,v(b,a))}var
-c=a2(v(b,C3));if(p(c,C4)){if(p(c,C5)){if(p(c,C6))return an([0,C8,[0,c,C7]]);var
-e=bc(b,C9),f=cn(function(a){return f1(b5,a)},e),g=a(C_);return[1,a(C$),g,f]}var
-h=kC(v(b,Da)),i=b5(v(b,Db)),j=a(Dc),k=a(Dd);return[0,a(De),k,j,i,h]}return[2,a(Df)]}function
-Dg(d){var
+c=a2(v(b,C8));if(p(c,C9)){if(p(c,C_)){if(p(c,C$))return an([0,Db,[0,c,Da]]);var
+e=bc(b,Dc),f=cn(function(a){return f1(b5,a)},e),g=a(Dd);return[1,a(De),g,f]}var
+h=kE(v(b,Df)),i=b5(v(b,Dg)),j=a(Dh),k=a(Di);return[0,a(Dj),k,j,i,h]}return[2,a(Dk)]}function
+Dl(d){var
 a=ai(d);if(a){var
-b=a[1];if(!p(b[1],Dh)){var
-c=b[2];if(2===c[0]&&!p(c[1],Di))return 1}}return 0}function
-p9(e){var
+b=a[1];if(!p(b[1],Dm)){var
+c=b[2];if(2===c[0]&&!p(c[1],Dn))return 1}}return 0}function
+qd(e){var
 b=ai(e);function
-a(a){return _(b5,ae(v(b,a)))}var
-c=a2(v(b,Dj)),f=bc(b,Dk),d=cn(function(a){return _(b5,ae(a))},f);if(p(c,Dl)){if(p(c,Dm)){if(p(c,Dn)){if(!p(c,Do)){var
-g=a(Dr);return[1,a(Ds),g,d]}}else
+a(a){return X(b5,ae(v(b,a)))}var
+c=a2(v(b,Do)),f=bc(b,Dp),d=cn(function(a){return X(b5,ae(a))},f);if(p(c,Dq)){if(p(c,Dr)){if(p(c,Ds)){if(!p(c,Dt)){var
+g=a(Dw);return[1,a(Dx),g,d]}}else
 if(!d){var
-h=kC(v(b,Dt)),i=b5(v(b,Du)),j=a(Dv),k=a(Dw);return[0,a(Dx),k,j,i,h]}}else
-if(!d)return[2,a(Dy)]}else
+h=kE(v(b,Dy)),i=b5(v(b,Dz)),j=a(DA),k=a(DB);return[0,a(DC),k,j,i,h]}}else
+if(!d)return[2,a(DD)]}else
 if(!d){var
-l=kC(v(b,Dz)),m=b5(v(b,DA)),n=b5(v(b,DB)),o=a(DC),q=a(DD),r=a(DE);return[3,a(DF),r,q,o,n,m,l]}return an([0,Dq,[0,c,Dp]])}function
-DG(d){var
-a=ai(d);if(a){var
-b=a[1];if(!p(b[1],DH)){var
-c=b[2];if(2===c[0]&&!p(c[1],DI))return 1}}return 0}function
-DJ(d){var
-a=ai(d);if(a){var
-b=a[1];if(!p(b[1],DK)){var
-c=b[2];if(2===c[0]&&!p(c[1],DL))return 1}}return 0}function
-p_(d){var
+l=kE(v(b,DE)),m=b5(v(b,DF)),n=b5(v(b,DG)),o=a(DH),q=a(DI),r=a(DJ);return[3,a(DK),r,q,o,n,m,l]}return an([0,Dv,[0,c,Du]])}function
+DL(d){var
 a=ai(d);if(a){var
 b=a[1];if(!p(b[1],DM)){var
 c=b[2];if(2===c[0]&&!p(c[1],DN))return 1}}return 0}function
+DO(d){var
+a=ai(d);if(a){var
+b=a[1];if(!p(b[1],DP)){var
+c=b[2];if(2===c[0]&&!p(c[1],DQ))return 1}}return 0}function
+qe(d){var
+a=ai(d);if(a){var
+b=a[1];if(!p(b[1],DR)){var
+c=b[2];if(2===c[0]&&!p(c[1],DS))return 1}}return 0}function
 ds(c,d){var
 a=ae(d);if(a){var
 b=a[2];if(b&&!b[2]){var
-e=k(c,b[1]);return[0,k(c,a[1]),e]}}throw X}function
+e=k(c,b[1]);return[0,k(c,a[1]),e]}}throw Y}function
 d4(g,o){var
-h=g?g[1]:g,c=ai(o),a=a2(v(c,DO)),j=sz(a,DP),f=0;if(0<=j)if(0<j)if(p(a,DQ))if(p(a,DR))if(p(a,DS))if(p(a,DT))if(p(a,DU))if(p(a,DV))if(p(a,DW)){var
-k=p(a,DX);if(k)f=1;else
+h=g?g[1]:g,c=ai(o),a=a2(v(c,DT)),j=sE(a,DU),f=0;if(0<=j)if(0<j)if(p(a,DV))if(p(a,DW))if(p(a,DX))if(p(a,DY))if(p(a,DZ))if(p(a,D0))if(p(a,D1)){var
+k=p(a,D2);if(k)f=1;else
 var
 b=k}else
 var
@@ -8646,7 +8654,7 @@ var
 b=13;else
 var
 b=2;else
-if(p(a,Eg))if(p(a,Eh))if(p(a,Ei))if(p(a,Ej))if(p(a,Ek))if(p(a,El))if(p(a,Em))if(p(a,En))f=1;else
+if(p(a,El))if(p(a,Em))if(p(a,En))if(p(a,Eo))if(p(a,Ep))if(p(a,Eq))if(p(a,Er))if(p(a,Es))f=1;else
 var
 b=1;else
 var
@@ -8664,210 +8672,223 @@ b=14;else
 f=1;else
 var
 b=12;var
-n=f?an([0,DZ,[0,a,DY]]):b;function
-i(a){return v(c,D0)}var
-d=a2(v(c,D1)),l=p(d,D2);if(l)if(p(d,D3))if(p(d,D4))if(p(d,D5))var
-e=an([0,D7,[0,d,D6]]);else
+n=f?an([0,D4,[0,a,D3]]):b;function
+i(a){return v(c,D5)}var
+d=a2(v(c,D6)),l=p(d,D7);if(l)if(p(d,D8))if(p(d,D9))if(p(d,D_))var
+e=an([0,Ea,[0,d,D$]]);else
 var
-m=ds(Y,i(0)),e=[2,m[1],m[2]];else
+m=ds(Z,i(0)),e=[2,m[1],m[2]];else
 var
-e=[0,Y(i(0))];else
+e=[0,Z(i(0))];else
 var
-e=[1,Y(i(0))];else
+e=[1,Z(i(0))];else
 var
 e=l;function
 q(H){var
 a=ai(H),b=0;switch(n){case
 6:if(a){var
-r=a[1];if(!p(r[1],D9)){var
+r=a[1];if(!p(r[1],Ec)){var
 s=r[2];if(1===s[0]){var
 c=s[1],m=0;if(c&&!c[2])if(a[2])m=1;else{var
 e=c[1];b=1;m=1}if(!m&&!a[2]){var
 t=c;b=2}}}}break;case
 10:if(a){var
-u=a[1];if(!p(u[1],D_)){var
+u=a[1];if(!p(u[1],Ed)){var
 v=u[2];if(1===v[0]){var
 f=v[1];if(f&&!f[2]){var
 g=a[2];if(g){var
-w=g[1];if(!p(w[1],D$)){var
+w=g[1];if(!p(w[1],Ee)){var
 x=w[2];if(1===x[0]){var
 i=x[1];if(i&&!i[2]&&!g[2]){var
-I=Y(i[1]);return[2,Y(f[1]),I]}}}}}}}}break;case
+I=Z(i[1]);return[2,Z(f[1]),I]}}}}}}}}break;case
 12:if(a){var
-y=a[1];if(!p(y[1],Ea)){var
+y=a[1];if(!p(y[1],Ef)){var
 z=y[2];if(1===z[0]){var
 j=z[1];if(j&&!j[2]){var
 k=a[2],A=j[1];if(k){var
-B=k[1];if(!p(B[1],Eb)){var
+B=k[1];if(!p(B[1],Eg)){var
 C=B[2];if(1===C[0]){var
 l=C[1];if(l&&!l[2]&&!k[2]&&h){var
-J=Y(l[1]);return[3,Y(A),J]}}}}else{var
+J=Z(l[1]);return[3,Z(A),J]}}}}else{var
 e=A;b=1}}}}}break;case
 16:if(a){var
-F=a[1];if(!p(F[1],Ed)){var
+F=a[1];if(!p(F[1],Ei)){var
 G=F[2];if(1===G[0]&&!a[2]){var
 t=G[1];b=2}}}break;case
 14:case
 15:if(a){var
-D=a[1];if(!p(D[1],Ec)){var
-E=D[2];if(1===E[0]&&!a[2])return[1,_(Y,E[1])]}}break;case
+D=a[1];if(!p(D[1],Eh)){var
+E=D[2];if(1===E[0]&&!a[2])return[1,X(Z,E[1])]}}break;case
 2:case
 8:if(a){var
-o=a[1];if(!p(o[1],D8)){var
+o=a[1];if(!p(o[1],Eb)){var
 q=o[2];if(1===q[0]){var
 d=q[1];if(d&&!d[2]&&!a[2]){var
 e=d[1];b=1}}}}break}switch(b){case
-0:throw X;case
-1:return[0,Y(e)];default:return[1,_(Y,t)]}}var
-r=cn(q,bc(c,Ee));return[0,n,cn(cS,bc(c,Ef)),r,e]}function
-p$(c){var
-d=d4(Eq,c),e=d[1];if(!(9<=e))switch(e){case
+0:throw Y;case
+1:return[0,Z(e)];default:return[1,X(Z,t)]}}var
+r=cn(q,bc(c,Ej));return[0,n,cn(cS,bc(c,Ek)),r,e]}function
+qf(c){var
+d=d4(Ev,c),e=d[1];if(!(9<=e))switch(e){case
 2:case
 6:case
 8:return d}var
-a=d4(Eo,c),b=a[1];if(2!==b&&!(4<=b))return a;return an(Ep)}function
-qa(a){var
-b=d4(Er,a);return 11===b[1]?b:p$(a)}function
-Es(a){var
-b=d4(Et,a);return 12===b[1]?b:qa(a)}function
-Eu(a){var
-b=d4(Ev,a),c=b[1];if(9<=c)switch(c-9|0){case
+a=d4(Et,c),b=a[1];if(2!==b&&!(4<=b))return a;return an(Eu)}function
+qg(a){var
+b=d4(Ew,a);return 11===b[1]?b:qf(a)}function
+Ex(a){var
+b=d4(Ey,a);return 12===b[1]?b:qg(a)}function
+Ez(a){var
+b=d4(EA,a),c=b[1];if(9<=c)switch(c-9|0){case
 2:case
 4:case
-7:break;default:return b}return qa(a)}function
-kD(c){var
-d=d4(Ew,c),a=d[1];if(4<=a){var
+7:break;default:return b}return qg(a)}function
+kF(c){var
+d=d4(EB,c),a=d[1];if(4<=a){var
 b=0;if(6<=a)switch(a-6|0){case
 5:case
 6:case
 7:case
 10:b=1;break}else
-b=1;if(b)return d}return p$(c)}function
-kE(b){var
-a=ai(b[2]);if(p(b[1],ED)){var
-c=ds(Y,v(a,EE)),d=ds(Y,v(a,EF)),e=d[2],f=d[1],g=Y(v(a,EG));return[1,c[1],c[2],g,f,e]}var
-h=_(Y,ae(v(a,EH)));return[0,_(Y,ae(v(a,EI))),h]}function
-EJ(f){var
+b=1;if(b)return d}return qf(c)}function
+kG(b){var
+a=ai(b[2]);if(p(b[1],EI)){var
+c=ds(Z,v(a,EJ)),d=ds(Z,v(a,EK)),e=d[2],f=d[1],g=Z(v(a,EL));return[1,c[1],c[2],g,f,e]}var
+h=X(Z,ae(v(a,EM)));return[0,X(Z,ae(v(a,EN))),h]}function
+EO(f){var
 a=ai(f);function
-d(b){return Y(v(a,b))}function
-c(b){return f1(Y,v(a,b))}var
-b=a2(v(a,EK));if(p(b,EL)){if(!p(b,EM)){var
-j=v(a,ES),e=ds(function(a){return a},j),k=bc(a,ET),l=cn(function(a){return c(EU)},k),m=h0(a2(e[2])),n=h0(a2(e[1])),o=d(EV);return[0,cS(v(a,EW)),o,n,m,l]}if(p(b,EN))throw X}var
-g=d(EO),h=c(EP),i=c(EQ);return[1,aB(b,ER),i,h,g]}function
-kF(aq){var
-g=d3(aq),h=g[1];if(p(h,EX)){if(p(h,EY)){if(p(h,EZ)){if(p(h,E0))return an([0,E2,[0,h,E1]]);var
-x=v(ai(g[2]),E3),ad=0;if(2===x[0]){var
-L=p(x[1],E4);if(!L){var
-K=L;ad=1}}if(!ad)var
-K=[0,b5(x)];return[6,K]}var
-M=ai(g[2]),i=kF([0,[0,[0,E6,v(M,E5)],0]]);if(0===i[0]){var
-y=i[2];if(0===y[0]&&!i[3]){var
-N=i[4];if(!aM(b4,N)){var
-ar=Y(v(M,E8));return[5,i[1],y[1],y[2],N,ar]}}}return an(E7)}var
-a=ai(g[2]),z=bc(a,E9),A=z?_(EJ,ae(z[1])):z,o=function(b){var
-a=0!==A?1:0;return a?an(E_):a},j=d3(v(a,E$)),b=d3(v(a,Fa)),c=j[1];if(p(c,Fb)&&p(c,Fc)&&p(c,Fd)){if(0===bc(a,Fe)){if(p(c,Ff)){var
-af=0;if(p(c,Fg)){if(!p(c,Fh)){var
-O=b[1],ag=0;if(p(O,Fk)&&p(O,Fl)){af=1;ag=1}if(!ag){var
-l=ae(j[2]),as=ae(v(a,Fo)),B=_(function(a){return d4(0,a)},as),at=aM(function(a){switch(a[1]){case
-5:return 1-gn(DG,l);case
-11:return aM(DJ,l);case
+d(b){return Z(v(a,b))}function
+c(b){return f1(Z,v(a,b))}var
+b=a2(v(a,EP));if(p(b,EQ)){if(!p(b,ER)){var
+j=v(a,EX),e=ds(function(a){return a},j),k=bc(a,EY),l=cn(function(a){return c(EZ)},k),m=h0(a2(e[2])),n=h0(a2(e[1])),o=d(E0);return[0,cS(v(a,E1)),o,n,m,l]}if(p(b,ES))throw Y}var
+g=d(ET),h=c(EU),i=c(EV);return[1,aB(b,EW),i,h,g]}function
+kH(aG){var
+i=d3(aG),j=i[1];if(p(j,E2)){if(p(j,E3)){if(p(j,E4)){if(p(j,E5))return an([0,E7,[0,j,E6]]);var
+C=v(ai(i[2]),E8),ao=0;if(2===C[0]){var
+R=p(C[1],E9);if(!R){var
+Q=R;ao=1}}if(!ao)var
+Q=[0,b5(C)];return[6,Q]}var
+S=ai(i[2]),l=kH([0,[0,[0,E$,v(S,E_)],0]]);if(0===l[0]){var
+D=l[2];if(0===D[0]&&!l[3]){var
+T=l[4];if(!aM(b4,T)){var
+aH=Z(v(S,Fb));return[5,l[1],D[1],D[2],T,aH]}}}return an(Fa)}var
+b=ai(i[2]),E=bc(b,Fc),F=E?X(EO,ae(E[1])):E,s=function(b){var
+a=0!==F?1:0;return a?an(Fd):a},m=d3(v(b,Fe)),c=d3(v(b,Ff)),d=m[1];if(p(d,Fg)&&p(d,Fh)&&p(d,Fi)){if(0===bc(b,Fj)){if(p(d,Fk)){var
+ap=0;if(p(d,Fl)){if(!p(d,Fm)){var
+U=c[1],aq=0;if(p(U,Fp)&&p(U,Fq)){ap=1;aq=1}if(!aq){var
+n=ae(m[2]),aI=ae(v(b,Ft)),G=X(function(a){return d4(0,a)},aI),aJ=aM(function(a){switch(a[1]){case
+5:return 1-gn(DL,n);case
+11:return aM(DO,n);case
 7:case
 9:case
 10:case
-12:return 1;default:return 0}},B);if(!aM(Dg,l)){var
-ah=0;if(!aM(b4,B)||at)ah=1;if(ah){var
-aw=_(C2,l),f=ai(b[2]);if(p(b[1],Ex))var
-I=ds(Y,v(f,Ey)),J=ds(Y,v(f,Ez)),al=J[2],am=J[1],ao=Y(v(f,EA)),P=[1,I[1],I[2],ao,am,al];else
+12:return 1;default:return 0}},G);if(!aM(Dl,n)){var
+ar=0;if(!aM(b4,G)||aJ)ar=1;if(ar){var
+aO=X(C7,n),h=ai(c[2]);if(p(c[1],EC))var
+O=ds(Z,v(h,ED)),P=ds(Z,v(h,EE)),aC=P[2],aD=P[1],aE=Z(v(h,EF)),V=[1,O[1],O[2],aE,aD,aC];else
 var
-ap=f1(Y,v(f,EB)),P=[0,f1(Y,v(f,EC)),ap];return[0,aw,P,A,B]}}o(0);var
-au=_(kD,ae(v(a,Fp))),av=kE(b);return[1,0,_(p9,l),0,av,0,au]}}}else
-if(!p(b[1],Fq)){o(0);var
-Q=_(kD,ae(v(a,Fr))),w=0,e=Q;for(;;){if(e){var
-G=e[2],H=e[1];if(0===H[1]){var
-w=[0,H,w],e=G;continue}var
-e=G;continue}var
-n=lo(w),aj=0;if(n){var
-d=0,R=n[1][4];if(typeof
-R==="number")d=1;else
-switch(R[0]){case
+aF=f1(Z,v(h,EG)),V=[0,f1(Z,v(h,EH)),aF];return[0,aO,V,F,G]}}s(0);var
+aK=X(kF,ae(v(b,Fu))),aL=kG(c);return[1,0,X(qd,n),0,aL,0,aK]}}}else
+if(!p(c[1],Fv)){s(0);var
+W=X(kF,ae(v(b,Fw))),z=0,g=W;for(;;){if(g){var
+L=g[2],M=g[1];if(0===M[1]){var
+z=[0,M,z],g=L;continue}var
+g=L;continue}var
+q=iv(z),as=0;if(q){var
+e=0,_=q[1][4];if(typeof
+_==="number")e=1;else
+switch(_[0]){case
 0:var
-C=n[2];if(C){var
-E=0,S=C[1][4];if(typeof
-S!=="number"&&1===S[0])if(C[2]){d=1;E=1}else
-E=1;if(!E)d=1}else
-d=1;break;case
+H=q[2];if(H){var
+J=0,$=H[1][4];if(typeof
+$!=="number"&&1===$[0])if(H[2]){e=1;J=1}else
+J=1;if(!J)e=1}else
+e=1;break;case
 1:var
-D=n[2];if(D){var
-F=0,T=D[1][4];if(typeof
-T!=="number"&&0===T[0])if(D[2]){d=1;F=1}else
-F=1;if(!F)d=1}else
-d=1;break;default:d=1}if(!d)aj=1}if(!aj)an(Fs);var
-ax=Y(v(ai(b[2]),Ft));return[4,Y(v(ai(j[2]),Fu)),ax,Q]}}if(!af)return an([0,Fj,[0,c,Fi]])}else
-if(!p(b[1],Fv)){o(0);var
-q=ai(j[2]),U=ai(b[2]),V=function(c,a){var
-b=ae(a);return _(function(d){var
+I=q[2];if(I){var
+K=0,aa=I[1][4];if(typeof
+aa!=="number"&&0===aa[0])if(I[2]){e=1;K=1}else
+K=1;if(!K)e=1}else
+e=1;break;default:e=1}if(!e)as=1}if(!as)an(Fx);var
+aP=Z(v(ai(c[2]),Fy));return[4,Z(v(ai(m[2]),Fz)),aP,W]}}if(!ap)return an([0,Fo,[0,d,Fn]])}else
+if(!p(c[1],FA)){s(0);var
+t=ai(m[2]),ab=ai(c[2]),ac=function(c,a){var
+b=ae(a);return X(function(d){var
 a=ae(d);if(a){var
 b=a[2];if(b&&!b[2]){var
-e=k(c,b[1]);return[0,a2(a[1]),e]}}throw X},b)},ay=function(d){var
+e=k(c,b[1]);return[0,a2(a[1]),e]}}throw Y},b)},aQ=function(d){var
 a=ai(d);if(a){var
-b=a[1],c=b[1];if(p(c,Fw)){if(!p(c,Fx)&&!a[2])return[0,_(kB,ae(b[2]))]}else
-if(!a[2])return[1,kB(b[2])]}throw X},az=_(Es,ae(v(a,Fy))),aA=_(Y,ae(v(U,Fz))),aC=_(Y,ae(v(U,FA))),aD=_(ay,ae(v(q,FB))),aE=V(kB,v(q,FC)),aF=V(b5,v(q,FD));return[3,_(a2,ae(v(q,FE))),aF,aE,aD,aC,aA,az]}return an([0,Fn,[0,b[1],Fm]])}throw X}var
-W=ai(j[2]),r=cn(Y,bc(W,FF)),aG=function(f){var
-a=d3(f),b=a[1];if(p(b,FG)){if(p(b,FH)){if(p(b,FI)){if(p(b,FJ))throw X;var
-d=a[2],g=Y(v(ai(d),FK));return[3,Y(v(ai(d),FL)),g]}var
-h=a[2],c=function(a){return ds(Y,v(ai(h),a))},i=c(FM),j=c(FN);return[1,c(FO),j,i]}var
-e=ds(Y,a[2]);return[0,e[1],e[2]]}return[2,Y(a[2])]},s=cn(aG,bc(a,FP)),Z=p(c,FQ),$=Z?p(c,FR)?2:1:Z,t=ae(v(W,FS));if(r&&s&&gn(p_,t)){var
-aH=function(c){var
+b=a[1],c=b[1];if(p(c,FB)){if(!p(c,FC)&&!a[2])return[0,X(kD,ae(b[2]))]}else
+if(!a[2])return[1,kD(b[2])]}throw Y},ad=ac(kD,v(t,FD)),af=X(aQ,ae(v(t,FE))),A=0,r=af;for(;;){if(r){var
+B=r[1],au=r[2],av=0===B[0]?B[1]:[0,B[1],0],A=ls(av,A),r=au;continue}var
+aw=iv(A),f=function(b,a){switch(a[0]){case
+0:var
+c=1;break;case
+1:var
+d=lu(a[1],b),e=1,g=d?d[1]:e,c=g;break;case
+3:var
+h=f(b,a[3]),c=(1+f(b,a[2])|0)+h|0;break;case
+4:var
+i=iu(a[2]),c=lg(f(b,a[1]),i);break;default:var
+c=1+f(b,a[1])|0}return lp(32769,c)},ax=0,N=lt(function(b,a){var
+c=f(b,a[2]);return[0,[0,a[1],c],b]},ax,ad),ay=X(function(a){return f(N,a)},aw),az=lq(X(aN,N),ay),aA=0;if(32768<lt(function(b,a){return b+a|0},aA,az))an([0,FG,[0,a("32768"),FF]]);var
+aR=X(Ex,ae(v(b,FH))),aS=X(Z,ae(v(ab,FI))),aT=X(Z,ae(v(ab,FJ))),aU=ac(b5,v(t,FK));return[3,X(a2,ae(v(t,FL))),aU,ad,af,aT,aS,aR]}}return an([0,Fs,[0,c[1],Fr]])}throw Y}var
+ag=ai(m[2]),u=cn(Z,bc(ag,FM)),aV=function(f){var
+a=d3(f),b=a[1];if(p(b,FN)){if(p(b,FO)){if(p(b,FP)){if(p(b,FQ))throw Y;var
+d=a[2],g=Z(v(ai(d),FR));return[3,Z(v(ai(d),FS)),g]}var
+h=a[2],c=function(a){return ds(Z,v(ai(h),a))},i=c(FT),j=c(FU);return[1,c(FV),j,i]}var
+e=ds(Z,a[2]);return[0,e[1],e[2]]}return[2,Z(a[2])]},w=cn(aV,bc(b,FW)),ah=p(d,FX),aj=ah?p(d,FY)?2:1:ah,x=ae(v(ag,FZ));if(u&&w&&gn(qe,x)){var
+aW=function(c){var
 a=ai(c);function
-b(b){return _(b5,ae(v(a,b)))}if(0!==bc(a,FT))an(FU);var
-d=b(FV);return[0,b(FW),d]},aI=_(Eu,ae(v(a,FX))),aJ=s[1],aK=kE(b),aL=r[1];return[2,$,_(aH,t),aL,aK,aJ,A,aI]}o(0);var
-ak=0;if(!r&&aB(c,F0)){var
-aa=1;ak=1}if(!ak)var
-aa=[0,$];var
-ab=0!==s?1:0,aN=ab?aM(p_,t):ab;if(aN)an(FY);var
-aO=_(kD,ae(v(a,FZ))),aP=kE(b);return[1,aa,_(p9,t),r,aP,s,aO]}var
-u=ai(g[2]);function
-aQ(b){var
-a=ai(b),c=Y(v(a,F1)),d=[0,Y(v(a,F2)),c];return[0,a2(v(a,F3)),d]}var
-m=kF([0,[0,[0,F5,v(u,F4)],0]]);if(0===m[0]&&!m[3]){var
-ac=m[4];if(!aM(b4,ac)){var
-aR=Y(v(u,F7)),aS=Y(v(u,F8)),aT=m[2],aU=m[1];return[7,_(aQ,ae(v(u,F9))),aU,aT,ac,aS,aR]}}return an(F6)}function
-f3(a){return _(eR,ae(a))}function
+b(b){return X(b5,ae(v(a,b)))}if(0!==bc(a,F0))an(F1);var
+d=b(F2);return[0,b(F3),d]},aX=X(Ez,ae(v(b,F4))),aY=w[1],aZ=kG(c),a0=u[1];return[2,aj,X(aW,x),a0,aZ,aY,F,aX]}s(0);var
+at=0;if(!u&&aB(d,F7)){var
+ak=1;at=1}if(!at)var
+ak=[0,aj];var
+al=0!==w?1:0,a1=al?aM(qe,x):al;if(a1)an(F5);var
+a3=X(kF,ae(v(b,F6))),a4=kG(c);return[1,ak,X(qd,x),u,a4,w,a3]}var
+y=ai(i[2]);function
+a5(b){var
+a=ai(b),c=Z(v(a,F8)),d=[0,Z(v(a,F9)),c];return[0,a2(v(a,F_)),d]}var
+o=kH([0,[0,[0,Ga,v(y,F$)],0]]);if(0===o[0]&&!o[3]){var
+am=o[4];if(!aM(b4,am)){var
+a6=Z(v(y,Gc)),a7=Z(v(y,Gd)),a8=o[2],a9=o[1];return[7,X(a5,ae(v(y,Ge))),a9,a8,am,a7,a6]}}return an(Gb)}function
+f3(a){return X(eR,ae(a))}function
 h1(c,b){var
-a=f3(b);if(cu(a)!==c)throw X;return a}function
-qb(a,d){var
-b=ai(d),e=ae(v(b,Ga)),f=a[2],c=_(function(a){return h1(f,a)},e),g=a[1];if(cu(c)!==g)throw X;return[0,c,dr(v(b,Gb))]}function
+a=f3(b);if(cu(a)!==c)throw Y;return a}function
+qh(a,d){var
+b=ai(d),e=ae(v(b,Gh)),f=a[2],c=X(function(a){return h1(f,a)},e),g=a[1];if(cu(c)!==g)throw Y;return[0,c,dr(v(b,Gi))]}function
 dt(au,i){var
 as=0;if(0===i[0]){var
 q=i[1];if(q){var
-U=q[1];if(!p(U[1],Gc)){var
+U=q[1];if(!p(U[1],Gj)){var
 ag=U[2];if(0===ag[0]){var
 L=ag[1];if(L){var
-ah=L[1];if(!p(ah[1],GA)){var
+ah=L[1];if(!p(ah[1],GH)){var
 aj=ah[2];if(1===aj[0]){var
 M=aj[1];if(M){var
 ak=M[1];if(1===ak[0]){var
 al=ak[1];if(al&&!al[2]&&!M[2]){var
 am=L[2];if(am&&!am[2]&&!q[2]){var
-f=GB;as=1}}}}}}}}}}}if(!as)var
+f=GI;as=1}}}}}}}}}}}if(!as)var
 f=au;var
 r=f[2];switch(i[0]){case
 0:var
 c=i[1];if(c){var
-e=c[1],a=e[1],V=sz(a,Gd),b=0;if(0<=V)if(0<V)if(p(a,Ge)){var
-g=0;if(p(a,Gf)&&p(a,Gg)&&p(a,Gh))if(p(a,Gi))g=1;else{var
+e=c[1],a=e[1],V=sE(a,Gk),b=0;if(0<=V)if(0<V)if(p(a,Gl)){var
+g=0;if(p(a,Gm)&&p(a,Gn)&&p(a,Go))if(p(a,Gp))g=1;else{var
 W=e[2];if(1===W[0]){var
 s=W[1];if(s){var
 t=s[2];if(t){var
 u=t[2];if(u&&!u[2]){if(!c[2]){var
-av=_(f3,ae(u[1])),aw=a2(t[1]);return[8,dt(f,s[1]),aw,av]}b=1;g=1}else
+av=X(f3,ae(u[1])),aw=a2(t[1]);return[8,dt(f,s[1]),aw,av]}b=1;g=1}else
 g=1}else
 g=1}else
 g=1}else
 g=1}if(!g)if(c[2])b=1;else{var
 ax=e[2],x=ax,w=function(c,b){return[1,a,c,b]};b=2}}else{var
-Z=e[2];if(1===Z[0]){var
-y=Z[1];if(y){var
+_=e[2];if(1===_[0]){var
+y=_[1];if(y){var
 z=y[2];if(z){var
 A=z[2];if(A&&!A[2]){if(!c[2]){var
 ay=dr(A[1]),az=eR(z[1]);return[5,dt(f,y[1]),az,ay]}b=1}}}}}else{var
@@ -8881,32 +8902,32 @@ n=h[1],a=n;for(;;){var
 i=0;switch(a[0]){case
 0:var
 b=a[1];if(b){var
-j=b[1],c=j[1];if(p(c,Gl)){var
-o=0;if(p(c,Gm)&&p(c,Gn)&&p(c,Go))o=1;if(!o&&!b[2])i=1}else{var
+j=b[1],c=j[1];if(p(c,Gs)){var
+o=0;if(p(c,Gt)&&p(c,Gu)&&p(c,Gv))o=1;if(!o&&!b[2])i=1}else{var
 k=j[2];if(1===k[0]){var
 l=k[1];if(l&&!b[2]){var
 a=l[1];continue}}}}break;case
-2:if(!p(a[1],Gp))i=1;break}var
+2:if(!p(a[1],Gw))i=1;break}var
 q=i?1:0;if(q){var
-r=dt(f,n),s=dr(g[1]),t=eR(e[1]);return[0,[0,[0,f3(d[1]),t],s],r]}return an(Gq)}}}}}}throw X};return[9,_(aA,$[1])]}b=1}}else
-if(p(a,Gr))if(p(a,Gs))if(p(a,Gt))if(p(a,Gu))if(p(a,Gv)){if(!p(a,Gw)){if(!c[2]){var
-aa=ai(e[2]),aB=ae(v(aa,Gx)),aC=r+1|0,ab=_(function(a){return h1(aC,a)},aB);if(3===cu(ab))return[1,Gz,ab,dr(v(aa,Gy))];throw X}b=1}}else{if(!c[2]){var
-R=a2(e[2]),S=p(R,F_);if(S){if(p(R,F$))throw X;var
+r=dt(f,n),s=dr(g[1]),t=eR(e[1]);return[0,[0,[0,f3(d[1]),t],s],r]}return an(Gx)}}}}}}throw Y};return[9,X(aA,$[1])]}b=1}}else
+if(p(a,Gy))if(p(a,Gz))if(p(a,GA))if(p(a,GB))if(p(a,GC)){if(!p(a,GD)){if(!c[2]){var
+aa=ai(e[2]),aB=ae(v(aa,GE)),aC=r+1|0,ab=X(function(a){return h1(aC,a)},aB);if(3===cu(ab))return[1,GG,ab,dr(v(aa,GF))];throw Y}b=1}}else{if(!c[2]){var
+R=a2(e[2]),S=p(R,Gf);if(S){if(p(R,Gg))throw Y;var
 T=1}else
 var
 T=S;return[2,T]}b=1}else{if(!c[2]){var
 k=e[2],o=0;switch(k[0]){case
 0:var
 l=k[1];if(l){var
-ao=l[1],j=ao[1],d=0;if(p(j,GC)&&p(j,GD)&&p(j,GE)&&p(j,GF))if(p(j,GG))d=1;else{var
+ao=l[1],j=ao[1],d=0;if(p(j,GJ)&&p(j,GK)&&p(j,GL)&&p(j,GM))if(p(j,GN))d=1;else{var
 ap=ao[2];if(1===ap[0]){var
 N=ap[1];if(N){var
 m=N[1],h=0;switch(m[0]){case
 0:var
 O=m[1];if(O){var
-n=O[1][1],at=0;if(p(n,GI)&&p(n,GJ)&&p(n,GK)&&p(n,GL)){d=1;h=1;at=1}if(!at&&O[2]){d=1;h=1}}else{d=1;h=1}break;case
+n=O[1][1],at=0;if(p(n,GP)&&p(n,GQ)&&p(n,GR)&&p(n,GS)){d=1;h=1;at=1}if(!at&&O[2]){d=1;h=1}}else{d=1;h=1}break;case
 2:var
-aq=m[1];if(p(aq,GM)&&p(aq,GN)){d=1;h=1}break;default:d=1;h=1}if(!h){var
+aq=m[1];if(p(aq,GT)&&p(aq,GU)){d=1;h=1}break;default:d=1;h=1}if(!h){var
 P=N[2];if(P){var
 Q=P[2];if(Q&&!(Q[2]||l[2])){var
 aL=dr(Q[1]),aM=eR(P[1]),B=[6,dt(f,m),aM,aL];o=2;d=1}else
@@ -8915,9 +8936,9 @@ d=1}}else
 d=1}else
 d=1}if(!d&&!l[2])o=1}break;case
 2:var
-ar=k[1];if(!p(ar,GO)||!p(ar,GP))o=1;break}switch(o){case
+ar=k[1];if(!p(ar,GV)||!p(ar,GW))o=1;break}switch(o){case
 0:var
-B=an(GH);break;case
+B=an(GO);break;case
 1:var
 B=dt(f,k);break}return[7,B]}b=1}else{var
 ac=e[2];if(1===ac[0]){var
@@ -8936,14 +8957,14 @@ J=I[2];if(J){var
 K=J[2];if(K&&!K[2])if(c[2])b=1;else{var
 aI=K[1],aJ=J[1],aK=I[1],x=aK,w=function(b,a){var
 c=dr(aI);return[4,b,a,eR(aJ),c]};b=2}}}}}switch(b){case
-0:if(!c[2])return an([0,Gk,[0,a,Gj]]);break;case
+0:if(!c[2])return an([0,Gr,[0,a,Gq]]);break;case
 1:break;default:var
-Y=qb(f,x);return w(Y[1],Y[2])}}break;case
-2:return[0,i[1]]}throw X}function
-qc(n){var
-b=d3(n),a=b[1];if(p(a,GS))if(p(a,GT)){var
-h=p(a,GU);if(!h)return h;if(p(a,GV)){if(!p(a,GW)){var
-c=ai(b[2]),i=function(a){return _(Y,ae(v(c,a)))},j=ai(v(c,G0)),o=dr(v(j,G1)),q=_(f3,ae(v(j,G2))),r=i(G3),s=i(G4);return[3,cS(v(c,G5)),s,r,q,o]}if(!p(a,GX))return[2,_(Y,ae(b[2]))]}else{var
+Z=qh(f,x);return w(Z[1],Z[2])}}break;case
+2:return[0,i[1]]}throw Y}function
+qi(n){var
+b=d3(n),a=b[1];if(p(a,GZ))if(p(a,G0)){var
+h=p(a,G1);if(!h)return h;if(p(a,G2)){if(!p(a,G3)){var
+c=ai(b[2]),i=function(a){return X(Z,ae(v(c,a)))},j=ai(v(c,G7)),o=dr(v(j,G8)),q=X(f3,ae(v(j,G9))),r=i(G_),s=i(G$);return[3,cS(v(c,Ha)),s,r,q,o]}if(!p(a,G4))return[2,X(Z,ae(b[2]))]}else{var
 k=b[2];if(1===k[0]){var
 d=k[1];if(d){var
 e=d[2];if(e&&!e[2]){var
@@ -8951,33 +8972,33 @@ t=cS(e[1]);return[1,cS(d[1]),t]}}}}}else{var
 l=b[2];if(1===l[0]){var
 f=l[1];if(f){var
 g=f[2];if(g&&!g[2]){var
-u=_(f3,ae(g[1]));return[0,cS(f[1]),u]}}}}else{var
-m=b[2];if(1===m[0]&&!m[1])return 1}return an([0,GZ,[0,a,GY]])}function
-qd(f,b){var
-a=ai(b),c=ae(v(a,G_)),d=_(function(g){var
+u=X(f3,ae(g[1]));return[0,cS(f[1]),u]}}}}else{var
+m=b[2];if(1===m[0]&&!m[1])return 1}return an([0,G6,[0,a,G5]])}function
+qj(f,b){var
+a=ai(b),c=ae(v(a,Hf)),d=X(function(g){var
 a=ai(g);function
 b(d,c){var
-b=bc(a,c);return b?_(d,ae(b[1])):b}var
-c=b(eR,G6),d=cn(qc,bc(a,G7)),e=cn(cS,bc(a,G8));return[0,b(function(h){var
+b=bc(a,c);return b?X(d,ae(b[1])):b}var
+c=b(eR,Hb),d=cn(qi,bc(a,Hc)),e=cn(cS,bc(a,Hd));return[0,b(function(h){var
 b=ae(h);if(b){var
 a=b[2];if(a){var
-c=a[1],e=b[1],d=0;if(2===c[0]&&!p(c[1],GQ)){if(!a[2]){if(p(f0(e),GR))throw X;d=1}}else
+c=a[1],e=b[1],d=0;if(2===c[0]&&!p(c[1],GX)){if(!a[2]){if(p(f0(e),GY))throw Y;d=1}}else
 d=1;if(d&&!a[2]){var
-g=dt(f,c);return[0,cS(e),g]}}}throw X},G9),e,d,c]},c),e=bc(a,G$),g=cn(function(a){return qb(f,a)},e);return[0,p6(v(a,Ha)),g,d]}function
-qe(c){var
-a=ai(c),b=bc(a,Hb),d=b?_(Y,ae(b[1])):b,e=qc(v(a,Hc)),f=_(Y,ae(v(a,Hd)));return[0,p6(v(a,He)),f,d,e]}function
-Ho(c){var
+g=dt(f,c);return[0,cS(e),g]}}}throw Y},He),e,d,c]},c),e=bc(a,Hg),g=cn(function(a){return qh(f,a)},e);return[0,qa(v(a,Hh)),g,d]}function
+qk(c){var
+a=ai(c),b=bc(a,Hi),d=b?X(Z,ae(b[1])):b,e=qi(v(a,Hj)),f=X(Z,ae(v(a,Hk)));return[0,qa(v(a,Hl)),f,d,e]}function
+Hv(c){var
 a=c[1],b=0;if(10<=a){if(!(13<=a))b=1}else
 if(8===a)b=1;return b?1:0}function
-Hp(b){var
+Hw(b){var
 a=b[3];if(a&&1===a[1][0])return 1;return 0}function
-Hq(b){var
-c=b[1],a=b[4];if(!(1<c+q9>>>0)&&typeof
+Hx(b){var
+c=b[1],a=b[4];if(!(1<c+rd>>>0)&&typeof
 a!=="number"&&1===a[0])return 1-ho(j(a[1]));return 10===c?1:0}function
-Hu(g){var
+HB(g){var
 i=az(g),c=[0,0];function
-j(a){if(c[1]<i)return a8(g,c[1]);throw X}function
-l(a){if(j(0)===a){c[1]++;return 0}throw X}function
+j(a){if(c[1]<i)return a8(g,c[1]);throw Y}function
+l(a){if(j(0)===a){c[1]++;return 0}throw Y}function
 C(a,b){for(;;){if(c[1]<i&&k(b,a8(g,c[1]))){c[1]++;continue}return ea(g,a,c[1]-a|0)}}function
 D(d){l(34);function
 a(a){var
@@ -8989,18 +9010,18 @@ b=C(c[1],a);l(34);return b}function
 E(e,a){if(j(0)===a){c[1]++;return 0}var
 b=0;for(;;){var
 d=[0,k(e,0),b];if(44===j(0)){c[1]++;var
-b=d;continue}l(a);return lo(d)}}function
-r(b,k){if(64<b)throw X;var
+b=d;continue}l(a);return iv(d)}}function
+r(b,k){if(64<b)throw Y;var
 a=j(0),d=0;if(48<=a){if(91===a){c[1]++;var
 f=93,g=b+1|0;return[1,E(function(a){return r(g,a)},f)]}if(123===a){c[1]++;var
 h=125;return[0,E(function(c){var
 a=D(0);l(58);return[0,a,r(b+1|0,0)]},h)]}if(!(58<=a))d=1}else{if(34===a)return[2,D(0)];if(45===a)d=1}if(d){var
 i=c[1];c[1]++;var
 e=C(i,function(a){var
-b=48<=a?1:0,c=b?a<=57?1:0:b;return c});if(p(e,CQ))return[3,e];throw X}throw X}var
-Q=r(0,0),F=c[1]<i?1:0,R=F?10===a8(g,c[1])?1:0:F;if(R)c[1]++;if(c[1]<i)throw X;var
-q=ai(Q);if(p(a2(v(q,Hv)),Hw))throw X;var
-a=kF(v(q,Hx)),y=0;switch(a[0]){case
+b=48<=a?1:0,c=b?a<=57?1:0:b;return c});if(p(e,CV))return[3,e];throw Y}throw Y}var
+Q=r(0,0),F=c[1]<i?1:0,R=F?10===a8(g,c[1])?1:0:F;if(R)c[1]++;if(c[1]<i)throw Y;var
+q=ai(Q);if(p(a2(v(q,HC)),HD))throw Y;var
+a=kH(v(q,HE)),y=0;switch(a[0]){case
 1:var
 w=a[1],z=0;if(typeof
 w==="number")if(w)var
@@ -9020,20 +9041,20 @@ G=a[2];y=1;break;case
 0:case
 5:var
 G=a[1];y=1;break;default:var
-f=HP}if(y)var
+f=HW}if(y)var
 f=[0,cu(G),3];var
-m=d3(v(q,Hy)),n=m[1];if(p(n,Hj))if(p(n,Hk))if(p(n,Hl))var
-b=an([0,Hn,[0,n,Hm]]);else
+m=d3(v(q,HF)),n=m[1];if(p(n,Hq))if(p(n,Hr))if(p(n,Hs))var
+b=an([0,Hu,[0,n,Ht]]);else
 var
-o=qe(m[2]),b=[1,o[1],o[2],o[3],o[4]];else
+o=qk(m[2]),b=[1,o[1],o[2],o[3],o[4]];else
 var
-s=qd(f,m[2]),b=[0,s[1],s[2],s[3]];else
+s=qj(f,m[2]),b=[0,s[1],s[2],s[3]];else
 var
-S=ae(m[2]),b=[2,_(function(g){var
-a=d3(g),b=a[1];if(p(b,Hf)){if(p(b,Hg)){if(p(b,Hh)){var
-e=p(b,Hi);if(e)throw X;return e}return[0,cS(a[2])]}var
-c=qe(a[2]);return[2,c[1],c[2],c[3],c[4]]}var
-d=qd(f,a[2]);return[1,d[1],d[2],d[3]]},S)];function
+S=ae(m[2]),b=[2,X(function(g){var
+a=d3(g),b=a[1];if(p(b,Hm)){if(p(b,Hn)){if(p(b,Ho)){var
+e=p(b,Hp);if(e)throw Y;return e}return[0,cS(a[2])]}var
+c=qk(a[2]);return[2,c[1],c[2],c[3],c[4]]}var
+d=qj(f,a[2]);return[1,d[1],d[2],d[3]]},S)];function
 T(a){return 0!==a[3]?1:0}function
 H(a){return aM(T,a)}var
 d=0;switch(a[0]){case
@@ -9045,11 +9066,11 @@ N=0;if(0===b[0]){var
 W=b[3];if(aM(function(a){var
 b=a[1];return aM(function(a){switch(a[2][0]){case
 6:case
-7:return 1;default:return 0}},b)},W)){an(HG);N=1}}if(!N){var
+7:return 1;default:return 0}},b)},W)){an(HN);N=1}}if(!N){var
 t=a[6];d=3}break;case
 2:var
-L=a[1],Y=a[7];if(0===b[0]){var
-Z=1===L?6:3,M=cu(a[2])===Z?1:0;if(M){var
+L=a[1],Z=a[7];if(0===b[0]){var
+_=1===L?6:3,M=cu(a[2])===_?1:0;if(M){var
 O=0;if(2<=L||!(0===a[4][0]))O=1;else
 var
 u=1;if(O)var
@@ -9061,28 +9082,28 @@ g=0;if(!b[1]){var
 d=b[2];if(8===d[0]){var
 e=d[1];if(7===e[0]){var
 c=e[1],a=0;switch(c[0]){case
-1:if(p(c[1],HI))a=1;break;case
+1:if(p(c[1],HP))a=1;break;case
 6:var
-f=c[1];if(1!==f[0]||p(f[1],HJ))a=1;break;default:a=1}if(!a)return 1-u}}else
-g=1}if(!g&&8===b[2][0])return 1;return 0},aa=b[3],ah=0;if(aM(function(a){return aM($,a[1])},aa))an(HK);else{var
+f=c[1];if(1!==f[0]||p(f[1],HQ))a=1;break;default:a=1}if(!a)return 1-u}}else
+g=1}if(!g&&8===b[2][0])return 1;return 0},aa=b[3],ah=0;if(aM(function(a){return aM($,a[1])},aa))an(HR);else{var
 ab=b[3];if(gn(function(a){var
 b=a[1];return gn(function(d){var
 b=d[2],a=0;switch(b[0]){case
 0:var
-c=b[1];if(p(c,Hr)){if(!p(c,Hs))return aM(Hq,Y)}else
+c=b[1];if(p(c,Hy)){if(!p(c,Hz))return aM(Hx,Z)}else
 a=1;break;case
-1:if(!p(b[1],Ht))a=1;break;case
+1:if(!p(b[1],HA))a=1;break;case
 7:case
 8:a=1;break}return a?1:0},b)},ab)){d=1;ah=1}else
-an(HL)}}else
+an(HS)}}else
 d=2;break;case
 3:var
 t=a[7];d=3;break;case
 4:var
 t=a[3];d=3;break;case
-5:if(aM(Ho,a[4]))an(HM);else
+5:if(aM(Hv,a[4]))an(HT);else
 if(0===b[0]){var
-ac=b[3];if(aM(function(a){return 0!==a[1]?1:0},ac))an(HN);else
+ac=b[3];if(aM(function(a){return 0!==a[1]?1:0},ac))an(HU);else
 d=1}else
 d=1;break;case
 6:d=1;break;default:var
@@ -9090,47 +9111,47 @@ A=0;if(2===b[0]){var
 ad=b[1];if(aM(function(a){if(typeof
 a!=="number"&&2===a[0]){var
 b=a[4];if(typeof
-b!=="number"&&3===b[0])return 1}return 0},ad))an(HO);else
+b!=="number"&&3===b[0])return 1}return 0},ad))an(HV);else
 A=1}else
 A=1;if(A){var
 J=a[4],I=a[2];d=4}}var
 e=0;switch(d){case
-3:if(0===b[0])if(aM(function(a){return 12===a[1]?1:0},t)){an(HH);e=3}else
+3:if(0===b[0])if(aM(function(a){return 12===a[1]?1:0},t)){an(HO);e=3}else
 e=2;else
 e=1;break;case
 0:e=3;break;case
 4:var
-P=0;if(aM(function(a){return 10===a[1]?1:0},J)&&aM(function(a){return 2===a[0]?1:0},I)){an(Hz);P=1}if(!P)e=2;break;case
+P=0;if(aM(function(a){return 10===a[1]?1:0},J)&&aM(function(a){return 2===a[0]?1:0},I)){an(HG);P=1}if(!P)e=2;break;case
 1:e=2;break;default:e=1}var
 B=0;switch(e){case
 3:break;case
 2:var
 h=0;switch(a[0]){case
 5:case
-7:if(aM(Hp,a[4])){an(HE);h=1}else
+7:if(aM(Hw,a[4])){an(HL);h=1}else
 if(7===a[0])switch(b[0]){case
 2:var
 V=function(a){if(typeof
-a!=="number"&&1===a[0])return H(a[3]);return 0};if(aM(V,b[1]))an(HF);h=1;break;case
+a!=="number"&&1===a[0])return H(a[3]);return 0};if(aM(V,b[1]))an(HM);h=1;break;case
 0:break;default:B=1;h=1}else
-h=1;break}if(!h)if(0===b[0]&&H(b[3]))an(HD);else
+h=1;break}if(!h)if(0===b[0]&&H(b[3]))an(HK);else
 B=1;break;case
 1:B=1;break}var
-K=ai(v(q,HA)),U=a2(v(K,HB));return[0,a,b,a2(v(K,HC)),U]}function
-HQ(b){var
-c=az(b),g=64,h=Jr(64,c)?g:c,a=0,i=h-18|0;for(;;){var
-d=a<=i?1:0;if(d){var
-e=aB(ea(b,a,18),HR);if(!e){var
+K=ai(v(q,HH)),U=a2(v(K,HI));return[0,a,b,a2(v(K,HJ)),U]}function
+HX(b){var
+a=0,f=lp(64,az(b))-18|0;for(;;){var
+c=a<=f?1:0;if(c){var
+d=aB(ea(b,a,18),HY);if(!d){var
 a=a+1|0;continue}var
-f=e}else
+e=d}else
 var
-f=d;return f}}JM(function(b){try{if(HQ(b))var
-a=HT;else{try{var
-e=0,d=Hu(b);e=1}catch(a){a=sB(a);if(a[1]===p5)var
-c=[0,a[2]];else{if(a!==X)throw a;var
+e=c;return e}}JT(function(b){try{if(HX(b))var
+a=H0;else{try{var
+e=0,d=HB(b);e=1}catch(a){a=sG(a);if(a[1]===p$)var
+c=[0,a[2]];else{if(a!==Y)throw a;var
 c=2}}if(e)var
-c=CM(b,d)?1===d[2][0]?1:0:2;var
-a=c}}catch(a){return HS}if(typeof
+c=CR(b,d)?1===d[2][0]?1:0:2;var
+a=c}}catch(a){return HZ}if(typeof
 a==="number")switch(a){case
-0:return HU;case
-1:return HV;default:return HW}return be(HX,a[1])});ln(0);return}(globalThis));
+0:return H1;case
+1:return H2;default:return H3}return be(H4,a[1])});lr(0);return}(globalThis));

@@ -35,24 +35,39 @@ use rayon::prelude::*;
 /// not depend on it.
 const PARTS: usize = 32;
 
-/// The certificate of a map whose cells are these, accepted by the checker.
+/// The certificate of a map whose cells are these, accepted by the checker, and how many of them are left
+/// undecided in it because their proofs ask for more work than a certificate of so many bytes may.
 ///
 /// # Errors
 /// If the checker does not accept it.
 pub fn certify(
     design: &AtlasDesign,
-    cells: Vec<AtlasCell>,
-) -> Result<(Certificate, Accepted), Rejected> {
+    mut cells: Vec<AtlasCell>,
+) -> Result<(Certificate, Accepted, usize), Rejected> {
     let mut claim = design.claim();
-    let shares = walk(&cells, claim.parameters.len(), |_, _, _| Ok(()));
-    let shares = shares?;
-    (claim.certified, claim.refuted) = (fraction(&shares.certified), fraction(&shares.refuted));
-    check(&claim, &cells)?;
+    let mut too_long = 0;
+    loop {
+        let shares = walk(&cells, claim.parameters.len(), |_, _, _| Ok(()))?;
+        (claim.certified, claim.refuted) = (fraction(&shares.certified), fraction(&shares.refuted));
+        let refused = check(&claim, &cells);
+        if refused.is_empty() {
+            break;
+        }
+        for refused in refused {
+            match refused {
+                Rejected::Cell(at, why) if *why == Rejected::Work => {
+                    cells[at] = AtlasCell::Undecided;
+                    too_long += 1;
+                }
+                refused => return Err(refused),
+            }
+        }
+    }
     let proof = Proof::Atlas(cells);
     let certificate = certificate(Claim::Atlas(claim), Verdict::Certified, proof);
     let size = size_of_all(&certificate.proof);
     let accepted = Accepted { verdict: certificate.verdict, size };
-    Ok((certificate, accepted))
+    Ok((certificate, accepted, too_long))
 }
 
 /// A share as a fraction.
@@ -65,12 +80,9 @@ fn fraction(share: &BigRational) -> Expression {
     }
 }
 
-/// Has every cell of an atlas checked, so many side by side; of several refusals, the first part's is said.
-fn check(claim: &AtlasClaim, cells: &[AtlasCell]) -> Result<(), Rejected> {
-    let parts: Vec<Result<(), _>> = (0..PARTS)
-        .into_par_iter()
-        .with_max_len(1)
-        .map(|part| check_part(claim, cells, |number| number % PARTS == part))
-        .collect();
-    parts.into_iter().collect()
+/// Has every cell of an atlas checked, so many side by side; the first refusal of each part.
+fn check(claim: &AtlasClaim, cells: &[AtlasCell]) -> Vec<Rejected> {
+    let parts = (0..PARTS).into_par_iter().with_max_len(1);
+    let refused = parts.map(|part| check_part(claim, cells, |number| number % PARTS == part).err());
+    refused.collect::<Vec<_>>().into_iter().flatten().collect()
 }

@@ -240,7 +240,7 @@ fn bounded(
     let Some(cells) = all_refuted(&design, cancel)? else {
         return Ok(None);
     };
-    let certificate = certify(&design, cells).ok().map(|(certificate, _)| Box::new(certificate));
+    let certificate = certify(&design, cells).ok().map(|(certificate, ..)| Box::new(certificate));
     Ok(certificate.map(|certificate| Bound { margin, certificate }))
 }
 

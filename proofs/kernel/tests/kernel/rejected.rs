@@ -290,6 +290,20 @@ fn formulas_that_are_not_defined_although_their_derivatives_are() {
     }
 }
 
+/// Each definition has the one before it twice, and so have the products of divisors and roots of their derivatives:
+/// what is shared is taken once.
+#[test]
+fn definitions_that_share_what_they_are_made_of() {
+    for next in ["sqrt(d+1)*sqrt(d+2)", "1/(d+1)+1/(d+2)", "sqrt(1/(d+1)+x*d)", "d*(d+1)/8"] {
+        let of = |i: usize| next.replace('d', &format!("d{i}"));
+        let chain: Vec<String> =
+            (0..60).map(|i| format!(r#"["d{}","{}"]"#, i + 1, of(i))).collect();
+        let text = one(&format!(r#"["d0","x"],{}"#, chain.join(",")), r#"{"rho":"x+d60"}"#);
+        let problem = Problem::new(&claim(&text)).expect("a claim");
+        assert!(problem.tape.ops().len() < 3_000, "{next}: {}", problem.tape.ops().len());
+    }
+}
+
 #[test]
 fn names_and_numbers_that_mean_something_else() {
     // Of these y is the first coordinate: "x^2 + (y - 1)^2 <= 1" would not be what is shown.

@@ -7,6 +7,7 @@ use orthocert_kernel::claim::{
     PsiMax, Quantity, Requirement, Sign, Turning, Workspace,
 };
 use orthocert_kernel::number::Expression;
+use std::collections::HashMap;
 
 /// The constructors of `subject`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -336,11 +337,42 @@ fn any_legs(
     ])
 }
 
+/// Most operations of formulas with their definitions written out, as they are proved, and of definitions.
+const MOST_WRITTEN_OUT: usize = 1 << 15;
+
+fn written_out(definitions: &[(String, Expression)], joints: &[JointFormula]) -> usize {
+    fn size(x: &Expression, known: &HashMap<&str, usize>) -> usize {
+        let parts = x.parts().map(|part| size(part, known));
+        let parts = parts.fold(0, usize::saturating_add);
+        match x {
+            Expression::Name(name) => known.get(&**name).copied().unwrap_or(1),
+            Expression::Power(_, n) => parts.saturating_mul(*n as usize),
+            _ => parts.saturating_add(1),
+        }
+    }
+    let (mut known, mut all) = (HashMap::new(), 0usize);
+    for (name, x) in definitions {
+        let size = size(x, &known);
+        known.insert(&**name, size);
+        all = all.saturating_add(size);
+    }
+    let terms = joints.iter().flat_map(|joint| match joint {
+        JointFormula::Rho(rho) => std::slice::from_ref(rho),
+        JointFormula::Row(row) => row,
+    });
+    terms.map(|x| size(x, &known)).fold(all, usize::saturating_add)
+}
+
 fn by_formulas(
     Formulas { coordinates, parameters, definitions, joints }: &Formulas,
     ends: [&Vec<Expression>; 2],
     require: &[Requirement],
 ) -> Exported<Vec<Argument>> {
+    if written_out(definitions, joints) > MOST_WRITTEN_OUT {
+        return not_covered(format!(
+            "a mechanism of more than {MOST_WRITTEN_OUT} operations, with its definitions written out,"
+        ));
+    }
     let [least, greatest] = ends.map(|end| list(end.iter().map(expression)));
     let joint = |joint: &JointFormula| match joint {
         JointFormula::Rho(rho) => apply("Rho_", [formula(rho)]),
