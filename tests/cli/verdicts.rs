@@ -1,6 +1,6 @@
 //! Every verdict of `verify`: exit code, report, certificate.
 
-use crate::support::{Folder, LONG};
+use crate::support::{Folder, Run, LONG};
 use orthocert::search::accepted::check;
 use orthocert_checker::certificate::Verdict;
 use orthocert_checker::read;
@@ -176,6 +176,20 @@ fn the_certificate_does_not_depend_on_the_number_of_threads() {
     }
     folder.run(&["verify", &design]).exits(0);
     assert_eq!(folder.read("linear-delta-klipper-cylinder.cert.json"), folder.read("1.json"));
+}
+
+/// What a report encloses is searched for, side by side.
+#[test]
+fn the_report_does_not_depend_on_the_number_of_threads() {
+    let folder = Folder::new();
+    let committed =
+        concat!(env!("CARGO_MANIFEST_DIR"), "/proofs/certificates/orthoglide-tolerance.cert.json");
+    for threads in ["1", "2", "5"] {
+        let name = format!("{threads}.html");
+        let mut command = folder.command(&["report", committed, "-o", &name]);
+        Run::from(command.env("RAYON_NUM_THREADS", threads).output().unwrap()).exits(0);
+        assert_eq!(folder.read(&name), folder.read("1.html"), "{threads} threads");
+    }
 }
 
 #[test]
