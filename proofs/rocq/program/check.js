@@ -297,7 +297,7 @@ for (const [name, force, stated, edits] of [
 }
 console.log(`loads: ${loads} bounds with one answer, and ${no_loads} refused`);
 // Loads and angles of legs beside what is asked of whole machines: bodies, couples, accelerations, accuracy, two points, and determinants of struts.
-let parts = 0, no_parts = 0;
+let joined = 0, no_joined = 0;
 for (const [name, requirements, most, wrong, steps] of [
   ["kernel/upu-base-axes", 'transmission = { max = "1.25" }\nconstraint_margin = { min = "0.8" }\nload = { force = [1, -3, 9], max = 9.5 }', "9.5", 'constraint_margin = { min = "0.99" }', 8],
   ["tripteron", "one_to_one = true\nload = { force = [1, 2, -3], max = 9 }", "9", "", 8],
@@ -317,7 +317,7 @@ for (const [name, requirements, most, wrong, steps] of [
   };
   const text = made_of(requirements), own = three_answers(text);
   if (own.some((answer) => answer !== "CERTIFIED")) fail(`parts of ${name}: ${own}`);
-  if (steps) read.push(last_number((b) => text.replace(`"end":"max","bound":"${most}"`, `"end":"max","bound":"${b}"`), 0.3 * most, +most, steps, `parts of ${name}`)), parts += steps;
+  if (steps) read.push(last_number((b) => text.replace(`"end":"max","bound":"${most}"`, `"end":"max","bound":"${b}"`), 0.3 * most, +most, steps, `parts of ${name}`)), joined += steps;
   const fails = [requirements.replace(/(load = .*max = )[\d.]*/, (_, all) => `${all}${most / 100}`)];
   if (wrong) fails.push(name.includes("whole") ? null : requirements.replace(new RegExp(`^${wrong.split(" ")[0]} = .*$`, "m"), wrong));
   for (const requirements of fails.filter((x) => x)) {
@@ -327,13 +327,13 @@ for (const [name, requirements, most, wrong, steps] of [
     for (const by of [-1, 1, 2, 9]) {
       const other = text.replace(/"fails":\{"obligation":\[(\d+)/, (all, i) => all.replace(i, Math.max(0, +i + by))), answers = three_answers(other);
       if (new Set(answers).size > 1 || answers[0] === "CERTIFIED") fail(`parts of ${name}: ${answers}: ${by}`);
-      no_parts++;
+      no_joined++;
     }
   }
   for (const [from, to] of [['"load","given"', '"load","leg":4,"given"'], [/"force":\["[^"]*",/, '"force":['], [/(\{"quantity":"load".*?"\})/, "$1,$1"], [/\[([1-9]),"test"/, '[$1,"negative"']]) {
     const other = text.replace(from, to), answers = three_answers(other);
     if (other !== text && answers.some((answer) => answer !== "REJECTED")) fail(`parts of ${name}: ${answers}: ${from} ${to}`);
-    no_parts++;
+    no_joined++;
   }
 }
 // Determinants of struts in the plane, beside those of a slider too; serial singularities these have none.
@@ -345,15 +345,15 @@ for (const [name, legs] of Object.entries({ struts: [[0, 0], [10, 0]].map((a) =>
     const text = fs.readFileSync(file, "latin1"), own = three_answers(text), at = (b) => text.replace(`"bound":"${min}"`, `"bound":"${b}"`);
     agrees(file, own[1]);
     if (own.some((answer) => answer !== right)) fail(`${name}: ${own}`);
-    read.push(right === "CERTIFIED" ? last_number(at, 0.99, 0.3, 14, name) : last_number(at, 0.3, 0.99, 14, name, "REFUTED")), parts += 14;
+    read.push(right === "CERTIFIED" ? last_number(at, 0.99, 0.3, 14, name) : last_number(at, 0.3, 0.99, 14, name, "REFUTED")), joined += 14;
     for (const quantity of ["serial_margin", "leg_angle"]) {
       const answers = three_answers(text.replace('"quantity":"parallel_margin"', `"quantity":"${quantity}"`).replace('"end":"min"', quantity === "leg_angle" ? '"end":"max"' : '"end":"min"'));
       if (answers.some((answer) => answer !== "REJECTED")) fail(`${name}: ${answers}: ${quantity}`);
-      no_parts++;
+      no_joined++;
     }
   }
 }
-console.log(`loads beside other requirements: ${parts} bounds with one answer, and ${no_parts} others`);
+console.log(`loads beside other requirements: ${joined} bounds with one answer, and ${no_joined} others`);
 // Refutations: of quantities on machines of each kind, at bounds ever nearer to the last with which the witness refutes; and in no directions, or others.
 const refutations = [
   ["skew-guides", "joint_force = { tool = 10, max = 1 }", 90], ["skew-guides", "joint_acceleration = { speed = 50, acceleration = 1000, max = 10 }", 9000],
