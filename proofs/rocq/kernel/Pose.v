@@ -84,7 +84,7 @@ Definition shows_at (cell : list fixed) (ts : list tensor) (values : list (optio
       match g with Some g => (0 <=? k)%Z && (places <? 64)%N && shows_less cell values ts (Some (g, k, places)) t e | None => false end
   | AtControls e => shows_less cell values ts None t e
   | ByTest | ByDirection _ _ => match t with OnSlopes t => shows bits [] [] [] values m None t e | _ => false end
-  | ByTolerances _ _ _ => match t with LeastOf r w k ends => same_rows r main && Nat.eqb w main_w && varied cell k ends e | _ => false end
+  | ByTolerances _ _ _ | ByFan _ => match t with LeastOf r w k ends => same_rows r main && Nat.eqb w main_w && varied cell k ends e | _ => false end
   | _ => false
   end.
 (** No orientation of the set is in the cell. *)
@@ -203,8 +203,8 @@ Proof.
   assert (Slopes : forall e, (match t with OnSlopes t => shows bits [] [] [] (evaluate_kept bits plain params keep cell) m None t e | _ => false end) = true -> test_holds x t).
   { intros e' k. destruct t; try discriminate. cbn [test_holds]. rewrite <- len in k |- *. exact (shows_holds bits plain [] [] [] params theta theta_in keep cell x _ e' hx k). }
   destruct e as [| | | | | | | | | | | e | | | | | e0 es dirs | | |]; cbn [shows_at] in h; try discriminate; try exact (Slopes _ h).
-  2: { destruct t as [r w k ends | | | | | | | | |]; try discriminate. apply andb_true_iff in h as [h v]. apply andb_true_iff in h as [h1 h2]. apply Nat.eqb_eq in h2. subst w.
-    unfold same_rows in h1. destruct (list_eq_dec same_row r main) as [-> |]; [| discriminate]. exact (varied_holds cell x k ends _ it hx len ht v). }
+  2-3: destruct t as [r w k ends | | | | | | | | |]; try discriminate; apply andb_true_iff in h as [h v]; apply andb_true_iff in h as [h1 h2]; apply Nat.eqb_eq in h2; subst w;
+    unfold same_rows in h1; destruct (list_eq_dec same_row r main) as [-> |]; [| discriminate]; exact (varied_holds cell x k ends _ it hx len ht v).
   destruct e as [| | | | | | | | | | | | e k places | | | | | | |]; try exact (None_ _ h).
   assert (G : exists i, g = Some i /\ (0 <=? k)%Z && (places <? 64)%N && shows_less cell (evaluate_kept bits plain params keep cell) (tensors_here cell) (Some (i, k, places)) t e = true)
     by (clear - h; destruct g as [i |]; [exists i; split; [reflexivity | exact h] | discriminate]).
@@ -744,7 +744,7 @@ Definition ends_of (fs : list formula) (m : nat) (k : motion) (r : rows nat) (w 
 (** The parameters of struts with tolerances, where these are apart somewhere in a tree. *)
 Definition free_struts (s : Z) (ts : list (tolerances * tolerances)) : list nat :=
   let lay := flat_map (strut_layout s) ts in map fst (filter (fun p => has_two_ends (snd p)) (combine (seq 0 (length lay)) lay)).
-Definition is_apart (s : nat * evidence) : bool := match snd s with ByTolerances _ _ _ => true | _ => false end.
+Definition is_apart (s : nat * evidence) : bool := match snd s with ByTolerances _ _ _ | ByFan _ => true | _ => false end.
 Fixpoint has_apart (t : tree) : bool :=
   match t with Leaf steps => existsb is_apart steps | Split steps _ lower upper | Parts steps _ lower upper => existsb is_apart steps || has_apart lower || has_apart upper end.
 
@@ -1170,8 +1170,7 @@ Proof.
     assert (ig : forall f, g = Some f -> In f wanted) by (intros f ef; unfold wanted, gs; rewrite ef; apply in_or_app; right; right; apply in_or_app; right; left; reflexivity).
     (* ends alone *)
     assert (e1 : e = ends /\ (0 < ends)%nat).
-    { unfold shows_varied in h'. cbv zeta in h'. destruct by_ as [| | | | | | | | | | | | | | | | inner es dirs | | |]; try discriminate. destruct inner; try discriminate. destruct dirs as [| ? [|]]; try discriminate.
-      do 5 apply andb_true_iff in h' as [h' _]. apply andb_true_iff in h' as [q1 q2].
+    { unfold shows_varied in h'. apply andb_true_iff in h' as [h' _]. apply andb_true_iff in h' as [q1 q2].
       apply Nat.eqb_eq in q1. apply Nat.ltb_lt in q2. split; assumption. }
     destruct e1 as [ee e0]. destruct (hturn _ _ _ _ it eq_refl) as [z | [gr w1]]; [lia |]. cbv zeta in gr, w1. rewrite RowsY in gr. rewrite (FoundY w iw) in w1.
     intros kappa v hk k0 lv nz. cbv zeta. rewrite RowsY, (FoundY w iw).

@@ -150,11 +150,29 @@ Proof.
   split; [intro v; rewrite i2; apply h4 | rewrite i3; exact h5].
 Qed.
 
-Definition varied_lower_at (n : nat) (places : N) (Y : list (list Z)) (direction : list Z) (steps : list (list fixed)) (k : fixed) (s : vsample (option fixed)) : bool :=
+(** Of all directions, or of those of a wedge. *)
+Definition wedge : Type := list Z * list Z * Z * N.
+Definition in_part (part : option wedge) (v : list R) : Prop := match part with Some (b, c, _, _) => Toward.in_wedge b c v | None => True end.
+Definition changed_lower (n : nat) (places : N) (Y : list (list Z)) (direction : list Z) (part : option wedge) (rows : list (Tolerances.varied fixed)) (a : fixed) : bool :=
+  match part with
+  | None => match Tolerances.lower_apart bits (map (Fixed.integer bits) direction) places Y rows (repeat [neg a] n) with Some t => Solve.is_definite bits n t | None => false end
+  | Some (b, c, z, pl) => let '(i, u, q, d) := Check.toward_of bits direction in let u' := map (fun x => Arithmetic.dyadic x q (Fixed.integer bits 1)) u in
+      Nat.eqb (length u) n && Nat.eqb (length b) n && (0 <=? z)%Z && (pl <? 64)%N && Nat.ltb i n && negb (nth i u 0 =? 0)%Z &&
+      match Toward.lower_toward bits i u' d places Y rows (Toward.less_wedge bits i u' b c z pl (Toward.squares bits i u' n (neg a) [])) with Some t => Solve.is_definite bits n t | None => false end
+  end.
+Lemma changed_lower_shows : forall n places Y direction part rows R a A v, changed_lower n places Y direction part rows a = true -> Forall2 (Tolerances.varied_in bits) rows R -> contains bits a A ->
+  length v = n -> nonzero v -> in_part part v -> A * dot v v < form (lower_weights places Y v) R v.
+Proof.
+  intros n places Y direction [[[[b c] z] pl] |] rows R a A v h hr ha lv nz iv; cbn [changed_lower in_part] in *.
+  - destruct (Check.toward_of bits direction) as [[[i u] q] d]. apply andb_true_iff in h as [g h]. apply andb_true_iff in g as [g rg]. apply andb_true_iff in g as [g kb]. apply andb_true_iff in g as [g _].
+    apply andb_true_iff in g as [g z0]. apply andb_true_iff in g as [lu _]. apply Nat.eqb_eq in lu. rewrite <- (repeat_length zero n) in lu, kb, lv, h. rewrite (repeat_length zero n) in lu.
+    exact (Check.lower_wedge_shows bits (repeat zero n) (repeat 0 n) ltac:(rewrite !repeat_length; reflexivity) b c z pl z0 i u q d ltac:(rewrite repeat_length; exact lu) kb rg a A places Y rows R v h hr ha lv nz iv).
+  - exact (Check.lower_apart_shows bits _ a A places Y rows R v n h hr ha lv nz).
+Qed.
+
+Definition varied_lower_at (n : nat) (places : N) (Y : list (list Z)) (direction : list Z) (part : option wedge) (steps : list (list fixed)) (k : fixed) (s : vsample (option fixed)) : bool :=
   match Check.all_some (map known_varied (v_rows s)), v_weight s, known_multiple (v_less s) with
-  | Some rows, Some w, Some t =>
-      match Tolerances.lower_apart bits (map (Fixed.integer bits) direction) places Y (map (fun r => only_changes (Tolerances.varied_at bits [] steps r)) rows)
-        (repeat [sub (neg (mul bits k w)) t] n) with Some t => Solve.is_definite bits n t | None => false end
+  | Some rows, Some w, Some t => changed_lower n places Y direction part (map (fun r => only_changes (Tolerances.varied_at bits [] steps r)) rows) (add (mul bits k w) t)
   | _, _, _ => false
   end.
 
@@ -349,13 +367,13 @@ Proof.
 Qed.
 End Machine.
 
-Theorem varied_form : forall rows fs w l e n places Y direction kappa2 k v, Forall2 row_stands rows fs -> is_varied_affine rows w l = true ->
+Theorem varied_form : forall rows fs w l e n places Y direction part kappa2 k v, Forall2 row_stands rows fs -> is_varied_affine rows w l = true ->
   is_eased_varied e rows w l = true -> 0 <= at_pairs theta (entry_at tape w) (parabola x) ->
-  everywhere (@map_vsample) e m (varied_lower_at n places Y direction (Tolerances.steps ends params) kappa2) (varied_tensors cell rows w l) = true ->
-  contains bits kappa2 k -> length v = n -> nonzero v ->
+  everywhere (@map_vsample) e m (varied_lower_at n places Y direction part (Tolerances.steps ends params) kappa2) (varied_tensors cell rows w l) = true ->
+  contains bits kappa2 k -> length v = n -> nonzero v -> in_part part v ->
   0 < form (lower_weights places Y v) (map_rows (value x theta) fs) v + - (k * dot v v) * at_pairs theta (entry_at tape w) (parabola x) + - dot v v * less_at tape theta (parabola x) l.
 Proof.
-  intros rows fs w l e n places Y direction kappa2 k v hs ha he w0 H hk lv nz.
+  intros rows fs w l e n places Y direction part kappa2 k v hs ha he w0 H hk lv nz iv.
   assert (lx : length x = m) by (rewrite <- (related_length _ _ _ _ _ x_in); exact dimension).
   destruct (Check.strides bits params theta theta_in ends exist once) as [theta0 [mss [h0 [h1 [rest [st sd]]]]]].
   destruct (rows_varied theta0 mss h1 rest sd rows fs hs lx) as [L [L1 [L2 L3]]]. rewrite L3.
@@ -379,9 +397,7 @@ Proof.
     assert (T : contains bits t (less_at tape theta ps l)).
     { destruct l as [[[g z] pl] |]; cbn [known_multiple map_less less_at option_map fst snd] in et |- *; [| injection et as <-; apply zero_sound].
       pose proof (evaluate_at_sound bits tape params theta theta_in thin thin_is _ ps rq g) as V. destruct (nth g _ None) as [a |]; [| discriminate]. injection et as <-. apply Arithmetic.dyadic_sound, V. }
-    pose proof (fun i => Check.lower_apart_shows bits (map (Fixed.integer bits) direction) (add (mul bits kappa2 b) t) (k * at_pairs theta (entry_at tape w) ps + less_at tape theta ps l) places Y i (map (row_varied theta0 mss ps) L) v n) as Q.
-    assert (N : sub (neg (mul bits kappa2 b)) t = neg (add (mul bits kappa2 b) t)) by (unfold sub, neg, add; cbn [lo hi]; f_equal; lia).
-    rewrite N in G. specialize (Q _ G S (add_sound bits _ _ _ _ (mul_sound bits _ _ _ _ hk W) T) lv nz). lra.
+    pose proof (changed_lower_shows n places Y direction part _ _ _ (k * at_pairs theta (entry_at tape w) ps + less_at tape theta ps l) v G S (add_sound bits _ _ _ _ (mul_sound bits _ _ _ _ hk W) T) lv nz iv). lra.
 Qed.
 End Tape.
 End Precision.
@@ -398,6 +414,21 @@ Definition are_eased (m e : nat) (F : multi_rows formula) (w : formula) (g : opt
     && match g with Some g => is_without (m + k) g | None => true end) (seq 0 e).
 Definition same_numbers (a b : list nat) : bool := if list_eq_dec Nat.eq_dec a b then true else false.
 
+(** Rows of which some form is positive along each direction have no strut of length zero. *)
+Lemma regular_by_each : forall n r, length r = n -> grounded r -> (forall v, length v = n -> nonzero v -> exists places Y, 0 < form (lower_weights places Y v) r v) -> positive_D r.
+Proof.
+  assert (L : forall r, grounded r -> ~ positive_D r -> exists l, (length l < length r)%nat /\ forall v, Forall (fun a => dot a v = 0) l -> forall places Y, form (lower_weights places Y v) r v <= 0).
+  { assert (All : forall r v, Forall (fun p : list R * R => 0 <= snd p /\ (snd p = 0 -> forall v, dot (fst p) v = 0)) r -> Forall (fun a => dot a v = 0) (map fst r) -> forall places Y, form (lower_weights places Y v) r v <= 0).
+    { intros r v g. induction g as [| [a d] r [d0 _] g IH]; intros h places [| y Y]; cbn [map lower_weights form fst snd] in *; try lra. inversion h as [| ? ? h1 h2]; subst. specialize (IH h2 places Y). unfold lower_weights in IH.
+      rewrite h1. pose proof (pow2_ge_0 (dot (map (Y_value places) y) v)). nra. }
+    intros r g. induction g as [| [a d] r [d0 hd] g IH]; intro n; [destruct n; constructor |]. cbn [fst snd] in *. destruct (Rle_lt_or_eq_dec 0 d d0) as [p | e].
+    - destruct IH as [l [k h]]; [intro q; apply n; constructor; assumption |]. exists (a :: l). split; [cbn [length]; lia |].
+      intros v hv places [| y Y]; cbn [lower_weights map form]; [lra |]. inversion hv as [| ? ? h1 h2]; subst. specialize (h v h2 places Y). unfold lower_weights in h. rewrite h1. pose proof (pow2_ge_0 (dot (map (Y_value places) y) v)). nra.
+    - exists (map fst r). split; [cbn [length]; rewrite map_length; lia |]. intros v hv places [| y Y]; cbn [lower_weights map form]; [lra |]. pose proof (All r v g hv places Y) as h. unfold lower_weights in h. rewrite (hd (eq_sym e)), <- e. lra. }
+  intros n r lr g H. destruct (Forall_dec (fun p : list Rdefinitions.R * Rdefinitions.R => 0 < snd p) (fun p => Rlt_dec 0 (snd p)) r) as [p | p]; [exact p |]. exfalso.
+  destruct (L r g p) as [l [k h]]. destruct (orthogonal_exists n l ltac:(lia)) as [v [lv [nv hv]]]. destruct (H v lv nv) as [places [Y q]]. specialize (h v hv places Y). lra.
+Qed.
+
 Section Claim.
 Variable bits : positive.
 (** Coordinates, how many have ends alone, rows and their factor, and what is not negative; parameters, and those with tolerances. *)
@@ -413,17 +444,24 @@ Definition are_fit (F : multi_rows formula) (all : list formula) : bool :=
   are_eased m ends F (image m w) (option_map (image m) g) && forallb (fun p => forallb is_fit (fst p) && is_fit (snd p)) rs.
 
 (** [k]: the square of the least singular value, [e]: of how many coordinates the test has ends alone. *)
-Definition shows_varied (tape : list (op nat)) (placed : multi_rows nat) (placed_w : nat) (placed_g : option nat) (cell : list fixed) (k : fixed) (e : nat) (by_ : evidence) : bool :=
-  let shows es v l places Y := everywhere (@map_vsample) ends m (varied_lower_at bits m places Y v (Tolerances.steps es params) k) (varied_tensors bits params tape es cell placed placed_w l) in
+Definition shows_part (tape : list (op nat)) (placed : multi_rows nat) (placed_w : nat) (placed_g : option nat) (cell : list fixed) (k : fixed) (part : option wedge) (by_ : evidence) : bool :=
+  let shows es v l places Y := everywhere (@map_vsample) ends m (varied_lower_at bits m places Y v part (Tolerances.steps es params) k) (varied_tensors bits params tape es cell placed placed_w l) in
   match by_ with
   | ByTolerances (AtControls inner) es [v] =>
-      Nat.eqb e ends && Nat.ltb 0 ends && same_numbers (map fst es) free && Check.are_once free && forallb (fun j => Nat.ltb j (length params)) free && Nat.eqb (length v) m &&
+      same_numbers (map fst es) free && Check.are_once free && forallb (fun j => Nat.ltb j (length params)) free && Nat.eqb (length v) m &&
       match inner with
       | ByLower places Y => shows es v None places Y
       | Turned (ByLower places Y) n pl => match placed_g with Some i => (0 <=? n)%Z && shows es v (Some (i, n, pl)) places Y | None => false end
       | _ => false
       end
   | _ => false
+  end.
+Definition shows_varied (tape : list (op nat)) (placed : multi_rows nat) (placed_w : nat) (placed_g : option nat) (cell : list fixed) (k : fixed) (e : nat) (by_ : evidence) : bool :=
+  let along := shows_part tape placed placed_w placed_g cell k in
+  Nat.eqb e ends && Nat.ltb 0 ends &&
+  match by_ with
+  | ByFan parts => negb (Nat.eqb (length parts) 0) && forallb (fun p => let '(_, n, pl, e) := snd p in along (Some (fst (fst p), snd (fst p), n, pl)) e) (combine (Toward.wedges (map (fun p => fst (fst (fst p))) parts)) parts)
+  | _ => along None by_
   end.
 
 Variable tape : list (op nat).
@@ -515,30 +553,22 @@ Proof.
   assert (Wv : at_pairs theta (entry_at tape (placed_at (image m w))) (parabola x) = value x theta w).
   { rewrite (found_at (image m w) (or_introl eq_refl)), <- lx. apply image_value. rewrite lx. exact bw. }
   (* the form *)
-  enough (T : exists places Y less, 0 <= less /\ forall v, length v = m -> nonzero v ->
+  enough (T : forall v, length v = m -> nonzero v -> exists places Y less, 0 <= less /\
     0 < form (lower_weights places Y v) (map_rows (value x theta) rs) v + - (kappa * dot v v) * value x theta w + - dot v v * less).
-  { destruct T as [places [Y [less [l0 T]]]].
-    set (base := map (fun p : list (multi nat) * multi nat => (map fst (fst p), fst (snd p))) (map_multis placed_at placed_at own_multis)).
-    assert (B : map_rows (fun i => at_pairs theta (entry_at tape i) (parabola x)) base = map_rows (value x theta) rs).
-    { pose proof fit as ok. unfold are_fit in ok. apply andb_true_iff in ok as [_ ok]. unfold base, map_multis, own_multis, map_rows. rewrite !map_map. cbn [fst snd]. apply map_ext_in. intros p ip. cbn [fst snd].
-      pose proof (fun f i => found_at f (in_multis (map own_multi (fst p), own_multi (snd p)) f (in_map (fun p => (map own_multi (fst p), own_multi (snd p))) _ _ ip) i)) as Fd. cbn [fst snd] in Fd.
-      rewrite forallb_forall in ok. specialize (ok p ip). apply andb_true_iff in ok as [ok1 ok2]. rewrite forallb_forall in ok1.
-      assert (V : forall f, is_fit f = true -> entry_at tape (placed_at (image m f)) = image m f -> at_pairs theta (entry_at tape (placed_at (image m f))) (parabola x) = value x theta f).
-      { intros f o ef. rewrite ef, <- lx. apply image_value. rewrite lx. unfold is_fit in o. apply andb_true_iff in o as [o _]. apply andb_true_iff in o as [_ o]. exact o. }
-      f_equal.
-      - rewrite !map_map. apply map_ext_in. intros f i. cbn [map_multi own_multi fst]. apply V; [apply ok1, i |]. apply Fd, in_or_app. left. apply in_flat_map. exists (own_multi f). split; [apply in_map, i | left; reflexivity].
-      - cbn [map_multi own_multi fst]. apply V; [exact ok2 |]. apply Fd, in_or_app. right. left. reflexivity. }
-    assert (P : positive_D (map_rows (value x theta) rs)).
-    { rewrite <- B. apply (regular_by_form tape theta m cell x dimension places Y base m).
-      - rewrite <- lr, <- (map_length (fun p => (map (value x theta) (fst p), value x theta (snd p))) rs). change (map (fun p => (map (value x theta) (fst p), value x theta (snd p))) rs) with (map_rows (value x theta) rs).
-        rewrite <- B. unfold map_rows. rewrite map_length. reflexivity.
-      - rewrite B. exact gr.
-      - rewrite B. intros u lu nu. left. specialize (T u lu nu). unfold nonzero in nu.
-        pose proof (Rmult_le_pos (kappa * dot u u) (value x theta w) ltac:(apply Rmult_le_pos; lra) ltac:(lra)). pose proof (Rmult_le_pos (dot u u) less ltac:(lra) l0). lra. }
-    intros v lv nz. split; [exact P |]. apply Rlt_le_trans with (2 := lower_energy places Y _ v P). specialize (T v lv nz).
+  { assert (P : positive_D (map_rows (value x theta) rs)).
+    { apply (regular_by_each m); [unfold map_rows; rewrite map_length; exact lr | exact gr |]. intros u lu nu. destruct (T u lu nu) as [places [Y [less [l0 q]]]]. exists places, Y. unfold nonzero in nu.
+      pose proof (Rmult_le_pos (kappa * dot u u) (value x theta w) ltac:(apply Rmult_le_pos; lra) ltac:(lra)). pose proof (Rmult_le_pos (dot u u) less ltac:(lra) l0). lra. }
+    intros v lv nz. split; [exact P |]. destruct (T v lv nz) as [places [Y [less [l0 q]]]]. apply Rlt_le_trans with (2 := lower_energy places Y _ v P).
     assert (0 <= dot v v * less) by (apply Rmult_le_pos; [apply Rlt_le, nz | exact l0]). lra. }
-  unfold shows_varied in h. cbv zeta in h. destruct by_ as [| | | | | | | | | | | | | | | | inner es dirs | | |]; try discriminate. destruct inner as [| | | | | | | | | | | inner | | | | | | | |]; try discriminate.
-  destruct dirs as [| dir [|]]; try discriminate. apply andb_true_iff in h as [h s]. apply andb_true_iff in h as [h _]. apply andb_true_iff in h as [h ex]. apply andb_true_iff in h as [h on]. apply andb_true_iff in h as [_ sn].
+  unfold shows_varied in h. cbv zeta in h. set (along := shows_part _ _ _ _ _ _) in h.
+  apply andb_true_iff in h as [_ h]. intros v lv nz.
+  enough (Part : forall part e, along part e = true -> in_part part v -> exists places Y less, 0 <= less /\
+    0 < form (lower_weights places Y v) (map_rows (value x theta) rs) v + - (kappa * dot v v) * value x theta w + - dot v v * less).
+  { destruct by_; try exact (Part None _ h I). apply andb_true_iff in h as [n0 h]. rewrite forallb_forall in h.
+    destruct (Toward.fan_covers (map (fun p => fst (fst (fst p))) parts) v) as [p [ip iw]]; [intro z; destruct parts; discriminate|].
+    destruct (Check.part_of_wedge parts p ip) as [[[[c0 z] pl] e0] iq]. specialize (h _ iq). cbn [fst snd] in h. exact (Part _ _ h iw). }
+  clear h. intros part by' h iv. unfold along, shows_part in h. cbv zeta in h. clear along. destruct by' as [| | | | | | | | | | | | | | | | inner es dirs | | |]; try discriminate. destruct inner as [| | | | | | | | | | | inner | | | | | | | |]; try discriminate.
+  destruct dirs as [| dir [|]]; try discriminate. apply andb_true_iff in h as [h s]. apply andb_true_iff in h as [h _]. apply andb_true_iff in h as [h ex]. apply andb_true_iff in h as [sn on].
   unfold same_numbers in sn. destruct (list_eq_dec _ _ _) as [ef |]; [| discriminate]. rewrite <- ef in on, ex.
   assert (Aff := fit). unfold are_fit in Aff. apply andb_true_iff in Aff as [Aff _]. apply andb_true_iff in Aff as [Aff _]. apply andb_true_iff in Aff as [_ Aff].
   unfold varied_wanted in Aff. change (image m w :: ?a ++ ?b) with ([image m w] ++ (a ++ b)) in Aff. apply affine_app in Aff as [Aw Aff]. apply affine_app in Aff as [Ag AF].
@@ -546,13 +576,13 @@ Proof.
   { intros l hl. unfold is_varied_affine. apply andb_true_iff. split; [| exact hl]. apply affine_entries. cbn [map]. rewrite (found_at (image m w) (or_introl eq_refl)).
     rewrite placed_formulas by (intros f i; apply found_at; right; apply in_or_app; right; exact i). unfold are_affine in *. cbn [forallb] in *. rewrite AF. apply andb_true_iff in Aw as [-> _]. reflexivity. }
   assert (Go : forall l places Y, is_affine_multiple tape m l = true -> match l with Some (i, _, _) => exists f, g = Some f /\ i = placed_at (image m f) | None => True end ->
-    everywhere (@map_vsample) ends m (varied_lower_at bits m places Y dir (Tolerances.steps es params) k) (varied_tensors bits params tape es cell (map_multis placed_at placed_at own_multis) (placed_at (image m w)) l) = true ->
-    forall v, length v = m -> nonzero v -> 0 < form (lower_weights places Y v) (map_rows (value x theta) rs) v + - (kappa * dot v v) * value x theta w + - dot v v * less_at tape theta (parabola x) l).
-  { intros l places Y al hl q v lv nz. rewrite <- Wv.
-    apply (varied_form bits tape params tape (thinned_not_at_all tape) es m theta theta_in cell x x_in dimension on ex (map_multis placed_at placed_at own_multis) rs (placed_at (image m w)) l ends m places Y dir k kappa v);
-      [exact (own_stand es ef) | exact (Places l al) | exact (eased_placed l hl) | rewrite Wv; lra | exact q | exact hk | exact lv | exact nz]. }
+    everywhere (@map_vsample) ends m (varied_lower_at bits m places Y dir part (Tolerances.steps es params) k) (varied_tensors bits params tape es cell (map_multis placed_at placed_at own_multis) (placed_at (image m w)) l) = true ->
+    0 < form (lower_weights places Y v) (map_rows (value x theta) rs) v + - (kappa * dot v v) * value x theta w + - dot v v * less_at tape theta (parabola x) l).
+  { intros l places Y al hl q. rewrite <- Wv.
+    apply (varied_form bits tape params tape (thinned_not_at_all tape) es m theta theta_in cell x x_in dimension on ex (map_multis placed_at placed_at own_multis) rs (placed_at (image m w)) l ends m places Y dir part k kappa v);
+      [exact (own_stand es ef) | exact (Places l al) | exact (eased_placed l hl) | rewrite Wv; lra | exact q | exact hk | exact lv | exact nz | exact iv]. }
   destruct inner as [| | places Y | | | | | | | | | | inner n pl | | | | | | |]; try discriminate.
-  - exists places, Y, 0. split; [lra |]. intros v lv nz. pose proof (Go None places Y eq_refl I s v lv nz) as G. exact G.
+  - exists places, Y, 0. split; [lra |]. exact (Go None places Y eq_refl I s).
   - destruct inner as [| | places Y | | | | | | | | | | | | | | | | |]; try discriminate. destruct g as [f |] eqn:eg; [| discriminate]. cbn [option_map] in s. apply andb_true_iff in s as [n0 s]. apply Z.leb_le, IZR_le in n0.
     exists places, Y, (less_at tape theta (parabola x) (Some (placed_at (image m f), n, pl))).
     assert (ef' : entry_at tape (placed_at (image m f)) = image m f) by (apply found_at; right; rewrite eg; left; reflexivity). split.

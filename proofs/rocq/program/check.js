@@ -210,6 +210,26 @@ for (const [from, to] of [["", ""], [apart_ends, apart_ends.replace("-", "0")], 
   if (answers.some((answer) => answer !== "CERTIFIED")) fail(`as made: ${answers}: ${from} ${to}`);
 }
 read.push(made_as);
+// The same in two wedges of directions, less ever more of a multiple; and a wedge that is none.
+{
+  const fan = (parts) => { const c = JSON.parse(made_as); for (const node of c.proof.tree.nodes) if (node.by) node.by = node.by.map(([i, e]) => i === 0 && e.tolerances ? [i, { fan: parts(e) }] : [i, e]); return JSON.stringify(c) + "\n"; };
+  const two = (n, places = 28, b = [8, 1, 0, 0, 0, 0], c = [-1, 8, 2, 0, 0, 1]) => (e) => [[b, n, places, e], [c, n, places, e]];
+  for (const [parts, right] of [[(e) => [[[1, 0, 0, 0, 0, 0], 0, 0, e]], 1], [two(0), 1], [two(9, 44, [1, 1, 1, 0, 0, 0], [0, 0, 0, -2, 1, 3]), 1], [two(1, 4), 0], [two(-1), 0], [two(1, 64), 0], [two(1, 40, [8, 1, 0, 0, 0]), 0], [() => [], 0],
+    [(e) => [[[1, 0, 0, 0, 0, 0], 0, 0, { fan: two(0)(e) }]], 0]]) {
+    const answers = three_answers(fan(parts));
+    if (answers.some((answer, i) => right ? answer !== "CERTIFIED" : i ? ["CERTIFIED", "REFUTED"].includes(answer) : answer === "CERTIFIED")) fail(`fan as made: ${answers}: ${parts}`);
+  }
+  let [shown, not_shown] = [2 ** 8, 2 ** 10];
+  for (let i = 0; i < 9; i++) {
+    const n = Math.floor((shown + not_shown) / 2), answers = two_answers(fan(two(n)));
+    if (new Set(answers).size > 1) fail(`fan as made: ${answers}: ${n}`);
+    if (answers[0] === "CERTIFIED") shown = n; else not_shown = n;
+  }
+  agrees(one_of, natively([one_of])[0]);
+  if (verify(fan(two(shown))) !== "CERTIFIED" || verify(fan(two(not_shown))) !== "REJECTED" || not_shown === 2 ** 10) fail(`fan as made: ${shown} and ${not_shown}, in JavaScript`);
+  read.push(fan(two(shown)));
+}
+console.log("fans at control points: with one answer at nine multiples");
 console.log("tolerances apart of a platform that turns: five with one answer, and 17 refused");
 // Accuracy of a platform that turns: of each part what shows it.
 const one_pose = fs.readFileSync(path.join(made, "hexapod-accuracy.cert.json"), "latin1"), [first_part, second_part] = one_pose.match(/"accuracy":\[\{"y":\[\[[^}]*\},\d+,\d+\]/g);

@@ -454,7 +454,7 @@ let is_by_slopes r = match r.about_, r.end_ with
   | (BaseJoint_ | PlatformJoint_), AtMost_ b -> not (up_to_90 (denoted b))
   | about, _ -> about = Acceleration_
 let is_pose_step rs (_, s) = match s with
-  | AtControls_ _ | Plain "outside" | Multiplied ("direction", _, _) | Apart_ _ -> true
+  | AtControls_ _ | Plain "outside" | Multiplied ("direction", _, _) | Apart_ _ | Fan_ _ -> true
   | Plain "test" -> List.exists is_by_slopes rs
   | _ -> false
 
@@ -476,9 +476,11 @@ let certificate text =
   (* Apart are all that is shown of M, at control points, of as many struts as coordinates, over a box. *)
   let has_other_apart kind legs w nodes =
     let is_square = List.length legs = (match kind with InSpace -> 6 | _ -> 3) && (match kind, w with AboutPoint, _ | _, AnyCylinder_ _ -> false | _ -> true) in
+    let is_lower = function Apart_ (AtControls_ (Multiplied ("lower", _, _) | Turned_ (Multiplied ("lower", _, _), _, _)), _, _) -> is_square | _ -> false in
     let is_other = function
-      | O, Apart_ (AtControls_ (Multiplied ("lower", _, _) | Turned_ (Multiplied ("lower", _, _), _, _)), _, _) -> not is_square
-      | _, Apart_ _ -> true
+      | O, (Apart_ _ as s) -> not (is_lower s)
+      | O, Fan_ parts -> not (List.for_all (fun (_, s) -> is_lower s) parts)
+      | _, (Apart_ _ | Fan_ _) -> true
       | _ -> false in
     List.exists (fun n -> List.exists is_other n.by_) nodes in
   let has_failure = List.exists (fun n -> n.fails_ <> None) in

@@ -4,18 +4,18 @@ globalThis!=="object"&&(this?b():(a.defineProperty(a.prototype,"_T_",{configurab
 b(){var
 b=this||self;b.globalThis=b;delete
 a.prototype._T_}}(Object));(function(S){"use strict";var
-kV="spatial",sc="Invalid_argument",ic="precision",aR='"',kU=1255,k7="inside",ra="(",rb=0x800,sb="yaw",q9="range",q_="tree",q$="jsError",cp=0x8000,sa="sqrt(",q8=256,ib="obligation",r$="load",gg="offset",bw="machine",q7="End_of_file",e1="strut",kT="center",gf="arm",kS="Failure",r_="serial_margin",ij="parameters",cU=0xff,r9="bodies",r8="max_angle",k6="outside",ge="base_axis",kR="ENOENT",r7="singular",r6=122,q6="([^/]+)",r5="0",kQ=0xf,gd=128,q5=0xdc00,r3="Sys_blocked_io",r4="fd ",f7="given",q4="ENOTEMPTY",a7=248,ia="bound",q3="Division_by_zero",r1="by",r2=1027,q2="Sys_error",gc="slider",q1="torsion",r0="postulate",q0="proof",k5="joint_error",gb="refuted",eU="mechanism",h$="row",qZ="EEXIST",rZ="roll_pitch_yaw",ga="y",qY="cube",du="lower",rY="within",qX="clearance",rX="turned",qW="control",h_="int_of_string",qV="between",rV="definitions",rW="dependent",f$=1024,qT="from",qU="name",rU=" : flags Open_rdonly and Open_wronly are not compatible",qS="orthocert/2",rT="reach",qR=512,rR="base_joint",rS="witness",e0="-",bl="platform",qQ=0x7ff0,qP="pitch",k4=": Not a directory",bL="min",rP="trim",eZ="workspace",rQ=" : file already exists",h9="split",k3="legs",rO="claim",kP="joint",d7=0xffffff,qO="platform_joint",qN="formulas",qM="roll",h8="atlas",rL="greatest",rM="nodes",rN="Out_of_memory",qL="psi_max",ii="orientation",h7=254,rK="angle",k2="index out of bounds",qK="end",rJ="one_to_one",ih="_bigarr02",qJ=" : flags Open_text and Open_binary are not compatible",rI="inverse",bv="drive",qI="coordinates",rH="holds",qH="lower_divided",qG="speed",rF="cylinder",rG="joints",cT=0xffff,rB="a leaf that fails",rC="acceleration",rD="force",f9="certified",f_="chords",rE=12520,kO="on",rA="same",eT="accuracy",f8="axis",rz="no_cube",ry="parallel_margin",qF='the drive "',kN="Unix.Unix_error",ig="fails",h6="tool",kM="mkdir",rw="rho",rx="least",ie=1000,kL="translational",k1="tolerances",qE="Stack_overflow",k0="characteristic_length",af="",kZ="^",h4="places",h5=": No such file or directory",qD="/static/",eY=0x3f,qB="stiffness",qC="Not_found",co="planar",f6="mode",rv="joint_speed",ru="Match_failure",qA="transmission",bK="anchor",rt="at",qz="joint_force",eX="leg",qy="joint_acceleration",id="+",kK="rmdir",rs=0xf0,rr="spherical",qx=1026,rp="REJECTED",rq="undecided",bN="max",bM="direction",qv="leg_angle",qw="orthoglide",eW="rank",rn="constraint_margin",ro="fan",f5="test",qt="Pervasives.do_at_exit",qu="utf8",b6=0x80,eV="conditioning",eS="length",qs="Undefined_recursive_module",kY=")",qr="base",rm="quantity",qq="joint_range",h3="tilt",qp="Q2",rl="reference",qo="point",rj="corner",rk=0xe0,qn="version",kX="z",rh="to",ri=0xdfff,kJ="compare: functional value",rg="Assert_failure",b8="/",rf="provenance",d6="radius",h2="side",rd=-14,b7="require",re="format",qm="Q1",kW="ENOTDIR",ql="all",d5="box",rc=250;function
-li(c,b,a){var
+k0="spatial",sd="Invalid_argument",ie="precision",aS='"',kZ=1255,la="inside",rb="(",rc=0x800,sc="yaw",q_="range",q$="tree",ra="jsError",cp=0x8000,sb="sqrt(",q9=256,id="obligation",sa="load",gh="offset",bw="machine",q8="End_of_file",e1="strut",kY="center",gg="arm",kX="Failure",r$="serial_margin",il="parameters",cU=0xff,r_="bodies",r9="max_angle",k$="outside",gf="base_axis",kW="ENOENT",r8="singular",r7=122,q7="([^/]+)",r6="0",kV=0xf,ge=128,q6=0xdc00,r4="Sys_blocked_io",r5="fd ",f8="given",q5="ENOTEMPTY",a8=248,ic="bound",q4="Division_by_zero",r2="by",r3=1027,q3="Sys_error",gd="slider",q2="torsion",r1="postulate",q1="proof",k_="joint_error",gc="refuted",eU="mechanism",ib="row",q0="EEXIST",r0="roll_pitch_yaw",gb="y",qZ="cube",du="lower",rZ="within",qY="clearance",rY="turned",qX="control",ia="int_of_string",qW="between",rW="definitions",rX="dependent",ga=1024,qU="from",qV="name",rV=" : flags Open_rdonly and Open_wronly are not compatible",qT="orthocert/2",rU="reach",qS=512,rS="base_joint",rT="witness",e0="-",bl="platform",qR=0x7ff0,qQ="pitch",k9=": Not a directory",bL="min",rQ="trim",eZ="workspace",rR=" : file already exists",h$="split",k8="legs",rP="claim",kU="joint",d7=0xffffff,qP="platform_joint",qO="formulas",qN="roll",h_="atlas",rM="greatest",rN="nodes",rO="Out_of_memory",qM="psi_max",ik="orientation",h9=254,rL="angle",k7="index out of bounds",qL="end",rK="one_to_one",ij="_bigarr02",qK=" : flags Open_text and Open_binary are not compatible",rJ="inverse",bv="drive",qJ="coordinates",rI="holds",qI="lower_divided",qH="speed",rG="cylinder",rH="joints",cT=0xffff,rC="a leaf that fails",rD="acceleration",rE="force",f_="certified",f$="chords",rF=12520,kT="on",rB="same",eT="accuracy",f9="axis",rA="no_cube",rz="parallel_margin",qG='the drive "',kS="Unix.Unix_error",ii="fails",h8="tool",kR="mkdir",rx="rho",ry="least",ih=1000,kQ="translational",k6="tolerances",qF="Stack_overflow",k5="characteristic_length",af="",k4="^",h6="places",h7=": No such file or directory",qE="/static/",eY=0x3f,qC="stiffness",qD="Not_found",co="planar",f7="mode",rw="joint_speed",rv="Match_failure",qB="transmission",bK="anchor",ru="at",qA="joint_force",eX="leg",qz="joint_acceleration",ig="+",kP="rmdir",rt=0xf0,rs="spherical",qy=1026,rq="REJECTED",rr="undecided",bN="max",bM="direction",qw="leg_angle",qx="orthoglide",eW="rank",ro="constraint_margin",rp="fan",f6="test",qu="Pervasives.do_at_exit",qv="utf8",b6=0x80,eV="conditioning",eS="length",qt="Undefined_recursive_module",k3=")",qs="base",rn="quantity",qr="joint_range",h5="tilt",qq="Q2",rm="reference",qp="point",rk="corner",rl=0xe0,qo="version",k2="z",ri="to",rj=0xdfff,kO="compare: functional value",rh="Assert_failure",b8="/",rg="provenance",d6="radius",h4="side",re=-14,b7="require",rf="format",qn="Q1",k1="ENOTDIR",qm="all",d5="box",rd=250;function
+ln(c,b,a){var
 d=String.fromCharCode;if(b==0&&a<=4096&&a==c.length)return d.apply(null,c);var
-e=af;for(;0<a;b+=f$,a-=f$)e+=d.apply(null,c.slice(b,b+Math.min(a,f$)));return e}function
-il(b){if(S.Uint8Array)var
+e=af;for(;0<a;b+=ga,a-=ga)e+=d.apply(null,c.slice(b,b+Math.min(a,ga)));return e}function
+io(b){if(S.Uint8Array)var
 c=new(S.Uint8Array)(b.l);else
 var
 c=new
 Array(b.l);var
 e=b.c,d=e.length,a=0;for(;a<d;a++)c[a]=e.charCodeAt(a);for(d=b.l;a<d;a++)c[a]=0;b.c=c;b.t=4;return c}function
-gh(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?li(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
-if(b.t==2&&f==b.c.length){b.c+=d.t==4?li(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)il(b);var
+gi(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?ln(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
+if(b.t==2&&f==b.c.length){b.c+=d.t==4?ln(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)io(b);var
 g=d.c,h=b.c;if(d.t==4)if(f<=e)for(var
 a=0;a<c;a++)h[f+a]=g[e+a];else
 for(var
@@ -23,8 +23,8 @@ a=c-1;a>=0;a--)h[f+a]=g[e+a];else{var
 i=Math.min(c,g.length-e);for(var
 a=0;a<i;a++)h[f+a]=g.charCodeAt(e+a);for(;a<c;a++)h[f+a]=0}}return 0}function
 e4(a){return a}function
-e3(a,b,c,d,e){gh(e4(a),b,c,d,e);return 0}function
-k9(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
+e3(a,b,c,d,e){gi(e4(a),b,c,d,e);return 0}function
+lc(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
 0:return a.c.charCodeAt(b);case
 4:return a.c[b]}}function
 dw(c,a){if(c.fun)return dw(c.fun,a);if(typeof
@@ -37,22 +37,22 @@ e=arguments.length==0?1:arguments.length,d=new
 Array(a.length+e);for(var
 b=0;b<a.length;b++)d[b]=a[b];for(var
 b=0;b<arguments.length;b++)d[a.length+b]=arguments[b];return dw(c,d)}}function
-sD(b,a){if(b==0)return af;if(a.repeat)return a.repeat(b);var
+sE(b,a){if(b==0)return af;if(a.repeat)return a.repeat(b);var
 d=af,c=0;for(;;){if(b&1)d+=a;b>>=1;if(b==0)return d;a+=a;c++;if(c==9)a.slice(0,1)}}function
-e5(a){if(a.t==2)a.c+=sD(a.l-a.c.length,"\0");else
-a.c=li(a.c,0,a.c.length);a.t=0}function
+e5(a){if(a.t==2)a.c+=sE(a.l-a.c.length,"\0");else
+a.c=ln(a.c,0,a.c.length);a.t=0}function
 e6(a){a.t&6&&e5(a);return a.c}var
-JR=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
-JQ(a){if(JR)return Math.floor(Math.log2(a));var
+JS=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
+JR(a){if(JS)return Math.floor(Math.log2(a));var
 b=0;if(a==0)return-Infinity;if(a>=1)while(a>=2){a/=2;b++}else
 while(a<1){a*=2;b--}return b}function
-la(c){var
+lf(c){var
 a=new(S.Float32Array)(1);a[0]=c;var
 b=new(S.Int32Array)(a.buffer);return b[0]|0}var
-sv=Math.pow(2,-24);function
-JH(a){throw a}var
+sw=Math.pow(2,-24);function
+JI(a){throw a}var
 aF=[0];function
-sA(){JH(aF.Division_by_zero)}function
+sB(){JI(aF.Division_by_zero)}function
 R(b,c,a){this.lo=b&d7;this.mi=c&d7;this.hi=a&cT}R.prototype.caml_custom="_j";R.prototype.copy=function(){return new
 R(this.lo,this.mi,this.hi)};R.prototype.ucompare=function(a){if(this.hi>a.hi)return 1;if(this.hi<a.hi)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};R.prototype.compare=function(a){var
 b=this.hi<<16,c=a.hi<<16;if(b>c)return 1;if(b<c)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};R.prototype.neg=function(){var
@@ -62,7 +62,7 @@ b=this.lo+a.lo,c=this.mi+a.mi+(b>>24),d=this.hi+a.hi+(c>>24);return new
 R(b,c,d)};R.prototype.sub=function(a){var
 b=this.lo-a.lo,c=this.mi-a.mi+(b>>24),d=this.hi-a.hi+(c>>24);return new
 R(b,c,d)};R.prototype.mul=function(a){var
-b=this.lo*a.lo,c=(b*sv|0)+this.mi*a.lo+this.lo*a.mi,d=(c*sv|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
+b=this.lo*a.lo,c=(b*sw|0)+this.mi*a.lo+this.lo*a.mi,d=(c*sw|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
 R(b,c,d)};R.prototype.isZero=function(){return(this.lo|this.mi|this.hi)==0};R.prototype.isNeg=function(){return this.hi<<16<0};R.prototype.and=function(a){return new
 R(this.lo&a.lo,this.mi&a.mi,this.hi&a.hi)};R.prototype.or=function(a){return new
 R(this.lo|a.lo,this.mi|a.mi,this.hi|a.hi)};R.prototype.xor=function(a){return new
@@ -80,22 +80,22 @@ R(this.mi>>a-24|this.hi<<48-a,this.hi<<16>>a-24>>16,b&cT);return new
 R(this.hi<<16>>a-32,b,b)};R.prototype.lsl1=function(){this.hi=this.hi<<1|this.mi>>23;this.mi=(this.mi<<1|this.lo>>23)&d7;this.lo=this.lo<<1&d7};R.prototype.lsr1=function(){this.lo=(this.lo>>>1|this.mi<<23)&d7;this.mi=(this.mi>>>1|this.hi<<23)&d7;this.hi=this.hi>>>1};R.prototype.udivmod=function(e){var
 c=0,b=this.copy(),a=e.copy(),d=new
 R(0,0,0);while(b.ucompare(a)>0){c++;a.lsl1()}while(c>=0){c--;d.lsl1();if(b.ucompare(a)>=0){d.lo++;b=b.sub(a)}a.lsr1()}return{quotient:d,modulus:b}};R.prototype.div=function(a){var
-b=this;if(a.isZero())sA();var
+b=this;if(a.isZero())sB();var
 d=b.hi^a.hi;if(b.hi&cp)b=b.neg();if(a.hi&cp)a=a.neg();var
 c=b.udivmod(a).quotient;if(d&cp)c=c.neg();return c};R.prototype.mod=function(b){var
-a=this;if(b.isZero())sA();var
+a=this;if(b.isZero())sB();var
 d=a.hi;if(a.hi&cp)a=a.neg();if(b.hi&cp)b=b.neg();var
 c=a.udivmod(b).modulus;if(d&cp)c=c.neg();return c};R.prototype.toInt=function(){return this.lo|this.mi<<24};R.prototype.toFloat=function(){return(this.hi<<16)*Math.pow(2,32)+this.mi*Math.pow(2,24)+this.lo};R.prototype.toArray=function(){return[this.hi>>8,this.hi&cU,this.mi>>16,this.mi>>8&cU,this.mi&cU,this.lo>>16,this.lo>>8&cU,this.lo&cU]};R.prototype.lo32=function(){return this.lo|(this.mi&cU)<<24};R.prototype.hi32=function(){return this.mi>>>8&cT|this.hi<<16};function
-io(b,c,a){return new
+iq(b,c,a){return new
 R(b,c,a)}function
-im(a){if(!isFinite(a)){if(isNaN(a))return io(1,0,qQ);return a>0?io(0,0,qQ):io(0,0,0xfff0)}var
+ip(a){if(!isFinite(a)){if(isNaN(a))return iq(1,0,qR);return a>0?iq(0,0,qR):iq(0,0,0xfff0)}var
 f=a==0&&1/a==-Infinity?cp:a>=0?0:cp;if(f)a=-a;var
-b=JQ(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-qx)}else{a/=Math.pow(2,b-r2);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
+b=JR(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-qy)}else{a/=Math.pow(2,b-r3);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
 d=Math.pow(2,24),c=a|0;a=(a-c)*d;var
 e=a|0;a=(a-e)*d;var
-g=a|0;c=c&kQ|f|b<<4;return io(g,e,c)}function
-gk(a){return a.toArray()}function
-sj(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==ih)for(var
+g=a|0;c=c&kV|f|b<<4;return iq(g,e,c)}function
+gl(a){return a.toArray()}function
+sk(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==ij)for(var
 a=0;a<b.dims.length;a++)if(b.dims[a]<cT)c.write(16,b.dims[a]);else{c.write(16,cT);c.write(32,0);c.write(32,b.dims[a])}else
 for(var
 a=0;a<b.dims.length;a++)c.write(32,b.dims[a]);switch(b.kind){case
@@ -113,51 +113,51 @@ a=0;a<b.data.length;a++)c.write(32,b.data[a]);break;case
 a=0;a<b.data.length;a++)c.write(32,b.data[a]);break;case
 7:for(var
 a=0;a<b.data.length/2;a++){var
-e=gk(b.get(a));for(var
+e=gl(b.get(a));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 1:for(var
 a=0;a<b.data.length;a++){var
-e=gk(im(b.get(a)));for(var
+e=gl(ip(b.get(a)));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 0:for(var
 a=0;a<b.data.length;a++){var
-e=la(b.get(a));c.write(32,e)}break;case
+e=lf(b.get(a));c.write(32,e)}break;case
 10:for(var
 a=0;a<b.data.length/2;a++){var
-d=b.get(a);c.write(32,la(d[1]));c.write(32,la(d[2]))}break;case
+d=b.get(a);c.write(32,lf(d[1]));c.write(32,lf(d[2]))}break;case
 11:for(var
 a=0;a<b.data.length/2;a++){var
-f=b.get(a),e=gk(im(f[1]));for(var
+f=b.get(a),e=gl(ip(f[1]));for(var
 d=0;d<8;d++)c.write(8,e[d]);var
-e=gk(im(f[2]));for(var
+e=gl(ip(f[2]));for(var
 d=0;d<8;d++)c.write(8,e[d])}break}g[0]=(4+b.dims.length)*4;g[1]=(4+b.dims.length)*8}function
-JJ(b,a){throw[0,b,a]}function
-sI(a){if(a.length<24){for(var
+JK(b,a){throw[0,b,a]}function
+sJ(a){if(a.length<24){for(var
 b=0;b<a.length;b++)if(a.charCodeAt(b)>127)return false;return true}else
 return!/[^\x00-\x7f]/.test(a)}function
-lj(e){for(var
+lo(e){for(var
 j=af,c=af,g,f,h,a,b=0,i=e.length;b<i;b++){f=e.charCodeAt(b);if(f<b6){for(var
-d=b+1;d<i&&(f=e.charCodeAt(d))<b6;d++);if(d-b>qR){c.substr(0,1);j+=c;c=af;j+=e.slice(b,d)}else
-c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==gd){g=h+(f<<6);if(f<rk){a=g-0x3080;if(a<b6)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==gd){g=h+(g<<6);if(f<rs){a=g-0xe2080;if(a<rb||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==gd&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
-if(a>cT)c+=String.fromCharCode(0xd7c0+(a>>10),q5+(a&0x3FF));else
-c+=String.fromCharCode(a);if(c.length>f$){c.substr(0,1);j+=c;c=af}}return j+c}function
+d=b+1;d<i&&(f=e.charCodeAt(d))<b6;d++);if(d-b>qS){c.substr(0,1);j+=c;c=af;j+=e.slice(b,d)}else
+c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==ge){g=h+(f<<6);if(f<rl){a=g-0x3080;if(a<b6)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==ge){g=h+(g<<6);if(f<rt){a=g-0xe2080;if(a<rc||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==ge&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
+if(a>cT)c+=String.fromCharCode(0xd7c0+(a>>10),q6+(a&0x3FF));else
+c+=String.fromCharCode(a);if(c.length>ga){c.substr(0,1);j+=c;c=af}}return j+c}function
 cq(c,a,b){this.t=c;this.c=a;this.l=b}cq.prototype.toString=function(){switch(this.t){case
 9:return this.c;default:e5(this);case
-0:if(sI(this.c)){this.t=9;return this.c}this.t=8;case
+0:if(sJ(this.c)){this.t=9;return this.c}this.t=8;case
 8:return this.c}};cq.prototype.toUtf16=function(){var
-a=this.toString();if(this.t==9)return a;return lj(a)};cq.prototype.slice=function(){var
+a=this.toString();if(this.t==9)return a;return lo(a)};cq.prototype.slice=function(){var
 a=this.t==4?this.c.slice():this.c;return new
 cq(this.t,a,this.l)};function
-sm(a){return new
+sn(a){return new
 cq(0,a,a.length)}function
-a(a){return sm(a)}function
-lh(c,b){JJ(c,a(b))}function
-a0(a){lh(aF.Invalid_argument,a)}function
-sh(a){switch(a){case
+a(a){return sn(a)}function
+lm(c,b){JK(c,a(b))}function
+a0(a){lm(aF.Invalid_argument,a)}function
+si(a){switch(a){case
 7:case
 10:case
 11:return 2;default:return 1}}function
-Jb(c,e){var
+Jc(c,e){var
 b=S,a;switch(c){case
 0:a=b.Float32Array;break;case
 1:a=b.Float64Array;break;case
@@ -173,43 +173,43 @@ b=S,a;switch(c){case
 11:a=b.Float64Array;break;case
 12:a=b.Uint8Array;break}if(!a)a0("Bigarray.create: unsupported kind");var
 d=new
-a(e*sh(c));return d}function
-lb(c){var
+a(e*si(c));return d}function
+lg(c){var
 a=new(S.Int32Array)(1);a[0]=c;var
 b=new(S.Float32Array)(a.buffer);return b[0]}function
-gj(a){return new
+gk(a){return new
 R(a[7]<<0|a[6]<<8|a[5]<<16,a[4]<<0|a[3]<<8|a[2]<<16,a[1]<<0|a[0]<<8)}function
-lc(d){var
-f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&kQ)==0?b&cp?-Infinity:Infinity:NaN;var
-e=Math.pow(2,-24),a=(f*e+g)*e+(b&kQ);if(c>0){a+=16;a*=Math.pow(2,c-r2)}else
-a*=Math.pow(2,-qx);if(b&cp)a=-a;return a}function
-k8(b){var
+lh(d){var
+f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&kV)==0?b&cp?-Infinity:Infinity:NaN;var
+e=Math.pow(2,-24),a=(f*e+g)*e+(b&kV);if(c>0){a+=16;a*=Math.pow(2,c-r3)}else
+a*=Math.pow(2,-qy);if(b&cp)a=-a;return a}function
+lb(b){var
 d=b.length,c=1;for(var
 a=0;a<d;a++){if(b[a]<0)a0("Bigarray.create: negative dimension");c=c*b[a]}return c}function
-Jr(b,a){return new
+Js(b,a){return new
 R(b&d7,b>>>24&cU|(a&cT)<<8,a>>>16&cT)}function
-ld(a){return a.hi32()}function
-le(a){return a.lo32()}function
-ik(){a0(k2)}var
-Jc=ih;function
-dv(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}dv.prototype.caml_custom=Jc;dv.prototype.offset=function(b){var
+li(a){return a.hi32()}function
+lj(a){return a.lo32()}function
+im(){a0(k7)}var
+Jd=ij;function
+dv(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}dv.prototype.caml_custom=Jd;dv.prototype.offset=function(b){var
 c=0;if(typeof
 b==="number")b=[b];if(!(b
 instanceof
 Array))a0("bigarray.js: invalid offset");if(this.dims.length!=b.length)a0("Bigarray.get/set: bad number of dimensions");if(this.layout==0)for(var
-a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])ik();c=c*this.dims[a]+b[a]}else
+a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])im();c=c*this.dims[a]+b[a]}else
 for(var
-a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])ik();c=c*this.dims[a]+(b[a]-1)}return c};dv.prototype.get=function(a){switch(this.kind){case
+a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])im();c=c*this.dims[a]+(b[a]-1)}return c};dv.prototype.get=function(a){switch(this.kind){case
 7:var
-d=this.data[a*2+0],b=this.data[a*2+1];return Jr(d,b);case
+d=this.data[a*2+0],b=this.data[a*2+1];return Js(d,b);case
 10:case
 11:var
-e=this.data[a*2+0],c=this.data[a*2+1];return[h7,e,c];default:return this.data[a]}};dv.prototype.set=function(a,b){switch(this.kind){case
-7:this.data[a*2+0]=le(b);this.data[a*2+1]=ld(b);break;case
+e=this.data[a*2+0],c=this.data[a*2+1];return[h9,e,c];default:return this.data[a]}};dv.prototype.set=function(a,b){switch(this.kind){case
+7:this.data[a*2+0]=lj(b);this.data[a*2+1]=li(b);break;case
 10:case
 11:this.data[a*2+0]=b[1];this.data[a*2+1]=b[2];break;default:this.data[a]=b;break}return 0};dv.prototype.fill=function(b){switch(this.kind){case
 7:var
-c=le(b),e=ld(b);if(c==e)this.data.fill(c);else
+c=lj(b),e=li(b);if(c==e)this.data.fill(c);else
 for(var
 a=0;a<this.data.length;a++)this.data[a]=a%2==0?c:e;break;case
 10:case
@@ -241,21 +241,21 @@ dv();e2.prototype.offset=function(a){if(typeof
 a!=="number")if(a
 instanceof
 Array&&a.length==1)a=a[0];else
-a0("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])ik();return a};e2.prototype.get=function(a){return this.data[a]};e2.prototype.set=function(a,b){this.data[a]=b;return 0};e2.prototype.fill=function(a){this.data.fill(a);return 0};function
-sf(c,d,a,b){var
-e=sh(c);if(k8(a)*e!=b.length)a0("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
+a0("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])im();return a};e2.prototype.get=function(a){return this.data[a]};e2.prototype.set=function(a,b){this.data[a]=b;return 0};e2.prototype.fill=function(a){this.data.fill(a);return 0};function
+sg(c,d,a,b){var
+e=si(c);if(lb(a)*e!=b.length)a0("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
 e2(c,d,a,b);return new
 dv(c,d,a,b)}function
-b9(b){if(!aF.Failure)aF.Failure=[a7,a(kS),-3];lh(aF.Failure,b)}function
-sg(b,v,r){var
+b9(b){if(!aF.Failure)aF.Failure=[a8,a(kX),-3];lm(aF.Failure,b)}function
+sh(b,v,r){var
 i=b.read32s();if(i<0||i>16)b9("input_value: wrong number of bigarray dimensions");var
-p=b.read32s(),j=p&cU,o=p>>8&1,h=[];if(r==ih)for(var
+p=b.read32s(),j=p&cU,o=p>>8&1,h=[];if(r==ij)for(var
 a=0;a<i;a++){var
 n=b.read16u();if(n==cT){var
 t=b.read32u(),u=b.read32u();if(t!=0)b9("input_value: bigarray dimension overflow in 32bit");n=u}h.push(n)}else
 for(var
 a=0;a<i;a++)h.push(b.read32u());var
-d=k8(h),f=Jb(j,d),g=sf(j,o,h,f);switch(j){case
+d=lb(h),f=Jc(j,d),g=sg(j,o,h,f);switch(j){case
 2:for(var
 a=0;a<d;a++)f[a]=b.read8s();break;case
 3:case
@@ -276,43 +276,43 @@ e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-q=gj(e);g.set(a,q)}break;case
+q=gk(e);g.set(a,q)}break;case
 1:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-k=lc(gj(e));g.set(a,k)}break;case
+k=lh(gk(e));g.set(a,k)}break;case
 0:for(var
 a=0;a<d;a++){var
-k=lb(b.read32s());g.set(a,k)}break;case
+k=lg(b.read32s());g.set(a,k)}break;case
 10:for(var
 a=0;a<d;a++){var
-m=lb(b.read32s()),l=lb(b.read32s());g.set(a,[h7,m,l])}break;case
+m=lg(b.read32s()),l=lg(b.read32s());g.set(a,[h9,m,l])}break;case
 11:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-m=lc(gj(e));for(var
+m=lh(gk(e));for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-l=lc(gj(e));g.set(a,[h7,m,l])}break}v[0]=(4+i)*4;return sf(j,o,h,f)}function
-se(a,b,c){return a.compare(b,c)}function
-lg(a,b){return Math.imul(a,b)}function
-cV(b,a){a=lg(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=lg(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
-Jo(a,b){a=cV(a,le(b));a=cV(a,ld(b));return a}function
-su(a,b){return Jo(a,im(b))}function
-si(c){var
-b=k8(c.dims),d=0;switch(c.kind){case
+l=lh(gk(e));g.set(a,[h9,m,l])}break}v[0]=(4+i)*4;return sg(j,o,h,f)}function
+sf(a,b,c){return a.compare(b,c)}function
+ll(a,b){return Math.imul(a,b)}function
+cV(b,a){a=ll(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=ll(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
+Jp(a,b){a=cV(a,lj(b));a=cV(a,li(b));return a}function
+sv(a,b){return Jp(a,ip(b))}function
+sj(c){var
+b=lb(c.dims),d=0;switch(c.kind){case
 2:case
 3:case
-12:if(b>q8)b=q8;var
+12:if(b>q9)b=q9;var
 e=0,a=0;for(a=0;a+4<=c.data.length;a+=4){e=c.data[a+0]|c.data[a+1]<<8|c.data[a+2]<<16|c.data[a+3]<<24;d=cV(d,e)}e=0;switch(b&3){case
 3:e=c.data[a+2]<<16;case
 2:e|=c.data[a+1]<<8;case
 1:e|=c.data[a+0];d=cV(d,e)}break;case
 4:case
-5:if(b>gd)b=gd;var
+5:if(b>ge)b=ge;var
 e=0,a=0;for(a=0;a+2<=c.data.length;a+=2){e=c.data[a+0]|c.data[a+1]<<16;d=cV(d,e)}if((b&1)!=0)d=cV(d,c.data[a]);break;case
 6:if(b>64)b=64;for(var
 a=0;a<b;a++)d=cV(d,c.data[a]);break;case
@@ -323,75 +323,75 @@ a=0;a<b;a++)d=cV(d,c.data[a]);break;case
 a=0;a<b;a++)d=cV(d,c.data[a]);break;case
 10:b*=2;case
 0:if(b>64)b=64;for(var
-a=0;a<b;a++)d=su(d,c.data[a]);break;case
+a=0;a<b;a++)d=sv(d,c.data[a]);break;case
 11:b*=2;case
 1:if(b>32)b=32;for(var
-a=0;a<b;a++)d=su(d,c.data[a]);break}return d}function
-Jp(a,b){b[0]=4;return a.read32s()}function
-JE(a,b){switch(a.read8u()){case
+a=0;a<b;a++)d=sv(d,c.data[a]);break}return d}function
+Jq(a,b){b[0]=4;return a.read32s()}function
+JF(a,b){switch(a.read8u()){case
 1:b[0]=4;return a.read32s();case
 2:b9("input_value: native integer value too large");default:b9("input_value: ill-formed native integer")}}function
-Ju(c,d){var
+Jv(c,d){var
 b=new
 Array(8);for(var
-a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return gj(b)}function
-Jt(e,d,b){var
-c=gk(d);for(var
+a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return gk(b)}function
+Ju(e,d,b){var
+c=gl(d);for(var
 a=0;a<8;a++)e.write(8,c[a]);b[0]=8;b[1]=8}function
-Jq(a,b,c){return a.compare(b)}function
-Js(a){return a.lo32()^a.hi32()}var
-sp={"_j":{deserialize:Ju,serialize:Jt,fixed_length:8,compare:Jq,hash:Js},"_i":{deserialize:Jp,fixed_length:4},"_n":{deserialize:JE,fixed_length:4},"_bigarray":{deserialize:function(a,b){return sg(a,b,"_bigarray")},serialize:sj,compare:se,hash:si},"_bigarr02":{deserialize:function(a,b){return sg(a,b,ih)},serialize:sj,compare:se,hash:si}};function
-k$(a){return sp[a.caml_custom]&&sp[a.caml_custom].compare}function
-sn(f,c,d,e){var
-b=k$(c);if(b){var
+Jr(a,b,c){return a.compare(b)}function
+Jt(a){return a.lo32()^a.hi32()}var
+sq={"_j":{deserialize:Jv,serialize:Ju,fixed_length:8,compare:Jr,hash:Jt},"_i":{deserialize:Jq,fixed_length:4},"_n":{deserialize:JF,fixed_length:4},"_bigarray":{deserialize:function(a,b){return sh(a,b,"_bigarray")},serialize:sk,compare:sf,hash:sj},"_bigarr02":{deserialize:function(a,b){return sh(a,b,ij)},serialize:sk,compare:sf,hash:sj}};function
+le(a){return sq[a.caml_custom]&&sq[a.caml_custom].compare}function
+so(f,c,d,e){var
+b=le(c);if(b){var
 a=d>0?b(c,f,e):b(f,c,e);if(e&&a!=a)return d;if(+a!=+a)return+a;if((a|0)!=0)return a|0}return d}function
-lf(a){return a
+lk(a){return a
 instanceof
 cq}function
-sw(a){return lf(a)}function
-so(a){if(typeof
-a==="number")return ie;else
-if(lf(a))return 252;else
-if(sw(a))return 1252;else
+sx(a){return lk(a)}function
+sp(a){if(typeof
+a==="number")return ih;else
+if(lk(a))return 252;else
+if(sx(a))return 1252;else
 if(a
 instanceof
 Array&&a[0]===a[0]>>>0&&a[0]<=255){var
-b=a[0]|0;return b==h7?0:b}else
+b=a[0]|0;return b==h9?0:b}else
 if(a
 instanceof
-String)return rE;else
+String)return rF;else
 if(typeof
-a=="string")return rE;else
+a=="string")return rF;else
 if(a
 instanceof
-Number)return ie;else
-if(a&&a.caml_custom)return kU;else
+Number)return ih;else
+if(a&&a.caml_custom)return kZ;else
 if(a&&a.compare)return 1256;else
 if(typeof
 a=="function")return 1247;else
 if(typeof
 a=="symbol")return 1251;return 1001}function
-Jv(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
-sl(a,b){a.t&6&&e5(a);b.t&6&&e5(b);return a.c<b.c?-1:a.c>b.c?1:0}function
-sE(a,b){return sl(a,b)}function
-k_(a,b,d){var
+Jw(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
+sm(a,b){a.t&6&&e5(a);b.t&6&&e5(b);return a.c<b.c?-1:a.c>b.c?1:0}function
+sF(a,b){return sm(a,b)}function
+ld(a,b,d){var
 e=[];for(;;){if(!(d&&a===b)){var
-f=so(a);if(f==rc){a=a[1];continue}var
-g=so(b);if(g==rc){b=b[1];continue}if(f!==g){if(f==ie){if(g==kU)return sn(a,b,-1,d);return-1}if(g==ie){if(f==kU)return sn(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
-247:a0(kJ);break;case
+f=sp(a);if(f==rd){a=a[1];continue}var
+g=sp(b);if(g==rd){b=b[1];continue}if(f!==g){if(f==ih){if(g==kZ)return so(a,b,-1,d);return-1}if(g==ih){if(f==kZ)return so(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
+247:a0(kO);break;case
 248:var
-c=Jv(a[2],b[2]);if(c!=0)return c|0;break;case
-249:a0(kJ);break;case
+c=Jw(a[2],b[2]);if(c!=0)return c|0;break;case
+249:a0(kO);break;case
 250:a0("equal: got Forward_tag, should not happen");break;case
 251:a0("equal: abstract value");break;case
 252:if(a!==b){var
-c=sl(a,b);if(c!=0)return c|0}break;case
+c=sm(a,b);if(c!=0)return c|0}break;case
 253:a0("equal: got Double_tag, should not happen");break;case
 254:a0("equal: got Double_array_tag, should not happen");break;case
 255:a0("equal: got Custom_tag, should not happen");break;case
-1247:a0(kJ);break;case
+1247:a0(kO);break;case
 1255:var
-i=k$(a);if(i!=k$(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)a0("compare: abstract value");var
+i=le(a);if(i!=le(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)a0("compare: abstract value");var
 c=i(a,b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
 1256:var
 c=a.compare(b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
@@ -405,129 +405,129 @@ a=a.toString(),b=b.toString();if(a!==b){if(a<b)return-1;if(a>b)return 1}break;ca
 246:case
 254:default:if(a.length!=b.length)return a.length<b.length?-1:1;if(a.length>1)e.push(a,b,1);break}}if(e.length==0)return 0;var
 h=e.pop();b=e.pop();a=e.pop();if(h+1<a.length)e.push(a,b,h+1);a=a[h];b=b[h]}}function
-Jj(a,b){return k_(a,b,true)}function
+Jk(a,b){return ld(a,b,true)}function
 cs(a){if(a<0)a0("Bytes.create");return new
 cq(a?2:9,af,a)}function
-sq(a,b){return+(k_(a,b,false)==0)}function
-Jl(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=af;a.t=2}else{a.c=sD(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)il(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}var
-JF=0;function
-ss(){return JF++}function
-Jx(a){return a.toUtf16()}function
-gl(){return typeof
+sr(a,b){return+(ld(a,b,false)==0)}function
+Jm(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=af;a.t=2}else{a.c=sE(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)io(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}var
+JG=0;function
+st(){return JG++}function
+Jy(a){return a.toUtf16()}function
+gm(){return typeof
 S.process!=="undefined"&&typeof
 S.process.versions!=="undefined"&&typeof
 S.process.versions.node!=="undefined"}function
-JS(){function
+JT(){function
 a(a){if(a.charAt(0)===b8)return[af,a.substring(1)];return}function
 b(c){var
 g=/^([a-zA-Z]:|[\\/]{2}[^\\/]+[\\/]+[^\\/]+)?([\\/])?([\s\S]*?)$/,a=g.exec(c),b=a[1]||af,e=Boolean(b&&b.charAt(1)!==":");if(Boolean(a[2]||e)){var
-d=a[1]||af,f=a[2]||af;return[d,c.substring(d.length+f.length)]}return}return gl()&&S.process&&S.process.platform?S.process.platform==="win32"?b:a:a}var
-lm=JS();function
-sF(a){return a.slice(-1)!==b8?a+b8:a}if(gl()&&S.process&&S.process.cwd)var
-gi=S.process.cwd().replace(/\\/g,b8);else
+d=a[1]||af,f=a[2]||af;return[d,c.substring(d.length+f.length)]}return}return gm()&&S.process&&S.process.platform?S.process.platform==="win32"?b:a:a}var
+lr=JT();function
+sG(a){return a.slice(-1)!==b8?a+b8:a}if(gm()&&S.process&&S.process.cwd)var
+gj=S.process.cwd().replace(/\\/g,b8);else
 var
-gi="/static";gi=sF(gi);function
-Jz(a){a=Jx(a);if(!lm(a))a=gi+a;var
-e=lm(a),d=e[1].split(b8),b=[];for(var
+gj="/static";gj=sG(gj);function
+JA(a){a=Jy(a);if(!lr(a))a=gj+a;var
+e=lr(a),d=e[1].split(b8),b=[];for(var
 c=0;c<d.length;c++)switch(d[c]){case"..":if(b.length>1)b.pop();break;case".":break;default:b.push(d[c]);break}b.unshift(e[0]);b.orig=a;return b}function
-JN(e){for(var
+JO(e){for(var
 f=af,b=f,a,h,c=0,g=e.length;c<g;c++){a=e.charCodeAt(c);if(a<b6){for(var
-d=c+1;d<g&&(a=e.charCodeAt(d))<b6;d++);if(d-c>qR){b.substr(0,1);f+=b;b=af;f+=e.slice(c,d)}else
-b+=e.slice(c,d);if(d==g)break;c=d}if(a<rb){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(b6|a&eY)}else
-if(a<0xd800||a>=ri)b+=String.fromCharCode(rk|a>>12,b6|a>>6&eY,b6|a&eY);else
-if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<q5||h>ri)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(rs|a>>18,b6|a>>12&eY,b6|a>>6&eY,b6|a&eY)}if(b.length>f$){b.substr(0,1);f+=b;b=af}}return f+b}function
-Jg(a){var
-b=9;if(!sI(a))b=8,a=JN(a);return new
+d=c+1;d<g&&(a=e.charCodeAt(d))<b6;d++);if(d-c>qS){b.substr(0,1);f+=b;b=af;f+=e.slice(c,d)}else
+b+=e.slice(c,d);if(d==g)break;c=d}if(a<rc){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(b6|a&eY)}else
+if(a<0xd800||a>=rj)b+=String.fromCharCode(rl|a>>12,b6|a>>6&eY,b6|a&eY);else
+if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<q6||h>rj)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(rt|a>>18,b6|a>>12&eY,b6|a>>6&eY,b6|a&eY)}if(b.length>ga){b.substr(0,1);f+=b;b=af}}return f+b}function
+Jh(a){var
+b=9;if(!sJ(a))b=8,a=JO(a);return new
 cq(b,a,a.length)}function
-e7(a){return Jg(a)}var
-JV=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",qZ,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",kR,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",kW,q4,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
+e7(a){return Jh(a)}var
+JW=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",q0,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",kW,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",k1,q5,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
 d$(d,f,e,a){var
-b=JV.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
+b=JW.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
 c=[b,e7(f||af),e7(e||af)];return c}var
-sy={};function
-d8(a){return sy[a]}function
+sz={};function
+d8(a){return sz[a]}function
 d9(b,a){throw[0,b].concat(a)}function
-Jf(a){return new
+Jg(a){return new
 cq(4,a,a.length)}function
-as(a){lh(aF.Sys_error,a)}function
-JI(a){as(a+h5)}function
-sk(){a0(k2)}function
-Je(b,a){if(a>>>0>=b.l)sk();return k9(b,a)}function
-iq(a){return a.l}function
-sd(){}function
+as(a){lm(aF.Sys_error,a)}function
+JJ(a){as(a+h7)}function
+sl(){a0(k7)}function
+Jf(b,a){if(a>>>0>=b.l)sl();return lc(b,a)}function
+is(a){return a.l}function
+se(){}function
 aY(a){this.data=a}aY.prototype=new
-sd();aY.prototype.truncate=function(a){var
-b=this.data;this.data=cs(a|0);gh(b,0,this.data,0,a)};aY.prototype.length=function(){return iq(this.data)};aY.prototype.write=function(b,d,g,a){var
+se();aY.prototype.truncate=function(a){var
+b=this.data;this.data=cs(a|0);gi(b,0,this.data,0,a)};aY.prototype.length=function(){return is(this.data)};aY.prototype.write=function(b,d,g,a){var
 c=this.length();if(b+a>=c){var
-e=cs(b+a),f=this.data;this.data=e;gh(f,0,this.data,0,c)}e3(d,g,this.data,b,a);return 0};aY.prototype.read=function(c,a,d,b){var
-e=this.length();gh(this.data,c,a,d,b);return 0};aY.prototype.read_one=function(a){return Je(this.data,a)};aY.prototype.close=function(){};aY.prototype.constructor=aY;function
+e=cs(b+a),f=this.data;this.data=e;gi(f,0,this.data,0,c)}e3(d,g,this.data,b,a);return 0};aY.prototype.read=function(c,a,d,b){var
+e=this.length();gi(this.data,c,a,d,b);return 0};aY.prototype.read_one=function(a){return Jf(this.data,a)};aY.prototype.close=function(){};aY.prototype.constructor=aY;function
 bd(b,a){this.content={};this.root=b;this.lookupFun=a}bd.prototype.nm=function(a){return this.root+a};bd.prototype.create_dir_if_needed=function(d){var
 c=d.split(b8),b=af;for(var
 a=0;a<c.length-1;a++){b+=c[a]+b8;if(this.content[b])continue;this.content[b]=Symbol("directory")}};bd.prototype.slash=function(a){return/\/$/.test(a)?a:a+b8};bd.prototype.lookup=function(b){if(!this.content[b]&&this.lookupFun){var
 c=this.lookupFun(a(this.root),a(b));if(c!==0){this.create_dir_if_needed(b);this.content[b]=new
 aY(e4(c[1]))}}};bd.prototype.exists=function(a){if(a==af)return 1;var
 b=this.slash(a);if(this.content[b])return 1;this.lookup(a);return this.content[a]?1:0};bd.prototype.mkdir=function(c,e,d){var
-b=d&&d8(kN);if(this.exists(c))if(b)d9(b,d$(qZ,kM,this.nm(c)));else
+b=d&&d8(kS);if(this.exists(c))if(b)d9(b,d$(q0,kR,this.nm(c)));else
 as(c+": File exists");var
-a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||af;if(!this.exists(a))if(b)d9(b,d$(kR,kM,this.nm(a)));else
-as(a+h5);if(!this.is_dir(a))if(b)d9(b,d$(kW,kM,this.nm(a)));else
-as(a+k4);this.create_dir_if_needed(this.slash(c))};bd.prototype.rmdir=function(a,f){var
-b=f&&d8(kN),c=a==af?af:this.slash(a),e=new
-RegExp(kZ+c+q6);if(!this.exists(a))if(b)d9(b,d$(kR,kK,this.nm(a)));else
-as(a+h5);if(!this.is_dir(a))if(b)d9(b,d$(kW,kK,this.nm(a)));else
-as(a+k4);for(var
+a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||af;if(!this.exists(a))if(b)d9(b,d$(kW,kR,this.nm(a)));else
+as(a+h7);if(!this.is_dir(a))if(b)d9(b,d$(k1,kR,this.nm(a)));else
+as(a+k9);this.create_dir_if_needed(this.slash(c))};bd.prototype.rmdir=function(a,f){var
+b=f&&d8(kS),c=a==af?af:this.slash(a),e=new
+RegExp(k4+c+q7);if(!this.exists(a))if(b)d9(b,d$(kW,kP,this.nm(a)));else
+as(a+h7);if(!this.is_dir(a))if(b)d9(b,d$(k1,kP,this.nm(a)));else
+as(a+k9);for(var
 d
 in
-this.content)if(d.match(e))if(b)d9(b,d$(q4,kK,this.nm(a)));else
+this.content)if(d.match(e))if(b)d9(b,d$(q5,kP,this.nm(a)));else
 as(this.nm(a)+": Directory not empty");delete
 this.content[c]};bd.prototype.readdir=function(a){var
-f=a==af?af:this.slash(a);if(!this.exists(a))as(a+h5);if(!this.is_dir(a))as(a+k4);var
+f=a==af?af:this.slash(a);if(!this.exists(a))as(a+h7);if(!this.is_dir(a))as(a+k9);var
 g=new
-RegExp(kZ+f+q6),d={},c=[];for(var
+RegExp(k4+f+q7),d={},c=[];for(var
 e
 in
 this.content){var
 b=e.match(g);if(b&&!d[b[1]]){d[b[1]]=true;c.push(b[1])}}return c};bd.prototype.is_dir=function(a){if(a==af)return true;var
 b=this.slash(a);return this.content[b]?1:0};bd.prototype.unlink=function(a){var
 b=this.content[a]?true:false;delete
-this.content[a];return b};bd.prototype.open=function(a,b){if(b.rdonly&&b.wronly)as(this.nm(a)+rU);if(b.text&&b.binary)as(this.nm(a)+qJ);this.lookup(a);if(this.content[a]){if(this.is_dir(a))as(this.nm(a)+" : is a directory");if(b.create&&b.excl)as(this.nm(a)+rQ);var
+this.content[a];return b};bd.prototype.open=function(a,b){if(b.rdonly&&b.wronly)as(this.nm(a)+rV);if(b.text&&b.binary)as(this.nm(a)+qK);this.lookup(a);if(this.content[a]){if(this.is_dir(a))as(this.nm(a)+" : is a directory");if(b.create&&b.excl)as(this.nm(a)+rR);var
 c=this.content[a];if(b.truncate)c.truncate();return c}else
 if(b.create){this.create_dir_if_needed(a);this.content[a]=new
 aY(cs(0));return this.content[a]}else
-JI(this.nm(a))};bd.prototype.register=function(c,a){var
-b;if(this.content[c])as(this.nm(c)+rQ);if(lf(a))b=new
-aY(a);if(sw(a))b=new
+JJ(this.nm(a))};bd.prototype.register=function(c,a){var
+b;if(this.content[c])as(this.nm(c)+rR);if(lk(a))b=new
+aY(a);if(sx(a))b=new
 aY(e4(a));else
 if(a
 instanceof
 Array)b=new
-aY(Jf(a));else
+aY(Jg(a));else
 if(typeof
 a==="string")b=new
-aY(sm(a));else
+aY(sn(a));else
 if(a.toString){var
 d=e4(e7(a.toString()));b=new
 aY(d)}if(b){this.create_dir_if_needed(c);this.content[c]=b}else
 as(this.nm(c)+" : registering file with invalid content type")};bd.prototype.constructor=bd;function
-az(a){return iq(a)}function
-d_(b,a){return k9(b,a)}function
-Ja(d){var
+az(a){return is(a)}function
+d_(b,a){return lc(b,a)}function
+Jb(d){var
 c=az(d),b=new
 Array(c),a=0;for(;a<c;a++)b[a]=d_(d,a);return b}function
-I$(a){if(a.t!=4)il(a);return a.c}function
-Ji(a,c,b){b&=cU;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}il(a)}a.c[c]=b;return 0}function
-Jh(b,a,c){if(a>>>0>=b.l)sk();return Ji(b,a,c)}function
+Ja(a){if(a.t!=4)io(a);return a.c}function
+Jj(a,c,b){b&=cU;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}io(a)}a.c[c]=b;return 0}function
+Ji(b,a,c){if(a>>>0>=b.l)sl();return Jj(b,a,c)}function
 cr(a){this.fs=require("fs");this.fd=a}cr.prototype=new
-sd();cr.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){as(a.toString())}};cr.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){as(a.toString())}};cr.prototype.write=function(f,b,c,e){var
-a=Ja(b);if(!(a
+se();cr.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){as(a.toString())}};cr.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){as(a.toString())}};cr.prototype.write=function(f,b,c,e){var
+a=Jb(b);if(!(a
 instanceof
 S.Uint8Array))a=new(S.Uint8Array)(a);var
 d=S.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){as(a.toString())}return 0};cr.prototype.read=function(g,d,c,f){var
-a=I$(d);if(!(a
+a=Ja(d);if(!(a
 instanceof
 S.Uint8Array))a=new(S.Uint8Array)(a);var
 e=S.Buffer.from(a);try{this.fs.readSync(this.fd,e,c,f,g)}catch(a){as(a.toString())}for(var
-b=0;b<f;b++)Jh(d,c+b,e[c+b]);return 0};cr.prototype.read_one=function(c){var
+b=0;b<f;b++)Ji(d,c+b,e[c+b]);return 0};cr.prototype.read_one=function(c){var
 b=new(S.Uint8Array)(1),a=S.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){as(a.toString())}return a[0]};cr.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){as(a.toString())}};cr.prototype.constructor=cr;function
 aZ(a){this.fs=require("fs");this.root=a}aZ.prototype.nm=function(a){return this.root+a};aZ.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};aZ.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};aZ.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};aZ.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};aZ.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){as(a.toString())}};aZ.prototype.unlink=function(a,c){try{var
 b=this.fs.existsSync(this.nm(a))?1:0;this.fs.unlinkSync(this.nm(a));return b}catch(a){this.raise_nodejs_error(a,c)}};aZ.prototype.open=function(f,c,g){var
@@ -539,8 +539,8 @@ d=this.fs.openSync(this.nm(f),b);return new
 cr(d)}catch(a){this.raise_nodejs_error(a,g)}};aZ.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};aZ.prototype.stat=function(b,c){try{var
 a=this.fs.statSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aZ.prototype.lstat=function(b,c){try{var
 a=this.fs.lstatSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aZ.prototype.symlink=function(d,c,a,b){try{this.fs.symlinkSync(this.nm(c),this.nm(a),d?"dir":"file");return 0}catch(a){this.raise_nodejs_error(a,b)}};aZ.prototype.readlink=function(b,c){try{var
-a=this.fs.readlinkSync(this.nm(b),qu);return e7(a)}catch(a){this.raise_nodejs_error(a,c)}};aZ.prototype.raise_nodejs_error=function(a,d){var
-b=d8(kN);if(d&&b){var
+a=this.fs.readlinkSync(this.nm(b),qv);return e7(a)}catch(a){this.raise_nodejs_error(a,c)}};aZ.prototype.raise_nodejs_error=function(a,d){var
+b=d8(kS);if(d&&b){var
 c=d$(a.code,a.syscall,a.path,a.errno);d9(b,c)}else
 as(a.toString())};aZ.prototype.stats_from_js=function(a){var
 b;if(a.isFile())b=0;else
@@ -550,28 +550,28 @@ if(a.isBlockDevice())b=3;else
 if(a.isSymbolicLink())b=4;else
 if(a.isFIFO())b=5;else
 if(a.isSocket())b=6;return[0,a.dev,a.ino,b,a.mode,a.nlink,a.uid,a.gid,a.rdev,a.size,a.atimeMs,a.mtimeMs,a.ctimeMs]};aZ.prototype.constructor=aZ;function
-st(b){var
-a=lm(b);if(!a)return;return a[0]+b8}var
-ir=st(gi)||b9("unable to compute caml_root"),e8=[];if(gl())e8.push({path:ir,device:new
-aZ(ir)});else
-e8.push({path:ir,device:new
-bd(ir)});e8.push({path:qD,device:new
-bd(qD)});function
-sM(b){var
-g=Jz(b),b=g.join(b8),f=sF(b),c;for(var
+su(b){var
+a=lr(b);if(!a)return;return a[0]+b8}var
+it=su(gj)||b9("unable to compute caml_root"),e8=[];if(gm())e8.push({path:it,device:new
+aZ(it)});else
+e8.push({path:it,device:new
+bd(it)});e8.push({path:qE,device:new
+bd(qE)});function
+sN(b){var
+g=JA(b),b=g.join(b8),f=sG(b),c;for(var
 e=0;e<e8.length;e++){var
-a=e8[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&gl()){var
-d=st(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
+a=e8[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&gm()){var
+d=su(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
 a={path:d,device:new
 aZ(d)};e8.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;as("no device found for "+f)}function
-Jk(c,b){var
-a=sM(c);if(!a.device.register)b9("cannot register file");a.device.register(a.rest,b);return 0}function
-sH(c,b){var
-c=a(c),b=a(b);return Jk(c,b)}function
-Jn(){var
+Jl(c,b){var
+a=sN(c);if(!a.device.register)b9("cannot register file");a.device.register(a.rest,b);return 0}function
+sI(c,b){var
+c=a(c),b=a(b);return Jl(c,b)}function
+Jo(){var
 b=S.caml_fs_tmp;if(b)for(var
-a=0;a<b.length;a++)sH(b[a].name,b[a].content);S.jsoo_create_file=sH;S.caml_fs_tmp=[];return 0}function
-JG(c){var
+a=0;a<b.length;a++)sI(b[a].name,b[a].content);S.jsoo_create_file=sI;S.caml_fs_tmp=[];return 0}function
+JH(c){var
 a=0,e=az(c),b=10,d=1;if(e>0)switch(d_(c,a)){case
 45:a++;d=-1;break;case
 43:a++;d=1;break}if(a+1<e&&d_(c,a)==48)switch(d_(c,a+1)){case
@@ -583,33 +583,33 @@ a=0,e=az(c),b=10,d=1;if(e>0)switch(d_(c,a)){case
 66:b=2;a+=2;break;case
 117:case
 85:a+=2;break}return[a,d,b]}function
-sz(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=r6)return a-87;return-1}function
-ip(f){var
-h=JG(f),c=h[0],i=h[1],d=h[2],g=az(f),j=-1>>>0,e=c<g?d_(f,c):0,b=sz(e);if(b<0||b>=d)b9(h_);var
-a=b;for(c++;c<g;c++){e=d_(f,c);if(e==95)continue;b=sz(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)b9(h_)}if(c!=g)b9(h_);a=i*a;if(d==10&&(a|0)!=a)b9(h_);return a|0}function
-Jy(a,b){return+(k_(a,b,false)<=0)}function
-JA(a,d){if(a<0)ik();var
+sA(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=r7)return a-87;return-1}function
+ir(f){var
+h=JH(f),c=h[0],i=h[1],d=h[2],g=az(f),j=-1>>>0,e=c<g?d_(f,c):0,b=sA(e);if(b<0||b>=d)b9(ia);var
+a=b;for(c++;c<g;c++){e=d_(f,c);if(e==95)continue;b=sA(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)b9(ia)}if(c!=g)b9(ia);a=i*a;if(d==10&&(a|0)!=a)b9(ia);return a|0}function
+Jz(a,b){return+(ld(a,b,false)<=0)}function
+JB(a,d){if(a<0)im();var
 a=a+1|0,b=new
 Array(a);b[0]=0;for(var
 c=1;c<a;c++)b[c]=d;return b}var
 cW=new
 Array();function
-JB(c){var
+JC(c){var
 a=cW[c];if(!a.opened)as("Cannot flush a closed channel");if(!a.buffer||a.buffer==af)return 0;if(a.fd&&aF.fds[a.fd]&&aF.fds[a.fd].output){var
 b=aF.fds[a.fd].output;switch(b.length){case
 2:b(c,a.buffer);break;default:b(a.buffer)}}a.buffer=af;return 0}function
-sC(e,f){var
+sD(e,f){var
 b=cW[e],d=a(f),c=az(d);b.file.write(b.offset,d,0,c);b.offset+=c;return 0}function
-JO(a){var
-a=lj(a),b=S;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
-c=b.console;c&&c.error&&c.error(a)}}function
 JP(a){var
-a=lj(a),b=S;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+a=lo(a),b=S;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+c=b.console;c&&c.error&&c.error(a)}}function
+JQ(a){var
+a=lo(a),b=S;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.log&&c.log(a)}}function
-it(c,e,d,a){if(aF.fds===undefined)aF.fds=new
+iv(c,e,d,a){if(aF.fds===undefined)aF.fds=new
 Array();a=a?a:{};var
 b={};b.file=d;b.offset=a.append?d.length():0;b.flags=a;b.output=e;aF.fds[c]=b;if(!aF.fd_last_idx||c>aF.fd_last_idx)aF.fd_last_idx=c;return c}function
-JW(c,b,g){var
+JX(c,b,g){var
 a={};while(b){switch(b[1]){case
 0:a.rdonly=1;break;case
 1:a.wronly=1;break;case
@@ -619,116 +619,116 @@ a={};while(b){switch(b[1]){case
 5:a.excl=1;break;case
 6:a.binary=1;break;case
 7:a.text=1;break;case
-8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)as(e6(c)+rU);if(a.text&&a.binary)as(e6(c)+qJ);var
-d=sM(c),e=d.device.open(d.rest,a),f=aF.fd_last_idx?aF.fd_last_idx:0;return it(f+1,sC,e,a)}it(0,sC,new
-aY(cs(0)));it(1,JP,new
-aY(cs(0)));it(2,JO,new
+8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)as(e6(c)+rV);if(a.text&&a.binary)as(e6(c)+qK);var
+d=sN(c),e=d.device.open(d.rest,a),f=aF.fd_last_idx?aF.fd_last_idx:0;return iv(f+1,sD,e,a)}iv(0,sD,new
+aY(cs(0)));iv(1,JQ,new
+aY(cs(0)));iv(2,JP,new
 aY(cs(0)));function
-JC(a){var
-c=aF.fds[a];if(c.flags.wronly)as(r4+a+" is writeonly");var
-d=null;if(a==0&&gl()){var
-e=require("fs");d=function(){return e7(e.readFileSync(0,qu))}}var
+JD(a){var
+c=aF.fds[a];if(c.flags.wronly)as(r5+a+" is writeonly");var
+d=null;if(a==0&&gm()){var
+e=require("fs");d=function(){return e7(e.readFileSync(0,qv))}}var
 b={file:c.file,offset:c.offset,fd:a,opened:true,out:false,refill:d};cW[b.fd]=b;return b.fd}function
-sx(c){var
-b=aF.fds[c];if(b.flags.rdonly)as(r4+c+" is readonly");var
+sy(c){var
+b=aF.fds[c];if(b.flags.rdonly)as(r5+c+" is readonly");var
 a={file:b.file,offset:b.offset,fd:c,opened:true,out:true,buffer:af};cW[a.fd]=a;return a.fd}function
-JD(){var
+JE(){var
 b=0;for(var
 a=0;a<cW.length;a++)if(cW[a]&&cW[a].opened&&cW[a].out)b=[0,cW[a].fd,b];return b}function
 bO(b,c,a){if(a&&S.toplevelReloc)b=S.toplevelReloc(a);aF[b+1]=c;if(a)aF[a]=c}function
-JK(a,b){sy[e6(a)]=b;return 0}function
-Jd(a,b){if(a===b)return 1;a.t&6&&e5(a);b.t&6&&e5(b);return a.c==b.c?1:0}function
-aB(a,b){return Jd(a,b)}function
-JM(){a0(k2)}function
-a8(b,a){if(a>>>0>=az(b))JM();return d_(b,a)}function
+JL(a,b){sz[e6(a)]=b;return 0}function
+Je(a,b){if(a===b)return 1;a.t&6&&e5(a);b.t&6&&e5(b);return a.c==b.c?1:0}function
+aB(a,b){return Je(a,b)}function
+JN(){a0(k7)}function
+a9(b,a){if(a>>>0>=az(b))JN();return d_(b,a)}function
 p(a,b){return 1-aB(a,b)}function
-is(a){return a}function
-sB(a){return a}function
-sG(a){if(a
+iu(a){return a}function
+sC(a){return a}function
+sH(a){if(a
 instanceof
 Array)return a;if(S.RangeError&&a
 instanceof
-S.RangeError&&a.message&&a.message.match(/maximum call stack/i))return sB(aF.Stack_overflow);if(S.InternalError&&a
+S.RangeError&&a.message&&a.message.match(/maximum call stack/i))return sC(aF.Stack_overflow);if(S.InternalError&&a
 instanceof
-S.InternalError&&a.message&&a.message.match(/too much recursion/i))return sB(aF.Stack_overflow);if(a
+S.InternalError&&a.message&&a.message.match(/too much recursion/i))return sC(aF.Stack_overflow);if(a
 instanceof
-S.Error&&d8(q$))return[0,d8(q$),a];return[0,aF.Failure,e7(String(a))]}function
+S.Error&&d8(ra))return[0,d8(ra),a];return[0,aF.Failure,e7(String(a))]}function
 ct(a){return a<0?-a:a}function
 E(a,b){return a+b}function
-lk(a,b){return a<b?-1:a>b?1:0}function
-sJ(c,b){var
+lp(a,b){return a<b?-1:a>b?1:0}function
+sK(c,b){var
 a=c%b;return a<0?a+ct(b):a}function
-ll(a,b){return(a-sJ(a,b))/b}function
-L(a,b){return a==b?1:0}function
-JT(c){S.orthocert_verify=function(b){return e6(dw(c,[a(b)]))}}function
+lq(a,b){return(a-sK(a,b))/b}function
+J(a,b){return a==b?1:0}function
+JU(c){S.orthocert_verify=function(b){return e6(dw(c,[a(b)]))}}function
 D(a,b){return a<=b?1:0}function
-I(a,b){return a<b?1:0}function
+K(a,b){return a<b?1:0}function
 C(a,b){return a*b}function
 T(a){return-a}function
-aI(a){return S.BigInt(a)}function
-sK(a,b){return a<<S.BigInt(b)}function
-sL(a,b){return a>>S.BigInt(b)}function
-aS(a){return a<0?-1:a>0?1:0}function
-JU(a){if(a<0)throw new(S.Error)("a root of a negative number");if(a<2)return a;var
+aJ(a){return S.BigInt(a)}function
+sL(a,b){return a<<S.BigInt(b)}function
+sM(a,b){return a>>S.BigInt(b)}function
+aT(a){return a<0?-1:a>0?1:0}function
+JV(a){if(a<0)throw new(S.Error)("a root of a negative number");if(a<2)return a;var
 d=S.BigInt(1),b=d<<S.BigInt((a.toString(16).length*4+1)/2|0),c;for(;;){c=b+a/b>>d;if(c>=b)return b;b=c}}function
 aL(a,b){return a-b}function
-iu(a){if(a>0x7fffffff||a<-0x80000000)throw new(S.Error)("a number of more than 32 bits");return S.Number(a)}function
-Jw(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
-Jm(b){var
-a=af;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&Jw(b[1]))var
+iw(a){if(a>0x7fffffff||a<-0x80000000)throw new(S.Error)("a number of more than 32 bits");return S.Number(a)}function
+Jx(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
+Jn(b){var
+a=af;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&Jx(b[1]))var
 e=b[2],f=1;else
 var
-f=2,e=b;a+=ra;for(var
+f=2,e=b;a+=rb;for(var
 d=f;d<e.length;d++){if(d>f)a+=", ";var
 c=e[d];if(typeof
 c=="number")a+=c.toString();else
 if(c
 instanceof
-cq)a+=aR+c.toString()+aR;else
+cq)a+=aS+c.toString()+aS;else
 if(typeof
-c=="string")a+=aR+c.toString()+aR;else
-a+="_"}a+=kY}else
-if(b[0]==a7)a+=b[1];return a}function
-sr(a){if(a
+c=="string")a+=aS+c.toString()+aS;else
+a+="_"}a+=k3}else
+if(b[0]==a8)a+=b[1];return a}function
+ss(a){if(a
 instanceof
-Array&&(a[0]==0||a[0]==a7)){var
+Array&&(a[0]==0||a[0]==a8)){var
 c=d8("Printexc.handle_uncaught_exception");if(c)c(a,false);else{var
-d=Jm(a),b=d8(qt);if(b)b(0);S.console.error("Fatal error: exception "+d+"\n")}}else
+d=Jn(a),b=d8(qu);if(b)b(0);S.console.error("Fatal error: exception "+d+"\n")}}else
 throw a}function
-JL(){var
-a=S;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){sr(b);a.process.exit(2)});else
-if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)sr(a.error)})}JL();function
+JM(){var
+a=S;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){ss(b);a.process.exit(2)});else
+if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)ss(a.error)})}JM();function
 k(a,b){return a.length==1?a(b):dw(a,[b])}function
 ao(a,b,c){return a.length==2?a(b,c):dw(a,[b,c])}function
-f4(a,b,c,d){return a.length==3?a(b,c,d):dw(a,[b,c,d])}function
-kI(a,b,c,d,e){return a.length==4?a(b,c,d,e):dw(a,[b,c,d,e])}Jn();var
-lo=[a7,a(q2),-2],ln=[a7,a(sc),-4],H5=[0,[0,[0,[0,0]]]],H6=[0,0],H7=[0,0],H8=[0,[0,0]],H9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H8]]]]]]]]]]],hO=[0,[1,0],0],pI=[0,[2,0],0],km=[0,[1,0],0],pH=[0,[2,0],0],hM=[0,[1,0],0],kl=[0,[2,0],0],H_=[0,[0,[0,[0,0]]]],H$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H_]]]]]]]]]]],Ia=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H$]]]]]]]]]]],Ib=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ia]]]]]]]]]]],Ic=[0,[0,0]],Id=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ic]]]]]]]]]]],Ie=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Id]]]]]]]]]]],If=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ie]]]]]]]]]]],Ig=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,If]]]]]]]]]]],Ih=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],Ii=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ih]]]]]]]]]]],Ij=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ii]]]]]]]]]]],Ik=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ij]]]]]]]]]]],Il=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ik]]]]]]]]]]],Im=[0,[0,0]],In=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Im]]]]]]]]]]],Io=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,In]]]]]]]]]]],Ip=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Io]]]]]]]]]]],Iq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ip]]]]]]]]]]],Ir=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Iq]]]]]]]]]]],Is=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ir]]]]]]]]]]],It=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Is]]]]]]]]]]],Iu=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],Iv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Iu]]]]]]]]]]],Iw=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Iv]]]]]]]]]]],Ix=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Iw]]]]]]]]]]],Iy=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ix]]]]]]]]]]],Iz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Iy]]]]]]]]]]],IA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Iz]]]]]]]]]]],IB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IA]]]]]]]]]]],IC=[0,0],ID=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IC]]]]]]]]]]],IE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,ID]]]]]]]]]]],IF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IE]]]]]]]]]]],IG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IF]]]]]]]]]]],IH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IG]]]]]]]]]]],II=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IH]]]]]]]]]]],IJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,II]]]]]]]]]]],IK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IJ]]]]]]]]]]],IL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IK]]]]]]]]]]],IM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IL]]]]]]]]]]],IN=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],IO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IN]]]]]]]]]]],IP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],IQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IP]]]]]]]]]]],IR=[0,[0,[0,[0,[0,0]]]]],IS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IR]]]]]]]]]]],IT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IS]]]]]]]]]]],IU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IT]]]]]]]]]]],IV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IU]]]]]]]]]]],IW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IV]]]]]]]]]]],IX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IW]]]]]]]]]]],IY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IX]]]]]]]]]]],IZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IY]]]]]]]]]]],I0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IZ]]]]]]]]]]],I1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,I0]]]]]]]]]]],I2=[0,0],I3=[0,[0,0]],I4=[0,0],I5=[0,[0,[0,[0,[0,0]]]]],dE=[0,[0,[0,0]]],dG=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],hB=[0,[0,[0,[0,0]]]],I6=[0,[0,[0,[0,[0,0]]]]],I7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,I6]]]]]]]]]]],I8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,I7]]]]]]]]]]],I9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,I8]]]]]]]]]]],I_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,I9]]]]]]]]]]];bO(11,[a7,a(qs),-12],qs);bO(10,[a7,a(rg),-11],rg);bO(9,[a7,a(r3),-10],r3);bO(8,[a7,a(qE),-9],qE);bO(7,[a7,a(ru),-8],ru);bO(6,[a7,a(qC),-7],qC);bO(5,[a7,a(q3),-6],q3);bO(4,[a7,a(q7),-5],q7);bO(3,ln,sc);bO(2,[a7,a(kS),-3],kS);bO(1,lo,q2);bO(0,[a7,a(rN),-1],rN);var
-sN=a("String.sub / Bytes.sub"),sP=a(af),sO=a("String.concat"),sQ=a("Array.init"),sR=a("power"),s_=[0,0],s$=[0,0],tf=[0,0,0],tg=[0,0,0],th=[0,0],tD=[0,0],tE=[0,0],tH=[0,0],t2=[0,0],t5=[0,0],t9=[0,0],t_=[0,0],t$=[0,0],ua=[0,0],uo=[0,0],up=[0,0],uS=[0,0],vg=[0,[0,[0,0]]],vH=[0,0],v8=[0,0],wu=[0,0],wF=a(","),wX=[0,a(kY),0],wY=a(ra),wZ=a("."),w0=[0,[0,[0,0]]],w1=a(e0),w2=a(kZ),w3=[0,[0,[0,[0,[0,0]]]]],w4=[0,a(kY),0],w5=a(sa),z8=a(qp),z_=a(qm),z9=a(rj),z$=a(eV),Aa=a(eT),Ab=a(k7),Ac=a(rX),Ad=a(qW),Ae=a(k1),Af=a(ro),Ag=a(qV),Bw=[0,[0,0,0]],BN=[0,0],Bx=a(f5),By=[0,0],Bz=a("divided"),BA=[0,1],BB=a("mirror"),BC=[0,3],BD=a("negative"),BE=[0,2],BF=a(f_),BG=[0,5],BH=a(k6),BI=[0,4],BJ=a(du),BK=a(qH),BL=a(eW),BM=a(bM),BO=[0,0],BP=[0,0],BQ=[0,0],BT=[0,[0,[0,0]]],BU=[0,[0,[0,0]]],Cj=[0,[0,[0,0]]],Cx=[0,0],CS=a(af),CK=[0,0],CM=[0,0],CL=[0,0],CN=[0,[0,[0,[0,0]]]],CO=[0,[0,[0,0]]],CP=[0,[0,[0,[0,0]]]],CQ=[0,[0,[0,0]]],CI=[0,[0,[0,0]]],CH=a(eW),CG=[0,0],CE=[0,1,0],CF=[0,[0,[0,0]]],CD=[0,0],CC=[0,0],CB=[0,0],Cy=[0,[0,0]],Cz=[0,[0,[0,0]]],Cv=[0,[0,0]],Cw=[0,[0,[0,0]]],Cu=[0,0],Cq=[0,[0,[0,0]]],Cp=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H5]]]]]]]]]],[0,0,[0,[0,[0,[0,0]]],0]]],Ck=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],[0,0,0]],Cl=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],[0,[0,[0,[0,[0,[0,[0,0]]]]]],0]],Cm=[0,[0,[0,[0,[0,[0,[0,0]]]]]],0],Cn=[0,[0,[0,[0,0]]],[0,0,0]],Ch=[0,0],Ci=[0,[0,0]],Cg=[0,0,0],Cf=[0,[0,[0,0]]],B$=[0,[0,0]],Ca=[0,[0,[0,0]]],Cb=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H6]]]]]]]]]]],Cc=[0,[0,0]],Cd=[0,[0,[0,0]]],B_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H7]]]]]]]]]]],B8=[0,[0,0]],B9=[0,[0,[0,0]]],B6=[0,[0,[0,0]]],B7=[0,[0,0]],B5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H9]]]]]]]]]]],B4=[0,0],B3=[0,0],B0=[0,[0,0]],B1=[0,0],BY=[0,0],BZ=[0,1],BW=[0,[0,0]],BX=[0,0],BV=[0,0],BR=[0,0],BS=[0,1],Bt=[0,0],Bu=[0,1],Bv=[0,2],Bp=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],Bn=[0,[0,0],0],Bo=[0,[1,0],0],Bq=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],Bl=[0,[0,0]],Bm=[0,0],Bk=[0,0],Bj=[0,0],Bi=[0,0],Bh=[0,0],Bg=[0,0,0],Be=[0,[0,0]],Bf=[0,0],Bd=[0,0,0],Bb=[0,[0,[0,0]]],Bc=[0,[0,[0,0]]],Ba=[0,0],A_=[0,1,0],A3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ib]]]]]]]]]]],A4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ig]]]]]]]]]]],AZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Il]]]]]]]]]]],A0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,It]]]]]]]]]]],A1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IB]]]]]]]]]]],A2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IM]]]]]]]]]]],A5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IO]]]]]]]]]]],A6=a("sqrt"),AX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IQ]]]]]]]]]]],AY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,I1]]]]]]]]]]],AM=[0,a("\n"),0],AN=a(qn),AO=a(h6),AP=a(rf),AQ=a(q0),AW=a(gb),AR=a(f9),AS=a("verdict"),AT=a(rO),AU=a(qS),AV=a(re),AJ=a(q_),AK=a(rS),AL=a(h8),AF=a(rq),AG=a(h9),AH=a(f9),AI=a(gb),AA=a(ig),AB=a(bw),AC=a(qo),AD=a(ic),Ax=a(rM),Ay=a(f_),Az=a(ic),At=a(rt),Au=a(ig),Av=a(h9),Aw=a(r1),Ai=a(rT),Aj=a(rW),Ak=a(ib),Al=a(h$),Am=a(r7),An=a(rI),Ao=a(rL),Ap=a(rx),Aq=a(ib),Ar=a(rA),z6=a(h4),z7=a(ga),z1=a(bN),z2=a(bL),z3=a(qU),zB=a(h$),zC=a(rw),zf=a(bw),zg=a(b7),zh=a(ii),zi=a(eZ),zj=a(co),zo=a(kL),zk=a(k0),zl=a(k3),zm=a(eU),zn=a(bw),zp=a(b7),zq=a(ii),zr=a(eZ),zs=a(k0),zt=a(k3),zu=a(eU),zv=a(bw),zw=a(b7),zx=a(bN),zy=a(bL),zz=a(d5),zA=a(eZ),zD=a(rG),zE=a(rV),zF=a(ij),zG=a(qI),zH=a(qN),zI=a(eU),zJ=a(bw),zK=a(b7),zL=a(h2),zM=a(qY),zN=a(eZ),zO=a(gg),zP=a(qw),zQ=a(eU),zR=a(bw),zS=a(h2),zT=a(bw),zU=a(rz),zX=a(ql),zV=a(qL),zW=a(r0),zY=a(gb),zZ=a(f9),z0=a(bw),z4=a(ij),z5=a(h8),za=a(b7),zb=a(eZ),zc=a(kL),zd=a(eU),y$=a(r9),yZ=a(gg),y0=a(rP),y1=a(d6),y2=a(eX),y3=a(eX),y4=a(kO),y5=a(d6),y6=a(rh),y7=a(qT),y8=a(bl),y_=a(qr),y9=a(kO),yP=a(q9),yQ=a(sb),yR=a(qP),yS=a(qM),yT=a(rZ),yU=a(rK),yV=a(q1),yW=a(h3),yX=a(h3),yL=a(bl),yM=a(bK),yN=a(e1),yO=a(bv),yH=a(co),yI=a(kV),yJ=a(rr),yE=a(bN),yF=a(bL),yG=a(d5),yx=a(bN),yy=a(bL),yz=a(d5),yA=a(kX),yB=a(d6),yC=a(kT),yD=a(rF),yf=a(qK),yl=a(h6),yk=a(k5),yg=a(kP),yh=a(f7),ym=a(f8),yo=a(f8),yp=a(rD),yq=a(kP),yn=a(f7),yr=a(qG),ys=a(rC),yt=a(f7),yu=a(r8),yv=a(k5),yw=a(f7),yi=a(eX),yj=a(rm),yc=a(ia),yd=a(ia),ye=a(ia),x_=a(rH),x$=a(bL),ya=a(bN),yb=a(rY),xT=a(qA),xU=a(qq),xV=a(rv),xW=a(eV),xX=a(r_),xY=a(ry),xZ=a(qB),x0=a(rn),x1=a(qz),x2=a(qX),x3=a(qy),x4=a(rJ),x5=a(eT),x6=a(qv),x7=a(rR),x8=a(qO),x9=a(r$),xu=a(id),xw=a(e0),xv=a(f6),xx=a(eS),xy=a(bl),xz=a(bK),xA=a(bM),xB=a(gc),xC=a(bv),xD=a(ge),xE=a(bl),xF=a(bK),xG=a(e1),xH=a(bv),xI=a(bM),xJ=a(co),xK=a(bv),xL=a(eS),xM=a(gf),xN=a(bl),xO=a(bK),xP=a(rl),xQ=a(f8),xR=a(gf),xS=a(bv),xc=a(id),xk=a(e0),xd=a(f6),xe=a(eS),xf=a(bl),xg=a(bK),xh=a(bM),xi=a(gc),xj=a(bv),xl=a(ge),xm=a(bl),xn=a(bK),xo=a(e1),xp=a(bv),xq=a(bM),xr=a(co),xs=a(bv),w$=a(bN),xa=a(bL),w9=[0,a(aR),0],w_=a(aR),w7=a(af),w6=[0,a(aR),0],w8=a(aR),wT=a(id),wU=a(e0),wV=a("*"),wW=a(b8),wO=[0,[0,[0,[0,[0,0]]]]],wP=[0,[0,[0,0]]],wQ=[0,[0,0]],wR=[0,0],wS=[0,[0,[0,[0,0]]]],wM=a('":'),wN=a(aR),wK=[0,a(aR),0],wL=a(aR),wI=[0,a("}"),0],wJ=a("{"),wG=[0,a("]"),0],wH=a("["),wE=[0,[0,[0,0]]],wD=[0,[0,[0,0]]],wB=[0,0],wy=[0,[0,[0,0]]],wz=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],wA=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],ww=[0,[0,0]],wx=[0,[0,[0,0]]],wv=[0,0],ws=[0,0],wt=[0,[0,0]],wp=[0,0],wq=[0,[0,0]],wr=[0,0],wk=[0,[0,0]],wl=[0,0],wm=[0,[0,[0,0]]],wn=[0,[0,[0,0]]],wj=[0,[0,[0,0]]],wi=[0,[0,[0,0]]],wh=[0,0],we=[0,[0,[0,0]]],wg=[0,[0,[0,0]]],wf=[0,0],wc=[0,[0,0]],wd=[0,0],wa=[0,[0,0]],wb=[0,0],v$=[0,[0,[0,0]]],v9=[0,[0,0]],v_=[0,0],v6=[0,0],v7=[0,[0,0]],v0=[0,[0,0]],v1=[0,[0,[0,[0,[0,0]]]]],v2=[0,[0,[0,[0,0]]]],v3=[0,[0,[0,0]]],v4=[0,[0,0]],v5=[0,0],vX=[0,0],vY=[0,[0,0]],vZ=[0,0],vW=[0,0],vS=[0,0],vT=[0,[0,[0,[0,[0,[0,0]]]]]],vU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,I2]]]]]]]]]]],vQ=[0,0],vL=[0,0,0],vM=[0,0,0],vN=[0,0,0],vI=[0,[0,0]],vJ=[0,[0,[0,0]]],vK=[0,0],vx=[0,[0,[0,[0,[0,[0,0]]]]]],vy=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],vz=[0,[0,[0,0]]],vA=[0,[0,[0,0]]],vB=[0,[0,[0,[0,[0,[0,0]]]]]],vC=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],vD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,I3]]]]]]]]]]],vE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,I4]]]]]]]]]]],vF=[0,[0,[0,0]]],vG=[0,[0,[0,[0,[0,[0,0]]]]]],vt=[0,0,0],vu=[0,0,0],vp=[0,0,0],vq=[0,0,0],vr=[0,0,0],vs=[0,0,0],vo=[0,0],vn=[0,0],vm=[0,0],vk=[0,0],vl=[0,0],vj=[0,0],vh=[0,0],vi=[0,0],u$=[0,0],va=[0,0],vb=[0,0],vc=[0,[0,[0,0]]],u_=[0,0],u4=[0,0],u5=[0,0],u6=[0,[0,0]],u2=[0,[0,0]],u3=[0,[0,[0,0]]],u0=[0,[0,[0,0]]],u1=[0,[0,0]],uY=[0,[0,0]],uZ=[0,[0,[0,0]]],uX=[0,0],uV=[0,0],uW=[0,0],uT=[0,0,0],uQ=[0,[0,0]],uR=[0,0],uI=[0,[0,0]],uJ=[0,0],uK=[0,[0,0]],uL=[0,0],uM=[0,[0,0]],uN=[0,0],uO=[0,[0,0]],uP=[0,0],uG=[0,[0,0]],uH=[0,0],uE=[0,[0,0]],uF=[0,0],uA=[0,[0,0]],uB=[0,0],uC=[0,0],uD=[0,[0,0]],ur=[0,[0,0]],us=[0,0],ut=[0,[0,0]],uu=[0,0],uv=[0,0],uw=[0,[0,0]],ux=[0,[0,0]],uy=[0,[0,0]],uz=[0,0],un=[0,0],um=[0,0],uj=[0,0],uk=[0,[0,0]],ui=[0,[0,[0,0]]],uh=[0,[0,[0,[0,[0,[0,0]]]]]],uf=[0,[0,0]],ug=[0,0],ue=[0,[0,0]],ud=[0,0],ub=[0,0],uc=[0,[0,[0,0]]],t7=[0,[0,0]],t8=[0,[0,[0,0]]],t6=[0,[0,[0,0]]],t3=[0,[0,[0,0]]],t1=[0,[0,[0,0]]],tZ=[0,[0,[0,[0,[0,[0,0]]]]]],t0=[0,[0,[0,[0,[0,[0,0]]]]]],tU=[0,[0,0]],tV=[0,0],tW=[0,[0,0]],tX=[0,[0,[0,0]]],tY=[0,[0,[0,0]]],tN=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],tO=[0,[0,[0,[0,[0,[0,0]]]]]],tP=[0,[0,[0,[0,[0,[0,0]]]]]],tQ=[0,[0,[0,0]]],tR=[0,[0,[0,[0,[0,[0,0]]]]]],tS=[0,[0,[0,0]]],tT=[0,[0,[0,0]]],tL=[0,[0,0]],tM=[0,0],tK=[0,0,0],tJ=[0,0,0],tI=[0,0,0],tG=[0,0,0],tF=[0,[0,[0,0]]],tz=[0,0],tA=[0,0],tB=[0,0],tC=[0,0],tx=[0,0],ty=[0,0],tt=[0,[0,[0,0]]],tu=[0,[0,[0,0]]],tv=[0,[0,[0,0]]],ts=[0,[0,[0,[0,0]]]],to=[0,[0,[0,0]]],tp=[0,[0,[0,0]]],tq=[0,[0,[0,0]]],tr=[0,[0,1,1],[0,[0,0,1],[0,[0,1,0],[0,[0,0,0],0]]]],tm=[0,[0,0]],tn=[0,0],tk=[0,[0,0]],tl=[0,0],ti=[0,[0,0]],tj=[0,0],s7=[0,0],s8=[0,[0,0]],s5=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],s6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,I5]]]]]]]]]]],s3=[0,0,0],s2=a(r5),s1=a(af),s0=[0,[0,0]],sY=[0,0],sV=[0,0],sX=[1,0],sW=[0,0],sU=[0,0],sS=[1,0],sT=[1,0],ul=[10,0,0,0,0],CA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,I_]]]]]]]]]]],F8=a(bN),F9=a(bL),F_=a(qU),F0=a(ge),F1=[0,a("a base axis of such a platform"),0],F2=a(bl),F3=a(bK),FN=a(rK),FO=a(q9),FP=a(rZ),FQ=a(h3),FR=a(q1),FS=a(h3),FT=a(sb),FU=a(qP),FV=a(qM),FB=a(rw),FC=a(h$),Fd=[0,a("such a machine with bodies"),0],E2=a(h8),E3=a(bw),E4=a(rz),E5=a(r0),E8=a(qL),E9=a(ql),E_=a(bw),E$=a(bw),Fb=a(h2),Fa=[0,a("a claim that no cube of such a machine fits"),0],Fc=a(r9),Fe=a(eU),Ff=a(eZ),Fg=a(co),Fh=a(kV),Fi=a(rr),Fj=a(ii),Fk=a(qN),Fl=a(qw),Fm=a(kL),Fp=a(d5),Fq=a(rF),Ft=a(b7),Fu=a(b7),Fv=a(qY),Fw=a(b7),Fx=[0,a("the closed design with other bounds on psi than one from below and one from above"),0],Fy=a(h2),Fz=a(gg),FA=a(d5),FD=a(rV),FE=a(rG),FF=[0,a(" operations, with its definitions written out,"),0],FG=a("a mechanism of more than "),FH=a(b7),FI=a(bN),FJ=a(bL),FK=a(ij),FL=a(qI),Fn=[0,a(aR),0],Fo=a('the mechanism "'),FM=a(k0),FW=a(ii),FX=a(co),FY=a(kV),FZ=a(k3),F4=a(b7),F7=a(co),F5=[0,a("a platform that turns on struts and other drives"),0],F6=a(b7),Fr=[0,a(aR),0],Fs=a('the workspace "'),F$=a(bw),Ga=a(bw),Gc=a(gb),Gd=a(f9),Ge=a(ij),Gb=[0,a("an atlas of such a machine"),0],E6=[0,a(aR),0],E7=a('a claim of the kind "'),Gs=a(k7),Gt=a(du),Gu=a(eW),Gv=a(k1),Gw=a(f5),Gx=[0,a('this evidence "fan"'),0],Gj=a(du),GH=a(ga),GI=[0,1,1],Gk=a(ro),Gy=a(eT),Gz=a(qV),GA=a(eV),GB=a(qW),GC=a(rj),GD=a(bM),GE=a(ga),GF=a(h4),GG=a(bM),Gl=a(k7),Gm=a(du),Gn=a(qH),Go=a(eW),Gp=a(k1),Gq=[0,a(aR),0],Gr=a('the evidence "'),GJ=a(eT),GK=a(eV),GL=a(du),GM=a(eW),GN=a(rX),GP=a(eT),GQ=a(eV),GR=a(du),GS=a(eW),GT=a(f_),GU=a(f5),GV=a(f_),GW=a(f5),GO=[0,a("this evidence at control points"),0],HY=a('"orthocert-paving/'),HP=a(du),HQ=a(du),HC=a(re),HD=a(qS),HE=a(rO),HW=[0,3,3],HF=a(q0),HN=[0,a("this set of orientations with such drives"),0],HR=[0,a('this evidence "tolerances" of a platform that turns'),0],HS=[0,a("a step of a platform that turns that is not at control points"),0],HT=[0,a("this quantity in a claim that is refuted"),0],HU=[0,a("a step in a proof that no cube fits"),0],HV=[0,a('the failure "same" of such a mechanism'),0],HO=[0,a('"accuracy" of such a mechanism'),0],HG=[0,a("the acceleration of a joint of a machine with a plane"),0],HL=[0,a("a stiffness for each joint in such a claim"),0],HM=[0,a(rB),0],HK=[0,a(rB),0],HH=a(rf),HI=a(qn),HJ=a(h6),Hy=a(k6),Hz=a(f5),HA=a(bM),Hq=a(h8),Hr=a(q_),Hs=a(rS),Ht=[0,a(aR),0],Hu=a('a proof of the kind "'),Hm=a(f9),Hn=a(gb),Ho=a(h9),Hp=a(rq),Hi=a(bw),Hj=a(ig),Hk=a(qo),Hl=a(ic),Hf=a(rM),Hg=a(f_),Hh=a(ic),Hb=a(rt),Hc=a(ig),Hd=a(h9),He=a(r1),GZ=a(rW),G0=a(ib),G1=a(rT),G2=a(h$),G3=a(rA),G4=a(r7),G7=a(rI),G8=a(h4),G9=a(ga),G_=a(rL),G$=a(rx),Ha=a(ib),G5=[0,a(aR),0],G6=a('the failure "'),GX=a(k6),GY=a(r5),Gh=a(ga),Gi=a(h4),Gf=a(qm),Gg=a(qp),EZ=a(gg),EP=a(kO),EQ=a(qr),ER=a(eX),ES=a(bl),EX=a(rP),EY=a(gg),E0=a(d6),E1=a(eX),ET=a(d6),EU=a(rh),EV=a(qT),EW=a(bl),EI=a(d5),EM=a(bN),EN=a(bL),EJ=a(kT),EK=a(kX),EL=a(d6),EC=a(d5),EG=a(bN),EH=a(bL),ED=a(kT),EE=a(kX),EF=a(d6),EB=[0,1],EA=[0,1],Ey=[0,1],Ew=[0,1],Ev=[0,1],Et=[0,1],Eu=[0,a("this quantity of such a mechanism"),0],Ec=a(kP),Ed=a(rC),Ee=a(qG),Ef=a(k5),Eg=a(r8),Ei=a(rD),Eh=a(f8),Eb=a(h6),D5=a(ia),DT=a(rm),DU=a(rv),El=a(eT),Em=a(rR),En=a(qX),Eo=a(eV),Ep=a(rn),Eq=a(qy),Er=a(qz),Es=a(qq),DV=a(qv),DW=a(r$),DX=a(rJ),DY=a(ry),DZ=a(qO),D0=a(r_),D1=a(qB),D2=a(qA),D3=[0,a(aR),0],D4=a('the quantity "'),D6=a(qK),D7=a(rH),D8=a(bN),D9=a(bL),D_=a(rY),D$=[0,a(aR),0],Ea=a('a bound "'),Ej=a(f7),Ek=a(eX),DR=a(bv),DS=a(e1),DP=a(bv),DQ=a(co),DM=a(bv),DN=a(gc),Do=a(bv),Dp=a(ge),Dq=a(gf),Dr=a(co),Ds=a(gc),Dt=a(e1),Dw=a(bl),Dx=a(bK),Dy=a(f6),Dz=a(eS),DA=a(bl),DB=a(bK),DC=a(bM),DD=a(bM),DE=a(f6),DF=a(eS),DG=a(gf),DH=a(bl),DI=a(bK),DJ=a(rl),DK=a(f8),Du=[0,a('" of such a machine'),0],Dv=a(qF),Dm=a(bv),Dn=a(gf),C8=a(bv),C9=a(co),C_=a(gc),C$=a(e1),Dc=a(ge),Dd=a(bl),De=a(bK),Df=a(f6),Dg=a(eS),Dh=a(bl),Di=a(bK),Dj=a(bM),Dk=a(bM),Da=[0,a(aR),0],Db=a(qF),C5=a(id),C6=a(e0),C3=a(" is not covered by the verified checker"),C4=a(af),C1=a(bN),C2=a(bL),CX=a(af),CY=a(sa),CZ=a(af),C0=a(af),CW=[1,0],CV=a(e0),CT=a("Reader.Malformed"),CU=a("Reader.Not_covered"),H0=[0,a("a paving is checked by orthocert-verified")],HZ=a(rp),H1=a("CERTIFIED"),H2=a("REFUTED"),H3=a(rp),H4=a("NOT COVERED: ");function
-gm(a){throw[0,ln,a]}function
-lp(b,a){return Jy(b,a)?b:a}function
+f5(a,b,c,d){return a.length==3?a(b,c,d):dw(a,[b,c,d])}function
+h3(a,b,c,d,e){return a.length==4?a(b,c,d,e):dw(a,[b,c,d,e])}Jo();var
+lt=[a8,a(q3),-2],ls=[a8,a(sd),-4],H6=[0,[0,[0,[0,0]]]],H7=[0,0],H8=[0,0],H9=[0,[0,0]],H_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H9]]]]]]]]]]],hP=[0,[1,0],0],pJ=[0,[2,0],0],ks=[0,[1,0],0],pI=[0,[2,0],0],hN=[0,[1,0],0],kr=[0,[2,0],0],H$=[0,[0,[0,[0,0]]]],Ia=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H$]]]]]]]]]]],Ib=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ia]]]]]]]]]]],Ic=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ib]]]]]]]]]]],Id=[0,[0,0]],Ie=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Id]]]]]]]]]]],If=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ie]]]]]]]]]]],Ig=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,If]]]]]]]]]]],Ih=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ig]]]]]]]]]]],Ii=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],Ij=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ii]]]]]]]]]]],Ik=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ij]]]]]]]]]]],Il=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ik]]]]]]]]]]],Im=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Il]]]]]]]]]]],In=[0,[0,0]],Io=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,In]]]]]]]]]]],Ip=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Io]]]]]]]]]]],Iq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ip]]]]]]]]]]],Ir=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Iq]]]]]]]]]]],Is=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ir]]]]]]]]]]],It=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Is]]]]]]]]]]],Iu=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,It]]]]]]]]]]],Iv=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],Iw=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Iv]]]]]]]]]]],Ix=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Iw]]]]]]]]]]],Iy=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ix]]]]]]]]]]],Iz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Iy]]]]]]]]]]],IA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Iz]]]]]]]]]]],IB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IA]]]]]]]]]]],IC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IB]]]]]]]]]]],ID=[0,0],IE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,ID]]]]]]]]]]],IF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IE]]]]]]]]]]],IG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IF]]]]]]]]]]],IH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IG]]]]]]]]]]],II=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IH]]]]]]]]]]],IJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,II]]]]]]]]]]],IK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IJ]]]]]]]]]]],IL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IK]]]]]]]]]]],IM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IL]]]]]]]]]]],IN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IM]]]]]]]]]]],IO=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],IP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IO]]]]]]]]]]],IQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],IR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IQ]]]]]]]]]]],IS=[0,[0,[0,[0,[0,0]]]]],IT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IS]]]]]]]]]]],IU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IT]]]]]]]]]]],IV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IU]]]]]]]]]]],IW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IV]]]]]]]]]]],IX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IW]]]]]]]]]]],IY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IX]]]]]]]]]]],IZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IY]]]]]]]]]]],I0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IZ]]]]]]]]]]],I1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,I0]]]]]]]]]]],I2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,I1]]]]]]]]]]],I3=[0,0],I4=[0,[0,0]],I5=[0,0],I6=[0,[0,[0,[0,[0,0]]]]],dE=[0,[0,[0,0]]],dG=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],hC=[0,[0,[0,[0,0]]]],I7=[0,[0,[0,[0,[0,0]]]]],I8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,I7]]]]]]]]]]],I9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,I8]]]]]]]]]]],I_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,I9]]]]]]]]]]],I$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,I_]]]]]]]]]]];bO(11,[a8,a(qt),-12],qt);bO(10,[a8,a(rh),-11],rh);bO(9,[a8,a(r4),-10],r4);bO(8,[a8,a(qF),-9],qF);bO(7,[a8,a(rv),-8],rv);bO(6,[a8,a(qD),-7],qD);bO(5,[a8,a(q4),-6],q4);bO(4,[a8,a(q8),-5],q8);bO(3,ls,sd);bO(2,[a8,a(kX),-3],kX);bO(1,lt,q3);bO(0,[a8,a(rO),-1],rO);var
+sO=a("String.sub / Bytes.sub"),sQ=a(af),sP=a("String.concat"),sR=a("Array.init"),sS=a("power"),s$=[0,0],ta=[0,0],tg=[0,0,0],th=[0,0,0],ti=[0,0],tE=[0,0],tF=[0,0],tI=[0,0],t3=[0,0],t6=[0,0],t_=[0,0],t$=[0,0],ua=[0,0],ub=[0,0],up=[0,0],uq=[0,0],uT=[0,0],vh=[0,[0,[0,0]]],vI=[0,0],v9=[0,0],wv=[0,0],wG=a(","),wY=[0,a(k3),0],wZ=a(rb),w0=a("."),w1=[0,[0,[0,0]]],w2=a(e0),w3=a(k4),w4=[0,[0,[0,[0,[0,0]]]]],w5=[0,a(k3),0],w6=a(sb),z9=a(qq),z$=a(qn),z_=a(rk),Aa=a(eV),Ab=a(eT),Ac=a(la),Ad=a(rY),Ae=a(qX),Af=a(k6),Ag=a(rp),Ah=a(qW),Bx=[0,[0,0,0]],BO=[0,0],By=a(f6),Bz=[0,0],BA=a("divided"),BB=[0,1],BC=a("mirror"),BD=[0,3],BE=a("negative"),BF=[0,2],BG=a(f$),BH=[0,5],BI=a(k$),BJ=[0,4],BK=a(du),BL=a(qI),BM=a(eW),BN=a(bM),BP=[0,0],BQ=[0,0],BR=[0,0],BU=[0,[0,[0,0]]],BV=[0,[0,[0,0]]],Ck=[0,[0,[0,0]]],Cy=[0,0],CT=a(af),CL=[0,0],CN=[0,0],CM=[0,0],CO=[0,[0,[0,[0,0]]]],CP=[0,[0,[0,0]]],CQ=[0,[0,[0,[0,0]]]],CR=[0,[0,[0,0]]],CJ=[0,[0,[0,0]]],CI=a(eW),CH=[0,0],CF=[0,1,0],CG=[0,[0,[0,0]]],CE=[0,0],CD=[0,0],CC=[0,0],Cz=[0,[0,0]],CA=[0,[0,[0,0]]],Cw=[0,[0,0]],Cx=[0,[0,[0,0]]],Cv=[0,0],Cr=[0,[0,[0,0]]],Cq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H6]]]]]]]]]],[0,0,[0,[0,[0,[0,0]]],0]]],Cl=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],[0,0,0]],Cm=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],[0,[0,[0,[0,[0,[0,[0,0]]]]]],0]],Cn=[0,[0,[0,[0,[0,[0,[0,0]]]]]],0],Co=[0,[0,[0,[0,0]]],[0,0,0]],Ci=[0,0],Cj=[0,[0,0]],Ch=[0,0,0],Cg=[0,[0,[0,0]]],Ca=[0,[0,0]],Cb=[0,[0,[0,0]]],Cc=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H7]]]]]]]]]]],Cd=[0,[0,0]],Ce=[0,[0,[0,0]]],B$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H8]]]]]]]]]]],B9=[0,[0,0]],B_=[0,[0,[0,0]]],B7=[0,[0,[0,0]]],B8=[0,[0,0]],B6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H_]]]]]]]]]]],B5=[0,0],B4=[0,0],B1=[0,[0,0]],B2=[0,0],BZ=[0,0],B0=[0,1],BX=[0,[0,0]],BY=[0,0],BW=[0,0],BS=[0,0],BT=[0,1],Bu=[0,0],Bv=[0,1],Bw=[0,2],Bq=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],Bo=[0,[0,0],0],Bp=[0,[1,0],0],Br=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],Bm=[0,[0,0]],Bn=[0,0],Bl=[0,0],Bk=[0,0],Bj=[0,0],Bi=[0,0],Bh=[0,0,0],Bf=[0,[0,0]],Bg=[0,0],Be=[0,0,0],Bc=[0,[0,[0,0]]],Bd=[0,[0,[0,0]]],Bb=[0,0],A$=[0,1,0],A4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ic]]]]]]]]]]],A5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ih]]]]]]]]]]],A0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Im]]]]]]]]]]],A1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Iu]]]]]]]]]]],A2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IC]]]]]]]]]]],A3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IN]]]]]]]]]]],A6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IP]]]]]]]]]]],A7=a("sqrt"),AY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IR]]]]]]]]]]],AZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,I2]]]]]]]]]]],AN=[0,a("\n"),0],AO=a(qo),AP=a(h8),AQ=a(rg),AR=a(q1),AX=a(gc),AS=a(f_),AT=a("verdict"),AU=a(rP),AV=a(qT),AW=a(rf),AK=a(q$),AL=a(rT),AM=a(h_),AG=a(rr),AH=a(h$),AI=a(f_),AJ=a(gc),AB=a(ii),AC=a(bw),AD=a(qp),AE=a(ie),Ay=a(rN),Az=a(f$),AA=a(ie),Au=a(ru),Av=a(ii),Aw=a(h$),Ax=a(r2),Aj=a(rU),Ak=a(rX),Al=a(id),Am=a(ib),An=a(r8),Ao=a(rJ),Ap=a(rM),Aq=a(ry),Ar=a(id),As=a(rB),z7=a(h6),z8=a(gb),z2=a(bN),z3=a(bL),z4=a(qV),zC=a(ib),zD=a(rx),zg=a(bw),zh=a(b7),zi=a(ik),zj=a(eZ),zk=a(co),zp=a(kQ),zl=a(k5),zm=a(k8),zn=a(eU),zo=a(bw),zq=a(b7),zr=a(ik),zs=a(eZ),zt=a(k5),zu=a(k8),zv=a(eU),zw=a(bw),zx=a(b7),zy=a(bN),zz=a(bL),zA=a(d5),zB=a(eZ),zE=a(rH),zF=a(rW),zG=a(il),zH=a(qJ),zI=a(qO),zJ=a(eU),zK=a(bw),zL=a(b7),zM=a(h4),zN=a(qZ),zO=a(eZ),zP=a(gh),zQ=a(qx),zR=a(eU),zS=a(bw),zT=a(h4),zU=a(bw),zV=a(rA),zY=a(qm),zW=a(qM),zX=a(r1),zZ=a(gc),z0=a(f_),z1=a(bw),z5=a(il),z6=a(h_),zb=a(b7),zc=a(eZ),zd=a(kQ),ze=a(eU),za=a(r_),y0=a(gh),y1=a(rQ),y2=a(d6),y3=a(eX),y4=a(eX),y5=a(kT),y6=a(d6),y7=a(ri),y8=a(qU),y9=a(bl),y$=a(qs),y_=a(kT),yQ=a(q_),yR=a(sc),yS=a(qQ),yT=a(qN),yU=a(r0),yV=a(rL),yW=a(q2),yX=a(h5),yY=a(h5),yM=a(bl),yN=a(bK),yO=a(e1),yP=a(bv),yI=a(co),yJ=a(k0),yK=a(rs),yF=a(bN),yG=a(bL),yH=a(d5),yy=a(bN),yz=a(bL),yA=a(d5),yB=a(k2),yC=a(d6),yD=a(kY),yE=a(rG),yg=a(qL),ym=a(h8),yl=a(k_),yh=a(kU),yi=a(f8),yn=a(f9),yp=a(f9),yq=a(rE),yr=a(kU),yo=a(f8),ys=a(qH),yt=a(rD),yu=a(f8),yv=a(r9),yw=a(k_),yx=a(f8),yj=a(eX),yk=a(rn),yd=a(ic),ye=a(ic),yf=a(ic),x$=a(rI),ya=a(bL),yb=a(bN),yc=a(rZ),xU=a(qB),xV=a(qr),xW=a(rw),xX=a(eV),xY=a(r$),xZ=a(rz),x0=a(qC),x1=a(ro),x2=a(qA),x3=a(qY),x4=a(qz),x5=a(rK),x6=a(eT),x7=a(qw),x8=a(rS),x9=a(qP),x_=a(sa),xv=a(ig),xx=a(e0),xw=a(f7),xy=a(eS),xz=a(bl),xA=a(bK),xB=a(bM),xC=a(gd),xD=a(bv),xE=a(gf),xF=a(bl),xG=a(bK),xH=a(e1),xI=a(bv),xJ=a(bM),xK=a(co),xL=a(bv),xM=a(eS),xN=a(gg),xO=a(bl),xP=a(bK),xQ=a(rm),xR=a(f9),xS=a(gg),xT=a(bv),xd=a(ig),xl=a(e0),xe=a(f7),xf=a(eS),xg=a(bl),xh=a(bK),xi=a(bM),xj=a(gd),xk=a(bv),xm=a(gf),xn=a(bl),xo=a(bK),xp=a(e1),xq=a(bv),xr=a(bM),xs=a(co),xt=a(bv),xa=a(bN),xb=a(bL),w_=[0,a(aS),0],w$=a(aS),w8=a(af),w7=[0,a(aS),0],w9=a(aS),wU=a(ig),wV=a(e0),wW=a("*"),wX=a(b8),wP=[0,[0,[0,[0,[0,0]]]]],wQ=[0,[0,[0,0]]],wR=[0,[0,0]],wS=[0,0],wT=[0,[0,[0,[0,0]]]],wN=a('":'),wO=a(aS),wL=[0,a(aS),0],wM=a(aS),wJ=[0,a("}"),0],wK=a("{"),wH=[0,a("]"),0],wI=a("["),wF=[0,[0,[0,0]]],wE=[0,[0,[0,0]]],wC=[0,0],wz=[0,[0,[0,0]]],wA=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],wB=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],wx=[0,[0,0]],wy=[0,[0,[0,0]]],ww=[0,0],wt=[0,0],wu=[0,[0,0]],wq=[0,0],wr=[0,[0,0]],ws=[0,0],wl=[0,[0,0]],wm=[0,0],wn=[0,[0,[0,0]]],wo=[0,[0,[0,0]]],wk=[0,[0,[0,0]]],wj=[0,[0,[0,0]]],wi=[0,0],wf=[0,[0,[0,0]]],wh=[0,[0,[0,0]]],wg=[0,0],wd=[0,[0,0]],we=[0,0],wb=[0,[0,0]],wc=[0,0],wa=[0,[0,[0,0]]],v_=[0,[0,0]],v$=[0,0],v7=[0,0],v8=[0,[0,0]],v1=[0,[0,0]],v2=[0,[0,[0,[0,[0,0]]]]],v3=[0,[0,[0,[0,0]]]],v4=[0,[0,[0,0]]],v5=[0,[0,0]],v6=[0,0],vY=[0,0],vZ=[0,[0,0]],v0=[0,0],vX=[0,0],vT=[0,0],vU=[0,[0,[0,[0,[0,[0,0]]]]]],vV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,I3]]]]]]]]]]],vR=[0,0],vM=[0,0,0],vN=[0,0,0],vO=[0,0,0],vJ=[0,[0,0]],vK=[0,[0,[0,0]]],vL=[0,0],vy=[0,[0,[0,[0,[0,[0,0]]]]]],vz=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],vA=[0,[0,[0,0]]],vB=[0,[0,[0,0]]],vC=[0,[0,[0,[0,[0,[0,0]]]]]],vD=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],vE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,I4]]]]]]]]]]],vF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,I5]]]]]]]]]]],vG=[0,[0,[0,0]]],vH=[0,[0,[0,[0,[0,[0,0]]]]]],vu=[0,0,0],vv=[0,0,0],vq=[0,0,0],vr=[0,0,0],vs=[0,0,0],vt=[0,0,0],vp=[0,0],vo=[0,0],vn=[0,0],vl=[0,0],vm=[0,0],vk=[0,0],vi=[0,0],vj=[0,0],va=[0,0],vb=[0,0],vc=[0,0],vd=[0,[0,[0,0]]],u$=[0,0],u5=[0,0],u6=[0,0],u7=[0,[0,0]],u3=[0,[0,0]],u4=[0,[0,[0,0]]],u1=[0,[0,[0,0]]],u2=[0,[0,0]],uZ=[0,[0,0]],u0=[0,[0,[0,0]]],uY=[0,0],uW=[0,0],uX=[0,0],uU=[0,0,0],uR=[0,[0,0]],uS=[0,0],uJ=[0,[0,0]],uK=[0,0],uL=[0,[0,0]],uM=[0,0],uN=[0,[0,0]],uO=[0,0],uP=[0,[0,0]],uQ=[0,0],uH=[0,[0,0]],uI=[0,0],uF=[0,[0,0]],uG=[0,0],uB=[0,[0,0]],uC=[0,0],uD=[0,0],uE=[0,[0,0]],us=[0,[0,0]],ut=[0,0],uu=[0,[0,0]],uv=[0,0],uw=[0,0],ux=[0,[0,0]],uy=[0,[0,0]],uz=[0,[0,0]],uA=[0,0],uo=[0,0],un=[0,0],uk=[0,0],ul=[0,[0,0]],uj=[0,[0,[0,0]]],ui=[0,[0,[0,[0,[0,[0,0]]]]]],ug=[0,[0,0]],uh=[0,0],uf=[0,[0,0]],ue=[0,0],uc=[0,0],ud=[0,[0,[0,0]]],t8=[0,[0,0]],t9=[0,[0,[0,0]]],t7=[0,[0,[0,0]]],t4=[0,[0,[0,0]]],t2=[0,[0,[0,0]]],t0=[0,[0,[0,[0,[0,[0,0]]]]]],t1=[0,[0,[0,[0,[0,[0,0]]]]]],tV=[0,[0,0]],tW=[0,0],tX=[0,[0,0]],tY=[0,[0,[0,0]]],tZ=[0,[0,[0,0]]],tO=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],tP=[0,[0,[0,[0,[0,[0,0]]]]]],tQ=[0,[0,[0,[0,[0,[0,0]]]]]],tR=[0,[0,[0,0]]],tS=[0,[0,[0,[0,[0,[0,0]]]]]],tT=[0,[0,[0,0]]],tU=[0,[0,[0,0]]],tM=[0,[0,0]],tN=[0,0],tL=[0,0,0],tK=[0,0,0],tJ=[0,0,0],tH=[0,0,0],tG=[0,[0,[0,0]]],tA=[0,0],tB=[0,0],tC=[0,0],tD=[0,0],ty=[0,0],tz=[0,0],tu=[0,[0,[0,0]]],tv=[0,[0,[0,0]]],tw=[0,[0,[0,0]]],tt=[0,[0,[0,[0,0]]]],tp=[0,[0,[0,0]]],tq=[0,[0,[0,0]]],tr=[0,[0,[0,0]]],ts=[0,[0,1,1],[0,[0,0,1],[0,[0,1,0],[0,[0,0,0],0]]]],tn=[0,[0,0]],to=[0,0],tl=[0,[0,0]],tm=[0,0],tj=[0,[0,0]],tk=[0,0],s8=[0,0],s9=[0,[0,0]],s6=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],s7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,I6]]]]]]]]]]],s4=[0,0,0],s3=a(r6),s2=a(af),s1=[0,[0,0]],sZ=[0,0],sW=[0,0],sY=[1,0],sX=[0,0],sV=[0,0],sT=[1,0],sU=[1,0],um=[10,0,0,0,0],CB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,I$]]]]]]]]]]],F9=a(bN),F_=a(bL),F$=a(qV),F1=a(gf),F2=[0,a("a base axis of such a platform"),0],F3=a(bl),F4=a(bK),FO=a(rL),FP=a(q_),FQ=a(r0),FR=a(h5),FS=a(q2),FT=a(h5),FU=a(sc),FV=a(qQ),FW=a(qN),FC=a(rx),FD=a(ib),Fe=[0,a("such a machine with bodies"),0],E3=a(h_),E4=a(bw),E5=a(rA),E6=a(r1),E9=a(qM),E_=a(qm),E$=a(bw),Fa=a(bw),Fc=a(h4),Fb=[0,a("a claim that no cube of such a machine fits"),0],Fd=a(r_),Ff=a(eU),Fg=a(eZ),Fh=a(co),Fi=a(k0),Fj=a(rs),Fk=a(ik),Fl=a(qO),Fm=a(qx),Fn=a(kQ),Fq=a(d5),Fr=a(rG),Fu=a(b7),Fv=a(b7),Fw=a(qZ),Fx=a(b7),Fy=[0,a("the closed design with other bounds on psi than one from below and one from above"),0],Fz=a(h4),FA=a(gh),FB=a(d5),FE=a(rW),FF=a(rH),FG=[0,a(" operations, with its definitions written out,"),0],FH=a("a mechanism of more than "),FI=a(b7),FJ=a(bN),FK=a(bL),FL=a(il),FM=a(qJ),Fo=[0,a(aS),0],Fp=a('the mechanism "'),FN=a(k5),FX=a(ik),FY=a(co),FZ=a(k0),F0=a(k8),F5=a(b7),F8=a(co),F6=[0,a("a platform that turns on struts and other drives"),0],F7=a(b7),Fs=[0,a(aS),0],Ft=a('the workspace "'),Ga=a(bw),Gb=a(bw),Gd=a(gc),Ge=a(f_),Gf=a(il),Gc=[0,a("an atlas of such a machine"),0],E7=[0,a(aS),0],E8=a('a claim of the kind "'),Gt=a(la),Gu=a(du),Gv=a(eW),Gw=a(k6),Gx=a(f6),Gy=[0,a('this evidence "fan"'),0],Gk=a(du),GI=a(gb),GJ=[0,1,1],Gl=a(rp),Gz=a(eT),GA=a(qW),GB=a(eV),GC=a(qX),GD=a(rk),GE=a(bM),GF=a(gb),GG=a(h6),GH=a(bM),Gm=a(la),Gn=a(du),Go=a(qI),Gp=a(eW),Gq=a(k6),Gr=[0,a(aS),0],Gs=a('the evidence "'),GK=a(eT),GL=a(eV),GM=a(du),GN=a(eW),GO=a(rY),GQ=a(eT),GR=a(eV),GS=a(du),GT=a(eW),GU=a(f$),GV=a(f6),GW=a(f$),GX=a(f6),GP=[0,a("this evidence at control points"),0],HZ=a('"orthocert-paving/'),HQ=a(du),HR=a(du),HD=a(rf),HE=a(qT),HF=a(rP),HX=[0,3,3],HG=a(q1),HO=[0,a("this set of orientations with such drives"),0],HS=[0,a('this evidence "tolerances" of a platform that turns'),0],HT=[0,a("a step of a platform that turns that is not at control points"),0],HU=[0,a("this quantity in a claim that is refuted"),0],HV=[0,a("a step in a proof that no cube fits"),0],HW=[0,a('the failure "same" of such a mechanism'),0],HP=[0,a('"accuracy" of such a mechanism'),0],HH=[0,a("the acceleration of a joint of a machine with a plane"),0],HM=[0,a("a stiffness for each joint in such a claim"),0],HN=[0,a(rC),0],HL=[0,a(rC),0],HI=a(rg),HJ=a(qo),HK=a(h8),Hz=a(k$),HA=a(f6),HB=a(bM),Hr=a(h_),Hs=a(q$),Ht=a(rT),Hu=[0,a(aS),0],Hv=a('a proof of the kind "'),Hn=a(f_),Ho=a(gc),Hp=a(h$),Hq=a(rr),Hj=a(bw),Hk=a(ii),Hl=a(qp),Hm=a(ie),Hg=a(rN),Hh=a(f$),Hi=a(ie),Hc=a(ru),Hd=a(ii),He=a(h$),Hf=a(r2),G0=a(rX),G1=a(id),G2=a(rU),G3=a(ib),G4=a(rB),G5=a(r8),G8=a(rJ),G9=a(h6),G_=a(gb),G$=a(rM),Ha=a(ry),Hb=a(id),G6=[0,a(aS),0],G7=a('the failure "'),GY=a(k$),GZ=a(r6),Gi=a(gb),Gj=a(h6),Gg=a(qn),Gh=a(qq),E0=a(gh),EQ=a(kT),ER=a(qs),ES=a(eX),ET=a(bl),EY=a(rQ),EZ=a(gh),E1=a(d6),E2=a(eX),EU=a(d6),EV=a(ri),EW=a(qU),EX=a(bl),EJ=a(d5),EN=a(bN),EO=a(bL),EK=a(kY),EL=a(k2),EM=a(d6),ED=a(d5),EH=a(bN),EI=a(bL),EE=a(kY),EF=a(k2),EG=a(d6),EC=[0,1],EB=[0,1],Ez=[0,1],Ex=[0,1],Ew=[0,1],Eu=[0,1],Ev=[0,a("this quantity of such a mechanism"),0],Ed=a(kU),Ee=a(rD),Ef=a(qH),Eg=a(k_),Eh=a(r9),Ej=a(rE),Ei=a(f9),Ec=a(h8),D6=a(ic),DU=a(rn),DV=a(rw),Em=a(eT),En=a(rS),Eo=a(qY),Ep=a(eV),Eq=a(ro),Er=a(qz),Es=a(qA),Et=a(qr),DW=a(qw),DX=a(sa),DY=a(rK),DZ=a(rz),D0=a(qP),D1=a(r$),D2=a(qC),D3=a(qB),D4=[0,a(aS),0],D5=a('the quantity "'),D7=a(qL),D8=a(rI),D9=a(bN),D_=a(bL),D$=a(rZ),Ea=[0,a(aS),0],Eb=a('a bound "'),Ek=a(f8),El=a(eX),DS=a(bv),DT=a(e1),DQ=a(bv),DR=a(co),DN=a(bv),DO=a(gd),Dp=a(bv),Dq=a(gf),Dr=a(gg),Ds=a(co),Dt=a(gd),Du=a(e1),Dx=a(bl),Dy=a(bK),Dz=a(f7),DA=a(eS),DB=a(bl),DC=a(bK),DD=a(bM),DE=a(bM),DF=a(f7),DG=a(eS),DH=a(gg),DI=a(bl),DJ=a(bK),DK=a(rm),DL=a(f9),Dv=[0,a('" of such a machine'),0],Dw=a(qG),Dn=a(bv),Do=a(gg),C9=a(bv),C_=a(co),C$=a(gd),Da=a(e1),Dd=a(gf),De=a(bl),Df=a(bK),Dg=a(f7),Dh=a(eS),Di=a(bl),Dj=a(bK),Dk=a(bM),Dl=a(bM),Db=[0,a(aS),0],Dc=a(qG),C6=a(ig),C7=a(e0),C4=a(" is not covered by the verified checker"),C5=a(af),C2=a(bN),C3=a(bL),CY=a(af),CZ=a(sb),C0=a(af),C1=a(af),CX=[1,0],CW=a(e0),CU=a("Reader.Malformed"),CV=a("Reader.Not_covered"),H1=[0,a("a paving is checked by orthocert-verified")],H0=a(rq),H2=a("CERTIFIED"),H3=a("REFUTED"),H4=a(rq),H5=a("NOT COVERED: ");function
+gn(a){throw[0,ls,a]}function
+lu(b,a){return Jz(b,a)?b:a}function
 be(d,c){var
-a=az(d),e=az(c),b=cs(a+e|0);e3(d,0,b,0,a);e3(c,0,b,a,e);return is(b)}function
-lq(a,b){if(a){var
-c=a[1];return[0,c,lq(a[2],b)]}return b}JC(0);sx(1);sx(2);function
-lr(b){function
+a=az(d),e=az(c),b=cs(a+e|0);e3(d,0,b,0,a);e3(c,0,b,a,e);return iu(b)}function
+lv(a,b){if(a){var
+c=a[1];return[0,c,lv(a[2],b)]}return b}JD(0);sy(1);sy(2);function
+lw(b){function
 a(b){var
 a=b;for(;;){if(a){var
-c=a[2],d=a[1];try{JB(d)}catch(a){a=sG(a);if(a[1]!==lo)throw a;var
+c=a[2],d=a[1];try{JC(d)}catch(a){a=sH(a);if(a[1]!==lt)throw a;var
 e=a}var
-a=c;continue}return 0}}return a(JD(0))}JK(a(qt),lr);function
+a=c;continue}return 0}}return a(JE(0))}JL(a(qu),lw);function
 cu(c){var
 b=0,a=c;for(;;){if(a){var
 b=b+1|0,a=a[2];continue}return b}}function
-ls(d,c){var
+lx(d,c){var
 a=d,b=c;for(;;){if(a){var
 e=[0,a[1],b],a=a[2],b=e;continue}return b}}function
-iv(a){return ls(a,0)}function
+ix(a){return lx(a,0)}function
 X(b,a){if(a){var
 c=a[2],d=k(b,a[1]);return[0,d,X(b,c)]}return 0}function
-lt(e,d,c){var
+ly(e,d,c){var
 b=d,a=c;for(;;){if(a){var
 f=a[2],b=ao(e,b,a[1]),a=f;continue}return b}}function
-gn(d,c){var
+e9(d,c){var
 a=c;for(;;){if(a){var
 e=a[2],b=k(d,a[1]);if(b){var
 a=e;continue}return b}return 1}}function
@@ -736,56 +736,56 @@ aM(d,c){var
 a=c;for(;;){if(a){var
 e=a[2],b=k(d,a[1]);if(b)return b;var
 a=e;continue}return 0}}function
-lu(d,c){var
+lz(d,c){var
 a=c;for(;;){if(a){var
-b=a[1],e=a[2],f=b[2];if(0===Jj(b[1],d))return[0,f];var
+b=a[1],e=a[2],f=b[2];if(0===Jk(b[1],d))return[0,f];var
 a=e;continue}return 0}}function
 bP(b,c){var
-a=cs(b);Jl(a,0,b,c);return is(a)}function
+a=cs(b);Jm(a,0,b,c);return iu(a)}function
 ea(g,b,a){var
-d=e4(g),f=0;if(0<=b&&0<=a&&!((iq(d)-a|0)<b)){var
-c=cs(a);gh(d,b,c,0,a);var
+d=e4(g),f=0;if(0<=b&&0<=a&&!((is(d)-a|0)<b)){var
+c=cs(a);gi(d,b,c,0,a);var
 e=c;f=1}if(!f)var
-e=gm(sN);return is(e)}function
-lv(k,g){if(g){var
+e=gn(sO);return iu(e)}function
+lA(k,g){if(g){var
 h=az(k),c=0,b=g,p=0;for(;;){if(b){var
 i=b[1];if(b[2]){var
-j=(az(i)+h|0)+c|0,m=b[2],n=c<=j?j:gm(sO),c=n,b=m;continue}var
+j=(az(i)+h|0)+c|0,m=b[2],n=c<=j?j:gn(sP),c=n,b=m;continue}var
 l=az(i)+c|0}else
 var
 l=c;var
 f=cs(l),e=p,d=g;for(;;){if(d){var
 a=d[1];if(d[2]){var
 o=d[2];e3(a,0,f,e,az(a));e3(k,0,f,e+az(a)|0,h);var
-e=(e+az(a)|0)+h|0,d=o;continue}e3(a,0,f,e,az(a))}return is(f)}}}return sP}function
-iw(b,c){if(0===b)return[0];if(0<=b){var
-d=JA(b,k(c,0)),e=b-1|0,f=1;if(!(e<1)){var
+e=(e+az(a)|0)+h|0,d=o;continue}e3(a,0,f,e,az(a))}return iu(f)}}}return sQ}function
+iy(b,c){if(0===b)return[0];if(0<=b){var
+d=JB(b,k(c,0)),e=b-1|0,f=1;if(!(e<1)){var
 a=f;for(;;){d[1+a]=k(c,a);var
 g=a+1|0;if(e!==a){var
-a=g;continue}break}}return d}return gm(sQ)}function
-ix(c){var
+a=g;continue}break}}return d}return gn(sR)}function
+iz(c){var
 a=c.length-1-1|0,b=0;for(;;){if(0<=a){var
 d=[0,c[1+a],b],a=a-1|0,b=d;continue}return b}}var
-d=aI(0),b=aI(1);function
+d=aJ(0),b=aJ(1);function
 q(a){return E(a,b)}function
-lw(b,a){return E(aI(b),a)}function
-c(b,a){return C(aI(b),a)}function
-aT(b,a){return[0,ll(b,a),sJ(b,a)]}function
-iy(b,a){return D(b,a)?b:a}function
+lB(b,a){return E(aJ(b),a)}function
+c(b,a){return C(aJ(b),a)}function
+aU(b,a){return[0,lq(b,a),sK(b,a)]}function
+iA(b,a){return D(b,a)?b:a}function
 bm(b,a){return D(b,a)?a:b}function
-e9(a){return e9}function
-J(a){return a?0:1}function
+e_(a){return e_}function
+I(a){return a?0:1}function
 y(b,a){var
 c=a?[0,k(b,a[1])]:a;return c}function
 aA(a){return a[1]}function
 aN(a){return a[2]}function
-g(a){var
-b=a?[0,g(a[2])]:a;return b}function
-f(a,b){if(a){var
-c=f(a[2],b);return[0,a[1],c]}return b}function
-lx(a){return typeof
-a==="number"?0:[0,lx(a[1])]}function
-ly(d,c){var
+f(a){var
+b=a?[0,f(a[2])]:a;return b}function
+g(a,b){if(a){var
+c=g(a[2],b);return[0,a[1],c]}return b}function
+lC(a){return typeof
+a==="number"?0:[0,lC(a[1])]}function
+lD(d,c){var
 a=d,b=c;for(;;)if(typeof
 a==="number")return b;else
 switch(a[0]){case
@@ -808,9 +808,9 @@ a=a[1],b=[7,b];continue;case
 8:var
 a=a[1],b=[8,b];continue;default:var
 a=a[1],b=[9,b];continue}}function
-go(a){return ly(a,0)}function
-lz(a){if(typeof
-a==="number")return sS;else
+go(a){return lD(a,0)}function
+lE(a){if(typeof
+a==="number")return sT;else
 switch(a[0]){case
 0:return[1,a[1]];case
 1:return[2,a[1]];case
@@ -820,9 +820,9 @@ switch(a[0]){case
 5:return[6,a[1]];case
 6:return[7,a[1]];case
 7:return[8,a[1]];case
-8:return[9,a[1]];default:return[0,lz(a[1])]}}function
+8:return[9,a[1]];default:return[0,lE(a[1])]}}function
 bR(a){if(typeof
-a==="number")return sT;else
+a==="number")return sU;else
 switch(a[0]){case
 0:return[1,bQ(a[1])];case
 1:return[3,bQ(a[1])];case
@@ -847,73 +847,73 @@ switch(a[0]){case
 8:return[6,bR(a[1])];default:return[8,bR(a[1])]}}function
 bn(a){return a?a[1]:a}function
 M(b,a){return b?[0,M(b[1],a)]:a}function
-lA(a,b){return a?M(b,lA(a[1],b)):a}function
+lF(a,b){return a?M(b,lF(a[1],b)):a}function
 dx(d,c){var
 a=d,b=c;for(;;){if(a){if(b){var
 a=a[1],b=b[1];continue}return a}return a}}function
 cv(b,a){return b?a:a?0:1}function
-o(d,c){var
+n(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return a?0:1}}function
 aa(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return 1}}function
-aJ(b,a){return aa([0,b],a)}function
-lB(c){var
+aG(b,a){return aa([0,b],a)}function
+lG(c){var
 a=c;for(;;){if(a){var
 b=a[1];if(b){var
 a=b[1];continue}return b}return 1}}function
 gp(c,b,a){return c?k(b,gp(c[1],b,a)):a}function
-lC(a){if(a)var
-b=a[1],d=b?[0,lC(b[1])]:b,c=d;else
+lH(a){if(a)var
+b=a[1],d=b?[0,lH(b[1])]:b,c=d;else
 var
 c=a;return c}function
-iz(d,c){var
+iB(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return a?0:1}}function
-lD(a){if(D(a,b))return b;var
-e=aT(a,aI(2)),f=e[1];return L(e[2],d)?q(c(2,lD(f))):q(c(2,c(2,f)))}function
-lE(c,a){return bm(b,aL(c,a))}function
+lI(a){if(D(a,b))return b;var
+e=aU(a,aJ(2)),f=e[1];return J(e[2],d)?q(c(2,lI(f))):q(c(2,c(2,f)))}function
+lJ(c,a){return bm(b,aL(c,a))}function
 gq(a,i,h){var
 c=i,f=h;for(;;){if(D(f,b))return k(a,c);var
-g=aT(f,aI(2)),e=g[1];if(L(g[2],d)){var
+g=aU(f,aJ(2)),e=g[1];if(J(g[2],d)){var
 c=gq(a,c,e),f=e;continue}return k(a,gq(a,gq(a,c,e),e))}}function
 gr(a){function
 c(b){return C(a,b)}return function(a){return gq(c,b,a)}}function
-gs(a){if(D(a,b))return sV;var
-c=aT(a,aI(2)),e=c[1];return L(c[2],d)?[0,gs(e)]:[0,gs(e)]}function
+gs(a){if(D(a,b))return sW;var
+c=aU(a,aJ(2)),e=c[1];return J(c[2],d)?[0,gs(e)]:[0,gs(e)]}function
 gt(a){if(D(a,b))return b;var
-c=aT(a,aI(2)),e=c[1];return L(c[2],d)?q(gt(e)):q(gt(e))}function
-lF(c,b){var
-a=lk(c,b);return 0===a?0:0<=a?2:1}function
+c=aU(a,aJ(2)),e=c[1];return J(c[2],d)?q(gt(e)):q(gt(e))}function
+lK(c,b){var
+a=lp(c,b);return 0===a?0:0<=a?2:1}function
 gu(j,i){var
-c=j,a=i;for(;;){if(D(c,b))return D(a,b)?1:L(aT(a,aI(2))[2],d)?0:0;var
-g=aT(c,aI(2)),h=g[1];if(L(g[2],d)){if(D(a,b))return 0;var
-e=aT(a,aI(2)),k=e[1];if(L(e[2],d)){var
+c=j,a=i;for(;;){if(D(c,b))return D(a,b)?1:J(aU(a,aJ(2))[2],d)?0:0;var
+g=aU(c,aJ(2)),h=g[1];if(J(g[2],d)){if(D(a,b))return 0;var
+e=aU(a,aJ(2)),k=e[1];if(J(e[2],d)){var
 c=h,a=k;continue}return 0}if(D(a,b))return 0;var
-f=aT(a,aI(2)),l=f[1];if(L(f[2],d))return 0;var
+f=aU(a,aJ(2)),l=f[1];if(J(f[2],d))return 0;var
 c=h,a=l;continue}}function
-gv(b,a){return 2<=lF(b,a)?0:1}function
+gv(b,a){return 2<=lK(b,a)?0:1}function
 eb(i,e,a){if(i){var
 f=i[1];if(D(e,b))return[0,b,[0,b,a]];var
-w=aT(e,aI(2)),g=w[1];if(L(w[2],d)){if(D(a,b))return[0,b,[0,e,b]];var
-m=aT(a,aI(2)),A=m[1];if(L(m[2],d)){var
+w=aU(e,aJ(2)),g=w[1];if(J(w[2],d)){if(D(a,b))return[0,b,[0,e,b]];var
+m=aU(a,aJ(2)),A=m[1];if(J(m[2],d)){var
 j=eb(f,g,A),x=j[2];return[0,c(2,j[1]),x]}var
 k=eb(f,g,a),l=k[2],y=l[2],z=[0,c(2,l[1]),y];return[0,k[1],z]}if(D(a,b))return[0,b,[0,e,b]];var
-v=aT(a,aI(2)),h=v[1];if(L(v[2],d)){var
-n=eb(f,e,h),o=n[2],B=c(2,o[2]);return[0,n[1],[0,o[1],B]]}switch(lF(g,h)){case
+v=aU(a,aJ(2)),h=v[1];if(J(v[2],d)){var
+n=eb(f,e,h),o=n[2],B=c(2,o[2]);return[0,n[1],[0,o[1],B]]}switch(lK(g,h)){case
 0:return[0,e,[0,b,b]];case
 1:var
-p=eb(f,lE(h,g),e),q=p[2],r=q[2],C=[0,r,E(r,c(2,q[1]))];return[0,p[1],C];default:var
-s=eb(f,lE(g,h),a),t=s[2],u=t[2],F=[0,E(u,c(2,t[1])),u];return[0,s[1],F]}}return[0,b,[0,e,a]]}function
+p=eb(f,lJ(h,g),e),q=p[2],r=q[2],C=[0,r,E(r,c(2,q[1]))];return[0,p[1],C];default:var
+s=eb(f,lJ(g,h),a),t=s[2],u=t[2],F=[0,E(u,c(2,t[1])),u];return[0,s[1],F]}}return[0,b,[0,e,a]]}function
 gw(b,a){var
 c=gs(a);return eb(M(gs(b),c),b,a)}function
-lG(c,i,h){var
+lL(c,i,h){var
 e=i,a=h;for(;;){if(D(e,b))return a;var
-f=aT(e,aI(2)),g=f[1];if(L(f[2],d)){var
-e=g,a=ao(c,a,a);continue}return ao(c,a,lG(c,g,ao(c,a,a)))}}function
-e_(a){return lG(M,a,sW)}function
-lH(a){return a?q(lH(a[1])):b}function
+f=aU(e,aJ(2)),g=f[1];if(J(f[2],d)){var
+e=g,a=ao(c,a,a);continue}return ao(c,a,lL(c,g,ao(c,a,a)))}}function
+e$(a){return lL(M,a,sX)}function
+lM(a){return a?q(lM(a[1])):b}function
 cw(f,e){var
 a=f,d=e;for(;;)if(typeof
 a==="number")return d;else
@@ -937,23 +937,23 @@ t=C(c(2,q(c(2,c(2,b)))),d),u=E(q(c(2,q(c(2,b)))),t),a=a[1],d=u;continue;case
 8:var
 v=C(c(2,q(c(2,c(2,b)))),d),w=E(c(2,c(2,c(2,b))),v),a=a[1],d=w;continue;default:var
 x=C(c(2,q(c(2,c(2,b)))),d),y=E(q(c(2,c(2,c(2,b)))),x),a=a[1],d=y;continue}}function
-iA(a){if(D(a,b))return sX;var
-c=aT(a,aI(2)),e=c[1];return L(c[2],d)?bQ(iA(e)):bR(iA(e))}function
-gx(a){return go(iA(a))}function
-lI(c,b){var
-a=lk(c,b);return 0===a?0:0<=a?2:1}function
-iB(b,a){return 1===lI(b,a)?1:0}var
-lJ=E,sZ=T;function
-b_(k,f){if(0<=aS(f)){var
-g=iu(f);if(0<=g){var
+iC(a){if(D(a,b))return sY;var
+c=aU(a,aJ(2)),e=c[1];return J(c[2],d)?bQ(iC(e)):bR(iC(e))}function
+gx(a){return go(iC(a))}function
+lN(c,b){var
+a=lp(c,b);return 0===a?0:0<=a?2:1}function
+gy(b,a){return 1===lN(b,a)?1:0}var
+lO=E,s0=T;function
+b_(k,f){if(0<=aT(f)){var
+g=iw(f);if(0<=g){var
 e=b,c=k,a=g;for(;;){if(0===a)return e;var
-h=a>>>1|0,i=C(c,c),j=1===(a&1)?C(e,c):e,e=j,c=i,a=h;continue}}return gm(sR)}return d}function
-iC(c){var
-a=aS(c);return 0===a?d:0<a?b:T(b)}function
-iD(a){return 0<=aS(a)?a:d}function
+h=a>>>1|0,i=C(c,c),j=1===(a&1)?C(e,c):e,e=j,c=i,a=h;continue}}return gn(sS)}return d}function
+iD(c){var
+a=aT(c);return 0===a?d:0<a?b:T(b)}function
+iE(a){return 0<=aT(a)?a:d}function
 ec(a){var
-c=aS(a);return 0===c?b:0<c?a:b}function
-lK(m){var
+c=aT(a);return 0===c?b:0<c?a:b}function
+lP(m){var
 a=m;for(;;)if(typeof
 a==="number")return d;else
 switch(a[0]){case
@@ -976,15 +976,15 @@ j=q(c(2,q(c(2,b))));return cw(a[1],j);case
 k=c(2,c(2,c(2,b)));return cw(a[1],k);default:var
 l=q(c(2,c(2,c(2,b))));return cw(a[1],l)}}function
 cx(b,a){var
-c=aS(a);return 0===c?d:1===c?ll(b,a):lw(-1,ll(lw(-1,b),a))}function
-lL(a){var
-f=aS(a);if(0===f)return d;if(0<f){if(D(a,b))return d;var
-c=aT(a,aI(2)),e=c[1];return L(c[2],d)?gt(e):gt(e)}return d}function
-gy(a){return 0<aS(a)?JU(a):d}function
-e$(b,c){var
-a=iu(c);return 0<=a?sK(b,a):sL(b,-a|0)}function
+c=aT(a);return 0===c?d:1===c?lq(b,a):lB(-1,lq(lB(-1,b),a))}function
+lQ(a){var
+f=aT(a);if(0===f)return d;if(0<f){if(D(a,b))return d;var
+c=aU(a,aJ(2)),e=c[1];return J(c[2],d)?gt(e):gt(e)}return d}function
+gz(a){return 0<aT(a)?JV(a):d}function
+fa(b,c){var
+a=iw(c);return 0<=a?sL(b,a):sM(b,-a|0)}function
 dy(b,c){var
-a=iu(c);return 0<=a?sL(b,a):sK(b,-a|0)}function
+a=iw(c);return 0<=a?sM(b,a):sL(b,-a|0)}function
 bS(b,a){return a?a[1]:b}function
 bC(a){var
 b=a?a[2]:a;return b}function
@@ -995,14 +995,14 @@ F(d,c){var
 a=d,b=c;for(;;){if(b){if(a){var
 a=a[2],b=b[1];continue}return a}var
 e=a?[0,a[1]]:a;return e}}function
-lM(a){if(a){var
-b=[0,a[1],0];return f(lM(a[2]),b)}return a}function
-fa(d,c){var
+lR(a){if(a){var
+b=[0,a[1],0];return g(lR(a[2]),b)}return a}function
+fb(d,c){var
 a=d,b=c;for(;;){if(a){var
 e=[0,a[1],b],a=a[2],b=e;continue}return b}}function
 ed(a){if(a){var
-b=ed(a[2]);return f(a[1],b)}return a}function
-iE(g,f,e){var
+b=ed(a[2]);return g(a[1],b)}return a}function
+iF(g,f,e){var
 b=f,a=e;for(;;){if(b){if(a){var
 c=ao(g,b[1],a[1]);if(c){var
 b=b[2],a=a[2];continue}var
@@ -1014,7 +1014,7 @@ d=e(b,a[2]),c=[0,k(b,a[1]),d];else
 var
 c=a;return c}function
 z(b,a){if(a){var
-c=z(b,a[2]);return f(k(b,a[1]),c)}return a}function
+c=z(b,a[2]);return g(k(b,a[1]),c)}return a}function
 bT(e,d,c){var
 a=d,b=c;for(;;){if(a){var
 f=ao(e,b,a[1]),a=a[2],b=f;continue}return b}}function
@@ -1035,12 +1035,12 @@ a1(b,e){var
 a=e;for(;;){if(a){var
 c=a[2],d=a[1];if(k(b,d))return[0,d,a1(b,c)];var
 a=c;continue}return a}}function
-lN(d,c){var
+lS(d,c){var
 a=c;for(;;){if(a){var
 b=a[1];if(k(d,b))return[0,b];var
 a=a[2];continue}return a}}function
-W(b,a){if(b)if(a)var
-d=W(b[2],a[2]),c=[0,[0,b[1],a[1]],d];else
+U(b,a){if(b)if(a)var
+d=U(b[2],a[2]),c=[0,[0,b[1],a[1]],d];else
 var
 c=a;else
 var
@@ -1056,43 +1056,43 @@ b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[2];continue}return a}return a}}function
 aC(b,a){var
 c=a?[0,b,aC([0,b],a[1])]:a;return c}function
-ab(b,a){var
-c=a?[0,b,ab(b,a[1])]:a;return c}function
-lO(a){return ap(M,0,a)}function
-lP(a){if(a){var
-e=lP(a[2]),f=C(c(2,b),e),g=a[1]?b:d;return E(g,f)}return d}function
-gz(j){function
+ac(b,a){var
+c=a?[0,b,ac(b,a[1])]:a;return c}function
+lT(a){return ap(M,0,a)}function
+lU(a){if(a){var
+e=lU(a[2]),f=C(c(2,b),e),g=a[1]?b:d;return E(g,f)}return d}function
+gA(j){function
 a(a){return 0!==(j&1<<a)?1:0}var
-c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=lP([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<aS(b)?e_(b):0}function
-lQ(a){return[0,a,b]}function
+c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=lU([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<aT(b)?e$(b):0}function
+lV(a){return[0,a,b]}function
 ee(c,b){var
-a=lk(C(c[1],b[2]),C(b[1],c[2])),d=0===a?0:0<=a?2:1;return d?0:1}function
+a=lp(C(c[1],b[2]),C(b[1],c[2])),d=0===a?0:0<=a?2:1;return d?0:1}function
 bf(b,a){return D(C(b[1],a[2]),C(a[1],b[2]))}function
 dz(b,a){return[0,E(C(b[1],a[2]),C(a[1],b[2])),C(b[2],a[2])]}function
 a3(b,a){return[0,C(b[1],a[1]),C(b[2],a[2])]}function
-gA(a){return[0,T(a[1]),a[2]]}function
-dA(b,a){return dz(b,gA(a))}function
-gB(f,c){var
-a=c[1],e=aS(a),g=0===e?[0,d,b]:0<e?[0,c[2],a]:[0,T(c[2]),T(a)];return a3(f,g)}function
+gB(a){return[0,T(a[1]),a[2]]}function
+dA(b,a){return dz(b,gB(a))}function
+gC(f,c){var
+a=c[1],e=aT(a),g=0===e?[0,d,b]:0<e?[0,c[2],a]:[0,T(c[2]),T(a)];return a3(f,g)}function
 dB(q){var
-a=q[2],b=q[1],o=aS(b);if(0===o)var
-c=[0,ct(a),[0,d,iC(a)]];else
+a=q[2],b=q[1],o=aT(b);if(0===o)var
+c=[0,ct(a),[0,d,iD(a)]];else
 if(0<o){var
-n=aS(a);if(0===n)var
-c=[0,ct(b),[0,iC(b),d]];else
+n=aT(a);if(0===n)var
+c=[0,ct(b),[0,iD(b),d]];else
 if(0<n)var
 l=gw(b,a),m=l[2],c=[0,l[1],[0,m[1],m[2]]];else
 var
 j=gw(b,T(a)),k=j[2],c=[0,j[1],[0,k[1],T(k[2])]]}else{var
-p=T(b),i=aS(a);if(0===i)var
-c=[0,ct(b),[0,iC(b),d]];else
+p=T(b),i=aT(a);if(0===i)var
+c=[0,ct(b),[0,iD(b),d]];else
 if(0<i)var
 g=gw(p,a),h=g[2],c=[0,g[1],[0,T(h[1]),h[2]]];else
 var
 e=gw(p,T(a)),f=e[2],c=[0,e[1],[0,T(f[1]),T(f[2])]]}var
 r=c[2],s=ec(r[2]);return[0,r[1],s]}function
 bo(a){if(typeof
-a==="number")return s1;else
+a==="number")return s2;else
 switch(a[0]){case
 0:var
 b=bo(a[1]);return be(bP(1,48),b);case
@@ -1113,49 +1113,49 @@ i=bo(a[1]);return be(bP(1,55),i);case
 8:var
 j=bo(a[1]);return be(bP(1,56),j);default:var
 k=bo(a[1]);return be(bP(1,57),k)}}function
-fb(a){return typeof
-a==="number"?s2:bo(a)}function
+fc(a){return typeof
+a==="number"?s3:bo(a)}function
 cy(a){return b_(c(2,b),a)}function
-lR(b,a){return dy(a,b)}function
-lS(b,a){return T(dy(T(a),b))}function
-gC(b,a){return T(cx(T(b),a))}function
-O(c,b){var
-a=e$(b,c);return[0,a,a]}function
-lT(d,c,a){var
-b=e$(c,d),e=gC(b,a);return[0,cx(b,a),e]}function
+lW(b,a){return dy(a,b)}function
+lX(b,a){return T(dy(T(a),b))}function
+gD(b,a){return T(cx(T(b),a))}function
+N(c,b){var
+a=fa(b,c);return[0,a,a]}function
+lY(d,c,a){var
+b=fa(c,d),e=gD(b,a);return[0,cx(b,a),e]}function
 A(b,a){return[0,E(b[1],a[1]),E(b[2],a[2])]}function
 G(b,a){return[0,aL(b[1],a[2]),aL(b[2],a[1])]}function
-ac(a){return[0,T(a[2]),T(a[1])]}function
-lU(e,c,b,a){if(D(d,e))return D(d,b)?[0,C(e,b),C(c,a)]:D(a,d)?[0,C(c,b),C(e,a)]:[0,C(c,b),C(c,a)];if(D(c,d))return D(d,b)?[0,C(e,a),C(c,b)]:D(a,d)?[0,C(c,a),C(e,b)]:[0,C(e,a),C(e,b)];if(D(d,b))return[0,C(e,a),C(c,a)];if(D(a,d))return[0,C(c,b),C(e,b)];var
-f=bm(C(e,b),C(c,a));return[0,iy(C(e,a),C(c,b)),f]}function
+ab(a){return[0,T(a[2]),T(a[1])]}function
+lZ(e,c,b,a){if(D(d,e))return D(d,b)?[0,C(e,b),C(c,a)]:D(a,d)?[0,C(c,b),C(e,a)]:[0,C(c,b),C(c,a)];if(D(c,d))return D(d,b)?[0,C(e,a),C(c,b)]:D(a,d)?[0,C(c,a),C(e,b)]:[0,C(e,a),C(e,b)];if(D(d,b))return[0,C(e,a),C(c,a)];if(D(a,d))return[0,C(c,b),C(e,b)];var
+f=bm(C(e,b),C(c,a));return[0,iA(C(e,a),C(c,b)),f]}function
 t(c,b,a){var
-d=lU(b[1],b[2],a[1],a[2]),e=lS(c,d[2]);return[0,lR(c,d[1]),e]}function
-U(b,a){var
-c=C(a[1],a[1]),e=C(a[2],a[2]),h=lS(b,bm(c,e)),g=0;if(I(a[1],d)&&I(d,a[2])){var
+d=lZ(b[1],b[2],a[1],a[2]),e=lX(c,d[2]);return[0,lW(c,d[1]),e]}function
+V(b,a){var
+c=C(a[1],a[1]),e=C(a[2],a[2]),h=lX(b,bm(c,e)),g=0;if(K(a[1],d)&&K(d,a[2])){var
 f=d;g=1}if(!g)var
-f=lR(b,iy(c,e));return[0,f,h]}function
-iF(b,a){var
-c=e$(cy(b),b),d=gC(c,a[1]);return[0,cx(c,a[2]),d]}function
-b$(b,a){if(I(d,a[1]))return[0,iF(b,a)];var
-c=I(a[2],d),e=c?[0,ac(iF(b,ac(a)))]:c;return e}function
-iG(c){var
-a=gy(c);return L(C(a,a),c)?a:E(a,b)}function
+f=lW(b,iA(c,e));return[0,f,h]}function
+iG(b,a){var
+c=fa(cy(b),b),d=gD(c,a[1]);return[0,cx(c,a[2]),d]}function
+b$(b,a){if(K(d,a[1]))return[0,iG(b,a)];var
+c=K(a[2],d),e=c?[0,ab(iG(b,ab(a)))]:c;return e}function
+iH(c){var
+a=gz(c);return J(C(a,a),c)?a:E(a,b)}function
 ca(b,a){var
-c=I(d,a[1]);if(c)var
-f=iG(e$(a[2],b)),e=[0,[0,gy(e$(a[1],b)),f]];else
+c=K(d,a[1]);if(c)var
+f=iH(fa(a[2],b)),e=[0,[0,gz(fa(a[1],b)),f]];else
 var
 e=c;return e}function
 ef(a){return 0===a[0]?a[2]:a[1]}function
 aP(f,d,c,b,a){if(b){if(a){var
 g=aP(f,d,c,b[2],a[2]);return[0,ao(c,b[1],a[1]),g]}return e(f,b)}return e(d,a)}function
 cX(b,a){return dy(b,a)}function
-aU(a,c,b){if(D(d,a)){var
+aQ(a,c,b){if(D(d,a)){var
 e=b[1],f=T(cX(T(C(a,b[2])),c));return[0,cX(C(a,e),c),f]}var
 g=b[2],h=T(cX(T(C(a,b[1])),c));return[0,cX(C(a,g),c),h]}function
 aw(a){var
 c=T(dy(T(a[2]),b));return[0,dy(a[1],b),c]}function
 eg(c,b,a){var
-e=lU(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=I(f,d)?a[2]:a[1],i=gC(f,h),j=I(g,d)?a[1]:a[2];return[0,cx(g,j),i]}function
+e=lZ(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=K(f,d)?a[2]:a[1],i=gD(f,h),j=K(g,d)?a[1]:a[2];return[0,cx(g,j),i]}function
 cb(a){return bm(a[2],T(a[1]))}var
 u=[0,d,d];function
 cc(a){return[0,a[1],a[1]]}function
@@ -1176,12 +1176,12 @@ f=k(b,a[2]);return[7,k(b,a[1]),f];case
 8:return[8,k(b,a[1])];case
 9:return[9,k(b,a[1])];default:var
 g=k(b,a[4]),h=k(b,a[3]),i=k(b,a[2]);return[10,a[1],i,h,g]}}function
-aO(n,m){var
-d=n,c=m;for(;;){var
+aO(o,m){var
+d=o,c=m;for(;;){var
 a=c[1],b=d[1];switch(b[0]){case
-0:return 0===a[0]?o(b[1],a[1]):0;case
-1:return 1===a[0]?o(b[1],a[1]):0;case
-2:return 2===a[0]?L(b[1],a[1]):0;case
+0:return 0===a[0]?n(b[1],a[1]):0;case
+1:return 1===a[0]?n(b[1],a[1]):0;case
+2:return 2===a[0]?J(b[1],a[1]):0;case
 3:if(3===a[0]){var
 f=aO(b[1],a[1]);if(f){var
 d=b[2],c=a[2];continue}return f}return 0;case
@@ -1209,47 +1209,47 @@ var
 e=k}else
 var
 e=j;return e}return 0}}}function
-gD(b){var
+gE(b){var
 a=b[1];return 2===a[0]?[0,a[1]]:0}function
-a9(c,b){var
-a=gD(b);return a?L(c,a[1]):a}function
-fc(a){return I(ct(a),c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b))))))))))))))))}function
+a_(c,b){var
+a=gE(b);return a?J(c,a[1]):a}function
+fd(a){return K(ct(a),c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b))))))))))))))))}function
 m(a){return[0,[2,a]]}function
-B(b,a){if(a9(d,b))return a;if(a9(d,a))return b;var
-c=gD(b);if(c){var
-e=c[1],f=gD(a);if(f){var
-g=f[1];if(fc(e)&&fc(g))return m(E(e,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
+B(b,a){if(a_(d,b))return a;if(a_(d,a))return b;var
+c=gE(b);if(c){var
+e=c[1],f=gE(a);if(f){var
+g=f[1];if(fd(e)&&fd(g))return m(E(e,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
 bp(a){var
 b=a[1];switch(b[0]){case
 2:var
-c=b[1];return fc(c)?m(T(c)):[0,[5,a]];case
+c=b[1];return fd(c)?m(T(c)):[0,[5,a]];case
 5:return b[1];default:return[0,[5,a]]}}function
-x(b,a){if(a9(d,a))return b;if(a9(d,b))return bp(a);var
+x(b,a){if(a_(d,a))return b;if(a_(d,b))return bp(a);var
 c=b[1];if(0===c[0]){var
-e=a[1];return 0===e[0]?o(c[1],e[1])?m(d):[0,[4,b,a]]:[0,[4,b,a]]}return[0,[4,b,a]]}function
-V(a){var
-c=gD(a);if(c){var
-b=c[1];return fc(b)?m(C(b,b)):[0,[8,a]]}return[0,[8,a]]}function
-s(a,c){if(!a9(d,a)&&!a9(b,c)){if(!a9(d,c)&&!a9(b,a))return aO(a,c)?V(a):[0,[6,a,c]];return c}return a}function
-al(c,a){return a9(b,a)?c:[0,[7,c,a]]}function
-aK(a){return a9(b,a)?a:[0,[9,a]]}function
-lV(d,c,b,a){return[0,[10,d,c,b,a]]}function
+e=a[1];return 0===e[0]?n(c[1],e[1])?m(d):[0,[4,b,a]]:[0,[4,b,a]]}return[0,[4,b,a]]}function
+W(a){var
+c=gE(a);if(c){var
+b=c[1];return fd(b)?m(C(b,b)):[0,[8,a]]}return[0,[8,a]]}function
+s(a,c){if(!a_(d,a)&&!a_(b,c)){if(!a_(d,c)&&!a_(b,a))return aO(a,c)?W(a):[0,[6,a,c]];return c}return a}function
+al(c,a){return a_(b,a)?c:[0,[7,c,a]]}function
+aK(a){return a_(b,a)?a:[0,[9,a]]}function
+l0(d,c,b,a){return[0,[10,d,c,b,a]]}function
 bg(f,e,d,c){var
 b=d,a=c;for(;;){if(b){var
 g=b[1],h=[0,k(e,bU(function(b){return function(a){return r(a,b,f)}}(a),g)),a],b=b[2],a=h;continue}return a}}function
-lW(d,f,j,i,h){var
+l1(d,f,j,i,h){var
 b=j,c=i,a=h;for(;;){if(c){var
 e=c[2],g=c[1];if(b){if(b[1]){var
 l=[0,k(f,bU(function(b){return function(a){return r(a,b,d)}}(a),g)),a],b=bC(b),c=e,a=l;continue}var
 b=b[2],c=e,a=[0,d,a];continue}var
 m=[0,k(f,bU(function(b){return function(a){return r(a,b,d)}}(a),g)),a],b=bC(b),c=e,a=m;continue}return a}}function
-fd(b,a){if(a){var
+fe(b,a){if(a){var
 c=a[2];if(b){var
-e=fd(b[1],c);return[0,a[1],e]}var
+e=fe(b[1],c);return[0,a[1],e]}var
 d=[0,1,c]}else
 var
 d=a;return d}function
-lX(a){switch(a[0]){case
+l2(a){switch(a[0]){case
 10:return[0,a[2],[0,a[3],[0,a[4],0]]];case
 5:case
 8:case
@@ -1257,9 +1257,9 @@ lX(a){switch(a[0]){case
 0:case
 1:case
 2:return 0;default:return[0,a[1],[0,a[2],0]]}}function
-gE(j,g){var
-k=0,l=ap(fd,e(function(a){return 0},g),j),c=fa(g,0),b=l,a=k;for(;;){if(c){if(b){var
-d=b[2],f=b[1],h=[0,f,a],i=f?ap(fd,d,lX(c[1])):d,c=c[2],b=i,a=h;continue}return a}return a}}function
+gF(j,g){var
+k=0,l=ap(fe,e(function(a){return 0},g),j),c=fb(g,0),b=l,a=k;for(;;){if(c){if(b){var
+d=b[2],f=b[1],h=[0,f,a],i=f?ap(fe,d,l2(c[1])):d,c=c[2],b=i,a=h;continue}return a}return a}}function
 cY(a){var
 b=0;function
 c(a){return[0,a]}return bg(m(d),c,a,b)}function
@@ -1282,28 +1282,28 @@ c=b;break;default:var
 i=dC(a[1],b),c=dC(a[2],i)}var
 f=c[2],g=c[1],h=[0,bU(function(a){return bh(g,a)},a),f];return[0,[0,d,c[1]],h]}function
 cZ(a){var
-b=bT(function(b,a){return dC(a,b)},a,s3),c=b[1],d=e(function(a){return bh(c,a)},a);return[0,lM(b[2]),d]}function
-fe(a){return ap(function(b,a){return E(cb(b),a)},d,a)}function
+b=bT(function(b,a){return dC(a,b)},a,s4),c=b[1],d=e(function(a){return bh(c,a)},a);return[0,lR(b[2]),d]}function
+ff(a){return ap(function(b,a){return E(cb(b),a)},d,a)}function
 cA(b,c,a){var
-d=fe(a),e=iy(c[2],E(b[2],d)),f=fe(a);return[0,b,[0,bm(c[1],aL(b[1],f)),e],a]}function
+d=ff(a),e=iA(c[2],E(b[2],d)),f=ff(a);return[0,b,[0,bm(c[1],aL(b[1],f)),e],a]}function
 $(a){return[0,a,a,0]}function
 cd(b,a){var
 c=a[3],d=b[3];function
 e(a){return a}var
 f=aP(function(a){return a},e,A,d,c),g=A(b[2],a[2]);return cA(A(b[1],a[1]),g,f)}function
 bx(b,a){var
-c=a[3],d=b[3],e=aP(function(a){return a},ac,G,d,c),f=G(b[2],a[2]);return cA(G(b[1],a[1]),f,e)}function
-ff(a){var
-b=e(ac,a[3]),c=ac(a[2]);return[0,ac(a[1]),c,b]}function
-aQ(a,c,b){var
+c=a[3],d=b[3],e=aP(function(a){return a},ab,G,d,c),f=G(b[2],a[2]);return cA(G(b[1],a[1]),f,e)}function
+fg(a){var
+b=e(ab,a[3]),c=ab(a[2]);return[0,ab(a[1]),c,b]}function
+aR(a,c,b){var
 d=A(b[2],b[1]),e=A(c[2],c[1]),f=b[3],g=c[3];function
 h(c,b){var
 f=t(a,e,b);return aw(A(t(a,d,c),f))}function
 i(b){return aw(t(a,e,b))}var
 j=aP(function(b){return aw(t(a,d,b))},i,h,g,f),k=t(a,c[2],b[2]);return cA(t(a,c[1],b[1]),k,j)}function
-fg(b,a){var
-c=a[3],d=A(a[2],a[1]),f=e(function(a){return t(b,d,a)},c),g=U(b,a[2]);return cA(U(b,a[1]),g,f)}function
-iH(a,b){var
+fh(b,a){var
+c=a[3],d=A(a[2],a[1]),f=e(function(a){return t(b,d,a)},c),g=V(b,a[2]);return cA(V(b,a[1]),g,f)}function
+iI(a,b){var
 c=ca(a,b[1]);if(c){var
 g=c[1],d=ca(a,b[2]);if(d){var
 h=d[1],f=b$(a,A(h,g));if(f)var
@@ -1319,31 +1319,31 @@ k=c;return k}function
 eh(a,c,b){var
 d=b$(a,b[1]);if(d){var
 f=b$(a,b[2]);if(f)var
-h=f[1],g=t(a,c[1],d[1]),k=b[3],l=c[3],m=function(c,b){return G(c,t(a,g,b))},n=function(b){return ac(t(a,g,b))},o=aP(function(a){return a},n,m,l,k),p=e(function(b){return t(a,h,b)},o),i=[0,cA(g,t(a,c[2],h),p)];else
+h=f[1],g=t(a,c[1],d[1]),k=b[3],l=c[3],m=function(c,b){return G(c,t(a,g,b))},n=function(b){return ab(t(a,g,b))},o=aP(function(a){return a},n,m,l,k),p=e(function(b){return t(a,h,b)},o),i=[0,cA(g,t(a,c[2],h),p)];else
 var
 i=f;var
 j=i}else
 var
 j=d;return j}function
 c0(b,a){return a?k(b,a[1]):a}function
-gF(a){var
+gG(a){var
 b=e(aw,a[3]),c=aw(A(a[2],a[1]));return cA(a[1],c,b)}function
-lY(a,k,j,r,c){var
-l=gF(k),m=gF(j),g=gF(c[1]),h=gF(c[2]),s=aQ(a,l,h),u=bx(aQ(a,m,g),s),i=eh(a,$(O(a,b)),u);if(i)var
-f=i[1],n=aQ(a,bx(l,g),f),o=aQ(a,bx(m,h),f),d=function(c,b){return aQ(a,c,$(b))},v=j[3],w=k[3],x=function(b,a){var
-c=d(o,a);return cd(d(n,b),c)},y=function(a){return d(o,a)},z=aP(function(a){return d(n,a)},y,x,w,v),A=r[3],B=function(b,a){return bx(b,d(f,aw(a)))[2]},C=function(a){return ff(d(f,aw(a)))[2]},p=aP(function(a){return a[2]},C,B,z,A),D=g[2],E=e(function(b){return t(a,D,b)},p),F=cA(c[2][1],c[2][2],E),G=ac(h[2]),H=e(function(b){return t(a,G,b)},p),q=[0,[0,cA(c[1][1],c[1][2],H),F]];else
+l3(a,k,j,r,c){var
+l=gG(k),m=gG(j),g=gG(c[1]),h=gG(c[2]),s=aR(a,l,h),u=bx(aR(a,m,g),s),i=eh(a,$(N(a,b)),u);if(i)var
+f=i[1],n=aR(a,bx(l,g),f),o=aR(a,bx(m,h),f),d=function(c,b){return aR(a,c,$(b))},v=j[3],w=k[3],x=function(b,a){var
+c=d(o,a);return cd(d(n,b),c)},y=function(a){return d(o,a)},z=aP(function(a){return d(n,a)},y,x,w,v),A=r[3],B=function(b,a){return bx(b,d(f,aw(a)))[2]},C=function(a){return fg(d(f,aw(a)))[2]},p=aP(function(a){return a[2]},C,B,z,A),D=g[2],E=e(function(b){return t(a,D,b)},p),F=cA(c[2][1],c[2][2],E),G=ab(h[2]),H=e(function(b){return t(a,G,b)},p),q=[0,[0,cA(c[1][1],c[1][2],H),F]];else
 var
 q=i;return q}function
-lZ(a,e,d,k){var
-p=fg(a,d),f=cd(fg(a,e),p),g=bx(cd(f,$(O(a,b))),k),l=aQ(a,$(O(a,c(2,b))),f),q=fg(a,g),h=iH(a,bx(aQ(a,$(O(a,c(2,c(2,b)))),f),q));if(h){var
-m=h[1],r=aQ(a,m,d),i=eh(a,cd(aQ(a,g,e),r),l);if(i)var
-s=aQ(a,m,e),j=eh(a,bx(aQ(a,g,d),s),l),t=j?[0,[0,i[1],j[1]]]:j,n=t;else
+l4(a,e,d,k){var
+p=fh(a,d),f=cd(fh(a,e),p),g=bx(cd(f,$(N(a,b))),k),l=aR(a,$(N(a,c(2,b))),f),q=fh(a,g),h=iI(a,bx(aR(a,$(N(a,c(2,c(2,b)))),f),q));if(h){var
+m=h[1],r=aR(a,m,d),i=eh(a,cd(aR(a,g,e),r),l);if(i)var
+s=aR(a,m,e),j=eh(a,bx(aR(a,g,d),s),l),t=j?[0,[0,i[1],j[1]]]:j,n=t;else
 var
 n=i;var
 o=n}else
 var
 o=h;var
-u=c0(function(b){return lY(a,e,d,k,b)},o);return c0(function(b){return lY(a,e,d,k,b)},u)}function
+u=c0(function(b){return l3(a,e,d,k,b)},o);return c0(function(b){return l3(a,e,d,k,b)},u)}function
 cB(d,b,a){if(b){if(a)return ao(d,b[1],a[1]);var
 c=a}else
 var
@@ -1352,25 +1352,25 @@ bD(b,j,i){var
 f=$(u);return function(a){switch(a[0]){case
 0:return[0,r(a[1],j,f)];case
 1:return[0,r(a[1],i,f)];case
-2:return[0,$(O(b,a[1]))];case
+2:return[0,$(N(b,a[1]))];case
 3:var
 k=a[2],l=a[1];return cB(function(b,a){return[0,cd(b,a)]},l,k);case
 4:var
 m=a[2],n=a[1];return cB(function(b,a){return[0,bx(b,a)]},n,m);case
 5:var
-o=a[1];return c0(function(a){return[0,ff(a)]},o);case
+o=a[1];return c0(function(a){return[0,fg(a)]},o);case
 6:var
-p=a[2],q=a[1];return cB(function(c,a){return[0,aQ(b,c,a)]},q,p);case
+p=a[2],q=a[1];return cB(function(c,a){return[0,aR(b,c,a)]},q,p);case
 7:var
 s=a[2],t=a[1];return cB(function(a,c){return eh(b,a,c)},t,s);case
 8:var
-u=a[1];return c0(function(a){return[0,fg(b,a)]},u);case
+u=a[1];return c0(function(a){return[0,fh(b,a)]},u);case
 9:var
-v=a[1];return c0(function(a){return iH(b,a)},v);default:var
+v=a[1];return c0(function(a){return iI(b,a)},v);default:var
 c=a[2];if(c){var
 d=a[3];if(d){var
 e=a[4];if(e){var
-w=lZ(b,c[1],d[1],e[1]),x=a[1]?aN:aA;return y(x,w)}var
+w=l4(b,c[1],d[1],e[1]),x=a[1]?aN:aA;return y(x,w)}var
 g=e}else
 var
 g=d;var
@@ -1388,10 +1388,10 @@ a=a[2];continue}}function
 ce(r,q){var
 b=r,a=q;for(;;)switch(b[0]){case
 0:if(0===a[0]){var
-c=L(b[1],a[1]);return c?gu(b[2],a[2]):c}return 0;case
+c=J(b[1],a[1]);return c?gu(b[2],a[2]):c}return 0;case
 1:var
 d=b[3],e=b[2];if(1===a[0]){var
-f=a[3],g=a[2],h=o(b[1],a[1]),i=h?L(e[1],g[1]):h,j=i?gu(e[2],g[2]):i,k=j?L(d[1],f[1]):j;return k?gu(d[2],f[2]):k}return 0;case
+f=a[3],g=a[2],h=n(b[1],a[1]),i=h?J(e[1],g[1]):h,j=i?gu(e[2],g[2]):i,k=j?J(d[1],f[1]):j;return k?gu(d[2],f[2]):k}return 0;case
 2:if(2===a[0]){var
 l=ce(b[1],a[1]);if(l){var
 b=b[2],a=a[2];continue}return l}return 0;case
@@ -1399,13 +1399,13 @@ b=b[2],a=a[2];continue}return l}return 0;case
 m=ce(b[1],a[1]);if(m){var
 b=b[2],a=a[2];continue}return m}return 0;case
 4:if(4===a[0]){var
-n=ce(b[1],a[1]);if(n){var
-b=b[2],a=a[2];continue}return n}return 0;case
+o=ce(b[1],a[1]);if(o){var
+b=b[2],a=a[2];continue}return o}return 0;case
 5:if(5===a[0]){var
 p=ce(b[1],a[1]);if(p){var
 b=b[2],a=a[2];continue}return p}return 0;default:if(6===a[0]){var
 b=b[1],a=a[1];continue}return 0}}function
-fh(c,a){switch(a[0]){case
+fi(c,a){switch(a[0]){case
 0:return[0,[0,a[1],a[2]]];case
 1:return 0;case
 2:var
@@ -1415,17 +1415,17 @@ o=a[2],p=a[1],g=o,f=p,e=function(b,a){return[0,dA(b,a)]};break;case
 4:var
 q=a[2],r=a[1],g=q,f=r,e=function(b,a){return[0,a3(b,a)]};break;case
 5:var
-s=a[2],t=a[1],g=s,f=t,e=function(c,a){return ee(a,[0,d,b])?0:[0,gB(c,a)]};break;default:var
-j=fh(c,a[1]);return j?k(c,j[1]):j}var
-h=fh(c,f);if(h){var
-i=fh(c,g);if(i)return e(h[1],i[1]);var
+s=a[2],t=a[1],g=s,f=t,e=function(c,a){return ee(a,[0,d,b])?0:[0,gC(c,a)]};break;default:var
+j=fi(c,a[1]);return j?k(c,j[1]):j}var
+h=fi(c,f);if(h){var
+i=fi(c,g);if(i)return e(h[1],i[1]);var
 l=i}else
 var
 l=h;return l}function
-s4(a){return 0}function
-cC(a){return fh(s4,a)}function
+s5(a){return 0}function
+cC(a){return fi(s5,a)}function
 bV(a,c){switch(c[0]){case
-0:return[0,lT(a,c[1],c[2])];case
+0:return[0,lY(a,c[1],c[2])];case
 1:return 0;case
 2:var
 g=bV(a,c[1]);if(g)var
@@ -1452,188 +1452,188 @@ x=w}else
 var
 x=m;return x;default:var
 z=c[1],p=bV(a,z);if(p){var
-e=p[1];if(I(d,e[1]))return ca(a,e);var
-f=cC(z),K=f?J(bf([0,d,b],f[1])):f;if(K)return 0;if(I(d,e[2])){var
+e=p[1];if(K(d,e[1]))return ca(a,e);var
+f=cC(z),L=f?I(bf([0,d,b],f[1])):f;if(L)return 0;if(K(d,e[2])){var
 B=ca(a,[0,e[2],e[2]]);return y(function(a){return[0,d,a[2]]},B)}var
-q=L(e[2],d),C=q?[0,u]:q;return C}return p}}function
-cD(b,a){return lT(b,a[1],a[2])}function
-l0(a,g,e,d){var
-h=[0,b,c(2,b)],i=[0,cD(a,a3(dA(d,e),h)),0],j=f(ab(u,g),i),k=cD(a,d)[2],l=[0,cD(a,e)[1],k],m=[0,b,c(2,b)];return[0,cD(a,a3(dz(e,d),m)),l,j]}function
+q=J(e[2],d),C=q?[0,u]:q;return C}return p}}function
+cD(b,a){return lY(b,a[1],a[2])}function
+l5(a,f,e,d){var
+h=[0,b,c(2,b)],i=[0,cD(a,a3(dA(d,e),h)),0],j=g(ac(u,f),i),k=cD(a,d)[2],l=[0,cD(a,e)[1],k],m=[0,b,c(2,b)];return[0,cD(a,a3(dz(e,d),m)),l,j]}function
 ei(c,e,a){function
 b(a){return ei(c,e,a)}if(dD(a))switch(a[0]){case
 0:return 0;case
-1:return f4(e,a[1],a[2],a[3]);case
+1:return f5(e,a[1],a[2],a[3]);case
 2:var
 g=b(a[2]),h=b(a[1]);return cB(function(b,a){return[0,cd(b,a)]},h,g);case
 3:var
 i=b(a[2]),j=b(a[1]);return cB(function(b,a){return[0,bx(b,a)]},j,i);case
 4:var
 f=a[2],d=a[1];if(ce(d,f)){var
-k=b(d);return c0(function(a){return[0,fg(c,a)]},k)}var
-l=b(f),m=b(d);return cB(function(b,a){return[0,aQ(c,b,a)]},m,l);case
+k=b(d);return c0(function(a){return[0,fh(c,a)]},k)}var
+l=b(f),m=b(d);return cB(function(b,a){return[0,aR(c,b,a)]},m,l);case
 5:var
 n=b(a[2]),o=b(a[1]);return cB(function(a,b){return eh(c,a,b)},o,n);default:var
-p=b(a[1]);return c0(function(a){return iH(c,a)},p)}return y($,bV(c,a))}function
+p=b(a[1]);return c0(function(a){return iI(c,a)},p)}return y($,bV(c,a))}function
 aD(b,a){if(dD(a)){var
 c=ei(b,function(d,c,a){var
-e=aJ(d,dE),f=e?bf(c,a):e,g=f?[0,l0(b,d,c,a)]:f;return g},a);return y(function(a){return a[2]},c)}return bV(b,a)}function
-iI(a){var
+e=aG(d,dE),f=e?bf(c,a):e,g=f?[0,l5(b,d,c,a)]:f;return g},a);return y(function(a){return a[2]},c)}return bV(b,a)}function
+iJ(a){var
 e=bm(T(a),d);return ec(E(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e))}function
-l1(a){return iD(E(iI(a),a))}function
-l2(b,a){var
-c=l1(b),d=T(cX(T(a[2]),c)),e=l1(b);return[0,cX(a[1],e),d]}function
+l6(a){return iE(E(iJ(a),a))}function
+l7(b,a){var
+c=l6(b),d=T(cX(T(a[2]),c)),e=l6(b);return[0,cX(a[1],e),d]}function
 c1(c,a,b){var
-d=aD(E(c,iI(a)),b);return y(function(b){return l2(a,b)},d)}function
+d=aD(E(c,iJ(a)),b);return y(function(b){return l7(a,b)},d)}function
 aq(d,a){var
 b=c1(d,a[2],a[1][1]);if(b)var
 c=c1(d,a[2],a[1][2]),f=c?[0,[0,b[1][1],c[1][2]]]:c,e=f;else
 var
 e=b;return e}function
-l3(b,a){var
+l8(b,a){var
 c=T(cX(T(a[2]),b));return[0,cX(a[1],b),c]}function
-gG(b,a){var
-c=gC(b[2],a);return[0,cx(b[1],a),c]}function
-l4(h,g,d,b){var
-e=b[2],f=lH(d),i=c(2,f),j=C(lD(f),i),a=gG(t(h,b[1],g),j),k=lB(d)?G(e,a):A(e,a);return[0,a,k]}function
-l5(a,d,c){if(c){var
-e=c[1];return l4(a,d,e,l5(a,d,e))}var
-f=O(a,b);return[0,O(a,b),f]}function
-l6(e,g){var
+gH(b,a){var
+c=gD(b[2],a);return[0,cx(b[1],a),c]}function
+l9(h,g,d,b){var
+e=b[2],f=lM(d),i=c(2,f),j=C(lI(f),i),a=gH(t(h,b[1],g),j),k=lG(d)?G(e,a):A(e,a);return[0,a,k]}function
+l_(a,d,c){if(c){var
+e=c[1];return l9(a,d,e,l_(a,d,e))}var
+f=N(a,b);return[0,N(a,b),f]}function
+l$(e,g){var
 o=cy(e),p=C(c(2,c(2,b)),o),j=D(g[2],p);if(j){var
-n=e_(e),i=s5[1],d=n,f=0,a=i;for(;;){if(d){var
+n=e$(e),i=s6[1],d=n,f=0,a=i;for(;;){if(d){var
 h=d[1];if(a){var
 d=h,a=a[1];continue}var
 d=h,f=[0,f],a=i;continue}var
-k=M(lA(s8,M(s6,f)),s7),l=l5(e,g,k),q=l4(e,g,k,l)[2][2],m=[0,[0,l[2][1],q]];break}}else
+k=M(lF(s9,M(s7,f)),s8),l=l_(e,g,k),q=l9(e,g,k,l)[2][2],m=[0,[0,l[2][1],q]];break}}else
 var
 m=j;return m}function
-l7(i){function
+ma(i){function
 a(h){var
-m=cx(cy(i),h),g=e_(i),f=m,e=d,a=b;for(;;){if(g){var
+m=cx(cy(i),h),g=e$(i),f=m,e=d,a=b;for(;;){if(g){var
 j=E(a,c(2,b)),k=E(e,cx(f,a)),l=T(cx(f,C(h,h))),g=g[1],f=l,e=k,a=j;continue}return e}}var
 e=a(q(c(2,q(c(2,q(c(2,q(c(2,c(2,q(c(2,q(c(2,b)))))))))))))),f=C(c(2,c(2,b)),e),g=a(q(c(2,c(2,b))));return aL(C(c(2,c(2,c(2,c(2,b)))),g),f)}function
-l8(e,a){var
+mb(e,a){var
 f=D(d,a);if(f){var
-g=c(2,c(2,b));return l6(e,gG(U(e,[0,a,a]),g))}return f}function
-l9(a){var
-m=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),g=aL(l7(a),m),n=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),h=E(l7(a),n),e=l8(a,g);if(e){var
-f=l8(a,h);if(f)var
-i=I(d,e[1][1]),j=i?I(f[1][2],d):i,k=j?[0,[0,g,h]]:j;else
+g=c(2,c(2,b));return l$(e,gH(V(e,[0,a,a]),g))}return f}function
+mc(a){var
+m=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),g=aL(ma(a),m),n=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),h=E(ma(a),n),e=mb(a,g);if(e){var
+f=mb(a,h);if(f)var
+i=K(d,e[1][1]),j=i?K(f[1][2],d):i,k=j?[0,[0,g,h]]:j;else
 var
 k=f;var
 l=k}else
 var
 l=e;return l}function
-l_(a,d){var
-c=U(a,d),e=O(a,b);return G(A(c,c),e)}function
+md(a,d){var
+c=V(a,d),e=N(a,b);return G(A(c,c),e)}function
 c2(f,j){var
 e=aD(E(f,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),j);if(e){var
-k=e[1],a=E(f,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),d=l9(a);if(d)var
-h=c(2,c(2,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))))),i=l6(a,U(a,gG(t(a,k,d[1]),h))),g=y(function(b){return l_(a,l_(a,b))},i);else
+k=e[1],a=E(f,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),d=mc(a);if(d)var
+h=c(2,c(2,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))))),i=l$(a,V(a,gH(t(a,k,d[1]),h))),g=y(function(b){return md(a,md(a,b))},i);else
 var
 g=d;var
-l=c(2,c(2,c(2,c(2,c(2,c(2,b))))));return y(function(a){return l3(l,a)},g)}return e}function
-l$(a,d){var
-e=l9(E(a,c(2,c(2,c(2,c(2,c(2,c(2,b))))))));return y(function(e){var
-f=c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))));return gG(t(a,d,l3(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e)),f)},e)}function
-gH(d,a){return c2(d,[3,a,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b]])}function
+l=c(2,c(2,c(2,c(2,c(2,c(2,b))))));return y(function(a){return l8(l,a)},g)}return e}function
+me(a,d){var
+e=mc(E(a,c(2,c(2,c(2,c(2,c(2,c(2,b))))))));return y(function(e){var
+f=c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))));return gH(t(a,d,l8(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e)),f)},e)}function
+gI(d,a){return c2(d,[3,a,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b]])}function
 h(i,e,c){var
 f=cC(c);if(f){var
-g=f[1];return e?J(bf(g,[0,d,b])):bf([0,d,b],g)}var
+g=f[1];return e?I(bf(g,[0,d,b])):bf([0,d,b],g)}var
 a=aD(i,c);if(a){var
-h=a[1];return e?I(d,h[1]):D(d,h[1])}return a}function
-ma(c,b){var
+h=a[1];return e?K(d,h[1]):D(d,h[1])}return a}function
+mf(c,b){var
 a=aD(c,b),d=a?1:a;return d}function
 by(c,a,b){var
-d=ce(a,b),e=d?ma(c,a):d;return e?e:h(c,0,[3,b,a])}function
-s9(c){var
-a=dB(c),g=ec(gy(a[2])),b=[0,gy(a[1]),g],e=I(d,a[1]),f=e?ee(a3(b,b),c):e,h=f?[0,b]:f;return h}function
-mb(a){if(a){var
+d=ce(a,b),e=d?mf(c,a):d;return e?e:h(c,0,[3,b,a])}function
+s_(c){var
+a=dB(c),g=ec(gz(a[2])),b=[0,gz(a[1]),g],e=K(d,a[1]),f=e?ee(a3(b,b),c):e,h=f?[0,b]:f;return h}function
+mg(a){if(a){var
 e=a[2],c=a[1];if(ee(bS([0,d,b],c),[0,d,b])){var
-g=mb(e);return y(function(a){return[0,a[1],[0,c,a[2]]]},g)}var
+g=mg(e);return y(function(a){return[0,a[1],[0,c,a[2]]]},g)}var
 f=[0,[0,c,e]]}else
 var
 f=a;return f}function
-mc(c,a){var
-e=W(c,a),f=[0,d,b];return ap(function(a,b){return dB(dz(a3(a[1],a[2]),b))},f,e)}function
-md(c,j){if(c){var
-f=c[1],g=mb(j);if(g){var
+mh(c,a){var
+e=U(c,a),f=[0,d,b];return ap(function(a,b){return dB(dz(a3(a[1],a[2]),b))},f,e)}function
+mi(c,j){if(c){var
+f=c[1],g=mg(j);if(g){var
 h=g[1],a=h[1],k=function(c){var
-f=bS([0,d,b],a),g=gB(bS([0,d,b],c),f),h=bC(a),i=W(bC(c),h);return e(function(a){var
-b=a3(g,a[2]);return dB(dA(a[1],b))},i)},l=md(f,e(k,h[2]));return y(function(c){var
-e=bS([0,d,b],a);return[0,dB(gB(gA(mc(bC(a),c)),e)),c]},l)}var
-i=[0,[0,[0,b,b],ab([0,d,b],f)]]}else
+f=bS([0,d,b],a),g=gC(bS([0,d,b],c),f),h=bC(a),i=U(bC(c),h);return e(function(a){var
+b=a3(g,a[2]);return dB(dA(a[1],b))},i)},l=mi(f,e(k,h[2]));return y(function(c){var
+e=bS([0,d,b],a);return[0,dB(gC(gB(mh(bC(a),c)),e)),c]},l)}var
+i=[0,[0,[0,b,b],ac([0,d,b],f)]]}else
 var
 i=c;return i}function
-me(a){if(a){var
-b=fh(s9,a[1]);if(b)var
-c=me(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
-var
-d=b;return d}return s_}function
-mf(a){if(a){var
-b=me(a[1]);if(b)var
-c=mf(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+mj(a){if(a){var
+b=fi(s_,a[1]);if(b)var
+c=mj(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
 d=b;return d}return s$}function
-mg(i,m){var
-a=mf(m);if(a){var
-j=a[1],c=md(i,j);if(c){var
-e=c[1],f=o(g(e),i),h=f?aj(function(a){return J(ee(a,[0,d,b]))},e):f;return h?l(function(a){return ee(mc(a,e),[0,d,b])},j):h}var
+mk(a){if(a){var
+b=mj(a[1]);if(b)var
+c=mk(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+var
+d=b;return d}return ta}function
+ml(i,m){var
+a=mk(m);if(a){var
+j=a[1],c=mi(i,j);if(c){var
+e=c[1],g=n(f(e),i),h=g?aj(function(a){return I(ee(a,[0,d,b]))},e):g;return h?l(function(a){return ee(mh(a,e),[0,d,b])},j):h}var
 k=c}else
 var
 k=a;return k}function
-ta(a){return a}function
 tb(a){return a}function
-tc(a,b){return aP(tb,ta,A,a,b)}function
-td(a){return a}function
+tc(a){return a}function
+td(a,b){return aP(tc,tb,A,a,b)}function
 te(a){return a}function
-bi(a,b){return aP(te,td,tc,a,b)}function
-iJ(a,f,c,d){if(c){var
-h=c[2],i=O(a,b),g=eg(c[1],i,f);if(d){var
-j=iJ(a,f,h,d[2]),k=d[1],l=function(c,b){return G(c,t(a,g,b))},m=function(b){return ac(t(a,g,b))};return[0,aP(function(a){return a},m,l,k,c),j]}var
-n=iJ(a,f,h,0);return[0,e(function(b){return ac(t(a,g,b))},c),n]}return d}function
-gI(h,a){if(a){var
+tf(a){return a}function
+bi(a,b){return aP(tf,te,td,a,b)}function
+iK(a,f,c,d){if(c){var
+h=c[2],i=N(a,b),g=eg(c[1],i,f);if(d){var
+j=iK(a,f,h,d[2]),k=d[1],l=function(c,b){return G(c,t(a,g,b))},m=function(b){return ab(t(a,g,b))};return[0,aP(function(a){return a},m,l,k,c),j]}var
+n=iK(a,f,h,0);return[0,e(function(b){return ab(t(a,g,b))},c),n]}return d}function
+gJ(h,a){if(a){var
 b=a[1];if(b)var
-c=b[1],e=I(d,c[1]),i=e?[0,iJ(h,c,b[2],a[2])]:e,f=i;else
+c=b[1],e=K(d,c[1]),i=e?[0,iK(h,c,b[2],a[2])]:e,f=i;else
 var
 f=b;var
 g=f}else
 var
 g=a;return g}function
-mh(g,f,e){var
+mm(g,f,e){var
 a=f,b=e;for(;;){if(b){if(a){var
-c=gI(g,b);if(c){var
+c=gJ(g,b);if(c){var
 a=a[1],b=c[1];continue}var
 d=c}else
 var
 d=a;return d}return 1}}function
-mi(d,b,a){if(b)if(a)var
-e=a[1],f=mi(d,b[2],a[2]),g=cv(d,b[1])?cc(e):cz(e),c=[0,g,f];else
+mn(d,b,a){if(b)if(a)var
+e=a[1],f=mn(d,b[2],a[2]),g=cv(d,b[1])?cc(e):cz(e),c=[0,g,f];else
 var
 c=a;else
 var
 c=b;return c}function
-mj(a,b){if(a)if(b)var
-d=mj(a[2],b[2]),c=[0,mi(a[1],a,b[1]),d];else
+mo(a,b){if(a)if(b)var
+d=mo(a[2],b[2]),c=[0,mn(a[1],a,b[1]),d];else
 var
 c=b;else
 var
 c=a;return c}function
 bj(a){if(a){var
-b=a[1],c=bj(b),d=e(function(a){return[0,1,a]},c),g=bj(b);return f(e(function(a){return[0,0,a]},g),d)}return tf}function
+b=a[1],c=bj(b),d=e(function(a){return[0,1,a]},c),f=bj(b);return g(e(function(a){return[0,0,a]},f),d)}return tg}function
 ej(c,a){var
-b=g(a);if(mh(c,b,a))return 1;var
-d=bj(bn(b));return l(function(d){return mh(c,b,mj([0,0,d],a))},d)}function
+b=f(a);if(mm(c,b,a))return 1;var
+d=bj(bn(b));return l(function(d){return mm(c,b,mo([0,0,d],a))},d)}function
 ax(a){function
 b(b){var
 c=k(a,b[2]);return[0,e(a,b[1]),c]}return function(a){return e(b,a)}}function
-aG(h,e){var
+aH(h,e){var
 c=h,a=e[1],b=e[3];for(;;){if(c){if(b){var
 d=b[1],f=b[2],g=c[1]?A(a,d):G(a,d),c=c[2],a=g,b=f;continue}return a}return a}}function
-iK(c,b,a){var
-d=bj(c);return l(function(c){return k(a,k(ax(function(a){return aG(c,a)}),b))},d)}function
-iL(h,d,c){if(d)if(c)var
-i=c[2],e=c[1],j=d[2],f=d[1],a=function(c,a){return aU(c,E(h,b),a)},k=iL(h,j,i),l=function(c,b){var
+iL(c,b,a){var
+d=bj(c);return l(function(c){return k(a,k(ax(function(a){return aH(c,a)}),b))},d)}function
+iM(h,d,c){if(d)if(c)var
+i=c[2],e=c[1],j=d[2],f=d[1],a=function(c,a){return aQ(c,E(h,b),a)},k=iM(h,j,i),l=function(c,b){var
 d=a(b,e);return A(a(f,c),d)},m=function(b){return a(b,e)},n=aP(function(b){return a(f,b)},m,l,i,j),o=a(f,e),g=[0,[0,A(a(f,e),o),n],k];else
 var
 g=c;else
@@ -1641,40 +1641,40 @@ var
 g=d;return g}function
 ek(b,d,a,c){function
 e(c,d){var
-e=aU(d,b,a);return G(A(c,c),e)}function
-f(c){return ac(aU(c,b,a))}return aP(function(a){return A(a,a)},f,e,d,c)}function
-gJ(d,i,h,g){var
+e=aQ(d,b,a);return G(A(c,c),e)}function
+f(c){return ab(aQ(c,b,a))}return aP(function(a){return A(a,a)},f,e,d,c)}function
+gK(d,i,h,g){var
 c=i,b=h,a=g;for(;;){if(c){if(b){var
-e=b[1],f=c[1],j=cz(e[2]),k=bi(a,iL(d,f,ek(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
-iM(b,a){return[0,[0,0,b],a]}function
-fi(i,b,c,h,f,a){function
+e=b[1],f=c[1],j=cz(e[2]),k=bi(a,iM(d,f,ek(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
+iN(b,a){return[0,[0,0,b],a]}function
+fj(i,b,c,h,g,a){function
 d(a){if(a){var
-j=ab([0,ac(a[1][2]),0],b),c=gJ(h,f,a[2],j),d=o(g(c),b);if(d)return ej(i,c);var
+j=ac([0,ab(a[1][2]),0],b),c=gK(h,g,a[2],j),d=n(f(c),b);if(d)return ej(i,c);var
 e=d}else
 var
-e=a;return e}return iK(b,iM(c,a),d)}function
-gK(g,f,e){var
+e=a;return e}return iL(b,iN(c,a),d)}function
+gL(g,f,e){var
 a=f,b=e;for(;;){if(a){var
-d=a[1],h=d[1],c=gI(g,[0,[0,cc(d[2]),h],b]);if(c){var
+d=a[1],h=d[1],c=gJ(g,[0,[0,cc(d[2]),h],b]);if(c){var
 a=a[2],b=c[1];continue}return c}return[0,b]}}function
-iN(d,b,c,a){function
+iO(d,b,c,a){function
 e(a){if(a){var
-j=ab([0,a[1][2],0],b),c=gK(d,a[2],j);if(c){var
-e=c[1],f=o(g(e),b);if(f)return ej(d,e);var
-h=f}else
+j=ac([0,a[1][2],0],b),c=gL(d,a[2],j);if(c){var
+e=c[1],g=n(f(e),b);if(g)return ej(d,e);var
+h=g}else
 var
 h=c;var
 i=h}else
 var
-i=a;return i}return iK(b,iM(c,a),e)}function
-mk(h,g,a,f,d,c){var
-i=[0,u,u,0],b=e(function(a){return[0,a[1],i]},c),j=a?a[1]:[0,u,u,0];return fi(h,g,j,f,d,b)}function
-iO(b,a){var
-c=bj(b);return l(function(b){return I(d,aG(b,a)[1])},c)}function
-gL(c,b,a){var
-d=a[3],f=e(function(a){return aU(c,b,a)},d),g=a[2];return[0,aU(c,b,a[1]),g,f]}function
-ml(a,b){var
-c=b[3],d=a[3],e=aP(function(a){return a},ac,G,d,c),f=a[2];return[0,G(a[1],b[1]),f,e]}function
+i=a;return i}return iL(b,iN(c,a),e)}function
+mp(h,g,a,f,d,c){var
+i=[0,u,u,0],b=e(function(a){return[0,a[1],i]},c),j=a?a[1]:[0,u,u,0];return fj(h,g,j,f,d,b)}function
+iP(b,a){var
+c=bj(b);return l(function(b){return K(d,aH(b,a)[1])},c)}function
+gM(c,b,a){var
+d=a[3],f=e(function(a){return aQ(c,b,a)},d),g=a[2];return[0,aQ(c,b,a[1]),g,f]}function
+mq(a,b){var
+c=b[3],d=a[3],e=aP(function(a){return a},ab,G,d,c),f=a[2];return[0,G(a[1],b[1]),f,e]}function
 bW(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
 ag(c,b,a){var
 d=ao(c,b[3],a[3]),e=ao(c,b[2],a[2]);return[0,ao(c,b[1],a[1]),e,d]}function
@@ -1687,42 +1687,42 @@ c=s(b[3],a[3]),d=s(b[2],a[2]);return B(B(s(b[1],a[1]),d),c)}function
 dF(a){return bq(a,aK(_(a,a)))}function
 c3(a){var
 b=a[5];return b?b[1]:aK(a[2])}function
-gM(b,a){return b?a:bp(a)}function
-mm(e,a,i,d,h){var
-f=_(a,e),b=ag(x,e,a4(f,a)),j=_(b,b),g=x(V(d),j),c=gM(h,aK(g)),k=x(f,c),l=ag(B,a,bq(b,c));return[0,ag(B,b,a4(c,a)),g,l,k,[0,d],0,[0,i]]}function
-mn(a,e,d){var
+gN(b,a){return b?a:bp(a)}function
+mr(e,a,i,d,h){var
+f=_(a,e),b=ag(x,e,a4(f,a)),j=_(b,b),g=x(W(d),j),c=gN(h,aK(g)),k=x(f,c),l=ag(B,a,bq(b,c));return[0,ag(B,b,a4(c,a)),g,l,k,[0,d],0,[0,i]]}function
+ms(a,e,d){var
 b=_(a,a),c=aK(b),f=[0,e],g=y(function(b){return ag(x,a,a4(_(b,a),b))},d);return[0,a,b,bq(a,c),c,0,g,f]}function
-mo(c,a){var
+mt(c,a){var
 d=_(a,c);return[0,a,m(b),a,d,0,0,0]}function
-fj(a){return e(function(a){var
+fk(a){return e(function(a){var
 b=a[2];return[0,bW(a[1]),b]},a)}function
-mp(a){return e(function(a){var
+mu(a){return e(function(a){var
 c=m(b);return[0,bW(a[3]),c]},a)}function
-mq(b,a){var
+mv(b,a){var
 c=k(b,a[3]),d=k(b,a[2]);return[0,k(b,a[1]),d,c]}function
-mr(c,b,a){var
+mw(c,b,a){var
 d=ao(c,b[3],a[3]),e=ao(c,b[2],a[2]);return[0,ao(c,b[1],a[1]),e,d]}function
 el(d,a){var
 b=ca(d,[0,a[2],a[2]]);if(b){var
 c=b[1];return[0,c[2],c[2]]}return[0,a[2],a[2]]}function
-gN(a,n,f,m,e,k,j){var
-o=mr(bx,k,j),b=mr(function(b,c){return aQ(a,b,c)},e,o),c=b[3],g=b[2],h=b[1],i=cd(cd(cd($(O(a,d)),h),g),c),p=bj(n);return l(function(c){var
-b=mq(function(b){return U(a,aG(c,b))},e),h=b[3],j=b[2],k=b[1],l=t(a,m,el(a,A(A(A(O(a,d),k),j),h))),g=G(aG(c,i),l),n=f?G(g,aG(c,f[1])):g;return I(d,n[1])},p)}function
+gO(a,n,f,m,e,k,j){var
+o=mw(bx,k,j),b=mw(function(b,c){return aR(a,b,c)},e,o),c=b[3],g=b[2],h=b[1],i=cd(cd(cd($(N(a,d)),h),g),c),p=bj(n);return l(function(c){var
+b=mv(function(b){return V(a,aH(c,b))},e),h=b[3],j=b[2],k=b[1],l=t(a,m,el(a,A(A(A(N(a,d),k),j),h))),g=G(aH(c,i),l),n=f?G(g,aH(c,f[1])):g;return K(d,n[1])},p)}function
 cf(a){return dy(E(a[1],a[2]),b)}function
 em(a){var
 b=cf(a);return aL(a[2],b)}function
 dH(c,b){if(b)var
-a=b[1],e=dH([0,c],b[2]),g=em(a),h=[0,[0,em(a),g],0],i=f(ab(u,c),h),j=cf(a),d=[0,[0,[0,cf(a),j],a,i],e];else
+a=b[1],e=dH([0,c],b[2]),f=em(a),h=[0,[0,em(a),f],0],i=g(ac(u,c),h),j=cf(a),d=[0,[0,[0,cf(a),j],a,i],e];else
 var
 d=b;return d}function
 c4(d,b){if(b){var
 c=b[2],a=b[1];if(d){var
 e=c4(d[1],c);return[0,[0,a,e[1]],[0,a,e[2]]]}var
-f=a[2],g=[0,[0,cf(a),f],c],h=cf(a);return[0,[0,[0,a[1],h],c],g]}return tg}function
-ms(d,c,a){if(c){if(a){var
-e=ms(d,c[2],a[2]);return A(aU(c[1],E(d,b),a[1]),e)}return u}return u}function
+f=a[2],g=[0,[0,cf(a),f],c],h=cf(a);return[0,[0,[0,a[1],h],c],g]}return th}function
+mx(d,c,a){if(c){if(a){var
+e=mx(d,c[2],a[2]);return A(aQ(c[1],E(d,b),a[1]),e)}return u}return u}function
 en(f,a){if(a)var
-g=a[1],c=g[2],d=g[1],h=a[2],b=function(a,b){return ms(f,a,b)},j=en(f,h),k=e(function(a){var
+g=a[1],c=g[2],d=g[1],h=a[2],b=function(a,b){return mx(f,a,b)},j=en(f,h),k=e(function(a){var
 e=b(d,a[2]);return A(b(a[1],c),e)},h),l=b(d,c),i=[0,[0,A(b(d,c),l),k],j];else
 var
 i=a;return i}function
@@ -1732,50 +1732,50 @@ var
 c=a;else
 var
 c=b;return c}function
-gO(f,d,c,b,a){if(a){var
+gP(f,d,c,b,a){if(a){var
 g=a[2];if(d){var
-i=gO(f,d[1],c,b,g);return[0,[0,G(u,b),0],i]}var
-j=e(function(a){return[0,G(u,b),0]},g),h=[0,[0,G(ac(t(f,c,cz(a[1][2]))),b),0],j]}else
+i=gP(f,d[1],c,b,g);return[0,[0,G(u,b),0],i]}var
+j=e(function(a){return[0,G(u,b),0]},g),h=[0,[0,G(ab(t(f,c,cz(a[1][2]))),b),0],j]}else
 var
 h=a;return h}function
-a_(d,c,a){var
-b=o(g(a),c);return b?ej(d,a):b}function
-gP(d,b,a){if(b)var
-c=b[1],g=gP([0,d],b[2],a),h=f(ab(u,d),[0,a,0]),e=[0,[0,c,[0,aL(c[1],a[2]),E(c[2],a[2])],h],g];else
+a5(d,c,a){var
+b=n(f(a),c);return b?ej(d,a):b}function
+gQ(d,b,a){if(b)var
+c=b[1],f=gQ([0,d],b[2],a),h=g(ac(u,d),[0,a,0]),e=[0,[0,c,[0,aL(c[1],a[2]),E(c[2],a[2])],h],f];else
 var
 e=b;return e}function
-mt(d){if(d){var
+my(d){if(d){var
 a=d[1][1];if(a){var
 b=a[2];if(b){var
 c=b[2];if(c){if(c[2])return 0;var
-g=c[1],h=b[1],i=a[1],j=mt(d[2]);return y(function(a){return[0,[0,[0,i,h],g],a]},j)}var
+g=c[1],h=b[1],i=a[1],j=my(d[2]);return y(function(a){return[0,[0,[0,i,h],g],a]},j)}var
 e=c}else
 var
 e=b;var
 f=e}else
 var
-f=a;return f}return th}function
-iP(a){return y(function(a){return y(ff,a)},a)}function
+f=a;return f}return ti}function
+iQ(a){return y(function(a){return y(fg,a)},a)}function
 c5(c,b,a){function
-d(a){return aQ(c,b,a)}return y(function(a){return y(d,a)},a)}function
-iQ(c,b,a){function
+d(a){return aR(c,b,a)}return y(function(a){return y(d,a)},a)}function
+iR(c,b,a){function
 d(a){return eh(c,a,b)}return y(function(a){return c0(d,a)},a)}function
 ep(b,a){var
-c=W(b,a);return e(function(c){var
+c=U(b,a);return e(function(c){var
 a=c[2],b=c[1];if(b){if(a){var
 d=a[1],e=b[1];return[0,cB(function(b,a){return[0,cd(b,a)]},e,d)]}return b}return a},c)}function
-gQ(a){return $(O(a,c(2,b)))}function
-iR(a,au,at,K,c){var
+gR(a){return $(N(a,c(2,b)))}function
+iS(a,au,at,K,c){var
 av=bU(aA,c),f=k(bD(a,au,at),av);switch(c[0]){case
 1:var
-N=c[1],d=e(function(d){var
-c=o(N,d),e=c?[0,[0,$(O(a,b))]]:c;return e},K);break;case
+O=c[1],d=e(function(d){var
+c=n(O,d),e=c?[0,[0,$(N(a,b))]]:c;return e},K);break;case
 3:var
 d=ep(c[1][2],c[2][2]);break;case
 4:var
-P=e(iP,c[2][2]),d=ep(c[1][2],P);break;case
+P=e(iQ,c[2][2]),d=ep(c[1][2],P);break;case
 5:var
-d=e(iP,c[1][2]);break;case
+d=e(iQ,c[1][2]);break;case
 6:var
 x=c[2],y=c[1],g=y[1],u=0;if(g){var
 h=x[1];if(h)var
@@ -1786,182 +1786,182 @@ d=z;break;case
 7:var
 v=0;if(f){var
 A=c[2],i=A[1];if(i)var
-V=A[2],W=ff(f[1]),X=e(function(b){return c5(a,W,b)},V),Y=ep(c[1][2],X),Z=i[1],d=e(function(b){return iQ(a,Z,b)},Y);else{var
+V=A[2],W=fg(f[1]),X=e(function(b){return c5(a,W,b)},V),Y=ep(c[1][2],X),Z=i[1],d=e(function(b){return iR(a,Z,b)},Y);else{var
 B=i;v=1}}else{var
 B=f;v=1}if(v)var
 d=B;break;case
 8:var
 C=c[1],j=C[1];if(j)var
-_=C[2],aa=j[1],ab=aQ(a,gQ(a),aa),d=e(function(b){return c5(a,ab,b)},_);else
+_=C[2],aa=j[1],ab=aR(a,gR(a),aa),d=e(function(b){return c5(a,ab,b)},_);else
 var
 d=j;break;case
 9:if(f)var
-ac=c[1][2],ad=f[1],ae=aQ(a,gQ(a),ad),d=e(function(b){return iQ(a,ae,b)},ac);else
+ac=c[1][2],ad=f[1],ae=aR(a,gR(a),ad),d=e(function(b){return iR(a,ae,b)},ac);else
 var
 d=f;break;case
 10:var
 D=c[4],E=c[3],F=c[2],l=F[1],w=0;if(l){var
-m=l[1],n=E[1],L=0;if(n){var
-p=n[1],q=D[1],M=0;if(q){var
-r=lZ(a,m,p,q[1]);if(r){var
-G=r[1],s=G[2],t=G[1],af=E[2],ag=bx(p,s),ah=e(function(b){return c5(a,ag,b)},af),ai=F[2],aj=bx(m,t),ak=ep(e(function(b){return c5(a,aj,b)},ai),ah),al=e(iP,D[2]),am=gQ(a),an=ep(e(function(b){return c5(a,am,b)},ak),al),ao=c[1]?t:ff(s),ap=e(function(b){return c5(a,ao,b)},an),aq=aQ(a,m,s),ar=bx(aQ(a,p,t),aq),as=aQ(a,gQ(a),ar),d=e(function(b){return iQ(a,as,b)},ap);L=1;M=1}else
+m=l[1],o=E[1],L=0;if(o){var
+p=o[1],q=D[1],M=0;if(q){var
+r=l4(a,m,p,q[1]);if(r){var
+G=r[1],s=G[2],t=G[1],af=E[2],ag=bx(p,s),ah=e(function(b){return c5(a,ag,b)},af),ai=F[2],aj=bx(m,t),ak=ep(e(function(b){return c5(a,aj,b)},ai),ah),al=e(iQ,D[2]),am=gR(a),an=ep(e(function(b){return c5(a,am,b)},ak),al),ao=c[1]?t:fg(s),ap=e(function(b){return c5(a,ao,b)},an),aq=aR(a,m,s),ar=bx(aR(a,p,t),aq),as=aR(a,gR(a),ar),d=e(function(b){return iR(a,as,b)},ap);L=1;M=1}else
 var
 H=r}else
 var
 H=q;if(!M)var
 I=H}else
 var
-I=n;if(!L){var
+I=o;if(!L){var
 J=I;w=1}}else{var
 J=l;w=1}if(w)var
 d=J;break;default:var
 d=e(function(a){return 0},K)}return[0,f,d]}function
-iS(b,c,a){if(a)var
-f=a[1],g=iS(b,c,a[2]),d=[0,e(function(a){return ac(t(b,t(b,c,f),a))},a),g];else
+iT(b,c,a){if(a)var
+f=a[1],g=iT(b,c,a[2]),d=[0,e(function(a){return ab(t(b,t(b,c,f),a))},a),g];else
 var
 d=a;return d}function
-iT(a){return l(function(a){var
-b=L(a[1],d);return b?L(a[2],d):b},a)}function
-iU(c,b,a){var
-d=W(b,a);return ap(function(a,b){return A(t(c,a[1],a[2]),b)},u,d)}function
+iU(a){return l(function(a){var
+b=J(a[1],d);return b?J(a[2],d):b},a)}function
 iV(c,b,a){var
-d=cb(iU(c,a,b));return ap(function(b,a){return E(cb(b),a)},d,a)}function
-cg(a){return O(a,b)}function
-fk(a,i,c,v,u){var
+d=U(b,a);return ap(function(a,b){return A(t(c,a[1],a[2]),b)},u,d)}function
+iW(c,b,a){var
+d=cb(iV(c,a,b));return ap(function(b,a){return E(cb(b),a)},d,a)}function
+cg(a){return N(a,b)}function
+fl(a,i,c,v,u){var
 f=v,e=u;for(;;){if(f){var
-j=f[1],n=0;if(!iT(c)&&!iT(j)){var
-h=iV(a,i,j),o=cg(a),p=iV(a,i,c),b=eg([0,iV(a,i,c),p],o,[0,h,h])[1],k=I(d,h),l=k?I(d,b):k;if(l)var
-q=aw(iF(a,[0,b,b])),r=function(b){return function(d,c){return G(t(a,[0,b,b],d),c)}}(b),s=[0,b,b],m=[0,bi(e,iS(a,q,aP(function(c){return function(b){return t(a,c,b)}}(s),ac,r,j,c)))];else
+j=f[1],n=0;if(!iU(c)&&!iU(j)){var
+h=iW(a,i,j),o=cg(a),p=iW(a,i,c),b=eg([0,iW(a,i,c),p],o,[0,h,h])[1],k=K(d,h),l=k?K(d,b):k;if(l)var
+q=aw(iG(a,[0,b,b])),r=function(b){return function(d,c){return G(t(a,[0,b,b],d),c)}}(b),s=[0,b,b],m=[0,bi(e,iT(a,q,aP(function(c){return function(b){return t(a,c,b)}}(s),ab,r,j,c)))];else
 var
 m=l;var
 g=m;n=1}if(!n)var
 g=[0,e];if(g){var
 f=f[2],e=g[1];continue}return g}return[0,e]}}function
-mu(a){var
+mz(a){var
 b=a[2],c=e(function(a){return[0,a[1],u]},b);return[0,[0,a[1][1],u],c]}function
-iW(h,n,a,m,l,k){var
+iX(h,n,a,m,l,k){var
 d=m,c=l,b=k;for(;;){if(d){if(c){var
-i=c[1],j=i[1],f=d[1],o=cz(j[2]),p=bi(b,iL(a,f,ek(a,j[1],o,f))),q=i[2],r=e(function(c){return function(b){return e(aw,ek(a,b[1],b[2],c))}}(f),q),g=fk(h,n,e(function(b){return aU(b,a,cg(h))},f),r,p);if(g){var
+i=c[1],j=i[1],f=d[1],o=cz(j[2]),p=bi(b,iM(a,f,ek(a,j[1],o,f))),q=i[2],r=e(function(c){return function(b){return e(aw,ek(a,b[1],b[2],c))}}(f),q),g=fl(h,n,e(function(b){return aQ(b,a,cg(h))},f),r,p);if(g){var
 d=d[2],c=c[2],b=g[1];continue}return g}return[0,b]}return[0,b]}}function
-mv(a,j,r,q){var
+mA(a,j,r,q){var
 c=r,f=q;for(;;){if(c){var
 k=c[1],l=k[1],g=l[2],h=l[1],m=k[2],n=[0,[0,cc(g),h],f];if(m){var
-o=I(d,g[1]);if(o)var
+o=K(d,g[1]);if(o)var
 s=e(function(a){var
-b=a[1];return[0,aw(a[2]),b]},m),t=e(function(a){return u},h),v=[0,cg(a),t],w=cg(a),b=fk(a,[0,ac(eg(iU(a,h,j),w,g)),j],v,s,n);else
+b=a[1];return[0,aw(a[2]),b]},m),t=e(function(a){return u},h),v=[0,cg(a),t],w=cg(a),b=fl(a,[0,ab(eg(iV(a,h,j),w,g)),j],v,s,n);else
 var
 b=o}else
 var
 b=[0,n];if(b){var
-i=gI(a,b[1]);if(i){var
+i=gJ(a,b[1]);if(i){var
 c=c[2],f=i[1];continue}var
 p=i}else
 var
 p=b;return p}return[0,f]}}function
-mw(c,b,a){var
-d=aC(0,a);return e(function(a){return o(a,b)?cg(c):u},d)}function
-mx(c,b,a){if(b){if(a){var
-d=mx(c,b[2],a[2]);return A(aU(b[1],c,a[1]),d)}return u}return u}function
-my(a,j){switch(j){case
+mB(c,b,a){var
+d=aC(0,a);return e(function(a){return n(a,b)?cg(c):u},d)}function
+mC(c,b,a){if(b){if(a){var
+d=mC(c,b[2],a[2]);return A(aQ(b[1],c,a[1]),d)}return u}return u}function
+mD(a,j){switch(j){case
 0:var
 d=aL(a[2],a[1]),e=a[1];return[0,[0,e,e],[0,[0,d,d],0]];case
 1:var
 f=aL(a[1],a[2]),g=a[2];return[0,[0,g,g],[0,[0,f,f],0]];default:var
 c=dy(E(a[1],a[2]),b),h=aL(c,a[2]),i=aL(a[2],c);return[0,[0,c,c],[0,[0,i,i],[0,[0,h,h],0]]]}}function
-fl(d,c,a){if(a)var
-e=a[1],g=fl(d,[0,c],a[2]),b=y(aN,lN(function(a){return o(a[1],c)},d)),h=b?my(e,b[1])[1]:e,f=[0,h,g];else
+fm(d,c,a){if(a)var
+e=a[1],g=fm(d,[0,c],a[2]),b=y(aN,lS(function(a){return n(a[1],c)},d)),h=b?mD(e,b[1])[1]:e,f=[0,h,g];else
 var
 f=a;return f}function
-gR(a,b){return e(function(a){var
-c=a[2];return my(r(a[1],b,u),c)[2]},a)}function
-gS(i,b,g,a){function
-d(a){return aG(b,a[1])}var
+gS(a,b){return e(function(a){var
+c=a[2];return mD(r(a[1],b,u),c)[2]},a)}function
+gT(i,b,f,a){function
+d(a){return aH(b,a[1])}var
 h=0,j=$(u);function
-c(g,d,a,b){if(a){var
-h=function(a){return aG(g,r(d,a[2],j))},k=e(h,b[1]),l=h(b[2]),m=c(g,[0,d],a[2],b),n=a[1];return f(e(function(a){var
+c(f,d,a,b){if(a){var
+h=function(a){return aH(f,r(d,a[2],j))},k=e(h,b[1]),l=h(b[2]),m=c(f,[0,d],a[2],b),n=a[1];return g(e(function(a){var
 b=t(i,a,l);return[0,e(function(b){return t(i,a,b)},k),b]},n),m)}return a}var
-k=c(b,h,g,a),l=d(a[2]);return[0,[0,e(d,a[1]),l],k]}var
-tw=$(u);function
-mz(e,d,c){if(d){var
-f=r(e,c[2],tx),a=f?f[1]:[0,tw];if(a)var
-b=mz([0,e],d[2],c),h=b?[0,[0,a[1],b[1]]]:b,g=h;else
+k=c(b,h,f,a),l=d(a[2]);return[0,[0,e(d,a[1]),l],k]}var
+tx=$(u);function
+mE(e,d,c){if(d){var
+f=r(e,c[2],ty),a=f?f[1]:[0,tx];if(a)var
+b=mE([0,e],d[2],c),h=b?[0,[0,a[1],b[1]]]:b,g=h;else
 var
-g=a;return g}return ty}function
-mA(a,c,h,p,o,g,n){var
+g=a;return g}return tz}function
+mF(a,c,h,p,o,g,n){var
 d=bj(c);return l(function(d){var
 f=k(n,d);if(f){var
-q=t(a,o,f[1]),i=G(O(a,b),q),r=h?G(i,aG(d,h[1])):i,j=function(b){function
-f(c){return t(a,b,aG(d,c))}var
-g=e(function(a){return e(f,a)},p);return a_(a,c,bi(ab([0,r,0],c),g))},l=j(aw(g));if(l)return j(ac(aw(g)));var
+q=t(a,o,f[1]),i=G(N(a,b),q),r=h?G(i,aH(d,h[1])):i,j=function(b){function
+f(c){return t(a,b,aH(d,c))}var
+g=e(function(a){return e(f,a)},p);return a5(a,c,bi(ac([0,r,0],c),g))},l=j(aw(g));if(l)return j(ab(aw(g)));var
 m=l}else
 var
 m=f;return m},d)}function
-mB(c,b,a){if(a){var
+mG(c,b,a){if(a){var
 d=a[2];if(c){var
-f=mB(c[1],b,d);return[0,a[1],f]}var
+f=mG(c[1],b,d);return[0,a[1],f]}var
 e=[0,b,d]}else
 var
 e=a;return e}function
-fm(a,g){var
+fn(a,g){var
 b=a1(function(e){var
-c=r(e,a,u),b=D(c[1],d),f=b?D(d,c[2]):b;return J(f)},g);if(b){if(b[2])return a;var
-f=b[1],c=r(f,a,u),e=I(d,c[1])?c[1]:c[2];return mB(f,[0,e,e],a)}return a}function
-mC(c,a){if(a)var
-b=a[2],f=mC(c,b),g=b?b[1]:e(sZ,c),d=[0,[0,a[1],g],f];else
+c=r(e,a,u),b=D(c[1],d),f=b?D(d,c[2]):b;return I(f)},g);if(b){if(b[2])return a;var
+f=b[1],c=r(f,a,u),e=K(d,c[1])?c[1]:c[2];return mG(f,[0,e,e],a)}return a}function
+mH(c,a){if(a)var
+b=a[2],f=mH(c,b),g=b?b[1]:e(s0,c),d=[0,[0,a[1],g],f];else
 var
 d=a;return d}function
-mD(a){return a?mC(a[1],a):a}function
+iY(a){return a?mH(a[1],a):a}function
 c6(c,d,b,a){if(d){var
 e=d[1];if(a){var
 f=c6(c,e,b,a[2]);return[0,a[1],f]}return[0,c,c6(c,e,b,0)]}return a?[0,b,a[2]]:[0,b,0]}function
-gT(a,c,b){if(c)if(b)var
-g=b[2],e=b[1],h=c[2],d=c[1],i=gT(a,h,g),j=function(c,b){var
+gU(a,c,b){if(c)if(b)var
+g=b[2],e=b[1],h=c[2],d=c[1],i=gU(a,h,g),j=function(c,b){var
 f=t(a,e,b);return A(t(a,d,c),f)},k=function(b){return t(a,e,b)},l=aP(function(b){return t(a,d,b)},k,j,g,h),f=[0,[0,t(a,A(d,d),e),l],i];else
 var
 f=b;else
 var
 f=c;return f}function
-c7(d,c,b,a){return c6(u,c,iU(d,a,b),a)}function
-mE(a,f,e,b,d,c){var
+c7(d,c,b,a){return c6(u,c,iV(d,a,b),a)}function
+iZ(a,f,e,b,d,c){var
 g=aC(0,b);return ap(function(g,c){var
-h=c7(a,f,e,mw(a,g,b));return bi(c,iS(a,ac(d),h))},c,g)}function
-mF(a,d,c,j,i,h,g,f){var
-k=c7(a,d,c,e(function(b){return O(a,C(h,b))},i));return bi(f,gT(a,c7(a,d,c,e(function(c){return aU(c,E(g,b),cg(a))},j)),k))}function
-mG(a,h,g,q,f,p,o,n){var
+h=c7(a,f,e,mB(a,g,b));return bi(c,iT(a,ab(d),h))},c,g)}function
+i0(a,d,c,j,i,h,g,f){var
+k=c7(a,d,c,e(function(b){return N(a,C(h,b))},i));return bi(f,gU(a,c7(a,d,c,e(function(c){return aQ(c,E(g,b),cg(a))},j)),k))}function
+i1(a,h,g,q,f,p,o,n){var
 d=p,c=o,b=n;for(;;){if(d){if(c){var
-k=c[1],l=k[1],i=d[1],m=c7(a,h,g,e(function(b){return aU(b,f,cg(a))},i)),r=cz(l[2]),s=c7(a,h,g,ek(f,l[1],r,i)),t=bi(b,gT(a,e(aw,m),s)),u=k[2],j=fk(a,q,m,e(function(c){return function(b){return c7(a,h,g,e(aw,ek(f,b[1],b[2],c)))}}(i),u),t);if(j){var
+k=c[1],l=k[1],i=d[1],m=c7(a,h,g,e(function(b){return aQ(b,f,cg(a))},i)),r=cz(l[2]),s=c7(a,h,g,ek(f,l[1],r,i)),t=bi(b,gU(a,e(aw,m),s)),u=k[2],j=fl(a,q,m,e(function(c){return function(b){return c7(a,h,g,e(aw,ek(f,b[1],b[2],c)))}}(i),u),t);if(j){var
 d=d[2],c=c[2],b=j[1];continue}return j}return[0,b]}return[0,b]}}function
-mH(g,b,f,a){if(a)var
+mI(g,b,f,a){if(a)var
 c=a[2],d=a[1],h=r(b,c,u),e=[0,d,c6(u,b,A(t(g,f,d),h),c)];else
 var
 e=a;return e}function
-mI(a,b,m,D,C,B){var
+mJ(a,b,m,D,C,B){var
 i=C,h=B;for(;;){if(i){var
 n=i[1],o=n[1],j=o[2],p=n[2],c=c7(a,b,m,o[1]);if(p){var
-q=I(d,j[1]);if(q)var
-E=cg(a),f=cc(ac(eg(r(b,c,u),E,j))),k=cc(j),v=c6(u,b,f,0),w=r(b,c,u),x=bi(h,gT(a,v,c6(u,b,A(aw(t(a,f,k)),w),c))),y=r(b,c,u),z=[0,[0,k,c6(u,b,A(t(a,f,k),y),c)],x],F=e(function(e){return function(c){var
-d=c7(a,b,m,c[1]);return mH(a,b,e,[0,aw(c[2]),d])}}(f),p),G=e(function(a){return u},c),g=fk(a,[0,u,D],mH(a,b,f,[0,cg(a),G]),F,z);else
+q=K(d,j[1]);if(q)var
+E=cg(a),f=cc(ab(eg(r(b,c,u),E,j))),k=cc(j),v=c6(u,b,f,0),w=r(b,c,u),x=bi(h,gU(a,v,c6(u,b,A(aw(t(a,f,k)),w),c))),y=r(b,c,u),z=[0,[0,k,c6(u,b,A(t(a,f,k),y),c)],x],F=e(function(e){return function(c){var
+d=c7(a,b,m,c[1]);return mI(a,b,e,[0,aw(c[2]),d])}}(f),p),G=e(function(a){return u},c),g=fl(a,[0,u,D],mI(a,b,f,[0,cg(a),G]),F,z);else
 var
 g=q}else
 var
 g=[0,[0,[0,cc(j),c],h]];if(g){var
-l=gI(a,g[1]);if(l){var
+l=gJ(a,g[1]);if(l){var
 i=i[2],h=l[1];continue}var
 s=l}else
 var
 s=g;return s}return[0,h]}}function
-iX(f,d,c,b,a){var
-g=e($,c);return lW(0,bD(f,dH(0,a),g),b,d,0)}function
+i2(f,d,c,b,a){var
+g=e($,c);return l1(0,bD(f,dH(0,a),g),b,d,0)}function
 ad(a){if(a){var
 b=a[1];if(b)var
 c=ad(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return tD}function
-gU(b,a){if(a){var
+d=b;return d}return tE}function
+gV(b,a){if(a){var
 h=a[1],n=h[1],c=ad(e(function(a){return r(a,b,0)},n));if(c){var
 f=r(h[2],b,0);if(f){var
-i=f[1],g=gU(b,a[2]);if(g)var
-j=I(d,i[2][1]),k=j?[0,[0,[0,c[1],i],g[1]]]:j;else
+i=f[1],g=gV(b,a[2]);if(g)var
+j=K(d,i[2][1]),k=j?[0,[0,[0,c[1],i],g[1]]]:j;else
 var
 k=g;var
 l=k}else
@@ -1969,22 +1969,22 @@ var
 l=f;var
 m=l}else
 var
-m=c;return m}return tE}function
+m=c;return m}return tF}function
 cE(d,c,b){var
-a=gU(d,c);return a?k(b,a[1]):a}function
+a=gV(d,c);return a?k(b,a[1]):a}function
 c8(a,b){return l(function(c){var
 a=r(c,b,0),d=a?1:a;return d},a)}function
-gV(b,a){if(b){var
+gW(b,a){if(b){var
 c=b[1],d=c[3],e=a[3],f=function(a){return a},g=aP(function(a){return a},f,A,e,d),h=a[2];return[0,A(a[1],c[1]),h,g]}return a}function
-iY(b,a){return b?ml(a,b[1]):a}function
-iZ(h,g,b,f){var
+i3(b,a){return b?mq(a,b[1]):a}function
+i4(h,g,b,f){var
 a=r(f,h,0);if(a){var
 c=a[1];if(b){var
-i=ml(c,b[1]),e=bj(g);return l(function(a){return D(d,aG(a,i)[1])},e)}return D(d,c[2][1])}return a}function
-i0(f,d,a){function
-c(a){return aU(a,d,O(f,b))}if(a){var
+i=mq(c,b[1]),e=bj(g);return l(function(a){return D(d,aH(a,i)[1])},e)}return D(d,c[2][1])}return a}function
+i5(f,d,a){function
+c(a){return aQ(a,d,N(f,b))}if(a){var
 g=e(c,a[2]);return[0,c(a[1]),u,g]}return $(u)}function
-gW(b,a){var
+gX(b,a){var
 c=r(a[1],b,0);if(c){var
 d=r(a[2],b,0);if(d)var
 e=r(a[3],b,0),h=e?[0,[0,c[1],d[1],e[1]]]:e,f=h;else
@@ -1993,64 +1993,64 @@ f=d;var
 g=f}else
 var
 g=c;return g}function
-i1(b,a){return ad(e(function(a){return r(a,b,0)},a))}function
-fn(c,k,X,C,i,h,j,f,a){switch(f[0]){case
+i6(b,a){return ad(e(function(a){return r(a,b,0)},a))}function
+fo(c,k,X,C,i,h,j,g,a){switch(g[0]){case
 0:var
-s=f[1];if(typeof
+s=g[1];if(typeof
 a!=="number")switch(a[0]){case
 0:var
 Y=c8(C,i);if(Y){var
-aD=a[2],aE=a[1],aF=gV(j,$(s));return cE(i,k,function(a){return fi(c,h,aF,aE,aD,a)})}return Y;case
+aD=a[2],aE=a[1],aF=gW(j,$(s));return cE(i,k,function(a){return fj(c,h,aF,aE,aD,a)})}return Y;case
 1:var
 Z=c8(C,i);if(Z){var
-aH=a[2],aI=a[1],aJ=gV(j,$(s));return cE(i,X,function(a){return fi(c,h,aJ,aI,aH,a)})}return Z;case
+aG=a[2],aI=a[1],aJ=gW(j,$(s));return cE(i,X,function(a){return fj(c,h,aJ,aI,aG,a)})}return Z;case
 2:var
 _=c8(C,i);if(_){var
-aa=L(s[1],d),ab=aa?L(s[2],d):aa;if(ab){var
-aK=a[2],aM=a[1];return cE(i,k,function(a){return mk(c,h,j,aM,aK,a)})}var
+aa=J(s[1],d),ab=aa?J(s[2],d):aa;if(ab){var
+aK=a[2],aM=a[1];return cE(i,k,function(a){return mp(c,h,j,aM,aK,a)})}var
 ac=ab}else
 var
 ac=_;return ac}return 0;case
 1:var
-ae=f[1];if(typeof
+ae=g[1];if(typeof
 a==="number"){if(1===a){var
-aN=iY(j,$(ae));return cE(i,X,function(a){return iN(c,h,aN,a)})}if(!a){var
-aO=iY(j,$(ae));return cE(i,k,function(a){return iN(c,h,aO,a)})}}return 0;case
+aN=i3(j,$(ae));return cE(i,X,function(a){return iO(c,h,aN,a)})}if(!a){var
+aO=i3(j,$(ae));return cE(i,k,function(a){return iO(c,h,aO,a)})}}return 0;case
 2:if(typeof
 a!=="number"&&3===a[0]){var
-af=a[1],m=i0(c,af,a[3]),ag=f[1],aP=a[2];return cE(i,k,function(d){var
-a=iO(h,m),b=a?fi(c,h,gV(j,m),af,aP,d):a;if(b){var
-f=m[3],g=e(function(a){return t(c,ag,a)},f),i=m[2];return iN(c,h,iY(j,[0,t(c,ag,m[1]),i,g]),d)}return b})}return 0;case
+af=a[1],m=i5(c,af,a[3]),ag=g[1],aP=a[2];return cE(i,k,function(d){var
+a=iP(h,m),b=a?fj(c,h,gW(j,m),af,aP,d):a;if(b){var
+f=m[3],g=e(function(a){return t(c,ag,a)},f),i=m[2];return iO(c,h,i3(j,[0,t(c,ag,m[1]),i,g]),d)}return b})}return 0;case
 3:if(typeof
-a==="number"&&!a)return iZ(i,h,j,f[1]);return 0;case
+a==="number"&&!a)return i4(i,h,j,g[1]);return 0;case
 4:if(typeof
 a!=="number"&&0===a[0]){var
-aQ=a[2],aR=a[1],aS=gV(j,$(f[2])),aT=function(a){return fi(c,h,aS,aR,aQ,a)};return cE(i,f[1],aT)}return 0;case
+aR=a[2],aS=a[1],aT=gW(j,$(g[2])),aU=function(a){return fj(c,h,aT,aS,aR,a)};return cE(i,g[1],aU)}return 0;case
 5:if(typeof
 a==="number"&&!(3<=a))switch(a){case
-0:return iZ(i,h,j,f[1]);case
-2:return iZ(i,h,j,f[2])}return 0;case
+0:return i4(i,h,j,g[1]);case
+2:return i4(i,h,j,g[2])}return 0;case
 6:if(typeof
 a!=="number"&&8===a[0]){var
-D=gW(i,f[1]);if(D){var
-F=gW(i,f[2]);if(F){var
-H=gW(i,f[3]);if(H){var
-I=gW(i,f[4]);if(I){var
-ah=I[1],ai=H[1],aj=F[1],ak=D[1],n=a[2],v=f[5],aV=a[1];if(n){var
-p=n[2];if(p){var
+D=gX(i,g[1]);if(D){var
+F=gX(i,g[2]);if(F){var
+H=gX(i,g[3]);if(H){var
+I=gX(i,g[4]);if(I){var
+ah=I[1],ai=H[1],aj=F[1],ak=D[1],o=a[2],v=g[5],aV=a[1];if(o){var
+p=o[2];if(p){var
 q=p[2];if(q){if(q[2])return 0;var
-aC=[0,n[1],p[1],q[1]],r=mq(function(f){function
-g(a){return aU(a,aV,O(c,b))}if(f){var
-a=e(g,f[2]),d=g(f[1]),h=fe(a),i=E(d[2],h),j=fe(a);return[0,d,[0,aL(d[1],j),i],a]}return $(u)},aC),N=l(function(a){return o(g(a),[0,h])},n),P=N?gN(c,h,j,v,r,ak,ai):N,Q=P?gN(c,h,j,v,r,ak,ah):P,R=Q?gN(c,h,j,v,r,aj,ai):Q;if(R)return gN(c,h,j,v,r,aj,ah);var
+aC=[0,o[1],p[1],q[1]],r=mv(function(f){function
+g(a){return aQ(a,aV,N(c,b))}if(f){var
+a=e(g,f[2]),d=g(f[1]),h=ff(a),i=E(d[2],h),j=ff(a);return[0,d,[0,aL(d[1],j),i],a]}return $(u)},aC),O=l(function(a){return n(f(a),[0,h])},o),P=O?gO(c,h,j,v,r,ak,ai):O,Q=P?gO(c,h,j,v,r,ak,ah):P,R=Q?gO(c,h,j,v,r,aj,ai):Q;if(R)return gO(c,h,j,v,r,aj,ah);var
 S=R}else
 var
 S=q;var
 T=S}else
 var
 T=p;var
-V=T}else
+U=T}else
 var
-V=n;return V}var
+U=o;return U}var
 al=I}else
 var
 al=H;var
@@ -2062,29 +2062,29 @@ var
 an=D;return an}return 0;case
 7:if(typeof
 a!=="number"&&0===a[0]){var
-ao=a[2],aq=a[1],aW=f[2],aX=f[1];return cE(i,k,function(e){var
-a=o(g(e),h),d=a?o(g(ao),h):a;if(d){var
-f=function(a){if(a){var
-d=a[2],e=o(g(d),h);if(e){var
-i=en(aq,eo(aq,ao,O(c,b),d));return a_(c,h,bi(gO(c,aX,aW,a[1][2],d),i))}var
-f=e}else
+ao=a[2],aq=a[1],aW=g[2],aX=g[1];return cE(i,k,function(e){var
+a=n(f(e),h),d=a?n(f(ao),h):a;if(d){var
+g=function(a){if(a){var
+d=a[2],e=n(f(d),h);if(e){var
+i=en(aq,eo(aq,ao,N(c,b),d));return a5(c,h,bi(gP(c,aX,aW,a[1][2],d),i))}var
+g=e}else
 var
-f=a;return f},i=j?j[1]:$(u);return iK(h,iM(i,e),f)}return d})}return 0;case
+g=a;return g},i=j?j[1]:$(u);return iL(h,iN(i,e),g)}return d})}return 0;case
 8:if(typeof
 a==="number"&&5<=a){var
-aY=f[3],aZ=f[2],a0=function(a){return mk(c,h,j,aZ,aY,a)};return cE(i,f[1],a0)}return 0;case
+aY=g[3],aZ=g[2],a0=function(a){return mp(c,h,j,aZ,aY,a)};return cE(i,g[1],a0)}return 0;case
 9:return 0;default:if(typeof
 a==="number"&&!a){var
-J=i1(i,f[1]);if(J){var
-a1=f[2],K=ad(e(function(a){return i1(i,a)},a1));if(K){var
-M=i1(i,[0,f[3],[0,f[4],[0,f[5],[0,f[6],0]]]]);if(M){var
+K=i6(i,g[1]);if(K){var
+a1=g[2],L=ad(e(function(a){return i6(i,a)},a1));if(L){var
+M=i6(i,[0,g[3],[0,g[4],[0,g[5],[0,g[6],0]]]]);if(M){var
 w=M[1];if(w){var
 x=w[2];if(x){var
 z=x[2];if(z){var
 B=z[2];if(B){if(B[2])return 0;var
-ar=B[1],as=z[1][2],at=x[1][2],au=w[1][2],av=K[1],a2=J[1],W=mA(c,h,j,av,au,at,function(d){return[0,el(c,ap(function(b,a){return A(U(c,aG(d,b)),a)},u,a2))]});return W?W:mA(c,h,j,av,au,at,function(f){var
-b=cc(ar[1]),a=ca(c,G(as,U(c,b)));if(a){var
-d=b$(c,a[1]),e=G(as,t(c,b,aG(f,ar)));return y(function(a){return t(c,e,a)},d)}return a})}var
+ar=B[1],as=z[1][2],at=x[1][2],au=w[1][2],av=L[1],a2=K[1],W=mF(c,h,j,av,au,at,function(d){return[0,el(c,ap(function(b,a){return A(V(c,aH(d,b)),a)},u,a2))]});return W?W:mF(c,h,j,av,au,at,function(f){var
+b=cc(ar[1]),a=ca(c,G(as,V(c,b)));if(a){var
+d=b$(c,a[1]),e=G(as,t(c,b,aH(f,ar)));return y(function(a){return t(c,e,a)},d)}return a})}var
 aw=B}else
 var
 aw=z;var
@@ -2099,41 +2099,41 @@ var
 az=M;var
 aA=az}else
 var
-aA=K;var
+aA=L;var
 aB=aA}else
 var
-aB=J;return aB}return 0}}function
-mJ(a,_,s,m,n,Z,h,j,i,f,c){if(9===f[0]){var
-aa=f[2],ae=f[1];if(typeof
+aB=K;return aB}return 0}}function
+mK(a,_,s,m,o,Z,h,j,i,g,c){if(9===g[0]){var
+aa=g[2],ae=g[1];if(typeof
 c!=="number"&&9===c[0]){var
-L=c[2],v=c[1],af=c[3];if(0<aS(c[4]))return fn(a,s,m,n,h,g(j),i,f,c);var
-V=e($,Z),C=bg(0,bD(a,gP(0,j,ae),V),_,0),M=o(g(j),tF),N=M?c8(n,C):M;if(N){var
-w=gU(C,m);if(w){var
-x=gU(h,m);if(x){var
+L=c[2],v=c[1],af=c[3];if(0<aT(c[4]))return fo(a,s,m,o,h,f(j),i,g,c);var
+U=e($,Z),C=bg(0,bD(a,gQ(0,j,ae),U),_,0),M=n(f(j),tG),O=M?c8(o,C):M;if(O){var
+w=gV(C,m);if(w){var
+x=gV(h,m);if(x){var
 z=ad(e(function(b){var
 c=r(b[1],h,0);if(c)var
 f=b[2][2],a=ad(e(function(a){var
 b=r(a[2],h,0);return y(function(b){return[0,a[1],b]},b)},f)),g=a?[0,[0,b[2][1],a[1]]]:a,d=g;else
 var
 d=c;return d},aa));if(z){var
-B=mt(w[1]);if(B){var
+B=my(w[1]);if(B){var
 P=x[1],ag=z[1],ah=B[1],D=el(a,ap(function(f,h){function
 b(b,d){var
 a=f[1],c=b?b[1]?f[2]:a[2]:a[1];return cb(r(d,c[3],u))}function
 c(a){var
-b=k(a,ti),c=bm(k(a,tj),b);return bm(k(a,0),c)}var
+b=k(a,tj),c=bm(k(a,tk),b);return bm(k(a,0),c)}var
 d=c(function(a){var
-c=b(tk,a),d=b(tl,a);return E(E(b(0,a),d),c)}),g=[0,d,d],e=c(function(a){var
-c=b(a,tm),d=b(a,tn);return E(E(b(a,0),d),c)});return A(h,U(a,el(a,t(a,[0,e,e],g))))},u,ah)),p=aU(af,v,O(a,b)),F=I(d,G(p,D)[1]),H=F?o(g(L),tt):F,J=H?o(g(P),tu):H;if(J){var
+c=b(tl,a),d=b(tm,a);return E(E(b(0,a),d),c)}),g=[0,d,d],e=c(function(a){var
+c=b(a,tn),d=b(a,to);return E(E(b(a,0),d),c)});return A(h,V(a,el(a,t(a,[0,e,e],g))))},u,ah)),p=aQ(af,v,N(a,b)),F=K(d,G(p,D)[1]),H=F?n(f(L),tu):F,I=H?n(f(P),tv):H;if(I){var
 q=b$(a,p);if(q){var
-W=aw(t(a,D,q[1])),X=G(O(a,b),W),Y=bj(tv);return l(function(h){var
+W=aw(t(a,D,q[1])),X=G(N(a,b),W),Y=bj(tw);return l(function(h){var
 g=e(function(b){var
 c=b[2],d=b[1];return cz(bT(function(d,b){var
-c=cb(aG(h,b[2]));return A(d,t(a,b[1],[0,c,c]))},c,d))},ag),r=k(ax(function(a){return aG(h,a)}),P),E=i?aG(h,i[1]):u,M=U(a,X),s=U(a,p),q=en(v,eo(v,L,O(a,b),r)),c=bi(ab([0,ac(E),0],to),q);if(g){var
+c=cb(aH(h,b[2]));return A(d,t(a,b[1],[0,c,c]))},c,d))},ag),r=k(ax(function(a){return aH(h,a)}),P),E=i?aH(h,i[1]):u,M=V(a,X),s=V(a,p),q=en(v,eo(v,L,N(a,b),r)),c=bi(ac([0,ab(E),0],tp),q);if(g){var
 d=g[2];if(d){var
 f=d[2];if(f){if(f[2])return 0;var
-B=d[1],C=g[1],I=f[1],j=a_(a,tq,bi(ab([0,ac(s),0],tp),c));if(j)return l(function(D){var
-J=G(M,E),K=D[2]?B:ac(B),L=D[1]?C:ac(C),o=0;if(c){var
+B=d[1],C=g[1],I=f[1],j=a5(a,tr,bi(ac([0,ab(s),0],tq),c));if(j)return l(function(D){var
+J=G(M,E),K=D[2]?B:ab(B),L=D[1]?C:ab(C),o=0;if(c){var
 b=c[1],l=0;if(b){var
 d=b[2],m=0;if(d){var
 e=d[2],n=0;if(e)if(e[2]){var
@@ -2172,7 +2172,7 @@ var
 z=b;if(!l){var
 A=z;o=1}}else{var
 A=c;o=1}if(o)var
-k=A;return a_(a,ts,k)},tr);var
+k=A;return a5(a,tt,k)},ts);var
 m=j}else
 var
 m=f;var
@@ -2182,9 +2182,9 @@ n=d;var
 o=n}else
 var
 o=g;return o},Y)}var
-K=q}else
+J=q}else
 var
-K=J;return K}var
+J=I;return J}var
 Q=B}else
 var
 Q=z;var
@@ -2196,26 +2196,26 @@ var
 S=w;var
 T=S}else
 var
-T=N;return T}return fn(a,s,m,n,h,g(j),i,f,c)}return fn(a,s,m,n,h,g(j),i,f,c)}function
-gX(d){var
+T=O;return T}return fo(a,s,m,o,h,f(j),i,g,c)}return fo(a,s,m,o,h,f(j),i,g,c)}function
+gY(d){var
 a=d;for(;;){if(a){var
-b=a[2],e=a[1],c=J(aj(function(b){return function(a){return o(b,a)}}(e),b));if(c){var
+b=a[2],e=a[1],c=I(aj(function(b){return function(a){return n(b,a)}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-i2(j,i,h,g,a){var
+i7(j,i,h,g,a){var
 d=r(a,j,0);if(d){var
 b=r(a,i,0);if(b)var
-c=mz(0,g,r(a,h,tG)),k=c?[0,[0,b[1],c[1]]]:c,e=k;else
+c=mE(0,g,r(a,h,tH)),k=c?[0,[0,b[1],c[1]]]:c,e=k;else
 var
 e=b;var
 f=e}else
 var
 f=d;return f}function
-gY(i,b,a){if(a){var
+gZ(i,b,a){if(a){var
 j=a[1],l=j[2],c=ad(e(b,j[1]));if(c){var
 f=k(b,l);if(f){var
 g=r(l,i,0);if(g){var
-h=gY(i,b,a[2]);if(h)var
-m=I(d,g[1][2][1]),n=m?[0,[0,[0,c[1],f[1]],h[1]]]:m;else
+h=gZ(i,b,a[2]);if(h)var
+m=K(d,g[1][2][1]),n=m?[0,[0,[0,c[1],f[1]],h[1]]]:m;else
 var
 n=h;var
 o=n}else
@@ -2226,25 +2226,25 @@ var
 p=f;var
 q=p}else
 var
-q=c;return q}return tH}function
-mK(c,M,j,K,q,p,J,I,f,b,i,a){var
-h=g(J),N=dH(0,J),aF=bg(0,bD(c,N,e($,fl(i,0,q))),M,0),aI=e(aA,i),aH=0,aK=e($,q),aM=bg(tI,function(a){return iR(c,N,aK,aI,a)},M,aH),aN=gR(i,q);function
-P(a){return i2(p,aF,aM,i,a)}function
-w(a){return e(function(a){return O(c,a)},a)}var
+q=c;return q}return tI}function
+mL(c,M,j,L,q,p,K,I,g,b,i,a){var
+h=f(K),O=dH(0,K),aF=bg(0,bD(c,O,e($,fm(i,0,q))),M,0),aJ=e(aA,i),aI=0,aK=e($,q),aM=bg(tJ,function(a){return iS(c,O,aK,aJ,a)},M,aI),aN=gS(i,q);function
+P(a){return i7(p,aF,aM,i,a)}function
+w(a){return e(function(a){return N(c,a)},a)}var
 aO=I?I[1]:$(u);function
-Q(a){return a?a_(c,h,a[1]):a}function
+Q(a){return a?a5(c,h,a[1]):a}function
 r(f,e,d,b,a){var
-g=ab([0,ac(e),0],h);return Q(iW(c,w(f),d,b,a,g))}function
+g=ac([0,ab(e),0],h);return Q(iX(c,w(f),d,b,a,g))}function
 R(d,b,a){var
-e=ab([0,b,0],h);return Q(mv(c,w(d),a,e))}var
-aP=e(aA,i),S=l(function(a){return aJ(a,g(q))},aP),U=S?gX(e(aA,i)):S,V=U?l(function(a){return o(g(a),h)},a):U;if(V){var
-v=0;switch(f[0]){case
+e=ac([0,b,0],h);return Q(mA(c,w(d),a,e))}var
+aP=e(aA,i),S=l(function(a){return aG(a,f(q))},aP),V=S?gY(e(aA,i)):S,W=V?l(function(a){return n(f(a),h)},a):V;if(W){var
+v=0;switch(g[0]){case
 0:var
-x=f[1],F=0;if(typeof
+x=g[1],F=0;if(typeof
 b!=="number")switch(b[0]){case
 0:var
 ar=0;if(a){if(a[2])return 0;var
-aQ=a[1],aR=b[2],aS=b[1],X=c8(K,p);if(X){var
+aQ=a[1],aR=b[2],aS=b[1],X=c8(L,p);if(X){var
 m=function(c,a){var
 b=A(x,a);return function(a){return r(aQ,b,aS,aR,a)}},k=j;F=1;ar=1}else
 var
@@ -2253,9 +2253,9 @@ var
 _=a;if(!ar)return _;break;case
 2:var
 as=0;if(a){if(a[2])return 0;var
-aU=a[1],aV=b[2],aW=b[1],aa=c8(K,p),at=0;if(aa){var
-ad=L(x[1],d),ae=ad?L(x[2],d):ad;if(ae){var
-m=function(c,b,a){return r(aU,b,aW,aV,e(mu,a))},k=j;F=1;as=1;at=1}else
+aU=a[1],aV=b[2],aW=b[1],aa=c8(L,p),at=0;if(aa){var
+ad=J(x[1],d),ae=ad?J(x[2],d):ad;if(ae){var
+m=function(c,b,a){return r(aU,b,aW,aV,e(mz,a))},k=j;F=1;as=1;at=1}else
 var
 af=ae}else
 var
@@ -2264,18 +2264,18 @@ ag=af}else
 var
 ag=a;if(!as)return ag;break}if(!F)return 0;break;case
 1:var
-au=0,aX=f[1];if(typeof
+au=0,aX=g[1];if(typeof
 b==="number"&&!b){if(!a)return a;if(a[2])return 0;var
 aY=a[1],m=function(c,a){var
 b=G(aX,a);return function(a){return R(aY,b,a)}},k=j;au=1}if(!au)return 0;break;case
 2:var
-av=0,aZ=f[1];if(typeof
+av=0,aZ=g[1];if(typeof
 b==="number"||!(3===b[0]))av=1;else{var
 ax=0;if(a){var
 s=a[2],ay=0;if(s){if(s[2])return 0;var
-ah=b[1],a0=s[1],a1=a[1],a2=b[2],ai=i0(c,ah,b[3]),aj=iO(h,ai);if(aj){var
+ah=b[1],a0=s[1],a1=a[1],a2=b[2],ai=i5(c,ah,b[3]),aj=iP(h,ai);if(aj){var
 m=function(f,b,a){var
-d=aG(f,ai),e=r(a1,A(d,b),ah,a2,a);return e?R(a0,G(t(c,aZ,d),b),a):e},k=j;ax=1;ay=1}else
+d=aH(f,ai),e=r(a1,A(d,b),ah,a2,a);return e?R(a0,G(t(c,aZ,d),b),a):e},k=j;ax=1;ay=1}else
 var
 ak=aj}else
 var
@@ -2286,37 +2286,37 @@ al=a;if(!ax)return al}if(av)return 0;break;case
 3:var
 az=0;if(typeof
 b==="number"&&!b){if(a)return 0;var
-z=f[1];v=1}else
+z=g[1];v=1}else
 az=1;if(az)return 0;break;case
 4:var
-aB=0,a4=f[2];if(typeof
+aB=0,a4=g[2];if(typeof
 b==="number"||!(0===b[0]))aB=1;else{if(!a)return a;if(a[2])return 0;var
-a5=a[1],a6=b[2],a7=b[1],a8=function(c,a){var
-b=A(a4,a);return function(a){return r(a5,b,a7,a6,a)}},m=a8,k=f[1]}if(aB)return 0;break;case
+a6=a[1],a7=b[2],a8=b[1],a9=function(c,a){var
+b=A(a4,a);return function(a){return r(a6,b,a8,a7,a)}},m=a9,k=g[1]}if(aB)return 0;break;case
 5:var
 H=0;if(typeof
 b==="number"&&!(3<=b))switch(b){case
 0:if(a)return 0;var
-z=f[1];v=1;break;case
+z=g[1];v=1;break;case
 2:if(a)return 0;var
-z=f[2];v=1;break;default:H=1}else
+z=g[2];v=1;break;default:H=1}else
 H=1;if(H)return 0;break;case
 7:var
-am=f[2],an=f[1],aD=0;if(typeof
+am=g[2],an=g[1],aD=0;if(typeof
 b==="number"||!(0===b[0]))aD=1;else{var
 aE=0;if(a){if(a[2])return 0;var
-n=b[2],C=b[1],a9=a[1],ao=o(g(j),h);if(ao){var
+o=b[2],C=b[1],a_=a[1],ao=n(f(j),h);if(ao){var
 m=function(a,x){var
-y=w(a9);return function(f){var
-k=o(g(f),h),l=k?o(g(n),h):k;if(l){var
-s=e(aA,f),u=en(C,eo(C,n,cg(c),s)),v=bi(gO(c,an,am,x,e(aA,f)),u),a=0,b=f,i=v,w=g(n);for(;;){if(b){var
-p=b[1][2],q=o(a,an),r=e(function(f,h){return function(d){var
-a=W(aC(0,g(n)),n);return e(function(a){var
-b=mx(C,a[2],d[1]);if(h&&o(a[1],f))return G(b,aw(t(c,am,d[2])));return b},a)}}(a,q),p),j=fk(c,y,mw(c,a,w),r,i);if(j){var
+y=w(a_);return function(g){var
+k=n(f(g),h),l=k?n(f(o),h):k;if(l){var
+s=e(aA,g),u=en(C,eo(C,o,cg(c),s)),v=bi(gP(c,an,am,x,e(aA,g)),u),a=0,b=g,i=v,w=f(o);for(;;){if(b){var
+p=b[1][2],q=n(a,an),r=e(function(g,h){return function(d){var
+a=U(aC(0,f(o)),o);return e(function(a){var
+b=mC(C,a[2],d[1]);if(h&&n(a[1],g))return G(b,aw(t(c,am,d[2])));return b},a)}}(a,q),p),j=fl(c,y,mB(c,a,w),r,i);if(j){var
 a=[0,a],b=b[2],i=j[1];continue}var
 d=j}else
 var
-d=[0,i];if(d)return a_(c,h,d[1]);var
+d=[0,i];if(d)return a5(c,h,d[1]);var
 m=d;break}}else
 var
 m=l;return m}},k=j;aE=1}else
@@ -2327,39 +2327,39 @@ aq=a;if(!aE)return aq}if(aD)return 0;break;default:return 0}if(v){var
 B=P(z);if(!B)return B;var
 a3=function(b,f,a){return l(function(a){var
 b=f[2],c=a[2],e=ap(function(b,a){return E(bm(d,T(b[2][1])),a)},d,c);return D(d,aL(aL(a[1][2][1],e),b))},a)},Z=a3,Y=[0,[0,0,B[1]],0]}else{var
-y=gY(p,P,k);if(!y)return y;var
+y=gZ(p,P,k);if(!y)return y;var
 Z=m,Y=y[1]}var
 aT=bj(h);return l(function(a){var
-b=e(function(b){return gS(c,a,aN,b)},Y);return f4(Z,a,aG(a,aO),b)},aT)}return V}function
-mL(j,a){var
+b=e(function(b){return gT(c,a,aN,b)},Y);return f5(Z,a,aH(a,aO),b)},aT)}return W}function
+i8(j,a){var
 f=ap(function(b,a){return bm(ct(b),a)},d,a);function
-g(a){if(a){if(L(ct(a[1]),f))return 0;var
+g(a){if(a){if(J(ct(a[1]),f))return 0;var
 b=[0,g(a[2])]}else
 var
 b=a;return b}var
-h=g(a);if(L(f,d)){var
+h=g(a);if(J(f,d)){var
 k=e(function(a){return u},a),l=a?[0,b,a[2]]:a;return[0,[0,[0,0,l],d],k]}var
-i=iD(E(lL(f),b)),m=e(function(a){return u},a);return[0,[0,[0,h,a],i],c6(u,h,O(j,b_(c(2,b),i)),m)]}function
-gZ(f,K,t,I,n,m,H,F,k,a,h,al,E,ak,C,B){var
-i=g(H),M=dH(0,H),am=bg(0,bD(f,M,e($,fl(h,0,n))),K,0),ap=e(aA,h),an=0,aq=e($,n),ar=bg(tJ,function(a){return iR(f,M,aq,ap,a)},K,an),as=gR(h,n);function
-at(a){return i2(m,am,ar,h,a)}var
-au=F?F[1]:$(u),N=mL(f,al),P=N[1],Q=P[1],v=Q[2],j=Q[1],R=N[2],av=P[2],p=e(function(a){return aU(a,av,O(f,b))},v);function
-S(a){return mF(f,j,p,E,ak,C,B,mE(f,j,p,i,a,0))}function
-T(a){return a?a_(f,i,a[1]):a}function
-w(d,c,b,a){return T(mG(f,j,p,R,c,b,a,S(ac(d))))}var
-aw=e(aA,h),U=l(function(a){return aJ(a,g(n))},aw),V=U?gX(e(aA,h)):U,W=V?o(g(v),i):V,X=W?o(g(E),i):W,Y=X?D(d,C):X,Z=Y?iB(B,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):Y,_=Z?aJ(j,i):Z,aa=_?J(L(r(j,v,d),d)):_;if(aa){switch(k[0]){case
+i=iE(E(lQ(f),b)),m=e(function(a){return u},a);return[0,[0,[0,h,a],i],c6(u,h,N(j,b_(c(2,b),i)),m)]}function
+g0(g,L,t,K,o,m,H,F,k,a,h,al,E,ak,C,B){var
+i=f(H),M=dH(0,H),am=bg(0,bD(g,M,e($,fm(h,0,o))),L,0),ap=e(aA,h),an=0,aq=e($,o),ar=bg(tK,function(a){return iS(g,M,aq,ap,a)},L,an),as=gS(h,o);function
+at(a){return i7(m,am,ar,h,a)}var
+au=F?F[1]:$(u),O=i8(g,al),P=O[1],Q=P[1],v=Q[2],j=Q[1],R=O[2],av=P[2],p=e(function(a){return aQ(a,av,N(g,b))},v);function
+S(a){return i0(g,j,p,E,ak,C,B,iZ(g,j,p,i,a,0))}function
+T(a){return a?a5(g,i,a[1]):a}function
+w(d,c,b,a){return T(i1(g,j,p,R,c,b,a,S(ab(d))))}var
+aw=e(aA,h),U=l(function(a){return aG(a,f(o))},aw),V=U?gY(e(aA,h)):U,W=V?n(f(v),i):V,X=W?n(f(E),i):W,Y=X?D(d,C):X,Z=Y?gy(B,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):Y,_=Z?aG(j,i):Z,aa=_?I(J(r(j,v,d),d)):_;if(aa){switch(k[0]){case
 0:var
 x=k[1],z=0;if(typeof
 a==="number")z=1;else
 switch(a[0]){case
 0:var
-ax=a[2],ay=a[1],ab=c8(I,m);if(!ab)return ab;var
+ax=a[2],ay=a[1],ac=c8(K,m);if(!ac)return ac;var
 s=function(a){var
 b=A(x,a);return function(a){return w(b,ay,ax,a)}},q=t;break;case
 2:var
-aC=a[2],aD=a[1],ad=c8(I,m),ah=0;if(ad){var
-ae=L(x[1],d),af=ae?L(x[2],d):ae;if(af){var
-s=function(b,a){return w(b,aD,aC,e(mu,a))},q=t;ah=1}else
+aC=a[2],aD=a[1],ad=c8(K,m),ah=0;if(ad){var
+ae=J(x[1],d),af=ae?J(x[2],d):ae;if(af){var
+s=function(b,a){return w(b,aD,aC,e(mz,a))},q=t;ah=1}else
 var
 ag=af}else
 var
@@ -2368,91 +2368,91 @@ ag=ad;if(!ah)return ag;break;default:z=1}if(z)return 0;break;case
 ai=0,aE=k[1];if(typeof
 a==="number"&&!a)var
 s=function(a){var
-b=G(aE,a);return function(a){return T(mI(f,j,p,R,a,S(b)))}},q=t;else
+b=G(aE,a);return function(a){return T(mJ(g,j,p,R,a,S(b)))}},q=t;else
 ai=1;if(ai)return 0;break;case
 4:var
 aj=0,aF=k[2];if(typeof
 a==="number"||!(0===a[0]))aj=1;else
 var
-aH=a[2],aI=a[1],aK=function(a){var
-b=A(aF,a);return function(a){return w(b,aI,aH,a)}},s=aK,q=k[1];if(aj)return 0;break;default:return 0}var
-y=gY(m,at,q);if(y){var
+aI=a[2],aJ=a[1],aK=function(a){var
+b=A(aF,a);return function(a){return w(b,aJ,aI,a)}},s=aK,q=k[1];if(aj)return 0;break;default:return 0}var
+y=gZ(m,at,q);if(y){var
 az=y[1],aB=bj(i);return l(function(a){var
-b=e(function(b){return gS(f,a,as,b)},az);return ao(s,aG(a,au),b)},aB)}return y}return aa}function
+b=e(function(b){return gT(g,a,as,b)},az);return ao(s,aH(a,au),b)},aB)}return y}return aa}function
 mM(r,q,p,o,n,C,m,c,l,j,i,h,g,a){var
 v=e(function(a){return d},c),u=0;if(typeof
 a!=="number")switch(a[0]){case
 5:var
-E=a[1],F=function(a){return gZ(r,q,p,o,n,m,c,a,l,E,0,v,j,i,h,g)},x=F,w=a[3],s=a[2];u=1;break;case
+E=a[1],F=function(a){return g0(r,q,p,o,n,m,c,a,l,E,0,v,j,i,h,g)},x=F,w=a[3],s=a[2];u=1;break;case
 10:var
 b=a[3],A=a[2],f=a[1],B=0;if(typeof
 f!=="number"&&5===f[0]){if(!b)return b;if(b[2])return 0;var
-G=b[1],H=f[1],I=function(a){return gZ(r,q,p,o,n,m,c,a,l,H,A,G,j,i,h,g)},x=I,w=f[3],s=f[2];u=1;B=1}if(!B)return b?b[2]?0:gZ(r,q,p,o,n,m,c,0,l,f,A,b[1],j,i,h,g):b;break}if(u){var
+G=b[1],H=f[1],I=function(a){return g0(r,q,p,o,n,m,c,a,l,H,A,G,j,i,h,g)},x=I,w=f[3],s=f[2];u=1;B=1}if(!B)return b?b[2]?0:g0(r,q,p,o,n,m,c,0,l,f,A,b[1],j,i,h,g):b;break}if(u){var
 t=k(C,c);if(t){var
-y=D(d,s);if(y)return x([0,gL(s,w,t[1])]);var
+y=D(d,s);if(y)return x([0,gM(s,w,t[1])]);var
 z=y}else
 var
-z=t;return z}return gZ(r,q,p,o,n,m,c,0,l,a,0,v,j,i,h,g)}function
+z=t;return z}return g0(r,q,p,o,n,m,c,0,l,a,0,v,j,i,h,g)}function
 mN(a,aj,aL,s,F,ai,q,p,ah,ag,h){function
-j(ak,f,j,x){var
-h=g(q),z=dH(0,q),aq=bg(0,bD(a,z,e($,fl(j,0,s))),aj,0),as=e(aA,j),ar=0,at=e($,s),au=bg(tK,function(b){return iR(a,z,at,as,b)},aj,ar);function
-av(a){return i2(ai,aq,au,j,a)}var
+j(ak,g,j,x){var
+h=f(q),z=dH(0,q),aq=bg(0,bD(a,z,e($,fm(j,0,s))),aj,0),as=e(aA,j),ar=0,at=e($,s),au=bg(tL,function(b){return iS(a,z,at,as,b)},aj,ar);function
+av(a){return i7(ai,aq,au,j,a)}var
 aw=ak?ak[1]:$(u);function
-k(b){return b?a_(a,h,b[1]):b}function
-B(b,a){return ac(A(aG(b,ah),a))}function
-C(d,c,b){return G(t(a,d,aG(c,ah)),b)}var
-ax=e(aA,j),E=l(function(a){return aJ(a,g(s))},ax),F=E?gX(e(aA,j)):E,H=F?o(g(x),h):F;if(H){var
+k(b){return b?a5(a,h,b[1]):b}function
+B(b,a){return ab(A(aH(b,ah),a))}function
+C(d,c,b){return G(t(a,d,aH(c,ah)),b)}var
+ax=e(aA,j),E=l(function(a){return aG(a,f(s))},ax),F=E?gY(e(aA,j)):E,H=F?n(f(x),h):F;if(H){var
 al=0;if(ag){var
-I=ag[1],K=I[1],M=K[1],N=M[1],P=K[2],Q=I[2],ay=M[2],R=mL(a,x),S=R[1],T=S[1],v=T[2],i=T[1],U=R[2],az=S[2],m=e(function(c){return aU(c,az,O(a,b))},v),V=function(b){return mF(a,i,m,N,ay,P,Q,mE(a,i,m,h,b,0))},W=o(g(v),h),X=W?o(g(N),h):W,Y=X?D(d,P):X,Z=Y?iB(Q,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):Y,_=Z?aJ(i,h):Z,aa=_?J(L(r(i,v,d),d)):_,y=0;if(aa)if(p){var
+K=ag[1],L=K[1],M=L[1],O=M[1],P=L[2],Q=K[2],ay=M[2],R=i8(a,x),S=R[1],T=S[1],v=T[2],i=T[1],U=R[2],az=S[2],m=e(function(c){return aQ(c,az,N(a,b))},v),V=function(b){return i0(a,i,m,O,ay,P,Q,iZ(a,i,m,h,b,0))},W=n(f(v),h),X=W?n(f(O),h):W,Y=X?D(d,P):X,Z=Y?gy(Q,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):Y,_=Z?aG(i,h):Z,aa=_?I(J(r(i,v,d),d)):_,y=0;if(aa)if(p){var
 am=0,aB=p[1];if(typeof
-f==="number"&&!f){var
-n=function(d,c,b){return k(mI(a,i,m,U,b,V(C(aB,d,c))))};y=1;am=1}if(!am)return 0}else{var
+g==="number"&&!g){var
+o=function(d,c,b){return k(mJ(a,i,m,U,b,V(C(aB,d,c))))};y=1;am=1}if(!am)return 0}else{var
 an=0;if(typeof
-f!=="number"&&0===f[0]){var
-aE=f[2],aF=f[1],n=function(d,c,b){return k(mG(a,i,m,U,aF,aE,b,V(B(d,c))))};y=1;an=1}if(!an)var
+g!=="number"&&0===g[0]){var
+aE=g[2],aF=g[1],o=function(d,c,b){return k(i1(a,i,m,U,aF,aE,b,V(B(d,c))))};y=1;an=1}if(!an)var
 ad=0}else
 var
 ad=aa;if(!y)return ad}else{var
-ae=e(function(b){return O(a,b)},x);if(p){var
-ao=0,aH=p[1];if(typeof
-f==="number"&&!f){var
-n=function(d,c,b){return k(mv(a,ae,b,ab([0,C(aH,d,c),0],h)))};ao=1}if(!ao)return 0}else{var
+ae=e(function(b){return N(a,b)},x);if(p){var
+ao=0,aI=p[1];if(typeof
+g==="number"&&!g){var
+o=function(d,c,b){return k(mA(a,ae,b,ac([0,C(aI,d,c),0],h)))};ao=1}if(!ao)return 0}else{var
 ap=0;if(typeof
-f==="number"||!(0===f[0]))ap=1;else
+g==="number"||!(0===g[0]))ap=1;else
 var
-aI=f[2],aK=f[1],n=function(d,c,b){return k(iW(a,ae,aK,aI,b,ab([0,B(d,c),0],h)))};if(ap){var
+aJ=g[2],aK=g[1],o=function(d,c,b){return k(iX(a,ae,aK,aJ,b,ac([0,B(d,c),0],h)))};if(ap){var
 af=0;al=1}}}if(!al){var
-w=gY(ai,av,aL);if(w){var
+w=gZ(ai,av,aL);if(w){var
 aC=w[1],aD=bj(h);return l(function(b){var
-c=gR(j,s),d=e(function(d){return gS(a,b,c,d)},aC);return n(b,aG(b,aw),d)},aD)}return w}}else
+c=gS(j,s),d=e(function(d){return gT(a,b,c,d)},aC);return o(b,aH(b,aw),d)},aD)}return w}}else
 var
 af=H;return af}var
 x=e(function(a){return d},q),w=0;if(typeof
 h!=="number")switch(h[0]){case
 5:var
-H=h[1],I=function(a){return j(a,H,0,x)},z=I,y=h[3],m=h[2];w=1;break;case
+H=h[1],K=function(a){return j(a,H,0,x)},z=K,y=h[3],m=h[2];w=1;break;case
 10:var
-f=h[3],v=h[2],i=h[1],E=0;if(typeof
+g=h[3],v=h[2],i=h[1],E=0;if(typeof
 i!=="number")switch(i[0]){case
-5:if(!f)return f;if(f[2])return 0;var
-K=f[1],M=i[1],N=function(a){return j(a,M,v,K)},z=N,y=i[3],m=i[2];w=1;E=1;break;case
+5:if(!g)return g;if(g[2])return 0;var
+L=g[1],M=i[1],O=function(a){return j(a,M,v,L)},z=O,y=i[3],m=i[2];w=1;E=1;break;case
 3:case
 7:case
 9:case
 10:case
 11:case
-13:return f?f[2]?0:j(0,i,v,f[1]):f}if(!E)return f?f[2]?0:j(0,i,v,f[1]):f;break}if(w){var
-n=k(F,q);if(n){var
-B=D(d,m);if(B)return z([0,gL(m,y,n[1])]);var
+13:return g?g[2]?0:j(0,i,v,g[1]):g}if(!E)return g?g[2]?0:j(0,i,v,g[1]):g;break}if(w){var
+o=k(F,q);if(o){var
+B=D(d,m);if(B)return z([0,gM(m,y,o[1])]);var
 C=B}else
 var
-C=n;return C}return j(0,h,0,x)}function
+C=o;return C}return j(0,h,0,x)}function
 mO(l,j,i,p,h,g,o,f,b,e,a){if(typeof
 a!=="number")switch(a[0]){case
 5:var
 q=a[2],m=k(o,b);if(m){var
 r=D(d,q);if(r){var
-y=a[1];return mJ(l,j,i,p,h,g,f,b,[0,gL(q,a[3],m[1])],e,y)}var
+y=a[1];return mK(l,j,i,p,h,g,f,b,[0,gM(q,a[3],m[1])],e,y)}var
 s=r}else
 var
 s=m;return s;case
@@ -2461,13 +2461,13 @@ t=a[3],u=a[2],c=a[1];if(typeof
 c!=="number"&&5===c[0]){var
 v=c[2],n=k(o,b);if(n){var
 w=D(d,v);if(w){var
-z=c[1];return mK(l,j,i,h,g,f,b,[0,gL(v,c[3],n[1])],e,z,u,t)}var
+z=c[1];return mL(l,j,i,h,g,f,b,[0,gM(v,c[3],n[1])],e,z,u,t)}var
 x=w}else
 var
-x=n;return x}return mK(l,j,i,h,g,f,b,0,e,c,u,t)}return mJ(l,j,i,p,h,g,f,b,0,e,a)}function
-i3(a){return 9===a[0]?0:1}function
-eq(a){return z(function(a){return f(a[1],[0,a[2],0])},a)}function
-i4(j,d,i,a,h){var
+x=n;return x}return mL(l,j,i,h,g,f,b,0,e,c,u,t)}return mK(l,j,i,p,h,g,f,b,0,e,a)}function
+i9(a){return 9===a[0]?0:1}function
+eq(a){return z(function(a){return g(a[1],[0,a[2],0])},a)}function
+i_(j,d,i,a,h){var
 b=h;for(;;){var
 c=0;if(typeof
 b==="number"){if(1!==b)c=1}else
@@ -2478,44 +2478,44 @@ b=b[3];continue;case
 5:case
 10:var
 b=b[1];continue;default:c=1}var
-k=c?0:1,l=k?d:j,g=eq(l);switch(a[0]){case
-0:return f(i,g);case
+k=c?0:1,l=k?d:j,f=eq(l);switch(a[0]){case
+0:return g(i,f);case
 3:return[0,a[1],0];case
 5:return[0,a[1],[0,a[2],0]];case
 6:var
 m=[0,a[1],[0,a[2],[0,a[3],[0,a[4],0]]]];return z(function(a){return[0,a[1],[0,a[2],[0,a[3],0]]]},m);case
 9:var
 n=a[2],o=z(function(a){var
-b=e(aN,a[2][2]);return[0,a[1],b]},n);return f(eq(d),o);case
+b=e(aN,a[2][2]);return[0,a[1],b]},n);return g(eq(d),o);case
 10:var
-p=[0,a[3],[0,a[4],[0,a[5],[0,a[6],0]]]],q=f(ed(a[2]),p);return f(a[1],q);case
+p=[0,a[3],[0,a[4],[0,a[5],[0,a[6],0]]]],q=g(ed(a[2]),p);return g(a[1],q);case
 4:case
-8:return eq(a[1]);default:return g}}}function
-i5(v,t,s,q,k,a,g,j){var
-h=i3(a),i=h?l(function(b){var
-a=r(b,bT(fm,g,k),u);return L(a[1],a[2])},j):h;return i?l(function(ao){switch(a[0]){case
+8:return eq(a[1]);default:return f}}}function
+i$(v,t,s,q,k,a,f,j){var
+h=i9(a),i=h?l(function(b){var
+a=r(b,bT(fn,f,k),u);return J(a[1],a[2])},j):h;return i?l(function(ao){switch(a[0]){case
 3:var
-g=[0,a[1],0];break;case
+f=[0,a[1],0];break;case
 4:var
-g=eq(a[1]);break;case
+f=eq(a[1]);break;case
 5:var
-g=[0,a[1],[0,a[2],0]];break;case
+f=[0,a[1],[0,a[2],0]];break;case
 6:case
 8:case
 9:case
 10:return 0;default:var
-g=0}var
+f=0}var
 j=0,k=bg(0,function(a){switch(a[0]){case
 0:return[0,[0,d]];case
 1:var
-ad=a[1],ae=aj(function(a){return o(ad,a)},ao)?b:d;return[0,[0,ae]];case
+ad=a[1],ae=aj(function(a){return n(ad,a)},ao)?b:d;return[0,[0,ae]];case
 2:var
-af=L(a[1],d)?0:[0,d];return[0,af];case
+af=J(a[1],d)?0:[0,d];return[0,af];case
 3:var
 e=a[2],j=a[1];if(j){var
 z=j[1];if(z){if(e){var
 A=e[1];if(A){var
-B=z[1],C=L(B,A[1]),ag=C?[0,[0,B]]:C;return ag}var
+B=z[1],C=J(B,A[1]),ag=C?[0,[0,B]]:C;return ag}var
 F=j}else
 var
 F=e;return F}return e}if(e){if(e[1])return 0;var
@@ -2526,7 +2526,7 @@ G=e;return G;case
 f=a[2],k=a[1];if(k){var
 H=k[1];if(H){if(f){var
 I=f[1];if(I){var
-J=H[1],K=L(J,I[1]),ah=K?[0,[0,J]]:K;return ah}var
+K=H[1],L=J(K,I[1]),ah=L?[0,[0,K]]:L;return ah}var
 M=k}else
 var
 M=f;return M}return f}if(f){if(f[1])return 0;var
@@ -2535,40 +2535,40 @@ var
 N=f;return N;case
 5:return a[1];case
 6:var
-n=a[1];if(n){var
-O=n[1],g=a[2];if(O){if(g){var
+o=a[1];if(o){var
+O=o[1],g=a[2];if(O){if(g){var
 P=g[1];if(P)return[0,[0,E(O[1],P[1])]];var
-Q=tz}else
+Q=tA}else
 var
 Q=g;return Q}var
-ai=g?tA:g,R=ai}else
+ai=g?tB:g,R=ai}else
 var
-R=n;return R;case
+R=o;return R;case
 7:var
 p=a[1];if(p){var
 S=p[1],h=a[2];if(S){if(h)var
 q=h[1],ak=q?[0,[0,aL(S[1],q[1])]]:q,U=ak;else
 var
 U=h;return U}var
-al=h?tB:h,V=al}else
+al=h?tC:h,V=al}else
 var
 V=p;return V;case
 8:var
 r=a[1];if(r){var
 W=r[1];if(W){var
 X=W[1];return[0,[0,E(X,X)]]}var
-Y=tC}else
+Y=tD}else
 var
 Y=r;return Y;case
 9:var
 s=a[1];if(s){var
 t=s[1];if(t){var
-i=t[1],x=aS(i);if(0===x)var
+i=t[1],x=aT(i);if(0===x)var
 m=1;else
 if(0<x)var
-m=D(i,b)?0:L(aT(i,aI(2))[2],d)?1:0;else
+m=D(i,b)?0:J(aU(i,aJ(2))[2],d)?1:0;else
 var
-y=T(i),m=D(y,b)?0:L(aT(y,aI(2))[2],d)?1:0;var
+y=T(i),m=D(y,b)?0:J(aU(y,aJ(2))[2],d)?1:0;var
 am=m?[0,[0,cx(i,c(2,b))]]:m,Z=am}else
 var
 Z=t;var
@@ -2578,7 +2578,7 @@ _=s;return _;default:var
 u=a[2];if(u){var
 v=a[3];if(v){var
 w=a[4];if(w)var
-an=[0,u[1],[0,v[1],[0,w[1],0]]],$=l(function(a){return a?L(a[1],d):1},an),aa=$?[0,[0,d]]:$;else
+an=[0,u[1],[0,v[1],[0,w[1],0]]],$=l(function(a){return a?J(a[1],d):1},an),aa=$?[0,[0,d]]:$;else
 var
 aa=w;var
 ab=aa}else
@@ -2590,50 +2590,50 @@ ac=u;return ac}},v,j);function
 m(a){return a?a[1]:d}var
 h=e(function(a){return y(m,a)},k),i=l(function(c){var
 a=r(c,h,0),b=a?1:a;return b},q);if(i){var
-n=f(eq(s),g),p=f(eq(t),n);return l(function(c){var
+o=g(eq(s),f),p=g(eq(t),o);return l(function(c){var
 a=r(c,h,0);if(a){var
-b=aS(a[1]);return 0===b?1:0<b?0:0}return a},p)}return i},g):i}function
-i6(j,a,i,h,g,f,e,d,c,b){var
-k=gE(i4(i,h,g,c,b),a);return iX(j,a,bT(fm,e,f),k,d)}function
+b=aT(a[1]);return 0===b?1:0<b?0:0}return a},p)}return i},f):i}function
+ja(j,a,i,h,g,f,e,d,c,b){var
+k=gF(i_(i,h,g,c,b),a);return i2(j,a,bT(fn,e,f),k,d)}function
 mP(f,d,c,n,m,b,l,q,e,k,j,i,h,a){if(typeof
 a!=="number"&&11===a[0]){var
-o=a[3],g=a[1],p=i5(d,c,n,m,b,k,g,a[2]);if(p){var
-r=i6(f,d,c,n,m,b,g,e,k,o);return mN(f,d,c,bT(fm,g,b),l,r,e,j,i,h,o)}return p}return mN(f,d,c,b,l,q,e,j,i,h,a)}function
-mQ(r,q,p,n,m,k,j,i,h,f,d,c,a){if(typeof
+o=a[3],g=a[1],p=i$(d,c,n,m,b,k,g,a[2]);if(p){var
+r=ja(f,d,c,n,m,b,g,e,k,o);return mN(f,d,c,bT(fn,g,b),l,r,e,j,i,h,o)}return p}return mN(f,d,c,b,l,q,e,j,i,h,a)}function
+mQ(r,q,p,o,m,k,j,i,h,g,d,c,a){if(typeof
 a!=="number"&&12===a[0]){var
-b=a[1],s=J(o(g(b),0));if(s){var
-t=W(mD(e(function(a){return a[1][1][1]},b)),b);return l(function(a){var
-b=a[2],e=b[1];return mP(r,q,p,n,m,k,j,i,h,f,d,c,[0,[0,[0,[0,a[1][1],a[1][2]],e[1][2]],e[2]]],b[2])},t)}return s}return mP(r,q,p,n,m,k,j,i,h,f,d,c,0,a)}function
-g0(b,a){if(a){var
+b=a[1],s=I(n(f(b),0));if(s){var
+t=U(iY(e(function(a){return a[1][1][1]},b)),b);return l(function(a){var
+b=a[2],e=b[1];return mP(r,q,p,o,m,k,j,i,h,g,d,c,[0,[0,[0,[0,a[1][1],a[1][2]],e[1][2]],e[2]]],b[2])},t)}return s}return mP(r,q,p,o,m,k,j,i,h,g,d,c,0,a)}function
+g1(b,a){if(a){var
 c=a[2];if(b){var
-e=g0(b[1],c);return[0,a[1],e]}var
+e=g1(b[1],c);return[0,a[1],e]}var
 d=[0,0,c]}else
 var
 d=a;return d}function
 mR(c,b,a){var
-d=W(b,a);return l(function(a){var
-b=k(c,a[1]);return b?b:J(a[2])},d)}function
-fo(i,a,f,m,c,t,n,h,b,X,p){switch(p[0]){case
+d=U(b,a);return l(function(a){var
+b=k(c,a[1]);return b?b:I(a[2])},d)}function
+fp(i,a,g,m,c,t,o,h,b,X,p){switch(p[0]){case
 0:var
-ab=function(a){return l(J,a)},K=ab,x=p[1];break;case
+ab=function(a){return l(I,a)},J=ab,x=p[1];break;case
 1:var
 ac=p[4],ad=p[3],ae=p[2],af=function(d){var
-e=c4(ae,b),g=fo(i,a,f,m,c,t,n,h,e[1],d,ad);return g?fo(i,a,f,m,c,t,n,h,e[2],d,ac):g},K=af,x=p[1];break;default:var
+e=c4(ae,b),f=fp(i,a,g,m,c,t,o,h,e[1],d,ad);return f?fp(i,a,g,m,c,t,o,h,e[2],d,ac):f},J=af,x=p[1];break;default:var
 ag=p[4],ah=p[3],ai=p[2],aj=function(d){var
-e=mR(i3,t,d);if(e){var
-g=c4(ai,h),j=fo(i,a,f,m,c,t,n,g[1],b,d,ah);if(j)return fo(i,a,f,m,c,t,n,g[2],b,d,ag);var
+e=mR(i9,t,d);if(e){var
+f=c4(ai,h),j=fp(i,a,g,m,c,t,o,f[1],b,d,ah);if(j)return fp(i,a,g,m,c,t,o,f[2],b,d,ag);var
 k=j}else
 var
-k=e;return k},K=aj,x=p[1]}if(x){var
-y=iX(i,a,h,gE(z(function(e){var
+k=e;return k},J=aj,x=p[1]}if(x){var
+y=i2(i,a,h,gF(z(function(e){var
 a=e[2],d=0;if(typeof
 a==="number"){if(4!==a)d=1}else
 if(11!==a[0])d=1;if(d){var
-b=F(t,e[1]);return b?i4(f,m,c,b[1],a):b}return 0},x),a),b),w=x,u=X;for(;;){if(w){var
+b=F(t,e[1]);return b?i_(g,m,c,b[1],a):b}return 0},x),a),b),w=x,u=X;for(;;){if(w){var
 R=w[1],j=R[2],E=R[1],S=w[2],Y=0;if(typeof
 j==="number"&&4===j){var
-A=k(n,b);if(A)var
-_=A[1],Z=bj(g(b)),G=l(function(b){return function(a){return I(aG(a,b)[2],d)}}(_),Z);else
+A=k(o,b);if(A)var
+_=A[1],Z=bj(f(b)),G=l(function(b){return function(a){return K(aH(a,b)[2],d)}}(_),Z);else
 var
 G=A;if(G){var
 w=S,u=e(function(a){return 0},u);continue}var
@@ -2645,41 +2645,41 @@ q=H[1],L=0;if(typeof
 j==="number")L=1;else
 switch(j[0]){case
 11:var
-M=j[3],B=j[1],N=i5(a,f,m,c,h,q,B,j[2]);if(N)var
-$=i6(i,a,f,m,c,h,B,b,q,M),s=mO(i,a,f,m,c,bT(fm,B,h),n,$,b,q,M);else
+M=j[3],B=j[1],N=i$(a,g,m,c,h,q,B,j[2]);if(N)var
+$=ja(i,a,g,m,c,h,B,b,q,M),s=mO(i,a,g,m,c,bT(fn,B,h),o,$,b,q,M);else
 var
 s=N;break;case
 12:var
-C=j[1],O=J(o(g(C),0));if(O)var
-aa=W(mD(e(function(a){return a[1][1][1]},C)),C),s=l(function(g){return function(r){var
-s=r[2],e=r[1],k=s[1],l=k[1][2],o=k[2],d=s[2];if(typeof
+C=j[1],O=I(n(f(C),0));if(O)var
+aa=U(iY(e(function(a){return a[1][1][1]},C)),C),s=l(function(f){return function(r){var
+s=r[2],e=r[1],k=s[1],l=k[1][2],n=k[2],d=s[2];if(typeof
 d!=="number"&&11===d[0]){var
-p=d[3],j=d[1],q=i5(a,f,m,c,h,g,j,d[2]);if(q){var
-t=e[2],u=e[1],v=i6(i,a,f,m,c,h,j,b,g,p);return mM(i,a,f,c,bT(fm,j,h),n,v,b,g,u,t,l,o,p)}return q}return mM(i,a,f,c,h,n,y,b,g,e[1],e[2],l,o,d)}}(q),aa);else
+p=d[3],j=d[1],q=i$(a,g,m,c,h,f,j,d[2]);if(q){var
+t=e[2],u=e[1],v=ja(i,a,g,m,c,h,j,b,f,p);return mM(i,a,g,c,bT(fn,j,h),o,v,b,f,u,t,l,n,p)}return q}return mM(i,a,g,c,h,o,y,b,f,e[1],e[2],l,n,d)}}(q),aa);else
 var
 s=O;break;case
 13:if(2===q[0])var
-D=i0(i,j[1],j[2]),P=iO(g(b),D),Q=P?mQ(i,a,f,m,c,h,n,y,b,q,0,D,j[3]):P,s=Q?mQ(i,a,f,m,c,h,n,y,b,q,[0,q[1]],D,j[4]):Q;else
+D=i5(i,j[1],j[2]),P=iP(f(b),D),Q=P?mQ(i,a,g,m,c,h,o,y,b,q,0,D,j[3]):P,s=Q?mQ(i,a,g,m,c,h,o,y,b,q,[0,q[1]],D,j[4]):Q;else
 var
 s=0;break;default:L=1}if(L)var
-s=mO(i,a,f,m,c,h,n,y,b,q,j);if(s){var
-w=S,u=g0(E,u);continue}var
-U=s}else
+s=mO(i,a,g,m,c,h,o,y,b,q,j);if(s){var
+w=S,u=g1(E,u);continue}var
+V=s}else
 var
-U=H;var
-V=U}else
+V=H;var
+W=V}else
 var
-V=T;var
-v=V}}else
+W=T;var
+v=W}}else
 var
 v=[0,u];break}}else
 var
-v=[0,X];return v?K(v[1]):v}function
-i7(h,g,f,e,d,c,b,a){return function(i,j,k){return fo(h,g,f,e,d,b,a,c,i,j,k)}}function
-i8(a){return e(function(a){return 1},a)}function
+v=[0,X];return v?J(v[1]):v}function
+jb(h,g,f,e,d,c,b,a){return function(i,j,k){return fp(h,g,f,e,d,b,a,c,i,j,k)}}function
+jc(a){return e(function(a){return 1},a)}function
 er(a,d,b,c){function
 f(d,c){var
-f=W(a[1],b[1]);return e(function(a){var
+f=U(a[1],b[1]);return e(function(a){var
 b=s(c,a[2]);return B(s(d,a[1]),b)},f)}if(aO(a[2],b[2])){var
 g=a[2];return[0,f(d,c),g]}var
 h=s(a[2],b[2]),i=s(c,a[2]);return[0,f(s(d,b[2]),i),h]}function
@@ -2688,9 +2688,9 @@ c=m(b);return[0,e(function(a){return m(d)},a),c]}function
 a$(a,k){var
 f=k[1];switch(f[0]){case
 1:var
-u=f[1];if(aj(function(a){return o(u,a)},a)){var
+u=f[1];if(aj(function(a){return n(u,a)},a)){var
 C=m(b);return[0,e(function(a){var
-c=o(a,u)?b:d;return m(c)},a),C]}return mS(a);case
+c=n(a,u)?b:d;return m(c)},a),C]}return mS(a);case
 3:var
 D=m(b),E=a$(a,f[2]),F=m(b);return er(a$(a,f[1]),F,E,D);case
 4:var
@@ -2700,28 +2700,28 @@ v=a$(a,f[1]),J=v[2];return[0,e(bp,v[1]),J];case
 6:var
 w=f[2],y=f[1],K=a$(a,w);return er(a$(a,y),w,K,y);case
 7:var
-z=f[2],L=bp(k),M=a$(a,z),N=m(b),i=er(a$(a,f[1]),N,M,L),O=i[1];if(l(function(a){return a9(d,a)},O))return i;var
+z=f[2],L=bp(k),M=a$(a,z),N=m(b),i=er(a$(a,f[1]),N,M,L),O=i[1];if(l(function(a){return a_(d,a)},O))return i;var
 P=s(i[2],z);return[0,i[1],P];case
 8:var
 A=f[1],B=a$(a,A),Q=B[2],R=B[1],S=s(m(c(2,b)),A);return[0,e(function(a){return s(S,a)},R),Q];case
 9:var
-j=a$(a,f[1]),U=j[1];if(l(function(a){return a9(d,a)},U)){var
+j=a$(a,f[1]),U=j[1];if(l(function(a){return a_(d,a)},U)){var
 V=m(b);return[0,j[1],V]}var
 W=s(m(c(2,b)),k),X=s(j[2],W);return[0,j[1],X];case
 10:var
-n=f[4],g=f[3],h=f[2],p=[0,[10,0,h,g,n]],q=[0,[10,1,h,g,n]],Y=x(g,q),Z=a$(a,g),_=x(h,p),$=er(a$(a,h),_,Z,Y),aa=m(T(b)),ab=a$(a,n),r=er($,m(c(2,b)),ab,aa),ac=r[1],ad=f[1]?p:bp(q),t=e(function(a){return s(ad,a)},ac);if(l(function(a){return a9(d,a)},t))return[0,t,r[2]];var
+o=f[4],g=f[3],h=f[2],p=[0,[10,0,h,g,o]],q=[0,[10,1,h,g,o]],Y=x(g,q),Z=a$(a,g),_=x(h,p),$=er(a$(a,h),_,Z,Y),aa=m(T(b)),ab=a$(a,o),r=er($,m(c(2,b)),ab,aa),ac=r[1],ad=f[1]?p:bp(q),t=e(function(a){return s(ad,a)},ac);if(l(function(a){return a_(d,a)},t))return[0,t,r[2]];var
 ae=s(h,q),af=x(s(g,p),ae),ag=s(m(c(2,b)),af);return[0,t,s(r[2],ag)];default:return mS(a)}}function
 mT(c,a){var
-b=a$(c,a),f=b[1];return e(function(a){return a9(d,a)?a:al(a,b[2])},f)}function
+b=a$(c,a),f=b[1];return e(function(a){return a_(d,a)?a:al(a,b[2])},f)}function
 mU(g){var
 h=g[1],c=h[2],e=h[1];if(0===e[0]){var
 i=e[2],a=e[1];if(D(i,b)){if(0===c[0]){var
 j=c[2],m=c[1];if(D(j,b)){var
-k=L(a,m),l=k?fc(a):k;if(l)var
-n=L(g[2],d),f=n||L(a,d);else
+k=J(a,m),l=k?fd(a):k;if(l)var
+n=J(g[2],d),f=n||J(a,d);else
 var
 f=l;var
-o=f?[0,a]:f;return o}return L(aT(j,aI(2))[2],d)?0:0}return 0}return L(aT(i,aI(2))[2],d)?0:0}return 0}function
+o=f?[0,a]:f;return o}return J(aU(j,aJ(2))[2],d)?0:0}return 0}return J(aU(i,aJ(2))[2],d)?0:0}return 0}function
 c9(c,b){var
 a=mU(c);return a?m(a[1]):[0,[1,b]]}function
 cF(b,a){if(a)var
@@ -2729,23 +2729,23 @@ d=cF([0,b],a[2]),c=[0,c9(a[1],b),d];else
 var
 c=a;return c}function
 ba(b,a){return[0,[0,b[1],a],[0,[0,b[2],a],[0,[0,b[3],a],0]]]}function
-g1(b,d,a){switch(a[0]){case
+g2(b,d,a){switch(a[0]){case
 0:var
-c=a[1],g=[0,[0,c[4],b],0],h=f(ba(c[3],b),g),i=f(ba(c[2],b),h);return f(ba(c[1],d),i);case
+c=a[1],f=[0,[0,c[4],b],0],h=g(ba(c[3],b),f),i=g(ba(c[2],b),h);return g(ba(c[1],d),i);case
 1:var
-e=a[3],j=e?ba(e[1],d):e,k=f(ba(a[2],b),j);return f(ba(a[1],b),k);default:return ba(a[1],d)}}function
+e=a[3],j=e?ba(e[1],d):e,k=g(ba(a[2],b),j);return g(ba(a[1],b),k);default:return ba(a[1],d)}}function
 ak(b,a){var
-c=m(d),e=r(M(tL,a),b,c),f=m(d),g=r(M(tM,a),b,f);return[0,r(a,b,m(d)),g,e]}function
+c=m(d),e=r(M(tM,a),b,c),f=m(d),g=r(M(tN,a),b,f);return[0,r(a,b,m(d)),g,e]}function
 mV(b,a){return ag(x,ag(B,dG,a),b)}function
-g2(c,b,a){if(a){var
-e=a[2],g=g2(c,bC(b),e),h=a[1];return f(g1(c,bS(d,b),h),g)}return a}function
-i9(f,e,c,j){if(c){var
-b=c[1],v=M(j,g(g1(f,bS(d,e),b))),w=c[2],x=i9(f,bC(e),w,v),a=cF(j,g1(f,bS(d,e),b));switch(b[0]){case
+g3(c,b,a){if(a){var
+e=a[2],f=g3(c,bC(b),e),h=a[1];return g(g2(c,bS(d,b),h),f)}return a}function
+jd(g,e,c,j){if(c){var
+b=c[1],v=M(j,f(g2(g,bS(d,e),b))),w=c[2],x=jd(g,bC(e),w,v),a=cF(j,g2(g,bS(d,e),b));switch(b[0]){case
 0:var
-l=b[1][5],n=r(tN,a,m(d)),o=ag(B,dG,ak(a,tO)),p=dF(ak(a,0)),q=ak(a,tP),h=mm(mV(ak(a,tQ),q),p,o,n,l);break;case
+l=b[1][5],n=r(tO,a,m(d)),o=ag(B,dG,ak(a,tP)),p=dF(ak(a,0)),q=ak(a,tQ),h=mr(mV(ak(a,tR),q),p,o,n,l);break;case
 1:var
-i=b[3],s=i?[0,dF(ak(a,tR))]:i,t=ag(B,dG,ak(a,tS)),u=ak(a,tT),h=mn(mV(ak(a,0),u),t,s);break;default:var
-h=mo(dG,dF(ak(a,0)))}var
+i=b[3],s=i?[0,dF(ak(a,tS))]:i,t=ag(B,dG,ak(a,tT)),u=ak(a,tU),h=ms(mV(ak(a,0),u),t,s);break;default:var
+h=mt(dG,dF(ak(a,0)))}var
 k=[0,h,x]}else
 var
 k=c;return k}function
@@ -2775,34 +2775,34 @@ f=[5,[0,b,b],a[1]];return[0,[0,f,f],d];case
 g=a[2];return[0,[0,g,g],c];default:var
 i=a[1];return[0,[0,i,i],d]}var
 e=[0,d,b];return[0,[0,e,e],d]}function
-fp(b,a){var
+fq(b,a){var
 c=a[3],d=a[2],e=a[1];return[0,[0,[0,e,e],b],[0,[0,[0,d,d],b],[0,[0,[0,c,c],b],0]]]}function
 es(c,a){if(0===a[0]){var
-e=[0,d,b],i=f(fp(c,a[5]),[0,[0,[0,e,e],d],0]),g=a[4],h=a[3];return f([0,[0,[0,h,h],c],[0,[0,[0,g,g],c],0]],i)}var
-j=fp(c,a[3]);return f(fp(c,a[2]),j)}function
+e=[0,d,b],i=g(fq(c,a[5]),[0,[0,[0,e,e],d],0]),f=a[4],h=a[3];return g([0,[0,[0,h,h],c],[0,[0,[0,f,f],c],0]],i)}var
+j=fq(c,a[3]);return g(fq(c,a[2]),j)}function
 dI(b,a){if(typeof
 a!=="number")switch(a[0]){case
 10:var
-h=es(b,a[2]);return f(es(b,a[1]),h);case
+h=es(b,a[2]);return g(es(b,a[1]),h);case
 11:var
-i=fp(b,a[3]);return f(fp(b,a[2]),i);case
+i=fq(b,a[3]);return g(fq(b,a[2]),i);case
 12:var
-c=a[3],g=[5,[4,c,c],a[4]];return[0,[0,[0,g,g],b],0];case
+c=a[3],f=[5,[4,c,c],a[4]];return[0,[0,[0,f,f],b],0];case
 15:var
 j=a[2],k=a[1];return e(function(b){var
 a=[5,j,b];return[0,[0,a,a],d]},k)}return 0}function
 mW(c,b,a){var
-d=g(dI(c,b)),e=M(a[2],d);return[0,[0,a[1]],e]}function
-i_(c,b){if(aO(b,c))return[0,m(d)];var
+d=f(dI(c,b)),e=M(a[2],d);return[0,[0,a[1]],e]}function
+je(c,b){if(aO(b,c))return[0,m(d)];var
 a=b[1];if(4===a[0]){var
 e=aO(a[1],c),f=e?[0,a[2]]:e;return f}return 0}function
 mX(y,p,a,o){switch(o[0]){case
 0:var
 h=F(y,o[1]);if(h){var
 i=h[1];if(i){var
-q=i[1],s=q[1],c=s[2],e=s[1],t=q[2],z=ak(a,tU),A=ag(B,ag(x,e,a4(al(r(tV,a,m(d)),t),c)),z),C=ak(a,tW),f=al(r(0,a,m(d)),t),j=i_(e[1],c[1]);if(j){var
-l=i_(e[2],c[2]);if(l){var
-n=i_(e[3],c[3]);if(n)var
+q=i[1],s=q[1],c=s[2],e=s[1],t=q[2],z=ak(a,tV),A=ag(B,ag(x,e,a4(al(r(tW,a,m(d)),t),c)),z),C=ak(a,tX),f=al(r(0,a,m(d)),t),j=je(e[1],c[1]);if(j){var
+l=je(e[2],c[2]);if(l){var
+n=je(e[3],c[3]);if(n)var
 w=a4(f,c),g=ag(B,[0,j[1],l[1],n[1]],w);else
 var
 g=ag(x,e,a4(x(m(b),f),c))}else
@@ -2817,21 +2817,21 @@ v=u}else
 var
 v=h;return v;case
 1:var
-D=ak(a,tX);return[0,[0,ak(a,0),D]];default:var
-E=k(p,ak(a,tY));return[0,[0,k(p,ak(a,0)),E]]}}function
+D=ak(a,tY);return[0,[0,ak(a,0),D]];default:var
+E=k(p,ak(a,tZ));return[0,[0,k(p,ak(a,0)),E]]}}function
 mY(e,d,c,h,g){var
-a=mX(e,d,am(tZ,c),h);if(a)var
-b=mX(e,d,av(t0,c),g),i=b?[0,[0,a[1],b[1]]]:b,f=i;else
+a=mX(e,d,am(t0,c),h);if(a)var
+b=mX(e,d,av(t1,c),g),i=b?[0,[0,a[1],b[1]]]:b,f=i;else
 var
 f=a;return f}function
-mZ(g,c,d,b,a){var
-h=es(c,a),i=cF(d,f(es(c,b),h));function
+mZ(f,c,d,b,a){var
+h=es(c,a),i=cF(d,g(es(c,b),h));function
 j(a){return ag(B,dG,a)}return mY(e(function(a){var
 b=a[7];return y(function(b){var
-c=c3(a);return[0,[0,b,a[1]],c]},b)},g),j,i,b,a)}function
+c=c3(a);return[0,[0,b,a[1]],c]},b)},f),j,i,b,a)}function
 dJ(d,c,b,a){var
 e=s(c,b);return x(s(d,a),e)}function
-bE(a){return z(function(a){return f(a[1],[0,a[2],0])},a)}function
+bE(a){return z(function(a){return g(a[1],[0,a[2],0])},a)}function
 m0(b,a){if(b)if(a)var
 d=b[1],e=m0(b[2],a[2]),f=s(d[2],a[1]),c=[0,[0,bW(d[1]),f],e];else
 var
@@ -2846,19 +2846,19 @@ var
 e=d;var
 f=e}else
 var
-f=b;return f}return t2}function
-fq(b,d,c,a){if(typeof
+f=b;return f}return t3}function
+fr(b,d,c,a){if(typeof
 a!=="number")switch(a[0]){case
 8:var
 i=c[1],j=c9(bX(d,a),i);return[0,e(function(a){var
 b=s(a[2],j);return[0,bW(a[1]),b]},b)];case
 9:return m1(b);case
 15:var
-k=g(b),f=o(g(a[1]),k);if(f)var
+k=f(b),g=n(f(a[1]),k);if(g)var
 l=dI(d,a),h=[0,m0(b,cF(c[2],l))];else
 var
-h=f;return h}return 0}function
-g3(e,k,j,a){var
+h=g;return h}return 0}function
+g4(e,k,j,a){var
 P=j[1],c=c9(bX(k,a),P),u=0;if(typeof
 a==="number")u=1;else
 switch(a[0]){case
@@ -2868,17 +2868,17 @@ Q=function(a){return[0,x(a[4],c),0]},g=Q,f=a[1];break;case
 R=function(a){return[0,x(c,a[4]),0]},g=R,f=a[1];break;case
 4:var
 S=function(b){var
-a=b[1],d=V(a[3]),e=V(a[2]),f=V(a[1]),g=b[2];return[0,x(x(x(s(V(c),g),f),e),d),0]},g=S,f=a[1];break;case
+a=b[1],d=W(a[3]),e=W(a[2]),f=W(a[1]),g=b[2];return[0,x(x(x(s(W(c),g),f),e),d),0]},g=S,f=a[1];break;case
 6:var
 T=function(b){var
 a=b[5];if(a)var
-e=V(a[1]),f=s(V(c),e),d=[0,x(b[2],f),0];else
+e=W(a[1]),f=s(W(c),e),d=[0,x(b[2],f),0];else
 var
 d=a;return d},g=T,f=a[1];break;case
 7:if(e){var
 l=e[2];if(l){var
 n=l[2];if(n){if(n[2])return 0;var
-w=n[1],y=l[1],A=e[1],h=w[1],i=y[1],p=A[1],K=dJ(i[1],i[2],h[1],h[2]),L=s(p[3],K),M=dJ(i[1],i[3],h[1],h[3]),N=s(p[2],M),O=dJ(i[2],i[3],h[2],h[3]),v=B(x(s(p[1],O),N),L),U=c3(w),W=c3(y),C=s(s(s(c,c3(A)),W),U),X=[0,bp(B(v,C)),0],D=[0,x(v,C),X]}else
+w=n[1],y=l[1],A=e[1],h=w[1],i=y[1],p=A[1],K=dJ(i[1],i[2],h[1],h[2]),L=s(p[3],K),M=dJ(i[1],i[3],h[1],h[3]),N=s(p[2],M),O=dJ(i[2],i[3],h[2],h[3]),v=B(x(s(p[1],O),N),L),U=c3(w),V=c3(y),C=s(s(s(c,c3(A)),V),U),X=[0,bp(B(v,C)),0],D=[0,x(v,C),X]}else
 var
 D=n;var
 E=D}else
@@ -2893,31 +2893,31 @@ H=t[1],I=H[2],J=H[1];return z(bW,[0,J[1],[0,J[2],[0,I[1],[0,I[2],0]]]])}return t
 11:var
 Y=function(d){var
 e=d[7];if(e)var
-n=dI(k,a),f=cF(j[2],n),h=ak(f,t1),b=ag(x,ak(f,0),h),i=V(c),l=V(c3(d)),m=al(V(_(b,d[1])),l),g=[0,x(x(_(b,b),m),i),0];else
+n=dI(k,a),f=cF(j[2],n),h=ak(f,t2),b=ag(x,ak(f,0),h),i=W(c),l=W(c3(d)),m=al(W(_(b,d[1])),l),g=[0,x(x(_(b,b),m),i),0];else
 var
 g=e;return g},g=Y,f=a[1];break;case
 12:var
 Z=function(e){var
 p=m(d),q=dI(k,a),t=r(0,cF(j[2],q),p),f=al(t,c3(e)),g=e[5];if(g){var
-l=aK(e[2]),h=al(g[1],l),n=s(h,B(c,s(f,V(h))));return[0,x(m(b),n),0]}var
+l=aK(e[2]),h=al(g[1],l),n=s(h,B(c,s(f,W(h))));return[0,x(m(b),n),0]}var
 i=e[7],o=i?[0,x(x(m(b),c),f),0]:i;return o},g=Z,f=a[1];break;case
 8:case
 9:case
 15:var
-q=fq(e,k,j,a);return q?bE(q[1]):q;default:u=1}if(u)return 0;var
+q=fr(e,k,j,a);return q?bE(q[1]):q;default:u=1}if(u)return 0;var
 o=F(e,f);return o?g(o[1]):o}function
-i$(d,b,c,a){if(a){var
-e=a[1],g=a[2],h=i$(d,b,mW(b,e,c),g);return f(g3(d,b,c,e),h)}return a}var
+jf(d,b,c,a){if(a){var
+e=a[1],f=a[2],h=jf(d,b,mW(b,e,c),f);return g(g4(d,b,c,e),h)}return a}var
 m2=[0,d,b],m3=[0,[0,m2,m2],d];function
-ja(a){return J(ce(a[1][1],a[1][2]))}function
+jg(a){return I(ce(a[1][1],a[1][2]))}function
 m4(a){var
-b=aC(0,g(a));return a1(function(b){return ja(r(b,a,m3))},b)}function
-g4(a,b){var
-c=mT(m4(a),b),e=W(m4(a),c);return a1(function(a){return J(a9(d,a[2]))},e)}function
+b=aC(0,f(a));return a1(function(b){return jg(r(b,a,m3))},b)}function
+g5(a,b){var
+c=mT(m4(a),b),e=U(m4(a),c);return a1(function(a){return I(a_(d,a[2]))},e)}function
 m5(b,a){var
 c=k(b,a[3]),d=k(b,a[2]);return[0,k(b,a[1]),d,c]}function
 m6(m,l,f,j,i,a){var
-d=g4(f,a);return ad(e(function(e){var
+d=g5(f,a);return ad(e(function(e){var
 a=r(e[1],f,m3),g=aL(a[2],j),h=[4,[0,c(2,b),b],i],d=[5,[3,a[1][2],a[1][1]],h],n=aq(m,[0,[0,d,d],g]);return y(function(a){return[0,a,k(l,e[2])]},n)},d))}function
 m7(g,f,n,m,l,e,c){var
 h=[5,l,e],a=aq(g,[0,[0,h,h],d]);if(a){var
@@ -2928,63 +2928,63 @@ i=b;var
 j=i}else
 var
 j=a;return j}function
-m8(c,G,m,al,j,i,n,s){if(s){var
-a=s[1],aH=s[2],aI=m8(c,G,m,al,j,i,mW(i,a,n),aH);if(typeof
+m8(c,G,m,al,j,i,o,s){if(s){var
+a=s[1],aH=s[2],aI=m8(c,G,m,al,j,i,mW(i,a,o),aH);if(typeof
 a==="number")if(0===a)var
-f=[0,[0,u]];else
+g=[0,[0,u]];else
 var
-an=G[2],ao=G[1],ap=fj(j),f=[0,[8,k(ax(m),ap),ao,an]];else
+an=G[2],ao=G[1],ap=fk(j),g=[0,[8,k(ax(m),ap),ao,an]];else
 switch(a[0]){case
 0:var
-ar=aq(c,bX(i,a)),f=y(function(a){return[0,U(c,a)]},ar);break;case
+ar=aq(c,bX(i,a)),g=y(function(a){return[0,V(c,a)]},ar);break;case
 1:var
-as=aq(c,bX(i,a)),f=y(function(a){return[1,U(c,a)]},as);break;case
+as=aq(c,bX(i,a)),g=y(function(a){return[1,V(c,a)]},as);break;case
 5:var
-au=aq(c,bX(i,a)),f=y(function(a){return[2,U(c,a)]},au);break;case
+au=aq(c,bX(i,a)),g=y(function(a){return[2,V(c,a)]},au);break;case
 8:var
-av=fq(j,i,n,a),f=y(function(a){var
-d=O(c,b);return[4,k(ax(m),a),d]},av);break;case
+av=fr(j,i,o,a),g=y(function(a){var
+d=N(c,b);return[4,k(ax(m),a),d]},av);break;case
 9:var
-w=fq(j,i,n,a);if(w){var
+w=fr(j,i,o,a);if(w){var
 x=aq(c,bX(i,a));if(x)var
-aw=U(c,x[1]),ay=w[1],L=[0,[4,k(ax(m),ay),aw]];else
+aw=V(c,x[1]),ay=w[1],L=[0,[4,k(ax(m),ay),aw]];else
 var
 L=x;var
 M=L}else
 var
 M=w;var
-f=M;break;case
+g=M;break;case
 10:var
-z=mZ(j,i,n[2],a[1],a[2]);if(z){var
-N=z[1],P=N[2],Q=N[1],A=aq(c,bX(i,a));if(A){var
+z=mZ(j,i,o[2],a[1],a[2]);if(z){var
+O=z[1],P=O[2],Q=O[1],A=aq(c,bX(i,a));if(A){var
 R=A[1],S=D(d,R[1]);if(S)var
 q=function(a){return m5(m,a)},az=q(P[2]),aA=q(P[1]),aB=q(Q[2]),T=[0,[6,q(Q[1]),aB,aA,az,R]];else
 var
 T=S;var
-V=T}else
+U=T}else
 var
-V=A;var
-W=V}else
+U=A;var
+W=U}else
 var
 W=z;var
-f=W;break;case
+g=W;break;case
 12:var
-r=g3(j,i,n,a),t=0;if(r)if(r[2])var
-f=0;else{var
+r=g4(j,i,o,a),t=0;if(r)if(r[2])var
+g=0;else{var
 X=h(c,0,a[2]),Y=X?h(c,1,a[4]):X;if(Y){var
 B=[0,[3,k(m,r[1])]];t=1}else{var
 B=Y;t=1}}else{var
 B=r;t=1}if(t)var
-f=B;break;case
+g=B;break;case
 13:var
 Z=a[1],_=F(j,Z),H=0;if(_){var
 $=h(c,1,a[2]),aa=$?h(c,1,a[3]):$;if(aa)var
-aC=aq(c,bX(i,a)),f=y(function(a){return[7,Z,U(c,a)]},aC);else{var
+aC=aq(c,bX(i,a)),g=y(function(a){return[7,Z,V(c,a)]},aC);else{var
 ab=aa;H=1}}else{var
 ab=_;H=1}if(H)var
-f=ab;break;case
+g=ab;break;case
 14:var
-ac=a[2],ae=a[1],af=o(g(j),t3),ag=af?h(c,0,ae):af,ah=ag?h(c,1,ac):ag;if(ah){var
+ac=a[2],ae=a[1],af=n(f(j),t4),ag=af?h(c,0,ae):af,ah=ag?h(c,1,ac):ag;if(ah){var
 C=aq(c,bX(i,a));if(C)var
 E=ad(e(function(a){return m7(c,m,al,i,ae,ac,a[4])},j)),aD=E?[0,[9,C[1],E[1]]]:E,ai=aD;else
 var
@@ -2992,25 +2992,25 @@ ai=C;var
 aj=ai}else
 var
 aj=ah;var
-f=aj;break;case
+g=aj;break;case
 15:var
 aE=[0,a[2],a[1]],aF=1,ak=l(function(a){return h(c,aF,a)},aE);if(ak)var
-aG=fq(j,i,n,a),f=y(function(a){var
-d=O(c,b);return[4,k(ax(m),a),d]},aG);else
+aG=fr(j,i,o,a),g=y(function(a){var
+d=N(c,b);return[4,k(ax(m),a),d]},aG);else
 var
-f=ak;break;default:var
-p=g3(j,i,n,a),I=0;if(p){var
+g=ak;break;default:var
+p=g4(j,i,o,a),I=0;if(p){var
 v=p[2],J=p[1];if(v)if(v[2])var
-f=0;else
+g=0;else
 var
-at=k(m,v[1]),f=[0,[5,k(m,J),at]];else{var
+at=k(m,v[1]),g=[0,[5,k(m,J),at]];else{var
 K=[0,[3,k(m,J)]];I=1}}else{var
 K=p;I=1}if(I)var
-f=K}var
-am=[0,f,aI]}else
+g=K}var
+am=[0,g,aI]}else
 var
 am=s;return am}function
-t4(a){var
+t5(a){var
 b=0;if(typeof
 a==="number"){if(0!==a)b=1}else
 if(0!==a[0])b=1;return b?0:1}function
@@ -3022,7 +3022,7 @@ h=d[2];if(h){if(h[2])return 0;var
 e=d[1],f=b[1],i=c1(a,g,c[1]);if(i){var
 j=c1(a,g,c[2]);if(j){var
 k=c1(a,g,c[3]);if(k)var
-v=i[1],w=cf(f),l=G([0,cf(f),w],v),x=j[1],y=cf(e),m=G([0,cf(e),y],x),z=em(e),B=[0,em(e),z],C=[0,t(a,ac(A(m,m)),B),0],D=em(f),E=[0,em(f),D],F=[0,t(a,ac(A(l,l)),E),C],H=U(a,m),I=U(a,l),n=[0,[0,G(G(U(a,k[1]),I),H),u,F]];else
+v=i[1],w=cf(f),l=G([0,cf(f),w],v),x=j[1],y=cf(e),m=G([0,cf(e),y],x),z=em(e),B=[0,em(e),z],C=[0,t(a,ab(A(m,m)),B),0],D=em(f),E=[0,em(f),D],F=[0,t(a,ab(A(l,l)),E),C],H=V(a,m),I=V(a,l),n=[0,[0,G(G(V(a,k[1]),I),H),u,F]];else
 var
 n=k;var
 o=n}else
@@ -3040,14 +3040,14 @@ r=d;var
 s=r}else
 var
 s=b;return s}function
-g5(a,p,o){var
+g6(a,p,o){var
 q=ba(p,o),b=e(function(b){return aq(a,b)},q);if(b){var
 g=b[1];if(g){var
 c=b[2];if(c){var
 h=c[1];if(h){var
 f=c[2];if(f){var
 i=f[1];if(i){if(f[2])return 0;var
-r=U(a,i[1]),s=U(a,h[1]);return I(d,A(A(U(a,g[1]),s),r)[1])}var
+r=V(a,i[1]),s=V(a,h[1]);return K(d,A(A(V(a,g[1]),s),r)[1])}var
 j=i}else
 var
 j=f;var
@@ -3063,7 +3063,7 @@ m=g;var
 n=m}else
 var
 n=b;return n}function
-K(c,b,a){var
+L(c,b,a){var
 d=ao(c,b[3],a[3]),e=ao(c,b[2],a[2]);return[0,ao(c,b[1],a[1]),e,d]}function
 P(b,a){return[0,[4,b,a[1]],[4,b,a[2]],[4,b,a[3]]]}function
 w(b,a){return[2,[2,[4,b[1],a[1]],[4,b[2],a[2]]],[4,b[3],a[3]]]}function
@@ -3089,7 +3089,7 @@ v=s;return v}return 0;default:if(2===a[0]){var
 i=a[1],x=br(b,c[1],i);return x?h(b,1,w(i,i)):x}return 0}}function
 cG(c,a,b){if(0===a[0])return br(c,a[1],b);var
 d=a[3],e=[3,b[1],a[1]],f=[3,b[2],a[2]],g=h(c,0,[3,[3,[4,d,d],[4,e,e]],[4,f,f]]),i=g?h(c,0,d):g;return i?c_(c,a[4],b[3]):i}function
-fr(g,f,i,h){var
+fs(g,f,i,h){var
 b=f[1],a=i;for(;;){if(b){if(a){var
 d=m_(g,b[1],a[1]);if(d){var
 b=b[2],a=a[2];continue}var
@@ -3100,44 +3100,44 @@ c=e}else
 var
 c=a?0:1;return c?cG(g,f[2],h):c}}function
 aV(c,b,a){var
-d=K(function(b,a){return[2,b,a]},a,b);return K(function(b,a){return[3,b,a]},d,c)}function
-fs(a,e,d,c){var
-b=aV(e,d,c),f=ay(a),g=P(w(ay(a),b),f);return K(function(b,a){return[3,b,a]},b,g)}function
+d=L(function(b,a){return[2,b,a]},a,b);return L(function(b,a){return[3,b,a]},d,c)}function
+ft(a,e,d,c){var
+b=aV(e,d,c),f=ay(a),g=P(w(ay(a),b),f);return L(function(b,a){return[3,b,a]},b,g)}function
 ch(f,e,d,a,c){var
-b=fs(f,e,d,c);return[3,[4,a,a],w(b,b)]}function
+b=ft(f,e,d,c);return[3,[4,a,a],w(b,b)]}function
 cH(c,a){return c?[6,a]:[3,[0,d,b],[6,a]]}function
 ci(a,c){switch(a[0]){case
 0:var
-e=a[3],f=a[2],d=a[1],g=fs(d,f,e,c),h=ch(d,f,e,a[4],c),i=P([5,[0,b,b],cH(a[5],h)],g),j=ay(d);return K(function(b,a){return[2,b,a]},j,i);case
+e=a[3],f=a[2],d=a[1],g=ft(d,f,e,c),h=ch(d,f,e,a[4],c),i=P([5,[0,b,b],cH(a[5],h)],g),j=ay(d);return L(function(b,a){return[2,b,a]},j,i);case
 1:return ay(aV(a[1],a[2],c));default:return ay(a[1])}}function
 bz(a,b){switch(a[0]){case
 0:var
-d=a[3],e=a[2],c=a[1],f=ay(c),g=ch(c,e,d,a[4],b),h=P(cH(a[5],g),f),i=fs(c,e,d,b);return K(function(b,a){return[2,b,a]},i,h);case
+d=a[3],e=a[2],c=a[1],f=ay(c),g=ch(c,e,d,a[4],b),h=P(cH(a[5],g),f),i=ft(c,e,d,b);return L(function(b,a){return[2,b,a]},i,h);case
 1:return aV(a[1],a[2],b);default:return ay(a[1])}}function
 cI(a,b){switch(a[0]){case
 0:var
 c=a[3],d=a[2],e=a[1],h=ch(e,d,c,a[4],b),i=cH(a[5],h),j=aV(d,c,b);return[3,w(ay(e),j),i];case
 1:var
 f=a[2],g=a[1],k=aV(g,f,b);return[6,w(aV(g,f,b),k)];default:return w(ay(a[1]),b)}}function
-jb(a,b){switch(a[0]){case
+jh(a,b){switch(a[0]){case
 0:return[0,ch(a[1],a[2],a[3],a[4],b)];case
 1:var
 c=a[2],d=a[1],e=aV(d,c,b);return[0,w(aV(d,c,b),e)];default:return 0}}function
-ft(e,c,a){var
+fu(e,c,a){var
 f=[0,d,b];return ap(function(b,d){var
 e=w(ci(b,c),a);return[2,[4,w(ci(b,c),a),e],d]},f,e)}function
 m$(f,e,c,a){if(f){if(e){var
 g=e[1],h=m$(f[2],e[2],c,a),i=w(ci(g,c),a),j=[4,w(ci(g,c),a),i];return[2,[4,f[1],j],h]}return[0,d,b]}return[0,d,b]}function
 na(a){var
 c=a[1];return[0,[0,c[1],b],[0,c[2],b],[0,a[2],b]]}function
-jc(a,c){switch(a[0]){case
+ji(a,c){switch(a[0]){case
 0:return a[4];case
 1:var
 d=a[2],e=a[1],f=aV(e,d,c);return[6,w(aV(e,d,c),f)];default:return[0,b,b]}}function
 nb(d,i){if(d){var
 a=d[1];if(1===a[0]){var
 c=a[3];if(c)var
-f=c[1],g=aV(a[1],a[2],i),k=ay(f),l=P(w(ay(f),g),k),h=[0,K(function(b,a){return[3,b,a]},g,l)];else
+f=c[1],g=aV(a[1],a[2],i),k=ay(f),l=P(w(ay(f),g),k),h=[0,L(function(b,a){return[3,b,a]},g,l)];else
 var
 h=c;var
 b=h}else
@@ -3145,19 +3145,19 @@ var
 b=0;if(b)var
 e=nb(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
 var
-j=b;return j}return t5}function
+j=b;return j}return t6}function
 c$(a){return[0,a[1],a[2],a[3]]}function
 nc(a,b){switch(a[0]){case
 0:var
-f=a[4],c=a[3],g=a[2],d=a[1],i=ay(d),j=ch(d,g,c,f,b),k=P(cH(a[5],j),i),l=fs(d,g,c,b),m=K(function(b,a){return[2,b,a]},l,k);return[0,[0,[0,K(function(b,a){return[2,b,a]},b,c),m],f]];case
+f=a[4],c=a[3],g=a[2],d=a[1],i=ay(d),j=ch(d,g,c,f,b),k=P(cH(a[5],j),i),l=ft(d,g,c,b),m=L(function(b,a){return[2,b,a]},l,k);return[0,[0,[0,L(function(b,a){return[2,b,a]},b,c),m],f]];case
 1:var
-h=a[2],e=aV(a[1],h,b),n=[6,w(e,e)];return[0,[0,[0,K(function(b,a){return[2,b,a]},b,h),e],n]];default:return 0}}function
+h=a[2],e=aV(a[1],h,b),n=[6,w(e,e)];return[0,[0,[0,L(function(b,a){return[2,b,a]},b,h),e],n]];default:return 0}}function
 nd(m,e,a){switch(a[0]){case
 0:var
 n=a[5],c=F(m,a[1]);if(c){var
 d=c[1];if(d)var
 f=d[1],g=f[1],h=f[2],o=g[2],p=g[1],i=function(a){var
-b=c$(n),c=P(a,o),d=K(function(b,a){return[3,b,a]},p,c);return K(function(b,a){return[2,b,a]},d,b)},q=i([5,a[4],h]),j=[0,[0,i([3,[0,b,b],[5,a[3],h]]),q]];else
+b=c$(n),c=P(a,o),d=L(function(b,a){return[3,b,a]},p,c);return L(function(b,a){return[2,b,a]},d,b)},q=i([5,a[4],h]),j=[0,[0,i([3,[0,b,b],[5,a[3],h]]),q]];else
 var
 j=d;var
 l=j}else
@@ -3167,11 +3167,11 @@ l=c;return l;case
 r=c$(a[3]);return[0,[0,c$(a[2]),r]];default:var
 s=k(e,c$(a[3]));return[0,[0,k(e,c$(a[2])),s]]}}function
 ne(d,a,c,b){var
-e=P(a,b),f=P([3,d,a],c);return K(function(b,a){return[2,b,a]},f,e)}function
+e=P(a,b),f=P([3,d,a],c);return L(function(b,a){return[2,b,a]},f,e)}function
 nf(a,l,c,j,i,y){var
 d=k(l,j);if(d){var
 m=d[1],e=k(l,i);if(e){var
-n=e[1],f=c[1],g=c[2],b=c[3],z=ne(b,g,n[1],n[2]),A=ne(b,f,m[1],m[2]),o=K(function(b,a){return[3,b,a]},A,z),B=ef(i),p=[4,b,[2,[2,ef(j),B],y]],q=h(a,1,b),r=q?h(a,0,f):q,s=r?h(a,0,[3,b,f]):r,t=s?h(a,0,g):s,u=t?h(a,0,[3,b,g]):t;if(u)return h(a,1,[3,[4,p,p],w(o,o)]);var
+n=e[1],f=c[1],g=c[2],b=c[3],z=ne(b,g,n[1],n[2]),A=ne(b,f,m[1],m[2]),o=L(function(b,a){return[3,b,a]},A,z),B=ef(i),p=[4,b,[2,[2,ef(j),B],y]],q=h(a,1,b),r=q?h(a,0,f):q,s=r?h(a,0,[3,b,f]):r,t=s?h(a,0,g):s,u=t?h(a,0,[3,b,g]):t;if(u)return h(a,1,[3,[4,p,p],w(o,o)]);var
 v=u}else
 var
 v=e;var
@@ -3187,9 +3187,9 @@ O=0;if(typeof
 a==="number")O=1;else
 switch(a[0]){case
 0:var
-aG=ft(g,c,f);return h(i,1,[3,T(a[1]),aG]);case
+aG=fu(g,c,f);return h(i,1,[3,T(a[1]),aG]);case
 1:var
-aH=T(a[1]);return h(i,1,[3,ft(g,c,f),aH]);case
+aH=T(a[1]);return h(i,1,[3,fu(g,c,f),aH]);case
 2:var
 aI=a[2],aJ=function(a){return[3,aI,cI(a,c)]},A=aJ,z=a[1];break;case
 3:var
@@ -3198,7 +3198,7 @@ aK=a[2],aL=function(a){return[3,cI(a,c),aK]},A=aL,z=a[1];break;case
 U=a[3],V=a[2],aM=function(a){var
 b=ci(a,c);return[3,[4,[4,V,V],w(ci(a,c),b)],[4,U,U]]},A=aM,z=a[1];break;case
 5:var
-W=a[1],aN=w(f,f),aO=[4,[4,W,W],[4,ft(g,c,y),aN]],aP=w(y,y);return h(i,1,[3,[4,ft(g,c,f),aP],aO]);case
+W=a[1],aN=w(f,f),aO=[4,[4,W,W],[4,fu(g,c,y),aN]],aP=w(y,y);return h(i,1,[3,[4,fu(g,c,f),aP],aO]);case
 6:var
 X=a[2],C=F(g,a[1]);if(C){var
 k=C[1];if(0===k[0]){var
@@ -3209,7 +3209,7 @@ Z=C;return Z;case
 7:if(g){var
 p=g[2];if(p){var
 q=p[2];if(q){if(q[2])return 0;var
-_=q[1],$=p[1],aa=g[1],aR=jc(_,c),aS=jc($,c),aT=jc(aa,c),ab=[4,[4,[4,a[1],aT],aS],aR],l=bz(_,c),m=bz($,c),aU=bz(aa,c),Q=w(aU,[0,[3,[4,m[2],l[3]],[4,m[3],l[2]]],[3,[4,m[3],l[1]],[4,m[1],l[3]]],[3,[4,m[1],l[2]],[4,m[2],l[1]]]]),ac=h(i,1,[3,ab,Q]);if(ac)return h(i,1,[2,ab,Q]);var
+_=q[1],$=p[1],aa=g[1],aR=ji(_,c),aS=ji($,c),aT=ji(aa,c),ab=[4,[4,[4,a[1],aT],aS],aR],l=bz(_,c),m=bz($,c),aU=bz(aa,c),Q=w(aU,[0,[3,[4,m[2],l[3]],[4,m[3],l[2]]],[3,[4,m[3],l[1]],[4,m[1],l[3]]],[3,[4,m[1],l[2]],[4,m[2],l[1]]]]),ac=h(i,1,[3,ab,Q]);if(ac)return h(i,1,[2,ab,Q]);var
 ad=ac}else
 var
 ad=q;var
@@ -3220,17 +3220,17 @@ af=ae}else
 var
 af=g;return af;case
 8:var
-aW=ft(g,c,f),aX=w(f,f);return h(i,1,[3,[4,[5,a[2],a[1]],aX],aW]);case
+aW=fu(g,c,f),aX=w(f,f);return h(i,1,[3,[4,[5,a[2],a[1]],aX],aW]);case
 9:var
 ag=a[1],E=nb(g,c);if(E){var
 aY=E[1],aA=[0,d,b],aB=ap(function(a,b){var
 c=w(ay(a),f);return[2,[4,w(ay(a),f),c],b]},aA,aY);return h(i,1,[3,[4,[4,ag,ag],w(f,f)],aB])}return E;case
 10:var
-aZ=a[3],a0=a[2],a1=a[1],aC=function(b,a){return[2,b,a]},aD=function(a){return K(aC,c,a)},aE=e(function(a){return nc(a,c)},g);return nf(i,function(a){return nd(aE,aD,a)},f,a1,a0,aZ);case
+aZ=a[3],a0=a[2],a1=a[1],aC=function(b,a){return[2,b,a]},aD=function(a){return L(aC,c,a)},aE=e(function(a){return nc(a,c)},g);return nf(i,function(a){return nd(aE,aD,a)},f,a1,a0,aZ);case
 11:var
 ah=a[4],G=F(g,a[1]);if(G){var
 H=nc(G[1],c);if(H){var
-n=H[1][1][2],a2=c$(a[3]),a3=c$(a[2]),r=K(function(b,a){return[3,b,a]},a3,a2),ai=h(i,1,w(n,n));if(ai){var
+n=H[1][1][2],a2=c$(a[3]),a3=c$(a[2]),r=L(function(b,a){return[3,b,a]},a3,a2),ai=h(i,1,w(n,n));if(ai){var
 a4=w(n,n),a5=w(r,n),a6=[5,[4,w(r,n),a5],a4];return h(i,1,[3,[4,ah,ah],[3,w(r,r),a6]])}var
 aj=ai}else
 var
@@ -3247,12 +3247,12 @@ v=j[4],x=[5,v,[6,ch(j[1],j[2],j[3],v,c)]],J=[4,x,[2,s,[4,[5,[4,o,o],v],[4,x,x]]]
 1:var
 R=j[2],S=j[1],aF=aV(S,R,c),J=[2,s,[5,[4,o,o],[6,w(aV(S,R,c),aF)]]];break;default:var
 J=s}var
-L=h(i,1,[3,J,a7])}else
+K=h(i,1,[3,J,a7])}else
 var
-L=am;if(L){if(2===j[0])return h(i,1,w(f,f));var
+K=am;if(K){if(2===j[0])return h(i,1,w(f,f));var
 an=1}else
 var
-an=L;var
+an=K;var
 ao=an}else
 var
 ao=I;return ao;case
@@ -3261,7 +3261,7 @@ t=g[2];if(t){var
 u=t[2];if(u){if(u[2])return 0;var
 aq=u[1],ar=t[1],as=g[1],at=a[1],M=F([0,f[1],[0,f[2],[0,f[3],0]]],at);if(M){var
 N=F([0,as,[0,ar,[0,aq,0]]],at);if(N){var
-au=N[1],a8=bz(au,c),a9=ci(au,c),a_=bz(aq,c),a$=P(f[3],a_),ba=bz(ar,c),bb=P(f[2],ba),bc=bz(as,c),bd=P(f[1],bc),be=K(function(b,a){return[2,b,a]},bd,bb),bf=K(function(b,a){return[2,b,a]},be,a$);return ng(i,w,a[2],a[3],M[1],bf,a9,a8)}var
+au=N[1],a8=bz(au,c),a9=ci(au,c),a_=bz(aq,c),a$=P(f[3],a_),ba=bz(ar,c),bb=P(f[2],ba),bc=bz(as,c),bd=P(f[1],bc),be=L(function(b,a){return[2,b,a]},bd,bb),bf=L(function(b,a){return[2,b,a]},be,a$);return ng(i,w,a[2],a[3],M[1],bf,a9,a8)}var
 av=N}else
 var
 av=M;var
@@ -3277,10 +3277,10 @@ az=g;return az;case
 15:var
 bg=m$(a[1],g,c,f),bh=w(f,f);return h(i,1,[3,[4,a[2],bh],bg]);default:O=1}if(O)return 0;var
 B=F(g,z);return B?h(i,1,A(B[1])):B}function
-fu(g,i,f,c,a){var
-m=fr(g,i,f,c);if(m)if(typeof
+fv(g,i,f,c,a){var
+m=fs(g,i,f,c);if(m)if(typeof
 a==="number")return 0===a?aj(function(e){var
-a=jb(e,c);return a?h(g,0,[3,[0,d,b],a[1]]):a},f):mg(t6,e(function(b){var
+a=jh(e,c);return a?h(g,0,[3,[0,d,b],a[1]]):a},f):ml(t7,e(function(b){var
 a=bz(b,c);return[0,a[1],[0,a[2],[0,a[3],0]]]},f));else{if(0===a[0]){var
 j=F(i[3],a[1]);if(j){var
 p=j[1],q=na(a[3]);return nh(g,f,c,na(a[2]),q,p)}return j}var
@@ -3296,11 +3296,11 @@ ni(a){switch(a[0]){case
 b=a[1],c=b[5],d=b[4][1],e=bF(b[3]),f=bF(b[2]);return[0,bF(b[1]),f,e,d,c];case
 1:var
 g=y(bF,a[3]),h=bF(a[2]);return[1,bF(a[1]),h,g];default:return[2,bF(a[1])]}}function
-jd(a){return 0===a[0]?bF(a[1]):[0,a[1],a[2],a[4][1]]}function
+jj(a){return 0===a[0]?bF(a[1]):[0,a[1],a[2],a[4][1]]}function
 nj(b,a){var
-c=jd(a[2]);return fr(b,a,e(ni,a[1]),c)}function
-je(b,a,c){var
-d=[0,c,av(b,a)];return f(am(b,a),d)}function
+c=jj(a[2]);return fs(b,a,e(ni,a[1]),c)}function
+jk(b,a,c){var
+d=[0,c,av(b,a)];return g(am(b,a),d)}function
 bs(c,a){if(c){if(a){var
 e=bs(c[2],a[2]);return[2,[4,c[1],a[1]],e]}return[0,d,b]}return[0,d,b]}function
 nk(e,c,a){if(e){if(c){var
@@ -3311,20 +3311,20 @@ d=a}else
 var
 d=b;return d}function
 nm(b,c,a){var
-d=[0,c,av([0,b],a)];return f(am(b,a),d)}function
+d=[0,c,av([0,b],a)];return g(am(b,a),d)}function
 nn(a,b){var
-e=o(a,t7),c=e||o(a,t8),d=c?o(g(b),a):c;return d?l(function(b){return o(g(b),a)},b):d}function
+e=n(a,t8),c=e||n(a,t9),d=c?n(f(b),a):c;return d?l(function(b){return n(f(b),a)},b):d}function
 no(a){if(a){var
 b=a[1];if(b){var
-c=b[1],d=no(a[2]);return y(function(a){return[0,c,a]},d)}return b}return t9}function
-g6(a){if(a){var
+c=b[1],d=no(a[2]);return y(function(a){return[0,c,a]},d)}return b}return t_}function
+g7(a){if(a){var
 b=a[1];if(b){var
-c=b[1],d=g6(a[2]);return y(function(a){return[0,c,a]},d)}return b}return t_}function
+c=b[1],d=g7(a[2]);return y(function(a){return[0,c,a]},d)}return b}return t$}function
 np(a,l,k,f){var
 b=aD(a,l);if(b){var
 c=aD(a,k);if(c){var
 d=c2(a,f);if(d){var
-e=gH(a,f);if(e)var
+e=gI(a,f);if(e)var
 m=t(a,b[1],e[1]),g=[0,G(t(a,c[1],d[1]),m)];else
 var
 g=e;var
@@ -3337,20 +3337,20 @@ i=c;var
 j=i}else
 var
 j=b;return j}function
-nq(a){return a?I(a[1][2],d):a}function
-cj(a){return a?I(d,a[1][1]):a}function
+nq(a){return a?K(a[1][2],d):a}function
+cj(a){return a?K(d,a[1][1]):a}function
 nr(d,a){return h(d,0,[3,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b],a])}function
 ns(d,a){if(a){var
 b=aD(d,a[1]);if(b)var
 c=ns(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
 var
-e=b;return e}return t$}function
-g7(d,a){if(a){var
-b=ns(d,a[1]);if(b)var
-c=g7(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
-var
 e=b;return e}return ua}function
-nt(b,a){return ap(function(c,a){return A(U(b,c),a)},u,a)}function
+g8(d,a){if(a){var
+b=ns(d,a[1]);if(b)var
+c=g8(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
+var
+e=b;return e}return ub}function
+nt(b,a){return ap(function(c,a){return A(V(b,c),a)},u,a)}function
 nu(b,d){function
 c(e,d,c,a){var
 f=t(b,d,c);return G(t(b,e,a),f)}if(d){var
@@ -3367,15 +3367,15 @@ n=m[2];if(n){if(n[2])return u;if(k[2])return u;var
 s=n[1],v=m[1],w=l[1],x=j[1],y=i[1],z=h[1],B=c(z,y,w,v),C=t(b,g[1],B),D=t(b,q,c(z,x,w,s));return A(G(t(b,r,c(y,x,v,s)),D),C)}return u}return u}return u}return u}return u}return u}return u}return u}if(a){var
 o=a[1];if(o){var
 p=o[2];return p?p[2]?u:a[2]?u:c(r,q,o[1],p[1]):u}return u}return u}return u}return u}return u}function
-nv(a,p,m,s,f,i){function
+nv(a,p,m,s,g,i){function
 a1(c,a){return[4,[4,[5,[0,b,b],c],[5,[0,b,b],c]],bs(a,a)]}var
 bL=m[1];function
 B(c){var
 a=[0,d,b];return ap(function(a,b){var
 d=bs(a,c);return[2,[4,bs(a,c),d],b]},a,bL)}function
-C(f,e){var
-a=F(m[1],f);if(a){var
-b=a[1],c=o(g(b),p);if(c)return k(e,b);var
+C(g,e){var
+a=F(m[1],g);if(a){var
+b=a[1],c=n(f(b),p);if(c)return k(e,b);var
 d=c}else
 var
 d=a;return d}var
@@ -3384,50 +3384,50 @@ b=0;if(typeof
 i==="number")b=1;else
 switch(i[0]){case
 6:var
-a=ub;break;case
+a=uc;break;case
 13:case
 14:var
-a=uc;break;default:b=1}if(b)var
-a=p;return o(g(c),a)},f);if(a2){var
+a=ud;break;default:b=1}if(b)var
+a=p;return n(f(c),a)},g);if(a2){var
 v=0;if(typeof
 i==="number")v=1;else
 switch(i[0]){case
-0:if(f){if(f[2])return 0;var
-a4=f[1],bM=B(a4);return h(a,1,[3,a1(i[1],a4),bM])}return f;case
-1:if(f){if(f[2])return 0;var
-a5=f[1],bN=a1(i[1],a5);return h(a,1,[3,B(a5),bN])}return f;case
-2:if(f)return 0;var
+0:if(g){if(g[2])return 0;var
+a4=g[1],bM=B(a4);return h(a,1,[3,a1(i[1],a4),bM])}return g;case
+1:if(g){if(g[2])return 0;var
+a5=g[1],bN=a1(i[1],a5);return h(a,1,[3,B(a5),bN])}return g;case
+2:if(g)return 0;var
 bO=i[2],bP=function(b){if(typeof
 b!=="number"&&0===b[0])return h(a,1,[3,bO,b[1]]);return 0},ai=bP,ah=i[1];break;case
-3:if(f)return 0;var
+3:if(g)return 0;var
 bQ=i[2],bR=function(b){if(typeof
 b!=="number"&&0===b[0])return h(a,1,[3,b[1],bQ]);return 0},ai=bR,ah=i[1];break;case
-4:if(f)return 0;var
+4:if(g)return 0;var
 a6=i[3],a7=i[2],bS=function(d){var
-i=o(s,0);if(typeof
+i=n(s,0);if(typeof
 d!=="number"&&1===d[0]){var
 e=d[2],f=d[1],g=h(a,0,[3,[2,a7,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b]],a6]);return g?i?nq(np(a,f,e,a7)):cj(np(a,f,e,a6)):g}return 0},ai=bS,ah=i[1];break;case
-5:if(f){var
-D=f[2];if(D){if(D[2])return 0;var
-ak=D[1],al=f[1],a8=i[1],bU=bs(al,al),bV=[4,[4,a8,a8],[4,B(ak),bU]],bW=bs(ak,ak);return h(a,1,[3,[4,B(al),bW],bV])}var
+5:if(g){var
+D=g[2];if(D){if(D[2])return 0;var
+ak=D[1],al=g[1],a8=i[1],bU=bs(al,al),bV=[4,[4,a8,a8],[4,B(ak),bU]],bW=bs(ak,ak);return h(a,1,[3,[4,B(al),bW],bV])}var
 a9=D}else
 var
-a9=f;return a9;case
+a9=g;return a9;case
 6:var
 a_=i[2],bX=i[3],bY=function(b){var
-c=[5,bX,a_],d=h(a,1,a_);return d?h(a,1,[3,bs(b,b),[4,c,c]]):d},a$=C(i[1],bY);if(a$){if(m[4]){if(f){var
-E=f[1];if(E){if(E[2])return 0;if(f[2])return 0;var
+c=[5,bX,a_],d=h(a,1,a_);return d?h(a,1,[3,bs(b,b),[4,c,c]]):d},a$=C(i[1],bY);if(a$){if(m[4]){if(g){var
+E=g[1];if(E){if(E[2])return 0;if(g[2])return 0;var
 ba=E[1];return h(a,1,[4,ba,ba])}var
 bb=E}else
 var
-bb=f;return bb}if(f)return 0;var
+bb=g;return bb}if(g)return 0;var
 bc=1}else
 var
 bc=a$;return bc;case
-7:if(f){if(f[2])return 0;var
-bd=f[1],am=i[1],bZ=i[3],b0=i[2],an=g6(m[7]);if(an){var
+7:if(g){if(g[2])return 0;var
+bd=g[1],am=i[1],bZ=i[3],b0=i[2],an=g7(m[7]);if(an){var
 H=an[1],ao=F(bd,am);if(ao){var
-b1=ao[1],be=o(g(H),p),bf=be?l(function(a){return o(g(a),p)},H):be;if(bf){var
+b1=ao[1],be=n(f(H),p),bf=be?l(function(a){return n(f(a),p)},H):be;if(bf){var
 aq=F(H,am);if(aq){var
 b2=aq[1];return C(am,function(b){return ng(a,bs,b0,bZ,b1,nl(bd,H),b,b2)})}var
 bg=aq}else
@@ -3441,16 +3441,16 @@ var
 bi=an;var
 bj=bi}else
 var
-bj=f;return bj;case
-8:if(f){if(f[2])return 0;var
-ar=f[1],b3=nk(i[1],m[1],ar),b4=bs(ar,ar);return h(a,1,[3,[4,i[2],b4],b3])}return f;case
-9:if(f)return 0;var
+bj=g;return bj;case
+8:if(g){if(g[2])return 0;var
+ar=g[1],b3=nk(i[1],m[1],ar),b4=bs(ar,ar);return h(a,1,[3,[4,i[2],b4],b3])}return g;case
+9:if(g)return 0;var
 bk=i[3],bl=i[2],b5=function(e){var
 f=h(a,1,bl),g=f?h(a,0,bk):f;if(g){var
 b=aD(a,bs(e,e));if(b){var
 c=aD(a,[5,bk,bl]);if(c){var
-d=l$(a,c[1]);if(d){var
-l=U(a,d[1]);return cj([0,G(b[1],l)])}var
+d=me(a,c[1]);if(d){var
+l=V(a,d[1]);return cj([0,G(b[1],l)])}var
 i=d}else
 var
 i=c;var
@@ -3460,16 +3460,16 @@ j=b;var
 k=j}else
 var
 k=g;return k};return C(i[1],b5);case
-10:if(f)return 0;var
+10:if(g)return 0;var
 b6=i[2],b7=function(b){var
 c=[4,b6,b[3]],d=h(a,1,c);return d?h(a,1,[3,[4,c,c],[4,b[2],b[2]]]):d},bn=b7,bm=i[1];v=2;break;case
-11:if(f)return 0;var
+11:if(g)return 0;var
 b8=i[2],b9=function(e){var
 b=c2(a,b8);if(b){var
 c=aD(a,e[3]);if(c){var
 d=aD(a,e[2]);if(d){var
 f=t(a,b[1],c[1]),g=cj([0,f]);if(g){var
-k=U(a,d[1]);return cj([0,G(U(a,f),k)])}var
+k=V(a,d[1]);return cj([0,G(V(a,f),k)])}var
 h=g}else
 var
 h=d;var
@@ -3479,20 +3479,20 @@ i=c;var
 j=i}else
 var
 j=b;return j},bn=b9,bm=i[1];v=2;break;case
-12:if(f)return 0;var
+12:if(g)return 0;var
 au=no(m[3]);if(au){var
 bp=au[1],b_=i[1],bq=bT(function(b,a){return[4,b,a[3]]},bp,b_),av=e(function(a){return a[1]},bp),x=function(d,c,b,a){return[3,[4,d,a],[4,c,b]]};if(av){var
 O=av[1];if(O){var
 P=O[2];if(P){var
-Q=P[2],aC=P[1],aE=O[1],n=av[2];if(Q)if(Q[2]||!n)var
+Q=P[2],aC=P[1],aE=O[1],o=av[2];if(Q)if(Q[2]||!o)var
 j=[0,d,b];else{var
-R=n[1];if(R){var
+R=o[1];if(R){var
 S=R[2];if(S){var
 T=S[2];if(T&&!T[2]){var
-V=n[2];if(V){var
-W=V[1];if(W){var
+U=o[2];if(U){var
+W=U[1];if(W){var
 X=W[2];if(X){var
-Y=X[2];if(Y&&!(Y[2]||V[2]))var
+Y=X[2];if(Y&&!(Y[2]||U[2]))var
 aF=Y[1],aG=X[1],aH=W[1],aI=T[1],aJ=S[1],aK=R[1],bE=x(aK,aJ,aH,aG),bF=[4,Q[1],bE],bG=[4,aC,x(aK,aI,aH,aF)],j=[2,[3,[4,aE,x(aJ,aI,aG,aF)],bG],bF];else
 var
 j=[0,d,b]}else
@@ -3508,9 +3508,9 @@ var
 j=[0,d,b]}else
 var
 j=[0,d,b]}else
-if(n){var
-Z=n[1];if(Z)var
-_=Z[2],j=_?_[2]?[0,d,b]:n[2]?[0,d,b]:x(aE,aC,Z[1],_[1]):[0,d,b];else
+if(o){var
+Z=o[1];if(Z)var
+_=Z[2],j=_?_[2]?[0,d,b]:o[2]?[0,d,b]:x(aE,aC,Z[1],_[1]):[0,d,b];else
 var
 j=[0,d,b]}else
 var
@@ -3529,22 +3529,22 @@ bt=au;return bt;case
 b$=i[2],aw=F(m[4],i[1]);if(aw){var
 ax=aw[1];if(ax){var
 bu=function(a){if(b$){var
-c=k(m[5],[0,[0,d,b],[0,d,b],[0,d,b]]),e=k(m[5],a);return K(function(b,a){return[3,b,a]},e,c)}return a},I=i[4],u=bu(c$(i[3])),J=ax[1][1][2],r=w(J,u);if(nr(a,I)){if(s){if(s[1])return 0;if(f){var
-y=f[1];if(y){var
+c=k(m[5],[0,[0,d,b],[0,d,b],[0,d,b]]),e=k(m[5],a);return L(function(b,a){return[3,b,a]},e,c)}return a},I=i[4],u=bu(c$(i[3])),J=ax[1][1][2],r=w(J,u);if(nr(a,I)){if(s){if(s[1])return 0;if(g){var
+y=g[1];if(y){var
 z=y[2];if(z){var
-A=z[2];if(A){if(A[2])return 0;if(f[2])return 0;var
+A=z[2];if(A){if(A[2])return 0;if(g[2])return 0;var
 $=bu([0,y[1],z[1],A[1]]),aL=w(J,$),aM=h(a,1,r);if(aM){var
 aa=c2(a,I);if(aa){var
-aN=aa[1],ab=aD(a,[4,w(u,u),[4,aL,aL]]);if(ab){var
+aN=aa[1],ac=aD(a,[4,w(u,u),[4,aL,aL]]);if(ac){var
 ad=aD(a,[4,[4,r,r],w($,$)]);if(ad){var
 aO=cj([0,aN]);if(aO){var
-bH=ad[1],bI=ab[1];return cj([0,G(t(a,U(a,aN),bI),bH)])}var
+bH=ad[1],bI=ac[1];return cj([0,G(t(a,V(a,aN),bI),bH)])}var
 aP=aO}else
 var
 aP=ad;var
 aQ=aP}else
 var
-aQ=ab;var
+aQ=ac;var
 aR=aQ}else
 var
 aR=aa;var
@@ -3562,7 +3562,7 @@ var
 aV=y;var
 aW=aV}else
 var
-aW=f;return aW}return f?0:h(a,1,[3,[0,d,b],r])}if(s)return 0;if(f)return 0;var
+aW=g;return aW}return g?0:h(a,1,[3,[0,d,b],r])}if(s)return 0;if(g)return 0;var
 aX=h(a,0,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],I]);if(aX){var
 ae=c2(a,I);if(ae){var
 af=aD(a,r);if(af){var
@@ -3580,36 +3580,36 @@ a0=aX;return a0}var
 bv=ax}else
 var
 bv=aw;return bv;case
-14:if(f){var
-L=f[1];if(L){var
-M=L[2];if(M){var
-N=M[2];if(N){if(N[2])return 0;if(f[2])return 0;var
-ca=i[3],cb=i[2],cc=i[1],cd=[0,L[1],M[1],N[1]],ce=m[5],cf=m[4];return nf(a,function(a){return nd(cf,ce,a)},cd,cc,cb,ca)}var
+14:if(g){var
+K=g[1];if(K){var
+M=K[2];if(M){var
+N=M[2];if(N){if(N[2])return 0;if(g[2])return 0;var
+ca=i[3],cb=i[2],cc=i[1],cd=[0,K[1],M[1],N[1]],ce=m[5],cf=m[4];return nf(a,function(a){return nd(cf,ce,a)},cd,cc,cb,ca)}var
 bw=N}else
 var
 bw=M;var
 bx=bw}else
 var
-bx=L;var
+bx=K;var
 by=bx}else
 var
-by=f;return by;case
-17:if(f)return 0;var
-bz=i[2],ay=i[1],cg=i[3],az=g6(m[7]);if(az){var
-aA=az[1],bA=nn(p,aA),bB=bA?o(g(bz),p):bA;if(bB){var
+by=g;return by;case
+17:if(g)return 0;var
+bz=i[2],ay=i[1],cg=i[3],az=g7(m[7]);if(az){var
+aA=az[1],bA=nn(p,aA),bB=bA?n(f(bz),p):bA;if(bB){var
 aB=F(aA,ay);if(aB){var
 ch=aB[1];return C(ay,function(x){var
-e=g7(a,aA);if(e){var
-j=e[1],f=g7(a,[0,bz,[0,x,[0,ch,0]]]);if(f){var
+e=g8(a,aA);if(e){var
+j=e[1],f=g8(a,[0,bz,[0,x,[0,ch,0]]]);if(f){var
 b=f[1];if(b){var
 c=b[2];if(c){var
 d=c[2];if(d){if(d[2])return 0;var
 g=aD(a,cg);if(g){var
-k=g[1],l=U(a,nu(a,j)),h=nu(a,nm(ay,b[1],j)),m=cj([0,k]),n=m?cj([0,l]):m;if(n)var
-y=o(s,0)?h:ac(h),i=cj([0,y]);else
+k=g[1],l=V(a,nu(a,j)),h=nu(a,nm(ay,b[1],j)),m=cj([0,k]),o=m?cj([0,l]):m;if(o)var
+y=n(s,0)?h:ab(h),i=cj([0,y]);else
 var
-i=n;if(i){var
-z=nt(a,c[1]),A=t(a,t(a,U(a,k),l),z),B=nt(a,d[1]);return cj([0,G(t(a,U(a,h),B),A)])}var
+i=o;if(i){var
+z=nt(a,c[1]),A=t(a,t(a,V(a,k),l),z),B=nt(a,d[1]);return cj([0,G(t(a,V(a,h),B),A)])}var
 p=i}else
 var
 p=g;var
@@ -3645,22 +3645,22 @@ bo=as;return bo;default:var
 aj=F(m[2],ah);return aj?ai(aj[1]):aj}}else
 var
 a3=a2;return a3}function
-fv(d,f,a){if(typeof
+fw(d,f,a){if(typeof
 a!=="number")switch(a[0]){case
 13:var
-e=a[4];if(nr(d,e)&&J(h(d,0,[3,e,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b]])))return uf;return ug;case
+e=a[4];if(nr(d,e)&&I(h(d,0,[3,e,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b]])))return ug;return uh;case
 16:return f;case
 4:case
-17:return ue}return ud}function
+17:return uf}return ue}function
 eu(e,d,g,f){var
 b=g,a=f;for(;;){if(a){var
-c=a[1];if(aJ(b,fv(e,d,c)))return[0,[0,c,b]];var
-h=a[2],b=dx(b,fv(e,d,c)),a=h;continue}return a}}function
+c=a[1];if(aG(b,fw(e,d,c)))return[0,[0,c,b]];var
+h=a[2],b=dx(b,fw(e,d,c)),a=h;continue}return a}}function
 nw(a){return e(function(a){return[0,a,b]},a)}function
-jf(f,o,g,c,n,a){if(typeof
+jl(f,o,g,c,n,a){if(typeof
 a==="number"){if(0===a){var
 s=c[6];return aj(function(a){return h(f,0,[3,[0,d,b],a])},s)}var
-i=g6(c[7]);return i?mg(g,i[1]):i}else{if(0===a[0]){var
+i=g7(c[7]);return i?ml(g,i[1]):i}else{if(0===a[0]){var
 j=eu(f,o,a[1],n);if(j){var
 p=j[1],t=p[1],u=e(nw,a[2]);return nv(f,g,c,p[2],u,t)}return j}var
 k=eu(f,o,a[1],n);if(k){var
@@ -3670,47 +3670,47 @@ m=F(c[1],a[2]);return m?nv(f,g,c,q[2],[0,m[1],0],[1,l[1]]):m}var
 r=0}else
 var
 r=k;return r}}function
-jg(a){var
-b=ay(a[1]),c=P(w(b,a[2]),b),d=a[2];return K(function(b,a){return[3,b,a]},d,c)}function
-fw(a){return ay(jg(a))}function
-g8(c){var
-a=fw(c),b=ay(c[1]);return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
-g9(a,b){return aV(a[3],a[4],b)}function
-fx(a,b){var
-c=g9(a,b);return w(fw(a),c)}function
+jm(a){var
+b=ay(a[1]),c=P(w(b,a[2]),b),d=a[2];return L(function(b,a){return[3,b,a]},d,c)}function
+fx(a){return ay(jm(a))}function
+g9(c){var
+a=fx(c),b=ay(c[1]);return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
+g_(a,b){return aV(a[3],a[4],b)}function
 fy(a,b){var
-c=g9(a,b);return w(g8(a),c)}function
+c=g_(a,b);return w(fx(a),c)}function
+fz(a,b){var
+c=g_(a,b);return w(g9(a),c)}function
 nx(a,b){var
-c=g9(a,b);return w(ay(a[1]),c)}function
-g_(b,a){var
-c=fy(b,a),d=fx(b,a);return[2,[4,d,d],[4,c,c]]}function
-g$(a,d){var
-h=a[5],i=[4,[0,c(2,b),b],h],e=a[6],f=a[5],g=nx(a,d);return[5,[2,g_(a,d),[2,[4,g,g],[3,[4,f,f],[4,e,e]]]],i]}function
-jh(a,b){var
-f=a[5],c=[3,g$(a,b),f],d=nx(a,b),e=a[6];return[3,[3,[4,e,e],[4,d,d]],[4,c,c]]}function
+c=g_(a,b);return w(ay(a[1]),c)}function
+g$(b,a){var
+c=fz(b,a),d=fy(b,a);return[2,[4,d,d],[4,c,c]]}function
+ha(a,d){var
+h=a[5],i=[4,[0,c(2,b),b],h],e=a[6],f=a[5],g=nx(a,d);return[5,[2,g$(a,d),[2,[4,g,g],[3,[4,f,f],[4,e,e]]]],i]}function
+jn(a,b){var
+f=a[5],c=[3,ha(a,b),f],d=nx(a,b),e=a[6];return[3,[3,[4,e,e],[4,d,d]],[4,c,c]]}function
 ev(a,b){var
-c=jh(a,b);return cH(a[7],c)}function
+c=jn(a,b);return cH(a[7],c)}function
 ny(b,a){var
-c=g_(b,a),d=fy(b,a),e=[4,ev(b,a),d],f=fx(b,a);return[5,[2,[4,g$(b,a),f],e],c]}function
+c=g$(b,a),d=fz(b,a),e=[4,ev(b,a),d],f=fy(b,a);return[5,[2,[4,ha(b,a),f],e],c]}function
 nz(b,a){var
-c=g_(b,a),d=fx(b,a),e=[4,ev(b,a),d],f=fy(b,a);return[5,[3,[4,g$(b,a),f],e],c]}function
-ji(a,b){var
-c=g8(a),d=P(nz(a,b),c),e=fw(a),f=P(ny(a,b),e),g=K(function(b,a){return[2,b,a]},f,d),h=P(a[5],g),i=a[3];return K(function(b,a){return[2,b,a]},i,h)}function
+c=g$(b,a),d=fy(b,a),e=[4,ev(b,a),d],f=fz(b,a);return[5,[3,[4,ha(b,a),f],e],c]}function
+jo(a,b){var
+c=g9(a),d=P(nz(a,b),c),e=fx(a),f=P(ny(a,b),e),g=L(function(b,a){return[2,b,a]},f,d),h=P(a[5],g),i=a[3];return L(function(b,a){return[2,b,a]},i,h)}function
 dK(a){return[5,[3,[0,b,b],[4,a,a]],[2,[0,b,b],[4,a,a]]]}function
 dL(a){return[5,[4,[0,c(2,b),b],a],[2,[0,b,b],[4,a,a]]]}function
-jj(a,c,b){var
+jp(a,c,b){var
 d=[4,dK(a),b],e=[2,[4,dL(a),c],d],f=[4,dL(a),b];return[0,[3,[4,dK(a),c],f],e]}function
 nA(c,a){var
-b=jj(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
+b=jp(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
 da(b,a){return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
 nB(a,d){var
-e=w(a,a),f=da(a,d),g=P([0,c(2,b),b],f),h=w(a,d),i=P([4,[0,c(2,b),b],h],a),j=P([3,[0,b,b],e],d),k=K(function(b,a){return[2,b,a]},j,i);return P([5,[0,b,b],[2,[0,b,b],e]],K(function(b,a){return[2,b,a]},k,g))}function
+e=w(a,a),f=da(a,d),g=P([0,c(2,b),b],f),h=w(a,d),i=P([4,[0,c(2,b),b],h],a),j=P([3,[0,b,b],e],d),k=L(function(b,a){return[2,b,a]},j,i);return P([5,[0,b,b],[2,[0,b,b],e]],L(function(b,a){return[2,b,a]},k,g))}function
 db(j,b,a){switch(j[0]){case
 0:return b?b[2]?a:nA(b[1],a):a;case
 1:if(b){var
 c=b[2];if(c){var
 d=c[2];if(d){if(d[2])return a;var
-g=jj(b[1],a[2],a[3]),i=g[1],h=jj(c[1],g[2],a[1]);return nA(d[1],[0,h[2],i,h[1]])}return a}return a}return a;default:if(b){var
+g=jp(b[1],a[2],a[3]),i=g[1],h=jp(c[1],g[2],a[1]);return nA(d[1],[0,h[2],i,h[1]])}return a}return a}return a;default:if(b){var
 e=b[2];if(e){var
 f=e[2];return f?f[2]?a:nB([0,b[1],e[1],f[1]],a):a}return a}return a}}function
 nC(c){var
@@ -3719,7 +3719,7 @@ nD(a,n,k,j){if(nC(j)){var
 q=n?[3,[0,d,b],k]:k;return h(a,0,q)}var
 f=aD(a,k);if(f){var
 g=c2(a,[5,j,[0,c(2,b),b]]);if(g){var
-i=gH(a,[5,j,[0,c(2,b),b]]);if(i)var
+i=gI(a,[5,j,[0,c(2,b),b]]);if(i)var
 p=t(a,f[1],g[1]),l=[0,G(i[1],p)];else
 var
 l=i;var
@@ -3733,9 +3733,9 @@ o=e[1];return n?D(d,o[1]):D(o[2],d)}return e}function
 dM(b,a,c){var
 d=by(b,a[1],a[2]),e=d?nD(b,0,c,a[1]):d;return e?nD(b,1,c,a[2]):e}function
 nE(h,f,c){if(nC(c))return[0,u];var
-a=E(h,iI(f)),d=c2(a,c);if(d){var
-e=gH(a,c);if(e){var
-i=e[1],j=d[1],k=b$(a,A(O(a,b),j));return y(function(b){return l2(f,t(a,i,b))},k)}var
+a=E(h,iJ(f)),d=c2(a,c);if(d){var
+e=gI(a,c);if(e){var
+i=e[1],j=d[1],k=b$(a,A(N(a,b),j));return y(function(b){return l7(f,t(a,i,b))},k)}var
 g=e}else
 var
 g=d;return g}function
@@ -3748,7 +3748,7 @@ h=by(a,[0,d,b],c),i=h?cK(a,c):h;if(i){var
 e=k(cJ(a),c);if(e){var
 f=aD(a,o);if(f){var
 g=aD(a,n);if(g){var
-p=f[1],q=g[1];return D(d,G(t(a,U(a,e[1]),q),p)[1])}var
+p=f[1],q=g[1];return D(d,G(t(a,V(a,e[1]),q),p)[1])}var
 j=g}else
 var
 j=f;var
@@ -3758,7 +3758,7 @@ l=e;var
 m=l}else
 var
 m=i;return m}function
-fz(d,c,a){switch(c[0]){case
+fA(d,c,a){switch(c[0]){case
 0:return a?a[2]?0:dM(d,c[1],a[1]):a;case
 1:if(a){var
 e=a[2];if(e){var
@@ -3801,11 +3801,11 @@ a=ap(function(f,e){var
 a=aD(i,f);if(a)var
 b=a[1],c=bm(ct(b[1]),ct(b[2]));else
 var
-c=d;return bm(c,e)},d,b);return I(d,a)?aL(lL(a),i):d}function
+c=d;return bm(c,e)},d,b);return K(d,a)?aL(lQ(a),i):d}function
 ew(a){return[0,a[1],[0,a[2],0]]}function
 bb(a){var
-b=ew(a[3]),c=f(ew(a[2]),b);return f(ew(a[1]),c)}function
-ha(a){return g5(i,a,bG(bb(a)))}function
+b=ew(a[3]),c=g(ew(a[2]),b);return g(ew(a[1]),c)}function
+hb(a){return g6(i,a,bG(bb(a)))}function
 nG(b,a){if(a){var
 g=nG([0,b],a[2]),c=a[1];if(0===c[0])var
 d=c[1],e=c9([0,[0,d,d],c[2]],b);else
@@ -3816,15 +3816,15 @@ var
 f=a;return f}function
 nH(c,b,a){var
 d=ef(b);return[2,[2,ef(c),d],a]}function
-hb(b,a){return b?T(a):d}function
-fA(g,b,a){if(typeof
+hc(b,a){return b?T(a):d}function
+fB(f,b,a){if(typeof
 a!=="number")switch(a[0]){case
 4:var
 i=a[3],j=a[2];return[0,[2,j],[0,[3,j],[0,[2,i],[0,[3,i],0]]]];case
 6:return[0,[0,[5,a[3],a[2]],d],0];case
 8:var
 q=a[2],r=a[1];return e(function(a){var
-c=hb(g,b);return[0,[5,q,a],E(hb(g,b),c)]},r);case
+c=hc(f,b);return[0,[5,q,a],E(hc(f,b),c)]},r);case
 9:return[0,[1,[5,a[3],a[2]],T(b)],0];case
 10:return[0,[0,a[2],d],0];case
 11:return[0,[2,a[2]],0];case
@@ -3832,36 +3832,36 @@ c=hb(g,b);return[0,[5,q,a],E(hb(g,b),c)]},r);case
 13:var
 c=a[3],h=bG([0,c[1],[0,c[2],[0,c[3],0]]]);return[0,[2,a[4]],[0,[0,c[1],h],[0,[0,c[2],h],[0,[0,c[3],h],0]]]];case
 14:var
-k=a[2],l=a[1],s=es(b,k),t=f(es(b,l),s),u=e(function(a){return[0,a[1][2],a[2]]},t);return[0,[0,nH(l,k,a[3]),b],u];case
+k=a[2],l=a[1],s=es(b,k),t=g(es(b,l),s),u=e(function(a){return[0,a[1][2],a[2]]},t);return[0,[0,nH(l,k,a[3]),b],u];case
 15:var
 m=a[4],n=a[3];return[0,[0,[5,a[2],m],d],[0,[0,[5,[4,n,n],m],b],0]];case
 16:var
 o=a[2],p=bG([0,o,0]);return[0,[4,a[3],aL(p,b)],[0,[0,o,p],0]];case
 17:var
-v=a[3],w=a[2];return e(function(a){return[0,[5,a,v],hb(g,b)]},w);case
+v=a[3],w=a[2];return e(function(a){return[0,[5,a,v],hc(f,b)]},w);case
 2:case
 3:return[0,[0,a[2],b],0]}return 0}function
 dd(h,c,b,e,a){if(a){var
-d=a[1],i=a[2],j=dd(h,c,b,M(e,g(fA(c,b,d))),i);return f(ao(h,nG(e,fA(c,b,d)),d),j)}return a}function
-hc(b,a){var
-c=W(b,a);return e(function(a){var
+d=a[1],i=a[2],j=dd(h,c,b,M(e,f(fB(c,b,d))),i);return g(ao(h,nG(e,fB(c,b,d)),d),j)}return a}function
+hd(b,a){var
+c=U(b,a);return e(function(a){var
 b=s(a[1][2],a[2]);return[0,a[1][1],b]},c)}function
-jk(b,a){switch(a[0]){case
+jq(b,a){switch(a[0]){case
 0:var
 d=a[1];return aq(b,[0,[0,d,d],a[2]]);case
 1:var
-e=a[1],c=aq(b,[0,[0,e,e],a[2]]);return c?l$(b,c[1]):c;case
+e=a[1],c=aq(b,[0,[0,e,e],a[2]]);return c?me(b,c[1]):c;case
 2:return c2(b,a[1]);case
-3:return gH(b,a[1]);default:var
+3:return gI(b,a[1]);default:var
 f=a[1],g=cK(b,f);return g?nE(b,a[2],f):g}}function
-bH(a){return 1===a?uh:ui}function
+bH(a){return 1===a?ui:uj}function
 bY(d,c,b,a){var
-e=a[1],f=db(d,c,a[2]),g=K(function(b,a){return[2,b,a]},b,f);return K(function(b,a){return[3,b,a]},g,e)}function
-jl(c,b,a){switch(c){case
+e=a[1],f=db(d,c,a[2]),g=L(function(b,a){return[2,b,a]},b,f);return L(function(b,a){return[3,b,a]},g,e)}function
+jr(c,b,a){switch(c){case
 0:return[0,b[1],[0,b[2],[0,a[3],0]]];case
 1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}}function
-jm(h,g,d,c,f,a){var
-e=bY(d,c,f,a);return jl(h,e,P([5,[0,b,b],g],da(db(d,c,a[2]),e)))}function
+js(h,g,d,c,f,a){var
+e=bY(d,c,f,a);return jr(h,e,P([5,[0,b,b],g],da(db(d,c,a[2]),e)))}function
 ex(c,d,n,m,l){var
 b=d[2],a=n;for(;;){if(b){if(a){var
 f=a[1],g=b[1],h=br(c,g[1],f[1]),i=h?br(c,g[2],f[2]):h;if(i){var
@@ -3872,7 +3872,7 @@ j=a;var
 e=j}else
 var
 e=a?0:1;var
-k=e?cG(c,d[4],m):e;return k?fz(c,d[5],l):k}}function
+k=e?cG(c,d[4],m):e;return k?fA(c,d[5],l):k}}function
 bA(b,d){var
 a=d[1];if(8===a[0]){var
 c=a[1][1];return 0===c[0]?[0,[0,M(b,c[1])]]:[0,bU(function(a){return bA(b,a)},a)]}return[0,bU(function(a){return bA(b,a)},a)]}function
@@ -3880,7 +3880,7 @@ dN(d,b,h){var
 c=h;for(;;){var
 a=c[1];switch(a[0]){case
 0:var
-e=a[1],f=J(o(e,b));return f?J(o(e,M(d,b))):f;case
+e=a[1],f=I(n(e,b));return f?I(n(e,M(d,b))):f;case
 10:return 0;case
 1:case
 2:return 1;case
@@ -3912,7 +3912,7 @@ d=a[2];continue}return e;case
 cL(c,e){var
 b=e;for(;;){var
 a=b[1];switch(a[0]){case
-0:return J(o(a[1],c));case
+0:return I(n(a[1],c));case
 10:return 0;case
 1:case
 2:return 1;case
@@ -3922,14 +3922,14 @@ a=b[1];switch(a[0]){case
 b=a[1];continue;default:var
 d=cL(c,a[1]);if(d){var
 b=a[2];continue}return d}}}function
-hd(d,b,m){var
+he(d,b,m){var
 c=m;for(;;){var
 a=c[1];switch(a[0]){case
 3:var
-f=hd(d,b,a[1]);if(f){var
+f=he(d,b,a[1]);if(f){var
 c=a[2];continue}return f;case
 4:var
-g=hd(d,b,a[1]);return g?cL(b,a[2]):g;case
+g=he(d,b,a[1]);return g?cL(b,a[2]):g;case
 6:var
 h=a[2],i=a[1],j=cL(b,i);if(j){var
 k=cL(b,h);if(k)var
@@ -3942,10 +3942,10 @@ e=j;return e;case
 0:case
 1:case
 2:return 1;default:return cL(b,c)}}}function
-he(c,e){var
+hf(c,e){var
 b=e;for(;;){var
 a=b[1];switch(a[0]){case
-0:return aJ(a[1],c);case
+0:return aG(a[1],c);case
 10:return 0;case
 1:case
 2:return 1;case
@@ -3953,12 +3953,12 @@ a=b[1];switch(a[0]){case
 8:case
 9:var
 b=a[1];continue;default:var
-d=he(c,a[1]);if(d){var
+d=hf(c,a[1]);if(d){var
 b=a[2];continue}return d}}}function
-hf(a,b){if(a){var
+hg(a,b){if(a){var
 c=a[2],d=a[1];if(b){var
-e=b[2];return b[1]?[0,d,hf(c,ap(fd,e,lX(d)))]:[0,ul,hf(c,e)]}var
-f=[0,d,hf(c,0)]}else
+e=b[2];return b[1]?[0,d,hg(c,ap(fe,e,l2(d)))]:[0,um,hg(c,e)]}var
+f=[0,d,hg(c,0)]}else
 var
 f=a;return f}function
 de(b,a){return a?k(b,a[1]):a}function
@@ -3991,72 +3991,72 @@ n=a[1],o=function(a){return ao(b,a,n)},h=function(a){return ck(o,a)},p=h(e),q=h(
 1:var
 i=a[1],r=bt(b,e,i),s=bt(b,f,i);return[2,bt(b,g,i),s,r];default:var
 t=bt(b,e,a[3]),u=bt(b,f,a[2]);return[2,bt(b,g,a[1]),u,t]}}}function
-jn(c,f,a){if(a)var
+jt(c,f,a){if(a)var
 d=a[1],b=function(h){var
 a=[0,d[1],d[1]],b=[0,d[2],d[2]];switch(h){case
 0:var
-e=[0,a,U(c,a)];break;case
+e=[0,a,V(c,a)];break;case
 1:var
 g=t(c,a,b),e=[0,aw(A(a,b)),g];break;default:var
-e=[0,b,U(c,b)]}return[0,[0,k(f,e)]]},h=jn(c,f,a[2]),i=e(function(a){return[1,a]},h),j=b(2),l=b(1),g=[0,[2,b(0),l,j],i];else
+e=[0,b,V(c,b)]}return[0,[0,k(f,e)]]},h=jt(c,f,a[2]),i=e(function(a){return[1,a]},h),j=b(2),l=b(1),g=[0,[2,b(0),l,j],i];else
 var
 g=a;return g}function
-jo(b,x,c,a){var
-e=jn(b,aN,a),d=0,z=f(jn(b,aA,a),e);return bg(un,function(a){switch(a[0]){case
+ju(b,x,c,a){var
+e=jt(b,aN,a),d=0,z=g(jt(b,aA,a),e);return bg(uo,function(a){switch(a[0]){case
 0:return r(a[1],z,[0,[0,u]]);case
 1:return[0,[0,r(a[1],x,u)]];case
-2:return[0,[0,O(b,a[1])]];case
+2:return[0,[0,N(b,a[1])]];case
 3:var
 c=a[2],d=a[1],e=function(b,a){return[0,A(b,a)]};return bt(function(a,b){return df(e,a,b)},d,c);case
 4:var
 f=a[2],g=a[1],h=function(b,a){return[0,G(b,a)]};return bt(function(a,b){return df(h,a,b)},g,f);case
 5:var
-i=a[1],j=function(a){return[0,ac(a)]};return ck(function(a){return de(j,a)},i);case
+i=a[1],j=function(a){return[0,ab(a)]};return ck(function(a){return de(j,a)},i);case
 6:var
 k=a[2],l=a[1],m=function(c,a){return[0,t(b,c,a)]};return bt(function(a,b){return df(m,a,b)},l,k);case
 7:var
 n=a[2],o=a[1],p=function(c,a){var
 d=b$(b,a);return y(function(a){return t(b,c,a)},d)};return bt(function(a,b){return df(p,a,b)},o,n);case
 8:var
-q=a[1],s=function(a){return[0,U(b,a)]};return ck(function(a){return de(s,a)},q);case
+q=a[1],s=function(a){return[0,V(b,a)]};return ck(function(a){return de(s,a)},q);case
 9:var
-v=a[1],w=function(a){return ca(b,a)};return ck(function(a){return de(w,a)},v);default:return um}},c,d)}function
-hg(a){if(a){var
+v=a[1],w=function(a){return ca(b,a)};return ck(function(a){return de(w,a)},v);default:return un}},c,d)}function
+hh(a){if(a){var
 b=a[1];if(b)var
-c=hg(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+c=hh(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return uo}function
+d=b;return d}return up}function
 ez(a){if(a){var
-g=a[1],b=g[2],c=hg(g[1]);if(c)if(b){var
+g=a[1],b=g[2],c=hh(g[1]);if(c)if(b){var
 h=b[1],e=ez(a[2]);if(e)var
-i=I(d,h[1]),j=i?[0,[0,[0,c[1],h],e[1]]]:i;else
+i=K(d,h[1]),j=i?[0,[0,[0,c[1],h],e[1]]]:i;else
 var
 j=e;var
 f=j}else
 var
 f=b;else
 var
-f=c;return f}return up}function
+f=c;return f}return uq}function
 eA(b,a){var
 c=a[3],d=y(function(a){var
 c=a[2],d=a[1][2];return[0,[0,k(b,a[1][1]),d],c]},c),e=k(b,a[2]),f=a[1];return[0,k(ax(b),f),e,d]}function
-jp(c,g,f,b,a,e){if(b){var
+jv(c,g,f,b,a,e){if(b){var
 h=b[1],l=b[2],d=function(b,a){var
-d=kI(c,e9,e9,function(a){return nI(b,a)},e);return jp(c,g,bn(f),l,a,d)},i=d(0,aL(a,h));if(i){var
+d=h3(c,e_,e_,function(a){return nI(b,a)},e);return jv(c,g,bn(f),l,a,d)},i=d(0,aL(a,h));if(i){var
 j=d(2,E(a,h));if(j)return f?1:d(1,a);var
 k=j}else
 var
-k=i;return k}return ao(g,a,kI(c,e9,e9,nJ,e))}function
-jq(e,c,b,a){var
-f=ab(d,b);function
-g(b){return a}return function(a){return jp(e,g,c,f,d,a)}}function
+k=i;return k}return ao(g,a,h3(c,e_,e_,nJ,e))}function
+jw(e,c,b,a){var
+f=ac(d,b);function
+g(b){return a}return function(a){return jv(e,g,c,f,d,a)}}function
 dg(a){if(a){var
-b=a[1],c=b[1],d=c[1],e=b[2],f=c[2];return y(function(a){return aU(f,e,a)},d)}return[0,u]}function
+b=a[1],c=b[1],d=c[1],e=b[2],f=c[2];return y(function(a){return aQ(f,e,a)},d)}return[0,u]}function
 nL(f,e,k,j,i,a){var
 b=ez(a[1]);if(b){var
 c=a[2];if(c){var
 d=dg(a[3]);if(d){var
-l=d[1],m=ab([0,G(ac(t(f,i,c[1])),l),0],e);return a_(f,e,gJ(k,j,b[1],m))}var
+l=d[1],m=ac([0,G(ab(t(f,i,c[1])),l),0],e);return a5(f,e,gK(k,j,b[1],m))}var
 g=d}else
 var
 g=c;var
@@ -4066,7 +4066,7 @@ h=b;return h}function
 nM(i,d,h,g,c){var
 a=ez(c[1]);if(a){var
 b=dg(c[3]);if(b){var
-j=ab([0,G(u,b[1]),0],d),k=a[1];return a_(i,d,gJ(h,g,e(function(a){return[0,a[1],u]},k),j))}var
+j=ac([0,G(u,b[1]),0],d),k=a[1];return a5(i,d,gK(h,g,e(function(a){return[0,a[1],u]},k),j))}var
 f=b}else
 var
 f=a;return f}function
@@ -4075,17 +4075,17 @@ j=ez(i[1]);if(j){var
 k=i[2];if(k){var
 l=dg(i[3]);if(l){var
 F=l[1],e=G(t(a,D,k[1]),F),b=j[1];if(b){var
-m=b[1],n=m[2];if(b[2]){var
-f=gK(a,b,ab([0,e,0],c));if(f){var
-p=f[1],q=o(g(p),c);if(q)return ej(a,p);var
+m=b[1],o=m[2];if(b[2]){var
+g=gL(a,b,ac([0,e,0],c));if(g){var
+p=g[1],q=n(f(p),c);if(q)return ej(a,p);var
 r=q}else
 var
-r=f;return r}var
-s=I(d,e[1]),u=s?I(d,n[1]):s;if(u){var
-A=C(e[1],n[1]),B=m[1];return I(ap(function(a,b){var
+r=g;return r}var
+s=K(d,e[1]),u=s?K(d,o[1]):s;if(u){var
+A=C(e[1],o[1]),B=m[1];return K(ap(function(a,b){var
 c=cb(a);return E(C(cb(a),c),b)},d,B),A)}return u}var
-h=gK(a,b,ab([0,e,0],c));if(h){var
-v=h[1],w=o(g(v),c);if(w)return ej(a,v);var
+h=gL(a,b,ac([0,e,0],c));if(h){var
+v=h[1],w=n(f(v),c);if(w)return ej(a,v);var
 x=w}else
 var
 x=h;return x}var
@@ -4095,20 +4095,20 @@ y=k;var
 z=y}else
 var
 z=j;return z}function
-uq(c){var
+ur(c){var
 a=c[2];if(a){var
 b=dg(c[3]);if(b)return D(d,G(a[1],b[1])[1]);var
 e=b}else
 var
 e=a;return e}function
-jr(a){return z(function(a){return f(a[1],[0,a[2],0])},a)}function
+jx(a){return z(function(a){return g(a[1],[0,a[2],0])},a)}function
 nO(a,c,b){var
 e=r(b,c,m(d)),f=aC(0,a);return l(function(b){return ey(a,b,e)},f)}function
-fB(a){var
-c=V(a);return B(m(b),c)}function
-hh(i,g){var
-h=fB(g),j=V(g),e=x(m(b),j),f=s(m(c(2,b)),g),a=m(d);return i?i[1]?[0,[0,e,bp(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,bp(f),a,e]]:[0,[0,h,a,a],[0,a,e,bp(f)],[0,a,f,e]]}function
-fC(b,a){var
+fC(a){var
+c=W(a);return B(m(b),c)}function
+hi(i,g){var
+h=fC(g),j=W(g),e=x(m(b),j),f=s(m(c(2,b)),g),a=m(d);return i?i[1]?[0,[0,e,bp(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,bp(f),a,e]]:[0,[0,h,a,a],[0,a,e,bp(f)],[0,a,f,e]]}function
+fD(b,a){var
 c=_(b[3],a),d=_(b[2],a);return[0,_(b[1],a),d,c]}function
 nP(b,a){function
 c(b){var
@@ -4119,14 +4119,14 @@ e=d(b[3]),f=d(b[2]);return[0,d(b[1]),f,e]}function
 nQ(v,u){function
 a(a){return[0,[0,M(u,a)]]}switch(v[0]){case
 0:var
-w=fB(a(0));return[0,hh(ur,a(0)),w];case
+w=fC(a(0));return[0,hi(us,a(0)),w];case
 1:var
-y=fB(a(0)),z=s(fB(a(us)),y),A=s(fB(a(ut)),z),C=hh(0,a(0)),D=nP(hh(uv,a(uu)),C);return[0,nP(hh(ux,a(uw)),D),A];default:var
-E=a(uy),F=a(uz),g=[0,a(0),F,E],G=_(g,g),H=B(m(b),G),j=_(g,g),d=g[1],e=g[2],f=g[3],i=function(a){var
-d=V(a),e=s(m(c(2,b)),d);return B(x(m(b),j),e)},h=function(f,e,d,a){var
+y=fC(a(0)),z=s(fC(a(ut)),y),A=s(fC(a(uu)),z),C=hi(0,a(0)),D=nP(hi(uw,a(uv)),C);return[0,nP(hi(uy,a(ux)),D),A];default:var
+E=a(uz),F=a(uA),g=[0,a(0),F,E],G=_(g,g),H=B(m(b),G),j=_(g,g),d=g[1],e=g[2],f=g[3],i=function(a){var
+d=W(a),e=s(m(c(2,b)),d);return B(x(m(b),j),e)},h=function(f,e,d,a){var
 g=ao(f,s(e,d),a);return s(m(c(2,b)),g)},k=i(f),l=h(B,e,f,d),n=[0,h(x,d,f,e),l,k],o=h(x,e,f,d),p=i(e),q=[0,h(B,d,e,f),p,o],r=h(B,d,f,e),t=h(x,d,e,f);return[0,[0,[0,i(d),t,r],q,n],H]}}function
 nR(a){return 1<a[0]?[0,a[1],0]:0}function
-hi(a){switch(a[0]){case
+hj(a){switch(a[0]){case
 0:return[0,a[1],0];case
 1:return[0,a[1],[0,a[2],[0,a[3],0]]];case
 2:return[0,dc(a[1]),0];default:var
@@ -4143,7 +4143,7 @@ nT(a,c){if(0===c[0]){var
 g=c[1];return k(cJ(a),g)}var
 h=c[1],d=k(cJ(a),h);if(d){var
 i=c[2],e=k(cJ(a),i);if(e){var
-j=U(a,e[1]),l=ca(a,A(O(a,b),j)),m=d[1];return y(function(b){return t(a,m,b)},l)}var
+j=V(a,e[1]),l=ca(a,A(N(a,b),j)),m=d[1];return y(function(b){return t(a,m,b)},l)}var
 f=e}else
 var
 f=d;return f}function
@@ -4154,98 +4154,98 @@ var
 e=a;return e}function
 nV(a,e,c){var
 b=c[1];if(1===b[0]){var
-f=b[1];if(aJ(f,a))return c;var
+f=b[1];if(aG(f,a))return c;var
 g=m(d);return r(dx(f,a),e,g)}return[0,bU(function(b){return nV(a,e,b)},b)]}function
-js(g,a,n,f,c){var
-h=g?[0,a,[0,[0,a],[0,[0,[0,a]],0]]]:[0,a,[0,[0,a],0]],i=mT(h,c),j=bW(f),b=e(function(b){return nV(a,j,b)},i),k=r(uE,b,m(d)),l=r(uF,b,m(d));return[0,r(0,b,m(d)),l,k]}function
+jy(g,a,n,f,c){var
+h=g?[0,a,[0,[0,a],[0,[0,[0,a]],0]]]:[0,a,[0,[0,a],0]],i=mT(h,c),j=bW(f),b=e(function(b){return nV(a,j,b)},i),k=r(uF,b,m(d)),l=r(uG,b,m(d));return[0,r(0,b,m(d)),l,k]}function
 bI(b,a){var
 c=s(b[2],a[1]),d=x(s(b[1],a[2]),c),e=s(b[1],a[3]),f=x(s(b[3],a[1]),e),g=s(b[3],a[2]);return[0,x(s(b[2],a[3]),g),f,d]}function
 dO(b,a){return b?b[1]?a[3]:a[2]:a[1]}function
 nW(c){function
 a(a){var
-e=o(c,a)?b:d;return m(e)}var
-e=a(uG),f=a(uH);return[0,a(0),f,e]}function
+e=n(c,a)?b:d;return m(e)}var
+e=a(uH),f=a(uI);return[0,a(0),f,e]}function
 nX(b,a){if(a)var
 d=nX(b,a[2]),c=[0,e(k(b,a[1]),a),d];else
 var
 c=a;return c}function
-hj(c,b,a){switch(c){case
+hk(c,b,a){switch(c){case
 0:return[0,b[1],[0,b[2],[0,a[3],0]]];case
 1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}}function
 nY(b,c,a){return c?av(b,a):am(b,a)}function
 nZ(a){if(a){var
-f=a[1],b=f[2],c=hg(f[1]);if(c)if(b)var
+f=a[1],b=f[2],c=hh(f[1]);if(c)if(b)var
 d=nZ(a[2]),g=d?[0,[0,[0,c[1],b[1]],d[1]]]:d,e=g;else
 var
 e=b;else
 var
-e=c;return e}return uS}function
+e=c;return e}return uT}function
 n0(c,b,a){var
-d=W(b,a);return ap(function(a,d){var
+d=U(b,a);return ap(function(a,d){var
 b=cb(a[2]);return A(t(c,a[1],[0,b,b]),d)},u,d)}function
 n1(a,h,e,f,d){if(e)if(d)var
-i=d[1],o=n1(a,h,e[2],f,d[2]),p=i[2],q=av(h,i[1]),c=e[1],j=aw(t(a,c[3],f)),k=c[3],l=A(aw(eg(p,O(a,b),k)),j),m=t(a,c[2],l),n=t(a,c[1],f),g=[0,cz(A(A(aw(n0(a,c[4],q)),n),m)),o];else
+i=d[1],o=n1(a,h,e[2],f,d[2]),p=i[2],q=av(h,i[1]),c=e[1],j=aw(t(a,c[3],f)),k=c[3],l=A(aw(eg(p,N(a,b),k)),j),m=t(a,c[2],l),n=t(a,c[1],f),g=[0,cz(A(A(aw(n0(a,c[4],q)),n),m)),o];else
 var
 g=d;else
 var
 g=e;return g}function
-uU(a){return[0,a[1][1],a[2][1][2][1],a[1][2],a[2][2]]}function
+uV(a){return[0,a[1][1],a[2][1][2][1],a[1][2],a[2][2]]}function
 n2(b,a){return ad(e(function(a){return r(a,b,0)},a))}function
 cM(a){switch(a){case
-0:return uY;case
-1:return uZ;default:return 0}}function
+0:return uZ;case
+1:return u0;default:return 0}}function
 dP(a){switch(a){case
-0:return[0,u1,u0,m(d)];case
+0:return[0,u2,u1,m(d)];case
 1:return dG;default:var
 b=m(d),c=m(d);return[0,m(d),c,b]}}function
-hk(c,b,a){return bq(fC(c,a),b)}function
+hl(c,b,a){return bq(fD(c,a),b)}function
 n3(a){var
 d=_(a,a),e=B(m(b),d);return al(m(c(2,b)),e)}function
 n4(k,j,i,h,g,a){var
-e=hk(j,i,g),c=bI(a,e),f=ag(B,c,bI(a,c)),d=ag(B,e,a4(n3(a),f)),b=ag(x,ag(B,dP(k),d),h);return[0,[0,d,b],aK(_(b,b))]}function
+e=hl(j,i,g),c=bI(a,e),f=ag(B,c,bI(a,c)),d=ag(B,e,a4(n3(a),f)),b=ag(x,ag(B,dP(k),d),h);return[0,[0,d,b],aK(_(b,b))]}function
 at(a){return typeof
-a==="number"?a?u2:u3:bH(a[1])}function
-jt(b,a,c){return typeof
-b==="number"?b?[0,a[1],[0,a[2],0]]:[0,a[1],[0,a[2],[0,a[3],0]]]:jl(b[1],a,c)}function
+a==="number"?a?u3:u4:bH(a[1])}function
+jz(b,a,c){return typeof
+b==="number"?b?[0,a[1],[0,a[2],0]]:[0,a[1],[0,a[2],[0,a[3],0]]]:jr(b[1],a,c)}function
 eC(a){if(0===a[0]){var
 c=a[1];switch(c[0]){case
 0:return c[3];case
 1:return c[2];default:return[0,[0,d,b],[0,d,b],[0,d,b]]}}return a[1][4]}function
 eD(b,c,a){return b?db(b[1],c,a):a}function
 bu(d,c,b,a){var
-e=eC(a),f=eD(d,c,eC(a)),g=K(function(b,a){return[2,b,a]},b,f);return K(function(b,a){return[3,b,a]},g,e)}function
+e=eC(a),f=eD(d,c,eC(a)),g=L(function(b,a){return[2,b,a]},b,f);return L(function(b,a){return[3,b,a]},g,e)}function
 eE(d,c,b,a){if(0===a[0]){var
 f=bu(d,c,b,a);return[0,cI(a[1],f)]}var
 e=a[1],g=nz(e,bu(d,c,b,a));return[1,ny(e,bu(d,c,b,a)),g]}function
-ju(b,a){var
+jA(b,a){var
 c=typeof
 b==="number"?1:0;if(c){if(b)return[0,a[1],[0,a[2],0]];var
 d=[0,a[1],[0,a[2],[0,a[3],0]]]}else
 var
 d=c;return d}function
-jv(e,d,c,a){if(0===a[0]){var
-f=bu(e,d,c,a),b=jb(a[1],f),g=b?[0,b[1],0]:b;return g}var
-h=bu(e,d,c,a);return[0,jh(a[1],h),0]}function
+jB(e,d,c,a){if(0===a[0]){var
+f=bu(e,d,c,a),b=jh(a[1],f),g=b?[0,b[1],0]:b;return g}var
+h=bu(e,d,c,a);return[0,jn(a[1],h),0]}function
 n5(b,f,d){if(0===f[0])return 0===d[0]?m_(b,f[1],d[1]):0;if(0===d[0])return 0;var
 a=d[1],c=f[1],g=br(b,c[1],a[1]),i=g?br(b,c[2],a[2]):g,j=i?br(b,c[3],a[3]):i,k=j?br(b,c[4],a[4]):j,l=k?c_(b,c[5],a[5]):k,m=l?c_(b,c[6],a[6]):l,n=m?h(b,1,a[5]):m,o=n?h(b,1,a[6]):n,p=o?h(b,1,w(a[1],a[1])):o;if(p)var
-q=jg(a),e=h(b,1,w(jg(a),q));else
+q=jm(a),e=h(b,1,w(jm(a),q));else
 var
 e=p;return e?cv(c[7],a[7]):e}function
-fD(g,f,e){var
+fE(g,f,e){var
 b=f,a=e;for(;;){if(b){if(a){var
 c=n5(g,b[1],a[1]);if(c){var
 b=b[2],a=a[2];continue}var
 d=c}else
 var
 d=a;return d}return a?0:1}}function
-jw(c,b,g,a){var
+jC(c,b,g,a){var
 d=cG(c,b[4],g);if(d){var
-e=b[5];if(e)return fz(c,e[1],a);if(a)return 0;var
+e=b[5];if(e)return fA(c,e[1],a);if(a)return 0;var
 f=1}else
 var
 f=d;return f}function
-hl(a){return typeof
-a==="number"?u4:2<=a[1]?u5:u6}function
+hm(a){return typeof
+a==="number"?u5:2<=a[1]?u6:u7}function
 n6(v,m,l){if(l){var
 a=l[1],e=function(c,a){return h(v,1,[3,[0,a,b],c])},g=function(a){return[3,a[2],a[1]]};switch(a[0]){case
 0:var
@@ -4265,25 +4265,25 @@ m==="number"?0:m[1]?1:0===a[0]?1:0:f}return 1}function
 bZ(e,j){var
 a=j[1];switch(a[0]){case
 1:var
-k=o(a[1],e)?b:d;return m(k);case
+k=n(a[1],e)?b:d;return m(k);case
 3:var
 l=bZ(e,a[2]);return B(bZ(e,a[1]),l);case
 4:var
-n=bZ(e,a[2]);return x(bZ(e,a[1]),n);case
+o=bZ(e,a[2]);return x(bZ(e,a[1]),o);case
 5:return bp(bZ(e,a[1]));case
 6:var
 g=a[2],h=a[1],p=s(h,bZ(e,g));return B(s(g,bZ(e,h)),p);case
 7:var
-f=bZ(e,a[1]);return a9(d,f)?f:al(f,a[2]);case
+f=bZ(e,a[1]);return a_(d,f)?f:al(f,a[2]);case
 8:var
 i=a[1],q=bZ(e,i);return s(s(m(c(2,b)),i),q);default:return m(d)}}function
-hm(c,b,k){var
+hn(c,b,k){var
 e=k;for(;;){var
 a=e[1];switch(a[0]){case
 7:var
-g=hm(c,b,a[1]);if(g){var
+g=hn(c,b,a[1]);if(g){var
 h=a[2][1];if(1===h[0]){var
-i=h[1],j=I(d,r(i,c,u)[1]);return j?J(aj(function(a){return o(i,a)},b)):j}return 0}return g;case
+i=h[1],j=K(d,r(i,c,u)[1]);return j?I(aj(function(a){return n(i,a)},b)):j}return 0}return g;case
 5:case
 8:var
 e=a[1];continue;case
@@ -4292,7 +4292,7 @@ e=a[1];continue;case
 0:case
 1:case
 2:return 1;default:var
-f=hm(c,b,a[1]);if(f){var
+f=hn(c,b,a[1]);if(f){var
 e=a[2];continue}return f}}}function
 n7(d){var
 b=d;for(;;){var
@@ -4309,71 +4309,71 @@ c=n7(a[1]);if(c){var
 b=a[2];continue}return c}}}function
 n8(c,b,a){var
 d=e(b,a[2]);return[0,k(c,a[1]),d]}function
-jx(b,a,c){return e(function(c){var
+jD(b,a,c){return e(function(c){var
 d=n8(b,a,c[2]),f=c[1];return[0,e(function(c){return n8(b,a,c)},f),d]},c)}function
 n9(b,a){return y(function(a){var
 c=a[2],d=a[1][2];return[0,[0,k(b,a[1][1]),d],c]},a)}function
-u7(a,b){var
-c=n9(a,b[3]),d=k(a,b[2]);return[0,jx(a,a,b[1]),d,c]}function
+u8(a,b){var
+c=n9(a,b[3]),d=k(a,b[2]);return[0,jD(a,a,b[1]),d,c]}function
 n_(c){var
 a=c[1];if(a){var
-b=hg(c[2]);if(b)var
+b=hh(c[2]);if(b)var
 g=e($,b[1]),d=[0,[0,$(a[1]),g]];else
 var
 d=b;var
 f=d}else
 var
 f=a;return f}function
-u8(c){var
+u9(c){var
 a=ad(e(n_,c[1]));if(a)var
 b=n_(c[2]),f=b?[0,[0,a[1],b[1]]]:b,d=f;else
 var
 d=a;return d}function
-u9(a){return J(iT([0,a[2],a[1]]))}function
-jy(a){return[0,a[1],a[2]]}function
+u_(a){return I(iU([0,a[2],a[1]]))}function
+jE(a){return[0,a[1],a[2]]}function
 n$(b,c,a){var
 d=e(function(c){return bA(b,bZ(c,a))},c);return[0,bA(b,a),d]}function
-jz(b,e,a,d){var
+jF(b,e,a,d){var
 c=z(function(a){var
-b=jy(a[2]);return f(z(jy,a[1]),b)},d),g=a?[0,bA(b,a[1]),0]:a,h=f(g,c);return[0,bA(b,e),h]}function
+b=jE(a[2]);return g(z(jE,a[1]),b)},d),f=a?[0,bA(b,a[1]),0]:a,h=g(f,c);return[0,bA(b,e),h]}function
 oa(c,f,b,a){var
-d=hm(f,b,a),e=d?he(c,a):d;return e?l(function(b){return he(c,bZ(b,a))},b):e}function
+d=hn(f,b,a),e=d?hf(c,a):d;return e?l(function(b){return hf(c,bZ(b,a))},b):e}function
 ob(a){switch(a[0]){case
 3:var
-d=jr(a[2]);return[0,a[3],d];case
+d=jx(a[2]);return[0,a[3],d];case
 4:return[0,a[1],0];case
 8:var
-b=a[1],e=jr(b[1]);return[0,b[2],e];case
+b=a[1],e=jx(b[1]);return[0,b[2],e];case
 9:return 0;default:var
-c=jr(a[1]);return[0,a[2],c]}}function
-oc(a,ay,bs,j,n,R,ax,x,Q,i,h){switch(i[0]){case
+c=jx(a[1]);return[0,a[2],c]}}function
+oc(a,ay,bs,j,o,R,ax,x,Q,i,h){switch(i[0]){case
 0:var
-az=i[4],S=i[3],aB=i[2],aD=i[1],V=0;if(typeof
-h==="number")V=1;else
+az=i[4],S=i[3],aB=i[2],aD=i[1],W=0;if(typeof
+h==="number")W=1;else
 switch(h[0]){case
 0:var
-bt=h[2],bu=h[1],v=aB,s=aD,q=function(b){return nL(a,n,bu,bt,S,b)},p=az;break;case
+bt=h[2],bu=h[1],v=aB,s=aD,q=function(b){return nL(a,o,bu,bt,S,b)},p=az;break;case
 2:var
-aE=L(S[1],d),aF=aE?L(S[2],d):aE;if(!aF)return aF;var
-bx=h[2],by=h[1],v=aB,s=aD,q=function(b){return nM(a,n,by,bx,b)},p=az;break;default:V=1}if(V)return 0;break;case
+aE=J(S[1],d),aF=aE?J(S[2],d):aE;if(!aF)return aF;var
+bx=h[2],by=h[1],v=aB,s=aD,q=function(b){return nM(a,o,by,bx,b)},p=az;break;default:W=1}if(W)return 0;break;case
 1:var
-aQ=0;if(typeof
+aR=0;if(typeof
 h==="number"&&!h)var
-bz=i[2],bA=i[1],bB=i[3],v=bz,s=bA,bC=0,q=function(b){return nN(a,n,bB,b)},p=bC;else
-aQ=1;if(aQ)return 0;break;case
+bz=i[2],bA=i[1],bB=i[3],v=bz,s=bA,bC=0,q=function(b){return nN(a,o,bB,b)},p=bC;else
+aR=1;if(aR)return 0;break;case
 2:if(typeof
 h!=="number"&&3===h[0]){var
 B=h[3];if(B){var
-aG=B[2],aH=o(g(aG),j);if(aH){var
-bE=[0,i[1],i[2],Q],bF=eA(function(a){return r(a,x,va)},bE),aI=h[1],bG=0,bH=B[1],bI=h[2],bJ=i[3],bK=function(w,i){var
+aH=B[2],aI=n(f(aH),j);if(aI){var
+bE=[0,i[1],i[2],Q],bF=eA(function(a){return r(a,x,vb)},bE),aJ=h[1],bG=0,bH=B[1],bI=h[2],bJ=i[3],bK=function(w,i){var
 c=ez(i[1]);if(c){var
 j=c[1],e=i[2];if(e){var
 f=dg(i[3]);if(f){var
-k=f[1],l=function(c){return aU(c,aI,O(a,b))},u=l(w),v=e[1],g=A(t(a,l(bH),v),u),m=I(d,g[1]),o=m?a_(a,n,gJ(aI,bI,j,ab([0,G(ac(g),k),0],n))):m;if(o){var
-h=gK(a,j,ab([0,G(t(a,bJ,g),k),0],n));if(h)return a_(a,n,h[1]);var
+k=f[1],l=function(c){return aQ(c,aJ,N(a,b))},u=l(w),v=e[1],g=A(t(a,l(bH),v),u),m=K(d,g[1]),n=m?a5(a,o,gK(aJ,bI,j,ac([0,G(ab(g),k),0],o))):m;if(n){var
+h=gL(a,j,ac([0,G(t(a,bJ,g),k),0],o));if(h)return a5(a,o,h[1]);var
 p=h}else
 var
-p=o;var
+p=n;var
 q=p}else
 var
 q=f;var
@@ -4382,20 +4382,20 @@ var
 r=e;var
 s=r}else
 var
-s=c;return s};return jp(function(b,a){return eA},bK,bG,aG,d,bF)}var
-aK=aH}else
+s=c;return s};return jv(function(b,a){return eA},bK,bG,aH,d,bF)}var
+aK=aI}else
 var
 aK=B;return aK}return 0;case
 3:var
-aR=0;if(typeof
-h==="number"||!(0===h[0]))aR=1;else
+aS=0;if(typeof
+h==="number"||!(0===h[0]))aS=1;else
 var
-aL=h[2],aM=h[1],bL=i[3],bM=i[2],bN=i[4],bO=i[1],bP=function(f){var
-b=ez(f[1]);if(b){var
-c=b[1],d=f[2];if(d){var
-e=dg(f[3]);if(e){var
-h=o(g(c),n),i=h?o(g(aL),n):h;if(i){var
-m=en(aM,eo(aM,aL,d[1],c));return a_(a,n,bi(gO(a,bO,bN,e[1],c),m))}var
+aL=h[2],aM=h[1],bL=i[3],bM=i[2],bN=i[4],bO=i[1],bP=function(g){var
+b=ez(g[1]);if(b){var
+c=b[1],d=g[2];if(d){var
+e=dg(g[3]);if(e){var
+h=n(f(c),o),i=h?n(f(aL),o):h;if(i){var
+m=en(aM,eo(aM,aL,d[1],c));return a5(a,o,bi(gP(a,bO,bN,e[1],c),m))}var
 j=i}else
 var
 j=e;var
@@ -4404,18 +4404,18 @@ var
 k=d;var
 l=k}else
 var
-l=b;return l},v=bL,s=bM,q=bP,p=i[5];if(aR)return 0;break;case
+l=b;return l},v=bL,s=bM,q=bP,p=i[5];if(aS)return 0;break;case
 4:var
-aT=0;if(typeof
+aU=0;if(typeof
 h==="number"&&!h)var
-v=i[1],s=0,q=uq,p=0;else
-aT=1;if(aT)return 0;break;case
+v=i[1],s=0,q=ur,p=0;else
+aU=1;if(aU)return 0;break;case
 5:var
 aV=0;if(typeof
 h==="number"||!(0===h[0]))aV=1;else{var
 C=h[2],aW=0;if(C){var
 D=C[1];if(D){if(D[2])return 0;if(C[2])return 0;var
-bQ=i[2],bR=i[1],bS=O(a,b),bT=[0,[0,D[1],0],0],bU=h[1],v=bQ,s=bR,bV=0,q=function(b){return nL(a,vb,bU,bT,bS,b)},p=bV;aW=1}else
+bQ=i[2],bR=i[1],bS=N(a,b),bT=[0,[0,D[1],0],0],bU=h[1],v=bQ,s=bR,bV=0,q=function(b){return nL(a,vc,bU,bT,bS,b)},p=bV;aW=1}else
 var
 aN=D}else
 var
@@ -4423,52 +4423,52 @@ aN=C;if(!aW)return aN}if(aV)return 0;break;case
 6:var
 aX=0;if(typeof
 h==="number"&&!h)var
-bW=i[2],bX=i[1],bY=O(a,b),v=bW,s=bX,bZ=0,q=function(b){return nN(a,vc,bY,b)},p=bZ;else
+bW=i[2],bX=i[1],bY=N(a,b),v=bW,s=bX,bZ=0,q=function(b){return nN(a,vd,bY,b)},p=bZ;else
 aX=1;if(aX)return 0;break;case
 7:var
 aY=0;if(typeof
 h==="number"&&5<=h)var
-b0=i[2],b1=i[1],b2=i[4],b3=i[3],v=b0,s=b1,b4=0,q=function(b){return nM(a,n,b3,b2,b)},p=b4;else
+b0=i[2],b1=i[1],b2=i[4],b3=i[3],v=b0,s=b1,b4=0,q=function(b){return nM(a,o,b3,b2,b)},p=b4;else
 aY=1;if(aY)return 0;break;case
 8:if(typeof
 h!=="number"&&9===h[0]){var
-E=h[4],aO=h[2],T=h[1],m=i[1],w=m[9],b5=h[3],a3=m[5],a4=gE(f(ed(m[4]),a3),ay),a5=e($,bs),z=m[9],a6=m[8],a7=m[7],a1=gP(z,ab(u,dx(j,z)),a6),a2=f(e($,av(z,R)),a1),Y=lW(0,bD(a,f(gP(0,am(z,R),a7),a2),a5),a4,ay,0),Z=0<aS(E)?0<aS(d)?gu(E,d):0:0<aS(d)?0:1;if(Z)var
+E=h[4],aO=h[2],T=h[1],m=i[1],w=m[9],b5=h[3],a3=m[5],a4=gF(g(ed(m[4]),a3),ay),a6=e($,bs),z=m[9],a7=m[8],a8=m[7],a1=gQ(z,ac(u,dx(j,z)),a7),a2=g(e($,av(z,R)),a1),Y=l1(0,bD(a,g(gQ(0,am(z,R),a8),a2),a6),a4,ay,0),Z=0<aT(E)?0<aT(d)?gu(E,d):0:0<aT(d)?0:1;if(Z)var
 F=Z;else
 var
-at=2<=lI(E,c(2,c(2,c(2,c(2,b)))))?0:1,au=at?aJ(0,w):at,F=au?aJ(w,j):au;var
-_=F?aa(w,j):F,ae=_?o(g(R),j):_,af=ae?o(g(aO),j):ae,ag=af?o(g(m[1]),j):af,ah=ag?o(g(m[6]),j):ag,ai=ah?o(g(m[4]),j):ah;if(ai)var
-a8=m[4],H=l(function(a){return o(g(a),j)},a8);else
+at=2<=lN(E,c(2,c(2,c(2,c(2,b)))))?0:1,au=at?aG(0,w):at,F=au?aG(w,j):au;var
+_=F?aa(w,j):F,ae=_?n(f(R),j):_,af=ae?n(f(aO),j):ae,ag=af?n(f(m[1]),j):af,ah=ag?n(f(m[6]),j):ag,ai=ah?n(f(m[4]),j):ah;if(ai)var
+a9=m[4],H=l(function(a){return n(f(a),j)},a9);else
 var
 H=ai;if(H){var
-a9=m[4],J=ad(e(function(a){return n2(Y,a)},a9));if(J){var
+a_=m[4],I=ad(e(function(a){return n2(Y,a)},a_));if(I){var
 aj=n2(Y,m[5]);if(aj){var
-a$=m[6],K=ad(e(function(j){var
+a$=m[6],L=ad(e(function(j){var
 c=j[1],k=m[7],d=r(c[1],ax,0);if(d){var
 h=c[2][2],b=ad(e(function(a){var
 b=r(a[2],ax,0);return y(function(a){return a[2]},b)},h));if(b)var
-i=b[1],f=[0,cz(aw(t(a,k,U(a,n0(a,e(aA,c[2][2]),i)))))];else
+i=b[1],f=[0,cz(aw(t(a,k,V(a,n0(a,e(aA,c[2][2]),i)))))];else
 var
 f=b;var
 g=f}else
 var
-g=d;return g},a$));if(K){var
+g=d;return g},a$));if(L){var
 ba=m[1],bb=m[2],M=ad(e(function(m){function
 f(e){var
-g=ab(e,j),c=nK(r(m[2],x,uV),g);if(c){var
-h=ab(e,j),d=nK(r(bb,x,uW),h);if(d){var
-i=d[1],k=O(a,b);return ca(a,cc(eg(c[1],k,i)))}var
+g=ac(e,j),c=nK(r(m[2],x,uW),g);if(c){var
+h=ac(e,j),d=nK(r(bb,x,uX),h);if(d){var
+i=d[1],k=N(a,b);return ca(a,cc(eg(c[1],k,i)))}var
 f=d}else
 var
 f=c;return f}var
 c=f(0);if(c){var
 e=f(2);if(e)var
-g=cc(aw(A(c[1],e[1]))),h=I(d,g[1]),l=h?[0,g]:h,i=l;else
+g=cc(aw(A(c[1],e[1]))),h=K(d,g[1]),l=h?[0,g]:h,i=l;else
 var
 i=e;var
 k=i}else
 var
 k=c;return k},ba));if(M){var
-bc=J[1],X=el(a,ap(function(i,h){var
+bc=I[1],X=el(a,ap(function(i,h){var
 o=e(function(b){var
 a=aC(0,j);return e(function(a){return cb(r(a,b[3],u))},a)},i);function
 b(m,l){var
@@ -4477,18 +4477,18 @@ b(a){return ap(bm,d,a)}var
 h=0;function
 i(a){return a}function
 j(a){return a}var
-c=b(ap(function(a,b){return aP(j,i,lJ,a,b)},h,g)),k=[0,c,c],f=b(e(function(a){return ap(lJ,d,a)},g));return el(a,t(a,[0,f,f],k))}var
-c=b(1,1),f=b(1,0),g=b(0,1);return A(h,U(a,A(A(A(b(0,0),g),f),c)))},u,bc)),N=aU(b5,T,O(a,b)),ak=I(d,G(N,X)[1]);if(ak){var
-P=b$(a,N);if(P){var
-bd=aw(t(a,X,P[1])),be=G(O(a,b),bd),bf=[0,m[1],m[2],Q],bg=eA(function(a){return r(a,x,uX)},bf),bh=m[6],bk=e(uU,W(W(K[1],M[1]),bh)),bl=U(a,be),bo=U(a,N),bp=m[10],aZ=aC(0,j),a0=e(function(a){var
-d=bp?aa(w,a):aJ(a,w);return d?b:b_(c(2,b),E)},aZ),bq=function(r){var
+c=b(ap(function(a,b){return aP(j,i,lO,a,b)},h,g)),k=[0,c,c],f=b(e(function(a){return ap(lO,d,a)},g));return el(a,t(a,[0,f,f],k))}var
+c=b(1,1),f=b(1,0),g=b(0,1);return A(h,V(a,A(A(A(b(0,0),g),f),c)))},u,bc)),O=aQ(b5,T,N(a,b)),ak=K(d,G(O,X)[1]);if(ak){var
+P=b$(a,O);if(P){var
+bd=aw(t(a,X,P[1])),be=G(N(a,b),bd),bf=[0,m[1],m[2],Q],bg=eA(function(a){return r(a,x,uY)},bf),bh=m[6],bk=e(uV,U(U(L[1],M[1]),bh)),bl=V(a,be),bo=V(a,O),bp=m[10],aZ=aC(0,j),a0=e(function(a){var
+d=bp?aa(w,a):aG(a,w);return d?b:b_(c(2,b),E)},aZ),bq=function(r){var
 h=nZ(r[1]);if(h){var
 v=h[1],i=r[2];if(i){var
 k=i[1],m=dg(r[3]);if(m){var
-w=m[1],x=n1(a,j,bk,k,v),n=e(function(a){var
-c=a[2],b=W(a0,a[1]);return[0,e(function(a){return aU(a[1],d,a[2])},b),c]},v),F=en(T,eo(T,aO,k,n)),p=bi(ab([0,ac(w),0],j),F),H=G(t(a,k,bl),w),y=o(g(n),j),z=y?o(g(x),j):y;if(z){var
+w=m[1],x=n1(a,j,bk,k,v),o=e(function(a){var
+c=a[2],b=U(a0,a[1]);return[0,e(function(a){return aQ(a[1],d,a[2])},b),c]},v),F=en(T,eo(T,aO,k,o)),p=bi(ac([0,ab(w),0],j),F),H=G(t(a,k,bl),w),y=n(f(o),j),z=y?n(f(x),j):y;if(z){var
 b=j,c=p;for(;;){if(c){if(b){var
-s=o(g(c[1]),b);if(s){var
+s=n(f(c[1]),b);if(s){var
 b=b[1],c=c[2];continue}var
 u=s}else
 var
@@ -4499,9 +4499,9 @@ A=b?0:1;var
 q=A;break}}else
 var
 q=z;var
-B=q?a_(a,j,bi(e(function(b){return[0,ac(t(a,bo,b[2])),0]},n),p)):q;if(B){var
-I=bj(bn(j));return l(function(g){var
-d=W(f(g,uT),x),b=[0,[0,H,0],0],c=W(p,e(function(a){return a[1]?ac(a[2]):a[2]},d));return a_(a,[0,j],f(e(function(a){return f(a[1],[0,a[2],0])},c),b))},I)}var
+B=q?a5(a,j,bi(e(function(b){return[0,ab(t(a,bo,b[2])),0]},o),p)):q;if(B){var
+I=bj(bn(j));return l(function(f){var
+d=U(g(f,uU),x),b=[0,[0,H,0],0],c=U(p,e(function(a){return a[1]?ab(a[2]):a[2]},d));return a5(a,[0,j],g(e(function(a){return g(a[1],[0,a[2],0])},c),b))},I)}var
 C=B}else
 var
 C=m;var
@@ -4510,7 +4510,7 @@ var
 D=i;var
 E=D}else
 var
-E=h;return E},br=m[3];return k(jq(function(b,a){return eA},br,j,bq),bg)}var
+E=h;return E},br=m[3];return k(jw(function(b,a){return eA},br,j,bq),bg)}var
 al=P}else
 var
 al=ak;var
@@ -4519,80 +4519,84 @@ var
 an=M;var
 ao=an}else
 var
-ao=K;var
+ao=L;var
 aq=ao}else
 var
 aq=aj;var
 ar=aq}else
 var
-ar=J;var
+ar=I;var
 as=ar}else
 var
 as=H;return as}return 0;default:return 0}var
-bv=[0,s,v,Q],bw=eA(function(a){return r(a,x,u$)},bv);return k(jq(function(b,a){return eA},p,j,q),bw)}function
-vd(b,a){var
-c=iE(iz,b[1],a[1]);return c?iz(b[2],a[2]):c}function
-od(i,r,q,h,p,k,A,z,y,j,n,g,a,e){if(typeof
-e==="number"){if(0===e)return 9===a[0]?fn(i,0,0,0,g,h,0,a[1],e):0}else
+bv=[0,s,v,Q],bw=eA(function(a){return r(a,x,va)},bv);return k(jw(function(b,a){return eA},p,j,q),bw)}function
+ve(b,a){var
+c=iF(iB,b[1],a[1]);return c?iB(b[2],a[2]):c}function
+od(c,b){var
+a=iF(ve,c,b),d=a?1:a;return d}function
+oe(j,s,r,i,q,k,p,o,m,h,l,g,a,e){if(typeof
+e==="number"){if(0===e)return 9===a[0]?fo(j,0,0,0,g,i,0,a[1],e):0}else
 switch(e[0]){case
 6:var
 f=e[1];if(typeof
 f!=="number"&&7===f[0]){if(k){var
-s=f[3],t=f[2],u=D(d,t),v=u?iB(s,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):u;if(v)return oc(i,r,q,h,p,j,g,n,[0,[0,[0,k[1],t],s]],a,f[1]);var
-w=v}else
+t=f[3],u=f[2],v=D(d,u),w=v?gy(t,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):v;if(w)return oc(j,s,r,i,q,h,g,l,[0,[0,[0,k[1],u],t]],a,f[1]);var
+x=w}else
 var
-w=k;return w}return oc(i,r,q,h,p,j,g,n,0,a,f);case
-8:return 9===a[0]?fn(i,0,0,0,g,h,0,a[1],e):0;case
+x=k;return x}return oc(j,s,r,i,q,h,g,l,0,a,f);case
+8:return 9===a[0]?fo(j,0,0,0,g,i,0,a[1],e):0;case
 10:if(0===a[0]){var
-l=iE(vd,a[1],A),m=l?1:l,x=m?o(a[2],z):m;return x?kI(y,j,a[3],a[4],e):x}return 0}return 0}function
-oe(b){var
+y=od(a[1],p),z=y?n(a[2],o):y;return z?h3(m,h,a[3],a[4],e):z}return 0;case
+12:if(0===a[0]){var
+A=od(a[1],p),B=A?n(a[2],o):A;return B?h3(m,h,a[3],a[4],e):B}return 0}return 0}function
+of(b){var
 a=b[2];if(typeof
 a!=="number"&&6===a[0])return 1;return 0}function
-ve(c){var
+vf(c){var
 b=0,a=c[2];if(typeof
 a==="number"){if(0!==a)b=1}else
 switch(a[0]){case
 6:case
 8:break;default:b=1}return b?0:1}function
-vf(a){switch(a[0]){case
+vg(a){switch(a[0]){case
 8:return 0;case
-9:return i3(a[1]);default:return 1}}function
-fE(a,o,m,i,x,w,b,v,s,C,h,j,at,c){switch(c[0]){case
+9:return i9(a[1]);default:return 1}}function
+fF(a,o,m,i,x,w,b,v,s,C,h,j,at,c){switch(c[0]){case
 0:var
-au=function(a){return l(J,a)},P=au,p=c[1];break;case
+au=function(a){return l(I,a)},P=au,p=c[1];break;case
 1:var
 av=c[4],aw=c[3],ax=c[2],ay=function(c){var
-d=c4(ax,j),e=fE(a,o,m,i,x,w,b,v,s,C,h,d[1],c,aw);return e?fE(a,o,m,i,x,w,b,v,s,C,h,d[2],c,av):e},P=ay,p=c[1];break;default:var
+d=c4(ax,j),e=fF(a,o,m,i,x,w,b,v,s,C,h,d[1],c,aw);return e?fF(a,o,m,i,x,w,b,v,s,C,h,d[2],c,av):e},P=ay,p=c[1];break;default:var
 az=c[4],aB=c[3],aC=c[2],aD=function(c){var
-d=mR(vf,i,c);if(d){var
-e=c4(aC,h),f=fE(a,o,m,i,x,w,b,v,s,C,e[1],j,c,aB);if(f)return fE(a,o,m,i,x,w,b,v,s,C,e[2],j,c,az);var
+d=mR(vg,i,c);if(d){var
+e=c4(aC,h),f=fF(a,o,m,i,x,w,b,v,s,C,e[1],j,c,aB);if(f)return fF(a,o,m,i,x,w,b,v,s,C,e[2],j,c,az);var
 g=f}else
 var
 g=d;return g},P=aD,p=c[1]}var
-ae=k(C,h),aa=aj(ve,p),ab=aa?iX(a,m,h,gE(z(function(c){var
+ae=k(C,h),aa=aj(vf,p),ac=aa?i2(a,m,h,gF(z(function(c){var
 a=F(i,c[1]);if(a){var
 b=a[1];switch(b[0]){case
 8:var
 d=b[1][6];return z(function(a){var
 b=e(aN,a[1][2][2]);return[0,a[1][1],b]},d);case
-9:return i4(0,0,0,b[1],c[2]);default:return 0}}return a},p),m),j):aa,ad=aj(oe,p);if(ad)var
+9:return i_(0,0,0,b[1],c[2]);default:return 0}}return a},p),m),j):aa,ad=aj(of,p);if(ad)var
 aq=z(function(b){var
-c=oe(b);if(c){var
+c=of(b);if(c){var
 a=F(i,b[1]);if(a)return ob(a[1]);var
 d=a}else
 var
-d=c;return d},p),ar=b?[0,b[1],0]:b,as=f(ar,aq),ah=0,ai=ap(fd,e(function(a){return 0},o),as),N=jo(a,h,fa(hf(fa(o,0),ai),ah),j);else
+d=c;return d},p),ar=b?[0,b[1],0]:b,as=g(ar,aq),ah=0,ai=ap(fe,e(function(a){return 0},o),as),O=ju(a,h,fb(hg(fb(o,0),ai),ah),j);else
 var
-N=ad;var
-q=p,g=at;for(;;){if(q){var
+O=ad;var
+q=p,f=at;for(;;){if(q){var
 S=q[1],D=S[2],n=S[1],H=q[2];if(n){var
-T=r(n,g,0);if(T){var
-K=F(i,n);if(K){var
-V=od(a,m,h,x,w,b,v,s,ae,j,N,ab,K[1],D);if(V){var
-q=H,g=g0(n,g);continue}var
-W=V}else
+T=r(n,f,0);if(T){var
+J=F(i,n);if(J){var
+U=oe(a,m,h,x,w,b,v,s,ae,j,O,ac,J[1],D);if(U){var
+q=H,f=g1(n,f);continue}var
+W=U}else
 var
-W=K;var
+W=J;var
 X=W}else
 var
 X=T;var
@@ -4600,38 +4604,38 @@ B=X}else{var
 af=0;if(typeof
 D==="number"&&4===D){var
 ag=0;if(b){var
-ao=0,Q=e(function(b){return[0,b,U(a,b)]},j),al=e(aN,Q),ak=0,am=f(e(aA,Q),al),an=bg(0,function(o){return function(b){switch(b[0]){case
+ao=0,Q=e(function(b){return[0,b,V(a,b)]},j),al=e(aN,Q),ak=0,am=g(e(aA,Q),al),an=bg(0,function(o){return function(b){switch(b[0]){case
 0:return[0,r(b[1],o,u)];case
 1:return[0,r(b[1],h,u)];case
-2:return[0,O(a,b[1])];case
+2:return[0,N(a,b[1])];case
 3:var
 c=b[2],d=b[1];return df(function(b,a){return[0,A(b,a)]},d,c);case
 4:var
 e=b[2],f=b[1];return df(function(b,a){return[0,G(b,a)]},f,e);case
 5:var
-g=b[1];return de(function(a){return[0,ac(a)]},g);case
+g=b[1];return de(function(a){return[0,ab(a)]},g);case
 6:var
 i=b[2],j=b[1];return df(function(c,b){return[0,t(a,c,b)]},j,i);case
 7:var
 k=b[2],l=b[1];return df(function(c,b){var
 d=b$(a,b);return y(function(b){return t(a,c,b)},d)},l,k);case
 8:var
-m=b[1];return de(function(b){return[0,U(a,b)]},m);case
+m=b[1];return de(function(b){return[0,V(a,b)]},m);case
 9:var
 n=b[1];return de(function(b){return ca(a,b)},n);default:return 0}}}(am),o,ak),E=r(b[1],an,ao);if(E){var
-L=I(E[1][2],d);ag=1}else
+L=K(E[1][2],d);ag=1}else
 var
 R=E}else
 var
 R=b;if(!ag)var
 L=R;if(L){var
-q=H,g=e(function(a){return 0},g);continue}var
+q=H,f=e(function(a){return 0},f);continue}var
 B=L}else
 af=1;if(af){var
-Y=r(n,g,0);if(Y){var
+Y=r(n,f,0);if(Y){var
 M=F(i,n);if(M){var
-Z=od(a,m,h,x,w,b,v,s,ae,j,N,ab,M[1],D);if(Z){var
-q=H,g=g0(n,g);continue}var
+Z=oe(a,m,h,x,w,b,v,s,ae,j,O,ac,M[1],D);if(Z){var
+q=H,f=g1(n,f);continue}var
 _=Z}else
 var
 _=M;var
@@ -4640,28 +4644,28 @@ var
 $=Y;var
 B=$}}}else
 var
-B=[0,g];return B?P(B[1]):B}}function
-jA(d,a){var
-e=V(a),f=s(s(m(c(2,b)),a),d);return B(x(V(d),f),e)}function
-jB(j,a,d,i,c,h){var
+B=[0,f];return B?P(B[1]):B}}function
+jG(d,a){var
+e=W(a),f=s(s(m(c(2,b)),a),d);return B(x(W(d),f),e)}function
+jH(j,a,d,i,c,h){var
 e=ag(x,dP(j),i);if(h){var
 b=function(b){var
-c=k(b,a[3]),d=k(b,a[2]);return[0,k(b,a[1]),d,c]},f=b(function(a){return a[3]}),g=b(function(a){return a[2]}),l=fC([0,b(function(a){return a[1]}),g,f],e);return ag(B,a4(d,c),l)}var
-m=fC(a,c);return ag(B,a4(d,e),m)}function
-of(f,h,g,k,a,d){var
-e=dP(f),i=ag(x,e,a),j=fC(h,d),l=jA(e[3],a[3]),n=jA(e[2],a[2]),o=jA(e[1],a[1]),p=B(B(B(_(d,d),o),n),l),q=_(j,i),r=s(m(c(2,b)),q),t=B(s(g,p),r),u=bq(bI(j,i),k);return[0,hj(f,jB(f,h,g,a,d,0),u),t]}function
-og(d,c,b,a){var
-e=hk(c,b,a);return ag(B,dP(d),e)}function
-oh(g,f,e,d,c){var
-b=og(g,f,e,c),a=ag(x,b,d);return[0,[0,b,a],aK(_(a,a))]}function
-hn(b,a){var
-c=ba(a[2],b);return f(ba(a[1],b),c)}function
-jC(d,b,a,c){if(a)var
-e=a[1],f=cF(c,hn(b,e)),i=M(c,g(hn(b,e))),j=jC(d,b,a[2],i),k=ak(f,vg),h=[0,ao(d,ak(f,0),k),j];else
+c=k(b,a[3]),d=k(b,a[2]);return[0,k(b,a[1]),d,c]},f=b(function(a){return a[3]}),g=b(function(a){return a[2]}),l=fD([0,b(function(a){return a[1]}),g,f],e);return ag(B,a4(d,c),l)}var
+m=fD(a,c);return ag(B,a4(d,e),m)}function
+og(f,h,g,k,a,d){var
+e=dP(f),i=ag(x,e,a),j=fD(h,d),l=jG(e[3],a[3]),n=jG(e[2],a[2]),o=jG(e[1],a[1]),p=B(B(B(_(d,d),o),n),l),q=_(j,i),r=s(m(c(2,b)),q),t=B(s(g,p),r),u=bq(bI(j,i),k);return[0,hk(f,jH(f,h,g,a,d,0),u),t]}function
+oh(d,c,b,a){var
+e=hl(c,b,a);return ag(B,dP(d),e)}function
+oi(g,f,e,d,c){var
+b=oh(g,f,e,c),a=ag(x,b,d);return[0,[0,b,a],aK(_(a,a))]}function
+ho(b,a){var
+c=ba(a[2],b);return g(ba(a[1],b),c)}function
+jI(d,b,a,c){if(a)var
+e=a[1],g=cF(c,ho(b,e)),i=M(c,f(ho(b,e))),j=jI(d,b,a[2],i),k=ak(g,vh),h=[0,ao(d,ak(g,0),k),j];else
 var
 h=a;return h}function
-jD(f,o,e,n,a){var
-g=s(V(r(0,n,m(d))),o);if(typeof
+jJ(f,o,e,n,a){var
+g=s(W(r(0,n,m(d))),o);if(typeof
 a!=="number")switch(a[0]){case
 2:var
 b=F(e,a[1]);if(b)var
@@ -4673,189 +4677,191 @@ c=F(e,a[1]);if(c)var
 k=h(f,0,a[2]),l=k?[0,x(g,c[1][1][2])]:k;else
 var
 l=c;return l}return 0}function
-oi(c,b,a){if(typeof
+oj(c,b,a){if(typeof
 a!=="number"&&6===a[0]){var
 e=F(c,a[1]);return y(function(a){var
 c=r(0,b,m(d)),e=k(a[2][2],c);return[0,a[2][1],e]},e)}return 0}function
-ho(a){return h(i,0,[3,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b],a])}function
-oj(a){var
-b=ak(a,vh),c=aK(_(ak(a,vi),b));return s(r(0,a,m(d)),c)}function
-ok(b,a){var
-c=_(a,ak(b,vj));return[0,bW(a4(oj(b),a)),c]}function
-ol(e,d,a,c,b){var
-f=b[2],g=s(oj(a),f),h=c?hk(e,d,ak(a,vk)):ak(a,vl);return x(_(b[1][2],h),g)}function
-om(h,g,f,d,c,b,a){var
+hp(a){return h(i,0,[3,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b],a])}function
+ok(a){var
+b=ak(a,vi),c=aK(_(ak(a,vj),b));return s(r(0,a,m(d)),c)}function
+ol(b,a){var
+c=_(a,ak(b,vk));return[0,bW(a4(ok(b),a)),c]}function
+om(e,d,a,c,b){var
+f=b[2],g=s(ok(a),f),h=c?hl(e,d,ak(a,vl)):ak(a,vm);return x(_(b[1][2],h),g)}function
+on(h,g,f,d,c,b,a){var
 i=bC(c);function
-j(a){return og(h,g,f,a)}return mY(e(function(a){return[0,a[4]]},d),j,i,b,a)}function
-fF(a){var
-b=r(vm,a,m(d));return al(r(0,a,m(d)),b)}function
-jE(a){return a[4][2]}function
-on(g,o,n,l,a){var
-p=a[1][2],q=e(aN,g4(n,a[1][2])),h=fF(l),i=s(s(m(c(2,b)),o),h),d=a[1][1],j=av(cM(g),d),k=e(function(a){return s(a,i)},j);return[0,f(f(am(cM(g),d),k),q),p]}function
-oo(a){var
-b=a[3],c=a[2],d=a[1];return ha([0,[0,d,d],[0,c,c],[0,b,b]])}function
-vv(a){if(typeof
+j(a){return oh(h,g,f,a)}return mY(e(function(a){return[0,a[4]]},d),j,i,b,a)}function
+fG(a){var
+b=r(vn,a,m(d));return al(r(0,a,m(d)),b)}function
+jK(a){return a[4][2]}function
+oo(f,o,n,l,a){var
+p=a[1][2],q=e(aN,g5(n,a[1][2])),h=fG(l),i=s(s(m(c(2,b)),o),h),d=a[1][1],j=av(cM(f),d),k=e(function(a){return s(a,i)},j);return[0,g(g(am(cM(f),d),k),q),p]}function
+op(a){var
+b=a[3],c=a[2],d=a[1];return hb([0,[0,d,d],[0,c,c],[0,b,b]])}function
+vw(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-op(b,a){switch(b){case
+oq(b,a){switch(b){case
 0:return[0,a[1],[0,a[2],0]];case
 1:return[0,a[1],[0,a[2],[0,a[3],0]]];default:return 0}}function
-hp(a){var
+hq(a){var
 c=ce(a[1],[0,d,b]);return c?ce(a[2],[0,d,b]):c}function
-jF(d,a){switch(d){case
-0:return hp(a[3]);case
+jL(d,a){switch(d){case
+0:return hq(a[3]);case
 1:return 1;default:var
-b=hp(a[1]),c=b?hp(a[2]):b;return c?hp(a[3]):c}}function
-jG(c,b){var
-a=z(function(a){return hn(c,a)},b),d=W(aC(0,g(a)),a);return e(aA,a1(function(a){return ja(a[2])},d))}function
-oq(b){var
+b=hq(a[1]),c=b?hq(a[2]):b;return c?hq(a[3]):c}}function
+jM(c,b){var
+a=z(function(a){return ho(c,a)},b),d=U(aC(0,f(a)),a);return e(aA,a1(function(a){return jg(a[2])},d))}function
+or(b){var
 a=b[2];if(typeof
-a!=="number"&&10===a[0])return 1;return 0}function
-or(c){var
-a=c;for(;;){if(0===a[0])return aj(oq,a[1]);var
-d=aj(oq,a[1]),b=d||or(a[3]);if(b)return b;var
+a!=="number")switch(a[0]){case
+10:case
+12:return 1}return 0}function
+os(c){var
+a=c;for(;;){if(0===a[0])return aj(or,a[1]);var
+d=aj(or,a[1]),b=d||os(a[3]);if(b)return b;var
 a=a[4];continue}}function
-vw(a,aR,by,A,C,aQ){var
-n=A[1],j=bH(n),X=A[6],bz=A[2],L=z(function(a){return hn(C,a)},bz),aS=A[3],R=[0,[0,aS,aS],C],$=[0,g(L)],bB=0,aT=z(function(a){return fA(bB,C,a)},X),bC=cM(n),aU=nQ(A[5],bC),p=aU[2],H=aU[1],K=c9(R,g(L)),bF=A[2],S=g(L),bD=0,w=jC(function(e,a){function
+vx(a,aU,bC,C,E,aT){var
+o=C[1],j=bH(o),Z=C[6],bD=C[2],O=z(function(a){return ho(E,a)},bD),aV=C[3],S=[0,[0,aV,aV],E],ae=[0,f(O)],bF=0,aW=z(function(a){return fB(bF,E,a)},Z),bG=cM(o),aX=nQ(C[5],bG),p=aX[2],H=aX[1],L=c9(S,f(O)),bK=C[2],T=f(O),bJ=0,w=jI(function(e,a){function
 i(g){var
-c=bH(n);if(n)var
+c=bH(o);if(o)var
 b=[0,[0,[0,c]],[0,[0,[0,c]]],[0,[0,[0,[0,c]]]]];else
 var
 l=m(d),b=[0,m(d),l,[0,[0,c]]];var
-t=n4(n,H,p,e,a,b)[2],h=n4(n,H,p,e,a,b),i=h[1],j=bq(i[2],h[2]),k=bI(i[1],j),o=ag(B,k,bI(k,b)),f=a4(n3(b),o),q=s(f[3],g),r=s(f[2],g);return[0,hj(n,j,[0,s(f[1],g),r,q]),t]}function
+t=n4(o,H,p,e,a,b)[2],h=n4(o,H,p,e,a,b),i=h[1],j=bq(i[2],h[2]),k=bI(i[1],j),n=ag(B,k,bI(k,b)),f=a4(n3(b),n),q=s(f[3],g),r=s(f[2],g);return[0,hk(o,j,[0,s(f[1],g),r,q]),t]}function
 j(X){var
-v=oh(n,H,p,e,a),w=v[1],U=ag(x,dP(n),e),y=v[2],r=w[1],W=w[2],g=hk(H,p,a),i=bq(W,y),N=al(_(g,i),K),O=V(K),P=al(_(a,a),O),Q=2<=n?d:b,R=B(m(Q),P);function
+v=oi(o,H,p,e,a),w=v[1],U=ag(x,dP(o),e),y=v[2],r=w[1],V=w[2],g=hl(H,p,a),i=bq(V,y),N=al(_(g,i),L),O=W(L),P=al(_(a,a),O),Q=2<=o?d:b,R=B(m(Q),P);function
 h(a){return[0,nW(a),0]}function
-f(a){return[0,bq(bI(nW(a),g),K),[0,a]]}switch(n){case
+f(a){return[0,bq(bI(nW(a),g),L),[0,a]]}switch(o){case
 0:var
-C=[0,f(uI),0],D=[0,h(uJ),C],q=[0,h(0),D];break;case
+C=[0,f(uJ),0],D=[0,h(uK),C],q=[0,h(0),D];break;case
 1:var
-E=[0,f(uK),0],F=[0,f(uL),E],G=[0,f(0),F],I=[0,h(uM),G],J=[0,h(uN),I],q=[0,h(0),J];break;default:var
-L=[0,f(uO),0],M=[0,f(uP),L],q=[0,f(0),M]}var
-j=ag(x,[0,[0,[1,S]],[0,[1,[0,S]]],[0,[1,[0,[0,S]]]]],e),k=bq(j,aK(_(j,j)));if(n)var
-l=js(n,S,e,r,k[3]);else
+E=[0,f(uL),0],F=[0,f(uM),E],G=[0,f(0),F],I=[0,h(uN),G],J=[0,h(uO),I],q=[0,h(0),J];break;default:var
+K=[0,f(uP),0],M=[0,f(uQ),K],q=[0,f(0),M]}var
+j=ag(x,[0,[0,[1,T]],[0,[1,[0,T]]],[0,[1,[0,[0,T]]]]],e),k=bq(j,aK(_(j,j)));if(o)var
+l=jy(o,T,e,r,k[3]);else
 var
 z=m(d),A=m(d),l=[0,m(d),A,z];var
-t=js(n,S,e,r,k[2]),u=js(n,S,e,r,k[1]),T=nX(function(r,v){var
+t=jy(o,T,e,r,k[2]),u=jy(o,T,e,r,k[1]),S=nX(function(r,v){var
 e=v[1];function
 a(b,a){var
 c=e[3],f=dO(a,l),g=s(B(b[3],f),c),h=e[2],i=dO(a,t),j=s(B(b[2],i),h),k=e[1],n=dO(a,u),o=s(B(b[1],n),k);return B(B(B(m(d),o),j),g)}var
-w=a(l,uQ),y=a(t,uR),z=[0,a(u,0),y,w],f=_(r[1],z),k=r[2];if(k){var
-h=k[1],n=v[2];if(n){var
-j=n[1],A=dO(h,g),C=s(dO(j,i),A),D=dO(j,g),p=B(s(dO(h,i),D),C),E=V(K);if(o(h,j))var
+w=a(l,uR),y=a(t,uS),z=[0,a(u,0),y,w],f=_(r[1],z),k=r[2];if(k){var
+h=k[1],o=v[2];if(o){var
+j=o[1],A=dO(h,g),C=s(dO(j,i),A),D=dO(j,g),p=B(s(dO(h,i),D),C),E=W(L);if(n(h,j))var
 F=_(i,g),q=x(p,s(m(c(2,b)),F));else
 var
-q=p;return B(f,al(q,E))}return f}return f},q);return[0,hj(n,i,bq(bI(g,bq(U,y)),K)),T,R,N]}var
-k=oh(n,H,p,e,a);function
-l(b){return jB(n,H,p,e,a,b)}var
-f=2<=n?d:b;function
+q=p;return B(f,al(q,E))}return f}return f},q);return[0,hk(o,i,bq(bI(g,bq(U,y)),L)),S,R,N]}var
+k=oi(o,H,p,e,a);function
+l(b){return jH(o,H,p,e,a,b)}var
+f=2<=o?d:b;function
 g(b){var
-c=V(K),d=m(f),e=s(x(V(b),d),c);return s(p,x(_(a,a),e))}var
-h=[0,_(jB(n,H,p,e,a,1),a),g];return[0,of(n,H,p,K,e,a),h,l,k,j,i]},C,bF,bD),T=e(function(a){return a[1]},w),bG=M($,g(aT)),bJ=cM(n),bK=A[5];function
-Q(a){return[0,[0,M(bJ,a)]]}var
-aG=V([0,[1,bG]]);switch(bK[0]){case
+c=W(L),d=m(f),e=s(x(W(b),d),c);return s(p,x(_(a,a),e))}var
+h=[0,_(jH(o,H,p,e,a,1),a),g];return[0,og(o,H,p,L,e,a),h,l,k,j,i]},E,bK,bJ),X=e(function(a){return a[1]},w),bL=M(ae,f(aW)),bM=cM(o),bN=C[5];function
+R(a){return[0,[0,M(bM,a)]]}var
+aJ=W([0,[1,bL]]);switch(bN[0]){case
 2:var
-bo=Q(uA),bp=Q(uB),aH=[0,Q(0),bp,bo],E=[0,x(aG,_(aH,aH))];break;case
+bs=R(uB),bt=R(uC),aL=[0,R(0),bt,bs],G=[0,x(aJ,_(aL,aL))];break;case
 3:var
-br=V(Q(uC)),bs=V(Q(0)),bt=V(Q(uD)),E=[0,x(x(s(aG,B(m(b),bt)),bs),br)];break;default:var
-E=0}var
-aV=A[7];if(aV)var
-bL=0,bM=A[2],am=jC(function(k,t){var
-a=of(n,H,p,c9(R,g(L)),k,t);switch(n){case
+bu=W(R(uD)),bv=W(R(0)),bw=W(R(uE)),G=[0,x(x(s(aJ,B(m(b),bw)),bv),bu)];break;default:var
+G=0}var
+aY=C[7];if(aY)var
+bO=0,bP=C[2],ao=jI(function(k,t){var
+a=og(o,H,p,c9(S,f(O)),k,t);switch(o){case
 0:var
 c=a[1];if(c){var
 l=c[2],e=c[1];if(l){var
-o=l[1],s=a[2];return[0,[0,e,[0,o,[0,bI(k,[0,e,o,m(d)])[3],0]]],s]}return[0,[0,e,0],a[2]]}return[0,0,a[2]];case
+n=l[1],s=a[2];return[0,[0,e,[0,n,[0,bI(k,[0,e,n,m(d)])[3],0]]],s]}return[0,[0,e,0],a[2]]}return[0,0,a[2]];case
 1:var
-f=a[1];if(f){var
-h=f[2],b=f[1];if(h){var
+g=a[1];if(g){var
+h=g[2],b=g[1];if(h){var
 q=h[2],i=h[1];if(q){var
-r=q[1],j=bI(k,[0,b,i,r]);return[0,[0,b,[0,i,[0,r,[0,j[1],[0,j[2],[0,j[3],0]]]]]],a[2]]}return[0,[0,b,[0,i,0]],a[2]]}return[0,[0,b,0],a[2]]}return[0,0,a[2]];default:return[0,a[1],a[2]]}},C,bM,bL);else
+r=q[1],j=bI(k,[0,b,i,r]);return[0,[0,b,[0,i,[0,r,[0,j[1],[0,j[2],[0,j[3],0]]]]]],a[2]]}return[0,[0,b,[0,i,0]],a[2]]}return[0,[0,b,0],a[2]]}return[0,0,a[2]];default:return[0,a[1],a[2]]}},E,bP,bO);else
 var
-am=aV;var
-bN=bE(am),bO=E?[0,E[1],0]:E,bP=f(bO,bN),bQ=0,bR=f(L,[0,R,0]),bx=e(function(a){return a[1]},w),bS=[0,p,f(dd(function(c,b){if(typeof
+ao=aY;var
+bQ=bE(ao),bR=G?[0,G[1],0]:G,bS=g(bR,bQ),bT=0,bU=g(O,[0,S,0]),bB=e(function(a){return a[1]},w),bV=[0,p,g(dd(function(c,b){if(typeof
 b!=="number")switch(b[0]){case
 6:var
-g=oi(w,c,b);if(g)var
-i=g[1],j=[0,i[1],[0,i[2],0]];else
+f=oj(w,c,b);if(f)var
+i=f[1],j=[0,i[1],[0,i[2],0]];else
 var
-j=g;return j;case
-8:return e(aN,hc(bx,c));case
+j=f;return j;case
+8:return e(aN,hd(bB,c));case
 13:var
 h=F(w,b[1]);if(h){var
-l=ho(b[4]);if(l){var
-m=ok(c,k(h[1][3],b[2]));return f(m[1],[0,m[2],0])}var
-o=l}else
+l=hp(b[4]);if(l){var
+m=ol(c,k(h[1][3],b[2]));return g(m[1],[0,m[2],0])}var
+n=l}else
 var
-o=h;return o;case
-16:return z(function(a){return on(n,K,bR,c,a)[1]},w)}var
-d=jD(a,p,w,c,b),q=d?[0,d[1],0]:d;return q},bQ,C,$,X),bP)],an=f(bE(T),bS),bT=0,bU=f(L,[0,R,0]),aW=dd(function(b,a){if(typeof
+n=h;return n;case
+16:return z(function(a){return oo(o,L,bU,c,a)[1]},w)}var
+d=jJ(a,p,w,c,b),q=d?[0,d[1],0]:d;return q},bT,E,ae,Z),bS)],ap=g(bE(X),bV),bX=0,bY=g(O,[0,S,0]),aZ=dd(function(b,a){if(typeof
 a!=="number")switch(a[0]){case
 13:var
-g=F(w,a[1]);if(g){if(ho(a[4]))return 0;var
-j=[0,ol(H,p,b,a[2],g[1][4]),0]}else
+f=F(w,a[1]);if(f){if(hp(a[4]))return 0;var
+j=[0,om(H,p,b,a[2],f[1][4]),0]}else
 var
-j=g;return j;case
+j=f;return j;case
 14:var
-h=om(n,H,p,w,b,a[1],a[2]);if(h){var
-l=h[1],o=l[2],q=l[1];return z(bW,[0,q[1],[0,q[2],[0,o[1],[0,o[2],0]]]])}return h;case
+h=on(o,H,p,w,b,a[1],a[2]);if(h){var
+l=h[1],n=l[2],q=l[1];return z(bW,[0,q[1],[0,q[2],[0,n[1],[0,n[2],0]]]])}return h;case
 15:var
 i=F(w,a[1]);if(i){var
-c=k(i[1][5],0),s=[0,c[3],[0,c[4],0]],t=[0,r(vn,b,m(d)),s],u=[0,r(0,b,m(d)),t],v=f(ed(c[2]),u);return f(c[1],v)}return i;case
+c=k(i[1][5],0),s=[0,c[3],[0,c[4],0]],t=[0,r(vo,b,m(d)),s],u=[0,r(0,b,m(d)),t],v=g(ed(c[2]),u);return g(c[1],v)}return i;case
 16:var
 x=z(function(a){var
-b=e(aN,g4(bU,jE(a)));return[0,jE(a),b]},w);return f(z(function(a){var
-c=fF(b),d=[0,k(a[6],c)[2],0],e=fF(b);return f(k(a[6],e)[1],d)},w),x)}return 0},bT,C,$,X),aX=cZ(e(function(a){return bA(j,a)},an))[1],aY=cZ(aW)[1],Y=cY(aX),ao=cY(aY);function
-v(a){return bh(Y,bA(j,a))}function
-aZ(i){if(0===A[4][0]){var
-s=y(v,E),t=v(p),e=cM(n),f=o(g(i),j);if(f)var
-h=y(function(a){return[0,[0,a,d],d]},s),a=function(a){return r(a,Y,m(d))},c=a(t),k=aC(0,e),b=l(function(b){var
+b=e(aN,g5(bY,jK(a)));return[0,jK(a),b]},w);return g(z(function(a){var
+c=fG(b),d=[0,k(a[6],c)[2],0],e=fG(b);return g(k(a[6],e)[1],d)},w),x)}return 0},bX,E,ae,Z),a0=cZ(e(function(a){return bA(j,a)},ap))[1],a2=cZ(aZ)[1],$=cY(a0),ar=cY(a2);function
+v(a){return bh($,bA(j,a))}function
+a3(i){if(0===C[4][0]){var
+s=y(v,G),t=v(p),e=cM(o),g=n(f(i),j);if(g)var
+h=y(function(a){return[0,[0,a,d],d]},s),a=function(a){return r(a,$,m(d))},c=a(t),k=aC(0,e),b=l(function(b){var
 d=dN(j,b,c),e=d?l(function(d){var
 f=d[1],e=l(function(c){var
 d=a(c);return cL(M(j,b),d)},f);if(e){var
-g=a(d[2]);return hd(c,M(j,b),g)}return e},i):d;if(e){if(h){var
+g=a(d[2]);return he(c,M(j,b),g)}return e},i):d;if(e){if(h){var
 g=a(h[1][1][1]);return cL(M(j,b),g)}var
 f=1}else
 var
 f=e;return f},k);else
 var
-b=f;var
+b=g;var
 q=b?e:b;return q}return 0}var
-W=aZ(k(ax(v),T)),a0=l(function(a){var
-b=bA(j,a),c=m(d);return aO(r(v(a),Y,c),b)},an),a2=a0?l(function(a){return he(j,a)},an):a0,a3=a2?l(function(a){var
-b=m(d);return aO(r(bh(ao,a),ao,b),a)},aW):a2,a5=a3?aj(vv,X):a3;if(a5)var
-bV=J(A[7]),ap=bV||n6(a,[0,n],[0,A[5]]);else
+Y=a3(k(ax(v),X)),a6=l(function(a){var
+b=bA(j,a),c=m(d);return aO(r(v(a),$,c),b)},ap),a7=a6?l(function(a){return hf(j,a)},ap):a6,a8=a7?l(function(a){var
+b=m(d);return aO(r(bh(ar,a),ar,b),a)},aZ):a7,a9=a8?aj(vw,Z):a8;if(a9)var
+bZ=I(C[7]),as=bZ||n6(a,[0,o],[0,C[5]]);else
 var
-ap=a5;var
-a6=ap?jF(n,et(A[4])):ap,a7=a6?h(a,1,A[3]):a6;if(a7)var
-bX=hi(A[5]),ar=l(function(b){var
-c=cK(a,b[1]);return c?cK(a,b[2]):c},bX);else
+as=a9;var
+a_=as?jL(o,et(C[4])):as,a$=a_?h(a,1,C[3]):a_;if(a$)var
+b0=hj(C[5]),at=l(function(b){var
+c=cK(a,b[1]);return c?cK(a,b[2]):c},b0);else
 var
-ar=a7;if(ar){var
-bY=f(L,[0,R,0]),as=ad(e(function(b){return aq(a,b)},bY));if(as){var
-at=ad(e(function(b){return jk(a,b)},aT));if(at){var
-bZ=op(n,et(A[4])),au=ad(e(function(b){return aq(a,[0,b,C])},bZ));if(au){var
-a8=au[1],b0=nS(A[5]),av=ad(e(function(b){return nU(a,b)},b0));if(av){var
-a9=av[1],b1=nR(A[5]),aw=ad(e(cJ(a),b1));if(aw){var
-b2=0,I=function(a){return bh(ao,a)},ay=f(L,[0,R,0]),az=ad(dd(function(j,f){if(typeof
-f!=="number")switch(f[0]){case
+at=a$;if(at){var
+b1=g(O,[0,S,0]),au=ad(e(function(b){return aq(a,b)},b1));if(au){var
+av=ad(e(function(b){return jq(a,b)},aW));if(av){var
+b2=oq(o,et(C[4])),aw=ad(e(function(b){return aq(a,[0,b,E])},b2));if(aw){var
+ba=aw[1],b3=nS(C[5]),ay=ad(e(function(b){return nU(a,b)},b3));if(ay){var
+bb=ay[1],b4=nR(C[5]),az=ad(e(cJ(a),b4));if(az){var
+b5=0,K=function(a){return bh(ar,a)},aB=g(O,[0,S,0]),aD=ad(dd(function(j,g){if(typeof
+g!=="number")switch(g[0]){case
 13:var
-E=f[4],aM=F(w,f[1]);if(aM){if(oo(f[3])&&h(a,0,E)&&h(a,0,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],E])){var
-aN=f[2],aO=aM[1];if(ho(E)){var
-aG=ok(j,k(aO[3],aN)),V=aG[2];if(h(i,0,[3,E,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b]]))var
+C=g[4],aM=F(w,g[1]);if(aM){if(op(g[3])&&h(a,0,C)&&h(a,0,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],C])){var
+aN=g[2],aO=aM[1];if(hp(C)){var
+aG=ol(j,k(aO[3],aN)),U=aG[2];if(h(i,0,[3,C,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b]]))var
 aH=0;else
 var
-be=v(V),bf=v(V),aH=[0,[6,[0,[0,e(v,aG[1]),bf],0],be],0];var
-aP=[0,[4,v(V)],aH]}else
+be=v(U),bf=v(U),aH=[0,[6,[0,[0,e(v,aG[1]),bf],0],be],0];var
+aP=[0,[4,v(U)],aH]}else
 var
-aP=[0,[9,[3,I(ol(H,p,j,aN,aO[4]))]],0];return e(function(a){return[0,a]},aP)}return vt}return vu;case
+aP=[0,[9,[3,K(om(H,p,j,aN,aO[4]))]],0];return e(function(a){return[0,a]},aP)}return vu}return vv;case
 16:var
-Y=f[3],t=f[2],aQ=f[1],bg=bH(n);if(o(g(w),bg)&&h(a,0,aQ)&&h(a,1,t)&&h(a,1,Y)&&cK(a,Y)){var
-aI=aq(a,[0,[0,t,t],C]);if(aI){var
-bh=aI[1],aJ=k(cJ(a),Y);if(aJ){var
+X=g[3],t=g[2],aQ=g[1],bg=bH(o);if(n(f(w),bg)&&h(a,0,aQ)&&h(a,1,t)&&h(a,1,X)&&cK(a,X)){var
+aI=aq(a,[0,[0,t,t],E]);if(aI){var
+bh=aI[1],aJ=k(cJ(a),X);if(aJ){var
 bi=aJ[1],aK=ad(e(function(f){var
-b=m7(a,I,ay,C,aQ,t,jE(f));if(b){var
-c=m6(a,v,ay,C,t,f[1][2]);if(c){var
-g=hm(0,0,f[1][2]);if(g)var
+b=m7(a,K,aB,E,aQ,t,jK(f));if(b){var
+c=m6(a,v,aB,E,t,f[1][2]);if(c){var
+g=hn(0,0,f[1][2]);if(g)var
 i=e(aA,c[1]),d=[0,[0,b[1],i]];else
 var
 d=g}else
@@ -4864,33 +4870,33 @@ d=c;var
 h=d}else
 var
 h=b;return h},w));if(aK){var
-bj=aK[1],bk=e(function(a){return on(n,K,ay,j,a)},w),aL=k(ax(v),bk),X=function(a){var
-b=cM(n),c=e(function(a){var
-b=fF(j);return I(k(a[6],b)[2])},w),d=e(function(a){var
-b=fF(j);return e(I,k(a[6],b)[1])},w),f=aZ(aL);return[0,[8,[0,aL,v(p),f,d,c,bj,bh,bi,b,a]]]};if(2<=n)return[0,X(1),0];var
-bl=[0,X(1),0];return[0,X(0),bl]}return vp}return vq}return vr}return vs}var
+bj=aK[1],bk=e(function(a){return oo(o,L,aB,j,a)},w),aL=k(ax(v),bk),W=function(a){var
+b=cM(o),c=e(function(a){var
+b=fG(j);return K(k(a[6],b)[2])},w),d=e(function(a){var
+b=fG(j);return e(K,k(a[6],b)[1])},w),f=a3(aL);return[0,[8,[0,aL,v(p),f,d,c,bj,bh,bi,b,a]]]};if(2<=o)return[0,W(1),0];var
+bl=[0,W(1),0];return[0,W(0),bl]}return vq}return vr}return vs}return vt}var
 bm=0,x=e(function(a){return a[1]},w);function
-Z(c,b,a){return[0,c,b,a,W]}var
+Z(c,b,a){return[0,c,b,a,Y]}var
 G=0;if(typeof
-f==="number")var
+g==="number")var
 aS=v(p),s=[0,Z(k(ax(v),x),aS,u)];else
-switch(f[0]){case
+switch(g[0]){case
 0:var
-z=[5,[0,b,b],f[1]],J=Z;G=1;break;case
+z=[5,[0,b,b],g[1]],I=Z;G=1;break;case
 1:var
-aU=[5,[0,b,b],f[1]],z=aU,J=function(c,b,a){return[1,c,b,a]};G=1;break;case
+aU=[5,[0,b,b],g[1]],z=aU,I=function(c,b,a){return[1,c,b,a]};G=1;break;case
 2:var
-aV=jD(a,p,w,j,f),s=y(function(a){return[4,v(a)]},aV);break;case
+aV=jJ(a,p,w,j,g),s=y(function(a){return[4,v(a)]},aV);break;case
 3:var
-aW=jD(a,p,w,j,f),s=y(function(a){return[4,v(a)]},aW);break;case
+aW=jJ(a,p,w,j,g),s=y(function(a){return[4,v(a)]},aW);break;case
 5:var
-_=f[1],aX=aq(a,[0,[0,_,_],d]),s=y(function(b){var
-c=U(a,b),d=v(p);return[2,k(ax(v),x),d,c]},aX);break;case
+_=g[1],aX=aq(a,[0,[0,_,_],d]),s=y(function(b){var
+c=V(a,b),d=v(p);return[2,k(ax(v),x),d,c]},aX);break;case
 6:var
-L=F(w,f[1]);if(L){var
-M=oi(w,j,f);if(M){var
-$=M[1],aa=h(a,1,f[2]),ab=aa?h(a,1,f[3]):aa;if(ab)var
-aY=v($[2]),a0=v(L[1][1][2]),ac=[0,[5,[0,[0,[0,v($[1]),0],a0],0],aY]];else
+J=F(w,g[1]);if(J){var
+M=oj(w,j,g);if(M){var
+$=M[1],aa=h(a,1,g[2]),ab=aa?h(a,1,g[3]):aa;if(ab)var
+aY=v($[2]),aZ=v(J[1][1][2]),ac=[0,[5,[0,[0,[0,v($[1]),0],aZ],0],aY]];else
 var
 ac=ab;var
 ae=ac}else
@@ -4898,34 +4904,34 @@ var
 ae=M;var
 af=ae}else
 var
-af=L;var
+af=J;var
 s=af;break;case
 7:var
-ag=f[3],ah=f[2],ai=f[1],aj=F(w,ai),aR=0;if(aj){var
+ag=g[3],ah=g[2],ai=g[1],aj=F(w,ai),aR=0;if(aj){var
 ak=h(a,1,ah),al=ak?h(a,1,ag):ak;if(al){var
-a1=[5,ah,ag],z=a1,J=function(c,b,a){return[3,ai,c,b,a,W]};G=1;aR=1}else
+a0=[5,ah,ag],z=a0,I=function(c,b,a){return[3,ai,c,b,a,Y]};G=1;aR=1}else
 var
 am=al}else
 var
 am=aj;if(!aR)var
 s=am;break;case
 8:var
-an=h(a,1,f[2]);if(an)var
-a2=f[1],a3=1,N=l(function(b){return h(a,a3,b)},a2);else
+an=h(a,1,g[2]);if(an)var
+a1=g[1],a2=1,O=l(function(b){return h(a,a2,b)},a1);else
 var
-N=an;if(N)var
-a4=O(a,b),a5=v(p),a6=hc(x,j),ao=[0,[0,k(ax(v),a6),a5,a4,0]];else
+O=an;if(O)var
+a4=N(a,b),a5=v(p),a6=hd(x,j),ao=[0,[0,k(ax(v),a6),a5,a4,0]];else
 var
-ao=N;var
+ao=O;var
 s=ao;break;case
 14:var
-ap=f[2],ar=f[1],P=om(n,H,p,w,j,ar,ap);if(P){var
-as=P[1],at=as[2],au=as[1],av=nH(ar,ap,f[3]),Q=aq(a,[0,[0,av,av],C]);if(Q){var
-aw=Q[1],az=D(d,aw[1]);if(az)var
-A=function(a){return m5(I,a)},a7=A(at[2]),a8=A(at[1]),a9=A(au[2]),aB=[0,[9,[6,A(au[1]),a9,a8,a7,aw]]];else
+ap=g[2],ar=g[1],P=on(o,H,p,w,j,ar,ap);if(P){var
+as=P[1],at=as[2],au=as[1],av=nH(ar,ap,g[3]),Q=aq(a,[0,[0,av,av],E]);if(Q){var
+aw=Q[1],ay=D(d,aw[1]);if(ay)var
+A=function(a){return m5(K,a)},a7=A(at[2]),a8=A(at[1]),a9=A(au[2]),az=[0,[9,[6,A(au[1]),a9,a8,a7,aw]]];else
 var
-aB=az;var
-aC=aB}else
+az=ay;var
+aC=az}else
 var
 aC=Q;var
 aD=aC}else
@@ -4933,12 +4939,12 @@ var
 aD=P;var
 s=aD;break;case
 15:var
-R=F(w,f[1]);if(R){var
-aE=h(a,1,f[4]);if(aE)var
-aF=h(a,0,f[2]),S=aF?h(a,0,f[3]):aF;else
+R=F(w,g[1]);if(R){var
+aE=h(a,1,g[4]);if(aE)var
+aF=h(a,0,g[2]),S=aF?h(a,0,g[3]):aF;else
 var
 S=aE;if(S)var
-B=k(R[1][5],0),a_=I(B[4]),a$=I(B[3]),ba=I(r(vo,j,m(d))),bb=I(r(0,j,m(d))),bc=B[2],bd=e(function(a){return e(I,a)},bc),T=[0,[9,[10,e(I,B[1]),bd,bb,ba,a$,a_]]];else
+B=k(R[1][5],0),a_=K(B[4]),a$=K(B[3]),ba=K(r(vp,j,m(d))),bb=K(r(0,j,m(d))),bc=B[2],bd=e(function(a){return e(K,a)},bc),T=[0,[9,[10,e(K,B[1]),bd,bb,ba,a$,a_]]];else
 var
 T=S}else
 var
@@ -4946,155 +4952,159 @@ T=R;var
 s=T;break;default:var
 s=0}if(G)var
 aT=aq(a,[0,[0,z,z],d]),s=y(function(b){var
-c=U(a,b),d=v(p);return J(k(ax(v),x),d,c)},aT);return[0,s,bm]},b2,C,$,X));if(az){var
-a$=az[1];if(A[7])var
-b3=aR[2],b4=aR[1],b5=v(p),aa=je(by,a$,[7,k(ax(v),am),b5,b4,b3]);else
+c=V(a,b),d=v(p);return I(k(ax(v),x),d,c)},aT);return[0,s,bm]},b5,E,ae,Z));if(aD){var
+bc=aD[1];if(C[7])var
+b6=aU[2],b7=aU[1],b8=v(p),af=jk(bC,bc,[7,k(ax(v),ao),b8,b7,b6]);else
 var
-aa=a$;var
-ba=o(g(f(a8,a9)),j),bb=ba?l(function(a){var
-b=ob(a);return l(function(a){return nO(j,Y,a)},b)},aa):ba,bc=bb?E?nO(j,Y,v(E[1])):1:bb;if(bc){var
-b6=f(at[1],aw[1]),aB=f(as[1],b6),N=or(aQ),P=jG(C,A[2]),Z=N?e(function(a){var
-b=n$(j,P,a[2]),c=a[1];return[0,e(function(a){return n$(j,P,a)},c),b]},T):N,aD=N?cZ(jz(j,p,E,Z))[1]:N,aE=cY(aD),ae=function(a){return bh(aE,a)},b7=jx(ae,ae,Z),b8=ae(bA(j,p)),aF=y(function(a){return ae(bA(j,a))},E),bd=J(N);if(bd)var
-af=bd;else{var
-bn=o(g(T),j);if(bn){var
-bv=jz(j,p,E,Z),aL=l(function(a){var
-b=m(d);return aO(r(bh(aE,a),aE,b),a)},bv);if(aL)var
-bw=jz(j,p,E,Z),ah=l(function(a){var
-b=aC(0,j);return l(function(b){return ey(j,b,a)},b)},bw);else
+af=bc;var
+bd=n(f(g(ba,bb)),j),be=bd?l(function(a){var
+b=ob(a);return l(function(a){return nO(j,$,a)},b)},af):bd,bf=be?G?nO(j,$,v(G[1])):1:be;if(bf){var
+b9=g(av[1],az[1]),aE=g(au[1],b9),P=os(aT),Q=jM(E,C[2]),aa=P?e(function(a){var
+b=n$(j,Q,a[2]),c=a[1];return[0,e(function(a){return n$(j,Q,a)},c),b]},X):P,aF=P?cZ(jF(j,p,G,aa))[1]:P,aH=cY(aF),ah=function(a){return bh(aH,a)},b_=jD(ah,ah,aa),b$=ah(bA(j,p)),aI=y(function(a){return ah(bA(j,a))},G),bg=I(P);if(bg)var
+ai=bg;else{var
+br=n(f(X),j);if(br){var
+by=jF(j,p,G,aa),aP=l(function(a){var
+b=m(d);return aO(r(bh(aH,a),aH,b),a)},by);if(aP)var
+bz=jF(j,p,G,aa),ak=l(function(a){var
+b=aC(0,j);return l(function(b){return ey(j,b,a)},b)},bz);else
 var
-ah=aL;if(ah){var
-aM=y(function(a){return bA(j,a)},E),ai=bA(j,p),aI=n7(ai);if(aI)var
-bu=aC(0,W),aP=l(function(a){var
-b=dN(j,a,ai),c=b?l(function(b){var
-d=b[2][2],e=f(z(jy,b[1]),d),g=M(j,a),c=l(function(a){return cL(g,a)},e);if(c){var
-h=b[2][1];return hd(ai,M(j,a),h)}return c},Z):b;if(c){if(aM){var
-e=aM[1];return cL(M(j,a),e)}var
+ak=aP;if(ak){var
+aR=y(function(a){return bA(j,a)},G),am=bA(j,p),aM=n7(am);if(aM)var
+bx=aC(0,Y),aS=l(function(a){var
+b=dN(j,a,am),c=b?l(function(b){var
+d=b[2][2],e=g(z(jE,b[1]),d),f=M(j,a),c=l(function(a){return cL(f,a)},e);if(c){var
+h=b[2][1];return he(am,M(j,a),h)}return c},aa):b;if(c){if(aR){var
+e=aR[1];return cL(M(j,a),e)}var
 d=1}else
 var
-d=c;return d},bu);else
+d=c;return d},bx);else
 var
-aP=aI;var
-ak=aP}else
+aS=aM;var
+an=aS}else
 var
-ak=ah;var
-cc=ak?l(function(a){var
-c=a[1],b=l(function(a){return oa(j,aB,P,a)},c);return b?oa(j,aB,P,a[2]):b},T):ak,af=cc}else
+an=ak;var
+cf=an?l(function(a){var
+c=a[1],b=l(function(a){return oa(j,aE,Q,a)},c);return b?oa(j,aE,Q,a[2]):b},X):an,ai=cf}else
 var
-af=bn}if(af){var
-b9=e(function(a){return 1},aa),b_=f(a8,a9),b$=function(m,M,aa,$,c){if(N){if(typeof
-c!=="number"&&10===c[0]){var
-h=c[3],p=c[2],q=c[1];if(typeof
-q!=="number"&&6===q[0]){if(h){if(h[2])return 0;var
-w=h[1],b=q[1],x=o($,W),y=x?aJ(0,W):x;if(y)var
-v=iE(iz,e(aA,p),P),Y=v?1:v,s=Y;else
-var
-s=y;var
-z=s?gX(P):s,A=z?l(function(a){return aJ(a,g(m))},P):z,B=A?o(g(w),j):A;if(B){var
-u=0;if(typeof
-b!=="number")switch(b[0]){case
+ai=br}if(ai){var
+ca=e(function(a){return 1},af),cb=g(ba,bb),cc=function(p,R,ae,u,g){if(P){var
+i=function(V,h){if(typeof
+h!=="number"&&10===h[0]){var
+m=h[3],s=h[2],u=h[1];if(typeof
+u!=="number"&&6===u[0]){if(m){if(m[2])return 0;var
+v=m[1],g=u[1],z=iF(iB,e(aA,s),Q),B=z?1:z,C=B?gY(Q):B,E=C?l(function(a){return aG(a,f(p))},Q):C,F=E?n(f(v),j):E;if(F){var
+y=0;if(typeof
+g!=="number")switch(g[0]){case
 0:var
-I=b[2],H=b[1],F=0;u=1;break;case
+x=g[2],w=g[1],K=0;y=1;break;case
 7:var
-J=b[2],i=b[1],Q=0;if(typeof
-i!=="number"&&0===i[0]){var
-R=0;if(aF){var
-K=D(d,J);if(K){var
-I=i[2],H=i[1],F=[0,[0,[0,aF[1],J],b[3]]];u=1;Q=1;R=1}else
+L=g[2],o=g[1],P=0;if(typeof
+o!=="number"&&0===o[0]){var
+S=0;if(aI){var
+M=D(d,L);if(M){var
+x=o[2],w=o[1],K=[0,[0,[0,aI[1],L],g[3]]];y=1;P=1;S=1}else
 var
-L=K}else
+O=M}else
 var
-L=aF;if(!R)return L}if(!Q)return 0;break}if(u){var
-S=jo(a,fl(p,0,m),aD,M),n=jo(a,m,aD,M),f=function(b,a){return r(a,b,u_)},T=n9(function(a){return f(n,a)},F),U=f(n,b8),V=function(a){return f(n,a)},X=[0,jx(function(a){return f(S,a)},V,b7),U,T],Z=gR(p,m),_=function(g){var
-b=ad(e(u8,g[1]));if(b){var
-c=g[2];if(c){var
-d=dg(g[3]);if(d){var
-l=d[1],m=ab([0,G(ac(t(a,aa,c[1])),l),0],j),n=b[1],o=e(function(d){var
-b=gS(a,0,Z,d),c=a1(u9,b[2]);return[0,b[1],c]},n),f=iW(a,e(function(b){return O(a,b)},w),H,I,o,m);if(f)return a_(a,j,f[1]);var
-h=f}else
+O=aI;if(!S)return O}if(!P)return 0;break}if(y){var
+T=ju(a,fm(s,0,p),aF,R),q=ju(a,p,aF,R),i=function(b,a){return r(a,b,u$)},U=n9(function(a){return i(q,a)},K),W=i(q,b$),X=function(a){return i(q,a)},Z=[0,jD(function(a){return i(T,a)},X,b_),W,U],aa=gS(s,p),_=function(q){var
+m=ad(e(u9,q[1]));if(m){var
+o=q[2];if(o){var
+p=dg(q[3]);if(p){var
+_=p[1],R=A(t(a,ae,o[1]),_),$=m[1],S=e(function(d){var
+b=gT(a,0,aa,d),c=a1(u_,b[2]);return[0,b[1],c]},$);if(V){var
+s=V[1],u=s[1],y=u[1],z=y[1],B=u[2],C=s[2],E=i8(a,v),F=E[1],G=F[1],h=G[2],g=G[1],W=F[2],i=e(function(c){return aQ(c,W,N(a,b))},h),H=n(f(h),j),K=H?n(f(z),j):H,L=K?D(d,B):K,M=L?gy(C,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):L,O=M?aG(g,j):M,P=O?I(J(r(g,h,d),d)):O;if(P){var
+X=iZ(a,g,i,j,ab(R),0),Y=i0(a,g,i,z,y[2],B,C,X),k=i1(a,g,i,E[2],w,x,S,Y);if(k)return a5(a,j,k[1]);var
+Q=k}else
 var
-h=d;var
-i=h}else
+Q=P;return Q}var
+Z=ac([0,ab(R),0],j),l=iX(a,e(function(b){return N(a,b)},v),w,x,S,Z);return l?a5(a,j,l[1]):l}var
+T=p}else
 var
-i=c;var
-k=i}else
+T=o;var
+U=T}else
 var
-k=b;return k};return k(jq(function(b,a){return u7},W,j,_),X)}var
-C=0}else
+U=m;return U};return k(jw(function(b,a){return u8},Y,j,_),Z)}var
+G=0}else
 var
-C=B;var
-E=C}else
+G=F;var
+H=G}else
 var
-E=h;return E}return 0}return 0}return N},ca=v(p),cb=k(ax(v),T);return fE(a,aX,aY,aa,j,j,y(v,E),cb,ca,b$,aB,b_,b9,aQ)}var
-be=af}else
+H=m;return H}return 0}return 0},m=n(u,Y),o=m?aG(0,Y):m;if(o){if(typeof
+g!=="number"&&12===g[0]){var
+h=g[1],q=I(n(f(h),0));if(q){var
+s=U(iY(e(function(a){return a[1][1][1]},h)),h);return l(function(a){var
+b=a[2],c=b[1];return i([0,[0,[0,[0,a[1][1],a[1][2]],c[1][2]],c[2]]],b[2])},s)}return q}return i(0,g)}return o}return P},cd=v(p),ce=k(ax(v),X);return fF(a,a0,a2,af,j,j,y(v,G),ce,cd,cc,aE,cb,ca,aT)}var
+bi=ai}else
 var
-be=bc;var
-bf=be}else
-var
-bf=az;var
-bg=bf}else
-var
-bg=aw;var
-bi=bg}else
-var
-bi=av;var
+bi=bf;var
 bj=bi}else
 var
-bj=au;var
+bj=aD;var
 bk=bj}else
 var
-bk=at;var
+bk=az;var
 bl=bk}else
 var
-bl=as;var
+bl=ay;var
 bm=bl}else
 var
-bm=ar;return bm}function
-fG(b,a){return by(b,a[1],a[2])}function
-os(b,a){var
-c=fG(b,a[1]),d=c?fG(b,a[2]):c;return d?fG(b,a[3]):d}function
-jH(a){return typeof
+bm=aw;var
+bn=bm}else
+var
+bn=av;var
+bo=bn}else
+var
+bo=au;var
+bp=bo}else
+var
+bp=at;return bp}function
+fH(b,a){return by(b,a[1],a[2])}function
+ot(b,a){var
+c=fH(b,a[1]),d=c?fH(b,a[2]):c;return d?fH(b,a[3]):d}function
+jN(a){return typeof
 a==="number"?a?dP(0):dG:dP(a[1])}function
-ot(b,a,c){return typeof
-b==="number"?b?[0,a[1],[0,a[2],0]]:bW(a):hj(b[1],a,c)}function
-jI(b,d,c){if(0===c[0])return g1(b,d[1],c[1]);var
-a=c[1],e=[0,[0,a[5],b],[0,[0,a[6],b],0]],g=f(ba(a[4],b),e),h=f(ba(a[3],b),g),i=f(ba(a[2],d[2]),h);return f(ba(a[1],d[1]),i)}function
-jJ(b,a){if(b){var
-c=b[1],d=c[2];return bq(fC(c[1],a),d)}return a}function
-ou(h,t,am,J,aj,q,ai){if(q){var
-k=q[1],an=bS([0,d,d],aj),a=cF(ai,jI(J,an,k)),y=function(c,b){var
-d=ak(a,c);return ag(x,ag(B,jH(h),b),d)};if(0===k[0]){var
+ou(b,a,c){return typeof
+b==="number"?b?[0,a[1],[0,a[2],0]]:bW(a):hk(b[1],a,c)}function
+jO(b,d,c){if(0===c[0])return g2(b,d[1],c[1]);var
+a=c[1],e=[0,[0,a[5],b],[0,[0,a[6],b],0]],f=g(ba(a[4],b),e),h=g(ba(a[3],b),f),i=g(ba(a[2],d[2]),h);return g(ba(a[1],d[1]),i)}function
+jP(b,a){if(b){var
+c=b[1],d=c[2];return bq(fD(c[1],a),d)}return a}function
+ov(h,t,am,J,aj,q,ai){if(q){var
+k=q[1],an=bS([0,d,d],aj),a=cF(ai,jO(J,an,k)),y=function(c,b){var
+d=ak(a,c);return ag(x,ag(B,jN(h),b),d)};if(0===k[0]){var
 z=k[1];switch(z[0]){case
 0:var
-$=jJ(t,ak(a,vx)),aG=z[1][5],A=r(vy,a,m(d)),C=ak(a,0),aa=y(vz,$),i=mm(aa,dF(C),aa,A,aG),aq=[0,aK(A),0],ar=[0,aK(_(C,C)),aq],l=[0,[0,i[1],i[2],i[3],[0,i[4]],[0,[0,i[2],A]],ar],$];break;case
+$=jP(t,ak(a,vy)),aG=z[1][5],A=r(vz,a,m(d)),C=ak(a,0),aa=y(vA,$),i=mr(aa,dF(C),aa,A,aG),aq=[0,aK(A),0],ar=[0,aK(_(C,C)),aq],l=[0,[0,i[1],i[2],i[3],[0,i[4]],[0,[0,i[2],A]],ar],$];break;case
 1:var
-ab=jJ(t,ak(a,vA)),ac=z[3],D=ac?[0,ak(a,vB)]:ac,ad=y(0,ab),j=mn(ad,ad,0);if(D)var
+ab=jP(t,ak(a,vB)),ac=z[3],D=ac?[0,ak(a,vC)]:ac,ad=y(0,ab),j=ms(ad,ad,0);if(D)var
 K=D[1],L=[0,aK(_(K,K)),0];else
 var
 L=D;var
 as=j[4],at=[0,[0,m(d),as]],l=[0,[0,j[1],j[2],j[3],[0,j[4]],at,L],ab];break;default:var
-aH=m(d),aI=m(d),aJ=[0,m(d),aI,aH],E=ak(a,0),aL=jH(h),n=mo(aL,dF(E)),au=[0,aK(_(E,E)),0],l=[0,[0,n[1],n[2],n[3],[0,n[4]],0,au],aJ]}}else
+aH=m(d),aI=m(d),aJ=[0,m(d),aI,aH],E=ak(a,0),aL=jN(h),n=mt(aL,dF(E)),au=[0,aK(_(E,E)),0],l=[0,[0,n[1],n[2],n[3],[0,n[4]],0,au],aJ]}}else
 var
-ae=jJ(t,ak(a,vC)),F=k[1][7],G=r(vD,a,m(d)),e=r(vE,a,m(d)),af=ak(a,vF),H=ak(a,0),p=y(vG,ae),o=dF(H),u=ag(x,af,a4(_(o,af),o)),v=dF(u),N=bI(o,v),O=_(p,v),P=_(p,N),av=_(o,p),aw=V(P),Q=B(V(O),aw),ax=V(av),R=x(V(G),ax),ay=s(m(c(2,b)),e),w=x(Q,V(al(B(Q,x(V(e),R)),ay))),az=gM(F,s(e,aK(w))),S=al(O,e),T=gM(F,al(P,e)),U=al(R,V(e)),W=lV(0,S,T,U),X=gM(F,lV(1,S,T,U)),aA=a4(X,N),Y=ag(x,p,a4(e,ag(B,a4(W,v),aA))),aB=[0,aK(G),0],aC=[0,aK(e),aB],aD=[0,aK(_(u,u)),aC],aE=[0,aK(_(H,H)),aD],aF=bq(Y,az),l=[0,[0,Y,s(V(e),w),aF,[1,W,X],[0,[0,w,G]],aE],ae];var
-aV=M(ai,g(jI(J,an,k))),aW=q[2],aX=ou(h,t,am,J,bC(aj),aW,aV),ao=l[2],f=l[1],ah=function(a){return ot(h,a,bq(bI(ao,a),am))},aM=f[1],aN=bI(ag(B,jH(h),ao),aM),aO=ot(h,f[1],aN),I=f[1],Z=typeof
-h==="number"?1:0,aP=f[6],aQ=f[5],aR=Z?h?[0,I[1],[0,I[2],0]]:bW(I):Z,aS=f[4],aT=ah(f[3]),aU=f[2],ap=[0,[0,ah(f[1]),aU,aT,aS,aR,aQ,aP,aO],aX]}else
+ae=jP(t,ak(a,vD)),F=k[1][7],G=r(vE,a,m(d)),e=r(vF,a,m(d)),af=ak(a,vG),H=ak(a,0),p=y(vH,ae),o=dF(H),u=ag(x,af,a4(_(o,af),o)),v=dF(u),N=bI(o,v),O=_(p,v),P=_(p,N),av=_(o,p),aw=W(P),Q=B(W(O),aw),ax=W(av),R=x(W(G),ax),ay=s(m(c(2,b)),e),w=x(Q,W(al(B(Q,x(W(e),R)),ay))),az=gN(F,s(e,aK(w))),S=al(O,e),T=gN(F,al(P,e)),U=al(R,W(e)),V=l0(0,S,T,U),X=gN(F,l0(1,S,T,U)),aA=a4(X,N),Y=ag(x,p,a4(e,ag(B,a4(V,v),aA))),aB=[0,aK(G),0],aC=[0,aK(e),aB],aD=[0,aK(_(u,u)),aC],aE=[0,aK(_(H,H)),aD],aF=bq(Y,az),l=[0,[0,Y,s(W(e),w),aF,[1,V,X],[0,[0,w,G]],aE],ae];var
+aV=M(ai,f(jO(J,an,k))),aW=q[2],aX=ov(h,t,am,J,bC(aj),aW,aV),ao=l[2],g=l[1],ah=function(a){return ou(h,a,bq(bI(ao,a),am))},aM=g[1],aN=bI(ag(B,jN(h),ao),aM),aO=ou(h,g[1],aN),I=g[1],Z=typeof
+h==="number"?1:0,aP=g[6],aQ=g[5],aR=Z?h?[0,I[1],[0,I[2],0]]:bW(I):Z,aS=g[4],aT=ah(g[3]),aU=g[2],ap=[0,[0,ah(g[1]),aU,aT,aS,aR,aQ,aP,aO],aX]}else
 var
 ap=q;return ap}function
-jK(c,b,a){if(a){var
-e=a[2],g=jK(c,bC(b),e),h=a[1];return f(jI(c,bS([0,d,d],b),h),g)}return a}function
-ov(b,h,g,d,c,a){if(a){var
-i=a[2],j=a[1],l=ov(b,h,g,d,f(c,[0,j,0]),i),m=k(d,e(bC,f(c,i)));return ao(h,ao(g,bS(b,j),m),l)}return b}function
-ow(a,f,e,d,c,b){if(c){var
-g=0,h=c[1];return ov(a,e,d,function(b){return ow(a,f,e,d,h,b)},g,b)}return b?a:f}function
-ox(a,d,c){var
-e=g7(a,c);function
+jQ(c,b,a){if(a){var
+e=a[2],f=jQ(c,bC(b),e),h=a[1];return g(jO(c,bS([0,d,d],b),h),f)}return a}function
+ow(b,h,f,d,c,a){if(a){var
+i=a[2],j=a[1],l=ow(b,h,f,d,g(c,[0,j,0]),i),m=k(d,e(bC,g(c,i)));return ao(h,ao(f,bS(b,j),m),l)}return b}function
+ox(a,f,e,d,c,b){if(c){var
+g=0,h=c[1];return ow(a,e,d,function(b){return ox(a,f,e,d,h,b)},g,b)}return b?a:f}function
+oy(a,d,c){var
+e=g8(a,c);function
 f(b,c){return t(a,b,c)}var
-g=O(a,b);return y(function(a){return ow(u,g,G,f,d,a)},e)}function
-jL(e,c,o,n){var
-a=ox(e,c,o);if(a){var
-f=a[1],b=ox(e,c,n);if(b){var
-g=b[1],h=I(d,f[1]),i=h?I(g[2],d):h;if(i)var
+g=N(a,b);return y(function(a){return ox(u,g,G,f,d,a)},e)}function
+jR(e,c,o,n){var
+a=oy(e,c,o);if(a){var
+f=a[1],b=oy(e,c,n);if(b){var
+g=b[1],h=K(d,f[1]),i=h?K(g[2],d):h;if(i)var
 j=i;else{var
-m=I(f[2],d);if(m)return I(d,g[1]);var
+m=K(f[2],d);if(m)return K(d,g[1]);var
 j=m}var
 k=j}else
 var
@@ -5102,7 +5112,7 @@ k=b;var
 l=k}else
 var
 l=a;return l}function
-jM(b){if(b){var
+jS(b){if(b){var
 a=b[2],c=b[1];if(c){var
 e=c[2],q=c[1];if(e){var
 f=e[2],r=e[1];if(f){if(f[2])return m(d);if(a){var
@@ -5117,18 +5127,18 @@ z=n[1];if(n[2])return m(d);if(g[2])return m(d);var
 A=dJ(t,u,w,y),C=s(f[1],A),D=s(r,dJ(t,v,w,z));return B(x(s(q,dJ(u,v,y,z)),D),C)}return m(d)}return m(d)}return m(d)}return m(d)}return m(d)}return m(d)}return m(d)}return m(d)}if(a){var
 o=a[1];if(o){var
 p=o[2];return p?p[2]?m(d):a[2]?m(d):dJ(q,r,o[1],p[1]):m(d)}return m(d)}return m(d)}return m(d)}return m(d)}return m(d)}function
-oy(a){if(a){var
+oz(a){if(a){var
 b=a[1][6];if(b)var
-c=oy(a[2]),e=c?[0,[0,b[1][2],c[1]]]:c,d=e;else
+c=oz(a[2]),e=c?[0,[0,b[1][2],c[1]]]:c,d=e;else
 var
-d=b;return d}return vH}function
-oz(g,k,a){function
+d=b;return d}return vI}function
+oA(g,k,a){function
 b(a){return r(a,k,m(d))}function
 l(a){var
-e=a[2],f=s(V(b(0)),e),c=0,d=0,g=a[1];return[0,[0,bT(function(b,a){return x(b,V(a))},g,f),d],c]}function
+e=a[2],f=s(W(b(0)),e),c=0,d=0,g=a[1];return[0,[0,bT(function(b,a){return x(b,W(a))},g,f),d],c]}function
 n(e){var
 a=e[6];if(a)var
-c=a[1],f=V(c[2]),g=s(V(b(0)),f),d=[0,[0,x(c[1],g),0],0];else
+c=a[1],f=W(c[2]),g=s(W(b(0)),f),d=[0,[0,x(c[1],g),0],0];else
 var
 d=a;return d}var
 j=0;if(typeof
@@ -5148,7 +5158,7 @@ d=a[1];return[0,[0,x(b(0),d),0],0]}return 0},f=v,c=a[1];break;case
 w=function(e){var
 a=e[4];if(typeof
 a!=="number"&&1===a[0]){var
-c=a[2],d=a[1],f=s(b(vI),c),g=[0,[0,x(s(b(vJ),d),f),0],0],h=s(d,b(vK));return[0,[0,x(s(c,b(0)),h),0],g]}return 0},f=w,c=a[1];break;case
+c=a[2],d=a[1],f=s(b(vJ),c),g=[0,[0,x(s(b(vK),d),f),0],0],h=s(d,b(vL));return[0,[0,x(s(c,b(0)),h),0],g]}return 0},f=w,c=a[1];break;case
 6:var
 y=function(a){var
 b=a[4];if(typeof
@@ -5164,23 +5174,23 @@ A=function(a){var
 b=a[4];if(typeof
 b!=="number"&&0===b[0])return n(a);return 0},f=A,c=a[1];break;case
 12:var
-i=oy(g);if(i)var
-C=b(0),o=bT(s,i[1],C),p=jM(e(function(a){return a[5]},g)),D=[0,bp(B(p,o)),0],q=[0,[0,x(p,o),D],0];else
+i=oz(g);if(i)var
+C=b(0),o=bT(s,i[1],C),p=jS(e(function(a){return a[5]},g)),D=[0,bp(B(p,o)),0],q=[0,[0,x(p,o),D],0];else
 var
 q=i;return q;case
 17:var
 t=a[1],f=function(d){var
-a=jM(e(function(a){return a[1]},g));function
+a=jS(e(function(a){return a[1]},g));function
 b(b){var
 c=[0,bp(B(a,b)),0];return[0,x(a,b),c]}var
-f=jM(nm(t,k,e(function(a){return a[1]},g))),c=s(aK(d[2]),f),h=[0,b(bp(c)),0];return[0,b(c),h]},c=t;break;default:j=1}if(j)return 0;var
+f=jS(nm(t,k,e(function(a){return a[1]},g))),c=s(aK(d[2]),f),h=[0,b(bp(c)),0];return[0,b(c),h]},c=t;break;default:j=1}if(j)return 0;var
 h=F(g,c);return h?f(h[1]):h}function
 eF(a){return e(function(a){return[0,a[1],a[2]]},a)}function
-fH(a){return e(function(a){var
+fI(a){return e(function(a){var
 c=m(b);return[0,a[3],c]},a)}function
-oA(c,b,a){if(typeof
-a!=="number"&&8===a[0])return bE(hc(eF(c),b));return ed(oz(c,b,a))}function
-oB(f,m,j,K,J,t,a){if(typeof
+oB(c,b,a){if(typeof
+a!=="number"&&8===a[0])return bE(hd(eF(c),b));return ed(oA(c,b,a))}function
+oC(g,m,j,K,J,t,a){if(typeof
 a==="number")return[0,[0,[0,u]],0];else
 switch(a[0]){case
 0:var
@@ -5188,57 +5198,57 @@ L=[5,[0,b,b],a[1]],n=L,o=function(a){return[0,a]};break;case
 1:var
 P=[5,[0,b,b],a[1]],n=P,o=function(a){return[1,a]};break;case
 5:var
-B=a[1],T=0,V=aq(f,[0,[0,B,B],d]);return[0,y(function(a){return[2,U(f,a)]},V),T];case
+B=a[1],T=0,U=aq(g,[0,[0,B,B],d]);return[0,y(function(a){return[2,V(g,a)]},U),T];case
 7:var
-C=a[3],D=a[2],E=a[1];if(!F(j,E))return vN;var
-I=0;if(h(f,1,D)&&h(f,1,C))var
+C=a[3],D=a[2],E=a[1];if(!F(j,E))return vO;var
+I=0;if(h(g,1,D)&&h(g,1,C))var
 W=[5,D,C],n=W,o=function(a){return[7,E,a]};else
-I=1;if(I)return vM;break;case
+I=1;if(I)return vN;break;case
 8:var
-G=h(f,1,a[2]),X=0;if(G)var
-Y=a[1],Z=1,r=l(function(a){return h(f,Z,a)},Y);else
+G=h(g,1,a[2]),X=0;if(G)var
+Y=a[1],Z=1,r=l(function(a){return h(g,Z,a)},Y);else
 var
 r=G;if(r)var
-_=O(f,b),$=hc(eF(j),t),H=[0,[4,k(ax(m),$),_]];else
+_=N(g,b),$=hd(eF(j),t),H=[0,[4,k(ax(m),$),_]];else
 var
 H=r;return[0,H,X];default:var
 s=0;if(typeof
 a==="number")s=1;else
 switch(a[0]){case
 4:var
-v=a[3],w=a[2],x=h(f,1,[3,v,w]),R=x?h(f,1,[3,[2,w,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b]],v]):x,i=R;break;case
+v=a[3],w=a[2],x=h(g,1,[3,v,w]),R=x?h(g,1,[3,[2,w,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b]],v]):x,i=R;break;case
 17:var
-A=h(f,1,a[3]);if(A)var
-S=e(function(a){return a[1]},j),i=nn(g(a[2]),S);else
+A=h(g,1,a[3]);if(A)var
+S=e(function(a){return a[1]},j),i=nn(f(a[2]),S);else
 var
 i=A;break;case
 6:case
 9:var
-z=h(f,1,a[2]),i=z?h(f,0,a[3]):z;break;default:s=1}if(s)var
+z=h(g,1,a[2]),i=z?h(g,0,a[3]):z;break;default:s=1}if(s)var
 i=1;var
-p=i?oz(j,t,a):i;if(p){var
+p=i?oA(j,t,a):i;if(p){var
 Q=[0,p[1],p[2]];return e(function(a){if(a){var
 b=a[2],c=a[1];if(b){if(b[2])return 0;var
 e=k(m,b[1]);return[0,[5,k(m,c),e]]}var
 d=[0,[3,k(m,c)]]}else
 var
-d=a;return d},Q)}return vL}var
-M=0,N=aq(f,[0,[0,n,n],hb(K,J)]);return[0,y(function(a){return o(U(f,a))},N),M]}function
-oC(a){if(typeof
+d=a;return d},Q)}return vM}var
+M=0,O=aq(g,[0,[0,n,n],hc(K,J)]);return[0,y(function(a){return o(V(g,a))},O),M]}function
+oD(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-vO(a){return 0===a[0]?2===a[1][0]?0:1:1}function
-vP(c,R,aB,a,i,Q,aA){var
-b=a[1],aC=at(b),s=a[6],A=jK(i,Q,a[2]),S=a[3],T=[0,[0,S,S],i],U=[0,g(A)],B=a[2],q=B?0===B[1][0]?0:1:B,aD=a[5],aE=y(function(a){var
+vP(a){return 0===a[0]?2===a[1][0]?0:1:1}function
+vQ(c,R,aB,a,i,Q,aA){var
+b=a[1],aC=at(b),s=a[6],A=jQ(i,Q,a[2]),S=a[3],T=[0,[0,S,S],i],U=[0,f(A)],B=a[2],q=B?0===B[1][0]?0:1:B,aD=a[5],aE=y(function(a){var
 c=typeof
-b==="number"?0:cM(b[1]);return nQ(a,c)},aD),aF=a[2],j=ou(b,aE,c9(T,g(A)),i,Q,aF,0),V=z(function(a){return a[7]},j),W=a[7],X=W?e(function(a){return[0,a[8],a[2]]},j):W,aG=bE(X),aH=f(V,f(dd(function(a,b){return oA(j,a,b)},q,i,U,s),aG)),aI=f(bE(fH(j)),aH),Y=f(bE(eF(j)),aI),Z=cZ(Y)[1],_=cY(Z);function
+b==="number"?0:cM(b[1]);return nQ(a,c)},aD),aF=a[2],j=ov(b,aE,c9(T,f(A)),i,Q,aF,0),V=z(function(a){return a[7]},j),W=a[7],X=W?e(function(a){return[0,a[8],a[2]]},j):W,aG=bE(X),aH=g(V,g(dd(function(a,b){return oB(j,a,b)},q,i,U,s),aG)),aI=g(bE(fI(j)),aH),Y=g(bE(eF(j)),aI),Z=cZ(Y)[1],_=cY(Z);function
 p(a){return bh(_,a)}var
 $=l(function(a){var
-b=m(d);return aO(r(p(a),_,b),a)},Y),aa=$?aj(oC,s):$;if(aa){var
+b=m(d);return aO(r(p(a),_,b),a)},Y),aa=$?aj(oD,s):$;if(aa){var
 ab=a[4];if(typeof
 b==="number")var
-ac=b?jF(0,et(ab)):1;else
+ac=b?jL(0,et(ab)):1;else
 var
-ay=et(ab),ac=jF(b[1],ay);var
+ay=et(ab),ac=jL(b[1],ay);var
 C=ac}else
 var
 C=aa;if(C){var
@@ -5249,7 +5259,7 @@ if(2<=N[1])var
 t=0;else{var
 w=a[5],M=0;if(w){var
 O=h(c,1,a[3]);if(O)var
-az=hi(w[1]),t=l(function(a){var
+az=hj(w[1]),t=l(function(a){var
 b=cK(c,a[1]);return b?cK(c,a[2]):b},az);else{var
 P=O;M=1}}else{var
 P=w;M=1}if(M)var
@@ -5261,38 +5271,38 @@ aJ=a[2],E=l(function(a){var
 b=0===a[0]?0:1;return cv(b,q)},aJ);else
 var
 E=D;if(E){var
-ae=J(a[7]);if(ae)var
+ae=I(a[7]);if(ae)var
 u=ae;else
 var
-av=n6(c,b,a[5]),u=av?l(vO,a[2]):av}else
+av=n6(c,b,a[5]),u=av?l(vP,a[2]):av}else
 var
 u=E;if(u){var
-aK=f(A,[0,T,0]),F=ad(e(function(a){return aq(c,a)},aK));if(F){var
-aL=z(function(a){return fA(q,i,a)},s),G=ad(e(function(a){return jk(c,a)},aL));if(G){var
-n=et(a[4]),aM=typeof
-b==="number"?b?[0,n[1],[0,n[2],0]]:[0,n[1],[0,n[2],[0,n[3],0]]]:op(b[1],n),H=ad(e(function(a){return aq(c,[0,a,i])},aM));if(H){var
+aK=g(A,[0,T,0]),F=ad(e(function(a){return aq(c,a)},aK));if(F){var
+aL=z(function(a){return fB(q,i,a)},s),G=ad(e(function(a){return jq(c,a)},aL));if(G){var
+o=et(a[4]),aM=typeof
+b==="number"?b?[0,o[1],[0,o[2],0]]:[0,o[1],[0,o[2],[0,o[3],0]]]:oq(b[1],o),H=ad(e(function(a){return aq(c,[0,a,i])},aM));if(H){var
 af=H[1],ag=a[5];if(ag)var
 aN=nS(ag[1]),v=ad(e(function(a){return nU(c,a)},aN));else
 var
-v=vQ;if(v){var
-ah=v[1],x=a[5],aP=x?nR(x[1]):x,I=ad(e(cJ(c),aP));if(I){var
-K=ad(dd(function(a,b){return oB(c,p,j,q,i,a,b)},q,i,U,s));if(K){var
+v=vR;if(v){var
+ah=v[1],x=a[5],aP=x?nR(x[1]):x,J=ad(e(cJ(c),aP));if(J){var
+K=ad(dd(function(a,b){return oC(c,p,j,q,i,a,b)},q,i,U,s));if(K){var
 ai=K[1];if(a[7])var
-aQ=R[2],aR=R[1],L=je(aB,ai,[8,k(ax(p),X),aR,aQ]);else
+aQ=R[2],aR=R[1],L=jk(aB,ai,[8,k(ax(p),X),aR,aQ]);else
 var
 L=ai;var
-ak=o(g(f(af,ah)),aC);if(ak){var
-aS=i8(L),aT=f(af,ah),aw=0,aU=a[4];if(typeof
+ak=n(f(g(af,ah)),aC);if(ak){var
+aS=jc(L),aT=g(af,ah),aw=0,aU=a[4];if(typeof
 b==="number"&&!b){var
 al=function(a){return m9(c,aU,i,a)};aw=1}if(!aw)var
 al=function(a){return 0};var
-aV=f(G[1],I[1]),aW=f(F[1],aV),aX=e(p,V),aY=fH(j),aZ=k(ax(p),aY),a0=eF(j);return f4(i7(c,Z,k(ax(p),a0),aZ,aX,aW,L,al),aT,aS,aA)}var
+aV=g(G[1],J[1]),aW=g(F[1],aV),aX=e(p,V),aY=fI(j),aZ=k(ax(p),aY),a0=eF(j);return f5(jb(c,Z,k(ax(p),a0),aZ,aX,aW,L,al),aT,aS,aA)}var
 am=ak}else
 var
 am=K;var
 an=am}else
 var
-an=I;var
+an=J;var
 ao=an}else
 var
 ao=v;var
@@ -5308,14 +5318,14 @@ as=F;var
 au=as}else
 var
 au=u;return au}function
-vR(b){if(0===b[0])return[0,ni(b[1])];var
+vS(b){if(0===b[0])return[0,ni(b[1])];var
 a=b[1],c=a[7],d=a[6][1],e=a[5][1],f=bF(a[4]),g=bF(a[3]),h=bF(a[2]);return[1,[0,bF(a[1]),h,g,f,e,d,c]]}function
-oD(e,d,c){var
+oE(e,d,c){var
 a=d;for(;;){if(a){var
-b=a[1];if(sq(b[1],c))return b[2];var
+b=a[1];if(sr(b[1],c))return b[2];var
 a=a[2];continue}return e}}function
-jN(a,c,b){var
-d=W(e(aA,a[2]),b);return f(W(a[1],c),d)}function
+jT(a,c,b){var
+d=U(e(aA,a[2]),b);return g(U(a[1],c),d)}function
 b0(c){var
 a=c;for(;;)switch(a[0]){case
 0:var
@@ -5325,29 +5335,29 @@ b=a[1];return[0,[0,[0,b,b],d],0];case
 7:case
 8:var
 a=a[1];continue;default:var
-e=b0(a[2]);return f(b0(a[1]),e)}}function
+e=b0(a[2]);return g(b0(a[1]),e)}}function
 bJ(e,a,c){switch(a[0]){case
 0:var
 o=a[1];return c9([0,[0,o,o],d],c);case
 1:var
-q=a[1];return oD(m(d),e,q);case
+q=a[1];return oE(m(d),e,q);case
 2:return bp(bJ(e,a[1],c));case
 3:var
-i=a[2],f=a[1],h=B;break;case
+i=a[2],g=a[1],h=B;break;case
 4:var
-i=a[2],f=a[1],h=x;break;case
+i=a[2],g=a[1],h=x;break;case
 5:var
-i=a[2],f=a[1],h=s;break;case
+i=a[2],g=a[1],h=s;break;case
 6:var
-i=a[2],f=a[1],h=al;break;case
+i=a[2],g=a[1],h=al;break;case
 7:var
-j=e_(a[2]),k=bJ(e,a[1],c);if(j){if(j[1]){var
-l=V(k),p=function(a){return s(a,l)},n=gp(bn(lC(j)),p,l);return lB(j)?n:s(n,k)}return k}return m(b);default:return aK(bJ(e,a[1],c))}var
-r=bJ(e,i,M(c,g(b0(f))));return h(bJ(e,f,c),r)}function
+j=e$(a[2]),k=bJ(e,a[1],c);if(j){if(j[1]){var
+l=W(k),p=function(a){return s(a,l)},n=gp(bn(lH(j)),p,l);return lG(j)?n:s(n,k)}return k}return m(b);default:return aK(bJ(e,a[1],c))}var
+r=bJ(e,i,M(c,f(b0(g))));return h(bJ(e,g,c),r)}function
 dh(c,h,b){var
 a=h;for(;;)switch(a[0]){case
 6:var
-e=a[1],k=M(b,g(b0(e))),l=dh(c,a[2],k),m=f(dh(c,e,b),l);return[0,bJ(c,a,b),m];case
+e=a[1],k=M(b,f(b0(e))),l=dh(c,a[2],k),m=g(dh(c,e,b),l);return[0,bJ(c,a,b),m];case
 8:var
 n=dh(c,a[1],b);return[0,bJ(c,a,b),n];case
 2:case
@@ -5355,54 +5365,54 @@ n=dh(c,a[1],b);return[0,bJ(c,a,b),n];case
 a=a[1];continue;case
 0:case
 1:return 0;default:var
-d=a[1],i=M(b,g(b0(d))),j=dh(c,a[2],i);return f(dh(c,d,b),j)}}function
-oE(i,h,f){var
-b=i,a=h,c=f;for(;;){if(a){var
-d=a[1],e=d[2],j=M(c,g(b0(e))),k=a[2],l=bJ(b,e,c),b=[0,[0,d[1],l],b],a=k,c=j;continue}return b}}function
-jO(c,a,b){if(a){var
-e=a[1],d=e[2],h=M(b,g(b0(d))),i=a[2],j=bJ(c,d,b),k=jO([0,[0,e[1],j],c],i,h);return f(dh(c,d,b),k)}return a}function
-fI(a){return z(b0,a)}function
-oF(c,a,b){if(a)var
-d=a[1],f=M(b,g(b0(d))),h=oF(c,a[2],f),e=[0,bJ(c,d,b),h];else
+d=a[1],i=M(b,f(b0(d))),j=dh(c,a[2],i);return g(dh(c,d,b),j)}}function
+oF(i,h,g){var
+b=i,a=h,c=g;for(;;){if(a){var
+d=a[1],e=d[2],j=M(c,f(b0(e))),k=a[2],l=bJ(b,e,c),b=[0,[0,d[1],l],b],a=k,c=j;continue}return b}}function
+jU(c,a,b){if(a){var
+e=a[1],d=e[2],h=M(b,f(b0(d))),i=a[2],j=bJ(c,d,b),k=jU([0,[0,e[1],j],c],i,h);return g(dh(c,d,b),k)}return a}function
+fJ(a){return z(b0,a)}function
+oG(c,a,b){if(a)var
+d=a[1],g=M(b,f(b0(d))),h=oG(c,a[2],g),e=[0,bJ(c,d,b),h];else
 var
 e=a;return e}function
-oG(c,a,b){if(a){var
-d=a[1],e=M(b,g(b0(d))),h=oG(c,a[2],e);return f(dh(c,d,b),h)}return a}function
-hq(a){return 0===a[0]?fI(a[1]):b0(a[1])}function
-jP(c,b,a){if(b){var
-d=b[1],j=M(a,g(hq(d))),k=jP(c,b[2],j);if(0===d[0])var
-h=oG(c,d[1],a);else
+oH(c,a,b){if(a){var
+d=a[1],e=M(b,f(b0(d))),h=oH(c,a[2],e);return g(dh(c,d,b),h)}return a}function
+hr(a){return 0===a[0]?fJ(a[1]):b0(a[1])}function
+jV(c,b,a){if(b){var
+d=b[1],j=M(a,f(hr(d))),k=jV(c,b[2],j);if(0===d[0])var
+h=oH(c,d[1],a);else
 var
-e=d[1],i=dh(c,e,a),h=[0,bJ(c,e,a),i];return f(h,k)}return b}function
-hr(c){var
+e=d[1],i=dh(c,e,a),h=[0,bJ(c,e,a),i];return g(h,k)}return b}function
+hs(c){var
 a=c[1];switch(a[0]){case
 0:var
 b=[1,a[1]];break;case
 1:var
 b=[0,a[1]];break;default:var
-b=bU(hr,a)}return[0,b]}function
-jQ(c){var
+b=bU(hs,a)}return[0,b]}function
+jW(c){var
 b=c;for(;;){var
 a=b[1];switch(a[0]){case
 5:var
 b=a[1];continue;case
 6:var
-d=jQ(a[2]);return s(jQ(a[1]),d);case
-9:return a[1];default:return V(b)}}}function
-jR(n,h,a,f){if(a){var
-c=a[1],x=M(f,g(hq(c))),y=jR(n,h,a[2],x);if(0===c[0])var
-k=oF(h,c[1],f),o=[0,k,m(b),k,0,0,0,0,0];else
+d=jW(a[2]);return s(jW(a[1]),d);case
+9:return a[1];default:return W(b)}}}function
+jX(n,h,a,g){if(a){var
+c=a[1],x=M(g,f(hr(c))),y=jX(n,h,a[2],x);if(0===c[0])var
+k=oG(h,c[1],g),o=[0,k,m(b),k,0,0,0,0,0];else
 var
-l=bJ(h,c[1],f),q=hr(l),i=a$(aC(0,n),q),d=hr(i[2]),j=e(hr,i[1]),r=0,s=0,t=0,u=0,v=[0,l],w=e(function(a){return aO(a,d)?m(b):al(a,d)},j),o=[0,j,jQ(d),w,v,u,t,s,r];var
+l=bJ(h,c[1],g),q=hs(l),i=a$(aC(0,n),q),d=hs(i[2]),j=e(hs,i[1]),r=0,s=0,t=0,u=0,v=[0,l],w=e(function(a){return aO(a,d)?m(b):al(a,d)},j),o=[0,j,jW(d),w,v,u,t,s,r];var
 p=[0,o,y]}else
 var
 p=a;return p}function
-oH(a){return e(function(a){return[0,a[2],d]},a)}function
-jS(a){var
-b=z(hq,a[4]),c=f(fI(e(aN,a[3])),b);return f(oH(a[2]),c)}function
-hs(a){var
-b=cF(0,oH(a[2])),c=aC(0,g(a[1]));return jN(a,e(function(a){return[0,[0,a]]},c),b)}function
-jT(b,d){var
+oI(a){return e(function(a){return[0,a[2],d]},a)}function
+jY(a){var
+b=z(hr,a[4]),c=g(fJ(e(aN,a[3])),b);return g(oI(a[2]),c)}function
+ht(a){var
+b=cF(0,oI(a[2])),c=aC(0,f(a[1]));return jT(a,e(function(a){return[0,[0,a]]},c),b)}function
+jZ(b,d){var
 a=d;for(;;)switch(a[0]){case
 0:return 1;case
 1:var
@@ -5411,16 +5421,16 @@ e=a[1];return aj(function(a){return aB(e,a)},b);case
 7:case
 8:var
 a=a[1];continue;default:var
-c=jT(b,a[1]);if(c){var
+c=jZ(b,a[1]);if(c){var
 a=a[2];continue}return c}}function
-oI(d){var
+oJ(d){var
 a=d;for(;;){if(a){var
-b=a[2],e=a[1],c=J(aj(function(b){return function(a){return sq(b,a)}}(e),b));if(c){var
+b=a[2],e=a[1],c=I(aj(function(b){return function(a){return sr(b,a)}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-oJ(a){var
-u=e(aA,a[2]),d=f(a[1],u),h=g(a[1]),o=aa(vS,h),p=o?aa(h,vT):o,q=p?aa(h,g(a[4])):p,r=q?aa(g(a[4]),vU):q,s=r?oI(d):r;if(s){var
+oK(a){var
+u=e(aA,a[2]),d=g(a[1],u),h=f(a[1]),o=aa(vT,h),p=o?aa(h,vU):o,q=p?aa(h,f(a[4])):p,r=q?aa(f(a[4]),vV):q,s=r?oJ(d):r;if(s){var
 c=d,b=a[3];for(;;){if(b){var
-j=b[1],k=j[1],m=J(aj(function(b){return function(a){return aB(b,a)}}(k),c)),n=m?jT(c,j[2]):m;if(n){var
+j=b[1],k=j[1],m=I(aj(function(b){return function(a){return aB(b,a)}}(k),c)),n=m?jZ(c,j[2]):m;if(n){var
 c=[0,k,c],b=b[2];continue}var
 t=n}else
 var
@@ -5429,7 +5439,7 @@ i=t;break}}else
 var
 i=s;if(i){var
 v=a[4];return l(function(b){var
-c=0===b[0]?b[1]:[0,b[1],0],g=f(e(aA,a[3]),d);return l(function(a){return jT(g,a)},c)},v)}return i}function
+c=0===b[0]?b[1]:[0,b[1],0],f=g(e(aA,a[3]),d);return l(function(a){return jZ(f,a)},c)},v)}return i}function
 dQ(f,e,g){var
 h=g[1],a=bU(function(a){return dQ(f,e,a)},h);switch(a[0]){case
 0:return r(a[1],f,[0,d,b]);case
@@ -5443,7 +5453,7 @@ h=g[1],a=bU(function(a){return dQ(f,e,a)},h);switch(a[0]){case
 8:var
 c=a[1];return[4,c,c];case
 9:return[6,a[1]];default:return[0,d,b]}}function
-jU(d){var
+j0(d){var
 b=d;for(;;){var
 a=b[1];switch(a[0]){case
 10:return 0;case
@@ -5454,7 +5464,7 @@ b=a[1];continue;case
 0:case
 1:case
 2:return 1;default:var
-c=jU(a[1]);if(c){var
+c=j0(a[1]);if(c){var
 b=a[2];continue}return c}}}function
 b1(g,f,e){var
 b=f,a=e;for(;;){if(b){if(a){var
@@ -5463,96 +5473,96 @@ b=b[2],a=a[2];continue}var
 d=c}else
 var
 d=a;return d}return a?0:1}}function
-vV(a){var
+vW(a){var
 b=a[4],d=0;if(typeof
 b!=="number"&&0===b[0]){var
 c=[0,b[1],0];d=1}if(!d)var
 c=0;var
-e=f(a[3],c);return f(a[1],e)}function
-ht(a){return g(a[1])}function
-oK(a){var
-b=g(fI(e(aN,a[3])));return M(g(a[2]),b)}function
+e=g(a[3],c);return g(a[1],e)}function
+hu(a){return f(a[1])}function
 oL(a){var
-b=g(a[2]),c=a[3];return oE(hs(a),c,b)}function
+b=f(fJ(e(aN,a[3])));return M(f(a[2]),b)}function
 oM(a){var
-b=oK(a),c=a[4],d=oL(a);return jR(ht(a),d,c,b)}function
-oN(a,b){var
-c=z(hq,a[4]),d=f(fI(e(aN,a[3])),c);return f(b,e(function(a){return a[1][1]},d))}function
-oO(b,a){return l(function(a){if(0===a[0]){var
-c=ht(b);return o(g(a[1]),c)}return 1},a)}function
-oP(f,e){function
-a(a){return r(a,e,[0,d,b])}var
-c=[0,d,b];switch(f){case
-0:var
-g=a(vX);return[0,a(0),g,c];case
-1:var
-h=a(vY),i=a(vZ);return[0,a(0),i,h];default:return[0,c,c,c]}}function
+b=f(a[2]),c=a[3];return oF(ht(a),c,b)}function
+oN(a){var
+b=oL(a),c=a[4],d=oM(a);return jX(hu(a),d,c,b)}function
+oO(a,b){var
+c=z(hr,a[4]),d=g(fJ(e(aN,a[3])),c);return g(b,e(function(a){return a[1][1]},d))}function
+oP(b,a){return l(function(a){if(0===a[0]){var
+c=hu(b);return n(f(a[1]),c)}return 1},a)}function
 oQ(f,e){function
 a(a){return r(a,e,[0,d,b])}var
 c=[0,d,b];switch(f){case
-0:return[0,c,c,a(v0)];case
+0:var
+g=a(vY);return[0,a(0),g,c];case
 1:var
-g=a(v1),h=a(v2);return[0,a(v3),h,g];default:var
-i=a(v4),j=a(v5);return[0,a(0),j,i]}}function
-oR(t,s,k,j,r,d){var
+h=a(vZ),i=a(v0);return[0,a(0),i,h];default:return[0,c,c,c]}}function
+oR(f,e){function
+a(a){return r(a,e,[0,d,b])}var
+c=[0,d,b];switch(f){case
+0:return[0,c,c,a(v1)];case
+1:var
+g=a(v2),h=a(v3);return[0,a(v4),h,g];default:var
+i=a(v5),j=a(v6);return[0,a(0),j,i]}}function
+oS(t,s,k,j,r,d){var
 c=bu(k,j,r,d);if(0===d[0])var
 e=bz(d[1],c);else
 var
-a=d[1],f=fx(a,c),g=fy(a,c),h=g$(a,c),i=ev(a,c),l=P([3,[4,h,g],[4,i,f]],g8(a)),m=P([2,[4,h,f],[4,i,g]],fw(a)),n=K(function(b,a){return[2,b,a]},m,l),o=P(a[5],n),p=g9(a,c),q=P(g_(a,c),p),e=K(function(b,a){return[3,b,a]},q,o);return jt(t,e,P([5,[0,b,b],s],da(eD(k,j,eC(d)),e)))}function
-oS(c,b,a){return b?fz(c,b[1],a):a?0:1}function
-oT(d,b,i,a,c,n,h,m,f){var
-p=at(b),j=o(g(c),p),k=j?oS(d,a,h):j,l=k?oS(d,a,f):k;if(l){var
-q=e(function(c){return oR(b,i,a,f,m,c)},c),r=e(function(c){return oR(b,i,a,h,n,c)},c);return jL(d,at(b),r,q)}return l}function
-oU(c,j,d,b,a){var
-e=aJ(d,j),g=e?bf(b,a):e;if(g)var
-k=cD(c,a)[2],h=[0,cD(c,b)[1],k],l=[0,cD(c,dA(a,b)),0],i=[0,[0,h,h,f(ab(u,d),l)]];else
+a=d[1],f=fy(a,c),g=fz(a,c),h=ha(a,c),i=ev(a,c),l=P([3,[4,h,g],[4,i,f]],g9(a)),m=P([2,[4,h,f],[4,i,g]],fx(a)),n=L(function(b,a){return[2,b,a]},m,l),o=P(a[5],n),p=g_(a,c),q=P(g$(a,c),p),e=L(function(b,a){return[3,b,a]},q,o);return jz(t,e,P([5,[0,b,b],s],da(eD(k,j,eC(d)),e)))}function
+oT(c,b,a){return b?fA(c,b[1],a):a?0:1}function
+oU(d,b,i,a,c,o,h,m,g){var
+p=at(b),j=n(f(c),p),k=j?oT(d,a,h):j,l=k?oT(d,a,g):k;if(l){var
+q=e(function(c){return oS(b,i,a,g,m,c)},c),r=e(function(c){return oS(b,i,a,h,o,c)},c);return jR(d,at(b),r,q)}return l}function
+oV(c,j,d,b,a){var
+e=aG(d,j),f=e?bf(b,a):e;if(f)var
+k=cD(c,a)[2],h=[0,cD(c,b)[1],k],l=[0,cD(c,dA(a,b)),0],i=[0,[0,h,h,g(ac(u,d),l)]];else
 var
-i=g;return i}function
-jV(a){if(a){var
+i=f;return i}function
+j1(a){if(a){var
 b=a[1];if(b)var
-c=jV(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+c=j1(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return v8}function
-oV(c,b,a){if(b){if(a){var
-d=b[1],f=oV(c,b[2],a[2]),g=a[1],h=function(b,a){return A(t(c,d,b),a)},i=function(a){return a};return aP(function(a){return t(c,d,a)},i,h,g,f)}var
+d=b;return d}return v9}function
+oW(c,b,a){if(b){if(a){var
+d=b[1],f=oW(c,b[2],a[2]),g=a[1],h=function(b,a){return A(t(c,d,b),a)},i=function(a){return a};return aP(function(a){return t(c,d,a)},i,h,g,f)}var
 e=a}else
 var
 e=b;return e}function
-oW(c,b,a){if(b){if(a){var
-d=oW(c,b[2],a[2]);return A(t(c,b[1],a[1]),d)}return u}return u}function
-hu(a){return ap(function(d,a){var
+oX(c,b,a){if(b){if(a){var
+d=oX(c,b[2],a[2]);return A(t(c,b[1],a[1]),d)}return u}return u}function
+hv(a){return ap(function(d,a){var
 e=c(2,b);return E(b_(cb(d),e),a)},d,a)}function
-hv(a,i,h){var
-d=g(i);function
+hw(a,i,h){var
+d=f(i);function
 t(g,e,f){var
 d=[0,b,c(2,b)];return[0,$(cD(a,a3(dz(e,f),d)))]}var
-j=jV(e(function(b){return ei(a,t,b)},i));if(j){var
-v=j[1],w=function(b,c,e){return oU(a,d,b,c,e)},k=jV(e(function(b){return ei(a,w,b)},i));if(k){var
-x=function(b){return cD(a,b)},n=e(function(a){return e(x,a)},h),y=k[1],z=e(function(a){return a[3]},y),A=e(function(b){return oW(a,b,e(function(a){return a[2]},v))},n),B=W(aC(0,d),n),E=e(function(c){var
-i=oV(a,c[2],z),j=c[1],d=[0,O(a,b),0],e=f(ab(u,j),d);function
-g(b,a){return G(b,aw(a))}function
-h(a){return ac(aw(a))}return aP(function(a){return a},h,g,e,i)},B),p=o(g(h),d),q=p?l(function(a){return o(g(a),d)},h):p;if(q)var
-F=c(2,b),H=b_(cy(a),F),I=hu(A),m=D(C(c(2,c(2,b)),I),H);else
+j=j1(e(function(b){return ei(a,t,b)},i));if(j){var
+v=j[1],w=function(b,c,e){return oV(a,d,b,c,e)},k=j1(e(function(b){return ei(a,w,b)},i));if(k){var
+x=function(b){return cD(a,b)},o=e(function(a){return e(x,a)},h),y=k[1],z=e(function(a){return a[3]},y),A=e(function(b){return oX(a,b,e(function(a){return a[2]},v))},o),B=U(aC(0,d),o),E=e(function(c){var
+i=oW(a,c[2],z),j=c[1],d=[0,N(a,b),0],e=g(ac(u,j),d);function
+f(b,a){return G(b,aw(a))}function
+h(a){return ab(aw(a))}return aP(function(a){return a},h,f,e,i)},B),p=n(f(h),d),q=p?l(function(a){return n(f(a),d)},h):p;if(q)var
+F=c(2,b),H=b_(cy(a),F),I=hv(A),m=D(C(c(2,c(2,b)),I),H);else
 var
 m=q;if(m){var
-J=c(2,b),K=b_(cy(a),J),L=hu(ed(E));return D(C(c(2,c(2,b)),L),K)}var
+J=c(2,b),K=b_(cy(a),J),L=hv(ed(E));return D(C(c(2,c(2,b)),L),K)}var
 r=m}else
 var
 r=k;var
 s=r}else
 var
 s=j;return s}function
-eG(a){return l(function(a){return J(dD(a))},a)}function
+eG(a){return l(function(a){return I(dD(a))},a)}function
 aW(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-a5(a){return[0,a[1],a[2]]}function
-hw(b,a){var
-d=g(a),c=o(g(b),d);if(c){var
-e=W(b,a);return l(function(a){return bf(a[1],a[2])},e)}return c}function
-jW(c,a,b){var
-d=W(a,b),f=W(aC(c,g(a)),d);return e(function(a){return[1,a[1],a[2][1],a[2][2]]},f)}function
+a6(a){return[0,a[1],a[2]]}function
+hx(b,a){var
+d=f(a),c=n(f(b),d);if(c){var
+e=U(b,a);return l(function(a){return bf(a[1],a[2])},e)}return c}function
+j2(c,a,b){var
+d=U(a,b),g=U(aC(c,f(a)),d);return e(function(a){return[1,a[1],a[2][1],a[2][2]]},g)}function
 eH(e,k,j,i){var
 c=k,b=j,a=i;for(;;){if(c)if(b)if(a){var
-f=a[1],l=h(e,1,[3,a5(c[1]),f]),g=l||h(e,1,[3,f,a5(b[1])]);if(!g){var
+f=a[1],l=h(e,1,[3,a6(c[1]),f]),g=l||h(e,1,[3,f,a6(b[1])]);if(!g){var
 c=c[2],b=b[2],a=a[2];continue}var
 d=g}else
 var
@@ -5561,25 +5571,25 @@ var
 d=b;else
 var
 d=c;return d}}function
-jX(b,e,c){var
-a=ei(b,function(a,c,d){return oU(b,e,a,c,d)},c);return a?I(d,a[1][2][1]):a}function
-jY(f,e,b,a){var
+j3(b,e,c){var
+a=ei(b,function(a,c,d){return oV(b,e,a,c,d)},c);return a?K(d,a[1][2][1]):a}function
+j4(f,e,b,a){var
 c=a[1],d=b[1],g=c[2],h=a[2],i=d[2],j=b[2],k=[0,d[1],[0,c[1],0]];return l(function(a){var
 b=[0,i,[0,g,0]];return l(function(b){var
 c=[0,j,[0,h,0]];return l(function(c){var
-d=a5(c),g=a5(b);return cG(f,e,[0,a5(a),g,d])},c)},b)},k)}function
-jZ(a){switch(a[0]){case
+d=a6(c),g=a6(b);return cG(f,e,[0,a6(a),g,d])},c)},b)},k)}function
+j5(a){switch(a[0]){case
 0:var
-c=[0,a[4],0],d=f(aW(a[3]),c),e=f(aW(a[2]),d);return f(aW(a[1]),e);case
+c=[0,a[4],0],d=g(aW(a[3]),c),e=g(aW(a[2]),d);return g(aW(a[1]),e);case
 1:var
-b=a[3],g=b?aW(b[1]):b,h=f(aW(a[2]),g);return f(aW(a[1]),h);default:return aW(a[1])}}function
-oX(a){return 1===a[0]?0:1}function
-fJ(b,a){var
+b=a[3],f=b?aW(b[1]):b,h=g(aW(a[2]),f);return g(aW(a[1]),h);default:return aW(a[1])}}function
+oY(a){return 1===a[0]?0:1}function
+fK(b,a){var
 c=a3(a,a);return bf(a3(b,b),c)?a:b}function
-fK(b,a,e,d){var
-c=dM(b,a,a5(e));return c?dM(b,a,a5(d)):c}function
-oY(f,e,c,a){switch(e[0]){case
-0:if(c){if(c[2])return 0;if(a)return a[2]?0:fK(f,e[1],c[1],a[1]);var
+fL(b,a,e,d){var
+c=dM(b,a,a6(e));return c?dM(b,a,a6(d)):c}function
+oZ(f,e,c,a){switch(e[0]){case
+0:if(c){if(c[2])return 0;if(a)return a[2]?0:fL(f,e[1],c[1],a[1]);var
 x=a}else
 var
 x=c;return x;case
@@ -5588,7 +5598,7 @@ i=c[2];if(i){var
 j=i[2];if(j){if(j[2])return 0;if(a){var
 k=a[2];if(k){var
 l=k[2];if(l){if(l[2])return 0;var
-y=fK(f,e[1],c[1],a[1]),z=y?fK(f,e[2],i[1],k[1]):y;if(z)return fK(f,e[3],j[1],l[1]);var
+y=fL(f,e[1],c[1],a[1]),z=y?fL(f,e[2],i[1],k[1]):y;if(z)return fL(f,e[3],j[1],l[1]);var
 A=z}else
 var
 A=l;var
@@ -5611,7 +5621,7 @@ m=c[2];if(m){var
 n=m[2];if(n){if(n[2])return 0;if(a){var
 o=a[2];if(o){var
 p=o[2];if(p){if(p[2])return 0;var
-P=[0,a5(fJ(n[1],p[1])),0],Q=[0,a5(fJ(m[1],o[1])),P];return fz(f,e,[0,a5(fJ(c[1],a[1])),Q])}var
+P=[0,a6(fK(n[1],p[1])),0],Q=[0,a6(fK(m[1],o[1])),P];return fA(f,e,[0,a6(fK(c[1],a[1])),Q])}var
 E=p}else
 var
 E=o;var
@@ -5634,7 +5644,7 @@ g=t[1],h=r[1],N=0,R=0;if(bf(h,[0,d,b])&&bf([0,d,b],g))var
 H=[0,d,b];else
 N=1;if(N)var
 O=a3(g,g),H=bf(a3(h,h),O)?h:g;var
-S=[0,a5(H),R],T=[0,a5(fJ(q[1],s[1])),S],I=fz(f,e,[0,a5(fJ(c[1],a[1])),T]);if(I)return fK(f,dc(e[2]),h,g);var
+S=[0,a6(H),R],T=[0,a6(fK(q[1],s[1])),S],I=fA(f,e,[0,a6(fK(c[1],a[1])),T]);if(I)return fL(f,dc(e[2]),h,g);var
 J=I}else
 var
 J=t;var
@@ -5652,69 +5662,69 @@ L=q;var
 M=L}else
 var
 M=c;return M}}function
-oZ(a){var
-c=r(wa,a,[0,d,b]),e=r(wb,a,[0,d,b]);return[0,r(0,a,[0,d,b]),e,c]}function
-hx(a){var
-c=r(wc,a,[0,d,b]),e=r(wd,a,[0,d,b]);return[0,[0,r(0,a,[0,d,b]),e],c]}function
-j0(d,c,b,a){var
+o0(a){var
+c=r(wb,a,[0,d,b]),e=r(wc,a,[0,d,b]);return[0,r(0,a,[0,d,b]),e,c]}function
+hy(a){var
+c=r(wd,a,[0,d,b]),e=r(we,a,[0,d,b]);return[0,[0,r(0,a,[0,d,b]),e],c]}function
+j6(d,c,b,a){var
 e=bY(d,c,b,a);return w(bY(d,c,b,a),e)}var
 cN=c(2,c(2,c(2,c(2,c(2,q(c(2,b)))))));function
 dR(e){var
 a=aD(cN,e);if(a){var
 f=k(gr(c(2,b)),cN);return[0,a[1][2],f]}return[0,d,b]}var
-j1=[0,[0,d,b],[0,d,b],[0,d,b]];function
+j7=[0,[0,d,b],[0,d,b],[0,d,b]];function
 eI(c,a){var
 e=[0,d,b];return ap(function(b,a){return[2,k(c,b),a]},e,a)}function
-fL(b,a){return ap(function(c,a){var
-d=k(b,c);return K(function(b,a){return[2,b,a]},d,a)},j1,a)}function
-o0(c){var
+fM(b,a){return ap(function(c,a){var
+d=k(b,c);return L(function(b,a){return[2,b,a]},d,a)},j7,a)}function
+o1(c){var
 a=c;for(;;)switch(a[0]){case
 0:return 1;case
-1:return aJ(a[1],dE);case
+1:return aG(a[1],dE);case
 6:var
 a=a[1];continue;default:var
-b=o0(a[1]);if(b){var
+b=o1(a[1]);if(b){var
 a=a[2];continue}return b}}function
-di(a){return l(o0,a)}function
-j2(d,h,c,f){var
+di(a){return l(o1,a)}function
+j8(d,h,c,f){var
 a=ei(d,function(c,e,f){var
-a=aJ(c,M(dE,h)),b=a?bf(e,f):a,g=b?[0,l0(d,c,e,f)]:b;return g},f);if(a){var
-b=a[1],e=av(dE,b[3]),g=iG(hu(av(c,e))),i=iG(hu(am(c,e))),j=T(E(E(fe(am(dE,b[3])),i),g));return I(b[1][2],j)}return a}function
-hy(b,a,c){if(b)if(a)var
-f=a[1],g=hy(b[2],a[2],c),h=I(b[1],d)?[3,f,c]:[2,f,c],e=[0,h,g];else
+a=aG(c,M(dE,h)),b=a?bf(e,f):a,g=b?[0,l5(d,c,e,f)]:b;return g},f);if(a){var
+b=a[1],e=av(dE,b[3]),g=iH(hv(av(c,e))),i=iH(hv(am(c,e))),j=T(E(E(ff(am(dE,b[3])),i),g));return K(b[1][2],j)}return a}function
+hz(b,a,c){if(b)if(a)var
+f=a[1],g=hz(b[2],a[2],c),h=K(b[1],d)?[3,f,c]:[2,f,c],e=[0,h,g];else
 var
 e=a;else
 var
 e=b;return e}function
-hz(a){return y(function(a){var
+hA(a){return y(function(a){var
 d=k(gr(c(2,b)),cN);return[0,a[2],d]},a)}function
 cl(b,a){var
-c=gA(a);return[1,M(dE,b),c,a]}function
+c=gB(a);return[1,M(dE,b),c,a]}function
 dS(a){if(ce(a[1],a[2]))return a[1];var
 d=[0,c(2,b),b];return[5,[2,a[1],a[2]],d]}function
 bB(a){var
 b=dS(a[3]),c=dS(a[2]);return[0,dS(a[1]),c,b]}function
-o1(a){switch(a[0]){case
+o2(a){switch(a[0]){case
 0:var
 b=a[1],c=b[5],d=dS(b[4]),e=bB(b[3]),f=bB(b[2]);return[0,bB(b[1]),f,e,d,c];case
 1:var
 g=y(bB,a[3]),h=bB(a[2]);return[1,bB(a[1]),h,g];default:return[2,bB(a[1])]}}function
-fM(i,f,p,a,Q,n){var
-x=fr(i,f,p,a),y=x?di(aW(a)):x;if(y){var
-q=F(f[3],Q);if(q){var
+fN(i,g,p,a,Q,o){var
+x=fs(i,g,p,a),y=x?di(aW(a)):x;if(y){var
+q=F(g[3],Q);if(q){var
 j=q[1];if(typeof
 j!=="number"&&14===j[0]){var
-B=j[2],C=j[1],r=hz(aD(cN,B));if(r){var
-s=r[1],R=cl(wk,s),S=cl(wl,s),t=[0,cl(0,s),S,R],D=h(i,1,B),E=D?h(i,0,C):D;if(E)var
-T=g(f[1]),u=o(g(n),T);else
+B=j[2],C=j[1],r=hA(aD(cN,B));if(r){var
+s=r[1],R=cl(wl,s),S=cl(wm,s),t=[0,cl(0,s),S,R],D=h(i,1,B),E=D?h(i,0,C):D;if(E)var
+T=f(g[1]),u=n(f(o),T);else
 var
 u=E;var
-G=u?l(function(a){return di(jZ(a))},p):u;if(G){var
-U=f[1],H=hy(n,e(function(b){return cI(o1(b),a)},U),C),I=di(H);if(I){var
-v=W(W(p,H),n),k=function(k){var
+G=u?l(function(a){return di(j5(a))},p):u;if(G){var
+V=g[1],H=hz(o,e(function(b){return cI(o2(b),a)},V),C),I=di(H);if(I){var
+v=U(U(p,H),o),k=function(k){var
 f=k[1][2],e=k[1][1];switch(e[0]){case
 0:var
-i=e[4],l=P(f,ay(e[1])),m=aV(e[2],e[3],a),g=K(function(b,a){return[3,b,a]},m,l),n=P([0,c(2,b),b],g);return[0,[3,w(g,g),[4,i,i]],n,[0,b,b]];case
+i=e[4],l=P(f,ay(e[1])),m=aV(e[2],e[3],a),g=L(function(b,a){return[3,b,a]},m,l),n=P([0,c(2,b),b],g);return[0,[3,w(g,g),[4,i,i]],n,[0,b,b]];case
 1:var
 h=aV(e[1],e[2],a),o=P([0,c(2,b),b],h);return[0,[3,w(h,h),[4,f,f]],o,[0,b,b]];default:var
 j=e[1],p=ay(j);return[0,[3,w(ay(j),a),f],p,[0,d,b]]}},m=function(j){var
@@ -5722,69 +5732,69 @@ e=j[1],f=e[2],c=e[1],d=j[2];switch(c[0]){case
 0:var
 g=c[3],h=c[2],i=c[1],k=aV(h,g,a),l=[3,w(ay(i),k),f],m=ch(i,h,g,c[4],a);return dR([5,[0,d,b],[2,cH(c[5],m),l]]);case
 1:return dR([5,[0,d,b],[2,f,cI(c,a)]]);default:return[0,d,b]}},M=w(t,t),N=[4,eI(function(a){var
-b=k(a)[3];return[4,m(a),b]},v),M],O=w(fL(function(a){var
-b=k(a)[2];return P(m(a),b)},v),t);return j2(i,wn,wm,[2,[2,eI(function(a){var
+b=k(a)[3];return[4,m(a),b]},v),M],O=w(fM(function(a){var
+b=k(a)[2];return P(m(a),b)},v),t);return j8(i,wo,wn,[2,[2,eI(function(a){var
 b=k(a)[1];return[4,m(a),b]},v),O],N])}var
 J=I}else
 var
 J=G;var
-L=J}else
+K=J}else
 var
-L=r;return L}var
+K=r;return K}var
 z=0}else
 var
 z=q;var
 A=z}else
 var
 A=y;return A}function
-wo(a){var
+wp(a){var
 b=di(aW(a[3])),c=b?di(aW(a[4])):b;return c?di([0,a[2],0]):c}function
-o2(a,d,c){var
+o3(a,d,c){var
 b=aC(0,bH(a));return e(function(b){var
-e=aJ(b,cM(a))?d:c;return cl(b,e)},b)}function
-o3(e,a,f){if(typeof
+e=aG(b,cM(a))?d:c;return cl(b,e)},b)}function
+o4(e,a,f){if(typeof
 e==="number"){if(e){var
-g=cl(wp,a);return[0,[0,cl(0,a),g,[0,d,b]],j1]}var
-h=cl(wq,a),i=cl(wr,a);return[0,[0,cl(0,a),i,h],j1]}var
-c=e[1],j=oQ(c,o2(c,a,f));return[0,oP(c,o2(c,a,f)),j]}function
-o4(g,e,u,o,a){var
-p=hz(aD(cN,u));if(p){var
+g=cl(wq,a);return[0,[0,cl(0,a),g,[0,d,b]],j7]}var
+h=cl(wr,a),i=cl(ws,a);return[0,[0,cl(0,a),i,h],j7]}var
+c=e[1],j=oR(c,o3(c,a,f));return[0,oQ(c,o3(c,a,f)),j]}function
+o5(g,e,u,o,a){var
+p=hA(aD(cN,u));if(p){var
 v=p[1],q=typeof
-e==="number"?[0,[0,b,b]]:hz(k(cJ(cN),o));if(q){var
+e==="number"?[0,[0,b,b]]:hA(k(cJ(cN),o));if(q){var
 r=q[1],x=h(g,1,u);if(x)if(typeof
 e==="number")var
 i=1;else
 var
-B=h(g,1,o),C=B?cK(g,o):B,i=C?J(bf(r,[0,d,b])):C;else
+B=h(g,1,o),C=B?cK(g,o):B,i=C?I(bf(r,[0,d,b])):C;else
 var
 i=x;var
-y=i?l(wo,a):i;if(y){var
-f=o3(e,v,r)[2],j=o3(e,v,r)[1],m=[0,c(2,b),b],n=function(b){return fL(function(a){var
+y=i?l(wp,a):i;if(y){var
+f=o4(e,v,r)[2],j=o4(e,v,r)[1],m=[0,c(2,b),b],n=function(b){return fM(function(a){var
 c=a[3],d=k(b,a[4]);return P([4,a[1],d],c)},a)},s=eI(function(a){var
-b=w(a[3],a[4]);return[4,a[1],b]},a),t=w(f,f),D=n(function(a){return a[3]}),E=P(f[3],D),F=n(function(a){return a[2]}),G=P(f[2],F),H=n(function(a){return a[1]}),I=P(f[1],H),L=K(function(b,a){return[2,b,a]},I,G),M=[4,t,s],N=w(f,K(function(b,a){return[2,b,a]},L,E)),O=[3,[2,w(f,fL(function(a){var
-b=da(a[4],a[3]);return P(a[1],b)},a)),N],M],Q=[2,[4,m,s],[4,[5,[0,c(2,c(2,b)),b],[2,[0,b,b],t]],O]],R=[4,m,w(j,nB(f,fL(function(a){return P(a[1],a[4])},a)))],S=w(j,j),T=[2,[4,eI(function(a){return a[1]},a),S],R],U=[4,m,w(fL(function(a){return P(a[1],a[3])},a),j)],V=[2,[2,[2,eI(function(a){var
+b=w(a[3],a[4]);return[4,a[1],b]},a),t=w(f,f),D=n(function(a){return a[3]}),E=P(f[3],D),F=n(function(a){return a[2]}),G=P(f[2],F),H=n(function(a){return a[1]}),J=P(f[1],H),K=L(function(b,a){return[2,b,a]},J,G),M=[4,t,s],N=w(f,L(function(b,a){return[2,b,a]},K,E)),O=[3,[2,w(f,fM(function(a){var
+b=da(a[4],a[3]);return P(a[1],b)},a)),N],M],Q=[2,[4,m,s],[4,[5,[0,c(2,c(2,b)),b],[2,[0,b,b],t]],O]],R=[4,m,w(j,nB(f,fM(function(a){return P(a[1],a[4])},a)))],S=w(j,j),T=[2,[4,eI(function(a){return a[1]},a),S],R],U=[4,m,w(fM(function(a){return P(a[1],a[3])},a),j)],V=[2,[2,[2,eI(function(a){var
 b=[4,a[2],a[2]],c=w(a[4],a[4]),d=[3,[2,w(a[3],a[3]),c],b];return[4,a[1],d]},a),U],T],Q],W=typeof
-e==="number"?at(e):cM(e[1]);return j2(g,at(e),W,V)}var
+e==="number"?at(e):cM(e[1]);return j8(g,at(e),W,V)}var
 z=y}else
 var
 z=q;var
 A=z}else
 var
 A=p;return A}function
-o5(a){return[6,w(a,a)]}function
-o6(b){if(0===b[0])return[0,o1(b[1])];var
+o6(a){return[6,w(a,a)]}function
+o7(b){if(0===b[0])return[0,o2(b[1])];var
 a=b[1],c=a[7],d=dS(a[6]),e=dS(a[5]),f=bB(a[4]),g=bB(a[3]),h=bB(a[2]);return[1,[0,bB(a[1]),h,g,f,e,d,c]]}function
-hA(f,e,c,a){if(typeof
+hB(f,e,c,a){if(typeof
 a==="number")return 0;else{if(0===a[0]){var
-g=a[1],j=I(c,d)?[3,g,f]:[2,g,f];return[0,j]}var
-h=a[2],i=a[1],k=I(c,d)?gA(e):e,b=a5(k),l=[4,i,dL(b)],m=[2,[4,h,dK(b)],l],n=[4,h,dL(b)];return[1,[3,[4,i,dK(b)],n],m]}}function
-j3(a,c){if(D(c,b))return a;var
-g=aT(c,aI(2)),h=g[1];if(L(g[2],d)){var
-e=j3(a,h);return[4,e,e]}var
-f=j3(a,h);return[4,[4,f,f],a]}function
+g=a[1],j=K(c,d)?[3,g,f]:[2,g,f];return[0,j]}var
+h=a[2],i=a[1],k=K(c,d)?gB(e):e,b=a6(k),l=[4,i,dL(b)],m=[2,[4,h,dK(b)],l],n=[4,h,dL(b)];return[1,[3,[4,i,dK(b)],n],m]}}function
+j9(a,c){if(D(c,b))return a;var
+g=aU(c,aJ(2)),h=g[1];if(J(g[2],d)){var
+e=j9(a,h);return[4,e,e]}var
+f=j9(a,h);return[4,[4,f,f],a]}function
 aX(c,a){switch(a[0]){case
 0:return a[1];case
-1:return oD([0,d,b],c,a[1]);case
+1:return oE([0,d,b],c,a[1]);case
 2:return[3,[0,d,b],aX(c,a[1])];case
 3:var
 e=aX(c,a[2]);return[2,aX(c,a[1]),e];case
@@ -5795,23 +5805,23 @@ g=aX(c,a[2]);return[4,aX(c,a[1]),g];case
 6:var
 h=aX(c,a[2]);return[5,aX(c,a[1]),h];case
 7:var
-i=a[2];return j3(aX(c,a[1]),i);default:return[6,aX(c,a[1])]}}function
-fN(d,h,g){var
-i=d[3],b=jN(d,g,h),a=i;for(;;){if(a){var
+i=a[2];return j9(aX(c,a[1]),i);default:return[6,aX(c,a[1])]}}function
+fO(d,h,g){var
+i=d[3],b=jT(d,g,h),a=i;for(;;){if(a){var
 c=a[1],e=a[2],f=aX(b,c[2]),b=[0,[0,c[1],f],b],a=e;continue}return b}}function
-fO(c){var
+fP(c){var
 a=c;for(;;)switch(a[0]){case
-0:return J(dD(a[1]));case
+0:return I(dD(a[1]));case
 1:return 1;case
 2:case
 7:case
 8:var
 a=a[1];continue;default:var
-b=fO(a[1]);if(b){var
+b=fP(a[1]);if(b){var
 a=a[2];continue}return b}}function
-j4(a){if(a){var
+j_(a){if(a){var
 b=a[1];if(0===b[0])return 0;var
-c=b[1],d=j4(a[2]);return y(function(a){return[0,c,a]},d)}return wu}function
+c=b[1],d=j_(a[2]);return y(function(a){return[0,c,a]},d)}return wv}function
 eJ(c,e,p){var
 a=p;for(;;)switch(a[0]){case
 6:var
@@ -5829,29 +5839,29 @@ a=a[1];continue;case
 1:return 1;default:var
 f=eJ(c,e,a[1]);if(f){var
 a=a[2];continue}return f}}function
-o7(j,c,i,h,n){var
-o=c[3],b=jN(c,h,i),a=o;for(;;){if(a){var
+o8(j,c,i,h,n){var
+o=c[3],b=jT(c,h,i),a=o;for(;;){if(a){var
 e=a[1],f=e[2],g=eJ(j,b,f);if(g){var
 k=a[2],m=aX(b,f),b=[0,[0,e[1],m],b],a=k;continue}var
 d=g}else
 var
 d=1;if(d){var
-p=fN(c,i,h);return l(function(a){return eJ(j,p,a)},n)}return d}}var
-hC=x(m(b),hB);function
-o8(e){var
-a=V(hC);if(e)var
+p=fO(c,i,h);return l(function(a){return eJ(j,p,a)},n)}return d}}var
+hD=x(m(b),hC);function
+o9(e){var
+a=W(hD);if(e)var
 f=s(m(c(2,b)),a),g=B(m(c(2,c(2,b))),f),h=s(m(c(2,b)),a),d=al(B(m(b),h),g);else
 var
-i=B(m(c(2,b)),a),j=V(hB),d=al(B(s(m(c(2,b)),j),a),i);return aK(d)}function
-o9(d,c,a){if(d){var
-e=o8(c),f=B(m(b),e),g=s(x(m(b),a),f);return x(m(b),g)}var
-h=m(b),i=o8(c),j=al(m(b),i);return x(s(a,B(m(b),j)),h)}function
+i=B(m(c(2,b)),a),j=W(hC),d=al(B(s(m(c(2,b)),j),a),i);return aK(d)}function
+o_(d,c,a){if(d){var
+e=o9(c),f=B(m(b),e),g=s(x(m(b),a),f);return x(m(b),g)}var
+h=m(b),i=o9(c),j=al(m(b),i);return x(s(a,B(m(b),j)),h)}function
 eK(f,e,d,a){var
-g=V(a),h=V(d),i=x(x(m(c(2,b)),h),g),j=f?e?hC:al(hC,s(m(c(2,b)),hB)):al(hC,m(c(2,b))),k=s(V(j),i);return aK(B(m(b),k))}function
-o_(g,d){var
+g=W(a),h=W(d),i=x(x(m(c(2,b)),h),g),j=f?e?hD:al(hD,s(m(c(2,b)),hC)):al(hD,m(c(2,b))),k=s(W(j),i);return aK(B(m(b),k))}function
+o$(g,d){var
 c=g,a=d[1],b=d[3];for(;;){if(c){if(b){var
 e=b[2],f=c[1]?A(a,b[1]):a,c=c[2],a=f,b=e;continue}return a}return a}}function
-j5(w,v,u,t){var
+j$(w,v,u,t){var
 a=e(function(a){return r(a,u,0)},v);if(a){var
 f=a[1];if(f){var
 b=a[2];if(b){var
@@ -5883,12 +5893,12 @@ q=f;var
 s=q}else
 var
 s=a;return s}function
-o$(f,i,e,c,h){var
-j=f?b:d,a=O(i,j);function
+pa(f,i,e,c,h){var
+j=f?b:d,a=N(i,j);function
 g(b){var
 c=f?cc(b):cz(b);return G(c,a)}var
 k=[0,$(h),0],l=[0,[0,a,c,[0,u,[0,g(c),0]]],k];return[0,[0,a,e,[0,g(e),0]],l]}function
-pa(r,b,q,p,g,o,n){if(o){var
+pb(r,b,q,p,g,o,n){if(o){var
 x=o[1];if(x[1])return 0;if(o[2])return 0;if(n){var
 j=x[2],s=0;if(g){var
 h=g[2],c=0;if(h){var
@@ -5897,16 +5907,16 @@ a=0;c=1;d=1}else{var
 t=i[1],k=h[1],l=g[1],f=0;if(typeof
 j==="number")switch(j){case
 0:var
-A=e(aG,bj(wy)),z=e($,0),a=j5(b,p,bg(0,bD(b,dH(0,g),z),q,0),A);c=1;d=1;f=1;break;case
+A=e(aH,bj(wz)),z=e($,0),a=j$(b,p,bg(0,bD(b,dH(0,g),z),q,0),A);c=1;d=1;f=1;break;case
 3:var
 a=D(k[2],l[1]);c=1;d=1;f=1;break}else
 if(4===j[0]){var
 m=j[1];if(r)if(m){var
-B=e(o_,wz),a=j5(b,p,bg(0,bD(b,o$(r,b,l,k,t),0),q,0),B);c=1;d=1;f=1}else{var
+B=e(o$,wA),a=j$(b,p,bg(0,bD(b,pa(r,b,l,k,t),0),q,0),B);c=1;d=1;f=1}else{var
 a=m;c=1;d=1;f=1}else
 if(m){var
 a=0;c=1;d=1;f=1}else{var
-C=e(o_,wA),a=j5(b,p,bg(0,bD(b,o$(r,b,l,k,t),0),q,0),C);c=1;d=1;f=1}}if(!f)var
+C=e(o$,wB),a=j$(b,p,bg(0,bD(b,pa(r,b,l,k,t),0),q,0),C);c=1;d=1;f=1}}if(!f)var
 u=0}else
 var
 u=i;if(!d)var
@@ -5916,28 +5926,28 @@ v=h;if(!c){var
 w=v;s=1}}else{var
 w=g;s=1}if(s)var
 a=w;var
-y=a?wB:a}else
+y=a?wC:a}else
 var
 y=n;return y}return[0,n]}function
-pb(f,e,d,c,p,o,n){var
+pc(f,e,d,c,p,o,n){var
 b=p,g=o,a=n;for(;;)switch(a[0]){case
 0:var
-h=pa(f,e,d,c,b,a[1],g);return h?J(h[1]):h;case
+h=pb(f,e,d,c,b,a[1],g);return h?I(h[1]):h;case
 1:var
-i=pa(f,e,d,c,b,a[1],g);if(i){var
-j=i[1],k=c4(a[2],b),l=pb(f,e,d,c,k[1],j,a[3]);if(l){var
+i=pb(f,e,d,c,b,a[1],g);if(i){var
+j=i[1],k=c4(a[2],b),l=pc(f,e,d,c,k[1],j,a[3]);if(l){var
 b=k[2],g=j,a=a[4];continue}var
 m=l}else
 var
 m=i;return m;default:return 0}}function
-j6(a){return b_(c(2,b),aL(a,b))}function
+ka(a){return b_(c(2,b),aL(a,b))}function
 eL(i,a,e,w,v){var
-l=a?b:T(b),f=m(l),g=o9(a,e,ww),h=o9(a,e,wx),n=al(g,eK(a,e,f,g)),o=[0,B(al(h,eK(a,e,h,f)),n),0],p=al(f,eK(a,e,f,g)),q=[0,B(al(h,eK(a,e,g,h)),p),o],r=al(f,eK(a,e,h,f)),t=[0,B(al(g,eK(a,e,g,h)),r),q],u=a?e?m(c(2,b)):s(m(c(2,c(2,b))),hB):m(c(2,c(2,b))),j=cZ([0,u,t]),k=[0,d,cy(i)];return pb(a,i,j[1],j[2],[0,k,[0,k,[0,w,0]]],1,v)}function
-pc(a,g,b){if(I(g,j6(a))){if(b){var
+l=a?b:T(b),f=m(l),g=o_(a,e,wx),h=o_(a,e,wy),n=al(g,eK(a,e,f,g)),o=[0,B(al(h,eK(a,e,h,f)),n),0],p=al(f,eK(a,e,f,g)),q=[0,B(al(h,eK(a,e,g,h)),p),o],r=al(f,eK(a,e,h,f)),t=[0,B(al(g,eK(a,e,g,h)),r),q],u=a?e?m(c(2,b)):s(m(c(2,c(2,b))),hC):m(c(2,c(2,b))),j=cZ([0,u,t]),k=[0,d,cy(i)];return pc(a,i,j[1],j[2],[0,k,[0,k,[0,w,0]]],1,v)}function
+pd(a,g,b){if(K(g,ka(a))){if(b){var
 c=b[2];if(c){var
 d=c[2];if(d){var
 e=d[2];if(e){if(e[2])return 0;var
-h=[0,g,j6(a)],v=cy(a),i=[0,j6(a),v],j=eL(a,0,1,h,b[1]),k=j?eL(a,0,0,i,c[1]):j;if(k){var
+h=[0,g,ka(a)],v=cy(a),i=[0,ka(a),v],j=eL(a,0,1,h,b[1]),k=j?eL(a,0,0,i,c[1]):j;if(k){var
 l=eL(a,1,1,h,d[1]);if(l)return eL(a,1,0,i,e[1]);var
 m=l}else
 var
@@ -5962,294 +5972,294 @@ t=f;var
 u=t}else
 var
 u=b;return u}function
-j7(a){var
+kb(a){var
 b=[1,[2,d]];return bT(function(b,a){return[1,[3,b,a]]},a,b)}function
-hD(a){return j7(e(function(a){return[1,[8,[1,[2,a]]]]},a))}function
-hE(a,c){return j7(e(function(a){var
-d=[0,a[2]],b=W(a[1],c);return[1,[7,[1,[8,j7(e(function(a){return[1,[6,[0,a[1]],[1,[2,a[2]]]]]},b))]],d]]},a))}function
-pd(e,d,c,b,a){if(0===a[0])return r(a[1],b,0);var
-f=a[1],g=bU(function(a){return pd(e,d,c,b,a)},f);return k(bD(e,d,c),g)}function
-pe(a){return a?I(d,a[1][2][1]):a}function
-wC(a){var
-b=o(g(a),wD);return b?aj(function(a){return J(L(a,d))},a):b}function
-pf(c,f,b,a){if(b)if(a)var
-d=b[1],g=t(c,O(c,a[1]),f),h=pf(c,f,b[2],a[2]),i=d[3],j=A(d[2],g),e=[0,[0,A(d[1],g),j,i],h];else
+hE(a){return kb(e(function(a){return[1,[8,[1,[2,a]]]]},a))}function
+hF(a,c){return kb(e(function(a){var
+d=[0,a[2]],b=U(a[1],c);return[1,[7,[1,[8,kb(e(function(a){return[1,[6,[0,a[1]],[1,[2,a[2]]]]]},b))]],d]]},a))}function
+pe(e,d,c,b,a){if(0===a[0])return r(a[1],b,0);var
+f=a[1],g=bU(function(a){return pe(e,d,c,b,a)},f);return k(bD(e,d,c),g)}function
+pf(a){return a?K(d,a[1][2][1]):a}function
+wD(a){var
+b=n(f(a),wE);return b?aj(function(a){return I(J(a,d))},a):b}function
+pg(c,f,b,a){if(b)if(a)var
+d=b[1],g=t(c,N(c,a[1]),f),h=pg(c,f,b[2],a[2]),i=d[3],j=A(d[2],g),e=[0,[0,A(d[1],g),j,i],h];else
 var
 e=a;else
 var
 e=b;return e}function
-pg(d,c){var
+ph(d,c){var
 a=F(c,d);if(a){var
-b=a[1],e=b[1];return J(L(cf(b),e))}return a}function
-hF(b,a){return fa(fa(b,0),a)}function
-j8(a){if(a){var
-b=a[2],c=a[1];if(b)return hF(c,[0,wF,j8(b)]);var
+b=a[1],e=b[1];return I(J(cf(b),e))}return a}function
+hG(b,a){return fb(fb(b,0),a)}function
+kc(a){if(a){var
+b=a[2],c=a[1];if(b)return hG(c,[0,wG,kc(b)]);var
 d=c}else
 var
 d=a;return d}function
-H(a){return[0,wH,hF(j8(a),wG)]}function
-ah(a){return[0,wJ,hF(j8(a),wI)]}function
-ar(a){return[0,wL,[0,a,wK]]}function
-n(b,a){return[0,be(wN,be(b,wM)),a]}function
-Q(b,a){return ah([0,n(b,a),0])}function
+H(a){return[0,wI,hG(kc(a),wH)]}function
+ah(a){return[0,wK,hG(kc(a),wJ)]}function
+ar(a){return[0,wM,[0,a,wL]]}function
+o(b,a){return[0,be(wO,be(b,wN)),a]}function
+Q(b,a){return ah([0,o(b,a),0])}function
 cO(d){var
-b=d,a=sU,e=0;for(;;){if(b){var
-c=lz(a),b=b[1],a=c;continue}return[0,fb(go(a)),e]}}function
-j9(a){return[0,fb(gx(a)),0]}function
-fP(a){var
-c=aS(a),f=0,b=0===c?s0:0<c?[0,gx(a)]:[1,gx(T(a))];if(0===b[0])var
-d=fb(b[1]);else
+b=d,a=sV,e=0;for(;;){if(b){var
+c=lE(a),b=b[1],a=c;continue}return[0,fc(go(a)),e]}}function
+kd(a){return[0,fc(gx(a)),0]}function
+fQ(a){var
+c=aT(a),f=0,b=0===c?s1:0<c?[0,gx(a)]:[1,gx(T(a))];if(0===b[0])var
+d=fc(b[1]);else
 var
-e=fb(b[1]),d=be(bP(1,45),e);return[0,d,f]}function
+e=fc(b[1]),d=be(bP(1,45),e);return[0,d,f]}function
 eM(a){var
-b=0,c=0<aS(a)?gx(a):sY;return[0,fb(c),b]}function
-j_(a){switch(a[0]){case
-2:return wP;case
-3:return 2<=a[1]?wQ:wR;case
-4:return wS;default:return wO}}function
-fQ(b,a){function
-c(c,a){return aa(c,j_(a))?fQ(b,a):[0,wY,f(fQ(b,a),wX)]}switch(a[0]){case
+b=0,c=0<aT(a)?gx(a):sZ;return[0,fc(c),b]}function
+ke(a){switch(a[0]){case
+2:return wQ;case
+3:return 2<=a[1]?wR:wS;case
+4:return wT;default:return wP}}function
+fR(b,a){function
+c(c,a){return aa(c,ke(a))?fR(b,a):[0,wZ,g(fR(b,a),wY)]}switch(a[0]){case
 0:var
-e=a[2],g=a[1];if(typeof
-e==="number")return[0,bo(g),0];var
-h=[0,wZ,[0,bo(e),0]];return[0,bo(g),h];case
+e=a[2],f=a[1];if(typeof
+e==="number")return[0,bo(f),0];var
+h=[0,w0,[0,bo(e),0]];return[0,bo(f),h];case
 1:return[0,k(b,a[1]),0];case
-2:return[0,w1,c(w0,a[1])];case
+2:return[0,w2,c(w1,a[1])];case
 3:var
-i=a[3],j=c([0,j_(a)],i);switch(a[1]){case
+i=a[3],j=c([0,ke(a)],i);switch(a[1]){case
 0:var
-d=wT;break;case
-1:var
 d=wU;break;case
+1:var
+d=wV;break;case
 2:var
-d=wV;break;default:var
-d=wW}var
-l=a[2];return f(c(j_(a),l),[0,d,j]);case
+d=wW;break;default:var
+d=wX}var
+l=a[2];return g(c(ke(a),l),[0,d,j]);case
 4:var
-m=[0,w2,j9(a[2])];return f(c(w3,a[1]),m);default:return[0,w5,f(fQ(b,a[1]),w4)]}}function
-N(a){return[0,w8,f(fQ(function(a){return 0===a[0]?a[1]:w7},a),w6)]}function
-j$(a){return[0,w_,f(fQ(function(a){return a},a),w9)]}function
-cP(a){if(0===a[0])return N(a[1]);var
-b=[0,n(w$,N(a[2])),0];return ah([0,n(xa,N(a[1])),b])}function
-hG(b,a){var
+m=[0,w3,kd(a[2])];return g(c(w4,a[1]),m);default:return[0,w6,g(fR(b,a[1]),w5)]}}function
+O(a){return[0,w9,g(fR(function(a){return 0===a[0]?a[1]:w8},a),w7)]}function
+kf(a){return[0,w$,g(fR(function(a){return a},a),w_)]}function
+cP(a){if(0===a[0])return O(a[1]);var
+b=[0,o(xa,O(a[2])),0];return ah([0,o(xb,O(a[1])),b])}function
+hH(b,a){var
 c=[0,k(b,a[3]),0],d=[0,k(b,a[2]),c];return H([0,k(b,a[1]),d])}function
-xb(a){function
-b(a){return hG(cP,a)}switch(a[0]){case
+xc(a){function
+b(a){return hH(cP,a)}switch(a[0]){case
 0:var
-e=0,g=a[5]?xc:xk,h=[0,n(xd,ar(g)),e],i=[0,n(xe,cP(a[4])),h],j=[0,n(xf,b(a[3])),i],k=[0,n(xg,b(a[2])),j],l=[0,n(xh,b(a[1])),k],c=[0,n(xj,ar(xi)),l];break;case
+e=0,f=a[5]?xd:xl,h=[0,o(xe,ar(f)),e],i=[0,o(xf,cP(a[4])),h],j=[0,o(xg,b(a[3])),i],k=[0,o(xh,b(a[2])),j],l=[0,o(xi,b(a[1])),k],c=[0,o(xk,ar(xj)),l];break;case
 1:var
-d=a[3],m=d?[0,n(xl,b(d[1])),0]:d,o=[0,n(xm,b(a[2])),0],p=[0,n(xn,b(a[1])),o],c=f([0,n(xp,ar(xo)),p],m);break;default:var
-q=[0,n(xq,b(a[1])),0],c=[0,n(xs,ar(xr)),q]}return ah(c)}function
-xt(a){function
+d=a[3],m=d?[0,o(xm,b(d[1])),0]:d,n=[0,o(xn,b(a[2])),0],p=[0,o(xo,b(a[1])),n],c=g([0,o(xq,ar(xp)),p],m);break;default:var
+q=[0,o(xr,b(a[1])),0],c=[0,o(xt,ar(xs)),q]}return ah(c)}function
+xu(a){function
 b(a){return H(e(cP,a))}function
-g(a){var
-b=a?xu:xw;return n(xv,ar(b))}switch(a[0]){case
+f(a){var
+b=a?xv:xx;return o(xw,ar(b))}switch(a[0]){case
 0:var
-h=[0,g(a[5]),0],i=[0,n(xx,cP(a[4])),h],j=[0,n(xy,b(a[3])),i],k=[0,n(xz,b(a[2])),j],l=[0,n(xA,b(a[1])),k],c=[0,n(xC,ar(xB)),l];break;case
+h=[0,f(a[5]),0],i=[0,o(xy,cP(a[4])),h],j=[0,o(xz,b(a[3])),i],k=[0,o(xA,b(a[2])),j],l=[0,o(xB,b(a[1])),k],c=[0,o(xD,ar(xC)),l];break;case
 1:var
-d=a[3],m=d?[0,n(xD,b(d[1])),0]:d,o=[0,n(xE,b(a[2])),0],p=[0,n(xF,b(a[1])),o],c=f([0,n(xH,ar(xG)),p],m);break;case
+d=a[3],m=d?[0,o(xE,b(d[1])),0]:d,n=[0,o(xF,b(a[2])),0],p=[0,o(xG,b(a[1])),n],c=g([0,o(xI,ar(xH)),p],m);break;case
 2:var
-q=[0,n(xI,b(a[1])),0],c=[0,n(xK,ar(xJ)),q];break;default:var
-r=[0,g(a[7]),0],s=[0,n(xL,cP(a[6])),r],t=[0,n(xM,cP(a[5])),s],u=[0,n(xN,b(a[4])),t],v=[0,n(xO,b(a[3])),u],w=[0,n(xP,b(a[2])),v],x=[0,n(xQ,b(a[1])),w],c=[0,n(xS,ar(xR)),x]}return ah(c)}function
-ka(a){switch(a){case
-0:return xT;case
-1:return xU;case
-2:return xV;case
-3:return xW;case
-4:return xX;case
-5:return xY;case
-6:return xZ;case
-7:return x0;case
-8:return x1;case
-9:return x2;case
-10:return x3;case
-11:return x4;case
-12:return x5;case
-13:return x6;case
-14:return x7;case
-15:return x8;default:return x9}}function
-kb(a){if(typeof
-a==="number")return x_;else
+q=[0,o(xJ,b(a[1])),0],c=[0,o(xL,ar(xK)),q];break;default:var
+r=[0,f(a[7]),0],s=[0,o(xM,cP(a[6])),r],t=[0,o(xN,cP(a[5])),s],u=[0,o(xO,b(a[4])),t],v=[0,o(xP,b(a[3])),u],w=[0,o(xQ,b(a[2])),v],x=[0,o(xR,b(a[1])),w],c=[0,o(xT,ar(xS)),x]}return ah(c)}function
+kg(a){switch(a){case
+0:return xU;case
+1:return xV;case
+2:return xW;case
+3:return xX;case
+4:return xY;case
+5:return xZ;case
+6:return x0;case
+7:return x1;case
+8:return x2;case
+9:return x3;case
+10:return x4;case
+11:return x5;case
+12:return x6;case
+13:return x7;case
+14:return x8;case
+15:return x9;default:return x_}}function
+kh(a){if(typeof
+a==="number")return x$;else
 switch(a[0]){case
-0:return x$;case
-1:return ya;default:return yb}}function
-fR(a){var
+0:return ya;case
+1:return yb;default:return yc}}function
+fS(a){var
 c=a[4];if(typeof
 c==="number")var
 d=0;else
 switch(c[0]){case
 0:var
-d=[0,n(yc,N(c[1])),0];break;case
+d=[0,o(yd,O(c[1])),0];break;case
 1:var
-d=[0,n(yd,N(c[1])),0];break;default:var
-o=[0,N(c[2]),0],d=[0,n(ye,H([0,N(c[1]),o])),0]}var
-p=[0,n(yf,ar(kb(a[4]))),d],i=a[3];if(i){var
+d=[0,o(ye,O(c[1])),0];break;default:var
+n=[0,O(c[2]),0],d=[0,o(yf,H([0,O(c[1]),n])),0]}var
+p=[0,o(yg,ar(kh(a[4]))),d],i=a[3];if(i){var
 b=i[1];switch(b[0]){case
 0:var
-r=H([0,N(b[1]),0]),k=a[1],q=0,s=6===k?yg:12===k?yk:yl,g=[0,n(yh,Q(s,r)),q];break;case
+r=H([0,O(b[1]),0]),k=a[1],q=0,s=6===k?yh:12===k?yl:ym,f=[0,o(yi,Q(s,r)),q];break;case
 1:var
-x=H(e(N,b[1])),m=a[1],w=0;if(14<=m)switch(m+rd|0){case
+x=H(e(O,b[1])),m=a[1],w=0;if(14<=m)switch(m+re|0){case
 0:var
-h=ym;break;case
+h=yn;break;case
 1:var
-h=yo;break;default:var
-h=yp}else
+h=yp;break;default:var
+h=yq}else
 var
-h=yq;var
-g=[0,n(yn,Q(h,x)),w];break;case
+h=yr;var
+f=[0,o(yo,Q(h,x)),w];break;case
 2:var
-y=[0,n(yr,H([0,N(b[2]),0])),0],g=[0,n(yt,ah([0,n(ys,H([0,N(b[1]),0])),y])),0];break;default:var
-z=[0,n(yu,H([0,N(b[2]),0])),0],g=[0,n(yw,ah([0,n(yv,H([0,N(b[1]),0])),z])),0]}var
-l=g}else
+y=[0,o(ys,H([0,O(b[2]),0])),0],f=[0,o(yu,ah([0,o(yt,H([0,O(b[1]),0])),y])),0];break;default:var
+z=[0,o(yv,H([0,O(b[2]),0])),0],f=[0,o(yx,ah([0,o(yw,H([0,O(b[1]),0])),z])),0]}var
+l=f}else
 var
 l=i;var
-t=f(l,p),j=a[2],u=j?[0,n(yi,cO(j[1])),0]:j,v=f(u,t);return ah([0,n(yj,ar(ka(a[1]))),v])}function
-ph(a){if(0===a[0]){var
-b=[0,n(yx,hG(N,a[2])),0];return Q(yz,ah([0,n(yy,hG(N,a[1])),b]))}var
-c=[0,N(a[5]),0],d=[0,n(yA,H([0,N(a[4]),c])),0],e=[0,n(yB,N(a[3])),d],f=[0,N(a[2]),0];return Q(yD,ah([0,n(yC,H([0,N(a[1]),f])),e]))}function
+t=g(l,p),j=a[2],u=j?[0,o(yj,cO(j[1])),0]:j,v=g(u,t);return ah([0,o(yk,ar(kg(a[1]))),v])}function
 pi(a){if(0===a[0]){var
-b=[0,n(yE,H(e(N,a[2]))),0];return Q(yG,ah([0,n(yF,H(e(N,a[1]))),b]))}return ph([1,a[1],a[2],a[3],a[4],a[5]])}function
-pj(a){switch(a){case
-0:return yH;case
-1:return yI;default:return yJ}}function
-yK(a){function
+b=[0,o(yy,hH(O,a[2])),0];return Q(yA,ah([0,o(yz,hH(O,a[1])),b]))}var
+c=[0,O(a[5]),0],d=[0,o(yB,H([0,O(a[4]),c])),0],e=[0,o(yC,O(a[3])),d],f=[0,O(a[2]),0];return Q(yE,ah([0,o(yD,H([0,O(a[1]),f])),e]))}function
+pj(a){if(0===a[0]){var
+b=[0,o(yF,H(e(O,a[2]))),0];return Q(yH,ah([0,o(yG,H(e(O,a[1]))),b]))}return pi([1,a[1],a[2],a[3],a[4],a[5]])}function
+pk(a){switch(a){case
+0:return yI;case
+1:return yJ;default:return yK}}function
+yL(a){function
 b(a){return H(e(cP,a))}var
-c=[0,n(yL,b(a[2])),0],d=[0,n(yM,b(a[1])),c];return ah([0,n(yO,ar(yN)),d])}function
-pk(a){function
+c=[0,o(yM,b(a[2])),0],d=[0,o(yN,b(a[1])),c];return ah([0,o(yP,ar(yO)),d])}function
+pl(a){function
 b(b,a){var
-c=[0,N(a),0];return H([0,N(b),c])}switch(a[0]){case
-0:return Q(yP,b(a[1],a[2]));case
+c=[0,O(a),0];return H([0,O(b),c])}switch(a[0]){case
+0:return Q(yQ,b(a[1],a[2]));case
 1:var
-c=a[3],d=a[2],e=a[1],f=[0,n(yQ,b(c[1],c[2])),0],g=[0,n(yR,b(d[1],d[2])),f];return Q(yT,ah([0,n(yS,b(e[1],e[2])),g]));case
-2:return Q(yU,N(a[1]));default:var
-h=[0,n(yV,N(a[2])),0];return Q(yX,ah([0,n(yW,N(a[1])),h]))}}function
-yY(a){function
-b(a){return hG(N,a)}if(0===a[0])var
-c=a[5],e=c?[0,n(yZ,b(c[1])),0]:c,g=[0,N(a[4]),0],h=[0,n(y0,H([0,N(a[3]),g])),0],i=[0,n(y1,N(a[2])),h],j=[0,n(y2,cO(a[1])),i],d=f([0,n(y4,ar(y3)),j],e);else
+c=a[3],d=a[2],e=a[1],f=[0,o(yR,b(c[1],c[2])),0],g=[0,o(yS,b(d[1],d[2])),f];return Q(yU,ah([0,o(yT,b(e[1],e[2])),g]));case
+2:return Q(yV,O(a[1]));default:var
+h=[0,o(yW,O(a[2])),0];return Q(yY,ah([0,o(yX,O(a[1])),h]))}}function
+yZ(a){function
+b(a){return hH(O,a)}if(0===a[0])var
+c=a[5],e=c?[0,o(y0,b(c[1])),0]:c,f=[0,O(a[4]),0],h=[0,o(y1,H([0,O(a[3]),f])),0],i=[0,o(y2,O(a[2])),h],j=[0,o(y3,cO(a[1])),i],d=g([0,o(y5,ar(y4)),j],e);else
 var
-k=[0,n(y5,N(a[4])),0],l=[0,n(y6,b(a[3])),k],m=[0,n(y7,b(a[2])),l],o=a[1]?y8:y_,d=[0,n(y9,ar(o)),m];return ah(d)}function
-pl(a){var
-b=a?[0,n(y$,H(e(yY,a))),0]:a;return b}function
-kc(d,c,b,a){var
-g=[0,n(za,H(e(fR,a))),0],h=f(pl(b),g),i=[0,n(zb,ph(c)),0];return ah(f([0,n(zd,Q(zc,H(e(xb,d)))),i],h))}function
-ze(a){switch(a[0]){case
-0:return Q(zf,kc(a[1],a[2],a[3],a[4]));case
+k=[0,o(y6,O(a[4])),0],l=[0,o(y7,b(a[3])),k],m=[0,o(y8,b(a[2])),l],n=a[1]?y9:y$,d=[0,o(y_,ar(n)),m];return ah(d)}function
+pm(a){var
+b=a?[0,o(za,H(e(yZ,a))),0]:a;return b}function
+ki(d,c,b,a){var
+f=[0,o(zb,H(e(fS,a))),0],h=g(pm(b),f),i=[0,o(zc,pi(c)),0];return ah(g([0,o(ze,Q(zd,H(e(xc,d)))),i],h))}function
+zf(a){switch(a[0]){case
+0:return Q(zg,ki(a[1],a[2],a[3],a[4]));case
 1:var
-b=a[5],c=a[3],d=a[1],g=H(e(xt,a[2])),l=[0,n(zg,H(e(fR,a[6]))),0],m=b?[0,n(zh,pk(b[1])),0]:b,o=f(m,l),k=0,p=[0,n(zi,pi(a[4])),o];if(typeof
+b=a[5],c=a[3],d=a[1],f=H(e(xu,a[2])),l=[0,o(zh,H(e(fS,a[6]))),0],m=b?[0,o(zi,pl(b[1])),0]:b,n=g(m,l),k=0,p=[0,o(zj,pj(a[4])),n];if(typeof
 d==="number")if(d)var
-h=zj;else{var
-i=Q(zo,g);k=1}else
+h=zk;else{var
+i=Q(zp,f);k=1}else
 var
-h=pj(d[1]);if(!k)var
-q=c?[0,n(zk,N(c[1])),0]:c,i=Q(h,ah([0,n(zl,g),q]));return Q(zn,ah([0,n(zm,i),p]));case
+h=pk(d[1]);if(!k)var
+q=c?[0,o(zl,O(c[1])),0]:c,i=Q(h,ah([0,o(zm,f),q]));return Q(zo,ah([0,o(zn,i),p]));case
 2:var
-r=[0,n(zp,H(e(fR,a[7]))),0],s=f(pl(a[6]),r),t=[0,n(zq,pk(a[5])),0],u=[0,n(zr,pi(a[4])),t],v=[0,n(zs,N(a[3])),0],w=ah([0,n(zt,H(e(yK,a[2]))),v]);return Q(zv,ah(f([0,n(zu,Q(pj(a[1]),w)),u],s)));case
+r=[0,o(zq,H(e(fS,a[7]))),0],s=g(pm(a[6]),r),t=[0,o(zr,pl(a[5])),0],u=[0,o(zs,pj(a[4])),t],v=[0,o(zt,O(a[3])),0],w=ah([0,o(zu,H(e(yL,a[2]))),v]);return Q(zw,ah(g([0,o(zv,Q(pk(a[1]),w)),u],s)));case
 3:var
-x=[0,n(zw,H(e(fR,a[7]))),0],y=[0,n(zx,H(e(N,a[6]))),0],z=[0,n(zA,Q(zz,ah([0,n(zy,H(e(N,a[5]))),y]))),x],A=0,B=a[4],C=[0,n(zD,H(e(function(a){return 0===a[0]?Q(zB,H(e(j$,a[1]))):Q(zC,j$(a[1]))},B))),A],D=a[3],E=[0,n(zE,H(e(function(a){var
-b=[0,j$(a[2]),0];return H([0,ar(a[1]),b])},D))),C],F=a[2],G=[0,n(zF,H(e(function(a){var
-b=[0,cP(a[2]),0];return H([0,ar(a[1]),b])},F))),E];return Q(zJ,ah([0,n(zI,Q(zH,ah([0,n(zG,H(e(ar,a[1]))),G]))),z]));case
+x=[0,o(zx,H(e(fS,a[7]))),0],y=[0,o(zy,H(e(O,a[6]))),0],z=[0,o(zB,Q(zA,ah([0,o(zz,H(e(O,a[5]))),y]))),x],A=0,B=a[4],C=[0,o(zE,H(e(function(a){return 0===a[0]?Q(zC,H(e(kf,a[1]))):Q(zD,kf(a[1]))},B))),A],D=a[3],E=[0,o(zF,H(e(function(a){var
+b=[0,kf(a[2]),0];return H([0,ar(a[1]),b])},D))),C],F=a[2],G=[0,o(zG,H(e(function(a){var
+b=[0,cP(a[2]),0];return H([0,ar(a[1]),b])},F))),E];return Q(zK,ah([0,o(zJ,Q(zI,ah([0,o(zH,H(e(ar,a[1]))),G]))),z]));case
 4:var
-I=[0,n(zK,H(e(fR,a[3]))),0],J=[0,n(zN,Q(zM,ah([0,n(zL,N(a[2])),0]))),I];return Q(zR,ah([0,n(zQ,Q(zP,ah([0,n(zO,N(a[1])),0]))),J]));case
+I=[0,o(zL,H(e(fS,a[3]))),0],J=[0,o(zO,Q(zN,ah([0,o(zM,O(a[2])),0]))),I];return Q(zS,ah([0,o(zR,Q(zQ,ah([0,o(zP,O(a[1])),0]))),J]));case
 5:var
-K=[0,n(zS,N(a[5])),0];return Q(zU,ah([0,n(zT,kc(a[1],[0,a[2],a[3]],0,a[4])),K]));case
+K=[0,o(zT,O(a[5])),0];return Q(zV,ah([0,o(zU,ki(a[1],[0,a[2],a[3]],0,a[4])),K]));case
 6:var
-j=a[1],L=0,M=j?cP(j[1]):ar(zX);return Q(zW,ah([0,n(zV,M),L]));default:var
-O=[0,n(zY,N(a[6])),0],P=[0,n(zZ,N(a[5])),O],R=[0,n(z0,kc(a[2],a[3],0,a[4])),P],S=a[1];return Q(z5,ah([0,n(z4,H(e(function(a){var
-b=[0,n(z1,N(a[2][2])),0],c=[0,n(z2,N(a[2][1])),b];return ah([0,n(z3,ar(a[1])),c])},S))),R]))}}function
-dT(a){return H(e(fP,a))}function
-fS(b,a){var
-c=[0,n(z6,eM(a)),0];return ah([0,n(z7,H(e(dT,b))),c])}function
+j=a[1],L=0,M=j?cP(j[1]):ar(zY);return Q(zX,ah([0,o(zW,M),L]));default:var
+N=[0,o(zZ,O(a[6])),0],P=[0,o(z0,O(a[5])),N],R=[0,o(z1,ki(a[2],a[3],0,a[4])),P],S=a[1];return Q(z6,ah([0,o(z5,H(e(function(a){var
+b=[0,o(z2,O(a[2][2])),0],c=[0,o(z3,O(a[2][1])),b];return ah([0,o(z4,ar(a[1])),c])},S))),R]))}}function
+dT(a){return H(e(fQ,a))}function
+fT(b,a){var
+c=[0,o(z7,eM(a)),0];return ah([0,o(z8,H(e(dT,b))),c])}function
 dj(a){switch(a[0]){case
 0:return ar(a[1]);case
 1:var
-b=fS(a[2],a[3]);return Q(a[1],b);case
+b=fT(a[2],a[3]);return Q(a[1],b);case
 2:var
-c=a[1]?z8:z_;return Q(z9,ar(c));case
+c=a[1]?z9:z$;return Q(z_,ar(c));case
 3:var
-d=[0,dT(a[3]),0];return Q(z$,H([0,fS(a[1],a[2]),d]));case
+d=[0,dT(a[3]),0];return Q(Aa,H([0,fT(a[1],a[2]),d]));case
 4:var
-f=[0,eM(a[4]),0],g=[0,fP(a[3]),f];return Q(Aa,H([0,fS(a[1],a[2]),g]));case
+f=[0,eM(a[4]),0],g=[0,fQ(a[3]),f];return Q(Ab,H([0,fT(a[1],a[2]),g]));case
 5:var
-h=[0,eM(a[3]),0],i=[0,fP(a[2]),h];return Q(Ab,H([0,dj(a[1]),i]));case
+h=[0,eM(a[3]),0],i=[0,fQ(a[2]),h];return Q(Ac,H([0,dj(a[1]),i]));case
 6:var
-j=[0,eM(a[3]),0],k=[0,fP(a[2]),j];return Q(Ac,H([0,dj(a[1]),k]));case
-7:return Q(Ad,dj(a[1]));case
+j=[0,eM(a[3]),0],k=[0,fQ(a[2]),j];return Q(Ad,H([0,dj(a[1]),k]));case
+7:return Q(Ae,dj(a[1]));case
 8:var
-l=[0,H(e(dT,a[3])),0],m=[0,ar(a[2]),l];return Q(Ae,H([0,dj(a[1]),m]));case
+l=[0,H(e(dT,a[3])),0],m=[0,ar(a[2]),l];return Q(Af,H([0,dj(a[1]),m]));case
 9:var
-n=a[1];return Q(Af,H(e(function(a){var
-b=a[1],c=b[1],d=[0,dj(a[2]),0],e=[0,eM(b[2]),d],f=[0,fP(c[2]),e];return H([0,dT(c[1]),f])},n)));default:var
-o=[0,dj(a[4]),0],p=[0,dj(a[3]),o],q=[0,eM(a[2]),p];return Q(Ag,H([0,dT(a[1]),q]))}}function
-Ah(a){var
+n=a[1];return Q(Ag,H(e(function(a){var
+b=a[1],c=b[1],d=[0,dj(a[2]),0],e=[0,eM(b[2]),d],f=[0,fQ(c[2]),e];return H([0,dT(c[1]),f])},n)));default:var
+o=[0,dj(a[4]),0],p=[0,dj(a[3]),o],q=[0,eM(a[2]),p];return Q(Ah,H([0,dT(a[1]),q]))}}function
+Ai(a){var
 b=[0,dj(a[2]),0];return H([0,cO(a[1]),b])}function
-pm(a){if(typeof
-a==="number")return 0===a?ar(Ai):ar(Aj);else
+pn(a){if(typeof
+a==="number")return 0===a?ar(Aj):ar(Ak);else
 switch(a[0]){case
 0:var
-b=[0,H(e(dT,a[2])),0];return Q(Ak,H([0,cO(a[1]),b]));case
+b=[0,H(e(dT,a[2])),0];return Q(Al,H([0,cO(a[1]),b]));case
 1:var
-c=[0,cO(a[2]),0];return Q(Al,H([0,cO(a[1]),c]));case
-2:return Q(Am,H(e(N,a[1])));default:var
-d=[0,n(An,fS(a[4],a[5])),0],f=[0,n(Ao,H(e(N,a[3]))),d],g=[0,n(Ap,H(e(N,a[2]))),f];return Q(Ar,ah([0,n(Aq,cO(a[1])),g]))}}function
-As(a){var
-b=a[4],h=b?[0,n(At,dT([0,b[1],b[2]])),0]:b,d=a[3],i=d?[0,n(Au,pm(d[1])),0]:d,j=f(i,h),g=a[2],k=g?[0,n(Av,cO(g[1])),0]:g,l=f(k,j),c=a[1],m=c?[0,n(Aw,H(e(Ah,[0,c[1],c[2]]))),0]:c;return ah(f(m,l))}function
-pn(g,a,d){var
-h=[0,n(Ax,H(e(As,d))),0];if(a)var
-b=a[1],c=[0,n(Ay,fS(b[1],b[2])),0];else
+c=[0,cO(a[2]),0];return Q(Am,H([0,cO(a[1]),c]));case
+2:return Q(An,H(e(O,a[1])));default:var
+d=[0,o(Ao,fT(a[4],a[5])),0],f=[0,o(Ap,H(e(O,a[3]))),d],g=[0,o(Aq,H(e(O,a[2]))),f];return Q(As,ah([0,o(Ar,cO(a[1])),g]))}}function
+At(a){var
+b=a[4],h=b?[0,o(Au,dT([0,b[1],b[2]])),0]:b,d=a[3],i=d?[0,o(Av,pn(d[1])),0]:d,j=g(i,h),f=a[2],k=f?[0,o(Aw,cO(f[1])),0]:f,l=g(k,j),c=a[1],m=c?[0,o(Ax,H(e(Ai,[0,c[1],c[2]]))),0]:c;return ah(g(m,l))}function
+po(f,a,d){var
+h=[0,o(Ay,H(e(At,d))),0];if(a)var
+b=a[1],c=[0,o(Az,fT(b[1],b[2])),0];else
 var
 c=a;var
-i=f(c,h);return ah([0,n(Az,j9(g)),i])}function
-po(d,c,a,b){var
-g=[0,n(AA,pm(b)),0],h=a?[0,n(AB,H(e(N,a))),0]:a,i=f(h,g),j=[0,n(AC,H(e(N,c))),0];return ah(f([0,n(AD,j9(d)),j],i))}function
-AE(a){if(typeof
-a==="number")return ar(AF);else
+i=g(c,h);return ah([0,o(AA,kd(f)),i])}function
+pp(d,c,a,b){var
+f=[0,o(AB,pn(b)),0],h=a?[0,o(AC,H(e(O,a))),0]:a,i=g(h,f),j=[0,o(AD,H(e(O,c))),0];return ah(g([0,o(AE,kd(d)),j],i))}function
+AF(a){if(typeof
+a==="number")return ar(AG);else
 switch(a[0]){case
-0:return Q(AG,cO(a[1]));case
-1:return Q(AH,pn(a[1],a[2],a[3]));default:return Q(AI,po(a[1],a[2],a[3],a[4]))}}function
-hH(a){var
-b=ix(iw(az(a),function(b){return a8(a,b)}));return l(function(a){var
-b=J(34===a?1:0),c=b?J(92===a?1:0):b,d=c?aa(AX,gz(a)):c;return d?aa(gz(a),AY):d},b)}function
-kd(d){var
+0:return Q(AH,cO(a[1]));case
+1:return Q(AI,po(a[1],a[2],a[3]));default:return Q(AJ,pp(a[1],a[2],a[3],a[4]))}}function
+hI(a){var
+b=iz(iy(az(a),function(b){return a9(a,b)}));return l(function(a){var
+b=I(34===a?1:0),c=b?I(92===a?1:0):b,d=c?aa(AY,gA(a)):c;return d?aa(gA(a),AZ):d},b)}function
+kj(d){var
 a=d;for(;;)switch(a[0]){case
 8:var
-b=hH(a[2]);if(b){var
+b=hI(a[2]);if(b){var
 a=a[1];continue}return b;case
 9:var
-e=a[1];return l(function(a){return kd(a[2])},e);case
+e=a[1];return l(function(a){return kj(a[2])},e);case
 10:var
-c=kd(a[3]);if(c){var
+c=kj(a[3]);if(c){var
 a=a[4];continue}return c;case
 0:case
-1:return hH(a[1]);case
-2:case
-3:case
-4:return 1;default:var
-a=a[1];continue}}function
-fT(b){function
+1:return hI(a[1]);case
+5:case
+6:case
+7:var
+a=a[1];continue;default:return 1}}function
+fU(b){function
 c(f){var
-a=gz(f),b=aa(AZ,a),c=b?aa(a,A0):b;if(c)var
+a=gA(f),b=aa(A0,a),c=b?aa(a,A1):b;if(c)var
 d=c;else{var
-e=aa(A1,a);if(e)return aa(a,A2);var
+e=aa(A2,a);if(e)return aa(a,A3);var
 d=e}return d}var
-a=ix(iw(az(b),function(a){return a8(b,a)}));if(a){var
-d=a[2],e=c(a[1]),f=e?l(function(a){var
+a=iz(iy(az(b),function(a){return a9(b,a)}));if(a){var
+d=a[2],e=c(a[1]),g=e?l(function(a){var
 b=c(a);if(b)var
 d=b;else
 var
-e=gz(a),f=aa(A3,e),h=f?aa(e,A4):f,d=h;var
-g=d||(95===a?1:0);return g},d):e,h=f?aa(g(d),A5):f;if(h)return J(aB(b,A6));var
+e=gA(a),f=aa(A4,e),h=f?aa(e,A5):f,d=h;var
+g=d||(95===a?1:0);return g},d):e,h=g?aa(f(d),A6):g;if(h)return I(aB(b,A7));var
 i=h}else
 var
 i=a;return i}function
-ke(c){var
+kk(c){var
 a=c;for(;;)switch(a[0]){case
 0:return 1;case
-1:return fT(a[1]);case
+1:return fU(a[1]);case
 3:var
-b=ke(a[2]);if(b){var
+b=kk(a[2]);if(b){var
 a=a[3];continue}return b;default:var
 a=a[1];continue}}function
-fU(m){var
+fV(m){var
 a=m;for(;;)switch(a[0]){case
 0:var
 e=a[1];if(typeof
@@ -6267,31 +6277,31 @@ var
 g=d;return g;case
 1:return 1;case
 3:var
-i=fU(a[2]);if(i){var
+i=fV(a[2]);if(i){var
 a=a[3];continue}return i;case
 4:var
-j=a[2],k=fU(a[1]),l=k?gv(c(2,b),j):k;return l?gv(j,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):l;default:var
+j=a[2],k=fV(a[1]),l=k?gv(c(2,b),j):k;return l?gv(j,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):l;default:var
 a=a[1];continue}}function
 eN(a){return 0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
 b2(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
 dU(a){return z(eN,b2(a))}function
-kf(a){switch(a[0]){case
+kl(a){switch(a[0]){case
 0:var
-c=eN(a[4]),d=f(dU(a[3]),c),e=f(dU(a[2]),d);return f(dU(a[1]),e);case
+c=eN(a[4]),d=g(dU(a[3]),c),e=g(dU(a[2]),d);return g(dU(a[1]),e);case
 1:var
-b=a[3],g=b?dU(b[1]):b,h=f(dU(a[2]),g);return f(dU(a[1]),h);default:return dU(a[1])}}function
-A7(a){switch(a[0]){case
+b=a[3],f=b?dU(b[1]):b,h=g(dU(a[2]),f);return g(dU(a[1]),h);default:return dU(a[1])}}function
+A8(a){switch(a[0]){case
 0:var
-d=f(a[3],[0,a[4],0]),e=f(a[2],d),b=f(a[1],e);break;case
+d=g(a[3],[0,a[4],0]),e=g(a[2],d),b=g(a[1],e);break;case
 1:var
-c=a[3],g=c?c[1]:c,h=f(a[2],g),b=f(a[1],h);break;case
+c=a[3],f=c?c[1]:c,h=g(a[2],f),b=g(a[1],h);break;case
 2:var
 b=a[1];break;default:var
-i=f(a[4],[0,a[5],[0,a[6],0]]),j=f(a[3],i),k=f(a[2],j),b=f(a[1],k)}return z(eN,b)}function
-pp(a){return 0===a[0]?f(a[1],a[2]):[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
-pq(a){if(0===a[0]){var
-b=b2(a[2]);return f(b2(a[1]),b)}return[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
-pr(a){switch(a[0]){case
+i=g(a[4],[0,a[5],[0,a[6],0]]),j=g(a[3],i),k=g(a[2],j),b=g(a[1],k)}return z(eN,b)}function
+pq(a){return 0===a[0]?g(a[1],a[2]):[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
+pr(a){if(0===a[0]){var
+b=b2(a[2]);return g(b2(a[1]),b)}return[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
+ps(a){switch(a[0]){case
 1:var
 b=a[3],c=a[2],d=a[1];return[0,d[1],[0,d[2],[0,c[1],[0,c[2],[0,b[1],[0,b[2],0]]]]]];case
 2:return[0,a[1],0];default:return[0,a[1],[0,a[2],0]]}}function
@@ -6304,34 +6314,34 @@ d=[0,b[1],0];break;case
 1:var
 d=b[1];break;default:var
 d=[0,b[1],[0,b[2],0]]}var
-g=d}else
+f=d}else
 var
-g=c;return f(g,h)}function
-ps(a){if(0===a[0]){var
+f=c;return g(f,h)}function
+pt(a){if(0===a[0]){var
 b=a[5],c=b?b2(b[1]):b;return[0,a[2],[0,a[3],[0,a[4],c]]]}var
-d=[0,a[4],0],e=f(b2(a[3]),d);return f(b2(a[2]),e)}function
-pt(b,e){var
+d=[0,a[4],0],e=g(b2(a[3]),d);return g(b2(a[2]),e)}function
+pu(b,e){var
 a=e;for(;;)switch(a[0]){case
 0:return 1;case
 1:var
 c=a[1];if(0===c[0]){var
 f=c[1];return aj(function(a){return aB(f,a)},b)}return 0;case
 3:var
-d=pt(b,a[2]);if(d){var
+d=pu(b,a[2]);if(d){var
 a=a[3];continue}return d;default:var
 a=a[1];continue}}function
-fV(c,a){return l(function(a){var
-b=fU(a);return b?pt(c,a):b},a)}function
-pu(a){if(typeof
+fW(c,a){return l(function(a){var
+b=fV(a);return b?pu(c,a):b},a)}function
+pv(a){if(typeof
 a!=="number")switch(a[0]){case
 2:return a[1];case
-3:return f(a[2],a[3])}return 0}function
-pv(a){var
+3:return g(a[2],a[3])}return 0}function
+pw(a){var
 d=gv(c(2,c(2,c(2,c(2,c(2,b))))),a);return d?gv(a,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b))))))))))):d}function
-pw(a,b){return b?[4,pw(a,b[1]),a]:a}function
+px(a,b){return b?[4,px(a,b[1]),a]:a}function
 j(a){switch(a[0]){case
 0:var
-i=a[2],k=c(2,q(c(2,c(2,b)))),l=function(a){return C(k,a)},m=gp(lx(i),l,b);return[0,lK(ly(go(a[1]),i)),m];case
+i=a[2],k=c(2,q(c(2,c(2,b)))),l=function(a){return C(k,a)},m=gp(lC(i),l,b);return[0,lP(lD(go(a[1]),i)),m];case
 1:var
 e=a[1];return 0===e[0]?[5,[0,b,b],[0,d,b]]:[1,e[1],e[2],e[3]];case
 2:var
@@ -6342,18 +6352,18 @@ g=j(a[2]),h=j(a[3]);switch(a[1]){case
 1:return[3,g,h];case
 2:return[4,g,h];default:return[5,g,h]}case
 4:var
-n=bn(e_(a[2]));return pw(j(a[1]),n);default:return[6,j(a[1])]}}function
+n=bn(e$(a[2]));return px(j(a[1]),n);default:return[6,j(a[1])]}}function
 b3(a){if(0===a[0]){var
 b=j(a[1]);return[0,b,b]}var
 c=j(a[2]);return[0,j(a[1]),c]}function
 dW(a){var
 b=b3(a[3]),c=b3(a[2]);return[0,b3(a[1]),c,b]}function
-A8(a){switch(a[0]){case
+A9(a){switch(a[0]){case
 0:var
 b=a[5],c=b3(a[4]),d=dW(a[3]),e=dW(a[2]);return[0,[0,dW(a[1]),e,d,c,b]];case
 1:var
 f=y(dW,a[3]),g=dW(a[2]);return[1,dW(a[1]),g,f];default:return[2,dW(a[1])]}}function
-px(a){if(0===a[0]){var
+py(a){if(0===a[0]){var
 c=a[2],d=a[1],b=function(a){var
 b=j(k(a,c));return[0,j(k(a,d)),b]},e=b(function(a){return a[3]}),f=b(function(a){return a[2]});return[0,[0,b(function(a){return a[1]}),f,e]]}var
 g=j(a[5]),h=[0,j(a[4]),g],i=j(a[3]),l=j(a[2]);return[1,j(a[1]),l,i,h]}function
@@ -6364,13 +6374,13 @@ c=a[5],h=c?eO(c[1]):[0,[0,d,b],[0,d,b],[0,d,b]],i=j(a[4]),k=j(a[3]),l=j(a[2]);re
 e=a[4],f=a[3],g=a[2];if(a[1]){var
 m=eO(f),n=eO(g);return[2,j(e),n,m]}var
 o=eO(f),p=eO(g);return[1,j(e),p,o]}function
-hI(b,a){if(a){var
-c=a[1],d=a[2],g=hI(f(b,[0,c,0]),d),h=e(function(a){return[0,c,a]},b);return f(a1(function(c){var
-a=c[2],b=c[1],d=0===b[0]?b[5]?0:0===a[0]?a[5]?0:o(b[1],a[1]):0:0===a[0]?0:cv(b[1],a[1]);return J(d)},h),g)}return a}function
-A9(b){if(b[1])return 0;var
+hJ(b,a){if(a){var
+c=a[1],d=a[2],f=hJ(g(b,[0,c,0]),d),h=e(function(a){return[0,c,a]},b);return g(a1(function(c){var
+a=c[2],b=c[1],d=0===b[0]?b[5]?0:0===a[0]?a[5]?0:n(b[1],a[1]):0:0===a[0]?0:cv(b[1],a[1]);return I(d)},h),f)}return a}function
+A_(b){if(b[1])return 0;var
 a=b[4];if(typeof
 a!=="number"&&1===a[0])return[0,[0,j(a[1])],0];return 0}function
-py(N,M,a){switch(a[1]){case
+pz(N,M,a){switch(a[1]){case
 0:var
 g=a[4];if(typeof
 g!=="number"&&0===g[0])return[0,[1,j(g[1])],0];return 0;case
@@ -6401,9 +6411,9 @@ T=l[1],c=function(a){return[6,a,j(T)]};if(J)return 0;break;case
 m=a[4];if(typeof
 m!=="number"&&0===m[0])return[0,[7,j(m[1])],0];return 0;case
 6:var
-n=a[4];if(typeof
-n!=="number"&&0===n[0]){var
-D=n[1],p=a[3];if(p){var
+o=a[4];if(typeof
+o!=="number"&&0===o[0]){var
+D=o[1],p=a[3];if(p){var
 q=p[1];switch(q[0]){case
 0:var
 U=j(D);return[0,[8,j(q[1]),U],0];case
@@ -6425,12 +6435,12 @@ b=j(W);return[13,a,j(X),b]}}if(K)return 0;break;case
 9:var
 u=a[4];if(typeof
 u!=="number"&&0===u[0]){var
-Y=u[1],Z=hI(0,M);return e(function(h){var
+Y=u[1],Z=hJ(0,M);return e(function(h){var
 e=j(Y),a=h[2],c=h[1];if(0===c[0]){var
 f=c[1];if(0===a[0]){var
-g=function(a){return a?eO(a[1]):[0,[0,d,b],[0,d,b],[0,d,b]]};if(o(f,a[1])){var
+g=function(a){return a?eO(a[1]):[0,[0,d,b],[0,d,b],[0,d,b]]};if(n(f,a[1])){var
 i=j(a[2]),k=[2,[2,j(c[2]),i],e],l=g(a[5]),m=g(c[5]);return[11,bn(f),m,l,k]}var
-n=dk(a);return[10,dk(c),n,e]}var
+o=dk(a);return[10,dk(c),o,e]}var
 p=dk(a);return[10,dk(c),p,e]}var
 q=dk(a);return[10,dk(c),q,e]},Z)}return 0;case
 10:var
@@ -6442,7 +6452,7 @@ $=x[2],aa=x[1],c=function(a){var
 b=j(_),c=j($);return[12,a,j(aa),c,b]}}if(L)return 0;break;case
 11:var
 G=typeof
-a[4]==="number"?1:0,ab=G?A_:G;return ab;case
+a[4]==="number"?1:0,ab=G?A$:G;return ab;case
 12:var
 y=a[4];if(typeof
 y!=="number"&&1===y[0]){var
@@ -6450,15 +6460,15 @@ z=a[3];if(z){var
 H=z[1];if(0===H[0]){var
 ac=j(y[1]);return[0,[14,j(H[1]),ac],0]}return 0}return z}return 0;default:return 0}var
 B=a[2],P=B?[0,bn(B[1]),0]:aC(0,N);return e(c,P)}function
-A$(c,a){switch(a[1]){case
+Ba(c,a){switch(a[1]){case
 0:var
 l=a[4];if(typeof
 l!=="number"&&2!==l[0])return a[2]?0:a[3]?0:1;return 0;case
 1:var
 K=0,m=a[4];if(typeof
 m==="number"||2===m[0])K=1;else{var
-n=a[2];if(!n)return a[3]?0:1;if(a[3])return 0;var
-b=n[1]}if(K)return 0;break;case
+o=a[2];if(!o)return a[3]?0:1;if(a[3])return 0;var
+b=o[1]}if(K)return 0;break;case
 2:var
 L=0,q=a[4];if(typeof
 q==="number"||!(1===q[0]))L=1;else{var
@@ -6480,13 +6490,13 @@ v!=="number"&&0===v[0])return a[2]?0:a[3]?0:1;return 0;case
 6:var
 w=a[4];if(typeof
 w!=="number"&&0===w[0]){if(a[2])return 0;var
-f=a[3];if(f){var
-x=f[1];switch(x[0]){case
+g=a[3];if(g){var
+x=g[1];switch(x[0]){case
 0:return 1;case
-1:return o(g(x[1]),c);default:var
+1:return n(f(x[1]),c);default:var
 y=0}}else
 var
-y=f;return y}return 0;case
+y=g;return y}return 0;case
 7:var
 z=a[4];if(typeof
 z!=="number"&&0===z[0])return a[2]?0:a[3]?0:1;return 0;case
@@ -6494,7 +6504,7 @@ z!=="number"&&0===z[0])return a[2]?0:a[3]?0:1;return 0;case
 N=0,A=a[4];if(typeof
 A==="number"||!(1===A[0]))N=1;else{var
 h=a[3];if(!h)return h;if(0!==h[1][0])return 0;var
-B=o(c,Bb),O=0;if(B){var
+B=n(c,Bc),O=0;if(B){var
 C=a[2];if(C){var
 b=C[1];O=1}else
 var
@@ -6520,17 +6530,17 @@ I=H;return I;case
 12:var
 J=a[4];if(typeof
 J!=="number"&&1===J[0]){if(a[2])return 0;var
-k=a[3];return k?0===k[1][0]?o(c,Bc):0:k}return 0;default:return 0}var
-p=aa(Ba,b);return p?aa(b,c):p}function
-hJ(c,k,j,b){var
-l=g(c),d=z(function(a){return py(l,j,a)},b),a=z(A9,b),h=a?[0,a[1],a[2]]:Bd,i=f(h,d),m=px(k);return[0,e(A8,c),m,i]}function
-pz(b){if(b[1])return 0;var
+k=a[3];return k?0===k[1][0]?n(c,Bd):0:k}return 0;default:return 0}var
+p=aa(Bb,b);return p?aa(b,c):p}function
+hK(c,k,j,b){var
+l=f(c),d=z(function(a){return pz(l,j,a)},b),a=z(A_,b),h=a?[0,a[1],a[2]]:Be,i=g(h,d),m=py(k);return[0,e(A9,c),m,i]}function
+pA(b){if(b[1])return 0;var
 a=b[4];if(typeof
 a!=="number"&&1===a[0])return[0,[0,j(a[1])],0];return 0}function
-pA(c){function
+pB(c){function
 a(a){return r(a,e(j,c),[0,d,b])}var
-f=a(Be),g=a(Bf);return[0,a(0),g,f]}function
-hK(_,G,Z,a){switch(a[1]){case
+f=a(Bf),g=a(Bg);return[0,a(0),g,f]}function
+hL(_,G,Z,a){switch(a[1]){case
 0:var
 h=a[4];if(typeof
 h!=="number"&&0===h[0])return[0,[1,j(h[1])],0];return 0;case
@@ -6541,7 +6551,7 @@ switch(f[0]){case
 0:var
 $=f[1],c=function(a){return[2,a,j($)]};break;case
 1:var
-ac=f[1],c=function(a){return[3,a,j(ac)]};break;default:var
+ab=f[1],c=function(a){return[3,a,j(ab)]};break;default:var
 ad=f[2],ae=f[1],c=function(a){var
 b=j(ad);return[4,a,j(ae),b]}}break;case
 2:var
@@ -6568,7 +6578,7 @@ o!=="number"&&0===o[0]){var
 J=o[1],p=a[3];if(p){var
 q=p[1];switch(q[0]){case
 0:var
-ai=j(J);return[0,[8,ab(j(q[1]),G),ai],0];case
+ai=j(J);return[0,[8,ac(j(q[1]),G),ai],0];case
 1:var
 aj=j(J);return[0,[8,e(j,q[1]),aj],0];default:var
 K=0}}else
@@ -6584,7 +6594,7 @@ b=j(ak);return[7,a,j(al),b]}}if(T)return 0;break;case
 9:var
 t=a[4];if(typeof
 t!=="number"&&0===t[0]){var
-am=t[1],an=hI(0,Z);return e(function(a){var
+am=t[1],an=hJ(0,Z);return e(function(a){var
 b=j(am),c=dk(a[2]);return[14,dk(a[1]),c,b]},an)}return 0;case
 10:var
 u=a[4],U=0;if(typeof
@@ -6616,14 +6626,14 @@ A==="number"||!(1===A[0]))W=1;else{var
 B=a[3],av=A[1];if(!B)return B;var
 O=B[1];if(1!==O[0])return 0;var
 aw=O[1],c=function(a){var
-b=j(av);return[13,a,0,pA(aw),b]}}if(W)return 0;break;case
+b=j(av);return[13,a,0,pB(aw),b]}}if(W)return 0;break;case
 15:var
 C=a[4],X=0;if(typeof
 C==="number"||!(1===C[0]))X=1;else{var
 D=a[3],ax=C[1];if(!D)return D;var
 P=D[1];if(1!==P[0])return 0;var
 ay=P[1],c=function(a){var
-b=j(ax);return[13,a,1,pA(ay),b]}}if(X)return 0;break;case
+b=j(ax);return[13,a,1,pB(ay),b]}}if(X)return 0;break;case
 16:var
 E=a[4],Y=0;if(typeof
 E==="number"||!(1===E[0]))Y=1;else{var
@@ -6633,7 +6643,7 @@ aA=Q[1],c=function(a){var
 b=j(az);return[17,a,e(j,aA),b]}}if(Y)return 0;break;default:return 0}var
 H=a[2],aa=H?[0,bn(H[1]),0]:aC(0,G);return e(c,aa)}function
 eP(e,d,c,b){var
-g=z(function(a){return hK(e,d,c,a)},b),a=z(pz,b),h=a?[0,a[1],a[2]]:Bg;return f(h,g)}function
+f=z(function(a){return hL(e,d,c,a)},b),a=z(pA,b),h=a?[0,a[1],a[2]]:Bh;return g(h,f)}function
 cQ(a){return 11===a[1]?1:0}function
 cm(n,m,a){var
 b=a[1];if(!(4<=b))switch(b){case
@@ -6647,16 +6657,16 @@ e=1;l=1}if(!l)var
 e=0;var
 f=cv(n,e);if(f){var
 g=a[2];if(g){var
-h=g[1],i=aa(Bh,h);return i?aa(h,m):i}var
+h=g[1],i=aa(Bi,h);return i?aa(h,m):i}var
 j=1}else
 var
 j=f;return j;case
 3:var
 k=a[4];if(typeof
 k!=="number"&&1===k[0])return a[2]?0:a[3]?0:1;return 0}return 0}function
-a6(s,b,a){var
+a7(s,b,a){var
 d=a[2];if(d)var
-e=d[1],f=aa(Bi,e),t=f?aa(e,b):f,c=t;else
+e=d[1],g=aa(Bj,e),t=g?aa(e,b):g,c=t;else
 var
 c=1;var
 h=a[1];if(!(9<=h))switch(h){case
@@ -6671,59 +6681,59 @@ l=a[3];if(l){var
 m=l[1];switch(m[0]){case
 0:return a[2]?0:1;case
 1:var
-n=o(g(m[1]),b);if(n){if(a[2])return 0;var
+o=n(f(m[1]),b);if(o){if(a[2])return 0;var
 p=1}else
 var
-p=n;return p;default:return cm(0,b,a)}}return cm(0,b,a)}return cm(0,b,a);case
+p=o;return p;default:return cm(0,b,a)}}return cm(0,b,a)}return cm(0,b,a);case
 8:var
 q=a[4];if(typeof
 q!=="number"&&1===q[0]){var
-r=a[3];return r?0===r[1][0]?c?o(b,s):c:cm(0,b,a):cm(0,b,a)}return cm(0,b,a)}return cm(0,b,a)}function
+r=a[3];return r?0===r[1][0]?c?n(b,s):c:cm(0,b,a):cm(0,b,a)}return cm(0,b,a)}return cm(0,b,a)}function
 aE(c,b,a){return 11===a[1]?typeof
-a[4]==="number"?a[2]?a6(c,b,a):a[3]?a6(c,b,a):1:a6(c,b,a):a6(c,b,a)}function
-pB(f,b,c,a){var
+a[4]==="number"?a[2]?a7(c,b,a):a[3]?a7(c,b,a):1:a7(c,b,a):a7(c,b,a)}function
+pC(g,b,c,a){var
 h=a[2];if(h)var
-i=h[1],j=aa(Bk,i),E=j?aa(i,c):j,d=E;else
+i=h[1],j=aa(Bl,i),E=j?aa(i,c):j,d=E;else
 var
 d=1;switch(a[1]){case
-1:if(a[3])return a6(at(b),c,a);if(d){var
+1:if(a[3])return a7(at(b),c,a);if(d){var
 D=0,k=a[4];if(typeof
 k!=="number"&&2===k[0]){var
 l=1;D=1}if(!D)var
-l=0;return cv(f,l)}return d;case
+l=0;return cv(g,l)}return d;case
 4:var
 m=a[4];if(typeof
-m!=="number"&&0===m[0])return a[3]?a6(at(b),c,a):d;return a6(at(b),c,a);case
+m!=="number"&&0===m[0])return a[3]?a7(at(b),c,a):d;return a7(at(b),c,a);case
 5:var
-n=a[4];if(typeof
-n!=="number"&&0===n[0]){if(a[3])return a6(at(b),c,a);var
-p=o(c,at(b));if(p){var
+o=a[4];if(typeof
+o!=="number"&&0===o[0]){if(a[3])return a7(at(b),c,a);var
+p=n(c,at(b));if(p){var
 q=typeof
 b==="number"?1:0;if(q){if(a[2])return 0;var
 e=1}else
 var
 e=q}else
 var
-e=p;return e}return a6(at(b),c,a);case
+e=p;return e}return a7(at(b),c,a);case
 12:var
 r=a[4];if(typeof
 r!=="number"&&1===r[0]){var
 s=a[3];if(s){var
-t=s[1],u=o(c,at(b));return u?typeof
-b==="number"?a[2]?0:0===t[0]?1:0:a[2]?0:3===t[0]?1:0:u}return a6(at(b),c,a)}return a6(at(b),c,a);case
+t=s[1],u=n(c,at(b));return u?typeof
+b==="number"?a[2]?0:0===t[0]?1:0:a[2]?0:3===t[0]?1:0:u}return a7(at(b),c,a)}return a7(at(b),c,a);case
 13:var
 v=a[4];if(typeof
-v!=="number"&&1===v[0])return a[3]?a6(at(b),c,a):d?J(f):d;return a6(at(b),c,a);case
+v!=="number"&&1===v[0])return a[3]?a7(at(b),c,a):d?I(g):d;return a7(at(b),c,a);case
 16:var
 w=a[4];if(typeof
 w!=="number"&&1===w[0]){var
 x=a[3];if(x){var
 y=x[1];if(1===y[0]){var
-z=d?o(c,at(b)):d,A=z?o(g(y[1]),c):z;if(A)var
+z=d?n(c,at(b)):d,A=z?n(f(y[1]),c):z;if(A)var
 B=typeof
 b==="number"?1:0,C=B?1:B;else
 var
-C=A;return C}return a6(at(b),c,a)}return a6(at(b),c,a)}return a6(at(b),c,a);default:return a6(at(b),c,a)}}function
+C=A;return C}return a7(at(b),c,a)}return a7(at(b),c,a)}return a7(at(b),c,a);default:return a7(at(b),c,a)}}function
 dl(a){switch(a[0]){case
 0:return[0,j([0,a[1],a[2]])];case
 1:return[1,a[1]];case
@@ -6735,15 +6745,15 @@ b=dl(a[2]),c=dl(a[3]);switch(a[1]){case
 2:return[5,b,c];default:return[6,b,c]}case
 4:var
 d=a[2];return[7,dl(a[1]),d];default:return[8,dl(a[1])]}}function
-kg(i,h,f,b,d,c,a){var
-k=aj(cQ,a),l=eP(0,g(b),0,a),m=W(d,c),n=e(function(a){var
+km(i,h,g,b,d,c,a){var
+k=aj(cQ,a),l=eP(0,f(b),0,a),m=U(d,c),n=e(function(a){var
 b=j(a[2]);return[0,j(a[1]),b]},m),o=e(function(a){return 0===a[0]?[0,e(dl,a[1])]:[1,dl(a[1])]},b),p=e(function(a){var
-b=dl(a[2]);return[0,a[1],b]},f);return[0,[0,i,e(function(a){var
+b=dl(a[2]);return[0,a[1],b]},g);return[0,[0,i,e(function(a){var
 b=b3(a[2]);return[0,a[1],b]},h),p,o],n,l,k]}function
-kh(c){function
+kn(c){function
 a(e){var
 a=[0,d,b];return r(e,c,[0,a,a])}var
-e=a(Bl),f=a(Bm);return[0,a(0),f,e]}function
+e=a(Bm),f=a(Bn);return[0,a(0),f,e]}function
 dX(a){function
 b(a){var
 b=j(a[2]);return[0,j(a[1]),b]}switch(a[0]){case
@@ -6752,17 +6762,17 @@ b=j(a[2]);return[0,j(a[1]),b]}switch(a[0]){case
 c=b(a[3]),d=b(a[2]);return[1,b(a[1]),d,c];case
 2:return[2,j(a[1])];default:var
 e=j(a[2]);return[3,j(a[1]),e]}}function
-pC(a){if(0===a[0]){var
-b=W(a[1],a[2]);return[0,kh(e(function(a){var
-b=j(a[2]);return[0,j(a[1]),b]},b))]}return px([1,a[1],a[2],a[3],a[4],a[5]])}function
-pD(k,b,i,h,f,d,a){function
-c(a){return kh(e(b3,a))}var
-l=aj(cQ,a),m=eP(0,g(b),d,a),n=dX(f),o=pC(h),p=j(i);return[0,k,e(function(a){var
+pD(a){if(0===a[0]){var
+b=U(a[1],a[2]);return[0,kn(e(function(a){var
+b=j(a[2]);return[0,j(a[1]),b]},b))]}return py([1,a[1],a[2],a[3],a[4],a[5]])}function
+pE(k,b,i,h,g,d,a){function
+c(a){return kn(e(b3,a))}var
+l=aj(cQ,a),m=eP(0,f(b),d,a),n=dX(g),o=pD(h),p=j(i);return[0,k,e(function(a){var
 b=c(a[2]);return[0,c(a[1]),b]},b),p,o,n,m,l]}function
 dY(a){return aj(function(a){return 3===a[0]?1:0},a)}function
-ki(k,a,f,i,h,c){var
-l=aj(cQ,c),m=g(a),n=eP(dY(a),m,0,c),o=y(dX,h),p=pC(i),q=f?j(f[1]):[0,b,b];return[0,k,e(function(a){function
-c(a){return kh(e(b3,a))}switch(a[0]){case
+ko(k,a,g,i,h,c){var
+l=aj(cQ,c),m=f(a),n=eP(dY(a),m,0,c),o=y(dX,h),p=pD(i),q=g?j(g[1]):[0,b,b];return[0,k,e(function(a){function
+c(a){return kn(e(b3,a))}switch(a[0]){case
 0:var
 k=a[5],l=b3(a[4]),m=c(a[3]),n=c(a[2]);return[0,[0,[0,c(a[1]),n,m,l,k]]];case
 1:var
@@ -6776,17 +6786,17 @@ q=a[7],r=b3(a[6]),s=b3(a[5]),t=c(a[4]),u=c(a[3]);return[1,[0,g,c(a[2]),u,t,s,r,q
 b4(c){var
 a=c[1];if(13!==a){var
 b=16<=a?1:0;if(!b)return b}return 1}function
-kj(a){function
+kp(a){function
 b(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}switch(a[0]){case
 0:var
 c=a[5],d=a[4],e=b(a[3]),f=b(a[2]);return[0,b(a[1]),f,e,d,c];case
 1:var
 g=y(b,a[3]),h=b(a[2]);return[1,b(a[1]),h,g];default:return[2,b(a[1])]}}function
-kk(a){if(0===a[0]){var
+kq(a){if(0===a[0]){var
 b=a[2],c=a[1];return[0,[0,c[1],[0,c[2],[0,c[3],0]]],[0,b[1],[0,b[2],[0,b[3],0]]]]}return[1,a[1],a[2],a[3],a[4],a[5]]}function
-pE(a){return a[1]?0:1}function
-pF(l){var
-b=a1(pE,l);if(b){var
+pF(a){return a[1]?0:1}function
+pG(l){var
+b=a1(pF,l);if(b){var
 d=b[1];if(d[2])return 0;if(d[3])return 0;var
 c=d[4],a=b[2];if(typeof
 c!=="number")switch(c[0]){case
@@ -6807,36 +6817,36 @@ k=a;return k}var
 i=0}else
 var
 i=b;return i}function
-pG(a){var
-c=pE(a);if(c)return c;if(1===a[1]){var
+pH(a){var
+c=pF(a);if(c)return c;if(1===a[1]){var
 b=a[4];if(typeof
 b!=="number"&&0===b[0])return 1;return 0}return 0}function
-hL(i,h,b){function
+hM(i,h,b){function
 c(b,a){return[3,1,b,a]}function
 a(b,a){return[3,3,b,a]}function
 d(b,a){return[3,2,b,a]}function
 e(b,a){return[3,0,b,a]}var
-f=c(hM,a(hM,b)),j=a(f,kl),k=i?f:a(c(b,hM),kl);function
-g(b){return a(b,[5,e(hM,d(kl,d(b,b)))])}var
+f=c(hN,a(hN,b)),j=a(f,kr),k=i?f:a(c(b,hN),kr);function
+g(b){return a(b,[5,e(hN,d(kr,d(b,b)))])}var
 l=g(k);return a(h,e(g(j),l))}function
-hN(f,e,d){function
+hO(f,e,d){function
 a(b,a){return[3,3,b,a]}function
 b(b,a){return[3,2,b,a]}var
-c=a([3,1,km,a(km,d)],pH),g=a(c,[5,[3,0,km,b(pH,b(c,c))]]);return[2,b(hL(f,e,d),g)]}function
-kn(e,g,a){function
+c=a([3,1,ks,a(ks,d)],pI),g=a(c,[5,[3,0,ks,b(pI,b(c,c))]]);return[2,b(hM(f,e,d),g)]}function
+kt(e,g,a){function
 f(b,a){return[3,1,b,a]}function
 b(b,a){return[3,3,b,a]}function
 c(b,a){return[3,2,b,a]}var
-h=f(hO,b(hO,a)),d=e?h:b(f(a,hO),pI),i=b(d,[5,[3,0,hO,c(pI,c(d,d))]]);return c(hL(e,g,a),i)}function
-pJ(c,g,b,a){function
+h=f(hP,b(hP,a)),d=e?h:b(f(a,hP),pJ),i=b(d,[5,[3,0,hP,c(pJ,c(d,d))]]);return c(hM(e,g,a),i)}function
+pK(c,g,b,a){function
 d(b,a){return e(function(c){var
-d=o(b,c)?a:Bn;return[0,d]},Bp)}return e(function(e){var
-j=[0,hL(c,b,a)],i=1,k=d(e,[2,g]);function
+d=n(b,c)?a:Bo;return[0,d]},Bq)}return e(function(e){var
+j=[0,hM(c,b,a)],i=1,k=d(e,[2,g]);function
 f(b,a){return[3,1,b,a]}var
-h=hL(c,b,a),l=d(e,f(f(hN(c,b,a),g),h));return[0,d(e,Bo),l,k,j,i]},Bq)}function
-pK(c,b,a){var
-d=[0,kn(c,b,a),0],e=[0,kn(c,b,a),d],f=[0,kn(c,b,a),e],g=[0,hN(c,b,a),0],h=[0,hN(c,b,a),g];return[0,[0,hN(c,b,a),h],f]}function
-pL(o,e,a){if(e)if(a){var
+h=hM(c,b,a),l=d(e,f(f(hO(c,b,a),g),h));return[0,d(e,Bp),l,k,j,i]},Br)}function
+pL(c,b,a){var
+d=[0,kt(c,b,a),0],e=[0,kt(c,b,a),d],f=[0,kt(c,b,a),e],g=[0,hO(c,b,a),0],h=[0,hO(c,b,a),g];return[0,[0,hO(c,b,a),h],f]}function
+pM(o,e,a){if(e)if(a){var
 g=e[1],h=a[1],k=cC(j(g[2][1]));if(k){var
 l=k[1],m=cC(j(g[2][2]));if(m)var
 p=m[1],n=function(a){function
@@ -6846,7 +6856,7 @@ var
 f=[0,[0,d,b],[0,d,b]]}else
 var
 f=[0,[0,d,b],[0,d,b]];var
-r=pL([0,o],e[2],a[2]),i=[0,[0,g[1],[1,o,f[1],f[2]]],r]}else
+r=pM([0,o],e[2],a[2]),i=[0,[0,g[1],[1,o,f[1],f[2]]],r]}else
 var
 i=a;else
 var
@@ -6855,21 +6865,21 @@ au(b,a){switch(a[0]){case
 0:return[0,a[1],a[2]];case
 1:var
 c=a[1];if(0===c[0]){var
-e=c[1],d=lN(function(a){return aB(e,a[1])},b);return d?[1,d[1][2]]:a}return a;case
+e=c[1],d=lS(function(a){return aB(e,a[1])},b);return d?[1,d[1][2]]:a}return a;case
 2:return[2,au(b,a[1])];case
 3:var
 f=au(b,a[3]),g=au(b,a[2]);return[3,a[1],g,f];case
 4:var
 h=a[2];return[4,au(b,a[1]),h];default:return[5,au(b,a[1])]}}function
-pM(b,a){if(0===a[0])return[0,au(b,a[1])];var
+pN(b,a){if(0===a[0])return[0,au(b,a[1])];var
 c=au(b,a[2]);return[1,au(b,a[1]),c]}function
-ko(b,a){var
+ku(b,a){var
 c=k(b,a[3]),d=k(b,a[2]);return[0,k(b,a[1]),d,c]}function
-kp(c,a){if(c)if(a){var
+kv(c,a){if(c)if(a){var
 g=a[2],b=a[1],h=c[1];if(typeof
 b!=="number"&&0===b[0]){var
-e=kp(h,g);if(e){var
-i=e[1],f=kp(h,i[2]);if(f)var
+e=kv(h,g);if(e){var
+i=e[1],f=kv(h,i[2]);if(f)var
 j=f[1],k=[0,[0,[0,b[1],i[1],j[1]],j[2]]];else
 var
 k=f;var
@@ -6881,50 +6891,50 @@ var
 d=a;else
 var
 d=c;return d}function
-kq(g,f,a){if(a){var
-e=a[1],h=a[2];if(f)return[0,e,kq(g,f[1],h)];var
+kw(g,f,a){if(a){var
+e=a[1],h=a[2];if(f)return[0,e,kw(g,f[1],h)];var
 j=[0,e[2]],k=g?b:d,l=e[1],i=[0,[0,E(C(c(2,b),l),k),j],h]}else
 var
 i=a;return i}function
-Br(a){if(typeof
-a!=="number"&&1===a[0])return 1;return 0}function
 Bs(a){if(typeof
+a!=="number"&&1===a[0])return 1;return 0}function
+Bt(a){if(typeof
 a!=="number"&&2===a[0])return 1;return 0}function
-hP(e,a){if(0===a[0]){var
-f=[0,b,c(2,b)],g=hP(e,a[3]);return a3(dz(hP(e,a[2]),g),f)}return k(e,a[1])?[0,b,b]:[0,d,b]}function
-pN(a){return 0===a[0]?ew(a[1][4]):0}function
-pO(a){switch(a[0]){case
+hQ(e,a){if(0===a[0]){var
+f=[0,b,c(2,b)],g=hQ(e,a[3]);return a3(dz(hQ(e,a[2]),g),f)}return k(e,a[1])?[0,b,b]:[0,d,b]}function
+pO(a){return 0===a[0]?ew(a[1][4]):0}function
+pP(a){switch(a[0]){case
 0:var
-b=a[1],c=bb(b[3]);return f(bb(b[2]),c);case
+b=a[1],c=bb(b[3]);return g(bb(b[2]),c);case
 1:var
-d=bb(a[2]);return f(bb(a[1]),d);default:return 0}}function
-hQ(a){switch(a[0]){case
+d=bb(a[2]);return g(bb(a[1]),d);default:return 0}}function
+hR(a){switch(a[0]){case
 0:return bG(bb(a[1][1]));case
 1:var
 b=a[3];return b?bG(bb(b[1])):d;default:return bG(bb(a[1]))}}function
-hR(c){var
-a=z(pN,c),d=a?[0,a[1],a[2]]:z(pO,c);return E(b,bG(d))}function
-pP(d,a){if(d){if(a){var
-b=a[1],g=d[1],e=pP(d[2],a[2]);if(e){var
+hS(c){var
+a=z(pO,c),d=a?[0,a[1],a[2]]:z(pP,c);return E(b,bG(d))}function
+pQ(d,a){if(d){if(a){var
+b=a[1],g=d[1],e=pQ(d[2],a[2]);if(e){var
 h=e[1],i=h[2],j=h[1];if(45===b)var
-c=Bt;else
-if(43===b)var
 c=Bu;else
+if(43===b)var
+c=Bv;else
 var
-f=48===b?1:0,n=f?Bv:f,c=n;if(c)return[0,[0,[0,[0,g,c[1]],j],i]];var
+f=48===b?1:0,n=f?Bw:f,c=n;if(c)return[0,[0,[0,[0,g,c[1]],j],i]];var
 k=49===b?1:0,o=k?[0,[0,j,[0,g,i]]]:k,l=o}else
 var
 l=e;var
 m=l}else
 var
-m=a;return m}return a?0:Bw}function
+m=a;return m}return a?0:Bx}function
 dm(b,c,a){switch(a[0]){case
 0:var
-d=a[1];if(aB(d,Bx))return By;if(aB(d,Bz))return BA;if(aB(d,BB))return BC;if(aB(d,BD))return BE;if(aB(d,BF))return BG;var
-n=aB(d,BH),B=n?BI:n;return B;case
+d=a[1];if(aB(d,By))return Bz;if(aB(d,BA))return BB;if(aB(d,BC))return BD;if(aB(d,BE))return BF;if(aB(d,BG))return BH;var
+n=aB(d,BI),B=n?BJ:n;return B;case
 1:var
-e=a[3],f=a[2],g=a[1];if(aB(g,BJ))return[0,[0,e,f]];if(aB(g,BK))return[0,[1,e,f]];if(aB(g,BL))return[0,[2,e,f]];var
-o=aB(g,BM),C=o?[0,[8,e,f]]:o;return C;case
+e=a[3],f=a[2],g=a[1];if(aB(g,BK))return[0,[0,e,f]];if(aB(g,BL))return[0,[1,e,f]];if(aB(g,BM))return[0,[2,e,f]];var
+o=aB(g,BN),C=o?[0,[8,e,f]]:o;return C;case
 2:return[0,[4,a[1]]];case
 3:return[0,[3,a[2],a[1],a[3]]];case
 4:return[0,[9,a[2],a[1],a[3],a[4]]];case
@@ -6936,7 +6946,7 @@ i=dm(b,c,a[1]),E=i?[0,[7,i[1],a[2],a[3]]]:i;return E;case
 F=dm(b,c,a[1]);return y(function(a){return[6,a]},F);case
 8:if(b){var
 p=a[3],q=a[2],j=dm(b,c,a[1]);if(j){var
-r=j[1],k=pP(b,ix(iw(az(q),function(a){return a8(q,a)})));if(k){var
+r=j[1],k=pQ(b,iz(iy(az(q),function(a){return a9(q,a)})));if(k){var
 s=k[1],t=s[2],u=s[1];if(t)return[0,[11,c,t,[10,r,u,p]]];var
 v=[0,[10,r,u,p]]}else
 var
@@ -6952,23 +6962,23 @@ z=function(a){if(a){var
 f=a[1],d=dm(b,c,f[2]);if(d)var
 e=z(a[2]),h=e?[0,[0,[0,f[1],d[1]],e[1]]]:e,g=h;else
 var
-g=d;return g}return BN},G=z(a[1]);return y(function(a){return[12,a]},G);default:var
+g=d;return g}return BO},G=z(a[1]);return y(function(a){return[12,a]},G);default:var
 l=dm(b,c,a[3]);if(l)var
 m=dm(b,c,a[4]),H=m?[0,[13,a[2],a[1],l[1],m[1]]]:m,A=H;else
 var
 A=l;return A}}function
-pQ(e,d,a){if(a){var
+pR(e,d,a){if(a){var
 f=a[1],b=dm(e,d,f[2]);if(b)var
-c=pQ(e,d,a[2]),h=c?[0,[0,[0,f[1],b[1]],c[1]]]:c,g=h;else
+c=pR(e,d,a[2]),h=c?[0,[0,[0,f[1],b[1]],c[1]]]:c,g=h;else
 var
-g=b;return g}return BO}function
+g=b;return g}return BP}function
 dZ(b,g,f,e,d,a){if(d)if(a){var
 c=a[1];if(c[3])return 0;if(c[4])return 0;var
-n=c[2],o=a[2],p=d[1],h=pQ(f,e,c[1]);if(h){var
+n=c[2],o=a[2],p=d[1],h=pR(f,e,c[1]);if(h){var
 i=h[1];if(n){var
 j=dZ(b,g,f,e,p,o);if(j){var
 q=j[1],k=dZ(b,g,f,e,p,q[2]);if(k){var
-r=k[1],s=r[1],t=q[1],l=n[1],z=r[2];if(aJ(l,b))var
+r=k[1],s=r[1],t=q[1],l=n[1],z=r[2];if(aG(l,b))var
 u=[0,[1,i,l,t,s]];else
 var
 x=F(g,dx(l,b)),u=y(function(a){return[2,i,a,t,s]},x);return y(function(a){return[0,a,z]},u)}var
@@ -6983,27 +6993,27 @@ var
 m=a;else
 var
 m=d;return m}function
-kr(i,h,f,e,d,a){if(d){if(a){var
-b=dZ(i,h,f,e,g(a),a);if(b)var
-j=b[1],c=kr(i,h,f,e,d[1],j[2]),l=c?[0,[0,j[1],c[1]]]:c,k=l;else
+kx(i,h,g,e,d,a){if(d){if(a){var
+b=dZ(i,h,g,e,f(a),a);if(b)var
+j=b[1],c=kx(i,h,g,e,d[1],j[2]),l=c?[0,[0,j[1],c[1]]]:c,k=l;else
 var
-k=b;return k}return BP}return a?0:BQ}function
-pR(a){if(typeof
-a==="number")return 0===a?BR:BS;else
+k=b;return k}return BQ}return a?0:BR}function
+pS(a){if(typeof
+a==="number")return 0===a?BS:BT;else
 switch(a[0]){case
 0:return[0,[0,a[1],a[2]]];case
 1:return[0,[1,a[1],a[2]]];default:return 0}}function
-ks(e,d,a){if(d)if(a){var
+ky(e,d,a){if(d)if(a){var
 b=a[1];if(b[1])return 0;var
 j=b[4],c=b[3],k=b[2],l=a[2],m=d[1];if(k){if(c)return 0;if(j)return 0;var
-f=k[1],g=ks(e,m,l);if(g){var
-n=g[1],o=n[1],h=ks(e,m,n[2]);if(h){var
-p=h[1],q=p[2],r=p[1];if(aJ(f,BT))return[0,[0,[1,f,o,r],q]];var
-t=F(e,dx(f,BU));return y(function(a){return[0,[2,a,o,r],q]},t)}var
+f=k[1],g=ky(e,m,l);if(g){var
+n=g[1],o=n[1],h=ky(e,m,n[2]);if(h){var
+p=h[1],q=p[2],r=p[1];if(aG(f,BU))return[0,[0,[1,f,o,r],q]];var
+t=F(e,dx(f,BV));return y(function(a){return[0,[2,a,o,r],q]},t)}var
 s=h}else
 var
 s=g;return s}if(c){var
-u=pR(c[1]);return y(function(a){return[0,[0,j,a],l]},u)}var
+u=pS(c[1]);return y(function(a){return[0,[0,j,a],l]},u)}var
 i=c}else
 var
 i=a;else
@@ -7012,7 +7022,7 @@ i=d;return i}function
 dn(b,a){return 0===b[0]?[0,j(b[1]),a]:a?[0,a[1],a[2]]:[0,j(b[1]),0]}function
 d0(a,e){var
 b=dn(a[1],e),c=dn(a[2],b[2]),d=dn(a[3],c[2]);return[0,[0,b[1],c[1],d[1]],d[2]]}function
-pS(d,c){if(d){var
+pT(d,c){if(d){var
 a=d[1];switch(a[0]){case
 0:var
 e=d0(a[1],c),f=d0(a[2],e[2]),g=d0(a[3],f[2]),h=dn(a[4],g[2]),b=[0,[0,e[1],f[1],g[1],h[1],a[5]],h[2]];break;case
@@ -7022,28 +7032,28 @@ o=d0(i[1],m),b=[0,[1,k,n,[0,o[1]]],o[2]];else
 var
 b=[0,[1,k,n,0],m];break;default:var
 p=d0(a[1],c),b=[0,[2,p[1]],p[2]]}var
-q=pS(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
-fW(t,f){var
+q=pT(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
+fX(t,g){var
 u=t[3];if(typeof
-f==="number")return 0===f?BY:BZ;else
-switch(f[0]){case
+g==="number")return 0===g?BZ:B0;else
+switch(g[0]){case
 0:var
-v=f[2],h=f[1],B=F(u,h);if(B){var
+v=g[2],h=g[1],B=F(u,h);if(B){var
 ab=0,E=B[1];if(typeof
 E==="number"||!(13===E[0]))ab=1;else
 var
-x=t[1],A=hR(x),a=e(function(a){var
-f=g(x);if(o(g(a),f)){var
-h=W(x,a);return e(function(a){var
+x=t[1],A=hS(x),a=e(function(a){var
+g=f(x);if(n(f(a),g)){var
+h=U(x,a);return e(function(a){var
 e=a[2],f=D(d,A),g=2===a[1][0]?1:0;return cv(g,f)?C(e,b_(c(2,b),ct(A))):e},h)}return a},v);if(ab)var
 a=v}else
 var
 a=v;var
 ac=F(u,h),ad=t[1],w=y(function(b){if(typeof
 b!=="number")switch(b[0]){case
-5:return BW;case
+5:return BX;case
 12:var
-a=F(ad,b[1]);if(a){if(2===a[1][0])return BX;var
+a=F(ad,b[1]);if(a){if(2===a[1][0])return BY;var
 c=0}else
 var
 c=a;return c;case
@@ -7052,7 +7062,7 @@ c=a;return c;case
 4:case
 6:case
 7:case
-11:return 0}return BV},ac);if(w){var
+11:return 0}return BW},ac);if(w){var
 G=w[1];if(G){var
 H=G[1];if(H){if(H[1])return 0;if(a){var
 i=a[1];if(i){var
@@ -7060,14 +7070,14 @@ j=i[2];if(j){var
 k=j[2];if(k){if(k[2])return 0;var
 l=a[2];if(l){var
 m=l[1];if(m){var
-n=m[2];if(n){var
-p=n[2];if(p){if(p[2])return 0;if(l[2])return 0;var
-I=[0,[0,h,[0,[0,i[1],j[1]],k[1]],[0,[0,m[1],n[1]],p[1]]]]}else
+o=m[2];if(o){var
+p=o[2];if(p){if(p[2])return 0;if(l[2])return 0;var
+I=[0,[0,h,[0,[0,i[1],j[1]],k[1]],[0,[0,m[1],o[1]],p[1]]]]}else
 var
 I=p;var
 J=I}else
 var
-J=n;var
+J=o;var
 K=J}else
 var
 K=m;var
@@ -7092,47 +7102,47 @@ s=r[2];if(s){if(s[2])return 0;if(a[2])return 0;var
 Q=s[1],R=r[1],S=q[1],T=[0,[0,h,[0,[0,S,R],Q],[0,[0,S,R],Q]]]}else
 var
 T=s;var
-U=T}else
+V=T}else
 var
-U=r;var
-V=U}else
+V=r;var
+W=V}else
 var
-V=q;var
-X=V}else
+W=q;var
+X=W}else
 var
 X=a;return X}if(a)return 0;var
 Y=[0,[0,d,d],d],Z=[0,[0,h,Y,Y]]}else
 var
 Z=w;return Z;case
 1:var
-_=f[1],z=F(u,_);if(z){var
+_=g[1],z=F(u,_);if(z){var
 $=z[1];if(typeof
-$!=="number"&&1===$[0])return[0,[1,_,f[2]]];var
+$!=="number"&&1===$[0])return[0,[1,_,g[2]]];var
 aa=0}else
 var
 aa=z;return aa;default:return 0}}function
 bk(a,b){if(a){var
 c=dn(a[1],b),d=bk(a[2],c[2]);return[0,[0,c[1],d[1]],d[2]]}return[0,0,b]}function
-aH(c){function
+aI(c){function
 a(a){return r(a,c,[0,d,b])}var
-e=a(B0),f=a(B1);return[0,a(0),f,e]}function
-pT(a,b){if(a){var
-c=a[1],d=bk(c[1],b),e=bk(c[2],d[2]),f=pT(a[2],e[2]),g=f[2],h=f[1],i=aH(e[1]);return[0,[0,[0,aH(d[1]),i],h],g]}return[0,0,b]}function
-kt(f,e){if(f){var
+e=a(B1),f=a(B2);return[0,a(0),f,e]}function
+pU(a,b){if(a){var
+c=a[1],d=bk(c[1],b),e=bk(c[2],d[2]),f=pU(a[2],e[2]),g=f[2],h=f[1],i=aI(e[1]);return[0,[0,[0,aI(d[1]),i],h],g]}return[0,0,b]}function
+kz(f,e){if(f){var
 a=f[1];switch(a[0]){case
 0:var
-g=bk(a[1],e),h=bk(a[2],g[2]),i=bk(a[3],h[2]),j=dn(a[4],i[2]),A=j[2],B=a[5],C=j[1],D=aH(i[1]),E=aH(h[1]),c=[0,[0,[0,aH(g[1]),E,D,C,B]],A];break;case
+g=bk(a[1],e),h=bk(a[2],g[2]),i=bk(a[3],h[2]),j=dn(a[4],i[2]),A=j[2],B=a[5],C=j[1],D=aI(i[1]),E=aI(h[1]),c=[0,[0,[0,aI(g[1]),E,D,C,B]],A];break;case
 1:var
 k=a[3],l=bk(a[1],e),m=l[1],n=bk(a[2],l[2]),o=n[2],p=n[1];if(k)var
-q=bk(k[1],o),F=q[2],G=[0,aH(q[1])],H=aH(p),c=[0,[0,[1,aH(m),H,G]],F];else
+q=bk(k[1],o),F=q[2],G=[0,aI(q[1])],H=aI(p),c=[0,[0,[1,aI(m),H,G]],F];else
 var
-I=aH(p),c=[0,[0,[1,aH(m),I,0]],o];break;case
+I=aI(p),c=[0,[0,[1,aI(m),I,0]],o];break;case
 2:var
-r=bk(a[1],e),J=r[2],c=[0,[0,[2,aH(r[1])]],J];break;default:var
-s=a[1],t=bk(s,e),u=bk(a[2],t[2]),v=bk(a[3],u[2]),w=bk(a[4],v[2]),x=dn(a[5],w[2]),y=dn(a[6],x[2]),K=s?aH(t[1]):[0,[0,d,b],[0,d,b],[0,b,b]],L=y[2],M=a[7],N=y[1],O=x[1],P=aH(w[1]),Q=aH(v[1]),c=[0,[1,[0,K,aH(u[1]),Q,P,O,N,M]],L]}var
-z=kt(f[2],c[2]);return[0,[0,c[1],z[1]],z[2]]}return[0,0,e]}function
-dp(a){return ma(i,a)}function
-B2(a){if(typeof
+r=bk(a[1],e),J=r[2],c=[0,[0,[2,aI(r[1])]],J];break;default:var
+s=a[1],t=bk(s,e),u=bk(a[2],t[2]),v=bk(a[3],u[2]),w=bk(a[4],v[2]),x=dn(a[5],w[2]),y=dn(a[6],x[2]),K=s?aI(t[1]):[0,[0,d,b],[0,d,b],[0,b,b]],L=y[2],M=a[7],N=y[1],O=x[1],P=aI(w[1]),Q=aI(v[1]),c=[0,[1,[0,K,aI(u[1]),Q,P,O,N,M]],L]}var
+z=kz(f[2],c[2]);return[0,[0,c[1],z[1]],z[2]]}return[0,0,e]}function
+dp(a){return mf(i,a)}function
+B3(a){if(typeof
 a==="number")return 1;else
 switch(a[0]){case
 5:return h(i,1,[3,a[1],[0,b,b]]);case
@@ -7153,7 +7163,7 @@ k=[0,a[2],a[1]],m=1;return l(function(a){return h(i,m,a)},k);case
 4:case
 13:var
 c=h(i,1,a[2]);return c?h(i,1,a[3]):c;default:return h(i,1,a[1])}}function
-ku(a){if(typeof
+kA(a){if(typeof
 a==="number")return 1;else
 switch(a[0]){case
 4:var
@@ -7165,7 +7175,7 @@ B=[0,a[2],a[1]],C=1;return l(function(a){return h(i,C,a)},B);case
 11:var
 m=a[2],n=h(i,1,m);return n?h(i,0,[3,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b],m]):n;case
 13:var
-o=a[4],p=oo(a[3]),r=p?h(i,1,o):p;return r?h(i,0,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],o]):r;case
+o=a[4],p=op(a[3]),r=p?h(i,1,o):p;return r?h(i,0,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],o]):r;case
 14:return h(i,0,a[3]);case
 15:var
 s=h(i,0,a[2]),t=s?h(i,0,a[3]):s;return t?h(i,1,a[4]):t;case
@@ -7179,68 +7189,68 @@ y=a[2],z=l(dp,y),A=z?aj(function(a){return h(i,1,[4,a,a])},y):z;return A?h(i,1,a
 1:case
 12:return h(i,1,a[1]);default:var
 k=h(i,1,a[2]);return k?h(i,1,a[3]):k}}function
-hS(d){var
+hT(d){var
 a=d;for(;;){if(a){var
-b=a[2],e=a[1],c=J(aj(function(d){return function(a){var
-h=ka(a[1]),e=aB(ka(d[1]),h);if(e)var
-i=kb(a[4]),b=aB(kb(d[4]),i);else
+b=a[2],e=a[1],c=I(aj(function(d){return function(a){var
+h=kg(a[1]),e=aB(kg(d[1]),h);if(e)var
+i=kh(a[4]),b=aB(kh(d[4]),i);else
 var
 b=e;if(b){var
 f=d[2];if(f){var
-c=a[2];return c?o(f[1],c[1]):c}if(a[2])return 0;var
+c=a[2];return c?n(f[1],c[1]):c}if(a[2])return 0;var
 g=1}else
 var
 g=b;return g}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-fX(a){if(0===a[0])return dp(j(a[1]));var
+fY(a){if(0===a[0])return dp(j(a[1]));var
 b=a[2],c=a[1];if(!dD(j(c))&&!dD(j(b))){var
 e=j(c);return h(i,1,[3,j(b),e])}var
 d=j(b);return by(i,j(c),d)}function
 d1(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-pU(a){switch(a[0]){case
+pV(a){switch(a[0]){case
 0:var
-c=[0,a[4],0],d=f(d1(a[3]),c),e=f(d1(a[2]),d);return f(d1(a[1]),e);case
+c=[0,a[4],0],d=g(d1(a[3]),c),e=g(d1(a[2]),d);return g(d1(a[1]),e);case
 1:var
-b=a[3],g=b?d1(b[1]):b,h=f(d1(a[2]),g);return f(d1(a[1]),h);default:return d1(a[1])}}function
-pV(s,a,m){if(aj(function(a){return 9===a[1]?1:0},m)){var
-b=aa(g(a),B5),c=b?l(function(a){if(0===a[0]){var
-d=a[5],e=h(i,1,j(a[2])),g=e?h(i,0,j(a[3])):e,m=g?h(i,0,j(a[4])):g,c=0;if(m)if(d)var
+b=a[3],f=b?d1(b[1]):b,h=g(d1(a[2]),f);return g(d1(a[1]),h);default:return d1(a[1])}}function
+pW(s,a,m){if(aj(function(a){return 9===a[1]?1:0},m)){var
+b=aa(f(a),B6),c=b?l(function(a){if(0===a[0]){var
+d=a[5],e=h(i,1,j(a[2])),f=e?h(i,0,j(a[3])):e,m=f?h(i,0,j(a[4])):f,c=0;if(m)if(d)var
 p=b2(d[1]),b=l(function(a){return dp(j(a))},p);else{var
 n=1;c=1}else{var
 n=m;c=1}if(c)var
 b=n}else{var
 o=h(i,1,j(a[4]));if(o)var
-q=b2(a[3]),r=f(b2(a[2]),q),b=l(function(a){return dp(j(a))},r);else
+q=b2(a[3]),r=g(b2(a[2]),q),b=l(function(a){return dp(j(a))},r);else
 var
 b=o}return b?k(s,a):b},a):b;if(c)var
-d=hI(0,a),n=d?1:d,e=n;else
+d=hJ(0,a),n=d?1:d,e=n;else
 var
 e=c;return e}return a?0:1}function
-pW(a){return a?B6:B7}function
-hT(a){switch(a){case
-0:return B8;case
-1:return B9;default:return 0}}function
+pX(a){return a?B7:B8}function
+hU(a){switch(a){case
+0:return B9;case
+1:return B_;default:return 0}}function
 dq(a){var
 f=a[1],d=h(i,1,[2,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],f]),e=d?by(i,a[1],a[2]):d;if(e){var
 g=a[2];return h(i,1,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],g])}return e}function
 eQ(a){var
 e=by(i,[0,d,b],a);return e?h(i,1,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],a]):e}function
-pX(c,b,a){if(0===a[0]){var
-d=a[2],e=a[1],f=o(g(e),c),k=f?o(g(d),c):f;if(k){var
-n=W(e,d);return l(function(a){var
-b=j(a[2]);return by(i,j(a[1]),b)},n)}return k}var
+pY(c,b,a){if(0===a[0]){var
+d=a[2],e=a[1],g=n(f(e),c),k=g?n(f(d),c):g;if(k){var
+o=U(e,d);return l(function(a){var
+b=j(a[2]);return by(i,j(a[1]),b)},o)}return k}var
 m=b?h(i,1,j(a[3])):b;if(m){var
 p=j(a[5]);return by(i,j(a[4]),p)}return m}function
-pY(a,e,F,E,t,s,f){function
+pZ(a,e,F,E,t,s,g){function
 u(b){var
-d=pW(a),c=o(g(b),d);return c?l(fX,b):c}var
+d=pX(a),c=n(f(b),d);return c?l(fY,b):c}var
 v=l(function(a){var
 b=u(a[1]);return b?u(a[2]):b},e);if(v)var
-G=g(e),n=aa(bH(a),G);else
+G=f(e),o=aa(bH(a),G);else
 var
-n=v;var
-w=n?aa(g(e),B_):n,x=w?h(i,1,j(F)):w;if(x)var
-H=1===a?1:0,p=pX(hT(a),H,E);else
+o=v;var
+w=o?aa(f(e),B$):o,x=w?h(i,1,j(F)):w;if(x)var
+H=1===a?1:0,p=pY(hU(a),H,E);else
 var
 p=x;if(p)if(a){var
 d=dX(t);switch(d[0]){case
@@ -7256,16 +7266,16 @@ var
 D=dX(t),J=0===D[0]?dq(D[1]):0,m=J;else
 var
 m=p;if(m)var
-I=g(e),q=pV(function(a){if(0===a[0]){var
-b=a[1],c=aa(B4,b),d=c?aa(b,I):c;if(d){if(a[5])return 0;var
+I=f(e),q=pW(function(a){if(0===a[0]){var
+b=a[1],c=aa(B5,b),d=c?aa(b,I):c;if(d){if(a[5])return 0;var
 e=1}else
 var
-e=d;return e}return 1},s,f);else
+e=d;return e}return 1},s,g);else
 var
 q=m;if(q)var
-b=g(e),c=bH(a),y=pW(a),r=l(function(a){var
+b=f(e),c=bH(a),y=pX(a),r=l(function(a){var
 e=a[2];if(e)var
-f=e[1],h=aa(Bj,f),w=h?aa(f,b):h,d=w;else
+g=e[1],h=aa(Bk,g),w=h?aa(g,b):h,d=w;else
 var
 d=1;switch(a[1]){case
 9:var
@@ -7278,39 +7288,39 @@ k=a[3];return k?2===k[1][0]?d:aE(c,b,a):aE(c,b,a)}return aE(c,b,a);case
 12:var
 l=a[4];if(typeof
 l!=="number"&&1===l[0]){if(a[2])return aE(c,b,a);var
-m=a[3];return m?3===m[1][0]?o(b,c):aE(c,b,a):aE(c,b,a)}return aE(c,b,a);case
+m=a[3];return m?3===m[1][0]?n(b,c):aE(c,b,a):aE(c,b,a)}return aE(c,b,a);case
 14:var
-n=a[4];if(typeof
-n!=="number"&&1===n[0]){var
+o=a[4];if(typeof
+o!=="number"&&1===o[0]){var
 p=a[3];if(p){var
 q=p[1];if(1===q[0]){var
-r=o(g(q[1]),y),x=r?d:r;return x}return aE(c,b,a)}return aE(c,b,a)}return aE(c,b,a);case
+r=n(f(q[1]),y),x=r?d:r;return x}return aE(c,b,a)}return aE(c,b,a)}return aE(c,b,a);case
 15:var
 s=a[4];if(typeof
 s!=="number"&&1===s[0]){var
 t=a[3];if(t){var
 u=t[1];if(1===u[0]){var
-v=o(g(u[1]),y),z=v?d:v;return z}return aE(c,b,a)}return aE(c,b,a)}return aE(c,b,a);default:return aE(c,b,a)}},f);else
+v=n(f(u[1]),y),z=v?d:v;return z}return aE(c,b,a)}return aE(c,b,a)}return aE(c,b,a);default:return aE(c,b,a)}},g);else
 var
 r=q;var
-z=r?hS(f):r;return z?l(ku,eP(0,g(e),s,f)):z}function
-kv(a){switch(a[0]){case
+z=r?hT(g):r;return z?l(kA,eP(0,f(e),s,g)):z}function
+kB(a){switch(a[0]){case
 0:var
-c=f(a[3],[0,a[4],0]),d=f(a[2],c);return f(a[1],d);case
+c=g(a[3],[0,a[4],0]),d=g(a[2],c);return g(a[1],d);case
 1:var
-b=a[3],e=b?b[1]:b,g=f(a[2],e);return f(a[1],g);case
+b=a[3],e=b?b[1]:b,f=g(a[2],e);return g(a[1],f);case
 2:return a[1];default:var
-h=f(a[4],[0,a[5],[0,a[6],0]]),i=f(a[3],h),j=f(a[2],i);return f(a[1],j)}}function
-hU(a,b,e,T,p,m){var
+h=g(a[4],[0,a[5],[0,a[6],0]]),i=g(a[3],h),j=g(a[2],i);return g(a[1],j)}}function
+hV(a,b,e,T,p,m){var
 q=typeof
 a==="number"?a?1:a:a[1]?0:1;function
 c(a){var
-b=q?B$:Ca;return o(g(a),b)}var
+b=q?Ca:Cb;return n(f(a),b)}var
 k=dY(b),w=l(function(b){switch(b[0]){case
 0:var
-f=J(k),g=f?c(b[1]):f,h=g?c(b[2]):g;return h?c(b[3]):h;case
+f=I(k),g=f?c(b[1]):f,h=g?c(b[2]):g;return h?c(b[3]):h;case
 1:var
-d=b[3],i=J(k),j=i?c(b[1]):i,l=j?c(b[2]):j;if(l){var
+d=b[3],i=I(k),j=i?c(b[1]):i,l=j?c(b[2]):j;if(l){var
 m=typeof
 a==="number"?1:0;if(m){if(a)return d?0:1;if(d)return c(d[1]);var
 e=1}else
@@ -7319,21 +7329,21 @@ e=m}else
 var
 e=l;return e;case
 2:var
-n=J(k),o=n?c(b[1]):n;if(o){if(typeof
+n=I(k),o=n?c(b[1]):n;if(o){if(typeof
 a==="number"&&!a)return 1;var
 p=0}else
 var
 p=o;return p;default:var
 r=b[1],s=q?r?0:1:c(r),t=s?c(b[2]):s,u=t?c(b[3]):t;return u?c(b[4]):u}},b);if(w)var
-U=g(b),r=aa(at(a),U);else
+U=f(b),r=aa(at(a),U);else
 var
 r=w;var
-x=r?aa(g(b),Cb):r,A=x?l(fX,z(kv,b)):x;if(A){var
+x=r?aa(f(b),Cc):r,A=x?l(fY,z(kB,b)):x;if(A){var
 S=0;if(typeof
 a==="number"&&!a){var
 B=1;S=1}if(!S)var
 B=0;var
-V=q?Cc:Cd,s=pX(V,B,T)}else
+V=q?Cd:Ce,s=pY(V,B,T)}else
 var
 s=A;if(s)if(typeof
 a==="number")if(e)var
@@ -7344,10 +7354,10 @@ switch(a[1]){case
 0:if(e){var
 t=y(dX,p);if(t){var
 G=t[1];if(0===G[0])var
-H=h(i,1,j(e[1])),I=H?dq(G[1]):H;else
+H=h(i,1,j(e[1])),J=H?dq(G[1]):H;else
 var
-I=0;var
-K=I}else
+J=0;var
+K=J}else
 var
 K=t;var
 d=K}else
@@ -7355,15 +7365,15 @@ var
 d=e;break;case
 1:if(e){var
 u=e[1],v=y(dX,p);if(v){var
-f=v[1];switch(f[0]){case
+g=v[1];switch(g[0]){case
 0:var
-n=0;break;case
+o=0;break;case
 1:var
-M=h(i,1,j(u)),N=M?dq(f[1]):M,O=N?dq(f[2]):N,n=O?dq(f[3]):O;break;case
+M=h(i,1,j(u)),N=M?dq(g[1]):M,O=N?dq(g[2]):N,o=O?dq(g[3]):O;break;case
 2:var
-P=h(i,1,j(u)),n=P?eQ(f[1]):P;break;default:var
-Q=h(i,1,j(u)),R=Q?eQ(f[1]):Q,n=R?eQ(f[2]):R}var
-L=n}else
+P=h(i,1,j(u)),o=P?eQ(g[1]):P;break;default:var
+Q=h(i,1,j(u)),R=Q?eQ(g[1]):Q,o=R?eQ(g[2]):R}var
+L=o}else
 var
 L=v;var
 d=L}else
@@ -7373,10 +7383,10 @@ d=0}else
 var
 d=s;var
 C=d?l(function(c){var
-d=pB(k,a,g(b),c);if(d)var
+d=pC(k,a,f(b),c);if(d)var
 e=d;else{var
-f=cQ(c);if(f)return aE(0,0,c);var
-e=f}return e},m):d,D=C?l(function(a){var
+g=cQ(c);if(g)return aE(0,0,c);var
+e=g}return e},m):d,D=C?l(function(a){var
 e=a[1];if(4===e){var
 f=a[2];if(f)var
 c=F(b,bn(f[1])),j=c?[0,c[1],0]:c,g=j;else
@@ -7389,109 +7399,109 @@ d=F(b,bn(h[1])),k=d?[0,d[1],0]:d,i=k;else
 var
 i=b;return l(function(a){switch(a[0]){case
 0:case
-3:return 1;default:return 0}},i)}return 1},m):C,E=D?hS(m):D;return E?l(ku,eP(k,g(b),0,m)):E}function
-Ce(a){switch(a[0]){case
-0:return ha(a[1][1]);case
+3:return 1;default:return 0}},i)}return 1},m):C,E=D?hT(m):D;return E?l(kA,eP(k,f(b),0,m)):E}function
+Cf(a){switch(a[0]){case
+0:return hb(a[1][1]);case
 1:var
-b=a[3];return b?ha(b[1]):1;default:return ha(a[1])}}function
-hV(a,k,b,d){var
-e=pV(function(g){if(0===g[0]){var
-c=g[1],d=aa(B3,c);if(d){var
+b=a[3];return b?hb(b[1]):1;default:return hb(a[1])}}function
+hW(a,k,b,d){var
+e=pW(function(g){if(0===g[0]){var
+c=g[1],d=aa(B4,c);if(d){var
 b=F(a,bn(c));if(b){if(2===b[1][0])return 0;var
 e=1}else
 var
 e=b;var
 f=e}else
 var
-f=d;return f}return 1},k,b),f=e?l(Ce,d[1]):e,h=f?aa(Cf,g(a)):f;if(h)var
-m=g(a),c=l(function(a){return A$(m,a)},b);else
+f=d;return f}return 1},k,b),g=e?l(Cf,d[1]):e,h=g?aa(Cg,f(a)):g;if(h)var
+m=f(a),c=l(function(a){return Ba(m,a)},b);else
 var
 c=h;var
-i=c?hS(b):c,j=i?l(fX,z(pU,a)):i;return j?l(B2,d[3]):j}function
-pZ(m,k,a,j,i,b){var
-c=g(m),n=g(i),d=o(g(j),n),e=d?l(function(b){if(12===b[1]){var
-n=0,e=b[4];if(typeof
+i=c?hT(b):c,j=i?l(fY,z(pV,a)):i;return j?l(B3,d[3]):j}function
+p0(m,k,a,j,i,b){var
+c=f(m),o=f(i),d=n(f(j),o),e=d?l(function(b){if(12===b[1]){var
+o=0,e=b[4];if(typeof
 e!=="number"&&1===e[0]){if(b[2])var
-k=aE(c,g(a),b);else
+k=aE(c,f(a),b);else
 var
-m=b[3],q=m?0===m[1][0]?o(c,g(a)):aE(c,g(a),b):aE(c,g(a),b),k=q;var
-f=k;n=1}if(!n)var
-f=aE(c,g(a),b);var
-d=f}else
+m=b[3],q=m?0===m[1][0]?n(c,f(a)):aE(c,f(a),b):aE(c,f(a),b),k=q;var
+g=k;o=1}if(!o)var
+g=aE(c,f(a),b);var
+d=g}else
 var
-d=aE(c,g(a),b);if(d){var
+d=aE(c,f(a),b);if(d){var
 h=b[1]-1|0;if(!(11<h>>>0))switch(h){case
 0:var
-j=b[2],p=j?[0,bn(j[1]),0]:aC(0,g(a));return l(function(c){var
+j=b[2],p=j?[0,bn(j[1]),0]:aC(0,f(a));return l(function(c){var
 b=F(a,c);return b?0===b[1][0]?0:1:b},p);case
 10:return l(function(a){return 0===a[0]?0:1},a);case
 11:return l(function(a){return 0===a[0]?0:1},a)}var
 i=1}else
 var
-i=d;return i},b):d,f=e?hS(b):e,h=f?l(function(a){return fX(a[2])},k):f;return h?l(ku,eP(0,g(a),0,b)):h}function
-p0(a){if(a){var
+i=d;return i},b):d,g=e?hT(b):e,h=g?l(function(a){return fY(a[2])},k):g;return h?l(kA,eP(0,f(a),0,b)):h}function
+p1(a){if(a){var
 b=a[1];if(cQ(b))return 0;var
-c=[0,b,p0(a[2])]}else
+c=[0,b,p1(a[2])]}else
 var
 c=a;return c}function
-d2(h,f,d,c,b){var
-j=p0(b),k=z(function(a){return hK(h,d,c,a)},j),l=lO(e(function(a){return fv(i,f,a)},k)),a=z(pz,b),m=a?[0,a[1],a[2]]:Cg;return M(g(m),l)}function
-kw(a){return 2<=a?Ch:Ci}function
-kx(m,l,k,j,f,i){var
-g=d2(m,l,k,j,f),c=pR(i);if(c){var
+d2(h,g,d,c,b){var
+j=p1(b),k=z(function(a){return hL(h,d,c,a)},j),l=lT(e(function(a){return fw(i,g,a)},k)),a=z(pA,b),m=a?[0,a[1],a[2]]:Ch;return M(f(m),l)}function
+kC(a){return 2<=a?Ci:Cj}function
+kD(m,l,k,j,f,i){var
+g=d2(m,l,k,j,f),c=pS(i);if(c){var
 a=c[1],e=0;if(typeof
 a==="number")var
 h=[0,a];else
 if(0===a[0]){var
-n=a[2],p=a[1],b=p,d=function(a){return[0,a,n]};e=1}else{var
-q=a[2],r=a[1],b=r,d=function(a){return[1,a,q]};e=1}if(e){if(!J(aj(cQ,f))&&!aJ(b,g))return o(b,g)?0:[0,d(bn(b))];return[0,d(b)]}}else
+o=a[2],p=a[1],b=p,d=function(a){return[0,a,o]};e=1}else{var
+q=a[2],r=a[1],b=r,d=function(a){return[1,a,q]};e=1}if(e){if(!I(aj(cQ,f))&&!aG(b,g))return n(b,g)?0:[0,d(bn(b))];return[0,d(b)]}}else
 var
 h=c;return h}function
-fY(b,a){var
-c=g(a1(function(a){return 0===a[0]?0:1},b));return o(g(a),c)}function
-hW(a){var
-b=W(aC(0,g(a)),a);return e(aA,a1(function(a){return ja(a[2])},b))}function
-p1(a){var
-b=a[1],c=e(hQ,a[1]);return g2(hR(a[1]),c,b)}function
-ky(a){return hW(p1(a))}function
-p2(b,a){if(a){var
-c=a[1],d=a[2],g=p2(M(b,c[1]),d),h=c[2];return f(e(function(a){return aC(M(b,a),Cj)},h),g)}return a}function
-p3(e,a){function
+fZ(b,a){var
+c=f(a1(function(a){return 0===a[0]?0:1},b));return n(f(a),c)}function
+hX(a){var
+b=U(aC(0,f(a)),a);return e(aA,a1(function(a){return jg(a[2])},b))}function
+p2(a){var
+b=a[1],c=e(hR,a[1]);return g3(hS(a[1]),c,b)}function
+kE(a){return hX(p2(a))}function
+p3(b,a){if(a){var
+c=a[1],d=a[2],f=p3(M(b,c[1]),d),h=c[2];return g(e(function(a){return aC(M(b,a),Ck)},h),f)}return a}function
+p4(e,a){function
 b(f){var
 a=F(e,f);if(a){var
-b=mU(a[1]);if(b)return L(b[1],d);var
+b=mU(a[1]);if(b)return J(b[1],d);var
 c=1}else
 var
 c=a;return c}var
-c=p2(0,a);return a1(function(a){return l(b,a)},c)}function
-p4(a){switch(a[0]){case
-0:return Ck;case
-1:return a[3]?Cl:Cm;default:return Cn}}function
-Co(a){return 0===a[0]?p4(a[1]):Cp}function
-hX(a){if(a){var
+c=p3(0,a);return a1(function(a){return l(b,a)},c)}function
+p5(a){switch(a[0]){case
+0:return Cl;case
+1:return a[3]?Cm:Cn;default:return Co}}function
+Cp(a){return 0===a[0]?p5(a[1]):Cq}function
+hY(a){if(a){var
 b=a[1];return[0,b[2],b[1]]}return[0,d,0]}function
-kz(aC,Y,aB,X,W,b,aA,V){var
-a=hJ(Y,aB,X,W),aD=g(V),aE=e(p4,a[1]),aF=p3(p1(a),aE),aG=aC?0:ky(a),B=dZ(Cq,ky(a),aG,aF,aD,V);if(B){var
+kF(aC,Y,aB,X,W,b,aA,V){var
+a=hK(Y,aB,X,W),aD=f(V),aE=e(p5,a[1]),aF=p4(p2(a),aE),aG=aC?0:kE(a),B=dZ(Cr,kE(a),aG,aF,aD,V);if(B){var
 Z=B[1];if(Z[2])return 0;var
-_=hV(Y,X,W,a);if(_){var
-aH=Z[1],C=e(hQ,a[1]),c=hR(a[1]),aI=hX(aA),U=nj(i,a);if(U){var
-n=g2(c,C,a[1]),h=i9(c,C,a[1],0),ab=g(a[3]),ac=M(g(n),ab),K=[0,g(n),ac],ae=a[3],E=aj(function(a){if(typeof
+_=hW(Y,X,W,a);if(_){var
+aH=Z[1],C=e(hR,a[1]),c=hS(a[1]),aI=hY(aA),U=nj(i,a);if(U){var
+n=g3(c,C,a[1]),h=jd(c,C,a[1],0),ab=f(a[3]),ac=M(f(n),ab),J=[0,f(n),ac],ae=a[3],E=aj(function(a){if(typeof
 a!=="number"&&14===a[0])return 1;return 0},ae),af=E?z(function(a){var
-b=e(aN,g4(n,a[4]));return[0,a[4],b]},h):E,ag=f(i$(h,c,K,a[3]),af),ah=f(bE(mp(h)),ag),L=f(bE(fj(h)),ah),N=cZ(L)[1],o=cY(N),O=l(function(a){var
+b=e(aN,g5(n,a[4]));return[0,a[4],b]},h):E,ag=g(jf(h,c,J,a[3]),af),ah=g(bE(mu(h)),ag),L=g(bE(fk(h)),ah),N=cZ(L)[1],o=cY(N),O=l(function(a){var
 b=m(d);return aO(r(bh(o,a),o,b),a)},L);if(O){var
-P=aj(t4,a[3]);if(P){var
+P=aj(t5,a[3]);if(P){var
 t=C,p=a[1];for(;;){if(p){var
 q=p[1],u=bS(d,t);switch(q[0]){case
 0:var
-F=q[1],G=g5(b,F[1],u),D=0;if(G){var
+F=q[1],G=g6(b,F[1],u),D=0;if(G){var
 s=aq(b,[0,F[4],c]);if(s)var
-j=I(d,s[1][1]);else{var
+j=K(d,s[1][1]);else{var
 H=s;D=1}}else{var
 H=G;D=1}if(D)var
 j=H;break;case
 1:var
-J=q[3],j=J?g5(b,J[1],u):1;break;default:var
-j=g5(b,q[1],u)}if(j){var
+I=q[3],j=I?g6(b,I[1],u):1;break;default:var
+j=g6(b,q[1],u)}if(j){var
 aa=p[2],t=bC(t),p=aa;continue}var
 Q=j}else
 var
@@ -7499,10 +7509,10 @@ Q=1;var
 v=Q;break}}else
 var
 v=P;if(v){var
-ai=a[3],ak=z(function(a){return dI(c,a)},ai),al=a[3],am=f(n,f(e(function(a){return bX(c,a)},al),ak)),w=ad(e(function(a){return aq(b,a)},am));if(w){var
+ai=a[3],ak=z(function(a){return dI(c,a)},ai),al=a[3],am=g(n,g(e(function(a){return bX(c,a)},al),ak)),w=ad(e(function(a){return aq(b,a)},am));if(w){var
 an=ba(et(a[2]),c),x=ad(e(function(a){return aq(b,a)},an));if(x){var
-ao=a[3],y=ad(m8(b,aI,function(a){return bh(o,a)},n,h,c,K,ao));if(y){var
-R=y[1],ap=i8(R),ar=x[1],as=a[2],at=function(a){return m9(b,as,c,a)},au=w[1],av=0,aw=mp(h),ay=k(ax(function(a){return bh(o,a)}),aw),az=fj(h);return f4(i7(b,N,k(ax(function(a){return bh(o,a)}),az),ay,av,au,R,at),ar,ap,aH)}var
+ao=a[3],y=ad(m8(b,aI,function(a){return bh(o,a)},n,h,c,J,ao));if(y){var
+R=y[1],ap=jc(R),ar=x[1],as=a[2],at=function(a){return m9(b,as,c,a)},au=w[1],av=0,aw=mu(h),ay=k(ax(function(a){return bh(o,a)}),aw),az=fk(h);return f5(jb(b,N,k(ax(function(a){return bh(o,a)}),az),ay,av,au,R,at),ar,ap,aH)}var
 S=y}else
 var
 S=x;var
@@ -7517,104 +7527,104 @@ A=O;return A}return U}var
 $=_}else
 var
 $=B;return $}function
-Cr(a){if(0===a[0])return pN(a[1]);var
-b=a[1],c=ew(b[6]);return f(ew(b[5]),c)}function
 Cs(a){if(0===a[0])return pO(a[1]);var
-b=a[1],c=bb(b[4]);return f(bb(b[3]),c)}function
-p5(c){var
-a=z(Cr,c),d=a?[0,a[1],a[2]]:z(Cs,c);return E(b,bG(d))}function
-Ct(a){if(0===a[0])return[0,hQ(a[1]),d];var
+b=a[1],c=ew(b[6]);return g(ew(b[5]),c)}function
+Ct(a){if(0===a[0])return pP(a[1]);var
+b=a[1],c=bb(b[4]);return g(bb(b[3]),c)}function
+p6(c){var
+a=z(Cs,c),d=a?[0,a[1],a[2]]:z(Ct,c);return E(b,bG(d))}function
+Cu(a){if(0===a[0])return[0,hR(a[1]),d];var
 b=a[1],c=bG(bb(b[2]));return[0,bG(bb(b[1])),c]}function
-kA(h,b,s,r,q,f,C,B,p){var
-a=ki(h,b,s,r,q,f),t=p5(a[2]),u=e(Ct,a[2]),j=jK(t,u,a[2]),D=g(p),E=p3(j,e(Co,a[2])),F=hW(j),G=hW(j),k=dZ(at(h),G,F,E,D,p);if(k){var
+kG(h,b,s,r,q,g,C,B,p){var
+a=ko(h,b,s,r,q,g),t=p6(a[2]),u=e(Cu,a[2]),j=jQ(t,u,a[2]),D=f(p),E=p4(j,e(Cp,a[2])),F=hX(j),G=hX(j),k=dZ(at(h),G,F,E,D,p);if(k){var
 v=k[1];if(v[2])return 0;var
-w=hU(h,b,s,r,q,f);if(w){var
-H=v[1],I=g(b),J=d2(dY(b),Cu,I,0,f),K=hX(B),y=e(vR,a[2]),m=fD(i,a[2],y);if(m)var
-z=jd(a[4]),c=cG(i,a[4],z);else
+w=hV(h,b,s,r,q,g);if(w){var
+H=v[1],I=f(b),J=d2(dY(b),Cv,I,0,g),K=hY(B),y=e(vS,a[2]),m=fE(i,a[2],y);if(m)var
+z=jj(a[4]),c=cG(i,a[4],z);else
 var
 c=m;if(c){var
 n=a[5];if(n)var
-A=hi(n[1]),o=l(function(a){return fG(i,a)},A);else
+A=hj(n[1]),o=l(function(a){return fH(i,a)},A);else
 var
 o=1;var
 d=o}else
 var
-d=c;return d?vP(C,K,J,a,t,u,H):d}var
+d=c;return d?vQ(C,K,J,a,t,u,H):d}var
 x=w}else
 var
 x=k;return x}function
-kB(r,t,ai,ah,ag,I,aP,af,v){var
+kH(r,t,ai,ah,ag,J,aP,af,v){var
 x=typeof
-r==="number"?r?Cv:Cw:hT(r[1]),B=e(j,aP),a=ki(r,t,ai,ah,ag,I),aj=kt(t,e(j,af));if(aj[2])return 0;var
-p=aj[1],ak=fY(z(kv,t),af),al=ak?hU(r,t,ai,ah,ag,I):ak;if(al)var
-aQ=at(r),L=o(g(B),aQ);else
+r==="number"?r?Cw:Cx:hU(r[1]),B=e(j,aP),a=ko(r,t,ai,ah,ag,J),aj=kz(t,e(j,af));if(aj[2])return 0;var
+p=aj[1],ak=fZ(z(kB,t),af),al=ak?hV(r,t,ai,ah,ag,J):ak;if(al)var
+aQ=at(r),K=n(f(B),aQ);else
 var
-L=al;if(L){if(typeof
+K=al;if(K){if(typeof
 v!=="number"&&2===v[0]){var
-S=e(j,v[1]),aU=av(x,S),ap=aH(am(x,S)),aW=av(x,B),aq=aH(am(x,B)),X=fD(i,a[2],p),Y=X?cG(i,a[4],aq):X,Z=Y?cG(i,a[4],ap):Y,ar=Z?oT(i,a[1],a[3],a[5],p,aq,aW,ap,aU):Z;if(ar){var
-aX=at(r);return o(g(S),aX)}return ar}var
-aR=g(t),aS=hl(r),M=kx(dY(t),aS,aR,0,I,v);if(M){var
-C=M[1],f=aH(am(x,B)),m=av(x,B),as=0;if(typeof
+S=e(j,v[1]),aU=av(x,S),ap=aI(am(x,S)),aW=av(x,B),aq=aI(am(x,B)),X=fE(i,a[2],p),Y=X?cG(i,a[4],aq):X,Z=Y?cG(i,a[4],ap):Y,ar=Z?oU(i,a[1],a[3],a[5],p,aq,aW,ap,aU):Z;if(ar){var
+aX=at(r);return n(f(S),aX)}return ar}var
+aR=f(t),aS=hm(r),M=kD(dY(t),aS,aR,0,J,v);if(M){var
+C=M[1],g=aI(am(x,B)),m=av(x,B),as=0;if(typeof
 v==="number"&&v){var
-N=J(dY(t));as=1}if(!as)var
+N=I(dY(t));as=1}if(!as)var
 N=1;if(N){var
-T=fD(i,a[2],p),U=T?jw(i,a,f,m):T;if(U)var
-n=a[5],V=a[3],y=a[1],aD=a[6],au=e(function(a){if(0===a[0])var
-e=bu(n,m,f,a),c=bz(a[1],e);else
+T=fE(i,a[2],p),V=T?jC(i,a,g,m):T;if(V)var
+o=a[5],W=a[3],y=a[1],aD=a[6],au=e(function(a){if(0===a[0])var
+e=bu(o,m,g,a),c=bz(a[1],e);else
 var
-d=a[1],g=ji(d,bu(n,m,f,a)),h=d[4],i=bu(n,m,f,a),j=K(function(b,a){return[2,b,a]},i,h),c=K(function(b,a){return[3,b,a]},j,g);return[0,jt(y,c,P([5,[0,b,b],V],da(eD(n,m,eC(a)),c)))]},p),aw=z(function(a){return jv(n,m,f,a)},p),ax=function(a){var
-b=eD(n,m,a);return K(function(b,a){return[2,b,a]},f,b)},az=0,aA=e(function(g){var
-c=bu(n,m,f,g);if(0===g[0]){var
-a=g[1];switch(a[0]){case
+d=a[1],f=jo(d,bu(o,m,g,a)),h=d[4],i=bu(o,m,g,a),j=L(function(b,a){return[2,b,a]},i,h),c=L(function(b,a){return[3,b,a]},j,f);return[0,jz(y,c,P([5,[0,b,b],W],da(eD(o,m,eC(a)),c)))]},p),aw=z(function(a){return jB(o,m,g,a)},p),ax=function(a){var
+b=eD(o,m,a);return L(function(b,a){return[2,b,a]},g,b)},az=0,aA=e(function(f){var
+c=bu(o,m,g,f);if(0===f[0]){var
+a=f[1];switch(a[0]){case
 0:var
-i=a[4],j=a[3],k=a[2],h=a[1],o=ch(h,k,j,i,c),l=cH(a[5],o),p=P(l,ay(h)),q=fs(h,k,j,c);return[0,[0,ju(y,K(function(b,a){return[2,b,a]},q,p)),l,i]];case
+i=a[4],j=a[3],k=a[2],h=a[1],n=ch(h,k,j,i,c),l=cH(a[5],n),p=P(l,ay(h)),q=ft(h,k,j,c);return[0,[0,jA(y,L(function(b,a){return[2,b,a]},q,p)),l,i]];case
 1:var
-r=bz(a,c),s=[6,w(bz(a,c),r)];return[0,[0,ju(y,bz(a,c)),[0,d,b],s]];default:return 0}}var
-e=g[1],t=e[6],u=ev(e,c),v=ji(e,c),x=e[4],z=K(function(b,a){return[2,b,a]},c,x);return[0,[0,ju(y,K(function(b,a){return[3,b,a]},z,v)),u,t]]},p),aB=e(function(a){return eE(n,m,f,a)},p),aC=[0,e(function(a){if(0===a[0])var
-l=bu(n,m,f,a),d=ci(a[1],l);else
+r=bz(a,c),s=[6,w(bz(a,c),r)];return[0,[0,jA(y,bz(a,c)),[0,d,b],s]];default:return 0}}var
+e=f[1],t=e[6],u=ev(e,c),v=jo(e,c),x=e[4],z=L(function(b,a){return[2,b,a]},c,x);return[0,[0,jA(y,L(function(b,a){return[3,b,a]},z,v)),u,t]]},p),aB=e(function(a){return eE(o,m,g,a)},p),aC=[0,e(function(a){if(0===a[0])var
+l=bu(o,m,g,a),d=ci(a[1],l);else
 var
-e=bu(n,m,f,a),c=a[1],g=ji(c,e),h=c[4],i=K(function(b,a){return[2,b,a]},e,h),j=K(function(b,a){return[3,b,a]},i,g),k=ev(c,e),d=P([5,[0,b,b],[4,c[5],k]],j);return jt(y,d,P([5,[0,b,b],V],da(eD(n,m,eC(a)),d)))},p),aB,aA,az,ax,aw,au],aE=at(a[1]),O=jf(i,hl(a[1]),aE,aC,aD,C);else
+e=bu(o,m,g,a),c=a[1],f=jo(c,e),h=c[4],i=L(function(b,a){return[2,b,a]},e,h),j=L(function(b,a){return[3,b,a]},i,f),k=ev(c,e),d=P([5,[0,b,b],[4,c[5],k]],j);return jz(y,d,P([5,[0,b,b],W],da(eD(o,m,eC(a)),d)))},p),aB,aA,az,ax,aw,au],aE=at(a[1]),O=jl(i,hm(a[1]),aE,aC,aD,C);else
 var
-O=U;if(O)var
+O=V;if(O)var
 Q=O;else{if(typeof
 C!=="number"&&0===C[0]){var
 E=C[2];if(E){if(E[2])return 0;var
-R=E[1],_=a[1],D=a[5],aT=C[1],$=fD(i,a[2],p),aa=$?jw(i,a,f,m):$;if(aa){var
-aG=a[6],F=eu(i,hl(_),aT,aG);if(F){var
+R=E[1],_=a[1],D=a[5],aT=C[1],$=fE(i,a[2],p),aa=$?jC(i,a,g,m):$;if(aa){var
+aG=a[6],F=eu(i,hm(_),aT,aG);if(F){var
 A=F[1][1];if(typeof
 A!=="number"&&16===A[0]){var
-s=A[1],aI=a[2],aJ=e(function(a){return eE(D,m,f,o6(a))},aI),ad=k(cJ(cN),s);if(ad)var
+s=A[1],aH=a[2],aJ=e(function(a){return eE(D,m,g,o7(a))},aH),ad=k(cJ(cN),s);if(ad)var
 aF=k(gr(c(2,b)),cN),u=[0,bm(d,ad[1][1]),aF];else
 var
 u=[0,d,b];var
 ae=h(i,0,s);if(ae)var
 aK=a[2],G=l(function(a){var
-b=o6(a);if(0===b[0])return 1;var
-c=b[1],d=[1,c],e=cK(i,s),g=e?n5(i,a,d):e;return g?h(i,1,jh(c,bu(D,m,f,d))):g},aK);else
+b=o7(a);if(0===b[0])return 1;var
+c=b[1],d=[1,c],e=cK(i,s),f=e?n5(i,a,d):e;return f?h(i,1,jn(c,bu(D,m,g,d))):f},aK);else
 var
 G=ae;if(G)var
-aL=g(a[2]),H=o(g(R),aL);else
+aL=f(a[2]),H=n(f(R),aL);else
 var
 H=G;if(H){var
-aM=W(R,aJ),aN=W(W(p,e(function(o){var
+aM=U(R,aJ),aN=U(U(p,e(function(o){var
 a=o[2],f=o[1];if(typeof
 a!=="number"&&1===a[0]){var
-g=a[2],j=a[1],p=c(2,c(2,c(2,q(c(2,c(2,b)))))),e=hA(s,a3(u,dA([0,b,b],[0,b,k(gr(c(2,b)),p)])),f,[1,j,g]);if(typeof
+g=a[2],j=a[1],p=c(2,c(2,c(2,q(c(2,c(2,b)))))),e=hB(s,a3(u,dA([0,b,b],[0,b,k(gr(c(2,b)),p)])),f,[1,j,g]);if(typeof
 e!=="number"&&1===e[0]){var
-d=dR([5,e[2],[2,[0,b,b],e[1]]]),r=[4,g,dL(d)],l=[2,[4,j,dK(d)],r],t=[4,g,dK(d)],m=[3,[4,j,dL(d)],t],n=[4,a5(u),[2,[0,b,b],l]];if(h(i,1,[2,[0,b,b],l])&&h(i,0,[3,n,m])&&h(i,0,[2,n,m])){var
-v=dL(d);return[1,dK(d),v]}return hA(s,u,f,a)}return hA(s,u,f,a)}return hA(s,u,f,a)},aM)),R),aO=z(function(t){var
-l=t[1],a=l[2],g=l[1],h=t[2],i=eD(D,m,eC(g)),e=bu(D,m,f,g);if(0===g[0]){var
-d=g[1];switch(d[0]){case
+d=dR([5,e[2],[2,[0,b,b],e[1]]]),r=[4,g,dL(d)],l=[2,[4,j,dK(d)],r],t=[4,g,dK(d)],m=[3,[4,j,dL(d)],t],n=[4,a6(u),[2,[0,b,b],l]];if(h(i,1,[2,[0,b,b],l])&&h(i,0,[3,n,m])&&h(i,0,[2,n,m])){var
+v=dL(d);return[1,dK(d),v]}return hB(s,u,f,a)}return hB(s,u,f,a)}return hB(s,u,f,a)},aM)),R),aO=z(function(t){var
+l=t[1],a=l[2],f=l[1],h=t[2],i=eD(D,m,eC(f)),e=bu(D,m,g,f);if(0===f[0]){var
+d=f[1];switch(d[0]){case
 0:var
 n=d[4],o=d[3],j=d[2],k=d[1];if(typeof
 a!=="number"&&0===a[0]){var
-p=a[1],u=0,v=P(p,ay(k)),x=K(function(b,a){return[3,b,a]},f,j),y=K(function(b,a){return[3,b,a]},x,v),z=aV(j,o,e),A=[3,w(ay(k),z),p],B=ch(k,j,o,n,e);return[0,[0,dR([5,[0,h,b],[2,cH(d[5],B),A]]),n,y,i],u]}return 0;case
+p=a[1],u=0,v=P(p,ay(k)),x=L(function(b,a){return[3,b,a]},g,j),y=L(function(b,a){return[3,b,a]},x,v),z=aV(j,o,e),A=[3,w(ay(k),z),p],B=ch(k,j,o,n,e);return[0,[0,dR([5,[0,h,b],[2,cH(d[5],B),A]]),n,y,i],u]}return 0;case
 1:if(typeof
 a!=="number"&&0===a[0]){var
-q=a[1],C=0,E=d[1],F=K(function(b,a){return[3,b,a]},f,E);return[0,[0,dR([5,[0,h,b],[2,q,cI(d,e)]]),q,F,i],C]}return 0;default:return 0}}var
-c=g[1];if(typeof
+q=a[1],C=0,E=d[1],F=L(function(b,a){return[3,b,a]},g,E);return[0,[0,dR([5,[0,h,b],[2,q,cI(d,e)]]),q,F,i],C]}return 0;default:return 0}}var
+c=f[1];if(typeof
 a!=="number"&&1===a[0]){var
-r=a[2],s=a[1],G=[4,r,fx(c,e)],H=[3,[4,s,fy(c,e)],G],J=P(r,g8(c)),I=0,L=P(s,fw(c)),M=K(function(b,a){return[2,b,a]},L,J),N=P(c[5],M),O=c[3],Q=K(function(b,a){return[2,b,a]},O,N),R=K(function(b,a){return[3,b,a]},f,Q),S=c[6],T=[2,ev(c,e),H];return[0,[0,dR([5,[0,h,b],[4,c[5],T]]),S,R,i],I]}return 0},aN);return o4(i,_,A[2],A[3],aO)}return H}var
+r=a[2],s=a[1],G=[4,r,fy(c,e)],H=[3,[4,s,fz(c,e)],G],J=P(r,g9(c)),I=0,K=P(s,fx(c)),M=L(function(b,a){return[2,b,a]},K,J),N=P(c[5],M),O=c[3],Q=L(function(b,a){return[2,b,a]},O,N),R=L(function(b,a){return[3,b,a]},g,Q),S=c[6],T=[2,ev(c,e),H];return[0,[0,dR([5,[0,h,b],[4,c[5],T]]),S,R,i],I]}return 0},aN);return o5(i,_,A[2],A[3],aO)}return H}var
 ab=0}else
 var
 ab=F;var
@@ -7629,7 +7639,7 @@ var
 an=M;var
 ao=an}else
 var
-ao=L;return ao}function
+ao=K;return ao}function
 cR(a){if(a){var
 b=cC(j(a[1]));if(b){var
 c=cR(a[2]);if(c)var
@@ -7638,66 +7648,66 @@ var
 d=c;var
 e=d}else
 var
-e=b;return e}return Cx}function
-hY(f,k,j,a,i){var
-l=g(f),h=o(g(a),l);if(h){var
-m=W(W(f,W(k,j)),a);return e(function(f){var
-g=f[1],h=g[2],j=dA(h[2],h[1]),a=aL(g[1],i),k=D(d,a)?lQ(b_(c(2,b),a)):[0,b,ec(b_(c(2,b),T(a)))],l=dB(gB(a3([0,c(2,b),b],k),j)),m=f[2];return e(function(a){return dB(a3(lQ(a),l))},m)},m)}return h}function
-kC(u,aU,aq,ap,t,ao,a){var
-c=hJ(u,aU,aq,ap),ar=fY(z(pU,u),ao),g=ar?hV(u,aq,ap,c):ar;if(t){var
+e=b;return e}return Cy}function
+hZ(g,k,j,a,i){var
+l=f(g),h=n(f(a),l);if(h){var
+m=U(U(g,U(k,j)),a);return e(function(f){var
+g=f[1],h=g[2],j=dA(h[2],h[1]),a=aL(g[1],i),k=D(d,a)?lV(b_(c(2,b),a)):[0,b,ec(b_(c(2,b),T(a)))],l=dB(gC(a3([0,c(2,b),b],k),j)),m=f[2];return e(function(a){return dB(a3(lV(a),l))},m)},m)}return h}function
+kI(u,aU,aq,ap,t,ao,a){var
+c=hK(u,aU,aq,ap),ar=fZ(z(pV,u),ao),g=ar?hW(u,aq,ap,c):ar;if(t){var
 v=t[2];if(v){var
 w=v[2];if(w){if(w[2])return 0;var
-h=w[1],k=v[1],m=t[1],as=pS(u,e(j,ao));if(as[2])return 0;var
+h=w[1],k=v[1],m=t[1],as=pT(u,e(j,ao));if(as[2])return 0;var
 f=as[1];if(typeof
 a!=="number")switch(a[0]){case
 2:var
 J=a[1];if(J){var
 K=J[2];if(K){var
 L=K[2];if(L){if(L[2]){var
-M=fW(c,a);if(M){var
+M=fX(c,a);if(M){var
 aY=j(h),aZ=j(k),az=[0,j(m),aZ,aY];if(g){var
-aA=fu(i,c,f,az,M[1]);if(aA)var
+aA=fv(i,c,f,az,M[1]);if(aA)var
 N=aA;else{if(typeof
 a!=="number"&&0===a[0]){var
-y=a[2];return y?y[2]?0:fM(i,c,f,az,a[1],y[1]):y}var
+y=a[2];return y?y[2]?0:fN(i,c,f,az,a[1],y[1]):y}var
 N=0}}else
 var
 N=g;var
 aB=N}else
 var
 aB=M;return aB}if(g){var
-a0=j(L[1]),a1=j(K[1]),aC=[0,j(J[1]),a1,a0],a2=j(h),a3=j(k),aD=[0,j(m),a3,a2],X=fr(i,c,f,aD),Y=X?cG(i,c[2],aC):X;if(Y){var
-aR=0,aS=0;return oT(i,0,[0,b,b],0,e(function(a){return[0,a]},f),aD,aS,aC,aR)}return Y}return g}var
-O=fW(c,a);if(O){var
+a0=j(L[1]),a1=j(K[1]),aC=[0,j(J[1]),a1,a0],a2=j(h),a3=j(k),aD=[0,j(m),a3,a2],X=fs(i,c,f,aD),Y=X?cG(i,c[2],aC):X;if(Y){var
+aR=0,aS=0;return oU(i,0,[0,b,b],0,e(function(a){return[0,a]},f),aD,aS,aC,aR)}return Y}return g}var
+O=fX(c,a);if(O){var
 a4=j(h),a5=j(k),aE=[0,j(m),a5,a4];if(g){var
-aF=fu(i,c,f,aE,O[1]);if(aF)var
+aF=fv(i,c,f,aE,O[1]);if(aF)var
 P=aF;else{if(typeof
 a!=="number"&&0===a[0]){var
-A=a[2];return A?A[2]?0:fM(i,c,f,aE,a[1],A[1]):A}var
+A=a[2];return A?A[2]?0:fN(i,c,f,aE,a[1],A[1]):A}var
 P=0}}else
 var
 P=g;var
 aG=P}else
 var
 aG=O;return aG}var
-Q=fW(c,a);if(Q){var
+Q=fX(c,a);if(Q){var
 a6=j(h),a7=j(k),aH=[0,j(m),a7,a6];if(g){var
-aI=fu(i,c,f,aH,Q[1]);if(aI)var
+aI=fv(i,c,f,aH,Q[1]);if(aI)var
 R=aI;else{if(typeof
 a!=="number"&&0===a[0]){var
-B=a[2];return B?B[2]?0:fM(i,c,f,aH,a[1],B[1]):B}var
+B=a[2];return B?B[2]?0:fN(i,c,f,aH,a[1],B[1]):B}var
 R=0}}else
 var
 R=g;var
 aJ=R}else
 var
 aJ=Q;return aJ}var
-S=fW(c,a);if(S){var
+S=fX(c,a);if(S){var
 a8=j(h),a9=j(k),aK=[0,j(m),a9,a8];if(g){var
-aL=fu(i,c,f,aK,S[1]);if(aL)var
+aL=fv(i,c,f,aK,S[1]);if(aL)var
 T=aL;else{if(typeof
 a!=="number"&&0===a[0]){var
-C=a[2];return C?C[2]?0:fM(i,c,f,aK,a[1],C[1]):C}var
+C=a[2];return C?C[2]?0:fN(i,c,f,aK,a[1],C[1]):C}var
 T=0}}else
 var
 T=g;var
@@ -7711,22 +7721,22 @@ aN==="number"&&aN){var
 V=cR(a[2]);if(V){var
 n=V[1],W=cR(a[3]);if(W){var
 o=W[1];if(g){var
-a_=hY([0,d,[0,d,[0,d,0]]],n,o,a[4],a[5]),a$=j(h),ba=j(k),D=[0,j(m),ba,a$];if(n){var
+a_=hZ([0,d,[0,d,[0,d,0]]],n,o,a[4],a[5]),a$=j(h),ba=j(k),D=[0,j(m),ba,a$];if(n){var
 p=n[2];if(p){var
 q=p[2];if(q){if(q[2])return 0;if(o){var
 r=o[2];if(r){var
 s=r[2];if(s){if(s[2])return 0;var
-Z=s[1],_=r[1],$=o[1],aa=q[1],ab=p[1],ac=n[1],ad=[0,[1,0,ac,$],[1,v_,ab,_],[1,v9,aa,Z]],ae=fr(i,c,f,D);if(ae)var
+Z=s[1],_=r[1],$=o[1],aa=q[1],ab=p[1],ac=n[1],ad=[0,[1,0,ac,$],[1,v$,ab,_],[1,v_,aa,Z]],ae=fs(i,c,f,D);if(ae)var
 aT=c[3],E=aj(function(a){if(typeof
 a==="number"&&a)return 1;return 0},aT);else
 var
 E=ae;var
-af=E?hw(n,o):E,ag=af?jY(i,c[2],[0,[0,ac,ab],aa],[0,[0,$,_],Z]):af,ah=ag?eH(i,n,o,aW(D)):ag,ai=ah?l(function(a){var
-b=eG(jZ(a)),c=b?eG([0,cI(a,D),0]):b;if(c){var
-d=jb(a,ad);if(d)return jX(i,v$,d[1]);var
+af=E?hx(n,o):E,ag=af?j4(i,c[2],[0,[0,ac,ab],aa],[0,[0,$,_],Z]):af,ah=ag?eH(i,n,o,aW(D)):ag,ai=ah?l(function(a){var
+b=eG(j5(a)),c=b?eG([0,cI(a,D),0]):b;if(c){var
+d=jh(a,ad);if(d)return j3(i,wa,d[1]);var
 e=1}else
 var
-e=c;return e},f):ah;if(ai)return hv(i,e(function(a){var
+e=c;return e},f):ah;if(ai)return hw(i,e(function(a){var
 b=cI(a,D);return[3,cI(a,ad),b]},f),a_);var
 ak=ai}else
 var
@@ -7754,12 +7764,12 @@ aP=V;return aP}var
 aQ=0}else
 var
 aQ=U;return aQ}var
-H=fW(c,a);if(H){var
+H=fX(c,a);if(H){var
 aV=j(h),aX=j(k),at=[0,j(m),aX,aV];if(g){var
-au=fu(i,c,f,at,H[1]);if(au)var
+au=fv(i,c,f,at,H[1]);if(au)var
 I=au;else{if(typeof
 a!=="number"&&0===a[0]){var
-x=a[2];return x?x[2]?0:fM(i,c,f,at,a[1],x[1]):x}var
+x=a[2];return x?x[2]?0:fN(i,c,f,at,a[1],x[1]):x}var
 I=0}}else
 var
 I=g;var
@@ -7775,21 +7785,21 @@ ax=v;var
 ay=ax}else
 var
 ay=t;return ay}function
-p6(n,m,b,l,C,B){var
+p7(n,m,b,l,C,B){var
 f=C,d=B;for(;;){if(0===d[0]){var
-h=d[1],i=F(f,h),o=i?aJ(i[1][2],CA):i;if(o)var
-D=d[2],j=p6(n,m,b,l,kq(0,h,f),D);else
+h=d[1],i=F(f,h),o=i?aG(i[1][2],CB):i;if(o)var
+D=d[2],j=p7(n,m,b,l,kw(0,h,f),D);else
 var
 j=o;if(j){var
-E=d[3],f=kq(1,h,f),d=E;continue}return j}var
-c=d[1],a=pL(0,n,f),p=e(function(b){function
-d(b){return pM(a,b)}function
-c(a){return ko(d,a)}switch(b[0]){case
+E=d[3],f=kw(1,h,f),d=E;continue}return j}var
+c=d[1],a=pM(0,n,f),p=e(function(b){function
+d(b){return pN(a,b)}function
+c(a){return ku(d,a)}switch(b[0]){case
 0:var
-e=b[5],f=pM(a,b[4]),g=c(b[3]),h=c(b[2]);return[0,c(b[1]),h,g,f,e];case
+e=b[5],f=pN(a,b[4]),g=c(b[3]),h=c(b[2]);return[0,c(b[1]),h,g,f,e];case
 1:var
 i=y(c,b[3]),j=c(b[2]);return[1,c(b[1]),j,i];default:return[2,c(b[1])]}},m);if(0===b[0])var
-t=b[2],u=ko(function(b){return au(a,b)},t),v=b[1],k=[0,ko(function(b){return au(a,b)},v),u];else
+t=b[2],u=ku(function(b){return au(a,b)},t),v=b[1],k=[0,ku(function(b){return au(a,b)},v),u];else
 var
 w=au(a,b[5]),x=au(a,b[4]),z=au(a,b[3]),A=au(a,b[2]),k=[1,au(a,b[1]),A,z,x,w];var
 q=e(function(g){var
@@ -7817,85 +7827,85 @@ i=h;return[0,g[1],g[2],i,d]},l);if(typeof
 c==="number")return 1;else
 switch(c[0]){case
 0:return 0;case
-1:return kz(1,p,k,0,q,c[1],c[2],c[3]);default:var
+1:return kF(1,p,k,0,q,c[1],c[2],c[3]);default:var
 g=c[4],s=0;if(typeof
 g!=="number"&&2===g[0]){var
 J=g[1],r=[2,e(function(b){return au(a,b)},J)];s=1}if(!s)var
 r=g;var
-G=c[3],H=e(function(b){return au(a,b)},G),I=c[2];return kC(p,k,0,q,e(function(b){return au(a,b)},I),H,r)}}}function
-p7(h,g){var
+G=c[3],H=e(function(b){return au(a,b)},G),I=c[2];return kI(p,k,0,q,e(function(b){return au(a,b)},I),H,r)}}}function
+p8(h,g){var
 a=cC(j(h));if(a){var
 c=a[1],e=bf([0,d,b],c);if(e)return bf(c,g);var
 f=e}else
 var
 f=a;return f}function
-fZ(b,a){if(a){var
+f0(b,a){if(a){var
 c=a[1],d=r(c,b,0);if(d)var
-f=am(c,b),e=[0,[0,g(a1(function(a){return a},f))]];else
+g=am(c,b),e=[0,[0,f(a1(function(a){return a},g))]];else
 var
-e=d;return e}return CC}function
-p8(b,c,a){return z(function(a){if(b4(a)){var
-d=hK(0,b,0,a);return ab(1,lO(e(function(a){return fv(i,CD,a)},d)))}return ab(0,g(py(b,c,a)))},a)}function
-p9(c,a){return e(function(a){var
+e=d;return e}return CD}function
+p9(b,c,a){return z(function(a){if(b4(a)){var
+d=hL(0,b,0,a);return ac(1,lT(e(function(a){return fw(i,CE,a)},d)))}return ac(0,f(pz(b,c,a)))},a)}function
+p_(c,a){return e(function(a){var
 b=a[4],d=a[3],e=a[2],f=a[1];return[0,z(function(b){var
-a=fZ(c,b[1]),d=a?[0,[0,a[1],b[2]],0]:a;return d},f),e,d,b]},a)}function
-p_(b,a){if(typeof
+a=f0(c,b[1]),d=a?[0,[0,a[1],b[2]],0]:a;return d},f),e,d,b]},a)}function
+p$(b,a){if(typeof
 a!=="number")switch(a[0]){case
 0:var
-c=a[2],d=fZ(b,a[1]);return y(function(a){return[0,a,c]},d);case
+c=a[2],d=f0(b,a[1]);return y(function(a){return[0,a,c]},d);case
 1:var
-e=a[2],f=fZ(b,a[1]);return y(function(a){return[1,a,e]},f);case
+e=a[2],f=f0(b,a[1]);return y(function(a){return[1,a,e]},f);case
 3:var
-g=a[5],h=a[4],i=a[3],j=a[2],k=fZ(b,a[1]);return y(function(a){return[3,a,j,i,h,g]},k)}return[0,a]}function
-CJ(v){var
-gI=hH(v[3]),gJ=gI?hH(v[4]):gI;if(gJ){var
+g=a[5],h=a[4],i=a[3],j=a[2],k=f0(b,a[1]);return y(function(a){return[3,a,j,i,h,g]},k)}return[0,a]}function
+CK(v){var
+gI=hI(v[3]),gJ=gI?hI(v[4]):gI;if(gJ){var
 af=v[1];switch(af[0]){case
 3:var
-gP=l(fT,af[1]);if(gP)var
-lM=af[2],dr=l(function(a){return fT(a[1])},lM);else
+gP=l(fU,af[1]);if(gP)var
+lM=af[2],dr=l(function(a){return fU(a[1])},lM);else
 var
 dr=gP;if(dr)var
 lN=af[3],ds=l(function(a){var
-b=fT(a[1]),c=b?ke(a[2]):b;return c?fU(a[2]):c},lN);else
+b=fU(a[1]),c=b?kk(a[2]):b;return c?fV(a[2]):c},lN);else
 var
 ds=dr;if(ds)var
 lO=af[4],bS=l(function(a){var
 b=0===a[0]?a[1]:[0,a[1],0];return l(function(a){var
-b=ke(a);return b?fU(a):b},b)},lO);else
+b=kk(a);return b?fV(a):b},b)},lO);else
 var
 bS=ds;break;case
 7:var
 lP=af[1],gQ=l(function(a){var
-b=fT(a[1]);return b?fV(0,[0,a[2][1],[0,a[2][2],0]]):b},lP),bS=gQ?fV(0,[0,af[5],[0,af[6],0]]):gQ;break;default:var
+b=fU(a[1]);return b?fW(0,[0,a[2][1],[0,a[2][2],0]]):b},lP),bS=gQ?fW(0,[0,af[5],[0,af[6],0]]):gQ;break;default:var
 bS=1}var
 dn=bS}else
 var
 dn=gJ;var
 eo=0;if(dn){var
 gK=v[1],dq=7===gK[0]?e(aA,gK[1]):0,gL=function(c,b){var
-a=pv(c);return a?l(function(a){var
-e=a[1],b=l(function(a){return kd(a[2])},e);if(b){var
-c=a[3];if(c)return fV(dq,pu(c[1]));var
+a=pw(c);return a?l(function(a){var
+e=a[1],b=l(function(a){return kj(a[2])},e);if(b){var
+c=a[3];if(c)return fW(dq,pv(c[1]));var
 d=1}else
 var
 d=b;return d},b):a},gM=function(e,d,c,b){var
-a=pv(e);return a?fV(dq,f(d,f(c,pu(b)))):a},n=v[1];switch(n[0]){case
+a=pw(e);return a?fW(dq,g(d,g(c,pv(b)))):a},o=v[1];switch(o[0]){case
 0:var
-ll=z(dV,n[4]),lm=f(z(ps,n[3]),ll),ln=f(pq(n[2]),lm),ag=f(z(kf,n[1]),ln);break;case
+ll=z(dV,o[4]),lm=g(z(pt,o[3]),ll),ln=g(pr(o[2]),lm),ag=g(z(kl,o[1]),ln);break;case
 1:var
-dk=n[5],dl=n[3],lo=z(dV,n[6]),lp=dk?pr(dk[1]):dk,lq=f(lp,lo),lr=f(pp(n[4]),lq),ls=dl?[0,dl[1],0]:dl,lt=f(ls,lr),ag=f(z(A7,n[2]),lt);break;case
+dk=o[5],dl=o[3],lo=z(dV,o[6]),lp=dk?ps(dk[1]):dk,lq=g(lp,lo),lr=g(pq(o[4]),lq),ls=dl?[0,dl[1],0]:dl,lt=g(ls,lr),ag=g(z(A8,o[2]),lt);break;case
 2:var
-lu=z(dV,n[7]),lv=f(z(ps,n[6]),lu),lw=f(pr(n[5]),lv),lx=f(pp(n[4]),lw),ly=[0,n[3],lx],lz=n[2],ag=f(z(function(a){return z(eN,f(a[1],a[2]))},lz),ly);break;case
+lu=z(dV,o[7]),lv=g(z(pt,o[6]),lu),lw=g(ps(o[5]),lv),lx=g(pq(o[4]),lw),ly=[0,o[3],lx],lz=o[2],ag=g(z(function(a){return z(eN,g(a[1],a[2]))},lz),ly);break;case
 3:var
-lA=z(dV,n[7]),lB=f(n[6],lA),lC=f(n[5],lB),lD=n[2],ag=f(z(function(a){return eN(a[2])},lD),lC);break;case
+lA=z(dV,o[7]),lB=g(o[6],lA),lC=g(o[5],lB),lD=o[2],ag=g(z(function(a){return eN(a[2])},lD),lC);break;case
 4:var
-lE=z(dV,n[3]),ag=[0,n[1],[0,n[2],lE]];break;case
+lE=z(dV,o[3]),ag=[0,o[1],[0,o[2],lE]];break;case
 5:var
-lF=z(dV,n[4]),lG=f(b2(n[3]),lF),lH=f(b2(n[2]),lG),lI=f(z(kf,n[1]),lH),ag=[0,n[5],lI];break;case
+lF=z(dV,o[4]),lG=g(b2(o[3]),lF),lH=g(b2(o[2]),lG),lI=g(z(kl,o[1]),lH),ag=[0,o[5],lI];break;case
 6:var
-dm=n[1],ag=dm?eN(dm[1]):dm;break;default:var
-lJ=z(dV,n[4]),lK=f(pq(n[3]),lJ),ag=f(z(kf,n[2]),lK)}var
-gN=fV(dq,ag);if(gN){var
+dm=o[1],ag=dm?eN(dm[1]):dm;break;default:var
+lJ=z(dV,o[4]),lK=g(pr(o[3]),lJ),ag=g(z(kl,o[2]),lK)}var
+gN=fW(dq,ag);if(gN){var
 ah=v[2];switch(ah[0]){case
 0:var
 bq=gL(ah[1],ah[3]);break;case
@@ -7910,89 +7920,89 @@ gO=dn;eo=1}if(eo)var
 bq=gO;if(bq){var
 a=v[1];switch(a[0]){case
 0:var
-N=a[4],ak=a[3],al=a[2],O=a[1],aI=v[2];switch(aI[0]){case
+N=a[4],ak=a[3],al=a[2],O=a[1],aH=v[2];switch(aH[0]){case
 0:var
-dM=aI[3],ho=aI[2],dN=aI[1],g4=p8(g(O),ak,N),lX=a1(function(a){return J(b4(a))},N);if(aj(b4,N)){var
-g5=kz(0,O,al,ak,lX,dN,ho,p9(e(J,g4),dM));if(g5){var
-lY=p9(g4,dM),lZ=a1(b4,N),l0=kk(al);return kA(0,e(kj,O),0,l0,0,lZ,dN,0,lY)}return g5}return kz(0,O,al,ak,N,dN,ho,dM);case
+dM=aH[3],ho=aH[2],dN=aH[1],g2=p9(f(O),ak,N),lX=a1(function(a){return I(b4(a))},N);if(aj(b4,N)){var
+g5=kF(0,O,al,ak,lX,dN,ho,p_(e(I,g2),dM));if(g5){var
+lY=p_(g2,dM),lZ=a1(b4,N),l0=kq(al);return kG(0,e(kp,O),0,l0,0,lZ,dN,0,lY)}return g5}return kF(0,O,al,ak,N,dN,ho,dM);case
 1:var
-dO=aI[4],dP=aI[3],dT=aI[2],g6=p8(g(O),ak,N),dB=a1(function(a){return J(b4(a))},N);if(aj(b4,N)){var
-l1=a1(b4,N),l2=kk(al),g7=hU(0,e(kj,O),0,l2,0,l1);if(g7)var
-dC=p_(e(J,g6),dO),l3=dC?kC(O,al,ak,dB,dT,dP,dC[1]):dC,dD=l3;else
+dO=aH[4],dP=aH[3],dT=aH[2],g6=p9(f(O),ak,N),dB=a1(function(a){return I(b4(a))},N);if(aj(b4,N)){var
+l1=a1(b4,N),l2=kq(al),g7=hV(0,e(kp,O),0,l2,0,l1);if(g7)var
+dC=p$(e(I,g6),dO),l3=dC?kI(O,al,ak,dB,dT,dP,dC[1]):dC,dD=l3;else
 var
 dD=g7;if(dD)var
 dF=dD;else{var
-g8=hV(O,ak,dB,hJ(O,al,ak,dB));if(g8){var
-dG=p_(g6,dO);if(dG){var
-l4=dG[1],l5=a1(b4,N),l6=kk(al);return kB(0,e(kj,O),0,l6,0,l5,dT,dP,l4)}var
+g8=hW(O,ak,dB,hK(O,al,ak,dB));if(g8){var
+dG=p$(g6,dO);if(dG){var
+l4=dG[1],l5=a1(b4,N),l6=kq(al);return kH(0,e(kp,O),0,l6,0,l5,dT,dP,l4)}var
 dF=dG}else
 var
-dF=g8}return dF}return kC(O,al,ak,N,dT,dP,dO);default:return 0}case
+dF=g8}return dF}return kI(O,al,ak,N,dT,dP,dO);default:return 0}case
 1:var
-br=a[6],bW=a[5],bZ=a[4],b0=a[3],U=a[2],Q=a[1],aJ=v[2];switch(aJ[0]){case
-0:return kA(Q,U,b0,bZ,bW,br,aJ[1],aJ[2],aJ[3]);case
+br=a[6],bW=a[5],bZ=a[4],b0=a[3],V=a[2],Q=a[1],aJ=v[2];switch(aJ[0]){case
+0:return kG(Q,V,b0,bZ,bW,br,aJ[1],aJ[2],aJ[3]);case
 1:var
 an=aJ[4],dU=aJ[3],hp=aJ[2];if(typeof
 an!=="number"&&3===an[0]){var
 mf=an[5],mg=an[4],mh=an[3],mi=an[2],mj=an[1],s=typeof
-Q==="number"?Q?Cy:Cz:hT(Q[1]),gR=dx(at(Q),s),du=e(j,hp),a4=ki(Q,U,b0,bZ,bW,br),gS=p5(a4[2]),gT=kt(U,e(j,dU));if(gT[2])return 0;var
+Q==="number"?Q?Cz:CA:hU(Q[1]),gR=dx(at(Q),s),du=e(j,hp),a4=ko(Q,V,b0,bZ,bW,br),gS=p6(a4[2]),gT=kz(V,e(j,dU));if(gT[2])return 0;var
 dv=cR(mi);if(dv){var
 S=dv[1],dw=cR(mh);if(dw){var
-aG=dw[1],gU=fY(z(kv,U),dU),gV=gU?hU(Q,U,b0,bZ,bW,br):gU;if(gV)var
-lR=at(Q),dy=o(g(du),lR);else
+aG=dw[1],gU=fZ(z(kB,V),dU),gV=gU?hV(Q,V,b0,bZ,bW,br):gU;if(gV)var
+lR=at(Q),dy=n(f(du),lR);else
 var
 dy=gV;if(dy)var
-lS=g(U),lT=hl(Q),dz=o(mj,d2(dY(U),lT,lS,0,br));else
+lS=f(V),lT=hm(Q),dz=n(mj,d2(dY(V),lT,lS,0,br));else
 var
-dz=dy;if(dz){if(dY(U))var
-lU=ab(d,gR),gW=f(ab(gS,s),lU);else
+dz=dy;if(dz){if(dY(V))var
+lU=ac(d,gR),gW=g(ac(gS,s),lU);else
 var
-lW=ab(T(gS),gR),gW=f(ab(d,s),lW);var
-lV=hY(gW,S,aG,mg,mf),ai=av(s,du),bn=aH(am(s,du)),dA=gT[1],L=a4[5],fC=jW(0,S,aG),cI=oZ(am(s,fC)),cJ=av(s,fC),fE=a4[7],fF=fE?fD(i,a4[2],dA):fE,fJ=fF?jw(i,a4,bn,ai):fF,fK=fJ?aa(s,wj):fJ;if(fK)var
-kE=M(s,g(ai)),cK=o(g(S),kE);else
+lW=ac(T(gS),gR),gW=g(ac(d,s),lW);var
+lV=hZ(gW,S,aG,mg,mf),ai=av(s,du),bn=aI(am(s,du)),dA=gT[1],J=a4[5],fC=j2(0,S,aG),cI=o0(am(s,fC)),cJ=av(s,fC),fD=a4[7],fF=fD?fE(i,a4[2],dA):fD,fG=fF?jC(i,a4,bn,ai):fF,fK=fG?aa(s,wk):fG;if(fK)var
+ks=M(s,f(ai)),cK=n(f(S),ks);else
 var
 cK=fK;var
-fL=cK?hw(S,aG):cK;if(fL)var
-kF=hx(am(s,aG)),kG=hx(am(s,S)),cL=jY(i,a4[4],kG,kF);else
+fL=cK?hx(S,aG):cK;if(fL)var
+kt=hy(am(s,aG)),ku=hy(am(s,S)),cL=j4(i,a4[4],ku,kt);else
 var
 cL=fL;if(cL){var
-kH=av(s,aG),kI=av(s,S);if(L)var
-fz=L[1],kD=0===fz[0]?wh:wi,fB=o(g(ai),kD),fM=fB?oY(i,fz,kI,kH):fB;else
+kw=av(s,aG),kA=av(s,S);if(J)var
+fz=J[1],kr=0===fz[0]?wi:wj,fA=n(f(ai),kr),fM=fA?oZ(i,fz,kA,kw):fA;else
 var
-fM=o(g(ai),0);var
+fM=n(f(ai),0);var
 cM=fM}else
 var
 cM=cL;if(cM){var
-kJ=am(s,aW(bn)),kK=am(s,aG),fP=eH(i,am(s,S),kK,kJ);if(fP)var
-a3=fP;else
-if(L){var
-fR=oX(L[1]);if(fR)var
+kJ=am(s,aW(bn)),kK=am(s,aG),fN=eH(i,am(s,S),kK,kJ);if(fN)var
+a3=fN;else
+if(J){var
+fR=oY(J[1]);if(fR)var
 kL=av(s,aG),a3=eH(i,av(s,S),kL,ai);else
 var
 a3=fR}else
 var
-a3=L}else
+a3=J}else
 var
 a3=cM;var
 fQ=a3?l(function(b){var
-a=eE(L,ai,bn,b),t=typeof
+a=eE(J,ai,bn,b),t=typeof
 a==="number"?0:0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]];if(0===b[0])var
-k=jZ(b[1]);else
+k=j5(b[1]);else
 var
-c=b[1],p=[0,c[5],[0,c[6],0]],q=f(aW(c[4]),p),r=f(aW(c[3]),q),s=f(aW(c[2]),r),k=f(aW(c[1]),s);var
-m=eG(f(k,t));if(m)var
-u=jv(L,ai,bn,b),v=1,e=l(function(a){return h(i,v,a)},u);else
+c=b[1],p=[0,c[5],[0,c[6],0]],q=g(aW(c[4]),p),r=g(aW(c[3]),q),s=g(aW(c[2]),r),k=g(aW(c[1]),s);var
+m=eG(g(k,t));if(m)var
+u=jB(J,ai,bn,b),v=1,e=l(function(a){return h(i,v,a)},u);else
 var
 e=m;if(e){var
-d=eE(L,cJ,cI,b),n=0;if(typeof
+d=eE(J,cJ,cI,b),n=0;if(typeof
 d==="number"||!(1===d[0]))n=1;else{var
 o=0;if(typeof
 a!=="number"&&1===a[0]){var
 j=[0,[2,[4,d[1],a[1]],[4,d[2],a[2]]],0];o=1}if(!o)var
 j=0}if(n)var
 j=0;var
-w=f(jv(L,cJ,cI,b),j),x=g(S);return l(function(a){return jX(i,x,a)},w)}return e},dA):a3;return fQ?hv(i,e(function(d){var
-a=eE(L,ai,bn,d),c=eE(L,cJ,cI,d);if(typeof
+w=g(jB(J,cJ,cI,b),j),x=f(S);return l(function(a){return j3(i,x,a)},w)}return e},dA):a3;return fQ?hw(i,e(function(d){var
+a=eE(J,ai,bn,d),c=eE(J,cJ,cI,d);if(typeof
 c==="number")return[0,b,b];else{if(0===c[0]){if(typeof
 a!=="number"&&0===a[0])return[3,c[1],a[1]];return[0,b,b]}if(typeof
 a!=="number"&&1===a[0])return[3,[4,c[2],a[1]],[4,c[1],a[2]]];return[0,b,b]}},dA),lV):fQ}var
@@ -8001,91 +8011,91 @@ var
 gX=dw;var
 gY=gX}else
 var
-gY=dv;return gY}return kB(Q,U,b0,bZ,bW,br,hp,dU,an);default:return 0}case
+gY=dv;return gY}return kH(Q,V,b0,bZ,bW,br,hp,dU,an);default:return 0}case
 2:var
-aK=a[7],aL=a[6],b5=a[5],b6=a[4],b7=a[3],V=a[2],X=a[1],aM=v[2];switch(aM[0]){case
+aK=a[7],aL=a[6],b5=a[5],b6=a[4],b7=a[3],W=a[2],X=a[1],aM=v[2];switch(aM[0]){case
 0:var
-hq=aM[3],ao=pD(X,V,b7,b6,b5,aL,aK),mk=ao[2],dW=E(b,bG(z(function(a){var
-b=bb(a[2]);return f(bb(a[1]),b)},mk))),ml=g(hq),mm=jG(dW,ao[2]),mn=jG(dW,ao[2]),dX=dZ(bH(X),mn,mm,0,ml,hq);if(dX){var
+hq=aM[3],ao=pE(X,W,b7,b6,b5,aL,aK),mk=ao[2],dW=E(b,bG(z(function(a){var
+b=bb(a[2]);return g(bb(a[1]),b)},mk))),ml=f(hq),mm=jM(dW,ao[2]),mn=jM(dW,ao[2]),dX=dZ(bH(X),mn,mm,0,ml,hq);if(dX){var
 hr=dX[1];if(hr[2])return 0;var
-hu=pY(X,V,b7,b6,b5,aL,aK);if(hu){var
-mo=hr[1],mp=g(V),mq=d2(0,kw(X),mp,aL,aK),mr=hX(aM[2]),ms=aM[1],iS=ao[2],et=l(function(a){var
-b=os(i,a[1]);return b?os(i,a[2]):b},iS);if(et)var
-iT=jd(ao[4]),cg=cG(i,ao[4],iT);else
+hs=pZ(X,W,b7,b6,b5,aL,aK);if(hs){var
+mo=hr[1],mp=f(W),mq=d2(0,kC(X),mp,aL,aK),mr=hY(aM[2]),ms=aM[1],iS=ao[2],et=l(function(a){var
+b=ot(i,a[1]);return b?ot(i,a[2]):b},iS);if(et)var
+iT=jj(ao[4]),cg=cG(i,ao[4],iT);else
 var
 cg=et;if(cg)var
-iU=hi(ao[5]),ch=l(function(a){return fG(i,a)},iU);else
+iU=hj(ao[5]),ch=l(function(a){return fH(i,a)},iU);else
 var
-ch=cg;return ch?vw(ms,mr,mq,ao,dW,mo):ch}var
-hA=hu}else
+ch=cg;return ch?vx(ms,mr,mq,ao,dW,mo):ch}var
+hv=hs}else
 var
-hA=dX;return hA;case
+hv=dX;return hv;case
 1:var
-Y=aM[4],hB=aM[3],aP=e(j,aM[2]),q=hT(X),hC=pT(V,e(j,hB));if(hC[2])return 0;var
-t=hC[1],hF=fY(z(function(a){return f(a[1],a[2])},V),hB),hG=hF?pY(X,V,b7,b6,b5,aL,aK):hF;if(hG){var
-p=pD(X,V,b7,b6,b5,aL,aK);if(typeof
+Y=aM[4],hB=aM[3],aP=e(j,aM[2]),q=hU(X),hC=pU(W,e(j,hB));if(hC[2])return 0;var
+t=hC[1],hD=fZ(z(function(a){return g(a[1],a[2])},W),hB),hG=hD?pZ(X,W,b7,b6,b5,aL,aK):hD;if(hG){var
+p=pE(X,W,b7,b6,b5,aL,aK);if(typeof
 Y!=="number")switch(Y[0]){case
 2:var
-hS=e(j,Y[1]),hZ=av(q,hS),h0=aH(am(q,hS)),h1=av(q,aP),h2=aH(am(q,aP)),ev=ex(i,p,t,h2,h1),ew=ev?ex(i,p,t,h0,hZ):ev;if(ew)var
-iV=bH(p[1]),ci=o(g(t),iV);else
+hP=e(j,Y[1]),hT=av(q,hP),h0=aI(am(q,hP)),h1=av(q,aP),h2=aI(am(q,aP)),ev=ex(i,p,t,h2,h1),ew=ev?ex(i,p,t,h0,hT):ev;if(ew)var
+iV=bH(p[1]),ci=n(f(t),iV);else
 var
 ci=ew;if(ci){var
 ey=function(b,a){var
-c=p[5],d=p[3],f=p[1];return e(function(e){return jm(f,d,c,a,b,e)},t)},iW=ey(h0,hZ),iX=ey(h2,h1);return jL(i,bH(p[1]),iX,iW)}return ci;case
+c=p[5],d=p[3],f=p[1];return e(function(e){return js(f,d,c,a,b,e)},t)},iW=ey(h0,hT),iX=ey(h2,h1);return jR(i,bH(p[1]),iX,iW)}return ci;case
 3:var
 d3=cR(Y[2]);if(d3){var
 ap=d3[1],d4=cR(Y[3]);if(d4){var
 aQ=d4[1],mu=p[2],mv=E(b,bG(z(function(a){var
-b=bb(a[2]);return f(bb(a[1]),b)},mu))),mw=g(V),mx=d2(0,kw(X),mw,aL,aK),h3=o(Y[1],mx);if(h3){var
-my=Y[5],mz=Y[4],mA=ab(T(mv),dx(g(aP),q)),mB=hY(f(ab(d,q),mA),ap,aQ,mz,my),a6=av(q,aP),b_=aH(am(q,aP)),a2=p[5],fp=jW(0,ap,aQ),fr=p[7],fs=fr?ex(i,p,t,b_,a6):fr,ft=fs?aa(q,we):fs;if(ft)var
-kc=M(q,g(a6)),cD=o(g(ap),kc);else
+b=bb(a[2]);return g(bb(a[1]),b)},mu))),mw=f(W),mx=d2(0,kC(X),mw,aL,aK),h3=n(Y[1],mx);if(h3){var
+my=Y[5],mz=Y[4],mA=ac(T(mv),dx(f(aP),q)),mB=hZ(g(ac(d,q),mA),ap,aQ,mz,my),a5=av(q,aP),b_=aI(am(q,aP)),a2=p[5],fp=j2(0,ap,aQ),fq=p[7],fs=fq?ex(i,p,t,b_,a5):fq,ft=fs?aa(q,wf):fs;if(ft)var
+kc=M(q,f(a5)),cD=n(f(ap),kc);else
 var
 cD=ft;if(cD)var
-kh=0===a2[0]?wf:wg,cE=o(g(a6),kh);else
+kd=0===a2[0]?wg:wh,cE=n(f(a5),kd);else
 var
 cE=cD;var
-fu=cE?hw(ap,aQ):cE;if(fu)var
-kl=hx(am(q,aQ)),km=hx(am(q,ap)),cF=jY(i,p[4],km,kl);else
+fu=cE?hx(ap,aQ):cE;if(fu)var
+ke=hy(am(q,aQ)),kf=hy(am(q,ap)),cF=j4(i,p[4],kf,ke);else
 var
 cF=fu;if(cF)var
-kn=av(q,aQ),cH=oY(i,a2,av(q,ap),kn);else
+kg=av(q,aQ),cH=oZ(i,a2,av(q,ap),kg);else
 var
 cH=cF;if(cH){var
-ko=am(q,aW(b_)),kq=am(q,aQ),fw=eH(i,am(q,ap),kq,ko);if(fw)var
-bj=fw;else{var
-fy=oX(a2);if(fy)var
-ku=av(q,aQ),bj=eH(i,av(q,ap),ku,a6);else
+kh=am(q,aW(b_)),ki=am(q,aQ),fv=eH(i,am(q,ap),ki,kh);if(fv)var
+bj=fv;else{var
+fy=oY(a2);if(fy)var
+kn=av(q,aQ),bj=eH(i,av(q,ap),kn,a5);else
 var
 bj=fy}}else
 var
 bj=cH;var
 fx=bj?l(function(a){var
-c=aW(a[2]),b=eG(f(aW(a[1]),c));return b?eG([0,j0(a2,a6,b_,a),0]):b},t):bj;return fx?hv(i,e(function(a){var
-b=[6,j0(a2,a6,b_,a)],c=oZ(am(q,fp));return[3,[6,j0(a2,av(q,fp),c,a)],b]},t),mB):fx}var
+c=aW(a[2]),b=eG(g(aW(a[1]),c));return b?eG([0,j6(a2,a5,b_,a),0]):b},t):bj;return fx?hw(i,e(function(a){var
+b=[6,j6(a2,a5,b_,a)],c=o0(am(q,fp));return[3,[6,j6(a2,av(q,fp),c,a)],b]},t),mB):fx}var
 h4=h3}else
 var
 h4=d4;var
 h5=h4}else
 var
 h5=d3;return h5}var
-mt=g(V),d0=kx(0,kw(X),mt,aL,aK,Y);if(d0){var
-bt=d0[1],x=aH(am(q,aP)),u=av(q,aP),eq=ex(i,p,t,x,u);if(eq)var
-ac=p[5],er=p[3],es=p[1],iP=p[6],cf=function(a){var
-b=bY(ac,u,x,a);return w(bY(ac,u,x,a),b)},iI=e(function(a){return[0,jm(es,er,ac,u,x,a)]},t),iJ=e(cf,t),iK=function(a){var
-b=db(ac,u,a);return K(function(b,a){return[2,b,a]},x,b)},iL=e(function(a){var
-b=[6,cf(a)],c=bY(ac,u,x,a),d=db(ac,u,a[2]);return[0,[0,[0,K(function(b,a){return[2,b,a]},x,d),c],b]]},t),iM=e(function(a){return 0},t),iN=e(function(a){return[0,[6,cf(a)]]},t),iO=[0,e(function(c){var
-a=ay(bY(ac,u,x,c));return jl(es,a,P([5,[0,b,b],er],da(db(ac,u,c[2]),a)))},t),iN,iM,iL,iK,iJ,iI],iQ=bH(p[1]),iR=2<=p[1]?uj:uk,d1=jf(i,iR,iQ,iO,iP,bt);else
+mt=f(W),d0=kD(0,kC(X),mt,aL,aK,Y);if(d0){var
+bt=d0[1],x=aI(am(q,aP)),u=av(q,aP),eq=ex(i,p,t,x,u);if(eq)var
+ab=p[5],er=p[3],es=p[1],iP=p[6],cf=function(a){var
+b=bY(ab,u,x,a);return w(bY(ab,u,x,a),b)},iI=e(function(a){return[0,js(es,er,ab,u,x,a)]},t),iJ=e(cf,t),iK=function(a){var
+b=db(ab,u,a);return L(function(b,a){return[2,b,a]},x,b)},iL=e(function(a){var
+b=[6,cf(a)],c=bY(ab,u,x,a),d=db(ab,u,a[2]);return[0,[0,[0,L(function(b,a){return[2,b,a]},x,d),c],b]]},t),iM=e(function(a){return 0},t),iN=e(function(a){return[0,[6,cf(a)]]},t),iO=[0,e(function(c){var
+a=ay(bY(ab,u,x,c));return jr(es,a,P([5,[0,b,b],er],da(db(ab,u,c[2]),a)))},t),iN,iM,iL,iK,iJ,iI],iQ=bH(p[1]),iR=2<=p[1]?uk:ul,d1=jl(i,iR,iQ,iO,iP,bt);else
 var
 d1=eq;if(d1)var
-hI=d1;else{if(typeof
+hH=d1;else{if(typeof
 bt!=="number"&&0===bt[0]){var
 b8=bt[2];if(b8){if(b8[2])return 0;var
 b9=b8[1],hN=bt[1],be=p[1],fa=ex(i,p,t,x,u),ep=0;if(fa){var
-j8=p[6],j9=2<=be?v6:v7,cz=eu(i,j9,hN,j8),cd=0;if(cz){var
+j1=p[6],j7=2<=be?v7:v8,cz=eu(i,j7,hN,j1),cd=0;if(cz){var
 a0=cz[1][1],ce=0;if(typeof
 a0!=="number"&&15===a0[0]){var
 cA=F(t,a0[1]);if(cA){var
-bi=nw(b9),fd=a0[3],bK=cA[1],bL=p[5],cB=p[3],j_=a0[4],j$=a0[2],e2=jm(be,cB,bL,u,x,bK),e3=bY(bL,u,x,bK),cx=bs(bi,bi),e4=[4,[4,j$,[6,bs(e2,e2)]],cx],bc=bY(bL,u,x,bK),cv=db(bL,u,bK[2]),bd=P([5,[0,b,b],cB],oQ(be,bi)),jQ=da(bd,cv),jT=oP(be,bi),cw=K(function(b,a){return[2,b,a]},jT,jQ),e1=w(bc,cw),jV=w(bd,bd),j1=[4,w(bc,cv),jV],j3=w(cv,bd),j5=[3,[4,w(bc,bd),j3],j1],j6=[5,[4,e1,e1],w(bc,bc)],e5=[4,[4,fd,fd],[2,[3,w(cw,cw),j6],j5]],e6=[4,[4,j_,cx],[6,w(e3,e3)]],j7=bH(be),e7=o(g(bi),j7),e8=e7?h(i,1,cx):e7,e9=e8?h(i,1,cB):e8,iH=0;if(e9){var
+bi=nw(b9),fd=a0[3],bK=cA[1],bL=p[5],cB=p[3],j9=a0[4],j$=a0[2],e2=js(be,cB,bL,u,x,bK),e3=bY(bL,u,x,bK),cx=bs(bi,bi),e4=[4,[4,j$,[6,bs(e2,e2)]],cx],bc=bY(bL,u,x,bK),cv=db(bL,u,bK[2]),bd=P([5,[0,b,b],cB],oR(be,bi)),jN=da(bd,cv),jO=oQ(be,bi),cw=L(function(b,a){return[2,b,a]},jO,jN),e1=w(bc,cw),jP=w(bd,bd),jQ=[4,w(bc,cv),jP],jS=w(cv,bd),jT=[3,[4,w(bc,bd),jS],jQ],jW=[5,[4,e1,e1],w(bc,bc)],e5=[4,[4,fd,fd],[2,[3,w(cw,cw),jW],jT]],e6=[4,[4,j9,cx],[6,w(e3,e3)]],jZ=bH(be),e7=n(f(bi),jZ),e8=e7?h(i,1,cx):e7,e9=e8?h(i,1,cB):e8,iH=0;if(e9){var
 e_=h(i,1,[3,[2,e4,e5],e6]);if(e_)var
 e$=e_;else{var
 bu=h(i,1,[3,[3,e4,e5],e6]);cd=1;ce=1;iH=1}}else
@@ -8099,67 +8109,67 @@ fb=cz;if(!cd){var
 fc=fb;ep=1}}else{var
 fc=fa;ep=1}if(ep)var
 bu=fc;if(!bu){var
-fS=p[1],cO=p[5],fW=ex(i,p,t,x,u);if(fW){var
-kM=p[6],kN=2<=fS?ws:wt,cP=eu(i,kN,hN,kM);if(cP){var
+fS=p[1],cO=p[5],fT=ex(i,p,t,x,u);if(fT){var
+kM=p[6],kN=2<=fS?wt:wu,cP=eu(i,kN,hN,kM);if(cP){var
 bl=cP[1][1];if(typeof
 bl!=="number"&&16===bl[0]){var
 f2=bl[1],f3=h(i,0,f2);if(f3)var
-kO=g(p[2]),cS=o(g(b9),kO);else
+kO=f(p[2]),cS=n(f(b9),kO);else
 var
 cS=f3;if(cS){var
-kP=p[2],kQ=W(W(t,hy(b9,e(function(a){var
-b=bB(a[2]);return o5(bY(cO,u,x,[0,bB(a[1]),b]))},kP),f2)),b9),kR=e(function(e){var
-c=e[1],d=c[2],a=c[1],f=db(cO,u,a[2]),g=a[1],h=K(function(b,a){return[3,b,a]},x,g),i=[2,d,o5(bY(cO,u,x,a))];return[0,dR([5,[0,e[2],b],i]),d,h,f]},kQ);return o4(i,[0,fS],bl[2],bl[3],kR)}return cS}var
-f0=0}else
+kP=p[2],kQ=U(U(t,hz(b9,e(function(a){var
+b=bB(a[2]);return o6(bY(cO,u,x,[0,bB(a[1]),b]))},kP),f2)),b9),kR=e(function(e){var
+c=e[1],d=c[2],a=c[1],f=db(cO,u,a[2]),g=a[1],h=L(function(b,a){return[3,b,a]},x,g),i=[2,d,o6(bY(cO,u,x,a))];return[0,dR([5,[0,e[2],b],i]),d,h,f]},kQ);return o5(i,[0,fS],bl[2],bl[3],kR)}return cS}var
+fX=0}else
 var
-f0=cP;var
-f1=f0}else
+fX=cP;var
+f1=fX}else
 var
-f1=fW;return f1}var
+f1=fT;return f1}var
 hO=bu}else
 var
 hO=b8;return hO}var
-hI=0}var
-hL=hI}else
+hH=0}var
+hJ=hH}else
 var
-hL=d0;var
-hM=hL}else
+hJ=d0;var
+hM=hJ}else
 var
 hM=hG;return hM;default:return 0}case
 3:var
 ar=a[7],bv=a[6],bw=a[5],as=a[4],d5=a[3],aR=a[2],aS=a[1],aT=v[2];switch(aT[0]){case
 0:var
-h6=aT[3],h7=hW(jS(kg(aS,aR,d5,as,bw,bv,ar)[1])),mC=g(h6),d6=dZ(g(aS),h7,h7,0,mC,h6);if(d6){var
+h6=aT[3],h7=hX(jY(km(aS,aR,d5,as,bw,bv,ar)[1])),mC=f(h6),d6=dZ(f(aS),h7,h7,0,mC,h6);if(d6){var
 h8=d6[1];if(h8[2])return 0;var
-h9=pZ(aS,aR,as,bw,bv,ar);if(h9){var
-mD=h8[1],Z=kg(aS,aR,d5,as,bw,bv,ar),mE=d2(0,CK,g(as),0,ar),h_=hX(aT[2]),bx=aT[1],eT=oJ(Z[1]);if(eT)var
-jy=Z[1][2],ct=l(function(a){return by(i,a[2][1],a[2][2])},jy);else
+h9=p0(aS,aR,as,bw,bv,ar);if(h9){var
+mD=h8[1],Z=km(aS,aR,d5,as,bw,bv,ar),mE=d2(0,CL,f(as),0,ar),h_=hY(aT[2]),bx=aT[1],eT=oK(Z[1]);if(eT)var
+jw=Z[1][2],ct=l(function(a){return by(i,a[2][1],a[2][2])},jw);else
 var
 ct=eT;if(ct)var
-jz=Z[2],cu=l(function(a){return by(i,a[1],a[2])},jz);else
+jx=Z[2],cu=l(function(a){return by(i,a[1],a[2])},jx);else
 var
 cu=ct;if(cu){var
-C=Z[1],cj=g(C[1]),bI=Z[3],ck=g(C[2]),ez=M(ck,g(fI(e(aN,C[3])))),iY=C[3],eA=oE(hs(C),iY,ck),aw=jR(cj,eA,C[4],ez),iZ=jP(eA,C[4],ez),i0=C[3],eB=f(jO(hs(C),i0,ck),iZ),eC=g(jS(C)),i1=0,i2=f(eB,dd(function(a,b){return oA(aw,a,b)},i1,d,eC,bI)),i3=f(bE(fH(aw)),i2),eD=f(bE(eF(aw)),i3),cm=cZ(eD)[1],i4=cY(cm),aZ=function(a){return bh(i4,a)},eJ=o(g(Z[2]),cj);if(eJ)var
-i5=C[4],cn=l(function(a){return 0===a[0]?o(g(a[1]),cj):1},i5);else
+C=Z[1],cj=f(C[1]),bI=Z[3],ck=f(C[2]),ez=M(ck,f(fJ(e(aN,C[3])))),iY=C[3],eA=oF(ht(C),iY,ck),aw=jX(cj,eA,C[4],ez),iZ=jV(eA,C[4],ez),i0=C[3],eB=g(jU(ht(C),i0,ck),iZ),eC=f(jY(C)),i1=0,i2=g(eB,dd(function(a,b){return oB(aw,a,b)},i1,d,eC,bI)),i3=g(bE(fI(aw)),i2),eD=g(bE(eF(aw)),i3),cm=cZ(eD)[1],i4=cY(cm),aZ=function(a){return bh(i4,a)},eJ=n(f(Z[2]),cj);if(eJ)var
+i5=C[4],cn=l(function(a){return 0===a[0]?n(f(a[1]),cj):1},i5);else
 var
 cn=eJ;var
 eK=cn?l(function(a){var
-b=m(d),c=cY(cm);return aO(r(aZ(a),c,b),a)},eD):cn,eL=eK?aj(oC,bI):eK;if(eL){var
-eM=J(Z[4]);if(eM)var
+b=m(d),c=cY(cm);return aO(r(aZ(a),c,b),a)},eD):cn,eL=eK?aj(oD,bI):eK;if(eL){var
+eM=I(Z[4]);if(eM)var
 bJ=eM;else
 var
-jx=C[4],bJ=l(function(a){return 0===a[0]?0:1},jx)}else
+jv=C[4],bJ=l(function(a){return 0===a[0]?0:1},jv)}else
 var
 bJ=eL;if(bJ){var
-i6=jS(C),co=ad(e(function(a){return aq(bx,a)},i6));if(co){var
-i_=0,ja=z(function(a){return fA(i_,d,a)},bI),cp=ad(e(function(a){return jk(bx,a)},ja));if(cp){var
-jb=Z[2],cq=ad(e(function(a){return aq(bx,[0,a,d])},jb));if(cq){var
-jc=0,jg=0,cr=ad(dd(function(a,b){return oB(bx,aZ,aw,jg,d,a,b)},jc,d,eC,bI));if(cr){var
+i6=jY(C),co=ad(e(function(a){return aq(bx,a)},i6));if(co){var
+i7=0,i8=z(function(a){return fB(i7,d,a)},bI),cp=ad(e(function(a){return jq(bx,a)},i8));if(cp){var
+i9=Z[2],cq=ad(e(function(a){return aq(bx,[0,a,d])},i9));if(cq){var
+i_=0,i$=0,cr=ad(dd(function(a,b){return oC(bx,aZ,aw,i$,d,a,b)},i_,d,eC,bI));if(cr){var
 eO=cr[1];if(Z[4])var
-jh=h_[2],ji=h_[1],jj=fH(aw),cs=je(mE,eO,[8,k(ax(aZ),jj),ji,jh]);else
+ja=h_[2],je=h_[1],jg=fI(aw),cs=jk(mE,eO,[8,k(ax(aZ),jg),je,ja]);else
 var
 cs=eO;var
-jn=i8(cs),jo=cq[1],jp=function(a){return 0},jq=f(co[1],cp[1]),jr=e(aZ,eB),js=fH(aw),jt=k(ax(aZ),js),ju=eF(aw);return f4(i7(bx,cm,k(ax(aZ),ju),jt,jr,jq,cs,jp),jo,jn,mD)}var
+jh=jc(cs),ji=cq[1],jm=function(a){return 0},jn=g(co[1],cp[1]),jo=e(aZ,eB),jp=fI(aw),jt=k(ax(aZ),jp),ju=eF(aw);return f5(jb(bx,cm,k(ax(aZ),ju),jt,jo,jn,cs,jm),ji,jh,mD)}var
 eP=cr}else
 var
 eP=cq;var
@@ -8176,41 +8186,41 @@ h$=h9}else
 var
 h$=d6;return h$;case
 1:var
-_=aT[4],ia=aT[3],b$=aT[2],A=kg(aS,aR,d5,as,bw,bv,ar),mF=e(j,ia),ib=bk(e(aN,aR),mF);if(ib[2])return 0;var
-G=ib[1],ic=fY(e(aN,aR),ia),id=ic?pZ(aS,aR,as,bw,bv,ar):ic,ie=id?oJ(A[1]):id;if(ie)var
+_=aT[4],ia=aT[3],b$=aT[2],A=km(aS,aR,d5,as,bw,bv,ar),mF=e(j,ia),ib=bk(e(aN,aR),mF);if(ib[2])return 0;var
+G=ib[1],ic=fZ(e(aN,aR),ia),id=ic?p0(aS,aR,as,bw,bv,ar):ic,ie=id?oK(A[1]):id;if(ie)var
 mG=A[2],d7=l(function(a){return by(i,a[1],a[2])},mG);else
 var
 d7=ie;if(d7){if(typeof
 _!=="number")switch(_[0]){case
 2:var
-d$=e(j,_[1]),ea=e(j,b$),az=A[1],bM=ht(az),ka=oM(az),fe=e(function(a){return a[3]},ka),ff=function(a){var
-b=oN(az,G);function
-c(c){return dQ(a,b,c)}return e(function(a){return e(c,a)},fe)},fg=b1(i,e(aN,az[2]),G),fh=fg?b1(i,A[2],ea):fg,fi=fh?b1(i,A[2],d$):fh,fk=fi?o(g(ea),bM):fi,fl=fk?o(g(d$),bM):fk,fm=fl?oO(az,az[4]):fl,fn=fm?o(g(az[4]),bM):fm,fo=fn?l(function(a){return l(jU,a)},fe):fn;if(fo){var
-kb=ff(d$);return jL(i,bM,ff(ea),kb)}return fo;case
+d$=e(j,_[1]),ea=e(j,b$),az=A[1],bM=hu(az),ka=oN(az),fe=e(function(a){return a[3]},ka),ff=function(a){var
+b=oO(az,G);function
+c(c){return dQ(a,b,c)}return e(function(a){return e(c,a)},fe)},fg=b1(i,e(aN,az[2]),G),fh=fg?b1(i,A[2],ea):fg,fi=fh?b1(i,A[2],d$):fh,fj=fi?n(f(ea),bM):fi,fl=fj?n(f(d$),bM):fj,fm=fl?oP(az,az[4]):fl,fn=fm?n(f(az[4]),bM):fm,fo=fn?l(function(a){return l(j0,a)},fe):fn;if(fo){var
+kb=ff(d$);return jR(i,bM,ff(ea),kb)}return fo;case
 3:var
 eb=cR(_[2]);if(eb){var
 a7=eb[1],ec=cR(_[3]);if(ec){var
-bC=ec[1],mI=d2(0,CM,g(as),0,ar),ij=o(_[1],mI);if(ij){var
-mJ=_[5],mK=_[4],mL=hY(ab(d,g(aS)),a7,bC,mK,mJ),bF=e(j,b$),aF=A[1],gj=jW(0,a7,bC),gk=A[4],gl=gk?b1(i,e(aN,aF[2]),G):gk,gm=gl?b1(i,A[2],bF):gl;if(gm)var
-k0=e(a5,a7),c0=b1(i,A[2],k0);else
+bC=ec[1],mI=d2(0,CN,f(as),0,ar),ij=n(_[1],mI);if(ij){var
+mJ=_[5],mK=_[4],mL=hZ(ac(d,f(aS)),a7,bC,mK,mJ),bF=e(j,b$),aF=A[1],gj=j2(0,a7,bC),gk=A[4],gl=gk?b1(i,e(aN,aF[2]),G):gk,gm=gl?b1(i,A[2],bF):gl;if(gm)var
+k0=e(a6,a7),c0=b1(i,A[2],k0);else
 var
 c0=gm;if(c0)var
-k1=e(a5,bC),c2=b1(i,A[2],k1);else
+k1=e(a6,bC),c2=b1(i,A[2],k1);else
 var
 c2=c0;var
-gn=c2?hw(a7,bC):c2,go=gn?eH(i,a7,bC,bF):gn,gp=go?eG(f(G,bF)):go;if(gp)var
-k2=aF[3],c5=l(function(a){return fO(a[2])},k2);else
+gn=c2?hx(a7,bC):c2,go=gn?eH(i,a7,bC,bF):gn,gp=go?eG(g(G,bF)):go;if(gp)var
+k2=aF[3],c5=l(function(a){return fP(a[2])},k2);else
 var
 c5=gp;if(c5){var
-c6=j4(aF[4]);if(c6){var
-bQ=c6[1],gq=l(fO,bQ);if(gq)var
-k3=1,c7=o7(function(a){return h(i,k3,a)},aF,G,bF,bQ);else
+c6=j_(aF[4]);if(c6){var
+bQ=c6[1],gq=l(fP,bQ);if(gq)var
+k3=1,c7=o8(function(a){return h(i,k3,a)},aF,G,bF,bQ);else
 var
 c7=gq;if(c7)var
-k4=g(a7),c8=o7(function(a){return jX(i,k4,a)},aF,G,gj,bQ);else
+k4=f(a7),c8=o8(function(a){return j3(i,k4,a)},aF,G,gj,bQ);else
 var
-c8=c7;if(c8)return hv(i,e(function(a){var
-b=aX(fN(aF,G,bF),a);return[3,aX(fN(aF,G,gj),a),b]},bQ),mL);var
+c8=c7;if(c8)return hw(i,e(function(a){var
+b=aX(fO(aF,G,bF),a);return[3,aX(fO(aF,G,gj),a),b]},bQ),mL);var
 gr=c8}else
 var
 gr=c6;var
@@ -8223,39 +8233,39 @@ ik=ec;var
 il=ik}else
 var
 il=eb;return il}var
-d8=kx(0,CL,g(as),0,ar,_);if(d8){var
-bz=d8[1],aU=e(j,b$),H=A[1],eV=ht(H),a_=oM(H),jH=oK(H),jI=H[4],jJ=jP(oL(H),jI,jH),jK=g(H[2]),jM=H[3],eU=f(jO(hs(H),jM,jK),jJ),a$=oN(H,G),eW=b1(i,e(aN,H[2]),G),eX=eW?b1(i,A[2],aU):eW,eY=eX?o(g(aU),eV):eX,eZ=eY?oO(H,H[4]):eY,e0=eZ?l(jU,f(z(vV,a_),eU)):eZ;if(e0)var
-jN=A[3],jA=e(function(a){var
-b=a[1];return[0,e(function(a){return dQ(aU,a$,a)},b)]},a_),jB=z(function(c){var
+d8=kD(0,CM,f(as),0,ar,_);if(d8){var
+bz=d8[1],aU=e(j,b$),H=A[1],eV=hu(H),a_=oN(H),jG=oL(H),jH=H[4],jI=jV(oM(H),jH,jG),jJ=f(H[2]),jK=H[3],eU=g(jU(ht(H),jK,jJ),jI),a$=oO(H,G),eW=b1(i,e(aN,H[2]),G),eX=eW?b1(i,A[2],aU):eW,eY=eX?n(f(aU),eV):eX,eZ=eY?oP(H,H[4]):eY,e0=eZ?l(j0,g(z(vW,a_),eU)):eZ;if(e0)var
+jL=A[3],jy=e(function(a){var
+b=a[1];return[0,e(function(a){return dQ(aU,a$,a)},b)]},a_),jz=z(function(c){var
 a=c[1];switch(a[0]){case
 7:var
 b=dQ(aU,a$,a[2]);return[0,[4,b,b],0];case
-9:return[0,dQ(aU,a$,a[1]),0];default:return 0}},eU),jC=function(a){return a},jD=0,jE=e(function(a){return 0},a_),jF=e(function(b){var
+9:return[0,dQ(aU,a$,a[1]),0];default:return 0}},eU),jA=function(a){return a},jD=0,jE=e(function(a){return 0},a_),jF=e(function(b){var
 a=b[4];if(typeof
-a!=="number"&&0===a[0])return[0,dQ(aU,a$,a[1])];return 0},a_),d9=jf(i,vW,eV,[0,e(function(a){var
-b=a[3];return e(function(a){return dQ(aU,a$,a)},b)},a_),jF,jE,jD,jC,jB,jA],jN,bz);else
+a!=="number"&&0===a[0])return[0,dQ(aU,a$,a[1])];return 0},a_),d9=jl(i,vX,eV,[0,e(function(a){var
+b=a[3];return e(function(a){return dQ(aU,a$,a)},b)},a_),jF,jE,jD,jA,jz,jy],jL,bz);else
 var
 d9=e0;if(d9)var
 ig=d9;else{if(typeof
 bz!=="number"&&0===bz[0]){var
 ca=bz[2];if(ca){if(ca[2])return 0;var
-d_=ca[1],mH=bz[1],bA=e(j,b$),aB=A[1],bN=g(aB[1]),f5=b1(i,e(aN,aB[2]),G),f6=f5?b1(i,A[2],bA):f5,f7=f6?o(g(bA),bN):f6,f8=f7?di(f(G,bA)):f7;if(f8)var
-kS=aB[3],cT=l(function(a){return fO(a[2])},kS);else
+d_=ca[1],mH=bz[1],bA=e(j,b$),aB=A[1],bN=f(aB[1]),f4=b1(i,e(aN,aB[2]),G),f6=f4?b1(i,A[2],bA):f4,f7=f6?n(f(bA),bN):f6,f8=f7?di(g(G,bA)):f7;if(f8)var
+kS=aB[3],cT=l(function(a){return fP(a[2])},kS);else
 var
 cT=f8;if(cT){var
-cU=eu(i,wv,mH,A[3]);if(cU){var
+cU=eu(i,ww,mH,A[3]);if(cU){var
 bO=cU[1][1];if(typeof
 bO!=="number"&&16===bO[0]){var
-f$=bO[2],ga=bO[1],cV=j4(aB[4]);if(cV){var
-bP=cV[1],cW=hz(aD(cN,f$));if(cW){var
+f$=bO[2],ga=bO[1],cV=j_(aB[4]);if(cV){var
+bP=cV[1],cW=hA(aD(cN,f$));if(cW){var
 kT=cW[1],gb=h(i,1,f$),gc=gb?h(i,0,ga):gb;if(gc)var
-kU=g(bP),cX=o(g(d_),kU);else
+kU=f(bP),cX=n(f(d_),kU);else
 var
 cX=gc;var
-gd=cX?l(fO,bP):cX;if(gd){var
-kV=aB[2],kW=fN(aB,e(function(a){return dS(a[2])},kV),bA),ge=hy(d_,e(function(a){return aX(kW,a)},bP),ga),gf=di(ge);if(gf){var
-kX=W(bA,aC(0,bN)),kY=fN(aB,G,e(function(a){var
-b=cl(a[2],kT);return[2,a[1],b]},kX)),kZ=W(W(e(function(a){return aX(kY,a)},bP),ge),d_);return j2(i,bN,bN,eI(function(a){return[4,[0,a[2],b],[3,a[1][1],a[1][2]]]},kZ))}var
+gd=cX?l(fP,bP):cX;if(gd){var
+kV=aB[2],kW=fO(aB,e(function(a){return dS(a[2])},kV),bA),ge=hz(d_,e(function(a){return aX(kW,a)},bP),ga),gf=di(ge);if(gf){var
+kX=U(bA,aC(0,bN)),kY=fO(aB,G,e(function(a){var
+b=cl(a[2],kT);return[2,a[1],b]},kX)),kZ=U(U(e(function(a){return aX(kY,a)},bP),ge),d_);return j8(i,bN,bN,eI(function(a){return[4,[0,a[2],b],[3,a[1][1],a[1][2]]]},kZ))}var
 gg=gf}else
 var
 gg=gd;var
@@ -8282,27 +8292,27 @@ ii=d7;return ii;default:return 0}case
 aV=a[3],a8=a[2],cb=a[1],aY=v[2];switch(aY[0]){case
 0:var
 mM=aY[3],mN=aY[2],mO=aY[1],g9=dp(j(cb));if(g9){var
-dJ=pF(aV);if(dJ){var
+dJ=pG(aV);if(dJ){var
 g_=dJ[1],bo=g_[2],g$=j(bo),ha=j(g_[1]),gw=h(i,1,j(a8)),gx=gw?h(i,1,[3,g$,[0,b,b]]):gw,gy=gx?h(i,1,ha):gx,hb=gy?h(i,0,[3,[5,[0,b,b],g$],ha]):gy,hc=hb?l(function(a){var
-b=pB(0,0,CI,a);if(b)var
+b=pC(0,0,CJ,a);if(b)var
 c=b;else{var
 d=cQ(a);if(d)return aE(0,0,a);var
 c=d}return c},aV):hb,hd=hc?l(function(c){if(1===c[1]){var
 a=c[4];if(typeof
 a!=="number"&&0===a[0])return h(i,0,[3,[0,d,b],j(a[1])]);return 1}return 1},aV):hc;if(hd){var
-dt=a1(function(a){return J(pG(a))},aV);if(dt){var
+dt=a1(function(a){return I(pH(a))},aV);if(dt){var
 l_=[0,c(2,b),b],bT=h(i,0,[3,j(bo),l_]);if(bT)var
 dK=bT;else
 var
 mb=j(bo),dK=h(i,0,[3,[0,c(2,b),b],mb]);if(dK){var
-l7=z(function(a){if(cQ(a))return CE;var
-b=hK(0,CF,0,a);return z(function(b){var
-c=fv(i,CG,b);return ab(J(pG(a)),c)},b)},aV),l8=function(f){var
-a=fZ(l7,f[1]);if(a){var
+l7=z(function(a){if(cQ(a))return CF;var
+b=hL(0,CG,0,a);return z(function(b){var
+c=fw(i,CH,b);return ac(I(pH(a)),c)},b)},aV),l8=function(f){var
+a=f0(l7,f[1]);if(a){var
 c=a[1],e=f[2];switch(e[0]){case
 0:return[0,[0,c,[0,e[1]]],0];case
-2:return[0,[0,c,[1,CH,[0,[0,b,[0,d,[0,d,0]]],[0,[0,d,[0,b,[0,d,0]]],[0,[0,d,[0,d,[0,b,0]]],0]]],d]],0];default:return[0,[0,c,e],0]}}return a},l9=e(function(a){var
-b=a[4],c=a[3],d=a[2];return[0,z(l8,a[1]),d,c,b]},mM),l$=[0,dt[1],dt[2]],ma=pK(bT,a8,bo);return kA(0,pJ(bT,cb,a8,bo),0,ma,0,l$,mO,mN,l9)}return dK}var
+2:return[0,[0,c,[1,CI,[0,[0,b,[0,d,[0,d,0]]],[0,[0,d,[0,b,[0,d,0]]],[0,[0,d,[0,d,[0,b,0]]],0]]],d]],0];default:return[0,[0,c,e],0]}}return a},l9=e(function(a){var
+b=a[4],c=a[3],d=a[2];return[0,z(l8,a[1]),d,c,b]},mM),l$=[0,dt[1],dt[2]],ma=pL(bT,a8,bo);return kG(0,pK(bT,cb,a8,bo),0,ma,0,l$,mO,mN,l9)}return dK}var
 he=1}else
 var
 he=hd;var
@@ -8314,41 +8324,41 @@ var
 hg=g9;return hg;case
 1:var
 mP=aY[4],mQ=aY[3],mR=aY[2],hh=dp(j(cb));if(hh){var
-dL=pF(aV);if(dL){var
-bp=dL[1][2],mc=[0,c(2,b),b],bU=h(i,0,[3,j(bp),mc]),hj=h(i,1,j(a8)),hk=hj?h(i,1,[3,j(bp),[0,b,b]]):hj;if(hk)if(bU)var
+dL=pG(aV);if(dL){var
+bp=dL[1][2],mc=[0,c(2,b),b],bU=h(i,0,[3,j(bp),mc]),hi=h(i,1,j(a8)),hk=hi?h(i,1,[3,j(bp),[0,b,b]]):hi;if(hk)if(bU)var
 bV=bU;else
 var
 me=j(bp),bV=h(i,0,[3,[0,c(2,b),b],me]);else
 var
 bV=hk;if(bV){var
-md=pK(bU,a8,bp);return kB(0,pJ(bU,cb,a8,bp),0,md,0,aV,mR,mQ,mP)}var
-hm=bV}else
+md=pL(bU,a8,bp);return kH(0,pK(bU,cb,a8,bp),0,md,0,aV,mR,mQ,mP)}var
+hl=bV}else
 var
-hm=dL;var
-hn=hm}else
+hl=dL;var
+hn=hl}else
 var
 hn=hh;return hn;default:return 0}case
 5:var
 ed=a[4],im=a[1],ee=v[2];if(0===ee[0]){var
-io=ee[3],B=hJ(im,[0,a[2],a[3]],0,ed),mS=g(io),ef=ks(ky(B),mS,io);if(ef){var
+io=ee[3],B=hK(im,[0,a[2],a[3]],0,ed),mS=f(io),ef=ky(kE(B),mS,io);if(ef){var
 ip=ef[1];if(ip[2])return 0;var
-iq=hV(im,0,ed,B),ir=iq?J(aj(cQ,ed)):iq;if(ir){var
+iq=hW(im,0,ed,B),ir=iq?I(aj(cQ,ed)):iq;if(ir){var
 is=nj(i,B);if(is){var
-mT=ip[1],it=e(hQ,B[1]),R=hR(B[1]),iu=j(a[5]),au=ee[1],dc=g2(R,it,B[1]),ae=i9(R,it,B[1],0),k9=g(B[3]),k_=M(g(dc),k9),bR=[0,g(dc),k_],k$=i$(ae,R,bR,B[3]),la=f(e(c3,ae),k$),gA=f(bE(fj(ae)),la),gB=cZ(gA)[1],de=cY(gB),gC=B[2];if(0===gC[0]){var
+mT=ip[1],it=e(hR,B[1]),R=hS(B[1]),iu=j(a[5]),au=ee[1],dc=g3(R,it,B[1]),ae=jd(R,it,B[1],0),k9=f(B[3]),k_=M(f(dc),k9),bR=[0,f(dc),k_],k$=jf(ae,R,bR,B[3]),la=g(e(c3,ae),k$),gA=g(bE(fk(ae)),la),gB=cZ(gA)[1],de=cY(gB),gC=B[2];if(0===gC[0]){var
 gD=l(function(a){var
 b=m(d);return aO(r(bh(de,a),de,b),a)},gA),gE=gD?h(i,1,iu):gD;if(gE){var
-lb=B[3],lc=z(function(a){return dI(R,a)},lb),ld=B[3],le=f(dc,f(e(function(a){return bX(R,a)},ld),lc)),df=ad(e(function(a){return aq(au,a)},le));if(df){var
+lb=B[3],lc=z(function(a){return dI(R,a)},lb),ld=B[3],le=g(dc,g(e(function(a){return bX(R,a)},ld),lc)),df=ad(e(function(a){return aq(au,a)},le));if(df){var
 lf=ba(gC[1],R),dg=ad(e(function(a){return aq(au,a)},lf));if(dg){var
 dh=c1(au,R,[5,iu,[0,c(2,c(2,c(2,c(2,b)))),b]]);if(dh){var
-dj=B[3],lg=dg[1],lh=df[1],li=dh[1],bm=function(a){return bh(de,a)},k6=aC(0,g(dj)),k7=e(function(j){var
+dj=B[3],lg=dg[1],lh=df[1],li=dh[1],bm=function(a){return bh(de,a)},k6=aC(0,f(dj)),k7=e(function(j){var
 l=F(dj,j);if(l){var
-a=l[1],u=am(j,dj),v=g(z(function(a){return dI(R,a)},u)),w=M(bR[2],v),i=[0,M(bR[1],j),w],r=fj(ae),f=k(ax(bm),r),c=[1,[8,[1,[1,i[1]]]]],d=g3(ae,R,i,a),n=d?[0,[3,e(bm,[0,d[1],d[2]])]]:d,m=0;if(typeof
+a=l[1],u=am(j,dj),v=f(z(function(a){return dI(R,a)},u)),w=M(bR[2],v),i=[0,M(bR[1],j),w],r=fk(ae),g=k(ax(bm),r),c=[1,[8,[1,[1,i[1]]]]],d=g4(ae,R,i,a),n=d?[0,[3,e(bm,[0,d[1],d[2]])]]:d,m=0;if(typeof
 a!=="number")switch(a[0]){case
-0:return[0,[0,f,c]];case
-1:return[0,[1,f,c]];case
+0:return[0,[0,g,c]];case
+1:return[0,[1,g,c]];case
 4:var
 o=h(au,1,a[2]),s=o?n:o;return s;case
-5:return[0,[2,f,c]];case
+5:return[0,[2,g,c]];case
 8:var
 p=h(au,1,[5,a[2],a[1]]);if(!p)return p;var
 q=[1,[2,b]];m=1;break;case
@@ -8358,44 +8368,44 @@ q=c;m=1;break;case
 3:case
 6:case
 7:return n}if(m){var
-t=fq(ae,R,i,a);return y(function(a){return[0,k(ax(bm),a),q]},t)}return 0}return l},k6),k8=e(function(a){return bm(c3(a))},ae),gz=e(function(a){return bm(a[2])},ae),lj=B[3],lk=bR[1],c$=function(aC,aB,aA){var
-k=aC,m=aB,f=aA;for(;;)switch(f[0]){case
+t=fr(ae,R,i,a);return y(function(a){return[0,k(ax(bm),a),q]},t)}return 0}return l},k6),k8=e(function(a){return bm(c3(a))},ae),gz=e(function(a){return bm(a[2])},ae),lj=B[3],lk=bR[1],c$=function(aC,aB,aA){var
+k=aC,m=aB,g=aA;for(;;)switch(g[0]){case
 0:var
-v=f[1],_=o(g(v),wE),aa=_?l(function(a){var
+v=g[1],_=n(f(v),wF),aa=_?l(function(a){var
 d=D(T(c(2,c(2,c(2,b)))),a);return d?D(a,c(2,c(2,c(2,b)))):d},v):_;if(aa){var
-ab=pf(au,li,dH(0,m),v),j=f[2],w=bg(0,bD(au,ab,e($,k)),gB,0),aD=e($,k),N=function(a){return pe(pd(au,ab,aD,w,a))};if(typeof
+ab=pg(au,li,dH(0,m),v),j=g[2],w=bg(0,bD(au,ab,e($,k)),gB,0),aD=e($,k),N=function(a){return pf(pe(au,ab,aD,w,a))};if(typeof
 j==="number")return 0===j?aj(function(b){var
 a=r(b,w,0);return a?D(a[1][2][2],d):a},gz):0;else{if(0===j[0]){var
-a=j[2],O=l(wC,a);if(O){var
+a=j[2],O=l(wD,a);if(O){var
 q=r(j[1],k7,0);if(q){var
 i=q[1];switch(i[0]){case
 0:var
 x=0;if(a)if(a[2])var
 h=0;else{var
-A=a[1],B=i[1],ao=hE(B,A),ap=hD(A),C=[0,[0,B,[0,[1,[4,[1,[6,i[2],ap]],ao]],0]]];x=1}else{var
+A=a[1],B=i[1],ao=hF(B,A),ap=hE(A),C=[0,[0,B,[0,[1,[4,[1,[6,i[2],ap]],ao]],0]]];x=1}else{var
 C=a;x=1}if(x)var
 h=C;break;case
 1:var
 y=0;if(a)if(a[2])var
 h=0;else{var
-E=a[1],G=i[1],aq=hD(E),ar=[1,[6,i[2],aq]],H=[0,[0,G,[0,[1,[4,hE(G,E),ar]],0]]];y=1}else{var
+E=a[1],G=i[1],aq=hE(E),ar=[1,[6,i[2],aq]],H=[0,[0,G,[0,[1,[4,hF(G,E),ar]],0]]];y=1}else{var
 H=a;y=1}if(y)var
 h=H;break;case
 2:var
 z=0;if(a){var
-n=a[2],an=0;if(n)if(n[2]){var
+o=a[2],an=0;if(o)if(o[2]){var
 h=0;an=1}else
 var
-I=n[1],J=a[1],p=i[1],as=hD(J),at=[1,[6,hE(p,I),as]],av=[1,[6,i[2],at]],aw=hD(I),K=[0,[0,p,[0,[1,[4,[1,[6,hE(p,J),aw]],av]],0]]];else
+I=o[1],J=a[1],p=i[1],as=hE(J),at=[1,[6,hF(p,I),as]],av=[1,[6,i[2],at]],aw=hE(I),K=[0,[0,p,[0,[1,[4,[1,[6,hF(p,J),aw]],av]],0]]];else
 var
-K=n;if(!an){var
+K=o;if(!an){var
 L=K;z=1}}else{var
 L=a;z=1}if(z)var
 h=L;break;default:if(a)var
 h=0;else
 var
 ax=i[1],h=[0,[0,0,e(function(a){return[1,[5,[0,a]]]},ax)]]}if(h){var
-P=h[1],ay=P[1],Q=l(function(a){return pe(r(a[2],w,0))},ay);if(Q)return l(N,P[2]);var
+P=h[1],ay=P[1],Q=l(function(a){return pf(r(a[2],w,0))},ay);if(Q)return l(N,P[2]);var
 R=Q}else
 var
 R=h;var
@@ -8418,15 +8428,15 @@ Y=0}else
 var
 Y=s;return Y}}return aa;case
 1:var
-ac=f[1],ad=pg(ac,m);if(ad){var
-ae=c4(ac,m),af=c$(k,ae[1],f[2]);if(af){var
-m=ae[2],f=f[3];continue}var
+ac=g[1],ad=ph(ac,m);if(ad){var
+ae=c4(ac,m),af=c$(k,ae[1],g[2]);if(af){var
+m=ae[2],g=g[3];continue}var
 ag=af}else
 var
 ag=ad;return ag;default:var
-ah=f[1],ai=pg(ah,k);if(ai){var
-ak=c4(ah,k),al=c$(ak[1],m,f[2]);if(al){var
-k=ak[2],f=f[3];continue}var
+ah=g[1],ai=ph(ah,k);if(ai){var
+ak=c4(ah,k),al=c$(ak[1],m,g[2]);if(al){var
+k=ak[2],g=g[3];continue}var
 am=al}else
 var
 am=ai;return am}};return c$(lh,lg,mT)}var
@@ -8448,11 +8458,11 @@ iw=ef;return iw}return 0;case
 6:var
 ix=a[1];if(ix){var
 iy=ix[1],eg=v[2];if(0===eg[0]){var
-eh=kr(CO,0,0,0,CN,eg[3]);if(eh){var
-iz=fX(iy);if(iz){var
+eh=kx(CP,0,0,0,CO,eg[3]);if(eh){var
+iz=fY(iy);if(iz){var
 mU=eh[1],iA=b3(iy)[2],cc=eg[1],c9=c1(cc,d,iA);if(c9){var
 c_=c1(cc,d,[5,[0,b,b],iA]);if(c_){var
-k5=c9[1][1],gt=I(cy(cc),k5);if(gt)return pc(cc,c_[1][1],mU);var
+k5=c9[1][1],gt=K(cy(cc),k5);if(gt)return pd(cc,c_[1][1],mU);var
 gu=gt}else
 var
 gu=c_;var
@@ -8463,40 +8473,40 @@ iB=iz}else
 var
 iB=eh;return iB}return 0}var
 ei=v[2];if(0===ei[0]){var
-ej=kr(CQ,0,0,0,CP,ei[3]);return ej?pc(ei[1],d,ej[1]):ej}return 0;default:var
+ej=kx(CR,0,0,0,CQ,ei[3]);return ej?pd(ei[1],d,ej[1]):ej}return 0;default:var
 a9=a[1],iC=v[2];if(2===iC[0]){var
-iD=iC[1],ek=kp(g(iD),iD);if(ek){var
+iD=iC[1],ek=kv(f(iD),iD);if(ek){var
 iE=ek[1];if(iE[2])return 0;var
-el=iE[1],gZ=aa(CB,g(a9)),g0=gZ?aa(g(a9),dE):gZ,g1=g0?oI(e(aA,a9)):g0,iF=g1?l(function(c){var
+el=iE[1],gZ=aa(CC,f(a9)),g0=gZ?aa(f(a9),dE):gZ,g1=g0?oJ(e(aA,a9)):g0,iF=g1?l(function(c){var
 a=cC(j(c[2][1]));if(a){var
-b=cC(j(c[2][2]));if(b)return J(bf(b[1],a[1]));var
+b=cC(j(c[2][2]));if(b)return I(bf(b[1],a[1]));var
 d=b}else
 var
 d=a;return d},a9):g1;if(iF)var
-mV=hP(Br,el),em=p7(a[5],mV);else
+mV=hQ(Bs,el),em=p8(a[5],mV);else
 var
 em=iF;if(em)var
-mW=hP(Bs,el),en=p7(a[6],mW);else
+mW=hQ(Bt,el),en=p8(a[6],mW);else
 var
 en=em;if(en){var
-lQ=e(function(a){return[0,d,0]},a9);return p6(a9,a[2],a[3],a[4],lQ,el)}var
+lQ=e(function(a){return[0,d,0]},a9);return p7(a9,a[2],a[3],a[4],lQ,el)}var
 iG=en}else
 var
 iG=ek;return iG}return 0}}return bq}var
-Y=[a7,CT,ss(0)],p$=[a7,CU,ss(0)];function
-CR(l,b){var
-f=[0,n(AN,ar(b[4])),0],g=[0,n(AP,ah([0,n(AO,ar(b[3])),f])),0],a=b[2];switch(a[0]){case
+Y=[a8,CU,st(0)],qa=[a8,CV,st(0)];function
+CS(l,b){var
+f=[0,o(AO,ar(b[4])),0],g=[0,o(AQ,ah([0,o(AP,ar(b[3])),f])),0],a=b[2];switch(a[0]){case
 0:var
-c=Q(AJ,pn(a[1],a[2],a[3]));break;case
+c=Q(AK,po(a[1],a[2],a[3]));break;case
 1:var
-c=Q(AK,po(a[1],a[2],a[3],a[4]));break;default:var
-c=Q(AL,H(e(AE,a[1])))}var
-h=[0,n(AQ,c),g],i=1===b[2][0]?AW:AR,j=[0,n(AS,ar(i)),h],k=[0,n(AT,ze(b[1])),j],d=aB(lv(CS,hF(ah([0,n(AV,ar(AU)),k]),AM)),l);return d?CJ(b):d}function
+c=Q(AL,pp(a[1],a[2],a[3],a[4]));break;default:var
+c=Q(AM,H(e(AF,a[1])))}var
+h=[0,o(AR,c),g],i=1===b[2][0]?AX:AS,j=[0,o(AT,ar(i)),h],k=[0,o(AU,zf(b[1])),j],d=aB(lA(CT,hG(ah([0,o(AW,ar(AV)),k]),AN)),l);return d?CK(b):d}function
 ai(a){if(0===a[0])return a[1];throw Y}function
 ae(a){if(1===a[0])return a[1];throw Y}function
 a2(a){if(2===a[0])return a[1];throw Y}function
-f0(a){if(3===a[0])return a[1];throw Y}function
-bc(b,a){return lu(a,b)}function
+f1(a){if(3===a[0])return a[1];throw Y}function
+bc(b,a){return lz(a,b)}function
 v(c,b){var
 a=bc(c,b);if(a)return a[1];throw Y}function
 cn(b,a){var
@@ -8505,15 +8515,15 @@ d3(a){switch(a[0]){case
 0:var
 b=a[1];if(b&&!b[2]){var
 c=b[1];return[0,c[1],c[2]]}break;case
-2:return[0,a[1],CW]}throw Y}function
-f1(e,d){var
+2:return[0,a[1],CX]}throw Y}function
+f2(e,d){var
 a=X(e,ae(d));if(a){var
 b=a[2];if(b){var
 c=b[2];if(c&&!c[2])return[0,a[1],b[1],c[1]]}}throw Y}function
-hZ(i){var
-f=e4(i),d=[0,0],e=iq(f)-1|0;if(!(e<0)){var
+h0(i){var
+f=e4(i),d=[0,0],e=is(f)-1|0;if(!(e<0)){var
 c=e;for(;;){var
-a=d[1],g=k9(f,c)-48|0;if(9<g>>>0)throw Y;switch(g){case
+a=d[1],g=lc(f,c)-48|0;if(9<g>>>0)throw Y;switch(g){case
 0:var
 b=[0,a];break;case
 1:var
@@ -8535,48 +8545,48 @@ b=[8,a];break;default:var
 b=[9,a]}d[1]=b;var
 h=c-1|0;if(0!==c){var
 c=h;continue}break}}return d[1]}function
-f2(a){return lK(hZ(a))}function
+f3(a){return lP(h0(a))}function
 eR(b){var
-a=f0(b);return 45===a8(a,0)?T(f2(ea(a,1,az(a)-1|0))):f2(a)}function
-qa(a){return ec(f2(f0(a)))}function
+a=f1(b);return 45===a9(a,0)?T(f3(ea(a,1,az(a)-1|0))):f3(a)}function
+qb(a){return ec(f3(f1(a)))}function
 dr(b){var
-a=f0(b);if(!(2<az(a))&&!(64<=ip(a)))return iD(f2(a));throw Y}function
+a=f1(b);if(!(2<az(a))&&!(64<=ir(a)))return iE(f3(a));throw Y}function
 cS(c){var
-a=f0(c);if(6<az(a))throw Y;function
-b(a){return 0<a?[0,b(a-1|0)]:0}return b(ip(a))}function
-qb(a){var
-b=97<=a?1:0,c=b?a<=r6?1:0:b;if(c)var
+a=f1(c);if(6<az(a))throw Y;function
+b(a){return 0<a?[0,b(a-1|0)]:0}return b(ir(a))}function
+qc(a){var
+b=97<=a?1:0,c=b?a<=r7?1:0:b;if(c)var
 d=c;else
 var
 e=65<=a?1:0,d=e?a<=90?1:0:e;return d}function
-qc(y,b){var
+qd(y,b){var
 d=az(b),a=[0,0];function
 c(e){var
-c=a[1]<d?1:0,f=c?a8(b,a[1])===e?1:0:c;return f}function
+c=a[1]<d?1:0,f=c?a9(b,a[1])===e?1:0:c;return f}function
 l(e){var
-c=a[1];for(;;){if(a[1]<d&&48<=a8(b,a[1])&&!(57<a8(b,a[1]))){a[1]++;continue}return ea(b,c,a[1]-c|0)}}function
+c=a[1];for(;;){if(a[1]<d&&48<=a9(b,a[1])&&!(57<a9(b,a[1]))){a[1]++;continue}return ea(b,c,a[1]-c|0)}}function
 m(b){a[1]++;var
 d=f(b+1|0);if(c(41)){a[1]++;return d}throw Y}function
 h(i){if(64<i)throw Y;if(c(45)){a[1]++;return[2,h(i+1|0)]}if(c(40))var
 e=m(i);else{var
-u=0;if((a[1]+5|0)<=d&&aB(ea(b,a[1],5),CY)){a[1]=a[1]+4|0;var
+u=0;if((a[1]+5|0)<=d&&aB(ea(b,a[1],5),CZ)){a[1]=a[1]+4|0;var
 e=[5,m(i)]}else
 u=1;if(u){var
-v=0;if(a[1]<d&&qb(a8(b,a[1]))){var
+v=0;if(a[1]<d&&qc(a9(b,a[1]))){var
 n=a[1];for(;;){if(a[1]<d){var
-w=0;if(!qb(a8(b,a[1]))&&95!==a8(b,a[1])&&(!(48<=a8(b,a[1]))||57<a8(b,a[1])))w=1;if(!w){a[1]++;continue}}var
+w=0;if(!qc(a9(b,a[1]))&&95!==a9(b,a[1])&&(!(48<=a9(b,a[1]))||57<a9(b,a[1])))w=1;if(!w){a[1]++;continue}}var
 e=[1,k(y,ea(b,n,a[1]-n|0))];break}}else
 v=1;if(v){var
-g=l(0),o=c(46),q=o?(a[1]++,[0,l(0)]):o,r=aB(g,CZ);if(r)var
+g=l(0),o=c(46),q=o?(a[1]++,[0,l(0)]):o,r=aB(g,C0);if(r)var
 s=r;else
 var
-t=1<az(g)?1:0,s=t?48===a8(g,0)?1:0:t;if(s)throw Y;if(q){var
-j=q[1],x=0;if(aB(j,C0)||48===a8(j,az(j)-1|0))x=1;else
+t=1<az(g)?1:0,s=t?48===a9(g,0)?1:0:t;if(s)throw Y;if(q){var
+j=q[1],x=0;if(aB(j,C1)||48===a9(j,az(j)-1|0))x=1;else
 var
-z=hZ(j),e=[0,hZ(g),z];if(x)throw Y}else
+z=h0(j),e=[0,h0(g),z];if(x)throw Y}else
 var
-e=[0,hZ(g),0]}}}if(c(94)){a[1]++;var
-f=l(0);if(p(f,CX)){if(!(2<az(f))&&2<=ip(f)&&!(64<ip(f)))return[4,e,ec(f2(f))];throw Y}throw Y}return e}function
+e=[0,h0(g),0]}}}if(c(94)){a[1]++;var
+f=l(0);if(p(f,CY)){if(!(2<az(f))&&2<=ir(f)&&!(64<ir(f)))return[4,e,ec(f3(f))];throw Y}throw Y}return e}function
 e(d){var
 b=h(d);for(;;){if(c(42)){a[1]++;var
 b=[3,2,b,h(d)];continue}if(c(47)){a[1]++;var
@@ -8586,55 +8596,55 @@ b=e(d);for(;;){if(c(43)){a[1]++;var
 b=[3,0,b,e(d)];continue}if(c(45)){a[1]++;var
 b=[3,1,b,e(d)];continue}return b}}var
 g=f(0);if(a[1]<d)throw Y;return g}function
-h0(a){return qc(function(a){return[0,a]},a)}function
-kD(a){var
-b=a2(a);return qc(function(a){return a},b)}function
-Z(a){return h0(a2(a))}function
-b5(a){if(2===a[0])return[0,h0(a[1])];var
-b=ai(a),c=Z(v(b,C1));return[1,Z(v(b,C2)),c]}function
-an(a){throw[0,p$,be(lv(C4,a),C3)]}function
-kE(c){var
-a=a2(c);if(p(a,C5)){var
-b=p(a,C6);if(b)throw Y;return b}return 1}function
-C7(d){var
+h1(a){return qd(function(a){return[0,a]},a)}function
+kJ(a){var
+b=a2(a);return qd(function(a){return a},b)}function
+Z(a){return h1(a2(a))}function
+b5(a){if(2===a[0])return[0,h1(a[1])];var
+b=ai(a),c=Z(v(b,C2));return[1,Z(v(b,C3)),c]}function
+an(a){throw[0,qa,be(lA(C5,a),C4)]}function
+kK(c){var
+a=a2(c);if(p(a,C6)){var
+b=p(a,C7);if(b)throw Y;return b}return 1}function
+C8(d){var
 b=ai(d);function
-a(a){return f1(b5,v(b,a))}var
-c=a2(v(b,C8));if(p(c,C9)){if(p(c,C_)){if(p(c,C$))return an([0,Db,[0,c,Da]]);var
-e=bc(b,Dc),f=cn(function(a){return f1(b5,a)},e),g=a(Dd);return[1,a(De),g,f]}var
-h=kE(v(b,Df)),i=b5(v(b,Dg)),j=a(Dh),k=a(Di);return[0,a(Dj),k,j,i,h]}return[2,a(Dk)]}function
-Dl(d){var
+a(a){return f2(b5,v(b,a))}var
+c=a2(v(b,C9));if(p(c,C_)){if(p(c,C$)){if(p(c,Da))return an([0,Dc,[0,c,Db]]);var
+e=bc(b,Dd),f=cn(function(a){return f2(b5,a)},e),g=a(De);return[1,a(Df),g,f]}var
+h=kK(v(b,Dg)),i=b5(v(b,Dh)),j=a(Di),k=a(Dj);return[0,a(Dk),k,j,i,h]}return[2,a(Dl)]}function
+Dm(d){var
 a=ai(d);if(a){var
-b=a[1];if(!p(b[1],Dm)){var
-c=b[2];if(2===c[0]&&!p(c[1],Dn))return 1}}return 0}function
-qd(e){var
+b=a[1];if(!p(b[1],Dn)){var
+c=b[2];if(2===c[0]&&!p(c[1],Do))return 1}}return 0}function
+qe(e){var
 b=ai(e);function
 a(a){return X(b5,ae(v(b,a)))}var
-c=a2(v(b,Do)),f=bc(b,Dp),d=cn(function(a){return X(b5,ae(a))},f);if(p(c,Dq)){if(p(c,Dr)){if(p(c,Ds)){if(!p(c,Dt)){var
-g=a(Dw);return[1,a(Dx),g,d]}}else
+c=a2(v(b,Dp)),f=bc(b,Dq),d=cn(function(a){return X(b5,ae(a))},f);if(p(c,Dr)){if(p(c,Ds)){if(p(c,Dt)){if(!p(c,Du)){var
+g=a(Dx);return[1,a(Dy),g,d]}}else
 if(!d){var
-h=kE(v(b,Dy)),i=b5(v(b,Dz)),j=a(DA),k=a(DB);return[0,a(DC),k,j,i,h]}}else
-if(!d)return[2,a(DD)]}else
+h=kK(v(b,Dz)),i=b5(v(b,DA)),j=a(DB),k=a(DC);return[0,a(DD),k,j,i,h]}}else
+if(!d)return[2,a(DE)]}else
 if(!d){var
-l=kE(v(b,DE)),m=b5(v(b,DF)),n=b5(v(b,DG)),o=a(DH),q=a(DI),r=a(DJ);return[3,a(DK),r,q,o,n,m,l]}return an([0,Dv,[0,c,Du]])}function
-DL(d){var
+l=kK(v(b,DF)),m=b5(v(b,DG)),n=b5(v(b,DH)),o=a(DI),q=a(DJ),r=a(DK);return[3,a(DL),r,q,o,n,m,l]}return an([0,Dw,[0,c,Dv]])}function
+DM(d){var
 a=ai(d);if(a){var
-b=a[1];if(!p(b[1],DM)){var
-c=b[2];if(2===c[0]&&!p(c[1],DN))return 1}}return 0}function
-DO(d){var
+b=a[1];if(!p(b[1],DN)){var
+c=b[2];if(2===c[0]&&!p(c[1],DO))return 1}}return 0}function
+DP(d){var
 a=ai(d);if(a){var
-b=a[1];if(!p(b[1],DP)){var
-c=b[2];if(2===c[0]&&!p(c[1],DQ))return 1}}return 0}function
-qe(d){var
+b=a[1];if(!p(b[1],DQ)){var
+c=b[2];if(2===c[0]&&!p(c[1],DR))return 1}}return 0}function
+qf(d){var
 a=ai(d);if(a){var
-b=a[1];if(!p(b[1],DR)){var
-c=b[2];if(2===c[0]&&!p(c[1],DS))return 1}}return 0}function
+b=a[1];if(!p(b[1],DS)){var
+c=b[2];if(2===c[0]&&!p(c[1],DT))return 1}}return 0}function
 ds(c,d){var
 a=ae(d);if(a){var
 b=a[2];if(b&&!b[2]){var
 e=k(c,b[1]);return[0,k(c,a[1]),e]}}throw Y}function
 d4(g,o){var
-h=g?g[1]:g,c=ai(o),a=a2(v(c,DT)),j=sE(a,DU),f=0;if(0<=j)if(0<j)if(p(a,DV))if(p(a,DW))if(p(a,DX))if(p(a,DY))if(p(a,DZ))if(p(a,D0))if(p(a,D1)){var
-k=p(a,D2);if(k)f=1;else
+h=g?g[1]:g,c=ai(o),a=a2(v(c,DU)),j=sF(a,DV),f=0;if(0<=j)if(0<j)if(p(a,DW))if(p(a,DX))if(p(a,DY))if(p(a,DZ))if(p(a,D0))if(p(a,D1))if(p(a,D2)){var
+k=p(a,D3);if(k)f=1;else
 var
 b=k}else
 var
@@ -8654,7 +8664,7 @@ var
 b=13;else
 var
 b=2;else
-if(p(a,El))if(p(a,Em))if(p(a,En))if(p(a,Eo))if(p(a,Ep))if(p(a,Eq))if(p(a,Er))if(p(a,Es))f=1;else
+if(p(a,Em))if(p(a,En))if(p(a,Eo))if(p(a,Ep))if(p(a,Eq))if(p(a,Er))if(p(a,Es))if(p(a,Et))f=1;else
 var
 b=1;else
 var
@@ -8672,10 +8682,10 @@ b=14;else
 f=1;else
 var
 b=12;var
-n=f?an([0,D4,[0,a,D3]]):b;function
-i(a){return v(c,D5)}var
-d=a2(v(c,D6)),l=p(d,D7);if(l)if(p(d,D8))if(p(d,D9))if(p(d,D_))var
-e=an([0,Ea,[0,d,D$]]);else
+n=f?an([0,D5,[0,a,D4]]):b;function
+i(a){return v(c,D6)}var
+d=a2(v(c,D7)),l=p(d,D8);if(l)if(p(d,D9))if(p(d,D_))if(p(d,D$))var
+e=an([0,Eb,[0,d,Ea]]);else
 var
 m=ds(Z,i(0)),e=[2,m[1],m[2]];else
 var
@@ -8687,114 +8697,114 @@ e=l;function
 q(H){var
 a=ai(H),b=0;switch(n){case
 6:if(a){var
-r=a[1];if(!p(r[1],Ec)){var
+r=a[1];if(!p(r[1],Ed)){var
 s=r[2];if(1===s[0]){var
 c=s[1],m=0;if(c&&!c[2])if(a[2])m=1;else{var
 e=c[1];b=1;m=1}if(!m&&!a[2]){var
 t=c;b=2}}}}break;case
 10:if(a){var
-u=a[1];if(!p(u[1],Ed)){var
+u=a[1];if(!p(u[1],Ee)){var
 v=u[2];if(1===v[0]){var
 f=v[1];if(f&&!f[2]){var
 g=a[2];if(g){var
-w=g[1];if(!p(w[1],Ee)){var
+w=g[1];if(!p(w[1],Ef)){var
 x=w[2];if(1===x[0]){var
 i=x[1];if(i&&!i[2]&&!g[2]){var
 I=Z(i[1]);return[2,Z(f[1]),I]}}}}}}}}break;case
 12:if(a){var
-y=a[1];if(!p(y[1],Ef)){var
+y=a[1];if(!p(y[1],Eg)){var
 z=y[2];if(1===z[0]){var
 j=z[1];if(j&&!j[2]){var
 k=a[2],A=j[1];if(k){var
-B=k[1];if(!p(B[1],Eg)){var
+B=k[1];if(!p(B[1],Eh)){var
 C=B[2];if(1===C[0]){var
 l=C[1];if(l&&!l[2]&&!k[2]&&h){var
 J=Z(l[1]);return[3,Z(A),J]}}}}else{var
 e=A;b=1}}}}}break;case
 16:if(a){var
-F=a[1];if(!p(F[1],Ei)){var
+F=a[1];if(!p(F[1],Ej)){var
 G=F[2];if(1===G[0]&&!a[2]){var
 t=G[1];b=2}}}break;case
 14:case
 15:if(a){var
-D=a[1];if(!p(D[1],Eh)){var
+D=a[1];if(!p(D[1],Ei)){var
 E=D[2];if(1===E[0]&&!a[2])return[1,X(Z,E[1])]}}break;case
 2:case
 8:if(a){var
-o=a[1];if(!p(o[1],Eb)){var
+o=a[1];if(!p(o[1],Ec)){var
 q=o[2];if(1===q[0]){var
 d=q[1];if(d&&!d[2]&&!a[2]){var
 e=d[1];b=1}}}}break}switch(b){case
 0:throw Y;case
 1:return[0,Z(e)];default:return[1,X(Z,t)]}}var
-r=cn(q,bc(c,Ej));return[0,n,cn(cS,bc(c,Ek)),r,e]}function
-qf(c){var
-d=d4(Ev,c),e=d[1];if(!(9<=e))switch(e){case
+r=cn(q,bc(c,Ek));return[0,n,cn(cS,bc(c,El)),r,e]}function
+qg(c){var
+d=d4(Ew,c),e=d[1];if(!(9<=e))switch(e){case
 2:case
 6:case
 8:return d}var
-a=d4(Et,c),b=a[1];if(2!==b&&!(4<=b))return a;return an(Eu)}function
-qg(a){var
-b=d4(Ew,a);return 11===b[1]?b:qf(a)}function
-Ex(a){var
-b=d4(Ey,a);return 12===b[1]?b:qg(a)}function
-Ez(a){var
-b=d4(EA,a),c=b[1];if(9<=c)switch(c-9|0){case
+a=d4(Eu,c),b=a[1];if(2!==b&&!(4<=b))return a;return an(Ev)}function
+qh(a){var
+b=d4(Ex,a);return 11===b[1]?b:qg(a)}function
+Ey(a){var
+b=d4(Ez,a);return 12===b[1]?b:qh(a)}function
+EA(a){var
+b=d4(EB,a),c=b[1];if(9<=c)switch(c-9|0){case
 2:case
 4:case
-7:break;default:return b}return qg(a)}function
-kF(c){var
-d=d4(EB,c),a=d[1];if(4<=a){var
+7:break;default:return b}return qh(a)}function
+kL(c){var
+d=d4(EC,c),a=d[1];if(4<=a){var
 b=0;if(6<=a)switch(a-6|0){case
 5:case
 6:case
 7:case
 10:b=1;break}else
-b=1;if(b)return d}return qf(c)}function
-kG(b){var
-a=ai(b[2]);if(p(b[1],EI)){var
-c=ds(Z,v(a,EJ)),d=ds(Z,v(a,EK)),e=d[2],f=d[1],g=Z(v(a,EL));return[1,c[1],c[2],g,f,e]}var
-h=X(Z,ae(v(a,EM)));return[0,X(Z,ae(v(a,EN))),h]}function
-EO(f){var
+b=1;if(b)return d}return qg(c)}function
+kM(b){var
+a=ai(b[2]);if(p(b[1],EJ)){var
+c=ds(Z,v(a,EK)),d=ds(Z,v(a,EL)),e=d[2],f=d[1],g=Z(v(a,EM));return[1,c[1],c[2],g,f,e]}var
+h=X(Z,ae(v(a,EN)));return[0,X(Z,ae(v(a,EO))),h]}function
+EP(f){var
 a=ai(f);function
 d(b){return Z(v(a,b))}function
-c(b){return f1(Z,v(a,b))}var
-b=a2(v(a,EP));if(p(b,EQ)){if(!p(b,ER)){var
-j=v(a,EX),e=ds(function(a){return a},j),k=bc(a,EY),l=cn(function(a){return c(EZ)},k),m=h0(a2(e[2])),n=h0(a2(e[1])),o=d(E0);return[0,cS(v(a,E1)),o,n,m,l]}if(p(b,ES))throw Y}var
-g=d(ET),h=c(EU),i=c(EV);return[1,aB(b,EW),i,h,g]}function
-kH(aG){var
-i=d3(aG),j=i[1];if(p(j,E2)){if(p(j,E3)){if(p(j,E4)){if(p(j,E5))return an([0,E7,[0,j,E6]]);var
-C=v(ai(i[2]),E8),ao=0;if(2===C[0]){var
-R=p(C[1],E9);if(!R){var
+c(b){return f2(Z,v(a,b))}var
+b=a2(v(a,EQ));if(p(b,ER)){if(!p(b,ES)){var
+j=v(a,EY),e=ds(function(a){return a},j),k=bc(a,EZ),l=cn(function(a){return c(E0)},k),m=h1(a2(e[2])),n=h1(a2(e[1])),o=d(E1);return[0,cS(v(a,E2)),o,n,m,l]}if(p(b,ET))throw Y}var
+g=d(EU),h=c(EV),i=c(EW);return[1,aB(b,EX),i,h,g]}function
+kN(aG){var
+i=d3(aG),j=i[1];if(p(j,E3)){if(p(j,E4)){if(p(j,E5)){if(p(j,E6))return an([0,E8,[0,j,E7]]);var
+C=v(ai(i[2]),E9),ao=0;if(2===C[0]){var
+R=p(C[1],E_);if(!R){var
 Q=R;ao=1}}if(!ao)var
 Q=[0,b5(C)];return[6,Q]}var
-S=ai(i[2]),l=kH([0,[0,[0,E$,v(S,E_)],0]]);if(0===l[0]){var
+S=ai(i[2]),l=kN([0,[0,[0,Fa,v(S,E$)],0]]);if(0===l[0]){var
 D=l[2];if(0===D[0]&&!l[3]){var
 T=l[4];if(!aM(b4,T)){var
-aH=Z(v(S,Fb));return[5,l[1],D[1],D[2],T,aH]}}}return an(Fa)}var
-b=ai(i[2]),E=bc(b,Fc),F=E?X(EO,ae(E[1])):E,s=function(b){var
-a=0!==F?1:0;return a?an(Fd):a},m=d3(v(b,Fe)),c=d3(v(b,Ff)),d=m[1];if(p(d,Fg)&&p(d,Fh)&&p(d,Fi)){if(0===bc(b,Fj)){if(p(d,Fk)){var
-ap=0;if(p(d,Fl)){if(!p(d,Fm)){var
-U=c[1],aq=0;if(p(U,Fp)&&p(U,Fq)){ap=1;aq=1}if(!aq){var
-n=ae(m[2]),aI=ae(v(b,Ft)),G=X(function(a){return d4(0,a)},aI),aJ=aM(function(a){switch(a[1]){case
-5:return 1-gn(DL,n);case
-11:return aM(DO,n);case
+aH=Z(v(S,Fc));return[5,l[1],D[1],D[2],T,aH]}}}return an(Fb)}var
+b=ai(i[2]),E=bc(b,Fd),F=E?X(EP,ae(E[1])):E,s=function(b){var
+a=0!==F?1:0;return a?an(Fe):a},m=d3(v(b,Ff)),c=d3(v(b,Fg)),d=m[1];if(p(d,Fh)&&p(d,Fi)&&p(d,Fj)){if(0===bc(b,Fk)){if(p(d,Fl)){var
+ap=0;if(p(d,Fm)){if(!p(d,Fn)){var
+U=c[1],aq=0;if(p(U,Fq)&&p(U,Fr)){ap=1;aq=1}if(!aq){var
+n=ae(m[2]),aI=ae(v(b,Fu)),G=X(function(a){return d4(0,a)},aI),aJ=aM(function(a){switch(a[1]){case
+5:return 1-e9(DM,n);case
+11:return aM(DP,n);case
 7:case
 9:case
 10:case
-12:return 1;default:return 0}},G);if(!aM(Dl,n)){var
+12:return 1;default:return 0}},G);if(!aM(Dm,n)){var
 ar=0;if(!aM(b4,G)||aJ)ar=1;if(ar){var
-aO=X(C7,n),h=ai(c[2]);if(p(c[1],EC))var
-O=ds(Z,v(h,ED)),P=ds(Z,v(h,EE)),aC=P[2],aD=P[1],aE=Z(v(h,EF)),V=[1,O[1],O[2],aE,aD,aC];else
+aO=X(C8,n),h=ai(c[2]);if(p(c[1],ED))var
+O=ds(Z,v(h,EE)),P=ds(Z,v(h,EF)),aC=P[2],aD=P[1],aE=Z(v(h,EG)),V=[1,O[1],O[2],aE,aD,aC];else
 var
-aF=f1(Z,v(h,EG)),V=[0,f1(Z,v(h,EH)),aF];return[0,aO,V,F,G]}}s(0);var
-aK=X(kF,ae(v(b,Fu))),aL=kG(c);return[1,0,X(qd,n),0,aL,0,aK]}}}else
-if(!p(c[1],Fv)){s(0);var
-W=X(kF,ae(v(b,Fw))),z=0,g=W;for(;;){if(g){var
+aF=f2(Z,v(h,EH)),V=[0,f2(Z,v(h,EI)),aF];return[0,aO,V,F,G]}}s(0);var
+aK=X(kL,ae(v(b,Fv))),aL=kM(c);return[1,0,X(qe,n),0,aL,0,aK]}}}else
+if(!p(c[1],Fw)){s(0);var
+W=X(kL,ae(v(b,Fx))),z=0,g=W;for(;;){if(g){var
 L=g[2],M=g[1];if(0===M[1]){var
 z=[0,M,z],g=L;continue}var
 g=L;continue}var
-q=iv(z),as=0;if(q){var
+q=ix(z),as=0;if(q){var
 e=0,_=q[1][4];if(typeof
 _==="number")e=1;else
 switch(_[0]){case
@@ -8809,79 +8819,79 @@ I=q[2];if(I){var
 K=0,aa=I[1][4];if(typeof
 aa!=="number"&&0===aa[0])if(I[2]){e=1;K=1}else
 K=1;if(!K)e=1}else
-e=1;break;default:e=1}if(!e)as=1}if(!as)an(Fx);var
-aP=Z(v(ai(c[2]),Fy));return[4,Z(v(ai(m[2]),Fz)),aP,W]}}if(!ap)return an([0,Fo,[0,d,Fn]])}else
-if(!p(c[1],FA)){s(0);var
+e=1;break;default:e=1}if(!e)as=1}if(!as)an(Fy);var
+aP=Z(v(ai(c[2]),Fz));return[4,Z(v(ai(m[2]),FA)),aP,W]}}if(!ap)return an([0,Fp,[0,d,Fo]])}else
+if(!p(c[1],FB)){s(0);var
 t=ai(m[2]),ab=ai(c[2]),ac=function(c,a){var
 b=ae(a);return X(function(d){var
 a=ae(d);if(a){var
 b=a[2];if(b&&!b[2]){var
 e=k(c,b[1]);return[0,a2(a[1]),e]}}throw Y},b)},aQ=function(d){var
 a=ai(d);if(a){var
-b=a[1],c=b[1];if(p(c,FB)){if(!p(c,FC)&&!a[2])return[0,X(kD,ae(b[2]))]}else
-if(!a[2])return[1,kD(b[2])]}throw Y},ad=ac(kD,v(t,FD)),af=X(aQ,ae(v(t,FE))),A=0,r=af;for(;;){if(r){var
-B=r[1],au=r[2],av=0===B[0]?B[1]:[0,B[1],0],A=ls(av,A),r=au;continue}var
-aw=iv(A),f=function(b,a){switch(a[0]){case
+b=a[1],c=b[1];if(p(c,FC)){if(!p(c,FD)&&!a[2])return[0,X(kJ,ae(b[2]))]}else
+if(!a[2])return[1,kJ(b[2])]}throw Y},ad=ac(kJ,v(t,FE)),af=X(aQ,ae(v(t,FF))),A=0,r=af;for(;;){if(r){var
+B=r[1],au=r[2],av=0===B[0]?B[1]:[0,B[1],0],A=lx(av,A),r=au;continue}var
+aw=ix(A),f=function(b,a){switch(a[0]){case
 0:var
 c=1;break;case
 1:var
-d=lu(a[1],b),e=1,g=d?d[1]:e,c=g;break;case
+d=lz(a[1],b),e=1,g=d?d[1]:e,c=g;break;case
 3:var
 h=f(b,a[3]),c=(1+f(b,a[2])|0)+h|0;break;case
 4:var
-i=iu(a[2]),c=lg(f(b,a[1]),i);break;default:var
-c=1+f(b,a[1])|0}return lp(32769,c)},ax=0,N=lt(function(b,a){var
-c=f(b,a[2]);return[0,[0,a[1],c],b]},ax,ad),ay=X(function(a){return f(N,a)},aw),az=lq(X(aN,N),ay),aA=0;if(32768<lt(function(b,a){return b+a|0},aA,az))an([0,FG,[0,a("32768"),FF]]);var
-aR=X(Ex,ae(v(b,FH))),aS=X(Z,ae(v(ab,FI))),aT=X(Z,ae(v(ab,FJ))),aU=ac(b5,v(t,FK));return[3,X(a2,ae(v(t,FL))),aU,ad,af,aT,aS,aR]}}return an([0,Fs,[0,c[1],Fr]])}throw Y}var
-ag=ai(m[2]),u=cn(Z,bc(ag,FM)),aV=function(f){var
-a=d3(f),b=a[1];if(p(b,FN)){if(p(b,FO)){if(p(b,FP)){if(p(b,FQ))throw Y;var
-d=a[2],g=Z(v(ai(d),FR));return[3,Z(v(ai(d),FS)),g]}var
-h=a[2],c=function(a){return ds(Z,v(ai(h),a))},i=c(FT),j=c(FU);return[1,c(FV),j,i]}var
-e=ds(Z,a[2]);return[0,e[1],e[2]]}return[2,Z(a[2])]},w=cn(aV,bc(b,FW)),ah=p(d,FX),aj=ah?p(d,FY)?2:1:ah,x=ae(v(ag,FZ));if(u&&w&&gn(qe,x)){var
+i=iw(a[2]),c=ll(f(b,a[1]),i);break;default:var
+c=1+f(b,a[1])|0}return lu(32769,c)},ax=0,N=ly(function(b,a){var
+c=f(b,a[2]);return[0,[0,a[1],c],b]},ax,ad),ay=X(function(a){return f(N,a)},aw),az=lv(X(aN,N),ay),aA=0;if(32768<ly(function(b,a){return b+a|0},aA,az))an([0,FH,[0,a("32768"),FG]]);var
+aR=X(Ey,ae(v(b,FI))),aS=X(Z,ae(v(ab,FJ))),aT=X(Z,ae(v(ab,FK))),aU=ac(b5,v(t,FL));return[3,X(a2,ae(v(t,FM))),aU,ad,af,aT,aS,aR]}}return an([0,Ft,[0,c[1],Fs]])}throw Y}var
+ag=ai(m[2]),u=cn(Z,bc(ag,FN)),aV=function(f){var
+a=d3(f),b=a[1];if(p(b,FO)){if(p(b,FP)){if(p(b,FQ)){if(p(b,FR))throw Y;var
+d=a[2],g=Z(v(ai(d),FS));return[3,Z(v(ai(d),FT)),g]}var
+h=a[2],c=function(a){return ds(Z,v(ai(h),a))},i=c(FU),j=c(FV);return[1,c(FW),j,i]}var
+e=ds(Z,a[2]);return[0,e[1],e[2]]}return[2,Z(a[2])]},w=cn(aV,bc(b,FX)),ah=p(d,FY),aj=ah?p(d,FZ)?2:1:ah,x=ae(v(ag,F0));if(u&&w&&e9(qf,x)){var
 aW=function(c){var
 a=ai(c);function
-b(b){return X(b5,ae(v(a,b)))}if(0!==bc(a,F0))an(F1);var
-d=b(F2);return[0,b(F3),d]},aX=X(Ez,ae(v(b,F4))),aY=w[1],aZ=kG(c),a0=u[1];return[2,aj,X(aW,x),a0,aZ,aY,F,aX]}s(0);var
-at=0;if(!u&&aB(d,F7)){var
+b(b){return X(b5,ae(v(a,b)))}if(0!==bc(a,F1))an(F2);var
+d=b(F3);return[0,b(F4),d]},aX=X(EA,ae(v(b,F5))),aY=w[1],aZ=kM(c),a0=u[1];return[2,aj,X(aW,x),a0,aZ,aY,F,aX]}s(0);var
+at=0;if(!u&&aB(d,F8)){var
 ak=1;at=1}if(!at)var
 ak=[0,aj];var
-al=0!==w?1:0,a1=al?aM(qe,x):al;if(a1)an(F5);var
-a3=X(kF,ae(v(b,F6))),a4=kG(c);return[1,ak,X(qd,x),u,a4,w,a3]}var
+al=0!==w?1:0,a1=al?aM(qf,x):al;if(a1)an(F6);var
+a3=X(kL,ae(v(b,F7))),a4=kM(c);return[1,ak,X(qe,x),u,a4,w,a3]}var
 y=ai(i[2]);function
 a5(b){var
-a=ai(b),c=Z(v(a,F8)),d=[0,Z(v(a,F9)),c];return[0,a2(v(a,F_)),d]}var
-o=kH([0,[0,[0,Ga,v(y,F$)],0]]);if(0===o[0]&&!o[3]){var
+a=ai(b),c=Z(v(a,F9)),d=[0,Z(v(a,F_)),c];return[0,a2(v(a,F$)),d]}var
+o=kN([0,[0,[0,Gb,v(y,Ga)],0]]);if(0===o[0]&&!o[3]){var
 am=o[4];if(!aM(b4,am)){var
-a6=Z(v(y,Gc)),a7=Z(v(y,Gd)),a8=o[2],a9=o[1];return[7,X(a5,ae(v(y,Ge))),a9,a8,am,a7,a6]}}return an(Gb)}function
-f3(a){return X(eR,ae(a))}function
-h1(c,b){var
-a=f3(b);if(cu(a)!==c)throw Y;return a}function
-qh(a,d){var
-b=ai(d),e=ae(v(b,Gh)),f=a[2],c=X(function(a){return h1(f,a)},e),g=a[1];if(cu(c)!==g)throw Y;return[0,c,dr(v(b,Gi))]}function
+a6=Z(v(y,Gd)),a7=Z(v(y,Ge)),a8=o[2],a9=o[1];return[7,X(a5,ae(v(y,Gf))),a9,a8,am,a7,a6]}}return an(Gc)}function
+f4(a){return X(eR,ae(a))}function
+h2(c,b){var
+a=f4(b);if(cu(a)!==c)throw Y;return a}function
+qi(a,d){var
+b=ai(d),e=ae(v(b,Gi)),f=a[2],c=X(function(a){return h2(f,a)},e),g=a[1];if(cu(c)!==g)throw Y;return[0,c,dr(v(b,Gj))]}function
 dt(au,i){var
 as=0;if(0===i[0]){var
 q=i[1];if(q){var
-U=q[1];if(!p(U[1],Gj)){var
+U=q[1];if(!p(U[1],Gk)){var
 ag=U[2];if(0===ag[0]){var
 L=ag[1];if(L){var
-ah=L[1];if(!p(ah[1],GH)){var
+ah=L[1];if(!p(ah[1],GI)){var
 aj=ah[2];if(1===aj[0]){var
 M=aj[1];if(M){var
 ak=M[1];if(1===ak[0]){var
 al=ak[1];if(al&&!al[2]&&!M[2]){var
 am=L[2];if(am&&!am[2]&&!q[2]){var
-f=GI;as=1}}}}}}}}}}}if(!as)var
+f=GJ;as=1}}}}}}}}}}}if(!as)var
 f=au;var
 r=f[2];switch(i[0]){case
 0:var
 c=i[1];if(c){var
-e=c[1],a=e[1],V=sE(a,Gk),b=0;if(0<=V)if(0<V)if(p(a,Gl)){var
-g=0;if(p(a,Gm)&&p(a,Gn)&&p(a,Go))if(p(a,Gp))g=1;else{var
+e=c[1],a=e[1],V=sF(a,Gl),b=0;if(0<=V)if(0<V)if(p(a,Gm)){var
+g=0;if(p(a,Gn)&&p(a,Go)&&p(a,Gp))if(p(a,Gq))g=1;else{var
 W=e[2];if(1===W[0]){var
 s=W[1];if(s){var
 t=s[2];if(t){var
 u=t[2];if(u&&!u[2]){if(!c[2]){var
-av=X(f3,ae(u[1])),aw=a2(t[1]);return[8,dt(f,s[1]),aw,av]}b=1;g=1}else
+av=X(f4,ae(u[1])),aw=a2(t[1]);return[8,dt(f,s[1]),aw,av]}b=1;g=1}else
 g=1}else
 g=1}else
 g=1}else
@@ -8902,32 +8912,32 @@ n=h[1],a=n;for(;;){var
 i=0;switch(a[0]){case
 0:var
 b=a[1];if(b){var
-j=b[1],c=j[1];if(p(c,Gs)){var
-o=0;if(p(c,Gt)&&p(c,Gu)&&p(c,Gv))o=1;if(!o&&!b[2])i=1}else{var
+j=b[1],c=j[1];if(p(c,Gt)){var
+o=0;if(p(c,Gu)&&p(c,Gv)&&p(c,Gw))o=1;if(!o&&!b[2])i=1}else{var
 k=j[2];if(1===k[0]){var
 l=k[1];if(l&&!b[2]){var
 a=l[1];continue}}}}break;case
-2:if(!p(a[1],Gw))i=1;break}var
+2:if(!p(a[1],Gx))i=1;break}var
 q=i?1:0;if(q){var
-r=dt(f,n),s=dr(g[1]),t=eR(e[1]);return[0,[0,[0,f3(d[1]),t],s],r]}return an(Gx)}}}}}}throw Y};return[9,X(aA,$[1])]}b=1}}else
-if(p(a,Gy))if(p(a,Gz))if(p(a,GA))if(p(a,GB))if(p(a,GC)){if(!p(a,GD)){if(!c[2]){var
-aa=ai(e[2]),aB=ae(v(aa,GE)),aC=r+1|0,ab=X(function(a){return h1(aC,a)},aB);if(3===cu(ab))return[1,GG,ab,dr(v(aa,GF))];throw Y}b=1}}else{if(!c[2]){var
-R=a2(e[2]),S=p(R,Gf);if(S){if(p(R,Gg))throw Y;var
+r=dt(f,n),s=dr(g[1]),t=eR(e[1]);return[0,[0,[0,f4(d[1]),t],s],r]}return an(Gy)}}}}}}throw Y};return[9,X(aA,$[1])]}b=1}}else
+if(p(a,Gz))if(p(a,GA))if(p(a,GB))if(p(a,GC))if(p(a,GD)){if(!p(a,GE)){if(!c[2]){var
+aa=ai(e[2]),aB=ae(v(aa,GF)),aC=r+1|0,ab=X(function(a){return h2(aC,a)},aB);if(3===cu(ab))return[1,GH,ab,dr(v(aa,GG))];throw Y}b=1}}else{if(!c[2]){var
+R=a2(e[2]),S=p(R,Gg);if(S){if(p(R,Gh))throw Y;var
 T=1}else
 var
 T=S;return[2,T]}b=1}else{if(!c[2]){var
 k=e[2],o=0;switch(k[0]){case
 0:var
 l=k[1];if(l){var
-ao=l[1],j=ao[1],d=0;if(p(j,GJ)&&p(j,GK)&&p(j,GL)&&p(j,GM))if(p(j,GN))d=1;else{var
+ao=l[1],j=ao[1],d=0;if(p(j,GK)&&p(j,GL)&&p(j,GM)&&p(j,GN))if(p(j,GO))d=1;else{var
 ap=ao[2];if(1===ap[0]){var
 N=ap[1];if(N){var
 m=N[1],h=0;switch(m[0]){case
 0:var
 O=m[1];if(O){var
-n=O[1][1],at=0;if(p(n,GP)&&p(n,GQ)&&p(n,GR)&&p(n,GS)){d=1;h=1;at=1}if(!at&&O[2]){d=1;h=1}}else{d=1;h=1}break;case
+n=O[1][1],at=0;if(p(n,GQ)&&p(n,GR)&&p(n,GS)&&p(n,GT)){d=1;h=1;at=1}if(!at&&O[2]){d=1;h=1}}else{d=1;h=1}break;case
 2:var
-aq=m[1];if(p(aq,GT)&&p(aq,GU)){d=1;h=1}break;default:d=1;h=1}if(!h){var
+aq=m[1];if(p(aq,GU)&&p(aq,GV)){d=1;h=1}break;default:d=1;h=1}if(!h){var
 P=N[2];if(P){var
 Q=P[2];if(Q&&!(Q[2]||l[2])){var
 aL=dr(Q[1]),aM=eR(P[1]),B=[6,dt(f,m),aM,aL];o=2;d=1}else
@@ -8936,35 +8946,35 @@ d=1}}else
 d=1}else
 d=1}if(!d&&!l[2])o=1}break;case
 2:var
-ar=k[1];if(!p(ar,GV)||!p(ar,GW))o=1;break}switch(o){case
+ar=k[1];if(!p(ar,GW)||!p(ar,GX))o=1;break}switch(o){case
 0:var
-B=an(GO);break;case
+B=an(GP);break;case
 1:var
 B=dt(f,k);break}return[7,B]}b=1}else{var
 ac=e[2];if(1===ac[0]){var
 C=ac[1];if(C){var
 D=C[2];if(D&&!D[2])if(c[2])b=1;else{var
-aD=D[1],aE=C[1],x=aE,w=function(b,a){return[3,b,a,h1(r+1|0,aD)]};b=2}}}}else{var
+aD=D[1],aE=C[1],x=aE,w=function(b,a){return[3,b,a,h2(r+1|0,aD)]};b=2}}}}else{var
 ad=e[2];if(1===ad[0]){var
 E=ad[1];if(E){var
 F=E[2];if(F){var
 G=F[2];if(G){var
 H=G[2];if(H&&!H[2]){if(!c[2]){var
-aF=dt(f,H[1]),aG=dt(f,G[1]),aH=dr(F[1]);return[10,h1(r+1|0,E[1]),aH,aG,aF]}b=1}}}}}}else{var
+aF=dt(f,H[1]),aG=dt(f,G[1]),aH=dr(F[1]);return[10,h2(r+1|0,E[1]),aH,aG,aF]}b=1}}}}}}else{var
 af=e[2];if(1===af[0]){var
 I=af[1];if(I){var
 J=I[2];if(J){var
 K=J[2];if(K&&!K[2])if(c[2])b=1;else{var
 aI=K[1],aJ=J[1],aK=I[1],x=aK,w=function(b,a){var
 c=dr(aI);return[4,b,a,eR(aJ),c]};b=2}}}}}switch(b){case
-0:if(!c[2])return an([0,Gr,[0,a,Gq]]);break;case
+0:if(!c[2])return an([0,Gs,[0,a,Gr]]);break;case
 1:break;default:var
-Z=qh(f,x);return w(Z[1],Z[2])}}break;case
+Z=qi(f,x);return w(Z[1],Z[2])}}break;case
 2:return[0,i[1]]}throw Y}function
-qi(n){var
-b=d3(n),a=b[1];if(p(a,GZ))if(p(a,G0)){var
-h=p(a,G1);if(!h)return h;if(p(a,G2)){if(!p(a,G3)){var
-c=ai(b[2]),i=function(a){return X(Z,ae(v(c,a)))},j=ai(v(c,G7)),o=dr(v(j,G8)),q=X(f3,ae(v(j,G9))),r=i(G_),s=i(G$);return[3,cS(v(c,Ha)),s,r,q,o]}if(!p(a,G4))return[2,X(Z,ae(b[2]))]}else{var
+qj(n){var
+b=d3(n),a=b[1];if(p(a,G0))if(p(a,G1)){var
+h=p(a,G2);if(!h)return h;if(p(a,G3)){if(!p(a,G4)){var
+c=ai(b[2]),i=function(a){return X(Z,ae(v(c,a)))},j=ai(v(c,G8)),o=dr(v(j,G9)),q=X(f4,ae(v(j,G_))),r=i(G$),s=i(Ha);return[3,cS(v(c,Hb)),s,r,q,o]}if(!p(a,G5))return[2,X(Z,ae(b[2]))]}else{var
 k=b[2];if(1===k[0]){var
 d=k[1];if(d){var
 e=d[2];if(e&&!e[2]){var
@@ -8972,34 +8982,34 @@ t=cS(e[1]);return[1,cS(d[1]),t]}}}}}else{var
 l=b[2];if(1===l[0]){var
 f=l[1];if(f){var
 g=f[2];if(g&&!g[2]){var
-u=X(f3,ae(g[1]));return[0,cS(f[1]),u]}}}}else{var
-m=b[2];if(1===m[0]&&!m[1])return 1}return an([0,G6,[0,a,G5]])}function
-qj(f,b){var
-a=ai(b),c=ae(v(a,Hf)),d=X(function(g){var
+u=X(f4,ae(g[1]));return[0,cS(f[1]),u]}}}}else{var
+m=b[2];if(1===m[0]&&!m[1])return 1}return an([0,G7,[0,a,G6]])}function
+qk(f,b){var
+a=ai(b),c=ae(v(a,Hg)),d=X(function(g){var
 a=ai(g);function
 b(d,c){var
 b=bc(a,c);return b?X(d,ae(b[1])):b}var
-c=b(eR,Hb),d=cn(qi,bc(a,Hc)),e=cn(cS,bc(a,Hd));return[0,b(function(h){var
+c=b(eR,Hc),d=cn(qj,bc(a,Hd)),e=cn(cS,bc(a,He));return[0,b(function(h){var
 b=ae(h);if(b){var
 a=b[2];if(a){var
-c=a[1],e=b[1],d=0;if(2===c[0]&&!p(c[1],GX)){if(!a[2]){if(p(f0(e),GY))throw Y;d=1}}else
+c=a[1],e=b[1],d=0;if(2===c[0]&&!p(c[1],GY)){if(!a[2]){if(p(f1(e),GZ))throw Y;d=1}}else
 d=1;if(d&&!a[2]){var
-g=dt(f,c);return[0,cS(e),g]}}}throw Y},He),e,d,c]},c),e=bc(a,Hg),g=cn(function(a){return qh(f,a)},e);return[0,qa(v(a,Hh)),g,d]}function
-qk(c){var
-a=ai(c),b=bc(a,Hi),d=b?X(Z,ae(b[1])):b,e=qi(v(a,Hj)),f=X(Z,ae(v(a,Hk)));return[0,qa(v(a,Hl)),f,d,e]}function
-Hv(c){var
+g=dt(f,c);return[0,cS(e),g]}}}throw Y},Hf),e,d,c]},c),e=bc(a,Hh),g=cn(function(a){return qi(f,a)},e);return[0,qb(v(a,Hi)),g,d]}function
+ql(c){var
+a=ai(c),b=bc(a,Hj),d=b?X(Z,ae(b[1])):b,e=qj(v(a,Hk)),f=X(Z,ae(v(a,Hl)));return[0,qb(v(a,Hm)),f,d,e]}function
+Hw(c){var
 a=c[1],b=0;if(10<=a){if(!(13<=a))b=1}else
 if(8===a)b=1;return b?1:0}function
-Hw(b){var
-a=b[3];if(a&&1===a[1][0])return 1;return 0}function
 Hx(b){var
-c=b[1],a=b[4];if(!(1<c+rd>>>0)&&typeof
-a!=="number"&&1===a[0])return 1-ho(j(a[1]));return 10===c?1:0}function
-HB(g){var
+a=b[3];if(a&&1===a[1][0])return 1;return 0}function
+Hy(b){var
+c=b[1],a=b[4];if(!(1<c+re>>>0)&&typeof
+a!=="number"&&1===a[0])return 1-hp(j(a[1]));return 10===c?1:0}function
+HC(g){var
 i=az(g),c=[0,0];function
-j(a){if(c[1]<i)return a8(g,c[1]);throw Y}function
+j(a){if(c[1]<i)return a9(g,c[1]);throw Y}function
 l(a){if(j(0)===a){c[1]++;return 0}throw Y}function
-C(a,b){for(;;){if(c[1]<i&&k(b,a8(g,c[1]))){c[1]++;continue}return ea(g,a,c[1]-a|0)}}function
+C(a,b){for(;;){if(c[1]<i&&k(b,a9(g,c[1]))){c[1]++;continue}return ea(g,a,c[1]-a|0)}}function
 D(d){l(34);function
 a(a){var
 b=34!==a?1:0;if(b)var
@@ -9010,7 +9020,7 @@ b=C(c[1],a);l(34);return b}function
 E(e,a){if(j(0)===a){c[1]++;return 0}var
 b=0;for(;;){var
 d=[0,k(e,0),b];if(44===j(0)){c[1]++;var
-b=d;continue}l(a);return iv(d)}}function
+b=d;continue}l(a);return ix(d)}}function
 r(b,k){if(64<b)throw Y;var
 a=j(0),d=0;if(48<=a){if(91===a){c[1]++;var
 f=93,g=b+1|0;return[1,E(function(a){return r(g,a)},f)]}if(123===a){c[1]++;var
@@ -9018,10 +9028,10 @@ h=125;return[0,E(function(c){var
 a=D(0);l(58);return[0,a,r(b+1|0,0)]},h)]}if(!(58<=a))d=1}else{if(34===a)return[2,D(0)];if(45===a)d=1}if(d){var
 i=c[1];c[1]++;var
 e=C(i,function(a){var
-b=48<=a?1:0,c=b?a<=57?1:0:b;return c});if(p(e,CV))return[3,e];throw Y}throw Y}var
-Q=r(0,0),F=c[1]<i?1:0,R=F?10===a8(g,c[1])?1:0:F;if(R)c[1]++;if(c[1]<i)throw Y;var
-q=ai(Q);if(p(a2(v(q,HC)),HD))throw Y;var
-a=kH(v(q,HE)),y=0;switch(a[0]){case
+b=48<=a?1:0,c=b?a<=57?1:0:b;return c});if(p(e,CW))return[3,e];throw Y}throw Y}var
+R=r(0,0),F=c[1]<i?1:0,S=F?10===a9(g,c[1])?1:0:F;if(S)c[1]++;if(c[1]<i)throw Y;var
+q=ai(R);if(p(a2(v(q,HD)),HE))throw Y;var
+a=kN(v(q,HF)),y=0;switch(a[0]){case
 1:var
 w=a[1],z=0;if(typeof
 w==="number")if(w)var
@@ -9033,125 +9043,129 @@ z=1;if(z)var
 x=3;var
 f=[0,cu(a[2]),x];break;case
 2:var
-af=1===a[1]?6:3,f=[0,cu(a[2]),af];break;case
+ag=1===a[1]?6:3,f=[0,cu(a[2]),ag];break;case
 3:var
-ag=cu(a[1]),f=[0,cu(a[4]),ag];break;case
+ah=cu(a[1]),f=[0,cu(a[4]),ah];break;case
 7:var
 G=a[2];y=1;break;case
 0:case
 5:var
 G=a[1];y=1;break;default:var
-f=HW}if(y)var
+f=HX}if(y)var
 f=[0,cu(G),3];var
-m=d3(v(q,HF)),n=m[1];if(p(n,Hq))if(p(n,Hr))if(p(n,Hs))var
-b=an([0,Hu,[0,n,Ht]]);else
+m=d3(v(q,HG)),n=m[1];if(p(n,Hr))if(p(n,Hs))if(p(n,Ht))var
+b=an([0,Hv,[0,n,Hu]]);else
 var
-o=qk(m[2]),b=[1,o[1],o[2],o[3],o[4]];else
+o=ql(m[2]),b=[1,o[1],o[2],o[3],o[4]];else
 var
-s=qj(f,m[2]),b=[0,s[1],s[2],s[3]];else
+s=qk(f,m[2]),b=[0,s[1],s[2],s[3]];else
 var
-S=ae(m[2]),b=[2,X(function(g){var
-a=d3(g),b=a[1];if(p(b,Hm)){if(p(b,Hn)){if(p(b,Ho)){var
-e=p(b,Hp);if(e)throw Y;return e}return[0,cS(a[2])]}var
-c=qk(a[2]);return[2,c[1],c[2],c[3],c[4]]}var
-d=qj(f,a[2]);return[1,d[1],d[2],d[3]]},S)];function
-T(a){return 0!==a[3]?1:0}function
-H(a){return aM(T,a)}var
+T=ae(m[2]),b=[2,X(function(g){var
+a=d3(g),b=a[1];if(p(b,Hn)){if(p(b,Ho)){if(p(b,Hp)){var
+e=p(b,Hq);if(e)throw Y;return e}return[0,cS(a[2])]}var
+c=ql(a[2]);return[2,c[1],c[2],c[3],c[4]]}var
+d=qk(f,a[2]);return[1,d[1],d[2],d[3]]},T)];function
+U(a){return 0!==a[3]?1:0}function
+H(a){return aM(U,a)}var
 d=0;switch(a[0]){case
 0:if(0===b[0]){var
 J=a[4],I=a[1];d=4}else
 d=2;break;case
 1:var
-N=0;if(0===b[0]){var
-W=b[3];if(aM(function(a){var
+O=0;if(0===b[0]){var
+Z=b[3];if(aM(function(a){var
 b=a[1];return aM(function(a){switch(a[2][0]){case
 6:case
-7:return 1;default:return 0}},b)},W)){an(HN);N=1}}if(!N){var
+7:return 1;default:return 0}},b)},Z)){an(HO);O=1}}if(!O){var
 t=a[6];d=3}break;case
 2:var
-L=a[1],Z=a[7];if(0===b[0]){var
-_=1===L?6:3,M=cu(a[2])===_?1:0;if(M){var
-O=0;if(2<=L||!(0===a[4][0]))O=1;else
+L=a[1],_=a[7];if(0===b[0]){var
+$=1===L?6:3,M=cu(a[2])===$?1:0;if(M){var
+P=0;if(2<=L||!(0===a[4][0]))P=1;else
 var
-u=1;if(O)var
+u=1;if(P)var
 u=0}else
 var
 u=M;var
-$=function(b){var
-g=0;if(!b[1]){var
-d=b[2];if(8===d[0]){var
-e=d[1];if(7===e[0]){var
-c=e[1],a=0;switch(c[0]){case
-1:if(p(c[1],HP))a=1;break;case
+N=function(c){if(8===c[0]){var
+d=c[1];if(7===d[0]){var
+a=d[1],b=0;switch(a[0]){case
+1:if(!p(a[1],HQ))b=1;break;case
 6:var
-f=c[1];if(1!==f[0]||p(f[1],HQ))a=1;break;default:a=1}if(!a)return 1-u}}else
-g=1}if(!g&&8===b[2][0])return 1;return 0},aa=b[3],ah=0;if(aM(function(a){return aM($,a[1])},aa))an(HR);else{var
-ab=b[3];if(gn(function(a){var
-b=a[1];return gn(function(d){var
+e=a[1];if(1===e[0]&&!p(e[1],HR))b=1;break}if(b)return u}}return 0},aa=function(a){if(a[1])switch(a[2][0]){case
+8:case
+9:return 1}else{var
+b=a[2];switch(b[0]){case
+8:return 1-N(b);case
+9:var
+c=b[1];return 1-e9(function(a){return N(a[2])},c)}}return 0},ab=b[3],aj=0;if(aM(function(a){return aM(aa,a[1])},ab))an(HS);else{var
+ac=b[3];if(e9(function(a){var
+b=a[1];return e9(function(d){var
 b=d[2],a=0;switch(b[0]){case
 0:var
-c=b[1];if(p(c,Hy)){if(!p(c,Hz))return aM(Hx,Z)}else
+c=b[1];if(p(c,Hz)){if(!p(c,HA))return aM(Hy,_)}else
 a=1;break;case
-1:if(!p(b[1],HA))a=1;break;case
+1:if(!p(b[1],HB))a=1;break;case
 7:case
-8:a=1;break}return a?1:0},b)},ab)){d=1;ah=1}else
-an(HS)}}else
+8:case
+9:a=1;break}return a?1:0},b)},ac)){d=1;aj=1}else
+an(HT)}}else
 d=2;break;case
 3:var
 t=a[7];d=3;break;case
 4:var
 t=a[3];d=3;break;case
-5:if(aM(Hv,a[4]))an(HT);else
+5:if(aM(Hw,a[4]))an(HU);else
 if(0===b[0]){var
-ac=b[3];if(aM(function(a){return 0!==a[1]?1:0},ac))an(HU);else
+ad=b[3];if(aM(function(a){return 0!==a[1]?1:0},ad))an(HV);else
 d=1}else
 d=1;break;case
 6:d=1;break;default:var
 A=0;if(2===b[0]){var
-ad=b[1];if(aM(function(a){if(typeof
+af=b[1];if(aM(function(a){if(typeof
 a!=="number"&&2===a[0]){var
 b=a[4];if(typeof
-b!=="number"&&3===b[0])return 1}return 0},ad))an(HV);else
+b!=="number"&&3===b[0])return 1}return 0},af))an(HW);else
 A=1}else
 A=1;if(A){var
 J=a[4],I=a[2];d=4}}var
 e=0;switch(d){case
-3:if(0===b[0])if(aM(function(a){return 12===a[1]?1:0},t)){an(HO);e=3}else
+3:if(0===b[0])if(aM(function(a){return 12===a[1]?1:0},t)){an(HP);e=3}else
 e=2;else
 e=1;break;case
 0:e=3;break;case
 4:var
-P=0;if(aM(function(a){return 10===a[1]?1:0},J)&&aM(function(a){return 2===a[0]?1:0},I)){an(HG);P=1}if(!P)e=2;break;case
+Q=0;if(aM(function(a){return 10===a[1]?1:0},J)&&aM(function(a){return 2===a[0]?1:0},I)){an(HH);Q=1}if(!Q)e=2;break;case
 1:e=2;break;default:e=1}var
 B=0;switch(e){case
 3:break;case
 2:var
 h=0;switch(a[0]){case
 5:case
-7:if(aM(Hw,a[4])){an(HL);h=1}else
+7:if(aM(Hx,a[4])){an(HM);h=1}else
 if(7===a[0])switch(b[0]){case
 2:var
-V=function(a){if(typeof
-a!=="number"&&1===a[0])return H(a[3]);return 0};if(aM(V,b[1]))an(HM);h=1;break;case
+W=function(a){if(typeof
+a!=="number"&&1===a[0])return H(a[3]);return 0};if(aM(W,b[1]))an(HN);h=1;break;case
 0:break;default:B=1;h=1}else
-h=1;break}if(!h)if(0===b[0]&&H(b[3]))an(HK);else
+h=1;break}if(!h)if(0===b[0]&&H(b[3]))an(HL);else
 B=1;break;case
 1:B=1;break}var
-K=ai(v(q,HH)),U=a2(v(K,HI));return[0,a,b,a2(v(K,HJ)),U]}function
-HX(b){var
-a=0,f=lp(64,az(b))-18|0;for(;;){var
+K=ai(v(q,HI)),V=a2(v(K,HJ));return[0,a,b,a2(v(K,HK)),V]}function
+HY(b){var
+a=0,f=lu(64,az(b))-18|0;for(;;){var
 c=a<=f?1:0;if(c){var
-d=aB(ea(b,a,18),HY);if(!d){var
+d=aB(ea(b,a,18),HZ);if(!d){var
 a=a+1|0;continue}var
 e=d}else
 var
-e=c;return e}}JT(function(b){try{if(HX(b))var
-a=H0;else{try{var
-e=0,d=HB(b);e=1}catch(a){a=sG(a);if(a[1]===p$)var
+e=c;return e}}JU(function(b){try{if(HY(b))var
+a=H1;else{try{var
+e=0,d=HC(b);e=1}catch(a){a=sH(a);if(a[1]===qa)var
 c=[0,a[2]];else{if(a!==Y)throw a;var
 c=2}}if(e)var
-c=CR(b,d)?1===d[2][0]?1:0:2;var
-a=c}}catch(a){return HZ}if(typeof
+c=CS(b,d)?1===d[2][0]?1:0:2;var
+a=c}}catch(a){return H0}if(typeof
 a==="number")switch(a){case
-0:return H1;case
-1:return H2;default:return H3}return be(H4,a[1])});lr(0);return}(globalThis));
+0:return H2;case
+1:return H3;default:return H4}return be(H5,a[1])});lw(0);return}(globalThis));

@@ -78,8 +78,8 @@ fn covered(proof: &Proof, subject: &Subject<'_>) -> Exported<()> {
 }
 
 fn is_no_step_of_pose(by: &Evidence) -> bool {
-    use Evidence::{Control, Direction, Outside, Test, Tolerances};
-    !matches!(by, Control(_) | Outside | Direction(_) | Test | Tolerances(..))
+    use Evidence::{Control, Direction, Fan, Outside, Test, Tolerances};
+    !matches!(by, Control(_) | Outside | Direction(_) | Test | Tolerances(..) | Fan(_))
 }
 
 /// Apart are tolerances in what is shown of `M`, at control points.
@@ -88,13 +88,13 @@ fn has_other_apart(tree: &Tree, subject: &Subject<'_>) -> bool {
         Evidence::Turned(by, ..) => matches!(**by, Evidence::Lower(_)),
         by => matches!(by, Evidence::Lower(_)),
     };
+    let is_shown = |by: &Evidence| {
+        let Evidence::Tolerances(by, ..) = by else { return false };
+        matches!(&**by, Evidence::Control(by) if is_lower(by)) && subject.is_square_over_box
+    };
     let is_other = |Step(obligation, by): &Step| match by {
-        Evidence::Tolerances(by, ..) => match &**by {
-            Evidence::Control(by) => {
-                *obligation != 0 || !is_lower(by) || !subject.is_square_over_box
-            }
-            _ => true,
-        },
+        Evidence::Tolerances(..) => *obligation != 0 || !is_shown(by),
+        Evidence::Fan(parts) => *obligation != 0 || !parts.iter().all(|part| is_shown(&part.3)),
         _ => false,
     };
     tree.nodes.iter().flat_map(|node| &node.by).any(is_other)
