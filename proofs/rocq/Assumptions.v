@@ -103,6 +103,7 @@ Check kernel.Arm.angle_velocity.
 Check kernel.Legs.driven_velocity.
 Check kernel.Legs.refute_driven_sound.
 Check kernel.Load.load_bounded.
+Check @kernel.Recover.legs_recovered.
 Check kernel.Driven.check_driven_sound.
 Check kernel.HalfTurn.never_half_a_turn.
 Check kernel.Poses.poses_differ.
@@ -164,7 +165,7 @@ Definition all_of_them :=
    @kernel.Witness.refute_sound, @kernel.NoCube.check_no_cube_sound,
    @kernel.Closed.check_closed_sound, @kernel.Trig.cosine_sound, @kernel.Arm.rod_closes,
    @kernel.Arm.angle_velocity, @kernel.Legs.driven_velocity, @kernel.Legs.refute_driven_sound,
-   @kernel.Load.load_bounded, @kernel.Driven.check_driven_sound,
+   @kernel.Load.load_bounded, @kernel.Recover.legs_recovered, @kernel.Driven.check_driven_sound,
    @kernel.HalfTurn.never_half_a_turn, @kernel.Poses.poses_differ, @kernel.Written.check_written_sound,
    @kernel.AtPoint.refute_written_sound, @kernel.Orientation.rotation_about_rotates,
    @kernel.Orientation.rotation_about_axes, @kernel.Turning.length_velocity,

@@ -7,7 +7,7 @@
 From Coq Require Import ZArith Reals Lra Lia List Bool.
 From Orthocert Require Import Fixed.
 From Orthocert.kernel Require Import Formula Linear Arithmetic Slope Definite Test Cell Apart.
-From Orthocert.kernel Require Solve Near Tolerances Curvature Scale Toward.
+From Orthocert.kernel Require Solve Near Nearby Spread Twofold Tolerances Curvature Scale Toward.
 Import ListNotations.
 Local Open Scope R_scope.
 
@@ -58,13 +58,14 @@ Inductive tree :=
 (** kappa^2, k^2, c^2, and places of formulas: of the last test one of the two has to be not negative.  [Least]: the
     least singular value of other rows than those of the machine; [Apart]: of two segments, by their ends; [Solved i]: |M^-1 e_i| <= 1/k, of k^2;
     [Chords]: Y^T A + A^T Y > 0 of these rows A, by one matrix for all cells; [Accurate]: of each joint its coordinate, its error and, of each tolerance, the
-    half-width with the derivative by it, errors and half-widths over the distance; [Curved]: a |row| + b |H| < 1, of 2 H, and K^2 and s with
+    half-width with the derivative by it, errors and half-widths over the distance; [Located]: the same of any number of coordinates, in two parts; [Curved]: a |row| + b |H| < 1, of 2 H, and K^2 and s with
     |row|^2 <= K^2 - s^2. *)
 Inductive test :=
   | SigmaMin (kappa2 : fixed) | SigmaMax (k2 : fixed) | Conditioning (c2 : fixed) | AtLeast (f : nat)
   | Least (r : rows nat) (kappa2 : fixed) | Either (f g : nat) | Apart (p p' q q' : spatial nat) (distance : fixed)
   | Solved (i : nat) (k2 : fixed) | Chords (r : rows nat) (places : N) (Y : list (list Z))
   | Accurate (distance : fixed) (joints : list (nat * (fixed * list (fixed * nat))))
+  | Located (a : Nearby.nearby)
   | Curved (row : list nat) (twice : list (list nat)) (a b k2 s : nat).
 
 Section Precision.
@@ -173,6 +174,10 @@ Definition joint_over (values : list (option slope)) (j : nat * (fixed * list (f
   | _, _ => None
   end.
 (** Accuracy is a test of the cell and what is near it. *)
+Definition near_wanted (a : Nearby.nearby) : list nat := partial ++ concat (Nearby.l_far a).
+Definition near_values (cell : list fixed) (a : Nearby.nearby) : list (option slope) :=
+  run_kept (option slope) None (slope_op bits (Spread.near_cell (Nearby.l_first a) (length cell) cell (Nearby.l_distance a) (Nearby.l_turn a)) (map constant params))
+    (kept (near_wanted a) tape) tape [].
 Definition shows_there (values : list (option slope)) (cell : list fixed) (less : option slope) (t : test) (e : evidence) : bool :=
   match t, e with
   | Accurate distance joints, ByAccuracy places Y kappa 0 =>
@@ -181,6 +186,15 @@ Definition shows_there (values : list (option slope)) (cell : list fixed) (less 
       match rows_over near divided, rows_over values divided, all_some (map (joint_over values) joints) with
       | Some far, Some here, Some js =>
           match Near.triples far with Some far => Near.accurate bits less far here js places Y kappa | None => false end
+      | _, _, _ => false
+      end
+  | Located a, ByAccuracy places Y kappa q =>
+      let m := length cell in let near := near_values cell a in
+      Nat.leb (Nearby.l_first a) m && Nat.eqb (length (Nearby.l_far a)) m && forallb (fun row => Nat.eqb (length row) m) (Nearby.l_far a) &&
+      forallb (fun i => match nth i near None with Some _ => true | None => false end) (near_wanted a) &&
+      forallb (fun i => match nth i values None with Some _ => true | None => false end) (Nearby.l_defined a) &&
+      match all_some (map (slopes_of near) (Nearby.l_far a)), rows_over values (Nearby.l_rows a), all_some (map (joint_over values) (Nearby.l_joints a)) with
+      | Some far, Some here, Some js => Nearby.located bits m less a far here js places Y kappa q
       | _, _, _ => false
       end
   | _, _ => shows values (length cell) less t e
@@ -394,8 +408,32 @@ Definition accurate_at (x : list R) (distance : fixed) (joints : list (nat * (fi
     kappa ^ 2 * dot w w <= dot p p /\
     forall bs s, Forall2 (may_be_off x) joints bs -> 0 < dot w w + s ^ 2 -> 0 < dot p p + 2 * s * dot bs w + z ^ 2 * s ^ 2.
 
+(** Off by u, of so many coordinates. *)
+Definition near_at (x : list R) (a : Nearby.nearby) (d tau : R) (u : list R) : list R := Spread.near_point (Nearby.l_first a) x d tau u.
+Definition far_at (x : list R) (a : Nearby.nearby) (d tau : R) (u : list R) : list (list R) :=
+  map (map (fun i => value (near_at x a d tau u) theta (formula_at i))) (Nearby.l_far a).
+Definition is_half (h : fixed * nat) (t : R) : Prop := exists a, contains (fst h) a /\ Rabs t <= a.
+Definition located_at (m : nat) (x : list R) (a : Nearby.nearby) : Prop :=
+  let f := Nearby.l_first a in
+  (forall th, Forall2 contains params th -> Forall (fun i => defined x th (formula_at i)) (Nearby.l_defined a)) /\
+  (f <= m)%nat /\ length (Nearby.l_far a) = m /\ Forall (fun row => length row = m) (Nearby.l_far a) /\
+  forall d tau, contains (Nearby.l_distance a) d -> contains (Nearby.l_turn a) tau -> 0 <= d -> 0 <= tau ->
+  (Nearby.l_angular a = true ->
+    (forall u v, Spread.inside f m u -> Forall (fun t => -1 <= t <= 1) v -> Forall (fun row => Rabs (d * dot row v) < 1) (far_at x a d tau u)) /\
+    Forall (fun j => forall th ts, Forall2 contains params th -> Forall2 is_half (snd (snd j)) ts -> Rabs (d * dot ts (map (fun h => value x th (formula_at (snd h))) (snd (snd j)))) < 1)
+      (Nearby.l_joints a)) /\
+  exists g, 0 <= g /\
+  (forall u, Spread.inside f m u -> Forall (fun i => defined (near_at x a d tau u) theta (formula_at i)) (near_wanted a) /\
+    forall w, length w = m -> Twofold.size (Twofold.less (Twofold.image (far_at x a d tau u) w) (Twofold.image (far_at x a d tau (Twofold.nought m)) w)) <= g * (Twofold.norm f w * Twofold.norm f u)) /\
+  exists kappa z e, g < kappa /\ 0 <= z /\ z + g / (2 * kappa) <= 1 /\ length e = m /\ (forall i, (i < m)%nat -> 0 < nth i e 0) /\
+  (forall i, (i < m)%nat -> (if Nearby.l_last a then f <= i else i < f)%nat -> nth i e 0 = 1) /\
+  forall w, length w = m -> let p := Solve.weighted_sum w (map (Twofold.scaled e) (map fst (map_rows (value x theta) (map_rows formula_at (Nearby.l_rows a))))) in
+  kappa ^ 2 * dot w w <= dot p p /\
+  forall bs s, Forall2 (may_be_off x) (Nearby.l_joints a) bs -> 0 < dot w w + s ^ 2 -> 0 < dot p p + 2 * s * dot bs w + z ^ 2 * s ^ 2.
+
 Definition holds (m : nat) (x : list R) (t : test) : Prop :=
   match t with
+  | Located a => located_at m x a
   | Accurate distance joints => (exists d, contains distance d /\ 0 <= d) -> accurate_at x distance joints
   | SigmaMin low => Forall (fun f => defined x theta (formula_at f)) partial /\
       of_rows x (fun r => forall kappa2 v, contains low kappa2 -> length v = m -> nonzero v -> kappa2 * dot v v < energy r v)
@@ -594,7 +632,7 @@ Qed.
 Lemma shows_sound : forall less t e, harmless less -> shows values (length cell) less t e = true -> holds (length cell) x t.
 Proof.
   rewrite <- lambda_length. intros less t e hs h.
-  destruct t as [low | high | c2 | f | r low | f g | p p' q q' distance | i k2 | r0 places0 Y0 | distance joints | row twice a b k2 ls], e as [| | places Y | places Y | places Y | places Y mu | | | | | | | | places Y | | places Y kappa | e0 ends0 directions0 | | |];
+  destruct t as [low | high | c2 | f | r low | f g | p p' q q' distance | i k2 | r0 places0 Y0 | distance joints | near_ | row twice a b k2 ls], e as [| | places Y | places Y | places Y | places Y mu | | | | | | | | places Y | | places Y kappa | e0 ends0 directions0 | | |];
     cbn [shows holds] in *; try discriminate.
   1-3: apply andb_true_iff in h as [hd h]; split; [exact (are_defined_sound hd) |].
   1-2: eapply over_rows_sound; [| exact h |]; [auto |]; cbn beta; intros s es sm rel pos kappa2 v hk len nz;
@@ -900,7 +938,7 @@ Proof.
       cbn [forallb] in hh. apply andb_true_iff in hh as [hh _]. pose proof (Tolerances.sign_apart_sound bits _ _ _ _ hh hv ht). destruct A as [A0 A1]. cbn [snd form fst] in *.
       replace (dot A0 []) with 0 by (destruct A0; reflexivity). lra. }
   assert (Constant : forall a k, contains a k -> forall s, length s = length cell -> contains ((fun _ : list bool => a) s) ((fun _ : list R => k) (map corner s))) by (intros; assumption).
-  destruct t as [low | high | c2 | f | r low | f g | p p' q q' distance | i k2 | r0 places0 Y0 | distance joints | row twice a b k2 ls],
+  destruct t as [low | high | c2 | f | r low | f g | p p' q q' distance | i k2 | r0 places0 Y0 | distance joints | near_ | row twice a b k2 ls],
     e as [| | places Y | places Y | places Y | places Y mu | | | | | | | | places Y | | places Y kappa | e0 ends0 directions0 | | |]; try discriminate; try (destruct directions; discriminate).
   - destruct directions as [| u [|]]; try discriminate. apply andb_true_iff in h as [hd' h]. cbn [holds]. split; [exact (are_defined_sound cell x lambda keep (encloses_all theta theta_in) hd') |].
     exists (map_rows formula_at whole). split; [left; reflexivity |].
@@ -1047,7 +1085,7 @@ Proof.
     { apply G. intros s t' T i real ls hh ht hr.
       pose proof (lower_wedge_shows b c n places n0 k w q d lw kb rg (add low t') (K + T) pl Y i real v hh hr (add_sound bits _ _ _ _ hk ht) lv nz iv). lra. }
     assert (0 <= dot v v * at_lambda lambda el) by (apply Rmult_le_pos; assumption). lra. }
-  destruct t as [low | high | c2 | f | r low | f f' | p p' q0 q' distance | i k2 | r0 places0 Y0 | distance joints | row twice a0 b0 k2 ls], e; try discriminate; cbn [holds_along].
+  destruct t as [low | high | c2 | f | r low | f f' | p p' q0 q' distance | i k2 | r0 places0 Y0 | distance joints | near_ | row twice a0 b0 k2 ls], e; try discriminate; cbn [holds_along].
   - apply andb_true_iff in h as [hd' h]. split; [exact (are_defined_sound cell x lambda keep (encloses_all theta theta_in) hd') |]. exact (Low low whole _ _ h).
   - apply andb_true_iff in h as [hd' h]. split; [exact (are_defined_sound cell x lambda keep (encloses_all theta theta_in) hd') |].
     apply andb_true_iff in h as [z h]. apply andb_true_iff in z as [z1 z2]. apply Z.eqb_eq in z1, z2.
@@ -1215,6 +1253,71 @@ Proof.
     destruct (joints_bounded values lambda x _ E joints js bs ejs hb) as [rs [q1 ->]]. exact (c2 rs s q1 nz).
 Qed.
 
+Lemma located_holds : forall keep cell x lambda, length lambda = length cell -> Forall (fun t => -1 <= t <= 1) lambda -> Forall2 contains cell x ->
+  (forall th, Forall2 contains params th -> forall i, encloses bits lambda x (map (centre_of bits) cell) th (nth i (evaluate_kept keep cell) None) (formula_at i)) ->
+  forall less a places Y kappa q, harmless lambda less ->
+  shows_there (evaluate_kept keep cell) cell less (Located a) (ByAccuracy places Y kappa q) = true -> located_at (length cell) x a.
+Proof.
+  intros keep cell x lambda el hlam hx E less a places Y k q hless h. cbn [shows_there] in h. cbv zeta in h. set (values := evaluate_kept keep cell) in *. set (near := near_values cell a) in *.
+  set (m := length cell) in *. set (f := Nearby.l_first a) in *.
+  apply andb_true_iff in h as [h body]. apply andb_true_iff in h as [h dv]. apply andb_true_iff in h as [h dn]. apply andb_true_iff in h as [h rowlen]. apply andb_true_iff in h as [lf lfar].
+  apply Nat.leb_le in lf. apply Nat.eqb_eq in lfar. rewrite forallb_forall in dv, dn, rowlen.
+  destruct (all_some (map (slopes_of near) (Nearby.l_far a))) as [far |] eqn:efar; [| discriminate]. destruct (rows_over values (Nearby.l_rows a)) as [here |] eqn:ehere; [| discriminate].
+  destruct (all_some (map (joint_over values) (Nearby.l_joints a))) as [js |] eqn:ejs; [| discriminate]. pose proof (unit_R_pos bits) as u0.
+  assert (lx : length x = m) by (symmetry; exact (related_length _ _ _ _ _ hx)).
+  unfold located_at. cbv zeta. fold f. split.
+  { intros th hth. apply Forall_forall. intros i ii. specialize (dv i ii). pose proof (E th hth i) as Ei. destruct (nth i values None) as [s |]; [exact (proj1 (proj2 Ei)) | discriminate]. }
+  split; [exact lf |]. split; [exact lfar |]. split; [apply Forall_forall; intros row ir; apply Nat.eqb_eq, rowlen, ir |].
+  intros d tau hd ht d0 t0.
+  assert (N : forall u, Spread.inside f m u -> forall i, encloses bits u (near_at x a d tau u) (x ++ repeat 0 (m - f)) theta (nth i near None) (formula_at i)).
+  { intros u hu i. apply (nth_related _ _ _ _ (encloses bits u (near_at x a d tau u) (x ++ repeat 0 (m - f)) theta)); [exact I |].
+    apply (evaluate_kept_sound bits u (Spread.inside_ends f m u hu)); [exact (Spread.near_cell_holds bits f m cell x d tau (Nearby.l_distance a) (Nearby.l_turn a) u hd ht d0 t0 hx eq_refl lf hu) | apply params_hold, theta_in]. }
+  pose proof (all_some_nth _ _ _ (fun o => o) (slopes_of near) _ _ efar) as FAR.
+  assert (ROW : forall row sl, slopes_of near row = Some sl -> Forall2 (fun i s => nth i near None = Some s) row sl)
+    by (intros row sl e; exact (all_some_nth _ _ _ (fun o => o) (fun i => nth i near None) _ _ e)).
+  assert (S : forall u, Spread.inside f m u -> exists us, Forall2 (Forall2 (fun s v => Forall2 contains (slopes s) v)) far us /\ forall w,
+    Forall2 (fun ab r => dot (fst ab) w - dot (snd ab) w = dot w (Twofold.image r u)) (combine (far_at x a d tau u) (far_at x a d tau (Twofold.nought m))) us).
+  { intros u hu. specialize (N u hu). unfold far_at, near_at in *. fold f in N |- *. rewrite (Spread.near_point_centre f m x d tau lx lf). clear - N FAR ROW.
+    induction FAR as [| row sl rows far hr h [us [I1 I2]]]; [exists []; split; [constructor | intro; constructor] |]. cbn beta in hr. apply ROW in hr.
+    assert (One : exists v, Forall2 (fun s v => Forall2 contains (slopes s) v) sl v /\ forall w,
+      dot (map (fun i => value (Spread.near_point f x d tau u) theta (formula_at i)) row) w - dot (map (fun i => value (x ++ repeat 0 (m - f)) theta (formula_at i)) row) w = dot w (Twofold.image v u)).
+    { clear - N hr. induction hr as [| i s row sl hi h [v [v1 v2]]]; [exists []; split; [constructor | intros [| ? ?]; cbn; ring] |].
+      pose proof (N i) as Ni. rewrite hi in Ni. destruct Ni as [_ [_ [_ [_ [v0 [w1 w2]]]]]]. exists (v0 :: v). split; [constructor; assumption |].
+      intros [| t w]; cbn [map dot Twofold.image]; [ring |]. specialize (v2 w). unfold Twofold.image in v2. rewrite <- w2. lra. }
+    destruct One as [v [v1 v2]]. exists (v :: us). split; [constructor; assumption |]. intro w. cbn [map combine]. constructor; [apply v2 | apply I2]. }
+  assert (hz : Spread.inside f m (Twofold.nought m)) by (split; [apply Twofold.nought_length | pose proof (Twofold.nought_norm f m); lra]).
+  assert (Spread_ : exists g, contains (Spread.spread bits m f far) g /\ 0 <= g).
+  { destruct (S _ hz) as [us [s1 _]]. destruct (Spread.spread_sound bits m f far us s1) as [g' [g1 [g2 _]]]. exists g'. split; assumption. }
+  split.
+  { intro ang. unfold Nearby.located in body. cbv zeta in body. apply andb_true_iff in body as [body _]. apply andb_true_iff in body as [_ slow]. rewrite ang in slow. cbn [negb orb] in slow.
+    apply andb_true_iff in slow as [slow1 slow2]. rewrite forallb_forall in slow1, slow2. split.
+    - intros u v hu hv. specialize (N u hu). unfold far_at. clear - N FAR ROW slow1 hd d0 hv.
+      induction FAR as [| row sl rows far hr h IH]; cbn [map]; constructor; [| apply IH; intros y iy; apply slow1; right; exact iy].
+      cbn beta in hr. apply ROW in hr. specialize (slow1 sl (or_introl eq_refl)).
+      destruct (Nearby.total_of_sound bits sl (map (fun i => value (near_at x a d tau u) theta (formula_at i)) row)) as [n [n1 [n0 n2]]].
+      { clear - N hr. induction hr as [| i s row sl hi h IH]; cbn [map]; constructor; [| exact IH]. pose proof (N i) as Ni. rewrite hi in Ni. exact (proj1 (proj2 (proj2 (proj2 Ni)))). }
+      pose proof (Nearby.is_less_sound bits _ _ _ _ slow1 hd n1) as L. specialize (n2 v hv). rewrite Rabs_mult, (Rabs_pos_eq d) by exact d0. apply Rle_lt_trans with (2 := L). apply Rmult_le_compat_l; assumption.
+    - pose proof (all_some_nth _ _ _ (fun o => o) (joint_over values) _ _ ejs) as G. clear - G E slow2 hd d0.
+      induction G as [| [i [error hs]] j joints js e G IH]; constructor; [| apply IH; intros y iy; apply slow2; right; exact iy].
+      specialize (slow2 j (or_introl eq_refl)). intros th ts hth hts. cbn [snd] in *. specialize (E th hth). cbn beta in e. unfold joint_over in e. cbn [fst snd] in e. destruct (nth i values None); [| discriminate].
+      destruct (all_some _) as [ss |] eqn:es; [| discriminate]. injection e as <-. cbn [snd] in slow2. pose proof (all_some_nth _ _ _ (fun o => o) (fun h : fixed * nat => option_map (pair (fst h)) (nth (snd h) values None)) _ _ es) as K.
+      destruct (Nearby.total_off_sound bits ss ts (map (fun h => value x th (formula_at (snd h))) hs)) as [n [n1 [n0 n2]]].
+      { clear - K hts. revert ts hts. induction K as [| h s hs ss e K IH]; intros ts hts; inversion hts as [| ? t ? ts' h1 h2]; subst; constructor; [| exact (IH _ h2)]. destruct (nth (snd h) values None); [| discriminate]. injection e as <-. exact h1. }
+      { clear - K E. induction K as [| h s hs ss e K IH]; cbn [map]; constructor; [| exact IH]. pose proof (E (snd h)) as Eh. destruct (nth (snd h) values None); [| discriminate]. injection e as <-. exact (proj1 (proj2 (proj2 (proj2 Eh)))). }
+      pose proof (Nearby.is_less_sound bits _ _ _ _ slow2 hd n1) as L. rewrite Rabs_mult, (Rabs_pos_eq d) by exact d0. apply Rle_lt_trans with (2 := L). apply Rmult_le_compat_l; assumption. }
+  destruct (Nearby.located_sound bits m lambda el hlam less a far here js places Y k q body hless Spread_) as [kappa [z [e [a1 [a2 [a3 [a4 [a5 [a6 [a7 a8]]]]]]]]]].
+  set (g := IZR (hi (Spread.spread bits m f far)) / unit_R bits) in *. exists g. split; [exact a1 |]. split.
+  - intros u hu. split.
+    + apply Forall_forall. intros i ii. specialize (dn i ii). pose proof (N u hu i) as Ni. destruct (nth i near None) as [s |]; [exact (proj1 (proj2 Ni)) | discriminate].
+    + intros w _. destruct (S u hu) as [us [s1 s2]]. destruct (Spread.spread_sound bits m f far us s1) as [g' [b1 [b2 b3]]].
+      apply Rle_trans with (1 := b3 _ _ w u (proj1 hu) (s2 w) ltac:(unfold far_at; rewrite !map_length; reflexivity)). apply Rmult_le_compat_r; [apply Rmult_le_pos; apply Twofold.norm_nonneg |].
+      destruct b1 as [_ b1]. unfold g. apply Rmult_le_reg_r with (unit_R bits); [exact u0 |]. unfold Rdiv. rewrite Rmult_assoc, Rinv_l by lra. lra.
+  - exists kappa, z, e. repeat (split; [assumption |]). intros w lw. cbv zeta.
+    destruct (rows_over_sound cell x lambda keep (E theta theta_in) (Nearby.l_rows a) here ehere) as [_ [es [r1 r2]]]. rewrite r2.
+    specialize (a8 es r1). cbv zeta in a8. destruct (a8 w lw) as [c1 c2]. split; [exact c1 |]. intros bs s hb nz.
+    destruct (joints_bounded values lambda x _ E (Nearby.l_joints a) js bs ejs hb) as [rs [q1 ->]]. exact (c2 rs s q1 nz).
+Qed.
+
 (** Where nothing is subtracted. *)
 Theorem shows_holds : forall keep cell x t e, Forall2 contains cell x -> shows (evaluate_kept keep cell) (length cell) None t e = true -> holds (length cell) x t.
 Proof.
@@ -1236,8 +1339,9 @@ Proof.
     assert (Other : shows (evaluate_kept keep cell) (length cell) less t e' = true -> holds (length cell) x t).
     { clear k. intro k. apply (shows_sound cell x lambda el hlam keep) with less e'; [| exact hl | exact k].
     intro i. apply (nth_related _ _ _ _ (encloses bits lambda x (map (centre_of bits) cell) theta)); [exact I | exact S]. }
-    destruct t; try exact (Other k). destruct e'; try exact (Other k). destruct q as [| q]; [| exact (Other k)]. cbn [holds].
-    refine (accuracy_holds keep cell x lambda el hlam hx _ less _ _ _ _ _ hl k).
+    assert (Each : forall th, Forall2 contains params th -> forall i, encloses bits lambda x (map (centre_of bits) cell) th (nth i (evaluate_kept keep cell) None) (formula_at i));
+      [| destruct t; try exact (Other k); (destruct e'; try exact (Other k)); cbn [holds];
+         [destruct q as [| q]; [| exact (Other k)]; exact (accuracy_holds keep cell x lambda el hlam hx Each less _ _ _ _ _ hl k) | exact (located_holds keep cell x lambda el hlam hx Each less _ _ _ _ _ hl k)]].
     intros th hth i. apply (nth_related _ _ _ _ (encloses bits lambda x (map (centre_of bits) cell) th)); [exact I |].
     exact (evaluate_kept_sound bits lambda hlam x (map (centre_of bits) cell) th _ _ C (params_hold bits lambda params th hth) keep tape). }
   assert (Apart : forall less e ends directions, harmless lambda less -> shows_apart (evaluate_kept keep cell) cell less t e ends directions = true -> holds (length cell) x t).
@@ -1317,10 +1421,10 @@ End Precision.
 (** ** Steps; [open] has the tests that are not discharged yet *)
 
 (** What accuracy says of one machine is about all others, too, and so is not shown of the machines of a half. *)
-Definition is_of_each (t : test) : bool := match t with Accurate _ _ => false | _ => true end.
+Definition is_of_each (t : test) : bool := match t with Accurate _ _ | Located _ => false | _ => true end.
 Lemma holds_of_each : forall bits tape whole divided partial params theta all m x t, is_of_each t = true ->
   holds bits tape whole divided partial params theta m x t -> holds bits tape whole divided partial all theta m x t.
-Proof. intros bits tape whole divided partial params theta all m x [] e h; try exact h. discriminate. Qed.
+Proof. intros bits tape whole divided partial params theta all m x [] e h; try exact h; discriminate. Qed.
 
 Section Steps.
 Variable bits : positive.
@@ -1348,6 +1452,7 @@ Definition wanted_by (t : test) (e : evidence) : list nat :=
   | Least r _ | Chords r _ _ => places_of_rows r
   | Apart p p' q q' _ => flat_map (fun p => [along_x p; along_y p; along_z p]) [p; p'; q; q']
   | Accurate _ joints => places_of_rows divided ++ flat_map (fun j => fst j :: map snd (snd (snd j))) joints
+  | Located a => places_of_rows (Nearby.l_rows a) ++ Nearby.l_defined a ++ flat_map (fun j => fst j :: map snd (snd (snd j))) (Nearby.l_joints a)
   | Curved row twice a b k2 s => row ++ concat twice ++ [a; b; k2; s]
   end.
 (** Formulas that do not change with the scale of the parameters [J]. *)
@@ -1362,7 +1467,7 @@ Definition are_level (t : test) (J : list nat) : bool :=
   | AtLeast f => all [f]
   | Either f g => all [f; g]
   | Least r _ => all (places_of_rows r)
-  | Apart _ _ _ _ _ | Chords _ _ _ | Accurate _ _ | Curved _ _ _ _ _ _ => false
+  | Apart _ _ _ _ _ | Chords _ _ _ | Accurate _ _ | Located _ | Curved _ _ _ _ _ _ => false
   end.
 Definition is_point (a : fixed) : bool := (lo a =? hi a)%Z.
 Definition may_scale (t : test) (groups : list (list nat)) (ones : list nat) : bool :=

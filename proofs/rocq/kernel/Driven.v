@@ -2,7 +2,7 @@
 
 From Coq Require Import ZArith Reals Lra Lia List Bool.
 From Orthocert Require Import Vec3 SingularValues Kinematics Fixed Claim.
-From Orthocert.kernel Require Import Statement Linear Arithmetic Slope Test Cell Check Number Trig Formula Machine Problem Witness Orientation Turning Control Chart Configuration Inputs Onward Poses Pose Arm Legs Drives.
+From Orthocert.kernel Require Import Statement Linear Arithmetic Slope Test Cell Check Number Trig Formula Machine Problem Witness Orientation Turning Control Chart Configuration Inputs Onward Poses Pose Arm Legs Recover Drives Locate.
 From Orthocert.kernel Require Solve Load.
 Import ListNotations.
 Local Open Scope R_scope.
@@ -102,6 +102,11 @@ Definition is_oriented (c : driven_claim) : bool :=
 
 Definition is_with_end (d : any_drive) : bool := match d with LinearDrive (PlanarLeg _) => false | _ => true end.
 
+(** Accuracy of platforms that turn: of legs with two ends, and angles of less than half a turn. *)
+Definition may_be_near (k : mobility) (drs : list any_drive) (angle : number) : bool :=
+  match k with Turns _ => certainly bits true angle && is_angle_number bits angle && forallb is_with_end drs | _ => true end.
+Definition tangent_of (k : mobility) (angle : number) : option fixed := match k with Turns _ => enclose_tangent bits angle | _ => Some (Fixed.integer bits 1) end.
+
 (** Of claims that no two poses have the same joint coordinates: the one matrix, and before which other test this is counted. *)
 Variables (one_matrix : N * list (list Z)) (one_place : nat).
 
@@ -113,10 +118,18 @@ Definition check_driven (c : driven_claim) (s : Z) (ds : list (Z * Z)) (t : tree
   let j := S (length lay) in let angular := are_angular (drives c) in
   let turn := option_map (fun o => chart o (first_of k)) (turned_by c) in
   let fs := all_driven k turn (quantity ell (length lay)) s ds (drives c) 0 in
+  let far q := map (row_off k (quantity ell (length lay)) (turn_unit q)) (all_drives k s (placed_off k turn) ds (drives c) 0) in
+  let there q := map (fun f => (row_there k (quantity ell (length lay)) (turn_unit q) (d_divided f), integer 1)) fs in let js := map d_joint fs in
+  let own q d := match d with OnePose _ _ _ => located_own lay (far q) (there q) js | _ => own_of fs q d end in
   let built := flat_map d_built fs in let about := if only_pose c then map (fun f => (d_origin f, d_D f)) fs else [] in
-  let wanted := entries (pose_rows fs) ++ entries (pose_divided fs) ++ built ++ of_each (own_of fs) angular s j demands ++ entries about in
+  let wanted := entries (pose_rows fs) ++ entries (pose_divided fs) ++ built ++ of_each own angular s j demands ++ entries about in
   let tape := fst (compile wanted) in
   let all := formulas tape in let place := place all in
+  let tests_of q d := match d with
+    | OnePose error b angle => if may_be_near k (drives c) angle
+        then located_tests bits place n (places_of k) (lasts_of k) angular lay s (far q) (there q) js (tangent_of k angle) error b else [None]
+    | _ => tests_for place fs angular s q d
+    end in
   forallb (fun e => same (nth (place e) all (integer 0)) e) wanted && existsb rules_out demands && is_flat_region k (place_of c) && is_oriented c &&
   forallb (fun d => Bool.eqb (is_angular_drive d) angular) (drives c) &&
   (negb (only_pose c) || turns_less bits k (turned_by c) && forallb is_with_end (drives c)) &&
@@ -124,7 +137,7 @@ Definition check_driven (c : driven_claim) (s : Z) (ds : list (Z * Z)) (t : tree
         all_some (map (fun t => enclose_parameter bits (t, s)) (position_edges k (place_of c))),
         match turned_by c with Some o => all_some (map (end_box bits) (chart_ends o)) | None => Some [] end,
         all_some (map (enclose_tangent bits) (curve_angles c)),
-        all_some (of_each (tests_for place fs angular s) angular s j demands) with
+        all_some (of_each tests_of angular s j demands) with
   | Some params, Some inputs, Some box, Some angles, Some tangents, Some tests =>
       let tests := if only_pose c then inserted one_place tests (Chords (map_rows place about) (fst one_matrix) (snd one_matrix)) else tests in
       Nat.eqb (length (box ++ angles)) n &&
@@ -179,15 +192,7 @@ Proof.
   intros c [| [| a [| b [| e [| ? ?]]]] [| [| d [| f [| g [| ? ?]]]] [| [| h [| i [| j [| ? ?]]]] [| ? ?]]]]; cbn [determinant map length pow]; ring.
 Qed.
 
-Lemma two_to_opposite : forall s, / two_to (- s) = two_to s.
-Proof.
-  intro s. unfold two_to. destruct (Z.leb_spec 0 s), (Z.leb_spec 0 (- s)); try lia.
-  - replace s with 0%Z by lia. cbn. field.
-  - rewrite Z.opp_involutive, Rinv_inv. reflexivity.
-  - reflexivity.
-Qed.
-
-(** Accelerations and accuracy are shown of none. *)
+(** Accelerations are shown of none, and accuracy in Locate.v. *)
 Lemma reached_aside : forall n J X T l p a r A B d, Configuration.fulfils n (Configuration J X T l p (fun _ _ _ _ => False) (fun _ _ _ => False) A) d -> Configuration.fulfils n (Configuration J X T l p a r B) d.
 Proof. intros n J X T l p a r A B [] h; try exact h; cbn in *; [| destruct h]. intros v w lv lw hv hw. destruct (h v w lv lw hv hw) as [y [[] _]]. Qed.
 
@@ -583,15 +588,26 @@ Proof. intros tape fs r h k e i. apply k, h, i. Qed.
 Lemma flat_pose : forall k w P, is_flat_region k w = true -> in_region w P -> is_place k P.
 Proof. intros [| | []] w P h p; exact (flat_place _ w P h p). Qed.
 
-Theorem check_driven_sound : forall bits one_matrix one_place c s ds t, check_driven bits one_matrix one_place c s ds t = true -> driven_holds c.
+(** What is shown, but for what accuracy says beside the nominal machine's being one that can be built. *)
+Lemma check_driven_at : forall bits one_matrix one_place c s ds t, check_driven bits one_matrix one_place c s ds t = true -> forall m P Q, is_about_driven c m P Q ->
+  Forall well_formed_driven m /\ (Forall well_formed_driven (map nominal_driven (drives c)) -> meets_driven c m P Q /\
+  (only_pose c = true -> forall P' Q', is_pose c P' Q' -> Forall (fun l => own_joint l (carried l P' Q') = own_joint l (carried l P Q)) m -> P' = P /\ Q' = Q)).
 Proof.
   intros bits one_matrix one_place c s ds t h m P Q [hm hPQ]. unfold check_driven in h. cbv zeta in h.
   set (k := mobility_of c) in *. set (demands := driven_demands c) in *. set (lay := driven_layouts s ds (drives c)) in *. set (pl := (exactly (length_of c), s)) in *.
   set (angular := are_angular (drives c)) in *. set (turn := option_map (fun o => chart o (first_of k)) (turned_by c)) in *. set (ell := quantity pl (length lay)) in *.
   set (fs := all_driven k turn ell s ds (drives c) 0) in *. set (built := flat_map d_built fs) in *.
   set (about := if only_pose c then map (fun f => (d_origin f, d_D f)) fs else []) in *. set (j := S (length lay)) in *.
-  set (own := of_each (own_of fs) angular s j demands) in *. set (wanted := entries (pose_rows fs) ++ entries (pose_divided fs) ++ built ++ own ++ entries about) in *.
+  set (far := fun q => map (row_off k ell (turn_unit q)) (all_drives k s (placed_off k turn) ds (drives c) 0)) in *.
+  set (there := fun q => map (fun f => (row_there k ell (turn_unit q) (d_divided f), integer 1)) fs) in *. set (js := map d_joint fs) in *.
+  set (own_q := fun q d => match d with OnePose _ _ _ => located_own lay (far q) (there q) js | _ => own_of fs q d end) in *.
+  set (own := of_each own_q angular s j demands) in *. set (wanted := entries (pose_rows fs) ++ entries (pose_divided fs) ++ built ++ own ++ entries about) in *.
   set (tape := fst (compile wanted)) in *. set (place := place (formulas tape)) in *.
+  set (tests_q := fun q d => match d with
+    | OnePose error b angle => if may_be_near bits k (drives c) angle
+        then located_tests bits place (freedom k) (places_of k) (lasts_of k) angular lay s (far q) (there q) js (tangent_of bits k angle) error b else [None]
+    | _ => tests_for bits place fs angular s q d
+    end) in *.
   apply andb_true_iff in h as [h C]. apply andb_true_iff in h as [h one]. apply andb_true_iff in h as [h kinds]. apply andb_true_iff in h as [h oriented]. apply andb_true_iff in h as [h flat]. apply andb_true_iff in h as [found ex].
   destruct (all_some (map (enclose_parameter bits) _)) as [params |] eqn:ep; [| discriminate].
   destruct (all_some (map (enclose_input bits) _)) as [inputs |] eqn:ei; [| discriminate].
@@ -603,7 +619,7 @@ Proof.
   assert (Sub : forall u, In u tests -> In u all_tests) by (intros u iu; unfold all_tests; destruct (only_pose c); [apply inserted_in; right |]; exact iu).
   apply andb_true_iff in C as [len C]. apply Nat.eqb_eq in len.
   assert (Found : forall e, In e wanted -> formula_at tape (place e) = e) by (rewrite forallb_forall in found; intros e i; apply same_sound, found, i).
-  destruct (legs_stand s (drives c) m hm ds) as [th [TH ST]]. set (ins := flat_map (inputs_of angular s) demands) in *.
+  destruct (legs_stand s (drives c) m hm ds) as [th [TH [DR ST]]]. set (ins := flat_map (inputs_of angular s) demands) in *.
   set (tt := map (fun a => tangent (Claim.value a)) (curve_angles c)). set (theta := th ++ [Claim.value (length_of c) / two_to s] ++ map input_value ins ++ tt).
   assert (lt : length th = length lay) by (symmetry; exact (related_length _ _ _ _ _ TH)).
   assert (AOK : forall o, turned_by c = Some o -> are_angles o /\ 0 < Claim.value (length_of c)).
@@ -611,17 +627,18 @@ Proof.
     assert (or' : certainly bits true (length_of c) && forallb (fun t => is_angle_number bits (least t) && is_angle_number bits (greatest t)) (angles_of o) = true) by (destruct (mobility_of c) as [| | []]; try discriminate; exact oriented).
     apply andb_true_iff in or' as [L0 ang]. apply positive_sound in L0. split; [| exact L0].
     unfold are_angles. rewrite forallb_forall in ang. apply Forall_forall. intros y iy. specialize (ang y iy). apply andb_true_iff in ang as [a b]. split; apply (is_angle_number_sound bits); assumption. }
-  assert (T : Forall2 (contains bits) (params ++ inputs ++ tangents) theta).
-  { unfold theta. rewrite (app_assoc th). apply Forall2_app; [| apply Forall2_app].
-    - apply (enclosed_all bits _ _ _ ep). apply Forall2_app; [exact TH |]. constructor; [apply exact_within | constructor].
+  assert (TE : forall th', Forall2 scaled_within lay th' -> Forall2 (contains bits) (params ++ inputs ++ tangents) (th' ++ [Claim.value (length_of c) / two_to s] ++ map input_value ins ++ tt)).
+  { intros th' h'. rewrite (app_assoc th'). apply Forall2_app; [| apply Forall2_app].
+    - apply (enclosed_all bits _ _ _ ep). apply Forall2_app; [exact h' |]. constructor; [apply exact_within | constructor].
     - exact (inputs_enclosed bits _ _ ei).
     - unfold tt, curve_angles in *. destruct (turned_by c) as [o |] eqn:eo; [| injection eg as <-; constructor].
       apply (tangents_in bits); [intros a i; exact (curved_angles _ a (proj1 (AOK o eq_refl)) i) | exact eg]. }
+  pose proof (TE th TH) as T. change (Forall2 (contains bits) (params ++ inputs ++ tangents) theta) in T.
   (* at one pose *)
   set (posed := fun P Q => map (fun l => (about_origin k (/ two_to s) (as_strut P Q l) P Q, 0)) m).
-  enough (At : forall P Q, is_pose c P Q -> Forall well_formed_driven m /\ meets_driven c m P Q /\ (only_pose c = true ->
-    forall v, length v = freedom k -> nonzero v -> 0 < form (lower_weights (fst one_matrix) (snd one_matrix) v) (posed P Q) v)).
-  { destruct (At P Q hPQ) as [A1 [A2 A3]]. split; [exact A1 |]. split; [exact A2 |]. intros o P' Q' hPQ' same. destruct (At P' Q' hPQ') as [_ [B2 B3]].
+  enough (At : forall P Q, is_pose c P Q -> Forall well_formed_driven m /\ (Forall well_formed_driven (map nominal_driven (drives c)) -> meets_driven c m P Q /\ (only_pose c = true ->
+    forall v, length v = freedom k -> nonzero v -> 0 < form (lower_weights (fst one_matrix) (snd one_matrix) v) (posed P Q) v))).
+  { destruct (At P Q hPQ) as [A1 AN]. split; [exact A1 |]. intro nw. destruct (AN nw) as [A2 A3]. split; [exact A2 |]. intros o P' Q' hPQ' same. destruct (At P' Q' hPQ') as [_ BN]. destruct (BN nw) as [B2 B3].
     specialize (A3 o). specialize (B3 o). rewrite o in one. cbn [negb orb] in one. apply andb_true_iff in one as [less ends].
     destruct (turns_less_sound _ bits k (turned_by c) Q Q' less (proj2 hPQ) (proj2 hPQ')) as [v [tv mv]].
     assert (E : posed P' Q' = map (fun l => (about_origin k (/ two_to s) l P' Q', 0)) (map (as_strut P Q) m) /\
@@ -646,30 +663,33 @@ Proof.
     - exact (position_boxes bits InSpace _ P s box hH eb).
     - exact (position_boxes bits InPlane _ P s box hH eb).
     - exact (position_boxes bits mo _ P s box hH eb). }
-  assert (OR : exists cs, Forall2 (contains bits) angles cs /\ let x := map (Rmult (/ two_to s)) places ++ cs in
-    val3 x theta (eplace k) = vscale (/ two_to s) P /\
-    match turn with Some (N, w) => exists W, 0 < W /\ valm x theta N = mscale W Q /\ Formula.value x theta w = W | None => Q = midentity end /\
-    match k with Turns _ => Claim.value (length_of c) <> 0 /\ Formula.value x theta ell = / two_to s * Claim.value (length_of c) | _ => True end /\
-    k <> Turns AboutPoint).
-  { assert (EL : forall x, Formula.value x theta ell = / two_to s * Claim.value (length_of c)).
+  assert (EL : forall x, Formula.value x theta ell = / two_to s * Claim.value (length_of c)).
     { intro x. unfold ell, theta. apply quantity_value; [exists (Claim.value (length_of c)); split; [split; apply Rle_refl | cbn [snd pl]; unfold Rdiv; ring] |].
       rewrite <- lt. cbn [app]. rewrite nth_middle. unfold Rdiv. ring. }
-    unfold is_oriented in oriented. unfold turn, places. fold k in oriented. destruct k as [| | mo].
+  assert (OR : exists cs, Forall2 (contains bits) angles cs /\ let x := map (Rmult (/ two_to s)) places ++ cs in
+    (forall theta, val3 x theta (eplace k) = vscale (/ two_to s) P) /\
+    (forall y th', length th' = length th -> (forall i, (i < length cs)%nat -> nth (places_of k + i) y 0 = nth i cs 0) -> let theta := th' ++ [Claim.value (length_of c) / two_to s] ++ map input_value ins ++ tt in
+      match turn with Some (N, w) => exists W, 0 < W /\ valm y theta N = mscale W Q /\ Formula.value y theta w = W | None => Q = midentity end) /\
+    match k with Turns _ => Claim.value (length_of c) <> 0 /\ Formula.value x theta ell = / two_to s * Claim.value (length_of c) | _ => True end /\
+    k <> Turns AboutPoint).
+  { unfold is_oriented in oriented. unfold turn, places. fold k in oriented. destruct k as [| | mo].
     - destruct (turned_by c) as [o |]; [discriminate |]. injection ea as <-. exists []. split; [constructor |]. cbv zeta. rewrite app_nil_r. cbn [option_map].
-      split; [reflexivity |]. split; [exact hQ |]. split; [exact I | discriminate].
+      split; [reflexivity |]. split; [intros _ _ _ _; exact hQ |]. split; [exact I | discriminate].
     - destruct (turned_by c) as [o |]; [discriminate |]. injection ea as <-. exists []. split; [constructor |]. cbv zeta. cbn [option_map].
-      split; [exact (position_value InPlane P _ [] theta flatP) |]. split; [exact hQ |]. split; [exact I | discriminate].
+      split; [intro theta'; exact (position_value InPlane P _ [] theta' flatP) |]. split; [intros _ _ _ _; exact hQ |]. split; [exact I | discriminate].
     - assert (NA : mo <> AboutPoint) by (intro z; subst mo; discriminate).
       destruct (turned_by c) as [o |] eqn:eo; [| destruct mo; discriminate]. destruct (AOK o eq_refl) as [ok L0].
       destruct (chart_sound _ _ hQ ok) as [cs [W [hcs [W0 CH]]]]. exists cs. split; [exact (box_sound bits _ cs angles ok hcs ea) |]. cbv zeta.
-      assert (first : forall i, nth (first_angle mo + i) (map (Rmult (/ two_to s)) (position_list mo P) ++ cs) 0 = nth i cs 0).
-      { intro i. replace (first_angle mo) with (length (map (Rmult (/ two_to s)) (position_list mo P))) by (destruct mo; reflexivity). apply app_nth2_plus. }
-      split; [exact (position_value mo P _ cs theta flatP) |]. cbn [option_map first_of].
-      destruct (CH _ theta (first_angle mo) (length (th ++ [Claim.value (length_of c) / two_to s] ++ map input_value ins)) (fun i _ => first i)) as [hN [hw _]].
-      { intros a i. unfold theta. rewrite !app_assoc. rewrite <- (Nat.add_0_r (length _)). rewrite app_nth2_plus. unfold tt, curve_angles. rewrite eo. destruct o; cbn [curved] in *; try contradiction; destruct i as [-> | []]; reflexivity. }
-      destruct (chart o (first_angle mo)) as [N w]. cbn [fst snd] in hN, hw.
-      split; [exists W; split; [exact W0 | split; [exact hN | exact hw]] |]. split; [split; [lra | apply EL] | intro z; injection z as z; exact (NA z)]. }
-  destruct OR as [cs [AX [V1 [V2 [V3 V4]]]]]. set (x := map (Rmult (/ two_to s)) places ++ cs) in *.
+      split; [intro theta'; exact (position_value mo P _ cs theta' flatP) |]. cbn [option_map first_of]. split.
+      2: { split; [split; [lra | apply EL] | intro z; injection z as z; exact (NA z)]. }
+      intros y th' lth first. set (theta' := th' ++ [Claim.value (length_of c) / two_to s] ++ map input_value ins ++ tt).
+      destruct (CH y theta' (first_angle mo) (length (th' ++ [Claim.value (length_of c) / two_to s] ++ map input_value ins)) first) as [hN [hw _]].
+      { intros a i. unfold theta'. rewrite !app_assoc. rewrite <- (Nat.add_0_r (length _)). rewrite app_nth2_plus. unfold tt, curve_angles. rewrite eo. destruct o; cbn [curved] in *; try contradiction; destruct i as [-> | []]; reflexivity. }
+      destruct (chart o (first_angle mo)) as [N w]. cbn [fst snd] in hN, hw. exists W. split; [exact W0 | split; [exact hN | exact hw]]. }
+  destruct OR as [cs [AX [VP [VT [V3 V4]]]]]. set (x := map (Rmult (/ two_to s)) places ++ cs) in *.
+  assert (cs_at : forall i, (i < length cs)%nat -> nth (places_of k + i) x 0 = nth i cs 0).
+  { intros i _. unfold x. replace (places_of k) with (length (map (Rmult (/ two_to s)) places)) by (unfold places; destruct k as [| | []]; reflexivity). apply app_nth2_plus. }
+  pose proof (VP theta) as V1. pose proof (VT x th eq_refl cs_at) as V2. cbv zeta in V2. change (th ++ [Claim.value (length_of c) / two_to s] ++ map input_value ins ++ tt) with theta in V2. fold x in VP.
   specialize (ST x [] ([Claim.value (length_of c) / two_to s] ++ map input_value ins ++ tt) k turn ell (Claim.value (length_of c)) P Q). cbv zeta in ST. cbn [app length] in ST.
   specialize (ST V1 V2 V3). change (Forall2 (stands_in x theta s k (Claim.value (length_of c)) P Q) fs m) in ST.
   assert (X : Forall2 (contains bits) (box ++ angles) x) by (apply Forall2_app; assumption).
@@ -678,17 +698,17 @@ Proof.
   specialize (H ltac:(intros cell lambda y q e l a d; cbv beta in a; rewrite a in d; unfold inside_region in e; destruct k as [| | mo] eqn:ek; try discriminate;
     assert (cs = []) by (unfold is_oriented in oriented; fold k in oriented; rewrite ek in oriented; destruct (turned_by c); [discriminate |]; injection ea as <-; inversion AX; reflexivity); subst cs;
     unfold x, places in d; rewrite app_nil_r in d; exact (tangent_sound bits (place_of c) s P hP cell lambda q e l d)) t _ x C X eq_refl). rewrite len in H.
-  assert (HT : forall d, In d demands -> exists q, map (Formula.value x theta) q = map input_value (inputs_of angular s d) /\
-    (forall f, In f (own_of fs q d) -> formula_at tape (place f) = f) /\
-    (forall o, In o (tests_for bits place fs angular s q d) -> exists t, o = Some t /\
+  assert (HT : forall d, In d demands -> exists q, (forall x, map (Formula.value x theta) q = map input_value (inputs_of angular s d)) /\
+    (forall f, In f (own_q q d) -> formula_at tape (place f) = f) /\
+    (forall o, In o (tests_q q d) -> exists t, o = Some t /\
       Check.holds bits tape (map_rows place (pose_rows fs)) (map_rows place (pose_divided fs)) (map place built) (params ++ inputs ++ tangents) theta (freedom k) x t)).
-  { intros d id. destruct (of_each_at angular s demands d x (th ++ [Claim.value (length_of c) / two_to s]) tt id) as [q [q1 q2]]. cbv zeta in q1. fold ins in q1.
+  { intros d id. destruct (of_each_anywhere angular s demands d (th ++ [Claim.value (length_of c) / two_to s]) tt id) as [q [q1 q2]]. fold ins in q1.
     rewrite <- app_assoc in q1. fold theta in q1. rewrite app_length, lt, Nat.add_1_r in q2. fold j in q2. exists q. split; [exact q1 |]. split.
     - intros f i. apply Found. unfold wanted. do 3 (apply in_or_app; right). apply in_or_app. left. exact (q2 _ _ _ i).
-    - intros o i. destruct (all_some_in _ _ _ _ et (q2 _ (tests_for bits place fs angular s) o i)) as [u [e iu]]. exists u. split; [exact e | exact (H u (Sub u iu))]. }
+    - intros o i. destruct (all_some_in _ _ _ _ et (q2 _ tests_q o i)) as [u [e iu]]. exists u. split; [exact e | exact (H u (Sub u iu))]. }
   (* legs that can be built *)
   assert (Low : exists low c0, contains bits low c0 /\ 0 <= c0 /\ Check.holds bits tape (map_rows place (pose_rows fs)) (map_rows place (pose_divided fs)) (map place built) (params ++ inputs ++ tangents) theta (freedom k) x (SigmaMin low)).
-  { apply existsb_exists in ex as [d [id e]]. destruct (HT d id) as [q [_ [_ q3]]]. destruct d; try discriminate; cbn [tests_for] in q3; destruct (q3 _ ltac:(left; reflexivity)) as [u [e1 hu]].
+  { apply existsb_exists in ex as [d [id e]]. destruct (HT d id) as [q [_ [_ q3]]]. destruct d; try discriminate; cbn [tests_q tests_for] in q3; destruct (q3 _ ltac:(left; reflexivity)) as [u [e1 hu]].
     - injection e1 as <-. exists zero, 0. split; [apply zero_sound |]. split; [lra | exact hu].
     - destruct (enclose_parameter bits _) as [a |] eqn:ew; [| discriminate]. injection e1 as <-. eexists; eexists. split; [exact (squared_rate bits s angular _ _ ew) |]. split; [apply pow2_ge_0 | exact hu]. }
   destruct Low as [low [c0 [hc0 [c00 [BU LOW]]]]].
@@ -698,7 +718,7 @@ Proof.
     unfold built in B. clear - ST B. induction ST as [| f l fs' m' [hb _] hs IH]; constructor.
     - apply hb. apply Forall_forall. intros g i. apply B. cbn [flat_map]. apply in_or_app. left. exact i.
     - apply IH. intros g i. apply B. cbn [flat_map]. apply in_or_app. right. exact i. }
-  split; [exact WF |].
+  split; [exact WF |]. intro nominal_wf.
   set (L := Claim.value (length_of c)) in *. set (look := fun l => Seen (driven_row k L P Q l) (own_joint l (carried l P Q)) (driven_rod k P Q l) (own_reach l (carried l P Q))).
   assert (good : Forall2 (is_good x theta s (freedom k) angular) fs (map look m)).
   { rewrite forallb_forall in kinds. assert (KD : Forall (fun l => rate_unit s l = / two_to (rate angular s)) m).
@@ -735,8 +755,55 @@ Proof.
     rewrite IH, dot_map. ring. }
   - unfold Configuration.injective in *. cbn [jacobian] in SEES. rewrite EJ in SEES. exact SEES.
   - apply Forall_forall. intros d id. destruct (HT d id) as [q [q1 [q2 q3]]].
-    pose proof (demand_met bits x theta s (freedom k) angular fs (map look m) (fun b => vadd P (mulv Q b)) tape (params ++ inputs ++ tangents) (map place built) good W1 W2 RE q d q1 q2 q3 SEES) as met.
-    rewrite !map_map in met. exact (reached_aside _ _ _ _ _ _ _ _ _ _ _ met).
+    assert (Other : (forall error b angle, d <> OnePose error b angle) -> Configuration.fulfils (freedom k) (legs_at k L (map nominal_driven (drives c)) m P Q) d).
+    { intro no. assert (E1 : own_q q d = own_of fs q d) by (destruct d; try reflexivity; contradiction (no _ _ _ eq_refl)). assert (E2 : tests_q q d = tests_for bits place fs angular s q d) by (destruct d; try reflexivity; contradiction (no _ _ _ eq_refl)).
+      rewrite E1 in q2. rewrite E2 in q3.
+      pose proof (demand_met bits x theta s (freedom k) angular fs (map look m) (fun b => vadd P (mulv Q b)) tape (params ++ inputs ++ tangents) (map place built) good W1 W2 RE q d (q1 x) q2 q3 SEES) as met.
+      rewrite !map_map in met. exact (reached_aside _ _ _ _ _ _ _ _ _ _ _ met). }
+    destruct d as [| | | | | | | | | | | | | | | | | error b angle | ]; try (apply Other; discriminate). clear Other. cbn [Configuration.fulfils recovers legs_at]. cbn [own_q tests_q] in q2, q3.
+    destruct (may_be_near bits k (drives c) angle) eqn:may; [| destruct (q3 None (or_introl eq_refl)) as [u [eu _]]; discriminate].
+    assert (PL : is_position_of k P) by (destruct k; exact flatP).
+    assert (ANG : match k with Turns _ => 0 < Claim.value angle /\ is_angle (Claim.value angle) | _ => True end).
+    { unfold may_be_near in may. destruct k; auto. apply andb_true_iff in may as [may _]. apply andb_true_iff in may as [a1 a2]. split; [exact (positive_sound bits _ a1) | exact (is_angle_number_sound bits _ a2)]. }
+    assert (b0 : 0 < Claim.value b).
+    { destruct (certainly bits true b) eqn:e; [exact (positive_sound bits _ e) |]. exfalso. unfold located_tests in q3. rewrite e, andb_false_r in q3.
+      destruct (enclose_parameter bits (exactly b, s)), (tangent_of bits k angle), (all_some (map (joint_near bits place lay s error b) js)); destruct (q3 None (or_introl eq_refl)) as [u [eu _]]; discriminate. }
+    assert (U : forall y, Formula.value y theta (turn_unit q) * / two_to s = tangent (Claim.value angle) / Claim.value b).
+    { intro y. unfold turn_unit. rewrite value_over.
+      assert (NumY : forall n, Formula.value y theta (nth n q (integer 0)) = nth n (map input_value (inputs_of angular s (OnePose error b angle))) 0)
+        by (intro n; rewrite <- (q1 y); symmetry; exact (map_nth (Formula.value y theta) q (integer 0) n)).
+      rewrite !NumY. cbn [inputs_of map nth input_value]. rewrite two_to_less. pose proof (two_to_pos s). pose proof (two_to_pos (order_of [b])). field. repeat split; lra. }
+    refine (located_legs bits tape (map_rows place (pose_rows fs)) (map_rows place (pose_divided fs)) (map place built) (params ++ inputs ++ tangents) k turn ell (turn_unit q) s ds (drives c) m P Q L cs th
+      ([Claim.value (length_of c) / two_to s] ++ map input_value ins ++ tt) error b angle angular (tangent_of bits k angle) V4 hm WF nominal_wf RP _ TH _ _ PL _ _ _ _ _ q2 ANG _ q3).
+    + rewrite forallb_forall in kinds. clear - hm kinds. clearbody angular. induction hm as [| d l drs m' hd_ hs IH]; constructor; [| apply IH; intros y i; apply kinds; right; exact i].
+      specialize (kinds d (or_introl eq_refl)). apply Bool.eqb_prop in kinds. destruct d, l; cbn [is_driven is_angular_drive rate_unit] in *; try contradiction; rewrite <- kinds; cbn [rate].
+      * split; [change (two_to 0) with 1; field | exact I].
+      * split; [symmetry; apply two_to_opposite | reflexivity].
+    + exact TE.
+    + intros y k' placed P' Q' h1 h2. exact (DR y [] ([Claim.value (length_of c) / two_to s] ++ map input_value ins ++ tt) k' placed P' Q' h1 h2).
+    + change (length x = freedom k). rewrite <- (related_length _ _ _ _ _ X). exact len.
+    + split; apply VP.
+    + intros y th' lth first b'. exact (turned_is y _ turn Q (VT y th' lth first) b').
+    + clear - V3 EL. destruct k; auto. destruct V3 as [L0 _]. split; [exact L0 | exact EL].
+    + intro y. specialize (U y). clear - U. destruct k; auto.
+    + unfold tangent_of. clear - ANG. intros t' e. destruct k; try (injection e as <-; apply Fixed.integer_sound). exact (enclose_tangent_sound bits angle t' e (proj2 ANG)).
+Qed.
+
+Lemma nominal_is_driven : forall drs m, Forall2 is_driven drs m -> Forall2 is_driven drs (map nominal_driven drs).
+Proof.
+  intros drs m h. induction h as [| d l drs m hd_ hs IH]; cbn [map]; constructor; [| exact IH]. destruct (nominal_along 0 (0, 0)%Z d l hd_) as [v [y [h _]]]. clear - h.
+  destruct d as [dr | a]; cbn [nominal_driven is_driven is_driven_along] in *.
+  - destruct dr as [c | a p ax | n]; cbn [nominal_leg is_leg_along is_leg_of] in *.
+    + destruct h as [[h1 h2] h3]. split; [exists v; split; assumption | exact h3].
+    + destruct h as [h1 [h2 h3]]. split; [exact h1 |]. split; [exact h2 |]. destruct ax; [exists v; exact h3 | exact I].
+    + exact h.
+  - destruct h as [[h1 [h2 [h3 h4]]] h5]. split; [exists v, y; auto | exact h5].
+Qed.
+Theorem check_driven_sound : forall bits one_matrix one_place c s ds t, check_driven bits one_matrix one_place c s ds t = true -> driven_holds c.
+Proof.
+  intros bits one_matrix one_place c s ds t h m P Q hm.
+  destruct (check_driven_at bits one_matrix one_place c s ds t h m P Q hm) as [WF met]. split; [exact WF |]. apply met.
+  exact (proj1 (check_driven_at bits one_matrix one_place c s ds t h _ P Q (conj (nominal_is_driven _ _ (proj1 hm)) (proj2 hm)))).
 Qed.
 
 (** ** Claims that are about something *)

@@ -62,6 +62,20 @@ Proof. intros [|] a; cbn [signed]; rewrite ?value_opposite; ring. Qed.
 Lemma defined_root' : forall a, defined (root a) -> 0 < value a.
 Proof. intros a. unfold root. destruct (is 1 a) eqn:q; [rewrite (is_value _ _ _ _ q); intros; lra | intros [h _]; exact h]. Qed.
 
+Lemma defined_opposite : forall a, defined (opposite a) -> defined a.
+Proof.
+  intros [o] h. unfold opposite in h. destruct o; try exact (proj2 h); [split; exact I | split; [exact I | exact h]].
+Qed.
+Lemma defined_minus : forall a b, defined (minus a b) -> defined b.
+Proof.
+  intros a b. unfold minus. destruct (is 0 b) eqn:q; [intros _; exact (is_defined _ _ _ _ q) |]. destruct (is 0 a); [apply defined_opposite |].
+  destruct a as [o]. destruct b as [o']. destruct o; try (intros [_ [_ h]]; exact h). destruct o'; try (intros [_ [_ h]]; exact h). intros _. split; exact I.
+Qed.
+Lemma defined_end : forall a (mode : bool) d, defined (minus a (signed mode (root d))) -> 0 < value d.
+Proof.
+  intros a mode d h. apply defined_minus in h. apply defined_root'. destruct mode; cbn [signed] in h; [exact h | apply defined_opposite, h].
+Qed.
+
 Definition joint_is (e : ejoint) (c : coordinate) : Prop :=
   match e, c with
   | ELength f, Length rho => value f = u * rho
@@ -70,11 +84,12 @@ Definition joint_is (e : ejoint) (c : coordinate) : Prop :=
   | _, _ => False
   end.
 
+Definition joint_forms (j : ejoint) : list formula := match j with ELength f => [f] | EAngle c s => [c; s] | EUnknown => [] end.
 (** Formulas of a drive are those of the leg, at C. *)
 Definition drives_as (b : drive_formulas) (l : driven) (C : vec) : Prop :=
   (Forall defined (b_built b) -> well_formed_driven l) /\
   (well_formed_driven l ->
-    (0 < value (b_D b) -> own_reach l C) /\ (own_reach l C -> 0 < value (b_D b)) /\ (defined (ex (b_divided b)) -> own_reach l C) /\
+    (0 < value (b_D b) -> own_reach l C) /\ (own_reach l C -> 0 < value (b_D b)) /\ (defined (ex (b_divided b)) -> own_reach l C) /\ (Forall defined (joint_forms (b_joint b)) -> own_reach l C) /\
     (own_reach l C ->
       (exists q, q ^ 2 = value (b_D b) /\ val3 (b_A b) = vscale (q * rate_unit s l) (own_row l C)) /\
       val3 (b_divided b) = vscale (rate_unit s l) (own_row l C) /\ joint_is (b_joint b) (own_joint l C) /\
@@ -113,7 +128,9 @@ Proof.
     rewrite sqrt_neg_0 in h by exact q. lra.
   - intro h. cbn [map2 ex] in h. apply defined_plus in h as [_ h]. cbn [divided_by ex] in h. apply defined_over in h. rewrite E in h.
     unfold eta in h. destruct (sqrt_pos (leg_length l ^ 2 - norm2 (r l C))) as [p | z]; [exact p |]. exfalso. apply h. unfold Kinematics.s. rewrite <- z. ring.
-  - intro reach. pose proof (eta_nonzero l C ok reach) as e0.
+  - split.
+    { cbn [joint_forms]. intro h. apply T. exact (defined_end _ mode ed (Forall_inv h)). }
+    intro reach. pose proof (eta_nonzero l C ok reach) as e0.
     assert (Sq : value ed = (u * eta l C) ^ 2).
     { rewrite D. unfold eta. rewrite !Rpow_mult_distr, (s_squared l C reach), hm. destruct mode; ring. }
     assert (A : val3 (map2 plus er (Machine.scaled ee n)) = vscale u (leg_vector l C)).
@@ -142,7 +159,7 @@ Proof.
   - intro h. rewrite D. apply Rmult_lt_0_compat; [apply pow_lt, u0 | exact h].
   - cbn [divided_by ex]. intro h. apply defined_over in h. rewrite L in h. destruct (norm2_nonneg (span base platform C)) as [p | z]; [exact p |].
     exfalso. apply h. rewrite <- z, sqrt_0. ring.
-  - intro reach. pose proof (sqrt_lt_R0 _ reach) as s0. assert (S : sqrt (norm2 (span base platform C)) ^ 2 = norm2 (span base platform C)) by (rewrite <- Rsqr_pow2; apply Rsqr_sqrt; lra).
+  - split; [cbn [joint_forms]; intro h; exact (T (defined_root' _ (Forall_inv h))) |]. intro reach. pose proof (sqrt_lt_R0 _ reach) as s0. assert (S : sqrt (norm2 (span base platform C)) ^ 2 = norm2 (span base platform C)) by (rewrite <- Rsqr_pow2; apply Rsqr_sqrt; lra).
     split; [| split; [| split; [exact L | split; [| right; exact hw]]]].
     + exists (u * sqrt (norm2 (span base platform C))). split; [rewrite D, Rpow_mult_distr, S; reflexivity |]. rewrite hw. unfold normalised. set (h := span base platform C) in *. clearbody h. unfold vscale. cbn [vx vy vz]. f_equal; field; lra.
     + rewrite val3_divided, L, hw. unfold normalised. set (h := span base platform C) in *. clearbody h. unfold vscale. cbn [vx vy vz]. f_equal; field; lra.
@@ -156,7 +173,7 @@ Proof.
   split; [| intros _; split; [| split; [| split]]]; cbn [b_built b_D b_divided b_A b_joint b_rod own_reach own_row own_joint own_rod reaches row joint rate_unit well_formed_driven well_formed_leg]; auto.
   - intros h z. subst n. inversion h as [| ? ? h1 _]; subst. apply defined_root' in h1. rewrite value_dot, hd in h1. unfold Vec3.dot, vscale, vzero in h1. cbn in h1. lra.
   - intros _. cbn. lra.
-  - intros _. split; [exists 1; split; [cbn; ring |]; rewrite hn; unfold vscale; destruct (normalised n) as [n1 n2 n3]; cbn [vx vy vz]; f_equal; ring |].
+  - split; [intros _; exact I |]. intros _. split; [exists 1; split; [cbn; ring |]; rewrite hn; unfold vscale; destruct (normalised n) as [n1 n2 n3]; cbn [vx vy vz]; f_equal; ring |].
     split; [rewrite hn; unfold vscale; destruct (normalised n) as [n1 n2 n3]; cbn [vx vy vz]; f_equal; ring |]. split; [| split; [exact I | left; exact I]].
     cbn [joint_is]. rewrite value_dot, hn, hw. unfold Vec3.dot, vscale. cbn [vx vy vz]. ring.
 Qed.
@@ -216,7 +233,16 @@ Proof.
     + rewrite VD. intro h. unfold arm_reaches. apply Rmult_lt_reg_l with (u ^ 4 * arm_length l ^ 2); [apply Rmult_lt_0_compat; assumption | lra].
     + intro h. rewrite VD. apply Rmult_lt_0_compat; [exact u4 |]. apply Rmult_lt_0_compat; assumption.
     + cbn [divided_by ex]. intro h. apply defined_over in h. rewrite Vs in h. unfold arm_reaches. apply Rnot_le_lt. intro z. apply h. unfold arm_eta. rewrite sqrt_neg_0 by exact z. ring.
-    + intro reach. destruct (distance_split l C ok reach) as [_ NN]. fold N0 in NN. pose proof (eta_squared l C ok reach) as E2.
+    + split.
+      { cbn [joint_forms]. intro h. inversion h as [| ? ? h1 _]; subst. destruct h1 as [rad _]. cbn [map_op defined_op] in rad. unfold arm_reaches.
+        assert (mm : arm_mode l * arm_mode l = 1) by (rewrite hm; destruct mode; ring).
+        assert (Vbl : value bl = arm_mode l * (across l C / arm_length l)) by (unfold bl; rewrite value_signed', value_over, Vbe, hr, hm; field; split; lra).
+        assert (E : elbow_radicand (value a) (value bl) (value tq) = (2 / arm_length l) ^ 2 * clearance l C).
+        { unfold elbow_radicand. replace (value a ^ 2 + value bl ^ 2) with (N0 / arm_length l ^ 2)
+            by (rewrite Va, Vbl; unfold N0; replace ((arm_mode l * (across l C / arm_length l)) ^ 2) with (arm_mode l * arm_mode l * (across l C / arm_length l) ^ 2) by ring; rewrite mm; field; lra).
+          rewrite Vt, <- Cl. unfold forward. fold N0. field. lra. }
+        rewrite E in rad. apply Rmult_lt_reg_l with ((2 / arm_length l) ^ 2); [apply pow_lt, Rdiv_lt_0_compat; lra | lra]. }
+      intro reach. destruct (distance_split l C ok reach) as [_ NN]. fold N0 in NN. pose proof (eta_squared l C ok reach) as E2.
       assert (h0 : arm_eta l C <> 0) by (intro z; rewrite z in E2; unfold arm_reaches in reach; lra).
       assert (Vbl : value bl = arm_mode l * (across l C / arm_length l)) by (unfold bl; rewrite value_signed', value_over, Vbe, hr, hm; field; split; lra).
       assert (mm : arm_mode l * arm_mode l = 1) by (rewrite hm; destruct mode; ring).
@@ -272,26 +298,28 @@ Section Formulas.
 Variables (k : mobility) (turn : option (emat * formula)) (ell : formula) (s : Z).
 Definition eturned (b : evec) : evec := match turn with Some (N, w) => divided_by (emulv N b) w | None => b end.
 
-Definition drive_at (dr : any_drive) (q : list formula) : drive_formulas * evec :=
+(** [placed]: from the platform's point to where it is. *)
+Definition drive_at (placed : evec -> evec) (dr : any_drive) (q : list formula) : drive_formulas * evec :=
   let way a r := map2 minus (map2 plus (eplace k) r) (vector_at q a) in
   match dr with
-  | LinearDrive (SliderLeg c) => let r := eturned (vector_at q 6) in (slider_drive (way 3%nat r) (vector_at q 0) (nth 9 q (integer 0)) (mode c), r)
-  | LinearDrive (StrutLeg _ _ ax) => let r := eturned (vector_at q 3) in
+  | LinearDrive (SliderLeg c) => let r := placed (vector_at q 6) in (slider_drive (way 3%nat r) (vector_at q 0) (nth 9 q (integer 0)) (mode c), r)
+  | LinearDrive (StrutLeg _ _ ax) => let r := placed (vector_at q 3) in
       (strut_drive (way 0%nat r) match ax with Some _ => Some (vector_at q 6) | None => None end, r)
   | LinearDrive (PlanarLeg _) => (plane_drive (eplace k) (vector_at q 0), EVec (integer 0) (integer 0) (integer 0))
-  | RotaryDrive a => let r := eturned (vector_at q 9) in
+  | RotaryDrive a => let r := placed (vector_at q 9) in
       (arm_drive_formulas (way 6%nat r) (vector_at q 0) (vector_at q 3) (nth 12 q (integer 0)) (nth 13 q (integer 0)) (is_positive_mode a), r)
+  end.
+Fixpoint all_drives (placed : evec -> evec) (ds : list (Z * Z)) (drs : list any_drive) (j : nat) : list (drive_formulas * evec) :=
+  match drs with
+  | [] => []
+  | dr :: r => let d := hd (0, 0)%Z ds in
+      drive_at placed dr (numbered j (driven_layout s d dr)) :: all_drives placed (tl ds) r (j + length (driven_layout s d dr))
   end.
 Definition pose_of (b : drive_formulas) (r : evec) : pose_formulas :=
   let row a := evelocities k a (divided_by (ecross r a) ell) in
   PoseFormulas (row (b_A b)) (b_D b) (row (b_divided b)) (b_joint b) (ecomponents k (b_A b)) (b_rod b) (b_built b)
     (evelocities k (b_A b) (ecross (map2 plus (eplace k) r) (b_A b))).
-Fixpoint all_driven (ds : list (Z * Z)) (drs : list any_drive) (j : nat) : list pose_formulas :=
-  match drs with
-  | [] => []
-  | dr :: r => let d := hd (0, 0)%Z ds in let (b, a) := drive_at dr (numbered j (driven_layout s d dr)) in
-      pose_of b a :: all_driven (tl ds) r (j + length (driven_layout s d dr))
-  end.
+Definition all_driven (ds : list (Z * Z)) (drs : list any_drive) (j : nat) : list pose_formulas := map (fun z => pose_of (fst z) (snd z)) (all_drives eturned ds drs j).
 End Formulas.
 Fixpoint driven_layouts (s : Z) (ds : list (Z * Z)) (drs : list any_drive) : list parameter :=
   match drs with [] => [] | dr :: r => driven_layout s (hd (0, 0)%Z ds) dr ++ driven_layouts s (tl ds) r end.
@@ -359,7 +387,7 @@ Lemma pose_stands : forall b r l, drives_as x theta s b l (carried l P Q) -> val
   stands_in x theta s k L P Q (pose_of k ell b r) l.
 Proof.
   intros b r l [B H] hr. unfold stands_in. cbv zeta. cbn [pose_of d_A d_D d_divided d_joint d_vector d_rod d_built d_origin].
-  split; [exact B |]. intro ok. destruct (H ok) as [H1 [H2 [H3 H4]]]. split; [exact H1 |]. split; [exact H2 |]. split.
+  split; [exact B |]. intro ok. destruct (H ok) as [H1 [H2 [H3 [_ H4]]]]. split; [exact H1 |]. split; [exact H2 |]. split.
   - intros D nk. apply H3. destruct k as [| | []]; cbn [evelocities etwist list_of] in D; try (inversion D; assumption). contradiction nk; reflexivity.
   - intro reach. destruct (H4 reach) as [[q [q2 qA]] [D [J [R0 O]]]]. split; [exists q; split; [exact q2 | exact (row_is _ _ _ _ qA hr)] |].
     split; [exact (row_is _ _ _ _ D hr) |]. split; [exact J |]. split; [| destruct O as [O | O]; [left; exact O | right; exact (origin_is _ _ _ O hr)]].
@@ -378,77 +406,141 @@ Proof. intros x theta q th j <-. unfold val3, vector_at. cbn [ex ey ez]. f_equal
 Lemma value_nth : forall x theta q th j, map (Formula.value x theta) q = th -> Formula.value x theta (nth j q (integer 0)) = nth j th 0.
 Proof. intros x theta q th j <-. symmetry. exact (map_nth (Formula.value x theta) q (integer 0) _). Qed.
 
+(** With [v], [y] as directions. *)
+Definition is_driven_along (v y : vec) (dr : any_drive) (l : driven) : Prop :=
+  match dr, l with
+  | LinearDrive dr, Linear l => is_leg_along v dr l
+  | RotaryDrive d, Rotary l => (all_within (axis_within d) v /\ all_within (reference_within d) y /\ motor_axis l = normalised v /\ motor_zero l = normalised (orthogonal_part (normalised v) y)) /\
+      all_within (anchor_within d) (motor l) /\ all_within (platform_within d) (arm_offset l) /\ within (arm_within d) (arm_length l) /\ within (rod_within d) (rod_length l) /\
+      arm_mode l = (if is_positive_mode d then 1 else -1)
+  | _, _ => False
+  end.
+Definition driven_parameters (s : Z) (d : Z * Z) (v y : vec) (l : driven) : list R :=
+  match l with
+  | Linear l => parameters_of s (fst d) v l
+  | Rotary l => coordinates (vscale (/ two_to (fst d)) v) ++ coordinates (vscale (/ two_to (snd d)) y) ++ coordinates (vscale (/ two_to s) (motor l)) ++
+      coordinates (vscale (/ two_to s) (arm_offset l)) ++ [/ two_to s * arm_length l; / two_to s * rod_length l]
+  end.
+Lemma is_driven_has_directions : forall dr l, is_driven dr l -> exists v y, is_driven_along v y dr l.
+Proof.
+  intros [dr | a] [l | l] h; cbn [is_driven] in h; try contradiction; [destruct (is_leg_has_direction dr l h) as [v hv]; exists v, v; exact hv |].
+  destruct h as [[v [y [hv [hy [ha he]]]]] rest]. exists v, y. split; [auto | exact rest].
+Qed.
+
+(** What each leg's formulas are, at the pose P, Q. *)
+Definition drives_there (x theta : list R) (s : Z) (P : vec) (Q : mat) (z : drive_formulas * evec) (l : driven) : Prop :=
+  drives_as x theta s (fst z) l (carried l P Q) /\ val3 x theta (snd z) = vscale (/ two_to s) (mulv Q (offset l)).
+Lemma one_drives : forall s d v y dr l, is_driven_along v y dr l -> Forall2 scaled_within (driven_layout s d dr) (driven_parameters s d v y l) /\
+  forall x front back k placed P Q, let theta := front ++ driven_parameters s d v y l ++ back in
+    val3 x theta (eplace k) = vscale (/ two_to s) P -> (forall b, val3 x theta (placed b) = mulv Q (val3 x theta b)) ->
+    drives_there x theta s P Q (drive_at k placed dr (numbered (length front) (driven_layout s d dr))) l.
+Proof.
+  intros s d v y dr l h. pose proof (Rinv_0_lt_compat _ (two_to_pos (fst d))) as d1. pose proof (Rinv_0_lt_compat _ (two_to_pos (snd d))) as d2.
+  destruct dr as [dr | a], l as [l | l]; cbn [is_driven_along] in h; try contradiction; cbn [driven_parameters].
+  - rename h into hv. destruct (parameters_represent s (fst d) v dr l hv) as [L1 _]. split; [exact L1 |]. intros x front back k placed P Q hp T. set (theta := front ++ _ ++ back) in *.
+    pose proof (numbered_values _ _ x front back L1) as V. fold theta in V.
+    cbn [driven_layout]. set (q := numbered (length front) (layout s (fst d) dr)) in *.
+    destruct dr as [c | a p ax | n], l as [i | base platform axis | normal]; cbn [is_leg_along] in hv; try contradiction; cbn [drive_at]; split; cbn [fst snd].
+    + destruct hv as [[hu ax] [ha [hp' [hl' hm]]]]. apply (slider_drives x theta s _ _ _ _ _ _ v); [| exact ax | exists (/ two_to (fst d)); split; [exact d1 | rewrite (val3_at _ _ _ _ _ V); reflexivity] | rewrite (value_nth _ _ _ _ _ V); reflexivity | exact hm].
+      rewrite val3_minus, val3_plus, hp, T, !(val3_at _ _ _ _ _ V). cbn [parameters_of coordinates app nth Nat.add].
+      change (Vec (vx (vscale (/ two_to s) (platform_offset i))) (vy (vscale (/ two_to s) (platform_offset i))) (vz (vscale (/ two_to s) (platform_offset i)))) with (vscale (/ two_to s) (platform_offset i)).
+      rewrite mulv_scale. unfold Kinematics.w, carried. cbn [offset]. destruct (mulv Q (platform_offset i)) as [o1 o2 o3].
+      unfold vsub, vadd, vscale. cbn [vx vy vz]. f_equal; ring.
+    + rewrite T, (val3_at _ _ _ _ _ V). cbn [parameters_of coordinates app nth Nat.add offset].
+      change (Vec (vx (vscale (/ two_to s) (platform_offset i))) (vy (vscale (/ two_to s) (platform_offset i))) (vz (vscale (/ two_to s) (platform_offset i)))) with (vscale (/ two_to s) (platform_offset i)).
+      apply mulv_scale.
+    + destruct hv as [ha [hp' hk]]. apply strut_drives; [| destruct ax as [a' |], axis as [k' |]; try contradiction; [| exact I]; exists (/ two_to (fst d)), v; split; [exact d1 |]; split; [rewrite (val3_at _ _ _ _ _ V); reflexivity | exact (proj2 hk)]].
+      rewrite val3_minus, val3_plus, hp, T, !(val3_at _ _ _ _ _ V). cbn [parameters_of coordinates app nth Nat.add].
+      change (Vec (vx (vscale (/ two_to s) platform)) (vy (vscale (/ two_to s) platform)) (vz (vscale (/ two_to s) platform))) with (vscale (/ two_to s) platform).
+      rewrite mulv_scale. unfold span, carried. cbn [offset]. destruct (mulv Q platform) as [o1 o2 o3].
+      unfold vsub, vadd, vscale. cbn [vx vy vz]. f_equal; ring.
+    + rewrite T, (val3_at _ _ _ _ _ V). cbn [parameters_of coordinates app nth Nat.add offset].
+      change (Vec (vx (vscale (/ two_to s) platform)) (vy (vscale (/ two_to s) platform)) (vz (vscale (/ two_to s) platform))) with (vscale (/ two_to s) platform).
+      apply mulv_scale.
+    + apply plane_drives; [| exists (/ two_to (fst d)); split; [exact d1 | rewrite (val3_at _ _ _ _ _ V); reflexivity]].
+      rewrite hp. f_equal. unfold carried. cbn [offset]. unfold mulv, Vec3.dot, vsub, vadd, vzero. cbn [vx vy vz]. destruct P as [p1 p2 p3]. cbn [vx vy vz]. f_equal; ring.
+    + cbn [offset]. unfold val3, mulv, Vec3.dot, vscale, vzero. cbn [ex ey ez vx vy vz integer Formula.value map_op real_op]. f_equal; ring.
+  - destruct h as [[hv [hy [ha he]]] [hb [hp' [hr [hl' hm]]]]]. set (t1 := coordinates _ ++ _).
+    assert (L1 : Forall2 scaled_within (driven_layout s d (RotaryDrive a)) t1).
+    { unfold t1. cbn [driven_layout]. repeat apply Forall2_app; try (apply three_within; assumption).
+      constructor; [exists (arm_length l); split; [exact hr | cbn [snd]; unfold Rdiv; ring] |].
+      constructor; [exists (rod_length l); split; [exact hl' | cbn [snd]; unfold Rdiv; ring] | constructor]. }
+    split; [exact L1 |]. intros x front back k placed P Q hp T. set (theta := front ++ _ ++ back) in *. pose proof (numbered_values _ _ x front back L1) as V. fold theta in V.
+    set (q := numbered (length front) (driven_layout s d (RotaryDrive a))) in *. cbn [drive_at]. split; cbn [fst snd].
+    + apply (arm_drives x theta s _ _ _ _ _ _ l _ v y); try assumption.
+      * rewrite val3_minus, val3_plus, hp, T, !(val3_at _ _ _ _ _ V). cbn [t1 coordinates app nth Nat.add]. unfold t1. cbn [coordinates app nth Nat.add].
+        change (Vec (vx (vscale (/ two_to s) (arm_offset l))) (vy (vscale (/ two_to s) (arm_offset l))) (vz (vscale (/ two_to s) (arm_offset l)))) with (vscale (/ two_to s) (arm_offset l)).
+        rewrite mulv_scale. unfold from_motor, carried. cbn [offset]. destruct (mulv Q (arm_offset l)) as [o1 o2 o3].
+        unfold vsub, vadd, vscale. cbn [vx vy vz]. f_equal; ring.
+      * exists (/ two_to (fst d)). split; [exact d1 | rewrite (val3_at _ _ _ _ _ V); reflexivity].
+      * exists (/ two_to (snd d)). split; [exact d2 | rewrite (val3_at _ _ _ _ _ V); reflexivity].
+      * rewrite (value_nth _ _ _ _ _ V). reflexivity.
+      * rewrite (value_nth _ _ _ _ _ V). reflexivity.
+    + rewrite T, (val3_at _ _ _ _ _ V). unfold t1. cbn [coordinates app nth Nat.add offset].
+      change (Vec (vx (vscale (/ two_to s) (arm_offset l))) (vy (vscale (/ two_to s) (arm_offset l))) (vz (vscale (/ two_to s) (arm_offset l)))) with (vscale (/ two_to s) (arm_offset l)).
+      apply mulv_scale.
+Qed.
+
+(** Of the nominal legs, parameters are the middles. *)
+Lemma nominal_along : forall s d dr l, is_driven dr l -> exists v y, is_driven_along v y dr (nominal_driven dr) /\ driven_parameters s d v y (nominal_driven dr) = map middle_of (driven_layout s d dr).
+Proof.
+  intros s d dr l h.
+  assert (W : forall t x, within t x -> within t (middle t)) by (intros t x; unfold within, middle; lra).
+  assert (V : forall t v, all_within t v -> all_within t (middles t)) by (intros t v [h1 [h2 h3]]; split; [| split]; cbn [middles vx vy vz]; eapply W; eassumption).
+  assert (T : forall t u, map middle_of (three t u) = coordinates (vscale (/ two_to u) (middles t)))
+    by (intros t u; unfold middle_of, coordinates, vscale, middles, Rdiv; cbn [three map fst snd vx vy vz]; f_equal; [ring |]; f_equal; [ring |]; f_equal; ring).
+  destruct dr as [dr | a], l as [l | l]; cbn [is_driven] in h; try contradiction.
+  - destruct (nominal_legs_along s (fst d) dr l h) as [v [h1 h2]]. exists v, v. split; [exact h1 | exact h2].
+  - destruct h as [[v [y [hv [hy _]]]] [hb [hp [hr [hl _]]]]]. exists (middles (axis_within a)), (middles (reference_within a)). split.
+    + cbn [is_driven_along nominal_driven motor_axis motor_zero motor arm_offset arm_length rod_length arm_mode]. split; [split; [exact (V _ _ hv) |]; split; [exact (V _ _ hy) |]; split; reflexivity |].
+      split; [exact (V _ _ hb) |]. split; [exact (V _ _ hp) |]. split; [exact (W _ _ hr) |]. split; [exact (W _ _ hl) | reflexivity].
+    + cbn [driven_parameters nominal_driven driven_layout motor arm_offset arm_length rod_length]. rewrite !map_app, !T. cbn [map]. do 4 f_equal. unfold middle_of. cbn [fst snd]. f_equal; [unfold Rdiv; ring | f_equal; unfold Rdiv; ring].
+Qed.
+
+Section All.
+Variable s : Z.
+(** All legs, with these parameters; of the nominal ones, with the middles. *)
+Lemma legs_drive : forall drs m, Forall2 is_driven drs m -> forall ds, exists th, Forall2 scaled_within (driven_layouts s ds drs) th /\
+  forall x front back k placed P Q, let theta := front ++ th ++ back in
+    val3 x theta (eplace k) = vscale (/ two_to s) P -> (forall b, val3 x theta (placed b) = mulv Q (val3 x theta b)) ->
+    Forall2 (drives_there x theta s P Q) (all_drives k s placed ds drs (length front)) m.
+Proof.
+  intros drs m h. induction h as [| dr l drs m h hs IH]; intro ds; [exists []; split; [constructor | intros; constructor] |].
+  set (d := hd (0, 0)%Z ds). destruct (IH (tl ds)) as [t2 [L2 R2]]. destruct (is_driven_has_directions dr l h) as [v [y hv]]. destruct (one_drives s d v y dr l hv) as [L1 R1].
+  exists (driven_parameters s d v y l ++ t2). split; [cbn [driven_layouts]; apply Forall2_app; assumption |].
+  intros x front back k placed P Q. cbv zeta. intros hp T. cbn [all_drives]. fold d. rewrite <- app_assoc in *. constructor; [exact (R1 x front (t2 ++ back) k placed P Q hp T) |].
+  specialize (R2 x (front ++ driven_parameters s d v y l) back k placed P Q). cbv zeta in R2. rewrite app_length, <- (related_length _ _ _ _ _ L1) in R2. rewrite <- !app_assoc in R2. exact (R2 hp T).
+Qed.
+Lemma nominal_legs_drive : forall drs m, Forall2 is_driven drs m -> forall ds, let th := map middle_of (driven_layouts s ds drs) in
+  forall x front back k placed P Q, let theta := front ++ th ++ back in
+    val3 x theta (eplace k) = vscale (/ two_to s) P -> (forall b, val3 x theta (placed b) = mulv Q (val3 x theta b)) ->
+    Forall2 (drives_there x theta s P Q) (all_drives k s placed ds drs (length front)) (map nominal_driven drs).
+Proof.
+  intros drs m h. induction h as [| dr l drs m h hs IH]; intros ds th; [intros; constructor |]. unfold th. clear th.
+  set (d := hd (0, 0)%Z ds). specialize (IH (tl ds)). destruct (nominal_along s d dr l h) as [v [y [hv e]]]. destruct (one_drives s d v y dr _ hv) as [L1 R1]. cbv zeta in IH.
+  intros x front back k placed P Q. cbn [driven_layouts]. fold d. rewrite map_app. cbv zeta. intros hp T. cbn [all_drives map]. fold d. rewrite <- app_assoc in *. rewrite <- e in hp, T |- *.
+  constructor; [exact (R1 x front (map middle_of (driven_layouts s (tl ds) drs) ++ back) k placed P Q hp T) |].
+  specialize (IH x (front ++ driven_parameters s d v y (nominal_driven dr)) back k placed P Q). rewrite app_length, <- (related_length _ _ _ _ _ L1) in IH. rewrite <- !app_assoc in IH. exact (IH hp T).
+Qed.
+End All.
+
+Lemma drives_stand : forall x theta s k ell L P Q, val3 x theta (eplace k) = vscale (/ two_to s) P ->
+  match k with Turns _ => L <> 0 /\ Formula.value x theta ell = / two_to s * L | _ => True end ->
+  forall zs m, Forall2 (drives_there x theta s P Q) zs m -> Forall2 (stands_in x theta s k L P Q) (map (fun z => pose_of k ell (fst z) (snd z)) zs) m.
+Proof.
+  intros x theta s k ell L P Q hp hl zs m h. induction h as [| z l zs m [h1 h2] hs IH]; cbn [map]; constructor; [exact (pose_stands x theta s k ell L P Q hp hl _ _ _ h1 h2) | exact IH].
+Qed.
 Lemma legs_stand : forall s drs m, Forall2 is_driven drs m -> forall ds, exists th, Forall2 scaled_within (driven_layouts s ds drs) th /\
+  (forall x front back k placed P Q, let theta := front ++ th ++ back in
+    val3 x theta (eplace k) = vscale (/ two_to s) P -> (forall b, val3 x theta (placed b) = mulv Q (val3 x theta b)) ->
+    Forall2 (drives_there x theta s P Q) (all_drives k s placed ds drs (length front)) m) /\
   forall x front back k turn ell L P Q, let theta := front ++ th ++ back in
     val3 x theta (eplace k) = vscale (/ two_to s) P ->
     match turn with Some (N, w) => exists W, 0 < W /\ valm x theta N = mscale W Q /\ Formula.value x theta w = W | None => Q = midentity end ->
     match k with Turns _ => L <> 0 /\ Formula.value x theta ell = / two_to s * L | _ => True end ->
     Forall2 (stands_in x theta s k L P Q) (all_driven k turn ell s ds drs (length front)) m.
 Proof.
-  intros s drs m h. induction h as [| dr l drs m hd_ hs IH]; intro ds; [exists []; split; [constructor | intros; constructor] |].
-  set (d := hd (0, 0)%Z ds). destruct (IH (tl ds)) as [t2 [L2 R2]]. clear IH.
-  assert (One : exists t1, Forall2 scaled_within (driven_layout s d dr) t1 /\ forall x front back k turn ell L P Q, let theta := front ++ t1 ++ back in
-    val3 x theta (eplace k) = vscale (/ two_to s) P ->
-    match turn with Some (N, w) => exists W, 0 < W /\ valm x theta N = mscale W Q /\ Formula.value x theta w = W | None => Q = midentity end ->
-    match k with Turns _ => L <> 0 /\ Formula.value x theta ell = / two_to s * L | _ => True end ->
-    let (b, a) := drive_at k turn dr (numbered (length front) (driven_layout s d dr)) in stands_in x theta s k L P Q (pose_of k ell b a) l).
-  { clear - hd_. pose proof (Rinv_0_lt_compat _ (two_to_pos (fst d))) as d1. pose proof (Rinv_0_lt_compat _ (two_to_pos (snd d))) as d2.
-    destruct dr as [dr | a], l as [l | l]; cbn [is_driven] in hd_; try contradiction.
-    - destruct (is_leg_has_direction dr l hd_) as [v hv]. destruct (parameters_represent s (fst d) v dr l hv) as [L1 _].
-      exists (parameters_of s (fst d) v l). split; [exact L1 |]. intros x front back k turn ell L P Q. cbv zeta. intros hp ht hl.
-      set (theta := front ++ parameters_of s (fst d) v l ++ back) in *. pose proof (numbered_values _ _ x front back L1) as V. fold theta in V.
-      cbn [driven_layout]. set (q := numbered (length front) (layout s (fst d) dr)) in *.
-      pose proof (turned_is x theta turn Q ht) as T.
-      destruct dr as [c | a p ax | n], l as [i | base platform axis | normal]; cbn [is_leg_along] in hv; try contradiction; cbn [drive_at].
-      + destruct hv as [[hu ax] [ha [hp' [hl' hm]]]]. apply (pose_stands x theta s k ell L P Q hp hl).
-        * apply (slider_drives x theta s _ _ _ _ _ _ v); [| exact ax | exists (/ two_to (fst d)); split; [exact d1 | rewrite (val3_at _ _ _ _ _ V); reflexivity] | rewrite (value_nth _ _ _ _ _ V); reflexivity | exact hm].
-          rewrite val3_minus, val3_plus, hp, T, !(val3_at _ _ _ _ _ V). cbn [parameters_of coordinates app nth Nat.add].
-          change (Vec (vx (vscale (/ two_to s) (platform_offset i))) (vy (vscale (/ two_to s) (platform_offset i))) (vz (vscale (/ two_to s) (platform_offset i)))) with (vscale (/ two_to s) (platform_offset i)).
-          rewrite mulv_scale. unfold Kinematics.w, carried. cbn [offset]. destruct (mulv Q (platform_offset i)) as [o1 o2 o3].
-          unfold vsub, vadd, vscale. cbn [vx vy vz]. f_equal; ring.
-        * rewrite T, (val3_at _ _ _ _ _ V). cbn [parameters_of coordinates app nth Nat.add offset].
-          change (Vec (vx (vscale (/ two_to s) (platform_offset i))) (vy (vscale (/ two_to s) (platform_offset i))) (vz (vscale (/ two_to s) (platform_offset i)))) with (vscale (/ two_to s) (platform_offset i)).
-          apply mulv_scale.
-      + destruct hv as [ha [hp' hk]]. apply (pose_stands x theta s k ell L P Q hp hl).
-        * apply strut_drives; [| destruct ax as [a' |], axis as [k' |]; try contradiction; [| exact I]; exists (/ two_to (fst d)), v; split; [exact d1 |]; split; [rewrite (val3_at _ _ _ _ _ V); reflexivity | exact (proj2 hk)]].
-          rewrite val3_minus, val3_plus, hp, T, !(val3_at _ _ _ _ _ V). cbn [parameters_of coordinates app nth Nat.add].
-          change (Vec (vx (vscale (/ two_to s) platform)) (vy (vscale (/ two_to s) platform)) (vz (vscale (/ two_to s) platform))) with (vscale (/ two_to s) platform).
-          rewrite mulv_scale. unfold span, carried. cbn [offset]. destruct (mulv Q platform) as [o1 o2 o3].
-          unfold vsub, vadd, vscale. cbn [vx vy vz]. f_equal; ring.
-        * rewrite T, (val3_at _ _ _ _ _ V). cbn [parameters_of coordinates app nth Nat.add offset].
-          change (Vec (vx (vscale (/ two_to s) platform)) (vy (vscale (/ two_to s) platform)) (vz (vscale (/ two_to s) platform))) with (vscale (/ two_to s) platform).
-          apply mulv_scale.
-      + apply (pose_stands x theta s k ell L P Q hp hl).
-        * apply plane_drives; [| exists (/ two_to (fst d)); split; [exact d1 | rewrite (val3_at _ _ _ _ _ V); reflexivity]].
-          rewrite hp. f_equal. unfold carried. cbn [offset]. unfold mulv, Vec3.dot, vsub, vadd, vzero. cbn [vx vy vz]. destruct P as [p1 p2 p3]. cbn [vx vy vz]. f_equal; ring.
-        * cbn [offset]. unfold val3, mulv, Vec3.dot, vscale, vzero. cbn [ex ey ez vx vy vz integer Formula.value map_op real_op]. f_equal; ring.
-    - destruct hd_ as [[v [y [hv [hy [ha he]]]]] [hb [hp' [hr [hl' hm]]]]].
-      set (t1 := coordinates (vscale (/ two_to (fst d)) v) ++ coordinates (vscale (/ two_to (snd d)) y) ++ coordinates (vscale (/ two_to s) (motor l)) ++
-        coordinates (vscale (/ two_to s) (arm_offset l)) ++ [/ two_to s * arm_length l; / two_to s * rod_length l]).
-      assert (L1 : Forall2 scaled_within (driven_layout s d (RotaryDrive a)) t1).
-      { unfold t1. cbn [driven_layout]. repeat apply Forall2_app; try (apply three_within; assumption).
-        constructor; [exists (arm_length l); split; [exact hr | cbn [snd]; unfold Rdiv; ring] |].
-        constructor; [exists (rod_length l); split; [exact hl' | cbn [snd]; unfold Rdiv; ring] | constructor]. }
-      exists t1. split; [exact L1 |]. intros x front back k turn ell L P Q. cbv zeta. intros hp ht hl.
-      set (theta := front ++ t1 ++ back) in *. pose proof (numbered_values _ _ x front back L1) as V. fold theta in V.
-      set (q := numbered (length front) (driven_layout s d (RotaryDrive a))) in *. pose proof (turned_is x theta turn Q ht) as T. cbn [drive_at].
-      apply (pose_stands x theta s k ell L P Q hp hl).
-      + apply (arm_drives x theta s _ _ _ _ _ _ l _ v y); try assumption.
-        * rewrite val3_minus, val3_plus, hp, T, !(val3_at _ _ _ _ _ V). cbn [t1 coordinates app nth Nat.add]. unfold t1. cbn [coordinates app nth Nat.add].
-          change (Vec (vx (vscale (/ two_to s) (arm_offset l))) (vy (vscale (/ two_to s) (arm_offset l))) (vz (vscale (/ two_to s) (arm_offset l)))) with (vscale (/ two_to s) (arm_offset l)).
-          rewrite mulv_scale. unfold from_motor, carried. cbn [offset]. destruct (mulv Q (arm_offset l)) as [o1 o2 o3].
-          unfold vsub, vadd, vscale. cbn [vx vy vz]. f_equal; ring.
-        * exists (/ two_to (fst d)). split; [exact d1 | rewrite (val3_at _ _ _ _ _ V); reflexivity].
-        * exists (/ two_to (snd d)). split; [exact d2 | rewrite (val3_at _ _ _ _ _ V); reflexivity].
-        * rewrite (value_nth _ _ _ _ _ V). reflexivity.
-        * rewrite (value_nth _ _ _ _ _ V). reflexivity.
-      + rewrite T, (val3_at _ _ _ _ _ V). unfold t1. cbn [coordinates app nth Nat.add offset].
-        change (Vec (vx (vscale (/ two_to s) (arm_offset l))) (vy (vscale (/ two_to s) (arm_offset l))) (vz (vscale (/ two_to s) (arm_offset l)))) with (vscale (/ two_to s) (arm_offset l)).
-        apply mulv_scale. }
-  destruct One as [t1 [L1 R1]]. exists (t1 ++ t2). split; [cbn [driven_layouts]; apply Forall2_app; assumption |].
-  intros x front back k turn ell L P Q. cbv zeta. intros hp ht hl. cbn [all_driven]. fold d.
-  rewrite <- app_assoc in *. specialize (R1 x front (t2 ++ back) k turn ell L P Q hp ht hl).
-  destruct (drive_at k turn dr _) as [b a]. constructor; [exact R1 |].
-  specialize (R2 x (front ++ t1) back k turn ell L P Q). cbv zeta in R2. rewrite app_length, <- (related_length _ _ _ _ _ L1) in R2. rewrite <- !app_assoc in R2. exact (R2 hp ht hl).
+  intros s drs m h ds. destruct (legs_drive s drs m h ds) as [th [L1 R1]]. exists th. split; [exact L1 |]. split; [exact R1 |].
+  intros x front back k turn ell L P Q. cbv zeta. intros hp ht hl. apply (drives_stand x _ s k ell L P Q hp hl). exact (R1 x front back k (eturned turn) P Q hp (turned_is x _ turn Q ht)).
 Qed.
 End Named.

@@ -165,25 +165,25 @@ Proof. intros s d dr l h. destruct (is_leg_has_direction dr l h) as [u hu]. eexi
 
 (** Of the nominal machine they are the middles. *)
 Definition middle_of (p : parameter) : R := middle (fst p) / two_to (snd p).
-Lemma nominal_represents : forall s d dr l, is_leg_of dr l -> Forall2 scaled_within (layout s d dr) (map middle_of (layout s d dr)) /\
-  forall P front back, represents P (front ++ map middle_of (layout s d dr) ++ back) (drive_formulas s d dr (length front)) (resized (/ two_to s) (nominal_leg dr)).
+Lemma nominal_legs_along : forall s d dr l, is_leg_of dr l -> exists u, is_leg_along u dr (nominal_leg dr) /\ parameters_of s d u (nominal_leg dr) = map middle_of (layout s d dr).
 Proof.
   intros s d dr l h.
   assert (W : forall t x, within t x -> within t (middle t)) by (intros t x; unfold within, middle; lra).
   assert (V : forall t v, all_within t v -> all_within t (middles t)) by (intros t v [h1 [h2 h3]]; split; [| split]; cbn [middles vx vy vz]; eapply W; eassumption).
   assert (T : forall t u, map middle_of (three t u) = coordinates (vscale (/ two_to u) (middles t)))
     by (intros t u; unfold middle_of, coordinates, vscale, middles, Rdiv; cbn [three map fst snd vx vy vz]; f_equal; [ring |]; f_equal; [ring |]; f_equal; ring).
-  assert (N : exists u, is_leg_along u dr (nominal_leg dr) /\ parameters_of s d u (nominal_leg dr) = map middle_of (layout s d dr)).
-  { destruct dr as [c | a p [k |] | n], l as [g | base platform [axis |] | normal]; cbn [is_leg_of] in h; try contradiction; try tauto; cbn [nominal_leg is_leg_along layout parameters_of].
-    - destruct h as [[u [hu _]] [ha [hp [hl _]]]]. exists (middles (direction c)). split.
-      + split; [split; [exact (V _ _ hu) | reflexivity] |]. split; [exact (V _ _ ha) |]. split; [exact (V _ _ hp) |]. split; [exact (W _ _ hl) | reflexivity].
-      + rewrite !map_app, !T. cbn [base_point platform_offset leg_length map]. do 3 f_equal. unfold middle_of. cbn [fst snd]. f_equal. unfold Rdiv. ring.
-    - destruct h as [ha [hp [u [hu _]]]]. exists (middles k). split; [| rewrite !map_app, !T; reflexivity].
-      split; [exact (V _ _ ha) |]. split; [exact (V _ _ hp) |]. split; [exact (V _ _ hu) | reflexivity].
-    - destruct h as [ha [hp _]]. exists vzero. split; [| rewrite !map_app, !T; reflexivity]. split; [exact (V _ _ ha) |]. split; [exact (V _ _ hp) | exact I].
-    - exists vzero. split; [exact (V _ _ h) | symmetry; apply T]. }
-  destruct N as [u [hu <-]]. exact (parameters_represent s d u dr _ hu).
+  destruct dr as [c | a p [k |] | n], l as [g | base platform [axis |] | normal]; cbn [is_leg_of] in h; try contradiction; try tauto; cbn [nominal_leg is_leg_along layout parameters_of].
+  - destruct h as [[u [hu _]] [ha [hp [hl _]]]]. exists (middles (direction c)). split.
+    + split; [split; [exact (V _ _ hu) | reflexivity] |]. split; [exact (V _ _ ha) |]. split; [exact (V _ _ hp) |]. split; [exact (W _ _ hl) | reflexivity].
+    + rewrite !map_app, !T. cbn [base_point platform_offset leg_length map]. do 3 f_equal. unfold middle_of. cbn [fst snd]. f_equal. unfold Rdiv. ring.
+  - destruct h as [ha [hp [u [hu _]]]]. exists (middles k). split; [| rewrite !map_app, !T; reflexivity].
+    split; [exact (V _ _ ha) |]. split; [exact (V _ _ hp) |]. split; [exact (V _ _ hu) | reflexivity].
+  - destruct h as [ha [hp _]]. exists vzero. split; [| rewrite !map_app, !T; reflexivity]. split; [exact (V _ _ ha) |]. split; [exact (V _ _ hp) | exact I].
+  - exists vzero. split; [exact (V _ _ h) | symmetry; apply T].
 Qed.
+Lemma nominal_represents : forall s d dr l, is_leg_of dr l -> Forall2 scaled_within (layout s d dr) (map middle_of (layout s d dr)) /\
+  forall P front back, represents P (front ++ map middle_of (layout s d dr) ++ back) (drive_formulas s d dr (length front)) (resized (/ two_to s) (nominal_leg dr)).
+Proof. intros s d dr l h. destruct (nominal_legs_along s d dr l h) as [u [hu <-]]. exact (parameters_represent s d u dr _ hu). Qed.
 
 (** All legs; [ds] has the units of their directions. *)
 Fixpoint layouts (s : Z) (ds : list Z) (drs : list drive) : list parameter :=
@@ -401,8 +401,8 @@ Fixpoint range_formulas (fs : list leg_formulas) (s : Z) (j : nat * nat) (rs : l
 Definition none : parameter := (exactly (0 // 1), 0%Z).
 Definition has_two_ends (p : parameter) : bool := negb (Number.same (least (fst p)) (greatest (fst p))).
 Definition toleranced (ps : list parameter) : list nat := filter (fun j => has_two_ends (nth j ps none)) (seq 0 (length ps)).
-Definition slopes_of (ps : list parameter) (f : formula) : list (nat * formula) :=
-  filter (fun p => negb (is 0 (snd p))) (combine (toleranced ps) (Gradient.derivatives (toleranced ps) f)).
+Definition slopes_from (ps : list parameter) (ds : list formula) : list (nat * formula) := filter (fun p => negb (is 0 (snd p))) (combine (toleranced ps) ds).
+Definition slopes_of (ps : list parameter) (f : formula) : list (nat * formula) := slopes_from ps (Gradient.derivatives (toleranced ps) f).
 Definition accuracy_formulas (ps : list parameter) (fs : list leg_formulas) (rs : list requirement) : list formula :=
   if existsb (fun r => match r with Accuracy _ _ => true | _ => false end) rs then flat_map (fun f => f_joint f :: map snd (slopes_of ps (f_joint f))) fs else [].
 (** Half the width, over the distance. *)
@@ -417,8 +417,9 @@ Variable one_matrix : N * list (list Z).
 
 Definition ends_at (place : formula -> nat) (u : evec) : spatial nat := Spatial (place (ex u)) (place (ey u)) (place (ez u)).
 (** Half widths, and where the derivatives by these parameters are. *)
-Definition changes_of (place : formula -> nat) (ps : list parameter) (s : Z) (b : number) (f : formula) : option (list (fixed * nat)) :=
-  all_some (map (fun p => option_map (fun a => (a, place (snd p))) (enclose_parameter bits (half_width s b (nth (fst p) ps none)))) (slopes_of ps f)).
+Definition changes_from (place : formula -> nat) (ps : list parameter) (s : Z) (b : number) (sl : list (nat * formula)) : option (list (fixed * nat)) :=
+  all_some (map (fun p => option_map (fun a => (a, place (snd p))) (enclose_parameter bits (half_width s b (nth (fst p) ps none)))) sl).
+Definition changes_of (place : formula -> nat) (ps : list parameter) (s : Z) (b : number) (f : formula) : option (list (fixed * nat)) := changes_from place ps s b (slopes_of ps f).
 Definition joint_test (place : formula -> nat) (ps : list parameter) (s : Z) (error b : number) (f : formula) : option (nat * (fixed * list (fixed * nat))) :=
   match enclose_parameter bits (exactly (Over error b), 0%Z), changes_of place ps s b f with
   | Some e, Some hs => Some (place f, (e, hs))
@@ -1441,6 +1442,51 @@ Proof.
   rewrite (is_value _ _ _ _ z). ring.
 Qed.
 
+(** Rates on the way to the nominal machine, as half-widths have them. *)
+Definition way_rate (ps : list parameter) (th tb : list R) (j : nat) : R := nth j (map middle_of ps ++ tb) 0 - nth j (th ++ tb) 0.
+Lemma way_terms : forall s b ps th tb place x ds hs, Forall2 scaled_within ps th -> changes_from place ps s b (slopes_from ps ds) = Some hs -> 0 < Claim.value b ->
+  map snd hs = map place (map snd (slopes_from ps ds)) /\ exists ts, Forall2 (fun h t => exists a, contains (fst h) a /\ Rabs t <= a) hs ts /\
+  forall theta, Linear.dot (map (way_rate ps th tb) (toleranced ps)) (map (value x theta) ds) / (/ two_to s * Claim.value b) = Linear.dot ts (map (value x theta) (map snd (slopes_from ps ds))).
+Proof.
+  intros s b ps th tb place x ds hs hth eh b0.
+  pose proof (Rinv_0_lt_compat _ (two_to_pos s)) as r0. set (D := / two_to s * Claim.value b). assert (D0 : 0 < D) by (apply Rmult_lt_0_compat; assumption). set (rate := way_rate ps th tb).
+  assert (T : forall p, In p (slopes_from ps ds) -> forall a, enclose_parameter bits (half_width s b (nth (fst p) ps none)) = Some a -> exists v, contains a v /\ Rabs (rate (fst p) / D) <= v).
+  { intros p ip a e. set (q := nth (fst p) ps none) in *. exists (width q / D). split.
+    - apply (enclose_parameter_sound bits _ _ _ e). unfold half_width. eexists. split; [unfold within, exactly; cbn; split; apply Rle_refl |]. cbn [snd].
+      rewrite two_to_less. unfold width, D. pose proof (two_to_pos s). pose proof (two_to_pos (snd q)). cbn. field. repeat split; lra.
+    - apply filter_In in ip as [ip _]. destruct p as [k n]. apply in_combine_l in ip. apply filter_In in ip as [ip _]. apply in_seq in ip. cbn [fst] in *.
+      pose proof (way_length tb ps th k hth) as W. cbv zeta in W. destruct (Nat.ltb_spec k (length ps)); [| lia].
+      unfold Rdiv. rewrite Rabs_mult, (Rabs_pos_eq (/ D)) by (apply Rlt_le, Rinv_0_lt_compat, D0). apply Rmult_le_compat_r; [apply Rlt_le, Rinv_0_lt_compat, D0 | exact W]. }
+  assert (G : forall sl hs, (forall p, In p sl -> In p (slopes_from ps ds)) -> changes_from place ps s b sl = Some hs ->
+    map snd hs = map place (map snd sl) /\ Forall2 (fun h t => exists a, contains (fst h) a /\ Rabs t <= a) hs (map (fun p => rate (fst p) / D) sl) /\ forall theta,
+    fold_right (fun p sum => rate (fst p) * value x theta (snd p) + sum) 0 sl / D = Linear.dot (map (fun p => rate (fst p) / D) sl) (map (value x theta) (map snd sl))).
+  { unfold changes_from. induction sl as [| p sl IH]; intros hs' sub eh'; cbn [map all_some] in eh'; [injection eh' as <-; split; [reflexivity |]; split; [constructor | intro; cbn; field; lra] |].
+    destruct (enclose_parameter bits (half_width s b (nth (fst p) ps none))) as [a |] eqn:ea; [| discriminate]. cbn [option_map] in eh'. destruct (all_some (map _ sl)) as [hs'' |]; [| discriminate]. injection eh' as <-.
+    destruct (IH hs'' (fun q i => sub q (or_intror i)) eq_refl) as [I1 [I2 I3]]. cbn [map snd fold_right Linear.dot]. rewrite I1. split; [reflexivity |].
+    split; [constructor; [exact (T p (sub p (or_introl eq_refl)) a ea) | exact I2] | intro theta; rewrite <- I3; field; lra]. }
+  destruct (G _ hs (fun p i => i) eh) as [G1 [G2 G3]]. split; [exact G1 |]. exists (map (fun p => rate (fst p) / D) (slopes_from ps ds)). split; [exact G2 |].
+  intro theta. rewrite <- G3, terms_of, without_zeros. reflexivity.
+Qed.
+(** Machines on the way, and how formulas change there. *)
+Definition way_at (ps : list parameter) (th tb : list R) (t : R) : list R := on_the_way t th (map middle_of ps) ++ tb.
+Lemma way_ends : forall ps th tb, Forall2 scaled_within ps th -> way_at ps th tb 0 = th ++ tb /\ way_at ps th tb 1 = map middle_of ps ++ tb.
+Proof.
+  intros ps th tb hth. assert (len : length th = length (map middle_of ps)) by (rewrite map_length, (related_length _ _ _ _ _ hth); reflexivity).
+  destruct (on_the_way_ends _ _ len) as [w0 w1]. unfold way_at. rewrite w0, w1. split; reflexivity.
+Qed.
+Lemma way_derivative : forall ps th tb x f t, Forall2 scaled_within ps th -> defined x (way_at ps th tb t) f ->
+  derivable_pt_lim (fun t => value x (way_at ps th tb t) f) t (Linear.dot (map (way_rate ps th tb) (toleranced ps)) (map (value x (way_at ps th tb t)) (Gradient.derivatives (toleranced ps) f))).
+Proof.
+  intros ps th tb x f t hth def. assert (len : length th = length (map middle_of ps)) by (rewrite map_length, (related_length _ _ _ _ _ hth); reflexivity).
+  apply (Gradient.derivatives_sound (toleranced ps) x (way_at ps th tb) t (way_rate ps th tb) (toleranced_once ps)).
+  - intro k. apply Velocity.derivable_eq with (fun u => nth k (th ++ tb) 0 + way_rate ps th tb k * u) (0 + way_rate ps th tb k * 1).
+    + apply Velocity.derivable_add; [apply Velocity.derivable_const | apply Velocity.derivable_scal, derivable_pt_lim_id].
+    + intro u. unfold way_at. rewrite on_the_way_nth by exact len. unfold way_rate. ring.
+    + ring.
+  - intros k n. exact (others_are_exact tb ps th k hth n).
+  - exact def.
+Qed.
+
 (** What a formula differs by from that of the nominal machine: the mean value theorem, on the way there. *)
 Lemma nominal_differs : forall s b ps th tb params place f x hs,
   Forall2 scaled_within ps th -> (forall th', Forall2 scaled_within ps th' -> Forall2 contains params (th' ++ tb)) ->
@@ -1448,38 +1494,11 @@ Lemma nominal_differs : forall s b ps th tb params place f x hs,
   map snd hs = map place (map snd (slopes_of ps f)) /\ exists th' ts, Forall2 contains params th' /\ Forall2 (fun h t => exists a, contains (fst h) a /\ Rabs t <= a) hs ts /\
     (value x (map middle_of ps ++ tb) f - value x (th ++ tb) f) / (/ two_to s * Claim.value b) = Linear.dot ts (map (value x th') (map snd (slopes_of ps f))).
 Proof.
-  intros s b ps th tb params place f x hs hth E eh def b0.
-  pose proof (Rinv_0_lt_compat _ (two_to_pos s)) as r0. set (D := / two_to s * Claim.value b). assert (D0 : 0 < D) by (apply Rmult_lt_0_compat; assumption).
-  assert (len : length th = length (map middle_of ps)) by (rewrite map_length, (related_length _ _ _ _ _ hth); reflexivity).
-  set (seg t := on_the_way t th (map middle_of ps) ++ tb). set (rate j := nth j (map middle_of ps ++ tb) 0 - nth j (th ++ tb) 0).
-  assert (In_ : forall t, 0 <= t <= 1 -> Forall2 contains params (seg t)) by (intros t h; apply E, on_the_way_within; assumption).
-  assert (Dv : forall t, 0 <= t <= 1 -> derivable_pt_lim (fun t => value x (seg t) (f)) t
-    (Linear.dot (map rate (toleranced ps)) (map (value x (seg t)) (Gradient.derivatives (toleranced ps) (f))))).
-  { intros t h. apply (Gradient.derivatives_sound (toleranced ps) x seg t rate (toleranced_once ps)).
-    - intro k. apply Velocity.derivable_eq with (fun u => nth k (th ++ tb) 0 + rate k * u) (0 + rate k * 1).
-      + apply Velocity.derivable_add; [apply Velocity.derivable_const | apply Velocity.derivable_scal, derivable_pt_lim_id].
-      + intro u. unfold seg. rewrite on_the_way_nth by exact len. unfold rate. ring.
-      + ring.
-    - intros k n. exact (others_are_exact tb ps th k hth n).
-    - apply def, In_, h. }
-  destruct (MeanValue.mean_value_theorem _ _ 0 1 Rlt_0_1 Dv) as [t [M ht]]. cbv beta in M. unfold seg in M at 1 2. destruct (on_the_way_ends _ _ len) as [w0 w1]. rewrite w0, w1 in M.
-  rewrite terms_of, without_zeros in M. fold (slopes_of ps f) in M.
-  assert (T : forall p, In p (slopes_of ps f) -> forall a, enclose_parameter bits (half_width s b (nth (fst p) ps none)) = Some a -> exists v, contains a v /\ Rabs (rate (fst p) / D) <= v).
-  { intros p ip a e. set (q := nth (fst p) ps none) in *. exists (width q / D). split.
-    - apply (enclose_parameter_sound bits _ _ _ e). unfold half_width. eexists. split; [unfold within, exactly; cbn; split; apply Rle_refl |]. cbn [snd].
-      rewrite two_to_less. unfold width, D. pose proof (two_to_pos s). pose proof (two_to_pos (snd q)). cbn. field. repeat split; lra.
-    - apply filter_In in ip as [ip _]. destruct p as [k n]. apply in_combine_l in ip. apply filter_In in ip as [ip _]. apply in_seq in ip. cbn [fst] in *.
-      pose proof (way_length tb ps th k hth) as W. cbv zeta in W. destruct (Nat.ltb_spec k (length ps)); [| lia].
-      unfold Rdiv. rewrite Rabs_mult, (Rabs_pos_eq (/ D)) by (apply Rlt_le, Rinv_0_lt_compat, D0). apply Rmult_le_compat_r; [apply Rlt_le, Rinv_0_lt_compat, D0 | exact W]. }
-  assert (G : forall sl hs, (forall p, In p sl -> In p (slopes_of ps f)) ->
-    all_some (map (fun p => option_map (fun a => (a, place (snd p))) (enclose_parameter bits (half_width s b (nth (fst p) ps none)))) sl) = Some hs ->
-    map snd hs = map place (map snd sl) /\ Forall2 (fun h t => exists a, contains (fst h) a /\ Rabs t <= a) hs (map (fun p => rate (fst p) / D) sl) /\
-    fold_right (fun p sum => rate (fst p) * value x (seg t) (snd p) + sum) 0 sl / D = Linear.dot (map (fun p => rate (fst p) / D) sl) (map (value x (seg t)) (map snd sl))).
-  { induction sl as [| p sl IH]; intros hs' sub eh'; cbn [map all_some] in eh'; [injection eh' as <-; split; [reflexivity |]; split; [constructor | cbn; field; lra] |].
-    destruct (enclose_parameter bits (half_width s b (nth (fst p) ps none))) as [a |] eqn:ea; [| discriminate]. cbn [option_map] in eh'. destruct (all_some (map _ sl)) as [hs'' |]; [| discriminate]. injection eh' as <-.
-    destruct (IH hs'' (fun q i => sub q (or_intror i)) eq_refl) as [I1 [I2 I3]]. cbn [map snd fold_right Linear.dot]. rewrite I1, <- I3. split; [reflexivity |].
-    split; [constructor; [exact (T p (sub p (or_introl eq_refl)) a ea) | exact I2] | field; lra]. }
-  destruct (G _ hs (fun p i => i) eh) as [G1 [G2 G3]]. split; [exact G1 |]. exists (seg t), (map (fun p => rate (fst p) / D) (slopes_of ps f)). split; [apply In_; lra |]. split; [exact G2 |].
+  intros s b ps th tb params place f x hs hth E eh def b0. destruct (way_terms s b ps th tb place x _ hs hth eh b0) as [G1 [ts [G2 G3]]]. split; [exact G1 |].
+  assert (In_ : forall t, 0 <= t <= 1 -> Forall2 contains params (way_at ps th tb t)) by (intros t h; apply E, on_the_way_within; assumption).
+  destruct (MeanValue.mean_value_theorem _ _ 0 1 Rlt_0_1 (fun t h => way_derivative ps th tb x f t hth (def _ (In_ t h)))) as [t [M ht]]. cbv beta in M.
+  destruct (way_ends ps th tb hth) as [w0 w1]. rewrite w0, w1 in M. exists (way_at ps th tb t), ts. split; [apply In_, ht |]. split; [exact G2 |].
+  change (map (value x (way_at ps th tb t)) (map snd (slopes_of ps f))) with (map (value x (way_at ps th tb t)) (map snd (slopes_from ps (Gradient.derivatives (toleranced ps) f)))).
   rewrite <- G3. f_equal. lra.
 Qed.
 

@@ -6,8 +6,8 @@
 From Coq Require Import ZArith Reals Lra Lia List Bool String.
 From Orthocert Require Import Velocity Fixed Claim.
 From Orthocert Require MeanValue.
-From Orthocert.kernel Require Import Statement Linear Arithmetic Slope Test Cell Check Number Formula Problem Witness Configuration Inputs Drives Driven.
-From Orthocert.kernel Require Gradient Twofold.
+From Orthocert.kernel Require Import Statement Linear Arithmetic Slope Test Cell Check Number Formula Problem Witness Configuration Inputs Drives Locate Driven.
+From Orthocert.kernel Require Gradient Twofold Spread Nearby.
 Import ListNotations.
 Local Open Scope list_scope.
 Local Open Scope R_scope.
@@ -372,14 +372,21 @@ Definition check_written (c : written_claim) (t : tree) : bool :=
   let fs := all_joints n env (joint_forms f) i in
   let partial := named_partials (given_formulas f) (definitions f) j ++ joints_partials env (joint_forms f) i in
   let at_ := length (inputs f) in
-  let wanted := entries (pose_rows fs) ++ entries (pose_divided fs) ++ partial ++ of_each (own_of fs) false 0 at_ demands in
+  let ps := exact_parameters (parameters f) in let js := map d_joint fs in
+  let own q d := match d with OnePose _ _ _ => located_own ps (map d_divided fs) (pose_divided fs) js | _ => own_of fs q d end in
+  let wanted := entries (pose_rows fs) ++ entries (pose_divided fs) ++ partial ++ of_each own false 0 at_ demands in
   let tape := fst (compile wanted) in
   let place := place (formulas tape) in
+  let tests_of q d := match d with
+    | OnePose error b _ => if forallb (fun j => match j with ByRow _ => false | ByCoordinate _ => true end) (joint_forms f)
+        then located_tests bits place n n [false] false ps 0 (map d_divided fs) (pose_divided fs) js (Some (Fixed.integer bits 1)) error b else [None]
+    | _ => tests_for bits place fs false 0 q d
+    end in
   Nat.eqb (length (box_of c)) n && forallb (fun j => match j with ByRow es => Nat.eqb (length es) n | ByCoordinate _ => true end) (joint_forms f) &&
   forallb (fun e => Formula.same (nth (place e) (formulas tape) (integer 0)) e) wanted && existsb rules_out demands &&
   (negb (one_to_one c) || forallb (fun j => match j with ByRow _ => false | ByCoordinate _ => true end) (joint_forms f)) &&
   match all_some (map (enclose_parameter bits) (inputs f)), all_some (map (enclose_input bits) (flat_map (inputs_of false 0) demands)),
-        all_some (map (fun b => enclose_parameter bits (b, 0%Z)) (box_of c)), all_some (of_each (tests_for bits place fs false 0) false 0 at_ demands) with
+        all_some (map (fun b => enclose_parameter bits (b, 0%Z)) (box_of c)), all_some (of_each tests_of false 0 at_ demands) with
   | Some params, Some numbers, Some box, Some tests =>
       let tests := if one_to_one c then inserted one_place tests (Chords (map_rows place (pose_divided fs)) (fst one_matrix) (snd one_matrix)) else tests in
       check bits tape (map_rows place (pose_rows fs)) (map_rows place (pose_divided fs)) (map place partial) (params ++ numbers) tests (fun _ => None) box (all_open tests) t
@@ -560,6 +567,154 @@ Proof.
     destruct (nth_in_or_default k d 0) as [i | i]; [rewrite Forall_forall in Z; specialize (Z _ i) | rewrite i in dn; lra]. lra.
 Qed.
 
+(** *** Accuracy *)
+
+Lemma shifted_derivative : forall g l t, derivable_pt_lim (fun s => g (t + s)) 0 l -> derivable_pt_lim g t l.
+Proof. intros g l t H eps e0. destruct (H eps e0) as [delta D]. exists delta. intros u nz small. specialize (D u nz small). rewrite Rplus_0_r, Rplus_0_l in D. exact D. Qed.
+Lemma unshifted_derivative : forall g l t, derivable_pt_lim g t l -> derivable_pt_lim (fun s => g (t + s)) 0 l.
+Proof. intros g l t H eps e0. destruct (H eps e0) as [delta D]. exists delta. intros u nz small. specialize (D u nz small). rewrite Rplus_0_r, Rplus_0_l. exact D. Qed.
+
+(** Off by u, of n coordinates. *)
+Lemma off_entries : forall x u d i, length x = length u -> nth i (Near.moved d x u) 0 = nth i x 0 + d * nth i u 0.
+Proof. intros x u d. revert u. induction x as [| a x IH]; intros [| b u] i l; try discriminate; cbn [Near.moved combine map fst snd]; [destruct i; cbn; ring |]. destruct i as [| i]; [reflexivity |]. exact (IH u i ltac:(cbn in l; congruence)). Qed.
+
+Section Located.
+Variables (tape : list (op nat)) (whole divided : rows nat) (partial : list nat) (params : list fixed).
+Variables (c : mechanism) (theta x tb : list R) (fs : list pose_formulas) (error b angle : number).
+Let n := length (coordinate_names c).
+Let th := theta ++ tb.
+Let ps := exact_parameters (parameters c).
+Let found := place (formulas tape).
+Let js := map d_joint fs.
+Let es := joint_forms c.
+Let dist := Claim.value b.
+Hypothesis are_coordinates : forallb (fun j => match j with ByRow _ => false | ByCoordinate _ => true end) es = true.
+Hypothesis x_length : length x = n.
+Hypothesis enclosed : forall th', Forall2 scaled_within ps th' -> Forall2 (contains bits) params (th' ++ tb).
+Hypothesis theta_within : Forall2 scaled_within ps theta.
+(** What the formulas are wherever those that have to be are defined, and those of joint coordinates of every machine. *)
+Hypothesis at_ : forall y, length y = n -> Forall (fun i => defined y th (formula_at tape i)) partial -> is_reached c theta y /\
+  Forall2 (is_row c theta y) es (map (map (value y th)) (map d_divided fs)).
+Hypothesis forms : Forall2 (fun e fm => exists g, d_joint fm = ELength g /\ forall th', Forall2 scaled_within ps th' -> rho_of c th' x e = value x (th' ++ tb) g) es fs.
+Hypothesis all_found : forall f, In f (located_own ps (map d_divided fs) (pose_divided fs) js) -> formula_at tape (found f) = f.
+Hypothesis shown : forall o, In o (located_tests bits found n n [false] false ps 0 (map d_divided fs) (pose_divided fs) js (Some (Fixed.integer bits 1)) error b) ->
+  exists t, o = Some t /\ Check.holds bits tape whole divided partial params th n x t.
+
+Lemma real_coordinates : forall th' y, joint_values c th' y = map Length (map (rho_of c th' y) es).
+Proof.
+  intros th' y. unfold joint_values, es in *. rewrite map_map. rewrite forallb_forall in are_coordinates. apply map_ext_in. intros j i. specialize (are_coordinates j i). destruct j; [discriminate | reflexivity].
+Qed.
+Lemma near_is : forall u, length u = n -> Spread.near_point n x dist 1 u = Near.moved dist x u.
+Proof.
+  intros u lu. unfold Spread.near_point. rewrite !firstn_all2, !skipn_all2 by lia. rewrite lu, Nat.sub_diag. cbn [repeat]. cbn [Near.moved combine map app]. rewrite !app_nil_r. reflexivity.
+Qed.
+
+Theorem forms_located : forms_recover c theta x error b angle.
+Proof.
+  unfold located_tests in shown.
+  destruct (enclose_parameter bits (exactly b, 0%Z)) as [dd |] eqn:ed; [| destruct (shown None (or_introl eq_refl)) as [t [e _]]; discriminate].
+  destruct (all_some (map (joint_near bits found ps 0 error b) js)) as [joints |] eqn:ej; [| destruct (shown None (or_introl eq_refl)) as [t [e _]]; discriminate].
+  destruct (Nat.eqb (length js) n && Compare.certainly bits false error && Compare.certainly bits true b) eqn:g; [| destruct (shown None (or_introl eq_refl)) as [t [e _]]; discriminate].
+  apply andb_true_iff in g as [g b0]. apply andb_true_iff in g as [ln _]. apply Nat.eqb_eq in ln. apply Compare.positive_sound in b0. fold dist in b0.
+  set (a := Nearby.Nearby (map (map found) (map d_divided fs)) (map_rows found (pose_divided fs)) (map found (flat_map Drives.joint_forms js)) joints false dd (Fixed.integer bits 1) n false) in *.
+  destruct (shown (Some (Located a)) (or_introl eq_refl)) as [t [et HL]]. injection et as <-. clear shown. cbn [Check.holds] in HL.
+  assert (t1 : two_to 0 = 1) by reflexivity.
+  assert (HD : contains bits dd dist) by (replace dist with (Claim.value b / two_to 0) by (rewrite t1; unfold dist; field); exact (enclose_parameter_sound bits _ _ _ ed (exact_within b 0))).
+  destruct HL as [DEF [_ [_ [_ HL]]]]. destruct (HL dist 1 HD (Fixed.integer_sound bits 1) (Rlt_le _ _ b0) Rle_0_1) as [_ [g [g0 [G1 [kappa [z [e [k1 [k2 [k3 [k4 [k5 [k6 k7]]]]]]]]]]]]]. clear HL. cbn [a Nearby.l_first Nearby.l_rows Nearby.l_joints Nearby.l_defined] in *.
+  set (near := fun u => Near.moved dist x u).
+  assert (lf : length fs = n) by (rewrite <- ln; unfold js; rewrite map_length; reflexivity). assert (le : length es = n) by (rewrite (related_length _ _ _ _ _ forms); exact lf).
+  assert (lnear : forall u, length u = n -> length (near u) = n) by (intros u lu; unfold near; rewrite Spread.moved_length; congruence).
+  assert (enear : forall u i, length u = n -> nth i (near u) 0 = nth i x 0 + dist * nth i u 0) by (intros u i lu; apply off_entries; congruence).
+  set (J := fun u => map (map (value (near u) th)) (map d_divided fs)).
+  assert (InFar : forall fm f, In fm fs -> In f (d_divided fm) -> formula_at tape (found f) = f)
+    by (intros fm f i1 i2; apply all_found; unfold located_own; apply in_or_app; left; apply in_concat; exists (d_divided fm); split; [apply in_map, i1 | exact i2]).
+  assert (JE : forall u, length u = n -> Check.far_at tape th x a dist 1 u = J u).
+  { intros u lu. unfold Check.far_at, Check.near_at. cbn [a Nearby.l_far Nearby.l_first]. rewrite near_is by exact lu. fold (near u). unfold J. rewrite !map_map. apply map_ext_in. intros fm i. rewrite map_map. apply map_ext_in. intros f i'.
+    rewrite (InFar fm f i i'). reflexivity. }
+  assert (AT : forall u, length u = n /\ Twofold.norm n u <= 1 -> is_reached c theta (near u) /\ Forall2 (is_row c theta (near u)) es (J u)).
+  { intros u hu. apply at_; [exact (lnear u (proj1 hu)) |]. destruct (G1 u hu) as [d _]. apply Forall_app in d as [d _]. unfold Check.near_at in d. cbn [a Nearby.l_first] in d. rewrite near_is in d by apply hu. exact d. }
+  assert (hz : length (Twofold.nought n) = n /\ Twofold.norm n (Twofold.nought n) <= 1) by (split; [apply Twofold.nought_length | pose proof (Twofold.nought_norm n n); lra]).
+  assert (NZ : near (Twofold.nought n) = x).
+  { apply Twofold.same_entries; [rewrite lnear; [congruence | apply hz] |]. intro i. rewrite enear, Twofold.nought_entries by apply hz. ring. }
+  intros rho hr is_at.
+  (* joint coordinates that are asked for *)
+  assert (RHO : exists ys, rho = map Length ys /\ length ys = n /\ Forall2 (may_be_off bits tape params x) joints (map (fun p => (snd p - rho_of c theta x (fst p)) / dist) (combine es ys))).
+  { assert (EM : map (fun p : string * tolerance => middle (snd p)) (parameters c) = map middle_of ps) by (unfold ps, exact_parameters; rewrite map_map; apply map_ext; intro p; unfold middle_of; cbn [fst snd]; rewrite t1; field).
+    rewrite EM, real_coordinates in hr. clear EM.
+    assert (MW : Forall2 scaled_within ps (map middle_of ps)).
+    { pose proof (on_the_way_within 1 ps theta ltac:(lra) theta_within) as w. rewrite (proj2 (on_the_way_ends theta (map middle_of ps) ltac:(rewrite map_length; symmetry; exact (related_length _ _ _ _ _ theta_within)))) in w. exact w. }
+    pose proof (all_some_each _ _ _ _ _ ej) as EJ. unfold js in EJ.
+    assert (IN : forall fm g0, In fm fs -> d_joint fm = ELength g0 -> (forall q, In q (g0 :: map snd (slopes_of ps g0)) -> formula_at tape (found q) = q) /\ forall th', Forall2 (contains bits) params th' -> defined x th' g0).
+    { intros fm g1 im eg. assert (ij : In (ELength g1) js) by (unfold js; rewrite <- eg; apply in_map, im).
+      assert (F : forall q, In q (g1 :: map snd (slopes_of ps g1)) -> formula_at tape (found q) = q).
+      { intros q iq. apply all_found. unfold located_own. apply in_or_app; right. apply in_or_app; right. apply in_flat_map. exists (ELength g1). split; [exact ij | exact iq]. }
+      split; [exact F |]. intros th' h. specialize (DEF th' h). rewrite Forall_forall in DEF. specialize (DEF (found g1)). change (nth (found g1) (formulas tape) (integer 0)) with (formula_at tape (found g1)) in DEF.
+      rewrite (F g1 (or_introl eq_refl)) in DEF. apply DEF, in_map, in_flat_map. exists (ELength g1). split; [exact ij | left; reflexivity]. }
+    pose proof forms as FO. clear - hr FO EJ IN MW theta_within enclosed b0 t1 le lf. unfold es in *. revert rho hr joints EJ IN. rewrite <- le. clear le lf. 
+    induction FO as [| j fm es' fs' [g1 [eg hg]] hs IH]; intros rho hr joints EJ IN; cbn [map] in hr, EJ; inversion hr as [| ? r ? rho' r1 r2]; subst; inversion EJ as [| ? jt ? joints' j1 j2]; subst; [exists []; repeat split; constructor |].
+    destruct (IH rho' r2 joints' j2 (fun y g2 iy => IN y g2 (or_intror iy))) as [ys [y1 [y2 y3]]]. destruct r as [y' | ? ? |]; cbn [is_off] in r1; try contradiction.
+    exists (y' :: ys). split; [cbn [map]; congruence |]. split; [cbn [length]; congruence |]. cbn [combine map fst snd]. constructor; [| exact y3].
+    destruct (IN fm g1 (or_introl eq_refl) eg) as [F D]. rewrite eg in j1. cbn [joint_near] in j1.
+    assert (Ej : fst jt = found g1) by (unfold joint_test in j1; destruct (enclose_parameter bits _); [| discriminate]; destruct (changes_of _ _ _ _ _ _); [| discriminate]; injection j1 as <-; reflexivity).
+    pose proof (joint_is_off bits 0 b error ps theta tb params tape g1 x y' _ _ jt theta_within enclosed (eq_sym (hg theta theta_within)) (eq_sym (hg _ MW)) F j1) as K. cbv zeta in K. rewrite t1, Rinv_1, !Rmult_1_l in K.
+    apply K; [intros th' h; rewrite Ej, (F g1 (or_introl eq_refl)); exact (D th' h) | exact b0 | exact r1]. }
+  destruct RHO as [ys [er [ly OFF]]]. set (bs := map (fun p => (snd p - rho_of c theta x (fst p)) / dist) (combine es ys)) in *.
+  set (vals := fun u => map (fun e => rho_of c theta (near u) e / dist) es).
+  assert (lb : length bs = n) by (unfold bs; rewrite map_length, combine_length; lia).
+  destruct (Twofold.one_point n n vals J g bs) as [u [[hu eu] only]]; try assumption.
+  - intro u. unfold vals. rewrite map_length. exact le.
+  - intro u. unfold J. rewrite !map_length. exact lf.
+  - destruct (AT _ hz) as [_ R0]. rewrite forallb_forall in are_coordinates. clear - R0 are_coordinates. induction R0 as [| j row es' M h hs IH]; constructor; [| apply IH; intros y i; apply are_coordinates; right; exact i].
+    specialize (are_coordinates j (or_introl eq_refl)). destruct j; [discriminate | exact (proj1 h)].
+  - intros u v hu hv t ht i li. set (d := Twofold.less v u). pose proof (Twofold.on_segment n n u v t hu hv ht) as hs. fold d in hs.
+    assert (ld : length d = n) by (apply Twofold.less_length; [apply hv | apply hu]).
+    assert (lcomb : forall s, length (comb 1 s u d) = n) by (intro s; rewrite Twofold.comb_length; [apply hu | rewrite ld; apply hu]).
+    destruct (AT _ hs) as [_ R0]. pose proof (Onward.at_index _ _ _ _ _ R0 i (ByRow []) [] ltac:(unfold J; rewrite !map_length, lf; exact li)) as hrow. set (ej_ := nth i es (ByRow [])) in *.
+    assert (ic : match ej_ with ByRow _ => false | ByCoordinate _ => true end = true) by (rewrite forallb_forall in are_coordinates; apply are_coordinates, nth_In; rewrite le; exact li).
+    assert (E : forall s, nth i (vals (comb 1 s u d)) 0 = rho_of c theta (near (comb 1 s u d)) ej_ / dist).
+    { intro s. unfold vals. rewrite (nth_indep _ 0 ((fun e => rho_of c theta (near (comb 1 s u d)) e / dist) (ByRow []))) by (rewrite map_length, le; exact li).
+      rewrite (map_nth (fun e => rho_of c theta (near (comb 1 s u d)) e / dist)). reflexivity. }
+    destruct ej_ as [| ex]; [discriminate |]. destruct hrow as [lrow H].
+    assert (D : derivable_pt_lim (fun s => meaning (environment_at c theta (near (comb 1 s u d))) ex) t (Linear.dot (nth i (J (comb 1 t u d)) []) (map (Rmult dist) d))).
+    { apply shifted_derivative. apply (H (fun s => near (comb 1 (t + s) u d)) (map (Rmult dist) d)); [intro s; apply lnear, lcomb | rewrite Rplus_0_r; reflexivity |].
+      intro k. apply (unshifted_derivative (fun s => nth k (near (comb 1 s u d)) 0) _ t).
+      eapply derivable_eq; [exact (derivable_add _ _ _ _ _ (derivable_const (nth k x 0 + dist * nth k u 0) t) (derivable_scal (dist * nth k d 0) _ _ _ (derivable_pt_lim_id t))) | |].
+      - intro s. rewrite enear by apply lcomb. rewrite Twofold.comb_entries. unfold id. ring.
+      - rewrite Twofold.map_entries. ring. }
+    eapply derivable_eq; [exact (derivable_scal (/ dist) _ _ _ D) | intro s; rewrite E; cbn [rho_of]; unfold Rdiv; ring |].
+    rewrite (Solve.dot_commutes _ (map _ _)), dot_map, Solve.dot_commutes. field. lra.
+  - intros u w hu lw. destruct (G1 u hu) as [_ h]. specialize (h w lw). rewrite JE, JE in h by (apply hu || apply hz). lra.
+  - intros [|]; [left; cbn [Twofold.part]; apply skipn_all2; rewrite Twofold.nought_length; lia |]. right. exists kappa, z, e. repeat (split; [assumption |]). intros w lw. cbv zeta. specialize (k7 w lw). cbv zeta in k7.
+    assert (ROWS : map fst (map_rows (value x th) (map_rows (formula_at tape) (map_rows found (pose_divided fs)))) = J (Twofold.nought n)).
+    { assert (RF : map_rows (formula_at tape) (map_rows found (pose_divided fs)) = pose_divided fs) by (apply rows_found; intros q iq; apply all_found; unfold located_own; apply in_or_app; right; apply in_or_app; left; exact iq).
+      rewrite RF. unfold J. rewrite NZ. unfold pose_divided, map_rows. rewrite !map_map. reflexivity. }
+    rewrite ROWS in k7. destruct k7 as [c1 c2]. split; [exact c1 |]. intros s nz. exact (c2 bs s OFF nz).
+  - assert (V0 : forall y, length y = n -> map (fun e => rho_of c theta y e / dist) es = comb 1 1 (vals (Twofold.nought n)) bs <-> joint_values c theta y = rho).
+    { intros y ly'. rewrite real_coordinates, er. unfold vals, bs. rewrite NZ. fold es. clear - b0 le ly. rewrite <- le in ly. clear le. revert ys ly. generalize es. induction es0 as [| e es0 IH]; intros [| y0 ys] l; try discriminate; [split; reflexivity |].
+      cbn [combine map comb merge fst snd]. fold (comb 1 1). destruct (IH ys ltac:(cbn in l; congruence)) as [I1 I2]. split; intro h; injection h as h1 h2.
+      - f_equal; [f_equal; apply Rmult_eq_reg_r with (/ dist); [unfold Rdiv in h1; lra | apply Rinv_neq_0_compat; lra] | exact (I1 h2)].
+      - f_equal; [rewrite h1; unfold Rdiv; ring | exact (I2 h2)]. }
+    assert (Norm : forall u1, length u1 = n -> Twofold.norm n u1 <= 1 <-> Linear.dot u1 u1 <= 1).
+    { intros u1 lu. split; intro h.
+      - pose proof (Twofold.part_size n false u1) as p. cbn [Twofold.part] in p. rewrite firstn_all2 in p by lia. rewrite <- Twofold.size_square. pose proof (Twofold.size_nonneg u1). nra.
+      - apply Twofold.norm_below. intro p. apply Twofold.size_below; [lra |]. pose proof (Twofold.part_dot n p u1). lra. }
+    assert (Less : forall u1, length u1 = n -> Linear.dot (Twofold.less (near u1) x) (Twofold.less (near u1) x) = dist ^ 2 * Linear.dot u1 u1).
+    { intros u1 lu. assert (E : Twofold.less (near u1) x = map (Rmult dist) u1).
+      { apply Twofold.same_entries; [rewrite map_length, (Twofold.less_length n); auto |]. intro i. rewrite Twofold.less_entries, enear, Twofold.map_entries by exact lu. ring. }
+      rewrite E, dot_map, Solve.dot_commutes, dot_map. ring. }
+    exists (near u). split.
+    + split; [rewrite lnear by apply hu; congruence |]. split; [rewrite Less by apply hu; fold dist; pose proof (proj1 (Norm u (proj1 hu)) (proj2 hu)); pose proof (pow2_ge_0 dist); nra |].
+      split; [exact (proj1 (AT u hu)) | apply (V0 (near u) (lnear u (proj1 hu))); exact eu].
+    + intros y [l1 [l2 [_ l4]]]. assert (ly' : length y = n) by congruence. set (v := map (Rmult (/ dist)) (Twofold.less y x)).
+      assert (lv : length v = n) by (unfold v; rewrite map_length; apply Twofold.less_length; assumption).
+      assert (NY : near v = y).
+      { apply Twofold.same_entries; [rewrite lnear by exact lv; congruence |]. intro i. rewrite enear by exact lv. unfold v. rewrite Twofold.map_entries, Twofold.less_entries. field. lra. }
+      assert (hv : length v = n /\ Twofold.norm n v <= 1).
+      { split; [exact lv |]. apply Norm; [exact lv |]. pose proof (Less v lv) as q. rewrite NY in q. rewrite q in l2. fold dist in l2. assert (0 < dist ^ 2) by (apply pow_lt; exact b0). apply Rmult_le_reg_l with (dist ^ 2); lra. }
+      rewrite <- NY. f_equal. apply only; [exact hv |]. unfold vals at 1. rewrite NY. apply (V0 y ly'). exact l4.
+Qed.
+End Located.
+
 Theorem check_written_sound : forall c t, check_written c t = true -> written_holds c.
 Proof.
   intros c t h theta x [hp hb]. unfold check_written in h. cbv zeta in h. set (f := by_formulas c) in *.
@@ -567,8 +722,15 @@ Proof.
   set (i := (j + length (all_literals (map snd (definitions f))))%nat) in *.
   set (env := named (given_formulas f) (definitions f) j) in *. set (fs := all_joints n env (joint_forms f) i) in *.
   set (partial := named_partials (given_formulas f) (definitions f) j ++ joints_partials env (joint_forms f) i) in *. set (at_ := length (inputs f)) in *.
-  set (wanted := entries (pose_rows fs) ++ entries (pose_divided fs) ++ partial ++ of_each (own_of fs) false 0 at_ demands) in *.
+  set (ps := exact_parameters (parameters f)) in *. set (js := map d_joint fs) in *.
+  set (own_q := fun q d => match d with OnePose _ _ _ => located_own ps (map d_divided fs) (pose_divided fs) js | _ => own_of fs q d end) in *.
+  set (wanted := entries (pose_rows fs) ++ entries (pose_divided fs) ++ partial ++ of_each own_q false 0 at_ demands) in *.
   set (tape := fst (compile wanted)) in *. set (place := place (formulas tape)) in *.
+  set (tests_q := fun q d => match d with
+    | OnePose error b _ => if forallb (fun j => match j with ByRow _ => false | ByCoordinate _ => true end) (joint_forms f)
+        then located_tests bits place n n [false] false ps 0 (map d_divided fs) (pose_divided fs) js (Some (Fixed.integer bits 1)) error b else [None]
+    | _ => tests_for bits place fs false 0 q d
+    end) in *.
   apply andb_true_iff in h as [h C]. apply andb_true_iff in h as [h coords]. apply andb_true_iff in h as [h low]. apply andb_true_iff in h as [h found]. apply andb_true_iff in h as [len shapes]. apply Nat.eqb_eq in len.
   destruct (all_some (map (enclose_parameter bits) (inputs f))) as [params |] eqn:ep; [| discriminate].
   destruct (all_some (map (enclose_input bits) _)) as [numbers |] eqn:ei; [| discriminate].
@@ -612,6 +774,23 @@ Proof.
       rewrite (nth_indep _ 0 (nth 0 y 0)) by (rewrite map_length, seq_length; exact hk). rewrite (map_nth (fun k => nth k y 0)), seq_nth by exact hk. reflexivity.
     - rewrite <- (app_nil_r (combine _ (numbered _ _))), <- (app_nil_r (combine _ theta)). apply agrees_combine; [| intro; reflexivity].
       exact (numbered_values _ _ y [] (y1 ++ y2 ++ map input_value ins) P). }
+  assert (TE : forall th', Forall2 scaled_within ps th' -> Forall2 (contains bits) (params ++ numbers) (th' ++ y1 ++ y2 ++ map input_value ins)).
+  { intros th' h'. rewrite (app_assoc y1), (app_assoc th'). apply Forall2_app; [apply (enclosed_all bits _ _ _ ep); apply Forall2_app; [exact h' | apply Forall2_app; assumption] |].
+    clear - ei. revert numbers ei. induction ins as [| a l IH]; intros numbers e; cbn [map all_some] in *; [injection e as <-; constructor |].
+    destruct (enclose_input bits a) as [b |] eqn:e1; [| discriminate]. destruct (all_some _) as [r |]; [| discriminate]. injection e as <-. constructor; [exact (enclose_input_sound bits _ _ e1) | exact (IH r eq_refl)]. }
+  assert (HoldAll : forall th', Forall2 scaled_within ps th' -> holds_at (th' ++ y1 ++ y2 ++ map input_value ins) i (flat_map joint_literals (joint_forms f))).
+  { intros th' h'. pose proof (holds_at_of (th' ++ y1) _ y2 (map input_value ins) J) as K. rewrite <- app_assoc in K. unfold i.
+    replace (j + length (all_literals (map snd (definitions f))))%nat with (length (th' ++ y1)); [exact K |].
+    rewrite app_length. f_equal; [unfold j; rewrite <- (related_length _ _ _ _ _ h'); apply map_length | symmetry; exact (related_length _ _ _ _ _ D)]. }
+  assert (AgreeAll : forall th', Forall2 scaled_within ps th' -> forall y, length y = n -> agrees y (th' ++ y1 ++ y2 ++ map input_value ins) env (environment_at f th' y)).
+  { intros th' h' y ly. assert (lj : length th' = j) by (unfold j; rewrite <- (related_length _ _ _ _ _ h'); apply map_length).
+    refine (proj1 (named_agrees y (th' ++ y1 ++ y2 ++ map input_value ins) (definitions f) (given_formulas f) (given f y th') j _ _)); [| rewrite <- lj; apply holds_at_of; exact D].
+    apply agrees_combine.
+    - rewrite map_map. fold n. rewrite <- ly. clear. change (map (fun k => nth k y 0) (seq 0 (length y)) = y).
+      apply nth_ext with 0 0; rewrite map_length, seq_length; [reflexivity |]. intros k hk.
+      rewrite (nth_indep _ 0 (nth 0 y 0)) by (rewrite map_length, seq_length; exact hk). rewrite (map_nth (fun k => nth k y 0)), seq_nth by exact hk. reflexivity.
+    - rewrite <- (app_nil_r (combine _ (numbered _ _))), <- (app_nil_r (combine _ th')). apply agrees_combine; [| intro; reflexivity].
+      exact (numbered_values _ _ y [] (y1 ++ y2 ++ map input_value ins) h'). }
   assert (H2 : holds_at th i (flat_map joint_literals (joint_forms f))).
   { pose proof (holds_at_of (theta ++ y1) _ y2 (map input_value ins) J) as K. rewrite <- app_assoc in K. unfold i, th.
     replace (j + length (all_literals (map snd (definitions f))))%nat with (length (theta ++ y1)); [exact K |].
@@ -622,15 +801,15 @@ Proof.
   assert (la : length (theta ++ y1 ++ y2) = at_).
   { symmetry. unfold at_. apply (related_length _ _ scaled_within). unfold inputs. repeat apply Forall2_app; assumption. }
   assert (HT : forall d, In d demands -> exists q, map (value x th) q = map input_value (inputs_of false 0 d) /\
-    (forall g, In g (own_of fs q d) -> formula_at tape (place g) = g) /\
-    (forall o, In o (tests_for bits place fs false 0 q d) -> exists t, o = Some t /\
+    (forall g, In g (own_q q d) -> formula_at tape (place g) = g) /\
+    (forall o, In o (tests_q q d) -> exists t, o = Some t /\
       Check.holds bits tape (map_rows place (pose_rows fs)) (map_rows place (pose_divided fs)) (map place partial) (params ++ numbers) th n x t)).
   { intros d id. destruct (of_each_at false 0 demands d x (theta ++ y1 ++ y2) [] id) as [q [q1 q2]]. cbv zeta in q1. fold ins in q1.
     rewrite app_nil_r, <- !app_assoc in q1. fold th in q1. rewrite la in q2. exists q. split; [exact q1 |]. split.
     - intros g k. apply Found. unfold wanted. do 3 (apply in_or_app; right). exact (q2 _ _ _ k).
-    - intros o k. destruct (all_some_in _ _ _ _ et (q2 _ (tests_for bits place fs false 0) o k)) as [u [e iu]]. exists u. split; [exact e | exact (H u (Sub u iu))]. }
+    - intros o k. destruct (all_some_in _ _ _ _ et (q2 _ tests_q o k)) as [u [e iu]]. exists u. split; [exact e | exact (H u (Sub u iu))]. }
   assert (Low : exists low c0, contains bits low c0 /\ 0 <= c0 /\ Check.holds bits tape (map_rows place (pose_rows fs)) (map_rows place (pose_divided fs)) (map place partial) (params ++ numbers) th n x (SigmaMin low)).
-  { apply existsb_exists in low as [d [id e]]. destruct (HT d id) as [q [_ [_ q3]]]. destruct d; try discriminate; cbn [tests_for] in q3; destruct (q3 _ ltac:(left; reflexivity)) as [u [e1 hu]].
+  { apply existsb_exists in low as [d [id e]]. destruct (HT d id) as [q [_ [_ q3]]]. destruct d; try discriminate; cbn [tests_q tests_for] in q3; destruct (q3 _ ltac:(left; reflexivity)) as [u [e1 hu]].
     - injection e1 as <-. exists zero, 0. split; [apply zero_sound |]. split; [lra | exact hu].
     - destruct (enclose_parameter bits _) as [a |] eqn:ew; [| discriminate]. injection e1 as <-. eexists; eexists. split; [exact (squared_rate bits 0 false _ _ ew) |]. split; [apply pow2_ge_0 | exact hu]. }
   destruct Low as [lowest [c0 [hc0 [c00 [BU LOW]]]]].
@@ -660,8 +839,32 @@ Proof.
     specialize (G v lv nz). rewrite EM. unfold pose_divided, map_rows in G. rewrite !map_map in *. exact G. }
   split; [split; [exact (proj2 (Agree x lx) DP1) | exact JD] |]. split; [unfold Configuration.injective in *; cbn [jacobian] in SEES; rewrite E1 in SEES; exact SEES |].
   apply Forall_forall. intros d id. destruct (HT d id) as [q [q1 [q2 q3]]].
-  pose proof (demand_met bits x th 0 n false fs looks (fun b => b) tape (params ++ numbers) (map place partial) good W1 W2 RE q d q1 q2 q3 SEES) as met.
-  rewrite E1, E2, E3 in met. exact (reached_aside _ _ _ _ _ _ _ _ _ _ _ met).
+  assert (Other : (forall error b angle, d <> OnePose error b angle) -> Configuration.fulfils n (machine_at f theta x M) d).
+  { intro no. assert (E4 : own_q q d = own_of fs q d) by (destruct d; try reflexivity; contradiction (no _ _ _ eq_refl)). assert (E5 : tests_q q d = tests_for bits place fs false 0 q d) by (destruct d; try reflexivity; contradiction (no _ _ _ eq_refl)).
+    rewrite E4 in q2. rewrite E5 in q3.
+    pose proof (demand_met bits x th 0 n false fs looks (fun b => b) tape (params ++ numbers) (map place partial) good W1 W2 RE q d q1 q2 q3 SEES) as met.
+    rewrite E1, E2, E3 in met. exact (reached_aside _ _ _ _ _ _ _ _ _ _ _ met). }
+  destruct d as [| | | | | | | | | | | | | | | | | error b angle | ]; try (apply Other; discriminate). clear Other. cbn [Configuration.fulfils recovers machine_at]. cbn [own_q tests_q] in q2, q3.
+  destruct (forallb (fun j => match j with ByRow _ => false | ByCoordinate _ => true end) (joint_forms f)) eqn:co; [| destruct (q3 None (or_introl eq_refl)) as [u [eu _]]; discriminate].
+  refine (forms_located tape (map_rows place (pose_rows fs)) (map_rows place (pose_divided fs)) (map place partial) (params ++ numbers) f theta x (y1 ++ y2 ++ map input_value ins) fs error b angle co lx TE P _ _ q2 q3).
+  - intros y ly D'. assert (DY : Forall (defined y th) partial).
+    { apply Forall_forall. intros g k. rewrite Forall_map, Forall_forall in D'. specialize (D' g k). rewrite Found in D'; [exact D' |]. unfold wanted. apply in_or_app. right. apply in_or_app. right. apply in_or_app. left. exact k. }
+    apply Forall_app in DY as [DY1 DY2]. destruct (joints_good f theta th y env (fun z lz => proj1 (Agree z lz)) ly (joint_forms f) i H2 SH DY2) as [JDy [My [RMy goody]]].
+    split; [split; [exact (proj2 (Agree y ly) DY1) | exact JDy] |].
+    assert (gy : Forall2 (is_good y th 0 n false) fs (map (fun p => Seen (snd p) (coordinate_at f theta y (fst p)) None True) (combine (joint_forms f) My))) by exact goody. clear goody.
+    assert (EMy : My = map (map (value y th)) (map d_divided fs)).
+    { pose proof (related_length _ _ _ _ _ RMy) as lMy. clear - gy lMy. revert My lMy gy. generalize fs. clear. induction (joint_forms f) as [| jo js IH]; intros qs [| row M] l h; try discriminate l; cbn [combine map] in h; inversion h as [| q ? ? ? g hs]; subst; [reflexivity |].
+      cbn [map]. f_equal; [| apply IH; [cbn in l; congruence | exact hs]]. destruct g as [_ [_ [_ [_ [_ g]]]]]. destruct (g I) as [_ [g' _]]. rewrite g'.
+      change (/ two_to (rate false 0)) with (/ two_to 0). change (two_to 0) with 1. cbn [seen_row fst snd]. rewrite <- (map_id row) at 1. apply map_ext. intro. field. }
+    rewrite EMy in RMy. exact RMy.
+  - assert (K : forall es0 i0, (forall th', Forall2 scaled_within ps th' -> holds_at (th' ++ y1 ++ y2 ++ map input_value ins) i0 (flat_map joint_literals es0)) ->
+      forallb (fun j => match j with ByRow _ => false | ByCoordinate _ => true end) es0 = true ->
+      Forall2 (fun e fm => exists g, d_joint fm = ELength g /\ forall th', Forall2 scaled_within ps th' -> rho_of f th' x e = value x (th' ++ y1 ++ y2 ++ map input_value ins) g) es0 (all_joints n env es0 i0)).
+    { induction es0 as [| jo es0 IH]; intros i0 hold cc; cbn [all_joints]; constructor.
+      - cbn [forallb] in cc. apply andb_true_iff in cc as [cj _]. destruct jo as [| e]; [discriminate |]. exists (formula_of env e i0). split; [cbn [of_joint]; destruct (coordinate_gradient n (formula_of env e i0)); reflexivity |].
+        intros th' h'. cbn [rho_of]. symmetry. apply formula_value; [exact (AgreeAll th' h' x lx) |]. specialize (hold th' h'). cbn [flat_map joint_literals] in hold. apply holds_app in hold as [hold _]. exact hold.
+      - apply IH; [intros th' h'; specialize (hold th' h'); cbn [flat_map] in hold; apply holds_app in hold as [_ hold]; exact hold |]. cbn [forallb] in cc. apply andb_true_iff in cc as [_ cc]. exact cc. }
+    apply K; [exact HoldAll | exact co].
 Qed.
 End Precision.
 

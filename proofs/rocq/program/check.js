@@ -273,6 +273,40 @@ for (const [name, edits, numbers] of [
   }
 }
 console.log("accuracy of platforms that turn: nine and 96 numbers with one answer, and 23 refused");
+// Accuracy of legs in any motion, arms and sliders, of platforms that turn or not, and beside angles of legs; of mechanisms by formulas.
+let located = 0, not_located = 0;
+for (const [name, claim, numbers, from, to] of [
+  ["kernel/five-bar", "max = 0.5", [["bound", 0.005], ["joint_error", 0.2]], /arm = ([\d.]+)/g, 'arm = "$1 ± 0.01"'],
+  ["kernel/five-bar", "max = 0.06", [["bound", 0.001]]],
+  ["rotary-delta-linuxcnc", "max = 0.05", [["bound", 0.001], ["joint_error", 0.2]]],
+  ["kernel/planar-3-rrr", "max = 0.5, max_angle = 0.5", [["bound", 0.005], ["max_angle", 0.005]]],
+  ["kernel/planar-3-prr", "max = 0.2, max_angle = 0.2", [["bound", 0.002], ["joint_error", 0.2], ["max_angle", 0.002]]],
+  ["delta-leg-angle", "max = 0.02", [["bound", 0.001], ["joint_error", 0.2]], /$/, "\n[requirements]\nleg_angle = { max = 80 }"],
+  ["kernel/linear-delta-formulas", "max = 0.1", [["bound", 0.001], ["joint_error", 0.2]]],
+  ["kernel/orthoglide-formulas", "max = 0.02", [["bound", 0.001]], "l = 312", 'l = "312 ± 0.002"'],
+]) {
+  const design = path.join(made, "located.toml"), file = path.join(made, "located.cert.json");
+  const [head] = fs.readFileSync(path.join(__dirname, "../../../tests/designs", `${name}.toml`), "utf8").split("[requirements]"), own = from ? head.replace(from, to) : head;
+  fs.writeFileSync(design, `${own}${own.includes("[requirements]") ? "" : "\n[requirements]"}\naccuracy = { joint_error = 0.002, ${claim} }\n`);
+  spawnSync(orthocert, ["verify", design, "-o", file]);
+  const text = fs.readFileSync(file, "latin1"), claimed = text.indexOf('"accuracy"'), evidence = /\{"accuracy":\[\{"y":\[\[[^}]*\},\d+,\d+\]\}/.exec(text)[0];
+  for (const [number, beyond] of numbers) {
+    const [all, before, stated] = new RegExp(`("${number}":\\[?)"([\\d.]+)"`).exec(text.slice(claimed));
+    read.push(last_number((x) => text.slice(0, claimed) + text.slice(claimed).replace(all, `${before}"${x}"`), beyond, +stated, 14, `${name}, ${number}`));
+    located += 14;
+  }
+  for (const [part, other] of [
+    [evidence, evidence.replace(/\},\d+,/, "},0,")], [evidence, evidence.replace(/\},\d+,/, "},-1,")], [evidence, evidence.replace(/\},(\d+),/, "},9$1,")], [evidence, evidence.replace(/\[\[.*?\]\]/, (y) => y.replace(/-?[1-9]\d*/g, (n) => `${-n}`))], [evidence, evidence.replace(/,\d+\]\}$/, ",17]}")],
+    [evidence, evidence.replace(/\[\[[^\]]*\],/, "[")], [evidence, '"test"'], ['"joint_error":["0.002"]', '"joint_error":["-0.002"]'], ['"joint_error":["0.002"]', '"joint_error":["90"]'], [/("accuracy".*?"end":)"max"/, '$1"min"'],
+    ['"given":{"joint_error"', '"leg":1,"given":{"joint_error"'], [/("max_angle":)\["[^"]*"\]/, '$1["0"]'], [/("max_angle":)\["[^"]*"\]/, '$1["180"]'], ['"given":{"joint_error":["0.002"]', '"given":{"tool":["0.002"]'],
+  ]) {
+    const wrong = text.replace(part, other);
+    if (wrong === text) continue;
+    const answers = two_answers(wrong);
+    if (answers.some((answer) => answer !== "REJECTED")) fail(`${name}, accuracy: ${answers}: ${part} ${other}`); else not_located++;
+  }
+}
+console.log(`accuracy of legs in any motion and of formulas: ${located} numbers with one answer, and ${not_located} refused`);
 // Joint accelerations of platforms that turn, and a stiffness for each joint, at bounds ever nearer to the last with which they are certified.
 const accelerates = "joint_acceleration = { speed = 50, acceleration = 1000, max = 1500 }", is_stiff = (joints, min) => `stiffness = { joint = [3, ${joints}], min = ${min} }`;
 const no_acceleration = [[/,"test"\]/, ',"divided"]'], [/,"test"\]/, ',{"control":"test"}]'], ['"speed":["', '"speed":["-'], ['"acceleration":["', '"acceleration":["-']];

@@ -489,7 +489,6 @@ let certificate text =
      not_covered [ "this evidence \"tolerances\" of a platform that turns" ]
    | Legs_ _, Nodes (_, _, nodes) when List.exists (fun n -> List.exists (fun (_, s) -> match s with Turned_ _ | AtControls_ _ -> true | _ -> false) n.by_) nodes ->
      not_covered [ "this set of orientations with such drives" ]
-   | (Legs_ (_, _, _, _, _, rs) | Closed_ (_, _, rs) | Formulas_ (_, _, _, _, _, _, rs)), Nodes _ when List.exists (fun r -> r.about_ = Accuracy_) rs -> not_covered [ "\"accuracy\" of such a mechanism" ]
    | Turning_ (_, _, _, _, _, _, rs), Nodes (_, _, nodes) when not (List.for_all (fun n -> List.for_all (is_pose_step rs) n.by_) nodes) ->
      not_covered [ "a step of a platform that turns that is not at control points" ]
    | Atlas_ _, Cells cells when List.exists (function Disproved (_, _, _, Same_ _) -> true | _ -> false) cells -> not_covered [ "the failure \"same\" of such a mechanism" ]

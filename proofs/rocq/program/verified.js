@@ -3,100 +3,100 @@
 globalThis!=="object"&&(this?b():(a.defineProperty(a.prototype,"_T_",{configurable:true,get:b}),_T_));function
 b(){var
 b=this||self;b.globalThis=b;delete
-a.prototype._T_}}(Object));(function(S){"use strict";var
-k0="spatial",sd="Invalid_argument",ie="precision",aS='"',kZ=1255,la="inside",rb="(",rc=0x800,sc="yaw",q_="range",q$="tree",ra="jsError",cp=0x8000,sb="sqrt(",q9=256,id="obligation",sa="load",gh="offset",bw="machine",q8="End_of_file",e1="strut",kY="center",gg="arm",kX="Failure",r$="serial_margin",il="parameters",cU=0xff,r_="bodies",r9="max_angle",k$="outside",gf="base_axis",kW="ENOENT",r8="singular",r7=122,q7="([^/]+)",r6="0",kV=0xf,ge=128,q6=0xdc00,r4="Sys_blocked_io",r5="fd ",f8="given",q5="ENOTEMPTY",a8=248,ic="bound",q4="Division_by_zero",r2="by",r3=1027,q3="Sys_error",gd="slider",q2="torsion",r1="postulate",q1="proof",k_="joint_error",gc="refuted",eU="mechanism",ib="row",q0="EEXIST",r0="roll_pitch_yaw",gb="y",qZ="cube",du="lower",rZ="within",qY="clearance",rY="turned",qX="control",ia="int_of_string",qW="between",rW="definitions",rX="dependent",ga=1024,qU="from",qV="name",rV=" : flags Open_rdonly and Open_wronly are not compatible",qT="orthocert/2",rU="reach",qS=512,rS="base_joint",rT="witness",e0="-",bl="platform",qR=0x7ff0,qQ="pitch",k9=": Not a directory",bL="min",rQ="trim",eZ="workspace",rR=" : file already exists",h$="split",k8="legs",rP="claim",kU="joint",d7=0xffffff,qP="platform_joint",qO="formulas",qN="roll",h_="atlas",rM="greatest",rN="nodes",rO="Out_of_memory",qM="psi_max",ik="orientation",h9=254,rL="angle",k7="index out of bounds",qL="end",rK="one_to_one",ij="_bigarr02",qK=" : flags Open_text and Open_binary are not compatible",rJ="inverse",bv="drive",qJ="coordinates",rI="holds",qI="lower_divided",qH="speed",rG="cylinder",rH="joints",cT=0xffff,rC="a leaf that fails",rD="acceleration",rE="force",f_="certified",f$="chords",rF=12520,kT="on",rB="same",eT="accuracy",f9="axis",rA="no_cube",rz="parallel_margin",qG='the drive "',kS="Unix.Unix_error",ii="fails",h8="tool",kR="mkdir",rx="rho",ry="least",ih=1000,kQ="translational",k6="tolerances",qF="Stack_overflow",k5="characteristic_length",af="",k4="^",h6="places",h7=": No such file or directory",qE="/static/",eY=0x3f,qC="stiffness",qD="Not_found",co="planar",f7="mode",rw="joint_speed",rv="Match_failure",qB="transmission",bK="anchor",ru="at",qA="joint_force",eX="leg",qz="joint_acceleration",ig="+",kP="rmdir",rt=0xf0,rs="spherical",qy=1026,rq="REJECTED",rr="undecided",bN="max",bM="direction",qw="leg_angle",qx="orthoglide",eW="rank",ro="constraint_margin",rp="fan",f6="test",qu="Pervasives.do_at_exit",qv="utf8",b6=0x80,eV="conditioning",eS="length",qt="Undefined_recursive_module",k3=")",qs="base",rn="quantity",qr="joint_range",h5="tilt",qq="Q2",rm="reference",qp="point",rk="corner",rl=0xe0,qo="version",k2="z",ri="to",rj=0xdfff,kO="compare: functional value",rh="Assert_failure",b8="/",rg="provenance",d6="radius",h4="side",re=-14,b7="require",rf="format",qn="Q1",k1="ENOTDIR",qm="all",d5="box",rd=250;function
-ln(c,b,a){var
+a.prototype._T_}}(Object));(function(U){"use strict";var
+k_="spatial",sA="Invalid_argument",ij="precision",aS='"',k9=1255,lk="inside",ry="(",rz=0x800,sz="yaw",rv="range",rw="tree",rx="jsError",ct=0x8000,sy="sqrt(",ru=256,ii="obligation",sx="load",gl="offset",bx="machine",rt="End_of_file",e4="strut",k8="center",gk="arm",k7="Failure",sw="serial_margin",iq="parameters",cV=0xff,sv="bodies",su="max_angle",lj="outside",gj="base_axis",k6="ENOENT",st="singular",ss=122,rs="([^/]+)",sr="0",k5=0xf,gi=128,rr=0xdc00,sp="Sys_blocked_io",sq="fd ",ga="given",rq="ENOTEMPTY",a_=248,ih="bound",rp="Division_by_zero",sn="by",so=1027,ro="Sys_error",gh="slider",rn="torsion",sm="postulate",rm="proof",li="joint_error",gg="refuted",eX="mechanism",ig="row",rl="EEXIST",sl="roll_pitch_yaw",gf="y",rk="cube",dv="lower",sk="within",rj="clearance",sj="turned",ri="control",ie="int_of_string",rh="between",sh="definitions",si="dependent",ge=1024,rf="from",rg="name",sg=" : flags Open_rdonly and Open_wronly are not compatible",re="orthocert/2",sf="reach",rd=512,sd="base_joint",se="witness",e3="-",bo="platform",rc=0x7ff0,rb="pitch",lh=": Not a directory",bN="min",sb="trim",e2="workspace",sc=" : file already exists",id="split",lg="legs",sa="claim",k4="joint",eb=0xffffff,ra="platform_joint",q$="formulas",q_="roll",ic="atlas",r9="greatest",r_="nodes",r$="Out_of_memory",q9="psi_max",ip="orientation",ib=254,r8="angle",lf="index out of bounds",q8="end",r7="one_to_one",io="_bigarr02",q7=" : flags Open_text and Open_binary are not compatible",r6="inverse",bw="drive",q6="coordinates",r5="holds",q5="lower_divided",q4="speed",r3="cylinder",r4="joints",cU=0xffff,rZ="a leaf that fails",r0="acceleration",r1="force",gc="certified",gd="chords",r2=12520,k3="on",rY="same",eW="accuracy",gb="axis",rX="no_cube",rW="parallel_margin",q3='the drive "',k2="Unix.Unix_error",im="fails",ia="tool",k1="mkdir",rU="rho",rV="least",il=1000,k0="translational",le="tolerances",q2="Stack_overflow",ld="characteristic_length",af="",lc="^",h_="places",h$=": No such file or directory",q1="/static/",e1=0x3f,qZ="stiffness",q0="Not_found",cs="planar",f$="mode",rT="joint_speed",rS="Match_failure",qY="transmission",bM="anchor",rR="at",qX="joint_force",e0="leg",qW="joint_acceleration",ik="+",kZ="rmdir",rQ=0xf0,rP="spherical",qV=1026,rN="REJECTED",rO="undecided",bP="max",bO="direction",qT="leg_angle",qU="orthoglide",eZ="rank",rL="constraint_margin",rM="fan",f_="test",qR="Pervasives.do_at_exit",qS="utf8",b9=0x80,eY="conditioning",eV="length",qQ="Undefined_recursive_module",lb=")",qP="base",rK="quantity",qO="joint_range",h9="tilt",qN="Q2",rJ="reference",qM="point",rH="corner",rI=0xe0,qL="version",la="z",rF="to",rG=0xdfff,kY="compare: functional value",rE="Assert_failure",b$="/",rD="provenance",ea="radius",h8="side",rB=-14,b_="require",rC="format",qK="Q1",k$="ENOTDIR",qJ="all",d$="box",rA=250;function
+lx(c,b,a){var
 d=String.fromCharCode;if(b==0&&a<=4096&&a==c.length)return d.apply(null,c);var
-e=af;for(;0<a;b+=ga,a-=ga)e+=d.apply(null,c.slice(b,b+Math.min(a,ga)));return e}function
-io(b){if(S.Uint8Array)var
-c=new(S.Uint8Array)(b.l);else
+e=af;for(;0<a;b+=ge,a-=ge)e+=d.apply(null,c.slice(b,b+Math.min(a,ge)));return e}function
+is(b){if(U.Uint8Array)var
+c=new(U.Uint8Array)(b.l);else
 var
 c=new
 Array(b.l);var
 e=b.c,d=e.length,a=0;for(;a<d;a++)c[a]=e.charCodeAt(a);for(d=b.l;a<d;a++)c[a]=0;b.c=c;b.t=4;return c}function
-gi(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?ln(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
-if(b.t==2&&f==b.c.length){b.c+=d.t==4?ln(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)io(b);var
+gm(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?lx(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
+if(b.t==2&&f==b.c.length){b.c+=d.t==4?lx(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)is(b);var
 g=d.c,h=b.c;if(d.t==4)if(f<=e)for(var
 a=0;a<c;a++)h[f+a]=g[e+a];else
 for(var
 a=c-1;a>=0;a--)h[f+a]=g[e+a];else{var
 i=Math.min(c,g.length-e);for(var
 a=0;a<i;a++)h[f+a]=g.charCodeAt(e+a);for(;a<c;a++)h[f+a]=0}}return 0}function
-e4(a){return a}function
-e3(a,b,c,d,e){gi(e4(a),b,c,d,e);return 0}function
-lc(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
+e7(a){return a}function
+e6(a,b,c,d,e){gm(e7(a),b,c,d,e);return 0}function
+lm(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
 0:return a.c.charCodeAt(b);case
 4:return a.c[b]}}function
-dw(c,a){if(c.fun)return dw(c.fun,a);if(typeof
+dx(c,a){if(c.fun)return dx(c.fun,a);if(typeof
 c!=="function")return c;var
 b=c.length|0;if(b===0)return c.apply(null,a);var
 e=a.length|0,d=b-e|0;if(d==0)return c.apply(null,a);else
-if(d<0)return dw(c.apply(null,a.slice(0,b)),a.slice(b));else
+if(d<0)return dx(c.apply(null,a.slice(0,b)),a.slice(b));else
 return function(){var
 e=arguments.length==0?1:arguments.length,d=new
 Array(a.length+e);for(var
 b=0;b<a.length;b++)d[b]=a[b];for(var
-b=0;b<arguments.length;b++)d[a.length+b]=arguments[b];return dw(c,d)}}function
-sE(b,a){if(b==0)return af;if(a.repeat)return a.repeat(b);var
+b=0;b<arguments.length;b++)d[a.length+b]=arguments[b];return dx(c,d)}}function
+s1(b,a){if(b==0)return af;if(a.repeat)return a.repeat(b);var
 d=af,c=0;for(;;){if(b&1)d+=a;b>>=1;if(b==0)return d;a+=a;c++;if(c==9)a.slice(0,1)}}function
-e5(a){if(a.t==2)a.c+=sE(a.l-a.c.length,"\0");else
-a.c=ln(a.c,0,a.c.length);a.t=0}function
-e6(a){a.t&6&&e5(a);return a.c}var
-JS=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
-JR(a){if(JS)return Math.floor(Math.log2(a));var
+e8(a){if(a.t==2)a.c+=s1(a.l-a.c.length,"\0");else
+a.c=lx(a.c,0,a.c.length);a.t=0}function
+e9(a){a.t&6&&e8(a);return a.c}var
+Kl=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
+Kk(a){if(Kl)return Math.floor(Math.log2(a));var
 b=0;if(a==0)return-Infinity;if(a>=1)while(a>=2){a/=2;b++}else
 while(a<1){a*=2;b--}return b}function
-lf(c){var
-a=new(S.Float32Array)(1);a[0]=c;var
-b=new(S.Int32Array)(a.buffer);return b[0]|0}var
-sw=Math.pow(2,-24);function
-JI(a){throw a}var
-aF=[0];function
-sB(){JI(aF.Division_by_zero)}function
-R(b,c,a){this.lo=b&d7;this.mi=c&d7;this.hi=a&cT}R.prototype.caml_custom="_j";R.prototype.copy=function(){return new
-R(this.lo,this.mi,this.hi)};R.prototype.ucompare=function(a){if(this.hi>a.hi)return 1;if(this.hi<a.hi)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};R.prototype.compare=function(a){var
-b=this.hi<<16,c=a.hi<<16;if(b>c)return 1;if(b<c)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};R.prototype.neg=function(){var
+lp(c){var
+a=new(U.Float32Array)(1);a[0]=c;var
+b=new(U.Int32Array)(a.buffer);return b[0]|0}var
+sT=Math.pow(2,-24);function
+Kb(a){throw a}var
+aH=[0];function
+sY(){Kb(aH.Division_by_zero)}function
+T(b,c,a){this.lo=b&eb;this.mi=c&eb;this.hi=a&cU}T.prototype.caml_custom="_j";T.prototype.copy=function(){return new
+T(this.lo,this.mi,this.hi)};T.prototype.ucompare=function(a){if(this.hi>a.hi)return 1;if(this.hi<a.hi)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};T.prototype.compare=function(a){var
+b=this.hi<<16,c=a.hi<<16;if(b>c)return 1;if(b<c)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};T.prototype.neg=function(){var
 a=-this.lo,b=-this.mi+(a>>24),c=-this.hi+(b>>24);return new
-R(a,b,c)};R.prototype.add=function(a){var
+T(a,b,c)};T.prototype.add=function(a){var
 b=this.lo+a.lo,c=this.mi+a.mi+(b>>24),d=this.hi+a.hi+(c>>24);return new
-R(b,c,d)};R.prototype.sub=function(a){var
+T(b,c,d)};T.prototype.sub=function(a){var
 b=this.lo-a.lo,c=this.mi-a.mi+(b>>24),d=this.hi-a.hi+(c>>24);return new
-R(b,c,d)};R.prototype.mul=function(a){var
-b=this.lo*a.lo,c=(b*sw|0)+this.mi*a.lo+this.lo*a.mi,d=(c*sw|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
-R(b,c,d)};R.prototype.isZero=function(){return(this.lo|this.mi|this.hi)==0};R.prototype.isNeg=function(){return this.hi<<16<0};R.prototype.and=function(a){return new
-R(this.lo&a.lo,this.mi&a.mi,this.hi&a.hi)};R.prototype.or=function(a){return new
-R(this.lo|a.lo,this.mi|a.mi,this.hi|a.hi)};R.prototype.xor=function(a){return new
-R(this.lo^a.lo,this.mi^a.mi,this.hi^a.hi)};R.prototype.shift_left=function(a){a=a&63;if(a==0)return this;if(a<24)return new
-R(this.lo<<a,this.mi<<a|this.lo>>24-a,this.hi<<a|this.mi>>24-a);if(a<48)return new
-R(0,this.lo<<a-24,this.mi<<a-24|this.lo>>48-a);return new
-R(0,0,this.lo<<a-48)};R.prototype.shift_right_unsigned=function(a){a=a&63;if(a==0)return this;if(a<24)return new
-R(this.lo>>a|this.mi<<24-a,this.mi>>a|this.hi<<24-a,this.hi>>a);if(a<48)return new
-R(this.mi>>a-24|this.hi<<48-a,this.hi>>a-24,0);return new
-R(this.hi>>a-48,0,0)};R.prototype.shift_right=function(a){a=a&63;if(a==0)return this;var
+T(b,c,d)};T.prototype.mul=function(a){var
+b=this.lo*a.lo,c=(b*sT|0)+this.mi*a.lo+this.lo*a.mi,d=(c*sT|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
+T(b,c,d)};T.prototype.isZero=function(){return(this.lo|this.mi|this.hi)==0};T.prototype.isNeg=function(){return this.hi<<16<0};T.prototype.and=function(a){return new
+T(this.lo&a.lo,this.mi&a.mi,this.hi&a.hi)};T.prototype.or=function(a){return new
+T(this.lo|a.lo,this.mi|a.mi,this.hi|a.hi)};T.prototype.xor=function(a){return new
+T(this.lo^a.lo,this.mi^a.mi,this.hi^a.hi)};T.prototype.shift_left=function(a){a=a&63;if(a==0)return this;if(a<24)return new
+T(this.lo<<a,this.mi<<a|this.lo>>24-a,this.hi<<a|this.mi>>24-a);if(a<48)return new
+T(0,this.lo<<a-24,this.mi<<a-24|this.lo>>48-a);return new
+T(0,0,this.lo<<a-48)};T.prototype.shift_right_unsigned=function(a){a=a&63;if(a==0)return this;if(a<24)return new
+T(this.lo>>a|this.mi<<24-a,this.mi>>a|this.hi<<24-a,this.hi>>a);if(a<48)return new
+T(this.mi>>a-24|this.hi<<48-a,this.hi>>a-24,0);return new
+T(this.hi>>a-48,0,0)};T.prototype.shift_right=function(a){a=a&63;if(a==0)return this;var
 c=this.hi<<16>>16;if(a<24)return new
-R(this.lo>>a|this.mi<<24-a,this.mi>>a|c<<24-a,this.hi<<16>>a>>>16);var
+T(this.lo>>a|this.mi<<24-a,this.mi>>a|c<<24-a,this.hi<<16>>a>>>16);var
 b=this.hi<<16>>31;if(a<48)return new
-R(this.mi>>a-24|this.hi<<48-a,this.hi<<16>>a-24>>16,b&cT);return new
-R(this.hi<<16>>a-32,b,b)};R.prototype.lsl1=function(){this.hi=this.hi<<1|this.mi>>23;this.mi=(this.mi<<1|this.lo>>23)&d7;this.lo=this.lo<<1&d7};R.prototype.lsr1=function(){this.lo=(this.lo>>>1|this.mi<<23)&d7;this.mi=(this.mi>>>1|this.hi<<23)&d7;this.hi=this.hi>>>1};R.prototype.udivmod=function(e){var
+T(this.mi>>a-24|this.hi<<48-a,this.hi<<16>>a-24>>16,b&cU);return new
+T(this.hi<<16>>a-32,b,b)};T.prototype.lsl1=function(){this.hi=this.hi<<1|this.mi>>23;this.mi=(this.mi<<1|this.lo>>23)&eb;this.lo=this.lo<<1&eb};T.prototype.lsr1=function(){this.lo=(this.lo>>>1|this.mi<<23)&eb;this.mi=(this.mi>>>1|this.hi<<23)&eb;this.hi=this.hi>>>1};T.prototype.udivmod=function(e){var
 c=0,b=this.copy(),a=e.copy(),d=new
-R(0,0,0);while(b.ucompare(a)>0){c++;a.lsl1()}while(c>=0){c--;d.lsl1();if(b.ucompare(a)>=0){d.lo++;b=b.sub(a)}a.lsr1()}return{quotient:d,modulus:b}};R.prototype.div=function(a){var
-b=this;if(a.isZero())sB();var
-d=b.hi^a.hi;if(b.hi&cp)b=b.neg();if(a.hi&cp)a=a.neg();var
-c=b.udivmod(a).quotient;if(d&cp)c=c.neg();return c};R.prototype.mod=function(b){var
-a=this;if(b.isZero())sB();var
-d=a.hi;if(a.hi&cp)a=a.neg();if(b.hi&cp)b=b.neg();var
-c=a.udivmod(b).modulus;if(d&cp)c=c.neg();return c};R.prototype.toInt=function(){return this.lo|this.mi<<24};R.prototype.toFloat=function(){return(this.hi<<16)*Math.pow(2,32)+this.mi*Math.pow(2,24)+this.lo};R.prototype.toArray=function(){return[this.hi>>8,this.hi&cU,this.mi>>16,this.mi>>8&cU,this.mi&cU,this.lo>>16,this.lo>>8&cU,this.lo&cU]};R.prototype.lo32=function(){return this.lo|(this.mi&cU)<<24};R.prototype.hi32=function(){return this.mi>>>8&cT|this.hi<<16};function
-iq(b,c,a){return new
-R(b,c,a)}function
-ip(a){if(!isFinite(a)){if(isNaN(a))return iq(1,0,qR);return a>0?iq(0,0,qR):iq(0,0,0xfff0)}var
-f=a==0&&1/a==-Infinity?cp:a>=0?0:cp;if(f)a=-a;var
-b=JR(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-qy)}else{a/=Math.pow(2,b-r3);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
+T(0,0,0);while(b.ucompare(a)>0){c++;a.lsl1()}while(c>=0){c--;d.lsl1();if(b.ucompare(a)>=0){d.lo++;b=b.sub(a)}a.lsr1()}return{quotient:d,modulus:b}};T.prototype.div=function(a){var
+b=this;if(a.isZero())sY();var
+d=b.hi^a.hi;if(b.hi&ct)b=b.neg();if(a.hi&ct)a=a.neg();var
+c=b.udivmod(a).quotient;if(d&ct)c=c.neg();return c};T.prototype.mod=function(b){var
+a=this;if(b.isZero())sY();var
+d=a.hi;if(a.hi&ct)a=a.neg();if(b.hi&ct)b=b.neg();var
+c=a.udivmod(b).modulus;if(d&ct)c=c.neg();return c};T.prototype.toInt=function(){return this.lo|this.mi<<24};T.prototype.toFloat=function(){return(this.hi<<16)*Math.pow(2,32)+this.mi*Math.pow(2,24)+this.lo};T.prototype.toArray=function(){return[this.hi>>8,this.hi&cV,this.mi>>16,this.mi>>8&cV,this.mi&cV,this.lo>>16,this.lo>>8&cV,this.lo&cV]};T.prototype.lo32=function(){return this.lo|(this.mi&cV)<<24};T.prototype.hi32=function(){return this.mi>>>8&cU|this.hi<<16};function
+iu(b,c,a){return new
+T(b,c,a)}function
+it(a){if(!isFinite(a)){if(isNaN(a))return iu(1,0,rc);return a>0?iu(0,0,rc):iu(0,0,0xfff0)}var
+f=a==0&&1/a==-Infinity?ct:a>=0?0:ct;if(f)a=-a;var
+b=Kk(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-qV)}else{a/=Math.pow(2,b-so);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
 d=Math.pow(2,24),c=a|0;a=(a-c)*d;var
 e=a|0;a=(a-e)*d;var
-g=a|0;c=c&kV|f|b<<4;return iq(g,e,c)}function
-gl(a){return a.toArray()}function
-sk(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==ij)for(var
-a=0;a<b.dims.length;a++)if(b.dims[a]<cT)c.write(16,b.dims[a]);else{c.write(16,cT);c.write(32,0);c.write(32,b.dims[a])}else
+g=a|0;c=c&k5|f|b<<4;return iu(g,e,c)}function
+gp(a){return a.toArray()}function
+sH(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==io)for(var
+a=0;a<b.dims.length;a++)if(b.dims[a]<cU)c.write(16,b.dims[a]);else{c.write(16,cU);c.write(32,0);c.write(32,b.dims[a])}else
 for(var
 a=0;a<b.dims.length;a++)c.write(32,b.dims[a]);switch(b.kind){case
 2:case
@@ -113,52 +113,52 @@ a=0;a<b.data.length;a++)c.write(32,b.data[a]);break;case
 a=0;a<b.data.length;a++)c.write(32,b.data[a]);break;case
 7:for(var
 a=0;a<b.data.length/2;a++){var
-e=gl(b.get(a));for(var
+e=gp(b.get(a));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 1:for(var
 a=0;a<b.data.length;a++){var
-e=gl(ip(b.get(a)));for(var
+e=gp(it(b.get(a)));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 0:for(var
 a=0;a<b.data.length;a++){var
-e=lf(b.get(a));c.write(32,e)}break;case
+e=lp(b.get(a));c.write(32,e)}break;case
 10:for(var
 a=0;a<b.data.length/2;a++){var
-d=b.get(a);c.write(32,lf(d[1]));c.write(32,lf(d[2]))}break;case
+d=b.get(a);c.write(32,lp(d[1]));c.write(32,lp(d[2]))}break;case
 11:for(var
 a=0;a<b.data.length/2;a++){var
-f=b.get(a),e=gl(ip(f[1]));for(var
+f=b.get(a),e=gp(it(f[1]));for(var
 d=0;d<8;d++)c.write(8,e[d]);var
-e=gl(ip(f[2]));for(var
+e=gp(it(f[2]));for(var
 d=0;d<8;d++)c.write(8,e[d])}break}g[0]=(4+b.dims.length)*4;g[1]=(4+b.dims.length)*8}function
-JK(b,a){throw[0,b,a]}function
-sJ(a){if(a.length<24){for(var
+Kd(b,a){throw[0,b,a]}function
+s6(a){if(a.length<24){for(var
 b=0;b<a.length;b++)if(a.charCodeAt(b)>127)return false;return true}else
 return!/[^\x00-\x7f]/.test(a)}function
-lo(e){for(var
-j=af,c=af,g,f,h,a,b=0,i=e.length;b<i;b++){f=e.charCodeAt(b);if(f<b6){for(var
-d=b+1;d<i&&(f=e.charCodeAt(d))<b6;d++);if(d-b>qS){c.substr(0,1);j+=c;c=af;j+=e.slice(b,d)}else
-c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==ge){g=h+(f<<6);if(f<rl){a=g-0x3080;if(a<b6)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==ge){g=h+(g<<6);if(f<rt){a=g-0xe2080;if(a<rc||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==ge&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
-if(a>cT)c+=String.fromCharCode(0xd7c0+(a>>10),q6+(a&0x3FF));else
-c+=String.fromCharCode(a);if(c.length>ga){c.substr(0,1);j+=c;c=af}}return j+c}function
-cq(c,a,b){this.t=c;this.c=a;this.l=b}cq.prototype.toString=function(){switch(this.t){case
-9:return this.c;default:e5(this);case
-0:if(sJ(this.c)){this.t=9;return this.c}this.t=8;case
-8:return this.c}};cq.prototype.toUtf16=function(){var
-a=this.toString();if(this.t==9)return a;return lo(a)};cq.prototype.slice=function(){var
+ly(e){for(var
+j=af,c=af,g,f,h,a,b=0,i=e.length;b<i;b++){f=e.charCodeAt(b);if(f<b9){for(var
+d=b+1;d<i&&(f=e.charCodeAt(d))<b9;d++);if(d-b>rd){c.substr(0,1);j+=c;c=af;j+=e.slice(b,d)}else
+c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==gi){g=h+(f<<6);if(f<rI){a=g-0x3080;if(a<b9)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==gi){g=h+(g<<6);if(f<rQ){a=g-0xe2080;if(a<rz||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==gi&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
+if(a>cU)c+=String.fromCharCode(0xd7c0+(a>>10),rr+(a&0x3FF));else
+c+=String.fromCharCode(a);if(c.length>ge){c.substr(0,1);j+=c;c=af}}return j+c}function
+cu(c,a,b){this.t=c;this.c=a;this.l=b}cu.prototype.toString=function(){switch(this.t){case
+9:return this.c;default:e8(this);case
+0:if(s6(this.c)){this.t=9;return this.c}this.t=8;case
+8:return this.c}};cu.prototype.toUtf16=function(){var
+a=this.toString();if(this.t==9)return a;return ly(a)};cu.prototype.slice=function(){var
 a=this.t==4?this.c.slice():this.c;return new
-cq(this.t,a,this.l)};function
-sn(a){return new
-cq(0,a,a.length)}function
-a(a){return sn(a)}function
-lm(c,b){JK(c,a(b))}function
-a0(a){lm(aF.Invalid_argument,a)}function
-si(a){switch(a){case
+cu(this.t,a,this.l)};function
+sK(a){return new
+cu(0,a,a.length)}function
+a(a){return sK(a)}function
+lw(c,b){Kd(c,a(b))}function
+a1(a){lw(aH.Invalid_argument,a)}function
+sF(a){switch(a){case
 7:case
 10:case
 11:return 2;default:return 1}}function
-Jc(c,e){var
-b=S,a;switch(c){case
+JH(c,e){var
+b=U,a;switch(c){case
 0:a=b.Float32Array;break;case
 1:a=b.Float64Array;break;case
 2:a=b.Int8Array;break;case
@@ -171,52 +171,52 @@ b=S,a;switch(c){case
 9:a=b.Int32Array;break;case
 10:a=b.Float32Array;break;case
 11:a=b.Float64Array;break;case
-12:a=b.Uint8Array;break}if(!a)a0("Bigarray.create: unsupported kind");var
+12:a=b.Uint8Array;break}if(!a)a1("Bigarray.create: unsupported kind");var
 d=new
-a(e*si(c));return d}function
-lg(c){var
-a=new(S.Int32Array)(1);a[0]=c;var
-b=new(S.Float32Array)(a.buffer);return b[0]}function
-gk(a){return new
-R(a[7]<<0|a[6]<<8|a[5]<<16,a[4]<<0|a[3]<<8|a[2]<<16,a[1]<<0|a[0]<<8)}function
-lh(d){var
-f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&kV)==0?b&cp?-Infinity:Infinity:NaN;var
-e=Math.pow(2,-24),a=(f*e+g)*e+(b&kV);if(c>0){a+=16;a*=Math.pow(2,c-r3)}else
-a*=Math.pow(2,-qy);if(b&cp)a=-a;return a}function
-lb(b){var
+a(e*sF(c));return d}function
+lq(c){var
+a=new(U.Int32Array)(1);a[0]=c;var
+b=new(U.Float32Array)(a.buffer);return b[0]}function
+go(a){return new
+T(a[7]<<0|a[6]<<8|a[5]<<16,a[4]<<0|a[3]<<8|a[2]<<16,a[1]<<0|a[0]<<8)}function
+lr(d){var
+f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&k5)==0?b&ct?-Infinity:Infinity:NaN;var
+e=Math.pow(2,-24),a=(f*e+g)*e+(b&k5);if(c>0){a+=16;a*=Math.pow(2,c-so)}else
+a*=Math.pow(2,-qV);if(b&ct)a=-a;return a}function
+ll(b){var
 d=b.length,c=1;for(var
-a=0;a<d;a++){if(b[a]<0)a0("Bigarray.create: negative dimension");c=c*b[a]}return c}function
-Js(b,a){return new
-R(b&d7,b>>>24&cU|(a&cT)<<8,a>>>16&cT)}function
-li(a){return a.hi32()}function
-lj(a){return a.lo32()}function
-im(){a0(k7)}var
-Jd=ij;function
-dv(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}dv.prototype.caml_custom=Jd;dv.prototype.offset=function(b){var
+a=0;a<d;a++){if(b[a]<0)a1("Bigarray.create: negative dimension");c=c*b[a]}return c}function
+JX(b,a){return new
+T(b&eb,b>>>24&cV|(a&cU)<<8,a>>>16&cU)}function
+ls(a){return a.hi32()}function
+lt(a){return a.lo32()}function
+ir(){a1(lf)}var
+JI=io;function
+dw(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}dw.prototype.caml_custom=JI;dw.prototype.offset=function(b){var
 c=0;if(typeof
 b==="number")b=[b];if(!(b
 instanceof
-Array))a0("bigarray.js: invalid offset");if(this.dims.length!=b.length)a0("Bigarray.get/set: bad number of dimensions");if(this.layout==0)for(var
-a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])im();c=c*this.dims[a]+b[a]}else
+Array))a1("bigarray.js: invalid offset");if(this.dims.length!=b.length)a1("Bigarray.get/set: bad number of dimensions");if(this.layout==0)for(var
+a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])ir();c=c*this.dims[a]+b[a]}else
 for(var
-a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])im();c=c*this.dims[a]+(b[a]-1)}return c};dv.prototype.get=function(a){switch(this.kind){case
+a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])ir();c=c*this.dims[a]+(b[a]-1)}return c};dw.prototype.get=function(a){switch(this.kind){case
 7:var
-d=this.data[a*2+0],b=this.data[a*2+1];return Js(d,b);case
+d=this.data[a*2+0],b=this.data[a*2+1];return JX(d,b);case
 10:case
 11:var
-e=this.data[a*2+0],c=this.data[a*2+1];return[h9,e,c];default:return this.data[a]}};dv.prototype.set=function(a,b){switch(this.kind){case
-7:this.data[a*2+0]=lj(b);this.data[a*2+1]=li(b);break;case
+e=this.data[a*2+0],c=this.data[a*2+1];return[ib,e,c];default:return this.data[a]}};dw.prototype.set=function(a,b){switch(this.kind){case
+7:this.data[a*2+0]=lt(b);this.data[a*2+1]=ls(b);break;case
 10:case
-11:this.data[a*2+0]=b[1];this.data[a*2+1]=b[2];break;default:this.data[a]=b;break}return 0};dv.prototype.fill=function(b){switch(this.kind){case
+11:this.data[a*2+0]=b[1];this.data[a*2+1]=b[2];break;default:this.data[a]=b;break}return 0};dw.prototype.fill=function(b){switch(this.kind){case
 7:var
-c=lj(b),e=li(b);if(c==e)this.data.fill(c);else
+c=lt(b),e=ls(b);if(c==e)this.data.fill(c);else
 for(var
 a=0;a<this.data.length;a++)this.data[a]=a%2==0?c:e;break;case
 10:case
 11:var
 d=b[1],f=b[2];if(d==f)this.data.fill(d);else
 for(var
-a=0;a<this.data.length;a++)this.data[a]=a%2==0?d:f;break;default:this.data.fill(b);break}};dv.prototype.compare=function(b,g){if(this.layout!=b.layout||this.kind!=b.kind){var
+a=0;a<this.data.length;a++)this.data[a]=a%2==0?d:f;break;default:this.data.fill(b);break}};dw.prototype.compare=function(b,g){if(this.layout!=b.layout||this.kind!=b.kind){var
 e=this.kind|this.layout<<8,f=b.kind|b.layout<<8;return f-e}if(this.dims.length!=b.dims.length)return b.dims.length-this.dims.length;for(var
 a=0;a<this.dims.length;a++)if(this.dims[a]!=b.dims[a])return this.dims[a]<b.dims[a]?-1:1;switch(this.kind){case
 0:case
@@ -236,26 +236,26 @@ a=0;a<this.data.length;a+=2){if(this.data[a+1]<b.data[a+1])return-1;if(this.data
 9:case
 12:for(var
 a=0;a<this.data.length;a++){if(this.data[a]<b.data[a])return-1;if(this.data[a]>b.data[a])return 1}break}return 0};function
-e2(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}e2.prototype=new
-dv();e2.prototype.offset=function(a){if(typeof
+e5(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}e5.prototype=new
+dw();e5.prototype.offset=function(a){if(typeof
 a!=="number")if(a
 instanceof
 Array&&a.length==1)a=a[0];else
-a0("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])im();return a};e2.prototype.get=function(a){return this.data[a]};e2.prototype.set=function(a,b){this.data[a]=b;return 0};e2.prototype.fill=function(a){this.data.fill(a);return 0};function
-sg(c,d,a,b){var
-e=si(c);if(lb(a)*e!=b.length)a0("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
-e2(c,d,a,b);return new
-dv(c,d,a,b)}function
-b9(b){if(!aF.Failure)aF.Failure=[a8,a(kX),-3];lm(aF.Failure,b)}function
-sh(b,v,r){var
-i=b.read32s();if(i<0||i>16)b9("input_value: wrong number of bigarray dimensions");var
-p=b.read32s(),j=p&cU,o=p>>8&1,h=[];if(r==ij)for(var
+a1("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])ir();return a};e5.prototype.get=function(a){return this.data[a]};e5.prototype.set=function(a,b){this.data[a]=b;return 0};e5.prototype.fill=function(a){this.data.fill(a);return 0};function
+sD(c,d,a,b){var
+e=sF(c);if(ll(a)*e!=b.length)a1("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
+e5(c,d,a,b);return new
+dw(c,d,a,b)}function
+ca(b){if(!aH.Failure)aH.Failure=[a_,a(k7),-3];lw(aH.Failure,b)}function
+sE(b,v,r){var
+i=b.read32s();if(i<0||i>16)ca("input_value: wrong number of bigarray dimensions");var
+p=b.read32s(),j=p&cV,o=p>>8&1,h=[];if(r==io)for(var
 a=0;a<i;a++){var
-n=b.read16u();if(n==cT){var
-t=b.read32u(),u=b.read32u();if(t!=0)b9("input_value: bigarray dimension overflow in 32bit");n=u}h.push(n)}else
+n=b.read16u();if(n==cU){var
+t=b.read32u(),u=b.read32u();if(t!=0)ca("input_value: bigarray dimension overflow in 32bit");n=u}h.push(n)}else
 for(var
 a=0;a<i;a++)h.push(b.read32u());var
-d=lb(h),f=Jc(j,d),g=sg(j,o,h,f);switch(j){case
+d=ll(h),f=JH(j,d),g=sD(j,o,h,f);switch(j){case
 2:for(var
 a=0;a<d;a++)f[a]=b.read8s();break;case
 3:case
@@ -269,129 +269,129 @@ a=0;a<d;a++)f[a]=b.read16u();break;case
 a=0;a<d;a++)f[a]=b.read32s();break;case
 8:case
 9:var
-s=b.read8u();if(s)b9("input_value: cannot read bigarray with 64-bit OCaml ints");for(var
+s=b.read8u();if(s)ca("input_value: cannot read bigarray with 64-bit OCaml ints");for(var
 a=0;a<d;a++)f[a]=b.read32s();break;case
 7:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-q=gk(e);g.set(a,q)}break;case
+q=go(e);g.set(a,q)}break;case
 1:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-k=lh(gk(e));g.set(a,k)}break;case
+k=lr(go(e));g.set(a,k)}break;case
 0:for(var
 a=0;a<d;a++){var
-k=lg(b.read32s());g.set(a,k)}break;case
+k=lq(b.read32s());g.set(a,k)}break;case
 10:for(var
 a=0;a<d;a++){var
-m=lg(b.read32s()),l=lg(b.read32s());g.set(a,[h9,m,l])}break;case
+m=lq(b.read32s()),l=lq(b.read32s());g.set(a,[ib,m,l])}break;case
 11:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-m=lh(gk(e));for(var
+m=lr(go(e));for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-l=lh(gk(e));g.set(a,[h9,m,l])}break}v[0]=(4+i)*4;return sg(j,o,h,f)}function
-sf(a,b,c){return a.compare(b,c)}function
-ll(a,b){return Math.imul(a,b)}function
-cV(b,a){a=ll(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=ll(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
-Jp(a,b){a=cV(a,lj(b));a=cV(a,li(b));return a}function
-sv(a,b){return Jp(a,ip(b))}function
-sj(c){var
-b=lb(c.dims),d=0;switch(c.kind){case
+l=lr(go(e));g.set(a,[ib,m,l])}break}v[0]=(4+i)*4;return sD(j,o,h,f)}function
+sC(a,b,c){return a.compare(b,c)}function
+lv(a,b){return Math.imul(a,b)}function
+cW(b,a){a=lv(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=lv(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
+JU(a,b){a=cW(a,lt(b));a=cW(a,ls(b));return a}function
+sS(a,b){return JU(a,it(b))}function
+sG(c){var
+b=ll(c.dims),d=0;switch(c.kind){case
 2:case
 3:case
-12:if(b>q9)b=q9;var
-e=0,a=0;for(a=0;a+4<=c.data.length;a+=4){e=c.data[a+0]|c.data[a+1]<<8|c.data[a+2]<<16|c.data[a+3]<<24;d=cV(d,e)}e=0;switch(b&3){case
+12:if(b>ru)b=ru;var
+e=0,a=0;for(a=0;a+4<=c.data.length;a+=4){e=c.data[a+0]|c.data[a+1]<<8|c.data[a+2]<<16|c.data[a+3]<<24;d=cW(d,e)}e=0;switch(b&3){case
 3:e=c.data[a+2]<<16;case
 2:e|=c.data[a+1]<<8;case
-1:e|=c.data[a+0];d=cV(d,e)}break;case
+1:e|=c.data[a+0];d=cW(d,e)}break;case
 4:case
-5:if(b>ge)b=ge;var
-e=0,a=0;for(a=0;a+2<=c.data.length;a+=2){e=c.data[a+0]|c.data[a+1]<<16;d=cV(d,e)}if((b&1)!=0)d=cV(d,c.data[a]);break;case
+5:if(b>gi)b=gi;var
+e=0,a=0;for(a=0;a+2<=c.data.length;a+=2){e=c.data[a+0]|c.data[a+1]<<16;d=cW(d,e)}if((b&1)!=0)d=cW(d,c.data[a]);break;case
 6:if(b>64)b=64;for(var
-a=0;a<b;a++)d=cV(d,c.data[a]);break;case
+a=0;a<b;a++)d=cW(d,c.data[a]);break;case
 8:case
 9:if(b>64)b=64;for(var
-a=0;a<b;a++)d=cV(d,c.data[a]);break;case
+a=0;a<b;a++)d=cW(d,c.data[a]);break;case
 7:if(b>32)b=32;b*=2;for(var
-a=0;a<b;a++)d=cV(d,c.data[a]);break;case
+a=0;a<b;a++)d=cW(d,c.data[a]);break;case
 10:b*=2;case
 0:if(b>64)b=64;for(var
-a=0;a<b;a++)d=sv(d,c.data[a]);break;case
+a=0;a<b;a++)d=sS(d,c.data[a]);break;case
 11:b*=2;case
 1:if(b>32)b=32;for(var
-a=0;a<b;a++)d=sv(d,c.data[a]);break}return d}function
-Jq(a,b){b[0]=4;return a.read32s()}function
-JF(a,b){switch(a.read8u()){case
+a=0;a<b;a++)d=sS(d,c.data[a]);break}return d}function
+JV(a,b){b[0]=4;return a.read32s()}function
+J_(a,b){switch(a.read8u()){case
 1:b[0]=4;return a.read32s();case
-2:b9("input_value: native integer value too large");default:b9("input_value: ill-formed native integer")}}function
-Jv(c,d){var
+2:ca("input_value: native integer value too large");default:ca("input_value: ill-formed native integer")}}function
+J0(c,d){var
 b=new
 Array(8);for(var
-a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return gk(b)}function
-Ju(e,d,b){var
-c=gl(d);for(var
+a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return go(b)}function
+JZ(e,d,b){var
+c=gp(d);for(var
 a=0;a<8;a++)e.write(8,c[a]);b[0]=8;b[1]=8}function
-Jr(a,b,c){return a.compare(b)}function
-Jt(a){return a.lo32()^a.hi32()}var
-sq={"_j":{deserialize:Jv,serialize:Ju,fixed_length:8,compare:Jr,hash:Jt},"_i":{deserialize:Jq,fixed_length:4},"_n":{deserialize:JF,fixed_length:4},"_bigarray":{deserialize:function(a,b){return sh(a,b,"_bigarray")},serialize:sk,compare:sf,hash:sj},"_bigarr02":{deserialize:function(a,b){return sh(a,b,ij)},serialize:sk,compare:sf,hash:sj}};function
-le(a){return sq[a.caml_custom]&&sq[a.caml_custom].compare}function
-so(f,c,d,e){var
-b=le(c);if(b){var
+JW(a,b,c){return a.compare(b)}function
+JY(a){return a.lo32()^a.hi32()}var
+sN={"_j":{deserialize:J0,serialize:JZ,fixed_length:8,compare:JW,hash:JY},"_i":{deserialize:JV,fixed_length:4},"_n":{deserialize:J_,fixed_length:4},"_bigarray":{deserialize:function(a,b){return sE(a,b,"_bigarray")},serialize:sH,compare:sC,hash:sG},"_bigarr02":{deserialize:function(a,b){return sE(a,b,io)},serialize:sH,compare:sC,hash:sG}};function
+lo(a){return sN[a.caml_custom]&&sN[a.caml_custom].compare}function
+sL(f,c,d,e){var
+b=lo(c);if(b){var
 a=d>0?b(c,f,e):b(f,c,e);if(e&&a!=a)return d;if(+a!=+a)return+a;if((a|0)!=0)return a|0}return d}function
-lk(a){return a
+lu(a){return a
 instanceof
-cq}function
-sx(a){return lk(a)}function
-sp(a){if(typeof
-a==="number")return ih;else
-if(lk(a))return 252;else
-if(sx(a))return 1252;else
+cu}function
+sU(a){return lu(a)}function
+sM(a){if(typeof
+a==="number")return il;else
+if(lu(a))return 252;else
+if(sU(a))return 1252;else
 if(a
 instanceof
 Array&&a[0]===a[0]>>>0&&a[0]<=255){var
-b=a[0]|0;return b==h9?0:b}else
+b=a[0]|0;return b==ib?0:b}else
 if(a
 instanceof
-String)return rF;else
+String)return r2;else
 if(typeof
-a=="string")return rF;else
+a=="string")return r2;else
 if(a
 instanceof
-Number)return ih;else
-if(a&&a.caml_custom)return kZ;else
+Number)return il;else
+if(a&&a.caml_custom)return k9;else
 if(a&&a.compare)return 1256;else
 if(typeof
 a=="function")return 1247;else
 if(typeof
 a=="symbol")return 1251;return 1001}function
-Jw(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
-sm(a,b){a.t&6&&e5(a);b.t&6&&e5(b);return a.c<b.c?-1:a.c>b.c?1:0}function
-sF(a,b){return sm(a,b)}function
-ld(a,b,d){var
+J1(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
+sJ(a,b){a.t&6&&e8(a);b.t&6&&e8(b);return a.c<b.c?-1:a.c>b.c?1:0}function
+s2(a,b){return sJ(a,b)}function
+ln(a,b,d){var
 e=[];for(;;){if(!(d&&a===b)){var
-f=sp(a);if(f==rd){a=a[1];continue}var
-g=sp(b);if(g==rd){b=b[1];continue}if(f!==g){if(f==ih){if(g==kZ)return so(a,b,-1,d);return-1}if(g==ih){if(f==kZ)return so(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
-247:a0(kO);break;case
+f=sM(a);if(f==rA){a=a[1];continue}var
+g=sM(b);if(g==rA){b=b[1];continue}if(f!==g){if(f==il){if(g==k9)return sL(a,b,-1,d);return-1}if(g==il){if(f==k9)return sL(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
+247:a1(kY);break;case
 248:var
-c=Jw(a[2],b[2]);if(c!=0)return c|0;break;case
-249:a0(kO);break;case
-250:a0("equal: got Forward_tag, should not happen");break;case
-251:a0("equal: abstract value");break;case
+c=J1(a[2],b[2]);if(c!=0)return c|0;break;case
+249:a1(kY);break;case
+250:a1("equal: got Forward_tag, should not happen");break;case
+251:a1("equal: abstract value");break;case
 252:if(a!==b){var
-c=sm(a,b);if(c!=0)return c|0}break;case
-253:a0("equal: got Double_tag, should not happen");break;case
-254:a0("equal: got Double_array_tag, should not happen");break;case
-255:a0("equal: got Custom_tag, should not happen");break;case
-1247:a0(kO);break;case
+c=sJ(a,b);if(c!=0)return c|0}break;case
+253:a1("equal: got Double_tag, should not happen");break;case
+254:a1("equal: got Double_array_tag, should not happen");break;case
+255:a1("equal: got Custom_tag, should not happen");break;case
+1247:a1(kY);break;case
 1255:var
-i=le(a);if(i!=le(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)a0("compare: abstract value");var
+i=lo(a);if(i!=lo(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)a1("compare: abstract value");var
 c=i(a,b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
 1256:var
 c=a.compare(b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
@@ -399,182 +399,182 @@ c=a.compare(b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;
 1001:if(a<b)return-1;if(a>b)return 1;if(a!=b){if(!d)return NaN;if(a==a)return 1;if(b==b)return-1}break;case
 1251:if(a!==b){if(!d)return NaN;return 1}break;case
 1252:var
-a=e6(a),b=e6(b);if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
+a=e9(a),b=e9(b);if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
 12520:var
 a=a.toString(),b=b.toString();if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
 246:case
 254:default:if(a.length!=b.length)return a.length<b.length?-1:1;if(a.length>1)e.push(a,b,1);break}}if(e.length==0)return 0;var
 h=e.pop();b=e.pop();a=e.pop();if(h+1<a.length)e.push(a,b,h+1);a=a[h];b=b[h]}}function
-Jk(a,b){return ld(a,b,true)}function
-cs(a){if(a<0)a0("Bytes.create");return new
-cq(a?2:9,af,a)}function
-sr(a,b){return+(ld(a,b,false)==0)}function
-Jm(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=af;a.t=2}else{a.c=sE(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)io(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}var
-JG=0;function
-st(){return JG++}function
-Jy(a){return a.toUtf16()}function
-gm(){return typeof
-S.process!=="undefined"&&typeof
-S.process.versions!=="undefined"&&typeof
-S.process.versions.node!=="undefined"}function
-JT(){function
-a(a){if(a.charAt(0)===b8)return[af,a.substring(1)];return}function
+JP(a,b){return ln(a,b,true)}function
+cw(a){if(a<0)a1("Bytes.create");return new
+cu(a?2:9,af,a)}function
+sO(a,b){return+(ln(a,b,false)==0)}function
+JR(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=af;a.t=2}else{a.c=s1(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)is(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}var
+J$=0;function
+sQ(){return J$++}function
+J3(a){return a.toUtf16()}function
+gq(){return typeof
+U.process!=="undefined"&&typeof
+U.process.versions!=="undefined"&&typeof
+U.process.versions.node!=="undefined"}function
+Km(){function
+a(a){if(a.charAt(0)===b$)return[af,a.substring(1)];return}function
 b(c){var
 g=/^([a-zA-Z]:|[\\/]{2}[^\\/]+[\\/]+[^\\/]+)?([\\/])?([\s\S]*?)$/,a=g.exec(c),b=a[1]||af,e=Boolean(b&&b.charAt(1)!==":");if(Boolean(a[2]||e)){var
-d=a[1]||af,f=a[2]||af;return[d,c.substring(d.length+f.length)]}return}return gm()&&S.process&&S.process.platform?S.process.platform==="win32"?b:a:a}var
-lr=JT();function
-sG(a){return a.slice(-1)!==b8?a+b8:a}if(gm()&&S.process&&S.process.cwd)var
-gj=S.process.cwd().replace(/\\/g,b8);else
+d=a[1]||af,f=a[2]||af;return[d,c.substring(d.length+f.length)]}return}return gq()&&U.process&&U.process.platform?U.process.platform==="win32"?b:a:a}var
+lB=Km();function
+s3(a){return a.slice(-1)!==b$?a+b$:a}if(gq()&&U.process&&U.process.cwd)var
+gn=U.process.cwd().replace(/\\/g,b$);else
 var
-gj="/static";gj=sG(gj);function
-JA(a){a=Jy(a);if(!lr(a))a=gj+a;var
-e=lr(a),d=e[1].split(b8),b=[];for(var
+gn="/static";gn=s3(gn);function
+J5(a){a=J3(a);if(!lB(a))a=gn+a;var
+e=lB(a),d=e[1].split(b$),b=[];for(var
 c=0;c<d.length;c++)switch(d[c]){case"..":if(b.length>1)b.pop();break;case".":break;default:b.push(d[c]);break}b.unshift(e[0]);b.orig=a;return b}function
-JO(e){for(var
-f=af,b=f,a,h,c=0,g=e.length;c<g;c++){a=e.charCodeAt(c);if(a<b6){for(var
-d=c+1;d<g&&(a=e.charCodeAt(d))<b6;d++);if(d-c>qS){b.substr(0,1);f+=b;b=af;f+=e.slice(c,d)}else
-b+=e.slice(c,d);if(d==g)break;c=d}if(a<rc){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(b6|a&eY)}else
-if(a<0xd800||a>=rj)b+=String.fromCharCode(rl|a>>12,b6|a>>6&eY,b6|a&eY);else
-if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<q6||h>rj)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(rt|a>>18,b6|a>>12&eY,b6|a>>6&eY,b6|a&eY)}if(b.length>ga){b.substr(0,1);f+=b;b=af}}return f+b}function
-Jh(a){var
-b=9;if(!sJ(a))b=8,a=JO(a);return new
-cq(b,a,a.length)}function
-e7(a){return Jh(a)}var
-JW=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",q0,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",kW,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",k1,q5,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
-d$(d,f,e,a){var
-b=JW.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
-c=[b,e7(f||af),e7(e||af)];return c}var
-sz={};function
-d8(a){return sz[a]}function
-d9(b,a){throw[0,b].concat(a)}function
-Jg(a){return new
-cq(4,a,a.length)}function
-as(a){lm(aF.Sys_error,a)}function
-JJ(a){as(a+h7)}function
-sl(){a0(k7)}function
-Jf(b,a){if(a>>>0>=b.l)sl();return lc(b,a)}function
-is(a){return a.l}function
-se(){}function
-aY(a){this.data=a}aY.prototype=new
-se();aY.prototype.truncate=function(a){var
-b=this.data;this.data=cs(a|0);gi(b,0,this.data,0,a)};aY.prototype.length=function(){return is(this.data)};aY.prototype.write=function(b,d,g,a){var
+Kh(e){for(var
+f=af,b=f,a,h,c=0,g=e.length;c<g;c++){a=e.charCodeAt(c);if(a<b9){for(var
+d=c+1;d<g&&(a=e.charCodeAt(d))<b9;d++);if(d-c>rd){b.substr(0,1);f+=b;b=af;f+=e.slice(c,d)}else
+b+=e.slice(c,d);if(d==g)break;c=d}if(a<rz){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(b9|a&e1)}else
+if(a<0xd800||a>=rG)b+=String.fromCharCode(rI|a>>12,b9|a>>6&e1,b9|a&e1);else
+if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<rr||h>rG)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(rQ|a>>18,b9|a>>12&e1,b9|a>>6&e1,b9|a&e1)}if(b.length>ge){b.substr(0,1);f+=b;b=af}}return f+b}function
+JM(a){var
+b=9;if(!s6(a))b=8,a=Kh(a);return new
+cu(b,a,a.length)}function
+e_(a){return JM(a)}var
+Kp=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",rl,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",k6,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",k$,rq,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
+ef(d,f,e,a){var
+b=Kp.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
+c=[b,e_(f||af),e_(e||af)];return c}var
+sW={};function
+ec(a){return sW[a]}function
+ed(b,a){throw[0,b].concat(a)}function
+JL(a){return new
+cu(4,a,a.length)}function
+at(a){lw(aH.Sys_error,a)}function
+Kc(a){at(a+h$)}function
+sI(){a1(lf)}function
+JK(b,a){if(a>>>0>=b.l)sI();return lm(b,a)}function
+iw(a){return a.l}function
+sB(){}function
+aZ(a){this.data=a}aZ.prototype=new
+sB();aZ.prototype.truncate=function(a){var
+b=this.data;this.data=cw(a|0);gm(b,0,this.data,0,a)};aZ.prototype.length=function(){return iw(this.data)};aZ.prototype.write=function(b,d,g,a){var
 c=this.length();if(b+a>=c){var
-e=cs(b+a),f=this.data;this.data=e;gi(f,0,this.data,0,c)}e3(d,g,this.data,b,a);return 0};aY.prototype.read=function(c,a,d,b){var
-e=this.length();gi(this.data,c,a,d,b);return 0};aY.prototype.read_one=function(a){return Jf(this.data,a)};aY.prototype.close=function(){};aY.prototype.constructor=aY;function
-bd(b,a){this.content={};this.root=b;this.lookupFun=a}bd.prototype.nm=function(a){return this.root+a};bd.prototype.create_dir_if_needed=function(d){var
-c=d.split(b8),b=af;for(var
-a=0;a<c.length-1;a++){b+=c[a]+b8;if(this.content[b])continue;this.content[b]=Symbol("directory")}};bd.prototype.slash=function(a){return/\/$/.test(a)?a:a+b8};bd.prototype.lookup=function(b){if(!this.content[b]&&this.lookupFun){var
+e=cw(b+a),f=this.data;this.data=e;gm(f,0,this.data,0,c)}e6(d,g,this.data,b,a);return 0};aZ.prototype.read=function(c,a,d,b){var
+e=this.length();gm(this.data,c,a,d,b);return 0};aZ.prototype.read_one=function(a){return JK(this.data,a)};aZ.prototype.close=function(){};aZ.prototype.constructor=aZ;function
+bf(b,a){this.content={};this.root=b;this.lookupFun=a}bf.prototype.nm=function(a){return this.root+a};bf.prototype.create_dir_if_needed=function(d){var
+c=d.split(b$),b=af;for(var
+a=0;a<c.length-1;a++){b+=c[a]+b$;if(this.content[b])continue;this.content[b]=Symbol("directory")}};bf.prototype.slash=function(a){return/\/$/.test(a)?a:a+b$};bf.prototype.lookup=function(b){if(!this.content[b]&&this.lookupFun){var
 c=this.lookupFun(a(this.root),a(b));if(c!==0){this.create_dir_if_needed(b);this.content[b]=new
-aY(e4(c[1]))}}};bd.prototype.exists=function(a){if(a==af)return 1;var
-b=this.slash(a);if(this.content[b])return 1;this.lookup(a);return this.content[a]?1:0};bd.prototype.mkdir=function(c,e,d){var
-b=d&&d8(kS);if(this.exists(c))if(b)d9(b,d$(q0,kR,this.nm(c)));else
-as(c+": File exists");var
-a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||af;if(!this.exists(a))if(b)d9(b,d$(kW,kR,this.nm(a)));else
-as(a+h7);if(!this.is_dir(a))if(b)d9(b,d$(k1,kR,this.nm(a)));else
-as(a+k9);this.create_dir_if_needed(this.slash(c))};bd.prototype.rmdir=function(a,f){var
-b=f&&d8(kS),c=a==af?af:this.slash(a),e=new
-RegExp(k4+c+q7);if(!this.exists(a))if(b)d9(b,d$(kW,kP,this.nm(a)));else
-as(a+h7);if(!this.is_dir(a))if(b)d9(b,d$(k1,kP,this.nm(a)));else
-as(a+k9);for(var
+aZ(e7(c[1]))}}};bf.prototype.exists=function(a){if(a==af)return 1;var
+b=this.slash(a);if(this.content[b])return 1;this.lookup(a);return this.content[a]?1:0};bf.prototype.mkdir=function(c,e,d){var
+b=d&&ec(k2);if(this.exists(c))if(b)ed(b,ef(rl,k1,this.nm(c)));else
+at(c+": File exists");var
+a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||af;if(!this.exists(a))if(b)ed(b,ef(k6,k1,this.nm(a)));else
+at(a+h$);if(!this.is_dir(a))if(b)ed(b,ef(k$,k1,this.nm(a)));else
+at(a+lh);this.create_dir_if_needed(this.slash(c))};bf.prototype.rmdir=function(a,f){var
+b=f&&ec(k2),c=a==af?af:this.slash(a),e=new
+RegExp(lc+c+rs);if(!this.exists(a))if(b)ed(b,ef(k6,kZ,this.nm(a)));else
+at(a+h$);if(!this.is_dir(a))if(b)ed(b,ef(k$,kZ,this.nm(a)));else
+at(a+lh);for(var
 d
 in
-this.content)if(d.match(e))if(b)d9(b,d$(q5,kP,this.nm(a)));else
-as(this.nm(a)+": Directory not empty");delete
-this.content[c]};bd.prototype.readdir=function(a){var
-f=a==af?af:this.slash(a);if(!this.exists(a))as(a+h7);if(!this.is_dir(a))as(a+k9);var
+this.content)if(d.match(e))if(b)ed(b,ef(rq,kZ,this.nm(a)));else
+at(this.nm(a)+": Directory not empty");delete
+this.content[c]};bf.prototype.readdir=function(a){var
+f=a==af?af:this.slash(a);if(!this.exists(a))at(a+h$);if(!this.is_dir(a))at(a+lh);var
 g=new
-RegExp(k4+f+q7),d={},c=[];for(var
+RegExp(lc+f+rs),d={},c=[];for(var
 e
 in
 this.content){var
-b=e.match(g);if(b&&!d[b[1]]){d[b[1]]=true;c.push(b[1])}}return c};bd.prototype.is_dir=function(a){if(a==af)return true;var
-b=this.slash(a);return this.content[b]?1:0};bd.prototype.unlink=function(a){var
+b=e.match(g);if(b&&!d[b[1]]){d[b[1]]=true;c.push(b[1])}}return c};bf.prototype.is_dir=function(a){if(a==af)return true;var
+b=this.slash(a);return this.content[b]?1:0};bf.prototype.unlink=function(a){var
 b=this.content[a]?true:false;delete
-this.content[a];return b};bd.prototype.open=function(a,b){if(b.rdonly&&b.wronly)as(this.nm(a)+rV);if(b.text&&b.binary)as(this.nm(a)+qK);this.lookup(a);if(this.content[a]){if(this.is_dir(a))as(this.nm(a)+" : is a directory");if(b.create&&b.excl)as(this.nm(a)+rR);var
+this.content[a];return b};bf.prototype.open=function(a,b){if(b.rdonly&&b.wronly)at(this.nm(a)+sg);if(b.text&&b.binary)at(this.nm(a)+q7);this.lookup(a);if(this.content[a]){if(this.is_dir(a))at(this.nm(a)+" : is a directory");if(b.create&&b.excl)at(this.nm(a)+sc);var
 c=this.content[a];if(b.truncate)c.truncate();return c}else
 if(b.create){this.create_dir_if_needed(a);this.content[a]=new
-aY(cs(0));return this.content[a]}else
-JJ(this.nm(a))};bd.prototype.register=function(c,a){var
-b;if(this.content[c])as(this.nm(c)+rR);if(lk(a))b=new
-aY(a);if(sx(a))b=new
-aY(e4(a));else
+aZ(cw(0));return this.content[a]}else
+Kc(this.nm(a))};bf.prototype.register=function(c,a){var
+b;if(this.content[c])at(this.nm(c)+sc);if(lu(a))b=new
+aZ(a);if(sU(a))b=new
+aZ(e7(a));else
 if(a
 instanceof
 Array)b=new
-aY(Jg(a));else
+aZ(JL(a));else
 if(typeof
 a==="string")b=new
-aY(sn(a));else
+aZ(sK(a));else
 if(a.toString){var
-d=e4(e7(a.toString()));b=new
-aY(d)}if(b){this.create_dir_if_needed(c);this.content[c]=b}else
-as(this.nm(c)+" : registering file with invalid content type")};bd.prototype.constructor=bd;function
-az(a){return is(a)}function
-d_(b,a){return lc(b,a)}function
-Jb(d){var
+d=e7(e_(a.toString()));b=new
+aZ(d)}if(b){this.create_dir_if_needed(c);this.content[c]=b}else
+at(this.nm(c)+" : registering file with invalid content type")};bf.prototype.constructor=bf;function
+az(a){return iw(a)}function
+ee(b,a){return lm(b,a)}function
+JG(d){var
 c=az(d),b=new
-Array(c),a=0;for(;a<c;a++)b[a]=d_(d,a);return b}function
-Ja(a){if(a.t!=4)io(a);return a.c}function
-Jj(a,c,b){b&=cU;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}io(a)}a.c[c]=b;return 0}function
-Ji(b,a,c){if(a>>>0>=b.l)sl();return Jj(b,a,c)}function
-cr(a){this.fs=require("fs");this.fd=a}cr.prototype=new
-se();cr.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){as(a.toString())}};cr.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){as(a.toString())}};cr.prototype.write=function(f,b,c,e){var
-a=Jb(b);if(!(a
+Array(c),a=0;for(;a<c;a++)b[a]=ee(d,a);return b}function
+JF(a){if(a.t!=4)is(a);return a.c}function
+JO(a,c,b){b&=cV;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}is(a)}a.c[c]=b;return 0}function
+JN(b,a,c){if(a>>>0>=b.l)sI();return JO(b,a,c)}function
+cv(a){this.fs=require("fs");this.fd=a}cv.prototype=new
+sB();cv.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){at(a.toString())}};cv.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){at(a.toString())}};cv.prototype.write=function(f,b,c,e){var
+a=JG(b);if(!(a
 instanceof
-S.Uint8Array))a=new(S.Uint8Array)(a);var
-d=S.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){as(a.toString())}return 0};cr.prototype.read=function(g,d,c,f){var
-a=Ja(d);if(!(a
+U.Uint8Array))a=new(U.Uint8Array)(a);var
+d=U.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){at(a.toString())}return 0};cv.prototype.read=function(g,d,c,f){var
+a=JF(d);if(!(a
 instanceof
-S.Uint8Array))a=new(S.Uint8Array)(a);var
-e=S.Buffer.from(a);try{this.fs.readSync(this.fd,e,c,f,g)}catch(a){as(a.toString())}for(var
-b=0;b<f;b++)Ji(d,c+b,e[c+b]);return 0};cr.prototype.read_one=function(c){var
-b=new(S.Uint8Array)(1),a=S.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){as(a.toString())}return a[0]};cr.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){as(a.toString())}};cr.prototype.constructor=cr;function
-aZ(a){this.fs=require("fs");this.root=a}aZ.prototype.nm=function(a){return this.root+a};aZ.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};aZ.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};aZ.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};aZ.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};aZ.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){as(a.toString())}};aZ.prototype.unlink=function(a,c){try{var
-b=this.fs.existsSync(this.nm(a))?1:0;this.fs.unlinkSync(this.nm(a));return b}catch(a){this.raise_nodejs_error(a,c)}};aZ.prototype.open=function(f,c,g){var
+U.Uint8Array))a=new(U.Uint8Array)(a);var
+e=U.Buffer.from(a);try{this.fs.readSync(this.fd,e,c,f,g)}catch(a){at(a.toString())}for(var
+b=0;b<f;b++)JN(d,c+b,e[c+b]);return 0};cv.prototype.read_one=function(c){var
+b=new(U.Uint8Array)(1),a=U.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){at(a.toString())}return a[0]};cv.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){at(a.toString())}};cv.prototype.constructor=cv;function
+a0(a){this.fs=require("fs");this.root=a}a0.prototype.nm=function(a){return this.root+a};a0.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};a0.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};a0.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};a0.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};a0.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){at(a.toString())}};a0.prototype.unlink=function(a,c){try{var
+b=this.fs.existsSync(this.nm(a))?1:0;this.fs.unlinkSync(this.nm(a));return b}catch(a){this.raise_nodejs_error(a,c)}};a0.prototype.open=function(f,c,g){var
 a=require("constants"),b=0;for(var
 e
 in
 c)switch(e){case"rdonly":b|=a.O_RDONLY;break;case"wronly":b|=a.O_WRONLY;break;case"append":b|=a.O_WRONLY|a.O_APPEND;break;case"create":b|=a.O_CREAT;break;case"truncate":b|=a.O_TRUNC;break;case"excl":b|=a.O_EXCL;break;case"binary":b|=a.O_BINARY;break;case"text":b|=a.O_TEXT;break;case"nonblock":b|=a.O_NONBLOCK;break}try{var
 d=this.fs.openSync(this.nm(f),b);return new
-cr(d)}catch(a){this.raise_nodejs_error(a,g)}};aZ.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};aZ.prototype.stat=function(b,c){try{var
-a=this.fs.statSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aZ.prototype.lstat=function(b,c){try{var
-a=this.fs.lstatSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aZ.prototype.symlink=function(d,c,a,b){try{this.fs.symlinkSync(this.nm(c),this.nm(a),d?"dir":"file");return 0}catch(a){this.raise_nodejs_error(a,b)}};aZ.prototype.readlink=function(b,c){try{var
-a=this.fs.readlinkSync(this.nm(b),qv);return e7(a)}catch(a){this.raise_nodejs_error(a,c)}};aZ.prototype.raise_nodejs_error=function(a,d){var
-b=d8(kS);if(d&&b){var
-c=d$(a.code,a.syscall,a.path,a.errno);d9(b,c)}else
-as(a.toString())};aZ.prototype.stats_from_js=function(a){var
+cv(d)}catch(a){this.raise_nodejs_error(a,g)}};a0.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};a0.prototype.stat=function(b,c){try{var
+a=this.fs.statSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};a0.prototype.lstat=function(b,c){try{var
+a=this.fs.lstatSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};a0.prototype.symlink=function(d,c,a,b){try{this.fs.symlinkSync(this.nm(c),this.nm(a),d?"dir":"file");return 0}catch(a){this.raise_nodejs_error(a,b)}};a0.prototype.readlink=function(b,c){try{var
+a=this.fs.readlinkSync(this.nm(b),qS);return e_(a)}catch(a){this.raise_nodejs_error(a,c)}};a0.prototype.raise_nodejs_error=function(a,d){var
+b=ec(k2);if(d&&b){var
+c=ef(a.code,a.syscall,a.path,a.errno);ed(b,c)}else
+at(a.toString())};a0.prototype.stats_from_js=function(a){var
 b;if(a.isFile())b=0;else
 if(a.isDirectory())b=1;else
 if(a.isCharacterDevice())b=2;else
 if(a.isBlockDevice())b=3;else
 if(a.isSymbolicLink())b=4;else
 if(a.isFIFO())b=5;else
-if(a.isSocket())b=6;return[0,a.dev,a.ino,b,a.mode,a.nlink,a.uid,a.gid,a.rdev,a.size,a.atimeMs,a.mtimeMs,a.ctimeMs]};aZ.prototype.constructor=aZ;function
-su(b){var
-a=lr(b);if(!a)return;return a[0]+b8}var
-it=su(gj)||b9("unable to compute caml_root"),e8=[];if(gm())e8.push({path:it,device:new
-aZ(it)});else
-e8.push({path:it,device:new
-bd(it)});e8.push({path:qE,device:new
-bd(qE)});function
-sN(b){var
-g=JA(b),b=g.join(b8),f=sG(b),c;for(var
-e=0;e<e8.length;e++){var
-a=e8[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&gm()){var
-d=su(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
+if(a.isSocket())b=6;return[0,a.dev,a.ino,b,a.mode,a.nlink,a.uid,a.gid,a.rdev,a.size,a.atimeMs,a.mtimeMs,a.ctimeMs]};a0.prototype.constructor=a0;function
+sR(b){var
+a=lB(b);if(!a)return;return a[0]+b$}var
+ix=sR(gn)||ca("unable to compute caml_root"),e$=[];if(gq())e$.push({path:ix,device:new
+a0(ix)});else
+e$.push({path:ix,device:new
+bf(ix)});e$.push({path:q1,device:new
+bf(q1)});function
+s_(b){var
+g=J5(b),b=g.join(b$),f=s3(b),c;for(var
+e=0;e<e$.length;e++){var
+a=e$[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&gq()){var
+d=sR(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
 a={path:d,device:new
-aZ(d)};e8.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;as("no device found for "+f)}function
-Jl(c,b){var
-a=sN(c);if(!a.device.register)b9("cannot register file");a.device.register(a.rest,b);return 0}function
-sI(c,b){var
-c=a(c),b=a(b);return Jl(c,b)}function
-Jo(){var
-b=S.caml_fs_tmp;if(b)for(var
-a=0;a<b.length;a++)sI(b[a].name,b[a].content);S.jsoo_create_file=sI;S.caml_fs_tmp=[];return 0}function
-JH(c){var
-a=0,e=az(c),b=10,d=1;if(e>0)switch(d_(c,a)){case
+a0(d)};e$.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;at("no device found for "+f)}function
+JQ(c,b){var
+a=s_(c);if(!a.device.register)ca("cannot register file");a.device.register(a.rest,b);return 0}function
+s5(c,b){var
+c=a(c),b=a(b);return JQ(c,b)}function
+JT(){var
+b=U.caml_fs_tmp;if(b)for(var
+a=0;a<b.length;a++)s5(b[a].name,b[a].content);U.jsoo_create_file=s5;U.caml_fs_tmp=[];return 0}function
+Ka(c){var
+a=0,e=az(c),b=10,d=1;if(e>0)switch(ee(c,a)){case
 45:a++;d=-1;break;case
-43:a++;d=1;break}if(a+1<e&&d_(c,a)==48)switch(d_(c,a+1)){case
+43:a++;d=1;break}if(a+1<e&&ee(c,a)==48)switch(ee(c,a+1)){case
 120:case
 88:b=16;a+=2;break;case
 111:case
@@ -583,33 +583,33 @@ a=0,e=az(c),b=10,d=1;if(e>0)switch(d_(c,a)){case
 66:b=2;a+=2;break;case
 117:case
 85:a+=2;break}return[a,d,b]}function
-sA(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=r7)return a-87;return-1}function
-ir(f){var
-h=JH(f),c=h[0],i=h[1],d=h[2],g=az(f),j=-1>>>0,e=c<g?d_(f,c):0,b=sA(e);if(b<0||b>=d)b9(ia);var
-a=b;for(c++;c<g;c++){e=d_(f,c);if(e==95)continue;b=sA(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)b9(ia)}if(c!=g)b9(ia);a=i*a;if(d==10&&(a|0)!=a)b9(ia);return a|0}function
-Jz(a,b){return+(ld(a,b,false)<=0)}function
-JB(a,d){if(a<0)im();var
+sX(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=ss)return a-87;return-1}function
+iv(f){var
+h=Ka(f),c=h[0],i=h[1],d=h[2],g=az(f),j=-1>>>0,e=c<g?ee(f,c):0,b=sX(e);if(b<0||b>=d)ca(ie);var
+a=b;for(c++;c<g;c++){e=ee(f,c);if(e==95)continue;b=sX(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)ca(ie)}if(c!=g)ca(ie);a=i*a;if(d==10&&(a|0)!=a)ca(ie);return a|0}function
+J4(a,b){return+(ln(a,b,false)<=0)}function
+J6(a,d){if(a<0)ir();var
 a=a+1|0,b=new
 Array(a);b[0]=0;for(var
 c=1;c<a;c++)b[c]=d;return b}var
-cW=new
+cX=new
 Array();function
-JC(c){var
-a=cW[c];if(!a.opened)as("Cannot flush a closed channel");if(!a.buffer||a.buffer==af)return 0;if(a.fd&&aF.fds[a.fd]&&aF.fds[a.fd].output){var
-b=aF.fds[a.fd].output;switch(b.length){case
+J7(c){var
+a=cX[c];if(!a.opened)at("Cannot flush a closed channel");if(!a.buffer||a.buffer==af)return 0;if(a.fd&&aH.fds[a.fd]&&aH.fds[a.fd].output){var
+b=aH.fds[a.fd].output;switch(b.length){case
 2:b(c,a.buffer);break;default:b(a.buffer)}}a.buffer=af;return 0}function
-sD(e,f){var
-b=cW[e],d=a(f),c=az(d);b.file.write(b.offset,d,0,c);b.offset+=c;return 0}function
-JP(a){var
-a=lo(a),b=S;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+s0(e,f){var
+b=cX[e],d=a(f),c=az(d);b.file.write(b.offset,d,0,c);b.offset+=c;return 0}function
+Ki(a){var
+a=ly(a),b=U;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.error&&c.error(a)}}function
-JQ(a){var
-a=lo(a),b=S;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+Kj(a){var
+a=ly(a),b=U;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.log&&c.log(a)}}function
-iv(c,e,d,a){if(aF.fds===undefined)aF.fds=new
+iz(c,e,d,a){if(aH.fds===undefined)aH.fds=new
 Array();a=a?a:{};var
-b={};b.file=d;b.offset=a.append?d.length():0;b.flags=a;b.output=e;aF.fds[c]=b;if(!aF.fd_last_idx||c>aF.fd_last_idx)aF.fd_last_idx=c;return c}function
-JX(c,b,g){var
+b={};b.file=d;b.offset=a.append?d.length():0;b.flags=a;b.output=e;aH.fds[c]=b;if(!aH.fd_last_idx||c>aH.fd_last_idx)aH.fd_last_idx=c;return c}function
+Kq(c,b,g){var
 a={};while(b){switch(b[1]){case
 0:a.rdonly=1;break;case
 1:a.wronly=1;break;case
@@ -619,173 +619,173 @@ a={};while(b){switch(b[1]){case
 5:a.excl=1;break;case
 6:a.binary=1;break;case
 7:a.text=1;break;case
-8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)as(e6(c)+rV);if(a.text&&a.binary)as(e6(c)+qK);var
-d=sN(c),e=d.device.open(d.rest,a),f=aF.fd_last_idx?aF.fd_last_idx:0;return iv(f+1,sD,e,a)}iv(0,sD,new
-aY(cs(0)));iv(1,JQ,new
-aY(cs(0)));iv(2,JP,new
-aY(cs(0)));function
-JD(a){var
-c=aF.fds[a];if(c.flags.wronly)as(r5+a+" is writeonly");var
-d=null;if(a==0&&gm()){var
-e=require("fs");d=function(){return e7(e.readFileSync(0,qv))}}var
-b={file:c.file,offset:c.offset,fd:a,opened:true,out:false,refill:d};cW[b.fd]=b;return b.fd}function
-sy(c){var
-b=aF.fds[c];if(b.flags.rdonly)as(r5+c+" is readonly");var
-a={file:b.file,offset:b.offset,fd:c,opened:true,out:true,buffer:af};cW[a.fd]=a;return a.fd}function
-JE(){var
+8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)at(e9(c)+sg);if(a.text&&a.binary)at(e9(c)+q7);var
+d=s_(c),e=d.device.open(d.rest,a),f=aH.fd_last_idx?aH.fd_last_idx:0;return iz(f+1,s0,e,a)}iz(0,s0,new
+aZ(cw(0)));iz(1,Kj,new
+aZ(cw(0)));iz(2,Ki,new
+aZ(cw(0)));function
+J8(a){var
+c=aH.fds[a];if(c.flags.wronly)at(sq+a+" is writeonly");var
+d=null;if(a==0&&gq()){var
+e=require("fs");d=function(){return e_(e.readFileSync(0,qS))}}var
+b={file:c.file,offset:c.offset,fd:a,opened:true,out:false,refill:d};cX[b.fd]=b;return b.fd}function
+sV(c){var
+b=aH.fds[c];if(b.flags.rdonly)at(sq+c+" is readonly");var
+a={file:b.file,offset:b.offset,fd:c,opened:true,out:true,buffer:af};cX[a.fd]=a;return a.fd}function
+J9(){var
 b=0;for(var
-a=0;a<cW.length;a++)if(cW[a]&&cW[a].opened&&cW[a].out)b=[0,cW[a].fd,b];return b}function
-bO(b,c,a){if(a&&S.toplevelReloc)b=S.toplevelReloc(a);aF[b+1]=c;if(a)aF[a]=c}function
-JL(a,b){sz[e6(a)]=b;return 0}function
-Je(a,b){if(a===b)return 1;a.t&6&&e5(a);b.t&6&&e5(b);return a.c==b.c?1:0}function
-aB(a,b){return Je(a,b)}function
-JN(){a0(k7)}function
-a9(b,a){if(a>>>0>=az(b))JN();return d_(b,a)}function
-p(a,b){return 1-aB(a,b)}function
-iu(a){return a}function
-sC(a){return a}function
-sH(a){if(a
+a=0;a<cX.length;a++)if(cX[a]&&cX[a].opened&&cX[a].out)b=[0,cX[a].fd,b];return b}function
+bQ(b,c,a){if(a&&U.toplevelReloc)b=U.toplevelReloc(a);aH[b+1]=c;if(a)aH[a]=c}function
+Ke(a,b){sW[e9(a)]=b;return 0}function
+JJ(a,b){if(a===b)return 1;a.t&6&&e8(a);b.t&6&&e8(b);return a.c==b.c?1:0}function
+aD(a,b){return JJ(a,b)}function
+Kg(){a1(lf)}function
+a$(b,a){if(a>>>0>=az(b))Kg();return ee(b,a)}function
+p(a,b){return 1-aD(a,b)}function
+iy(a){return a}function
+sZ(a){return a}function
+s4(a){if(a
 instanceof
-Array)return a;if(S.RangeError&&a
+Array)return a;if(U.RangeError&&a
 instanceof
-S.RangeError&&a.message&&a.message.match(/maximum call stack/i))return sC(aF.Stack_overflow);if(S.InternalError&&a
+U.RangeError&&a.message&&a.message.match(/maximum call stack/i))return sZ(aH.Stack_overflow);if(U.InternalError&&a
 instanceof
-S.InternalError&&a.message&&a.message.match(/too much recursion/i))return sC(aF.Stack_overflow);if(a
+U.InternalError&&a.message&&a.message.match(/too much recursion/i))return sZ(aH.Stack_overflow);if(a
 instanceof
-S.Error&&d8(ra))return[0,d8(ra),a];return[0,aF.Failure,e7(String(a))]}function
-ct(a){return a<0?-a:a}function
-E(a,b){return a+b}function
-lp(a,b){return a<b?-1:a>b?1:0}function
-sK(c,b){var
-a=c%b;return a<0?a+ct(b):a}function
-lq(a,b){return(a-sK(a,b))/b}function
-J(a,b){return a==b?1:0}function
-JU(c){S.orthocert_verify=function(b){return e6(dw(c,[a(b)]))}}function
-D(a,b){return a<=b?1:0}function
+U.Error&&ec(rx))return[0,ec(rx),a];return[0,aH.Failure,e_(String(a))]}function
+cx(a){return a<0?-a:a}function
+F(a,b){return a+b}function
+lz(a,b){return a<b?-1:a>b?1:0}function
+s7(c,b){var
+a=c%b;return a<0?a+cx(b):a}function
+lA(a,b){return(a-s7(a,b))/b}function
+L(a,b){return a==b?1:0}function
+Kn(c){U.orthocert_verify=function(b){return e9(dx(c,[a(b)]))}}function
+E(a,b){return a<=b?1:0}function
 K(a,b){return a<b?1:0}function
 C(a,b){return a*b}function
-T(a){return-a}function
-aJ(a){return S.BigInt(a)}function
-sL(a,b){return a<<S.BigInt(b)}function
-sM(a,b){return a>>S.BigInt(b)}function
+P(a){return-a}function
+aK(a){return U.BigInt(a)}function
+s8(a,b){return a<<U.BigInt(b)}function
+s9(a,b){return a>>U.BigInt(b)}function
 aT(a){return a<0?-1:a>0?1:0}function
-JV(a){if(a<0)throw new(S.Error)("a root of a negative number");if(a<2)return a;var
-d=S.BigInt(1),b=d<<S.BigInt((a.toString(16).length*4+1)/2|0),c;for(;;){c=b+a/b>>d;if(c>=b)return b;b=c}}function
-aL(a,b){return a-b}function
-iw(a){if(a>0x7fffffff||a<-0x80000000)throw new(S.Error)("a number of more than 32 bits");return S.Number(a)}function
-Jx(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
-Jn(b){var
-a=af;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&Jx(b[1]))var
+Ko(a){if(a<0)throw new(U.Error)("a root of a negative number");if(a<2)return a;var
+d=U.BigInt(1),b=d<<U.BigInt((a.toString(16).length*4+1)/2|0),c;for(;;){c=b+a/b>>d;if(c>=b)return b;b=c}}function
+aM(a,b){return a-b}function
+iA(a){if(a>0x7fffffff||a<-0x80000000)throw new(U.Error)("a number of more than 32 bits");return U.Number(a)}function
+J2(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
+JS(b){var
+a=af;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&J2(b[1]))var
 e=b[2],f=1;else
 var
-f=2,e=b;a+=rb;for(var
+f=2,e=b;a+=ry;for(var
 d=f;d<e.length;d++){if(d>f)a+=", ";var
 c=e[d];if(typeof
 c=="number")a+=c.toString();else
 if(c
 instanceof
-cq)a+=aS+c.toString()+aS;else
+cu)a+=aS+c.toString()+aS;else
 if(typeof
 c=="string")a+=aS+c.toString()+aS;else
-a+="_"}a+=k3}else
-if(b[0]==a8)a+=b[1];return a}function
-ss(a){if(a
+a+="_"}a+=lb}else
+if(b[0]==a_)a+=b[1];return a}function
+sP(a){if(a
 instanceof
-Array&&(a[0]==0||a[0]==a8)){var
-c=d8("Printexc.handle_uncaught_exception");if(c)c(a,false);else{var
-d=Jn(a),b=d8(qu);if(b)b(0);S.console.error("Fatal error: exception "+d+"\n")}}else
+Array&&(a[0]==0||a[0]==a_)){var
+c=ec("Printexc.handle_uncaught_exception");if(c)c(a,false);else{var
+d=JS(a),b=ec(qR);if(b)b(0);U.console.error("Fatal error: exception "+d+"\n")}}else
 throw a}function
-JM(){var
-a=S;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){ss(b);a.process.exit(2)});else
-if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)ss(a.error)})}JM();function
-k(a,b){return a.length==1?a(b):dw(a,[b])}function
-ao(a,b,c){return a.length==2?a(b,c):dw(a,[b,c])}function
-f5(a,b,c,d){return a.length==3?a(b,c,d):dw(a,[b,c,d])}function
-h3(a,b,c,d,e){return a.length==4?a(b,c,d,e):dw(a,[b,c,d,e])}Jo();var
-lt=[a8,a(q3),-2],ls=[a8,a(sd),-4],H6=[0,[0,[0,[0,0]]]],H7=[0,0],H8=[0,0],H9=[0,[0,0]],H_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H9]]]]]]]]]]],hP=[0,[1,0],0],pJ=[0,[2,0],0],ks=[0,[1,0],0],pI=[0,[2,0],0],hN=[0,[1,0],0],kr=[0,[2,0],0],H$=[0,[0,[0,[0,0]]]],Ia=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H$]]]]]]]]]]],Ib=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ia]]]]]]]]]]],Ic=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ib]]]]]]]]]]],Id=[0,[0,0]],Ie=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Id]]]]]]]]]]],If=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ie]]]]]]]]]]],Ig=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,If]]]]]]]]]]],Ih=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ig]]]]]]]]]]],Ii=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],Ij=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ii]]]]]]]]]]],Ik=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ij]]]]]]]]]]],Il=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ik]]]]]]]]]]],Im=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Il]]]]]]]]]]],In=[0,[0,0]],Io=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,In]]]]]]]]]]],Ip=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Io]]]]]]]]]]],Iq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ip]]]]]]]]]]],Ir=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Iq]]]]]]]]]]],Is=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ir]]]]]]]]]]],It=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Is]]]]]]]]]]],Iu=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,It]]]]]]]]]]],Iv=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],Iw=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Iv]]]]]]]]]]],Ix=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Iw]]]]]]]]]]],Iy=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ix]]]]]]]]]]],Iz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Iy]]]]]]]]]]],IA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Iz]]]]]]]]]]],IB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IA]]]]]]]]]]],IC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IB]]]]]]]]]]],ID=[0,0],IE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,ID]]]]]]]]]]],IF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IE]]]]]]]]]]],IG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IF]]]]]]]]]]],IH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IG]]]]]]]]]]],II=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IH]]]]]]]]]]],IJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,II]]]]]]]]]]],IK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IJ]]]]]]]]]]],IL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IK]]]]]]]]]]],IM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IL]]]]]]]]]]],IN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IM]]]]]]]]]]],IO=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],IP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IO]]]]]]]]]]],IQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],IR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IQ]]]]]]]]]]],IS=[0,[0,[0,[0,[0,0]]]]],IT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IS]]]]]]]]]]],IU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IT]]]]]]]]]]],IV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IU]]]]]]]]]]],IW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IV]]]]]]]]]]],IX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IW]]]]]]]]]]],IY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IX]]]]]]]]]]],IZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IY]]]]]]]]]]],I0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IZ]]]]]]]]]]],I1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,I0]]]]]]]]]]],I2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,I1]]]]]]]]]]],I3=[0,0],I4=[0,[0,0]],I5=[0,0],I6=[0,[0,[0,[0,[0,0]]]]],dE=[0,[0,[0,0]]],dG=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],hC=[0,[0,[0,[0,0]]]],I7=[0,[0,[0,[0,[0,0]]]]],I8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,I7]]]]]]]]]]],I9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,I8]]]]]]]]]]],I_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,I9]]]]]]]]]]],I$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,I_]]]]]]]]]]];bO(11,[a8,a(qt),-12],qt);bO(10,[a8,a(rh),-11],rh);bO(9,[a8,a(r4),-10],r4);bO(8,[a8,a(qF),-9],qF);bO(7,[a8,a(rv),-8],rv);bO(6,[a8,a(qD),-7],qD);bO(5,[a8,a(q4),-6],q4);bO(4,[a8,a(q8),-5],q8);bO(3,ls,sd);bO(2,[a8,a(kX),-3],kX);bO(1,lt,q3);bO(0,[a8,a(rO),-1],rO);var
-sO=a("String.sub / Bytes.sub"),sQ=a(af),sP=a("String.concat"),sR=a("Array.init"),sS=a("power"),s$=[0,0],ta=[0,0],tg=[0,0,0],th=[0,0,0],ti=[0,0],tE=[0,0],tF=[0,0],tI=[0,0],t3=[0,0],t6=[0,0],t_=[0,0],t$=[0,0],ua=[0,0],ub=[0,0],up=[0,0],uq=[0,0],uT=[0,0],vh=[0,[0,[0,0]]],vI=[0,0],v9=[0,0],wv=[0,0],wG=a(","),wY=[0,a(k3),0],wZ=a(rb),w0=a("."),w1=[0,[0,[0,0]]],w2=a(e0),w3=a(k4),w4=[0,[0,[0,[0,[0,0]]]]],w5=[0,a(k3),0],w6=a(sb),z9=a(qq),z$=a(qn),z_=a(rk),Aa=a(eV),Ab=a(eT),Ac=a(la),Ad=a(rY),Ae=a(qX),Af=a(k6),Ag=a(rp),Ah=a(qW),Bx=[0,[0,0,0]],BO=[0,0],By=a(f6),Bz=[0,0],BA=a("divided"),BB=[0,1],BC=a("mirror"),BD=[0,3],BE=a("negative"),BF=[0,2],BG=a(f$),BH=[0,5],BI=a(k$),BJ=[0,4],BK=a(du),BL=a(qI),BM=a(eW),BN=a(bM),BP=[0,0],BQ=[0,0],BR=[0,0],BU=[0,[0,[0,0]]],BV=[0,[0,[0,0]]],Ck=[0,[0,[0,0]]],Cy=[0,0],CT=a(af),CL=[0,0],CN=[0,0],CM=[0,0],CO=[0,[0,[0,[0,0]]]],CP=[0,[0,[0,0]]],CQ=[0,[0,[0,[0,0]]]],CR=[0,[0,[0,0]]],CJ=[0,[0,[0,0]]],CI=a(eW),CH=[0,0],CF=[0,1,0],CG=[0,[0,[0,0]]],CE=[0,0],CD=[0,0],CC=[0,0],Cz=[0,[0,0]],CA=[0,[0,[0,0]]],Cw=[0,[0,0]],Cx=[0,[0,[0,0]]],Cv=[0,0],Cr=[0,[0,[0,0]]],Cq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H6]]]]]]]]]],[0,0,[0,[0,[0,[0,0]]],0]]],Cl=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],[0,0,0]],Cm=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],[0,[0,[0,[0,[0,[0,[0,0]]]]]],0]],Cn=[0,[0,[0,[0,[0,[0,[0,0]]]]]],0],Co=[0,[0,[0,[0,0]]],[0,0,0]],Ci=[0,0],Cj=[0,[0,0]],Ch=[0,0,0],Cg=[0,[0,[0,0]]],Ca=[0,[0,0]],Cb=[0,[0,[0,0]]],Cc=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H7]]]]]]]]]]],Cd=[0,[0,0]],Ce=[0,[0,[0,0]]],B$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H8]]]]]]]]]]],B9=[0,[0,0]],B_=[0,[0,[0,0]]],B7=[0,[0,[0,0]]],B8=[0,[0,0]],B6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,H_]]]]]]]]]]],B5=[0,0],B4=[0,0],B1=[0,[0,0]],B2=[0,0],BZ=[0,0],B0=[0,1],BX=[0,[0,0]],BY=[0,0],BW=[0,0],BS=[0,0],BT=[0,1],Bu=[0,0],Bv=[0,1],Bw=[0,2],Bq=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],Bo=[0,[0,0],0],Bp=[0,[1,0],0],Br=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],Bm=[0,[0,0]],Bn=[0,0],Bl=[0,0],Bk=[0,0],Bj=[0,0],Bi=[0,0],Bh=[0,0,0],Bf=[0,[0,0]],Bg=[0,0],Be=[0,0,0],Bc=[0,[0,[0,0]]],Bd=[0,[0,[0,0]]],Bb=[0,0],A$=[0,1,0],A4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ic]]]]]]]]]]],A5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ih]]]]]]]]]]],A0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Im]]]]]]]]]]],A1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Iu]]]]]]]]]]],A2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IC]]]]]]]]]]],A3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IN]]]]]]]]]]],A6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IP]]]]]]]]]]],A7=a("sqrt"),AY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IR]]]]]]]]]]],AZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,I2]]]]]]]]]]],AN=[0,a("\n"),0],AO=a(qo),AP=a(h8),AQ=a(rg),AR=a(q1),AX=a(gc),AS=a(f_),AT=a("verdict"),AU=a(rP),AV=a(qT),AW=a(rf),AK=a(q$),AL=a(rT),AM=a(h_),AG=a(rr),AH=a(h$),AI=a(f_),AJ=a(gc),AB=a(ii),AC=a(bw),AD=a(qp),AE=a(ie),Ay=a(rN),Az=a(f$),AA=a(ie),Au=a(ru),Av=a(ii),Aw=a(h$),Ax=a(r2),Aj=a(rU),Ak=a(rX),Al=a(id),Am=a(ib),An=a(r8),Ao=a(rJ),Ap=a(rM),Aq=a(ry),Ar=a(id),As=a(rB),z7=a(h6),z8=a(gb),z2=a(bN),z3=a(bL),z4=a(qV),zC=a(ib),zD=a(rx),zg=a(bw),zh=a(b7),zi=a(ik),zj=a(eZ),zk=a(co),zp=a(kQ),zl=a(k5),zm=a(k8),zn=a(eU),zo=a(bw),zq=a(b7),zr=a(ik),zs=a(eZ),zt=a(k5),zu=a(k8),zv=a(eU),zw=a(bw),zx=a(b7),zy=a(bN),zz=a(bL),zA=a(d5),zB=a(eZ),zE=a(rH),zF=a(rW),zG=a(il),zH=a(qJ),zI=a(qO),zJ=a(eU),zK=a(bw),zL=a(b7),zM=a(h4),zN=a(qZ),zO=a(eZ),zP=a(gh),zQ=a(qx),zR=a(eU),zS=a(bw),zT=a(h4),zU=a(bw),zV=a(rA),zY=a(qm),zW=a(qM),zX=a(r1),zZ=a(gc),z0=a(f_),z1=a(bw),z5=a(il),z6=a(h_),zb=a(b7),zc=a(eZ),zd=a(kQ),ze=a(eU),za=a(r_),y0=a(gh),y1=a(rQ),y2=a(d6),y3=a(eX),y4=a(eX),y5=a(kT),y6=a(d6),y7=a(ri),y8=a(qU),y9=a(bl),y$=a(qs),y_=a(kT),yQ=a(q_),yR=a(sc),yS=a(qQ),yT=a(qN),yU=a(r0),yV=a(rL),yW=a(q2),yX=a(h5),yY=a(h5),yM=a(bl),yN=a(bK),yO=a(e1),yP=a(bv),yI=a(co),yJ=a(k0),yK=a(rs),yF=a(bN),yG=a(bL),yH=a(d5),yy=a(bN),yz=a(bL),yA=a(d5),yB=a(k2),yC=a(d6),yD=a(kY),yE=a(rG),yg=a(qL),ym=a(h8),yl=a(k_),yh=a(kU),yi=a(f8),yn=a(f9),yp=a(f9),yq=a(rE),yr=a(kU),yo=a(f8),ys=a(qH),yt=a(rD),yu=a(f8),yv=a(r9),yw=a(k_),yx=a(f8),yj=a(eX),yk=a(rn),yd=a(ic),ye=a(ic),yf=a(ic),x$=a(rI),ya=a(bL),yb=a(bN),yc=a(rZ),xU=a(qB),xV=a(qr),xW=a(rw),xX=a(eV),xY=a(r$),xZ=a(rz),x0=a(qC),x1=a(ro),x2=a(qA),x3=a(qY),x4=a(qz),x5=a(rK),x6=a(eT),x7=a(qw),x8=a(rS),x9=a(qP),x_=a(sa),xv=a(ig),xx=a(e0),xw=a(f7),xy=a(eS),xz=a(bl),xA=a(bK),xB=a(bM),xC=a(gd),xD=a(bv),xE=a(gf),xF=a(bl),xG=a(bK),xH=a(e1),xI=a(bv),xJ=a(bM),xK=a(co),xL=a(bv),xM=a(eS),xN=a(gg),xO=a(bl),xP=a(bK),xQ=a(rm),xR=a(f9),xS=a(gg),xT=a(bv),xd=a(ig),xl=a(e0),xe=a(f7),xf=a(eS),xg=a(bl),xh=a(bK),xi=a(bM),xj=a(gd),xk=a(bv),xm=a(gf),xn=a(bl),xo=a(bK),xp=a(e1),xq=a(bv),xr=a(bM),xs=a(co),xt=a(bv),xa=a(bN),xb=a(bL),w_=[0,a(aS),0],w$=a(aS),w8=a(af),w7=[0,a(aS),0],w9=a(aS),wU=a(ig),wV=a(e0),wW=a("*"),wX=a(b8),wP=[0,[0,[0,[0,[0,0]]]]],wQ=[0,[0,[0,0]]],wR=[0,[0,0]],wS=[0,0],wT=[0,[0,[0,[0,0]]]],wN=a('":'),wO=a(aS),wL=[0,a(aS),0],wM=a(aS),wJ=[0,a("}"),0],wK=a("{"),wH=[0,a("]"),0],wI=a("["),wF=[0,[0,[0,0]]],wE=[0,[0,[0,0]]],wC=[0,0],wz=[0,[0,[0,0]]],wA=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],wB=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],wx=[0,[0,0]],wy=[0,[0,[0,0]]],ww=[0,0],wt=[0,0],wu=[0,[0,0]],wq=[0,0],wr=[0,[0,0]],ws=[0,0],wl=[0,[0,0]],wm=[0,0],wn=[0,[0,[0,0]]],wo=[0,[0,[0,0]]],wk=[0,[0,[0,0]]],wj=[0,[0,[0,0]]],wi=[0,0],wf=[0,[0,[0,0]]],wh=[0,[0,[0,0]]],wg=[0,0],wd=[0,[0,0]],we=[0,0],wb=[0,[0,0]],wc=[0,0],wa=[0,[0,[0,0]]],v_=[0,[0,0]],v$=[0,0],v7=[0,0],v8=[0,[0,0]],v1=[0,[0,0]],v2=[0,[0,[0,[0,[0,0]]]]],v3=[0,[0,[0,[0,0]]]],v4=[0,[0,[0,0]]],v5=[0,[0,0]],v6=[0,0],vY=[0,0],vZ=[0,[0,0]],v0=[0,0],vX=[0,0],vT=[0,0],vU=[0,[0,[0,[0,[0,[0,0]]]]]],vV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,I3]]]]]]]]]]],vR=[0,0],vM=[0,0,0],vN=[0,0,0],vO=[0,0,0],vJ=[0,[0,0]],vK=[0,[0,[0,0]]],vL=[0,0],vy=[0,[0,[0,[0,[0,[0,0]]]]]],vz=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],vA=[0,[0,[0,0]]],vB=[0,[0,[0,0]]],vC=[0,[0,[0,[0,[0,[0,0]]]]]],vD=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],vE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,I4]]]]]]]]]]],vF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,I5]]]]]]]]]]],vG=[0,[0,[0,0]]],vH=[0,[0,[0,[0,[0,[0,0]]]]]],vu=[0,0,0],vv=[0,0,0],vq=[0,0,0],vr=[0,0,0],vs=[0,0,0],vt=[0,0,0],vp=[0,0],vo=[0,0],vn=[0,0],vl=[0,0],vm=[0,0],vk=[0,0],vi=[0,0],vj=[0,0],va=[0,0],vb=[0,0],vc=[0,0],vd=[0,[0,[0,0]]],u$=[0,0],u5=[0,0],u6=[0,0],u7=[0,[0,0]],u3=[0,[0,0]],u4=[0,[0,[0,0]]],u1=[0,[0,[0,0]]],u2=[0,[0,0]],uZ=[0,[0,0]],u0=[0,[0,[0,0]]],uY=[0,0],uW=[0,0],uX=[0,0],uU=[0,0,0],uR=[0,[0,0]],uS=[0,0],uJ=[0,[0,0]],uK=[0,0],uL=[0,[0,0]],uM=[0,0],uN=[0,[0,0]],uO=[0,0],uP=[0,[0,0]],uQ=[0,0],uH=[0,[0,0]],uI=[0,0],uF=[0,[0,0]],uG=[0,0],uB=[0,[0,0]],uC=[0,0],uD=[0,0],uE=[0,[0,0]],us=[0,[0,0]],ut=[0,0],uu=[0,[0,0]],uv=[0,0],uw=[0,0],ux=[0,[0,0]],uy=[0,[0,0]],uz=[0,[0,0]],uA=[0,0],uo=[0,0],un=[0,0],uk=[0,0],ul=[0,[0,0]],uj=[0,[0,[0,0]]],ui=[0,[0,[0,[0,[0,[0,0]]]]]],ug=[0,[0,0]],uh=[0,0],uf=[0,[0,0]],ue=[0,0],uc=[0,0],ud=[0,[0,[0,0]]],t8=[0,[0,0]],t9=[0,[0,[0,0]]],t7=[0,[0,[0,0]]],t4=[0,[0,[0,0]]],t2=[0,[0,[0,0]]],t0=[0,[0,[0,[0,[0,[0,0]]]]]],t1=[0,[0,[0,[0,[0,[0,0]]]]]],tV=[0,[0,0]],tW=[0,0],tX=[0,[0,0]],tY=[0,[0,[0,0]]],tZ=[0,[0,[0,0]]],tO=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],tP=[0,[0,[0,[0,[0,[0,0]]]]]],tQ=[0,[0,[0,[0,[0,[0,0]]]]]],tR=[0,[0,[0,0]]],tS=[0,[0,[0,[0,[0,[0,0]]]]]],tT=[0,[0,[0,0]]],tU=[0,[0,[0,0]]],tM=[0,[0,0]],tN=[0,0],tL=[0,0,0],tK=[0,0,0],tJ=[0,0,0],tH=[0,0,0],tG=[0,[0,[0,0]]],tA=[0,0],tB=[0,0],tC=[0,0],tD=[0,0],ty=[0,0],tz=[0,0],tu=[0,[0,[0,0]]],tv=[0,[0,[0,0]]],tw=[0,[0,[0,0]]],tt=[0,[0,[0,[0,0]]]],tp=[0,[0,[0,0]]],tq=[0,[0,[0,0]]],tr=[0,[0,[0,0]]],ts=[0,[0,1,1],[0,[0,0,1],[0,[0,1,0],[0,[0,0,0],0]]]],tn=[0,[0,0]],to=[0,0],tl=[0,[0,0]],tm=[0,0],tj=[0,[0,0]],tk=[0,0],s8=[0,0],s9=[0,[0,0]],s6=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],s7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,I6]]]]]]]]]]],s4=[0,0,0],s3=a(r6),s2=a(af),s1=[0,[0,0]],sZ=[0,0],sW=[0,0],sY=[1,0],sX=[0,0],sV=[0,0],sT=[1,0],sU=[1,0],um=[10,0,0,0,0],CB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,I$]]]]]]]]]]],F9=a(bN),F_=a(bL),F$=a(qV),F1=a(gf),F2=[0,a("a base axis of such a platform"),0],F3=a(bl),F4=a(bK),FO=a(rL),FP=a(q_),FQ=a(r0),FR=a(h5),FS=a(q2),FT=a(h5),FU=a(sc),FV=a(qQ),FW=a(qN),FC=a(rx),FD=a(ib),Fe=[0,a("such a machine with bodies"),0],E3=a(h_),E4=a(bw),E5=a(rA),E6=a(r1),E9=a(qM),E_=a(qm),E$=a(bw),Fa=a(bw),Fc=a(h4),Fb=[0,a("a claim that no cube of such a machine fits"),0],Fd=a(r_),Ff=a(eU),Fg=a(eZ),Fh=a(co),Fi=a(k0),Fj=a(rs),Fk=a(ik),Fl=a(qO),Fm=a(qx),Fn=a(kQ),Fq=a(d5),Fr=a(rG),Fu=a(b7),Fv=a(b7),Fw=a(qZ),Fx=a(b7),Fy=[0,a("the closed design with other bounds on psi than one from below and one from above"),0],Fz=a(h4),FA=a(gh),FB=a(d5),FE=a(rW),FF=a(rH),FG=[0,a(" operations, with its definitions written out,"),0],FH=a("a mechanism of more than "),FI=a(b7),FJ=a(bN),FK=a(bL),FL=a(il),FM=a(qJ),Fo=[0,a(aS),0],Fp=a('the mechanism "'),FN=a(k5),FX=a(ik),FY=a(co),FZ=a(k0),F0=a(k8),F5=a(b7),F8=a(co),F6=[0,a("a platform that turns on struts and other drives"),0],F7=a(b7),Fs=[0,a(aS),0],Ft=a('the workspace "'),Ga=a(bw),Gb=a(bw),Gd=a(gc),Ge=a(f_),Gf=a(il),Gc=[0,a("an atlas of such a machine"),0],E7=[0,a(aS),0],E8=a('a claim of the kind "'),Gt=a(la),Gu=a(du),Gv=a(eW),Gw=a(k6),Gx=a(f6),Gy=[0,a('this evidence "fan"'),0],Gk=a(du),GI=a(gb),GJ=[0,1,1],Gl=a(rp),Gz=a(eT),GA=a(qW),GB=a(eV),GC=a(qX),GD=a(rk),GE=a(bM),GF=a(gb),GG=a(h6),GH=a(bM),Gm=a(la),Gn=a(du),Go=a(qI),Gp=a(eW),Gq=a(k6),Gr=[0,a(aS),0],Gs=a('the evidence "'),GK=a(eT),GL=a(eV),GM=a(du),GN=a(eW),GO=a(rY),GQ=a(eT),GR=a(eV),GS=a(du),GT=a(eW),GU=a(f$),GV=a(f6),GW=a(f$),GX=a(f6),GP=[0,a("this evidence at control points"),0],HZ=a('"orthocert-paving/'),HQ=a(du),HR=a(du),HD=a(rf),HE=a(qT),HF=a(rP),HX=[0,3,3],HG=a(q1),HO=[0,a("this set of orientations with such drives"),0],HS=[0,a('this evidence "tolerances" of a platform that turns'),0],HT=[0,a("a step of a platform that turns that is not at control points"),0],HU=[0,a("this quantity in a claim that is refuted"),0],HV=[0,a("a step in a proof that no cube fits"),0],HW=[0,a('the failure "same" of such a mechanism'),0],HP=[0,a('"accuracy" of such a mechanism'),0],HH=[0,a("the acceleration of a joint of a machine with a plane"),0],HM=[0,a("a stiffness for each joint in such a claim"),0],HN=[0,a(rC),0],HL=[0,a(rC),0],HI=a(rg),HJ=a(qo),HK=a(h8),Hz=a(k$),HA=a(f6),HB=a(bM),Hr=a(h_),Hs=a(q$),Ht=a(rT),Hu=[0,a(aS),0],Hv=a('a proof of the kind "'),Hn=a(f_),Ho=a(gc),Hp=a(h$),Hq=a(rr),Hj=a(bw),Hk=a(ii),Hl=a(qp),Hm=a(ie),Hg=a(rN),Hh=a(f$),Hi=a(ie),Hc=a(ru),Hd=a(ii),He=a(h$),Hf=a(r2),G0=a(rX),G1=a(id),G2=a(rU),G3=a(ib),G4=a(rB),G5=a(r8),G8=a(rJ),G9=a(h6),G_=a(gb),G$=a(rM),Ha=a(ry),Hb=a(id),G6=[0,a(aS),0],G7=a('the failure "'),GY=a(k$),GZ=a(r6),Gi=a(gb),Gj=a(h6),Gg=a(qn),Gh=a(qq),E0=a(gh),EQ=a(kT),ER=a(qs),ES=a(eX),ET=a(bl),EY=a(rQ),EZ=a(gh),E1=a(d6),E2=a(eX),EU=a(d6),EV=a(ri),EW=a(qU),EX=a(bl),EJ=a(d5),EN=a(bN),EO=a(bL),EK=a(kY),EL=a(k2),EM=a(d6),ED=a(d5),EH=a(bN),EI=a(bL),EE=a(kY),EF=a(k2),EG=a(d6),EC=[0,1],EB=[0,1],Ez=[0,1],Ex=[0,1],Ew=[0,1],Eu=[0,1],Ev=[0,a("this quantity of such a mechanism"),0],Ed=a(kU),Ee=a(rD),Ef=a(qH),Eg=a(k_),Eh=a(r9),Ej=a(rE),Ei=a(f9),Ec=a(h8),D6=a(ic),DU=a(rn),DV=a(rw),Em=a(eT),En=a(rS),Eo=a(qY),Ep=a(eV),Eq=a(ro),Er=a(qz),Es=a(qA),Et=a(qr),DW=a(qw),DX=a(sa),DY=a(rK),DZ=a(rz),D0=a(qP),D1=a(r$),D2=a(qC),D3=a(qB),D4=[0,a(aS),0],D5=a('the quantity "'),D7=a(qL),D8=a(rI),D9=a(bN),D_=a(bL),D$=a(rZ),Ea=[0,a(aS),0],Eb=a('a bound "'),Ek=a(f8),El=a(eX),DS=a(bv),DT=a(e1),DQ=a(bv),DR=a(co),DN=a(bv),DO=a(gd),Dp=a(bv),Dq=a(gf),Dr=a(gg),Ds=a(co),Dt=a(gd),Du=a(e1),Dx=a(bl),Dy=a(bK),Dz=a(f7),DA=a(eS),DB=a(bl),DC=a(bK),DD=a(bM),DE=a(bM),DF=a(f7),DG=a(eS),DH=a(gg),DI=a(bl),DJ=a(bK),DK=a(rm),DL=a(f9),Dv=[0,a('" of such a machine'),0],Dw=a(qG),Dn=a(bv),Do=a(gg),C9=a(bv),C_=a(co),C$=a(gd),Da=a(e1),Dd=a(gf),De=a(bl),Df=a(bK),Dg=a(f7),Dh=a(eS),Di=a(bl),Dj=a(bK),Dk=a(bM),Dl=a(bM),Db=[0,a(aS),0],Dc=a(qG),C6=a(ig),C7=a(e0),C4=a(" is not covered by the verified checker"),C5=a(af),C2=a(bN),C3=a(bL),CY=a(af),CZ=a(sb),C0=a(af),C1=a(af),CX=[1,0],CW=a(e0),CU=a("Reader.Malformed"),CV=a("Reader.Not_covered"),H1=[0,a("a paving is checked by orthocert-verified")],H0=a(rq),H2=a("CERTIFIED"),H3=a("REFUTED"),H4=a(rq),H5=a("NOT COVERED: ");function
-gn(a){throw[0,ls,a]}function
-lu(b,a){return Jz(b,a)?b:a}function
-be(d,c){var
-a=az(d),e=az(c),b=cs(a+e|0);e3(d,0,b,0,a);e3(c,0,b,a,e);return iu(b)}function
-lv(a,b){if(a){var
-c=a[1];return[0,c,lv(a[2],b)]}return b}JD(0);sy(1);sy(2);function
-lw(b){function
+Kf(){var
+a=U;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){sP(b);a.process.exit(2)});else
+if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)sP(a.error)})}Kf();function
+j(a,b){return a.length==1?a(b):dx(a,[b])}function
+aq(a,b,c){return a.length==2?a(b,c):dx(a,[b,c])}function
+f9(a,b,c,d){return a.length==3?a(b,c,d):dx(a,[b,c,d])}function
+h7(a,b,c,d,e){return a.length==4?a(b,c,d,e):dx(a,[b,c,d,e])}JT();var
+lD=[a_,a(ro),-2],lC=[a_,a(sA),-4],Iz=[0,[0,[0,[0,0]]]],IA=[0,0],IB=[0,0],IC=[0,[0,0]],ID=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IC]]]]]]]]]]],hT=[0,[1,0],0],p6=[0,[2,0],0],kC=[0,[1,0],0],p5=[0,[2,0],0],hR=[0,[1,0],0],kB=[0,[2,0],0],IE=[0,[0,[0,[0,0]]]],IF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IE]]]]]]]]]]],IG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IF]]]]]]]]]]],IH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IG]]]]]]]]]]],II=[0,[0,0]],IJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,II]]]]]]]]]]],IK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IJ]]]]]]]]]]],IL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IK]]]]]]]]]]],IM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IL]]]]]]]]]]],IN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],IO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IN]]]]]]]]]]],IP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IO]]]]]]]]]]],IQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IP]]]]]]]]]]],IR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IQ]]]]]]]]]]],IS=[0,[0,0]],IT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IS]]]]]]]]]]],IU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IT]]]]]]]]]]],IV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IU]]]]]]]]]]],IW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IV]]]]]]]]]]],IX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IW]]]]]]]]]]],IY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IX]]]]]]]]]]],IZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IY]]]]]]]]]]],I0=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],I1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,I0]]]]]]]]]]],I2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,I1]]]]]]]]]]],I3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,I2]]]]]]]]]]],I4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,I3]]]]]]]]]]],I5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,I4]]]]]]]]]]],I6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,I5]]]]]]]]]]],I7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,I6]]]]]]]]]]],I8=[0,0],I9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,I8]]]]]]]]]]],I_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,I9]]]]]]]]]]],I$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,I_]]]]]]]]]]],Ja=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,I$]]]]]]]]]]],Jb=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ja]]]]]]]]]]],Jc=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jb]]]]]]]]]]],Jd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jc]]]]]]]]]]],Je=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jd]]]]]]]]]]],Jf=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Je]]]]]]]]]]],Jg=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jf]]]]]]]]]]],Jh=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],Ji=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jh]]]]]]]]]]],Jj=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],Jk=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jj]]]]]]]]]]],Jl=[0,[0,[0,[0,[0,0]]]]],Jm=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jl]]]]]]]]]]],Jn=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jm]]]]]]]]]]],Jo=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jn]]]]]]]]]]],Jp=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jo]]]]]]]]]]],Jq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jp]]]]]]]]]]],Jr=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jq]]]]]]]]]]],Js=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jr]]]]]]]]]]],Jt=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Js]]]]]]]]]]],Ju=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jt]]]]]]]]]]],Jv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ju]]]]]]]]]]],Jw=[0,0],Jx=[0,[0,0]],Jy=[0,0],Jz=[0,[0,[0,[0,[0,0]]]]],dF=[0,[0,[0,0]]],dH=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],hG=[0,[0,[0,[0,0]]]],JA=[0,[0,[0,[0,[0,0]]]]],JB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JA]]]]]]]]]]],JC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JB]]]]]]]]]]],JD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JC]]]]]]]]]]],JE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JD]]]]]]]]]]];bQ(11,[a_,a(qQ),-12],qQ);bQ(10,[a_,a(rE),-11],rE);bQ(9,[a_,a(sp),-10],sp);bQ(8,[a_,a(q2),-9],q2);bQ(7,[a_,a(rS),-8],rS);bQ(6,[a_,a(q0),-7],q0);bQ(5,[a_,a(rp),-6],rp);bQ(4,[a_,a(rt),-5],rt);bQ(3,lC,sA);bQ(2,[a_,a(k7),-3],k7);bQ(1,lD,ro);bQ(0,[a_,a(r$),-1],r$);var
+s$=a("String.sub / Bytes.sub"),tb=a(af),ta=a("String.concat"),tc=a("Array.init"),td=a("power"),tw=[0,0],tx=[0,0],tD=[0,0,0],tE=[0,0,0],tF=[0,0],t2=[0,0],t3=[0,0],t6=[0,0],up=[0,0],us=[0,0],uw=[0,0],ux=[0,0],uy=[0,0],uz=[0,0],uN=[0,0],uO=[0,0],vf=[0,0],vF=[0,[0,[0,0]]],wa=[0,0],wD=[0,0],w1=[0,0],xa=a(","),xs=[0,a(lb),0],xt=a(ry),xu=a("."),xv=[0,[0,[0,0]]],xw=a(e3),xx=a(lc),xy=[0,[0,[0,[0,[0,0]]]]],xz=[0,a(lb),0],xA=a(sy),AD=a(qN),AF=a(qK),AE=a(rH),AG=a(eY),AH=a(eW),AI=a(lk),AJ=a(sj),AK=a(ri),AL=a(le),AM=a(rM),AN=a(rh),B3=[0,[0,0,0]],Ci=[0,0],B4=a(f_),B5=[0,0],B6=a("divided"),B7=[0,1],B8=a("mirror"),B9=[0,3],B_=a("negative"),B$=[0,2],Ca=a(gd),Cb=[0,5],Cc=a(lj),Cd=[0,4],Ce=a(dv),Cf=a(q5),Cg=a(eZ),Ch=a(bO),Cj=[0,0],Ck=[0,0],Cl=[0,0],Co=[0,[0,[0,0]]],Cp=[0,[0,[0,0]]],CQ=[0,[0,[0,0]]],C4=[0,0],Dn=a(af),Df=[0,0],Dh=[0,0],Dg=[0,0],Di=[0,[0,[0,[0,0]]]],Dj=[0,[0,[0,0]]],Dk=[0,[0,[0,[0,0]]]],Dl=[0,[0,[0,0]]],Dd=[0,[0,[0,0]]],Dc=a(eZ),Db=[0,0],C$=[0,1,0],Da=[0,[0,[0,0]]],C_=[0,0],C9=[0,0],C8=[0,0],C5=[0,[0,0]],C6=[0,[0,[0,0]]],C2=[0,[0,0]],C3=[0,[0,[0,0]]],C1=[0,0],CX=[0,[0,[0,0]]],CW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Iz]]]]]]]]]],[0,0,[0,[0,[0,[0,0]]],0]]],CR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],[0,0,0]],CS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],[0,[0,[0,[0,[0,[0,[0,0]]]]]],0]],CT=[0,[0,[0,[0,[0,[0,[0,0]]]]]],0],CU=[0,[0,[0,[0,0]]],[0,0,0]],CO=[0,0],CP=[0,[0,0]],CN=[0,0,0],CM=[0,[0,[0,0]]],CG=[0,[0,0]],CH=[0,[0,[0,0]]],CI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IA]]]]]]]]]]],CJ=[0,[0,0]],CK=[0,[0,[0,0]]],CF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IB]]]]]]]]]]],CD=[0,[0,0]],CE=[0,[0,[0,0]]],CB=[0,[0,[0,0]]],CC=[0,[0,0]],CA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,ID]]]]]]]]]]],Cz=[0,0],Cy=[0,0],Cv=[0,[0,0]],Cw=[0,0],Ct=[0,0],Cu=[0,1],Cr=[0,[0,0]],Cs=[0,0],Cq=[0,0],Cm=[0,0],Cn=[0,1],B0=[0,0],B1=[0,1],B2=[0,2],BW=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],BU=[0,[0,0],0],BV=[0,[1,0],0],BX=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],BS=[0,[0,0]],BT=[0,0],BR=[0,0],BQ=[0,0],BP=[0,0],BO=[0,0],BN=[0,0,0],BL=[0,[0,0]],BM=[0,0],BK=[0,0,0],BI=[0,[0,[0,0]]],BJ=[0,[0,[0,0]]],BH=[0,0],BF=[0,1,0],By=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IH]]]]]]]]]]],Bz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IM]]]]]]]]]]],Bu=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IR]]]]]]]]]]],Bv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IZ]]]]]]]]]]],Bw=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,I7]]]]]]]]]]],Bx=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jg]]]]]]]]]]],BA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ji]]]]]]]]]]],BB=a("sqrt"),Bs=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jk]]]]]]]]]]],Bt=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jv]]]]]]]]]]],Bh=[0,a("\n"),0],Bi=a(qL),Bj=a(ia),Bk=a(rD),Bl=a(rm),Br=a(gg),Bm=a(gc),Bn=a("verdict"),Bo=a(sa),Bp=a(re),Bq=a(rC),Be=a(rw),Bf=a(se),Bg=a(ic),Ba=a(rO),Bb=a(id),Bc=a(gc),Bd=a(gg),A7=a(im),A8=a(bx),A9=a(qM),A_=a(ij),A4=a(r_),A5=a(gd),A6=a(ij),A0=a(rR),A1=a(im),A2=a(id),A3=a(sn),AP=a(sf),AQ=a(si),AR=a(ii),AS=a(ig),AT=a(st),AU=a(r6),AV=a(r9),AW=a(rV),AX=a(ii),AY=a(rY),AB=a(h_),AC=a(gf),Aw=a(bP),Ax=a(bN),Ay=a(rg),z8=a(ig),z9=a(rU),zM=a(bx),zN=a(b_),zO=a(ip),zP=a(e2),zQ=a(cs),zV=a(k0),zR=a(ld),zS=a(lg),zT=a(eX),zU=a(bx),zW=a(b_),zX=a(ip),zY=a(e2),zZ=a(ld),z0=a(lg),z1=a(eX),z2=a(bx),z3=a(b_),z4=a(bP),z5=a(bN),z6=a(d$),z7=a(e2),z_=a(r4),z$=a(sh),Aa=a(iq),Ab=a(q6),Ac=a(q$),Ad=a(eX),Ae=a(bx),Af=a(b_),Ag=a(h8),Ah=a(rk),Ai=a(e2),Aj=a(gl),Ak=a(qU),Al=a(eX),Am=a(bx),An=a(h8),Ao=a(bx),Ap=a(rX),As=a(qJ),Aq=a(q9),Ar=a(sm),At=a(gg),Au=a(gc),Av=a(bx),Az=a(iq),AA=a(ic),zH=a(b_),zI=a(e2),zJ=a(k0),zK=a(eX),zG=a(sv),zu=a(gl),zv=a(sb),zw=a(ea),zx=a(e0),zy=a(e0),zz=a(k3),zA=a(ea),zB=a(rF),zC=a(rf),zD=a(bo),zF=a(qP),zE=a(k3),zk=a(rv),zl=a(sz),zm=a(rb),zn=a(q_),zo=a(sl),zp=a(r8),zq=a(rn),zr=a(h9),zs=a(h9),zg=a(bo),zh=a(bM),zi=a(e4),zj=a(bw),zc=a(cs),zd=a(k_),ze=a(rP),y$=a(bP),za=a(bN),zb=a(d$),y4=a(bP),y5=a(bN),y6=a(d$),y7=a(la),y8=a(ea),y9=a(k8),y_=a(r3),yM=a(q8),yS=a(ia),yR=a(li),yN=a(k4),yO=a(ga),yT=a(gb),yV=a(gb),yW=a(r1),yX=a(k4),yU=a(ga),yY=a(q4),yZ=a(r0),y0=a(ga),y1=a(su),y2=a(li),y3=a(ga),yP=a(e0),yQ=a(rK),yJ=a(ih),yK=a(ih),yL=a(ih),yF=a(r5),yG=a(bN),yH=a(bP),yI=a(sk),yo=a(qY),yp=a(qO),yq=a(rT),yr=a(eY),ys=a(sw),yt=a(rW),yu=a(qZ),yv=a(rL),yw=a(qX),yx=a(rj),yy=a(qW),yz=a(r7),yA=a(eW),yB=a(qT),yC=a(sd),yD=a(ra),yE=a(sx),x1=a(ik),x3=a(e3),x2=a(f$),x4=a(eV),x5=a(bo),x6=a(bM),x7=a(bO),x8=a(gh),x9=a(bw),x_=a(gj),x$=a(bo),ya=a(bM),yb=a(e4),yc=a(bw),yd=a(bO),ye=a(cs),yf=a(bw),yg=a(eV),yh=a(gk),yi=a(bo),yj=a(bM),yk=a(rJ),yl=a(gb),ym=a(gk),yn=a(bw),xJ=a(ik),xR=a(e3),xK=a(f$),xL=a(eV),xM=a(bo),xN=a(bM),xO=a(bO),xP=a(gh),xQ=a(bw),xS=a(gj),xT=a(bo),xU=a(bM),xV=a(e4),xW=a(bw),xX=a(bO),xY=a(cs),xZ=a(bw),xG=a(bP),xH=a(bN),xE=[0,a(aS),0],xF=a(aS),xC=a(af),xB=[0,a(aS),0],xD=a(aS),xo=a(ik),xp=a(e3),xq=a("*"),xr=a(b$),xj=[0,[0,[0,[0,[0,0]]]]],xk=[0,[0,[0,0]]],xl=[0,[0,0]],xm=[0,0],xn=[0,[0,[0,[0,0]]]],xh=a('":'),xi=a(aS),xf=[0,a(aS),0],xg=a(aS),xd=[0,a("}"),0],xe=a("{"),xb=[0,a("]"),0],xc=a("["),w$=[0,[0,[0,0]]],w_=[0,[0,[0,0]]],w8=[0,0],w5=[0,[0,[0,0]]],w6=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],w7=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],w3=[0,[0,0]],w4=[0,[0,[0,0]]],w2=[0,0],wZ=[0,0],w0=[0,[0,0]],wW=[0,0],wX=[0,[0,0]],wY=[0,0],wR=[0,[0,0]],wS=[0,0],wT=[0,[0,[0,0]]],wU=[0,[0,[0,0]]],wQ=[0,[0,[0,0]]],wP=[0,[0,[0,0]]],wO=[0,0],wL=[0,[0,[0,0]]],wN=[0,[0,[0,0]]],wM=[0,0],wJ=[0,[0,0]],wK=[0,0],wH=[0,[0,0]],wI=[0,0],wG=[0,[0,[0,0]]],wE=[0,[0,0]],wF=[0,0],wB=[0,0],wC=[0,[0,0]],wv=[0,[0,0]],ww=[0,[0,[0,[0,[0,0]]]]],wx=[0,[0,[0,[0,0]]]],wy=[0,[0,[0,0]]],wz=[0,[0,0]],wA=[0,0],ws=[0,0],wt=[0,[0,0]],wu=[0,0],wr=[0,0],wn=[0,0],wo=[0,[0,[0,[0,[0,[0,0]]]]]],wp=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jw]]]]]]]]]]],wl=[0,0,0],wm=[0,0,0],wi=[0,0,0],wj=[0,0],we=[0,0,0],wf=[0,0,0],wg=[0,0,0],wb=[0,[0,0]],wc=[0,[0,[0,0]]],wd=[0,0],v_=[0,0,0],v$=[0,0,[0,1,0]],v6=[0,0,0],v7=[0,0,0],v8=[0,0,0],v9=[0,0,0],vW=[0,[0,[0,[0,[0,[0,0]]]]]],vX=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],vY=[0,[0,[0,0]]],vZ=[0,[0,[0,0]]],v0=[0,[0,[0,[0,[0,[0,0]]]]]],v1=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],v2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jx]]]]]]]]]]],v3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jy]]]]]]]]]]],v4=[0,[0,[0,0]]],v5=[0,[0,[0,[0,[0,[0,0]]]]]],vS=[0,0,0],vT=[0,0,0],vO=[0,0,0],vP=[0,0,0],vQ=[0,0,0],vR=[0,0,0],vN=[0,0],vM=[0,0],vL=[0,0],vJ=[0,0],vK=[0,0],vI=[0,0],vG=[0,0],vH=[0,0],vy=[0,0],vz=[0,0],vA=[0,0],vB=[0,[0,[0,0]]],vx=[0,0],vr=[0,0],vs=[0,0],vt=[0,[0,0]],vp=[0,[0,0]],vq=[0,[0,[0,0]]],vn=[0,[0,[0,0]]],vo=[0,[0,0]],vl=[0,[0,0]],vm=[0,[0,[0,0]]],vk=[0,0],vi=[0,0],vj=[0,0],vg=[0,0,0],vd=[0,[0,0]],ve=[0,0],u7=[0,[0,0]],u8=[0,0],u9=[0,[0,0]],u_=[0,0],u$=[0,[0,0]],va=[0,0],vb=[0,[0,0]],vc=[0,0],u5=[0,[0,0]],u6=[0,0],u3=[0,[0,0]],u4=[0,0],uZ=[0,[0,0]],u0=[0,0],u1=[0,0],u2=[0,[0,0]],uQ=[0,[0,0]],uR=[0,0],uS=[0,[0,0]],uT=[0,0],uU=[0,0],uV=[0,[0,0]],uW=[0,[0,0]],uX=[0,[0,0]],uY=[0,0],uM=[0,0],uL=[0,0],uI=[0,0],uJ=[0,[0,0]],uH=[0,[0,[0,0]]],uG=[0,[0,[0,[0,[0,[0,0]]]]]],uE=[0,[0,0]],uF=[0,0],uD=[0,[0,0]],uC=[0,0],uA=[0,0],uB=[0,[0,[0,0]]],uu=[0,[0,0]],uv=[0,[0,[0,0]]],ut=[0,[0,[0,0]]],uq=[0,[0,[0,0]]],uo=[0,[0,[0,0]]],um=[0,[0,[0,[0,[0,[0,0]]]]]],un=[0,[0,[0,[0,[0,[0,0]]]]]],uh=[0,[0,0]],ui=[0,0],uj=[0,[0,0]],uk=[0,[0,[0,0]]],ul=[0,[0,[0,0]]],ua=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],ub=[0,[0,[0,[0,[0,[0,0]]]]]],uc=[0,[0,[0,[0,[0,[0,0]]]]]],ud=[0,[0,[0,0]]],ue=[0,[0,[0,[0,[0,[0,0]]]]]],uf=[0,[0,[0,0]]],ug=[0,[0,[0,0]]],t_=[0,[0,0]],t$=[0,0],t9=[0,0,0],t8=[0,0,0],t7=[0,0,0],t5=[0,0,0],t4=[0,[0,[0,0]]],tY=[0,0],tZ=[0,0],t0=[0,0],t1=[0,0],tW=[0,0],tX=[0,0],tU=[0,0,0],tR=[0,[0,[0,0]]],tS=[0,[0,[0,0]]],tT=[0,[0,[0,0]]],tQ=[0,[0,[0,[0,0]]]],tM=[0,[0,[0,0]]],tN=[0,[0,[0,0]]],tO=[0,[0,[0,0]]],tP=[0,[0,1,1],[0,[0,0,1],[0,[0,1,0],[0,[0,0,0],0]]]],tK=[0,[0,0]],tL=[0,0],tI=[0,[0,0]],tJ=[0,0],tG=[0,[0,0]],tH=[0,0],tt=[0,0],tu=[0,[0,0]],tr=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],ts=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jz]]]]]]]]]]],tp=[0,0,0],to=a(sr),tn=a(af),tm=[0,[0,0]],tk=[0,0],th=[0,0],tj=[1,0],ti=[0,0],tg=[0,0],te=[1,0],tf=[1,0],uK=[10,0,0,0,0],C7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JE]]]]]]]]]]],GD=a(bP),GE=a(bN),GF=a(rg),Gv=a(gj),Gw=[0,a("a base axis of such a platform"),0],Gx=a(bo),Gy=a(bM),Gi=a(r8),Gj=a(rv),Gk=a(sl),Gl=a(h9),Gm=a(rn),Gn=a(h9),Go=a(sz),Gp=a(rb),Gq=a(q_),F8=a(rU),F9=a(ig),FK=[0,a("such a machine with bodies"),0],Fx=a(ic),Fy=a(bx),Fz=a(rX),FA=a(sm),FD=a(q9),FE=a(qJ),FF=a(bx),FG=a(bx),FI=a(h8),FH=[0,a("a claim that no cube of such a machine fits"),0],FJ=a(sv),FL=a(eX),FM=a(e2),FN=a(cs),FO=a(k_),FP=a(rP),FQ=a(ip),FR=a(q$),FS=a(qU),FT=a(k0),FW=a(d$),FX=a(r3),F0=a(b_),F1=a(b_),F2=a(rk),F3=a(b_),F4=[0,a("the closed design with other bounds on psi than one from below and one from above"),0],F5=a(h8),F6=a(gl),F7=a(d$),F_=a(sh),F$=a(r4),Ga=[0,a(" operations, with its definitions written out,"),0],Gb=a("a mechanism of more than "),Gc=a(b_),Gd=a(bP),Ge=a(bN),Gf=a(iq),Gg=a(q6),FU=[0,a(aS),0],FV=a('the mechanism "'),Gh=a(ld),Gr=a(ip),Gs=a(cs),Gt=a(k_),Gu=a(lg),Gz=a(b_),GC=a(cs),GA=[0,a("a platform that turns on struts and other drives"),0],GB=a(b_),FY=[0,a(aS),0],FZ=a('the workspace "'),GG=a(bx),GH=a(bx),GJ=a(gg),GK=a(gc),GL=a(iq),GI=[0,a("an atlas of such a machine"),0],FB=[0,a(aS),0],FC=a('a claim of the kind "'),GZ=a(lk),G0=a(dv),G1=a(eZ),G2=a(le),G3=a(f_),G4=[0,a('this evidence "fan"'),0],GQ=a(dv),Hc=a(gf),Hd=[0,1,1],GR=a(rM),G5=a(eW),G6=a(rh),G7=a(eY),G8=a(ri),G9=a(rH),G_=a(bO),G$=a(gf),Ha=a(h_),Hb=a(bO),GS=a(lk),GT=a(dv),GU=a(q5),GV=a(eZ),GW=a(le),GX=[0,a(aS),0],GY=a('the evidence "'),He=a(eW),Hf=a(eY),Hg=a(dv),Hh=a(eZ),Hi=a(sj),Hk=a(eW),Hl=a(eY),Hm=a(dv),Hn=a(eZ),Ho=a(gd),Hp=a(f_),Hq=a(gd),Hr=a(f_),Hj=[0,a("this evidence at control points"),0],Is=a('"orthocert-paving/'),Ij=a(dv),Ik=a(dv),H9=a(rC),H_=a(re),H$=a(sa),Iq=[0,3,3],Ia=a(rm),Ii=[0,a("this set of orientations with such drives"),0],Il=[0,a('this evidence "tolerances" of a platform that turns'),0],Im=[0,a("a step of a platform that turns that is not at control points"),0],In=[0,a("this quantity in a claim that is refuted"),0],Io=[0,a("a step in a proof that no cube fits"),0],Ip=[0,a('the failure "same" of such a mechanism'),0],Ib=[0,a("the acceleration of a joint of a machine with a plane"),0],Ig=[0,a("a stiffness for each joint in such a claim"),0],Ih=[0,a(rZ),0],If=[0,a(rZ),0],Ic=a(rD),Id=a(qL),Ie=a(ia),H5=a(lj),H6=a(f_),H7=a(bO),HX=a(ic),HY=a(rw),HZ=a(se),H0=[0,a(aS),0],H1=a('a proof of the kind "'),HT=a(gc),HU=a(gg),HV=a(id),HW=a(rO),HP=a(bx),HQ=a(im),HR=a(qM),HS=a(ij),HM=a(r_),HN=a(gd),HO=a(ij),HI=a(rR),HJ=a(im),HK=a(id),HL=a(sn),Hu=a(si),Hv=a(ii),Hw=a(sf),Hx=a(ig),Hy=a(rY),Hz=a(st),HC=a(r6),HD=a(h_),HE=a(gf),HF=a(r9),HG=a(rV),HH=a(ii),HA=[0,a(aS),0],HB=a('the failure "'),Hs=a(lj),Ht=a(sr),GO=a(gf),GP=a(h_),GM=a(qK),GN=a(qN),Fu=a(gl),Fk=a(k3),Fl=a(qP),Fm=a(e0),Fn=a(bo),Fs=a(sb),Ft=a(gl),Fv=a(ea),Fw=a(e0),Fo=a(ea),Fp=a(rF),Fq=a(rf),Fr=a(bo),Fd=a(d$),Fh=a(bP),Fi=a(bN),Fe=a(k8),Ff=a(la),Fg=a(ea),E9=a(d$),Fb=a(bP),Fc=a(bN),E_=a(k8),E$=a(la),Fa=a(ea),E8=[0,1],E7=[0,1],E5=[0,1],E3=[0,1],E2=[0,1],E0=[0,1],E1=[0,a("this quantity of such a mechanism"),0],EJ=a(k4),EK=a(r0),EL=a(q4),EM=a(li),EN=a(su),EP=a(r1),EO=a(gb),EI=a(ia),EA=a(ih),Eo=a(rK),Ep=a(rT),ES=a(eW),ET=a(sd),EU=a(rj),EV=a(eY),EW=a(rL),EX=a(qW),EY=a(qX),EZ=a(qO),Eq=a(qT),Er=a(sx),Es=a(r7),Et=a(rW),Eu=a(ra),Ev=a(sw),Ew=a(qZ),Ex=a(qY),Ey=[0,a(aS),0],Ez=a('the quantity "'),EB=a(q8),EC=a(r5),ED=a(bP),EE=a(bN),EF=a(sk),EG=[0,a(aS),0],EH=a('a bound "'),EQ=a(ga),ER=a(e0),Em=a(bw),En=a(e4),Ek=a(bw),El=a(cs),Eh=a(bw),Ei=a(gh),DV=a(bw),DW=a(gj),DX=a(gk),DY=a(cs),DZ=a(gh),D0=a(e4),D3=a(bo),D4=a(bM),D5=a(f$),D6=a(eV),D7=a(bo),D8=a(bM),D9=a(bO),D_=a(bO),D$=a(f$),Ea=a(eV),Eb=a(gk),Ec=a(bo),Ed=a(bM),Ee=a(rJ),Ef=a(gb),D1=[0,a('" of such a machine'),0],D2=a(q3),DT=a(bw),DU=a(gk),DD=a(bw),DE=a(cs),DF=a(gh),DG=a(e4),DJ=a(gj),DK=a(bo),DL=a(bM),DM=a(f$),DN=a(eV),DO=a(bo),DP=a(bM),DQ=a(bO),DR=a(bO),DH=[0,a(aS),0],DI=a(q3),DA=a(ik),DB=a(e3),Dy=a(" is not covered by the verified checker"),Dz=a(af),Dw=a(bP),Dx=a(bN),Ds=a(af),Dt=a(sy),Du=a(af),Dv=a(af),Dr=[1,0],Dq=a(e3),Do=a("Reader.Malformed"),Dp=a("Reader.Not_covered"),Iu=[0,a("a paving is checked by orthocert-verified")],It=a(rN),Iv=a("CERTIFIED"),Iw=a("REFUTED"),Ix=a(rN),Iy=a("NOT COVERED: ");function
+gr(a){throw[0,lC,a]}function
+lE(b,a){return J4(b,a)?b:a}function
+bg(d,c){var
+a=az(d),e=az(c),b=cw(a+e|0);e6(d,0,b,0,a);e6(c,0,b,a,e);return iy(b)}function
+lF(a,b){if(a){var
+c=a[1];return[0,c,lF(a[2],b)]}return b}J8(0);sV(1);sV(2);function
+lG(b){function
 a(b){var
 a=b;for(;;){if(a){var
-c=a[2],d=a[1];try{JC(d)}catch(a){a=sH(a);if(a[1]!==lt)throw a;var
+c=a[2],d=a[1];try{J7(d)}catch(a){a=s4(a);if(a[1]!==lD)throw a;var
 e=a}var
-a=c;continue}return 0}}return a(JE(0))}JL(a(qu),lw);function
-cu(c){var
+a=c;continue}return 0}}return a(J9(0))}Ke(a(qR),lG);function
+cy(c){var
 b=0,a=c;for(;;){if(a){var
 b=b+1|0,a=a[2];continue}return b}}function
-lx(d,c){var
+lH(d,c){var
 a=d,b=c;for(;;){if(a){var
 e=[0,a[1],b],a=a[2],b=e;continue}return b}}function
-ix(a){return lx(a,0)}function
+iB(a){return lH(a,0)}function
 X(b,a){if(a){var
-c=a[2],d=k(b,a[1]);return[0,d,X(b,c)]}return 0}function
-ly(e,d,c){var
+c=a[2],d=j(b,a[1]);return[0,d,X(b,c)]}return 0}function
+lI(e,d,c){var
 b=d,a=c;for(;;){if(a){var
-f=a[2],b=ao(e,b,a[1]),a=f;continue}return b}}function
-e9(d,c){var
+f=a[2],b=aq(e,b,a[1]),a=f;continue}return b}}function
+fa(d,c){var
 a=c;for(;;){if(a){var
-e=a[2],b=k(d,a[1]);if(b){var
+e=a[2],b=j(d,a[1]);if(b){var
 a=e;continue}return b}return 1}}function
-aM(d,c){var
+aP(d,c){var
 a=c;for(;;){if(a){var
-e=a[2],b=k(d,a[1]);if(b)return b;var
+e=a[2],b=j(d,a[1]);if(b)return b;var
 a=e;continue}return 0}}function
-lz(d,c){var
+lJ(d,c){var
 a=c;for(;;){if(a){var
-b=a[1],e=a[2],f=b[2];if(0===Jk(b[1],d))return[0,f];var
+b=a[1],e=a[2],f=b[2];if(0===JP(b[1],d))return[0,f];var
 a=e;continue}return 0}}function
-bP(b,c){var
-a=cs(b);Jm(a,0,b,c);return iu(a)}function
-ea(g,b,a){var
-d=e4(g),f=0;if(0<=b&&0<=a&&!((is(d)-a|0)<b)){var
-c=cs(a);gi(d,b,c,0,a);var
+bR(b,c){var
+a=cw(b);JR(a,0,b,c);return iy(a)}function
+eg(g,b,a){var
+d=e7(g),f=0;if(0<=b&&0<=a&&!((iw(d)-a|0)<b)){var
+c=cw(a);gm(d,b,c,0,a);var
 e=c;f=1}if(!f)var
-e=gn(sO);return iu(e)}function
-lA(k,g){if(g){var
+e=gr(s$);return iy(e)}function
+lK(k,g){if(g){var
 h=az(k),c=0,b=g,p=0;for(;;){if(b){var
 i=b[1];if(b[2]){var
-j=(az(i)+h|0)+c|0,m=b[2],n=c<=j?j:gn(sP),c=n,b=m;continue}var
+j=(az(i)+h|0)+c|0,m=b[2],n=c<=j?j:gr(ta),c=n,b=m;continue}var
 l=az(i)+c|0}else
 var
 l=c;var
-f=cs(l),e=p,d=g;for(;;){if(d){var
+f=cw(l),e=p,d=g;for(;;){if(d){var
 a=d[1];if(d[2]){var
-o=d[2];e3(a,0,f,e,az(a));e3(k,0,f,e+az(a)|0,h);var
-e=(e+az(a)|0)+h|0,d=o;continue}e3(a,0,f,e,az(a))}return iu(f)}}}return sQ}function
-iy(b,c){if(0===b)return[0];if(0<=b){var
-d=JB(b,k(c,0)),e=b-1|0,f=1;if(!(e<1)){var
-a=f;for(;;){d[1+a]=k(c,a);var
+o=d[2];e6(a,0,f,e,az(a));e6(k,0,f,e+az(a)|0,h);var
+e=(e+az(a)|0)+h|0,d=o;continue}e6(a,0,f,e,az(a))}return iy(f)}}}return tb}function
+iC(b,c){if(0===b)return[0];if(0<=b){var
+d=J6(b,j(c,0)),e=b-1|0,f=1;if(!(e<1)){var
+a=f;for(;;){d[1+a]=j(c,a);var
 g=a+1|0;if(e!==a){var
-a=g;continue}break}}return d}return gn(sR)}function
-iz(c){var
+a=g;continue}break}}return d}return gr(tc)}function
+iD(c){var
 a=c.length-1-1|0,b=0;for(;;){if(0<=a){var
 d=[0,c[1+a],b],a=a-1|0,b=d;continue}return b}}var
-d=aJ(0),b=aJ(1);function
-q(a){return E(a,b)}function
-lB(b,a){return E(aJ(b),a)}function
-c(b,a){return C(aJ(b),a)}function
-aU(b,a){return[0,lq(b,a),sK(b,a)]}function
-iA(b,a){return D(b,a)?b:a}function
-bm(b,a){return D(b,a)?a:b}function
-e_(a){return e_}function
+d=aK(0),b=aK(1);function
+q(a){return F(a,b)}function
+lL(b,a){return F(aK(b),a)}function
+c(b,a){return C(aK(b),a)}function
+aU(b,a){return[0,lA(b,a),s7(b,a)]}function
+iE(b,a){return E(b,a)?b:a}function
+bp(b,a){return E(b,a)?a:b}function
+fb(a){return fb}function
 I(a){return a?0:1}function
-y(b,a){var
-c=a?[0,k(b,a[1])]:a;return c}function
+z(b,a){var
+c=a?[0,j(b,a[1])]:a;return c}function
 aA(a){return a[1]}function
-aN(a){return a[2]}function
+aI(a){return a[2]}function
 f(a){var
 b=a?[0,f(a[2])]:a;return b}function
 g(a,b){if(a){var
 c=g(a[2],b);return[0,a[1],c]}return b}function
-lC(a){return typeof
-a==="number"?0:[0,lC(a[1])]}function
-lD(d,c){var
+lM(a){return typeof
+a==="number"?0:[0,lM(a[1])]}function
+lN(d,c){var
 a=d,b=c;for(;;)if(typeof
 a==="number")return b;else
 switch(a[0]){case
@@ -808,9 +808,9 @@ a=a[1],b=[7,b];continue;case
 8:var
 a=a[1],b=[8,b];continue;default:var
 a=a[1],b=[9,b];continue}}function
-go(a){return lD(a,0)}function
-lE(a){if(typeof
-a==="number")return sT;else
+gs(a){return lN(a,0)}function
+lO(a){if(typeof
+a==="number")return te;else
 switch(a[0]){case
 0:return[1,a[1]];case
 1:return[2,a[1]];case
@@ -820,368 +820,370 @@ switch(a[0]){case
 5:return[6,a[1]];case
 6:return[7,a[1]];case
 7:return[8,a[1]];case
-8:return[9,a[1]];default:return[0,lE(a[1])]}}function
-bR(a){if(typeof
-a==="number")return sU;else
+8:return[9,a[1]];default:return[0,lO(a[1])]}}function
+bT(a){if(typeof
+a==="number")return tf;else
 switch(a[0]){case
-0:return[1,bQ(a[1])];case
-1:return[3,bQ(a[1])];case
-2:return[5,bQ(a[1])];case
-3:return[7,bQ(a[1])];case
-4:return[9,bQ(a[1])];case
-5:return[1,bR(a[1])];case
-6:return[3,bR(a[1])];case
-7:return[5,bR(a[1])];case
-8:return[7,bR(a[1])];default:return[9,bR(a[1])]}}function
-bQ(a){if(typeof
+0:return[1,bS(a[1])];case
+1:return[3,bS(a[1])];case
+2:return[5,bS(a[1])];case
+3:return[7,bS(a[1])];case
+4:return[9,bS(a[1])];case
+5:return[1,bT(a[1])];case
+6:return[3,bT(a[1])];case
+7:return[5,bT(a[1])];case
+8:return[7,bT(a[1])];default:return[9,bT(a[1])]}}function
+bS(a){if(typeof
 a==="number")return 0;else
 switch(a[0]){case
-0:return[0,bQ(a[1])];case
-1:return[2,bQ(a[1])];case
-2:return[4,bQ(a[1])];case
-3:return[6,bQ(a[1])];case
-4:return[8,bQ(a[1])];case
-5:return[0,bR(a[1])];case
-6:return[2,bR(a[1])];case
-7:return[4,bR(a[1])];case
-8:return[6,bR(a[1])];default:return[8,bR(a[1])]}}function
-bn(a){return a?a[1]:a}function
-M(b,a){return b?[0,M(b[1],a)]:a}function
-lF(a,b){return a?M(b,lF(a[1],b)):a}function
-dx(d,c){var
+0:return[0,bS(a[1])];case
+1:return[2,bS(a[1])];case
+2:return[4,bS(a[1])];case
+3:return[6,bS(a[1])];case
+4:return[8,bS(a[1])];case
+5:return[0,bT(a[1])];case
+6:return[2,bT(a[1])];case
+7:return[4,bT(a[1])];case
+8:return[6,bT(a[1])];default:return[8,bT(a[1])]}}function
+bh(a){return a?a[1]:a}function
+N(b,a){return b?[0,N(b[1],a)]:a}function
+lP(a,b){return a?N(b,lP(a[1],b)):a}function
+dy(d,c){var
 a=d,b=c;for(;;){if(a){if(b){var
 a=a[1],b=b[1];continue}return a}return a}}function
-cv(b,a){return b?a:a?0:1}function
+cz(b,a){return b?a:a?0:1}function
 n(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return a?0:1}}function
-aa(d,c){var
+ab(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return 1}}function
-aG(b,a){return aa([0,b],a)}function
-lG(c){var
+aB(b,a){return ab([0,b],a)}function
+lQ(c){var
 a=c;for(;;){if(a){var
 b=a[1];if(b){var
 a=b[1];continue}return b}return 1}}function
-gp(c,b,a){return c?k(b,gp(c[1],b,a)):a}function
-lH(a){if(a)var
-b=a[1],d=b?[0,lH(b[1])]:b,c=d;else
+gt(c,b,a){return c?j(b,gt(c[1],b,a)):a}function
+lR(a){if(a)var
+b=a[1],d=b?[0,lR(b[1])]:b,c=d;else
 var
 c=a;return c}function
-iB(d,c){var
+iF(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return a?0:1}}function
-lI(a){if(D(a,b))return b;var
-e=aU(a,aJ(2)),f=e[1];return J(e[2],d)?q(c(2,lI(f))):q(c(2,c(2,f)))}function
-lJ(c,a){return bm(b,aL(c,a))}function
-gq(a,i,h){var
-c=i,f=h;for(;;){if(D(f,b))return k(a,c);var
-g=aU(f,aJ(2)),e=g[1];if(J(g[2],d)){var
-c=gq(a,c,e),f=e;continue}return k(a,gq(a,gq(a,c,e),e))}}function
-gr(a){function
-c(b){return C(a,b)}return function(a){return gq(c,b,a)}}function
-gs(a){if(D(a,b))return sW;var
-c=aU(a,aJ(2)),e=c[1];return J(c[2],d)?[0,gs(e)]:[0,gs(e)]}function
-gt(a){if(D(a,b))return b;var
-c=aU(a,aJ(2)),e=c[1];return J(c[2],d)?q(gt(e)):q(gt(e))}function
-lK(c,b){var
-a=lp(c,b);return 0===a?0:0<=a?2:1}function
-gu(j,i){var
-c=j,a=i;for(;;){if(D(c,b))return D(a,b)?1:J(aU(a,aJ(2))[2],d)?0:0;var
-g=aU(c,aJ(2)),h=g[1];if(J(g[2],d)){if(D(a,b))return 0;var
-e=aU(a,aJ(2)),k=e[1];if(J(e[2],d)){var
-c=h,a=k;continue}return 0}if(D(a,b))return 0;var
-f=aU(a,aJ(2)),l=f[1];if(J(f[2],d))return 0;var
+lS(a){if(E(a,b))return b;var
+e=aU(a,aK(2)),f=e[1];return L(e[2],d)?q(c(2,lS(f))):q(c(2,c(2,f)))}function
+lT(c,a){return bp(b,aM(c,a))}function
+gu(a,i,h){var
+c=i,f=h;for(;;){if(E(f,b))return j(a,c);var
+g=aU(f,aK(2)),e=g[1];if(L(g[2],d)){var
+c=gu(a,c,e),f=e;continue}return j(a,gu(a,gu(a,c,e),e))}}function
+gv(a){function
+c(b){return C(a,b)}return function(a){return gu(c,b,a)}}function
+gw(a){if(E(a,b))return th;var
+c=aU(a,aK(2)),e=c[1];return L(c[2],d)?[0,gw(e)]:[0,gw(e)]}function
+gx(a){if(E(a,b))return b;var
+c=aU(a,aK(2)),e=c[1];return L(c[2],d)?q(gx(e)):q(gx(e))}function
+lU(c,b){var
+a=lz(c,b);return 0===a?0:0<=a?2:1}function
+gy(j,i){var
+c=j,a=i;for(;;){if(E(c,b))return E(a,b)?1:L(aU(a,aK(2))[2],d)?0:0;var
+g=aU(c,aK(2)),h=g[1];if(L(g[2],d)){if(E(a,b))return 0;var
+e=aU(a,aK(2)),k=e[1];if(L(e[2],d)){var
+c=h,a=k;continue}return 0}if(E(a,b))return 0;var
+f=aU(a,aK(2)),l=f[1];if(L(f[2],d))return 0;var
 c=h,a=l;continue}}function
-gv(b,a){return 2<=lK(b,a)?0:1}function
-eb(i,e,a){if(i){var
-f=i[1];if(D(e,b))return[0,b,[0,b,a]];var
-w=aU(e,aJ(2)),g=w[1];if(J(w[2],d)){if(D(a,b))return[0,b,[0,e,b]];var
-m=aU(a,aJ(2)),A=m[1];if(J(m[2],d)){var
-j=eb(f,g,A),x=j[2];return[0,c(2,j[1]),x]}var
-k=eb(f,g,a),l=k[2],y=l[2],z=[0,c(2,l[1]),y];return[0,k[1],z]}if(D(a,b))return[0,b,[0,e,b]];var
-v=aU(a,aJ(2)),h=v[1];if(J(v[2],d)){var
-n=eb(f,e,h),o=n[2],B=c(2,o[2]);return[0,n[1],[0,o[1],B]]}switch(lK(g,h)){case
+gz(b,a){return 2<=lU(b,a)?0:1}function
+eh(i,e,a){if(i){var
+f=i[1];if(E(e,b))return[0,b,[0,b,a]];var
+w=aU(e,aK(2)),g=w[1];if(L(w[2],d)){if(E(a,b))return[0,b,[0,e,b]];var
+m=aU(a,aK(2)),A=m[1];if(L(m[2],d)){var
+j=eh(f,g,A),x=j[2];return[0,c(2,j[1]),x]}var
+k=eh(f,g,a),l=k[2],y=l[2],z=[0,c(2,l[1]),y];return[0,k[1],z]}if(E(a,b))return[0,b,[0,e,b]];var
+v=aU(a,aK(2)),h=v[1];if(L(v[2],d)){var
+n=eh(f,e,h),o=n[2],B=c(2,o[2]);return[0,n[1],[0,o[1],B]]}switch(lU(g,h)){case
 0:return[0,e,[0,b,b]];case
 1:var
-p=eb(f,lJ(h,g),e),q=p[2],r=q[2],C=[0,r,E(r,c(2,q[1]))];return[0,p[1],C];default:var
-s=eb(f,lJ(g,h),a),t=s[2],u=t[2],F=[0,E(u,c(2,t[1])),u];return[0,s[1],F]}}return[0,b,[0,e,a]]}function
-gw(b,a){var
-c=gs(a);return eb(M(gs(b),c),b,a)}function
-lL(c,i,h){var
-e=i,a=h;for(;;){if(D(e,b))return a;var
-f=aU(e,aJ(2)),g=f[1];if(J(f[2],d)){var
-e=g,a=ao(c,a,a);continue}return ao(c,a,lL(c,g,ao(c,a,a)))}}function
-e$(a){return lL(M,a,sX)}function
-lM(a){return a?q(lM(a[1])):b}function
-cw(f,e){var
+p=eh(f,lT(h,g),e),q=p[2],r=q[2],C=[0,r,F(r,c(2,q[1]))];return[0,p[1],C];default:var
+s=eh(f,lT(g,h),a),t=s[2],u=t[2],D=[0,F(u,c(2,t[1])),u];return[0,s[1],D]}}return[0,b,[0,e,a]]}function
+gA(b,a){var
+c=gw(a);return eh(N(gw(b),c),b,a)}function
+lV(c,i,h){var
+e=i,a=h;for(;;){if(E(e,b))return a;var
+f=aU(e,aK(2)),g=f[1];if(L(f[2],d)){var
+e=g,a=aq(c,a,a);continue}return aq(c,a,lV(c,g,aq(c,a,a)))}}function
+fc(a){return lV(N,a,ti)}function
+lW(a){return a?q(lW(a[1])):b}function
+cA(f,e){var
 a=f,d=e;for(;;)if(typeof
 a==="number")return d;else
 switch(a[0]){case
 0:var
 g=C(c(2,q(c(2,c(2,b)))),d),a=a[1],d=g;continue;case
 1:var
-h=E(b,C(c(2,q(c(2,c(2,b)))),d)),a=a[1],d=h;continue;case
+h=F(b,C(c(2,q(c(2,c(2,b)))),d)),a=a[1],d=h;continue;case
 2:var
-i=C(c(2,q(c(2,c(2,b)))),d),j=E(c(2,b),i),a=a[1],d=j;continue;case
+i=C(c(2,q(c(2,c(2,b)))),d),j=F(c(2,b),i),a=a[1],d=j;continue;case
 3:var
-k=C(c(2,q(c(2,c(2,b)))),d),l=E(q(c(2,b)),k),a=a[1],d=l;continue;case
+k=C(c(2,q(c(2,c(2,b)))),d),l=F(q(c(2,b)),k),a=a[1],d=l;continue;case
 4:var
-m=C(c(2,q(c(2,c(2,b)))),d),n=E(c(2,c(2,b)),m),a=a[1],d=n;continue;case
+m=C(c(2,q(c(2,c(2,b)))),d),n=F(c(2,c(2,b)),m),a=a[1],d=n;continue;case
 5:var
-o=C(c(2,q(c(2,c(2,b)))),d),p=E(q(c(2,c(2,b))),o),a=a[1],d=p;continue;case
+o=C(c(2,q(c(2,c(2,b)))),d),p=F(q(c(2,c(2,b))),o),a=a[1],d=p;continue;case
 6:var
-r=C(c(2,q(c(2,c(2,b)))),d),s=E(c(2,q(c(2,b))),r),a=a[1],d=s;continue;case
+r=C(c(2,q(c(2,c(2,b)))),d),s=F(c(2,q(c(2,b))),r),a=a[1],d=s;continue;case
 7:var
-t=C(c(2,q(c(2,c(2,b)))),d),u=E(q(c(2,q(c(2,b)))),t),a=a[1],d=u;continue;case
+t=C(c(2,q(c(2,c(2,b)))),d),u=F(q(c(2,q(c(2,b)))),t),a=a[1],d=u;continue;case
 8:var
-v=C(c(2,q(c(2,c(2,b)))),d),w=E(c(2,c(2,c(2,b))),v),a=a[1],d=w;continue;default:var
-x=C(c(2,q(c(2,c(2,b)))),d),y=E(q(c(2,c(2,c(2,b)))),x),a=a[1],d=y;continue}}function
-iC(a){if(D(a,b))return sY;var
-c=aU(a,aJ(2)),e=c[1];return J(c[2],d)?bQ(iC(e)):bR(iC(e))}function
-gx(a){return go(iC(a))}function
-lN(c,b){var
-a=lp(c,b);return 0===a?0:0<=a?2:1}function
-gy(b,a){return 1===lN(b,a)?1:0}var
-lO=E,s0=T;function
-b_(k,f){if(0<=aT(f)){var
-g=iw(f);if(0<=g){var
+v=C(c(2,q(c(2,c(2,b)))),d),w=F(c(2,c(2,c(2,b))),v),a=a[1],d=w;continue;default:var
+x=C(c(2,q(c(2,c(2,b)))),d),y=F(q(c(2,c(2,c(2,b)))),x),a=a[1],d=y;continue}}function
+iG(a){if(E(a,b))return tj;var
+c=aU(a,aK(2)),e=c[1];return L(c[2],d)?bS(iG(e)):bT(iG(e))}function
+gB(a){return gs(iG(a))}function
+lX(c,b){var
+a=lz(c,b);return 0===a?0:0<=a?2:1}function
+lY(b,a){return 0<aT(b)?0<aT(a)?gy(b,a):0:0<aT(a)?0:1}function
+lZ(b,a){return 2<=lX(b,a)?0:1}function
+gC(b,a){return 1===lX(b,a)?1:0}var
+l0=F,tl=P;function
+cb(k,f){if(0<=aT(f)){var
+g=iA(f);if(0<=g){var
 e=b,c=k,a=g;for(;;){if(0===a)return e;var
-h=a>>>1|0,i=C(c,c),j=1===(a&1)?C(e,c):e,e=j,c=i,a=h;continue}}return gn(sS)}return d}function
-iD(c){var
-a=aT(c);return 0===a?d:0<a?b:T(b)}function
-iE(a){return 0<=aT(a)?a:d}function
-ec(a){var
+h=a>>>1|0,i=C(c,c),j=1===(a&1)?C(e,c):e,e=j,c=i,a=h;continue}}return gr(td)}return d}function
+iH(c){var
+a=aT(c);return 0===a?d:0<a?b:P(b)}function
+iI(a){return 0<=aT(a)?a:d}function
+ei(a){var
 c=aT(a);return 0===c?b:0<c?a:b}function
-lP(m){var
+l1(m){var
 a=m;for(;;)if(typeof
 a==="number")return d;else
 switch(a[0]){case
 0:var
 a=a[1];continue;case
-1:return cw(a[1],b);case
+1:return cA(a[1],b);case
 2:var
-e=c(2,b);return cw(a[1],e);case
+e=c(2,b);return cA(a[1],e);case
 3:var
-f=q(c(2,b));return cw(a[1],f);case
+f=q(c(2,b));return cA(a[1],f);case
 4:var
-g=c(2,c(2,b));return cw(a[1],g);case
+g=c(2,c(2,b));return cA(a[1],g);case
 5:var
-h=q(c(2,c(2,b)));return cw(a[1],h);case
+h=q(c(2,c(2,b)));return cA(a[1],h);case
 6:var
-i=c(2,q(c(2,b)));return cw(a[1],i);case
+i=c(2,q(c(2,b)));return cA(a[1],i);case
 7:var
-j=q(c(2,q(c(2,b))));return cw(a[1],j);case
+j=q(c(2,q(c(2,b))));return cA(a[1],j);case
 8:var
-k=c(2,c(2,c(2,b)));return cw(a[1],k);default:var
-l=q(c(2,c(2,c(2,b))));return cw(a[1],l)}}function
-cx(b,a){var
-c=aT(a);return 0===c?d:1===c?lq(b,a):lB(-1,lq(lB(-1,b),a))}function
-lQ(a){var
-f=aT(a);if(0===f)return d;if(0<f){if(D(a,b))return d;var
-c=aU(a,aJ(2)),e=c[1];return J(c[2],d)?gt(e):gt(e)}return d}function
-gz(a){return 0<aT(a)?JV(a):d}function
-fa(b,c){var
-a=iw(c);return 0<=a?sL(b,a):sM(b,-a|0)}function
-dy(b,c){var
-a=iw(c);return 0<=a?sM(b,a):sL(b,-a|0)}function
-bS(b,a){return a?a[1]:b}function
-bC(a){var
+k=c(2,c(2,c(2,b)));return cA(a[1],k);default:var
+l=q(c(2,c(2,c(2,b))));return cA(a[1],l)}}function
+cB(b,a){var
+c=aT(a);return 0===c?d:1===c?lA(b,a):lL(-1,lA(lL(-1,b),a))}function
+l2(a){var
+f=aT(a);if(0===f)return d;if(0<f){if(E(a,b))return d;var
+c=aU(a,aK(2)),e=c[1];return L(c[2],d)?gx(e):gx(e)}return d}function
+gD(a){return 0<aT(a)?Ko(a):d}function
+fd(b,c){var
+a=iA(c);return 0<=a?s8(b,a):s9(b,-a|0)}function
+dz(b,c){var
+a=iA(c);return 0<=a?s9(b,a):s8(b,-a|0)}function
+bU(b,a){return a?a[1]:b}function
+bG(a){var
 b=a?a[2]:a;return b}function
 r(e,d,c){var
 b=e,a=d;for(;;){if(b){if(a){var
 b=b[1],a=a[2];continue}return c}return a?a[1]:c}}function
-F(d,c){var
+G(d,c){var
 a=d,b=c;for(;;){if(b){if(a){var
 a=a[2],b=b[1];continue}return a}var
 e=a?[0,a[1]]:a;return e}}function
-lR(a){if(a){var
-b=[0,a[1],0];return g(lR(a[2]),b)}return a}function
-fb(d,c){var
+l3(a){if(a){var
+b=[0,a[1],0];return g(l3(a[2]),b)}return a}function
+fe(d,c){var
 a=d,b=c;for(;;){if(a){var
 e=[0,a[1],b],a=a[2],b=e;continue}return b}}function
-ed(a){if(a){var
-b=ed(a[2]);return g(a[1],b)}return a}function
-iF(g,f,e){var
+cY(a){if(a){var
+b=cY(a[2]);return g(a[1],b)}return a}function
+iJ(g,f,e){var
 b=f,a=e;for(;;){if(b){if(a){var
-c=ao(g,b[1],a[1]);if(c){var
+c=aq(g,b[1],a[1]);if(c){var
 b=b[2],a=a[2];continue}var
 d=c}else
 var
 d=a;return d}return a?0:1}}function
 e(b,a){if(a)var
-d=e(b,a[2]),c=[0,k(b,a[1]),d];else
+d=e(b,a[2]),c=[0,j(b,a[1]),d];else
 var
 c=a;return c}function
-z(b,a){if(a){var
-c=z(b,a[2]);return g(k(b,a[1]),c)}return a}function
-bT(e,d,c){var
+w(b,a){if(a){var
+c=w(b,a[2]);return g(j(b,a[1]),c)}return a}function
+bV(e,d,c){var
 a=d,b=c;for(;;){if(a){var
-f=ao(e,b,a[1]),a=a[2],b=f;continue}return b}}function
-ap(c,b,a){if(a){var
-d=ap(c,b,a[2]);return ao(c,a[1],d)}return b}function
+f=aq(e,b,a[1]),a=a[2],b=f;continue}return b}}function
+an(c,b,a){if(a){var
+d=an(c,b,a[2]);return aq(c,a[1],d)}return b}function
 aj(e,d){var
 a=d;for(;;){if(a){var
-b=k(e,a[1]);if(!b){var
+b=j(e,a[1]);if(!b){var
 a=a[2];continue}var
 c=b}else
 var
 c=a;return c}}function
 l(d,c){var
 a=c;for(;;){if(a){var
-b=k(d,a[1]);if(b){var
+b=j(d,a[1]);if(b){var
 a=a[2];continue}return b}return 1}}function
-a1(b,e){var
+a2(b,e){var
 a=e;for(;;){if(a){var
-c=a[2],d=a[1];if(k(b,d))return[0,d,a1(b,c)];var
+c=a[2],d=a[1];if(j(b,d))return[0,d,a2(b,c)];var
 a=c;continue}return a}}function
-lS(d,c){var
+l4(d,c){var
 a=c;for(;;){if(a){var
-b=a[1];if(k(d,b))return[0,b];var
+b=a[1];if(j(d,b))return[0,b];var
 a=a[2];continue}return a}}function
-U(b,a){if(b)if(a)var
-d=U(b[2],a[2]),c=[0,[0,b[1],a[1]],d];else
+V(b,a){if(b)if(a)var
+d=V(b[2],a[2]),c=[0,[0,b[1],a[1]],d];else
 var
 c=a;else
 var
 c=b;return c}function
-am(b,a){if(b)if(a)var
-d=am(b[1],a[2]),c=[0,a[1],d];else
+al(b,a){if(b)if(a)var
+d=al(b[1],a[2]),c=[0,a[1],d];else
 var
 c=a;else
 var
 c=b;return c}function
-av(d,c){var
+au(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[2];continue}return a}return a}}function
-aC(b,a){var
-c=a?[0,b,aC([0,b],a[1])]:a;return c}function
+aE(b,a){var
+c=a?[0,b,aE([0,b],a[1])]:a;return c}function
 ac(b,a){var
 c=a?[0,b,ac(b,a[1])]:a;return c}function
-lT(a){return ap(M,0,a)}function
-lU(a){if(a){var
-e=lU(a[2]),f=C(c(2,b),e),g=a[1]?b:d;return E(g,f)}return d}function
-gA(j){function
+l5(a){return an(N,0,a)}function
+l6(a){if(a){var
+e=l6(a[2]),f=C(c(2,b),e),g=a[1]?b:d;return F(g,f)}return d}function
+gE(j){function
 a(a){return 0!==(j&1<<a)?1:0}var
-c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=lU([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<aT(b)?e$(b):0}function
-lV(a){return[0,a,b]}function
-ee(c,b){var
-a=lp(C(c[1],b[2]),C(b[1],c[2])),d=0===a?0:0<=a?2:1;return d?0:1}function
-bf(b,a){return D(C(b[1],a[2]),C(a[1],b[2]))}function
-dz(b,a){return[0,E(C(b[1],a[2]),C(a[1],b[2])),C(b[2],a[2])]}function
-a3(b,a){return[0,C(b[1],a[1]),C(b[2],a[2])]}function
-gB(a){return[0,T(a[1]),a[2]]}function
-dA(b,a){return dz(b,gB(a))}function
-gC(f,c){var
-a=c[1],e=aT(a),g=0===e?[0,d,b]:0<e?[0,c[2],a]:[0,T(c[2]),T(a)];return a3(f,g)}function
-dB(q){var
+c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=l6([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<aT(b)?fc(b):0}function
+l7(a){return[0,a,b]}function
+ej(c,b){var
+a=lz(C(c[1],b[2]),C(b[1],c[2])),d=0===a?0:0<=a?2:1;return d?0:1}function
+bi(b,a){return E(C(b[1],a[2]),C(a[1],b[2]))}function
+dA(b,a){return[0,F(C(b[1],a[2]),C(a[1],b[2])),C(b[2],a[2])]}function
+a5(b,a){return[0,C(b[1],a[1]),C(b[2],a[2])]}function
+gF(a){return[0,P(a[1]),a[2]]}function
+dB(b,a){return dA(b,gF(a))}function
+gG(f,c){var
+a=c[1],e=aT(a),g=0===e?[0,d,b]:0<e?[0,c[2],a]:[0,P(c[2]),P(a)];return a5(f,g)}function
+dC(q){var
 a=q[2],b=q[1],o=aT(b);if(0===o)var
-c=[0,ct(a),[0,d,iD(a)]];else
+c=[0,cx(a),[0,d,iH(a)]];else
 if(0<o){var
 n=aT(a);if(0===n)var
-c=[0,ct(b),[0,iD(b),d]];else
+c=[0,cx(b),[0,iH(b),d]];else
 if(0<n)var
-l=gw(b,a),m=l[2],c=[0,l[1],[0,m[1],m[2]]];else
+l=gA(b,a),m=l[2],c=[0,l[1],[0,m[1],m[2]]];else
 var
-j=gw(b,T(a)),k=j[2],c=[0,j[1],[0,k[1],T(k[2])]]}else{var
-p=T(b),i=aT(a);if(0===i)var
-c=[0,ct(b),[0,iD(b),d]];else
+j=gA(b,P(a)),k=j[2],c=[0,j[1],[0,k[1],P(k[2])]]}else{var
+p=P(b),i=aT(a);if(0===i)var
+c=[0,cx(b),[0,iH(b),d]];else
 if(0<i)var
-g=gw(p,a),h=g[2],c=[0,g[1],[0,T(h[1]),h[2]]];else
+g=gA(p,a),h=g[2],c=[0,g[1],[0,P(h[1]),h[2]]];else
 var
-e=gw(p,T(a)),f=e[2],c=[0,e[1],[0,T(f[1]),T(f[2])]]}var
-r=c[2],s=ec(r[2]);return[0,r[1],s]}function
-bo(a){if(typeof
-a==="number")return s2;else
+e=gA(p,P(a)),f=e[2],c=[0,e[1],[0,P(f[1]),P(f[2])]]}var
+r=c[2],s=ei(r[2]);return[0,r[1],s]}function
+bq(a){if(typeof
+a==="number")return tn;else
 switch(a[0]){case
 0:var
-b=bo(a[1]);return be(bP(1,48),b);case
+b=bq(a[1]);return bg(bR(1,48),b);case
 1:var
-c=bo(a[1]);return be(bP(1,49),c);case
+c=bq(a[1]);return bg(bR(1,49),c);case
 2:var
-d=bo(a[1]);return be(bP(1,50),d);case
+d=bq(a[1]);return bg(bR(1,50),d);case
 3:var
-e=bo(a[1]);return be(bP(1,51),e);case
+e=bq(a[1]);return bg(bR(1,51),e);case
 4:var
-f=bo(a[1]);return be(bP(1,52),f);case
+f=bq(a[1]);return bg(bR(1,52),f);case
 5:var
-g=bo(a[1]);return be(bP(1,53),g);case
+g=bq(a[1]);return bg(bR(1,53),g);case
 6:var
-h=bo(a[1]);return be(bP(1,54),h);case
+h=bq(a[1]);return bg(bR(1,54),h);case
 7:var
-i=bo(a[1]);return be(bP(1,55),i);case
+i=bq(a[1]);return bg(bR(1,55),i);case
 8:var
-j=bo(a[1]);return be(bP(1,56),j);default:var
-k=bo(a[1]);return be(bP(1,57),k)}}function
-fc(a){return typeof
-a==="number"?s3:bo(a)}function
-cy(a){return b_(c(2,b),a)}function
-lW(b,a){return dy(a,b)}function
-lX(b,a){return T(dy(T(a),b))}function
-gD(b,a){return T(cx(T(b),a))}function
-N(c,b){var
-a=fa(b,c);return[0,a,a]}function
-lY(d,c,a){var
-b=fa(c,d),e=gD(b,a);return[0,cx(b,a),e]}function
-A(b,a){return[0,E(b[1],a[1]),E(b[2],a[2])]}function
-G(b,a){return[0,aL(b[1],a[2]),aL(b[2],a[1])]}function
-ab(a){return[0,T(a[2]),T(a[1])]}function
-lZ(e,c,b,a){if(D(d,e))return D(d,b)?[0,C(e,b),C(c,a)]:D(a,d)?[0,C(c,b),C(e,a)]:[0,C(c,b),C(c,a)];if(D(c,d))return D(d,b)?[0,C(e,a),C(c,b)]:D(a,d)?[0,C(c,a),C(e,b)]:[0,C(e,a),C(e,b)];if(D(d,b))return[0,C(e,a),C(c,a)];if(D(a,d))return[0,C(c,b),C(e,b)];var
-f=bm(C(e,b),C(c,a));return[0,iA(C(e,a),C(c,b)),f]}function
+j=bq(a[1]);return bg(bR(1,56),j);default:var
+k=bq(a[1]);return bg(bR(1,57),k)}}function
+ff(a){return typeof
+a==="number"?to:bq(a)}function
+cC(a){return cb(c(2,b),a)}function
+l8(b,a){return dz(a,b)}function
+l9(b,a){return P(dz(P(a),b))}function
+gH(b,a){return P(cB(P(b),a))}function
+J(c,b){var
+a=fd(b,c);return[0,a,a]}function
+l_(d,c,a){var
+b=fd(c,d),e=gH(b,a);return[0,cB(b,a),e]}function
+A(b,a){return[0,F(b[1],a[1]),F(b[2],a[2])]}function
+D(b,a){return[0,aM(b[1],a[2]),aM(b[2],a[1])]}function
+_(a){return[0,P(a[2]),P(a[1])]}function
+l$(e,c,b,a){if(E(d,e))return E(d,b)?[0,C(e,b),C(c,a)]:E(a,d)?[0,C(c,b),C(e,a)]:[0,C(c,b),C(c,a)];if(E(c,d))return E(d,b)?[0,C(e,a),C(c,b)]:E(a,d)?[0,C(c,a),C(e,b)]:[0,C(e,a),C(e,b)];if(E(d,b))return[0,C(e,a),C(c,a)];if(E(a,d))return[0,C(c,b),C(e,b)];var
+f=bp(C(e,b),C(c,a));return[0,iE(C(e,a),C(c,b)),f]}function
 t(c,b,a){var
-d=lZ(b[1],b[2],a[1],a[2]),e=lX(c,d[2]);return[0,lW(c,d[1]),e]}function
-V(b,a){var
-c=C(a[1],a[1]),e=C(a[2],a[2]),h=lX(b,bm(c,e)),g=0;if(K(a[1],d)&&K(d,a[2])){var
+d=l$(b[1],b[2],a[1],a[2]),e=l9(c,d[2]);return[0,l8(c,d[1]),e]}function
+Q(b,a){var
+c=C(a[1],a[1]),e=C(a[2],a[2]),h=l9(b,bp(c,e)),g=0;if(K(a[1],d)&&K(d,a[2])){var
 f=d;g=1}if(!g)var
-f=lW(b,iA(c,e));return[0,f,h]}function
-iG(b,a){var
-c=fa(cy(b),b),d=gD(c,a[1]);return[0,cx(c,a[2]),d]}function
-b$(b,a){if(K(d,a[1]))return[0,iG(b,a)];var
-c=K(a[2],d),e=c?[0,ab(iG(b,ab(a)))]:c;return e}function
-iH(c){var
-a=gz(c);return J(C(a,a),c)?a:E(a,b)}function
-ca(b,a){var
+f=l8(b,iE(c,e));return[0,f,h]}function
+iK(b,a){var
+c=fd(cC(b),b),d=gH(c,a[1]);return[0,cB(c,a[2]),d]}function
+bW(b,a){if(K(d,a[1]))return[0,iK(b,a)];var
+c=K(a[2],d),e=c?[0,_(iK(b,_(a)))]:c;return e}function
+iL(c){var
+a=gD(c);return L(C(a,a),c)?a:F(a,b)}function
+cc(b,a){var
 c=K(d,a[1]);if(c)var
-f=iH(fa(a[2],b)),e=[0,[0,gz(fa(a[1],b)),f]];else
+f=iL(fd(a[2],b)),e=[0,[0,gD(fd(a[1],b)),f]];else
 var
 e=c;return e}function
-ef(a){return 0===a[0]?a[2]:a[1]}function
-aP(f,d,c,b,a){if(b){if(a){var
-g=aP(f,d,c,b[2],a[2]);return[0,ao(c,b[1],a[1]),g]}return e(f,b)}return e(d,a)}function
-cX(b,a){return dy(b,a)}function
-aQ(a,c,b){if(D(d,a)){var
-e=b[1],f=T(cX(T(C(a,b[2])),c));return[0,cX(C(a,e),c),f]}var
-g=b[2],h=T(cX(T(C(a,b[1])),c));return[0,cX(C(a,g),c),h]}function
-aw(a){var
-c=T(dy(T(a[2]),b));return[0,dy(a[1],b),c]}function
-eg(c,b,a){var
-e=lZ(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=K(f,d)?a[2]:a[1],i=gD(f,h),j=K(g,d)?a[1]:a[2];return[0,cx(g,j),i]}function
-cb(a){return bm(a[2],T(a[1]))}var
+ek(a){return 0===a[0]?a[2]:a[1]}function
+aQ(f,d,c,b,a){if(b){if(a){var
+g=aQ(f,d,c,b[2],a[2]);return[0,aq(c,b[1],a[1]),g]}return e(f,b)}return e(d,a)}function
+cZ(b,a){return dz(b,a)}function
+aN(a,c,b){if(E(d,a)){var
+e=b[1],f=P(cZ(P(C(a,b[2])),c));return[0,cZ(C(a,e),c),f]}var
+g=b[2],h=P(cZ(P(C(a,b[1])),c));return[0,cZ(C(a,g),c),h]}function
+av(a){var
+c=P(dz(P(a[2]),b));return[0,dz(a[1],b),c]}function
+el(c,b,a){var
+e=l$(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=K(f,d)?a[2]:a[1],i=gH(f,h),j=K(g,d)?a[1]:a[2];return[0,cB(g,j),i]}function
+bH(a){return bp(a[2],P(a[1]))}var
 u=[0,d,d];function
-cc(a){return[0,a[1],a[1]]}function
-cz(a){return[0,a[2],a[2]]}function
-bU(b,a){switch(a[0]){case
+cd(a){return[0,a[1],a[1]]}function
+cD(a){return[0,a[2],a[2]]}function
+bX(b,a){switch(a[0]){case
 0:return[0,a[1]];case
 1:return[1,a[1]];case
 2:return[2,a[1]];case
 3:var
-c=k(b,a[2]);return[3,k(b,a[1]),c];case
+c=j(b,a[2]);return[3,j(b,a[1]),c];case
 4:var
-d=k(b,a[2]);return[4,k(b,a[1]),d];case
-5:return[5,k(b,a[1])];case
+d=j(b,a[2]);return[4,j(b,a[1]),d];case
+5:return[5,j(b,a[1])];case
 6:var
-e=k(b,a[2]);return[6,k(b,a[1]),e];case
+e=j(b,a[2]);return[6,j(b,a[1]),e];case
 7:var
-f=k(b,a[2]);return[7,k(b,a[1]),f];case
-8:return[8,k(b,a[1])];case
-9:return[9,k(b,a[1])];default:var
-g=k(b,a[4]),h=k(b,a[3]),i=k(b,a[2]);return[10,a[1],i,h,g]}}function
+f=j(b,a[2]);return[7,j(b,a[1]),f];case
+8:return[8,j(b,a[1])];case
+9:return[9,j(b,a[1])];default:var
+g=j(b,a[4]),h=j(b,a[3]),i=j(b,a[2]);return[10,a[1],i,h,g]}}function
 aO(o,m){var
 d=o,c=m;for(;;){var
 a=c[1],b=d[1];switch(b[0]){case
 0:return 0===a[0]?n(b[1],a[1]):0;case
 1:return 1===a[0]?n(b[1],a[1]):0;case
-2:return 2===a[0]?J(b[1],a[1]):0;case
+2:return 2===a[0]?L(b[1],a[1]):0;case
 3:if(3===a[0]){var
 f=aO(b[1],a[1]);if(f){var
 d=b[2],c=a[2];continue}return f}return 0;case
@@ -1200,7 +1202,7 @@ d=b[2],c=a[2];continue}return i}return 0;case
 d=b[1],c=a[1];continue}return 0;case
 9:if(9===a[0]){var
 d=b[1],c=a[1];continue}return 0;default:if(10===a[0]){var
-j=cv(b[1],a[1]);if(j){var
+j=cz(b[1],a[1]);if(j){var
 k=aO(b[2],a[2]);if(k){var
 l=aO(b[3],a[3]);if(l){var
 d=b[4],c=a[4];continue}var
@@ -1209,47 +1211,47 @@ var
 e=k}else
 var
 e=j;return e}return 0}}}function
-gE(b){var
+gI(b){var
 a=b[1];return 2===a[0]?[0,a[1]]:0}function
-a_(c,b){var
-a=gE(b);return a?J(c,a[1]):a}function
-fd(a){return K(ct(a),c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b))))))))))))))))}function
+ba(c,b){var
+a=gI(b);return a?L(c,a[1]):a}function
+fg(a){return K(cx(a),c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b))))))))))))))))}function
 m(a){return[0,[2,a]]}function
-B(b,a){if(a_(d,b))return a;if(a_(d,a))return b;var
-c=gE(b);if(c){var
-e=c[1],f=gE(a);if(f){var
-g=f[1];if(fd(e)&&fd(g))return m(E(e,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
-bp(a){var
+B(b,a){if(ba(d,b))return a;if(ba(d,a))return b;var
+c=gI(b);if(c){var
+e=c[1],f=gI(a);if(f){var
+g=f[1];if(fg(e)&&fg(g))return m(F(e,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
+br(a){var
 b=a[1];switch(b[0]){case
 2:var
-c=b[1];return fd(c)?m(T(c)):[0,[5,a]];case
+c=b[1];return fg(c)?m(P(c)):[0,[5,a]];case
 5:return b[1];default:return[0,[5,a]]}}function
-x(b,a){if(a_(d,a))return b;if(a_(d,b))return bp(a);var
+y(b,a){if(ba(d,a))return b;if(ba(d,b))return br(a);var
 c=b[1];if(0===c[0]){var
 e=a[1];return 0===e[0]?n(c[1],e[1])?m(d):[0,[4,b,a]]:[0,[4,b,a]]}return[0,[4,b,a]]}function
 W(a){var
-c=gE(a);if(c){var
-b=c[1];return fd(b)?m(C(b,b)):[0,[8,a]]}return[0,[8,a]]}function
-s(a,c){if(!a_(d,a)&&!a_(b,c)){if(!a_(d,c)&&!a_(b,a))return aO(a,c)?W(a):[0,[6,a,c]];return c}return a}function
-al(c,a){return a_(b,a)?c:[0,[7,c,a]]}function
-aK(a){return a_(b,a)?a:[0,[9,a]]}function
-l0(d,c,b,a){return[0,[10,d,c,b,a]]}function
-bg(f,e,d,c){var
+c=gI(a);if(c){var
+b=c[1];return fg(b)?m(C(b,b)):[0,[8,a]]}return[0,[8,a]]}function
+s(a,c){if(!ba(d,a)&&!ba(b,c)){if(!ba(d,c)&&!ba(b,a))return aO(a,c)?W(a):[0,[6,a,c]];return c}return a}function
+am(c,a){return ba(b,a)?c:[0,[7,c,a]]}function
+aL(a){return ba(b,a)?a:[0,[9,a]]}function
+ma(d,c,b,a){return[0,[10,d,c,b,a]]}function
+bj(f,e,d,c){var
 b=d,a=c;for(;;){if(b){var
-g=b[1],h=[0,k(e,bU(function(b){return function(a){return r(a,b,f)}}(a),g)),a],b=b[2],a=h;continue}return a}}function
-l1(d,f,j,i,h){var
-b=j,c=i,a=h;for(;;){if(c){var
+g=b[1],h=[0,j(e,bX(function(b){return function(a){return r(a,b,f)}}(a),g)),a],b=b[2],a=h;continue}return a}}function
+iM(d,f,k,i,h){var
+b=k,c=i,a=h;for(;;){if(c){var
 e=c[2],g=c[1];if(b){if(b[1]){var
-l=[0,k(f,bU(function(b){return function(a){return r(a,b,d)}}(a),g)),a],b=bC(b),c=e,a=l;continue}var
+l=[0,j(f,bX(function(b){return function(a){return r(a,b,d)}}(a),g)),a],b=bG(b),c=e,a=l;continue}var
 b=b[2],c=e,a=[0,d,a];continue}var
-m=[0,k(f,bU(function(b){return function(a){return r(a,b,d)}}(a),g)),a],b=bC(b),c=e,a=m;continue}return a}}function
-fe(b,a){if(a){var
+m=[0,j(f,bX(function(b){return function(a){return r(a,b,d)}}(a),g)),a],b=bG(b),c=e,a=m;continue}return a}}function
+fh(b,a){if(a){var
 c=a[2];if(b){var
-e=fe(b[1],c);return[0,a[1],e]}var
+e=fh(b[1],c);return[0,a[1],e]}var
 d=[0,1,c]}else
 var
 d=a;return d}function
-l2(a){switch(a[0]){case
+mb(a){switch(a[0]){case
 10:return[0,a[2],[0,a[3],[0,a[4],0]]];case
 5:case
 8:case
@@ -1257,57 +1259,57 @@ l2(a){switch(a[0]){case
 0:case
 1:case
 2:return 0;default:return[0,a[1],[0,a[2],0]]}}function
-gF(j,g){var
-k=0,l=ap(fe,e(function(a){return 0},g),j),c=fb(g,0),b=l,a=k;for(;;){if(c){if(b){var
-d=b[2],f=b[1],h=[0,f,a],i=f?ap(fe,d,l2(c[1])):d,c=c[2],b=i,a=h;continue}return a}return a}}function
-cY(a){var
+fi(j,g){var
+k=0,l=an(fh,e(function(a){return 0},g),j),c=fe(g,0),b=l,a=k;for(;;){if(c){if(b){var
+d=b[2],f=b[1],h=[0,f,a],i=f?an(fh,d,mb(c[1])):d,c=c[2],b=i,a=h;continue}return a}return a}}function
+c0(a){var
 b=0;function
-c(a){return[0,a]}return bg(m(d),c,a,b)}function
-bh(d,c){var
+c(a){return[0,a]}return bj(m(d),c,a,b)}function
+bk(d,c){var
 a=d,b=0;for(;;){if(a){if(aO(c,a[1]))return b;var
 a=a[2],b=[0,b];continue}return a}}function
-dC(d,b){var
+dD(d,b){var
 e=b[1];if(aj(function(a){return aO(d,a)},e))return b;var
 a=d[1];switch(a[0]){case
 10:var
-j=dC(a[2],b),k=dC(a[3],j),c=dC(a[4],k);break;case
+j=dD(a[2],b),k=dD(a[3],j),c=dD(a[4],k);break;case
 5:case
 8:case
 9:var
-c=dC(a[1],b);break;case
+c=dD(a[1],b);break;case
 0:case
 1:case
 2:var
 c=b;break;default:var
-i=dC(a[1],b),c=dC(a[2],i)}var
-f=c[2],g=c[1],h=[0,bU(function(a){return bh(g,a)},a),f];return[0,[0,d,c[1]],h]}function
-cZ(a){var
-b=bT(function(b,a){return dC(a,b)},a,s4),c=b[1],d=e(function(a){return bh(c,a)},a);return[0,lR(b[2]),d]}function
-ff(a){return ap(function(b,a){return E(cb(b),a)},d,a)}function
-cA(b,c,a){var
-d=ff(a),e=iA(c[2],E(b[2],d)),f=ff(a);return[0,b,[0,bm(c[1],aL(b[1],f)),e],a]}function
+i=dD(a[1],b),c=dD(a[2],i)}var
+f=c[2],g=c[1],h=[0,bX(function(a){return bk(g,a)},a),f];return[0,[0,d,c[1]],h]}function
+c1(a){var
+b=bV(function(b,a){return dD(a,b)},a,tp),c=b[1],d=e(function(a){return bk(c,a)},a);return[0,l3(b[2]),d]}function
+fj(a){return an(function(b,a){return F(bH(b),a)},d,a)}function
+cE(b,c,a){var
+d=fj(a),e=iE(c[2],F(b[2],d)),f=fj(a);return[0,b,[0,bp(c[1],aM(b[1],f)),e],a]}function
 $(a){return[0,a,a,0]}function
-cd(b,a){var
+ce(b,a){var
 c=a[3],d=b[3];function
 e(a){return a}var
-f=aP(function(a){return a},e,A,d,c),g=A(b[2],a[2]);return cA(A(b[1],a[1]),g,f)}function
-bx(b,a){var
-c=a[3],d=b[3],e=aP(function(a){return a},ab,G,d,c),f=G(b[2],a[2]);return cA(G(b[1],a[1]),f,e)}function
-fg(a){var
-b=e(ab,a[3]),c=ab(a[2]);return[0,ab(a[1]),c,b]}function
+f=aQ(function(a){return a},e,A,d,c),g=A(b[2],a[2]);return cE(A(b[1],a[1]),g,f)}function
+by(b,a){var
+c=a[3],d=b[3],e=aQ(function(a){return a},_,D,d,c),f=D(b[2],a[2]);return cE(D(b[1],a[1]),f,e)}function
+fk(a){var
+b=e(_,a[3]),c=_(a[2]);return[0,_(a[1]),c,b]}function
 aR(a,c,b){var
 d=A(b[2],b[1]),e=A(c[2],c[1]),f=b[3],g=c[3];function
 h(c,b){var
-f=t(a,e,b);return aw(A(t(a,d,c),f))}function
-i(b){return aw(t(a,e,b))}var
-j=aP(function(b){return aw(t(a,d,b))},i,h,g,f),k=t(a,c[2],b[2]);return cA(t(a,c[1],b[1]),k,j)}function
-fh(b,a){var
-c=a[3],d=A(a[2],a[1]),f=e(function(a){return t(b,d,a)},c),g=V(b,a[2]);return cA(V(b,a[1]),g,f)}function
-iI(a,b){var
-c=ca(a,b[1]);if(c){var
-g=c[1],d=ca(a,b[2]);if(d){var
-h=d[1],f=b$(a,A(h,g));if(f)var
-l=b[3],m=f[1],i=[0,cA(g,h,e(function(b){return t(a,m,b)},l))];else
+f=t(a,e,b);return av(A(t(a,d,c),f))}function
+i(b){return av(t(a,e,b))}var
+j=aQ(function(b){return av(t(a,d,b))},i,h,g,f),k=t(a,c[2],b[2]);return cE(t(a,c[1],b[1]),k,j)}function
+fl(b,a){var
+c=a[3],d=A(a[2],a[1]),f=e(function(a){return t(b,d,a)},c),g=Q(b,a[2]);return cE(Q(b,a[1]),g,f)}function
+iN(a,b){var
+c=cc(a,b[1]);if(c){var
+g=c[1],d=cc(a,b[2]);if(d){var
+h=d[1],f=bW(a,A(h,g));if(f)var
+l=b[3],m=f[1],i=[0,cE(g,h,e(function(b){return t(a,m,b)},l))];else
 var
 i=f;var
 j=i}else
@@ -1316,651 +1318,685 @@ j=d;var
 k=j}else
 var
 k=c;return k}function
-eh(a,c,b){var
-d=b$(a,b[1]);if(d){var
-f=b$(a,b[2]);if(f)var
-h=f[1],g=t(a,c[1],d[1]),k=b[3],l=c[3],m=function(c,b){return G(c,t(a,g,b))},n=function(b){return ab(t(a,g,b))},o=aP(function(a){return a},n,m,l,k),p=e(function(b){return t(a,h,b)},o),i=[0,cA(g,t(a,c[2],h),p)];else
+em(a,c,b){var
+d=bW(a,b[1]);if(d){var
+f=bW(a,b[2]);if(f)var
+h=f[1],g=t(a,c[1],d[1]),k=b[3],l=c[3],m=function(c,b){return D(c,t(a,g,b))},n=function(b){return _(t(a,g,b))},o=aQ(function(a){return a},n,m,l,k),p=e(function(b){return t(a,h,b)},o),i=[0,cE(g,t(a,c[2],h),p)];else
 var
 i=f;var
 j=i}else
 var
 j=d;return j}function
-c0(b,a){return a?k(b,a[1]):a}function
-gG(a){var
-b=e(aw,a[3]),c=aw(A(a[2],a[1]));return cA(a[1],c,b)}function
-l3(a,k,j,r,c){var
-l=gG(k),m=gG(j),g=gG(c[1]),h=gG(c[2]),s=aR(a,l,h),u=bx(aR(a,m,g),s),i=eh(a,$(N(a,b)),u);if(i)var
-f=i[1],n=aR(a,bx(l,g),f),o=aR(a,bx(m,h),f),d=function(c,b){return aR(a,c,$(b))},v=j[3],w=k[3],x=function(b,a){var
-c=d(o,a);return cd(d(n,b),c)},y=function(a){return d(o,a)},z=aP(function(a){return d(n,a)},y,x,w,v),A=r[3],B=function(b,a){return bx(b,d(f,aw(a)))[2]},C=function(a){return fg(d(f,aw(a)))[2]},p=aP(function(a){return a[2]},C,B,z,A),D=g[2],E=e(function(b){return t(a,D,b)},p),F=cA(c[2][1],c[2][2],E),G=ab(h[2]),H=e(function(b){return t(a,G,b)},p),q=[0,[0,cA(c[1][1],c[1][2],H),F]];else
+c2(b,a){return a?j(b,a[1]):a}function
+gJ(a){var
+b=e(av,a[3]),c=av(A(a[2],a[1]));return cE(a[1],c,b)}function
+mc(a,k,j,r,c){var
+l=gJ(k),m=gJ(j),g=gJ(c[1]),h=gJ(c[2]),s=aR(a,l,h),u=by(aR(a,m,g),s),i=em(a,$(J(a,b)),u);if(i)var
+f=i[1],n=aR(a,by(l,g),f),o=aR(a,by(m,h),f),d=function(c,b){return aR(a,c,$(b))},v=j[3],w=k[3],x=function(b,a){var
+c=d(o,a);return ce(d(n,b),c)},y=function(a){return d(o,a)},z=aQ(function(a){return d(n,a)},y,x,w,v),A=r[3],B=function(b,a){return by(b,d(f,av(a)))[2]},C=function(a){return fk(d(f,av(a)))[2]},p=aQ(function(a){return a[2]},C,B,z,A),D=g[2],E=e(function(b){return t(a,D,b)},p),F=cE(c[2][1],c[2][2],E),G=_(h[2]),H=e(function(b){return t(a,G,b)},p),q=[0,[0,cE(c[1][1],c[1][2],H),F]];else
 var
 q=i;return q}function
-l4(a,e,d,k){var
-p=fh(a,d),f=cd(fh(a,e),p),g=bx(cd(f,$(N(a,b))),k),l=aR(a,$(N(a,c(2,b))),f),q=fh(a,g),h=iI(a,bx(aR(a,$(N(a,c(2,c(2,b)))),f),q));if(h){var
-m=h[1],r=aR(a,m,d),i=eh(a,cd(aR(a,g,e),r),l);if(i)var
-s=aR(a,m,e),j=eh(a,bx(aR(a,g,d),s),l),t=j?[0,[0,i[1],j[1]]]:j,n=t;else
+md(a,e,d,k){var
+p=fl(a,d),f=ce(fl(a,e),p),g=by(ce(f,$(J(a,b))),k),l=aR(a,$(J(a,c(2,b))),f),q=fl(a,g),h=iN(a,by(aR(a,$(J(a,c(2,c(2,b)))),f),q));if(h){var
+m=h[1],r=aR(a,m,d),i=em(a,ce(aR(a,g,e),r),l);if(i)var
+s=aR(a,m,e),j=em(a,by(aR(a,g,d),s),l),t=j?[0,[0,i[1],j[1]]]:j,n=t;else
 var
 n=i;var
 o=n}else
 var
 o=h;var
-u=c0(function(b){return l3(a,e,d,k,b)},o);return c0(function(b){return l3(a,e,d,k,b)},u)}function
-cB(d,b,a){if(b){if(a)return ao(d,b[1],a[1]);var
+u=c2(function(b){return mc(a,e,d,k,b)},o);return c2(function(b){return mc(a,e,d,k,b)},u)}function
+cF(d,b,a){if(b){if(a)return aq(d,b[1],a[1]);var
 c=a}else
 var
 c=b;return c}function
-bD(b,j,i){var
+bz(b,j,i){var
 f=$(u);return function(a){switch(a[0]){case
 0:return[0,r(a[1],j,f)];case
 1:return[0,r(a[1],i,f)];case
-2:return[0,$(N(b,a[1]))];case
+2:return[0,$(J(b,a[1]))];case
 3:var
-k=a[2],l=a[1];return cB(function(b,a){return[0,cd(b,a)]},l,k);case
+k=a[2],l=a[1];return cF(function(b,a){return[0,ce(b,a)]},l,k);case
 4:var
-m=a[2],n=a[1];return cB(function(b,a){return[0,bx(b,a)]},n,m);case
+m=a[2],n=a[1];return cF(function(b,a){return[0,by(b,a)]},n,m);case
 5:var
-o=a[1];return c0(function(a){return[0,fg(a)]},o);case
+o=a[1];return c2(function(a){return[0,fk(a)]},o);case
 6:var
-p=a[2],q=a[1];return cB(function(c,a){return[0,aR(b,c,a)]},q,p);case
+p=a[2],q=a[1];return cF(function(c,a){return[0,aR(b,c,a)]},q,p);case
 7:var
-s=a[2],t=a[1];return cB(function(a,c){return eh(b,a,c)},t,s);case
+s=a[2],t=a[1];return cF(function(a,c){return em(b,a,c)},t,s);case
 8:var
-u=a[1];return c0(function(a){return[0,fh(b,a)]},u);case
+u=a[1];return c2(function(a){return[0,fl(b,a)]},u);case
 9:var
-v=a[1];return c0(function(a){return iI(b,a)},v);default:var
+v=a[1];return c2(function(a){return iN(b,a)},v);default:var
 c=a[2];if(c){var
 d=a[3];if(d){var
 e=a[4];if(e){var
-w=l4(b,c[1],d[1],e[1]),x=a[1]?aN:aA;return y(x,w)}var
+w=md(b,c[1],d[1],e[1]),x=a[1]?aI:aA;return z(x,w)}var
 g=e}else
 var
 g=d;var
 h=g}else
 var
 h=c;return h}}}function
-dD(c){var
+dE(c){var
 a=c;for(;;)switch(a[0]){case
 0:return 0;case
 1:return 1;case
 6:var
 a=a[1];continue;default:var
-b=dD(a[1]);if(b)return b;var
+b=dE(a[1]);if(b)return b;var
 a=a[2];continue}}function
-ce(r,q){var
+cf(r,q){var
 b=r,a=q;for(;;)switch(b[0]){case
 0:if(0===a[0]){var
-c=J(b[1],a[1]);return c?gu(b[2],a[2]):c}return 0;case
+c=L(b[1],a[1]);return c?gy(b[2],a[2]):c}return 0;case
 1:var
 d=b[3],e=b[2];if(1===a[0]){var
-f=a[3],g=a[2],h=n(b[1],a[1]),i=h?J(e[1],g[1]):h,j=i?gu(e[2],g[2]):i,k=j?J(d[1],f[1]):j;return k?gu(d[2],f[2]):k}return 0;case
+f=a[3],g=a[2],h=n(b[1],a[1]),i=h?L(e[1],g[1]):h,j=i?gy(e[2],g[2]):i,k=j?L(d[1],f[1]):j;return k?gy(d[2],f[2]):k}return 0;case
 2:if(2===a[0]){var
-l=ce(b[1],a[1]);if(l){var
+l=cf(b[1],a[1]);if(l){var
 b=b[2],a=a[2];continue}return l}return 0;case
 3:if(3===a[0]){var
-m=ce(b[1],a[1]);if(m){var
+m=cf(b[1],a[1]);if(m){var
 b=b[2],a=a[2];continue}return m}return 0;case
 4:if(4===a[0]){var
-o=ce(b[1],a[1]);if(o){var
+o=cf(b[1],a[1]);if(o){var
 b=b[2],a=a[2];continue}return o}return 0;case
 5:if(5===a[0]){var
-p=ce(b[1],a[1]);if(p){var
+p=cf(b[1],a[1]);if(p){var
 b=b[2],a=a[2];continue}return p}return 0;default:if(6===a[0]){var
 b=b[1],a=a[1];continue}return 0}}function
-fi(c,a){switch(a[0]){case
+fm(c,a){switch(a[0]){case
 0:return[0,[0,a[1],a[2]]];case
 1:return 0;case
 2:var
-m=a[2],n=a[1],g=m,f=n,e=function(b,a){return[0,dz(b,a)]};break;case
+m=a[2],n=a[1],g=m,f=n,e=function(b,a){return[0,dA(b,a)]};break;case
 3:var
-o=a[2],p=a[1],g=o,f=p,e=function(b,a){return[0,dA(b,a)]};break;case
+o=a[2],p=a[1],g=o,f=p,e=function(b,a){return[0,dB(b,a)]};break;case
 4:var
-q=a[2],r=a[1],g=q,f=r,e=function(b,a){return[0,a3(b,a)]};break;case
+q=a[2],r=a[1],g=q,f=r,e=function(b,a){return[0,a5(b,a)]};break;case
 5:var
-s=a[2],t=a[1],g=s,f=t,e=function(c,a){return ee(a,[0,d,b])?0:[0,gC(c,a)]};break;default:var
-j=fi(c,a[1]);return j?k(c,j[1]):j}var
-h=fi(c,f);if(h){var
-i=fi(c,g);if(i)return e(h[1],i[1]);var
+s=a[2],t=a[1],g=s,f=t,e=function(c,a){return ej(a,[0,d,b])?0:[0,gG(c,a)]};break;default:var
+k=fm(c,a[1]);return k?j(c,k[1]):k}var
+h=fm(c,f);if(h){var
+i=fm(c,g);if(i)return e(h[1],i[1]);var
 l=i}else
 var
 l=h;return l}function
-s5(a){return 0}function
-cC(a){return fi(s5,a)}function
-bV(a,c){switch(c[0]){case
-0:return[0,lY(a,c[1],c[2])];case
+tq(a){return 0}function
+cG(a){return fm(tq,a)}function
+bY(a,c){switch(c[0]){case
+0:return[0,l_(a,c[1],c[2])];case
 1:return 0;case
 2:var
-g=bV(a,c[1]);if(g)var
-h=bV(a,c[2]),D=h?[0,A(g[1],h[1])]:h,r=D;else
+g=bY(a,c[1]);if(g)var
+h=bY(a,c[2]),E=h?[0,A(g[1],h[1])]:h,r=E;else
 var
 r=g;return r;case
 3:var
-i=bV(a,c[1]);if(i)var
-j=bV(a,c[2]),E=j?[0,G(i[1],j[1])]:j,s=E;else
+i=bY(a,c[1]);if(i)var
+j=bY(a,c[2]),F=j?[0,D(i[1],j[1])]:j,s=F;else
 var
 s=i;return s;case
 4:var
-k=bV(a,c[1]);if(k)var
-l=bV(a,c[2]),F=l?[0,t(a,k[1],l[1])]:l,v=F;else
+k=bY(a,c[1]);if(k)var
+l=bY(a,c[2]),G=l?[0,t(a,k[1],l[1])]:l,v=G;else
 var
 v=k;return v;case
 5:var
-m=bV(a,c[1]);if(m){var
-n=bV(a,c[2]);if(n)var
-o=b$(a,n[1]),H=o?[0,t(a,m[1],o[1])]:o,w=H;else
+m=bY(a,c[1]);if(m){var
+n=bY(a,c[2]);if(n)var
+o=bW(a,n[1]),H=o?[0,t(a,m[1],o[1])]:o,w=H;else
 var
 w=n;var
 x=w}else
 var
 x=m;return x;default:var
-z=c[1],p=bV(a,z);if(p){var
-e=p[1];if(K(d,e[1]))return ca(a,e);var
-f=cC(z),L=f?I(bf([0,d,b],f[1])):f;if(L)return 0;if(K(d,e[2])){var
-B=ca(a,[0,e[2],e[2]]);return y(function(a){return[0,d,a[2]]},B)}var
-q=J(e[2],d),C=q?[0,u]:q;return C}return p}}function
-cD(b,a){return lY(b,a[1],a[2])}function
-l5(a,f,e,d){var
-h=[0,b,c(2,b)],i=[0,cD(a,a3(dA(d,e),h)),0],j=g(ac(u,f),i),k=cD(a,d)[2],l=[0,cD(a,e)[1],k],m=[0,b,c(2,b)];return[0,cD(a,a3(dz(e,d),m)),l,j]}function
-ei(c,e,a){function
-b(a){return ei(c,e,a)}if(dD(a))switch(a[0]){case
+y=c[1],p=bY(a,y);if(p){var
+e=p[1];if(K(d,e[1]))return cc(a,e);var
+f=cG(y),J=f?I(bi([0,d,b],f[1])):f;if(J)return 0;if(K(d,e[2])){var
+B=cc(a,[0,e[2],e[2]]);return z(function(a){return[0,d,a[2]]},B)}var
+q=L(e[2],d),C=q?[0,u]:q;return C}return p}}function
+cH(b,a){return l_(b,a[1],a[2])}function
+me(a,f,e,d){var
+h=[0,b,c(2,b)],i=[0,cH(a,a5(dB(d,e),h)),0],j=g(ac(u,f),i),k=cH(a,d)[2],l=[0,cH(a,e)[1],k],m=[0,b,c(2,b)];return[0,cH(a,a5(dA(e,d),m)),l,j]}function
+en(c,e,a){function
+b(a){return en(c,e,a)}if(dE(a))switch(a[0]){case
 0:return 0;case
-1:return f5(e,a[1],a[2],a[3]);case
+1:return f9(e,a[1],a[2],a[3]);case
 2:var
-g=b(a[2]),h=b(a[1]);return cB(function(b,a){return[0,cd(b,a)]},h,g);case
+g=b(a[2]),h=b(a[1]);return cF(function(b,a){return[0,ce(b,a)]},h,g);case
 3:var
-i=b(a[2]),j=b(a[1]);return cB(function(b,a){return[0,bx(b,a)]},j,i);case
+i=b(a[2]),j=b(a[1]);return cF(function(b,a){return[0,by(b,a)]},j,i);case
 4:var
-f=a[2],d=a[1];if(ce(d,f)){var
-k=b(d);return c0(function(a){return[0,fh(c,a)]},k)}var
-l=b(f),m=b(d);return cB(function(b,a){return[0,aR(c,b,a)]},m,l);case
+f=a[2],d=a[1];if(cf(d,f)){var
+k=b(d);return c2(function(a){return[0,fl(c,a)]},k)}var
+l=b(f),m=b(d);return cF(function(b,a){return[0,aR(c,b,a)]},m,l);case
 5:var
-n=b(a[2]),o=b(a[1]);return cB(function(a,b){return eh(c,a,b)},o,n);default:var
-p=b(a[1]);return c0(function(a){return iI(c,a)},p)}return y($,bV(c,a))}function
-aD(b,a){if(dD(a)){var
-c=ei(b,function(d,c,a){var
-e=aG(d,dE),f=e?bf(c,a):e,g=f?[0,l5(b,d,c,a)]:f;return g},a);return y(function(a){return a[2]},c)}return bV(b,a)}function
-iJ(a){var
-e=bm(T(a),d);return ec(E(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e))}function
-l6(a){return iE(E(iJ(a),a))}function
-l7(b,a){var
-c=l6(b),d=T(cX(T(a[2]),c)),e=l6(b);return[0,cX(a[1],e),d]}function
-c1(c,a,b){var
-d=aD(E(c,iJ(a)),b);return y(function(b){return l7(a,b)},d)}function
-aq(d,a){var
-b=c1(d,a[2],a[1][1]);if(b)var
-c=c1(d,a[2],a[1][2]),f=c?[0,[0,b[1][1],c[1][2]]]:c,e=f;else
+n=b(a[2]),o=b(a[1]);return cF(function(a,b){return em(c,a,b)},o,n);default:var
+p=b(a[1]);return c2(function(a){return iN(c,a)},p)}return z($,bY(c,a))}function
+aF(b,a){if(dE(a)){var
+c=en(b,function(d,c,a){var
+e=aB(d,dF),f=e?bi(c,a):e,g=f?[0,me(b,d,c,a)]:f;return g},a);return z(function(a){return a[2]},c)}return bY(b,a)}function
+iO(a){var
+e=bp(P(a),d);return ei(F(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e))}function
+mf(a){return iI(F(iO(a),a))}function
+mg(b,a){var
+c=mf(b),d=P(cZ(P(a[2]),c)),e=mf(b);return[0,cZ(a[1],e),d]}function
+c3(c,a,b){var
+d=aF(F(c,iO(a)),b);return z(function(b){return mg(a,b)},d)}function
+ao(d,a){var
+b=c3(d,a[2],a[1][1]);if(b)var
+c=c3(d,a[2],a[1][2]),f=c?[0,[0,b[1][1],c[1][2]]]:c,e=f;else
 var
 e=b;return e}function
-l8(b,a){var
-c=T(cX(T(a[2]),b));return[0,cX(a[1],b),c]}function
-gH(b,a){var
-c=gD(b[2],a);return[0,cx(b[1],a),c]}function
-l9(h,g,d,b){var
-e=b[2],f=lM(d),i=c(2,f),j=C(lI(f),i),a=gH(t(h,b[1],g),j),k=lG(d)?G(e,a):A(e,a);return[0,a,k]}function
-l_(a,d,c){if(c){var
-e=c[1];return l9(a,d,e,l_(a,d,e))}var
-f=N(a,b);return[0,N(a,b),f]}function
-l$(e,g){var
-o=cy(e),p=C(c(2,c(2,b)),o),j=D(g[2],p);if(j){var
-n=e$(e),i=s6[1],d=n,f=0,a=i;for(;;){if(d){var
+mh(b,a){var
+c=P(cZ(P(a[2]),b));return[0,cZ(a[1],b),c]}function
+gK(b,a){var
+c=gH(b[2],a);return[0,cB(b[1],a),c]}function
+mi(h,g,d,b){var
+e=b[2],f=lW(d),i=c(2,f),j=C(lS(f),i),a=gK(t(h,b[1],g),j),k=lQ(d)?D(e,a):A(e,a);return[0,a,k]}function
+mj(a,d,c){if(c){var
+e=c[1];return mi(a,d,e,mj(a,d,e))}var
+f=J(a,b);return[0,J(a,b),f]}function
+mk(e,g){var
+o=cC(e),p=C(c(2,c(2,b)),o),j=E(g[2],p);if(j){var
+n=fc(e),i=tr[1],d=n,f=0,a=i;for(;;){if(d){var
 h=d[1];if(a){var
 d=h,a=a[1];continue}var
 d=h,f=[0,f],a=i;continue}var
-k=M(lF(s9,M(s7,f)),s8),l=l_(e,g,k),q=l9(e,g,k,l)[2][2],m=[0,[0,l[2][1],q]];break}}else
+k=N(lP(tu,N(ts,f)),tt),l=mj(e,g,k),q=mi(e,g,k,l)[2][2],m=[0,[0,l[2][1],q]];break}}else
 var
 m=j;return m}function
-ma(i){function
+ml(i){function
 a(h){var
-m=cx(cy(i),h),g=e$(i),f=m,e=d,a=b;for(;;){if(g){var
-j=E(a,c(2,b)),k=E(e,cx(f,a)),l=T(cx(f,C(h,h))),g=g[1],f=l,e=k,a=j;continue}return e}}var
-e=a(q(c(2,q(c(2,q(c(2,q(c(2,c(2,q(c(2,q(c(2,b)))))))))))))),f=C(c(2,c(2,b)),e),g=a(q(c(2,c(2,b))));return aL(C(c(2,c(2,c(2,c(2,b)))),g),f)}function
-mb(e,a){var
-f=D(d,a);if(f){var
-g=c(2,c(2,b));return l$(e,gH(V(e,[0,a,a]),g))}return f}function
-mc(a){var
-m=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),g=aL(ma(a),m),n=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),h=E(ma(a),n),e=mb(a,g);if(e){var
-f=mb(a,h);if(f)var
+m=cB(cC(i),h),g=fc(i),f=m,e=d,a=b;for(;;){if(g){var
+j=F(a,c(2,b)),k=F(e,cB(f,a)),l=P(cB(f,C(h,h))),g=g[1],f=l,e=k,a=j;continue}return e}}var
+e=a(q(c(2,q(c(2,q(c(2,q(c(2,c(2,q(c(2,q(c(2,b)))))))))))))),f=C(c(2,c(2,b)),e),g=a(q(c(2,c(2,b))));return aM(C(c(2,c(2,c(2,c(2,b)))),g),f)}function
+mm(e,a){var
+f=E(d,a);if(f){var
+g=c(2,c(2,b));return mk(e,gK(Q(e,[0,a,a]),g))}return f}function
+mn(a){var
+m=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),g=aM(ml(a),m),n=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),h=F(ml(a),n),e=mm(a,g);if(e){var
+f=mm(a,h);if(f)var
 i=K(d,e[1][1]),j=i?K(f[1][2],d):i,k=j?[0,[0,g,h]]:j;else
 var
 k=f;var
 l=k}else
 var
 l=e;return l}function
-md(a,d){var
-c=V(a,d),e=N(a,b);return G(A(c,c),e)}function
-c2(f,j){var
-e=aD(E(f,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),j);if(e){var
-k=e[1],a=E(f,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),d=mc(a);if(d)var
-h=c(2,c(2,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))))),i=l$(a,V(a,gH(t(a,k,d[1]),h))),g=y(function(b){return md(a,md(a,b))},i);else
+mo(a,d){var
+c=Q(a,d),e=J(a,b);return D(A(c,c),e)}function
+c4(f,j){var
+e=aF(F(f,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),j);if(e){var
+k=e[1],a=F(f,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),d=mn(a);if(d)var
+h=c(2,c(2,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))))),i=mk(a,Q(a,gK(t(a,k,d[1]),h))),g=z(function(b){return mo(a,mo(a,b))},i);else
 var
 g=d;var
-l=c(2,c(2,c(2,c(2,c(2,c(2,b))))));return y(function(a){return l8(l,a)},g)}return e}function
-me(a,d){var
-e=mc(E(a,c(2,c(2,c(2,c(2,c(2,c(2,b))))))));return y(function(e){var
-f=c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))));return gH(t(a,d,l8(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e)),f)},e)}function
-gI(d,a){return c2(d,[3,a,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b]])}function
+l=c(2,c(2,c(2,c(2,c(2,c(2,b))))));return z(function(a){return mh(l,a)},g)}return e}function
+mp(a,d){var
+e=mn(F(a,c(2,c(2,c(2,c(2,c(2,c(2,b))))))));return z(function(e){var
+f=c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))));return gK(t(a,d,mh(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e)),f)},e)}function
+gL(d,a){return c4(d,[3,a,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b]])}function
 h(i,e,c){var
-f=cC(c);if(f){var
-g=f[1];return e?I(bf(g,[0,d,b])):bf([0,d,b],g)}var
-a=aD(i,c);if(a){var
-h=a[1];return e?K(d,h[1]):D(d,h[1])}return a}function
-mf(c,b){var
-a=aD(c,b),d=a?1:a;return d}function
-by(c,a,b){var
-d=ce(a,b),e=d?mf(c,a):d;return e?e:h(c,0,[3,b,a])}function
-s_(c){var
-a=dB(c),g=ec(gz(a[2])),b=[0,gz(a[1]),g],e=K(d,a[1]),f=e?ee(a3(b,b),c):e,h=f?[0,b]:f;return h}function
-mg(a){if(a){var
-e=a[2],c=a[1];if(ee(bS([0,d,b],c),[0,d,b])){var
-g=mg(e);return y(function(a){return[0,a[1],[0,c,a[2]]]},g)}var
+f=cG(c);if(f){var
+g=f[1];return e?I(bi(g,[0,d,b])):bi([0,d,b],g)}var
+a=aF(i,c);if(a){var
+h=a[1];return e?K(d,h[1]):E(d,h[1])}return a}function
+mq(c,b){var
+a=aF(c,b),d=a?1:a;return d}function
+bA(c,a,b){var
+d=cf(a,b),e=d?mq(c,a):d;return e?e:h(c,0,[3,b,a])}function
+tv(c){var
+a=dC(c),g=ei(gD(a[2])),b=[0,gD(a[1]),g],e=K(d,a[1]),f=e?ej(a5(b,b),c):e,h=f?[0,b]:f;return h}function
+mr(a){if(a){var
+e=a[2],c=a[1];if(ej(bU([0,d,b],c),[0,d,b])){var
+g=mr(e);return z(function(a){return[0,a[1],[0,c,a[2]]]},g)}var
 f=[0,[0,c,e]]}else
 var
 f=a;return f}function
-mh(c,a){var
-e=U(c,a),f=[0,d,b];return ap(function(a,b){return dB(dz(a3(a[1],a[2]),b))},f,e)}function
-mi(c,j){if(c){var
-f=c[1],g=mg(j);if(g){var
+ms(c,a){var
+e=V(c,a),f=[0,d,b];return an(function(a,b){return dC(dA(a5(a[1],a[2]),b))},f,e)}function
+mt(c,j){if(c){var
+f=c[1],g=mr(j);if(g){var
 h=g[1],a=h[1],k=function(c){var
-f=bS([0,d,b],a),g=gC(bS([0,d,b],c),f),h=bC(a),i=U(bC(c),h);return e(function(a){var
-b=a3(g,a[2]);return dB(dA(a[1],b))},i)},l=mi(f,e(k,h[2]));return y(function(c){var
-e=bS([0,d,b],a);return[0,dB(gC(gB(mh(bC(a),c)),e)),c]},l)}var
+f=bU([0,d,b],a),g=gG(bU([0,d,b],c),f),h=bG(a),i=V(bG(c),h);return e(function(a){var
+b=a5(g,a[2]);return dC(dB(a[1],b))},i)},l=mt(f,e(k,h[2]));return z(function(c){var
+e=bU([0,d,b],a);return[0,dC(gG(gF(ms(bG(a),c)),e)),c]},l)}var
 i=[0,[0,[0,b,b],ac([0,d,b],f)]]}else
 var
 i=c;return i}function
-mj(a){if(a){var
-b=fi(s_,a[1]);if(b)var
-c=mj(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+mu(a){if(a){var
+b=fm(tv,a[1]);if(b)var
+c=mu(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return s$}function
-mk(a){if(a){var
-b=mj(a[1]);if(b)var
-c=mk(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+d=b;return d}return tw}function
+mv(a){if(a){var
+b=mu(a[1]);if(b)var
+c=mv(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return ta}function
-ml(i,m){var
-a=mk(m);if(a){var
-j=a[1],c=mi(i,j);if(c){var
-e=c[1],g=n(f(e),i),h=g?aj(function(a){return I(ee(a,[0,d,b]))},e):g;return h?l(function(a){return ee(mh(a,e),[0,d,b])},j):h}var
+d=b;return d}return tx}function
+mw(i,m){var
+a=mv(m);if(a){var
+j=a[1],c=mt(i,j);if(c){var
+e=c[1],g=n(f(e),i),h=g?aj(function(a){return I(ej(a,[0,d,b]))},e):g;return h?l(function(a){return ej(ms(a,e),[0,d,b])},j):h}var
 k=c}else
 var
 k=a;return k}function
-tb(a){return a}function
-tc(a){return a}function
-td(a,b){return aP(tc,tb,A,a,b)}function
-te(a){return a}function
-tf(a){return a}function
-bi(a,b){return aP(tf,te,td,a,b)}function
-iK(a,f,c,d){if(c){var
-h=c[2],i=N(a,b),g=eg(c[1],i,f);if(d){var
-j=iK(a,f,h,d[2]),k=d[1],l=function(c,b){return G(c,t(a,g,b))},m=function(b){return ab(t(a,g,b))};return[0,aP(function(a){return a},m,l,k,c),j]}var
-n=iK(a,f,h,0);return[0,e(function(b){return ab(t(a,g,b))},c),n]}return d}function
-gJ(h,a){if(a){var
+ty(a){return a}function
+tz(a){return a}function
+tA(a,b){return aQ(tz,ty,A,a,b)}function
+tB(a){return a}function
+tC(a){return a}function
+a6(a,b){return aQ(tC,tB,tA,a,b)}function
+iP(a,f,c,d){if(c){var
+h=c[2],i=J(a,b),g=el(c[1],i,f);if(d){var
+j=iP(a,f,h,d[2]),k=d[1],l=function(c,b){return D(c,t(a,g,b))},m=function(b){return _(t(a,g,b))};return[0,aQ(function(a){return a},m,l,k,c),j]}var
+n=iP(a,f,h,0);return[0,e(function(b){return _(t(a,g,b))},c),n]}return d}function
+gM(h,a){if(a){var
 b=a[1];if(b)var
-c=b[1],e=K(d,c[1]),i=e?[0,iK(h,c,b[2],a[2])]:e,f=i;else
+c=b[1],e=K(d,c[1]),i=e?[0,iP(h,c,b[2],a[2])]:e,f=i;else
 var
 f=b;var
 g=f}else
 var
 g=a;return g}function
-mm(g,f,e){var
+mx(g,f,e){var
 a=f,b=e;for(;;){if(b){if(a){var
-c=gJ(g,b);if(c){var
+c=gM(g,b);if(c){var
 a=a[1],b=c[1];continue}var
 d=c}else
 var
 d=a;return d}return 1}}function
-mn(d,b,a){if(b)if(a)var
-e=a[1],f=mn(d,b[2],a[2]),g=cv(d,b[1])?cc(e):cz(e),c=[0,g,f];else
+my(d,b,a){if(b)if(a)var
+e=a[1],f=my(d,b[2],a[2]),g=cz(d,b[1])?cd(e):cD(e),c=[0,g,f];else
 var
 c=a;else
 var
 c=b;return c}function
-mo(a,b){if(a)if(b)var
-d=mo(a[2],b[2]),c=[0,mn(a[1],a,b[1]),d];else
+mz(a,b){if(a)if(b)var
+d=mz(a[2],b[2]),c=[0,my(a[1],a,b[1]),d];else
 var
 c=b;else
 var
 c=a;return c}function
-bj(a){if(a){var
-b=a[1],c=bj(b),d=e(function(a){return[0,1,a]},c),f=bj(b);return g(e(function(a){return[0,0,a]},f),d)}return tg}function
-ej(c,a){var
-b=f(a);if(mm(c,b,a))return 1;var
-d=bj(bn(b));return l(function(d){return mm(c,b,mo([0,0,d],a))},d)}function
-ax(a){function
+a7(a){if(a){var
+b=a[1],c=a7(b),d=e(function(a){return[0,1,a]},c),f=a7(b);return g(e(function(a){return[0,0,a]},f),d)}return tD}function
+eo(c,a){var
+b=f(a);if(mx(c,b,a))return 1;var
+d=a7(bh(b));return l(function(d){return mx(c,b,mz([0,0,d],a))},d)}function
+aw(a){function
 b(b){var
-c=k(a,b[2]);return[0,e(a,b[1]),c]}return function(a){return e(b,a)}}function
-aH(h,e){var
+c=j(a,b[2]);return[0,e(a,b[1]),c]}return function(a){return e(b,a)}}function
+aC(h,e){var
 c=h,a=e[1],b=e[3];for(;;){if(c){if(b){var
-d=b[1],f=b[2],g=c[1]?A(a,d):G(a,d),c=c[2],a=g,b=f;continue}return a}return a}}function
-iL(c,b,a){var
-d=bj(c);return l(function(c){return k(a,k(ax(function(a){return aH(c,a)}),b))},d)}function
-iM(h,d,c){if(d)if(c)var
-i=c[2],e=c[1],j=d[2],f=d[1],a=function(c,a){return aQ(c,E(h,b),a)},k=iM(h,j,i),l=function(c,b){var
-d=a(b,e);return A(a(f,c),d)},m=function(b){return a(b,e)},n=aP(function(b){return a(f,b)},m,l,i,j),o=a(f,e),g=[0,[0,A(a(f,e),o),n],k];else
+d=b[1],f=b[2],g=c[1]?A(a,d):D(a,d),c=c[2],a=g,b=f;continue}return a}return a}}function
+iQ(c,b,a){var
+d=a7(c);return l(function(c){return j(a,j(aw(function(a){return aC(c,a)}),b))},d)}function
+iR(h,d,c){if(d)if(c)var
+i=c[2],e=c[1],j=d[2],f=d[1],a=function(c,a){return aN(c,F(h,b),a)},k=iR(h,j,i),l=function(c,b){var
+d=a(b,e);return A(a(f,c),d)},m=function(b){return a(b,e)},n=aQ(function(b){return a(f,b)},m,l,i,j),o=a(f,e),g=[0,[0,A(a(f,e),o),n],k];else
 var
 g=c;else
 var
 g=d;return g}function
-ek(b,d,a,c){function
+ep(b,d,a,c){function
 e(c,d){var
-e=aQ(d,b,a);return G(A(c,c),e)}function
-f(c){return ab(aQ(c,b,a))}return aP(function(a){return A(a,a)},f,e,d,c)}function
-gK(d,i,h,g){var
+e=aN(d,b,a);return D(A(c,c),e)}function
+f(c){return _(aN(c,b,a))}return aQ(function(a){return A(a,a)},f,e,d,c)}function
+gN(d,i,h,g){var
 c=i,b=h,a=g;for(;;){if(c){if(b){var
-e=b[1],f=c[1],j=cz(e[2]),k=bi(a,iM(d,f,ek(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
-iN(b,a){return[0,[0,0,b],a]}function
-fj(i,b,c,h,g,a){function
+e=b[1],f=c[1],j=cD(e[2]),k=a6(a,iR(d,f,ep(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
+iS(b,a){return[0,[0,0,b],a]}function
+fn(i,b,c,h,g,a){function
 d(a){if(a){var
-j=ac([0,ab(a[1][2]),0],b),c=gK(h,g,a[2],j),d=n(f(c),b);if(d)return ej(i,c);var
+j=ac([0,_(a[1][2]),0],b),c=gN(h,g,a[2],j),d=n(f(c),b);if(d)return eo(i,c);var
 e=d}else
 var
-e=a;return e}return iL(b,iN(c,a),d)}function
-gL(g,f,e){var
+e=a;return e}return iQ(b,iS(c,a),d)}function
+gO(g,f,e){var
 a=f,b=e;for(;;){if(a){var
-d=a[1],h=d[1],c=gJ(g,[0,[0,cc(d[2]),h],b]);if(c){var
+d=a[1],h=d[1],c=gM(g,[0,[0,cd(d[2]),h],b]);if(c){var
 a=a[2],b=c[1];continue}return c}return[0,b]}}function
-iO(d,b,c,a){function
+iT(d,b,c,a){function
 e(a){if(a){var
-j=ac([0,a[1][2],0],b),c=gL(d,a[2],j);if(c){var
-e=c[1],g=n(f(e),b);if(g)return ej(d,e);var
+j=ac([0,a[1][2],0],b),c=gO(d,a[2],j);if(c){var
+e=c[1],g=n(f(e),b);if(g)return eo(d,e);var
 h=g}else
 var
 h=c;var
 i=h}else
 var
-i=a;return i}return iL(b,iN(c,a),e)}function
-mp(h,g,a,f,d,c){var
-i=[0,u,u,0],b=e(function(a){return[0,a[1],i]},c),j=a?a[1]:[0,u,u,0];return fj(h,g,j,f,d,b)}function
-iP(b,a){var
-c=bj(b);return l(function(b){return K(d,aH(b,a)[1])},c)}function
-gM(c,b,a){var
-d=a[3],f=e(function(a){return aQ(c,b,a)},d),g=a[2];return[0,aQ(c,b,a[1]),g,f]}function
-mq(a,b){var
-c=b[3],d=a[3],e=aP(function(a){return a},ab,G,d,c),f=a[2];return[0,G(a[1],b[1]),f,e]}function
-bW(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+i=a;return i}return iQ(b,iS(c,a),e)}function
+mA(h,g,a,f,d,c){var
+i=[0,u,u,0],b=e(function(a){return[0,a[1],i]},c),j=a?a[1]:[0,u,u,0];return fn(h,g,j,f,d,b)}function
+iU(b,a){var
+c=a7(b);return l(function(b){return K(d,aC(b,a)[1])},c)}function
+gP(c,b,a){var
+d=a[3],f=e(function(a){return aN(c,b,a)},d),g=a[2];return[0,aN(c,b,a[1]),g,f]}function
+mB(a,b){var
+c=b[3],d=a[3],e=aQ(function(a){return a},_,D,d,c),f=a[2];return[0,D(a[1],b[1]),f,e]}function
+bZ(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
 ag(c,b,a){var
-d=ao(c,b[3],a[3]),e=ao(c,b[2],a[2]);return[0,ao(c,b[1],a[1]),e,d]}function
-a4(b,a){var
+d=aq(c,b[3],a[3]),e=aq(c,b[2],a[2]);return[0,aq(c,b[1],a[1]),e,d]}function
+a3(b,a){var
 c=s(b,a[3]),d=s(b,a[2]);return[0,s(b,a[1]),d,c]}function
-bq(b,a){var
-c=al(b[3],a),d=al(b[2],a);return[0,al(b[1],a),d,c]}function
-_(b,a){var
+bl(b,a){var
+c=am(b[3],a),d=am(b[2],a);return[0,am(b[1],a),d,c]}function
+aa(b,a){var
 c=s(b[3],a[3]),d=s(b[2],a[2]);return B(B(s(b[1],a[1]),d),c)}function
-dF(a){return bq(a,aK(_(a,a)))}function
-c3(a){var
-b=a[5];return b?b[1]:aK(a[2])}function
-gN(b,a){return b?a:bp(a)}function
-mr(e,a,i,d,h){var
-f=_(a,e),b=ag(x,e,a4(f,a)),j=_(b,b),g=x(W(d),j),c=gN(h,aK(g)),k=x(f,c),l=ag(B,a,bq(b,c));return[0,ag(B,b,a4(c,a)),g,l,k,[0,d],0,[0,i]]}function
-ms(a,e,d){var
-b=_(a,a),c=aK(b),f=[0,e],g=y(function(b){return ag(x,a,a4(_(b,a),b))},d);return[0,a,b,bq(a,c),c,0,g,f]}function
-mt(c,a){var
-d=_(a,c);return[0,a,m(b),a,d,0,0,0]}function
-fk(a){return e(function(a){var
-b=a[2];return[0,bW(a[1]),b]},a)}function
-mu(a){return e(function(a){var
-c=m(b);return[0,bW(a[3]),c]},a)}function
-mv(b,a){var
-c=k(b,a[3]),d=k(b,a[2]);return[0,k(b,a[1]),d,c]}function
-mw(c,b,a){var
-d=ao(c,b[3],a[3]),e=ao(c,b[2],a[2]);return[0,ao(c,b[1],a[1]),e,d]}function
-el(d,a){var
-b=ca(d,[0,a[2],a[2]]);if(b){var
+dG(a){return bl(a,aL(aa(a,a)))}function
+c5(a){var
+b=a[5];return b?b[1]:aL(a[2])}function
+gQ(b,a){return b?a:br(a)}function
+mC(e,a,i,d,h){var
+f=aa(a,e),b=ag(y,e,a3(f,a)),j=aa(b,b),g=y(W(d),j),c=gQ(h,aL(g)),k=y(f,c),l=ag(B,a,bl(b,c));return[0,ag(B,b,a3(c,a)),g,l,k,[0,d],0,[0,i]]}function
+mD(a,e,d){var
+b=aa(a,a),c=aL(b),f=[0,e],g=z(function(b){return ag(y,a,a3(aa(b,a),b))},d);return[0,a,b,bl(a,c),c,0,g,f]}function
+mE(c,a){var
+d=aa(a,c);return[0,a,m(b),a,d,0,0,0]}function
+fo(a){return e(function(a){var
+b=a[2];return[0,bZ(a[1]),b]},a)}function
+mF(a){return e(function(a){var
+c=m(b);return[0,bZ(a[3]),c]},a)}function
+mG(b,a){var
+c=j(b,a[3]),d=j(b,a[2]);return[0,j(b,a[1]),d,c]}function
+mH(c,b,a){var
+d=aq(c,b[3],a[3]),e=aq(c,b[2],a[2]);return[0,aq(c,b[1],a[1]),e,d]}function
+eq(d,a){var
+b=cc(d,[0,a[2],a[2]]);if(b){var
 c=b[1];return[0,c[2],c[2]]}return[0,a[2],a[2]]}function
-gO(a,n,f,m,e,k,j){var
-o=mw(bx,k,j),b=mw(function(b,c){return aR(a,b,c)},e,o),c=b[3],g=b[2],h=b[1],i=cd(cd(cd($(N(a,d)),h),g),c),p=bj(n);return l(function(c){var
-b=mv(function(b){return V(a,aH(c,b))},e),h=b[3],j=b[2],k=b[1],l=t(a,m,el(a,A(A(A(N(a,d),k),j),h))),g=G(aH(c,i),l),n=f?G(g,aH(c,f[1])):g;return K(d,n[1])},p)}function
-cf(a){return dy(E(a[1],a[2]),b)}function
-em(a){var
-b=cf(a);return aL(a[2],b)}function
-dH(c,b){if(b)var
-a=b[1],e=dH([0,c],b[2]),f=em(a),h=[0,[0,em(a),f],0],i=g(ac(u,c),h),j=cf(a),d=[0,[0,[0,cf(a),j],a,i],e];else
+gR(a,n,f,m,e,k,j){var
+o=mH(by,k,j),b=mH(function(b,c){return aR(a,b,c)},e,o),c=b[3],g=b[2],h=b[1],i=ce(ce(ce($(J(a,d)),h),g),c),p=a7(n);return l(function(c){var
+b=mG(function(b){return Q(a,aC(c,b))},e),h=b[3],j=b[2],k=b[1],l=t(a,m,eq(a,A(A(A(J(a,d),k),j),h))),g=D(aC(c,i),l),n=f?D(g,aC(c,f[1])):g;return K(d,n[1])},p)}function
+cg(a){return dz(F(a[1],a[2]),b)}function
+er(a){var
+b=cg(a);return aM(a[2],b)}function
+dI(c,b){if(b)var
+a=b[1],e=dI([0,c],b[2]),f=er(a),h=[0,[0,er(a),f],0],i=g(ac(u,c),h),j=cg(a),d=[0,[0,[0,cg(a),j],a,i],e];else
 var
 d=b;return d}function
-c4(d,b){if(b){var
+c6(d,b){if(b){var
 c=b[2],a=b[1];if(d){var
-e=c4(d[1],c);return[0,[0,a,e[1]],[0,a,e[2]]]}var
-f=a[2],g=[0,[0,cf(a),f],c],h=cf(a);return[0,[0,[0,a[1],h],c],g]}return th}function
-mx(d,c,a){if(c){if(a){var
-e=mx(d,c[2],a[2]);return A(aQ(c[1],E(d,b),a[1]),e)}return u}return u}function
-en(f,a){if(a)var
-g=a[1],c=g[2],d=g[1],h=a[2],b=function(a,b){return mx(f,a,b)},j=en(f,h),k=e(function(a){var
+e=c6(d[1],c);return[0,[0,a,e[1]],[0,a,e[2]]]}var
+f=a[2],g=[0,[0,cg(a),f],c],h=cg(a);return[0,[0,[0,a[1],h],c],g]}return tE}function
+mI(d,c,a){if(c){if(a){var
+e=mI(d,c[2],a[2]);return A(aN(c[1],F(d,b),a[1]),e)}return u}return u}function
+dJ(f,a){if(a)var
+g=a[1],c=g[2],d=g[1],h=a[2],b=function(a,b){return mI(f,a,b)},j=dJ(f,h),k=e(function(a){var
 e=b(d,a[2]);return A(b(a[1],c),e)},h),l=b(d,c),i=[0,[0,A(b(d,c),l),k],j];else
 var
 i=a;return i}function
-eo(e,b,d,a){if(b)if(a)var
-f=b[1],g=eo(e,b[2],d,a[2]),c=[0,[0,f,ek(e,a[1][1],d,f)],g];else
+dK(e,b,d,a){if(b)if(a)var
+f=b[1],g=dK(e,b[2],d,a[2]),c=[0,[0,f,ep(e,a[1][1],d,f)],g];else
 var
 c=a;else
 var
 c=b;return c}function
-gP(f,d,c,b,a){if(a){var
+gS(f,d,c,b,a){if(a){var
 g=a[2];if(d){var
-i=gP(f,d[1],c,b,g);return[0,[0,G(u,b),0],i]}var
-j=e(function(a){return[0,G(u,b),0]},g),h=[0,[0,G(ab(t(f,c,cz(a[1][2]))),b),0],j]}else
+i=gS(f,d[1],c,b,g);return[0,[0,D(u,b),0],i]}var
+j=e(function(a){return[0,D(u,b),0]},g),h=[0,[0,D(_(t(f,c,cD(a[1][2]))),b),0],j]}else
 var
 h=a;return h}function
-a5(d,c,a){var
-b=n(f(a),c);return b?ej(d,a):b}function
-gQ(d,b,a){if(b)var
-c=b[1],f=gQ([0,d],b[2],a),h=g(ac(u,d),[0,a,0]),e=[0,[0,c,[0,aL(c[1],a[2]),E(c[2],a[2])],h],f];else
+aV(d,c,a){var
+b=n(f(a),c);return b?eo(d,a):b}function
+gT(d,b,a){if(b)var
+c=b[1],f=gT([0,d],b[2],a),h=g(ac(u,d),[0,a,0]),e=[0,[0,c,[0,aM(c[1],a[2]),F(c[2],a[2])],h],f];else
 var
 e=b;return e}function
-my(d){if(d){var
+mJ(d){if(d){var
 a=d[1][1];if(a){var
 b=a[2];if(b){var
 c=b[2];if(c){if(c[2])return 0;var
-g=c[1],h=b[1],i=a[1],j=my(d[2]);return y(function(a){return[0,[0,[0,i,h],g],a]},j)}var
+g=c[1],h=b[1],i=a[1],j=mJ(d[2]);return z(function(a){return[0,[0,[0,i,h],g],a]},j)}var
 e=c}else
 var
 e=b;var
 f=e}else
 var
-f=a;return f}return ti}function
-iQ(a){return y(function(a){return y(fg,a)},a)}function
-c5(c,b,a){function
-d(a){return aR(c,b,a)}return y(function(a){return y(d,a)},a)}function
-iR(c,b,a){function
-d(a){return eh(c,a,b)}return y(function(a){return c0(d,a)},a)}function
-ep(b,a){var
-c=U(b,a);return e(function(c){var
+f=a;return f}return tF}function
+mK(d,c,b,a){return cD(bV(function(e,a){var
+b=bH(aC(c,a[2]));return A(e,t(d,a[1],[0,b,b]))},a,b))}function
+mL(b,c,a){return c?au(b,a):al(b,a)}function
+mM(b,i,h,a){return eq(b,an(function(k,j){var
+p=e(function(b){var
+a=aE(0,i);return e(function(a){return bH(r(a,b[3],u))},a)},k);function
+a(n,m){var
+o=mL(h,n,p),g=e(function(a){return mL(h,m,a)},o);function
+a(a){return an(bp,d,a)}var
+i=0;function
+j(a){return a}function
+k(a){return a}var
+c=a(an(function(a,b){return aQ(k,j,l0,a,b)},i,g)),l=[0,c,c],f=a(e(function(a){return an(l0,d,a)},g));return eq(b,t(b,[0,f,f],l))}var
+c=a(1,1),f=a(1,0),g=a(0,1);return A(j,Q(b,A(A(A(a(0,0),g),f),c)))},u,a))}function
+mN(d,a,g,f){var
+h=aE(0,d);return e(function(d){var
+e=g?ab(a,d):aB(d,a);return e?b:cb(c(2,b),f)},h)}function
+mO(b,a){var
+c=V(b,a);return e(function(a){return aN(a[1],d,a[2])},c)}function
+mP(c,b,a){var
+d=[0,[0,a,0],0],f=V(c,b);return g(e(function(a){return g(a[1],[0,a[2],0])},f),d)}function
+mQ(g,e){var
+a=g,b=e;for(;;){if(b){if(a){var
+c=n(f(b[1]),a);if(c){var
+a=a[1],b=b[2];continue}var
+d=c}else
+var
+d=a;return d}return a?0:1}}function
+mR(b,a){var
+c=V(b,a);return e(function(a){return a[1]?_(a[2]):a[2]},c)}function
+mS(a,f,b,d,c){var
+h=gT(a,ac(u,dy(f,a)),c),i=g(e($,au(a,b)),h);return g(gT(0,al(a,b),d),i)}function
+mT(a,e,c){var
+f=t(a,e,c);return K(d,D(J(a,b),f)[1])}function
+iV(a){return z(function(a){return z(fk,a)},a)}function
+c7(c,b,a){function
+d(a){return aR(c,b,a)}return z(function(a){return z(d,a)},a)}function
+iW(c,b,a){function
+d(a){return em(c,a,b)}return z(function(a){return c2(d,a)},a)}function
+es(b,a){var
+c=V(b,a);return e(function(c){var
 a=c[2],b=c[1];if(b){if(a){var
-d=a[1],e=b[1];return[0,cB(function(b,a){return[0,cd(b,a)]},e,d)]}return b}return a},c)}function
-gR(a){return $(N(a,c(2,b)))}function
-iS(a,au,at,K,c){var
-av=bU(aA,c),f=k(bD(a,au,at),av);switch(c[0]){case
+d=a[1],e=b[1];return[0,cF(function(b,a){return[0,ce(b,a)]},e,d)]}return b}return a},c)}function
+gU(a){return $(J(a,c(2,b)))}function
+iX(a,au,at,L,c){var
+av=bX(aA,c),f=j(bz(a,au,at),av);switch(c[0]){case
 1:var
 O=c[1],d=e(function(d){var
-c=n(O,d),e=c?[0,[0,$(N(a,b))]]:c;return e},K);break;case
+c=n(O,d),e=c?[0,[0,$(J(a,b))]]:c;return e},L);break;case
 3:var
-d=ep(c[1][2],c[2][2]);break;case
+d=es(c[1][2],c[2][2]);break;case
 4:var
-P=e(iQ,c[2][2]),d=ep(c[1][2],P);break;case
+P=e(iV,c[2][2]),d=es(c[1][2],P);break;case
 5:var
-d=e(iQ,c[1][2]);break;case
+d=e(iV,c[1][2]);break;case
 6:var
 x=c[2],y=c[1],g=y[1],u=0;if(g){var
 h=x[1];if(h)var
-Q=x[2],R=g[1],S=e(function(b){return c5(a,R,b)},Q),T=y[2],U=h[1],d=ep(e(function(b){return c5(a,U,b)},T),S);else{var
+Q=x[2],R=g[1],S=e(function(b){return c7(a,R,b)},Q),T=y[2],U=h[1],d=es(e(function(b){return c7(a,U,b)},T),S);else{var
 z=h;u=1}}else{var
 z=g;u=1}if(u)var
 d=z;break;case
 7:var
 v=0;if(f){var
 A=c[2],i=A[1];if(i)var
-V=A[2],W=fg(f[1]),X=e(function(b){return c5(a,W,b)},V),Y=ep(c[1][2],X),Z=i[1],d=e(function(b){return iR(a,Z,b)},Y);else{var
+V=A[2],W=fk(f[1]),X=e(function(b){return c7(a,W,b)},V),Y=es(c[1][2],X),Z=i[1],d=e(function(b){return iW(a,Z,b)},Y);else{var
 B=i;v=1}}else{var
 B=f;v=1}if(v)var
 d=B;break;case
 8:var
-C=c[1],j=C[1];if(j)var
-_=C[2],aa=j[1],ab=aR(a,gR(a),aa),d=e(function(b){return c5(a,ab,b)},_);else
+C=c[1],k=C[1];if(k)var
+_=C[2],aa=k[1],ab=aR(a,gU(a),aa),d=e(function(b){return c7(a,ab,b)},_);else
 var
-d=j;break;case
+d=k;break;case
 9:if(f)var
-ac=c[1][2],ad=f[1],ae=aR(a,gR(a),ad),d=e(function(b){return iR(a,ae,b)},ac);else
+ac=c[1][2],ad=f[1],ae=aR(a,gU(a),ad),d=e(function(b){return iW(a,ae,b)},ac);else
 var
 d=f;break;case
 10:var
 D=c[4],E=c[3],F=c[2],l=F[1],w=0;if(l){var
-m=l[1],o=E[1],L=0;if(o){var
-p=o[1],q=D[1],M=0;if(q){var
-r=l4(a,m,p,q[1]);if(r){var
-G=r[1],s=G[2],t=G[1],af=E[2],ag=bx(p,s),ah=e(function(b){return c5(a,ag,b)},af),ai=F[2],aj=bx(m,t),ak=ep(e(function(b){return c5(a,aj,b)},ai),ah),al=e(iQ,D[2]),am=gR(a),an=ep(e(function(b){return c5(a,am,b)},ak),al),ao=c[1]?t:fg(s),ap=e(function(b){return c5(a,ao,b)},an),aq=aR(a,m,s),ar=bx(aR(a,p,t),aq),as=aR(a,gR(a),ar),d=e(function(b){return iR(a,as,b)},ap);L=1;M=1}else
+m=l[1],o=E[1],M=0;if(o){var
+p=o[1],q=D[1],N=0;if(q){var
+r=md(a,m,p,q[1]);if(r){var
+G=r[1],s=G[2],t=G[1],af=E[2],ag=by(p,s),ah=e(function(b){return c7(a,ag,b)},af),ai=F[2],aj=by(m,t),ak=es(e(function(b){return c7(a,aj,b)},ai),ah),al=e(iV,D[2]),am=gU(a),an=es(e(function(b){return c7(a,am,b)},ak),al),ao=c[1]?t:fk(s),ap=e(function(b){return c7(a,ao,b)},an),aq=aR(a,m,s),ar=by(aR(a,p,t),aq),as=aR(a,gU(a),ar),d=e(function(b){return iW(a,as,b)},ap);M=1;N=1}else
 var
 H=r}else
 var
-H=q;if(!M)var
+H=q;if(!N)var
 I=H}else
 var
-I=o;if(!L){var
-J=I;w=1}}else{var
-J=l;w=1}if(w)var
-d=J;break;default:var
-d=e(function(a){return 0},K)}return[0,f,d]}function
-iT(b,c,a){if(a)var
-f=a[1],g=iT(b,c,a[2]),d=[0,e(function(a){return ab(t(b,t(b,c,f),a))},a),g];else
+I=o;if(!M){var
+K=I;w=1}}else{var
+K=l;w=1}if(w)var
+d=K;break;default:var
+d=e(function(a){return 0},L)}return[0,f,d]}function
+iY(b,c,a){if(a)var
+f=a[1],g=iY(b,c,a[2]),d=[0,e(function(a){return _(t(b,t(b,c,f),a))},a),g];else
 var
 d=a;return d}function
-iU(a){return l(function(a){var
-b=J(a[1],d);return b?J(a[2],d):b},a)}function
-iV(c,b,a){var
-d=U(b,a);return ap(function(a,b){return A(t(c,a[1],a[2]),b)},u,d)}function
-iW(c,b,a){var
-d=cb(iV(c,a,b));return ap(function(b,a){return E(cb(b),a)},d,a)}function
-cg(a){return N(a,b)}function
-fl(a,i,c,v,u){var
+iZ(a){return l(function(a){var
+b=L(a[1],d);return b?L(a[2],d):b},a)}function
+i0(c,b,a){var
+d=V(b,a);return an(function(a,b){return A(t(c,a[1],a[2]),b)},u,d)}function
+i1(c,b,a){var
+d=bH(i0(c,a,b));return an(function(b,a){return F(bH(b),a)},d,a)}function
+ch(a){return J(a,b)}function
+fp(a,i,c,v,u){var
 f=v,e=u;for(;;){if(f){var
-j=f[1],n=0;if(!iU(c)&&!iU(j)){var
-h=iW(a,i,j),o=cg(a),p=iW(a,i,c),b=eg([0,iW(a,i,c),p],o,[0,h,h])[1],k=K(d,h),l=k?K(d,b):k;if(l)var
-q=aw(iG(a,[0,b,b])),r=function(b){return function(d,c){return G(t(a,[0,b,b],d),c)}}(b),s=[0,b,b],m=[0,bi(e,iT(a,q,aP(function(c){return function(b){return t(a,c,b)}}(s),ab,r,j,c)))];else
+j=f[1],n=0;if(!iZ(c)&&!iZ(j)){var
+h=i1(a,i,j),o=ch(a),p=i1(a,i,c),b=el([0,i1(a,i,c),p],o,[0,h,h])[1],k=K(d,h),l=k?K(d,b):k;if(l)var
+q=av(iK(a,[0,b,b])),r=function(b){return function(d,c){return D(t(a,[0,b,b],d),c)}}(b),s=[0,b,b],m=[0,a6(e,iY(a,q,aQ(function(c){return function(b){return t(a,c,b)}}(s),_,r,j,c)))];else
 var
 m=l;var
 g=m;n=1}if(!n)var
 g=[0,e];if(g){var
 f=f[2],e=g[1];continue}return g}return[0,e]}}function
-mz(a){var
+mU(a){var
 b=a[2],c=e(function(a){return[0,a[1],u]},b);return[0,[0,a[1][1],u],c]}function
-iX(h,n,a,m,l,k){var
+i2(h,n,a,m,l,k){var
 d=m,c=l,b=k;for(;;){if(d){if(c){var
-i=c[1],j=i[1],f=d[1],o=cz(j[2]),p=bi(b,iM(a,f,ek(a,j[1],o,f))),q=i[2],r=e(function(c){return function(b){return e(aw,ek(a,b[1],b[2],c))}}(f),q),g=fl(h,n,e(function(b){return aQ(b,a,cg(h))},f),r,p);if(g){var
+i=c[1],j=i[1],f=d[1],o=cD(j[2]),p=a6(b,iR(a,f,ep(a,j[1],o,f))),q=i[2],r=e(function(c){return function(b){return e(av,ep(a,b[1],b[2],c))}}(f),q),g=fp(h,n,e(function(b){return aN(b,a,ch(h))},f),r,p);if(g){var
 d=d[2],c=c[2],b=g[1];continue}return g}return[0,b]}return[0,b]}}function
-mA(a,j,r,q){var
+mV(a,j,r,q){var
 c=r,f=q;for(;;){if(c){var
-k=c[1],l=k[1],g=l[2],h=l[1],m=k[2],n=[0,[0,cc(g),h],f];if(m){var
+k=c[1],l=k[1],g=l[2],h=l[1],m=k[2],n=[0,[0,cd(g),h],f];if(m){var
 o=K(d,g[1]);if(o)var
 s=e(function(a){var
-b=a[1];return[0,aw(a[2]),b]},m),t=e(function(a){return u},h),v=[0,cg(a),t],w=cg(a),b=fl(a,[0,ab(eg(iV(a,h,j),w,g)),j],v,s,n);else
+b=a[1];return[0,av(a[2]),b]},m),t=e(function(a){return u},h),v=[0,ch(a),t],w=ch(a),b=fp(a,[0,_(el(i0(a,h,j),w,g)),j],v,s,n);else
 var
 b=o}else
 var
 b=[0,n];if(b){var
-i=gJ(a,b[1]);if(i){var
+i=gM(a,b[1]);if(i){var
 c=c[2],f=i[1];continue}var
 p=i}else
 var
 p=b;return p}return[0,f]}}function
-mB(c,b,a){var
-d=aC(0,a);return e(function(a){return n(a,b)?cg(c):u},d)}function
-mC(c,b,a){if(b){if(a){var
-d=mC(c,b[2],a[2]);return A(aQ(b[1],c,a[1]),d)}return u}return u}function
-mD(a,j){switch(j){case
+mW(c,b,a){var
+d=aE(0,a);return e(function(a){return n(a,b)?ch(c):u},d)}function
+mX(c,b,a){if(b){if(a){var
+d=mX(c,b[2],a[2]);return A(aN(b[1],c,a[1]),d)}return u}return u}function
+mY(a,j){switch(j){case
 0:var
-d=aL(a[2],a[1]),e=a[1];return[0,[0,e,e],[0,[0,d,d],0]];case
+d=aM(a[2],a[1]),e=a[1];return[0,[0,e,e],[0,[0,d,d],0]];case
 1:var
-f=aL(a[1],a[2]),g=a[2];return[0,[0,g,g],[0,[0,f,f],0]];default:var
-c=dy(E(a[1],a[2]),b),h=aL(c,a[2]),i=aL(a[2],c);return[0,[0,c,c],[0,[0,i,i],[0,[0,h,h],0]]]}}function
-fm(d,c,a){if(a)var
-e=a[1],g=fm(d,[0,c],a[2]),b=y(aN,lS(function(a){return n(a[1],c)},d)),h=b?mD(e,b[1])[1]:e,f=[0,h,g];else
+f=aM(a[1],a[2]),g=a[2];return[0,[0,g,g],[0,[0,f,f],0]];default:var
+c=dz(F(a[1],a[2]),b),h=aM(c,a[2]),i=aM(a[2],c);return[0,[0,c,c],[0,[0,i,i],[0,[0,h,h],0]]]}}function
+fq(d,c,a){if(a)var
+e=a[1],g=fq(d,[0,c],a[2]),b=z(aI,l4(function(a){return n(a[1],c)},d)),h=b?mY(e,b[1])[1]:e,f=[0,h,g];else
 var
 f=a;return f}function
-gS(a,b){return e(function(a){var
-c=a[2];return mD(r(a[1],b,u),c)[2]},a)}function
-gT(i,b,f,a){function
-d(a){return aH(b,a[1])}var
+gV(a,b){return e(function(a){var
+c=a[2];return mY(r(a[1],b,u),c)[2]},a)}function
+gW(i,b,f,a){function
+d(a){return aC(b,a[1])}var
 h=0,j=$(u);function
 c(f,d,a,b){if(a){var
-h=function(a){return aH(f,r(d,a[2],j))},k=e(h,b[1]),l=h(b[2]),m=c(f,[0,d],a[2],b),n=a[1];return g(e(function(a){var
+h=function(a){return aC(f,r(d,a[2],j))},k=e(h,b[1]),l=h(b[2]),m=c(f,[0,d],a[2],b),n=a[1];return g(e(function(a){var
 b=t(i,a,l);return[0,e(function(b){return t(i,a,b)},k),b]},n),m)}return a}var
 k=c(b,h,f,a),l=d(a[2]);return[0,[0,e(d,a[1]),l],k]}var
-tx=$(u);function
-mE(e,d,c){if(d){var
-f=r(e,c[2],ty),a=f?f[1]:[0,tx];if(a)var
-b=mE([0,e],d[2],c),h=b?[0,[0,a[1],b[1]]]:b,g=h;else
+tV=$(u);function
+mZ(e,d,c){if(d){var
+f=r(e,c[2],tW),a=f?f[1]:[0,tV];if(a)var
+b=mZ([0,e],d[2],c),h=b?[0,[0,a[1],b[1]]]:b,g=h;else
 var
-g=a;return g}return tz}function
-mF(a,c,h,p,o,g,n){var
-d=bj(c);return l(function(d){var
-f=k(n,d);if(f){var
-q=t(a,o,f[1]),i=G(N(a,b),q),r=h?G(i,aH(d,h[1])):i,j=function(b){function
-f(c){return t(a,b,aH(d,c))}var
-g=e(function(a){return e(f,a)},p);return a5(a,c,bi(ac([0,r,0],c),g))},l=j(aw(g));if(l)return j(ab(aw(g)));var
+g=a;return g}return tX}function
+m0(a,c,h,p,o,g,n){var
+d=a7(c);return l(function(d){var
+f=j(n,d);if(f){var
+q=t(a,o,f[1]),i=D(J(a,b),q),r=h?D(i,aC(d,h[1])):i,k=function(b){function
+f(c){return t(a,b,aC(d,c))}var
+g=e(function(a){return e(f,a)},p);return aV(a,c,a6(ac([0,r,0],c),g))},l=k(av(g));if(l)return k(_(av(g)));var
 m=l}else
 var
 m=f;return m},d)}function
-mG(c,b,a){if(a){var
+m1(c,b,a){if(a){var
 d=a[2];if(c){var
-f=mG(c[1],b,d);return[0,a[1],f]}var
+f=m1(c[1],b,d);return[0,a[1],f]}var
 e=[0,b,d]}else
 var
 e=a;return e}function
-fn(a,g){var
-b=a1(function(e){var
-c=r(e,a,u),b=D(c[1],d),f=b?D(d,c[2]):b;return I(f)},g);if(b){if(b[2])return a;var
-f=b[1],c=r(f,a,u),e=K(d,c[1])?c[1]:c[2];return mG(f,[0,e,e],a)}return a}function
-mH(c,a){if(a)var
-b=a[2],f=mH(c,b),g=b?b[1]:e(s0,c),d=[0,[0,a[1],g],f];else
+fr(a,g){var
+b=a2(function(e){var
+c=r(e,a,u),b=E(c[1],d),f=b?E(d,c[2]):b;return I(f)},g);if(b){if(b[2])return a;var
+f=b[1],c=r(f,a,u),e=K(d,c[1])?c[1]:c[2];return m1(f,[0,e,e],a)}return a}function
+m2(c,a){if(a)var
+b=a[2],f=m2(c,b),g=b?b[1]:e(tl,c),d=[0,[0,a[1],g],f];else
 var
 d=a;return d}function
-iY(a){return a?mH(a[1],a):a}function
-c6(c,d,b,a){if(d){var
+i3(a){return a?m2(a[1],a):a}function
+c8(c,d,b,a){if(d){var
 e=d[1];if(a){var
-f=c6(c,e,b,a[2]);return[0,a[1],f]}return[0,c,c6(c,e,b,0)]}return a?[0,b,a[2]]:[0,b,0]}function
-gU(a,c,b){if(c)if(b)var
-g=b[2],e=b[1],h=c[2],d=c[1],i=gU(a,h,g),j=function(c,b){var
-f=t(a,e,b);return A(t(a,d,c),f)},k=function(b){return t(a,e,b)},l=aP(function(b){return t(a,d,b)},k,j,g,h),f=[0,[0,t(a,A(d,d),e),l],i];else
+f=c8(c,e,b,a[2]);return[0,a[1],f]}return[0,c,c8(c,e,b,0)]}return a?[0,b,a[2]]:[0,b,0]}function
+gX(a,c,b){if(c)if(b)var
+g=b[2],e=b[1],h=c[2],d=c[1],i=gX(a,h,g),j=function(c,b){var
+f=t(a,e,b);return A(t(a,d,c),f)},k=function(b){return t(a,e,b)},l=aQ(function(b){return t(a,d,b)},k,j,g,h),f=[0,[0,t(a,A(d,d),e),l],i];else
 var
 f=b;else
 var
 f=c;return f}function
-c7(d,c,b,a){return c6(u,c,iV(d,a,b),a)}function
-iZ(a,f,e,b,d,c){var
-g=aC(0,b);return ap(function(g,c){var
-h=c7(a,f,e,mB(a,g,b));return bi(c,iT(a,ab(d),h))},c,g)}function
-i0(a,d,c,j,i,h,g,f){var
-k=c7(a,d,c,e(function(b){return N(a,C(h,b))},i));return bi(f,gU(a,c7(a,d,c,e(function(c){return aQ(c,E(g,b),cg(a))},j)),k))}function
-i1(a,h,g,q,f,p,o,n){var
+c9(d,c,b,a){return c8(u,c,i0(d,a,b),a)}function
+i4(a,f,e,b,d,c){var
+g=aE(0,b);return an(function(g,c){var
+h=c9(a,f,e,mW(a,g,b));return a6(c,iY(a,_(d),h))},c,g)}function
+i5(a,d,c,j,i,h,g,f){var
+k=c9(a,d,c,e(function(b){return J(a,C(h,b))},i));return a6(f,gX(a,c9(a,d,c,e(function(c){return aN(c,F(g,b),ch(a))},j)),k))}function
+i6(a,h,g,q,f,p,o,n){var
 d=p,c=o,b=n;for(;;){if(d){if(c){var
-k=c[1],l=k[1],i=d[1],m=c7(a,h,g,e(function(b){return aQ(b,f,cg(a))},i)),r=cz(l[2]),s=c7(a,h,g,ek(f,l[1],r,i)),t=bi(b,gU(a,e(aw,m),s)),u=k[2],j=fl(a,q,m,e(function(c){return function(b){return c7(a,h,g,e(aw,ek(f,b[1],b[2],c)))}}(i),u),t);if(j){var
+k=c[1],l=k[1],i=d[1],m=c9(a,h,g,e(function(b){return aN(b,f,ch(a))},i)),r=cD(l[2]),s=c9(a,h,g,ep(f,l[1],r,i)),t=a6(b,gX(a,e(av,m),s)),u=k[2],j=fp(a,q,m,e(function(c){return function(b){return c9(a,h,g,e(av,ep(f,b[1],b[2],c)))}}(i),u),t);if(j){var
 d=d[2],c=c[2],b=j[1];continue}return j}return[0,b]}return[0,b]}}function
-mI(g,b,f,a){if(a)var
-c=a[2],d=a[1],h=r(b,c,u),e=[0,d,c6(u,b,A(t(g,f,d),h),c)];else
+m3(g,b,f,a){if(a)var
+c=a[2],d=a[1],h=r(b,c,u),e=[0,d,c8(u,b,A(t(g,f,d),h),c)];else
 var
 e=a;return e}function
-mJ(a,b,m,D,C,B){var
+m4(a,b,m,D,C,B){var
 i=C,h=B;for(;;){if(i){var
-n=i[1],o=n[1],j=o[2],p=n[2],c=c7(a,b,m,o[1]);if(p){var
+n=i[1],o=n[1],j=o[2],p=n[2],c=c9(a,b,m,o[1]);if(p){var
 q=K(d,j[1]);if(q)var
-E=cg(a),f=cc(ab(eg(r(b,c,u),E,j))),k=cc(j),v=c6(u,b,f,0),w=r(b,c,u),x=bi(h,gU(a,v,c6(u,b,A(aw(t(a,f,k)),w),c))),y=r(b,c,u),z=[0,[0,k,c6(u,b,A(t(a,f,k),y),c)],x],F=e(function(e){return function(c){var
-d=c7(a,b,m,c[1]);return mI(a,b,e,[0,aw(c[2]),d])}}(f),p),G=e(function(a){return u},c),g=fl(a,[0,u,D],mI(a,b,f,[0,cg(a),G]),F,z);else
+E=ch(a),f=cd(_(el(r(b,c,u),E,j))),k=cd(j),v=c8(u,b,f,0),w=r(b,c,u),x=a6(h,gX(a,v,c8(u,b,A(av(t(a,f,k)),w),c))),y=r(b,c,u),z=[0,[0,k,c8(u,b,A(t(a,f,k),y),c)],x],F=e(function(e){return function(c){var
+d=c9(a,b,m,c[1]);return m3(a,b,e,[0,av(c[2]),d])}}(f),p),G=e(function(a){return u},c),g=fp(a,[0,u,D],m3(a,b,f,[0,ch(a),G]),F,z);else
 var
 g=q}else
 var
-g=[0,[0,[0,cc(j),c],h]];if(g){var
-l=gJ(a,g[1]);if(l){var
+g=[0,[0,[0,cd(j),c],h]];if(g){var
+l=gM(a,g[1]);if(l){var
 i=i[2],h=l[1];continue}var
 s=l}else
 var
 s=g;return s}return[0,h]}}function
-i2(f,d,c,b,a){var
-g=e($,c);return l1(0,bD(f,dH(0,a),g),b,d,0)}function
+i7(f,d,c,b,a){var
+g=e($,c);return iM(0,bz(f,dI(0,a),g),b,d,0)}function
 ad(a){if(a){var
 b=a[1];if(b)var
 c=ad(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return tE}function
-gV(b,a){if(a){var
+d=b;return d}return t2}function
+fs(b,a){if(a){var
 h=a[1],n=h[1],c=ad(e(function(a){return r(a,b,0)},n));if(c){var
 f=r(h[2],b,0);if(f){var
-i=f[1],g=gV(b,a[2]);if(g)var
+i=f[1],g=fs(b,a[2]);if(g)var
 j=K(d,i[2][1]),k=j?[0,[0,[0,c[1],i],g[1]]]:j;else
 var
 k=g;var
@@ -1969,22 +2005,22 @@ var
 l=f;var
 m=l}else
 var
-m=c;return m}return tF}function
-cE(d,c,b){var
-a=gV(d,c);return a?k(b,a[1]):a}function
-c8(a,b){return l(function(c){var
+m=c;return m}return t3}function
+cI(d,c,b){var
+a=fs(d,c);return a?j(b,a[1]):a}function
+c_(a,b){return l(function(c){var
 a=r(c,b,0),d=a?1:a;return d},a)}function
-gW(b,a){if(b){var
-c=b[1],d=c[3],e=a[3],f=function(a){return a},g=aP(function(a){return a},f,A,e,d),h=a[2];return[0,A(a[1],c[1]),h,g]}return a}function
-i3(b,a){return b?mq(a,b[1]):a}function
-i4(h,g,b,f){var
+gY(b,a){if(b){var
+c=b[1],d=c[3],e=a[3],f=function(a){return a},g=aQ(function(a){return a},f,A,e,d),h=a[2];return[0,A(a[1],c[1]),h,g]}return a}function
+i8(b,a){return b?mB(a,b[1]):a}function
+i9(h,g,b,f){var
 a=r(f,h,0);if(a){var
 c=a[1];if(b){var
-i=mq(c,b[1]),e=bj(g);return l(function(a){return D(d,aH(a,i)[1])},e)}return D(d,c[2][1])}return a}function
-i5(f,d,a){function
-c(a){return aQ(a,d,N(f,b))}if(a){var
+i=mB(c,b[1]),e=a7(g);return l(function(a){return E(d,aC(a,i)[1])},e)}return E(d,c[2][1])}return a}function
+i_(f,d,a){function
+c(a){return aN(a,d,J(f,b))}if(a){var
 g=e(c,a[2]);return[0,c(a[1]),u,g]}return $(u)}function
-gX(b,a){var
+gZ(b,a){var
 c=r(a[1],b,0);if(c){var
 d=r(a[2],b,0);if(d)var
 e=r(a[3],b,0),h=e?[0,[0,c[1],d[1],e[1]]]:e,f=h;else
@@ -1993,101 +2029,101 @@ f=d;var
 g=f}else
 var
 g=c;return g}function
-i6(b,a){return ad(e(function(a){return r(a,b,0)},a))}function
-fo(c,k,X,C,i,h,j,g,a){switch(g[0]){case
+g0(b,a){return ad(e(function(a){return r(a,b,0)},a))}function
+et(c,k,X,C,i,h,j,g,a){switch(g[0]){case
 0:var
 s=g[1];if(typeof
 a!=="number")switch(a[0]){case
 0:var
-Y=c8(C,i);if(Y){var
-aD=a[2],aE=a[1],aF=gW(j,$(s));return cE(i,k,function(a){return fj(c,h,aF,aE,aD,a)})}return Y;case
+Y=c_(C,i);if(Y){var
+aE=a[2],aF=a[1],aG=gY(j,$(s));return cI(i,k,function(a){return fn(c,h,aG,aF,aE,a)})}return Y;case
 1:var
-Z=c8(C,i);if(Z){var
-aG=a[2],aI=a[1],aJ=gW(j,$(s));return cE(i,X,function(a){return fj(c,h,aJ,aI,aG,a)})}return Z;case
+Z=c_(C,i);if(Z){var
+aH=a[2],aI=a[1],aJ=gY(j,$(s));return cI(i,X,function(a){return fn(c,h,aJ,aI,aH,a)})}return Z;case
 2:var
-_=c8(C,i);if(_){var
-aa=J(s[1],d),ab=aa?J(s[2],d):aa;if(ab){var
-aK=a[2],aM=a[1];return cE(i,k,function(a){return mp(c,h,j,aM,aK,a)})}var
+_=c_(C,i);if(_){var
+aa=L(s[1],d),ab=aa?L(s[2],d):aa;if(ab){var
+aK=a[2],aL=a[1];return cI(i,k,function(a){return mA(c,h,j,aL,aK,a)})}var
 ac=ab}else
 var
 ac=_;return ac}return 0;case
 1:var
 ae=g[1];if(typeof
 a==="number"){if(1===a){var
-aN=i3(j,$(ae));return cE(i,X,function(a){return iO(c,h,aN,a)})}if(!a){var
-aO=i3(j,$(ae));return cE(i,k,function(a){return iO(c,h,aO,a)})}}return 0;case
+aO=i8(j,$(ae));return cI(i,X,function(a){return iT(c,h,aO,a)})}if(!a){var
+aP=i8(j,$(ae));return cI(i,k,function(a){return iT(c,h,aP,a)})}}return 0;case
 2:if(typeof
 a!=="number"&&3===a[0]){var
-af=a[1],m=i5(c,af,a[3]),ag=g[1],aP=a[2];return cE(i,k,function(d){var
-a=iP(h,m),b=a?fj(c,h,gW(j,m),af,aP,d):a;if(b){var
-f=m[3],g=e(function(a){return t(c,ag,a)},f),i=m[2];return iO(c,h,i3(j,[0,t(c,ag,m[1]),i,g]),d)}return b})}return 0;case
+af=a[1],m=i_(c,af,a[3]),ag=g[1],aQ=a[2];return cI(i,k,function(d){var
+a=iU(h,m),b=a?fn(c,h,gY(j,m),af,aQ,d):a;if(b){var
+f=m[3],g=e(function(a){return t(c,ag,a)},f),i=m[2];return iT(c,h,i8(j,[0,t(c,ag,m[1]),i,g]),d)}return b})}return 0;case
 3:if(typeof
-a==="number"&&!a)return i4(i,h,j,g[1]);return 0;case
+a==="number"&&!a)return i9(i,h,j,g[1]);return 0;case
 4:if(typeof
 a!=="number"&&0===a[0]){var
-aR=a[2],aS=a[1],aT=gW(j,$(g[2])),aU=function(a){return fj(c,h,aT,aS,aR,a)};return cE(i,g[1],aU)}return 0;case
+aR=a[2],aS=a[1],aT=gY(j,$(g[2])),aU=function(a){return fn(c,h,aT,aS,aR,a)};return cI(i,g[1],aU)}return 0;case
 5:if(typeof
 a==="number"&&!(3<=a))switch(a){case
-0:return i4(i,h,j,g[1]);case
-2:return i4(i,h,j,g[2])}return 0;case
+0:return i9(i,h,j,g[1]);case
+2:return i9(i,h,j,g[2])}return 0;case
 6:if(typeof
 a!=="number"&&8===a[0]){var
-D=gX(i,g[1]);if(D){var
-F=gX(i,g[2]);if(F){var
-H=gX(i,g[3]);if(H){var
-I=gX(i,g[4]);if(I){var
-ah=I[1],ai=H[1],aj=F[1],ak=D[1],o=a[2],v=g[5],aV=a[1];if(o){var
+E=gZ(i,g[1]);if(E){var
+G=gZ(i,g[2]);if(G){var
+H=gZ(i,g[3]);if(H){var
+I=gZ(i,g[4]);if(I){var
+ah=I[1],ai=H[1],aj=G[1],ak=E[1],o=a[2],v=g[5],aW=a[1];if(o){var
 p=o[2];if(p){var
 q=p[2];if(q){if(q[2])return 0;var
-aC=[0,o[1],p[1],q[1]],r=mv(function(f){function
-g(a){return aQ(a,aV,N(c,b))}if(f){var
-a=e(g,f[2]),d=g(f[1]),h=ff(a),i=E(d[2],h),j=ff(a);return[0,d,[0,aL(d[1],j),i],a]}return $(u)},aC),O=l(function(a){return n(f(a),[0,h])},o),P=O?gO(c,h,j,v,r,ak,ai):O,Q=P?gO(c,h,j,v,r,ak,ah):P,R=Q?gO(c,h,j,v,r,aj,ai):Q;if(R)return gO(c,h,j,v,r,aj,ah);var
-S=R}else
-var
-S=q;var
+aD=[0,o[1],p[1],q[1]],r=mG(function(f){function
+g(a){return aN(a,aW,J(c,b))}if(f){var
+a=e(g,f[2]),d=g(f[1]),h=fj(a),i=F(d[2],h),j=fj(a);return[0,d,[0,aM(d[1],j),i],a]}return $(u)},aD),O=l(function(a){return n(f(a),[0,h])},o),P=O?gR(c,h,j,v,r,ak,ai):O,R=P?gR(c,h,j,v,r,ak,ah):P,S=R?gR(c,h,j,v,r,aj,ai):R;if(S)return gR(c,h,j,v,r,aj,ah);var
 T=S}else
 var
-T=p;var
+T=q;var
 U=T}else
 var
-U=o;return U}var
+U=p;var
+V=U}else
+var
+V=o;return V}var
 al=I}else
 var
 al=H;var
 am=al}else
 var
-am=F;var
-an=am}else
+am=G;var
+ao=am}else
 var
-an=D;return an}return 0;case
+ao=E;return ao}return 0;case
 7:if(typeof
 a!=="number"&&0===a[0]){var
-ao=a[2],aq=a[1],aW=g[2],aX=g[1];return cE(i,k,function(e){var
-a=n(f(e),h),d=a?n(f(ao),h):a;if(d){var
+ap=a[2],aq=a[1],aX=g[2],aY=g[1];return cI(i,k,function(e){var
+a=n(f(e),h),d=a?n(f(ap),h):a;if(d){var
 g=function(a){if(a){var
 d=a[2],e=n(f(d),h);if(e){var
-i=en(aq,eo(aq,ao,N(c,b),d));return a5(c,h,bi(gP(c,aX,aW,a[1][2],d),i))}var
+i=dJ(aq,dK(aq,ap,J(c,b),d));return aV(c,h,a6(gS(c,aY,aX,a[1][2],d),i))}var
 g=e}else
 var
-g=a;return g},i=j?j[1]:$(u);return iL(h,iN(i,e),g)}return d})}return 0;case
+g=a;return g},i=j?j[1]:$(u);return iQ(h,iS(i,e),g)}return d})}return 0;case
 8:if(typeof
 a==="number"&&5<=a){var
-aY=g[3],aZ=g[2],a0=function(a){return mp(c,h,j,aZ,aY,a)};return cE(i,g[1],a0)}return 0;case
-9:return 0;default:if(typeof
+aZ=g[3],a0=g[2],a1=function(a){return mA(c,h,j,a0,aZ,a)};return cI(i,g[1],a1)}return 0;case
+11:if(typeof
 a==="number"&&!a){var
-K=i6(i,g[1]);if(K){var
-a1=g[2],L=ad(e(function(a){return i6(i,a)},a1));if(L){var
-M=i6(i,[0,g[3],[0,g[4],[0,g[5],[0,g[6],0]]]]);if(M){var
-w=M[1];if(w){var
+K=g0(i,g[1]);if(K){var
+a2=g[2],M=ad(e(function(a){return g0(i,a)},a2));if(M){var
+N=g0(i,[0,g[3],[0,g[4],[0,g[5],[0,g[6],0]]]]);if(N){var
+w=N[1];if(w){var
 x=w[2];if(x){var
-z=x[2];if(z){var
-B=z[2];if(B){if(B[2])return 0;var
-ar=B[1],as=z[1][2],at=x[1][2],au=w[1][2],av=L[1],a2=K[1],W=mF(c,h,j,av,au,at,function(d){return[0,el(c,ap(function(b,a){return A(V(c,aH(d,b)),a)},u,a2))]});return W?W:mF(c,h,j,av,au,at,function(f){var
-b=cc(ar[1]),a=ca(c,G(as,V(c,b)));if(a){var
-d=b$(c,a[1]),e=G(as,t(c,b,aH(f,ar)));return y(function(a){return t(c,e,a)},d)}return a})}var
+y=x[2];if(y){var
+B=y[2];if(B){if(B[2])return 0;var
+ar=B[1],as=y[1][2],at=x[1][2],au=w[1][2],av=M[1],a3=K[1],W=m0(c,h,j,av,au,at,function(d){return[0,eq(c,an(function(b,a){return A(Q(c,aC(d,b)),a)},u,a3))]});return W?W:m0(c,h,j,av,au,at,function(f){var
+b=cd(ar[1]),a=cc(c,D(as,Q(c,b)));if(a){var
+d=bW(c,a[1]),e=D(as,t(c,b,aC(f,ar)));return z(function(a){return t(c,e,a)},d)}return a})}var
 aw=B}else
 var
-aw=z;var
+aw=y;var
 ax=aw}else
 var
 ax=x;var
@@ -2096,44 +2132,45 @@ var
 ay=w;var
 az=ay}else
 var
-az=M;var
+az=N;var
 aA=az}else
 var
-aA=L;var
+aA=M;var
 aB=aA}else
 var
-aB=K;return aB}return 0}}function
-mK(a,_,s,m,o,Z,h,j,i,g,c){if(9===g[0]){var
-aa=g[2],ae=g[1];if(typeof
-c!=="number"&&9===c[0]){var
-L=c[2],v=c[1],af=c[3];if(0<aT(c[4]))return fo(a,s,m,o,h,f(j),i,g,c);var
-U=e($,Z),C=bg(0,bD(a,gQ(0,j,ae),U),_,0),M=n(f(j),tG),O=M?c8(o,C):M;if(O){var
-w=gV(C,m);if(w){var
-x=gV(h,m);if(x){var
-z=ad(e(function(b){var
-c=r(b[1],h,0);if(c)var
-f=b[2][2],a=ad(e(function(a){var
-b=r(a[2],h,0);return y(function(b){return[0,a[1],b]},b)},f)),g=a?[0,[0,b[2][1],a[1]]]:a,d=g;else
+aB=K;return aB}return 0;default:return 0}}function
+m5(c,a){var
+d=r(a[1],c,0);if(d)var
+g=a[2][2],b=ad(e(function(a){var
+b=r(a[2],c,0);return z(function(b){return[0,a[1],b]},b)},g)),h=b?[0,[0,a[2][1],b[1]]]:b,f=h;else
 var
-d=c;return d},aa));if(z){var
-B=my(w[1]);if(B){var
-P=x[1],ag=z[1],ah=B[1],D=el(a,ap(function(f,h){function
+f=d;return f}function
+m6(b,a){return g(b,cY(a[1]))}function
+m7(a,H,y,v,s,au,o,m,q,p,k){switch(p[0]){case
+9:var
+a5=p[2],a8=p[1];if(typeof
+k!=="number"&&9===k[0]){var
+ax=k[2],L=k[1],a9=k[3];if(0<aT(k[4]))return et(a,y,v,s,o,f(m),q,p,k);var
+aR=e($,au),Z=bj(0,bz(a,gT(0,m,a8),aR),H,0),ay=n(f(m),t4),az=ay?c_(s,Z):ay;if(az){var
+M=fs(Z,v);if(M){var
+N=fs(o,v);if(N){var
+O=ad(e(function(a){return m5(o,a)},a5));if(O){var
+P=mJ(M[1]);if(P){var
+aA=N[1],a_=O[1],a$=P[1],aa=eq(a,an(function(f,h){function
 b(b,d){var
-a=f[1],c=b?b[1]?f[2]:a[2]:a[1];return cb(r(d,c[3],u))}function
+a=f[1],c=b?b[1]?f[2]:a[2]:a[1];return bH(r(d,c[3],u))}function
 c(a){var
-b=k(a,tj),c=bm(k(a,tk),b);return bm(k(a,0),c)}var
+b=j(a,tG),c=bp(j(a,tH),b);return bp(j(a,0),c)}var
 d=c(function(a){var
-c=b(tl,a),d=b(tm,a);return E(E(b(0,a),d),c)}),g=[0,d,d],e=c(function(a){var
-c=b(a,tn),d=b(a,to);return E(E(b(a,0),d),c)});return A(h,V(a,el(a,t(a,[0,e,e],g))))},u,ah)),p=aQ(af,v,N(a,b)),F=K(d,G(p,D)[1]),H=F?n(f(L),tu):F,I=H?n(f(P),tv):H;if(I){var
-q=b$(a,p);if(q){var
-W=aw(t(a,D,q[1])),X=G(N(a,b),W),Y=bj(tw);return l(function(h){var
-g=e(function(b){var
-c=b[2],d=b[1];return cz(bT(function(d,b){var
-c=cb(aH(h,b[2]));return A(d,t(a,b[1],[0,c,c]))},c,d))},ag),r=k(ax(function(a){return aH(h,a)}),P),E=i?aH(h,i[1]):u,M=V(a,X),s=V(a,p),q=en(v,eo(v,L,N(a,b),r)),c=bi(ac([0,ab(E),0],tp),q);if(g){var
+c=b(tI,a),d=b(tJ,a);return F(F(b(0,a),d),c)}),g=[0,d,d],e=c(function(a){var
+c=b(a,tK),d=b(a,tL);return F(F(b(a,0),d),c)});return A(h,Q(a,eq(a,t(a,[0,e,e],g))))},u,a$)),z=aN(a9,L,J(a,b)),ae=K(d,D(z,aa)[1]),af=ae?n(f(ax),tR):ae,ag=af?n(f(aA),tS):af;if(ag){var
+B=bW(a,z);if(B){var
+aS=av(t(a,aa,B[1])),aU=D(J(a,b),aS),aW=a7(tT);return l(function(h){var
+g=e(function(b){return mK(a,h,b[1],b[2])},a_),p=j(aw(function(a){return aC(h,a)}),aA),F=q?aC(h,q[1]):u,M=Q(a,aU),r=Q(a,z),o=dJ(L,dK(L,ax,J(a,b),p)),c=a6(ac([0,_(F),0],tM),o);if(g){var
 d=g[2];if(d){var
 f=d[2];if(f){if(f[2])return 0;var
-B=d[1],C=g[1],I=f[1],j=a5(a,tr,bi(ac([0,ab(s),0],tq),c));if(j)return l(function(D){var
-J=G(M,E),K=D[2]?B:ab(B),L=D[1]?C:ab(C),o=0;if(c){var
+B=d[1],C=g[1],I=f[1],i=aV(a,tO,a6(ac([0,_(r),0],tN),c));if(i)return l(function(E){var
+J=D(M,F),K=E[2]?B:_(B),L=E[1]?C:_(C),o=0;if(c){var
 b=c[1],l=0;if(b){var
 d=b[2],m=0;if(d){var
 e=d[2],n=0;if(e)if(e[2]){var
@@ -2142,16 +2179,16 @@ f=c[2],p=0;if(f){var
 g=f[1],q=0;if(g){var
 h=g[2],r=0;if(h)if(h[2]){var
 k=0;l=1;m=1;n=1;p=1;q=1;r=1}else{var
-i=f[2],F=0;if(i){var
+i=f[2],G=0;if(i){var
 j=i[1],H=0;if(j)if(j[2]||i[2]){var
-k=0;l=1;m=1;n=1;p=1;q=1;r=1;F=1;H=1}else
+k=0;l=1;m=1;n=1;p=1;q=1;r=1;G=1;H=1}else
 var
 s=[0,[0,b[1],[0,d[1],[0,e[1],[0,L,0]]]],[0,[0,g[1],[0,h[1],[0,K,0]]],[0,[0,j[1],[0,I,0]],[0,[0,J,0],0]]]];else
 var
 s=j;if(!H)var
 t=s}else
 var
-t=i;if(!F)var
+t=i;if(!G)var
 u=t}else
 var
 u=h;if(!r)var
@@ -2172,49 +2209,100 @@ var
 z=b;if(!l){var
 A=z;o=1}}else{var
 A=c;o=1}if(o)var
-k=A;return a5(a,tt,k)},ts);var
-m=j}else
+k=A;return aV(a,tQ,k)},tP);var
+k=i}else
 var
-m=f;var
+k=f;var
+m=k}else
+var
+m=d;var
 n=m}else
 var
-n=d;var
-o=n}else
+n=g;return n},aW)}var
+ah=B}else
 var
-o=g;return o},Y)}var
-J=q}else
+ah=ag;return ah}var
+aD=P}else
 var
-J=I;return J}var
-Q=B}else
+aD=O;var
+aE=aD}else
 var
-Q=z;var
-R=Q}else
+aE=N;var
+aF=aE}else
 var
-R=x;var
-S=R}else
+aF=M;var
+aG=aF}else
 var
-S=w;var
-T=S}else
+aG=az;return aG}return et(a,y,v,s,o,f(m),q,p,k);case
+10:var
+h=p[1];if(typeof
+k!=="number"&&9===k[0]){var
+i=f(m),a0=fi(m6(s,h),H),a1=e($,au),a2=h[7],a3=h[6],a4=f(m),at=iM(0,bz(a,mS(h[8],a4,m,a3,a2),a1),a0,H,0),aH=ab(h[8],i),aI=aH?n(f(h[1]),i):aH;if(aI)var
+ba=h[1],R=l(function(a){return n(f(a),i)},ba);else
 var
-T=O;return T}return fo(a,s,m,o,h,f(j),i,g,c)}return fo(a,s,m,o,h,f(j),i,g,c)}function
-gY(d){var
+R=aI;if(R)var
+bb=m6(s,h),S=l(function(b){var
+a=r(b,at,0),c=a?1:a;return c},bb);else
+var
+S=R;if(S)var
+bc=h[3],T=l(function(b){var
+a=r(b,o,0),c=a?1:a;return c},bc);else
+var
+T=S;if(T){var
+bd=h[1],U=ad(e(function(a){return g0(at,a)},bd));if(U){var
+V=fs(o,h[2]);if(V){var
+be=h[4],W=ad(e(function(a){return m5(o,a)},be));if(W){var
+X=k[4],aJ=k[2],Y=k[1],aK=W[1],aL=V[1],aM=U[1],w=h[8],bf=k[3],ai=mM(a,i,w,aM),C=aN(bf,Y,J(a,b)),aj=lY(X,d);if(aj)var
+E=aj;else
+var
+ar=lZ(X,c(2,c(2,c(2,c(2,b))))),as=ar?aB(0,w):ar,E=as?aB(w,i):as;var
+ak=E?K(d,D(C,ai)[1]):E,al=ak?n(f(aJ),i):ak,am=al?n(f(aL),i):al;if(am){var
+ao=I(h[5]);if(ao)var
+x=ao;else
+var
+aq=l(function(c){var
+b=an(function(c,b){var
+a=bH(c[2]);return A([0,a,a],b)},u,c);return mT(a,h[6],b)},aM),x=aq?l(function(c){var
+d=c[2],b=an(function(b,d){var
+c=bH(b[2][2]);return A(t(a,b[1],[0,c,c]),d)},u,d);return mT(a,h[6],b)},aK):aq}else
+var
+x=am;if(x){var
+G=bW(a,C);if(G){var
+aX=av(t(a,ai,G[1])),aY=D(J(a,b),aX),aZ=a7(i);return l(function(d){var
+s=e(function(b){return mK(a,d,b[1],b[2])},aK),y=j(aw(function(a){return aC(d,a)}),aL),t=q?aC(d,q[1]):u,z=Q(a,aY),A=Q(a,C),B=mN(i,w,h[9],X),k=e(function(a){var
+b=a[2];return[0,mO(B,a[1]),b]},y),v=dJ(Y,dK(Y,aJ,J(a,b),k)),c=a6(ac([0,_(t),0],i),v),m=n(f(k),i),o=m?n(f(s),i):m,p=o?mQ(i,c):o,r=p?aV(a,i,a6(ac([0,_(A),0],i),c)):p;if(r){var
+x=a7(bh(i));return l(function(b){var
+d=D(z,t);return aV(a,[0,i],mP(c,mR(g(b,tU),s),d))},x)}return r},aZ)}var
+ap=G}else
+var
+ap=x;return ap}var
+aO=W}else
+var
+aO=V;var
+aP=aO}else
+var
+aP=U;var
+aQ=aP}else
+var
+aQ=T;return aQ}return et(a,y,v,s,o,f(m),q,p,k);default:return et(a,y,v,s,o,f(m),q,p,k)}}function
+g1(d){var
 a=d;for(;;){if(a){var
 b=a[2],e=a[1],c=I(aj(function(b){return function(a){return n(b,a)}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-i7(j,i,h,g,a){var
+i$(j,i,h,g,a){var
 d=r(a,j,0);if(d){var
 b=r(a,i,0);if(b)var
-c=mE(0,g,r(a,h,tH)),k=c?[0,[0,b[1],c[1]]]:c,e=k;else
+c=mZ(0,g,r(a,h,t5)),k=c?[0,[0,b[1],c[1]]]:c,e=k;else
 var
 e=b;var
 f=e}else
 var
 f=d;return f}function
-gZ(i,b,a){if(a){var
-j=a[1],l=j[2],c=ad(e(b,j[1]));if(c){var
-f=k(b,l);if(f){var
+g2(i,b,a){if(a){var
+k=a[1],l=k[2],c=ad(e(b,k[1]));if(c){var
+f=j(b,l);if(f){var
 g=r(l,i,0);if(g){var
-h=gZ(i,b,a[2]);if(h)var
+h=g2(i,b,a[2]);if(h)var
 m=K(d,g[1][2][1]),n=m?[0,[0,[0,c[1],f[1]],h[1]]]:m;else
 var
 n=h;var
@@ -2226,73 +2314,73 @@ var
 p=f;var
 q=p}else
 var
-q=c;return q}return tI}function
-mL(c,M,j,L,q,p,K,I,g,b,i,a){var
-h=f(K),O=dH(0,K),aF=bg(0,bD(c,O,e($,fm(i,0,q))),M,0),aJ=e(aA,i),aI=0,aK=e($,q),aM=bg(tJ,function(a){return iS(c,O,aK,aJ,a)},M,aI),aN=gS(i,q);function
-P(a){return i7(p,aF,aM,i,a)}function
-w(a){return e(function(a){return N(c,a)},a)}var
+q=c;return q}return t6}function
+m8(c,N,j,M,q,p,K,I,g,b,i,a){var
+h=f(K),O=dI(0,K),aH=bj(0,bz(c,O,e($,fq(i,0,q))),N,0),aJ=e(aA,i),aI=0,aK=e($,q),aL=bj(t7,function(a){return iX(c,O,aK,aJ,a)},N,aI),aN=gV(i,q);function
+Q(a){return i$(p,aH,aL,i,a)}function
+w(a){return e(function(a){return J(c,a)},a)}var
 aO=I?I[1]:$(u);function
-Q(a){return a?a5(c,h,a[1]):a}function
+R(a){return a?aV(c,h,a[1]):a}function
 r(f,e,d,b,a){var
-g=ac([0,ab(e),0],h);return Q(iX(c,w(f),d,b,a,g))}function
-R(d,b,a){var
-e=ac([0,b,0],h);return Q(mA(c,w(d),a,e))}var
-aP=e(aA,i),S=l(function(a){return aG(a,f(q))},aP),V=S?gY(e(aA,i)):S,W=V?l(function(a){return n(f(a),h)},a):V;if(W){var
+g=ac([0,_(e),0],h);return R(i2(c,w(f),d,b,a,g))}function
+S(d,b,a){var
+e=ac([0,b,0],h);return R(mV(c,w(d),a,e))}var
+aP=e(aA,i),T=l(function(a){return aB(a,f(q))},aP),U=T?g1(e(aA,i)):T,W=U?l(function(a){return n(f(a),h)},a):U;if(W){var
 v=0;switch(g[0]){case
 0:var
-x=g[1],F=0;if(typeof
+x=g[1],G=0;if(typeof
 b!=="number")switch(b[0]){case
 0:var
 ar=0;if(a){if(a[2])return 0;var
-aQ=a[1],aR=b[2],aS=b[1],X=c8(L,p);if(X){var
+aQ=a[1],aR=b[2],aS=b[1],X=c_(M,p);if(X){var
 m=function(c,a){var
-b=A(x,a);return function(a){return r(aQ,b,aS,aR,a)}},k=j;F=1;ar=1}else
+b=A(x,a);return function(a){return r(aQ,b,aS,aR,a)}},k=j;G=1;ar=1}else
 var
-_=X}else
+aa=X}else
 var
-_=a;if(!ar)return _;break;case
+aa=a;if(!ar)return aa;break;case
 2:var
 as=0;if(a){if(a[2])return 0;var
-aU=a[1],aV=b[2],aW=b[1],aa=c8(L,p),at=0;if(aa){var
-ad=J(x[1],d),ae=ad?J(x[2],d):ad;if(ae){var
-m=function(c,b,a){return r(aU,b,aW,aV,e(mz,a))},k=j;F=1;as=1;at=1}else
+aU=a[1],aW=b[2],aX=b[1],ab=c_(M,p),at=0;if(ab){var
+ad=L(x[1],d),ae=ad?L(x[2],d):ad;if(ae){var
+m=function(c,b,a){return r(aU,b,aX,aW,e(mU,a))},k=j;G=1;as=1;at=1}else
 var
 af=ae}else
 var
-af=aa;if(!at)var
+af=ab;if(!at)var
 ag=af}else
 var
-ag=a;if(!as)return ag;break}if(!F)return 0;break;case
+ag=a;if(!as)return ag;break}if(!G)return 0;break;case
 1:var
-au=0,aX=g[1];if(typeof
+au=0,aY=g[1];if(typeof
 b==="number"&&!b){if(!a)return a;if(a[2])return 0;var
-aY=a[1],m=function(c,a){var
-b=G(aX,a);return function(a){return R(aY,b,a)}},k=j;au=1}if(!au)return 0;break;case
+aZ=a[1],m=function(c,a){var
+b=D(aY,a);return function(a){return S(aZ,b,a)}},k=j;au=1}if(!au)return 0;break;case
 2:var
-av=0,aZ=g[1];if(typeof
-b==="number"||!(3===b[0]))av=1;else{var
+aw=0,a0=g[1];if(typeof
+b==="number"||!(3===b[0]))aw=1;else{var
 ax=0;if(a){var
 s=a[2],ay=0;if(s){if(s[2])return 0;var
-ah=b[1],a0=s[1],a1=a[1],a2=b[2],ai=i5(c,ah,b[3]),aj=iP(h,ai);if(aj){var
+ah=b[1],a1=s[1],a2=a[1],a3=b[2],ai=i_(c,ah,b[3]),aj=iU(h,ai);if(aj){var
 m=function(f,b,a){var
-d=aH(f,ai),e=r(a1,A(d,b),ah,a2,a);return e?R(a0,G(t(c,aZ,d),b),a):e},k=j;ax=1;ay=1}else
+d=aC(f,ai),e=r(a2,A(d,b),ah,a3,a);return e?S(a1,D(t(c,a0,d),b),a):e},k=j;ax=1;ay=1}else
 var
 ak=aj}else
 var
 ak=s;if(!ay)var
 al=ak}else
 var
-al=a;if(!ax)return al}if(av)return 0;break;case
+al=a;if(!ax)return al}if(aw)return 0;break;case
 3:var
 az=0;if(typeof
 b==="number"&&!b){if(a)return 0;var
 z=g[1];v=1}else
 az=1;if(az)return 0;break;case
 4:var
-aB=0,a4=g[2];if(typeof
-b==="number"||!(0===b[0]))aB=1;else{if(!a)return a;if(a[2])return 0;var
-a6=a[1],a7=b[2],a8=b[1],a9=function(c,a){var
-b=A(a4,a);return function(a){return r(a6,b,a8,a7,a)}},m=a9,k=g[1]}if(aB)return 0;break;case
+aD=0,a5=g[2];if(typeof
+b==="number"||!(0===b[0]))aD=1;else{if(!a)return a;if(a[2])return 0;var
+a8=a[1],a9=b[2],a_=b[1],a$=function(c,a){var
+b=A(a5,a);return function(a){return r(a8,b,a_,a9,a)}},m=a$,k=g[1]}if(aD)return 0;break;case
 5:var
 H=0;if(typeof
 b==="number"&&!(3<=b))switch(b){case
@@ -2302,223 +2390,228 @@ z=g[1];v=1;break;case
 z=g[2];v=1;break;default:H=1}else
 H=1;if(H)return 0;break;case
 7:var
-am=g[2],an=g[1],aD=0;if(typeof
-b==="number"||!(0===b[0]))aD=1;else{var
-aE=0;if(a){if(a[2])return 0;var
-o=b[2],C=b[1],a_=a[1],ao=n(f(j),h);if(ao){var
+am=g[2],ao=g[1],aF=0;if(typeof
+b==="number"||!(0===b[0]))aF=1;else{var
+aG=0;if(a){if(a[2])return 0;var
+o=b[2],C=b[1],ba=a[1],ap=n(f(j),h);if(ap){var
 m=function(a,x){var
-y=w(a_);return function(g){var
+y=w(ba);return function(g){var
 k=n(f(g),h),l=k?n(f(o),h):k;if(l){var
-s=e(aA,g),u=en(C,eo(C,o,cg(c),s)),v=bi(gP(c,an,am,x,e(aA,g)),u),a=0,b=g,i=v,w=f(o);for(;;){if(b){var
-p=b[1][2],q=n(a,an),r=e(function(g,h){return function(d){var
-a=U(aC(0,f(o)),o);return e(function(a){var
-b=mC(C,a[2],d[1]);if(h&&n(a[1],g))return G(b,aw(t(c,am,d[2])));return b},a)}}(a,q),p),j=fl(c,y,mB(c,a,w),r,i);if(j){var
+s=e(aA,g),u=dJ(C,dK(C,o,ch(c),s)),v=a6(gS(c,ao,am,x,e(aA,g)),u),a=0,b=g,i=v,w=f(o);for(;;){if(b){var
+p=b[1][2],q=n(a,ao),r=e(function(g,h){return function(d){var
+a=V(aE(0,f(o)),o);return e(function(a){var
+b=mX(C,a[2],d[1]);if(h&&n(a[1],g))return D(b,av(t(c,am,d[2])));return b},a)}}(a,q),p),j=fp(c,y,mW(c,a,w),r,i);if(j){var
 a=[0,a],b=b[2],i=j[1];continue}var
 d=j}else
 var
-d=[0,i];if(d)return a5(c,h,d[1]);var
+d=[0,i];if(d)return aV(c,h,d[1]);var
 m=d;break}}else
 var
-m=l;return m}},k=j;aE=1}else
+m=l;return m}},k=j;aG=1}else
 var
-aq=ao}else
+aq=ap}else
 var
-aq=a;if(!aE)return aq}if(aD)return 0;break;default:return 0}if(v){var
-B=P(z);if(!B)return B;var
-a3=function(b,f,a){return l(function(a){var
-b=f[2],c=a[2],e=ap(function(b,a){return E(bm(d,T(b[2][1])),a)},d,c);return D(d,aL(aL(a[1][2][1],e),b))},a)},Z=a3,Y=[0,[0,0,B[1]],0]}else{var
-y=gZ(p,P,k);if(!y)return y;var
+aq=a;if(!aG)return aq}if(aF)return 0;break;default:return 0}if(v){var
+B=Q(z);if(!B)return B;var
+a4=function(b,f,a){return l(function(a){var
+b=f[2],c=a[2],e=an(function(b,a){return F(bp(d,P(b[2][1])),a)},d,c);return E(d,aM(aM(a[1][2][1],e),b))},a)},Z=a4,Y=[0,[0,0,B[1]],0]}else{var
+y=g2(p,Q,k);if(!y)return y;var
 Z=m,Y=y[1]}var
-aT=bj(h);return l(function(a){var
-b=e(function(b){return gT(c,a,aN,b)},Y);return f5(Z,a,aH(a,aO),b)},aT)}return W}function
-i8(j,a){var
-f=ap(function(b,a){return bm(ct(b),a)},d,a);function
-g(a){if(a){if(J(ct(a[1]),f))return 0;var
+aT=a7(h);return l(function(a){var
+b=e(function(b){return gW(c,a,aN,b)},Y);return f9(Z,a,aC(a,aO),b)},aT)}return W}function
+ja(j,a){var
+f=an(function(b,a){return bp(cx(b),a)},d,a);function
+g(a){if(a){if(L(cx(a[1]),f))return 0;var
 b=[0,g(a[2])]}else
 var
 b=a;return b}var
-h=g(a);if(J(f,d)){var
+h=g(a);if(L(f,d)){var
 k=e(function(a){return u},a),l=a?[0,b,a[2]]:a;return[0,[0,[0,0,l],d],k]}var
-i=iE(E(lQ(f),b)),m=e(function(a){return u},a);return[0,[0,[0,h,a],i],c6(u,h,N(j,b_(c(2,b),i)),m)]}function
-g0(g,L,t,K,o,m,H,F,k,a,h,al,E,ak,C,B){var
-i=f(H),M=dH(0,H),am=bg(0,bD(g,M,e($,fm(h,0,o))),L,0),ap=e(aA,h),an=0,aq=e($,o),ar=bg(tK,function(a){return iS(g,M,aq,ap,a)},L,an),as=gS(h,o);function
-at(a){return i7(m,am,ar,h,a)}var
-au=F?F[1]:$(u),O=i8(g,al),P=O[1],Q=P[1],v=Q[2],j=Q[1],R=O[2],av=P[2],p=e(function(a){return aQ(a,av,N(g,b))},v);function
-S(a){return i0(g,j,p,E,ak,C,B,iZ(g,j,p,i,a,0))}function
-T(a){return a?a5(g,i,a[1]):a}function
-w(d,c,b,a){return T(i1(g,j,p,R,c,b,a,S(ab(d))))}var
-aw=e(aA,h),U=l(function(a){return aG(a,f(o))},aw),V=U?gY(e(aA,h)):U,W=V?n(f(v),i):V,X=W?n(f(E),i):W,Y=X?D(d,C):X,Z=Y?gy(B,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):Y,_=Z?aG(j,i):Z,aa=_?I(J(r(j,v,d),d)):_;if(aa){switch(k[0]){case
+i=iI(F(l2(f),b)),m=e(function(a){return u},a);return[0,[0,[0,h,a],i],c8(u,h,J(j,cb(c(2,b),i)),m)]}function
+g3(g,M,t,K,o,m,H,G,k,a,h,al,F,ak,C,B){var
+i=f(H),N=dI(0,H),am=bj(0,bz(g,N,e($,fq(h,0,o))),M,0),ao=e(aA,h),an=0,ap=e($,o),ar=bj(t8,function(a){return iX(g,N,ap,ao,a)},M,an),as=gV(h,o);function
+at(a){return i$(m,am,ar,h,a)}var
+au=G?G[1]:$(u),O=ja(g,al),P=O[1],Q=P[1],v=Q[2],j=Q[1],R=O[2],av=P[2],p=e(function(a){return aN(a,av,J(g,b))},v);function
+S(a){return i5(g,j,p,F,ak,C,B,i4(g,j,p,i,a,0))}function
+T(a){return a?aV(g,i,a[1]):a}function
+w(d,c,b,a){return T(i6(g,j,p,R,c,b,a,S(_(d))))}var
+aw=e(aA,h),U=l(function(a){return aB(a,f(o))},aw),V=U?g1(e(aA,h)):U,W=V?n(f(v),i):V,X=W?n(f(F),i):W,Y=X?E(d,C):X,Z=Y?gC(B,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):Y,aa=Z?aB(j,i):Z,ab=aa?I(L(r(j,v,d),d)):aa;if(ab){switch(k[0]){case
 0:var
 x=k[1],z=0;if(typeof
 a==="number")z=1;else
 switch(a[0]){case
 0:var
-ax=a[2],ay=a[1],ac=c8(K,m);if(!ac)return ac;var
+ax=a[2],ay=a[1],ac=c_(K,m);if(!ac)return ac;var
 s=function(a){var
 b=A(x,a);return function(a){return w(b,ay,ax,a)}},q=t;break;case
 2:var
-aC=a[2],aD=a[1],ad=c8(K,m),ah=0;if(ad){var
-ae=J(x[1],d),af=ae?J(x[2],d):ae;if(af){var
-s=function(b,a){return w(b,aD,aC,e(mz,a))},q=t;ah=1}else
+aE=a[2],aF=a[1],ad=c_(K,m),ah=0;if(ad){var
+ae=L(x[1],d),af=ae?L(x[2],d):ae;if(af){var
+s=function(b,a){return w(b,aF,aE,e(mU,a))},q=t;ah=1}else
 var
 ag=af}else
 var
 ag=ad;if(!ah)return ag;break;default:z=1}if(z)return 0;break;case
 1:var
-ai=0,aE=k[1];if(typeof
+ai=0,aG=k[1];if(typeof
 a==="number"&&!a)var
 s=function(a){var
-b=G(aE,a);return function(a){return T(mJ(g,j,p,R,a,S(b)))}},q=t;else
+b=D(aG,a);return function(a){return T(m4(g,j,p,R,a,S(b)))}},q=t;else
 ai=1;if(ai)return 0;break;case
 4:var
-aj=0,aF=k[2];if(typeof
+aj=0,aH=k[2];if(typeof
 a==="number"||!(0===a[0]))aj=1;else
 var
 aI=a[2],aJ=a[1],aK=function(a){var
-b=A(aF,a);return function(a){return w(b,aJ,aI,a)}},s=aK,q=k[1];if(aj)return 0;break;default:return 0}var
-y=gZ(m,at,q);if(y){var
-az=y[1],aB=bj(i);return l(function(a){var
-b=e(function(b){return gT(g,a,as,b)},az);return ao(s,aH(a,au),b)},aB)}return y}return aa}function
-mM(r,q,p,o,n,C,m,c,l,j,i,h,g,a){var
+b=A(aH,a);return function(a){return w(b,aJ,aI,a)}},s=aK,q=k[1];if(aj)return 0;break;default:return 0}var
+y=g2(m,at,q);if(y){var
+az=y[1],aD=a7(i);return l(function(a){var
+b=e(function(b){return gW(g,a,as,b)},az);return aq(s,aC(a,au),b)},aD)}return y}return ab}function
+m9(r,q,p,o,n,C,m,c,l,k,i,h,g,a){var
 v=e(function(a){return d},c),u=0;if(typeof
 a!=="number")switch(a[0]){case
 5:var
-E=a[1],F=function(a){return g0(r,q,p,o,n,m,c,a,l,E,0,v,j,i,h,g)},x=F,w=a[3],s=a[2];u=1;break;case
+D=a[1],F=function(a){return g3(r,q,p,o,n,m,c,a,l,D,0,v,k,i,h,g)},x=F,w=a[3],s=a[2];u=1;break;case
 10:var
 b=a[3],A=a[2],f=a[1],B=0;if(typeof
 f!=="number"&&5===f[0]){if(!b)return b;if(b[2])return 0;var
-G=b[1],H=f[1],I=function(a){return g0(r,q,p,o,n,m,c,a,l,H,A,G,j,i,h,g)},x=I,w=f[3],s=f[2];u=1;B=1}if(!B)return b?b[2]?0:g0(r,q,p,o,n,m,c,0,l,f,A,b[1],j,i,h,g):b;break}if(u){var
-t=k(C,c);if(t){var
-y=D(d,s);if(y)return x([0,gM(s,w,t[1])]);var
+G=b[1],H=f[1],I=function(a){return g3(r,q,p,o,n,m,c,a,l,H,A,G,k,i,h,g)},x=I,w=f[3],s=f[2];u=1;B=1}if(!B)return b?b[2]?0:g3(r,q,p,o,n,m,c,0,l,f,A,b[1],k,i,h,g):b;break}if(u){var
+t=j(C,c);if(t){var
+y=E(d,s);if(y)return x([0,gP(s,w,t[1])]);var
 z=y}else
 var
-z=t;return z}return g0(r,q,p,o,n,m,c,0,l,a,0,v,j,i,h,g)}function
-mN(a,aj,aL,s,F,ai,q,p,ah,ag,h){function
-j(ak,g,j,x){var
-h=f(q),z=dH(0,q),aq=bg(0,bD(a,z,e($,fm(j,0,s))),aj,0),as=e(aA,j),ar=0,at=e($,s),au=bg(tL,function(b){return iS(a,z,at,as,b)},aj,ar);function
-av(a){return i7(ai,aq,au,j,a)}var
+z=t;return z}return g3(r,q,p,o,n,m,c,0,l,a,0,v,k,i,h,g)}function
+m_(a,aj,aL,s,G,ai,q,p,ah,ag,h){function
+k(ak,g,j,x){var
+h=f(q),z=dI(0,q),aq=bj(0,bz(a,z,e($,fq(j,0,s))),aj,0),as=e(aA,j),ar=0,at=e($,s),au=bj(t9,function(b){return iX(a,z,at,as,b)},aj,ar);function
+av(a){return i$(ai,aq,au,j,a)}var
 aw=ak?ak[1]:$(u);function
-k(b){return b?a5(a,h,b[1]):b}function
-B(b,a){return ab(A(aH(b,ah),a))}function
-C(d,c,b){return G(t(a,d,aH(c,ah)),b)}var
-ax=e(aA,j),E=l(function(a){return aG(a,f(s))},ax),F=E?gY(e(aA,j)):E,H=F?n(f(x),h):F;if(H){var
+k(b){return b?aV(a,h,b[1]):b}function
+B(b,a){return _(A(aC(b,ah),a))}function
+C(d,c,b){return D(t(a,d,aC(c,ah)),b)}var
+ax=e(aA,j),F=l(function(a){return aB(a,f(s))},ax),G=F?g1(e(aA,j)):F,H=G?n(f(x),h):G;if(H){var
 al=0;if(ag){var
-K=ag[1],L=K[1],M=L[1],O=M[1],P=L[2],Q=K[2],ay=M[2],R=i8(a,x),S=R[1],T=S[1],v=T[2],i=T[1],U=R[2],az=S[2],m=e(function(c){return aQ(c,az,N(a,b))},v),V=function(b){return i0(a,i,m,O,ay,P,Q,iZ(a,i,m,h,b,0))},W=n(f(v),h),X=W?n(f(O),h):W,Y=X?D(d,P):X,Z=Y?gy(Q,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):Y,_=Z?aG(i,h):Z,aa=_?I(J(r(i,v,d),d)):_,y=0;if(aa)if(p){var
-am=0,aB=p[1];if(typeof
+K=ag[1],M=K[1],N=M[1],O=N[1],P=M[2],Q=K[2],ay=N[2],R=ja(a,x),S=R[1],T=S[1],v=T[2],i=T[1],U=R[2],az=S[2],m=e(function(c){return aN(c,az,J(a,b))},v),V=function(b){return i5(a,i,m,O,ay,P,Q,i4(a,i,m,h,b,0))},W=n(f(v),h),X=W?n(f(O),h):W,Y=X?E(d,P):X,Z=Y?gC(Q,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):Y,aa=Z?aB(i,h):Z,ab=aa?I(L(r(i,v,d),d)):aa,y=0;if(ab)if(p){var
+am=0,aD=p[1];if(typeof
 g==="number"&&!g){var
-o=function(d,c,b){return k(mJ(a,i,m,U,b,V(C(aB,d,c))))};y=1;am=1}if(!am)return 0}else{var
+o=function(d,c,b){return k(m4(a,i,m,U,b,V(C(aD,d,c))))};y=1;am=1}if(!am)return 0}else{var
 an=0;if(typeof
 g!=="number"&&0===g[0]){var
-aE=g[2],aF=g[1],o=function(d,c,b){return k(i1(a,i,m,U,aF,aE,b,V(B(d,c))))};y=1;an=1}if(!an)var
+aG=g[2],aH=g[1],o=function(d,c,b){return k(i6(a,i,m,U,aH,aG,b,V(B(d,c))))};y=1;an=1}if(!an)var
 ad=0}else
 var
-ad=aa;if(!y)return ad}else{var
-ae=e(function(b){return N(a,b)},x);if(p){var
+ad=ab;if(!y)return ad}else{var
+ae=e(function(b){return J(a,b)},x);if(p){var
 ao=0,aI=p[1];if(typeof
 g==="number"&&!g){var
-o=function(d,c,b){return k(mA(a,ae,b,ac([0,C(aI,d,c),0],h)))};ao=1}if(!ao)return 0}else{var
+o=function(d,c,b){return k(mV(a,ae,b,ac([0,C(aI,d,c),0],h)))};ao=1}if(!ao)return 0}else{var
 ap=0;if(typeof
 g==="number"||!(0===g[0]))ap=1;else
 var
-aJ=g[2],aK=g[1],o=function(d,c,b){return k(iX(a,ae,aK,aJ,b,ac([0,B(d,c),0],h)))};if(ap){var
+aJ=g[2],aK=g[1],o=function(d,c,b){return k(i2(a,ae,aK,aJ,b,ac([0,B(d,c),0],h)))};if(ap){var
 af=0;al=1}}}if(!al){var
-w=gZ(ai,av,aL);if(w){var
-aC=w[1],aD=bj(h);return l(function(b){var
-c=gS(j,s),d=e(function(d){return gT(a,b,c,d)},aC);return o(b,aH(b,aw),d)},aD)}return w}}else
+w=g2(ai,av,aL);if(w){var
+aE=w[1],aF=a7(h);return l(function(b){var
+c=gV(j,s),d=e(function(d){return gW(a,b,c,d)},aE);return o(b,aC(b,aw),d)},aF)}return w}}else
 var
 af=H;return af}var
 x=e(function(a){return d},q),w=0;if(typeof
 h!=="number")switch(h[0]){case
 5:var
-H=h[1],K=function(a){return j(a,H,0,x)},z=K,y=h[3],m=h[2];w=1;break;case
+H=h[1],K=function(a){return k(a,H,0,x)},z=K,y=h[3],m=h[2];w=1;break;case
 10:var
-g=h[3],v=h[2],i=h[1],E=0;if(typeof
+g=h[3],v=h[2],i=h[1],F=0;if(typeof
 i!=="number")switch(i[0]){case
 5:if(!g)return g;if(g[2])return 0;var
-L=g[1],M=i[1],O=function(a){return j(a,M,v,L)},z=O,y=i[3],m=i[2];w=1;E=1;break;case
+M=g[1],N=i[1],O=function(a){return k(a,N,v,M)},z=O,y=i[3],m=i[2];w=1;F=1;break;case
 3:case
 7:case
 9:case
 10:case
 11:case
-13:return g?g[2]?0:j(0,i,v,g[1]):g}if(!E)return g?g[2]?0:j(0,i,v,g[1]):g;break}if(w){var
-o=k(F,q);if(o){var
-B=D(d,m);if(B)return z([0,gM(m,y,o[1])]);var
+13:return g?g[2]?0:k(0,i,v,g[1]):g}if(!F)return g?g[2]?0:k(0,i,v,g[1]):g;break}if(w){var
+o=j(G,q);if(o){var
+B=E(d,m);if(B)return z([0,gP(m,y,o[1])]);var
 C=B}else
 var
-C=o;return C}return j(0,h,0,x)}function
-mO(l,j,i,p,h,g,o,f,b,e,a){if(typeof
+C=o;return C}return k(0,h,0,x)}function
+m$(l,k,i,p,h,g,o,f,b,e,a){if(typeof
 a!=="number")switch(a[0]){case
 5:var
-q=a[2],m=k(o,b);if(m){var
-r=D(d,q);if(r){var
-y=a[1];return mK(l,j,i,p,h,g,f,b,[0,gM(q,a[3],m[1])],e,y)}var
+q=a[2],m=j(o,b);if(m){var
+r=E(d,q);if(r){var
+y=a[1];return m7(l,k,i,p,h,g,f,b,[0,gP(q,a[3],m[1])],e,y)}var
 s=r}else
 var
 s=m;return s;case
 10:var
 t=a[3],u=a[2],c=a[1];if(typeof
 c!=="number"&&5===c[0]){var
-v=c[2],n=k(o,b);if(n){var
-w=D(d,v);if(w){var
-z=c[1];return mL(l,j,i,h,g,f,b,[0,gM(v,c[3],n[1])],e,z,u,t)}var
+v=c[2],n=j(o,b);if(n){var
+w=E(d,v);if(w){var
+z=c[1];return m8(l,k,i,h,g,f,b,[0,gP(v,c[3],n[1])],e,z,u,t)}var
 x=w}else
 var
-x=n;return x}return mL(l,j,i,h,g,f,b,0,e,c,u,t)}return mK(l,j,i,p,h,g,f,b,0,e,a)}function
-i9(a){return 9===a[0]?0:1}function
-eq(a){return z(function(a){return g(a[1],[0,a[2],0])},a)}function
-i_(j,d,i,a,h){var
-b=h;for(;;){var
-c=0;if(typeof
-b==="number"){if(1!==b)c=1}else
+x=n;return x}return m8(l,k,i,h,g,f,b,0,e,c,u,t)}return m7(l,k,i,p,h,g,f,b,0,e,a)}function
+jb(a){switch(a[0]){case
+9:case
+10:return 0;default:return 1}}function
+dL(a){return w(function(a){return g(a[1],[0,a[2],0])},a)}function
+jc(k,f,j,a,i){var
+b=i;for(;;){var
+d=0;if(typeof
+b==="number"){if(1!==b)d=1}else
 switch(b[0]){case
 11:var
 b=b[3];continue;case
 1:break;case
 5:case
 10:var
-b=b[1];continue;default:c=1}var
-k=c?0:1,l=k?d:j,f=eq(l);switch(a[0]){case
-0:return g(i,f);case
+b=b[1];continue;default:d=1}var
+l=d?0:1,m=l?f:k,h=dL(m);switch(a[0]){case
+0:return g(j,h);case
 3:return[0,a[1],0];case
 5:return[0,a[1],[0,a[2],0]];case
 6:var
-m=[0,a[1],[0,a[2],[0,a[3],[0,a[4],0]]]];return z(function(a){return[0,a[1],[0,a[2],[0,a[3],0]]]},m);case
+n=[0,a[1],[0,a[2],[0,a[3],[0,a[4],0]]]];return w(function(a){return[0,a[1],[0,a[2],[0,a[3],0]]]},n);case
 9:var
-n=a[2],o=z(function(a){var
-b=e(aN,a[2][2]);return[0,a[1],b]},n);return g(eq(d),o);case
+o=a[2],p=w(function(a){var
+b=e(aI,a[2][2]);return[0,a[1],b]},o);return g(dL(f),p);case
 10:var
-p=[0,a[3],[0,a[4],[0,a[5],[0,a[6],0]]]],q=g(ed(a[2]),p);return g(a[1],q);case
+c=a[1],q=c[4],r=w(function(a){var
+b=e(aI,a[2][2]);return[0,a[1],b]},q),s=g(c[3],r);return g(dL(c[2]),s);case
+11:var
+t=[0,a[3],[0,a[4],[0,a[5],[0,a[6],0]]]],u=g(cY(a[2]),t);return g(a[1],u);case
 4:case
-8:return eq(a[1]);default:return f}}}function
-i$(v,t,s,q,k,a,f,j){var
-h=i9(a),i=h?l(function(b){var
-a=r(b,bT(fn,f,k),u);return J(a[1],a[2])},j):h;return i?l(function(ao){switch(a[0]){case
+8:return dL(a[1]);default:return h}}}function
+jd(v,t,s,q,k,a,f,j){var
+h=jb(a),i=h?l(function(b){var
+a=r(b,bV(fr,f,k),u);return L(a[1],a[2])},j):h;return i?l(function(ao){switch(a[0]){case
 3:var
 f=[0,a[1],0];break;case
 4:var
-f=eq(a[1]);break;case
+f=dL(a[1]);break;case
 5:var
 f=[0,a[1],[0,a[2],0]];break;case
-6:case
-8:case
-9:case
-10:return 0;default:var
-f=0}var
-j=0,k=bg(0,function(a){switch(a[0]){case
+0:case
+1:case
+2:case
+7:var
+f=0;break;default:return 0}var
+j=0,k=bj(0,function(a){switch(a[0]){case
 0:return[0,[0,d]];case
 1:var
 ad=a[1],ae=aj(function(a){return n(ad,a)},ao)?b:d;return[0,[0,ae]];case
 2:var
-af=J(a[1],d)?0:[0,d];return[0,af];case
+af=L(a[1],d)?0:[0,d];return[0,af];case
 3:var
 e=a[2],j=a[1];if(j){var
 z=j[1];if(z){if(e){var
 A=e[1];if(A){var
-B=z[1],C=J(B,A[1]),ag=C?[0,[0,B]]:C;return ag}var
-F=j}else
+B=z[1],C=L(B,A[1]),ag=C?[0,[0,B]]:C;return ag}var
+D=j}else
 var
-F=e;return F}return e}if(e){if(e[1])return 0;var
+D=e;return D}return e}if(e){if(e[1])return 0;var
 G=j}else
 var
 G=e;return G;case
@@ -2526,7 +2619,7 @@ G=e;return G;case
 f=a[2],k=a[1];if(k){var
 H=k[1];if(H){if(f){var
 I=f[1];if(I){var
-K=H[1],L=J(K,I[1]),ah=L?[0,[0,K]]:L;return ah}var
+J=H[1],K=L(J,I[1]),ah=K?[0,[0,J]]:K;return ah}var
 M=k}else
 var
 M=f;return M}return f}if(f){if(f[1])return 0;var
@@ -2537,27 +2630,27 @@ N=f;return N;case
 6:var
 o=a[1];if(o){var
 O=o[1],g=a[2];if(O){if(g){var
-P=g[1];if(P)return[0,[0,E(O[1],P[1])]];var
-Q=tA}else
+Q=g[1];if(Q)return[0,[0,F(O[1],Q[1])]];var
+R=tY}else
 var
-Q=g;return Q}var
-ai=g?tB:g,R=ai}else
+R=g;return R}var
+ai=g?tZ:g,S=ai}else
 var
-R=o;return R;case
+S=o;return S;case
 7:var
 p=a[1];if(p){var
-S=p[1],h=a[2];if(S){if(h)var
-q=h[1],ak=q?[0,[0,aL(S[1],q[1])]]:q,U=ak;else
+T=p[1],h=a[2];if(T){if(h)var
+q=h[1],ak=q?[0,[0,aM(T[1],q[1])]]:q,U=ak;else
 var
 U=h;return U}var
-al=h?tC:h,V=al}else
+al=h?t0:h,V=al}else
 var
 V=p;return V;case
 8:var
 r=a[1];if(r){var
 W=r[1];if(W){var
-X=W[1];return[0,[0,E(X,X)]]}var
-Y=tD}else
+X=W[1];return[0,[0,F(X,X)]]}var
+Y=t1}else
 var
 Y=r;return Y;case
 9:var
@@ -2566,10 +2659,10 @@ t=s[1];if(t){var
 i=t[1],x=aT(i);if(0===x)var
 m=1;else
 if(0<x)var
-m=D(i,b)?0:J(aU(i,aJ(2))[2],d)?1:0;else
+m=E(i,b)?0:L(aU(i,aK(2))[2],d)?1:0;else
 var
-y=T(i),m=D(y,b)?0:J(aU(y,aJ(2))[2],d)?1:0;var
-am=m?[0,[0,cx(i,c(2,b))]]:m,Z=am}else
+y=P(i),m=E(y,b)?0:L(aU(y,aK(2))[2],d)?1:0;var
+am=m?[0,[0,cB(i,c(2,b))]]:m,Z=am}else
 var
 Z=t;var
 _=Z}else
@@ -2578,7 +2671,7 @@ _=s;return _;default:var
 u=a[2];if(u){var
 v=a[3];if(v){var
 w=a[4];if(w)var
-an=[0,u[1],[0,v[1],[0,w[1],0]]],$=l(function(a){return a?J(a[1],d):1},an),aa=$?[0,[0,d]]:$;else
+an=[0,u[1],[0,v[1],[0,w[1],0]]],$=l(function(a){return a?L(a[1],d):1},an),aa=$?[0,[0,d]]:$;else
 var
 aa=w;var
 ab=aa}else
@@ -2588,86 +2681,86 @@ ac=ab}else
 var
 ac=u;return ac}},v,j);function
 m(a){return a?a[1]:d}var
-h=e(function(a){return y(m,a)},k),i=l(function(c){var
+h=e(function(a){return z(m,a)},k),i=l(function(c){var
 a=r(c,h,0),b=a?1:a;return b},q);if(i){var
-o=g(eq(s),f),p=g(eq(t),o);return l(function(c){var
+o=g(dL(s),f),p=g(dL(t),o);return l(function(c){var
 a=r(c,h,0);if(a){var
 b=aT(a[1]);return 0===b?1:0<b?0:0}return a},p)}return i},f):i}function
-ja(j,a,i,h,g,f,e,d,c,b){var
-k=gF(i_(i,h,g,c,b),a);return i2(j,a,bT(fn,e,f),k,d)}function
-mP(f,d,c,n,m,b,l,q,e,k,j,i,h,a){if(typeof
+je(j,a,i,h,g,f,e,d,c,b){var
+k=fi(jc(i,h,g,c,b),a);return i7(j,a,bV(fr,e,f),k,d)}function
+na(f,d,c,n,m,b,l,q,e,k,j,i,h,a){if(typeof
 a!=="number"&&11===a[0]){var
-o=a[3],g=a[1],p=i$(d,c,n,m,b,k,g,a[2]);if(p){var
-r=ja(f,d,c,n,m,b,g,e,k,o);return mN(f,d,c,bT(fn,g,b),l,r,e,j,i,h,o)}return p}return mN(f,d,c,b,l,q,e,j,i,h,a)}function
-mQ(r,q,p,o,m,k,j,i,h,g,d,c,a){if(typeof
+o=a[3],g=a[1],p=jd(d,c,n,m,b,k,g,a[2]);if(p){var
+r=je(f,d,c,n,m,b,g,e,k,o);return m_(f,d,c,bV(fr,g,b),l,r,e,j,i,h,o)}return p}return m_(f,d,c,b,l,q,e,j,i,h,a)}function
+nb(r,q,p,o,m,k,j,i,h,g,d,c,a){if(typeof
 a!=="number"&&12===a[0]){var
 b=a[1],s=I(n(f(b),0));if(s){var
-t=U(iY(e(function(a){return a[1][1][1]},b)),b);return l(function(a){var
-b=a[2],e=b[1];return mP(r,q,p,o,m,k,j,i,h,g,d,c,[0,[0,[0,[0,a[1][1],a[1][2]],e[1][2]],e[2]]],b[2])},t)}return s}return mP(r,q,p,o,m,k,j,i,h,g,d,c,0,a)}function
-g1(b,a){if(a){var
+t=V(i3(e(function(a){return a[1][1][1]},b)),b);return l(function(a){var
+b=a[2],e=b[1];return na(r,q,p,o,m,k,j,i,h,g,d,c,[0,[0,[0,[0,a[1][1],a[1][2]],e[1][2]],e[2]]],b[2])},t)}return s}return na(r,q,p,o,m,k,j,i,h,g,d,c,0,a)}function
+g4(b,a){if(a){var
 c=a[2];if(b){var
-e=g1(b[1],c);return[0,a[1],e]}var
+e=g4(b[1],c);return[0,a[1],e]}var
 d=[0,0,c]}else
 var
 d=a;return d}function
-mR(c,b,a){var
-d=U(b,a);return l(function(a){var
-b=k(c,a[1]);return b?b:I(a[2])},d)}function
-fp(i,a,g,m,c,t,o,h,b,X,p){switch(p[0]){case
+nc(c,b,a){var
+d=V(b,a);return l(function(a){var
+b=j(c,a[1]);return b?b:I(a[2])},d)}function
+ft(i,a,g,m,c,t,o,h,b,X,p){switch(p[0]){case
 0:var
-ab=function(a){return l(I,a)},J=ab,x=p[1];break;case
+ab=function(a){return l(I,a)},J=ab,y=p[1];break;case
 1:var
 ac=p[4],ad=p[3],ae=p[2],af=function(d){var
-e=c4(ae,b),f=fp(i,a,g,m,c,t,o,h,e[1],d,ad);return f?fp(i,a,g,m,c,t,o,h,e[2],d,ac):f},J=af,x=p[1];break;default:var
+e=c6(ae,b),f=ft(i,a,g,m,c,t,o,h,e[1],d,ad);return f?ft(i,a,g,m,c,t,o,h,e[2],d,ac):f},J=af,y=p[1];break;default:var
 ag=p[4],ah=p[3],ai=p[2],aj=function(d){var
-e=mR(i9,t,d);if(e){var
-f=c4(ai,h),j=fp(i,a,g,m,c,t,o,f[1],b,d,ah);if(j)return fp(i,a,g,m,c,t,o,f[2],b,d,ag);var
+e=nc(jb,t,d);if(e){var
+f=c6(ai,h),j=ft(i,a,g,m,c,t,o,f[1],b,d,ah);if(j)return ft(i,a,g,m,c,t,o,f[2],b,d,ag);var
 k=j}else
 var
-k=e;return k},J=aj,x=p[1]}if(x){var
-y=i2(i,a,h,gF(z(function(e){var
+k=e;return k},J=aj,y=p[1]}if(y){var
+z=i7(i,a,h,fi(w(function(e){var
 a=e[2],d=0;if(typeof
 a==="number"){if(4!==a)d=1}else
 if(11!==a[0])d=1;if(d){var
-b=F(t,e[1]);return b?i_(g,m,c,b[1],a):b}return 0},x),a),b),w=x,u=X;for(;;){if(w){var
-R=w[1],j=R[2],E=R[1],S=w[2],Y=0;if(typeof
-j==="number"&&4===j){var
-A=k(o,b);if(A)var
-_=A[1],Z=bj(f(b)),G=l(function(b){return function(a){return K(aH(a,b)[2],d)}}(_),Z);else
+b=G(t,e[1]);return b?jc(g,m,c,b[1],a):b}return 0},y),a),b),x=y,u=X;for(;;){if(x){var
+R=x[1],k=R[2],E=R[1],S=x[2],Y=0;if(typeof
+k==="number"&&4===k){var
+A=j(o,b);if(A)var
+_=A[1],Z=a7(f(b)),F=l(function(b){return function(a){return K(aC(a,b)[2],d)}}(_),Z);else
 var
-G=A;if(G){var
-w=S,u=e(function(a){return 0},u);continue}var
-v=G}else
+F=A;if(F){var
+x=S,u=e(function(a){return 0},u);continue}var
+v=F}else
 Y=1;if(Y){var
 T=r(E,u,0);if(T){var
-H=F(t,E);if(H){var
+H=G(t,E);if(H){var
 q=H[1],L=0;if(typeof
-j==="number")L=1;else
-switch(j[0]){case
+k==="number")L=1;else
+switch(k[0]){case
 11:var
-M=j[3],B=j[1],N=i$(a,g,m,c,h,q,B,j[2]);if(N)var
-$=ja(i,a,g,m,c,h,B,b,q,M),s=mO(i,a,g,m,c,bT(fn,B,h),o,$,b,q,M);else
+M=k[3],B=k[1],N=jd(a,g,m,c,h,q,B,k[2]);if(N)var
+$=je(i,a,g,m,c,h,B,b,q,M),s=m$(i,a,g,m,c,bV(fr,B,h),o,$,b,q,M);else
 var
 s=N;break;case
 12:var
-C=j[1],O=I(n(f(C),0));if(O)var
-aa=U(iY(e(function(a){return a[1][1][1]},C)),C),s=l(function(f){return function(r){var
+C=k[1],O=I(n(f(C),0));if(O)var
+aa=V(i3(e(function(a){return a[1][1][1]},C)),C),s=l(function(f){return function(r){var
 s=r[2],e=r[1],k=s[1],l=k[1][2],n=k[2],d=s[2];if(typeof
 d!=="number"&&11===d[0]){var
-p=d[3],j=d[1],q=i$(a,g,m,c,h,f,j,d[2]);if(q){var
-t=e[2],u=e[1],v=ja(i,a,g,m,c,h,j,b,f,p);return mM(i,a,g,c,bT(fn,j,h),o,v,b,f,u,t,l,n,p)}return q}return mM(i,a,g,c,h,o,y,b,f,e[1],e[2],l,n,d)}}(q),aa);else
+p=d[3],j=d[1],q=jd(a,g,m,c,h,f,j,d[2]);if(q){var
+t=e[2],u=e[1],v=je(i,a,g,m,c,h,j,b,f,p);return m9(i,a,g,c,bV(fr,j,h),o,v,b,f,u,t,l,n,p)}return q}return m9(i,a,g,c,h,o,z,b,f,e[1],e[2],l,n,d)}}(q),aa);else
 var
 s=O;break;case
 13:if(2===q[0])var
-D=i5(i,j[1],j[2]),P=iP(f(b),D),Q=P?mQ(i,a,g,m,c,h,o,y,b,q,0,D,j[3]):P,s=Q?mQ(i,a,g,m,c,h,o,y,b,q,[0,q[1]],D,j[4]):Q;else
+D=i_(i,k[1],k[2]),P=iU(f(b),D),Q=P?nb(i,a,g,m,c,h,o,z,b,q,0,D,k[3]):P,s=Q?nb(i,a,g,m,c,h,o,z,b,q,[0,q[1]],D,k[4]):Q;else
 var
 s=0;break;default:L=1}if(L)var
-s=mO(i,a,g,m,c,h,o,y,b,q,j);if(s){var
-w=S,u=g1(E,u);continue}var
-V=s}else
+s=m$(i,a,g,m,c,h,o,z,b,q,k);if(s){var
+x=S,u=g4(E,u);continue}var
+U=s}else
 var
-V=H;var
-W=V}else
+U=H;var
+W=U}else
 var
 W=T;var
 v=W}}else
@@ -2675,81 +2768,81 @@ var
 v=[0,u];break}}else
 var
 v=[0,X];return v?J(v[1]):v}function
-jb(h,g,f,e,d,c,b,a){return function(i,j,k){return fp(h,g,f,e,d,b,a,c,i,j,k)}}function
-jc(a){return e(function(a){return 1},a)}function
-er(a,d,b,c){function
+jf(h,g,f,e,d,c,b,a){return function(i,j,k){return ft(h,g,f,e,d,b,a,c,i,j,k)}}function
+jg(a){return e(function(a){return 1},a)}function
+eu(a,d,b,c){function
 f(d,c){var
-f=U(a[1],b[1]);return e(function(a){var
+f=V(a[1],b[1]);return e(function(a){var
 b=s(c,a[2]);return B(s(d,a[1]),b)},f)}if(aO(a[2],b[2])){var
 g=a[2];return[0,f(d,c),g]}var
 h=s(a[2],b[2]),i=s(c,a[2]);return[0,f(s(d,b[2]),i),h]}function
-mS(a){var
+nd(a){var
 c=m(b);return[0,e(function(a){return m(d)},a),c]}function
-a$(a,k){var
+bb(a,k){var
 f=k[1];switch(f[0]){case
 1:var
 u=f[1];if(aj(function(a){return n(u,a)},a)){var
 C=m(b);return[0,e(function(a){var
-c=n(a,u)?b:d;return m(c)},a),C]}return mS(a);case
+c=n(a,u)?b:d;return m(c)},a),C]}return nd(a);case
 3:var
-D=m(b),E=a$(a,f[2]),F=m(b);return er(a$(a,f[1]),F,E,D);case
+D=m(b),E=bb(a,f[2]),F=m(b);return eu(bb(a,f[1]),F,E,D);case
 4:var
-G=m(T(b)),H=a$(a,f[2]),I=m(b);return er(a$(a,f[1]),I,H,G);case
+G=m(P(b)),H=bb(a,f[2]),I=m(b);return eu(bb(a,f[1]),I,H,G);case
 5:var
-v=a$(a,f[1]),J=v[2];return[0,e(bp,v[1]),J];case
+v=bb(a,f[1]),J=v[2];return[0,e(br,v[1]),J];case
 6:var
-w=f[2],y=f[1],K=a$(a,w);return er(a$(a,y),w,K,y);case
+w=f[2],x=f[1],K=bb(a,w);return eu(bb(a,x),w,K,x);case
 7:var
-z=f[2],L=bp(k),M=a$(a,z),N=m(b),i=er(a$(a,f[1]),N,M,L),O=i[1];if(l(function(a){return a_(d,a)},O))return i;var
-P=s(i[2],z);return[0,i[1],P];case
+z=f[2],L=br(k),M=bb(a,z),N=m(b),i=eu(bb(a,f[1]),N,M,L),O=i[1];if(l(function(a){return ba(d,a)},O))return i;var
+Q=s(i[2],z);return[0,i[1],Q];case
 8:var
-A=f[1],B=a$(a,A),Q=B[2],R=B[1],S=s(m(c(2,b)),A);return[0,e(function(a){return s(S,a)},R),Q];case
+A=f[1],B=bb(a,A),R=B[2],S=B[1],T=s(m(c(2,b)),A);return[0,e(function(a){return s(T,a)},S),R];case
 9:var
-j=a$(a,f[1]),U=j[1];if(l(function(a){return a_(d,a)},U)){var
+j=bb(a,f[1]),U=j[1];if(l(function(a){return ba(d,a)},U)){var
 V=m(b);return[0,j[1],V]}var
 W=s(m(c(2,b)),k),X=s(j[2],W);return[0,j[1],X];case
 10:var
-o=f[4],g=f[3],h=f[2],p=[0,[10,0,h,g,o]],q=[0,[10,1,h,g,o]],Y=x(g,q),Z=a$(a,g),_=x(h,p),$=er(a$(a,h),_,Z,Y),aa=m(T(b)),ab=a$(a,o),r=er($,m(c(2,b)),ab,aa),ac=r[1],ad=f[1]?p:bp(q),t=e(function(a){return s(ad,a)},ac);if(l(function(a){return a_(d,a)},t))return[0,t,r[2]];var
-ae=s(h,q),af=x(s(g,p),ae),ag=s(m(c(2,b)),af);return[0,t,s(r[2],ag)];default:return mS(a)}}function
-mT(c,a){var
-b=a$(c,a),f=b[1];return e(function(a){return a_(d,a)?a:al(a,b[2])},f)}function
-mU(g){var
+o=f[4],g=f[3],h=f[2],p=[0,[10,0,h,g,o]],q=[0,[10,1,h,g,o]],Y=y(g,q),Z=bb(a,g),_=y(h,p),$=eu(bb(a,h),_,Z,Y),aa=m(P(b)),ab=bb(a,o),r=eu($,m(c(2,b)),ab,aa),ac=r[1],ad=f[1]?p:br(q),t=e(function(a){return s(ad,a)},ac);if(l(function(a){return ba(d,a)},t))return[0,t,r[2]];var
+ae=s(h,q),af=y(s(g,p),ae),ag=s(m(c(2,b)),af);return[0,t,s(r[2],ag)];default:return nd(a)}}function
+g5(c,a){var
+b=bb(c,a),f=b[1];return e(function(a){return ba(d,a)?a:am(a,b[2])},f)}function
+ne(g){var
 h=g[1],c=h[2],e=h[1];if(0===e[0]){var
-i=e[2],a=e[1];if(D(i,b)){if(0===c[0]){var
-j=c[2],m=c[1];if(D(j,b)){var
-k=J(a,m),l=k?fd(a):k;if(l)var
-n=J(g[2],d),f=n||J(a,d);else
+i=e[2],a=e[1];if(E(i,b)){if(0===c[0]){var
+j=c[2],m=c[1];if(E(j,b)){var
+k=L(a,m),l=k?fg(a):k;if(l)var
+n=L(g[2],d),f=n||L(a,d);else
 var
 f=l;var
-o=f?[0,a]:f;return o}return J(aU(j,aJ(2))[2],d)?0:0}return 0}return J(aU(i,aJ(2))[2],d)?0:0}return 0}function
-c9(c,b){var
-a=mU(c);return a?m(a[1]):[0,[1,b]]}function
-cF(b,a){if(a)var
-d=cF([0,b],a[2]),c=[0,c9(a[1],b),d];else
+o=f?[0,a]:f;return o}return L(aU(j,aK(2))[2],d)?0:0}return 0}return L(aU(i,aK(2))[2],d)?0:0}return 0}function
+ci(c,b){var
+a=ne(c);return a?m(a[1]):[0,[1,b]]}function
+cJ(b,a){if(a)var
+d=cJ([0,b],a[2]),c=[0,ci(a[1],b),d];else
 var
 c=a;return c}function
-ba(b,a){return[0,[0,b[1],a],[0,[0,b[2],a],[0,[0,b[3],a],0]]]}function
-g2(b,d,a){switch(a[0]){case
+bc(b,a){return[0,[0,b[1],a],[0,[0,b[2],a],[0,[0,b[3],a],0]]]}function
+g6(b,d,a){switch(a[0]){case
 0:var
-c=a[1],f=[0,[0,c[4],b],0],h=g(ba(c[3],b),f),i=g(ba(c[2],b),h);return g(ba(c[1],d),i);case
+c=a[1],f=[0,[0,c[4],b],0],h=g(bc(c[3],b),f),i=g(bc(c[2],b),h);return g(bc(c[1],d),i);case
 1:var
-e=a[3],j=e?ba(e[1],d):e,k=g(ba(a[2],b),j);return g(ba(a[1],b),k);default:return ba(a[1],d)}}function
+e=a[3],j=e?bc(e[1],d):e,k=g(bc(a[2],b),j);return g(bc(a[1],b),k);default:return bc(a[1],d)}}function
 ak(b,a){var
-c=m(d),e=r(M(tM,a),b,c),f=m(d),g=r(M(tN,a),b,f);return[0,r(a,b,m(d)),g,e]}function
-mV(b,a){return ag(x,ag(B,dG,a),b)}function
-g3(c,b,a){if(a){var
-e=a[2],f=g3(c,bC(b),e),h=a[1];return g(g2(c,bS(d,b),h),f)}return a}function
-jd(g,e,c,j){if(c){var
-b=c[1],v=M(j,f(g2(g,bS(d,e),b))),w=c[2],x=jd(g,bC(e),w,v),a=cF(j,g2(g,bS(d,e),b));switch(b[0]){case
+c=m(d),e=r(N(t_,a),b,c),f=m(d),g=r(N(t$,a),b,f);return[0,r(a,b,m(d)),g,e]}function
+nf(b,a){return ag(y,ag(B,dH,a),b)}function
+g7(c,b,a){if(a){var
+e=a[2],f=g7(c,bG(b),e),h=a[1];return g(g6(c,bU(d,b),h),f)}return a}function
+jh(g,e,c,j){if(c){var
+b=c[1],v=N(j,f(g6(g,bU(d,e),b))),w=c[2],x=jh(g,bG(e),w,v),a=cJ(j,g6(g,bU(d,e),b));switch(b[0]){case
 0:var
-l=b[1][5],n=r(tO,a,m(d)),o=ag(B,dG,ak(a,tP)),p=dF(ak(a,0)),q=ak(a,tQ),h=mr(mV(ak(a,tR),q),p,o,n,l);break;case
+l=b[1][5],n=r(ua,a,m(d)),o=ag(B,dH,ak(a,ub)),p=dG(ak(a,0)),q=ak(a,uc),h=mC(nf(ak(a,ud),q),p,o,n,l);break;case
 1:var
-i=b[3],s=i?[0,dF(ak(a,tS))]:i,t=ag(B,dG,ak(a,tT)),u=ak(a,tU),h=ms(mV(ak(a,0),u),t,s);break;default:var
-h=mt(dG,dF(ak(a,0)))}var
+i=b[3],s=i?[0,dG(ak(a,ue))]:i,t=ag(B,dH,ak(a,uf)),u=ak(a,ug),h=mD(nf(ak(a,0),u),t,s);break;default:var
+h=mE(dH,dG(ak(a,0)))}var
 k=[0,h,x]}else
 var
 k=c;return k}function
-bX(c,a){if(typeof
+b0(c,a){if(typeof
 a!=="number")switch(a[0]){case
 4:var
 h=[5,a[3],a[2]];return[0,[0,h,h],d];case
@@ -2758,7 +2851,7 @@ j=a[2];return[0,[0,j,j],d];case
 8:var
 k=[5,a[2],a[1]];return[0,[0,k,k],d];case
 10:var
-p=a[3],q=ef(a[2]),l=[2,[2,ef(a[1]),q],p];return[0,[0,l,l],c];case
+p=a[3],q=ek(a[2]),l=[2,[2,ek(a[1]),q],p];return[0,[0,l,l],c];case
 11:var
 m=a[4];return[0,[0,m,m],c];case
 12:var
@@ -2775,41 +2868,41 @@ f=[5,[0,b,b],a[1]];return[0,[0,f,f],d];case
 g=a[2];return[0,[0,g,g],c];default:var
 i=a[1];return[0,[0,i,i],d]}var
 e=[0,d,b];return[0,[0,e,e],d]}function
-fq(b,a){var
+fu(b,a){var
 c=a[3],d=a[2],e=a[1];return[0,[0,[0,e,e],b],[0,[0,[0,d,d],b],[0,[0,[0,c,c],b],0]]]}function
-es(c,a){if(0===a[0]){var
-e=[0,d,b],i=g(fq(c,a[5]),[0,[0,[0,e,e],d],0]),f=a[4],h=a[3];return g([0,[0,[0,h,h],c],[0,[0,[0,f,f],c],0]],i)}var
-j=fq(c,a[3]);return g(fq(c,a[2]),j)}function
-dI(b,a){if(typeof
+ev(c,a){if(0===a[0]){var
+e=[0,d,b],i=g(fu(c,a[5]),[0,[0,[0,e,e],d],0]),f=a[4],h=a[3];return g([0,[0,[0,h,h],c],[0,[0,[0,f,f],c],0]],i)}var
+j=fu(c,a[3]);return g(fu(c,a[2]),j)}function
+dM(b,a){if(typeof
 a!=="number")switch(a[0]){case
 10:var
-h=es(b,a[2]);return g(es(b,a[1]),h);case
+h=ev(b,a[2]);return g(ev(b,a[1]),h);case
 11:var
-i=fq(b,a[3]);return g(fq(b,a[2]),i);case
+i=fu(b,a[3]);return g(fu(b,a[2]),i);case
 12:var
 c=a[3],f=[5,[4,c,c],a[4]];return[0,[0,[0,f,f],b],0];case
 15:var
 j=a[2],k=a[1];return e(function(b){var
 a=[5,j,b];return[0,[0,a,a],d]},k)}return 0}function
-mW(c,b,a){var
-d=f(dI(c,b)),e=M(a[2],d);return[0,[0,a[1]],e]}function
-je(c,b){if(aO(b,c))return[0,m(d)];var
+ng(c,b,a){var
+d=f(dM(c,b)),e=N(a[2],d);return[0,[0,a[1]],e]}function
+ji(c,b){if(aO(b,c))return[0,m(d)];var
 a=b[1];if(4===a[0]){var
 e=aO(a[1],c),f=e?[0,a[2]]:e;return f}return 0}function
-mX(y,p,a,o){switch(o[0]){case
+nh(x,p,a,o){switch(o[0]){case
 0:var
-h=F(y,o[1]);if(h){var
+h=G(x,o[1]);if(h){var
 i=h[1];if(i){var
-q=i[1],s=q[1],c=s[2],e=s[1],t=q[2],z=ak(a,tV),A=ag(B,ag(x,e,a4(al(r(tW,a,m(d)),t),c)),z),C=ak(a,tX),f=al(r(0,a,m(d)),t),j=je(e[1],c[1]);if(j){var
-l=je(e[2],c[2]);if(l){var
-n=je(e[3],c[3]);if(n)var
-w=a4(f,c),g=ag(B,[0,j[1],l[1],n[1]],w);else
+q=i[1],s=q[1],c=s[2],e=s[1],t=q[2],z=ak(a,uh),A=ag(B,ag(y,e,a3(am(r(ui,a,m(d)),t),c)),z),C=ak(a,uj),f=am(r(0,a,m(d)),t),k=ji(e[1],c[1]);if(k){var
+l=ji(e[2],c[2]);if(l){var
+n=ji(e[3],c[3]);if(n)var
+w=a3(f,c),g=ag(B,[0,k[1],l[1],n[1]],w);else
 var
-g=ag(x,e,a4(x(m(b),f),c))}else
+g=ag(y,e,a3(y(m(b),f),c))}else
 var
-g=ag(x,e,a4(x(m(b),f),c))}else
+g=ag(y,e,a3(y(m(b),f),c))}else
 var
-g=ag(x,e,a4(x(m(b),f),c));var
+g=ag(y,e,a3(y(m(b),f),c));var
 u=[0,[0,ag(B,g,C),A]]}else
 var
 u=i;var
@@ -2817,176 +2910,177 @@ v=u}else
 var
 v=h;return v;case
 1:var
-D=ak(a,tY);return[0,[0,ak(a,0),D]];default:var
-E=k(p,ak(a,tZ));return[0,[0,k(p,ak(a,0)),E]]}}function
-mY(e,d,c,h,g){var
-a=mX(e,d,am(t0,c),h);if(a)var
-b=mX(e,d,av(t1,c),g),i=b?[0,[0,a[1],b[1]]]:b,f=i;else
+D=ak(a,uk);return[0,[0,ak(a,0),D]];default:var
+E=j(p,ak(a,ul));return[0,[0,j(p,ak(a,0)),E]]}}function
+ni(e,d,c,h,g){var
+a=nh(e,d,al(um,c),h);if(a)var
+b=nh(e,d,au(un,c),g),i=b?[0,[0,a[1],b[1]]]:b,f=i;else
 var
 f=a;return f}function
-mZ(f,c,d,b,a){var
-h=es(c,a),i=cF(d,g(es(c,b),h));function
-j(a){return ag(B,dG,a)}return mY(e(function(a){var
-b=a[7];return y(function(b){var
-c=c3(a);return[0,[0,b,a[1]],c]},b)},f),j,i,b,a)}function
-dJ(d,c,b,a){var
-e=s(c,b);return x(s(d,a),e)}function
-bE(a){return z(function(a){return g(a[1],[0,a[2],0])},a)}function
-m0(b,a){if(b)if(a)var
-d=b[1],e=m0(b[2],a[2]),f=s(d[2],a[1]),c=[0,[0,bW(d[1]),f],e];else
+nj(f,c,d,b,a){var
+h=ev(c,a),i=cJ(d,g(ev(c,b),h));function
+j(a){return ag(B,dH,a)}return ni(e(function(a){var
+b=a[7];return z(function(b){var
+c=c5(a);return[0,[0,b,a[1]],c]},b)},f),j,i,b,a)}function
+dN(d,c,b,a){var
+e=s(c,b);return y(s(d,a),e)}function
+bB(a){return w(function(a){return g(a[1],[0,a[2],0])},a)}function
+nk(b,a){if(b)if(a)var
+d=b[1],e=nk(b[2],a[2]),f=s(d[2],a[1]),c=[0,[0,bZ(d[1]),f],e];else
 var
 c=a;else
 var
 c=b;return c}function
-m1(a){if(a){var
+nl(a){if(a){var
 b=a[1][6];if(b){var
-c=b[1],d=m1(a[2]);if(d)var
-g=d[1],h=_(c,c),e=[0,[0,[0,bW(c),h],g]];else
+c=b[1],d=nl(a[2]);if(d)var
+g=d[1],h=aa(c,c),e=[0,[0,[0,bZ(c),h],g]];else
 var
 e=d;var
 f=e}else
 var
-f=b;return f}return t3}function
-fr(b,d,c,a){if(typeof
+f=b;return f}return up}function
+fv(b,d,c,a){if(typeof
 a!=="number")switch(a[0]){case
 8:var
-i=c[1],j=c9(bX(d,a),i);return[0,e(function(a){var
-b=s(a[2],j);return[0,bW(a[1]),b]},b)];case
-9:return m1(b);case
+i=c[1],j=ci(b0(d,a),i);return[0,e(function(a){var
+b=s(a[2],j);return[0,bZ(a[1]),b]},b)];case
+9:return nl(b);case
 15:var
 k=f(b),g=n(f(a[1]),k);if(g)var
-l=dI(d,a),h=[0,m0(b,cF(c[2],l))];else
+l=dM(d,a),h=[0,nk(b,cJ(c[2],l))];else
 var
 h=g;return h}return 0}function
-g4(e,k,j,a){var
-P=j[1],c=c9(bX(k,a),P),u=0;if(typeof
+g8(e,k,j,a){var
+P=j[1],c=ci(b0(k,a),P),u=0;if(typeof
 a==="number")u=1;else
 switch(a[0]){case
 2:var
-Q=function(a){return[0,x(a[4],c),0]},g=Q,f=a[1];break;case
+Q=function(a){return[0,y(a[4],c),0]},g=Q,f=a[1];break;case
 3:var
-R=function(a){return[0,x(c,a[4]),0]},g=R,f=a[1];break;case
+R=function(a){return[0,y(c,a[4]),0]},g=R,f=a[1];break;case
 4:var
 S=function(b){var
-a=b[1],d=W(a[3]),e=W(a[2]),f=W(a[1]),g=b[2];return[0,x(x(x(s(W(c),g),f),e),d),0]},g=S,f=a[1];break;case
+a=b[1],d=W(a[3]),e=W(a[2]),f=W(a[1]),g=b[2];return[0,y(y(y(s(W(c),g),f),e),d),0]},g=S,f=a[1];break;case
 6:var
 T=function(b){var
 a=b[5];if(a)var
-e=W(a[1]),f=s(W(c),e),d=[0,x(b[2],f),0];else
+e=W(a[1]),f=s(W(c),e),d=[0,y(b[2],f),0];else
 var
 d=a;return d},g=T,f=a[1];break;case
 7:if(e){var
 l=e[2];if(l){var
 n=l[2];if(n){if(n[2])return 0;var
-w=n[1],y=l[1],A=e[1],h=w[1],i=y[1],p=A[1],K=dJ(i[1],i[2],h[1],h[2]),L=s(p[3],K),M=dJ(i[1],i[3],h[1],h[3]),N=s(p[2],M),O=dJ(i[2],i[3],h[2],h[3]),v=B(x(s(p[1],O),N),L),U=c3(w),V=c3(y),C=s(s(s(c,c3(A)),V),U),X=[0,bp(B(v,C)),0],D=[0,x(v,C),X]}else
+x=n[1],z=l[1],A=e[1],h=x[1],i=z[1],p=A[1],K=dN(i[1],i[2],h[1],h[2]),L=s(p[3],K),M=dN(i[1],i[3],h[1],h[3]),N=s(p[2],M),O=dN(i[2],i[3],h[2],h[3]),v=B(y(s(p[1],O),N),L),U=c5(x),V=c5(z),C=s(s(s(c,c5(A)),V),U),X=[0,br(B(v,C)),0],D=[0,y(v,C),X]}else
 var
 D=n;var
 E=D}else
 var
 E=l;var
-G=E}else
+F=E}else
 var
-G=e;return G;case
+F=e;return F;case
 10:var
-t=mZ(e,k,j[2],a[1],a[2]);if(t){var
-H=t[1],I=H[2],J=H[1];return z(bW,[0,J[1],[0,J[2],[0,I[1],[0,I[2],0]]]])}return t;case
+t=nj(e,k,j[2],a[1],a[2]);if(t){var
+H=t[1],I=H[2],J=H[1];return w(bZ,[0,J[1],[0,J[2],[0,I[1],[0,I[2],0]]]])}return t;case
 11:var
 Y=function(d){var
 e=d[7];if(e)var
-n=dI(k,a),f=cF(j[2],n),h=ak(f,t2),b=ag(x,ak(f,0),h),i=W(c),l=W(c3(d)),m=al(W(_(b,d[1])),l),g=[0,x(x(_(b,b),m),i),0];else
+n=dM(k,a),f=cJ(j[2],n),h=ak(f,uo),b=ag(y,ak(f,0),h),i=W(c),l=W(c5(d)),m=am(W(aa(b,d[1])),l),g=[0,y(y(aa(b,b),m),i),0];else
 var
 g=e;return g},g=Y,f=a[1];break;case
 12:var
 Z=function(e){var
-p=m(d),q=dI(k,a),t=r(0,cF(j[2],q),p),f=al(t,c3(e)),g=e[5];if(g){var
-l=aK(e[2]),h=al(g[1],l),n=s(h,B(c,s(f,W(h))));return[0,x(m(b),n),0]}var
-i=e[7],o=i?[0,x(x(m(b),c),f),0]:i;return o},g=Z,f=a[1];break;case
+p=m(d),q=dM(k,a),t=r(0,cJ(j[2],q),p),f=am(t,c5(e)),g=e[5];if(g){var
+l=aL(e[2]),h=am(g[1],l),n=s(h,B(c,s(f,W(h))));return[0,y(m(b),n),0]}var
+i=e[7],o=i?[0,y(y(m(b),c),f),0]:i;return o},g=Z,f=a[1];break;case
 8:case
 9:case
 15:var
-q=fr(e,k,j,a);return q?bE(q[1]):q;default:u=1}if(u)return 0;var
-o=F(e,f);return o?g(o[1]):o}function
-jf(d,b,c,a){if(a){var
-e=a[1],f=a[2],h=jf(d,b,mW(b,e,c),f);return g(g4(d,b,c,e),h)}return a}var
-m2=[0,d,b],m3=[0,[0,m2,m2],d];function
-jg(a){return I(ce(a[1][1],a[1][2]))}function
-m4(a){var
-b=aC(0,f(a));return a1(function(b){return jg(r(b,a,m3))},b)}function
-g5(a,b){var
-c=mT(m4(a),b),e=U(m4(a),c);return a1(function(a){return I(a_(d,a[2]))},e)}function
-m5(b,a){var
-c=k(b,a[3]),d=k(b,a[2]);return[0,k(b,a[1]),d,c]}function
-m6(m,l,f,j,i,a){var
-d=g5(f,a);return ad(e(function(e){var
-a=r(e[1],f,m3),g=aL(a[2],j),h=[4,[0,c(2,b),b],i],d=[5,[3,a[1][2],a[1][1]],h],n=aq(m,[0,[0,d,d],g]);return y(function(a){return[0,a,k(l,e[2])]},n)},d))}function
-m7(g,f,n,m,l,e,c){var
-h=[5,l,e],a=aq(g,[0,[0,h,h],d]);if(a){var
-b=m6(g,f,n,m,e,c);if(b)var
-o=[0,a[1],b[1]],i=[0,[0,k(f,c),o]];else
+q=fv(e,k,j,a);return q?bB(q[1]):q;default:u=1}if(u)return 0;var
+o=G(e,f);return o?g(o[1]):o}function
+jj(d,b,c,a){if(a){var
+e=a[1],f=a[2],h=jj(d,b,ng(b,e,c),f);return g(g8(d,b,c,e),h)}return a}var
+nm=[0,d,b],nn=[0,[0,nm,nm],d];function
+jk(a){return I(cf(a[1][1],a[1][2]))}function
+g9(a){var
+b=aE(0,f(a));return a2(function(b){return jk(r(b,a,nn))},b)}function
+jl(b,a){var
+c=V(g9(b),a);return a2(function(a){return I(ba(d,a[2]))},c)}function
+fw(a,b){return jl(a,g5(g9(a),b))}function
+no(b,a){var
+c=j(b,a[3]),d=j(b,a[2]);return[0,j(b,a[1]),d,c]}function
+np(m,l,k,i,h,a){return ad(e(function(e){var
+a=r(e[1],k,nn),f=aM(a[2],i),g=[4,[0,c(2,b),b],h],d=[5,[3,a[1][2],a[1][1]],g],n=ao(m,[0,[0,d,d],f]);return z(function(a){return[0,a,j(l,e[2])]},n)},a))}function
+nq(f,e,a,d,c,b){return np(f,e,a,d,c,fw(a,b))}function
+jm(g,f,n,m,l,e,c){var
+h=[5,l,e],a=ao(g,[0,[0,h,h],d]);if(a){var
+b=nq(g,f,n,m,e,c);if(b)var
+o=[0,a[1],b[1]],i=[0,[0,j(f,c),o]];else
 var
 i=b;var
-j=i}else
+k=i}else
 var
-j=a;return j}function
-m8(c,G,m,al,j,i,o,s){if(s){var
-a=s[1],aH=s[2],aI=m8(c,G,m,al,j,i,mW(i,a,o),aH);if(typeof
+k=a;return k}function
+nr(c,F,m,al,k,i,o,s){if(s){var
+a=s[1],aH=s[2],aI=nr(c,F,m,al,k,i,ng(i,a,o),aH);if(typeof
 a==="number")if(0===a)var
 g=[0,[0,u]];else
 var
-an=G[2],ao=G[1],ap=fk(j),g=[0,[8,k(ax(m),ap),ao,an]];else
+an=F[2],ap=F[1],aq=fo(k),g=[0,[8,j(aw(m),aq),ap,an]];else
 switch(a[0]){case
 0:var
-ar=aq(c,bX(i,a)),g=y(function(a){return[0,V(c,a)]},ar);break;case
+ar=ao(c,b0(i,a)),g=z(function(a){return[0,Q(c,a)]},ar);break;case
 1:var
-as=aq(c,bX(i,a)),g=y(function(a){return[1,V(c,a)]},as);break;case
+as=ao(c,b0(i,a)),g=z(function(a){return[1,Q(c,a)]},as);break;case
 5:var
-au=aq(c,bX(i,a)),g=y(function(a){return[2,V(c,a)]},au);break;case
+au=ao(c,b0(i,a)),g=z(function(a){return[2,Q(c,a)]},au);break;case
 8:var
-av=fr(j,i,o,a),g=y(function(a){var
-d=N(c,b);return[4,k(ax(m),a),d]},av);break;case
+av=fv(k,i,o,a),g=z(function(a){var
+d=J(c,b);return[4,j(aw(m),a),d]},av);break;case
 9:var
-w=fr(j,i,o,a);if(w){var
-x=aq(c,bX(i,a));if(x)var
-aw=V(c,x[1]),ay=w[1],L=[0,[4,k(ax(m),ay),aw]];else
+w=fv(k,i,o,a);if(w){var
+x=ao(c,b0(i,a));if(x)var
+ax=Q(c,x[1]),ay=w[1],M=[0,[4,j(aw(m),ay),ax]];else
 var
-L=x;var
-M=L}else
+M=x;var
+N=M}else
 var
-M=w;var
-g=M;break;case
+N=w;var
+g=N;break;case
 10:var
-z=mZ(j,i,o[2],a[1],a[2]);if(z){var
-O=z[1],P=O[2],Q=O[1],A=aq(c,bX(i,a));if(A){var
-R=A[1],S=D(d,R[1]);if(S)var
-q=function(a){return m5(m,a)},az=q(P[2]),aA=q(P[1]),aB=q(Q[2]),T=[0,[6,q(Q[1]),aB,aA,az,R]];else
+y=nj(k,i,o[2],a[1],a[2]);if(y){var
+O=y[1],P=O[2],R=O[1],A=ao(c,b0(i,a));if(A){var
+S=A[1],T=E(d,S[1]);if(T)var
+q=function(a){return no(m,a)},az=q(P[2]),aA=q(P[1]),aB=q(R[2]),U=[0,[6,q(R[1]),aB,aA,az,S]];else
 var
-T=S;var
-U=T}else
+U=T;var
+V=U}else
 var
-U=A;var
-W=U}else
+V=A;var
+W=V}else
 var
-W=z;var
+W=y;var
 g=W;break;case
 12:var
-r=g4(j,i,o,a),t=0;if(r)if(r[2])var
+r=g8(k,i,o,a),t=0;if(r)if(r[2])var
 g=0;else{var
 X=h(c,0,a[2]),Y=X?h(c,1,a[4]):X;if(Y){var
-B=[0,[3,k(m,r[1])]];t=1}else{var
+B=[0,[3,j(m,r[1])]];t=1}else{var
 B=Y;t=1}}else{var
 B=r;t=1}if(t)var
 g=B;break;case
 13:var
-Z=a[1],_=F(j,Z),H=0;if(_){var
+Z=a[1],_=G(k,Z),H=0;if(_){var
 $=h(c,1,a[2]),aa=$?h(c,1,a[3]):$;if(aa)var
-aC=aq(c,bX(i,a)),g=y(function(a){return[7,Z,V(c,a)]},aC);else{var
+aC=ao(c,b0(i,a)),g=z(function(a){return[7,Z,Q(c,a)]},aC);else{var
 ab=aa;H=1}}else{var
 ab=_;H=1}if(H)var
 g=ab;break;case
 14:var
-ac=a[2],ae=a[1],af=n(f(j),t4),ag=af?h(c,0,ae):af,ah=ag?h(c,1,ac):ag;if(ah){var
-C=aq(c,bX(i,a));if(C)var
-E=ad(e(function(a){return m7(c,m,al,i,ae,ac,a[4])},j)),aD=E?[0,[9,C[1],E[1]]]:E,ai=aD;else
+ac=a[2],ae=a[1],af=n(f(k),uq),ag=af?h(c,0,ae):af,ah=ag?h(c,1,ac):ag;if(ah){var
+C=ao(c,b0(i,a));if(C)var
+D=ad(e(function(a){return jm(c,m,al,i,ae,ac,a[4])},k)),aD=D?[0,[9,C[1],D[1]]]:D,ai=aD;else
 var
 ai=C;var
 aj=ai}else
@@ -2995,34 +3089,34 @@ aj=ah;var
 g=aj;break;case
 15:var
 aE=[0,a[2],a[1]],aF=1,ak=l(function(a){return h(c,aF,a)},aE);if(ak)var
-aG=fr(j,i,o,a),g=y(function(a){var
-d=N(c,b);return[4,k(ax(m),a),d]},aG);else
+aG=fv(k,i,o,a),g=z(function(a){var
+d=J(c,b);return[4,j(aw(m),a),d]},aG);else
 var
 g=ak;break;default:var
-p=g4(j,i,o,a),I=0;if(p){var
-v=p[2],J=p[1];if(v)if(v[2])var
+p=g8(k,i,o,a),I=0;if(p){var
+v=p[2],K=p[1];if(v)if(v[2])var
 g=0;else
 var
-at=k(m,v[1]),g=[0,[5,k(m,J),at]];else{var
-K=[0,[3,k(m,J)]];I=1}}else{var
-K=p;I=1}if(I)var
-g=K}var
+at=j(m,v[1]),g=[0,[5,j(m,K),at]];else{var
+L=[0,[3,j(m,K)]];I=1}}else{var
+L=p;I=1}if(I)var
+g=L}var
 am=[0,g,aI]}else
 var
 am=s;return am}function
-t5(a){var
+ur(a){var
 b=0;if(typeof
 a==="number"){if(0!==a)b=1}else
 if(0!==a[0])b=1;return b?0:1}function
-et(a){if(0===a[0])return a[1];var
+ew(a){if(0===a[0])return a[1];var
 b=a[3],c=a[2],d=a[1];return[0,[0,[3,d,b],[2,d,b]],[0,[3,c,b],[2,c,b]],a[4]]}function
-m9(a,c,g,b){if(0===c[0])return 0;if(b){var
+ns(a,c,g,b){if(0===c[0])return 0;if(b){var
 d=b[2];if(d){var
 h=d[2];if(h){if(h[2])return 0;var
-e=d[1],f=b[1],i=c1(a,g,c[1]);if(i){var
-j=c1(a,g,c[2]);if(j){var
-k=c1(a,g,c[3]);if(k)var
-v=i[1],w=cf(f),l=G([0,cf(f),w],v),x=j[1],y=cf(e),m=G([0,cf(e),y],x),z=em(e),B=[0,em(e),z],C=[0,t(a,ab(A(m,m)),B),0],D=em(f),E=[0,em(f),D],F=[0,t(a,ab(A(l,l)),E),C],H=V(a,m),I=V(a,l),n=[0,[0,G(G(V(a,k[1]),I),H),u,F]];else
+e=d[1],f=b[1],i=c3(a,g,c[1]);if(i){var
+j=c3(a,g,c[2]);if(j){var
+k=c3(a,g,c[3]);if(k)var
+v=i[1],w=cg(f),l=D([0,cg(f),w],v),x=j[1],y=cg(e),m=D([0,cg(e),y],x),z=er(e),B=[0,er(e),z],C=[0,t(a,_(A(m,m)),B),0],E=er(f),F=[0,er(f),E],G=[0,t(a,_(A(l,l)),F),C],H=Q(a,m),I=Q(a,l),n=[0,[0,D(D(Q(a,k[1]),I),H),u,G]];else
 var
 n=k;var
 o=n}else
@@ -3040,14 +3134,14 @@ r=d;var
 s=r}else
 var
 s=b;return s}function
-g6(a,p,o){var
-q=ba(p,o),b=e(function(b){return aq(a,b)},q);if(b){var
+g_(a,p,o){var
+q=bc(p,o),b=e(function(b){return ao(a,b)},q);if(b){var
 g=b[1];if(g){var
 c=b[2];if(c){var
 h=c[1];if(h){var
 f=c[2];if(f){var
 i=f[1];if(i){if(f[2])return 0;var
-r=V(a,i[1]),s=V(a,h[1]);return K(d,A(A(V(a,g[1]),s),r)[1])}var
+r=Q(a,i[1]),s=Q(a,h[1]);return K(d,A(A(Q(a,g[1]),s),r)[1])}var
 j=i}else
 var
 j=f;var
@@ -3063,153 +3157,153 @@ m=g;var
 n=m}else
 var
 n=b;return n}function
-L(c,b,a){var
-d=ao(c,b[3],a[3]),e=ao(c,b[2],a[2]);return[0,ao(c,b[1],a[1]),e,d]}function
-P(b,a){return[0,[4,b,a[1]],[4,b,a[2]],[4,b,a[3]]]}function
-w(b,a){return[2,[2,[4,b[1],a[1]],[4,b[2],a[2]]],[4,b[3],a[3]]]}function
-ay(a){return P([5,[0,b,b],[6,w(a,a)]],a)}function
-c_(c,b,a){var
-d=by(c,b[1],a);return d?by(c,a,b[2]):d}function
-br(c,b,a){var
-d=c_(c,b[1],a[1]),e=d?c_(c,b[2],a[2]):d;return e?c_(c,b[3],a[3]):e}function
-m_(b,c,a){switch(c[0]){case
+M(c,b,a){var
+d=aq(c,b[3],a[3]),e=aq(c,b[2],a[2]);return[0,aq(c,b[1],a[1]),e,d]}function
+R(b,a){return[0,[4,b,a[1]],[4,b,a[2]],[4,b,a[3]]]}function
+x(b,a){return[2,[2,[4,b[1],a[1]],[4,b[2],a[2]]],[4,b[3],a[3]]]}function
+ay(a){return R([5,[0,b,b],[6,x(a,a)]],a)}function
+c$(c,b,a){var
+d=bA(c,b[1],a);return d?bA(c,a,b[2]):d}function
+bs(c,b,a){var
+d=c$(c,b[1],a[1]),e=d?c$(c,b[2],a[2]):d;return e?c$(c,b[3],a[3]):e}function
+nt(b,c,a){switch(c[0]){case
 0:var
 d=c[1];if(0===a[0]){var
-j=a[4],f=a[1],k=br(b,d[1],f),l=k?h(b,1,w(f,f)):k,m=l?br(b,d[2],a[2]):l,n=m?br(b,d[3],a[3]):m,o=n?c_(b,d[4],j):n,p=o?h(b,1,j):o;return p?cv(d[5],a[5]):p}return 0;case
+j=a[4],f=a[1],k=bs(b,d[1],f),l=k?h(b,1,x(f,f)):k,m=l?bs(b,d[2],a[2]):l,n=m?bs(b,d[3],a[3]):m,o=n?c$(b,d[4],j):n,p=o?h(b,1,j):o;return p?cz(d[5],a[5]):p}return 0;case
 1:var
 q=c[3];if(1===a[0]){var
-e=a[3],r=br(b,c[1],a[1]),s=r?br(b,c[2],a[2]):r;if(s){if(q){if(e){var
-g=e[1],t=br(b,q[1],g);if(t)return h(b,1,w(g,g));var
+e=a[3],r=bs(b,c[1],a[1]),s=r?bs(b,c[2],a[2]):r;if(s){if(q){if(e){var
+g=e[1],t=bs(b,q[1],g);if(t)return h(b,1,x(g,g));var
 u=t}else
 var
 u=e;return u}if(e)return 0;var
 v=1}else
 var
 v=s;return v}return 0;default:if(2===a[0]){var
-i=a[1],x=br(b,c[1],i);return x?h(b,1,w(i,i)):x}return 0}}function
-cG(c,a,b){if(0===a[0])return br(c,a[1],b);var
-d=a[3],e=[3,b[1],a[1]],f=[3,b[2],a[2]],g=h(c,0,[3,[3,[4,d,d],[4,e,e]],[4,f,f]]),i=g?h(c,0,d):g;return i?c_(c,a[4],b[3]):i}function
-fs(g,f,i,h){var
+i=a[1],w=bs(b,c[1],i);return w?h(b,1,x(i,i)):w}return 0}}function
+cK(c,a,b){if(0===a[0])return bs(c,a[1],b);var
+d=a[3],e=[3,b[1],a[1]],f=[3,b[2],a[2]],g=h(c,0,[3,[3,[4,d,d],[4,e,e]],[4,f,f]]),i=g?h(c,0,d):g;return i?c$(c,a[4],b[3]):i}function
+fx(g,f,i,h){var
 b=f[1],a=i;for(;;){if(b){if(a){var
-d=m_(g,b[1],a[1]);if(d){var
+d=nt(g,b[1],a[1]);if(d){var
 b=b[2],a=a[2];continue}var
 e=d}else
 var
 e=a;var
 c=e}else
 var
-c=a?0:1;return c?cG(g,f[2],h):c}}function
-aV(c,b,a){var
-d=L(function(b,a){return[2,b,a]},a,b);return L(function(b,a){return[3,b,a]},d,c)}function
-ft(a,e,d,c){var
-b=aV(e,d,c),f=ay(a),g=P(w(ay(a),b),f);return L(function(b,a){return[3,b,a]},b,g)}function
-ch(f,e,d,a,c){var
-b=ft(f,e,d,c);return[3,[4,a,a],w(b,b)]}function
-cH(c,a){return c?[6,a]:[3,[0,d,b],[6,a]]}function
-ci(a,c){switch(a[0]){case
+c=a?0:1;return c?cK(g,f[2],h):c}}function
+aW(c,b,a){var
+d=M(function(b,a){return[2,b,a]},a,b);return M(function(b,a){return[3,b,a]},d,c)}function
+fy(a,e,d,c){var
+b=aW(e,d,c),f=ay(a),g=R(x(ay(a),b),f);return M(function(b,a){return[3,b,a]},b,g)}function
+cj(f,e,d,a,c){var
+b=fy(f,e,d,c);return[3,[4,a,a],x(b,b)]}function
+cL(c,a){return c?[6,a]:[3,[0,d,b],[6,a]]}function
+ck(a,c){switch(a[0]){case
 0:var
-e=a[3],f=a[2],d=a[1],g=ft(d,f,e,c),h=ch(d,f,e,a[4],c),i=P([5,[0,b,b],cH(a[5],h)],g),j=ay(d);return L(function(b,a){return[2,b,a]},j,i);case
-1:return ay(aV(a[1],a[2],c));default:return ay(a[1])}}function
-bz(a,b){switch(a[0]){case
+e=a[3],f=a[2],d=a[1],g=fy(d,f,e,c),h=cj(d,f,e,a[4],c),i=R([5,[0,b,b],cL(a[5],h)],g),j=ay(d);return M(function(b,a){return[2,b,a]},j,i);case
+1:return ay(aW(a[1],a[2],c));default:return ay(a[1])}}function
+bC(a,b){switch(a[0]){case
 0:var
-d=a[3],e=a[2],c=a[1],f=ay(c),g=ch(c,e,d,a[4],b),h=P(cH(a[5],g),f),i=ft(c,e,d,b);return L(function(b,a){return[2,b,a]},i,h);case
-1:return aV(a[1],a[2],b);default:return ay(a[1])}}function
-cI(a,b){switch(a[0]){case
+d=a[3],e=a[2],c=a[1],f=ay(c),g=cj(c,e,d,a[4],b),h=R(cL(a[5],g),f),i=fy(c,e,d,b);return M(function(b,a){return[2,b,a]},i,h);case
+1:return aW(a[1],a[2],b);default:return ay(a[1])}}function
+cM(a,b){switch(a[0]){case
 0:var
-c=a[3],d=a[2],e=a[1],h=ch(e,d,c,a[4],b),i=cH(a[5],h),j=aV(d,c,b);return[3,w(ay(e),j),i];case
+c=a[3],d=a[2],e=a[1],h=cj(e,d,c,a[4],b),i=cL(a[5],h),j=aW(d,c,b);return[3,x(ay(e),j),i];case
 1:var
-f=a[2],g=a[1],k=aV(g,f,b);return[6,w(aV(g,f,b),k)];default:return w(ay(a[1]),b)}}function
-jh(a,b){switch(a[0]){case
-0:return[0,ch(a[1],a[2],a[3],a[4],b)];case
+f=a[2],g=a[1],k=aW(g,f,b);return[6,x(aW(g,f,b),k)];default:return x(ay(a[1]),b)}}function
+jn(a,b){switch(a[0]){case
+0:return[0,cj(a[1],a[2],a[3],a[4],b)];case
 1:var
-c=a[2],d=a[1],e=aV(d,c,b);return[0,w(aV(d,c,b),e)];default:return 0}}function
-fu(e,c,a){var
-f=[0,d,b];return ap(function(b,d){var
-e=w(ci(b,c),a);return[2,[4,w(ci(b,c),a),e],d]},f,e)}function
-m$(f,e,c,a){if(f){if(e){var
-g=e[1],h=m$(f[2],e[2],c,a),i=w(ci(g,c),a),j=[4,w(ci(g,c),a),i];return[2,[4,f[1],j],h]}return[0,d,b]}return[0,d,b]}function
-na(a){var
+c=a[2],d=a[1],e=aW(d,c,b);return[0,x(aW(d,c,b),e)];default:return 0}}function
+fz(e,c,a){var
+f=[0,d,b];return an(function(b,d){var
+e=x(ck(b,c),a);return[2,[4,x(ck(b,c),a),e],d]},f,e)}function
+nu(f,e,c,a){if(f){if(e){var
+g=e[1],h=nu(f[2],e[2],c,a),i=x(ck(g,c),a),j=[4,x(ck(g,c),a),i];return[2,[4,f[1],j],h]}return[0,d,b]}return[0,d,b]}function
+nv(a){var
 c=a[1];return[0,[0,c[1],b],[0,c[2],b],[0,a[2],b]]}function
-ji(a,c){switch(a[0]){case
+jo(a,c){switch(a[0]){case
 0:return a[4];case
 1:var
-d=a[2],e=a[1],f=aV(e,d,c);return[6,w(aV(e,d,c),f)];default:return[0,b,b]}}function
-nb(d,i){if(d){var
+d=a[2],e=a[1],f=aW(e,d,c);return[6,x(aW(e,d,c),f)];default:return[0,b,b]}}function
+nw(d,i){if(d){var
 a=d[1];if(1===a[0]){var
 c=a[3];if(c)var
-f=c[1],g=aV(a[1],a[2],i),k=ay(f),l=P(w(ay(f),g),k),h=[0,L(function(b,a){return[3,b,a]},g,l)];else
+f=c[1],g=aW(a[1],a[2],i),k=ay(f),l=R(x(ay(f),g),k),h=[0,M(function(b,a){return[3,b,a]},g,l)];else
 var
 h=c;var
 b=h}else
 var
 b=0;if(b)var
-e=nb(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
+e=nw(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
 var
-j=b;return j}return t6}function
-c$(a){return[0,a[1],a[2],a[3]]}function
-nc(a,b){switch(a[0]){case
+j=b;return j}return us}function
+da(a){return[0,a[1],a[2],a[3]]}function
+nx(a,b){switch(a[0]){case
 0:var
-f=a[4],c=a[3],g=a[2],d=a[1],i=ay(d),j=ch(d,g,c,f,b),k=P(cH(a[5],j),i),l=ft(d,g,c,b),m=L(function(b,a){return[2,b,a]},l,k);return[0,[0,[0,L(function(b,a){return[2,b,a]},b,c),m],f]];case
+f=a[4],c=a[3],g=a[2],d=a[1],i=ay(d),j=cj(d,g,c,f,b),k=R(cL(a[5],j),i),l=fy(d,g,c,b),m=M(function(b,a){return[2,b,a]},l,k);return[0,[0,[0,M(function(b,a){return[2,b,a]},b,c),m],f]];case
 1:var
-h=a[2],e=aV(a[1],h,b),n=[6,w(e,e)];return[0,[0,[0,L(function(b,a){return[2,b,a]},b,h),e],n]];default:return 0}}function
-nd(m,e,a){switch(a[0]){case
+h=a[2],e=aW(a[1],h,b),n=[6,x(e,e)];return[0,[0,[0,M(function(b,a){return[2,b,a]},b,h),e],n]];default:return 0}}function
+ny(m,e,a){switch(a[0]){case
 0:var
-n=a[5],c=F(m,a[1]);if(c){var
+n=a[5],c=G(m,a[1]);if(c){var
 d=c[1];if(d)var
 f=d[1],g=f[1],h=f[2],o=g[2],p=g[1],i=function(a){var
-b=c$(n),c=P(a,o),d=L(function(b,a){return[3,b,a]},p,c);return L(function(b,a){return[2,b,a]},d,b)},q=i([5,a[4],h]),j=[0,[0,i([3,[0,b,b],[5,a[3],h]]),q]];else
+b=da(n),c=R(a,o),d=M(function(b,a){return[3,b,a]},p,c);return M(function(b,a){return[2,b,a]},d,b)},q=i([5,a[4],h]),k=[0,[0,i([3,[0,b,b],[5,a[3],h]]),q]];else
 var
-j=d;var
-l=j}else
+k=d;var
+l=k}else
 var
 l=c;return l;case
 1:var
-r=c$(a[3]);return[0,[0,c$(a[2]),r]];default:var
-s=k(e,c$(a[3]));return[0,[0,k(e,c$(a[2])),s]]}}function
-ne(d,a,c,b){var
-e=P(a,b),f=P([3,d,a],c);return L(function(b,a){return[2,b,a]},f,e)}function
-nf(a,l,c,j,i,y){var
-d=k(l,j);if(d){var
-m=d[1],e=k(l,i);if(e){var
-n=e[1],f=c[1],g=c[2],b=c[3],z=ne(b,g,n[1],n[2]),A=ne(b,f,m[1],m[2]),o=L(function(b,a){return[3,b,a]},A,z),B=ef(i),p=[4,b,[2,[2,ef(j),B],y]],q=h(a,1,b),r=q?h(a,0,f):q,s=r?h(a,0,[3,b,f]):r,t=s?h(a,0,g):s,u=t?h(a,0,[3,b,g]):t;if(u)return h(a,1,[3,[4,p,p],w(o,o)]);var
+r=da(a[3]);return[0,[0,da(a[2]),r]];default:var
+s=j(e,da(a[3]));return[0,[0,j(e,da(a[2])),s]]}}function
+nz(d,a,c,b){var
+e=R(a,b),f=R([3,d,a],c);return M(function(b,a){return[2,b,a]},f,e)}function
+nA(a,l,c,k,i,y){var
+d=j(l,k);if(d){var
+m=d[1],e=j(l,i);if(e){var
+n=e[1],f=c[1],g=c[2],b=c[3],z=nz(b,g,n[1],n[2]),A=nz(b,f,m[1],m[2]),o=M(function(b,a){return[3,b,a]},A,z),B=ek(i),p=[4,b,[2,[2,ek(k),B],y]],q=h(a,1,b),r=q?h(a,0,f):q,s=r?h(a,0,[3,b,f]):r,t=s?h(a,0,g):s,u=t?h(a,0,[3,b,g]):t;if(u)return h(a,1,[3,[4,p,p],x(o,o)]);var
 v=u}else
 var
 v=e;var
-x=v}else
+w=v}else
 var
-x=d;return x}function
-ng(d,c,b,a,i,g,f,e){var
+w=d;return w}function
+nB(d,c,b,a,i,g,f,e){var
 j=h(d,1,b),k=j?h(d,1,a):j;if(k){var
-l=ao(c,f,f),m=[4,[4,a,a],[4,ao(c,g,g),l]];return h(d,1,[3,[4,[4,[4,b,b],[4,i,i]],ao(c,e,e)],m])}return k}function
-nh(i,g,c,f,y,a){function
-T(a){return[4,[4,[5,[0,b,b],a],[5,[0,b,b],a]],w(f,f)]}var
+l=aq(c,f,f),m=[4,[4,a,a],[4,aq(c,g,g),l]];return h(d,1,[3,[4,[4,[4,b,b],[4,i,i]],aq(c,e,e)],m])}return k}function
+nC(i,g,c,f,y,a){function
+T(a){return[4,[4,[5,[0,b,b],a],[5,[0,b,b],a]],x(f,f)]}var
 O=0;if(typeof
 a==="number")O=1;else
 switch(a[0]){case
 0:var
-aG=fu(g,c,f);return h(i,1,[3,T(a[1]),aG]);case
+aG=fz(g,c,f);return h(i,1,[3,T(a[1]),aG]);case
 1:var
-aH=T(a[1]);return h(i,1,[3,fu(g,c,f),aH]);case
+aH=T(a[1]);return h(i,1,[3,fz(g,c,f),aH]);case
 2:var
-aI=a[2],aJ=function(a){return[3,aI,cI(a,c)]},A=aJ,z=a[1];break;case
+aI=a[2],aJ=function(a){return[3,aI,cM(a,c)]},A=aJ,z=a[1];break;case
 3:var
-aK=a[2],aL=function(a){return[3,cI(a,c),aK]},A=aL,z=a[1];break;case
+aK=a[2],aL=function(a){return[3,cM(a,c),aK]},A=aL,z=a[1];break;case
 4:var
 U=a[3],V=a[2],aM=function(a){var
-b=ci(a,c);return[3,[4,[4,V,V],w(ci(a,c),b)],[4,U,U]]},A=aM,z=a[1];break;case
+b=ck(a,c);return[3,[4,[4,V,V],x(ck(a,c),b)],[4,U,U]]},A=aM,z=a[1];break;case
 5:var
-W=a[1],aN=w(f,f),aO=[4,[4,W,W],[4,fu(g,c,y),aN]],aP=w(y,y);return h(i,1,[3,[4,fu(g,c,f),aP],aO]);case
+W=a[1],aN=x(f,f),aO=[4,[4,W,W],[4,fz(g,c,y),aN]],aP=x(y,y);return h(i,1,[3,[4,fz(g,c,f),aP],aO]);case
 6:var
-X=a[2],C=F(g,a[1]);if(C){var
+X=a[2],C=G(g,a[1]);if(C){var
 k=C[1];if(0===k[0]){var
-D=k[4],aQ=ch(k[1],k[2],k[3],D,c),Y=cH(k[5],aQ);return h(i,1,[3,[4,[4,X,D],[4,X,D]],[4,Y,Y]])}var
+D=k[4],aQ=cj(k[1],k[2],k[3],D,c),Y=cL(k[5],aQ);return h(i,1,[3,[4,[4,X,D],[4,X,D]],[4,Y,Y]])}var
 Z=0}else
 var
 Z=C;return Z;case
 7:if(g){var
 p=g[2];if(p){var
 q=p[2];if(q){if(q[2])return 0;var
-_=q[1],$=p[1],aa=g[1],aR=ji(_,c),aS=ji($,c),aT=ji(aa,c),ab=[4,[4,[4,a[1],aT],aS],aR],l=bz(_,c),m=bz($,c),aU=bz(aa,c),Q=w(aU,[0,[3,[4,m[2],l[3]],[4,m[3],l[2]]],[3,[4,m[3],l[1]],[4,m[1],l[3]]],[3,[4,m[1],l[2]],[4,m[2],l[1]]]]),ac=h(i,1,[3,ab,Q]);if(ac)return h(i,1,[2,ab,Q]);var
+_=q[1],$=p[1],aa=g[1],aR=jo(_,c),aS=jo($,c),aT=jo(aa,c),ab=[4,[4,[4,a[1],aT],aS],aR],l=bC(_,c),m=bC($,c),aU=bC(aa,c),P=x(aU,[0,[3,[4,m[2],l[3]],[4,m[3],l[2]]],[3,[4,m[3],l[1]],[4,m[1],l[3]]],[3,[4,m[1],l[2]],[4,m[2],l[1]]]]),ac=h(i,1,[3,ab,P]);if(ac)return h(i,1,[2,ab,P]);var
 ad=ac}else
 var
 ad=q;var
@@ -3220,51 +3314,51 @@ af=ae}else
 var
 af=g;return af;case
 8:var
-aW=fu(g,c,f),aX=w(f,f);return h(i,1,[3,[4,[5,a[2],a[1]],aX],aW]);case
+aV=fz(g,c,f),aX=x(f,f);return h(i,1,[3,[4,[5,a[2],a[1]],aX],aV]);case
 9:var
-ag=a[1],E=nb(g,c);if(E){var
-aY=E[1],aA=[0,d,b],aB=ap(function(a,b){var
-c=w(ay(a),f);return[2,[4,w(ay(a),f),c],b]},aA,aY);return h(i,1,[3,[4,[4,ag,ag],w(f,f)],aB])}return E;case
+ag=a[1],E=nw(g,c);if(E){var
+aY=E[1],aA=[0,d,b],aB=an(function(a,b){var
+c=x(ay(a),f);return[2,[4,x(ay(a),f),c],b]},aA,aY);return h(i,1,[3,[4,[4,ag,ag],x(f,f)],aB])}return E;case
 10:var
-aZ=a[3],a0=a[2],a1=a[1],aC=function(b,a){return[2,b,a]},aD=function(a){return L(aC,c,a)},aE=e(function(a){return nc(a,c)},g);return nf(i,function(a){return nd(aE,aD,a)},f,a1,a0,aZ);case
+aZ=a[3],a0=a[2],a1=a[1],aC=function(b,a){return[2,b,a]},aD=function(a){return M(aC,c,a)},aE=e(function(a){return nx(a,c)},g);return nA(i,function(a){return ny(aE,aD,a)},f,a1,a0,aZ);case
 11:var
-ah=a[4],G=F(g,a[1]);if(G){var
-H=nc(G[1],c);if(H){var
-n=H[1][1][2],a2=c$(a[3]),a3=c$(a[2]),r=L(function(b,a){return[3,b,a]},a3,a2),ai=h(i,1,w(n,n));if(ai){var
-a4=w(n,n),a5=w(r,n),a6=[5,[4,w(r,n),a5],a4];return h(i,1,[3,[4,ah,ah],[3,w(r,r),a6]])}var
+ah=a[4],F=G(g,a[1]);if(F){var
+H=nx(F[1],c);if(H){var
+n=H[1][1][2],a2=da(a[3]),a3=da(a[2]),r=M(function(b,a){return[3,b,a]},a3,a2),ai=h(i,1,x(n,n));if(ai){var
+a4=x(n,n),a5=x(r,n),a6=[5,[4,x(r,n),a5],a4];return h(i,1,[3,[4,ah,ah],[3,x(r,r),a6]])}var
 aj=ai}else
 var
 aj=H;var
 ak=aj}else
 var
-ak=G;return ak;case
+ak=F;return ak;case
 12:var
-o=a[3],s=a[2],I=F(g,a[1]);if(I){var
+o=a[3],s=a[2],I=G(g,a[1]);if(I){var
 j=I[1],al=h(i,0,s),am=al?h(i,0,o):al;if(am){var
 a7=a[4];switch(j[0]){case
 0:var
-v=j[4],x=[5,v,[6,ch(j[1],j[2],j[3],v,c)]],J=[4,x,[2,s,[4,[5,[4,o,o],v],[4,x,x]]]];break;case
+v=j[4],w=[5,v,[6,cj(j[1],j[2],j[3],v,c)]],J=[4,w,[2,s,[4,[5,[4,o,o],v],[4,w,w]]]];break;case
 1:var
-R=j[2],S=j[1],aF=aV(S,R,c),J=[2,s,[5,[4,o,o],[6,w(aV(S,R,c),aF)]]];break;default:var
+Q=j[2],S=j[1],aF=aW(S,Q,c),J=[2,s,[5,[4,o,o],[6,x(aW(S,Q,c),aF)]]];break;default:var
 J=s}var
 K=h(i,1,[3,J,a7])}else
 var
-K=am;if(K){if(2===j[0])return h(i,1,w(f,f));var
-an=1}else
+K=am;if(K){if(2===j[0])return h(i,1,x(f,f));var
+ao=1}else
 var
-an=K;var
-ao=an}else
+ao=K;var
+ap=ao}else
 var
-ao=I;return ao;case
+ap=I;return ap;case
 13:if(g){var
 t=g[2];if(t){var
 u=t[2];if(u){if(u[2])return 0;var
-aq=u[1],ar=t[1],as=g[1],at=a[1],M=F([0,f[1],[0,f[2],[0,f[3],0]]],at);if(M){var
-N=F([0,as,[0,ar,[0,aq,0]]],at);if(N){var
-au=N[1],a8=bz(au,c),a9=ci(au,c),a_=bz(aq,c),a$=P(f[3],a_),ba=bz(ar,c),bb=P(f[2],ba),bc=bz(as,c),bd=P(f[1],bc),be=L(function(b,a){return[2,b,a]},bd,bb),bf=L(function(b,a){return[2,b,a]},be,a$);return ng(i,w,a[2],a[3],M[1],bf,a9,a8)}var
+aq=u[1],ar=t[1],as=g[1],at=a[1],L=G([0,f[1],[0,f[2],[0,f[3],0]]],at);if(L){var
+N=G([0,as,[0,ar,[0,aq,0]]],at);if(N){var
+au=N[1],a8=bC(au,c),a9=ck(au,c),a_=bC(aq,c),a$=R(f[3],a_),ba=bC(ar,c),bb=R(f[2],ba),bc=bC(as,c),bd=R(f[1],bc),be=M(function(b,a){return[2,b,a]},bd,bb),bf=M(function(b,a){return[2,b,a]},be,a$);return nB(i,x,a[2],a[3],L[1],bf,a9,a8)}var
 av=N}else
 var
-av=M;var
+av=L;var
 aw=av}else
 var
 aw=u;var
@@ -3275,57 +3369,57 @@ az=ax}else
 var
 az=g;return az;case
 15:var
-bg=m$(a[1],g,c,f),bh=w(f,f);return h(i,1,[3,[4,a[2],bh],bg]);default:O=1}if(O)return 0;var
-B=F(g,z);return B?h(i,1,A(B[1])):B}function
-fv(g,i,f,c,a){var
-m=fs(g,i,f,c);if(m)if(typeof
+bg=nu(a[1],g,c,f),bh=x(f,f);return h(i,1,[3,[4,a[2],bh],bg]);default:O=1}if(O)return 0;var
+B=G(g,z);return B?h(i,1,A(B[1])):B}function
+fA(g,i,f,c,a){var
+m=fx(g,i,f,c);if(m)if(typeof
 a==="number")return 0===a?aj(function(e){var
-a=jh(e,c);return a?h(g,0,[3,[0,d,b],a[1]]):a},f):ml(t7,e(function(b){var
-a=bz(b,c);return[0,a[1],[0,a[2],[0,a[3],0]]]},f));else{if(0===a[0]){var
-j=F(i[3],a[1]);if(j){var
-p=j[1],q=na(a[3]);return nh(g,f,c,na(a[2]),q,p)}return j}var
-k=F(i[3],a[1]);if(k){var
-l=F(f,a[2]);if(l){var
-n=l[1],r=k[1],s=ci(n,c);return nh(g,f,c,ci(n,c),s,r)}var
+a=jn(e,c);return a?h(g,0,[3,[0,d,b],a[1]]):a},f):mw(ut,e(function(b){var
+a=bC(b,c);return[0,a[1],[0,a[2],[0,a[3],0]]]},f));else{if(0===a[0]){var
+j=G(i[3],a[1]);if(j){var
+p=j[1],q=nv(a[3]);return nC(g,f,c,nv(a[2]),q,p)}return j}var
+k=G(i[3],a[1]);if(k){var
+l=G(f,a[2]);if(l){var
+n=l[1],r=k[1],s=ck(n,c);return nC(g,f,c,ck(n,c),s,r)}var
 o=l}else
 var
 o=k;return o}return m}function
-bF(a){return[0,a[1][1],a[2][1],a[3][1]]}function
-ni(a){switch(a[0]){case
+bI(a){return[0,a[1][1],a[2][1],a[3][1]]}function
+nD(a){switch(a[0]){case
 0:var
-b=a[1],c=b[5],d=b[4][1],e=bF(b[3]),f=bF(b[2]);return[0,bF(b[1]),f,e,d,c];case
+b=a[1],c=b[5],d=b[4][1],e=bI(b[3]),f=bI(b[2]);return[0,bI(b[1]),f,e,d,c];case
 1:var
-g=y(bF,a[3]),h=bF(a[2]);return[1,bF(a[1]),h,g];default:return[2,bF(a[1])]}}function
-jj(a){return 0===a[0]?bF(a[1]):[0,a[1],a[2],a[4][1]]}function
-nj(b,a){var
-c=jj(a[2]);return fs(b,a,e(ni,a[1]),c)}function
-jk(b,a,c){var
-d=[0,c,av(b,a)];return g(am(b,a),d)}function
-bs(c,a){if(c){if(a){var
-e=bs(c[2],a[2]);return[2,[4,c[1],a[1]],e]}return[0,d,b]}return[0,d,b]}function
-nk(e,c,a){if(e){if(c){var
-f=c[1],g=nk(e[2],c[2],a),h=bs(f,a),i=[4,bs(f,a),h];return[2,[4,e[1],i],g]}return[0,d,b]}return[0,d,b]}function
-nl(b,a){if(b){if(a){var
-c=b[1],e=nl(b[2],a[2]),f=a[1],g=function(b,a){return[2,[4,c,b],a]},h=function(a){return a};return aP(function(a){return[4,c,a]},h,g,f,e)}var
+g=z(bI,a[3]),h=bI(a[2]);return[1,bI(a[1]),h,g];default:return[2,bI(a[1])]}}function
+jp(a){return 0===a[0]?bI(a[1]):[0,a[1],a[2],a[4][1]]}function
+nE(b,a){var
+c=jp(a[2]);return fx(b,a,e(nD,a[1]),c)}function
+jq(b,a,c){var
+d=[0,c,au(b,a)];return g(al(b,a),d)}function
+bt(c,a){if(c){if(a){var
+e=bt(c[2],a[2]);return[2,[4,c[1],a[1]],e]}return[0,d,b]}return[0,d,b]}function
+nF(e,c,a){if(e){if(c){var
+f=c[1],g=nF(e[2],c[2],a),h=bt(f,a),i=[4,bt(f,a),h];return[2,[4,e[1],i],g]}return[0,d,b]}return[0,d,b]}function
+nG(b,a){if(b){if(a){var
+c=b[1],e=nG(b[2],a[2]),f=a[1],g=function(b,a){return[2,[4,c,b],a]},h=function(a){return a};return aQ(function(a){return[4,c,a]},h,g,f,e)}var
 d=a}else
 var
 d=b;return d}function
-nm(b,c,a){var
-d=[0,c,av([0,b],a)];return g(am(b,a),d)}function
-nn(a,b){var
-e=n(a,t8),c=e||n(a,t9),d=c?n(f(b),a):c;return d?l(function(b){return n(f(b),a)},b):d}function
-no(a){if(a){var
+nH(b,c,a){var
+d=[0,c,au([0,b],a)];return g(al(b,a),d)}function
+nI(a,b){var
+e=n(a,uu),c=e||n(a,uv),d=c?n(f(b),a):c;return d?l(function(b){return n(f(b),a)},b):d}function
+nJ(a){if(a){var
 b=a[1];if(b){var
-c=b[1],d=no(a[2]);return y(function(a){return[0,c,a]},d)}return b}return t_}function
-g7(a){if(a){var
+c=b[1],d=nJ(a[2]);return z(function(a){return[0,c,a]},d)}return b}return uw}function
+g$(a){if(a){var
 b=a[1];if(b){var
-c=b[1],d=g7(a[2]);return y(function(a){return[0,c,a]},d)}return b}return t$}function
-np(a,l,k,f){var
-b=aD(a,l);if(b){var
-c=aD(a,k);if(c){var
-d=c2(a,f);if(d){var
-e=gI(a,f);if(e)var
-m=t(a,b[1],e[1]),g=[0,G(t(a,c[1],d[1]),m)];else
+c=b[1],d=g$(a[2]);return z(function(a){return[0,c,a]},d)}return b}return ux}function
+nK(a,l,k,f){var
+b=aF(a,l);if(b){var
+c=aF(a,k);if(c){var
+d=c4(a,f);if(d){var
+e=gL(a,f);if(e)var
+m=t(a,b[1],e[1]),g=[0,D(t(a,c[1],d[1]),m)];else
 var
 g=e;var
 h=g}else
@@ -3337,23 +3431,23 @@ i=c;var
 j=i}else
 var
 j=b;return j}function
-nq(a){return a?K(a[1][2],d):a}function
-cj(a){return a?K(d,a[1][1]):a}function
-nr(d,a){return h(d,0,[3,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b],a])}function
-ns(d,a){if(a){var
-b=aD(d,a[1]);if(b)var
-c=ns(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
+nL(a){return a?K(a[1][2],d):a}function
+cl(a){return a?K(d,a[1][1]):a}function
+nM(d,a){return h(d,0,[3,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b],a])}function
+nN(d,a){if(a){var
+b=aF(d,a[1]);if(b)var
+c=nN(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
 var
-e=b;return e}return ua}function
-g8(d,a){if(a){var
-b=ns(d,a[1]);if(b)var
-c=g8(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
+e=b;return e}return uy}function
+ha(d,a){if(a){var
+b=nN(d,a[1]);if(b)var
+c=ha(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
 var
-e=b;return e}return ub}function
-nt(b,a){return ap(function(c,a){return A(V(b,c),a)},u,a)}function
-nu(b,d){function
+e=b;return e}return uz}function
+nO(b,a){return an(function(c,a){return A(Q(b,c),a)},u,a)}function
+nP(b,d){function
 c(e,d,c,a){var
-f=t(b,d,c);return G(t(b,e,a),f)}if(d){var
+f=t(b,d,c);return D(t(b,e,a),f)}if(d){var
 e=d[1];if(e){var
 f=e[2];if(f){var
 g=f[2],q=f[1],r=e[1],a=d[2];if(g){if(g[2])return u;if(a){var
@@ -3364,18 +3458,18 @@ k=a[2];if(k){var
 l=k[1];if(l){var
 m=l[2];if(m){var
 n=m[2];if(n){if(n[2])return u;if(k[2])return u;var
-s=n[1],v=m[1],w=l[1],x=j[1],y=i[1],z=h[1],B=c(z,y,w,v),C=t(b,g[1],B),D=t(b,q,c(z,x,w,s));return A(G(t(b,r,c(y,x,v,s)),D),C)}return u}return u}return u}return u}return u}return u}return u}return u}if(a){var
+s=n[1],v=m[1],w=l[1],x=j[1],y=i[1],z=h[1],B=c(z,y,w,v),C=t(b,g[1],B),E=t(b,q,c(z,x,w,s));return A(D(t(b,r,c(y,x,v,s)),E),C)}return u}return u}return u}return u}return u}return u}return u}return u}if(a){var
 o=a[1];if(o){var
 p=o[2];return p?p[2]?u:a[2]?u:c(r,q,o[1],p[1]):u}return u}return u}return u}return u}return u}function
-nv(a,p,m,s,g,i){function
-a1(c,a){return[4,[4,[5,[0,b,b],c],[5,[0,b,b],c]],bs(a,a)]}var
+nQ(a,p,m,s,g,i){function
+a1(c,a){return[4,[4,[5,[0,b,b],c],[5,[0,b,b],c]],bt(a,a)]}var
 bL=m[1];function
 B(c){var
-a=[0,d,b];return ap(function(a,b){var
-d=bs(a,c);return[2,[4,bs(a,c),d],b]},a,bL)}function
+a=[0,d,b];return an(function(a,b){var
+d=bt(a,c);return[2,[4,bt(a,c),d],b]},a,bL)}function
 C(g,e){var
-a=F(m[1],g);if(a){var
-b=a[1],c=n(f(b),p);if(c)return k(e,b);var
+a=G(m[1],g);if(a){var
+b=a[1],c=n(f(b),p);if(c)return j(e,b);var
 d=c}else
 var
 d=a;return d}var
@@ -3384,10 +3478,10 @@ b=0;if(typeof
 i==="number")b=1;else
 switch(i[0]){case
 6:var
-a=uc;break;case
+a=uA;break;case
 13:case
 14:var
-a=ud;break;default:b=1}if(b)var
+a=uB;break;default:b=1}if(b)var
 a=p;return n(f(c),a)},g);if(a2){var
 v=0;if(typeof
 i==="number")v=1;else
@@ -3406,51 +3500,51 @@ b!=="number"&&0===b[0])return h(a,1,[3,b[1],bQ]);return 0},ai=bR,ah=i[1];break;c
 a6=i[3],a7=i[2],bS=function(d){var
 i=n(s,0);if(typeof
 d!=="number"&&1===d[0]){var
-e=d[2],f=d[1],g=h(a,0,[3,[2,a7,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b]],a6]);return g?i?nq(np(a,f,e,a7)):cj(np(a,f,e,a6)):g}return 0},ai=bS,ah=i[1];break;case
+e=d[2],f=d[1],g=h(a,0,[3,[2,a7,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b]],a6]);return g?i?nL(nK(a,f,e,a7)):cl(nK(a,f,e,a6)):g}return 0},ai=bS,ah=i[1];break;case
 5:if(g){var
-D=g[2];if(D){if(D[2])return 0;var
-ak=D[1],al=g[1],a8=i[1],bU=bs(al,al),bV=[4,[4,a8,a8],[4,B(ak),bU]],bW=bs(ak,ak);return h(a,1,[3,[4,B(al),bW],bV])}var
-a9=D}else
+E=g[2];if(E){if(E[2])return 0;var
+ak=E[1],al=g[1],a8=i[1],bT=bt(al,al),bU=[4,[4,a8,a8],[4,B(ak),bT]],bW=bt(ak,ak);return h(a,1,[3,[4,B(al),bW],bU])}var
+a9=E}else
 var
 a9=g;return a9;case
 6:var
 a_=i[2],bX=i[3],bY=function(b){var
-c=[5,bX,a_],d=h(a,1,a_);return d?h(a,1,[3,bs(b,b),[4,c,c]]):d},a$=C(i[1],bY);if(a$){if(m[4]){if(g){var
-E=g[1];if(E){if(E[2])return 0;if(g[2])return 0;var
-ba=E[1];return h(a,1,[4,ba,ba])}var
-bb=E}else
+c=[5,bX,a_],d=h(a,1,a_);return d?h(a,1,[3,bt(b,b),[4,c,c]]):d},a$=C(i[1],bY);if(a$){if(m[4]){if(g){var
+F=g[1];if(F){if(F[2])return 0;if(g[2])return 0;var
+ba=F[1];return h(a,1,[4,ba,ba])}var
+bb=F}else
 var
 bb=g;return bb}if(g)return 0;var
 bc=1}else
 var
 bc=a$;return bc;case
 7:if(g){if(g[2])return 0;var
-bd=g[1],am=i[1],bZ=i[3],b0=i[2],an=g7(m[7]);if(an){var
-H=an[1],ao=F(bd,am);if(ao){var
-b1=ao[1],be=n(f(H),p),bf=be?l(function(a){return n(f(a),p)},H):be;if(bf){var
-aq=F(H,am);if(aq){var
-b2=aq[1];return C(am,function(b){return ng(a,bs,b0,bZ,b1,nl(bd,H),b,b2)})}var
+bd=g[1],am=i[1],bZ=i[3],b0=i[2],ao=g$(m[7]);if(ao){var
+H=ao[1],ap=G(bd,am);if(ap){var
+b1=ap[1],be=n(f(H),p),bf=be?l(function(a){return n(f(a),p)},H):be;if(bf){var
+aq=G(H,am);if(aq){var
+b2=aq[1];return C(am,function(b){return nB(a,bt,b0,bZ,b1,nG(bd,H),b,b2)})}var
 bg=aq}else
 var
 bg=bf;var
 bh=bg}else
 var
-bh=ao;var
+bh=ap;var
 bi=bh}else
 var
-bi=an;var
+bi=ao;var
 bj=bi}else
 var
 bj=g;return bj;case
 8:if(g){if(g[2])return 0;var
-ar=g[1],b3=nk(i[1],m[1],ar),b4=bs(ar,ar);return h(a,1,[3,[4,i[2],b4],b3])}return g;case
+ar=g[1],b3=nF(i[1],m[1],ar),b4=bt(ar,ar);return h(a,1,[3,[4,i[2],b4],b3])}return g;case
 9:if(g)return 0;var
 bk=i[3],bl=i[2],b5=function(e){var
 f=h(a,1,bl),g=f?h(a,0,bk):f;if(g){var
-b=aD(a,bs(e,e));if(b){var
-c=aD(a,[5,bk,bl]);if(c){var
-d=me(a,c[1]);if(d){var
-l=V(a,d[1]);return cj([0,G(b[1],l)])}var
+b=aF(a,bt(e,e));if(b){var
+c=aF(a,[5,bk,bl]);if(c){var
+d=mp(a,c[1]);if(d){var
+l=Q(a,d[1]);return cl([0,D(b[1],l)])}var
 i=d}else
 var
 i=c;var
@@ -3465,11 +3559,11 @@ b6=i[2],b7=function(b){var
 c=[4,b6,b[3]],d=h(a,1,c);return d?h(a,1,[3,[4,c,c],[4,b[2],b[2]]]):d},bn=b7,bm=i[1];v=2;break;case
 11:if(g)return 0;var
 b8=i[2],b9=function(e){var
-b=c2(a,b8);if(b){var
-c=aD(a,e[3]);if(c){var
-d=aD(a,e[2]);if(d){var
-f=t(a,b[1],c[1]),g=cj([0,f]);if(g){var
-k=V(a,d[1]);return cj([0,G(V(a,f),k)])}var
+b=c4(a,b8);if(b){var
+c=aF(a,e[3]);if(c){var
+d=aF(a,e[2]);if(d){var
+f=t(a,b[1],c[1]),g=cl([0,f]);if(g){var
+k=Q(a,d[1]);return cl([0,D(Q(a,f),k)])}var
 h=g}else
 var
 h=d;var
@@ -3480,65 +3574,65 @@ j=i}else
 var
 j=b;return j},bn=b9,bm=i[1];v=2;break;case
 12:if(g)return 0;var
-au=no(m[3]);if(au){var
-bp=au[1],b_=i[1],bq=bT(function(b,a){return[4,b,a[3]]},bp,b_),av=e(function(a){return a[1]},bp),x=function(d,c,b,a){return[3,[4,d,a],[4,c,b]]};if(av){var
+au=nJ(m[3]);if(au){var
+bp=au[1],b_=i[1],bq=bV(function(b,a){return[4,b,a[3]]},bp,b_),av=e(function(a){return a[1]},bp),w=function(d,c,b,a){return[3,[4,d,a],[4,c,b]]};if(av){var
 O=av[1];if(O){var
 P=O[2];if(P){var
-Q=P[2],aC=P[1],aE=O[1],o=av[2];if(Q)if(Q[2]||!o)var
-j=[0,d,b];else{var
-R=o[1];if(R){var
-S=R[2];if(S){var
-T=S[2];if(T&&!T[2]){var
-U=o[2];if(U){var
-W=U[1];if(W){var
+R=P[2],aC=P[1],aD=O[1],o=av[2];if(R)if(R[2]||!o)var
+k=[0,d,b];else{var
+S=o[1];if(S){var
+T=S[2];if(T){var
+U=T[2];if(U&&!U[2]){var
+V=o[2];if(V){var
+W=V[1];if(W){var
 X=W[2];if(X){var
-Y=X[2];if(Y&&!(Y[2]||U[2]))var
-aF=Y[1],aG=X[1],aH=W[1],aI=T[1],aJ=S[1],aK=R[1],bE=x(aK,aJ,aH,aG),bF=[4,Q[1],bE],bG=[4,aC,x(aK,aI,aH,aF)],j=[2,[3,[4,aE,x(aJ,aI,aG,aF)],bG],bF];else
+Y=X[2];if(Y&&!(Y[2]||V[2]))var
+aE=Y[1],aG=X[1],aH=W[1],aI=U[1],aJ=T[1],aK=S[1],bE=w(aK,aJ,aH,aG),bF=[4,R[1],bE],bG=[4,aC,w(aK,aI,aH,aE)],k=[2,[3,[4,aD,w(aJ,aI,aG,aE)],bG],bF];else
 var
-j=[0,d,b]}else
+k=[0,d,b]}else
 var
-j=[0,d,b]}else
+k=[0,d,b]}else
 var
-j=[0,d,b]}else
+k=[0,d,b]}else
 var
-j=[0,d,b]}else
+k=[0,d,b]}else
 var
-j=[0,d,b]}else
+k=[0,d,b]}else
 var
-j=[0,d,b]}else
+k=[0,d,b]}else
 var
-j=[0,d,b]}else
+k=[0,d,b]}else
 if(o){var
 Z=o[1];if(Z)var
-_=Z[2],j=_?_[2]?[0,d,b]:o[2]?[0,d,b]:x(aE,aC,Z[1],_[1]):[0,d,b];else
+$=Z[2],k=$?$[2]?[0,d,b]:o[2]?[0,d,b]:w(aD,aC,Z[1],$[1]):[0,d,b];else
 var
-j=[0,d,b]}else
+k=[0,d,b]}else
 var
-j=[0,d,b]}else
+k=[0,d,b]}else
 var
-j=[0,d,b]}else
+k=[0,d,b]}else
 var
-j=[0,d,b]}else
+k=[0,d,b]}else
 var
-j=[0,d,b];var
-br=h(a,1,[3,bq,j]);if(br)return h(a,1,[2,bq,j]);var
-bt=br}else
+k=[0,d,b];var
+br=h(a,1,[3,bq,k]);if(br)return h(a,1,[2,bq,k]);var
+bs=br}else
 var
-bt=au;return bt;case
+bs=au;return bs;case
 13:var
-b$=i[2],aw=F(m[4],i[1]);if(aw){var
+b$=i[2],aw=G(m[4],i[1]);if(aw){var
 ax=aw[1];if(ax){var
 bu=function(a){if(b$){var
-c=k(m[5],[0,[0,d,b],[0,d,b],[0,d,b]]),e=k(m[5],a);return L(function(b,a){return[3,b,a]},e,c)}return a},I=i[4],u=bu(c$(i[3])),J=ax[1][1][2],r=w(J,u);if(nr(a,I)){if(s){if(s[1])return 0;if(g){var
+c=j(m[5],[0,[0,d,b],[0,d,b],[0,d,b]]),e=j(m[5],a);return M(function(b,a){return[3,b,a]},e,c)}return a},I=i[4],u=bu(da(i[3])),J=ax[1][1][2],r=x(J,u);if(nM(a,I)){if(s){if(s[1])return 0;if(g){var
 y=g[1];if(y){var
 z=y[2];if(z){var
 A=z[2];if(A){if(A[2])return 0;if(g[2])return 0;var
-$=bu([0,y[1],z[1],A[1]]),aL=w(J,$),aM=h(a,1,r);if(aM){var
-aa=c2(a,I);if(aa){var
-aN=aa[1],ac=aD(a,[4,w(u,u),[4,aL,aL]]);if(ac){var
-ad=aD(a,[4,[4,r,r],w($,$)]);if(ad){var
-aO=cj([0,aN]);if(aO){var
-bH=ad[1],bI=ac[1];return cj([0,G(t(a,V(a,aN),bI),bH)])}var
+aa=bu([0,y[1],z[1],A[1]]),aL=x(J,aa),aM=h(a,1,r);if(aM){var
+ab=c4(a,I);if(ab){var
+aN=ab[1],ac=aF(a,[4,x(u,u),[4,aL,aL]]);if(ac){var
+ad=aF(a,[4,[4,r,r],x(aa,aa)]);if(ad){var
+aO=cl([0,aN]);if(aO){var
+bH=ad[1],bI=ac[1];return cl([0,D(t(a,Q(a,aN),bI),bH)])}var
 aP=aO}else
 var
 aP=ad;var
@@ -3547,7 +3641,7 @@ var
 aQ=ac;var
 aR=aQ}else
 var
-aR=aa;var
+aR=ab;var
 aS=aR}else
 var
 aS=aM;var
@@ -3564,10 +3658,10 @@ aW=aV}else
 var
 aW=g;return aW}return g?0:h(a,1,[3,[0,d,b],r])}if(s)return 0;if(g)return 0;var
 aX=h(a,0,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],I]);if(aX){var
-ae=c2(a,I);if(ae){var
-af=aD(a,r);if(af){var
-bJ=w(J,J),ag=aD(a,[6,[4,w(u,u),bJ]]);if(ag){var
-bK=t(a,ae[1],ag[1]);return nq([0,G(af[1],bK)])}var
+ae=c4(a,I);if(ae){var
+af=aF(a,r);if(af){var
+bJ=x(J,J),ag=aF(a,[6,[4,x(u,u),bJ]]);if(ag){var
+bK=t(a,ae[1],ag[1]);return nL([0,D(af[1],bK)])}var
 aY=ag}else
 var
 aY=af;var
@@ -3582,12 +3676,12 @@ var
 bv=aw;return bv;case
 14:if(g){var
 K=g[1];if(K){var
-M=K[2];if(M){var
-N=M[2];if(N){if(N[2])return 0;if(g[2])return 0;var
-ca=i[3],cb=i[2],cc=i[1],cd=[0,K[1],M[1],N[1]],ce=m[5],cf=m[4];return nf(a,function(a){return nd(cf,ce,a)},cd,cc,cb,ca)}var
+L=K[2];if(L){var
+N=L[2];if(N){if(N[2])return 0;if(g[2])return 0;var
+ca=i[3],cb=i[2],cc=i[1],cd=[0,K[1],L[1],N[1]],ce=m[5],cf=m[4];return nA(a,function(a){return ny(cf,ce,a)},cd,cc,cb,ca)}var
 bw=N}else
 var
-bw=M;var
+bw=L;var
 bx=bw}else
 var
 bx=K;var
@@ -3595,21 +3689,21 @@ by=bx}else
 var
 by=g;return by;case
 17:if(g)return 0;var
-bz=i[2],ay=i[1],cg=i[3],az=g7(m[7]);if(az){var
-aA=az[1],bA=nn(p,aA),bB=bA?n(f(bz),p):bA;if(bB){var
-aB=F(aA,ay);if(aB){var
+bz=i[2],ay=i[1],cg=i[3],az=g$(m[7]);if(az){var
+aA=az[1],bA=nI(p,aA),bB=bA?n(f(bz),p):bA;if(bB){var
+aB=G(aA,ay);if(aB){var
 ch=aB[1];return C(ay,function(x){var
-e=g8(a,aA);if(e){var
-j=e[1],f=g8(a,[0,bz,[0,x,[0,ch,0]]]);if(f){var
+e=ha(a,aA);if(e){var
+j=e[1],f=ha(a,[0,bz,[0,x,[0,ch,0]]]);if(f){var
 b=f[1];if(b){var
 c=b[2];if(c){var
 d=c[2];if(d){if(d[2])return 0;var
-g=aD(a,cg);if(g){var
-k=g[1],l=V(a,nu(a,j)),h=nu(a,nm(ay,b[1],j)),m=cj([0,k]),o=m?cj([0,l]):m;if(o)var
-y=n(s,0)?h:ab(h),i=cj([0,y]);else
+g=aF(a,cg);if(g){var
+k=g[1],l=Q(a,nP(a,j)),h=nP(a,nH(ay,b[1],j)),m=cl([0,k]),o=m?cl([0,l]):m;if(o)var
+y=n(s,0)?h:_(h),i=cl([0,y]);else
 var
 i=o;if(i){var
-z=nt(a,c[1]),A=t(a,t(a,V(a,k),l),z),B=nt(a,d[1]);return cj([0,G(t(a,V(a,h),B),A)])}var
+z=nO(a,c[1]),A=t(a,t(a,Q(a,k),l),z),B=nO(a,d[1]);return cl([0,D(t(a,Q(a,h),B),A)])}var
 p=i}else
 var
 p=g;var
@@ -3637,90 +3731,90 @@ bD=az;return bD;default:v=1}switch(v){case
 1:var
 a3=0;break;case
 2:var
-as=F(m[3],bm);if(as){var
+as=G(m[3],bm);if(as){var
 at=as[1];if(at)return bn(at[1]);var
 bo=at}else
 var
 bo=as;return bo;default:var
-aj=F(m[2],ah);return aj?ai(aj[1]):aj}}else
+aj=G(m[2],ah);return aj?ai(aj[1]):aj}}else
 var
 a3=a2;return a3}function
-fw(d,f,a){if(typeof
+fB(d,f,a){if(typeof
 a!=="number")switch(a[0]){case
 13:var
-e=a[4];if(nr(d,e)&&I(h(d,0,[3,e,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b]])))return ug;return uh;case
+e=a[4];if(nM(d,e)&&I(h(d,0,[3,e,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b]])))return uE;return uF;case
 16:return f;case
 4:case
-17:return uf}return ue}function
-eu(e,d,g,f){var
+17:return uD}return uC}function
+ex(e,d,g,f){var
 b=g,a=f;for(;;){if(a){var
-c=a[1];if(aG(b,fw(e,d,c)))return[0,[0,c,b]];var
-h=a[2],b=dx(b,fw(e,d,c)),a=h;continue}return a}}function
-nw(a){return e(function(a){return[0,a,b]},a)}function
-jl(f,o,g,c,n,a){if(typeof
+c=a[1];if(aB(b,fB(e,d,c)))return[0,[0,c,b]];var
+h=a[2],b=dy(b,fB(e,d,c)),a=h;continue}return a}}function
+nR(a){return e(function(a){return[0,a,b]},a)}function
+jr(f,o,g,c,n,a){if(typeof
 a==="number"){if(0===a){var
 s=c[6];return aj(function(a){return h(f,0,[3,[0,d,b],a])},s)}var
-i=g7(c[7]);return i?ml(g,i[1]):i}else{if(0===a[0]){var
-j=eu(f,o,a[1],n);if(j){var
-p=j[1],t=p[1],u=e(nw,a[2]);return nv(f,g,c,p[2],u,t)}return j}var
-k=eu(f,o,a[1],n);if(k){var
+i=g$(c[7]);return i?mw(g,i[1]):i}else{if(0===a[0]){var
+j=ex(f,o,a[1],n);if(j){var
+p=j[1],t=p[1],u=e(nR,a[2]);return nQ(f,g,c,p[2],u,t)}return j}var
+k=ex(f,o,a[1],n);if(k){var
 q=k[1],l=q[1];if(typeof
 l!=="number"&&1===l[0]){var
-m=F(c[1],a[2]);return m?nv(f,g,c,q[2],[0,m[1],0],[1,l[1]]):m}var
+m=G(c[1],a[2]);return m?nQ(f,g,c,q[2],[0,m[1],0],[1,l[1]]):m}var
 r=0}else
 var
 r=k;return r}}function
-jm(a){var
-b=ay(a[1]),c=P(w(b,a[2]),b),d=a[2];return L(function(b,a){return[3,b,a]},d,c)}function
-fx(a){return ay(jm(a))}function
-g9(c){var
-a=fx(c),b=ay(c[1]);return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
-g_(a,b){return aV(a[3],a[4],b)}function
-fy(a,b){var
-c=g_(a,b);return w(fx(a),c)}function
-fz(a,b){var
-c=g_(a,b);return w(g9(a),c)}function
-nx(a,b){var
-c=g_(a,b);return w(ay(a[1]),c)}function
-g$(b,a){var
-c=fz(b,a),d=fy(b,a);return[2,[4,d,d],[4,c,c]]}function
-ha(a,d){var
-h=a[5],i=[4,[0,c(2,b),b],h],e=a[6],f=a[5],g=nx(a,d);return[5,[2,g$(a,d),[2,[4,g,g],[3,[4,f,f],[4,e,e]]]],i]}function
-jn(a,b){var
-f=a[5],c=[3,ha(a,b),f],d=nx(a,b),e=a[6];return[3,[3,[4,e,e],[4,d,d]],[4,c,c]]}function
-ev(a,b){var
-c=jn(a,b);return cH(a[7],c)}function
-ny(b,a){var
-c=g$(b,a),d=fz(b,a),e=[4,ev(b,a),d],f=fy(b,a);return[5,[2,[4,ha(b,a),f],e],c]}function
-nz(b,a){var
-c=g$(b,a),d=fy(b,a),e=[4,ev(b,a),d],f=fz(b,a);return[5,[3,[4,ha(b,a),f],e],c]}function
-jo(a,b){var
-c=g9(a),d=P(nz(a,b),c),e=fx(a),f=P(ny(a,b),e),g=L(function(b,a){return[2,b,a]},f,d),h=P(a[5],g),i=a[3];return L(function(b,a){return[2,b,a]},i,h)}function
-dK(a){return[5,[3,[0,b,b],[4,a,a]],[2,[0,b,b],[4,a,a]]]}function
-dL(a){return[5,[4,[0,c(2,b),b],a],[2,[0,b,b],[4,a,a]]]}function
-jp(a,c,b){var
-d=[4,dK(a),b],e=[2,[4,dL(a),c],d],f=[4,dL(a),b];return[0,[3,[4,dK(a),c],f],e]}function
-nA(c,a){var
-b=jp(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
-da(b,a){return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
-nB(a,d){var
-e=w(a,a),f=da(a,d),g=P([0,c(2,b),b],f),h=w(a,d),i=P([4,[0,c(2,b),b],h],a),j=P([3,[0,b,b],e],d),k=L(function(b,a){return[2,b,a]},j,i);return P([5,[0,b,b],[2,[0,b,b],e]],L(function(b,a){return[2,b,a]},k,g))}function
-db(j,b,a){switch(j[0]){case
-0:return b?b[2]?a:nA(b[1],a):a;case
+js(a){var
+b=ay(a[1]),c=R(x(b,a[2]),b),d=a[2];return M(function(b,a){return[3,b,a]},d,c)}function
+fC(a){return ay(js(a))}function
+hb(c){var
+a=fC(c),b=ay(c[1]);return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
+hc(a,b){return aW(a[3],a[4],b)}function
+fD(a,b){var
+c=hc(a,b);return x(fC(a),c)}function
+fE(a,b){var
+c=hc(a,b);return x(hb(a),c)}function
+nS(a,b){var
+c=hc(a,b);return x(ay(a[1]),c)}function
+hd(b,a){var
+c=fE(b,a),d=fD(b,a);return[2,[4,d,d],[4,c,c]]}function
+he(a,d){var
+h=a[5],i=[4,[0,c(2,b),b],h],e=a[6],f=a[5],g=nS(a,d);return[5,[2,hd(a,d),[2,[4,g,g],[3,[4,f,f],[4,e,e]]]],i]}function
+jt(a,b){var
+f=a[5],c=[3,he(a,b),f],d=nS(a,b),e=a[6];return[3,[3,[4,e,e],[4,d,d]],[4,c,c]]}function
+ey(a,b){var
+c=jt(a,b);return cL(a[7],c)}function
+nT(b,a){var
+c=hd(b,a),d=fE(b,a),e=[4,ey(b,a),d],f=fD(b,a);return[5,[2,[4,he(b,a),f],e],c]}function
+nU(b,a){var
+c=hd(b,a),d=fD(b,a),e=[4,ey(b,a),d],f=fE(b,a);return[5,[3,[4,he(b,a),f],e],c]}function
+ju(a,b){var
+c=hb(a),d=R(nU(a,b),c),e=fC(a),f=R(nT(a,b),e),g=M(function(b,a){return[2,b,a]},f,d),h=R(a[5],g),i=a[3];return M(function(b,a){return[2,b,a]},i,h)}function
+dO(a){return[5,[3,[0,b,b],[4,a,a]],[2,[0,b,b],[4,a,a]]]}function
+dP(a){return[5,[4,[0,c(2,b),b],a],[2,[0,b,b],[4,a,a]]]}function
+jv(a,c,b){var
+d=[4,dO(a),b],e=[2,[4,dP(a),c],d],f=[4,dP(a),b];return[0,[3,[4,dO(a),c],f],e]}function
+nV(c,a){var
+b=jv(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
+db(b,a){return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
+nW(a,d){var
+e=x(a,a),f=db(a,d),g=R([0,c(2,b),b],f),h=x(a,d),i=R([4,[0,c(2,b),b],h],a),j=R([3,[0,b,b],e],d),k=M(function(b,a){return[2,b,a]},j,i);return R([5,[0,b,b],[2,[0,b,b],e]],M(function(b,a){return[2,b,a]},k,g))}function
+dc(j,b,a){switch(j[0]){case
+0:return b?b[2]?a:nV(b[1],a):a;case
 1:if(b){var
 c=b[2];if(c){var
 d=c[2];if(d){if(d[2])return a;var
-g=jp(b[1],a[2],a[3]),i=g[1],h=jp(c[1],g[2],a[1]);return nA(d[1],[0,h[2],i,h[1]])}return a}return a}return a;default:if(b){var
+g=jv(b[1],a[2],a[3]),i=g[1],h=jv(c[1],g[2],a[1]);return nV(d[1],[0,h[2],i,h[1]])}return a}return a}return a;default:if(b){var
 e=b[2];if(e){var
-f=e[2];return f?f[2]?a:nB([0,b[1],e[1],f[1]],a):a}return a}return a}}function
-nC(c){var
-a=cC(c);return a?ee(a[1],[0,d,b]):a}function
-nD(a,n,k,j){if(nC(j)){var
+f=e[2];return f?f[2]?a:nW([0,b[1],e[1],f[1]],a):a}return a}return a}}function
+nX(c){var
+a=cG(c);return a?ej(a[1],[0,d,b]):a}function
+nY(a,n,k,j){if(nX(j)){var
 q=n?[3,[0,d,b],k]:k;return h(a,0,q)}var
-f=aD(a,k);if(f){var
-g=c2(a,[5,j,[0,c(2,b),b]]);if(g){var
-i=gI(a,[5,j,[0,c(2,b),b]]);if(i)var
-p=t(a,f[1],g[1]),l=[0,G(i[1],p)];else
+f=aF(a,k);if(f){var
+g=c4(a,[5,j,[0,c(2,b),b]]);if(g){var
+i=gL(a,[5,j,[0,c(2,b),b]]);if(i)var
+p=t(a,f[1],g[1]),l=[0,D(i[1],p)];else
 var
 l=i;var
 m=l}else
@@ -3729,41 +3823,41 @@ m=g;var
 e=m}else
 var
 e=f;if(e){var
-o=e[1];return n?D(d,o[1]):D(o[2],d)}return e}function
-dM(b,a,c){var
-d=by(b,a[1],a[2]),e=d?nD(b,0,c,a[1]):d;return e?nD(b,1,c,a[2]):e}function
-nE(h,f,c){if(nC(c))return[0,u];var
-a=E(h,iJ(f)),d=c2(a,c);if(d){var
-e=gI(a,c);if(e){var
-i=e[1],j=d[1],k=b$(a,A(N(a,b),j));return y(function(b){return l7(f,t(a,i,b))},k)}var
+o=e[1];return n?E(d,o[1]):E(o[2],d)}return e}function
+dQ(b,a,c){var
+d=bA(b,a[1],a[2]),e=d?nY(b,0,c,a[1]):d;return e?nY(b,1,c,a[2]):e}function
+nZ(h,f,c){if(nX(c))return[0,u];var
+a=F(h,iO(f)),d=c4(a,c);if(d){var
+e=gL(a,c);if(e){var
+i=e[1],j=d[1],k=bW(a,A(J(a,b),j));return z(function(b){return mg(f,t(a,i,b))},k)}var
 g=e}else
 var
 g=d;return g}function
-cJ(a){return function(b){return nE(a,d,b)}}function
-cK(d,a){var
+cm(a){return function(b){return nZ(a,d,b)}}function
+cn(d,a){var
 e=h(d,1,[2,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],a]);return e?h(d,1,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],a]):e}function
-dc(a){return[0,[3,[0,d,b],a],a]}function
-nF(a,c,o,n){var
-h=by(a,[0,d,b],c),i=h?cK(a,c):h;if(i){var
-e=k(cJ(a),c);if(e){var
-f=aD(a,o);if(f){var
-g=aD(a,n);if(g){var
-p=f[1],q=g[1];return D(d,G(t(a,V(a,e[1]),q),p)[1])}var
-j=g}else
+dd(a){return[0,[3,[0,d,b],a],a]}function
+n0(a,c,o,n){var
+h=bA(a,[0,d,b],c),i=h?cn(a,c):h;if(i){var
+e=j(cm(a),c);if(e){var
+f=aF(a,o);if(f){var
+g=aF(a,n);if(g){var
+p=f[1],q=g[1];return E(d,D(t(a,Q(a,e[1]),q),p)[1])}var
+k=g}else
 var
-j=f;var
-l=j}else
+k=f;var
+l=k}else
 var
 l=e;var
 m=l}else
 var
 m=i;return m}function
-fA(d,c,a){switch(c[0]){case
-0:return a?a[2]?0:dM(d,c[1],a[1]):a;case
+fF(d,c,a){switch(c[0]){case
+0:return a?a[2]?0:dQ(d,c[1],a[1]):a;case
 1:if(a){var
 e=a[2];if(e){var
 f=e[2];if(f){if(f[2])return 0;var
-l=dM(d,c[1],a[1]),m=l?dM(d,c[2],e[1]):l;if(m)return dM(d,c[3],f[1]);var
+l=dQ(d,c[1],a[1]),m=l?dQ(d,c[2],e[1]):l;if(m)return dQ(d,c[3],f[1]);var
 n=m}else
 var
 n=f;var
@@ -3776,7 +3870,7 @@ p=a;return p;case
 2:if(a){var
 g=a[2];if(g){var
 h=g[2];if(h){if(h[2])return 0;var
-q=h[1],r=g[1],s=a[1],C=w([0,s,r,q],[0,s,r,q]);return nF(d,c[1],C,[0,b,b])}var
+q=h[1],r=g[1],s=a[1],C=x([0,s,r,q],[0,s,r,q]);return n0(d,c[1],C,[0,b,b])}var
 t=h}else
 var
 t=g;var
@@ -3785,7 +3879,7 @@ var
 u=a;return u;default:if(a){var
 i=a[2];if(i){var
 j=i[2];if(j){if(j[2])return 0;var
-k=j[1],v=i[1],x=a[1],y=nF(d,c[1],[2,[4,x,x],[4,v,v]],[2,[0,b,b],[4,k,k]]);if(y)return dM(d,dc(c[2]),k);var
+k=j[1],v=i[1],w=a[1],y=n0(d,c[1],[2,[4,w,w],[4,v,v]],[2,[0,b,b],[4,k,k]]);if(y)return dQ(d,dd(c[2]),k);var
 z=y}else
 var
 z=j;var
@@ -3796,75 +3890,75 @@ B=A}else
 var
 B=a;return B}}var
 i=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))));function
-bG(b){var
-a=ap(function(f,e){var
-a=aD(i,f);if(a)var
-b=a[1],c=bm(ct(b[1]),ct(b[2]));else
+bJ(b){var
+a=an(function(f,e){var
+a=aF(i,f);if(a)var
+b=a[1],c=bp(cx(b[1]),cx(b[2]));else
 var
-c=d;return bm(c,e)},d,b);return K(d,a)?aL(lQ(a),i):d}function
-ew(a){return[0,a[1],[0,a[2],0]]}function
-bb(a){var
-b=ew(a[3]),c=g(ew(a[2]),b);return g(ew(a[1]),c)}function
-hb(a){return g6(i,a,bG(bb(a)))}function
-nG(b,a){if(a){var
-g=nG([0,b],a[2]),c=a[1];if(0===c[0])var
-d=c[1],e=c9([0,[0,d,d],c[2]],b);else
+c=d;return bp(c,e)},d,b);return K(d,a)?aM(l2(a),i):d}function
+ez(a){return[0,a[1],[0,a[2],0]]}function
+bd(a){var
+b=ez(a[3]),c=g(ez(a[2]),b);return g(ez(a[1]),c)}function
+hf(a){return g_(i,a,bJ(bd(a)))}function
+n1(b,a){if(a){var
+g=n1([0,b],a[2]),c=a[1];if(0===c[0])var
+d=c[1],e=ci([0,[0,d,d],c[2]],b);else
 var
 e=[0,[1,b]];var
 f=[0,e,g]}else
 var
 f=a;return f}function
-nH(c,b,a){var
-d=ef(b);return[2,[2,ef(c),d],a]}function
-hc(b,a){return b?T(a):d}function
-fB(f,b,a){if(typeof
+n2(c,b,a){var
+d=ek(b);return[2,[2,ek(c),d],a]}function
+hg(b,a){return b?P(a):d}function
+fG(f,b,a){if(typeof
 a!=="number")switch(a[0]){case
 4:var
 i=a[3],j=a[2];return[0,[2,j],[0,[3,j],[0,[2,i],[0,[3,i],0]]]];case
 6:return[0,[0,[5,a[3],a[2]],d],0];case
 8:var
 q=a[2],r=a[1];return e(function(a){var
-c=hc(f,b);return[0,[5,q,a],E(hc(f,b),c)]},r);case
-9:return[0,[1,[5,a[3],a[2]],T(b)],0];case
+c=hg(f,b);return[0,[5,q,a],F(hg(f,b),c)]},r);case
+9:return[0,[1,[5,a[3],a[2]],P(b)],0];case
 10:return[0,[0,a[2],d],0];case
 11:return[0,[2,a[2]],0];case
 12:return[0,[0,a[1],d],0];case
 13:var
-c=a[3],h=bG([0,c[1],[0,c[2],[0,c[3],0]]]);return[0,[2,a[4]],[0,[0,c[1],h],[0,[0,c[2],h],[0,[0,c[3],h],0]]]];case
+c=a[3],h=bJ([0,c[1],[0,c[2],[0,c[3],0]]]);return[0,[2,a[4]],[0,[0,c[1],h],[0,[0,c[2],h],[0,[0,c[3],h],0]]]];case
 14:var
-k=a[2],l=a[1],s=es(b,k),t=g(es(b,l),s),u=e(function(a){return[0,a[1][2],a[2]]},t);return[0,[0,nH(l,k,a[3]),b],u];case
+k=a[2],l=a[1],s=ev(b,k),t=g(ev(b,l),s),u=e(function(a){return[0,a[1][2],a[2]]},t);return[0,[0,n2(l,k,a[3]),b],u];case
 15:var
 m=a[4],n=a[3];return[0,[0,[5,a[2],m],d],[0,[0,[5,[4,n,n],m],b],0]];case
 16:var
-o=a[2],p=bG([0,o,0]);return[0,[4,a[3],aL(p,b)],[0,[0,o,p],0]];case
+o=a[2],p=bJ([0,o,0]);return[0,[4,a[3],aM(p,b)],[0,[0,o,p],0]];case
 17:var
-v=a[3],w=a[2];return e(function(a){return[0,[5,a,v],hc(f,b)]},w);case
+v=a[3],w=a[2];return e(function(a){return[0,[5,a,v],hg(f,b)]},w);case
 2:case
 3:return[0,[0,a[2],b],0]}return 0}function
-dd(h,c,b,e,a){if(a){var
-d=a[1],i=a[2],j=dd(h,c,b,M(e,f(fB(c,b,d))),i);return g(ao(h,nG(e,fB(c,b,d)),d),j)}return a}function
-hd(b,a){var
-c=U(b,a);return e(function(a){var
+de(h,c,b,e,a){if(a){var
+d=a[1],i=a[2],j=de(h,c,b,N(e,f(fG(c,b,d))),i);return g(aq(h,n1(e,fG(c,b,d)),d),j)}return a}function
+hh(b,a){var
+c=V(b,a);return e(function(a){var
 b=s(a[1][2],a[2]);return[0,a[1][1],b]},c)}function
-jq(b,a){switch(a[0]){case
+hi(b,a){switch(a[0]){case
 0:var
-d=a[1];return aq(b,[0,[0,d,d],a[2]]);case
+d=a[1];return ao(b,[0,[0,d,d],a[2]]);case
 1:var
-e=a[1],c=aq(b,[0,[0,e,e],a[2]]);return c?me(b,c[1]):c;case
-2:return c2(b,a[1]);case
-3:return gI(b,a[1]);default:var
-f=a[1],g=cK(b,f);return g?nE(b,a[2],f):g}}function
-bH(a){return 1===a?ui:uj}function
-bY(d,c,b,a){var
-e=a[1],f=db(d,c,a[2]),g=L(function(b,a){return[2,b,a]},b,f);return L(function(b,a){return[3,b,a]},g,e)}function
-jr(c,b,a){switch(c){case
+e=a[1],c=ao(b,[0,[0,e,e],a[2]]);return c?mp(b,c[1]):c;case
+2:return c4(b,a[1]);case
+3:return gL(b,a[1]);default:var
+f=a[1],g=cn(b,f);return g?nZ(b,a[2],f):g}}function
+bD(a){return 1===a?uG:uH}function
+b1(d,c,b,a){var
+e=a[1],f=dc(d,c,a[2]),g=M(function(b,a){return[2,b,a]},b,f);return M(function(b,a){return[3,b,a]},g,e)}function
+jw(c,b,a){switch(c){case
 0:return[0,b[1],[0,b[2],[0,a[3],0]]];case
 1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}}function
-js(h,g,d,c,f,a){var
-e=bY(d,c,f,a);return jr(h,e,P([5,[0,b,b],g],da(db(d,c,a[2]),e)))}function
-ex(c,d,n,m,l){var
+jx(h,g,d,c,f,a){var
+e=b1(d,c,f,a);return jw(h,e,R([5,[0,b,b],g],db(dc(d,c,a[2]),e)))}function
+eA(c,d,n,m,l){var
 b=d[2],a=n;for(;;){if(b){if(a){var
-f=a[1],g=b[1],h=br(c,g[1],f[1]),i=h?br(c,g[2],f[2]):h;if(i){var
+f=a[1],g=b[1],h=bs(c,g[1],f[1]),i=h?bs(c,g[2],f[2]):h;if(i){var
 b=b[2],a=a[2];continue}var
 j=i}else
 var
@@ -3872,15 +3966,15 @@ j=a;var
 e=j}else
 var
 e=a?0:1;var
-k=e?cG(c,d[4],m):e;return k?fA(c,d[5],l):k}}function
-bA(b,d){var
+k=e?cK(c,d[4],m):e;return k?fF(c,d[5],l):k}}function
+bE(b,d){var
 a=d[1];if(8===a[0]){var
-c=a[1][1];return 0===c[0]?[0,[0,M(b,c[1])]]:[0,bU(function(a){return bA(b,a)},a)]}return[0,bU(function(a){return bA(b,a)},a)]}function
-dN(d,b,h){var
+c=a[1][1];return 0===c[0]?[0,[0,N(b,c[1])]]:[0,bX(function(a){return bE(b,a)},a)]}return[0,bX(function(a){return bE(b,a)},a)]}function
+dR(d,b,h){var
 c=h;for(;;){var
 a=c[1];switch(a[0]){case
 0:var
-e=a[1],f=I(n(e,b));return f?I(n(e,M(d,b))):f;case
+e=a[1],f=I(n(e,b));return f?I(n(e,N(d,b))):f;case
 10:return 0;case
 1:case
 2:return 1;case
@@ -3888,28 +3982,28 @@ e=a[1],f=I(n(e,b));return f?I(n(e,M(d,b))):f;case
 8:case
 9:var
 c=a[1];continue;default:var
-g=dN(d,b,a[1]);if(g){var
+g=dR(d,b,a[1]);if(g){var
 c=a[2];continue}return g}}}function
-ey(c,b,m){var
+eB(c,b,m){var
 d=m;for(;;){var
 a=d[1];switch(a[0]){case
 5:var
 d=a[1];continue;case
 6:var
-f=a[2],g=a[1],h=dN(c,b,g),i=h?ey(c,b,f):h;if(i)var
+f=a[2],g=a[1],h=dR(c,b,g),i=h?eB(c,b,f):h;if(i)var
 j=i;else{var
-k=ey(c,b,g);if(k)return dN(c,b,f);var
+k=eB(c,b,g);if(k)return dR(c,b,f);var
 j=k}return j;case
 7:var
-l=ey(c,b,a[1]);return l?dN(c,b,a[2]):l;case
+l=eB(c,b,a[1]);return l?dR(c,b,a[2]):l;case
 10:return 0;case
 3:case
 4:var
-e=ey(c,b,a[1]);if(e){var
+e=eB(c,b,a[1]);if(e){var
 d=a[2];continue}return e;case
 8:case
-9:return dN(c,b,a[1]);default:return 1}}}function
-cL(c,e){var
+9:return dR(c,b,a[1]);default:return 1}}}function
+cN(c,e){var
 b=e;for(;;){var
 a=b[1];switch(a[0]){case
 0:return I(n(a[1],c));case
@@ -3920,19 +4014,19 @@ a=b[1];switch(a[0]){case
 8:case
 9:var
 b=a[1];continue;default:var
-d=cL(c,a[1]);if(d){var
+d=cN(c,a[1]);if(d){var
 b=a[2];continue}return d}}}function
-he(d,b,m){var
+hj(d,b,m){var
 c=m;for(;;){var
 a=c[1];switch(a[0]){case
 3:var
-f=he(d,b,a[1]);if(f){var
+f=hj(d,b,a[1]);if(f){var
 c=a[2];continue}return f;case
 4:var
-g=he(d,b,a[1]);return g?cL(b,a[2]):g;case
+g=hj(d,b,a[1]);return g?cN(b,a[2]):g;case
 6:var
-h=a[2],i=a[1],j=cL(b,i);if(j){var
-k=cL(b,h);if(k)var
+h=a[2],i=a[1],j=cN(b,i);if(j){var
+k=cN(b,h);if(k)var
 e=k;else{var
 l=aO(i,d);if(l){var
 c=h;continue}var
@@ -3941,11 +4035,11 @@ var
 e=j;return e;case
 0:case
 1:case
-2:return 1;default:return cL(b,c)}}}function
-hf(c,e){var
+2:return 1;default:return cN(b,c)}}}function
+hk(c,e){var
 b=e;for(;;){var
 a=b[1];switch(a[0]){case
-0:return aG(a[1],c);case
+0:return aB(a[1],c);case
 10:return 0;case
 1:case
 2:return 1;case
@@ -3953,82 +4047,82 @@ a=b[1];switch(a[0]){case
 8:case
 9:var
 b=a[1];continue;default:var
-d=hf(c,a[1]);if(d){var
+d=hk(c,a[1]);if(d){var
 b=a[2];continue}return d}}}function
-hg(a,b){if(a){var
+hl(a,b){if(a){var
 c=a[2],d=a[1];if(b){var
-e=b[2];return b[1]?[0,d,hg(c,ap(fe,e,l2(d)))]:[0,um,hg(c,e)]}var
-f=[0,d,hg(c,0)]}else
+e=b[2];return b[1]?[0,d,hl(c,an(fh,e,mb(d)))]:[0,uK,hl(c,e)]}var
+f=[0,d,hl(c,0)]}else
 var
 f=a;return f}function
-de(b,a){return a?k(b,a[1]):a}function
-df(c,b,a){return de(function(b){return de(k(c,b),a)},b)}function
-nI(b,a){switch(a[0]){case
+df(b,a){return a?j(b,a[1]):a}function
+dg(c,b,a){return df(function(b){return df(j(c,b),a)},b)}function
+n3(b,a){switch(a[0]){case
 0:return a;case
 1:return a[1];default:var
 c=a[3],d=a[2],e=a[1];switch(b){case
 0:return e;case
 1:return d;default:return c}}}function
-nJ(a){return 0===a[0]?a[1]:0}function
-nK(d,c){var
+n4(a){return 0===a[0]?a[1]:0}function
+n5(d,c){var
 b=d,a=c;for(;;){if(a){var
-e=a[2],b=nI(a[1],b),a=e;continue}return nJ(b)}}function
-ck(b,a){switch(a[0]){case
-0:return[0,k(b,a[1])];case
-1:return[1,ck(b,a[1])];default:var
-c=ck(b,a[3]),d=ck(b,a[2]);return[2,ck(b,a[1]),d,c]}}function
-bt(b,c,a){switch(c[0]){case
-0:return ck(k(b,c[1]),a);case
+e=a[2],b=n3(a[1],b),a=e;continue}return n4(b)}}function
+co(b,a){switch(a[0]){case
+0:return[0,j(b,a[1])];case
+1:return[1,co(b,a[1])];default:var
+c=co(b,a[3]),d=co(b,a[2]);return[2,co(b,a[1]),d,c]}}function
+bu(b,c,a){switch(c[0]){case
+0:return co(j(b,c[1]),a);case
 1:var
 d=c[1];switch(a[0]){case
 0:var
-j=a[1];return[1,ck(function(a){return ao(b,a,j)},d)];case
-1:return[1,bt(b,d,a[1])];default:var
-l=bt(b,d,a[3]),m=bt(b,d,a[2]);return[2,bt(b,d,a[1]),m,l]}default:var
+k=a[1];return[1,co(function(a){return aq(b,a,k)},d)];case
+1:return[1,bu(b,d,a[1])];default:var
+l=bu(b,d,a[3]),m=bu(b,d,a[2]);return[2,bu(b,d,a[1]),m,l]}default:var
 e=c[3],f=c[2],g=c[1];switch(a[0]){case
 0:var
-n=a[1],o=function(a){return ao(b,a,n)},h=function(a){return ck(o,a)},p=h(e),q=h(f);return[2,h(g),q,p];case
+n=a[1],o=function(a){return aq(b,a,n)},h=function(a){return co(o,a)},p=h(e),q=h(f);return[2,h(g),q,p];case
 1:var
-i=a[1],r=bt(b,e,i),s=bt(b,f,i);return[2,bt(b,g,i),s,r];default:var
-t=bt(b,e,a[3]),u=bt(b,f,a[2]);return[2,bt(b,g,a[1]),u,t]}}}function
-jt(c,f,a){if(a)var
+i=a[1],r=bu(b,e,i),s=bu(b,f,i);return[2,bu(b,g,i),s,r];default:var
+t=bu(b,e,a[3]),u=bu(b,f,a[2]);return[2,bu(b,g,a[1]),u,t]}}}function
+jy(c,f,a){if(a)var
 d=a[1],b=function(h){var
 a=[0,d[1],d[1]],b=[0,d[2],d[2]];switch(h){case
 0:var
-e=[0,a,V(c,a)];break;case
+e=[0,a,Q(c,a)];break;case
 1:var
-g=t(c,a,b),e=[0,aw(A(a,b)),g];break;default:var
-e=[0,b,V(c,b)]}return[0,[0,k(f,e)]]},h=jt(c,f,a[2]),i=e(function(a){return[1,a]},h),j=b(2),l=b(1),g=[0,[2,b(0),l,j],i];else
+g=t(c,a,b),e=[0,av(A(a,b)),g];break;default:var
+e=[0,b,Q(c,b)]}return[0,[0,j(f,e)]]},h=jy(c,f,a[2]),i=e(function(a){return[1,a]},h),k=b(2),l=b(1),g=[0,[2,b(0),l,k],i];else
 var
 g=a;return g}function
-ju(b,x,c,a){var
-e=jt(b,aN,a),d=0,z=g(jt(b,aA,a),e);return bg(uo,function(a){switch(a[0]){case
-0:return r(a[1],z,[0,[0,u]]);case
+jz(b,x,c,a){var
+e=jy(b,aI,a),d=0,y=g(jy(b,aA,a),e);return bj(uM,function(a){switch(a[0]){case
+0:return r(a[1],y,[0,[0,u]]);case
 1:return[0,[0,r(a[1],x,u)]];case
-2:return[0,[0,N(b,a[1])]];case
+2:return[0,[0,J(b,a[1])]];case
 3:var
-c=a[2],d=a[1],e=function(b,a){return[0,A(b,a)]};return bt(function(a,b){return df(e,a,b)},d,c);case
+c=a[2],d=a[1],e=function(b,a){return[0,A(b,a)]};return bu(function(a,b){return dg(e,a,b)},d,c);case
 4:var
-f=a[2],g=a[1],h=function(b,a){return[0,G(b,a)]};return bt(function(a,b){return df(h,a,b)},g,f);case
+f=a[2],g=a[1],h=function(b,a){return[0,D(b,a)]};return bu(function(a,b){return dg(h,a,b)},g,f);case
 5:var
-i=a[1],j=function(a){return[0,ab(a)]};return ck(function(a){return de(j,a)},i);case
+i=a[1],j=function(a){return[0,_(a)]};return co(function(a){return df(j,a)},i);case
 6:var
-k=a[2],l=a[1],m=function(c,a){return[0,t(b,c,a)]};return bt(function(a,b){return df(m,a,b)},l,k);case
+k=a[2],l=a[1],m=function(c,a){return[0,t(b,c,a)]};return bu(function(a,b){return dg(m,a,b)},l,k);case
 7:var
 n=a[2],o=a[1],p=function(c,a){var
-d=b$(b,a);return y(function(a){return t(b,c,a)},d)};return bt(function(a,b){return df(p,a,b)},o,n);case
+d=bW(b,a);return z(function(a){return t(b,c,a)},d)};return bu(function(a,b){return dg(p,a,b)},o,n);case
 8:var
-q=a[1],s=function(a){return[0,V(b,a)]};return ck(function(a){return de(s,a)},q);case
+q=a[1],s=function(a){return[0,Q(b,a)]};return co(function(a){return df(s,a)},q);case
 9:var
-v=a[1],w=function(a){return ca(b,a)};return ck(function(a){return de(w,a)},v);default:return un}},c,d)}function
-hh(a){if(a){var
+v=a[1],w=function(a){return cc(b,a)};return co(function(a){return df(w,a)},v);default:return uL}},c,d)}function
+hm(a){if(a){var
 b=a[1];if(b)var
-c=hh(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+c=hm(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return up}function
-ez(a){if(a){var
-g=a[1],b=g[2],c=hh(g[1]);if(c)if(b){var
-h=b[1],e=ez(a[2]);if(e)var
+d=b;return d}return uN}function
+eC(a){if(a){var
+g=a[1],b=g[2],c=hm(g[1]);if(c)if(b){var
+h=b[1],e=eC(a[2]);if(e)var
 i=K(d,h[1]),j=i?[0,[0,[0,c[1],h],e[1]]]:i;else
 var
 j=e;var
@@ -4036,56 +4130,56 @@ f=j}else
 var
 f=b;else
 var
-f=c;return f}return uq}function
-eA(b,a){var
-c=a[3],d=y(function(a){var
-c=a[2],d=a[1][2];return[0,[0,k(b,a[1][1]),d],c]},c),e=k(b,a[2]),f=a[1];return[0,k(ax(b),f),e,d]}function
-jv(c,g,f,b,a,e){if(b){var
+f=c;return f}return uO}function
+eD(b,a){var
+c=a[3],d=z(function(a){var
+c=a[2],d=a[1][2];return[0,[0,j(b,a[1][1]),d],c]},c),e=j(b,a[2]),f=a[1];return[0,j(aw(b),f),e,d]}function
+jA(c,g,f,b,a,e){if(b){var
 h=b[1],l=b[2],d=function(b,a){var
-d=h3(c,e_,e_,function(a){return nI(b,a)},e);return jv(c,g,bn(f),l,a,d)},i=d(0,aL(a,h));if(i){var
-j=d(2,E(a,h));if(j)return f?1:d(1,a);var
+d=h7(c,fb,fb,function(a){return n3(b,a)},e);return jA(c,g,bh(f),l,a,d)},i=d(0,aM(a,h));if(i){var
+j=d(2,F(a,h));if(j)return f?1:d(1,a);var
 k=j}else
 var
-k=i;return k}return ao(g,a,h3(c,e_,e_,nJ,e))}function
-jw(e,c,b,a){var
+k=i;return k}return aq(g,a,h7(c,fb,fb,n4,e))}function
+jB(e,c,b,a){var
 f=ac(d,b);function
-g(b){return a}return function(a){return jv(e,g,c,f,d,a)}}function
-dg(a){if(a){var
-b=a[1],c=b[1],d=c[1],e=b[2],f=c[2];return y(function(a){return aQ(f,e,a)},d)}return[0,u]}function
-nL(f,e,k,j,i,a){var
-b=ez(a[1]);if(b){var
+g(b){return a}return function(a){return jA(e,g,c,f,d,a)}}function
+dh(a){if(a){var
+b=a[1],c=b[1],d=c[1],e=b[2],f=c[2];return z(function(a){return aN(f,e,a)},d)}return[0,u]}function
+n6(f,e,k,j,i,a){var
+b=eC(a[1]);if(b){var
 c=a[2];if(c){var
-d=dg(a[3]);if(d){var
-l=d[1],m=ac([0,G(ab(t(f,i,c[1])),l),0],e);return a5(f,e,gK(k,j,b[1],m))}var
+d=dh(a[3]);if(d){var
+l=d[1],m=ac([0,D(_(t(f,i,c[1])),l),0],e);return aV(f,e,gN(k,j,b[1],m))}var
 g=d}else
 var
 g=c;var
 h=g}else
 var
 h=b;return h}function
-nM(i,d,h,g,c){var
-a=ez(c[1]);if(a){var
-b=dg(c[3]);if(b){var
-j=ac([0,G(u,b[1]),0],d),k=a[1];return a5(i,d,gK(h,g,e(function(a){return[0,a[1],u]},k),j))}var
+n7(i,d,h,g,c){var
+a=eC(c[1]);if(a){var
+b=dh(c[3]);if(b){var
+j=ac([0,D(u,b[1]),0],d),k=a[1];return aV(i,d,gN(h,g,e(function(a){return[0,a[1],u]},k),j))}var
 f=b}else
 var
 f=a;return f}function
-nN(a,c,D,i){var
-j=ez(i[1]);if(j){var
+n8(a,c,E,i){var
+j=eC(i[1]);if(j){var
 k=i[2];if(k){var
-l=dg(i[3]);if(l){var
-F=l[1],e=G(t(a,D,k[1]),F),b=j[1];if(b){var
+l=dh(i[3]);if(l){var
+G=l[1],e=D(t(a,E,k[1]),G),b=j[1];if(b){var
 m=b[1],o=m[2];if(b[2]){var
-g=gL(a,b,ac([0,e,0],c));if(g){var
-p=g[1],q=n(f(p),c);if(q)return ej(a,p);var
+g=gO(a,b,ac([0,e,0],c));if(g){var
+p=g[1],q=n(f(p),c);if(q)return eo(a,p);var
 r=q}else
 var
 r=g;return r}var
 s=K(d,e[1]),u=s?K(d,o[1]):s;if(u){var
-A=C(e[1],o[1]),B=m[1];return K(ap(function(a,b){var
-c=cb(a);return E(C(cb(a),c),b)},d,B),A)}return u}var
-h=gL(a,b,ac([0,e,0],c));if(h){var
-v=h[1],w=n(f(v),c);if(w)return ej(a,v);var
+A=C(e[1],o[1]),B=m[1];return K(an(function(a,b){var
+c=bH(a);return F(C(bH(a),c),b)},d,B),A)}return u}var
+h=gO(a,b,ac([0,e,0],c));if(h){var
+v=h[1],w=n(f(v),c);if(w)return eo(a,v);var
 x=w}else
 var
 x=h;return x}var
@@ -4095,158 +4189,161 @@ y=k;var
 z=y}else
 var
 z=j;return z}function
-ur(c){var
+uP(c){var
 a=c[2];if(a){var
-b=dg(c[3]);if(b)return D(d,G(a[1],b[1])[1]);var
+b=dh(c[3]);if(b)return E(d,D(a[1],b[1])[1]);var
 e=b}else
 var
 e=a;return e}function
-jx(a){return z(function(a){return g(a[1],[0,a[2],0])},a)}function
-nO(a,c,b){var
-e=r(b,c,m(d)),f=aC(0,a);return l(function(b){return ey(a,b,e)},f)}function
-fC(a){var
+jC(a){return w(function(a){return g(a[1],[0,a[2],0])},a)}function
+n9(a,c,b){var
+e=r(b,c,m(d)),f=aE(0,a);return l(function(b){return eB(a,b,e)},f)}function
+fH(a){var
 c=W(a);return B(m(b),c)}function
-hi(i,g){var
-h=fC(g),j=W(g),e=x(m(b),j),f=s(m(c(2,b)),g),a=m(d);return i?i[1]?[0,[0,e,bp(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,bp(f),a,e]]:[0,[0,h,a,a],[0,a,e,bp(f)],[0,a,f,e]]}function
-fD(b,a){var
-c=_(b[3],a),d=_(b[2],a);return[0,_(b[1],a),d,c]}function
-nP(b,a){function
+hn(i,g){var
+h=fH(g),j=W(g),e=y(m(b),j),f=s(m(c(2,b)),g),a=m(d);return i?i[1]?[0,[0,e,br(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,br(f),a,e]]:[0,[0,h,a,a],[0,a,e,br(f)],[0,a,f,e]]}function
+fI(b,a){var
+c=aa(b[3],a),d=aa(b[2],a);return[0,aa(b[1],a),d,c]}function
+n_(b,a){function
 c(b){var
-c=k(b,a[3]),d=k(b,a[2]);return[0,k(b,a[1]),d,c]}function
+c=j(b,a[3]),d=j(b,a[2]);return[0,j(b,a[1]),d,c]}function
 d(a){var
-b=_(a,c(function(a){return a[3]})),d=_(a,c(function(a){return a[2]}));return[0,_(a,c(function(a){return a[1]})),d,b]}var
+b=aa(a,c(function(a){return a[3]})),d=aa(a,c(function(a){return a[2]}));return[0,aa(a,c(function(a){return a[1]})),d,b]}var
 e=d(b[3]),f=d(b[2]);return[0,d(b[1]),f,e]}function
-nQ(v,u){function
-a(a){return[0,[0,M(u,a)]]}switch(v[0]){case
+n$(v,u){function
+a(a){return[0,[0,N(u,a)]]}switch(v[0]){case
 0:var
-w=fC(a(0));return[0,hi(us,a(0)),w];case
+w=fH(a(0));return[0,hn(uQ,a(0)),w];case
 1:var
-y=fC(a(0)),z=s(fC(a(ut)),y),A=s(fC(a(uu)),z),C=hi(0,a(0)),D=nP(hi(uw,a(uv)),C);return[0,nP(hi(uy,a(ux)),D),A];default:var
-E=a(uz),F=a(uA),g=[0,a(0),F,E],G=_(g,g),H=B(m(b),G),j=_(g,g),d=g[1],e=g[2],f=g[3],i=function(a){var
-d=W(a),e=s(m(c(2,b)),d);return B(x(m(b),j),e)},h=function(f,e,d,a){var
-g=ao(f,s(e,d),a);return s(m(c(2,b)),g)},k=i(f),l=h(B,e,f,d),n=[0,h(x,d,f,e),l,k],o=h(x,e,f,d),p=i(e),q=[0,h(B,d,e,f),p,o],r=h(B,d,f,e),t=h(x,d,e,f);return[0,[0,[0,i(d),t,r],q,n],H]}}function
-nR(a){return 1<a[0]?[0,a[1],0]:0}function
-hj(a){switch(a[0]){case
+x=fH(a(0)),z=s(fH(a(uR)),x),A=s(fH(a(uS)),z),C=hn(0,a(0)),D=n_(hn(uU,a(uT)),C);return[0,n_(hn(uW,a(uV)),D),A];default:var
+E=a(uX),F=a(uY),g=[0,a(0),F,E],G=aa(g,g),H=B(m(b),G),j=aa(g,g),d=g[1],e=g[2],f=g[3],i=function(a){var
+d=W(a),e=s(m(c(2,b)),d);return B(y(m(b),j),e)},h=function(f,e,d,a){var
+g=aq(f,s(e,d),a);return s(m(c(2,b)),g)},k=i(f),l=h(B,e,f,d),n=[0,h(y,d,f,e),l,k],o=h(y,e,f,d),p=i(e),q=[0,h(B,d,e,f),p,o],r=h(B,d,f,e),t=h(y,d,e,f);return[0,[0,[0,i(d),t,r],q,n],H]}}function
+oa(a){return 1<a[0]?[0,a[1],0]:0}function
+ho(a){switch(a[0]){case
 0:return[0,a[1],0];case
 1:return[0,a[1],[0,a[2],[0,a[3],0]]];case
-2:return[0,dc(a[1]),0];default:var
-b=[0,dc(a[2]),0];return[0,dc(a[1]),b]}}function
-eB(a){return[0,[0,a[1]],[0,a[2]]]}function
-nS(a){switch(a[0]){case
-0:return[0,eB(a[1]),0];case
+2:return[0,dd(a[1]),0];default:var
+b=[0,dd(a[2]),0];return[0,dd(a[1]),b]}}function
+eE(a){return[0,[0,a[1]],[0,a[2]]]}function
+ob(a){switch(a[0]){case
+0:return[0,eE(a[1]),0];case
 1:var
-f=[0,eB(a[3]),0],g=[0,eB(a[2]),f];return[0,eB(a[1]),g];case
+f=[0,eE(a[3]),0],g=[0,eE(a[2]),f];return[0,eE(a[1]),g];case
 2:var
-b=eB(dc(a[1]));return[0,b,[0,b,[0,b,0]]];default:var
-c=a[2],d=a[1],e=[0,[1,dc(d)[1],c],[1,d,c]];return[0,e,[0,e,[0,eB(dc(c)),0]]]}}function
-nT(a,c){if(0===c[0]){var
-g=c[1];return k(cJ(a),g)}var
-h=c[1],d=k(cJ(a),h);if(d){var
-i=c[2],e=k(cJ(a),i);if(e){var
-j=V(a,e[1]),l=ca(a,A(N(a,b),j)),m=d[1];return y(function(b){return t(a,m,b)},l)}var
+b=eE(dd(a[1]));return[0,b,[0,b,[0,b,0]]];default:var
+c=a[2],d=a[1],e=[0,[1,dd(d)[1],c],[1,d,c]];return[0,e,[0,e,[0,eE(dd(c)),0]]]}}function
+oc(a,c){if(0===c[0]){var
+g=c[1];return j(cm(a),g)}var
+h=c[1],d=j(cm(a),h);if(d){var
+i=c[2],e=j(cm(a),i);if(e){var
+k=Q(a,e[1]),l=cc(a,A(J(a,b),k)),m=d[1];return z(function(b){return t(a,m,b)},l)}var
 f=e}else
 var
 f=d;return f}function
-nU(d,c){var
-a=nT(d,c[1]);if(a)var
-b=nT(d,c[2]),f=b?[0,[0,a[1][1],b[1][2]]]:b,e=f;else
+od(d,c){var
+a=oc(d,c[1]);if(a)var
+b=oc(d,c[2]),f=b?[0,[0,a[1][1],b[1][2]]]:b,e=f;else
 var
 e=a;return e}function
-nV(a,e,c){var
+oe(a,e,c){var
 b=c[1];if(1===b[0]){var
-f=b[1];if(aG(f,a))return c;var
-g=m(d);return r(dx(f,a),e,g)}return[0,bU(function(b){return nV(a,e,b)},b)]}function
-jy(g,a,n,f,c){var
-h=g?[0,a,[0,[0,a],[0,[0,[0,a]],0]]]:[0,a,[0,[0,a],0]],i=mT(h,c),j=bW(f),b=e(function(b){return nV(a,j,b)},i),k=r(uF,b,m(d)),l=r(uG,b,m(d));return[0,r(0,b,m(d)),l,k]}function
-bI(b,a){var
-c=s(b[2],a[1]),d=x(s(b[1],a[2]),c),e=s(b[1],a[3]),f=x(s(b[3],a[1]),e),g=s(b[3],a[2]);return[0,x(s(b[2],a[3]),g),f,d]}function
-dO(b,a){return b?b[1]?a[3]:a[2]:a[1]}function
-nW(c){function
+f=b[1];if(aB(f,a))return c;var
+g=m(d);return r(dy(f,a),e,g)}return[0,bX(function(b){return oe(a,e,b)},b)]}function
+jD(g,a,n,f,c){var
+h=g?[0,a,[0,[0,a],[0,[0,[0,a]],0]]]:[0,a,[0,[0,a],0]],i=g5(h,c),j=bZ(f),b=e(function(b){return oe(a,j,b)},i),k=r(u3,b,m(d)),l=r(u4,b,m(d));return[0,r(0,b,m(d)),l,k]}function
+bm(b,a){var
+c=s(b[2],a[1]),d=y(s(b[1],a[2]),c),e=s(b[1],a[3]),f=y(s(b[3],a[1]),e),g=s(b[3],a[2]);return[0,y(s(b[2],a[3]),g),f,d]}function
+dS(b,a){return b?b[1]?a[3]:a[2]:a[1]}function
+of(c){function
 a(a){var
 e=n(c,a)?b:d;return m(e)}var
-e=a(uH),f=a(uI);return[0,a(0),f,e]}function
-nX(b,a){if(a)var
-d=nX(b,a[2]),c=[0,e(k(b,a[1]),a),d];else
+e=a(u5),f=a(u6);return[0,a(0),f,e]}function
+og(b,a){if(a)var
+d=og(b,a[2]),c=[0,e(j(b,a[1]),a),d];else
 var
 c=a;return c}function
-hk(c,b,a){switch(c){case
+fJ(c,b,a){switch(c){case
 0:return[0,b[1],[0,b[2],[0,a[3],0]]];case
 1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}}function
-nY(b,c,a){return c?av(b,a):am(b,a)}function
-nZ(a){if(a){var
-f=a[1],b=f[2],c=hh(f[1]);if(c)if(b)var
-d=nZ(a[2]),g=d?[0,[0,[0,c[1],b[1]],d[1]]]:d,e=g;else
+oh(a){if(a){var
+f=a[1],b=f[2],c=hm(f[1]);if(c)if(b)var
+d=oh(a[2]),g=d?[0,[0,[0,c[1],b[1]],d[1]]]:d,e=g;else
 var
 e=b;else
 var
-e=c;return e}return uT}function
-n0(c,b,a){var
-d=U(b,a);return ap(function(a,d){var
-b=cb(a[2]);return A(t(c,a[1],[0,b,b]),d)},u,d)}function
-n1(a,h,e,f,d){if(e)if(d)var
-i=d[1],o=n1(a,h,e[2],f,d[2]),p=i[2],q=av(h,i[1]),c=e[1],j=aw(t(a,c[3],f)),k=c[3],l=A(aw(eg(p,N(a,b),k)),j),m=t(a,c[2],l),n=t(a,c[1],f),g=[0,cz(A(A(aw(n0(a,c[4],q)),n),m)),o];else
+e=c;return e}return vf}function
+oi(c,b,a){var
+d=V(b,a);return an(function(a,d){var
+b=bH(a[2]);return A(t(c,a[1],[0,b,b]),d)},u,d)}function
+oj(a,h,e,f,d){if(e)if(d)var
+i=d[1],o=oj(a,h,e[2],f,d[2]),p=i[2],q=au(h,i[1]),c=e[1],j=av(t(a,c[3],f)),k=c[3],l=A(av(el(p,J(a,b),k)),j),m=t(a,c[2],l),n=t(a,c[1],f),g=[0,cD(A(A(av(oi(a,c[4],q)),n),m)),o];else
 var
 g=d;else
 var
 g=e;return g}function
-uV(a){return[0,a[1][1],a[2][1][2][1],a[1][2],a[2][2]]}function
-n2(b,a){return ad(e(function(a){return r(a,b,0)},a))}function
-cM(a){switch(a){case
-0:return uZ;case
-1:return u0;default:return 0}}function
-dP(a){switch(a){case
-0:return[0,u2,u1,m(d)];case
-1:return dG;default:var
+vh(a){return[0,a[1][1],a[2][1][2][1],a[1][2],a[2][2]]}function
+ok(b,a){return ad(e(function(a){return r(a,b,0)},a))}function
+bK(a){switch(a){case
+0:return vl;case
+1:return vm;default:return 0}}function
+dT(a){switch(a){case
+0:return[0,vo,vn,m(d)];case
+1:return dH;default:var
 b=m(d),c=m(d);return[0,m(d),c,b]}}function
-hl(c,b,a){return bq(fD(c,a),b)}function
-n3(a){var
-d=_(a,a),e=B(m(b),d);return al(m(c(2,b)),e)}function
-n4(k,j,i,h,g,a){var
-e=hl(j,i,g),c=bI(a,e),f=ag(B,c,bI(a,c)),d=ag(B,e,a4(n3(a),f)),b=ag(x,ag(B,dP(k),d),h);return[0,[0,d,b],aK(_(b,b))]}function
-at(a){return typeof
-a==="number"?a?u3:u4:bH(a[1])}function
-jz(b,a,c){return typeof
-b==="number"?b?[0,a[1],[0,a[2],0]]:[0,a[1],[0,a[2],[0,a[3],0]]]:jr(b[1],a,c)}function
-eC(a){if(0===a[0]){var
+hp(c,b,a){return bl(fI(c,a),b)}function
+ol(b,a){if(b)return[0,[0,[0,a]],[0,[0,[0,a]]],[0,[0,[0,[0,a]]]]];var
+c=m(d);return[0,m(d),c,[0,[0,a]]]}function
+jE(a){var
+d=aa(a,a),e=B(m(b),d);return am(m(c(2,b)),e)}function
+om(a,b){var
+c=bm(a,b),d=ag(B,c,bm(a,c));return ag(B,b,a3(jE(a),d))}function
+on(h,g,f,e,d,c){var
+b=om(c,hp(g,f,d)),a=ag(y,ag(B,dT(h),b),e);return[0,[0,b,a],aL(aa(a,a))]}function
+ar(a){return typeof
+a==="number"?a?vp:vq:bD(a[1])}function
+jF(b,a,c){return typeof
+b==="number"?b?[0,a[1],[0,a[2],0]]:[0,a[1],[0,a[2],[0,a[3],0]]]:jw(b[1],a,c)}function
+eF(a){if(0===a[0]){var
 c=a[1];switch(c[0]){case
 0:return c[3];case
 1:return c[2];default:return[0,[0,d,b],[0,d,b],[0,d,b]]}}return a[1][4]}function
-eD(b,c,a){return b?db(b[1],c,a):a}function
-bu(d,c,b,a){var
-e=eC(a),f=eD(d,c,eC(a)),g=L(function(b,a){return[2,b,a]},b,f);return L(function(b,a){return[3,b,a]},g,e)}function
-eE(d,c,b,a){if(0===a[0]){var
-f=bu(d,c,b,a);return[0,cI(a[1],f)]}var
-e=a[1],g=nz(e,bu(d,c,b,a));return[1,ny(e,bu(d,c,b,a)),g]}function
-jA(b,a){var
+eG(b,c,a){return b?dc(b[1],c,a):a}function
+bv(d,c,b,a){var
+e=eF(a),f=eG(d,c,eF(a)),g=M(function(b,a){return[2,b,a]},b,f);return M(function(b,a){return[3,b,a]},g,e)}function
+eH(d,c,b,a){if(0===a[0]){var
+f=bv(d,c,b,a);return[0,cM(a[1],f)]}var
+e=a[1],g=nU(e,bv(d,c,b,a));return[1,nT(e,bv(d,c,b,a)),g]}function
+jG(b,a){var
 c=typeof
 b==="number"?1:0;if(c){if(b)return[0,a[1],[0,a[2],0]];var
 d=[0,a[1],[0,a[2],[0,a[3],0]]]}else
 var
 d=c;return d}function
-jB(e,d,c,a){if(0===a[0]){var
-f=bu(e,d,c,a),b=jh(a[1],f),g=b?[0,b[1],0]:b;return g}var
-h=bu(e,d,c,a);return[0,jn(a[1],h),0]}function
-n5(b,f,d){if(0===f[0])return 0===d[0]?m_(b,f[1],d[1]):0;if(0===d[0])return 0;var
-a=d[1],c=f[1],g=br(b,c[1],a[1]),i=g?br(b,c[2],a[2]):g,j=i?br(b,c[3],a[3]):i,k=j?br(b,c[4],a[4]):j,l=k?c_(b,c[5],a[5]):k,m=l?c_(b,c[6],a[6]):l,n=m?h(b,1,a[5]):m,o=n?h(b,1,a[6]):n,p=o?h(b,1,w(a[1],a[1])):o;if(p)var
-q=jm(a),e=h(b,1,w(jm(a),q));else
+jH(e,d,c,a){if(0===a[0]){var
+f=bv(e,d,c,a),b=jn(a[1],f),g=b?[0,b[1],0]:b;return g}var
+h=bv(e,d,c,a);return[0,jt(a[1],h),0]}function
+oo(b,f,d){if(0===f[0])return 0===d[0]?nt(b,f[1],d[1]):0;if(0===d[0])return 0;var
+a=d[1],c=f[1],g=bs(b,c[1],a[1]),i=g?bs(b,c[2],a[2]):g,j=i?bs(b,c[3],a[3]):i,k=j?bs(b,c[4],a[4]):j,l=k?c$(b,c[5],a[5]):k,m=l?c$(b,c[6],a[6]):l,n=m?h(b,1,a[5]):m,o=n?h(b,1,a[6]):n,p=o?h(b,1,x(a[1],a[1])):o;if(p)var
+q=js(a),e=h(b,1,x(js(a),q));else
 var
-e=p;return e?cv(c[7],a[7]):e}function
-fE(g,f,e){var
+e=p;return e?cz(c[7],a[7]):e}function
+fK(g,f,e){var
 b=f,a=e;for(;;){if(b){if(a){var
-c=n5(g,b[1],a[1]);if(c){var
+c=oo(g,b[1],a[1]);if(c){var
 b=b[2],a=a[2];continue}var
 d=c}else
 var
 d=a;return d}return a?0:1}}function
-jC(c,b,g,a){var
-d=cG(c,b[4],g);if(d){var
-e=b[5];if(e)return fA(c,e[1],a);if(a)return 0;var
+jI(c,b,g,a){var
+d=cK(c,b[4],g);if(d){var
+e=b[5];if(e)return fF(c,e[1],a);if(a)return 0;var
 f=1}else
 var
 f=d;return f}function
-hm(a){return typeof
-a==="number"?u5:2<=a[1]?u6:u7}function
-n6(v,m,l){if(l){var
+hq(a){return typeof
+a==="number"?vr:2<=a[1]?vs:vt}function
+op(v,m,l){if(l){var
 a=l[1],e=function(c,a){return h(v,1,[3,[0,a,b],c])},g=function(a){return[3,a[2],a[1]]};switch(a[0]){case
 0:var
 n=c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),f=e(g(a[1]),n);break;case
@@ -4262,26 +4359,26 @@ f=i;break;case
 t=c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),f=e(a[1],t);break;default:var
 u=c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),f=e([2,a[1],a[2]],u)}return f?typeof
 m==="number"?0:m[1]?1:0===a[0]?1:0:f}return 1}function
-bZ(e,j){var
+b2(e,j){var
 a=j[1];switch(a[0]){case
 1:var
 k=n(a[1],e)?b:d;return m(k);case
 3:var
-l=bZ(e,a[2]);return B(bZ(e,a[1]),l);case
+l=b2(e,a[2]);return B(b2(e,a[1]),l);case
 4:var
-o=bZ(e,a[2]);return x(bZ(e,a[1]),o);case
-5:return bp(bZ(e,a[1]));case
+o=b2(e,a[2]);return y(b2(e,a[1]),o);case
+5:return br(b2(e,a[1]));case
 6:var
-g=a[2],h=a[1],p=s(h,bZ(e,g));return B(s(g,bZ(e,h)),p);case
+g=a[2],h=a[1],p=s(h,b2(e,g));return B(s(g,b2(e,h)),p);case
 7:var
-f=bZ(e,a[1]);return a_(d,f)?f:al(f,a[2]);case
+f=b2(e,a[1]);return ba(d,f)?f:am(f,a[2]);case
 8:var
-i=a[1],q=bZ(e,i);return s(s(m(c(2,b)),i),q);default:return m(d)}}function
-hn(c,b,k){var
+i=a[1],q=b2(e,i);return s(s(m(c(2,b)),i),q);default:return m(d)}}function
+hr(c,b,k){var
 e=k;for(;;){var
 a=e[1];switch(a[0]){case
 7:var
-g=hn(c,b,a[1]);if(g){var
+g=hr(c,b,a[1]);if(g){var
 h=a[2][1];if(1===h[0]){var
 i=h[1],j=K(d,r(i,c,u)[1]);return j?I(aj(function(a){return n(i,a)},b)):j}return 0}return g;case
 5:case
@@ -4289,12 +4386,12 @@ i=h[1],j=K(d,r(i,c,u)[1]);return j?I(aj(function(a){return n(i,a)},b)):j}return 
 e=a[1];continue;case
 9:case
 10:return 0;case
-0:case
-1:case
-2:return 1;default:var
-f=hn(c,b,a[1]);if(f){var
-e=a[2];continue}return f}}}function
-n7(d){var
+3:case
+4:case
+6:var
+f=hr(c,b,a[1]);if(f){var
+e=a[2];continue}return f;default:return 1}}}function
+oq(d){var
 b=d;for(;;){var
 a=b[1];switch(a[0]){case
 0:case
@@ -4305,72 +4402,72 @@ a=b[1];switch(a[0]){case
 8:case
 9:var
 b=a[1];continue;default:var
-c=n7(a[1]);if(c){var
+c=oq(a[1]);if(c){var
 b=a[2];continue}return c}}}function
-n8(c,b,a){var
-d=e(b,a[2]);return[0,k(c,a[1]),d]}function
-jD(b,a,c){return e(function(c){var
-d=n8(b,a,c[2]),f=c[1];return[0,e(function(c){return n8(b,a,c)},f),d]},c)}function
-n9(b,a){return y(function(a){var
-c=a[2],d=a[1][2];return[0,[0,k(b,a[1][1]),d],c]},a)}function
-u8(a,b){var
-c=n9(a,b[3]),d=k(a,b[2]);return[0,jD(a,a,b[1]),d,c]}function
-n_(c){var
+or(c,b,a){var
+d=e(b,a[2]);return[0,j(c,a[1]),d]}function
+jJ(b,a,c){return e(function(c){var
+d=or(b,a,c[2]),f=c[1];return[0,e(function(c){return or(b,a,c)},f),d]},c)}function
+os(b,a){return z(function(a){var
+c=a[2],d=a[1][2];return[0,[0,j(b,a[1][1]),d],c]},a)}function
+vu(a,b){var
+c=os(a,b[3]),d=j(a,b[2]);return[0,jJ(a,a,b[1]),d,c]}function
+ot(c){var
 a=c[1];if(a){var
-b=hh(c[2]);if(b)var
+b=hm(c[2]);if(b)var
 g=e($,b[1]),d=[0,[0,$(a[1]),g]];else
 var
 d=b;var
 f=d}else
 var
 f=a;return f}function
-u9(c){var
-a=ad(e(n_,c[1]));if(a)var
-b=n_(c[2]),f=b?[0,[0,a[1],b[1]]]:b,d=f;else
+vv(c){var
+a=ad(e(ot,c[1]));if(a)var
+b=ot(c[2]),f=b?[0,[0,a[1],b[1]]]:b,d=f;else
 var
 d=a;return d}function
-u_(a){return I(iU([0,a[2],a[1]]))}function
-jE(a){return[0,a[1],a[2]]}function
-n$(b,c,a){var
-d=e(function(c){return bA(b,bZ(c,a))},c);return[0,bA(b,a),d]}function
-jF(b,e,a,d){var
-c=z(function(a){var
-b=jE(a[2]);return g(z(jE,a[1]),b)},d),f=a?[0,bA(b,a[1]),0]:a,h=g(f,c);return[0,bA(b,e),h]}function
-oa(c,f,b,a){var
-d=hn(f,b,a),e=d?hf(c,a):d;return e?l(function(b){return hf(c,bZ(b,a))},b):e}function
-ob(a){switch(a[0]){case
+vw(a){return I(iZ([0,a[2],a[1]]))}function
+jK(a){return[0,a[1],a[2]]}function
+ou(b,c,a){var
+d=e(function(c){return bE(b,b2(c,a))},c);return[0,bE(b,a),d]}function
+jL(b,e,a,d){var
+c=w(function(a){var
+b=jK(a[2]);return g(w(jK,a[1]),b)},d),f=a?[0,bE(b,a[1]),0]:a,h=g(f,c);return[0,bE(b,e),h]}function
+ov(c,f,b,a){var
+d=hr(f,b,a),e=d?hk(c,a):d;return e?l(function(b){return hk(c,b2(b,a))},b):e}function
+ow(a){switch(a[0]){case
 3:var
-d=jx(a[2]);return[0,a[3],d];case
+d=jC(a[2]);return[0,a[3],d];case
 4:return[0,a[1],0];case
 8:var
-b=a[1],e=jx(b[1]);return[0,b[2],e];case
+b=a[1],e=jC(b[1]);return[0,b[2],e];case
 9:return 0;default:var
-c=jx(a[1]);return[0,a[2],c]}}function
-oc(a,ay,bs,j,o,R,ax,x,Q,i,h){switch(i[0]){case
+c=jC(a[1]);return[0,a[2],c]}}function
+ox(a,as,bb,k,o,ar,aq,w,N,i,h){switch(i[0]){case
 0:var
-az=i[4],S=i[3],aB=i[2],aD=i[1],W=0;if(typeof
-h==="number")W=1;else
+at=i[4],O=i[3],au=i[2],aw=i[1],S=0;if(typeof
+h==="number")S=1;else
 switch(h[0]){case
 0:var
-bt=h[2],bu=h[1],v=aB,s=aD,q=function(b){return nL(a,o,bu,bt,S,b)},p=az;break;case
+bc=h[2],bd=h[1],u=au,s=aw,q=function(b){return n6(a,o,bd,bc,O,b)},p=at;break;case
 2:var
-aE=J(S[1],d),aF=aE?J(S[2],d):aE;if(!aF)return aF;var
-bx=h[2],by=h[1],v=aB,s=aD,q=function(b){return nM(a,o,by,bx,b)},p=az;break;default:W=1}if(W)return 0;break;case
+ax=L(O[1],d),ay=ax?L(O[2],d):ax;if(!ay)return ay;var
+bg=h[2],bi=h[1],u=au,s=aw,q=function(b){return n7(a,o,bi,bg,b)},p=at;break;default:S=1}if(S)return 0;break;case
 1:var
-aR=0;if(typeof
+aJ=0;if(typeof
 h==="number"&&!h)var
-bz=i[2],bA=i[1],bB=i[3],v=bz,s=bA,bC=0,q=function(b){return nN(a,o,bB,b)},p=bC;else
-aR=1;if(aR)return 0;break;case
+bj=i[2],bk=i[1],bl=i[3],u=bj,s=bk,bm=0,q=function(b){return n8(a,o,bl,b)},p=bm;else
+aJ=1;if(aJ)return 0;break;case
 2:if(typeof
 h!=="number"&&3===h[0]){var
-B=h[3];if(B){var
-aH=B[2],aI=n(f(aH),j);if(aI){var
-bE=[0,i[1],i[2],Q],bF=eA(function(a){return r(a,x,vb)},bE),aJ=h[1],bG=0,bH=B[1],bI=h[2],bJ=i[3],bK=function(w,i){var
-c=ez(i[1]);if(c){var
+x=h[3];if(x){var
+az=x[2],aC=n(f(az),k);if(aC){var
+bn=[0,i[1],i[2],N],bo=eD(function(a){return r(a,w,vz)},bn),aD=h[1],bp=0,bq=x[1],br=h[2],bs=i[3],bt=function(w,i){var
+c=eC(i[1]);if(c){var
 j=c[1],e=i[2];if(e){var
-f=dg(i[3]);if(f){var
-k=f[1],l=function(c){return aQ(c,aJ,N(a,b))},u=l(w),v=e[1],g=A(t(a,l(bH),v),u),m=K(d,g[1]),n=m?a5(a,o,gK(aJ,bI,j,ac([0,G(ab(g),k),0],o))):m;if(n){var
-h=gL(a,j,ac([0,G(t(a,bJ,g),k),0],o));if(h)return a5(a,o,h[1]);var
+f=dh(i[3]);if(f){var
+k=f[1],l=function(c){return aN(c,aD,J(a,b))},u=l(w),v=e[1],g=A(t(a,l(bq),v),u),m=K(d,g[1]),n=m?aV(a,o,gN(aD,br,j,ac([0,D(_(g),k),0],o))):m;if(n){var
+h=gO(a,j,ac([0,D(t(a,bs,g),k),0],o));if(h)return aV(a,o,h[1]);var
 p=h}else
 var
 p=n;var
@@ -4382,20 +4479,20 @@ var
 r=e;var
 s=r}else
 var
-s=c;return s};return jv(function(b,a){return eA},bK,bG,aH,d,bF)}var
-aK=aI}else
+s=c;return s};return jA(function(b,a){return eD},bt,bp,az,d,bo)}var
+aE=aC}else
 var
-aK=B;return aK}return 0;case
+aE=x;return aE}return 0;case
 3:var
-aS=0;if(typeof
-h==="number"||!(0===h[0]))aS=1;else
+aK=0;if(typeof
+h==="number"||!(0===h[0]))aK=1;else
 var
-aL=h[2],aM=h[1],bL=i[3],bM=i[2],bN=i[4],bO=i[1],bP=function(g){var
-b=ez(g[1]);if(b){var
+aF=h[2],aG=h[1],bu=i[3],bv=i[2],bw=i[4],bx=i[1],by=function(g){var
+b=eC(g[1]);if(b){var
 c=b[1],d=g[2];if(d){var
-e=dg(g[3]);if(e){var
-h=n(f(c),o),i=h?n(f(aL),o):h;if(i){var
-m=en(aM,eo(aM,aL,d[1],c));return a5(a,o,bi(gP(a,bO,bN,e[1],c),m))}var
+e=dh(g[3]);if(e){var
+h=n(f(c),o),i=h?n(f(aF),o):h;if(i){var
+m=dJ(aG,dK(aG,aF,d[1],c));return aV(a,o,a6(gS(a,bx,bw,e[1],c),m))}var
 j=i}else
 var
 j=e;var
@@ -4404,464 +4501,435 @@ var
 k=d;var
 l=k}else
 var
-l=b;return l},v=bL,s=bM,q=bP,p=i[5];if(aS)return 0;break;case
+l=b;return l},u=bu,s=bv,q=by,p=i[5];if(aK)return 0;break;case
 4:var
-aU=0;if(typeof
+aL=0;if(typeof
 h==="number"&&!h)var
-v=i[1],s=0,q=ur,p=0;else
-aU=1;if(aU)return 0;break;case
+u=i[1],s=0,q=uP,p=0;else
+aL=1;if(aL)return 0;break;case
 5:var
-aV=0;if(typeof
-h==="number"||!(0===h[0]))aV=1;else{var
-C=h[2],aW=0;if(C){var
-D=C[1];if(D){if(D[2])return 0;if(C[2])return 0;var
-bQ=i[2],bR=i[1],bS=N(a,b),bT=[0,[0,D[1],0],0],bU=h[1],v=bQ,s=bR,bV=0,q=function(b){return nL(a,vc,bU,bT,bS,b)},p=bV;aW=1}else
+aM=0;if(typeof
+h==="number"||!(0===h[0]))aM=1;else{var
+y=h[2],aO=0;if(y){var
+B=y[1];if(B){if(B[2])return 0;if(y[2])return 0;var
+bA=i[2],bB=i[1],bC=J(a,b),bD=[0,[0,B[1],0],0],bE=h[1],u=bA,s=bB,bF=0,q=function(b){return n6(a,vA,bE,bD,bC,b)},p=bF;aO=1}else
 var
-aN=D}else
+aH=B}else
 var
-aN=C;if(!aW)return aN}if(aV)return 0;break;case
+aH=y;if(!aO)return aH}if(aM)return 0;break;case
 6:var
-aX=0;if(typeof
+aP=0;if(typeof
 h==="number"&&!h)var
-bW=i[2],bX=i[1],bY=N(a,b),v=bW,s=bX,bZ=0,q=function(b){return nN(a,vd,bY,b)},p=bZ;else
-aX=1;if(aX)return 0;break;case
+bG=i[2],bH=i[1],bI=J(a,b),u=bG,s=bH,bJ=0,q=function(b){return n8(a,vB,bI,b)},p=bJ;else
+aP=1;if(aP)return 0;break;case
 7:var
-aY=0;if(typeof
+aQ=0;if(typeof
 h==="number"&&5<=h)var
-b0=i[2],b1=i[1],b2=i[4],b3=i[3],v=b0,s=b1,b4=0,q=function(b){return nM(a,o,b3,b2,b)},p=b4;else
-aY=1;if(aY)return 0;break;case
+bK=i[2],bL=i[1],bM=i[4],bN=i[3],u=bK,s=bL,bO=0,q=function(b){return n7(a,o,bN,bM,b)},p=bO;else
+aQ=1;if(aQ)return 0;break;case
 8:if(typeof
 h!=="number"&&9===h[0]){var
-E=h[4],aO=h[2],T=h[1],m=i[1],w=m[9],b5=h[3],a3=m[5],a4=gF(g(ed(m[4]),a3),ay),a6=e($,bs),z=m[9],a7=m[8],a8=m[7],a1=gQ(z,ac(u,dx(j,z)),a7),a2=g(e($,av(z,R)),a1),Y=l1(0,bD(a,g(gQ(0,am(z,R),a8),a2),a6),a4,ay,0),Z=0<aT(E)?0<aT(d)?gu(E,d):0:0<aT(d)?0:1;if(Z)var
-F=Z;else
+P=h[4],aI=h[2],R=h[1],m=i[1],v=m[9],bP=h[3],aR=m[5],aS=fi(g(cY(m[4]),aR),as),aT=e($,bb),T=iM(0,bz(a,mS(m[9],k,ar,m[7],m[8]),aT),aS,as,0),U=lY(P,d);if(U)var
+C=U;else
 var
-at=2<=lN(E,c(2,c(2,c(2,c(2,b)))))?0:1,au=at?aG(0,w):at,F=au?aG(w,j):au;var
-_=F?aa(w,j):F,ae=_?n(f(R),j):_,af=ae?n(f(aO),j):ae,ag=af?n(f(m[1]),j):af,ah=ag?n(f(m[6]),j):ag,ai=ah?n(f(m[4]),j):ah;if(ai)var
-a9=m[4],H=l(function(a){return n(f(a),j)},a9);else
+ao=lZ(P,c(2,c(2,c(2,c(2,b))))),ap=ao?aB(0,v):ao,C=ap?aB(v,k):ap;var
+W=C?ab(v,k):C,X=W?n(f(ar),k):W,Y=X?n(f(aI),k):X,Z=Y?n(f(m[1]),k):Y,aa=Z?n(f(m[6]),k):Z,ae=aa?n(f(m[4]),k):aa;if(ae)var
+aU=m[4],E=l(function(a){return n(f(a),k)},aU);else
 var
-H=ai;if(H){var
-a_=m[4],I=ad(e(function(a){return n2(Y,a)},a_));if(I){var
-aj=n2(Y,m[5]);if(aj){var
-a$=m[6],L=ad(e(function(j){var
-c=j[1],k=m[7],d=r(c[1],ax,0);if(d){var
+E=ae;if(E){var
+aW=m[4],F=ad(e(function(a){return ok(T,a)},aW));if(F){var
+af=ok(T,m[5]);if(af){var
+aX=m[6],G=ad(e(function(j){var
+c=j[1],k=m[7],d=r(c[1],aq,0);if(d){var
 h=c[2][2],b=ad(e(function(a){var
-b=r(a[2],ax,0);return y(function(a){return a[2]},b)},h));if(b)var
-i=b[1],f=[0,cz(aw(t(a,k,V(a,n0(a,e(aA,c[2][2]),i)))))];else
+b=r(a[2],aq,0);return z(function(a){return a[2]},b)},h));if(b)var
+i=b[1],f=[0,cD(av(t(a,k,Q(a,oi(a,e(aA,c[2][2]),i)))))];else
 var
 f=b;var
 g=f}else
 var
-g=d;return g},a$));if(L){var
-ba=m[1],bb=m[2],M=ad(e(function(m){function
+g=d;return g},aX));if(G){var
+aY=m[1],aZ=m[2],H=ad(e(function(m){function
 f(e){var
-g=ac(e,j),c=nK(r(m[2],x,uW),g);if(c){var
-h=ac(e,j),d=nK(r(bb,x,uX),h);if(d){var
-i=d[1],k=N(a,b);return ca(a,cc(eg(c[1],k,i)))}var
+g=ac(e,k),c=n5(r(m[2],w,vi),g);if(c){var
+h=ac(e,k),d=n5(r(aZ,w,vj),h);if(d){var
+i=d[1],j=J(a,b);return cc(a,cd(el(c[1],j,i)))}var
 f=d}else
 var
 f=c;return f}var
 c=f(0);if(c){var
 e=f(2);if(e)var
-g=cc(aw(A(c[1],e[1]))),h=K(d,g[1]),l=h?[0,g]:h,i=l;else
+g=cd(av(A(c[1],e[1]))),h=K(d,g[1]),l=h?[0,g]:h,i=l;else
 var
 i=e;var
-k=i}else
+j=i}else
 var
-k=c;return k},ba));if(M){var
-bc=I[1],X=el(a,ap(function(i,h){var
-o=e(function(b){var
-a=aC(0,j);return e(function(a){return cb(r(a,b[3],u))},a)},i);function
-b(m,l){var
-n=nY(w,m,o),g=e(function(a){return nY(w,l,a)},n);function
-b(a){return ap(bm,d,a)}var
-h=0;function
-i(a){return a}function
-j(a){return a}var
-c=b(ap(function(a,b){return aP(j,i,lO,a,b)},h,g)),k=[0,c,c],f=b(e(function(a){return ap(lO,d,a)},g));return el(a,t(a,[0,f,f],k))}var
-c=b(1,1),f=b(1,0),g=b(0,1);return A(h,V(a,A(A(A(b(0,0),g),f),c)))},u,bc)),O=aQ(b5,T,N(a,b)),ak=K(d,G(O,X)[1]);if(ak){var
-P=b$(a,O);if(P){var
-bd=aw(t(a,X,P[1])),be=G(N(a,b),bd),bf=[0,m[1],m[2],Q],bg=eA(function(a){return r(a,x,uY)},bf),bh=m[6],bk=e(uV,U(U(L[1],M[1]),bh)),bl=V(a,be),bo=V(a,O),bp=m[10],aZ=aC(0,j),a0=e(function(a){var
-d=bp?aa(w,a):aG(a,w);return d?b:b_(c(2,b),E)},aZ),bq=function(r){var
-h=nZ(r[1]);if(h){var
-v=h[1],i=r[2];if(i){var
-k=i[1],m=dg(r[3]);if(m){var
-w=m[1],x=n1(a,j,bk,k,v),o=e(function(a){var
-c=a[2],b=U(a0,a[1]);return[0,e(function(a){return aQ(a[1],d,a[2])},b),c]},v),F=en(T,eo(T,aO,k,o)),p=bi(ac([0,ab(w),0],j),F),H=G(t(a,k,bl),w),y=n(f(o),j),z=y?n(f(x),j):y;if(z){var
-b=j,c=p;for(;;){if(c){if(b){var
-s=n(f(c[1]),b);if(s){var
-b=b[1],c=c[2];continue}var
-u=s}else
+j=c;return j},aY));if(H){var
+ag=mM(a,k,v,F[1]),I=aN(bP,R,J(a,b)),ah=K(d,D(I,ag)[1]);if(ah){var
+M=bW(a,I);if(M){var
+a0=av(t(a,ag,M[1])),a1=D(J(a,b),a0),a2=[0,m[1],m[2],N],a3=eD(function(a){return r(a,w,vk)},a2),a4=m[6],a5=e(vh,V(V(G[1],H[1]),a4)),a8=Q(a,a1),a9=Q(a,I),a_=mN(k,v,m[10],P),a$=function(m){var
+b=oh(m[1]);if(b){var
+o=b[1],c=m[2];if(c){var
+d=c[1],h=dh(m[3]);if(h){var
+p=h[1],q=oj(a,k,a5,d,o),i=e(function(a){var
+b=a[2];return[0,mO(a_,a[1]),b]},o),z=dJ(R,dK(R,aI,d,i)),j=a6(ac([0,_(p),0],k),z),A=D(t(a,d,a8),p),r=n(f(i),k),s=r?n(f(q),k):r,u=s?mQ(k,j):s,v=u?aV(a,k,a6(e(function(b){return[0,_(t(a,a9,b[2])),0]},i),j)):u;if(v){var
+B=a7(bh(k));return l(function(b){return aV(a,[0,k],mP(j,mR(g(b,vg),q),A))},B)}var
+w=v}else
 var
-u=b;var
-A=u}else
+w=h;var
+x=w}else
 var
-A=b?0:1;var
-q=A;break}}else
+x=c;var
+y=x}else
 var
-q=z;var
-B=q?a5(a,j,bi(e(function(b){return[0,ab(t(a,bo,b[2])),0]},o),p)):q;if(B){var
-I=bj(bn(j));return l(function(f){var
-d=U(g(f,uU),x),b=[0,[0,H,0],0],c=U(p,e(function(a){return a[1]?ab(a[2]):a[2]},d));return a5(a,[0,j],g(e(function(a){return g(a[1],[0,a[2],0])},c),b))},I)}var
-C=B}else
+y=b;return y},ba=m[3];return j(jB(function(b,a){return eD},ba,k,a$),a3)}var
+ai=M}else
 var
-C=m;var
-D=C}else
+ai=ah;var
+aj=ai}else
 var
-D=i;var
-E=D}else
+aj=H;var
+ak=aj}else
 var
-E=h;return E},br=m[3];return k(jw(function(b,a){return eA},br,j,bq),bg)}var
-al=P}else
+ak=G;var
+al=ak}else
 var
-al=ak;var
-an=al}else
+al=af;var
+am=al}else
 var
-an=M;var
-ao=an}else
+am=F;var
+an=am}else
 var
-ao=L;var
-aq=ao}else
-var
-aq=aj;var
-ar=aq}else
-var
-ar=I;var
-as=ar}else
-var
-as=H;return as}return 0;default:return 0}var
-bv=[0,s,v,Q],bw=eA(function(a){return r(a,x,va)},bv);return k(jw(function(b,a){return eA},p,j,q),bw)}function
-ve(b,a){var
-c=iF(iB,b[1],a[1]);return c?iB(b[2],a[2]):c}function
-od(c,b){var
-a=iF(ve,c,b),d=a?1:a;return d}function
-oe(j,s,r,i,q,k,p,o,m,h,l,g,a,e){if(typeof
-e==="number"){if(0===e)return 9===a[0]?fo(j,0,0,0,g,i,0,a[1],e):0}else
+an=E;return an}return 0;default:return 0}var
+be=[0,s,u,N],bf=eD(function(a){return r(a,w,vy)},be);return j(jB(function(b,a){return eD},p,k,q),bf)}function
+vC(b,a){var
+c=iJ(iF,b[1],a[1]);return c?iF(b[2],a[2]):c}function
+oy(c,b){var
+a=iJ(vC,c,b),d=a?1:a;return d}function
+oz(j,s,r,i,q,k,p,o,m,h,l,g,a,e){if(typeof
+e==="number"){if(0===e)return 9===a[0]?et(j,0,0,0,g,i,0,a[1],e):0}else
 switch(e[0]){case
 6:var
 f=e[1];if(typeof
 f!=="number"&&7===f[0]){if(k){var
-t=f[3],u=f[2],v=D(d,u),w=v?gy(t,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):v;if(w)return oc(j,s,r,i,q,h,g,l,[0,[0,[0,k[1],u],t]],a,f[1]);var
+t=f[3],u=f[2],v=E(d,u),w=v?gC(t,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):v;if(w)return ox(j,s,r,i,q,h,g,l,[0,[0,[0,k[1],u],t]],a,f[1]);var
 x=w}else
 var
-x=k;return x}return oc(j,s,r,i,q,h,g,l,0,a,f);case
-8:return 9===a[0]?fo(j,0,0,0,g,i,0,a[1],e):0;case
+x=k;return x}return ox(j,s,r,i,q,h,g,l,0,a,f);case
+8:return 9===a[0]?et(j,0,0,0,g,i,0,a[1],e):0;case
 10:if(0===a[0]){var
-y=od(a[1],p),z=y?n(a[2],o):y;return z?h3(m,h,a[3],a[4],e):z}return 0;case
+y=oy(a[1],p),z=y?n(a[2],o):y;return z?h7(m,h,a[3],a[4],e):z}return 0;case
 12:if(0===a[0]){var
-A=od(a[1],p),B=A?n(a[2],o):A;return B?h3(m,h,a[3],a[4],e):B}return 0}return 0}function
-of(b){var
+A=oy(a[1],p),B=A?n(a[2],o):A;return B?h7(m,h,a[3],a[4],e):B}return 0}return 0}function
+oA(b){var
 a=b[2];if(typeof
 a!=="number"&&6===a[0])return 1;return 0}function
-vf(c){var
+vD(c){var
 b=0,a=c[2];if(typeof
 a==="number"){if(0!==a)b=1}else
 switch(a[0]){case
 6:case
 8:break;default:b=1}return b?0:1}function
-vg(a){switch(a[0]){case
+vE(a){switch(a[0]){case
 8:return 0;case
-9:return i9(a[1]);default:return 1}}function
-fF(a,o,m,i,x,w,b,v,s,C,h,j,at,c){switch(c[0]){case
+9:return jb(a[1]);default:return 1}}function
+fL(a,o,m,i,y,x,b,v,s,C,h,k,at,c){switch(c[0]){case
 0:var
 au=function(a){return l(I,a)},P=au,p=c[1];break;case
 1:var
 av=c[4],aw=c[3],ax=c[2],ay=function(c){var
-d=c4(ax,j),e=fF(a,o,m,i,x,w,b,v,s,C,h,d[1],c,aw);return e?fF(a,o,m,i,x,w,b,v,s,C,h,d[2],c,av):e},P=ay,p=c[1];break;default:var
+d=c6(ax,k),e=fL(a,o,m,i,y,x,b,v,s,C,h,d[1],c,aw);return e?fL(a,o,m,i,y,x,b,v,s,C,h,d[2],c,av):e},P=ay,p=c[1];break;default:var
 az=c[4],aB=c[3],aC=c[2],aD=function(c){var
-d=mR(vg,i,c);if(d){var
-e=c4(aC,h),f=fF(a,o,m,i,x,w,b,v,s,C,e[1],j,c,aB);if(f)return fF(a,o,m,i,x,w,b,v,s,C,e[2],j,c,az);var
+d=nc(vE,i,c);if(d){var
+e=c6(aC,h),f=fL(a,o,m,i,y,x,b,v,s,C,e[1],k,c,aB);if(f)return fL(a,o,m,i,y,x,b,v,s,C,e[2],k,c,az);var
 g=f}else
 var
 g=d;return g},P=aD,p=c[1]}var
-ae=k(C,h),aa=aj(vf,p),ac=aa?i2(a,m,h,gF(z(function(c){var
-a=F(i,c[1]);if(a){var
+ae=j(C,h),ab=aj(vD,p),ac=ab?i7(a,m,h,fi(w(function(c){var
+a=G(i,c[1]);if(a){var
 b=a[1];switch(b[0]){case
 8:var
-d=b[1][6];return z(function(a){var
-b=e(aN,a[1][2][2]);return[0,a[1][1],b]},d);case
-9:return i_(0,0,0,b[1],c[2]);default:return 0}}return a},p),m),j):aa,ad=aj(of,p);if(ad)var
-aq=z(function(b){var
-c=of(b);if(c){var
-a=F(i,b[1]);if(a)return ob(a[1]);var
+d=b[1][6];return w(function(a){var
+b=e(aI,a[1][2][2]);return[0,a[1][1],b]},d);case
+9:return jc(0,0,0,b[1],c[2]);default:return 0}}return a},p),m),k):ab,ad=aj(oA,p);if(ad)var
+aq=w(function(b){var
+c=oA(b);if(c){var
+a=G(i,b[1]);if(a)return ow(a[1]);var
 d=a}else
 var
-d=c;return d},p),ar=b?[0,b[1],0]:b,as=g(ar,aq),ah=0,ai=ap(fe,e(function(a){return 0},o),as),O=ju(a,h,fb(hg(fb(o,0),ai),ah),j);else
+d=c;return d},p),ar=b?[0,b[1],0]:b,as=g(ar,aq),ah=0,ai=an(fh,e(function(a){return 0},o),as),O=jz(a,h,fe(hl(fe(o,0),ai),ah),k);else
 var
 O=ad;var
 q=p,f=at;for(;;){if(q){var
-S=q[1],D=S[2],n=S[1],H=q[2];if(n){var
-T=r(n,f,0);if(T){var
-J=F(i,n);if(J){var
-U=oe(a,m,h,x,w,b,v,s,ae,j,O,ac,J[1],D);if(U){var
-q=H,f=g1(n,f);continue}var
-W=U}else
+T=q[1],E=T[2],n=T[1],H=q[2];if(n){var
+U=r(n,f,0);if(U){var
+L=G(i,n);if(L){var
+V=oz(a,m,h,y,x,b,v,s,ae,k,O,ac,L[1],E);if(V){var
+q=H,f=g4(n,f);continue}var
+W=V}else
 var
-W=J;var
+W=L;var
 X=W}else
 var
-X=T;var
+X=U;var
 B=X}else{var
 af=0;if(typeof
-D==="number"&&4===D){var
+E==="number"&&4===E){var
 ag=0;if(b){var
-ao=0,Q=e(function(b){return[0,b,V(a,b)]},j),al=e(aN,Q),ak=0,am=g(e(aA,Q),al),an=bg(0,function(o){return function(b){switch(b[0]){case
+ap=0,R=e(function(b){return[0,b,Q(a,b)]},k),al=e(aI,R),ak=0,am=g(e(aA,R),al),ao=bj(0,function(o){return function(b){switch(b[0]){case
 0:return[0,r(b[1],o,u)];case
 1:return[0,r(b[1],h,u)];case
-2:return[0,N(a,b[1])];case
+2:return[0,J(a,b[1])];case
 3:var
-c=b[2],d=b[1];return df(function(b,a){return[0,A(b,a)]},d,c);case
+c=b[2],d=b[1];return dg(function(b,a){return[0,A(b,a)]},d,c);case
 4:var
-e=b[2],f=b[1];return df(function(b,a){return[0,G(b,a)]},f,e);case
+e=b[2],f=b[1];return dg(function(b,a){return[0,D(b,a)]},f,e);case
 5:var
-g=b[1];return de(function(a){return[0,ab(a)]},g);case
+g=b[1];return df(function(a){return[0,_(a)]},g);case
 6:var
-i=b[2],j=b[1];return df(function(c,b){return[0,t(a,c,b)]},j,i);case
+i=b[2],j=b[1];return dg(function(c,b){return[0,t(a,c,b)]},j,i);case
 7:var
-k=b[2],l=b[1];return df(function(c,b){var
-d=b$(a,b);return y(function(b){return t(a,c,b)},d)},l,k);case
+k=b[2],l=b[1];return dg(function(c,b){var
+d=bW(a,b);return z(function(b){return t(a,c,b)},d)},l,k);case
 8:var
-m=b[1];return de(function(b){return[0,V(a,b)]},m);case
+m=b[1];return df(function(b){return[0,Q(a,b)]},m);case
 9:var
-n=b[1];return de(function(b){return ca(a,b)},n);default:return 0}}}(am),o,ak),E=r(b[1],an,ao);if(E){var
-L=K(E[1][2],d);ag=1}else
+n=b[1];return df(function(b){return cc(a,b)},n);default:return 0}}}(am),o,ak),F=r(b[1],ao,ap);if(F){var
+M=K(F[1][2],d);ag=1}else
 var
-R=E}else
+S=F}else
 var
-R=b;if(!ag)var
-L=R;if(L){var
+S=b;if(!ag)var
+M=S;if(M){var
 q=H,f=e(function(a){return 0},f);continue}var
-B=L}else
+B=M}else
 af=1;if(af){var
 Y=r(n,f,0);if(Y){var
-M=F(i,n);if(M){var
-Z=oe(a,m,h,x,w,b,v,s,ae,j,O,ac,M[1],D);if(Z){var
-q=H,f=g1(n,f);continue}var
-_=Z}else
+N=G(i,n);if(N){var
+Z=oz(a,m,h,y,x,b,v,s,ae,k,O,ac,N[1],E);if(Z){var
+q=H,f=g4(n,f);continue}var
+$=Z}else
 var
-_=M;var
-$=_}else
+$=N;var
+aa=$}else
 var
-$=Y;var
-B=$}}}else
+aa=Y;var
+B=aa}}}else
 var
 B=[0,f];return B?P(B[1]):B}}function
-jG(d,a){var
-e=W(a),f=s(s(m(c(2,b)),a),d);return B(x(W(d),f),e)}function
-jH(j,a,d,i,c,h){var
-e=ag(x,dP(j),i);if(h){var
+jM(d,a){var
+e=W(a),f=s(s(m(c(2,b)),a),d);return B(y(W(d),f),e)}function
+jN(k,a,d,i,c,h){var
+e=ag(y,dT(k),i);if(h){var
 b=function(b){var
-c=k(b,a[3]),d=k(b,a[2]);return[0,k(b,a[1]),d,c]},f=b(function(a){return a[3]}),g=b(function(a){return a[2]}),l=fD([0,b(function(a){return a[1]}),g,f],e);return ag(B,a4(d,c),l)}var
-m=fD(a,c);return ag(B,a4(d,e),m)}function
-og(f,h,g,k,a,d){var
-e=dP(f),i=ag(x,e,a),j=fD(h,d),l=jG(e[3],a[3]),n=jG(e[2],a[2]),o=jG(e[1],a[1]),p=B(B(B(_(d,d),o),n),l),q=_(j,i),r=s(m(c(2,b)),q),t=B(s(g,p),r),u=bq(bI(j,i),k);return[0,hk(f,jH(f,h,g,a,d,0),u),t]}function
-oh(d,c,b,a){var
-e=hl(c,b,a);return ag(B,dP(d),e)}function
-oi(g,f,e,d,c){var
-b=oh(g,f,e,c),a=ag(x,b,d);return[0,[0,b,a],aK(_(a,a))]}function
-ho(b,a){var
-c=ba(a[2],b);return g(ba(a[1],b),c)}function
-jI(d,b,a,c){if(a)var
-e=a[1],g=cF(c,ho(b,e)),i=M(c,f(ho(b,e))),j=jI(d,b,a[2],i),k=ak(g,vh),h=[0,ao(d,ak(g,0),k),j];else
+c=j(b,a[3]),d=j(b,a[2]);return[0,j(b,a[1]),d,c]},f=b(function(a){return a[3]}),g=b(function(a){return a[2]}),l=fI([0,b(function(a){return a[1]}),g,f],e);return ag(B,a3(d,c),l)}var
+m=fI(a,c);return ag(B,a3(d,e),m)}function
+oB(f,h,g,k,a,d){var
+e=dT(f),i=ag(y,e,a),j=fI(h,d),l=jM(e[3],a[3]),n=jM(e[2],a[2]),o=jM(e[1],a[1]),p=B(B(B(aa(d,d),o),n),l),q=aa(j,i),r=s(m(c(2,b)),q),t=B(s(g,p),r),u=bl(bm(j,i),k);return[0,fJ(f,jN(f,h,g,a,d,0),u),t]}function
+oC(d,c,b,a){var
+e=hp(c,b,a);return ag(B,dT(d),e)}function
+oD(g,f,e,d,c){var
+b=oC(g,f,e,c),a=ag(y,b,d);return[0,[0,b,a],aL(aa(a,a))]}function
+hs(b,a){var
+c=bc(a[2],b);return g(bc(a[1],b),c)}function
+jO(d,b,a,c){if(a)var
+e=a[1],g=cJ(c,hs(b,e)),i=N(c,f(hs(b,e))),j=jO(d,b,a[2],i),k=ak(g,vF),h=[0,aq(d,ak(g,0),k),j];else
 var
 h=a;return h}function
-jJ(f,o,e,n,a){var
+jP(f,o,e,n,a){var
 g=s(W(r(0,n,m(d))),o);if(typeof
 a!=="number")switch(a[0]){case
 2:var
-b=F(e,a[1]);if(b)var
-i=h(f,0,a[2]),j=i?[0,x(b[1][1][2],g)]:i;else
+b=G(e,a[1]);if(b)var
+i=h(f,0,a[2]),j=i?[0,y(b[1][1][2],g)]:i;else
 var
 j=b;return j;case
 3:var
-c=F(e,a[1]);if(c)var
-k=h(f,0,a[2]),l=k?[0,x(g,c[1][1][2])]:k;else
+c=G(e,a[1]);if(c)var
+k=h(f,0,a[2]),l=k?[0,y(g,c[1][1][2])]:k;else
 var
 l=c;return l}return 0}function
-oj(c,b,a){if(typeof
+oE(c,b,a){if(typeof
 a!=="number"&&6===a[0]){var
-e=F(c,a[1]);return y(function(a){var
-c=r(0,b,m(d)),e=k(a[2][2],c);return[0,a[2][1],e]},e)}return 0}function
-hp(a){return h(i,0,[3,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b],a])}function
-ok(a){var
-b=ak(a,vi),c=aK(_(ak(a,vj),b));return s(r(0,a,m(d)),c)}function
-ol(b,a){var
-c=_(a,ak(b,vk));return[0,bW(a4(ok(b),a)),c]}function
-om(e,d,a,c,b){var
-f=b[2],g=s(ok(a),f),h=c?hl(e,d,ak(a,vl)):ak(a,vm);return x(_(b[1][2],h),g)}function
-on(h,g,f,d,c,b,a){var
-i=bC(c);function
-j(a){return oh(h,g,f,a)}return mY(e(function(a){return[0,a[4]]},d),j,i,b,a)}function
-fG(a){var
-b=r(vn,a,m(d));return al(r(0,a,m(d)),b)}function
-jK(a){return a[4][2]}function
-oo(f,o,n,l,a){var
-p=a[1][2],q=e(aN,g5(n,a[1][2])),h=fG(l),i=s(s(m(c(2,b)),o),h),d=a[1][1],j=av(cM(f),d),k=e(function(a){return s(a,i)},j);return[0,g(g(am(cM(f),d),k),q),p]}function
-op(a){var
-b=a[3],c=a[2],d=a[1];return hb([0,[0,d,d],[0,c,c],[0,b,b]])}function
-vw(a){if(typeof
+e=G(c,a[1]);return z(function(a){var
+c=r(0,b,m(d)),e=j(a[2][2],c);return[0,a[2][1],e]},e)}return 0}function
+ht(a){return h(i,0,[3,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b],a])}function
+oF(a){var
+b=ak(a,vG),c=aL(aa(ak(a,vH),b));return s(r(0,a,m(d)),c)}function
+oG(b,a){var
+c=aa(a,ak(b,vI));return[0,bZ(a3(oF(b),a)),c]}function
+oH(e,d,a,c,b){var
+f=b[2],g=s(oF(a),f),h=c?hp(e,d,ak(a,vJ)):ak(a,vK);return y(aa(b[1][2],h),g)}function
+oI(h,g,f,d,c,b,a){var
+i=bG(c);function
+j(a){return oC(h,g,f,a)}return ni(e(function(a){return[0,a[4]]},d),j,i,b,a)}function
+dU(a){var
+b=r(vL,a,m(d));return am(r(0,a,m(d)),b)}function
+jQ(a){return a[4][2]}function
+oJ(f,o,n,l,a){var
+p=a[1][2],q=e(aI,fw(n,a[1][2])),h=dU(l),i=s(s(m(c(2,b)),o),h),d=a[1][1],j=au(bK(f),d),k=e(function(a){return s(a,i)},j);return[0,g(g(al(bK(f),d),k),q),p]}function
+oK(a){var
+b=a[3],c=a[2],d=a[1];return hf([0,[0,d,d],[0,c,c],[0,b,b]])}function
+vU(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-oq(b,a){switch(b){case
+oL(b,a){switch(b){case
 0:return[0,a[1],[0,a[2],0]];case
 1:return[0,a[1],[0,a[2],[0,a[3],0]]];default:return 0}}function
-hq(a){var
-c=ce(a[1],[0,d,b]);return c?ce(a[2],[0,d,b]):c}function
-jL(d,a){switch(d){case
-0:return hq(a[3]);case
+hu(a){var
+c=cf(a[1],[0,d,b]);return c?cf(a[2],[0,d,b]):c}function
+jR(d,a){switch(d){case
+0:return hu(a[3]);case
 1:return 1;default:var
-b=hq(a[1]),c=b?hq(a[2]):b;return c?hq(a[3]):c}}function
-jM(c,b){var
-a=z(function(a){return ho(c,a)},b),d=U(aC(0,f(a)),a);return e(aA,a1(function(a){return jg(a[2])},d))}function
-or(b){var
+b=hu(a[1]),c=b?hu(a[2]):b;return c?hu(a[3]):c}}function
+jS(c,b){var
+a=w(function(a){return hs(c,a)},b),d=V(aE(0,f(a)),a);return e(aA,a2(function(a){return jk(a[2])},d))}function
+oM(b){var
 a=b[2];if(typeof
 a!=="number")switch(a[0]){case
 10:case
 12:return 1}return 0}function
-os(c){var
-a=c;for(;;){if(0===a[0])return aj(or,a[1]);var
-d=aj(or,a[1]),b=d||os(a[3]);if(b)return b;var
+oN(c){var
+a=c;for(;;){if(0===a[0])return aj(oM,a[1]);var
+d=aj(oM,a[1]),b=d||oN(a[3]);if(b)return b;var
 a=a[4];continue}}function
-vx(a,aU,bC,C,E,aT){var
-o=C[1],j=bH(o),Z=C[6],bD=C[2],O=z(function(a){return ho(E,a)},bD),aV=C[3],S=[0,[0,aV,aV],E],ae=[0,f(O)],bF=0,aW=z(function(a){return fB(bF,E,a)},Z),bG=cM(o),aX=nQ(C[5],bG),p=aX[2],H=aX[1],L=c9(S,f(O)),bK=C[2],T=f(O),bJ=0,w=jI(function(e,a){function
-i(g){var
-c=bH(o);if(o)var
-b=[0,[0,[0,c]],[0,[0,[0,c]]],[0,[0,[0,[0,c]]]]];else
-var
-l=m(d),b=[0,m(d),l,[0,[0,c]]];var
-t=n4(o,H,p,e,a,b)[2],h=n4(o,H,p,e,a,b),i=h[1],j=bq(i[2],h[2]),k=bI(i[1],j),n=ag(B,k,bI(k,b)),f=a4(n3(b),n),q=s(f[3],g),r=s(f[2],g);return[0,hk(o,j,[0,s(f[1],g),r,q]),t]}function
+vV(a,aU,bF,C,D,aT){var
+o=C[1],k=bD(o),Z=C[6],bG=C[2],O=w(function(a){return hs(D,a)},bG),aW=C[3],T=[0,[0,aW,aW],D],ae=[0,f(O)],bH=0,aX=w(function(a){return fG(bH,D,a)},Z),bI=bK(o),aY=n$(C[5],bI),p=aY[2],H=aY[1],M=ci(T,f(O)),bL=C[2],U=f(O),bJ=0,x=jO(function(e,a){function
+i(d){var
+b=ol(o,bD(o)),m=on(o,H,p,e,a,b)[2],f=on(o,H,p,e,a,b),g=f[1],h=bl(g[2],f[2]),i=bm(g[1],h),j=ag(B,i,bm(i,b)),c=a3(jE(b),j),k=s(c[3],d),l=s(c[2],d);return[0,fJ(o,h,[0,s(c[1],d),l,k]),m]}function
 j(X){var
-v=oi(o,H,p,e,a),w=v[1],U=ag(x,dP(o),e),y=v[2],r=w[1],V=w[2],g=hl(H,p,a),i=bq(V,y),N=al(_(g,i),L),O=W(L),P=al(_(a,a),O),Q=2<=o?d:b,R=B(m(Q),P);function
-h(a){return[0,nW(a),0]}function
-f(a){return[0,bq(bI(nW(a),g),L),[0,a]]}switch(o){case
+v=oD(o,H,p,e,a),w=v[1],T=ag(y,dT(o),e),x=v[2],r=w[1],V=w[2],g=hp(H,p,a),i=bl(V,x),N=am(aa(g,i),M),O=W(M),P=am(aa(a,a),O),Q=2<=o?d:b,R=B(m(Q),P);function
+h(a){return[0,of(a),0]}function
+f(a){return[0,bl(bm(of(a),g),M),[0,a]]}switch(o){case
 0:var
-C=[0,f(uJ),0],D=[0,h(uK),C],q=[0,h(0),D];break;case
+C=[0,f(u7),0],D=[0,h(u8),C],q=[0,h(0),D];break;case
 1:var
-E=[0,f(uL),0],F=[0,f(uM),E],G=[0,f(0),F],I=[0,h(uN),G],J=[0,h(uO),I],q=[0,h(0),J];break;default:var
-K=[0,f(uP),0],M=[0,f(uQ),K],q=[0,f(0),M]}var
-j=ag(x,[0,[0,[1,T]],[0,[1,[0,T]]],[0,[1,[0,[0,T]]]]],e),k=bq(j,aK(_(j,j)));if(o)var
-l=jy(o,T,e,r,k[3]);else
+E=[0,f(u9),0],F=[0,f(u_),E],G=[0,f(0),F],I=[0,h(u$),G],J=[0,h(va),I],q=[0,h(0),J];break;default:var
+K=[0,f(vb),0],L=[0,f(vc),K],q=[0,f(0),L]}var
+j=ag(y,[0,[0,[1,U]],[0,[1,[0,U]]],[0,[1,[0,[0,U]]]]],e),k=bl(j,aL(aa(j,j)));if(o)var
+l=jD(o,U,e,r,k[3]);else
 var
 z=m(d),A=m(d),l=[0,m(d),A,z];var
-t=jy(o,T,e,r,k[2]),u=jy(o,T,e,r,k[1]),S=nX(function(r,v){var
+t=jD(o,U,e,r,k[2]),u=jD(o,U,e,r,k[1]),S=og(function(r,v){var
 e=v[1];function
 a(b,a){var
-c=e[3],f=dO(a,l),g=s(B(b[3],f),c),h=e[2],i=dO(a,t),j=s(B(b[2],i),h),k=e[1],n=dO(a,u),o=s(B(b[1],n),k);return B(B(B(m(d),o),j),g)}var
-w=a(l,uR),y=a(t,uS),z=[0,a(u,0),y,w],f=_(r[1],z),k=r[2];if(k){var
+c=e[3],f=dS(a,l),g=s(B(b[3],f),c),h=e[2],i=dS(a,t),j=s(B(b[2],i),h),k=e[1],n=dS(a,u),o=s(B(b[1],n),k);return B(B(B(m(d),o),j),g)}var
+w=a(l,vd),x=a(t,ve),z=[0,a(u,0),x,w],f=aa(r[1],z),k=r[2];if(k){var
 h=k[1],o=v[2];if(o){var
-j=o[1],A=dO(h,g),C=s(dO(j,i),A),D=dO(j,g),p=B(s(dO(h,i),D),C),E=W(L);if(n(h,j))var
-F=_(i,g),q=x(p,s(m(c(2,b)),F));else
+j=o[1],A=dS(h,g),C=s(dS(j,i),A),D=dS(j,g),p=B(s(dS(h,i),D),C),E=W(M);if(n(h,j))var
+F=aa(i,g),q=y(p,s(m(c(2,b)),F));else
 var
-q=p;return B(f,al(q,E))}return f}return f},q);return[0,hk(o,i,bq(bI(g,bq(U,y)),L)),S,R,N]}var
-k=oi(o,H,p,e,a);function
-l(b){return jH(o,H,p,e,a,b)}var
+q=p;return B(f,am(q,E))}return f}return f},q);return[0,fJ(o,i,bl(bm(g,bl(T,x)),M)),S,R,N]}var
+k=oD(o,H,p,e,a);function
+l(b){return jN(o,H,p,e,a,b)}var
 f=2<=o?d:b;function
 g(b){var
-c=W(L),d=m(f),e=s(x(W(b),d),c);return s(p,x(_(a,a),e))}var
-h=[0,_(jH(o,H,p,e,a,1),a),g];return[0,og(o,H,p,L,e,a),h,l,k,j,i]},E,bK,bJ),X=e(function(a){return a[1]},w),bL=M(ae,f(aW)),bM=cM(o),bN=C[5];function
-R(a){return[0,[0,M(bM,a)]]}var
-aJ=W([0,[1,bL]]);switch(bN[0]){case
+c=W(M),d=m(f),e=s(y(W(b),d),c);return s(p,y(aa(a,a),e))}var
+h=[0,aa(jN(o,H,p,e,a,1),a),g];return[0,oB(o,H,p,M,e,a),h,l,k,j,i]},D,bL,bJ),X=e(function(a){return a[1]},x),bM=N(ae,f(aX)),bN=bK(o),bO=C[5];function
+S(a){return[0,[0,N(bN,a)]]}var
+aK=W([0,[1,bM]]);switch(bO[0]){case
 2:var
-bs=R(uB),bt=R(uC),aL=[0,R(0),bt,bs],G=[0,x(aJ,_(aL,aL))];break;case
+bt=S(uZ),bu=S(u0),aM=[0,S(0),bu,bt],F=[0,y(aK,aa(aM,aM))];break;case
 3:var
-bu=W(R(uD)),bv=W(R(0)),bw=W(R(uE)),G=[0,x(x(s(aJ,B(m(b),bw)),bv),bu)];break;default:var
-G=0}var
-aY=C[7];if(aY)var
-bO=0,bP=C[2],ao=jI(function(k,t){var
-a=og(o,H,p,c9(S,f(O)),k,t);switch(o){case
+bv=W(S(u1)),bw=W(S(0)),bx=W(S(u2)),F=[0,y(y(s(aK,B(m(b),bx)),bw),bv)];break;default:var
+F=0}var
+aZ=C[7];if(aZ)var
+bP=0,bQ=C[2],ap=jO(function(k,t){var
+a=oB(o,H,p,ci(T,f(O)),k,t);switch(o){case
 0:var
 c=a[1];if(c){var
 l=c[2],e=c[1];if(l){var
-n=l[1],s=a[2];return[0,[0,e,[0,n,[0,bI(k,[0,e,n,m(d)])[3],0]]],s]}return[0,[0,e,0],a[2]]}return[0,0,a[2]];case
+n=l[1],s=a[2];return[0,[0,e,[0,n,[0,bm(k,[0,e,n,m(d)])[3],0]]],s]}return[0,[0,e,0],a[2]]}return[0,0,a[2]];case
 1:var
 g=a[1];if(g){var
 h=g[2],b=g[1];if(h){var
 q=h[2],i=h[1];if(q){var
-r=q[1],j=bI(k,[0,b,i,r]);return[0,[0,b,[0,i,[0,r,[0,j[1],[0,j[2],[0,j[3],0]]]]]],a[2]]}return[0,[0,b,[0,i,0]],a[2]]}return[0,[0,b,0],a[2]]}return[0,0,a[2]];default:return[0,a[1],a[2]]}},E,bP,bO);else
+r=q[1],j=bm(k,[0,b,i,r]);return[0,[0,b,[0,i,[0,r,[0,j[1],[0,j[2],[0,j[3],0]]]]]],a[2]]}return[0,[0,b,[0,i,0]],a[2]]}return[0,[0,b,0],a[2]]}return[0,0,a[2]];default:return[0,a[1],a[2]]}},D,bQ,bP);else
 var
-ao=aY;var
-bQ=bE(ao),bR=G?[0,G[1],0]:G,bS=g(bR,bQ),bT=0,bU=g(O,[0,S,0]),bB=e(function(a){return a[1]},w),bV=[0,p,g(dd(function(c,b){if(typeof
+ap=aZ;var
+bR=bB(ap),bS=F?[0,F[1],0]:F,bT=g(bS,bR),bU=0,bV=g(O,[0,T,0]),bC=e(function(a){return a[1]},x),bW=[0,p,g(de(function(c,b){if(typeof
 b!=="number")switch(b[0]){case
 6:var
-f=oj(w,c,b);if(f)var
-i=f[1],j=[0,i[1],[0,i[2],0]];else
+f=oE(x,c,b);if(f)var
+i=f[1],k=[0,i[1],[0,i[2],0]];else
 var
-j=f;return j;case
-8:return e(aN,hd(bB,c));case
+k=f;return k;case
+8:return e(aI,hh(bC,c));case
 13:var
-h=F(w,b[1]);if(h){var
-l=hp(b[4]);if(l){var
-m=ol(c,k(h[1][3],b[2]));return g(m[1],[0,m[2],0])}var
+h=G(x,b[1]);if(h){var
+l=ht(b[4]);if(l){var
+m=oG(c,j(h[1][3],b[2]));return g(m[1],[0,m[2],0])}var
 n=l}else
 var
 n=h;return n;case
-16:return z(function(a){return oo(o,L,bU,c,a)[1]},w)}var
-d=jJ(a,p,w,c,b),q=d?[0,d[1],0]:d;return q},bT,E,ae,Z),bS)],ap=g(bE(X),bV),bX=0,bY=g(O,[0,S,0]),aZ=dd(function(b,a){if(typeof
+16:return w(function(a){return oJ(o,M,bV,c,a)[1]},x)}var
+d=jP(a,p,x,c,b),q=d?[0,d[1],0]:d;return q},bU,D,ae,Z),bT)],aq=g(bB(X),bW),bX=0,bY=g(O,[0,T,0]),a0=de(function(b,a){if(typeof
 a!=="number")switch(a[0]){case
 13:var
-f=F(w,a[1]);if(f){if(hp(a[4]))return 0;var
-j=[0,om(H,p,b,a[2],f[1][4]),0]}else
+f=G(x,a[1]);if(f){if(ht(a[4]))return 0;var
+k=[0,oH(H,p,b,a[2],f[1][4]),0]}else
 var
-j=f;return j;case
+k=f;return k;case
 14:var
-h=on(o,H,p,w,b,a[1],a[2]);if(h){var
-l=h[1],n=l[2],q=l[1];return z(bW,[0,q[1],[0,q[2],[0,n[1],[0,n[2],0]]]])}return h;case
+h=oI(o,H,p,x,b,a[1],a[2]);if(h){var
+l=h[1],n=l[2],q=l[1];return w(bZ,[0,q[1],[0,q[2],[0,n[1],[0,n[2],0]]]])}return h;case
 15:var
-i=F(w,a[1]);if(i){var
-c=k(i[1][5],0),s=[0,c[3],[0,c[4],0]],t=[0,r(vo,b,m(d)),s],u=[0,r(0,b,m(d)),t],v=g(ed(c[2]),u);return g(c[1],v)}return i;case
+i=G(x,a[1]);if(i){var
+c=j(i[1][5],0),s=[0,c[3],[0,c[4],0]],t=[0,r(vM,b,m(d)),s],u=[0,r(0,b,m(d)),t],v=g(cY(c[2]),u);return g(c[1],v)}return i;case
 16:var
-x=z(function(a){var
-b=e(aN,g5(bY,jK(a)));return[0,jK(a),b]},w);return g(z(function(a){var
-c=fG(b),d=[0,k(a[6],c)[2],0],e=fG(b);return g(k(a[6],e)[1],d)},w),x)}return 0},bX,E,ae,Z),a0=cZ(e(function(a){return bA(j,a)},ap))[1],a2=cZ(aZ)[1],$=cY(a0),ar=cY(a2);function
-v(a){return bh($,bA(j,a))}function
-a3(i){if(0===C[4][0]){var
-s=y(v,G),t=v(p),e=cM(o),g=n(f(i),j);if(g)var
-h=y(function(a){return[0,[0,a,d],d]},s),a=function(a){return r(a,$,m(d))},c=a(t),k=aC(0,e),b=l(function(b){var
-d=dN(j,b,c),e=d?l(function(d){var
+y=w(function(a){var
+b=e(aI,fw(bY,jQ(a)));return[0,jQ(a),b]},x);return g(w(function(a){var
+c=dU(b),d=[0,j(a[6],c)[2],0],e=dU(b);return g(j(a[6],e)[1],d)},x),y)}return 0},bX,D,ae,Z),a1=c1(e(function(a){return bE(k,a)},aq))[1],a4=c1(a0)[1],$=c0(a1),ar=c0(a4);function
+v(a){return bk($,bE(k,a))}function
+a5(i){if(0===C[4][0]){var
+s=z(v,F),t=v(p),e=bK(o),g=n(f(i),k);if(g)var
+h=z(function(a){return[0,[0,a,d],d]},s),a=function(a){return r(a,$,m(d))},c=a(t),j=aE(0,e),b=l(function(b){var
+d=dR(k,b,c),e=d?l(function(d){var
 f=d[1],e=l(function(c){var
-d=a(c);return cL(M(j,b),d)},f);if(e){var
-g=a(d[2]);return he(c,M(j,b),g)}return e},i):d;if(e){if(h){var
-g=a(h[1][1][1]);return cL(M(j,b),g)}var
+d=a(c);return cN(N(k,b),d)},f);if(e){var
+g=a(d[2]);return hj(c,N(k,b),g)}return e},i):d;if(e){if(h){var
+g=a(h[1][1][1]);return cN(N(k,b),g)}var
 f=1}else
 var
-f=e;return f},k);else
+f=e;return f},j);else
 var
 b=g;var
 q=b?e:b;return q}return 0}var
-Y=a3(k(ax(v),X)),a6=l(function(a){var
-b=bA(j,a),c=m(d);return aO(r(v(a),$,c),b)},ap),a7=a6?l(function(a){return hf(j,a)},ap):a6,a8=a7?l(function(a){var
-b=m(d);return aO(r(bh(ar,a),ar,b),a)},aZ):a7,a9=a8?aj(vw,Z):a8;if(a9)var
-bZ=I(C[7]),as=bZ||n6(a,[0,o],[0,C[5]]);else
+Y=a5(j(aw(v),X)),a6=l(function(a){var
+b=bE(k,a),c=m(d);return aO(r(v(a),$,c),b)},aq),a7=a6?l(function(a){return hk(k,a)},aq):a6,a8=a7?l(function(a){var
+b=m(d);return aO(r(bk(ar,a),ar,b),a)},a0):a7,a9=a8?aj(vU,Z):a8;if(a9)var
+b0=I(C[7]),as=b0||op(a,[0,o],[0,C[5]]);else
 var
 as=a9;var
-a_=as?jL(o,et(C[4])):as,a$=a_?h(a,1,C[3]):a_;if(a$)var
-b0=hj(C[5]),at=l(function(b){var
-c=cK(a,b[1]);return c?cK(a,b[2]):c},b0);else
+a_=as?jR(o,ew(C[4])):as,a$=a_?h(a,1,C[3]):a_;if(a$)var
+b1=ho(C[5]),at=l(function(b){var
+c=cn(a,b[1]);return c?cn(a,b[2]):c},b1);else
 var
 at=a$;if(at){var
-b1=g(O,[0,S,0]),au=ad(e(function(b){return aq(a,b)},b1));if(au){var
-av=ad(e(function(b){return jq(a,b)},aW));if(av){var
-b2=oq(o,et(C[4])),aw=ad(e(function(b){return aq(a,[0,b,E])},b2));if(aw){var
-ba=aw[1],b3=nS(C[5]),ay=ad(e(function(b){return nU(a,b)},b3));if(ay){var
-bb=ay[1],b4=nR(C[5]),az=ad(e(cJ(a),b4));if(az){var
-b5=0,K=function(a){return bh(ar,a)},aB=g(O,[0,S,0]),aD=ad(dd(function(j,g){if(typeof
+b2=g(O,[0,T,0]),au=ad(e(function(b){return ao(a,b)},b2));if(au){var
+av=ad(e(function(b){return hi(a,b)},aX));if(av){var
+b3=oL(o,ew(C[4])),ax=ad(e(function(b){return ao(a,[0,b,D])},b3));if(ax){var
+ba=ax[1],b4=ob(C[5]),ay=ad(e(function(b){return od(a,b)},b4));if(ay){var
+bb=ay[1],b5=oa(C[5]),az=ad(e(cm(a),b5));if(az){var
+b6=0,K=function(a){return bk(ar,a)},aC=g(O,[0,T,0]),aD=ad(de(function(k,g){if(typeof
 g!=="number")switch(g[0]){case
 13:var
-C=g[4],aM=F(w,g[1]);if(aM){if(op(g[3])&&h(a,0,C)&&h(a,0,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],C])){var
-aN=g[2],aO=aM[1];if(hp(C)){var
-aG=ol(j,k(aO[3],aN)),U=aG[2];if(h(i,0,[3,C,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b]]))var
+C=g[4],aM=G(x,g[1]);if(aM){if(oK(g[3])&&h(a,0,C)&&h(a,0,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],C])){var
+aN=g[2],aO=aM[1];if(ht(C)){var
+aG=oG(k,j(aO[3],aN)),V=aG[2];if(h(i,0,[3,C,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b]]))var
 aH=0;else
 var
-be=v(U),bf=v(U),aH=[0,[6,[0,[0,e(v,aG[1]),bf],0],be],0];var
-aP=[0,[4,v(U)],aH]}else
+be=v(V),bf=v(V),aH=[0,[6,[0,[0,e(v,aG[1]),bf],0],be],0];var
+aP=[0,[4,v(V)],aH]}else
 var
-aP=[0,[9,[3,K(om(H,p,j,aN,aO[4]))]],0];return e(function(a){return[0,a]},aP)}return vu}return vv;case
+aP=[0,[9,[3,K(oH(H,p,k,aN,aO[4]))]],0];return e(function(a){return[0,a]},aP)}return vS}return vT;case
 16:var
-X=g[3],t=g[2],aQ=g[1],bg=bH(o);if(n(f(w),bg)&&h(a,0,aQ)&&h(a,1,t)&&h(a,1,X)&&cK(a,X)){var
-aI=aq(a,[0,[0,t,t],E]);if(aI){var
-bh=aI[1],aJ=k(cJ(a),X);if(aJ){var
+X=g[3],t=g[2],aQ=g[1],bg=bD(o);if(n(f(x),bg)&&h(a,0,aQ)&&h(a,1,t)&&h(a,1,X)&&cn(a,X)){var
+aI=ao(a,[0,[0,t,t],D]);if(aI){var
+bh=aI[1],aJ=j(cm(a),X);if(aJ){var
 bi=aJ[1],aK=ad(e(function(f){var
-b=m7(a,K,aB,E,aQ,t,jK(f));if(b){var
-c=m6(a,v,aB,E,t,f[1][2]);if(c){var
-g=hn(0,0,f[1][2]);if(g)var
+b=jm(a,K,aC,D,aQ,t,jQ(f));if(b){var
+c=nq(a,v,aC,D,t,f[1][2]);if(c){var
+g=hr(0,0,f[1][2]);if(g)var
 i=e(aA,c[1]),d=[0,[0,b[1],i]];else
 var
 d=g}else
@@ -4869,47 +4937,47 @@ var
 d=c;var
 h=d}else
 var
-h=b;return h},w));if(aK){var
-bj=aK[1],bk=e(function(a){return oo(o,L,aB,j,a)},w),aL=k(ax(v),bk),W=function(a){var
-b=cM(o),c=e(function(a){var
-b=fG(j);return K(k(a[6],b)[2])},w),d=e(function(a){var
-b=fG(j);return e(K,k(a[6],b)[1])},w),f=a3(aL);return[0,[8,[0,aL,v(p),f,d,c,bj,bh,bi,b,a]]]};if(2<=o)return[0,W(1),0];var
-bl=[0,W(1),0];return[0,W(0),bl]}return vq}return vr}return vs}return vt}var
-bm=0,x=e(function(a){return a[1]},w);function
+h=b;return h},x));if(aK){var
+bj=aK[1],bk=e(function(a){return oJ(o,M,aC,k,a)},x),aL=j(aw(v),bk),W=function(a){var
+b=bK(o),c=e(function(a){var
+b=dU(k);return K(j(a[6],b)[2])},x),d=e(function(a){var
+b=dU(k);return e(K,j(a[6],b)[1])},x),f=a5(aL);return[0,[8,[0,aL,v(p),f,d,c,bj,bh,bi,b,a]]]};if(2<=o)return[0,W(1),0];var
+bl=[0,W(1),0];return[0,W(0),bl]}return vO}return vP}return vQ}return vR}var
+bm=0,w=e(function(a){return a[1]},x);function
 Z(c,b,a){return[0,c,b,a,Y]}var
-G=0;if(typeof
+F=0;if(typeof
 g==="number")var
-aS=v(p),s=[0,Z(k(ax(v),x),aS,u)];else
+aS=v(p),s=[0,Z(j(aw(v),w),aS,u)];else
 switch(g[0]){case
 0:var
-z=[5,[0,b,b],g[1]],I=Z;G=1;break;case
+y=[5,[0,b,b],g[1]],I=Z;F=1;break;case
 1:var
-aU=[5,[0,b,b],g[1]],z=aU,I=function(c,b,a){return[1,c,b,a]};G=1;break;case
+aU=[5,[0,b,b],g[1]],y=aU,I=function(c,b,a){return[1,c,b,a]};F=1;break;case
 2:var
-aV=jJ(a,p,w,j,g),s=y(function(a){return[4,v(a)]},aV);break;case
+aV=jP(a,p,x,k,g),s=z(function(a){return[4,v(a)]},aV);break;case
 3:var
-aW=jJ(a,p,w,j,g),s=y(function(a){return[4,v(a)]},aW);break;case
+aW=jP(a,p,x,k,g),s=z(function(a){return[4,v(a)]},aW);break;case
 5:var
-_=g[1],aX=aq(a,[0,[0,_,_],d]),s=y(function(b){var
-c=V(a,b),d=v(p);return[2,k(ax(v),x),d,c]},aX);break;case
+_=g[1],aX=ao(a,[0,[0,_,_],d]),s=z(function(b){var
+c=Q(a,b),d=v(p);return[2,j(aw(v),w),d,c]},aX);break;case
 6:var
-J=F(w,g[1]);if(J){var
-M=oj(w,j,g);if(M){var
-$=M[1],aa=h(a,1,g[2]),ab=aa?h(a,1,g[3]):aa;if(ab)var
-aY=v($[2]),aZ=v(J[1][1][2]),ac=[0,[5,[0,[0,[0,v($[1]),0],aZ],0],aY]];else
+L=G(x,g[1]);if(L){var
+N=oE(x,k,g);if(N){var
+$=N[1],aa=h(a,1,g[2]),ab=aa?h(a,1,g[3]):aa;if(ab)var
+aY=v($[2]),aZ=v(L[1][1][2]),ac=[0,[5,[0,[0,[0,v($[1]),0],aZ],0],aY]];else
 var
 ac=ab;var
 ae=ac}else
 var
-ae=M;var
+ae=N;var
 af=ae}else
 var
-af=J;var
+af=L;var
 s=af;break;case
 7:var
-ag=g[3],ah=g[2],ai=g[1],aj=F(w,ai),aR=0;if(aj){var
+ag=g[3],ah=g[2],ai=g[1],aj=G(x,ai),aR=0;if(aj){var
 ak=h(a,1,ah),al=ak?h(a,1,ag):ak;if(al){var
-a0=[5,ah,ag],z=a0,I=function(c,b,a){return[3,ai,c,b,a,Y]};G=1;aR=1}else
+a0=[5,ah,ag],y=a0,I=function(c,b,a){return[3,ai,c,b,a,Y]};F=1;aR=1}else
 var
 am=al}else
 var
@@ -4920,188 +4988,214 @@ an=h(a,1,g[2]);if(an)var
 a1=g[1],a2=1,O=l(function(b){return h(a,a2,b)},a1);else
 var
 O=an;if(O)var
-a4=N(a,b),a5=v(p),a6=hd(x,j),ao=[0,[0,k(ax(v),a6),a5,a4,0]];else
+a3=J(a,b),a4=v(p),a6=hh(w,k),ap=[0,[0,j(aw(v),a6),a4,a3,0]];else
 var
-ao=O;var
-s=ao;break;case
+ap=O;var
+s=ap;break;case
 14:var
-ap=g[2],ar=g[1],P=on(o,H,p,w,j,ar,ap);if(P){var
-as=P[1],at=as[2],au=as[1],av=nH(ar,ap,g[3]),Q=aq(a,[0,[0,av,av],E]);if(Q){var
-aw=Q[1],ay=D(d,aw[1]);if(ay)var
-A=function(a){return m5(K,a)},a7=A(at[2]),a8=A(at[1]),a9=A(au[2]),az=[0,[9,[6,A(au[1]),a9,a8,a7,aw]]];else
+aq=g[2],ar=g[1],P=oI(o,H,p,x,k,ar,aq);if(P){var
+as=P[1],at=as[2],au=as[1],av=n2(ar,aq,g[3]),R=ao(a,[0,[0,av,av],D]);if(R){var
+ax=R[1],ay=E(d,ax[1]);if(ay)var
+A=function(a){return no(K,a)},a7=A(at[2]),a8=A(at[1]),a9=A(au[2]),az=[0,[9,[6,A(au[1]),a9,a8,a7,ax]]];else
 var
 az=ay;var
-aC=az}else
+aB=az}else
 var
-aC=Q;var
-aD=aC}else
+aB=R;var
+aD=aB}else
 var
 aD=P;var
 s=aD;break;case
 15:var
-R=F(w,g[1]);if(R){var
+S=G(x,g[1]);if(S){var
 aE=h(a,1,g[4]);if(aE)var
-aF=h(a,0,g[2]),S=aF?h(a,0,g[3]):aF;else
+aF=h(a,0,g[2]),T=aF?h(a,0,g[3]):aF;else
 var
-S=aE;if(S)var
-B=k(R[1][5],0),a_=K(B[4]),a$=K(B[3]),ba=K(r(vp,j,m(d))),bb=K(r(0,j,m(d))),bc=B[2],bd=e(function(a){return e(K,a)},bc),T=[0,[9,[10,e(K,B[1]),bd,bb,ba,a$,a_]]];else
+T=aE;if(T)var
+B=j(S[1][5],0),a_=K(B[4]),a$=K(B[3]),ba=K(r(vN,k,m(d))),bb=K(r(0,k,m(d))),bc=B[2],bd=e(function(a){return e(K,a)},bc),U=[0,[9,[11,e(K,B[1]),bd,bb,ba,a$,a_]]];else
 var
-T=S}else
+U=T}else
 var
-T=R;var
-s=T;break;default:var
-s=0}if(G)var
-aT=aq(a,[0,[0,z,z],d]),s=y(function(b){var
-c=V(a,b),d=v(p);return I(k(ax(v),x),d,c)},aT);return[0,s,bm]},b5,E,ae,Z));if(aD){var
+U=S;var
+s=U;break;default:var
+s=0}if(F)var
+aT=ao(a,[0,[0,y,y],d]),s=z(function(b){var
+c=Q(a,b),d=v(p);return I(j(aw(v),w),d,c)},aT);return[0,s,bm]},b6,D,ae,Z));if(aD){var
 bc=aD[1];if(C[7])var
-b6=aU[2],b7=aU[1],b8=v(p),af=jk(bC,bc,[7,k(ax(v),ao),b8,b7,b6]);else
+b7=aU[2],b8=aU[1],b9=v(p),af=jq(bF,bc,[7,j(aw(v),ap),b9,b8,b7]);else
 var
 af=bc;var
-bd=n(f(g(ba,bb)),j),be=bd?l(function(a){var
-b=ob(a);return l(function(a){return nO(j,$,a)},b)},af):bd,bf=be?G?nO(j,$,v(G[1])):1:be;if(bf){var
-b9=g(av[1],az[1]),aE=g(au[1],b9),P=os(aT),Q=jM(E,C[2]),aa=P?e(function(a){var
-b=n$(j,Q,a[2]),c=a[1];return[0,e(function(a){return n$(j,Q,a)},c),b]},X):P,aF=P?cZ(jF(j,p,G,aa))[1]:P,aH=cY(aF),ah=function(a){return bh(aH,a)},b_=jD(ah,ah,aa),b$=ah(bA(j,p)),aI=y(function(a){return ah(bA(j,a))},G),bg=I(P);if(bg)var
+bd=n(f(g(ba,bb)),k),be=bd?l(function(a){var
+b=ow(a);return l(function(a){return n9(k,$,a)},b)},af):bd,bf=be?F?n9(k,$,v(F[1])):1:be;if(bf){var
+b_=g(av[1],az[1]),aF=g(au[1],b_),P=oN(aT),R=jS(D,C[2]),ab=P?e(function(a){var
+b=ou(k,R,a[2]),c=a[1];return[0,e(function(a){return ou(k,R,a)},c),b]},X):P,aG=P?c1(jL(k,p,F,ab))[1]:P,aH=c0(aG),ah=function(a){return bk(aH,a)},b$=jJ(ah,ah,ab),ca=ah(bE(k,p)),aJ=z(function(a){return ah(bE(k,a))},F),bg=I(P);if(bg)var
 ai=bg;else{var
-br=n(f(X),j);if(br){var
-by=jF(j,p,G,aa),aP=l(function(a){var
-b=m(d);return aO(r(bh(aH,a),aH,b),a)},by);if(aP)var
-bz=jF(j,p,G,aa),ak=l(function(a){var
-b=aC(0,j);return l(function(b){return ey(j,b,a)},b)},bz);else
+bs=n(f(X),k);if(bs){var
+bz=jL(k,p,F,ab),aQ=l(function(a){var
+b=m(d);return aO(r(bk(aH,a),aH,b),a)},bz);if(aQ)var
+bA=jL(k,p,F,ab),ak=l(function(a){var
+b=aE(0,k);return l(function(b){return eB(k,b,a)},b)},bA);else
 var
-ak=aP;if(ak){var
-aR=y(function(a){return bA(j,a)},G),am=bA(j,p),aM=n7(am);if(aM)var
-bx=aC(0,Y),aS=l(function(a){var
-b=dN(j,a,am),c=b?l(function(b){var
-d=b[2][2],e=g(z(jE,b[1]),d),f=M(j,a),c=l(function(a){return cL(f,a)},e);if(c){var
-h=b[2][1];return he(am,M(j,a),h)}return c},aa):b;if(c){if(aR){var
-e=aR[1];return cL(M(j,a),e)}var
+ak=aQ;if(ak){var
+aR=z(function(a){return bE(k,a)},F),al=bE(k,p),aP=oq(al);if(aP)var
+by=aE(0,Y),aS=l(function(a){var
+b=dR(k,a,al),c=b?l(function(b){var
+d=b[2][2],e=g(w(jK,b[1]),d),f=N(k,a),c=l(function(a){return cN(f,a)},e);if(c){var
+h=b[2][1];return hj(al,N(k,a),h)}return c},ab):b;if(c){if(aR){var
+e=aR[1];return cN(N(k,a),e)}var
 d=1}else
 var
-d=c;return d},bx);else
+d=c;return d},by);else
 var
-aS=aM;var
+aS=aP;var
 an=aS}else
 var
 an=ak;var
-cf=an?l(function(a){var
-c=a[1],b=l(function(a){return oa(j,aE,Q,a)},c);return b?oa(j,aE,Q,a[2]):b},X):an,ai=cf}else
+cg=an?l(function(a){var
+c=a[1],b=l(function(a){return ov(k,aF,R,a)},c);return b?ov(k,aF,R,a[2]):b},X):an,ai=cg}else
 var
-ai=br}if(ai){var
-ca=e(function(a){return 1},af),cb=g(ba,bb),cc=function(p,R,ae,u,g){if(P){var
+ai=bs}if(ai){var
+cb=e(function(a){return 1},af),cc=g(ba,bb),cd=function(p,Q,ae,u,g){if(P){var
 i=function(V,h){if(typeof
 h!=="number"&&10===h[0]){var
 m=h[3],s=h[2],u=h[1];if(typeof
 u!=="number"&&6===u[0]){if(m){if(m[2])return 0;var
-v=m[1],g=u[1],z=iF(iB,e(aA,s),Q),B=z?1:z,C=B?gY(Q):B,E=C?l(function(a){return aG(a,f(p))},Q):C,F=E?n(f(v),j):E;if(F){var
+v=m[1],g=u[1],z=iJ(iF,e(aA,s),R),B=z?1:z,C=B?g1(R):B,D=C?l(function(a){return aB(a,f(p))},R):C,F=D?n(f(v),k):D;if(F){var
 y=0;if(typeof
 g!=="number")switch(g[0]){case
 0:var
 x=g[2],w=g[1],K=0;y=1;break;case
 7:var
-L=g[2],o=g[1],P=0;if(typeof
+M=g[2],o=g[1],P=0;if(typeof
 o!=="number"&&0===o[0]){var
-S=0;if(aI){var
-M=D(d,L);if(M){var
-x=o[2],w=o[1],K=[0,[0,[0,aI[1],L],g[3]]];y=1;P=1;S=1}else
+S=0;if(aJ){var
+N=E(d,M);if(N){var
+x=o[2],w=o[1],K=[0,[0,[0,aJ[1],M],g[3]]];y=1;P=1;S=1}else
 var
-O=M}else
+O=N}else
 var
-O=aI;if(!S)return O}if(!P)return 0;break}if(y){var
-T=ju(a,fm(s,0,p),aF,R),q=ju(a,p,aF,R),i=function(b,a){return r(a,b,u$)},U=n9(function(a){return i(q,a)},K),W=i(q,b$),X=function(a){return i(q,a)},Z=[0,jD(function(a){return i(T,a)},X,b_),W,U],aa=gS(s,p),_=function(q){var
-m=ad(e(u9,q[1]));if(m){var
+O=aJ;if(!S)return O}if(!P)return 0;break}if(y){var
+T=jz(a,fq(s,0,p),aG,Q),q=jz(a,p,aG,Q),i=function(b,a){return r(a,b,vx)},U=os(function(a){return i(q,a)},K),W=i(q,ca),X=function(a){return i(q,a)},Z=[0,jJ(function(a){return i(T,a)},X,b$),W,U],ab=gV(s,p),$=function(q){var
+m=ad(e(vv,q[1]));if(m){var
 o=q[2];if(o){var
-p=dg(q[3]);if(p){var
-_=p[1],R=A(t(a,ae,o[1]),_),$=m[1],S=e(function(d){var
-b=gT(a,0,aa,d),c=a1(u_,b[2]);return[0,b[1],c]},$);if(V){var
-s=V[1],u=s[1],y=u[1],z=y[1],B=u[2],C=s[2],E=i8(a,v),F=E[1],G=F[1],h=G[2],g=G[1],W=F[2],i=e(function(c){return aQ(c,W,N(a,b))},h),H=n(f(h),j),K=H?n(f(z),j):H,L=K?D(d,B):K,M=L?gy(C,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):L,O=M?aG(g,j):M,P=O?I(J(r(g,h,d),d)):O;if(P){var
-X=iZ(a,g,i,j,ab(R),0),Y=i0(a,g,i,z,y[2],B,C,X),k=i1(a,g,i,E[2],w,x,S,Y);if(k)return a5(a,j,k[1]);var
-Q=k}else
+p=dh(q[3]);if(p){var
+$=p[1],R=A(t(a,ae,o[1]),$),aa=m[1],S=e(function(d){var
+b=gW(a,0,ab,d),c=a2(vw,b[2]);return[0,b[1],c]},aa);if(V){var
+s=V[1],u=s[1],y=u[1],z=y[1],B=u[2],C=s[2],D=ja(a,v),F=D[1],G=F[1],h=G[2],g=G[1],W=F[2],i=e(function(c){return aN(c,W,J(a,b))},h),H=n(f(h),k),K=H?n(f(z),k):H,M=K?E(d,B):K,N=M?gC(C,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):M,O=N?aB(g,k):N,P=O?I(L(r(g,h,d),d)):O;if(P){var
+X=i4(a,g,i,k,_(R),0),Y=i5(a,g,i,z,y[2],B,C,X),j=i6(a,g,i,D[2],w,x,S,Y);if(j)return aV(a,k,j[1]);var
+Q=j}else
 var
 Q=P;return Q}var
-Z=ac([0,ab(R),0],j),l=iX(a,e(function(b){return N(a,b)},v),w,x,S,Z);return l?a5(a,j,l[1]):l}var
+Z=ac([0,_(R),0],k),l=i2(a,e(function(b){return J(a,b)},v),w,x,S,Z);return l?aV(a,k,l[1]):l}var
 T=p}else
 var
 T=o;var
 U=T}else
 var
-U=m;return U};return k(jw(function(b,a){return u8},Y,j,_),Z)}var
+U=m;return U};return j(jB(function(b,a){return vu},Y,k,$),Z)}var
 G=0}else
 var
 G=F;var
 H=G}else
 var
-H=m;return H}return 0}return 0},m=n(u,Y),o=m?aG(0,Y):m;if(o){if(typeof
+H=m;return H}return 0}return 0},m=n(u,Y),o=m?aB(0,Y):m;if(o){if(typeof
 g!=="number"&&12===g[0]){var
 h=g[1],q=I(n(f(h),0));if(q){var
-s=U(iY(e(function(a){return a[1][1][1]},h)),h);return l(function(a){var
-b=a[2],c=b[1];return i([0,[0,[0,[0,a[1][1],a[1][2]],c[1][2]],c[2]]],b[2])},s)}return q}return i(0,g)}return o}return P},cd=v(p),ce=k(ax(v),X);return fF(a,a0,a2,af,j,j,y(v,G),ce,cd,cc,aE,cb,ca,aT)}var
-bi=ai}else
+s=V(i3(e(function(a){return a[1][1][1]},h)),h);return l(function(a){var
+b=a[2],c=b[1];return i([0,[0,[0,[0,a[1][1],a[1][2]],c[1][2]],c[2]]],b[2])},s)}return q}return i(0,g)}return o}return P},ce=v(p),cf=j(aw(v),X);return fL(a,a1,a4,af,k,k,z(v,F),cf,ce,cd,aF,cc,cb,aT)}var
+bh=ai}else
 var
-bi=bf;var
+bh=bf;var
+bi=bh}else
+var
+bi=aD;var
 bj=bi}else
 var
-bj=aD;var
-bk=bj}else
+bj=az;var
+bn=bj}else
 var
-bk=az;var
-bl=bk}else
-var
-bl=ay;var
-bm=bl}else
-var
-bm=aw;var
-bn=bm}else
-var
-bn=av;var
+bn=ay;var
 bo=bn}else
 var
-bo=au;var
+bo=ax;var
 bp=bo}else
 var
-bp=at;return bp}function
-fH(b,a){return by(b,a[1],a[2])}function
-ot(b,a){var
-c=fH(b,a[1]),d=c?fH(b,a[2]):c;return d?fH(b,a[3]):d}function
-jN(a){return typeof
-a==="number"?a?dP(0):dG:dP(a[1])}function
-ou(b,a,c){return typeof
-b==="number"?b?[0,a[1],[0,a[2],0]]:bW(a):hk(b[1],a,c)}function
-jO(b,d,c){if(0===c[0])return g2(b,d[1],c[1]);var
-a=c[1],e=[0,[0,a[5],b],[0,[0,a[6],b],0]],f=g(ba(a[4],b),e),h=g(ba(a[3],b),f),i=g(ba(a[2],d[2]),h);return g(ba(a[1],d[1]),i)}function
-jP(b,a){if(b){var
-c=b[1],d=c[2];return bq(fD(c[1],a),d)}return a}function
-ov(h,t,am,J,aj,q,ai){if(q){var
-k=q[1],an=bS([0,d,d],aj),a=cF(ai,jO(J,an,k)),y=function(c,b){var
-d=ak(a,c);return ag(x,ag(B,jN(h),b),d)};if(0===k[0]){var
-z=k[1];switch(z[0]){case
+bp=av;var
+bq=bp}else
+var
+bq=au;var
+br=bq}else
+var
+br=at;return br}function
+fM(b,a){return bA(b,a[1],a[2])}function
+oO(b,a){var
+c=fM(b,a[1]),d=c?fM(b,a[2]):c;return d?fM(b,a[3]):d}function
+oP(a){return typeof
+a==="number"?0:0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
+jT(a){return typeof
+a==="number"?a?dT(0):dH:dT(a[1])}function
+jU(b,a,c){return typeof
+b==="number"?b?[0,a[1],[0,a[2],0]]:bZ(a):fJ(b[1],a,c)}function
+jV(b,d,c){if(0===c[0])return g6(b,d[1],c[1]);var
+a=c[1],e=[0,[0,a[5],b],[0,[0,a[6],b],0]],f=g(bc(a[4],b),e),h=g(bc(a[3],b),f),i=g(bc(a[2],d[2]),h);return g(bc(a[1],d[1]),i)}function
+jW(b,a){if(b){var
+c=b[1],d=c[2];return bl(fI(c[1],a),d)}return a}function
+jX(I,H,p,af,o,ae){if(o){var
+i=o[1],ah=bU([0,d,d],af),aG=N(ae,f(jV(H,ah,i))),aH=o[2],aI=jX(I,H,p,bG(af),aH,aG),a=cJ(ae,jV(H,ah,i)),w=function(c,b){var
+d=ak(a,c);return ag(y,ag(B,jT(I),b),d)};if(0===i[0]){var
+x=i[1];switch(x[0]){case
 0:var
-$=jP(t,ak(a,vy)),aG=z[1][5],A=r(vz,a,m(d)),C=ak(a,0),aa=y(vA,$),i=mr(aa,dF(C),aa,A,aG),aq=[0,aK(A),0],ar=[0,aK(_(C,C)),aq],l=[0,[0,i[1],i[2],i[3],[0,i[4]],[0,[0,i[2],A]],ar],$];break;case
+Y=j(p,ak(a,vW)),aB=x[1][5],z=r(vX,a,m(d)),A=ak(a,0),Z=w(vY,Y),g=mC(Z,dG(A),Z,z,aB),aj=[0,aL(z),0],al=[0,aL(aa(A,A)),aj],q=[0,[0,g[1],g[2],g[3],[0,g[4]],[0,[0,g[2],z]],al],Y];break;case
 1:var
-ab=jP(t,ak(a,vB)),ac=z[3],D=ac?[0,ak(a,vC)]:ac,ad=y(0,ab),j=ms(ad,ad,0);if(D)var
-K=D[1],L=[0,aK(_(K,K)),0];else
+_=j(p,ak(a,vZ)),$=x[3],C=$?[0,ak(a,v0)]:$,ab=w(0,_),h=mD(ab,ab,0);if(C)var
+J=C[1],K=[0,aL(aa(J,J)),0];else
 var
-L=D;var
-as=j[4],at=[0,[0,m(d),as]],l=[0,[0,j[1],j[2],j[3],[0,j[4]],at,L],ab];break;default:var
-aH=m(d),aI=m(d),aJ=[0,m(d),aI,aH],E=ak(a,0),aL=jN(h),n=mt(aL,dF(E)),au=[0,aK(_(E,E)),0],l=[0,[0,n[1],n[2],n[3],[0,n[4]],0,au],aJ]}}else
+K=C;var
+an=h[4],ao=[0,[0,m(d),an]],q=[0,[0,h[1],h[2],h[3],[0,h[4]],ao,K],_];break;default:var
+aC=m(d),aD=m(d),aE=[0,m(d),aD,aC],D=ak(a,0),aF=jT(I),k=mE(aF,dG(D)),ap=[0,aL(aa(D,D)),0],q=[0,[0,k[1],k[2],k[3],[0,k[4]],0,ap],aE]}}else
 var
-ae=jP(t,ak(a,vD)),F=k[1][7],G=r(vE,a,m(d)),e=r(vF,a,m(d)),af=ak(a,vG),H=ak(a,0),p=y(vH,ae),o=dF(H),u=ag(x,af,a4(_(o,af),o)),v=dF(u),N=bI(o,v),O=_(p,v),P=_(p,N),av=_(o,p),aw=W(P),Q=B(W(O),aw),ax=W(av),R=x(W(G),ax),ay=s(m(c(2,b)),e),w=x(Q,W(al(B(Q,x(W(e),R)),ay))),az=gN(F,s(e,aK(w))),S=al(O,e),T=gN(F,al(P,e)),U=al(R,W(e)),V=l0(0,S,T,U),X=gN(F,l0(1,S,T,U)),aA=a4(X,N),Y=ag(x,p,a4(e,ag(B,a4(V,v),aA))),aB=[0,aK(G),0],aC=[0,aK(e),aB],aD=[0,aK(_(u,u)),aC],aE=[0,aK(_(H,H)),aD],aF=bq(Y,az),l=[0,[0,Y,s(W(e),w),aF,[1,V,X],[0,[0,w,G]],aE],ae];var
-aV=M(ai,f(jO(J,an,k))),aW=q[2],aX=ov(h,t,am,J,bC(aj),aW,aV),ao=l[2],g=l[1],ah=function(a){return ou(h,a,bq(bI(ao,a),am))},aM=g[1],aN=bI(ag(B,jN(h),ao),aM),aO=ou(h,g[1],aN),I=g[1],Z=typeof
-h==="number"?1:0,aP=g[6],aQ=g[5],aR=Z?h?[0,I[1],[0,I[2],0]]:bW(I):Z,aS=g[4],aT=ah(g[3]),aU=g[2],ap=[0,[0,ah(g[1]),aU,aT,aS,aR,aQ,aP,aO],aX]}else
+ac=j(p,ak(a,v1)),E=i[1][7],F=r(v2,a,m(d)),e=r(v3,a,m(d)),ad=ak(a,v4),G=ak(a,0),n=w(v5,ac),l=dG(G),t=ag(y,ad,a3(aa(l,ad),l)),u=dG(t),L=bm(l,u),M=aa(n,u),O=aa(n,L),aq=aa(l,n),ar=W(O),P=B(W(M),ar),as=W(aq),Q=y(W(F),as),at=s(m(c(2,b)),e),v=y(P,W(am(B(P,y(W(e),Q)),at))),au=gQ(E,s(e,aL(v))),R=am(M,e),S=gQ(E,am(O,e)),T=am(Q,W(e)),U=ma(0,R,S,T),V=gQ(E,ma(1,R,S,T)),av=a3(V,L),X=ag(y,n,a3(e,ag(B,a3(U,u),av))),aw=[0,aL(F),0],ax=[0,aL(e),aw],ay=[0,aL(aa(t,t)),ax],az=[0,aL(aa(G,G)),ay],aA=bl(X,au),q=[0,[0,X,s(W(e),v),aA,[1,U,V],[0,[0,v,F]],az],ac];var
+ai=[0,q,aI]}else
 var
-ap=q;return ap}function
-jQ(c,b,a){if(a){var
-e=a[2],f=jQ(c,bC(b),e),h=a[1];return g(jO(c,bS([0,d,d],b),h),f)}return a}function
-ow(b,h,f,d,c,a){if(a){var
-i=a[2],j=a[1],l=ow(b,h,f,d,g(c,[0,j,0]),i),m=k(d,e(bC,g(c,i)));return ao(h,ao(f,bS(b,j),m),l)}return b}function
-ox(a,f,e,d,c,b){if(c){var
-g=0,h=c[1];return ow(a,e,d,function(b){return ox(a,f,e,d,h,b)},g,b)}return b?a:f}function
-oy(a,d,c){var
-e=g8(a,c);function
+ai=o;return ai}function
+jY(c,b,a){if(a){var
+e=a[2],f=jY(c,bG(b),e),h=a[1];return g(jV(c,bU([0,d,d],b),h),f)}return a}function
+jZ(a){if(typeof
+a==="number"){var
+c=m(d),e=m(d);return[0,m(d),e,c]}var
+b=a[1];return ol(b,bD(b))}function
+oQ(c,b,a){var
+d=g5(g9(c),a),f=V(g5(g9(c),b),d);return e(function(c){var
+d=s(a,c[1]);return y(s(b,c[2]),d)},f)}function
+oR(b,d,c,a){var
+f=w(function(a){var
+c=typeof
+a==="number"?0:0===a[0]?fw(b,a[1]):jl(b,oQ(b,a[1],a[2])),d=e(aI,c);return g(oP(a),d)},a),h=g(bB(c),f);return g(cY(d),h)}function
+oS(c,b,u,t,s,r,i,g,q,p,d,l,k,a){var
+m=ao(c,[0,[0,a,a],g]);if(m){if(l){var
+v=l[1],x=m[1],o=ad(e(function(d){if(typeof
+d==="number")return 0;else{if(0===d[0])return jm(c,b,i,g,k,a,d[1]);var
+h=d[1],e=hi(c,[1,[5,k,a],P(g)]);if(e){var
+f=np(c,b,i,g,a,jl(i,oQ(i,h,d[2])));if(f)var
+n=[0,e[1],f[1]],l=[0,[0,j(b,h),n]];else
+var
+l=f;var
+m=l}else
+var
+m=e;return m}},d));if(o){var
+y=o[1];if(n(f(d),u)&&h(c,0,k)&&h(c,1,a))return e(function(a){var
+c=e(b,w(oP,d)),f=j(aw(b),p);return[0,[10,[0,e(function(a){return e(b,a)},q),f,c,y,r,x,v,t,a]]]},s);return v6}return v7}return v8}return v9}function
+oT(b,h,f,d,c,a){if(a){var
+i=a[2],k=a[1],l=oT(b,h,f,d,g(c,[0,k,0]),i),m=j(d,e(bG,g(c,i)));return aq(h,aq(f,bU(b,k),m),l)}return b}function
+oU(a,f,e,d,c,b){if(c){var
+g=0,h=c[1];return oT(a,e,d,function(b){return oU(a,f,e,d,h,b)},g,b)}return b?a:f}function
+oV(a,d,c){var
+e=ha(a,c);function
 f(b,c){return t(a,b,c)}var
-g=N(a,b);return y(function(a){return ox(u,g,G,f,d,a)},e)}function
-jR(e,c,o,n){var
-a=oy(e,c,o);if(a){var
-f=a[1],b=oy(e,c,n);if(b){var
+g=J(a,b);return z(function(a){return oU(u,g,D,f,d,a)},e)}function
+j0(e,c,o,n){var
+a=oV(e,c,o);if(a){var
+f=a[1],b=oV(e,c,n);if(b){var
 g=b[1],h=K(d,f[1]),i=h?K(g[2],d):h;if(i)var
 j=i;else{var
 m=K(f[2],d);if(m)return K(d,g[1]);var
@@ -5112,7 +5206,7 @@ k=b;var
 l=k}else
 var
 l=a;return l}function
-jS(b){if(b){var
+j1(b){if(b){var
 a=b[2],c=b[1];if(c){var
 e=c[2],q=c[1];if(e){var
 f=e[2],r=e[1];if(f){if(f[2])return m(d);if(a){var
@@ -5122,23 +5216,23 @@ j=i[2],u=i[1];if(j){var
 v=j[1];if(j[2])return m(d);if(g){var
 k=g[1];if(k){var
 l=k[2],w=k[1];if(l){var
-n=l[2],y=l[1];if(n){var
+n=l[2],x=l[1];if(n){var
 z=n[1];if(n[2])return m(d);if(g[2])return m(d);var
-A=dJ(t,u,w,y),C=s(f[1],A),D=s(r,dJ(t,v,w,z));return B(x(s(q,dJ(u,v,y,z)),D),C)}return m(d)}return m(d)}return m(d)}return m(d)}return m(d)}return m(d)}return m(d)}return m(d)}if(a){var
+A=dN(t,u,w,x),C=s(f[1],A),D=s(r,dN(t,v,w,z));return B(y(s(q,dN(u,v,x,z)),D),C)}return m(d)}return m(d)}return m(d)}return m(d)}return m(d)}return m(d)}return m(d)}return m(d)}if(a){var
 o=a[1];if(o){var
-p=o[2];return p?p[2]?m(d):a[2]?m(d):dJ(q,r,o[1],p[1]):m(d)}return m(d)}return m(d)}return m(d)}return m(d)}return m(d)}function
-oz(a){if(a){var
+p=o[2];return p?p[2]?m(d):a[2]?m(d):dN(q,r,o[1],p[1]):m(d)}return m(d)}return m(d)}return m(d)}return m(d)}return m(d)}function
+oW(a){if(a){var
 b=a[1][6];if(b)var
-c=oz(a[2]),e=c?[0,[0,b[1][2],c[1]]]:c,d=e;else
+c=oW(a[2]),e=c?[0,[0,b[1][2],c[1]]]:c,d=e;else
 var
-d=b;return d}return vI}function
-oA(g,k,a){function
+d=b;return d}return wa}function
+oX(g,k,a){function
 b(a){return r(a,k,m(d))}function
 l(a){var
-e=a[2],f=s(W(b(0)),e),c=0,d=0,g=a[1];return[0,[0,bT(function(b,a){return x(b,W(a))},g,f),d],c]}function
+e=a[2],f=s(W(b(0)),e),c=0,d=0,g=a[1];return[0,[0,bV(function(b,a){return y(b,W(a))},g,f),d],c]}function
 n(e){var
 a=e[6];if(a)var
-c=a[1],f=W(c[2]),g=s(W(b(0)),f),d=[0,[0,x(c[1],g),0],0];else
+c=a[1],f=W(c[2]),g=s(W(b(0)),f),d=[0,[0,y(c[1],g),0],0];else
 var
 d=a;return d}var
 j=0;if(typeof
@@ -5148,21 +5242,21 @@ switch(a[0]){case
 u=function(c){var
 a=c[4];if(typeof
 a!=="number"&&0===a[0]){var
-d=b(0);return[0,[0,x(a[1],d),0],0]}return 0},f=u,c=a[1];break;case
+d=b(0);return[0,[0,y(a[1],d),0],0]}return 0},f=u,c=a[1];break;case
 3:var
 v=function(c){var
 a=c[4];if(typeof
 a!=="number"&&0===a[0]){var
-d=a[1];return[0,[0,x(b(0),d),0],0]}return 0},f=v,c=a[1];break;case
+d=a[1];return[0,[0,y(b(0),d),0],0]}return 0},f=v,c=a[1];break;case
 4:var
 w=function(e){var
 a=e[4];if(typeof
 a!=="number"&&1===a[0]){var
-c=a[2],d=a[1],f=s(b(vJ),c),g=[0,[0,x(s(b(vK),d),f),0],0],h=s(d,b(vL));return[0,[0,x(s(c,b(0)),h),0],g]}return 0},f=w,c=a[1];break;case
+c=a[2],d=a[1],f=s(b(wb),c),g=[0,[0,y(s(b(wc),d),f),0],0],h=s(d,b(wd));return[0,[0,y(s(c,b(0)),h),0],g]}return 0},f=w,c=a[1];break;case
 6:var
-y=function(a){var
+x=function(a){var
 b=a[4];if(typeof
-b!=="number"&&1===b[0])return 0;return l(a)},f=y,c=a[1];break;case
+b!=="number"&&1===b[0])return 0;return l(a)},f=x,c=a[1];break;case
 9:var
 z=function(a){var
 b=a[4];if(typeof
@@ -5174,159 +5268,192 @@ A=function(a){var
 b=a[4];if(typeof
 b!=="number"&&0===b[0])return n(a);return 0},f=A,c=a[1];break;case
 12:var
-i=oz(g);if(i)var
-C=b(0),o=bT(s,i[1],C),p=jS(e(function(a){return a[5]},g)),D=[0,bp(B(p,o)),0],q=[0,[0,x(p,o),D],0];else
+i=oW(g);if(i)var
+C=b(0),o=bV(s,i[1],C),p=j1(e(function(a){return a[5]},g)),D=[0,br(B(p,o)),0],q=[0,[0,y(p,o),D],0];else
 var
 q=i;return q;case
 17:var
 t=a[1],f=function(d){var
-a=jS(e(function(a){return a[1]},g));function
+a=j1(e(function(a){return a[1]},g));function
 b(b){var
-c=[0,bp(B(a,b)),0];return[0,x(a,b),c]}var
-f=jS(nm(t,k,e(function(a){return a[1]},g))),c=s(aK(d[2]),f),h=[0,b(bp(c)),0];return[0,b(c),h]},c=t;break;default:j=1}if(j)return 0;var
-h=F(g,c);return h?f(h[1]):h}function
-eF(a){return e(function(a){return[0,a[1],a[2]]},a)}function
-fI(a){return e(function(a){var
+c=[0,br(B(a,b)),0];return[0,y(a,b),c]}var
+f=j1(nH(t,k,e(function(a){return a[1]},g))),c=s(aL(d[2]),f),h=[0,b(br(c)),0];return[0,b(c),h]},c=t;break;default:j=1}if(j)return 0;var
+h=G(g,c);return h?f(h[1]):h}function
+eI(a){return e(function(a){return[0,a[1],a[2]]},a)}function
+dV(a){return e(function(a){var
 c=m(b);return[0,a[3],c]},a)}function
-oB(c,b,a){if(typeof
-a!=="number"&&8===a[0])return bE(hd(eF(c),b));return ed(oA(c,b,a))}function
-oC(g,m,j,K,J,t,a){if(typeof
+oY(c,b,a){if(typeof
+a!=="number"&&8===a[0])return bB(hh(eI(c),b));return cY(oX(c,b,a))}function
+oZ(g,m,k,L,K,t,a){if(typeof
 a==="number")return[0,[0,[0,u]],0];else
 switch(a[0]){case
 0:var
-L=[5,[0,b,b],a[1]],n=L,o=function(a){return[0,a]};break;case
+M=[5,[0,b,b],a[1]],n=M,o=function(a){return[0,a]};break;case
 1:var
 P=[5,[0,b,b],a[1]],n=P,o=function(a){return[1,a]};break;case
 5:var
-B=a[1],T=0,U=aq(g,[0,[0,B,B],d]);return[0,y(function(a){return[2,V(g,a)]},U),T];case
+B=a[1],U=0,V=ao(g,[0,[0,B,B],d]);return[0,z(function(a){return[2,Q(g,a)]},V),U];case
 7:var
-C=a[3],D=a[2],E=a[1];if(!F(j,E))return vO;var
+C=a[3],D=a[2],E=a[1];if(!G(k,E))return wg;var
 I=0;if(h(g,1,D)&&h(g,1,C))var
 W=[5,D,C],n=W,o=function(a){return[7,E,a]};else
-I=1;if(I)return vN;break;case
+I=1;if(I)return wf;break;case
 8:var
-G=h(g,1,a[2]),X=0;if(G)var
+F=h(g,1,a[2]),X=0;if(F)var
 Y=a[1],Z=1,r=l(function(a){return h(g,Z,a)},Y);else
 var
-r=G;if(r)var
-_=N(g,b),$=hd(eF(j),t),H=[0,[4,k(ax(m),$),_]];else
+r=F;if(r)var
+_=J(g,b),$=hh(eI(k),t),H=[0,[4,j(aw(m),$),_]];else
 var
 H=r;return[0,H,X];default:var
 s=0;if(typeof
 a==="number")s=1;else
 switch(a[0]){case
 4:var
-v=a[3],w=a[2],x=h(g,1,[3,v,w]),R=x?h(g,1,[3,[2,w,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b]],v]):x,i=R;break;case
+v=a[3],w=a[2],x=h(g,1,[3,v,w]),S=x?h(g,1,[3,[2,w,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b]],v]):x,i=S;break;case
 17:var
 A=h(g,1,a[3]);if(A)var
-S=e(function(a){return a[1]},j),i=nn(f(a[2]),S);else
+T=e(function(a){return a[1]},k),i=nI(f(a[2]),T);else
 var
 i=A;break;case
 6:case
 9:var
-z=h(g,1,a[2]),i=z?h(g,0,a[3]):z;break;default:s=1}if(s)var
+y=h(g,1,a[2]),i=y?h(g,0,a[3]):y;break;default:s=1}if(s)var
 i=1;var
-p=i?oA(j,t,a):i;if(p){var
-Q=[0,p[1],p[2]];return e(function(a){if(a){var
+p=i?oX(k,t,a):i;if(p){var
+R=[0,p[1],p[2]];return e(function(a){if(a){var
 b=a[2],c=a[1];if(b){if(b[2])return 0;var
-e=k(m,b[1]);return[0,[5,k(m,c),e]]}var
-d=[0,[3,k(m,c)]]}else
+e=j(m,b[1]);return[0,[5,j(m,c),e]]}var
+d=[0,[3,j(m,c)]]}else
 var
-d=a;return d},Q)}return vM}var
-M=0,O=aq(g,[0,[0,n,n],hc(K,J)]);return[0,y(function(a){return o(V(g,a))},O),M]}function
-oD(a){if(typeof
+d=a;return d},R)}return we}var
+N=0,O=ao(g,[0,[0,n,n],hg(L,K)]);return[0,z(function(a){return o(Q(g,a))},O),N]}function
+o0(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-vP(a){return 0===a[0]?2===a[1][0]?0:1:1}function
-vQ(c,R,aB,a,i,Q,aA){var
-b=a[1],aC=at(b),s=a[6],A=jQ(i,Q,a[2]),S=a[3],T=[0,[0,S,S],i],U=[0,f(A)],B=a[2],q=B?0===B[1][0]?0:1:B,aD=a[5],aE=y(function(a){var
+o1(a){return 0===a[0]?2===a[1][0]?0:1:1}function
+wh(k,Y,aQ,i,o,G,aP){var
+a=i[1],Z=ar(a),x=i[6],q=jY(o,G,i[2]),_=i[3],y=[0,[0,_,_],o],$=[0,f(q)],H=i[2],v=H?0===H[1][0]?0:1:H,aR=i[5],K=z(function(b){var
 c=typeof
-b==="number"?0:cM(b[1]);return nQ(a,c)},aD),aF=a[2],j=ov(b,aE,c9(T,f(A)),i,Q,aF,0),V=z(function(a){return a[7]},j),W=a[7],X=W?e(function(a){return[0,a[8],a[2]]},j):W,aG=bE(X),aH=g(V,g(dd(function(a,b){return oB(j,a,b)},q,i,U,s),aG)),aI=g(bE(fI(j)),aH),Y=g(bE(eF(j)),aI),Z=cZ(Y)[1],_=cY(Z);function
-p(a){return bh(_,a)}var
-$=l(function(a){var
-b=m(d);return aO(r(p(a),_,b),a)},Y),aa=$?aj(oD,s):$;if(aa){var
-ab=a[4];if(typeof
-b==="number")var
-ac=b?jL(0,et(ab)):1;else
+a==="number"?0:bK(a[1]);return n$(b,c)},aR),aT=i[2],aS=0,aU=ci(y,f(q)),aL=jX(a,o,function(a){return jW(K,a)},G,aT,aS),p=e(function(f){var
+g=f[2],b=f[1];function
+e(b){return jU(a,b,bl(bm(g,b),aU))}var
+h=b[1],i=bm(ag(B,jT(a),g),h),j=jU(a,b[1],i),c=b[1],d=typeof
+a==="number"?1:0,k=b[6],l=b[5],m=d?a?[0,c[1],[0,c[2],0]]:bZ(c):d,n=b[4],o=e(b[3]),p=b[2];return[0,e(b[1]),p,o,n,m,l,k,j]},aL);function
+aa(b){var
+c=0,g=i[2],h=jX(a,o,function(b){if(typeof
+a==="number")return jW(K,b);var
+c=jW(K,b);return om(jZ(a),c)},G,g,c),d=dU(b),k=ci(y,f(q));return e(function(e){var
+b=e[1][3];if(typeof
+a==="number")return jU(a,b,bl(bm(e[2],b),k));var
+f=bm(e[2],b),g=ag(B,f,bm(f,jZ(a))),c=a3(jE(jZ(a)),g),h=s(c[3],d),i=s(c[2],d),j=[0,s(c[1],d),i,h];return fJ(a[1],b,j)},h)}function
+ab(l){return e(function(n){var
+o=m(b),d=n[3],p=dU(l),r=ci(y,f(q));if(typeof
+a==="number")var
+i=d;else
 var
-ay=et(ab),ac=jL(b[1],ay);var
-C=ac}else
+h=a[1],j=au(bK(h),d),k=e(function(a){return s(a,s(s(m(c(2,b)),r),p))},j),i=g(al(bK(h),d),k);return[0,i,o]},p)}var
+ac=e(function(a){return a[4]},p);function
+aV(b,a){if(typeof
+a!=="number"&&16===a[0]){var
+c=ab(b);return oR(q,aa(b),c,ac)}return oY(p,b,a)}var
+ae=w(function(a){return a[7]},p),af=i[7],ah=af?e(function(a){return[0,a[8],a[2]]},p):af,aW=bB(ah),aX=g(ae,g(de(aV,v,o,$,x),aW)),aY=g(bB(dV(p)),aX),ai=g(bB(eI(p)),aY),ak=c1(ai)[1],am=c0(ak);function
+t(a){return bk(am,a)}function
+aZ(d,c){if(typeof
+c!=="number"&&16===c[0]){var
+e=c[3],n=i[2];if(typeof
+a==="number")var
+m=1;else
 var
-C=aa;if(C){var
-N=a[1];if(typeof
-N==="number")var
-t=a[5]?0:1;else
-if(2<=N[1])var
-t=0;else{var
-w=a[5],M=0;if(w){var
-O=h(c,1,a[3]);if(O)var
-az=hj(w[1]),t=l(function(a){var
-b=cK(c,a[1]);return b?cK(c,a[2]):b},az);else{var
-P=O;M=1}}else{var
-P=w;M=1}if(M)var
-t=P}var
-D=t}else
+f=h(k,1,e),g=f?cn(k,e):f,m=g?l(o1,n):g;if(m){var
+r=c[2],s=c[1],u=typeof
+a==="number"?[0,J(k,b)]:j(cm(k),e),w=ab(d),x=aa(d),y=typeof
+a==="number"?v_:v$,z=typeof
+a==="number"?ar(a):bK(a[1]);return oS(k,t,Z,z,y,v,q,o,x,w,ac,u,s,r)}return wi}return oZ(k,t,p,v,o,d,c)}var
+an=l(function(a){var
+b=m(d);return aO(r(t(a),am,b),a)},ai),ap=an?aj(o0,x):an;if(ap){var
+aq=i[4];if(typeof
+a==="number")var
+as=a?jR(0,ew(aq)):1;else
 var
-D=C;if(D)var
-aJ=a[2],E=l(function(a){var
-b=0===a[0]?0:1;return cv(b,q)},aJ);else
+aM=ew(aq),as=jR(a[1],aM);var
+L=as}else
 var
-E=D;if(E){var
-ae=I(a[7]);if(ae)var
-u=ae;else
+L=ap;if(L){var
+V=i[1];if(typeof
+V==="number")var
+A=i[5]?0:1;else
+if(2<=V[1])var
+A=0;else{var
+E=i[5],U=0;if(E){var
+W=h(k,1,i[3]);if(W)var
+aN=ho(E[1]),A=l(function(a){var
+b=cn(k,a[1]);return b?cn(k,a[2]):b},aN);else{var
+X=W;U=1}}else{var
+X=E;U=1}if(U)var
+A=X}var
+M=A}else
 var
-av=n6(c,b,a[5]),u=av?l(vP,a[2]):av}else
+M=L;if(M)var
+a0=i[2],N=l(function(a){var
+b=0===a[0]?0:1;return cz(b,v)},a0);else
 var
-u=E;if(u){var
-aK=g(A,[0,T,0]),F=ad(e(function(a){return aq(c,a)},aK));if(F){var
-aL=z(function(a){return fB(q,i,a)},s),G=ad(e(function(a){return jq(c,a)},aL));if(G){var
-o=et(a[4]),aM=typeof
-b==="number"?b?[0,o[1],[0,o[2],0]]:[0,o[1],[0,o[2],[0,o[3],0]]]:oq(b[1],o),H=ad(e(function(a){return aq(c,[0,a,i])},aM));if(H){var
-af=H[1],ag=a[5];if(ag)var
-aN=nS(ag[1]),v=ad(e(function(a){return nU(c,a)},aN));else
+N=M;if(N){var
+at=I(i[7]);if(at)var
+C=at;else
 var
-v=vR;if(v){var
-ah=v[1],x=a[5],aP=x?nR(x[1]):x,J=ad(e(cJ(c),aP));if(J){var
-K=ad(dd(function(a,b){return oC(c,p,j,q,i,a,b)},q,i,U,s));if(K){var
-ai=K[1];if(a[7])var
-aQ=R[2],aR=R[1],L=jk(aB,ai,[8,k(ax(p),X),aR,aQ]);else
+aJ=op(k,a,i[5]),C=aJ?l(o1,i[2]):aJ}else
 var
-L=ai;var
-ak=n(f(g(af,ah)),aC);if(ak){var
-aS=jc(L),aT=g(af,ah),aw=0,aU=a[4];if(typeof
-b==="number"&&!b){var
-al=function(a){return m9(c,aU,i,a)};aw=1}if(!aw)var
-al=function(a){return 0};var
-aV=g(G[1],J[1]),aW=g(F[1],aV),aX=e(p,V),aY=fI(j),aZ=k(ax(p),aY),a0=eF(j);return f5(jb(c,Z,k(ax(p),a0),aZ,aX,aW,L,al),aT,aS,aA)}var
-am=ak}else
+C=N;if(C){var
+a1=g(q,[0,y,0]),O=ad(e(function(a){return ao(k,a)},a1));if(O){var
+a2=w(function(a){return fG(v,o,a)},x),P=ad(e(function(a){return hi(k,a)},a2));if(P){var
+u=ew(i[4]),a4=typeof
+a==="number"?a?[0,u[1],[0,u[2],0]]:[0,u[1],[0,u[2],[0,u[3],0]]]:oL(a[1],u),Q=ad(e(function(a){return ao(k,[0,a,o])},a4));if(Q){var
+av=Q[1],ax=i[5];if(ax)var
+a5=ob(ax[1]),D=ad(e(function(a){return od(k,a)},a5));else
 var
-am=K;var
-an=am}else
+D=wj;if(D){var
+ay=D[1],F=i[5],a6=F?oa(F[1]):F,R=ad(e(cm(k),a6));if(R){var
+S=ad(de(aZ,v,o,$,x));if(S){var
+az=S[1];if(i[7])var
+a7=Y[2],a8=Y[1],T=jq(aQ,az,[8,j(aw(t),ah),a8,a7]);else
 var
-an=J;var
-ao=an}else
+T=az;var
+aA=n(f(g(av,ay)),Z);if(aA){var
+a9=jg(T),a_=g(av,ay),aK=0,a$=i[4];if(typeof
+a==="number"&&!a){var
+aB=function(a){return ns(k,a$,o,a)};aK=1}if(!aK)var
+aB=function(a){return 0};var
+ba=g(P[1],R[1]),bb=g(O[1],ba),bc=e(t,ae),bd=dV(p),be=j(aw(t),bd),bf=eI(p);return f9(jf(k,ak,j(aw(t),bf),be,bc,bb,T,aB),a_,a9,aP)}var
+aC=aA}else
 var
-ao=v;var
-ap=ao}else
+aC=S;var
+aD=aC}else
 var
-ap=H;var
-ar=ap}else
+aD=R;var
+aE=aD}else
 var
-ar=G;var
-as=ar}else
+aE=D;var
+aF=aE}else
 var
-as=F;var
-au=as}else
+aF=Q;var
+aG=aF}else
 var
-au=u;return au}function
-vS(b){if(0===b[0])return[0,ni(b[1])];var
-a=b[1],c=a[7],d=a[6][1],e=a[5][1],f=bF(a[4]),g=bF(a[3]),h=bF(a[2]);return[1,[0,bF(a[1]),h,g,f,e,d,c]]}function
-oE(e,d,c){var
+aG=P;var
+aH=aG}else
+var
+aH=O;var
+aI=aH}else
+var
+aI=C;return aI}function
+wk(b){if(0===b[0])return[0,nD(b[1])];var
+a=b[1],c=a[7],d=a[6][1],e=a[5][1],f=bI(a[4]),g=bI(a[3]),h=bI(a[2]);return[1,[0,bI(a[1]),h,g,f,e,d,c]]}function
+o2(e,d,c){var
 a=d;for(;;){if(a){var
-b=a[1];if(sr(b[1],c))return b[2];var
+b=a[1];if(sO(b[1],c))return b[2];var
 a=a[2];continue}return e}}function
-jT(a,c,b){var
-d=U(e(aA,a[2]),b);return g(U(a[1],c),d)}function
-b0(c){var
+j2(a,c,b){var
+d=V(e(aA,a[2]),b);return g(V(a[1],c),d)}function
+b3(c){var
 a=c;for(;;)switch(a[0]){case
 0:var
 b=a[1];return[0,[0,[0,b,b],d],0];case
@@ -5335,102 +5462,102 @@ b=a[1];return[0,[0,[0,b,b],d],0];case
 7:case
 8:var
 a=a[1];continue;default:var
-e=b0(a[2]);return g(b0(a[1]),e)}}function
-bJ(e,a,c){switch(a[0]){case
+e=b3(a[2]);return g(b3(a[1]),e)}}function
+bL(e,a,c){switch(a[0]){case
 0:var
-o=a[1];return c9([0,[0,o,o],d],c);case
+o=a[1];return ci([0,[0,o,o],d],c);case
 1:var
-q=a[1];return oE(m(d),e,q);case
-2:return bp(bJ(e,a[1],c));case
+q=a[1];return o2(m(d),e,q);case
+2:return br(bL(e,a[1],c));case
 3:var
 i=a[2],g=a[1],h=B;break;case
 4:var
-i=a[2],g=a[1],h=x;break;case
+i=a[2],g=a[1],h=y;break;case
 5:var
 i=a[2],g=a[1],h=s;break;case
 6:var
-i=a[2],g=a[1],h=al;break;case
+i=a[2],g=a[1],h=am;break;case
 7:var
-j=e$(a[2]),k=bJ(e,a[1],c);if(j){if(j[1]){var
-l=W(k),p=function(a){return s(a,l)},n=gp(bn(lH(j)),p,l);return lG(j)?n:s(n,k)}return k}return m(b);default:return aK(bJ(e,a[1],c))}var
-r=bJ(e,i,M(c,f(b0(g))));return h(bJ(e,g,c),r)}function
-dh(c,h,b){var
+j=fc(a[2]),k=bL(e,a[1],c);if(j){if(j[1]){var
+l=W(k),p=function(a){return s(a,l)},n=gt(bh(lR(j)),p,l);return lQ(j)?n:s(n,k)}return k}return m(b);default:return aL(bL(e,a[1],c))}var
+r=bL(e,i,N(c,f(b3(g))));return h(bL(e,g,c),r)}function
+di(c,h,b){var
 a=h;for(;;)switch(a[0]){case
 6:var
-e=a[1],k=M(b,f(b0(e))),l=dh(c,a[2],k),m=g(dh(c,e,b),l);return[0,bJ(c,a,b),m];case
+e=a[1],k=N(b,f(b3(e))),l=di(c,a[2],k),m=g(di(c,e,b),l);return[0,bL(c,a,b),m];case
 8:var
-n=dh(c,a[1],b);return[0,bJ(c,a,b),n];case
+n=di(c,a[1],b);return[0,bL(c,a,b),n];case
 2:case
 7:var
 a=a[1];continue;case
 0:case
 1:return 0;default:var
-d=a[1],i=M(b,f(b0(d))),j=dh(c,a[2],i);return g(dh(c,d,b),j)}}function
-oF(i,h,g){var
+d=a[1],i=N(b,f(b3(d))),j=di(c,a[2],i);return g(di(c,d,b),j)}}function
+o3(i,h,g){var
 b=i,a=h,c=g;for(;;){if(a){var
-d=a[1],e=d[2],j=M(c,f(b0(e))),k=a[2],l=bJ(b,e,c),b=[0,[0,d[1],l],b],a=k,c=j;continue}return b}}function
-jU(c,a,b){if(a){var
-e=a[1],d=e[2],h=M(b,f(b0(d))),i=a[2],j=bJ(c,d,b),k=jU([0,[0,e[1],j],c],i,h);return g(dh(c,d,b),k)}return a}function
-fJ(a){return z(b0,a)}function
-oG(c,a,b){if(a)var
-d=a[1],g=M(b,f(b0(d))),h=oG(c,a[2],g),e=[0,bJ(c,d,b),h];else
+d=a[1],e=d[2],j=N(c,f(b3(e))),k=a[2],l=bL(b,e,c),b=[0,[0,d[1],l],b],a=k,c=j;continue}return b}}function
+j3(c,a,b){if(a){var
+e=a[1],d=e[2],h=N(b,f(b3(d))),i=a[2],j=bL(c,d,b),k=j3([0,[0,e[1],j],c],i,h);return g(di(c,d,b),k)}return a}function
+fN(a){return w(b3,a)}function
+o4(c,a,b){if(a)var
+d=a[1],g=N(b,f(b3(d))),h=o4(c,a[2],g),e=[0,bL(c,d,b),h];else
 var
 e=a;return e}function
-oH(c,a,b){if(a){var
-d=a[1],e=M(b,f(b0(d))),h=oH(c,a[2],e);return g(dh(c,d,b),h)}return a}function
-hr(a){return 0===a[0]?fJ(a[1]):b0(a[1])}function
-jV(c,b,a){if(b){var
-d=b[1],j=M(a,f(hr(d))),k=jV(c,b[2],j);if(0===d[0])var
-h=oH(c,d[1],a);else
+o5(c,a,b){if(a){var
+d=a[1],e=N(b,f(b3(d))),h=o5(c,a[2],e);return g(di(c,d,b),h)}return a}function
+hv(a){return 0===a[0]?fN(a[1]):b3(a[1])}function
+j4(c,b,a){if(b){var
+d=b[1],j=N(a,f(hv(d))),k=j4(c,b[2],j);if(0===d[0])var
+h=o5(c,d[1],a);else
 var
-e=d[1],i=dh(c,e,a),h=[0,bJ(c,e,a),i];return g(h,k)}return b}function
-hs(c){var
+e=d[1],i=di(c,e,a),h=[0,bL(c,e,a),i];return g(h,k)}return b}function
+hw(c){var
 a=c[1];switch(a[0]){case
 0:var
 b=[1,a[1]];break;case
 1:var
 b=[0,a[1]];break;default:var
-b=bU(hs,a)}return[0,b]}function
-jW(c){var
+b=bX(hw,a)}return[0,b]}function
+j5(c){var
 b=c;for(;;){var
 a=b[1];switch(a[0]){case
 5:var
 b=a[1];continue;case
 6:var
-d=jW(a[2]);return s(jW(a[1]),d);case
+d=j5(a[2]);return s(j5(a[1]),d);case
 9:return a[1];default:return W(b)}}}function
-jX(n,h,a,g){if(a){var
-c=a[1],x=M(g,f(hr(c))),y=jX(n,h,a[2],x);if(0===c[0])var
-k=oG(h,c[1],g),o=[0,k,m(b),k,0,0,0,0,0];else
+j6(n,h,a,g){if(a){var
+c=a[1],x=N(g,f(hv(c))),y=j6(n,h,a[2],x);if(0===c[0])var
+k=o4(h,c[1],g),o=[0,k,m(b),k,0,0,0,0,0];else
 var
-l=bJ(h,c[1],g),q=hs(l),i=a$(aC(0,n),q),d=hs(i[2]),j=e(hs,i[1]),r=0,s=0,t=0,u=0,v=[0,l],w=e(function(a){return aO(a,d)?m(b):al(a,d)},j),o=[0,j,jW(d),w,v,u,t,s,r];var
+l=bL(h,c[1],g),q=hw(l),i=bb(aE(0,n),q),d=hw(i[2]),j=e(hw,i[1]),r=0,s=0,t=0,u=0,v=[0,l],w=e(function(a){return aO(a,d)?m(b):am(a,d)},j),o=[0,j,j5(d),w,v,u,t,s,r];var
 p=[0,o,y]}else
 var
 p=a;return p}function
-oI(a){return e(function(a){return[0,a[2],d]},a)}function
-jY(a){var
-b=z(hr,a[4]),c=g(fJ(e(aN,a[3])),b);return g(oI(a[2]),c)}function
-ht(a){var
-b=cF(0,oI(a[2])),c=aC(0,f(a[1]));return jT(a,e(function(a){return[0,[0,a]]},c),b)}function
-jZ(b,d){var
+j7(a){return e(function(a){return[0,a[2],d]},a)}function
+j8(a){var
+b=w(hv,a[4]),c=g(fN(e(aI,a[3])),b);return g(j7(a[2]),c)}function
+hx(a){var
+b=cJ(0,j7(a[2])),c=aE(0,f(a[1]));return j2(a,e(function(a){return[0,[0,a]]},c),b)}function
+j9(b,d){var
 a=d;for(;;)switch(a[0]){case
 0:return 1;case
 1:var
-e=a[1];return aj(function(a){return aB(e,a)},b);case
+e=a[1];return aj(function(a){return aD(e,a)},b);case
 2:case
 7:case
 8:var
 a=a[1];continue;default:var
-c=jZ(b,a[1]);if(c){var
+c=j9(b,a[1]);if(c){var
 a=a[2];continue}return c}}function
-oJ(d){var
+o6(d){var
 a=d;for(;;){if(a){var
-b=a[2],e=a[1],c=I(aj(function(b){return function(a){return sr(b,a)}}(e),b));if(c){var
+b=a[2],e=a[1],c=I(aj(function(b){return function(a){return sO(b,a)}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-oK(a){var
-u=e(aA,a[2]),d=g(a[1],u),h=f(a[1]),o=aa(vT,h),p=o?aa(h,vU):o,q=p?aa(h,f(a[4])):p,r=q?aa(f(a[4]),vV):q,s=r?oJ(d):r;if(s){var
+o7(a){var
+u=e(aA,a[2]),d=g(a[1],u),h=f(a[1]),o=ab(wn,h),p=o?ab(h,wo):o,q=p?ab(h,f(a[4])):p,r=q?ab(f(a[4]),wp):q,s=r?o6(d):r;if(s){var
 c=d,b=a[3];for(;;){if(b){var
-j=b[1],k=j[1],m=I(aj(function(b){return function(a){return aB(b,a)}}(k),c)),n=m?jZ(c,j[2]):m;if(n){var
+j=b[1],k=j[1],m=I(aj(function(b){return function(a){return aD(b,a)}}(k),c)),n=m?j9(c,j[2]):m;if(n){var
 c=[0,k,c],b=b[2];continue}var
 t=n}else
 var
@@ -5439,9 +5566,9 @@ i=t;break}}else
 var
 i=s;if(i){var
 v=a[4];return l(function(b){var
-c=0===b[0]?b[1]:[0,b[1],0],f=g(e(aA,a[3]),d);return l(function(a){return jZ(f,a)},c)},v)}return i}function
-dQ(f,e,g){var
-h=g[1],a=bU(function(a){return dQ(f,e,a)},h);switch(a[0]){case
+c=0===b[0]?b[1]:[0,b[1],0],f=g(e(aA,a[3]),d);return l(function(a){return j9(f,a)},c)},v)}return i}function
+dW(f,e,g){var
+h=g[1],a=bX(function(a){return dW(f,e,a)},h);switch(a[0]){case
 0:return r(a[1],f,[0,d,b]);case
 1:return r(a[1],e,[0,d,b]);case
 2:return[0,a[1],b];case
@@ -5453,7 +5580,7 @@ h=g[1],a=bU(function(a){return dQ(f,e,a)},h);switch(a[0]){case
 8:var
 c=a[1];return[4,c,c];case
 9:return[6,a[1]];default:return[0,d,b]}}function
-j0(d){var
+j_(d){var
 b=d;for(;;){var
 a=b[1];switch(a[0]){case
 10:return 0;case
@@ -5464,105 +5591,105 @@ b=a[1];continue;case
 0:case
 1:case
 2:return 1;default:var
-c=j0(a[1]);if(c){var
+c=j_(a[1]);if(c){var
 b=a[2];continue}return c}}}function
-b1(g,f,e){var
+b4(g,f,e){var
 b=f,a=e;for(;;){if(b){if(a){var
-c=c_(g,b[1],a[1]);if(c){var
+c=c$(g,b[1],a[1]);if(c){var
 b=b[2],a=a[2];continue}var
 d=c}else
 var
 d=a;return d}return a?0:1}}function
-vW(a){var
+wq(a){var
 b=a[4],d=0;if(typeof
 b!=="number"&&0===b[0]){var
 c=[0,b[1],0];d=1}if(!d)var
 c=0;var
 e=g(a[3],c);return g(a[1],e)}function
-hu(a){return f(a[1])}function
-oL(a){var
-b=f(fJ(e(aN,a[3])));return M(f(a[2]),b)}function
-oM(a){var
-b=f(a[2]),c=a[3];return oF(ht(a),c,b)}function
-oN(a){var
-b=oL(a),c=a[4],d=oM(a);return jX(hu(a),d,c,b)}function
-oO(a,b){var
-c=z(hr,a[4]),d=g(fJ(e(aN,a[3])),c);return g(b,e(function(a){return a[1][1]},d))}function
-oP(b,a){return l(function(a){if(0===a[0]){var
-c=hu(b);return n(f(a[1]),c)}return 1},a)}function
-oQ(f,e){function
+hy(a){return f(a[1])}function
+o8(a){var
+b=f(fN(e(aI,a[3])));return N(f(a[2]),b)}function
+o9(a){var
+b=f(a[2]),c=a[3];return o3(hx(a),c,b)}function
+o_(a){var
+b=o8(a),c=a[4],d=o9(a);return j6(hy(a),d,c,b)}function
+o$(a,b){var
+c=w(hv,a[4]),d=g(fN(e(aI,a[3])),c);return g(b,e(function(a){return a[1][1]},d))}function
+pa(b,a){return l(function(a){if(0===a[0]){var
+c=hy(b);return n(f(a[1]),c)}return 1},a)}function
+pb(f,e){function
 a(a){return r(a,e,[0,d,b])}var
 c=[0,d,b];switch(f){case
 0:var
-g=a(vY);return[0,a(0),g,c];case
+g=a(ws);return[0,a(0),g,c];case
 1:var
-h=a(vZ),i=a(v0);return[0,a(0),i,h];default:return[0,c,c,c]}}function
-oR(f,e){function
+h=a(wt),i=a(wu);return[0,a(0),i,h];default:return[0,c,c,c]}}function
+pc(f,e){function
 a(a){return r(a,e,[0,d,b])}var
 c=[0,d,b];switch(f){case
-0:return[0,c,c,a(v1)];case
+0:return[0,c,c,a(wv)];case
 1:var
-g=a(v2),h=a(v3);return[0,a(v4),h,g];default:var
-i=a(v5),j=a(v6);return[0,a(0),j,i]}}function
-oS(t,s,k,j,r,d){var
-c=bu(k,j,r,d);if(0===d[0])var
-e=bz(d[1],c);else
+g=a(ww),h=a(wx);return[0,a(wy),h,g];default:var
+i=a(wz),j=a(wA);return[0,a(0),j,i]}}function
+pd(t,s,k,j,r,d){var
+c=bv(k,j,r,d);if(0===d[0])var
+e=bC(d[1],c);else
 var
-a=d[1],f=fy(a,c),g=fz(a,c),h=ha(a,c),i=ev(a,c),l=P([3,[4,h,g],[4,i,f]],g9(a)),m=P([2,[4,h,f],[4,i,g]],fx(a)),n=L(function(b,a){return[2,b,a]},m,l),o=P(a[5],n),p=g_(a,c),q=P(g$(a,c),p),e=L(function(b,a){return[3,b,a]},q,o);return jz(t,e,P([5,[0,b,b],s],da(eD(k,j,eC(d)),e)))}function
-oT(c,b,a){return b?fA(c,b[1],a):a?0:1}function
-oU(d,b,i,a,c,o,h,m,g){var
-p=at(b),j=n(f(c),p),k=j?oT(d,a,h):j,l=k?oT(d,a,g):k;if(l){var
-q=e(function(c){return oS(b,i,a,g,m,c)},c),r=e(function(c){return oS(b,i,a,h,o,c)},c);return jR(d,at(b),r,q)}return l}function
-oV(c,j,d,b,a){var
-e=aG(d,j),f=e?bf(b,a):e;if(f)var
-k=cD(c,a)[2],h=[0,cD(c,b)[1],k],l=[0,cD(c,dA(a,b)),0],i=[0,[0,h,h,g(ac(u,d),l)]];else
+a=d[1],f=fD(a,c),g=fE(a,c),h=he(a,c),i=ey(a,c),l=R([3,[4,h,g],[4,i,f]],hb(a)),m=R([2,[4,h,f],[4,i,g]],fC(a)),n=M(function(b,a){return[2,b,a]},m,l),o=R(a[5],n),p=hc(a,c),q=R(hd(a,c),p),e=M(function(b,a){return[3,b,a]},q,o);return jF(t,e,R([5,[0,b,b],s],db(eG(k,j,eF(d)),e)))}function
+pe(c,b,a){return b?fF(c,b[1],a):a?0:1}function
+pf(d,b,i,a,c,o,h,m,g){var
+p=ar(b),j=n(f(c),p),k=j?pe(d,a,h):j,l=k?pe(d,a,g):k;if(l){var
+q=e(function(c){return pd(b,i,a,g,m,c)},c),r=e(function(c){return pd(b,i,a,h,o,c)},c);return j0(d,ar(b),r,q)}return l}function
+pg(c,j,d,b,a){var
+e=aB(d,j),f=e?bi(b,a):e;if(f)var
+k=cH(c,a)[2],h=[0,cH(c,b)[1],k],l=[0,cH(c,dB(a,b)),0],i=[0,[0,h,h,g(ac(u,d),l)]];else
 var
 i=f;return i}function
-j1(a){if(a){var
+j$(a){if(a){var
 b=a[1];if(b)var
-c=j1(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+c=j$(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return v9}function
-oW(c,b,a){if(b){if(a){var
-d=b[1],f=oW(c,b[2],a[2]),g=a[1],h=function(b,a){return A(t(c,d,b),a)},i=function(a){return a};return aP(function(a){return t(c,d,a)},i,h,g,f)}var
+d=b;return d}return wD}function
+ph(c,b,a){if(b){if(a){var
+d=b[1],f=ph(c,b[2],a[2]),g=a[1],h=function(b,a){return A(t(c,d,b),a)},i=function(a){return a};return aQ(function(a){return t(c,d,a)},i,h,g,f)}var
 e=a}else
 var
 e=b;return e}function
-oX(c,b,a){if(b){if(a){var
-d=oX(c,b[2],a[2]);return A(t(c,b[1],a[1]),d)}return u}return u}function
-hv(a){return ap(function(d,a){var
-e=c(2,b);return E(b_(cb(d),e),a)},d,a)}function
-hw(a,i,h){var
+pi(c,b,a){if(b){if(a){var
+d=pi(c,b[2],a[2]);return A(t(c,b[1],a[1]),d)}return u}return u}function
+hz(a){return an(function(d,a){var
+e=c(2,b);return F(cb(bH(d),e),a)},d,a)}function
+hA(a,i,h){var
 d=f(i);function
 t(g,e,f){var
-d=[0,b,c(2,b)];return[0,$(cD(a,a3(dz(e,f),d)))]}var
-j=j1(e(function(b){return ei(a,t,b)},i));if(j){var
-v=j[1],w=function(b,c,e){return oV(a,d,b,c,e)},k=j1(e(function(b){return ei(a,w,b)},i));if(k){var
-x=function(b){return cD(a,b)},o=e(function(a){return e(x,a)},h),y=k[1],z=e(function(a){return a[3]},y),A=e(function(b){return oX(a,b,e(function(a){return a[2]},v))},o),B=U(aC(0,d),o),E=e(function(c){var
-i=oW(a,c[2],z),j=c[1],d=[0,N(a,b),0],e=g(ac(u,j),d);function
-f(b,a){return G(b,aw(a))}function
-h(a){return ab(aw(a))}return aP(function(a){return a},h,f,e,i)},B),p=n(f(h),d),q=p?l(function(a){return n(f(a),d)},h):p;if(q)var
-F=c(2,b),H=b_(cy(a),F),I=hv(A),m=D(C(c(2,c(2,b)),I),H);else
+d=[0,b,c(2,b)];return[0,$(cH(a,a5(dA(e,f),d)))]}var
+j=j$(e(function(b){return en(a,t,b)},i));if(j){var
+v=j[1],w=function(b,c,e){return pg(a,d,b,c,e)},k=j$(e(function(b){return en(a,w,b)},i));if(k){var
+x=function(b){return cH(a,b)},o=e(function(a){return e(x,a)},h),y=k[1],z=e(function(a){return a[3]},y),A=e(function(b){return pi(a,b,e(function(a){return a[2]},v))},o),B=V(aE(0,d),o),F=e(function(c){var
+i=ph(a,c[2],z),j=c[1],d=[0,J(a,b),0],e=g(ac(u,j),d);function
+f(b,a){return D(b,av(a))}function
+h(a){return _(av(a))}return aQ(function(a){return a},h,f,e,i)},B),p=n(f(h),d),q=p?l(function(a){return n(f(a),d)},h):p;if(q)var
+G=c(2,b),H=cb(cC(a),G),I=hz(A),m=E(C(c(2,c(2,b)),I),H);else
 var
 m=q;if(m){var
-J=c(2,b),K=b_(cy(a),J),L=hv(ed(E));return D(C(c(2,c(2,b)),L),K)}var
+K=c(2,b),L=cb(cC(a),K),M=hz(cY(F));return E(C(c(2,c(2,b)),M),L)}var
 r=m}else
 var
 r=k;var
 s=r}else
 var
 s=j;return s}function
-eG(a){return l(function(a){return I(dD(a))},a)}function
-aW(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-a6(a){return[0,a[1],a[2]]}function
-hx(b,a){var
+eJ(a){return l(function(a){return I(dE(a))},a)}function
+aX(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+a8(a){return[0,a[1],a[2]]}function
+hB(b,a){var
 d=f(a),c=n(f(b),d);if(c){var
-e=U(b,a);return l(function(a){return bf(a[1],a[2])},e)}return c}function
-j2(c,a,b){var
-d=U(a,b),g=U(aC(c,f(a)),d);return e(function(a){return[1,a[1],a[2][1],a[2][2]]},g)}function
-eH(e,k,j,i){var
+e=V(b,a);return l(function(a){return bi(a[1],a[2])},e)}return c}function
+ka(c,a,b){var
+d=V(a,b),g=V(aE(c,f(a)),d);return e(function(a){return[1,a[1],a[2][1],a[2][2]]},g)}function
+eK(e,k,j,i){var
 c=k,b=j,a=i;for(;;){if(c)if(b)if(a){var
-f=a[1],l=h(e,1,[3,a6(c[1]),f]),g=l||h(e,1,[3,f,a6(b[1])]);if(!g){var
+f=a[1],l=h(e,1,[3,a8(c[1]),f]),g=l||h(e,1,[3,f,a8(b[1])]);if(!g){var
 c=c[2],b=b[2],a=a[2];continue}var
 d=g}else
 var
@@ -5571,25 +5698,25 @@ var
 d=b;else
 var
 d=c;return d}}function
-j3(b,e,c){var
-a=ei(b,function(a,c,d){return oV(b,e,a,c,d)},c);return a?K(d,a[1][2][1]):a}function
-j4(f,e,b,a){var
+kb(b,e,c){var
+a=en(b,function(a,c,d){return pg(b,e,a,c,d)},c);return a?K(d,a[1][2][1]):a}function
+kc(f,e,b,a){var
 c=a[1],d=b[1],g=c[2],h=a[2],i=d[2],j=b[2],k=[0,d[1],[0,c[1],0]];return l(function(a){var
 b=[0,i,[0,g,0]];return l(function(b){var
 c=[0,j,[0,h,0]];return l(function(c){var
-d=a6(c),g=a6(b);return cG(f,e,[0,a6(a),g,d])},c)},b)},k)}function
-j5(a){switch(a[0]){case
+d=a8(c),g=a8(b);return cK(f,e,[0,a8(a),g,d])},c)},b)},k)}function
+kd(a){switch(a[0]){case
 0:var
-c=[0,a[4],0],d=g(aW(a[3]),c),e=g(aW(a[2]),d);return g(aW(a[1]),e);case
+c=[0,a[4],0],d=g(aX(a[3]),c),e=g(aX(a[2]),d);return g(aX(a[1]),e);case
 1:var
-b=a[3],f=b?aW(b[1]):b,h=g(aW(a[2]),f);return g(aW(a[1]),h);default:return aW(a[1])}}function
-oY(a){return 1===a[0]?0:1}function
-fK(b,a){var
-c=a3(a,a);return bf(a3(b,b),c)?a:b}function
-fL(b,a,e,d){var
-c=dM(b,a,a6(e));return c?dM(b,a,a6(d)):c}function
-oZ(f,e,c,a){switch(e[0]){case
-0:if(c){if(c[2])return 0;if(a)return a[2]?0:fL(f,e[1],c[1],a[1]);var
+b=a[3],f=b?aX(b[1]):b,h=g(aX(a[2]),f);return g(aX(a[1]),h);default:return aX(a[1])}}function
+pj(a){return 1===a[0]?0:1}function
+fO(b,a){var
+c=a5(a,a);return bi(a5(b,b),c)?a:b}function
+fP(b,a,e,d){var
+c=dQ(b,a,a8(e));return c?dQ(b,a,a8(d)):c}function
+pk(f,e,c,a){switch(e[0]){case
+0:if(c){if(c[2])return 0;if(a)return a[2]?0:fP(f,e[1],c[1],a[1]);var
 x=a}else
 var
 x=c;return x;case
@@ -5598,7 +5725,7 @@ i=c[2];if(i){var
 j=i[2];if(j){if(j[2])return 0;if(a){var
 k=a[2];if(k){var
 l=k[2];if(l){if(l[2])return 0;var
-y=fL(f,e[1],c[1],a[1]),z=y?fL(f,e[2],i[1],k[1]):y;if(z)return fL(f,e[3],j[1],l[1]);var
+y=fP(f,e[1],c[1],a[1]),z=y?fP(f,e[2],i[1],k[1]):y;if(z)return fP(f,e[3],j[1],l[1]);var
 A=z}else
 var
 A=l;var
@@ -5621,7 +5748,7 @@ m=c[2];if(m){var
 n=m[2];if(n){if(n[2])return 0;if(a){var
 o=a[2];if(o){var
 p=o[2];if(p){if(p[2])return 0;var
-P=[0,a6(fK(n[1],p[1])),0],Q=[0,a6(fK(m[1],o[1])),P];return fA(f,e,[0,a6(fK(c[1],a[1])),Q])}var
+P=[0,a8(fO(n[1],p[1])),0],Q=[0,a8(fO(m[1],o[1])),P];return fF(f,e,[0,a8(fO(c[1],a[1])),Q])}var
 E=p}else
 var
 E=o;var
@@ -5640,11 +5767,11 @@ q=c[2];if(q){var
 r=q[2];if(r){if(r[2])return 0;if(a){var
 s=a[2];if(s){var
 t=s[2];if(t){if(t[2])return 0;var
-g=t[1],h=r[1],N=0,R=0;if(bf(h,[0,d,b])&&bf([0,d,b],g))var
+g=t[1],h=r[1],N=0,R=0;if(bi(h,[0,d,b])&&bi([0,d,b],g))var
 H=[0,d,b];else
 N=1;if(N)var
-O=a3(g,g),H=bf(a3(h,h),O)?h:g;var
-S=[0,a6(H),R],T=[0,a6(fK(q[1],s[1])),S],I=fA(f,e,[0,a6(fK(c[1],a[1])),T]);if(I)return fL(f,dc(e[2]),h,g);var
+O=a5(g,g),H=bi(a5(h,h),O)?h:g;var
+S=[0,a8(H),R],T=[0,a8(fO(q[1],s[1])),S],I=fF(f,e,[0,a8(fO(c[1],a[1])),T]);if(I)return fP(f,dd(e[2]),h,g);var
 J=I}else
 var
 J=t;var
@@ -5662,82 +5789,82 @@ L=q;var
 M=L}else
 var
 M=c;return M}}function
-o0(a){var
-c=r(wb,a,[0,d,b]),e=r(wc,a,[0,d,b]);return[0,r(0,a,[0,d,b]),e,c]}function
-hy(a){var
-c=r(wd,a,[0,d,b]),e=r(we,a,[0,d,b]);return[0,[0,r(0,a,[0,d,b]),e],c]}function
-j6(d,c,b,a){var
-e=bY(d,c,b,a);return w(bY(d,c,b,a),e)}var
-cN=c(2,c(2,c(2,c(2,c(2,q(c(2,b)))))));function
-dR(e){var
-a=aD(cN,e);if(a){var
-f=k(gr(c(2,b)),cN);return[0,a[1][2],f]}return[0,d,b]}var
-j7=[0,[0,d,b],[0,d,b],[0,d,b]];function
-eI(c,a){var
-e=[0,d,b];return ap(function(b,a){return[2,k(c,b),a]},e,a)}function
-fM(b,a){return ap(function(c,a){var
-d=k(b,c);return L(function(b,a){return[2,b,a]},d,a)},j7,a)}function
-o1(c){var
+pl(a){var
+c=r(wH,a,[0,d,b]),e=r(wI,a,[0,d,b]);return[0,r(0,a,[0,d,b]),e,c]}function
+hC(a){var
+c=r(wJ,a,[0,d,b]),e=r(wK,a,[0,d,b]);return[0,[0,r(0,a,[0,d,b]),e],c]}function
+ke(d,c,b,a){var
+e=b1(d,c,b,a);return x(b1(d,c,b,a),e)}var
+cO=c(2,c(2,c(2,c(2,c(2,q(c(2,b)))))));function
+dX(e){var
+a=aF(cO,e);if(a){var
+f=j(gv(c(2,b)),cO);return[0,a[1][2],f]}return[0,d,b]}var
+kf=[0,[0,d,b],[0,d,b],[0,d,b]];function
+eL(c,a){var
+e=[0,d,b];return an(function(b,a){return[2,j(c,b),a]},e,a)}function
+fQ(b,a){return an(function(c,a){var
+d=j(b,c);return M(function(b,a){return[2,b,a]},d,a)},kf,a)}function
+pm(c){var
 a=c;for(;;)switch(a[0]){case
 0:return 1;case
-1:return aG(a[1],dE);case
+1:return aB(a[1],dF);case
 6:var
 a=a[1];continue;default:var
-b=o1(a[1]);if(b){var
+b=pm(a[1]);if(b){var
 a=a[2];continue}return b}}function
-di(a){return l(o1,a)}function
-j8(d,h,c,f){var
-a=ei(d,function(c,e,f){var
-a=aG(c,M(dE,h)),b=a?bf(e,f):a,g=b?[0,l5(d,c,e,f)]:b;return g},f);if(a){var
-b=a[1],e=av(dE,b[3]),g=iH(hv(av(c,e))),i=iH(hv(am(c,e))),j=T(E(E(ff(am(dE,b[3])),i),g));return K(b[1][2],j)}return a}function
-hz(b,a,c){if(b)if(a)var
-f=a[1],g=hz(b[2],a[2],c),h=K(b[1],d)?[3,f,c]:[2,f,c],e=[0,h,g];else
+dj(a){return l(pm,a)}function
+kg(d,h,c,f){var
+a=en(d,function(c,e,f){var
+a=aB(c,N(dF,h)),b=a?bi(e,f):a,g=b?[0,me(d,c,e,f)]:b;return g},f);if(a){var
+b=a[1],e=au(dF,b[3]),g=iL(hz(au(c,e))),i=iL(hz(al(c,e))),j=P(F(F(fj(al(dF,b[3])),i),g));return K(b[1][2],j)}return a}function
+hD(b,a,c){if(b)if(a)var
+f=a[1],g=hD(b[2],a[2],c),h=K(b[1],d)?[3,f,c]:[2,f,c],e=[0,h,g];else
 var
 e=a;else
 var
 e=b;return e}function
-hA(a){return y(function(a){var
-d=k(gr(c(2,b)),cN);return[0,a[2],d]},a)}function
-cl(b,a){var
-c=gB(a);return[1,M(dE,b),c,a]}function
-dS(a){if(ce(a[1],a[2]))return a[1];var
+hE(a){return z(function(a){var
+d=j(gv(c(2,b)),cO);return[0,a[2],d]},a)}function
+cp(b,a){var
+c=gF(a);return[1,N(dF,b),c,a]}function
+dY(a){if(cf(a[1],a[2]))return a[1];var
 d=[0,c(2,b),b];return[5,[2,a[1],a[2]],d]}function
-bB(a){var
-b=dS(a[3]),c=dS(a[2]);return[0,dS(a[1]),c,b]}function
-o2(a){switch(a[0]){case
+bF(a){var
+b=dY(a[3]),c=dY(a[2]);return[0,dY(a[1]),c,b]}function
+pn(a){switch(a[0]){case
 0:var
-b=a[1],c=b[5],d=dS(b[4]),e=bB(b[3]),f=bB(b[2]);return[0,bB(b[1]),f,e,d,c];case
+b=a[1],c=b[5],d=dY(b[4]),e=bF(b[3]),f=bF(b[2]);return[0,bF(b[1]),f,e,d,c];case
 1:var
-g=y(bB,a[3]),h=bB(a[2]);return[1,bB(a[1]),h,g];default:return[2,bB(a[1])]}}function
-fN(i,g,p,a,Q,o){var
-x=fs(i,g,p,a),y=x?di(aW(a)):x;if(y){var
-q=F(g[3],Q);if(q){var
+g=z(bF,a[3]),h=bF(a[2]);return[1,bF(a[1]),h,g];default:return[2,bF(a[1])]}}function
+fR(i,g,p,a,P,o){var
+w=fx(i,g,p,a),y=w?dj(aX(a)):w;if(y){var
+q=G(g[3],P);if(q){var
 j=q[1];if(typeof
 j!=="number"&&14===j[0]){var
-B=j[2],C=j[1],r=hA(aD(cN,B));if(r){var
-s=r[1],R=cl(wl,s),S=cl(wm,s),t=[0,cl(0,s),S,R],D=h(i,1,B),E=D?h(i,0,C):D;if(E)var
+B=j[2],C=j[1],r=hE(aF(cO,B));if(r){var
+s=r[1],Q=cp(wR,s),S=cp(wS,s),t=[0,cp(0,s),S,Q],D=h(i,1,B),E=D?h(i,0,C):D;if(E)var
 T=f(g[1]),u=n(f(o),T);else
 var
 u=E;var
-G=u?l(function(a){return di(j5(a))},p):u;if(G){var
-V=g[1],H=hz(o,e(function(b){return cI(o2(b),a)},V),C),I=di(H);if(I){var
-v=U(U(p,H),o),k=function(k){var
+F=u?l(function(a){return dj(kd(a))},p):u;if(F){var
+U=g[1],H=hD(o,e(function(b){return cM(pn(b),a)},U),C),I=dj(H);if(I){var
+v=V(V(p,H),o),k=function(k){var
 f=k[1][2],e=k[1][1];switch(e[0]){case
 0:var
-i=e[4],l=P(f,ay(e[1])),m=aV(e[2],e[3],a),g=L(function(b,a){return[3,b,a]},m,l),n=P([0,c(2,b),b],g);return[0,[3,w(g,g),[4,i,i]],n,[0,b,b]];case
+i=e[4],l=R(f,ay(e[1])),m=aW(e[2],e[3],a),g=M(function(b,a){return[3,b,a]},m,l),n=R([0,c(2,b),b],g);return[0,[3,x(g,g),[4,i,i]],n,[0,b,b]];case
 1:var
-h=aV(e[1],e[2],a),o=P([0,c(2,b),b],h);return[0,[3,w(h,h),[4,f,f]],o,[0,b,b]];default:var
-j=e[1],p=ay(j);return[0,[3,w(ay(j),a),f],p,[0,d,b]]}},m=function(j){var
+h=aW(e[1],e[2],a),o=R([0,c(2,b),b],h);return[0,[3,x(h,h),[4,f,f]],o,[0,b,b]];default:var
+j=e[1],p=ay(j);return[0,[3,x(ay(j),a),f],p,[0,d,b]]}},m=function(j){var
 e=j[1],f=e[2],c=e[1],d=j[2];switch(c[0]){case
 0:var
-g=c[3],h=c[2],i=c[1],k=aV(h,g,a),l=[3,w(ay(i),k),f],m=ch(i,h,g,c[4],a);return dR([5,[0,d,b],[2,cH(c[5],m),l]]);case
-1:return dR([5,[0,d,b],[2,f,cI(c,a)]]);default:return[0,d,b]}},M=w(t,t),N=[4,eI(function(a){var
-b=k(a)[3];return[4,m(a),b]},v),M],O=w(fM(function(a){var
-b=k(a)[2];return P(m(a),b)},v),t);return j8(i,wo,wn,[2,[2,eI(function(a){var
+g=c[3],h=c[2],i=c[1],k=aW(h,g,a),l=[3,x(ay(i),k),f],m=cj(i,h,g,c[4],a);return dX([5,[0,d,b],[2,cL(c[5],m),l]]);case
+1:return dX([5,[0,d,b],[2,f,cM(c,a)]]);default:return[0,d,b]}},L=x(t,t),N=[4,eL(function(a){var
+b=k(a)[3];return[4,m(a),b]},v),L],O=x(fQ(function(a){var
+b=k(a)[2];return R(m(a),b)},v),t);return kg(i,wU,wT,[2,[2,eL(function(a){var
 b=k(a)[1];return[4,m(a),b]},v),O],N])}var
 J=I}else
 var
-J=G;var
+J=F;var
 K=J}else
 var
 K=r;return K}var
@@ -5747,121 +5874,121 @@ z=q;var
 A=z}else
 var
 A=y;return A}function
-wp(a){var
-b=di(aW(a[3])),c=b?di(aW(a[4])):b;return c?di([0,a[2],0]):c}function
-o3(a,d,c){var
-b=aC(0,bH(a));return e(function(b){var
-e=aG(b,cM(a))?d:c;return cl(b,e)},b)}function
-o4(e,a,f){if(typeof
+wV(a){var
+b=dj(aX(a[3])),c=b?dj(aX(a[4])):b;return c?dj([0,a[2],0]):c}function
+po(a,d,c){var
+b=aE(0,bD(a));return e(function(b){var
+e=aB(b,bK(a))?d:c;return cp(b,e)},b)}function
+pp(e,a,f){if(typeof
 e==="number"){if(e){var
-g=cl(wq,a);return[0,[0,cl(0,a),g,[0,d,b]],j7]}var
-h=cl(wr,a),i=cl(ws,a);return[0,[0,cl(0,a),i,h],j7]}var
-c=e[1],j=oR(c,o3(c,a,f));return[0,oQ(c,o3(c,a,f)),j]}function
-o5(g,e,u,o,a){var
-p=hA(aD(cN,u));if(p){var
+g=cp(wW,a);return[0,[0,cp(0,a),g,[0,d,b]],kf]}var
+h=cp(wX,a),i=cp(wY,a);return[0,[0,cp(0,a),i,h],kf]}var
+c=e[1],j=pc(c,po(c,a,f));return[0,pb(c,po(c,a,f)),j]}function
+pq(g,e,u,o,a){var
+p=hE(aF(cO,u));if(p){var
 v=p[1],q=typeof
-e==="number"?[0,[0,b,b]]:hA(k(cJ(cN),o));if(q){var
-r=q[1],x=h(g,1,u);if(x)if(typeof
+e==="number"?[0,[0,b,b]]:hE(j(cm(cO),o));if(q){var
+r=q[1],w=h(g,1,u);if(w)if(typeof
 e==="number")var
 i=1;else
 var
-B=h(g,1,o),C=B?cK(g,o):B,i=C?I(bf(r,[0,d,b])):C;else
+B=h(g,1,o),C=B?cn(g,o):B,i=C?I(bi(r,[0,d,b])):C;else
 var
-i=x;var
-y=i?l(wp,a):i;if(y){var
-f=o4(e,v,r)[2],j=o4(e,v,r)[1],m=[0,c(2,b),b],n=function(b){return fM(function(a){var
-c=a[3],d=k(b,a[4]);return P([4,a[1],d],c)},a)},s=eI(function(a){var
-b=w(a[3],a[4]);return[4,a[1],b]},a),t=w(f,f),D=n(function(a){return a[3]}),E=P(f[3],D),F=n(function(a){return a[2]}),G=P(f[2],F),H=n(function(a){return a[1]}),J=P(f[1],H),K=L(function(b,a){return[2,b,a]},J,G),M=[4,t,s],N=w(f,L(function(b,a){return[2,b,a]},K,E)),O=[3,[2,w(f,fM(function(a){var
-b=da(a[4],a[3]);return P(a[1],b)},a)),N],M],Q=[2,[4,m,s],[4,[5,[0,c(2,c(2,b)),b],[2,[0,b,b],t]],O]],R=[4,m,w(j,nB(f,fM(function(a){return P(a[1],a[4])},a)))],S=w(j,j),T=[2,[4,eI(function(a){return a[1]},a),S],R],U=[4,m,w(fM(function(a){return P(a[1],a[3])},a),j)],V=[2,[2,[2,eI(function(a){var
-b=[4,a[2],a[2]],c=w(a[4],a[4]),d=[3,[2,w(a[3],a[3]),c],b];return[4,a[1],d]},a),U],T],Q],W=typeof
-e==="number"?at(e):cM(e[1]);return j8(g,at(e),W,V)}var
+i=w;var
+y=i?l(wV,a):i;if(y){var
+f=pp(e,v,r)[2],k=pp(e,v,r)[1],m=[0,c(2,b),b],n=function(b){return fQ(function(a){var
+c=a[3],d=j(b,a[4]);return R([4,a[1],d],c)},a)},s=eL(function(a){var
+b=x(a[3],a[4]);return[4,a[1],b]},a),t=x(f,f),D=n(function(a){return a[3]}),E=R(f[3],D),F=n(function(a){return a[2]}),G=R(f[2],F),H=n(function(a){return a[1]}),J=R(f[1],H),K=M(function(b,a){return[2,b,a]},J,G),L=[4,t,s],N=x(f,M(function(b,a){return[2,b,a]},K,E)),O=[3,[2,x(f,fQ(function(a){var
+b=db(a[4],a[3]);return R(a[1],b)},a)),N],L],P=[2,[4,m,s],[4,[5,[0,c(2,c(2,b)),b],[2,[0,b,b],t]],O]],Q=[4,m,x(k,nW(f,fQ(function(a){return R(a[1],a[4])},a)))],S=x(k,k),T=[2,[4,eL(function(a){return a[1]},a),S],Q],U=[4,m,x(fQ(function(a){return R(a[1],a[3])},a),k)],V=[2,[2,[2,eL(function(a){var
+b=[4,a[2],a[2]],c=x(a[4],a[4]),d=[3,[2,x(a[3],a[3]),c],b];return[4,a[1],d]},a),U],T],P],W=typeof
+e==="number"?ar(e):bK(e[1]);return kg(g,ar(e),W,V)}var
 z=y}else
 var
 z=q;var
 A=z}else
 var
 A=p;return A}function
-o6(a){return[6,w(a,a)]}function
-o7(b){if(0===b[0])return[0,o2(b[1])];var
-a=b[1],c=a[7],d=dS(a[6]),e=dS(a[5]),f=bB(a[4]),g=bB(a[3]),h=bB(a[2]);return[1,[0,bB(a[1]),h,g,f,e,d,c]]}function
-hB(f,e,c,a){if(typeof
+pr(a){return[6,x(a,a)]}function
+ps(b){if(0===b[0])return[0,pn(b[1])];var
+a=b[1],c=a[7],d=dY(a[6]),e=dY(a[5]),f=bF(a[4]),g=bF(a[3]),h=bF(a[2]);return[1,[0,bF(a[1]),h,g,f,e,d,c]]}function
+hF(f,e,c,a){if(typeof
 a==="number")return 0;else{if(0===a[0]){var
 g=a[1],j=K(c,d)?[3,g,f]:[2,g,f];return[0,j]}var
-h=a[2],i=a[1],k=K(c,d)?gB(e):e,b=a6(k),l=[4,i,dL(b)],m=[2,[4,h,dK(b)],l],n=[4,h,dL(b)];return[1,[3,[4,i,dK(b)],n],m]}}function
-j9(a,c){if(D(c,b))return a;var
-g=aU(c,aJ(2)),h=g[1];if(J(g[2],d)){var
-e=j9(a,h);return[4,e,e]}var
-f=j9(a,h);return[4,[4,f,f],a]}function
-aX(c,a){switch(a[0]){case
+h=a[2],i=a[1],k=K(c,d)?gF(e):e,b=a8(k),l=[4,i,dP(b)],m=[2,[4,h,dO(b)],l],n=[4,h,dP(b)];return[1,[3,[4,i,dO(b)],n],m]}}function
+kh(a,c){if(E(c,b))return a;var
+g=aU(c,aK(2)),h=g[1];if(L(g[2],d)){var
+e=kh(a,h);return[4,e,e]}var
+f=kh(a,h);return[4,[4,f,f],a]}function
+aY(c,a){switch(a[0]){case
 0:return a[1];case
-1:return oE([0,d,b],c,a[1]);case
-2:return[3,[0,d,b],aX(c,a[1])];case
+1:return o2([0,d,b],c,a[1]);case
+2:return[3,[0,d,b],aY(c,a[1])];case
 3:var
-e=aX(c,a[2]);return[2,aX(c,a[1]),e];case
+e=aY(c,a[2]);return[2,aY(c,a[1]),e];case
 4:var
-f=aX(c,a[2]);return[3,aX(c,a[1]),f];case
+f=aY(c,a[2]);return[3,aY(c,a[1]),f];case
 5:var
-g=aX(c,a[2]);return[4,aX(c,a[1]),g];case
+g=aY(c,a[2]);return[4,aY(c,a[1]),g];case
 6:var
-h=aX(c,a[2]);return[5,aX(c,a[1]),h];case
+h=aY(c,a[2]);return[5,aY(c,a[1]),h];case
 7:var
-i=a[2];return j9(aX(c,a[1]),i);default:return[6,aX(c,a[1])]}}function
-fO(d,h,g){var
-i=d[3],b=jT(d,g,h),a=i;for(;;){if(a){var
-c=a[1],e=a[2],f=aX(b,c[2]),b=[0,[0,c[1],f],b],a=e;continue}return b}}function
-fP(c){var
+i=a[2];return kh(aY(c,a[1]),i);default:return[6,aY(c,a[1])]}}function
+fS(d,h,g){var
+i=d[3],b=j2(d,g,h),a=i;for(;;){if(a){var
+c=a[1],e=a[2],f=aY(b,c[2]),b=[0,[0,c[1],f],b],a=e;continue}return b}}function
+fT(c){var
 a=c;for(;;)switch(a[0]){case
-0:return I(dD(a[1]));case
+0:return I(dE(a[1]));case
 1:return 1;case
 2:case
 7:case
 8:var
 a=a[1];continue;default:var
-b=fP(a[1]);if(b){var
+b=fT(a[1]);if(b){var
 a=a[2];continue}return b}}function
-j_(a){if(a){var
+ki(a){if(a){var
 b=a[1];if(0===b[0])return 0;var
-c=b[1],d=j_(a[2]);return y(function(a){return[0,c,a]},d)}return wv}function
-eJ(c,e,p){var
+c=b[1],d=ki(a[2]);return z(function(a){return[0,c,a]},d)}return w1}function
+eM(c,e,p){var
 a=p;for(;;)switch(a[0]){case
 6:var
-g=a[2],h=eJ(c,e,a[1]),i=h?eJ(c,e,g):h;if(i){var
-j=aX(e,g),l=k(c,j);if(!l)return k(c,[3,[0,d,b],j]);var
+g=a[2],h=eM(c,e,a[1]),i=h?eM(c,e,g):h;if(i){var
+k=aY(e,g),l=j(c,k);if(!l)return j(c,[3,[0,d,b],k]);var
 m=l}else
 var
 m=i;return m;case
 8:var
-n=a[1],o=eJ(c,e,n);return o?k(c,aX(e,n)):o;case
+n=a[1],o=eM(c,e,n);return o?j(c,aY(e,n)):o;case
 2:case
 7:var
 a=a[1];continue;case
 0:case
 1:return 1;default:var
-f=eJ(c,e,a[1]);if(f){var
+f=eM(c,e,a[1]);if(f){var
 a=a[2];continue}return f}}function
-o8(j,c,i,h,n){var
-o=c[3],b=jT(c,h,i),a=o;for(;;){if(a){var
-e=a[1],f=e[2],g=eJ(j,b,f);if(g){var
-k=a[2],m=aX(b,f),b=[0,[0,e[1],m],b],a=k;continue}var
+pt(j,c,i,h,n){var
+o=c[3],b=j2(c,h,i),a=o;for(;;){if(a){var
+e=a[1],f=e[2],g=eM(j,b,f);if(g){var
+k=a[2],m=aY(b,f),b=[0,[0,e[1],m],b],a=k;continue}var
 d=g}else
 var
 d=1;if(d){var
-p=fO(c,i,h);return l(function(a){return eJ(j,p,a)},n)}return d}}var
-hD=x(m(b),hC);function
-o9(e){var
-a=W(hD);if(e)var
-f=s(m(c(2,b)),a),g=B(m(c(2,c(2,b))),f),h=s(m(c(2,b)),a),d=al(B(m(b),h),g);else
+p=fS(c,i,h);return l(function(a){return eM(j,p,a)},n)}return d}}var
+hH=y(m(b),hG);function
+pu(e){var
+a=W(hH);if(e)var
+f=s(m(c(2,b)),a),g=B(m(c(2,c(2,b))),f),h=s(m(c(2,b)),a),d=am(B(m(b),h),g);else
 var
-i=B(m(c(2,b)),a),j=W(hC),d=al(B(s(m(c(2,b)),j),a),i);return aK(d)}function
-o_(d,c,a){if(d){var
-e=o9(c),f=B(m(b),e),g=s(x(m(b),a),f);return x(m(b),g)}var
-h=m(b),i=o9(c),j=al(m(b),i);return x(s(a,B(m(b),j)),h)}function
-eK(f,e,d,a){var
-g=W(a),h=W(d),i=x(x(m(c(2,b)),h),g),j=f?e?hD:al(hD,s(m(c(2,b)),hC)):al(hD,m(c(2,b))),k=s(W(j),i);return aK(B(m(b),k))}function
-o$(g,d){var
+i=B(m(c(2,b)),a),j=W(hG),d=am(B(s(m(c(2,b)),j),a),i);return aL(d)}function
+pv(d,c,a){if(d){var
+e=pu(c),f=B(m(b),e),g=s(y(m(b),a),f);return y(m(b),g)}var
+h=m(b),i=pu(c),j=am(m(b),i);return y(s(a,B(m(b),j)),h)}function
+eN(f,e,d,a){var
+g=W(a),h=W(d),i=y(y(m(c(2,b)),h),g),j=f?e?hH:am(hH,s(m(c(2,b)),hG)):am(hH,m(c(2,b))),k=s(W(j),i);return aL(B(m(b),k))}function
+pw(g,d){var
 c=g,a=d[1],b=d[3];for(;;){if(c){if(b){var
 e=b[2],f=c[1]?A(a,b[1]):a,c=c[2],a=f,b=e;continue}return a}return a}}function
-j$(w,v,u,t){var
+kj(w,v,u,t){var
 a=e(function(a){return r(a,u,0)},v);if(a){var
 f=a[1];if(f){var
 b=a[2];if(b){var
@@ -5871,11 +5998,11 @@ h=c[1];if(h){var
 d=c[2];if(d){var
 i=d[1];if(i){if(d[2])return 0;var
 x=i[1],y=h[1],z=g[1],A=f[1];return l(function(a){var
-c=k(a,x),d=k(a,y),e=k(a,z),b=k(a,A);return ej(w,[0,[0,b,[0,e,[0,d,0]]],[0,[0,b,[0,c,0]],[0,[0,b,0],0]]])},t)}var
-j=i}else
+c=j(a,x),d=j(a,y),e=j(a,z),b=j(a,A);return eo(w,[0,[0,b,[0,e,[0,d,0]]],[0,[0,b,[0,c,0]],[0,[0,b,0],0]]])},t)}var
+k=i}else
 var
-j=d;var
-m=j}else
+k=d;var
+m=k}else
 var
 m=h;var
 n=m}else
@@ -5893,12 +6020,12 @@ q=f;var
 s=q}else
 var
 s=a;return s}function
-pa(f,i,e,c,h){var
-j=f?b:d,a=N(i,j);function
+px(f,i,e,c,h){var
+j=f?b:d,a=J(i,j);function
 g(b){var
-c=f?cc(b):cz(b);return G(c,a)}var
+c=f?cd(b):cD(b);return D(c,a)}var
 k=[0,$(h),0],l=[0,[0,a,c,[0,u,[0,g(c),0]]],k];return[0,[0,a,e,[0,g(e),0]],l]}function
-pb(r,b,q,p,g,o,n){if(o){var
+py(r,b,q,p,g,o,n){if(o){var
 x=o[1];if(x[1])return 0;if(o[2])return 0;if(n){var
 j=x[2],s=0;if(g){var
 h=g[2],c=0;if(h){var
@@ -5907,16 +6034,16 @@ a=0;c=1;d=1}else{var
 t=i[1],k=h[1],l=g[1],f=0;if(typeof
 j==="number")switch(j){case
 0:var
-A=e(aH,bj(wz)),z=e($,0),a=j$(b,p,bg(0,bD(b,dH(0,g),z),q,0),A);c=1;d=1;f=1;break;case
+A=e(aC,a7(w5)),z=e($,0),a=kj(b,p,bj(0,bz(b,dI(0,g),z),q,0),A);c=1;d=1;f=1;break;case
 3:var
-a=D(k[2],l[1]);c=1;d=1;f=1;break}else
+a=E(k[2],l[1]);c=1;d=1;f=1;break}else
 if(4===j[0]){var
 m=j[1];if(r)if(m){var
-B=e(o$,wA),a=j$(b,p,bg(0,bD(b,pa(r,b,l,k,t),0),q,0),B);c=1;d=1;f=1}else{var
+B=e(pw,w6),a=kj(b,p,bj(0,bz(b,px(r,b,l,k,t),0),q,0),B);c=1;d=1;f=1}else{var
 a=m;c=1;d=1;f=1}else
 if(m){var
 a=0;c=1;d=1;f=1}else{var
-C=e(o$,wB),a=j$(b,p,bg(0,bD(b,pa(r,b,l,k,t),0),q,0),C);c=1;d=1;f=1}}if(!f)var
+C=e(pw,w7),a=kj(b,p,bj(0,bz(b,px(r,b,l,k,t),0),q,0),C);c=1;d=1;f=1}}if(!f)var
 u=0}else
 var
 u=i;if(!d)var
@@ -5926,29 +6053,29 @@ v=h;if(!c){var
 w=v;s=1}}else{var
 w=g;s=1}if(s)var
 a=w;var
-y=a?wC:a}else
+y=a?w8:a}else
 var
 y=n;return y}return[0,n]}function
-pc(f,e,d,c,p,o,n){var
+pz(f,e,d,c,p,o,n){var
 b=p,g=o,a=n;for(;;)switch(a[0]){case
 0:var
-h=pb(f,e,d,c,b,a[1],g);return h?I(h[1]):h;case
+h=py(f,e,d,c,b,a[1],g);return h?I(h[1]):h;case
 1:var
-i=pb(f,e,d,c,b,a[1],g);if(i){var
-j=i[1],k=c4(a[2],b),l=pc(f,e,d,c,k[1],j,a[3]);if(l){var
+i=py(f,e,d,c,b,a[1],g);if(i){var
+j=i[1],k=c6(a[2],b),l=pz(f,e,d,c,k[1],j,a[3]);if(l){var
 b=k[2],g=j,a=a[4];continue}var
 m=l}else
 var
 m=i;return m;default:return 0}}function
-ka(a){return b_(c(2,b),aL(a,b))}function
-eL(i,a,e,w,v){var
-l=a?b:T(b),f=m(l),g=o_(a,e,wx),h=o_(a,e,wy),n=al(g,eK(a,e,f,g)),o=[0,B(al(h,eK(a,e,h,f)),n),0],p=al(f,eK(a,e,f,g)),q=[0,B(al(h,eK(a,e,g,h)),p),o],r=al(f,eK(a,e,h,f)),t=[0,B(al(g,eK(a,e,g,h)),r),q],u=a?e?m(c(2,b)):s(m(c(2,c(2,b))),hC):m(c(2,c(2,b))),j=cZ([0,u,t]),k=[0,d,cy(i)];return pc(a,i,j[1],j[2],[0,k,[0,k,[0,w,0]]],1,v)}function
-pd(a,g,b){if(K(g,ka(a))){if(b){var
+kk(a){return cb(c(2,b),aM(a,b))}function
+eO(i,a,e,w,v){var
+l=a?b:P(b),f=m(l),g=pv(a,e,w3),h=pv(a,e,w4),n=am(g,eN(a,e,f,g)),o=[0,B(am(h,eN(a,e,h,f)),n),0],p=am(f,eN(a,e,f,g)),q=[0,B(am(h,eN(a,e,g,h)),p),o],r=am(f,eN(a,e,h,f)),t=[0,B(am(g,eN(a,e,g,h)),r),q],u=a?e?m(c(2,b)):s(m(c(2,c(2,b))),hG):m(c(2,c(2,b))),j=c1([0,u,t]),k=[0,d,cC(i)];return pz(a,i,j[1],j[2],[0,k,[0,k,[0,w,0]]],1,v)}function
+pA(a,g,b){if(K(g,kk(a))){if(b){var
 c=b[2];if(c){var
 d=c[2];if(d){var
 e=d[2];if(e){if(e[2])return 0;var
-h=[0,g,ka(a)],v=cy(a),i=[0,ka(a),v],j=eL(a,0,1,h,b[1]),k=j?eL(a,0,0,i,c[1]):j;if(k){var
-l=eL(a,1,1,h,d[1]);if(l)return eL(a,1,0,i,e[1]);var
+h=[0,g,kk(a)],v=cC(a),i=[0,kk(a),v],j=eO(a,0,1,h,b[1]),k=j?eO(a,0,0,i,c[1]):j;if(k){var
+l=eO(a,1,1,h,d[1]);if(l)return eO(a,1,0,i,e[1]);var
 m=l}else
 var
 m=k;var
@@ -5965,301 +6092,301 @@ q=p}else
 var
 q=b;return q}if(b){var
 f=b[2];if(f){if(f[2])return 0;var
-r=[0,g,cy(a)],s=eL(a,0,0,r,b[1]);if(s)return eL(a,1,0,r,f[1]);var
+r=[0,g,cC(a)],s=eO(a,0,0,r,b[1]);if(s)return eO(a,1,0,r,f[1]);var
 t=s}else
 var
 t=f;var
 u=t}else
 var
 u=b;return u}function
-kb(a){var
-b=[1,[2,d]];return bT(function(b,a){return[1,[3,b,a]]},a,b)}function
-hE(a){return kb(e(function(a){return[1,[8,[1,[2,a]]]]},a))}function
-hF(a,c){return kb(e(function(a){var
-d=[0,a[2]],b=U(a[1],c);return[1,[7,[1,[8,kb(e(function(a){return[1,[6,[0,a[1]],[1,[2,a[2]]]]]},b))]],d]]},a))}function
-pe(e,d,c,b,a){if(0===a[0])return r(a[1],b,0);var
-f=a[1],g=bU(function(a){return pe(e,d,c,b,a)},f);return k(bD(e,d,c),g)}function
-pf(a){return a?K(d,a[1][2][1]):a}function
-wD(a){var
-b=n(f(a),wE);return b?aj(function(a){return I(J(a,d))},a):b}function
-pg(c,f,b,a){if(b)if(a)var
-d=b[1],g=t(c,N(c,a[1]),f),h=pg(c,f,b[2],a[2]),i=d[3],j=A(d[2],g),e=[0,[0,A(d[1],g),j,i],h];else
+kl(a){var
+b=[1,[2,d]];return bV(function(b,a){return[1,[3,b,a]]},a,b)}function
+hI(a){return kl(e(function(a){return[1,[8,[1,[2,a]]]]},a))}function
+hJ(a,c){return kl(e(function(a){var
+d=[0,a[2]],b=V(a[1],c);return[1,[7,[1,[8,kl(e(function(a){return[1,[6,[0,a[1]],[1,[2,a[2]]]]]},b))]],d]]},a))}function
+pB(e,d,c,b,a){if(0===a[0])return r(a[1],b,0);var
+f=a[1],g=bX(function(a){return pB(e,d,c,b,a)},f);return j(bz(e,d,c),g)}function
+pC(a){return a?K(d,a[1][2][1]):a}function
+w9(a){var
+b=n(f(a),w_);return b?aj(function(a){return I(L(a,d))},a):b}function
+pD(c,f,b,a){if(b)if(a)var
+d=b[1],g=t(c,J(c,a[1]),f),h=pD(c,f,b[2],a[2]),i=d[3],j=A(d[2],g),e=[0,[0,A(d[1],g),j,i],h];else
 var
 e=a;else
 var
 e=b;return e}function
-ph(d,c){var
-a=F(c,d);if(a){var
-b=a[1],e=b[1];return I(J(cf(b),e))}return a}function
-hG(b,a){return fb(fb(b,0),a)}function
-kc(a){if(a){var
-b=a[2],c=a[1];if(b)return hG(c,[0,wG,kc(b)]);var
+pE(d,c){var
+a=G(c,d);if(a){var
+b=a[1],e=b[1];return I(L(cg(b),e))}return a}function
+hK(b,a){return fe(fe(b,0),a)}function
+km(a){if(a){var
+b=a[2],c=a[1];if(b)return hK(c,[0,xa,km(b)]);var
 d=c}else
 var
 d=a;return d}function
-H(a){return[0,wI,hG(kc(a),wH)]}function
-ah(a){return[0,wK,hG(kc(a),wJ)]}function
-ar(a){return[0,wM,[0,a,wL]]}function
-o(b,a){return[0,be(wO,be(b,wN)),a]}function
-Q(b,a){return ah([0,o(b,a),0])}function
-cO(d){var
-b=d,a=sV,e=0;for(;;){if(b){var
-c=lE(a),b=b[1],a=c;continue}return[0,fc(go(a)),e]}}function
-kd(a){return[0,fc(gx(a)),0]}function
-fQ(a){var
-c=aT(a),f=0,b=0===c?s1:0<c?[0,gx(a)]:[1,gx(T(a))];if(0===b[0])var
-d=fc(b[1]);else
+H(a){return[0,xc,hK(km(a),xb)]}function
+ah(a){return[0,xe,hK(km(a),xd)]}function
+as(a){return[0,xg,[0,a,xf]]}function
+o(b,a){return[0,bg(xi,bg(b,xh)),a]}function
+S(b,a){return ah([0,o(b,a),0])}function
+cP(d){var
+b=d,a=tg,e=0;for(;;){if(b){var
+c=lO(a),b=b[1],a=c;continue}return[0,ff(gs(a)),e]}}function
+kn(a){return[0,ff(gB(a)),0]}function
+fU(a){var
+c=aT(a),f=0,b=0===c?tm:0<c?[0,gB(a)]:[1,gB(P(a))];if(0===b[0])var
+d=ff(b[1]);else
 var
-e=fc(b[1]),d=be(bP(1,45),e);return[0,d,f]}function
-eM(a){var
-b=0,c=0<aT(a)?gx(a):sZ;return[0,fc(c),b]}function
-ke(a){switch(a[0]){case
-2:return wQ;case
-3:return 2<=a[1]?wR:wS;case
-4:return wT;default:return wP}}function
-fR(b,a){function
-c(c,a){return aa(c,ke(a))?fR(b,a):[0,wZ,g(fR(b,a),wY)]}switch(a[0]){case
+e=ff(b[1]),d=bg(bR(1,45),e);return[0,d,f]}function
+eP(a){var
+b=0,c=0<aT(a)?gB(a):tk;return[0,ff(c),b]}function
+ko(a){switch(a[0]){case
+2:return xk;case
+3:return 2<=a[1]?xl:xm;case
+4:return xn;default:return xj}}function
+fV(b,a){function
+c(c,a){return ab(c,ko(a))?fV(b,a):[0,xt,g(fV(b,a),xs)]}switch(a[0]){case
 0:var
 e=a[2],f=a[1];if(typeof
-e==="number")return[0,bo(f),0];var
-h=[0,w0,[0,bo(e),0]];return[0,bo(f),h];case
-1:return[0,k(b,a[1]),0];case
-2:return[0,w2,c(w1,a[1])];case
+e==="number")return[0,bq(f),0];var
+h=[0,xu,[0,bq(e),0]];return[0,bq(f),h];case
+1:return[0,j(b,a[1]),0];case
+2:return[0,xw,c(xv,a[1])];case
 3:var
-i=a[3],j=c([0,ke(a)],i);switch(a[1]){case
+i=a[3],k=c([0,ko(a)],i);switch(a[1]){case
 0:var
-d=wU;break;case
+d=xo;break;case
 1:var
-d=wV;break;case
+d=xp;break;case
 2:var
-d=wW;break;default:var
-d=wX}var
-l=a[2];return g(c(ke(a),l),[0,d,j]);case
+d=xq;break;default:var
+d=xr}var
+l=a[2];return g(c(ko(a),l),[0,d,k]);case
 4:var
-m=[0,w3,kd(a[2])];return g(c(w4,a[1]),m);default:return[0,w6,g(fR(b,a[1]),w5)]}}function
-O(a){return[0,w9,g(fR(function(a){return 0===a[0]?a[1]:w8},a),w7)]}function
-kf(a){return[0,w$,g(fR(function(a){return a},a),w_)]}function
-cP(a){if(0===a[0])return O(a[1]);var
-b=[0,o(xa,O(a[2])),0];return ah([0,o(xb,O(a[1])),b])}function
-hH(b,a){var
-c=[0,k(b,a[3]),0],d=[0,k(b,a[2]),c];return H([0,k(b,a[1]),d])}function
-xc(a){function
-b(a){return hH(cP,a)}switch(a[0]){case
+m=[0,xx,kn(a[2])];return g(c(xy,a[1]),m);default:return[0,xA,g(fV(b,a[1]),xz)]}}function
+O(a){return[0,xD,g(fV(function(a){return 0===a[0]?a[1]:xC},a),xB)]}function
+kp(a){return[0,xF,g(fV(function(a){return a},a),xE)]}function
+cQ(a){if(0===a[0])return O(a[1]);var
+b=[0,o(xG,O(a[2])),0];return ah([0,o(xH,O(a[1])),b])}function
+hL(b,a){var
+c=[0,j(b,a[3]),0],d=[0,j(b,a[2]),c];return H([0,j(b,a[1]),d])}function
+xI(a){function
+b(a){return hL(cQ,a)}switch(a[0]){case
 0:var
-e=0,f=a[5]?xd:xl,h=[0,o(xe,ar(f)),e],i=[0,o(xf,cP(a[4])),h],j=[0,o(xg,b(a[3])),i],k=[0,o(xh,b(a[2])),j],l=[0,o(xi,b(a[1])),k],c=[0,o(xk,ar(xj)),l];break;case
+e=0,f=a[5]?xJ:xR,h=[0,o(xK,as(f)),e],i=[0,o(xL,cQ(a[4])),h],j=[0,o(xM,b(a[3])),i],k=[0,o(xN,b(a[2])),j],l=[0,o(xO,b(a[1])),k],c=[0,o(xQ,as(xP)),l];break;case
 1:var
-d=a[3],m=d?[0,o(xm,b(d[1])),0]:d,n=[0,o(xn,b(a[2])),0],p=[0,o(xo,b(a[1])),n],c=g([0,o(xq,ar(xp)),p],m);break;default:var
-q=[0,o(xr,b(a[1])),0],c=[0,o(xt,ar(xs)),q]}return ah(c)}function
-xu(a){function
-b(a){return H(e(cP,a))}function
+d=a[3],m=d?[0,o(xS,b(d[1])),0]:d,n=[0,o(xT,b(a[2])),0],p=[0,o(xU,b(a[1])),n],c=g([0,o(xW,as(xV)),p],m);break;default:var
+q=[0,o(xX,b(a[1])),0],c=[0,o(xZ,as(xY)),q]}return ah(c)}function
+x0(a){function
+b(a){return H(e(cQ,a))}function
 f(a){var
-b=a?xv:xx;return o(xw,ar(b))}switch(a[0]){case
+b=a?x1:x3;return o(x2,as(b))}switch(a[0]){case
 0:var
-h=[0,f(a[5]),0],i=[0,o(xy,cP(a[4])),h],j=[0,o(xz,b(a[3])),i],k=[0,o(xA,b(a[2])),j],l=[0,o(xB,b(a[1])),k],c=[0,o(xD,ar(xC)),l];break;case
+h=[0,f(a[5]),0],i=[0,o(x4,cQ(a[4])),h],j=[0,o(x5,b(a[3])),i],k=[0,o(x6,b(a[2])),j],l=[0,o(x7,b(a[1])),k],c=[0,o(x9,as(x8)),l];break;case
 1:var
-d=a[3],m=d?[0,o(xE,b(d[1])),0]:d,n=[0,o(xF,b(a[2])),0],p=[0,o(xG,b(a[1])),n],c=g([0,o(xI,ar(xH)),p],m);break;case
+d=a[3],m=d?[0,o(x_,b(d[1])),0]:d,n=[0,o(x$,b(a[2])),0],p=[0,o(ya,b(a[1])),n],c=g([0,o(yc,as(yb)),p],m);break;case
 2:var
-q=[0,o(xJ,b(a[1])),0],c=[0,o(xL,ar(xK)),q];break;default:var
-r=[0,f(a[7]),0],s=[0,o(xM,cP(a[6])),r],t=[0,o(xN,cP(a[5])),s],u=[0,o(xO,b(a[4])),t],v=[0,o(xP,b(a[3])),u],w=[0,o(xQ,b(a[2])),v],x=[0,o(xR,b(a[1])),w],c=[0,o(xT,ar(xS)),x]}return ah(c)}function
-kg(a){switch(a){case
-0:return xU;case
-1:return xV;case
-2:return xW;case
-3:return xX;case
-4:return xY;case
-5:return xZ;case
-6:return x0;case
-7:return x1;case
-8:return x2;case
-9:return x3;case
-10:return x4;case
-11:return x5;case
-12:return x6;case
-13:return x7;case
-14:return x8;case
-15:return x9;default:return x_}}function
-kh(a){if(typeof
-a==="number")return x$;else
+q=[0,o(yd,b(a[1])),0],c=[0,o(yf,as(ye)),q];break;default:var
+r=[0,f(a[7]),0],s=[0,o(yg,cQ(a[6])),r],t=[0,o(yh,cQ(a[5])),s],u=[0,o(yi,b(a[4])),t],v=[0,o(yj,b(a[3])),u],w=[0,o(yk,b(a[2])),v],x=[0,o(yl,b(a[1])),w],c=[0,o(yn,as(ym)),x]}return ah(c)}function
+kq(a){switch(a){case
+0:return yo;case
+1:return yp;case
+2:return yq;case
+3:return yr;case
+4:return ys;case
+5:return yt;case
+6:return yu;case
+7:return yv;case
+8:return yw;case
+9:return yx;case
+10:return yy;case
+11:return yz;case
+12:return yA;case
+13:return yB;case
+14:return yC;case
+15:return yD;default:return yE}}function
+kr(a){if(typeof
+a==="number")return yF;else
 switch(a[0]){case
-0:return ya;case
-1:return yb;default:return yc}}function
-fS(a){var
+0:return yG;case
+1:return yH;default:return yI}}function
+fW(a){var
 c=a[4];if(typeof
 c==="number")var
 d=0;else
 switch(c[0]){case
 0:var
-d=[0,o(yd,O(c[1])),0];break;case
+d=[0,o(yJ,O(c[1])),0];break;case
 1:var
-d=[0,o(ye,O(c[1])),0];break;default:var
-n=[0,O(c[2]),0],d=[0,o(yf,H([0,O(c[1]),n])),0]}var
-p=[0,o(yg,ar(kh(a[4]))),d],i=a[3];if(i){var
+d=[0,o(yK,O(c[1])),0];break;default:var
+n=[0,O(c[2]),0],d=[0,o(yL,H([0,O(c[1]),n])),0]}var
+p=[0,o(yM,as(kr(a[4]))),d],i=a[3];if(i){var
 b=i[1];switch(b[0]){case
 0:var
-r=H([0,O(b[1]),0]),k=a[1],q=0,s=6===k?yh:12===k?yl:ym,f=[0,o(yi,Q(s,r)),q];break;case
+r=H([0,O(b[1]),0]),k=a[1],q=0,s=6===k?yN:12===k?yR:yS,f=[0,o(yO,S(s,r)),q];break;case
 1:var
-x=H(e(O,b[1])),m=a[1],w=0;if(14<=m)switch(m+re|0){case
+x=H(e(O,b[1])),m=a[1],w=0;if(14<=m)switch(m+rB|0){case
 0:var
-h=yn;break;case
+h=yT;break;case
 1:var
-h=yp;break;default:var
-h=yq}else
+h=yV;break;default:var
+h=yW}else
 var
-h=yr;var
-f=[0,o(yo,Q(h,x)),w];break;case
+h=yX;var
+f=[0,o(yU,S(h,x)),w];break;case
 2:var
-y=[0,o(ys,H([0,O(b[2]),0])),0],f=[0,o(yu,ah([0,o(yt,H([0,O(b[1]),0])),y])),0];break;default:var
-z=[0,o(yv,H([0,O(b[2]),0])),0],f=[0,o(yx,ah([0,o(yw,H([0,O(b[1]),0])),z])),0]}var
+y=[0,o(yY,H([0,O(b[2]),0])),0],f=[0,o(y0,ah([0,o(yZ,H([0,O(b[1]),0])),y])),0];break;default:var
+z=[0,o(y1,H([0,O(b[2]),0])),0],f=[0,o(y3,ah([0,o(y2,H([0,O(b[1]),0])),z])),0]}var
 l=f}else
 var
 l=i;var
-t=g(l,p),j=a[2],u=j?[0,o(yj,cO(j[1])),0]:j,v=g(u,t);return ah([0,o(yk,ar(kg(a[1]))),v])}function
-pi(a){if(0===a[0]){var
-b=[0,o(yy,hH(O,a[2])),0];return Q(yA,ah([0,o(yz,hH(O,a[1])),b]))}var
-c=[0,O(a[5]),0],d=[0,o(yB,H([0,O(a[4]),c])),0],e=[0,o(yC,O(a[3])),d],f=[0,O(a[2]),0];return Q(yE,ah([0,o(yD,H([0,O(a[1]),f])),e]))}function
-pj(a){if(0===a[0]){var
-b=[0,o(yF,H(e(O,a[2]))),0];return Q(yH,ah([0,o(yG,H(e(O,a[1]))),b]))}return pi([1,a[1],a[2],a[3],a[4],a[5]])}function
-pk(a){switch(a){case
-0:return yI;case
-1:return yJ;default:return yK}}function
-yL(a){function
-b(a){return H(e(cP,a))}var
-c=[0,o(yM,b(a[2])),0],d=[0,o(yN,b(a[1])),c];return ah([0,o(yP,ar(yO)),d])}function
-pl(a){function
+t=g(l,p),j=a[2],u=j?[0,o(yP,cP(j[1])),0]:j,v=g(u,t);return ah([0,o(yQ,as(kq(a[1]))),v])}function
+pF(a){if(0===a[0]){var
+b=[0,o(y4,hL(O,a[2])),0];return S(y6,ah([0,o(y5,hL(O,a[1])),b]))}var
+c=[0,O(a[5]),0],d=[0,o(y7,H([0,O(a[4]),c])),0],e=[0,o(y8,O(a[3])),d],f=[0,O(a[2]),0];return S(y_,ah([0,o(y9,H([0,O(a[1]),f])),e]))}function
+pG(a){if(0===a[0]){var
+b=[0,o(y$,H(e(O,a[2]))),0];return S(zb,ah([0,o(za,H(e(O,a[1]))),b]))}return pF([1,a[1],a[2],a[3],a[4],a[5]])}function
+pH(a){switch(a){case
+0:return zc;case
+1:return zd;default:return ze}}function
+zf(a){function
+b(a){return H(e(cQ,a))}var
+c=[0,o(zg,b(a[2])),0],d=[0,o(zh,b(a[1])),c];return ah([0,o(zj,as(zi)),d])}function
+pI(a){function
 b(b,a){var
 c=[0,O(a),0];return H([0,O(b),c])}switch(a[0]){case
-0:return Q(yQ,b(a[1],a[2]));case
+0:return S(zk,b(a[1],a[2]));case
 1:var
-c=a[3],d=a[2],e=a[1],f=[0,o(yR,b(c[1],c[2])),0],g=[0,o(yS,b(d[1],d[2])),f];return Q(yU,ah([0,o(yT,b(e[1],e[2])),g]));case
-2:return Q(yV,O(a[1]));default:var
-h=[0,o(yW,O(a[2])),0];return Q(yY,ah([0,o(yX,O(a[1])),h]))}}function
-yZ(a){function
-b(a){return hH(O,a)}if(0===a[0])var
-c=a[5],e=c?[0,o(y0,b(c[1])),0]:c,f=[0,O(a[4]),0],h=[0,o(y1,H([0,O(a[3]),f])),0],i=[0,o(y2,O(a[2])),h],j=[0,o(y3,cO(a[1])),i],d=g([0,o(y5,ar(y4)),j],e);else
+c=a[3],d=a[2],e=a[1],f=[0,o(zl,b(c[1],c[2])),0],g=[0,o(zm,b(d[1],d[2])),f];return S(zo,ah([0,o(zn,b(e[1],e[2])),g]));case
+2:return S(zp,O(a[1]));default:var
+h=[0,o(zq,O(a[2])),0];return S(zs,ah([0,o(zr,O(a[1])),h]))}}function
+zt(a){function
+b(a){return hL(O,a)}if(0===a[0])var
+c=a[5],e=c?[0,o(zu,b(c[1])),0]:c,f=[0,O(a[4]),0],h=[0,o(zv,H([0,O(a[3]),f])),0],i=[0,o(zw,O(a[2])),h],j=[0,o(zx,cP(a[1])),i],d=g([0,o(zz,as(zy)),j],e);else
 var
-k=[0,o(y6,O(a[4])),0],l=[0,o(y7,b(a[3])),k],m=[0,o(y8,b(a[2])),l],n=a[1]?y9:y$,d=[0,o(y_,ar(n)),m];return ah(d)}function
-pm(a){var
-b=a?[0,o(za,H(e(yZ,a))),0]:a;return b}function
-ki(d,c,b,a){var
-f=[0,o(zb,H(e(fS,a))),0],h=g(pm(b),f),i=[0,o(zc,pi(c)),0];return ah(g([0,o(ze,Q(zd,H(e(xc,d)))),i],h))}function
-zf(a){switch(a[0]){case
-0:return Q(zg,ki(a[1],a[2],a[3],a[4]));case
+k=[0,o(zA,O(a[4])),0],l=[0,o(zB,b(a[3])),k],m=[0,o(zC,b(a[2])),l],n=a[1]?zD:zF,d=[0,o(zE,as(n)),m];return ah(d)}function
+pJ(a){var
+b=a?[0,o(zG,H(e(zt,a))),0]:a;return b}function
+ks(d,c,b,a){var
+f=[0,o(zH,H(e(fW,a))),0],h=g(pJ(b),f),i=[0,o(zI,pF(c)),0];return ah(g([0,o(zK,S(zJ,H(e(xI,d)))),i],h))}function
+zL(a){switch(a[0]){case
+0:return S(zM,ks(a[1],a[2],a[3],a[4]));case
 1:var
-b=a[5],c=a[3],d=a[1],f=H(e(xu,a[2])),l=[0,o(zh,H(e(fS,a[6]))),0],m=b?[0,o(zi,pl(b[1])),0]:b,n=g(m,l),k=0,p=[0,o(zj,pj(a[4])),n];if(typeof
+b=a[5],c=a[3],d=a[1],f=H(e(x0,a[2])),l=[0,o(zN,H(e(fW,a[6]))),0],m=b?[0,o(zO,pI(b[1])),0]:b,n=g(m,l),k=0,p=[0,o(zP,pG(a[4])),n];if(typeof
 d==="number")if(d)var
-h=zk;else{var
-i=Q(zp,f);k=1}else
+h=zQ;else{var
+i=S(zV,f);k=1}else
 var
-h=pk(d[1]);if(!k)var
-q=c?[0,o(zl,O(c[1])),0]:c,i=Q(h,ah([0,o(zm,f),q]));return Q(zo,ah([0,o(zn,i),p]));case
+h=pH(d[1]);if(!k)var
+q=c?[0,o(zR,O(c[1])),0]:c,i=S(h,ah([0,o(zS,f),q]));return S(zU,ah([0,o(zT,i),p]));case
 2:var
-r=[0,o(zq,H(e(fS,a[7]))),0],s=g(pm(a[6]),r),t=[0,o(zr,pl(a[5])),0],u=[0,o(zs,pj(a[4])),t],v=[0,o(zt,O(a[3])),0],w=ah([0,o(zu,H(e(yL,a[2]))),v]);return Q(zw,ah(g([0,o(zv,Q(pk(a[1]),w)),u],s)));case
+r=[0,o(zW,H(e(fW,a[7]))),0],s=g(pJ(a[6]),r),t=[0,o(zX,pI(a[5])),0],u=[0,o(zY,pG(a[4])),t],v=[0,o(zZ,O(a[3])),0],w=ah([0,o(z0,H(e(zf,a[2]))),v]);return S(z2,ah(g([0,o(z1,S(pH(a[1]),w)),u],s)));case
 3:var
-x=[0,o(zx,H(e(fS,a[7]))),0],y=[0,o(zy,H(e(O,a[6]))),0],z=[0,o(zB,Q(zA,ah([0,o(zz,H(e(O,a[5]))),y]))),x],A=0,B=a[4],C=[0,o(zE,H(e(function(a){return 0===a[0]?Q(zC,H(e(kf,a[1]))):Q(zD,kf(a[1]))},B))),A],D=a[3],E=[0,o(zF,H(e(function(a){var
-b=[0,kf(a[2]),0];return H([0,ar(a[1]),b])},D))),C],F=a[2],G=[0,o(zG,H(e(function(a){var
-b=[0,cP(a[2]),0];return H([0,ar(a[1]),b])},F))),E];return Q(zK,ah([0,o(zJ,Q(zI,ah([0,o(zH,H(e(ar,a[1]))),G]))),z]));case
+x=[0,o(z3,H(e(fW,a[7]))),0],y=[0,o(z4,H(e(O,a[6]))),0],z=[0,o(z7,S(z6,ah([0,o(z5,H(e(O,a[5]))),y]))),x],A=0,B=a[4],C=[0,o(z_,H(e(function(a){return 0===a[0]?S(z8,H(e(kp,a[1]))):S(z9,kp(a[1]))},B))),A],D=a[3],E=[0,o(z$,H(e(function(a){var
+b=[0,kp(a[2]),0];return H([0,as(a[1]),b])},D))),C],F=a[2],G=[0,o(Aa,H(e(function(a){var
+b=[0,cQ(a[2]),0];return H([0,as(a[1]),b])},F))),E];return S(Ae,ah([0,o(Ad,S(Ac,ah([0,o(Ab,H(e(as,a[1]))),G]))),z]));case
 4:var
-I=[0,o(zL,H(e(fS,a[3]))),0],J=[0,o(zO,Q(zN,ah([0,o(zM,O(a[2])),0]))),I];return Q(zS,ah([0,o(zR,Q(zQ,ah([0,o(zP,O(a[1])),0]))),J]));case
+I=[0,o(Af,H(e(fW,a[3]))),0],J=[0,o(Ai,S(Ah,ah([0,o(Ag,O(a[2])),0]))),I];return S(Am,ah([0,o(Al,S(Ak,ah([0,o(Aj,O(a[1])),0]))),J]));case
 5:var
-K=[0,o(zT,O(a[5])),0];return Q(zV,ah([0,o(zU,ki(a[1],[0,a[2],a[3]],0,a[4])),K]));case
+K=[0,o(An,O(a[5])),0];return S(Ap,ah([0,o(Ao,ks(a[1],[0,a[2],a[3]],0,a[4])),K]));case
 6:var
-j=a[1],L=0,M=j?cP(j[1]):ar(zY);return Q(zX,ah([0,o(zW,M),L]));default:var
-N=[0,o(zZ,O(a[6])),0],P=[0,o(z0,O(a[5])),N],R=[0,o(z1,ki(a[2],a[3],0,a[4])),P],S=a[1];return Q(z6,ah([0,o(z5,H(e(function(a){var
-b=[0,o(z2,O(a[2][2])),0],c=[0,o(z3,O(a[2][1])),b];return ah([0,o(z4,ar(a[1])),c])},S))),R]))}}function
-dT(a){return H(e(fQ,a))}function
-fT(b,a){var
-c=[0,o(z7,eM(a)),0];return ah([0,o(z8,H(e(dT,b))),c])}function
-dj(a){switch(a[0]){case
-0:return ar(a[1]);case
+j=a[1],L=0,M=j?cQ(j[1]):as(As);return S(Ar,ah([0,o(Aq,M),L]));default:var
+N=[0,o(At,O(a[6])),0],P=[0,o(Au,O(a[5])),N],Q=[0,o(Av,ks(a[2],a[3],0,a[4])),P],R=a[1];return S(AA,ah([0,o(Az,H(e(function(a){var
+b=[0,o(Aw,O(a[2][2])),0],c=[0,o(Ax,O(a[2][1])),b];return ah([0,o(Ay,as(a[1])),c])},R))),Q]))}}function
+dZ(a){return H(e(fU,a))}function
+fX(b,a){var
+c=[0,o(AB,eP(a)),0];return ah([0,o(AC,H(e(dZ,b))),c])}function
+dk(a){switch(a[0]){case
+0:return as(a[1]);case
 1:var
-b=fT(a[2],a[3]);return Q(a[1],b);case
+b=fX(a[2],a[3]);return S(a[1],b);case
 2:var
-c=a[1]?z9:z$;return Q(z_,ar(c));case
+c=a[1]?AD:AF;return S(AE,as(c));case
 3:var
-d=[0,dT(a[3]),0];return Q(Aa,H([0,fT(a[1],a[2]),d]));case
+d=[0,dZ(a[3]),0];return S(AG,H([0,fX(a[1],a[2]),d]));case
 4:var
-f=[0,eM(a[4]),0],g=[0,fQ(a[3]),f];return Q(Ab,H([0,fT(a[1],a[2]),g]));case
+f=[0,eP(a[4]),0],g=[0,fU(a[3]),f];return S(AH,H([0,fX(a[1],a[2]),g]));case
 5:var
-h=[0,eM(a[3]),0],i=[0,fQ(a[2]),h];return Q(Ac,H([0,dj(a[1]),i]));case
+h=[0,eP(a[3]),0],i=[0,fU(a[2]),h];return S(AI,H([0,dk(a[1]),i]));case
 6:var
-j=[0,eM(a[3]),0],k=[0,fQ(a[2]),j];return Q(Ad,H([0,dj(a[1]),k]));case
-7:return Q(Ae,dj(a[1]));case
+j=[0,eP(a[3]),0],k=[0,fU(a[2]),j];return S(AJ,H([0,dk(a[1]),k]));case
+7:return S(AK,dk(a[1]));case
 8:var
-l=[0,H(e(dT,a[3])),0],m=[0,ar(a[2]),l];return Q(Af,H([0,dj(a[1]),m]));case
+l=[0,H(e(dZ,a[3])),0],m=[0,as(a[2]),l];return S(AL,H([0,dk(a[1]),m]));case
 9:var
-n=a[1];return Q(Ag,H(e(function(a){var
-b=a[1],c=b[1],d=[0,dj(a[2]),0],e=[0,eM(b[2]),d],f=[0,fQ(c[2]),e];return H([0,dT(c[1]),f])},n)));default:var
-o=[0,dj(a[4]),0],p=[0,dj(a[3]),o],q=[0,eM(a[2]),p];return Q(Ah,H([0,dT(a[1]),q]))}}function
-Ai(a){var
-b=[0,dj(a[2]),0];return H([0,cO(a[1]),b])}function
-pn(a){if(typeof
-a==="number")return 0===a?ar(Aj):ar(Ak);else
+n=a[1];return S(AM,H(e(function(a){var
+b=a[1],c=b[1],d=[0,dk(a[2]),0],e=[0,eP(b[2]),d],f=[0,fU(c[2]),e];return H([0,dZ(c[1]),f])},n)));default:var
+o=[0,dk(a[4]),0],p=[0,dk(a[3]),o],q=[0,eP(a[2]),p];return S(AN,H([0,dZ(a[1]),q]))}}function
+AO(a){var
+b=[0,dk(a[2]),0];return H([0,cP(a[1]),b])}function
+pK(a){if(typeof
+a==="number")return 0===a?as(AP):as(AQ);else
 switch(a[0]){case
 0:var
-b=[0,H(e(dT,a[2])),0];return Q(Al,H([0,cO(a[1]),b]));case
+b=[0,H(e(dZ,a[2])),0];return S(AR,H([0,cP(a[1]),b]));case
 1:var
-c=[0,cO(a[2]),0];return Q(Am,H([0,cO(a[1]),c]));case
-2:return Q(An,H(e(O,a[1])));default:var
-d=[0,o(Ao,fT(a[4],a[5])),0],f=[0,o(Ap,H(e(O,a[3]))),d],g=[0,o(Aq,H(e(O,a[2]))),f];return Q(As,ah([0,o(Ar,cO(a[1])),g]))}}function
-At(a){var
-b=a[4],h=b?[0,o(Au,dT([0,b[1],b[2]])),0]:b,d=a[3],i=d?[0,o(Av,pn(d[1])),0]:d,j=g(i,h),f=a[2],k=f?[0,o(Aw,cO(f[1])),0]:f,l=g(k,j),c=a[1],m=c?[0,o(Ax,H(e(Ai,[0,c[1],c[2]]))),0]:c;return ah(g(m,l))}function
-po(f,a,d){var
-h=[0,o(Ay,H(e(At,d))),0];if(a)var
-b=a[1],c=[0,o(Az,fT(b[1],b[2])),0];else
+c=[0,cP(a[2]),0];return S(AS,H([0,cP(a[1]),c]));case
+2:return S(AT,H(e(O,a[1])));default:var
+d=[0,o(AU,fX(a[4],a[5])),0],f=[0,o(AV,H(e(O,a[3]))),d],g=[0,o(AW,H(e(O,a[2]))),f];return S(AY,ah([0,o(AX,cP(a[1])),g]))}}function
+AZ(a){var
+b=a[4],h=b?[0,o(A0,dZ([0,b[1],b[2]])),0]:b,d=a[3],i=d?[0,o(A1,pK(d[1])),0]:d,j=g(i,h),f=a[2],k=f?[0,o(A2,cP(f[1])),0]:f,l=g(k,j),c=a[1],m=c?[0,o(A3,H(e(AO,[0,c[1],c[2]]))),0]:c;return ah(g(m,l))}function
+pL(f,a,d){var
+h=[0,o(A4,H(e(AZ,d))),0];if(a)var
+b=a[1],c=[0,o(A5,fX(b[1],b[2])),0];else
 var
 c=a;var
-i=g(c,h);return ah([0,o(AA,kd(f)),i])}function
-pp(d,c,a,b){var
-f=[0,o(AB,pn(b)),0],h=a?[0,o(AC,H(e(O,a))),0]:a,i=g(h,f),j=[0,o(AD,H(e(O,c))),0];return ah(g([0,o(AE,kd(d)),j],i))}function
-AF(a){if(typeof
-a==="number")return ar(AG);else
+i=g(c,h);return ah([0,o(A6,kn(f)),i])}function
+pM(d,c,a,b){var
+f=[0,o(A7,pK(b)),0],h=a?[0,o(A8,H(e(O,a))),0]:a,i=g(h,f),j=[0,o(A9,H(e(O,c))),0];return ah(g([0,o(A_,kn(d)),j],i))}function
+A$(a){if(typeof
+a==="number")return as(Ba);else
 switch(a[0]){case
-0:return Q(AH,cO(a[1]));case
-1:return Q(AI,po(a[1],a[2],a[3]));default:return Q(AJ,pp(a[1],a[2],a[3],a[4]))}}function
-hI(a){var
-b=iz(iy(az(a),function(b){return a9(a,b)}));return l(function(a){var
-b=I(34===a?1:0),c=b?I(92===a?1:0):b,d=c?aa(AY,gA(a)):c;return d?aa(gA(a),AZ):d},b)}function
-kj(d){var
+0:return S(Bb,cP(a[1]));case
+1:return S(Bc,pL(a[1],a[2],a[3]));default:return S(Bd,pM(a[1],a[2],a[3],a[4]))}}function
+hM(a){var
+b=iD(iC(az(a),function(b){return a$(a,b)}));return l(function(a){var
+b=I(34===a?1:0),c=b?I(92===a?1:0):b,d=c?ab(Bs,gE(a)):c;return d?ab(gE(a),Bt):d},b)}function
+kt(d){var
 a=d;for(;;)switch(a[0]){case
 8:var
-b=hI(a[2]);if(b){var
+b=hM(a[2]);if(b){var
 a=a[1];continue}return b;case
 9:var
-e=a[1];return l(function(a){return kj(a[2])},e);case
+e=a[1];return l(function(a){return kt(a[2])},e);case
 10:var
-c=kj(a[3]);if(c){var
+c=kt(a[3]);if(c){var
 a=a[4];continue}return c;case
 0:case
-1:return hI(a[1]);case
-5:case
-6:case
-7:var
-a=a[1];continue;default:return 1}}function
-fU(b){function
+1:return hM(a[1]);case
+2:case
+3:case
+4:return 1;default:var
+a=a[1];continue}}function
+fY(b){function
 c(f){var
-a=gA(f),b=aa(A0,a),c=b?aa(a,A1):b;if(c)var
+a=gE(f),b=ab(Bu,a),c=b?ab(a,Bv):b;if(c)var
 d=c;else{var
-e=aa(A2,a);if(e)return aa(a,A3);var
+e=ab(Bw,a);if(e)return ab(a,Bx);var
 d=e}return d}var
-a=iz(iy(az(b),function(a){return a9(b,a)}));if(a){var
+a=iD(iC(az(b),function(a){return a$(b,a)}));if(a){var
 d=a[2],e=c(a[1]),g=e?l(function(a){var
 b=c(a);if(b)var
 d=b;else
 var
-e=gA(a),f=aa(A4,e),h=f?aa(e,A5):f,d=h;var
-g=d||(95===a?1:0);return g},d):e,h=g?aa(f(d),A6):g;if(h)return I(aB(b,A7));var
+e=gE(a),f=ab(By,e),h=f?ab(e,Bz):f,d=h;var
+g=d||(95===a?1:0);return g},d):e,h=g?ab(f(d),BA):g;if(h)return I(aD(b,BB));var
 i=h}else
 var
 i=a;return i}function
-kk(c){var
+ku(c){var
 a=c;for(;;)switch(a[0]){case
 0:return 1;case
-1:return fU(a[1]);case
+1:return fY(a[1]);case
 3:var
-b=kk(a[2]);if(b){var
+b=ku(a[2]);if(b){var
 a=a[3];continue}return b;default:var
 a=a[1];continue}}function
-fV(m){var
+fZ(m){var
 a=m;for(;;)switch(a[0]){case
 0:var
 e=a[1];if(typeof
@@ -6270,42 +6397,42 @@ h=typeof
 e[1]==="number"?1:0,d=h?1:h;else
 var
 d=1;if(d){var
-f=go(a[2]);if(typeof
+f=gs(a[2]);if(typeof
 f!=="number"&&0===f[0])return 0;var
 g=1}else
 var
 g=d;return g;case
 1:return 1;case
 3:var
-i=fV(a[2]);if(i){var
+i=fZ(a[2]);if(i){var
 a=a[3];continue}return i;case
 4:var
-j=a[2],k=fV(a[1]),l=k?gv(c(2,b),j):k;return l?gv(j,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):l;default:var
+j=a[2],k=fZ(a[1]),l=k?gz(c(2,b),j):k;return l?gz(j,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):l;default:var
 a=a[1];continue}}function
-eN(a){return 0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
-b2(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-dU(a){return z(eN,b2(a))}function
-kl(a){switch(a[0]){case
+eQ(a){return 0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
+b5(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+d0(a){return w(eQ,b5(a))}function
+kv(a){switch(a[0]){case
 0:var
-c=eN(a[4]),d=g(dU(a[3]),c),e=g(dU(a[2]),d);return g(dU(a[1]),e);case
+c=eQ(a[4]),d=g(d0(a[3]),c),e=g(d0(a[2]),d);return g(d0(a[1]),e);case
 1:var
-b=a[3],f=b?dU(b[1]):b,h=g(dU(a[2]),f);return g(dU(a[1]),h);default:return dU(a[1])}}function
-A8(a){switch(a[0]){case
+b=a[3],f=b?d0(b[1]):b,h=g(d0(a[2]),f);return g(d0(a[1]),h);default:return d0(a[1])}}function
+BC(a){switch(a[0]){case
 0:var
 d=g(a[3],[0,a[4],0]),e=g(a[2],d),b=g(a[1],e);break;case
 1:var
 c=a[3],f=c?c[1]:c,h=g(a[2],f),b=g(a[1],h);break;case
 2:var
 b=a[1];break;default:var
-i=g(a[4],[0,a[5],[0,a[6],0]]),j=g(a[3],i),k=g(a[2],j),b=g(a[1],k)}return z(eN,b)}function
-pq(a){return 0===a[0]?g(a[1],a[2]):[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
-pr(a){if(0===a[0]){var
-b=b2(a[2]);return g(b2(a[1]),b)}return[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
-ps(a){switch(a[0]){case
+i=g(a[4],[0,a[5],[0,a[6],0]]),j=g(a[3],i),k=g(a[2],j),b=g(a[1],k)}return w(eQ,b)}function
+pN(a){return 0===a[0]?g(a[1],a[2]):[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
+pO(a){if(0===a[0]){var
+b=b5(a[2]);return g(b5(a[1]),b)}return[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
+pP(a){switch(a[0]){case
 1:var
 b=a[3],c=a[2],d=a[1];return[0,d[1],[0,d[2],[0,c[1],[0,c[2],[0,b[1],[0,b[2],0]]]]]];case
 2:return[0,a[1],0];default:return[0,a[1],[0,a[2],0]]}}function
-dV(e){var
+d1(e){var
 a=e[4],h=typeof
 a==="number"?0:2===a[0]?[0,a[1],[0,a[2],0]]:[0,a[1],0],c=e[3];if(c){var
 b=c[1];switch(b[0]){case
@@ -6317,150 +6444,150 @@ d=[0,b[1],[0,b[2],0]]}var
 f=d}else
 var
 f=c;return g(f,h)}function
-pt(a){if(0===a[0]){var
-b=a[5],c=b?b2(b[1]):b;return[0,a[2],[0,a[3],[0,a[4],c]]]}var
-d=[0,a[4],0],e=g(b2(a[3]),d);return g(b2(a[2]),e)}function
-pu(b,e){var
+pQ(a){if(0===a[0]){var
+b=a[5],c=b?b5(b[1]):b;return[0,a[2],[0,a[3],[0,a[4],c]]]}var
+d=[0,a[4],0],e=g(b5(a[3]),d);return g(b5(a[2]),e)}function
+pR(b,e){var
 a=e;for(;;)switch(a[0]){case
 0:return 1;case
 1:var
 c=a[1];if(0===c[0]){var
-f=c[1];return aj(function(a){return aB(f,a)},b)}return 0;case
+f=c[1];return aj(function(a){return aD(f,a)},b)}return 0;case
 3:var
-d=pu(b,a[2]);if(d){var
+d=pR(b,a[2]);if(d){var
 a=a[3];continue}return d;default:var
 a=a[1];continue}}function
-fW(c,a){return l(function(a){var
-b=fV(a);return b?pu(c,a):b},a)}function
-pv(a){if(typeof
+f0(c,a){return l(function(a){var
+b=fZ(a);return b?pR(c,a):b},a)}function
+pS(a){if(typeof
 a!=="number")switch(a[0]){case
 2:return a[1];case
 3:return g(a[2],a[3])}return 0}function
-pw(a){var
-d=gv(c(2,c(2,c(2,c(2,c(2,b))))),a);return d?gv(a,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b))))))))))):d}function
-px(a,b){return b?[4,px(a,b[1]),a]:a}function
-j(a){switch(a[0]){case
+pT(a){var
+d=gz(c(2,c(2,c(2,c(2,c(2,b))))),a);return d?gz(a,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b))))))))))):d}function
+pU(a,b){return b?[4,pU(a,b[1]),a]:a}function
+k(a){switch(a[0]){case
 0:var
-i=a[2],k=c(2,q(c(2,c(2,b)))),l=function(a){return C(k,a)},m=gp(lC(i),l,b);return[0,lP(lD(go(a[1]),i)),m];case
+i=a[2],j=c(2,q(c(2,c(2,b)))),l=function(a){return C(j,a)},m=gt(lM(i),l,b);return[0,l1(lN(gs(a[1]),i)),m];case
 1:var
 e=a[1];return 0===e[0]?[5,[0,b,b],[0,d,b]]:[1,e[1],e[2],e[3]];case
 2:var
-f=j(a[1]);return 0===f[0]?[0,T(f[1]),f[2]]:[3,[0,d,b],f];case
+f=k(a[1]);return 0===f[0]?[0,P(f[1]),f[2]]:[3,[0,d,b],f];case
 3:var
-g=j(a[2]),h=j(a[3]);switch(a[1]){case
+g=k(a[2]),h=k(a[3]);switch(a[1]){case
 0:return[2,g,h];case
 1:return[3,g,h];case
 2:return[4,g,h];default:return[5,g,h]}case
 4:var
-n=bn(e$(a[2]));return px(j(a[1]),n);default:return[6,j(a[1])]}}function
-b3(a){if(0===a[0]){var
-b=j(a[1]);return[0,b,b]}var
-c=j(a[2]);return[0,j(a[1]),c]}function
-dW(a){var
-b=b3(a[3]),c=b3(a[2]);return[0,b3(a[1]),c,b]}function
-A9(a){switch(a[0]){case
+n=bh(fc(a[2]));return pU(k(a[1]),n);default:return[6,k(a[1])]}}function
+b6(a){if(0===a[0]){var
+b=k(a[1]);return[0,b,b]}var
+c=k(a[2]);return[0,k(a[1]),c]}function
+d2(a){var
+b=b6(a[3]),c=b6(a[2]);return[0,b6(a[1]),c,b]}function
+BD(a){switch(a[0]){case
 0:var
-b=a[5],c=b3(a[4]),d=dW(a[3]),e=dW(a[2]);return[0,[0,dW(a[1]),e,d,c,b]];case
+b=a[5],c=b6(a[4]),d=d2(a[3]),e=d2(a[2]);return[0,[0,d2(a[1]),e,d,c,b]];case
 1:var
-f=y(dW,a[3]),g=dW(a[2]);return[1,dW(a[1]),g,f];default:return[2,dW(a[1])]}}function
-py(a){if(0===a[0]){var
+f=z(d2,a[3]),g=d2(a[2]);return[1,d2(a[1]),g,f];default:return[2,d2(a[1])]}}function
+pV(a){if(0===a[0]){var
 c=a[2],d=a[1],b=function(a){var
-b=j(k(a,c));return[0,j(k(a,d)),b]},e=b(function(a){return a[3]}),f=b(function(a){return a[2]});return[0,[0,b(function(a){return a[1]}),f,e]]}var
-g=j(a[5]),h=[0,j(a[4]),g],i=j(a[3]),l=j(a[2]);return[1,j(a[1]),l,i,h]}function
-eO(a){var
-b=j(a[3]),c=j(a[2]);return[0,j(a[1]),c,b]}function
-dk(a){if(0===a[0]){var
-c=a[5],h=c?eO(c[1]):[0,[0,d,b],[0,d,b],[0,d,b]],i=j(a[4]),k=j(a[3]),l=j(a[2]);return[0,bn(a[1]),l,k,i,h]}var
+b=k(j(a,c));return[0,k(j(a,d)),b]},e=b(function(a){return a[3]}),f=b(function(a){return a[2]});return[0,[0,b(function(a){return a[1]}),f,e]]}var
+g=k(a[5]),h=[0,k(a[4]),g],i=k(a[3]),l=k(a[2]);return[1,k(a[1]),l,i,h]}function
+eR(a){var
+b=k(a[3]),c=k(a[2]);return[0,k(a[1]),c,b]}function
+dl(a){if(0===a[0]){var
+c=a[5],h=c?eR(c[1]):[0,[0,d,b],[0,d,b],[0,d,b]],i=k(a[4]),j=k(a[3]),l=k(a[2]);return[0,bh(a[1]),l,j,i,h]}var
 e=a[4],f=a[3],g=a[2];if(a[1]){var
-m=eO(f),n=eO(g);return[2,j(e),n,m]}var
-o=eO(f),p=eO(g);return[1,j(e),p,o]}function
-hJ(b,a){if(a){var
-c=a[1],d=a[2],f=hJ(g(b,[0,c,0]),d),h=e(function(a){return[0,c,a]},b);return g(a1(function(c){var
-a=c[2],b=c[1],d=0===b[0]?b[5]?0:0===a[0]?a[5]?0:n(b[1],a[1]):0:0===a[0]?0:cv(b[1],a[1]);return I(d)},h),f)}return a}function
-A_(b){if(b[1])return 0;var
+m=eR(f),n=eR(g);return[2,k(e),n,m]}var
+o=eR(f),p=eR(g);return[1,k(e),p,o]}function
+hN(b,a){if(a){var
+c=a[1],d=a[2],f=hN(g(b,[0,c,0]),d),h=e(function(a){return[0,c,a]},b);return g(a2(function(c){var
+a=c[2],b=c[1],d=0===b[0]?b[5]?0:0===a[0]?a[5]?0:n(b[1],a[1]):0:0===a[0]?0:cz(b[1],a[1]);return I(d)},h),f)}return a}function
+BE(b){if(b[1])return 0;var
 a=b[4];if(typeof
-a!=="number"&&1===a[0])return[0,[0,j(a[1])],0];return 0}function
-pz(N,M,a){switch(a[1]){case
+a!=="number"&&1===a[0])return[0,[0,k(a[1])],0];return 0}function
+pW(N,M,a){switch(a[1]){case
 0:var
 g=a[4];if(typeof
-g!=="number"&&0===g[0])return[0,[1,j(g[1])],0];return 0;case
+g!=="number"&&0===g[0])return[0,[1,k(g[1])],0];return 0;case
 1:var
 f=a[4],A=0;if(typeof
 f==="number")A=1;else
 switch(f[0]){case
 0:var
-O=f[1],c=function(a){return[2,a,j(O)]};break;case
+O=f[1],c=function(a){return[2,a,k(O)]};break;case
 1:var
-Q=f[1],c=function(a){return[3,a,j(Q)]};break;default:A=1}if(A)return 0;break;case
+Q=f[1],c=function(a){return[3,a,k(Q)]};break;default:A=1}if(A)return 0;break;case
 2:var
 h=a[4],I=0;if(typeof
 h==="number"||!(1===h[0]))I=1;else{var
 i=a[3],R=h[1];if(!i)return i;var
 C=i[1];if(0!==C[0])return 0;var
 S=C[1],c=function(a){var
-b=j(R);return[4,a,j(S),b]}}if(I)return 0;break;case
+b=k(R);return[4,a,k(S),b]}}if(I)return 0;break;case
 3:var
-k=a[4];if(typeof
-k!=="number"&&1===k[0])return[0,[5,j(k[1])],0];return 0;case
+j=a[4];if(typeof
+j!=="number"&&1===j[0])return[0,[5,k(j[1])],0];return 0;case
 4:var
 l=a[4],J=0;if(typeof
 l==="number"||!(0===l[0]))J=1;else
 var
-T=l[1],c=function(a){return[6,a,j(T)]};if(J)return 0;break;case
+T=l[1],c=function(a){return[6,a,k(T)]};if(J)return 0;break;case
 5:var
 m=a[4];if(typeof
-m!=="number"&&0===m[0])return[0,[7,j(m[1])],0];return 0;case
+m!=="number"&&0===m[0])return[0,[7,k(m[1])],0];return 0;case
 6:var
 o=a[4];if(typeof
 o!=="number"&&0===o[0]){var
 D=o[1],p=a[3];if(p){var
 q=p[1];switch(q[0]){case
 0:var
-U=j(D);return[0,[8,j(q[1]),U],0];case
+U=k(D);return[0,[8,k(q[1]),U],0];case
 1:var
-V=j(D);return[0,[15,e(j,q[1]),V],0];default:var
+V=k(D);return[0,[15,e(k,q[1]),V],0];default:var
 E=0}}else
 var
 E=p;return E}return 0;case
 7:var
 r=a[4];if(typeof
-r!=="number"&&0===r[0])return[0,[9,j(r[1])],0];return 0;case
+r!=="number"&&0===r[0])return[0,[9,k(r[1])],0];return 0;case
 8:var
 s=a[4],K=0;if(typeof
 s==="number"||!(1===s[0]))K=1;else{var
 t=a[3],W=s[1];if(!t)return t;var
 F=t[1];if(0!==F[0])return 0;var
 X=F[1],c=function(a){var
-b=j(W);return[13,a,j(X),b]}}if(K)return 0;break;case
+b=k(W);return[13,a,k(X),b]}}if(K)return 0;break;case
 9:var
 u=a[4];if(typeof
 u!=="number"&&0===u[0]){var
-Y=u[1],Z=hJ(0,M);return e(function(h){var
-e=j(Y),a=h[2],c=h[1];if(0===c[0]){var
+Y=u[1],Z=hN(0,M);return e(function(h){var
+e=k(Y),a=h[2],c=h[1];if(0===c[0]){var
 f=c[1];if(0===a[0]){var
-g=function(a){return a?eO(a[1]):[0,[0,d,b],[0,d,b],[0,d,b]]};if(n(f,a[1])){var
-i=j(a[2]),k=[2,[2,j(c[2]),i],e],l=g(a[5]),m=g(c[5]);return[11,bn(f),m,l,k]}var
-o=dk(a);return[10,dk(c),o,e]}var
-p=dk(a);return[10,dk(c),p,e]}var
-q=dk(a);return[10,dk(c),q,e]},Z)}return 0;case
+g=function(a){return a?eR(a[1]):[0,[0,d,b],[0,d,b],[0,d,b]]};if(n(f,a[1])){var
+i=k(a[2]),j=[2,[2,k(c[2]),i],e],l=g(a[5]),m=g(c[5]);return[11,bh(f),m,l,j]}var
+o=dl(a);return[10,dl(c),o,e]}var
+p=dl(a);return[10,dl(c),p,e]}var
+q=dl(a);return[10,dl(c),q,e]},Z)}return 0;case
 10:var
 v=a[4],L=0;if(typeof
 v==="number"||!(1===v[0]))L=1;else{var
 w=a[3],_=v[1];if(!w)return w;var
 x=w[1];if(2!==x[0])return 0;var
 $=x[2],aa=x[1],c=function(a){var
-b=j(_),c=j($);return[12,a,j(aa),c,b]}}if(L)return 0;break;case
+b=k(_),c=k($);return[12,a,k(aa),c,b]}}if(L)return 0;break;case
 11:var
 G=typeof
-a[4]==="number"?1:0,ab=G?A$:G;return ab;case
+a[4]==="number"?1:0,ab=G?BF:G;return ab;case
 12:var
 y=a[4];if(typeof
 y!=="number"&&1===y[0]){var
 z=a[3];if(z){var
 H=z[1];if(0===H[0]){var
-ac=j(y[1]);return[0,[14,j(H[1]),ac],0]}return 0}return z}return 0;default:return 0}var
-B=a[2],P=B?[0,bn(B[1]),0]:aC(0,N);return e(c,P)}function
-Ba(c,a){switch(a[1]){case
+ac=k(y[1]);return[0,[14,k(H[1]),ac],0]}return 0}return z}return 0;default:return 0}var
+B=a[2],P=B?[0,bh(B[1]),0]:aE(0,N);return e(c,P)}function
+BG(c,a){switch(a[1]){case
 0:var
 l=a[4];if(typeof
 l!=="number"&&2!==l[0])return a[2]?0:a[3]?0:1;return 0;case
@@ -6504,7 +6631,7 @@ z!=="number"&&0===z[0])return a[2]?0:a[3]?0:1;return 0;case
 N=0,A=a[4];if(typeof
 A==="number"||!(1===A[0]))N=1;else{var
 h=a[3];if(!h)return h;if(0!==h[1][0])return 0;var
-B=n(c,Bc),O=0;if(B){var
+B=n(c,BI),O=0;if(B){var
 C=a[2];if(C){var
 b=C[1];O=1}else
 var
@@ -6530,57 +6657,57 @@ I=H;return I;case
 12:var
 J=a[4];if(typeof
 J!=="number"&&1===J[0]){if(a[2])return 0;var
-k=a[3];return k?0===k[1][0]?n(c,Bd):0:k}return 0;default:return 0}var
-p=aa(Bb,b);return p?aa(b,c):p}function
-hK(c,k,j,b){var
-l=f(c),d=z(function(a){return pz(l,j,a)},b),a=z(A_,b),h=a?[0,a[1],a[2]]:Be,i=g(h,d),m=py(k);return[0,e(A9,c),m,i]}function
-pA(b){if(b[1])return 0;var
+k=a[3];return k?0===k[1][0]?n(c,BJ):0:k}return 0;default:return 0}var
+p=ab(BH,b);return p?ab(b,c):p}function
+hO(c,k,j,b){var
+l=f(c),d=w(function(a){return pW(l,j,a)},b),a=w(BE,b),h=a?[0,a[1],a[2]]:BK,i=g(h,d),m=pV(k);return[0,e(BD,c),m,i]}function
+pX(b){if(b[1])return 0;var
 a=b[4];if(typeof
-a!=="number"&&1===a[0])return[0,[0,j(a[1])],0];return 0}function
-pB(c){function
-a(a){return r(a,e(j,c),[0,d,b])}var
-f=a(Bf),g=a(Bg);return[0,a(0),g,f]}function
-hL(_,G,Z,a){switch(a[1]){case
+a!=="number"&&1===a[0])return[0,[0,k(a[1])],0];return 0}function
+pY(c){function
+a(a){return r(a,e(k,c),[0,d,b])}var
+f=a(BL),g=a(BM);return[0,a(0),g,f]}function
+hP(_,G,Z,a){switch(a[1]){case
 0:var
 h=a[4];if(typeof
-h!=="number"&&0===h[0])return[0,[1,j(h[1])],0];return 0;case
+h!=="number"&&0===h[0])return[0,[1,k(h[1])],0];return 0;case
 1:var
 f=a[4];if(typeof
 f==="number")return 0;else
 switch(f[0]){case
 0:var
-$=f[1],c=function(a){return[2,a,j($)]};break;case
+$=f[1],c=function(a){return[2,a,k($)]};break;case
 1:var
-ab=f[1],c=function(a){return[3,a,j(ab)]};break;default:var
+ab=f[1],c=function(a){return[3,a,k(ab)]};break;default:var
 ad=f[2],ae=f[1],c=function(a){var
-b=j(ad);return[4,a,j(ae),b]}}break;case
+b=k(ad);return[4,a,k(ae),b]}}break;case
 2:var
 i=a[4],R=0;if(typeof
 i==="number"||!(1===i[0]))R=1;else{var
-k=a[3],af=i[1];if(!k)return k;var
-I=k[1];if(0!==I[0])return 0;var
+j=a[3],af=i[1];if(!j)return j;var
+I=j[1];if(0!==I[0])return 0;var
 ag=I[1],c=function(a){var
-b=j(ag),c=j(af);return _?[9,a,b,c]:[6,a,b,c]}}if(R)return 0;break;case
+b=k(ag),c=k(af);return _?[9,a,b,c]:[6,a,b,c]}}if(R)return 0;break;case
 3:var
 l=a[4];if(typeof
-l!=="number"&&1===l[0])return[0,[5,j(l[1])],0];return 0;case
+l!=="number"&&1===l[0])return[0,[5,k(l[1])],0];return 0;case
 4:var
 m=a[4],S=0;if(typeof
 m==="number"||!(0===m[0]))S=1;else
 var
-ah=m[1],c=function(a){return[10,a,j(ah)]};if(S)return 0;break;case
+ah=m[1],c=function(a){return[10,a,k(ah)]};if(S)return 0;break;case
 5:var
 n=a[4];if(typeof
-n!=="number"&&0===n[0])return[0,[12,j(n[1])],0];return 0;case
+n!=="number"&&0===n[0])return[0,[12,k(n[1])],0];return 0;case
 6:var
 o=a[4];if(typeof
 o!=="number"&&0===o[0]){var
 J=o[1],p=a[3];if(p){var
 q=p[1];switch(q[0]){case
 0:var
-ai=j(J);return[0,[8,ac(j(q[1]),G),ai],0];case
+ai=k(J);return[0,[8,ac(k(q[1]),G),ai],0];case
 1:var
-aj=j(J);return[0,[8,e(j,q[1]),aj],0];default:var
+aj=k(J);return[0,[8,e(k,q[1]),aj],0];default:var
 K=0}}else
 var
 K=p;return K}return 0;case
@@ -6590,28 +6717,28 @@ r==="number"||!(1===r[0]))T=1;else{var
 s=a[3],ak=r[1];if(!s)return s;var
 L=s[1];if(0!==L[0])return 0;var
 al=L[1],c=function(a){var
-b=j(ak);return[7,a,j(al),b]}}if(T)return 0;break;case
+b=k(ak);return[7,a,k(al),b]}}if(T)return 0;break;case
 9:var
 t=a[4];if(typeof
 t!=="number"&&0===t[0]){var
-am=t[1],an=hJ(0,Z);return e(function(a){var
-b=j(am),c=dk(a[2]);return[14,dk(a[1]),c,b]},an)}return 0;case
+am=t[1],an=hN(0,Z);return e(function(a){var
+b=k(am),c=dl(a[2]);return[14,dl(a[1]),c,b]},an)}return 0;case
 10:var
 u=a[4],U=0;if(typeof
 u==="number"||!(1===u[0]))U=1;else{var
 v=a[3],ao=u[1];if(!v)return v;var
 w=v[1];if(2!==w[0])return 0;var
 ap=w[2],aq=w[1],c=function(a){var
-b=j(ao),c=j(ap);return[15,a,j(aq),c,b]}}if(U)return 0;break;case
+b=k(ao),c=k(ap);return[15,a,k(aq),c,b]}}if(U)return 0;break;case
 12:var
 x=a[4];if(typeof
 x!=="number"&&1===x[0]){var
 M=x[1],y=a[3];if(y){var
 g=y[1];switch(g[0]){case
 0:var
-ar=j(M);return[0,[16,j(g[1]),ar,[0,d,b]],0];case
+ar=k(M);return[0,[16,k(g[1]),ar,[0,d,b]],0];case
 3:var
-as=j(g[2]),at=j(M);return[0,[16,j(g[1]),at,as],0];default:var
+as=k(g[2]),at=k(M);return[0,[16,k(g[1]),at,as],0];default:var
 N=0}}else
 var
 N=y;return N}return 0;case
@@ -6619,33 +6746,33 @@ N=y;return N}return 0;case
 z=a[4],V=0;if(typeof
 z==="number"||!(1===z[0]))V=1;else
 var
-au=z[1],c=function(a){return[11,a,j(au)]};if(V)return 0;break;case
+au=z[1],c=function(a){return[11,a,k(au)]};if(V)return 0;break;case
 14:var
 A=a[4],W=0;if(typeof
 A==="number"||!(1===A[0]))W=1;else{var
 B=a[3],av=A[1];if(!B)return B;var
 O=B[1];if(1!==O[0])return 0;var
 aw=O[1],c=function(a){var
-b=j(av);return[13,a,0,pB(aw),b]}}if(W)return 0;break;case
+b=k(av);return[13,a,0,pY(aw),b]}}if(W)return 0;break;case
 15:var
 C=a[4],X=0;if(typeof
 C==="number"||!(1===C[0]))X=1;else{var
 D=a[3],ax=C[1];if(!D)return D;var
 P=D[1];if(1!==P[0])return 0;var
 ay=P[1],c=function(a){var
-b=j(ax);return[13,a,1,pB(ay),b]}}if(X)return 0;break;case
+b=k(ax);return[13,a,1,pY(ay),b]}}if(X)return 0;break;case
 16:var
 E=a[4],Y=0;if(typeof
 E==="number"||!(1===E[0]))Y=1;else{var
 F=a[3],az=E[1];if(!F)return F;var
 Q=F[1];if(1!==Q[0])return 0;var
 aA=Q[1],c=function(a){var
-b=j(az);return[17,a,e(j,aA),b]}}if(Y)return 0;break;default:return 0}var
-H=a[2],aa=H?[0,bn(H[1]),0]:aC(0,G);return e(c,aa)}function
-eP(e,d,c,b){var
-f=z(function(a){return hL(e,d,c,a)},b),a=z(pA,b),h=a?[0,a[1],a[2]]:Bh;return g(h,f)}function
-cQ(a){return 11===a[1]?1:0}function
-cm(n,m,a){var
+b=k(az);return[17,a,e(k,aA),b]}}if(Y)return 0;break;default:return 0}var
+H=a[2],aa=H?[0,bh(H[1]),0]:aE(0,G);return e(c,aa)}function
+eS(e,d,c,b){var
+f=w(function(a){return hP(e,d,c,a)},b),a=w(pX,b),h=a?[0,a[1],a[2]]:BN;return g(h,f)}function
+cR(a){return 11===a[1]?1:0}function
+cq(n,m,a){var
 b=a[1];if(!(4<=b))switch(b){case
 0:var
 c=a[4];if(typeof
@@ -6655,25 +6782,25 @@ l=0,d=a[4];if(typeof
 d!=="number"&&2===d[0]){var
 e=1;l=1}if(!l)var
 e=0;var
-f=cv(n,e);if(f){var
+f=cz(n,e);if(f){var
 g=a[2];if(g){var
-h=g[1],i=aa(Bi,h);return i?aa(h,m):i}var
+h=g[1],i=ab(BO,h);return i?ab(h,m):i}var
 j=1}else
 var
 j=f;return j;case
 3:var
 k=a[4];if(typeof
 k!=="number"&&1===k[0])return a[2]?0:a[3]?0:1;return 0}return 0}function
-a7(s,b,a){var
+a9(s,b,a){var
 d=a[2];if(d)var
-e=d[1],g=aa(Bj,e),t=g?aa(e,b):g,c=t;else
+e=d[1],g=ab(BP,e),t=g?ab(e,b):g,c=t;else
 var
 c=1;var
 h=a[1];if(!(9<=h))switch(h){case
 2:var
 i=a[4];if(typeof
 i!=="number"&&1===i[0]){var
-j=a[3];return j?0===j[1][0]?c:cm(0,b,a):cm(0,b,a)}return cm(0,b,a);case
+j=a[3];return j?0===j[1][0]?c:cq(0,b,a):cq(0,b,a)}return cq(0,b,a);case
 6:var
 k=a[4];if(typeof
 k!=="number"&&0===k[0]){var
@@ -6684,119 +6811,119 @@ m=l[1];switch(m[0]){case
 o=n(f(m[1]),b);if(o){if(a[2])return 0;var
 p=1}else
 var
-p=o;return p;default:return cm(0,b,a)}}return cm(0,b,a)}return cm(0,b,a);case
+p=o;return p;default:return cq(0,b,a)}}return cq(0,b,a)}return cq(0,b,a);case
 8:var
 q=a[4];if(typeof
 q!=="number"&&1===q[0]){var
-r=a[3];return r?0===r[1][0]?c?n(b,s):c:cm(0,b,a):cm(0,b,a)}return cm(0,b,a)}return cm(0,b,a)}function
-aE(c,b,a){return 11===a[1]?typeof
-a[4]==="number"?a[2]?a7(c,b,a):a[3]?a7(c,b,a):1:a7(c,b,a):a7(c,b,a)}function
-pC(g,b,c,a){var
+r=a[3];return r?0===r[1][0]?c?n(b,s):c:cq(0,b,a):cq(0,b,a)}return cq(0,b,a)}return cq(0,b,a)}function
+aG(c,b,a){return 11===a[1]?typeof
+a[4]==="number"?a[2]?a9(c,b,a):a[3]?a9(c,b,a):1:a9(c,b,a):a9(c,b,a)}function
+pZ(g,b,c,a){var
 h=a[2];if(h)var
-i=h[1],j=aa(Bl,i),E=j?aa(i,c):j,d=E;else
+i=h[1],j=ab(BR,i),E=j?ab(i,c):j,d=E;else
 var
 d=1;switch(a[1]){case
-1:if(a[3])return a7(at(b),c,a);if(d){var
+1:if(a[3])return a9(ar(b),c,a);if(d){var
 D=0,k=a[4];if(typeof
 k!=="number"&&2===k[0]){var
 l=1;D=1}if(!D)var
-l=0;return cv(g,l)}return d;case
+l=0;return cz(g,l)}return d;case
 4:var
 m=a[4];if(typeof
-m!=="number"&&0===m[0])return a[3]?a7(at(b),c,a):d;return a7(at(b),c,a);case
+m!=="number"&&0===m[0])return a[3]?a9(ar(b),c,a):d;return a9(ar(b),c,a);case
 5:var
 o=a[4];if(typeof
-o!=="number"&&0===o[0]){if(a[3])return a7(at(b),c,a);var
-p=n(c,at(b));if(p){var
+o!=="number"&&0===o[0]){if(a[3])return a9(ar(b),c,a);var
+p=n(c,ar(b));if(p){var
 q=typeof
 b==="number"?1:0;if(q){if(a[2])return 0;var
 e=1}else
 var
 e=q}else
 var
-e=p;return e}return a7(at(b),c,a);case
+e=p;return e}return a9(ar(b),c,a);case
 12:var
 r=a[4];if(typeof
 r!=="number"&&1===r[0]){var
 s=a[3];if(s){var
-t=s[1],u=n(c,at(b));return u?typeof
-b==="number"?a[2]?0:0===t[0]?1:0:a[2]?0:3===t[0]?1:0:u}return a7(at(b),c,a)}return a7(at(b),c,a);case
+t=s[1],u=n(c,ar(b));return u?typeof
+b==="number"?a[2]?0:0===t[0]?1:0:a[2]?0:3===t[0]?1:0:u}return a9(ar(b),c,a)}return a9(ar(b),c,a);case
 13:var
 v=a[4];if(typeof
-v!=="number"&&1===v[0])return a[3]?a7(at(b),c,a):d?I(g):d;return a7(at(b),c,a);case
+v!=="number"&&1===v[0])return a[3]?a9(ar(b),c,a):d?I(g):d;return a9(ar(b),c,a);case
 16:var
 w=a[4];if(typeof
 w!=="number"&&1===w[0]){var
 x=a[3];if(x){var
 y=x[1];if(1===y[0]){var
-z=d?n(c,at(b)):d,A=z?n(f(y[1]),c):z;if(A)var
+z=d?n(c,ar(b)):d,A=z?n(f(y[1]),c):z;if(A)var
 B=typeof
 b==="number"?1:0,C=B?1:B;else
 var
-C=A;return C}return a7(at(b),c,a)}return a7(at(b),c,a)}return a7(at(b),c,a);default:return a7(at(b),c,a)}}function
-dl(a){switch(a[0]){case
-0:return[0,j([0,a[1],a[2]])];case
+C=A;return C}return a9(ar(b),c,a)}return a9(ar(b),c,a)}return a9(ar(b),c,a);default:return a9(ar(b),c,a)}}function
+dm(a){switch(a[0]){case
+0:return[0,k([0,a[1],a[2]])];case
 1:return[1,a[1]];case
-2:return[2,dl(a[1])];case
+2:return[2,dm(a[1])];case
 3:var
-b=dl(a[2]),c=dl(a[3]);switch(a[1]){case
+b=dm(a[2]),c=dm(a[3]);switch(a[1]){case
 0:return[3,b,c];case
 1:return[4,b,c];case
 2:return[5,b,c];default:return[6,b,c]}case
 4:var
-d=a[2];return[7,dl(a[1]),d];default:return[8,dl(a[1])]}}function
-km(i,h,g,b,d,c,a){var
-k=aj(cQ,a),l=eP(0,f(b),0,a),m=U(d,c),n=e(function(a){var
-b=j(a[2]);return[0,j(a[1]),b]},m),o=e(function(a){return 0===a[0]?[0,e(dl,a[1])]:[1,dl(a[1])]},b),p=e(function(a){var
-b=dl(a[2]);return[0,a[1],b]},g);return[0,[0,i,e(function(a){var
-b=b3(a[2]);return[0,a[1],b]},h),p,o],n,l,k]}function
-kn(c){function
+d=a[2];return[7,dm(a[1]),d];default:return[8,dm(a[1])]}}function
+kw(i,h,g,b,d,c,a){var
+j=aj(cR,a),l=eS(0,f(b),0,a),m=V(d,c),n=e(function(a){var
+b=k(a[2]);return[0,k(a[1]),b]},m),o=e(function(a){return 0===a[0]?[0,e(dm,a[1])]:[1,dm(a[1])]},b),p=e(function(a){var
+b=dm(a[2]);return[0,a[1],b]},g);return[0,[0,i,e(function(a){var
+b=b6(a[2]);return[0,a[1],b]},h),p,o],n,l,j]}function
+kx(c){function
 a(e){var
 a=[0,d,b];return r(e,c,[0,a,a])}var
-e=a(Bm),f=a(Bn);return[0,a(0),f,e]}function
-dX(a){function
+e=a(BS),f=a(BT);return[0,a(0),f,e]}function
+d3(a){function
 b(a){var
-b=j(a[2]);return[0,j(a[1]),b]}switch(a[0]){case
+b=k(a[2]);return[0,k(a[1]),b]}switch(a[0]){case
 0:return[0,b([0,a[1],a[2]])];case
 1:var
 c=b(a[3]),d=b(a[2]);return[1,b(a[1]),d,c];case
-2:return[2,j(a[1])];default:var
-e=j(a[2]);return[3,j(a[1]),e]}}function
-pD(a){if(0===a[0]){var
-b=U(a[1],a[2]);return[0,kn(e(function(a){var
-b=j(a[2]);return[0,j(a[1]),b]},b))]}return py([1,a[1],a[2],a[3],a[4],a[5]])}function
-pE(k,b,i,h,g,d,a){function
-c(a){return kn(e(b3,a))}var
-l=aj(cQ,a),m=eP(0,f(b),d,a),n=dX(g),o=pD(h),p=j(i);return[0,k,e(function(a){var
+2:return[2,k(a[1])];default:var
+e=k(a[2]);return[3,k(a[1]),e]}}function
+p0(a){if(0===a[0]){var
+b=V(a[1],a[2]);return[0,kx(e(function(a){var
+b=k(a[2]);return[0,k(a[1]),b]},b))]}return pV([1,a[1],a[2],a[3],a[4],a[5]])}function
+p1(j,b,i,h,g,d,a){function
+c(a){return kx(e(b6,a))}var
+l=aj(cR,a),m=eS(0,f(b),d,a),n=d3(g),o=p0(h),p=k(i);return[0,j,e(function(a){var
 b=c(a[2]);return[0,c(a[1]),b]},b),p,o,n,m,l]}function
-dY(a){return aj(function(a){return 3===a[0]?1:0},a)}function
-ko(k,a,g,i,h,c){var
-l=aj(cQ,c),m=f(a),n=eP(dY(a),m,0,c),o=y(dX,h),p=pD(i),q=g?j(g[1]):[0,b,b];return[0,k,e(function(a){function
-c(a){return kn(e(b3,a))}switch(a[0]){case
+d4(a){return aj(function(a){return 3===a[0]?1:0},a)}function
+ky(j,a,g,i,h,c){var
+l=aj(cR,c),m=f(a),n=eS(d4(a),m,0,c),o=z(d3,h),p=p0(i),q=g?k(g[1]):[0,b,b];return[0,j,e(function(a){function
+c(a){return kx(e(b6,a))}switch(a[0]){case
 0:var
-k=a[5],l=b3(a[4]),m=c(a[3]),n=c(a[2]);return[0,[0,[0,c(a[1]),n,m,l,k]]];case
+k=a[5],l=b6(a[4]),m=c(a[3]),n=c(a[2]);return[0,[0,[0,c(a[1]),n,m,l,k]]];case
 1:var
-o=y(c,a[3]),p=c(a[2]);return[0,[1,c(a[1]),p,o]];case
+o=z(c,a[3]),p=c(a[2]);return[0,[1,c(a[1]),p,o]];case
 2:return[0,[2,c(a[1])]];default:var
 f=a[1];if(f)var
 g=c(f);else
 var
 h=[0,b,b],i=[0,d,b],j=[0,d,b],g=[0,[0,j,j],[0,i,i],[0,h,h]];var
-q=a[7],r=b3(a[6]),s=b3(a[5]),t=c(a[4]),u=c(a[3]);return[1,[0,g,c(a[2]),u,t,s,r,q]]}},a),q,p,o,n,l]}function
-b4(c){var
+q=a[7],r=b6(a[6]),s=b6(a[5]),t=c(a[4]),u=c(a[3]);return[1,[0,g,c(a[2]),u,t,s,r,q]]}},a),q,p,o,n,l]}function
+b7(c){var
 a=c[1];if(13!==a){var
 b=16<=a?1:0;if(!b)return b}return 1}function
-kp(a){function
+kz(a){function
 b(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}switch(a[0]){case
 0:var
 c=a[5],d=a[4],e=b(a[3]),f=b(a[2]);return[0,b(a[1]),f,e,d,c];case
 1:var
-g=y(b,a[3]),h=b(a[2]);return[1,b(a[1]),h,g];default:return[2,b(a[1])]}}function
-kq(a){if(0===a[0]){var
+g=z(b,a[3]),h=b(a[2]);return[1,b(a[1]),h,g];default:return[2,b(a[1])]}}function
+kA(a){if(0===a[0]){var
 b=a[2],c=a[1];return[0,[0,c[1],[0,c[2],[0,c[3],0]]],[0,b[1],[0,b[2],[0,b[3],0]]]]}return[1,a[1],a[2],a[3],a[4],a[5]]}function
-pF(a){return a[1]?0:1}function
-pG(l){var
-b=a1(pF,l);if(b){var
+p2(a){return a[1]?0:1}function
+p3(l){var
+b=a2(p2,l);if(b){var
 d=b[1];if(d[2])return 0;if(d[3])return 0;var
 c=d[4],a=b[2];if(typeof
 c!=="number")switch(c[0]){case
@@ -6817,69 +6944,69 @@ k=a;return k}var
 i=0}else
 var
 i=b;return i}function
-pH(a){var
-c=pF(a);if(c)return c;if(1===a[1]){var
+p4(a){var
+c=p2(a);if(c)return c;if(1===a[1]){var
 b=a[4];if(typeof
 b!=="number"&&0===b[0])return 1;return 0}return 0}function
-hM(i,h,b){function
+hQ(i,h,b){function
 c(b,a){return[3,1,b,a]}function
 a(b,a){return[3,3,b,a]}function
 d(b,a){return[3,2,b,a]}function
 e(b,a){return[3,0,b,a]}var
-f=c(hN,a(hN,b)),j=a(f,kr),k=i?f:a(c(b,hN),kr);function
-g(b){return a(b,[5,e(hN,d(kr,d(b,b)))])}var
+f=c(hR,a(hR,b)),j=a(f,kB),k=i?f:a(c(b,hR),kB);function
+g(b){return a(b,[5,e(hR,d(kB,d(b,b)))])}var
 l=g(k);return a(h,e(g(j),l))}function
-hO(f,e,d){function
+hS(f,e,d){function
 a(b,a){return[3,3,b,a]}function
 b(b,a){return[3,2,b,a]}var
-c=a([3,1,ks,a(ks,d)],pI),g=a(c,[5,[3,0,ks,b(pI,b(c,c))]]);return[2,b(hM(f,e,d),g)]}function
-kt(e,g,a){function
+c=a([3,1,kC,a(kC,d)],p5),g=a(c,[5,[3,0,kC,b(p5,b(c,c))]]);return[2,b(hQ(f,e,d),g)]}function
+kD(e,g,a){function
 f(b,a){return[3,1,b,a]}function
 b(b,a){return[3,3,b,a]}function
 c(b,a){return[3,2,b,a]}var
-h=f(hP,b(hP,a)),d=e?h:b(f(a,hP),pJ),i=b(d,[5,[3,0,hP,c(pJ,c(d,d))]]);return c(hM(e,g,a),i)}function
-pK(c,g,b,a){function
+h=f(hT,b(hT,a)),d=e?h:b(f(a,hT),p6),i=b(d,[5,[3,0,hT,c(p6,c(d,d))]]);return c(hQ(e,g,a),i)}function
+p7(c,g,b,a){function
 d(b,a){return e(function(c){var
-d=n(b,c)?a:Bo;return[0,d]},Bq)}return e(function(e){var
-j=[0,hM(c,b,a)],i=1,k=d(e,[2,g]);function
+d=n(b,c)?a:BU;return[0,d]},BW)}return e(function(e){var
+j=[0,hQ(c,b,a)],i=1,k=d(e,[2,g]);function
 f(b,a){return[3,1,b,a]}var
-h=hM(c,b,a),l=d(e,f(f(hO(c,b,a),g),h));return[0,d(e,Bp),l,k,j,i]},Br)}function
-pL(c,b,a){var
-d=[0,kt(c,b,a),0],e=[0,kt(c,b,a),d],f=[0,kt(c,b,a),e],g=[0,hO(c,b,a),0],h=[0,hO(c,b,a),g];return[0,[0,hO(c,b,a),h],f]}function
-pM(o,e,a){if(e)if(a){var
-g=e[1],h=a[1],k=cC(j(g[2][1]));if(k){var
-l=k[1],m=cC(j(g[2][2]));if(m)var
+h=hQ(c,b,a),l=d(e,f(f(hS(c,b,a),g),h));return[0,d(e,BV),l,k,j,i]},BX)}function
+p8(c,b,a){var
+d=[0,kD(c,b,a),0],e=[0,kD(c,b,a),d],f=[0,kD(c,b,a),e],g=[0,hS(c,b,a),0],h=[0,hS(c,b,a),g];return[0,[0,hS(c,b,a),h],f]}function
+p9(o,e,a){if(e)if(a){var
+g=e[1],h=a[1],j=cG(k(g[2][1]));if(j){var
+l=j[1],m=cG(k(g[2][2]));if(m)var
 p=m[1],n=function(a){function
 d(a){return c(2,a)}var
-e=[0,a,gp(h[2],d,b)];return dz(l,a3(dA(p,l),e))},q=n(E(h[1],b)),f=[0,n(h[1]),q];else
+e=[0,a,gt(h[2],d,b)];return dA(l,a5(dB(p,l),e))},q=n(F(h[1],b)),f=[0,n(h[1]),q];else
 var
 f=[0,[0,d,b],[0,d,b]]}else
 var
 f=[0,[0,d,b],[0,d,b]];var
-r=pM([0,o],e[2],a[2]),i=[0,[0,g[1],[1,o,f[1],f[2]]],r]}else
+r=p9([0,o],e[2],a[2]),i=[0,[0,g[1],[1,o,f[1],f[2]]],r]}else
 var
 i=a;else
 var
 i=e;return i}function
-au(b,a){switch(a[0]){case
+ax(b,a){switch(a[0]){case
 0:return[0,a[1],a[2]];case
 1:var
 c=a[1];if(0===c[0]){var
-e=c[1],d=lS(function(a){return aB(e,a[1])},b);return d?[1,d[1][2]]:a}return a;case
-2:return[2,au(b,a[1])];case
+e=c[1],d=l4(function(a){return aD(e,a[1])},b);return d?[1,d[1][2]]:a}return a;case
+2:return[2,ax(b,a[1])];case
 3:var
-f=au(b,a[3]),g=au(b,a[2]);return[3,a[1],g,f];case
+f=ax(b,a[3]),g=ax(b,a[2]);return[3,a[1],g,f];case
 4:var
-h=a[2];return[4,au(b,a[1]),h];default:return[5,au(b,a[1])]}}function
-pN(b,a){if(0===a[0])return[0,au(b,a[1])];var
-c=au(b,a[2]);return[1,au(b,a[1]),c]}function
-ku(b,a){var
-c=k(b,a[3]),d=k(b,a[2]);return[0,k(b,a[1]),d,c]}function
-kv(c,a){if(c)if(a){var
+h=a[2];return[4,ax(b,a[1]),h];default:return[5,ax(b,a[1])]}}function
+p_(b,a){if(0===a[0])return[0,ax(b,a[1])];var
+c=ax(b,a[2]);return[1,ax(b,a[1]),c]}function
+kE(b,a){var
+c=j(b,a[3]),d=j(b,a[2]);return[0,j(b,a[1]),d,c]}function
+kF(c,a){if(c)if(a){var
 g=a[2],b=a[1],h=c[1];if(typeof
 b!=="number"&&0===b[0]){var
-e=kv(h,g);if(e){var
-i=e[1],f=kv(h,i[2]);if(f)var
+e=kF(h,g);if(e){var
+i=e[1],f=kF(h,i[2]);if(f)var
 j=f[1],k=[0,[0,[0,b[1],i[1],j[1]],j[2]]];else
 var
 k=f;var
@@ -6891,62 +7018,62 @@ var
 d=a;else
 var
 d=c;return d}function
-kw(g,f,a){if(a){var
-e=a[1],h=a[2];if(f)return[0,e,kw(g,f[1],h)];var
-j=[0,e[2]],k=g?b:d,l=e[1],i=[0,[0,E(C(c(2,b),l),k),j],h]}else
+kG(g,f,a){if(a){var
+e=a[1],h=a[2];if(f)return[0,e,kG(g,f[1],h)];var
+j=[0,e[2]],k=g?b:d,l=e[1],i=[0,[0,F(C(c(2,b),l),k),j],h]}else
 var
 i=a;return i}function
-Bs(a){if(typeof
+BY(a){if(typeof
 a!=="number"&&1===a[0])return 1;return 0}function
-Bt(a){if(typeof
+BZ(a){if(typeof
 a!=="number"&&2===a[0])return 1;return 0}function
-hQ(e,a){if(0===a[0]){var
-f=[0,b,c(2,b)],g=hQ(e,a[3]);return a3(dz(hQ(e,a[2]),g),f)}return k(e,a[1])?[0,b,b]:[0,d,b]}function
-pO(a){return 0===a[0]?ew(a[1][4]):0}function
-pP(a){switch(a[0]){case
+hU(e,a){if(0===a[0]){var
+f=[0,b,c(2,b)],g=hU(e,a[3]);return a5(dA(hU(e,a[2]),g),f)}return j(e,a[1])?[0,b,b]:[0,d,b]}function
+p$(a){return 0===a[0]?ez(a[1][4]):0}function
+qa(a){switch(a[0]){case
 0:var
-b=a[1],c=bb(b[3]);return g(bb(b[2]),c);case
+b=a[1],c=bd(b[3]);return g(bd(b[2]),c);case
 1:var
-d=bb(a[2]);return g(bb(a[1]),d);default:return 0}}function
-hR(a){switch(a[0]){case
-0:return bG(bb(a[1][1]));case
+d=bd(a[2]);return g(bd(a[1]),d);default:return 0}}function
+hV(a){switch(a[0]){case
+0:return bJ(bd(a[1][1]));case
 1:var
-b=a[3];return b?bG(bb(b[1])):d;default:return bG(bb(a[1]))}}function
-hS(c){var
-a=z(pO,c),d=a?[0,a[1],a[2]]:z(pP,c);return E(b,bG(d))}function
-pQ(d,a){if(d){if(a){var
-b=a[1],g=d[1],e=pQ(d[2],a[2]);if(e){var
+b=a[3];return b?bJ(bd(b[1])):d;default:return bJ(bd(a[1]))}}function
+hW(c){var
+a=w(p$,c),d=a?[0,a[1],a[2]]:w(qa,c);return F(b,bJ(d))}function
+qb(d,a){if(d){if(a){var
+b=a[1],g=d[1],e=qb(d[2],a[2]);if(e){var
 h=e[1],i=h[2],j=h[1];if(45===b)var
-c=Bu;else
+c=B0;else
 if(43===b)var
-c=Bv;else
+c=B1;else
 var
-f=48===b?1:0,n=f?Bw:f,c=n;if(c)return[0,[0,[0,[0,g,c[1]],j],i]];var
+f=48===b?1:0,n=f?B2:f,c=n;if(c)return[0,[0,[0,[0,g,c[1]],j],i]];var
 k=49===b?1:0,o=k?[0,[0,j,[0,g,i]]]:k,l=o}else
 var
 l=e;var
 m=l}else
 var
-m=a;return m}return a?0:Bx}function
-dm(b,c,a){switch(a[0]){case
+m=a;return m}return a?0:B3}function
+dn(b,c,a){switch(a[0]){case
 0:var
-d=a[1];if(aB(d,By))return Bz;if(aB(d,BA))return BB;if(aB(d,BC))return BD;if(aB(d,BE))return BF;if(aB(d,BG))return BH;var
-n=aB(d,BI),B=n?BJ:n;return B;case
+d=a[1];if(aD(d,B4))return B5;if(aD(d,B6))return B7;if(aD(d,B8))return B9;if(aD(d,B_))return B$;if(aD(d,Ca))return Cb;var
+n=aD(d,Cc),B=n?Cd:n;return B;case
 1:var
-e=a[3],f=a[2],g=a[1];if(aB(g,BK))return[0,[0,e,f]];if(aB(g,BL))return[0,[1,e,f]];if(aB(g,BM))return[0,[2,e,f]];var
-o=aB(g,BN),C=o?[0,[8,e,f]]:o;return C;case
+e=a[3],f=a[2],g=a[1];if(aD(g,Ce))return[0,[0,e,f]];if(aD(g,Cf))return[0,[1,e,f]];if(aD(g,Cg))return[0,[2,e,f]];var
+o=aD(g,Ch),C=o?[0,[8,e,f]]:o;return C;case
 2:return[0,[4,a[1]]];case
 3:return[0,[3,a[2],a[1],a[3]]];case
 4:return[0,[9,a[2],a[1],a[3],a[4]]];case
 5:var
-h=dm(b,c,a[1]),D=h?[0,[5,h[1],a[2],a[3]]]:h;return D;case
+h=dn(b,c,a[1]),D=h?[0,[5,h[1],a[2],a[3]]]:h;return D;case
 6:var
-i=dm(b,c,a[1]),E=i?[0,[7,i[1],a[2],a[3]]]:i;return E;case
+i=dn(b,c,a[1]),E=i?[0,[7,i[1],a[2],a[3]]]:i;return E;case
 7:var
-F=dm(b,c,a[1]);return y(function(a){return[6,a]},F);case
+F=dn(b,c,a[1]);return z(function(a){return[6,a]},F);case
 8:if(b){var
-p=a[3],q=a[2],j=dm(b,c,a[1]);if(j){var
-r=j[1],k=pQ(b,iz(iy(az(q),function(a){return a9(q,a)})));if(k){var
+p=a[3],q=a[2],j=dn(b,c,a[1]);if(j){var
+r=j[1],k=qb(b,iD(iC(az(q),function(a){return a$(q,a)})));if(k){var
 s=k[1],t=s[2],u=s[1];if(t)return[0,[11,c,t,[10,r,u,p]]];var
 v=[0,[10,r,u,p]]}else
 var
@@ -6958,30 +7085,30 @@ x=w}else
 var
 x=b;return x;case
 9:var
-z=function(a){if(a){var
-f=a[1],d=dm(b,c,f[2]);if(d)var
-e=z(a[2]),h=e?[0,[0,[0,f[1],d[1]],e[1]]]:e,g=h;else
+y=function(a){if(a){var
+f=a[1],d=dn(b,c,f[2]);if(d)var
+e=y(a[2]),h=e?[0,[0,[0,f[1],d[1]],e[1]]]:e,g=h;else
 var
-g=d;return g}return BO},G=z(a[1]);return y(function(a){return[12,a]},G);default:var
-l=dm(b,c,a[3]);if(l)var
-m=dm(b,c,a[4]),H=m?[0,[13,a[2],a[1],l[1],m[1]]]:m,A=H;else
+g=d;return g}return Ci},G=y(a[1]);return z(function(a){return[12,a]},G);default:var
+l=dn(b,c,a[3]);if(l)var
+m=dn(b,c,a[4]),H=m?[0,[13,a[2],a[1],l[1],m[1]]]:m,A=H;else
 var
 A=l;return A}}function
-pR(e,d,a){if(a){var
-f=a[1],b=dm(e,d,f[2]);if(b)var
-c=pR(e,d,a[2]),h=c?[0,[0,[0,f[1],b[1]],c[1]]]:c,g=h;else
+qc(e,d,a){if(a){var
+f=a[1],b=dn(e,d,f[2]);if(b)var
+c=qc(e,d,a[2]),h=c?[0,[0,[0,f[1],b[1]],c[1]]]:c,g=h;else
 var
-g=b;return g}return BP}function
-dZ(b,g,f,e,d,a){if(d)if(a){var
+g=b;return g}return Cj}function
+d5(b,g,f,e,d,a){if(d)if(a){var
 c=a[1];if(c[3])return 0;if(c[4])return 0;var
-n=c[2],o=a[2],p=d[1],h=pR(f,e,c[1]);if(h){var
+n=c[2],o=a[2],p=d[1],h=qc(f,e,c[1]);if(h){var
 i=h[1];if(n){var
-j=dZ(b,g,f,e,p,o);if(j){var
-q=j[1],k=dZ(b,g,f,e,p,q[2]);if(k){var
-r=k[1],s=r[1],t=q[1],l=n[1],z=r[2];if(aG(l,b))var
+j=d5(b,g,f,e,p,o);if(j){var
+q=j[1],k=d5(b,g,f,e,p,q[2]);if(k){var
+r=k[1],s=r[1],t=q[1],l=n[1],y=r[2];if(aB(l,b))var
 u=[0,[1,i,l,t,s]];else
 var
-x=F(g,dx(l,b)),u=y(function(a){return[2,i,a,t,s]},x);return y(function(a){return[0,a,z]},u)}var
+x=G(g,dy(l,b)),u=z(function(a){return[2,i,a,t,s]},x);return z(function(a){return[0,a,y]},u)}var
 v=k}else
 var
 v=j;return v}var
@@ -6993,67 +7120,67 @@ var
 m=a;else
 var
 m=d;return m}function
-kx(i,h,g,e,d,a){if(d){if(a){var
-b=dZ(i,h,g,e,f(a),a);if(b)var
-j=b[1],c=kx(i,h,g,e,d[1],j[2]),l=c?[0,[0,j[1],c[1]]]:c,k=l;else
+kH(i,h,g,e,d,a){if(d){if(a){var
+b=d5(i,h,g,e,f(a),a);if(b)var
+j=b[1],c=kH(i,h,g,e,d[1],j[2]),l=c?[0,[0,j[1],c[1]]]:c,k=l;else
 var
-k=b;return k}return BQ}return a?0:BR}function
-pS(a){if(typeof
-a==="number")return 0===a?BS:BT;else
+k=b;return k}return Ck}return a?0:Cl}function
+qd(a){if(typeof
+a==="number")return 0===a?Cm:Cn;else
 switch(a[0]){case
 0:return[0,[0,a[1],a[2]]];case
 1:return[0,[1,a[1],a[2]]];default:return 0}}function
-ky(e,d,a){if(d)if(a){var
+kI(e,d,a){if(d)if(a){var
 b=a[1];if(b[1])return 0;var
 j=b[4],c=b[3],k=b[2],l=a[2],m=d[1];if(k){if(c)return 0;if(j)return 0;var
-f=k[1],g=ky(e,m,l);if(g){var
-n=g[1],o=n[1],h=ky(e,m,n[2]);if(h){var
-p=h[1],q=p[2],r=p[1];if(aG(f,BU))return[0,[0,[1,f,o,r],q]];var
-t=F(e,dx(f,BV));return y(function(a){return[0,[2,a,o,r],q]},t)}var
+f=k[1],g=kI(e,m,l);if(g){var
+n=g[1],o=n[1],h=kI(e,m,n[2]);if(h){var
+p=h[1],q=p[2],r=p[1];if(aB(f,Co))return[0,[0,[1,f,o,r],q]];var
+t=G(e,dy(f,Cp));return z(function(a){return[0,[2,a,o,r],q]},t)}var
 s=h}else
 var
 s=g;return s}if(c){var
-u=pS(c[1]);return y(function(a){return[0,[0,j,a],l]},u)}var
+u=qd(c[1]);return z(function(a){return[0,[0,j,a],l]},u)}var
 i=c}else
 var
 i=a;else
 var
 i=d;return i}function
-dn(b,a){return 0===b[0]?[0,j(b[1]),a]:a?[0,a[1],a[2]]:[0,j(b[1]),0]}function
-d0(a,e){var
-b=dn(a[1],e),c=dn(a[2],b[2]),d=dn(a[3],c[2]);return[0,[0,b[1],c[1],d[1]],d[2]]}function
-pT(d,c){if(d){var
+dp(b,a){return 0===b[0]?[0,k(b[1]),a]:a?[0,a[1],a[2]]:[0,k(b[1]),0]}function
+d6(a,e){var
+b=dp(a[1],e),c=dp(a[2],b[2]),d=dp(a[3],c[2]);return[0,[0,b[1],c[1],d[1]],d[2]]}function
+qe(d,c){if(d){var
 a=d[1];switch(a[0]){case
 0:var
-e=d0(a[1],c),f=d0(a[2],e[2]),g=d0(a[3],f[2]),h=dn(a[4],g[2]),b=[0,[0,e[1],f[1],g[1],h[1],a[5]],h[2]];break;case
+e=d6(a[1],c),f=d6(a[2],e[2]),g=d6(a[3],f[2]),h=dp(a[4],g[2]),b=[0,[0,e[1],f[1],g[1],h[1],a[5]],h[2]];break;case
 1:var
-i=a[3],j=d0(a[1],c),k=j[1],l=d0(a[2],j[2]),m=l[2],n=l[1];if(i)var
-o=d0(i[1],m),b=[0,[1,k,n,[0,o[1]]],o[2]];else
+i=a[3],j=d6(a[1],c),k=j[1],l=d6(a[2],j[2]),m=l[2],n=l[1];if(i)var
+o=d6(i[1],m),b=[0,[1,k,n,[0,o[1]]],o[2]];else
 var
 b=[0,[1,k,n,0],m];break;default:var
-p=d0(a[1],c),b=[0,[2,p[1]],p[2]]}var
-q=pT(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
-fX(t,g){var
+p=d6(a[1],c),b=[0,[2,p[1]],p[2]]}var
+q=qe(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
+f1(t,g){var
 u=t[3];if(typeof
-g==="number")return 0===g?BZ:B0;else
+g==="number")return 0===g?Ct:Cu;else
 switch(g[0]){case
 0:var
-v=g[2],h=g[1],B=F(u,h);if(B){var
-ab=0,E=B[1];if(typeof
-E==="number"||!(13===E[0]))ab=1;else
+v=g[2],h=g[1],B=G(u,h);if(B){var
+ab=0,D=B[1];if(typeof
+D==="number"||!(13===D[0]))ab=1;else
 var
-x=t[1],A=hS(x),a=e(function(a){var
+x=t[1],A=hW(x),a=e(function(a){var
 g=f(x);if(n(f(a),g)){var
-h=U(x,a);return e(function(a){var
-e=a[2],f=D(d,A),g=2===a[1][0]?1:0;return cv(g,f)?C(e,b_(c(2,b),ct(A))):e},h)}return a},v);if(ab)var
+h=V(x,a);return e(function(a){var
+e=a[2],f=E(d,A),g=2===a[1][0]?1:0;return cz(g,f)?C(e,cb(c(2,b),cx(A))):e},h)}return a},v);if(ab)var
 a=v}else
 var
 a=v;var
-ac=F(u,h),ad=t[1],w=y(function(b){if(typeof
+ac=G(u,h),ad=t[1],w=z(function(b){if(typeof
 b!=="number")switch(b[0]){case
-5:return BX;case
+5:return Cr;case
 12:var
-a=F(ad,b[1]);if(a){if(2===a[1][0])return BY;var
+a=G(ad,b[1]);if(a){if(2===a[1][0])return Cs;var
 c=0}else
 var
 c=a;return c;case
@@ -7062,9 +7189,9 @@ c=a;return c;case
 4:case
 6:case
 7:case
-11:return 0}return BW},ac);if(w){var
-G=w[1];if(G){var
-H=G[1];if(H){if(H[1])return 0;if(a){var
+11:return 0}return Cq},ac);if(w){var
+F=w[1];if(F){var
+H=F[1];if(H){if(H[1])return 0;if(a){var
 i=a[1];if(i){var
 j=i[2];if(j){var
 k=j[2];if(k){if(k[2])return 0;var
@@ -7102,10 +7229,10 @@ s=r[2];if(s){if(s[2])return 0;if(a[2])return 0;var
 Q=s[1],R=r[1],S=q[1],T=[0,[0,h,[0,[0,S,R],Q],[0,[0,S,R],Q]]]}else
 var
 T=s;var
-V=T}else
+U=T}else
 var
-V=r;var
-W=V}else
+U=r;var
+W=U}else
 var
 W=q;var
 X=W}else
@@ -7115,34 +7242,34 @@ Y=[0,[0,d,d],d],Z=[0,[0,h,Y,Y]]}else
 var
 Z=w;return Z;case
 1:var
-_=g[1],z=F(u,_);if(z){var
-$=z[1];if(typeof
+_=g[1],y=G(u,_);if(y){var
+$=y[1];if(typeof
 $!=="number"&&1===$[0])return[0,[1,_,g[2]]];var
 aa=0}else
 var
-aa=z;return aa;default:return 0}}function
-bk(a,b){if(a){var
-c=dn(a[1],b),d=bk(a[2],c[2]);return[0,[0,c[1],d[1]],d[2]]}return[0,0,b]}function
-aI(c){function
+aa=y;return aa;default:return 0}}function
+bn(a,b){if(a){var
+c=dp(a[1],b),d=bn(a[2],c[2]);return[0,[0,c[1],d[1]],d[2]]}return[0,0,b]}function
+aJ(c){function
 a(a){return r(a,c,[0,d,b])}var
-e=a(B1),f=a(B2);return[0,a(0),f,e]}function
-pU(a,b){if(a){var
-c=a[1],d=bk(c[1],b),e=bk(c[2],d[2]),f=pU(a[2],e[2]),g=f[2],h=f[1],i=aI(e[1]);return[0,[0,[0,aI(d[1]),i],h],g]}return[0,0,b]}function
-kz(f,e){if(f){var
+e=a(Cv),f=a(Cw);return[0,a(0),f,e]}function
+qf(a,b){if(a){var
+c=a[1],d=bn(c[1],b),e=bn(c[2],d[2]),f=qf(a[2],e[2]),g=f[2],h=f[1],i=aJ(e[1]);return[0,[0,[0,aJ(d[1]),i],h],g]}return[0,0,b]}function
+kJ(f,e){if(f){var
 a=f[1];switch(a[0]){case
 0:var
-g=bk(a[1],e),h=bk(a[2],g[2]),i=bk(a[3],h[2]),j=dn(a[4],i[2]),A=j[2],B=a[5],C=j[1],D=aI(i[1]),E=aI(h[1]),c=[0,[0,[0,aI(g[1]),E,D,C,B]],A];break;case
+g=bn(a[1],e),h=bn(a[2],g[2]),i=bn(a[3],h[2]),j=dp(a[4],i[2]),A=j[2],B=a[5],C=j[1],D=aJ(i[1]),E=aJ(h[1]),c=[0,[0,[0,aJ(g[1]),E,D,C,B]],A];break;case
 1:var
-k=a[3],l=bk(a[1],e),m=l[1],n=bk(a[2],l[2]),o=n[2],p=n[1];if(k)var
-q=bk(k[1],o),F=q[2],G=[0,aI(q[1])],H=aI(p),c=[0,[0,[1,aI(m),H,G]],F];else
+k=a[3],l=bn(a[1],e),m=l[1],n=bn(a[2],l[2]),o=n[2],p=n[1];if(k)var
+q=bn(k[1],o),F=q[2],G=[0,aJ(q[1])],H=aJ(p),c=[0,[0,[1,aJ(m),H,G]],F];else
 var
-I=aI(p),c=[0,[0,[1,aI(m),I,0]],o];break;case
+I=aJ(p),c=[0,[0,[1,aJ(m),I,0]],o];break;case
 2:var
-r=bk(a[1],e),J=r[2],c=[0,[0,[2,aI(r[1])]],J];break;default:var
-s=a[1],t=bk(s,e),u=bk(a[2],t[2]),v=bk(a[3],u[2]),w=bk(a[4],v[2]),x=dn(a[5],w[2]),y=dn(a[6],x[2]),K=s?aI(t[1]):[0,[0,d,b],[0,d,b],[0,b,b]],L=y[2],M=a[7],N=y[1],O=x[1],P=aI(w[1]),Q=aI(v[1]),c=[0,[1,[0,K,aI(u[1]),Q,P,O,N,M]],L]}var
-z=kz(f[2],c[2]);return[0,[0,c[1],z[1]],z[2]]}return[0,0,e]}function
-dp(a){return mf(i,a)}function
-B3(a){if(typeof
+r=bn(a[1],e),J=r[2],c=[0,[0,[2,aJ(r[1])]],J];break;default:var
+s=a[1],t=bn(s,e),u=bn(a[2],t[2]),v=bn(a[3],u[2]),w=bn(a[4],v[2]),x=dp(a[5],w[2]),y=dp(a[6],x[2]),K=s?aJ(t[1]):[0,[0,d,b],[0,d,b],[0,b,b]],L=y[2],M=a[7],N=y[1],O=x[1],P=aJ(w[1]),Q=aJ(v[1]),c=[0,[1,[0,K,aJ(u[1]),Q,P,O,N,M]],L]}var
+z=kJ(f[2],c[2]);return[0,[0,c[1],z[1]],z[2]]}return[0,0,e]}function
+dq(a){return mq(i,a)}function
+Cx(a){if(typeof
 a==="number")return 1;else
 switch(a[0]){case
 5:return h(i,1,[3,a[1],[0,b,b]]);case
@@ -7159,11 +7286,11 @@ j=h(i,0,a[1]);return j?h(i,1,a[2]):j;case
 15:var
 k=[0,a[2],a[1]],m=1;return l(function(a){return h(i,m,a)},k);case
 2:case
-3:return dp(a[2]);case
+3:return dq(a[2]);case
 4:case
 13:var
 c=h(i,1,a[2]);return c?h(i,1,a[3]):c;default:return h(i,1,a[1])}}function
-kA(a){if(typeof
+kK(a){if(typeof
 a==="number")return 1;else
 switch(a[0]){case
 4:var
@@ -7175,25 +7302,25 @@ B=[0,a[2],a[1]],C=1;return l(function(a){return h(i,C,a)},B);case
 11:var
 m=a[2],n=h(i,1,m);return n?h(i,0,[3,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b],m]):n;case
 13:var
-o=a[4],p=op(a[3]),r=p?h(i,1,o):p;return r?h(i,0,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],o]):r;case
+o=a[4],p=oK(a[3]),r=p?h(i,1,o):p;return r?h(i,0,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],o]):r;case
 14:return h(i,0,a[3]);case
 15:var
 s=h(i,0,a[2]),t=s?h(i,0,a[3]):s;return t?h(i,1,a[4]):t;case
 16:var
 u=a[3],v=h(i,0,a[1]),w=v?h(i,1,a[2]):v,x=w?h(i,0,u):w;return x?h(i,1,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],u]):x;case
 17:var
-y=a[2],z=l(dp,y),A=z?aj(function(a){return h(i,1,[4,a,a])},y):z;return A?h(i,1,a[3]):A;case
+y=a[2],z=l(dq,y),A=z?aj(function(a){return h(i,1,[4,a,a])},y):z;return A?h(i,1,a[3]):A;case
 2:case
-3:return dp(a[2]);case
-0:case
-1:case
-12:return h(i,1,a[1]);default:var
-k=h(i,1,a[2]);return k?h(i,1,a[3]):k}}function
-hT(d){var
+3:return dq(a[2]);case
+6:case
+7:case
+9:var
+k=h(i,1,a[2]);return k?h(i,1,a[3]):k;default:return h(i,1,a[1])}}function
+hX(d){var
 a=d;for(;;){if(a){var
 b=a[2],e=a[1],c=I(aj(function(d){return function(a){var
-h=kg(a[1]),e=aB(kg(d[1]),h);if(e)var
-i=kh(a[4]),b=aB(kh(d[4]),i);else
+h=kq(a[1]),e=aD(kq(d[1]),h);if(e)var
+i=kr(a[4]),b=aD(kr(d[4]),i);else
 var
 b=e;if(b){var
 f=d[2];if(f){var
@@ -7202,125 +7329,125 @@ g=1}else
 var
 g=b;return g}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-fY(a){if(0===a[0])return dp(j(a[1]));var
-b=a[2],c=a[1];if(!dD(j(c))&&!dD(j(b))){var
-e=j(c);return h(i,1,[3,j(b),e])}var
-d=j(b);return by(i,j(c),d)}function
-d1(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-pV(a){switch(a[0]){case
+f2(a){if(0===a[0])return dq(k(a[1]));var
+b=a[2],c=a[1];if(!dE(k(c))&&!dE(k(b))){var
+e=k(c);return h(i,1,[3,k(b),e])}var
+d=k(b);return bA(i,k(c),d)}function
+d7(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+qg(a){switch(a[0]){case
 0:var
-c=[0,a[4],0],d=g(d1(a[3]),c),e=g(d1(a[2]),d);return g(d1(a[1]),e);case
+c=[0,a[4],0],d=g(d7(a[3]),c),e=g(d7(a[2]),d);return g(d7(a[1]),e);case
 1:var
-b=a[3],f=b?d1(b[1]):b,h=g(d1(a[2]),f);return g(d1(a[1]),h);default:return d1(a[1])}}function
-pW(s,a,m){if(aj(function(a){return 9===a[1]?1:0},m)){var
-b=aa(f(a),B6),c=b?l(function(a){if(0===a[0]){var
-d=a[5],e=h(i,1,j(a[2])),f=e?h(i,0,j(a[3])):e,m=f?h(i,0,j(a[4])):f,c=0;if(m)if(d)var
-p=b2(d[1]),b=l(function(a){return dp(j(a))},p);else{var
+b=a[3],f=b?d7(b[1]):b,h=g(d7(a[2]),f);return g(d7(a[1]),h);default:return d7(a[1])}}function
+qh(s,a,m){if(aj(function(a){return 9===a[1]?1:0},m)){var
+b=ab(f(a),CA),c=b?l(function(a){if(0===a[0]){var
+d=a[5],e=h(i,1,k(a[2])),f=e?h(i,0,k(a[3])):e,m=f?h(i,0,k(a[4])):f,c=0;if(m)if(d)var
+p=b5(d[1]),b=l(function(a){return dq(k(a))},p);else{var
 n=1;c=1}else{var
 n=m;c=1}if(c)var
 b=n}else{var
-o=h(i,1,j(a[4]));if(o)var
-q=b2(a[3]),r=g(b2(a[2]),q),b=l(function(a){return dp(j(a))},r);else
+o=h(i,1,k(a[4]));if(o)var
+q=b5(a[3]),r=g(b5(a[2]),q),b=l(function(a){return dq(k(a))},r);else
 var
-b=o}return b?k(s,a):b},a):b;if(c)var
-d=hJ(0,a),n=d?1:d,e=n;else
+b=o}return b?j(s,a):b},a):b;if(c)var
+d=hN(0,a),n=d?1:d,e=n;else
 var
 e=c;return e}return a?0:1}function
-pX(a){return a?B7:B8}function
-hU(a){switch(a){case
-0:return B9;case
-1:return B_;default:return 0}}function
-dq(a){var
-f=a[1],d=h(i,1,[2,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],f]),e=d?by(i,a[1],a[2]):d;if(e){var
+qi(a){return a?CB:CC}function
+hY(a){switch(a){case
+0:return CD;case
+1:return CE;default:return 0}}function
+dr(a){var
+f=a[1],d=h(i,1,[2,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],f]),e=d?bA(i,a[1],a[2]):d;if(e){var
 g=a[2];return h(i,1,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],g])}return e}function
-eQ(a){var
-e=by(i,[0,d,b],a);return e?h(i,1,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],a]):e}function
-pY(c,b,a){if(0===a[0]){var
-d=a[2],e=a[1],g=n(f(e),c),k=g?n(f(d),c):g;if(k){var
-o=U(e,d);return l(function(a){var
-b=j(a[2]);return by(i,j(a[1]),b)},o)}return k}var
-m=b?h(i,1,j(a[3])):b;if(m){var
-p=j(a[5]);return by(i,j(a[4]),p)}return m}function
-pZ(a,e,F,E,t,s,g){function
+eT(a){var
+e=bA(i,[0,d,b],a);return e?h(i,1,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],a]):e}function
+qj(c,b,a){if(0===a[0]){var
+d=a[2],e=a[1],g=n(f(e),c),j=g?n(f(d),c):g;if(j){var
+o=V(e,d);return l(function(a){var
+b=k(a[2]);return bA(i,k(a[1]),b)},o)}return j}var
+m=b?h(i,1,k(a[3])):b;if(m){var
+p=k(a[5]);return bA(i,k(a[4]),p)}return m}function
+qk(a,e,F,E,t,s,g){function
 u(b){var
-d=pX(a),c=n(f(b),d);return c?l(fY,b):c}var
+d=qi(a),c=n(f(b),d);return c?l(f2,b):c}var
 v=l(function(a){var
 b=u(a[1]);return b?u(a[2]):b},e);if(v)var
-G=f(e),o=aa(bH(a),G);else
+G=f(e),o=ab(bD(a),G);else
 var
 o=v;var
-w=o?aa(f(e),B$):o,x=w?h(i,1,j(F)):w;if(x)var
-H=1===a?1:0,p=pY(hU(a),H,E);else
+w=o?ab(f(e),CF):o,x=w?h(i,1,k(F)):w;if(x)var
+H=1===a?1:0,p=qj(hY(a),H,E);else
 var
 p=x;if(p)if(a){var
-d=dX(t);switch(d[0]){case
+d=d3(t);switch(d[0]){case
 0:var
-k=0;break;case
+j=0;break;case
 1:var
-A=dq(d[1]),B=A?dq(d[2]):A,k=B?dq(d[3]):B;break;case
+A=dr(d[1]),B=A?dr(d[2]):A,j=B?dr(d[3]):B;break;case
 2:var
-k=eQ(d[1]);break;default:var
-C=eQ(d[1]),k=C?eQ(d[2]):C}var
-m=k}else
+j=eT(d[1]);break;default:var
+C=eT(d[1]),j=C?eT(d[2]):C}var
+m=j}else
 var
-D=dX(t),J=0===D[0]?dq(D[1]):0,m=J;else
+D=d3(t),J=0===D[0]?dr(D[1]):0,m=J;else
 var
 m=p;if(m)var
-I=f(e),q=pW(function(a){if(0===a[0]){var
-b=a[1],c=aa(B5,b),d=c?aa(b,I):c;if(d){if(a[5])return 0;var
+I=f(e),q=qh(function(a){if(0===a[0]){var
+b=a[1],c=ab(Cz,b),d=c?ab(b,I):c;if(d){if(a[5])return 0;var
 e=1}else
 var
 e=d;return e}return 1},s,g);else
 var
 q=m;if(q)var
-b=f(e),c=bH(a),y=pX(a),r=l(function(a){var
+b=f(e),c=bD(a),y=qi(a),r=l(function(a){var
 e=a[2];if(e)var
-g=e[1],h=aa(Bk,g),w=h?aa(g,b):h,d=w;else
+g=e[1],h=ab(BQ,g),w=h?ab(g,b):h,d=w;else
 var
 d=1;switch(a[1]){case
 9:var
 i=a[4];if(typeof
-i!=="number"&&0===i[0])return a[2]?aE(c,b,a):a[3]?aE(c,b,a):1;return aE(c,b,a);case
+i!=="number"&&0===i[0])return a[2]?aG(c,b,a):a[3]?aG(c,b,a):1;return aG(c,b,a);case
 10:var
 j=a[4];if(typeof
 j!=="number"&&1===j[0]){var
-k=a[3];return k?2===k[1][0]?d:aE(c,b,a):aE(c,b,a)}return aE(c,b,a);case
+k=a[3];return k?2===k[1][0]?d:aG(c,b,a):aG(c,b,a)}return aG(c,b,a);case
 12:var
 l=a[4];if(typeof
-l!=="number"&&1===l[0]){if(a[2])return aE(c,b,a);var
-m=a[3];return m?3===m[1][0]?n(b,c):aE(c,b,a):aE(c,b,a)}return aE(c,b,a);case
+l!=="number"&&1===l[0]){if(a[2])return aG(c,b,a);var
+m=a[3];return m?3===m[1][0]?n(b,c):aG(c,b,a):aG(c,b,a)}return aG(c,b,a);case
 14:var
 o=a[4];if(typeof
 o!=="number"&&1===o[0]){var
 p=a[3];if(p){var
 q=p[1];if(1===q[0]){var
-r=n(f(q[1]),y),x=r?d:r;return x}return aE(c,b,a)}return aE(c,b,a)}return aE(c,b,a);case
+r=n(f(q[1]),y),x=r?d:r;return x}return aG(c,b,a)}return aG(c,b,a)}return aG(c,b,a);case
 15:var
 s=a[4];if(typeof
 s!=="number"&&1===s[0]){var
 t=a[3];if(t){var
 u=t[1];if(1===u[0]){var
-v=n(f(u[1]),y),z=v?d:v;return z}return aE(c,b,a)}return aE(c,b,a)}return aE(c,b,a);default:return aE(c,b,a)}},g);else
+v=n(f(u[1]),y),z=v?d:v;return z}return aG(c,b,a)}return aG(c,b,a)}return aG(c,b,a);default:return aG(c,b,a)}},g);else
 var
 r=q;var
-z=r?hT(g):r;return z?l(kA,eP(0,f(e),s,g)):z}function
-kB(a){switch(a[0]){case
+z=r?hX(g):r;return z?l(kK,eS(0,f(e),s,g)):z}function
+kL(a){switch(a[0]){case
 0:var
 c=g(a[3],[0,a[4],0]),d=g(a[2],c);return g(a[1],d);case
 1:var
 b=a[3],e=b?b[1]:b,f=g(a[2],e);return g(a[1],f);case
 2:return a[1];default:var
 h=g(a[4],[0,a[5],[0,a[6],0]]),i=g(a[3],h),j=g(a[2],i);return g(a[1],j)}}function
-hV(a,b,e,T,p,m){var
+hZ(a,b,e,T,p,m){var
 q=typeof
 a==="number"?a?1:a:a[1]?0:1;function
 c(a){var
-b=q?Ca:Cb;return n(f(a),b)}var
-k=dY(b),w=l(function(b){switch(b[0]){case
+b=q?CG:CH;return n(f(a),b)}var
+j=d4(b),x=l(function(b){switch(b[0]){case
 0:var
-f=I(k),g=f?c(b[1]):f,h=g?c(b[2]):g;return h?c(b[3]):h;case
+f=I(j),g=f?c(b[1]):f,h=g?c(b[2]):g;return h?c(b[3]):h;case
 1:var
-d=b[3],i=I(k),j=i?c(b[1]):i,l=j?c(b[2]):j;if(l){var
+d=b[3],i=I(j),k=i?c(b[1]):i,l=k?c(b[2]):k;if(l){var
 m=typeof
 a==="number"?1:0;if(m){if(a)return d?0:1;if(d)return c(d[1]);var
 e=1}else
@@ -7329,32 +7456,32 @@ e=m}else
 var
 e=l;return e;case
 2:var
-n=I(k),o=n?c(b[1]):n;if(o){if(typeof
+n=I(j),o=n?c(b[1]):n;if(o){if(typeof
 a==="number"&&!a)return 1;var
 p=0}else
 var
 p=o;return p;default:var
-r=b[1],s=q?r?0:1:c(r),t=s?c(b[2]):s,u=t?c(b[3]):t;return u?c(b[4]):u}},b);if(w)var
-U=f(b),r=aa(at(a),U);else
+r=b[1],s=q?r?0:1:c(r),t=s?c(b[2]):s,u=t?c(b[3]):t;return u?c(b[4]):u}},b);if(x)var
+U=f(b),r=ab(ar(a),U);else
 var
-r=w;var
-x=r?aa(f(b),Cc):r,A=x?l(fY,z(kB,b)):x;if(A){var
+r=x;var
+y=r?ab(f(b),CI):r,A=y?l(f2,w(kL,b)):y;if(A){var
 S=0;if(typeof
 a==="number"&&!a){var
 B=1;S=1}if(!S)var
 B=0;var
-V=q?Cd:Ce,s=pY(V,B,T)}else
+V=q?CJ:CK,s=qj(V,B,T)}else
 var
 s=A;if(s)if(typeof
 a==="number")if(e)var
 d=0;else
 var
-W=y(dX,p)?0:1,d=W;else
+W=z(d3,p)?0:1,d=W;else
 switch(a[1]){case
 0:if(e){var
-t=y(dX,p);if(t){var
-G=t[1];if(0===G[0])var
-H=h(i,1,j(e[1])),J=H?dq(G[1]):H;else
+t=z(d3,p);if(t){var
+F=t[1];if(0===F[0])var
+H=h(i,1,k(e[1])),J=H?dr(F[1]):H;else
 var
 J=0;var
 K=J}else
@@ -7364,15 +7491,15 @@ d=K}else
 var
 d=e;break;case
 1:if(e){var
-u=e[1],v=y(dX,p);if(v){var
+u=e[1],v=z(d3,p);if(v){var
 g=v[1];switch(g[0]){case
 0:var
 o=0;break;case
 1:var
-M=h(i,1,j(u)),N=M?dq(g[1]):M,O=N?dq(g[2]):N,o=O?dq(g[3]):O;break;case
+M=h(i,1,k(u)),N=M?dr(g[1]):M,O=N?dr(g[2]):N,o=O?dr(g[3]):O;break;case
 2:var
-P=h(i,1,j(u)),o=P?eQ(g[1]):P;break;default:var
-Q=h(i,1,j(u)),R=Q?eQ(g[1]):Q,o=R?eQ(g[2]):R}var
+P=h(i,1,k(u)),o=P?eT(g[1]):P;break;default:var
+Q=h(i,1,k(u)),R=Q?eT(g[1]):Q,o=R?eT(g[2]):R}var
 L=o}else
 var
 L=v;var
@@ -7383,142 +7510,142 @@ d=0}else
 var
 d=s;var
 C=d?l(function(c){var
-d=pC(k,a,f(b),c);if(d)var
+d=pZ(j,a,f(b),c);if(d)var
 e=d;else{var
-g=cQ(c);if(g)return aE(0,0,c);var
+g=cR(c);if(g)return aG(0,0,c);var
 e=g}return e},m):d,D=C?l(function(a){var
 e=a[1];if(4===e){var
 f=a[2];if(f)var
-c=F(b,bn(f[1])),j=c?[0,c[1],0]:c,g=j;else
+c=G(b,bh(f[1])),j=c?[0,c[1],0]:c,g=j;else
 var
 g=b;return l(function(a){switch(a[0]){case
 0:case
 3:return 1;default:return 0}},g)}if(13===e){var
 h=a[2];if(h)var
-d=F(b,bn(h[1])),k=d?[0,d[1],0]:d,i=k;else
+d=G(b,bh(h[1])),k=d?[0,d[1],0]:d,i=k;else
 var
 i=b;return l(function(a){switch(a[0]){case
 0:case
-3:return 1;default:return 0}},i)}return 1},m):C,E=D?hT(m):D;return E?l(kA,eP(k,f(b),0,m)):E}function
-Cf(a){switch(a[0]){case
-0:return hb(a[1][1]);case
+3:return 1;default:return 0}},i)}return 1},m):C,E=D?hX(m):D;return E?l(kK,eS(j,f(b),0,m)):E}function
+CL(a){switch(a[0]){case
+0:return hf(a[1][1]);case
 1:var
-b=a[3];return b?hb(b[1]):1;default:return hb(a[1])}}function
-hW(a,k,b,d){var
-e=pW(function(g){if(0===g[0]){var
-c=g[1],d=aa(B4,c);if(d){var
-b=F(a,bn(c));if(b){if(2===b[1][0])return 0;var
+b=a[3];return b?hf(b[1]):1;default:return hf(a[1])}}function
+h0(a,k,b,d){var
+e=qh(function(g){if(0===g[0]){var
+c=g[1],d=ab(Cy,c);if(d){var
+b=G(a,bh(c));if(b){if(2===b[1][0])return 0;var
 e=1}else
 var
 e=b;var
 f=e}else
 var
-f=d;return f}return 1},k,b),g=e?l(Cf,d[1]):e,h=g?aa(Cg,f(a)):g;if(h)var
-m=f(a),c=l(function(a){return Ba(m,a)},b);else
+f=d;return f}return 1},k,b),g=e?l(CL,d[1]):e,h=g?ab(CM,f(a)):g;if(h)var
+m=f(a),c=l(function(a){return BG(m,a)},b);else
 var
 c=h;var
-i=c?hT(b):c,j=i?l(fY,z(pV,a)):i;return j?l(B3,d[3]):j}function
-p0(m,k,a,j,i,b){var
+i=c?hX(b):c,j=i?l(f2,w(qg,a)):i;return j?l(Cx,d[3]):j}function
+ql(m,k,a,j,i,b){var
 c=f(m),o=f(i),d=n(f(j),o),e=d?l(function(b){if(12===b[1]){var
 o=0,e=b[4];if(typeof
 e!=="number"&&1===e[0]){if(b[2])var
-k=aE(c,f(a),b);else
+k=aG(c,f(a),b);else
 var
-m=b[3],q=m?0===m[1][0]?n(c,f(a)):aE(c,f(a),b):aE(c,f(a),b),k=q;var
+m=b[3],q=m?0===m[1][0]?n(c,f(a)):aG(c,f(a),b):aG(c,f(a),b),k=q;var
 g=k;o=1}if(!o)var
-g=aE(c,f(a),b);var
+g=aG(c,f(a),b);var
 d=g}else
 var
-d=aE(c,f(a),b);if(d){var
+d=aG(c,f(a),b);if(d){var
 h=b[1]-1|0;if(!(11<h>>>0))switch(h){case
 0:var
-j=b[2],p=j?[0,bn(j[1]),0]:aC(0,f(a));return l(function(c){var
-b=F(a,c);return b?0===b[1][0]?0:1:b},p);case
+j=b[2],p=j?[0,bh(j[1]),0]:aE(0,f(a));return l(function(c){var
+b=G(a,c);return b?0===b[1][0]?0:1:b},p);case
 10:return l(function(a){return 0===a[0]?0:1},a);case
 11:return l(function(a){return 0===a[0]?0:1},a)}var
 i=1}else
 var
-i=d;return i},b):d,g=e?hT(b):e,h=g?l(function(a){return fY(a[2])},k):g;return h?l(kA,eP(0,f(a),0,b)):h}function
-p1(a){if(a){var
-b=a[1];if(cQ(b))return 0;var
-c=[0,b,p1(a[2])]}else
+i=d;return i},b):d,g=e?hX(b):e,h=g?l(function(a){return f2(a[2])},k):g;return h?l(kK,eS(0,f(a),0,b)):h}function
+qm(a){if(a){var
+b=a[1];if(cR(b))return 0;var
+c=[0,b,qm(a[2])]}else
 var
 c=a;return c}function
-d2(h,g,d,c,b){var
-j=p1(b),k=z(function(a){return hL(h,d,c,a)},j),l=lT(e(function(a){return fw(i,g,a)},k)),a=z(pA,b),m=a?[0,a[1],a[2]]:Ch;return M(f(m),l)}function
-kC(a){return 2<=a?Ci:Cj}function
-kD(m,l,k,j,f,i){var
-g=d2(m,l,k,j,f),c=pS(i);if(c){var
+d8(h,g,d,c,b){var
+j=qm(b),k=w(function(a){return hP(h,d,c,a)},j),l=l5(e(function(a){return fB(i,g,a)},k)),a=w(pX,b),m=a?[0,a[1],a[2]]:CN;return N(f(m),l)}function
+kM(a){return 2<=a?CO:CP}function
+kN(m,l,k,j,f,i){var
+g=d8(m,l,k,j,f),c=qd(i);if(c){var
 a=c[1],e=0;if(typeof
 a==="number")var
 h=[0,a];else
 if(0===a[0]){var
 o=a[2],p=a[1],b=p,d=function(a){return[0,a,o]};e=1}else{var
-q=a[2],r=a[1],b=r,d=function(a){return[1,a,q]};e=1}if(e){if(!I(aj(cQ,f))&&!aG(b,g))return n(b,g)?0:[0,d(bn(b))];return[0,d(b)]}}else
+q=a[2],r=a[1],b=r,d=function(a){return[1,a,q]};e=1}if(e){if(!I(aj(cR,f))&&!aB(b,g))return n(b,g)?0:[0,d(bh(b))];return[0,d(b)]}}else
 var
 h=c;return h}function
-fZ(b,a){var
-c=f(a1(function(a){return 0===a[0]?0:1},b));return n(f(a),c)}function
-hX(a){var
-b=U(aC(0,f(a)),a);return e(aA,a1(function(a){return jg(a[2])},b))}function
-p2(a){var
-b=a[1],c=e(hR,a[1]);return g3(hS(a[1]),c,b)}function
-kE(a){return hX(p2(a))}function
-p3(b,a){if(a){var
-c=a[1],d=a[2],f=p3(M(b,c[1]),d),h=c[2];return g(e(function(a){return aC(M(b,a),Ck)},h),f)}return a}function
-p4(e,a){function
+f3(b,a){var
+c=f(a2(function(a){return 0===a[0]?0:1},b));return n(f(a),c)}function
+h1(a){var
+b=V(aE(0,f(a)),a);return e(aA,a2(function(a){return jk(a[2])},b))}function
+qn(a){var
+b=a[1],c=e(hV,a[1]);return g7(hW(a[1]),c,b)}function
+kO(a){return h1(qn(a))}function
+qo(b,a){if(a){var
+c=a[1],d=a[2],f=qo(N(b,c[1]),d),h=c[2];return g(e(function(a){return aE(N(b,a),CQ)},h),f)}return a}function
+qp(e,a){function
 b(f){var
-a=F(e,f);if(a){var
-b=mU(a[1]);if(b)return J(b[1],d);var
+a=G(e,f);if(a){var
+b=ne(a[1]);if(b)return L(b[1],d);var
 c=1}else
 var
 c=a;return c}var
-c=p3(0,a);return a1(function(a){return l(b,a)},c)}function
-p5(a){switch(a[0]){case
-0:return Cl;case
-1:return a[3]?Cm:Cn;default:return Co}}function
-Cp(a){return 0===a[0]?p5(a[1]):Cq}function
-hY(a){if(a){var
+c=qo(0,a);return a2(function(a){return l(b,a)},c)}function
+qq(a){switch(a[0]){case
+0:return CR;case
+1:return a[3]?CS:CT;default:return CU}}function
+CV(a){return 0===a[0]?qq(a[1]):CW}function
+h2(a){if(a){var
 b=a[1];return[0,b[2],b[1]]}return[0,d,0]}function
-kF(aC,Y,aB,X,W,b,aA,V){var
-a=hK(Y,aB,X,W),aD=f(V),aE=e(p5,a[1]),aF=p4(p2(a),aE),aG=aC?0:kE(a),B=dZ(Cr,kE(a),aG,aF,aD,V);if(B){var
+kP(aC,Y,aB,X,W,b,aA,V){var
+a=hO(Y,aB,X,W),aD=f(V),aE=e(qq,a[1]),aF=qp(qn(a),aE),aG=aC?0:kO(a),B=d5(CX,kO(a),aG,aF,aD,V);if(B){var
 Z=B[1];if(Z[2])return 0;var
-_=hW(Y,X,W,a);if(_){var
-aH=Z[1],C=e(hR,a[1]),c=hS(a[1]),aI=hY(aA),U=nj(i,a);if(U){var
-n=g3(c,C,a[1]),h=jd(c,C,a[1],0),ab=f(a[3]),ac=M(f(n),ab),J=[0,f(n),ac],ae=a[3],E=aj(function(a){if(typeof
-a!=="number"&&14===a[0])return 1;return 0},ae),af=E?z(function(a){var
-b=e(aN,g5(n,a[4]));return[0,a[4],b]},h):E,ag=g(jf(h,c,J,a[3]),af),ah=g(bE(mu(h)),ag),L=g(bE(fk(h)),ah),N=cZ(L)[1],o=cY(N),O=l(function(a){var
-b=m(d);return aO(r(bh(o,a),o,b),a)},L);if(O){var
-P=aj(t5,a[3]);if(P){var
+_=h0(Y,X,W,a);if(_){var
+aH=Z[1],C=e(hV,a[1]),c=hW(a[1]),aJ=h2(aA),U=nE(i,a);if(U){var
+n=g7(c,C,a[1]),h=jh(c,C,a[1],0),ab=f(a[3]),ac=N(f(n),ab),J=[0,f(n),ac],ae=a[3],E=aj(function(a){if(typeof
+a!=="number"&&14===a[0])return 1;return 0},ae),af=E?w(function(a){var
+b=e(aI,fw(n,a[4]));return[0,a[4],b]},h):E,ag=g(jj(h,c,J,a[3]),af),ah=g(bB(mF(h)),ag),L=g(bB(fo(h)),ah),M=c1(L)[1],o=c0(M),O=l(function(a){var
+b=m(d);return aO(r(bk(o,a),o,b),a)},L);if(O){var
+P=aj(ur,a[3]);if(P){var
 t=C,p=a[1];for(;;){if(p){var
-q=p[1],u=bS(d,t);switch(q[0]){case
+q=p[1],u=bU(d,t);switch(q[0]){case
 0:var
-F=q[1],G=g6(b,F[1],u),D=0;if(G){var
-s=aq(b,[0,F[4],c]);if(s)var
-j=K(d,s[1][1]);else{var
+F=q[1],G=g_(b,F[1],u),D=0;if(G){var
+s=ao(b,[0,F[4],c]);if(s)var
+k=K(d,s[1][1]);else{var
 H=s;D=1}}else{var
 H=G;D=1}if(D)var
-j=H;break;case
+k=H;break;case
 1:var
-I=q[3],j=I?g6(b,I[1],u):1;break;default:var
-j=g6(b,q[1],u)}if(j){var
-aa=p[2],t=bC(t),p=aa;continue}var
-Q=j}else
+I=q[3],k=I?g_(b,I[1],u):1;break;default:var
+k=g_(b,q[1],u)}if(k){var
+aa=p[2],t=bG(t),p=aa;continue}var
+Q=k}else
 var
 Q=1;var
 v=Q;break}}else
 var
 v=P;if(v){var
-ai=a[3],ak=z(function(a){return dI(c,a)},ai),al=a[3],am=g(n,g(e(function(a){return bX(c,a)},al),ak)),w=ad(e(function(a){return aq(b,a)},am));if(w){var
-an=ba(et(a[2]),c),x=ad(e(function(a){return aq(b,a)},an));if(x){var
-ao=a[3],y=ad(m8(b,aI,function(a){return bh(o,a)},n,h,c,J,ao));if(y){var
-R=y[1],ap=jc(R),ar=x[1],as=a[2],at=function(a){return m9(b,as,c,a)},au=w[1],av=0,aw=mu(h),ay=k(ax(function(a){return bh(o,a)}),aw),az=fk(h);return f5(jb(b,N,k(ax(function(a){return bh(o,a)}),az),ay,av,au,R,at),ar,ap,aH)}var
-S=y}else
+ai=a[3],ak=w(function(a){return dM(c,a)},ai),al=a[3],am=g(n,g(e(function(a){return b0(c,a)},al),ak)),x=ad(e(function(a){return ao(b,a)},am));if(x){var
+an=bc(ew(a[2]),c),y=ad(e(function(a){return ao(b,a)},an));if(y){var
+ap=a[3],z=ad(nr(b,aJ,function(a){return bk(o,a)},n,h,c,J,ap));if(z){var
+R=z[1],aq=jg(R),ar=y[1],as=a[2],at=function(a){return ns(b,as,c,a)},au=x[1],av=0,ax=mF(h),ay=j(aw(function(a){return bk(o,a)}),ax),az=fo(h);return f9(jf(b,M,j(aw(function(a){return bk(o,a)}),az),ay,av,au,R,at),ar,aq,aH)}var
+S=z}else
 var
-S=x;var
+S=y;var
 T=S}else
 var
-T=w;var
+T=x;var
 A=T}else
 var
 A=v}else
@@ -7527,187 +7654,187 @@ A=O;return A}return U}var
 $=_}else
 var
 $=B;return $}function
-Cs(a){if(0===a[0])return pO(a[1]);var
-b=a[1],c=ew(b[6]);return g(ew(b[5]),c)}function
-Ct(a){if(0===a[0])return pP(a[1]);var
-b=a[1],c=bb(b[4]);return g(bb(b[3]),c)}function
-p6(c){var
-a=z(Cs,c),d=a?[0,a[1],a[2]]:z(Ct,c);return E(b,bG(d))}function
-Cu(a){if(0===a[0])return[0,hR(a[1]),d];var
-b=a[1],c=bG(bb(b[2]));return[0,bG(bb(b[1])),c]}function
-kG(h,b,s,r,q,g,C,B,p){var
-a=ko(h,b,s,r,q,g),t=p6(a[2]),u=e(Cu,a[2]),j=jQ(t,u,a[2]),D=f(p),E=p4(j,e(Cp,a[2])),F=hX(j),G=hX(j),k=dZ(at(h),G,F,E,D,p);if(k){var
+CY(a){if(0===a[0])return p$(a[1]);var
+b=a[1],c=ez(b[6]);return g(ez(b[5]),c)}function
+CZ(a){if(0===a[0])return qa(a[1]);var
+b=a[1],c=bd(b[4]);return g(bd(b[3]),c)}function
+qr(c){var
+a=w(CY,c),d=a?[0,a[1],a[2]]:w(CZ,c);return F(b,bJ(d))}function
+C0(a){if(0===a[0])return[0,hV(a[1]),d];var
+b=a[1],c=bJ(bd(b[2]));return[0,bJ(bd(b[1])),c]}function
+kQ(h,b,s,r,q,g,C,B,p){var
+a=ky(h,b,s,r,q,g),t=qr(a[2]),u=e(C0,a[2]),j=jY(t,u,a[2]),D=f(p),E=qp(j,e(CV,a[2])),F=h1(j),G=h1(j),k=d5(ar(h),G,F,E,D,p);if(k){var
 v=k[1];if(v[2])return 0;var
-w=hV(h,b,s,r,q,g);if(w){var
-H=v[1],I=f(b),J=d2(dY(b),Cv,I,0,g),K=hY(B),y=e(vS,a[2]),m=fE(i,a[2],y);if(m)var
-z=jj(a[4]),c=cG(i,a[4],z);else
+w=hZ(h,b,s,r,q,g);if(w){var
+H=v[1],I=f(b),J=d8(d4(b),C1,I,0,g),K=h2(B),y=e(wk,a[2]),m=fK(i,a[2],y);if(m)var
+z=jp(a[4]),c=cK(i,a[4],z);else
 var
 c=m;if(c){var
 n=a[5];if(n)var
-A=hj(n[1]),o=l(function(a){return fH(i,a)},A);else
+A=ho(n[1]),o=l(function(a){return fM(i,a)},A);else
 var
 o=1;var
 d=o}else
 var
-d=c;return d?vQ(C,K,J,a,t,u,H):d}var
+d=c;return d?wh(C,K,J,a,t,u,H):d}var
 x=w}else
 var
 x=k;return x}function
-kH(r,t,ai,ah,ag,J,aP,af,v){var
-x=typeof
-r==="number"?r?Cw:Cx:hU(r[1]),B=e(j,aP),a=ko(r,t,ai,ah,ag,J),aj=kz(t,e(j,af));if(aj[2])return 0;var
-p=aj[1],ak=fZ(z(kB,t),af),al=ak?hV(r,t,ai,ah,ag,J):ak;if(al)var
-aQ=at(r),K=n(f(B),aQ);else
+kR(r,t,ai,ah,ag,J,aP,af,v){var
+y=typeof
+r==="number"?r?C2:C3:hY(r[1]),B=e(k,aP),a=ky(r,t,ai,ah,ag,J),aj=kJ(t,e(k,af));if(aj[2])return 0;var
+p=aj[1],ak=f3(w(kL,t),af),am=ak?hZ(r,t,ai,ah,ag,J):ak;if(am)var
+aQ=ar(r),K=n(f(B),aQ);else
 var
-K=al;if(K){if(typeof
+K=am;if(K){if(typeof
 v!=="number"&&2===v[0]){var
-S=e(j,v[1]),aU=av(x,S),ap=aI(am(x,S)),aW=av(x,B),aq=aI(am(x,B)),X=fE(i,a[2],p),Y=X?cG(i,a[4],aq):X,Z=Y?cG(i,a[4],ap):Y,ar=Z?oU(i,a[1],a[3],a[5],p,aq,aW,ap,aU):Z;if(ar){var
-aX=at(r);return n(f(S),aX)}return ar}var
-aR=f(t),aS=hm(r),M=kD(dY(t),aS,aR,0,J,v);if(M){var
-C=M[1],g=aI(am(x,B)),m=av(x,B),as=0;if(typeof
+S=e(k,v[1]),aU=au(y,S),ap=aJ(al(y,S)),aV=au(y,B),aq=aJ(al(y,B)),X=fK(i,a[2],p),Y=X?cK(i,a[4],aq):X,Z=Y?cK(i,a[4],ap):Y,as=Z?pf(i,a[1],a[3],a[5],p,aq,aV,ap,aU):Z;if(as){var
+aX=ar(r);return n(f(S),aX)}return as}var
+aR=f(t),aS=hq(r),L=kN(d4(t),aS,aR,0,J,v);if(L){var
+C=L[1],g=aJ(al(y,B)),m=au(y,B),at=0;if(typeof
 v==="number"&&v){var
-N=I(dY(t));as=1}if(!as)var
+N=I(d4(t));at=1}if(!at)var
 N=1;if(N){var
-T=fE(i,a[2],p),V=T?jC(i,a,g,m):T;if(V)var
-o=a[5],W=a[3],y=a[1],aD=a[6],au=e(function(a){if(0===a[0])var
-e=bu(o,m,g,a),c=bz(a[1],e);else
+T=fK(i,a[2],p),U=T?jI(i,a,g,m):T;if(U)var
+o=a[5],W=a[3],z=a[1],aD=a[6],av=e(function(a){if(0===a[0])var
+e=bv(o,m,g,a),c=bC(a[1],e);else
 var
-d=a[1],f=jo(d,bu(o,m,g,a)),h=d[4],i=bu(o,m,g,a),j=L(function(b,a){return[2,b,a]},i,h),c=L(function(b,a){return[3,b,a]},j,f);return[0,jz(y,c,P([5,[0,b,b],W],da(eD(o,m,eC(a)),c)))]},p),aw=z(function(a){return jB(o,m,g,a)},p),ax=function(a){var
-b=eD(o,m,a);return L(function(b,a){return[2,b,a]},g,b)},az=0,aA=e(function(f){var
-c=bu(o,m,g,f);if(0===f[0]){var
+d=a[1],f=ju(d,bv(o,m,g,a)),h=d[4],i=bv(o,m,g,a),j=M(function(b,a){return[2,b,a]},i,h),c=M(function(b,a){return[3,b,a]},j,f);return[0,jF(z,c,R([5,[0,b,b],W],db(eG(o,m,eF(a)),c)))]},p),aw=w(function(a){return jH(o,m,g,a)},p),ax=function(a){var
+b=eG(o,m,a);return M(function(b,a){return[2,b,a]},g,b)},az=0,aA=e(function(f){var
+c=bv(o,m,g,f);if(0===f[0]){var
 a=f[1];switch(a[0]){case
 0:var
-i=a[4],j=a[3],k=a[2],h=a[1],n=ch(h,k,j,i,c),l=cH(a[5],n),p=P(l,ay(h)),q=ft(h,k,j,c);return[0,[0,jA(y,L(function(b,a){return[2,b,a]},q,p)),l,i]];case
+i=a[4],j=a[3],k=a[2],h=a[1],n=cj(h,k,j,i,c),l=cL(a[5],n),p=R(l,ay(h)),q=fy(h,k,j,c);return[0,[0,jG(z,M(function(b,a){return[2,b,a]},q,p)),l,i]];case
 1:var
-r=bz(a,c),s=[6,w(bz(a,c),r)];return[0,[0,jA(y,bz(a,c)),[0,d,b],s]];default:return 0}}var
-e=f[1],t=e[6],u=ev(e,c),v=jo(e,c),x=e[4],z=L(function(b,a){return[2,b,a]},c,x);return[0,[0,jA(y,L(function(b,a){return[3,b,a]},z,v)),u,t]]},p),aB=e(function(a){return eE(o,m,g,a)},p),aC=[0,e(function(a){if(0===a[0])var
-l=bu(o,m,g,a),d=ci(a[1],l);else
+r=bC(a,c),s=[6,x(bC(a,c),r)];return[0,[0,jG(z,bC(a,c)),[0,d,b],s]];default:return 0}}var
+e=f[1],t=e[6],u=ey(e,c),v=ju(e,c),w=e[4],y=M(function(b,a){return[2,b,a]},c,w);return[0,[0,jG(z,M(function(b,a){return[3,b,a]},y,v)),u,t]]},p),aB=e(function(a){return eH(o,m,g,a)},p),aC=[0,e(function(a){if(0===a[0])var
+l=bv(o,m,g,a),d=ck(a[1],l);else
 var
-e=bu(o,m,g,a),c=a[1],f=jo(c,e),h=c[4],i=L(function(b,a){return[2,b,a]},e,h),j=L(function(b,a){return[3,b,a]},i,f),k=ev(c,e),d=P([5,[0,b,b],[4,c[5],k]],j);return jz(y,d,P([5,[0,b,b],W],da(eD(o,m,eC(a)),d)))},p),aB,aA,az,ax,aw,au],aE=at(a[1]),O=jl(i,hm(a[1]),aE,aC,aD,C);else
+e=bv(o,m,g,a),c=a[1],f=ju(c,e),h=c[4],i=M(function(b,a){return[2,b,a]},e,h),j=M(function(b,a){return[3,b,a]},i,f),k=ey(c,e),d=R([5,[0,b,b],[4,c[5],k]],j);return jF(z,d,R([5,[0,b,b],W],db(eG(o,m,eF(a)),d)))},p),aB,aA,az,ax,aw,av],aE=ar(a[1]),O=jr(i,hq(a[1]),aE,aC,aD,C);else
 var
-O=V;if(O)var
-Q=O;else{if(typeof
+O=U;if(O)var
+P=O;else{if(typeof
 C!=="number"&&0===C[0]){var
 E=C[2];if(E){if(E[2])return 0;var
-R=E[1],_=a[1],D=a[5],aT=C[1],$=fE(i,a[2],p),aa=$?jC(i,a,g,m):$;if(aa){var
-aG=a[6],F=eu(i,hm(_),aT,aG);if(F){var
+Q=E[1],_=a[1],D=a[5],aT=C[1],$=fK(i,a[2],p),aa=$?jI(i,a,g,m):$;if(aa){var
+aG=a[6],F=ex(i,hq(_),aT,aG);if(F){var
 A=F[1][1];if(typeof
 A!=="number"&&16===A[0]){var
-s=A[1],aH=a[2],aJ=e(function(a){return eE(D,m,g,o7(a))},aH),ad=k(cJ(cN),s);if(ad)var
-aF=k(gr(c(2,b)),cN),u=[0,bm(d,ad[1][1]),aF];else
+s=A[1],aH=a[2],aI=e(function(a){return eH(D,m,g,ps(a))},aH),ad=j(cm(cO),s);if(ad)var
+aF=j(gv(c(2,b)),cO),u=[0,bp(d,ad[1][1]),aF];else
 var
 u=[0,d,b];var
 ae=h(i,0,s);if(ae)var
 aK=a[2],G=l(function(a){var
-b=o7(a);if(0===b[0])return 1;var
-c=b[1],d=[1,c],e=cK(i,s),f=e?n5(i,a,d):e;return f?h(i,1,jn(c,bu(D,m,g,d))):f},aK);else
+b=ps(a);if(0===b[0])return 1;var
+c=b[1],d=[1,c],e=cn(i,s),f=e?oo(i,a,d):e;return f?h(i,1,jt(c,bv(D,m,g,d))):f},aK);else
 var
 G=ae;if(G)var
-aL=f(a[2]),H=n(f(R),aL);else
+aL=f(a[2]),H=n(f(Q),aL);else
 var
 H=G;if(H){var
-aM=U(R,aJ),aN=U(U(p,e(function(o){var
+aM=V(Q,aI),aN=V(V(p,e(function(o){var
 a=o[2],f=o[1];if(typeof
 a!=="number"&&1===a[0]){var
-g=a[2],j=a[1],p=c(2,c(2,c(2,q(c(2,c(2,b)))))),e=hB(s,a3(u,dA([0,b,b],[0,b,k(gr(c(2,b)),p)])),f,[1,j,g]);if(typeof
+g=a[2],k=a[1],p=c(2,c(2,c(2,q(c(2,c(2,b)))))),e=hF(s,a5(u,dB([0,b,b],[0,b,j(gv(c(2,b)),p)])),f,[1,k,g]);if(typeof
 e!=="number"&&1===e[0]){var
-d=dR([5,e[2],[2,[0,b,b],e[1]]]),r=[4,g,dL(d)],l=[2,[4,j,dK(d)],r],t=[4,g,dK(d)],m=[3,[4,j,dL(d)],t],n=[4,a6(u),[2,[0,b,b],l]];if(h(i,1,[2,[0,b,b],l])&&h(i,0,[3,n,m])&&h(i,0,[2,n,m])){var
-v=dL(d);return[1,dK(d),v]}return hB(s,u,f,a)}return hB(s,u,f,a)}return hB(s,u,f,a)},aM)),R),aO=z(function(t){var
-l=t[1],a=l[2],f=l[1],h=t[2],i=eD(D,m,eC(f)),e=bu(D,m,g,f);if(0===f[0]){var
+d=dX([5,e[2],[2,[0,b,b],e[1]]]),r=[4,g,dP(d)],l=[2,[4,k,dO(d)],r],t=[4,g,dO(d)],m=[3,[4,k,dP(d)],t],n=[4,a8(u),[2,[0,b,b],l]];if(h(i,1,[2,[0,b,b],l])&&h(i,0,[3,n,m])&&h(i,0,[2,n,m])){var
+v=dP(d);return[1,dO(d),v]}return hF(s,u,f,a)}return hF(s,u,f,a)}return hF(s,u,f,a)},aM)),Q),aO=w(function(t){var
+l=t[1],a=l[2],f=l[1],h=t[2],i=eG(D,m,eF(f)),e=bv(D,m,g,f);if(0===f[0]){var
 d=f[1];switch(d[0]){case
 0:var
 n=d[4],o=d[3],j=d[2],k=d[1];if(typeof
 a!=="number"&&0===a[0]){var
-p=a[1],u=0,v=P(p,ay(k)),x=L(function(b,a){return[3,b,a]},g,j),y=L(function(b,a){return[3,b,a]},x,v),z=aV(j,o,e),A=[3,w(ay(k),z),p],B=ch(k,j,o,n,e);return[0,[0,dR([5,[0,h,b],[2,cH(d[5],B),A]]),n,y,i],u]}return 0;case
+p=a[1],u=0,v=R(p,ay(k)),w=M(function(b,a){return[3,b,a]},g,j),y=M(function(b,a){return[3,b,a]},w,v),z=aW(j,o,e),A=[3,x(ay(k),z),p],B=cj(k,j,o,n,e);return[0,[0,dX([5,[0,h,b],[2,cL(d[5],B),A]]),n,y,i],u]}return 0;case
 1:if(typeof
 a!=="number"&&0===a[0]){var
-q=a[1],C=0,E=d[1],F=L(function(b,a){return[3,b,a]},g,E);return[0,[0,dR([5,[0,h,b],[2,q,cI(d,e)]]),q,F,i],C]}return 0;default:return 0}}var
+q=a[1],C=0,E=d[1],F=M(function(b,a){return[3,b,a]},g,E);return[0,[0,dX([5,[0,h,b],[2,q,cM(d,e)]]),q,F,i],C]}return 0;default:return 0}}var
 c=f[1];if(typeof
 a!=="number"&&1===a[0]){var
-r=a[2],s=a[1],G=[4,r,fy(c,e)],H=[3,[4,s,fz(c,e)],G],J=P(r,g9(c)),I=0,K=P(s,fx(c)),M=L(function(b,a){return[2,b,a]},K,J),N=P(c[5],M),O=c[3],Q=L(function(b,a){return[2,b,a]},O,N),R=L(function(b,a){return[3,b,a]},g,Q),S=c[6],T=[2,ev(c,e),H];return[0,[0,dR([5,[0,h,b],[4,c[5],T]]),S,R,i],I]}return 0},aN);return o5(i,_,A[2],A[3],aO)}return H}var
+r=a[2],s=a[1],G=[4,r,fD(c,e)],H=[3,[4,s,fE(c,e)],G],J=R(r,hb(c)),I=0,K=R(s,fC(c)),L=M(function(b,a){return[2,b,a]},K,J),N=R(c[5],L),O=c[3],P=M(function(b,a){return[2,b,a]},O,N),Q=M(function(b,a){return[3,b,a]},g,P),S=c[6],T=[2,ey(c,e),H];return[0,[0,dX([5,[0,h,b],[4,c[5],T]]),S,Q,i],I]}return 0},aN);return pq(i,_,A[2],A[3],aO)}return H}var
 ab=0}else
 var
 ab=F;var
 ac=ab}else
 var
 ac=aa;return ac}return E}var
-Q=0}}else
+P=0}}else
 var
-Q=N;var
-an=Q}else
+P=N;var
+an=P}else
 var
-an=M;var
+an=L;var
 ao=an}else
 var
 ao=K;return ao}function
-cR(a){if(a){var
-b=cC(j(a[1]));if(b){var
-c=cR(a[2]);if(c)var
-f=c[1],d=[0,[0,dB(b[1]),f]];else
+cS(a){if(a){var
+b=cG(k(a[1]));if(b){var
+c=cS(a[2]);if(c)var
+f=c[1],d=[0,[0,dC(b[1]),f]];else
 var
 d=c;var
 e=d}else
 var
-e=b;return e}return Cy}function
-hZ(g,k,j,a,i){var
+e=b;return e}return C4}function
+h3(g,k,j,a,i){var
 l=f(g),h=n(f(a),l);if(h){var
-m=U(U(g,U(k,j)),a);return e(function(f){var
-g=f[1],h=g[2],j=dA(h[2],h[1]),a=aL(g[1],i),k=D(d,a)?lV(b_(c(2,b),a)):[0,b,ec(b_(c(2,b),T(a)))],l=dB(gC(a3([0,c(2,b),b],k),j)),m=f[2];return e(function(a){return dB(a3(lV(a),l))},m)},m)}return h}function
-kI(u,aU,aq,ap,t,ao,a){var
-c=hK(u,aU,aq,ap),ar=fZ(z(pV,u),ao),g=ar?hW(u,aq,ap,c):ar;if(t){var
+m=V(V(g,V(k,j)),a);return e(function(f){var
+g=f[1],h=g[2],j=dB(h[2],h[1]),a=aM(g[1],i),k=E(d,a)?l7(cb(c(2,b),a)):[0,b,ei(cb(c(2,b),P(a)))],l=dC(gG(a5([0,c(2,b),b],k),j)),m=f[2];return e(function(a){return dC(a5(l7(a),l))},m)},m)}return h}function
+kS(u,aU,aq,ap,t,ao,a){var
+c=hO(u,aU,aq,ap),ar=f3(w(qg,u),ao),g=ar?h0(u,aq,ap,c):ar;if(t){var
 v=t[2];if(v){var
-w=v[2];if(w){if(w[2])return 0;var
-h=w[1],k=v[1],m=t[1],as=pT(u,e(j,ao));if(as[2])return 0;var
+x=v[2];if(x){if(x[2])return 0;var
+h=x[1],j=v[1],m=t[1],as=qe(u,e(k,ao));if(as[2])return 0;var
 f=as[1];if(typeof
 a!=="number")switch(a[0]){case
 2:var
 J=a[1];if(J){var
 K=J[2];if(K){var
 L=K[2];if(L){if(L[2]){var
-M=fX(c,a);if(M){var
-aY=j(h),aZ=j(k),az=[0,j(m),aZ,aY];if(g){var
-aA=fv(i,c,f,az,M[1]);if(aA)var
+M=f1(c,a);if(M){var
+aY=k(h),aZ=k(j),az=[0,k(m),aZ,aY];if(g){var
+aA=fA(i,c,f,az,M[1]);if(aA)var
 N=aA;else{if(typeof
 a!=="number"&&0===a[0]){var
-y=a[2];return y?y[2]?0:fN(i,c,f,az,a[1],y[1]):y}var
+z=a[2];return z?z[2]?0:fR(i,c,f,az,a[1],z[1]):z}var
 N=0}}else
 var
 N=g;var
 aB=N}else
 var
 aB=M;return aB}if(g){var
-a0=j(L[1]),a1=j(K[1]),aC=[0,j(J[1]),a1,a0],a2=j(h),a3=j(k),aD=[0,j(m),a3,a2],X=fs(i,c,f,aD),Y=X?cG(i,c[2],aC):X;if(Y){var
-aR=0,aS=0;return oU(i,0,[0,b,b],0,e(function(a){return[0,a]},f),aD,aS,aC,aR)}return Y}return g}var
-O=fX(c,a);if(O){var
-a4=j(h),a5=j(k),aE=[0,j(m),a5,a4];if(g){var
-aF=fv(i,c,f,aE,O[1]);if(aF)var
+a0=k(L[1]),a1=k(K[1]),aC=[0,k(J[1]),a1,a0],a2=k(h),a3=k(j),aD=[0,k(m),a3,a2],X=fx(i,c,f,aD),Y=X?cK(i,c[2],aC):X;if(Y){var
+aR=0,aS=0;return pf(i,0,[0,b,b],0,e(function(a){return[0,a]},f),aD,aS,aC,aR)}return Y}return g}var
+O=f1(c,a);if(O){var
+a4=k(h),a5=k(j),aE=[0,k(m),a5,a4];if(g){var
+aF=fA(i,c,f,aE,O[1]);if(aF)var
 P=aF;else{if(typeof
 a!=="number"&&0===a[0]){var
-A=a[2];return A?A[2]?0:fN(i,c,f,aE,a[1],A[1]):A}var
+A=a[2];return A?A[2]?0:fR(i,c,f,aE,a[1],A[1]):A}var
 P=0}}else
 var
 P=g;var
 aG=P}else
 var
 aG=O;return aG}var
-Q=fX(c,a);if(Q){var
-a6=j(h),a7=j(k),aH=[0,j(m),a7,a6];if(g){var
-aI=fv(i,c,f,aH,Q[1]);if(aI)var
+Q=f1(c,a);if(Q){var
+a6=k(h),a7=k(j),aH=[0,k(m),a7,a6];if(g){var
+aI=fA(i,c,f,aH,Q[1]);if(aI)var
 R=aI;else{if(typeof
 a!=="number"&&0===a[0]){var
-B=a[2];return B?B[2]?0:fN(i,c,f,aH,a[1],B[1]):B}var
+B=a[2];return B?B[2]?0:fR(i,c,f,aH,a[1],B[1]):B}var
 R=0}}else
 var
 R=g;var
 aJ=R}else
 var
 aJ=Q;return aJ}var
-S=fX(c,a);if(S){var
-a8=j(h),a9=j(k),aK=[0,j(m),a9,a8];if(g){var
-aL=fv(i,c,f,aK,S[1]);if(aL)var
+S=f1(c,a);if(S){var
+a8=k(h),a9=k(j),aK=[0,k(m),a9,a8];if(g){var
+aL=fA(i,c,f,aK,S[1]);if(aL)var
 T=aL;else{if(typeof
 a!=="number"&&0===a[0]){var
-C=a[2];return C?C[2]?0:fN(i,c,f,aK,a[1],C[1]):C}var
+C=a[2];return C?C[2]?0:fR(i,c,f,aK,a[1],C[1]):C}var
 T=0}}else
 var
 T=g;var
@@ -7715,41 +7842,41 @@ aM=T}else
 var
 aM=S;return aM;case
 3:var
-U=F(c[3],a[1]);if(U){var
+U=G(c[3],a[1]);if(U){var
 aN=U[1];if(typeof
 aN==="number"&&aN){var
-V=cR(a[2]);if(V){var
-n=V[1],W=cR(a[3]);if(W){var
+V=cS(a[2]);if(V){var
+n=V[1],W=cS(a[3]);if(W){var
 o=W[1];if(g){var
-a_=hZ([0,d,[0,d,[0,d,0]]],n,o,a[4],a[5]),a$=j(h),ba=j(k),D=[0,j(m),ba,a$];if(n){var
+a_=h3([0,d,[0,d,[0,d,0]]],n,o,a[4],a[5]),a$=k(h),ba=k(j),D=[0,k(m),ba,a$];if(n){var
 p=n[2];if(p){var
 q=p[2];if(q){if(q[2])return 0;if(o){var
 r=o[2];if(r){var
 s=r[2];if(s){if(s[2])return 0;var
-Z=s[1],_=r[1],$=o[1],aa=q[1],ab=p[1],ac=n[1],ad=[0,[1,0,ac,$],[1,v$,ab,_],[1,v_,aa,Z]],ae=fs(i,c,f,D);if(ae)var
+Z=s[1],_=r[1],$=o[1],aa=q[1],ab=p[1],ac=n[1],ad=[0,[1,0,ac,$],[1,wF,ab,_],[1,wE,aa,Z]],ae=fx(i,c,f,D);if(ae)var
 aT=c[3],E=aj(function(a){if(typeof
 a==="number"&&a)return 1;return 0},aT);else
 var
 E=ae;var
-af=E?hx(n,o):E,ag=af?j4(i,c[2],[0,[0,ac,ab],aa],[0,[0,$,_],Z]):af,ah=ag?eH(i,n,o,aW(D)):ag,ai=ah?l(function(a){var
-b=eG(j5(a)),c=b?eG([0,cI(a,D),0]):b;if(c){var
-d=jh(a,ad);if(d)return j3(i,wa,d[1]);var
+af=E?hB(n,o):E,ag=af?kc(i,c[2],[0,[0,ac,ab],aa],[0,[0,$,_],Z]):af,ah=ag?eK(i,n,o,aX(D)):ag,ai=ah?l(function(a){var
+b=eJ(kd(a)),c=b?eJ([0,cM(a,D),0]):b;if(c){var
+d=jn(a,ad);if(d)return kb(i,wG,d[1]);var
 e=1}else
 var
-e=c;return e},f):ah;if(ai)return hw(i,e(function(a){var
-b=cI(a,D);return[3,cI(a,ad),b]},f),a_);var
+e=c;return e},f):ah;if(ai)return hA(i,e(function(a){var
+b=cM(a,D);return[3,cM(a,ad),b]},f),a_);var
 ak=ai}else
 var
 ak=s;var
 al=ak}else
 var
 al=r;var
-G=al}else
+F=al}else
 var
-G=o}else
+F=o}else
 var
-G=q;var
-am=G}else
+F=q;var
+am=F}else
 var
 am=p;var
 an=am}else
@@ -7764,12 +7891,12 @@ aP=V;return aP}var
 aQ=0}else
 var
 aQ=U;return aQ}var
-H=fX(c,a);if(H){var
-aV=j(h),aX=j(k),at=[0,j(m),aX,aV];if(g){var
-au=fv(i,c,f,at,H[1]);if(au)var
+H=f1(c,a);if(H){var
+aV=k(h),aW=k(j),at=[0,k(m),aW,aV];if(g){var
+au=fA(i,c,f,at,H[1]);if(au)var
 I=au;else{if(typeof
 a!=="number"&&0===a[0]){var
-x=a[2];return x?x[2]?0:fN(i,c,f,at,a[1],x[1]):x}var
+y=a[2];return y?y[2]?0:fR(i,c,f,at,a[1],y[1]):y}var
 I=0}}else
 var
 I=g;var
@@ -7778,589 +7905,594 @@ var
 av=H;var
 aw=av}else
 var
-aw=w;var
+aw=x;var
 ax=aw}else
 var
 ax=v;var
 ay=ax}else
 var
 ay=t;return ay}function
-p7(n,m,b,l,C,B){var
+qs(n,m,b,l,C,B){var
 f=C,d=B;for(;;){if(0===d[0]){var
-h=d[1],i=F(f,h),o=i?aG(i[1][2],CB):i;if(o)var
-D=d[2],j=p7(n,m,b,l,kw(0,h,f),D);else
+h=d[1],i=G(f,h),o=i?aB(i[1][2],C7):i;if(o)var
+D=d[2],j=qs(n,m,b,l,kG(0,h,f),D);else
 var
 j=o;if(j){var
-E=d[3],f=kw(1,h,f),d=E;continue}return j}var
-c=d[1],a=pM(0,n,f),p=e(function(b){function
-d(b){return pN(a,b)}function
-c(a){return ku(d,a)}switch(b[0]){case
+E=d[3],f=kG(1,h,f),d=E;continue}return j}var
+c=d[1],a=p9(0,n,f),p=e(function(b){function
+d(b){return p_(a,b)}function
+c(a){return kE(d,a)}switch(b[0]){case
 0:var
-e=b[5],f=pN(a,b[4]),g=c(b[3]),h=c(b[2]);return[0,c(b[1]),h,g,f,e];case
+e=b[5],f=p_(a,b[4]),g=c(b[3]),h=c(b[2]);return[0,c(b[1]),h,g,f,e];case
 1:var
-i=y(c,b[3]),j=c(b[2]);return[1,c(b[1]),j,i];default:return[2,c(b[1])]}},m);if(0===b[0])var
-t=b[2],u=ku(function(b){return au(a,b)},t),v=b[1],k=[0,ku(function(b){return au(a,b)},v),u];else
+i=z(c,b[3]),j=c(b[2]);return[1,c(b[1]),j,i];default:return[2,c(b[1])]}},m);if(0===b[0])var
+t=b[2],u=kE(function(b){return ax(a,b)},t),v=b[1],k=[0,kE(function(b){return ax(a,b)},v),u];else
 var
-w=au(a,b[5]),x=au(a,b[4]),z=au(a,b[3]),A=au(a,b[2]),k=[1,au(a,b[1]),A,z,x,w];var
+w=ax(a,b[5]),x=ax(a,b[4]),y=ax(a,b[3]),A=ax(a,b[2]),k=[1,ax(a,b[1]),A,y,x,w];var
 q=e(function(g){var
 c=g[4];if(typeof
 c==="number")var
 d=0;else
 switch(c[0]){case
 0:var
-d=[0,au(a,c[1])];break;case
+d=[0,ax(a,c[1])];break;case
 1:var
-d=[1,au(a,c[1])];break;default:var
-m=au(a,c[2]),d=[2,au(a,c[1]),m]}var
+d=[1,ax(a,c[1])];break;default:var
+m=ax(a,c[2]),d=[2,ax(a,c[1]),m]}var
 h=g[3];if(h){var
 b=h[1];switch(b[0]){case
 0:var
-f=[0,[0,au(a,b[1])]];break;case
+f=[0,[0,ax(a,b[1])]];break;case
 1:var
-j=b[1],f=[0,[1,e(function(b){return au(a,b)},j)]];break;case
+j=b[1],f=[0,[1,e(function(b){return ax(a,b)},j)]];break;case
 2:var
-k=au(a,b[2]),f=[0,[2,au(a,b[1]),k]];break;default:var
-l=au(a,b[2]),f=[0,[3,au(a,b[1]),l]]}var
+k=ax(a,b[2]),f=[0,[2,ax(a,b[1]),k]];break;default:var
+l=ax(a,b[2]),f=[0,[3,ax(a,b[1]),l]]}var
 i=f}else
 var
 i=h;return[0,g[1],g[2],i,d]},l);if(typeof
 c==="number")return 1;else
 switch(c[0]){case
 0:return 0;case
-1:return kF(1,p,k,0,q,c[1],c[2],c[3]);default:var
+1:return kP(1,p,k,0,q,c[1],c[2],c[3]);default:var
 g=c[4],s=0;if(typeof
 g!=="number"&&2===g[0]){var
-J=g[1],r=[2,e(function(b){return au(a,b)},J)];s=1}if(!s)var
+J=g[1],r=[2,e(function(b){return ax(a,b)},J)];s=1}if(!s)var
 r=g;var
-G=c[3],H=e(function(b){return au(a,b)},G),I=c[2];return kI(p,k,0,q,e(function(b){return au(a,b)},I),H,r)}}}function
-p8(h,g){var
-a=cC(j(h));if(a){var
-c=a[1],e=bf([0,d,b],c);if(e)return bf(c,g);var
+F=c[3],H=e(function(b){return ax(a,b)},F),I=c[2];return kS(p,k,0,q,e(function(b){return ax(a,b)},I),H,r)}}}function
+qt(h,g){var
+a=cG(k(h));if(a){var
+c=a[1],e=bi([0,d,b],c);if(e)return bi(c,g);var
 f=e}else
 var
 f=a;return f}function
-f0(b,a){if(a){var
+f4(b,a){if(a){var
 c=a[1],d=r(c,b,0);if(d)var
-g=am(c,b),e=[0,[0,f(a1(function(a){return a},g))]];else
+g=al(c,b),e=[0,[0,f(a2(function(a){return a},g))]];else
 var
-e=d;return e}return CD}function
-p9(b,c,a){return z(function(a){if(b4(a)){var
-d=hL(0,b,0,a);return ac(1,lT(e(function(a){return fw(i,CE,a)},d)))}return ac(0,f(pz(b,c,a)))},a)}function
-p_(c,a){return e(function(a){var
-b=a[4],d=a[3],e=a[2],f=a[1];return[0,z(function(b){var
-a=f0(c,b[1]),d=a?[0,[0,a[1],b[2]],0]:a;return d},f),e,d,b]},a)}function
-p$(b,a){if(typeof
+e=d;return e}return C9}function
+qu(b,c,a){return w(function(a){if(b7(a)){var
+d=hP(0,b,0,a);return ac(1,l5(e(function(a){return fB(i,C_,a)},d)))}return ac(0,f(pW(b,c,a)))},a)}function
+qv(c,a){return e(function(a){var
+b=a[4],d=a[3],e=a[2],f=a[1];return[0,w(function(b){var
+a=f4(c,b[1]),d=a?[0,[0,a[1],b[2]],0]:a;return d},f),e,d,b]},a)}function
+qw(b,a){if(typeof
 a!=="number")switch(a[0]){case
 0:var
-c=a[2],d=f0(b,a[1]);return y(function(a){return[0,a,c]},d);case
+c=a[2],d=f4(b,a[1]);return z(function(a){return[0,a,c]},d);case
 1:var
-e=a[2],f=f0(b,a[1]);return y(function(a){return[1,a,e]},f);case
+e=a[2],f=f4(b,a[1]);return z(function(a){return[1,a,e]},f);case
 3:var
-g=a[5],h=a[4],i=a[3],j=a[2],k=f0(b,a[1]);return y(function(a){return[3,a,j,i,h,g]},k)}return[0,a]}function
-CK(v){var
-gI=hI(v[3]),gJ=gI?hI(v[4]):gI;if(gJ){var
-af=v[1];switch(af[0]){case
+g=a[5],h=a[4],i=a[3],j=a[2],k=f4(b,a[1]);return z(function(a){return[3,a,j,i,h,g]},k)}return[0,a]}function
+De(v){var
+gL=hM(v[3]),gM=gL?hM(v[4]):gL;if(gM){var
+ah=v[1];switch(ah[0]){case
 3:var
-gP=l(fU,af[1]);if(gP)var
-lM=af[2],dr=l(function(a){return fU(a[1])},lM);else
+gS=l(fY,ah[1]);if(gS)var
+lO=ah[2],ds=l(function(a){return fY(a[1])},lO);else
 var
-dr=gP;if(dr)var
-lN=af[3],ds=l(function(a){var
-b=fU(a[1]),c=b?kk(a[2]):b;return c?fV(a[2]):c},lN);else
+ds=gS;if(ds)var
+lP=ah[3],dt=l(function(a){var
+b=fY(a[1]),c=b?ku(a[2]):b;return c?fZ(a[2]):c},lP);else
 var
-ds=dr;if(ds)var
-lO=af[4],bS=l(function(a){var
+dt=ds;if(dt)var
+lQ=ah[4],bU=l(function(a){var
 b=0===a[0]?a[1]:[0,a[1],0];return l(function(a){var
-b=kk(a);return b?fV(a):b},b)},lO);else
+b=ku(a);return b?fZ(a):b},b)},lQ);else
 var
-bS=ds;break;case
+bU=dt;break;case
 7:var
-lP=af[1],gQ=l(function(a){var
-b=fU(a[1]);return b?fW(0,[0,a[2][1],[0,a[2][2],0]]):b},lP),bS=gQ?fW(0,[0,af[5],[0,af[6],0]]):gQ;break;default:var
-bS=1}var
-dn=bS}else
+lR=ah[1],gT=l(function(a){var
+b=fY(a[1]);return b?f0(0,[0,a[2][1],[0,a[2][2],0]]):b},lR),bU=gT?f0(0,[0,ah[5],[0,ah[6],0]]):gT;break;default:var
+bU=1}var
+dp=bU}else
 var
-dn=gJ;var
-eo=0;if(dn){var
-gK=v[1],dq=7===gK[0]?e(aA,gK[1]):0,gL=function(c,b){var
-a=pw(c);return a?l(function(a){var
-e=a[1],b=l(function(a){return kj(a[2])},e);if(b){var
-c=a[3];if(c)return fW(dq,pv(c[1]));var
+dp=gM;var
+eq=0;if(dp){var
+gN=v[1],dr=7===gN[0]?e(aA,gN[1]):0,gO=function(c,b){var
+a=pT(c);return a?l(function(a){var
+e=a[1],b=l(function(a){return kt(a[2])},e);if(b){var
+c=a[3];if(c)return f0(dr,pS(c[1]));var
 d=1}else
 var
-d=b;return d},b):a},gM=function(e,d,c,b){var
-a=pw(e);return a?fW(dq,g(d,g(c,pv(b)))):a},o=v[1];switch(o[0]){case
+d=b;return d},b):a},gP=function(e,d,c,b){var
+a=pT(e);return a?f0(dr,g(d,g(c,pS(b)))):a},o=v[1];switch(o[0]){case
 0:var
-ll=z(dV,o[4]),lm=g(z(pt,o[3]),ll),ln=g(pr(o[2]),lm),ag=g(z(kl,o[1]),ln);break;case
+ln=w(d1,o[4]),lo=g(w(pQ,o[3]),ln),lp=g(pO(o[2]),lo),ai=g(w(kv,o[1]),lp);break;case
 1:var
-dk=o[5],dl=o[3],lo=z(dV,o[6]),lp=dk?ps(dk[1]):dk,lq=g(lp,lo),lr=g(pq(o[4]),lq),ls=dl?[0,dl[1],0]:dl,lt=g(ls,lr),ag=g(z(A8,o[2]),lt);break;case
+dl=o[5],dm=o[3],lq=w(d1,o[6]),lr=dl?pP(dl[1]):dl,ls=g(lr,lq),lt=g(pN(o[4]),ls),lu=dm?[0,dm[1],0]:dm,lv=g(lu,lt),ai=g(w(BC,o[2]),lv);break;case
 2:var
-lu=z(dV,o[7]),lv=g(z(pt,o[6]),lu),lw=g(ps(o[5]),lv),lx=g(pq(o[4]),lw),ly=[0,o[3],lx],lz=o[2],ag=g(z(function(a){return z(eN,g(a[1],a[2]))},lz),ly);break;case
+lw=w(d1,o[7]),lx=g(w(pQ,o[6]),lw),ly=g(pP(o[5]),lx),lz=g(pN(o[4]),ly),lA=[0,o[3],lz],lB=o[2],ai=g(w(function(a){return w(eQ,g(a[1],a[2]))},lB),lA);break;case
 3:var
-lA=z(dV,o[7]),lB=g(o[6],lA),lC=g(o[5],lB),lD=o[2],ag=g(z(function(a){return eN(a[2])},lD),lC);break;case
+lC=w(d1,o[7]),lD=g(o[6],lC),lE=g(o[5],lD),lF=o[2],ai=g(w(function(a){return eQ(a[2])},lF),lE);break;case
 4:var
-lE=z(dV,o[3]),ag=[0,o[1],[0,o[2],lE]];break;case
+lG=w(d1,o[3]),ai=[0,o[1],[0,o[2],lG]];break;case
 5:var
-lF=z(dV,o[4]),lG=g(b2(o[3]),lF),lH=g(b2(o[2]),lG),lI=g(z(kl,o[1]),lH),ag=[0,o[5],lI];break;case
+lH=w(d1,o[4]),lI=g(b5(o[3]),lH),lJ=g(b5(o[2]),lI),lK=g(w(kv,o[1]),lJ),ai=[0,o[5],lK];break;case
 6:var
-dm=o[1],ag=dm?eN(dm[1]):dm;break;default:var
-lJ=z(dV,o[4]),lK=g(pr(o[3]),lJ),ag=g(z(kl,o[2]),lK)}var
-gN=fW(dq,ag);if(gN){var
-ah=v[2];switch(ah[0]){case
+dn=o[1],ai=dn?eQ(dn[1]):dn;break;default:var
+lL=w(d1,o[4]),lM=g(pO(o[3]),lL),ai=g(w(kv,o[2]),lM)}var
+gQ=f0(dr,ai);if(gQ){var
+ak=v[2];switch(ak[0]){case
 0:var
-bq=gL(ah[1],ah[3]);break;case
+bu=gO(ak[1],ak[3]);break;case
 1:var
-bq=gM(ah[1],ah[2],ah[3],ah[4]);break;default:var
-lL=ah[1],bq=l(function(a){if(typeof
+bu=gP(ak[1],ak[2],ak[3],ak[4]);break;default:var
+lN=ak[1],bu=l(function(a){if(typeof
 a!=="number")switch(a[0]){case
-1:return gL(a[1],a[3]);case
-2:return gM(a[1],a[2],a[3],a[4])}return 1},lL)}}else{var
-gO=gN;eo=1}}else{var
-gO=dn;eo=1}if(eo)var
-bq=gO;if(bq){var
+1:return gO(a[1],a[3]);case
+2:return gP(a[1],a[2],a[3],a[4])}return 1},lN)}}else{var
+gR=gQ;eq=1}}else{var
+gR=dp;eq=1}if(eq)var
+bu=gR;if(bu){var
 a=v[1];switch(a[0]){case
 0:var
-N=a[4],ak=a[3],al=a[2],O=a[1],aH=v[2];switch(aH[0]){case
+Q=a[4],an=a[3],ap=a[2],S=a[1],aL=v[2];switch(aL[0]){case
 0:var
-dM=aH[3],ho=aH[2],dN=aH[1],g2=p9(f(O),ak,N),lX=a1(function(a){return I(b4(a))},N);if(aj(b4,N)){var
-g5=kF(0,O,al,ak,lX,dN,ho,p_(e(I,g2),dM));if(g5){var
-lY=p_(g2,dM),lZ=a1(b4,N),l0=kq(al);return kG(0,e(kp,O),0,l0,0,lZ,dN,0,lY)}return g5}return kF(0,O,al,ak,N,dN,ho,dM);case
+dN=aL[3],hs=aL[2],dO=aL[1],g5=qu(f(S),an,Q),lZ=a2(function(a){return I(b7(a))},Q);if(aj(b7,Q)){var
+g6=kP(0,S,ap,an,lZ,dO,hs,qv(e(I,g5),dN));if(g6){var
+l0=qv(g5,dN),l1=a2(b7,Q),l2=kA(ap);return kQ(0,e(kz,S),0,l2,0,l1,dO,0,l0)}return g6}return kP(0,S,ap,an,Q,dO,hs,dN);case
 1:var
-dO=aH[4],dP=aH[3],dT=aH[2],g6=p9(f(O),ak,N),dB=a1(function(a){return I(b4(a))},N);if(aj(b4,N)){var
-l1=a1(b4,N),l2=kq(al),g7=hV(0,e(kp,O),0,l2,0,l1);if(g7)var
-dC=p$(e(I,g6),dO),l3=dC?kI(O,al,ak,dB,dT,dP,dC[1]):dC,dD=l3;else
+dP=aL[4],dQ=aL[3],dR=aL[2],g9=qu(f(S),an,Q),dC=a2(function(a){return I(b7(a))},Q);if(aj(b7,Q)){var
+l3=a2(b7,Q),l4=kA(ap),g_=hZ(0,e(kz,S),0,l4,0,l3);if(g_)var
+dD=qw(e(I,g9),dP),l5=dD?kS(S,ap,an,dC,dR,dQ,dD[1]):dD,dE=l5;else
 var
-dD=g7;if(dD)var
-dF=dD;else{var
-g8=hW(O,ak,dB,hK(O,al,ak,dB));if(g8){var
-dG=p$(g6,dO);if(dG){var
-l4=dG[1],l5=a1(b4,N),l6=kq(al);return kH(0,e(kp,O),0,l6,0,l5,dT,dP,l4)}var
-dF=dG}else
+dE=g_;if(dE)var
+dG=dE;else{var
+g$=h0(S,an,dC,hO(S,ap,an,dC));if(g$){var
+dH=qw(g9,dP);if(dH){var
+l6=dH[1],l7=a2(b7,Q),l8=kA(ap);return kR(0,e(kz,S),0,l8,0,l7,dR,dQ,l6)}var
+dG=dH}else
 var
-dF=g8}return dF}return kI(O,al,ak,N,dT,dP,dO);default:return 0}case
+dG=g$}return dG}return kS(S,ap,an,Q,dR,dQ,dP);default:return 0}case
 1:var
-br=a[6],bW=a[5],bZ=a[4],b0=a[3],V=a[2],Q=a[1],aJ=v[2];switch(aJ[0]){case
-0:return kG(Q,V,b0,bZ,bW,br,aJ[1],aJ[2],aJ[3]);case
+bv=a[6],bY=a[5],bZ=a[4],b2=a[3],X=a[2],T=a[1],aM=v[2];switch(aM[0]){case
+0:return kQ(T,X,b2,bZ,bY,bv,aM[1],aM[2],aM[3]);case
 1:var
-an=aJ[4],dU=aJ[3],hp=aJ[2];if(typeof
-an!=="number"&&3===an[0]){var
-mf=an[5],mg=an[4],mh=an[3],mi=an[2],mj=an[1],s=typeof
-Q==="number"?Q?Cz:CA:hU(Q[1]),gR=dx(at(Q),s),du=e(j,hp),a4=ko(Q,V,b0,bZ,bW,br),gS=p6(a4[2]),gT=kz(V,e(j,dU));if(gT[2])return 0;var
-dv=cR(mi);if(dv){var
-S=dv[1],dw=cR(mh);if(dw){var
-aG=dw[1],gU=fZ(z(kB,V),dU),gV=gU?hV(Q,V,b0,bZ,bW,br):gU;if(gV)var
-lR=at(Q),dy=n(f(du),lR);else
+aq=aM[4],dS=aM[3],ht=aM[2];if(typeof
+aq!=="number"&&3===aq[0]){var
+mh=aq[5],mi=aq[4],mj=aq[3],mk=aq[2],ml=aq[1],s=typeof
+T==="number"?T?C5:C6:hY(T[1]),gU=dy(ar(T),s),dv=e(k,ht),a6=ky(T,X,b2,bZ,bY,bv),gV=qr(a6[2]),gW=kJ(X,e(k,dS));if(gW[2])return 0;var
+dw=cS(mk);if(dw){var
+W=dw[1],dx=cS(mj);if(dx){var
+aK=dx[1],gX=f3(w(kL,X),dS),gY=gX?hZ(T,X,b2,bZ,bY,bv):gX;if(gY)var
+lT=ar(T),dz=n(f(dv),lT);else
 var
-dy=gV;if(dy)var
-lS=f(V),lT=hm(Q),dz=n(mj,d2(dY(V),lT,lS,0,br));else
+dz=gY;if(dz)var
+lU=f(X),lV=hq(T),dA=n(ml,d8(d4(X),lV,lU,0,bv));else
 var
-dz=dy;if(dz){if(dY(V))var
-lU=ac(d,gR),gW=g(ac(gS,s),lU);else
+dA=dz;if(dA){if(d4(X))var
+lW=ac(d,gU),gZ=g(ac(gV,s),lW);else
 var
-lW=ac(T(gS),gR),gW=g(ac(d,s),lW);var
-lV=hZ(gW,S,aG,mg,mf),ai=av(s,du),bn=aI(am(s,du)),dA=gT[1],J=a4[5],fC=j2(0,S,aG),cI=o0(am(s,fC)),cJ=av(s,fC),fD=a4[7],fF=fD?fE(i,a4[2],dA):fD,fG=fF?jC(i,a4,bn,ai):fF,fK=fG?aa(s,wk):fG;if(fK)var
-ks=M(s,f(ai)),cK=n(f(S),ks);else
+lY=ac(P(gV),gU),gZ=g(ac(d,s),lY);var
+lX=h3(gZ,W,aK,mi,mh),am=au(s,dv),bq=aJ(al(s,dv)),dB=gW[1],O=a6[5],fF=ka(0,W,aK),cI=pl(al(s,fF)),cJ=au(s,fF),fH=a6[7],fI=fH?fK(i,a6[2],dB):fH,fJ=fI?jI(i,a6,bq,am):fI,fL=fJ?ab(s,wQ):fJ;if(fL)var
+kn=N(s,f(am)),cL=n(f(W),kn);else
 var
-cK=fK;var
-fL=cK?hx(S,aG):cK;if(fL)var
-kt=hy(am(s,aG)),ku=hy(am(s,S)),cL=j4(i,a4[4],ku,kt);else
+cL=fL;var
+fO=cL?hB(W,aK):cL;if(fO)var
+ko=hC(al(s,aK)),kp=hC(al(s,W)),cM=kc(i,a6[4],kp,ko);else
 var
-cL=fL;if(cL){var
-kw=av(s,aG),kA=av(s,S);if(J)var
-fz=J[1],kr=0===fz[0]?wi:wj,fA=n(f(ai),kr),fM=fA?oZ(i,fz,kA,kw):fA;else
+cM=fO;if(cM){var
+kq=au(s,aK),kr=au(s,W);if(O)var
+fD=O[1],km=0===fD[0]?wO:wP,fE=n(f(am),km),fP=fE?pk(i,fD,kr,kq):fE;else
 var
-fM=n(f(ai),0);var
-cM=fM}else
+fP=n(f(am),0);var
+cN=fP}else
 var
-cM=cL;if(cM){var
-kJ=am(s,aW(bn)),kK=am(s,aG),fN=eH(i,am(s,S),kK,kJ);if(fN)var
-a3=fN;else
-if(J){var
-fR=oY(J[1]);if(fR)var
-kL=av(s,aG),a3=eH(i,av(s,S),kL,ai);else
+cN=cM;if(cN){var
+ks=al(s,aX(bq)),kx=al(s,aK),fQ=eK(i,al(s,W),kx,ks);if(fQ)var
+a5=fQ;else
+if(O){var
+fU=pj(O[1]);if(fU)var
+kB=au(s,aK),a5=eK(i,au(s,W),kB,am);else
 var
-a3=fR}else
+a5=fU}else
 var
-a3=J}else
+a5=O}else
 var
-a3=cM;var
-fQ=a3?l(function(b){var
-a=eE(J,ai,bn,b),t=typeof
+a5=cN;var
+fR=a5?l(function(b){var
+a=eH(O,am,bq,b),t=typeof
 a==="number"?0:0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]];if(0===b[0])var
-k=j5(b[1]);else
+k=kd(b[1]);else
 var
-c=b[1],p=[0,c[5],[0,c[6],0]],q=g(aW(c[4]),p),r=g(aW(c[3]),q),s=g(aW(c[2]),r),k=g(aW(c[1]),s);var
-m=eG(g(k,t));if(m)var
-u=jB(J,ai,bn,b),v=1,e=l(function(a){return h(i,v,a)},u);else
+c=b[1],p=[0,c[5],[0,c[6],0]],q=g(aX(c[4]),p),r=g(aX(c[3]),q),s=g(aX(c[2]),r),k=g(aX(c[1]),s);var
+m=eJ(g(k,t));if(m)var
+u=jH(O,am,bq,b),v=1,e=l(function(a){return h(i,v,a)},u);else
 var
 e=m;if(e){var
-d=eE(J,cJ,cI,b),n=0;if(typeof
+d=eH(O,cJ,cI,b),n=0;if(typeof
 d==="number"||!(1===d[0]))n=1;else{var
 o=0;if(typeof
 a!=="number"&&1===a[0]){var
 j=[0,[2,[4,d[1],a[1]],[4,d[2],a[2]]],0];o=1}if(!o)var
 j=0}if(n)var
 j=0;var
-w=g(jB(J,cJ,cI,b),j),x=f(S);return l(function(a){return j3(i,x,a)},w)}return e},dA):a3;return fQ?hw(i,e(function(d){var
-a=eE(J,ai,bn,d),c=eE(J,cJ,cI,d);if(typeof
+w=g(jH(O,cJ,cI,b),j),x=f(W);return l(function(a){return kb(i,x,a)},w)}return e},dB):a5;return fR?hA(i,e(function(d){var
+a=eH(O,am,bq,d),c=eH(O,cJ,cI,d);if(typeof
 c==="number")return[0,b,b];else{if(0===c[0]){if(typeof
 a!=="number"&&0===a[0])return[3,c[1],a[1]];return[0,b,b]}if(typeof
-a!=="number"&&1===a[0])return[3,[4,c[2],a[1]],[4,c[1],a[2]]];return[0,b,b]}},dA),lV):fQ}var
-gX=dz}else
+a!=="number"&&1===a[0])return[3,[4,c[2],a[1]],[4,c[1],a[2]]];return[0,b,b]}},dB),lX):fR}var
+g0=dA}else
 var
-gX=dw;var
-gY=gX}else
+g0=dx;var
+g1=g0}else
 var
-gY=dv;return gY}return kH(Q,V,b0,bZ,bW,br,hp,dU,an);default:return 0}case
+g1=dw;return g1}return kR(T,X,b2,bZ,bY,bv,ht,dS,aq);default:return 0}case
 2:var
-aK=a[7],aL=a[6],b5=a[5],b6=a[4],b7=a[3],W=a[2],X=a[1],aM=v[2];switch(aM[0]){case
+aN=a[7],aP=a[6],b3=a[5],b8=a[4],b9=a[3],Y=a[2],Z=a[1],aQ=v[2];switch(aQ[0]){case
 0:var
-hq=aM[3],ao=pE(X,W,b7,b6,b5,aL,aK),mk=ao[2],dW=E(b,bG(z(function(a){var
-b=bb(a[2]);return g(bb(a[1]),b)},mk))),ml=f(hq),mm=jM(dW,ao[2]),mn=jM(dW,ao[2]),dX=dZ(bH(X),mn,mm,0,ml,hq);if(dX){var
-hr=dX[1];if(hr[2])return 0;var
-hs=pZ(X,W,b7,b6,b5,aL,aK);if(hs){var
-mo=hr[1],mp=f(W),mq=d2(0,kC(X),mp,aL,aK),mr=hY(aM[2]),ms=aM[1],iS=ao[2],et=l(function(a){var
-b=ot(i,a[1]);return b?ot(i,a[2]):b},iS);if(et)var
-iT=jj(ao[4]),cg=cG(i,ao[4],iT);else
+hu=aQ[3],as=p1(Z,Y,b9,b8,b3,aP,aN),mm=as[2],dT=F(b,bJ(w(function(a){var
+b=bd(a[2]);return g(bd(a[1]),b)},mm))),mn=f(hu),mo=jS(dT,as[2]),mp=jS(dT,as[2]),dU=d5(bD(Z),mp,mo,0,mn,hu);if(dU){var
+hv=dU[1];if(hv[2])return 0;var
+hw=qk(Z,Y,b9,b8,b3,aP,aN);if(hw){var
+mq=hv[1],mr=f(Y),ms=d8(0,kM(Z),mr,aP,aN),mt=h2(aQ[2]),mu=aQ[1],iW=as[2],ev=l(function(a){var
+b=oO(i,a[1]);return b?oO(i,a[2]):b},iW);if(ev)var
+iX=jp(as[4]),ci=cK(i,as[4],iX);else
 var
-cg=et;if(cg)var
-iU=hj(ao[5]),ch=l(function(a){return fH(i,a)},iU);else
+ci=ev;if(ci)var
+iY=ho(as[5]),cj=l(function(a){return fM(i,a)},iY);else
 var
-ch=cg;return ch?vx(ms,mr,mq,ao,dW,mo):ch}var
-hv=hs}else
+cj=ci;return cj?vV(mu,mt,ms,as,dT,mq):cj}var
+hz=hw}else
 var
-hv=dX;return hv;case
+hz=dU;return hz;case
 1:var
-Y=aM[4],hB=aM[3],aP=e(j,aM[2]),q=hU(X),hC=pU(W,e(j,hB));if(hC[2])return 0;var
-t=hC[1],hD=fZ(z(function(a){return g(a[1],a[2])},W),hB),hG=hD?pZ(X,W,b7,b6,b5,aL,aK):hD;if(hG){var
-p=pE(X,W,b7,b6,b5,aL,aK);if(typeof
-Y!=="number")switch(Y[0]){case
-2:var
-hP=e(j,Y[1]),hT=av(q,hP),h0=aI(am(q,hP)),h1=av(q,aP),h2=aI(am(q,aP)),ev=ex(i,p,t,h2,h1),ew=ev?ex(i,p,t,h0,hT):ev;if(ew)var
-iV=bH(p[1]),ci=n(f(t),iV);else
-var
-ci=ew;if(ci){var
-ey=function(b,a){var
-c=p[5],d=p[3],f=p[1];return e(function(e){return js(f,d,c,a,b,e)},t)},iW=ey(h0,hT),iX=ey(h2,h1);return jR(i,bH(p[1]),iX,iW)}return ci;case
-3:var
-d3=cR(Y[2]);if(d3){var
-ap=d3[1],d4=cR(Y[3]);if(d4){var
-aQ=d4[1],mu=p[2],mv=E(b,bG(z(function(a){var
-b=bb(a[2]);return g(bb(a[1]),b)},mu))),mw=f(W),mx=d2(0,kC(X),mw,aL,aK),h3=n(Y[1],mx);if(h3){var
-my=Y[5],mz=Y[4],mA=ac(T(mv),dx(f(aP),q)),mB=hZ(g(ac(d,q),mA),ap,aQ,mz,my),a5=av(q,aP),b_=aI(am(q,aP)),a2=p[5],fp=j2(0,ap,aQ),fq=p[7],fs=fq?ex(i,p,t,b_,a5):fq,ft=fs?aa(q,wf):fs;if(ft)var
-kc=M(q,f(a5)),cD=n(f(ap),kc);else
-var
-cD=ft;if(cD)var
-kd=0===a2[0]?wg:wh,cE=n(f(a5),kd);else
-var
-cE=cD;var
-fu=cE?hx(ap,aQ):cE;if(fu)var
-ke=hy(am(q,aQ)),kf=hy(am(q,ap)),cF=j4(i,p[4],kf,ke);else
-var
-cF=fu;if(cF)var
-kg=av(q,aQ),cH=oZ(i,a2,av(q,ap),kg);else
-var
-cH=cF;if(cH){var
-kh=am(q,aW(b_)),ki=am(q,aQ),fv=eH(i,am(q,ap),ki,kh);if(fv)var
-bj=fv;else{var
-fy=oY(a2);if(fy)var
-kn=av(q,aQ),bj=eH(i,av(q,ap),kn,a5);else
-var
-bj=fy}}else
-var
-bj=cH;var
-fx=bj?l(function(a){var
-c=aW(a[2]),b=eG(g(aW(a[1]),c));return b?eG([0,j6(a2,a5,b_,a),0]):b},t):bj;return fx?hw(i,e(function(a){var
-b=[6,j6(a2,a5,b_,a)],c=o0(am(q,fp));return[3,[6,j6(a2,av(q,fp),c,a)],b]},t),mB):fx}var
-h4=h3}else
-var
-h4=d4;var
-h5=h4}else
-var
-h5=d3;return h5}var
-mt=f(W),d0=kD(0,kC(X),mt,aL,aK,Y);if(d0){var
-bt=d0[1],x=aI(am(q,aP)),u=av(q,aP),eq=ex(i,p,t,x,u);if(eq)var
-ab=p[5],er=p[3],es=p[1],iP=p[6],cf=function(a){var
-b=bY(ab,u,x,a);return w(bY(ab,u,x,a),b)},iI=e(function(a){return[0,js(es,er,ab,u,x,a)]},t),iJ=e(cf,t),iK=function(a){var
-b=db(ab,u,a);return L(function(b,a){return[2,b,a]},x,b)},iL=e(function(a){var
-b=[6,cf(a)],c=bY(ab,u,x,a),d=db(ab,u,a[2]);return[0,[0,[0,L(function(b,a){return[2,b,a]},x,d),c],b]]},t),iM=e(function(a){return 0},t),iN=e(function(a){return[0,[6,cf(a)]]},t),iO=[0,e(function(c){var
-a=ay(bY(ab,u,x,c));return jr(es,a,P([5,[0,b,b],er],da(db(ab,u,c[2]),a)))},t),iN,iM,iL,iK,iJ,iI],iQ=bH(p[1]),iR=2<=p[1]?uk:ul,d1=jl(i,iR,iQ,iO,iP,bt);else
-var
-d1=eq;if(d1)var
-hH=d1;else{if(typeof
-bt!=="number"&&0===bt[0]){var
-b8=bt[2];if(b8){if(b8[2])return 0;var
-b9=b8[1],hN=bt[1],be=p[1],fa=ex(i,p,t,x,u),ep=0;if(fa){var
-j1=p[6],j7=2<=be?v7:v8,cz=eu(i,j7,hN,j1),cd=0;if(cz){var
-a0=cz[1][1],ce=0;if(typeof
-a0!=="number"&&15===a0[0]){var
-cA=F(t,a0[1]);if(cA){var
-bi=nw(b9),fd=a0[3],bK=cA[1],bL=p[5],cB=p[3],j9=a0[4],j$=a0[2],e2=js(be,cB,bL,u,x,bK),e3=bY(bL,u,x,bK),cx=bs(bi,bi),e4=[4,[4,j$,[6,bs(e2,e2)]],cx],bc=bY(bL,u,x,bK),cv=db(bL,u,bK[2]),bd=P([5,[0,b,b],cB],oR(be,bi)),jN=da(bd,cv),jO=oQ(be,bi),cw=L(function(b,a){return[2,b,a]},jO,jN),e1=w(bc,cw),jP=w(bd,bd),jQ=[4,w(bc,cv),jP],jS=w(cv,bd),jT=[3,[4,w(bc,bd),jS],jQ],jW=[5,[4,e1,e1],w(bc,bc)],e5=[4,[4,fd,fd],[2,[3,w(cw,cw),jW],jT]],e6=[4,[4,j9,cx],[6,w(e3,e3)]],jZ=bH(be),e7=n(f(bi),jZ),e8=e7?h(i,1,cx):e7,e9=e8?h(i,1,cB):e8,iH=0;if(e9){var
-e_=h(i,1,[3,[2,e4,e5],e6]);if(e_)var
-e$=e_;else{var
-bu=h(i,1,[3,[3,e4,e5],e6]);cd=1;ce=1;iH=1}}else
-var
-e$=e9;if(!iH){var
-bu=e$;cd=1;ce=1}}else{var
-bu=cA;cd=1;ce=1}}if(!ce)var
-fb=0}else
-var
-fb=cz;if(!cd){var
-fc=fb;ep=1}}else{var
-fc=fa;ep=1}if(ep)var
-bu=fc;if(!bu){var
-fS=p[1],cO=p[5],fT=ex(i,p,t,x,u);if(fT){var
-kM=p[6],kN=2<=fS?wt:wu,cP=eu(i,kN,hN,kM);if(cP){var
-bl=cP[1][1];if(typeof
-bl!=="number"&&16===bl[0]){var
-f2=bl[1],f3=h(i,0,f2);if(f3)var
-kO=f(p[2]),cS=n(f(b9),kO);else
-var
-cS=f3;if(cS){var
-kP=p[2],kQ=U(U(t,hz(b9,e(function(a){var
-b=bB(a[2]);return o6(bY(cO,u,x,[0,bB(a[1]),b]))},kP),f2)),b9),kR=e(function(e){var
-c=e[1],d=c[2],a=c[1],f=db(cO,u,a[2]),g=a[1],h=L(function(b,a){return[3,b,a]},x,g),i=[2,d,o6(bY(cO,u,x,a))];return[0,dR([5,[0,e[2],b],i]),d,h,f]},kQ);return o5(i,[0,fS],bl[2],bl[3],kR)}return cS}var
-fX=0}else
-var
-fX=cP;var
-f1=fX}else
-var
-f1=fT;return f1}var
-hO=bu}else
-var
-hO=b8;return hO}var
-hH=0}var
-hJ=hH}else
-var
-hJ=d0;var
-hM=hJ}else
-var
-hM=hG;return hM;default:return 0}case
-3:var
-ar=a[7],bv=a[6],bw=a[5],as=a[4],d5=a[3],aR=a[2],aS=a[1],aT=v[2];switch(aT[0]){case
-0:var
-h6=aT[3],h7=hX(jY(km(aS,aR,d5,as,bw,bv,ar)[1])),mC=f(h6),d6=dZ(f(aS),h7,h7,0,mC,h6);if(d6){var
-h8=d6[1];if(h8[2])return 0;var
-h9=p0(aS,aR,as,bw,bv,ar);if(h9){var
-mD=h8[1],Z=km(aS,aR,d5,as,bw,bv,ar),mE=d2(0,CL,f(as),0,ar),h_=hY(aT[2]),bx=aT[1],eT=oK(Z[1]);if(eT)var
-jw=Z[1][2],ct=l(function(a){return by(i,a[2][1],a[2][2])},jw);else
-var
-ct=eT;if(ct)var
-jx=Z[2],cu=l(function(a){return by(i,a[1],a[2])},jx);else
-var
-cu=ct;if(cu){var
-C=Z[1],cj=f(C[1]),bI=Z[3],ck=f(C[2]),ez=M(ck,f(fJ(e(aN,C[3])))),iY=C[3],eA=oF(ht(C),iY,ck),aw=jX(cj,eA,C[4],ez),iZ=jV(eA,C[4],ez),i0=C[3],eB=g(jU(ht(C),i0,ck),iZ),eC=f(jY(C)),i1=0,i2=g(eB,dd(function(a,b){return oB(aw,a,b)},i1,d,eC,bI)),i3=g(bE(fI(aw)),i2),eD=g(bE(eF(aw)),i3),cm=cZ(eD)[1],i4=cY(cm),aZ=function(a){return bh(i4,a)},eJ=n(f(Z[2]),cj);if(eJ)var
-i5=C[4],cn=l(function(a){return 0===a[0]?n(f(a[1]),cj):1},i5);else
-var
-cn=eJ;var
-eK=cn?l(function(a){var
-b=m(d),c=cY(cm);return aO(r(aZ(a),c,b),a)},eD):cn,eL=eK?aj(oD,bI):eK;if(eL){var
-eM=I(Z[4]);if(eM)var
-bJ=eM;else
-var
-jv=C[4],bJ=l(function(a){return 0===a[0]?0:1},jv)}else
-var
-bJ=eL;if(bJ){var
-i6=jY(C),co=ad(e(function(a){return aq(bx,a)},i6));if(co){var
-i7=0,i8=z(function(a){return fB(i7,d,a)},bI),cp=ad(e(function(a){return jq(bx,a)},i8));if(cp){var
-i9=Z[2],cq=ad(e(function(a){return aq(bx,[0,a,d])},i9));if(cq){var
-i_=0,i$=0,cr=ad(dd(function(a,b){return oC(bx,aZ,aw,i$,d,a,b)},i_,d,eC,bI));if(cr){var
-eO=cr[1];if(Z[4])var
-ja=h_[2],je=h_[1],jg=fI(aw),cs=jk(mE,eO,[8,k(ax(aZ),jg),je,ja]);else
-var
-cs=eO;var
-jh=jc(cs),ji=cq[1],jm=function(a){return 0},jn=g(co[1],cp[1]),jo=e(aZ,eB),jp=fI(aw),jt=k(ax(aZ),jp),ju=eF(aw);return f5(jb(bx,cm,k(ax(aZ),ju),jt,jo,jn,cs,jm),ji,jh,mD)}var
-eP=cr}else
-var
-eP=cq;var
-eQ=eP}else
-var
-eQ=cp;var
-eR=eQ}else
-var
-eR=co;var
-eS=eR}else
-var
-eS=bJ;return eS}return cu}var
-h$=h9}else
-var
-h$=d6;return h$;case
-1:var
-_=aT[4],ia=aT[3],b$=aT[2],A=km(aS,aR,d5,as,bw,bv,ar),mF=e(j,ia),ib=bk(e(aN,aR),mF);if(ib[2])return 0;var
-G=ib[1],ic=fZ(e(aN,aR),ia),id=ic?p0(aS,aR,as,bw,bv,ar):ic,ie=id?oK(A[1]):id;if(ie)var
-mG=A[2],d7=l(function(a){return by(i,a[1],a[2])},mG);else
-var
-d7=ie;if(d7){if(typeof
+_=aQ[4],hF=aQ[3],aR=e(k,aQ[2]),q=hY(Z),hG=qf(Y,e(k,hF));if(hG[2])return 0;var
+t=hG[1],hH=f3(w(function(a){return g(a[1],a[2])},Y),hF),hK=hH?qk(Z,Y,b9,b8,b3,aP,aN):hH;if(hK){var
+p=p1(Z,Y,b9,b8,b3,aP,aN);if(typeof
 _!=="number")switch(_[0]){case
 2:var
-d$=e(j,_[1]),ea=e(j,b$),az=A[1],bM=hu(az),ka=oN(az),fe=e(function(a){return a[3]},ka),ff=function(a){var
-b=oO(az,G);function
-c(c){return dQ(a,b,c)}return e(function(a){return e(c,a)},fe)},fg=b1(i,e(aN,az[2]),G),fh=fg?b1(i,A[2],ea):fg,fi=fh?b1(i,A[2],d$):fh,fj=fi?n(f(ea),bM):fi,fl=fj?n(f(d$),bM):fj,fm=fl?oP(az,az[4]):fl,fn=fm?n(f(az[4]),bM):fm,fo=fn?l(function(a){return l(j0,a)},fe):fn;if(fo){var
-kb=ff(d$);return jR(i,bM,ff(ea),kb)}return fo;case
+hT=e(k,_[1]),hX=au(q,hT),h4=aJ(al(q,hT)),h5=au(q,aR),h6=aJ(al(q,aR)),ew=eA(i,p,t,h6,h5),ey=ew?eA(i,p,t,h4,hX):ew;if(ey)var
+iZ=bD(p[1]),ck=n(f(t),iZ);else
+var
+ck=ey;if(ck){var
+ez=function(b,a){var
+c=p[5],d=p[3],f=p[1];return e(function(e){return jx(f,d,c,a,b,e)},t)},i0=ez(h4,hX),i1=ez(h6,h5);return j0(i,bD(p[1]),i1,i0)}return ck;case
 3:var
-eb=cR(_[2]);if(eb){var
-a7=eb[1],ec=cR(_[3]);if(ec){var
-bC=ec[1],mI=d2(0,CN,f(as),0,ar),ij=n(_[1],mI);if(ij){var
-mJ=_[5],mK=_[4],mL=hZ(ac(d,f(aS)),a7,bC,mK,mJ),bF=e(j,b$),aF=A[1],gj=j2(0,a7,bC),gk=A[4],gl=gk?b1(i,e(aN,aF[2]),G):gk,gm=gl?b1(i,A[2],bF):gl;if(gm)var
-k0=e(a6,a7),c0=b1(i,A[2],k0);else
+d2=cS(_[2]);if(d2){var
+at=d2[1],d3=cS(_[3]);if(d3){var
+aS=d3[1],mw=p[2],mx=F(b,bJ(w(function(a){var
+b=bd(a[2]);return g(bd(a[1]),b)},mw))),my=f(Y),mz=d8(0,kM(Z),my,aP,aN),h7=n(_[1],mz);if(h7){var
+mA=_[5],mB=_[4],mC=ac(P(mx),dy(f(aR),q)),mD=h3(g(ac(d,q),mC),at,aS,mB,mA),a7=au(q,aR),ca=aJ(al(q,aR)),a4=p[5],ft=ka(0,at,aS),fu=p[7],fw=fu?eA(i,p,t,ca,a7):fu,fx=fw?ab(q,wL):fw;if(fx)var
+j5=N(q,f(a7)),cD=n(f(at),j5);else
 var
-c0=gm;if(c0)var
-k1=e(a6,bC),c2=b1(i,A[2],k1);else
+cD=fx;if(cD)var
+j9=0===a4[0]?wM:wN,cE=n(f(a7),j9);else
 var
-c2=c0;var
-gn=c2?hx(a7,bC):c2,go=gn?eH(i,a7,bC,bF):gn,gp=go?eG(g(G,bF)):go;if(gp)var
-k2=aF[3],c5=l(function(a){return fP(a[2])},k2);else
+cE=cD;var
+fy=cE?hB(at,aS):cE;if(fy)var
+j$=hC(al(q,aS)),kf=hC(al(q,at)),cF=kc(i,p[4],kf,j$);else
 var
-c5=gp;if(c5){var
-c6=j_(aF[4]);if(c6){var
-bQ=c6[1],gq=l(fP,bQ);if(gq)var
-k3=1,c7=o8(function(a){return h(i,k3,a)},aF,G,bF,bQ);else
+cF=fy;if(cF)var
+kh=au(q,aS),cH=pk(i,a4,au(q,at),kh);else
 var
-c7=gq;if(c7)var
-k4=f(a7),c8=o8(function(a){return j3(i,k4,a)},aF,G,gj,bQ);else
+cH=cF;if(cH){var
+kj=al(q,aX(ca)),kk=al(q,aS),fz=eK(i,al(q,at),kk,kj);if(fz)var
+bm=fz;else{var
+fC=pj(a4);if(fC)var
+kl=au(q,aS),bm=eK(i,au(q,at),kl,a7);else
 var
-c8=c7;if(c8)return hw(i,e(function(a){var
-b=aX(fO(aF,G,bF),a);return[3,aX(fO(aF,G,gj),a),b]},bQ),mL);var
-gr=c8}else
+bm=fC}}else
 var
-gr=c6;var
-gs=gr}else
+bm=cH;var
+fA=bm?l(function(a){var
+c=aX(a[2]),b=eJ(g(aX(a[1]),c));return b?eJ([0,ke(a4,a7,ca,a),0]):b},t):bm;return fA?hA(i,e(function(a){var
+b=[6,ke(a4,a7,ca,a)],c=pl(al(q,ft));return[3,[6,ke(a4,au(q,ft),c,a)],b]},t),mD):fA}var
+h8=h7}else
 var
-gs=c5;return gs}var
-ik=ij}else
+h8=d3;var
+h9=h8}else
 var
-ik=ec;var
-il=ik}else
+h9=d2;return h9}var
+mv=f(Y),dZ=kN(0,kM(Z),mv,aP,aN,_);if(dZ){var
+bw=dZ[1],y=aJ(al(q,aR)),u=au(q,aR),es=eA(i,p,t,y,u);if(es)var
+af=p[5],et=p[3],eu=p[1],iT=p[6],ch=function(a){var
+b=b1(af,u,y,a);return x(b1(af,u,y,a),b)},iM=e(function(a){return[0,jx(eu,et,af,u,y,a)]},t),iN=e(ch,t),iO=function(a){var
+b=dc(af,u,a);return M(function(b,a){return[2,b,a]},y,b)},iP=e(function(a){var
+b=[6,ch(a)],c=b1(af,u,y,a),d=dc(af,u,a[2]);return[0,[0,[0,M(function(b,a){return[2,b,a]},y,d),c],b]]},t),iQ=e(function(a){return 0},t),iR=e(function(a){return[0,[6,ch(a)]]},t),iS=[0,e(function(c){var
+a=ay(b1(af,u,y,c));return jw(eu,a,R([5,[0,b,b],et],db(dc(af,u,c[2]),a)))},t),iR,iQ,iP,iO,iN,iM],iU=bD(p[1]),iV=2<=p[1]?uI:uJ,d0=jr(i,iV,iU,iS,iT,bw);else
 var
-il=eb;return il}var
-d8=kD(0,CM,f(as),0,ar,_);if(d8){var
-bz=d8[1],aU=e(j,b$),H=A[1],eV=hu(H),a_=oN(H),jG=oL(H),jH=H[4],jI=jV(oM(H),jH,jG),jJ=f(H[2]),jK=H[3],eU=g(jU(ht(H),jK,jJ),jI),a$=oO(H,G),eW=b1(i,e(aN,H[2]),G),eX=eW?b1(i,A[2],aU):eW,eY=eX?n(f(aU),eV):eX,eZ=eY?oP(H,H[4]):eY,e0=eZ?l(j0,g(z(vW,a_),eU)):eZ;if(e0)var
-jL=A[3],jy=e(function(a){var
-b=a[1];return[0,e(function(a){return dQ(aU,a$,a)},b)]},a_),jz=z(function(c){var
+d0=es;if(d0)var
+hL=d0;else{if(typeof
+bw!=="number"&&0===bw[0]){var
+b_=bw[2];if(b_){if(b_[2])return 0;var
+b$=b_[1],hR=bw[1],bh=p[1],fe=eA(i,p,t,y,u),er=0;if(fe){var
+jW=p[6],jX=2<=bh?wB:wC,cz=ex(i,jX,hR,jW),cf=0;if(cz){var
+a3=cz[1][1],cg=0;if(typeof
+a3!=="number"&&15===a3[0]){var
+cA=G(t,a3[1]);if(cA){var
+bl=nR(b$),fh=a3[3],bM=cA[1],bN=p[5],cB=p[3],jY=a3[4],jZ=a3[2],e6=jx(bh,cB,bN,u,y,bM),e7=b1(bN,u,y,bM),cy=bt(bl,bl),e8=[4,[4,jZ,[6,bt(e6,e6)]],cy],bf=b1(bN,u,y,bM),cw=dc(bN,u,bM[2]),bg=R([5,[0,b,b],cB],pc(bh,bl)),jN=db(bg,cw),jO=pb(bh,bl),cx=M(function(b,a){return[2,b,a]},jO,jN),e5=x(bf,cx),jP=x(bg,bg),jQ=[4,x(bf,cw),jP],jR=x(cw,bg),jT=[3,[4,x(bf,bg),jR],jQ],jU=[5,[4,e5,e5],x(bf,bf)],e9=[4,[4,fh,fh],[2,[3,x(cx,cx),jU],jT]],e_=[4,[4,jY,cy],[6,x(e7,e7)]],jV=bD(bh),e$=n(f(bl),jV),fa=e$?h(i,1,cy):e$,fb=fa?h(i,1,cB):fa,iL=0;if(fb){var
+fc=h(i,1,[3,[2,e8,e9],e_]);if(fc)var
+fd=fc;else{var
+bx=h(i,1,[3,[3,e8,e9],e_]);cf=1;cg=1;iL=1}}else
+var
+fd=fb;if(!iL){var
+bx=fd;cf=1;cg=1}}else{var
+bx=cA;cf=1;cg=1}}if(!cg)var
+ff=0}else
+var
+ff=cz;if(!cf){var
+fg=ff;er=1}}else{var
+fg=fe;er=1}if(er)var
+bx=fg;if(!bx){var
+fV=p[1],cP=p[5],fW=eA(i,p,t,y,u);if(fW){var
+kC=p[6],kD=2<=fV?wZ:w0,cQ=ex(i,kD,hR,kC);if(cQ){var
+bo=cQ[1][1];if(typeof
+bo!=="number"&&16===bo[0]){var
+f5=bo[1],f6=h(i,0,f5);if(f6)var
+kE=f(p[2]),cT=n(f(b$),kE);else
+var
+cT=f6;if(cT){var
+kG=p[2],kK=V(V(t,hD(b$,e(function(a){var
+b=bF(a[2]);return pr(b1(cP,u,y,[0,bF(a[1]),b]))},kG),f5)),b$),kT=e(function(e){var
+c=e[1],d=c[2],a=c[1],f=dc(cP,u,a[2]),g=a[1],h=M(function(b,a){return[3,b,a]},y,g),i=[2,d,pr(b1(cP,u,y,a))];return[0,dX([5,[0,e[2],b],i]),d,h,f]},kK);return pq(i,[0,fV],bo[2],bo[3],kT)}return cT}var
+fX=0}else
+var
+fX=cQ;var
+f1=fX}else
+var
+f1=fW;return f1}var
+hS=bx}else
+var
+hS=b_;return hS}var
+hL=0}var
+hN=hL}else
+var
+hN=dZ;var
+hQ=hN}else
+var
+hQ=hK;return hQ;default:return 0}case
+3:var
+av=a[7],by=a[6],bC=a[5],ax=a[4],d6=a[3],aT=a[2],aU=a[1],aV=v[2];switch(aV[0]){case
+0:var
+h_=aV[3],h$=h1(j8(kw(aU,aT,d6,ax,bC,by,av)[1])),mE=f(h_),d7=d5(f(aU),h$,h$,0,mE,h_);if(d7){var
+ia=d7[1];if(ia[2])return 0;var
+ib=ql(aU,aT,ax,bC,by,av);if(ib){var
+mF=ia[1],aa=kw(aU,aT,d6,ax,bC,by,av),mG=d8(0,Df,f(ax),0,av),ic=h2(aV[2]),aW=aV[1],eX=o7(aa[1]);if(eX)var
+jv=aa[1][2],cu=l(function(a){return bA(i,a[2][1],a[2][2])},jv);else
+var
+cu=eX;if(cu)var
+jy=aa[2],cv=l(function(a){return bA(i,a[1],a[2])},jy);else
+var
+cv=cu;if(cv){var
+B=aa[1],ba=f(B[1]),bK=aa[3],cl=f(B[2]),eB=N(cl,f(fN(e(aI,B[3])))),i2=B[3],eC=o3(hx(B),i2,cl),H=j6(ba,eC,B[4],eB),i3=j4(eC,B[4],eB),i4=B[3],eD=g(j3(hx(B),i4,cl),i3),eE=f(j8(B)),eF=j7(B[2]),eG=e(function(a){return a[4]},H),i5=g(eD,de(function(b,a){if(typeof
+a!=="number"&&16===a[0]){var
+c=dV(H);return oR(eF,e(function(a){return a[3]},H),c,eG)}return oY(H,b,a)},0,d,eE,bK)),i6=g(bB(dV(H)),i5),eM=g(bB(eI(H)),i6),cm=c1(eM)[1],i7=c0(cm),aB=function(a){return bk(i7,a)},i8=function(c,a){if(typeof
+a!=="number"&&16===a[0]){var
+f=B[4];if(l(function(a){return 0===a[0]?0:1},f)){var
+g=a[2],h=a[1],i=[0,J(aW,b)],j=dV(H);return oS(aW,aB,ba,ba,wl,0,eF,d,e(function(a){return a[3]},H),j,eG,i,h,g)}return wm}return oZ(aW,aB,H,0,d,c,a)},eN=n(f(aa[2]),ba);if(eN)var
+i9=B[4],cn=l(function(a){return 0===a[0]?n(f(a[1]),ba):1},i9);else
+var
+cn=eN;var
+eO=cn?l(function(a){var
+b=m(d),c=c0(cm);return aO(r(aB(a),c,b),a)},eM):cn,eP=eO?aj(o0,bK):eO;if(eP){var
+eR=I(aa[4]);if(eR)var
+bL=eR;else
+var
+ju=B[4],bL=l(function(a){return 0===a[0]?0:1},ju)}else
+var
+bL=eP;if(bL){var
+i_=j8(B),co=ad(e(function(a){return ao(aW,a)},i_));if(co){var
+i$=0,ja=w(function(a){return fG(i$,d,a)},bK),cq=ad(e(function(a){return hi(aW,a)},ja));if(cq){var
+jb=aa[2],cr=ad(e(function(a){return ao(aW,[0,a,d])},jb));if(cr){var
+cs=ad(de(i8,0,d,eE,bK));if(cs){var
+eS=cs[1];if(aa[4])var
+jc=ic[2],jd=ic[1],je=dV(H),ct=jq(mG,eS,[8,j(aw(aB),je),jd,jc]);else
+var
+ct=eS;var
+ji=jg(ct),jk=cr[1],jl=function(a){return 0},jm=g(co[1],cq[1]),jn=e(aB,eD),jo=dV(H),js=j(aw(aB),jo),jt=eI(H);return f9(jf(aW,cm,j(aw(aB),jt),js,jn,jm,ct,jl),jk,ji,mF)}var
+eT=cs}else
+var
+eT=cr;var
+eU=eT}else
+var
+eU=cq;var
+eV=eU}else
+var
+eV=co;var
+eW=eV}else
+var
+eW=bL;return eW}return cv}var
+id=ib}else
+var
+id=d7;return id;case
+1:var
+ae=aV[4],ie=aV[3],cb=aV[2],A=kw(aU,aT,d6,ax,bC,by,av),mH=e(k,ie),ig=bn(e(aI,aT),mH);if(ig[2])return 0;var
+D=ig[1],ih=f3(e(aI,aT),ie),ii=ih?ql(aU,aT,ax,bC,by,av):ih,ij=ii?o7(A[1]):ii;if(ij)var
+mI=A[2],d9=l(function(a){return bA(i,a[1],a[2])},mI);else
+var
+d9=ij;if(d9){if(typeof
+ae!=="number")switch(ae[0]){case
+2:var
+eb=e(k,ae[1]),ec=e(k,cb),aC=A[1],bO=hy(aC),j1=o_(aC),fi=e(function(a){return a[3]},j1),fj=function(a){var
+b=o$(aC,D);function
+c(c){return dW(a,b,c)}return e(function(a){return e(c,a)},fi)},fk=b4(i,e(aI,aC[2]),D),fl=fk?b4(i,A[2],ec):fk,fm=fl?b4(i,A[2],eb):fl,fn=fm?n(f(ec),bO):fm,fp=fn?n(f(eb),bO):fn,fq=fp?pa(aC,aC[4]):fp,fr=fq?n(f(aC[4]),bO):fq,fs=fr?l(function(a){return l(j_,a)},fi):fr;if(fs){var
+j2=fj(eb);return j0(i,bO,fj(ec),j2)}return fs;case
+3:var
+ed=cS(ae[2]);if(ed){var
+a9=ed[1],ee=cS(ae[3]);if(ee){var
+bH=ee[1],mK=d8(0,Dh,f(ax),0,av),io=n(ae[1],mK);if(io){var
+mL=ae[5],mM=ae[4],mN=h3(ac(d,f(aU)),a9,bH,mM,mL),bI=e(k,cb),aH=A[1],gm=ka(0,a9,bH),gn=A[4],go=gn?b4(i,e(aI,aH[2]),D):gn,gp=go?b4(i,A[2],bI):go;if(gp)var
+k2=e(a8,a9),cZ=b4(i,A[2],k2);else
+var
+cZ=gp;if(cZ)var
+k3=e(a8,bH),c2=b4(i,A[2],k3);else
+var
+c2=cZ;var
+gq=c2?hB(a9,bH):c2,gr=gq?eK(i,a9,bH,bI):gq,gs=gr?eJ(g(D,bI)):gr;if(gs)var
+k4=aH[3],c4=l(function(a){return fT(a[2])},k4);else
+var
+c4=gs;if(c4){var
+c7=ki(aH[4]);if(c7){var
+bS=c7[1],gt=l(fT,bS);if(gt)var
+k5=1,c8=pt(function(a){return h(i,k5,a)},aH,D,bI,bS);else
+var
+c8=gt;if(c8)var
+k6=f(a9),c9=pt(function(a){return kb(i,k6,a)},aH,D,gm,bS);else
+var
+c9=c8;if(c9)return hA(i,e(function(a){var
+b=aY(fS(aH,D,bI),a);return[3,aY(fS(aH,D,gm),a),b]},bS),mN);var
+gu=c9}else
+var
+gu=c7;var
+gv=gu}else
+var
+gv=c4;return gv}var
+ip=io}else
+var
+ip=ee;var
+iq=ip}else
+var
+iq=ed;return iq}var
+d_=kN(0,Dg,f(ax),0,av,ae);if(d_){var
+bE=d_[1],aZ=e(k,cb),L=A[1],eZ=hy(L),bb=o_(L),jF=o8(L),jG=L[4],jJ=j4(o9(L),jG,jF),jK=f(L[2]),jL=L[3],eY=g(j3(hx(L),jL,jK),jJ),be=o$(L,D),e0=b4(i,e(aI,L[2]),D),e1=e0?b4(i,A[2],aZ):e0,e2=e1?n(f(aZ),eZ):e1,e3=e2?pa(L,L[4]):e2,e4=e3?l(j_,g(w(wq,bb),eY)):e3;if(e4)var
+jM=A[3],jz=e(function(a){var
+b=a[1];return[0,e(function(a){return dW(aZ,be,a)},b)]},bb),jA=w(function(c){var
 a=c[1];switch(a[0]){case
 7:var
-b=dQ(aU,a$,a[2]);return[0,[4,b,b],0];case
-9:return[0,dQ(aU,a$,a[1]),0];default:return 0}},eU),jA=function(a){return a},jD=0,jE=e(function(a){return 0},a_),jF=e(function(b){var
+b=dW(aZ,be,a[2]);return[0,[4,b,b],0];case
+9:return[0,dW(aZ,be,a[1]),0];default:return 0}},eY),jB=function(a){return a},jC=0,jD=e(function(a){return 0},bb),jE=e(function(b){var
 a=b[4];if(typeof
-a!=="number"&&0===a[0])return[0,dQ(aU,a$,a[1])];return 0},a_),d9=jl(i,vX,eV,[0,e(function(a){var
-b=a[3];return e(function(a){return dQ(aU,a$,a)},b)},a_),jF,jE,jD,jA,jz,jy],jL,bz);else
+a!=="number"&&0===a[0])return[0,dW(aZ,be,a[1])];return 0},bb),d$=jr(i,wr,eZ,[0,e(function(a){var
+b=a[3];return e(function(a){return dW(aZ,be,a)},b)},bb),jE,jD,jC,jB,jA,jz],jM,bE);else
 var
-d9=e0;if(d9)var
-ig=d9;else{if(typeof
-bz!=="number"&&0===bz[0]){var
-ca=bz[2];if(ca){if(ca[2])return 0;var
-d_=ca[1],mH=bz[1],bA=e(j,b$),aB=A[1],bN=f(aB[1]),f4=b1(i,e(aN,aB[2]),G),f6=f4?b1(i,A[2],bA):f4,f7=f6?n(f(bA),bN):f6,f8=f7?di(g(G,bA)):f7;if(f8)var
-kS=aB[3],cT=l(function(a){return fP(a[2])},kS);else
+d$=e4;if(d$)var
+ik=d$;else{if(typeof
+bE!=="number"&&0===bE[0]){var
+cc=bE[2];if(cc){if(cc[2])return 0;var
+ea=cc[1],mJ=bE[1],bG=e(k,cb),aD=A[1],bP=f(aD[1]),f7=b4(i,e(aI,aD[2]),D),f8=f7?b4(i,A[2],bG):f7,f_=f8?n(f(bG),bP):f8,f$=f_?dj(g(D,bG)):f_;if(f$)var
+kU=aD[3],cU=l(function(a){return fT(a[2])},kU);else
 var
-cT=f8;if(cT){var
-cU=eu(i,ww,mH,A[3]);if(cU){var
-bO=cU[1][1];if(typeof
-bO!=="number"&&16===bO[0]){var
-f$=bO[2],ga=bO[1],cV=j_(aB[4]);if(cV){var
-bP=cV[1],cW=hA(aD(cN,f$));if(cW){var
-kT=cW[1],gb=h(i,1,f$),gc=gb?h(i,0,ga):gb;if(gc)var
-kU=f(bP),cX=n(f(d_),kU);else
+cU=f$;if(cU){var
+cV=ex(i,w2,mJ,A[3]);if(cV){var
+bQ=cV[1][1];if(typeof
+bQ!=="number"&&16===bQ[0]){var
+gc=bQ[2],gd=bQ[1],cW=ki(aD[4]);if(cW){var
+bR=cW[1],cX=hE(aF(cO,gc));if(cX){var
+kV=cX[1],ge=h(i,1,gc),gf=ge?h(i,0,gd):ge;if(gf)var
+kW=f(bR),cY=n(f(ea),kW);else
 var
-cX=gc;var
-gd=cX?l(fP,bP):cX;if(gd){var
-kV=aB[2],kW=fO(aB,e(function(a){return dS(a[2])},kV),bA),ge=hz(d_,e(function(a){return aX(kW,a)},bP),ga),gf=di(ge);if(gf){var
-kX=U(bA,aC(0,bN)),kY=fO(aB,G,e(function(a){var
-b=cl(a[2],kT);return[2,a[1],b]},kX)),kZ=U(U(e(function(a){return aX(kY,a)},bP),ge),d_);return j8(i,bN,bN,eI(function(a){return[4,[0,a[2],b],[3,a[1][1],a[1][2]]]},kZ))}var
-gg=gf}else
+cY=gf;var
+gg=cY?l(fT,bR):cY;if(gg){var
+kX=aD[2],kY=fS(aD,e(function(a){return dY(a[2])},kX),bG),gh=hD(ea,e(function(a){return aY(kY,a)},bR),gd),gi=dj(gh);if(gi){var
+kZ=V(bG,aE(0,bP)),k0=fS(aD,D,e(function(a){var
+b=cp(a[2],kV);return[2,a[1],b]},kZ)),k1=V(V(e(function(a){return aY(k0,a)},bR),gh),ea);return kg(i,bP,bP,eL(function(a){return[4,[0,a[2],b],[3,a[1][1],a[1][2]]]},k1))}var
+gj=gi}else
 var
-gg=gd;var
-gh=gg}else
+gj=gg;var
+gk=gj}else
 var
-gh=cW;var
-gi=gh}else
+gk=cX;var
+gl=gk}else
 var
-gi=cV;return gi}var
-f9=0}else
+gl=cW;return gl}var
+ga=0}else
 var
-f9=cU;var
-f_=f9}else
+ga=cV;var
+gb=ga}else
 var
-f_=cT;return f_}return ca}var
-ig=0}var
-ih=ig}else
+gb=cU;return gb}return cc}var
+ik=0}var
+il=ik}else
 var
-ih=d8;var
-ii=ih}else
+il=d_;var
+im=il}else
 var
-ii=d7;return ii;default:return 0}case
+im=d9;return im;default:return 0}case
 4:var
-aV=a[3],a8=a[2],cb=a[1],aY=v[2];switch(aY[0]){case
+a0=a[3],a_=a[2],cd=a[1],a1=v[2];switch(a1[0]){case
 0:var
-mM=aY[3],mN=aY[2],mO=aY[1],g9=dp(j(cb));if(g9){var
-dJ=pG(aV);if(dJ){var
-g_=dJ[1],bo=g_[2],g$=j(bo),ha=j(g_[1]),gw=h(i,1,j(a8)),gx=gw?h(i,1,[3,g$,[0,b,b]]):gw,gy=gx?h(i,1,ha):gx,hb=gy?h(i,0,[3,[5,[0,b,b],g$],ha]):gy,hc=hb?l(function(a){var
-b=pC(0,0,CJ,a);if(b)var
+mO=a1[3],mP=a1[2],mQ=a1[1],ha=dq(k(cd));if(ha){var
+dJ=p3(a0);if(dJ){var
+hb=dJ[1],br=hb[2],hc=k(br),hd=k(hb[1]),gz=h(i,1,k(a_)),gA=gz?h(i,1,[3,hc,[0,b,b]]):gz,gB=gA?h(i,1,hd):gA,he=gB?h(i,0,[3,[5,[0,b,b],hc],hd]):gB,hf=he?l(function(a){var
+b=pZ(0,0,Dd,a);if(b)var
 c=b;else{var
-d=cQ(a);if(d)return aE(0,0,a);var
-c=d}return c},aV):hb,hd=hc?l(function(c){if(1===c[1]){var
+d=cR(a);if(d)return aG(0,0,a);var
+c=d}return c},a0):he,hg=hf?l(function(c){if(1===c[1]){var
 a=c[4];if(typeof
-a!=="number"&&0===a[0])return h(i,0,[3,[0,d,b],j(a[1])]);return 1}return 1},aV):hc;if(hd){var
-dt=a1(function(a){return I(pH(a))},aV);if(dt){var
-l_=[0,c(2,b),b],bT=h(i,0,[3,j(bo),l_]);if(bT)var
-dK=bT;else
+a!=="number"&&0===a[0])return h(i,0,[3,[0,d,b],k(a[1])]);return 1}return 1},a0):hf;if(hg){var
+du=a2(function(a){return I(p4(a))},a0);if(du){var
+ma=[0,c(2,b),b],bV=h(i,0,[3,k(br),ma]);if(bV)var
+dK=bV;else
 var
-mb=j(bo),dK=h(i,0,[3,[0,c(2,b),b],mb]);if(dK){var
-l7=z(function(a){if(cQ(a))return CF;var
-b=hL(0,CG,0,a);return z(function(b){var
-c=fw(i,CH,b);return ac(I(pH(a)),c)},b)},aV),l8=function(f){var
-a=f0(l7,f[1]);if(a){var
+md=k(br),dK=h(i,0,[3,[0,c(2,b),b],md]);if(dK){var
+l9=w(function(a){if(cR(a))return C$;var
+b=hP(0,Da,0,a);return w(function(b){var
+c=fB(i,Db,b);return ac(I(p4(a)),c)},b)},a0),l_=function(f){var
+a=f4(l9,f[1]);if(a){var
 c=a[1],e=f[2];switch(e[0]){case
 0:return[0,[0,c,[0,e[1]]],0];case
-2:return[0,[0,c,[1,CI,[0,[0,b,[0,d,[0,d,0]]],[0,[0,d,[0,b,[0,d,0]]],[0,[0,d,[0,d,[0,b,0]]],0]]],d]],0];default:return[0,[0,c,e],0]}}return a},l9=e(function(a){var
-b=a[4],c=a[3],d=a[2];return[0,z(l8,a[1]),d,c,b]},mM),l$=[0,dt[1],dt[2]],ma=pL(bT,a8,bo);return kG(0,pK(bT,cb,a8,bo),0,ma,0,l$,mO,mN,l9)}return dK}var
-he=1}else
+2:return[0,[0,c,[1,Dc,[0,[0,b,[0,d,[0,d,0]]],[0,[0,d,[0,b,[0,d,0]]],[0,[0,d,[0,d,[0,b,0]]],0]]],d]],0];default:return[0,[0,c,e],0]}}return a},l$=e(function(a){var
+b=a[4],c=a[3],d=a[2];return[0,w(l_,a[1]),d,c,b]},mO),mb=[0,du[1],du[2]],mc=p8(bV,a_,br);return kQ(0,p7(bV,cd,a_,br),0,mc,0,mb,mQ,mP,l$)}return dK}var
+hh=1}else
 var
-he=hd;var
-hf=he}else
+hh=hg;var
+hj=hh}else
 var
-hf=dJ;var
-hg=hf}else
+hj=dJ;var
+hk=hj}else
 var
-hg=g9;return hg;case
+hk=ha;return hk;case
 1:var
-mP=aY[4],mQ=aY[3],mR=aY[2],hh=dp(j(cb));if(hh){var
-dL=pG(aV);if(dL){var
-bp=dL[1][2],mc=[0,c(2,b),b],bU=h(i,0,[3,j(bp),mc]),hi=h(i,1,j(a8)),hk=hi?h(i,1,[3,j(bp),[0,b,b]]):hi;if(hk)if(bU)var
-bV=bU;else
+mR=a1[4],mS=a1[3],mT=a1[2],hl=dq(k(cd));if(hl){var
+dL=p3(a0);if(dL){var
+bs=dL[1][2],me=[0,c(2,b),b],bW=h(i,0,[3,k(bs),me]),hm=h(i,1,k(a_)),hn=hm?h(i,1,[3,k(bs),[0,b,b]]):hm;if(hn)if(bW)var
+bX=bW;else
 var
-me=j(bp),bV=h(i,0,[3,[0,c(2,b),b],me]);else
+mg=k(bs),bX=h(i,0,[3,[0,c(2,b),b],mg]);else
 var
-bV=hk;if(bV){var
-md=pL(bU,a8,bp);return kH(0,pK(bU,cb,a8,bp),0,md,0,aV,mR,mQ,mP)}var
-hl=bV}else
+bX=hn;if(bX){var
+mf=p8(bW,a_,bs);return kR(0,p7(bW,cd,a_,bs),0,mf,0,a0,mT,mS,mR)}var
+hp=bX}else
 var
-hl=dL;var
-hn=hl}else
+hp=dL;var
+hr=hp}else
 var
-hn=hh;return hn;default:return 0}case
+hr=hl;return hr;default:return 0}case
 5:var
-ed=a[4],im=a[1],ee=v[2];if(0===ee[0]){var
-io=ee[3],B=hK(im,[0,a[2],a[3]],0,ed),mS=f(io),ef=ky(kE(B),mS,io);if(ef){var
-ip=ef[1];if(ip[2])return 0;var
-iq=hW(im,0,ed,B),ir=iq?I(aj(cQ,ed)):iq;if(ir){var
-is=nj(i,B);if(is){var
-mT=ip[1],it=e(hR,B[1]),R=hS(B[1]),iu=j(a[5]),au=ee[1],dc=g3(R,it,B[1]),ae=jd(R,it,B[1],0),k9=f(B[3]),k_=M(f(dc),k9),bR=[0,f(dc),k_],k$=jf(ae,R,bR,B[3]),la=g(e(c3,ae),k$),gA=g(bE(fk(ae)),la),gB=cZ(gA)[1],de=cY(gB),gC=B[2];if(0===gC[0]){var
-gD=l(function(a){var
-b=m(d);return aO(r(bh(de,a),de,b),a)},gA),gE=gD?h(i,1,iu):gD;if(gE){var
-lb=B[3],lc=z(function(a){return dI(R,a)},lb),ld=B[3],le=g(dc,g(e(function(a){return bX(R,a)},ld),lc)),df=ad(e(function(a){return aq(au,a)},le));if(df){var
-lf=ba(gC[1],R),dg=ad(e(function(a){return aq(au,a)},lf));if(dg){var
-dh=c1(au,R,[5,iu,[0,c(2,c(2,c(2,c(2,b)))),b]]);if(dh){var
-dj=B[3],lg=dg[1],lh=df[1],li=dh[1],bm=function(a){return bh(de,a)},k6=aC(0,f(dj)),k7=e(function(j){var
-l=F(dj,j);if(l){var
-a=l[1],u=am(j,dj),v=f(z(function(a){return dI(R,a)},u)),w=M(bR[2],v),i=[0,M(bR[1],j),w],r=fk(ae),g=k(ax(bm),r),c=[1,[8,[1,[1,i[1]]]]],d=g4(ae,R,i,a),n=d?[0,[3,e(bm,[0,d[1],d[2]])]]:d,m=0;if(typeof
+ef=a[4],ir=a[1],eg=v[2];if(0===eg[0]){var
+is=eg[3],C=hO(ir,[0,a[2],a[3]],0,ef),mU=f(is),eh=kI(kO(C),mU,is);if(eh){var
+it=eh[1];if(it[2])return 0;var
+iu=h0(ir,0,ef,C),iv=iu?I(aj(cR,ef)):iu;if(iv){var
+iw=nE(i,C);if(iw){var
+mV=it[1],ix=e(hV,C[1]),U=hW(C[1]),iy=k(a[5]),az=eg[1],dd=g7(U,ix,C[1]),ag=jh(U,ix,C[1],0),k$=f(C[3]),la=N(f(dd),k$),bT=[0,f(dd),la],lb=jj(ag,U,bT,C[3]),lc=g(e(c5,ag),lb),gD=g(bB(fo(ag)),lc),gE=c1(gD)[1],df=c0(gE),gF=C[2];if(0===gF[0]){var
+gG=l(function(a){var
+b=m(d);return aO(r(bk(df,a),df,b),a)},gD),gH=gG?h(i,1,iy):gG;if(gH){var
+ld=C[3],le=w(function(a){return dM(U,a)},ld),lf=C[3],lg=g(dd,g(e(function(a){return b0(U,a)},lf),le)),dg=ad(e(function(a){return ao(az,a)},lg));if(dg){var
+lh=bc(gF[1],U),dh=ad(e(function(a){return ao(az,a)},lh));if(dh){var
+di=c3(az,U,[5,iy,[0,c(2,c(2,c(2,c(2,b)))),b]]);if(di){var
+dk=C[3],li=dh[1],lj=dg[1],lk=di[1],bp=function(a){return bk(df,a)},k8=aE(0,f(dk)),k9=e(function(k){var
+l=G(dk,k);if(l){var
+a=l[1],u=al(k,dk),v=f(w(function(a){return dM(U,a)},u)),x=N(bT[2],v),i=[0,N(bT[1],k),x],r=fo(ag),g=j(aw(bp),r),c=[1,[8,[1,[1,i[1]]]]],d=g8(ag,U,i,a),n=d?[0,[3,e(bp,[0,d[1],d[2]])]]:d,m=0;if(typeof
 a!=="number")switch(a[0]){case
 0:return[0,[0,g,c]];case
 1:return[0,[1,g,c]];case
 4:var
-o=h(au,1,a[2]),s=o?n:o;return s;case
+o=h(az,1,a[2]),s=o?n:o;return s;case
 5:return[0,[2,g,c]];case
 8:var
-p=h(au,1,[5,a[2],a[1]]);if(!p)return p;var
+p=h(az,1,[5,a[2],a[1]]);if(!p)return p;var
 q=[1,[2,b]];m=1;break;case
 9:var
 q=c;m=1;break;case
@@ -8368,27 +8500,27 @@ q=c;m=1;break;case
 3:case
 6:case
 7:return n}if(m){var
-t=fr(ae,R,i,a);return y(function(a){return[0,k(ax(bm),a),q]},t)}return 0}return l},k6),k8=e(function(a){return bm(c3(a))},ae),gz=e(function(a){return bm(a[2])},ae),lj=B[3],lk=bR[1],c$=function(aC,aB,aA){var
+t=fv(ag,U,i,a);return z(function(a){return[0,j(aw(bp),a),q]},t)}return 0}return l},k8),k_=e(function(a){return bp(c5(a))},ag),gC=e(function(a){return bp(a[2])},ag),ll=C[3],lm=bT[1],da=function(aC,aB,aA){var
 k=aC,m=aB,g=aA;for(;;)switch(g[0]){case
 0:var
-v=g[1],_=n(f(v),wF),aa=_?l(function(a){var
-d=D(T(c(2,c(2,c(2,b)))),a);return d?D(a,c(2,c(2,c(2,b)))):d},v):_;if(aa){var
-ab=pg(au,li,dH(0,m),v),j=g[2],w=bg(0,bD(au,ab,e($,k)),gB,0),aD=e($,k),N=function(a){return pf(pe(au,ab,aD,w,a))};if(typeof
+v=g[1],_=n(f(v),w$),aa=_?l(function(a){var
+d=E(P(c(2,c(2,c(2,b)))),a);return d?E(a,c(2,c(2,c(2,b)))):d},v):_;if(aa){var
+ab=pD(az,lk,dI(0,m),v),j=g[2],w=bj(0,bz(az,ab,e($,k)),gE,0),aD=e($,k),M=function(a){return pC(pB(az,ab,aD,w,a))};if(typeof
 j==="number")return 0===j?aj(function(b){var
-a=r(b,w,0);return a?D(a[1][2][2],d):a},gz):0;else{if(0===j[0]){var
-a=j[2],O=l(wD,a);if(O){var
-q=r(j[1],k7,0);if(q){var
+a=r(b,w,0);return a?E(a[1][2][2],d):a},gC):0;else{if(0===j[0]){var
+a=j[2],O=l(w9,a);if(O){var
+q=r(j[1],k9,0);if(q){var
 i=q[1];switch(i[0]){case
 0:var
 x=0;if(a)if(a[2])var
 h=0;else{var
-A=a[1],B=i[1],ao=hF(B,A),ap=hE(A),C=[0,[0,B,[0,[1,[4,[1,[6,i[2],ap]],ao]],0]]];x=1}else{var
+A=a[1],B=i[1],ao=hJ(B,A),ap=hI(A),C=[0,[0,B,[0,[1,[4,[1,[6,i[2],ap]],ao]],0]]];x=1}else{var
 C=a;x=1}if(x)var
 h=C;break;case
 1:var
 y=0;if(a)if(a[2])var
 h=0;else{var
-E=a[1],G=i[1],aq=hE(E),ar=[1,[6,i[2],aq]],H=[0,[0,G,[0,[1,[4,hF(G,E),ar]],0]]];y=1}else{var
+D=a[1],F=i[1],aq=hI(D),ar=[1,[6,i[2],aq]],H=[0,[0,F,[0,[1,[4,hJ(F,D),ar]],0]]];y=1}else{var
 H=a;y=1}if(y)var
 h=H;break;case
 2:var
@@ -8396,7 +8528,7 @@ z=0;if(a){var
 o=a[2],an=0;if(o)if(o[2]){var
 h=0;an=1}else
 var
-I=o[1],J=a[1],p=i[1],as=hE(J),at=[1,[6,hF(p,I),as]],av=[1,[6,i[2],at]],aw=hE(I),K=[0,[0,p,[0,[1,[4,[1,[6,hF(p,J),aw]],av]],0]]];else
+I=o[1],J=a[1],p=i[1],as=hI(J),at=[1,[6,hJ(p,I),as]],au=[1,[6,i[2],at]],av=hI(I),K=[0,[0,p,[0,[1,[4,[1,[6,hJ(p,J),av]],au]],0]]];else
 var
 K=o;if(!an){var
 L=K;z=1}}else{var
@@ -8404,23 +8536,23 @@ L=a;z=1}if(z)var
 h=L;break;default:if(a)var
 h=0;else
 var
-ax=i[1],h=[0,[0,0,e(function(a){return[1,[5,[0,a]]]},ax)]]}if(h){var
-P=h[1],ay=P[1],Q=l(function(a){return pf(r(a[2],w,0))},ay);if(Q)return l(N,P[2]);var
-R=Q}else
-var
-R=h;var
+aw=i[1],h=[0,[0,0,e(function(a){return[1,[5,[0,a]]]},aw)]]}if(h){var
+Q=h[1],ax=Q[1],R=l(function(a){return pC(r(a[2],w,0))},ax);if(R)return l(M,Q[2]);var
 S=R}else
 var
-S=q;var
-U=S}else
+S=h;var
+T=S}else
+var
+T=q;var
+U=T}else
 var
 U=O;return U}var
-V=j[2],W=j[1],s=F(lj,W);if(s){var
+V=j[2],W=j[1],s=G(ll,W);if(s){var
 X=s[1];if(typeof
 X!=="number"&&1===X[0]){var
-t=F(gz,V);if(t){var
-u=F(k8,V);if(u){var
-az=M(lk,W);return N([1,[4,[1,[8,[0,u[1]]]],[1,[6,[1,[8,[1,[1,az]]]],[0,t[1]]]]]])}var
+t=G(gC,V);if(t){var
+u=G(k_,V);if(u){var
+ay=N(lm,W);return M([1,[4,[1,[8,[0,u[1]]]],[1,[6,[1,[8,[1,[1,ay]]]],[0,t[1]]]]]])}var
 Z=u}else
 var
 Z=t;return Z}var
@@ -8428,102 +8560,102 @@ Y=0}else
 var
 Y=s;return Y}}return aa;case
 1:var
-ac=g[1],ad=ph(ac,m);if(ad){var
-ae=c4(ac,m),af=c$(k,ae[1],g[2]);if(af){var
+ac=g[1],ad=pE(ac,m);if(ad){var
+ae=c6(ac,m),af=da(k,ae[1],g[2]);if(af){var
 m=ae[2],g=g[3];continue}var
 ag=af}else
 var
 ag=ad;return ag;default:var
-ah=g[1],ai=ph(ah,k);if(ai){var
-ak=c4(ah,k),al=c$(ak[1],m,g[2]);if(al){var
+ah=g[1],ai=pE(ah,k);if(ai){var
+ak=c6(ah,k),al=da(ak[1],m,g[2]);if(al){var
 k=ak[2],g=g[3];continue}var
 am=al}else
 var
-am=ai;return am}};return c$(lh,lg,mT)}var
-gF=dh}else
+am=ai;return am}};return da(lj,li,mV)}var
+gI=di}else
 var
-gF=dg;var
-gG=gF}else
+gI=dh;var
+gJ=gI}else
 var
-gG=df;var
-gH=gG}else
+gJ=dg;var
+gK=gJ}else
 var
-gH=gE;return gH}return 0}var
-iv=is}else
+gK=gH;return gK}return 0}var
+iz=iw}else
 var
-iv=ir;var
-iw=iv}else
+iz=iv;var
+iA=iz}else
 var
-iw=ef;return iw}return 0;case
+iA=eh;return iA}return 0;case
 6:var
-ix=a[1];if(ix){var
-iy=ix[1],eg=v[2];if(0===eg[0]){var
-eh=kx(CP,0,0,0,CO,eg[3]);if(eh){var
-iz=fY(iy);if(iz){var
-mU=eh[1],iA=b3(iy)[2],cc=eg[1],c9=c1(cc,d,iA);if(c9){var
-c_=c1(cc,d,[5,[0,b,b],iA]);if(c_){var
-k5=c9[1][1],gt=K(cy(cc),k5);if(gt)return pd(cc,c_[1][1],mU);var
-gu=gt}else
+iB=a[1];if(iB){var
+iC=iB[1],ei=v[2];if(0===ei[0]){var
+ej=kH(Dj,0,0,0,Di,ei[3]);if(ej){var
+iD=f2(iC);if(iD){var
+mW=ej[1],iE=b6(iC)[2],ce=ei[1],c_=c3(ce,d,iE);if(c_){var
+c$=c3(ce,d,[5,[0,b,b],iE]);if(c$){var
+k7=c_[1][1],gw=K(cC(ce),k7);if(gw)return pA(ce,c$[1][1],mW);var
+gx=gw}else
 var
-gu=c_;var
-gv=gu}else
+gx=c$;var
+gy=gx}else
 var
-gv=c9;return gv}var
-iB=iz}else
+gy=c_;return gy}var
+iF=iD}else
 var
-iB=eh;return iB}return 0}var
-ei=v[2];if(0===ei[0]){var
-ej=kx(CR,0,0,0,CQ,ei[3]);return ej?pd(ei[1],d,ej[1]):ej}return 0;default:var
-a9=a[1],iC=v[2];if(2===iC[0]){var
-iD=iC[1],ek=kv(f(iD),iD);if(ek){var
-iE=ek[1];if(iE[2])return 0;var
-el=iE[1],gZ=aa(CC,f(a9)),g0=gZ?aa(f(a9),dE):gZ,g1=g0?oJ(e(aA,a9)):g0,iF=g1?l(function(c){var
-a=cC(j(c[2][1]));if(a){var
-b=cC(j(c[2][2]));if(b)return I(bf(b[1],a[1]));var
+iF=ej;return iF}return 0}var
+ek=v[2];if(0===ek[0]){var
+el=kH(Dl,0,0,0,Dk,ek[3]);return el?pA(ek[1],d,el[1]):el}return 0;default:var
+a$=a[1],iG=v[2];if(2===iG[0]){var
+iH=iG[1],em=kF(f(iH),iH);if(em){var
+iI=em[1];if(iI[2])return 0;var
+en=iI[1],g2=ab(C8,f(a$)),g3=g2?ab(f(a$),dF):g2,g4=g3?o6(e(aA,a$)):g3,iJ=g4?l(function(c){var
+a=cG(k(c[2][1]));if(a){var
+b=cG(k(c[2][2]));if(b)return I(bi(b[1],a[1]));var
 d=b}else
 var
-d=a;return d},a9):g1;if(iF)var
-mV=hQ(Bs,el),em=p8(a[5],mV);else
+d=a;return d},a$):g4;if(iJ)var
+mX=hU(BY,en),eo=qt(a[5],mX);else
 var
-em=iF;if(em)var
-mW=hQ(Bt,el),en=p8(a[6],mW);else
+eo=iJ;if(eo)var
+mY=hU(BZ,en),ep=qt(a[6],mY);else
 var
-en=em;if(en){var
-lQ=e(function(a){return[0,d,0]},a9);return p7(a9,a[2],a[3],a[4],lQ,el)}var
-iG=en}else
+ep=eo;if(ep){var
+lS=e(function(a){return[0,d,0]},a$);return qs(a$,a[2],a[3],a[4],lS,en)}var
+iK=ep}else
 var
-iG=ek;return iG}return 0}}return bq}var
-Y=[a8,CU,st(0)],qa=[a8,CV,st(0)];function
-CS(l,b){var
-f=[0,o(AO,ar(b[4])),0],g=[0,o(AQ,ah([0,o(AP,ar(b[3])),f])),0],a=b[2];switch(a[0]){case
+iK=em;return iK}return 0}}return bu}var
+Y=[a_,Do,sQ(0)],qx=[a_,Dp,sQ(0)];function
+Dm(l,b){var
+f=[0,o(Bi,as(b[4])),0],g=[0,o(Bk,ah([0,o(Bj,as(b[3])),f])),0],a=b[2];switch(a[0]){case
 0:var
-c=Q(AK,po(a[1],a[2],a[3]));break;case
+c=S(Be,pL(a[1],a[2],a[3]));break;case
 1:var
-c=Q(AL,pp(a[1],a[2],a[3],a[4]));break;default:var
-c=Q(AM,H(e(AF,a[1])))}var
-h=[0,o(AR,c),g],i=1===b[2][0]?AX:AS,j=[0,o(AT,ar(i)),h],k=[0,o(AU,zf(b[1])),j],d=aB(lA(CT,hG(ah([0,o(AW,ar(AV)),k]),AN)),l);return d?CK(b):d}function
+c=S(Bf,pM(a[1],a[2],a[3],a[4]));break;default:var
+c=S(Bg,H(e(A$,a[1])))}var
+h=[0,o(Bl,c),g],i=1===b[2][0]?Br:Bm,j=[0,o(Bn,as(i)),h],k=[0,o(Bo,zL(b[1])),j],d=aD(lK(Dn,hK(ah([0,o(Bq,as(Bp)),k]),Bh)),l);return d?De(b):d}function
 ai(a){if(0===a[0])return a[1];throw Y}function
 ae(a){if(1===a[0])return a[1];throw Y}function
-a2(a){if(2===a[0])return a[1];throw Y}function
-f1(a){if(3===a[0])return a[1];throw Y}function
-bc(b,a){return lz(a,b)}function
+a4(a){if(2===a[0])return a[1];throw Y}function
+f5(a){if(3===a[0])return a[1];throw Y}function
+be(b,a){return lJ(a,b)}function
 v(c,b){var
-a=bc(c,b);if(a)return a[1];throw Y}function
-cn(b,a){var
-c=a?[0,k(b,a[1])]:a;return c}function
-d3(a){switch(a[0]){case
+a=be(c,b);if(a)return a[1];throw Y}function
+cr(b,a){var
+c=a?[0,j(b,a[1])]:a;return c}function
+d9(a){switch(a[0]){case
 0:var
 b=a[1];if(b&&!b[2]){var
 c=b[1];return[0,c[1],c[2]]}break;case
-2:return[0,a[1],CX]}throw Y}function
-f2(e,d){var
+2:return[0,a[1],Dr]}throw Y}function
+f6(e,d){var
 a=X(e,ae(d));if(a){var
 b=a[2];if(b){var
 c=b[2];if(c&&!c[2])return[0,a[1],b[1],c[1]]}}throw Y}function
-h0(i){var
-f=e4(i),d=[0,0],e=is(f)-1|0;if(!(e<0)){var
+h4(i){var
+f=e7(i),d=[0,0],e=iw(f)-1|0;if(!(e<0)){var
 c=e;for(;;){var
-a=d[1],g=lc(f,c)-48|0;if(9<g>>>0)throw Y;switch(g){case
+a=d[1],g=lm(f,c)-48|0;if(9<g>>>0)throw Y;switch(g){case
 0:var
 b=[0,a];break;case
 1:var
@@ -8545,48 +8677,48 @@ b=[8,a];break;default:var
 b=[9,a]}d[1]=b;var
 h=c-1|0;if(0!==c){var
 c=h;continue}break}}return d[1]}function
-f3(a){return lP(h0(a))}function
-eR(b){var
-a=f1(b);return 45===a9(a,0)?T(f3(ea(a,1,az(a)-1|0))):f3(a)}function
-qb(a){return ec(f3(f1(a)))}function
-dr(b){var
-a=f1(b);if(!(2<az(a))&&!(64<=ir(a)))return iE(f3(a));throw Y}function
-cS(c){var
-a=f1(c);if(6<az(a))throw Y;function
-b(a){return 0<a?[0,b(a-1|0)]:0}return b(ir(a))}function
-qc(a){var
-b=97<=a?1:0,c=b?a<=r7?1:0:b;if(c)var
+f7(a){return l1(h4(a))}function
+eU(b){var
+a=f5(b);return 45===a$(a,0)?P(f7(eg(a,1,az(a)-1|0))):f7(a)}function
+qy(a){return ei(f7(f5(a)))}function
+ds(b){var
+a=f5(b);if(!(2<az(a))&&!(64<=iv(a)))return iI(f7(a));throw Y}function
+cT(c){var
+a=f5(c);if(6<az(a))throw Y;function
+b(a){return 0<a?[0,b(a-1|0)]:0}return b(iv(a))}function
+qz(a){var
+b=97<=a?1:0,c=b?a<=ss?1:0:b;if(c)var
 d=c;else
 var
 e=65<=a?1:0,d=e?a<=90?1:0:e;return d}function
-qd(y,b){var
+qA(y,b){var
 d=az(b),a=[0,0];function
 c(e){var
-c=a[1]<d?1:0,f=c?a9(b,a[1])===e?1:0:c;return f}function
+c=a[1]<d?1:0,f=c?a$(b,a[1])===e?1:0:c;return f}function
 l(e){var
-c=a[1];for(;;){if(a[1]<d&&48<=a9(b,a[1])&&!(57<a9(b,a[1]))){a[1]++;continue}return ea(b,c,a[1]-c|0)}}function
+c=a[1];for(;;){if(a[1]<d&&48<=a$(b,a[1])&&!(57<a$(b,a[1]))){a[1]++;continue}return eg(b,c,a[1]-c|0)}}function
 m(b){a[1]++;var
 d=f(b+1|0);if(c(41)){a[1]++;return d}throw Y}function
 h(i){if(64<i)throw Y;if(c(45)){a[1]++;return[2,h(i+1|0)]}if(c(40))var
 e=m(i);else{var
-u=0;if((a[1]+5|0)<=d&&aB(ea(b,a[1],5),CZ)){a[1]=a[1]+4|0;var
+u=0;if((a[1]+5|0)<=d&&aD(eg(b,a[1],5),Dt)){a[1]=a[1]+4|0;var
 e=[5,m(i)]}else
 u=1;if(u){var
-v=0;if(a[1]<d&&qc(a9(b,a[1]))){var
+v=0;if(a[1]<d&&qz(a$(b,a[1]))){var
 n=a[1];for(;;){if(a[1]<d){var
-w=0;if(!qc(a9(b,a[1]))&&95!==a9(b,a[1])&&(!(48<=a9(b,a[1]))||57<a9(b,a[1])))w=1;if(!w){a[1]++;continue}}var
-e=[1,k(y,ea(b,n,a[1]-n|0))];break}}else
+w=0;if(!qz(a$(b,a[1]))&&95!==a$(b,a[1])&&(!(48<=a$(b,a[1]))||57<a$(b,a[1])))w=1;if(!w){a[1]++;continue}}var
+e=[1,j(y,eg(b,n,a[1]-n|0))];break}}else
 v=1;if(v){var
-g=l(0),o=c(46),q=o?(a[1]++,[0,l(0)]):o,r=aB(g,C0);if(r)var
+g=l(0),o=c(46),q=o?(a[1]++,[0,l(0)]):o,r=aD(g,Du);if(r)var
 s=r;else
 var
-t=1<az(g)?1:0,s=t?48===a9(g,0)?1:0:t;if(s)throw Y;if(q){var
-j=q[1],x=0;if(aB(j,C1)||48===a9(j,az(j)-1|0))x=1;else
+t=1<az(g)?1:0,s=t?48===a$(g,0)?1:0:t;if(s)throw Y;if(q){var
+k=q[1],x=0;if(aD(k,Dv)||48===a$(k,az(k)-1|0))x=1;else
 var
-z=h0(j),e=[0,h0(g),z];if(x)throw Y}else
+z=h4(k),e=[0,h4(g),z];if(x)throw Y}else
 var
-e=[0,h0(g),0]}}}if(c(94)){a[1]++;var
-f=l(0);if(p(f,CY)){if(!(2<az(f))&&2<=ir(f)&&!(64<ir(f)))return[4,e,ec(f3(f))];throw Y}throw Y}return e}function
+e=[0,h4(g),0]}}}if(c(94)){a[1]++;var
+f=l(0);if(p(f,Ds)){if(!(2<az(f))&&2<=iv(f)&&!(64<iv(f)))return[4,e,ei(f7(f))];throw Y}throw Y}return e}function
 e(d){var
 b=h(d);for(;;){if(c(42)){a[1]++;var
 b=[3,2,b,h(d)];continue}if(c(47)){a[1]++;var
@@ -8596,55 +8728,55 @@ b=e(d);for(;;){if(c(43)){a[1]++;var
 b=[3,0,b,e(d)];continue}if(c(45)){a[1]++;var
 b=[3,1,b,e(d)];continue}return b}}var
 g=f(0);if(a[1]<d)throw Y;return g}function
-h1(a){return qd(function(a){return[0,a]},a)}function
-kJ(a){var
-b=a2(a);return qd(function(a){return a},b)}function
-Z(a){return h1(a2(a))}function
-b5(a){if(2===a[0])return[0,h1(a[1])];var
-b=ai(a),c=Z(v(b,C2));return[1,Z(v(b,C3)),c]}function
-an(a){throw[0,qa,be(lA(C5,a),C4)]}function
-kK(c){var
-a=a2(c);if(p(a,C6)){var
-b=p(a,C7);if(b)throw Y;return b}return 1}function
-C8(d){var
+h5(a){return qA(function(a){return[0,a]},a)}function
+kT(a){var
+b=a4(a);return qA(function(a){return a},b)}function
+Z(a){return h5(a4(a))}function
+b8(a){if(2===a[0])return[0,h5(a[1])];var
+b=ai(a),c=Z(v(b,Dw));return[1,Z(v(b,Dx)),c]}function
+ap(a){throw[0,qx,bg(lK(Dz,a),Dy)]}function
+kU(c){var
+a=a4(c);if(p(a,DA)){var
+b=p(a,DB);if(b)throw Y;return b}return 1}function
+DC(d){var
 b=ai(d);function
-a(a){return f2(b5,v(b,a))}var
-c=a2(v(b,C9));if(p(c,C_)){if(p(c,C$)){if(p(c,Da))return an([0,Dc,[0,c,Db]]);var
-e=bc(b,Dd),f=cn(function(a){return f2(b5,a)},e),g=a(De);return[1,a(Df),g,f]}var
-h=kK(v(b,Dg)),i=b5(v(b,Dh)),j=a(Di),k=a(Dj);return[0,a(Dk),k,j,i,h]}return[2,a(Dl)]}function
-Dm(d){var
+a(a){return f6(b8,v(b,a))}var
+c=a4(v(b,DD));if(p(c,DE)){if(p(c,DF)){if(p(c,DG))return ap([0,DI,[0,c,DH]]);var
+e=be(b,DJ),f=cr(function(a){return f6(b8,a)},e),g=a(DK);return[1,a(DL),g,f]}var
+h=kU(v(b,DM)),i=b8(v(b,DN)),j=a(DO),k=a(DP);return[0,a(DQ),k,j,i,h]}return[2,a(DR)]}function
+DS(d){var
 a=ai(d);if(a){var
-b=a[1];if(!p(b[1],Dn)){var
-c=b[2];if(2===c[0]&&!p(c[1],Do))return 1}}return 0}function
-qe(e){var
+b=a[1];if(!p(b[1],DT)){var
+c=b[2];if(2===c[0]&&!p(c[1],DU))return 1}}return 0}function
+qB(e){var
 b=ai(e);function
-a(a){return X(b5,ae(v(b,a)))}var
-c=a2(v(b,Dp)),f=bc(b,Dq),d=cn(function(a){return X(b5,ae(a))},f);if(p(c,Dr)){if(p(c,Ds)){if(p(c,Dt)){if(!p(c,Du)){var
-g=a(Dx);return[1,a(Dy),g,d]}}else
+a(a){return X(b8,ae(v(b,a)))}var
+c=a4(v(b,DV)),f=be(b,DW),d=cr(function(a){return X(b8,ae(a))},f);if(p(c,DX)){if(p(c,DY)){if(p(c,DZ)){if(!p(c,D0)){var
+g=a(D3);return[1,a(D4),g,d]}}else
 if(!d){var
-h=kK(v(b,Dz)),i=b5(v(b,DA)),j=a(DB),k=a(DC);return[0,a(DD),k,j,i,h]}}else
-if(!d)return[2,a(DE)]}else
+h=kU(v(b,D5)),i=b8(v(b,D6)),j=a(D7),k=a(D8);return[0,a(D9),k,j,i,h]}}else
+if(!d)return[2,a(D_)]}else
 if(!d){var
-l=kK(v(b,DF)),m=b5(v(b,DG)),n=b5(v(b,DH)),o=a(DI),q=a(DJ),r=a(DK);return[3,a(DL),r,q,o,n,m,l]}return an([0,Dw,[0,c,Dv]])}function
-DM(d){var
+l=kU(v(b,D$)),m=b8(v(b,Ea)),n=b8(v(b,Eb)),o=a(Ec),q=a(Ed),r=a(Ee);return[3,a(Ef),r,q,o,n,m,l]}return ap([0,D2,[0,c,D1]])}function
+Eg(d){var
 a=ai(d);if(a){var
-b=a[1];if(!p(b[1],DN)){var
-c=b[2];if(2===c[0]&&!p(c[1],DO))return 1}}return 0}function
-DP(d){var
+b=a[1];if(!p(b[1],Eh)){var
+c=b[2];if(2===c[0]&&!p(c[1],Ei))return 1}}return 0}function
+Ej(d){var
 a=ai(d);if(a){var
-b=a[1];if(!p(b[1],DQ)){var
-c=b[2];if(2===c[0]&&!p(c[1],DR))return 1}}return 0}function
-qf(d){var
+b=a[1];if(!p(b[1],Ek)){var
+c=b[2];if(2===c[0]&&!p(c[1],El))return 1}}return 0}function
+qC(d){var
 a=ai(d);if(a){var
-b=a[1];if(!p(b[1],DS)){var
-c=b[2];if(2===c[0]&&!p(c[1],DT))return 1}}return 0}function
-ds(c,d){var
+b=a[1];if(!p(b[1],Em)){var
+c=b[2];if(2===c[0]&&!p(c[1],En))return 1}}return 0}function
+dt(c,d){var
 a=ae(d);if(a){var
 b=a[2];if(b&&!b[2]){var
-e=k(c,b[1]);return[0,k(c,a[1]),e]}}throw Y}function
-d4(g,o){var
-h=g?g[1]:g,c=ai(o),a=a2(v(c,DU)),j=sF(a,DV),f=0;if(0<=j)if(0<j)if(p(a,DW))if(p(a,DX))if(p(a,DY))if(p(a,DZ))if(p(a,D0))if(p(a,D1))if(p(a,D2)){var
-k=p(a,D3);if(k)f=1;else
+e=j(c,b[1]);return[0,j(c,a[1]),e]}}throw Y}function
+d_(g,o){var
+h=g?g[1]:g,c=ai(o),a=a4(v(c,Eo)),j=s2(a,Ep),f=0;if(0<=j)if(0<j)if(p(a,Eq))if(p(a,Er))if(p(a,Es))if(p(a,Et))if(p(a,Eu))if(p(a,Ev))if(p(a,Ew)){var
+k=p(a,Ex);if(k)f=1;else
 var
 b=k}else
 var
@@ -8664,7 +8796,7 @@ var
 b=13;else
 var
 b=2;else
-if(p(a,Em))if(p(a,En))if(p(a,Eo))if(p(a,Ep))if(p(a,Eq))if(p(a,Er))if(p(a,Es))if(p(a,Et))f=1;else
+if(p(a,ES))if(p(a,ET))if(p(a,EU))if(p(a,EV))if(p(a,EW))if(p(a,EX))if(p(a,EY))if(p(a,EZ))f=1;else
 var
 b=1;else
 var
@@ -8682,12 +8814,12 @@ b=14;else
 f=1;else
 var
 b=12;var
-n=f?an([0,D5,[0,a,D4]]):b;function
-i(a){return v(c,D6)}var
-d=a2(v(c,D7)),l=p(d,D8);if(l)if(p(d,D9))if(p(d,D_))if(p(d,D$))var
-e=an([0,Eb,[0,d,Ea]]);else
+n=f?ap([0,Ez,[0,a,Ey]]):b;function
+i(a){return v(c,EA)}var
+d=a4(v(c,EB)),l=p(d,EC);if(l)if(p(d,ED))if(p(d,EE))if(p(d,EF))var
+e=ap([0,EH,[0,d,EG]]);else
 var
-m=ds(Z,i(0)),e=[2,m[1],m[2]];else
+m=dt(Z,i(0)),e=[2,m[1],m[2]];else
 var
 e=[0,Z(i(0))];else
 var
@@ -8697,114 +8829,114 @@ e=l;function
 q(H){var
 a=ai(H),b=0;switch(n){case
 6:if(a){var
-r=a[1];if(!p(r[1],Ed)){var
+r=a[1];if(!p(r[1],EJ)){var
 s=r[2];if(1===s[0]){var
 c=s[1],m=0;if(c&&!c[2])if(a[2])m=1;else{var
 e=c[1];b=1;m=1}if(!m&&!a[2]){var
 t=c;b=2}}}}break;case
 10:if(a){var
-u=a[1];if(!p(u[1],Ee)){var
+u=a[1];if(!p(u[1],EK)){var
 v=u[2];if(1===v[0]){var
 f=v[1];if(f&&!f[2]){var
 g=a[2];if(g){var
-w=g[1];if(!p(w[1],Ef)){var
+w=g[1];if(!p(w[1],EL)){var
 x=w[2];if(1===x[0]){var
 i=x[1];if(i&&!i[2]&&!g[2]){var
 I=Z(i[1]);return[2,Z(f[1]),I]}}}}}}}}break;case
 12:if(a){var
-y=a[1];if(!p(y[1],Eg)){var
+y=a[1];if(!p(y[1],EM)){var
 z=y[2];if(1===z[0]){var
 j=z[1];if(j&&!j[2]){var
 k=a[2],A=j[1];if(k){var
-B=k[1];if(!p(B[1],Eh)){var
+B=k[1];if(!p(B[1],EN)){var
 C=B[2];if(1===C[0]){var
 l=C[1];if(l&&!l[2]&&!k[2]&&h){var
 J=Z(l[1]);return[3,Z(A),J]}}}}else{var
 e=A;b=1}}}}}break;case
 16:if(a){var
-F=a[1];if(!p(F[1],Ej)){var
+F=a[1];if(!p(F[1],EP)){var
 G=F[2];if(1===G[0]&&!a[2]){var
 t=G[1];b=2}}}break;case
 14:case
 15:if(a){var
-D=a[1];if(!p(D[1],Ei)){var
+D=a[1];if(!p(D[1],EO)){var
 E=D[2];if(1===E[0]&&!a[2])return[1,X(Z,E[1])]}}break;case
 2:case
 8:if(a){var
-o=a[1];if(!p(o[1],Ec)){var
+o=a[1];if(!p(o[1],EI)){var
 q=o[2];if(1===q[0]){var
 d=q[1];if(d&&!d[2]&&!a[2]){var
 e=d[1];b=1}}}}break}switch(b){case
 0:throw Y;case
 1:return[0,Z(e)];default:return[1,X(Z,t)]}}var
-r=cn(q,bc(c,Ek));return[0,n,cn(cS,bc(c,El)),r,e]}function
-qg(c){var
-d=d4(Ew,c),e=d[1];if(!(9<=e))switch(e){case
+r=cr(q,be(c,EQ));return[0,n,cr(cT,be(c,ER)),r,e]}function
+qD(c){var
+d=d_(E2,c),e=d[1];if(!(9<=e))switch(e){case
 2:case
 6:case
 8:return d}var
-a=d4(Eu,c),b=a[1];if(2!==b&&!(4<=b))return a;return an(Ev)}function
-qh(a){var
-b=d4(Ex,a);return 11===b[1]?b:qg(a)}function
-Ey(a){var
-b=d4(Ez,a);return 12===b[1]?b:qh(a)}function
-EA(a){var
-b=d4(EB,a),c=b[1];if(9<=c)switch(c-9|0){case
+a=d_(E0,c),b=a[1];if(2!==b&&!(4<=b))return a;return ap(E1)}function
+qE(a){var
+b=d_(E3,a);return 11===b[1]?b:qD(a)}function
+E4(a){var
+b=d_(E5,a);return 12===b[1]?b:qE(a)}function
+E6(a){var
+b=d_(E7,a),c=b[1];if(9<=c)switch(c-9|0){case
 2:case
 4:case
-7:break;default:return b}return qh(a)}function
-kL(c){var
-d=d4(EC,c),a=d[1];if(4<=a){var
+7:break;default:return b}return qE(a)}function
+kV(c){var
+d=d_(E8,c),a=d[1];if(4<=a){var
 b=0;if(6<=a)switch(a-6|0){case
 5:case
 6:case
 7:case
 10:b=1;break}else
-b=1;if(b)return d}return qg(c)}function
-kM(b){var
-a=ai(b[2]);if(p(b[1],EJ)){var
-c=ds(Z,v(a,EK)),d=ds(Z,v(a,EL)),e=d[2],f=d[1],g=Z(v(a,EM));return[1,c[1],c[2],g,f,e]}var
-h=X(Z,ae(v(a,EN)));return[0,X(Z,ae(v(a,EO))),h]}function
-EP(f){var
+b=1;if(b)return d}return qD(c)}function
+kW(b){var
+a=ai(b[2]);if(p(b[1],Fd)){var
+c=dt(Z,v(a,Fe)),d=dt(Z,v(a,Ff)),e=d[2],f=d[1],g=Z(v(a,Fg));return[1,c[1],c[2],g,f,e]}var
+h=X(Z,ae(v(a,Fh)));return[0,X(Z,ae(v(a,Fi))),h]}function
+Fj(f){var
 a=ai(f);function
 d(b){return Z(v(a,b))}function
-c(b){return f2(Z,v(a,b))}var
-b=a2(v(a,EQ));if(p(b,ER)){if(!p(b,ES)){var
-j=v(a,EY),e=ds(function(a){return a},j),k=bc(a,EZ),l=cn(function(a){return c(E0)},k),m=h1(a2(e[2])),n=h1(a2(e[1])),o=d(E1);return[0,cS(v(a,E2)),o,n,m,l]}if(p(b,ET))throw Y}var
-g=d(EU),h=c(EV),i=c(EW);return[1,aB(b,EX),i,h,g]}function
-kN(aG){var
-i=d3(aG),j=i[1];if(p(j,E3)){if(p(j,E4)){if(p(j,E5)){if(p(j,E6))return an([0,E8,[0,j,E7]]);var
-C=v(ai(i[2]),E9),ao=0;if(2===C[0]){var
-R=p(C[1],E_);if(!R){var
-Q=R;ao=1}}if(!ao)var
-Q=[0,b5(C)];return[6,Q]}var
-S=ai(i[2]),l=kN([0,[0,[0,Fa,v(S,E$)],0]]);if(0===l[0]){var
+c(b){return f6(Z,v(a,b))}var
+b=a4(v(a,Fk));if(p(b,Fl)){if(!p(b,Fm)){var
+j=v(a,Fs),e=dt(function(a){return a},j),k=be(a,Ft),l=cr(function(a){return c(Fu)},k),m=h5(a4(e[2])),n=h5(a4(e[1])),o=d(Fv);return[0,cT(v(a,Fw)),o,n,m,l]}if(p(b,Fn))throw Y}var
+g=d(Fo),h=c(Fp),i=c(Fq);return[1,aD(b,Fr),i,h,g]}function
+kX(aG){var
+i=d9(aG),k=i[1];if(p(k,Fx)){if(p(k,Fy)){if(p(k,Fz)){if(p(k,FA))return ap([0,FC,[0,k,FB]]);var
+C=v(ai(i[2]),FD),an=0;if(2===C[0]){var
+R=p(C[1],FE);if(!R){var
+Q=R;an=1}}if(!an)var
+Q=[0,b8(C)];return[6,Q]}var
+S=ai(i[2]),l=kX([0,[0,[0,FG,v(S,FF)],0]]);if(0===l[0]){var
 D=l[2];if(0===D[0]&&!l[3]){var
-T=l[4];if(!aM(b4,T)){var
-aH=Z(v(S,Fc));return[5,l[1],D[1],D[2],T,aH]}}}return an(Fb)}var
-b=ai(i[2]),E=bc(b,Fd),F=E?X(EP,ae(E[1])):E,s=function(b){var
-a=0!==F?1:0;return a?an(Fe):a},m=d3(v(b,Ff)),c=d3(v(b,Fg)),d=m[1];if(p(d,Fh)&&p(d,Fi)&&p(d,Fj)){if(0===bc(b,Fk)){if(p(d,Fl)){var
-ap=0;if(p(d,Fm)){if(!p(d,Fn)){var
-U=c[1],aq=0;if(p(U,Fq)&&p(U,Fr)){ap=1;aq=1}if(!aq){var
-n=ae(m[2]),aI=ae(v(b,Fu)),G=X(function(a){return d4(0,a)},aI),aJ=aM(function(a){switch(a[1]){case
-5:return 1-e9(DM,n);case
-11:return aM(DP,n);case
+T=l[4];if(!aP(b7,T)){var
+aH=Z(v(S,FI));return[5,l[1],D[1],D[2],T,aH]}}}return ap(FH)}var
+b=ai(i[2]),E=be(b,FJ),F=E?X(Fj,ae(E[1])):E,s=function(b){var
+a=0!==F?1:0;return a?ap(FK):a},m=d9(v(b,FL)),c=d9(v(b,FM)),d=m[1];if(p(d,FN)&&p(d,FO)&&p(d,FP)){if(0===be(b,FQ)){if(p(d,FR)){var
+ao=0;if(p(d,FS)){if(!p(d,FT)){var
+U=c[1],aq=0;if(p(U,FW)&&p(U,FX)){ao=1;aq=1}if(!aq){var
+n=ae(m[2]),aJ=ae(v(b,F0)),G=X(function(a){return d_(0,a)},aJ),aK=aP(function(a){switch(a[1]){case
+5:return 1-fa(Eg,n);case
+11:return aP(Ej,n);case
 7:case
 9:case
 10:case
-12:return 1;default:return 0}},G);if(!aM(Dm,n)){var
-ar=0;if(!aM(b4,G)||aJ)ar=1;if(ar){var
-aO=X(C8,n),h=ai(c[2]);if(p(c[1],ED))var
-O=ds(Z,v(h,EE)),P=ds(Z,v(h,EF)),aC=P[2],aD=P[1],aE=Z(v(h,EG)),V=[1,O[1],O[2],aE,aD,aC];else
+12:return 1;default:return 0}},G);if(!aP(DS,n)){var
+ar=0;if(!aP(b7,G)||aK)ar=1;if(ar){var
+aN=X(DC,n),h=ai(c[2]);if(p(c[1],E9))var
+O=dt(Z,v(h,E_)),P=dt(Z,v(h,E$)),aB=P[2],aC=P[1],aE=Z(v(h,Fa)),V=[1,O[1],O[2],aE,aC,aB];else
 var
-aF=f2(Z,v(h,EH)),V=[0,f2(Z,v(h,EI)),aF];return[0,aO,V,F,G]}}s(0);var
-aK=X(kL,ae(v(b,Fv))),aL=kM(c);return[1,0,X(qe,n),0,aL,0,aK]}}}else
-if(!p(c[1],Fw)){s(0);var
-W=X(kL,ae(v(b,Fx))),z=0,g=W;for(;;){if(g){var
+aF=f6(Z,v(h,Fb)),V=[0,f6(Z,v(h,Fc)),aF];return[0,aN,V,F,G]}}s(0);var
+aL=X(kV,ae(v(b,F1))),aM=kW(c);return[1,0,X(qB,n),0,aM,0,aL]}}}else
+if(!p(c[1],F2)){s(0);var
+W=X(kV,ae(v(b,F3))),z=0,g=W;for(;;){if(g){var
 L=g[2],M=g[1];if(0===M[1]){var
 z=[0,M,z],g=L;continue}var
 g=L;continue}var
-q=ix(z),as=0;if(q){var
+q=iB(z),as=0;if(q){var
 e=0,_=q[1][4];if(typeof
 _==="number")e=1;else
 switch(_[0]){case
@@ -8819,79 +8951,79 @@ I=q[2];if(I){var
 K=0,aa=I[1][4];if(typeof
 aa!=="number"&&0===aa[0])if(I[2]){e=1;K=1}else
 K=1;if(!K)e=1}else
-e=1;break;default:e=1}if(!e)as=1}if(!as)an(Fy);var
-aP=Z(v(ai(c[2]),Fz));return[4,Z(v(ai(m[2]),FA)),aP,W]}}if(!ap)return an([0,Fp,[0,d,Fo]])}else
-if(!p(c[1],FB)){s(0);var
+e=1;break;default:e=1}if(!e)as=1}if(!as)ap(F4);var
+aO=Z(v(ai(c[2]),F5));return[4,Z(v(ai(m[2]),F6)),aO,W]}}if(!ao)return ap([0,FV,[0,d,FU]])}else
+if(!p(c[1],F7)){s(0);var
 t=ai(m[2]),ab=ai(c[2]),ac=function(c,a){var
 b=ae(a);return X(function(d){var
 a=ae(d);if(a){var
 b=a[2];if(b&&!b[2]){var
-e=k(c,b[1]);return[0,a2(a[1]),e]}}throw Y},b)},aQ=function(d){var
+e=j(c,b[1]);return[0,a4(a[1]),e]}}throw Y},b)},aQ=function(d){var
 a=ai(d);if(a){var
-b=a[1],c=b[1];if(p(c,FC)){if(!p(c,FD)&&!a[2])return[0,X(kJ,ae(b[2]))]}else
-if(!a[2])return[1,kJ(b[2])]}throw Y},ad=ac(kJ,v(t,FE)),af=X(aQ,ae(v(t,FF))),A=0,r=af;for(;;){if(r){var
-B=r[1],au=r[2],av=0===B[0]?B[1]:[0,B[1],0],A=lx(av,A),r=au;continue}var
-aw=ix(A),f=function(b,a){switch(a[0]){case
+b=a[1],c=b[1];if(p(c,F8)){if(!p(c,F9)&&!a[2])return[0,X(kT,ae(b[2]))]}else
+if(!a[2])return[1,kT(b[2])]}throw Y},ad=ac(kT,v(t,F_)),af=X(aQ,ae(v(t,F$))),A=0,r=af;for(;;){if(r){var
+B=r[1],au=r[2],av=0===B[0]?B[1]:[0,B[1],0],A=lH(av,A),r=au;continue}var
+aw=iB(A),f=function(b,a){switch(a[0]){case
 0:var
 c=1;break;case
 1:var
-d=lz(a[1],b),e=1,g=d?d[1]:e,c=g;break;case
+d=lJ(a[1],b),e=1,g=d?d[1]:e,c=g;break;case
 3:var
 h=f(b,a[3]),c=(1+f(b,a[2])|0)+h|0;break;case
 4:var
-i=iw(a[2]),c=ll(f(b,a[1]),i);break;default:var
-c=1+f(b,a[1])|0}return lu(32769,c)},ax=0,N=ly(function(b,a){var
-c=f(b,a[2]);return[0,[0,a[1],c],b]},ax,ad),ay=X(function(a){return f(N,a)},aw),az=lv(X(aN,N),ay),aA=0;if(32768<ly(function(b,a){return b+a|0},aA,az))an([0,FH,[0,a("32768"),FG]]);var
-aR=X(Ey,ae(v(b,FI))),aS=X(Z,ae(v(ab,FJ))),aT=X(Z,ae(v(ab,FK))),aU=ac(b5,v(t,FL));return[3,X(a2,ae(v(t,FM))),aU,ad,af,aT,aS,aR]}}return an([0,Ft,[0,c[1],Fs]])}throw Y}var
-ag=ai(m[2]),u=cn(Z,bc(ag,FN)),aV=function(f){var
-a=d3(f),b=a[1];if(p(b,FO)){if(p(b,FP)){if(p(b,FQ)){if(p(b,FR))throw Y;var
-d=a[2],g=Z(v(ai(d),FS));return[3,Z(v(ai(d),FT)),g]}var
-h=a[2],c=function(a){return ds(Z,v(ai(h),a))},i=c(FU),j=c(FV);return[1,c(FW),j,i]}var
-e=ds(Z,a[2]);return[0,e[1],e[2]]}return[2,Z(a[2])]},w=cn(aV,bc(b,FX)),ah=p(d,FY),aj=ah?p(d,FZ)?2:1:ah,x=ae(v(ag,F0));if(u&&w&&e9(qf,x)){var
+i=iA(a[2]),c=lv(f(b,a[1]),i);break;default:var
+c=1+f(b,a[1])|0}return lE(32769,c)},ax=0,N=lI(function(b,a){var
+c=f(b,a[2]);return[0,[0,a[1],c],b]},ax,ad),ay=X(function(a){return f(N,a)},aw),az=lF(X(aI,N),ay),aA=0;if(32768<lI(function(b,a){return b+a|0},aA,az))ap([0,Gb,[0,a("32768"),Ga]]);var
+aR=X(E4,ae(v(b,Gc))),aS=X(Z,ae(v(ab,Gd))),aT=X(Z,ae(v(ab,Ge))),aU=ac(b8,v(t,Gf));return[3,X(a4,ae(v(t,Gg))),aU,ad,af,aT,aS,aR]}}return ap([0,FZ,[0,c[1],FY]])}throw Y}var
+ag=ai(m[2]),u=cr(Z,be(ag,Gh)),aV=function(f){var
+a=d9(f),b=a[1];if(p(b,Gi)){if(p(b,Gj)){if(p(b,Gk)){if(p(b,Gl))throw Y;var
+d=a[2],g=Z(v(ai(d),Gm));return[3,Z(v(ai(d),Gn)),g]}var
+h=a[2],c=function(a){return dt(Z,v(ai(h),a))},i=c(Go),j=c(Gp);return[1,c(Gq),j,i]}var
+e=dt(Z,a[2]);return[0,e[1],e[2]]}return[2,Z(a[2])]},w=cr(aV,be(b,Gr)),ah=p(d,Gs),aj=ah?p(d,Gt)?2:1:ah,x=ae(v(ag,Gu));if(u&&w&&fa(qC,x)){var
 aW=function(c){var
 a=ai(c);function
-b(b){return X(b5,ae(v(a,b)))}if(0!==bc(a,F1))an(F2);var
-d=b(F3);return[0,b(F4),d]},aX=X(EA,ae(v(b,F5))),aY=w[1],aZ=kM(c),a0=u[1];return[2,aj,X(aW,x),a0,aZ,aY,F,aX]}s(0);var
-at=0;if(!u&&aB(d,F8)){var
+b(b){return X(b8,ae(v(a,b)))}if(0!==be(a,Gv))ap(Gw);var
+d=b(Gx);return[0,b(Gy),d]},aX=X(E6,ae(v(b,Gz))),aY=w[1],aZ=kW(c),a0=u[1];return[2,aj,X(aW,x),a0,aZ,aY,F,aX]}s(0);var
+at=0;if(!u&&aD(d,GC)){var
 ak=1;at=1}if(!at)var
 ak=[0,aj];var
-al=0!==w?1:0,a1=al?aM(qf,x):al;if(a1)an(F6);var
-a3=X(kL,ae(v(b,F7))),a4=kM(c);return[1,ak,X(qe,x),u,a4,w,a3]}var
+al=0!==w?1:0,a1=al?aP(qC,x):al;if(a1)ap(GA);var
+a2=X(kV,ae(v(b,GB))),a3=kW(c);return[1,ak,X(qB,x),u,a3,w,a2]}var
 y=ai(i[2]);function
 a5(b){var
-a=ai(b),c=Z(v(a,F9)),d=[0,Z(v(a,F_)),c];return[0,a2(v(a,F$)),d]}var
-o=kN([0,[0,[0,Gb,v(y,Ga)],0]]);if(0===o[0]&&!o[3]){var
-am=o[4];if(!aM(b4,am)){var
-a6=Z(v(y,Gd)),a7=Z(v(y,Ge)),a8=o[2],a9=o[1];return[7,X(a5,ae(v(y,Gf))),a9,a8,am,a7,a6]}}return an(Gc)}function
-f4(a){return X(eR,ae(a))}function
-h2(c,b){var
-a=f4(b);if(cu(a)!==c)throw Y;return a}function
-qi(a,d){var
-b=ai(d),e=ae(v(b,Gi)),f=a[2],c=X(function(a){return h2(f,a)},e),g=a[1];if(cu(c)!==g)throw Y;return[0,c,dr(v(b,Gj))]}function
-dt(au,i){var
+a=ai(b),c=Z(v(a,GD)),d=[0,Z(v(a,GE)),c];return[0,a4(v(a,GF)),d]}var
+o=kX([0,[0,[0,GH,v(y,GG)],0]]);if(0===o[0]&&!o[3]){var
+am=o[4];if(!aP(b7,am)){var
+a6=Z(v(y,GJ)),a7=Z(v(y,GK)),a8=o[2],a9=o[1];return[7,X(a5,ae(v(y,GL))),a9,a8,am,a7,a6]}}return ap(GI)}function
+f8(a){return X(eU,ae(a))}function
+h6(c,b){var
+a=f8(b);if(cy(a)!==c)throw Y;return a}function
+qF(a,d){var
+b=ai(d),e=ae(v(b,GO)),f=a[2],c=X(function(a){return h6(f,a)},e),g=a[1];if(cy(c)!==g)throw Y;return[0,c,ds(v(b,GP))]}function
+du(au,i){var
 as=0;if(0===i[0]){var
 q=i[1];if(q){var
-U=q[1];if(!p(U[1],Gk)){var
+U=q[1];if(!p(U[1],GQ)){var
 ag=U[2];if(0===ag[0]){var
 L=ag[1];if(L){var
-ah=L[1];if(!p(ah[1],GI)){var
+ah=L[1];if(!p(ah[1],Hc)){var
 aj=ah[2];if(1===aj[0]){var
 M=aj[1];if(M){var
 ak=M[1];if(1===ak[0]){var
 al=ak[1];if(al&&!al[2]&&!M[2]){var
 am=L[2];if(am&&!am[2]&&!q[2]){var
-f=GJ;as=1}}}}}}}}}}}if(!as)var
+f=Hd;as=1}}}}}}}}}}}if(!as)var
 f=au;var
 r=f[2];switch(i[0]){case
 0:var
 c=i[1];if(c){var
-e=c[1],a=e[1],V=sF(a,Gl),b=0;if(0<=V)if(0<V)if(p(a,Gm)){var
-g=0;if(p(a,Gn)&&p(a,Go)&&p(a,Gp))if(p(a,Gq))g=1;else{var
+e=c[1],a=e[1],V=s2(a,GR),b=0;if(0<=V)if(0<V)if(p(a,GS)){var
+g=0;if(p(a,GT)&&p(a,GU)&&p(a,GV))if(p(a,GW))g=1;else{var
 W=e[2];if(1===W[0]){var
 s=W[1];if(s){var
 t=s[2];if(t){var
 u=t[2];if(u&&!u[2]){if(!c[2]){var
-av=X(f4,ae(u[1])),aw=a2(t[1]);return[8,dt(f,s[1]),aw,av]}b=1;g=1}else
+av=X(f8,ae(u[1])),aw=a4(t[1]);return[8,du(f,s[1]),aw,av]}b=1;g=1}else
 g=1}else
 g=1}else
 g=1}else
@@ -8901,7 +9033,7 @@ _=e[2];if(1===_[0]){var
 y=_[1];if(y){var
 z=y[2];if(z){var
 A=z[2];if(A&&!A[2]){if(!c[2]){var
-ay=dr(A[1]),az=eR(z[1]);return[5,dt(f,y[1]),az,ay]}b=1}}}}}else{var
+ay=ds(A[1]),az=eU(z[1]);return[5,du(f,y[1]),az,ay]}b=1}}}}}else{var
 $=e[2];if(1===$[0]){if(!c[2]){var
 aA=function(m){if(1===m[0]){var
 d=m[1];if(d){var
@@ -8912,260 +9044,247 @@ n=h[1],a=n;for(;;){var
 i=0;switch(a[0]){case
 0:var
 b=a[1];if(b){var
-j=b[1],c=j[1];if(p(c,Gt)){var
-o=0;if(p(c,Gu)&&p(c,Gv)&&p(c,Gw))o=1;if(!o&&!b[2])i=1}else{var
+j=b[1],c=j[1];if(p(c,GZ)){var
+o=0;if(p(c,G0)&&p(c,G1)&&p(c,G2))o=1;if(!o&&!b[2])i=1}else{var
 k=j[2];if(1===k[0]){var
 l=k[1];if(l&&!b[2]){var
 a=l[1];continue}}}}break;case
-2:if(!p(a[1],Gx))i=1;break}var
+2:if(!p(a[1],G3))i=1;break}var
 q=i?1:0;if(q){var
-r=dt(f,n),s=dr(g[1]),t=eR(e[1]);return[0,[0,[0,f4(d[1]),t],s],r]}return an(Gy)}}}}}}throw Y};return[9,X(aA,$[1])]}b=1}}else
-if(p(a,Gz))if(p(a,GA))if(p(a,GB))if(p(a,GC))if(p(a,GD)){if(!p(a,GE)){if(!c[2]){var
-aa=ai(e[2]),aB=ae(v(aa,GF)),aC=r+1|0,ab=X(function(a){return h2(aC,a)},aB);if(3===cu(ab))return[1,GH,ab,dr(v(aa,GG))];throw Y}b=1}}else{if(!c[2]){var
-R=a2(e[2]),S=p(R,Gg);if(S){if(p(R,Gh))throw Y;var
+r=du(f,n),s=ds(g[1]),t=eU(e[1]);return[0,[0,[0,f8(d[1]),t],s],r]}return ap(G4)}}}}}}throw Y};return[9,X(aA,$[1])]}b=1}}else
+if(p(a,G5))if(p(a,G6))if(p(a,G7))if(p(a,G8))if(p(a,G9)){if(!p(a,G_)){if(!c[2]){var
+aa=ai(e[2]),aB=ae(v(aa,G$)),aC=r+1|0,ab=X(function(a){return h6(aC,a)},aB);if(3===cy(ab))return[1,Hb,ab,ds(v(aa,Ha))];throw Y}b=1}}else{if(!c[2]){var
+R=a4(e[2]),S=p(R,GM);if(S){if(p(R,GN))throw Y;var
 T=1}else
 var
 T=S;return[2,T]}b=1}else{if(!c[2]){var
 k=e[2],o=0;switch(k[0]){case
 0:var
 l=k[1];if(l){var
-ao=l[1],j=ao[1],d=0;if(p(j,GK)&&p(j,GL)&&p(j,GM)&&p(j,GN))if(p(j,GO))d=1;else{var
-ap=ao[2];if(1===ap[0]){var
-N=ap[1];if(N){var
+an=l[1],j=an[1],d=0;if(p(j,He)&&p(j,Hf)&&p(j,Hg)&&p(j,Hh))if(p(j,Hi))d=1;else{var
+ao=an[2];if(1===ao[0]){var
+N=ao[1];if(N){var
 m=N[1],h=0;switch(m[0]){case
 0:var
 O=m[1];if(O){var
-n=O[1][1],at=0;if(p(n,GQ)&&p(n,GR)&&p(n,GS)&&p(n,GT)){d=1;h=1;at=1}if(!at&&O[2]){d=1;h=1}}else{d=1;h=1}break;case
+n=O[1][1],at=0;if(p(n,Hk)&&p(n,Hl)&&p(n,Hm)&&p(n,Hn)){d=1;h=1;at=1}if(!at&&O[2]){d=1;h=1}}else{d=1;h=1}break;case
 2:var
-aq=m[1];if(p(aq,GU)&&p(aq,GV)){d=1;h=1}break;default:d=1;h=1}if(!h){var
+aq=m[1];if(p(aq,Ho)&&p(aq,Hp)){d=1;h=1}break;default:d=1;h=1}if(!h){var
 P=N[2];if(P){var
 Q=P[2];if(Q&&!(Q[2]||l[2])){var
-aL=dr(Q[1]),aM=eR(P[1]),B=[6,dt(f,m),aM,aL];o=2;d=1}else
+aL=ds(Q[1]),aM=eU(P[1]),B=[6,du(f,m),aM,aL];o=2;d=1}else
 d=1}else
 d=1}}else
 d=1}else
 d=1}if(!d&&!l[2])o=1}break;case
 2:var
-ar=k[1];if(!p(ar,GW)||!p(ar,GX))o=1;break}switch(o){case
+ar=k[1];if(!p(ar,Hq)||!p(ar,Hr))o=1;break}switch(o){case
 0:var
-B=an(GP);break;case
+B=ap(Hj);break;case
 1:var
-B=dt(f,k);break}return[7,B]}b=1}else{var
+B=du(f,k);break}return[7,B]}b=1}else{var
 ac=e[2];if(1===ac[0]){var
 C=ac[1];if(C){var
 D=C[2];if(D&&!D[2])if(c[2])b=1;else{var
-aD=D[1],aE=C[1],x=aE,w=function(b,a){return[3,b,a,h2(r+1|0,aD)]};b=2}}}}else{var
+aD=D[1],aE=C[1],x=aE,w=function(b,a){return[3,b,a,h6(r+1|0,aD)]};b=2}}}}else{var
 ad=e[2];if(1===ad[0]){var
 E=ad[1];if(E){var
 F=E[2];if(F){var
 G=F[2];if(G){var
 H=G[2];if(H&&!H[2]){if(!c[2]){var
-aF=dt(f,H[1]),aG=dt(f,G[1]),aH=dr(F[1]);return[10,h2(r+1|0,E[1]),aH,aG,aF]}b=1}}}}}}else{var
+aF=du(f,H[1]),aG=du(f,G[1]),aH=ds(F[1]);return[10,h6(r+1|0,E[1]),aH,aG,aF]}b=1}}}}}}else{var
 af=e[2];if(1===af[0]){var
 I=af[1];if(I){var
 J=I[2];if(J){var
 K=J[2];if(K&&!K[2])if(c[2])b=1;else{var
 aI=K[1],aJ=J[1],aK=I[1],x=aK,w=function(b,a){var
-c=dr(aI);return[4,b,a,eR(aJ),c]};b=2}}}}}switch(b){case
-0:if(!c[2])return an([0,Gs,[0,a,Gr]]);break;case
+c=ds(aI);return[4,b,a,eU(aJ),c]};b=2}}}}}switch(b){case
+0:if(!c[2])return ap([0,GY,[0,a,GX]]);break;case
 1:break;default:var
-Z=qi(f,x);return w(Z[1],Z[2])}}break;case
+Z=qF(f,x);return w(Z[1],Z[2])}}break;case
 2:return[0,i[1]]}throw Y}function
-qj(n){var
-b=d3(n),a=b[1];if(p(a,G0))if(p(a,G1)){var
-h=p(a,G2);if(!h)return h;if(p(a,G3)){if(!p(a,G4)){var
-c=ai(b[2]),i=function(a){return X(Z,ae(v(c,a)))},j=ai(v(c,G8)),o=dr(v(j,G9)),q=X(f4,ae(v(j,G_))),r=i(G$),s=i(Ha);return[3,cS(v(c,Hb)),s,r,q,o]}if(!p(a,G5))return[2,X(Z,ae(b[2]))]}else{var
+qG(n){var
+b=d9(n),a=b[1];if(p(a,Hu))if(p(a,Hv)){var
+h=p(a,Hw);if(!h)return h;if(p(a,Hx)){if(!p(a,Hy)){var
+c=ai(b[2]),i=function(a){return X(Z,ae(v(c,a)))},j=ai(v(c,HC)),o=ds(v(j,HD)),q=X(f8,ae(v(j,HE))),r=i(HF),s=i(HG);return[3,cT(v(c,HH)),s,r,q,o]}if(!p(a,Hz))return[2,X(Z,ae(b[2]))]}else{var
 k=b[2];if(1===k[0]){var
 d=k[1];if(d){var
 e=d[2];if(e&&!e[2]){var
-t=cS(e[1]);return[1,cS(d[1]),t]}}}}}else{var
+t=cT(e[1]);return[1,cT(d[1]),t]}}}}}else{var
 l=b[2];if(1===l[0]){var
 f=l[1];if(f){var
 g=f[2];if(g&&!g[2]){var
-u=X(f4,ae(g[1]));return[0,cS(f[1]),u]}}}}else{var
-m=b[2];if(1===m[0]&&!m[1])return 1}return an([0,G7,[0,a,G6]])}function
-qk(f,b){var
-a=ai(b),c=ae(v(a,Hg)),d=X(function(g){var
+u=X(f8,ae(g[1]));return[0,cT(f[1]),u]}}}}else{var
+m=b[2];if(1===m[0]&&!m[1])return 1}return ap([0,HB,[0,a,HA]])}function
+qH(f,b){var
+a=ai(b),c=ae(v(a,HM)),d=X(function(g){var
 a=ai(g);function
 b(d,c){var
-b=bc(a,c);return b?X(d,ae(b[1])):b}var
-c=b(eR,Hc),d=cn(qj,bc(a,Hd)),e=cn(cS,bc(a,He));return[0,b(function(h){var
+b=be(a,c);return b?X(d,ae(b[1])):b}var
+c=b(eU,HI),d=cr(qG,be(a,HJ)),e=cr(cT,be(a,HK));return[0,b(function(h){var
 b=ae(h);if(b){var
 a=b[2];if(a){var
-c=a[1],e=b[1],d=0;if(2===c[0]&&!p(c[1],GY)){if(!a[2]){if(p(f1(e),GZ))throw Y;d=1}}else
+c=a[1],e=b[1],d=0;if(2===c[0]&&!p(c[1],Hs)){if(!a[2]){if(p(f5(e),Ht))throw Y;d=1}}else
 d=1;if(d&&!a[2]){var
-g=dt(f,c);return[0,cS(e),g]}}}throw Y},Hf),e,d,c]},c),e=bc(a,Hh),g=cn(function(a){return qi(f,a)},e);return[0,qb(v(a,Hi)),g,d]}function
-ql(c){var
-a=ai(c),b=bc(a,Hj),d=b?X(Z,ae(b[1])):b,e=qj(v(a,Hk)),f=X(Z,ae(v(a,Hl)));return[0,qb(v(a,Hm)),f,d,e]}function
-Hw(c){var
+g=du(f,c);return[0,cT(e),g]}}}throw Y},HL),e,d,c]},c),e=be(a,HN),g=cr(function(a){return qF(f,a)},e);return[0,qy(v(a,HO)),g,d]}function
+qI(c){var
+a=ai(c),b=be(a,HP),d=b?X(Z,ae(b[1])):b,e=qG(v(a,HQ)),f=X(Z,ae(v(a,HR)));return[0,qy(v(a,HS)),f,d,e]}function
+H2(c){var
 a=c[1],b=0;if(10<=a){if(!(13<=a))b=1}else
 if(8===a)b=1;return b?1:0}function
-Hx(b){var
+H3(b){var
 a=b[3];if(a&&1===a[1][0])return 1;return 0}function
-Hy(b){var
-c=b[1],a=b[4];if(!(1<c+re>>>0)&&typeof
-a!=="number"&&1===a[0])return 1-hp(j(a[1]));return 10===c?1:0}function
-HC(g){var
-i=az(g),c=[0,0];function
-j(a){if(c[1]<i)return a9(g,c[1]);throw Y}function
-l(a){if(j(0)===a){c[1]++;return 0}throw Y}function
-C(a,b){for(;;){if(c[1]<i&&k(b,a9(g,c[1]))){c[1]++;continue}return ea(g,a,c[1]-a|0)}}function
-D(d){l(34);function
+H4(b){var
+c=b[1],a=b[4];if(!(1<c+rB>>>0)&&typeof
+a!=="number"&&1===a[0])return 1-ht(k(a[1]));return 10===c?1:0}function
+H8(f){var
+h=az(f),b=[0,0];function
+i(a){if(b[1]<h)return a$(f,b[1]);throw Y}function
+k(a){if(i(0)===a){b[1]++;return 0}throw Y}function
+A(a,c){for(;;){if(b[1]<h&&j(c,a$(f,b[1]))){b[1]++;continue}return eg(f,a,b[1]-a|0)}}function
+B(d){k(34);function
 a(a){var
 b=34!==a?1:0;if(b)var
 c=92!==a?1:0,d=c?32<=a?1:0:c;else
 var
 d=b;return d}var
-b=C(c[1],a);l(34);return b}function
-E(e,a){if(j(0)===a){c[1]++;return 0}var
-b=0;for(;;){var
-d=[0,k(e,0),b];if(44===j(0)){c[1]++;var
-b=d;continue}l(a);return ix(d)}}function
-r(b,k){if(64<b)throw Y;var
-a=j(0),d=0;if(48<=a){if(91===a){c[1]++;var
-f=93,g=b+1|0;return[1,E(function(a){return r(g,a)},f)]}if(123===a){c[1]++;var
-h=125;return[0,E(function(c){var
-a=D(0);l(58);return[0,a,r(b+1|0,0)]},h)]}if(!(58<=a))d=1}else{if(34===a)return[2,D(0)];if(45===a)d=1}if(d){var
-i=c[1];c[1]++;var
-e=C(i,function(a){var
-b=48<=a?1:0,c=b?a<=57?1:0:b;return c});if(p(e,CW))return[3,e];throw Y}throw Y}var
-R=r(0,0),F=c[1]<i?1:0,S=F?10===a9(g,c[1])?1:0:F;if(S)c[1]++;if(c[1]<i)throw Y;var
-q=ai(R);if(p(a2(v(q,HD)),HE))throw Y;var
-a=kN(v(q,HF)),y=0;switch(a[0]){case
+c=A(b[1],a);k(34);return c}function
+C(e,a){if(i(0)===a){b[1]++;return 0}var
+c=0;for(;;){var
+d=[0,j(e,0),c];if(44===i(0)){b[1]++;var
+c=d;continue}k(a);return iB(d)}}function
+r(c,l){if(64<c)throw Y;var
+a=i(0),d=0;if(48<=a){if(91===a){b[1]++;var
+f=93,g=c+1|0;return[1,C(function(a){return r(g,a)},f)]}if(123===a){b[1]++;var
+h=125;return[0,C(function(b){var
+a=B(0);k(58);return[0,a,r(c+1|0,0)]},h)]}if(!(58<=a))d=1}else{if(34===a)return[2,B(0)];if(45===a)d=1}if(d){var
+j=b[1];b[1]++;var
+e=A(j,function(a){var
+b=48<=a?1:0,c=b?a<=57?1:0:b;return c});if(p(e,Dq))return[3,e];throw Y}throw Y}var
+Q=r(0,0),D=b[1]<h?1:0,R=D?10===a$(f,b[1])?1:0:D;if(R)b[1]++;if(b[1]<h)throw Y;var
+o=ai(Q);if(p(a4(v(o,H9)),H_))throw Y;var
+a=kX(v(o,H$)),x=0;switch(a[0]){case
 1:var
-w=a[1],z=0;if(typeof
-w==="number")if(w)var
-x=2;else
-z=1;else
-if(1===w[1])var
-x=6;else
-z=1;if(z)var
-x=3;var
-f=[0,cu(a[2]),x];break;case
+u=a[1],y=0;if(typeof
+u==="number")if(u)var
+w=2;else
+y=1;else
+if(1===u[1])var
+w=6;else
+y=1;if(y)var
+w=3;var
+e=[0,cy(a[2]),w];break;case
 2:var
-ag=1===a[1]?6:3,f=[0,cu(a[2]),ag];break;case
+af=1===a[1]?6:3,e=[0,cy(a[2]),af];break;case
 3:var
-ah=cu(a[1]),f=[0,cu(a[4]),ah];break;case
+ag=cy(a[1]),e=[0,cy(a[4]),ag];break;case
 7:var
-G=a[2];y=1;break;case
+E=a[2];x=1;break;case
 0:case
 5:var
-G=a[1];y=1;break;default:var
-f=HX}if(y)var
-f=[0,cu(G),3];var
-m=d3(v(q,HG)),n=m[1];if(p(n,Hr))if(p(n,Hs))if(p(n,Ht))var
-b=an([0,Hv,[0,n,Hu]]);else
+E=a[1];x=1;break;default:var
+e=Iq}if(x)var
+e=[0,cy(E),3];var
+l=d9(v(o,Ia)),m=l[1];if(p(m,HX))if(p(m,HY))if(p(m,HZ))var
+c=ap([0,H1,[0,m,H0]]);else
 var
-o=ql(m[2]),b=[1,o[1],o[2],o[3],o[4]];else
+n=qI(l[2]),c=[1,n[1],n[2],n[3],n[4]];else
 var
-s=qk(f,m[2]),b=[0,s[1],s[2],s[3]];else
+s=qH(e,l[2]),c=[0,s[1],s[2],s[3]];else
 var
-T=ae(m[2]),b=[2,X(function(g){var
-a=d3(g),b=a[1];if(p(b,Hn)){if(p(b,Ho)){if(p(b,Hp)){var
-e=p(b,Hq);if(e)throw Y;return e}return[0,cS(a[2])]}var
-c=ql(a[2]);return[2,c[1],c[2],c[3],c[4]]}var
-d=qk(f,a[2]);return[1,d[1],d[2],d[3]]},T)];function
-U(a){return 0!==a[3]?1:0}function
-H(a){return aM(U,a)}var
+S=ae(l[2]),c=[2,X(function(g){var
+a=d9(g),b=a[1];if(p(b,HT)){if(p(b,HU)){if(p(b,HV)){var
+f=p(b,HW);if(f)throw Y;return f}return[0,cT(a[2])]}var
+c=qI(a[2]);return[2,c[1],c[2],c[3],c[4]]}var
+d=qH(e,a[2]);return[1,d[1],d[2],d[3]]},S)];function
+T(a){return 0!==a[3]?1:0}function
+F(a){return aP(T,a)}var
 d=0;switch(a[0]){case
-0:if(0===b[0]){var
-J=a[4],I=a[1];d=4}else
-d=2;break;case
-1:var
-O=0;if(0===b[0]){var
-Z=b[3];if(aM(function(a){var
-b=a[1];return aM(function(a){switch(a[2][0]){case
+0:if(0===c[0]){var
+H=a[4],G=a[1];d=3}else
+d=1;break;case
+1:if(0===c[0]){var
+W=c[3];if(aP(function(a){var
+b=a[1];return aP(function(a){switch(a[2][0]){case
 6:case
-7:return 1;default:return 0}},b)},Z)){an(HO);O=1}}if(!O){var
-t=a[6];d=3}break;case
+7:return 1;default:return 0}},b)},W)){ap(Ii);d=2}}else
+d=1;break;case
 2:var
-L=a[1],_=a[7];if(0===b[0]){var
-$=1===L?6:3,M=cu(a[2])===$?1:0;if(M){var
-P=0;if(2<=L||!(0===a[4][0]))P=1;else
+J=a[1],Z=a[7];if(0===c[0]){var
+_=1===J?6:3,K=cy(a[2])===_?1:0;if(K){var
+M=0;if(2<=J||!(0===a[4][0]))M=1;else
 var
-u=1;if(P)var
-u=0}else
+t=1;if(M)var
+t=0}else
 var
-u=M;var
-N=function(c){if(8===c[0]){var
+t=K;var
+L=function(c){if(8===c[0]){var
 d=c[1];if(7===d[0]){var
 a=d[1],b=0;switch(a[0]){case
-1:if(!p(a[1],HQ))b=1;break;case
+1:if(!p(a[1],Ij))b=1;break;case
 6:var
-e=a[1];if(1===e[0]&&!p(e[1],HR))b=1;break}if(b)return u}}return 0},aa=function(a){if(a[1])switch(a[2][0]){case
+e=a[1];if(1===e[0]&&!p(e[1],Ik))b=1;break}if(b)return t}}return 0},$=function(a){if(a[1])switch(a[2][0]){case
 8:case
 9:return 1}else{var
 b=a[2];switch(b[0]){case
-8:return 1-N(b);case
+8:return 1-L(b);case
 9:var
-c=b[1];return 1-e9(function(a){return N(a[2])},c)}}return 0},ab=b[3],aj=0;if(aM(function(a){return aM(aa,a[1])},ab))an(HS);else{var
-ac=b[3];if(e9(function(a){var
-b=a[1];return e9(function(d){var
+c=b[1];return 1-fa(function(a){return L(a[2])},c)}}return 0},aa=c[3],N=0;if(aP(function(a){return aP($,a[1])},aa))ap(Il);else{var
+ab=c[3];if(fa(function(a){var
+b=a[1];return fa(function(d){var
 b=d[2],a=0;switch(b[0]){case
 0:var
-c=b[1];if(p(c,Hz)){if(!p(c,HA))return aM(Hy,_)}else
+c=b[1];if(p(c,H5)){if(!p(c,H6))return aP(H4,Z)}else
 a=1;break;case
-1:if(!p(b[1],HB))a=1;break;case
+1:if(!p(b[1],H7))a=1;break;case
 7:case
 8:case
-9:a=1;break}return a?1:0},b)},ac)){d=1;aj=1}else
-an(HT)}}else
-d=2;break;case
-3:var
-t=a[7];d=3;break;case
-4:var
-t=a[3];d=3;break;case
-5:if(aM(Hw,a[4]))an(HU);else
-if(0===b[0]){var
-ad=b[3];if(aM(function(a){return 0!==a[1]?1:0},ad))an(HV);else
-d=1}else
+9:a=1;break}return a?1:0},b)},ab))N=1;else
+ap(Im)}if(!N)d=2}else
 d=1;break;case
-6:d=1;break;default:var
-A=0;if(2===b[0]){var
-af=b[1];if(aM(function(a){if(typeof
+5:if(aP(H2,a[4])){ap(In);d=2}else
+if(0===c[0]){var
+ac=c[3];if(aP(function(a){return 0!==a[1]?1:0},ac)){ap(Io);d=2}}break;case
+7:var
+O=0;if(2===c[0]){var
+ad=c[1];if(aP(function(a){if(typeof
 a!=="number"&&2===a[0]){var
 b=a[4];if(typeof
-b!=="number"&&3===b[0])return 1}return 0},af))an(HW);else
-A=1}else
-A=1;if(A){var
-J=a[4],I=a[2];d=4}}var
-e=0;switch(d){case
-3:if(0===b[0])if(aM(function(a){return 12===a[1]?1:0},t)){an(HP);e=3}else
-e=2;else
-e=1;break;case
-0:e=3;break;case
-4:var
-Q=0;if(aM(function(a){return 10===a[1]?1:0},J)&&aM(function(a){return 2===a[0]?1:0},I)){an(HH);Q=1}if(!Q)e=2;break;case
-1:e=2;break;default:e=1}var
-B=0;switch(e){case
-3:break;case
+b!=="number"&&3===b[0])return 1}return 0},ad)){ap(Ip);d=2;O=1}}if(!O){var
+H=a[4],G=a[2];d=3}break}var
+q=0;switch(d){case
+2:break;case
+3:var
+P=0;if(aP(function(a){return 10===a[1]?1:0},H)&&aP(function(a){return 2===a[0]?1:0},G)){ap(Ib);P=1}if(!P)q=2;break;case
+0:q=2;break;default:q=1}var
+z=0;switch(q){case
 2:var
-h=0;switch(a[0]){case
+g=0;switch(a[0]){case
 5:case
-7:if(aM(Hx,a[4])){an(HM);h=1}else
-if(7===a[0])switch(b[0]){case
+7:if(aP(H3,a[4])){ap(Ig);g=1}else
+if(7===a[0])switch(c[0]){case
 2:var
-W=function(a){if(typeof
-a!=="number"&&1===a[0])return H(a[3]);return 0};if(aM(W,b[1]))an(HN);h=1;break;case
-0:break;default:B=1;h=1}else
-h=1;break}if(!h)if(0===b[0]&&H(b[3]))an(HL);else
-B=1;break;case
-1:B=1;break}var
-K=ai(v(q,HI)),V=a2(v(K,HJ));return[0,a,b,a2(v(K,HK)),V]}function
-HY(b){var
-a=0,f=lu(64,az(b))-18|0;for(;;){var
+V=function(a){if(typeof
+a!=="number"&&1===a[0])return F(a[3]);return 0};if(aP(V,c[1]))ap(Ih);g=1;break;case
+0:break;default:z=1;g=1}else
+g=1;break}if(!g)if(0===c[0]&&F(c[3]))ap(If);else
+z=1;break;case
+1:z=1;break}var
+I=ai(v(o,Ic)),U=a4(v(I,Id));return[0,a,c,a4(v(I,Ie)),U]}function
+Ir(b){var
+a=0,f=lE(64,az(b))-18|0;for(;;){var
 c=a<=f?1:0;if(c){var
-d=aB(ea(b,a,18),HZ);if(!d){var
+d=aD(eg(b,a,18),Is);if(!d){var
 a=a+1|0;continue}var
 e=d}else
 var
-e=c;return e}}JU(function(b){try{if(HY(b))var
-a=H1;else{try{var
-e=0,d=HC(b);e=1}catch(a){a=sH(a);if(a[1]===qa)var
+e=c;return e}}Kn(function(b){try{if(Ir(b))var
+a=Iu;else{try{var
+e=0,d=H8(b);e=1}catch(a){a=s4(a);if(a[1]===qx)var
 c=[0,a[2]];else{if(a!==Y)throw a;var
 c=2}}if(e)var
-c=CS(b,d)?1===d[2][0]?1:0:2;var
-a=c}}catch(a){return H0}if(typeof
+c=Dm(b,d)?1===d[2][0]?1:0:2;var
+a=c}}catch(a){return It}if(typeof
 a==="number")switch(a){case
-0:return H2;case
-1:return H3;default:return H4}return be(H5,a[1])});lw(0);return}(globalThis));
+0:return Iv;case
+1:return Iw;default:return Ix}return bg(Iy,a[1])});lG(0);return}(globalThis));

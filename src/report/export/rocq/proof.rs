@@ -48,9 +48,6 @@ fn covered(proof: &Proof, subject: &Subject<'_>) -> Exported<()> {
         (Kind::Legs, _) if has(&|by| matches!(by, Evidence::Turned(..) | Evidence::Control(_))) => {
             "this set of orientations with such drives"
         }
-        (Kind::Legs | Kind::Closed | Kind::Formulas, Proof::Tree(_)) if requires(&["accuracy"]) => {
-            "\"accuracy\" of such a mechanism"
-        }
         (Kind::Turning, _)
             if has(&|by| is_no_step_of_pose(by) || (*by == Evidence::Test && !has_sign)) =>
         {
