@@ -485,16 +485,12 @@ Qed.
 Lemma nominal_along : forall s d dr l, is_driven dr l -> exists v y, is_driven_along v y dr (nominal_driven dr) /\ driven_parameters s d v y (nominal_driven dr) = map middle_of (driven_layout s d dr).
 Proof.
   intros s d dr l h.
-  assert (W : forall t x, within t x -> within t (middle t)) by (intros t x; unfold within, middle; lra).
-  assert (V : forall t v, all_within t v -> all_within t (middles t)) by (intros t v [h1 [h2 h3]]; split; [| split]; cbn [middles vx vy vz]; eapply W; eassumption).
-  assert (T : forall t u, map middle_of (three t u) = coordinates (vscale (/ two_to u) (middles t)))
-    by (intros t u; unfold middle_of, coordinates, vscale, middles, Rdiv; cbn [three map fst snd vx vy vz]; f_equal; [ring |]; f_equal; [ring |]; f_equal; ring).
   destruct dr as [dr | a], l as [l | l]; cbn [is_driven] in h; try contradiction.
   - destruct (nominal_legs_along s (fst d) dr l h) as [v [h1 h2]]. exists v, v. split; [exact h1 | exact h2].
   - destruct h as [[v [y [hv [hy _]]]] [hb [hp [hr [hl _]]]]]. exists (middles (axis_within a)), (middles (reference_within a)). split.
-    + cbn [is_driven_along nominal_driven motor_axis motor_zero motor arm_offset arm_length rod_length arm_mode]. split; [split; [exact (V _ _ hv) |]; split; [exact (V _ _ hy) |]; split; reflexivity |].
-      split; [exact (V _ _ hb) |]. split; [exact (V _ _ hp) |]. split; [exact (W _ _ hr) |]. split; [exact (W _ _ hl) | reflexivity].
-    + cbn [driven_parameters nominal_driven driven_layout motor arm_offset arm_length rod_length]. rewrite !map_app, !T. cbn [map]. do 4 f_equal. unfold middle_of. cbn [fst snd]. f_equal; [unfold Rdiv; ring | f_equal; unfold Rdiv; ring].
+    + cbn [is_driven_along nominal_driven motor_axis motor_zero motor arm_offset arm_length rod_length arm_mode]. split; [split; [exact (middles_within _ _ hv) |]; split; [exact (middles_within _ _ hy) |]; split; reflexivity |].
+      split; [exact (middles_within _ _ hb) |]. split; [exact (middles_within _ _ hp) |]. split; [exact (middle_within _ _ hr) |]. split; [exact (middle_within _ _ hl) | reflexivity].
+    + cbn [driven_parameters nominal_driven driven_layout motor arm_offset arm_length rod_length]. rewrite !map_app, !middles_three. cbn [map]. do 4 f_equal. unfold middle_of. cbn [fst snd]. f_equal; [unfold Rdiv; ring | f_equal; unfold Rdiv; ring].
 Qed.
 
 Section All.

@@ -69,15 +69,8 @@ Proof.
   - intro nz. unfold is_definite in first. destruct (Nat.eqb_spec (length (triangle_add (repeat [neg k2] n) t)) n) as [q |]; [| discriminate].
     pose proof (triangle_add_sound bits _ _ _ _ (diagonal_in bits _ _ n (neg_sound bits _ _ hK)) ht) as hT. pose proof (is_positive_definite_sound bits _ _ first hT v) as Q.
     rewrite (related_length _ _ _ _ _ hT) in q. specialize (Q ltac:(congruence) nz). rewrite quad_tcomb in Q. rewrite <- lv in Q at 1. rewrite quad_diagonal, QT in Q. lra.
-  - intros s b hbb nz. destruct (worst_signs s v) as [z [lz hz]].
-    assert (lbeta : length beta = length v) by (rewrite <- (related_length _ _ _ _ _ hb); congruence). specialize (hz beta lbeta).
-    assert (C : exists z' s', length z' = pred n /\ s' ^ 2 = s ^ 2 /\ s' * dot (map (fun p => sign_of (fst p) * snd p) (combine (z' ++ [false]) beta)) v = - Rabs s * dot beta (map Rabs v)).
-    { destruct (list_eq_dec Bool.bool_dec z []) as [e0 | e0].
-      - subst z. destruct v; [| discriminate]. exists [], s. cbn [length] in lv. rewrite <- lv. split; [reflexivity |]. split; [reflexivity |]. rewrite !(dot_commutes _ []). cbn [map dot]. ring.
-      - destruct (exists_last e0) as [z' [last ez]]. subst z. rewrite app_length in lz. cbn [length] in lz. destruct last.
-        + exists (map negb z'), (- s). split; [rewrite map_length; lia |]. split; [ring |]. change [false] with (map negb [true]). rewrite <- map_app, flipped, <- hz. ring.
-        + exists z', s. split; [lia |]. split; [reflexivity | exact hz]. }
-    destruct C as [z' [s' [lz' [es hz']]]]. rewrite forallb_forall in signs_. specialize (signs_ z' ltac:(rewrite <- lz'; apply signs_all)). unfold is_definite in signs_.
+  - intros s b hbb nz. assert (lbeta : length beta = length v) by (rewrite <- (related_length _ _ _ _ _ hb); congruence).
+    destruct (worst_signs_but_last s v beta lbeta) as [z' [s' [lz' [es hz']]]]. rewrite lv in lz'. rewrite forallb_forall in signs_. specialize (signs_ z' ltac:(rewrite <- lz'; apply signs_all)). unfold is_definite in signs_.
     destruct (Nat.eqb_spec (length (bordered_by t (signed (z' ++ [false]) bs) (sub z2 l))) (S n)) as [q |]; [| discriminate].
     pose proof (bordered_by_sound bits t T _ _ _ _ ht (signed_sound bits (z' ++ [false]) bs beta hb) (sub_sound bits _ _ _ _ hZ hL)) as hB.
     pose proof (is_positive_definite_sound bits _ _ signs_ hB (v ++ [s'])) as Q. rewrite (related_length _ _ _ _ _ hB) in q. specialize (Q ltac:(rewrite q, app_length; cbn [length]; lia)).

@@ -199,15 +199,8 @@ Proof.
     { intro ds. rewrite <- dot_map. f_equal. apply map_ext. intro d. ring. }
     rewrite M in Q. lra.
   - intros s nz. destruct (bounds_sound n w _ ps hp js r lr rows a joints_ hw er) as [b [b1 [b2 b3]]]. fold bs in b1, b3.
-    destruct (worst_signs s v) as [z [lz hz]].
-    assert (lb : length b = length v) by congruence. specialize (hz b lb).
-    assert (C : exists z' s', length z' = pred n /\ s' ^ 2 = s ^ 2 /\ s' * dot (map (fun p => sign_of (fst p) * snd p) (combine (z' ++ [false]) b)) v = - Rabs s * dot b (map Rabs v)).
-    { destruct (list_eq_dec Bool.bool_dec z []) as [e0 | e0].
-      - subst z. destruct v; [| discriminate]. exists [], s. cbn [length] in v_length. rewrite <- v_length. split; [reflexivity |]. split; [reflexivity |]. rewrite !(dot_commutes _ []). cbn [map dot]. ring.
-      - destruct (exists_last e0) as [z' [last ez]]. subst z. rewrite app_length in lz. cbn [length] in lz. destruct last.
-        + exists (map negb z'), (- s). split; [rewrite map_length; lia |]. split; [ring |]. change [false] with (map negb [true]). rewrite <- map_app, flipped, <- hz. ring.
-        + exists z', s. split; [lia |]. split; [reflexivity | exact hz]. }
-    destruct C as [z' [s' [lz' [es hz']]]]. rewrite forallb_forall in signs_. specialize (signs_ z' ltac:(rewrite <- lz'; apply signs_all)). unfold is_definite in signs_.
+    assert (lb : length b = length v) by congruence.
+    destruct (worst_signs_but_last s v b lb) as [z' [s' [lz' [es hz']]]]. rewrite v_length in lz'. rewrite forallb_forall in signs_. specialize (signs_ z' ltac:(rewrite <- lz'; apply signs_all)). unfold is_definite in signs_.
     destruct (Nat.eqb_spec (length (bordered_by t_ (signed (z' ++ [false]) bs) (sub (mul bits a z2) t))) (S n)) as [q |]; [| discriminate].
     pose proof (bordered_by_sound bits t_ T _ _ _ _ ht (signed_sound bits (z' ++ [false]) bs b b1) (sub_sound bits _ _ _ _ (mul_sound bits _ _ _ _ hw Z_in) hL)) as hB.
     pose proof (is_positive_definite_sound bits _ _ signs_ hB (v ++ [s'])) as Q. rewrite (related_length _ _ _ _ _ hB) in q. specialize (Q ltac:(rewrite q, app_length; cbn [length]; lia)).

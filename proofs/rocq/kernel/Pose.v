@@ -908,12 +908,9 @@ Qed.
 
 Lemma nominal_is : forall s ts m, Forall2 is_strut ts m -> Forall2 is_strut ts (nominal_struts ts) /\ strut_numbers s (nominal_struts ts) = map middle_of (flat_map (strut_layout s) ts).
 Proof.
-  assert (V : forall t v, all_within t v -> all_within t (middles t)) by (intros t v [[h1 h1'] [[h2 h2'] [h3 h3']]]; unfold all_within, within, middles, middle; cbn [vx vy vz]; repeat split; lra).
-  assert (T : forall t u, map middle_of (three t u) = coordinates (vscale (/ two_to u) (middles t)))
-    by (intros t u; unfold middle_of, coordinates, vscale, middles, Rdiv; cbn [three map fst snd vx vy vz]; f_equal; [ring |]; f_equal; [ring |]; f_equal; ring).
   intros s. induction 1 as [| t l ts m [ha hb] hs [I1 I2]]; [split; [constructor | reflexivity] |]. cbn [nominal_struts map]. split.
-  - constructor; [split; cbn [strut_base strut_joint]; eapply V; eassumption | exact I1].
-  - unfold strut_numbers. cbn [flat_map strut_base strut_joint]. fold (strut_numbers s (nominal_struts ts)). unfold nominal_struts in I2. unfold strut_layout at 1. rewrite !map_app, !T, <- I2. reflexivity.
+  - constructor; [split; cbn [strut_base strut_joint]; eapply middles_within; eassumption | exact I1].
+  - unfold strut_numbers. cbn [flat_map strut_base strut_joint]. fold (strut_numbers s (nominal_struts ts)). unfold nominal_struts in I2. unfold strut_layout at 1. rewrite !map_app, !middles_three, <- I2. reflexivity.
 Qed.
 Lemma near_coordinates : forall k P r cs d tau u theta, let x := map (Rmult r) (position_list k P) ++ cs in is_position k P -> length x = dimension k -> length u = dimension k ->
   let x' := near_point (first_angle k) x (r * d) tau u in

@@ -165,21 +165,23 @@ Proof. intros s d dr l h. destruct (is_leg_has_direction dr l h) as [u hu]. eexi
 
 (** Of the nominal machine they are the middles. *)
 Definition middle_of (p : parameter) : R := middle (fst p) / two_to (snd p).
+Lemma middle_within : forall t x, within t x -> within t (middle t).
+Proof. intros t x. unfold within, middle. lra. Qed.
+Lemma middles_within : forall t v, all_within t v -> all_within t (middles t).
+Proof. intros t v [h1 [h2 h3]]. split; [| split]; cbn [middles vx vy vz]; eapply middle_within; eassumption. Qed.
+Lemma middles_three : forall t u, map middle_of (three t u) = coordinates (vscale (/ two_to u) (middles t)).
+Proof. intros t u. unfold middle_of, coordinates, vscale, middles, Rdiv. cbn [three map fst snd vx vy vz]. f_equal; [ring |]. f_equal; [ring |]. f_equal. ring. Qed.
 Lemma nominal_legs_along : forall s d dr l, is_leg_of dr l -> exists u, is_leg_along u dr (nominal_leg dr) /\ parameters_of s d u (nominal_leg dr) = map middle_of (layout s d dr).
 Proof.
   intros s d dr l h.
-  assert (W : forall t x, within t x -> within t (middle t)) by (intros t x; unfold within, middle; lra).
-  assert (V : forall t v, all_within t v -> all_within t (middles t)) by (intros t v [h1 [h2 h3]]; split; [| split]; cbn [middles vx vy vz]; eapply W; eassumption).
-  assert (T : forall t u, map middle_of (three t u) = coordinates (vscale (/ two_to u) (middles t)))
-    by (intros t u; unfold middle_of, coordinates, vscale, middles, Rdiv; cbn [three map fst snd vx vy vz]; f_equal; [ring |]; f_equal; [ring |]; f_equal; ring).
   destruct dr as [c | a p [k |] | n], l as [g | base platform [axis |] | normal]; cbn [is_leg_of] in h; try contradiction; try tauto; cbn [nominal_leg is_leg_along layout parameters_of].
   - destruct h as [[u [hu _]] [ha [hp [hl _]]]]. exists (middles (direction c)). split.
-    + split; [split; [exact (V _ _ hu) | reflexivity] |]. split; [exact (V _ _ ha) |]. split; [exact (V _ _ hp) |]. split; [exact (W _ _ hl) | reflexivity].
-    + rewrite !map_app, !T. cbn [base_point platform_offset leg_length map]. do 3 f_equal. unfold middle_of. cbn [fst snd]. f_equal. unfold Rdiv. ring.
-  - destruct h as [ha [hp [u [hu _]]]]. exists (middles k). split; [| rewrite !map_app, !T; reflexivity].
-    split; [exact (V _ _ ha) |]. split; [exact (V _ _ hp) |]. split; [exact (V _ _ hu) | reflexivity].
-  - destruct h as [ha [hp _]]. exists vzero. split; [| rewrite !map_app, !T; reflexivity]. split; [exact (V _ _ ha) |]. split; [exact (V _ _ hp) | exact I].
-  - exists vzero. split; [exact (V _ _ h) | symmetry; apply T].
+    + split; [split; [exact (middles_within _ _ hu) | reflexivity] |]. split; [exact (middles_within _ _ ha) |]. split; [exact (middles_within _ _ hp) |]. split; [exact (middle_within _ _ hl) | reflexivity].
+    + rewrite !map_app, !middles_three. cbn [base_point platform_offset leg_length map]. do 3 f_equal. unfold middle_of. cbn [fst snd]. f_equal. unfold Rdiv. ring.
+  - destruct h as [ha [hp [u [hu _]]]]. exists (middles k). split; [| rewrite !map_app, !middles_three; reflexivity].
+    split; [exact (middles_within _ _ ha) |]. split; [exact (middles_within _ _ hp) |]. split; [exact (middles_within _ _ hu) | reflexivity].
+  - destruct h as [ha [hp _]]. exists vzero. split; [| rewrite !map_app, !middles_three; reflexivity]. split; [exact (middles_within _ _ ha) |]. split; [exact (middles_within _ _ hp) | exact I].
+  - exists vzero. split; [exact (middles_within _ _ h) | symmetry; apply middles_three].
 Qed.
 Lemma nominal_represents : forall s d dr l, is_leg_of dr l -> Forall2 scaled_within (layout s d dr) (map middle_of (layout s d dr)) /\
   forall P front back, represents P (front ++ map middle_of (layout s d dr) ++ back) (drive_formulas s d dr (length front)) (resized (/ two_to s) (nominal_leg dr)).

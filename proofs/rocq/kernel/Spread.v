@@ -245,6 +245,17 @@ Qed.
 Lemma flipped : forall z y w, dot (map (fun p => sign_of (fst p) * snd p) (combine (map negb z) y)) w = - dot (map (fun p => sign_of (fst p) * snd p) (combine z y)) w.
 Proof. induction z as [| s z IH]; intros [| a y] [| x w]; cbn [map combine dot fst snd]; try ring. rewrite IH. destruct s; cbn [negb sign_of]; ring. Qed.
 
+(** The last of the signs may be taken as minus: all signs change with that of s. *)
+Lemma worst_signs_but_last : forall s v y, length y = length v -> exists z s', length z = pred (length v) /\ s' ^ 2 = s ^ 2 /\
+  s' * dot (map (fun p => sign_of (fst p) * snd p) (combine (z ++ [false]) y)) v = - Rabs s * dot y (map Rabs v).
+Proof.
+  intros s v y ly. destruct (worst_signs s v) as [z [lz hz]]. specialize (hz y ly). destruct (list_eq_dec Bool.bool_dec z []) as [e0 | e0].
+  - subst z. destruct v; [| discriminate]. exists [], s. split; [reflexivity |]. split; [reflexivity |]. rewrite !(dot_commutes _ []). cbn [map dot]. ring.
+  - destruct (exists_last e0) as [z' [last ez]]. subst z. rewrite app_length in lz. cbn [length] in lz. destruct last.
+    + exists (map negb z'), (- s). split; [rewrite map_length; lia |]. split; [ring |]. change [false] with (map negb [true]). rewrite <- map_app, flipped, <- hz. ring.
+    + exists z', s. split; [lia |]. split; [reflexivity | exact hz].
+Qed.
+
 Lemma weighted_sound : forall ws a x, Forall2 contains a x -> Forall2 contains (weighted ws a) (scaled (map IZR ws) x).
 Proof.
   unfold weighted, scaled. intros ws a x h. revert ws. induction h as [| b y a x hb h IH]; intros [| n ws]; cbn [map combine]; constructor; [| apply IH]. cbn [fst snd].
