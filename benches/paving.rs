@@ -51,7 +51,7 @@ fn paving(c: &mut Criterion) {
         ("undecided", [0.331_641, 0.331_641, 0.331_641]),
     ] {
         let cell = cell(u, 8);
-        group.bench_function(name, |b| b.iter(|| decider.decide(black_box(&cell), 0)));
+        group.bench_function(name, |b| b.iter(|| decider.decide(black_box(&cell), 0, None)));
     }
     group.finish();
 

@@ -201,7 +201,7 @@ fn a_map_out_of_time_exits_3_and_only_its_own_part_is_taken_up() {
 fn a_paving_that_was_interrupted_is_taken_up_to_the_same_bytes() {
     let folder = Folder::new();
     folder.write("d.toml", crate::paving::DESIGN);
-    let pave = ["pave", "d.toml", "--volume-gap", "0.05", "--threads", "1"];
+    let pave = ["pave", "d.toml", "--volume-gap", "0.01", "--threads", "1"];
     let mut command = folder.command(&pave);
     let mut child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
     let part = folder.path("d.paving.part");
@@ -226,7 +226,7 @@ fn a_paving_that_another_run_is_writing_is_left_alone() {
     const SIGCONT: u32 = 18;
     let folder = Folder::new();
     folder.write("d.toml", crate::paving::DESIGN);
-    let pave = ["pave", "d.toml", "--volume-gap", "0.05", "--threads", "1"];
+    let pave = ["pave", "d.toml", "--volume-gap", "0.01", "--threads", "1"];
     let mut command = folder.command(&pave);
     let mut child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
     let part = folder.path("d.paving.part");

@@ -12,6 +12,7 @@ use crate::search::solver::evidence::{Over, Prover};
 use crate::search::solver::refute::directions;
 use crate::search::solver::sample::{Place, Quality, Sampler};
 use orthocert_kernel::certificate::Failure;
+use orthocert_kernel::few::Few;
 use orthocert_kernel::formula::Formula;
 use orthocert_kernel::paving::{
     bit, discharged, is_mirrored, Axis, Cell, Item, Judge, Kind, Outer, Rejected, Step, Subject,
@@ -25,6 +26,8 @@ use orthocert_kernel::test::Row;
 const ROOM: f64 = 1.5;
 /// Obligations of own steps, and of own failures, that have a byte.
 const MOST_STEPS: usize = 16;
+/// Most obligations whose margins are foreseen.
+const MOST_FORESEEN: usize = 2;
 pub(super) const MOST_FAILURES: usize = 64;
 
 /// Decides cells of one claim.
@@ -54,11 +57,23 @@ pub struct Decision {
     pub fate: Fate,
     /// The nodes of its parts, if it is in parts.
     pub parts: Vec<Item>,
+    /// The margins of its obligations, if it is open and all that are have one.
+    pub margins: Option<Margins>,
 }
+
+/// Obligations with their margins.
+pub type Margins = Few<(usize, Margin), MOST_FORESEEN>;
 
 impl Decision {
     pub(super) fn closed(kind: Kind) -> Self {
-        Decision { steps: Vec::new(), fate: Fate::Closed(kind), parts: Vec::new() }
+        Decision { steps: Vec::new(), fate: Fate::Closed(kind), parts: Vec::new(), margins: None }
+    }
+
+    /// With the margins that it rests on.
+    fn with(self, margins: &[Own]) -> Self {
+        let are_few = margins.len() <= MOST_FORESEEN;
+        let all = || margins.iter().map(|(o, margin)| Some((*o, (*margin)?))).collect();
+        Decision { margins: are_few.then(all).flatten(), ..self }
     }
 }
 
@@ -132,12 +147,20 @@ impl<'a> Decider<'a> {
     }
 
     /// Decides a cell on which `inherited` is discharged already.
-    pub fn decide(&self, cell: &Cell, inherited: u128) -> Decision {
+    ///
+    /// Where margins are `foreseen`, and none so nearly decides its test that it may be wrong about that, they are what
+    /// is looked at.
+    pub fn decide(&self, cell: &Cell, inherited: u128, foreseen: Option<&Margins>) -> Decision {
         if self.is_symmetric() && is_mirrored(cell) {
             return Decision::closed(Kind::Mirrored);
         }
         if let Some(for_all) = &self.for_all {
             return for_all.decide((&self.judge, &self.prover, &self.sampler), cell, inherited);
+        }
+        if let Some(sure) = foreseen.filter(|all| all.iter().all(|(_, own)| own.is_sure())) {
+            let open = sure.iter().filter(|(o, _)| inherited & bit(*o) == 0);
+            let open: Vec<Own> = open.map(|(o, own)| (*o, Some(*own))).collect();
+            return self.with_margins(cell, inherited, &open, None);
         }
         let ends = self.ends(cell);
         let flat = self.flat.as_ref().and_then(|flat| flat.over(&ends));
@@ -255,7 +278,7 @@ impl<'a> Decider<'a> {
         let evidence = |o: usize| over.and_then(|over| over.evidence(self.test(o)));
         for &(o, margin) in margins {
             let outer = match margin {
-                Some(margin) if margin.centre + margin.reach() < 0.0 => self.fails(cell, o),
+                Some(margin) if margin.fails() => self.fails(cell, o),
                 Some(_) => None,
                 None => self.fails_elsewise(cell, o),
             };
@@ -267,12 +290,12 @@ impl<'a> Decider<'a> {
         let known = || margins.iter().filter_map(|(o, margin)| Some((*o, (*margin)?)));
         let worst = known().map(|(_, own)| own).min_by(|a, b| a.room().total_cmp(&b.room()));
         if let Some(worst) = worst.filter(|worst| worst.centre < 0.0) {
-            return self.split(cell, Vec::new(), self.weights(&worst, margins));
+            return self.split(cell, Vec::new(), self.weights(&worst, margins)).with(margins);
         }
         let (mut steps, mut left) = (Vec::new(), 0);
         for &(o, margin) in margins {
             match margin {
-                Some(margin) if margin.room() > 1.0 => {}
+                Some(margin) if margin.holds() => {}
                 Some(_) => left |= bit(o),
                 None => match evidence(o) {
                     Some(evidence) => steps.push(Step(o, Some(evidence))),
@@ -284,7 +307,12 @@ impl<'a> Decider<'a> {
             self.judge.confirms(cell, inherited, &Item { steps: steps.to_vec(), kind })
         };
         if left == 0 && confirms(&steps, Kind::Inner) {
-            return Decision { steps, fate: Fate::Closed(Kind::Inner), parts: Vec::new() };
+            return Decision {
+                steps,
+                fate: Fate::Closed(Kind::Inner),
+                parts: Vec::new(),
+                margins: None,
+            };
         }
         let is_split = || Kind::Split(Axis::X);
         steps.retain(|step| confirms(std::slice::from_ref(step), is_split()));
@@ -303,7 +331,12 @@ impl<'a> Decider<'a> {
         }
         let done = discharged(inherited, &steps);
         if done == self.subject.all() {
-            return Decision { steps, fate: Fate::Closed(Kind::Inner), parts: Vec::new() };
+            return Decision {
+                steps,
+                fate: Fate::Closed(Kind::Inner),
+                parts: Vec::new(),
+                margins: None,
+            };
         }
         let along = match worst {
             Some(worst) if !self.open(!left).any(|o| is_general(self.test(o))) => {
@@ -314,7 +347,7 @@ impl<'a> Decider<'a> {
                 padded(over.map_or_else(Vec::new, |over| over.weights(&left)))
             }
         };
-        self.split(cell, steps, along)
+        self.split(cell, steps, along).with(margins)
     }
 
     /// What is gained by halving each coordinate of a cell: in what is left between two planes where cells are
@@ -336,7 +369,7 @@ impl<'a> Decider<'a> {
             // The first of equals.
             weight(a).total_cmp(&weight(b)).then(b.cmp(&a))
         });
-        Decision { steps, fate: Fate::Open(axis), parts: Vec::new() }
+        Decision { steps, fate: Fate::Open(axis), parts: Vec::new(), margins: None }
     }
 
     /// The failure of an obligation in its own directions, where the judge confirms it.

@@ -9,14 +9,44 @@ use orthocert_kernel::test::Row;
 
 /// A value that is not negative where a test holds: at the centre, by how much each coordinate moves it to
 /// first order, and, about, beyond that.
-#[derive(Clone, Copy, Default)]
-pub(super) struct Margin {
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Margin {
     pub centre: f64,
     pub along: [f64; 3],
     pub beyond: [f64; 3],
+    /// By how much the value at the centre may be off, about, where it is foreseen.
+    pub off: f64,
 }
 
 impl Margin {
+    /// What is foreseen of it on the lower and the upper half along an axis.
+    pub(super) fn halves(&self, axis: usize) -> [Self; 2] {
+        let mut half = *self;
+        half.along[axis] *= 0.5;
+        half.beyond[axis] *= 0.5;
+        half.off += half.beyond[axis];
+        [-1.0, 1.0].map(|side| Margin { centre: self.centre + side * half.along[axis], ..half })
+    }
+
+    /// Whether the test seems to hold on the cell, to second order.
+    pub(super) fn holds(&self) -> bool {
+        self.centre - self.reach() > self.bent()
+    }
+
+    /// Whether it seems to fail at all points.
+    pub(super) fn fails(&self) -> bool {
+        self.centre + self.reach() < -self.bent()
+    }
+
+    /// Whether what is foreseen is far enough from both, or from where one of them begins, not to be wrong about that.
+    pub(super) fn is_sure(&self) -> bool {
+        (self.centre.abs() - self.reach()).abs() > self.off + self.bent()
+    }
+
+    fn bent(&self) -> f64 {
+        self.beyond.iter().sum()
+    }
+
     pub(super) fn reach(&self) -> f64 {
         self.along.iter().map(|x| x.abs()).sum()
     }
@@ -33,9 +63,10 @@ impl Margin {
 
     fn times(self, factor: f64) -> Self {
         let times = |all: [f64; 3]| all.map(|x| x * factor);
-        let Margin { centre, along, beyond } = self;
+        let Margin { centre, along, beyond, off } = self;
         let beyond = times(beyond).map(f64::abs);
-        Margin { centre: centre * factor, along: times(along), beyond }
+        let off = off * factor.abs();
+        Margin { centre: centre * factor, along: times(along), beyond, off }
     }
 
     /// Of `|f| - b`, with the sign that `f` has at the centre.
@@ -47,7 +78,8 @@ impl Margin {
     fn plus(self, other: Self) -> Self {
         let sum = |a: [f64; 3], b: [f64; 3]| std::array::from_fn(|k| a[k] + b[k]);
         let (along, beyond) = (sum(self.along, other.along), sum(self.beyond, other.beyond));
-        Margin { centre: self.centre + other.centre, along, beyond }
+        let off = self.off + other.off;
+        Margin { centre: self.centre + other.centre, along, beyond, off }
     }
 
     /// Of `f >= 0`.
@@ -59,7 +91,7 @@ impl Margin {
         // To first order or not: where it may not be defined, all counts.
         let along = of(|slope| magnitude(slope).copysign(middle(slope)));
         let beyond = of(half_width);
-        Some(Margin { centre: over.centre(f)?, along, beyond })
+        Some(Margin { centre: over.centre(f)?, along, beyond, off: 0.0 })
     }
 
     /// Of a test; `None` where it has none.

@@ -144,7 +144,12 @@ impl Attempt<'_, '_> {
         match self.parts(most) {
             Parts::Shown(mut items) => {
                 let first = items.remove(0);
-                Decision { steps: first.steps, fate: Fate::Closed(first.kind), parts: items }
+                Decision {
+                    steps: first.steps,
+                    fate: Fate::Closed(first.kind),
+                    parts: items,
+                    margins: None,
+                }
             }
             Parts::Not { steps, weights } => match crossing {
                 Some(worst) => self.open(steps, &self.moved(&ranges, worst)),
@@ -161,7 +166,12 @@ impl Attempt<'_, '_> {
             // The first of equals.
             weights[**i].total_cmp(&weights[**j]).then(b.index().cmp(&a.index()))
         });
-        Decision { steps, fate: Fate::Open(axis.map(|(axis, _)| axis)), parts: Vec::new() }
+        Decision {
+            steps,
+            fate: Fate::Open(axis.map(|(axis, _)| axis)),
+            parts: Vec::new(),
+            margins: None,
+        }
     }
 
     /// A place: the cell's centre or what `at` says of its ranges, with these values of the others.

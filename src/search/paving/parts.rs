@@ -2,7 +2,7 @@
 //! them in one file.
 
 use super::pass::{finish, first_line, refused, WINDOW};
-use super::tree::{Cancelled, Grower, Segment, Tally};
+use super::tree::{Cancelled, Grower, Segment, Tally, FORESEEN};
 use super::{header, Decider, PaveError, Paved};
 use crate::files::digest::Summed;
 use crate::files::output::{self, Pending};
@@ -17,7 +17,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Least depth of the subtrees that are left to be grown: of a region's boxes about one in
 /// `2^(2/3 BELOW)`, 64, is then in the top.
-const BELOW: u32 = 9;
+const BELOW: u32 = 3 * FORESEEN;
 /// Nodes that are checked side by side.
 const BATCH: usize = 1 << 14;
 
@@ -61,9 +61,9 @@ impl Parts {
         cancel: &AtomicBool,
     ) -> Result<Vec<Segment>, Cancelled> {
         let grower = self.grower(decider, cancel);
-        let deepest = self.subject.header.depth.saturating_sub(BELOW);
+        let deepest = grower.seen(self.subject.header.depth.saturating_sub(BELOW));
         // At most 2^depth cells have a depth.
-        let mut depth = enough.next_power_of_two().ilog2().min(deepest);
+        let mut depth = grower.seen(enough.next_power_of_two().ilog2().min(deepest));
         loop {
             let mut tally = Tally::default();
             let top = grower.segments(Root::WHOLE, depth, &mut tally)?;
@@ -71,7 +71,7 @@ impl Parts {
             if left >= enough || depth >= deepest {
                 return Ok(top);
             }
-            depth += 1;
+            depth += FORESEEN;
         }
     }
 

@@ -14,12 +14,12 @@ use std::io::{self, BufRead, BufReader, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
 
-/// Depth of the subtrees' roots: some thousands of them.
-const COARSE: u32 = 18;
+/// Greatest depth of the subtrees' roots: some thousands of them.
+const COARSE: u32 = 20;
 /// The same of some coordinates for all values of the others, where a cell takes far more.
 const COARSE_FOR_ALL: u32 = 6;
 /// The same where cells are cut, of which fewer are needed.
-const COARSE_WITH_CUTS: u32 = 9;
+const COARSE_WITH_CUTS: u32 = 11;
 const WINDOW_FOR_ALL: usize = 8;
 /// Subtrees that are grown together and wait in memory for their turn to be written.
 pub(super) const WINDOW: usize = 128;
@@ -207,12 +207,13 @@ fn planned(
 ) -> Result<(u32, Option<Top>), PaveError> {
     let deepest = goal.depth.unwrap_or(DEEPEST);
     // What is cut may end above the roots of subtrees.
-    let coarse = if decider.cuts() { 0 } else { coarse(decider).min(deepest) };
     let grower = Grower { decider, depth: deepest, cancel: control.cancel };
+    let coarse = if decider.cuts() { 0 } else { grower.seen(coarse(decider)) };
     let mut above = Tally::default();
     let segments = grower.segments(Root::WHOLE, coarse, &mut above)?;
     let depth = plan::depth(&grower, &segments, above, coarse, goal)?;
-    Ok((depth, (depth > coarse && !decider.cuts()).then_some((segments, above.boxes))))
+    let is_top = depth == deepest && depth > coarse && !decider.cuts();
+    Ok((depth, is_top.then_some((segments, above.boxes))))
 }
 
 fn coarse(decider: &Decider<'_>) -> u32 {
@@ -250,7 +251,7 @@ impl<'a> Pass<'a> {
     ) -> Result<Self, PaveError> {
         let grower = Grower { decider, depth: header.depth, cancel };
         let mut above = Tally::default();
-        let coarse = coarse(decider).min(header.depth);
+        let coarse = grower.seen(coarse(decider));
         let (segments, boxes) = match known {
             Some(known) => known,
             None => (grower.segments(Root::WHOLE, coarse, &mut above)?, above.boxes),

@@ -25,7 +25,7 @@ impl Entry {
     }
 
     fn margin(self) -> Margin {
-        Margin { centre: self.centre, along: self.moved, beyond: self.varied }
+        Margin { centre: self.centre, along: self.moved, beyond: self.varied, off: 0.0 }
     }
 
     /// At a place, and by how much it may differ there.
@@ -125,7 +125,7 @@ impl Seen {
 
     /// Both of a formula that is not negative.
     fn plain(&self, u: [f64; 3]) -> [f64; 2] {
-        let Margin { centre, along, beyond } = self.margin;
+        let Margin { centre, along, beyond, .. } = self.margin;
         let (own, off) = (centre + dot(along, u), dot(beyond, u.map(f64::abs)));
         [own - off, own + off]
     }

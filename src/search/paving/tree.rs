@@ -1,6 +1,7 @@
 //! The tree of a paving: written depth first, cut into subtrees for the threads.
 
-use super::decide::{Decider, Fate};
+use super::decide::{Decider, Fate, Margins};
+use super::margin::Margin;
 use orthocert_kernel::paving::{discharged, Axis, Item, Kind, Root};
 use orthocert_kernel::prover::{write_pair, write_steps};
 use rayon::prelude::*;
@@ -32,6 +33,12 @@ pub(super) fn is_left(kind: &Kind) -> bool {
     matches!(kind, Kind::Boundary | Kind::Cut(_))
 }
 
+/// Of so many depths, cells of one are looked at by themselves; what is next of the others is foreseen from these.
+pub(super) const FORESEEN: u32 = 3;
+
+/// A node to be decided, and what is foreseen of it.
+type Node<'a> = (&'a Root, Option<&'a Margins>);
+
 /// Grows trees of one claim down to one depth.
 pub struct Grower<'a> {
     /// Decides the cells.
@@ -49,14 +56,14 @@ pub struct Cancelled;
 impl Grower<'_> {
     /// Appends a subtree's nodes to `out`.
     pub fn grow(&self, root: Root, out: &mut Vec<u8>, tally: &mut Tally) -> Result<(), Cancelled> {
-        let mut waiting = vec![root];
-        while let Some(root) = waiting.pop() {
+        let mut waiting = vec![(root, None)];
+        while let Some((root, foreseen)) = waiting.pop() {
             // A box for all values of other coordinates may take a second.
             let is_asked = tally.boxes.is_multiple_of(256) || self.decider.is_for_all();
             if is_asked && self.cancel.load(Ordering::Relaxed) {
                 return Err(Cancelled);
             }
-            self.node(&root, out, tally, &mut waiting);
+            self.node((&root, foreseen.as_ref()), out, tally, &mut waiting);
         }
         Ok(())
     }
@@ -84,8 +91,8 @@ impl Grower<'_> {
     ) -> Result<Vec<Segment>, Cancelled> {
         let mut segments = Vec::new();
         let mut known = Vec::new();
-        let mut waiting = vec![root];
-        while let Some(root) = waiting.pop() {
+        let mut waiting = vec![(root, None)];
+        while let Some((root, foreseen)) = waiting.pop() {
             if self.cancel.load(Ordering::Relaxed) {
                 return Err(Cancelled);
             }
@@ -95,7 +102,7 @@ impl Grower<'_> {
                 }
                 segments.push(Segment::Subtree(root));
             } else {
-                self.node(&root, &mut known, tally, &mut waiting);
+                self.node((&root, foreseen.as_ref()), &mut known, tally, &mut waiting);
             }
         }
         if !known.is_empty() {
@@ -115,7 +122,7 @@ impl Grower<'_> {
                 return Err(Cancelled);
             }
             let mut own = Tally::default();
-            let (item, _) = self.decided(root, &mut own);
+            let (item, ..) = self.decided((root, None), &mut own);
             Ok((own, halves(root, &item).map(|(_, halves)| (*root, halves))))
         };
         let all: Vec<_> = roots.par_iter().map(of_root).collect::<Result<_, _>>()?;
@@ -126,22 +133,30 @@ impl Grower<'_> {
 
     /// Decides a node and appends it; its halves, if it is split, wait. Halves that may not be split
     /// are appended with it, in one byte where that does for them.
-    fn node(&self, root: &Root, out: &mut Vec<u8>, tally: &mut Tally, waiting: &mut Vec<Root>) {
-        let (item, parts) = self.decided(root, tally);
+    fn node(
+        &self,
+        root: Node<'_>,
+        out: &mut Vec<u8>,
+        tally: &mut Tally,
+        waiting: &mut Vec<(Root, Option<Margins>)>,
+    ) {
+        let (item, parts, margins) = self.decided(root, tally);
+        let (root, _) = root;
         let Some((axis, [lower, upper])) = halves(root, &item) else {
             // Every step and failure that a decision makes has a code.
             let written = [&item].into_iter().chain(&parts).try_for_each(|item| item.write(out));
             debug_assert!(written.is_some());
             return;
         };
+        let [of_lower, of_upper] = self.foreseen(root.depth + 1, axis, margins);
         if root.depth + 1 < self.depth {
             let written = item.write(out);
             debug_assert!(written.is_some());
-            waiting.extend([upper, lower]);
+            waiting.extend([(upper, of_upper), (lower, of_lower)]);
             return;
         }
-        let (lower, of_lower) = self.decided(&lower, tally);
-        let (upper, of_upper) = self.decided(&upper, tally);
+        let (lower, of_lower, _) = self.decided((&lower, of_lower.as_ref()), tally);
+        let (upper, of_upper, _) = self.decided((&upper, of_upper.as_ref()), tally);
         let steps = write_steps(&item.steps, out);
         debug_assert!(steps.is_some());
         let is_bare = lower.steps.is_empty() && upper.steps.is_empty();
@@ -155,9 +170,33 @@ impl Grower<'_> {
         debug_assert!(written.is_some());
     }
 
-    /// A node, and the nodes of its parts.
-    fn decided(&self, root: &Root, tally: &mut Tally) -> (Item, Vec<Item>) {
-        let decision = self.decider.decide(&root.cell, root.inherited);
+    /// The margins that are foreseen of a node's halves, of the depth `depth`.
+    fn foreseen(&self, depth: u32, axis: Axis, margins: Option<Margins>) -> [Option<Margins>; 2] {
+        let Some(margins) = margins.filter(|_| !self.is_seen(depth)) else { return [None, None] };
+        [0, 1].map(|side| {
+            let half = |(o, own): &(usize, Margin)| (*o, own.halves(axis.index())[side]);
+            Some(margins.iter().map(half).collect())
+        })
+    }
+
+    /// Whether nothing is foreseen of cells of a depth: subtrees from there are what they are whoever grows them.
+    fn is_seen(&self, depth: u32) -> bool {
+        (self.depth - depth) % FORESEEN == FORESEEN - 1
+    }
+
+    /// The greatest depth up to `most` of which nothing is foreseen; 0 if there is none.
+    pub fn seen(&self, most: u32) -> u32 {
+        let most = most.min(self.depth);
+        (0..=most).rev().find(|&depth| self.is_seen(depth)).unwrap_or(0)
+    }
+
+    /// A node, the nodes of its parts, and the margins that it rests on.
+    fn decided(
+        &self,
+        (root, foreseen): Node<'_>,
+        tally: &mut Tally,
+    ) -> (Item, Vec<Item>, Option<Margins>) {
+        let decision = self.decider.decide(&root.cell, root.inherited, foreseen);
         tally.boxes += 1;
         let kind = match decision.fate {
             Fate::Closed(kind) => kind,
@@ -170,7 +209,7 @@ impl Grower<'_> {
             tally.inner += self.decider.share(&root.cell);
         }
         let steps = if is_left(&kind) { Vec::new() } else { decision.steps };
-        (Item { steps, kind }, decision.parts)
+        (Item { steps, kind }, decision.parts, decision.margins)
     }
 }
 
@@ -180,4 +219,48 @@ fn halves(root: &Root, item: &Item) -> Option<(Axis, [Root; 2])> {
     let (lower, upper) = root.cell.halves(axis)?;
     let inherited = discharged(root.inherited, &item.steps);
     Some((axis, [lower, upper].map(|cell| Root { cell, inherited, depth: root.depth + 1 })))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::design::Design;
+    use crate::search::paving::header;
+    use orthocert_kernel::paving::Subject;
+
+    /// The cells tried for a claim, the share of inner ones, and what its subtrees at a depth of which nothing is foreseen
+    /// are when they are grown by themselves.
+    fn grown(text: &str, depth: u32, at: Option<u32>) -> (Vec<u8>, Tally) {
+        let claim = Design::parse(text, "test").unwrap().claim;
+        let subject = Subject::new(&header(&claim, None, depth)).unwrap();
+        let decider = Decider::new(&subject).unwrap();
+        let cancel = AtomicBool::new(false);
+        let grower = Grower { decider: &decider, depth, cancel: &cancel };
+        let (mut bytes, mut tally) = (Vec::new(), Tally::default());
+        let Some(at) = at else {
+            grower.grow(Root::WHOLE, &mut bytes, &mut tally).unwrap();
+            return (bytes, tally);
+        };
+        let segments = grower.segments(Root::WHOLE, grower.seen(at), &mut tally).unwrap();
+        for (own, boxes) in grower.grow_all(&segments).unwrap() {
+            bytes.extend(own);
+            tally.boxes += boxes;
+        }
+        (bytes, tally)
+    }
+
+    #[test]
+    fn what_is_foreseen_is_the_same_from_wherever_subtrees_are_grown() {
+        let text = "[mechanism]\nkind = \"orthoglide\"\nleg_length = 1\n[workspace]\n\
+                    min = [-0.7, -0.6, -0.5]\nmax = [0.6, 0.7, 0.4]\n[requirements]\n\
+                    transmission = { min = \"1/2\", max = 2 }\nserial_margin = { min = 0.1 }\n";
+        for depth in [13, 14, 15] {
+            let (whole, tally) = grown(text, depth, None);
+            for at in [4, 7, 9] {
+                let (parts, sum) = grown(text, depth, Some(at));
+                assert_eq!(parts, whole, "{depth}, {at}");
+                assert_eq!(sum.boxes, tally.boxes);
+            }
+        }
+    }
 }
