@@ -65,13 +65,14 @@ Definition definite : Z := definite_digest 100 (snd drawn_operations) 0.
 
 (** ** The postulate's faces *)
 
-Definition part (f : face) (low : bool) : list (op nat) * list nat := compile (Faces.entries f low).
+Definition compiled (l : list formula) : list (op address) * list nat := let tape := compile l in (tape, map (place (formulas tape)) l).
+Definition part (f : face) (low : bool) : list (op address) * list nat := compiled (Faces.entries f low).
 Definition part_1 := Eval vm_compute in part Q1 true.
 Definition part_2 := Eval vm_compute in part Q1 false.
 Definition part_3 := Eval vm_compute in part Q2 true.
 Definition part_4 := Eval vm_compute in part Q2 false.
 Definition near (seed low base width : Z) : fixed * Z := let s := next seed in interval s (low + drawn s base) width.
-Fixpoint face_digest (n : nat) (f : face) (from : Z) (part : list (op nat) * list nat) (st : Z * Z) : Z * Z :=
+Fixpoint face_digest (n : nat) (f : face) (from : Z) (part : list (op address) * list nat) (st : Z * Z) : Z * Z :=
   match n with
   | O => st
   | S n =>
@@ -90,7 +91,8 @@ Definition absorb_slope (digest : Z) (f : option slope) : Z :=
   | None => absorb digest 7
   end.
 (** The elbow of three coordinates, over random cells in few bits. *)
-Definition elbow_tape : list (op nat) := [Coord 0; Coord 1; Coord 2; Elbow false 2 1 0; Elbow true 3 2 1]%nat.
+Definition elbow_tape : list (op address) :=
+  compile (let crossing second := F (Elbow second (F (Coord 0)) (F (Coord 1)) (F (Coord 2))) in [crossing false; crossing true]).
 Fixpoint elbows_digest (n : nat) (st : Z * Z) : Z :=
   match n with
   | O => fst st
@@ -102,9 +104,9 @@ Fixpoint elbows_digest (n : nat) (st : Z * Z) : Z :=
 Definition elbows : Z := elbows_digest 200 (0, 1).
 
 (** A tape of all rows, and where they are on it. *)
-Definition compiled_rows (c : claim) (s : Z) (ds : list Z) : list (op nat) * list nat :=
-  let fs := all_formulas s ds (legs c) 0 in compile (entries (whole_rows fs) ++ entries (divided_rows fs)).
-Definition rows_digest (rows : list (op nat) * list nat) (inputs : list parameter) (bits : positive) (cell : list fixed) : Z :=
+Definition compiled_rows (c : claim) (s : Z) (ds : list Z) : list (op address) * list nat :=
+  let fs := all_formulas s ds (legs c) 0 in compiled (entries (whole_rows fs) ++ entries (divided_rows fs)).
+Definition rows_digest (rows : list (op address) * list nat) (inputs : list parameter) (bits : positive) (cell : list fixed) : Z :=
   match all_some (map (enclose_parameter bits) inputs) with
   | Some params =>
       let values := evaluate bits (fst rows) params cell in

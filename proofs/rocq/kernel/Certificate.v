@@ -382,7 +382,7 @@ Definition print (c : certificate) : text :=
 
 (** Nothing in it ends a string of JSON. *)
 Definition is_plain (s : string) : bool :=
-  forallb (fun c => negb (c =? """")%char && negb (c =? "\")%char && Nat.leb 32 (nat_of_ascii c) && Nat.leb (nat_of_ascii c) 126)
+  forallb (fun c => negb (c =? """")%char && negb (c =? "\")%char && Ascii.leb " " c && Ascii.leb c "~")
     (list_ascii_of_string s).
 
 Fixpoint is_plain_step (s : step) : bool :=

@@ -72,7 +72,7 @@ Section Precision.
 Variable bits : positive.
 Local Notation contains := (contains bits).
 
-Variable tape : list (op nat).
+Variable tape : list (op address).
 (** A and D of the machine, and the same divided by B. *)
 Variables whole divided : rows nat.
 (** Formulas that have to be defined besides, where singularities are excluded: those that a user gives. *)
@@ -83,9 +83,9 @@ Variable tests : list test.
 (** ** Formulas over a cell *)
 
 Definition evaluate_kept (keep : list bool) (cell : list fixed) : list (option slope) :=
-  run_kept (option slope) None (slope_op bits (coords_from 0 cell) (map constant params)) keep tape [].
+  run_kept (option slope) None (slope_op bits (coords_from 0 cell) (map constant params)) keep tape.
 Definition evaluate (cell : list fixed) : list (option slope) :=
-  run (option slope) None (slope_op bits (coords_from 0 cell) (map constant params)) tape [].
+  run (option slope) None (slope_op bits (coords_from 0 cell) (map constant params)) tape.
 Lemma evaluate_all : forall cell, evaluate_kept [] cell = evaluate cell.
 Proof. intro cell. apply run_kept_all. Qed.
 
@@ -177,11 +177,11 @@ Definition joint_over (values : list (option slope)) (j : nat * (fixed * list (f
 Definition near_wanted (a : Nearby.nearby) : list nat := partial ++ concat (Nearby.l_far a).
 Definition near_values (cell : list fixed) (a : Nearby.nearby) : list (option slope) :=
   run_kept (option slope) None (slope_op bits (Spread.near_cell (Nearby.l_first a) (length cell) cell (Nearby.l_distance a) (Nearby.l_turn a)) (map constant params))
-    (kept (near_wanted a) tape) tape [].
+    (kept (near_wanted a) tape) tape.
 Definition shows_there (values : list (option slope)) (cell : list fixed) (less : option slope) (t : test) (e : evidence) : bool :=
   match t, e with
   | Accurate distance joints, ByAccuracy places Y kappa 0 =>
-      let near := Near.evaluate_near bits tape params cell distance in
+      let near := Near.evaluate_near bits tape params (kept (partial ++ flat_map (fun p => fst p ++ [snd p]) divided) tape) cell distance in
       Nat.eqb (length cell) 3 && are_defined near &&
       match rows_over near divided, rows_over values divided, all_some (map (joint_over values) joints) with
       | Some far, Some here, Some js =>
@@ -198,6 +198,24 @@ Definition shows_there (values : list (option slope)) (cell : list fixed) (less 
       | _, _, _ => false
       end
   | _, _ => shows values (length cell) less t e
+  end.
+
+(** What is looked at of the formulas. *)
+Fixpoint is_of_divided (e : evidence) : bool :=
+  match e with ByLowerDivided _ _ | ByDivided => true | Inside e _ _ | ByTolerances e _ _ | OfOneScale _ _ e => is_of_divided e | _ => false end.
+Definition places_of_rows (r : rows nat) : list nat := flat_map (fun p => fst p ++ [snd p]) r.
+Definition wanted_by (t : test) (e : evidence) : list nat :=
+  let own := places_of_rows (if is_of_divided e then divided else whole) in
+  match t with
+  | SigmaMin _ => partial ++ own
+  | SigmaMax _ | Conditioning _ | Solved _ _ => own
+  | AtLeast f => [f]
+  | Either f g => [f; g]
+  | Least r _ | Chords r _ _ => places_of_rows r
+  | Apart p p' q q' _ => flat_map (fun p => [along_x p; along_y p; along_z p]) [p; p'; q; q']
+  | Accurate _ joints => places_of_rows divided ++ flat_map (fun j => fst j :: map snd (snd (snd j))) joints
+  | Located a => places_of_rows (Nearby.l_rows a) ++ Nearby.l_defined a ++ flat_map (fun j => fst j :: map snd (snd (snd j))) (Nearby.l_joints a)
+  | Curved row twice a b k2 s => row ++ concat twice ++ [a; b; k2; s]
   end.
 
 (** *** Tolerances apart: of one machine at the vertices, less what all others differ by *)
@@ -223,8 +241,9 @@ Definition shows_apart (values : list (option slope)) (cell : list fixed) (less 
     (ends : list (nat * Tolerances.choice)) (directions : list (list Z)) : bool :=
   let m := length cell in
   let coords := coords_from 0 cell in
-  let machine := run (option slope) None (slope_op bits coords (map constant (Tolerances.starts_from ends 0 params))) tape [] in
-  let duals := run Tolerances.dual (None, []) (Tolerances.dual_op bits coords (map constant params) (map fst ends)) tape [] in
+  let own := kept (wanted_by t e) tape in
+  let machine := run_kept (option slope) None (slope_op bits coords (map constant (Tolerances.starts_from ends 0 params))) own tape in
+  let duals := run_kept Tolerances.dual (None, []) (Tolerances.dual_op bits coords (map constant params) (map fst ends)) own tape in
   let steps := Tolerances.steps ends params in
   let of := multi_of values machine duals ends in
   let direction v := map (Fixed.integer bits) v in
@@ -264,8 +283,9 @@ Definition shows_wedge (values : list (option slope)) (cell : list fixed) (less 
     (ends : list (nat * Tolerances.choice)) (direction b c : list Z) (n : Z) (places : N) : bool :=
   let m := length cell in
   let coords := coords_from 0 cell in
-  let machine := run (option slope) None (slope_op bits coords (map constant (Tolerances.starts_from ends 0 params))) tape [] in
-  let duals := run Tolerances.dual (None, []) (Tolerances.dual_op bits coords (map constant params) (map fst ends)) tape [] in
+  let own := kept (wanted_by t e) tape in
+  let machine := run_kept (option slope) None (slope_op bits coords (map constant (Tolerances.starts_from ends 0 params))) own tape in
+  let duals := run_kept Tolerances.dual (None, []) (Tolerances.dual_op bits coords (map constant params) (map fst ends)) own tape in
   let steps := Tolerances.steps ends params in
   let of := multi_of values machine duals ends in
   let subtracted := match less with Some t => t | None => constant zero end in
@@ -307,8 +327,9 @@ Definition shows_half (values : list (option slope)) (cell : list fixed) (upper 
     (less : option slope) (e : evidence) (ends : list (nat * Tolerances.choice)) (direction : list Z) : bool :=
   let m := length cell in
   let coords := coords_from 0 cell in
-  let machine := run (option slope) None (slope_op bits coords (map constant (Tolerances.starts_from ends 0 params))) tape [] in
-  let duals := run Tolerances.dual (None, []) (Tolerances.dual_op bits coords (map constant params) (map fst ends)) tape [] in
+  let own := kept (places_of_rows whole) tape in
+  let machine := run_kept (option slope) None (slope_op bits coords (map constant (Tolerances.starts_from ends 0 params))) own tape in
+  let duals := run_kept Tolerances.dual (None, []) (Tolerances.dual_op bits coords (map constant params) (map fst ends)) own tape in
   let of := multi_of values machine duals ends in
   let subtracted := match less with Some t => t | None => constant zero end in
   let over (holds : list bool -> fixed -> list (Tolerances.varied fixed) -> bool) :=
@@ -729,11 +750,11 @@ Variable ends : list (nat * Tolerances.choice).
 Hypothesis ends_exist : forallb (fun j => Nat.ltb j (length params)) (map fst ends) = true.
 Hypothesis ends_once : are_once (map fst ends) = true.
 
-Variable keep : list bool.
+Variables keep own : list bool.
 Let values := evaluate_kept keep cell.
 Let coords := coords_from 0 cell.
-Let machine := run (option slope) None (slope_op bits coords (map constant (Tolerances.starts_from ends 0 params))) tape [].
-Let duals := run Tolerances.dual (None, []) (Tolerances.dual_op bits coords (map constant params) (map fst ends)) tape [].
+Let machine := run_kept (option slope) None (slope_op bits coords (map constant (Tolerances.starts_from ends 0 params))) own tape.
+Let duals := run_kept Tolerances.dual (None, []) (Tolerances.dual_op bits coords (map constant params) (map fst ends)) own tape.
 Let of := multi_of values machine duals ends.
 
 Lemma strides : exists theta0 mss, Forall2 contains (Tolerances.starts_from ends 0 params) theta0 /\ Forall2 contains params theta0 /\
@@ -775,11 +796,11 @@ Proof.
   destruct (Tolerances.mean_value bits (map fst ends) x params theta0 theta (formula_at i) (are_once_sound _ ends_once) h1 theta_in D same) as [th [hth V]].
   assert (M : encloses bits lambda x cs theta0 (nth i machine None) (formula_at i)).
   { apply (nth_related _ _ _ _ (encloses bits lambda x cs theta0)); [exact I |].
-    exact (evaluate_sound bits lambda lambda_in x cs theta0 _ _ coords_hold (params_hold bits lambda _ theta0 h0) tape). }
+    exact (evaluate_kept_sound bits lambda lambda_in x cs theta0 _ _ coords_hold (params_hold bits lambda _ theta0 h0) own tape). }
   rewrite e0 in M. destruct M as [_ [_ [m1 [_ [u [m2 m3]]]]]].
   assert (Q : Tolerances.encloses_rates bits (map fst ends) lambda x cs th (nth i duals (None, [])) (formula_at i)).
   { apply (nth_related _ _ _ _ (Tolerances.encloses_rates bits (map fst ends) lambda x cs th)); [split; [exact I | intros [| p]; exact I] |].
-    exact (Tolerances.duals_sound bits coords (map constant params) (map fst ends) lambda x cs th lambda_in coords_hold (params_hold bits lambda params th hth) tape). }
+    exact (Tolerances.duals_sound bits coords (map constant params) (map fst ends) lambda x cs th lambda_in coords_hold (params_hold bits lambda params th hth) own tape). }
   destruct Q as [_ Q].
   destruct (Tolerances.rates_from_sound bits lambda (fun j => Tolerances.rate x th j (formula_at i)) (fun j => Tolerances.rate cs th j (formula_at i)) ends _ 0 rs er Q) as [es [k1 k2]].
   exists ((value cs theta0 (formula_at i), u), es). split; [split; [split; assumption | exact k1] |].
@@ -869,9 +890,9 @@ Proof.
   pose proof (definite_apart (Some t) U v m h ltac:(intros t' e'; injection e' as <-; exact hU) len nz) as P. specialize (q v z). rewrite <- len, quad_diagonal in q. lra.
 Qed.
 
-Theorem shows_apart_sound : forall less t e directions, harmless lambda less -> shows_apart values cell less t e ends directions = true -> holds (length cell) x t.
+Theorem shows_apart_sound : forall less t e directions, own = kept (wanted_by t e) tape -> harmless lambda less -> shows_apart values cell less t e ends directions = true -> holds (length cell) x t.
 Proof.
-  intros less t e directions hs h. unfold shows_apart in h. cbv zeta in h. apply andb_true_iff in h as [_ h].
+  intros less t e directions eo hs h. unfold shows_apart in h. cbv zeta in h. rewrite <- eo in h. apply andb_true_iff in h as [_ h].
   destruct strides as [theta0 [mss [h0 [h1 [same [hm hd]]]]]].
   assert (L : exists el, entry_in bits match less with Some t => t | None => constant zero end el /\ 0 <= at_lambda lambda el).
   { destruct less as [s |]; [exact hs |]. exists (0, []). split; [apply constant_in, zero_sound | unfold at_lambda; cbn; lra]. }
@@ -1064,10 +1085,10 @@ Proof.
 Qed.
 End Wedge.
 
-Theorem shows_wedge_sound : forall less t e direction b c n places, harmless lambda less -> shows_wedge values cell less t e ends direction b c n places = true ->
+Theorem shows_wedge_sound : forall less t e direction b c n places, own = kept (wanted_by t e) tape -> harmless lambda less -> shows_wedge values cell less t e ends direction b c n places = true ->
   holds_along (Toward.in_wedge b c) (length cell) x t.
 Proof.
-  intros less t e direction b c n places hs h. unfold shows_wedge in h. cbv zeta in h. destruct (toward_of direction) as [[[k w] q] d].
+  intros less t e direction b c n places eo hs h. unfold shows_wedge in h. cbv zeta in h. rewrite <- eo in h. destruct (toward_of direction) as [[[k w] q] d].
   apply andb_true_iff in h as [g h]. apply andb_true_iff in g as [g rg]. apply andb_true_iff in g as [g kb]. apply andb_true_iff in g as [g _]. apply andb_true_iff in g as [g n0].
   apply andb_true_iff in g as [g _]. apply andb_true_iff in g as [_ lw]. apply Nat.eqb_eq in lw.
   assert (L : exists el, entry_in bits match less with Some t => t | None => constant zero end el /\ 0 <= at_lambda lambda el).
@@ -1112,10 +1133,10 @@ Proof.
 Qed.
 
 Definition in_part (wedge : option (list Z * list Z * Z * N)) (v : list R) : Prop := match wedge with Some (b, c, _, _) => Toward.in_wedge b c v | None => True end.
-Theorem shows_half_sound : forall upper mu q wedge less e direction, entry_in bits mu q -> harmless lambda less ->
+Theorem shows_half_sound : forall upper mu q wedge less e direction, own = kept (places_of_rows whole) tape -> entry_in bits mu q -> harmless lambda less ->
   shows_half values cell upper mu wedge less e ends direction = true -> half_holds (in_part wedge) (length cell) x upper (at_lambda lambda q).
 Proof.
-  intros upper mu q wedge less e direction hq hs h. unfold shows_half in h. cbv zeta in h. apply andb_true_iff in h as [_ h].
+  intros upper mu q wedge less e direction eo hq hs h. unfold shows_half in h. cbv zeta in h. rewrite <- eo in h. apply andb_true_iff in h as [_ h].
   assert (L : exists el, entry_in bits match less with Some t => t | None => constant zero end el /\ 0 <= at_lambda lambda el).
   { destruct less as [s |]; [exact hs |]. exists (0, []). split; [apply constant_in, zero_sound | unfold at_lambda; cbn; lra]. }
   destruct L as [el [hel el0]]. set (subtracted := match less with Some t => t | None => constant zero end) in *.
@@ -1224,7 +1245,7 @@ Lemma accuracy_holds : forall keep cell x lambda, length lambda = length cell ->
   shows_there (evaluate_kept keep cell) cell less (Accurate distance joints) (ByAccuracy places Y kappa 0) = true -> (exists d, contains distance d /\ 0 <= d) -> accurate_at x distance joints.
 Proof.
   intros keep cell x lambda el hlam hx E less distance joints places Y k hless h [d0 [hd0 d00]]. cbn [shows_there] in h. set (values := evaluate_kept keep cell) in *. cbv zeta in h.
-  set (near := Near.evaluate_near bits tape params cell distance) in *.
+  set (near := Near.evaluate_near bits tape params _ cell distance) in *.
   apply andb_true_iff in h as [h1 h]. apply andb_true_iff in h1 as [l3 _]. apply Nat.eqb_eq in l3.
   destruct (rows_over near divided) as [far |] eqn:efar; [| discriminate]. destruct (rows_over values divided) as [here |] eqn:ehere; [| discriminate].
   destruct (all_some (map (joint_over values) joints)) as [js |] eqn:ejs; [| discriminate]. destruct (Near.triples far) as [ts |] eqn:ets; [| discriminate].
@@ -1346,7 +1367,7 @@ Proof.
     exact (evaluate_kept_sound bits lambda hlam x (map (centre_of bits) cell) th _ _ C (params_hold bits lambda params th hth) keep tape). }
   assert (Apart : forall less e ends directions, harmless lambda less -> shows_apart (evaluate_kept keep cell) cell less t e ends directions = true -> holds (length cell) x t).
   { intros less e' ends directions hl k. assert (k' := k). unfold shows_apart in k'. cbv zeta in k'. apply andb_true_iff in k' as [k' _]. apply andb_true_iff in k' as [k' _].
-    apply andb_true_iff in k' as [k1 k2]. exact (shows_apart_sound cell x lambda el hlam C ends k1 k2 keep less t e' directions hl k). }
+    apply andb_true_iff in k' as [k1 k2]. exact (shows_apart_sound cell x lambda el hlam C ends k1 k2 keep _ less t e' directions eq_refl hl k). }
   assert (Tangent : forall tangent n places, inside cell = Some tangent -> (0 <=? n)%Z = true -> harmless lambda (Some (dyadic_slope n places tangent))).
   { intros tangent n places i n0. destruct (inside_sound _ _ _ _ i el ok hd) as [d [h1 h2]].
     destruct (dyadic_in bits n places _ _ h1) as [d' [g1 g2]]. exists d'. split; [exact g1 |]. rewrite g2.
@@ -1374,7 +1395,7 @@ Proof.
     holds_along (Toward.in_wedge b c) (length cell) x t).
   { intros less e' ends direction hl k. assert (k' := k). unfold shows_wedge in k'. cbv zeta in k'. destruct (toward_of direction) as [[[k0 w] q] d].
     apply andb_true_iff in k' as [k' _]. do 6 apply andb_true_iff in k' as [k' _]. apply andb_true_iff in k' as [k1 k2].
-    exact (shows_wedge_sound cell x lambda el hlam C ends k1 k2 keep less t e' direction b c n places hl k). }
+    exact (shows_wedge_sound cell x lambda el hlam C ends k1 k2 keep _ less t e' direction b c n places eq_refl hl k). }
   assert (Tangent : forall k p f, match inside cell with Some tangent => (0 <=? k)%Z && f (Some (dyadic_slope k p tangent)) | None => false end = true ->
     exists less, harmless lambda less /\ f less = true).
   { intros k p f g. destruct (inside cell) as [tangent |] eqn:i; [| discriminate]. apply andb_true_iff in g as [n0 g]. exists (Some (dyadic_slope k p tangent)). split; [| exact g].
@@ -1394,7 +1415,7 @@ Proof.
   intros keep cell x lambda upper mu q wedge e hq el hlam ok hd C h.
   assert (One : forall less e ends direction, harmless lambda less -> shows_half (evaluate_kept keep cell) cell upper mu wedge less e ends direction = true -> half_holds (in_part wedge) (length cell) x upper (at_lambda lambda q)).
   { intros less e' ends direction hl k. assert (k' := k). unfold shows_half in k'. cbv zeta in k'. apply andb_true_iff in k' as [k' _]. apply andb_true_iff in k' as [k' _]. apply andb_true_iff in k' as [k1 k2].
-    exact (shows_half_sound cell x lambda el hlam C ends k1 k2 keep upper mu q wedge less e' direction hq hl k). }
+    exact (shows_half_sound cell x lambda el hlam C ends k1 k2 keep _ upper mu q wedge less e' direction eq_refl hq hl k). }
   assert (Tangent : forall k p f, match inside cell with Some tangent => (0 <=? k)%Z && f (Some (dyadic_slope k p tangent)) | None => false end = true ->
     exists less, harmless lambda less /\ f less = true).
   { intros k p f g. destruct (inside cell) as [tangent |] eqn:i; [| discriminate]. apply andb_true_iff in g as [n0 g]. exists (Some (dyadic_slope k p tangent)). split; [| exact g].
@@ -1429,32 +1450,16 @@ Proof. intros bits tape whole divided partial params theta all m x [] e h; try e
 Section Steps.
 Variable bits : positive.
 Local Notation contains := (contains bits).
-Variable tape : list (op nat).
+Variable tape : list (op address).
 Variables whole divided : rows nat.
 Variable partial : list nat.
 Variable params : list fixed.
 Variable tests : list test.
 Variable inside : list fixed -> option slope.
 Local Notation evaluate_kept keep cell := (Check.evaluate_kept bits tape params keep cell).
+Local Notation wanted_by := (wanted_by whole divided partial).
 Local Notation is_outside cell := (Check.is_outside inside cell).
 
-(** What is looked at of the formulas. *)
-Fixpoint is_of_divided (e : evidence) : bool :=
-  match e with ByLowerDivided _ _ | ByDivided => true | Inside e _ _ | ByTolerances e _ _ | OfOneScale _ _ e => is_of_divided e | _ => false end.
-Definition places_of_rows (r : rows nat) : list nat := flat_map (fun p => fst p ++ [snd p]) r.
-Definition wanted_by (t : test) (e : evidence) : list nat :=
-  let own := places_of_rows (if is_of_divided e then divided else whole) in
-  match t with
-  | SigmaMin _ => partial ++ own
-  | SigmaMax _ | Conditioning _ | Solved _ _ => own
-  | AtLeast f => [f]
-  | Either f g => [f; g]
-  | Least r _ | Chords r _ _ => places_of_rows r
-  | Apart p p' q q' _ => flat_map (fun p => [along_x p; along_y p; along_z p]) [p; p'; q; q']
-  | Accurate _ joints => places_of_rows divided ++ flat_map (fun j => fst j :: map snd (snd (snd j))) joints
-  | Located a => places_of_rows (Nearby.l_rows a) ++ Nearby.l_defined a ++ flat_map (fun j => fst j :: map snd (snd (snd j))) (Nearby.l_joints a)
-  | Curved row twice a b k2 s => row ++ concat twice ++ [a; b; k2; s]
-  end.
 (** Formulas that do not change with the scale of the parameters [J]. *)
 Definition is_level (degrees : list (option Z)) (i : nat) : bool := match nth i degrees None with Some 0%Z => true | _ => false end.
 (** Those that are defined for each of them, or for none. *)
@@ -1478,8 +1483,8 @@ Definition shows_part (values : list (option slope)) (cell : list fixed) (t : te
   let '(_, n, places, e) := part in
   match e with
   | OfOneScale groups ones e => may_scale t groups ones &&
-      shows_along bits tape whole partial (fold_left Scale.of_one_scale groups params) inside (scaled_values groups cell t e) cell t (fst wedge) (snd wedge) n places e
-  | _ => shows_along bits tape whole partial params inside values cell t (fst wedge) (snd wedge) n places e
+      shows_along bits tape whole divided partial (fold_left Scale.of_one_scale groups params) inside (scaled_values groups cell t e) cell t (fst wedge) (snd wedge) n places e
+  | _ => shows_along bits tape whole divided partial params inside values cell t (fst wedge) (snd wedge) n places e
   end.
 Definition half_of (values : list (option slope)) (cell : list fixed) (t : test) (upper : option fixed) (mu : slope) (wedge : option (list Z * list Z * Z * N)) (e : evidence) : bool :=
   match e with
@@ -1686,11 +1691,11 @@ Proof.
     assert (ne : cs <> []) by (unfold cs; destruct parts; [contradiction h1; reflexivity | discriminate]).
     apply (holds_of_fan bits tape whole divided partial params theta (length cell) x t cs ne). intros p ip. rewrite forallb_forall in h.
     destruct (part_of_wedge parts p ip) as [[[[c0 n] places] e] iq]. specialize (h _ iq). cbn [fst snd shows_part] in h.
-    assert (Own : shows_along bits tape whole partial params inside (evaluate_kept keep cell) cell t (fst p) (snd p) n places e = true -> holds_along bits tape whole partial theta (Toward.in_wedge (fst p) (snd p)) (length cell) x t)
-      by exact (along_holds bits tape whole partial params inside theta theta_in allowed inside_sound keep cell x t (fst p) (snd p) n places e hx ok).
+    assert (Own : shows_along bits tape whole divided partial params inside (evaluate_kept keep cell) cell t (fst p) (snd p) n places e = true -> holds_along bits tape whole partial theta (Toward.in_wedge (fst p) (snd p)) (length cell) x t)
+      by exact (along_holds bits tape whole divided partial params inside theta theta_in allowed inside_sound keep cell x t (fst p) (snd p) n places e hx ok).
     destruct e as [| | | | | | | | | | | | | | | | | groups ones e | |]; try exact (Own h). apply andb_true_iff in h as [h2 h].
     destruct (scaled_shows x (length cell) t groups ones h2) as [scaled [T [_ [H _]]]].
-    exact (H _ (along_holds bits tape whole partial _ inside scaled T allowed inside_sound _ cell x t (fst p) (snd p) n places e hx ok h)).
+    exact (H _ (along_holds bits tape whole divided partial _ inside scaled T allowed inside_sound _ cell x t (fst p) (snd p) n places e hx ok h)).
   - apply andb_true_iff in h1 as [h0 h1]. destruct (coords_from_hold bits cell x hx) as [lambda [el [hlam [hd C]]]]. specialize (C []). cbn [app length] in C.
     destruct (mu_slope_in bits places mu) as [q hq]. rewrite <- el in h0. pose proof (positive_there_sound bits _ _ _ h0 hq hlam) as p0.
     apply (holds_of_halves bits tape whole divided partial params theta (length cell) x c2 _ p0).
@@ -1769,7 +1774,7 @@ Qed.
 Section Tree.
 Variable bits : positive.
 Local Notation contains := (contains bits).
-Variable tape : list (op nat).
+Variable tape : list (op address).
 Variables whole divided : rows nat.
 Variable partial : list nat.
 Variable all : list fixed.

@@ -386,23 +386,22 @@ Qed.
 
 (** *** Of a tape, the entries that some others are made of; in place of all else nothing is evaluated *)
 
-Definition nothing : op nat := Elbow false 0%nat 0%nat 0%nat.
-Definition is_thinned : list (op nat) -> list (op nat) -> Prop := Forall2 (fun o' o => o' = o \/ o' = nothing).
+Definition nothing : op address := Elbow false Here Here Here.
+Definition is_thinned : list (op address) -> list (op address) -> Prop := Forall2 (fun o' o => o' = o \/ o' = nothing).
 (** Last first. *)
-Fixpoint thinned_back (l : list (op nat)) (needed : list bool) : list (op nat) :=
-  match l, needed with
-  | o :: l', b :: rest => if b then o :: thinned_back l' (fold_right mark rest (parts_of o)) else nothing :: thinned_back l' rest
-  | o :: l', [] => o :: thinned_back l' []
+Fixpoint thinned_back (l : list (op address)) (needed : stack bool) : list (op address) :=
+  match l, pop bool needed with
+  | o :: l', Some (b, rest) => if b then o :: thinned_back l' (fold_right mark rest (parts_of o)) else nothing :: thinned_back l' rest
+  | o :: l', None => o :: thinned_back l' Bottom
   | [], _ => []
   end.
-Definition thinned (wanted : list nat) (tape : list (op nat)) : list (op nat) :=
-  rev_append (thinned_back (rev_append tape []) (fold_right mark (map (fun _ => false) tape) wanted)) [].
+Definition thinned (wanted : list nat) (tape : list (op address)) : list (op address) := rev_append (thinned_back (rev_append tape []) (marked wanted tape)) [].
 
 Lemma thinned_is : forall wanted tape, is_thinned (thinned wanted tape) tape.
 Proof.
-  intros wanted tape. unfold thinned. rewrite <- !rev_alt. set (needed := fold_right mark _ _). clearbody needed.
+  intros wanted tape. unfold thinned. rewrite <- !rev_alt. generalize (marked wanted tape). intro needed.
   assert (B : forall l needed, is_thinned (thinned_back l needed) l).
-  { induction l as [| o l IH]; intros [| [|] rest]; cbn [thinned_back]; constructor; auto; apply IH. }
+  { induction l as [| o l IH]; intro s; cbn [thinned_back]; [constructor |]. destruct (pop bool s) as [[[|] rest] |]; constructor; auto; apply IH. }
   assert (R0 : forall l' l, is_thinned l' l -> is_thinned (rev l') (rev l)).
   { induction 1 as [| o' o l' l h hs IH]; [constructor |]. cbn [rev]. apply Forall2_app; [exact IH | constructor; [exact h | constructor]]. }
   rewrite <- (rev_involutive tape) at 2. apply R0, B.
@@ -411,20 +410,21 @@ Lemma thinned_not_at_all : forall tape, is_thinned tape tape.
 Proof. induction tape; constructor; auto. Qed.
 
 Theorem run_thinned : forall (V W : Type) (dv : V) (dw : W) (ev : op V -> V) (ew : op W -> W) (P : V -> W -> Prop),
-  P dv dw -> (forall w, P dv w) -> (forall f, ev (map_op f nothing) = dv) -> (forall (o : op nat) f g, (forall i, P (f i) (g i)) -> P (ev (map_op f o)) (ew (map_op g o))) ->
-  forall tape' tape, is_thinned tape' tape -> forall vs ws, Forall2 P vs ws -> Forall2 P (run V dv ev tape' vs) (run W dw ew tape ws).
+  P dv dw -> (forall w, P dv w) -> (forall f, ev (map_op f nothing) = dv) -> (forall (o : op address) f g, (forall i, P (f i) (g i)) -> P (ev (map_op f o)) (ew (map_op g o))) ->
+  forall tape' tape, is_thinned tape' tape -> Forall2 P (run V dv ev tape') (run W dw ew tape).
 Proof.
-  intros V W dv dw ev ew P start never none step. induction 1 as [| o' o tape' tape h hs IH]; intros vs ws r; [exact r |]. cbn [run]. apply IH. constructor; [| exact r].
-  destruct h as [-> | ->]; [apply step; intro i; exact (nth_related V W dv dw P start vs ws r i) | rewrite none; apply never].
+  intros V W dv dw ev ew P start never none step tape' tape h. apply listed_related. assert (B := Bottoms V W P). revert B. generalize (@Bottom V) (@Bottom W).
+  induction h as [| o' o tape' tape h hs IH]; intros s s' r; [exact r |]. cbn [run_on]. apply IH, push_related; [| exact r].
+  destruct h as [-> | ->]; [apply step; intro i; exact (look_related V W dv dw P start s s' r i) | rewrite none; apply never].
 Qed.
 
 Section Tape.
-Variable tape : list (op nat).
+Variable tape : list (op address).
 Variable params : list fixed.
 Variable theta : list R.
 Hypothesis theta_in : Forall2 (contains bits) params theta.
 (** Of which there are values. *)
-Variable thin : list (op nat).
+Variable thin : list (op address).
 Hypothesis thin_is : is_thinned thin tape.
 
 Definition lift1 (f : fixed -> option fixed) (a : option fixed) : option fixed := match a with Some a => f a | None => None end.
@@ -446,7 +446,7 @@ Definition fixed_op (coords : list fixed) (o : op (option fixed)) : option fixed
 
 Definition entry_at (i : nat) : formula := nth i (formulas tape) (integer 0).
 Definition evaluate_at (q : list (fixed * fixed)) : list (option fixed) :=
-  run (option fixed) None (fixed_op (map fst q ++ map snd q)) thin [].
+  run (option fixed) None (fixed_op (map fst q ++ map snd q)) thin.
 
 Definition has_value (ps : list (R * R)) (a : option fixed) (f : formula) : Prop :=
   match a with Some a => contains bits a (at_pairs theta f ps) | None => True end.
@@ -460,7 +460,7 @@ Proof.
   assert (C : Forall2 (contains bits) (map fst q ++ map snd q) (point_of ps)).
   { unfold point_of. apply Forall2_app; eapply map_related; try exact h; intros ? ? [? ?]; assumption. }
   apply (nth_related _ _ None (integer 0) (has_value ps)); [exact I |].
-  apply (run_thinned (option fixed) formula None (integer 0) _ F (has_value ps)); [exact I | intro; exact I | reflexivity | | exact thin_is | constructor].
+  apply (run_thinned (option fixed) formula None (integer 0) _ F (has_value ps)); [exact I | intro; exact I | reflexivity | | exact thin_is].
   intros o f g H. unfold has_value, at_pairs in *. destruct o as [k | j | n | a b | a b | a | a b | a b | a | a | ? a b e];
     cbn [map_op fixed_op value real_op];
     try (pose proof (H a) as A; destruct (f a) as [ia |]; cbn [lift1 lift2]; [| exact I]);
@@ -543,7 +543,7 @@ Definition tensor_op (coords : list tensor) (o : op tensor) : tensor :=
   | Elbow _ _ _ _ => Constant None
   end.
 Definition tensors (cell : list fixed) : list tensor :=
-  run tensor (Constant None) (tensor_op (axes fst cell ++ axes snd cell)) thin [].
+  run tensor (Constant None) (tensor_op (axes fst cell ++ axes snd cell)) thin.
 
 Theorem tensors_value : forall cell p, length p = length cell ->
   forall i, value_at (nth i (tensors cell) (Constant None)) p = nth i (evaluate_at (points cell p)) None.
@@ -552,7 +552,7 @@ Proof.
   assert (C : map (fun t => value_at t p) (axes fst cell ++ axes snd cell) = map Some (map fst q ++ map snd q))
     by (rewrite map_app, !value_axes, map_app by exact l; reflexivity).
   apply (nth_related _ _ (Constant None) None (fun t a => value_at t p = a)); [apply value_constant |].
-  apply (run_related tensor (option fixed) (Constant None) None _ _ (fun t a => value_at t p = a)); [apply value_constant | | constructor].
+  apply (run_related tensor (option fixed) (Constant None) None _ _ (fun t a => value_at t p = a)); [apply value_constant |].
   assert (N1 : forall g a, lift2 g a None = None) by (intros g []; reflexivity).
   intros o f g H. destruct o as [k | j | n | a b | a b | a | a b | a b | a | a | ? a b e]; cbn [map_op tensor_op fixed_op];
     try apply value_constant; try (rewrite value_tensor2, (H a), (H b) by (try apply N1; reflexivity); reflexivity);

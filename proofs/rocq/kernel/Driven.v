@@ -123,7 +123,7 @@ Definition check_driven (c : driven_claim) (s : Z) (ds : list (Z * Z)) (t : tree
   let own q d := match d with OnePose _ _ _ => located_own lay (far q) (there q) js | _ => own_of fs q d end in
   let built := flat_map d_built fs in let about := if only_pose c then map (fun f => (d_origin f, d_D f)) fs else [] in
   let wanted := entries (pose_rows fs) ++ entries (pose_divided fs) ++ built ++ of_each own angular s j demands ++ entries about in
-  let tape := fst (compile wanted) in
+  let tape := compile wanted in
   let all := formulas tape in let place := place all in
   let tests_of q d := match d with
     | OnePose error b angle => if may_be_near k (drives c) angle
@@ -202,7 +202,7 @@ Record seen := Seen { seen_row : list R; seen_joint : coordinate; seen_rod : opt
 Section Fulfilled.
 Variable bits : positive.
 Variables (x theta : list R) (s : Z) (n : nat) (are_angles : bool) (fs : list pose_formulas) (m : list seen) (here : vec -> vec).
-Variables (tape : list (op nat)) (params : list fixed) (partial : list nat).
+Variables (tape : list (op address)) (params : list fixed) (partial : list nat).
 Local Notation value := (Formula.value x theta).
 Local Notation found := (place (formulas tape)).
 Local Notation holds := (Check.holds bits tape (map_rows found (pose_rows fs)) (map_rows found (pose_divided fs)) partial params theta n x).
@@ -602,7 +602,7 @@ Proof.
   set (there := fun q => map (fun f => (row_there k ell (turn_unit q) (d_divided f), integer 1)) fs) in *. set (js := map d_joint fs) in *.
   set (own_q := fun q d => match d with OnePose _ _ _ => located_own lay (far q) (there q) js | _ => own_of fs q d end) in *.
   set (own := of_each own_q angular s j demands) in *. set (wanted := entries (pose_rows fs) ++ entries (pose_divided fs) ++ built ++ own ++ entries about) in *.
-  set (tape := fst (compile wanted)) in *. set (place := place (formulas tape)) in *.
+  set (tape := compile wanted) in *. set (place := place (formulas tape)) in *.
   set (tests_q := fun q d => match d with
     | OnePose error b angle => if may_be_near bits k (drives c) angle
         then located_tests bits place (freedom k) (places_of k) (lasts_of k) angular lay s (far q) (there q) js (tangent_of bits k angle) error b else [None]

@@ -127,7 +127,7 @@ Section Precision.
 Variable bits : positive.
 Local Notation contains := (contains bits).
 
-Variable tape : list (op nat).
+Variable tape : list (op address).
 Variable places : list nat.
 Hypothesis represented : map (formula_at tape) places = entries.
 
@@ -169,7 +169,7 @@ Definition shows (cell : list fixed) (e : evidence) : bool :=
   | [y; z; kappa], ByCorner g =>
       match f, g with
       | Q1, Q1 | Q2, Q2 =>
-          definite_at (run (option slope) None (slope_op bits (about y z kappa) []) tape [])
+          definite_at (run (option slope) None (slope_op bits (about y z kappa) []) tape)
             (map about_corner [[true; false]; [false; true]; [true; true]])
       | _, _ => false
       end
@@ -261,7 +261,7 @@ Lemma tight_edge_sound : forall iy iz ik g y z kappa, shows [iy; iz; ik] (ByCorn
   nonnegative (F_at y z kappa).
 Proof.
   intros iy iz ik g y z kappa h hy hz hk by' bz hh a b c. cbn [shows] in h.
-  assert (h' : definite_at (run (option slope) None (slope_op bits (about iy iz ik) []) tape [])
+  assert (h' : definite_at (run (option slope) None (slope_op bits (about iy iz ik) []) tape)
     (map about_corner [[true; false]; [false; true]; [true; true]]) = true) by (destruct f, g; try discriminate; exact h).
   clear h. destruct (edge_sound iy y hy by') as [h1 [s [hs [es c1]]]].
   destruct (edge_sound iz z hz bz) as [h2 [t [ht [et c2]]]].
@@ -395,7 +395,7 @@ Local Notation contains := (contains bits).
 Definition half_unit : Z := 2 ^ (Zpos bits - 1).
 
 Definition check_part (f : face) (low : bool) (kappa : fixed) (t : tree) : bool :=
-  let (tape, places) := compile (entries f low) in
+  let tape := compile (entries f low) in let places := map (place (formulas tape)) (entries f low) in
   let whole := Fixed 0 (unit_Z bits) in check f bits tape places [whole; whole; kappa] true t.
 
 (** For kappa from least / 2^bits: both faces, up to 1/2 and from there, as far as there are any. *)
@@ -425,14 +425,14 @@ Proof.
   - rewrite <- Z.pow_succ_r by lia. f_equal. lia.
 Qed.
 
-Lemma compiled : forall f low, map (formula_at (fst (compile (entries f low)))) (snd (compile (entries f low))) = entries f low.
+Lemma compiled : forall f low, map (formula_at (compile (entries f low))) (map (place (formulas (compile (entries f low)))) (entries f low)) = entries f low.
 Proof. intros [|] [|]; vm_compute; reflexivity. Qed.
 
 Lemma check_part_sound : forall f low ik t y z kappa, check_part f low ik t = true -> contains ik kappa -> in_half low kappa ->
   0 <= y <= 1 -> 0 <= z <= 1 -> nonnegative (F_at f low y z kappa).
 Proof.
   intros f low ik t y z kappa h hk hh by' bz. unfold check_part in h. pose proof (compiled f low) as C.
-  destruct (compile (entries f low)) as [tape places]. cbn [fst snd] in C. pose proof (unit_R_pos bits) as u.
+  cbn zeta in h. set (tape := compile (entries f low)) in *. set (places := map (place (formulas tape)) (entries f low)) in *. clearbody tape places. pose proof (unit_R_pos bits) as u.
   set (whole := Fixed 0 (unit_Z bits)) in *. cbn zeta in h.
   assert (Y : forall w, 0 <= w <= 1 -> in_y bits whole w /\ in_z bits whole w).
   { intros w b. assert (contains whole w) by (split; cbn [whole lo hi]; fold (unit_R bits); nra).

@@ -226,7 +226,7 @@ Qed.
 End One.
 
 Section Located.
-Variables (tape : list (op nat)) (whole divided : rows nat) (partial : list nat) (params : list fixed).
+Variables (tape : list (op address)) (whole divided : rows nat) (partial : list nat) (params : list fixed).
 Variables (k : mobility) (turn : option (emat * formula)) (ell unit : formula) (s : Z) (ds : list (Z * Z)) (drs : list any_drive) (m : list driven) (P : vec) (Q : mat) (L : R).
 Variables (cs th tb : list R) (error b angle : number) (angular : bool) (turned : option fixed).
 Let ps := driven_layouts s ds drs.

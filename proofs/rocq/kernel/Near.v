@@ -96,20 +96,20 @@ Proof.
     rewrite app_length, <- app_assoc in IH. rewrite Nat.add_1_r in IH. exact IH.
 Qed.
 
-Variable tape : list (op nat).
+Variable tape : list (op address).
 Variable params : list fixed.
 Local Notation formula_at i := (nth i (formulas tape) (integer 0)).
 
-Definition evaluate_near (cell : list fixed) (d : fixed) : list (option slope) :=
-  run (option slope) None (slope_op bits (near_coords 0 cell d) (map constant params)) tape [].
+Definition evaluate_near (keep : list bool) (cell : list fixed) (d : fixed) : list (option slope) :=
+  run_kept (option slope) None (slope_op bits (near_coords 0 cell d) (map constant params)) keep tape.
 
-Lemma near_encloses : forall dist d cell x lambda theta, contains dist d -> 0 <= d -> Forall2 contains cell x -> length lambda = length cell ->
+Lemma near_encloses : forall keep dist d cell x lambda theta, contains dist d -> 0 <= d -> Forall2 contains cell x -> length lambda = length cell ->
   Forall (fun t => -1 <= t <= 1) lambda -> Forall2 contains params theta ->
-  forall i, encloses bits lambda (moved d x lambda) x theta (nth i (evaluate_near cell dist) None) (formula_at i).
+  forall i, encloses bits lambda (moved d x lambda) x theta (nth i (evaluate_near keep cell dist) None) (formula_at i).
 Proof.
-  intros dist d cell x lambda theta hd d0 hx el hl ht i.
+  intros keep dist d cell x lambda theta hd d0 hx el hl ht i.
   apply (nth_related _ _ _ _ (encloses bits lambda (moved d x lambda) x theta)); [exact I |].
-  apply (evaluate_sound bits lambda hl (moved d x lambda) x theta).
+  apply (evaluate_kept_sound bits lambda hl (moved d x lambda) x theta).
   - pose proof (near_hold dist d hd d0 cell x hx lambda el hl [] []) as N. cbn [app length] in N. rewrite app_nil_r in N. exact N.
   - apply params_hold, ht.
 Qed.

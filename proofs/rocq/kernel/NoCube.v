@@ -29,7 +29,7 @@ Definition image_of (r : rows nat) (v : list Z) : expr :=
   sum_of (map (fun p => Apply (Div (Apply (Sqr (product_with (fst p) v))) (Entry (snd p)))) r).
 
 Section Values.
-Variable tape : list (op nat).
+Variable tape : list (op address).
 Variables x theta : list R.
 
 Fixpoint formula_of (e : expr) : formula := match e with Entry i => formula_at tape i | Apply o => F (map_op formula_of o) end.
@@ -86,12 +86,12 @@ Variables xs cs theta : list R.
 Variables coords params : list slope.
 Hypothesis coords_hold : forall k, Slope.holds bits lambda (nth k coords (constant zero)) (nth k cs 0) (nth k xs 0).
 Hypothesis params_hold : forall j, Slope.holds bits lambda (nth j params (constant zero)) (nth j theta 0) (nth j theta 0).
-Variable tape : list (op nat).
-Let values := run (option slope) None (slope_op bits coords params) tape [].
+Variable tape : list (op address).
+Let values := run (option slope) None (slope_op bits coords params) tape.
 
 Lemma eval_sound : forall e, encloses bits lambda xs cs theta (eval coords params values e) (formula_of tape e).
 Proof.
-  pose proof (slope_op_sound bits lambda lambda_in xs cs theta coords params coords_hold params_hold) as S.
+  pose proof (slope_op_sound bits lambda lambda_in xs cs theta coords params coords_hold params_hold nat) as S.
   fix IH 1. intros [i | o]; cbn [eval formula_of].
   - apply (nth_related _ _ None (integer 0) (encloses bits lambda xs cs theta)); [exact I |].
     exact (evaluate_sound bits lambda lambda_in xs cs theta coords params coords_hold params_hold tape).
@@ -195,7 +195,7 @@ Section Shown.
 Variables (c : claim) (s : Z) (ds : list Z) (m : list leg) (P : vec) (theta : list R).
 Let ratio := / two_to s.
 Let fs := all_formulas s ds (legs c) 0.
-Variable tape : list (op nat).
+Variable tape : list (op address).
 Local Notation Q := (vscale ratio P).
 Local Notation x := (coordinates Q).
 Local Notation found := (place (formulas tape)).
@@ -546,8 +546,8 @@ Inductive failing_tree :=
   | Parted (j : nat) (lower upper : failing_tree).
 
 Section Tree.
-Variables (first : nat) (rs : list requirement) (b : failings) (tape : list (op nat)) (part : fixed).
-Let values_at (params : list fixed) (coords : list slope) := run (option slope) None (slope_op bits coords (map constant params)) tape [].
+Variables (first : nat) (rs : list requirement) (b : failings) (tape : list (op address)) (part : fixed).
+Let values_at (params : list fixed) (coords : list slope) := run (option slope) None (slope_op bits coords (map constant params)) tape.
 
 Definition may_halve (k : nat) (l : list fixed) : bool := match nth_error l k with Some a => negb (midpoint a =? lo a)%Z | None => false end.
 Fixpoint fails_everywhere (params cell : list fixed) (t : failing_tree) : bool :=
@@ -585,15 +585,15 @@ Definition check_no_cube (exact : positive) (c : claim) (side : number) (s : Z) 
   let fs := all_formulas s ds (legs c) 0 in
   let n := (length ps, length ps + length (require c))%nat in
   let needed := entries (whole_rows fs) ++ map rod fs ++ range_formulas fs s n (require c) in
-  let tape := fst (compile needed) in
-  let found := formulas tape in
+  let tape := compile needed in
+  let found := formulas tape in let at_ := place found in
   match workspace c with
   | Box edges =>
-      forallb (fun e => Formula.same (nth (place found e) found (integer 0)) e) needed && certainly exact true side &&
+      forallb (fun e => Formula.same (nth (at_ e) found (integer 0)) e) needed && certainly exact true side &&
       match all_some (map (enclose_parameter bits) (ps ++ map (bound_of s) (require c) ++ flat_map (extras s) (require c))),
             all_some (map (enclose_parameter bits) (three edges s)), enclose_scaled bits s (Over side (16 // 1)) with
       | Some params, Some box, Some part =>
-          fails_everywhere (fst n) (require c) (failings_of (place found) fs s n (require c)) tape part params box t
+          fails_everywhere (fst n) (require c) (failings_of at_ fs s n (require c)) tape part params box t
       | _, _, _ => false
       end
   | Cylinder _ _ _ _ => false
@@ -610,7 +610,7 @@ Proof.
   intros exact c side s ds t h m C [hm [built hC]]. unfold check_no_cube in h. cbv zeta in h.
   set (fs := all_formulas s ds (legs c) 0) in *. set (n := (length (layouts s ds (legs c)), length (layouts s ds (legs c)) + length (require c))%nat) in *.
   set (needed := entries (whole_rows fs) ++ map rod fs ++ range_formulas fs s n (require c)) in *.
-  set (tape := fst (compile needed)) in *. destruct (workspace c) as [edges |]; [| discriminate].
+  set (tape := compile needed) in *. destruct (workspace c) as [edges |]; [| discriminate].
   apply andb_true_iff in h as [h ht]. apply andb_true_iff in h as [found side_pos]. apply positive_sound in side_pos.
   destruct (all_some (map (enclose_parameter bits) (layouts s ds (legs c) ++ map (bound_of s) (require c) ++ flat_map (extras s) (require c)))) as [params |] eqn:ep; [| discriminate].
   destruct (all_some (map (enclose_parameter bits) (three edges s))) as [box |] eqn:eb; [| discriminate].

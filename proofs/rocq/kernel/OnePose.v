@@ -47,11 +47,11 @@ Definition pose_at (n : nat) (ws : list Z) (places : N) (Y : list (list Z)) (k2 
   end.
 
 Section Shown.
-Variable tape : list (op nat).
+Variable tape : list (op address).
 Variable params : list fixed.
 Variable theta : list R.
 Hypothesis theta_in : Forall2 contains params theta.
-Variable thin : list (op nat).
+Variable thin : list (op address).
 Hypothesis thin_is : is_thinned thin tape.
 Variables (m : nat) (cell : list fixed) (x : list R).
 Hypothesis x_in : Forall2 contains cell x.
@@ -344,10 +344,10 @@ Definition root_of (ts : list tensor) (m w : nat) (row : list nat * nat) : optio
   | _, _ => None
   end.
 Definition are_all (values : list (option slope)) (l : list nat) : option (list slope) := Check.all_some (map (fun i => nth i values None) l).
-Definition near_values (plain : list (op nat)) (params cell : list fixed) (m : nat) (a : near_test) : list (option slope) :=
+Definition near_values (plain : list (op address)) (params cell : list fixed) (m : nat) (a : near_test) : list (option slope) :=
   run_kept (option slope) None (slope_op bits (near_cell (n_first a) m cell (n_distance a) (n_turn a)) (map constant params))
-    (kept (concat (n_far a) ++ n_reach a) plain) plain [].
-Definition shows_pose (plain : list (op nat)) (params cell : list fixed) (values : list (option slope)) (ts : list tensor) (m : nat) (a : near_test) (l : multiple)
+    (kept (concat (n_far a) ++ n_reach a) plain) plain.
+Definition shows_pose (plain : list (op address)) (params cell : list fixed) (values : list (option slope)) (ts : list tensor) (m : nat) (a : near_test) (l : multiple)
     (places : N) (Y : list (list Z)) (kappa : Z) (q : N) : bool :=
   let f := n_first a in let near := near_values plain params cell m a in
   (N.eqb q 0 || (N.leb q 16 && Nat.ltb 0 f && Nat.ltb f m)) && Nat.leb f m && Nat.eqb (length cell) m && Nat.eqb (length Y) m && Nat.eqb (length (n_rows a)) m &&
@@ -386,7 +386,7 @@ Proof.
 Qed.
 
 Section Whole.
-Variables tape plain : list (op nat).
+Variables tape plain : list (op address).
 Variable params : list fixed.
 Variable theta : list R.
 Hypothesis theta_in : Forall2 contains params theta.

@@ -98,7 +98,7 @@ Record finder := Finder {
 (** ** The claim as formulas *)
 
 Record board := Board {
-  its_tape : list (op nat); its_whole : rows nat; its_divided : rows nat; its_params : list fixed; its_tests : list test;
+  its_tape : list (op address); its_whole : rows nat; its_divided : rows nat; its_params : list fixed; its_tests : list test;
   its_failings : failings; first_bound : nat; its_requirements : list requirement;
   its_ends : list (fixed * fixed); its_paved : list nat; its_others : list nat; most_depth : N; its_symmetry : bool }.
 
@@ -110,7 +110,7 @@ Definition board_of (exact bits : positive) (c : claim) (edges : tolerances) (s 
   let fs := all_formulas s ds (legs c) 0 in
   let n := (length ps, length ps + length (require c))%nat in
   let needed := entries (whole_rows fs) ++ entries (divided_rows fs) ++ map rod fs ++ range_formulas fs s n (require c) in
-  let tape := fst (compile needed) in
+  let tape := compile needed in
   let found := formulas tape in
   let at_ := place found in
   let ends_of t := match enclose_scaled bits s (least t), enclose_scaled bits s (greatest t) with Some a, Some b => Some (a, b) | _, _ => None end in

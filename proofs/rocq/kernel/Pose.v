@@ -50,7 +50,7 @@ Definition test_places (t : pose_test) : list nat :=
 Section Tree.
 Variable bits : positive.
 (** Of polynomials, with squares of coordinates as coordinates, and of other formulas. *)
-Variables tape plain : list (op nat).
+Variables tape plain : list (op address).
 Variable params : list fixed.
 Variable tests : list pose_test.
 Variables m n : nat.
@@ -158,7 +158,7 @@ Hypothesis varied_holds : forall cell x k ends e, In (LeastOf main main_w k ends
   varied cell k ends e = true -> test_holds x (LeastOf main main_w k ends).
 
 Section Thin.
-Variable thin : list (op nat).
+Variable thin : list (op address).
 Hypothesis thin_is : is_thinned thin tape.
 Variable keep : list bool.
 Local Notation tensors_here cell := (tensors bits params thin cell).
@@ -270,7 +270,7 @@ Definition is_of_each_pose (t : pose_test) : bool := match t with NearOf _ => fa
 
 Section Trees.
 Variable bits : positive.
-Variables tape plain : list (op nat).
+Variables tape plain : list (op address).
 Variable all : list fixed.
 Variable tests : list pose_test.
 Variables m n : nat.
@@ -758,19 +758,19 @@ Definition check_turning (c : turning_claim) (s : Z) (t : tree) : bool :=
   let about := if one_pose c then each_strut (fun a b => origin_row k a (scaled_row k N w (quantity pl (length lay)) a b)) s (struts c) 0 else [] in
   let wanted := entries rows ++ w :: of_each (own_formulas k w zs ell (lay ++ [pl])) false s j ds ++ match g with Some g => [g] | None => [] end ++ entries about in
   let others := of_each (plain_formulas k N w zs (lay ++ [pl])) false s j ds in
-  let tape := fst (compile (map (image m) wanted)) in let plain := fst (compile others) in
+  let tape := compile (map (image m) wanted) in let plain := compile others in
   let fs := formulas tape in let plain_fs := formulas plain in
-  let place f := Formula.place fs (image m f) in
+  let at_ := Formula.place fs in let place f := at_ (image m f) in let plain_place := Formula.place plain_fs in
   let ends_for r := match positions c with Box _ => ends_of fs m k r (place w) (option_map place g) | _ => O end in let ends := ends_for (map_rows place rows) in
   forallb (fun f => Formula.same (nth (place f) fs (integer 0)) (image m f)) wanted && forallb (is_below m) wanted &&
-  forallb (fun f => Formula.same (nth (Formula.place plain_fs f) plain_fs (integer 0)) f) others &&
+  forallb (fun f => Formula.same (nth (plain_place f) plain_fs (integer 0)) f) others &&
   existsb excludes ds && (negb (one_pose c) || turns_less bits (Legs.Turns k) (Some (turned c))) && is_flat k (hull (positions c)) && certainly bits true (characteristic_length c) &&
   forallb (fun t => is_angle_number bits (least t) && is_angle_number bits (greatest t)) (angles_of (turned c)) &&
   match all_some (map (enclose_parameter bits) (lay ++ [pl])), all_some (map (enclose_input bits) ins),
         all_some (map (fun t => enclose_parameter bits (t, s)) (position_tolerances k (hull (positions c)))),
         all_some (map (end_box bits) (chart_ends (turned c))),
         all_some (map (enclose_tangent bits) (curved (turned c))),
-        all_some (of_each (tests_of_demand s k N w zs ell (lay ++ [pl]) place (Formula.place plain_fs) ends ends_for) false s j ds) with
+        all_some (of_each (tests_of_demand s k N w zs ell (lay ++ [pl]) place plain_place ends ends_for) false s j ds) with
   | Some params, Some inputs, Some box, Some angles, Some tangents, Some tests =>
       let tests := if one_pose c then inserted one_place tests (ChordsOf (map_rows place about) (place w) (fst one_matrix) (snd one_matrix)) else tests in
       Nat.eqb (length (box ++ angles)) m && forallb (fun t => forallb (affine_in m fs) (test_places t)) tests &&
@@ -778,7 +778,7 @@ Definition check_turning (c : turning_claim) (s : Z) (t : tree) : bool :=
       let all := params ++ inputs ++ tangents in
       let apart := has_apart t in let free := free_struts s (struts c) in
       let F := if apart then own_multis m rows free else [] in
-      let apart_tape := if apart then fst (compile (varied_wanted m w g F)) else [] in
+      let apart_tape := if apart then compile (varied_wanted m w g F) else [] in
       let apart_fs := formulas apart_tape in let apart_place := Formula.place apart_fs in
       let apart_rows := map_multis apart_place apart_place F in let apart_w := apart_place (image m w) in let apart_g := option_map (fun g => apart_place (image m g)) g in
       let fit := negb apart || (Nat.eqb (length rows) m && are_fit m ends rows w g all free F apart_fs) in
@@ -1024,8 +1024,8 @@ Proof.
   set (g := curve (turned c) (first_angle k) (j + length ins)) in *. set (gs := match g with Some g => [g] | None => [] end) in *.
   set (about := if one_pose c then each_strut (fun a b => origin_row k a (scaled_row k N w ell a b)) s ts 0 else []) in *.
   set (wanted := entries rows ++ w :: of_each (own_formulas k w zs ell (lay ++ [pl])) false s j ds ++ gs ++ entries about) in *. set (others := of_each (plain_formulas k N w zs (lay ++ [pl])) false s j ds) in *.
-  set (tape := fst (compile (map (image (dimension k)) wanted))) in *. set (place := fun f => Formula.place (formulas tape) (image (dimension k) f)) in *.
-  set (plain := fst (compile others)) in *. set (plain_place := Formula.place (formulas plain)) in *.
+  set (tape := compile (map (image (dimension k)) wanted)) in *. set (place := fun f => Formula.place (formulas tape) (image (dimension k) f)) in *.
+  set (plain := compile others) in *. set (plain_place := Formula.place (formulas plain)) in *.
   apply andb_true_iff in h as [h C]. apply andb_true_iff in h as [h ang]. apply andb_true_iff in h as [h L0].
   apply andb_true_iff in h as [h flat]. apply andb_true_iff in h as [h below_half]. apply andb_true_iff in h as [h ex]. apply andb_true_iff in h as [h there]. apply andb_true_iff in h as [found below_].
   destruct (all_some (map (enclose_parameter bits) _)) as [params |] eqn:ep; [| discriminate].
@@ -1145,7 +1145,7 @@ Proof.
       [rewrite Rows; exact (rows_grounded x theta k P Q W _ L rows m W0 ST) | rewrite Weight; exact W0]].
     intros i e. destruct g as [f |] eqn:eg'; [| discriminate]. injection e as <-. rewrite Found; [apply hg; exact eg' |].
     apply in_or_app. right. right. apply in_or_app. right. left. reflexivity. }
-  cbv zeta in fits, tree_ok. set (apart := has_apart t) in *. set (multis := if apart then own_multis _ _ _ else []) in *. set (apart_tape := if apart then fst (compile _) else []) in *.
+  cbv zeta in fits, tree_ok. set (apart := has_apart t) in *. set (multis := if apart then own_multis _ _ _ else []) in *. set (apart_tape := if apart then compile _ else []) in *.
   assert (VH : forall all, Forall2 (contains bits) all theta -> are_above (params ++ inputs ++ tangents) all -> forall cell y k' e by_, In (LeastOf (map_rows place rows) (place w) k' e) all_tests -> Forall2 (contains bits) cell y -> length cell = dimension k ->
     is_turned tape all_tests (option_map place g) theta y -> apart && shows_varied bits (dimension k) ends all (free_struts s ts) apart_tape
       (map_multis (Formula.place (formulas apart_tape)) (Formula.place (formulas apart_tape)) multis) (Formula.place (formulas apart_tape) (image (dimension k) w))

@@ -598,15 +598,15 @@ Definition check_claim_by (c : claim) (s : Z) (ds : list Z) (t : tree) : bool :=
   let fs := all_formulas s ds (legs c) 0 in
   let n := (length ps, length ps + length (require c))%nat in
   let needed := entries (whole_rows fs) ++ entries (divided_rows fs) ++ range_formulas fs s n (require c) ++ accuracy_formulas ps fs (require c) in
-  let tape := fst (compile needed) in
-  let found := formulas tape in
-  if forallb (fun e => same (nth (place found e) found (integer 0)) e) needed then
+  let tape := compile needed in
+  let found := formulas tape in let at_ := place found in
+  if forallb (fun e => same (nth (at_ e) found (integer 0)) e) needed then
     if existsb is_lower (require c) && are_buildable s ds (legs c) then
       match all_some (map (enclose_parameter bits) (ps ++ map (bound_of s) (require c) ++ flat_map (extras s) (require c))),
             all_some (map (enclose_parameter bits) (three (hull (workspace c)) s)),
-            all_some (tests_of (place found) ps fs s n (require c)) with
+            all_some (tests_of at_ ps fs s n (require c)) with
       | Some params, Some box, Some tests =>
-          check bits tape (map_rows (place found) (whole_rows fs)) (map_rows (place found) (divided_rows fs)) []
+          check bits tape (map_rows at_ (whole_rows fs)) (map_rows at_ (divided_rows fs)) []
             params tests (tangent (workspace c) s) box (all_open tests) t
       | _, _, _ => false
       end
@@ -701,7 +701,7 @@ Definition rod_stands (unit : R) (f : option (evec * evec * formula)) (l : optio
   | Some (tip, A, len) => exists C V L, l = Some (C, V, L) /\ vscale unit C = located_at tip /\ vscale unit V = located_at A /\ unit * L = value len
   | None => True
   end.
-Variable tape : list (op nat).
+Variable tape : list (op address).
 Variables (params : list fixed) (rods : list (option (evec * evec * formula))) (placed : evec -> evec) (real : list (option (vec * vec * R))) (place_of : vec -> vec).
 Hypothesis rods_are : Forall2 (rod_stands ratio) rods real.
 Hypothesis placed_is : forall u v, located_at u = vscale ratio v -> located_at (placed u) = vscale ratio (place_of v).
@@ -796,7 +796,7 @@ Section Accepted.
 Variables (c : claim) (s : Z) (ds : list Z) (m : list leg) (P : vec) (theta : list R) (params : list fixed).
 Let ratio := / two_to s.
 Let fs := all_formulas s ds (legs c) 0.
-Variable tape : list (op nat).
+Variable tape : list (op address).
 Local Notation Q := (vscale ratio P).
 Local Notation x := (coordinates Q).
 Local Notation found := (place (formulas tape)).
@@ -1705,7 +1705,7 @@ Proof.
   intros c s ds t h m P0 hm hP0. unfold check_claim_by in h. cbn zeta in h.
   set (fs := all_formulas s ds (legs c) 0) in *. set (n := (length (layouts s ds (legs c)), length (layouts s ds (legs c)) + length (require c))%nat) in *.
   set (needed := entries (whole_rows fs) ++ entries (divided_rows fs) ++ range_formulas fs s n (require c) ++ accuracy_formulas (layouts s ds (legs c)) fs (require c)) in *.
-  set (tape := fst (compile needed)) in *.
+  set (tape := compile needed) in *.
   destruct (forallb _ needed) eqn:found; [| discriminate].
   destruct (existsb is_lower (require c) && are_buildable s ds (legs c)) eqn:low; [| discriminate]. apply andb_true_iff in low as [low able].
   destruct (all_some (map (enclose_parameter bits) (layouts s ds (legs c) ++ map (bound_of s) (require c) ++ flat_map (extras s) (require c)))) as [params |] eqn:ep; [| discriminate].

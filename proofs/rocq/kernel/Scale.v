@@ -32,8 +32,8 @@ Definition degree_op (J : list nat) (o : op (option (option Z))) : option (optio
   | Elbow _ (Some a) (Some b) (Some t) => if forallb (fun d => match d with Some k => (k =? 0)%Z | None => true end) [a; b; t] then Some (Some 0%Z) else None
   | _ => None
   end.
-Definition degrees (J : list nat) (tape : list (op nat)) : list (option Z) :=
-  map (option_map (fun d => match d with Some k => k | None => 0%Z end)) (run (option (option Z)) None (degree_op J) tape []).
+Definition degrees (J : list nat) (tape : list (op address)) : list (option Z) :=
+  map (option_map (fun d => match d with Some k => k | None => 0%Z end)) (run (option (option Z)) None (degree_op J) tape).
 
 Section Machines.
 Variables (x theta scaled : list R) (s : R) (J : list nat).
@@ -56,7 +56,7 @@ Lemma level_of : forall d v w, match d with Some k => (k =? 0)%Z | None => true 
 Proof. intros [k |] v w h H; cbn [is_scaled_by] in H; [apply Z.eqb_eq in h; subst k; rewrite H; cbn [powerRZ]; ring | lra]. Qed.
 Lemma not_zero_of : forall d v w, is_scaled_by d v w -> v <> 0 -> w <> 0.
 Proof. intros [k |] v w H n z; cbn [is_scaled_by] in H; apply n; [rewrite H, z; ring | tauto]. Qed.
-Lemma degree_op_sound : forall (o : op nat) f g, (forall i, has_degree (f i) (g i)) -> has_degree (degree_op J (map_op f o)) (F (map_op g o)).
+Lemma degree_op_sound : forall (o : op address) f g, (forall i, has_degree (f i) (g i)) -> has_degree (degree_op J (map_op f o)) (F (map_op g o)).
 Proof.
   intros o f g H.
   destruct o as [k | j | n | a b | a b | a | a b | a b | a | a | second a b t]; cbn [map_op].
@@ -113,10 +113,10 @@ Theorem degrees_sound : forall tape i, match nth i (degrees J tape) None with
   end.
 Proof.
   intros tape i. unfold degrees. change (@None Z) with (option_map (fun d => match d with Some k => k | None => 0%Z end) None). rewrite map_nth.
-  assert (H : has_degree (nth i (run (option (option Z)) None (degree_op J) tape []) None) (nth i (formulas tape) (integer 0))).
+  assert (H : has_degree (nth i (run (option (option Z)) None (degree_op J) tape) None) (nth i (formulas tape) (integer 0))).
   { apply (nth_related _ _ _ _ has_degree); [exact I |].
-    apply (run_related (option (option Z)) formula None (integer 0) (degree_op J) F has_degree); [exact I | exact degree_op_sound | constructor]. }
-  destruct (nth i (run _ _ _ _ _) None) as [[k |] |]; cbn [option_map has_degree is_scaled_by] in *; [exact H | | exact I].
+    apply (run_related (option (option Z)) formula None (integer 0) (degree_op J) F has_degree); [exact I | exact degree_op_sound]. }
+  destruct (nth i (run _ _ _ _) None) as [[k |] |]; cbn [option_map has_degree is_scaled_by] in *; [exact H | | exact I].
   intro d. destruct (H d) as [d' [v w]]. split; [exact d' |]. rewrite v, w. ring.
 Qed.
 End Machines.

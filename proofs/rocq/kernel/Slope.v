@@ -69,12 +69,12 @@ Definition holds (s : slope) (vc v : R) : Prop :=
 (** The range, cut by what the slopes say.  Both contain f(x), so that they meet;
     slopes from two identities may not be cut so: they are of different S. *)
 Definition tight (c r : fixed) (s : list fixed) : slope :=
-  Slope c (Fixed (Z.max (lo r) (lo c - reach s)) (Z.min (hi r) (hi c + reach s))) s.
+  let far := reach s in Slope c (Fixed (Z.max (lo r) (lo c - far)) (Z.min (hi r) (hi c + far))) s.
 
 Lemma tight_sound : forall c r s vc v d, contains c vc -> contains r v -> spans s d -> d = v - vc -> holds (tight c r s) vc v.
 Proof.
   intros c r s vc v d hc hr hs ->. split; [exact hc |]. split; [| exact hs].
-  pose proof (reach_sound _ _ hs) as b. unfold tight, Fixed.contains in *. cbn [range lo hi].
+  pose proof (reach_sound _ _ hs) as b. unfold tight, Fixed.contains in *. cbv zeta. cbn [range lo hi].
   destruct hc as [c1 c2], hr as [r1 r2]. split.
   - apply (Z.max_case (lo r) (lo c - reach s) (fun m => IZR m <= v * unit)); intros; subst; try assumption.
     rewrite minus_IZR. lra.
@@ -350,10 +350,10 @@ Local Ltac unary a lemma :=
   intros s s' E [? [? ?]]; injection E as <-; unfold enclosed;
   cbn [defined value map_op defined_op all_op real_op]; auto 10 using lemma.
 
-Lemma slope_op_sound : forall (o : op nat) f g, (forall i, encloses (f i) (g i)) ->
+Lemma slope_op_sound : forall (A : Type) (o : op A) f g, (forall i, encloses (f i) (g i)) ->
   encloses (slope_op (map_op f o)) (F (map_op g o)).
 Proof.
-  intros o f g h. destruct o as [k | j | n | a b | a b | a | a b | a b | a | a | second a b t]; cbn [map_op slope_op].
+  intros A o f g h. destruct o as [k | j | n | a b | a b | a | a b | a b | a | a | second a b t]; cbn [map_op slope_op].
   - unfold encloses, enclosed. cbn. auto using coords_hold.
   - unfold encloses, enclosed. cbn. auto using params_hold.
   - unfold encloses, enclosed. cbn. auto using constant_holds, integer_sound.
@@ -377,17 +377,16 @@ Qed.
 
 (** Soundness: what the tape evaluates to over a cell encloses its formulas there. *)
 Theorem evaluate_sound : forall tape,
-  Forall2 encloses (run (option slope) None slope_op tape []) (formulas tape).
+  Forall2 encloses (run (option slope) None slope_op tape) (formulas tape).
 Proof.
-  intro tape. apply (run_related (option slope) formula None (integer 0) slope_op F encloses);
-    [exact I | exact slope_op_sound | constructor].
+  intro tape. apply (run_related (option slope) formula None (integer 0) slope_op F encloses); [exact I | exact (slope_op_sound address)].
 Qed.
 
 
-Theorem evaluate_kept_sound : forall keep tape, Forall2 encloses (run_kept (option slope) None slope_op keep tape []) (formulas tape).
+Theorem evaluate_kept_sound : forall keep tape, Forall2 encloses (run_kept (option slope) None slope_op keep tape) (formulas tape).
 Proof.
   intros keep tape. apply (run_kept_related (option slope) formula None (integer 0) slope_op F encloses);
-    [exact I | exact slope_op_sound | intro; exact I | constructor].
+    [exact I | exact (slope_op_sound address) | intro; exact I].
 Qed.
 
 End Cell.

@@ -177,9 +177,9 @@ Definition varied_lower_at (n : nat) (places : N) (Y : list (list Z)) (direction
   end.
 
 Section Tape.
-Variable tape : list (op nat).
+Variable tape : list (op address).
 Variable params : list fixed.
-Variable thin : list (op nat).
+Variable thin : list (op address).
 Hypothesis thin_is : is_thinned thin tape.
 (** The parameters with tolerances, and where the one machine is. *)
 Variable ends : list (nat * Tolerances.choice).
@@ -444,7 +444,7 @@ Definition are_fit (F : multi_rows formula) (all : list formula) : bool :=
   are_eased m ends F (image m w) (option_map (image m) g) && forallb (fun p => forallb is_fit (fst p) && is_fit (snd p)) rs.
 
 (** [k]: the square of the least singular value, [e]: of how many coordinates the test has ends alone. *)
-Definition shows_part (tape : list (op nat)) (placed : multi_rows nat) (placed_w : nat) (placed_g : option nat) (cell : list fixed) (k : fixed) (part : option wedge) (by_ : evidence) : bool :=
+Definition shows_part (tape : list (op address)) (placed : multi_rows nat) (placed_w : nat) (placed_g : option nat) (cell : list fixed) (k : fixed) (part : option wedge) (by_ : evidence) : bool :=
   let shows es v l places Y := everywhere (@map_vsample) ends m (varied_lower_at bits m places Y v part (Tolerances.steps es params) k) (varied_tensors bits params tape es cell placed placed_w l) in
   match by_ with
   | ByTolerances (AtControls inner) es [v] =>
@@ -456,7 +456,7 @@ Definition shows_part (tape : list (op nat)) (placed : multi_rows nat) (placed_w
       end
   | _ => false
   end.
-Definition shows_varied (tape : list (op nat)) (placed : multi_rows nat) (placed_w : nat) (placed_g : option nat) (cell : list fixed) (k : fixed) (e : nat) (by_ : evidence) : bool :=
+Definition shows_varied (tape : list (op address)) (placed : multi_rows nat) (placed_w : nat) (placed_g : option nat) (cell : list fixed) (k : fixed) (e : nat) (by_ : evidence) : bool :=
   let along := shows_part tape placed placed_w placed_g cell k in
   Nat.eqb e ends && Nat.ltb 0 ends &&
   match by_ with
@@ -464,7 +464,7 @@ Definition shows_varied (tape : list (op nat)) (placed : multi_rows nat) (placed
   | _ => along None by_
   end.
 
-Variable tape : list (op nat).
+Variable tape : list (op address).
 Let placed_at (f : formula) : nat := place (formulas tape) f.
 Hypothesis fit : are_fit own_multis (formulas tape) = true.
 Variables (theta : list R) (cell : list fixed) (x : list R).

@@ -375,15 +375,15 @@ Definition check_written (c : written_claim) (t : tree) : bool :=
   let ps := exact_parameters (parameters f) in let js := map d_joint fs in
   let own q d := match d with OnePose _ _ _ => located_own ps (map d_divided fs) (pose_divided fs) js | _ => own_of fs q d end in
   let wanted := entries (pose_rows fs) ++ entries (pose_divided fs) ++ partial ++ of_each own false 0 at_ demands in
-  let tape := fst (compile wanted) in
-  let place := place (formulas tape) in
+  let tape := compile wanted in
+  let all := formulas tape in let place := place all in
   let tests_of q d := match d with
     | OnePose error b _ => if forallb (fun j => match j with ByRow _ => false | ByCoordinate _ => true end) (joint_forms f)
         then located_tests bits place n n [false] false ps 0 (map d_divided fs) (pose_divided fs) js (Some (Fixed.integer bits 1)) error b else [None]
     | _ => tests_for bits place fs false 0 q d
     end in
   Nat.eqb (length (box_of c)) n && forallb (fun j => match j with ByRow es => Nat.eqb (length es) n | ByCoordinate _ => true end) (joint_forms f) &&
-  forallb (fun e => Formula.same (nth (place e) (formulas tape) (integer 0)) e) wanted && existsb rules_out demands &&
+  forallb (fun e => Formula.same (nth (place e) all (integer 0)) e) wanted && existsb rules_out demands &&
   (negb (one_to_one c) || forallb (fun j => match j with ByRow _ => false | ByCoordinate _ => true end) (joint_forms f)) &&
   match all_some (map (enclose_parameter bits) (inputs f)), all_some (map (enclose_input bits) (flat_map (inputs_of false 0) demands)),
         all_some (map (fun b => enclose_parameter bits (b, 0%Z)) (box_of c)), all_some (of_each tests_of false 0 at_ demands) with
@@ -579,7 +579,7 @@ Lemma off_entries : forall x u d i, length x = length u -> nth i (Near.moved d x
 Proof. intros x u d. revert u. induction x as [| a x IH]; intros [| b u] i l; try discriminate; cbn [Near.moved combine map fst snd]; [destruct i; cbn; ring |]. destruct i as [| i]; [reflexivity |]. exact (IH u i ltac:(cbn in l; congruence)). Qed.
 
 Section Located.
-Variables (tape : list (op nat)) (whole divided : rows nat) (partial : list nat) (params : list fixed).
+Variables (tape : list (op address)) (whole divided : rows nat) (partial : list nat) (params : list fixed).
 Variables (c : mechanism) (theta x tb : list R) (fs : list pose_formulas) (error b angle : number).
 Let n := length (coordinate_names c).
 Let th := theta ++ tb.
@@ -725,7 +725,7 @@ Proof.
   set (ps := exact_parameters (parameters f)) in *. set (js := map d_joint fs) in *.
   set (own_q := fun q d => match d with OnePose _ _ _ => located_own ps (map d_divided fs) (pose_divided fs) js | _ => own_of fs q d end) in *.
   set (wanted := entries (pose_rows fs) ++ entries (pose_divided fs) ++ partial ++ of_each own_q false 0 at_ demands) in *.
-  set (tape := fst (compile wanted)) in *. set (place := place (formulas tape)) in *.
+  set (tape := compile wanted) in *. set (place := place (formulas tape)) in *.
   set (tests_q := fun q d => match d with
     | OnePose error b _ => if forallb (fun j => match j with ByRow _ => false | ByCoordinate _ => true end) (joint_forms f)
         then located_tests bits place n n [false] false ps 0 (map d_divided fs) (pose_divided fs) js (Some (Fixed.integer bits 1)) error b else [None]

@@ -3,100 +3,100 @@
 globalThis!=="object"&&(this?b():(a.defineProperty(a.prototype,"_T_",{configurable:true,get:b}),_T_));function
 b(){var
 b=this||self;b.globalThis=b;delete
-a.prototype._T_}}(Object));(function(U){"use strict";var
-k_="spatial",sA="Invalid_argument",ij="precision",aS='"',k9=1255,lk="inside",ry="(",rz=0x800,sz="yaw",rv="range",rw="tree",rx="jsError",ct=0x8000,sy="sqrt(",ru=256,ii="obligation",sx="load",gl="offset",bx="machine",rt="End_of_file",e4="strut",k8="center",gk="arm",k7="Failure",sw="serial_margin",iq="parameters",cV=0xff,sv="bodies",su="max_angle",lj="outside",gj="base_axis",k6="ENOENT",st="singular",ss=122,rs="([^/]+)",sr="0",k5=0xf,gi=128,rr=0xdc00,sp="Sys_blocked_io",sq="fd ",ga="given",rq="ENOTEMPTY",a_=248,ih="bound",rp="Division_by_zero",sn="by",so=1027,ro="Sys_error",gh="slider",rn="torsion",sm="postulate",rm="proof",li="joint_error",gg="refuted",eX="mechanism",ig="row",rl="EEXIST",sl="roll_pitch_yaw",gf="y",rk="cube",dv="lower",sk="within",rj="clearance",sj="turned",ri="control",ie="int_of_string",rh="between",sh="definitions",si="dependent",ge=1024,rf="from",rg="name",sg=" : flags Open_rdonly and Open_wronly are not compatible",re="orthocert/2",sf="reach",rd=512,sd="base_joint",se="witness",e3="-",bo="platform",rc=0x7ff0,rb="pitch",lh=": Not a directory",bN="min",sb="trim",e2="workspace",sc=" : file already exists",id="split",lg="legs",sa="claim",k4="joint",eb=0xffffff,ra="platform_joint",q$="formulas",q_="roll",ic="atlas",r9="greatest",r_="nodes",r$="Out_of_memory",q9="psi_max",ip="orientation",ib=254,r8="angle",lf="index out of bounds",q8="end",r7="one_to_one",io="_bigarr02",q7=" : flags Open_text and Open_binary are not compatible",r6="inverse",bw="drive",q6="coordinates",r5="holds",q5="lower_divided",q4="speed",r3="cylinder",r4="joints",cU=0xffff,rZ="a leaf that fails",r0="acceleration",r1="force",gc="certified",gd="chords",r2=12520,k3="on",rY="same",eW="accuracy",gb="axis",rX="no_cube",rW="parallel_margin",q3='the drive "',k2="Unix.Unix_error",im="fails",ia="tool",k1="mkdir",rU="rho",rV="least",il=1000,k0="translational",le="tolerances",q2="Stack_overflow",ld="characteristic_length",af="",lc="^",h_="places",h$=": No such file or directory",q1="/static/",e1=0x3f,qZ="stiffness",q0="Not_found",cs="planar",f$="mode",rT="joint_speed",rS="Match_failure",qY="transmission",bM="anchor",rR="at",qX="joint_force",e0="leg",qW="joint_acceleration",ik="+",kZ="rmdir",rQ=0xf0,rP="spherical",qV=1026,rN="REJECTED",rO="undecided",bP="max",bO="direction",qT="leg_angle",qU="orthoglide",eZ="rank",rL="constraint_margin",rM="fan",f_="test",qR="Pervasives.do_at_exit",qS="utf8",b9=0x80,eY="conditioning",eV="length",qQ="Undefined_recursive_module",lb=")",qP="base",rK="quantity",qO="joint_range",h9="tilt",qN="Q2",rJ="reference",qM="point",rH="corner",rI=0xe0,qL="version",la="z",rF="to",rG=0xdfff,kY="compare: functional value",rE="Assert_failure",b$="/",rD="provenance",ea="radius",h8="side",rB=-14,b_="require",rC="format",qK="Q1",k$="ENOTDIR",qJ="all",d$="box",rA=250;function
-lx(c,b,a){var
+a.prototype._T_}}(Object));(function(W){"use strict";var
+li="spatial",sV="Invalid_argument",ip="precision",aU='"',lh=1255,lu="inside",rT="(",rU=0x800,sU="yaw",rQ="range",rR="tree",rS="jsError",cv=0x8000,sT="sqrt(",rP=256,io="obligation",sS="load",gp="offset",by="machine",rO="End_of_file",e$="strut",lg="center",go="arm",lf="Failure",sR="serial_margin",iv="parameters",cZ=0xff,sQ="bodies",sP="max_angle",lt="outside",gn="base_axis",le="ENOENT",sO="singular",sN=122,rN="([^/]+)",sM="0",ld=0xf,gm=128,rM=0xdc00,sK="Sys_blocked_io",sL="fd ",ge="given",rL="ENOTEMPTY",bc=248,im="bound",rK="Division_by_zero",sI="by",sJ=1027,rJ="Sys_error",gl="slider",rI="torsion",sH="postulate",rH="proof",ls="joint_error",gk="refuted",e4="mechanism",il="row",rG="EEXIST",sG="roll_pitch_yaw",gj="y",rF="cube",dB="lower",sF="within",rE="clearance",sE="turned",rD="control",ik="int_of_string",rC="between",sC="definitions",sD="dependent",gi=1024,rA="from",rB="name",sB=" : flags Open_rdonly and Open_wronly are not compatible",rz="orthocert/2",sA="reach",ry=512,sy="base_joint",sz="witness",e_="-",bp="platform",rx=0x7ff0,rw="pitch",lr=": Not a directory",bP="min",sw="trim",e9="workspace",sx=" : file already exists",ij="split",lq="legs",sv="claim",lc="joint",eg=0xffffff,rv="platform_joint",ru="formulas",rt="roll",ii="atlas",ss="greatest",st="nodes",su="Out_of_memory",rs="psi_max",iu="orientation",ih=254,sr="angle",lp="index out of bounds",rr="end",sq="one_to_one",it="_bigarr02",rq=" : flags Open_text and Open_binary are not compatible",sp="inverse",bx="drive",rp="coordinates",so="holds",ro="lower_divided",rn="speed",sm="cylinder",sn="joints",cY=0xffff,si="a leaf that fails",sj="acceleration",sk="force",gg="certified",gh="chords",sl=12520,lb="on",sh="same",e3="accuracy",gf="axis",sg="no_cube",sf="parallel_margin",rm='the drive "',la="Unix.Unix_error",is="fails",ig="tool",k$="mkdir",sd="rho",se="least",ir=1000,k_="translational",lo="tolerances",rl="Stack_overflow",ln="characteristic_length",ag="",lm="^",id="places",ie=": No such file or directory",rk="/static/",e8=0x3f,ri="stiffness",rj="Not_found",cu="planar",gd="mode",sc="joint_speed",sb="Match_failure",rh="transmission",bO="anchor",sa="at",rg="joint_force",e7="leg",rf="joint_acceleration",iq="+",k9="rmdir",r$=0xf0,r_="spherical",re=1026,r8="REJECTED",r9="undecided",bR="max",bQ="direction",rc="leg_angle",rd="orthoglide",e6="rank",r6="constraint_margin",r7="fan",gc="test",ra="Pervasives.do_at_exit",rb="utf8",b9=0x80,e5="conditioning",e2="length",q$="Undefined_recursive_module",ll=")",q_="base",r5="quantity",q9="joint_range",ic="tilt",q8="Q2",r4="reference",q7="point",r2="corner",r3=0xe0,q6="version",lk="z",r0="to",r1=0xdfff,k8="compare: functional value",rZ="Assert_failure",b$="/",rY="provenance",ef="radius",ib="side",rW=-14,b_="require",rX="format",q5="Q1",lj="ENOTDIR",q4="all",ee="box",rV=250;function
+lH(c,b,a){var
 d=String.fromCharCode;if(b==0&&a<=4096&&a==c.length)return d.apply(null,c);var
-e=af;for(;0<a;b+=ge,a-=ge)e+=d.apply(null,c.slice(b,b+Math.min(a,ge)));return e}function
-is(b){if(U.Uint8Array)var
-c=new(U.Uint8Array)(b.l);else
+e=ag;for(;0<a;b+=gi,a-=gi)e+=d.apply(null,c.slice(b,b+Math.min(a,gi)));return e}function
+ix(b){if(W.Uint8Array)var
+c=new(W.Uint8Array)(b.l);else
 var
 c=new
 Array(b.l);var
 e=b.c,d=e.length,a=0;for(;a<d;a++)c[a]=e.charCodeAt(a);for(d=b.l;a<d;a++)c[a]=0;b.c=c;b.t=4;return c}function
-gm(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?lx(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
-if(b.t==2&&f==b.c.length){b.c+=d.t==4?lx(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)is(b);var
+gq(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?lH(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
+if(b.t==2&&f==b.c.length){b.c+=d.t==4?lH(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)ix(b);var
 g=d.c,h=b.c;if(d.t==4)if(f<=e)for(var
 a=0;a<c;a++)h[f+a]=g[e+a];else
 for(var
 a=c-1;a>=0;a--)h[f+a]=g[e+a];else{var
 i=Math.min(c,g.length-e);for(var
 a=0;a<i;a++)h[f+a]=g.charCodeAt(e+a);for(;a<c;a++)h[f+a]=0}}return 0}function
-e7(a){return a}function
-e6(a,b,c,d,e){gm(e7(a),b,c,d,e);return 0}function
-lm(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
+fc(a){return a}function
+fb(a,b,c,d,e){gq(fc(a),b,c,d,e);return 0}function
+lw(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
 0:return a.c.charCodeAt(b);case
 4:return a.c[b]}}function
-dx(c,a){if(c.fun)return dx(c.fun,a);if(typeof
+dD(c,a){if(c.fun)return dD(c.fun,a);if(typeof
 c!=="function")return c;var
 b=c.length|0;if(b===0)return c.apply(null,a);var
 e=a.length|0,d=b-e|0;if(d==0)return c.apply(null,a);else
-if(d<0)return dx(c.apply(null,a.slice(0,b)),a.slice(b));else
+if(d<0)return dD(c.apply(null,a.slice(0,b)),a.slice(b));else
 return function(){var
 e=arguments.length==0?1:arguments.length,d=new
 Array(a.length+e);for(var
 b=0;b<a.length;b++)d[b]=a[b];for(var
-b=0;b<arguments.length;b++)d[a.length+b]=arguments[b];return dx(c,d)}}function
-s1(b,a){if(b==0)return af;if(a.repeat)return a.repeat(b);var
-d=af,c=0;for(;;){if(b&1)d+=a;b>>=1;if(b==0)return d;a+=a;c++;if(c==9)a.slice(0,1)}}function
-e8(a){if(a.t==2)a.c+=s1(a.l-a.c.length,"\0");else
-a.c=lx(a.c,0,a.c.length);a.t=0}function
-e9(a){a.t&6&&e8(a);return a.c}var
-Kl=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
-Kk(a){if(Kl)return Math.floor(Math.log2(a));var
+b=0;b<arguments.length;b++)d[a.length+b]=arguments[b];return dD(c,d)}}function
+tk(b,a){if(b==0)return ag;if(a.repeat)return a.repeat(b);var
+d=ag,c=0;for(;;){if(b&1)d+=a;b>>=1;if(b==0)return d;a+=a;c++;if(c==9)a.slice(0,1)}}function
+fd(a){if(a.t==2)a.c+=tk(a.l-a.c.length,"\0");else
+a.c=lH(a.c,0,a.c.length);a.t=0}function
+fe(a){a.t&6&&fd(a);return a.c}var
+KG=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
+KF(a){if(KG)return Math.floor(Math.log2(a));var
 b=0;if(a==0)return-Infinity;if(a>=1)while(a>=2){a/=2;b++}else
 while(a<1){a*=2;b--}return b}function
-lp(c){var
-a=new(U.Float32Array)(1);a[0]=c;var
-b=new(U.Int32Array)(a.buffer);return b[0]|0}var
-sT=Math.pow(2,-24);function
-Kb(a){throw a}var
-aH=[0];function
-sY(){Kb(aH.Division_by_zero)}function
-T(b,c,a){this.lo=b&eb;this.mi=c&eb;this.hi=a&cU}T.prototype.caml_custom="_j";T.prototype.copy=function(){return new
-T(this.lo,this.mi,this.hi)};T.prototype.ucompare=function(a){if(this.hi>a.hi)return 1;if(this.hi<a.hi)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};T.prototype.compare=function(a){var
-b=this.hi<<16,c=a.hi<<16;if(b>c)return 1;if(b<c)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};T.prototype.neg=function(){var
+lz(c){var
+a=new(W.Float32Array)(1);a[0]=c;var
+b=new(W.Int32Array)(a.buffer);return b[0]|0}var
+tc=Math.pow(2,-24);function
+Kw(a){throw a}var
+aJ=[0];function
+th(){Kw(aJ.Division_by_zero)}function
+U(b,c,a){this.lo=b&eg;this.mi=c&eg;this.hi=a&cY}U.prototype.caml_custom="_j";U.prototype.copy=function(){return new
+U(this.lo,this.mi,this.hi)};U.prototype.ucompare=function(a){if(this.hi>a.hi)return 1;if(this.hi<a.hi)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};U.prototype.compare=function(a){var
+b=this.hi<<16,c=a.hi<<16;if(b>c)return 1;if(b<c)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};U.prototype.neg=function(){var
 a=-this.lo,b=-this.mi+(a>>24),c=-this.hi+(b>>24);return new
-T(a,b,c)};T.prototype.add=function(a){var
+U(a,b,c)};U.prototype.add=function(a){var
 b=this.lo+a.lo,c=this.mi+a.mi+(b>>24),d=this.hi+a.hi+(c>>24);return new
-T(b,c,d)};T.prototype.sub=function(a){var
+U(b,c,d)};U.prototype.sub=function(a){var
 b=this.lo-a.lo,c=this.mi-a.mi+(b>>24),d=this.hi-a.hi+(c>>24);return new
-T(b,c,d)};T.prototype.mul=function(a){var
-b=this.lo*a.lo,c=(b*sT|0)+this.mi*a.lo+this.lo*a.mi,d=(c*sT|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
-T(b,c,d)};T.prototype.isZero=function(){return(this.lo|this.mi|this.hi)==0};T.prototype.isNeg=function(){return this.hi<<16<0};T.prototype.and=function(a){return new
-T(this.lo&a.lo,this.mi&a.mi,this.hi&a.hi)};T.prototype.or=function(a){return new
-T(this.lo|a.lo,this.mi|a.mi,this.hi|a.hi)};T.prototype.xor=function(a){return new
-T(this.lo^a.lo,this.mi^a.mi,this.hi^a.hi)};T.prototype.shift_left=function(a){a=a&63;if(a==0)return this;if(a<24)return new
-T(this.lo<<a,this.mi<<a|this.lo>>24-a,this.hi<<a|this.mi>>24-a);if(a<48)return new
-T(0,this.lo<<a-24,this.mi<<a-24|this.lo>>48-a);return new
-T(0,0,this.lo<<a-48)};T.prototype.shift_right_unsigned=function(a){a=a&63;if(a==0)return this;if(a<24)return new
-T(this.lo>>a|this.mi<<24-a,this.mi>>a|this.hi<<24-a,this.hi>>a);if(a<48)return new
-T(this.mi>>a-24|this.hi<<48-a,this.hi>>a-24,0);return new
-T(this.hi>>a-48,0,0)};T.prototype.shift_right=function(a){a=a&63;if(a==0)return this;var
+U(b,c,d)};U.prototype.mul=function(a){var
+b=this.lo*a.lo,c=(b*tc|0)+this.mi*a.lo+this.lo*a.mi,d=(c*tc|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
+U(b,c,d)};U.prototype.isZero=function(){return(this.lo|this.mi|this.hi)==0};U.prototype.isNeg=function(){return this.hi<<16<0};U.prototype.and=function(a){return new
+U(this.lo&a.lo,this.mi&a.mi,this.hi&a.hi)};U.prototype.or=function(a){return new
+U(this.lo|a.lo,this.mi|a.mi,this.hi|a.hi)};U.prototype.xor=function(a){return new
+U(this.lo^a.lo,this.mi^a.mi,this.hi^a.hi)};U.prototype.shift_left=function(a){a=a&63;if(a==0)return this;if(a<24)return new
+U(this.lo<<a,this.mi<<a|this.lo>>24-a,this.hi<<a|this.mi>>24-a);if(a<48)return new
+U(0,this.lo<<a-24,this.mi<<a-24|this.lo>>48-a);return new
+U(0,0,this.lo<<a-48)};U.prototype.shift_right_unsigned=function(a){a=a&63;if(a==0)return this;if(a<24)return new
+U(this.lo>>a|this.mi<<24-a,this.mi>>a|this.hi<<24-a,this.hi>>a);if(a<48)return new
+U(this.mi>>a-24|this.hi<<48-a,this.hi>>a-24,0);return new
+U(this.hi>>a-48,0,0)};U.prototype.shift_right=function(a){a=a&63;if(a==0)return this;var
 c=this.hi<<16>>16;if(a<24)return new
-T(this.lo>>a|this.mi<<24-a,this.mi>>a|c<<24-a,this.hi<<16>>a>>>16);var
+U(this.lo>>a|this.mi<<24-a,this.mi>>a|c<<24-a,this.hi<<16>>a>>>16);var
 b=this.hi<<16>>31;if(a<48)return new
-T(this.mi>>a-24|this.hi<<48-a,this.hi<<16>>a-24>>16,b&cU);return new
-T(this.hi<<16>>a-32,b,b)};T.prototype.lsl1=function(){this.hi=this.hi<<1|this.mi>>23;this.mi=(this.mi<<1|this.lo>>23)&eb;this.lo=this.lo<<1&eb};T.prototype.lsr1=function(){this.lo=(this.lo>>>1|this.mi<<23)&eb;this.mi=(this.mi>>>1|this.hi<<23)&eb;this.hi=this.hi>>>1};T.prototype.udivmod=function(e){var
+U(this.mi>>a-24|this.hi<<48-a,this.hi<<16>>a-24>>16,b&cY);return new
+U(this.hi<<16>>a-32,b,b)};U.prototype.lsl1=function(){this.hi=this.hi<<1|this.mi>>23;this.mi=(this.mi<<1|this.lo>>23)&eg;this.lo=this.lo<<1&eg};U.prototype.lsr1=function(){this.lo=(this.lo>>>1|this.mi<<23)&eg;this.mi=(this.mi>>>1|this.hi<<23)&eg;this.hi=this.hi>>>1};U.prototype.udivmod=function(e){var
 c=0,b=this.copy(),a=e.copy(),d=new
-T(0,0,0);while(b.ucompare(a)>0){c++;a.lsl1()}while(c>=0){c--;d.lsl1();if(b.ucompare(a)>=0){d.lo++;b=b.sub(a)}a.lsr1()}return{quotient:d,modulus:b}};T.prototype.div=function(a){var
-b=this;if(a.isZero())sY();var
-d=b.hi^a.hi;if(b.hi&ct)b=b.neg();if(a.hi&ct)a=a.neg();var
-c=b.udivmod(a).quotient;if(d&ct)c=c.neg();return c};T.prototype.mod=function(b){var
-a=this;if(b.isZero())sY();var
-d=a.hi;if(a.hi&ct)a=a.neg();if(b.hi&ct)b=b.neg();var
-c=a.udivmod(b).modulus;if(d&ct)c=c.neg();return c};T.prototype.toInt=function(){return this.lo|this.mi<<24};T.prototype.toFloat=function(){return(this.hi<<16)*Math.pow(2,32)+this.mi*Math.pow(2,24)+this.lo};T.prototype.toArray=function(){return[this.hi>>8,this.hi&cV,this.mi>>16,this.mi>>8&cV,this.mi&cV,this.lo>>16,this.lo>>8&cV,this.lo&cV]};T.prototype.lo32=function(){return this.lo|(this.mi&cV)<<24};T.prototype.hi32=function(){return this.mi>>>8&cU|this.hi<<16};function
-iu(b,c,a){return new
-T(b,c,a)}function
-it(a){if(!isFinite(a)){if(isNaN(a))return iu(1,0,rc);return a>0?iu(0,0,rc):iu(0,0,0xfff0)}var
-f=a==0&&1/a==-Infinity?ct:a>=0?0:ct;if(f)a=-a;var
-b=Kk(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-qV)}else{a/=Math.pow(2,b-so);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
+U(0,0,0);while(b.ucompare(a)>0){c++;a.lsl1()}while(c>=0){c--;d.lsl1();if(b.ucompare(a)>=0){d.lo++;b=b.sub(a)}a.lsr1()}return{quotient:d,modulus:b}};U.prototype.div=function(a){var
+b=this;if(a.isZero())th();var
+d=b.hi^a.hi;if(b.hi&cv)b=b.neg();if(a.hi&cv)a=a.neg();var
+c=b.udivmod(a).quotient;if(d&cv)c=c.neg();return c};U.prototype.mod=function(b){var
+a=this;if(b.isZero())th();var
+d=a.hi;if(a.hi&cv)a=a.neg();if(b.hi&cv)b=b.neg();var
+c=a.udivmod(b).modulus;if(d&cv)c=c.neg();return c};U.prototype.toInt=function(){return this.lo|this.mi<<24};U.prototype.toFloat=function(){return(this.hi<<16)*Math.pow(2,32)+this.mi*Math.pow(2,24)+this.lo};U.prototype.toArray=function(){return[this.hi>>8,this.hi&cZ,this.mi>>16,this.mi>>8&cZ,this.mi&cZ,this.lo>>16,this.lo>>8&cZ,this.lo&cZ]};U.prototype.lo32=function(){return this.lo|(this.mi&cZ)<<24};U.prototype.hi32=function(){return this.mi>>>8&cY|this.hi<<16};function
+iz(b,c,a){return new
+U(b,c,a)}function
+iy(a){if(!isFinite(a)){if(isNaN(a))return iz(1,0,rx);return a>0?iz(0,0,rx):iz(0,0,0xfff0)}var
+f=a==0&&1/a==-Infinity?cv:a>=0?0:cv;if(f)a=-a;var
+b=KF(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-re)}else{a/=Math.pow(2,b-sJ);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
 d=Math.pow(2,24),c=a|0;a=(a-c)*d;var
 e=a|0;a=(a-e)*d;var
-g=a|0;c=c&k5|f|b<<4;return iu(g,e,c)}function
-gp(a){return a.toArray()}function
-sH(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==io)for(var
-a=0;a<b.dims.length;a++)if(b.dims[a]<cU)c.write(16,b.dims[a]);else{c.write(16,cU);c.write(32,0);c.write(32,b.dims[a])}else
+g=a|0;c=c&ld|f|b<<4;return iz(g,e,c)}function
+gt(a){return a.toArray()}function
+s2(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==it)for(var
+a=0;a<b.dims.length;a++)if(b.dims[a]<cY)c.write(16,b.dims[a]);else{c.write(16,cY);c.write(32,0);c.write(32,b.dims[a])}else
 for(var
 a=0;a<b.dims.length;a++)c.write(32,b.dims[a]);switch(b.kind){case
 2:case
@@ -113,52 +113,52 @@ a=0;a<b.data.length;a++)c.write(32,b.data[a]);break;case
 a=0;a<b.data.length;a++)c.write(32,b.data[a]);break;case
 7:for(var
 a=0;a<b.data.length/2;a++){var
-e=gp(b.get(a));for(var
+e=gt(b.get(a));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 1:for(var
 a=0;a<b.data.length;a++){var
-e=gp(it(b.get(a)));for(var
+e=gt(iy(b.get(a)));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 0:for(var
 a=0;a<b.data.length;a++){var
-e=lp(b.get(a));c.write(32,e)}break;case
+e=lz(b.get(a));c.write(32,e)}break;case
 10:for(var
 a=0;a<b.data.length/2;a++){var
-d=b.get(a);c.write(32,lp(d[1]));c.write(32,lp(d[2]))}break;case
+d=b.get(a);c.write(32,lz(d[1]));c.write(32,lz(d[2]))}break;case
 11:for(var
 a=0;a<b.data.length/2;a++){var
-f=b.get(a),e=gp(it(f[1]));for(var
+f=b.get(a),e=gt(iy(f[1]));for(var
 d=0;d<8;d++)c.write(8,e[d]);var
-e=gp(it(f[2]));for(var
+e=gt(iy(f[2]));for(var
 d=0;d<8;d++)c.write(8,e[d])}break}g[0]=(4+b.dims.length)*4;g[1]=(4+b.dims.length)*8}function
-Kd(b,a){throw[0,b,a]}function
-s6(a){if(a.length<24){for(var
+Ky(b,a){throw[0,b,a]}function
+tp(a){if(a.length<24){for(var
 b=0;b<a.length;b++)if(a.charCodeAt(b)>127)return false;return true}else
 return!/[^\x00-\x7f]/.test(a)}function
-ly(e){for(var
-j=af,c=af,g,f,h,a,b=0,i=e.length;b<i;b++){f=e.charCodeAt(b);if(f<b9){for(var
-d=b+1;d<i&&(f=e.charCodeAt(d))<b9;d++);if(d-b>rd){c.substr(0,1);j+=c;c=af;j+=e.slice(b,d)}else
-c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==gi){g=h+(f<<6);if(f<rI){a=g-0x3080;if(a<b9)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==gi){g=h+(g<<6);if(f<rQ){a=g-0xe2080;if(a<rz||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==gi&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
-if(a>cU)c+=String.fromCharCode(0xd7c0+(a>>10),rr+(a&0x3FF));else
-c+=String.fromCharCode(a);if(c.length>ge){c.substr(0,1);j+=c;c=af}}return j+c}function
-cu(c,a,b){this.t=c;this.c=a;this.l=b}cu.prototype.toString=function(){switch(this.t){case
-9:return this.c;default:e8(this);case
-0:if(s6(this.c)){this.t=9;return this.c}this.t=8;case
-8:return this.c}};cu.prototype.toUtf16=function(){var
-a=this.toString();if(this.t==9)return a;return ly(a)};cu.prototype.slice=function(){var
+lI(e){for(var
+j=ag,c=ag,g,f,h,a,b=0,i=e.length;b<i;b++){f=e.charCodeAt(b);if(f<b9){for(var
+d=b+1;d<i&&(f=e.charCodeAt(d))<b9;d++);if(d-b>ry){c.substr(0,1);j+=c;c=ag;j+=e.slice(b,d)}else
+c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==gm){g=h+(f<<6);if(f<r3){a=g-0x3080;if(a<b9)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==gm){g=h+(g<<6);if(f<r$){a=g-0xe2080;if(a<rU||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==gm&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
+if(a>cY)c+=String.fromCharCode(0xd7c0+(a>>10),rM+(a&0x3FF));else
+c+=String.fromCharCode(a);if(c.length>gi){c.substr(0,1);j+=c;c=ag}}return j+c}function
+cw(c,a,b){this.t=c;this.c=a;this.l=b}cw.prototype.toString=function(){switch(this.t){case
+9:return this.c;default:fd(this);case
+0:if(tp(this.c)){this.t=9;return this.c}this.t=8;case
+8:return this.c}};cw.prototype.toUtf16=function(){var
+a=this.toString();if(this.t==9)return a;return lI(a)};cw.prototype.slice=function(){var
 a=this.t==4?this.c.slice():this.c;return new
-cu(this.t,a,this.l)};function
-sK(a){return new
-cu(0,a,a.length)}function
-a(a){return sK(a)}function
-lw(c,b){Kd(c,a(b))}function
-a1(a){lw(aH.Invalid_argument,a)}function
-sF(a){switch(a){case
+cw(this.t,a,this.l)};function
+s5(a){return new
+cw(0,a,a.length)}function
+a(a){return s5(a)}function
+lG(c,b){Ky(c,a(b))}function
+a4(a){lG(aJ.Invalid_argument,a)}function
+s0(a){switch(a){case
 7:case
 10:case
 11:return 2;default:return 1}}function
-JH(c,e){var
-b=U,a;switch(c){case
+J2(c,e){var
+b=W,a;switch(c){case
 0:a=b.Float32Array;break;case
 1:a=b.Float64Array;break;case
 2:a=b.Int8Array;break;case
@@ -171,52 +171,52 @@ b=U,a;switch(c){case
 9:a=b.Int32Array;break;case
 10:a=b.Float32Array;break;case
 11:a=b.Float64Array;break;case
-12:a=b.Uint8Array;break}if(!a)a1("Bigarray.create: unsupported kind");var
+12:a=b.Uint8Array;break}if(!a)a4("Bigarray.create: unsupported kind");var
 d=new
-a(e*sF(c));return d}function
-lq(c){var
-a=new(U.Int32Array)(1);a[0]=c;var
-b=new(U.Float32Array)(a.buffer);return b[0]}function
-go(a){return new
-T(a[7]<<0|a[6]<<8|a[5]<<16,a[4]<<0|a[3]<<8|a[2]<<16,a[1]<<0|a[0]<<8)}function
-lr(d){var
-f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&k5)==0?b&ct?-Infinity:Infinity:NaN;var
-e=Math.pow(2,-24),a=(f*e+g)*e+(b&k5);if(c>0){a+=16;a*=Math.pow(2,c-so)}else
-a*=Math.pow(2,-qV);if(b&ct)a=-a;return a}function
-ll(b){var
+a(e*s0(c));return d}function
+lA(c){var
+a=new(W.Int32Array)(1);a[0]=c;var
+b=new(W.Float32Array)(a.buffer);return b[0]}function
+gs(a){return new
+U(a[7]<<0|a[6]<<8|a[5]<<16,a[4]<<0|a[3]<<8|a[2]<<16,a[1]<<0|a[0]<<8)}function
+lB(d){var
+f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&ld)==0?b&cv?-Infinity:Infinity:NaN;var
+e=Math.pow(2,-24),a=(f*e+g)*e+(b&ld);if(c>0){a+=16;a*=Math.pow(2,c-sJ)}else
+a*=Math.pow(2,-re);if(b&cv)a=-a;return a}function
+lv(b){var
 d=b.length,c=1;for(var
-a=0;a<d;a++){if(b[a]<0)a1("Bigarray.create: negative dimension");c=c*b[a]}return c}function
-JX(b,a){return new
-T(b&eb,b>>>24&cV|(a&cU)<<8,a>>>16&cU)}function
-ls(a){return a.hi32()}function
-lt(a){return a.lo32()}function
-ir(){a1(lf)}var
-JI=io;function
-dw(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}dw.prototype.caml_custom=JI;dw.prototype.offset=function(b){var
+a=0;a<d;a++){if(b[a]<0)a4("Bigarray.create: negative dimension");c=c*b[a]}return c}function
+Kg(b,a){return new
+U(b&eg,b>>>24&cZ|(a&cY)<<8,a>>>16&cY)}function
+lC(a){return a.hi32()}function
+lD(a){return a.lo32()}function
+iw(){a4(lp)}var
+J3=it;function
+dC(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}dC.prototype.caml_custom=J3;dC.prototype.offset=function(b){var
 c=0;if(typeof
 b==="number")b=[b];if(!(b
 instanceof
-Array))a1("bigarray.js: invalid offset");if(this.dims.length!=b.length)a1("Bigarray.get/set: bad number of dimensions");if(this.layout==0)for(var
-a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])ir();c=c*this.dims[a]+b[a]}else
+Array))a4("bigarray.js: invalid offset");if(this.dims.length!=b.length)a4("Bigarray.get/set: bad number of dimensions");if(this.layout==0)for(var
+a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])iw();c=c*this.dims[a]+b[a]}else
 for(var
-a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])ir();c=c*this.dims[a]+(b[a]-1)}return c};dw.prototype.get=function(a){switch(this.kind){case
+a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])iw();c=c*this.dims[a]+(b[a]-1)}return c};dC.prototype.get=function(a){switch(this.kind){case
 7:var
-d=this.data[a*2+0],b=this.data[a*2+1];return JX(d,b);case
+d=this.data[a*2+0],b=this.data[a*2+1];return Kg(d,b);case
 10:case
 11:var
-e=this.data[a*2+0],c=this.data[a*2+1];return[ib,e,c];default:return this.data[a]}};dw.prototype.set=function(a,b){switch(this.kind){case
-7:this.data[a*2+0]=lt(b);this.data[a*2+1]=ls(b);break;case
+e=this.data[a*2+0],c=this.data[a*2+1];return[ih,e,c];default:return this.data[a]}};dC.prototype.set=function(a,b){switch(this.kind){case
+7:this.data[a*2+0]=lD(b);this.data[a*2+1]=lC(b);break;case
 10:case
-11:this.data[a*2+0]=b[1];this.data[a*2+1]=b[2];break;default:this.data[a]=b;break}return 0};dw.prototype.fill=function(b){switch(this.kind){case
+11:this.data[a*2+0]=b[1];this.data[a*2+1]=b[2];break;default:this.data[a]=b;break}return 0};dC.prototype.fill=function(b){switch(this.kind){case
 7:var
-c=lt(b),e=ls(b);if(c==e)this.data.fill(c);else
+c=lD(b),e=lC(b);if(c==e)this.data.fill(c);else
 for(var
 a=0;a<this.data.length;a++)this.data[a]=a%2==0?c:e;break;case
 10:case
 11:var
 d=b[1],f=b[2];if(d==f)this.data.fill(d);else
 for(var
-a=0;a<this.data.length;a++)this.data[a]=a%2==0?d:f;break;default:this.data.fill(b);break}};dw.prototype.compare=function(b,g){if(this.layout!=b.layout||this.kind!=b.kind){var
+a=0;a<this.data.length;a++)this.data[a]=a%2==0?d:f;break;default:this.data.fill(b);break}};dC.prototype.compare=function(b,g){if(this.layout!=b.layout||this.kind!=b.kind){var
 e=this.kind|this.layout<<8,f=b.kind|b.layout<<8;return f-e}if(this.dims.length!=b.dims.length)return b.dims.length-this.dims.length;for(var
 a=0;a<this.dims.length;a++)if(this.dims[a]!=b.dims[a])return this.dims[a]<b.dims[a]?-1:1;switch(this.kind){case
 0:case
@@ -236,26 +236,26 @@ a=0;a<this.data.length;a+=2){if(this.data[a+1]<b.data[a+1])return-1;if(this.data
 9:case
 12:for(var
 a=0;a<this.data.length;a++){if(this.data[a]<b.data[a])return-1;if(this.data[a]>b.data[a])return 1}break}return 0};function
-e5(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}e5.prototype=new
-dw();e5.prototype.offset=function(a){if(typeof
+fa(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}fa.prototype=new
+dC();fa.prototype.offset=function(a){if(typeof
 a!=="number")if(a
 instanceof
 Array&&a.length==1)a=a[0];else
-a1("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])ir();return a};e5.prototype.get=function(a){return this.data[a]};e5.prototype.set=function(a,b){this.data[a]=b;return 0};e5.prototype.fill=function(a){this.data.fill(a);return 0};function
-sD(c,d,a,b){var
-e=sF(c);if(ll(a)*e!=b.length)a1("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
-e5(c,d,a,b);return new
-dw(c,d,a,b)}function
-ca(b){if(!aH.Failure)aH.Failure=[a_,a(k7),-3];lw(aH.Failure,b)}function
-sE(b,v,r){var
+a4("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])iw();return a};fa.prototype.get=function(a){return this.data[a]};fa.prototype.set=function(a,b){this.data[a]=b;return 0};fa.prototype.fill=function(a){this.data.fill(a);return 0};function
+sY(c,d,a,b){var
+e=s0(c);if(lv(a)*e!=b.length)a4("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
+fa(c,d,a,b);return new
+dC(c,d,a,b)}function
+ca(b){if(!aJ.Failure)aJ.Failure=[bc,a(lf),-3];lG(aJ.Failure,b)}function
+sZ(b,v,r){var
 i=b.read32s();if(i<0||i>16)ca("input_value: wrong number of bigarray dimensions");var
-p=b.read32s(),j=p&cV,o=p>>8&1,h=[];if(r==io)for(var
+p=b.read32s(),j=p&cZ,o=p>>8&1,h=[];if(r==it)for(var
 a=0;a<i;a++){var
-n=b.read16u();if(n==cU){var
+n=b.read16u();if(n==cY){var
 t=b.read32u(),u=b.read32u();if(t!=0)ca("input_value: bigarray dimension overflow in 32bit");n=u}h.push(n)}else
 for(var
 a=0;a<i;a++)h.push(b.read32u());var
-d=ll(h),f=JH(j,d),g=sD(j,o,h,f);switch(j){case
+d=lv(h),f=J2(j,d),g=sY(j,o,h,f);switch(j){case
 2:for(var
 a=0;a<d;a++)f[a]=b.read8s();break;case
 3:case
@@ -276,122 +276,122 @@ e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-q=go(e);g.set(a,q)}break;case
+q=gs(e);g.set(a,q)}break;case
 1:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-k=lr(go(e));g.set(a,k)}break;case
+k=lB(gs(e));g.set(a,k)}break;case
 0:for(var
 a=0;a<d;a++){var
-k=lq(b.read32s());g.set(a,k)}break;case
+k=lA(b.read32s());g.set(a,k)}break;case
 10:for(var
 a=0;a<d;a++){var
-m=lq(b.read32s()),l=lq(b.read32s());g.set(a,[ib,m,l])}break;case
+m=lA(b.read32s()),l=lA(b.read32s());g.set(a,[ih,m,l])}break;case
 11:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-m=lr(go(e));for(var
+m=lB(gs(e));for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-l=lr(go(e));g.set(a,[ib,m,l])}break}v[0]=(4+i)*4;return sD(j,o,h,f)}function
-sC(a,b,c){return a.compare(b,c)}function
-lv(a,b){return Math.imul(a,b)}function
-cW(b,a){a=lv(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=lv(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
-JU(a,b){a=cW(a,lt(b));a=cW(a,ls(b));return a}function
-sS(a,b){return JU(a,it(b))}function
-sG(c){var
-b=ll(c.dims),d=0;switch(c.kind){case
+l=lB(gs(e));g.set(a,[ih,m,l])}break}v[0]=(4+i)*4;return sY(j,o,h,f)}function
+sX(a,b,c){return a.compare(b,c)}function
+lF(a,b){return Math.imul(a,b)}function
+c0(b,a){a=lF(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=lF(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
+Kd(a,b){a=c0(a,lD(b));a=c0(a,lC(b));return a}function
+tb(a,b){return Kd(a,iy(b))}function
+s1(c){var
+b=lv(c.dims),d=0;switch(c.kind){case
 2:case
 3:case
-12:if(b>ru)b=ru;var
-e=0,a=0;for(a=0;a+4<=c.data.length;a+=4){e=c.data[a+0]|c.data[a+1]<<8|c.data[a+2]<<16|c.data[a+3]<<24;d=cW(d,e)}e=0;switch(b&3){case
+12:if(b>rP)b=rP;var
+e=0,a=0;for(a=0;a+4<=c.data.length;a+=4){e=c.data[a+0]|c.data[a+1]<<8|c.data[a+2]<<16|c.data[a+3]<<24;d=c0(d,e)}e=0;switch(b&3){case
 3:e=c.data[a+2]<<16;case
 2:e|=c.data[a+1]<<8;case
-1:e|=c.data[a+0];d=cW(d,e)}break;case
+1:e|=c.data[a+0];d=c0(d,e)}break;case
 4:case
-5:if(b>gi)b=gi;var
-e=0,a=0;for(a=0;a+2<=c.data.length;a+=2){e=c.data[a+0]|c.data[a+1]<<16;d=cW(d,e)}if((b&1)!=0)d=cW(d,c.data[a]);break;case
+5:if(b>gm)b=gm;var
+e=0,a=0;for(a=0;a+2<=c.data.length;a+=2){e=c.data[a+0]|c.data[a+1]<<16;d=c0(d,e)}if((b&1)!=0)d=c0(d,c.data[a]);break;case
 6:if(b>64)b=64;for(var
-a=0;a<b;a++)d=cW(d,c.data[a]);break;case
+a=0;a<b;a++)d=c0(d,c.data[a]);break;case
 8:case
 9:if(b>64)b=64;for(var
-a=0;a<b;a++)d=cW(d,c.data[a]);break;case
+a=0;a<b;a++)d=c0(d,c.data[a]);break;case
 7:if(b>32)b=32;b*=2;for(var
-a=0;a<b;a++)d=cW(d,c.data[a]);break;case
+a=0;a<b;a++)d=c0(d,c.data[a]);break;case
 10:b*=2;case
 0:if(b>64)b=64;for(var
-a=0;a<b;a++)d=sS(d,c.data[a]);break;case
+a=0;a<b;a++)d=tb(d,c.data[a]);break;case
 11:b*=2;case
 1:if(b>32)b=32;for(var
-a=0;a<b;a++)d=sS(d,c.data[a]);break}return d}function
-JV(a,b){b[0]=4;return a.read32s()}function
-J_(a,b){switch(a.read8u()){case
+a=0;a<b;a++)d=tb(d,c.data[a]);break}return d}function
+Ke(a,b){b[0]=4;return a.read32s()}function
+Kt(a,b){switch(a.read8u()){case
 1:b[0]=4;return a.read32s();case
 2:ca("input_value: native integer value too large");default:ca("input_value: ill-formed native integer")}}function
-J0(c,d){var
+Kj(c,d){var
 b=new
 Array(8);for(var
-a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return go(b)}function
-JZ(e,d,b){var
-c=gp(d);for(var
+a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return gs(b)}function
+Ki(e,d,b){var
+c=gt(d);for(var
 a=0;a<8;a++)e.write(8,c[a]);b[0]=8;b[1]=8}function
-JW(a,b,c){return a.compare(b)}function
-JY(a){return a.lo32()^a.hi32()}var
-sN={"_j":{deserialize:J0,serialize:JZ,fixed_length:8,compare:JW,hash:JY},"_i":{deserialize:JV,fixed_length:4},"_n":{deserialize:J_,fixed_length:4},"_bigarray":{deserialize:function(a,b){return sE(a,b,"_bigarray")},serialize:sH,compare:sC,hash:sG},"_bigarr02":{deserialize:function(a,b){return sE(a,b,io)},serialize:sH,compare:sC,hash:sG}};function
-lo(a){return sN[a.caml_custom]&&sN[a.caml_custom].compare}function
-sL(f,c,d,e){var
-b=lo(c);if(b){var
+Kf(a,b,c){return a.compare(b)}function
+Kh(a){return a.lo32()^a.hi32()}var
+s8={"_j":{deserialize:Kj,serialize:Ki,fixed_length:8,compare:Kf,hash:Kh},"_i":{deserialize:Ke,fixed_length:4},"_n":{deserialize:Kt,fixed_length:4},"_bigarray":{deserialize:function(a,b){return sZ(a,b,"_bigarray")},serialize:s2,compare:sX,hash:s1},"_bigarr02":{deserialize:function(a,b){return sZ(a,b,it)},serialize:s2,compare:sX,hash:s1}};function
+ly(a){return s8[a.caml_custom]&&s8[a.caml_custom].compare}function
+s6(f,c,d,e){var
+b=ly(c);if(b){var
 a=d>0?b(c,f,e):b(f,c,e);if(e&&a!=a)return d;if(+a!=+a)return+a;if((a|0)!=0)return a|0}return d}function
-lu(a){return a
+lE(a){return a
 instanceof
-cu}function
-sU(a){return lu(a)}function
-sM(a){if(typeof
-a==="number")return il;else
-if(lu(a))return 252;else
-if(sU(a))return 1252;else
+cw}function
+td(a){return lE(a)}function
+s7(a){if(typeof
+a==="number")return ir;else
+if(lE(a))return 252;else
+if(td(a))return 1252;else
 if(a
 instanceof
 Array&&a[0]===a[0]>>>0&&a[0]<=255){var
-b=a[0]|0;return b==ib?0:b}else
+b=a[0]|0;return b==ih?0:b}else
 if(a
 instanceof
-String)return r2;else
+String)return sl;else
 if(typeof
-a=="string")return r2;else
+a=="string")return sl;else
 if(a
 instanceof
-Number)return il;else
-if(a&&a.caml_custom)return k9;else
+Number)return ir;else
+if(a&&a.caml_custom)return lh;else
 if(a&&a.compare)return 1256;else
 if(typeof
 a=="function")return 1247;else
 if(typeof
 a=="symbol")return 1251;return 1001}function
-J1(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
-sJ(a,b){a.t&6&&e8(a);b.t&6&&e8(b);return a.c<b.c?-1:a.c>b.c?1:0}function
-s2(a,b){return sJ(a,b)}function
-ln(a,b,d){var
+Kk(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
+s4(a,b){a.t&6&&fd(a);b.t&6&&fd(b);return a.c<b.c?-1:a.c>b.c?1:0}function
+tl(a,b){return s4(a,b)}function
+lx(a,b,d){var
 e=[];for(;;){if(!(d&&a===b)){var
-f=sM(a);if(f==rA){a=a[1];continue}var
-g=sM(b);if(g==rA){b=b[1];continue}if(f!==g){if(f==il){if(g==k9)return sL(a,b,-1,d);return-1}if(g==il){if(f==k9)return sL(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
-247:a1(kY);break;case
+f=s7(a);if(f==rV){a=a[1];continue}var
+g=s7(b);if(g==rV){b=b[1];continue}if(f!==g){if(f==ir){if(g==lh)return s6(a,b,-1,d);return-1}if(g==ir){if(f==lh)return s6(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
+247:a4(k8);break;case
 248:var
-c=J1(a[2],b[2]);if(c!=0)return c|0;break;case
-249:a1(kY);break;case
-250:a1("equal: got Forward_tag, should not happen");break;case
-251:a1("equal: abstract value");break;case
+c=Kk(a[2],b[2]);if(c!=0)return c|0;break;case
+249:a4(k8);break;case
+250:a4("equal: got Forward_tag, should not happen");break;case
+251:a4("equal: abstract value");break;case
 252:if(a!==b){var
-c=sJ(a,b);if(c!=0)return c|0}break;case
-253:a1("equal: got Double_tag, should not happen");break;case
-254:a1("equal: got Double_array_tag, should not happen");break;case
-255:a1("equal: got Custom_tag, should not happen");break;case
-1247:a1(kY);break;case
+c=s4(a,b);if(c!=0)return c|0}break;case
+253:a4("equal: got Double_tag, should not happen");break;case
+254:a4("equal: got Double_array_tag, should not happen");break;case
+255:a4("equal: got Custom_tag, should not happen");break;case
+1247:a4(k8);break;case
 1255:var
-i=lo(a);if(i!=lo(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)a1("compare: abstract value");var
+i=ly(a);if(i!=ly(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)a4("compare: abstract value");var
 c=i(a,b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
 1256:var
 c=a.compare(b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
@@ -399,182 +399,182 @@ c=a.compare(b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;
 1001:if(a<b)return-1;if(a>b)return 1;if(a!=b){if(!d)return NaN;if(a==a)return 1;if(b==b)return-1}break;case
 1251:if(a!==b){if(!d)return NaN;return 1}break;case
 1252:var
-a=e9(a),b=e9(b);if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
+a=fe(a),b=fe(b);if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
 12520:var
 a=a.toString(),b=b.toString();if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
 246:case
 254:default:if(a.length!=b.length)return a.length<b.length?-1:1;if(a.length>1)e.push(a,b,1);break}}if(e.length==0)return 0;var
 h=e.pop();b=e.pop();a=e.pop();if(h+1<a.length)e.push(a,b,h+1);a=a[h];b=b[h]}}function
-JP(a,b){return ln(a,b,true)}function
-cw(a){if(a<0)a1("Bytes.create");return new
-cu(a?2:9,af,a)}function
-sO(a,b){return+(ln(a,b,false)==0)}function
-JR(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=af;a.t=2}else{a.c=s1(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)is(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}var
-J$=0;function
-sQ(){return J$++}function
-J3(a){return a.toUtf16()}function
-gq(){return typeof
-U.process!=="undefined"&&typeof
-U.process.versions!=="undefined"&&typeof
-U.process.versions.node!=="undefined"}function
-Km(){function
-a(a){if(a.charAt(0)===b$)return[af,a.substring(1)];return}function
+J_(a,b){return lx(a,b,true)}function
+cy(a){if(a<0)a4("Bytes.create");return new
+cw(a?2:9,ag,a)}function
+s9(a,b){return+(lx(a,b,false)==0)}function
+Ka(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=ag;a.t=2}else{a.c=tk(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)ix(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}var
+Ku=0;function
+s$(){return Ku++}function
+Km(a){return a.toUtf16()}function
+gu(){return typeof
+W.process!=="undefined"&&typeof
+W.process.versions!=="undefined"&&typeof
+W.process.versions.node!=="undefined"}function
+KH(){function
+a(a){if(a.charAt(0)===b$)return[ag,a.substring(1)];return}function
 b(c){var
-g=/^([a-zA-Z]:|[\\/]{2}[^\\/]+[\\/]+[^\\/]+)?([\\/])?([\s\S]*?)$/,a=g.exec(c),b=a[1]||af,e=Boolean(b&&b.charAt(1)!==":");if(Boolean(a[2]||e)){var
-d=a[1]||af,f=a[2]||af;return[d,c.substring(d.length+f.length)]}return}return gq()&&U.process&&U.process.platform?U.process.platform==="win32"?b:a:a}var
-lB=Km();function
-s3(a){return a.slice(-1)!==b$?a+b$:a}if(gq()&&U.process&&U.process.cwd)var
-gn=U.process.cwd().replace(/\\/g,b$);else
+g=/^([a-zA-Z]:|[\\/]{2}[^\\/]+[\\/]+[^\\/]+)?([\\/])?([\s\S]*?)$/,a=g.exec(c),b=a[1]||ag,e=Boolean(b&&b.charAt(1)!==":");if(Boolean(a[2]||e)){var
+d=a[1]||ag,f=a[2]||ag;return[d,c.substring(d.length+f.length)]}return}return gu()&&W.process&&W.process.platform?W.process.platform==="win32"?b:a:a}var
+lL=KH();function
+tm(a){return a.slice(-1)!==b$?a+b$:a}if(gu()&&W.process&&W.process.cwd)var
+gr=W.process.cwd().replace(/\\/g,b$);else
 var
-gn="/static";gn=s3(gn);function
-J5(a){a=J3(a);if(!lB(a))a=gn+a;var
-e=lB(a),d=e[1].split(b$),b=[];for(var
+gr="/static";gr=tm(gr);function
+Ko(a){a=Km(a);if(!lL(a))a=gr+a;var
+e=lL(a),d=e[1].split(b$),b=[];for(var
 c=0;c<d.length;c++)switch(d[c]){case"..":if(b.length>1)b.pop();break;case".":break;default:b.push(d[c]);break}b.unshift(e[0]);b.orig=a;return b}function
-Kh(e){for(var
-f=af,b=f,a,h,c=0,g=e.length;c<g;c++){a=e.charCodeAt(c);if(a<b9){for(var
-d=c+1;d<g&&(a=e.charCodeAt(d))<b9;d++);if(d-c>rd){b.substr(0,1);f+=b;b=af;f+=e.slice(c,d)}else
-b+=e.slice(c,d);if(d==g)break;c=d}if(a<rz){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(b9|a&e1)}else
-if(a<0xd800||a>=rG)b+=String.fromCharCode(rI|a>>12,b9|a>>6&e1,b9|a&e1);else
-if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<rr||h>rG)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(rQ|a>>18,b9|a>>12&e1,b9|a>>6&e1,b9|a&e1)}if(b.length>ge){b.substr(0,1);f+=b;b=af}}return f+b}function
-JM(a){var
-b=9;if(!s6(a))b=8,a=Kh(a);return new
-cu(b,a,a.length)}function
-e_(a){return JM(a)}var
-Kp=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",rl,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",k6,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",k$,rq,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
-ef(d,f,e,a){var
-b=Kp.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
-c=[b,e_(f||af),e_(e||af)];return c}var
-sW={};function
-ec(a){return sW[a]}function
-ed(b,a){throw[0,b].concat(a)}function
-JL(a){return new
-cu(4,a,a.length)}function
-at(a){lw(aH.Sys_error,a)}function
-Kc(a){at(a+h$)}function
-sI(){a1(lf)}function
-JK(b,a){if(a>>>0>=b.l)sI();return lm(b,a)}function
-iw(a){return a.l}function
-sB(){}function
-aZ(a){this.data=a}aZ.prototype=new
-sB();aZ.prototype.truncate=function(a){var
-b=this.data;this.data=cw(a|0);gm(b,0,this.data,0,a)};aZ.prototype.length=function(){return iw(this.data)};aZ.prototype.write=function(b,d,g,a){var
+KC(e){for(var
+f=ag,b=f,a,h,c=0,g=e.length;c<g;c++){a=e.charCodeAt(c);if(a<b9){for(var
+d=c+1;d<g&&(a=e.charCodeAt(d))<b9;d++);if(d-c>ry){b.substr(0,1);f+=b;b=ag;f+=e.slice(c,d)}else
+b+=e.slice(c,d);if(d==g)break;c=d}if(a<rU){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(b9|a&e8)}else
+if(a<0xd800||a>=r1)b+=String.fromCharCode(r3|a>>12,b9|a>>6&e8,b9|a&e8);else
+if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<rM||h>r1)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(r$|a>>18,b9|a>>12&e8,b9|a>>6&e8,b9|a&e8)}if(b.length>gi){b.substr(0,1);f+=b;b=ag}}return f+b}function
+J7(a){var
+b=9;if(!tp(a))b=8,a=KC(a);return new
+cw(b,a,a.length)}function
+ff(a){return J7(a)}var
+KK=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",rG,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",le,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",lj,rL,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
+ek(d,f,e,a){var
+b=KK.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
+c=[b,ff(f||ag),ff(e||ag)];return c}var
+tf={};function
+eh(a){return tf[a]}function
+ei(b,a){throw[0,b].concat(a)}function
+J6(a){return new
+cw(4,a,a.length)}function
+au(a){lG(aJ.Sys_error,a)}function
+Kx(a){au(a+ie)}function
+s3(){a4(lp)}function
+J5(b,a){if(a>>>0>=b.l)s3();return lw(b,a)}function
+iB(a){return a.l}function
+sW(){}function
+a2(a){this.data=a}a2.prototype=new
+sW();a2.prototype.truncate=function(a){var
+b=this.data;this.data=cy(a|0);gq(b,0,this.data,0,a)};a2.prototype.length=function(){return iB(this.data)};a2.prototype.write=function(b,d,g,a){var
 c=this.length();if(b+a>=c){var
-e=cw(b+a),f=this.data;this.data=e;gm(f,0,this.data,0,c)}e6(d,g,this.data,b,a);return 0};aZ.prototype.read=function(c,a,d,b){var
-e=this.length();gm(this.data,c,a,d,b);return 0};aZ.prototype.read_one=function(a){return JK(this.data,a)};aZ.prototype.close=function(){};aZ.prototype.constructor=aZ;function
-bf(b,a){this.content={};this.root=b;this.lookupFun=a}bf.prototype.nm=function(a){return this.root+a};bf.prototype.create_dir_if_needed=function(d){var
-c=d.split(b$),b=af;for(var
-a=0;a<c.length-1;a++){b+=c[a]+b$;if(this.content[b])continue;this.content[b]=Symbol("directory")}};bf.prototype.slash=function(a){return/\/$/.test(a)?a:a+b$};bf.prototype.lookup=function(b){if(!this.content[b]&&this.lookupFun){var
+e=cy(b+a),f=this.data;this.data=e;gq(f,0,this.data,0,c)}fb(d,g,this.data,b,a);return 0};a2.prototype.read=function(c,a,d,b){var
+e=this.length();gq(this.data,c,a,d,b);return 0};a2.prototype.read_one=function(a){return J5(this.data,a)};a2.prototype.close=function(){};a2.prototype.constructor=a2;function
+bj(b,a){this.content={};this.root=b;this.lookupFun=a}bj.prototype.nm=function(a){return this.root+a};bj.prototype.create_dir_if_needed=function(d){var
+c=d.split(b$),b=ag;for(var
+a=0;a<c.length-1;a++){b+=c[a]+b$;if(this.content[b])continue;this.content[b]=Symbol("directory")}};bj.prototype.slash=function(a){return/\/$/.test(a)?a:a+b$};bj.prototype.lookup=function(b){if(!this.content[b]&&this.lookupFun){var
 c=this.lookupFun(a(this.root),a(b));if(c!==0){this.create_dir_if_needed(b);this.content[b]=new
-aZ(e7(c[1]))}}};bf.prototype.exists=function(a){if(a==af)return 1;var
-b=this.slash(a);if(this.content[b])return 1;this.lookup(a);return this.content[a]?1:0};bf.prototype.mkdir=function(c,e,d){var
-b=d&&ec(k2);if(this.exists(c))if(b)ed(b,ef(rl,k1,this.nm(c)));else
-at(c+": File exists");var
-a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||af;if(!this.exists(a))if(b)ed(b,ef(k6,k1,this.nm(a)));else
-at(a+h$);if(!this.is_dir(a))if(b)ed(b,ef(k$,k1,this.nm(a)));else
-at(a+lh);this.create_dir_if_needed(this.slash(c))};bf.prototype.rmdir=function(a,f){var
-b=f&&ec(k2),c=a==af?af:this.slash(a),e=new
-RegExp(lc+c+rs);if(!this.exists(a))if(b)ed(b,ef(k6,kZ,this.nm(a)));else
-at(a+h$);if(!this.is_dir(a))if(b)ed(b,ef(k$,kZ,this.nm(a)));else
-at(a+lh);for(var
+a2(fc(c[1]))}}};bj.prototype.exists=function(a){if(a==ag)return 1;var
+b=this.slash(a);if(this.content[b])return 1;this.lookup(a);return this.content[a]?1:0};bj.prototype.mkdir=function(c,e,d){var
+b=d&&eh(la);if(this.exists(c))if(b)ei(b,ek(rG,k$,this.nm(c)));else
+au(c+": File exists");var
+a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||ag;if(!this.exists(a))if(b)ei(b,ek(le,k$,this.nm(a)));else
+au(a+ie);if(!this.is_dir(a))if(b)ei(b,ek(lj,k$,this.nm(a)));else
+au(a+lr);this.create_dir_if_needed(this.slash(c))};bj.prototype.rmdir=function(a,f){var
+b=f&&eh(la),c=a==ag?ag:this.slash(a),e=new
+RegExp(lm+c+rN);if(!this.exists(a))if(b)ei(b,ek(le,k9,this.nm(a)));else
+au(a+ie);if(!this.is_dir(a))if(b)ei(b,ek(lj,k9,this.nm(a)));else
+au(a+lr);for(var
 d
 in
-this.content)if(d.match(e))if(b)ed(b,ef(rq,kZ,this.nm(a)));else
-at(this.nm(a)+": Directory not empty");delete
-this.content[c]};bf.prototype.readdir=function(a){var
-f=a==af?af:this.slash(a);if(!this.exists(a))at(a+h$);if(!this.is_dir(a))at(a+lh);var
+this.content)if(d.match(e))if(b)ei(b,ek(rL,k9,this.nm(a)));else
+au(this.nm(a)+": Directory not empty");delete
+this.content[c]};bj.prototype.readdir=function(a){var
+f=a==ag?ag:this.slash(a);if(!this.exists(a))au(a+ie);if(!this.is_dir(a))au(a+lr);var
 g=new
-RegExp(lc+f+rs),d={},c=[];for(var
+RegExp(lm+f+rN),d={},c=[];for(var
 e
 in
 this.content){var
-b=e.match(g);if(b&&!d[b[1]]){d[b[1]]=true;c.push(b[1])}}return c};bf.prototype.is_dir=function(a){if(a==af)return true;var
-b=this.slash(a);return this.content[b]?1:0};bf.prototype.unlink=function(a){var
+b=e.match(g);if(b&&!d[b[1]]){d[b[1]]=true;c.push(b[1])}}return c};bj.prototype.is_dir=function(a){if(a==ag)return true;var
+b=this.slash(a);return this.content[b]?1:0};bj.prototype.unlink=function(a){var
 b=this.content[a]?true:false;delete
-this.content[a];return b};bf.prototype.open=function(a,b){if(b.rdonly&&b.wronly)at(this.nm(a)+sg);if(b.text&&b.binary)at(this.nm(a)+q7);this.lookup(a);if(this.content[a]){if(this.is_dir(a))at(this.nm(a)+" : is a directory");if(b.create&&b.excl)at(this.nm(a)+sc);var
+this.content[a];return b};bj.prototype.open=function(a,b){if(b.rdonly&&b.wronly)au(this.nm(a)+sB);if(b.text&&b.binary)au(this.nm(a)+rq);this.lookup(a);if(this.content[a]){if(this.is_dir(a))au(this.nm(a)+" : is a directory");if(b.create&&b.excl)au(this.nm(a)+sx);var
 c=this.content[a];if(b.truncate)c.truncate();return c}else
 if(b.create){this.create_dir_if_needed(a);this.content[a]=new
-aZ(cw(0));return this.content[a]}else
-Kc(this.nm(a))};bf.prototype.register=function(c,a){var
-b;if(this.content[c])at(this.nm(c)+sc);if(lu(a))b=new
-aZ(a);if(sU(a))b=new
-aZ(e7(a));else
+a2(cy(0));return this.content[a]}else
+Kx(this.nm(a))};bj.prototype.register=function(c,a){var
+b;if(this.content[c])au(this.nm(c)+sx);if(lE(a))b=new
+a2(a);if(td(a))b=new
+a2(fc(a));else
 if(a
 instanceof
 Array)b=new
-aZ(JL(a));else
+a2(J6(a));else
 if(typeof
 a==="string")b=new
-aZ(sK(a));else
+a2(s5(a));else
 if(a.toString){var
-d=e7(e_(a.toString()));b=new
-aZ(d)}if(b){this.create_dir_if_needed(c);this.content[c]=b}else
-at(this.nm(c)+" : registering file with invalid content type")};bf.prototype.constructor=bf;function
-az(a){return iw(a)}function
-ee(b,a){return lm(b,a)}function
-JG(d){var
-c=az(d),b=new
-Array(c),a=0;for(;a<c;a++)b[a]=ee(d,a);return b}function
-JF(a){if(a.t!=4)is(a);return a.c}function
-JO(a,c,b){b&=cV;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}is(a)}a.c[c]=b;return 0}function
-JN(b,a,c){if(a>>>0>=b.l)sI();return JO(b,a,c)}function
-cv(a){this.fs=require("fs");this.fd=a}cv.prototype=new
-sB();cv.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){at(a.toString())}};cv.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){at(a.toString())}};cv.prototype.write=function(f,b,c,e){var
-a=JG(b);if(!(a
+d=fc(ff(a.toString()));b=new
+a2(d)}if(b){this.create_dir_if_needed(c);this.content[c]=b}else
+au(this.nm(c)+" : registering file with invalid content type")};bj.prototype.constructor=bj;function
+aB(a){return iB(a)}function
+ej(b,a){return lw(b,a)}function
+J1(d){var
+c=aB(d),b=new
+Array(c),a=0;for(;a<c;a++)b[a]=ej(d,a);return b}function
+J0(a){if(a.t!=4)ix(a);return a.c}function
+J9(a,c,b){b&=cZ;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}ix(a)}a.c[c]=b;return 0}function
+J8(b,a,c){if(a>>>0>=b.l)s3();return J9(b,a,c)}function
+cx(a){this.fs=require("fs");this.fd=a}cx.prototype=new
+sW();cx.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){au(a.toString())}};cx.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){au(a.toString())}};cx.prototype.write=function(f,b,c,e){var
+a=J1(b);if(!(a
 instanceof
-U.Uint8Array))a=new(U.Uint8Array)(a);var
-d=U.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){at(a.toString())}return 0};cv.prototype.read=function(g,d,c,f){var
-a=JF(d);if(!(a
+W.Uint8Array))a=new(W.Uint8Array)(a);var
+d=W.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){au(a.toString())}return 0};cx.prototype.read=function(g,d,c,f){var
+a=J0(d);if(!(a
 instanceof
-U.Uint8Array))a=new(U.Uint8Array)(a);var
-e=U.Buffer.from(a);try{this.fs.readSync(this.fd,e,c,f,g)}catch(a){at(a.toString())}for(var
-b=0;b<f;b++)JN(d,c+b,e[c+b]);return 0};cv.prototype.read_one=function(c){var
-b=new(U.Uint8Array)(1),a=U.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){at(a.toString())}return a[0]};cv.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){at(a.toString())}};cv.prototype.constructor=cv;function
-a0(a){this.fs=require("fs");this.root=a}a0.prototype.nm=function(a){return this.root+a};a0.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};a0.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};a0.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};a0.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};a0.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){at(a.toString())}};a0.prototype.unlink=function(a,c){try{var
-b=this.fs.existsSync(this.nm(a))?1:0;this.fs.unlinkSync(this.nm(a));return b}catch(a){this.raise_nodejs_error(a,c)}};a0.prototype.open=function(f,c,g){var
+W.Uint8Array))a=new(W.Uint8Array)(a);var
+e=W.Buffer.from(a);try{this.fs.readSync(this.fd,e,c,f,g)}catch(a){au(a.toString())}for(var
+b=0;b<f;b++)J8(d,c+b,e[c+b]);return 0};cx.prototype.read_one=function(c){var
+b=new(W.Uint8Array)(1),a=W.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){au(a.toString())}return a[0]};cx.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){au(a.toString())}};cx.prototype.constructor=cx;function
+a3(a){this.fs=require("fs");this.root=a}a3.prototype.nm=function(a){return this.root+a};a3.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};a3.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};a3.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};a3.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};a3.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){au(a.toString())}};a3.prototype.unlink=function(a,c){try{var
+b=this.fs.existsSync(this.nm(a))?1:0;this.fs.unlinkSync(this.nm(a));return b}catch(a){this.raise_nodejs_error(a,c)}};a3.prototype.open=function(f,c,g){var
 a=require("constants"),b=0;for(var
 e
 in
 c)switch(e){case"rdonly":b|=a.O_RDONLY;break;case"wronly":b|=a.O_WRONLY;break;case"append":b|=a.O_WRONLY|a.O_APPEND;break;case"create":b|=a.O_CREAT;break;case"truncate":b|=a.O_TRUNC;break;case"excl":b|=a.O_EXCL;break;case"binary":b|=a.O_BINARY;break;case"text":b|=a.O_TEXT;break;case"nonblock":b|=a.O_NONBLOCK;break}try{var
 d=this.fs.openSync(this.nm(f),b);return new
-cv(d)}catch(a){this.raise_nodejs_error(a,g)}};a0.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};a0.prototype.stat=function(b,c){try{var
-a=this.fs.statSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};a0.prototype.lstat=function(b,c){try{var
-a=this.fs.lstatSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};a0.prototype.symlink=function(d,c,a,b){try{this.fs.symlinkSync(this.nm(c),this.nm(a),d?"dir":"file");return 0}catch(a){this.raise_nodejs_error(a,b)}};a0.prototype.readlink=function(b,c){try{var
-a=this.fs.readlinkSync(this.nm(b),qS);return e_(a)}catch(a){this.raise_nodejs_error(a,c)}};a0.prototype.raise_nodejs_error=function(a,d){var
-b=ec(k2);if(d&&b){var
-c=ef(a.code,a.syscall,a.path,a.errno);ed(b,c)}else
-at(a.toString())};a0.prototype.stats_from_js=function(a){var
+cx(d)}catch(a){this.raise_nodejs_error(a,g)}};a3.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};a3.prototype.stat=function(b,c){try{var
+a=this.fs.statSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};a3.prototype.lstat=function(b,c){try{var
+a=this.fs.lstatSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};a3.prototype.symlink=function(d,c,a,b){try{this.fs.symlinkSync(this.nm(c),this.nm(a),d?"dir":"file");return 0}catch(a){this.raise_nodejs_error(a,b)}};a3.prototype.readlink=function(b,c){try{var
+a=this.fs.readlinkSync(this.nm(b),rb);return ff(a)}catch(a){this.raise_nodejs_error(a,c)}};a3.prototype.raise_nodejs_error=function(a,d){var
+b=eh(la);if(d&&b){var
+c=ek(a.code,a.syscall,a.path,a.errno);ei(b,c)}else
+au(a.toString())};a3.prototype.stats_from_js=function(a){var
 b;if(a.isFile())b=0;else
 if(a.isDirectory())b=1;else
 if(a.isCharacterDevice())b=2;else
 if(a.isBlockDevice())b=3;else
 if(a.isSymbolicLink())b=4;else
 if(a.isFIFO())b=5;else
-if(a.isSocket())b=6;return[0,a.dev,a.ino,b,a.mode,a.nlink,a.uid,a.gid,a.rdev,a.size,a.atimeMs,a.mtimeMs,a.ctimeMs]};a0.prototype.constructor=a0;function
-sR(b){var
-a=lB(b);if(!a)return;return a[0]+b$}var
-ix=sR(gn)||ca("unable to compute caml_root"),e$=[];if(gq())e$.push({path:ix,device:new
-a0(ix)});else
-e$.push({path:ix,device:new
-bf(ix)});e$.push({path:q1,device:new
-bf(q1)});function
-s_(b){var
-g=J5(b),b=g.join(b$),f=s3(b),c;for(var
-e=0;e<e$.length;e++){var
-a=e$[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&gq()){var
-d=sR(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
+if(a.isSocket())b=6;return[0,a.dev,a.ino,b,a.mode,a.nlink,a.uid,a.gid,a.rdev,a.size,a.atimeMs,a.mtimeMs,a.ctimeMs]};a3.prototype.constructor=a3;function
+ta(b){var
+a=lL(b);if(!a)return;return a[0]+b$}var
+iC=ta(gr)||ca("unable to compute caml_root"),fg=[];if(gu())fg.push({path:iC,device:new
+a3(iC)});else
+fg.push({path:iC,device:new
+bj(iC)});fg.push({path:rk,device:new
+bj(rk)});function
+tv(b){var
+g=Ko(b),b=g.join(b$),f=tm(b),c;for(var
+e=0;e<fg.length;e++){var
+a=fg[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&gu()){var
+d=ta(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
 a={path:d,device:new
-a0(d)};e$.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;at("no device found for "+f)}function
-JQ(c,b){var
-a=s_(c);if(!a.device.register)ca("cannot register file");a.device.register(a.rest,b);return 0}function
-s5(c,b){var
-c=a(c),b=a(b);return JQ(c,b)}function
-JT(){var
-b=U.caml_fs_tmp;if(b)for(var
-a=0;a<b.length;a++)s5(b[a].name,b[a].content);U.jsoo_create_file=s5;U.caml_fs_tmp=[];return 0}function
-Ka(c){var
-a=0,e=az(c),b=10,d=1;if(e>0)switch(ee(c,a)){case
+a3(d)};fg.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;au("no device found for "+f)}function
+J$(c,b){var
+a=tv(c);if(!a.device.register)ca("cannot register file");a.device.register(a.rest,b);return 0}function
+to(c,b){var
+c=a(c),b=a(b);return J$(c,b)}function
+Kc(){var
+b=W.caml_fs_tmp;if(b)for(var
+a=0;a<b.length;a++)to(b[a].name,b[a].content);W.jsoo_create_file=to;W.caml_fs_tmp=[];return 0}function
+Kv(c){var
+a=0,e=aB(c),b=10,d=1;if(e>0)switch(ej(c,a)){case
 45:a++;d=-1;break;case
-43:a++;d=1;break}if(a+1<e&&ee(c,a)==48)switch(ee(c,a+1)){case
+43:a++;d=1;break}if(a+1<e&&ej(c,a)==48)switch(ej(c,a+1)){case
 120:case
 88:b=16;a+=2;break;case
 111:case
@@ -583,33 +583,33 @@ a=0,e=az(c),b=10,d=1;if(e>0)switch(ee(c,a)){case
 66:b=2;a+=2;break;case
 117:case
 85:a+=2;break}return[a,d,b]}function
-sX(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=ss)return a-87;return-1}function
-iv(f){var
-h=Ka(f),c=h[0],i=h[1],d=h[2],g=az(f),j=-1>>>0,e=c<g?ee(f,c):0,b=sX(e);if(b<0||b>=d)ca(ie);var
-a=b;for(c++;c<g;c++){e=ee(f,c);if(e==95)continue;b=sX(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)ca(ie)}if(c!=g)ca(ie);a=i*a;if(d==10&&(a|0)!=a)ca(ie);return a|0}function
-J4(a,b){return+(ln(a,b,false)<=0)}function
-J6(a,d){if(a<0)ir();var
+tg(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=sN)return a-87;return-1}function
+iA(f){var
+h=Kv(f),c=h[0],i=h[1],d=h[2],g=aB(f),j=-1>>>0,e=c<g?ej(f,c):0,b=tg(e);if(b<0||b>=d)ca(ik);var
+a=b;for(c++;c<g;c++){e=ej(f,c);if(e==95)continue;b=tg(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)ca(ik)}if(c!=g)ca(ik);a=i*a;if(d==10&&(a|0)!=a)ca(ik);return a|0}function
+Kn(a,b){return+(lx(a,b,false)<=0)}function
+Kp(a,d){if(a<0)iw();var
 a=a+1|0,b=new
 Array(a);b[0]=0;for(var
 c=1;c<a;c++)b[c]=d;return b}var
-cX=new
+c1=new
 Array();function
-J7(c){var
-a=cX[c];if(!a.opened)at("Cannot flush a closed channel");if(!a.buffer||a.buffer==af)return 0;if(a.fd&&aH.fds[a.fd]&&aH.fds[a.fd].output){var
-b=aH.fds[a.fd].output;switch(b.length){case
-2:b(c,a.buffer);break;default:b(a.buffer)}}a.buffer=af;return 0}function
-s0(e,f){var
-b=cX[e],d=a(f),c=az(d);b.file.write(b.offset,d,0,c);b.offset+=c;return 0}function
-Ki(a){var
-a=ly(a),b=U;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+Kq(c){var
+a=c1[c];if(!a.opened)au("Cannot flush a closed channel");if(!a.buffer||a.buffer==ag)return 0;if(a.fd&&aJ.fds[a.fd]&&aJ.fds[a.fd].output){var
+b=aJ.fds[a.fd].output;switch(b.length){case
+2:b(c,a.buffer);break;default:b(a.buffer)}}a.buffer=ag;return 0}function
+tj(e,f){var
+b=c1[e],d=a(f),c=aB(d);b.file.write(b.offset,d,0,c);b.offset+=c;return 0}function
+KD(a){var
+a=lI(a),b=W;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.error&&c.error(a)}}function
-Kj(a){var
-a=ly(a),b=U;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+KE(a){var
+a=lI(a),b=W;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.log&&c.log(a)}}function
-iz(c,e,d,a){if(aH.fds===undefined)aH.fds=new
+iE(c,e,d,a){if(aJ.fds===undefined)aJ.fds=new
 Array();a=a?a:{};var
-b={};b.file=d;b.offset=a.append?d.length():0;b.flags=a;b.output=e;aH.fds[c]=b;if(!aH.fd_last_idx||c>aH.fd_last_idx)aH.fd_last_idx=c;return c}function
-Kq(c,b,g){var
+b={};b.file=d;b.offset=a.append?d.length():0;b.flags=a;b.output=e;aJ.fds[c]=b;if(!aJ.fd_last_idx||c>aJ.fd_last_idx)aJ.fd_last_idx=c;return c}function
+KL(c,b,g){var
 a={};while(b){switch(b[1]){case
 0:a.rdonly=1;break;case
 1:a.wronly=1;break;case
@@ -619,173 +619,176 @@ a={};while(b){switch(b[1]){case
 5:a.excl=1;break;case
 6:a.binary=1;break;case
 7:a.text=1;break;case
-8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)at(e9(c)+sg);if(a.text&&a.binary)at(e9(c)+q7);var
-d=s_(c),e=d.device.open(d.rest,a),f=aH.fd_last_idx?aH.fd_last_idx:0;return iz(f+1,s0,e,a)}iz(0,s0,new
-aZ(cw(0)));iz(1,Kj,new
-aZ(cw(0)));iz(2,Ki,new
-aZ(cw(0)));function
-J8(a){var
-c=aH.fds[a];if(c.flags.wronly)at(sq+a+" is writeonly");var
-d=null;if(a==0&&gq()){var
-e=require("fs");d=function(){return e_(e.readFileSync(0,qS))}}var
-b={file:c.file,offset:c.offset,fd:a,opened:true,out:false,refill:d};cX[b.fd]=b;return b.fd}function
-sV(c){var
-b=aH.fds[c];if(b.flags.rdonly)at(sq+c+" is readonly");var
-a={file:b.file,offset:b.offset,fd:c,opened:true,out:true,buffer:af};cX[a.fd]=a;return a.fd}function
-J9(){var
+8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)au(fe(c)+sB);if(a.text&&a.binary)au(fe(c)+rq);var
+d=tv(c),e=d.device.open(d.rest,a),f=aJ.fd_last_idx?aJ.fd_last_idx:0;return iE(f+1,tj,e,a)}iE(0,tj,new
+a2(cy(0)));iE(1,KE,new
+a2(cy(0)));iE(2,KD,new
+a2(cy(0)));function
+Kr(a){var
+c=aJ.fds[a];if(c.flags.wronly)au(sL+a+" is writeonly");var
+d=null;if(a==0&&gu()){var
+e=require("fs");d=function(){return ff(e.readFileSync(0,rb))}}var
+b={file:c.file,offset:c.offset,fd:a,opened:true,out:false,refill:d};c1[b.fd]=b;return b.fd}function
+te(c){var
+b=aJ.fds[c];if(b.flags.rdonly)au(sL+c+" is readonly");var
+a={file:b.file,offset:b.offset,fd:c,opened:true,out:true,buffer:ag};c1[a.fd]=a;return a.fd}function
+Ks(){var
 b=0;for(var
-a=0;a<cX.length;a++)if(cX[a]&&cX[a].opened&&cX[a].out)b=[0,cX[a].fd,b];return b}function
-bQ(b,c,a){if(a&&U.toplevelReloc)b=U.toplevelReloc(a);aH[b+1]=c;if(a)aH[a]=c}function
-Ke(a,b){sW[e9(a)]=b;return 0}function
-JJ(a,b){if(a===b)return 1;a.t&6&&e8(a);b.t&6&&e8(b);return a.c==b.c?1:0}function
-aD(a,b){return JJ(a,b)}function
-Kg(){a1(lf)}function
-a$(b,a){if(a>>>0>=az(b))Kg();return ee(b,a)}function
-p(a,b){return 1-aD(a,b)}function
-iy(a){return a}function
-sZ(a){return a}function
-s4(a){if(a
+a=0;a<c1.length;a++)if(c1[a]&&c1[a].opened&&c1[a].out)b=[0,c1[a].fd,b];return b}function
+bS(b,c,a){if(a&&W.toplevelReloc)b=W.toplevelReloc(a);aJ[b+1]=c;if(a)aJ[a]=c}function
+Kz(a,b){tf[fe(a)]=b;return 0}function
+J4(a,b){if(a===b)return 1;a.t&6&&fd(a);b.t&6&&fd(b);return a.c==b.c?1:0}function
+aF(a,b){return J4(a,b)}function
+KB(){a4(lp)}function
+bd(b,a){if(a>>>0>=aB(b))KB();return ej(b,a)}function
+p(a,b){return 1-aF(a,b)}function
+iD(a){return a}function
+ti(a){return a}function
+tn(a){if(a
 instanceof
-Array)return a;if(U.RangeError&&a
+Array)return a;if(W.RangeError&&a
 instanceof
-U.RangeError&&a.message&&a.message.match(/maximum call stack/i))return sZ(aH.Stack_overflow);if(U.InternalError&&a
+W.RangeError&&a.message&&a.message.match(/maximum call stack/i))return ti(aJ.Stack_overflow);if(W.InternalError&&a
 instanceof
-U.InternalError&&a.message&&a.message.match(/too much recursion/i))return sZ(aH.Stack_overflow);if(a
+W.InternalError&&a.message&&a.message.match(/too much recursion/i))return ti(aJ.Stack_overflow);if(a
 instanceof
-U.Error&&ec(rx))return[0,ec(rx),a];return[0,aH.Failure,e_(String(a))]}function
-cx(a){return a<0?-a:a}function
+W.Error&&eh(rS))return[0,eh(rS),a];return[0,aJ.Failure,ff(String(a))]}function
+cz(a){return a<0?-a:a}function
 F(a,b){return a+b}function
-lz(a,b){return a<b?-1:a>b?1:0}function
-s7(c,b){var
-a=c%b;return a<0?a+cx(b):a}function
-lA(a,b){return(a-s7(a,b))/b}function
+lJ(a,b){return a<b?-1:a>b?1:0}function
+tr(c,b){var
+a=c%b;return a<0?a+cz(b):a}function
+lK(a,b){return(a-tr(a,b))/b}function
 L(a,b){return a==b?1:0}function
-Kn(c){U.orthocert_verify=function(b){return e9(dx(c,[a(b)]))}}function
-E(a,b){return a<=b?1:0}function
+KI(c){W.orthocert_verify=function(b){return fe(dD(c,[a(b)]))}}function
+D(a,b){return a<=b?1:0}function
 K(a,b){return a<b?1:0}function
 C(a,b){return a*b}function
-P(a){return-a}function
-aK(a){return U.BigInt(a)}function
-s8(a,b){return a<<U.BigInt(b)}function
-s9(a,b){return a>>U.BigInt(b)}function
-aT(a){return a<0?-1:a>0?1:0}function
-Ko(a){if(a<0)throw new(U.Error)("a root of a negative number");if(a<2)return a;var
-d=U.BigInt(1),b=d<<U.BigInt((a.toString(16).length*4+1)/2|0),c;for(;;){c=b+a/b>>d;if(c>=b)return b;b=c}}function
-aM(a,b){return a-b}function
-iA(a){if(a>0x7fffffff||a<-0x80000000)throw new(U.Error)("a number of more than 32 bits");return U.Number(a)}function
-J2(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
-JS(b){var
-a=af;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&J2(b[1]))var
+Q(a){return-a}function
+aM(a){return W.BigInt(a)}var
+tu=[];function
+tq(a){return tu[a]||(tu[a]=W.BigInt(a))}function
+ts(a,b){return a<<tq(b)}function
+tt(a,b){return a>>tq(b)}function
+aV(a){return a<0?-1:a>0?1:0}function
+KJ(a){if(a<0)throw new(W.Error)("a root of a negative number");if(a<2)return a;var
+d=W.BigInt(1),b=d<<W.BigInt((a.toString(16).length*4+1)/2|0),c;for(;;){c=b+a/b>>d;if(c>=b)return b;b=c}}function
+aO(a,b){return a-b}function
+iF(b){var
+a=W.Number(b);if(a!==(a|0))throw new(W.Error)("a number of more than 32 bits");return a}function
+Kl(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
+Kb(b){var
+a=ag;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&Kl(b[1]))var
 e=b[2],f=1;else
 var
-f=2,e=b;a+=ry;for(var
+f=2,e=b;a+=rT;for(var
 d=f;d<e.length;d++){if(d>f)a+=", ";var
 c=e[d];if(typeof
 c=="number")a+=c.toString();else
 if(c
 instanceof
-cu)a+=aS+c.toString()+aS;else
+cw)a+=aU+c.toString()+aU;else
 if(typeof
-c=="string")a+=aS+c.toString()+aS;else
-a+="_"}a+=lb}else
-if(b[0]==a_)a+=b[1];return a}function
-sP(a){if(a
+c=="string")a+=aU+c.toString()+aU;else
+a+="_"}a+=ll}else
+if(b[0]==bc)a+=b[1];return a}function
+s_(a){if(a
 instanceof
-Array&&(a[0]==0||a[0]==a_)){var
-c=ec("Printexc.handle_uncaught_exception");if(c)c(a,false);else{var
-d=JS(a),b=ec(qR);if(b)b(0);U.console.error("Fatal error: exception "+d+"\n")}}else
+Array&&(a[0]==0||a[0]==bc)){var
+c=eh("Printexc.handle_uncaught_exception");if(c)c(a,false);else{var
+d=Kb(a),b=eh(ra);if(b)b(0);W.console.error("Fatal error: exception "+d+"\n")}}else
 throw a}function
-Kf(){var
-a=U;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){sP(b);a.process.exit(2)});else
-if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)sP(a.error)})}Kf();function
-j(a,b){return a.length==1?a(b):dx(a,[b])}function
-aq(a,b,c){return a.length==2?a(b,c):dx(a,[b,c])}function
-f9(a,b,c,d){return a.length==3?a(b,c,d):dx(a,[b,c,d])}function
-h7(a,b,c,d,e){return a.length==4?a(b,c,d,e):dx(a,[b,c,d,e])}JT();var
-lD=[a_,a(ro),-2],lC=[a_,a(sA),-4],Iz=[0,[0,[0,[0,0]]]],IA=[0,0],IB=[0,0],IC=[0,[0,0]],ID=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IC]]]]]]]]]]],hT=[0,[1,0],0],p6=[0,[2,0],0],kC=[0,[1,0],0],p5=[0,[2,0],0],hR=[0,[1,0],0],kB=[0,[2,0],0],IE=[0,[0,[0,[0,0]]]],IF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IE]]]]]]]]]]],IG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IF]]]]]]]]]]],IH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IG]]]]]]]]]]],II=[0,[0,0]],IJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,II]]]]]]]]]]],IK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IJ]]]]]]]]]]],IL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IK]]]]]]]]]]],IM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IL]]]]]]]]]]],IN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],IO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IN]]]]]]]]]]],IP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IO]]]]]]]]]]],IQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IP]]]]]]]]]]],IR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IQ]]]]]]]]]]],IS=[0,[0,0]],IT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IS]]]]]]]]]]],IU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IT]]]]]]]]]]],IV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IU]]]]]]]]]]],IW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IV]]]]]]]]]]],IX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IW]]]]]]]]]]],IY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IX]]]]]]]]]]],IZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IY]]]]]]]]]]],I0=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],I1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,I0]]]]]]]]]]],I2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,I1]]]]]]]]]]],I3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,I2]]]]]]]]]]],I4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,I3]]]]]]]]]]],I5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,I4]]]]]]]]]]],I6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,I5]]]]]]]]]]],I7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,I6]]]]]]]]]]],I8=[0,0],I9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,I8]]]]]]]]]]],I_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,I9]]]]]]]]]]],I$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,I_]]]]]]]]]]],Ja=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,I$]]]]]]]]]]],Jb=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ja]]]]]]]]]]],Jc=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jb]]]]]]]]]]],Jd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jc]]]]]]]]]]],Je=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jd]]]]]]]]]]],Jf=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Je]]]]]]]]]]],Jg=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jf]]]]]]]]]]],Jh=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],Ji=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jh]]]]]]]]]]],Jj=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],Jk=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jj]]]]]]]]]]],Jl=[0,[0,[0,[0,[0,0]]]]],Jm=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jl]]]]]]]]]]],Jn=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jm]]]]]]]]]]],Jo=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jn]]]]]]]]]]],Jp=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jo]]]]]]]]]]],Jq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jp]]]]]]]]]]],Jr=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jq]]]]]]]]]]],Js=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jr]]]]]]]]]]],Jt=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Js]]]]]]]]]]],Ju=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jt]]]]]]]]]]],Jv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ju]]]]]]]]]]],Jw=[0,0],Jx=[0,[0,0]],Jy=[0,0],Jz=[0,[0,[0,[0,[0,0]]]]],dF=[0,[0,[0,0]]],dH=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],hG=[0,[0,[0,[0,0]]]],JA=[0,[0,[0,[0,[0,0]]]]],JB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JA]]]]]]]]]]],JC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JB]]]]]]]]]]],JD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JC]]]]]]]]]]],JE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JD]]]]]]]]]]];bQ(11,[a_,a(qQ),-12],qQ);bQ(10,[a_,a(rE),-11],rE);bQ(9,[a_,a(sp),-10],sp);bQ(8,[a_,a(q2),-9],q2);bQ(7,[a_,a(rS),-8],rS);bQ(6,[a_,a(q0),-7],q0);bQ(5,[a_,a(rp),-6],rp);bQ(4,[a_,a(rt),-5],rt);bQ(3,lC,sA);bQ(2,[a_,a(k7),-3],k7);bQ(1,lD,ro);bQ(0,[a_,a(r$),-1],r$);var
-s$=a("String.sub / Bytes.sub"),tb=a(af),ta=a("String.concat"),tc=a("Array.init"),td=a("power"),tw=[0,0],tx=[0,0],tD=[0,0,0],tE=[0,0,0],tF=[0,0],t2=[0,0],t3=[0,0],t6=[0,0],up=[0,0],us=[0,0],uw=[0,0],ux=[0,0],uy=[0,0],uz=[0,0],uN=[0,0],uO=[0,0],vf=[0,0],vF=[0,[0,[0,0]]],wa=[0,0],wD=[0,0],w1=[0,0],xa=a(","),xs=[0,a(lb),0],xt=a(ry),xu=a("."),xv=[0,[0,[0,0]]],xw=a(e3),xx=a(lc),xy=[0,[0,[0,[0,[0,0]]]]],xz=[0,a(lb),0],xA=a(sy),AD=a(qN),AF=a(qK),AE=a(rH),AG=a(eY),AH=a(eW),AI=a(lk),AJ=a(sj),AK=a(ri),AL=a(le),AM=a(rM),AN=a(rh),B3=[0,[0,0,0]],Ci=[0,0],B4=a(f_),B5=[0,0],B6=a("divided"),B7=[0,1],B8=a("mirror"),B9=[0,3],B_=a("negative"),B$=[0,2],Ca=a(gd),Cb=[0,5],Cc=a(lj),Cd=[0,4],Ce=a(dv),Cf=a(q5),Cg=a(eZ),Ch=a(bO),Cj=[0,0],Ck=[0,0],Cl=[0,0],Co=[0,[0,[0,0]]],Cp=[0,[0,[0,0]]],CQ=[0,[0,[0,0]]],C4=[0,0],Dn=a(af),Df=[0,0],Dh=[0,0],Dg=[0,0],Di=[0,[0,[0,[0,0]]]],Dj=[0,[0,[0,0]]],Dk=[0,[0,[0,[0,0]]]],Dl=[0,[0,[0,0]]],Dd=[0,[0,[0,0]]],Dc=a(eZ),Db=[0,0],C$=[0,1,0],Da=[0,[0,[0,0]]],C_=[0,0],C9=[0,0],C8=[0,0],C5=[0,[0,0]],C6=[0,[0,[0,0]]],C2=[0,[0,0]],C3=[0,[0,[0,0]]],C1=[0,0],CX=[0,[0,[0,0]]],CW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Iz]]]]]]]]]],[0,0,[0,[0,[0,[0,0]]],0]]],CR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],[0,0,0]],CS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],[0,[0,[0,[0,[0,[0,[0,0]]]]]],0]],CT=[0,[0,[0,[0,[0,[0,[0,0]]]]]],0],CU=[0,[0,[0,[0,0]]],[0,0,0]],CO=[0,0],CP=[0,[0,0]],CN=[0,0,0],CM=[0,[0,[0,0]]],CG=[0,[0,0]],CH=[0,[0,[0,0]]],CI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IA]]]]]]]]]]],CJ=[0,[0,0]],CK=[0,[0,[0,0]]],CF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IB]]]]]]]]]]],CD=[0,[0,0]],CE=[0,[0,[0,0]]],CB=[0,[0,[0,0]]],CC=[0,[0,0]],CA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,ID]]]]]]]]]]],Cz=[0,0],Cy=[0,0],Cv=[0,[0,0]],Cw=[0,0],Ct=[0,0],Cu=[0,1],Cr=[0,[0,0]],Cs=[0,0],Cq=[0,0],Cm=[0,0],Cn=[0,1],B0=[0,0],B1=[0,1],B2=[0,2],BW=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],BU=[0,[0,0],0],BV=[0,[1,0],0],BX=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],BS=[0,[0,0]],BT=[0,0],BR=[0,0],BQ=[0,0],BP=[0,0],BO=[0,0],BN=[0,0,0],BL=[0,[0,0]],BM=[0,0],BK=[0,0,0],BI=[0,[0,[0,0]]],BJ=[0,[0,[0,0]]],BH=[0,0],BF=[0,1,0],By=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IH]]]]]]]]]]],Bz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IM]]]]]]]]]]],Bu=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IR]]]]]]]]]]],Bv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,IZ]]]]]]]]]]],Bw=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,I7]]]]]]]]]]],Bx=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jg]]]]]]]]]]],BA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ji]]]]]]]]]]],BB=a("sqrt"),Bs=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jk]]]]]]]]]]],Bt=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jv]]]]]]]]]]],Bh=[0,a("\n"),0],Bi=a(qL),Bj=a(ia),Bk=a(rD),Bl=a(rm),Br=a(gg),Bm=a(gc),Bn=a("verdict"),Bo=a(sa),Bp=a(re),Bq=a(rC),Be=a(rw),Bf=a(se),Bg=a(ic),Ba=a(rO),Bb=a(id),Bc=a(gc),Bd=a(gg),A7=a(im),A8=a(bx),A9=a(qM),A_=a(ij),A4=a(r_),A5=a(gd),A6=a(ij),A0=a(rR),A1=a(im),A2=a(id),A3=a(sn),AP=a(sf),AQ=a(si),AR=a(ii),AS=a(ig),AT=a(st),AU=a(r6),AV=a(r9),AW=a(rV),AX=a(ii),AY=a(rY),AB=a(h_),AC=a(gf),Aw=a(bP),Ax=a(bN),Ay=a(rg),z8=a(ig),z9=a(rU),zM=a(bx),zN=a(b_),zO=a(ip),zP=a(e2),zQ=a(cs),zV=a(k0),zR=a(ld),zS=a(lg),zT=a(eX),zU=a(bx),zW=a(b_),zX=a(ip),zY=a(e2),zZ=a(ld),z0=a(lg),z1=a(eX),z2=a(bx),z3=a(b_),z4=a(bP),z5=a(bN),z6=a(d$),z7=a(e2),z_=a(r4),z$=a(sh),Aa=a(iq),Ab=a(q6),Ac=a(q$),Ad=a(eX),Ae=a(bx),Af=a(b_),Ag=a(h8),Ah=a(rk),Ai=a(e2),Aj=a(gl),Ak=a(qU),Al=a(eX),Am=a(bx),An=a(h8),Ao=a(bx),Ap=a(rX),As=a(qJ),Aq=a(q9),Ar=a(sm),At=a(gg),Au=a(gc),Av=a(bx),Az=a(iq),AA=a(ic),zH=a(b_),zI=a(e2),zJ=a(k0),zK=a(eX),zG=a(sv),zu=a(gl),zv=a(sb),zw=a(ea),zx=a(e0),zy=a(e0),zz=a(k3),zA=a(ea),zB=a(rF),zC=a(rf),zD=a(bo),zF=a(qP),zE=a(k3),zk=a(rv),zl=a(sz),zm=a(rb),zn=a(q_),zo=a(sl),zp=a(r8),zq=a(rn),zr=a(h9),zs=a(h9),zg=a(bo),zh=a(bM),zi=a(e4),zj=a(bw),zc=a(cs),zd=a(k_),ze=a(rP),y$=a(bP),za=a(bN),zb=a(d$),y4=a(bP),y5=a(bN),y6=a(d$),y7=a(la),y8=a(ea),y9=a(k8),y_=a(r3),yM=a(q8),yS=a(ia),yR=a(li),yN=a(k4),yO=a(ga),yT=a(gb),yV=a(gb),yW=a(r1),yX=a(k4),yU=a(ga),yY=a(q4),yZ=a(r0),y0=a(ga),y1=a(su),y2=a(li),y3=a(ga),yP=a(e0),yQ=a(rK),yJ=a(ih),yK=a(ih),yL=a(ih),yF=a(r5),yG=a(bN),yH=a(bP),yI=a(sk),yo=a(qY),yp=a(qO),yq=a(rT),yr=a(eY),ys=a(sw),yt=a(rW),yu=a(qZ),yv=a(rL),yw=a(qX),yx=a(rj),yy=a(qW),yz=a(r7),yA=a(eW),yB=a(qT),yC=a(sd),yD=a(ra),yE=a(sx),x1=a(ik),x3=a(e3),x2=a(f$),x4=a(eV),x5=a(bo),x6=a(bM),x7=a(bO),x8=a(gh),x9=a(bw),x_=a(gj),x$=a(bo),ya=a(bM),yb=a(e4),yc=a(bw),yd=a(bO),ye=a(cs),yf=a(bw),yg=a(eV),yh=a(gk),yi=a(bo),yj=a(bM),yk=a(rJ),yl=a(gb),ym=a(gk),yn=a(bw),xJ=a(ik),xR=a(e3),xK=a(f$),xL=a(eV),xM=a(bo),xN=a(bM),xO=a(bO),xP=a(gh),xQ=a(bw),xS=a(gj),xT=a(bo),xU=a(bM),xV=a(e4),xW=a(bw),xX=a(bO),xY=a(cs),xZ=a(bw),xG=a(bP),xH=a(bN),xE=[0,a(aS),0],xF=a(aS),xC=a(af),xB=[0,a(aS),0],xD=a(aS),xo=a(ik),xp=a(e3),xq=a("*"),xr=a(b$),xj=[0,[0,[0,[0,[0,0]]]]],xk=[0,[0,[0,0]]],xl=[0,[0,0]],xm=[0,0],xn=[0,[0,[0,[0,0]]]],xh=a('":'),xi=a(aS),xf=[0,a(aS),0],xg=a(aS),xd=[0,a("}"),0],xe=a("{"),xb=[0,a("]"),0],xc=a("["),w$=[0,[0,[0,0]]],w_=[0,[0,[0,0]]],w8=[0,0],w5=[0,[0,[0,0]]],w6=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],w7=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],w3=[0,[0,0]],w4=[0,[0,[0,0]]],w2=[0,0],wZ=[0,0],w0=[0,[0,0]],wW=[0,0],wX=[0,[0,0]],wY=[0,0],wR=[0,[0,0]],wS=[0,0],wT=[0,[0,[0,0]]],wU=[0,[0,[0,0]]],wQ=[0,[0,[0,0]]],wP=[0,[0,[0,0]]],wO=[0,0],wL=[0,[0,[0,0]]],wN=[0,[0,[0,0]]],wM=[0,0],wJ=[0,[0,0]],wK=[0,0],wH=[0,[0,0]],wI=[0,0],wG=[0,[0,[0,0]]],wE=[0,[0,0]],wF=[0,0],wB=[0,0],wC=[0,[0,0]],wv=[0,[0,0]],ww=[0,[0,[0,[0,[0,0]]]]],wx=[0,[0,[0,[0,0]]]],wy=[0,[0,[0,0]]],wz=[0,[0,0]],wA=[0,0],ws=[0,0],wt=[0,[0,0]],wu=[0,0],wr=[0,0],wn=[0,0],wo=[0,[0,[0,[0,[0,[0,0]]]]]],wp=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jw]]]]]]]]]]],wl=[0,0,0],wm=[0,0,0],wi=[0,0,0],wj=[0,0],we=[0,0,0],wf=[0,0,0],wg=[0,0,0],wb=[0,[0,0]],wc=[0,[0,[0,0]]],wd=[0,0],v_=[0,0,0],v$=[0,0,[0,1,0]],v6=[0,0,0],v7=[0,0,0],v8=[0,0,0],v9=[0,0,0],vW=[0,[0,[0,[0,[0,[0,0]]]]]],vX=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],vY=[0,[0,[0,0]]],vZ=[0,[0,[0,0]]],v0=[0,[0,[0,[0,[0,[0,0]]]]]],v1=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],v2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jx]]]]]]]]]]],v3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jy]]]]]]]]]]],v4=[0,[0,[0,0]]],v5=[0,[0,[0,[0,[0,[0,0]]]]]],vS=[0,0,0],vT=[0,0,0],vO=[0,0,0],vP=[0,0,0],vQ=[0,0,0],vR=[0,0,0],vN=[0,0],vM=[0,0],vL=[0,0],vJ=[0,0],vK=[0,0],vI=[0,0],vG=[0,0],vH=[0,0],vy=[0,0],vz=[0,0],vA=[0,0],vB=[0,[0,[0,0]]],vx=[0,0],vr=[0,0],vs=[0,0],vt=[0,[0,0]],vp=[0,[0,0]],vq=[0,[0,[0,0]]],vn=[0,[0,[0,0]]],vo=[0,[0,0]],vl=[0,[0,0]],vm=[0,[0,[0,0]]],vk=[0,0],vi=[0,0],vj=[0,0],vg=[0,0,0],vd=[0,[0,0]],ve=[0,0],u7=[0,[0,0]],u8=[0,0],u9=[0,[0,0]],u_=[0,0],u$=[0,[0,0]],va=[0,0],vb=[0,[0,0]],vc=[0,0],u5=[0,[0,0]],u6=[0,0],u3=[0,[0,0]],u4=[0,0],uZ=[0,[0,0]],u0=[0,0],u1=[0,0],u2=[0,[0,0]],uQ=[0,[0,0]],uR=[0,0],uS=[0,[0,0]],uT=[0,0],uU=[0,0],uV=[0,[0,0]],uW=[0,[0,0]],uX=[0,[0,0]],uY=[0,0],uM=[0,0],uL=[0,0],uI=[0,0],uJ=[0,[0,0]],uH=[0,[0,[0,0]]],uG=[0,[0,[0,[0,[0,[0,0]]]]]],uE=[0,[0,0]],uF=[0,0],uD=[0,[0,0]],uC=[0,0],uA=[0,0],uB=[0,[0,[0,0]]],uu=[0,[0,0]],uv=[0,[0,[0,0]]],ut=[0,[0,[0,0]]],uq=[0,[0,[0,0]]],uo=[0,[0,[0,0]]],um=[0,[0,[0,[0,[0,[0,0]]]]]],un=[0,[0,[0,[0,[0,[0,0]]]]]],uh=[0,[0,0]],ui=[0,0],uj=[0,[0,0]],uk=[0,[0,[0,0]]],ul=[0,[0,[0,0]]],ua=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],ub=[0,[0,[0,[0,[0,[0,0]]]]]],uc=[0,[0,[0,[0,[0,[0,0]]]]]],ud=[0,[0,[0,0]]],ue=[0,[0,[0,[0,[0,[0,0]]]]]],uf=[0,[0,[0,0]]],ug=[0,[0,[0,0]]],t_=[0,[0,0]],t$=[0,0],t9=[0,0,0],t8=[0,0,0],t7=[0,0,0],t5=[0,0,0],t4=[0,[0,[0,0]]],tY=[0,0],tZ=[0,0],t0=[0,0],t1=[0,0],tW=[0,0],tX=[0,0],tU=[0,0,0],tR=[0,[0,[0,0]]],tS=[0,[0,[0,0]]],tT=[0,[0,[0,0]]],tQ=[0,[0,[0,[0,0]]]],tM=[0,[0,[0,0]]],tN=[0,[0,[0,0]]],tO=[0,[0,[0,0]]],tP=[0,[0,1,1],[0,[0,0,1],[0,[0,1,0],[0,[0,0,0],0]]]],tK=[0,[0,0]],tL=[0,0],tI=[0,[0,0]],tJ=[0,0],tG=[0,[0,0]],tH=[0,0],tt=[0,0],tu=[0,[0,0]],tr=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],ts=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jz]]]]]]]]]]],tp=[0,0,0],to=a(sr),tn=a(af),tm=[0,[0,0]],tk=[0,0],th=[0,0],tj=[1,0],ti=[0,0],tg=[0,0],te=[1,0],tf=[1,0],uK=[10,0,0,0,0],C7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JE]]]]]]]]]]],GD=a(bP),GE=a(bN),GF=a(rg),Gv=a(gj),Gw=[0,a("a base axis of such a platform"),0],Gx=a(bo),Gy=a(bM),Gi=a(r8),Gj=a(rv),Gk=a(sl),Gl=a(h9),Gm=a(rn),Gn=a(h9),Go=a(sz),Gp=a(rb),Gq=a(q_),F8=a(rU),F9=a(ig),FK=[0,a("such a machine with bodies"),0],Fx=a(ic),Fy=a(bx),Fz=a(rX),FA=a(sm),FD=a(q9),FE=a(qJ),FF=a(bx),FG=a(bx),FI=a(h8),FH=[0,a("a claim that no cube of such a machine fits"),0],FJ=a(sv),FL=a(eX),FM=a(e2),FN=a(cs),FO=a(k_),FP=a(rP),FQ=a(ip),FR=a(q$),FS=a(qU),FT=a(k0),FW=a(d$),FX=a(r3),F0=a(b_),F1=a(b_),F2=a(rk),F3=a(b_),F4=[0,a("the closed design with other bounds on psi than one from below and one from above"),0],F5=a(h8),F6=a(gl),F7=a(d$),F_=a(sh),F$=a(r4),Ga=[0,a(" operations, with its definitions written out,"),0],Gb=a("a mechanism of more than "),Gc=a(b_),Gd=a(bP),Ge=a(bN),Gf=a(iq),Gg=a(q6),FU=[0,a(aS),0],FV=a('the mechanism "'),Gh=a(ld),Gr=a(ip),Gs=a(cs),Gt=a(k_),Gu=a(lg),Gz=a(b_),GC=a(cs),GA=[0,a("a platform that turns on struts and other drives"),0],GB=a(b_),FY=[0,a(aS),0],FZ=a('the workspace "'),GG=a(bx),GH=a(bx),GJ=a(gg),GK=a(gc),GL=a(iq),GI=[0,a("an atlas of such a machine"),0],FB=[0,a(aS),0],FC=a('a claim of the kind "'),GZ=a(lk),G0=a(dv),G1=a(eZ),G2=a(le),G3=a(f_),G4=[0,a('this evidence "fan"'),0],GQ=a(dv),Hc=a(gf),Hd=[0,1,1],GR=a(rM),G5=a(eW),G6=a(rh),G7=a(eY),G8=a(ri),G9=a(rH),G_=a(bO),G$=a(gf),Ha=a(h_),Hb=a(bO),GS=a(lk),GT=a(dv),GU=a(q5),GV=a(eZ),GW=a(le),GX=[0,a(aS),0],GY=a('the evidence "'),He=a(eW),Hf=a(eY),Hg=a(dv),Hh=a(eZ),Hi=a(sj),Hk=a(eW),Hl=a(eY),Hm=a(dv),Hn=a(eZ),Ho=a(gd),Hp=a(f_),Hq=a(gd),Hr=a(f_),Hj=[0,a("this evidence at control points"),0],Is=a('"orthocert-paving/'),Ij=a(dv),Ik=a(dv),H9=a(rC),H_=a(re),H$=a(sa),Iq=[0,3,3],Ia=a(rm),Ii=[0,a("this set of orientations with such drives"),0],Il=[0,a('this evidence "tolerances" of a platform that turns'),0],Im=[0,a("a step of a platform that turns that is not at control points"),0],In=[0,a("this quantity in a claim that is refuted"),0],Io=[0,a("a step in a proof that no cube fits"),0],Ip=[0,a('the failure "same" of such a mechanism'),0],Ib=[0,a("the acceleration of a joint of a machine with a plane"),0],Ig=[0,a("a stiffness for each joint in such a claim"),0],Ih=[0,a(rZ),0],If=[0,a(rZ),0],Ic=a(rD),Id=a(qL),Ie=a(ia),H5=a(lj),H6=a(f_),H7=a(bO),HX=a(ic),HY=a(rw),HZ=a(se),H0=[0,a(aS),0],H1=a('a proof of the kind "'),HT=a(gc),HU=a(gg),HV=a(id),HW=a(rO),HP=a(bx),HQ=a(im),HR=a(qM),HS=a(ij),HM=a(r_),HN=a(gd),HO=a(ij),HI=a(rR),HJ=a(im),HK=a(id),HL=a(sn),Hu=a(si),Hv=a(ii),Hw=a(sf),Hx=a(ig),Hy=a(rY),Hz=a(st),HC=a(r6),HD=a(h_),HE=a(gf),HF=a(r9),HG=a(rV),HH=a(ii),HA=[0,a(aS),0],HB=a('the failure "'),Hs=a(lj),Ht=a(sr),GO=a(gf),GP=a(h_),GM=a(qK),GN=a(qN),Fu=a(gl),Fk=a(k3),Fl=a(qP),Fm=a(e0),Fn=a(bo),Fs=a(sb),Ft=a(gl),Fv=a(ea),Fw=a(e0),Fo=a(ea),Fp=a(rF),Fq=a(rf),Fr=a(bo),Fd=a(d$),Fh=a(bP),Fi=a(bN),Fe=a(k8),Ff=a(la),Fg=a(ea),E9=a(d$),Fb=a(bP),Fc=a(bN),E_=a(k8),E$=a(la),Fa=a(ea),E8=[0,1],E7=[0,1],E5=[0,1],E3=[0,1],E2=[0,1],E0=[0,1],E1=[0,a("this quantity of such a mechanism"),0],EJ=a(k4),EK=a(r0),EL=a(q4),EM=a(li),EN=a(su),EP=a(r1),EO=a(gb),EI=a(ia),EA=a(ih),Eo=a(rK),Ep=a(rT),ES=a(eW),ET=a(sd),EU=a(rj),EV=a(eY),EW=a(rL),EX=a(qW),EY=a(qX),EZ=a(qO),Eq=a(qT),Er=a(sx),Es=a(r7),Et=a(rW),Eu=a(ra),Ev=a(sw),Ew=a(qZ),Ex=a(qY),Ey=[0,a(aS),0],Ez=a('the quantity "'),EB=a(q8),EC=a(r5),ED=a(bP),EE=a(bN),EF=a(sk),EG=[0,a(aS),0],EH=a('a bound "'),EQ=a(ga),ER=a(e0),Em=a(bw),En=a(e4),Ek=a(bw),El=a(cs),Eh=a(bw),Ei=a(gh),DV=a(bw),DW=a(gj),DX=a(gk),DY=a(cs),DZ=a(gh),D0=a(e4),D3=a(bo),D4=a(bM),D5=a(f$),D6=a(eV),D7=a(bo),D8=a(bM),D9=a(bO),D_=a(bO),D$=a(f$),Ea=a(eV),Eb=a(gk),Ec=a(bo),Ed=a(bM),Ee=a(rJ),Ef=a(gb),D1=[0,a('" of such a machine'),0],D2=a(q3),DT=a(bw),DU=a(gk),DD=a(bw),DE=a(cs),DF=a(gh),DG=a(e4),DJ=a(gj),DK=a(bo),DL=a(bM),DM=a(f$),DN=a(eV),DO=a(bo),DP=a(bM),DQ=a(bO),DR=a(bO),DH=[0,a(aS),0],DI=a(q3),DA=a(ik),DB=a(e3),Dy=a(" is not covered by the verified checker"),Dz=a(af),Dw=a(bP),Dx=a(bN),Ds=a(af),Dt=a(sy),Du=a(af),Dv=a(af),Dr=[1,0],Dq=a(e3),Do=a("Reader.Malformed"),Dp=a("Reader.Not_covered"),Iu=[0,a("a paving is checked by orthocert-verified")],It=a(rN),Iv=a("CERTIFIED"),Iw=a("REFUTED"),Ix=a(rN),Iy=a("NOT COVERED: ");function
-gr(a){throw[0,lC,a]}function
-lE(b,a){return J4(b,a)?b:a}function
-bg(d,c){var
-a=az(d),e=az(c),b=cw(a+e|0);e6(d,0,b,0,a);e6(c,0,b,a,e);return iy(b)}function
-lF(a,b){if(a){var
-c=a[1];return[0,c,lF(a[2],b)]}return b}J8(0);sV(1);sV(2);function
-lG(b){function
+KA(){var
+a=W;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){s_(b);a.process.exit(2)});else
+if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)s_(a.error)})}KA();function
+h(a,b){return a.length==1?a(b):dD(a,[b])}function
+ar(a,b,c){return a.length==2?a(b,c):dD(a,[b,c])}function
+gb(a,b,c,d){return a.length==3?a(b,c,d):dD(a,[b,c,d])}function
+ia(a,b,c,d,e){return a.length==4?a(b,c,d,e):dD(a,[b,c,d,e])}Kc();var
+lN=[bc,a(rJ),-2],lM=[bc,a(sV),-4],I7=[0,[0,[0,[0,0]]]],I8=[0,0],I9=[0,0],I_=[0,[0,0]],I$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,I_]]]]]]]]]]],hY=[0,[1,0],0],qp=[0,[2,0],0],kM=[0,[1,0],0],qo=[0,[2,0],0],hW=[0,[1,0],0],kL=[0,[2,0],0],Ja=[0,[0,[0,[0,0]]]],Jb=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ja]]]]]]]]]]],Jc=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jb]]]]]]]]]]],Jd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jc]]]]]]]]]]],Je=[0,[0,0]],Jf=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Je]]]]]]]]]]],Jg=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jf]]]]]]]]]]],Jh=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jg]]]]]]]]]]],Ji=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jh]]]]]]]]]]],Jj=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],Jk=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jj]]]]]]]]]]],Jl=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jk]]]]]]]]]]],Jm=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jl]]]]]]]]]]],Jn=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jm]]]]]]]]]]],Jo=[0,[0,0]],Jp=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jo]]]]]]]]]]],Jq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jp]]]]]]]]]]],Jr=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jq]]]]]]]]]]],Js=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jr]]]]]]]]]]],Jt=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Js]]]]]]]]]]],Ju=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jt]]]]]]]]]]],Jv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ju]]]]]]]]]]],Jw=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],Jx=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jw]]]]]]]]]]],Jy=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jx]]]]]]]]]]],Jz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jy]]]]]]]]]]],JA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jz]]]]]]]]]]],JB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JA]]]]]]]]]]],JC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JB]]]]]]]]]]],JD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JC]]]]]]]]]]],JE=[0,0],JF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JE]]]]]]]]]]],JG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JF]]]]]]]]]]],JH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JG]]]]]]]]]]],JI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JH]]]]]]]]]]],JJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JI]]]]]]]]]]],JK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JJ]]]]]]]]]]],JL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JK]]]]]]]]]]],JM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JL]]]]]]]]]]],JN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JM]]]]]]]]]]],JO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JN]]]]]]]]]]],JP=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],JQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JP]]]]]]]]]]],JR=[0,0],JS=[0,[0,0]],JT=[0,0],JU=[0,[0,[0,[0,[0,0]]]]],dL=[0,[0,[0,0]]],dN=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],hL=[0,[0,[0,[0,0]]]],JV=[0,[0,[0,[0,[0,0]]]]],JW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JV]]]]]]]]]]],JX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JW]]]]]]]]]]],JY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JX]]]]]]]]]]],JZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JY]]]]]]]]]]];bS(11,[bc,a(q$),-12],q$);bS(10,[bc,a(rZ),-11],rZ);bS(9,[bc,a(sK),-10],sK);bS(8,[bc,a(rl),-9],rl);bS(7,[bc,a(sb),-8],sb);bS(6,[bc,a(rj),-7],rj);bS(5,[bc,a(rK),-6],rK);bS(4,[bc,a(rO),-5],rO);bS(3,lM,sV);bS(2,[bc,a(lf),-3],lf);bS(1,lN,rJ);bS(0,[bc,a(su),-1],su);var
+tw=a("String.sub / Bytes.sub"),ty=a(ag),tx=a("String.concat"),tz=a("Array.init"),tA=a("power"),t6=[0,0],t7=[0,0],ub=[0,0,0],uc=[0,0,0],ud=[0,0],uA=[0,0],uB=[0,0],uE=[0,0],uZ=[0,0],u2=[0,0],u6=[0,0],u7=[0,0],u8=[0,0],u9=[0,0],vl=[0,0],vm=[0,0],vP=[0,0],wd=[0,[0,[0,0]]],wK=[0,0],xb=[0,0],xz=[0,0],xK=a(","),x2=[0,a(ll),0],x3=a(rT),x4=a("."),x5=[0,[0,[0,0]]],x6=a(e_),x7=a(lm),x8=[0,[0,[0,[0,[0,0]]]]],x9=[0,a(ll),0],x_=a(sT),Bb=a(q8),Bd=a(q5),Bc=a(r2),Be=a(e5),Bf=a(e3),Bg=a(lu),Bh=a(sE),Bi=a(rD),Bj=a(lo),Bk=a(r7),Bl=a(rC),Cz=[0,[0,0,0]],CQ=[0,0],CA=a(gc),CB=[0,0],CC=a("divided"),CD=[0,1],CE=a("mirror"),CF=[0,3],CG=a("negative"),CH=[0,2],CI=a(gh),CJ=[0,5],CK=a(lt),CL=[0,4],CM=a(dB),CN=a(ro),CO=a(e6),CP=a(bQ),CR=[0,0],CS=[0,0],CT=[0,0],CW=[0,[0,[0,0]]],CX=[0,[0,[0,0]]],Dm=[0,[0,[0,0]]],DA=[0,0],DV=a(ag),DN=[0,0],DP=[0,0],DO=[0,0],DQ=[0,[0,[0,[0,0]]]],DR=[0,[0,[0,0]]],DS=[0,[0,[0,[0,0]]]],DT=[0,[0,[0,0]]],DL=[0,[0,[0,0]]],DK=a(e6),DJ=[0,0],DH=[0,1,0],DI=[0,[0,[0,0]]],DG=[0,0],DF=[0,0],DE=[0,0],DB=[0,[0,0]],DC=[0,[0,[0,0]]],Dy=[0,[0,0]],Dz=[0,[0,[0,0]]],Dx=[0,0],Dt=[0,[0,[0,0]]],Ds=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,I7]]]]]]]]]],[0,0,[0,[0,[0,[0,0]]],0]]],Dn=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],[0,0,0]],Do=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],[0,[0,[0,[0,[0,[0,[0,0]]]]]],0]],Dp=[0,[0,[0,[0,[0,[0,[0,0]]]]]],0],Dq=[0,[0,[0,[0,0]]],[0,0,0]],Dk=[0,0],Dl=[0,[0,0]],Dj=[0,0,0],Di=[0,[0,[0,0]]],Dc=[0,[0,0]],Dd=[0,[0,[0,0]]],De=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,I8]]]]]]]]]]],Df=[0,[0,0]],Dg=[0,[0,[0,0]]],Db=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,I9]]]]]]]]]]],C$=[0,[0,0]],Da=[0,[0,[0,0]]],C9=[0,[0,[0,0]]],C_=[0,[0,0]],C8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,I$]]]]]]]]]]],C7=[0,0],C6=[0,0],C3=[0,[0,0]],C4=[0,0],C1=[0,0],C2=[0,1],CZ=[0,[0,0]],C0=[0,0],CY=[0,0],CU=[0,0],CV=[0,1],Cw=[0,0],Cx=[0,1],Cy=[0,2],Cs=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],Cq=[0,[0,0],0],Cr=[0,[1,0],0],Ct=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],Co=[0,[0,0]],Cp=[0,0],Cn=[0,0],Cm=[0,0],Cl=[0,0],Ck=[0,0],Cj=[0,0,0],Ch=[0,[0,0]],Ci=[0,0],Cg=[0,0,0],Ce=[0,[0,[0,0]]],Cf=[0,[0,[0,0]]],Cd=[0,0],Cb=[0,1,0],B6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jd]]]]]]]]]]],B7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ji]]]]]]]]]]],B2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jn]]]]]]]]]]],B3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jv]]]]]]]]]]],B4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JD]]]]]]]]]]],B5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JO]]]]]]]]]]],B8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JQ]]]]]]]]]]],B9=a("sqrt"),BR=[0,a("\n"),0],BS=a(q6),BT=a(ig),BU=a(rY),BV=a(rH),B1=a(gk),BW=a(gg),BX=a("verdict"),BY=a(sv),BZ=a(rz),B0=a(rX),BO=a(rR),BP=a(sz),BQ=a(ii),BK=a(r9),BL=a(ij),BM=a(gg),BN=a(gk),BF=a(is),BG=a(by),BH=a(q7),BI=a(ip),BC=a(st),BD=a(gh),BE=a(ip),By=a(sa),Bz=a(is),BA=a(ij),BB=a(sI),Bn=a(sA),Bo=a(sD),Bp=a(io),Bq=a(il),Br=a(sO),Bs=a(sp),Bt=a(ss),Bu=a(se),Bv=a(io),Bw=a(sh),A$=a(id),Ba=a(gj),A6=a(bR),A7=a(bP),A8=a(rB),AG=a(il),AH=a(sd),Ak=a(by),Al=a(b_),Am=a(iu),An=a(e9),Ao=a(cu),At=a(k_),Ap=a(ln),Aq=a(lq),Ar=a(e4),As=a(by),Au=a(b_),Av=a(iu),Aw=a(e9),Ax=a(ln),Ay=a(lq),Az=a(e4),AA=a(by),AB=a(b_),AC=a(bR),AD=a(bP),AE=a(ee),AF=a(e9),AI=a(sn),AJ=a(sC),AK=a(iv),AL=a(rp),AM=a(ru),AN=a(e4),AO=a(by),AP=a(b_),AQ=a(ib),AR=a(rF),AS=a(e9),AT=a(gp),AU=a(rd),AV=a(e4),AW=a(by),AX=a(ib),AY=a(by),AZ=a(sg),A2=a(q4),A0=a(rs),A1=a(sH),A3=a(gk),A4=a(gg),A5=a(by),A9=a(iv),A_=a(ii),Af=a(b_),Ag=a(e9),Ah=a(k_),Ai=a(e4),Ae=a(sQ),z4=a(gp),z5=a(sw),z6=a(ef),z7=a(e7),z8=a(e7),z9=a(lb),z_=a(ef),z$=a(r0),Aa=a(rA),Ab=a(bp),Ad=a(q_),Ac=a(lb),zU=a(rQ),zV=a(sU),zW=a(rw),zX=a(rt),zY=a(sG),zZ=a(sr),z0=a(rI),z1=a(ic),z2=a(ic),zQ=a(bp),zR=a(bO),zS=a(e$),zT=a(bx),zM=a(cu),zN=a(li),zO=a(r_),zJ=a(bR),zK=a(bP),zL=a(ee),zC=a(bR),zD=a(bP),zE=a(ee),zF=a(lk),zG=a(ef),zH=a(lg),zI=a(sm),zk=a(rr),zq=a(ig),zp=a(ls),zl=a(lc),zm=a(ge),zr=a(gf),zt=a(gf),zu=a(sk),zv=a(lc),zs=a(ge),zw=a(rn),zx=a(sj),zy=a(ge),zz=a(sP),zA=a(ls),zB=a(ge),zn=a(e7),zo=a(r5),zh=a(im),zi=a(im),zj=a(im),zd=a(so),ze=a(bP),zf=a(bR),zg=a(sF),yY=a(rh),yZ=a(q9),y0=a(sc),y1=a(e5),y2=a(sR),y3=a(sf),y4=a(ri),y5=a(r6),y6=a(rg),y7=a(rE),y8=a(rf),y9=a(sq),y_=a(e3),y$=a(rc),za=a(sy),zb=a(rv),zc=a(sS),yz=a(iq),yB=a(e_),yA=a(gd),yC=a(e2),yD=a(bp),yE=a(bO),yF=a(bQ),yG=a(gl),yH=a(bx),yI=a(gn),yJ=a(bp),yK=a(bO),yL=a(e$),yM=a(bx),yN=a(bQ),yO=a(cu),yP=a(bx),yQ=a(e2),yR=a(go),yS=a(bp),yT=a(bO),yU=a(r4),yV=a(gf),yW=a(go),yX=a(bx),yh=a(iq),yp=a(e_),yi=a(gd),yj=a(e2),yk=a(bp),yl=a(bO),ym=a(bQ),yn=a(gl),yo=a(bx),yq=a(gn),yr=a(bp),ys=a(bO),yt=a(e$),yu=a(bx),yv=a(bQ),yw=a(cu),yx=a(bx),ye=a(bR),yf=a(bP),yc=[0,a(aU),0],yd=a(aU),ya=a(ag),x$=[0,a(aU),0],yb=a(aU),xY=a(iq),xZ=a(e_),x0=a("*"),x1=a(b$),xT=[0,[0,[0,[0,[0,0]]]]],xU=[0,[0,[0,0]]],xV=[0,[0,0]],xW=[0,0],xX=[0,[0,[0,[0,0]]]],xR=a('":'),xS=a(aU),xP=[0,a(aU),0],xQ=a(aU),xN=[0,a("}"),0],xO=a("{"),xL=[0,a("]"),0],xM=a("["),xJ=[0,[0,[0,0]]],xI=[0,[0,[0,0]]],xG=[0,0],xD=[0,[0,[0,0]]],xE=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],xF=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],xB=[0,[0,0]],xC=[0,[0,[0,0]]],xA=[0,0],xx=[0,0],xy=[0,[0,0]],xu=[0,0],xv=[0,[0,0]],xw=[0,0],xp=[0,[0,0]],xq=[0,0],xr=[0,[0,[0,0]]],xs=[0,[0,[0,0]]],xo=[0,[0,[0,0]]],xn=[0,[0,[0,0]]],xm=[0,0],xj=[0,[0,[0,0]]],xl=[0,[0,[0,0]]],xk=[0,0],xh=[0,[0,0]],xi=[0,0],xf=[0,[0,0]],xg=[0,0],xe=[0,[0,[0,0]]],xc=[0,[0,0]],xd=[0,0],w$=[0,0],xa=[0,[0,0]],w5=[0,[0,0]],w6=[0,[0,[0,[0,[0,0]]]]],w7=[0,[0,[0,[0,0]]]],w8=[0,[0,[0,0]]],w9=[0,[0,0]],w_=[0,0],w2=[0,0],w3=[0,[0,0]],w4=[0,0],w1=[0,0],wX=[0,0],wY=[0,[0,[0,[0,[0,[0,0]]]]]],wZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JR]]]]]]]]]]],wV=[0,0,0],wW=[0,0,0],wS=[0,0,0],wT=[0,0],wO=[0,0,0],wP=[0,0,0],wQ=[0,0,0],wL=[0,[0,0]],wM=[0,[0,[0,0]]],wN=[0,0],wI=[0,0,0],wJ=[0,0,[0,1,0]],wE=[0,0,0],wF=[0,0,0],wG=[0,0,0],wH=[0,0,0],wu=[0,[0,[0,[0,[0,[0,0]]]]]],wv=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],ww=[0,[0,[0,0]]],wx=[0,[0,[0,0]]],wy=[0,[0,[0,[0,[0,[0,0]]]]]],wz=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],wA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JS]]]]]]]]]]],wB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JT]]]]]]]]]]],wC=[0,[0,[0,0]]],wD=[0,[0,[0,[0,[0,[0,0]]]]]],wq=[0,0,0],wr=[0,0,0],wm=[0,0,0],wn=[0,0,0],wo=[0,0,0],wp=[0,0,0],wl=[0,0],wk=[0,0],wj=[0,0],wh=[0,0],wi=[0,0],wg=[0,0],we=[0,0],wf=[0,0],v8=[0,0],v9=[0,0],v_=[0,0],v$=[0,[0,[0,0]]],v7=[0,0],v1=[0,0],v2=[0,0],v3=[0,[0,0]],vZ=[0,[0,0]],v0=[0,[0,[0,0]]],vX=[0,[0,[0,0]]],vY=[0,[0,0]],vV=[0,[0,0]],vW=[0,[0,[0,0]]],vU=[0,0],vS=[0,0],vT=[0,0],vQ=[0,0,0],vN=[0,[0,0]],vO=[0,0],vF=[0,[0,0]],vG=[0,0],vH=[0,[0,0]],vI=[0,0],vJ=[0,[0,0]],vK=[0,0],vL=[0,[0,0]],vM=[0,0],vD=[0,[0,0]],vE=[0,0],vB=[0,[0,0]],vC=[0,0],vx=[0,[0,0]],vy=[0,0],vz=[0,0],vA=[0,[0,0]],vo=[0,[0,0]],vp=[0,0],vq=[0,[0,0]],vr=[0,0],vs=[0,0],vt=[0,[0,0]],vu=[0,[0,0]],vv=[0,[0,0]],vw=[0,0],vk=[0,0],vj=[0,0],vg=[0,0],vh=[0,[0,0]],vf=[0,[0,[0,0]]],ve=[0,[0,[0,[0,[0,[0,0]]]]]],vc=[0,[0,0]],vd=[0,0],vb=[0,[0,0]],va=[0,0],u_=[0,0],u$=[0,[0,[0,0]]],u4=[0,[0,0]],u5=[0,[0,[0,0]]],u3=[0,[0,[0,0]]],u0=[0,[0,[0,0]]],uY=[0,[0,[0,0]]],uW=[0,[0,[0,[0,[0,[0,0]]]]]],uX=[0,[0,[0,[0,[0,[0,0]]]]]],uR=[0,[0,0]],uS=[0,0],uT=[0,[0,0]],uU=[0,[0,[0,0]]],uV=[0,[0,[0,0]]],uK=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],uL=[0,[0,[0,[0,[0,[0,0]]]]]],uM=[0,[0,[0,[0,[0,[0,0]]]]]],uN=[0,[0,[0,0]]],uO=[0,[0,[0,[0,[0,[0,0]]]]]],uP=[0,[0,[0,0]]],uQ=[0,[0,[0,0]]],uI=[0,[0,0]],uJ=[0,0],uH=[0,0,0],uG=[0,0,0],uF=[0,0,0],uD=[0,0,0],uC=[0,[0,[0,0]]],uw=[0,0],ux=[0,0],uy=[0,0],uz=[0,0],uu=[0,0],uv=[0,0],us=[0,0,0],up=[0,[0,[0,0]]],uq=[0,[0,[0,0]]],ur=[0,[0,[0,0]]],uo=[0,[0,[0,[0,0]]]],uk=[0,[0,[0,0]]],ul=[0,[0,[0,0]]],um=[0,[0,[0,0]]],un=[0,[0,1,1],[0,[0,0,1],[0,[0,1,0],[0,[0,0,0],0]]]],ui=[0,[0,0]],uj=[0,0],ug=[0,[0,0]],uh=[0,0],ue=[0,[0,0]],uf=[0,0],t3=[0,0],t4=[0,[0,0]],t1=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],t2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JU]]]]]]]]]]],tZ=[0,0,0],tX=[0,[0,[0,[0,[0,0]]]]],tN=[0,0],tO=[0,[0,0]],tP=[0,[0,[0,0]]],tQ=[0,[0,[0,[0,0]]]],tR=[0,[0,[0,[0,[0,0]]]]],tS=[0,[0,[0,[0,[0,[0,0]]]]]],tT=[0,[0,[0,[0,[0,[0,[0,0]]]]]]],tU=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],tV=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],tW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],tL=a(sM),tK=a(ag),tJ=[0,[0,0]],tH=[0,0],tE=[0,0],tG=[1,0],tF=[0,0],tD=[0,0],tB=[1,0],tC=[1,0],vi=[10,0,0,0,0],DD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JZ]]]]]]]]]]],G$=a(bR),Ha=a(bP),Hb=a(rB),G3=a(gn),G4=[0,a("a base axis of such a platform"),0],G5=a(bp),G6=a(bO),GQ=a(sr),GR=a(rQ),GS=a(sG),GT=a(ic),GU=a(rI),GV=a(ic),GW=a(sU),GX=a(rw),GY=a(rt),GE=a(sd),GF=a(il),Gg=[0,a("such a machine with bodies"),0],F5=a(ii),F6=a(by),F7=a(sg),F8=a(sH),F$=a(rs),Ga=a(q4),Gb=a(by),Gc=a(by),Ge=a(ib),Gd=[0,a("a claim that no cube of such a machine fits"),0],Gf=a(sQ),Gh=a(e4),Gi=a(e9),Gj=a(cu),Gk=a(li),Gl=a(r_),Gm=a(iu),Gn=a(ru),Go=a(rd),Gp=a(k_),Gs=a(ee),Gt=a(sm),Gw=a(b_),Gx=a(b_),Gy=a(rF),Gz=a(b_),GA=[0,a("the closed design with other bounds on psi than one from below and one from above"),0],GB=a(ib),GC=a(gp),GD=a(ee),GG=a(sC),GH=a(sn),GI=[0,a(" operations, with its definitions written out,"),0],GJ=a("a mechanism of more than "),GK=a(b_),GL=a(bR),GM=a(bP),GN=a(iv),GO=a(rp),Gq=[0,a(aU),0],Gr=a('the mechanism "'),GP=a(ln),GZ=a(iu),G0=a(cu),G1=a(li),G2=a(lq),G7=a(b_),G_=a(cu),G8=[0,a("a platform that turns on struts and other drives"),0],G9=a(b_),Gu=[0,a(aU),0],Gv=a('the workspace "'),Hc=a(by),Hd=a(by),Hf=a(gk),Hg=a(gg),Hh=a(iv),He=[0,a("an atlas of such a machine"),0],F9=[0,a(aU),0],F_=a('a claim of the kind "'),Hv=a(lu),Hw=a(dB),Hx=a(e6),Hy=a(lo),Hz=a(gc),HA=[0,a('this evidence "fan"'),0],Hm=a(dB),HK=a(gj),HL=[0,1,1],Hn=a(r7),HB=a(e3),HC=a(rC),HD=a(e5),HE=a(rD),HF=a(r2),HG=a(bQ),HH=a(gj),HI=a(id),HJ=a(bQ),Ho=a(lu),Hp=a(dB),Hq=a(ro),Hr=a(e6),Hs=a(lo),Ht=[0,a(aU),0],Hu=a('the evidence "'),HM=a(e3),HN=a(e5),HO=a(dB),HP=a(e6),HQ=a(sE),HS=a(e3),HT=a(e5),HU=a(dB),HV=a(e6),HW=a(gh),HX=a(gc),HY=a(gh),HZ=a(gc),HR=[0,a("this evidence at control points"),0],I0=a('"orthocert-paving/'),IR=a(dB),IS=a(dB),IF=a(rX),IG=a(rz),IH=a(sv),IY=[0,3,3],II=a(rH),IQ=[0,a("this set of orientations with such drives"),0],IT=[0,a('this evidence "tolerances" of a platform that turns'),0],IU=[0,a("a step of a platform that turns that is not at control points"),0],IV=[0,a("this quantity in a claim that is refuted"),0],IW=[0,a("a step in a proof that no cube fits"),0],IX=[0,a('the failure "same" of such a mechanism'),0],IJ=[0,a("the acceleration of a joint of a machine with a plane"),0],IO=[0,a("a stiffness for each joint in such a claim"),0],IP=[0,a(si),0],IN=[0,a(si),0],IK=a(rY),IL=a(q6),IM=a(ig),IB=a(lt),IC=a(gc),ID=a(bQ),It=a(ii),Iu=a(rR),Iv=a(sz),Iw=[0,a(aU),0],Ix=a('a proof of the kind "'),Ip=a(gg),Iq=a(gk),Ir=a(ij),Is=a(r9),Il=a(by),Im=a(is),In=a(q7),Io=a(ip),Ii=a(st),Ij=a(gh),Ik=a(ip),Ie=a(sa),If=a(is),Ig=a(ij),Ih=a(sI),H2=a(sD),H3=a(io),H4=a(sA),H5=a(il),H6=a(sh),H7=a(sO),H_=a(sp),H$=a(id),Ia=a(gj),Ib=a(ss),Ic=a(se),Id=a(io),H8=[0,a(aU),0],H9=a('the failure "'),H0=a(lt),H1=a(sM),Hk=a(gj),Hl=a(id),Hi=a(q5),Hj=a(q8),F2=a(gp),FS=a(lb),FT=a(q_),FU=a(e7),FV=a(bp),F0=a(sw),F1=a(gp),F3=a(ef),F4=a(e7),FW=a(ef),FX=a(r0),FY=a(rA),FZ=a(bp),FL=a(ee),FP=a(bR),FQ=a(bP),FM=a(lg),FN=a(lk),FO=a(ef),FF=a(ee),FJ=a(bR),FK=a(bP),FG=a(lg),FH=a(lk),FI=a(ef),FE=[0,1],FD=[0,1],FB=[0,1],Fz=[0,1],Fy=[0,1],Fw=[0,1],Fx=[0,a("this quantity of such a mechanism"),0],Ff=a(lc),Fg=a(sj),Fh=a(rn),Fi=a(ls),Fj=a(sP),Fl=a(sk),Fk=a(gf),Fe=a(ig),E8=a(im),EW=a(r5),EX=a(sc),Fo=a(e3),Fp=a(sy),Fq=a(rE),Fr=a(e5),Fs=a(r6),Ft=a(rf),Fu=a(rg),Fv=a(q9),EY=a(rc),EZ=a(sS),E0=a(sq),E1=a(sf),E2=a(rv),E3=a(sR),E4=a(ri),E5=a(rh),E6=[0,a(aU),0],E7=a('the quantity "'),E9=a(rr),E_=a(so),E$=a(bR),Fa=a(bP),Fb=a(sF),Fc=[0,a(aU),0],Fd=a('a bound "'),Fm=a(ge),Fn=a(e7),EU=a(bx),EV=a(e$),ES=a(bx),ET=a(cu),EP=a(bx),EQ=a(gl),Er=a(bx),Es=a(gn),Et=a(go),Eu=a(cu),Ev=a(gl),Ew=a(e$),Ez=a(bp),EA=a(bO),EB=a(gd),EC=a(e2),ED=a(bp),EE=a(bO),EF=a(bQ),EG=a(bQ),EH=a(gd),EI=a(e2),EJ=a(go),EK=a(bp),EL=a(bO),EM=a(r4),EN=a(gf),Ex=[0,a('" of such a machine'),0],Ey=a(rm),Ep=a(bx),Eq=a(go),D$=a(bx),Ea=a(cu),Eb=a(gl),Ec=a(e$),Ef=a(gn),Eg=a(bp),Eh=a(bO),Ei=a(gd),Ej=a(e2),Ek=a(bp),El=a(bO),Em=a(bQ),En=a(bQ),Ed=[0,a(aU),0],Ee=a(rm),D8=a(iq),D9=a(e_),D6=a(" is not covered by the verified checker"),D7=a(ag),D4=a(bR),D5=a(bP),D0=a(ag),D1=a(sT),D2=a(ag),D3=a(ag),DZ=[1,0],DY=a(e_),DW=a("Reader.Malformed"),DX=a("Reader.Not_covered"),I2=[0,a("a paving is checked by orthocert-verified")],I1=a(r8),I3=a("CERTIFIED"),I4=a("REFUTED"),I5=a(r8),I6=a("NOT COVERED: ");function
+gv(a){throw[0,lM,a]}function
+lO(b,a){return Kn(b,a)?b:a}function
+bk(d,c){var
+a=aB(d),e=aB(c),b=cy(a+e|0);fb(d,0,b,0,a);fb(c,0,b,a,e);return iD(b)}function
+lP(a,b){if(a){var
+c=a[1];return[0,c,lP(a[2],b)]}return b}Kr(0);te(1);te(2);function
+lQ(b){function
 a(b){var
 a=b;for(;;){if(a){var
-c=a[2],d=a[1];try{J7(d)}catch(a){a=s4(a);if(a[1]!==lD)throw a;var
+c=a[2],d=a[1];try{Kq(d)}catch(a){a=tn(a);if(a[1]!==lN)throw a;var
 e=a}var
-a=c;continue}return 0}}return a(J9(0))}Ke(a(qR),lG);function
-cy(c){var
+a=c;continue}return 0}}return a(Ks(0))}Kz(a(ra),lQ);function
+cA(c){var
 b=0,a=c;for(;;){if(a){var
 b=b+1|0,a=a[2];continue}return b}}function
-lH(d,c){var
+lR(d,c){var
 a=d,b=c;for(;;){if(a){var
 e=[0,a[1],b],a=a[2],b=e;continue}return b}}function
-iB(a){return lH(a,0)}function
-X(b,a){if(a){var
-c=a[2],d=j(b,a[1]);return[0,d,X(b,c)]}return 0}function
-lI(e,d,c){var
+iG(a){return lR(a,0)}function
+Y(b,a){if(a){var
+c=a[2],d=h(b,a[1]);return[0,d,Y(b,c)]}return 0}function
+lS(e,d,c){var
 b=d,a=c;for(;;){if(a){var
-f=a[2],b=aq(e,b,a[1]),a=f;continue}return b}}function
-fa(d,c){var
+f=a[2],b=ar(e,b,a[1]),a=f;continue}return b}}function
+fh(d,c){var
 a=c;for(;;){if(a){var
-e=a[2],b=j(d,a[1]);if(b){var
+e=a[2],b=h(d,a[1]);if(b){var
 a=e;continue}return b}return 1}}function
-aP(d,c){var
+aQ(d,c){var
 a=c;for(;;){if(a){var
-e=a[2],b=j(d,a[1]);if(b)return b;var
+e=a[2],b=h(d,a[1]);if(b)return b;var
 a=e;continue}return 0}}function
-lJ(d,c){var
+lT(d,c){var
 a=c;for(;;){if(a){var
-b=a[1],e=a[2],f=b[2];if(0===JP(b[1],d))return[0,f];var
+b=a[1],e=a[2],f=b[2];if(0===J_(b[1],d))return[0,f];var
 a=e;continue}return 0}}function
-bR(b,c){var
-a=cw(b);JR(a,0,b,c);return iy(a)}function
-eg(g,b,a){var
-d=e7(g),f=0;if(0<=b&&0<=a&&!((iw(d)-a|0)<b)){var
-c=cw(a);gm(d,b,c,0,a);var
+bT(b,c){var
+a=cy(b);Ka(a,0,b,c);return iD(a)}function
+el(g,b,a){var
+d=fc(g),f=0;if(0<=b&&0<=a&&!((iB(d)-a|0)<b)){var
+c=cy(a);gq(d,b,c,0,a);var
 e=c;f=1}if(!f)var
-e=gr(s$);return iy(e)}function
-lK(k,g){if(g){var
-h=az(k),c=0,b=g,p=0;for(;;){if(b){var
+e=gv(tw);return iD(e)}function
+lU(k,g){if(g){var
+h=aB(k),c=0,b=g,p=0;for(;;){if(b){var
 i=b[1];if(b[2]){var
-j=(az(i)+h|0)+c|0,m=b[2],n=c<=j?j:gr(ta),c=n,b=m;continue}var
-l=az(i)+c|0}else
+j=(aB(i)+h|0)+c|0,m=b[2],n=c<=j?j:gv(tx),c=n,b=m;continue}var
+l=aB(i)+c|0}else
 var
 l=c;var
-f=cw(l),e=p,d=g;for(;;){if(d){var
+f=cy(l),e=p,d=g;for(;;){if(d){var
 a=d[1];if(d[2]){var
-o=d[2];e6(a,0,f,e,az(a));e6(k,0,f,e+az(a)|0,h);var
-e=(e+az(a)|0)+h|0,d=o;continue}e6(a,0,f,e,az(a))}return iy(f)}}}return tb}function
-iC(b,c){if(0===b)return[0];if(0<=b){var
-d=J6(b,j(c,0)),e=b-1|0,f=1;if(!(e<1)){var
-a=f;for(;;){d[1+a]=j(c,a);var
+o=d[2];fb(a,0,f,e,aB(a));fb(k,0,f,e+aB(a)|0,h);var
+e=(e+aB(a)|0)+h|0,d=o;continue}fb(a,0,f,e,aB(a))}return iD(f)}}}return ty}function
+iH(b,c){if(0===b)return[0];if(0<=b){var
+d=Kp(b,h(c,0)),e=b-1|0,f=1;if(!(e<1)){var
+a=f;for(;;){d[1+a]=h(c,a);var
 g=a+1|0;if(e!==a){var
-a=g;continue}break}}return d}return gr(tc)}function
-iD(c){var
+a=g;continue}break}}return d}return gv(tz)}function
+iI(c){var
 a=c.length-1-1|0,b=0;for(;;){if(0<=a){var
 d=[0,c[1+a],b],a=a-1|0,b=d;continue}return b}}var
-d=aK(0),b=aK(1);function
+d=aM(0),b=aM(1);function
 q(a){return F(a,b)}function
-lL(b,a){return F(aK(b),a)}function
-c(b,a){return C(aK(b),a)}function
-aU(b,a){return[0,lA(b,a),s7(b,a)]}function
-iE(b,a){return E(b,a)?b:a}function
-bp(b,a){return E(b,a)?a:b}function
-fb(a){return fb}function
+lV(b,a){return F(aM(b),a)}function
+c(b,a){return C(aM(b),a)}function
+aW(b,a){return[0,lK(b,a),tr(b,a)]}function
+iJ(b,a){return D(b,a)?b:a}function
+bq(b,a){return D(b,a)?a:b}function
+fi(a){return fi}function
 I(a){return a?0:1}function
-z(b,a){var
-c=a?[0,j(b,a[1])]:a;return c}function
-aA(a){return a[1]}function
-aI(a){return a[2]}function
+y(b,a){var
+c=a?[0,h(b,a[1])]:a;return c}function
+aC(a){return a[1]}function
+aK(a){return a[2]}function
 f(a){var
 b=a?[0,f(a[2])]:a;return b}function
 g(a,b){if(a){var
 c=g(a[2],b);return[0,a[1],c]}return b}function
-lM(a){return typeof
-a==="number"?0:[0,lM(a[1])]}function
-lN(d,c){var
+lW(a){return typeof
+a==="number"?0:[0,lW(a[1])]}function
+lX(d,c){var
 a=d,b=c;for(;;)if(typeof
 a==="number")return b;else
 switch(a[0]){case
@@ -808,9 +811,9 @@ a=a[1],b=[7,b];continue;case
 8:var
 a=a[1],b=[8,b];continue;default:var
 a=a[1],b=[9,b];continue}}function
-gs(a){return lN(a,0)}function
-lO(a){if(typeof
-a==="number")return te;else
+gw(a){return lX(a,0)}function
+lY(a){if(typeof
+a==="number")return tB;else
 switch(a[0]){case
 0:return[1,a[1]];case
 1:return[2,a[1]];case
@@ -820,101 +823,105 @@ switch(a[0]){case
 5:return[6,a[1]];case
 6:return[7,a[1]];case
 7:return[8,a[1]];case
-8:return[9,a[1]];default:return[0,lO(a[1])]}}function
-bT(a){if(typeof
-a==="number")return tf;else
+8:return[9,a[1]];default:return[0,lY(a[1])]}}function
+bV(a){if(typeof
+a==="number")return tC;else
 switch(a[0]){case
-0:return[1,bS(a[1])];case
-1:return[3,bS(a[1])];case
-2:return[5,bS(a[1])];case
-3:return[7,bS(a[1])];case
-4:return[9,bS(a[1])];case
-5:return[1,bT(a[1])];case
-6:return[3,bT(a[1])];case
-7:return[5,bT(a[1])];case
-8:return[7,bT(a[1])];default:return[9,bT(a[1])]}}function
-bS(a){if(typeof
+0:return[1,bU(a[1])];case
+1:return[3,bU(a[1])];case
+2:return[5,bU(a[1])];case
+3:return[7,bU(a[1])];case
+4:return[9,bU(a[1])];case
+5:return[1,bV(a[1])];case
+6:return[3,bV(a[1])];case
+7:return[5,bV(a[1])];case
+8:return[7,bV(a[1])];default:return[9,bV(a[1])]}}function
+bU(a){if(typeof
 a==="number")return 0;else
 switch(a[0]){case
-0:return[0,bS(a[1])];case
-1:return[2,bS(a[1])];case
-2:return[4,bS(a[1])];case
-3:return[6,bS(a[1])];case
-4:return[8,bS(a[1])];case
-5:return[0,bT(a[1])];case
-6:return[2,bT(a[1])];case
-7:return[4,bT(a[1])];case
-8:return[6,bT(a[1])];default:return[8,bT(a[1])]}}function
-bh(a){return a?a[1]:a}function
+0:return[0,bU(a[1])];case
+1:return[2,bU(a[1])];case
+2:return[4,bU(a[1])];case
+3:return[6,bU(a[1])];case
+4:return[8,bU(a[1])];case
+5:return[0,bV(a[1])];case
+6:return[2,bV(a[1])];case
+7:return[4,bV(a[1])];case
+8:return[6,bV(a[1])];default:return[8,bV(a[1])]}}function
+aR(a){return a?a[1]:a}function
 N(b,a){return b?[0,N(b[1],a)]:a}function
-lP(a,b){return a?N(b,lP(a[1],b)):a}function
-dy(d,c){var
+lZ(a,b){return a?N(b,lZ(a[1],b)):a}function
+dE(d,c){var
 a=d,b=c;for(;;){if(a){if(b){var
 a=a[1],b=b[1];continue}return a}return a}}function
-cz(b,a){return b?a:a?0:1}function
+cB(b,a){return b?a:a?0:1}function
 n(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return a?0:1}}function
-ab(d,c){var
+ae(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return 1}}function
-aB(b,a){return ab([0,b],a)}function
-lQ(c){var
+aD(b,a){return ae([0,b],a)}function
+av(d,c){var
+b=d,a=c;for(;;){if(b){if(a){var
+b=b[1],a=a[1];continue}return 2}var
+e=a?1:a;return e}}function
+l0(c){var
 a=c;for(;;){if(a){var
 b=a[1];if(b){var
 a=b[1];continue}return b}return 1}}function
-gt(c,b,a){return c?j(b,gt(c[1],b,a)):a}function
-lR(a){if(a)var
-b=a[1],d=b?[0,lR(b[1])]:b,c=d;else
+gx(c,b,a){return c?h(b,gx(c[1],b,a)):a}function
+l1(a){if(a)var
+b=a[1],d=b?[0,l1(b[1])]:b,c=d;else
 var
 c=a;return c}function
-iF(d,c){var
+iK(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return a?0:1}}function
-lS(a){if(E(a,b))return b;var
-e=aU(a,aK(2)),f=e[1];return L(e[2],d)?q(c(2,lS(f))):q(c(2,c(2,f)))}function
-lT(c,a){return bp(b,aM(c,a))}function
-gu(a,i,h){var
-c=i,f=h;for(;;){if(E(f,b))return j(a,c);var
-g=aU(f,aK(2)),e=g[1];if(L(g[2],d)){var
-c=gu(a,c,e),f=e;continue}return j(a,gu(a,gu(a,c,e),e))}}function
-gv(a){function
-c(b){return C(a,b)}return function(a){return gu(c,b,a)}}function
-gw(a){if(E(a,b))return th;var
-c=aU(a,aK(2)),e=c[1];return L(c[2],d)?[0,gw(e)]:[0,gw(e)]}function
-gx(a){if(E(a,b))return b;var
-c=aU(a,aK(2)),e=c[1];return L(c[2],d)?q(gx(e)):q(gx(e))}function
-lU(c,b){var
-a=lz(c,b);return 0===a?0:0<=a?2:1}function
-gy(j,i){var
-c=j,a=i;for(;;){if(E(c,b))return E(a,b)?1:L(aU(a,aK(2))[2],d)?0:0;var
-g=aU(c,aK(2)),h=g[1];if(L(g[2],d)){if(E(a,b))return 0;var
-e=aU(a,aK(2)),k=e[1];if(L(e[2],d)){var
-c=h,a=k;continue}return 0}if(E(a,b))return 0;var
-f=aU(a,aK(2)),l=f[1];if(L(f[2],d))return 0;var
+l2(a){if(D(a,b))return b;var
+e=aW(a,aM(2)),f=e[1];return L(e[2],d)?q(c(2,l2(f))):q(c(2,c(2,f)))}function
+l3(c,a){return bq(b,aO(c,a))}function
+gy(a,j,i){var
+c=j,f=i;for(;;){if(D(f,b))return h(a,c);var
+g=aW(f,aM(2)),e=g[1];if(L(g[2],d)){var
+c=gy(a,c,e),f=e;continue}return h(a,gy(a,gy(a,c,e),e))}}function
+gz(a){function
+c(b){return C(a,b)}return function(a){return gy(c,b,a)}}function
+gA(a){if(D(a,b))return tE;var
+c=aW(a,aM(2)),e=c[1];return L(c[2],d)?[0,gA(e)]:[0,gA(e)]}function
+gB(a){if(D(a,b))return b;var
+c=aW(a,aM(2)),e=c[1];return L(c[2],d)?q(gB(e)):q(gB(e))}function
+l4(c,b){var
+a=lJ(c,b);return 0===a?0:0<=a?2:1}function
+gC(j,i){var
+c=j,a=i;for(;;){if(D(c,b))return D(a,b)?1:L(aW(a,aM(2))[2],d)?0:0;var
+g=aW(c,aM(2)),h=g[1];if(L(g[2],d)){if(D(a,b))return 0;var
+e=aW(a,aM(2)),k=e[1];if(L(e[2],d)){var
+c=h,a=k;continue}return 0}if(D(a,b))return 0;var
+f=aW(a,aM(2)),l=f[1];if(L(f[2],d))return 0;var
 c=h,a=l;continue}}function
-gz(b,a){return 2<=lU(b,a)?0:1}function
-eh(i,e,a){if(i){var
-f=i[1];if(E(e,b))return[0,b,[0,b,a]];var
-w=aU(e,aK(2)),g=w[1];if(L(w[2],d)){if(E(a,b))return[0,b,[0,e,b]];var
-m=aU(a,aK(2)),A=m[1];if(L(m[2],d)){var
-j=eh(f,g,A),x=j[2];return[0,c(2,j[1]),x]}var
-k=eh(f,g,a),l=k[2],y=l[2],z=[0,c(2,l[1]),y];return[0,k[1],z]}if(E(a,b))return[0,b,[0,e,b]];var
-v=aU(a,aK(2)),h=v[1];if(L(v[2],d)){var
-n=eh(f,e,h),o=n[2],B=c(2,o[2]);return[0,n[1],[0,o[1],B]]}switch(lU(g,h)){case
+gD(b,a){return 2<=l4(b,a)?0:1}function
+em(i,e,a){if(i){var
+f=i[1];if(D(e,b))return[0,b,[0,b,a]];var
+w=aW(e,aM(2)),g=w[1];if(L(w[2],d)){if(D(a,b))return[0,b,[0,e,b]];var
+m=aW(a,aM(2)),A=m[1];if(L(m[2],d)){var
+j=em(f,g,A),x=j[2];return[0,c(2,j[1]),x]}var
+k=em(f,g,a),l=k[2],y=l[2],z=[0,c(2,l[1]),y];return[0,k[1],z]}if(D(a,b))return[0,b,[0,e,b]];var
+v=aW(a,aM(2)),h=v[1];if(L(v[2],d)){var
+n=em(f,e,h),o=n[2],B=c(2,o[2]);return[0,n[1],[0,o[1],B]]}switch(l4(g,h)){case
 0:return[0,e,[0,b,b]];case
 1:var
-p=eh(f,lT(h,g),e),q=p[2],r=q[2],C=[0,r,F(r,c(2,q[1]))];return[0,p[1],C];default:var
-s=eh(f,lT(g,h),a),t=s[2],u=t[2],D=[0,F(u,c(2,t[1])),u];return[0,s[1],D]}}return[0,b,[0,e,a]]}function
-gA(b,a){var
-c=gw(a);return eh(N(gw(b),c),b,a)}function
-lV(c,i,h){var
-e=i,a=h;for(;;){if(E(e,b))return a;var
-f=aU(e,aK(2)),g=f[1];if(L(f[2],d)){var
-e=g,a=aq(c,a,a);continue}return aq(c,a,lV(c,g,aq(c,a,a)))}}function
-fc(a){return lV(N,a,ti)}function
-lW(a){return a?q(lW(a[1])):b}function
-cA(f,e){var
+p=em(f,l3(h,g),e),q=p[2],r=q[2],C=[0,r,F(r,c(2,q[1]))];return[0,p[1],C];default:var
+s=em(f,l3(g,h),a),t=s[2],u=t[2],E=[0,F(u,c(2,t[1])),u];return[0,s[1],E]}}return[0,b,[0,e,a]]}function
+gE(b,a){var
+c=gA(a);return em(N(gA(b),c),b,a)}function
+l5(c,i,h){var
+e=i,a=h;for(;;){if(D(e,b))return a;var
+f=aW(e,aM(2)),g=f[1];if(L(f[2],d)){var
+e=g,a=ar(c,a,a);continue}return ar(c,a,l5(c,g,ar(c,a,a)))}}function
+fj(a){return l5(N,a,tF)}function
+l6(a){return a?q(l6(a[1])):b}function
+cC(f,e){var
 a=f,d=e;for(;;)if(typeof
 a==="number")return d;else
 switch(a[0]){case
@@ -937,109 +944,109 @@ t=C(c(2,q(c(2,c(2,b)))),d),u=F(q(c(2,q(c(2,b)))),t),a=a[1],d=u;continue;case
 8:var
 v=C(c(2,q(c(2,c(2,b)))),d),w=F(c(2,c(2,c(2,b))),v),a=a[1],d=w;continue;default:var
 x=C(c(2,q(c(2,c(2,b)))),d),y=F(q(c(2,c(2,c(2,b)))),x),a=a[1],d=y;continue}}function
-iG(a){if(E(a,b))return tj;var
-c=aU(a,aK(2)),e=c[1];return L(c[2],d)?bS(iG(e)):bT(iG(e))}function
-gB(a){return gs(iG(a))}function
-lX(c,b){var
-a=lz(c,b);return 0===a?0:0<=a?2:1}function
-lY(b,a){return 0<aT(b)?0<aT(a)?gy(b,a):0:0<aT(a)?0:1}function
-lZ(b,a){return 2<=lX(b,a)?0:1}function
-gC(b,a){return 1===lX(b,a)?1:0}var
-l0=F,tl=P;function
-cb(k,f){if(0<=aT(f)){var
-g=iA(f);if(0<=g){var
+iL(a){if(D(a,b))return tG;var
+c=aW(a,aM(2)),e=c[1];return L(c[2],d)?bU(iL(e)):bV(iL(e))}function
+gF(a){return gw(iL(a))}function
+l7(c,b){var
+a=lJ(c,b);return 0===a?0:0<=a?2:1}function
+l8(b,a){return 0<aV(b)?0<aV(a)?gC(b,a):0:0<aV(a)?0:1}function
+l9(b,a){return 2<=l7(b,a)?0:1}function
+gG(b,a){return 1===l7(b,a)?1:0}var
+l_=F,tI=Q;function
+cb(k,f){if(0<=aV(f)){var
+g=iF(f);if(0<=g){var
 e=b,c=k,a=g;for(;;){if(0===a)return e;var
-h=a>>>1|0,i=C(c,c),j=1===(a&1)?C(e,c):e,e=j,c=i,a=h;continue}}return gr(td)}return d}function
-iH(c){var
-a=aT(c);return 0===a?d:0<a?b:P(b)}function
-iI(a){return 0<=aT(a)?a:d}function
-ei(a){var
-c=aT(a);return 0===c?b:0<c?a:b}function
-l1(m){var
+h=a>>>1|0,i=C(c,c),j=1===(a&1)?C(e,c):e,e=j,c=i,a=h;continue}}return gv(tA)}return d}function
+iM(c,b){var
+a=lJ(c,b);return 0===a?0:0<=a?2:1}function
+iN(c){var
+a=aV(c);return 0===a?d:0<a?b:Q(b)}function
+iO(a){return 0<=aV(a)?a:d}function
+en(a){var
+c=aV(a);return 0===c?b:0<c?a:b}function
+l$(m){var
 a=m;for(;;)if(typeof
 a==="number")return d;else
 switch(a[0]){case
 0:var
 a=a[1];continue;case
-1:return cA(a[1],b);case
+1:return cC(a[1],b);case
 2:var
-e=c(2,b);return cA(a[1],e);case
+e=c(2,b);return cC(a[1],e);case
 3:var
-f=q(c(2,b));return cA(a[1],f);case
+f=q(c(2,b));return cC(a[1],f);case
 4:var
-g=c(2,c(2,b));return cA(a[1],g);case
+g=c(2,c(2,b));return cC(a[1],g);case
 5:var
-h=q(c(2,c(2,b)));return cA(a[1],h);case
+h=q(c(2,c(2,b)));return cC(a[1],h);case
 6:var
-i=c(2,q(c(2,b)));return cA(a[1],i);case
+i=c(2,q(c(2,b)));return cC(a[1],i);case
 7:var
-j=q(c(2,q(c(2,b))));return cA(a[1],j);case
+j=q(c(2,q(c(2,b))));return cC(a[1],j);case
 8:var
-k=c(2,c(2,c(2,b)));return cA(a[1],k);default:var
-l=q(c(2,c(2,c(2,b))));return cA(a[1],l)}}function
-cB(b,a){var
-c=aT(a);return 0===c?d:1===c?lA(b,a):lL(-1,lA(lL(-1,b),a))}function
-l2(a){var
-f=aT(a);if(0===f)return d;if(0<f){if(E(a,b))return d;var
-c=aU(a,aK(2)),e=c[1];return L(c[2],d)?gx(e):gx(e)}return d}function
-gD(a){return 0<aT(a)?Ko(a):d}function
-fd(b,c){var
-a=iA(c);return 0<=a?s8(b,a):s9(b,-a|0)}function
-dz(b,c){var
-a=iA(c);return 0<=a?s9(b,a):s8(b,-a|0)}function
-bU(b,a){return a?a[1]:b}function
-bG(a){var
+k=c(2,c(2,c(2,b)));return cC(a[1],k);default:var
+l=q(c(2,c(2,c(2,b))));return cC(a[1],l)}}function
+cD(b,a){var
+c=aV(a);return 0===c?d:1===c?lK(b,a):lV(-1,lK(lV(-1,b),a))}function
+ma(a){var
+f=aV(a);if(0===f)return d;if(0<f){if(D(a,b))return d;var
+c=aW(a,aM(2)),e=c[1];return L(c[2],d)?gB(e):gB(e)}return d}function
+gH(a){return 0<aV(a)?KJ(a):d}function
+fk(b,c){var
+a=iF(c);return 0<=a?ts(b,a):tt(b,-a|0)}function
+dF(b,c){var
+a=iF(c);return 0<=a?tt(b,a):ts(b,-a|0)}function
+bW(b,a){return a?a[1]:b}function
+bI(a){var
 b=a?a[2]:a;return b}function
-r(e,d,c){var
+s(e,d,c){var
 b=e,a=d;for(;;){if(b){if(a){var
 b=b[1],a=a[2];continue}return c}return a?a[1]:c}}function
 G(d,c){var
 a=d,b=c;for(;;){if(b){if(a){var
 a=a[2],b=b[1];continue}return a}var
 e=a?[0,a[1]]:a;return e}}function
-l3(a){if(a){var
-b=[0,a[1],0];return g(l3(a[2]),b)}return a}function
-fe(d,c){var
+eo(d,c){var
 a=d,b=c;for(;;){if(a){var
 e=[0,a[1],b],a=a[2],b=e;continue}return b}}function
-cY(a){if(a){var
-b=cY(a[2]);return g(a[1],b)}return a}function
-iJ(g,f,e){var
+c2(a){if(a){var
+b=c2(a[2]);return g(a[1],b)}return a}function
+iP(g,f,e){var
 b=f,a=e;for(;;){if(b){if(a){var
-c=aq(g,b[1],a[1]);if(c){var
+c=ar(g,b[1],a[1]);if(c){var
 b=b[2],a=a[2];continue}var
 d=c}else
 var
 d=a;return d}return a?0:1}}function
 e(b,a){if(a)var
-d=e(b,a[2]),c=[0,j(b,a[1]),d];else
+d=e(b,a[2]),c=[0,h(b,a[1]),d];else
 var
 c=a;return c}function
 w(b,a){if(a){var
-c=w(b,a[2]);return g(j(b,a[1]),c)}return a}function
-bV(e,d,c){var
+c=w(b,a[2]);return g(h(b,a[1]),c)}return a}function
+bz(e,d,c){var
 a=d,b=c;for(;;){if(a){var
-f=aq(e,b,a[1]),a=a[2],b=f;continue}return b}}function
-an(c,b,a){if(a){var
-d=an(c,b,a[2]);return aq(c,a[1],d)}return b}function
-aj(e,d){var
+f=ar(e,b,a[1]),a=a[2],b=f;continue}return b}}function
+ao(c,b,a){if(a){var
+d=ao(c,b,a[2]);return ar(c,a[1],d)}return b}function
+ak(e,d){var
 a=d;for(;;){if(a){var
-b=j(e,a[1]);if(!b){var
+b=h(e,a[1]);if(!b){var
 a=a[2];continue}var
 c=b}else
 var
 c=a;return c}}function
 l(d,c){var
 a=c;for(;;){if(a){var
-b=j(d,a[1]);if(b){var
+b=h(d,a[1]);if(b){var
 a=a[2];continue}return b}return 1}}function
-a2(b,e){var
+a5(b,e){var
 a=e;for(;;){if(a){var
-c=a[2],d=a[1];if(j(b,d))return[0,d,a2(b,c)];var
+c=a[2],d=a[1];if(h(b,d))return[0,d,a5(b,c)];var
 a=c;continue}return a}}function
-l4(d,c){var
+mb(d,c){var
 a=c;for(;;){if(a){var
-b=a[1];if(j(d,b))return[0,b];var
+b=a[1];if(h(d,b))return[0,b];var
 a=a[2];continue}return a}}function
 V(b,a){if(b)if(a)var
 d=V(b[2],a[2]),c=[0,[0,b[1],a[1]],d];else
@@ -1047,269 +1054,454 @@ var
 c=a;else
 var
 c=b;return c}function
-al(b,a){if(b)if(a)var
-d=al(b[1],a[2]),c=[0,a[1],d];else
+am(b,a){if(b)if(a)var
+d=am(b[1],a[2]),c=[0,a[1],d];else
 var
 c=a;else
 var
 c=b;return c}function
-au(d,c){var
+aw(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[2];continue}return a}return a}}function
-aE(b,a){var
-c=a?[0,b,aE([0,b],a[1])]:a;return c}function
+aG(b,a){var
+c=a?[0,b,aG([0,b],a[1])]:a;return c}function
 ac(b,a){var
 c=a?[0,b,ac(b,a[1])]:a;return c}function
-l5(a){return an(N,0,a)}function
-l6(a){if(a){var
-e=l6(a[2]),f=C(c(2,b),e),g=a[1]?b:d;return F(g,f)}return d}function
-gE(j){function
+mc(a){return ao(N,0,a)}function
+md(a){if(a){var
+e=md(a[2]),f=C(c(2,b),e),g=a[1]?b:d;return F(g,f)}return d}function
+me(j){function
 a(a){return 0!==(j&1<<a)?1:0}var
-c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=l6([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<aT(b)?fc(b):0}function
-l7(a){return[0,a,b]}function
-ej(c,b){var
-a=lz(C(c[1],b[2]),C(b[1],c[2])),d=0===a?0:0<=a?2:1;return d?0:1}function
-bi(b,a){return E(C(b[1],a[2]),C(a[1],b[2]))}function
-dA(b,a){return[0,F(C(b[1],a[2]),C(a[1],b[2])),C(b[2],a[2])]}function
-a5(b,a){return[0,C(b[1],a[1]),C(b[2],a[2])]}function
-gF(a){return[0,P(a[1]),a[2]]}function
-dB(b,a){return dA(b,gF(a))}function
-gG(f,c){var
-a=c[1],e=aT(a),g=0===e?[0,d,b]:0<e?[0,c[2],a]:[0,P(c[2]),P(a)];return a5(f,g)}function
-dC(q){var
-a=q[2],b=q[1],o=aT(b);if(0===o)var
-c=[0,cx(a),[0,d,iH(a)]];else
+c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=md([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<aV(b)?fj(b):0}function
+mf(c,b){var
+a=c-b|0,d=0<=a?0===a?0:2:1;return 2<=d?0:1}function
+mg(a){return[0,a,b]}function
+ep(b,a){return iM(C(b[1],a[2]),C(a[1],b[2]))?0:1}function
+bl(b,a){return D(C(b[1],a[2]),C(a[1],b[2]))}function
+dG(b,a){return[0,F(C(b[1],a[2]),C(a[1],b[2])),C(b[2],a[2])]}function
+a9(b,a){return[0,C(b[1],a[1]),C(b[2],a[2])]}function
+gI(a){return[0,Q(a[1]),a[2]]}function
+dH(b,a){return dG(b,gI(a))}function
+gJ(f,c){var
+a=c[1],e=aV(a),g=0===e?[0,d,b]:0<e?[0,c[2],a]:[0,Q(c[2]),Q(a)];return a9(f,g)}function
+dI(q){var
+a=q[2],b=q[1],o=aV(b);if(0===o)var
+c=[0,cz(a),[0,d,iN(a)]];else
 if(0<o){var
-n=aT(a);if(0===n)var
-c=[0,cx(b),[0,iH(b),d]];else
+n=aV(a);if(0===n)var
+c=[0,cz(b),[0,iN(b),d]];else
 if(0<n)var
-l=gA(b,a),m=l[2],c=[0,l[1],[0,m[1],m[2]]];else
+l=gE(b,a),m=l[2],c=[0,l[1],[0,m[1],m[2]]];else
 var
-j=gA(b,P(a)),k=j[2],c=[0,j[1],[0,k[1],P(k[2])]]}else{var
-p=P(b),i=aT(a);if(0===i)var
-c=[0,cx(b),[0,iH(b),d]];else
+j=gE(b,Q(a)),k=j[2],c=[0,j[1],[0,k[1],Q(k[2])]]}else{var
+p=Q(b),i=aV(a);if(0===i)var
+c=[0,cz(b),[0,iN(b),d]];else
 if(0<i)var
-g=gA(p,a),h=g[2],c=[0,g[1],[0,P(h[1]),h[2]]];else
+g=gE(p,a),h=g[2],c=[0,g[1],[0,Q(h[1]),h[2]]];else
 var
-e=gA(p,P(a)),f=e[2],c=[0,e[1],[0,P(f[1]),P(f[2])]]}var
-r=c[2],s=ei(r[2]);return[0,r[1],s]}function
-bq(a){if(typeof
-a==="number")return tn;else
+e=gE(p,Q(a)),f=e[2],c=[0,e[1],[0,Q(f[1]),Q(f[2])]]}var
+r=c[2],s=en(r[2]);return[0,r[1],s]}function
+br(a){if(typeof
+a==="number")return tK;else
 switch(a[0]){case
 0:var
-b=bq(a[1]);return bg(bR(1,48),b);case
+b=br(a[1]);return bk(bT(1,48),b);case
 1:var
-c=bq(a[1]);return bg(bR(1,49),c);case
+c=br(a[1]);return bk(bT(1,49),c);case
 2:var
-d=bq(a[1]);return bg(bR(1,50),d);case
+d=br(a[1]);return bk(bT(1,50),d);case
 3:var
-e=bq(a[1]);return bg(bR(1,51),e);case
+e=br(a[1]);return bk(bT(1,51),e);case
 4:var
-f=bq(a[1]);return bg(bR(1,52),f);case
+f=br(a[1]);return bk(bT(1,52),f);case
 5:var
-g=bq(a[1]);return bg(bR(1,53),g);case
+g=br(a[1]);return bk(bT(1,53),g);case
 6:var
-h=bq(a[1]);return bg(bR(1,54),h);case
+h=br(a[1]);return bk(bT(1,54),h);case
 7:var
-i=bq(a[1]);return bg(bR(1,55),i);case
+i=br(a[1]);return bk(bT(1,55),i);case
 8:var
-j=bq(a[1]);return bg(bR(1,56),j);default:var
-k=bq(a[1]);return bg(bR(1,57),k)}}function
-ff(a){return typeof
-a==="number"?to:bq(a)}function
-cC(a){return cb(c(2,b),a)}function
-l8(b,a){return dz(a,b)}function
-l9(b,a){return P(dz(P(a),b))}function
-gH(b,a){return P(cB(P(b),a))}function
+j=br(a[1]);return bk(bT(1,56),j);default:var
+k=br(a[1]);return bk(bT(1,57),k)}}function
+fl(a){return typeof
+a==="number"?tL:br(a)}function
+cE(a){return cb(c(2,b),a)}function
+mh(b,a){return dF(a,b)}function
+mi(b,a){return Q(dF(Q(a),b))}function
+gK(b,a){return Q(cD(Q(b),a))}function
 J(c,b){var
-a=fd(b,c);return[0,a,a]}function
-l_(d,c,a){var
-b=fd(c,d),e=gH(b,a);return[0,cB(b,a),e]}function
+a=fk(b,c);return[0,a,a]}function
+mj(d,c,a){var
+b=fk(c,d),e=gK(b,a);return[0,cD(b,a),e]}function
 A(b,a){return[0,F(b[1],a[1]),F(b[2],a[2])]}function
-D(b,a){return[0,aM(b[1],a[2]),aM(b[2],a[1])]}function
-_(a){return[0,P(a[2]),P(a[1])]}function
-l$(e,c,b,a){if(E(d,e))return E(d,b)?[0,C(e,b),C(c,a)]:E(a,d)?[0,C(c,b),C(e,a)]:[0,C(c,b),C(c,a)];if(E(c,d))return E(d,b)?[0,C(e,a),C(c,b)]:E(a,d)?[0,C(c,a),C(e,b)]:[0,C(e,a),C(e,b)];if(E(d,b))return[0,C(e,a),C(c,a)];if(E(a,d))return[0,C(c,b),C(e,b)];var
-f=bp(C(e,b),C(c,a));return[0,iE(C(e,a),C(c,b)),f]}function
+E(b,a){return[0,aO(b[1],a[2]),aO(b[2],a[1])]}function
+$(a){return[0,Q(a[2]),Q(a[1])]}function
+mk(e,c,b,a){if(D(d,e))return D(d,b)?[0,C(e,b),C(c,a)]:D(a,d)?[0,C(c,b),C(e,a)]:[0,C(c,b),C(c,a)];if(D(c,d))return D(d,b)?[0,C(e,a),C(c,b)]:D(a,d)?[0,C(c,a),C(e,b)]:[0,C(e,a),C(e,b)];if(D(d,b))return[0,C(e,a),C(c,a)];if(D(a,d))return[0,C(c,b),C(e,b)];var
+f=bq(C(e,b),C(c,a));return[0,iJ(C(e,a),C(c,b)),f]}function
 t(c,b,a){var
-d=l$(b[1],b[2],a[1],a[2]),e=l9(c,d[2]);return[0,l8(c,d[1]),e]}function
-Q(b,a){var
-c=C(a[1],a[1]),e=C(a[2],a[2]),h=l9(b,bp(c,e)),g=0;if(K(a[1],d)&&K(d,a[2])){var
+d=mk(b[1],b[2],a[1],a[2]),e=mi(c,d[2]);return[0,mh(c,d[1]),e]}function
+R(b,a){var
+c=C(a[1],a[1]),e=C(a[2],a[2]),h=mi(b,bq(c,e)),g=0;if(K(a[1],d)&&K(d,a[2])){var
 f=d;g=1}if(!g)var
-f=l8(b,iE(c,e));return[0,f,h]}function
-iK(b,a){var
-c=fd(cC(b),b),d=gH(c,a[1]);return[0,cB(c,a[2]),d]}function
-bW(b,a){if(K(d,a[1]))return[0,iK(b,a)];var
-c=K(a[2],d),e=c?[0,_(iK(b,_(a)))]:c;return e}function
-iL(c){var
-a=gD(c);return L(C(a,a),c)?a:F(a,b)}function
+f=mh(b,iJ(c,e));return[0,f,h]}function
+iQ(b,a){var
+c=fk(cE(b),b),d=gK(c,a[1]);return[0,cD(c,a[2]),d]}function
+bX(b,a){if(K(d,a[1]))return[0,iQ(b,a)];var
+c=K(a[2],d),e=c?[0,$(iQ(b,$(a)))]:c;return e}function
+iR(c){var
+a=gH(c);return L(C(a,a),c)?a:F(a,b)}function
 cc(b,a){var
 c=K(d,a[1]);if(c)var
-f=iL(fd(a[2],b)),e=[0,[0,gD(fd(a[1],b)),f]];else
+f=iR(fk(a[2],b)),e=[0,[0,gH(fk(a[1],b)),f]];else
 var
 e=c;return e}function
-ek(a){return 0===a[0]?a[2]:a[1]}function
-aQ(f,d,c,b,a){if(b){if(a){var
-g=aQ(f,d,c,b[2],a[2]);return[0,aq(c,b[1],a[1]),g]}return e(f,b)}return e(d,a)}function
-cZ(b,a){return dz(b,a)}function
-aN(a,c,b){if(E(d,a)){var
-e=b[1],f=P(cZ(P(C(a,b[2])),c));return[0,cZ(C(a,e),c),f]}var
-g=b[2],h=P(cZ(P(C(a,b[1])),c));return[0,cZ(C(a,g),c),h]}function
-av(a){var
-c=P(dz(P(a[2]),b));return[0,dz(a[1],b),c]}function
-el(c,b,a){var
-e=l$(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=K(f,d)?a[2]:a[1],i=gH(f,h),j=K(g,d)?a[1]:a[2];return[0,cB(g,j),i]}function
-bH(a){return bp(a[2],P(a[1]))}var
+eq(a){return 0===a[0]?a[2]:a[1]}function
+aS(f,d,c,b,a){if(b){if(a){var
+g=aS(f,d,c,b[2],a[2]);return[0,ar(c,b[1],a[1]),g]}return e(f,b)}return e(d,a)}function
+c3(b,a){return dF(b,a)}function
+aP(a,c,b){if(D(d,a)){var
+e=b[1],f=Q(c3(Q(C(a,b[2])),c));return[0,c3(C(a,e),c),f]}var
+g=b[2],h=Q(c3(Q(C(a,b[1])),c));return[0,c3(C(a,g),c),h]}function
+ax(a){var
+c=Q(dF(Q(a[2]),b));return[0,dF(a[1],b),c]}function
+er(c,b,a){var
+e=mk(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=K(f,d)?a[2]:a[1],i=gK(f,h),j=K(g,d)?a[1]:a[2];return[0,cD(g,j),i]}function
+bJ(a){return bq(a[2],Q(a[1]))}var
 u=[0,d,d];function
 cd(a){return[0,a[1],a[1]]}function
-cD(a){return[0,a[2],a[2]]}function
-bX(b,a){switch(a[0]){case
+cF(a){return[0,a[2],a[2]]}function
+ce(b,a){switch(a[0]){case
 0:return[0,a[1]];case
 1:return[1,a[1]];case
 2:return[2,a[1]];case
 3:var
-c=j(b,a[2]);return[3,j(b,a[1]),c];case
+c=h(b,a[2]);return[3,h(b,a[1]),c];case
 4:var
-d=j(b,a[2]);return[4,j(b,a[1]),d];case
-5:return[5,j(b,a[1])];case
+d=h(b,a[2]);return[4,h(b,a[1]),d];case
+5:return[5,h(b,a[1])];case
 6:var
-e=j(b,a[2]);return[6,j(b,a[1]),e];case
+e=h(b,a[2]);return[6,h(b,a[1]),e];case
 7:var
-f=j(b,a[2]);return[7,j(b,a[1]),f];case
-8:return[8,j(b,a[1])];case
-9:return[9,j(b,a[1])];default:var
-g=j(b,a[4]),h=j(b,a[3]),i=j(b,a[2]);return[10,a[1],i,h,g]}}function
-aO(o,m){var
+f=h(b,a[2]);return[7,h(b,a[1]),f];case
+8:return[8,h(b,a[1])];case
+9:return[9,h(b,a[1])];default:var
+g=h(b,a[4]),i=h(b,a[3]),j=h(b,a[2]);return[10,a[1],j,i,g]}}function
+aX(o,m){var
 d=o,c=m;for(;;){var
 a=c[1],b=d[1];switch(b[0]){case
 0:return 0===a[0]?n(b[1],a[1]):0;case
 1:return 1===a[0]?n(b[1],a[1]):0;case
 2:return 2===a[0]?L(b[1],a[1]):0;case
 3:if(3===a[0]){var
-f=aO(b[1],a[1]);if(f){var
+f=aX(b[1],a[1]);if(f){var
 d=b[2],c=a[2];continue}return f}return 0;case
 4:if(4===a[0]){var
-g=aO(b[1],a[1]);if(g){var
+g=aX(b[1],a[1]);if(g){var
 d=b[2],c=a[2];continue}return g}return 0;case
 5:if(5===a[0]){var
 d=b[1],c=a[1];continue}return 0;case
 6:if(6===a[0]){var
-h=aO(b[1],a[1]);if(h){var
+h=aX(b[1],a[1]);if(h){var
 d=b[2],c=a[2];continue}return h}return 0;case
 7:if(7===a[0]){var
-i=aO(b[1],a[1]);if(i){var
+i=aX(b[1],a[1]);if(i){var
 d=b[2],c=a[2];continue}return i}return 0;case
 8:if(8===a[0]){var
 d=b[1],c=a[1];continue}return 0;case
 9:if(9===a[0]){var
 d=b[1],c=a[1];continue}return 0;default:if(10===a[0]){var
-j=cz(b[1],a[1]);if(j){var
-k=aO(b[2],a[2]);if(k){var
-l=aO(b[3],a[3]);if(l){var
+j=cB(b[1],a[1]);if(j){var
+k=aX(b[2],a[2]);if(k){var
+l=aX(b[3],a[3]);if(l){var
 d=b[4],c=a[4];continue}var
 e=l}else
 var
 e=k}else
 var
 e=j;return e}return 0}}}function
-gI(b){var
+gL(b){var
 a=b[1];return 2===a[0]?[0,a[1]]:0}function
-ba(c,b){var
-a=gI(b);return a?L(c,a[1]):a}function
-fg(a){return K(cx(a),c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b))))))))))))))))}function
+be(c,b){var
+a=gL(b);return a?L(c,a[1]):a}function
+fm(a){return K(cz(a),c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b))))))))))))))))}function
 m(a){return[0,[2,a]]}function
-B(b,a){if(ba(d,b))return a;if(ba(d,a))return b;var
-c=gI(b);if(c){var
-e=c[1],f=gI(a);if(f){var
-g=f[1];if(fg(e)&&fg(g))return m(F(e,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
-br(a){var
+B(b,a){if(be(d,b))return a;if(be(d,a))return b;var
+c=gL(b);if(c){var
+e=c[1],f=gL(a);if(f){var
+g=f[1];if(fm(e)&&fm(g))return m(F(e,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
+bs(a){var
 b=a[1];switch(b[0]){case
 2:var
-c=b[1];return fg(c)?m(P(c)):[0,[5,a]];case
+c=b[1];return fm(c)?m(Q(c)):[0,[5,a]];case
 5:return b[1];default:return[0,[5,a]]}}function
-y(b,a){if(ba(d,a))return b;if(ba(d,b))return br(a);var
+z(b,a){if(be(d,a))return b;if(be(d,b))return bs(a);var
 c=b[1];if(0===c[0]){var
 e=a[1];return 0===e[0]?n(c[1],e[1])?m(d):[0,[4,b,a]]:[0,[4,b,a]]}return[0,[4,b,a]]}function
-W(a){var
-c=gI(a);if(c){var
-b=c[1];return fg(b)?m(C(b,b)):[0,[8,a]]}return[0,[8,a]]}function
-s(a,c){if(!ba(d,a)&&!ba(b,c)){if(!ba(d,c)&&!ba(b,a))return aO(a,c)?W(a):[0,[6,a,c]];return c}return a}function
-am(c,a){return ba(b,a)?c:[0,[7,c,a]]}function
-aL(a){return ba(b,a)?a:[0,[9,a]]}function
-ma(d,c,b,a){return[0,[10,d,c,b,a]]}function
-bj(f,e,d,c){var
-b=d,a=c;for(;;){if(b){var
-g=b[1],h=[0,j(e,bX(function(b){return function(a){return r(a,b,f)}}(a),g)),a],b=b[2],a=h;continue}return a}}function
-iM(d,f,k,i,h){var
-b=k,c=i,a=h;for(;;){if(c){var
-e=c[2],g=c[1];if(b){if(b[1]){var
-l=[0,j(f,bX(function(b){return function(a){return r(a,b,d)}}(a),g)),a],b=bG(b),c=e,a=l;continue}var
-b=b[2],c=e,a=[0,d,a];continue}var
-m=[0,j(f,bX(function(b){return function(a){return r(a,b,d)}}(a),g)),a],b=bG(b),c=e,a=m;continue}return a}}function
-fh(b,a){if(a){var
-c=a[2];if(b){var
-e=fh(b[1],c);return[0,a[1],e]}var
-d=[0,1,c]}else
+X(a){var
+c=gL(a);if(c){var
+b=c[1];return fm(b)?m(C(b,b)):[0,[8,a]]}return[0,[8,a]]}function
+r(a,c){if(!be(d,a)&&!be(b,c)){if(!be(d,c)&&!be(b,a))return aX(a,c)?X(a):[0,[6,a,c]];return c}return a}function
+an(c,a){return be(b,a)?c:[0,[7,c,a]]}function
+aN(a){return be(b,a)?a:[0,[9,a]]}function
+ml(d,c,b,a){return[0,[10,d,c,b,a]]}function
+es(b,a){if(a){var
+c=a[3];if(c){var
+d=a[1];return n(d,c[1])?[0,[0,d],[1,b,a[2],c[2]],c[3]]:[0,0,[0,b],a]}return[0,0,[0,b],a]}return[0,0,[0,b],a]}function
+iS(g,f,e){var
+c=f,d=e;for(;;){if(d){if(typeof
+c!=="number"&&2===c[0]){var
+c=c[1],d=d[3];continue}var
+b=c,a=d[2];for(;;){if(0===a[0])return a[1];if(typeof
+b!=="number")switch(b[0]){case
+0:var
+b=b[1],a=a[2];continue;case
+1:var
+b=b[1],a=a[3];continue}return a[1]}}return g}}function
+iT(a,b){if(0===a[0])return[0,a[1],b];var
+c=iT(a[3],b),d=iT(a[2],c);return[0,a[1],d]}function
+iU(a){if(a){var
+b=iU(a[3]);return iT(a[2],b)}return a}function
+mm(a){if(a){var
+c=a[3],b=a[2],d=a[1];if(0===b[0])return[0,[0,b[1],c]];var
+e=b[3],f=[0,aR(d),e,c],g=b[2],h=[0,aR(d),g,f];return[0,[0,b[1],h]]}return a}function
+iV(c,b,a){if(0===a[0])return[0,c];var
+d=a[3],e=a[2],f=a[1];if(typeof
+b!=="number")switch(b[0]){case
+0:return[1,f,iV(c,b[1],e),d];case
+1:return[1,f,e,iV(c,b[1],d)]}return[1,c,e,d]}function
+mn(c,b,a){if(a){var
+d=a[3],e=a[2],f=a[1];if(typeof
+b!=="number"&&2===b[0])return[0,f,e,mn(c,b[1],d)];var
+g=[0,f,iV(c,b,e),d]}else
 var
-d=a;return d}function
-mb(a){switch(a[0]){case
+g=a;return g}function
+c4(g,f,e){var
+b=e,a=0;for(;;){if(b){var
+c=b[1],d=es(h(f,ce(function(b){return function(a){return iS(g,a,b)}}(a),c)),a),b=b[2],a=d;continue}return iU(a)}}function
+cf(e,g,m,l){var
+b=m,c=l,a=0;for(;;){if(c){var
+d=c[2],f=c[1];if(b){if(b[1]){var
+i=es(h(g,ce(function(b){return function(a){return iS(e,a,b)}}(a),f)),a),b=bI(b),c=d,a=i;continue}var
+j=es(e,a),b=b[2],c=d,a=j;continue}var
+k=es(h(g,ce(function(b){return function(a){return iS(e,a,b)}}(a),f)),a),b=bI(b),c=d,a=k;continue}return iU(a)}}function
+mo(a){switch(a[0]){case
 10:return[0,a[2],[0,a[3],[0,a[4],0]]];case
 5:case
 8:case
 9:return[0,a[1],0];case
 0:case
 1:case
-2:return 0;default:return[0,a[1],[0,a[2],0]]}}function
-fi(j,g){var
-k=0,l=an(fh,e(function(a){return 0},g),j),c=fe(g,0),b=l,a=k;for(;;){if(c){if(b){var
-d=b[2],f=b[1],h=[0,f,a],i=f?an(fh,d,mb(c[1])):d,c=c[2],b=i,a=h;continue}return a}return a}}function
-c0(a){var
-b=0;function
-c(a){return[0,a]}return bj(m(d),c,a,b)}function
-bk(d,c){var
-a=d,b=0;for(;;){if(a){if(aO(c,a[1]))return b;var
-a=a[2],b=[0,b];continue}return a}}function
-dD(d,b){var
-e=b[1];if(aj(function(a){return aO(d,a)},e))return b;var
-a=d[1];switch(a[0]){case
-10:var
-j=dD(a[2],b),k=dD(a[3],j),c=dD(a[4],k);break;case
-5:case
-8:case
-9:var
-c=dD(a[1],b);break;case
-0:case
-1:case
+2:return 0;default:return[0,a[1],[0,a[2],0]]}}var
+tM=1;function
+mp(a,b){return mn(tM,a,b)}function
+mq(e,c){if(c){var
+f=c[2],g=c[1],b=g,a=e;for(;;){if(b){if(a){var
+b=b[1],a=a[1];continue}var
+d=[0,b]}else
+var
+d=[1,a];if(0===d[0])return[0,e,[0,d[1],f]];var
+h=d[1];return h?[0,g,mq(h,f)]:c}}return[0,e,0]}function
+gM(c,b){if(b){var
+d=b[2];if(c){var
+a=c[2],e=c[1];if(e)return[0,0,gM([0,e[1],a],d)];if(a)var
+h=a[2],f=[0,aR(a[1]),h];else
+var
+f=a;return[0,1,gM(f,d)]}var
+g=[0,0,gM(0,d)]}else
+var
+g=b;return g}function
+mr(b,a){var
+c=0;return ao(es,0,gM(bz(function(b,a){return mq(a,b)},b,c),a))}function
+cG(k,h){var
+l=mr(k,h),b=eo(h,0),c=l,a=0;for(;;){if(b){var
+d=mm(c);if(d){var
+e=d[1],f=e[2],g=e[1],i=[0,g,a],j=g?ao(mp,f,mo(b[1])):f,b=b[2],c=j,a=i;continue}return a}return a}}function
+c5(a){function
+b(a){return[0,a]}return c4(m(d),b,a)}function
+O(a){switch(a[0]){case
+0:return 0;case
+1:return tN;case
+2:return tO;case
+3:return tP;case
+4:return tQ;case
+5:return tR;case
+6:return tS;case
+7:return tT;case
+8:return tU;case
+9:return tV;default:return tW}}function
+a6(J,I,H){var
+e=J,g=I,f=H;for(;;){if(e){var
+j=e[1];if(j){var
+a=f[1],c=g[1],h=y(aR,e);switch(c[0]){case
+0:if(0===a[0])return av(c[1],a[1]);var
+K=O(a);return av(O(c),K);case
+1:if(1===a[0])return av(c[1],a[1]);var
+L=O(a);return av(O(c),L);case
+2:if(2===a[0])return iM(c[1],a[1]);var
+M=O(a);return av(O(c),M);case
+3:if(3===a[0]){var
+k=a6(h,c[2],a[2]);if(k)return k;var
+e=h,g=c[1],f=a[1];continue}var
+N=O(a);return av(O(c),N);case
+4:if(4===a[0]){var
+l=a6(h,c[2],a[2]);if(l)return l;var
+e=h,g=c[1],f=a[1];continue}var
+P=O(a);return av(O(c),P);case
+5:if(5===a[0]){var
+e=h,g=c[1],f=a[1];continue}var
+Q=O(a);return av(O(c),Q);case
+6:if(6===a[0]){var
+m=a6(h,c[2],a[2]);if(m)return m;var
+e=h,g=c[1],f=a[1];continue}var
+R=O(a);return av(O(c),R);case
+7:if(7===a[0]){var
+n=a6(h,c[2],a[2]);if(n)return n;var
+e=h,g=c[1],f=a[1];continue}var
+S=O(a);return av(O(c),S);case
+8:if(8===a[0]){var
+e=h,g=c[1],f=a[1];continue}var
+T=O(a);return av(O(c),T);case
+9:if(9===a[0]){var
+e=h,g=c[1],f=a[1];continue}var
+U=O(a);return av(O(c),U);default:var
+o=c[4],p=c[3],q=c[2];if(c[1]){if(10===a[0]){if(a[1]){var
+r=a6(h,o,a[4]);if(r)return r;var
+s=a6(h,p,a[3]);if(s)return s;var
+e=h,g=q,f=a[2];continue}return 2}var
+V=O(a);return av(O(c),V)}if(10===a[0]){if(a[1])return 1;var
+t=a6(h,o,a[4]);if(t)return t;var
+u=a6(h,p,a[3]);if(u)return u;var
+e=h,g=q,f=a[2];continue}var
+W=O(a);return av(O(c),W)}}return j}var
+b=f[1],d=g[1],i=y(aR,e);switch(d[0]){case
+0:if(0===b[0])return av(d[1],b[1]);var
+X=O(b);return av(O(d),X);case
+1:if(1===b[0])return av(d[1],b[1]);var
+Y=O(b);return av(O(d),Y);case
+2:if(2===b[0])return iM(d[1],b[1]);var
+Z=O(b);return av(O(d),Z);case
+3:if(3===b[0]){var
+v=a6(i,d[2],b[2]);if(v)return v;var
+e=i,g=d[1],f=b[1];continue}var
+_=O(b);return av(O(d),_);case
+4:if(4===b[0]){var
+w=a6(i,d[2],b[2]);if(w)return w;var
+e=i,g=d[1],f=b[1];continue}var
+$=O(b);return av(O(d),$);case
+5:if(5===b[0]){var
+e=i,g=d[1],f=b[1];continue}var
+aa=O(b);return av(O(d),aa);case
+6:if(6===b[0]){var
+x=a6(i,d[2],b[2]);if(x)return x;var
+e=i,g=d[1],f=b[1];continue}var
+ab=O(b);return av(O(d),ab);case
+7:if(7===b[0]){var
+z=a6(i,d[2],b[2]);if(z)return z;var
+e=i,g=d[1],f=b[1];continue}var
+ac=O(b);return av(O(d),ac);case
+8:if(8===b[0]){var
+e=i,g=d[1],f=b[1];continue}var
+ad=O(b);return av(O(d),ad);case
+9:if(9===b[0]){var
+e=i,g=d[1],f=b[1];continue}var
+ae=O(b);return av(O(d),ae);default:var
+A=d[4],B=d[3],C=d[2];if(d[1]){if(10===b[0]){if(b[1]){var
+D=a6(i,A,b[4]);if(D)return D;var
+E=a6(i,B,b[3]);if(E)return E;var
+e=i,g=C,f=b[2];continue}return 2}var
+af=O(b);return av(O(d),af)}if(10===b[0]){if(b[1])return 1;var
+F=a6(i,A,b[4]);if(F)return F;var
+G=a6(i,B,b[3]);if(G)return G;var
+e=i,g=C,f=b[2];continue}var
+ag=O(b);return av(O(d),ag)}}}function
+ms(b,a){var
+c=a6(tX,b,a);return c?c:a6(0,b,a)}function
+mt(c,b){var
+a=b;for(;;){if(a)switch(ms(c,a[3])){case
+0:return[0,a[4]];case
+1:var
+a=a[2];continue;default:var
+a=a[5];continue}return a}}function
+tY(b,d,c,a){if(b){var
+e=b[5],s=b[4],t=b[3],l=b[2];if(b[1]){if(l){if(l[1])return[0,1,[0,0,l[2],l[3],l[4],l[5]],t,s,[0,0,e,d,c,a]];if(e){if(e[1])return[0,1,[0,0,l,t,s,e[2]],e[3],e[4],[0,0,e[5],d,c,a]];if(a){if(a[1]){var
+f=a[5],u=a[4],v=a[3],m=a[2];return m?m[1]?[0,1,[0,0,b,d,c,m[2]],m[3],m[4],[0,0,m[5],v,u,f]]:f?f[1]?[0,1,[0,0,b,d,c,m],v,u,[0,0,f[2],f[3],f[4],f[5]]]:[0,0,b,d,c,a]:[0,0,b,d,c,a]:f?f[1]?[0,1,[0,0,b,d,c,m],v,u,[0,0,f[2],f[3],f[4],f[5]]]:[0,0,b,d,c,a]:[0,0,b,d,c,a]}return[0,0,b,d,c,a]}return[0,0,b,d,c,a]}if(a){if(a[1]){var
+g=a[5],w=a[4],x=a[3],n=a[2];return n?n[1]?[0,1,[0,0,b,d,c,n[2]],n[3],n[4],[0,0,n[5],x,w,g]]:g?g[1]?[0,1,[0,0,b,d,c,n],x,w,[0,0,g[2],g[3],g[4],g[5]]]:[0,0,b,d,c,a]:[0,0,b,d,c,a]:g?g[1]?[0,1,[0,0,b,d,c,n],x,w,[0,0,g[2],g[3],g[4],g[5]]]:[0,0,b,d,c,a]:[0,0,b,d,c,a]}return[0,0,b,d,c,a]}return[0,0,b,d,c,a]}if(e){if(e[1])return[0,1,[0,0,l,t,s,e[2]],e[3],e[4],[0,0,e[5],d,c,a]];if(a){if(a[1]){var
+h=a[5],y=a[4],z=a[3],o=a[2];return o?o[1]?[0,1,[0,0,b,d,c,o[2]],o[3],o[4],[0,0,o[5],z,y,h]]:h?h[1]?[0,1,[0,0,b,d,c,o],z,y,[0,0,h[2],h[3],h[4],h[5]]]:[0,0,b,d,c,a]:[0,0,b,d,c,a]:h?h[1]?[0,1,[0,0,b,d,c,o],z,y,[0,0,h[2],h[3],h[4],h[5]]]:[0,0,b,d,c,a]:[0,0,b,d,c,a]}return[0,0,b,d,c,a]}return[0,0,b,d,c,a]}if(a){if(a[1]){var
+i=a[5],A=a[4],B=a[3],p=a[2];return p?p[1]?[0,1,[0,0,b,d,c,p[2]],p[3],p[4],[0,0,p[5],B,A,i]]:i?i[1]?[0,1,[0,0,b,d,c,p],B,A,[0,0,i[2],i[3],i[4],i[5]]]:[0,0,b,d,c,a]:[0,0,b,d,c,a]:i?i[1]?[0,1,[0,0,b,d,c,p],B,A,[0,0,i[2],i[3],i[4],i[5]]]:[0,0,b,d,c,a]:[0,0,b,d,c,a]}return[0,0,b,d,c,a]}return[0,0,b,d,c,a]}if(a){if(a[1]){var
+j=a[5],C=a[4],D=a[3],q=a[2];return q?q[1]?[0,1,[0,0,b,d,c,q[2]],q[3],q[4],[0,0,q[5],D,C,j]]:j?j[1]?[0,1,[0,0,b,d,c,q],D,C,[0,0,j[2],j[3],j[4],j[5]]]:[0,0,b,d,c,a]:[0,0,b,d,c,a]:j?j[1]?[0,1,[0,0,b,d,c,q],D,C,[0,0,j[2],j[3],j[4],j[5]]]:[0,0,b,d,c,a]:[0,0,b,d,c,a]}return[0,0,b,d,c,a]}return[0,0,b,d,c,a]}if(a){if(a[1]){var
+k=a[5],E=a[4],F=a[3],r=a[2];return r?r[1]?[0,1,[0,0,b,d,c,r[2]],r[3],r[4],[0,0,r[5],F,E,k]]:k?k[1]?[0,1,[0,0,b,d,c,r],F,E,[0,0,k[2],k[3],k[4],k[5]]]:[0,0,b,d,c,a]:[0,0,b,d,c,a]:k?k[1]?[0,1,[0,0,b,d,c,r],F,E,[0,0,k[2],k[3],k[4],k[5]]]:[0,0,b,d,c,a]:[0,0,b,d,c,a]}return[0,0,b,d,c,a]}return[0,0,b,d,c,a]}function
+iW(b,c,a){if(a){var
+e=a[5],f=a[4],d=a[3],g=a[2],h=a[1]?function(d,c,b,a){return[0,1,d,c,b,a]}:tY;switch(ms(b,d)){case
+0:return a;case
+1:return h(iW(b,c,g),d,f,e);default:return h(g,d,f,iW(b,c,e))}}return[0,1,0,b,c,0]}function
+mu(d,c,b){var
+a=iW(d,c,b),e=a?[0,0,a[2],a[3],a[4],a[5]]:a;return e}function
+cH(a){var
+b=bz(function(a,b){var
+c=mu(b,a[1],a[2]);return[0,[0,a[1]],c]},a,tZ)[2];return function(c){var
+a=mt(c,b),d=a?a[1]:a;return d}}function
+iX(b,a){if(0===a[0])return 0;var
+c=a[3];return L(b,a[1])?0:D(b,c[1])?[1,iX(b,c)]:[0,iX(b,a[2])]}function
+mv(c,a){if(a){var
+b=a[3],d=b?D(c,b[2][1]):b;return d?[2,mv(c,b)]:iX(c,a[2])}return a}function
+dJ(k,d){var
+n=mt(k,d[1]);if(n)return[0,n[1],d];var
+a=k[1],e=0;switch(a[0]){case
+0:var
+u=a[1],f=function(a){return[0,u]},c=d;break;case
+1:var
+A=a[1],f=function(a){return[1,A]},c=d;break;case
 2:var
-c=b;break;default:var
-i=dD(a[1],b),c=dD(a[2],i)}var
-f=c[2],g=c[1],h=[0,bX(function(a){return bk(g,a)},a),f];return[0,[0,d,c[1]],h]}function
-c1(a){var
-b=bV(function(b,a){return dD(a,b)},a,tp),c=b[1],d=e(function(a){return bk(c,a)},a);return[0,l3(b[2]),d]}function
-fj(a){return an(function(b,a){return F(bH(b),a)},d,a)}function
-cE(b,c,a){var
-d=fj(a),e=iE(c[2],F(b[2],d)),f=fj(a);return[0,b,[0,bp(c[1],aM(b[1],f)),e],a]}function
-$(a){return[0,a,a,0]}function
-ce(b,a){var
+B=a[1],f=function(a){return[2,B]},c=d;break;case
+3:var
+C=function(b,a){return[3,b,a]},j=C,i=a[2],g=a[1];e=1;break;case
+4:var
+H=function(b,a){return[4,b,a]},j=H,i=a[2],g=a[1];e=1;break;case
+5:var
+I=function(a){return[5,a]},m=I,l=a[1];e=2;break;case
+6:var
+L=function(b,a){return[6,b,a]},j=L,i=a[2],g=a[1];e=1;break;case
+7:var
+M=function(b,a){return[7,b,a]},j=M,i=a[2],g=a[1];e=1;break;case
+8:var
+N=function(a){return[8,a]},m=N,l=a[1];e=2;break;case
+9:var
+O=function(a){return[9,a]},m=O,l=a[1];e=2;break;default:var
+P=a[1],r=dJ(a[2],d),Q=r[1],s=dJ(a[3],r[2]),R=s[1],t=dJ(a[4],s[2]),S=t[1],T=function(a){var
+b=h(a,S),c=h(a,R);return[10,P,h(a,Q),c,b]},f=T,c=t[2]}switch(e){case
+1:var
+o=dJ(g,d),D=o[1],p=dJ(i,o[2]),E=p[1],G=function(a){var
+b=h(a,E);return j(h(a,D),b)},f=G,c=p[2];break;case
+2:var
+q=dJ(l,d),J=q[1],K=function(a){return m(h(a,J))},f=K,c=q[2];break}var
+v=c[4],w=[0,f(function(a){return mv(a,c[2])}),v],x=F(c[3],b),y=es(c[3],c[2]),z=[0,mu(k,c[3],c[1]),y,x,w];return[0,c[3],z]}function
+c6(a){var
+b=0,c=[0,0,0,d,0];return eo(bz(function(b,a){return dJ(a,b)[2]},a,c)[4],b)}function
+gN(a){return ao(function(b,a){return F(bJ(b),a)},d,a)}function
+cI(a,c,b){var
+d=gN(b),e=iJ(c[2],F(a[2],d));return[0,a,[0,bq(c[1],aO(a[1],d)),e],b]}function
+aa(a){return[0,a,a,0]}function
+cg(b,a){var
 c=a[3],d=b[3];function
 e(a){return a}var
-f=aQ(function(a){return a},e,A,d,c),g=A(b[2],a[2]);return cE(A(b[1],a[1]),g,f)}function
-by(b,a){var
-c=a[3],d=b[3],e=aQ(function(a){return a},_,D,d,c),f=D(b[2],a[2]);return cE(D(b[1],a[1]),f,e)}function
-fk(a){var
-b=e(_,a[3]),c=_(a[2]);return[0,_(a[1]),c,b]}function
-aR(a,c,b){var
+f=aS(function(a){return a},e,A,d,c),g=A(b[2],a[2]);return cI(A(b[1],a[1]),g,f)}function
+bA(b,a){var
+c=a[3],d=b[3],e=aS(function(a){return a},$,E,d,c),f=E(b[2],a[2]);return cI(E(b[1],a[1]),f,e)}function
+fn(a){var
+b=e($,a[3]),c=$(a[2]);return[0,$(a[1]),c,b]}function
+aT(a,c,b){var
 d=A(b[2],b[1]),e=A(c[2],c[1]),f=b[3],g=c[3];function
 h(c,b){var
-f=t(a,e,b);return av(A(t(a,d,c),f))}function
-i(b){return av(t(a,e,b))}var
-j=aQ(function(b){return av(t(a,d,b))},i,h,g,f),k=t(a,c[2],b[2]);return cE(t(a,c[1],b[1]),k,j)}function
-fl(b,a){var
-c=a[3],d=A(a[2],a[1]),f=e(function(a){return t(b,d,a)},c),g=Q(b,a[2]);return cE(Q(b,a[1]),g,f)}function
-iN(a,b){var
+f=t(a,e,b);return ax(A(t(a,d,c),f))}function
+i(b){return ax(t(a,e,b))}var
+j=aS(function(b){return ax(t(a,d,b))},i,h,g,f),k=t(a,c[2],b[2]);return cI(t(a,c[1],b[1]),k,j)}function
+fo(b,a){var
+c=a[3],d=A(a[2],a[1]),f=e(function(a){return t(b,d,a)},c),g=R(b,a[2]);return cI(R(b,a[1]),g,f)}function
+iY(a,b){var
 c=cc(a,b[1]);if(c){var
 g=c[1],d=cc(a,b[2]);if(d){var
-h=d[1],f=bW(a,A(h,g));if(f)var
-l=b[3],m=f[1],i=[0,cE(g,h,e(function(b){return t(a,m,b)},l))];else
+h=d[1],f=bX(a,A(h,g));if(f)var
+l=b[3],m=f[1],i=[0,cI(g,h,e(function(b){return t(a,m,b)},l))];else
 var
 i=f;var
 j=i}else
@@ -1318,125 +1510,125 @@ j=d;var
 k=j}else
 var
 k=c;return k}function
-em(a,c,b){var
-d=bW(a,b[1]);if(d){var
-f=bW(a,b[2]);if(f)var
-h=f[1],g=t(a,c[1],d[1]),k=b[3],l=c[3],m=function(c,b){return D(c,t(a,g,b))},n=function(b){return _(t(a,g,b))},o=aQ(function(a){return a},n,m,l,k),p=e(function(b){return t(a,h,b)},o),i=[0,cE(g,t(a,c[2],h),p)];else
+et(a,c,b){var
+d=bX(a,b[1]);if(d){var
+f=bX(a,b[2]);if(f)var
+h=f[1],g=t(a,c[1],d[1]),k=b[3],l=c[3],m=function(c,b){return E(c,t(a,g,b))},n=function(b){return $(t(a,g,b))},o=aS(function(a){return a},n,m,l,k),p=e(function(b){return t(a,h,b)},o),i=[0,cI(g,t(a,c[2],h),p)];else
 var
 i=f;var
 j=i}else
 var
 j=d;return j}function
-c2(b,a){return a?j(b,a[1]):a}function
-gJ(a){var
-b=e(av,a[3]),c=av(A(a[2],a[1]));return cE(a[1],c,b)}function
-mc(a,k,j,r,c){var
-l=gJ(k),m=gJ(j),g=gJ(c[1]),h=gJ(c[2]),s=aR(a,l,h),u=by(aR(a,m,g),s),i=em(a,$(J(a,b)),u);if(i)var
-f=i[1],n=aR(a,by(l,g),f),o=aR(a,by(m,h),f),d=function(c,b){return aR(a,c,$(b))},v=j[3],w=k[3],x=function(b,a){var
-c=d(o,a);return ce(d(n,b),c)},y=function(a){return d(o,a)},z=aQ(function(a){return d(n,a)},y,x,w,v),A=r[3],B=function(b,a){return by(b,d(f,av(a)))[2]},C=function(a){return fk(d(f,av(a)))[2]},p=aQ(function(a){return a[2]},C,B,z,A),D=g[2],E=e(function(b){return t(a,D,b)},p),F=cE(c[2][1],c[2][2],E),G=_(h[2]),H=e(function(b){return t(a,G,b)},p),q=[0,[0,cE(c[1][1],c[1][2],H),F]];else
+c7(b,a){return a?h(b,a[1]):a}function
+gO(a){var
+b=e(ax,a[3]),c=ax(A(a[2],a[1]));return cI(a[1],c,b)}function
+mw(a,k,j,r,c){var
+l=gO(k),m=gO(j),g=gO(c[1]),h=gO(c[2]),s=aT(a,l,h),u=bA(aT(a,m,g),s),i=et(a,aa(J(a,b)),u);if(i)var
+f=i[1],n=aT(a,bA(l,g),f),o=aT(a,bA(m,h),f),d=function(c,b){return aT(a,c,aa(b))},v=j[3],w=k[3],x=function(b,a){var
+c=d(o,a);return cg(d(n,b),c)},y=function(a){return d(o,a)},z=aS(function(a){return d(n,a)},y,x,w,v),A=r[3],B=function(b,a){return bA(b,d(f,ax(a)))[2]},C=function(a){return fn(d(f,ax(a)))[2]},p=aS(function(a){return a[2]},C,B,z,A),D=g[2],E=e(function(b){return t(a,D,b)},p),F=cI(c[2][1],c[2][2],E),G=$(h[2]),H=e(function(b){return t(a,G,b)},p),q=[0,[0,cI(c[1][1],c[1][2],H),F]];else
 var
 q=i;return q}function
-md(a,e,d,k){var
-p=fl(a,d),f=ce(fl(a,e),p),g=by(ce(f,$(J(a,b))),k),l=aR(a,$(J(a,c(2,b))),f),q=fl(a,g),h=iN(a,by(aR(a,$(J(a,c(2,c(2,b)))),f),q));if(h){var
-m=h[1],r=aR(a,m,d),i=em(a,ce(aR(a,g,e),r),l);if(i)var
-s=aR(a,m,e),j=em(a,by(aR(a,g,d),s),l),t=j?[0,[0,i[1],j[1]]]:j,n=t;else
+mx(a,e,d,k){var
+p=fo(a,d),f=cg(fo(a,e),p),g=bA(cg(f,aa(J(a,b))),k),l=aT(a,aa(J(a,c(2,b))),f),q=fo(a,g),h=iY(a,bA(aT(a,aa(J(a,c(2,c(2,b)))),f),q));if(h){var
+m=h[1],r=aT(a,m,d),i=et(a,cg(aT(a,g,e),r),l);if(i)var
+s=aT(a,m,e),j=et(a,bA(aT(a,g,d),s),l),t=j?[0,[0,i[1],j[1]]]:j,n=t;else
 var
 n=i;var
 o=n}else
 var
 o=h;var
-u=c2(function(b){return mc(a,e,d,k,b)},o);return c2(function(b){return mc(a,e,d,k,b)},u)}function
-cF(d,b,a){if(b){if(a)return aq(d,b[1],a[1]);var
+u=c7(function(b){return mw(a,e,d,k,b)},o);return c7(function(b){return mw(a,e,d,k,b)},u)}function
+cJ(d,b,a){if(b){if(a)return ar(d,b[1],a[1]);var
 c=a}else
 var
 c=b;return c}function
-bz(b,j,i){var
-f=$(u);return function(a){switch(a[0]){case
-0:return[0,r(a[1],j,f)];case
-1:return[0,r(a[1],i,f)];case
-2:return[0,$(J(b,a[1]))];case
+bB(b,j,i){var
+f=aa(u);return function(a){switch(a[0]){case
+0:return[0,s(a[1],j,f)];case
+1:return[0,s(a[1],i,f)];case
+2:return[0,aa(J(b,a[1]))];case
 3:var
-k=a[2],l=a[1];return cF(function(b,a){return[0,ce(b,a)]},l,k);case
+k=a[2],l=a[1];return cJ(function(b,a){return[0,cg(b,a)]},l,k);case
 4:var
-m=a[2],n=a[1];return cF(function(b,a){return[0,by(b,a)]},n,m);case
+m=a[2],n=a[1];return cJ(function(b,a){return[0,bA(b,a)]},n,m);case
 5:var
-o=a[1];return c2(function(a){return[0,fk(a)]},o);case
+o=a[1];return c7(function(a){return[0,fn(a)]},o);case
 6:var
-p=a[2],q=a[1];return cF(function(c,a){return[0,aR(b,c,a)]},q,p);case
+p=a[2],q=a[1];return cJ(function(c,a){return[0,aT(b,c,a)]},q,p);case
 7:var
-s=a[2],t=a[1];return cF(function(a,c){return em(b,a,c)},t,s);case
+r=a[2],t=a[1];return cJ(function(a,c){return et(b,a,c)},t,r);case
 8:var
-u=a[1];return c2(function(a){return[0,fl(b,a)]},u);case
+u=a[1];return c7(function(a){return[0,fo(b,a)]},u);case
 9:var
-v=a[1];return c2(function(a){return iN(b,a)},v);default:var
+v=a[1];return c7(function(a){return iY(b,a)},v);default:var
 c=a[2];if(c){var
 d=a[3];if(d){var
 e=a[4];if(e){var
-w=md(b,c[1],d[1],e[1]),x=a[1]?aI:aA;return z(x,w)}var
+w=mx(b,c[1],d[1],e[1]),x=a[1]?aK:aC;return y(x,w)}var
 g=e}else
 var
 g=d;var
 h=g}else
 var
 h=c;return h}}}function
-dE(c){var
+dK(c){var
 a=c;for(;;)switch(a[0]){case
 0:return 0;case
 1:return 1;case
 6:var
 a=a[1];continue;default:var
-b=dE(a[1]);if(b)return b;var
+b=dK(a[1]);if(b)return b;var
 a=a[2];continue}}function
-cf(r,q){var
+ch(r,q){var
 b=r,a=q;for(;;)switch(b[0]){case
 0:if(0===a[0]){var
-c=L(b[1],a[1]);return c?gy(b[2],a[2]):c}return 0;case
+c=L(b[1],a[1]);return c?gC(b[2],a[2]):c}return 0;case
 1:var
 d=b[3],e=b[2];if(1===a[0]){var
-f=a[3],g=a[2],h=n(b[1],a[1]),i=h?L(e[1],g[1]):h,j=i?gy(e[2],g[2]):i,k=j?L(d[1],f[1]):j;return k?gy(d[2],f[2]):k}return 0;case
+f=a[3],g=a[2],h=n(b[1],a[1]),i=h?L(e[1],g[1]):h,j=i?gC(e[2],g[2]):i,k=j?L(d[1],f[1]):j;return k?gC(d[2],f[2]):k}return 0;case
 2:if(2===a[0]){var
-l=cf(b[1],a[1]);if(l){var
+l=ch(b[1],a[1]);if(l){var
 b=b[2],a=a[2];continue}return l}return 0;case
 3:if(3===a[0]){var
-m=cf(b[1],a[1]);if(m){var
+m=ch(b[1],a[1]);if(m){var
 b=b[2],a=a[2];continue}return m}return 0;case
 4:if(4===a[0]){var
-o=cf(b[1],a[1]);if(o){var
+o=ch(b[1],a[1]);if(o){var
 b=b[2],a=a[2];continue}return o}return 0;case
 5:if(5===a[0]){var
-p=cf(b[1],a[1]);if(p){var
+p=ch(b[1],a[1]);if(p){var
 b=b[2],a=a[2];continue}return p}return 0;default:if(6===a[0]){var
 b=b[1],a=a[1];continue}return 0}}function
-fm(c,a){switch(a[0]){case
+fp(c,a){switch(a[0]){case
 0:return[0,[0,a[1],a[2]]];case
 1:return 0;case
 2:var
-m=a[2],n=a[1],g=m,f=n,e=function(b,a){return[0,dA(b,a)]};break;case
+m=a[2],n=a[1],g=m,f=n,e=function(b,a){return[0,dG(b,a)]};break;case
 3:var
-o=a[2],p=a[1],g=o,f=p,e=function(b,a){return[0,dB(b,a)]};break;case
+o=a[2],p=a[1],g=o,f=p,e=function(b,a){return[0,dH(b,a)]};break;case
 4:var
-q=a[2],r=a[1],g=q,f=r,e=function(b,a){return[0,a5(b,a)]};break;case
+q=a[2],r=a[1],g=q,f=r,e=function(b,a){return[0,a9(b,a)]};break;case
 5:var
-s=a[2],t=a[1],g=s,f=t,e=function(c,a){return ej(a,[0,d,b])?0:[0,gG(c,a)]};break;default:var
-k=fm(c,a[1]);return k?j(c,k[1]):k}var
-h=fm(c,f);if(h){var
-i=fm(c,g);if(i)return e(h[1],i[1]);var
-l=i}else
+s=a[2],t=a[1],g=s,f=t,e=function(c,a){return ep(a,[0,d,b])?0:[0,gJ(c,a)]};break;default:var
+k=fp(c,a[1]);return k?h(c,k[1]):k}var
+i=fp(c,f);if(i){var
+j=fp(c,g);if(j)return e(i[1],j[1]);var
+l=j}else
 var
-l=h;return l}function
-tq(a){return 0}function
-cG(a){return fm(tq,a)}function
+l=i;return l}function
+t0(a){return 0}function
+cK(a){return fp(t0,a)}function
 bY(a,c){switch(c[0]){case
-0:return[0,l_(a,c[1],c[2])];case
+0:return[0,mj(a,c[1],c[2])];case
 1:return 0;case
 2:var
 g=bY(a,c[1]);if(g)var
-h=bY(a,c[2]),E=h?[0,A(g[1],h[1])]:h,r=E;else
+h=bY(a,c[2]),D=h?[0,A(g[1],h[1])]:h,r=D;else
 var
 r=g;return r;case
 3:var
 i=bY(a,c[1]);if(i)var
-j=bY(a,c[2]),F=j?[0,D(i[1],j[1])]:j,s=F;else
+j=bY(a,c[2]),F=j?[0,E(i[1],j[1])]:j,s=F;else
 var
 s=i;return s;case
 4:var
@@ -1447,400 +1639,400 @@ v=k;return v;case
 5:var
 m=bY(a,c[1]);if(m){var
 n=bY(a,c[2]);if(n)var
-o=bW(a,n[1]),H=o?[0,t(a,m[1],o[1])]:o,w=H;else
+o=bX(a,n[1]),H=o?[0,t(a,m[1],o[1])]:o,w=H;else
 var
 w=n;var
 x=w}else
 var
 x=m;return x;default:var
-y=c[1],p=bY(a,y);if(p){var
+z=c[1],p=bY(a,z);if(p){var
 e=p[1];if(K(d,e[1]))return cc(a,e);var
-f=cG(y),J=f?I(bi([0,d,b],f[1])):f;if(J)return 0;if(K(d,e[2])){var
-B=cc(a,[0,e[2],e[2]]);return z(function(a){return[0,d,a[2]]},B)}var
+f=cK(z),J=f?I(bl([0,d,b],f[1])):f;if(J)return 0;if(K(d,e[2])){var
+B=cc(a,[0,e[2],e[2]]);return y(function(a){return[0,d,a[2]]},B)}var
 q=L(e[2],d),C=q?[0,u]:q;return C}return p}}function
-cH(b,a){return l_(b,a[1],a[2])}function
-me(a,f,e,d){var
-h=[0,b,c(2,b)],i=[0,cH(a,a5(dB(d,e),h)),0],j=g(ac(u,f),i),k=cH(a,d)[2],l=[0,cH(a,e)[1],k],m=[0,b,c(2,b)];return[0,cH(a,a5(dA(e,d),m)),l,j]}function
-en(c,e,a){function
-b(a){return en(c,e,a)}if(dE(a))switch(a[0]){case
+cL(b,a){return mj(b,a[1],a[2])}function
+my(a,f,e,d){var
+h=[0,b,c(2,b)],i=[0,cL(a,a9(dH(d,e),h)),0],j=g(ac(u,f),i),k=cL(a,d)[2],l=[0,cL(a,e)[1],k],m=[0,b,c(2,b)];return[0,cL(a,a9(dG(e,d),m)),l,j]}function
+eu(c,e,a){function
+b(a){return eu(c,e,a)}if(dK(a))switch(a[0]){case
 0:return 0;case
-1:return f9(e,a[1],a[2],a[3]);case
+1:return gb(e,a[1],a[2],a[3]);case
 2:var
-g=b(a[2]),h=b(a[1]);return cF(function(b,a){return[0,ce(b,a)]},h,g);case
+g=b(a[2]),h=b(a[1]);return cJ(function(b,a){return[0,cg(b,a)]},h,g);case
 3:var
-i=b(a[2]),j=b(a[1]);return cF(function(b,a){return[0,by(b,a)]},j,i);case
+i=b(a[2]),j=b(a[1]);return cJ(function(b,a){return[0,bA(b,a)]},j,i);case
 4:var
-f=a[2],d=a[1];if(cf(d,f)){var
-k=b(d);return c2(function(a){return[0,fl(c,a)]},k)}var
-l=b(f),m=b(d);return cF(function(b,a){return[0,aR(c,b,a)]},m,l);case
+f=a[2],d=a[1];if(ch(d,f)){var
+k=b(d);return c7(function(a){return[0,fo(c,a)]},k)}var
+l=b(f),m=b(d);return cJ(function(b,a){return[0,aT(c,b,a)]},m,l);case
 5:var
-n=b(a[2]),o=b(a[1]);return cF(function(a,b){return em(c,a,b)},o,n);default:var
-p=b(a[1]);return c2(function(a){return iN(c,a)},p)}return z($,bY(c,a))}function
-aF(b,a){if(dE(a)){var
-c=en(b,function(d,c,a){var
-e=aB(d,dF),f=e?bi(c,a):e,g=f?[0,me(b,d,c,a)]:f;return g},a);return z(function(a){return a[2]},c)}return bY(b,a)}function
-iO(a){var
-e=bp(P(a),d);return ei(F(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e))}function
-mf(a){return iI(F(iO(a),a))}function
-mg(b,a){var
-c=mf(b),d=P(cZ(P(a[2]),c)),e=mf(b);return[0,cZ(a[1],e),d]}function
-c3(c,a,b){var
-d=aF(F(c,iO(a)),b);return z(function(b){return mg(a,b)},d)}function
-ao(d,a){var
-b=c3(d,a[2],a[1][1]);if(b)var
-c=c3(d,a[2],a[1][2]),f=c?[0,[0,b[1][1],c[1][2]]]:c,e=f;else
+n=b(a[2]),o=b(a[1]);return cJ(function(a,b){return et(c,a,b)},o,n);default:var
+p=b(a[1]);return c7(function(a){return iY(c,a)},p)}return y(aa,bY(c,a))}function
+aH(b,a){if(dK(a)){var
+c=eu(b,function(d,c,a){var
+e=aD(d,dL),f=e?bl(c,a):e,g=f?[0,my(b,d,c,a)]:f;return g},a);return y(function(a){return a[2]},c)}return bY(b,a)}function
+iZ(a){var
+e=bq(Q(a),d);return en(F(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e))}function
+mz(a){return iO(F(iZ(a),a))}function
+mA(b,a){var
+c=mz(b),d=Q(c3(Q(a[2]),c)),e=mz(b);return[0,c3(a[1],e),d]}function
+c8(c,a,b){var
+d=aH(F(c,iZ(a)),b);return y(function(b){return mA(a,b)},d)}function
+ap(d,a){var
+b=c8(d,a[2],a[1][1]);if(b)var
+c=c8(d,a[2],a[1][2]),f=c?[0,[0,b[1][1],c[1][2]]]:c,e=f;else
 var
 e=b;return e}function
-mh(b,a){var
-c=P(cZ(P(a[2]),b));return[0,cZ(a[1],b),c]}function
-gK(b,a){var
-c=gH(b[2],a);return[0,cB(b[1],a),c]}function
-mi(h,g,d,b){var
-e=b[2],f=lW(d),i=c(2,f),j=C(lS(f),i),a=gK(t(h,b[1],g),j),k=lQ(d)?D(e,a):A(e,a);return[0,a,k]}function
-mj(a,d,c){if(c){var
-e=c[1];return mi(a,d,e,mj(a,d,e))}var
+mB(b,a){var
+c=Q(c3(Q(a[2]),b));return[0,c3(a[1],b),c]}function
+gP(b,a){var
+c=gK(b[2],a);return[0,cD(b[1],a),c]}function
+mC(h,g,d,b){var
+e=b[2],f=l6(d),i=c(2,f),j=C(l2(f),i),a=gP(t(h,b[1],g),j),k=l0(d)?E(e,a):A(e,a);return[0,a,k]}function
+mD(a,d,c){if(c){var
+e=c[1];return mC(a,d,e,mD(a,d,e))}var
 f=J(a,b);return[0,J(a,b),f]}function
-mk(e,g){var
-o=cC(e),p=C(c(2,c(2,b)),o),j=E(g[2],p);if(j){var
-n=fc(e),i=tr[1],d=n,f=0,a=i;for(;;){if(d){var
+mE(e,g){var
+o=cE(e),p=C(c(2,c(2,b)),o),j=D(g[2],p);if(j){var
+n=fj(e),i=t1[1],d=n,f=0,a=i;for(;;){if(d){var
 h=d[1];if(a){var
 d=h,a=a[1];continue}var
 d=h,f=[0,f],a=i;continue}var
-k=N(lP(tu,N(ts,f)),tt),l=mj(e,g,k),q=mi(e,g,k,l)[2][2],m=[0,[0,l[2][1],q]];break}}else
+k=N(lZ(t4,N(t2,f)),t3),l=mD(e,g,k),q=mC(e,g,k,l)[2][2],m=[0,[0,l[2][1],q]];break}}else
 var
 m=j;return m}function
-ml(i){function
+mF(i){function
 a(h){var
-m=cB(cC(i),h),g=fc(i),f=m,e=d,a=b;for(;;){if(g){var
-j=F(a,c(2,b)),k=F(e,cB(f,a)),l=P(cB(f,C(h,h))),g=g[1],f=l,e=k,a=j;continue}return e}}var
-e=a(q(c(2,q(c(2,q(c(2,q(c(2,c(2,q(c(2,q(c(2,b)))))))))))))),f=C(c(2,c(2,b)),e),g=a(q(c(2,c(2,b))));return aM(C(c(2,c(2,c(2,c(2,b)))),g),f)}function
-mm(e,a){var
-f=E(d,a);if(f){var
-g=c(2,c(2,b));return mk(e,gK(Q(e,[0,a,a]),g))}return f}function
-mn(a){var
-m=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),g=aM(ml(a),m),n=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),h=F(ml(a),n),e=mm(a,g);if(e){var
-f=mm(a,h);if(f)var
+m=cD(cE(i),h),g=fj(i),f=m,e=d,a=b;for(;;){if(g){var
+j=F(a,c(2,b)),k=F(e,cD(f,a)),l=Q(cD(f,C(h,h))),g=g[1],f=l,e=k,a=j;continue}return e}}var
+e=a(q(c(2,q(c(2,q(c(2,q(c(2,c(2,q(c(2,q(c(2,b)))))))))))))),f=C(c(2,c(2,b)),e),g=a(q(c(2,c(2,b))));return aO(C(c(2,c(2,c(2,c(2,b)))),g),f)}function
+mG(e,a){var
+f=D(d,a);if(f){var
+g=c(2,c(2,b));return mE(e,gP(R(e,[0,a,a]),g))}return f}function
+mH(a){var
+m=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),g=aO(mF(a),m),n=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),h=F(mF(a),n),e=mG(a,g);if(e){var
+f=mG(a,h);if(f)var
 i=K(d,e[1][1]),j=i?K(f[1][2],d):i,k=j?[0,[0,g,h]]:j;else
 var
 k=f;var
 l=k}else
 var
 l=e;return l}function
-mo(a,d){var
-c=Q(a,d),e=J(a,b);return D(A(c,c),e)}function
-c4(f,j){var
-e=aF(F(f,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),j);if(e){var
-k=e[1],a=F(f,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),d=mn(a);if(d)var
-h=c(2,c(2,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))))),i=mk(a,Q(a,gK(t(a,k,d[1]),h))),g=z(function(b){return mo(a,mo(a,b))},i);else
+mI(a,d){var
+c=R(a,d),e=J(a,b);return E(A(c,c),e)}function
+c9(f,j){var
+e=aH(F(f,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),j);if(e){var
+k=e[1],a=F(f,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),d=mH(a);if(d)var
+h=c(2,c(2,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))))),i=mE(a,R(a,gP(t(a,k,d[1]),h))),g=y(function(b){return mI(a,mI(a,b))},i);else
 var
 g=d;var
-l=c(2,c(2,c(2,c(2,c(2,c(2,b))))));return z(function(a){return mh(l,a)},g)}return e}function
-mp(a,d){var
-e=mn(F(a,c(2,c(2,c(2,c(2,c(2,c(2,b))))))));return z(function(e){var
-f=c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))));return gK(t(a,d,mh(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e)),f)},e)}function
-gL(d,a){return c4(d,[3,a,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b]])}function
-h(i,e,c){var
-f=cG(c);if(f){var
-g=f[1];return e?I(bi(g,[0,d,b])):bi([0,d,b],g)}var
-a=aF(i,c);if(a){var
-h=a[1];return e?K(d,h[1]):E(d,h[1])}return a}function
-mq(c,b){var
-a=aF(c,b),d=a?1:a;return d}function
-bA(c,a,b){var
-d=cf(a,b),e=d?mq(c,a):d;return e?e:h(c,0,[3,b,a])}function
-tv(c){var
-a=dC(c),g=ei(gD(a[2])),b=[0,gD(a[1]),g],e=K(d,a[1]),f=e?ej(a5(b,b),c):e,h=f?[0,b]:f;return h}function
-mr(a){if(a){var
-e=a[2],c=a[1];if(ej(bU([0,d,b],c),[0,d,b])){var
-g=mr(e);return z(function(a){return[0,a[1],[0,c,a[2]]]},g)}var
+l=c(2,c(2,c(2,c(2,c(2,c(2,b))))));return y(function(a){return mB(l,a)},g)}return e}function
+mJ(a,d){var
+e=mH(F(a,c(2,c(2,c(2,c(2,c(2,c(2,b))))))));return y(function(e){var
+f=c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))));return gP(t(a,d,mB(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e)),f)},e)}function
+gQ(d,a){return c9(d,[3,a,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b]])}function
+i(i,e,c){var
+f=cK(c);if(f){var
+g=f[1];return e?I(bl(g,[0,d,b])):bl([0,d,b],g)}var
+a=aH(i,c);if(a){var
+h=a[1];return e?K(d,h[1]):D(d,h[1])}return a}function
+mK(c,b){var
+a=aH(c,b),d=a?1:a;return d}function
+bC(c,a,b){var
+d=ch(a,b),e=d?mK(c,a):d;return e?e:i(c,0,[3,b,a])}function
+t5(c){var
+a=dI(c),g=en(gH(a[2])),b=[0,gH(a[1]),g],e=K(d,a[1]),f=e?ep(a9(b,b),c):e,h=f?[0,b]:f;return h}function
+mL(a){if(a){var
+e=a[2],c=a[1];if(ep(bW([0,d,b],c),[0,d,b])){var
+g=mL(e);return y(function(a){return[0,a[1],[0,c,a[2]]]},g)}var
 f=[0,[0,c,e]]}else
 var
 f=a;return f}function
-ms(c,a){var
-e=V(c,a),f=[0,d,b];return an(function(a,b){return dC(dA(a5(a[1],a[2]),b))},f,e)}function
-mt(c,j){if(c){var
-f=c[1],g=mr(j);if(g){var
+mM(c,a){var
+e=V(c,a),f=[0,d,b];return ao(function(a,b){return dI(dG(a9(a[1],a[2]),b))},f,e)}function
+mN(c,j){if(c){var
+f=c[1],g=mL(j);if(g){var
 h=g[1],a=h[1],k=function(c){var
-f=bU([0,d,b],a),g=gG(bU([0,d,b],c),f),h=bG(a),i=V(bG(c),h);return e(function(a){var
-b=a5(g,a[2]);return dC(dB(a[1],b))},i)},l=mt(f,e(k,h[2]));return z(function(c){var
-e=bU([0,d,b],a);return[0,dC(gG(gF(ms(bG(a),c)),e)),c]},l)}var
+f=bW([0,d,b],a),g=gJ(bW([0,d,b],c),f),h=bI(a),i=V(bI(c),h);return e(function(a){var
+b=a9(g,a[2]);return dI(dH(a[1],b))},i)},l=mN(f,e(k,h[2]));return y(function(c){var
+e=bW([0,d,b],a);return[0,dI(gJ(gI(mM(bI(a),c)),e)),c]},l)}var
 i=[0,[0,[0,b,b],ac([0,d,b],f)]]}else
 var
 i=c;return i}function
-mu(a){if(a){var
-b=fm(tv,a[1]);if(b)var
-c=mu(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+mO(a){if(a){var
+b=fp(t5,a[1]);if(b)var
+c=mO(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return tw}function
-mv(a){if(a){var
-b=mu(a[1]);if(b)var
-c=mv(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+d=b;return d}return t6}function
+mP(a){if(a){var
+b=mO(a[1]);if(b)var
+c=mP(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return tx}function
-mw(i,m){var
-a=mv(m);if(a){var
-j=a[1],c=mt(i,j);if(c){var
-e=c[1],g=n(f(e),i),h=g?aj(function(a){return I(ej(a,[0,d,b]))},e):g;return h?l(function(a){return ej(ms(a,e),[0,d,b])},j):h}var
+d=b;return d}return t7}function
+mQ(i,m){var
+a=mP(m);if(a){var
+j=a[1],c=mN(i,j);if(c){var
+e=c[1],g=n(f(e),i),h=g?ak(function(a){return I(ep(a,[0,d,b]))},e):g;return h?l(function(a){return ep(mM(a,e),[0,d,b])},j):h}var
 k=c}else
 var
 k=a;return k}function
-ty(a){return a}function
-tz(a){return a}function
-tA(a,b){return aQ(tz,ty,A,a,b)}function
-tB(a){return a}function
-tC(a){return a}function
-a6(a,b){return aQ(tC,tB,tA,a,b)}function
-iP(a,f,c,d){if(c){var
-h=c[2],i=J(a,b),g=el(c[1],i,f);if(d){var
-j=iP(a,f,h,d[2]),k=d[1],l=function(c,b){return D(c,t(a,g,b))},m=function(b){return _(t(a,g,b))};return[0,aQ(function(a){return a},m,l,k,c),j]}var
-n=iP(a,f,h,0);return[0,e(function(b){return _(t(a,g,b))},c),n]}return d}function
-gM(h,a){if(a){var
+t8(a){return a}function
+t9(a){return a}function
+t_(a,b){return aS(t9,t8,A,a,b)}function
+t$(a){return a}function
+ua(a){return a}function
+a_(a,b){return aS(ua,t$,t_,a,b)}function
+i0(a,f,c,d){if(c){var
+h=c[2],i=J(a,b),g=er(c[1],i,f);if(d){var
+j=i0(a,f,h,d[2]),k=d[1],l=function(c,b){return E(c,t(a,g,b))},m=function(b){return $(t(a,g,b))};return[0,aS(function(a){return a},m,l,k,c),j]}var
+n=i0(a,f,h,0);return[0,e(function(b){return $(t(a,g,b))},c),n]}return d}function
+gR(h,a){if(a){var
 b=a[1];if(b)var
-c=b[1],e=K(d,c[1]),i=e?[0,iP(h,c,b[2],a[2])]:e,f=i;else
+c=b[1],e=K(d,c[1]),i=e?[0,i0(h,c,b[2],a[2])]:e,f=i;else
 var
 f=b;var
 g=f}else
 var
 g=a;return g}function
-mx(g,f,e){var
+mR(g,f,e){var
 a=f,b=e;for(;;){if(b){if(a){var
-c=gM(g,b);if(c){var
+c=gR(g,b);if(c){var
 a=a[1],b=c[1];continue}var
 d=c}else
 var
 d=a;return d}return 1}}function
-my(d,b,a){if(b)if(a)var
-e=a[1],f=my(d,b[2],a[2]),g=cz(d,b[1])?cd(e):cD(e),c=[0,g,f];else
+mS(d,b,a){if(b)if(a)var
+e=a[1],f=mS(d,b[2],a[2]),g=cB(d,b[1])?cd(e):cF(e),c=[0,g,f];else
 var
 c=a;else
 var
 c=b;return c}function
-mz(a,b){if(a)if(b)var
-d=mz(a[2],b[2]),c=[0,my(a[1],a,b[1]),d];else
+mT(a,b){if(a)if(b)var
+d=mT(a[2],b[2]),c=[0,mS(a[1],a,b[1]),d];else
 var
 c=b;else
 var
 c=a;return c}function
-a7(a){if(a){var
-b=a[1],c=a7(b),d=e(function(a){return[0,1,a]},c),f=a7(b);return g(e(function(a){return[0,0,a]},f),d)}return tD}function
-eo(c,a){var
-b=f(a);if(mx(c,b,a))return 1;var
-d=a7(bh(b));return l(function(d){return mx(c,b,mz([0,0,d],a))},d)}function
-aw(a){function
+a$(a){if(a){var
+b=a[1],c=a$(b),d=e(function(a){return[0,1,a]},c),f=a$(b);return g(e(function(a){return[0,0,a]},f),d)}return ub}function
+ev(c,a){var
+b=f(a);if(mR(c,b,a))return 1;var
+d=a$(aR(b));return l(function(d){return mR(c,b,mT([0,0,d],a))},d)}function
+ay(a){function
 b(b){var
-c=j(a,b[2]);return[0,e(a,b[1]),c]}return function(a){return e(b,a)}}function
-aC(h,e){var
+c=h(a,b[2]);return[0,e(a,b[1]),c]}return function(a){return e(b,a)}}function
+aE(h,e){var
 c=h,a=e[1],b=e[3];for(;;){if(c){if(b){var
-d=b[1],f=b[2],g=c[1]?A(a,d):D(a,d),c=c[2],a=g,b=f;continue}return a}return a}}function
-iQ(c,b,a){var
-d=a7(c);return l(function(c){return j(a,j(aw(function(a){return aC(c,a)}),b))},d)}function
-iR(h,d,c){if(d)if(c)var
-i=c[2],e=c[1],j=d[2],f=d[1],a=function(c,a){return aN(c,F(h,b),a)},k=iR(h,j,i),l=function(c,b){var
-d=a(b,e);return A(a(f,c),d)},m=function(b){return a(b,e)},n=aQ(function(b){return a(f,b)},m,l,i,j),o=a(f,e),g=[0,[0,A(a(f,e),o),n],k];else
+d=b[1],f=b[2],g=c[1]?A(a,d):E(a,d),c=c[2],a=g,b=f;continue}return a}return a}}function
+i1(c,b,a){var
+d=a$(c);return l(function(c){return h(a,h(ay(function(a){return aE(c,a)}),b))},d)}function
+i2(h,d,c){if(d)if(c)var
+i=c[2],e=c[1],j=d[2],f=d[1],a=function(c,a){return aP(c,F(h,b),a)},k=i2(h,j,i),l=function(c,b){var
+d=a(b,e);return A(a(f,c),d)},m=function(b){return a(b,e)},n=aS(function(b){return a(f,b)},m,l,i,j),o=a(f,e),g=[0,[0,A(a(f,e),o),n],k];else
 var
 g=c;else
 var
 g=d;return g}function
-ep(b,d,a,c){function
+ew(b,d,a,c){function
 e(c,d){var
-e=aN(d,b,a);return D(A(c,c),e)}function
-f(c){return _(aN(c,b,a))}return aQ(function(a){return A(a,a)},f,e,d,c)}function
-gN(d,i,h,g){var
+e=aP(d,b,a);return E(A(c,c),e)}function
+f(c){return $(aP(c,b,a))}return aS(function(a){return A(a,a)},f,e,d,c)}function
+gS(d,i,h,g){var
 c=i,b=h,a=g;for(;;){if(c){if(b){var
-e=b[1],f=c[1],j=cD(e[2]),k=a6(a,iR(d,f,ep(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
-iS(b,a){return[0,[0,0,b],a]}function
-fn(i,b,c,h,g,a){function
+e=b[1],f=c[1],j=cF(e[2]),k=a_(a,i2(d,f,ew(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
+i3(b,a){return[0,[0,0,b],a]}function
+fq(i,b,c,h,g,a){function
 d(a){if(a){var
-j=ac([0,_(a[1][2]),0],b),c=gN(h,g,a[2],j),d=n(f(c),b);if(d)return eo(i,c);var
+j=ac([0,$(a[1][2]),0],b),c=gS(h,g,a[2],j),d=n(f(c),b);if(d)return ev(i,c);var
 e=d}else
 var
-e=a;return e}return iQ(b,iS(c,a),d)}function
-gO(g,f,e){var
+e=a;return e}return i1(b,i3(c,a),d)}function
+gT(g,f,e){var
 a=f,b=e;for(;;){if(a){var
-d=a[1],h=d[1],c=gM(g,[0,[0,cd(d[2]),h],b]);if(c){var
+d=a[1],h=d[1],c=gR(g,[0,[0,cd(d[2]),h],b]);if(c){var
 a=a[2],b=c[1];continue}return c}return[0,b]}}function
-iT(d,b,c,a){function
+i4(d,b,c,a){function
 e(a){if(a){var
-j=ac([0,a[1][2],0],b),c=gO(d,a[2],j);if(c){var
-e=c[1],g=n(f(e),b);if(g)return eo(d,e);var
+j=ac([0,a[1][2],0],b),c=gT(d,a[2],j);if(c){var
+e=c[1],g=n(f(e),b);if(g)return ev(d,e);var
 h=g}else
 var
 h=c;var
 i=h}else
 var
-i=a;return i}return iQ(b,iS(c,a),e)}function
-mA(h,g,a,f,d,c){var
-i=[0,u,u,0],b=e(function(a){return[0,a[1],i]},c),j=a?a[1]:[0,u,u,0];return fn(h,g,j,f,d,b)}function
-iU(b,a){var
-c=a7(b);return l(function(b){return K(d,aC(b,a)[1])},c)}function
-gP(c,b,a){var
-d=a[3],f=e(function(a){return aN(c,b,a)},d),g=a[2];return[0,aN(c,b,a[1]),g,f]}function
-mB(a,b){var
-c=b[3],d=a[3],e=aQ(function(a){return a},_,D,d,c),f=a[2];return[0,D(a[1],b[1]),f,e]}function
+i=a;return i}return i1(b,i3(c,a),e)}function
+mU(h,g,a,f,d,c){var
+i=[0,u,u,0],b=e(function(a){return[0,a[1],i]},c),j=a?a[1]:[0,u,u,0];return fq(h,g,j,f,d,b)}function
+i5(b,a){var
+c=a$(b);return l(function(b){return K(d,aE(b,a)[1])},c)}function
+gU(c,b,a){var
+d=a[3],f=e(function(a){return aP(c,b,a)},d),g=a[2];return[0,aP(c,b,a[1]),g,f]}function
+mV(a,b){var
+c=b[3],d=a[3],e=aS(function(a){return a},$,E,d,c),f=a[2];return[0,E(a[1],b[1]),f,e]}function
 bZ(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-ag(c,b,a){var
-d=aq(c,b[3],a[3]),e=aq(c,b[2],a[2]);return[0,aq(c,b[1],a[1]),e,d]}function
-a3(b,a){var
-c=s(b,a[3]),d=s(b,a[2]);return[0,s(b,a[1]),d,c]}function
-bl(b,a){var
-c=am(b[3],a),d=am(b[2],a);return[0,am(b[1],a),d,c]}function
-aa(b,a){var
-c=s(b[3],a[3]),d=s(b[2],a[2]);return B(B(s(b[1],a[1]),d),c)}function
-dG(a){return bl(a,aL(aa(a,a)))}function
-c5(a){var
-b=a[5];return b?b[1]:aL(a[2])}function
-gQ(b,a){return b?a:br(a)}function
-mC(e,a,i,d,h){var
-f=aa(a,e),b=ag(y,e,a3(f,a)),j=aa(b,b),g=y(W(d),j),c=gQ(h,aL(g)),k=y(f,c),l=ag(B,a,bl(b,c));return[0,ag(B,b,a3(c,a)),g,l,k,[0,d],0,[0,i]]}function
-mD(a,e,d){var
-b=aa(a,a),c=aL(b),f=[0,e],g=z(function(b){return ag(y,a,a3(aa(b,a),b))},d);return[0,a,b,bl(a,c),c,0,g,f]}function
-mE(c,a){var
-d=aa(a,c);return[0,a,m(b),a,d,0,0,0]}function
-fo(a){return e(function(a){var
+ah(c,b,a){var
+d=ar(c,b[3],a[3]),e=ar(c,b[2],a[2]);return[0,ar(c,b[1],a[1]),e,d]}function
+a7(b,a){var
+c=r(b,a[3]),d=r(b,a[2]);return[0,r(b,a[1]),d,c]}function
+bm(b,a){var
+c=an(b[3],a),d=an(b[2],a);return[0,an(b[1],a),d,c]}function
+ab(b,a){var
+c=r(b[3],a[3]),d=r(b[2],a[2]);return B(B(r(b[1],a[1]),d),c)}function
+dM(a){return bm(a,aN(ab(a,a)))}function
+c_(a){var
+b=a[5];return b?b[1]:aN(a[2])}function
+gV(b,a){return b?a:bs(a)}function
+mW(e,a,i,d,h){var
+f=ab(a,e),b=ah(z,e,a7(f,a)),j=ab(b,b),g=z(X(d),j),c=gV(h,aN(g)),k=z(f,c),l=ah(B,a,bm(b,c));return[0,ah(B,b,a7(c,a)),g,l,k,[0,d],0,[0,i]]}function
+mX(a,e,d){var
+b=ab(a,a),c=aN(b),f=[0,e],g=y(function(b){return ah(z,a,a7(ab(b,a),b))},d);return[0,a,b,bm(a,c),c,0,g,f]}function
+mY(c,a){var
+d=ab(a,c);return[0,a,m(b),a,d,0,0,0]}function
+fr(a){return e(function(a){var
 b=a[2];return[0,bZ(a[1]),b]},a)}function
-mF(a){return e(function(a){var
+mZ(a){return e(function(a){var
 c=m(b);return[0,bZ(a[3]),c]},a)}function
-mG(b,a){var
-c=j(b,a[3]),d=j(b,a[2]);return[0,j(b,a[1]),d,c]}function
-mH(c,b,a){var
-d=aq(c,b[3],a[3]),e=aq(c,b[2],a[2]);return[0,aq(c,b[1],a[1]),e,d]}function
-eq(d,a){var
+m0(b,a){var
+c=h(b,a[3]),d=h(b,a[2]);return[0,h(b,a[1]),d,c]}function
+m1(c,b,a){var
+d=ar(c,b[3],a[3]),e=ar(c,b[2],a[2]);return[0,ar(c,b[1],a[1]),e,d]}function
+ex(d,a){var
 b=cc(d,[0,a[2],a[2]]);if(b){var
 c=b[1];return[0,c[2],c[2]]}return[0,a[2],a[2]]}function
-gR(a,n,f,m,e,k,j){var
-o=mH(by,k,j),b=mH(function(b,c){return aR(a,b,c)},e,o),c=b[3],g=b[2],h=b[1],i=ce(ce(ce($(J(a,d)),h),g),c),p=a7(n);return l(function(c){var
-b=mG(function(b){return Q(a,aC(c,b))},e),h=b[3],j=b[2],k=b[1],l=t(a,m,eq(a,A(A(A(J(a,d),k),j),h))),g=D(aC(c,i),l),n=f?D(g,aC(c,f[1])):g;return K(d,n[1])},p)}function
-cg(a){return dz(F(a[1],a[2]),b)}function
-er(a){var
-b=cg(a);return aM(a[2],b)}function
-dI(c,b){if(b)var
-a=b[1],e=dI([0,c],b[2]),f=er(a),h=[0,[0,er(a),f],0],i=g(ac(u,c),h),j=cg(a),d=[0,[0,[0,cg(a),j],a,i],e];else
+gW(a,n,f,m,e,k,j){var
+o=m1(bA,k,j),b=m1(function(b,c){return aT(a,b,c)},e,o),c=b[3],g=b[2],h=b[1],i=cg(cg(cg(aa(J(a,d)),h),g),c),p=a$(n);return l(function(c){var
+b=m0(function(b){return R(a,aE(c,b))},e),h=b[3],j=b[2],k=b[1],l=t(a,m,ex(a,A(A(A(J(a,d),k),j),h))),g=E(aE(c,i),l),n=f?E(g,aE(c,f[1])):g;return K(d,n[1])},p)}function
+ci(a){return dF(F(a[1],a[2]),b)}function
+ey(a){var
+b=ci(a);return aO(a[2],b)}function
+dO(c,b){if(b)var
+a=b[1],e=dO([0,c],b[2]),f=ey(a),h=[0,[0,ey(a),f],0],i=g(ac(u,c),h),j=ci(a),d=[0,[0,[0,ci(a),j],a,i],e];else
 var
 d=b;return d}function
-c6(d,b){if(b){var
+c$(d,b){if(b){var
 c=b[2],a=b[1];if(d){var
-e=c6(d[1],c);return[0,[0,a,e[1]],[0,a,e[2]]]}var
-f=a[2],g=[0,[0,cg(a),f],c],h=cg(a);return[0,[0,[0,a[1],h],c],g]}return tE}function
-mI(d,c,a){if(c){if(a){var
-e=mI(d,c[2],a[2]);return A(aN(c[1],F(d,b),a[1]),e)}return u}return u}function
-dJ(f,a){if(a)var
-g=a[1],c=g[2],d=g[1],h=a[2],b=function(a,b){return mI(f,a,b)},j=dJ(f,h),k=e(function(a){var
+e=c$(d[1],c);return[0,[0,a,e[1]],[0,a,e[2]]]}var
+f=a[2],g=[0,[0,ci(a),f],c],h=ci(a);return[0,[0,[0,a[1],h],c],g]}return uc}function
+m2(d,c,a){if(c){if(a){var
+e=m2(d,c[2],a[2]);return A(aP(c[1],F(d,b),a[1]),e)}return u}return u}function
+dP(f,a){if(a)var
+g=a[1],c=g[2],d=g[1],h=a[2],b=function(a,b){return m2(f,a,b)},j=dP(f,h),k=e(function(a){var
 e=b(d,a[2]);return A(b(a[1],c),e)},h),l=b(d,c),i=[0,[0,A(b(d,c),l),k],j];else
 var
 i=a;return i}function
-dK(e,b,d,a){if(b)if(a)var
-f=b[1],g=dK(e,b[2],d,a[2]),c=[0,[0,f,ep(e,a[1][1],d,f)],g];else
+dQ(e,b,d,a){if(b)if(a)var
+f=b[1],g=dQ(e,b[2],d,a[2]),c=[0,[0,f,ew(e,a[1][1],d,f)],g];else
 var
 c=a;else
 var
 c=b;return c}function
-gS(f,d,c,b,a){if(a){var
+gX(f,d,c,b,a){if(a){var
 g=a[2];if(d){var
-i=gS(f,d[1],c,b,g);return[0,[0,D(u,b),0],i]}var
-j=e(function(a){return[0,D(u,b),0]},g),h=[0,[0,D(_(t(f,c,cD(a[1][2]))),b),0],j]}else
+i=gX(f,d[1],c,b,g);return[0,[0,E(u,b),0],i]}var
+j=e(function(a){return[0,E(u,b),0]},g),h=[0,[0,E($(t(f,c,cF(a[1][2]))),b),0],j]}else
 var
 h=a;return h}function
-aV(d,c,a){var
-b=n(f(a),c);return b?eo(d,a):b}function
-gT(d,b,a){if(b)var
-c=b[1],f=gT([0,d],b[2],a),h=g(ac(u,d),[0,a,0]),e=[0,[0,c,[0,aM(c[1],a[2]),F(c[2],a[2])],h],f];else
+aY(d,c,a){var
+b=n(f(a),c);return b?ev(d,a):b}function
+gY(d,b,a){if(b)var
+c=b[1],f=gY([0,d],b[2],a),h=g(ac(u,d),[0,a,0]),e=[0,[0,c,[0,aO(c[1],a[2]),F(c[2],a[2])],h],f];else
 var
 e=b;return e}function
-mJ(d){if(d){var
+m3(d){if(d){var
 a=d[1][1];if(a){var
 b=a[2];if(b){var
 c=b[2];if(c){if(c[2])return 0;var
-g=c[1],h=b[1],i=a[1],j=mJ(d[2]);return z(function(a){return[0,[0,[0,i,h],g],a]},j)}var
+g=c[1],h=b[1],i=a[1],j=m3(d[2]);return y(function(a){return[0,[0,[0,i,h],g],a]},j)}var
 e=c}else
 var
 e=b;var
 f=e}else
 var
-f=a;return f}return tF}function
-mK(d,c,b,a){return cD(bV(function(e,a){var
-b=bH(aC(c,a[2]));return A(e,t(d,a[1],[0,b,b]))},a,b))}function
-mL(b,c,a){return c?au(b,a):al(b,a)}function
-mM(b,i,h,a){return eq(b,an(function(k,j){var
+f=a;return f}return ud}function
+m4(d,c,b,a){return cF(bz(function(e,a){var
+b=bJ(aE(c,a[2]));return A(e,t(d,a[1],[0,b,b]))},a,b))}function
+m5(b,c,a){return c?aw(b,a):am(b,a)}function
+m6(b,i,h,a){return ex(b,ao(function(k,j){var
 p=e(function(b){var
-a=aE(0,i);return e(function(a){return bH(r(a,b[3],u))},a)},k);function
+a=aG(0,i);return e(function(a){return bJ(s(a,b[3],u))},a)},k);function
 a(n,m){var
-o=mL(h,n,p),g=e(function(a){return mL(h,m,a)},o);function
-a(a){return an(bp,d,a)}var
+o=m5(h,n,p),g=e(function(a){return m5(h,m,a)},o);function
+a(a){return ao(bq,d,a)}var
 i=0;function
 j(a){return a}function
 k(a){return a}var
-c=a(an(function(a,b){return aQ(k,j,l0,a,b)},i,g)),l=[0,c,c],f=a(e(function(a){return an(l0,d,a)},g));return eq(b,t(b,[0,f,f],l))}var
-c=a(1,1),f=a(1,0),g=a(0,1);return A(j,Q(b,A(A(A(a(0,0),g),f),c)))},u,a))}function
-mN(d,a,g,f){var
-h=aE(0,d);return e(function(d){var
-e=g?ab(a,d):aB(d,a);return e?b:cb(c(2,b),f)},h)}function
-mO(b,a){var
-c=V(b,a);return e(function(a){return aN(a[1],d,a[2])},c)}function
-mP(c,b,a){var
+c=a(ao(function(a,b){return aS(k,j,l_,a,b)},i,g)),l=[0,c,c],f=a(e(function(a){return ao(l_,d,a)},g));return ex(b,t(b,[0,f,f],l))}var
+c=a(1,1),f=a(1,0),g=a(0,1);return A(j,R(b,A(A(A(a(0,0),g),f),c)))},u,a))}function
+m7(d,a,g,f){var
+h=aG(0,d);return e(function(d){var
+e=g?ae(a,d):aD(d,a);return e?b:cb(c(2,b),f)},h)}function
+m8(b,a){var
+c=V(b,a);return e(function(a){return aP(a[1],d,a[2])},c)}function
+m9(c,b,a){var
 d=[0,[0,a,0],0],f=V(c,b);return g(e(function(a){return g(a[1],[0,a[2],0])},f),d)}function
-mQ(g,e){var
+m_(g,e){var
 a=g,b=e;for(;;){if(b){if(a){var
 c=n(f(b[1]),a);if(c){var
 a=a[1],b=b[2];continue}var
 d=c}else
 var
 d=a;return d}return a?0:1}}function
-mR(b,a){var
-c=V(b,a);return e(function(a){return a[1]?_(a[2]):a[2]},c)}function
-mS(a,f,b,d,c){var
-h=gT(a,ac(u,dy(f,a)),c),i=g(e($,au(a,b)),h);return g(gT(0,al(a,b),d),i)}function
-mT(a,e,c){var
-f=t(a,e,c);return K(d,D(J(a,b),f)[1])}function
-iV(a){return z(function(a){return z(fk,a)},a)}function
-c7(c,b,a){function
-d(a){return aR(c,b,a)}return z(function(a){return z(d,a)},a)}function
-iW(c,b,a){function
-d(a){return em(c,a,b)}return z(function(a){return c2(d,a)},a)}function
-es(b,a){var
+m$(b,a){var
+c=V(b,a);return e(function(a){return a[1]?$(a[2]):a[2]},c)}function
+na(a,f,b,d,c){var
+h=gY(a,ac(u,dE(f,a)),c),i=g(e(aa,aw(a,b)),h);return g(gY(0,am(a,b),d),i)}function
+nb(a,e,c){var
+f=t(a,e,c);return K(d,E(J(a,b),f)[1])}function
+i6(a){return y(function(a){return y(fn,a)},a)}function
+da(c,b,a){function
+d(a){return aT(c,b,a)}return y(function(a){return y(d,a)},a)}function
+i7(c,b,a){function
+d(a){return et(c,a,b)}return y(function(a){return c7(d,a)},a)}function
+ez(b,a){var
 c=V(b,a);return e(function(c){var
 a=c[2],b=c[1];if(b){if(a){var
-d=a[1],e=b[1];return[0,cF(function(b,a){return[0,ce(b,a)]},e,d)]}return b}return a},c)}function
-gU(a){return $(J(a,c(2,b)))}function
-iX(a,au,at,L,c){var
-av=bX(aA,c),f=j(bz(a,au,at),av);switch(c[0]){case
+d=a[1],e=b[1];return[0,cJ(function(b,a){return[0,cg(b,a)]},e,d)]}return b}return a},c)}function
+gZ(a){return aa(J(a,c(2,b)))}function
+i8(a,au,at,L,c){var
+av=ce(aC,c),f=h(bB(a,au,at),av);switch(c[0]){case
 1:var
 O=c[1],d=e(function(d){var
-c=n(O,d),e=c?[0,[0,$(J(a,b))]]:c;return e},L);break;case
+c=n(O,d),e=c?[0,[0,aa(J(a,b))]]:c;return e},L);break;case
 3:var
-d=es(c[1][2],c[2][2]);break;case
+d=ez(c[1][2],c[2][2]);break;case
 4:var
-P=e(iV,c[2][2]),d=es(c[1][2],P);break;case
+P=e(i6,c[2][2]),d=ez(c[1][2],P);break;case
 5:var
-d=e(iV,c[1][2]);break;case
+d=e(i6,c[1][2]);break;case
 6:var
 x=c[2],y=c[1],g=y[1],u=0;if(g){var
-h=x[1];if(h)var
-Q=x[2],R=g[1],S=e(function(b){return c7(a,R,b)},Q),T=y[2],U=h[1],d=es(e(function(b){return c7(a,U,b)},T),S);else{var
-z=h;u=1}}else{var
+i=x[1];if(i)var
+Q=x[2],R=g[1],S=e(function(b){return da(a,R,b)},Q),T=y[2],U=i[1],d=ez(e(function(b){return da(a,U,b)},T),S);else{var
+z=i;u=1}}else{var
 z=g;u=1}if(u)var
 d=z;break;case
 7:var
 v=0;if(f){var
-A=c[2],i=A[1];if(i)var
-V=A[2],W=fk(f[1]),X=e(function(b){return c7(a,W,b)},V),Y=es(c[1][2],X),Z=i[1],d=e(function(b){return iW(a,Z,b)},Y);else{var
-B=i;v=1}}else{var
+A=c[2],j=A[1];if(j)var
+V=A[2],W=fn(f[1]),X=e(function(b){return da(a,W,b)},V),Y=ez(c[1][2],X),Z=j[1],d=e(function(b){return i7(a,Z,b)},Y);else{var
+B=j;v=1}}else{var
 B=f;v=1}if(v)var
 d=B;break;case
 8:var
 C=c[1],k=C[1];if(k)var
-_=C[2],aa=k[1],ab=aR(a,gU(a),aa),d=e(function(b){return c7(a,ab,b)},_);else
+_=C[2],$=k[1],ab=aT(a,gZ(a),$),d=e(function(b){return da(a,ab,b)},_);else
 var
 d=k;break;case
 9:if(f)var
-ac=c[1][2],ad=f[1],ae=aR(a,gU(a),ad),d=e(function(b){return iW(a,ae,b)},ac);else
+ac=c[1][2],ad=f[1],ae=aT(a,gZ(a),ad),d=e(function(b){return i7(a,ae,b)},ac);else
 var
 d=f;break;case
 10:var
 D=c[4],E=c[3],F=c[2],l=F[1],w=0;if(l){var
 m=l[1],o=E[1],M=0;if(o){var
 p=o[1],q=D[1],N=0;if(q){var
-r=md(a,m,p,q[1]);if(r){var
-G=r[1],s=G[2],t=G[1],af=E[2],ag=by(p,s),ah=e(function(b){return c7(a,ag,b)},af),ai=F[2],aj=by(m,t),ak=es(e(function(b){return c7(a,aj,b)},ai),ah),al=e(iV,D[2]),am=gU(a),an=es(e(function(b){return c7(a,am,b)},ak),al),ao=c[1]?t:fk(s),ap=e(function(b){return c7(a,ao,b)},an),aq=aR(a,m,s),ar=by(aR(a,p,t),aq),as=aR(a,gU(a),ar),d=e(function(b){return iW(a,as,b)},ap);M=1;N=1}else
+r=mx(a,m,p,q[1]);if(r){var
+G=r[1],s=G[2],t=G[1],af=E[2],ag=bA(p,s),ah=e(function(b){return da(a,ag,b)},af),ai=F[2],aj=bA(m,t),ak=ez(e(function(b){return da(a,aj,b)},ai),ah),al=e(i6,D[2]),am=gZ(a),an=ez(e(function(b){return da(a,am,b)},ak),al),ao=c[1]?t:fn(s),ap=e(function(b){return da(a,ao,b)},an),aq=aT(a,m,s),ar=bA(aT(a,p,t),aq),as=aT(a,gZ(a),ar),d=e(function(b){return i7(a,as,b)},ap);M=1;N=1}else
 var
 H=r}else
 var
@@ -1852,151 +2044,151 @@ K=I;w=1}}else{var
 K=l;w=1}if(w)var
 d=K;break;default:var
 d=e(function(a){return 0},L)}return[0,f,d]}function
-iY(b,c,a){if(a)var
-f=a[1],g=iY(b,c,a[2]),d=[0,e(function(a){return _(t(b,t(b,c,f),a))},a),g];else
+i9(b,c,a){if(a)var
+f=a[1],g=i9(b,c,a[2]),d=[0,e(function(a){return $(t(b,t(b,c,f),a))},a),g];else
 var
 d=a;return d}function
-iZ(a){return l(function(a){var
+i_(a){return l(function(a){var
 b=L(a[1],d);return b?L(a[2],d):b},a)}function
-i0(c,b,a){var
-d=V(b,a);return an(function(a,b){return A(t(c,a[1],a[2]),b)},u,d)}function
-i1(c,b,a){var
-d=bH(i0(c,a,b));return an(function(b,a){return F(bH(b),a)},d,a)}function
-ch(a){return J(a,b)}function
-fp(a,i,c,v,u){var
+i$(c,b,a){var
+d=V(b,a);return ao(function(a,b){return A(t(c,a[1],a[2]),b)},u,d)}function
+ja(c,b,a){var
+d=bJ(i$(c,a,b));return ao(function(b,a){return F(bJ(b),a)},d,a)}function
+cj(a){return J(a,b)}function
+fs(a,i,c,v,u){var
 f=v,e=u;for(;;){if(f){var
-j=f[1],n=0;if(!iZ(c)&&!iZ(j)){var
-h=i1(a,i,j),o=ch(a),p=i1(a,i,c),b=el([0,i1(a,i,c),p],o,[0,h,h])[1],k=K(d,h),l=k?K(d,b):k;if(l)var
-q=av(iK(a,[0,b,b])),r=function(b){return function(d,c){return D(t(a,[0,b,b],d),c)}}(b),s=[0,b,b],m=[0,a6(e,iY(a,q,aQ(function(c){return function(b){return t(a,c,b)}}(s),_,r,j,c)))];else
+j=f[1],n=0;if(!i_(c)&&!i_(j)){var
+h=ja(a,i,j),o=cj(a),p=ja(a,i,c),b=er([0,ja(a,i,c),p],o,[0,h,h])[1],k=K(d,h),l=k?K(d,b):k;if(l)var
+q=ax(iQ(a,[0,b,b])),r=function(b){return function(d,c){return E(t(a,[0,b,b],d),c)}}(b),s=[0,b,b],m=[0,a_(e,i9(a,q,aS(function(c){return function(b){return t(a,c,b)}}(s),$,r,j,c)))];else
 var
 m=l;var
 g=m;n=1}if(!n)var
 g=[0,e];if(g){var
 f=f[2],e=g[1];continue}return g}return[0,e]}}function
-mU(a){var
+nc(a){var
 b=a[2],c=e(function(a){return[0,a[1],u]},b);return[0,[0,a[1][1],u],c]}function
-i2(h,n,a,m,l,k){var
+jb(h,n,a,m,l,k){var
 d=m,c=l,b=k;for(;;){if(d){if(c){var
-i=c[1],j=i[1],f=d[1],o=cD(j[2]),p=a6(b,iR(a,f,ep(a,j[1],o,f))),q=i[2],r=e(function(c){return function(b){return e(av,ep(a,b[1],b[2],c))}}(f),q),g=fp(h,n,e(function(b){return aN(b,a,ch(h))},f),r,p);if(g){var
+i=c[1],j=i[1],f=d[1],o=cF(j[2]),p=a_(b,i2(a,f,ew(a,j[1],o,f))),q=i[2],r=e(function(c){return function(b){return e(ax,ew(a,b[1],b[2],c))}}(f),q),g=fs(h,n,e(function(b){return aP(b,a,cj(h))},f),r,p);if(g){var
 d=d[2],c=c[2],b=g[1];continue}return g}return[0,b]}return[0,b]}}function
-mV(a,j,r,q){var
+nd(a,j,r,q){var
 c=r,f=q;for(;;){if(c){var
 k=c[1],l=k[1],g=l[2],h=l[1],m=k[2],n=[0,[0,cd(g),h],f];if(m){var
 o=K(d,g[1]);if(o)var
 s=e(function(a){var
-b=a[1];return[0,av(a[2]),b]},m),t=e(function(a){return u},h),v=[0,ch(a),t],w=ch(a),b=fp(a,[0,_(el(i0(a,h,j),w,g)),j],v,s,n);else
+b=a[1];return[0,ax(a[2]),b]},m),t=e(function(a){return u},h),v=[0,cj(a),t],w=cj(a),b=fs(a,[0,$(er(i$(a,h,j),w,g)),j],v,s,n);else
 var
 b=o}else
 var
 b=[0,n];if(b){var
-i=gM(a,b[1]);if(i){var
+i=gR(a,b[1]);if(i){var
 c=c[2],f=i[1];continue}var
 p=i}else
 var
 p=b;return p}return[0,f]}}function
-mW(c,b,a){var
-d=aE(0,a);return e(function(a){return n(a,b)?ch(c):u},d)}function
-mX(c,b,a){if(b){if(a){var
-d=mX(c,b[2],a[2]);return A(aN(b[1],c,a[1]),d)}return u}return u}function
-mY(a,j){switch(j){case
+ne(c,b,a){var
+d=aG(0,a);return e(function(a){return n(a,b)?cj(c):u},d)}function
+nf(c,b,a){if(b){if(a){var
+d=nf(c,b[2],a[2]);return A(aP(b[1],c,a[1]),d)}return u}return u}function
+ng(a,j){switch(j){case
 0:var
-d=aM(a[2],a[1]),e=a[1];return[0,[0,e,e],[0,[0,d,d],0]];case
+d=aO(a[2],a[1]),e=a[1];return[0,[0,e,e],[0,[0,d,d],0]];case
 1:var
-f=aM(a[1],a[2]),g=a[2];return[0,[0,g,g],[0,[0,f,f],0]];default:var
-c=dz(F(a[1],a[2]),b),h=aM(c,a[2]),i=aM(a[2],c);return[0,[0,c,c],[0,[0,i,i],[0,[0,h,h],0]]]}}function
-fq(d,c,a){if(a)var
-e=a[1],g=fq(d,[0,c],a[2]),b=z(aI,l4(function(a){return n(a[1],c)},d)),h=b?mY(e,b[1])[1]:e,f=[0,h,g];else
+f=aO(a[1],a[2]),g=a[2];return[0,[0,g,g],[0,[0,f,f],0]];default:var
+c=dF(F(a[1],a[2]),b),h=aO(c,a[2]),i=aO(a[2],c);return[0,[0,c,c],[0,[0,i,i],[0,[0,h,h],0]]]}}function
+ft(d,c,a){if(a)var
+e=a[1],g=ft(d,[0,c],a[2]),b=y(aK,mb(function(a){return n(a[1],c)},d)),h=b?ng(e,b[1])[1]:e,f=[0,h,g];else
 var
 f=a;return f}function
-gV(a,b){return e(function(a){var
-c=a[2];return mY(r(a[1],b,u),c)[2]},a)}function
-gW(i,b,f,a){function
-d(a){return aC(b,a[1])}var
-h=0,j=$(u);function
+g0(a,b){return e(function(a){var
+c=a[2];return ng(s(a[1],b,u),c)[2]},a)}function
+g1(i,b,f,a){function
+d(a){return aE(b,a[1])}var
+h=0,j=aa(u);function
 c(f,d,a,b){if(a){var
-h=function(a){return aC(f,r(d,a[2],j))},k=e(h,b[1]),l=h(b[2]),m=c(f,[0,d],a[2],b),n=a[1];return g(e(function(a){var
+h=function(a){return aE(f,s(d,a[2],j))},k=e(h,b[1]),l=h(b[2]),m=c(f,[0,d],a[2],b),n=a[1];return g(e(function(a){var
 b=t(i,a,l);return[0,e(function(b){return t(i,a,b)},k),b]},n),m)}return a}var
 k=c(b,h,f,a),l=d(a[2]);return[0,[0,e(d,a[1]),l],k]}var
-tV=$(u);function
-mZ(e,d,c){if(d){var
-f=r(e,c[2],tW),a=f?f[1]:[0,tV];if(a)var
-b=mZ([0,e],d[2],c),h=b?[0,[0,a[1],b[1]]]:b,g=h;else
+ut=aa(u);function
+nh(e,d,c){if(d){var
+f=s(e,c[2],uu),a=f?f[1]:[0,ut];if(a)var
+b=nh([0,e],d[2],c),h=b?[0,[0,a[1],b[1]]]:b,g=h;else
 var
-g=a;return g}return tX}function
-m0(a,c,h,p,o,g,n){var
-d=a7(c);return l(function(d){var
-f=j(n,d);if(f){var
-q=t(a,o,f[1]),i=D(J(a,b),q),r=h?D(i,aC(d,h[1])):i,k=function(b){function
-f(c){return t(a,b,aC(d,c))}var
-g=e(function(a){return e(f,a)},p);return aV(a,c,a6(ac([0,r,0],c),g))},l=k(av(g));if(l)return k(_(av(g)));var
+g=a;return g}return uv}function
+ni(a,c,i,p,o,g,n){var
+d=a$(c);return l(function(d){var
+f=h(n,d);if(f){var
+q=t(a,o,f[1]),j=E(J(a,b),q),r=i?E(j,aE(d,i[1])):j,k=function(b){function
+f(c){return t(a,b,aE(d,c))}var
+g=e(function(a){return e(f,a)},p);return aY(a,c,a_(ac([0,r,0],c),g))},l=k(ax(g));if(l)return k($(ax(g)));var
 m=l}else
 var
 m=f;return m},d)}function
-m1(c,b,a){if(a){var
+nj(c,b,a){if(a){var
 d=a[2];if(c){var
-f=m1(c[1],b,d);return[0,a[1],f]}var
+f=nj(c[1],b,d);return[0,a[1],f]}var
 e=[0,b,d]}else
 var
 e=a;return e}function
-fr(a,g){var
-b=a2(function(e){var
-c=r(e,a,u),b=E(c[1],d),f=b?E(d,c[2]):b;return I(f)},g);if(b){if(b[2])return a;var
-f=b[1],c=r(f,a,u),e=K(d,c[1])?c[1]:c[2];return m1(f,[0,e,e],a)}return a}function
-m2(c,a){if(a)var
-b=a[2],f=m2(c,b),g=b?b[1]:e(tl,c),d=[0,[0,a[1],g],f];else
+fu(a,g){var
+b=a5(function(e){var
+c=s(e,a,u),b=D(c[1],d),f=b?D(d,c[2]):b;return I(f)},g);if(b){if(b[2])return a;var
+f=b[1],c=s(f,a,u),e=K(d,c[1])?c[1]:c[2];return nj(f,[0,e,e],a)}return a}function
+nk(c,a){if(a)var
+b=a[2],f=nk(c,b),g=b?b[1]:e(tI,c),d=[0,[0,a[1],g],f];else
 var
 d=a;return d}function
-i3(a){return a?m2(a[1],a):a}function
-c8(c,d,b,a){if(d){var
+jc(a){return a?nk(a[1],a):a}function
+db(c,d,b,a){if(d){var
 e=d[1];if(a){var
-f=c8(c,e,b,a[2]);return[0,a[1],f]}return[0,c,c8(c,e,b,0)]}return a?[0,b,a[2]]:[0,b,0]}function
-gX(a,c,b){if(c)if(b)var
-g=b[2],e=b[1],h=c[2],d=c[1],i=gX(a,h,g),j=function(c,b){var
-f=t(a,e,b);return A(t(a,d,c),f)},k=function(b){return t(a,e,b)},l=aQ(function(b){return t(a,d,b)},k,j,g,h),f=[0,[0,t(a,A(d,d),e),l],i];else
+f=db(c,e,b,a[2]);return[0,a[1],f]}return[0,c,db(c,e,b,0)]}return a?[0,b,a[2]]:[0,b,0]}function
+g2(a,c,b){if(c)if(b)var
+g=b[2],e=b[1],h=c[2],d=c[1],i=g2(a,h,g),j=function(c,b){var
+f=t(a,e,b);return A(t(a,d,c),f)},k=function(b){return t(a,e,b)},l=aS(function(b){return t(a,d,b)},k,j,g,h),f=[0,[0,t(a,A(d,d),e),l],i];else
 var
 f=b;else
 var
 f=c;return f}function
-c9(d,c,b,a){return c8(u,c,i0(d,a,b),a)}function
-i4(a,f,e,b,d,c){var
-g=aE(0,b);return an(function(g,c){var
-h=c9(a,f,e,mW(a,g,b));return a6(c,iY(a,_(d),h))},c,g)}function
-i5(a,d,c,j,i,h,g,f){var
-k=c9(a,d,c,e(function(b){return J(a,C(h,b))},i));return a6(f,gX(a,c9(a,d,c,e(function(c){return aN(c,F(g,b),ch(a))},j)),k))}function
-i6(a,h,g,q,f,p,o,n){var
+dc(d,c,b,a){return db(u,c,i$(d,a,b),a)}function
+jd(a,f,e,b,d,c){var
+g=aG(0,b);return ao(function(g,c){var
+h=dc(a,f,e,ne(a,g,b));return a_(c,i9(a,$(d),h))},c,g)}function
+je(a,d,c,j,i,h,g,f){var
+k=dc(a,d,c,e(function(b){return J(a,C(h,b))},i));return a_(f,g2(a,dc(a,d,c,e(function(c){return aP(c,F(g,b),cj(a))},j)),k))}function
+jf(a,h,g,q,f,p,o,n){var
 d=p,c=o,b=n;for(;;){if(d){if(c){var
-k=c[1],l=k[1],i=d[1],m=c9(a,h,g,e(function(b){return aN(b,f,ch(a))},i)),r=cD(l[2]),s=c9(a,h,g,ep(f,l[1],r,i)),t=a6(b,gX(a,e(av,m),s)),u=k[2],j=fp(a,q,m,e(function(c){return function(b){return c9(a,h,g,e(av,ep(f,b[1],b[2],c)))}}(i),u),t);if(j){var
+k=c[1],l=k[1],i=d[1],m=dc(a,h,g,e(function(b){return aP(b,f,cj(a))},i)),r=cF(l[2]),s=dc(a,h,g,ew(f,l[1],r,i)),t=a_(b,g2(a,e(ax,m),s)),u=k[2],j=fs(a,q,m,e(function(c){return function(b){return dc(a,h,g,e(ax,ew(f,b[1],b[2],c)))}}(i),u),t);if(j){var
 d=d[2],c=c[2],b=j[1];continue}return j}return[0,b]}return[0,b]}}function
-m3(g,b,f,a){if(a)var
-c=a[2],d=a[1],h=r(b,c,u),e=[0,d,c8(u,b,A(t(g,f,d),h),c)];else
+nl(g,b,f,a){if(a)var
+c=a[2],d=a[1],h=s(b,c,u),e=[0,d,db(u,b,A(t(g,f,d),h),c)];else
 var
 e=a;return e}function
-m4(a,b,m,D,C,B){var
+nm(a,b,m,D,C,B){var
 i=C,h=B;for(;;){if(i){var
-n=i[1],o=n[1],j=o[2],p=n[2],c=c9(a,b,m,o[1]);if(p){var
+n=i[1],o=n[1],j=o[2],p=n[2],c=dc(a,b,m,o[1]);if(p){var
 q=K(d,j[1]);if(q)var
-E=ch(a),f=cd(_(el(r(b,c,u),E,j))),k=cd(j),v=c8(u,b,f,0),w=r(b,c,u),x=a6(h,gX(a,v,c8(u,b,A(av(t(a,f,k)),w),c))),y=r(b,c,u),z=[0,[0,k,c8(u,b,A(t(a,f,k),y),c)],x],F=e(function(e){return function(c){var
-d=c9(a,b,m,c[1]);return m3(a,b,e,[0,av(c[2]),d])}}(f),p),G=e(function(a){return u},c),g=fp(a,[0,u,D],m3(a,b,f,[0,ch(a),G]),F,z);else
+E=cj(a),f=cd($(er(s(b,c,u),E,j))),k=cd(j),v=db(u,b,f,0),w=s(b,c,u),x=a_(h,g2(a,v,db(u,b,A(ax(t(a,f,k)),w),c))),y=s(b,c,u),z=[0,[0,k,db(u,b,A(t(a,f,k),y),c)],x],F=e(function(e){return function(c){var
+d=dc(a,b,m,c[1]);return nl(a,b,e,[0,ax(c[2]),d])}}(f),p),G=e(function(a){return u},c),g=fs(a,[0,u,D],nl(a,b,f,[0,cj(a),G]),F,z);else
 var
 g=q}else
 var
 g=[0,[0,[0,cd(j),c],h]];if(g){var
-l=gM(a,g[1]);if(l){var
+l=gR(a,g[1]);if(l){var
 i=i[2],h=l[1];continue}var
-s=l}else
+r=l}else
 var
-s=g;return s}return[0,h]}}function
-i7(f,d,c,b,a){var
-g=e($,c);return iM(0,bz(f,dI(0,a),g),b,d,0)}function
+r=g;return r}return[0,h]}}function
+jg(f,d,c,b,a){var
+g=e(aa,c);return cf(0,bB(f,dO(0,a),g),b,d)}function
 ad(a){if(a){var
 b=a[1];if(b)var
 c=ad(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return t2}function
-fs(b,a){if(a){var
-h=a[1],n=h[1],c=ad(e(function(a){return r(a,b,0)},n));if(c){var
-f=r(h[2],b,0);if(f){var
-i=f[1],g=fs(b,a[2]);if(g)var
+d=b;return d}return uA}function
+fv(b,a){if(a){var
+h=a[1],n=h[1],c=ad(e(function(a){return s(a,b,0)},n));if(c){var
+f=s(h[2],b,0);if(f){var
+i=f[1],g=fv(b,a[2]);if(g)var
 j=K(d,i[2][1]),k=j?[0,[0,[0,c[1],i],g[1]]]:j;else
 var
 k=g;var
@@ -2005,79 +2197,79 @@ var
 l=f;var
 m=l}else
 var
-m=c;return m}return t3}function
-cI(d,c,b){var
-a=fs(d,c);return a?j(b,a[1]):a}function
-c_(a,b){return l(function(c){var
-a=r(c,b,0),d=a?1:a;return d},a)}function
-gY(b,a){if(b){var
-c=b[1],d=c[3],e=a[3],f=function(a){return a},g=aQ(function(a){return a},f,A,e,d),h=a[2];return[0,A(a[1],c[1]),h,g]}return a}function
-i8(b,a){return b?mB(a,b[1]):a}function
-i9(h,g,b,f){var
-a=r(f,h,0);if(a){var
+m=c;return m}return uB}function
+cM(d,c,b){var
+a=fv(d,c);return a?h(b,a[1]):a}function
+dd(a,b){return l(function(c){var
+a=s(c,b,0),d=a?1:a;return d},a)}function
+g3(b,a){if(b){var
+c=b[1],d=c[3],e=a[3],f=function(a){return a},g=aS(function(a){return a},f,A,e,d),h=a[2];return[0,A(a[1],c[1]),h,g]}return a}function
+jh(b,a){return b?mV(a,b[1]):a}function
+ji(h,g,b,f){var
+a=s(f,h,0);if(a){var
 c=a[1];if(b){var
-i=mB(c,b[1]),e=a7(g);return l(function(a){return E(d,aC(a,i)[1])},e)}return E(d,c[2][1])}return a}function
-i_(f,d,a){function
-c(a){return aN(a,d,J(f,b))}if(a){var
-g=e(c,a[2]);return[0,c(a[1]),u,g]}return $(u)}function
-gZ(b,a){var
-c=r(a[1],b,0);if(c){var
-d=r(a[2],b,0);if(d)var
-e=r(a[3],b,0),h=e?[0,[0,c[1],d[1],e[1]]]:e,f=h;else
+i=mV(c,b[1]),e=a$(g);return l(function(a){return D(d,aE(a,i)[1])},e)}return D(d,c[2][1])}return a}function
+jj(f,d,a){function
+c(a){return aP(a,d,J(f,b))}if(a){var
+g=e(c,a[2]);return[0,c(a[1]),u,g]}return aa(u)}function
+g4(b,a){var
+c=s(a[1],b,0);if(c){var
+d=s(a[2],b,0);if(d)var
+e=s(a[3],b,0),h=e?[0,[0,c[1],d[1],e[1]]]:e,f=h;else
 var
 f=d;var
 g=f}else
 var
 g=c;return g}function
-g0(b,a){return ad(e(function(a){return r(a,b,0)},a))}function
-et(c,k,X,C,i,h,j,g,a){switch(g[0]){case
+g5(b,a){return ad(e(function(a){return s(a,b,0)},a))}function
+eA(c,k,X,C,i,h,j,g,a){switch(g[0]){case
 0:var
 s=g[1];if(typeof
 a!=="number")switch(a[0]){case
 0:var
-Y=c_(C,i);if(Y){var
-aE=a[2],aF=a[1],aG=gY(j,$(s));return cI(i,k,function(a){return fn(c,h,aG,aF,aE,a)})}return Y;case
+Y=dd(C,i);if(Y){var
+aD=a[2],aF=a[1],aG=g3(j,aa(s));return cM(i,k,function(a){return fq(c,h,aG,aF,aD,a)})}return Y;case
 1:var
-Z=c_(C,i);if(Z){var
-aH=a[2],aI=a[1],aJ=gY(j,$(s));return cI(i,X,function(a){return fn(c,h,aJ,aI,aH,a)})}return Z;case
+Z=dd(C,i);if(Z){var
+aH=a[2],aI=a[1],aJ=g3(j,aa(s));return cM(i,X,function(a){return fq(c,h,aJ,aI,aH,a)})}return Z;case
 2:var
-_=c_(C,i);if(_){var
-aa=L(s[1],d),ab=aa?L(s[2],d):aa;if(ab){var
-aK=a[2],aL=a[1];return cI(i,k,function(a){return mA(c,h,j,aL,aK,a)})}var
+_=dd(C,i);if(_){var
+$=L(s[1],d),ab=$?L(s[2],d):$;if(ab){var
+aK=a[2],aL=a[1];return cM(i,k,function(a){return mU(c,h,j,aL,aK,a)})}var
 ac=ab}else
 var
 ac=_;return ac}return 0;case
 1:var
 ae=g[1];if(typeof
 a==="number"){if(1===a){var
-aO=i8(j,$(ae));return cI(i,X,function(a){return iT(c,h,aO,a)})}if(!a){var
-aP=i8(j,$(ae));return cI(i,k,function(a){return iT(c,h,aP,a)})}}return 0;case
+aM=jh(j,aa(ae));return cM(i,X,function(a){return i4(c,h,aM,a)})}if(!a){var
+aN=jh(j,aa(ae));return cM(i,k,function(a){return i4(c,h,aN,a)})}}return 0;case
 2:if(typeof
 a!=="number"&&3===a[0]){var
-af=a[1],m=i_(c,af,a[3]),ag=g[1],aQ=a[2];return cI(i,k,function(d){var
-a=iU(h,m),b=a?fn(c,h,gY(j,m),af,aQ,d):a;if(b){var
-f=m[3],g=e(function(a){return t(c,ag,a)},f),i=m[2];return iT(c,h,i8(j,[0,t(c,ag,m[1]),i,g]),d)}return b})}return 0;case
+af=a[1],m=jj(c,af,a[3]),ag=g[1],aQ=a[2];return cM(i,k,function(d){var
+a=i5(h,m),b=a?fq(c,h,g3(j,m),af,aQ,d):a;if(b){var
+f=m[3],g=e(function(a){return t(c,ag,a)},f),i=m[2];return i4(c,h,jh(j,[0,t(c,ag,m[1]),i,g]),d)}return b})}return 0;case
 3:if(typeof
-a==="number"&&!a)return i9(i,h,j,g[1]);return 0;case
+a==="number"&&!a)return ji(i,h,j,g[1]);return 0;case
 4:if(typeof
 a!=="number"&&0===a[0]){var
-aR=a[2],aS=a[1],aT=gY(j,$(g[2])),aU=function(a){return fn(c,h,aT,aS,aR,a)};return cI(i,g[1],aU)}return 0;case
+aR=a[2],aS=a[1],aT=g3(j,aa(g[2])),aU=function(a){return fq(c,h,aT,aS,aR,a)};return cM(i,g[1],aU)}return 0;case
 5:if(typeof
 a==="number"&&!(3<=a))switch(a){case
-0:return i9(i,h,j,g[1]);case
-2:return i9(i,h,j,g[2])}return 0;case
+0:return ji(i,h,j,g[1]);case
+2:return ji(i,h,j,g[2])}return 0;case
 6:if(typeof
 a!=="number"&&8===a[0]){var
-E=gZ(i,g[1]);if(E){var
-G=gZ(i,g[2]);if(G){var
-H=gZ(i,g[3]);if(H){var
-I=gZ(i,g[4]);if(I){var
-ah=I[1],ai=H[1],aj=G[1],ak=E[1],o=a[2],v=g[5],aW=a[1];if(o){var
+D=g4(i,g[1]);if(D){var
+G=g4(i,g[2]);if(G){var
+H=g4(i,g[3]);if(H){var
+I=g4(i,g[4]);if(I){var
+ah=I[1],ai=H[1],aj=G[1],ak=D[1],o=a[2],v=g[5],aV=a[1];if(o){var
 p=o[2];if(p){var
 q=p[2];if(q){if(q[2])return 0;var
-aD=[0,o[1],p[1],q[1]],r=mG(function(f){function
-g(a){return aN(a,aW,J(c,b))}if(f){var
-a=e(g,f[2]),d=g(f[1]),h=fj(a),i=F(d[2],h),j=fj(a);return[0,d,[0,aM(d[1],j),i],a]}return $(u)},aD),O=l(function(a){return n(f(a),[0,h])},o),P=O?gR(c,h,j,v,r,ak,ai):O,R=P?gR(c,h,j,v,r,ak,ah):P,S=R?gR(c,h,j,v,r,aj,ai):R;if(S)return gR(c,h,j,v,r,aj,ah);var
+aC=[0,o[1],p[1],q[1]],r=m0(function(f){function
+g(a){return aP(a,aV,J(c,b))}if(f){var
+a=e(g,f[2]),d=g(f[1]),h=gN(a),i=F(d[2],h),j=gN(a);return[0,d,[0,aO(d[1],j),i],a]}return aa(u)},aC),O=l(function(a){return n(f(a),[0,h])},o),P=O?gW(c,h,j,v,r,ak,ai):O,Q=P?gW(c,h,j,v,r,ak,ah):P,S=Q?gW(c,h,j,v,r,aj,ai):Q;if(S)return gW(c,h,j,v,r,aj,ah);var
 T=S}else
 var
 T=q;var
@@ -2093,37 +2285,37 @@ al=H;var
 am=al}else
 var
 am=G;var
-ao=am}else
+an=am}else
 var
-ao=E;return ao}return 0;case
+an=D;return an}return 0;case
 7:if(typeof
 a!=="number"&&0===a[0]){var
-ap=a[2],aq=a[1],aX=g[2],aY=g[1];return cI(i,k,function(e){var
+ap=a[2],aq=a[1],aW=g[2],aX=g[1];return cM(i,k,function(e){var
 a=n(f(e),h),d=a?n(f(ap),h):a;if(d){var
 g=function(a){if(a){var
 d=a[2],e=n(f(d),h);if(e){var
-i=dJ(aq,dK(aq,ap,J(c,b),d));return aV(c,h,a6(gS(c,aY,aX,a[1][2],d),i))}var
+i=dP(aq,dQ(aq,ap,J(c,b),d));return aY(c,h,a_(gX(c,aX,aW,a[1][2],d),i))}var
 g=e}else
 var
-g=a;return g},i=j?j[1]:$(u);return iQ(h,iS(i,e),g)}return d})}return 0;case
+g=a;return g},i=j?j[1]:aa(u);return i1(h,i3(i,e),g)}return d})}return 0;case
 8:if(typeof
 a==="number"&&5<=a){var
-aZ=g[3],a0=g[2],a1=function(a){return mA(c,h,j,a0,aZ,a)};return cI(i,g[1],a1)}return 0;case
+aZ=g[3],a0=g[2],a1=function(a){return mU(c,h,j,a0,aZ,a)};return cM(i,g[1],a1)}return 0;case
 11:if(typeof
 a==="number"&&!a){var
-K=g0(i,g[1]);if(K){var
-a2=g[2],M=ad(e(function(a){return g0(i,a)},a2));if(M){var
-N=g0(i,[0,g[3],[0,g[4],[0,g[5],[0,g[6],0]]]]);if(N){var
+K=g5(i,g[1]);if(K){var
+a2=g[2],M=ad(e(function(a){return g5(i,a)},a2));if(M){var
+N=g5(i,[0,g[3],[0,g[4],[0,g[5],[0,g[6],0]]]]);if(N){var
 w=N[1];if(w){var
 x=w[2];if(x){var
-y=x[2];if(y){var
-B=y[2];if(B){if(B[2])return 0;var
-ar=B[1],as=y[1][2],at=x[1][2],au=w[1][2],av=M[1],a3=K[1],W=m0(c,h,j,av,au,at,function(d){return[0,eq(c,an(function(b,a){return A(Q(c,aC(d,b)),a)},u,a3))]});return W?W:m0(c,h,j,av,au,at,function(f){var
-b=cd(ar[1]),a=cc(c,D(as,Q(c,b)));if(a){var
-d=bW(c,a[1]),e=D(as,t(c,b,aC(f,ar)));return z(function(a){return t(c,e,a)},d)}return a})}var
+z=x[2];if(z){var
+B=z[2];if(B){if(B[2])return 0;var
+ar=B[1],as=z[1][2],at=x[1][2],au=w[1][2],av=M[1],a3=K[1],W=ni(c,h,j,av,au,at,function(d){return[0,ex(c,ao(function(b,a){return A(R(c,aE(d,b)),a)},u,a3))]});return W?W:ni(c,h,j,av,au,at,function(f){var
+b=cd(ar[1]),a=cc(c,E(as,R(c,b)));if(a){var
+d=bX(c,a[1]),e=E(as,t(c,b,aE(f,ar)));return y(function(a){return t(c,e,a)},d)}return a})}var
 aw=B}else
 var
-aw=y;var
+aw=z;var
 ax=aw}else
 var
 ax=x;var
@@ -2139,38 +2331,38 @@ aA=M;var
 aB=aA}else
 var
 aB=K;return aB}return 0;default:return 0}}function
-m5(c,a){var
-d=r(a[1],c,0);if(d)var
+nn(c,a){var
+d=s(a[1],c,0);if(d)var
 g=a[2][2],b=ad(e(function(a){var
-b=r(a[2],c,0);return z(function(b){return[0,a[1],b]},b)},g)),h=b?[0,[0,a[2][1],b[1]]]:b,f=h;else
+b=s(a[2],c,0);return y(function(b){return[0,a[1],b]},b)},g)),h=b?[0,[0,a[2][1],b[1]]]:b,f=h;else
 var
 f=d;return f}function
-m6(b,a){return g(b,cY(a[1]))}function
-m7(a,H,y,v,s,au,o,m,q,p,k){switch(p[0]){case
+no(b,a){return g(b,c2(a[1]))}function
+np(a,B,z,v,r,av,o,m,q,p,k){switch(p[0]){case
 9:var
-a5=p[2],a8=p[1];if(typeof
+a7=p[2],a8=p[1];if(typeof
 k!=="number"&&9===k[0]){var
-ax=k[2],L=k[1],a9=k[3];if(0<aT(k[4]))return et(a,y,v,s,o,f(m),q,p,k);var
-aR=e($,au),Z=bj(0,bz(a,gT(0,m,a8),aR),H,0),ay=n(f(m),t4),az=ay?c_(s,Z):ay;if(az){var
-M=fs(Z,v);if(M){var
-N=fs(o,v);if(N){var
-O=ad(e(function(a){return m5(o,a)},a5));if(O){var
-P=mJ(M[1]);if(P){var
-aA=N[1],a_=O[1],a$=P[1],aa=eq(a,an(function(f,h){function
+aw=k[2],M=k[1],a9=k[3];if(0<aV(k[4]))return eA(a,z,v,r,o,f(m),q,p,k);var
+ba=cG(g(r,w(function(a){return g(a[1],[0,a[2],0])},v)),B),aT=e(aa,av),_=cf(0,bB(a,gY(0,m,a8),aT),ba,B),az=n(f(m),uC),aA=az?dd(r,_):az;if(aA){var
+N=fv(_,v);if(N){var
+O=fv(o,v);if(O){var
+P=ad(e(function(a){return nn(o,a)},a7));if(P){var
+Q=m3(N[1]);if(Q){var
+aB=O[1],bb=P[1],bc=Q[1],ab=ex(a,ao(function(f,i){function
 b(b,d){var
-a=f[1],c=b?b[1]?f[2]:a[2]:a[1];return bH(r(d,c[3],u))}function
+a=f[1],c=b?b[1]?f[2]:a[2]:a[1];return bJ(s(d,c[3],u))}function
 c(a){var
-b=j(a,tG),c=bp(j(a,tH),b);return bp(j(a,0),c)}var
+b=h(a,ue),c=bq(h(a,uf),b);return bq(h(a,0),c)}var
 d=c(function(a){var
-c=b(tI,a),d=b(tJ,a);return F(F(b(0,a),d),c)}),g=[0,d,d],e=c(function(a){var
-c=b(a,tK),d=b(a,tL);return F(F(b(a,0),d),c)});return A(h,Q(a,eq(a,t(a,[0,e,e],g))))},u,a$)),z=aN(a9,L,J(a,b)),ae=K(d,D(z,aa)[1]),af=ae?n(f(ax),tR):ae,ag=af?n(f(aA),tS):af;if(ag){var
-B=bW(a,z);if(B){var
-aS=av(t(a,aa,B[1])),aU=D(J(a,b),aS),aW=a7(tT);return l(function(h){var
-g=e(function(b){return mK(a,h,b[1],b[2])},a_),p=j(aw(function(a){return aC(h,a)}),aA),F=q?aC(h,q[1]):u,M=Q(a,aU),r=Q(a,z),o=dJ(L,dK(L,ax,J(a,b),p)),c=a6(ac([0,_(F),0],tM),o);if(g){var
+c=b(ug,a),d=b(uh,a);return F(F(b(0,a),d),c)}),g=[0,d,d],e=c(function(a){var
+c=b(a,ui),d=b(a,uj);return F(F(b(a,0),d),c)});return A(i,R(a,ex(a,t(a,[0,e,e],g))))},u,bc)),C=aP(a9,M,J(a,b)),af=K(d,E(C,ab)[1]),ag=af?n(f(aw),up):af,ah=ag?n(f(aB),uq):ag;if(ah){var
+D=bX(a,C);if(D){var
+aU=ax(t(a,ab,D[1])),aW=E(J(a,b),aU),aX=a$(ur);return l(function(i){var
+g=e(function(b){return m4(a,i,b[1],b[2])},bb),p=h(ay(function(a){return aE(i,a)}),aB),F=q?aE(i,q[1]):u,N=R(a,aW),r=R(a,C),o=dP(M,dQ(M,aw,J(a,b),p)),c=a_(ac([0,$(F),0],uk),o);if(g){var
 d=g[2];if(d){var
 f=d[2];if(f){if(f[2])return 0;var
-B=d[1],C=g[1],I=f[1],i=aV(a,tO,a6(ac([0,_(r),0],tN),c));if(i)return l(function(E){var
-J=D(M,F),K=E[2]?B:_(B),L=E[1]?C:_(C),o=0;if(c){var
+B=d[1],D=g[1],I=f[1],j=aY(a,um,a_(ac([0,$(r),0],ul),c));if(j)return l(function(C){var
+J=E(N,F),K=C[2]?B:$(B),L=C[1]?D:$(D),o=0;if(c){var
 b=c[1],l=0;if(b){var
 d=b[2],m=0;if(d){var
 e=d[2],n=0;if(e)if(e[2]){var
@@ -2209,8 +2401,8 @@ var
 z=b;if(!l){var
 A=z;o=1}}else{var
 A=c;o=1}if(o)var
-k=A;return aV(a,tQ,k)},tP);var
-k=i}else
+k=A;return aY(a,uo,k)},un);var
+k=j}else
 var
 k=f;var
 m=k}else
@@ -2218,346 +2410,75 @@ var
 m=d;var
 n=m}else
 var
-n=g;return n},aW)}var
-ah=B}else
+n=g;return n},aX)}var
+ai=D}else
 var
-ah=ag;return ah}var
-aD=P}else
+ai=ah;return ai}var
+aC=Q}else
 var
-aD=O;var
-aE=aD}else
+aC=P;var
+aF=aC}else
 var
-aE=N;var
-aF=aE}else
-var
-aF=M;var
+aF=O;var
 aG=aF}else
 var
-aG=az;return aG}return et(a,y,v,s,o,f(m),q,p,k);case
+aG=N;var
+aH=aG}else
+var
+aH=aA;return aH}return eA(a,z,v,r,o,f(m),q,p,k);case
 10:var
-h=p[1];if(typeof
+i=p[1];if(typeof
 k!=="number"&&9===k[0]){var
-i=f(m),a0=fi(m6(s,h),H),a1=e($,au),a2=h[7],a3=h[6],a4=f(m),at=iM(0,bz(a,mS(h[8],a4,m,a3,a2),a1),a0,H,0),aH=ab(h[8],i),aI=aH?n(f(h[1]),i):aH;if(aI)var
-ba=h[1],R=l(function(a){return n(f(a),i)},ba);else
+j=f(m),a2=cG(no(r,i),B),a3=e(aa,av),a4=i[7],a5=i[6],a6=f(m),au=cf(0,bB(a,na(i[8],a6,m,a5,a4),a3),a2,B),aI=ae(i[8],j),aJ=aI?n(f(i[1]),j):aI;if(aJ)var
+bd=i[1],S=l(function(a){return n(f(a),j)},bd);else
 var
-R=aI;if(R)var
-bb=m6(s,h),S=l(function(b){var
-a=r(b,at,0),c=a?1:a;return c},bb);else
+S=aJ;if(S)var
+be=no(r,i),T=l(function(b){var
+a=s(b,au,0),c=a?1:a;return c},be);else
 var
-S=R;if(S)var
-bc=h[3],T=l(function(b){var
-a=r(b,o,0),c=a?1:a;return c},bc);else
+T=S;if(T)var
+bf=i[3],U=l(function(b){var
+a=s(b,o,0),c=a?1:a;return c},bf);else
 var
-T=S;if(T){var
-bd=h[1],U=ad(e(function(a){return g0(at,a)},bd));if(U){var
-V=fs(o,h[2]);if(V){var
-be=h[4],W=ad(e(function(a){return m5(o,a)},be));if(W){var
-X=k[4],aJ=k[2],Y=k[1],aK=W[1],aL=V[1],aM=U[1],w=h[8],bf=k[3],ai=mM(a,i,w,aM),C=aN(bf,Y,J(a,b)),aj=lY(X,d);if(aj)var
-E=aj;else
+U=T;if(U){var
+bg=i[1],V=ad(e(function(a){return g5(au,a)},bg));if(V){var
+W=fv(o,i[2]);if(W){var
+bh=i[4],X=ad(e(function(a){return nn(o,a)},bh));if(X){var
+Y=k[4],aK=k[2],Z=k[1],aL=X[1],aM=W[1],aN=V[1],x=i[8],bi=k[3],aj=m6(a,j,x,aN),G=aP(bi,Z,J(a,b)),ak=l8(Y,d);if(ak)var
+H=ak;else
 var
-ar=lZ(X,c(2,c(2,c(2,c(2,b))))),as=ar?aB(0,w):ar,E=as?aB(w,i):as;var
-ak=E?K(d,D(C,ai)[1]):E,al=ak?n(f(aJ),i):ak,am=al?n(f(aL),i):al;if(am){var
-ao=I(h[5]);if(ao)var
-x=ao;else
+as=l9(Y,c(2,c(2,c(2,c(2,b))))),at=as?aD(0,x):as,H=at?aD(x,j):at;var
+al=H?K(d,E(G,aj)[1]):H,am=al?n(f(aK),j):al,an=am?n(f(aM),j):am;if(an){var
+ap=I(i[5]);if(ap)var
+y=ap;else
 var
-aq=l(function(c){var
-b=an(function(c,b){var
-a=bH(c[2]);return A([0,a,a],b)},u,c);return mT(a,h[6],b)},aM),x=aq?l(function(c){var
-d=c[2],b=an(function(b,d){var
-c=bH(b[2][2]);return A(t(a,b[1],[0,c,c]),d)},u,d);return mT(a,h[6],b)},aK):aq}else
+ar=l(function(c){var
+b=ao(function(c,b){var
+a=bJ(c[2]);return A([0,a,a],b)},u,c);return nb(a,i[6],b)},aN),y=ar?l(function(c){var
+d=c[2],b=ao(function(b,d){var
+c=bJ(b[2][2]);return A(t(a,b[1],[0,c,c]),d)},u,d);return nb(a,i[6],b)},aL):ar}else
 var
-x=am;if(x){var
-G=bW(a,C);if(G){var
-aX=av(t(a,ai,G[1])),aY=D(J(a,b),aX),aZ=a7(i);return l(function(d){var
-s=e(function(b){return mK(a,d,b[1],b[2])},aK),y=j(aw(function(a){return aC(d,a)}),aL),t=q?aC(d,q[1]):u,z=Q(a,aY),A=Q(a,C),B=mN(i,w,h[9],X),k=e(function(a){var
-b=a[2];return[0,mO(B,a[1]),b]},y),v=dJ(Y,dK(Y,aJ,J(a,b),k)),c=a6(ac([0,_(t),0],i),v),m=n(f(k),i),o=m?n(f(s),i):m,p=o?mQ(i,c):o,r=p?aV(a,i,a6(ac([0,_(A),0],i),c)):p;if(r){var
-x=a7(bh(i));return l(function(b){var
-d=D(z,t);return aV(a,[0,i],mP(c,mR(g(b,tU),s),d))},x)}return r},aZ)}var
-ap=G}else
+y=an;if(y){var
+L=bX(a,G);if(L){var
+aZ=ax(t(a,aj,L[1])),a0=E(J(a,b),aZ),a1=a$(j);return l(function(d){var
+s=e(function(b){return m4(a,d,b[1],b[2])},aL),y=h(ay(function(a){return aE(d,a)}),aM),t=q?aE(d,q[1]):u,z=R(a,a0),A=R(a,G),B=m7(j,x,i[9],Y),k=e(function(a){var
+b=a[2];return[0,m8(B,a[1]),b]},y),v=dP(Z,dQ(Z,aK,J(a,b),k)),c=a_(ac([0,$(t),0],j),v),m=n(f(k),j),o=m?n(f(s),j):m,p=o?m_(j,c):o,r=p?aY(a,j,a_(ac([0,$(A),0],j),c)):p;if(r){var
+w=a$(aR(j));return l(function(b){var
+d=E(z,t);return aY(a,[0,j],m9(c,m$(g(b,us),s),d))},w)}return r},a1)}var
+aq=L}else
 var
-ap=x;return ap}var
-aO=W}else
+aq=y;return aq}var
+aO=X}else
 var
-aO=V;var
-aP=aO}else
+aO=W;var
+aQ=aO}else
 var
-aP=U;var
-aQ=aP}else
+aQ=V;var
+aS=aQ}else
 var
-aQ=T;return aQ}return et(a,y,v,s,o,f(m),q,p,k);default:return et(a,y,v,s,o,f(m),q,p,k)}}function
-g1(d){var
-a=d;for(;;){if(a){var
-b=a[2],e=a[1],c=I(aj(function(b){return function(a){return n(b,a)}}(e),b));if(c){var
-a=b;continue}return c}return 1}}function
-i$(j,i,h,g,a){var
-d=r(a,j,0);if(d){var
-b=r(a,i,0);if(b)var
-c=mZ(0,g,r(a,h,t5)),k=c?[0,[0,b[1],c[1]]]:c,e=k;else
-var
-e=b;var
-f=e}else
-var
-f=d;return f}function
-g2(i,b,a){if(a){var
-k=a[1],l=k[2],c=ad(e(b,k[1]));if(c){var
-f=j(b,l);if(f){var
-g=r(l,i,0);if(g){var
-h=g2(i,b,a[2]);if(h)var
-m=K(d,g[1][2][1]),n=m?[0,[0,[0,c[1],f[1]],h[1]]]:m;else
-var
-n=h;var
-o=n}else
-var
-o=g;var
-p=o}else
-var
-p=f;var
-q=p}else
-var
-q=c;return q}return t6}function
-m8(c,N,j,M,q,p,K,I,g,b,i,a){var
-h=f(K),O=dI(0,K),aH=bj(0,bz(c,O,e($,fq(i,0,q))),N,0),aJ=e(aA,i),aI=0,aK=e($,q),aL=bj(t7,function(a){return iX(c,O,aK,aJ,a)},N,aI),aN=gV(i,q);function
-Q(a){return i$(p,aH,aL,i,a)}function
-w(a){return e(function(a){return J(c,a)},a)}var
-aO=I?I[1]:$(u);function
-R(a){return a?aV(c,h,a[1]):a}function
-r(f,e,d,b,a){var
-g=ac([0,_(e),0],h);return R(i2(c,w(f),d,b,a,g))}function
-S(d,b,a){var
-e=ac([0,b,0],h);return R(mV(c,w(d),a,e))}var
-aP=e(aA,i),T=l(function(a){return aB(a,f(q))},aP),U=T?g1(e(aA,i)):T,W=U?l(function(a){return n(f(a),h)},a):U;if(W){var
-v=0;switch(g[0]){case
-0:var
-x=g[1],G=0;if(typeof
-b!=="number")switch(b[0]){case
-0:var
-ar=0;if(a){if(a[2])return 0;var
-aQ=a[1],aR=b[2],aS=b[1],X=c_(M,p);if(X){var
-m=function(c,a){var
-b=A(x,a);return function(a){return r(aQ,b,aS,aR,a)}},k=j;G=1;ar=1}else
-var
-aa=X}else
-var
-aa=a;if(!ar)return aa;break;case
-2:var
-as=0;if(a){if(a[2])return 0;var
-aU=a[1],aW=b[2],aX=b[1],ab=c_(M,p),at=0;if(ab){var
-ad=L(x[1],d),ae=ad?L(x[2],d):ad;if(ae){var
-m=function(c,b,a){return r(aU,b,aX,aW,e(mU,a))},k=j;G=1;as=1;at=1}else
-var
-af=ae}else
-var
-af=ab;if(!at)var
-ag=af}else
-var
-ag=a;if(!as)return ag;break}if(!G)return 0;break;case
-1:var
-au=0,aY=g[1];if(typeof
-b==="number"&&!b){if(!a)return a;if(a[2])return 0;var
-aZ=a[1],m=function(c,a){var
-b=D(aY,a);return function(a){return S(aZ,b,a)}},k=j;au=1}if(!au)return 0;break;case
-2:var
-aw=0,a0=g[1];if(typeof
-b==="number"||!(3===b[0]))aw=1;else{var
-ax=0;if(a){var
-s=a[2],ay=0;if(s){if(s[2])return 0;var
-ah=b[1],a1=s[1],a2=a[1],a3=b[2],ai=i_(c,ah,b[3]),aj=iU(h,ai);if(aj){var
-m=function(f,b,a){var
-d=aC(f,ai),e=r(a2,A(d,b),ah,a3,a);return e?S(a1,D(t(c,a0,d),b),a):e},k=j;ax=1;ay=1}else
-var
-ak=aj}else
-var
-ak=s;if(!ay)var
-al=ak}else
-var
-al=a;if(!ax)return al}if(aw)return 0;break;case
-3:var
-az=0;if(typeof
-b==="number"&&!b){if(a)return 0;var
-z=g[1];v=1}else
-az=1;if(az)return 0;break;case
-4:var
-aD=0,a5=g[2];if(typeof
-b==="number"||!(0===b[0]))aD=1;else{if(!a)return a;if(a[2])return 0;var
-a8=a[1],a9=b[2],a_=b[1],a$=function(c,a){var
-b=A(a5,a);return function(a){return r(a8,b,a_,a9,a)}},m=a$,k=g[1]}if(aD)return 0;break;case
-5:var
-H=0;if(typeof
-b==="number"&&!(3<=b))switch(b){case
-0:if(a)return 0;var
-z=g[1];v=1;break;case
-2:if(a)return 0;var
-z=g[2];v=1;break;default:H=1}else
-H=1;if(H)return 0;break;case
-7:var
-am=g[2],ao=g[1],aF=0;if(typeof
-b==="number"||!(0===b[0]))aF=1;else{var
-aG=0;if(a){if(a[2])return 0;var
-o=b[2],C=b[1],ba=a[1],ap=n(f(j),h);if(ap){var
-m=function(a,x){var
-y=w(ba);return function(g){var
-k=n(f(g),h),l=k?n(f(o),h):k;if(l){var
-s=e(aA,g),u=dJ(C,dK(C,o,ch(c),s)),v=a6(gS(c,ao,am,x,e(aA,g)),u),a=0,b=g,i=v,w=f(o);for(;;){if(b){var
-p=b[1][2],q=n(a,ao),r=e(function(g,h){return function(d){var
-a=V(aE(0,f(o)),o);return e(function(a){var
-b=mX(C,a[2],d[1]);if(h&&n(a[1],g))return D(b,av(t(c,am,d[2])));return b},a)}}(a,q),p),j=fp(c,y,mW(c,a,w),r,i);if(j){var
-a=[0,a],b=b[2],i=j[1];continue}var
-d=j}else
-var
-d=[0,i];if(d)return aV(c,h,d[1]);var
-m=d;break}}else
-var
-m=l;return m}},k=j;aG=1}else
-var
-aq=ap}else
-var
-aq=a;if(!aG)return aq}if(aF)return 0;break;default:return 0}if(v){var
-B=Q(z);if(!B)return B;var
-a4=function(b,f,a){return l(function(a){var
-b=f[2],c=a[2],e=an(function(b,a){return F(bp(d,P(b[2][1])),a)},d,c);return E(d,aM(aM(a[1][2][1],e),b))},a)},Z=a4,Y=[0,[0,0,B[1]],0]}else{var
-y=g2(p,Q,k);if(!y)return y;var
-Z=m,Y=y[1]}var
-aT=a7(h);return l(function(a){var
-b=e(function(b){return gW(c,a,aN,b)},Y);return f9(Z,a,aC(a,aO),b)},aT)}return W}function
-ja(j,a){var
-f=an(function(b,a){return bp(cx(b),a)},d,a);function
-g(a){if(a){if(L(cx(a[1]),f))return 0;var
-b=[0,g(a[2])]}else
-var
-b=a;return b}var
-h=g(a);if(L(f,d)){var
-k=e(function(a){return u},a),l=a?[0,b,a[2]]:a;return[0,[0,[0,0,l],d],k]}var
-i=iI(F(l2(f),b)),m=e(function(a){return u},a);return[0,[0,[0,h,a],i],c8(u,h,J(j,cb(c(2,b),i)),m)]}function
-g3(g,M,t,K,o,m,H,G,k,a,h,al,F,ak,C,B){var
-i=f(H),N=dI(0,H),am=bj(0,bz(g,N,e($,fq(h,0,o))),M,0),ao=e(aA,h),an=0,ap=e($,o),ar=bj(t8,function(a){return iX(g,N,ap,ao,a)},M,an),as=gV(h,o);function
-at(a){return i$(m,am,ar,h,a)}var
-au=G?G[1]:$(u),O=ja(g,al),P=O[1],Q=P[1],v=Q[2],j=Q[1],R=O[2],av=P[2],p=e(function(a){return aN(a,av,J(g,b))},v);function
-S(a){return i5(g,j,p,F,ak,C,B,i4(g,j,p,i,a,0))}function
-T(a){return a?aV(g,i,a[1]):a}function
-w(d,c,b,a){return T(i6(g,j,p,R,c,b,a,S(_(d))))}var
-aw=e(aA,h),U=l(function(a){return aB(a,f(o))},aw),V=U?g1(e(aA,h)):U,W=V?n(f(v),i):V,X=W?n(f(F),i):W,Y=X?E(d,C):X,Z=Y?gC(B,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):Y,aa=Z?aB(j,i):Z,ab=aa?I(L(r(j,v,d),d)):aa;if(ab){switch(k[0]){case
-0:var
-x=k[1],z=0;if(typeof
-a==="number")z=1;else
-switch(a[0]){case
-0:var
-ax=a[2],ay=a[1],ac=c_(K,m);if(!ac)return ac;var
-s=function(a){var
-b=A(x,a);return function(a){return w(b,ay,ax,a)}},q=t;break;case
-2:var
-aE=a[2],aF=a[1],ad=c_(K,m),ah=0;if(ad){var
-ae=L(x[1],d),af=ae?L(x[2],d):ae;if(af){var
-s=function(b,a){return w(b,aF,aE,e(mU,a))},q=t;ah=1}else
-var
-ag=af}else
-var
-ag=ad;if(!ah)return ag;break;default:z=1}if(z)return 0;break;case
-1:var
-ai=0,aG=k[1];if(typeof
-a==="number"&&!a)var
-s=function(a){var
-b=D(aG,a);return function(a){return T(m4(g,j,p,R,a,S(b)))}},q=t;else
-ai=1;if(ai)return 0;break;case
-4:var
-aj=0,aH=k[2];if(typeof
-a==="number"||!(0===a[0]))aj=1;else
-var
-aI=a[2],aJ=a[1],aK=function(a){var
-b=A(aH,a);return function(a){return w(b,aJ,aI,a)}},s=aK,q=k[1];if(aj)return 0;break;default:return 0}var
-y=g2(m,at,q);if(y){var
-az=y[1],aD=a7(i);return l(function(a){var
-b=e(function(b){return gW(g,a,as,b)},az);return aq(s,aC(a,au),b)},aD)}return y}return ab}function
-m9(r,q,p,o,n,C,m,c,l,k,i,h,g,a){var
-v=e(function(a){return d},c),u=0;if(typeof
-a!=="number")switch(a[0]){case
-5:var
-D=a[1],F=function(a){return g3(r,q,p,o,n,m,c,a,l,D,0,v,k,i,h,g)},x=F,w=a[3],s=a[2];u=1;break;case
-10:var
-b=a[3],A=a[2],f=a[1],B=0;if(typeof
-f!=="number"&&5===f[0]){if(!b)return b;if(b[2])return 0;var
-G=b[1],H=f[1],I=function(a){return g3(r,q,p,o,n,m,c,a,l,H,A,G,k,i,h,g)},x=I,w=f[3],s=f[2];u=1;B=1}if(!B)return b?b[2]?0:g3(r,q,p,o,n,m,c,0,l,f,A,b[1],k,i,h,g):b;break}if(u){var
-t=j(C,c);if(t){var
-y=E(d,s);if(y)return x([0,gP(s,w,t[1])]);var
-z=y}else
-var
-z=t;return z}return g3(r,q,p,o,n,m,c,0,l,a,0,v,k,i,h,g)}function
-m_(a,aj,aL,s,G,ai,q,p,ah,ag,h){function
-k(ak,g,j,x){var
-h=f(q),z=dI(0,q),aq=bj(0,bz(a,z,e($,fq(j,0,s))),aj,0),as=e(aA,j),ar=0,at=e($,s),au=bj(t9,function(b){return iX(a,z,at,as,b)},aj,ar);function
-av(a){return i$(ai,aq,au,j,a)}var
-aw=ak?ak[1]:$(u);function
-k(b){return b?aV(a,h,b[1]):b}function
-B(b,a){return _(A(aC(b,ah),a))}function
-C(d,c,b){return D(t(a,d,aC(c,ah)),b)}var
-ax=e(aA,j),F=l(function(a){return aB(a,f(s))},ax),G=F?g1(e(aA,j)):F,H=G?n(f(x),h):G;if(H){var
-al=0;if(ag){var
-K=ag[1],M=K[1],N=M[1],O=N[1],P=M[2],Q=K[2],ay=N[2],R=ja(a,x),S=R[1],T=S[1],v=T[2],i=T[1],U=R[2],az=S[2],m=e(function(c){return aN(c,az,J(a,b))},v),V=function(b){return i5(a,i,m,O,ay,P,Q,i4(a,i,m,h,b,0))},W=n(f(v),h),X=W?n(f(O),h):W,Y=X?E(d,P):X,Z=Y?gC(Q,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):Y,aa=Z?aB(i,h):Z,ab=aa?I(L(r(i,v,d),d)):aa,y=0;if(ab)if(p){var
-am=0,aD=p[1];if(typeof
-g==="number"&&!g){var
-o=function(d,c,b){return k(m4(a,i,m,U,b,V(C(aD,d,c))))};y=1;am=1}if(!am)return 0}else{var
-an=0;if(typeof
-g!=="number"&&0===g[0]){var
-aG=g[2],aH=g[1],o=function(d,c,b){return k(i6(a,i,m,U,aH,aG,b,V(B(d,c))))};y=1;an=1}if(!an)var
-ad=0}else
-var
-ad=ab;if(!y)return ad}else{var
-ae=e(function(b){return J(a,b)},x);if(p){var
-ao=0,aI=p[1];if(typeof
-g==="number"&&!g){var
-o=function(d,c,b){return k(mV(a,ae,b,ac([0,C(aI,d,c),0],h)))};ao=1}if(!ao)return 0}else{var
-ap=0;if(typeof
-g==="number"||!(0===g[0]))ap=1;else
-var
-aJ=g[2],aK=g[1],o=function(d,c,b){return k(i2(a,ae,aK,aJ,b,ac([0,B(d,c),0],h)))};if(ap){var
-af=0;al=1}}}if(!al){var
-w=g2(ai,av,aL);if(w){var
-aE=w[1],aF=a7(h);return l(function(b){var
-c=gV(j,s),d=e(function(d){return gW(a,b,c,d)},aE);return o(b,aC(b,aw),d)},aF)}return w}}else
-var
-af=H;return af}var
-x=e(function(a){return d},q),w=0;if(typeof
-h!=="number")switch(h[0]){case
-5:var
-H=h[1],K=function(a){return k(a,H,0,x)},z=K,y=h[3],m=h[2];w=1;break;case
-10:var
-g=h[3],v=h[2],i=h[1],F=0;if(typeof
-i!=="number")switch(i[0]){case
-5:if(!g)return g;if(g[2])return 0;var
-M=g[1],N=i[1],O=function(a){return k(a,N,v,M)},z=O,y=i[3],m=i[2];w=1;F=1;break;case
-3:case
-7:case
-9:case
-10:case
-11:case
-13:return g?g[2]?0:k(0,i,v,g[1]):g}if(!F)return g?g[2]?0:k(0,i,v,g[1]):g;break}if(w){var
-o=j(G,q);if(o){var
-B=E(d,m);if(B)return z([0,gP(m,y,o[1])]);var
-C=B}else
-var
-C=o;return C}return k(0,h,0,x)}function
-m$(l,k,i,p,h,g,o,f,b,e,a){if(typeof
-a!=="number")switch(a[0]){case
-5:var
-q=a[2],m=j(o,b);if(m){var
-r=E(d,q);if(r){var
-y=a[1];return m7(l,k,i,p,h,g,f,b,[0,gP(q,a[3],m[1])],e,y)}var
-s=r}else
-var
-s=m;return s;case
-10:var
-t=a[3],u=a[2],c=a[1];if(typeof
-c!=="number"&&5===c[0]){var
-v=c[2],n=j(o,b);if(n){var
-w=E(d,v);if(w){var
-z=c[1];return m8(l,k,i,h,g,f,b,[0,gP(v,c[3],n[1])],e,z,u,t)}var
-x=w}else
-var
-x=n;return x}return m8(l,k,i,h,g,f,b,0,e,c,u,t)}return m7(l,k,i,p,h,g,f,b,0,e,a)}function
-jb(a){switch(a[0]){case
-9:case
-10:return 0;default:return 1}}function
-dL(a){return w(function(a){return g(a[1],[0,a[2],0])},a)}function
-jc(k,f,j,a,i){var
+aS=U;return aS}return eA(a,z,v,r,o,f(m),q,p,k);default:return eA(a,z,v,r,o,f(m),q,p,k)}}function
+de(a){return w(function(a){return g(a[1],[0,a[2],0])},a)}function
+fw(k,f,j,a,i){var
 b=i;for(;;){var
 d=0;if(typeof
 b==="number"){if(1!==b)d=1}else
@@ -2568,7 +2489,7 @@ b=b[3];continue;case
 5:case
 10:var
 b=b[1];continue;default:d=1}var
-l=d?0:1,m=l?f:k,h=dL(m);switch(a[0]){case
+l=d?0:1,m=l?f:k,h=de(m);switch(a[0]){case
 0:return g(j,h);case
 3:return[0,a[1],0];case
 5:return[0,a[1],[0,a[2],0]];case
@@ -2576,21 +2497,292 @@ l=d?0:1,m=l?f:k,h=dL(m);switch(a[0]){case
 n=[0,a[1],[0,a[2],[0,a[3],[0,a[4],0]]]];return w(function(a){return[0,a[1],[0,a[2],[0,a[3],0]]]},n);case
 9:var
 o=a[2],p=w(function(a){var
-b=e(aI,a[2][2]);return[0,a[1],b]},o);return g(dL(f),p);case
+b=e(aK,a[2][2]);return[0,a[1],b]},o);return g(de(f),p);case
 10:var
 c=a[1],q=c[4],r=w(function(a){var
-b=e(aI,a[2][2]);return[0,a[1],b]},q),s=g(c[3],r);return g(dL(c[2]),s);case
+b=e(aK,a[2][2]);return[0,a[1],b]},q),s=g(c[3],r);return g(de(c[2]),s);case
 11:var
-t=[0,a[3],[0,a[4],[0,a[5],[0,a[6],0]]]],u=g(cY(a[2]),t);return g(a[1],u);case
+t=[0,a[3],[0,a[4],[0,a[5],[0,a[6],0]]]],u=g(c2(a[2]),t);return g(a[1],u);case
 4:case
-8:return dL(a[1]);default:return h}}}function
-jd(v,t,s,q,k,a,f,j){var
-h=jb(a),i=h?l(function(b){var
-a=r(b,bV(fr,f,k),u);return L(a[1],a[2])},j):h;return i?l(function(ao){switch(a[0]){case
+8:return de(a[1]);default:return h}}}function
+g6(d){var
+a=d;for(;;){if(a){var
+b=a[2],e=a[1],c=I(ak(function(b){return function(a){return n(b,a)}}(e),b));if(c){var
+a=b;continue}return c}return 1}}function
+jk(j,i,h,g,a){var
+d=s(a,j,0);if(d){var
+b=s(a,i,0);if(b)var
+c=nh(0,g,s(a,h,uD)),k=c?[0,[0,b[1],c[1]]]:c,e=k;else
+var
+e=b;var
+f=e}else
+var
+f=d;return f}function
+g7(j,b,a){if(a){var
+k=a[1],l=k[2],c=ad(e(b,k[1]));if(c){var
+f=h(b,l);if(f){var
+g=s(l,j,0);if(g){var
+i=g7(j,b,a[2]);if(i)var
+m=K(d,g[1][2][1]),n=m?[0,[0,[0,c[1],f[1]],i[1]]]:m;else
+var
+n=i;var
+o=n}else
+var
+o=g;var
+p=o}else
+var
+p=f;var
+q=p}else
+var
+q=c;return q}return uE}function
+nq(c,x,i,aI,w,q,p,N,M,g,b,j,a){var
+h=f(N),O=dO(0,N),P=cG(fw(i,aI,w,g,b),x),aJ=cf(0,bB(c,O,e(aa,ft(j,0,q))),P,x),aK=e(aC,j),aL=e(aa,q),aM=cf(uF,function(a){return i8(c,O,aL,aK,a)},P,x),aN=g0(j,q);function
+R(a){return jk(p,aJ,aM,j,a)}function
+y(a){return e(function(a){return J(c,a)},a)}var
+aP=M?M[1]:aa(u);function
+S(a){return a?aY(c,h,a[1]):a}function
+r(f,e,d,b,a){var
+g=ac([0,$(e),0],h);return S(jb(c,y(f),d,b,a,g))}function
+T(d,b,a){var
+e=ac([0,b,0],h);return S(nd(c,y(d),a,e))}var
+aQ=e(aC,j),U=l(function(a){return aD(a,f(q))},aQ),W=U?g6(e(aC,j)):U,X=W?l(function(a){return n(f(a),h)},a):W;if(X){var
+v=0;switch(g[0]){case
+0:var
+z=g[1],I=0;if(typeof
+b!=="number")switch(b[0]){case
+0:var
+as=0;if(a){if(a[2])return 0;var
+aR=a[1],aS=b[2],aT=b[1],Y=dd(w,p);if(Y){var
+m=function(c,a){var
+b=A(z,a);return function(a){return r(aR,b,aT,aS,a)}},k=i;I=1;as=1}else
+var
+ab=Y}else
+var
+ab=a;if(!as)return ab;break;case
+2:var
+at=0;if(a){if(a[2])return 0;var
+aV=a[1],aW=b[2],aX=b[1],ad=dd(w,p),au=0;if(ad){var
+ae=L(z[1],d),af=ae?L(z[2],d):ae;if(af){var
+m=function(c,b,a){return r(aV,b,aX,aW,e(nc,a))},k=i;I=1;at=1;au=1}else
+var
+ag=af}else
+var
+ag=ad;if(!au)var
+ah=ag}else
+var
+ah=a;if(!at)return ah;break}if(!I)return 0;break;case
+1:var
+av=0,aZ=g[1];if(typeof
+b==="number"&&!b){if(!a)return a;if(a[2])return 0;var
+a0=a[1],m=function(c,a){var
+b=E(aZ,a);return function(a){return T(a0,b,a)}},k=i;av=1}if(!av)return 0;break;case
+2:var
+aw=0,a1=g[1];if(typeof
+b==="number"||!(3===b[0]))aw=1;else{var
+ay=0;if(a){var
+s=a[2],az=0;if(s){if(s[2])return 0;var
+ai=b[1],a2=s[1],a3=a[1],a4=b[2],aj=jj(c,ai,b[3]),ak=i5(h,aj);if(ak){var
+m=function(f,b,a){var
+d=aE(f,aj),e=r(a3,A(d,b),ai,a4,a);return e?T(a2,E(t(c,a1,d),b),a):e},k=i;ay=1;az=1}else
+var
+al=ak}else
+var
+al=s;if(!az)var
+am=al}else
+var
+am=a;if(!ay)return am}if(aw)return 0;break;case
+3:var
+aA=0;if(typeof
+b==="number"&&!b){if(a)return 0;var
+C=g[1];v=1}else
+aA=1;if(aA)return 0;break;case
+4:var
+aB=0,a6=g[2];if(typeof
+b==="number"||!(0===b[0]))aB=1;else{if(!a)return a;if(a[2])return 0;var
+a7=a[1],a8=b[2],a9=b[1],ba=function(c,a){var
+b=A(a6,a);return function(a){return r(a7,b,a9,a8,a)}},m=ba,k=g[1]}if(aB)return 0;break;case
+5:var
+K=0;if(typeof
+b==="number"&&!(3<=b))switch(b){case
+0:if(a)return 0;var
+C=g[1];v=1;break;case
+2:if(a)return 0;var
+C=g[2];v=1;break;default:K=1}else
+K=1;if(K)return 0;break;case
+7:var
+an=g[2],ap=g[1],aF=0;if(typeof
+b==="number"||!(0===b[0]))aF=1;else{var
+aH=0;if(a){if(a[2])return 0;var
+o=b[2],H=b[1],bb=a[1],aq=n(f(i),h);if(aq){var
+m=function(a,x){var
+z=y(bb);return function(g){var
+k=n(f(g),h),l=k?n(f(o),h):k;if(l){var
+s=e(aC,g),u=dP(H,dQ(H,o,cj(c),s)),v=a_(gX(c,ap,an,x,e(aC,g)),u),a=0,b=g,i=v,w=f(o);for(;;){if(b){var
+p=b[1][2],q=n(a,ap),r=e(function(g,h){return function(d){var
+a=V(aG(0,f(o)),o);return e(function(a){var
+b=nf(H,a[2],d[1]);if(h&&n(a[1],g))return E(b,ax(t(c,an,d[2])));return b},a)}}(a,q),p),j=fs(c,z,ne(c,a,w),r,i);if(j){var
+a=[0,a],b=b[2],i=j[1];continue}var
+d=j}else
+var
+d=[0,i];if(d)return aY(c,h,d[1]);var
+m=d;break}}else
+var
+m=l;return m}},k=i;aH=1}else
+var
+ar=aq}else
+var
+ar=a;if(!aH)return ar}if(aF)return 0;break;default:return 0}if(v){var
+G=R(C);if(!G)return G;var
+a5=function(b,f,a){return l(function(a){var
+b=f[2],c=a[2],e=ao(function(b,a){return F(bq(d,Q(b[2][1])),a)},d,c);return D(d,aO(aO(a[1][2][1],e),b))},a)},_=a5,Z=[0,[0,0,G[1]],0]}else{var
+B=g7(p,R,k);if(!B)return B;var
+_=m,Z=B[1]}var
+aU=a$(h);return l(function(a){var
+b=e(function(b){return g1(c,a,aN,b)},Z);return gb(_,a,aE(a,aP),b)},aU)}return X}function
+jl(j,a){var
+f=ao(function(b,a){return bq(cz(b),a)},d,a);function
+g(a){if(a){if(L(cz(a[1]),f))return 0;var
+b=[0,g(a[2])]}else
+var
+b=a;return b}var
+h=g(a);if(L(f,d)){var
+k=e(function(a){return u},a),l=a?[0,b,a[2]]:a;return[0,[0,[0,0,l],d],k]}var
+i=iO(F(ma(f),b)),m=e(function(a){return u},a);return[0,[0,[0,h,a],i],db(u,h,J(j,cb(c(2,b),i)),m)]}function
+g8(g,w,p,an,v,o,m,M,K,i,a,h,am,H,al,G,F){var
+j=f(M),N=dO(0,M),O=cG(fw(p,an,v,i,a),w),ao=cf(0,bB(g,N,e(aa,ft(h,0,o))),O,w),ap=e(aC,h),aq=e(aa,o),as=cf(uG,function(a){return i8(g,N,aq,ap,a)},O,w),at=g0(h,o);function
+au(a){return jk(m,ao,as,h,a)}var
+av=K?K[1]:aa(u),P=jl(g,am),Q=P[1],R=Q[1],x=R[2],k=R[1],S=P[2],aw=Q[2],q=e(function(a){return aP(a,aw,J(g,b))},x);function
+T(a){return je(g,k,q,H,al,G,F,jd(g,k,q,j,a,0))}function
+U(a){return a?aY(g,j,a[1]):a}function
+y(d,c,b,a){return U(jf(g,k,q,S,c,b,a,T($(d))))}var
+ax=e(aC,h),V=l(function(a){return aD(a,f(o))},ax),W=V?g6(e(aC,h)):V,X=W?n(f(x),j):W,Y=X?n(f(H),j):X,Z=Y?D(d,G):Y,_=Z?gG(F,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):Z,ab=_?aD(k,j):_,ac=ab?I(L(s(k,x,d),d)):ab;if(ac){switch(i[0]){case
+0:var
+z=i[1],C=0;if(typeof
+a==="number")C=1;else
+switch(a[0]){case
+0:var
+ay=a[2],az=a[1],ad=dd(v,m);if(!ad)return ad;var
+t=function(a){var
+b=A(z,a);return function(a){return y(b,az,ay,a)}},r=p;break;case
+2:var
+aF=a[2],aG=a[1],ae=dd(v,m),ai=0;if(ae){var
+af=L(z[1],d),ag=af?L(z[2],d):af;if(ag){var
+t=function(b,a){return y(b,aG,aF,e(nc,a))},r=p;ai=1}else
+var
+ah=ag}else
+var
+ah=ae;if(!ai)return ah;break;default:C=1}if(C)return 0;break;case
+1:var
+aj=0,aH=i[1];if(typeof
+a==="number"&&!a)var
+t=function(a){var
+b=E(aH,a);return function(a){return U(nm(g,k,q,S,a,T(b)))}},r=p;else
+aj=1;if(aj)return 0;break;case
+4:var
+ak=0,aI=i[2];if(typeof
+a==="number"||!(0===a[0]))ak=1;else
+var
+aJ=a[2],aK=a[1],aL=function(a){var
+b=A(aI,a);return function(a){return y(b,aK,aJ,a)}},t=aL,r=i[1];if(ak)return 0;break;default:return 0}var
+B=g7(m,au,r);if(B){var
+aA=B[1],aB=a$(j);return l(function(a){var
+b=e(function(b){return g1(g,a,at,b)},aA);return ar(t,aE(a,av),b)},aB)}return B}return ac}function
+nr(s,r,q,p,o,n,E,m,c,l,k,j,i,g,a){var
+w=e(function(a){return d},c),v=0;if(typeof
+a!=="number")switch(a[0]){case
+5:var
+F=a[1],G=function(a){return g8(s,r,q,p,o,n,m,c,a,l,F,0,w,k,j,i,g)},y=G,x=a[3],t=a[2];v=1;break;case
+10:var
+b=a[3],B=a[2],f=a[1],C=0;if(typeof
+f!=="number"&&5===f[0]){if(!b)return b;if(b[2])return 0;var
+H=b[1],I=f[1],J=function(a){return g8(s,r,q,p,o,n,m,c,a,l,I,B,H,k,j,i,g)},y=J,x=f[3],t=f[2];v=1;C=1}if(!C)return b?b[2]?0:g8(s,r,q,p,o,n,m,c,0,l,f,B,b[1],k,j,i,g):b;break}if(v){var
+u=h(E,c);if(u){var
+z=D(d,t);if(z)return y([0,gU(t,x,u[1])]);var
+A=z}else
+var
+A=u;return A}return g8(s,r,q,p,o,n,m,c,0,l,a,0,w,k,j,i,g)}function
+ns(a,x,al,r,H,ak,q,p,aj,ai,i){function
+k(am,g,j,y){var
+h=f(q),B=dO(0,q),C=cG(de(al),x),as=cf(0,bB(a,B,e(aa,ft(j,0,r))),C,x),at=e(aC,j),au=e(aa,r),av=cf(uH,function(b){return i8(a,B,au,at,b)},C,x);function
+aw(a){return jk(ak,as,av,j,a)}var
+ax=am?am[1]:aa(u);function
+k(b){return b?aY(a,h,b[1]):b}function
+F(b,a){return $(A(aE(b,aj),a))}function
+G(d,c,b){return E(t(a,d,aE(c,aj)),b)}var
+ay=e(aC,j),H=l(function(a){return aD(a,f(r))},ay),K=H?g6(e(aC,j)):H,M=K?n(f(y),h):K;if(M){var
+an=0;if(ai){var
+N=ai[1],O=N[1],P=O[1],Q=P[1],R=O[2],S=N[2],az=P[2],T=jl(a,y),U=T[1],V=U[1],v=V[2],i=V[1],W=T[2],aA=U[2],m=e(function(c){return aP(c,aA,J(a,b))},v),X=function(b){return je(a,i,m,Q,az,R,S,jd(a,i,m,h,b,0))},Y=n(f(v),h),Z=Y?n(f(Q),h):Y,_=Z?D(d,R):Z,ab=_?gG(S,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):_,ad=ab?aD(i,h):ab,ae=ad?I(L(s(i,v,d),d)):ad,z=0;if(ae)if(p){var
+ao=0,aB=p[1];if(typeof
+g==="number"&&!g){var
+o=function(d,c,b){return k(nm(a,i,m,W,b,X(G(aB,d,c))))};z=1;ao=1}if(!ao)return 0}else{var
+ap=0;if(typeof
+g!=="number"&&0===g[0]){var
+aH=g[2],aI=g[1],o=function(d,c,b){return k(jf(a,i,m,W,aI,aH,b,X(F(d,c))))};z=1;ap=1}if(!ap)var
+af=0}else
+var
+af=ae;if(!z)return af}else{var
+ag=e(function(b){return J(a,b)},y);if(p){var
+aq=0,aJ=p[1];if(typeof
+g==="number"&&!g){var
+o=function(d,c,b){return k(nd(a,ag,b,ac([0,G(aJ,d,c),0],h)))};aq=1}if(!aq)return 0}else{var
+ar=0;if(typeof
+g==="number"||!(0===g[0]))ar=1;else
+var
+aK=g[2],aL=g[1],o=function(d,c,b){return k(jb(a,ag,aL,aK,b,ac([0,F(d,c),0],h)))};if(ar){var
+ah=0;an=1}}}if(!an){var
+w=g7(ak,aw,al);if(w){var
+aF=w[1],aG=a$(h);return l(function(b){var
+c=g0(j,r),d=e(function(d){return g1(a,b,c,d)},aF);return o(b,aE(b,ax),d)},aG)}return w}}else
+var
+ah=M;return ah}var
+y=e(function(a){return d},q),w=0;if(typeof
+i!=="number")switch(i[0]){case
+5:var
+K=i[1],M=function(a){return k(a,K,0,y)},B=M,z=i[3],m=i[2];w=1;break;case
+10:var
+g=i[3],v=i[2],j=i[1],G=0;if(typeof
+j!=="number")switch(j[0]){case
+5:if(!g)return g;if(g[2])return 0;var
+N=g[1],O=j[1],P=function(a){return k(a,O,v,N)},B=P,z=j[3],m=j[2];w=1;G=1;break;case
+3:case
+7:case
+9:case
+10:case
+11:case
+13:return g?g[2]?0:k(0,j,v,g[1]):g}if(!G)return g?g[2]?0:k(0,j,v,g[1]):g;break}if(w){var
+o=h(H,q);if(o){var
+C=D(d,m);if(C)return B([0,gU(m,z,o[1])]);var
+F=C}else
+var
+F=o;return F}return k(0,i,0,y)}function
+nt(m,l,k,j,i,g,p,f,b,e,a){if(typeof
+a!=="number")switch(a[0]){case
+5:var
+q=a[2],n=h(p,b);if(n){var
+r=D(d,q);if(r){var
+y=a[1];return np(m,l,k,j,i,g,f,b,[0,gU(q,a[3],n[1])],e,y)}var
+s=r}else
+var
+s=n;return s;case
+10:var
+t=a[3],u=a[2],c=a[1];if(typeof
+c!=="number"&&5===c[0]){var
+v=c[2],o=h(p,b);if(o){var
+w=D(d,v);if(w){var
+z=c[1];return nq(m,l,k,j,i,g,f,b,[0,gU(v,c[3],o[1])],e,z,u,t)}var
+x=w}else
+var
+x=o;return x}return nq(m,l,k,j,i,g,f,b,0,e,c,u,t)}return np(m,l,k,j,i,g,f,b,0,e,a)}function
+jm(a){switch(a[0]){case
+9:case
+10:return 0;default:return 1}}function
+jn(t,r,q,p,k,a,f,j){var
+h=jm(a),i=h?l(function(b){var
+a=s(b,bz(fu,f,k),u);return L(a[1],a[2])},j):h;return i?l(function(ao){switch(a[0]){case
 3:var
 f=[0,a[1],0];break;case
 4:var
-f=dL(a[1]);break;case
+f=de(a[1]);break;case
 5:var
 f=[0,a[1],[0,a[2],0]];break;case
 0:case
@@ -2598,10 +2790,10 @@ f=[0,a[1],[0,a[2],0]];break;case
 2:case
 7:var
 f=0;break;default:return 0}var
-j=0,k=bj(0,function(a){switch(a[0]){case
+j=c4(0,function(a){switch(a[0]){case
 0:return[0,[0,d]];case
 1:var
-ad=a[1],ae=aj(function(a){return n(ad,a)},ao)?b:d;return[0,[0,ae]];case
+ad=a[1],ae=ak(function(a){return n(ad,a)},ao)?b:d;return[0,[0,ae]];case
 2:var
 af=L(a[1],d)?0:[0,d];return[0,af];case
 3:var
@@ -2609,9 +2801,9 @@ e=a[2],j=a[1];if(j){var
 z=j[1];if(z){if(e){var
 A=e[1];if(A){var
 B=z[1],C=L(B,A[1]),ag=C?[0,[0,B]]:C;return ag}var
-D=j}else
+E=j}else
 var
-D=e;return D}return e}if(e){if(e[1])return 0;var
+E=e;return E}return e}if(e){if(e[1])return 0;var
 G=j}else
 var
 G=e;return G;case
@@ -2630,39 +2822,39 @@ N=f;return N;case
 6:var
 o=a[1];if(o){var
 O=o[1],g=a[2];if(O){if(g){var
-Q=g[1];if(Q)return[0,[0,F(O[1],Q[1])]];var
-R=tY}else
+P=g[1];if(P)return[0,[0,F(O[1],P[1])]];var
+R=uw}else
 var
 R=g;return R}var
-ai=g?tZ:g,S=ai}else
+ai=g?ux:g,S=ai}else
 var
 S=o;return S;case
 7:var
 p=a[1];if(p){var
 T=p[1],h=a[2];if(T){if(h)var
-q=h[1],ak=q?[0,[0,aM(T[1],q[1])]]:q,U=ak;else
+q=h[1],aj=q?[0,[0,aO(T[1],q[1])]]:q,U=aj;else
 var
 U=h;return U}var
-al=h?t0:h,V=al}else
+al=h?uy:h,V=al}else
 var
 V=p;return V;case
 8:var
 r=a[1];if(r){var
 W=r[1];if(W){var
 X=W[1];return[0,[0,F(X,X)]]}var
-Y=t1}else
+Y=uz}else
 var
 Y=r;return Y;case
 9:var
 s=a[1];if(s){var
 t=s[1];if(t){var
-i=t[1],x=aT(i);if(0===x)var
+i=t[1],x=aV(i);if(0===x)var
 m=1;else
 if(0<x)var
-m=E(i,b)?0:L(aU(i,aK(2))[2],d)?1:0;else
+m=D(i,b)?0:L(aW(i,aM(2))[2],d)?1:0;else
 var
-y=P(i),m=E(y,b)?0:L(aU(y,aK(2))[2],d)?1:0;var
-am=m?[0,[0,cB(i,c(2,b))]]:m,Z=am}else
+y=Q(i),m=D(y,b)?0:L(aW(y,aM(2))[2],d)?1:0;var
+am=m?[0,[0,cD(i,c(2,b))]]:m,Z=am}else
 var
 Z=t;var
 _=Z}else
@@ -2679,85 +2871,85 @@ var
 ab=v;var
 ac=ab}else
 var
-ac=u;return ac}},v,j);function
-m(a){return a?a[1]:d}var
-h=e(function(a){return z(m,a)},k),i=l(function(c){var
-a=r(c,h,0),b=a?1:a;return b},q);if(i){var
-o=g(dL(s),f),p=g(dL(t),o);return l(function(c){var
-a=r(c,h,0);if(a){var
-b=aT(a[1]);return 0===b?1:0<b?0:0}return a},p)}return i},f):i}function
-je(j,a,i,h,g,f,e,d,c,b){var
-k=fi(jc(i,h,g,c,b),a);return i7(j,a,bV(fr,e,f),k,d)}function
-na(f,d,c,n,m,b,l,q,e,k,j,i,h,a){if(typeof
+ac=u;return ac}},t);function
+k(a){return a?a[1]:d}var
+h=e(function(a){return y(k,a)},j),i=l(function(c){var
+a=s(c,h,0),b=a?1:a;return b},p);if(i){var
+m=g(de(q),f),o=g(de(r),m);return l(function(c){var
+a=s(c,h,0);if(a){var
+b=aV(a[1]);return 0===b?1:0<b?0:0}return a},o)}return i},f):i}function
+jo(j,a,i,h,g,f,e,d,c,b){var
+k=cG(fw(i,h,g,c,b),a);return jg(j,a,bz(fu,e,f),k,d)}function
+nu(f,d,c,n,m,b,l,q,e,k,j,i,h,a){if(typeof
 a!=="number"&&11===a[0]){var
-o=a[3],g=a[1],p=jd(d,c,n,m,b,k,g,a[2]);if(p){var
-r=je(f,d,c,n,m,b,g,e,k,o);return m_(f,d,c,bV(fr,g,b),l,r,e,j,i,h,o)}return p}return m_(f,d,c,b,l,q,e,j,i,h,a)}function
-nb(r,q,p,o,m,k,j,i,h,g,d,c,a){if(typeof
+o=a[3],g=a[1],p=jn(d,c,n,m,b,k,g,a[2]);if(p){var
+r=jo(f,d,c,n,m,b,g,e,k,o);return ns(f,d,c,bz(fu,g,b),l,r,e,j,i,h,o)}return p}return ns(f,d,c,b,l,q,e,j,i,h,a)}function
+nv(r,q,p,o,m,k,j,i,h,g,d,c,a){if(typeof
 a!=="number"&&12===a[0]){var
 b=a[1],s=I(n(f(b),0));if(s){var
-t=V(i3(e(function(a){return a[1][1][1]},b)),b);return l(function(a){var
-b=a[2],e=b[1];return na(r,q,p,o,m,k,j,i,h,g,d,c,[0,[0,[0,[0,a[1][1],a[1][2]],e[1][2]],e[2]]],b[2])},t)}return s}return na(r,q,p,o,m,k,j,i,h,g,d,c,0,a)}function
-g4(b,a){if(a){var
+t=V(jc(e(function(a){return a[1][1][1]},b)),b);return l(function(a){var
+b=a[2],e=b[1];return nu(r,q,p,o,m,k,j,i,h,g,d,c,[0,[0,[0,[0,a[1][1],a[1][2]],e[1][2]],e[2]]],b[2])},t)}return s}return nu(r,q,p,o,m,k,j,i,h,g,d,c,0,a)}function
+g9(b,a){if(a){var
 c=a[2];if(b){var
-e=g4(b[1],c);return[0,a[1],e]}var
+e=g9(b[1],c);return[0,a[1],e]}var
 d=[0,0,c]}else
 var
 d=a;return d}function
-nc(c,b,a){var
+nw(c,b,a){var
 d=V(b,a);return l(function(a){var
-b=j(c,a[1]);return b?b:I(a[2])},d)}function
-ft(i,a,g,m,c,t,o,h,b,X,p){switch(p[0]){case
+b=h(c,a[1]);return b?b:I(a[2])},d)}function
+fx(k,a,i,g,c,t,o,j,b,X,p){switch(p[0]){case
 0:var
 ab=function(a){return l(I,a)},J=ab,y=p[1];break;case
 1:var
 ac=p[4],ad=p[3],ae=p[2],af=function(d){var
-e=c6(ae,b),f=ft(i,a,g,m,c,t,o,h,e[1],d,ad);return f?ft(i,a,g,m,c,t,o,h,e[2],d,ac):f},J=af,y=p[1];break;default:var
+e=c$(ae,b),f=fx(k,a,i,g,c,t,o,j,e[1],d,ad);return f?fx(k,a,i,g,c,t,o,j,e[2],d,ac):f},J=af,y=p[1];break;default:var
 ag=p[4],ah=p[3],ai=p[2],aj=function(d){var
-e=nc(jb,t,d);if(e){var
-f=c6(ai,h),j=ft(i,a,g,m,c,t,o,f[1],b,d,ah);if(j)return ft(i,a,g,m,c,t,o,f[2],b,d,ag);var
-k=j}else
+e=nw(jm,t,d);if(e){var
+f=c$(ai,j),h=fx(k,a,i,g,c,t,o,f[1],b,d,ah);if(h)return fx(k,a,i,g,c,t,o,f[2],b,d,ag);var
+l=h}else
 var
-k=e;return k},J=aj,y=p[1]}if(y){var
-z=i7(i,a,h,fi(w(function(e){var
+l=e;return l},J=aj,y=p[1]}if(y){var
+z=jg(k,a,j,cG(w(function(e){var
 a=e[2],d=0;if(typeof
 a==="number"){if(4!==a)d=1}else
 if(11!==a[0])d=1;if(d){var
-b=G(t,e[1]);return b?jc(g,m,c,b[1],a):b}return 0},y),a),b),x=y,u=X;for(;;){if(x){var
-R=x[1],k=R[2],E=R[1],S=x[2],Y=0;if(typeof
-k==="number"&&4===k){var
-A=j(o,b);if(A)var
-_=A[1],Z=a7(f(b)),F=l(function(b){return function(a){return K(aC(a,b)[2],d)}}(_),Z);else
+b=G(t,e[1]);return b?fw(i,g,c,b[1],a):b}return 0},y),a),b),x=y,u=X;for(;;){if(x){var
+R=x[1],m=R[2],E=R[1],S=x[2],Y=0;if(typeof
+m==="number"&&4===m){var
+A=h(o,b);if(A)var
+_=A[1],Z=a$(f(b)),F=l(function(b){return function(a){return K(aE(a,b)[2],d)}}(_),Z);else
 var
 F=A;if(F){var
 x=S,u=e(function(a){return 0},u);continue}var
 v=F}else
 Y=1;if(Y){var
-T=r(E,u,0);if(T){var
+T=s(E,u,0);if(T){var
 H=G(t,E);if(H){var
 q=H[1],L=0;if(typeof
-k==="number")L=1;else
-switch(k[0]){case
+m==="number")L=1;else
+switch(m[0]){case
 11:var
-M=k[3],B=k[1],N=jd(a,g,m,c,h,q,B,k[2]);if(N)var
-$=je(i,a,g,m,c,h,B,b,q,M),s=m$(i,a,g,m,c,bV(fr,B,h),o,$,b,q,M);else
+M=m[3],B=m[1],N=jn(a,i,g,c,j,q,B,m[2]);if(N)var
+$=jo(k,a,i,g,c,j,B,b,q,M),r=nt(k,a,i,g,c,bz(fu,B,j),o,$,b,q,M);else
 var
-s=N;break;case
+r=N;break;case
 12:var
-C=k[1],O=I(n(f(C),0));if(O)var
-aa=V(i3(e(function(a){return a[1][1][1]},C)),C),s=l(function(f){return function(r){var
-s=r[2],e=r[1],k=s[1],l=k[1][2],n=k[2],d=s[2];if(typeof
+C=m[1],O=I(n(f(C),0));if(O)var
+aa=V(jc(e(function(a){return a[1][1][1]},C)),C),r=l(function(f){return function(r){var
+s=r[2],e=r[1],l=s[1],m=l[1][2],n=l[2],d=s[2];if(typeof
 d!=="number"&&11===d[0]){var
-p=d[3],j=d[1],q=jd(a,g,m,c,h,f,j,d[2]);if(q){var
-t=e[2],u=e[1],v=je(i,a,g,m,c,h,j,b,f,p);return m9(i,a,g,c,bV(fr,j,h),o,v,b,f,u,t,l,n,p)}return q}return m9(i,a,g,c,h,o,z,b,f,e[1],e[2],l,n,d)}}(q),aa);else
+p=d[3],h=d[1],q=jn(a,i,g,c,j,f,h,d[2]);if(q){var
+t=e[2],u=e[1],v=jo(k,a,i,g,c,j,h,b,f,p);return nr(k,a,i,g,c,bz(fu,h,j),o,v,b,f,u,t,m,n,p)}return q}return nr(k,a,i,g,c,j,o,z,b,f,e[1],e[2],m,n,d)}}(q),aa);else
 var
-s=O;break;case
+r=O;break;case
 13:if(2===q[0])var
-D=i_(i,k[1],k[2]),P=iU(f(b),D),Q=P?nb(i,a,g,m,c,h,o,z,b,q,0,D,k[3]):P,s=Q?nb(i,a,g,m,c,h,o,z,b,q,[0,q[1]],D,k[4]):Q;else
+D=jj(k,m[1],m[2]),P=i5(f(b),D),Q=P?nv(k,a,i,g,c,j,o,z,b,q,0,D,m[3]):P,r=Q?nv(k,a,i,g,c,j,o,z,b,q,[0,q[1]],D,m[4]):Q;else
 var
-s=0;break;default:L=1}if(L)var
-s=m$(i,a,g,m,c,h,o,z,b,q,k);if(s){var
-x=S,u=g4(E,u);continue}var
-U=s}else
+r=0;break;default:L=1}if(L)var
+r=nt(k,a,i,g,c,j,o,z,b,q,m);if(r){var
+x=S,u=g9(E,u);continue}var
+U=r}else
 var
 U=H;var
 W=U}else
@@ -2768,77 +2960,77 @@ var
 v=[0,u];break}}else
 var
 v=[0,X];return v?J(v[1]):v}function
-jf(h,g,f,e,d,c,b,a){return function(i,j,k){return ft(h,g,f,e,d,b,a,c,i,j,k)}}function
-jg(a){return e(function(a){return 1},a)}function
-eu(a,d,b,c){function
+jp(h,g,f,e,d,c,b,a){return function(i,j,k){return fx(h,g,f,e,d,b,a,c,i,j,k)}}function
+jq(a){return e(function(a){return 1},a)}function
+eB(a,d,b,c){function
 f(d,c){var
 f=V(a[1],b[1]);return e(function(a){var
-b=s(c,a[2]);return B(s(d,a[1]),b)},f)}if(aO(a[2],b[2])){var
+b=r(c,a[2]);return B(r(d,a[1]),b)},f)}if(aX(a[2],b[2])){var
 g=a[2];return[0,f(d,c),g]}var
-h=s(a[2],b[2]),i=s(c,a[2]);return[0,f(s(d,b[2]),i),h]}function
-nd(a){var
+h=r(a[2],b[2]),i=r(c,a[2]);return[0,f(r(d,b[2]),i),h]}function
+nx(a){var
 c=m(b);return[0,e(function(a){return m(d)},a),c]}function
-bb(a,k){var
+bf(a,k){var
 f=k[1];switch(f[0]){case
 1:var
-u=f[1];if(aj(function(a){return n(u,a)},a)){var
+u=f[1];if(ak(function(a){return n(u,a)},a)){var
 C=m(b);return[0,e(function(a){var
-c=n(a,u)?b:d;return m(c)},a),C]}return nd(a);case
+c=n(a,u)?b:d;return m(c)},a),C]}return nx(a);case
 3:var
-D=m(b),E=bb(a,f[2]),F=m(b);return eu(bb(a,f[1]),F,E,D);case
+D=m(b),E=bf(a,f[2]),F=m(b);return eB(bf(a,f[1]),F,E,D);case
 4:var
-G=m(P(b)),H=bb(a,f[2]),I=m(b);return eu(bb(a,f[1]),I,H,G);case
+G=m(Q(b)),H=bf(a,f[2]),I=m(b);return eB(bf(a,f[1]),I,H,G);case
 5:var
-v=bb(a,f[1]),J=v[2];return[0,e(br,v[1]),J];case
+v=bf(a,f[1]),J=v[2];return[0,e(bs,v[1]),J];case
 6:var
-w=f[2],x=f[1],K=bb(a,w);return eu(bb(a,x),w,K,x);case
+w=f[2],x=f[1],K=bf(a,w);return eB(bf(a,x),w,K,x);case
 7:var
-z=f[2],L=br(k),M=bb(a,z),N=m(b),i=eu(bb(a,f[1]),N,M,L),O=i[1];if(l(function(a){return ba(d,a)},O))return i;var
-Q=s(i[2],z);return[0,i[1],Q];case
+y=f[2],L=bs(k),M=bf(a,y),N=m(b),i=eB(bf(a,f[1]),N,M,L),O=i[1];if(l(function(a){return be(d,a)},O))return i;var
+P=r(i[2],y);return[0,i[1],P];case
 8:var
-A=f[1],B=bb(a,A),R=B[2],S=B[1],T=s(m(c(2,b)),A);return[0,e(function(a){return s(T,a)},S),R];case
+A=f[1],B=bf(a,A),R=B[2],S=B[1],T=r(m(c(2,b)),A);return[0,e(function(a){return r(T,a)},S),R];case
 9:var
-j=bb(a,f[1]),U=j[1];if(l(function(a){return ba(d,a)},U)){var
+j=bf(a,f[1]),U=j[1];if(l(function(a){return be(d,a)},U)){var
 V=m(b);return[0,j[1],V]}var
-W=s(m(c(2,b)),k),X=s(j[2],W);return[0,j[1],X];case
+W=r(m(c(2,b)),k),X=r(j[2],W);return[0,j[1],X];case
 10:var
-o=f[4],g=f[3],h=f[2],p=[0,[10,0,h,g,o]],q=[0,[10,1,h,g,o]],Y=y(g,q),Z=bb(a,g),_=y(h,p),$=eu(bb(a,h),_,Z,Y),aa=m(P(b)),ab=bb(a,o),r=eu($,m(c(2,b)),ab,aa),ac=r[1],ad=f[1]?p:br(q),t=e(function(a){return s(ad,a)},ac);if(l(function(a){return ba(d,a)},t))return[0,t,r[2]];var
-ae=s(h,q),af=y(s(g,p),ae),ag=s(m(c(2,b)),af);return[0,t,s(r[2],ag)];default:return nd(a)}}function
-g5(c,a){var
-b=bb(c,a),f=b[1];return e(function(a){return ba(d,a)?a:am(a,b[2])},f)}function
-ne(g){var
+o=f[4],g=f[3],h=f[2],p=[0,[10,0,h,g,o]],q=[0,[10,1,h,g,o]],Y=z(g,q),Z=bf(a,g),_=z(h,p),$=eB(bf(a,h),_,Z,Y),aa=m(Q(b)),ab=bf(a,o),s=eB($,m(c(2,b)),ab,aa),ac=s[1],ad=f[1]?p:bs(q),t=e(function(a){return r(ad,a)},ac);if(l(function(a){return be(d,a)},t))return[0,t,s[2]];var
+ae=r(h,q),af=z(r(g,p),ae),ag=r(m(c(2,b)),af);return[0,t,r(s[2],ag)];default:return nx(a)}}function
+g_(c,a){var
+b=bf(c,a),f=b[1];return e(function(a){return be(d,a)?a:an(a,b[2])},f)}function
+ny(g){var
 h=g[1],c=h[2],e=h[1];if(0===e[0]){var
-i=e[2],a=e[1];if(E(i,b)){if(0===c[0]){var
-j=c[2],m=c[1];if(E(j,b)){var
-k=L(a,m),l=k?fg(a):k;if(l)var
+i=e[2],a=e[1];if(D(i,b)){if(0===c[0]){var
+j=c[2],m=c[1];if(D(j,b)){var
+k=L(a,m),l=k?fm(a):k;if(l)var
 n=L(g[2],d),f=n||L(a,d);else
 var
 f=l;var
-o=f?[0,a]:f;return o}return L(aU(j,aK(2))[2],d)?0:0}return 0}return L(aU(i,aK(2))[2],d)?0:0}return 0}function
-ci(c,b){var
-a=ne(c);return a?m(a[1]):[0,[1,b]]}function
-cJ(b,a){if(a)var
-d=cJ([0,b],a[2]),c=[0,ci(a[1],b),d];else
+o=f?[0,a]:f;return o}return L(aW(j,aM(2))[2],d)?0:0}return 0}return L(aW(i,aM(2))[2],d)?0:0}return 0}function
+ck(c,b){var
+a=ny(c);return a?m(a[1]):[0,[1,b]]}function
+cN(b,a){if(a)var
+d=cN([0,b],a[2]),c=[0,ck(a[1],b),d];else
 var
 c=a;return c}function
-bc(b,a){return[0,[0,b[1],a],[0,[0,b[2],a],[0,[0,b[3],a],0]]]}function
-g6(b,d,a){switch(a[0]){case
+bg(b,a){return[0,[0,b[1],a],[0,[0,b[2],a],[0,[0,b[3],a],0]]]}function
+g$(b,d,a){switch(a[0]){case
 0:var
-c=a[1],f=[0,[0,c[4],b],0],h=g(bc(c[3],b),f),i=g(bc(c[2],b),h);return g(bc(c[1],d),i);case
+c=a[1],f=[0,[0,c[4],b],0],h=g(bg(c[3],b),f),i=g(bg(c[2],b),h);return g(bg(c[1],d),i);case
 1:var
-e=a[3],j=e?bc(e[1],d):e,k=g(bc(a[2],b),j);return g(bc(a[1],b),k);default:return bc(a[1],d)}}function
-ak(b,a){var
-c=m(d),e=r(N(t_,a),b,c),f=m(d),g=r(N(t$,a),b,f);return[0,r(a,b,m(d)),g,e]}function
-nf(b,a){return ag(y,ag(B,dH,a),b)}function
-g7(c,b,a){if(a){var
-e=a[2],f=g7(c,bG(b),e),h=a[1];return g(g6(c,bU(d,b),h),f)}return a}function
-jh(g,e,c,j){if(c){var
-b=c[1],v=N(j,f(g6(g,bU(d,e),b))),w=c[2],x=jh(g,bG(e),w,v),a=cJ(j,g6(g,bU(d,e),b));switch(b[0]){case
+e=a[3],j=e?bg(e[1],d):e,k=g(bg(a[2],b),j);return g(bg(a[1],b),k);default:return bg(a[1],d)}}function
+al(b,a){var
+c=m(d),e=s(N(uI,a),b,c),f=m(d),g=s(N(uJ,a),b,f);return[0,s(a,b,m(d)),g,e]}function
+nz(b,a){return ah(z,ah(B,dN,a),b)}function
+ha(c,b,a){if(a){var
+e=a[2],f=ha(c,bI(b),e),h=a[1];return g(g$(c,bW(d,b),h),f)}return a}function
+jr(g,e,c,j){if(c){var
+b=c[1],v=N(j,f(g$(g,bW(d,e),b))),w=c[2],x=jr(g,bI(e),w,v),a=cN(j,g$(g,bW(d,e),b));switch(b[0]){case
 0:var
-l=b[1][5],n=r(ua,a,m(d)),o=ag(B,dH,ak(a,ub)),p=dG(ak(a,0)),q=ak(a,uc),h=mC(nf(ak(a,ud),q),p,o,n,l);break;case
+l=b[1][5],n=s(uK,a,m(d)),o=ah(B,dN,al(a,uL)),p=dM(al(a,0)),q=al(a,uM),h=mW(nz(al(a,uN),q),p,o,n,l);break;case
 1:var
-i=b[3],s=i?[0,dG(ak(a,ue))]:i,t=ag(B,dH,ak(a,uf)),u=ak(a,ug),h=mD(nf(ak(a,0),u),t,s);break;default:var
-h=mE(dH,dG(ak(a,0)))}var
+i=b[3],r=i?[0,dM(al(a,uO))]:i,t=ah(B,dN,al(a,uP)),u=al(a,uQ),h=mX(nz(al(a,0),u),t,r);break;default:var
+h=mY(dN,dM(al(a,0)))}var
 k=[0,h,x]}else
 var
 k=c;return k}function
@@ -2851,7 +3043,7 @@ j=a[2];return[0,[0,j,j],d];case
 8:var
 k=[5,a[2],a[1]];return[0,[0,k,k],d];case
 10:var
-p=a[3],q=ek(a[2]),l=[2,[2,ek(a[1]),q],p];return[0,[0,l,l],c];case
+p=a[3],q=eq(a[2]),l=[2,[2,eq(a[1]),q],p];return[0,[0,l,l],c];case
 11:var
 m=a[4];return[0,[0,m,m],c];case
 12:var
@@ -2868,110 +3060,110 @@ f=[5,[0,b,b],a[1]];return[0,[0,f,f],d];case
 g=a[2];return[0,[0,g,g],c];default:var
 i=a[1];return[0,[0,i,i],d]}var
 e=[0,d,b];return[0,[0,e,e],d]}function
-fu(b,a){var
+fy(b,a){var
 c=a[3],d=a[2],e=a[1];return[0,[0,[0,e,e],b],[0,[0,[0,d,d],b],[0,[0,[0,c,c],b],0]]]}function
-ev(c,a){if(0===a[0]){var
-e=[0,d,b],i=g(fu(c,a[5]),[0,[0,[0,e,e],d],0]),f=a[4],h=a[3];return g([0,[0,[0,h,h],c],[0,[0,[0,f,f],c],0]],i)}var
-j=fu(c,a[3]);return g(fu(c,a[2]),j)}function
-dM(b,a){if(typeof
+eC(c,a){if(0===a[0]){var
+e=[0,d,b],i=g(fy(c,a[5]),[0,[0,[0,e,e],d],0]),f=a[4],h=a[3];return g([0,[0,[0,h,h],c],[0,[0,[0,f,f],c],0]],i)}var
+j=fy(c,a[3]);return g(fy(c,a[2]),j)}function
+dR(b,a){if(typeof
 a!=="number")switch(a[0]){case
 10:var
-h=ev(b,a[2]);return g(ev(b,a[1]),h);case
+h=eC(b,a[2]);return g(eC(b,a[1]),h);case
 11:var
-i=fu(b,a[3]);return g(fu(b,a[2]),i);case
+i=fy(b,a[3]);return g(fy(b,a[2]),i);case
 12:var
 c=a[3],f=[5,[4,c,c],a[4]];return[0,[0,[0,f,f],b],0];case
 15:var
 j=a[2],k=a[1];return e(function(b){var
 a=[5,j,b];return[0,[0,a,a],d]},k)}return 0}function
-ng(c,b,a){var
-d=f(dM(c,b)),e=N(a[2],d);return[0,[0,a[1]],e]}function
-ji(c,b){if(aO(b,c))return[0,m(d)];var
+nA(c,b,a){var
+d=f(dR(c,b)),e=N(a[2],d);return[0,[0,a[1]],e]}function
+js(c,b){if(aX(b,c))return[0,m(d)];var
 a=b[1];if(4===a[0]){var
-e=aO(a[1],c),f=e?[0,a[2]]:e;return f}return 0}function
-nh(x,p,a,o){switch(o[0]){case
+e=aX(a[1],c),f=e?[0,a[2]]:e;return f}return 0}function
+nB(x,p,a,o){switch(o[0]){case
 0:var
-h=G(x,o[1]);if(h){var
-i=h[1];if(i){var
-q=i[1],s=q[1],c=s[2],e=s[1],t=q[2],z=ak(a,uh),A=ag(B,ag(y,e,a3(am(r(ui,a,m(d)),t),c)),z),C=ak(a,uj),f=am(r(0,a,m(d)),t),k=ji(e[1],c[1]);if(k){var
-l=ji(e[2],c[2]);if(l){var
-n=ji(e[3],c[3]);if(n)var
-w=a3(f,c),g=ag(B,[0,k[1],l[1],n[1]],w);else
+i=G(x,o[1]);if(i){var
+j=i[1];if(j){var
+q=j[1],r=q[1],c=r[2],e=r[1],t=q[2],y=al(a,uR),A=ah(B,ah(z,e,a7(an(s(uS,a,m(d)),t),c)),y),C=al(a,uT),f=an(s(0,a,m(d)),t),k=js(e[1],c[1]);if(k){var
+l=js(e[2],c[2]);if(l){var
+n=js(e[3],c[3]);if(n)var
+w=a7(f,c),g=ah(B,[0,k[1],l[1],n[1]],w);else
 var
-g=ag(y,e,a3(y(m(b),f),c))}else
+g=ah(z,e,a7(z(m(b),f),c))}else
 var
-g=ag(y,e,a3(y(m(b),f),c))}else
+g=ah(z,e,a7(z(m(b),f),c))}else
 var
-g=ag(y,e,a3(y(m(b),f),c));var
-u=[0,[0,ag(B,g,C),A]]}else
+g=ah(z,e,a7(z(m(b),f),c));var
+u=[0,[0,ah(B,g,C),A]]}else
 var
-u=i;var
+u=j;var
 v=u}else
 var
-v=h;return v;case
+v=i;return v;case
 1:var
-D=ak(a,uk);return[0,[0,ak(a,0),D]];default:var
-E=j(p,ak(a,ul));return[0,[0,j(p,ak(a,0)),E]]}}function
-ni(e,d,c,h,g){var
-a=nh(e,d,al(um,c),h);if(a)var
-b=nh(e,d,au(un,c),g),i=b?[0,[0,a[1],b[1]]]:b,f=i;else
+D=al(a,uU);return[0,[0,al(a,0),D]];default:var
+E=h(p,al(a,uV));return[0,[0,h(p,al(a,0)),E]]}}function
+nC(e,d,c,h,g){var
+a=nB(e,d,am(uW,c),h);if(a)var
+b=nB(e,d,aw(uX,c),g),i=b?[0,[0,a[1],b[1]]]:b,f=i;else
 var
 f=a;return f}function
-nj(f,c,d,b,a){var
-h=ev(c,a),i=cJ(d,g(ev(c,b),h));function
-j(a){return ag(B,dH,a)}return ni(e(function(a){var
-b=a[7];return z(function(b){var
-c=c5(a);return[0,[0,b,a[1]],c]},b)},f),j,i,b,a)}function
-dN(d,c,b,a){var
-e=s(c,b);return y(s(d,a),e)}function
-bB(a){return w(function(a){return g(a[1],[0,a[2],0])},a)}function
-nk(b,a){if(b)if(a)var
-d=b[1],e=nk(b[2],a[2]),f=s(d[2],a[1]),c=[0,[0,bZ(d[1]),f],e];else
+nD(f,c,d,b,a){var
+h=eC(c,a),i=cN(d,g(eC(c,b),h));function
+j(a){return ah(B,dN,a)}return nC(e(function(a){var
+b=a[7];return y(function(b){var
+c=c_(a);return[0,[0,b,a[1]],c]},b)},f),j,i,b,a)}function
+dS(d,c,b,a){var
+e=r(c,b);return z(r(d,a),e)}function
+bD(a){return w(function(a){return g(a[1],[0,a[2],0])},a)}function
+nE(b,a){if(b)if(a)var
+d=b[1],e=nE(b[2],a[2]),f=r(d[2],a[1]),c=[0,[0,bZ(d[1]),f],e];else
 var
 c=a;else
 var
 c=b;return c}function
-nl(a){if(a){var
+nF(a){if(a){var
 b=a[1][6];if(b){var
-c=b[1],d=nl(a[2]);if(d)var
-g=d[1],h=aa(c,c),e=[0,[0,[0,bZ(c),h],g]];else
+c=b[1],d=nF(a[2]);if(d)var
+g=d[1],h=ab(c,c),e=[0,[0,[0,bZ(c),h],g]];else
 var
 e=d;var
 f=e}else
 var
-f=b;return f}return up}function
-fv(b,d,c,a){if(typeof
+f=b;return f}return uZ}function
+fz(b,d,c,a){if(typeof
 a!=="number")switch(a[0]){case
 8:var
-i=c[1],j=ci(b0(d,a),i);return[0,e(function(a){var
-b=s(a[2],j);return[0,bZ(a[1]),b]},b)];case
-9:return nl(b);case
+i=c[1],j=ck(b0(d,a),i);return[0,e(function(a){var
+b=r(a[2],j);return[0,bZ(a[1]),b]},b)];case
+9:return nF(b);case
 15:var
 k=f(b),g=n(f(a[1]),k);if(g)var
-l=dM(d,a),h=[0,nk(b,cJ(c[2],l))];else
+l=dR(d,a),h=[0,nE(b,cN(c[2],l))];else
 var
 h=g;return h}return 0}function
-g8(e,k,j,a){var
-P=j[1],c=ci(b0(k,a),P),u=0;if(typeof
+hb(e,k,j,a){var
+P=j[1],c=ck(b0(k,a),P),u=0;if(typeof
 a==="number")u=1;else
 switch(a[0]){case
 2:var
-Q=function(a){return[0,y(a[4],c),0]},g=Q,f=a[1];break;case
+Q=function(a){return[0,z(a[4],c),0]},g=Q,f=a[1];break;case
 3:var
-R=function(a){return[0,y(c,a[4]),0]},g=R,f=a[1];break;case
+R=function(a){return[0,z(c,a[4]),0]},g=R,f=a[1];break;case
 4:var
 S=function(b){var
-a=b[1],d=W(a[3]),e=W(a[2]),f=W(a[1]),g=b[2];return[0,y(y(y(s(W(c),g),f),e),d),0]},g=S,f=a[1];break;case
+a=b[1],d=X(a[3]),e=X(a[2]),f=X(a[1]),g=b[2];return[0,z(z(z(r(X(c),g),f),e),d),0]},g=S,f=a[1];break;case
 6:var
 T=function(b){var
 a=b[5];if(a)var
-e=W(a[1]),f=s(W(c),e),d=[0,y(b[2],f),0];else
+e=X(a[1]),f=r(X(c),e),d=[0,z(b[2],f),0];else
 var
 d=a;return d},g=T,f=a[1];break;case
 7:if(e){var
 l=e[2];if(l){var
 n=l[2];if(n){if(n[2])return 0;var
-x=n[1],z=l[1],A=e[1],h=x[1],i=z[1],p=A[1],K=dN(i[1],i[2],h[1],h[2]),L=s(p[3],K),M=dN(i[1],i[3],h[1],h[3]),N=s(p[2],M),O=dN(i[2],i[3],h[2],h[3]),v=B(y(s(p[1],O),N),L),U=c5(x),V=c5(z),C=s(s(s(c,c5(A)),V),U),X=[0,br(B(v,C)),0],D=[0,y(v,C),X]}else
+x=n[1],y=l[1],A=e[1],h=x[1],i=y[1],p=A[1],K=dS(i[1],i[2],h[1],h[2]),L=r(p[3],K),M=dS(i[1],i[3],h[1],h[3]),N=r(p[2],M),O=dS(i[2],i[3],h[2],h[3]),v=B(z(r(p[1],O),N),L),U=c_(x),V=c_(y),C=r(r(r(c,c_(A)),V),U),W=[0,bs(B(v,C)),0],D=[0,z(v,C),W]}else
 var
 D=n;var
 E=D}else
@@ -2981,67 +3173,67 @@ F=E}else
 var
 F=e;return F;case
 10:var
-t=nj(e,k,j[2],a[1],a[2]);if(t){var
+t=nD(e,k,j[2],a[1],a[2]);if(t){var
 H=t[1],I=H[2],J=H[1];return w(bZ,[0,J[1],[0,J[2],[0,I[1],[0,I[2],0]]]])}return t;case
 11:var
 Y=function(d){var
 e=d[7];if(e)var
-n=dM(k,a),f=cJ(j[2],n),h=ak(f,uo),b=ag(y,ak(f,0),h),i=W(c),l=W(c5(d)),m=am(W(aa(b,d[1])),l),g=[0,y(y(aa(b,b),m),i),0];else
+n=dR(k,a),f=cN(j[2],n),h=al(f,uY),b=ah(z,al(f,0),h),i=X(c),l=X(c_(d)),m=an(X(ab(b,d[1])),l),g=[0,z(z(ab(b,b),m),i),0];else
 var
 g=e;return g},g=Y,f=a[1];break;case
 12:var
 Z=function(e){var
-p=m(d),q=dM(k,a),t=r(0,cJ(j[2],q),p),f=am(t,c5(e)),g=e[5];if(g){var
-l=aL(e[2]),h=am(g[1],l),n=s(h,B(c,s(f,W(h))));return[0,y(m(b),n),0]}var
-i=e[7],o=i?[0,y(y(m(b),c),f),0]:i;return o},g=Z,f=a[1];break;case
+p=m(d),q=dR(k,a),t=s(0,cN(j[2],q),p),f=an(t,c_(e)),g=e[5];if(g){var
+l=aN(e[2]),h=an(g[1],l),n=r(h,B(c,r(f,X(h))));return[0,z(m(b),n),0]}var
+i=e[7],o=i?[0,z(z(m(b),c),f),0]:i;return o},g=Z,f=a[1];break;case
 8:case
 9:case
 15:var
-q=fv(e,k,j,a);return q?bB(q[1]):q;default:u=1}if(u)return 0;var
+q=fz(e,k,j,a);return q?bD(q[1]):q;default:u=1}if(u)return 0;var
 o=G(e,f);return o?g(o[1]):o}function
-jj(d,b,c,a){if(a){var
-e=a[1],f=a[2],h=jj(d,b,ng(b,e,c),f);return g(g8(d,b,c,e),h)}return a}var
-nm=[0,d,b],nn=[0,[0,nm,nm],d];function
-jk(a){return I(cf(a[1][1],a[1][2]))}function
-g9(a){var
-b=aE(0,f(a));return a2(function(b){return jk(r(b,a,nn))},b)}function
-jl(b,a){var
-c=V(g9(b),a);return a2(function(a){return I(ba(d,a[2]))},c)}function
-fw(a,b){return jl(a,g5(g9(a),b))}function
-no(b,a){var
-c=j(b,a[3]),d=j(b,a[2]);return[0,j(b,a[1]),d,c]}function
-np(m,l,k,i,h,a){return ad(e(function(e){var
-a=r(e[1],k,nn),f=aM(a[2],i),g=[4,[0,c(2,b),b],h],d=[5,[3,a[1][2],a[1][1]],g],n=ao(m,[0,[0,d,d],f]);return z(function(a){return[0,a,j(l,e[2])]},n)},a))}function
-nq(f,e,a,d,c,b){return np(f,e,a,d,c,fw(a,b))}function
-jm(g,f,n,m,l,e,c){var
-h=[5,l,e],a=ao(g,[0,[0,h,h],d]);if(a){var
-b=nq(g,f,n,m,e,c);if(b)var
-o=[0,a[1],b[1]],i=[0,[0,j(f,c),o]];else
+jt(d,b,c,a){if(a){var
+e=a[1],f=a[2],h=jt(d,b,nA(b,e,c),f);return g(hb(d,b,c,e),h)}return a}var
+nG=[0,d,b],nH=[0,[0,nG,nG],d];function
+ju(a){return I(ch(a[1][1],a[1][2]))}function
+hc(a){var
+b=aG(0,f(a));return a5(function(b){return ju(s(b,a,nH))},b)}function
+jv(b,a){var
+c=V(hc(b),a);return a5(function(a){return I(be(d,a[2]))},c)}function
+fA(a,b){return jv(a,g_(hc(a),b))}function
+nI(b,a){var
+c=h(b,a[3]),d=h(b,a[2]);return[0,h(b,a[1]),d,c]}function
+nJ(m,l,k,j,i,a){return ad(e(function(e){var
+a=s(e[1],k,nH),f=aO(a[2],j),g=[4,[0,c(2,b),b],i],d=[5,[3,a[1][2],a[1][1]],g],n=ap(m,[0,[0,d,d],f]);return y(function(a){return[0,a,h(l,e[2])]},n)},a))}function
+nK(f,e,a,d,c,b){return nJ(f,e,a,d,c,fA(a,b))}function
+jw(g,f,n,m,l,e,c){var
+i=[5,l,e],a=ap(g,[0,[0,i,i],d]);if(a){var
+b=nK(g,f,n,m,e,c);if(b)var
+o=[0,a[1],b[1]],j=[0,[0,h(f,c),o]];else
 var
-i=b;var
-k=i}else
+j=b;var
+k=j}else
 var
 k=a;return k}function
-nr(c,F,m,al,k,i,o,s){if(s){var
-a=s[1],aH=s[2],aI=nr(c,F,m,al,k,i,ng(i,a,o),aH);if(typeof
+nL(c,F,m,al,k,j,o,s){if(s){var
+a=s[1],aH=s[2],aI=nL(c,F,m,al,k,j,nA(j,a,o),aH);if(typeof
 a==="number")if(0===a)var
 g=[0,[0,u]];else
 var
-an=F[2],ap=F[1],aq=fo(k),g=[0,[8,j(aw(m),aq),ap,an]];else
+an=F[2],ao=F[1],aq=fr(k),g=[0,[8,h(ay(m),aq),ao,an]];else
 switch(a[0]){case
 0:var
-ar=ao(c,b0(i,a)),g=z(function(a){return[0,Q(c,a)]},ar);break;case
+ar=ap(c,b0(j,a)),g=y(function(a){return[0,R(c,a)]},ar);break;case
 1:var
-as=ao(c,b0(i,a)),g=z(function(a){return[1,Q(c,a)]},as);break;case
+as=ap(c,b0(j,a)),g=y(function(a){return[1,R(c,a)]},as);break;case
 5:var
-au=ao(c,b0(i,a)),g=z(function(a){return[2,Q(c,a)]},au);break;case
+au=ap(c,b0(j,a)),g=y(function(a){return[2,R(c,a)]},au);break;case
 8:var
-av=fv(k,i,o,a),g=z(function(a){var
-d=J(c,b);return[4,j(aw(m),a),d]},av);break;case
+av=fz(k,j,o,a),g=y(function(a){var
+d=J(c,b);return[4,h(ay(m),a),d]},av);break;case
 9:var
-w=fv(k,i,o,a);if(w){var
-x=ao(c,b0(i,a));if(x)var
-ax=Q(c,x[1]),ay=w[1],M=[0,[4,j(aw(m),ay),ax]];else
+w=fz(k,j,o,a);if(w){var
+x=ap(c,b0(j,a));if(x)var
+aw=R(c,x[1]),ax=w[1],M=[0,[4,h(ay(m),ax),aw]];else
 var
 M=x;var
 N=M}else
@@ -3049,10 +3241,10 @@ var
 N=w;var
 g=N;break;case
 10:var
-y=nj(k,i,o[2],a[1],a[2]);if(y){var
-O=y[1],P=O[2],R=O[1],A=ao(c,b0(i,a));if(A){var
-S=A[1],T=E(d,S[1]);if(T)var
-q=function(a){return no(m,a)},az=q(P[2]),aA=q(P[1]),aB=q(R[2]),U=[0,[6,q(R[1]),aB,aA,az,S]];else
+z=nD(k,j,o[2],a[1],a[2]);if(z){var
+O=z[1],P=O[2],Q=O[1],A=ap(c,b0(j,a));if(A){var
+S=A[1],T=D(d,S[1]);if(T)var
+q=function(a){return nI(m,a)},az=q(P[2]),aA=q(P[1]),aB=q(Q[2]),U=[0,[6,q(Q[1]),aB,aA,az,S]];else
 var
 U=T;var
 V=U}else
@@ -3060,27 +3252,27 @@ var
 V=A;var
 W=V}else
 var
-W=y;var
+W=z;var
 g=W;break;case
 12:var
-r=g8(k,i,o,a),t=0;if(r)if(r[2])var
+r=hb(k,j,o,a),t=0;if(r)if(r[2])var
 g=0;else{var
-X=h(c,0,a[2]),Y=X?h(c,1,a[4]):X;if(Y){var
-B=[0,[3,j(m,r[1])]];t=1}else{var
+X=i(c,0,a[2]),Y=X?i(c,1,a[4]):X;if(Y){var
+B=[0,[3,h(m,r[1])]];t=1}else{var
 B=Y;t=1}}else{var
 B=r;t=1}if(t)var
 g=B;break;case
 13:var
 Z=a[1],_=G(k,Z),H=0;if(_){var
-$=h(c,1,a[2]),aa=$?h(c,1,a[3]):$;if(aa)var
-aC=ao(c,b0(i,a)),g=z(function(a){return[7,Z,Q(c,a)]},aC);else{var
+$=i(c,1,a[2]),aa=$?i(c,1,a[3]):$;if(aa)var
+aC=ap(c,b0(j,a)),g=y(function(a){return[7,Z,R(c,a)]},aC);else{var
 ab=aa;H=1}}else{var
 ab=_;H=1}if(H)var
 g=ab;break;case
 14:var
-ac=a[2],ae=a[1],af=n(f(k),uq),ag=af?h(c,0,ae):af,ah=ag?h(c,1,ac):ag;if(ah){var
-C=ao(c,b0(i,a));if(C)var
-D=ad(e(function(a){return jm(c,m,al,i,ae,ac,a[4])},k)),aD=D?[0,[9,C[1],D[1]]]:D,ai=aD;else
+ac=a[2],ae=a[1],af=n(f(k),u0),ag=af?i(c,0,ae):af,ah=ag?i(c,1,ac):ag;if(ah){var
+C=ap(c,b0(j,a));if(C)var
+E=ad(e(function(a){return jw(c,m,al,j,ae,ac,a[4])},k)),aD=E?[0,[9,C[1],E[1]]]:E,ai=aD;else
 var
 ai=C;var
 aj=ai}else
@@ -3088,35 +3280,35 @@ var
 aj=ah;var
 g=aj;break;case
 15:var
-aE=[0,a[2],a[1]],aF=1,ak=l(function(a){return h(c,aF,a)},aE);if(ak)var
-aG=fv(k,i,o,a),g=z(function(a){var
-d=J(c,b);return[4,j(aw(m),a),d]},aG);else
+aE=[0,a[2],a[1]],aF=1,ak=l(function(a){return i(c,aF,a)},aE);if(ak)var
+aG=fz(k,j,o,a),g=y(function(a){var
+d=J(c,b);return[4,h(ay(m),a),d]},aG);else
 var
 g=ak;break;default:var
-p=g8(k,i,o,a),I=0;if(p){var
+p=hb(k,j,o,a),I=0;if(p){var
 v=p[2],K=p[1];if(v)if(v[2])var
 g=0;else
 var
-at=j(m,v[1]),g=[0,[5,j(m,K),at]];else{var
-L=[0,[3,j(m,K)]];I=1}}else{var
+at=h(m,v[1]),g=[0,[5,h(m,K),at]];else{var
+L=[0,[3,h(m,K)]];I=1}}else{var
 L=p;I=1}if(I)var
 g=L}var
 am=[0,g,aI]}else
 var
 am=s;return am}function
-ur(a){var
+u1(a){var
 b=0;if(typeof
 a==="number"){if(0!==a)b=1}else
 if(0!==a[0])b=1;return b?0:1}function
-ew(a){if(0===a[0])return a[1];var
+eD(a){if(0===a[0])return a[1];var
 b=a[3],c=a[2],d=a[1];return[0,[0,[3,d,b],[2,d,b]],[0,[3,c,b],[2,c,b]],a[4]]}function
-ns(a,c,g,b){if(0===c[0])return 0;if(b){var
+nM(a,c,g,b){if(0===c[0])return 0;if(b){var
 d=b[2];if(d){var
 h=d[2];if(h){if(h[2])return 0;var
-e=d[1],f=b[1],i=c3(a,g,c[1]);if(i){var
-j=c3(a,g,c[2]);if(j){var
-k=c3(a,g,c[3]);if(k)var
-v=i[1],w=cg(f),l=D([0,cg(f),w],v),x=j[1],y=cg(e),m=D([0,cg(e),y],x),z=er(e),B=[0,er(e),z],C=[0,t(a,_(A(m,m)),B),0],E=er(f),F=[0,er(f),E],G=[0,t(a,_(A(l,l)),F),C],H=Q(a,m),I=Q(a,l),n=[0,[0,D(D(Q(a,k[1]),I),H),u,G]];else
+e=d[1],f=b[1],i=c8(a,g,c[1]);if(i){var
+j=c8(a,g,c[2]);if(j){var
+k=c8(a,g,c[3]);if(k)var
+v=i[1],w=ci(f),l=E([0,ci(f),w],v),x=j[1],y=ci(e),m=E([0,ci(e),y],x),z=ey(e),B=[0,ey(e),z],C=[0,t(a,$(A(m,m)),B),0],D=ey(f),F=[0,ey(f),D],G=[0,t(a,$(A(l,l)),F),C],H=R(a,m),I=R(a,l),n=[0,[0,E(E(R(a,k[1]),I),H),u,G]];else
 var
 n=k;var
 o=n}else
@@ -3134,14 +3326,14 @@ r=d;var
 s=r}else
 var
 s=b;return s}function
-g_(a,p,o){var
-q=bc(p,o),b=e(function(b){return ao(a,b)},q);if(b){var
+hd(a,p,o){var
+q=bg(p,o),b=e(function(b){return ap(a,b)},q);if(b){var
 g=b[1];if(g){var
 c=b[2];if(c){var
 h=c[1];if(h){var
 f=c[2];if(f){var
 i=f[1];if(i){if(f[2])return 0;var
-r=Q(a,i[1]),s=Q(a,h[1]);return K(d,A(A(Q(a,g[1]),s),r)[1])}var
+r=R(a,i[1]),s=R(a,h[1]);return K(d,A(A(R(a,g[1]),s),r)[1])}var
 j=i}else
 var
 j=f;var
@@ -3158,152 +3350,152 @@ n=m}else
 var
 n=b;return n}function
 M(c,b,a){var
-d=aq(c,b[3],a[3]),e=aq(c,b[2],a[2]);return[0,aq(c,b[1],a[1]),e,d]}function
-R(b,a){return[0,[4,b,a[1]],[4,b,a[2]],[4,b,a[3]]]}function
+d=ar(c,b[3],a[3]),e=ar(c,b[2],a[2]);return[0,ar(c,b[1],a[1]),e,d]}function
+S(b,a){return[0,[4,b,a[1]],[4,b,a[2]],[4,b,a[3]]]}function
 x(b,a){return[2,[2,[4,b[1],a[1]],[4,b[2],a[2]]],[4,b[3],a[3]]]}function
-ay(a){return R([5,[0,b,b],[6,x(a,a)]],a)}function
-c$(c,b,a){var
-d=bA(c,b[1],a);return d?bA(c,a,b[2]):d}function
-bs(c,b,a){var
-d=c$(c,b[1],a[1]),e=d?c$(c,b[2],a[2]):d;return e?c$(c,b[3],a[3]):e}function
-nt(b,c,a){switch(c[0]){case
+aA(a){return S([5,[0,b,b],[6,x(a,a)]],a)}function
+df(c,b,a){var
+d=bC(c,b[1],a);return d?bC(c,a,b[2]):d}function
+bt(c,b,a){var
+d=df(c,b[1],a[1]),e=d?df(c,b[2],a[2]):d;return e?df(c,b[3],a[3]):e}function
+nN(b,c,a){switch(c[0]){case
 0:var
 d=c[1];if(0===a[0]){var
-j=a[4],f=a[1],k=bs(b,d[1],f),l=k?h(b,1,x(f,f)):k,m=l?bs(b,d[2],a[2]):l,n=m?bs(b,d[3],a[3]):m,o=n?c$(b,d[4],j):n,p=o?h(b,1,j):o;return p?cz(d[5],a[5]):p}return 0;case
+j=a[4],f=a[1],k=bt(b,d[1],f),l=k?i(b,1,x(f,f)):k,m=l?bt(b,d[2],a[2]):l,n=m?bt(b,d[3],a[3]):m,o=n?df(b,d[4],j):n,p=o?i(b,1,j):o;return p?cB(d[5],a[5]):p}return 0;case
 1:var
 q=c[3];if(1===a[0]){var
-e=a[3],r=bs(b,c[1],a[1]),s=r?bs(b,c[2],a[2]):r;if(s){if(q){if(e){var
-g=e[1],t=bs(b,q[1],g);if(t)return h(b,1,x(g,g));var
+e=a[3],r=bt(b,c[1],a[1]),s=r?bt(b,c[2],a[2]):r;if(s){if(q){if(e){var
+g=e[1],t=bt(b,q[1],g);if(t)return i(b,1,x(g,g));var
 u=t}else
 var
 u=e;return u}if(e)return 0;var
 v=1}else
 var
 v=s;return v}return 0;default:if(2===a[0]){var
-i=a[1],w=bs(b,c[1],i);return w?h(b,1,x(i,i)):w}return 0}}function
-cK(c,a,b){if(0===a[0])return bs(c,a[1],b);var
-d=a[3],e=[3,b[1],a[1]],f=[3,b[2],a[2]],g=h(c,0,[3,[3,[4,d,d],[4,e,e]],[4,f,f]]),i=g?h(c,0,d):g;return i?c$(c,a[4],b[3]):i}function
-fx(g,f,i,h){var
+h=a[1],w=bt(b,c[1],h);return w?i(b,1,x(h,h)):w}return 0}}function
+cO(c,a,b){if(0===a[0])return bt(c,a[1],b);var
+d=a[3],e=[3,b[1],a[1]],f=[3,b[2],a[2]],g=i(c,0,[3,[3,[4,d,d],[4,e,e]],[4,f,f]]),h=g?i(c,0,d):g;return h?df(c,a[4],b[3]):h}function
+fB(g,f,i,h){var
 b=f[1],a=i;for(;;){if(b){if(a){var
-d=nt(g,b[1],a[1]);if(d){var
+d=nN(g,b[1],a[1]);if(d){var
 b=b[2],a=a[2];continue}var
 e=d}else
 var
 e=a;var
 c=e}else
 var
-c=a?0:1;return c?cK(g,f[2],h):c}}function
-aW(c,b,a){var
+c=a?0:1;return c?cO(g,f[2],h):c}}function
+aZ(c,b,a){var
 d=M(function(b,a){return[2,b,a]},a,b);return M(function(b,a){return[3,b,a]},d,c)}function
-fy(a,e,d,c){var
-b=aW(e,d,c),f=ay(a),g=R(x(ay(a),b),f);return M(function(b,a){return[3,b,a]},b,g)}function
-cj(f,e,d,a,c){var
-b=fy(f,e,d,c);return[3,[4,a,a],x(b,b)]}function
-cL(c,a){return c?[6,a]:[3,[0,d,b],[6,a]]}function
-ck(a,c){switch(a[0]){case
+fC(a,e,d,c){var
+b=aZ(e,d,c),f=aA(a),g=S(x(aA(a),b),f);return M(function(b,a){return[3,b,a]},b,g)}function
+cl(f,e,d,a,c){var
+b=fC(f,e,d,c);return[3,[4,a,a],x(b,b)]}function
+cP(c,a){return c?[6,a]:[3,[0,d,b],[6,a]]}function
+cm(a,c){switch(a[0]){case
 0:var
-e=a[3],f=a[2],d=a[1],g=fy(d,f,e,c),h=cj(d,f,e,a[4],c),i=R([5,[0,b,b],cL(a[5],h)],g),j=ay(d);return M(function(b,a){return[2,b,a]},j,i);case
-1:return ay(aW(a[1],a[2],c));default:return ay(a[1])}}function
-bC(a,b){switch(a[0]){case
+e=a[3],f=a[2],d=a[1],g=fC(d,f,e,c),h=cl(d,f,e,a[4],c),i=S([5,[0,b,b],cP(a[5],h)],g),j=aA(d);return M(function(b,a){return[2,b,a]},j,i);case
+1:return aA(aZ(a[1],a[2],c));default:return aA(a[1])}}function
+bE(a,b){switch(a[0]){case
 0:var
-d=a[3],e=a[2],c=a[1],f=ay(c),g=cj(c,e,d,a[4],b),h=R(cL(a[5],g),f),i=fy(c,e,d,b);return M(function(b,a){return[2,b,a]},i,h);case
-1:return aW(a[1],a[2],b);default:return ay(a[1])}}function
-cM(a,b){switch(a[0]){case
+d=a[3],e=a[2],c=a[1],f=aA(c),g=cl(c,e,d,a[4],b),h=S(cP(a[5],g),f),i=fC(c,e,d,b);return M(function(b,a){return[2,b,a]},i,h);case
+1:return aZ(a[1],a[2],b);default:return aA(a[1])}}function
+cQ(a,b){switch(a[0]){case
 0:var
-c=a[3],d=a[2],e=a[1],h=cj(e,d,c,a[4],b),i=cL(a[5],h),j=aW(d,c,b);return[3,x(ay(e),j),i];case
+c=a[3],d=a[2],e=a[1],h=cl(e,d,c,a[4],b),i=cP(a[5],h),j=aZ(d,c,b);return[3,x(aA(e),j),i];case
 1:var
-f=a[2],g=a[1],k=aW(g,f,b);return[6,x(aW(g,f,b),k)];default:return x(ay(a[1]),b)}}function
-jn(a,b){switch(a[0]){case
-0:return[0,cj(a[1],a[2],a[3],a[4],b)];case
+f=a[2],g=a[1],k=aZ(g,f,b);return[6,x(aZ(g,f,b),k)];default:return x(aA(a[1]),b)}}function
+jx(a,b){switch(a[0]){case
+0:return[0,cl(a[1],a[2],a[3],a[4],b)];case
 1:var
-c=a[2],d=a[1],e=aW(d,c,b);return[0,x(aW(d,c,b),e)];default:return 0}}function
-fz(e,c,a){var
-f=[0,d,b];return an(function(b,d){var
-e=x(ck(b,c),a);return[2,[4,x(ck(b,c),a),e],d]},f,e)}function
-nu(f,e,c,a){if(f){if(e){var
-g=e[1],h=nu(f[2],e[2],c,a),i=x(ck(g,c),a),j=[4,x(ck(g,c),a),i];return[2,[4,f[1],j],h]}return[0,d,b]}return[0,d,b]}function
-nv(a){var
+c=a[2],d=a[1],e=aZ(d,c,b);return[0,x(aZ(d,c,b),e)];default:return 0}}function
+fD(e,c,a){var
+f=[0,d,b];return ao(function(b,d){var
+e=x(cm(b,c),a);return[2,[4,x(cm(b,c),a),e],d]},f,e)}function
+nO(f,e,c,a){if(f){if(e){var
+g=e[1],h=nO(f[2],e[2],c,a),i=x(cm(g,c),a),j=[4,x(cm(g,c),a),i];return[2,[4,f[1],j],h]}return[0,d,b]}return[0,d,b]}function
+nP(a){var
 c=a[1];return[0,[0,c[1],b],[0,c[2],b],[0,a[2],b]]}function
-jo(a,c){switch(a[0]){case
+jy(a,c){switch(a[0]){case
 0:return a[4];case
 1:var
-d=a[2],e=a[1],f=aW(e,d,c);return[6,x(aW(e,d,c),f)];default:return[0,b,b]}}function
-nw(d,i){if(d){var
+d=a[2],e=a[1],f=aZ(e,d,c);return[6,x(aZ(e,d,c),f)];default:return[0,b,b]}}function
+nQ(d,i){if(d){var
 a=d[1];if(1===a[0]){var
 c=a[3];if(c)var
-f=c[1],g=aW(a[1],a[2],i),k=ay(f),l=R(x(ay(f),g),k),h=[0,M(function(b,a){return[3,b,a]},g,l)];else
+f=c[1],g=aZ(a[1],a[2],i),k=aA(f),l=S(x(aA(f),g),k),h=[0,M(function(b,a){return[3,b,a]},g,l)];else
 var
 h=c;var
 b=h}else
 var
 b=0;if(b)var
-e=nw(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
+e=nQ(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
 var
-j=b;return j}return us}function
-da(a){return[0,a[1],a[2],a[3]]}function
-nx(a,b){switch(a[0]){case
+j=b;return j}return u2}function
+dg(a){return[0,a[1],a[2],a[3]]}function
+nR(a,b){switch(a[0]){case
 0:var
-f=a[4],c=a[3],g=a[2],d=a[1],i=ay(d),j=cj(d,g,c,f,b),k=R(cL(a[5],j),i),l=fy(d,g,c,b),m=M(function(b,a){return[2,b,a]},l,k);return[0,[0,[0,M(function(b,a){return[2,b,a]},b,c),m],f]];case
+f=a[4],c=a[3],g=a[2],d=a[1],i=aA(d),j=cl(d,g,c,f,b),k=S(cP(a[5],j),i),l=fC(d,g,c,b),m=M(function(b,a){return[2,b,a]},l,k);return[0,[0,[0,M(function(b,a){return[2,b,a]},b,c),m],f]];case
 1:var
-h=a[2],e=aW(a[1],h,b),n=[6,x(e,e)];return[0,[0,[0,M(function(b,a){return[2,b,a]},b,h),e],n]];default:return 0}}function
-ny(m,e,a){switch(a[0]){case
+h=a[2],e=aZ(a[1],h,b),n=[6,x(e,e)];return[0,[0,[0,M(function(b,a){return[2,b,a]},b,h),e],n]];default:return 0}}function
+nS(m,e,a){switch(a[0]){case
 0:var
 n=a[5],c=G(m,a[1]);if(c){var
 d=c[1];if(d)var
-f=d[1],g=f[1],h=f[2],o=g[2],p=g[1],i=function(a){var
-b=da(n),c=R(a,o),d=M(function(b,a){return[3,b,a]},p,c);return M(function(b,a){return[2,b,a]},d,b)},q=i([5,a[4],h]),k=[0,[0,i([3,[0,b,b],[5,a[3],h]]),q]];else
+f=d[1],g=f[1],i=f[2],o=g[2],p=g[1],j=function(a){var
+b=dg(n),c=S(a,o),d=M(function(b,a){return[3,b,a]},p,c);return M(function(b,a){return[2,b,a]},d,b)},q=j([5,a[4],i]),k=[0,[0,j([3,[0,b,b],[5,a[3],i]]),q]];else
 var
 k=d;var
 l=k}else
 var
 l=c;return l;case
 1:var
-r=da(a[3]);return[0,[0,da(a[2]),r]];default:var
-s=j(e,da(a[3]));return[0,[0,j(e,da(a[2])),s]]}}function
-nz(d,a,c,b){var
-e=R(a,b),f=R([3,d,a],c);return M(function(b,a){return[2,b,a]},f,e)}function
-nA(a,l,c,k,i,y){var
-d=j(l,k);if(d){var
-m=d[1],e=j(l,i);if(e){var
-n=e[1],f=c[1],g=c[2],b=c[3],z=nz(b,g,n[1],n[2]),A=nz(b,f,m[1],m[2]),o=M(function(b,a){return[3,b,a]},A,z),B=ek(i),p=[4,b,[2,[2,ek(k),B],y]],q=h(a,1,b),r=q?h(a,0,f):q,s=r?h(a,0,[3,b,f]):r,t=s?h(a,0,g):s,u=t?h(a,0,[3,b,g]):t;if(u)return h(a,1,[3,[4,p,p],x(o,o)]);var
+r=dg(a[3]);return[0,[0,dg(a[2]),r]];default:var
+s=h(e,dg(a[3]));return[0,[0,h(e,dg(a[2])),s]]}}function
+nT(d,a,c,b){var
+e=S(a,b),f=S([3,d,a],c);return M(function(b,a){return[2,b,a]},f,e)}function
+nU(a,l,c,k,j,y){var
+d=h(l,k);if(d){var
+m=d[1],e=h(l,j);if(e){var
+n=e[1],f=c[1],g=c[2],b=c[3],z=nT(b,g,n[1],n[2]),A=nT(b,f,m[1],m[2]),o=M(function(b,a){return[3,b,a]},A,z),B=eq(j),p=[4,b,[2,[2,eq(k),B],y]],q=i(a,1,b),r=q?i(a,0,f):q,s=r?i(a,0,[3,b,f]):r,t=s?i(a,0,g):s,u=t?i(a,0,[3,b,g]):t;if(u)return i(a,1,[3,[4,p,p],x(o,o)]);var
 v=u}else
 var
 v=e;var
 w=v}else
 var
 w=d;return w}function
-nB(d,c,b,a,i,g,f,e){var
-j=h(d,1,b),k=j?h(d,1,a):j;if(k){var
-l=aq(c,f,f),m=[4,[4,a,a],[4,aq(c,g,g),l]];return h(d,1,[3,[4,[4,[4,b,b],[4,i,i]],aq(c,e,e)],m])}return k}function
-nC(i,g,c,f,y,a){function
+nV(d,c,b,a,h,g,f,e){var
+j=i(d,1,b),k=j?i(d,1,a):j;if(k){var
+l=ar(c,f,f),m=[4,[4,a,a],[4,ar(c,g,g),l]];return i(d,1,[3,[4,[4,[4,b,b],[4,h,h]],ar(c,e,e)],m])}return k}function
+nW(h,g,c,f,y,a){function
 T(a){return[4,[4,[5,[0,b,b],a],[5,[0,b,b],a]],x(f,f)]}var
 O=0;if(typeof
 a==="number")O=1;else
 switch(a[0]){case
 0:var
-aG=fz(g,c,f);return h(i,1,[3,T(a[1]),aG]);case
+aG=fD(g,c,f);return i(h,1,[3,T(a[1]),aG]);case
 1:var
-aH=T(a[1]);return h(i,1,[3,fz(g,c,f),aH]);case
+aH=T(a[1]);return i(h,1,[3,fD(g,c,f),aH]);case
 2:var
-aI=a[2],aJ=function(a){return[3,aI,cM(a,c)]},A=aJ,z=a[1];break;case
+aI=a[2],aJ=function(a){return[3,aI,cQ(a,c)]},A=aJ,z=a[1];break;case
 3:var
-aK=a[2],aL=function(a){return[3,cM(a,c),aK]},A=aL,z=a[1];break;case
+aK=a[2],aL=function(a){return[3,cQ(a,c),aK]},A=aL,z=a[1];break;case
 4:var
 U=a[3],V=a[2],aM=function(a){var
-b=ck(a,c);return[3,[4,[4,V,V],x(ck(a,c),b)],[4,U,U]]},A=aM,z=a[1];break;case
+b=cm(a,c);return[3,[4,[4,V,V],x(cm(a,c),b)],[4,U,U]]},A=aM,z=a[1];break;case
 5:var
-W=a[1],aN=x(f,f),aO=[4,[4,W,W],[4,fz(g,c,y),aN]],aP=x(y,y);return h(i,1,[3,[4,fz(g,c,f),aP],aO]);case
+W=a[1],aN=x(f,f),aO=[4,[4,W,W],[4,fD(g,c,y),aN]],aP=x(y,y);return i(h,1,[3,[4,fD(g,c,f),aP],aO]);case
 6:var
 X=a[2],C=G(g,a[1]);if(C){var
 k=C[1];if(0===k[0]){var
-D=k[4],aQ=cj(k[1],k[2],k[3],D,c),Y=cL(k[5],aQ);return h(i,1,[3,[4,[4,X,D],[4,X,D]],[4,Y,Y]])}var
+D=k[4],aQ=cl(k[1],k[2],k[3],D,c),Y=cP(k[5],aQ);return i(h,1,[3,[4,[4,X,D],[4,X,D]],[4,Y,Y]])}var
 Z=0}else
 var
 Z=C;return Z;case
 7:if(g){var
 p=g[2];if(p){var
 q=p[2];if(q){if(q[2])return 0;var
-_=q[1],$=p[1],aa=g[1],aR=jo(_,c),aS=jo($,c),aT=jo(aa,c),ab=[4,[4,[4,a[1],aT],aS],aR],l=bC(_,c),m=bC($,c),aU=bC(aa,c),P=x(aU,[0,[3,[4,m[2],l[3]],[4,m[3],l[2]]],[3,[4,m[3],l[1]],[4,m[1],l[3]]],[3,[4,m[1],l[2]],[4,m[2],l[1]]]]),ac=h(i,1,[3,ab,P]);if(ac)return h(i,1,[2,ab,P]);var
+_=q[1],$=p[1],aa=g[1],aR=jy(_,c),aS=jy($,c),aT=jy(aa,c),ab=[4,[4,[4,a[1],aT],aS],aR],l=bE(_,c),m=bE($,c),aU=bE(aa,c),P=x(aU,[0,[3,[4,m[2],l[3]],[4,m[3],l[2]]],[3,[4,m[3],l[1]],[4,m[1],l[3]]],[3,[4,m[1],l[2]],[4,m[2],l[1]]]]),ac=i(h,1,[3,ab,P]);if(ac)return i(h,1,[2,ab,P]);var
 ad=ac}else
 var
 ad=q;var
@@ -3314,18 +3506,18 @@ af=ae}else
 var
 af=g;return af;case
 8:var
-aV=fz(g,c,f),aX=x(f,f);return h(i,1,[3,[4,[5,a[2],a[1]],aX],aV]);case
+aV=fD(g,c,f),aW=x(f,f);return i(h,1,[3,[4,[5,a[2],a[1]],aW],aV]);case
 9:var
-ag=a[1],E=nw(g,c);if(E){var
-aY=E[1],aA=[0,d,b],aB=an(function(a,b){var
-c=x(ay(a),f);return[2,[4,x(ay(a),f),c],b]},aA,aY);return h(i,1,[3,[4,[4,ag,ag],x(f,f)],aB])}return E;case
+ag=a[1],E=nQ(g,c);if(E){var
+aX=E[1],az=[0,d,b],aB=ao(function(a,b){var
+c=x(aA(a),f);return[2,[4,x(aA(a),f),c],b]},az,aX);return i(h,1,[3,[4,[4,ag,ag],x(f,f)],aB])}return E;case
 10:var
-aZ=a[3],a0=a[2],a1=a[1],aC=function(b,a){return[2,b,a]},aD=function(a){return M(aC,c,a)},aE=e(function(a){return nx(a,c)},g);return nA(i,function(a){return ny(aE,aD,a)},f,a1,a0,aZ);case
+aY=a[3],a0=a[2],a1=a[1],aC=function(b,a){return[2,b,a]},aD=function(a){return M(aC,c,a)},aE=e(function(a){return nR(a,c)},g);return nU(h,function(a){return nS(aE,aD,a)},f,a1,a0,aY);case
 11:var
 ah=a[4],F=G(g,a[1]);if(F){var
-H=nx(F[1],c);if(H){var
-n=H[1][1][2],a2=da(a[3]),a3=da(a[2]),r=M(function(b,a){return[3,b,a]},a3,a2),ai=h(i,1,x(n,n));if(ai){var
-a4=x(n,n),a5=x(r,n),a6=[5,[4,x(r,n),a5],a4];return h(i,1,[3,[4,ah,ah],[3,x(r,r),a6]])}var
+H=nR(F[1],c);if(H){var
+n=H[1][1][2],a2=dg(a[3]),a3=dg(a[2]),r=M(function(b,a){return[3,b,a]},a3,a2),ai=i(h,1,x(n,n));if(ai){var
+a4=x(n,n),a5=x(r,n),a6=[5,[4,x(r,n),a5],a4];return i(h,1,[3,[4,ah,ah],[3,x(r,r),a6]])}var
 aj=ai}else
 var
 aj=H;var
@@ -3334,20 +3526,20 @@ var
 ak=F;return ak;case
 12:var
 o=a[3],s=a[2],I=G(g,a[1]);if(I){var
-j=I[1],al=h(i,0,s),am=al?h(i,0,o):al;if(am){var
+j=I[1],al=i(h,0,s),am=al?i(h,0,o):al;if(am){var
 a7=a[4];switch(j[0]){case
 0:var
-v=j[4],w=[5,v,[6,cj(j[1],j[2],j[3],v,c)]],J=[4,w,[2,s,[4,[5,[4,o,o],v],[4,w,w]]]];break;case
+v=j[4],w=[5,v,[6,cl(j[1],j[2],j[3],v,c)]],J=[4,w,[2,s,[4,[5,[4,o,o],v],[4,w,w]]]];break;case
 1:var
-Q=j[2],S=j[1],aF=aW(S,Q,c),J=[2,s,[5,[4,o,o],[6,x(aW(S,Q,c),aF)]]];break;default:var
+Q=j[2],R=j[1],aF=aZ(R,Q,c),J=[2,s,[5,[4,o,o],[6,x(aZ(R,Q,c),aF)]]];break;default:var
 J=s}var
-K=h(i,1,[3,J,a7])}else
+K=i(h,1,[3,J,a7])}else
 var
-K=am;if(K){if(2===j[0])return h(i,1,x(f,f));var
-ao=1}else
+K=am;if(K){if(2===j[0])return i(h,1,x(f,f));var
+an=1}else
 var
-ao=K;var
-ap=ao}else
+an=K;var
+ap=an}else
 var
 ap=I;return ap;case
 13:if(g){var
@@ -3355,7 +3547,7 @@ t=g[2];if(t){var
 u=t[2];if(u){if(u[2])return 0;var
 aq=u[1],ar=t[1],as=g[1],at=a[1],L=G([0,f[1],[0,f[2],[0,f[3],0]]],at);if(L){var
 N=G([0,as,[0,ar,[0,aq,0]]],at);if(N){var
-au=N[1],a8=bC(au,c),a9=ck(au,c),a_=bC(aq,c),a$=R(f[3],a_),ba=bC(ar,c),bb=R(f[2],ba),bc=bC(as,c),bd=R(f[1],bc),be=M(function(b,a){return[2,b,a]},bd,bb),bf=M(function(b,a){return[2,b,a]},be,a$);return nB(i,x,a[2],a[3],L[1],bf,a9,a8)}var
+au=N[1],a8=bE(au,c),a9=cm(au,c),a_=bE(aq,c),a$=S(f[3],a_),ba=bE(ar,c),bb=S(f[2],ba),bc=bE(as,c),bd=S(f[1],bc),be=M(function(b,a){return[2,b,a]},bd,bb),bf=M(function(b,a){return[2,b,a]},be,a$);return nV(h,x,a[2],a[3],L[1],bf,a9,a8)}var
 av=N}else
 var
 av=L;var
@@ -3365,61 +3557,61 @@ aw=u;var
 ax=aw}else
 var
 ax=t;var
-az=ax}else
+ay=ax}else
 var
-az=g;return az;case
+ay=g;return ay;case
 15:var
-bg=nu(a[1],g,c,f),bh=x(f,f);return h(i,1,[3,[4,a[2],bh],bg]);default:O=1}if(O)return 0;var
-B=G(g,z);return B?h(i,1,A(B[1])):B}function
-fA(g,i,f,c,a){var
-m=fx(g,i,f,c);if(m)if(typeof
-a==="number")return 0===a?aj(function(e){var
-a=jn(e,c);return a?h(g,0,[3,[0,d,b],a[1]]):a},f):mw(ut,e(function(b){var
-a=bC(b,c);return[0,a[1],[0,a[2],[0,a[3],0]]]},f));else{if(0===a[0]){var
-j=G(i[3],a[1]);if(j){var
-p=j[1],q=nv(a[3]);return nC(g,f,c,nv(a[2]),q,p)}return j}var
-k=G(i[3],a[1]);if(k){var
+bg=nO(a[1],g,c,f),bh=x(f,f);return i(h,1,[3,[4,a[2],bh],bg]);default:O=1}if(O)return 0;var
+B=G(g,z);return B?i(h,1,A(B[1])):B}function
+fE(g,h,f,c,a){var
+m=fB(g,h,f,c);if(m)if(typeof
+a==="number")return 0===a?ak(function(e){var
+a=jx(e,c);return a?i(g,0,[3,[0,d,b],a[1]]):a},f):mQ(u3,e(function(b){var
+a=bE(b,c);return[0,a[1],[0,a[2],[0,a[3],0]]]},f));else{if(0===a[0]){var
+j=G(h[3],a[1]);if(j){var
+p=j[1],q=nP(a[3]);return nW(g,f,c,nP(a[2]),q,p)}return j}var
+k=G(h[3],a[1]);if(k){var
 l=G(f,a[2]);if(l){var
-n=l[1],r=k[1],s=ck(n,c);return nC(g,f,c,ck(n,c),s,r)}var
+n=l[1],r=k[1],s=cm(n,c);return nW(g,f,c,cm(n,c),s,r)}var
 o=l}else
 var
 o=k;return o}return m}function
-bI(a){return[0,a[1][1],a[2][1],a[3][1]]}function
-nD(a){switch(a[0]){case
+bK(a){return[0,a[1][1],a[2][1],a[3][1]]}function
+nX(a){switch(a[0]){case
 0:var
-b=a[1],c=b[5],d=b[4][1],e=bI(b[3]),f=bI(b[2]);return[0,bI(b[1]),f,e,d,c];case
+b=a[1],c=b[5],d=b[4][1],e=bK(b[3]),f=bK(b[2]);return[0,bK(b[1]),f,e,d,c];case
 1:var
-g=z(bI,a[3]),h=bI(a[2]);return[1,bI(a[1]),h,g];default:return[2,bI(a[1])]}}function
-jp(a){return 0===a[0]?bI(a[1]):[0,a[1],a[2],a[4][1]]}function
-nE(b,a){var
-c=jp(a[2]);return fx(b,a,e(nD,a[1]),c)}function
-jq(b,a,c){var
-d=[0,c,au(b,a)];return g(al(b,a),d)}function
-bt(c,a){if(c){if(a){var
-e=bt(c[2],a[2]);return[2,[4,c[1],a[1]],e]}return[0,d,b]}return[0,d,b]}function
-nF(e,c,a){if(e){if(c){var
-f=c[1],g=nF(e[2],c[2],a),h=bt(f,a),i=[4,bt(f,a),h];return[2,[4,e[1],i],g]}return[0,d,b]}return[0,d,b]}function
-nG(b,a){if(b){if(a){var
-c=b[1],e=nG(b[2],a[2]),f=a[1],g=function(b,a){return[2,[4,c,b],a]},h=function(a){return a};return aQ(function(a){return[4,c,a]},h,g,f,e)}var
+g=y(bK,a[3]),h=bK(a[2]);return[1,bK(a[1]),h,g];default:return[2,bK(a[1])]}}function
+jz(a){return 0===a[0]?bK(a[1]):[0,a[1],a[2],a[4][1]]}function
+nY(b,a){var
+c=jz(a[2]);return fB(b,a,e(nX,a[1]),c)}function
+jA(b,a,c){var
+d=[0,c,aw(b,a)];return g(am(b,a),d)}function
+bu(c,a){if(c){if(a){var
+e=bu(c[2],a[2]);return[2,[4,c[1],a[1]],e]}return[0,d,b]}return[0,d,b]}function
+nZ(e,c,a){if(e){if(c){var
+f=c[1],g=nZ(e[2],c[2],a),h=bu(f,a),i=[4,bu(f,a),h];return[2,[4,e[1],i],g]}return[0,d,b]}return[0,d,b]}function
+n0(b,a){if(b){if(a){var
+c=b[1],e=n0(b[2],a[2]),f=a[1],g=function(b,a){return[2,[4,c,b],a]},h=function(a){return a};return aS(function(a){return[4,c,a]},h,g,f,e)}var
 d=a}else
 var
 d=b;return d}function
-nH(b,c,a){var
-d=[0,c,au([0,b],a)];return g(al(b,a),d)}function
-nI(a,b){var
-e=n(a,uu),c=e||n(a,uv),d=c?n(f(b),a):c;return d?l(function(b){return n(f(b),a)},b):d}function
-nJ(a){if(a){var
+n1(b,c,a){var
+d=[0,c,aw([0,b],a)];return g(am(b,a),d)}function
+n2(a,b){var
+e=n(a,u4),c=e||n(a,u5),d=c?n(f(b),a):c;return d?l(function(b){return n(f(b),a)},b):d}function
+n3(a){if(a){var
 b=a[1];if(b){var
-c=b[1],d=nJ(a[2]);return z(function(a){return[0,c,a]},d)}return b}return uw}function
-g$(a){if(a){var
+c=b[1],d=n3(a[2]);return y(function(a){return[0,c,a]},d)}return b}return u6}function
+he(a){if(a){var
 b=a[1];if(b){var
-c=b[1],d=g$(a[2]);return z(function(a){return[0,c,a]},d)}return b}return ux}function
-nK(a,l,k,f){var
-b=aF(a,l);if(b){var
-c=aF(a,k);if(c){var
-d=c4(a,f);if(d){var
-e=gL(a,f);if(e)var
-m=t(a,b[1],e[1]),g=[0,D(t(a,c[1],d[1]),m)];else
+c=b[1],d=he(a[2]);return y(function(a){return[0,c,a]},d)}return b}return u7}function
+n4(a,l,k,f){var
+b=aH(a,l);if(b){var
+c=aH(a,k);if(c){var
+d=c9(a,f);if(d){var
+e=gQ(a,f);if(e)var
+m=t(a,b[1],e[1]),g=[0,E(t(a,c[1],d[1]),m)];else
 var
 g=e;var
 h=g}else
@@ -3431,23 +3623,23 @@ i=c;var
 j=i}else
 var
 j=b;return j}function
-nL(a){return a?K(a[1][2],d):a}function
-cl(a){return a?K(d,a[1][1]):a}function
-nM(d,a){return h(d,0,[3,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b],a])}function
-nN(d,a){if(a){var
-b=aF(d,a[1]);if(b)var
-c=nN(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
+n5(a){return a?K(a[1][2],d):a}function
+cn(a){return a?K(d,a[1][1]):a}function
+n6(d,a){return i(d,0,[3,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b],a])}function
+n7(d,a){if(a){var
+b=aH(d,a[1]);if(b)var
+c=n7(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
 var
-e=b;return e}return uy}function
-ha(d,a){if(a){var
-b=nN(d,a[1]);if(b)var
-c=ha(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
+e=b;return e}return u8}function
+hf(d,a){if(a){var
+b=n7(d,a[1]);if(b)var
+c=hf(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
 var
-e=b;return e}return uz}function
-nO(b,a){return an(function(c,a){return A(Q(b,c),a)},u,a)}function
-nP(b,d){function
+e=b;return e}return u9}function
+n8(b,a){return ao(function(c,a){return A(R(b,c),a)},u,a)}function
+n9(b,d){function
 c(e,d,c,a){var
-f=t(b,d,c);return D(t(b,e,a),f)}if(d){var
+f=t(b,d,c);return E(t(b,e,a),f)}if(d){var
 e=d[1];if(e){var
 f=e[2];if(f){var
 g=f[2],q=f[1],r=e[1],a=d[2];if(g){if(g[2])return u;if(a){var
@@ -3458,60 +3650,60 @@ k=a[2];if(k){var
 l=k[1];if(l){var
 m=l[2];if(m){var
 n=m[2];if(n){if(n[2])return u;if(k[2])return u;var
-s=n[1],v=m[1],w=l[1],x=j[1],y=i[1],z=h[1],B=c(z,y,w,v),C=t(b,g[1],B),E=t(b,q,c(z,x,w,s));return A(D(t(b,r,c(y,x,v,s)),E),C)}return u}return u}return u}return u}return u}return u}return u}return u}if(a){var
+s=n[1],v=m[1],w=l[1],x=j[1],y=i[1],z=h[1],B=c(z,y,w,v),C=t(b,g[1],B),D=t(b,q,c(z,x,w,s));return A(E(t(b,r,c(y,x,v,s)),D),C)}return u}return u}return u}return u}return u}return u}return u}return u}if(a){var
 o=a[1];if(o){var
 p=o[2];return p?p[2]?u:a[2]?u:c(r,q,o[1],p[1]):u}return u}return u}return u}return u}return u}function
-nQ(a,p,m,s,g,i){function
-a1(c,a){return[4,[4,[5,[0,b,b],c],[5,[0,b,b],c]],bt(a,a)]}var
-bL=m[1];function
+n_(a,p,m,s,g,j){function
+a1(c,a){return[4,[4,[5,[0,b,b],c],[5,[0,b,b],c]],bu(a,a)]}var
+bM=m[1];function
 B(c){var
-a=[0,d,b];return an(function(a,b){var
-d=bt(a,c);return[2,[4,bt(a,c),d],b]},a,bL)}function
+a=[0,d,b];return ao(function(a,b){var
+d=bu(a,c);return[2,[4,bu(a,c),d],b]},a,bM)}function
 C(g,e){var
 a=G(m[1],g);if(a){var
-b=a[1],c=n(f(b),p);if(c)return j(e,b);var
+b=a[1],c=n(f(b),p);if(c)return h(e,b);var
 d=c}else
 var
 d=a;return d}var
 a2=l(function(c){var
 b=0;if(typeof
-i==="number")b=1;else
-switch(i[0]){case
+j==="number")b=1;else
+switch(j[0]){case
 6:var
-a=uA;break;case
+a=u_;break;case
 13:case
 14:var
-a=uB;break;default:b=1}if(b)var
+a=u$;break;default:b=1}if(b)var
 a=p;return n(f(c),a)},g);if(a2){var
 v=0;if(typeof
-i==="number")v=1;else
-switch(i[0]){case
+j==="number")v=1;else
+switch(j[0]){case
 0:if(g){if(g[2])return 0;var
-a4=g[1],bM=B(a4);return h(a,1,[3,a1(i[1],a4),bM])}return g;case
+a4=g[1],bN=B(a4);return i(a,1,[3,a1(j[1],a4),bN])}return g;case
 1:if(g){if(g[2])return 0;var
-a5=g[1],bN=a1(i[1],a5);return h(a,1,[3,B(a5),bN])}return g;case
+a5=g[1],bO=a1(j[1],a5);return i(a,1,[3,B(a5),bO])}return g;case
 2:if(g)return 0;var
-bO=i[2],bP=function(b){if(typeof
-b!=="number"&&0===b[0])return h(a,1,[3,bO,b[1]]);return 0},ai=bP,ah=i[1];break;case
+bP=j[2],bQ=function(b){if(typeof
+b!=="number"&&0===b[0])return i(a,1,[3,bP,b[1]]);return 0},ai=bQ,ah=j[1];break;case
 3:if(g)return 0;var
-bQ=i[2],bR=function(b){if(typeof
-b!=="number"&&0===b[0])return h(a,1,[3,b[1],bQ]);return 0},ai=bR,ah=i[1];break;case
+bR=j[2],bS=function(b){if(typeof
+b!=="number"&&0===b[0])return i(a,1,[3,b[1],bR]);return 0},ai=bS,ah=j[1];break;case
 4:if(g)return 0;var
-a6=i[3],a7=i[2],bS=function(d){var
-i=n(s,0);if(typeof
+a6=j[3],a7=j[2],bT=function(d){var
+h=n(s,0);if(typeof
 d!=="number"&&1===d[0]){var
-e=d[2],f=d[1],g=h(a,0,[3,[2,a7,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b]],a6]);return g?i?nL(nK(a,f,e,a7)):cl(nK(a,f,e,a6)):g}return 0},ai=bS,ah=i[1];break;case
+e=d[2],f=d[1],g=i(a,0,[3,[2,a7,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b]],a6]);return g?h?n5(n4(a,f,e,a7)):cn(n4(a,f,e,a6)):g}return 0},ai=bT,ah=j[1];break;case
 5:if(g){var
-E=g[2];if(E){if(E[2])return 0;var
-ak=E[1],al=g[1],a8=i[1],bT=bt(al,al),bU=[4,[4,a8,a8],[4,B(ak),bT]],bW=bt(ak,ak);return h(a,1,[3,[4,B(al),bW],bU])}var
-a9=E}else
+D=g[2];if(D){if(D[2])return 0;var
+ak=D[1],al=g[1],a8=j[1],bU=bu(al,al),bV=[4,[4,a8,a8],[4,B(ak),bU]],bW=bu(ak,ak);return i(a,1,[3,[4,B(al),bW],bV])}var
+a9=D}else
 var
 a9=g;return a9;case
 6:var
-a_=i[2],bX=i[3],bY=function(b){var
-c=[5,bX,a_],d=h(a,1,a_);return d?h(a,1,[3,bt(b,b),[4,c,c]]):d},a$=C(i[1],bY);if(a$){if(m[4]){if(g){var
+a_=j[2],bX=j[3],bY=function(b){var
+c=[5,bX,a_],d=i(a,1,a_);return d?i(a,1,[3,bu(b,b),[4,c,c]]):d},a$=C(j[1],bY);if(a$){if(m[4]){if(g){var
 F=g[1];if(F){if(F[2])return 0;if(g[2])return 0;var
-ba=F[1];return h(a,1,[4,ba,ba])}var
+ba=F[1];return i(a,1,[4,ba,ba])}var
 bb=F}else
 var
 bb=g;return bb}if(g)return 0;var
@@ -3519,11 +3711,11 @@ bc=1}else
 var
 bc=a$;return bc;case
 7:if(g){if(g[2])return 0;var
-bd=g[1],am=i[1],bZ=i[3],b0=i[2],ao=g$(m[7]);if(ao){var
-H=ao[1],ap=G(bd,am);if(ap){var
+bd=g[1],am=j[1],bZ=j[3],b0=j[2],an=he(m[7]);if(an){var
+H=an[1],ap=G(bd,am);if(ap){var
 b1=ap[1],be=n(f(H),p),bf=be?l(function(a){return n(f(a),p)},H):be;if(bf){var
 aq=G(H,am);if(aq){var
-b2=aq[1];return C(am,function(b){return nB(a,bt,b0,bZ,b1,nG(bd,H),b,b2)})}var
+b2=aq[1];return C(am,function(b){return nV(a,bu,b0,bZ,b1,n0(bd,H),b,b2)})}var
 bg=aq}else
 var
 bg=bf;var
@@ -3532,38 +3724,38 @@ var
 bh=ap;var
 bi=bh}else
 var
-bi=ao;var
+bi=an;var
 bj=bi}else
 var
 bj=g;return bj;case
 8:if(g){if(g[2])return 0;var
-ar=g[1],b3=nF(i[1],m[1],ar),b4=bt(ar,ar);return h(a,1,[3,[4,i[2],b4],b3])}return g;case
+ar=g[1],b3=nZ(j[1],m[1],ar),b4=bu(ar,ar);return i(a,1,[3,[4,j[2],b4],b3])}return g;case
 9:if(g)return 0;var
-bk=i[3],bl=i[2],b5=function(e){var
-f=h(a,1,bl),g=f?h(a,0,bk):f;if(g){var
-b=aF(a,bt(e,e));if(b){var
-c=aF(a,[5,bk,bl]);if(c){var
-d=mp(a,c[1]);if(d){var
-l=Q(a,d[1]);return cl([0,D(b[1],l)])}var
-i=d}else
+bk=j[3],bl=j[2],b5=function(e){var
+f=i(a,1,bl),g=f?i(a,0,bk):f;if(g){var
+b=aH(a,bu(e,e));if(b){var
+c=aH(a,[5,bk,bl]);if(c){var
+d=mJ(a,c[1]);if(d){var
+l=R(a,d[1]);return cn([0,E(b[1],l)])}var
+h=d}else
 var
-i=c;var
-j=i}else
+h=c;var
+j=h}else
 var
 j=b;var
 k=j}else
 var
-k=g;return k};return C(i[1],b5);case
+k=g;return k};return C(j[1],b5);case
 10:if(g)return 0;var
-b6=i[2],b7=function(b){var
-c=[4,b6,b[3]],d=h(a,1,c);return d?h(a,1,[3,[4,c,c],[4,b[2],b[2]]]):d},bn=b7,bm=i[1];v=2;break;case
+b6=j[2],b7=function(b){var
+c=[4,b6,b[3]],d=i(a,1,c);return d?i(a,1,[3,[4,c,c],[4,b[2],b[2]]]):d},bn=b7,bm=j[1];v=2;break;case
 11:if(g)return 0;var
-b8=i[2],b9=function(e){var
-b=c4(a,b8);if(b){var
-c=aF(a,e[3]);if(c){var
-d=aF(a,e[2]);if(d){var
-f=t(a,b[1],c[1]),g=cl([0,f]);if(g){var
-k=Q(a,d[1]);return cl([0,D(Q(a,f),k)])}var
+b8=j[2],b9=function(e){var
+b=c9(a,b8);if(b){var
+c=aH(a,e[3]);if(c){var
+d=aH(a,e[2]);if(d){var
+f=t(a,b[1],c[1]),g=cn([0,f]);if(g){var
+k=R(a,d[1]);return cn([0,E(R(a,f),k)])}var
 h=g}else
 var
 h=d;var
@@ -3572,13 +3764,13 @@ var
 i=c;var
 j=i}else
 var
-j=b;return j},bn=b9,bm=i[1];v=2;break;case
+j=b;return j},bn=b9,bm=j[1];v=2;break;case
 12:if(g)return 0;var
-au=nJ(m[3]);if(au){var
-bp=au[1],b_=i[1],bq=bV(function(b,a){return[4,b,a[3]]},bp,b_),av=e(function(a){return a[1]},bp),w=function(d,c,b,a){return[3,[4,d,a],[4,c,b]]};if(av){var
+au=n3(m[3]);if(au){var
+bp=au[1],b_=j[1],bq=bz(function(b,a){return[4,b,a[3]]},bp,b_),av=e(function(a){return a[1]},bp),w=function(d,c,b,a){return[3,[4,d,a],[4,c,b]]};if(av){var
 O=av[1];if(O){var
 P=O[2];if(P){var
-R=P[2],aC=P[1],aD=O[1],o=av[2];if(R)if(R[2]||!o)var
+Q=P[2],aC=P[1],aD=O[1],o=av[2];if(Q)if(Q[2]||!o)var
 k=[0,d,b];else{var
 S=o[1];if(S){var
 T=S[2];if(T){var
@@ -3587,7 +3779,7 @@ V=o[2];if(V){var
 W=V[1];if(W){var
 X=W[2];if(X){var
 Y=X[2];if(Y&&!(Y[2]||V[2]))var
-aE=Y[1],aG=X[1],aH=W[1],aI=U[1],aJ=T[1],aK=S[1],bE=w(aK,aJ,aH,aG),bF=[4,R[1],bE],bG=[4,aC,w(aK,aI,aH,aE)],k=[2,[3,[4,aD,w(aJ,aI,aG,aE)],bG],bF];else
+aE=Y[1],aF=X[1],aG=W[1],aI=U[1],aJ=T[1],aK=S[1],bF=w(aK,aJ,aG,aF),bG=[4,Q[1],bF],bH=[4,aC,w(aK,aI,aG,aE)],k=[2,[3,[4,aD,w(aJ,aI,aF,aE)],bH],bG];else
 var
 k=[0,d,b]}else
 var
@@ -3604,7 +3796,7 @@ var
 k=[0,d,b]}else
 if(o){var
 Z=o[1];if(Z)var
-$=Z[2],k=$?$[2]?[0,d,b]:o[2]?[0,d,b]:w(aD,aC,Z[1],$[1]):[0,d,b];else
+_=Z[2],k=_?_[2]?[0,d,b]:o[2]?[0,d,b]:w(aD,aC,Z[1],_[1]):[0,d,b];else
 var
 k=[0,d,b]}else
 var
@@ -3615,24 +3807,24 @@ var
 k=[0,d,b]}else
 var
 k=[0,d,b];var
-br=h(a,1,[3,bq,k]);if(br)return h(a,1,[2,bq,k]);var
+br=i(a,1,[3,bq,k]);if(br)return i(a,1,[2,bq,k]);var
 bs=br}else
 var
 bs=au;return bs;case
 13:var
-b$=i[2],aw=G(m[4],i[1]);if(aw){var
+b$=j[2],aw=G(m[4],j[1]);if(aw){var
 ax=aw[1];if(ax){var
-bu=function(a){if(b$){var
-c=j(m[5],[0,[0,d,b],[0,d,b],[0,d,b]]),e=j(m[5],a);return M(function(b,a){return[3,b,a]},e,c)}return a},I=i[4],u=bu(da(i[3])),J=ax[1][1][2],r=x(J,u);if(nM(a,I)){if(s){if(s[1])return 0;if(g){var
+bt=function(a){if(b$){var
+c=h(m[5],[0,[0,d,b],[0,d,b],[0,d,b]]),e=h(m[5],a);return M(function(b,a){return[3,b,a]},e,c)}return a},I=j[4],u=bt(dg(j[3])),J=ax[1][1][2],r=x(J,u);if(n6(a,I)){if(s){if(s[1])return 0;if(g){var
 y=g[1];if(y){var
 z=y[2];if(z){var
 A=z[2];if(A){if(A[2])return 0;if(g[2])return 0;var
-aa=bu([0,y[1],z[1],A[1]]),aL=x(J,aa),aM=h(a,1,r);if(aM){var
-ab=c4(a,I);if(ab){var
-aN=ab[1],ac=aF(a,[4,x(u,u),[4,aL,aL]]);if(ac){var
-ad=aF(a,[4,[4,r,r],x(aa,aa)]);if(ad){var
-aO=cl([0,aN]);if(aO){var
-bH=ad[1],bI=ac[1];return cl([0,D(t(a,Q(a,aN),bI),bH)])}var
+aa=bt([0,y[1],z[1],A[1]]),aL=x(J,aa),aM=i(a,1,r);if(aM){var
+ab=c9(a,I);if(ab){var
+aN=ab[1],ac=aH(a,[4,x(u,u),[4,aL,aL]]);if(ac){var
+ad=aH(a,[4,[4,r,r],x(aa,aa)]);if(ad){var
+aO=cn([0,aN]);if(aO){var
+bI=ad[1],bJ=ac[1];return cn([0,E(t(a,R(a,aN),bJ),bI)])}var
 aP=aO}else
 var
 aP=ad;var
@@ -3656,12 +3848,12 @@ var
 aV=y;var
 aW=aV}else
 var
-aW=g;return aW}return g?0:h(a,1,[3,[0,d,b],r])}if(s)return 0;if(g)return 0;var
-aX=h(a,0,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],I]);if(aX){var
-ae=c4(a,I);if(ae){var
-af=aF(a,r);if(af){var
-bJ=x(J,J),ag=aF(a,[6,[4,x(u,u),bJ]]);if(ag){var
-bK=t(a,ae[1],ag[1]);return nL([0,D(af[1],bK)])}var
+aW=g;return aW}return g?0:i(a,1,[3,[0,d,b],r])}if(s)return 0;if(g)return 0;var
+aX=i(a,0,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],I]);if(aX){var
+ae=c9(a,I);if(ae){var
+af=aH(a,r);if(af){var
+bK=x(J,J),ag=aH(a,[6,[4,x(u,u),bK]]);if(ag){var
+bL=t(a,ae[1],ag[1]);return n5([0,E(af[1],bL)])}var
 aY=ag}else
 var
 aY=af;var
@@ -3678,7 +3870,7 @@ bv=aw;return bv;case
 K=g[1];if(K){var
 L=K[2];if(L){var
 N=L[2];if(N){if(N[2])return 0;if(g[2])return 0;var
-ca=i[3],cb=i[2],cc=i[1],cd=[0,K[1],L[1],N[1]],ce=m[5],cf=m[4];return nA(a,function(a){return ny(cf,ce,a)},cd,cc,cb,ca)}var
+ca=j[3],cb=j[2],cc=j[1],cd=[0,K[1],L[1],N[1]],ce=m[5],cf=m[4];return nU(a,function(a){return nS(cf,ce,a)},cd,cc,cb,ca)}var
 bw=N}else
 var
 bw=L;var
@@ -3689,21 +3881,21 @@ by=bx}else
 var
 by=g;return by;case
 17:if(g)return 0;var
-bz=i[2],ay=i[1],cg=i[3],az=g$(m[7]);if(az){var
-aA=az[1],bA=nI(p,aA),bB=bA?n(f(bz),p):bA;if(bB){var
+bA=j[2],ay=j[1],cg=j[3],az=he(m[7]);if(az){var
+aA=az[1],bB=n2(p,aA),bC=bB?n(f(bA),p):bB;if(bC){var
 aB=G(aA,ay);if(aB){var
 ch=aB[1];return C(ay,function(x){var
-e=ha(a,aA);if(e){var
-j=e[1],f=ha(a,[0,bz,[0,x,[0,ch,0]]]);if(f){var
+e=hf(a,aA);if(e){var
+j=e[1],f=hf(a,[0,bA,[0,x,[0,ch,0]]]);if(f){var
 b=f[1];if(b){var
 c=b[2];if(c){var
 d=c[2];if(d){if(d[2])return 0;var
-g=aF(a,cg);if(g){var
-k=g[1],l=Q(a,nP(a,j)),h=nP(a,nH(ay,b[1],j)),m=cl([0,k]),o=m?cl([0,l]):m;if(o)var
-y=n(s,0)?h:_(h),i=cl([0,y]);else
+g=aH(a,cg);if(g){var
+k=g[1],l=R(a,n9(a,j)),h=n9(a,n1(ay,b[1],j)),m=cn([0,k]),o=m?cn([0,l]):m;if(o)var
+y=n(s,0)?h:$(h),i=cn([0,y]);else
 var
 i=o;if(i){var
-z=nO(a,c[1]),A=t(a,t(a,Q(a,k),l),z),B=nO(a,d[1]);return cl([0,D(t(a,Q(a,h),B),A)])}var
+z=n8(a,c[1]),A=t(a,t(a,R(a,k),l),z),B=n8(a,d[1]);return cn([0,E(t(a,R(a,h),B),A)])}var
 p=i}else
 var
 p=g;var
@@ -3722,12 +3914,12 @@ v=f;var
 w=v}else
 var
 w=e;return w})}var
-bC=aB}else
+bD=aB}else
 var
-bC=bB;var
-bD=bC}else
+bD=bC;var
+bE=bD}else
 var
-bD=az;return bD;default:v=1}switch(v){case
+bE=az;return bE;default:v=1}switch(v){case
 1:var
 a3=0;break;case
 2:var
@@ -3739,110 +3931,110 @@ bo=as;return bo;default:var
 aj=G(m[2],ah);return aj?ai(aj[1]):aj}}else
 var
 a3=a2;return a3}function
-fB(d,f,a){if(typeof
+fF(d,f,a){if(typeof
 a!=="number")switch(a[0]){case
 13:var
-e=a[4];if(nM(d,e)&&I(h(d,0,[3,e,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b]])))return uE;return uF;case
+e=a[4];if(n6(d,e)&&I(i(d,0,[3,e,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b]])))return vc;return vd;case
 16:return f;case
 4:case
-17:return uD}return uC}function
-ex(e,d,g,f){var
+17:return vb}return va}function
+eE(e,d,g,f){var
 b=g,a=f;for(;;){if(a){var
-c=a[1];if(aB(b,fB(e,d,c)))return[0,[0,c,b]];var
-h=a[2],b=dy(b,fB(e,d,c)),a=h;continue}return a}}function
-nR(a){return e(function(a){return[0,a,b]},a)}function
-jr(f,o,g,c,n,a){if(typeof
+c=a[1];if(aD(b,fF(e,d,c)))return[0,[0,c,b]];var
+h=a[2],b=dE(b,fF(e,d,c)),a=h;continue}return a}}function
+n$(a){return e(function(a){return[0,a,b]},a)}function
+jB(f,o,g,c,n,a){if(typeof
 a==="number"){if(0===a){var
-s=c[6];return aj(function(a){return h(f,0,[3,[0,d,b],a])},s)}var
-i=g$(c[7]);return i?mw(g,i[1]):i}else{if(0===a[0]){var
-j=ex(f,o,a[1],n);if(j){var
-p=j[1],t=p[1],u=e(nR,a[2]);return nQ(f,g,c,p[2],u,t)}return j}var
-k=ex(f,o,a[1],n);if(k){var
+s=c[6];return ak(function(a){return i(f,0,[3,[0,d,b],a])},s)}var
+h=he(c[7]);return h?mQ(g,h[1]):h}else{if(0===a[0]){var
+j=eE(f,o,a[1],n);if(j){var
+p=j[1],t=p[1],u=e(n$,a[2]);return n_(f,g,c,p[2],u,t)}return j}var
+k=eE(f,o,a[1],n);if(k){var
 q=k[1],l=q[1];if(typeof
 l!=="number"&&1===l[0]){var
-m=G(c[1],a[2]);return m?nQ(f,g,c,q[2],[0,m[1],0],[1,l[1]]):m}var
+m=G(c[1],a[2]);return m?n_(f,g,c,q[2],[0,m[1],0],[1,l[1]]):m}var
 r=0}else
 var
 r=k;return r}}function
-js(a){var
-b=ay(a[1]),c=R(x(b,a[2]),b),d=a[2];return M(function(b,a){return[3,b,a]},d,c)}function
-fC(a){return ay(js(a))}function
-hb(c){var
-a=fC(c),b=ay(c[1]);return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
-hc(a,b){return aW(a[3],a[4],b)}function
-fD(a,b){var
-c=hc(a,b);return x(fC(a),c)}function
-fE(a,b){var
-c=hc(a,b);return x(hb(a),c)}function
-nS(a,b){var
-c=hc(a,b);return x(ay(a[1]),c)}function
-hd(b,a){var
-c=fE(b,a),d=fD(b,a);return[2,[4,d,d],[4,c,c]]}function
-he(a,d){var
-h=a[5],i=[4,[0,c(2,b),b],h],e=a[6],f=a[5],g=nS(a,d);return[5,[2,hd(a,d),[2,[4,g,g],[3,[4,f,f],[4,e,e]]]],i]}function
-jt(a,b){var
-f=a[5],c=[3,he(a,b),f],d=nS(a,b),e=a[6];return[3,[3,[4,e,e],[4,d,d]],[4,c,c]]}function
-ey(a,b){var
-c=jt(a,b);return cL(a[7],c)}function
-nT(b,a){var
-c=hd(b,a),d=fE(b,a),e=[4,ey(b,a),d],f=fD(b,a);return[5,[2,[4,he(b,a),f],e],c]}function
-nU(b,a){var
-c=hd(b,a),d=fD(b,a),e=[4,ey(b,a),d],f=fE(b,a);return[5,[3,[4,he(b,a),f],e],c]}function
-ju(a,b){var
-c=hb(a),d=R(nU(a,b),c),e=fC(a),f=R(nT(a,b),e),g=M(function(b,a){return[2,b,a]},f,d),h=R(a[5],g),i=a[3];return M(function(b,a){return[2,b,a]},i,h)}function
-dO(a){return[5,[3,[0,b,b],[4,a,a]],[2,[0,b,b],[4,a,a]]]}function
-dP(a){return[5,[4,[0,c(2,b),b],a],[2,[0,b,b],[4,a,a]]]}function
-jv(a,c,b){var
-d=[4,dO(a),b],e=[2,[4,dP(a),c],d],f=[4,dP(a),b];return[0,[3,[4,dO(a),c],f],e]}function
-nV(c,a){var
-b=jv(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
-db(b,a){return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
-nW(a,d){var
-e=x(a,a),f=db(a,d),g=R([0,c(2,b),b],f),h=x(a,d),i=R([4,[0,c(2,b),b],h],a),j=R([3,[0,b,b],e],d),k=M(function(b,a){return[2,b,a]},j,i);return R([5,[0,b,b],[2,[0,b,b],e]],M(function(b,a){return[2,b,a]},k,g))}function
-dc(j,b,a){switch(j[0]){case
-0:return b?b[2]?a:nV(b[1],a):a;case
+jC(a){var
+b=aA(a[1]),c=S(x(b,a[2]),b),d=a[2];return M(function(b,a){return[3,b,a]},d,c)}function
+fG(a){return aA(jC(a))}function
+hg(c){var
+a=fG(c),b=aA(c[1]);return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
+hh(a,b){return aZ(a[3],a[4],b)}function
+fH(a,b){var
+c=hh(a,b);return x(fG(a),c)}function
+fI(a,b){var
+c=hh(a,b);return x(hg(a),c)}function
+oa(a,b){var
+c=hh(a,b);return x(aA(a[1]),c)}function
+hi(b,a){var
+c=fI(b,a),d=fH(b,a);return[2,[4,d,d],[4,c,c]]}function
+hj(a,d){var
+h=a[5],i=[4,[0,c(2,b),b],h],e=a[6],f=a[5],g=oa(a,d);return[5,[2,hi(a,d),[2,[4,g,g],[3,[4,f,f],[4,e,e]]]],i]}function
+jD(a,b){var
+f=a[5],c=[3,hj(a,b),f],d=oa(a,b),e=a[6];return[3,[3,[4,e,e],[4,d,d]],[4,c,c]]}function
+eF(a,b){var
+c=jD(a,b);return cP(a[7],c)}function
+ob(b,a){var
+c=hi(b,a),d=fI(b,a),e=[4,eF(b,a),d],f=fH(b,a);return[5,[2,[4,hj(b,a),f],e],c]}function
+oc(b,a){var
+c=hi(b,a),d=fH(b,a),e=[4,eF(b,a),d],f=fI(b,a);return[5,[3,[4,hj(b,a),f],e],c]}function
+jE(a,b){var
+c=hg(a),d=S(oc(a,b),c),e=fG(a),f=S(ob(a,b),e),g=M(function(b,a){return[2,b,a]},f,d),h=S(a[5],g),i=a[3];return M(function(b,a){return[2,b,a]},i,h)}function
+dT(a){return[5,[3,[0,b,b],[4,a,a]],[2,[0,b,b],[4,a,a]]]}function
+dU(a){return[5,[4,[0,c(2,b),b],a],[2,[0,b,b],[4,a,a]]]}function
+jF(a,c,b){var
+d=[4,dT(a),b],e=[2,[4,dU(a),c],d],f=[4,dU(a),b];return[0,[3,[4,dT(a),c],f],e]}function
+od(c,a){var
+b=jF(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
+dh(b,a){return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
+oe(a,d){var
+e=x(a,a),f=dh(a,d),g=S([0,c(2,b),b],f),h=x(a,d),i=S([4,[0,c(2,b),b],h],a),j=S([3,[0,b,b],e],d),k=M(function(b,a){return[2,b,a]},j,i);return S([5,[0,b,b],[2,[0,b,b],e]],M(function(b,a){return[2,b,a]},k,g))}function
+di(j,b,a){switch(j[0]){case
+0:return b?b[2]?a:od(b[1],a):a;case
 1:if(b){var
 c=b[2];if(c){var
 d=c[2];if(d){if(d[2])return a;var
-g=jv(b[1],a[2],a[3]),i=g[1],h=jv(c[1],g[2],a[1]);return nV(d[1],[0,h[2],i,h[1]])}return a}return a}return a;default:if(b){var
+g=jF(b[1],a[2],a[3]),i=g[1],h=jF(c[1],g[2],a[1]);return od(d[1],[0,h[2],i,h[1]])}return a}return a}return a;default:if(b){var
 e=b[2];if(e){var
-f=e[2];return f?f[2]?a:nW([0,b[1],e[1],f[1]],a):a}return a}return a}}function
-nX(c){var
-a=cG(c);return a?ej(a[1],[0,d,b]):a}function
-nY(a,n,k,j){if(nX(j)){var
-q=n?[3,[0,d,b],k]:k;return h(a,0,q)}var
-f=aF(a,k);if(f){var
-g=c4(a,[5,j,[0,c(2,b),b]]);if(g){var
-i=gL(a,[5,j,[0,c(2,b),b]]);if(i)var
-p=t(a,f[1],g[1]),l=[0,D(i[1],p)];else
+f=e[2];return f?f[2]?a:oe([0,b[1],e[1],f[1]],a):a}return a}return a}}function
+of(c){var
+a=cK(c);return a?ep(a[1],[0,d,b]):a}function
+og(a,n,k,j){if(of(j)){var
+q=n?[3,[0,d,b],k]:k;return i(a,0,q)}var
+f=aH(a,k);if(f){var
+g=c9(a,[5,j,[0,c(2,b),b]]);if(g){var
+h=gQ(a,[5,j,[0,c(2,b),b]]);if(h)var
+p=t(a,f[1],g[1]),l=[0,E(h[1],p)];else
 var
-l=i;var
+l=h;var
 m=l}else
 var
 m=g;var
 e=m}else
 var
 e=f;if(e){var
-o=e[1];return n?E(d,o[1]):E(o[2],d)}return e}function
-dQ(b,a,c){var
-d=bA(b,a[1],a[2]),e=d?nY(b,0,c,a[1]):d;return e?nY(b,1,c,a[2]):e}function
-nZ(h,f,c){if(nX(c))return[0,u];var
-a=F(h,iO(f)),d=c4(a,c);if(d){var
-e=gL(a,c);if(e){var
-i=e[1],j=d[1],k=bW(a,A(J(a,b),j));return z(function(b){return mg(f,t(a,i,b))},k)}var
+o=e[1];return n?D(d,o[1]):D(o[2],d)}return e}function
+dV(b,a,c){var
+d=bC(b,a[1],a[2]),e=d?og(b,0,c,a[1]):d;return e?og(b,1,c,a[2]):e}function
+oh(h,f,c){if(of(c))return[0,u];var
+a=F(h,iZ(f)),d=c9(a,c);if(d){var
+e=gQ(a,c);if(e){var
+i=e[1],j=d[1],k=bX(a,A(J(a,b),j));return y(function(b){return mA(f,t(a,i,b))},k)}var
 g=e}else
 var
 g=d;return g}function
-cm(a){return function(b){return nZ(a,d,b)}}function
-cn(d,a){var
-e=h(d,1,[2,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],a]);return e?h(d,1,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],a]):e}function
-dd(a){return[0,[3,[0,d,b],a],a]}function
-n0(a,c,o,n){var
-h=bA(a,[0,d,b],c),i=h?cn(a,c):h;if(i){var
-e=j(cm(a),c);if(e){var
-f=aF(a,o);if(f){var
-g=aF(a,n);if(g){var
-p=f[1],q=g[1];return E(d,D(t(a,Q(a,e[1]),q),p)[1])}var
+co(a){return function(b){return oh(a,d,b)}}function
+cp(d,a){var
+e=i(d,1,[2,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],a]);return e?i(d,1,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],a]):e}function
+dj(a){return[0,[3,[0,d,b],a],a]}function
+oi(a,c,o,n){var
+i=bC(a,[0,d,b],c),j=i?cp(a,c):i;if(j){var
+e=h(co(a),c);if(e){var
+f=aH(a,o);if(f){var
+g=aH(a,n);if(g){var
+p=f[1],q=g[1];return D(d,E(t(a,R(a,e[1]),q),p)[1])}var
 k=g}else
 var
 k=f;var
@@ -3851,13 +4043,13 @@ var
 l=e;var
 m=l}else
 var
-m=i;return m}function
-fF(d,c,a){switch(c[0]){case
-0:return a?a[2]?0:dQ(d,c[1],a[1]):a;case
+m=j;return m}function
+fJ(d,c,a){switch(c[0]){case
+0:return a?a[2]?0:dV(d,c[1],a[1]):a;case
 1:if(a){var
 e=a[2];if(e){var
 f=e[2];if(f){if(f[2])return 0;var
-l=dQ(d,c[1],a[1]),m=l?dQ(d,c[2],e[1]):l;if(m)return dQ(d,c[3],f[1]);var
+l=dV(d,c[1],a[1]),m=l?dV(d,c[2],e[1]):l;if(m)return dV(d,c[3],f[1]);var
 n=m}else
 var
 n=f;var
@@ -3870,7 +4062,7 @@ p=a;return p;case
 2:if(a){var
 g=a[2];if(g){var
 h=g[2];if(h){if(h[2])return 0;var
-q=h[1],r=g[1],s=a[1],C=x([0,s,r,q],[0,s,r,q]);return n0(d,c[1],C,[0,b,b])}var
+q=h[1],r=g[1],s=a[1],C=x([0,s,r,q],[0,s,r,q]);return oi(d,c[1],C,[0,b,b])}var
 t=h}else
 var
 t=g;var
@@ -3879,7 +4071,7 @@ var
 u=a;return u;default:if(a){var
 i=a[2];if(i){var
 j=i[2];if(j){if(j[2])return 0;var
-k=j[1],v=i[1],w=a[1],y=n0(d,c[1],[2,[4,w,w],[4,v,v]],[2,[0,b,b],[4,k,k]]);if(y)return dQ(d,dd(c[2]),k);var
+k=j[1],v=i[1],w=a[1],y=oi(d,c[1],[2,[4,w,w],[4,v,v]],[2,[0,b,b],[4,k,k]]);if(y)return dV(d,dj(c[2]),k);var
 z=y}else
 var
 z=j;var
@@ -3889,76 +4081,76 @@ A=i;var
 B=A}else
 var
 B=a;return B}}var
-i=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))));function
-bJ(b){var
-a=an(function(f,e){var
-a=aF(i,f);if(a)var
-b=a[1],c=bp(cx(b[1]),cx(b[2]));else
+j=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))));function
+bL(b){var
+a=ao(function(f,e){var
+a=aH(j,f);if(a)var
+b=a[1],c=bq(cz(b[1]),cz(b[2]));else
 var
-c=d;return bp(c,e)},d,b);return K(d,a)?aM(l2(a),i):d}function
-ez(a){return[0,a[1],[0,a[2],0]]}function
-bd(a){var
-b=ez(a[3]),c=g(ez(a[2]),b);return g(ez(a[1]),c)}function
-hf(a){return g_(i,a,bJ(bd(a)))}function
-n1(b,a){if(a){var
-g=n1([0,b],a[2]),c=a[1];if(0===c[0])var
-d=c[1],e=ci([0,[0,d,d],c[2]],b);else
+c=d;return bq(c,e)},d,b);return K(d,a)?aO(ma(a),j):d}function
+eG(a){return[0,a[1],[0,a[2],0]]}function
+bh(a){var
+b=eG(a[3]),c=g(eG(a[2]),b);return g(eG(a[1]),c)}function
+hk(a){return hd(j,a,bL(bh(a)))}function
+oj(b,a){if(a){var
+g=oj([0,b],a[2]),c=a[1];if(0===c[0])var
+d=c[1],e=ck([0,[0,d,d],c[2]],b);else
 var
 e=[0,[1,b]];var
 f=[0,e,g]}else
 var
 f=a;return f}function
-n2(c,b,a){var
-d=ek(b);return[2,[2,ek(c),d],a]}function
-hg(b,a){return b?P(a):d}function
-fG(f,b,a){if(typeof
+ok(c,b,a){var
+d=eq(b);return[2,[2,eq(c),d],a]}function
+hl(b,a){return b?Q(a):d}function
+fK(f,b,a){if(typeof
 a!=="number")switch(a[0]){case
 4:var
 i=a[3],j=a[2];return[0,[2,j],[0,[3,j],[0,[2,i],[0,[3,i],0]]]];case
 6:return[0,[0,[5,a[3],a[2]],d],0];case
 8:var
 q=a[2],r=a[1];return e(function(a){var
-c=hg(f,b);return[0,[5,q,a],F(hg(f,b),c)]},r);case
-9:return[0,[1,[5,a[3],a[2]],P(b)],0];case
+c=hl(f,b);return[0,[5,q,a],F(hl(f,b),c)]},r);case
+9:return[0,[1,[5,a[3],a[2]],Q(b)],0];case
 10:return[0,[0,a[2],d],0];case
 11:return[0,[2,a[2]],0];case
 12:return[0,[0,a[1],d],0];case
 13:var
-c=a[3],h=bJ([0,c[1],[0,c[2],[0,c[3],0]]]);return[0,[2,a[4]],[0,[0,c[1],h],[0,[0,c[2],h],[0,[0,c[3],h],0]]]];case
+c=a[3],h=bL([0,c[1],[0,c[2],[0,c[3],0]]]);return[0,[2,a[4]],[0,[0,c[1],h],[0,[0,c[2],h],[0,[0,c[3],h],0]]]];case
 14:var
-k=a[2],l=a[1],s=ev(b,k),t=g(ev(b,l),s),u=e(function(a){return[0,a[1][2],a[2]]},t);return[0,[0,n2(l,k,a[3]),b],u];case
+k=a[2],l=a[1],s=eC(b,k),t=g(eC(b,l),s),u=e(function(a){return[0,a[1][2],a[2]]},t);return[0,[0,ok(l,k,a[3]),b],u];case
 15:var
 m=a[4],n=a[3];return[0,[0,[5,a[2],m],d],[0,[0,[5,[4,n,n],m],b],0]];case
 16:var
-o=a[2],p=bJ([0,o,0]);return[0,[4,a[3],aM(p,b)],[0,[0,o,p],0]];case
+o=a[2],p=bL([0,o,0]);return[0,[4,a[3],aO(p,b)],[0,[0,o,p],0]];case
 17:var
-v=a[3],w=a[2];return e(function(a){return[0,[5,a,v],hg(f,b)]},w);case
+v=a[3],w=a[2];return e(function(a){return[0,[5,a,v],hl(f,b)]},w);case
 2:case
 3:return[0,[0,a[2],b],0]}return 0}function
-de(h,c,b,e,a){if(a){var
-d=a[1],i=a[2],j=de(h,c,b,N(e,f(fG(c,b,d))),i);return g(aq(h,n1(e,fG(c,b,d)),d),j)}return a}function
-hh(b,a){var
+dk(h,c,b,e,a){if(a){var
+d=a[1],i=a[2],j=dk(h,c,b,N(e,f(fK(c,b,d))),i);return g(ar(h,oj(e,fK(c,b,d)),d),j)}return a}function
+hm(b,a){var
 c=V(b,a);return e(function(a){var
-b=s(a[1][2],a[2]);return[0,a[1][1],b]},c)}function
-hi(b,a){switch(a[0]){case
+b=r(a[1][2],a[2]);return[0,a[1][1],b]},c)}function
+hn(b,a){switch(a[0]){case
 0:var
-d=a[1];return ao(b,[0,[0,d,d],a[2]]);case
+d=a[1];return ap(b,[0,[0,d,d],a[2]]);case
 1:var
-e=a[1],c=ao(b,[0,[0,e,e],a[2]]);return c?mp(b,c[1]):c;case
-2:return c4(b,a[1]);case
-3:return gL(b,a[1]);default:var
-f=a[1],g=cn(b,f);return g?nZ(b,a[2],f):g}}function
-bD(a){return 1===a?uG:uH}function
+e=a[1],c=ap(b,[0,[0,e,e],a[2]]);return c?mJ(b,c[1]):c;case
+2:return c9(b,a[1]);case
+3:return gQ(b,a[1]);default:var
+f=a[1],g=cp(b,f);return g?oh(b,a[2],f):g}}function
+bF(a){return 1===a?ve:vf}function
 b1(d,c,b,a){var
-e=a[1],f=dc(d,c,a[2]),g=M(function(b,a){return[2,b,a]},b,f);return M(function(b,a){return[3,b,a]},g,e)}function
-jw(c,b,a){switch(c){case
+e=a[1],f=di(d,c,a[2]),g=M(function(b,a){return[2,b,a]},b,f);return M(function(b,a){return[3,b,a]},g,e)}function
+jG(c,b,a){switch(c){case
 0:return[0,b[1],[0,b[2],[0,a[3],0]]];case
 1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}}function
-jx(h,g,d,c,f,a){var
-e=b1(d,c,f,a);return jw(h,e,R([5,[0,b,b],g],db(dc(d,c,a[2]),e)))}function
-eA(c,d,n,m,l){var
+jH(h,g,d,c,f,a){var
+e=b1(d,c,f,a);return jG(h,e,S([5,[0,b,b],g],dh(di(d,c,a[2]),e)))}function
+eH(c,d,n,m,l){var
 b=d[2],a=n;for(;;){if(b){if(a){var
-f=a[1],g=b[1],h=bs(c,g[1],f[1]),i=h?bs(c,g[2],f[2]):h;if(i){var
+f=a[1],g=b[1],h=bt(c,g[1],f[1]),i=h?bt(c,g[2],f[2]):h;if(i){var
 b=b[2],a=a[2];continue}var
 j=i}else
 var
@@ -3966,11 +4158,11 @@ j=a;var
 e=j}else
 var
 e=a?0:1;var
-k=e?cK(c,d[4],m):e;return k?fF(c,d[5],l):k}}function
-bE(b,d){var
+k=e?cO(c,d[4],m):e;return k?fJ(c,d[5],l):k}}function
+bG(b,d){var
 a=d[1];if(8===a[0]){var
-c=a[1][1];return 0===c[0]?[0,[0,N(b,c[1])]]:[0,bX(function(a){return bE(b,a)},a)]}return[0,bX(function(a){return bE(b,a)},a)]}function
-dR(d,b,h){var
+c=a[1][1];return 0===c[0]?[0,[0,N(b,c[1])]]:[0,ce(function(a){return bG(b,a)},a)]}return[0,ce(function(a){return bG(b,a)},a)]}function
+dW(d,b,h){var
 c=h;for(;;){var
 a=c[1];switch(a[0]){case
 0:var
@@ -3982,28 +4174,28 @@ e=a[1],f=I(n(e,b));return f?I(n(e,N(d,b))):f;case
 8:case
 9:var
 c=a[1];continue;default:var
-g=dR(d,b,a[1]);if(g){var
+g=dW(d,b,a[1]);if(g){var
 c=a[2];continue}return g}}}function
-eB(c,b,m){var
+eI(c,b,m){var
 d=m;for(;;){var
 a=d[1];switch(a[0]){case
 5:var
 d=a[1];continue;case
 6:var
-f=a[2],g=a[1],h=dR(c,b,g),i=h?eB(c,b,f):h;if(i)var
+f=a[2],g=a[1],h=dW(c,b,g),i=h?eI(c,b,f):h;if(i)var
 j=i;else{var
-k=eB(c,b,g);if(k)return dR(c,b,f);var
+k=eI(c,b,g);if(k)return dW(c,b,f);var
 j=k}return j;case
 7:var
-l=eB(c,b,a[1]);return l?dR(c,b,a[2]):l;case
+l=eI(c,b,a[1]);return l?dW(c,b,a[2]):l;case
 10:return 0;case
 3:case
 4:var
-e=eB(c,b,a[1]);if(e){var
+e=eI(c,b,a[1]);if(e){var
 d=a[2];continue}return e;case
 8:case
-9:return dR(c,b,a[1]);default:return 1}}}function
-cN(c,e){var
+9:return dW(c,b,a[1]);default:return 1}}}function
+cR(c,e){var
 b=e;for(;;){var
 a=b[1];switch(a[0]){case
 0:return I(n(a[1],c));case
@@ -4014,32 +4206,32 @@ a=b[1];switch(a[0]){case
 8:case
 9:var
 b=a[1];continue;default:var
-d=cN(c,a[1]);if(d){var
+d=cR(c,a[1]);if(d){var
 b=a[2];continue}return d}}}function
-hj(d,b,m){var
+ho(d,b,m){var
 c=m;for(;;){var
 a=c[1];switch(a[0]){case
 3:var
-f=hj(d,b,a[1]);if(f){var
+f=ho(d,b,a[1]);if(f){var
 c=a[2];continue}return f;case
 4:var
-g=hj(d,b,a[1]);return g?cN(b,a[2]):g;case
+g=ho(d,b,a[1]);return g?cR(b,a[2]):g;case
 6:var
-h=a[2],i=a[1],j=cN(b,i);if(j){var
-k=cN(b,h);if(k)var
+h=a[2],i=a[1],j=cR(b,i);if(j){var
+k=cR(b,h);if(k)var
 e=k;else{var
-l=aO(i,d);if(l){var
+l=aX(i,d);if(l){var
 c=h;continue}var
 e=l}}else
 var
 e=j;return e;case
 0:case
 1:case
-2:return 1;default:return cN(b,c)}}}function
-hk(c,e){var
+2:return 1;default:return cR(b,c)}}}function
+hp(c,e){var
 b=e;for(;;){var
 a=b[1];switch(a[0]){case
-0:return aB(a[1],c);case
+0:return aD(a[1],c);case
 10:return 0;case
 1:case
 2:return 1;case
@@ -4047,82 +4239,82 @@ a=b[1];switch(a[0]){case
 8:case
 9:var
 b=a[1];continue;default:var
-d=hk(c,a[1]);if(d){var
+d=hp(c,a[1]);if(d){var
 b=a[2];continue}return d}}}function
-hl(a,b){if(a){var
-c=a[2],d=a[1];if(b){var
-e=b[2];return b[1]?[0,d,hl(c,an(fh,e,mb(d)))]:[0,uK,hl(c,e)]}var
-f=[0,d,hl(c,0)]}else
+hq(a,h){if(a){var
+b=a[2],c=a[1],d=mm(h);if(d){var
+e=d[1],f=e[2];return e[1]?[0,c,hq(b,ao(mp,f,mo(c)))]:[0,vi,hq(b,f)]}var
+g=[0,c,hq(b,0)]}else
 var
-f=a;return f}function
-df(b,a){return a?j(b,a[1]):a}function
-dg(c,b,a){return df(function(b){return df(j(c,b),a)},b)}function
-n3(b,a){switch(a[0]){case
+g=a;return g}function
+dl(b,a){return a?h(b,a[1]):a}function
+dm(c,b,a){return dl(function(b){return dl(h(c,b),a)},b)}function
+ol(b,a){switch(a[0]){case
 0:return a;case
 1:return a[1];default:var
 c=a[3],d=a[2],e=a[1];switch(b){case
 0:return e;case
 1:return d;default:return c}}}function
-n4(a){return 0===a[0]?a[1]:0}function
-n5(d,c){var
+om(a){return 0===a[0]?a[1]:0}function
+on(d,c){var
 b=d,a=c;for(;;){if(a){var
-e=a[2],b=n3(a[1],b),a=e;continue}return n4(b)}}function
-co(b,a){switch(a[0]){case
-0:return[0,j(b,a[1])];case
-1:return[1,co(b,a[1])];default:var
-c=co(b,a[3]),d=co(b,a[2]);return[2,co(b,a[1]),d,c]}}function
-bu(b,c,a){switch(c[0]){case
-0:return co(j(b,c[1]),a);case
+e=a[2],b=ol(a[1],b),a=e;continue}return om(b)}}function
+cq(b,a){switch(a[0]){case
+0:return[0,h(b,a[1])];case
+1:return[1,cq(b,a[1])];default:var
+c=cq(b,a[3]),d=cq(b,a[2]);return[2,cq(b,a[1]),d,c]}}function
+bv(b,c,a){switch(c[0]){case
+0:return cq(h(b,c[1]),a);case
 1:var
 d=c[1];switch(a[0]){case
 0:var
-k=a[1];return[1,co(function(a){return aq(b,a,k)},d)];case
-1:return[1,bu(b,d,a[1])];default:var
-l=bu(b,d,a[3]),m=bu(b,d,a[2]);return[2,bu(b,d,a[1]),m,l]}default:var
+k=a[1];return[1,cq(function(a){return ar(b,a,k)},d)];case
+1:return[1,bv(b,d,a[1])];default:var
+l=bv(b,d,a[3]),m=bv(b,d,a[2]);return[2,bv(b,d,a[1]),m,l]}default:var
 e=c[3],f=c[2],g=c[1];switch(a[0]){case
 0:var
-n=a[1],o=function(a){return aq(b,a,n)},h=function(a){return co(o,a)},p=h(e),q=h(f);return[2,h(g),q,p];case
+n=a[1],o=function(a){return ar(b,a,n)},i=function(a){return cq(o,a)},p=i(e),q=i(f);return[2,i(g),q,p];case
 1:var
-i=a[1],r=bu(b,e,i),s=bu(b,f,i);return[2,bu(b,g,i),s,r];default:var
-t=bu(b,e,a[3]),u=bu(b,f,a[2]);return[2,bu(b,g,a[1]),u,t]}}}function
-jy(c,f,a){if(a)var
-d=a[1],b=function(h){var
-a=[0,d[1],d[1]],b=[0,d[2],d[2]];switch(h){case
+j=a[1],r=bv(b,e,j),s=bv(b,f,j);return[2,bv(b,g,j),s,r];default:var
+t=bv(b,e,a[3]),u=bv(b,f,a[2]);return[2,bv(b,g,a[1]),u,t]}}}function
+jI(c,f,a){if(a)var
+d=a[1],b=function(i){var
+a=[0,d[1],d[1]],b=[0,d[2],d[2]];switch(i){case
 0:var
-e=[0,a,Q(c,a)];break;case
+e=[0,a,R(c,a)];break;case
 1:var
-g=t(c,a,b),e=[0,av(A(a,b)),g];break;default:var
-e=[0,b,Q(c,b)]}return[0,[0,j(f,e)]]},h=jy(c,f,a[2]),i=e(function(a){return[1,a]},h),k=b(2),l=b(1),g=[0,[2,b(0),l,k],i];else
+g=t(c,a,b),e=[0,ax(A(a,b)),g];break;default:var
+e=[0,b,R(c,b)]}return[0,[0,h(f,e)]]},i=jI(c,f,a[2]),j=e(function(a){return[1,a]},i),k=b(2),l=b(1),g=[0,[2,b(0),l,k],j];else
 var
 g=a;return g}function
-jz(b,x,c,a){var
-e=jy(b,aI,a),d=0,y=g(jy(b,aA,a),e);return bj(uM,function(a){switch(a[0]){case
-0:return r(a[1],y,[0,[0,u]]);case
-1:return[0,[0,r(a[1],x,u)]];case
+jJ(b,x,c,a){var
+d=jI(b,aK,a),z=g(jI(b,aC,a),d);return c4(vk,function(a){switch(a[0]){case
+0:return s(a[1],z,[0,[0,u]]);case
+1:return[0,[0,s(a[1],x,u)]];case
 2:return[0,[0,J(b,a[1])]];case
 3:var
-c=a[2],d=a[1],e=function(b,a){return[0,A(b,a)]};return bu(function(a,b){return dg(e,a,b)},d,c);case
+c=a[2],d=a[1],e=function(b,a){return[0,A(b,a)]};return bv(function(a,b){return dm(e,a,b)},d,c);case
 4:var
-f=a[2],g=a[1],h=function(b,a){return[0,D(b,a)]};return bu(function(a,b){return dg(h,a,b)},g,f);case
+f=a[2],g=a[1],h=function(b,a){return[0,E(b,a)]};return bv(function(a,b){return dm(h,a,b)},g,f);case
 5:var
-i=a[1],j=function(a){return[0,_(a)]};return co(function(a){return df(j,a)},i);case
+i=a[1],j=function(a){return[0,$(a)]};return cq(function(a){return dl(j,a)},i);case
 6:var
-k=a[2],l=a[1],m=function(c,a){return[0,t(b,c,a)]};return bu(function(a,b){return dg(m,a,b)},l,k);case
+k=a[2],l=a[1],m=function(c,a){return[0,t(b,c,a)]};return bv(function(a,b){return dm(m,a,b)},l,k);case
 7:var
 n=a[2],o=a[1],p=function(c,a){var
-d=bW(b,a);return z(function(a){return t(b,c,a)},d)};return bu(function(a,b){return dg(p,a,b)},o,n);case
+d=bX(b,a);return y(function(a){return t(b,c,a)},d)};return bv(function(a,b){return dm(p,a,b)},o,n);case
 8:var
-q=a[1],s=function(a){return[0,Q(b,a)]};return co(function(a){return df(s,a)},q);case
+q=a[1],r=function(a){return[0,R(b,a)]};return cq(function(a){return dl(r,a)},q);case
 9:var
-v=a[1],w=function(a){return cc(b,a)};return co(function(a){return df(w,a)},v);default:return uL}},c,d)}function
-hm(a){if(a){var
+v=a[1],w=function(a){return cc(b,a)};return cq(function(a){return dl(w,a)},v);default:return vj}},c)}function
+hr(a){if(a){var
 b=a[1];if(b)var
-c=hm(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+c=hr(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return uN}function
-eC(a){if(a){var
-g=a[1],b=g[2],c=hm(g[1]);if(c)if(b){var
-h=b[1],e=eC(a[2]);if(e)var
+d=b;return d}return vl}function
+eJ(a){if(a){var
+g=a[1],b=g[2],c=hr(g[1]);if(c)if(b){var
+h=b[1],e=eJ(a[2]);if(e)var
 i=K(d,h[1]),j=i?[0,[0,[0,c[1],h],e[1]]]:i;else
 var
 j=e;var
@@ -4130,56 +4322,56 @@ f=j}else
 var
 f=b;else
 var
-f=c;return f}return uO}function
-eD(b,a){var
-c=a[3],d=z(function(a){var
-c=a[2],d=a[1][2];return[0,[0,j(b,a[1][1]),d],c]},c),e=j(b,a[2]),f=a[1];return[0,j(aw(b),f),e,d]}function
-jA(c,g,f,b,a,e){if(b){var
+f=c;return f}return vm}function
+eK(b,a){var
+c=a[3],d=y(function(a){var
+c=a[2],d=a[1][2];return[0,[0,h(b,a[1][1]),d],c]},c),e=h(b,a[2]),f=a[1];return[0,h(ay(b),f),e,d]}function
+jK(c,g,f,b,a,e){if(b){var
 h=b[1],l=b[2],d=function(b,a){var
-d=h7(c,fb,fb,function(a){return n3(b,a)},e);return jA(c,g,bh(f),l,a,d)},i=d(0,aM(a,h));if(i){var
+d=ia(c,fi,fi,function(a){return ol(b,a)},e);return jK(c,g,aR(f),l,a,d)},i=d(0,aO(a,h));if(i){var
 j=d(2,F(a,h));if(j)return f?1:d(1,a);var
 k=j}else
 var
-k=i;return k}return aq(g,a,h7(c,fb,fb,n4,e))}function
-jB(e,c,b,a){var
+k=i;return k}return ar(g,a,ia(c,fi,fi,om,e))}function
+jL(e,c,b,a){var
 f=ac(d,b);function
-g(b){return a}return function(a){return jA(e,g,c,f,d,a)}}function
-dh(a){if(a){var
-b=a[1],c=b[1],d=c[1],e=b[2],f=c[2];return z(function(a){return aN(f,e,a)},d)}return[0,u]}function
-n6(f,e,k,j,i,a){var
-b=eC(a[1]);if(b){var
+g(b){return a}return function(a){return jK(e,g,c,f,d,a)}}function
+dn(a){if(a){var
+b=a[1],c=b[1],d=c[1],e=b[2],f=c[2];return y(function(a){return aP(f,e,a)},d)}return[0,u]}function
+oo(f,e,k,j,i,a){var
+b=eJ(a[1]);if(b){var
 c=a[2];if(c){var
-d=dh(a[3]);if(d){var
-l=d[1],m=ac([0,D(_(t(f,i,c[1])),l),0],e);return aV(f,e,gN(k,j,b[1],m))}var
+d=dn(a[3]);if(d){var
+l=d[1],m=ac([0,E($(t(f,i,c[1])),l),0],e);return aY(f,e,gS(k,j,b[1],m))}var
 g=d}else
 var
 g=c;var
 h=g}else
 var
 h=b;return h}function
-n7(i,d,h,g,c){var
-a=eC(c[1]);if(a){var
-b=dh(c[3]);if(b){var
-j=ac([0,D(u,b[1]),0],d),k=a[1];return aV(i,d,gN(h,g,e(function(a){return[0,a[1],u]},k),j))}var
+op(i,d,h,g,c){var
+a=eJ(c[1]);if(a){var
+b=dn(c[3]);if(b){var
+j=ac([0,E(u,b[1]),0],d),k=a[1];return aY(i,d,gS(h,g,e(function(a){return[0,a[1],u]},k),j))}var
 f=b}else
 var
 f=a;return f}function
-n8(a,c,E,i){var
-j=eC(i[1]);if(j){var
+oq(a,c,D,i){var
+j=eJ(i[1]);if(j){var
 k=i[2];if(k){var
-l=dh(i[3]);if(l){var
-G=l[1],e=D(t(a,E,k[1]),G),b=j[1];if(b){var
+l=dn(i[3]);if(l){var
+G=l[1],e=E(t(a,D,k[1]),G),b=j[1];if(b){var
 m=b[1],o=m[2];if(b[2]){var
-g=gO(a,b,ac([0,e,0],c));if(g){var
-p=g[1],q=n(f(p),c);if(q)return eo(a,p);var
+g=gT(a,b,ac([0,e,0],c));if(g){var
+p=g[1],q=n(f(p),c);if(q)return ev(a,p);var
 r=q}else
 var
 r=g;return r}var
 s=K(d,e[1]),u=s?K(d,o[1]):s;if(u){var
-A=C(e[1],o[1]),B=m[1];return K(an(function(a,b){var
-c=bH(a);return F(C(bH(a),c),b)},d,B),A)}return u}var
-h=gO(a,b,ac([0,e,0],c));if(h){var
-v=h[1],w=n(f(v),c);if(w)return eo(a,v);var
+A=C(e[1],o[1]),B=m[1];return K(ao(function(a,b){var
+c=bJ(a);return F(C(bJ(a),c),b)},d,B),A)}return u}var
+h=gT(a,b,ac([0,e,0],c));if(h){var
+v=h[1],w=n(f(v),c);if(w)return ev(a,v);var
 x=w}else
 var
 x=h;return x}var
@@ -4189,172 +4381,172 @@ y=k;var
 z=y}else
 var
 z=j;return z}function
-uP(c){var
+vn(c){var
 a=c[2];if(a){var
-b=dh(c[3]);if(b)return E(d,D(a[1],b[1])[1]);var
+b=dn(c[3]);if(b)return D(d,E(a[1],b[1])[1]);var
 e=b}else
 var
 e=a;return e}function
-jC(a){return w(function(a){return g(a[1],[0,a[2],0])},a)}function
-n9(a,c,b){var
-e=r(b,c,m(d)),f=aE(0,a);return l(function(b){return eB(a,b,e)},f)}function
-fH(a){var
-c=W(a);return B(m(b),c)}function
-hn(i,g){var
-h=fH(g),j=W(g),e=y(m(b),j),f=s(m(c(2,b)),g),a=m(d);return i?i[1]?[0,[0,e,br(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,br(f),a,e]]:[0,[0,h,a,a],[0,a,e,br(f)],[0,a,f,e]]}function
-fI(b,a){var
-c=aa(b[3],a),d=aa(b[2],a);return[0,aa(b[1],a),d,c]}function
-n_(b,a){function
+jM(a){return w(function(a){return g(a[1],[0,a[2],0])},a)}function
+or(a,c,b){var
+e=s(b,c,m(d)),f=aG(0,a);return l(function(b){return eI(a,b,e)},f)}function
+fL(a){var
+c=X(a);return B(m(b),c)}function
+hs(i,g){var
+h=fL(g),j=X(g),e=z(m(b),j),f=r(m(c(2,b)),g),a=m(d);return i?i[1]?[0,[0,e,bs(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,bs(f),a,e]]:[0,[0,h,a,a],[0,a,e,bs(f)],[0,a,f,e]]}function
+fM(b,a){var
+c=ab(b[3],a),d=ab(b[2],a);return[0,ab(b[1],a),d,c]}function
+os(b,a){function
 c(b){var
-c=j(b,a[3]),d=j(b,a[2]);return[0,j(b,a[1]),d,c]}function
+c=h(b,a[3]),d=h(b,a[2]);return[0,h(b,a[1]),d,c]}function
 d(a){var
-b=aa(a,c(function(a){return a[3]})),d=aa(a,c(function(a){return a[2]}));return[0,aa(a,c(function(a){return a[1]})),d,b]}var
+b=ab(a,c(function(a){return a[3]})),d=ab(a,c(function(a){return a[2]}));return[0,ab(a,c(function(a){return a[1]})),d,b]}var
 e=d(b[3]),f=d(b[2]);return[0,d(b[1]),f,e]}function
-n$(v,u){function
+ot(v,u){function
 a(a){return[0,[0,N(u,a)]]}switch(v[0]){case
 0:var
-w=fH(a(0));return[0,hn(uQ,a(0)),w];case
+w=fL(a(0));return[0,hs(vo,a(0)),w];case
 1:var
-x=fH(a(0)),z=s(fH(a(uR)),x),A=s(fH(a(uS)),z),C=hn(0,a(0)),D=n_(hn(uU,a(uT)),C);return[0,n_(hn(uW,a(uV)),D),A];default:var
-E=a(uX),F=a(uY),g=[0,a(0),F,E],G=aa(g,g),H=B(m(b),G),j=aa(g,g),d=g[1],e=g[2],f=g[3],i=function(a){var
-d=W(a),e=s(m(c(2,b)),d);return B(y(m(b),j),e)},h=function(f,e,d,a){var
-g=aq(f,s(e,d),a);return s(m(c(2,b)),g)},k=i(f),l=h(B,e,f,d),n=[0,h(y,d,f,e),l,k],o=h(y,e,f,d),p=i(e),q=[0,h(B,d,e,f),p,o],r=h(B,d,f,e),t=h(y,d,e,f);return[0,[0,[0,i(d),t,r],q,n],H]}}function
-oa(a){return 1<a[0]?[0,a[1],0]:0}function
-ho(a){switch(a[0]){case
+x=fL(a(0)),y=r(fL(a(vp)),x),A=r(fL(a(vq)),y),C=hs(0,a(0)),D=os(hs(vs,a(vr)),C);return[0,os(hs(vu,a(vt)),D),A];default:var
+E=a(vv),F=a(vw),g=[0,a(0),F,E],G=ab(g,g),H=B(m(b),G),j=ab(g,g),d=g[1],e=g[2],f=g[3],i=function(a){var
+d=X(a),e=r(m(c(2,b)),d);return B(z(m(b),j),e)},h=function(f,e,d,a){var
+g=ar(f,r(e,d),a);return r(m(c(2,b)),g)},k=i(f),l=h(B,e,f,d),n=[0,h(z,d,f,e),l,k],o=h(z,e,f,d),p=i(e),q=[0,h(B,d,e,f),p,o],s=h(B,d,f,e),t=h(z,d,e,f);return[0,[0,[0,i(d),t,s],q,n],H]}}function
+ou(a){return 1<a[0]?[0,a[1],0]:0}function
+ht(a){switch(a[0]){case
 0:return[0,a[1],0];case
 1:return[0,a[1],[0,a[2],[0,a[3],0]]];case
-2:return[0,dd(a[1]),0];default:var
-b=[0,dd(a[2]),0];return[0,dd(a[1]),b]}}function
-eE(a){return[0,[0,a[1]],[0,a[2]]]}function
-ob(a){switch(a[0]){case
-0:return[0,eE(a[1]),0];case
+2:return[0,dj(a[1]),0];default:var
+b=[0,dj(a[2]),0];return[0,dj(a[1]),b]}}function
+eL(a){return[0,[0,a[1]],[0,a[2]]]}function
+ov(a){switch(a[0]){case
+0:return[0,eL(a[1]),0];case
 1:var
-f=[0,eE(a[3]),0],g=[0,eE(a[2]),f];return[0,eE(a[1]),g];case
+f=[0,eL(a[3]),0],g=[0,eL(a[2]),f];return[0,eL(a[1]),g];case
 2:var
-b=eE(dd(a[1]));return[0,b,[0,b,[0,b,0]]];default:var
-c=a[2],d=a[1],e=[0,[1,dd(d)[1],c],[1,d,c]];return[0,e,[0,e,[0,eE(dd(c)),0]]]}}function
-oc(a,c){if(0===c[0]){var
-g=c[1];return j(cm(a),g)}var
-h=c[1],d=j(cm(a),h);if(d){var
-i=c[2],e=j(cm(a),i);if(e){var
-k=Q(a,e[1]),l=cc(a,A(J(a,b),k)),m=d[1];return z(function(b){return t(a,m,b)},l)}var
+b=eL(dj(a[1]));return[0,b,[0,b,[0,b,0]]];default:var
+c=a[2],d=a[1],e=[0,[1,dj(d)[1],c],[1,d,c]];return[0,e,[0,e,[0,eL(dj(c)),0]]]}}function
+ow(a,c){if(0===c[0]){var
+g=c[1];return h(co(a),g)}var
+i=c[1],d=h(co(a),i);if(d){var
+j=c[2],e=h(co(a),j);if(e){var
+k=R(a,e[1]),l=cc(a,A(J(a,b),k)),m=d[1];return y(function(b){return t(a,m,b)},l)}var
 f=e}else
 var
 f=d;return f}function
-od(d,c){var
-a=oc(d,c[1]);if(a)var
-b=oc(d,c[2]),f=b?[0,[0,a[1][1],b[1][2]]]:b,e=f;else
+ox(d,c){var
+a=ow(d,c[1]);if(a)var
+b=ow(d,c[2]),f=b?[0,[0,a[1][1],b[1][2]]]:b,e=f;else
 var
 e=a;return e}function
-oe(a,e,c){var
+oy(a,e,c){var
 b=c[1];if(1===b[0]){var
-f=b[1];if(aB(f,a))return c;var
-g=m(d);return r(dy(f,a),e,g)}return[0,bX(function(b){return oe(a,e,b)},b)]}function
-jD(g,a,n,f,c){var
-h=g?[0,a,[0,[0,a],[0,[0,[0,a]],0]]]:[0,a,[0,[0,a],0]],i=g5(h,c),j=bZ(f),b=e(function(b){return oe(a,j,b)},i),k=r(u3,b,m(d)),l=r(u4,b,m(d));return[0,r(0,b,m(d)),l,k]}function
-bm(b,a){var
-c=s(b[2],a[1]),d=y(s(b[1],a[2]),c),e=s(b[1],a[3]),f=y(s(b[3],a[1]),e),g=s(b[3],a[2]);return[0,y(s(b[2],a[3]),g),f,d]}function
-dS(b,a){return b?b[1]?a[3]:a[2]:a[1]}function
-of(c){function
+f=b[1];if(aD(f,a))return c;var
+g=m(d);return s(dE(f,a),e,g)}return[0,ce(function(b){return oy(a,e,b)},b)]}function
+jN(g,a,n,f,c){var
+h=g?[0,a,[0,[0,a],[0,[0,[0,a]],0]]]:[0,a,[0,[0,a],0]],i=g_(h,c),j=bZ(f),b=e(function(b){return oy(a,j,b)},i),k=s(vB,b,m(d)),l=s(vC,b,m(d));return[0,s(0,b,m(d)),l,k]}function
+bn(b,a){var
+c=r(b[2],a[1]),d=z(r(b[1],a[2]),c),e=r(b[1],a[3]),f=z(r(b[3],a[1]),e),g=r(b[3],a[2]);return[0,z(r(b[2],a[3]),g),f,d]}function
+dX(b,a){return b?b[1]?a[3]:a[2]:a[1]}function
+oz(c){function
 a(a){var
 e=n(c,a)?b:d;return m(e)}var
-e=a(u5),f=a(u6);return[0,a(0),f,e]}function
-og(b,a){if(a)var
-d=og(b,a[2]),c=[0,e(j(b,a[1]),a),d];else
+e=a(vD),f=a(vE);return[0,a(0),f,e]}function
+oA(b,a){if(a)var
+d=oA(b,a[2]),c=[0,e(h(b,a[1]),a),d];else
 var
 c=a;return c}function
-fJ(c,b,a){switch(c){case
+fN(c,b,a){switch(c){case
 0:return[0,b[1],[0,b[2],[0,a[3],0]]];case
 1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}}function
-oh(a){if(a){var
-f=a[1],b=f[2],c=hm(f[1]);if(c)if(b)var
-d=oh(a[2]),g=d?[0,[0,[0,c[1],b[1]],d[1]]]:d,e=g;else
+oB(a){if(a){var
+f=a[1],b=f[2],c=hr(f[1]);if(c)if(b)var
+d=oB(a[2]),g=d?[0,[0,[0,c[1],b[1]],d[1]]]:d,e=g;else
 var
 e=b;else
 var
-e=c;return e}return vf}function
-oi(c,b,a){var
-d=V(b,a);return an(function(a,d){var
-b=bH(a[2]);return A(t(c,a[1],[0,b,b]),d)},u,d)}function
-oj(a,h,e,f,d){if(e)if(d)var
-i=d[1],o=oj(a,h,e[2],f,d[2]),p=i[2],q=au(h,i[1]),c=e[1],j=av(t(a,c[3],f)),k=c[3],l=A(av(el(p,J(a,b),k)),j),m=t(a,c[2],l),n=t(a,c[1],f),g=[0,cD(A(A(av(oi(a,c[4],q)),n),m)),o];else
+e=c;return e}return vP}function
+oC(c,b,a){var
+d=V(b,a);return ao(function(a,d){var
+b=bJ(a[2]);return A(t(c,a[1],[0,b,b]),d)},u,d)}function
+oD(a,h,e,f,d){if(e)if(d)var
+i=d[1],o=oD(a,h,e[2],f,d[2]),p=i[2],q=aw(h,i[1]),c=e[1],j=ax(t(a,c[3],f)),k=c[3],l=A(ax(er(p,J(a,b),k)),j),m=t(a,c[2],l),n=t(a,c[1],f),g=[0,cF(A(A(ax(oC(a,c[4],q)),n),m)),o];else
 var
 g=d;else
 var
 g=e;return g}function
-vh(a){return[0,a[1][1],a[2][1][2][1],a[1][2],a[2][2]]}function
-ok(b,a){return ad(e(function(a){return r(a,b,0)},a))}function
-bK(a){switch(a){case
-0:return vl;case
-1:return vm;default:return 0}}function
-dT(a){switch(a){case
-0:return[0,vo,vn,m(d)];case
-1:return dH;default:var
+vR(a){return[0,a[1][1],a[2][1][2][1],a[1][2],a[2][2]]}function
+oE(b,a){return ad(e(function(a){return s(a,b,0)},a))}function
+bM(a){switch(a){case
+0:return vV;case
+1:return vW;default:return 0}}function
+dY(a){switch(a){case
+0:return[0,vY,vX,m(d)];case
+1:return dN;default:var
 b=m(d),c=m(d);return[0,m(d),c,b]}}function
-hp(c,b,a){return bl(fI(c,a),b)}function
-ol(b,a){if(b)return[0,[0,[0,a]],[0,[0,[0,a]]],[0,[0,[0,[0,a]]]]];var
+hu(c,b,a){return bm(fM(c,a),b)}function
+oF(b,a){if(b)return[0,[0,[0,a]],[0,[0,[0,a]]],[0,[0,[0,[0,a]]]]];var
 c=m(d);return[0,m(d),c,[0,[0,a]]]}function
-jE(a){var
-d=aa(a,a),e=B(m(b),d);return am(m(c(2,b)),e)}function
-om(a,b){var
-c=bm(a,b),d=ag(B,c,bm(a,c));return ag(B,b,a3(jE(a),d))}function
-on(h,g,f,e,d,c){var
-b=om(c,hp(g,f,d)),a=ag(y,ag(B,dT(h),b),e);return[0,[0,b,a],aL(aa(a,a))]}function
-ar(a){return typeof
-a==="number"?a?vp:vq:bD(a[1])}function
-jF(b,a,c){return typeof
-b==="number"?b?[0,a[1],[0,a[2],0]]:[0,a[1],[0,a[2],[0,a[3],0]]]:jw(b[1],a,c)}function
-eF(a){if(0===a[0]){var
+jO(a){var
+d=ab(a,a),e=B(m(b),d);return an(m(c(2,b)),e)}function
+oG(a,b){var
+c=bn(a,b),d=ah(B,c,bn(a,c));return ah(B,b,a7(jO(a),d))}function
+oH(h,g,f,e,d,c){var
+b=oG(c,hu(g,f,d)),a=ah(z,ah(B,dY(h),b),e);return[0,[0,b,a],aN(ab(a,a))]}function
+as(a){return typeof
+a==="number"?a?vZ:v0:bF(a[1])}function
+jP(b,a,c){return typeof
+b==="number"?b?[0,a[1],[0,a[2],0]]:[0,a[1],[0,a[2],[0,a[3],0]]]:jG(b[1],a,c)}function
+eM(a){if(0===a[0]){var
 c=a[1];switch(c[0]){case
 0:return c[3];case
 1:return c[2];default:return[0,[0,d,b],[0,d,b],[0,d,b]]}}return a[1][4]}function
-eG(b,c,a){return b?dc(b[1],c,a):a}function
-bv(d,c,b,a){var
-e=eF(a),f=eG(d,c,eF(a)),g=M(function(b,a){return[2,b,a]},b,f);return M(function(b,a){return[3,b,a]},g,e)}function
-eH(d,c,b,a){if(0===a[0]){var
-f=bv(d,c,b,a);return[0,cM(a[1],f)]}var
-e=a[1],g=nU(e,bv(d,c,b,a));return[1,nT(e,bv(d,c,b,a)),g]}function
-jG(b,a){var
+eN(b,c,a){return b?di(b[1],c,a):a}function
+bw(d,c,b,a){var
+e=eM(a),f=eN(d,c,eM(a)),g=M(function(b,a){return[2,b,a]},b,f);return M(function(b,a){return[3,b,a]},g,e)}function
+eO(d,c,b,a){if(0===a[0]){var
+f=bw(d,c,b,a);return[0,cQ(a[1],f)]}var
+e=a[1],g=oc(e,bw(d,c,b,a));return[1,ob(e,bw(d,c,b,a)),g]}function
+jQ(b,a){var
 c=typeof
 b==="number"?1:0;if(c){if(b)return[0,a[1],[0,a[2],0]];var
 d=[0,a[1],[0,a[2],[0,a[3],0]]]}else
 var
 d=c;return d}function
-jH(e,d,c,a){if(0===a[0]){var
-f=bv(e,d,c,a),b=jn(a[1],f),g=b?[0,b[1],0]:b;return g}var
-h=bv(e,d,c,a);return[0,jt(a[1],h),0]}function
-oo(b,f,d){if(0===f[0])return 0===d[0]?nt(b,f[1],d[1]):0;if(0===d[0])return 0;var
-a=d[1],c=f[1],g=bs(b,c[1],a[1]),i=g?bs(b,c[2],a[2]):g,j=i?bs(b,c[3],a[3]):i,k=j?bs(b,c[4],a[4]):j,l=k?c$(b,c[5],a[5]):k,m=l?c$(b,c[6],a[6]):l,n=m?h(b,1,a[5]):m,o=n?h(b,1,a[6]):n,p=o?h(b,1,x(a[1],a[1])):o;if(p)var
-q=js(a),e=h(b,1,x(js(a),q));else
+jR(e,d,c,a){if(0===a[0]){var
+f=bw(e,d,c,a),b=jx(a[1],f),g=b?[0,b[1],0]:b;return g}var
+h=bw(e,d,c,a);return[0,jD(a[1],h),0]}function
+oI(b,f,d){if(0===f[0])return 0===d[0]?nN(b,f[1],d[1]):0;if(0===d[0])return 0;var
+a=d[1],c=f[1],g=bt(b,c[1],a[1]),h=g?bt(b,c[2],a[2]):g,j=h?bt(b,c[3],a[3]):h,k=j?bt(b,c[4],a[4]):j,l=k?df(b,c[5],a[5]):k,m=l?df(b,c[6],a[6]):l,n=m?i(b,1,a[5]):m,o=n?i(b,1,a[6]):n,p=o?i(b,1,x(a[1],a[1])):o;if(p)var
+q=jC(a),e=i(b,1,x(jC(a),q));else
 var
-e=p;return e?cz(c[7],a[7]):e}function
-fK(g,f,e){var
+e=p;return e?cB(c[7],a[7]):e}function
+fO(g,f,e){var
 b=f,a=e;for(;;){if(b){if(a){var
-c=oo(g,b[1],a[1]);if(c){var
+c=oI(g,b[1],a[1]);if(c){var
 b=b[2],a=a[2];continue}var
 d=c}else
 var
 d=a;return d}return a?0:1}}function
-jI(c,b,g,a){var
-d=cK(c,b[4],g);if(d){var
-e=b[5];if(e)return fF(c,e[1],a);if(a)return 0;var
+jS(c,b,g,a){var
+d=cO(c,b[4],g);if(d){var
+e=b[5];if(e)return fJ(c,e[1],a);if(a)return 0;var
 f=1}else
 var
 f=d;return f}function
-hq(a){return typeof
-a==="number"?vr:2<=a[1]?vs:vt}function
-op(v,m,l){if(l){var
-a=l[1],e=function(c,a){return h(v,1,[3,[0,a,b],c])},g=function(a){return[3,a[2],a[1]]};switch(a[0]){case
+hv(a){return typeof
+a==="number"?v1:2<=a[1]?v2:v3}function
+oJ(v,m,l){if(l){var
+a=l[1],e=function(c,a){return i(v,1,[3,[0,a,b],c])},g=function(a){return[3,a[2],a[1]]};switch(a[0]){case
 0:var
 n=c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),f=e(g(a[1]),n);break;case
 1:var
 j=a[2],o=c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),k=e([3,[0,d,b],j[1]],o);if(k)var
-p=c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),i=e(j[2],p);else
+p=c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),h=e(j[2],p);else
 var
-i=k;if(i)var
+h=k;if(h)var
 r=c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),s=g(a[3]),f=e([2,g(a[1]),s],r);else
 var
-f=i;break;case
+f=h;break;case
 2:var
 t=c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),f=e(a[1],t);break;default:var
 u=c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),f=e([2,a[1],a[2]],u)}return f?typeof
@@ -4366,21 +4558,21 @@ k=n(a[1],e)?b:d;return m(k);case
 3:var
 l=b2(e,a[2]);return B(b2(e,a[1]),l);case
 4:var
-o=b2(e,a[2]);return y(b2(e,a[1]),o);case
-5:return br(b2(e,a[1]));case
+o=b2(e,a[2]);return z(b2(e,a[1]),o);case
+5:return bs(b2(e,a[1]));case
 6:var
-g=a[2],h=a[1],p=s(h,b2(e,g));return B(s(g,b2(e,h)),p);case
+g=a[2],h=a[1],p=r(h,b2(e,g));return B(r(g,b2(e,h)),p);case
 7:var
-f=b2(e,a[1]);return ba(d,f)?f:am(f,a[2]);case
+f=b2(e,a[1]);return be(d,f)?f:an(f,a[2]);case
 8:var
-i=a[1],q=b2(e,i);return s(s(m(c(2,b)),i),q);default:return m(d)}}function
-hr(c,b,k){var
+i=a[1],q=b2(e,i);return r(r(m(c(2,b)),i),q);default:return m(d)}}function
+hw(c,b,k){var
 e=k;for(;;){var
 a=e[1];switch(a[0]){case
 7:var
-g=hr(c,b,a[1]);if(g){var
+g=hw(c,b,a[1]);if(g){var
 h=a[2][1];if(1===h[0]){var
-i=h[1],j=K(d,r(i,c,u)[1]);return j?I(aj(function(a){return n(i,a)},b)):j}return 0}return g;case
+i=h[1],j=K(d,s(i,c,u)[1]);return j?I(ak(function(a){return n(i,a)},b)):j}return 0}return g;case
 5:case
 8:var
 e=a[1];continue;case
@@ -4389,9 +4581,9 @@ e=a[1];continue;case
 3:case
 4:case
 6:var
-f=hr(c,b,a[1]);if(f){var
+f=hw(c,b,a[1]);if(f){var
 e=a[2];continue}return f;default:return 1}}}function
-oq(d){var
+oK(d){var
 b=d;for(;;){var
 a=b[1];switch(a[0]){case
 0:case
@@ -4402,72 +4594,72 @@ a=b[1];switch(a[0]){case
 8:case
 9:var
 b=a[1];continue;default:var
-c=oq(a[1]);if(c){var
+c=oK(a[1]);if(c){var
 b=a[2];continue}return c}}}function
-or(c,b,a){var
-d=e(b,a[2]);return[0,j(c,a[1]),d]}function
-jJ(b,a,c){return e(function(c){var
-d=or(b,a,c[2]),f=c[1];return[0,e(function(c){return or(b,a,c)},f),d]},c)}function
-os(b,a){return z(function(a){var
-c=a[2],d=a[1][2];return[0,[0,j(b,a[1][1]),d],c]},a)}function
-vu(a,b){var
-c=os(a,b[3]),d=j(a,b[2]);return[0,jJ(a,a,b[1]),d,c]}function
-ot(c){var
+oL(c,b,a){var
+d=e(b,a[2]);return[0,h(c,a[1]),d]}function
+jT(b,a,c){return e(function(c){var
+d=oL(b,a,c[2]),f=c[1];return[0,e(function(c){return oL(b,a,c)},f),d]},c)}function
+oM(b,a){return y(function(a){var
+c=a[2],d=a[1][2];return[0,[0,h(b,a[1][1]),d],c]},a)}function
+v4(a,b){var
+c=oM(a,b[3]),d=h(a,b[2]);return[0,jT(a,a,b[1]),d,c]}function
+oN(c){var
 a=c[1];if(a){var
-b=hm(c[2]);if(b)var
-g=e($,b[1]),d=[0,[0,$(a[1]),g]];else
+b=hr(c[2]);if(b)var
+g=e(aa,b[1]),d=[0,[0,aa(a[1]),g]];else
 var
 d=b;var
 f=d}else
 var
 f=a;return f}function
-vv(c){var
-a=ad(e(ot,c[1]));if(a)var
-b=ot(c[2]),f=b?[0,[0,a[1],b[1]]]:b,d=f;else
+v5(c){var
+a=ad(e(oN,c[1]));if(a)var
+b=oN(c[2]),f=b?[0,[0,a[1],b[1]]]:b,d=f;else
 var
 d=a;return d}function
-vw(a){return I(iZ([0,a[2],a[1]]))}function
-jK(a){return[0,a[1],a[2]]}function
-ou(b,c,a){var
-d=e(function(c){return bE(b,b2(c,a))},c);return[0,bE(b,a),d]}function
-jL(b,e,a,d){var
+v6(a){return I(i_([0,a[2],a[1]]))}function
+jU(a){return[0,a[1],a[2]]}function
+oO(b,c,a){var
+d=e(function(c){return bG(b,b2(c,a))},c);return[0,bG(b,a),d]}function
+jV(b,e,a,d){var
 c=w(function(a){var
-b=jK(a[2]);return g(w(jK,a[1]),b)},d),f=a?[0,bE(b,a[1]),0]:a,h=g(f,c);return[0,bE(b,e),h]}function
-ov(c,f,b,a){var
-d=hr(f,b,a),e=d?hk(c,a):d;return e?l(function(b){return hk(c,b2(b,a))},b):e}function
-ow(a){switch(a[0]){case
+b=jU(a[2]);return g(w(jU,a[1]),b)},d),f=a?[0,bG(b,a[1]),0]:a,h=g(f,c);return[0,bG(b,e),h]}function
+oP(c,f,b,a){var
+d=hw(f,b,a),e=d?hp(c,a):d;return e?l(function(b){return hp(c,b2(b,a))},b):e}function
+oQ(a){switch(a[0]){case
 3:var
-d=jC(a[2]);return[0,a[3],d];case
+d=jM(a[2]);return[0,a[3],d];case
 4:return[0,a[1],0];case
 8:var
-b=a[1],e=jC(b[1]);return[0,b[2],e];case
+b=a[1],e=jM(b[1]);return[0,b[2],e];case
 9:return 0;default:var
-c=jC(a[1]);return[0,a[2],c]}}function
-ox(a,as,bb,k,o,ar,aq,w,N,i,h){switch(i[0]){case
+c=jM(a[1]);return[0,a[2],c]}}function
+oR(a,as,bc,k,o,ar,aq,w,N,j,i){switch(j[0]){case
 0:var
-at=i[4],O=i[3],au=i[2],aw=i[1],S=0;if(typeof
-h==="number")S=1;else
-switch(h[0]){case
+at=j[4],O=j[3],au=j[2],av=j[1],S=0;if(typeof
+i==="number")S=1;else
+switch(i[0]){case
 0:var
-bc=h[2],bd=h[1],u=au,s=aw,q=function(b){return n6(a,o,bd,bc,O,b)},p=at;break;case
+bd=i[2],be=i[1],u=au,r=av,q=function(b){return oo(a,o,be,bd,O,b)},p=at;break;case
 2:var
-ax=L(O[1],d),ay=ax?L(O[2],d):ax;if(!ay)return ay;var
-bg=h[2],bi=h[1],u=au,s=aw,q=function(b){return n7(a,o,bi,bg,b)},p=at;break;default:S=1}if(S)return 0;break;case
+aw=L(O[1],d),ay=aw?L(O[2],d):aw;if(!ay)return ay;var
+bh=i[2],bi=i[1],u=au,r=av,q=function(b){return op(a,o,bi,bh,b)},p=at;break;default:S=1}if(S)return 0;break;case
 1:var
 aJ=0;if(typeof
-h==="number"&&!h)var
-bj=i[2],bk=i[1],bl=i[3],u=bj,s=bk,bm=0,q=function(b){return n8(a,o,bl,b)},p=bm;else
+i==="number"&&!i)var
+bj=j[2],bk=j[1],bl=j[3],u=bj,r=bk,bm=0,q=function(b){return oq(a,o,bl,b)},p=bm;else
 aJ=1;if(aJ)return 0;break;case
 2:if(typeof
-h!=="number"&&3===h[0]){var
-x=h[3];if(x){var
-az=x[2],aC=n(f(az),k);if(aC){var
-bn=[0,i[1],i[2],N],bo=eD(function(a){return r(a,w,vz)},bn),aD=h[1],bp=0,bq=x[1],br=h[2],bs=i[3],bt=function(w,i){var
-c=eC(i[1]);if(c){var
+i!=="number"&&3===i[0]){var
+x=i[3];if(x){var
+az=x[2],aA=n(f(az),k);if(aA){var
+bn=[0,j[1],j[2],N],bo=eK(function(a){return s(a,w,v9)},bn),aB=i[1],bp=0,bq=x[1],br=i[2],bs=j[3],bt=function(w,i){var
+c=eJ(i[1]);if(c){var
 j=c[1],e=i[2];if(e){var
-f=dh(i[3]);if(f){var
-k=f[1],l=function(c){return aN(c,aD,J(a,b))},u=l(w),v=e[1],g=A(t(a,l(bq),v),u),m=K(d,g[1]),n=m?aV(a,o,gN(aD,br,j,ac([0,D(_(g),k),0],o))):m;if(n){var
-h=gO(a,j,ac([0,D(t(a,bs,g),k),0],o));if(h)return aV(a,o,h[1]);var
+f=dn(i[3]);if(f){var
+k=f[1],l=function(c){return aP(c,aB,J(a,b))},u=l(w),v=e[1],g=A(t(a,l(bq),v),u),m=K(d,g[1]),n=m?aY(a,o,gS(aB,br,j,ac([0,E($(g),k),0],o))):m;if(n){var
+h=gT(a,j,ac([0,E(t(a,bs,g),k),0],o));if(h)return aY(a,o,h[1]);var
 p=h}else
 var
 p=n;var
@@ -4479,20 +4671,20 @@ var
 r=e;var
 s=r}else
 var
-s=c;return s};return jA(function(b,a){return eD},bt,bp,az,d,bo)}var
-aE=aC}else
+s=c;return s};return jK(function(b,a){return eK},bt,bp,az,d,bo)}var
+aE=aA}else
 var
 aE=x;return aE}return 0;case
 3:var
 aK=0;if(typeof
-h==="number"||!(0===h[0]))aK=1;else
+i==="number"||!(0===i[0]))aK=1;else
 var
-aF=h[2],aG=h[1],bu=i[3],bv=i[2],bw=i[4],bx=i[1],by=function(g){var
-b=eC(g[1]);if(b){var
+aF=i[2],aG=i[1],bu=j[3],bv=j[2],bw=j[4],bx=j[1],by=function(g){var
+b=eJ(g[1]);if(b){var
 c=b[1],d=g[2];if(d){var
-e=dh(g[3]);if(e){var
+e=dn(g[3]);if(e){var
 h=n(f(c),o),i=h?n(f(aF),o):h;if(i){var
-m=dJ(aG,dK(aG,aF,d[1],c));return aV(a,o,a6(gS(a,bx,bw,e[1],c),m))}var
+m=dP(aG,dQ(aG,aF,d[1],c));return aY(a,o,a_(gX(a,bx,bw,e[1],c),m))}var
 j=i}else
 var
 j=e;var
@@ -4501,79 +4693,79 @@ var
 k=d;var
 l=k}else
 var
-l=b;return l},u=bu,s=bv,q=by,p=i[5];if(aK)return 0;break;case
+l=b;return l},u=bu,r=bv,q=by,p=j[5];if(aK)return 0;break;case
 4:var
 aL=0;if(typeof
-h==="number"&&!h)var
-u=i[1],s=0,q=uP,p=0;else
+i==="number"&&!i)var
+u=j[1],r=0,q=vn,p=0;else
 aL=1;if(aL)return 0;break;case
 5:var
 aM=0;if(typeof
-h==="number"||!(0===h[0]))aM=1;else{var
-y=h[2],aO=0;if(y){var
-B=y[1];if(B){if(B[2])return 0;if(y[2])return 0;var
-bA=i[2],bB=i[1],bC=J(a,b),bD=[0,[0,B[1],0],0],bE=h[1],u=bA,s=bB,bF=0,q=function(b){return n6(a,vA,bE,bD,bC,b)},p=bF;aO=1}else
+i==="number"||!(0===i[0]))aM=1;else{var
+z=i[2],aN=0;if(z){var
+B=z[1];if(B){if(B[2])return 0;if(z[2])return 0;var
+bz=j[2],bA=j[1],bC=J(a,b),bD=[0,[0,B[1],0],0],bE=i[1],u=bz,r=bA,bF=0,q=function(b){return oo(a,v_,bE,bD,bC,b)},p=bF;aN=1}else
 var
 aH=B}else
 var
-aH=y;if(!aO)return aH}if(aM)return 0;break;case
+aH=z;if(!aN)return aH}if(aM)return 0;break;case
 6:var
-aP=0;if(typeof
-h==="number"&&!h)var
-bG=i[2],bH=i[1],bI=J(a,b),u=bG,s=bH,bJ=0,q=function(b){return n8(a,vB,bI,b)},p=bJ;else
-aP=1;if(aP)return 0;break;case
+aO=0;if(typeof
+i==="number"&&!i)var
+bG=j[2],bH=j[1],bI=J(a,b),u=bG,r=bH,bJ=0,q=function(b){return oq(a,v$,bI,b)},p=bJ;else
+aO=1;if(aO)return 0;break;case
 7:var
 aQ=0;if(typeof
-h==="number"&&5<=h)var
-bK=i[2],bL=i[1],bM=i[4],bN=i[3],u=bK,s=bL,bO=0,q=function(b){return n7(a,o,bN,bM,b)},p=bO;else
+i==="number"&&5<=i)var
+bK=j[2],bL=j[1],bM=j[4],bN=j[3],u=bK,r=bL,bO=0,q=function(b){return op(a,o,bN,bM,b)},p=bO;else
 aQ=1;if(aQ)return 0;break;case
 8:if(typeof
-h!=="number"&&9===h[0]){var
-P=h[4],aI=h[2],R=h[1],m=i[1],v=m[9],bP=h[3],aR=m[5],aS=fi(g(cY(m[4]),aR),as),aT=e($,bb),T=iM(0,bz(a,mS(m[9],k,ar,m[7],m[8]),aT),aS,as,0),U=lY(P,d);if(U)var
+i!=="number"&&9===i[0]){var
+P=i[4],aI=i[2],Q=i[1],m=j[1],v=m[9],bP=i[3],aS=m[5],aT=cG(g(c2(m[4]),aS),as),aU=e(aa,bc),T=cf(0,bB(a,na(m[9],k,ar,m[7],m[8]),aU),aT,as),U=l8(P,d);if(U)var
 C=U;else
 var
-ao=lZ(P,c(2,c(2,c(2,c(2,b))))),ap=ao?aB(0,v):ao,C=ap?aB(v,k):ap;var
-W=C?ab(v,k):C,X=W?n(f(ar),k):W,Y=X?n(f(aI),k):X,Z=Y?n(f(m[1]),k):Y,aa=Z?n(f(m[6]),k):Z,ae=aa?n(f(m[4]),k):aa;if(ae)var
-aU=m[4],E=l(function(a){return n(f(a),k)},aU);else
+ao=l9(P,c(2,c(2,c(2,c(2,b))))),ap=ao?aD(0,v):ao,C=ap?aD(v,k):ap;var
+W=C?ae(v,k):C,X=W?n(f(ar),k):W,Y=X?n(f(aI),k):X,Z=Y?n(f(m[1]),k):Y,_=Z?n(f(m[6]),k):Z,ab=_?n(f(m[4]),k):_;if(ab)var
+aV=m[4],D=l(function(a){return n(f(a),k)},aV);else
 var
-E=ae;if(E){var
-aW=m[4],F=ad(e(function(a){return ok(T,a)},aW));if(F){var
-af=ok(T,m[5]);if(af){var
+D=ab;if(D){var
+aW=m[4],F=ad(e(function(a){return oE(T,a)},aW));if(F){var
+af=oE(T,m[5]);if(af){var
 aX=m[6],G=ad(e(function(j){var
-c=j[1],k=m[7],d=r(c[1],aq,0);if(d){var
+c=j[1],k=m[7],d=s(c[1],aq,0);if(d){var
 h=c[2][2],b=ad(e(function(a){var
-b=r(a[2],aq,0);return z(function(a){return a[2]},b)},h));if(b)var
-i=b[1],f=[0,cD(av(t(a,k,Q(a,oi(a,e(aA,c[2][2]),i)))))];else
+b=s(a[2],aq,0);return y(function(a){return a[2]},b)},h));if(b)var
+i=b[1],f=[0,cF(ax(t(a,k,R(a,oC(a,e(aC,c[2][2]),i)))))];else
 var
 f=b;var
 g=f}else
 var
 g=d;return g},aX));if(G){var
-aY=m[1],aZ=m[2],H=ad(e(function(m){function
+aZ=m[1],a0=m[2],H=ad(e(function(m){function
 f(e){var
-g=ac(e,k),c=n5(r(m[2],w,vi),g);if(c){var
-h=ac(e,k),d=n5(r(aZ,w,vj),h);if(d){var
-i=d[1],j=J(a,b);return cc(a,cd(el(c[1],j,i)))}var
+g=ac(e,k),c=on(s(m[2],w,vS),g);if(c){var
+h=ac(e,k),d=on(s(a0,w,vT),h);if(d){var
+i=d[1],j=J(a,b);return cc(a,cd(er(c[1],j,i)))}var
 f=d}else
 var
 f=c;return f}var
 c=f(0);if(c){var
 e=f(2);if(e)var
-g=cd(av(A(c[1],e[1]))),h=K(d,g[1]),l=h?[0,g]:h,i=l;else
+g=cd(ax(A(c[1],e[1]))),h=K(d,g[1]),l=h?[0,g]:h,i=l;else
 var
 i=e;var
 j=i}else
 var
-j=c;return j},aY));if(H){var
-ag=mM(a,k,v,F[1]),I=aN(bP,R,J(a,b)),ah=K(d,D(I,ag)[1]);if(ah){var
-M=bW(a,I);if(M){var
-a0=av(t(a,ag,M[1])),a1=D(J(a,b),a0),a2=[0,m[1],m[2],N],a3=eD(function(a){return r(a,w,vk)},a2),a4=m[6],a5=e(vh,V(V(G[1],H[1]),a4)),a8=Q(a,a1),a9=Q(a,I),a_=mN(k,v,m[10],P),a$=function(m){var
-b=oh(m[1]);if(b){var
+j=c;return j},aZ));if(H){var
+ag=m6(a,k,v,F[1]),I=aP(bP,Q,J(a,b)),ah=K(d,E(I,ag)[1]);if(ah){var
+M=bX(a,I);if(M){var
+a1=ax(t(a,ag,M[1])),a2=E(J(a,b),a1),a3=[0,m[1],m[2],N],a4=eK(function(a){return s(a,w,vU)},a3),a5=m[6],a6=e(vR,V(V(G[1],H[1]),a5)),a7=R(a,a2),a8=R(a,I),a9=m7(k,v,m[10],P),ba=function(m){var
+b=oB(m[1]);if(b){var
 o=b[1],c=m[2];if(c){var
-d=c[1],h=dh(m[3]);if(h){var
-p=h[1],q=oj(a,k,a5,d,o),i=e(function(a){var
-b=a[2];return[0,mO(a_,a[1]),b]},o),z=dJ(R,dK(R,aI,d,i)),j=a6(ac([0,_(p),0],k),z),A=D(t(a,d,a8),p),r=n(f(i),k),s=r?n(f(q),k):r,u=s?mQ(k,j):s,v=u?aV(a,k,a6(e(function(b){return[0,_(t(a,a9,b[2])),0]},i),j)):u;if(v){var
-B=a7(bh(k));return l(function(b){return aV(a,[0,k],mP(j,mR(g(b,vg),q),A))},B)}var
+d=c[1],h=dn(m[3]);if(h){var
+p=h[1],q=oD(a,k,a6,d,o),i=e(function(a){var
+b=a[2];return[0,m8(a9,a[1]),b]},o),z=dP(Q,dQ(Q,aI,d,i)),j=a_(ac([0,$(p),0],k),z),A=E(t(a,d,a7),p),r=n(f(i),k),s=r?n(f(q),k):r,u=s?m_(k,j):s,v=u?aY(a,k,a_(e(function(b){return[0,$(t(a,a8,b[2])),0]},i),j)):u;if(v){var
+B=a$(aR(k));return l(function(b){return aY(a,[0,k],m9(j,m$(g(b,vQ),q),A))},B)}var
 w=v}else
 var
 w=h;var
@@ -4582,7 +4774,7 @@ var
 x=c;var
 y=x}else
 var
-y=b;return y},ba=m[3];return j(jB(function(b,a){return eD},ba,k,a$),a3)}var
+y=b;return y},bb=m[3];return h(jL(function(b,a){return eK},bb,k,ba),a4)}var
 ai=M}else
 var
 ai=ah;var
@@ -4600,72 +4792,72 @@ var
 am=F;var
 an=am}else
 var
-an=E;return an}return 0;default:return 0}var
-be=[0,s,u,N],bf=eD(function(a){return r(a,w,vy)},be);return j(jB(function(b,a){return eD},p,k,q),bf)}function
-vC(b,a){var
-c=iJ(iF,b[1],a[1]);return c?iF(b[2],a[2]):c}function
-oy(c,b){var
-a=iJ(vC,c,b),d=a?1:a;return d}function
-oz(j,s,r,i,q,k,p,o,m,h,l,g,a,e){if(typeof
-e==="number"){if(0===e)return 9===a[0]?et(j,0,0,0,g,i,0,a[1],e):0}else
+an=D;return an}return 0;default:return 0}var
+bf=[0,r,u,N],bg=eK(function(a){return s(a,w,v8)},bf);return h(jL(function(b,a){return eK},p,k,q),bg)}function
+wa(b,a){var
+c=iP(iK,b[1],a[1]);return c?iK(b[2],a[2]):c}function
+oS(c,b){var
+a=iP(wa,c,b),d=a?1:a;return d}function
+oT(j,s,r,i,q,k,p,o,m,h,l,g,a,e){if(typeof
+e==="number"){if(0===e)return 9===a[0]?eA(j,0,0,0,g,i,0,a[1],e):0}else
 switch(e[0]){case
 6:var
 f=e[1];if(typeof
 f!=="number"&&7===f[0]){if(k){var
-t=f[3],u=f[2],v=E(d,u),w=v?gC(t,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):v;if(w)return ox(j,s,r,i,q,h,g,l,[0,[0,[0,k[1],u],t]],a,f[1]);var
+t=f[3],u=f[2],v=D(d,u),w=v?gG(t,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):v;if(w)return oR(j,s,r,i,q,h,g,l,[0,[0,[0,k[1],u],t]],a,f[1]);var
 x=w}else
 var
-x=k;return x}return ox(j,s,r,i,q,h,g,l,0,a,f);case
-8:return 9===a[0]?et(j,0,0,0,g,i,0,a[1],e):0;case
+x=k;return x}return oR(j,s,r,i,q,h,g,l,0,a,f);case
+8:return 9===a[0]?eA(j,0,0,0,g,i,0,a[1],e):0;case
 10:if(0===a[0]){var
-y=oy(a[1],p),z=y?n(a[2],o):y;return z?h7(m,h,a[3],a[4],e):z}return 0;case
+y=oS(a[1],p),z=y?n(a[2],o):y;return z?ia(m,h,a[3],a[4],e):z}return 0;case
 12:if(0===a[0]){var
-A=oy(a[1],p),B=A?n(a[2],o):A;return B?h7(m,h,a[3],a[4],e):B}return 0}return 0}function
-oA(b){var
+A=oS(a[1],p),B=A?n(a[2],o):A;return B?ia(m,h,a[3],a[4],e):B}return 0}return 0}function
+oU(b){var
 a=b[2];if(typeof
 a!=="number"&&6===a[0])return 1;return 0}function
-vD(c){var
+wb(c){var
 b=0,a=c[2];if(typeof
 a==="number"){if(0!==a)b=1}else
 switch(a[0]){case
 6:case
 8:break;default:b=1}return b?0:1}function
-vE(a){switch(a[0]){case
+wc(a){switch(a[0]){case
 8:return 0;case
-9:return jb(a[1]);default:return 1}}function
-fL(a,o,m,i,y,x,b,v,s,C,h,k,at,c){switch(c[0]){case
+9:return jm(a[1]);default:return 1}}function
+fP(a,o,m,j,z,x,b,v,r,C,i,k,ap,c){switch(c[0]){case
 0:var
-au=function(a){return l(I,a)},P=au,p=c[1];break;case
+aq=function(a){return l(I,a)},P=aq,p=c[1];break;case
 1:var
+ar=c[4],as=c[3],at=c[2],au=function(c){var
+d=c$(at,k),e=fP(a,o,m,j,z,x,b,v,r,C,i,d[1],c,as);return e?fP(a,o,m,j,z,x,b,v,r,C,i,d[2],c,ar):e},P=au,p=c[1];break;default:var
 av=c[4],aw=c[3],ax=c[2],ay=function(c){var
-d=c6(ax,k),e=fL(a,o,m,i,y,x,b,v,s,C,h,d[1],c,aw);return e?fL(a,o,m,i,y,x,b,v,s,C,h,d[2],c,av):e},P=ay,p=c[1];break;default:var
-az=c[4],aB=c[3],aC=c[2],aD=function(c){var
-d=nc(vE,i,c);if(d){var
-e=c6(aC,h),f=fL(a,o,m,i,y,x,b,v,s,C,e[1],k,c,aB);if(f)return fL(a,o,m,i,y,x,b,v,s,C,e[2],k,c,az);var
+d=nw(wc,j,c);if(d){var
+e=c$(ax,i),f=fP(a,o,m,j,z,x,b,v,r,C,e[1],k,c,aw);if(f)return fP(a,o,m,j,z,x,b,v,r,C,e[2],k,c,av);var
 g=f}else
 var
-g=d;return g},P=aD,p=c[1]}var
-ae=j(C,h),ab=aj(vD,p),ac=ab?i7(a,m,h,fi(w(function(c){var
-a=G(i,c[1]);if(a){var
+g=d;return g},P=ay,p=c[1]}var
+ae=h(C,i),ab=ak(wb,p),ac=ab?jg(a,m,i,cG(w(function(c){var
+a=G(j,c[1]);if(a){var
 b=a[1];switch(b[0]){case
 8:var
 d=b[1][6];return w(function(a){var
-b=e(aI,a[1][2][2]);return[0,a[1][1],b]},d);case
-9:return jc(0,0,0,b[1],c[2]);default:return 0}}return a},p),m),k):ab,ad=aj(oA,p);if(ad)var
-aq=w(function(b){var
-c=oA(b);if(c){var
-a=G(i,b[1]);if(a)return ow(a[1]);var
+b=e(aK,a[1][2][2]);return[0,a[1][1],b]},d);case
+9:return fw(0,0,0,b[1],c[2]);default:return 0}}return a},p),m),k):ab,ad=ak(oU,p);if(ad)var
+an=w(function(b){var
+c=oU(b);if(c){var
+a=G(j,b[1]);if(a)return oQ(a[1]);var
 d=a}else
 var
-d=c;return d},p),ar=b?[0,b[1],0]:b,as=g(ar,aq),ah=0,ai=an(fh,e(function(a){return 0},o),as),O=jz(a,h,fe(hl(fe(o,0),ai),ah),k);else
+d=c;return d},p),ao=b?[0,b[1],0]:b,ah=mr(g(ao,an),o),O=jJ(a,i,eo(hq(eo(o,0),ah),0),k);else
 var
 O=ad;var
-q=p,f=at;for(;;){if(q){var
-T=q[1],E=T[2],n=T[1],H=q[2];if(n){var
-U=r(n,f,0);if(U){var
-L=G(i,n);if(L){var
-V=oz(a,m,h,y,x,b,v,s,ae,k,O,ac,L[1],E);if(V){var
-q=H,f=g4(n,f);continue}var
+q=p,f=ap;for(;;){if(q){var
+T=q[1],D=T[2],n=T[1],H=q[2];if(n){var
+U=s(n,f,0);if(U){var
+L=G(j,n);if(L){var
+V=oT(a,m,i,z,x,b,v,r,ae,k,O,ac,L[1],D);if(V){var
+q=H,f=g9(n,f);continue}var
 W=V}else
 var
 W=L;var
@@ -4674,27 +4866,27 @@ var
 X=U;var
 B=X}else{var
 af=0;if(typeof
-E==="number"&&4===E){var
+D==="number"&&4===D){var
 ag=0;if(b){var
-ap=0,R=e(function(b){return[0,b,Q(a,b)]},k),al=e(aI,R),ak=0,am=g(e(aA,R),al),ao=bj(0,function(o){return function(b){switch(b[0]){case
-0:return[0,r(b[1],o,u)];case
-1:return[0,r(b[1],h,u)];case
+am=0,Q=e(function(b){return[0,b,R(a,b)]},k),ai=e(aK,Q),aj=g(e(aC,Q),ai),al=c4(0,function(o){return function(b){switch(b[0]){case
+0:return[0,s(b[1],o,u)];case
+1:return[0,s(b[1],i,u)];case
 2:return[0,J(a,b[1])];case
 3:var
-c=b[2],d=b[1];return dg(function(b,a){return[0,A(b,a)]},d,c);case
+c=b[2],d=b[1];return dm(function(b,a){return[0,A(b,a)]},d,c);case
 4:var
-e=b[2],f=b[1];return dg(function(b,a){return[0,D(b,a)]},f,e);case
+e=b[2],f=b[1];return dm(function(b,a){return[0,E(b,a)]},f,e);case
 5:var
-g=b[1];return df(function(a){return[0,_(a)]},g);case
+g=b[1];return dl(function(a){return[0,$(a)]},g);case
 6:var
-i=b[2],j=b[1];return dg(function(c,b){return[0,t(a,c,b)]},j,i);case
+h=b[2],j=b[1];return dm(function(c,b){return[0,t(a,c,b)]},j,h);case
 7:var
-k=b[2],l=b[1];return dg(function(c,b){var
-d=bW(a,b);return z(function(b){return t(a,c,b)},d)},l,k);case
+k=b[2],l=b[1];return dm(function(c,b){var
+d=bX(a,b);return y(function(b){return t(a,c,b)},d)},l,k);case
 8:var
-m=b[1];return df(function(b){return[0,Q(a,b)]},m);case
+m=b[1];return dl(function(b){return[0,R(a,b)]},m);case
 9:var
-n=b[1];return df(function(b){return cc(a,b)},n);default:return 0}}}(am),o,ak),F=r(b[1],ao,ap);if(F){var
+n=b[1];return dl(function(b){return cc(a,b)},n);default:return 0}}}(aj),o),F=s(b[1],al,am);if(F){var
 M=K(F[1][2],d);ag=1}else
 var
 S=F}else
@@ -4704,233 +4896,234 @@ M=S;if(M){var
 q=H,f=e(function(a){return 0},f);continue}var
 B=M}else
 af=1;if(af){var
-Y=r(n,f,0);if(Y){var
-N=G(i,n);if(N){var
-Z=oz(a,m,h,y,x,b,v,s,ae,k,O,ac,N[1],E);if(Z){var
-q=H,f=g4(n,f);continue}var
-$=Z}else
+Y=s(n,f,0);if(Y){var
+N=G(j,n);if(N){var
+Z=oT(a,m,i,z,x,b,v,r,ae,k,O,ac,N[1],D);if(Z){var
+q=H,f=g9(n,f);continue}var
+_=Z}else
 var
-$=N;var
-aa=$}else
+_=N;var
+aa=_}else
 var
 aa=Y;var
 B=aa}}}else
 var
 B=[0,f];return B?P(B[1]):B}}function
-jM(d,a){var
-e=W(a),f=s(s(m(c(2,b)),a),d);return B(y(W(d),f),e)}function
-jN(k,a,d,i,c,h){var
-e=ag(y,dT(k),i);if(h){var
+jW(d,a){var
+e=X(a),f=r(r(m(c(2,b)),a),d);return B(z(X(d),f),e)}function
+jX(k,a,d,j,c,i){var
+e=ah(z,dY(k),j);if(i){var
 b=function(b){var
-c=j(b,a[3]),d=j(b,a[2]);return[0,j(b,a[1]),d,c]},f=b(function(a){return a[3]}),g=b(function(a){return a[2]}),l=fI([0,b(function(a){return a[1]}),g,f],e);return ag(B,a3(d,c),l)}var
-m=fI(a,c);return ag(B,a3(d,e),m)}function
-oB(f,h,g,k,a,d){var
-e=dT(f),i=ag(y,e,a),j=fI(h,d),l=jM(e[3],a[3]),n=jM(e[2],a[2]),o=jM(e[1],a[1]),p=B(B(B(aa(d,d),o),n),l),q=aa(j,i),r=s(m(c(2,b)),q),t=B(s(g,p),r),u=bl(bm(j,i),k);return[0,fJ(f,jN(f,h,g,a,d,0),u),t]}function
-oC(d,c,b,a){var
-e=hp(c,b,a);return ag(B,dT(d),e)}function
-oD(g,f,e,d,c){var
-b=oC(g,f,e,c),a=ag(y,b,d);return[0,[0,b,a],aL(aa(a,a))]}function
-hs(b,a){var
-c=bc(a[2],b);return g(bc(a[1],b),c)}function
-jO(d,b,a,c){if(a)var
-e=a[1],g=cJ(c,hs(b,e)),i=N(c,f(hs(b,e))),j=jO(d,b,a[2],i),k=ak(g,vF),h=[0,aq(d,ak(g,0),k),j];else
+c=h(b,a[3]),d=h(b,a[2]);return[0,h(b,a[1]),d,c]},f=b(function(a){return a[3]}),g=b(function(a){return a[2]}),l=fM([0,b(function(a){return a[1]}),g,f],e);return ah(B,a7(d,c),l)}var
+m=fM(a,c);return ah(B,a7(d,e),m)}function
+oV(f,h,g,k,a,d){var
+e=dY(f),i=ah(z,e,a),j=fM(h,d),l=jW(e[3],a[3]),n=jW(e[2],a[2]),o=jW(e[1],a[1]),p=B(B(B(ab(d,d),o),n),l),q=ab(j,i),s=r(m(c(2,b)),q),t=B(r(g,p),s),u=bm(bn(j,i),k);return[0,fN(f,jX(f,h,g,a,d,0),u),t]}function
+oW(d,c,b,a){var
+e=hu(c,b,a);return ah(B,dY(d),e)}function
+oX(g,f,e,d,c){var
+b=oW(g,f,e,c),a=ah(z,b,d);return[0,[0,b,a],aN(ab(a,a))]}function
+hx(b,a){var
+c=bg(a[2],b);return g(bg(a[1],b),c)}function
+jY(d,b,a,c){if(a)var
+e=a[1],g=cN(c,hx(b,e)),i=N(c,f(hx(b,e))),j=jY(d,b,a[2],i),k=al(g,wd),h=[0,ar(d,al(g,0),k),j];else
 var
 h=a;return h}function
-jP(f,o,e,n,a){var
-g=s(W(r(0,n,m(d))),o);if(typeof
+jZ(f,o,e,n,a){var
+g=r(X(s(0,n,m(d))),o);if(typeof
 a!=="number")switch(a[0]){case
 2:var
 b=G(e,a[1]);if(b)var
-i=h(f,0,a[2]),j=i?[0,y(b[1][1][2],g)]:i;else
+h=i(f,0,a[2]),j=h?[0,z(b[1][1][2],g)]:h;else
 var
 j=b;return j;case
 3:var
 c=G(e,a[1]);if(c)var
-k=h(f,0,a[2]),l=k?[0,y(g,c[1][1][2])]:k;else
+k=i(f,0,a[2]),l=k?[0,z(g,c[1][1][2])]:k;else
 var
 l=c;return l}return 0}function
-oE(c,b,a){if(typeof
+oY(c,b,a){if(typeof
 a!=="number"&&6===a[0]){var
-e=G(c,a[1]);return z(function(a){var
-c=r(0,b,m(d)),e=j(a[2][2],c);return[0,a[2][1],e]},e)}return 0}function
-ht(a){return h(i,0,[3,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b],a])}function
-oF(a){var
-b=ak(a,vG),c=aL(aa(ak(a,vH),b));return s(r(0,a,m(d)),c)}function
-oG(b,a){var
-c=aa(a,ak(b,vI));return[0,bZ(a3(oF(b),a)),c]}function
-oH(e,d,a,c,b){var
-f=b[2],g=s(oF(a),f),h=c?hp(e,d,ak(a,vJ)):ak(a,vK);return y(aa(b[1][2],h),g)}function
-oI(h,g,f,d,c,b,a){var
-i=bG(c);function
-j(a){return oC(h,g,f,a)}return ni(e(function(a){return[0,a[4]]},d),j,i,b,a)}function
-dU(a){var
-b=r(vL,a,m(d));return am(r(0,a,m(d)),b)}function
-jQ(a){return a[4][2]}function
-oJ(f,o,n,l,a){var
-p=a[1][2],q=e(aI,fw(n,a[1][2])),h=dU(l),i=s(s(m(c(2,b)),o),h),d=a[1][1],j=au(bK(f),d),k=e(function(a){return s(a,i)},j);return[0,g(g(al(bK(f),d),k),q),p]}function
-oK(a){var
-b=a[3],c=a[2],d=a[1];return hf([0,[0,d,d],[0,c,c],[0,b,b]])}function
-vU(a){if(typeof
+e=G(c,a[1]);return y(function(a){var
+c=s(0,b,m(d)),e=h(a[2][2],c);return[0,a[2][1],e]},e)}return 0}function
+hy(a){return i(j,0,[3,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b],a])}function
+oZ(a){var
+b=al(a,we),c=aN(ab(al(a,wf),b));return r(s(0,a,m(d)),c)}function
+o0(b,a){var
+c=ab(a,al(b,wg));return[0,bZ(a7(oZ(b),a)),c]}function
+o1(e,d,a,c,b){var
+f=b[2],g=r(oZ(a),f),h=c?hu(e,d,al(a,wh)):al(a,wi);return z(ab(b[1][2],h),g)}function
+o2(h,g,f,d,c,b,a){var
+i=bI(c);function
+j(a){return oW(h,g,f,a)}return nC(e(function(a){return[0,a[4]]},d),j,i,b,a)}function
+dZ(a){var
+b=s(wj,a,m(d));return an(s(0,a,m(d)),b)}function
+j0(a){return a[4][2]}function
+o3(f,o,n,l,a){var
+p=a[1][2],q=e(aK,fA(n,a[1][2])),h=dZ(l),i=r(r(m(c(2,b)),o),h),d=a[1][1],j=aw(bM(f),d),k=e(function(a){return r(a,i)},j);return[0,g(g(am(bM(f),d),k),q),p]}function
+o4(a){var
+b=a[3],c=a[2],d=a[1];return hk([0,[0,d,d],[0,c,c],[0,b,b]])}function
+ws(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-oL(b,a){switch(b){case
+o5(b,a){switch(b){case
 0:return[0,a[1],[0,a[2],0]];case
 1:return[0,a[1],[0,a[2],[0,a[3],0]]];default:return 0}}function
-hu(a){var
-c=cf(a[1],[0,d,b]);return c?cf(a[2],[0,d,b]):c}function
-jR(d,a){switch(d){case
-0:return hu(a[3]);case
+hz(a){var
+c=ch(a[1],[0,d,b]);return c?ch(a[2],[0,d,b]):c}function
+j1(d,a){switch(d){case
+0:return hz(a[3]);case
 1:return 1;default:var
-b=hu(a[1]),c=b?hu(a[2]):b;return c?hu(a[3]):c}}function
-jS(c,b){var
-a=w(function(a){return hs(c,a)},b),d=V(aE(0,f(a)),a);return e(aA,a2(function(a){return jk(a[2])},d))}function
-oM(b){var
+b=hz(a[1]),c=b?hz(a[2]):b;return c?hz(a[3]):c}}function
+j2(c,b){var
+a=w(function(a){return hx(c,a)},b),d=V(aG(0,f(a)),a);return e(aC,a5(function(a){return ju(a[2])},d))}function
+o6(b){var
 a=b[2];if(typeof
 a!=="number")switch(a[0]){case
 10:case
 12:return 1}return 0}function
-oN(c){var
-a=c;for(;;){if(0===a[0])return aj(oM,a[1]);var
-d=aj(oM,a[1]),b=d||oN(a[3]);if(b)return b;var
+o7(c){var
+a=c;for(;;){if(0===a[0])return ak(o6,a[1]);var
+d=ak(o6,a[1]),b=d||o7(a[3]);if(b)return b;var
 a=a[4];continue}}function
-vV(a,aU,bF,C,D,aT){var
-o=C[1],k=bD(o),Z=C[6],bG=C[2],O=w(function(a){return hs(D,a)},bG),aW=C[3],T=[0,[0,aW,aW],D],ae=[0,f(O)],bH=0,aX=w(function(a){return fG(bH,D,a)},Z),bI=bK(o),aY=n$(C[5],bI),p=aY[2],H=aY[1],M=ci(T,f(O)),bL=C[2],U=f(O),bJ=0,x=jO(function(e,a){function
+wt(a,aS,bB,C,E,aR){var
+o=C[1],k=bF(o),Z=C[6],bC=C[2],O=w(function(a){return hx(E,a)},bC),aT=C[3],T=[0,[0,aT,aT],E],ae=[0,f(O)],bE=0,aU=w(function(a){return fK(bE,E,a)},Z),bH=bM(o),aV=ot(C[5],bH),p=aV[2],H=aV[1],M=ck(T,f(O)),bJ=C[2],U=f(O),bI=0,x=jY(function(e,a){function
 i(d){var
-b=ol(o,bD(o)),m=on(o,H,p,e,a,b)[2],f=on(o,H,p,e,a,b),g=f[1],h=bl(g[2],f[2]),i=bm(g[1],h),j=ag(B,i,bm(i,b)),c=a3(jE(b),j),k=s(c[3],d),l=s(c[2],d);return[0,fJ(o,h,[0,s(c[1],d),l,k]),m]}function
-j(X){var
-v=oD(o,H,p,e,a),w=v[1],T=ag(y,dT(o),e),x=v[2],r=w[1],V=w[2],g=hp(H,p,a),i=bl(V,x),N=am(aa(g,i),M),O=W(M),P=am(aa(a,a),O),Q=2<=o?d:b,R=B(m(Q),P);function
-h(a){return[0,of(a),0]}function
-f(a){return[0,bl(bm(of(a),g),M),[0,a]]}switch(o){case
+b=oF(o,bF(o)),m=oH(o,H,p,e,a,b)[2],f=oH(o,H,p,e,a,b),g=f[1],h=bm(g[2],f[2]),i=bn(g[1],h),j=ah(B,i,bn(i,b)),c=a7(jO(b),j),k=r(c[3],d),l=r(c[2],d);return[0,fN(o,h,[0,r(c[1],d),l,k]),m]}function
+j(W){var
+v=oX(o,H,p,e,a),w=v[1],T=ah(z,dY(o),e),x=v[2],s=w[1],V=w[2],g=hu(H,p,a),i=bm(V,x),N=an(ab(g,i),M),O=X(M),P=an(ab(a,a),O),Q=2<=o?d:b,R=B(m(Q),P);function
+h(a){return[0,oz(a),0]}function
+f(a){return[0,bm(bn(oz(a),g),M),[0,a]]}switch(o){case
 0:var
-C=[0,f(u7),0],D=[0,h(u8),C],q=[0,h(0),D];break;case
+C=[0,f(vF),0],D=[0,h(vG),C],q=[0,h(0),D];break;case
 1:var
-E=[0,f(u9),0],F=[0,f(u_),E],G=[0,f(0),F],I=[0,h(u$),G],J=[0,h(va),I],q=[0,h(0),J];break;default:var
-K=[0,f(vb),0],L=[0,f(vc),K],q=[0,f(0),L]}var
-j=ag(y,[0,[0,[1,U]],[0,[1,[0,U]]],[0,[1,[0,[0,U]]]]],e),k=bl(j,aL(aa(j,j)));if(o)var
-l=jD(o,U,e,r,k[3]);else
+E=[0,f(vH),0],F=[0,f(vI),E],G=[0,f(0),F],I=[0,h(vJ),G],J=[0,h(vK),I],q=[0,h(0),J];break;default:var
+K=[0,f(vL),0],L=[0,f(vM),K],q=[0,f(0),L]}var
+j=ah(z,[0,[0,[1,U]],[0,[1,[0,U]]],[0,[1,[0,[0,U]]]]],e),k=bm(j,aN(ab(j,j)));if(o)var
+l=jN(o,U,e,s,k[3]);else
 var
-z=m(d),A=m(d),l=[0,m(d),A,z];var
-t=jD(o,U,e,r,k[2]),u=jD(o,U,e,r,k[1]),S=og(function(r,v){var
+y=m(d),A=m(d),l=[0,m(d),A,y];var
+t=jN(o,U,e,s,k[2]),u=jN(o,U,e,s,k[1]),S=oA(function(s,v){var
 e=v[1];function
 a(b,a){var
-c=e[3],f=dS(a,l),g=s(B(b[3],f),c),h=e[2],i=dS(a,t),j=s(B(b[2],i),h),k=e[1],n=dS(a,u),o=s(B(b[1],n),k);return B(B(B(m(d),o),j),g)}var
-w=a(l,vd),x=a(t,ve),z=[0,a(u,0),x,w],f=aa(r[1],z),k=r[2];if(k){var
+c=e[3],f=dX(a,l),g=r(B(b[3],f),c),h=e[2],i=dX(a,t),j=r(B(b[2],i),h),k=e[1],n=dX(a,u),o=r(B(b[1],n),k);return B(B(B(m(d),o),j),g)}var
+w=a(l,vN),x=a(t,vO),y=[0,a(u,0),x,w],f=ab(s[1],y),k=s[2];if(k){var
 h=k[1],o=v[2];if(o){var
-j=o[1],A=dS(h,g),C=s(dS(j,i),A),D=dS(j,g),p=B(s(dS(h,i),D),C),E=W(M);if(n(h,j))var
-F=aa(i,g),q=y(p,s(m(c(2,b)),F));else
+j=o[1],A=dX(h,g),C=r(dX(j,i),A),D=dX(j,g),p=B(r(dX(h,i),D),C),E=X(M);if(n(h,j))var
+F=ab(i,g),q=z(p,r(m(c(2,b)),F));else
 var
-q=p;return B(f,am(q,E))}return f}return f},q);return[0,fJ(o,i,bl(bm(g,bl(T,x)),M)),S,R,N]}var
-k=oD(o,H,p,e,a);function
-l(b){return jN(o,H,p,e,a,b)}var
+q=p;return B(f,an(q,E))}return f}return f},q);return[0,fN(o,i,bm(bn(g,bm(T,x)),M)),S,R,N]}var
+k=oX(o,H,p,e,a);function
+l(b){return jX(o,H,p,e,a,b)}var
 f=2<=o?d:b;function
 g(b){var
-c=W(M),d=m(f),e=s(y(W(b),d),c);return s(p,y(aa(a,a),e))}var
-h=[0,aa(jN(o,H,p,e,a,1),a),g];return[0,oB(o,H,p,M,e,a),h,l,k,j,i]},D,bL,bJ),X=e(function(a){return a[1]},x),bM=N(ae,f(aX)),bN=bK(o),bO=C[5];function
-S(a){return[0,[0,N(bN,a)]]}var
-aK=W([0,[1,bM]]);switch(bO[0]){case
+c=X(M),d=m(f),e=r(z(X(b),d),c);return r(p,z(ab(a,a),e))}var
+h=[0,ab(jX(o,H,p,e,a,1),a),g];return[0,oV(o,H,p,M,e,a),h,l,k,j,i]},E,bJ,bI),W=e(function(a){return a[1]},x),bK=N(ae,f(aU)),bL=bM(o),bN=C[5];function
+S(a){return[0,[0,N(bL,a)]]}var
+aI=X([0,[1,bK]]);switch(bN[0]){case
 2:var
-bt=S(uZ),bu=S(u0),aM=[0,S(0),bu,bt],F=[0,y(aK,aa(aM,aM))];break;case
+bs=S(vx),bt=S(vy),aJ=[0,S(0),bt,bs],F=[0,z(aI,ab(aJ,aJ))];break;case
 3:var
-bv=W(S(u1)),bw=W(S(0)),bx=W(S(u2)),F=[0,y(y(s(aK,B(m(b),bx)),bw),bv)];break;default:var
+bu=X(S(vz)),bv=X(S(0)),bw=X(S(vA)),F=[0,z(z(r(aI,B(m(b),bw)),bv),bu)];break;default:var
 F=0}var
-aZ=C[7];if(aZ)var
-bP=0,bQ=C[2],ap=jO(function(k,t){var
-a=oB(o,H,p,ci(T,f(O)),k,t);switch(o){case
+aW=C[7];if(aW)var
+bO=0,bP=C[2],ao=jY(function(k,t){var
+a=oV(o,H,p,ck(T,f(O)),k,t);switch(o){case
 0:var
 c=a[1];if(c){var
 l=c[2],e=c[1];if(l){var
-n=l[1],s=a[2];return[0,[0,e,[0,n,[0,bm(k,[0,e,n,m(d)])[3],0]]],s]}return[0,[0,e,0],a[2]]}return[0,0,a[2]];case
+n=l[1],s=a[2];return[0,[0,e,[0,n,[0,bn(k,[0,e,n,m(d)])[3],0]]],s]}return[0,[0,e,0],a[2]]}return[0,0,a[2]];case
 1:var
 g=a[1];if(g){var
 h=g[2],b=g[1];if(h){var
 q=h[2],i=h[1];if(q){var
-r=q[1],j=bm(k,[0,b,i,r]);return[0,[0,b,[0,i,[0,r,[0,j[1],[0,j[2],[0,j[3],0]]]]]],a[2]]}return[0,[0,b,[0,i,0]],a[2]]}return[0,[0,b,0],a[2]]}return[0,0,a[2]];default:return[0,a[1],a[2]]}},D,bQ,bP);else
+r=q[1],j=bn(k,[0,b,i,r]);return[0,[0,b,[0,i,[0,r,[0,j[1],[0,j[2],[0,j[3],0]]]]]],a[2]]}return[0,[0,b,[0,i,0]],a[2]]}return[0,[0,b,0],a[2]]}return[0,0,a[2]];default:return[0,a[1],a[2]]}},E,bP,bO);else
 var
-ap=aZ;var
-bR=bB(ap),bS=F?[0,F[1],0]:F,bT=g(bS,bR),bU=0,bV=g(O,[0,T,0]),bC=e(function(a){return a[1]},x),bW=[0,p,g(de(function(c,b){if(typeof
+ao=aW;var
+bQ=bD(ao),bR=F?[0,F[1],0]:F,bS=g(bR,bQ),bT=0,bU=g(O,[0,T,0]),bA=e(function(a){return a[1]},x),bV=[0,p,g(dk(function(c,b){if(typeof
 b!=="number")switch(b[0]){case
 6:var
-f=oE(x,c,b);if(f)var
-i=f[1],k=[0,i[1],[0,i[2],0]];else
+f=oY(x,c,b);if(f)var
+j=f[1],k=[0,j[1],[0,j[2],0]];else
 var
 k=f;return k;case
-8:return e(aI,hh(bC,c));case
+8:return e(aK,hm(bA,c));case
 13:var
-h=G(x,b[1]);if(h){var
-l=ht(b[4]);if(l){var
-m=oG(c,j(h[1][3],b[2]));return g(m[1],[0,m[2],0])}var
+i=G(x,b[1]);if(i){var
+l=hy(b[4]);if(l){var
+m=o0(c,h(i[1][3],b[2]));return g(m[1],[0,m[2],0])}var
 n=l}else
 var
-n=h;return n;case
-16:return w(function(a){return oJ(o,M,bV,c,a)[1]},x)}var
-d=jP(a,p,x,c,b),q=d?[0,d[1],0]:d;return q},bU,D,ae,Z),bT)],aq=g(bB(X),bW),bX=0,bY=g(O,[0,T,0]),a0=de(function(b,a){if(typeof
+n=i;return n;case
+16:return w(function(a){return o3(o,M,bU,c,a)[1]},x)}var
+d=jZ(a,p,x,c,b),q=d?[0,d[1],0]:d;return q},bT,E,ae,Z),bS)],aq=g(bD(W),bV),bW=0,bX=g(O,[0,T,0]),aZ=dk(function(b,a){if(typeof
 a!=="number")switch(a[0]){case
 13:var
-f=G(x,a[1]);if(f){if(ht(a[4]))return 0;var
-k=[0,oH(H,p,b,a[2],f[1][4]),0]}else
+f=G(x,a[1]);if(f){if(hy(a[4]))return 0;var
+k=[0,o1(H,p,b,a[2],f[1][4]),0]}else
 var
 k=f;return k;case
 14:var
-h=oI(o,H,p,x,b,a[1],a[2]);if(h){var
-l=h[1],n=l[2],q=l[1];return w(bZ,[0,q[1],[0,q[2],[0,n[1],[0,n[2],0]]]])}return h;case
+i=o2(o,H,p,x,b,a[1],a[2]);if(i){var
+l=i[1],n=l[2],q=l[1];return w(bZ,[0,q[1],[0,q[2],[0,n[1],[0,n[2],0]]]])}return i;case
 15:var
-i=G(x,a[1]);if(i){var
-c=j(i[1][5],0),s=[0,c[3],[0,c[4],0]],t=[0,r(vM,b,m(d)),s],u=[0,r(0,b,m(d)),t],v=g(cY(c[2]),u);return g(c[1],v)}return i;case
+j=G(x,a[1]);if(j){var
+c=h(j[1][5],0),r=[0,c[3],[0,c[4],0]],t=[0,s(wk,b,m(d)),r],u=[0,s(0,b,m(d)),t],v=g(c2(c[2]),u);return g(c[1],v)}return j;case
 16:var
 y=w(function(a){var
-b=e(aI,fw(bY,jQ(a)));return[0,jQ(a),b]},x);return g(w(function(a){var
-c=dU(b),d=[0,j(a[6],c)[2],0],e=dU(b);return g(j(a[6],e)[1],d)},x),y)}return 0},bX,D,ae,Z),a1=c1(e(function(a){return bE(k,a)},aq))[1],a4=c1(a0)[1],$=c0(a1),ar=c0(a4);function
-v(a){return bk($,bE(k,a))}function
-a5(i){if(0===C[4][0]){var
-s=z(v,F),t=v(p),e=bK(o),g=n(f(i),k);if(g)var
-h=z(function(a){return[0,[0,a,d],d]},s),a=function(a){return r(a,$,m(d))},c=a(t),j=aE(0,e),b=l(function(b){var
-d=dR(k,b,c),e=d?l(function(d){var
+b=e(aK,fA(bX,j0(a)));return[0,j0(a),b]},x);return g(w(function(a){var
+c=dZ(b),d=[0,h(a[6],c)[2],0],e=dZ(b);return g(h(a[6],e)[1],d)},x),y)}return 0},bW,E,ae,Z),a0=c6(e(function(a){return bG(k,a)},aq)),a1=c6(aZ),_=c5(a0),a2=c5(a1),bY=cH(_);function
+v(a){return h(bY,bG(k,a))}var
+K=cH(a2);function
+a3(i){if(0===C[4][0]){var
+r=y(v,F),t=v(p),e=bM(o),g=n(f(i),k);if(g)var
+h=y(function(a){return[0,[0,a,d],d]},r),a=function(a){return s(a,_,m(d))},c=a(t),j=aG(0,e),b=l(function(b){var
+d=dW(k,b,c),e=d?l(function(d){var
 f=d[1],e=l(function(c){var
-d=a(c);return cN(N(k,b),d)},f);if(e){var
-g=a(d[2]);return hj(c,N(k,b),g)}return e},i):d;if(e){if(h){var
-g=a(h[1][1][1]);return cN(N(k,b),g)}var
+d=a(c);return cR(N(k,b),d)},f);if(e){var
+g=a(d[2]);return ho(c,N(k,b),g)}return e},i):d;if(e){if(h){var
+g=a(h[1][1][1]);return cR(N(k,b),g)}var
 f=1}else
 var
 f=e;return f},j);else
 var
 b=g;var
 q=b?e:b;return q}return 0}var
-Y=a5(j(aw(v),X)),a6=l(function(a){var
-b=bE(k,a),c=m(d);return aO(r(v(a),$,c),b)},aq),a7=a6?l(function(a){return hk(k,a)},aq):a6,a8=a7?l(function(a){var
-b=m(d);return aO(r(bk(ar,a),ar,b),a)},a0):a7,a9=a8?aj(vU,Z):a8;if(a9)var
-b0=I(C[7]),as=b0||op(a,[0,o],[0,C[5]]);else
+Y=a3(h(ay(v),W)),a4=l(function(a){var
+b=bG(k,a),c=m(d);return aX(s(v(a),_,c),b)},aq),a6=a4?l(function(a){return hp(k,a)},aq):a4,a8=a6?l(function(a){var
+b=m(d);return aX(s(h(K,a),a2,b),a)},aZ):a6,a9=a8?ak(ws,Z):a8;if(a9)var
+b0=I(C[7]),ar=b0||oJ(a,[0,o],[0,C[5]]);else
 var
-as=a9;var
-a_=as?jR(o,ew(C[4])):as,a$=a_?h(a,1,C[3]):a_;if(a$)var
-b1=ho(C[5]),at=l(function(b){var
-c=cn(a,b[1]);return c?cn(a,b[2]):c},b1);else
+ar=a9;var
+a_=ar?j1(o,eD(C[4])):ar,a$=a_?i(a,1,C[3]):a_;if(a$)var
+b1=ht(C[5]),as=l(function(b){var
+c=cp(a,b[1]);return c?cp(a,b[2]):c},b1);else
 var
-at=a$;if(at){var
-b2=g(O,[0,T,0]),au=ad(e(function(b){return ao(a,b)},b2));if(au){var
-av=ad(e(function(b){return hi(a,b)},aX));if(av){var
-b3=oL(o,ew(C[4])),ax=ad(e(function(b){return ao(a,[0,b,D])},b3));if(ax){var
-ba=ax[1],b4=ob(C[5]),ay=ad(e(function(b){return od(a,b)},b4));if(ay){var
-bb=ay[1],b5=oa(C[5]),az=ad(e(cm(a),b5));if(az){var
-b6=0,K=function(a){return bk(ar,a)},aC=g(O,[0,T,0]),aD=ad(de(function(k,g){if(typeof
+as=a$;if(as){var
+b2=g(O,[0,T,0]),at=ad(e(function(b){return ap(a,b)},b2));if(at){var
+au=ad(e(function(b){return hn(a,b)},aU));if(au){var
+b3=o5(o,eD(C[4])),av=ad(e(function(b){return ap(a,[0,b,E])},b3));if(av){var
+ba=av[1],b4=ov(C[5]),aw=ad(e(function(b){return ox(a,b)},b4));if(aw){var
+bb=aw[1],b5=ou(C[5]),ax=ad(e(co(a),b5));if(ax){var
+az=g(O,[0,T,0]),b6=0,aA=ad(dk(function(k,g){if(typeof
 g!=="number")switch(g[0]){case
 13:var
-C=g[4],aM=G(x,g[1]);if(aM){if(oK(g[3])&&h(a,0,C)&&h(a,0,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],C])){var
-aN=g[2],aO=aM[1];if(ht(C)){var
-aG=oG(k,j(aO[3],aN)),V=aG[2];if(h(i,0,[3,C,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b]]))var
+C=g[4],aM=G(x,g[1]);if(aM){if(o4(g[3])&&i(a,0,C)&&i(a,0,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],C])){var
+aN=g[2],aO=aM[1];if(hy(C)){var
+aG=o0(k,h(aO[3],aN)),V=aG[2];if(i(j,0,[3,C,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b]]))var
 aH=0;else
 var
 be=v(V),bf=v(V),aH=[0,[6,[0,[0,e(v,aG[1]),bf],0],be],0];var
 aP=[0,[4,v(V)],aH]}else
 var
-aP=[0,[9,[3,K(oH(H,p,k,aN,aO[4]))]],0];return e(function(a){return[0,a]},aP)}return vS}return vT;case
+aP=[0,[9,[3,h(K,o1(H,p,k,aN,aO[4]))]],0];return e(function(a){return[0,a]},aP)}return wq}return wr;case
 16:var
-X=g[3],t=g[2],aQ=g[1],bg=bD(o);if(n(f(x),bg)&&h(a,0,aQ)&&h(a,1,t)&&h(a,1,X)&&cn(a,X)){var
-aI=ao(a,[0,[0,t,t],D]);if(aI){var
-bh=aI[1],aJ=j(cm(a),X);if(aJ){var
+X=g[3],t=g[2],aQ=g[1],bg=bF(o);if(n(f(x),bg)&&i(a,0,aQ)&&i(a,1,t)&&i(a,1,X)&&cp(a,X)){var
+aI=ap(a,[0,[0,t,t],E]);if(aI){var
+bh=aI[1],aJ=h(co(a),X);if(aJ){var
 bi=aJ[1],aK=ad(e(function(f){var
-b=jm(a,K,aC,D,aQ,t,jQ(f));if(b){var
-c=nq(a,v,aC,D,t,f[1][2]);if(c){var
-g=hr(0,0,f[1][2]);if(g)var
-i=e(aA,c[1]),d=[0,[0,b[1],i]];else
+b=jw(a,K,az,E,aQ,t,j0(f));if(b){var
+c=nK(a,v,az,E,t,f[1][2]);if(c){var
+g=hw(0,0,f[1][2]);if(g)var
+i=e(aC,c[1]),d=[0,[0,b[1],i]];else
 var
 d=g}else
 var
@@ -4938,32 +5131,32 @@ d=c;var
 h=d}else
 var
 h=b;return h},x));if(aK){var
-bj=aK[1],bk=e(function(a){return oJ(o,M,aC,k,a)},x),aL=j(aw(v),bk),W=function(a){var
-b=bK(o),c=e(function(a){var
-b=dU(k);return K(j(a[6],b)[2])},x),d=e(function(a){var
-b=dU(k);return e(K,j(a[6],b)[1])},x),f=a5(aL);return[0,[8,[0,aL,v(p),f,d,c,bj,bh,bi,b,a]]]};if(2<=o)return[0,W(1),0];var
-bl=[0,W(1),0];return[0,W(0),bl]}return vO}return vP}return vQ}return vR}var
+bj=aK[1],bk=e(function(a){return o3(o,M,az,k,a)},x),aL=h(ay(v),bk),W=function(a){var
+b=bM(o),c=e(function(a){var
+b=dZ(k);return h(K,h(a[6],b)[2])},x),d=e(function(a){var
+b=dZ(k);return e(K,h(a[6],b)[1])},x),f=a3(aL);return[0,[8,[0,aL,v(p),f,d,c,bj,bh,bi,b,a]]]};if(2<=o)return[0,W(1),0];var
+bl=[0,W(1),0];return[0,W(0),bl]}return wm}return wn}return wo}return wp}var
 bm=0,w=e(function(a){return a[1]},x);function
 Z(c,b,a){return[0,c,b,a,Y]}var
 F=0;if(typeof
 g==="number")var
-aS=v(p),s=[0,Z(j(aw(v),w),aS,u)];else
+aS=v(p),r=[0,Z(h(ay(v),w),aS,u)];else
 switch(g[0]){case
 0:var
-y=[5,[0,b,b],g[1]],I=Z;F=1;break;case
+z=[5,[0,b,b],g[1]],I=Z;F=1;break;case
 1:var
-aU=[5,[0,b,b],g[1]],y=aU,I=function(c,b,a){return[1,c,b,a]};F=1;break;case
+aU=[5,[0,b,b],g[1]],z=aU,I=function(c,b,a){return[1,c,b,a]};F=1;break;case
 2:var
-aV=jP(a,p,x,k,g),s=z(function(a){return[4,v(a)]},aV);break;case
+aV=jZ(a,p,x,k,g),r=y(function(a){return[4,v(a)]},aV);break;case
 3:var
-aW=jP(a,p,x,k,g),s=z(function(a){return[4,v(a)]},aW);break;case
+aW=jZ(a,p,x,k,g),r=y(function(a){return[4,v(a)]},aW);break;case
 5:var
-_=g[1],aX=ao(a,[0,[0,_,_],d]),s=z(function(b){var
-c=Q(a,b),d=v(p);return[2,j(aw(v),w),d,c]},aX);break;case
+_=g[1],aX=ap(a,[0,[0,_,_],d]),r=y(function(b){var
+c=R(a,b),d=v(p);return[2,h(ay(v),w),d,c]},aX);break;case
 6:var
 L=G(x,g[1]);if(L){var
-N=oE(x,k,g);if(N){var
-$=N[1],aa=h(a,1,g[2]),ab=aa?h(a,1,g[3]):aa;if(ab)var
+N=oY(x,k,g);if(N){var
+$=N[1],aa=i(a,1,g[2]),ab=aa?i(a,1,g[3]):aa;if(ab)var
 aY=v($[2]),aZ=v(L[1][1][2]),ac=[0,[5,[0,[0,[0,v($[1]),0],aZ],0],aY]];else
 var
 ac=ab;var
@@ -4973,94 +5166,94 @@ ae=N;var
 af=ae}else
 var
 af=L;var
-s=af;break;case
+r=af;break;case
 7:var
 ag=g[3],ah=g[2],ai=g[1],aj=G(x,ai),aR=0;if(aj){var
-ak=h(a,1,ah),al=ak?h(a,1,ag):ak;if(al){var
-a0=[5,ah,ag],y=a0,I=function(c,b,a){return[3,ai,c,b,a,Y]};F=1;aR=1}else
+ak=i(a,1,ah),al=ak?i(a,1,ag):ak;if(al){var
+a0=[5,ah,ag],z=a0,I=function(c,b,a){return[3,ai,c,b,a,Y]};F=1;aR=1}else
 var
 am=al}else
 var
 am=aj;if(!aR)var
-s=am;break;case
+r=am;break;case
 8:var
-an=h(a,1,g[2]);if(an)var
-a1=g[1],a2=1,O=l(function(b){return h(a,a2,b)},a1);else
+an=i(a,1,g[2]);if(an)var
+a1=g[1],a2=1,O=l(function(b){return i(a,a2,b)},a1);else
 var
 O=an;if(O)var
-a3=J(a,b),a4=v(p),a6=hh(w,k),ap=[0,[0,j(aw(v),a6),a4,a3,0]];else
+a4=J(a,b),a5=v(p),a6=hm(w,k),ao=[0,[0,h(ay(v),a6),a5,a4,0]];else
 var
-ap=O;var
-s=ap;break;case
+ao=O;var
+r=ao;break;case
 14:var
-aq=g[2],ar=g[1],P=oI(o,H,p,x,k,ar,aq);if(P){var
-as=P[1],at=as[2],au=as[1],av=n2(ar,aq,g[3]),R=ao(a,[0,[0,av,av],D]);if(R){var
-ax=R[1],ay=E(d,ax[1]);if(ay)var
-A=function(a){return no(K,a)},a7=A(at[2]),a8=A(at[1]),a9=A(au[2]),az=[0,[9,[6,A(au[1]),a9,a8,a7,ax]]];else
+aq=g[2],ar=g[1],P=o2(o,H,p,x,k,ar,aq);if(P){var
+as=P[1],at=as[2],au=as[1],av=ok(ar,aq,g[3]),Q=ap(a,[0,[0,av,av],E]);if(Q){var
+aw=Q[1],ax=D(d,aw[1]);if(ax)var
+A=function(a){return nI(K,a)},a7=A(at[2]),a8=A(at[1]),a9=A(au[2]),aA=[0,[9,[6,A(au[1]),a9,a8,a7,aw]]];else
 var
-az=ay;var
-aB=az}else
+aA=ax;var
+aB=aA}else
 var
-aB=R;var
+aB=Q;var
 aD=aB}else
 var
 aD=P;var
-s=aD;break;case
+r=aD;break;case
 15:var
 S=G(x,g[1]);if(S){var
-aE=h(a,1,g[4]);if(aE)var
-aF=h(a,0,g[2]),T=aF?h(a,0,g[3]):aF;else
+aE=i(a,1,g[4]);if(aE)var
+aF=i(a,0,g[2]),T=aF?i(a,0,g[3]):aF;else
 var
 T=aE;if(T)var
-B=j(S[1][5],0),a_=K(B[4]),a$=K(B[3]),ba=K(r(vN,k,m(d))),bb=K(r(0,k,m(d))),bc=B[2],bd=e(function(a){return e(K,a)},bc),U=[0,[9,[11,e(K,B[1]),bd,bb,ba,a$,a_]]];else
+B=h(S[1][5],0),a_=h(K,B[4]),a$=h(K,B[3]),ba=h(K,s(wl,k,m(d))),bb=h(K,s(0,k,m(d))),bc=B[2],bd=e(function(a){return e(K,a)},bc),U=[0,[9,[11,e(K,B[1]),bd,bb,ba,a$,a_]]];else
 var
 U=T}else
 var
 U=S;var
-s=U;break;default:var
-s=0}if(F)var
-aT=ao(a,[0,[0,y,y],d]),s=z(function(b){var
-c=Q(a,b),d=v(p);return I(j(aw(v),w),d,c)},aT);return[0,s,bm]},b6,D,ae,Z));if(aD){var
-bc=aD[1];if(C[7])var
-b7=aU[2],b8=aU[1],b9=v(p),af=jq(bF,bc,[7,j(aw(v),ap),b9,b8,b7]);else
+r=U;break;default:var
+r=0}if(F)var
+aT=ap(a,[0,[0,z,z],d]),r=y(function(b){var
+c=R(a,b),d=v(p);return I(h(ay(v),w),d,c)},aT);return[0,r,bm]},b6,E,ae,Z));if(aA){var
+bc=aA[1];if(C[7])var
+b7=aS[2],b8=aS[1],b9=v(p),af=jA(bB,bc,[7,h(ay(v),ao),b9,b8,b7]);else
 var
 af=bc;var
 bd=n(f(g(ba,bb)),k),be=bd?l(function(a){var
-b=ow(a);return l(function(a){return n9(k,$,a)},b)},af):bd,bf=be?F?n9(k,$,v(F[1])):1:be;if(bf){var
-b_=g(av[1],az[1]),aF=g(au[1],b_),P=oN(aT),R=jS(D,C[2]),ab=P?e(function(a){var
-b=ou(k,R,a[2]),c=a[1];return[0,e(function(a){return ou(k,R,a)},c),b]},X):P,aG=P?c1(jL(k,p,F,ab))[1]:P,aH=c0(aG),ah=function(a){return bk(aH,a)},b$=jJ(ah,ah,ab),ca=ah(bE(k,p)),aJ=z(function(a){return ah(bE(k,a))},F),bg=I(P);if(bg)var
+b=oQ(a);return l(function(a){return or(k,_,a)},b)},af):bd,bf=be?F?or(k,_,v(F[1])):1:be;if(bf){var
+b_=g(au[1],ax[1]),aB=g(at[1],b_),P=o7(aR),Q=j2(E,C[2]),aa=P?e(function(a){var
+b=oO(k,Q,a[2]),c=a[1];return[0,e(function(a){return oO(k,Q,a)},c),b]},W):P,aE=P?c6(jV(k,p,F,aa)):P,aF=c5(aE),ag=cH(aF),b$=jT(ag,ag,aa),ca=h(ag,bG(k,p)),aH=y(function(a){return h(ag,bG(k,a))},F),bg=I(P);if(bg)var
 ai=bg;else{var
-bs=n(f(X),k);if(bs){var
-bz=jL(k,p,F,ab),aQ=l(function(a){var
-b=m(d);return aO(r(bk(aH,a),aH,b),a)},bz);if(aQ)var
-bA=jL(k,p,F,ab),ak=l(function(a){var
-b=aE(0,k);return l(function(b){return eB(k,b,a)},b)},bA);else
+br=n(f(W),k);if(br){var
+by=jV(k,p,F,aa),aM=l(function(a){var
+b=m(d);return aX(s(h(cH(aF),a),aF,b),a)},by);if(aM)var
+bz=jV(k,p,F,aa),aj=l(function(a){var
+b=aG(0,k);return l(function(b){return eI(k,b,a)},b)},bz);else
 var
-ak=aQ;if(ak){var
-aR=z(function(a){return bE(k,a)},F),al=bE(k,p),aP=oq(al);if(aP)var
-by=aE(0,Y),aS=l(function(a){var
-b=dR(k,a,al),c=b?l(function(b){var
-d=b[2][2],e=g(w(jK,b[1]),d),f=N(k,a),c=l(function(a){return cN(f,a)},e);if(c){var
-h=b[2][1];return hj(al,N(k,a),h)}return c},ab):b;if(c){if(aR){var
-e=aR[1];return cN(N(k,a),e)}var
+aj=aM;if(aj){var
+aO=y(function(a){return bG(k,a)},F),al=bG(k,p),aL=oK(al);if(aL)var
+bx=aG(0,Y),aQ=l(function(a){var
+b=dW(k,a,al),c=b?l(function(b){var
+d=b[2][2],e=g(w(jU,b[1]),d),f=N(k,a),c=l(function(a){return cR(f,a)},e);if(c){var
+h=b[2][1];return ho(al,N(k,a),h)}return c},aa):b;if(c){if(aO){var
+e=aO[1];return cR(N(k,a),e)}var
 d=1}else
 var
-d=c;return d},by);else
+d=c;return d},bx);else
 var
-aS=aP;var
-an=aS}else
+aQ=aL;var
+am=aQ}else
 var
-an=ak;var
-cg=an?l(function(a){var
-c=a[1],b=l(function(a){return ov(k,aF,R,a)},c);return b?ov(k,aF,R,a[2]):b},X):an,ai=cg}else
+am=aj;var
+cg=am?l(function(a){var
+c=a[1],b=l(function(a){return oP(k,aB,Q,a)},c);return b?oP(k,aB,Q,a[2]):b},W):am,ai=cg}else
 var
-ai=bs}if(ai){var
-cb=e(function(a){return 1},af),cc=g(ba,bb),cd=function(p,Q,ae,u,g){if(P){var
-i=function(V,h){if(typeof
-h!=="number"&&10===h[0]){var
-m=h[3],s=h[2],u=h[1];if(typeof
+ai=br}if(ai){var
+cb=e(function(a){return 1},af),cc=g(ba,bb),cd=function(p,R,ae,u,g){if(P){var
+j=function(V,i){if(typeof
+i!=="number"&&10===i[0]){var
+m=i[3],r=i[2],u=i[1];if(typeof
 u!=="number"&&6===u[0]){if(m){if(m[2])return 0;var
-v=m[1],g=u[1],z=iJ(iF,e(aA,s),R),B=z?1:z,C=B?g1(R):B,D=C?l(function(a){return aB(a,f(p))},R):C,F=D?n(f(v),k):D;if(F){var
+v=m[1],g=u[1],z=iP(iK,e(aC,r),Q),B=z?1:z,C=B?g6(Q):B,E=C?l(function(a){return aD(a,f(p))},Q):C,F=E?n(f(v),k):E;if(F){var
 y=0;if(typeof
 g!=="number")switch(g[0]){case
 0:var
@@ -5068,134 +5261,134 @@ x=g[2],w=g[1],K=0;y=1;break;case
 7:var
 M=g[2],o=g[1],P=0;if(typeof
 o!=="number"&&0===o[0]){var
-S=0;if(aJ){var
-N=E(d,M);if(N){var
-x=o[2],w=o[1],K=[0,[0,[0,aJ[1],M],g[3]]];y=1;P=1;S=1}else
+S=0;if(aH){var
+N=D(d,M);if(N){var
+x=o[2],w=o[1],K=[0,[0,[0,aH[1],M],g[3]]];y=1;P=1;S=1}else
 var
 O=N}else
 var
-O=aJ;if(!S)return O}if(!P)return 0;break}if(y){var
-T=jz(a,fq(s,0,p),aG,Q),q=jz(a,p,aG,Q),i=function(b,a){return r(a,b,vx)},U=os(function(a){return i(q,a)},K),W=i(q,ca),X=function(a){return i(q,a)},Z=[0,jJ(function(a){return i(T,a)},X,b$),W,U],ab=gV(s,p),$=function(q){var
-m=ad(e(vv,q[1]));if(m){var
+O=aH;if(!S)return O}if(!P)return 0;break}if(y){var
+T=jJ(a,ft(r,0,p),aE,R),q=jJ(a,p,aE,R),j=function(b,a){return s(a,b,v7)},U=oM(function(a){return j(q,a)},K),W=j(q,ca),X=function(a){return j(q,a)},Z=[0,jT(function(a){return j(T,a)},X,b$),W,U],ab=g0(r,p),_=function(q){var
+m=ad(e(v5,q[1]));if(m){var
 o=q[2];if(o){var
-p=dh(q[3]);if(p){var
-$=p[1],R=A(t(a,ae,o[1]),$),aa=m[1],S=e(function(d){var
-b=gW(a,0,ab,d),c=a2(vw,b[2]);return[0,b[1],c]},aa);if(V){var
-s=V[1],u=s[1],y=u[1],z=y[1],B=u[2],C=s[2],D=ja(a,v),F=D[1],G=F[1],h=G[2],g=G[1],W=F[2],i=e(function(c){return aN(c,W,J(a,b))},h),H=n(f(h),k),K=H?n(f(z),k):H,M=K?E(d,B):K,N=M?gC(C,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):M,O=N?aB(g,k):N,P=O?I(L(r(g,h,d),d)):O;if(P){var
-X=i4(a,g,i,k,_(R),0),Y=i5(a,g,i,z,y[2],B,C,X),j=i6(a,g,i,D[2],w,x,S,Y);if(j)return aV(a,k,j[1]);var
+p=dn(q[3]);if(p){var
+_=p[1],R=A(t(a,ae,o[1]),_),aa=m[1],S=e(function(d){var
+b=g1(a,0,ab,d),c=a5(v6,b[2]);return[0,b[1],c]},aa);if(V){var
+r=V[1],u=r[1],y=u[1],z=y[1],B=u[2],C=r[2],E=jl(a,v),F=E[1],G=F[1],h=G[2],g=G[1],W=F[2],i=e(function(c){return aP(c,W,J(a,b))},h),H=n(f(h),k),K=H?n(f(z),k):H,M=K?D(d,B):K,N=M?gG(C,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):M,O=N?aD(g,k):N,P=O?I(L(s(g,h,d),d)):O;if(P){var
+X=jd(a,g,i,k,$(R),0),Y=je(a,g,i,z,y[2],B,C,X),j=jf(a,g,i,E[2],w,x,S,Y);if(j)return aY(a,k,j[1]);var
 Q=j}else
 var
 Q=P;return Q}var
-Z=ac([0,_(R),0],k),l=i2(a,e(function(b){return J(a,b)},v),w,x,S,Z);return l?aV(a,k,l[1]):l}var
+Z=ac([0,$(R),0],k),l=jb(a,e(function(b){return J(a,b)},v),w,x,S,Z);return l?aY(a,k,l[1]):l}var
 T=p}else
 var
 T=o;var
 U=T}else
 var
-U=m;return U};return j(jB(function(b,a){return vu},Y,k,$),Z)}var
+U=m;return U};return h(jL(function(b,a){return v4},Y,k,_),Z)}var
 G=0}else
 var
 G=F;var
 H=G}else
 var
-H=m;return H}return 0}return 0},m=n(u,Y),o=m?aB(0,Y):m;if(o){if(typeof
+H=m;return H}return 0}return 0},m=n(u,Y),o=m?aD(0,Y):m;if(o){if(typeof
 g!=="number"&&12===g[0]){var
-h=g[1],q=I(n(f(h),0));if(q){var
-s=V(i3(e(function(a){return a[1][1][1]},h)),h);return l(function(a){var
-b=a[2],c=b[1];return i([0,[0,[0,[0,a[1][1],a[1][2]],c[1][2]],c[2]]],b[2])},s)}return q}return i(0,g)}return o}return P},ce=v(p),cf=j(aw(v),X);return fL(a,a1,a4,af,k,k,z(v,F),cf,ce,cd,aF,cc,cb,aT)}var
+i=g[1],q=I(n(f(i),0));if(q){var
+r=V(jc(e(function(a){return a[1][1][1]},i)),i);return l(function(a){var
+b=a[2],c=b[1];return j([0,[0,[0,[0,a[1][1],a[1][2]],c[1][2]],c[2]]],b[2])},r)}return q}return j(0,g)}return o}return P},ce=v(p),cf=h(ay(v),W);return fP(a,a0,a1,af,k,k,y(v,F),cf,ce,cd,aB,cc,cb,aR)}var
 bh=ai}else
 var
 bh=bf;var
 bi=bh}else
 var
-bi=aD;var
+bi=aA;var
 bj=bi}else
 var
-bj=az;var
-bn=bj}else
+bj=ax;var
+bk=bj}else
 var
-bn=ay;var
-bo=bn}else
+bk=aw;var
+bl=bk}else
 var
-bo=ax;var
+bl=av;var
+bo=bl}else
+var
+bo=au;var
 bp=bo}else
 var
-bp=av;var
+bp=at;var
 bq=bp}else
 var
-bq=au;var
-br=bq}else
-var
-br=at;return br}function
-fM(b,a){return bA(b,a[1],a[2])}function
-oO(b,a){var
-c=fM(b,a[1]),d=c?fM(b,a[2]):c;return d?fM(b,a[3]):d}function
-oP(a){return typeof
+bq=as;return bq}function
+fQ(b,a){return bC(b,a[1],a[2])}function
+o8(b,a){var
+c=fQ(b,a[1]),d=c?fQ(b,a[2]):c;return d?fQ(b,a[3]):d}function
+o9(a){return typeof
 a==="number"?0:0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
-jT(a){return typeof
-a==="number"?a?dT(0):dH:dT(a[1])}function
-jU(b,a,c){return typeof
-b==="number"?b?[0,a[1],[0,a[2],0]]:bZ(a):fJ(b[1],a,c)}function
-jV(b,d,c){if(0===c[0])return g6(b,d[1],c[1]);var
-a=c[1],e=[0,[0,a[5],b],[0,[0,a[6],b],0]],f=g(bc(a[4],b),e),h=g(bc(a[3],b),f),i=g(bc(a[2],d[2]),h);return g(bc(a[1],d[1]),i)}function
-jW(b,a){if(b){var
-c=b[1],d=c[2];return bl(fI(c[1],a),d)}return a}function
-jX(I,H,p,af,o,ae){if(o){var
-i=o[1],ah=bU([0,d,d],af),aG=N(ae,f(jV(H,ah,i))),aH=o[2],aI=jX(I,H,p,bG(af),aH,aG),a=cJ(ae,jV(H,ah,i)),w=function(c,b){var
-d=ak(a,c);return ag(y,ag(B,jT(I),b),d)};if(0===i[0]){var
-x=i[1];switch(x[0]){case
+j3(a){return typeof
+a==="number"?a?dY(0):dN:dY(a[1])}function
+j4(b,a,c){return typeof
+b==="number"?b?[0,a[1],[0,a[2],0]]:bZ(a):fN(b[1],a,c)}function
+j5(b,d,c){if(0===c[0])return g$(b,d[1],c[1]);var
+a=c[1],e=[0,[0,a[5],b],[0,[0,a[6],b],0]],f=g(bg(a[4],b),e),h=g(bg(a[3],b),f),i=g(bg(a[2],d[2]),h);return g(bg(a[1],d[1]),i)}function
+j6(b,a){if(b){var
+c=b[1],d=c[2];return bm(fM(c[1],a),d)}return a}function
+j7(I,H,p,af,o,ae){if(o){var
+j=o[1],ag=bW([0,d,d],af),aG=N(ae,f(j5(H,ag,j))),aH=o[2],aI=j7(I,H,p,bI(af),aH,aG),a=cN(ae,j5(H,ag,j)),w=function(c,b){var
+d=al(a,c);return ah(z,ah(B,j3(I),b),d)};if(0===j[0]){var
+x=j[1];switch(x[0]){case
 0:var
-Y=j(p,ak(a,vW)),aB=x[1][5],z=r(vX,a,m(d)),A=ak(a,0),Z=w(vY,Y),g=mC(Z,dG(A),Z,z,aB),aj=[0,aL(z),0],al=[0,aL(aa(A,A)),aj],q=[0,[0,g[1],g[2],g[3],[0,g[4]],[0,[0,g[2],z]],al],Y];break;case
+Y=h(p,al(a,wu)),aB=x[1][5],y=s(wv,a,m(d)),A=al(a,0),Z=w(ww,Y),g=mW(Z,dM(A),Z,y,aB),aj=[0,aN(y),0],ak=[0,aN(ab(A,A)),aj],q=[0,[0,g[1],g[2],g[3],[0,g[4]],[0,[0,g[2],y]],ak],Y];break;case
 1:var
-_=j(p,ak(a,vZ)),$=x[3],C=$?[0,ak(a,v0)]:$,ab=w(0,_),h=mD(ab,ab,0);if(C)var
-J=C[1],K=[0,aL(aa(J,J)),0];else
+_=h(p,al(a,wx)),$=x[3],C=$?[0,al(a,wy)]:$,aa=w(0,_),i=mX(aa,aa,0);if(C)var
+J=C[1],K=[0,aN(ab(J,J)),0];else
 var
 K=C;var
-an=h[4],ao=[0,[0,m(d),an]],q=[0,[0,h[1],h[2],h[3],[0,h[4]],ao,K],_];break;default:var
-aC=m(d),aD=m(d),aE=[0,m(d),aD,aC],D=ak(a,0),aF=jT(I),k=mE(aF,dG(D)),ap=[0,aL(aa(D,D)),0],q=[0,[0,k[1],k[2],k[3],[0,k[4]],0,ap],aE]}}else
+am=i[4],ao=[0,[0,m(d),am]],q=[0,[0,i[1],i[2],i[3],[0,i[4]],ao,K],_];break;default:var
+aC=m(d),aD=m(d),aE=[0,m(d),aD,aC],D=al(a,0),aF=j3(I),k=mY(aF,dM(D)),ap=[0,aN(ab(D,D)),0],q=[0,[0,k[1],k[2],k[3],[0,k[4]],0,ap],aE]}}else
 var
-ac=j(p,ak(a,v1)),E=i[1][7],F=r(v2,a,m(d)),e=r(v3,a,m(d)),ad=ak(a,v4),G=ak(a,0),n=w(v5,ac),l=dG(G),t=ag(y,ad,a3(aa(l,ad),l)),u=dG(t),L=bm(l,u),M=aa(n,u),O=aa(n,L),aq=aa(l,n),ar=W(O),P=B(W(M),ar),as=W(aq),Q=y(W(F),as),at=s(m(c(2,b)),e),v=y(P,W(am(B(P,y(W(e),Q)),at))),au=gQ(E,s(e,aL(v))),R=am(M,e),S=gQ(E,am(O,e)),T=am(Q,W(e)),U=ma(0,R,S,T),V=gQ(E,ma(1,R,S,T)),av=a3(V,L),X=ag(y,n,a3(e,ag(B,a3(U,u),av))),aw=[0,aL(F),0],ax=[0,aL(e),aw],ay=[0,aL(aa(t,t)),ax],az=[0,aL(aa(G,G)),ay],aA=bl(X,au),q=[0,[0,X,s(W(e),v),aA,[1,U,V],[0,[0,v,F]],az],ac];var
+ac=h(p,al(a,wz)),E=j[1][7],F=s(wA,a,m(d)),e=s(wB,a,m(d)),ad=al(a,wC),G=al(a,0),n=w(wD,ac),l=dM(G),t=ah(z,ad,a7(ab(l,ad),l)),u=dM(t),L=bn(l,u),M=ab(n,u),O=ab(n,L),aq=ab(l,n),ar=X(O),P=B(X(M),ar),as=X(aq),Q=z(X(F),as),at=r(m(c(2,b)),e),v=z(P,X(an(B(P,z(X(e),Q)),at))),au=gV(E,r(e,aN(v))),R=an(M,e),S=gV(E,an(O,e)),T=an(Q,X(e)),U=ml(0,R,S,T),V=gV(E,ml(1,R,S,T)),av=a7(V,L),W=ah(z,n,a7(e,ah(B,a7(U,u),av))),aw=[0,aN(F),0],ax=[0,aN(e),aw],ay=[0,aN(ab(t,t)),ax],az=[0,aN(ab(G,G)),ay],aA=bm(W,au),q=[0,[0,W,r(X(e),v),aA,[1,U,V],[0,[0,v,F]],az],ac];var
 ai=[0,q,aI]}else
 var
 ai=o;return ai}function
-jY(c,b,a){if(a){var
-e=a[2],f=jY(c,bG(b),e),h=a[1];return g(jV(c,bU([0,d,d],b),h),f)}return a}function
-jZ(a){if(typeof
+j8(c,b,a){if(a){var
+e=a[2],f=j8(c,bI(b),e),h=a[1];return g(j5(c,bW([0,d,d],b),h),f)}return a}function
+j9(a){if(typeof
 a==="number"){var
 c=m(d),e=m(d);return[0,m(d),e,c]}var
-b=a[1];return ol(b,bD(b))}function
-oQ(c,b,a){var
-d=g5(g9(c),a),f=V(g5(g9(c),b),d);return e(function(c){var
-d=s(a,c[1]);return y(s(b,c[2]),d)},f)}function
-oR(b,d,c,a){var
+b=a[1];return oF(b,bF(b))}function
+o_(c,b,a){var
+d=g_(hc(c),a),f=V(g_(hc(c),b),d);return e(function(c){var
+d=r(a,c[1]);return z(r(b,c[2]),d)},f)}function
+o$(b,d,c,a){var
 f=w(function(a){var
 c=typeof
-a==="number"?0:0===a[0]?fw(b,a[1]):jl(b,oQ(b,a[1],a[2])),d=e(aI,c);return g(oP(a),d)},a),h=g(bB(c),f);return g(cY(d),h)}function
-oS(c,b,u,t,s,r,i,g,q,p,d,l,k,a){var
-m=ao(c,[0,[0,a,a],g]);if(m){if(l){var
+a==="number"?0:0===a[0]?fA(b,a[1]):jv(b,o_(b,a[1],a[2])),d=e(aK,c);return g(o9(a),d)},a),h=g(bD(c),f);return g(c2(d),h)}function
+pa(c,b,u,t,s,r,j,g,q,p,d,l,k,a){var
+m=ap(c,[0,[0,a,a],g]);if(m){if(l){var
 v=l[1],x=m[1],o=ad(e(function(d){if(typeof
-d==="number")return 0;else{if(0===d[0])return jm(c,b,i,g,k,a,d[1]);var
-h=d[1],e=hi(c,[1,[5,k,a],P(g)]);if(e){var
-f=np(c,b,i,g,a,jl(i,oQ(i,h,d[2])));if(f)var
-n=[0,e[1],f[1]],l=[0,[0,j(b,h),n]];else
+d==="number")return 0;else{if(0===d[0])return jw(c,b,j,g,k,a,d[1]);var
+i=d[1],e=hn(c,[1,[5,k,a],Q(g)]);if(e){var
+f=nJ(c,b,j,g,a,jv(j,o_(j,i,d[2])));if(f)var
+n=[0,e[1],f[1]],l=[0,[0,h(b,i),n]];else
 var
 l=f;var
 m=l}else
 var
 m=e;return m}},d));if(o){var
-y=o[1];if(n(f(d),u)&&h(c,0,k)&&h(c,1,a))return e(function(a){var
-c=e(b,w(oP,d)),f=j(aw(b),p);return[0,[10,[0,e(function(a){return e(b,a)},q),f,c,y,r,x,v,t,a]]]},s);return v6}return v7}return v8}return v9}function
-oT(b,h,f,d,c,a){if(a){var
-i=a[2],k=a[1],l=oT(b,h,f,d,g(c,[0,k,0]),i),m=j(d,e(bG,g(c,i)));return aq(h,aq(f,bU(b,k),m),l)}return b}function
-oU(a,f,e,d,c,b){if(c){var
-g=0,h=c[1];return oT(a,e,d,function(b){return oU(a,f,e,d,h,b)},g,b)}return b?a:f}function
-oV(a,d,c){var
-e=ha(a,c);function
+y=o[1];if(n(f(d),u)&&i(c,0,k)&&i(c,1,a))return e(function(a){var
+c=e(b,w(o9,d)),f=h(ay(b),p);return[0,[10,[0,e(function(a){return e(b,a)},q),f,c,y,r,x,v,t,a]]]},s);return wE}return wF}return wG}return wH}function
+pb(b,i,f,d,c,a){if(a){var
+j=a[2],k=a[1],l=pb(b,i,f,d,g(c,[0,k,0]),j),m=h(d,e(bI,g(c,j)));return ar(i,ar(f,bW(b,k),m),l)}return b}function
+pc(a,f,e,d,c,b){if(c){var
+g=0,h=c[1];return pb(a,e,d,function(b){return pc(a,f,e,d,h,b)},g,b)}return b?a:f}function
+pd(a,d,c){var
+e=hf(a,c);function
 f(b,c){return t(a,b,c)}var
-g=J(a,b);return z(function(a){return oU(u,g,D,f,d,a)},e)}function
-j0(e,c,o,n){var
-a=oV(e,c,o);if(a){var
-f=a[1],b=oV(e,c,n);if(b){var
+g=J(a,b);return y(function(a){return pc(u,g,E,f,d,a)},e)}function
+j_(e,c,o,n){var
+a=pd(e,c,o);if(a){var
+f=a[1],b=pd(e,c,n);if(b){var
 g=b[1],h=K(d,f[1]),i=h?K(g[2],d):h;if(i)var
 j=i;else{var
 m=K(f[2],d);if(m)return K(d,g[1]);var
@@ -5206,10 +5399,10 @@ k=b;var
 l=k}else
 var
 l=a;return l}function
-j1(b){if(b){var
+j$(b){if(b){var
 a=b[2],c=b[1];if(c){var
 e=c[2],q=c[1];if(e){var
-f=e[2],r=e[1];if(f){if(f[2])return m(d);if(a){var
+f=e[2],s=e[1];if(f){if(f[2])return m(d);if(a){var
 g=a[2],h=a[1];if(h){var
 i=h[2],t=h[1];if(i){var
 j=i[2],u=i[1];if(j){var
@@ -5217,22 +5410,22 @@ v=j[1];if(j[2])return m(d);if(g){var
 k=g[1];if(k){var
 l=k[2],w=k[1];if(l){var
 n=l[2],x=l[1];if(n){var
-z=n[1];if(n[2])return m(d);if(g[2])return m(d);var
-A=dN(t,u,w,x),C=s(f[1],A),D=s(r,dN(t,v,w,z));return B(y(s(q,dN(u,v,x,z)),D),C)}return m(d)}return m(d)}return m(d)}return m(d)}return m(d)}return m(d)}return m(d)}return m(d)}if(a){var
+y=n[1];if(n[2])return m(d);if(g[2])return m(d);var
+A=dS(t,u,w,x),C=r(f[1],A),D=r(s,dS(t,v,w,y));return B(z(r(q,dS(u,v,x,y)),D),C)}return m(d)}return m(d)}return m(d)}return m(d)}return m(d)}return m(d)}return m(d)}return m(d)}if(a){var
 o=a[1];if(o){var
-p=o[2];return p?p[2]?m(d):a[2]?m(d):dN(q,r,o[1],p[1]):m(d)}return m(d)}return m(d)}return m(d)}return m(d)}return m(d)}function
-oW(a){if(a){var
+p=o[2];return p?p[2]?m(d):a[2]?m(d):dS(q,s,o[1],p[1]):m(d)}return m(d)}return m(d)}return m(d)}return m(d)}return m(d)}function
+pe(a){if(a){var
 b=a[1][6];if(b)var
-c=oW(a[2]),e=c?[0,[0,b[1][2],c[1]]]:c,d=e;else
+c=pe(a[2]),e=c?[0,[0,b[1][2],c[1]]]:c,d=e;else
 var
-d=b;return d}return wa}function
-oX(g,k,a){function
-b(a){return r(a,k,m(d))}function
+d=b;return d}return wK}function
+pf(g,k,a){function
+b(a){return s(a,k,m(d))}function
 l(a){var
-e=a[2],f=s(W(b(0)),e),c=0,d=0,g=a[1];return[0,[0,bV(function(b,a){return y(b,W(a))},g,f),d],c]}function
+e=a[2],f=r(X(b(0)),e),c=0,d=0,g=a[1];return[0,[0,bz(function(b,a){return z(b,X(a))},g,f),d],c]}function
 n(e){var
 a=e[6];if(a)var
-c=a[1],f=W(c[2]),g=s(W(b(0)),f),d=[0,[0,y(c[1],g),0],0];else
+c=a[1],f=X(c[2]),g=r(X(b(0)),f),d=[0,[0,z(c[1],g),0],0];else
 var
 d=a;return d}var
 j=0;if(typeof
@@ -5242,25 +5435,25 @@ switch(a[0]){case
 u=function(c){var
 a=c[4];if(typeof
 a!=="number"&&0===a[0]){var
-d=b(0);return[0,[0,y(a[1],d),0],0]}return 0},f=u,c=a[1];break;case
+d=b(0);return[0,[0,z(a[1],d),0],0]}return 0},f=u,c=a[1];break;case
 3:var
 v=function(c){var
 a=c[4];if(typeof
 a!=="number"&&0===a[0]){var
-d=a[1];return[0,[0,y(b(0),d),0],0]}return 0},f=v,c=a[1];break;case
+d=a[1];return[0,[0,z(b(0),d),0],0]}return 0},f=v,c=a[1];break;case
 4:var
 w=function(e){var
 a=e[4];if(typeof
 a!=="number"&&1===a[0]){var
-c=a[2],d=a[1],f=s(b(wb),c),g=[0,[0,y(s(b(wc),d),f),0],0],h=s(d,b(wd));return[0,[0,y(s(c,b(0)),h),0],g]}return 0},f=w,c=a[1];break;case
+c=a[2],d=a[1],f=r(b(wL),c),g=[0,[0,z(r(b(wM),d),f),0],0],h=r(d,b(wN));return[0,[0,z(r(c,b(0)),h),0],g]}return 0},f=w,c=a[1];break;case
 6:var
 x=function(a){var
 b=a[4];if(typeof
 b!=="number"&&1===b[0])return 0;return l(a)},f=x,c=a[1];break;case
 9:var
-z=function(a){var
+y=function(a){var
 b=a[4];if(typeof
-b!=="number"&&1===b[0])return l(a);return 0},f=z,c=a[1];break;case
+b!=="number"&&1===b[0])return l(a);return 0},f=y,c=a[1];break;case
 10:var
 f=n,c=a[1];break;case
 11:var
@@ -5268,23 +5461,23 @@ A=function(a){var
 b=a[4];if(typeof
 b!=="number"&&0===b[0])return n(a);return 0},f=A,c=a[1];break;case
 12:var
-i=oW(g);if(i)var
-C=b(0),o=bV(s,i[1],C),p=j1(e(function(a){return a[5]},g)),D=[0,br(B(p,o)),0],q=[0,[0,y(p,o),D],0];else
+i=pe(g);if(i)var
+C=b(0),o=bz(r,i[1],C),p=j$(e(function(a){return a[5]},g)),D=[0,bs(B(p,o)),0],q=[0,[0,z(p,o),D],0];else
 var
 q=i;return q;case
 17:var
 t=a[1],f=function(d){var
-a=j1(e(function(a){return a[1]},g));function
+a=j$(e(function(a){return a[1]},g));function
 b(b){var
-c=[0,br(B(a,b)),0];return[0,y(a,b),c]}var
-f=j1(nH(t,k,e(function(a){return a[1]},g))),c=s(aL(d[2]),f),h=[0,b(br(c)),0];return[0,b(c),h]},c=t;break;default:j=1}if(j)return 0;var
+c=[0,bs(B(a,b)),0];return[0,z(a,b),c]}var
+f=j$(n1(t,k,e(function(a){return a[1]},g))),c=r(aN(d[2]),f),h=[0,b(bs(c)),0];return[0,b(c),h]},c=t;break;default:j=1}if(j)return 0;var
 h=G(g,c);return h?f(h[1]):h}function
-eI(a){return e(function(a){return[0,a[1],a[2]]},a)}function
-dV(a){return e(function(a){var
+eP(a){return e(function(a){return[0,a[1],a[2]]},a)}function
+d0(a){return e(function(a){var
 c=m(b);return[0,a[3],c]},a)}function
-oY(c,b,a){if(typeof
-a!=="number"&&8===a[0])return bB(hh(eI(c),b));return cY(oX(c,b,a))}function
-oZ(g,m,k,L,K,t,a){if(typeof
+pg(c,b,a){if(typeof
+a!=="number"&&8===a[0])return bD(hm(eP(c),b));return c2(pf(c,b,a))}function
+ph(g,m,k,L,K,t,a){if(typeof
 a==="number")return[0,[0,[0,u]],0];else
 switch(a[0]){case
 0:var
@@ -5292,138 +5485,137 @@ M=[5,[0,b,b],a[1]],n=M,o=function(a){return[0,a]};break;case
 1:var
 P=[5,[0,b,b],a[1]],n=P,o=function(a){return[1,a]};break;case
 5:var
-B=a[1],U=0,V=ao(g,[0,[0,B,B],d]);return[0,z(function(a){return[2,Q(g,a)]},V),U];case
+B=a[1],U=0,V=ap(g,[0,[0,B,B],d]);return[0,y(function(a){return[2,R(g,a)]},V),U];case
 7:var
-C=a[3],D=a[2],E=a[1];if(!G(k,E))return wg;var
-I=0;if(h(g,1,D)&&h(g,1,C))var
+C=a[3],D=a[2],E=a[1];if(!G(k,E))return wQ;var
+I=0;if(i(g,1,D)&&i(g,1,C))var
 W=[5,D,C],n=W,o=function(a){return[7,E,a]};else
-I=1;if(I)return wf;break;case
+I=1;if(I)return wP;break;case
 8:var
-F=h(g,1,a[2]),X=0;if(F)var
-Y=a[1],Z=1,r=l(function(a){return h(g,Z,a)},Y);else
+F=i(g,1,a[2]),X=0;if(F)var
+Y=a[1],Z=1,r=l(function(a){return i(g,Z,a)},Y);else
 var
 r=F;if(r)var
-_=J(g,b),$=hh(eI(k),t),H=[0,[4,j(aw(m),$),_]];else
+_=J(g,b),$=hm(eP(k),t),H=[0,[4,h(ay(m),$),_]];else
 var
 H=r;return[0,H,X];default:var
 s=0;if(typeof
 a==="number")s=1;else
 switch(a[0]){case
 4:var
-v=a[3],w=a[2],x=h(g,1,[3,v,w]),S=x?h(g,1,[3,[2,w,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b]],v]):x,i=S;break;case
+v=a[3],w=a[2],x=i(g,1,[3,v,w]),S=x?i(g,1,[3,[2,w,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b]],v]):x,j=S;break;case
 17:var
-A=h(g,1,a[3]);if(A)var
-T=e(function(a){return a[1]},k),i=nI(f(a[2]),T);else
+A=i(g,1,a[3]);if(A)var
+T=e(function(a){return a[1]},k),j=n2(f(a[2]),T);else
 var
-i=A;break;case
+j=A;break;case
 6:case
 9:var
-y=h(g,1,a[2]),i=y?h(g,0,a[3]):y;break;default:s=1}if(s)var
-i=1;var
-p=i?oX(k,t,a):i;if(p){var
-R=[0,p[1],p[2]];return e(function(a){if(a){var
+z=i(g,1,a[2]),j=z?i(g,0,a[3]):z;break;default:s=1}if(s)var
+j=1;var
+p=j?pf(k,t,a):j;if(p){var
+Q=[0,p[1],p[2]];return e(function(a){if(a){var
 b=a[2],c=a[1];if(b){if(b[2])return 0;var
-e=j(m,b[1]);return[0,[5,j(m,c),e]]}var
-d=[0,[3,j(m,c)]]}else
+e=h(m,b[1]);return[0,[5,h(m,c),e]]}var
+d=[0,[3,h(m,c)]]}else
 var
-d=a;return d},R)}return we}var
-N=0,O=ao(g,[0,[0,n,n],hg(L,K)]);return[0,z(function(a){return o(Q(g,a))},O),N]}function
-o0(a){if(typeof
+d=a;return d},Q)}return wO}var
+N=0,O=ap(g,[0,[0,n,n],hl(L,K)]);return[0,y(function(a){return o(R(g,a))},O),N]}function
+pi(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-o1(a){return 0===a[0]?2===a[1][0]?0:1:1}function
-wh(k,Y,aQ,i,o,G,aP){var
-a=i[1],Z=ar(a),x=i[6],q=jY(o,G,i[2]),_=i[3],y=[0,[0,_,_],o],$=[0,f(q)],H=i[2],v=H?0===H[1][0]?0:1:H,aR=i[5],K=z(function(b){var
+pj(a){return 0===a[0]?2===a[1][0]?0:1:1}function
+wR(k,Y,aP,j,o,G,aO){var
+a=j[1],Z=as(a),x=j[6],q=j8(o,G,j[2]),_=j[3],z=[0,[0,_,_],o],$=[0,f(q)],H=j[2],v=H?0===H[1][0]?0:1:H,aQ=j[5],K=y(function(b){var
 c=typeof
-a==="number"?0:bK(a[1]);return n$(b,c)},aR),aT=i[2],aS=0,aU=ci(y,f(q)),aL=jX(a,o,function(a){return jW(K,a)},G,aT,aS),p=e(function(f){var
+a==="number"?0:bM(a[1]);return ot(b,c)},aQ),aS=j[2],aR=0,aT=ck(z,f(q)),aL=j7(a,o,function(a){return j6(K,a)},G,aS,aR),p=e(function(f){var
 g=f[2],b=f[1];function
-e(b){return jU(a,b,bl(bm(g,b),aU))}var
-h=b[1],i=bm(ag(B,jT(a),g),h),j=jU(a,b[1],i),c=b[1],d=typeof
+e(b){return j4(a,b,bm(bn(g,b),aT))}var
+h=b[1],i=bn(ah(B,j3(a),g),h),j=j4(a,b[1],i),c=b[1],d=typeof
 a==="number"?1:0,k=b[6],l=b[5],m=d?a?[0,c[1],[0,c[2],0]]:bZ(c):d,n=b[4],o=e(b[3]),p=b[2];return[0,e(b[1]),p,o,n,m,l,k,j]},aL);function
 aa(b){var
-c=0,g=i[2],h=jX(a,o,function(b){if(typeof
-a==="number")return jW(K,b);var
-c=jW(K,b);return om(jZ(a),c)},G,g,c),d=dU(b),k=ci(y,f(q));return e(function(e){var
+c=0,g=j[2],h=j7(a,o,function(b){if(typeof
+a==="number")return j6(K,b);var
+c=j6(K,b);return oG(j9(a),c)},G,g,c),d=dZ(b),k=ck(z,f(q));return e(function(e){var
 b=e[1][3];if(typeof
-a==="number")return jU(a,b,bl(bm(e[2],b),k));var
-f=bm(e[2],b),g=ag(B,f,bm(f,jZ(a))),c=a3(jE(jZ(a)),g),h=s(c[3],d),i=s(c[2],d),j=[0,s(c[1],d),i,h];return fJ(a[1],b,j)},h)}function
+a==="number")return j4(a,b,bm(bn(e[2],b),k));var
+f=bn(e[2],b),g=ah(B,f,bn(f,j9(a))),c=a7(jO(j9(a)),g),h=r(c[3],d),i=r(c[2],d),j=[0,r(c[1],d),i,h];return fN(a[1],b,j)},h)}function
 ab(l){return e(function(n){var
-o=m(b),d=n[3],p=dU(l),r=ci(y,f(q));if(typeof
+o=m(b),d=n[3],p=dZ(l),s=ck(z,f(q));if(typeof
 a==="number")var
 i=d;else
 var
-h=a[1],j=au(bK(h),d),k=e(function(a){return s(a,s(s(m(c(2,b)),r),p))},j),i=g(al(bK(h),d),k);return[0,i,o]},p)}var
+h=a[1],j=aw(bM(h),d),k=e(function(a){return r(a,r(r(m(c(2,b)),s),p))},j),i=g(am(bM(h),d),k);return[0,i,o]},p)}var
 ac=e(function(a){return a[4]},p);function
-aV(b,a){if(typeof
+aU(b,a){if(typeof
 a!=="number"&&16===a[0]){var
-c=ab(b);return oR(q,aa(b),c,ac)}return oY(p,b,a)}var
-ae=w(function(a){return a[7]},p),af=i[7],ah=af?e(function(a){return[0,a[8],a[2]]},p):af,aW=bB(ah),aX=g(ae,g(de(aV,v,o,$,x),aW)),aY=g(bB(dV(p)),aX),ai=g(bB(eI(p)),aY),ak=c1(ai)[1],am=c0(ak);function
-t(a){return bk(am,a)}function
+c=ab(b);return o$(q,aa(b),c,ac)}return pg(p,b,a)}var
+ae=w(function(a){return a[7]},p),af=j[7],ag=af?e(function(a){return[0,a[8],a[2]]},p):af,aV=bD(ag),aW=g(ae,g(dk(aU,v,o,$,x),aV)),aY=g(bD(d0(p)),aW),ai=g(bD(eP(p)),aY),aj=c6(ai),al=c5(aj),t=cH(al);function
 aZ(d,c){if(typeof
 c!=="number"&&16===c[0]){var
-e=c[3],n=i[2];if(typeof
+e=c[3],n=j[2];if(typeof
 a==="number")var
 m=1;else
 var
-f=h(k,1,e),g=f?cn(k,e):f,m=g?l(o1,n):g;if(m){var
+f=i(k,1,e),g=f?cp(k,e):f,m=g?l(pj,n):g;if(m){var
 r=c[2],s=c[1],u=typeof
-a==="number"?[0,J(k,b)]:j(cm(k),e),w=ab(d),x=aa(d),y=typeof
-a==="number"?v_:v$,z=typeof
-a==="number"?ar(a):bK(a[1]);return oS(k,t,Z,z,y,v,q,o,x,w,ac,u,s,r)}return wi}return oZ(k,t,p,v,o,d,c)}var
+a==="number"?[0,J(k,b)]:h(co(k),e),w=ab(d),x=aa(d),y=typeof
+a==="number"?wI:wJ,z=typeof
+a==="number"?as(a):bM(a[1]);return pa(k,t,Z,z,y,v,q,o,x,w,ac,u,s,r)}return wS}return ph(k,t,p,v,o,d,c)}var
 an=l(function(a){var
-b=m(d);return aO(r(t(a),am,b),a)},ai),ap=an?aj(o0,x):an;if(ap){var
-aq=i[4];if(typeof
+b=m(d);return aX(s(h(t,a),al,b),a)},ai),ao=an?ak(pi,x):an;if(ao){var
+aq=j[4];if(typeof
 a==="number")var
-as=a?jR(0,ew(aq)):1;else
+ar=a?j1(0,eD(aq)):1;else
 var
-aM=ew(aq),as=jR(a[1],aM);var
-L=as}else
+aM=eD(aq),ar=j1(a[1],aM);var
+L=ar}else
 var
-L=ap;if(L){var
-V=i[1];if(typeof
+L=ao;if(L){var
+V=j[1];if(typeof
 V==="number")var
-A=i[5]?0:1;else
+A=j[5]?0:1;else
 if(2<=V[1])var
 A=0;else{var
-E=i[5],U=0;if(E){var
-W=h(k,1,i[3]);if(W)var
-aN=ho(E[1]),A=l(function(a){var
-b=cn(k,a[1]);return b?cn(k,a[2]):b},aN);else{var
+E=j[5],U=0;if(E){var
+W=i(k,1,j[3]);if(W)var
+aN=ht(E[1]),A=l(function(a){var
+b=cp(k,a[1]);return b?cp(k,a[2]):b},aN);else{var
 X=W;U=1}}else{var
 X=E;U=1}if(U)var
 A=X}var
 M=A}else
 var
 M=L;if(M)var
-a0=i[2],N=l(function(a){var
-b=0===a[0]?0:1;return cz(b,v)},a0);else
+a0=j[2],N=l(function(a){var
+b=0===a[0]?0:1;return cB(b,v)},a0);else
 var
 N=M;if(N){var
-at=I(i[7]);if(at)var
+at=I(j[7]);if(at)var
 C=at;else
 var
-aJ=op(k,a,i[5]),C=aJ?l(o1,i[2]):aJ}else
+aJ=oJ(k,a,j[5]),C=aJ?l(pj,j[2]):aJ}else
 var
 C=N;if(C){var
-a1=g(q,[0,y,0]),O=ad(e(function(a){return ao(k,a)},a1));if(O){var
-a2=w(function(a){return fG(v,o,a)},x),P=ad(e(function(a){return hi(k,a)},a2));if(P){var
-u=ew(i[4]),a4=typeof
-a==="number"?a?[0,u[1],[0,u[2],0]]:[0,u[1],[0,u[2],[0,u[3],0]]]:oL(a[1],u),Q=ad(e(function(a){return ao(k,[0,a,o])},a4));if(Q){var
-av=Q[1],ax=i[5];if(ax)var
-a5=ob(ax[1]),D=ad(e(function(a){return od(k,a)},a5));else
+a1=g(q,[0,z,0]),O=ad(e(function(a){return ap(k,a)},a1));if(O){var
+a2=w(function(a){return fK(v,o,a)},x),P=ad(e(function(a){return hn(k,a)},a2));if(P){var
+u=eD(j[4]),a3=typeof
+a==="number"?a?[0,u[1],[0,u[2],0]]:[0,u[1],[0,u[2],[0,u[3],0]]]:o5(a[1],u),Q=ad(e(function(a){return ap(k,[0,a,o])},a3));if(Q){var
+au=Q[1],av=j[5];if(av)var
+a4=ov(av[1]),D=ad(e(function(a){return ox(k,a)},a4));else
 var
-D=wj;if(D){var
-ay=D[1],F=i[5],a6=F?oa(F[1]):F,R=ad(e(cm(k),a6));if(R){var
-S=ad(de(aZ,v,o,$,x));if(S){var
-az=S[1];if(i[7])var
-a7=Y[2],a8=Y[1],T=jq(aQ,az,[8,j(aw(t),ah),a8,a7]);else
+D=wT;if(D){var
+ax=D[1],F=j[5],a5=F?ou(F[1]):F,R=ad(e(co(k),a5));if(R){var
+S=ad(dk(aZ,v,o,$,x));if(S){var
+az=S[1];if(j[7])var
+a6=Y[2],a8=Y[1],T=jA(aP,az,[8,h(ay(t),ag),a8,a6]);else
 var
 T=az;var
-aA=n(f(g(av,ay)),Z);if(aA){var
-a9=jg(T),a_=g(av,ay),aK=0,a$=i[4];if(typeof
+aA=n(f(g(au,ax)),Z);if(aA){var
+a9=jq(T),a_=g(au,ax),aK=0,a$=j[4];if(typeof
 a==="number"&&!a){var
-aB=function(a){return ns(k,a$,o,a)};aK=1}if(!aK)var
+aB=function(a){return nM(k,a$,o,a)};aK=1}if(!aK)var
 aB=function(a){return 0};var
-ba=g(P[1],R[1]),bb=g(O[1],ba),bc=e(t,ae),bd=dV(p),be=j(aw(t),bd),bf=eI(p);return f9(jf(k,ak,j(aw(t),bf),be,bc,bb,T,aB),a_,a9,aP)}var
+ba=g(P[1],R[1]),bb=g(O[1],ba),bc=e(t,ae),bd=d0(p),be=h(ay(t),bd),bf=eP(p);return gb(jp(k,aj,h(ay(t),bf),be,bc,bb,T,aB),a_,a9,aO)}var
 aC=aA}else
 var
 aC=S;var
@@ -5445,14 +5637,14 @@ aH=O;var
 aI=aH}else
 var
 aI=C;return aI}function
-wk(b){if(0===b[0])return[0,nD(b[1])];var
-a=b[1],c=a[7],d=a[6][1],e=a[5][1],f=bI(a[4]),g=bI(a[3]),h=bI(a[2]);return[1,[0,bI(a[1]),h,g,f,e,d,c]]}function
-o2(e,d,c){var
+wU(b){if(0===b[0])return[0,nX(b[1])];var
+a=b[1],c=a[7],d=a[6][1],e=a[5][1],f=bK(a[4]),g=bK(a[3]),h=bK(a[2]);return[1,[0,bK(a[1]),h,g,f,e,d,c]]}function
+pk(e,d,c){var
 a=d;for(;;){if(a){var
-b=a[1];if(sO(b[1],c))return b[2];var
+b=a[1];if(s9(b[1],c))return b[2];var
 a=a[2];continue}return e}}function
-j2(a,c,b){var
-d=V(e(aA,a[2]),b);return g(V(a[1],c),d)}function
+ka(a,c,b){var
+d=V(e(aC,a[2]),b);return g(V(a[1],c),d)}function
 b3(c){var
 a=c;for(;;)switch(a[0]){case
 0:var
@@ -5463,101 +5655,101 @@ b=a[1];return[0,[0,[0,b,b],d],0];case
 8:var
 a=a[1];continue;default:var
 e=b3(a[2]);return g(b3(a[1]),e)}}function
-bL(e,a,c){switch(a[0]){case
+bN(e,a,c){switch(a[0]){case
 0:var
-o=a[1];return ci([0,[0,o,o],d],c);case
+o=a[1];return ck([0,[0,o,o],d],c);case
 1:var
-q=a[1];return o2(m(d),e,q);case
-2:return br(bL(e,a[1],c));case
+q=a[1];return pk(m(d),e,q);case
+2:return bs(bN(e,a[1],c));case
 3:var
 i=a[2],g=a[1],h=B;break;case
 4:var
-i=a[2],g=a[1],h=y;break;case
+i=a[2],g=a[1],h=z;break;case
 5:var
-i=a[2],g=a[1],h=s;break;case
+i=a[2],g=a[1],h=r;break;case
 6:var
-i=a[2],g=a[1],h=am;break;case
+i=a[2],g=a[1],h=an;break;case
 7:var
-j=fc(a[2]),k=bL(e,a[1],c);if(j){if(j[1]){var
-l=W(k),p=function(a){return s(a,l)},n=gt(bh(lR(j)),p,l);return lQ(j)?n:s(n,k)}return k}return m(b);default:return aL(bL(e,a[1],c))}var
-r=bL(e,i,N(c,f(b3(g))));return h(bL(e,g,c),r)}function
-di(c,h,b){var
+j=fj(a[2]),k=bN(e,a[1],c);if(j){if(j[1]){var
+l=X(k),p=function(a){return r(a,l)},n=gx(aR(l1(j)),p,l);return l0(j)?n:r(n,k)}return k}return m(b);default:return aN(bN(e,a[1],c))}var
+s=bN(e,i,N(c,f(b3(g))));return h(bN(e,g,c),s)}function
+dp(c,h,b){var
 a=h;for(;;)switch(a[0]){case
 6:var
-e=a[1],k=N(b,f(b3(e))),l=di(c,a[2],k),m=g(di(c,e,b),l);return[0,bL(c,a,b),m];case
+e=a[1],k=N(b,f(b3(e))),l=dp(c,a[2],k),m=g(dp(c,e,b),l);return[0,bN(c,a,b),m];case
 8:var
-n=di(c,a[1],b);return[0,bL(c,a,b),n];case
+n=dp(c,a[1],b);return[0,bN(c,a,b),n];case
 2:case
 7:var
 a=a[1];continue;case
 0:case
 1:return 0;default:var
-d=a[1],i=N(b,f(b3(d))),j=di(c,a[2],i);return g(di(c,d,b),j)}}function
-o3(i,h,g){var
+d=a[1],i=N(b,f(b3(d))),j=dp(c,a[2],i);return g(dp(c,d,b),j)}}function
+pl(i,h,g){var
 b=i,a=h,c=g;for(;;){if(a){var
-d=a[1],e=d[2],j=N(c,f(b3(e))),k=a[2],l=bL(b,e,c),b=[0,[0,d[1],l],b],a=k,c=j;continue}return b}}function
-j3(c,a,b){if(a){var
-e=a[1],d=e[2],h=N(b,f(b3(d))),i=a[2],j=bL(c,d,b),k=j3([0,[0,e[1],j],c],i,h);return g(di(c,d,b),k)}return a}function
-fN(a){return w(b3,a)}function
-o4(c,a,b){if(a)var
-d=a[1],g=N(b,f(b3(d))),h=o4(c,a[2],g),e=[0,bL(c,d,b),h];else
+d=a[1],e=d[2],j=N(c,f(b3(e))),k=a[2],l=bN(b,e,c),b=[0,[0,d[1],l],b],a=k,c=j;continue}return b}}function
+kb(c,a,b){if(a){var
+e=a[1],d=e[2],h=N(b,f(b3(d))),i=a[2],j=bN(c,d,b),k=kb([0,[0,e[1],j],c],i,h);return g(dp(c,d,b),k)}return a}function
+fR(a){return w(b3,a)}function
+pm(c,a,b){if(a)var
+d=a[1],g=N(b,f(b3(d))),h=pm(c,a[2],g),e=[0,bN(c,d,b),h];else
 var
 e=a;return e}function
-o5(c,a,b){if(a){var
-d=a[1],e=N(b,f(b3(d))),h=o5(c,a[2],e);return g(di(c,d,b),h)}return a}function
-hv(a){return 0===a[0]?fN(a[1]):b3(a[1])}function
-j4(c,b,a){if(b){var
-d=b[1],j=N(a,f(hv(d))),k=j4(c,b[2],j);if(0===d[0])var
-h=o5(c,d[1],a);else
+pn(c,a,b){if(a){var
+d=a[1],e=N(b,f(b3(d))),h=pn(c,a[2],e);return g(dp(c,d,b),h)}return a}function
+hA(a){return 0===a[0]?fR(a[1]):b3(a[1])}function
+kc(c,b,a){if(b){var
+d=b[1],j=N(a,f(hA(d))),k=kc(c,b[2],j);if(0===d[0])var
+h=pn(c,d[1],a);else
 var
-e=d[1],i=di(c,e,a),h=[0,bL(c,e,a),i];return g(h,k)}return b}function
-hw(c){var
+e=d[1],i=dp(c,e,a),h=[0,bN(c,e,a),i];return g(h,k)}return b}function
+hB(c){var
 a=c[1];switch(a[0]){case
 0:var
 b=[1,a[1]];break;case
 1:var
 b=[0,a[1]];break;default:var
-b=bX(hw,a)}return[0,b]}function
-j5(c){var
+b=ce(hB,a)}return[0,b]}function
+kd(c){var
 b=c;for(;;){var
 a=b[1];switch(a[0]){case
 5:var
 b=a[1];continue;case
 6:var
-d=j5(a[2]);return s(j5(a[1]),d);case
-9:return a[1];default:return W(b)}}}function
-j6(n,h,a,g){if(a){var
-c=a[1],x=N(g,f(hv(c))),y=j6(n,h,a[2],x);if(0===c[0])var
-k=o4(h,c[1],g),o=[0,k,m(b),k,0,0,0,0,0];else
+d=kd(a[2]);return r(kd(a[1]),d);case
+9:return a[1];default:return X(b)}}}function
+ke(n,h,a,g){if(a){var
+c=a[1],x=N(g,f(hA(c))),y=ke(n,h,a[2],x);if(0===c[0])var
+k=pm(h,c[1],g),o=[0,k,m(b),k,0,0,0,0,0];else
 var
-l=bL(h,c[1],g),q=hw(l),i=bb(aE(0,n),q),d=hw(i[2]),j=e(hw,i[1]),r=0,s=0,t=0,u=0,v=[0,l],w=e(function(a){return aO(a,d)?m(b):am(a,d)},j),o=[0,j,j5(d),w,v,u,t,s,r];var
+l=bN(h,c[1],g),q=hB(l),i=bf(aG(0,n),q),d=hB(i[2]),j=e(hB,i[1]),r=0,s=0,t=0,u=0,v=[0,l],w=e(function(a){return aX(a,d)?m(b):an(a,d)},j),o=[0,j,kd(d),w,v,u,t,s,r];var
 p=[0,o,y]}else
 var
 p=a;return p}function
-j7(a){return e(function(a){return[0,a[2],d]},a)}function
-j8(a){var
-b=w(hv,a[4]),c=g(fN(e(aI,a[3])),b);return g(j7(a[2]),c)}function
-hx(a){var
-b=cJ(0,j7(a[2])),c=aE(0,f(a[1]));return j2(a,e(function(a){return[0,[0,a]]},c),b)}function
-j9(b,d){var
+kf(a){return e(function(a){return[0,a[2],d]},a)}function
+kg(a){var
+b=w(hA,a[4]),c=g(fR(e(aK,a[3])),b);return g(kf(a[2]),c)}function
+hC(a){var
+b=cN(0,kf(a[2])),c=aG(0,f(a[1]));return ka(a,e(function(a){return[0,[0,a]]},c),b)}function
+kh(b,d){var
 a=d;for(;;)switch(a[0]){case
 0:return 1;case
 1:var
-e=a[1];return aj(function(a){return aD(e,a)},b);case
+e=a[1];return ak(function(a){return aF(e,a)},b);case
 2:case
 7:case
 8:var
 a=a[1];continue;default:var
-c=j9(b,a[1]);if(c){var
+c=kh(b,a[1]);if(c){var
 a=a[2];continue}return c}}function
-o6(d){var
+po(d){var
 a=d;for(;;){if(a){var
-b=a[2],e=a[1],c=I(aj(function(b){return function(a){return sO(b,a)}}(e),b));if(c){var
+b=a[2],e=a[1],c=I(ak(function(b){return function(a){return s9(b,a)}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-o7(a){var
-u=e(aA,a[2]),d=g(a[1],u),h=f(a[1]),o=ab(wn,h),p=o?ab(h,wo):o,q=p?ab(h,f(a[4])):p,r=q?ab(f(a[4]),wp):q,s=r?o6(d):r;if(s){var
+pp(a){var
+u=e(aC,a[2]),d=g(a[1],u),h=f(a[1]),o=ae(wX,h),p=o?ae(h,wY):o,q=p?ae(h,f(a[4])):p,r=q?ae(f(a[4]),wZ):q,s=r?po(d):r;if(s){var
 c=d,b=a[3];for(;;){if(b){var
-j=b[1],k=j[1],m=I(aj(function(b){return function(a){return aD(b,a)}}(k),c)),n=m?j9(c,j[2]):m;if(n){var
+j=b[1],k=j[1],m=I(ak(function(b){return function(a){return aF(b,a)}}(k),c)),n=m?kh(c,j[2]):m;if(n){var
 c=[0,k,c],b=b[2];continue}var
 t=n}else
 var
@@ -5566,11 +5758,11 @@ i=t;break}}else
 var
 i=s;if(i){var
 v=a[4];return l(function(b){var
-c=0===b[0]?b[1]:[0,b[1],0],f=g(e(aA,a[3]),d);return l(function(a){return j9(f,a)},c)},v)}return i}function
-dW(f,e,g){var
-h=g[1],a=bX(function(a){return dW(f,e,a)},h);switch(a[0]){case
-0:return r(a[1],f,[0,d,b]);case
-1:return r(a[1],e,[0,d,b]);case
+c=0===b[0]?b[1]:[0,b[1],0],f=g(e(aC,a[3]),d);return l(function(a){return kh(f,a)},c)},v)}return i}function
+d1(f,e,g){var
+h=g[1],a=ce(function(a){return d1(f,e,a)},h);switch(a[0]){case
+0:return s(a[1],f,[0,d,b]);case
+1:return s(a[1],e,[0,d,b]);case
 2:return[0,a[1],b];case
 3:return[2,a[1],a[2]];case
 4:return[3,a[1],a[2]];case
@@ -5580,7 +5772,7 @@ h=g[1],a=bX(function(a){return dW(f,e,a)},h);switch(a[0]){case
 8:var
 c=a[1];return[4,c,c];case
 9:return[6,a[1]];default:return[0,d,b]}}function
-j_(d){var
+ki(d){var
 b=d;for(;;){var
 a=b[1];switch(a[0]){case
 10:return 0;case
@@ -5591,105 +5783,105 @@ b=a[1];continue;case
 0:case
 1:case
 2:return 1;default:var
-c=j_(a[1]);if(c){var
+c=ki(a[1]);if(c){var
 b=a[2];continue}return c}}}function
 b4(g,f,e){var
 b=f,a=e;for(;;){if(b){if(a){var
-c=c$(g,b[1],a[1]);if(c){var
+c=df(g,b[1],a[1]);if(c){var
 b=b[2],a=a[2];continue}var
 d=c}else
 var
 d=a;return d}return a?0:1}}function
-wq(a){var
+w0(a){var
 b=a[4],d=0;if(typeof
 b!=="number"&&0===b[0]){var
 c=[0,b[1],0];d=1}if(!d)var
 c=0;var
 e=g(a[3],c);return g(a[1],e)}function
-hy(a){return f(a[1])}function
-o8(a){var
-b=f(fN(e(aI,a[3])));return N(f(a[2]),b)}function
-o9(a){var
-b=f(a[2]),c=a[3];return o3(hx(a),c,b)}function
-o_(a){var
-b=o8(a),c=a[4],d=o9(a);return j6(hy(a),d,c,b)}function
-o$(a,b){var
-c=w(hv,a[4]),d=g(fN(e(aI,a[3])),c);return g(b,e(function(a){return a[1][1]},d))}function
-pa(b,a){return l(function(a){if(0===a[0]){var
-c=hy(b);return n(f(a[1]),c)}return 1},a)}function
-pb(f,e){function
-a(a){return r(a,e,[0,d,b])}var
+hD(a){return f(a[1])}function
+pq(a){var
+b=f(fR(e(aK,a[3])));return N(f(a[2]),b)}function
+pr(a){var
+b=f(a[2]),c=a[3];return pl(hC(a),c,b)}function
+ps(a){var
+b=pq(a),c=a[4],d=pr(a);return ke(hD(a),d,c,b)}function
+pt(a,b){var
+c=w(hA,a[4]),d=g(fR(e(aK,a[3])),c);return g(b,e(function(a){return a[1][1]},d))}function
+pu(b,a){return l(function(a){if(0===a[0]){var
+c=hD(b);return n(f(a[1]),c)}return 1},a)}function
+pv(f,e){function
+a(a){return s(a,e,[0,d,b])}var
 c=[0,d,b];switch(f){case
 0:var
-g=a(ws);return[0,a(0),g,c];case
+g=a(w2);return[0,a(0),g,c];case
 1:var
-h=a(wt),i=a(wu);return[0,a(0),i,h];default:return[0,c,c,c]}}function
-pc(f,e){function
-a(a){return r(a,e,[0,d,b])}var
+h=a(w3),i=a(w4);return[0,a(0),i,h];default:return[0,c,c,c]}}function
+pw(f,e){function
+a(a){return s(a,e,[0,d,b])}var
 c=[0,d,b];switch(f){case
-0:return[0,c,c,a(wv)];case
+0:return[0,c,c,a(w5)];case
 1:var
-g=a(ww),h=a(wx);return[0,a(wy),h,g];default:var
-i=a(wz),j=a(wA);return[0,a(0),j,i]}}function
-pd(t,s,k,j,r,d){var
-c=bv(k,j,r,d);if(0===d[0])var
-e=bC(d[1],c);else
+g=a(w6),h=a(w7);return[0,a(w8),h,g];default:var
+i=a(w9),j=a(w_);return[0,a(0),j,i]}}function
+px(t,s,k,j,r,d){var
+c=bw(k,j,r,d);if(0===d[0])var
+e=bE(d[1],c);else
 var
-a=d[1],f=fD(a,c),g=fE(a,c),h=he(a,c),i=ey(a,c),l=R([3,[4,h,g],[4,i,f]],hb(a)),m=R([2,[4,h,f],[4,i,g]],fC(a)),n=M(function(b,a){return[2,b,a]},m,l),o=R(a[5],n),p=hc(a,c),q=R(hd(a,c),p),e=M(function(b,a){return[3,b,a]},q,o);return jF(t,e,R([5,[0,b,b],s],db(eG(k,j,eF(d)),e)))}function
-pe(c,b,a){return b?fF(c,b[1],a):a?0:1}function
-pf(d,b,i,a,c,o,h,m,g){var
-p=ar(b),j=n(f(c),p),k=j?pe(d,a,h):j,l=k?pe(d,a,g):k;if(l){var
-q=e(function(c){return pd(b,i,a,g,m,c)},c),r=e(function(c){return pd(b,i,a,h,o,c)},c);return j0(d,ar(b),r,q)}return l}function
-pg(c,j,d,b,a){var
-e=aB(d,j),f=e?bi(b,a):e;if(f)var
-k=cH(c,a)[2],h=[0,cH(c,b)[1],k],l=[0,cH(c,dB(a,b)),0],i=[0,[0,h,h,g(ac(u,d),l)]];else
+a=d[1],f=fH(a,c),g=fI(a,c),h=hj(a,c),i=eF(a,c),l=S([3,[4,h,g],[4,i,f]],hg(a)),m=S([2,[4,h,f],[4,i,g]],fG(a)),n=M(function(b,a){return[2,b,a]},m,l),o=S(a[5],n),p=hh(a,c),q=S(hi(a,c),p),e=M(function(b,a){return[3,b,a]},q,o);return jP(t,e,S([5,[0,b,b],s],dh(eN(k,j,eM(d)),e)))}function
+py(c,b,a){return b?fJ(c,b[1],a):a?0:1}function
+pz(d,b,i,a,c,o,h,m,g){var
+p=as(b),j=n(f(c),p),k=j?py(d,a,h):j,l=k?py(d,a,g):k;if(l){var
+q=e(function(c){return px(b,i,a,g,m,c)},c),r=e(function(c){return px(b,i,a,h,o,c)},c);return j_(d,as(b),r,q)}return l}function
+pA(c,j,d,b,a){var
+e=aD(d,j),f=e?bl(b,a):e;if(f)var
+k=cL(c,a)[2],h=[0,cL(c,b)[1],k],l=[0,cL(c,dH(a,b)),0],i=[0,[0,h,h,g(ac(u,d),l)]];else
 var
 i=f;return i}function
-j$(a){if(a){var
+kj(a){if(a){var
 b=a[1];if(b)var
-c=j$(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+c=kj(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return wD}function
-ph(c,b,a){if(b){if(a){var
-d=b[1],f=ph(c,b[2],a[2]),g=a[1],h=function(b,a){return A(t(c,d,b),a)},i=function(a){return a};return aQ(function(a){return t(c,d,a)},i,h,g,f)}var
+d=b;return d}return xb}function
+pB(c,b,a){if(b){if(a){var
+d=b[1],f=pB(c,b[2],a[2]),g=a[1],h=function(b,a){return A(t(c,d,b),a)},i=function(a){return a};return aS(function(a){return t(c,d,a)},i,h,g,f)}var
 e=a}else
 var
 e=b;return e}function
-pi(c,b,a){if(b){if(a){var
-d=pi(c,b[2],a[2]);return A(t(c,b[1],a[1]),d)}return u}return u}function
-hz(a){return an(function(d,a){var
-e=c(2,b);return F(cb(bH(d),e),a)},d,a)}function
-hA(a,i,h){var
+pC(c,b,a){if(b){if(a){var
+d=pC(c,b[2],a[2]);return A(t(c,b[1],a[1]),d)}return u}return u}function
+hE(a){return ao(function(d,a){var
+e=c(2,b);return F(cb(bJ(d),e),a)},d,a)}function
+hF(a,i,h){var
 d=f(i);function
 t(g,e,f){var
-d=[0,b,c(2,b)];return[0,$(cH(a,a5(dA(e,f),d)))]}var
-j=j$(e(function(b){return en(a,t,b)},i));if(j){var
-v=j[1],w=function(b,c,e){return pg(a,d,b,c,e)},k=j$(e(function(b){return en(a,w,b)},i));if(k){var
-x=function(b){return cH(a,b)},o=e(function(a){return e(x,a)},h),y=k[1],z=e(function(a){return a[3]},y),A=e(function(b){return pi(a,b,e(function(a){return a[2]},v))},o),B=V(aE(0,d),o),F=e(function(c){var
-i=ph(a,c[2],z),j=c[1],d=[0,J(a,b),0],e=g(ac(u,j),d);function
-f(b,a){return D(b,av(a))}function
-h(a){return _(av(a))}return aQ(function(a){return a},h,f,e,i)},B),p=n(f(h),d),q=p?l(function(a){return n(f(a),d)},h):p;if(q)var
-G=c(2,b),H=cb(cC(a),G),I=hz(A),m=E(C(c(2,c(2,b)),I),H);else
+d=[0,b,c(2,b)];return[0,aa(cL(a,a9(dG(e,f),d)))]}var
+j=kj(e(function(b){return eu(a,t,b)},i));if(j){var
+v=j[1],w=function(b,c,e){return pA(a,d,b,c,e)},k=kj(e(function(b){return eu(a,w,b)},i));if(k){var
+x=function(b){return cL(a,b)},o=e(function(a){return e(x,a)},h),y=k[1],z=e(function(a){return a[3]},y),A=e(function(b){return pC(a,b,e(function(a){return a[2]},v))},o),B=V(aG(0,d),o),F=e(function(c){var
+i=pB(a,c[2],z),j=c[1],d=[0,J(a,b),0],e=g(ac(u,j),d);function
+f(b,a){return E(b,ax(a))}function
+h(a){return $(ax(a))}return aS(function(a){return a},h,f,e,i)},B),p=n(f(h),d),q=p?l(function(a){return n(f(a),d)},h):p;if(q)var
+G=c(2,b),H=cb(cE(a),G),I=hE(A),m=D(C(c(2,c(2,b)),I),H);else
 var
 m=q;if(m){var
-K=c(2,b),L=cb(cC(a),K),M=hz(cY(F));return E(C(c(2,c(2,b)),M),L)}var
+K=c(2,b),L=cb(cE(a),K),M=hE(c2(F));return D(C(c(2,c(2,b)),M),L)}var
 r=m}else
 var
 r=k;var
 s=r}else
 var
 s=j;return s}function
-eJ(a){return l(function(a){return I(dE(a))},a)}function
-aX(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-a8(a){return[0,a[1],a[2]]}function
-hB(b,a){var
+eQ(a){return l(function(a){return I(dK(a))},a)}function
+a0(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+ba(a){return[0,a[1],a[2]]}function
+hG(b,a){var
 d=f(a),c=n(f(b),d);if(c){var
-e=V(b,a);return l(function(a){return bi(a[1],a[2])},e)}return c}function
-ka(c,a,b){var
-d=V(a,b),g=V(aE(c,f(a)),d);return e(function(a){return[1,a[1],a[2][1],a[2][2]]},g)}function
-eK(e,k,j,i){var
-c=k,b=j,a=i;for(;;){if(c)if(b)if(a){var
-f=a[1],l=h(e,1,[3,a8(c[1]),f]),g=l||h(e,1,[3,f,a8(b[1])]);if(!g){var
+e=V(b,a);return l(function(a){return bl(a[1],a[2])},e)}return c}function
+kk(c,a,b){var
+d=V(a,b),g=V(aG(c,f(a)),d);return e(function(a){return[1,a[1],a[2][1],a[2][2]]},g)}function
+eR(e,k,j,h){var
+c=k,b=j,a=h;for(;;){if(c)if(b)if(a){var
+f=a[1],l=i(e,1,[3,ba(c[1]),f]),g=l||i(e,1,[3,f,ba(b[1])]);if(!g){var
 c=c[2],b=b[2],a=a[2];continue}var
 d=g}else
 var
@@ -5698,25 +5890,25 @@ var
 d=b;else
 var
 d=c;return d}}function
-kb(b,e,c){var
-a=en(b,function(a,c,d){return pg(b,e,a,c,d)},c);return a?K(d,a[1][2][1]):a}function
-kc(f,e,b,a){var
+kl(b,e,c){var
+a=eu(b,function(a,c,d){return pA(b,e,a,c,d)},c);return a?K(d,a[1][2][1]):a}function
+km(f,e,b,a){var
 c=a[1],d=b[1],g=c[2],h=a[2],i=d[2],j=b[2],k=[0,d[1],[0,c[1],0]];return l(function(a){var
 b=[0,i,[0,g,0]];return l(function(b){var
 c=[0,j,[0,h,0]];return l(function(c){var
-d=a8(c),g=a8(b);return cK(f,e,[0,a8(a),g,d])},c)},b)},k)}function
-kd(a){switch(a[0]){case
+d=ba(c),g=ba(b);return cO(f,e,[0,ba(a),g,d])},c)},b)},k)}function
+kn(a){switch(a[0]){case
 0:var
-c=[0,a[4],0],d=g(aX(a[3]),c),e=g(aX(a[2]),d);return g(aX(a[1]),e);case
+c=[0,a[4],0],d=g(a0(a[3]),c),e=g(a0(a[2]),d);return g(a0(a[1]),e);case
 1:var
-b=a[3],f=b?aX(b[1]):b,h=g(aX(a[2]),f);return g(aX(a[1]),h);default:return aX(a[1])}}function
-pj(a){return 1===a[0]?0:1}function
-fO(b,a){var
-c=a5(a,a);return bi(a5(b,b),c)?a:b}function
-fP(b,a,e,d){var
-c=dQ(b,a,a8(e));return c?dQ(b,a,a8(d)):c}function
-pk(f,e,c,a){switch(e[0]){case
-0:if(c){if(c[2])return 0;if(a)return a[2]?0:fP(f,e[1],c[1],a[1]);var
+b=a[3],f=b?a0(b[1]):b,h=g(a0(a[2]),f);return g(a0(a[1]),h);default:return a0(a[1])}}function
+pD(a){return 1===a[0]?0:1}function
+fS(b,a){var
+c=a9(a,a);return bl(a9(b,b),c)?a:b}function
+fT(b,a,e,d){var
+c=dV(b,a,ba(e));return c?dV(b,a,ba(d)):c}function
+pE(f,e,c,a){switch(e[0]){case
+0:if(c){if(c[2])return 0;if(a)return a[2]?0:fT(f,e[1],c[1],a[1]);var
 x=a}else
 var
 x=c;return x;case
@@ -5725,7 +5917,7 @@ i=c[2];if(i){var
 j=i[2];if(j){if(j[2])return 0;if(a){var
 k=a[2];if(k){var
 l=k[2];if(l){if(l[2])return 0;var
-y=fP(f,e[1],c[1],a[1]),z=y?fP(f,e[2],i[1],k[1]):y;if(z)return fP(f,e[3],j[1],l[1]);var
+y=fT(f,e[1],c[1],a[1]),z=y?fT(f,e[2],i[1],k[1]):y;if(z)return fT(f,e[3],j[1],l[1]);var
 A=z}else
 var
 A=l;var
@@ -5748,7 +5940,7 @@ m=c[2];if(m){var
 n=m[2];if(n){if(n[2])return 0;if(a){var
 o=a[2];if(o){var
 p=o[2];if(p){if(p[2])return 0;var
-P=[0,a8(fO(n[1],p[1])),0],Q=[0,a8(fO(m[1],o[1])),P];return fF(f,e,[0,a8(fO(c[1],a[1])),Q])}var
+P=[0,ba(fS(n[1],p[1])),0],Q=[0,ba(fS(m[1],o[1])),P];return fJ(f,e,[0,ba(fS(c[1],a[1])),Q])}var
 E=p}else
 var
 E=o;var
@@ -5767,11 +5959,11 @@ q=c[2];if(q){var
 r=q[2];if(r){if(r[2])return 0;if(a){var
 s=a[2];if(s){var
 t=s[2];if(t){if(t[2])return 0;var
-g=t[1],h=r[1],N=0,R=0;if(bi(h,[0,d,b])&&bi([0,d,b],g))var
+g=t[1],h=r[1],N=0,R=0;if(bl(h,[0,d,b])&&bl([0,d,b],g))var
 H=[0,d,b];else
 N=1;if(N)var
-O=a5(g,g),H=bi(a5(h,h),O)?h:g;var
-S=[0,a8(H),R],T=[0,a8(fO(q[1],s[1])),S],I=fF(f,e,[0,a8(fO(c[1],a[1])),T]);if(I)return fP(f,dd(e[2]),h,g);var
+O=a9(g,g),H=bl(a9(h,h),O)?h:g;var
+S=[0,ba(H),R],T=[0,ba(fS(q[1],s[1])),S],I=fJ(f,e,[0,ba(fS(c[1],a[1])),T]);if(I)return fT(f,dj(e[2]),h,g);var
 J=I}else
 var
 J=t;var
@@ -5789,78 +5981,78 @@ L=q;var
 M=L}else
 var
 M=c;return M}}function
-pl(a){var
-c=r(wH,a,[0,d,b]),e=r(wI,a,[0,d,b]);return[0,r(0,a,[0,d,b]),e,c]}function
-hC(a){var
-c=r(wJ,a,[0,d,b]),e=r(wK,a,[0,d,b]);return[0,[0,r(0,a,[0,d,b]),e],c]}function
-ke(d,c,b,a){var
+pF(a){var
+c=s(xf,a,[0,d,b]),e=s(xg,a,[0,d,b]);return[0,s(0,a,[0,d,b]),e,c]}function
+hH(a){var
+c=s(xh,a,[0,d,b]),e=s(xi,a,[0,d,b]);return[0,[0,s(0,a,[0,d,b]),e],c]}function
+ko(d,c,b,a){var
 e=b1(d,c,b,a);return x(b1(d,c,b,a),e)}var
-cO=c(2,c(2,c(2,c(2,c(2,q(c(2,b)))))));function
-dX(e){var
-a=aF(cO,e);if(a){var
-f=j(gv(c(2,b)),cO);return[0,a[1][2],f]}return[0,d,b]}var
-kf=[0,[0,d,b],[0,d,b],[0,d,b]];function
-eL(c,a){var
-e=[0,d,b];return an(function(b,a){return[2,j(c,b),a]},e,a)}function
-fQ(b,a){return an(function(c,a){var
-d=j(b,c);return M(function(b,a){return[2,b,a]},d,a)},kf,a)}function
-pm(c){var
+cS=c(2,c(2,c(2,c(2,c(2,q(c(2,b)))))));function
+d2(e){var
+a=aH(cS,e);if(a){var
+f=h(gz(c(2,b)),cS);return[0,a[1][2],f]}return[0,d,b]}var
+kp=[0,[0,d,b],[0,d,b],[0,d,b]];function
+eS(c,a){var
+e=[0,d,b];return ao(function(b,a){return[2,h(c,b),a]},e,a)}function
+fU(b,a){return ao(function(c,a){var
+d=h(b,c);return M(function(b,a){return[2,b,a]},d,a)},kp,a)}function
+pG(c){var
 a=c;for(;;)switch(a[0]){case
 0:return 1;case
-1:return aB(a[1],dF);case
+1:return aD(a[1],dL);case
 6:var
 a=a[1];continue;default:var
-b=pm(a[1]);if(b){var
+b=pG(a[1]);if(b){var
 a=a[2];continue}return b}}function
-dj(a){return l(pm,a)}function
-kg(d,h,c,f){var
-a=en(d,function(c,e,f){var
-a=aB(c,N(dF,h)),b=a?bi(e,f):a,g=b?[0,me(d,c,e,f)]:b;return g},f);if(a){var
-b=a[1],e=au(dF,b[3]),g=iL(hz(au(c,e))),i=iL(hz(al(c,e))),j=P(F(F(fj(al(dF,b[3])),i),g));return K(b[1][2],j)}return a}function
-hD(b,a,c){if(b)if(a)var
-f=a[1],g=hD(b[2],a[2],c),h=K(b[1],d)?[3,f,c]:[2,f,c],e=[0,h,g];else
+dq(a){return l(pG,a)}function
+kq(d,h,c,f){var
+a=eu(d,function(c,e,f){var
+a=aD(c,N(dL,h)),b=a?bl(e,f):a,g=b?[0,my(d,c,e,f)]:b;return g},f);if(a){var
+b=a[1],e=aw(dL,b[3]),g=iR(hE(aw(c,e))),i=iR(hE(am(c,e))),j=Q(F(F(gN(am(dL,b[3])),i),g));return K(b[1][2],j)}return a}function
+hI(b,a,c){if(b)if(a)var
+f=a[1],g=hI(b[2],a[2],c),h=K(b[1],d)?[3,f,c]:[2,f,c],e=[0,h,g];else
 var
 e=a;else
 var
 e=b;return e}function
-hE(a){return z(function(a){var
-d=j(gv(c(2,b)),cO);return[0,a[2],d]},a)}function
-cp(b,a){var
-c=gF(a);return[1,N(dF,b),c,a]}function
-dY(a){if(cf(a[1],a[2]))return a[1];var
+hJ(a){return y(function(a){var
+d=h(gz(c(2,b)),cS);return[0,a[2],d]},a)}function
+cr(b,a){var
+c=gI(a);return[1,N(dL,b),c,a]}function
+d3(a){if(ch(a[1],a[2]))return a[1];var
 d=[0,c(2,b),b];return[5,[2,a[1],a[2]],d]}function
-bF(a){var
-b=dY(a[3]),c=dY(a[2]);return[0,dY(a[1]),c,b]}function
-pn(a){switch(a[0]){case
+bH(a){var
+b=d3(a[3]),c=d3(a[2]);return[0,d3(a[1]),c,b]}function
+pH(a){switch(a[0]){case
 0:var
-b=a[1],c=b[5],d=dY(b[4]),e=bF(b[3]),f=bF(b[2]);return[0,bF(b[1]),f,e,d,c];case
+b=a[1],c=b[5],d=d3(b[4]),e=bH(b[3]),f=bH(b[2]);return[0,bH(b[1]),f,e,d,c];case
 1:var
-g=z(bF,a[3]),h=bF(a[2]);return[1,bF(a[1]),h,g];default:return[2,bF(a[1])]}}function
-fR(i,g,p,a,P,o){var
-w=fx(i,g,p,a),y=w?dj(aX(a)):w;if(y){var
+g=y(bH,a[3]),h=bH(a[2]);return[1,bH(a[1]),h,g];default:return[2,bH(a[1])]}}function
+fV(h,g,p,a,P,o){var
+w=fB(h,g,p,a),y=w?dq(a0(a)):w;if(y){var
 q=G(g[3],P);if(q){var
 j=q[1];if(typeof
 j!=="number"&&14===j[0]){var
-B=j[2],C=j[1],r=hE(aF(cO,B));if(r){var
-s=r[1],Q=cp(wR,s),S=cp(wS,s),t=[0,cp(0,s),S,Q],D=h(i,1,B),E=D?h(i,0,C):D;if(E)var
+B=j[2],C=j[1],r=hJ(aH(cS,B));if(r){var
+s=r[1],Q=cr(xp,s),R=cr(xq,s),t=[0,cr(0,s),R,Q],D=i(h,1,B),E=D?i(h,0,C):D;if(E)var
 T=f(g[1]),u=n(f(o),T);else
 var
 u=E;var
-F=u?l(function(a){return dj(kd(a))},p):u;if(F){var
-U=g[1],H=hD(o,e(function(b){return cM(pn(b),a)},U),C),I=dj(H);if(I){var
+F=u?l(function(a){return dq(kn(a))},p):u;if(F){var
+U=g[1],H=hI(o,e(function(b){return cQ(pH(b),a)},U),C),I=dq(H);if(I){var
 v=V(V(p,H),o),k=function(k){var
 f=k[1][2],e=k[1][1];switch(e[0]){case
 0:var
-i=e[4],l=R(f,ay(e[1])),m=aW(e[2],e[3],a),g=M(function(b,a){return[3,b,a]},m,l),n=R([0,c(2,b),b],g);return[0,[3,x(g,g),[4,i,i]],n,[0,b,b]];case
+i=e[4],l=S(f,aA(e[1])),m=aZ(e[2],e[3],a),g=M(function(b,a){return[3,b,a]},m,l),n=S([0,c(2,b),b],g);return[0,[3,x(g,g),[4,i,i]],n,[0,b,b]];case
 1:var
-h=aW(e[1],e[2],a),o=R([0,c(2,b),b],h);return[0,[3,x(h,h),[4,f,f]],o,[0,b,b]];default:var
-j=e[1],p=ay(j);return[0,[3,x(ay(j),a),f],p,[0,d,b]]}},m=function(j){var
+h=aZ(e[1],e[2],a),o=S([0,c(2,b),b],h);return[0,[3,x(h,h),[4,f,f]],o,[0,b,b]];default:var
+j=e[1],p=aA(j);return[0,[3,x(aA(j),a),f],p,[0,d,b]]}},m=function(j){var
 e=j[1],f=e[2],c=e[1],d=j[2];switch(c[0]){case
 0:var
-g=c[3],h=c[2],i=c[1],k=aW(h,g,a),l=[3,x(ay(i),k),f],m=cj(i,h,g,c[4],a);return dX([5,[0,d,b],[2,cL(c[5],m),l]]);case
-1:return dX([5,[0,d,b],[2,f,cM(c,a)]]);default:return[0,d,b]}},L=x(t,t),N=[4,eL(function(a){var
-b=k(a)[3];return[4,m(a),b]},v),L],O=x(fQ(function(a){var
-b=k(a)[2];return R(m(a),b)},v),t);return kg(i,wU,wT,[2,[2,eL(function(a){var
+g=c[3],h=c[2],i=c[1],k=aZ(h,g,a),l=[3,x(aA(i),k),f],m=cl(i,h,g,c[4],a);return d2([5,[0,d,b],[2,cP(c[5],m),l]]);case
+1:return d2([5,[0,d,b],[2,f,cQ(c,a)]]);default:return[0,d,b]}},L=x(t,t),N=[4,eS(function(a){var
+b=k(a)[3];return[4,m(a),b]},v),L],O=x(fU(function(a){var
+b=k(a)[2];return S(m(a),b)},v),t);return kq(h,xs,xr,[2,[2,eS(function(a){var
 b=k(a)[1];return[4,m(a),b]},v),O],N])}var
 J=I}else
 var
@@ -5874,137 +6066,139 @@ z=q;var
 A=z}else
 var
 A=y;return A}function
-wV(a){var
-b=dj(aX(a[3])),c=b?dj(aX(a[4])):b;return c?dj([0,a[2],0]):c}function
-po(a,d,c){var
-b=aE(0,bD(a));return e(function(b){var
-e=aB(b,bK(a))?d:c;return cp(b,e)},b)}function
-pp(e,a,f){if(typeof
+xt(a){var
+b=dq(a0(a[3])),c=b?dq(a0(a[4])):b;return c?dq([0,a[2],0]):c}function
+pI(a,d,c){var
+b=aG(0,bF(a));return e(function(b){var
+e=aD(b,bM(a))?d:c;return cr(b,e)},b)}function
+pJ(e,a,f){if(typeof
 e==="number"){if(e){var
-g=cp(wW,a);return[0,[0,cp(0,a),g,[0,d,b]],kf]}var
-h=cp(wX,a),i=cp(wY,a);return[0,[0,cp(0,a),i,h],kf]}var
-c=e[1],j=pc(c,po(c,a,f));return[0,pb(c,po(c,a,f)),j]}function
-pq(g,e,u,o,a){var
-p=hE(aF(cO,u));if(p){var
+g=cr(xu,a);return[0,[0,cr(0,a),g,[0,d,b]],kp]}var
+h=cr(xv,a),i=cr(xw,a);return[0,[0,cr(0,a),i,h],kp]}var
+c=e[1],j=pw(c,pI(c,a,f));return[0,pv(c,pI(c,a,f)),j]}function
+pK(g,e,u,o,a){var
+p=hJ(aH(cS,u));if(p){var
 v=p[1],q=typeof
-e==="number"?[0,[0,b,b]]:hE(j(cm(cO),o));if(q){var
-r=q[1],w=h(g,1,u);if(w)if(typeof
+e==="number"?[0,[0,b,b]]:hJ(h(co(cS),o));if(q){var
+r=q[1],w=i(g,1,u);if(w)if(typeof
 e==="number")var
-i=1;else
+j=1;else
 var
-B=h(g,1,o),C=B?cn(g,o):B,i=C?I(bi(r,[0,d,b])):C;else
+B=i(g,1,o),C=B?cp(g,o):B,j=C?I(bl(r,[0,d,b])):C;else
 var
-i=w;var
-y=i?l(wV,a):i;if(y){var
-f=pp(e,v,r)[2],k=pp(e,v,r)[1],m=[0,c(2,b),b],n=function(b){return fQ(function(a){var
-c=a[3],d=j(b,a[4]);return R([4,a[1],d],c)},a)},s=eL(function(a){var
-b=x(a[3],a[4]);return[4,a[1],b]},a),t=x(f,f),D=n(function(a){return a[3]}),E=R(f[3],D),F=n(function(a){return a[2]}),G=R(f[2],F),H=n(function(a){return a[1]}),J=R(f[1],H),K=M(function(b,a){return[2,b,a]},J,G),L=[4,t,s],N=x(f,M(function(b,a){return[2,b,a]},K,E)),O=[3,[2,x(f,fQ(function(a){var
-b=db(a[4],a[3]);return R(a[1],b)},a)),N],L],P=[2,[4,m,s],[4,[5,[0,c(2,c(2,b)),b],[2,[0,b,b],t]],O]],Q=[4,m,x(k,nW(f,fQ(function(a){return R(a[1],a[4])},a)))],S=x(k,k),T=[2,[4,eL(function(a){return a[1]},a),S],Q],U=[4,m,x(fQ(function(a){return R(a[1],a[3])},a),k)],V=[2,[2,[2,eL(function(a){var
+j=w;var
+y=j?l(xt,a):j;if(y){var
+f=pJ(e,v,r)[2],k=pJ(e,v,r)[1],m=[0,c(2,b),b],n=function(b){return fU(function(a){var
+c=a[3],d=h(b,a[4]);return S([4,a[1],d],c)},a)},s=eS(function(a){var
+b=x(a[3],a[4]);return[4,a[1],b]},a),t=x(f,f),D=n(function(a){return a[3]}),E=S(f[3],D),F=n(function(a){return a[2]}),G=S(f[2],F),H=n(function(a){return a[1]}),J=S(f[1],H),K=M(function(b,a){return[2,b,a]},J,G),L=[4,t,s],N=x(f,M(function(b,a){return[2,b,a]},K,E)),O=[3,[2,x(f,fU(function(a){var
+b=dh(a[4],a[3]);return S(a[1],b)},a)),N],L],P=[2,[4,m,s],[4,[5,[0,c(2,c(2,b)),b],[2,[0,b,b],t]],O]],Q=[4,m,x(k,oe(f,fU(function(a){return S(a[1],a[4])},a)))],R=x(k,k),T=[2,[4,eS(function(a){return a[1]},a),R],Q],U=[4,m,x(fU(function(a){return S(a[1],a[3])},a),k)],V=[2,[2,[2,eS(function(a){var
 b=[4,a[2],a[2]],c=x(a[4],a[4]),d=[3,[2,x(a[3],a[3]),c],b];return[4,a[1],d]},a),U],T],P],W=typeof
-e==="number"?ar(e):bK(e[1]);return kg(g,ar(e),W,V)}var
+e==="number"?as(e):bM(e[1]);return kq(g,as(e),W,V)}var
 z=y}else
 var
 z=q;var
 A=z}else
 var
 A=p;return A}function
-pr(a){return[6,x(a,a)]}function
-ps(b){if(0===b[0])return[0,pn(b[1])];var
-a=b[1],c=a[7],d=dY(a[6]),e=dY(a[5]),f=bF(a[4]),g=bF(a[3]),h=bF(a[2]);return[1,[0,bF(a[1]),h,g,f,e,d,c]]}function
-hF(f,e,c,a){if(typeof
+pL(a){return[6,x(a,a)]}function
+pM(b){if(0===b[0])return[0,pH(b[1])];var
+a=b[1],c=a[7],d=d3(a[6]),e=d3(a[5]),f=bH(a[4]),g=bH(a[3]),h=bH(a[2]);return[1,[0,bH(a[1]),h,g,f,e,d,c]]}function
+hK(f,e,c,a){if(typeof
 a==="number")return 0;else{if(0===a[0]){var
 g=a[1],j=K(c,d)?[3,g,f]:[2,g,f];return[0,j]}var
-h=a[2],i=a[1],k=K(c,d)?gF(e):e,b=a8(k),l=[4,i,dP(b)],m=[2,[4,h,dO(b)],l],n=[4,h,dP(b)];return[1,[3,[4,i,dO(b)],n],m]}}function
-kh(a,c){if(E(c,b))return a;var
-g=aU(c,aK(2)),h=g[1];if(L(g[2],d)){var
-e=kh(a,h);return[4,e,e]}var
-f=kh(a,h);return[4,[4,f,f],a]}function
-aY(c,a){switch(a[0]){case
+h=a[2],i=a[1],k=K(c,d)?gI(e):e,b=ba(k),l=[4,i,dU(b)],m=[2,[4,h,dT(b)],l],n=[4,h,dU(b)];return[1,[3,[4,i,dT(b)],n],m]}}function
+kr(a,c){if(D(c,b))return a;var
+g=aW(c,aM(2)),h=g[1];if(L(g[2],d)){var
+e=kr(a,h);return[4,e,e]}var
+f=kr(a,h);return[4,[4,f,f],a]}function
+a1(c,a){switch(a[0]){case
 0:return a[1];case
-1:return o2([0,d,b],c,a[1]);case
-2:return[3,[0,d,b],aY(c,a[1])];case
+1:return pk([0,d,b],c,a[1]);case
+2:return[3,[0,d,b],a1(c,a[1])];case
 3:var
-e=aY(c,a[2]);return[2,aY(c,a[1]),e];case
+e=a1(c,a[2]);return[2,a1(c,a[1]),e];case
 4:var
-f=aY(c,a[2]);return[3,aY(c,a[1]),f];case
+f=a1(c,a[2]);return[3,a1(c,a[1]),f];case
 5:var
-g=aY(c,a[2]);return[4,aY(c,a[1]),g];case
+g=a1(c,a[2]);return[4,a1(c,a[1]),g];case
 6:var
-h=aY(c,a[2]);return[5,aY(c,a[1]),h];case
+h=a1(c,a[2]);return[5,a1(c,a[1]),h];case
 7:var
-i=a[2];return kh(aY(c,a[1]),i);default:return[6,aY(c,a[1])]}}function
-fS(d,h,g){var
-i=d[3],b=j2(d,g,h),a=i;for(;;){if(a){var
-c=a[1],e=a[2],f=aY(b,c[2]),b=[0,[0,c[1],f],b],a=e;continue}return b}}function
-fT(c){var
+i=a[2];return kr(a1(c,a[1]),i);default:return[6,a1(c,a[1])]}}function
+fW(d,h,g){var
+i=d[3],b=ka(d,g,h),a=i;for(;;){if(a){var
+c=a[1],e=a[2],f=a1(b,c[2]),b=[0,[0,c[1],f],b],a=e;continue}return b}}function
+fX(c){var
 a=c;for(;;)switch(a[0]){case
-0:return I(dE(a[1]));case
+0:return I(dK(a[1]));case
 1:return 1;case
 2:case
 7:case
 8:var
 a=a[1];continue;default:var
-b=fT(a[1]);if(b){var
+b=fX(a[1]);if(b){var
 a=a[2];continue}return b}}function
-ki(a){if(a){var
+ks(a){if(a){var
 b=a[1];if(0===b[0])return 0;var
-c=b[1],d=ki(a[2]);return z(function(a){return[0,c,a]},d)}return w1}function
-eM(c,e,p){var
+c=b[1],d=ks(a[2]);return y(function(a){return[0,c,a]},d)}return xz}function
+eT(c,e,p){var
 a=p;for(;;)switch(a[0]){case
 6:var
-g=a[2],h=eM(c,e,a[1]),i=h?eM(c,e,g):h;if(i){var
-k=aY(e,g),l=j(c,k);if(!l)return j(c,[3,[0,d,b],k]);var
+g=a[2],i=eT(c,e,a[1]),j=i?eT(c,e,g):i;if(j){var
+k=a1(e,g),l=h(c,k);if(!l)return h(c,[3,[0,d,b],k]);var
 m=l}else
 var
-m=i;return m;case
+m=j;return m;case
 8:var
-n=a[1],o=eM(c,e,n);return o?j(c,aY(e,n)):o;case
+n=a[1],o=eT(c,e,n);return o?h(c,a1(e,n)):o;case
 2:case
 7:var
 a=a[1];continue;case
 0:case
 1:return 1;default:var
-f=eM(c,e,a[1]);if(f){var
+f=eT(c,e,a[1]);if(f){var
 a=a[2];continue}return f}}function
-pt(j,c,i,h,n){var
-o=c[3],b=j2(c,h,i),a=o;for(;;){if(a){var
-e=a[1],f=e[2],g=eM(j,b,f);if(g){var
-k=a[2],m=aY(b,f),b=[0,[0,e[1],m],b],a=k;continue}var
+pN(j,c,i,h,n){var
+o=c[3],b=ka(c,h,i),a=o;for(;;){if(a){var
+e=a[1],f=e[2],g=eT(j,b,f);if(g){var
+k=a[2],m=a1(b,f),b=[0,[0,e[1],m],b],a=k;continue}var
 d=g}else
 var
 d=1;if(d){var
-p=fS(c,i,h);return l(function(a){return eM(j,p,a)},n)}return d}}var
-hH=y(m(b),hG);function
-pu(e){var
-a=W(hH);if(e)var
-f=s(m(c(2,b)),a),g=B(m(c(2,c(2,b))),f),h=s(m(c(2,b)),a),d=am(B(m(b),h),g);else
+p=fW(c,i,h);return l(function(a){return eT(j,p,a)},n)}return d}}var
+hM=z(m(b),hL);function
+pO(e){var
+a=X(hM);if(e)var
+f=r(m(c(2,b)),a),g=B(m(c(2,c(2,b))),f),h=r(m(c(2,b)),a),d=an(B(m(b),h),g);else
 var
-i=B(m(c(2,b)),a),j=W(hG),d=am(B(s(m(c(2,b)),j),a),i);return aL(d)}function
-pv(d,c,a){if(d){var
-e=pu(c),f=B(m(b),e),g=s(y(m(b),a),f);return y(m(b),g)}var
-h=m(b),i=pu(c),j=am(m(b),i);return y(s(a,B(m(b),j)),h)}function
-eN(f,e,d,a){var
-g=W(a),h=W(d),i=y(y(m(c(2,b)),h),g),j=f?e?hH:am(hH,s(m(c(2,b)),hG)):am(hH,m(c(2,b))),k=s(W(j),i);return aL(B(m(b),k))}function
-pw(g,d){var
+i=B(m(c(2,b)),a),j=X(hL),d=an(B(r(m(c(2,b)),j),a),i);return aN(d)}function
+pP(d,c,a){if(d){var
+e=pO(c),f=B(m(b),e),g=r(z(m(b),a),f);return z(m(b),g)}var
+h=m(b),i=pO(c),j=an(m(b),i);return z(r(a,B(m(b),j)),h)}function
+eU(f,e,d,a){var
+g=X(a),h=X(d),i=z(z(m(c(2,b)),h),g),j=f?e?hM:an(hM,r(m(c(2,b)),hL)):an(hM,m(c(2,b))),k=r(X(j),i);return aN(B(m(b),k))}function
+pQ(a,d){var
+h=a?b:Q(b),e=m(h),f=pP(a,d,xB),g=pP(a,d,xC),i=an(f,eU(a,d,e,f)),j=[0,B(an(g,eU(a,d,g,e)),i),0],k=an(e,eU(a,d,e,f)),l=[0,B(an(g,eU(a,d,f,g)),k),j],n=an(e,eU(a,d,g,e)),o=[0,B(an(f,eU(a,d,f,g)),n),l],p=a?d?m(c(2,b)):r(m(c(2,c(2,b))),hL):m(c(2,c(2,b)));return[0,p,o]}function
+pR(g,d){var
 c=g,a=d[1],b=d[3];for(;;){if(c){if(b){var
 e=b[2],f=c[1]?A(a,b[1]):a,c=c[2],a=f,b=e;continue}return a}return a}}function
-kj(w,v,u,t){var
-a=e(function(a){return r(a,u,0)},v);if(a){var
+kt(w,v,u,t){var
+a=e(function(a){return s(a,u,0)},v);if(a){var
 f=a[1];if(f){var
 b=a[2];if(b){var
 g=b[1];if(g){var
 c=b[2];if(c){var
-h=c[1];if(h){var
+i=c[1];if(i){var
 d=c[2];if(d){var
-i=d[1];if(i){if(d[2])return 0;var
-x=i[1],y=h[1],z=g[1],A=f[1];return l(function(a){var
-c=j(a,x),d=j(a,y),e=j(a,z),b=j(a,A);return eo(w,[0,[0,b,[0,e,[0,d,0]]],[0,[0,b,[0,c,0]],[0,[0,b,0],0]]])},t)}var
-k=i}else
+j=d[1];if(j){if(d[2])return 0;var
+x=j[1],y=i[1],z=g[1],A=f[1];return l(function(a){var
+c=h(a,x),d=h(a,y),e=h(a,z),b=h(a,A);return ev(w,[0,[0,b,[0,e,[0,d,0]]],[0,[0,b,[0,c,0]],[0,[0,b,0],0]]])},t)}var
+k=j}else
 var
 k=d;var
 m=k}else
 var
-m=h;var
+m=i;var
 n=m}else
 var
 n=c;var
@@ -6017,15 +6211,15 @@ p=b;var
 q=p}else
 var
 q=f;var
-s=q}else
+r=q}else
 var
-s=a;return s}function
-px(f,i,e,c,h){var
+r=a;return r}function
+pS(f,i,e,c,h){var
 j=f?b:d,a=J(i,j);function
 g(b){var
-c=f?cd(b):cD(b);return D(c,a)}var
-k=[0,$(h),0],l=[0,[0,a,c,[0,u,[0,g(c),0]]],k];return[0,[0,a,e,[0,g(e),0]],l]}function
-py(r,b,q,p,g,o,n){if(o){var
+c=f?cd(b):cF(b);return E(c,a)}var
+k=[0,aa(h),0],l=[0,[0,a,c,[0,u,[0,g(c),0]]],k];return[0,[0,a,e,[0,g(e),0]],l]}function
+pT(r,b,q,p,g,o,n){if(o){var
 x=o[1];if(x[1])return 0;if(o[2])return 0;if(n){var
 j=x[2],s=0;if(g){var
 h=g[2],c=0;if(h){var
@@ -6034,16 +6228,16 @@ a=0;c=1;d=1}else{var
 t=i[1],k=h[1],l=g[1],f=0;if(typeof
 j==="number")switch(j){case
 0:var
-A=e(aC,a7(w5)),z=e($,0),a=kj(b,p,bj(0,bz(b,dI(0,g),z),q,0),A);c=1;d=1;f=1;break;case
+A=e(aE,a$(xD)),z=e(aa,0),a=kt(b,p,c4(0,bB(b,dO(0,g),z),q),A);c=1;d=1;f=1;break;case
 3:var
-a=E(k[2],l[1]);c=1;d=1;f=1;break}else
+a=D(k[2],l[1]);c=1;d=1;f=1;break}else
 if(4===j[0]){var
 m=j[1];if(r)if(m){var
-B=e(pw,w6),a=kj(b,p,bj(0,bz(b,px(r,b,l,k,t),0),q,0),B);c=1;d=1;f=1}else{var
+B=e(pR,xE),a=kt(b,p,c4(0,bB(b,pS(r,b,l,k,t),0),q),B);c=1;d=1;f=1}else{var
 a=m;c=1;d=1;f=1}else
 if(m){var
 a=0;c=1;d=1;f=1}else{var
-C=e(pw,w7),a=kj(b,p,bj(0,bz(b,px(r,b,l,k,t),0),q,0),C);c=1;d=1;f=1}}if(!f)var
+C=e(pR,xF),a=kt(b,p,c4(0,bB(b,pS(r,b,l,k,t),0),q),C);c=1;d=1;f=1}}if(!f)var
 u=0}else
 var
 u=i;if(!d)var
@@ -6053,29 +6247,29 @@ v=h;if(!c){var
 w=v;s=1}}else{var
 w=g;s=1}if(s)var
 a=w;var
-y=a?w8:a}else
+y=a?xG:a}else
 var
 y=n;return y}return[0,n]}function
-pz(f,e,d,c,p,o,n){var
+pU(f,e,d,c,p,o,n){var
 b=p,g=o,a=n;for(;;)switch(a[0]){case
 0:var
-h=py(f,e,d,c,b,a[1],g);return h?I(h[1]):h;case
+h=pT(f,e,d,c,b,a[1],g);return h?I(h[1]):h;case
 1:var
-i=py(f,e,d,c,b,a[1],g);if(i){var
-j=i[1],k=c6(a[2],b),l=pz(f,e,d,c,k[1],j,a[3]);if(l){var
+i=pT(f,e,d,c,b,a[1],g);if(i){var
+j=i[1],k=c$(a[2],b),l=pU(f,e,d,c,k[1],j,a[3]);if(l){var
 b=k[2],g=j,a=a[4];continue}var
 m=l}else
 var
 m=i;return m;default:return 0}}function
-kk(a){return cb(c(2,b),aM(a,b))}function
-eO(i,a,e,w,v){var
-l=a?b:P(b),f=m(l),g=pv(a,e,w3),h=pv(a,e,w4),n=am(g,eN(a,e,f,g)),o=[0,B(am(h,eN(a,e,h,f)),n),0],p=am(f,eN(a,e,f,g)),q=[0,B(am(h,eN(a,e,g,h)),p),o],r=am(f,eN(a,e,h,f)),t=[0,B(am(g,eN(a,e,g,h)),r),q],u=a?e?m(c(2,b)):s(m(c(2,c(2,b))),hG):m(c(2,c(2,b))),j=c1([0,u,t]),k=[0,d,cC(i)];return pz(a,i,j[1],j[2],[0,k,[0,k,[0,w,0]]],1,v)}function
-pA(a,g,b){if(K(g,kk(a))){if(b){var
+ku(a){return cb(c(2,b),aO(a,b))}function
+eV(c,a,b,i,h){var
+f=c6(pQ(a,b)),j=pQ(a,b),k=e(cH(c5(f)),j),g=[0,d,cE(c)];return pU(a,c,f,k,[0,g,[0,g,[0,i,0]]],1,h)}function
+pV(a,g,b){if(K(g,ku(a))){if(b){var
 c=b[2];if(c){var
 d=c[2];if(d){var
 e=d[2];if(e){if(e[2])return 0;var
-h=[0,g,kk(a)],v=cC(a),i=[0,kk(a),v],j=eO(a,0,1,h,b[1]),k=j?eO(a,0,0,i,c[1]):j;if(k){var
-l=eO(a,1,1,h,d[1]);if(l)return eO(a,1,0,i,e[1]);var
+h=[0,g,ku(a)],v=cE(a),i=[0,ku(a),v],j=eV(a,0,1,h,b[1]),k=j?eV(a,0,0,i,c[1]):j;if(k){var
+l=eV(a,1,1,h,d[1]);if(l)return eV(a,1,0,i,e[1]);var
 m=l}else
 var
 m=k;var
@@ -6092,301 +6286,301 @@ q=p}else
 var
 q=b;return q}if(b){var
 f=b[2];if(f){if(f[2])return 0;var
-r=[0,g,cC(a)],s=eO(a,0,0,r,b[1]);if(s)return eO(a,1,0,r,f[1]);var
+r=[0,g,cE(a)],s=eV(a,0,0,r,b[1]);if(s)return eV(a,1,0,r,f[1]);var
 t=s}else
 var
 t=f;var
 u=t}else
 var
 u=b;return u}function
-kl(a){var
-b=[1,[2,d]];return bV(function(b,a){return[1,[3,b,a]]},a,b)}function
-hI(a){return kl(e(function(a){return[1,[8,[1,[2,a]]]]},a))}function
-hJ(a,c){return kl(e(function(a){var
-d=[0,a[2]],b=V(a[1],c);return[1,[7,[1,[8,kl(e(function(a){return[1,[6,[0,a[1]],[1,[2,a[2]]]]]},b))]],d]]},a))}function
-pB(e,d,c,b,a){if(0===a[0])return r(a[1],b,0);var
-f=a[1],g=bX(function(a){return pB(e,d,c,b,a)},f);return j(bz(e,d,c),g)}function
-pC(a){return a?K(d,a[1][2][1]):a}function
-w9(a){var
-b=n(f(a),w_);return b?aj(function(a){return I(L(a,d))},a):b}function
-pD(c,f,b,a){if(b)if(a)var
-d=b[1],g=t(c,J(c,a[1]),f),h=pD(c,f,b[2],a[2]),i=d[3],j=A(d[2],g),e=[0,[0,A(d[1],g),j,i],h];else
+kv(a){var
+b=[1,[2,d]];return bz(function(b,a){return[1,[3,b,a]]},a,b)}function
+hN(a){return kv(e(function(a){return[1,[8,[1,[2,a]]]]},a))}function
+hO(a,c){return kv(e(function(a){var
+d=[0,a[2]],b=V(a[1],c);return[1,[7,[1,[8,kv(e(function(a){return[1,[6,[0,a[1]],[1,[2,a[2]]]]]},b))]],d]]},a))}function
+pW(e,d,c,b,a){if(0===a[0])return s(a[1],b,0);var
+f=a[1],g=ce(function(a){return pW(e,d,c,b,a)},f);return h(bB(e,d,c),g)}function
+pX(a){return a?K(d,a[1][2][1]):a}function
+xH(a){var
+b=n(f(a),xI);return b?ak(function(a){return I(L(a,d))},a):b}function
+pY(c,f,b,a){if(b)if(a)var
+d=b[1],g=t(c,J(c,a[1]),f),h=pY(c,f,b[2],a[2]),i=d[3],j=A(d[2],g),e=[0,[0,A(d[1],g),j,i],h];else
 var
 e=a;else
 var
 e=b;return e}function
-pE(d,c){var
+pZ(d,c){var
 a=G(c,d);if(a){var
-b=a[1],e=b[1];return I(L(cg(b),e))}return a}function
-hK(b,a){return fe(fe(b,0),a)}function
-km(a){if(a){var
-b=a[2],c=a[1];if(b)return hK(c,[0,xa,km(b)]);var
+b=a[1],e=b[1];return I(L(ci(b),e))}return a}function
+hP(b,a){return eo(eo(b,0),a)}function
+kw(a){if(a){var
+b=a[2],c=a[1];if(b)return hP(c,[0,xK,kw(b)]);var
 d=c}else
 var
 d=a;return d}function
-H(a){return[0,xc,hK(km(a),xb)]}function
-ah(a){return[0,xe,hK(km(a),xd)]}function
-as(a){return[0,xg,[0,a,xf]]}function
-o(b,a){return[0,bg(xi,bg(b,xh)),a]}function
-S(b,a){return ah([0,o(b,a),0])}function
-cP(d){var
-b=d,a=tg,e=0;for(;;){if(b){var
-c=lO(a),b=b[1],a=c;continue}return[0,ff(gs(a)),e]}}function
-kn(a){return[0,ff(gB(a)),0]}function
-fU(a){var
-c=aT(a),f=0,b=0===c?tm:0<c?[0,gB(a)]:[1,gB(P(a))];if(0===b[0])var
-d=ff(b[1]);else
+H(a){return[0,xM,hP(kw(a),xL)]}function
+ai(a){return[0,xO,hP(kw(a),xN)]}function
+at(a){return[0,xQ,[0,a,xP]]}function
+o(b,a){return[0,bk(xS,bk(b,xR)),a]}function
+T(b,a){return ai([0,o(b,a),0])}function
+cT(d){var
+b=d,a=tD,e=0;for(;;){if(b){var
+c=lY(a),b=b[1],a=c;continue}return[0,fl(gw(a)),e]}}function
+kx(a){return[0,fl(gF(a)),0]}function
+fY(a){var
+c=aV(a),f=0,b=0===c?tJ:0<c?[0,gF(a)]:[1,gF(Q(a))];if(0===b[0])var
+d=fl(b[1]);else
 var
-e=ff(b[1]),d=bg(bR(1,45),e);return[0,d,f]}function
-eP(a){var
-b=0,c=0<aT(a)?gB(a):tk;return[0,ff(c),b]}function
-ko(a){switch(a[0]){case
-2:return xk;case
-3:return 2<=a[1]?xl:xm;case
-4:return xn;default:return xj}}function
-fV(b,a){function
-c(c,a){return ab(c,ko(a))?fV(b,a):[0,xt,g(fV(b,a),xs)]}switch(a[0]){case
+e=fl(b[1]),d=bk(bT(1,45),e);return[0,d,f]}function
+eW(a){var
+b=0,c=0<aV(a)?gF(a):tH;return[0,fl(c),b]}function
+ky(a){switch(a[0]){case
+2:return xU;case
+3:return 2<=a[1]?xV:xW;case
+4:return xX;default:return xT}}function
+fZ(b,a){function
+c(c,a){return ae(c,ky(a))?fZ(b,a):[0,x3,g(fZ(b,a),x2)]}switch(a[0]){case
 0:var
 e=a[2],f=a[1];if(typeof
-e==="number")return[0,bq(f),0];var
-h=[0,xu,[0,bq(e),0]];return[0,bq(f),h];case
-1:return[0,j(b,a[1]),0];case
-2:return[0,xw,c(xv,a[1])];case
+e==="number")return[0,br(f),0];var
+i=[0,x4,[0,br(e),0]];return[0,br(f),i];case
+1:return[0,h(b,a[1]),0];case
+2:return[0,x6,c(x5,a[1])];case
 3:var
-i=a[3],k=c([0,ko(a)],i);switch(a[1]){case
+j=a[3],k=c([0,ky(a)],j);switch(a[1]){case
 0:var
-d=xo;break;case
+d=xY;break;case
 1:var
-d=xp;break;case
+d=xZ;break;case
 2:var
-d=xq;break;default:var
-d=xr}var
-l=a[2];return g(c(ko(a),l),[0,d,k]);case
+d=x0;break;default:var
+d=x1}var
+l=a[2];return g(c(ky(a),l),[0,d,k]);case
 4:var
-m=[0,xx,kn(a[2])];return g(c(xy,a[1]),m);default:return[0,xA,g(fV(b,a[1]),xz)]}}function
-O(a){return[0,xD,g(fV(function(a){return 0===a[0]?a[1]:xC},a),xB)]}function
-kp(a){return[0,xF,g(fV(function(a){return a},a),xE)]}function
-cQ(a){if(0===a[0])return O(a[1]);var
-b=[0,o(xG,O(a[2])),0];return ah([0,o(xH,O(a[1])),b])}function
-hL(b,a){var
-c=[0,j(b,a[3]),0],d=[0,j(b,a[2]),c];return H([0,j(b,a[1]),d])}function
-xI(a){function
-b(a){return hL(cQ,a)}switch(a[0]){case
+m=[0,x7,kx(a[2])];return g(c(x8,a[1]),m);default:return[0,x_,g(fZ(b,a[1]),x9)]}}function
+P(a){return[0,yb,g(fZ(function(a){return 0===a[0]?a[1]:ya},a),x$)]}function
+kz(a){return[0,yd,g(fZ(function(a){return a},a),yc)]}function
+cU(a){if(0===a[0])return P(a[1]);var
+b=[0,o(ye,P(a[2])),0];return ai([0,o(yf,P(a[1])),b])}function
+hQ(b,a){var
+c=[0,h(b,a[3]),0],d=[0,h(b,a[2]),c];return H([0,h(b,a[1]),d])}function
+yg(a){function
+b(a){return hQ(cU,a)}switch(a[0]){case
 0:var
-e=0,f=a[5]?xJ:xR,h=[0,o(xK,as(f)),e],i=[0,o(xL,cQ(a[4])),h],j=[0,o(xM,b(a[3])),i],k=[0,o(xN,b(a[2])),j],l=[0,o(xO,b(a[1])),k],c=[0,o(xQ,as(xP)),l];break;case
+e=0,f=a[5]?yh:yp,h=[0,o(yi,at(f)),e],i=[0,o(yj,cU(a[4])),h],j=[0,o(yk,b(a[3])),i],k=[0,o(yl,b(a[2])),j],l=[0,o(ym,b(a[1])),k],c=[0,o(yo,at(yn)),l];break;case
 1:var
-d=a[3],m=d?[0,o(xS,b(d[1])),0]:d,n=[0,o(xT,b(a[2])),0],p=[0,o(xU,b(a[1])),n],c=g([0,o(xW,as(xV)),p],m);break;default:var
-q=[0,o(xX,b(a[1])),0],c=[0,o(xZ,as(xY)),q]}return ah(c)}function
-x0(a){function
-b(a){return H(e(cQ,a))}function
+d=a[3],m=d?[0,o(yq,b(d[1])),0]:d,n=[0,o(yr,b(a[2])),0],p=[0,o(ys,b(a[1])),n],c=g([0,o(yu,at(yt)),p],m);break;default:var
+q=[0,o(yv,b(a[1])),0],c=[0,o(yx,at(yw)),q]}return ai(c)}function
+yy(a){function
+b(a){return H(e(cU,a))}function
 f(a){var
-b=a?x1:x3;return o(x2,as(b))}switch(a[0]){case
+b=a?yz:yB;return o(yA,at(b))}switch(a[0]){case
 0:var
-h=[0,f(a[5]),0],i=[0,o(x4,cQ(a[4])),h],j=[0,o(x5,b(a[3])),i],k=[0,o(x6,b(a[2])),j],l=[0,o(x7,b(a[1])),k],c=[0,o(x9,as(x8)),l];break;case
+h=[0,f(a[5]),0],i=[0,o(yC,cU(a[4])),h],j=[0,o(yD,b(a[3])),i],k=[0,o(yE,b(a[2])),j],l=[0,o(yF,b(a[1])),k],c=[0,o(yH,at(yG)),l];break;case
 1:var
-d=a[3],m=d?[0,o(x_,b(d[1])),0]:d,n=[0,o(x$,b(a[2])),0],p=[0,o(ya,b(a[1])),n],c=g([0,o(yc,as(yb)),p],m);break;case
+d=a[3],m=d?[0,o(yI,b(d[1])),0]:d,n=[0,o(yJ,b(a[2])),0],p=[0,o(yK,b(a[1])),n],c=g([0,o(yM,at(yL)),p],m);break;case
 2:var
-q=[0,o(yd,b(a[1])),0],c=[0,o(yf,as(ye)),q];break;default:var
-r=[0,f(a[7]),0],s=[0,o(yg,cQ(a[6])),r],t=[0,o(yh,cQ(a[5])),s],u=[0,o(yi,b(a[4])),t],v=[0,o(yj,b(a[3])),u],w=[0,o(yk,b(a[2])),v],x=[0,o(yl,b(a[1])),w],c=[0,o(yn,as(ym)),x]}return ah(c)}function
-kq(a){switch(a){case
-0:return yo;case
-1:return yp;case
-2:return yq;case
-3:return yr;case
-4:return ys;case
-5:return yt;case
-6:return yu;case
-7:return yv;case
-8:return yw;case
-9:return yx;case
-10:return yy;case
-11:return yz;case
-12:return yA;case
-13:return yB;case
-14:return yC;case
-15:return yD;default:return yE}}function
-kr(a){if(typeof
-a==="number")return yF;else
+q=[0,o(yN,b(a[1])),0],c=[0,o(yP,at(yO)),q];break;default:var
+r=[0,f(a[7]),0],s=[0,o(yQ,cU(a[6])),r],t=[0,o(yR,cU(a[5])),s],u=[0,o(yS,b(a[4])),t],v=[0,o(yT,b(a[3])),u],w=[0,o(yU,b(a[2])),v],x=[0,o(yV,b(a[1])),w],c=[0,o(yX,at(yW)),x]}return ai(c)}function
+kA(a){switch(a){case
+0:return yY;case
+1:return yZ;case
+2:return y0;case
+3:return y1;case
+4:return y2;case
+5:return y3;case
+6:return y4;case
+7:return y5;case
+8:return y6;case
+9:return y7;case
+10:return y8;case
+11:return y9;case
+12:return y_;case
+13:return y$;case
+14:return za;case
+15:return zb;default:return zc}}function
+kB(a){if(typeof
+a==="number")return zd;else
 switch(a[0]){case
-0:return yG;case
-1:return yH;default:return yI}}function
-fW(a){var
+0:return ze;case
+1:return zf;default:return zg}}function
+f0(a){var
 c=a[4];if(typeof
 c==="number")var
 d=0;else
 switch(c[0]){case
 0:var
-d=[0,o(yJ,O(c[1])),0];break;case
+d=[0,o(zh,P(c[1])),0];break;case
 1:var
-d=[0,o(yK,O(c[1])),0];break;default:var
-n=[0,O(c[2]),0],d=[0,o(yL,H([0,O(c[1]),n])),0]}var
-p=[0,o(yM,as(kr(a[4]))),d],i=a[3];if(i){var
+d=[0,o(zi,P(c[1])),0];break;default:var
+n=[0,P(c[2]),0],d=[0,o(zj,H([0,P(c[1]),n])),0]}var
+p=[0,o(zk,at(kB(a[4]))),d],i=a[3];if(i){var
 b=i[1];switch(b[0]){case
 0:var
-r=H([0,O(b[1]),0]),k=a[1],q=0,s=6===k?yN:12===k?yR:yS,f=[0,o(yO,S(s,r)),q];break;case
+r=H([0,P(b[1]),0]),k=a[1],q=0,s=6===k?zl:12===k?zp:zq,f=[0,o(zm,T(s,r)),q];break;case
 1:var
-x=H(e(O,b[1])),m=a[1],w=0;if(14<=m)switch(m+rB|0){case
+x=H(e(P,b[1])),m=a[1],w=0;if(14<=m)switch(m+rW|0){case
 0:var
-h=yT;break;case
+h=zr;break;case
 1:var
-h=yV;break;default:var
-h=yW}else
+h=zt;break;default:var
+h=zu}else
 var
-h=yX;var
-f=[0,o(yU,S(h,x)),w];break;case
+h=zv;var
+f=[0,o(zs,T(h,x)),w];break;case
 2:var
-y=[0,o(yY,H([0,O(b[2]),0])),0],f=[0,o(y0,ah([0,o(yZ,H([0,O(b[1]),0])),y])),0];break;default:var
-z=[0,o(y1,H([0,O(b[2]),0])),0],f=[0,o(y3,ah([0,o(y2,H([0,O(b[1]),0])),z])),0]}var
+y=[0,o(zw,H([0,P(b[2]),0])),0],f=[0,o(zy,ai([0,o(zx,H([0,P(b[1]),0])),y])),0];break;default:var
+z=[0,o(zz,H([0,P(b[2]),0])),0],f=[0,o(zB,ai([0,o(zA,H([0,P(b[1]),0])),z])),0]}var
 l=f}else
 var
 l=i;var
-t=g(l,p),j=a[2],u=j?[0,o(yP,cP(j[1])),0]:j,v=g(u,t);return ah([0,o(yQ,as(kq(a[1]))),v])}function
-pF(a){if(0===a[0]){var
-b=[0,o(y4,hL(O,a[2])),0];return S(y6,ah([0,o(y5,hL(O,a[1])),b]))}var
-c=[0,O(a[5]),0],d=[0,o(y7,H([0,O(a[4]),c])),0],e=[0,o(y8,O(a[3])),d],f=[0,O(a[2]),0];return S(y_,ah([0,o(y9,H([0,O(a[1]),f])),e]))}function
-pG(a){if(0===a[0]){var
-b=[0,o(y$,H(e(O,a[2]))),0];return S(zb,ah([0,o(za,H(e(O,a[1]))),b]))}return pF([1,a[1],a[2],a[3],a[4],a[5]])}function
-pH(a){switch(a){case
-0:return zc;case
-1:return zd;default:return ze}}function
-zf(a){function
-b(a){return H(e(cQ,a))}var
-c=[0,o(zg,b(a[2])),0],d=[0,o(zh,b(a[1])),c];return ah([0,o(zj,as(zi)),d])}function
-pI(a){function
+t=g(l,p),j=a[2],u=j?[0,o(zn,cT(j[1])),0]:j,v=g(u,t);return ai([0,o(zo,at(kA(a[1]))),v])}function
+p0(a){if(0===a[0]){var
+b=[0,o(zC,hQ(P,a[2])),0];return T(zE,ai([0,o(zD,hQ(P,a[1])),b]))}var
+c=[0,P(a[5]),0],d=[0,o(zF,H([0,P(a[4]),c])),0],e=[0,o(zG,P(a[3])),d],f=[0,P(a[2]),0];return T(zI,ai([0,o(zH,H([0,P(a[1]),f])),e]))}function
+p1(a){if(0===a[0]){var
+b=[0,o(zJ,H(e(P,a[2]))),0];return T(zL,ai([0,o(zK,H(e(P,a[1]))),b]))}return p0([1,a[1],a[2],a[3],a[4],a[5]])}function
+p2(a){switch(a){case
+0:return zM;case
+1:return zN;default:return zO}}function
+zP(a){function
+b(a){return H(e(cU,a))}var
+c=[0,o(zQ,b(a[2])),0],d=[0,o(zR,b(a[1])),c];return ai([0,o(zT,at(zS)),d])}function
+p3(a){function
 b(b,a){var
-c=[0,O(a),0];return H([0,O(b),c])}switch(a[0]){case
-0:return S(zk,b(a[1],a[2]));case
+c=[0,P(a),0];return H([0,P(b),c])}switch(a[0]){case
+0:return T(zU,b(a[1],a[2]));case
 1:var
-c=a[3],d=a[2],e=a[1],f=[0,o(zl,b(c[1],c[2])),0],g=[0,o(zm,b(d[1],d[2])),f];return S(zo,ah([0,o(zn,b(e[1],e[2])),g]));case
-2:return S(zp,O(a[1]));default:var
-h=[0,o(zq,O(a[2])),0];return S(zs,ah([0,o(zr,O(a[1])),h]))}}function
-zt(a){function
-b(a){return hL(O,a)}if(0===a[0])var
-c=a[5],e=c?[0,o(zu,b(c[1])),0]:c,f=[0,O(a[4]),0],h=[0,o(zv,H([0,O(a[3]),f])),0],i=[0,o(zw,O(a[2])),h],j=[0,o(zx,cP(a[1])),i],d=g([0,o(zz,as(zy)),j],e);else
+c=a[3],d=a[2],e=a[1],f=[0,o(zV,b(c[1],c[2])),0],g=[0,o(zW,b(d[1],d[2])),f];return T(zY,ai([0,o(zX,b(e[1],e[2])),g]));case
+2:return T(zZ,P(a[1]));default:var
+h=[0,o(z0,P(a[2])),0];return T(z2,ai([0,o(z1,P(a[1])),h]))}}function
+z3(a){function
+b(a){return hQ(P,a)}if(0===a[0])var
+c=a[5],e=c?[0,o(z4,b(c[1])),0]:c,f=[0,P(a[4]),0],h=[0,o(z5,H([0,P(a[3]),f])),0],i=[0,o(z6,P(a[2])),h],j=[0,o(z7,cT(a[1])),i],d=g([0,o(z9,at(z8)),j],e);else
 var
-k=[0,o(zA,O(a[4])),0],l=[0,o(zB,b(a[3])),k],m=[0,o(zC,b(a[2])),l],n=a[1]?zD:zF,d=[0,o(zE,as(n)),m];return ah(d)}function
-pJ(a){var
-b=a?[0,o(zG,H(e(zt,a))),0]:a;return b}function
-ks(d,c,b,a){var
-f=[0,o(zH,H(e(fW,a))),0],h=g(pJ(b),f),i=[0,o(zI,pF(c)),0];return ah(g([0,o(zK,S(zJ,H(e(xI,d)))),i],h))}function
-zL(a){switch(a[0]){case
-0:return S(zM,ks(a[1],a[2],a[3],a[4]));case
+k=[0,o(z_,P(a[4])),0],l=[0,o(z$,b(a[3])),k],m=[0,o(Aa,b(a[2])),l],n=a[1]?Ab:Ad,d=[0,o(Ac,at(n)),m];return ai(d)}function
+p4(a){var
+b=a?[0,o(Ae,H(e(z3,a))),0]:a;return b}function
+kC(d,c,b,a){var
+f=[0,o(Af,H(e(f0,a))),0],h=g(p4(b),f),i=[0,o(Ag,p0(c)),0];return ai(g([0,o(Ai,T(Ah,H(e(yg,d)))),i],h))}function
+Aj(a){switch(a[0]){case
+0:return T(Ak,kC(a[1],a[2],a[3],a[4]));case
 1:var
-b=a[5],c=a[3],d=a[1],f=H(e(x0,a[2])),l=[0,o(zN,H(e(fW,a[6]))),0],m=b?[0,o(zO,pI(b[1])),0]:b,n=g(m,l),k=0,p=[0,o(zP,pG(a[4])),n];if(typeof
+b=a[5],c=a[3],d=a[1],f=H(e(yy,a[2])),l=[0,o(Al,H(e(f0,a[6]))),0],m=b?[0,o(Am,p3(b[1])),0]:b,n=g(m,l),k=0,p=[0,o(An,p1(a[4])),n];if(typeof
 d==="number")if(d)var
-h=zQ;else{var
-i=S(zV,f);k=1}else
+h=Ao;else{var
+i=T(At,f);k=1}else
 var
-h=pH(d[1]);if(!k)var
-q=c?[0,o(zR,O(c[1])),0]:c,i=S(h,ah([0,o(zS,f),q]));return S(zU,ah([0,o(zT,i),p]));case
+h=p2(d[1]);if(!k)var
+q=c?[0,o(Ap,P(c[1])),0]:c,i=T(h,ai([0,o(Aq,f),q]));return T(As,ai([0,o(Ar,i),p]));case
 2:var
-r=[0,o(zW,H(e(fW,a[7]))),0],s=g(pJ(a[6]),r),t=[0,o(zX,pI(a[5])),0],u=[0,o(zY,pG(a[4])),t],v=[0,o(zZ,O(a[3])),0],w=ah([0,o(z0,H(e(zf,a[2]))),v]);return S(z2,ah(g([0,o(z1,S(pH(a[1]),w)),u],s)));case
+r=[0,o(Au,H(e(f0,a[7]))),0],s=g(p4(a[6]),r),t=[0,o(Av,p3(a[5])),0],u=[0,o(Aw,p1(a[4])),t],v=[0,o(Ax,P(a[3])),0],w=ai([0,o(Ay,H(e(zP,a[2]))),v]);return T(AA,ai(g([0,o(Az,T(p2(a[1]),w)),u],s)));case
 3:var
-x=[0,o(z3,H(e(fW,a[7]))),0],y=[0,o(z4,H(e(O,a[6]))),0],z=[0,o(z7,S(z6,ah([0,o(z5,H(e(O,a[5]))),y]))),x],A=0,B=a[4],C=[0,o(z_,H(e(function(a){return 0===a[0]?S(z8,H(e(kp,a[1]))):S(z9,kp(a[1]))},B))),A],D=a[3],E=[0,o(z$,H(e(function(a){var
-b=[0,kp(a[2]),0];return H([0,as(a[1]),b])},D))),C],F=a[2],G=[0,o(Aa,H(e(function(a){var
-b=[0,cQ(a[2]),0];return H([0,as(a[1]),b])},F))),E];return S(Ae,ah([0,o(Ad,S(Ac,ah([0,o(Ab,H(e(as,a[1]))),G]))),z]));case
+x=[0,o(AB,H(e(f0,a[7]))),0],y=[0,o(AC,H(e(P,a[6]))),0],z=[0,o(AF,T(AE,ai([0,o(AD,H(e(P,a[5]))),y]))),x],A=0,B=a[4],C=[0,o(AI,H(e(function(a){return 0===a[0]?T(AG,H(e(kz,a[1]))):T(AH,kz(a[1]))},B))),A],D=a[3],E=[0,o(AJ,H(e(function(a){var
+b=[0,kz(a[2]),0];return H([0,at(a[1]),b])},D))),C],F=a[2],G=[0,o(AK,H(e(function(a){var
+b=[0,cU(a[2]),0];return H([0,at(a[1]),b])},F))),E];return T(AO,ai([0,o(AN,T(AM,ai([0,o(AL,H(e(at,a[1]))),G]))),z]));case
 4:var
-I=[0,o(Af,H(e(fW,a[3]))),0],J=[0,o(Ai,S(Ah,ah([0,o(Ag,O(a[2])),0]))),I];return S(Am,ah([0,o(Al,S(Ak,ah([0,o(Aj,O(a[1])),0]))),J]));case
+I=[0,o(AP,H(e(f0,a[3]))),0],J=[0,o(AS,T(AR,ai([0,o(AQ,P(a[2])),0]))),I];return T(AW,ai([0,o(AV,T(AU,ai([0,o(AT,P(a[1])),0]))),J]));case
 5:var
-K=[0,o(An,O(a[5])),0];return S(Ap,ah([0,o(Ao,ks(a[1],[0,a[2],a[3]],0,a[4])),K]));case
+K=[0,o(AX,P(a[5])),0];return T(AZ,ai([0,o(AY,kC(a[1],[0,a[2],a[3]],0,a[4])),K]));case
 6:var
-j=a[1],L=0,M=j?cQ(j[1]):as(As);return S(Ar,ah([0,o(Aq,M),L]));default:var
-N=[0,o(At,O(a[6])),0],P=[0,o(Au,O(a[5])),N],Q=[0,o(Av,ks(a[2],a[3],0,a[4])),P],R=a[1];return S(AA,ah([0,o(Az,H(e(function(a){var
-b=[0,o(Aw,O(a[2][2])),0],c=[0,o(Ax,O(a[2][1])),b];return ah([0,o(Ay,as(a[1])),c])},R))),Q]))}}function
-dZ(a){return H(e(fU,a))}function
-fX(b,a){var
-c=[0,o(AB,eP(a)),0];return ah([0,o(AC,H(e(dZ,b))),c])}function
-dk(a){switch(a[0]){case
-0:return as(a[1]);case
+j=a[1],L=0,M=j?cU(j[1]):at(A2);return T(A1,ai([0,o(A0,M),L]));default:var
+N=[0,o(A3,P(a[6])),0],O=[0,o(A4,P(a[5])),N],Q=[0,o(A5,kC(a[2],a[3],0,a[4])),O],R=a[1];return T(A_,ai([0,o(A9,H(e(function(a){var
+b=[0,o(A6,P(a[2][2])),0],c=[0,o(A7,P(a[2][1])),b];return ai([0,o(A8,at(a[1])),c])},R))),Q]))}}function
+d4(a){return H(e(fY,a))}function
+f1(b,a){var
+c=[0,o(A$,eW(a)),0];return ai([0,o(Ba,H(e(d4,b))),c])}function
+dr(a){switch(a[0]){case
+0:return at(a[1]);case
 1:var
-b=fX(a[2],a[3]);return S(a[1],b);case
+b=f1(a[2],a[3]);return T(a[1],b);case
 2:var
-c=a[1]?AD:AF;return S(AE,as(c));case
+c=a[1]?Bb:Bd;return T(Bc,at(c));case
 3:var
-d=[0,dZ(a[3]),0];return S(AG,H([0,fX(a[1],a[2]),d]));case
+d=[0,d4(a[3]),0];return T(Be,H([0,f1(a[1],a[2]),d]));case
 4:var
-f=[0,eP(a[4]),0],g=[0,fU(a[3]),f];return S(AH,H([0,fX(a[1],a[2]),g]));case
+f=[0,eW(a[4]),0],g=[0,fY(a[3]),f];return T(Bf,H([0,f1(a[1],a[2]),g]));case
 5:var
-h=[0,eP(a[3]),0],i=[0,fU(a[2]),h];return S(AI,H([0,dk(a[1]),i]));case
+h=[0,eW(a[3]),0],i=[0,fY(a[2]),h];return T(Bg,H([0,dr(a[1]),i]));case
 6:var
-j=[0,eP(a[3]),0],k=[0,fU(a[2]),j];return S(AJ,H([0,dk(a[1]),k]));case
-7:return S(AK,dk(a[1]));case
+j=[0,eW(a[3]),0],k=[0,fY(a[2]),j];return T(Bh,H([0,dr(a[1]),k]));case
+7:return T(Bi,dr(a[1]));case
 8:var
-l=[0,H(e(dZ,a[3])),0],m=[0,as(a[2]),l];return S(AL,H([0,dk(a[1]),m]));case
+l=[0,H(e(d4,a[3])),0],m=[0,at(a[2]),l];return T(Bj,H([0,dr(a[1]),m]));case
 9:var
-n=a[1];return S(AM,H(e(function(a){var
-b=a[1],c=b[1],d=[0,dk(a[2]),0],e=[0,eP(b[2]),d],f=[0,fU(c[2]),e];return H([0,dZ(c[1]),f])},n)));default:var
-o=[0,dk(a[4]),0],p=[0,dk(a[3]),o],q=[0,eP(a[2]),p];return S(AN,H([0,dZ(a[1]),q]))}}function
-AO(a){var
-b=[0,dk(a[2]),0];return H([0,cP(a[1]),b])}function
-pK(a){if(typeof
-a==="number")return 0===a?as(AP):as(AQ);else
+n=a[1];return T(Bk,H(e(function(a){var
+b=a[1],c=b[1],d=[0,dr(a[2]),0],e=[0,eW(b[2]),d],f=[0,fY(c[2]),e];return H([0,d4(c[1]),f])},n)));default:var
+o=[0,dr(a[4]),0],p=[0,dr(a[3]),o],q=[0,eW(a[2]),p];return T(Bl,H([0,d4(a[1]),q]))}}function
+Bm(a){var
+b=[0,dr(a[2]),0];return H([0,cT(a[1]),b])}function
+p5(a){if(typeof
+a==="number")return 0===a?at(Bn):at(Bo);else
 switch(a[0]){case
 0:var
-b=[0,H(e(dZ,a[2])),0];return S(AR,H([0,cP(a[1]),b]));case
+b=[0,H(e(d4,a[2])),0];return T(Bp,H([0,cT(a[1]),b]));case
 1:var
-c=[0,cP(a[2]),0];return S(AS,H([0,cP(a[1]),c]));case
-2:return S(AT,H(e(O,a[1])));default:var
-d=[0,o(AU,fX(a[4],a[5])),0],f=[0,o(AV,H(e(O,a[3]))),d],g=[0,o(AW,H(e(O,a[2]))),f];return S(AY,ah([0,o(AX,cP(a[1])),g]))}}function
-AZ(a){var
-b=a[4],h=b?[0,o(A0,dZ([0,b[1],b[2]])),0]:b,d=a[3],i=d?[0,o(A1,pK(d[1])),0]:d,j=g(i,h),f=a[2],k=f?[0,o(A2,cP(f[1])),0]:f,l=g(k,j),c=a[1],m=c?[0,o(A3,H(e(AO,[0,c[1],c[2]]))),0]:c;return ah(g(m,l))}function
-pL(f,a,d){var
-h=[0,o(A4,H(e(AZ,d))),0];if(a)var
-b=a[1],c=[0,o(A5,fX(b[1],b[2])),0];else
+c=[0,cT(a[2]),0];return T(Bq,H([0,cT(a[1]),c]));case
+2:return T(Br,H(e(P,a[1])));default:var
+d=[0,o(Bs,f1(a[4],a[5])),0],f=[0,o(Bt,H(e(P,a[3]))),d],g=[0,o(Bu,H(e(P,a[2]))),f];return T(Bw,ai([0,o(Bv,cT(a[1])),g]))}}function
+Bx(a){var
+b=a[4],h=b?[0,o(By,d4([0,b[1],b[2]])),0]:b,d=a[3],i=d?[0,o(Bz,p5(d[1])),0]:d,j=g(i,h),f=a[2],k=f?[0,o(BA,cT(f[1])),0]:f,l=g(k,j),c=a[1],m=c?[0,o(BB,H(e(Bm,[0,c[1],c[2]]))),0]:c;return ai(g(m,l))}function
+p6(f,a,d){var
+h=[0,o(BC,H(e(Bx,d))),0];if(a)var
+b=a[1],c=[0,o(BD,f1(b[1],b[2])),0];else
 var
 c=a;var
-i=g(c,h);return ah([0,o(A6,kn(f)),i])}function
-pM(d,c,a,b){var
-f=[0,o(A7,pK(b)),0],h=a?[0,o(A8,H(e(O,a))),0]:a,i=g(h,f),j=[0,o(A9,H(e(O,c))),0];return ah(g([0,o(A_,kn(d)),j],i))}function
-A$(a){if(typeof
-a==="number")return as(Ba);else
+i=g(c,h);return ai([0,o(BE,kx(f)),i])}function
+p7(d,c,a,b){var
+f=[0,o(BF,p5(b)),0],h=a?[0,o(BG,H(e(P,a))),0]:a,i=g(h,f),j=[0,o(BH,H(e(P,c))),0];return ai(g([0,o(BI,kx(d)),j],i))}function
+BJ(a){if(typeof
+a==="number")return at(BK);else
 switch(a[0]){case
-0:return S(Bb,cP(a[1]));case
-1:return S(Bc,pL(a[1],a[2],a[3]));default:return S(Bd,pM(a[1],a[2],a[3],a[4]))}}function
-hM(a){var
-b=iD(iC(az(a),function(b){return a$(a,b)}));return l(function(a){var
-b=I(34===a?1:0),c=b?I(92===a?1:0):b,d=c?ab(Bs,gE(a)):c;return d?ab(gE(a),Bt):d},b)}function
-kt(d){var
+0:return T(BL,cT(a[1]));case
+1:return T(BM,p6(a[1],a[2],a[3]));default:return T(BN,p7(a[1],a[2],a[3],a[4]))}}function
+hR(a){var
+b=iI(iH(aB(a),function(b){return bd(a,b)}));return l(function(a){var
+b=I(34===a?1:0),c=b?I(92===a?1:0):b,d=c?mf(32,a):c;return d?mf(a,126):d},b)}function
+kD(d){var
 a=d;for(;;)switch(a[0]){case
 8:var
-b=hM(a[2]);if(b){var
+b=hR(a[2]);if(b){var
 a=a[1];continue}return b;case
 9:var
-e=a[1];return l(function(a){return kt(a[2])},e);case
+e=a[1];return l(function(a){return kD(a[2])},e);case
 10:var
-c=kt(a[3]);if(c){var
+c=kD(a[3]);if(c){var
 a=a[4];continue}return c;case
 0:case
-1:return hM(a[1]);case
-2:case
-3:case
-4:return 1;default:var
-a=a[1];continue}}function
-fY(b){function
+1:return hR(a[1]);case
+5:case
+6:case
+7:var
+a=a[1];continue;default:return 1}}function
+f2(b){function
 c(f){var
-a=gE(f),b=ab(Bu,a),c=b?ab(a,Bv):b;if(c)var
+a=me(f),b=ae(B2,a),c=b?ae(a,B3):b;if(c)var
 d=c;else{var
-e=ab(Bw,a);if(e)return ab(a,Bx);var
+e=ae(B4,a);if(e)return ae(a,B5);var
 d=e}return d}var
-a=iD(iC(az(b),function(a){return a$(b,a)}));if(a){var
+a=iI(iH(aB(b),function(a){return bd(b,a)}));if(a){var
 d=a[2],e=c(a[1]),g=e?l(function(a){var
 b=c(a);if(b)var
 d=b;else
 var
-e=gE(a),f=ab(By,e),h=f?ab(e,Bz):f,d=h;var
-g=d||(95===a?1:0);return g},d):e,h=g?ab(f(d),BA):g;if(h)return I(aD(b,BB));var
+e=me(a),f=ae(B6,e),h=f?ae(e,B7):f,d=h;var
+g=d||(95===a?1:0);return g},d):e,h=g?ae(f(d),B8):g;if(h)return I(aF(b,B9));var
 i=h}else
 var
 i=a;return i}function
-ku(c){var
+kE(c){var
 a=c;for(;;)switch(a[0]){case
 0:return 1;case
-1:return fY(a[1]);case
+1:return f2(a[1]);case
 3:var
-b=ku(a[2]);if(b){var
+b=kE(a[2]);if(b){var
 a=a[3];continue}return b;default:var
 a=a[1];continue}}function
-fZ(m){var
+f3(m){var
 a=m;for(;;)switch(a[0]){case
 0:var
 e=a[1];if(typeof
@@ -6397,42 +6591,42 @@ h=typeof
 e[1]==="number"?1:0,d=h?1:h;else
 var
 d=1;if(d){var
-f=gs(a[2]);if(typeof
+f=gw(a[2]);if(typeof
 f!=="number"&&0===f[0])return 0;var
 g=1}else
 var
 g=d;return g;case
 1:return 1;case
 3:var
-i=fZ(a[2]);if(i){var
+i=f3(a[2]);if(i){var
 a=a[3];continue}return i;case
 4:var
-j=a[2],k=fZ(a[1]),l=k?gz(c(2,b),j):k;return l?gz(j,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):l;default:var
+j=a[2],k=f3(a[1]),l=k?gD(c(2,b),j):k;return l?gD(j,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):l;default:var
 a=a[1];continue}}function
-eQ(a){return 0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
+eX(a){return 0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
 b5(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-d0(a){return w(eQ,b5(a))}function
-kv(a){switch(a[0]){case
+d5(a){return w(eX,b5(a))}function
+kF(a){switch(a[0]){case
 0:var
-c=eQ(a[4]),d=g(d0(a[3]),c),e=g(d0(a[2]),d);return g(d0(a[1]),e);case
+c=eX(a[4]),d=g(d5(a[3]),c),e=g(d5(a[2]),d);return g(d5(a[1]),e);case
 1:var
-b=a[3],f=b?d0(b[1]):b,h=g(d0(a[2]),f);return g(d0(a[1]),h);default:return d0(a[1])}}function
-BC(a){switch(a[0]){case
+b=a[3],f=b?d5(b[1]):b,h=g(d5(a[2]),f);return g(d5(a[1]),h);default:return d5(a[1])}}function
+B_(a){switch(a[0]){case
 0:var
 d=g(a[3],[0,a[4],0]),e=g(a[2],d),b=g(a[1],e);break;case
 1:var
 c=a[3],f=c?c[1]:c,h=g(a[2],f),b=g(a[1],h);break;case
 2:var
 b=a[1];break;default:var
-i=g(a[4],[0,a[5],[0,a[6],0]]),j=g(a[3],i),k=g(a[2],j),b=g(a[1],k)}return w(eQ,b)}function
-pN(a){return 0===a[0]?g(a[1],a[2]):[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
-pO(a){if(0===a[0]){var
+i=g(a[4],[0,a[5],[0,a[6],0]]),j=g(a[3],i),k=g(a[2],j),b=g(a[1],k)}return w(eX,b)}function
+p8(a){return 0===a[0]?g(a[1],a[2]):[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
+p9(a){if(0===a[0]){var
 b=b5(a[2]);return g(b5(a[1]),b)}return[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
-pP(a){switch(a[0]){case
+p_(a){switch(a[0]){case
 1:var
 b=a[3],c=a[2],d=a[1];return[0,d[1],[0,d[2],[0,c[1],[0,c[2],[0,b[1],[0,b[2],0]]]]]];case
 2:return[0,a[1],0];default:return[0,a[1],[0,a[2],0]]}}function
-d1(e){var
+d6(e){var
 a=e[4],h=typeof
 a==="number"?0:2===a[0]?[0,a[1],[0,a[2],0]]:[0,a[1],0],c=e[3];if(c){var
 b=c[1];switch(b[0]){case
@@ -6444,70 +6638,70 @@ d=[0,b[1],[0,b[2],0]]}var
 f=d}else
 var
 f=c;return g(f,h)}function
-pQ(a){if(0===a[0]){var
+p$(a){if(0===a[0]){var
 b=a[5],c=b?b5(b[1]):b;return[0,a[2],[0,a[3],[0,a[4],c]]]}var
 d=[0,a[4],0],e=g(b5(a[3]),d);return g(b5(a[2]),e)}function
-pR(b,e){var
+qa(b,e){var
 a=e;for(;;)switch(a[0]){case
 0:return 1;case
 1:var
 c=a[1];if(0===c[0]){var
-f=c[1];return aj(function(a){return aD(f,a)},b)}return 0;case
+f=c[1];return ak(function(a){return aF(f,a)},b)}return 0;case
 3:var
-d=pR(b,a[2]);if(d){var
+d=qa(b,a[2]);if(d){var
 a=a[3];continue}return d;default:var
 a=a[1];continue}}function
-f0(c,a){return l(function(a){var
-b=fZ(a);return b?pR(c,a):b},a)}function
-pS(a){if(typeof
+f4(c,a){return l(function(a){var
+b=f3(a);return b?qa(c,a):b},a)}function
+qb(a){if(typeof
 a!=="number")switch(a[0]){case
 2:return a[1];case
 3:return g(a[2],a[3])}return 0}function
-pT(a){var
-d=gz(c(2,c(2,c(2,c(2,c(2,b))))),a);return d?gz(a,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b))))))))))):d}function
-pU(a,b){return b?[4,pU(a,b[1]),a]:a}function
+qc(a){var
+d=gD(c(2,c(2,c(2,c(2,c(2,b))))),a);return d?gD(a,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b))))))))))):d}function
+qd(a,b){return b?[4,qd(a,b[1]),a]:a}function
 k(a){switch(a[0]){case
 0:var
-i=a[2],j=c(2,q(c(2,c(2,b)))),l=function(a){return C(j,a)},m=gt(lM(i),l,b);return[0,l1(lN(gs(a[1]),i)),m];case
+i=a[2],j=c(2,q(c(2,c(2,b)))),l=function(a){return C(j,a)},m=gx(lW(i),l,b);return[0,l$(lX(gw(a[1]),i)),m];case
 1:var
 e=a[1];return 0===e[0]?[5,[0,b,b],[0,d,b]]:[1,e[1],e[2],e[3]];case
 2:var
-f=k(a[1]);return 0===f[0]?[0,P(f[1]),f[2]]:[3,[0,d,b],f];case
+f=k(a[1]);return 0===f[0]?[0,Q(f[1]),f[2]]:[3,[0,d,b],f];case
 3:var
 g=k(a[2]),h=k(a[3]);switch(a[1]){case
 0:return[2,g,h];case
 1:return[3,g,h];case
 2:return[4,g,h];default:return[5,g,h]}case
 4:var
-n=bh(fc(a[2]));return pU(k(a[1]),n);default:return[6,k(a[1])]}}function
+n=aR(fj(a[2]));return qd(k(a[1]),n);default:return[6,k(a[1])]}}function
 b6(a){if(0===a[0]){var
 b=k(a[1]);return[0,b,b]}var
 c=k(a[2]);return[0,k(a[1]),c]}function
-d2(a){var
+d7(a){var
 b=b6(a[3]),c=b6(a[2]);return[0,b6(a[1]),c,b]}function
-BD(a){switch(a[0]){case
+B$(a){switch(a[0]){case
 0:var
-b=a[5],c=b6(a[4]),d=d2(a[3]),e=d2(a[2]);return[0,[0,d2(a[1]),e,d,c,b]];case
+b=a[5],c=b6(a[4]),d=d7(a[3]),e=d7(a[2]);return[0,[0,d7(a[1]),e,d,c,b]];case
 1:var
-f=z(d2,a[3]),g=d2(a[2]);return[1,d2(a[1]),g,f];default:return[2,d2(a[1])]}}function
-pV(a){if(0===a[0]){var
+f=y(d7,a[3]),g=d7(a[2]);return[1,d7(a[1]),g,f];default:return[2,d7(a[1])]}}function
+qe(a){if(0===a[0]){var
 c=a[2],d=a[1],b=function(a){var
-b=k(j(a,c));return[0,k(j(a,d)),b]},e=b(function(a){return a[3]}),f=b(function(a){return a[2]});return[0,[0,b(function(a){return a[1]}),f,e]]}var
-g=k(a[5]),h=[0,k(a[4]),g],i=k(a[3]),l=k(a[2]);return[1,k(a[1]),l,i,h]}function
-eR(a){var
+b=k(h(a,c));return[0,k(h(a,d)),b]},e=b(function(a){return a[3]}),f=b(function(a){return a[2]});return[0,[0,b(function(a){return a[1]}),f,e]]}var
+g=k(a[5]),i=[0,k(a[4]),g],j=k(a[3]),l=k(a[2]);return[1,k(a[1]),l,j,i]}function
+eY(a){var
 b=k(a[3]),c=k(a[2]);return[0,k(a[1]),c,b]}function
-dl(a){if(0===a[0]){var
-c=a[5],h=c?eR(c[1]):[0,[0,d,b],[0,d,b],[0,d,b]],i=k(a[4]),j=k(a[3]),l=k(a[2]);return[0,bh(a[1]),l,j,i,h]}var
+ds(a){if(0===a[0]){var
+c=a[5],h=c?eY(c[1]):[0,[0,d,b],[0,d,b],[0,d,b]],i=k(a[4]),j=k(a[3]),l=k(a[2]);return[0,aR(a[1]),l,j,i,h]}var
 e=a[4],f=a[3],g=a[2];if(a[1]){var
-m=eR(f),n=eR(g);return[2,k(e),n,m]}var
-o=eR(f),p=eR(g);return[1,k(e),p,o]}function
-hN(b,a){if(a){var
-c=a[1],d=a[2],f=hN(g(b,[0,c,0]),d),h=e(function(a){return[0,c,a]},b);return g(a2(function(c){var
-a=c[2],b=c[1],d=0===b[0]?b[5]?0:0===a[0]?a[5]?0:n(b[1],a[1]):0:0===a[0]?0:cz(b[1],a[1]);return I(d)},h),f)}return a}function
-BE(b){if(b[1])return 0;var
+m=eY(f),n=eY(g);return[2,k(e),n,m]}var
+o=eY(f),p=eY(g);return[1,k(e),p,o]}function
+hS(b,a){if(a){var
+c=a[1],d=a[2],f=hS(g(b,[0,c,0]),d),h=e(function(a){return[0,c,a]},b);return g(a5(function(c){var
+a=c[2],b=c[1],d=0===b[0]?b[5]?0:0===a[0]?a[5]?0:n(b[1],a[1]):0:0===a[0]?0:cB(b[1],a[1]);return I(d)},h),f)}return a}function
+Ca(b){if(b[1])return 0;var
 a=b[4];if(typeof
 a!=="number"&&1===a[0])return[0,[0,k(a[1])],0];return 0}function
-pW(N,M,a){switch(a[1]){case
+qf(N,M,a){switch(a[1]){case
 0:var
 g=a[4];if(typeof
 g!=="number"&&0===g[0])return[0,[1,k(g[1])],0];return 0;case
@@ -6562,14 +6756,14 @@ b=k(W);return[13,a,k(X),b]}}if(K)return 0;break;case
 9:var
 u=a[4];if(typeof
 u!=="number"&&0===u[0]){var
-Y=u[1],Z=hN(0,M);return e(function(h){var
+Y=u[1],Z=hS(0,M);return e(function(h){var
 e=k(Y),a=h[2],c=h[1];if(0===c[0]){var
 f=c[1];if(0===a[0]){var
-g=function(a){return a?eR(a[1]):[0,[0,d,b],[0,d,b],[0,d,b]]};if(n(f,a[1])){var
-i=k(a[2]),j=[2,[2,k(c[2]),i],e],l=g(a[5]),m=g(c[5]);return[11,bh(f),m,l,j]}var
-o=dl(a);return[10,dl(c),o,e]}var
-p=dl(a);return[10,dl(c),p,e]}var
-q=dl(a);return[10,dl(c),q,e]},Z)}return 0;case
+g=function(a){return a?eY(a[1]):[0,[0,d,b],[0,d,b],[0,d,b]]};if(n(f,a[1])){var
+i=k(a[2]),j=[2,[2,k(c[2]),i],e],l=g(a[5]),m=g(c[5]);return[11,aR(f),m,l,j]}var
+o=ds(a);return[10,ds(c),o,e]}var
+p=ds(a);return[10,ds(c),p,e]}var
+q=ds(a);return[10,ds(c),q,e]},Z)}return 0;case
 10:var
 v=a[4],L=0;if(typeof
 v==="number"||!(1===v[0]))L=1;else{var
@@ -6579,15 +6773,15 @@ $=x[2],aa=x[1],c=function(a){var
 b=k(_),c=k($);return[12,a,k(aa),c,b]}}if(L)return 0;break;case
 11:var
 G=typeof
-a[4]==="number"?1:0,ab=G?BF:G;return ab;case
+a[4]==="number"?1:0,ab=G?Cb:G;return ab;case
 12:var
 y=a[4];if(typeof
 y!=="number"&&1===y[0]){var
 z=a[3];if(z){var
 H=z[1];if(0===H[0]){var
 ac=k(y[1]);return[0,[14,k(H[1]),ac],0]}return 0}return z}return 0;default:return 0}var
-B=a[2],P=B?[0,bh(B[1]),0]:aE(0,N);return e(c,P)}function
-BG(c,a){switch(a[1]){case
+B=a[2],P=B?[0,aR(B[1]),0]:aG(0,N);return e(c,P)}function
+Cc(c,a){switch(a[1]){case
 0:var
 l=a[4];if(typeof
 l!=="number"&&2!==l[0])return a[2]?0:a[3]?0:1;return 0;case
@@ -6631,7 +6825,7 @@ z!=="number"&&0===z[0])return a[2]?0:a[3]?0:1;return 0;case
 N=0,A=a[4];if(typeof
 A==="number"||!(1===A[0]))N=1;else{var
 h=a[3];if(!h)return h;if(0!==h[1][0])return 0;var
-B=n(c,BI),O=0;if(B){var
+B=n(c,Ce),O=0;if(B){var
 C=a[2];if(C){var
 b=C[1];O=1}else
 var
@@ -6657,17 +6851,17 @@ I=H;return I;case
 12:var
 J=a[4];if(typeof
 J!=="number"&&1===J[0]){if(a[2])return 0;var
-k=a[3];return k?0===k[1][0]?n(c,BJ):0:k}return 0;default:return 0}var
-p=ab(BH,b);return p?ab(b,c):p}function
-hO(c,k,j,b){var
-l=f(c),d=w(function(a){return pW(l,j,a)},b),a=w(BE,b),h=a?[0,a[1],a[2]]:BK,i=g(h,d),m=pV(k);return[0,e(BD,c),m,i]}function
-pX(b){if(b[1])return 0;var
+k=a[3];return k?0===k[1][0]?n(c,Cf):0:k}return 0;default:return 0}var
+p=ae(Cd,b);return p?ae(b,c):p}function
+hT(c,k,j,b){var
+l=f(c),d=w(function(a){return qf(l,j,a)},b),a=w(Ca,b),h=a?[0,a[1],a[2]]:Cg,i=g(h,d),m=qe(k);return[0,e(B$,c),m,i]}function
+qg(b){if(b[1])return 0;var
 a=b[4];if(typeof
 a!=="number"&&1===a[0])return[0,[0,k(a[1])],0];return 0}function
-pY(c){function
-a(a){return r(a,e(k,c),[0,d,b])}var
-f=a(BL),g=a(BM);return[0,a(0),g,f]}function
-hP(_,G,Z,a){switch(a[1]){case
+qh(c){function
+a(a){return s(a,e(k,c),[0,d,b])}var
+f=a(Ch),g=a(Ci);return[0,a(0),g,f]}function
+hU(_,G,Z,a){switch(a[1]){case
 0:var
 h=a[4];if(typeof
 h!=="number"&&0===h[0])return[0,[1,k(h[1])],0];return 0;case
@@ -6721,8 +6915,8 @@ b=k(ak);return[7,a,k(al),b]}}if(T)return 0;break;case
 9:var
 t=a[4];if(typeof
 t!=="number"&&0===t[0]){var
-am=t[1],an=hN(0,Z);return e(function(a){var
-b=k(am),c=dl(a[2]);return[14,dl(a[1]),c,b]},an)}return 0;case
+am=t[1],an=hS(0,Z);return e(function(a){var
+b=k(am),c=ds(a[2]);return[14,ds(a[1]),c,b]},an)}return 0;case
 10:var
 u=a[4],U=0;if(typeof
 u==="number"||!(1===u[0]))U=1;else{var
@@ -6753,14 +6947,14 @@ A==="number"||!(1===A[0]))W=1;else{var
 B=a[3],av=A[1];if(!B)return B;var
 O=B[1];if(1!==O[0])return 0;var
 aw=O[1],c=function(a){var
-b=k(av);return[13,a,0,pY(aw),b]}}if(W)return 0;break;case
+b=k(av);return[13,a,0,qh(aw),b]}}if(W)return 0;break;case
 15:var
 C=a[4],X=0;if(typeof
 C==="number"||!(1===C[0]))X=1;else{var
 D=a[3],ax=C[1];if(!D)return D;var
 P=D[1];if(1!==P[0])return 0;var
 ay=P[1],c=function(a){var
-b=k(ax);return[13,a,1,pY(ay),b]}}if(X)return 0;break;case
+b=k(ax);return[13,a,1,qh(ay),b]}}if(X)return 0;break;case
 16:var
 E=a[4],Y=0;if(typeof
 E==="number"||!(1===E[0]))Y=1;else{var
@@ -6768,11 +6962,11 @@ F=a[3],az=E[1];if(!F)return F;var
 Q=F[1];if(1!==Q[0])return 0;var
 aA=Q[1],c=function(a){var
 b=k(az);return[17,a,e(k,aA),b]}}if(Y)return 0;break;default:return 0}var
-H=a[2],aa=H?[0,bh(H[1]),0]:aE(0,G);return e(c,aa)}function
-eS(e,d,c,b){var
-f=w(function(a){return hP(e,d,c,a)},b),a=w(pX,b),h=a?[0,a[1],a[2]]:BN;return g(h,f)}function
-cR(a){return 11===a[1]?1:0}function
-cq(n,m,a){var
+H=a[2],aa=H?[0,aR(H[1]),0]:aG(0,G);return e(c,aa)}function
+eZ(e,d,c,b){var
+f=w(function(a){return hU(e,d,c,a)},b),a=w(qg,b),h=a?[0,a[1],a[2]]:Cj;return g(h,f)}function
+cV(a){return 11===a[1]?1:0}function
+cs(n,m,a){var
 b=a[1];if(!(4<=b))switch(b){case
 0:var
 c=a[4];if(typeof
@@ -6782,25 +6976,25 @@ l=0,d=a[4];if(typeof
 d!=="number"&&2===d[0]){var
 e=1;l=1}if(!l)var
 e=0;var
-f=cz(n,e);if(f){var
+f=cB(n,e);if(f){var
 g=a[2];if(g){var
-h=g[1],i=ab(BO,h);return i?ab(h,m):i}var
+h=g[1],i=ae(Ck,h);return i?ae(h,m):i}var
 j=1}else
 var
 j=f;return j;case
 3:var
 k=a[4];if(typeof
 k!=="number"&&1===k[0])return a[2]?0:a[3]?0:1;return 0}return 0}function
-a9(s,b,a){var
+bb(s,b,a){var
 d=a[2];if(d)var
-e=d[1],g=ab(BP,e),t=g?ab(e,b):g,c=t;else
+e=d[1],g=ae(Cl,e),t=g?ae(e,b):g,c=t;else
 var
 c=1;var
 h=a[1];if(!(9<=h))switch(h){case
 2:var
 i=a[4];if(typeof
 i!=="number"&&1===i[0]){var
-j=a[3];return j?0===j[1][0]?c:cq(0,b,a):cq(0,b,a)}return cq(0,b,a);case
+j=a[3];return j?0===j[1][0]?c:cs(0,b,a):cs(0,b,a)}return cs(0,b,a);case
 6:var
 k=a[4];if(typeof
 k!=="number"&&0===k[0]){var
@@ -6811,77 +7005,77 @@ m=l[1];switch(m[0]){case
 o=n(f(m[1]),b);if(o){if(a[2])return 0;var
 p=1}else
 var
-p=o;return p;default:return cq(0,b,a)}}return cq(0,b,a)}return cq(0,b,a);case
+p=o;return p;default:return cs(0,b,a)}}return cs(0,b,a)}return cs(0,b,a);case
 8:var
 q=a[4];if(typeof
 q!=="number"&&1===q[0]){var
-r=a[3];return r?0===r[1][0]?c?n(b,s):c:cq(0,b,a):cq(0,b,a)}return cq(0,b,a)}return cq(0,b,a)}function
-aG(c,b,a){return 11===a[1]?typeof
-a[4]==="number"?a[2]?a9(c,b,a):a[3]?a9(c,b,a):1:a9(c,b,a):a9(c,b,a)}function
-pZ(g,b,c,a){var
+r=a[3];return r?0===r[1][0]?c?n(b,s):c:cs(0,b,a):cs(0,b,a)}return cs(0,b,a)}return cs(0,b,a)}function
+aI(c,b,a){return 11===a[1]?typeof
+a[4]==="number"?a[2]?bb(c,b,a):a[3]?bb(c,b,a):1:bb(c,b,a):bb(c,b,a)}function
+qi(g,b,c,a){var
 h=a[2];if(h)var
-i=h[1],j=ab(BR,i),E=j?ab(i,c):j,d=E;else
+i=h[1],j=ae(Cn,i),E=j?ae(i,c):j,d=E;else
 var
 d=1;switch(a[1]){case
-1:if(a[3])return a9(ar(b),c,a);if(d){var
+1:if(a[3])return bb(as(b),c,a);if(d){var
 D=0,k=a[4];if(typeof
 k!=="number"&&2===k[0]){var
 l=1;D=1}if(!D)var
-l=0;return cz(g,l)}return d;case
+l=0;return cB(g,l)}return d;case
 4:var
 m=a[4];if(typeof
-m!=="number"&&0===m[0])return a[3]?a9(ar(b),c,a):d;return a9(ar(b),c,a);case
+m!=="number"&&0===m[0])return a[3]?bb(as(b),c,a):d;return bb(as(b),c,a);case
 5:var
 o=a[4];if(typeof
-o!=="number"&&0===o[0]){if(a[3])return a9(ar(b),c,a);var
-p=n(c,ar(b));if(p){var
+o!=="number"&&0===o[0]){if(a[3])return bb(as(b),c,a);var
+p=n(c,as(b));if(p){var
 q=typeof
 b==="number"?1:0;if(q){if(a[2])return 0;var
 e=1}else
 var
 e=q}else
 var
-e=p;return e}return a9(ar(b),c,a);case
+e=p;return e}return bb(as(b),c,a);case
 12:var
 r=a[4];if(typeof
 r!=="number"&&1===r[0]){var
 s=a[3];if(s){var
-t=s[1],u=n(c,ar(b));return u?typeof
-b==="number"?a[2]?0:0===t[0]?1:0:a[2]?0:3===t[0]?1:0:u}return a9(ar(b),c,a)}return a9(ar(b),c,a);case
+t=s[1],u=n(c,as(b));return u?typeof
+b==="number"?a[2]?0:0===t[0]?1:0:a[2]?0:3===t[0]?1:0:u}return bb(as(b),c,a)}return bb(as(b),c,a);case
 13:var
 v=a[4];if(typeof
-v!=="number"&&1===v[0])return a[3]?a9(ar(b),c,a):d?I(g):d;return a9(ar(b),c,a);case
+v!=="number"&&1===v[0])return a[3]?bb(as(b),c,a):d?I(g):d;return bb(as(b),c,a);case
 16:var
 w=a[4];if(typeof
 w!=="number"&&1===w[0]){var
 x=a[3];if(x){var
 y=x[1];if(1===y[0]){var
-z=d?n(c,ar(b)):d,A=z?n(f(y[1]),c):z;if(A)var
+z=d?n(c,as(b)):d,A=z?n(f(y[1]),c):z;if(A)var
 B=typeof
 b==="number"?1:0,C=B?1:B;else
 var
-C=A;return C}return a9(ar(b),c,a)}return a9(ar(b),c,a)}return a9(ar(b),c,a);default:return a9(ar(b),c,a)}}function
-dm(a){switch(a[0]){case
+C=A;return C}return bb(as(b),c,a)}return bb(as(b),c,a)}return bb(as(b),c,a);default:return bb(as(b),c,a)}}function
+dt(a){switch(a[0]){case
 0:return[0,k([0,a[1],a[2]])];case
 1:return[1,a[1]];case
-2:return[2,dm(a[1])];case
+2:return[2,dt(a[1])];case
 3:var
-b=dm(a[2]),c=dm(a[3]);switch(a[1]){case
+b=dt(a[2]),c=dt(a[3]);switch(a[1]){case
 0:return[3,b,c];case
 1:return[4,b,c];case
 2:return[5,b,c];default:return[6,b,c]}case
 4:var
-d=a[2];return[7,dm(a[1]),d];default:return[8,dm(a[1])]}}function
-kw(i,h,g,b,d,c,a){var
-j=aj(cR,a),l=eS(0,f(b),0,a),m=V(d,c),n=e(function(a){var
-b=k(a[2]);return[0,k(a[1]),b]},m),o=e(function(a){return 0===a[0]?[0,e(dm,a[1])]:[1,dm(a[1])]},b),p=e(function(a){var
-b=dm(a[2]);return[0,a[1],b]},g);return[0,[0,i,e(function(a){var
+d=a[2];return[7,dt(a[1]),d];default:return[8,dt(a[1])]}}function
+kG(i,h,g,b,d,c,a){var
+j=ak(cV,a),l=eZ(0,f(b),0,a),m=V(d,c),n=e(function(a){var
+b=k(a[2]);return[0,k(a[1]),b]},m),o=e(function(a){return 0===a[0]?[0,e(dt,a[1])]:[1,dt(a[1])]},b),p=e(function(a){var
+b=dt(a[2]);return[0,a[1],b]},g);return[0,[0,i,e(function(a){var
 b=b6(a[2]);return[0,a[1],b]},h),p,o],n,l,j]}function
-kx(c){function
+kH(c){function
 a(e){var
-a=[0,d,b];return r(e,c,[0,a,a])}var
-e=a(BS),f=a(BT);return[0,a(0),f,e]}function
-d3(a){function
+a=[0,d,b];return s(e,c,[0,a,a])}var
+e=a(Co),f=a(Cp);return[0,a(0),f,e]}function
+d8(a){function
 b(a){var
 b=k(a[2]);return[0,k(a[1]),b]}switch(a[0]){case
 0:return[0,b([0,a[1],a[2]])];case
@@ -6889,21 +7083,21 @@ b=k(a[2]);return[0,k(a[1]),b]}switch(a[0]){case
 c=b(a[3]),d=b(a[2]);return[1,b(a[1]),d,c];case
 2:return[2,k(a[1])];default:var
 e=k(a[2]);return[3,k(a[1]),e]}}function
-p0(a){if(0===a[0]){var
-b=V(a[1],a[2]);return[0,kx(e(function(a){var
-b=k(a[2]);return[0,k(a[1]),b]},b))]}return pV([1,a[1],a[2],a[3],a[4],a[5]])}function
-p1(j,b,i,h,g,d,a){function
-c(a){return kx(e(b6,a))}var
-l=aj(cR,a),m=eS(0,f(b),d,a),n=d3(g),o=p0(h),p=k(i);return[0,j,e(function(a){var
+qj(a){if(0===a[0]){var
+b=V(a[1],a[2]);return[0,kH(e(function(a){var
+b=k(a[2]);return[0,k(a[1]),b]},b))]}return qe([1,a[1],a[2],a[3],a[4],a[5]])}function
+qk(j,b,i,h,g,d,a){function
+c(a){return kH(e(b6,a))}var
+l=ak(cV,a),m=eZ(0,f(b),d,a),n=d8(g),o=qj(h),p=k(i);return[0,j,e(function(a){var
 b=c(a[2]);return[0,c(a[1]),b]},b),p,o,n,m,l]}function
-d4(a){return aj(function(a){return 3===a[0]?1:0},a)}function
-ky(j,a,g,i,h,c){var
-l=aj(cR,c),m=f(a),n=eS(d4(a),m,0,c),o=z(d3,h),p=p0(i),q=g?k(g[1]):[0,b,b];return[0,j,e(function(a){function
-c(a){return kx(e(b6,a))}switch(a[0]){case
+d9(a){return ak(function(a){return 3===a[0]?1:0},a)}function
+kI(j,a,g,i,h,c){var
+l=ak(cV,c),m=f(a),n=eZ(d9(a),m,0,c),o=y(d8,h),p=qj(i),q=g?k(g[1]):[0,b,b];return[0,j,e(function(a){function
+c(a){return kH(e(b6,a))}switch(a[0]){case
 0:var
 k=a[5],l=b6(a[4]),m=c(a[3]),n=c(a[2]);return[0,[0,[0,c(a[1]),n,m,l,k]]];case
 1:var
-o=z(c,a[3]),p=c(a[2]);return[0,[1,c(a[1]),p,o]];case
+o=y(c,a[3]),p=c(a[2]);return[0,[1,c(a[1]),p,o]];case
 2:return[0,[2,c(a[1])]];default:var
 f=a[1];if(f)var
 g=c(f);else
@@ -6913,17 +7107,17 @@ q=a[7],r=b6(a[6]),s=b6(a[5]),t=c(a[4]),u=c(a[3]);return[1,[0,g,c(a[2]),u,t,s,r,q
 b7(c){var
 a=c[1];if(13!==a){var
 b=16<=a?1:0;if(!b)return b}return 1}function
-kz(a){function
+kJ(a){function
 b(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}switch(a[0]){case
 0:var
 c=a[5],d=a[4],e=b(a[3]),f=b(a[2]);return[0,b(a[1]),f,e,d,c];case
 1:var
-g=z(b,a[3]),h=b(a[2]);return[1,b(a[1]),h,g];default:return[2,b(a[1])]}}function
-kA(a){if(0===a[0]){var
+g=y(b,a[3]),h=b(a[2]);return[1,b(a[1]),h,g];default:return[2,b(a[1])]}}function
+kK(a){if(0===a[0]){var
 b=a[2],c=a[1];return[0,[0,c[1],[0,c[2],[0,c[3],0]]],[0,b[1],[0,b[2],[0,b[3],0]]]]}return[1,a[1],a[2],a[3],a[4],a[5]]}function
-p2(a){return a[1]?0:1}function
-p3(l){var
-b=a2(p2,l);if(b){var
+ql(a){return a[1]?0:1}function
+qm(l){var
+b=a5(ql,l);if(b){var
 d=b[1];if(d[2])return 0;if(d[3])return 0;var
 c=d[4],a=b[2];if(typeof
 c!=="number")switch(c[0]){case
@@ -6944,69 +7138,69 @@ k=a;return k}var
 i=0}else
 var
 i=b;return i}function
-p4(a){var
-c=p2(a);if(c)return c;if(1===a[1]){var
+qn(a){var
+c=ql(a);if(c)return c;if(1===a[1]){var
 b=a[4];if(typeof
 b!=="number"&&0===b[0])return 1;return 0}return 0}function
-hQ(i,h,b){function
+hV(i,h,b){function
 c(b,a){return[3,1,b,a]}function
 a(b,a){return[3,3,b,a]}function
 d(b,a){return[3,2,b,a]}function
 e(b,a){return[3,0,b,a]}var
-f=c(hR,a(hR,b)),j=a(f,kB),k=i?f:a(c(b,hR),kB);function
-g(b){return a(b,[5,e(hR,d(kB,d(b,b)))])}var
+f=c(hW,a(hW,b)),j=a(f,kL),k=i?f:a(c(b,hW),kL);function
+g(b){return a(b,[5,e(hW,d(kL,d(b,b)))])}var
 l=g(k);return a(h,e(g(j),l))}function
-hS(f,e,d){function
+hX(f,e,d){function
 a(b,a){return[3,3,b,a]}function
 b(b,a){return[3,2,b,a]}var
-c=a([3,1,kC,a(kC,d)],p5),g=a(c,[5,[3,0,kC,b(p5,b(c,c))]]);return[2,b(hQ(f,e,d),g)]}function
-kD(e,g,a){function
+c=a([3,1,kM,a(kM,d)],qo),g=a(c,[5,[3,0,kM,b(qo,b(c,c))]]);return[2,b(hV(f,e,d),g)]}function
+kN(e,g,a){function
 f(b,a){return[3,1,b,a]}function
 b(b,a){return[3,3,b,a]}function
 c(b,a){return[3,2,b,a]}var
-h=f(hT,b(hT,a)),d=e?h:b(f(a,hT),p6),i=b(d,[5,[3,0,hT,c(p6,c(d,d))]]);return c(hQ(e,g,a),i)}function
-p7(c,g,b,a){function
+h=f(hY,b(hY,a)),d=e?h:b(f(a,hY),qp),i=b(d,[5,[3,0,hY,c(qp,c(d,d))]]);return c(hV(e,g,a),i)}function
+qq(c,g,b,a){function
 d(b,a){return e(function(c){var
-d=n(b,c)?a:BU;return[0,d]},BW)}return e(function(e){var
-j=[0,hQ(c,b,a)],i=1,k=d(e,[2,g]);function
+d=n(b,c)?a:Cq;return[0,d]},Cs)}return e(function(e){var
+j=[0,hV(c,b,a)],i=1,k=d(e,[2,g]);function
 f(b,a){return[3,1,b,a]}var
-h=hQ(c,b,a),l=d(e,f(f(hS(c,b,a),g),h));return[0,d(e,BV),l,k,j,i]},BX)}function
-p8(c,b,a){var
-d=[0,kD(c,b,a),0],e=[0,kD(c,b,a),d],f=[0,kD(c,b,a),e],g=[0,hS(c,b,a),0],h=[0,hS(c,b,a),g];return[0,[0,hS(c,b,a),h],f]}function
-p9(o,e,a){if(e)if(a){var
-g=e[1],h=a[1],j=cG(k(g[2][1]));if(j){var
-l=j[1],m=cG(k(g[2][2]));if(m)var
+h=hV(c,b,a),l=d(e,f(f(hX(c,b,a),g),h));return[0,d(e,Cr),l,k,j,i]},Ct)}function
+qr(c,b,a){var
+d=[0,kN(c,b,a),0],e=[0,kN(c,b,a),d],f=[0,kN(c,b,a),e],g=[0,hX(c,b,a),0],h=[0,hX(c,b,a),g];return[0,[0,hX(c,b,a),h],f]}function
+qs(o,e,a){if(e)if(a){var
+g=e[1],h=a[1],j=cK(k(g[2][1]));if(j){var
+l=j[1],m=cK(k(g[2][2]));if(m)var
 p=m[1],n=function(a){function
 d(a){return c(2,a)}var
-e=[0,a,gt(h[2],d,b)];return dA(l,a5(dB(p,l),e))},q=n(F(h[1],b)),f=[0,n(h[1]),q];else
+e=[0,a,gx(h[2],d,b)];return dG(l,a9(dH(p,l),e))},q=n(F(h[1],b)),f=[0,n(h[1]),q];else
 var
 f=[0,[0,d,b],[0,d,b]]}else
 var
 f=[0,[0,d,b],[0,d,b]];var
-r=p9([0,o],e[2],a[2]),i=[0,[0,g[1],[1,o,f[1],f[2]]],r]}else
+r=qs([0,o],e[2],a[2]),i=[0,[0,g[1],[1,o,f[1],f[2]]],r]}else
 var
 i=a;else
 var
 i=e;return i}function
-ax(b,a){switch(a[0]){case
+az(b,a){switch(a[0]){case
 0:return[0,a[1],a[2]];case
 1:var
 c=a[1];if(0===c[0]){var
-e=c[1],d=l4(function(a){return aD(e,a[1])},b);return d?[1,d[1][2]]:a}return a;case
-2:return[2,ax(b,a[1])];case
+e=c[1],d=mb(function(a){return aF(e,a[1])},b);return d?[1,d[1][2]]:a}return a;case
+2:return[2,az(b,a[1])];case
 3:var
-f=ax(b,a[3]),g=ax(b,a[2]);return[3,a[1],g,f];case
+f=az(b,a[3]),g=az(b,a[2]);return[3,a[1],g,f];case
 4:var
-h=a[2];return[4,ax(b,a[1]),h];default:return[5,ax(b,a[1])]}}function
-p_(b,a){if(0===a[0])return[0,ax(b,a[1])];var
-c=ax(b,a[2]);return[1,ax(b,a[1]),c]}function
-kE(b,a){var
-c=j(b,a[3]),d=j(b,a[2]);return[0,j(b,a[1]),d,c]}function
-kF(c,a){if(c)if(a){var
+h=a[2];return[4,az(b,a[1]),h];default:return[5,az(b,a[1])]}}function
+qt(b,a){if(0===a[0])return[0,az(b,a[1])];var
+c=az(b,a[2]);return[1,az(b,a[1]),c]}function
+kO(b,a){var
+c=h(b,a[3]),d=h(b,a[2]);return[0,h(b,a[1]),d,c]}function
+kP(c,a){if(c)if(a){var
 g=a[2],b=a[1],h=c[1];if(typeof
 b!=="number"&&0===b[0]){var
-e=kF(h,g);if(e){var
-i=e[1],f=kF(h,i[2]);if(f)var
+e=kP(h,g);if(e){var
+i=e[1],f=kP(h,i[2]);if(f)var
 j=f[1],k=[0,[0,[0,b[1],i[1],j[1]],j[2]]];else
 var
 k=f;var
@@ -7018,62 +7212,62 @@ var
 d=a;else
 var
 d=c;return d}function
-kG(g,f,a){if(a){var
-e=a[1],h=a[2];if(f)return[0,e,kG(g,f[1],h)];var
+kQ(g,f,a){if(a){var
+e=a[1],h=a[2];if(f)return[0,e,kQ(g,f[1],h)];var
 j=[0,e[2]],k=g?b:d,l=e[1],i=[0,[0,F(C(c(2,b),l),k),j],h]}else
 var
 i=a;return i}function
-BY(a){if(typeof
+Cu(a){if(typeof
 a!=="number"&&1===a[0])return 1;return 0}function
-BZ(a){if(typeof
+Cv(a){if(typeof
 a!=="number"&&2===a[0])return 1;return 0}function
-hU(e,a){if(0===a[0]){var
-f=[0,b,c(2,b)],g=hU(e,a[3]);return a5(dA(hU(e,a[2]),g),f)}return j(e,a[1])?[0,b,b]:[0,d,b]}function
-p$(a){return 0===a[0]?ez(a[1][4]):0}function
-qa(a){switch(a[0]){case
+hZ(e,a){if(0===a[0]){var
+f=[0,b,c(2,b)],g=hZ(e,a[3]);return a9(dG(hZ(e,a[2]),g),f)}return h(e,a[1])?[0,b,b]:[0,d,b]}function
+qu(a){return 0===a[0]?eG(a[1][4]):0}function
+qv(a){switch(a[0]){case
 0:var
-b=a[1],c=bd(b[3]);return g(bd(b[2]),c);case
+b=a[1],c=bh(b[3]);return g(bh(b[2]),c);case
 1:var
-d=bd(a[2]);return g(bd(a[1]),d);default:return 0}}function
-hV(a){switch(a[0]){case
-0:return bJ(bd(a[1][1]));case
+d=bh(a[2]);return g(bh(a[1]),d);default:return 0}}function
+h0(a){switch(a[0]){case
+0:return bL(bh(a[1][1]));case
 1:var
-b=a[3];return b?bJ(bd(b[1])):d;default:return bJ(bd(a[1]))}}function
-hW(c){var
-a=w(p$,c),d=a?[0,a[1],a[2]]:w(qa,c);return F(b,bJ(d))}function
-qb(d,a){if(d){if(a){var
-b=a[1],g=d[1],e=qb(d[2],a[2]);if(e){var
+b=a[3];return b?bL(bh(b[1])):d;default:return bL(bh(a[1]))}}function
+h1(c){var
+a=w(qu,c),d=a?[0,a[1],a[2]]:w(qv,c);return F(b,bL(d))}function
+qw(d,a){if(d){if(a){var
+b=a[1],g=d[1],e=qw(d[2],a[2]);if(e){var
 h=e[1],i=h[2],j=h[1];if(45===b)var
-c=B0;else
+c=Cw;else
 if(43===b)var
-c=B1;else
+c=Cx;else
 var
-f=48===b?1:0,n=f?B2:f,c=n;if(c)return[0,[0,[0,[0,g,c[1]],j],i]];var
+f=48===b?1:0,n=f?Cy:f,c=n;if(c)return[0,[0,[0,[0,g,c[1]],j],i]];var
 k=49===b?1:0,o=k?[0,[0,j,[0,g,i]]]:k,l=o}else
 var
 l=e;var
 m=l}else
 var
-m=a;return m}return a?0:B3}function
-dn(b,c,a){switch(a[0]){case
+m=a;return m}return a?0:Cz}function
+du(b,c,a){switch(a[0]){case
 0:var
-d=a[1];if(aD(d,B4))return B5;if(aD(d,B6))return B7;if(aD(d,B8))return B9;if(aD(d,B_))return B$;if(aD(d,Ca))return Cb;var
-n=aD(d,Cc),B=n?Cd:n;return B;case
+d=a[1];if(aF(d,CA))return CB;if(aF(d,CC))return CD;if(aF(d,CE))return CF;if(aF(d,CG))return CH;if(aF(d,CI))return CJ;var
+n=aF(d,CK),B=n?CL:n;return B;case
 1:var
-e=a[3],f=a[2],g=a[1];if(aD(g,Ce))return[0,[0,e,f]];if(aD(g,Cf))return[0,[1,e,f]];if(aD(g,Cg))return[0,[2,e,f]];var
-o=aD(g,Ch),C=o?[0,[8,e,f]]:o;return C;case
+e=a[3],f=a[2],g=a[1];if(aF(g,CM))return[0,[0,e,f]];if(aF(g,CN))return[0,[1,e,f]];if(aF(g,CO))return[0,[2,e,f]];var
+o=aF(g,CP),C=o?[0,[8,e,f]]:o;return C;case
 2:return[0,[4,a[1]]];case
 3:return[0,[3,a[2],a[1],a[3]]];case
 4:return[0,[9,a[2],a[1],a[3],a[4]]];case
 5:var
-h=dn(b,c,a[1]),D=h?[0,[5,h[1],a[2],a[3]]]:h;return D;case
+h=du(b,c,a[1]),D=h?[0,[5,h[1],a[2],a[3]]]:h;return D;case
 6:var
-i=dn(b,c,a[1]),E=i?[0,[7,i[1],a[2],a[3]]]:i;return E;case
+i=du(b,c,a[1]),E=i?[0,[7,i[1],a[2],a[3]]]:i;return E;case
 7:var
-F=dn(b,c,a[1]);return z(function(a){return[6,a]},F);case
+F=du(b,c,a[1]);return y(function(a){return[6,a]},F);case
 8:if(b){var
-p=a[3],q=a[2],j=dn(b,c,a[1]);if(j){var
-r=j[1],k=qb(b,iD(iC(az(q),function(a){return a$(q,a)})));if(k){var
+p=a[3],q=a[2],j=du(b,c,a[1]);if(j){var
+r=j[1],k=qw(b,iI(iH(aB(q),function(a){return bd(q,a)})));if(k){var
 s=k[1],t=s[2],u=s[1];if(t)return[0,[11,c,t,[10,r,u,p]]];var
 v=[0,[10,r,u,p]]}else
 var
@@ -7085,30 +7279,30 @@ x=w}else
 var
 x=b;return x;case
 9:var
-y=function(a){if(a){var
-f=a[1],d=dn(b,c,f[2]);if(d)var
-e=y(a[2]),h=e?[0,[0,[0,f[1],d[1]],e[1]]]:e,g=h;else
+z=function(a){if(a){var
+f=a[1],d=du(b,c,f[2]);if(d)var
+e=z(a[2]),h=e?[0,[0,[0,f[1],d[1]],e[1]]]:e,g=h;else
 var
-g=d;return g}return Ci},G=y(a[1]);return z(function(a){return[12,a]},G);default:var
-l=dn(b,c,a[3]);if(l)var
-m=dn(b,c,a[4]),H=m?[0,[13,a[2],a[1],l[1],m[1]]]:m,A=H;else
+g=d;return g}return CQ},G=z(a[1]);return y(function(a){return[12,a]},G);default:var
+l=du(b,c,a[3]);if(l)var
+m=du(b,c,a[4]),H=m?[0,[13,a[2],a[1],l[1],m[1]]]:m,A=H;else
 var
 A=l;return A}}function
-qc(e,d,a){if(a){var
-f=a[1],b=dn(e,d,f[2]);if(b)var
-c=qc(e,d,a[2]),h=c?[0,[0,[0,f[1],b[1]],c[1]]]:c,g=h;else
+qx(e,d,a){if(a){var
+f=a[1],b=du(e,d,f[2]);if(b)var
+c=qx(e,d,a[2]),h=c?[0,[0,[0,f[1],b[1]],c[1]]]:c,g=h;else
 var
-g=b;return g}return Cj}function
-d5(b,g,f,e,d,a){if(d)if(a){var
+g=b;return g}return CR}function
+d_(b,g,f,e,d,a){if(d)if(a){var
 c=a[1];if(c[3])return 0;if(c[4])return 0;var
-n=c[2],o=a[2],p=d[1],h=qc(f,e,c[1]);if(h){var
+n=c[2],o=a[2],p=d[1],h=qx(f,e,c[1]);if(h){var
 i=h[1];if(n){var
-j=d5(b,g,f,e,p,o);if(j){var
-q=j[1],k=d5(b,g,f,e,p,q[2]);if(k){var
-r=k[1],s=r[1],t=q[1],l=n[1],y=r[2];if(aB(l,b))var
+j=d_(b,g,f,e,p,o);if(j){var
+q=j[1],k=d_(b,g,f,e,p,q[2]);if(k){var
+r=k[1],s=r[1],t=q[1],l=n[1],z=r[2];if(aD(l,b))var
 u=[0,[1,i,l,t,s]];else
 var
-x=G(g,dy(l,b)),u=z(function(a){return[2,i,a,t,s]},x);return z(function(a){return[0,a,y]},u)}var
+x=G(g,dE(l,b)),u=y(function(a){return[2,i,a,t,s]},x);return y(function(a){return[0,a,z]},u)}var
 v=k}else
 var
 v=j;return v}var
@@ -7120,67 +7314,67 @@ var
 m=a;else
 var
 m=d;return m}function
-kH(i,h,g,e,d,a){if(d){if(a){var
-b=d5(i,h,g,e,f(a),a);if(b)var
-j=b[1],c=kH(i,h,g,e,d[1],j[2]),l=c?[0,[0,j[1],c[1]]]:c,k=l;else
+kR(i,h,g,e,d,a){if(d){if(a){var
+b=d_(i,h,g,e,f(a),a);if(b)var
+j=b[1],c=kR(i,h,g,e,d[1],j[2]),l=c?[0,[0,j[1],c[1]]]:c,k=l;else
 var
-k=b;return k}return Ck}return a?0:Cl}function
-qd(a){if(typeof
-a==="number")return 0===a?Cm:Cn;else
+k=b;return k}return CS}return a?0:CT}function
+qy(a){if(typeof
+a==="number")return 0===a?CU:CV;else
 switch(a[0]){case
 0:return[0,[0,a[1],a[2]]];case
 1:return[0,[1,a[1],a[2]]];default:return 0}}function
-kI(e,d,a){if(d)if(a){var
+kS(e,d,a){if(d)if(a){var
 b=a[1];if(b[1])return 0;var
 j=b[4],c=b[3],k=b[2],l=a[2],m=d[1];if(k){if(c)return 0;if(j)return 0;var
-f=k[1],g=kI(e,m,l);if(g){var
-n=g[1],o=n[1],h=kI(e,m,n[2]);if(h){var
-p=h[1],q=p[2],r=p[1];if(aB(f,Co))return[0,[0,[1,f,o,r],q]];var
-t=G(e,dy(f,Cp));return z(function(a){return[0,[2,a,o,r],q]},t)}var
+f=k[1],g=kS(e,m,l);if(g){var
+n=g[1],o=n[1],h=kS(e,m,n[2]);if(h){var
+p=h[1],q=p[2],r=p[1];if(aD(f,CW))return[0,[0,[1,f,o,r],q]];var
+t=G(e,dE(f,CX));return y(function(a){return[0,[2,a,o,r],q]},t)}var
 s=h}else
 var
 s=g;return s}if(c){var
-u=qd(c[1]);return z(function(a){return[0,[0,j,a],l]},u)}var
+u=qy(c[1]);return y(function(a){return[0,[0,j,a],l]},u)}var
 i=c}else
 var
 i=a;else
 var
 i=d;return i}function
-dp(b,a){return 0===b[0]?[0,k(b[1]),a]:a?[0,a[1],a[2]]:[0,k(b[1]),0]}function
-d6(a,e){var
-b=dp(a[1],e),c=dp(a[2],b[2]),d=dp(a[3],c[2]);return[0,[0,b[1],c[1],d[1]],d[2]]}function
-qe(d,c){if(d){var
+dv(b,a){return 0===b[0]?[0,k(b[1]),a]:a?[0,a[1],a[2]]:[0,k(b[1]),0]}function
+d$(a,e){var
+b=dv(a[1],e),c=dv(a[2],b[2]),d=dv(a[3],c[2]);return[0,[0,b[1],c[1],d[1]],d[2]]}function
+qz(d,c){if(d){var
 a=d[1];switch(a[0]){case
 0:var
-e=d6(a[1],c),f=d6(a[2],e[2]),g=d6(a[3],f[2]),h=dp(a[4],g[2]),b=[0,[0,e[1],f[1],g[1],h[1],a[5]],h[2]];break;case
+e=d$(a[1],c),f=d$(a[2],e[2]),g=d$(a[3],f[2]),h=dv(a[4],g[2]),b=[0,[0,e[1],f[1],g[1],h[1],a[5]],h[2]];break;case
 1:var
-i=a[3],j=d6(a[1],c),k=j[1],l=d6(a[2],j[2]),m=l[2],n=l[1];if(i)var
-o=d6(i[1],m),b=[0,[1,k,n,[0,o[1]]],o[2]];else
+i=a[3],j=d$(a[1],c),k=j[1],l=d$(a[2],j[2]),m=l[2],n=l[1];if(i)var
+o=d$(i[1],m),b=[0,[1,k,n,[0,o[1]]],o[2]];else
 var
 b=[0,[1,k,n,0],m];break;default:var
-p=d6(a[1],c),b=[0,[2,p[1]],p[2]]}var
-q=qe(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
-f1(t,g){var
+p=d$(a[1],c),b=[0,[2,p[1]],p[2]]}var
+q=qz(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
+f5(t,g){var
 u=t[3];if(typeof
-g==="number")return 0===g?Ct:Cu;else
+g==="number")return 0===g?C1:C2;else
 switch(g[0]){case
 0:var
 v=g[2],h=g[1],B=G(u,h);if(B){var
-ab=0,D=B[1];if(typeof
-D==="number"||!(13===D[0]))ab=1;else
+ab=0,E=B[1];if(typeof
+E==="number"||!(13===E[0]))ab=1;else
 var
-x=t[1],A=hW(x),a=e(function(a){var
+x=t[1],A=h1(x),a=e(function(a){var
 g=f(x);if(n(f(a),g)){var
 h=V(x,a);return e(function(a){var
-e=a[2],f=E(d,A),g=2===a[1][0]?1:0;return cz(g,f)?C(e,cb(c(2,b),cx(A))):e},h)}return a},v);if(ab)var
+e=a[2],f=D(d,A),g=2===a[1][0]?1:0;return cB(g,f)?C(e,cb(c(2,b),cz(A))):e},h)}return a},v);if(ab)var
 a=v}else
 var
 a=v;var
-ac=G(u,h),ad=t[1],w=z(function(b){if(typeof
+ac=G(u,h),ad=t[1],w=y(function(b){if(typeof
 b!=="number")switch(b[0]){case
-5:return Cr;case
+5:return CZ;case
 12:var
-a=G(ad,b[1]);if(a){if(2===a[1][0])return Cs;var
+a=G(ad,b[1]);if(a){if(2===a[1][0])return C0;var
 c=0}else
 var
 c=a;return c;case
@@ -7189,7 +7383,7 @@ c=a;return c;case
 4:case
 6:case
 7:case
-11:return 0}return Cq},ac);if(w){var
+11:return 0}return CY},ac);if(w){var
 F=w[1];if(F){var
 H=F[1];if(H){if(H[1])return 0;if(a){var
 i=a[1];if(i){var
@@ -7242,85 +7436,85 @@ Y=[0,[0,d,d],d],Z=[0,[0,h,Y,Y]]}else
 var
 Z=w;return Z;case
 1:var
-_=g[1],y=G(u,_);if(y){var
-$=y[1];if(typeof
+_=g[1],z=G(u,_);if(z){var
+$=z[1];if(typeof
 $!=="number"&&1===$[0])return[0,[1,_,g[2]]];var
 aa=0}else
 var
-aa=y;return aa;default:return 0}}function
-bn(a,b){if(a){var
-c=dp(a[1],b),d=bn(a[2],c[2]);return[0,[0,c[1],d[1]],d[2]]}return[0,0,b]}function
-aJ(c){function
-a(a){return r(a,c,[0,d,b])}var
-e=a(Cv),f=a(Cw);return[0,a(0),f,e]}function
-qf(a,b){if(a){var
-c=a[1],d=bn(c[1],b),e=bn(c[2],d[2]),f=qf(a[2],e[2]),g=f[2],h=f[1],i=aJ(e[1]);return[0,[0,[0,aJ(d[1]),i],h],g]}return[0,0,b]}function
-kJ(f,e){if(f){var
+aa=z;return aa;default:return 0}}function
+bo(a,b){if(a){var
+c=dv(a[1],b),d=bo(a[2],c[2]);return[0,[0,c[1],d[1]],d[2]]}return[0,0,b]}function
+aL(c){function
+a(a){return s(a,c,[0,d,b])}var
+e=a(C3),f=a(C4);return[0,a(0),f,e]}function
+qA(a,b){if(a){var
+c=a[1],d=bo(c[1],b),e=bo(c[2],d[2]),f=qA(a[2],e[2]),g=f[2],h=f[1],i=aL(e[1]);return[0,[0,[0,aL(d[1]),i],h],g]}return[0,0,b]}function
+kT(f,e){if(f){var
 a=f[1];switch(a[0]){case
 0:var
-g=bn(a[1],e),h=bn(a[2],g[2]),i=bn(a[3],h[2]),j=dp(a[4],i[2]),A=j[2],B=a[5],C=j[1],D=aJ(i[1]),E=aJ(h[1]),c=[0,[0,[0,aJ(g[1]),E,D,C,B]],A];break;case
+g=bo(a[1],e),h=bo(a[2],g[2]),i=bo(a[3],h[2]),j=dv(a[4],i[2]),A=j[2],B=a[5],C=j[1],D=aL(i[1]),E=aL(h[1]),c=[0,[0,[0,aL(g[1]),E,D,C,B]],A];break;case
 1:var
-k=a[3],l=bn(a[1],e),m=l[1],n=bn(a[2],l[2]),o=n[2],p=n[1];if(k)var
-q=bn(k[1],o),F=q[2],G=[0,aJ(q[1])],H=aJ(p),c=[0,[0,[1,aJ(m),H,G]],F];else
+k=a[3],l=bo(a[1],e),m=l[1],n=bo(a[2],l[2]),o=n[2],p=n[1];if(k)var
+q=bo(k[1],o),F=q[2],G=[0,aL(q[1])],H=aL(p),c=[0,[0,[1,aL(m),H,G]],F];else
 var
-I=aJ(p),c=[0,[0,[1,aJ(m),I,0]],o];break;case
+I=aL(p),c=[0,[0,[1,aL(m),I,0]],o];break;case
 2:var
-r=bn(a[1],e),J=r[2],c=[0,[0,[2,aJ(r[1])]],J];break;default:var
-s=a[1],t=bn(s,e),u=bn(a[2],t[2]),v=bn(a[3],u[2]),w=bn(a[4],v[2]),x=dp(a[5],w[2]),y=dp(a[6],x[2]),K=s?aJ(t[1]):[0,[0,d,b],[0,d,b],[0,b,b]],L=y[2],M=a[7],N=y[1],O=x[1],P=aJ(w[1]),Q=aJ(v[1]),c=[0,[1,[0,K,aJ(u[1]),Q,P,O,N,M]],L]}var
-z=kJ(f[2],c[2]);return[0,[0,c[1],z[1]],z[2]]}return[0,0,e]}function
-dq(a){return mq(i,a)}function
-Cx(a){if(typeof
+r=bo(a[1],e),J=r[2],c=[0,[0,[2,aL(r[1])]],J];break;default:var
+s=a[1],t=bo(s,e),u=bo(a[2],t[2]),v=bo(a[3],u[2]),w=bo(a[4],v[2]),x=dv(a[5],w[2]),y=dv(a[6],x[2]),K=s?aL(t[1]):[0,[0,d,b],[0,d,b],[0,b,b]],L=y[2],M=a[7],N=y[1],O=x[1],P=aL(w[1]),Q=aL(v[1]),c=[0,[1,[0,K,aL(u[1]),Q,P,O,N,M]],L]}var
+z=kT(f[2],c[2]);return[0,[0,c[1],z[1]],z[2]]}return[0,0,e]}function
+dw(a){return mK(j,a)}function
+C5(a){if(typeof
 a==="number")return 1;else
 switch(a[0]){case
-5:return h(i,1,[3,a[1],[0,b,b]]);case
-6:return h(i,1,a[2]);case
+5:return i(j,1,[3,a[1],[0,b,b]]);case
+6:return i(j,1,a[2]);case
 8:var
-d=h(i,1,a[1]);return d?h(i,1,a[2]):d;case
-10:return h(i,0,a[3]);case
+d=i(j,1,a[1]);return d?i(j,1,a[2]):d;case
+10:return i(j,0,a[3]);case
 11:var
-e=a[4];return 2===e[0]?h(i,0,e[2]):0;case
+e=a[4];return 2===e[0]?i(j,0,e[2]):0;case
 12:var
-f=h(i,0,a[2]),g=f?h(i,0,a[3]):f;return g?h(i,1,a[4]):g;case
+f=i(j,0,a[2]),g=f?i(j,0,a[3]):f;return g?i(j,1,a[4]):g;case
 14:var
-j=h(i,0,a[1]);return j?h(i,1,a[2]):j;case
+h=i(j,0,a[1]);return h?i(j,1,a[2]):h;case
 15:var
-k=[0,a[2],a[1]],m=1;return l(function(a){return h(i,m,a)},k);case
+k=[0,a[2],a[1]],m=1;return l(function(a){return i(j,m,a)},k);case
 2:case
-3:return dq(a[2]);case
+3:return dw(a[2]);case
 4:case
 13:var
-c=h(i,1,a[2]);return c?h(i,1,a[3]):c;default:return h(i,1,a[1])}}function
-kK(a){if(typeof
+c=i(j,1,a[2]);return c?i(j,1,a[3]):c;default:return i(j,1,a[1])}}function
+kU(a){if(typeof
 a==="number")return 1;else
 switch(a[0]){case
 4:var
-d=a[3],e=a[2],f=h(i,1,[3,d,e]),g=f?h(i,1,[3,[2,e,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b]],d]):f,j=g?h(i,0,[2,e,[0,c(2,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))))),b]]):g;return j?h(i,0,[3,[0,c(2,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))))),b],d]):j;case
-5:return h(i,1,[3,a[1],[0,b,b]]);case
+d=a[3],e=a[2],f=i(j,1,[3,d,e]),g=f?i(j,1,[3,[2,e,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b]],d]):f,h=g?i(j,0,[2,e,[0,c(2,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))))),b]]):g;return h?i(j,0,[3,[0,c(2,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))))),b],d]):h;case
+5:return i(j,1,[3,a[1],[0,b,b]]);case
 8:var
-B=[0,a[2],a[1]],C=1;return l(function(a){return h(i,C,a)},B);case
-10:return h(i,1,a[2]);case
+B=[0,a[2],a[1]],C=1;return l(function(a){return i(j,C,a)},B);case
+10:return i(j,1,a[2]);case
 11:var
-m=a[2],n=h(i,1,m);return n?h(i,0,[3,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b],m]):n;case
+m=a[2],n=i(j,1,m);return n?i(j,0,[3,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b],m]):n;case
 13:var
-o=a[4],p=oK(a[3]),r=p?h(i,1,o):p;return r?h(i,0,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],o]):r;case
-14:return h(i,0,a[3]);case
+o=a[4],p=o4(a[3]),r=p?i(j,1,o):p;return r?i(j,0,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],o]):r;case
+14:return i(j,0,a[3]);case
 15:var
-s=h(i,0,a[2]),t=s?h(i,0,a[3]):s;return t?h(i,1,a[4]):t;case
+s=i(j,0,a[2]),t=s?i(j,0,a[3]):s;return t?i(j,1,a[4]):t;case
 16:var
-u=a[3],v=h(i,0,a[1]),w=v?h(i,1,a[2]):v,x=w?h(i,0,u):w;return x?h(i,1,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],u]):x;case
+u=a[3],v=i(j,0,a[1]),w=v?i(j,1,a[2]):v,x=w?i(j,0,u):w;return x?i(j,1,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],u]):x;case
 17:var
-y=a[2],z=l(dq,y),A=z?aj(function(a){return h(i,1,[4,a,a])},y):z;return A?h(i,1,a[3]):A;case
+y=a[2],z=l(dw,y),A=z?ak(function(a){return i(j,1,[4,a,a])},y):z;return A?i(j,1,a[3]):A;case
 2:case
-3:return dq(a[2]);case
-6:case
-7:case
-9:var
-k=h(i,1,a[2]);return k?h(i,1,a[3]):k;default:return h(i,1,a[1])}}function
-hX(d){var
+3:return dw(a[2]);case
+0:case
+1:case
+12:return i(j,1,a[1]);default:var
+k=i(j,1,a[2]);return k?i(j,1,a[3]):k}}function
+h2(d){var
 a=d;for(;;){if(a){var
-b=a[2],e=a[1],c=I(aj(function(d){return function(a){var
-h=kq(a[1]),e=aD(kq(d[1]),h);if(e)var
-i=kr(a[4]),b=aD(kr(d[4]),i);else
+b=a[2],e=a[1],c=I(ak(function(d){return function(a){var
+h=kA(a[1]),e=aF(kA(d[1]),h);if(e)var
+i=kB(a[4]),b=aF(kB(d[4]),i);else
 var
 b=e;if(b){var
 f=d[2];if(f){var
@@ -7329,125 +7523,125 @@ g=1}else
 var
 g=b;return g}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-f2(a){if(0===a[0])return dq(k(a[1]));var
-b=a[2],c=a[1];if(!dE(k(c))&&!dE(k(b))){var
-e=k(c);return h(i,1,[3,k(b),e])}var
-d=k(b);return bA(i,k(c),d)}function
-d7(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-qg(a){switch(a[0]){case
+f6(a){if(0===a[0])return dw(k(a[1]));var
+b=a[2],c=a[1];if(!dK(k(c))&&!dK(k(b))){var
+e=k(c);return i(j,1,[3,k(b),e])}var
+d=k(b);return bC(j,k(c),d)}function
+ea(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+qB(a){switch(a[0]){case
 0:var
-c=[0,a[4],0],d=g(d7(a[3]),c),e=g(d7(a[2]),d);return g(d7(a[1]),e);case
+c=[0,a[4],0],d=g(ea(a[3]),c),e=g(ea(a[2]),d);return g(ea(a[1]),e);case
 1:var
-b=a[3],f=b?d7(b[1]):b,h=g(d7(a[2]),f);return g(d7(a[1]),h);default:return d7(a[1])}}function
-qh(s,a,m){if(aj(function(a){return 9===a[1]?1:0},m)){var
-b=ab(f(a),CA),c=b?l(function(a){if(0===a[0]){var
-d=a[5],e=h(i,1,k(a[2])),f=e?h(i,0,k(a[3])):e,m=f?h(i,0,k(a[4])):f,c=0;if(m)if(d)var
-p=b5(d[1]),b=l(function(a){return dq(k(a))},p);else{var
+b=a[3],f=b?ea(b[1]):b,h=g(ea(a[2]),f);return g(ea(a[1]),h);default:return ea(a[1])}}function
+qC(s,a,m){if(ak(function(a){return 9===a[1]?1:0},m)){var
+b=ae(f(a),C8),c=b?l(function(a){if(0===a[0]){var
+d=a[5],e=i(j,1,k(a[2])),f=e?i(j,0,k(a[3])):e,m=f?i(j,0,k(a[4])):f,c=0;if(m)if(d)var
+p=b5(d[1]),b=l(function(a){return dw(k(a))},p);else{var
 n=1;c=1}else{var
 n=m;c=1}if(c)var
 b=n}else{var
-o=h(i,1,k(a[4]));if(o)var
-q=b5(a[3]),r=g(b5(a[2]),q),b=l(function(a){return dq(k(a))},r);else
+o=i(j,1,k(a[4]));if(o)var
+q=b5(a[3]),r=g(b5(a[2]),q),b=l(function(a){return dw(k(a))},r);else
 var
-b=o}return b?j(s,a):b},a):b;if(c)var
-d=hN(0,a),n=d?1:d,e=n;else
+b=o}return b?h(s,a):b},a):b;if(c)var
+d=hS(0,a),n=d?1:d,e=n;else
 var
 e=c;return e}return a?0:1}function
-qi(a){return a?CB:CC}function
-hY(a){switch(a){case
-0:return CD;case
-1:return CE;default:return 0}}function
-dr(a){var
-f=a[1],d=h(i,1,[2,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],f]),e=d?bA(i,a[1],a[2]):d;if(e){var
-g=a[2];return h(i,1,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],g])}return e}function
-eT(a){var
-e=bA(i,[0,d,b],a);return e?h(i,1,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],a]):e}function
-qj(c,b,a){if(0===a[0]){var
-d=a[2],e=a[1],g=n(f(e),c),j=g?n(f(d),c):g;if(j){var
+qD(a){return a?C9:C_}function
+h3(a){switch(a){case
+0:return C$;case
+1:return Da;default:return 0}}function
+dx(a){var
+f=a[1],d=i(j,1,[2,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],f]),e=d?bC(j,a[1],a[2]):d;if(e){var
+g=a[2];return i(j,1,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],g])}return e}function
+e0(a){var
+e=bC(j,[0,d,b],a);return e?i(j,1,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],a]):e}function
+qE(c,b,a){if(0===a[0]){var
+d=a[2],e=a[1],g=n(f(e),c),h=g?n(f(d),c):g;if(h){var
 o=V(e,d);return l(function(a){var
-b=k(a[2]);return bA(i,k(a[1]),b)},o)}return j}var
-m=b?h(i,1,k(a[3])):b;if(m){var
-p=k(a[5]);return bA(i,k(a[4]),p)}return m}function
-qk(a,e,F,E,t,s,g){function
+b=k(a[2]);return bC(j,k(a[1]),b)},o)}return h}var
+m=b?i(j,1,k(a[3])):b;if(m){var
+p=k(a[5]);return bC(j,k(a[4]),p)}return m}function
+qF(a,e,F,E,t,s,g){function
 u(b){var
-d=qi(a),c=n(f(b),d);return c?l(f2,b):c}var
+d=qD(a),c=n(f(b),d);return c?l(f6,b):c}var
 v=l(function(a){var
 b=u(a[1]);return b?u(a[2]):b},e);if(v)var
-G=f(e),o=ab(bD(a),G);else
+G=f(e),o=ae(bF(a),G);else
 var
 o=v;var
-w=o?ab(f(e),CF):o,x=w?h(i,1,k(F)):w;if(x)var
-H=1===a?1:0,p=qj(hY(a),H,E);else
+w=o?ae(f(e),Db):o,x=w?i(j,1,k(F)):w;if(x)var
+H=1===a?1:0,p=qE(h3(a),H,E);else
 var
 p=x;if(p)if(a){var
-d=d3(t);switch(d[0]){case
+d=d8(t);switch(d[0]){case
 0:var
-j=0;break;case
+h=0;break;case
 1:var
-A=dr(d[1]),B=A?dr(d[2]):A,j=B?dr(d[3]):B;break;case
+A=dx(d[1]),B=A?dx(d[2]):A,h=B?dx(d[3]):B;break;case
 2:var
-j=eT(d[1]);break;default:var
-C=eT(d[1]),j=C?eT(d[2]):C}var
-m=j}else
+h=e0(d[1]);break;default:var
+C=e0(d[1]),h=C?e0(d[2]):C}var
+m=h}else
 var
-D=d3(t),J=0===D[0]?dr(D[1]):0,m=J;else
+D=d8(t),J=0===D[0]?dx(D[1]):0,m=J;else
 var
 m=p;if(m)var
-I=f(e),q=qh(function(a){if(0===a[0]){var
-b=a[1],c=ab(Cz,b),d=c?ab(b,I):c;if(d){if(a[5])return 0;var
+I=f(e),q=qC(function(a){if(0===a[0]){var
+b=a[1],c=ae(C7,b),d=c?ae(b,I):c;if(d){if(a[5])return 0;var
 e=1}else
 var
 e=d;return e}return 1},s,g);else
 var
 q=m;if(q)var
-b=f(e),c=bD(a),y=qi(a),r=l(function(a){var
+b=f(e),c=bF(a),y=qD(a),r=l(function(a){var
 e=a[2];if(e)var
-g=e[1],h=ab(BQ,g),w=h?ab(g,b):h,d=w;else
+g=e[1],h=ae(Cm,g),w=h?ae(g,b):h,d=w;else
 var
 d=1;switch(a[1]){case
 9:var
 i=a[4];if(typeof
-i!=="number"&&0===i[0])return a[2]?aG(c,b,a):a[3]?aG(c,b,a):1;return aG(c,b,a);case
+i!=="number"&&0===i[0])return a[2]?aI(c,b,a):a[3]?aI(c,b,a):1;return aI(c,b,a);case
 10:var
 j=a[4];if(typeof
 j!=="number"&&1===j[0]){var
-k=a[3];return k?2===k[1][0]?d:aG(c,b,a):aG(c,b,a)}return aG(c,b,a);case
+k=a[3];return k?2===k[1][0]?d:aI(c,b,a):aI(c,b,a)}return aI(c,b,a);case
 12:var
 l=a[4];if(typeof
-l!=="number"&&1===l[0]){if(a[2])return aG(c,b,a);var
-m=a[3];return m?3===m[1][0]?n(b,c):aG(c,b,a):aG(c,b,a)}return aG(c,b,a);case
+l!=="number"&&1===l[0]){if(a[2])return aI(c,b,a);var
+m=a[3];return m?3===m[1][0]?n(b,c):aI(c,b,a):aI(c,b,a)}return aI(c,b,a);case
 14:var
 o=a[4];if(typeof
 o!=="number"&&1===o[0]){var
 p=a[3];if(p){var
 q=p[1];if(1===q[0]){var
-r=n(f(q[1]),y),x=r?d:r;return x}return aG(c,b,a)}return aG(c,b,a)}return aG(c,b,a);case
+r=n(f(q[1]),y),x=r?d:r;return x}return aI(c,b,a)}return aI(c,b,a)}return aI(c,b,a);case
 15:var
 s=a[4];if(typeof
 s!=="number"&&1===s[0]){var
 t=a[3];if(t){var
 u=t[1];if(1===u[0]){var
-v=n(f(u[1]),y),z=v?d:v;return z}return aG(c,b,a)}return aG(c,b,a)}return aG(c,b,a);default:return aG(c,b,a)}},g);else
+v=n(f(u[1]),y),z=v?d:v;return z}return aI(c,b,a)}return aI(c,b,a)}return aI(c,b,a);default:return aI(c,b,a)}},g);else
 var
 r=q;var
-z=r?hX(g):r;return z?l(kK,eS(0,f(e),s,g)):z}function
-kL(a){switch(a[0]){case
+z=r?h2(g):r;return z?l(kU,eZ(0,f(e),s,g)):z}function
+kV(a){switch(a[0]){case
 0:var
 c=g(a[3],[0,a[4],0]),d=g(a[2],c);return g(a[1],d);case
 1:var
 b=a[3],e=b?b[1]:b,f=g(a[2],e);return g(a[1],f);case
 2:return a[1];default:var
 h=g(a[4],[0,a[5],[0,a[6],0]]),i=g(a[3],h),j=g(a[2],i);return g(a[1],j)}}function
-hZ(a,b,e,T,p,m){var
+h4(a,b,e,T,p,m){var
 q=typeof
 a==="number"?a?1:a:a[1]?0:1;function
 c(a){var
-b=q?CG:CH;return n(f(a),b)}var
-j=d4(b),x=l(function(b){switch(b[0]){case
+b=q?Dc:Dd;return n(f(a),b)}var
+h=d9(b),x=l(function(b){switch(b[0]){case
 0:var
-f=I(j),g=f?c(b[1]):f,h=g?c(b[2]):g;return h?c(b[3]):h;case
+f=I(h),g=f?c(b[1]):f,i=g?c(b[2]):g;return i?c(b[3]):i;case
 1:var
-d=b[3],i=I(j),k=i?c(b[1]):i,l=k?c(b[2]):k;if(l){var
+d=b[3],j=I(h),k=j?c(b[1]):j,l=k?c(b[2]):k;if(l){var
 m=typeof
 a==="number"?1:0;if(m){if(a)return d?0:1;if(d)return c(d[1]);var
 e=1}else
@@ -7456,32 +7650,32 @@ e=m}else
 var
 e=l;return e;case
 2:var
-n=I(j),o=n?c(b[1]):n;if(o){if(typeof
+n=I(h),o=n?c(b[1]):n;if(o){if(typeof
 a==="number"&&!a)return 1;var
 p=0}else
 var
 p=o;return p;default:var
 r=b[1],s=q?r?0:1:c(r),t=s?c(b[2]):s,u=t?c(b[3]):t;return u?c(b[4]):u}},b);if(x)var
-U=f(b),r=ab(ar(a),U);else
+U=f(b),r=ae(as(a),U);else
 var
 r=x;var
-y=r?ab(f(b),CI):r,A=y?l(f2,w(kL,b)):y;if(A){var
+z=r?ae(f(b),De):r,A=z?l(f6,w(kV,b)):z;if(A){var
 S=0;if(typeof
 a==="number"&&!a){var
 B=1;S=1}if(!S)var
 B=0;var
-V=q?CJ:CK,s=qj(V,B,T)}else
+V=q?Df:Dg,s=qE(V,B,T)}else
 var
 s=A;if(s)if(typeof
 a==="number")if(e)var
 d=0;else
 var
-W=z(d3,p)?0:1,d=W;else
+W=y(d8,p)?0:1,d=W;else
 switch(a[1]){case
 0:if(e){var
-t=z(d3,p);if(t){var
+t=y(d8,p);if(t){var
 F=t[1];if(0===F[0])var
-H=h(i,1,k(e[1])),J=H?dr(F[1]):H;else
+H=i(j,1,k(e[1])),J=H?dx(F[1]):H;else
 var
 J=0;var
 K=J}else
@@ -7491,15 +7685,15 @@ d=K}else
 var
 d=e;break;case
 1:if(e){var
-u=e[1],v=z(d3,p);if(v){var
+u=e[1],v=y(d8,p);if(v){var
 g=v[1];switch(g[0]){case
 0:var
 o=0;break;case
 1:var
-M=h(i,1,k(u)),N=M?dr(g[1]):M,O=N?dr(g[2]):N,o=O?dr(g[3]):O;break;case
+M=i(j,1,k(u)),N=M?dx(g[1]):M,O=N?dx(g[2]):N,o=O?dx(g[3]):O;break;case
 2:var
-P=h(i,1,k(u)),o=P?eT(g[1]):P;break;default:var
-Q=h(i,1,k(u)),R=Q?eT(g[1]):Q,o=R?eT(g[2]):R}var
+P=i(j,1,k(u)),o=P?e0(g[1]):P;break;default:var
+Q=i(j,1,k(u)),R=Q?e0(g[1]):Q,o=R?e0(g[2]):R}var
 L=o}else
 var
 L=v;var
@@ -7510,248 +7704,248 @@ d=0}else
 var
 d=s;var
 C=d?l(function(c){var
-d=pZ(j,a,f(b),c);if(d)var
+d=qi(h,a,f(b),c);if(d)var
 e=d;else{var
-g=cR(c);if(g)return aG(0,0,c);var
+g=cV(c);if(g)return aI(0,0,c);var
 e=g}return e},m):d,D=C?l(function(a){var
 e=a[1];if(4===e){var
 f=a[2];if(f)var
-c=G(b,bh(f[1])),j=c?[0,c[1],0]:c,g=j;else
+c=G(b,aR(f[1])),j=c?[0,c[1],0]:c,g=j;else
 var
 g=b;return l(function(a){switch(a[0]){case
 0:case
 3:return 1;default:return 0}},g)}if(13===e){var
 h=a[2];if(h)var
-d=G(b,bh(h[1])),k=d?[0,d[1],0]:d,i=k;else
+d=G(b,aR(h[1])),k=d?[0,d[1],0]:d,i=k;else
 var
 i=b;return l(function(a){switch(a[0]){case
 0:case
-3:return 1;default:return 0}},i)}return 1},m):C,E=D?hX(m):D;return E?l(kK,eS(j,f(b),0,m)):E}function
-CL(a){switch(a[0]){case
-0:return hf(a[1][1]);case
+3:return 1;default:return 0}},i)}return 1},m):C,E=D?h2(m):D;return E?l(kU,eZ(h,f(b),0,m)):E}function
+Dh(a){switch(a[0]){case
+0:return hk(a[1][1]);case
 1:var
-b=a[3];return b?hf(b[1]):1;default:return hf(a[1])}}function
-h0(a,k,b,d){var
-e=qh(function(g){if(0===g[0]){var
-c=g[1],d=ab(Cy,c);if(d){var
-b=G(a,bh(c));if(b){if(2===b[1][0])return 0;var
+b=a[3];return b?hk(b[1]):1;default:return hk(a[1])}}function
+h5(a,k,b,d){var
+e=qC(function(g){if(0===g[0]){var
+c=g[1],d=ae(C6,c);if(d){var
+b=G(a,aR(c));if(b){if(2===b[1][0])return 0;var
 e=1}else
 var
 e=b;var
 f=e}else
 var
-f=d;return f}return 1},k,b),g=e?l(CL,d[1]):e,h=g?ab(CM,f(a)):g;if(h)var
-m=f(a),c=l(function(a){return BG(m,a)},b);else
+f=d;return f}return 1},k,b),g=e?l(Dh,d[1]):e,h=g?ae(Di,f(a)):g;if(h)var
+m=f(a),c=l(function(a){return Cc(m,a)},b);else
 var
 c=h;var
-i=c?hX(b):c,j=i?l(f2,w(qg,a)):i;return j?l(Cx,d[3]):j}function
-ql(m,k,a,j,i,b){var
+i=c?h2(b):c,j=i?l(f6,w(qB,a)):i;return j?l(C5,d[3]):j}function
+qG(m,k,a,j,i,b){var
 c=f(m),o=f(i),d=n(f(j),o),e=d?l(function(b){if(12===b[1]){var
 o=0,e=b[4];if(typeof
 e!=="number"&&1===e[0]){if(b[2])var
-k=aG(c,f(a),b);else
+k=aI(c,f(a),b);else
 var
-m=b[3],q=m?0===m[1][0]?n(c,f(a)):aG(c,f(a),b):aG(c,f(a),b),k=q;var
+m=b[3],q=m?0===m[1][0]?n(c,f(a)):aI(c,f(a),b):aI(c,f(a),b),k=q;var
 g=k;o=1}if(!o)var
-g=aG(c,f(a),b);var
+g=aI(c,f(a),b);var
 d=g}else
 var
-d=aG(c,f(a),b);if(d){var
+d=aI(c,f(a),b);if(d){var
 h=b[1]-1|0;if(!(11<h>>>0))switch(h){case
 0:var
-j=b[2],p=j?[0,bh(j[1]),0]:aE(0,f(a));return l(function(c){var
+j=b[2],p=j?[0,aR(j[1]),0]:aG(0,f(a));return l(function(c){var
 b=G(a,c);return b?0===b[1][0]?0:1:b},p);case
 10:return l(function(a){return 0===a[0]?0:1},a);case
 11:return l(function(a){return 0===a[0]?0:1},a)}var
 i=1}else
 var
-i=d;return i},b):d,g=e?hX(b):e,h=g?l(function(a){return f2(a[2])},k):g;return h?l(kK,eS(0,f(a),0,b)):h}function
-qm(a){if(a){var
-b=a[1];if(cR(b))return 0;var
-c=[0,b,qm(a[2])]}else
+i=d;return i},b):d,g=e?h2(b):e,h=g?l(function(a){return f6(a[2])},k):g;return h?l(kU,eZ(0,f(a),0,b)):h}function
+qH(a){if(a){var
+b=a[1];if(cV(b))return 0;var
+c=[0,b,qH(a[2])]}else
 var
 c=a;return c}function
-d8(h,g,d,c,b){var
-j=qm(b),k=w(function(a){return hP(h,d,c,a)},j),l=l5(e(function(a){return fB(i,g,a)},k)),a=w(pX,b),m=a?[0,a[1],a[2]]:CN;return N(f(m),l)}function
-kM(a){return 2<=a?CO:CP}function
-kN(m,l,k,j,f,i){var
-g=d8(m,l,k,j,f),c=qd(i);if(c){var
+eb(h,g,d,c,b){var
+i=qH(b),k=w(function(a){return hU(h,d,c,a)},i),l=mc(e(function(a){return fF(j,g,a)},k)),a=w(qg,b),m=a?[0,a[1],a[2]]:Dj;return N(f(m),l)}function
+kW(a){return 2<=a?Dk:Dl}function
+kX(m,l,k,j,f,i){var
+g=eb(m,l,k,j,f),c=qy(i);if(c){var
 a=c[1],e=0;if(typeof
 a==="number")var
 h=[0,a];else
 if(0===a[0]){var
 o=a[2],p=a[1],b=p,d=function(a){return[0,a,o]};e=1}else{var
-q=a[2],r=a[1],b=r,d=function(a){return[1,a,q]};e=1}if(e){if(!I(aj(cR,f))&&!aB(b,g))return n(b,g)?0:[0,d(bh(b))];return[0,d(b)]}}else
+q=a[2],r=a[1],b=r,d=function(a){return[1,a,q]};e=1}if(e){if(!I(ak(cV,f))&&!aD(b,g))return n(b,g)?0:[0,d(aR(b))];return[0,d(b)]}}else
 var
 h=c;return h}function
-f3(b,a){var
-c=f(a2(function(a){return 0===a[0]?0:1},b));return n(f(a),c)}function
-h1(a){var
-b=V(aE(0,f(a)),a);return e(aA,a2(function(a){return jk(a[2])},b))}function
-qn(a){var
-b=a[1],c=e(hV,a[1]);return g7(hW(a[1]),c,b)}function
-kO(a){return h1(qn(a))}function
-qo(b,a){if(a){var
-c=a[1],d=a[2],f=qo(N(b,c[1]),d),h=c[2];return g(e(function(a){return aE(N(b,a),CQ)},h),f)}return a}function
-qp(e,a){function
+f7(b,a){var
+c=f(a5(function(a){return 0===a[0]?0:1},b));return n(f(a),c)}function
+h6(a){var
+b=V(aG(0,f(a)),a);return e(aC,a5(function(a){return ju(a[2])},b))}function
+qI(a){var
+b=a[1],c=e(h0,a[1]);return ha(h1(a[1]),c,b)}function
+kY(a){return h6(qI(a))}function
+qJ(b,a){if(a){var
+c=a[1],d=a[2],f=qJ(N(b,c[1]),d),h=c[2];return g(e(function(a){return aG(N(b,a),Dm)},h),f)}return a}function
+qK(e,a){function
 b(f){var
 a=G(e,f);if(a){var
-b=ne(a[1]);if(b)return L(b[1],d);var
+b=ny(a[1]);if(b)return L(b[1],d);var
 c=1}else
 var
 c=a;return c}var
-c=qo(0,a);return a2(function(a){return l(b,a)},c)}function
-qq(a){switch(a[0]){case
-0:return CR;case
-1:return a[3]?CS:CT;default:return CU}}function
-CV(a){return 0===a[0]?qq(a[1]):CW}function
-h2(a){if(a){var
+c=qJ(0,a);return a5(function(a){return l(b,a)},c)}function
+qL(a){switch(a[0]){case
+0:return Dn;case
+1:return a[3]?Do:Dp;default:return Dq}}function
+Dr(a){return 0===a[0]?qL(a[1]):Ds}function
+h7(a){if(a){var
 b=a[1];return[0,b[2],b[1]]}return[0,d,0]}function
-kP(aC,Y,aB,X,W,b,aA,V){var
-a=hO(Y,aB,X,W),aD=f(V),aE=e(qq,a[1]),aF=qp(qn(a),aE),aG=aC?0:kO(a),B=d5(CX,kO(a),aG,aF,aD,V);if(B){var
-Z=B[1];if(Z[2])return 0;var
-_=h0(Y,X,W,a);if(_){var
-aH=Z[1],C=e(hV,a[1]),c=hW(a[1]),aJ=h2(aA),U=nE(i,a);if(U){var
-n=g7(c,C,a[1]),h=jh(c,C,a[1],0),ab=f(a[3]),ac=N(f(n),ab),J=[0,f(n),ac],ae=a[3],E=aj(function(a){if(typeof
-a!=="number"&&14===a[0])return 1;return 0},ae),af=E?w(function(a){var
-b=e(aI,fw(n,a[4]));return[0,a[4],b]},h):E,ag=g(jj(h,c,J,a[3]),af),ah=g(bB(mF(h)),ag),L=g(bB(fo(h)),ah),M=c1(L)[1],o=c0(M),O=l(function(a){var
-b=m(d);return aO(r(bk(o,a),o,b),a)},L);if(O){var
-P=aj(ur,a[3]);if(P){var
-t=C,p=a[1];for(;;){if(p){var
-q=p[1],u=bU(d,t);switch(q[0]){case
+kZ(aB,Z,aA,Y,X,b,az,W){var
+a=hT(Z,aA,Y,X),aC=f(W),aD=e(qL,a[1]),aE=qK(qI(a),aD),aF=aB?0:kY(a),B=d_(Dt,kY(a),aF,aE,aC,W);if(B){var
+_=B[1];if(_[2])return 0;var
+$=h5(Z,Y,X,a);if($){var
+aG=_[1],C=e(h0,a[1]),c=h1(a[1]),aH=h7(az),V=nY(j,a);if(V){var
+n=ha(c,C,a[1]),i=jr(c,C,a[1],0),ac=f(a[3]),ae=N(f(n),ac),J=[0,f(n),ae],af=a[3],E=ak(function(a){if(typeof
+a!=="number"&&14===a[0])return 1;return 0},af),ag=E?w(function(a){var
+b=e(aK,fA(n,a[4]));return[0,a[4],b]},i):E,ah=g(jt(i,c,J,a[3]),ag),ai=g(bD(mZ(i)),ah),L=g(bD(fr(i)),ai),M=c6(L),O=c5(M),q=cH(O),P=l(function(a){var
+b=m(d);return aX(s(h(q,a),O,b),a)},L);if(P){var
+Q=ak(u1,a[3]);if(Q){var
+t=C,o=a[1];for(;;){if(o){var
+p=o[1],u=bW(d,t);switch(p[0]){case
 0:var
-F=q[1],G=g_(b,F[1],u),D=0;if(G){var
-s=ao(b,[0,F[4],c]);if(s)var
-k=K(d,s[1][1]);else{var
-H=s;D=1}}else{var
+F=p[1],G=hd(b,F[1],u),D=0;if(G){var
+r=ap(b,[0,F[4],c]);if(r)var
+k=K(d,r[1][1]);else{var
+H=r;D=1}}else{var
 H=G;D=1}if(D)var
 k=H;break;case
 1:var
-I=q[3],k=I?g_(b,I[1],u):1;break;default:var
-k=g_(b,q[1],u)}if(k){var
-aa=p[2],t=bG(t),p=aa;continue}var
-Q=k}else
+I=p[3],k=I?hd(b,I[1],u):1;break;default:var
+k=hd(b,p[1],u)}if(k){var
+ab=o[2],t=bI(t),o=ab;continue}var
+R=k}else
 var
-Q=1;var
-v=Q;break}}else
+R=1;var
+v=R;break}}else
 var
-v=P;if(v){var
-ai=a[3],ak=w(function(a){return dM(c,a)},ai),al=a[3],am=g(n,g(e(function(a){return b0(c,a)},al),ak)),x=ad(e(function(a){return ao(b,a)},am));if(x){var
-an=bc(ew(a[2]),c),y=ad(e(function(a){return ao(b,a)},an));if(y){var
-ap=a[3],z=ad(nr(b,aJ,function(a){return bk(o,a)},n,h,c,J,ap));if(z){var
-R=z[1],aq=jg(R),ar=y[1],as=a[2],at=function(a){return ns(b,as,c,a)},au=x[1],av=0,ax=mF(h),ay=j(aw(function(a){return bk(o,a)}),ax),az=fo(h);return f9(jf(b,M,j(aw(function(a){return bk(o,a)}),az),ay,av,au,R,at),ar,aq,aH)}var
-S=z}else
+v=Q;if(v){var
+aj=a[3],al=w(function(a){return dR(c,a)},aj),am=a[3],an=g(n,g(e(function(a){return b0(c,a)},am),al)),x=ad(e(function(a){return ap(b,a)},an));if(x){var
+ao=bg(eD(a[2]),c),y=ad(e(function(a){return ap(b,a)},ao));if(y){var
+z=ad(nL(b,aH,q,n,i,c,J,a[3]));if(z){var
+S=z[1],aq=jq(S),ar=y[1],as=a[2],at=function(a){return nM(b,as,c,a)},au=x[1],av=mZ(i),aw=h(ay(q),av),ax=fr(i);return gb(jp(b,M,h(ay(q),ax),aw,0,au,S,at),ar,aq,aG)}var
+T=z}else
 var
-S=y;var
-T=S}else
+T=y;var
+U=T}else
 var
-T=x;var
-A=T}else
+U=x;var
+A=U}else
 var
 A=v}else
 var
-A=O;return A}return U}var
-$=_}else
+A=P;return A}return V}var
+aa=$}else
 var
-$=B;return $}function
-CY(a){if(0===a[0])return p$(a[1]);var
-b=a[1],c=ez(b[6]);return g(ez(b[5]),c)}function
-CZ(a){if(0===a[0])return qa(a[1]);var
-b=a[1],c=bd(b[4]);return g(bd(b[3]),c)}function
-qr(c){var
-a=w(CY,c),d=a?[0,a[1],a[2]]:w(CZ,c);return F(b,bJ(d))}function
-C0(a){if(0===a[0])return[0,hV(a[1]),d];var
-b=a[1],c=bJ(bd(b[2]));return[0,bJ(bd(b[1])),c]}function
-kQ(h,b,s,r,q,g,C,B,p){var
-a=ky(h,b,s,r,q,g),t=qr(a[2]),u=e(C0,a[2]),j=jY(t,u,a[2]),D=f(p),E=qp(j,e(CV,a[2])),F=h1(j),G=h1(j),k=d5(ar(h),G,F,E,D,p);if(k){var
+aa=B;return aa}function
+Du(a){if(0===a[0])return qu(a[1]);var
+b=a[1],c=eG(b[6]);return g(eG(b[5]),c)}function
+Dv(a){if(0===a[0])return qv(a[1]);var
+b=a[1],c=bh(b[4]);return g(bh(b[3]),c)}function
+qM(c){var
+a=w(Du,c),d=a?[0,a[1],a[2]]:w(Dv,c);return F(b,bL(d))}function
+Dw(a){if(0===a[0])return[0,h0(a[1]),d];var
+b=a[1],c=bL(bh(b[2]));return[0,bL(bh(b[1])),c]}function
+k0(h,b,s,r,q,g,C,B,p){var
+a=kI(h,b,s,r,q,g),t=qM(a[2]),u=e(Dw,a[2]),i=j8(t,u,a[2]),D=f(p),E=qK(i,e(Dr,a[2])),F=h6(i),G=h6(i),k=d_(as(h),G,F,E,D,p);if(k){var
 v=k[1];if(v[2])return 0;var
-w=hZ(h,b,s,r,q,g);if(w){var
-H=v[1],I=f(b),J=d8(d4(b),C1,I,0,g),K=h2(B),y=e(wk,a[2]),m=fK(i,a[2],y);if(m)var
-z=jp(a[4]),c=cK(i,a[4],z);else
+w=h4(h,b,s,r,q,g);if(w){var
+H=v[1],I=f(b),J=eb(d9(b),Dx,I,0,g),K=h7(B),y=e(wU,a[2]),m=fO(j,a[2],y);if(m)var
+z=jz(a[4]),c=cO(j,a[4],z);else
 var
 c=m;if(c){var
 n=a[5];if(n)var
-A=ho(n[1]),o=l(function(a){return fM(i,a)},A);else
+A=ht(n[1]),o=l(function(a){return fQ(j,a)},A);else
 var
 o=1;var
 d=o}else
 var
-d=c;return d?wh(C,K,J,a,t,u,H):d}var
+d=c;return d?wR(C,K,J,a,t,u,H):d}var
 x=w}else
 var
 x=k;return x}function
-kR(r,t,ai,ah,ag,J,aP,af,v){var
+k1(r,t,ai,ah,ag,J,aP,af,v){var
 y=typeof
-r==="number"?r?C2:C3:hY(r[1]),B=e(k,aP),a=ky(r,t,ai,ah,ag,J),aj=kJ(t,e(k,af));if(aj[2])return 0;var
-p=aj[1],ak=f3(w(kL,t),af),am=ak?hZ(r,t,ai,ah,ag,J):ak;if(am)var
-aQ=ar(r),K=n(f(B),aQ);else
+r==="number"?r?Dy:Dz:h3(r[1]),B=e(k,aP),a=kI(r,t,ai,ah,ag,J),aj=kT(t,e(k,af));if(aj[2])return 0;var
+p=aj[1],ak=f7(w(kV,t),af),al=ak?h4(r,t,ai,ah,ag,J):ak;if(al)var
+aQ=as(r),K=n(f(B),aQ);else
 var
-K=am;if(K){if(typeof
+K=al;if(K){if(typeof
 v!=="number"&&2===v[0]){var
-S=e(k,v[1]),aU=au(y,S),ap=aJ(al(y,S)),aV=au(y,B),aq=aJ(al(y,B)),X=fK(i,a[2],p),Y=X?cK(i,a[4],aq):X,Z=Y?cK(i,a[4],ap):Y,as=Z?pf(i,a[1],a[3],a[5],p,aq,aV,ap,aU):Z;if(as){var
-aX=ar(r);return n(f(S),aX)}return as}var
-aR=f(t),aS=hq(r),L=kN(d4(t),aS,aR,0,J,v);if(L){var
-C=L[1],g=aJ(al(y,B)),m=au(y,B),at=0;if(typeof
+R=e(k,v[1]),aU=aw(y,R),ap=aL(am(y,R)),aV=aw(y,B),aq=aL(am(y,B)),X=fO(j,a[2],p),Y=X?cO(j,a[4],aq):X,Z=Y?cO(j,a[4],ap):Y,ar=Z?pz(j,a[1],a[3],a[5],p,aq,aV,ap,aU):Z;if(ar){var
+aW=as(r);return n(f(R),aW)}return ar}var
+aR=f(t),aS=hv(r),L=kX(d9(t),aS,aR,0,J,v);if(L){var
+C=L[1],g=aL(am(y,B)),m=aw(y,B),at=0;if(typeof
 v==="number"&&v){var
-N=I(d4(t));at=1}if(!at)var
+N=I(d9(t));at=1}if(!at)var
 N=1;if(N){var
-T=fK(i,a[2],p),U=T?jI(i,a,g,m):T;if(U)var
-o=a[5],W=a[3],z=a[1],aD=a[6],av=e(function(a){if(0===a[0])var
-e=bv(o,m,g,a),c=bC(a[1],e);else
+T=fO(j,a[2],p),U=T?jS(j,a,g,m):T;if(U)var
+o=a[5],W=a[3],z=a[1],aD=a[6],au=e(function(a){if(0===a[0])var
+e=bw(o,m,g,a),c=bE(a[1],e);else
 var
-d=a[1],f=ju(d,bv(o,m,g,a)),h=d[4],i=bv(o,m,g,a),j=M(function(b,a){return[2,b,a]},i,h),c=M(function(b,a){return[3,b,a]},j,f);return[0,jF(z,c,R([5,[0,b,b],W],db(eG(o,m,eF(a)),c)))]},p),aw=w(function(a){return jH(o,m,g,a)},p),ax=function(a){var
-b=eG(o,m,a);return M(function(b,a){return[2,b,a]},g,b)},az=0,aA=e(function(f){var
-c=bv(o,m,g,f);if(0===f[0]){var
+d=a[1],f=jE(d,bw(o,m,g,a)),h=d[4],i=bw(o,m,g,a),j=M(function(b,a){return[2,b,a]},i,h),c=M(function(b,a){return[3,b,a]},j,f);return[0,jP(z,c,S([5,[0,b,b],W],dh(eN(o,m,eM(a)),c)))]},p),av=w(function(a){return jR(o,m,g,a)},p),ax=function(a){var
+b=eN(o,m,a);return M(function(b,a){return[2,b,a]},g,b)},ay=0,az=e(function(f){var
+c=bw(o,m,g,f);if(0===f[0]){var
 a=f[1];switch(a[0]){case
 0:var
-i=a[4],j=a[3],k=a[2],h=a[1],n=cj(h,k,j,i,c),l=cL(a[5],n),p=R(l,ay(h)),q=fy(h,k,j,c);return[0,[0,jG(z,M(function(b,a){return[2,b,a]},q,p)),l,i]];case
+i=a[4],j=a[3],k=a[2],h=a[1],n=cl(h,k,j,i,c),l=cP(a[5],n),p=S(l,aA(h)),q=fC(h,k,j,c);return[0,[0,jQ(z,M(function(b,a){return[2,b,a]},q,p)),l,i]];case
 1:var
-r=bC(a,c),s=[6,x(bC(a,c),r)];return[0,[0,jG(z,bC(a,c)),[0,d,b],s]];default:return 0}}var
-e=f[1],t=e[6],u=ey(e,c),v=ju(e,c),w=e[4],y=M(function(b,a){return[2,b,a]},c,w);return[0,[0,jG(z,M(function(b,a){return[3,b,a]},y,v)),u,t]]},p),aB=e(function(a){return eH(o,m,g,a)},p),aC=[0,e(function(a){if(0===a[0])var
-l=bv(o,m,g,a),d=ck(a[1],l);else
+r=bE(a,c),s=[6,x(bE(a,c),r)];return[0,[0,jQ(z,bE(a,c)),[0,d,b],s]];default:return 0}}var
+e=f[1],t=e[6],u=eF(e,c),v=jE(e,c),w=e[4],y=M(function(b,a){return[2,b,a]},c,w);return[0,[0,jQ(z,M(function(b,a){return[3,b,a]},y,v)),u,t]]},p),aB=e(function(a){return eO(o,m,g,a)},p),aC=[0,e(function(a){if(0===a[0])var
+l=bw(o,m,g,a),d=cm(a[1],l);else
 var
-e=bv(o,m,g,a),c=a[1],f=ju(c,e),h=c[4],i=M(function(b,a){return[2,b,a]},e,h),j=M(function(b,a){return[3,b,a]},i,f),k=ey(c,e),d=R([5,[0,b,b],[4,c[5],k]],j);return jF(z,d,R([5,[0,b,b],W],db(eG(o,m,eF(a)),d)))},p),aB,aA,az,ax,aw,av],aE=ar(a[1]),O=jr(i,hq(a[1]),aE,aC,aD,C);else
+e=bw(o,m,g,a),c=a[1],f=jE(c,e),h=c[4],i=M(function(b,a){return[2,b,a]},e,h),j=M(function(b,a){return[3,b,a]},i,f),k=eF(c,e),d=S([5,[0,b,b],[4,c[5],k]],j);return jP(z,d,S([5,[0,b,b],W],dh(eN(o,m,eM(a)),d)))},p),aB,az,ay,ax,av,au],aE=as(a[1]),O=jB(j,hv(a[1]),aE,aC,aD,C);else
 var
 O=U;if(O)var
 P=O;else{if(typeof
 C!=="number"&&0===C[0]){var
 E=C[2];if(E){if(E[2])return 0;var
-Q=E[1],_=a[1],D=a[5],aT=C[1],$=fK(i,a[2],p),aa=$?jI(i,a,g,m):$;if(aa){var
-aG=a[6],F=ex(i,hq(_),aT,aG);if(F){var
+Q=E[1],_=a[1],D=a[5],aT=C[1],$=fO(j,a[2],p),aa=$?jS(j,a,g,m):$;if(aa){var
+aG=a[6],F=eE(j,hv(_),aT,aG);if(F){var
 A=F[1][1];if(typeof
 A!=="number"&&16===A[0]){var
-s=A[1],aH=a[2],aI=e(function(a){return eH(D,m,g,ps(a))},aH),ad=j(cm(cO),s);if(ad)var
-aF=j(gv(c(2,b)),cO),u=[0,bp(d,ad[1][1]),aF];else
+s=A[1],aH=a[2],aI=e(function(a){return eO(D,m,g,pM(a))},aH),ad=h(co(cS),s);if(ad)var
+aF=h(gz(c(2,b)),cS),u=[0,bq(d,ad[1][1]),aF];else
 var
 u=[0,d,b];var
-ae=h(i,0,s);if(ae)var
-aK=a[2],G=l(function(a){var
-b=ps(a);if(0===b[0])return 1;var
-c=b[1],d=[1,c],e=cn(i,s),f=e?oo(i,a,d):e;return f?h(i,1,jt(c,bv(D,m,g,d))):f},aK);else
+ae=i(j,0,s);if(ae)var
+aJ=a[2],G=l(function(a){var
+b=pM(a);if(0===b[0])return 1;var
+c=b[1],d=[1,c],e=cp(j,s),f=e?oI(j,a,d):e;return f?i(j,1,jD(c,bw(D,m,g,d))):f},aJ);else
 var
 G=ae;if(G)var
-aL=f(a[2]),H=n(f(Q),aL);else
+aK=f(a[2]),H=n(f(Q),aK);else
 var
 H=G;if(H){var
 aM=V(Q,aI),aN=V(V(p,e(function(o){var
 a=o[2],f=o[1];if(typeof
 a!=="number"&&1===a[0]){var
-g=a[2],k=a[1],p=c(2,c(2,c(2,q(c(2,c(2,b)))))),e=hF(s,a5(u,dB([0,b,b],[0,b,j(gv(c(2,b)),p)])),f,[1,k,g]);if(typeof
+g=a[2],k=a[1],p=c(2,c(2,c(2,q(c(2,c(2,b)))))),e=hK(s,a9(u,dH([0,b,b],[0,b,h(gz(c(2,b)),p)])),f,[1,k,g]);if(typeof
 e!=="number"&&1===e[0]){var
-d=dX([5,e[2],[2,[0,b,b],e[1]]]),r=[4,g,dP(d)],l=[2,[4,k,dO(d)],r],t=[4,g,dO(d)],m=[3,[4,k,dP(d)],t],n=[4,a8(u),[2,[0,b,b],l]];if(h(i,1,[2,[0,b,b],l])&&h(i,0,[3,n,m])&&h(i,0,[2,n,m])){var
-v=dP(d);return[1,dO(d),v]}return hF(s,u,f,a)}return hF(s,u,f,a)}return hF(s,u,f,a)},aM)),Q),aO=w(function(t){var
-l=t[1],a=l[2],f=l[1],h=t[2],i=eG(D,m,eF(f)),e=bv(D,m,g,f);if(0===f[0]){var
+d=d2([5,e[2],[2,[0,b,b],e[1]]]),r=[4,g,dU(d)],l=[2,[4,k,dT(d)],r],t=[4,g,dT(d)],m=[3,[4,k,dU(d)],t],n=[4,ba(u),[2,[0,b,b],l]];if(i(j,1,[2,[0,b,b],l])&&i(j,0,[3,n,m])&&i(j,0,[2,n,m])){var
+v=dU(d);return[1,dT(d),v]}return hK(s,u,f,a)}return hK(s,u,f,a)}return hK(s,u,f,a)},aM)),Q),aO=w(function(t){var
+l=t[1],a=l[2],f=l[1],h=t[2],i=eN(D,m,eM(f)),e=bw(D,m,g,f);if(0===f[0]){var
 d=f[1];switch(d[0]){case
 0:var
 n=d[4],o=d[3],j=d[2],k=d[1];if(typeof
 a!=="number"&&0===a[0]){var
-p=a[1],u=0,v=R(p,ay(k)),w=M(function(b,a){return[3,b,a]},g,j),y=M(function(b,a){return[3,b,a]},w,v),z=aW(j,o,e),A=[3,x(ay(k),z),p],B=cj(k,j,o,n,e);return[0,[0,dX([5,[0,h,b],[2,cL(d[5],B),A]]),n,y,i],u]}return 0;case
+p=a[1],u=0,v=S(p,aA(k)),w=M(function(b,a){return[3,b,a]},g,j),y=M(function(b,a){return[3,b,a]},w,v),z=aZ(j,o,e),A=[3,x(aA(k),z),p],B=cl(k,j,o,n,e);return[0,[0,d2([5,[0,h,b],[2,cP(d[5],B),A]]),n,y,i],u]}return 0;case
 1:if(typeof
 a!=="number"&&0===a[0]){var
-q=a[1],C=0,E=d[1],F=M(function(b,a){return[3,b,a]},g,E);return[0,[0,dX([5,[0,h,b],[2,q,cM(d,e)]]),q,F,i],C]}return 0;default:return 0}}var
+q=a[1],C=0,E=d[1],F=M(function(b,a){return[3,b,a]},g,E);return[0,[0,d2([5,[0,h,b],[2,q,cQ(d,e)]]),q,F,i],C]}return 0;default:return 0}}var
 c=f[1];if(typeof
 a!=="number"&&1===a[0]){var
-r=a[2],s=a[1],G=[4,r,fD(c,e)],H=[3,[4,s,fE(c,e)],G],J=R(r,hb(c)),I=0,K=R(s,fC(c)),L=M(function(b,a){return[2,b,a]},K,J),N=R(c[5],L),O=c[3],P=M(function(b,a){return[2,b,a]},O,N),Q=M(function(b,a){return[3,b,a]},g,P),S=c[6],T=[2,ey(c,e),H];return[0,[0,dX([5,[0,h,b],[4,c[5],T]]),S,Q,i],I]}return 0},aN);return pq(i,_,A[2],A[3],aO)}return H}var
+r=a[2],s=a[1],G=[4,r,fH(c,e)],H=[3,[4,s,fI(c,e)],G],J=S(r,hg(c)),I=0,K=S(s,fG(c)),L=M(function(b,a){return[2,b,a]},K,J),N=S(c[5],L),O=c[3],P=M(function(b,a){return[2,b,a]},O,N),Q=M(function(b,a){return[3,b,a]},g,P),R=c[6],T=[2,eF(c,e),H];return[0,[0,d2([5,[0,h,b],[4,c[5],T]]),R,Q,i],I]}return 0},aN);return pK(j,_,A[2],A[3],aO)}return H}var
 ab=0}else
 var
 ab=F;var
@@ -7767,74 +7961,74 @@ an=L;var
 ao=an}else
 var
 ao=K;return ao}function
-cS(a){if(a){var
-b=cG(k(a[1]));if(b){var
-c=cS(a[2]);if(c)var
-f=c[1],d=[0,[0,dC(b[1]),f]];else
+cW(a){if(a){var
+b=cK(k(a[1]));if(b){var
+c=cW(a[2]);if(c)var
+f=c[1],d=[0,[0,dI(b[1]),f]];else
 var
 d=c;var
 e=d}else
 var
-e=b;return e}return C4}function
-h3(g,k,j,a,i){var
+e=b;return e}return DA}function
+h8(g,k,j,a,i){var
 l=f(g),h=n(f(a),l);if(h){var
 m=V(V(g,V(k,j)),a);return e(function(f){var
-g=f[1],h=g[2],j=dB(h[2],h[1]),a=aM(g[1],i),k=E(d,a)?l7(cb(c(2,b),a)):[0,b,ei(cb(c(2,b),P(a)))],l=dC(gG(a5([0,c(2,b),b],k),j)),m=f[2];return e(function(a){return dC(a5(l7(a),l))},m)},m)}return h}function
-kS(u,aU,aq,ap,t,ao,a){var
-c=hO(u,aU,aq,ap),ar=f3(w(qg,u),ao),g=ar?h0(u,aq,ap,c):ar;if(t){var
+g=f[1],h=g[2],j=dH(h[2],h[1]),a=aO(g[1],i),k=D(d,a)?mg(cb(c(2,b),a)):[0,b,en(cb(c(2,b),Q(a)))],l=dI(gJ(a9([0,c(2,b),b],k),j)),m=f[2];return e(function(a){return dI(a9(mg(a),l))},m)},m)}return h}function
+k2(u,aU,aq,ap,t,ao,a){var
+c=hT(u,aU,aq,ap),ar=f7(w(qB,u),ao),g=ar?h5(u,aq,ap,c):ar;if(t){var
 v=t[2];if(v){var
 x=v[2];if(x){if(x[2])return 0;var
-h=x[1],j=v[1],m=t[1],as=qe(u,e(k,ao));if(as[2])return 0;var
+h=x[1],i=v[1],m=t[1],as=qz(u,e(k,ao));if(as[2])return 0;var
 f=as[1];if(typeof
 a!=="number")switch(a[0]){case
 2:var
 J=a[1];if(J){var
 K=J[2];if(K){var
 L=K[2];if(L){if(L[2]){var
-M=f1(c,a);if(M){var
-aY=k(h),aZ=k(j),az=[0,k(m),aZ,aY];if(g){var
-aA=fA(i,c,f,az,M[1]);if(aA)var
+M=f5(c,a);if(M){var
+aX=k(h),aY=k(i),az=[0,k(m),aY,aX];if(g){var
+aA=fE(j,c,f,az,M[1]);if(aA)var
 N=aA;else{if(typeof
 a!=="number"&&0===a[0]){var
-z=a[2];return z?z[2]?0:fR(i,c,f,az,a[1],z[1]):z}var
+z=a[2];return z?z[2]?0:fV(j,c,f,az,a[1],z[1]):z}var
 N=0}}else
 var
 N=g;var
 aB=N}else
 var
 aB=M;return aB}if(g){var
-a0=k(L[1]),a1=k(K[1]),aC=[0,k(J[1]),a1,a0],a2=k(h),a3=k(j),aD=[0,k(m),a3,a2],X=fx(i,c,f,aD),Y=X?cK(i,c[2],aC):X;if(Y){var
-aR=0,aS=0;return pf(i,0,[0,b,b],0,e(function(a){return[0,a]},f),aD,aS,aC,aR)}return Y}return g}var
-O=f1(c,a);if(O){var
-a4=k(h),a5=k(j),aE=[0,k(m),a5,a4];if(g){var
-aF=fA(i,c,f,aE,O[1]);if(aF)var
+aZ=k(L[1]),a1=k(K[1]),aC=[0,k(J[1]),a1,aZ],a2=k(h),a3=k(i),aD=[0,k(m),a3,a2],X=fB(j,c,f,aD),Y=X?cO(j,c[2],aC):X;if(Y){var
+aR=0,aS=0;return pz(j,0,[0,b,b],0,e(function(a){return[0,a]},f),aD,aS,aC,aR)}return Y}return g}var
+O=f5(c,a);if(O){var
+a4=k(h),a5=k(i),aE=[0,k(m),a5,a4];if(g){var
+aF=fE(j,c,f,aE,O[1]);if(aF)var
 P=aF;else{if(typeof
 a!=="number"&&0===a[0]){var
-A=a[2];return A?A[2]?0:fR(i,c,f,aE,a[1],A[1]):A}var
+A=a[2];return A?A[2]?0:fV(j,c,f,aE,a[1],A[1]):A}var
 P=0}}else
 var
 P=g;var
 aG=P}else
 var
 aG=O;return aG}var
-Q=f1(c,a);if(Q){var
-a6=k(h),a7=k(j),aH=[0,k(m),a7,a6];if(g){var
-aI=fA(i,c,f,aH,Q[1]);if(aI)var
+Q=f5(c,a);if(Q){var
+a6=k(h),a7=k(i),aH=[0,k(m),a7,a6];if(g){var
+aI=fE(j,c,f,aH,Q[1]);if(aI)var
 R=aI;else{if(typeof
 a!=="number"&&0===a[0]){var
-B=a[2];return B?B[2]?0:fR(i,c,f,aH,a[1],B[1]):B}var
+B=a[2];return B?B[2]?0:fV(j,c,f,aH,a[1],B[1]):B}var
 R=0}}else
 var
 R=g;var
 aJ=R}else
 var
 aJ=Q;return aJ}var
-S=f1(c,a);if(S){var
-a8=k(h),a9=k(j),aK=[0,k(m),a9,a8];if(g){var
-aL=fA(i,c,f,aK,S[1]);if(aL)var
+S=f5(c,a);if(S){var
+a8=k(h),a9=k(i),aK=[0,k(m),a9,a8];if(g){var
+aL=fE(j,c,f,aK,S[1]);if(aL)var
 T=aL;else{if(typeof
 a!=="number"&&0===a[0]){var
-C=a[2];return C?C[2]?0:fR(i,c,f,aK,a[1],C[1]):C}var
+C=a[2];return C?C[2]?0:fV(j,c,f,aK,a[1],C[1]):C}var
 T=0}}else
 var
 T=g;var
@@ -7845,30 +8039,30 @@ aM=S;return aM;case
 U=G(c[3],a[1]);if(U){var
 aN=U[1];if(typeof
 aN==="number"&&aN){var
-V=cS(a[2]);if(V){var
-n=V[1],W=cS(a[3]);if(W){var
+V=cW(a[2]);if(V){var
+n=V[1],W=cW(a[3]);if(W){var
 o=W[1];if(g){var
-a_=h3([0,d,[0,d,[0,d,0]]],n,o,a[4],a[5]),a$=k(h),ba=k(j),D=[0,k(m),ba,a$];if(n){var
+a_=h8([0,d,[0,d,[0,d,0]]],n,o,a[4],a[5]),a$=k(h),ba=k(i),D=[0,k(m),ba,a$];if(n){var
 p=n[2];if(p){var
 q=p[2];if(q){if(q[2])return 0;if(o){var
 r=o[2];if(r){var
 s=r[2];if(s){if(s[2])return 0;var
-Z=s[1],_=r[1],$=o[1],aa=q[1],ab=p[1],ac=n[1],ad=[0,[1,0,ac,$],[1,wF,ab,_],[1,wE,aa,Z]],ae=fx(i,c,f,D);if(ae)var
-aT=c[3],E=aj(function(a){if(typeof
+Z=s[1],_=r[1],$=o[1],aa=q[1],ab=p[1],ac=n[1],ad=[0,[1,0,ac,$],[1,xd,ab,_],[1,xc,aa,Z]],ae=fB(j,c,f,D);if(ae)var
+aT=c[3],E=ak(function(a){if(typeof
 a==="number"&&a)return 1;return 0},aT);else
 var
 E=ae;var
-af=E?hB(n,o):E,ag=af?kc(i,c[2],[0,[0,ac,ab],aa],[0,[0,$,_],Z]):af,ah=ag?eK(i,n,o,aX(D)):ag,ai=ah?l(function(a){var
-b=eJ(kd(a)),c=b?eJ([0,cM(a,D),0]):b;if(c){var
-d=jn(a,ad);if(d)return kb(i,wG,d[1]);var
+af=E?hG(n,o):E,ag=af?km(j,c[2],[0,[0,ac,ab],aa],[0,[0,$,_],Z]):af,ah=ag?eR(j,n,o,a0(D)):ag,ai=ah?l(function(a){var
+b=eQ(kn(a)),c=b?eQ([0,cQ(a,D),0]):b;if(c){var
+d=jx(a,ad);if(d)return kl(j,xe,d[1]);var
 e=1}else
 var
-e=c;return e},f):ah;if(ai)return hA(i,e(function(a){var
-b=cM(a,D);return[3,cM(a,ad),b]},f),a_);var
-ak=ai}else
+e=c;return e},f):ah;if(ai)return hF(j,e(function(a){var
+b=cQ(a,D);return[3,cQ(a,ad),b]},f),a_);var
+aj=ai}else
 var
-ak=s;var
-al=ak}else
+aj=s;var
+al=aj}else
 var
 al=r;var
 F=al}else
@@ -7891,12 +8085,12 @@ aP=V;return aP}var
 aQ=0}else
 var
 aQ=U;return aQ}var
-H=f1(c,a);if(H){var
-aV=k(h),aW=k(j),at=[0,k(m),aW,aV];if(g){var
-au=fA(i,c,f,at,H[1]);if(au)var
+H=f5(c,a);if(H){var
+aV=k(h),aW=k(i),at=[0,k(m),aW,aV];if(g){var
+au=fE(j,c,f,at,H[1]);if(au)var
 I=au;else{if(typeof
 a!=="number"&&0===a[0]){var
-y=a[2];return y?y[2]?0:fR(i,c,f,at,a[1],y[1]):y}var
+y=a[2];return y?y[2]?0:fV(j,c,f,at,a[1],y[1]):y}var
 I=0}}else
 var
 I=g;var
@@ -7912,587 +8106,587 @@ ax=v;var
 ay=ax}else
 var
 ay=t;return ay}function
-qs(n,m,b,l,C,B){var
+qN(n,m,b,l,C,B){var
 f=C,d=B;for(;;){if(0===d[0]){var
-h=d[1],i=G(f,h),o=i?aB(i[1][2],C7):i;if(o)var
-D=d[2],j=qs(n,m,b,l,kG(0,h,f),D);else
+h=d[1],i=G(f,h),o=i?aD(i[1][2],DD):i;if(o)var
+D=d[2],j=qN(n,m,b,l,kQ(0,h,f),D);else
 var
 j=o;if(j){var
-E=d[3],f=kG(1,h,f),d=E;continue}return j}var
-c=d[1],a=p9(0,n,f),p=e(function(b){function
-d(b){return p_(a,b)}function
-c(a){return kE(d,a)}switch(b[0]){case
+E=d[3],f=kQ(1,h,f),d=E;continue}return j}var
+c=d[1],a=qs(0,n,f),p=e(function(b){function
+d(b){return qt(a,b)}function
+c(a){return kO(d,a)}switch(b[0]){case
 0:var
-e=b[5],f=p_(a,b[4]),g=c(b[3]),h=c(b[2]);return[0,c(b[1]),h,g,f,e];case
+e=b[5],f=qt(a,b[4]),g=c(b[3]),h=c(b[2]);return[0,c(b[1]),h,g,f,e];case
 1:var
-i=z(c,b[3]),j=c(b[2]);return[1,c(b[1]),j,i];default:return[2,c(b[1])]}},m);if(0===b[0])var
-t=b[2],u=kE(function(b){return ax(a,b)},t),v=b[1],k=[0,kE(function(b){return ax(a,b)},v),u];else
+i=y(c,b[3]),j=c(b[2]);return[1,c(b[1]),j,i];default:return[2,c(b[1])]}},m);if(0===b[0])var
+t=b[2],u=kO(function(b){return az(a,b)},t),v=b[1],k=[0,kO(function(b){return az(a,b)},v),u];else
 var
-w=ax(a,b[5]),x=ax(a,b[4]),y=ax(a,b[3]),A=ax(a,b[2]),k=[1,ax(a,b[1]),A,y,x,w];var
+w=az(a,b[5]),x=az(a,b[4]),z=az(a,b[3]),A=az(a,b[2]),k=[1,az(a,b[1]),A,z,x,w];var
 q=e(function(g){var
 c=g[4];if(typeof
 c==="number")var
 d=0;else
 switch(c[0]){case
 0:var
-d=[0,ax(a,c[1])];break;case
+d=[0,az(a,c[1])];break;case
 1:var
-d=[1,ax(a,c[1])];break;default:var
-m=ax(a,c[2]),d=[2,ax(a,c[1]),m]}var
+d=[1,az(a,c[1])];break;default:var
+m=az(a,c[2]),d=[2,az(a,c[1]),m]}var
 h=g[3];if(h){var
 b=h[1];switch(b[0]){case
 0:var
-f=[0,[0,ax(a,b[1])]];break;case
+f=[0,[0,az(a,b[1])]];break;case
 1:var
-j=b[1],f=[0,[1,e(function(b){return ax(a,b)},j)]];break;case
+j=b[1],f=[0,[1,e(function(b){return az(a,b)},j)]];break;case
 2:var
-k=ax(a,b[2]),f=[0,[2,ax(a,b[1]),k]];break;default:var
-l=ax(a,b[2]),f=[0,[3,ax(a,b[1]),l]]}var
+k=az(a,b[2]),f=[0,[2,az(a,b[1]),k]];break;default:var
+l=az(a,b[2]),f=[0,[3,az(a,b[1]),l]]}var
 i=f}else
 var
 i=h;return[0,g[1],g[2],i,d]},l);if(typeof
 c==="number")return 1;else
 switch(c[0]){case
 0:return 0;case
-1:return kP(1,p,k,0,q,c[1],c[2],c[3]);default:var
+1:return kZ(1,p,k,0,q,c[1],c[2],c[3]);default:var
 g=c[4],s=0;if(typeof
 g!=="number"&&2===g[0]){var
-J=g[1],r=[2,e(function(b){return ax(a,b)},J)];s=1}if(!s)var
+J=g[1],r=[2,e(function(b){return az(a,b)},J)];s=1}if(!s)var
 r=g;var
-F=c[3],H=e(function(b){return ax(a,b)},F),I=c[2];return kS(p,k,0,q,e(function(b){return ax(a,b)},I),H,r)}}}function
-qt(h,g){var
-a=cG(k(h));if(a){var
-c=a[1],e=bi([0,d,b],c);if(e)return bi(c,g);var
+F=c[3],H=e(function(b){return az(a,b)},F),I=c[2];return k2(p,k,0,q,e(function(b){return az(a,b)},I),H,r)}}}function
+qO(h,g){var
+a=cK(k(h));if(a){var
+c=a[1],e=bl([0,d,b],c);if(e)return bl(c,g);var
 f=e}else
 var
 f=a;return f}function
-f4(b,a){if(a){var
-c=a[1],d=r(c,b,0);if(d)var
-g=al(c,b),e=[0,[0,f(a2(function(a){return a},g))]];else
+f8(b,a){if(a){var
+c=a[1],d=s(c,b,0);if(d)var
+g=am(c,b),e=[0,[0,f(a5(function(a){return a},g))]];else
 var
-e=d;return e}return C9}function
-qu(b,c,a){return w(function(a){if(b7(a)){var
-d=hP(0,b,0,a);return ac(1,l5(e(function(a){return fB(i,C_,a)},d)))}return ac(0,f(pW(b,c,a)))},a)}function
-qv(c,a){return e(function(a){var
+e=d;return e}return DF}function
+qP(b,c,a){return w(function(a){if(b7(a)){var
+d=hU(0,b,0,a);return ac(1,mc(e(function(a){return fF(j,DG,a)},d)))}return ac(0,f(qf(b,c,a)))},a)}function
+qQ(c,a){return e(function(a){var
 b=a[4],d=a[3],e=a[2],f=a[1];return[0,w(function(b){var
-a=f4(c,b[1]),d=a?[0,[0,a[1],b[2]],0]:a;return d},f),e,d,b]},a)}function
-qw(b,a){if(typeof
+a=f8(c,b[1]),d=a?[0,[0,a[1],b[2]],0]:a;return d},f),e,d,b]},a)}function
+qR(b,a){if(typeof
 a!=="number")switch(a[0]){case
 0:var
-c=a[2],d=f4(b,a[1]);return z(function(a){return[0,a,c]},d);case
+c=a[2],d=f8(b,a[1]);return y(function(a){return[0,a,c]},d);case
 1:var
-e=a[2],f=f4(b,a[1]);return z(function(a){return[1,a,e]},f);case
+e=a[2],f=f8(b,a[1]);return y(function(a){return[1,a,e]},f);case
 3:var
-g=a[5],h=a[4],i=a[3],j=a[2],k=f4(b,a[1]);return z(function(a){return[3,a,j,i,h,g]},k)}return[0,a]}function
-De(v){var
-gL=hM(v[3]),gM=gL?hM(v[4]):gL;if(gM){var
+g=a[5],h=a[4],i=a[3],j=a[2],k=f8(b,a[1]);return y(function(a){return[3,a,j,i,h,g]},k)}return[0,a]}function
+DM(v){var
+gM=hR(v[3]),gN=gM?hR(v[4]):gM;if(gN){var
 ah=v[1];switch(ah[0]){case
 3:var
-gS=l(fY,ah[1]);if(gS)var
-lO=ah[2],ds=l(function(a){return fY(a[1])},lO);else
+gT=l(f2,ah[1]);if(gT)var
+lO=ah[2],dn=l(function(a){return f2(a[1])},lO);else
 var
-ds=gS;if(ds)var
-lP=ah[3],dt=l(function(a){var
-b=fY(a[1]),c=b?ku(a[2]):b;return c?fZ(a[2]):c},lP);else
+dn=gT;if(dn)var
+lP=ah[3],dp=l(function(a){var
+b=f2(a[1]),c=b?kE(a[2]):b;return c?f3(a[2]):c},lP);else
 var
-dt=ds;if(dt)var
-lQ=ah[4],bU=l(function(a){var
+dp=dn;if(dp)var
+lQ=ah[4],bS=l(function(a){var
 b=0===a[0]?a[1]:[0,a[1],0];return l(function(a){var
-b=ku(a);return b?fZ(a):b},b)},lQ);else
+b=kE(a);return b?f3(a):b},b)},lQ);else
 var
-bU=dt;break;case
+bS=dp;break;case
 7:var
-lR=ah[1],gT=l(function(a){var
-b=fY(a[1]);return b?f0(0,[0,a[2][1],[0,a[2][2],0]]):b},lR),bU=gT?f0(0,[0,ah[5],[0,ah[6],0]]):gT;break;default:var
-bU=1}var
-dp=bU}else
+lR=ah[1],gU=l(function(a){var
+b=f2(a[1]);return b?f4(0,[0,a[2][1],[0,a[2][2],0]]):b},lR),bS=gU?f4(0,[0,ah[5],[0,ah[6],0]]):gU;break;default:var
+bS=1}var
+dl=bS}else
 var
-dp=gM;var
-eq=0;if(dp){var
-gN=v[1],dr=7===gN[0]?e(aA,gN[1]):0,gO=function(c,b){var
-a=pT(c);return a?l(function(a){var
-e=a[1],b=l(function(a){return kt(a[2])},e);if(b){var
-c=a[3];if(c)return f0(dr,pS(c[1]));var
+dl=gN;var
+eo=0;if(dl){var
+gO=v[1],dm=7===gO[0]?e(aC,gO[1]):0,gP=function(c,b){var
+a=qc(c);return a?l(function(a){var
+e=a[1],b=l(function(a){return kD(a[2])},e);if(b){var
+c=a[3];if(c)return f4(dm,qb(c[1]));var
 d=1}else
 var
-d=b;return d},b):a},gP=function(e,d,c,b){var
-a=pT(e);return a?f0(dr,g(d,g(c,pS(b)))):a},o=v[1];switch(o[0]){case
+d=b;return d},b):a},gQ=function(e,d,c,b){var
+a=qc(e);return a?f4(dm,g(d,g(c,qb(b)))):a},o=v[1];switch(o[0]){case
 0:var
-ln=w(d1,o[4]),lo=g(w(pQ,o[3]),ln),lp=g(pO(o[2]),lo),ai=g(w(kv,o[1]),lp);break;case
+ln=w(d6,o[4]),lo=g(w(p$,o[3]),ln),lp=g(p9(o[2]),lo),ai=g(w(kF,o[1]),lp);break;case
 1:var
-dl=o[5],dm=o[3],lq=w(d1,o[6]),lr=dl?pP(dl[1]):dl,ls=g(lr,lq),lt=g(pN(o[4]),ls),lu=dm?[0,dm[1],0]:dm,lv=g(lu,lt),ai=g(w(BC,o[2]),lv);break;case
+df=o[5],dg=o[3],lq=w(d6,o[6]),lr=df?p_(df[1]):df,ls=g(lr,lq),lt=g(p8(o[4]),ls),lu=dg?[0,dg[1],0]:dg,lv=g(lu,lt),ai=g(w(B_,o[2]),lv);break;case
 2:var
-lw=w(d1,o[7]),lx=g(w(pQ,o[6]),lw),ly=g(pP(o[5]),lx),lz=g(pN(o[4]),ly),lA=[0,o[3],lz],lB=o[2],ai=g(w(function(a){return w(eQ,g(a[1],a[2]))},lB),lA);break;case
+lw=w(d6,o[7]),lx=g(w(p$,o[6]),lw),ly=g(p_(o[5]),lx),lz=g(p8(o[4]),ly),lA=[0,o[3],lz],lB=o[2],ai=g(w(function(a){return w(eX,g(a[1],a[2]))},lB),lA);break;case
 3:var
-lC=w(d1,o[7]),lD=g(o[6],lC),lE=g(o[5],lD),lF=o[2],ai=g(w(function(a){return eQ(a[2])},lF),lE);break;case
+lC=w(d6,o[7]),lD=g(o[6],lC),lE=g(o[5],lD),lF=o[2],ai=g(w(function(a){return eX(a[2])},lF),lE);break;case
 4:var
-lG=w(d1,o[3]),ai=[0,o[1],[0,o[2],lG]];break;case
+lG=w(d6,o[3]),ai=[0,o[1],[0,o[2],lG]];break;case
 5:var
-lH=w(d1,o[4]),lI=g(b5(o[3]),lH),lJ=g(b5(o[2]),lI),lK=g(w(kv,o[1]),lJ),ai=[0,o[5],lK];break;case
+lH=w(d6,o[4]),lI=g(b5(o[3]),lH),lJ=g(b5(o[2]),lI),lK=g(w(kF,o[1]),lJ),ai=[0,o[5],lK];break;case
 6:var
-dn=o[1],ai=dn?eQ(dn[1]):dn;break;default:var
-lL=w(d1,o[4]),lM=g(pO(o[3]),lL),ai=g(w(kv,o[2]),lM)}var
-gQ=f0(dr,ai);if(gQ){var
-ak=v[2];switch(ak[0]){case
+dj=o[1],ai=dj?eX(dj[1]):dj;break;default:var
+lL=w(d6,o[4]),lM=g(p9(o[3]),lL),ai=g(w(kF,o[2]),lM)}var
+gR=f4(dm,ai);if(gR){var
+aj=v[2];switch(aj[0]){case
 0:var
-bu=gO(ak[1],ak[3]);break;case
+br=gP(aj[1],aj[3]);break;case
 1:var
-bu=gP(ak[1],ak[2],ak[3],ak[4]);break;default:var
-lN=ak[1],bu=l(function(a){if(typeof
+br=gQ(aj[1],aj[2],aj[3],aj[4]);break;default:var
+lN=aj[1],br=l(function(a){if(typeof
 a!=="number")switch(a[0]){case
-1:return gO(a[1],a[3]);case
-2:return gP(a[1],a[2],a[3],a[4])}return 1},lN)}}else{var
-gR=gQ;eq=1}}else{var
-gR=dp;eq=1}if(eq)var
-bu=gR;if(bu){var
+1:return gP(a[1],a[3]);case
+2:return gQ(a[1],a[2],a[3],a[4])}return 1},lN)}}else{var
+gS=gR;eo=1}}else{var
+gS=dl;eo=1}if(eo)var
+br=gS;if(br){var
 a=v[1];switch(a[0]){case
 0:var
-Q=a[4],an=a[3],ap=a[2],S=a[1],aL=v[2];switch(aL[0]){case
+P=a[4],an=a[3],ao=a[2],R=a[1],aJ=v[2];switch(aJ[0]){case
 0:var
-dN=aL[3],hs=aL[2],dO=aL[1],g5=qu(f(S),an,Q),lZ=a2(function(a){return I(b7(a))},Q);if(aj(b7,Q)){var
-g6=kP(0,S,ap,an,lZ,dO,hs,qv(e(I,g5),dN));if(g6){var
-l0=qv(g5,dN),l1=a2(b7,Q),l2=kA(ap);return kQ(0,e(kz,S),0,l2,0,l1,dO,0,l0)}return g6}return kP(0,S,ap,an,Q,dO,hs,dN);case
+dI=aJ[3],hr=aJ[2],dJ=aJ[1],g6=qP(f(R),an,P),lZ=a5(function(a){return I(b7(a))},P);if(ak(b7,P)){var
+g7=kZ(0,R,ao,an,lZ,dJ,hr,qQ(e(I,g6),dI));if(g7){var
+l0=qQ(g6,dI),l1=a5(b7,P),l2=kK(ao);return k0(0,e(kJ,R),0,l2,0,l1,dJ,0,l0)}return g7}return kZ(0,R,ao,an,P,dJ,hr,dI);case
 1:var
-dP=aL[4],dQ=aL[3],dR=aL[2],g9=qu(f(S),an,Q),dC=a2(function(a){return I(b7(a))},Q);if(aj(b7,Q)){var
-l3=a2(b7,Q),l4=kA(ap),g_=hZ(0,e(kz,S),0,l4,0,l3);if(g_)var
-dD=qw(e(I,g9),dP),l5=dD?kS(S,ap,an,dC,dR,dQ,dD[1]):dD,dE=l5;else
+dK=aJ[4],dM=aJ[3],dN=aJ[2],g8=qP(f(R),an,P),dz=a5(function(a){return I(b7(a))},P);if(ak(b7,P)){var
+l3=a5(b7,P),l4=kK(ao),g9=h4(0,e(kJ,R),0,l4,0,l3);if(g9)var
+dA=qR(e(I,g8),dK),l5=dA?k2(R,ao,an,dz,dN,dM,dA[1]):dA,dB=l5;else
 var
-dE=g_;if(dE)var
-dG=dE;else{var
-g$=h0(S,an,dC,hO(S,ap,an,dC));if(g$){var
-dH=qw(g9,dP);if(dH){var
-l6=dH[1],l7=a2(b7,Q),l8=kA(ap);return kR(0,e(kz,S),0,l8,0,l7,dR,dQ,l6)}var
-dG=dH}else
+dB=g9;if(dB)var
+dC=dB;else{var
+g_=h5(R,an,dz,hT(R,ao,an,dz));if(g_){var
+dD=qR(g8,dK);if(dD){var
+l6=dD[1],l7=a5(b7,P),l8=kK(ao);return k1(0,e(kJ,R),0,l8,0,l7,dN,dM,l6)}var
+dC=dD}else
 var
-dG=g$}return dG}return kS(S,ap,an,Q,dR,dQ,dP);default:return 0}case
+dC=g_}return dC}return k2(R,ao,an,P,dN,dM,dK);default:return 0}case
 1:var
-bv=a[6],bY=a[5],bZ=a[4],b2=a[3],X=a[2],T=a[1],aM=v[2];switch(aM[0]){case
-0:return kQ(T,X,b2,bZ,bY,bv,aM[1],aM[2],aM[3]);case
+bs=a[6],bW=a[5],bX=a[4],bY=a[3],X=a[2],T=a[1],aM=v[2];switch(aM[0]){case
+0:return k0(T,X,bY,bX,bW,bs,aM[1],aM[2],aM[3]);case
 1:var
-aq=aM[4],dS=aM[3],ht=aM[2];if(typeof
+aq=aM[4],dP=aM[3],hs=aM[2];if(typeof
 aq!=="number"&&3===aq[0]){var
-mh=aq[5],mi=aq[4],mj=aq[3],mk=aq[2],ml=aq[1],s=typeof
-T==="number"?T?C5:C6:hY(T[1]),gU=dy(ar(T),s),dv=e(k,ht),a6=ky(T,X,b2,bZ,bY,bv),gV=qr(a6[2]),gW=kJ(X,e(k,dS));if(gW[2])return 0;var
-dw=cS(mk);if(dw){var
-W=dw[1],dx=cS(mj);if(dx){var
-aK=dx[1],gX=f3(w(kL,X),dS),gY=gX?hZ(T,X,b2,bZ,bY,bv):gX;if(gY)var
-lT=ar(T),dz=n(f(dv),lT);else
+mh=aq[5],mi=aq[4],mj=aq[3],mk=aq[2],ml=aq[1],r=typeof
+T==="number"?T?DB:DC:h3(T[1]),gV=dE(as(T),r),ds=e(k,hs),a7=kI(T,X,bY,bX,bW,bs),gW=qM(a7[2]),gX=kT(X,e(k,dP));if(gX[2])return 0;var
+dt=cW(mk);if(dt){var
+W=dt[1],du=cW(mj);if(du){var
+aF=du[1],gY=f7(w(kV,X),dP),gZ=gY?h4(T,X,bY,bX,bW,bs):gY;if(gZ)var
+lT=as(T),dv=n(f(ds),lT);else
 var
-dz=gY;if(dz)var
-lU=f(X),lV=hq(T),dA=n(ml,d8(d4(X),lV,lU,0,bv));else
+dv=gZ;if(dv)var
+lU=f(X),lV=hv(T),dx=n(ml,eb(d9(X),lV,lU,0,bs));else
 var
-dA=dz;if(dA){if(d4(X))var
-lW=ac(d,gU),gZ=g(ac(gV,s),lW);else
+dx=dv;if(dx){if(d9(X))var
+lW=ac(d,gV),g0=g(ac(gW,r),lW);else
 var
-lY=ac(P(gV),gU),gZ=g(ac(d,s),lY);var
-lX=h3(gZ,W,aK,mi,mh),am=au(s,dv),bq=aJ(al(s,dv)),dB=gW[1],O=a6[5],fF=ka(0,W,aK),cI=pl(al(s,fF)),cJ=au(s,fF),fH=a6[7],fI=fH?fK(i,a6[2],dB):fH,fJ=fI?jI(i,a6,bq,am):fI,fL=fJ?ab(s,wQ):fJ;if(fL)var
-kn=N(s,f(am)),cL=n(f(W),kn);else
+lY=ac(Q(gW),gV),g0=g(ac(d,r),lY);var
+lX=h8(g0,W,aF,mi,mh),al=aw(r,ds),bn=aL(am(r,ds)),dy=gX[1],O=a7[5],fE=kk(0,W,aF),cD=pF(am(r,fE)),cF=aw(r,fE),fG=a7[7],fH=fG?fO(j,a7[2],dy):fG,fI=fH?jS(j,a7,bn,al):fH,fJ=fI?ae(r,xo):fI;if(fJ)var
+ka=N(r,f(al)),cG=n(f(W),ka);else
 var
-cL=fL;var
-fO=cL?hB(W,aK):cL;if(fO)var
-ko=hC(al(s,aK)),kp=hC(al(s,W)),cM=kc(i,a6[4],kp,ko);else
+cG=fJ;var
+fL=cG?hG(W,aF):cG;if(fL)var
+kd=hH(am(r,aF)),kh=hH(am(r,W)),cI=km(j,a7[4],kh,kd);else
 var
-cM=fO;if(cM){var
-kq=au(s,aK),kr=au(s,W);if(O)var
-fD=O[1],km=0===fD[0]?wO:wP,fE=n(f(am),km),fP=fE?pk(i,fD,kr,kq):fE;else
+cI=fL;if(cI){var
+kj=aw(r,aF),kp=aw(r,W);if(O)var
+fC=O[1],j$=0===fC[0]?xm:xn,fD=n(f(al),j$),fM=fD?pE(j,fC,kp,kj):fD;else
 var
-fP=n(f(am),0);var
-cN=fP}else
+fM=n(f(al),0);var
+cJ=fM}else
 var
-cN=cM;if(cN){var
-ks=al(s,aX(bq)),kx=al(s,aK),fQ=eK(i,al(s,W),kx,ks);if(fQ)var
-a5=fQ;else
+cJ=cI;if(cJ){var
+kr=am(r,a0(bn)),kt=am(r,aF),fN=eR(j,am(r,W),kt,kr);if(fN)var
+a4=fN;else
 if(O){var
-fU=pj(O[1]);if(fU)var
-kB=au(s,aK),a5=eK(i,au(s,W),kB,am);else
+fS=pD(O[1]);if(fS)var
+ku=aw(r,aF),a4=eR(j,aw(r,W),ku,al);else
 var
-a5=fU}else
+a4=fS}else
 var
-a5=O}else
+a4=O}else
 var
-a5=cN;var
-fR=a5?l(function(b){var
-a=eH(O,am,bq,b),t=typeof
+a4=cJ;var
+fP=a4?l(function(b){var
+a=eO(O,al,bn,b),t=typeof
 a==="number"?0:0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]];if(0===b[0])var
-k=kd(b[1]);else
+k=kn(b[1]);else
 var
-c=b[1],p=[0,c[5],[0,c[6],0]],q=g(aX(c[4]),p),r=g(aX(c[3]),q),s=g(aX(c[2]),r),k=g(aX(c[1]),s);var
-m=eJ(g(k,t));if(m)var
-u=jH(O,am,bq,b),v=1,e=l(function(a){return h(i,v,a)},u);else
+c=b[1],p=[0,c[5],[0,c[6],0]],q=g(a0(c[4]),p),r=g(a0(c[3]),q),s=g(a0(c[2]),r),k=g(a0(c[1]),s);var
+m=eQ(g(k,t));if(m)var
+u=jR(O,al,bn,b),v=1,e=l(function(a){return i(j,v,a)},u);else
 var
 e=m;if(e){var
-d=eH(O,cJ,cI,b),n=0;if(typeof
+d=eO(O,cF,cD,b),n=0;if(typeof
 d==="number"||!(1===d[0]))n=1;else{var
 o=0;if(typeof
 a!=="number"&&1===a[0]){var
-j=[0,[2,[4,d[1],a[1]],[4,d[2],a[2]]],0];o=1}if(!o)var
-j=0}if(n)var
-j=0;var
-w=g(jH(O,cJ,cI,b),j),x=f(W);return l(function(a){return kb(i,x,a)},w)}return e},dB):a5;return fR?hA(i,e(function(d){var
-a=eH(O,am,bq,d),c=eH(O,cJ,cI,d);if(typeof
+h=[0,[2,[4,d[1],a[1]],[4,d[2],a[2]]],0];o=1}if(!o)var
+h=0}if(n)var
+h=0;var
+w=g(jR(O,cF,cD,b),h),x=f(W);return l(function(a){return kl(j,x,a)},w)}return e},dy):a4;return fP?hF(j,e(function(d){var
+a=eO(O,al,bn,d),c=eO(O,cF,cD,d);if(typeof
 c==="number")return[0,b,b];else{if(0===c[0]){if(typeof
 a!=="number"&&0===a[0])return[3,c[1],a[1]];return[0,b,b]}if(typeof
-a!=="number"&&1===a[0])return[3,[4,c[2],a[1]],[4,c[1],a[2]]];return[0,b,b]}},dB),lX):fR}var
-g0=dA}else
+a!=="number"&&1===a[0])return[3,[4,c[2],a[1]],[4,c[1],a[2]]];return[0,b,b]}},dy),lX):fP}var
+g1=dx}else
 var
-g0=dx;var
-g1=g0}else
+g1=du;var
+g2=g1}else
 var
-g1=dw;return g1}return kR(T,X,b2,bZ,bY,bv,ht,dS,aq);default:return 0}case
+g2=dt;return g2}return k1(T,X,bY,bX,bW,bs,hs,dP,aq);default:return 0}case
 2:var
-aN=a[7],aP=a[6],b3=a[5],b8=a[4],b9=a[3],Y=a[2],Z=a[1],aQ=v[2];switch(aQ[0]){case
+aN=a[7],aO=a[6],bZ=a[5],b2=a[4],b3=a[3],Y=a[2],Z=a[1],aP=v[2];switch(aP[0]){case
 0:var
-hu=aQ[3],as=p1(Z,Y,b9,b8,b3,aP,aN),mm=as[2],dT=F(b,bJ(w(function(a){var
-b=bd(a[2]);return g(bd(a[1]),b)},mm))),mn=f(hu),mo=jS(dT,as[2]),mp=jS(dT,as[2]),dU=d5(bD(Z),mp,mo,0,mn,hu);if(dU){var
-hv=dU[1];if(hv[2])return 0;var
-hw=qk(Z,Y,b9,b8,b3,aP,aN);if(hw){var
-mq=hv[1],mr=f(Y),ms=d8(0,kM(Z),mr,aP,aN),mt=h2(aQ[2]),mu=aQ[1],iW=as[2],ev=l(function(a){var
-b=oO(i,a[1]);return b?oO(i,a[2]):b},iW);if(ev)var
-iX=jp(as[4]),ci=cK(i,as[4],iX);else
+hu=aP[3],ar=qk(Z,Y,b3,b2,bZ,aO,aN),mm=ar[2],dQ=F(b,bL(w(function(a){var
+b=bh(a[2]);return g(bh(a[1]),b)},mm))),mn=f(hu),mo=j2(dQ,ar[2]),mp=j2(dQ,ar[2]),dS=d_(bF(Z),mp,mo,0,mn,hu);if(dS){var
+hw=dS[1];if(hw[2])return 0;var
+hx=qF(Z,Y,b3,b2,bZ,aO,aN);if(hx){var
+mq=hw[1],mr=f(Y),ms=eb(0,kW(Z),mr,aO,aN),mt=h7(aP[2]),mu=aP[1],iX=ar[2],et=l(function(a){var
+b=o8(j,a[1]);return b?o8(j,a[2]):b},iX);if(et)var
+iY=jz(ar[4]),cg=cO(j,ar[4],iY);else
 var
-ci=ev;if(ci)var
-iY=ho(as[5]),cj=l(function(a){return fM(i,a)},iY);else
+cg=et;if(cg)var
+iZ=ht(ar[5]),ch=l(function(a){return fQ(j,a)},iZ);else
 var
-cj=ci;return cj?vV(mu,mt,ms,as,dT,mq):cj}var
-hz=hw}else
+ch=cg;return ch?wt(mu,mt,ms,ar,dQ,mq):ch}var
+hy=hx}else
 var
-hz=dU;return hz;case
+hy=dS;return hy;case
 1:var
-_=aQ[4],hF=aQ[3],aR=e(k,aQ[2]),q=hY(Z),hG=qf(Y,e(k,hF));if(hG[2])return 0;var
-t=hG[1],hH=f3(w(function(a){return g(a[1],a[2])},Y),hF),hK=hH?qk(Z,Y,b9,b8,b3,aP,aN):hH;if(hK){var
-p=p1(Z,Y,b9,b8,b3,aP,aN);if(typeof
+_=aP[4],hz=aP[3],aQ=e(k,aP[2]),q=h3(Z),hA=qA(Y,e(k,hz));if(hA[2])return 0;var
+t=hA[1],hB=f7(w(function(a){return g(a[1],a[2])},Y),hz),hE=hB?qF(Z,Y,b3,b2,bZ,aO,aN):hB;if(hE){var
+p=qk(Z,Y,b3,b2,bZ,aO,aN);if(typeof
 _!=="number")switch(_[0]){case
 2:var
-hT=e(k,_[1]),hX=au(q,hT),h4=aJ(al(q,hT)),h5=au(q,aR),h6=aJ(al(q,aR)),ew=eA(i,p,t,h6,h5),ey=ew?eA(i,p,t,h4,hX):ew;if(ey)var
-iZ=bD(p[1]),ck=n(f(t),iZ);else
+hS=e(k,_[1]),hV=aw(q,hS),hW=aL(am(q,hS)),hX=aw(q,aQ),hY=aL(am(q,aQ)),eu=eH(j,p,t,hY,hX),ev=eu?eH(j,p,t,hW,hV):eu;if(ev)var
+i0=bF(p[1]),ci=n(f(t),i0);else
 var
-ck=ey;if(ck){var
-ez=function(b,a){var
-c=p[5],d=p[3],f=p[1];return e(function(e){return jx(f,d,c,a,b,e)},t)},i0=ez(h4,hX),i1=ez(h6,h5);return j0(i,bD(p[1]),i1,i0)}return ck;case
+ci=ev;if(ci){var
+ew=function(b,a){var
+c=p[5],d=p[3],f=p[1];return e(function(e){return jH(f,d,c,a,b,e)},t)},i1=ew(hW,hV),i2=ew(hY,hX);return j_(j,bF(p[1]),i2,i1)}return ci;case
 3:var
-d2=cS(_[2]);if(d2){var
-at=d2[1],d3=cS(_[3]);if(d3){var
-aS=d3[1],mw=p[2],mx=F(b,bJ(w(function(a){var
-b=bd(a[2]);return g(bd(a[1]),b)},mw))),my=f(Y),mz=d8(0,kM(Z),my,aP,aN),h7=n(_[1],mz);if(h7){var
-mA=_[5],mB=_[4],mC=ac(P(mx),dy(f(aR),q)),mD=h3(g(ac(d,q),mC),at,aS,mB,mA),a7=au(q,aR),ca=aJ(al(q,aR)),a4=p[5],ft=ka(0,at,aS),fu=p[7],fw=fu?eA(i,p,t,ca,a7):fu,fx=fw?ab(q,wL):fw;if(fx)var
-j5=N(q,f(a7)),cD=n(f(at),j5);else
+dV=cW(_[2]);if(dV){var
+at=dV[1],dW=cW(_[3]);if(dW){var
+aR=dW[1],mw=p[2],mx=F(b,bL(w(function(a){var
+b=bh(a[2]);return g(bh(a[1]),b)},mw))),my=f(Y),mz=eb(0,kW(Z),my,aO,aN),h2=n(_[1],mz);if(h2){var
+mA=_[5],mB=_[4],mC=ac(Q(mx),dE(f(aQ),q)),mD=h8(g(ac(d,q),mC),at,aR,mB,mA),a8=aw(q,aQ),b_=aL(am(q,aQ)),a3=p[5],ft=kk(0,at,aR),fu=p[7],fv=fu?eH(j,p,t,b_,a8):fu,fw=fv?ae(q,xj):fv;if(fw)var
+j1=N(q,f(a8)),cz=n(f(at),j1);else
 var
-cD=fx;if(cD)var
-j9=0===a4[0]?wM:wN,cE=n(f(a7),j9);else
+cz=fw;if(cz)var
+j3=0===a3[0]?xk:xl,cA=n(f(a8),j3);else
 var
-cE=cD;var
-fy=cE?hB(at,aS):cE;if(fy)var
-j$=hC(al(q,aS)),kf=hC(al(q,at)),cF=kc(i,p[4],kf,j$);else
+cA=cz;var
+fx=cA?hG(at,aR):cA;if(fx)var
+j4=hH(am(q,aR)),j5=hH(am(q,at)),cB=km(j,p[4],j5,j4);else
 var
-cF=fy;if(cF)var
-kh=au(q,aS),cH=pk(i,a4,au(q,at),kh);else
+cB=fx;if(cB)var
+j6=aw(q,aR),cC=pE(j,a3,aw(q,at),j6);else
 var
-cH=cF;if(cH){var
-kj=al(q,aX(ca)),kk=al(q,aS),fz=eK(i,al(q,at),kk,kj);if(fz)var
-bm=fz;else{var
-fC=pj(a4);if(fC)var
-kl=au(q,aS),bm=eK(i,au(q,at),kl,a7);else
+cC=cB;if(cC){var
+j7=am(q,a0(b_)),j8=am(q,aR),fy=eR(j,am(q,at),j8,j7);if(fy)var
+bk=fy;else{var
+fB=pD(a3);if(fB)var
+j9=aw(q,aR),bk=eR(j,aw(q,at),j9,a8);else
 var
-bm=fC}}else
+bk=fB}}else
 var
-bm=cH;var
-fA=bm?l(function(a){var
-c=aX(a[2]),b=eJ(g(aX(a[1]),c));return b?eJ([0,ke(a4,a7,ca,a),0]):b},t):bm;return fA?hA(i,e(function(a){var
-b=[6,ke(a4,a7,ca,a)],c=pl(al(q,ft));return[3,[6,ke(a4,au(q,ft),c,a)],b]},t),mD):fA}var
-h8=h7}else
+bk=cC;var
+fA=bk?l(function(a){var
+c=a0(a[2]),b=eQ(g(a0(a[1]),c));return b?eQ([0,ko(a3,a8,b_,a),0]):b},t):bk;return fA?hF(j,e(function(a){var
+b=[6,ko(a3,a8,b_,a)],c=pF(am(q,ft));return[3,[6,ko(a3,aw(q,ft),c,a)],b]},t),mD):fA}var
+h9=h2}else
 var
-h8=d3;var
-h9=h8}else
+h9=dW;var
+h_=h9}else
 var
-h9=d2;return h9}var
-mv=f(Y),dZ=kN(0,kM(Z),mv,aP,aN,_);if(dZ){var
-bw=dZ[1],y=aJ(al(q,aR)),u=au(q,aR),es=eA(i,p,t,y,u);if(es)var
-af=p[5],et=p[3],eu=p[1],iT=p[6],ch=function(a){var
-b=b1(af,u,y,a);return x(b1(af,u,y,a),b)},iM=e(function(a){return[0,jx(eu,et,af,u,y,a)]},t),iN=e(ch,t),iO=function(a){var
-b=dc(af,u,a);return M(function(b,a){return[2,b,a]},y,b)},iP=e(function(a){var
-b=[6,ch(a)],c=b1(af,u,y,a),d=dc(af,u,a[2]);return[0,[0,[0,M(function(b,a){return[2,b,a]},y,d),c],b]]},t),iQ=e(function(a){return 0},t),iR=e(function(a){return[0,[6,ch(a)]]},t),iS=[0,e(function(c){var
-a=ay(b1(af,u,y,c));return jw(eu,a,R([5,[0,b,b],et],db(dc(af,u,c[2]),a)))},t),iR,iQ,iP,iO,iN,iM],iU=bD(p[1]),iV=2<=p[1]?uI:uJ,d0=jr(i,iV,iU,iS,iT,bw);else
+h_=dV;return h_}var
+mv=f(Y),dT=kX(0,kW(Z),mv,aO,aN,_);if(dT){var
+bt=dT[1],z=aL(am(q,aQ)),u=aw(q,aQ),eq=eH(j,p,t,z,u);if(eq)var
+af=p[5],er=p[3],es=p[1],iU=p[6],cf=function(a){var
+b=b1(af,u,z,a);return x(b1(af,u,z,a),b)},iN=e(function(a){return[0,jH(es,er,af,u,z,a)]},t),iO=e(cf,t),iP=function(a){var
+b=di(af,u,a);return M(function(b,a){return[2,b,a]},z,b)},iQ=e(function(a){var
+b=[6,cf(a)],c=b1(af,u,z,a),d=di(af,u,a[2]);return[0,[0,[0,M(function(b,a){return[2,b,a]},z,d),c],b]]},t),iR=e(function(a){return 0},t),iS=e(function(a){return[0,[6,cf(a)]]},t),iT=[0,e(function(c){var
+a=aA(b1(af,u,z,c));return jG(es,a,S([5,[0,b,b],er],dh(di(af,u,c[2]),a)))},t),iS,iR,iQ,iP,iO,iN],iV=bF(p[1]),iW=2<=p[1]?vg:vh,dU=jB(j,iW,iV,iT,iU,bt);else
 var
-d0=es;if(d0)var
-hL=d0;else{if(typeof
-bw!=="number"&&0===bw[0]){var
-b_=bw[2];if(b_){if(b_[2])return 0;var
-b$=b_[1],hR=bw[1],bh=p[1],fe=eA(i,p,t,y,u),er=0;if(fe){var
-jW=p[6],jX=2<=bh?wB:wC,cz=ex(i,jX,hR,jW),cf=0;if(cz){var
-a3=cz[1][1],cg=0;if(typeof
-a3!=="number"&&15===a3[0]){var
-cA=G(t,a3[1]);if(cA){var
-bl=nR(b$),fh=a3[3],bM=cA[1],bN=p[5],cB=p[3],jY=a3[4],jZ=a3[2],e6=jx(bh,cB,bN,u,y,bM),e7=b1(bN,u,y,bM),cy=bt(bl,bl),e8=[4,[4,jZ,[6,bt(e6,e6)]],cy],bf=b1(bN,u,y,bM),cw=dc(bN,u,bM[2]),bg=R([5,[0,b,b],cB],pc(bh,bl)),jN=db(bg,cw),jO=pb(bh,bl),cx=M(function(b,a){return[2,b,a]},jO,jN),e5=x(bf,cx),jP=x(bg,bg),jQ=[4,x(bf,cw),jP],jR=x(cw,bg),jT=[3,[4,x(bf,bg),jR],jQ],jU=[5,[4,e5,e5],x(bf,bf)],e9=[4,[4,fh,fh],[2,[3,x(cx,cx),jU],jT]],e_=[4,[4,jY,cy],[6,x(e7,e7)]],jV=bD(bh),e$=n(f(bl),jV),fa=e$?h(i,1,cy):e$,fb=fa?h(i,1,cB):fa,iL=0;if(fb){var
-fc=h(i,1,[3,[2,e8,e9],e_]);if(fc)var
+dU=eq;if(dU)var
+hK=dU;else{if(typeof
+bt!=="number"&&0===bt[0]){var
+b8=bt[2];if(b8){if(b8[2])return 0;var
+b9=b8[1],hP=bt[1],bi=p[1],fe=eH(j,p,t,z,u),ep=0;if(fe){var
+jV=p[6],jW=2<=bi?w$:xa,cw=eE(j,jW,hP,jV),cd=0;if(cw){var
+a2=cw[1][1],ce=0;if(typeof
+a2!=="number"&&15===a2[0]){var
+cx=G(t,a2[1]);if(cx){var
+bj=n$(b9),fh=a2[3],bJ=cx[1],bK=p[5],cy=p[3],jX=a2[4],jY=a2[2],e6=jH(bi,cy,bK,u,z,bJ),e7=b1(bK,u,z,bJ),cv=bu(bj,bj),e8=[4,[4,jY,[6,bu(e6,e6)]],cv],be=b1(bK,u,z,bJ),ct=di(bK,u,bJ[2]),bf=S([5,[0,b,b],cy],pw(bi,bj)),jL=dh(bf,ct),jM=pv(bi,bj),cu=M(function(b,a){return[2,b,a]},jM,jL),e5=x(be,cu),jN=x(bf,bf),jO=[4,x(be,ct),jN],jP=x(ct,bf),jQ=[3,[4,x(be,bf),jP],jO],jT=[5,[4,e5,e5],x(be,be)],e9=[4,[4,fh,fh],[2,[3,x(cu,cu),jT],jQ]],e_=[4,[4,jX,cv],[6,x(e7,e7)]],jU=bF(bi),e$=n(f(bj),jU),fa=e$?i(j,1,cv):e$,fb=fa?i(j,1,cy):fa,iM=0;if(fb){var
+fc=i(j,1,[3,[2,e8,e9],e_]);if(fc)var
 fd=fc;else{var
-bx=h(i,1,[3,[3,e8,e9],e_]);cf=1;cg=1;iL=1}}else
+bv=i(j,1,[3,[3,e8,e9],e_]);cd=1;ce=1;iM=1}}else
 var
-fd=fb;if(!iL){var
-bx=fd;cf=1;cg=1}}else{var
-bx=cA;cf=1;cg=1}}if(!cg)var
+fd=fb;if(!iM){var
+bv=fd;cd=1;ce=1}}else{var
+bv=cx;cd=1;ce=1}}if(!ce)var
 ff=0}else
 var
-ff=cz;if(!cf){var
-fg=ff;er=1}}else{var
-fg=fe;er=1}if(er)var
-bx=fg;if(!bx){var
-fV=p[1],cP=p[5],fW=eA(i,p,t,y,u);if(fW){var
-kC=p[6],kD=2<=fV?wZ:w0,cQ=ex(i,kD,hR,kC);if(cQ){var
-bo=cQ[1][1];if(typeof
-bo!=="number"&&16===bo[0]){var
-f5=bo[1],f6=h(i,0,f5);if(f6)var
-kE=f(p[2]),cT=n(f(b$),kE);else
+ff=cw;if(!cd){var
+fg=ff;ep=1}}else{var
+fg=fe;ep=1}if(ep)var
+bv=fg;if(!bv){var
+fT=p[1],cL=p[5],fU=eH(j,p,t,z,u);if(fU){var
+kv=p[6],kw=2<=fT?xx:xy,cM=eE(j,kw,hP,kv);if(cM){var
+bm=cM[1][1];if(typeof
+bm!=="number"&&16===bm[0]){var
+fZ=bm[1],f0=i(j,0,fZ);if(f0)var
+kx=f(p[2]),cN=n(f(b9),kx);else
 var
-cT=f6;if(cT){var
-kG=p[2],kK=V(V(t,hD(b$,e(function(a){var
-b=bF(a[2]);return pr(b1(cP,u,y,[0,bF(a[1]),b]))},kG),f5)),b$),kT=e(function(e){var
-c=e[1],d=c[2],a=c[1],f=dc(cP,u,a[2]),g=a[1],h=M(function(b,a){return[3,b,a]},y,g),i=[2,d,pr(b1(cP,u,y,a))];return[0,dX([5,[0,e[2],b],i]),d,h,f]},kK);return pq(i,[0,fV],bo[2],bo[3],kT)}return cT}var
-fX=0}else
+cN=f0;if(cN){var
+ky=p[2],kz=V(V(t,hI(b9,e(function(a){var
+b=bH(a[2]);return pL(b1(cL,u,z,[0,bH(a[1]),b]))},ky),fZ)),b9),kA=e(function(e){var
+c=e[1],d=c[2],a=c[1],f=di(cL,u,a[2]),g=a[1],h=M(function(b,a){return[3,b,a]},z,g),i=[2,d,pL(b1(cL,u,z,a))];return[0,d2([5,[0,e[2],b],i]),d,h,f]},kz);return pK(j,[0,fT],bm[2],bm[3],kA)}return cN}var
+fV=0}else
 var
-fX=cQ;var
-f1=fX}else
+fV=cM;var
+fY=fV}else
 var
-f1=fW;return f1}var
-hS=bx}else
+fY=fU;return fY}var
+hQ=bv}else
 var
-hS=b_;return hS}var
-hL=0}var
-hN=hL}else
+hQ=b8;return hQ}var
+hK=0}var
+hL=hK}else
 var
-hN=dZ;var
-hQ=hN}else
+hL=dT;var
+hM=hL}else
 var
-hQ=hK;return hQ;default:return 0}case
+hM=hE;return hM;default:return 0}case
 3:var
-av=a[7],by=a[6],bC=a[5],ax=a[4],d6=a[3],aT=a[2],aU=a[1],aV=v[2];switch(aV[0]){case
+au=a[7],bw=a[6],bx=a[5],av=a[4],dX=a[3],aS=a[2],aT=a[1],aU=v[2];switch(aU[0]){case
 0:var
-h_=aV[3],h$=h1(j8(kw(aU,aT,d6,ax,bC,by,av)[1])),mE=f(h_),d7=d5(f(aU),h$,h$,0,mE,h_);if(d7){var
-ia=d7[1];if(ia[2])return 0;var
-ib=ql(aU,aT,ax,bC,by,av);if(ib){var
-mF=ia[1],aa=kw(aU,aT,d6,ax,bC,by,av),mG=d8(0,Df,f(ax),0,av),ic=h2(aV[2]),aW=aV[1],eX=o7(aa[1]);if(eX)var
-jv=aa[1][2],cu=l(function(a){return bA(i,a[2][1],a[2][2])},jv);else
+h$=aU[3],ia=h6(kg(kG(aT,aS,dX,av,bx,bw,au)[1])),mE=f(h$),dY=d_(f(aT),ia,ia,0,mE,h$);if(dY){var
+ib=dY[1];if(ib[2])return 0;var
+ic=qG(aT,aS,av,bx,bw,au);if(ic){var
+mF=ib[1],$=kG(aT,aS,dX,av,bx,bw,au),mG=eb(0,DN,f(av),0,au),id=h7(aU[2]),aV=aU[1],eW=pp($[1]);if(eW)var
+jo=$[1][2],cq=l(function(a){return bC(j,a[2][1],a[2][2])},jo);else
 var
-cu=eX;if(cu)var
-jy=aa[2],cv=l(function(a){return bA(i,a[1],a[2])},jy);else
+cq=eW;if(cq)var
+js=$[2],cs=l(function(a){return bC(j,a[1],a[2])},js);else
 var
-cv=cu;if(cv){var
-B=aa[1],ba=f(B[1]),bK=aa[3],cl=f(B[2]),eB=N(cl,f(fN(e(aI,B[3])))),i2=B[3],eC=o3(hx(B),i2,cl),H=j6(ba,eC,B[4],eB),i3=j4(eC,B[4],eB),i4=B[3],eD=g(j3(hx(B),i4,cl),i3),eE=f(j8(B)),eF=j7(B[2]),eG=e(function(a){return a[4]},H),i5=g(eD,de(function(b,a){if(typeof
+cs=cq;if(cs){var
+B=$[1],bb=f(B[1]),bG=$[3],cj=f(B[2]),ex=N(cj,f(fR(e(aK,B[3])))),i3=B[3],ey=pl(hC(B),i3,cj),H=ke(bb,ey,B[4],ex),i4=kc(ey,B[4],ex),i5=B[3],ez=g(kb(hC(B),i5,cj),i4),eA=f(kg(B)),eB=kf(B[2]),eC=e(function(a){return a[4]},H),i6=g(ez,dk(function(b,a){if(typeof
 a!=="number"&&16===a[0]){var
-c=dV(H);return oR(eF,e(function(a){return a[3]},H),c,eG)}return oY(H,b,a)},0,d,eE,bK)),i6=g(bB(dV(H)),i5),eM=g(bB(eI(H)),i6),cm=c1(eM)[1],i7=c0(cm),aB=function(a){return bk(i7,a)},i8=function(c,a){if(typeof
+c=d0(H);return o$(eB,e(function(a){return a[3]},H),c,eC)}return pg(H,b,a)},0,d,eA,bG)),i7=g(bD(d0(H)),i6),eD=g(bD(eP(H)),i7),eF=c6(eD),eG=c5(eF),az=cH(eG),i8=function(c,a){if(typeof
 a!=="number"&&16===a[0]){var
 f=B[4];if(l(function(a){return 0===a[0]?0:1},f)){var
-g=a[2],h=a[1],i=[0,J(aW,b)],j=dV(H);return oS(aW,aB,ba,ba,wl,0,eF,d,e(function(a){return a[3]},H),j,eG,i,h,g)}return wm}return oZ(aW,aB,H,0,d,c,a)},eN=n(f(aa[2]),ba);if(eN)var
-i9=B[4],cn=l(function(a){return 0===a[0]?n(f(a[1]),ba):1},i9);else
+g=a[2],h=a[1],i=[0,J(aV,b)],j=d0(H);return pa(aV,az,bb,bb,wV,0,eB,d,e(function(a){return a[3]},H),j,eC,i,h,g)}return wW}return ph(aV,az,H,0,d,c,a)},eI=n(f($[2]),bb);if(eI)var
+i9=B[4],ck=l(function(a){return 0===a[0]?n(f(a[1]),bb):1},i9);else
 var
-cn=eN;var
-eO=cn?l(function(a){var
-b=m(d),c=c0(cm);return aO(r(aB(a),c,b),a)},eM):cn,eP=eO?aj(o0,bK):eO;if(eP){var
-eR=I(aa[4]);if(eR)var
-bL=eR;else
+ck=eI;var
+eJ=ck?l(function(a){var
+b=m(d);return aX(s(h(az,a),eG,b),a)},eD):ck,eK=eJ?ak(pi,bG):eJ;if(eK){var
+eL=I($[4]);if(eL)var
+bI=eL;else
 var
-ju=B[4],bL=l(function(a){return 0===a[0]?0:1},ju)}else
+jn=B[4],bI=l(function(a){return 0===a[0]?0:1},jn)}else
 var
-bL=eP;if(bL){var
-i_=j8(B),co=ad(e(function(a){return ao(aW,a)},i_));if(co){var
-i$=0,ja=w(function(a){return fG(i$,d,a)},bK),cq=ad(e(function(a){return hi(aW,a)},ja));if(cq){var
-jb=aa[2],cr=ad(e(function(a){return ao(aW,[0,a,d])},jb));if(cr){var
-cs=ad(de(i8,0,d,eE,bK));if(cs){var
-eS=cs[1];if(aa[4])var
-jc=ic[2],jd=ic[1],je=dV(H),ct=jq(mG,eS,[8,j(aw(aB),je),jd,jc]);else
+bI=eK;if(bI){var
+i_=kg(B),cl=ad(e(function(a){return ap(aV,a)},i_));if(cl){var
+i$=0,ja=w(function(a){return fK(i$,d,a)},bG),cm=ad(e(function(a){return hn(aV,a)},ja));if(cm){var
+jb=$[2],cn=ad(e(function(a){return ap(aV,[0,a,d])},jb));if(cn){var
+co=ad(dk(i8,0,d,eA,bG));if(co){var
+eM=co[1];if($[4])var
+jc=id[2],jd=id[1],je=d0(H),cp=jA(mG,eM,[8,h(ay(az),je),jd,jc]);else
 var
-ct=eS;var
-ji=jg(ct),jk=cr[1],jl=function(a){return 0},jm=g(co[1],cq[1]),jn=e(aB,eD),jo=dV(H),js=j(aw(aB),jo),jt=eI(H);return f9(jf(aW,cm,j(aw(aB),jt),js,jn,jm,ct,jl),jk,ji,mF)}var
-eT=cs}else
+cp=eM;var
+jf=jq(cp),jg=cn[1],jh=function(a){return 0},ji=g(cl[1],cm[1]),jj=e(az,ez),jk=d0(H),jl=h(ay(az),jk),jm=eP(H);return gb(jp(aV,eF,h(ay(az),jm),jl,jj,ji,cp,jh),jg,jf,mF)}var
+eN=co}else
 var
-eT=cr;var
+eN=cn;var
+eT=eN}else
+var
+eT=cm;var
 eU=eT}else
 var
-eU=cq;var
+eU=cl;var
 eV=eU}else
 var
-eV=co;var
-eW=eV}else
+eV=bI;return eV}return cs}var
+ie=ic}else
 var
-eW=bL;return eW}return cv}var
-id=ib}else
-var
-id=d7;return id;case
+ie=dY;return ie;case
 1:var
-ae=aV[4],ie=aV[3],cb=aV[2],A=kw(aU,aT,d6,ax,bC,by,av),mH=e(k,ie),ig=bn(e(aI,aT),mH);if(ig[2])return 0;var
-D=ig[1],ih=f3(e(aI,aT),ie),ii=ih?ql(aU,aT,ax,bC,by,av):ih,ij=ii?o7(A[1]):ii;if(ij)var
-mI=A[2],d9=l(function(a){return bA(i,a[1],a[2])},mI);else
+ab=aU[4],ig=aU[3],b$=aU[2],A=kG(aT,aS,dX,av,bx,bw,au),mH=e(k,ig),ih=bo(e(aK,aS),mH);if(ih[2])return 0;var
+E=ih[1],ii=f7(e(aK,aS),ig),ij=ii?qG(aT,aS,av,bx,bw,au):ii,ik=ij?pp(A[1]):ij;if(ik)var
+mI=A[2],dZ=l(function(a){return bC(j,a[1],a[2])},mI);else
 var
-d9=ij;if(d9){if(typeof
-ae!=="number")switch(ae[0]){case
+dZ=ik;if(dZ){if(typeof
+ab!=="number")switch(ab[0]){case
 2:var
-eb=e(k,ae[1]),ec=e(k,cb),aC=A[1],bO=hy(aC),j1=o_(aC),fi=e(function(a){return a[3]},j1),fj=function(a){var
-b=o$(aC,D);function
-c(c){return dW(a,b,c)}return e(function(a){return e(c,a)},fi)},fk=b4(i,e(aI,aC[2]),D),fl=fk?b4(i,A[2],ec):fk,fm=fl?b4(i,A[2],eb):fl,fn=fm?n(f(ec),bO):fm,fp=fn?n(f(eb),bO):fn,fq=fp?pa(aC,aC[4]):fp,fr=fq?n(f(aC[4]),bO):fq,fs=fr?l(function(a){return l(j_,a)},fi):fr;if(fs){var
-j2=fj(eb);return j0(i,bO,fj(ec),j2)}return fs;case
+d8=e(k,ab[1]),d$=e(k,b$),aB=A[1],bM=hD(aB),jZ=ps(aB),fi=e(function(a){return a[3]},jZ),fj=function(a){var
+b=pt(aB,E);function
+c(c){return d1(a,b,c)}return e(function(a){return e(c,a)},fi)},fk=b4(j,e(aK,aB[2]),E),fl=fk?b4(j,A[2],d$):fk,fm=fl?b4(j,A[2],d8):fl,fn=fm?n(f(d$),bM):fm,fo=fn?n(f(d8),bM):fn,fp=fo?pu(aB,aB[4]):fo,fq=fp?n(f(aB[4]),bM):fp,fs=fq?l(function(a){return l(ki,a)},fi):fq;if(fs){var
+j0=fj(d8);return j_(j,bM,fj(d$),j0)}return fs;case
 3:var
-ed=cS(ae[2]);if(ed){var
-a9=ed[1],ee=cS(ae[3]);if(ee){var
-bH=ee[1],mK=d8(0,Dh,f(ax),0,av),io=n(ae[1],mK);if(io){var
-mL=ae[5],mM=ae[4],mN=h3(ac(d,f(aU)),a9,bH,mM,mL),bI=e(k,cb),aH=A[1],gm=ka(0,a9,bH),gn=A[4],go=gn?b4(i,e(aI,aH[2]),D):gn,gp=go?b4(i,A[2],bI):go;if(gp)var
-k2=e(a8,a9),cZ=b4(i,A[2],k2);else
+ea=cW(ab[2]);if(ea){var
+a9=ea[1],ec=cW(ab[3]);if(ec){var
+bA=ec[1],mK=eb(0,DP,f(av),0,au),ip=n(ab[1],mK);if(ip){var
+mL=ab[5],mM=ab[4],mN=h8(ac(d,f(aT)),a9,bA,mM,mL),bE=e(k,b$),aE=A[1],gm=kk(0,a9,bA),gn=A[4],go=gn?b4(j,e(aK,aE[2]),E):gn,gp=go?b4(j,A[2],bE):go;if(gp)var
+kU=e(ba,a9),cX=b4(j,A[2],kU);else
 var
-cZ=gp;if(cZ)var
-k3=e(a8,bH),c2=b4(i,A[2],k3);else
+cX=gp;if(cX)var
+k3=e(ba,bA),cY=b4(j,A[2],k3);else
 var
-c2=cZ;var
-gq=c2?hB(a9,bH):c2,gr=gq?eK(i,a9,bH,bI):gq,gs=gr?eJ(g(D,bI)):gr;if(gs)var
-k4=aH[3],c4=l(function(a){return fT(a[2])},k4);else
+cY=cX;var
+gq=cY?hG(a9,bA):cY,gr=gq?eR(j,a9,bA,bE):gq,gs=gr?eQ(g(E,bE)):gr;if(gs)var
+k4=aE[3],cZ=l(function(a){return fX(a[2])},k4);else
 var
-c4=gs;if(c4){var
-c7=ki(aH[4]);if(c7){var
-bS=c7[1],gt=l(fT,bS);if(gt)var
-k5=1,c8=pt(function(a){return h(i,k5,a)},aH,D,bI,bS);else
+cZ=gs;if(cZ){var
+c0=ks(aE[4]);if(c0){var
+bQ=c0[1],gt=l(fX,bQ);if(gt)var
+k5=1,c1=pN(function(a){return i(j,k5,a)},aE,E,bE,bQ);else
 var
-c8=gt;if(c8)var
-k6=f(a9),c9=pt(function(a){return kb(i,k6,a)},aH,D,gm,bS);else
+c1=gt;if(c1)var
+k6=f(a9),c2=pN(function(a){return kl(j,k6,a)},aE,E,gm,bQ);else
 var
-c9=c8;if(c9)return hA(i,e(function(a){var
-b=aY(fS(aH,D,bI),a);return[3,aY(fS(aH,D,gm),a),b]},bS),mN);var
-gu=c9}else
+c2=c1;if(c2)return hF(j,e(function(a){var
+b=a1(fW(aE,E,bE),a);return[3,a1(fW(aE,E,gm),a),b]},bQ),mN);var
+gu=c2}else
 var
-gu=c7;var
+gu=c0;var
 gv=gu}else
 var
-gv=c4;return gv}var
-ip=io}else
-var
-ip=ee;var
+gv=cZ;return gv}var
 iq=ip}else
 var
-iq=ed;return iq}var
-d_=kN(0,Dg,f(ax),0,av,ae);if(d_){var
-bE=d_[1],aZ=e(k,cb),L=A[1],eZ=hy(L),bb=o_(L),jF=o8(L),jG=L[4],jJ=j4(o9(L),jG,jF),jK=f(L[2]),jL=L[3],eY=g(j3(hx(L),jL,jK),jJ),be=o$(L,D),e0=b4(i,e(aI,L[2]),D),e1=e0?b4(i,A[2],aZ):e0,e2=e1?n(f(aZ),eZ):e1,e3=e2?pa(L,L[4]):e2,e4=e3?l(j_,g(w(wq,bb),eY)):e3;if(e4)var
-jM=A[3],jz=e(function(a){var
-b=a[1];return[0,e(function(a){return dW(aZ,be,a)},b)]},bb),jA=w(function(c){var
+iq=ec;var
+ir=iq}else
+var
+ir=ea;return ir}var
+d4=kX(0,DO,f(av),0,au,ab);if(d4){var
+by=d4[1],aW=e(k,b$),L=A[1],eZ=hD(L),bc=ps(L),jD=pq(L),jE=L[4],jF=kc(pr(L),jE,jD),jI=f(L[2]),jJ=L[3],eY=g(kb(hC(L),jJ,jI),jF),bd=pt(L,E),e0=b4(j,e(aK,L[2]),E),e1=e0?b4(j,A[2],aW):e0,e2=e1?n(f(aW),eZ):e1,e3=e2?pu(L,L[4]):e2,e4=e3?l(ki,g(w(w0,bc),eY)):e3;if(e4)var
+jK=A[3],ju=e(function(a){var
+b=a[1];return[0,e(function(a){return d1(aW,bd,a)},b)]},bc),jv=w(function(c){var
 a=c[1];switch(a[0]){case
 7:var
-b=dW(aZ,be,a[2]);return[0,[4,b,b],0];case
-9:return[0,dW(aZ,be,a[1]),0];default:return 0}},eY),jB=function(a){return a},jC=0,jD=e(function(a){return 0},bb),jE=e(function(b){var
+b=d1(aW,bd,a[2]);return[0,[4,b,b],0];case
+9:return[0,d1(aW,bd,a[1]),0];default:return 0}},eY),jw=function(a){return a},jx=0,jy=e(function(a){return 0},bc),jC=e(function(b){var
 a=b[4];if(typeof
-a!=="number"&&0===a[0])return[0,dW(aZ,be,a[1])];return 0},bb),d$=jr(i,wr,eZ,[0,e(function(a){var
-b=a[3];return e(function(a){return dW(aZ,be,a)},b)},bb),jE,jD,jC,jB,jA,jz],jM,bE);else
+a!=="number"&&0===a[0])return[0,d1(aW,bd,a[1])];return 0},bc),d5=jB(j,w1,eZ,[0,e(function(a){var
+b=a[3];return e(function(a){return d1(aW,bd,a)},b)},bc),jC,jy,jx,jw,jv,ju],jK,by);else
 var
-d$=e4;if(d$)var
-ik=d$;else{if(typeof
-bE!=="number"&&0===bE[0]){var
-cc=bE[2];if(cc){if(cc[2])return 0;var
-ea=cc[1],mJ=bE[1],bG=e(k,cb),aD=A[1],bP=f(aD[1]),f7=b4(i,e(aI,aD[2]),D),f8=f7?b4(i,A[2],bG):f7,f_=f8?n(f(bG),bP):f8,f$=f_?dj(g(D,bG)):f_;if(f$)var
-kU=aD[3],cU=l(function(a){return fT(a[2])},kU);else
+d5=e4;if(d5)var
+il=d5;else{if(typeof
+by!=="number"&&0===by[0]){var
+ca=by[2];if(ca){if(ca[2])return 0;var
+d7=ca[1],mJ=by[1],bz=e(k,b$),aD=A[1],bN=f(aD[1]),f1=b4(j,e(aK,aD[2]),E),f5=f1?b4(j,A[2],bz):f1,f9=f5?n(f(bz),bN):f5,f_=f9?dq(g(E,bz)):f9;if(f_)var
+kB=aD[3],cP=l(function(a){return fX(a[2])},kB);else
 var
-cU=f$;if(cU){var
-cV=ex(i,w2,mJ,A[3]);if(cV){var
-bQ=cV[1][1];if(typeof
-bQ!=="number"&&16===bQ[0]){var
-gc=bQ[2],gd=bQ[1],cW=ki(aD[4]);if(cW){var
-bR=cW[1],cX=hE(aF(cO,gc));if(cX){var
-kV=cX[1],ge=h(i,1,gc),gf=ge?h(i,0,gd):ge;if(gf)var
-kW=f(bR),cY=n(f(ea),kW);else
+cP=f_;if(cP){var
+cQ=eE(j,xA,mJ,A[3]);if(cQ){var
+bO=cQ[1][1];if(typeof
+bO!=="number"&&16===bO[0]){var
+gc=bO[2],gd=bO[1],cR=ks(aD[4]);if(cR){var
+bP=cR[1],cT=hJ(aH(cS,gc));if(cT){var
+kC=cT[1],ge=i(j,1,gc),gf=ge?i(j,0,gd):ge;if(gf)var
+kH=f(bP),cU=n(f(d7),kH);else
 var
-cY=gf;var
-gg=cY?l(fT,bR):cY;if(gg){var
-kX=aD[2],kY=fS(aD,e(function(a){return dY(a[2])},kX),bG),gh=hD(ea,e(function(a){return aY(kY,a)},bR),gd),gi=dj(gh);if(gi){var
-kZ=V(bG,aE(0,bP)),k0=fS(aD,D,e(function(a){var
-b=cp(a[2],kV);return[2,a[1],b]},kZ)),k1=V(V(e(function(a){return aY(k0,a)},bR),gh),ea);return kg(i,bP,bP,eL(function(a){return[4,[0,a[2],b],[3,a[1][1],a[1][2]]]},k1))}var
+cU=gf;var
+gg=cU?l(fX,bP):cU;if(gg){var
+kL=aD[2],kM=fW(aD,e(function(a){return d3(a[2])},kL),bz),gh=hI(d7,e(function(a){return a1(kM,a)},bP),gd),gi=dq(gh);if(gi){var
+kN=V(bz,aG(0,bN)),kO=fW(aD,E,e(function(a){var
+b=cr(a[2],kC);return[2,a[1],b]},kN)),kQ=V(V(e(function(a){return a1(kO,a)},bP),gh),d7);return kq(j,bN,bN,eS(function(a){return[4,[0,a[2],b],[3,a[1][1],a[1][2]]]},kQ))}var
 gj=gi}else
 var
 gj=gg;var
 gk=gj}else
 var
-gk=cX;var
+gk=cT;var
 gl=gk}else
 var
-gl=cW;return gl}var
-ga=0}else
+gl=cR;return gl}var
+f$=0}else
 var
-ga=cV;var
-gb=ga}else
+f$=cQ;var
+ga=f$}else
 var
-gb=cU;return gb}return cc}var
-ik=0}var
-il=ik}else
-var
-il=d_;var
+ga=cP;return ga}return ca}var
+il=0}var
 im=il}else
 var
-im=d9;return im;default:return 0}case
-4:var
-a0=a[3],a_=a[2],cd=a[1],a1=v[2];switch(a1[0]){case
-0:var
-mO=a1[3],mP=a1[2],mQ=a1[1],ha=dq(k(cd));if(ha){var
-dJ=p3(a0);if(dJ){var
-hb=dJ[1],br=hb[2],hc=k(br),hd=k(hb[1]),gz=h(i,1,k(a_)),gA=gz?h(i,1,[3,hc,[0,b,b]]):gz,gB=gA?h(i,1,hd):gA,he=gB?h(i,0,[3,[5,[0,b,b],hc],hd]):gB,hf=he?l(function(a){var
-b=pZ(0,0,Dd,a);if(b)var
-c=b;else{var
-d=cR(a);if(d)return aG(0,0,a);var
-c=d}return c},a0):he,hg=hf?l(function(c){if(1===c[1]){var
-a=c[4];if(typeof
-a!=="number"&&0===a[0])return h(i,0,[3,[0,d,b],k(a[1])]);return 1}return 1},a0):hf;if(hg){var
-du=a2(function(a){return I(p4(a))},a0);if(du){var
-ma=[0,c(2,b),b],bV=h(i,0,[3,k(br),ma]);if(bV)var
-dK=bV;else
+im=d4;var
+io=im}else
 var
-md=k(br),dK=h(i,0,[3,[0,c(2,b),b],md]);if(dK){var
-l9=w(function(a){if(cR(a))return C$;var
-b=hP(0,Da,0,a);return w(function(b){var
-c=fB(i,Db,b);return ac(I(p4(a)),c)},b)},a0),l_=function(f){var
-a=f4(l9,f[1]);if(a){var
+io=dZ;return io;default:return 0}case
+4:var
+aY=a[3],a_=a[2],cb=a[1],aZ=v[2];switch(aZ[0]){case
+0:var
+mO=aZ[3],mP=aZ[2],mQ=aZ[1],g$=dw(k(cb));if(g$){var
+dF=qm(aY);if(dF){var
+hc=dF[1],bp=hc[2],hd=k(bp),he=k(hc[1]),gz=i(j,1,k(a_)),gA=gz?i(j,1,[3,hd,[0,b,b]]):gz,gB=gA?i(j,1,he):gA,hf=gB?i(j,0,[3,[5,[0,b,b],hd],he]):gB,hg=hf?l(function(a){var
+b=qi(0,0,DL,a);if(b)var
+c=b;else{var
+d=cV(a);if(d)return aI(0,0,a);var
+c=d}return c},aY):hf,hh=hg?l(function(c){if(1===c[1]){var
+a=c[4];if(typeof
+a!=="number"&&0===a[0])return i(j,0,[3,[0,d,b],k(a[1])]);return 1}return 1},aY):hg;if(hh){var
+dr=a5(function(a){return I(qn(a))},aY);if(dr){var
+ma=[0,c(2,b),b],bT=i(j,0,[3,k(bp),ma]);if(bT)var
+dG=bT;else
+var
+md=k(bp),dG=i(j,0,[3,[0,c(2,b),b],md]);if(dG){var
+l9=w(function(a){if(cV(a))return DH;var
+b=hU(0,DI,0,a);return w(function(b){var
+c=fF(j,DJ,b);return ac(I(qn(a)),c)},b)},aY),l_=function(f){var
+a=f8(l9,f[1]);if(a){var
 c=a[1],e=f[2];switch(e[0]){case
 0:return[0,[0,c,[0,e[1]]],0];case
-2:return[0,[0,c,[1,Dc,[0,[0,b,[0,d,[0,d,0]]],[0,[0,d,[0,b,[0,d,0]]],[0,[0,d,[0,d,[0,b,0]]],0]]],d]],0];default:return[0,[0,c,e],0]}}return a},l$=e(function(a){var
-b=a[4],c=a[3],d=a[2];return[0,w(l_,a[1]),d,c,b]},mO),mb=[0,du[1],du[2]],mc=p8(bV,a_,br);return kQ(0,p7(bV,cd,a_,br),0,mc,0,mb,mQ,mP,l$)}return dK}var
-hh=1}else
+2:return[0,[0,c,[1,DK,[0,[0,b,[0,d,[0,d,0]]],[0,[0,d,[0,b,[0,d,0]]],[0,[0,d,[0,d,[0,b,0]]],0]]],d]],0];default:return[0,[0,c,e],0]}}return a},l$=e(function(a){var
+b=a[4],c=a[3],d=a[2];return[0,w(l_,a[1]),d,c,b]},mO),mb=[0,dr[1],dr[2]],mc=qr(bT,a_,bp);return k0(0,qq(bT,cb,a_,bp),0,mc,0,mb,mQ,mP,l$)}return dG}var
+hi=1}else
 var
-hh=hg;var
-hj=hh}else
+hi=hh;var
+hj=hi}else
 var
-hj=dJ;var
+hj=dF;var
 hk=hj}else
 var
-hk=ha;return hk;case
+hk=g$;return hk;case
 1:var
-mR=a1[4],mS=a1[3],mT=a1[2],hl=dq(k(cd));if(hl){var
-dL=p3(a0);if(dL){var
-bs=dL[1][2],me=[0,c(2,b),b],bW=h(i,0,[3,k(bs),me]),hm=h(i,1,k(a_)),hn=hm?h(i,1,[3,k(bs),[0,b,b]]):hm;if(hn)if(bW)var
-bX=bW;else
+mR=aZ[4],mS=aZ[3],mT=aZ[2],hl=dw(k(cb));if(hl){var
+dH=qm(aY);if(dH){var
+bq=dH[1][2],me=[0,c(2,b),b],bU=i(j,0,[3,k(bq),me]),hm=i(j,1,k(a_)),ho=hm?i(j,1,[3,k(bq),[0,b,b]]):hm;if(ho)if(bU)var
+bV=bU;else
 var
-mg=k(bs),bX=h(i,0,[3,[0,c(2,b),b],mg]);else
+mg=k(bq),bV=i(j,0,[3,[0,c(2,b),b],mg]);else
 var
-bX=hn;if(bX){var
-mf=p8(bW,a_,bs);return kR(0,p7(bW,cd,a_,bs),0,mf,0,a0,mT,mS,mR)}var
-hp=bX}else
+bV=ho;if(bV){var
+mf=qr(bU,a_,bq);return k1(0,qq(bU,cb,a_,bq),0,mf,0,aY,mT,mS,mR)}var
+hp=bV}else
 var
-hp=dL;var
-hr=hp}else
+hp=dH;var
+hq=hp}else
 var
-hr=hl;return hr;default:return 0}case
+hq=hl;return hq;default:return 0}case
 5:var
-ef=a[4],ir=a[1],eg=v[2];if(0===eg[0]){var
-is=eg[3],C=hO(ir,[0,a[2],a[3]],0,ef),mU=f(is),eh=kI(kO(C),mU,is);if(eh){var
-it=eh[1];if(it[2])return 0;var
-iu=h0(ir,0,ef,C),iv=iu?I(aj(cR,ef)):iu;if(iv){var
-iw=nE(i,C);if(iw){var
-mV=it[1],ix=e(hV,C[1]),U=hW(C[1]),iy=k(a[5]),az=eg[1],dd=g7(U,ix,C[1]),ag=jh(U,ix,C[1],0),k$=f(C[3]),la=N(f(dd),k$),bT=[0,f(dd),la],lb=jj(ag,U,bT,C[3]),lc=g(e(c5,ag),lb),gD=g(bB(fo(ag)),lc),gE=c1(gD)[1],df=c0(gE),gF=C[2];if(0===gF[0]){var
-gG=l(function(a){var
-b=m(d);return aO(r(bk(df,a),df,b),a)},gD),gH=gG?h(i,1,iy):gG;if(gH){var
-ld=C[3],le=w(function(a){return dM(U,a)},ld),lf=C[3],lg=g(dd,g(e(function(a){return b0(U,a)},lf),le)),dg=ad(e(function(a){return ao(az,a)},lg));if(dg){var
-lh=bc(gF[1],U),dh=ad(e(function(a){return ao(az,a)},lh));if(dh){var
-di=c3(az,U,[5,iy,[0,c(2,c(2,c(2,c(2,b)))),b]]);if(di){var
-dk=C[3],li=dh[1],lj=dg[1],lk=di[1],bp=function(a){return bk(df,a)},k8=aE(0,f(dk)),k9=e(function(k){var
-l=G(dk,k);if(l){var
-a=l[1],u=al(k,dk),v=f(w(function(a){return dM(U,a)},u)),x=N(bT[2],v),i=[0,N(bT[1],k),x],r=fo(ag),g=j(aw(bp),r),c=[1,[8,[1,[1,i[1]]]]],d=g8(ag,U,i,a),n=d?[0,[3,e(bp,[0,d[1],d[2]])]]:d,m=0;if(typeof
+ed=a[4],is=a[1],ee=v[2];if(0===ee[0]){var
+it=ee[3],C=hT(is,[0,a[2],a[3]],0,ed),mU=f(it),ef=kS(kY(C),mU,it);if(ef){var
+iu=ef[1];if(iu[2])return 0;var
+iv=h5(is,0,ed,C),iw=iv?I(ak(cV,ed)):iv;if(iw){var
+ix=nY(j,C);if(ix){var
+mV=iu[1],iy=e(h0,C[1]),U=h1(C[1]),iz=k(a[5]),ax=ee[1],da=ha(U,iy,C[1]),ag=jr(U,iy,C[1],0),k$=f(C[3]),la=N(f(da),k$),bR=[0,f(da),la],lb=jt(ag,U,bR,C[3]),lc=g(e(c_,ag),lb),gD=g(bD(fr(ag)),lc),gE=c6(gD),gF=c5(gE),a6=cH(gF),gG=C[2];if(0===gG[0]){var
+gH=l(function(a){var
+b=m(d);return aX(s(h(a6,a),gF,b),a)},gD),gI=gH?i(j,1,iz):gH;if(gI){var
+ld=C[3],le=w(function(a){return dR(U,a)},ld),lf=C[3],lg=g(da,g(e(function(a){return b0(U,a)},lf),le)),db=ad(e(function(a){return ap(ax,a)},lg));if(db){var
+lh=bg(gG[1],U),dc=ad(e(function(a){return ap(ax,a)},lh));if(dc){var
+dd=c8(ax,U,[5,iz,[0,c(2,c(2,c(2,c(2,b)))),b]]);if(dd){var
+de=C[3],li=dc[1],lj=db[1],lk=dd[1],k8=aG(0,f(de)),k9=e(function(k){var
+l=G(de,k);if(l){var
+a=l[1],u=am(k,de),v=f(w(function(a){return dR(U,a)},u)),x=N(bR[2],v),j=[0,N(bR[1],k),x],r=fr(ag),g=h(ay(a6),r),c=[1,[8,[1,[1,j[1]]]]],d=hb(ag,U,j,a),n=d?[0,[3,e(a6,[0,d[1],d[2]])]]:d,m=0;if(typeof
 a!=="number")switch(a[0]){case
 0:return[0,[0,g,c]];case
 1:return[0,[1,g,c]];case
 4:var
-o=h(az,1,a[2]),s=o?n:o;return s;case
+o=i(ax,1,a[2]),s=o?n:o;return s;case
 5:return[0,[2,g,c]];case
 8:var
-p=h(az,1,[5,a[2],a[1]]);if(!p)return p;var
+p=i(ax,1,[5,a[2],a[1]]);if(!p)return p;var
 q=[1,[2,b]];m=1;break;case
 9:var
 q=c;m=1;break;case
@@ -8500,27 +8694,27 @@ q=c;m=1;break;case
 3:case
 6:case
 7:return n}if(m){var
-t=fv(ag,U,i,a);return z(function(a){return[0,j(aw(bp),a),q]},t)}return 0}return l},k8),k_=e(function(a){return bp(c5(a))},ag),gC=e(function(a){return bp(a[2])},ag),ll=C[3],lm=bT[1],da=function(aC,aB,aA){var
+t=fz(ag,U,j,a);return y(function(a){return[0,h(ay(a6),a),q]},t)}return 0}return l},k8),k_=e(function(a){return h(a6,c_(a))},ag),gC=e(function(a){return h(a6,a[2])},ag),ll=C[3],lm=bR[1],c9=function(aC,aB,aA){var
 k=aC,m=aB,g=aA;for(;;)switch(g[0]){case
 0:var
-v=g[1],_=n(f(v),w$),aa=_?l(function(a){var
-d=E(P(c(2,c(2,c(2,b)))),a);return d?E(a,c(2,c(2,c(2,b)))):d},v):_;if(aa){var
-ab=pD(az,lk,dI(0,m),v),j=g[2],w=bj(0,bz(az,ab,e($,k)),gE,0),aD=e($,k),M=function(a){return pC(pB(az,ab,aD,w,a))};if(typeof
-j==="number")return 0===j?aj(function(b){var
-a=r(b,w,0);return a?E(a[1][2][2],d):a},gC):0;else{if(0===j[0]){var
-a=j[2],O=l(w9,a);if(O){var
-q=r(j[1],k9,0);if(q){var
+v=g[1],_=n(f(v),xJ),$=_?l(function(a){var
+d=D(Q(c(2,c(2,c(2,b)))),a);return d?D(a,c(2,c(2,c(2,b)))):d},v):_;if($){var
+ab=pY(ax,lk,dO(0,m),v),j=g[2],w=c4(0,bB(ax,ab,e(aa,k)),gE),aD=e(aa,k),M=function(a){return pX(pW(ax,ab,aD,w,a))};if(typeof
+j==="number")return 0===j?ak(function(b){var
+a=s(b,w,0);return a?D(a[1][2][2],d):a},gC):0;else{if(0===j[0]){var
+a=j[2],O=l(xH,a);if(O){var
+q=s(j[1],k9,0);if(q){var
 i=q[1];switch(i[0]){case
 0:var
 x=0;if(a)if(a[2])var
 h=0;else{var
-A=a[1],B=i[1],ao=hJ(B,A),ap=hI(A),C=[0,[0,B,[0,[1,[4,[1,[6,i[2],ap]],ao]],0]]];x=1}else{var
+A=a[1],B=i[1],ao=hO(B,A),ap=hN(A),C=[0,[0,B,[0,[1,[4,[1,[6,i[2],ap]],ao]],0]]];x=1}else{var
 C=a;x=1}if(x)var
 h=C;break;case
 1:var
 y=0;if(a)if(a[2])var
 h=0;else{var
-D=a[1],F=i[1],aq=hI(D),ar=[1,[6,i[2],aq]],H=[0,[0,F,[0,[1,[4,hJ(F,D),ar]],0]]];y=1}else{var
+E=a[1],F=i[1],aq=hN(E),ar=[1,[6,i[2],aq]],H=[0,[0,F,[0,[1,[4,hO(F,E),ar]],0]]];y=1}else{var
 H=a;y=1}if(y)var
 h=H;break;case
 2:var
@@ -8528,7 +8722,7 @@ z=0;if(a){var
 o=a[2],an=0;if(o)if(o[2]){var
 h=0;an=1}else
 var
-I=o[1],J=a[1],p=i[1],as=hI(J),at=[1,[6,hJ(p,I),as]],au=[1,[6,i[2],at]],av=hI(I),K=[0,[0,p,[0,[1,[4,[1,[6,hJ(p,J),av]],au]],0]]];else
+I=o[1],J=a[1],p=i[1],as=hN(J),at=[1,[6,hO(p,I),as]],au=[1,[6,i[2],at]],av=hN(I),K=[0,[0,p,[0,[1,[4,[1,[6,hO(p,J),av]],au]],0]]];else
 var
 K=o;if(!an){var
 L=K;z=1}}else{var
@@ -8537,7 +8731,7 @@ h=L;break;default:if(a)var
 h=0;else
 var
 aw=i[1],h=[0,[0,0,e(function(a){return[1,[5,[0,a]]]},aw)]]}if(h){var
-Q=h[1],ax=Q[1],R=l(function(a){return pC(r(a[2],w,0))},ax);if(R)return l(M,Q[2]);var
+P=h[1],ay=P[1],R=l(function(a){return pX(s(a[2],w,0))},ay);if(R)return l(M,P[2]);var
 S=R}else
 var
 S=h;var
@@ -8547,115 +8741,115 @@ T=q;var
 U=T}else
 var
 U=O;return U}var
-V=j[2],W=j[1],s=G(ll,W);if(s){var
-X=s[1];if(typeof
+V=j[2],W=j[1],r=G(ll,W);if(r){var
+X=r[1];if(typeof
 X!=="number"&&1===X[0]){var
 t=G(gC,V);if(t){var
 u=G(k_,V);if(u){var
-ay=N(lm,W);return M([1,[4,[1,[8,[0,u[1]]]],[1,[6,[1,[8,[1,[1,ay]]]],[0,t[1]]]]]])}var
+az=N(lm,W);return M([1,[4,[1,[8,[0,u[1]]]],[1,[6,[1,[8,[1,[1,az]]]],[0,t[1]]]]]])}var
 Z=u}else
 var
 Z=t;return Z}var
 Y=0}else
 var
-Y=s;return Y}}return aa;case
+Y=r;return Y}}return $;case
 1:var
-ac=g[1],ad=pE(ac,m);if(ad){var
-ae=c6(ac,m),af=da(k,ae[1],g[2]);if(af){var
+ac=g[1],ad=pZ(ac,m);if(ad){var
+ae=c$(ac,m),af=c9(k,ae[1],g[2]);if(af){var
 m=ae[2],g=g[3];continue}var
 ag=af}else
 var
 ag=ad;return ag;default:var
-ah=g[1],ai=pE(ah,k);if(ai){var
-ak=c6(ah,k),al=da(ak[1],m,g[2]);if(al){var
-k=ak[2],g=g[3];continue}var
+ah=g[1],ai=pZ(ah,k);if(ai){var
+aj=c$(ah,k),al=c9(aj[1],m,g[2]);if(al){var
+k=aj[2],g=g[3];continue}var
 am=al}else
 var
-am=ai;return am}};return da(lj,li,mV)}var
-gI=di}else
+am=ai;return am}};return c9(lj,li,mV)}var
+gJ=dd}else
 var
-gI=dh;var
-gJ=gI}else
-var
-gJ=dg;var
+gJ=dc;var
 gK=gJ}else
 var
-gK=gH;return gK}return 0}var
-iz=iw}else
+gK=db;var
+gL=gK}else
 var
-iz=iv;var
-iA=iz}else
+gL=gI;return gL}return 0}var
+iA=ix}else
 var
-iA=eh;return iA}return 0;case
+iA=iw;var
+iB=iA}else
+var
+iB=ef;return iB}return 0;case
 6:var
-iB=a[1];if(iB){var
-iC=iB[1],ei=v[2];if(0===ei[0]){var
-ej=kH(Dj,0,0,0,Di,ei[3]);if(ej){var
-iD=f2(iC);if(iD){var
-mW=ej[1],iE=b6(iC)[2],ce=ei[1],c_=c3(ce,d,iE);if(c_){var
-c$=c3(ce,d,[5,[0,b,b],iE]);if(c$){var
-k7=c_[1][1],gw=K(cC(ce),k7);if(gw)return pA(ce,c$[1][1],mW);var
+iC=a[1];if(iC){var
+iD=iC[1],eg=v[2];if(0===eg[0]){var
+eh=kR(DR,0,0,0,DQ,eg[3]);if(eh){var
+iE=f6(iD);if(iE){var
+mW=eh[1],iF=b6(iD)[2],cc=eg[1],c3=c8(cc,d,iF);if(c3){var
+c7=c8(cc,d,[5,[0,b,b],iF]);if(c7){var
+k7=c3[1][1],gw=K(cE(cc),k7);if(gw)return pV(cc,c7[1][1],mW);var
 gx=gw}else
 var
-gx=c$;var
+gx=c7;var
 gy=gx}else
 var
-gy=c_;return gy}var
-iF=iD}else
+gy=c3;return gy}var
+iG=iE}else
 var
-iF=ej;return iF}return 0}var
-ek=v[2];if(0===ek[0]){var
-el=kH(Dl,0,0,0,Dk,ek[3]);return el?pA(ek[1],d,el[1]):el}return 0;default:var
-a$=a[1],iG=v[2];if(2===iG[0]){var
-iH=iG[1],em=kF(f(iH),iH);if(em){var
-iI=em[1];if(iI[2])return 0;var
-en=iI[1],g2=ab(C8,f(a$)),g3=g2?ab(f(a$),dF):g2,g4=g3?o6(e(aA,a$)):g3,iJ=g4?l(function(c){var
-a=cG(k(c[2][1]));if(a){var
-b=cG(k(c[2][2]));if(b)return I(bi(b[1],a[1]));var
+iG=eh;return iG}return 0}var
+ei=v[2];if(0===ei[0]){var
+ej=kR(DT,0,0,0,DS,ei[3]);return ej?pV(ei[1],d,ej[1]):ej}return 0;default:var
+a$=a[1],iH=v[2];if(2===iH[0]){var
+iI=iH[1],ek=kP(f(iI),iI);if(ek){var
+iJ=ek[1];if(iJ[2])return 0;var
+el=iJ[1],g3=ae(DE,f(a$)),g4=g3?ae(f(a$),dL):g3,g5=g4?po(e(aC,a$)):g4,iK=g5?l(function(c){var
+a=cK(k(c[2][1]));if(a){var
+b=cK(k(c[2][2]));if(b)return I(bl(b[1],a[1]));var
 d=b}else
 var
-d=a;return d},a$):g4;if(iJ)var
-mX=hU(BY,en),eo=qt(a[5],mX);else
+d=a;return d},a$):g5;if(iK)var
+mX=hZ(Cu,el),em=qO(a[5],mX);else
 var
-eo=iJ;if(eo)var
-mY=hU(BZ,en),ep=qt(a[6],mY);else
+em=iK;if(em)var
+mY=hZ(Cv,el),en=qO(a[6],mY);else
 var
-ep=eo;if(ep){var
-lS=e(function(a){return[0,d,0]},a$);return qs(a$,a[2],a[3],a[4],lS,en)}var
-iK=ep}else
+en=em;if(en){var
+lS=e(function(a){return[0,d,0]},a$);return qN(a$,a[2],a[3],a[4],lS,el)}var
+iL=en}else
 var
-iK=em;return iK}return 0}}return bu}var
-Y=[a_,Do,sQ(0)],qx=[a_,Dp,sQ(0)];function
-Dm(l,b){var
-f=[0,o(Bi,as(b[4])),0],g=[0,o(Bk,ah([0,o(Bj,as(b[3])),f])),0],a=b[2];switch(a[0]){case
+iL=ek;return iL}return 0}}return br}var
+Z=[bc,DW,s$(0)],qS=[bc,DX,s$(0)];function
+DU(l,b){var
+f=[0,o(BS,at(b[4])),0],g=[0,o(BU,ai([0,o(BT,at(b[3])),f])),0],a=b[2];switch(a[0]){case
 0:var
-c=S(Be,pL(a[1],a[2],a[3]));break;case
+c=T(BO,p6(a[1],a[2],a[3]));break;case
 1:var
-c=S(Bf,pM(a[1],a[2],a[3],a[4]));break;default:var
-c=S(Bg,H(e(A$,a[1])))}var
-h=[0,o(Bl,c),g],i=1===b[2][0]?Br:Bm,j=[0,o(Bn,as(i)),h],k=[0,o(Bo,zL(b[1])),j],d=aD(lK(Dn,hK(ah([0,o(Bq,as(Bp)),k]),Bh)),l);return d?De(b):d}function
-ai(a){if(0===a[0])return a[1];throw Y}function
-ae(a){if(1===a[0])return a[1];throw Y}function
-a4(a){if(2===a[0])return a[1];throw Y}function
-f5(a){if(3===a[0])return a[1];throw Y}function
-be(b,a){return lJ(a,b)}function
+c=T(BP,p7(a[1],a[2],a[3],a[4]));break;default:var
+c=T(BQ,H(e(BJ,a[1])))}var
+h=[0,o(BV,c),g],i=1===b[2][0]?B1:BW,j=[0,o(BX,at(i)),h],k=[0,o(BY,Aj(b[1])),j],d=aF(lU(DV,hP(ai([0,o(B0,at(BZ)),k]),BR)),l);return d?DM(b):d}function
+aj(a){if(0===a[0])return a[1];throw Z}function
+af(a){if(1===a[0])return a[1];throw Z}function
+a8(a){if(2===a[0])return a[1];throw Z}function
+f9(a){if(3===a[0])return a[1];throw Z}function
+bi(b,a){return lT(a,b)}function
 v(c,b){var
-a=be(c,b);if(a)return a[1];throw Y}function
-cr(b,a){var
-c=a?[0,j(b,a[1])]:a;return c}function
-d9(a){switch(a[0]){case
+a=bi(c,b);if(a)return a[1];throw Z}function
+ct(b,a){var
+c=a?[0,h(b,a[1])]:a;return c}function
+ec(a){switch(a[0]){case
 0:var
 b=a[1];if(b&&!b[2]){var
 c=b[1];return[0,c[1],c[2]]}break;case
-2:return[0,a[1],Dr]}throw Y}function
-f6(e,d){var
-a=X(e,ae(d));if(a){var
+2:return[0,a[1],DZ]}throw Z}function
+f_(e,d){var
+a=Y(e,af(d));if(a){var
 b=a[2];if(b){var
-c=b[2];if(c&&!c[2])return[0,a[1],b[1],c[1]]}}throw Y}function
-h4(i){var
-f=e7(i),d=[0,0],e=iw(f)-1|0;if(!(e<0)){var
+c=b[2];if(c&&!c[2])return[0,a[1],b[1],c[1]]}}throw Z}function
+h9(i){var
+f=fc(i),d=[0,0],e=iB(f)-1|0;if(!(e<0)){var
 c=e;for(;;){var
-a=d[1],g=lm(f,c)-48|0;if(9<g>>>0)throw Y;switch(g){case
+a=d[1],g=lw(f,c)-48|0;if(9<g>>>0)throw Z;switch(g){case
 0:var
 b=[0,a];break;case
 1:var
@@ -8677,106 +8871,106 @@ b=[8,a];break;default:var
 b=[9,a]}d[1]=b;var
 h=c-1|0;if(0!==c){var
 c=h;continue}break}}return d[1]}function
-f7(a){return l1(h4(a))}function
-eU(b){var
-a=f5(b);return 45===a$(a,0)?P(f7(eg(a,1,az(a)-1|0))):f7(a)}function
-qy(a){return ei(f7(f5(a)))}function
-ds(b){var
-a=f5(b);if(!(2<az(a))&&!(64<=iv(a)))return iI(f7(a));throw Y}function
-cT(c){var
-a=f5(c);if(6<az(a))throw Y;function
-b(a){return 0<a?[0,b(a-1|0)]:0}return b(iv(a))}function
-qz(a){var
-b=97<=a?1:0,c=b?a<=ss?1:0:b;if(c)var
+f$(a){return l$(h9(a))}function
+e1(b){var
+a=f9(b);return 45===bd(a,0)?Q(f$(el(a,1,aB(a)-1|0))):f$(a)}function
+qT(a){return en(f$(f9(a)))}function
+dy(b){var
+a=f9(b);if(!(2<aB(a))&&!(64<=iA(a)))return iO(f$(a));throw Z}function
+cX(c){var
+a=f9(c);if(6<aB(a))throw Z;function
+b(a){return 0<a?[0,b(a-1|0)]:0}return b(iA(a))}function
+qU(a){var
+b=97<=a?1:0,c=b?a<=sN?1:0:b;if(c)var
 d=c;else
 var
 e=65<=a?1:0,d=e?a<=90?1:0:e;return d}function
-qA(y,b){var
-d=az(b),a=[0,0];function
+qV(y,b){var
+d=aB(b),a=[0,0];function
 c(e){var
-c=a[1]<d?1:0,f=c?a$(b,a[1])===e?1:0:c;return f}function
+c=a[1]<d?1:0,f=c?bd(b,a[1])===e?1:0:c;return f}function
 l(e){var
-c=a[1];for(;;){if(a[1]<d&&48<=a$(b,a[1])&&!(57<a$(b,a[1]))){a[1]++;continue}return eg(b,c,a[1]-c|0)}}function
+c=a[1];for(;;){if(a[1]<d&&48<=bd(b,a[1])&&!(57<bd(b,a[1]))){a[1]++;continue}return el(b,c,a[1]-c|0)}}function
 m(b){a[1]++;var
-d=f(b+1|0);if(c(41)){a[1]++;return d}throw Y}function
-h(i){if(64<i)throw Y;if(c(45)){a[1]++;return[2,h(i+1|0)]}if(c(40))var
-e=m(i);else{var
-u=0;if((a[1]+5|0)<=d&&aD(eg(b,a[1],5),Dt)){a[1]=a[1]+4|0;var
-e=[5,m(i)]}else
+d=f(b+1|0);if(c(41)){a[1]++;return d}throw Z}function
+i(j){if(64<j)throw Z;if(c(45)){a[1]++;return[2,i(j+1|0)]}if(c(40))var
+e=m(j);else{var
+u=0;if((a[1]+5|0)<=d&&aF(el(b,a[1],5),D1)){a[1]=a[1]+4|0;var
+e=[5,m(j)]}else
 u=1;if(u){var
-v=0;if(a[1]<d&&qz(a$(b,a[1]))){var
+v=0;if(a[1]<d&&qU(bd(b,a[1]))){var
 n=a[1];for(;;){if(a[1]<d){var
-w=0;if(!qz(a$(b,a[1]))&&95!==a$(b,a[1])&&(!(48<=a$(b,a[1]))||57<a$(b,a[1])))w=1;if(!w){a[1]++;continue}}var
-e=[1,j(y,eg(b,n,a[1]-n|0))];break}}else
+w=0;if(!qU(bd(b,a[1]))&&95!==bd(b,a[1])&&(!(48<=bd(b,a[1]))||57<bd(b,a[1])))w=1;if(!w){a[1]++;continue}}var
+e=[1,h(y,el(b,n,a[1]-n|0))];break}}else
 v=1;if(v){var
-g=l(0),o=c(46),q=o?(a[1]++,[0,l(0)]):o,r=aD(g,Du);if(r)var
+g=l(0),o=c(46),q=o?(a[1]++,[0,l(0)]):o,r=aF(g,D2);if(r)var
 s=r;else
 var
-t=1<az(g)?1:0,s=t?48===a$(g,0)?1:0:t;if(s)throw Y;if(q){var
-k=q[1],x=0;if(aD(k,Dv)||48===a$(k,az(k)-1|0))x=1;else
+t=1<aB(g)?1:0,s=t?48===bd(g,0)?1:0:t;if(s)throw Z;if(q){var
+k=q[1],x=0;if(aF(k,D3)||48===bd(k,aB(k)-1|0))x=1;else
 var
-z=h4(k),e=[0,h4(g),z];if(x)throw Y}else
+z=h9(k),e=[0,h9(g),z];if(x)throw Z}else
 var
-e=[0,h4(g),0]}}}if(c(94)){a[1]++;var
-f=l(0);if(p(f,Ds)){if(!(2<az(f))&&2<=iv(f)&&!(64<iv(f)))return[4,e,ei(f7(f))];throw Y}throw Y}return e}function
+e=[0,h9(g),0]}}}if(c(94)){a[1]++;var
+f=l(0);if(p(f,D0)){if(!(2<aB(f))&&2<=iA(f)&&!(64<iA(f)))return[4,e,en(f$(f))];throw Z}throw Z}return e}function
 e(d){var
-b=h(d);for(;;){if(c(42)){a[1]++;var
-b=[3,2,b,h(d)];continue}if(c(47)){a[1]++;var
-b=[3,3,b,h(d)];continue}return b}}function
-f(d){if(64<d)throw Y;var
+b=i(d);for(;;){if(c(42)){a[1]++;var
+b=[3,2,b,i(d)];continue}if(c(47)){a[1]++;var
+b=[3,3,b,i(d)];continue}return b}}function
+f(d){if(64<d)throw Z;var
 b=e(d);for(;;){if(c(43)){a[1]++;var
 b=[3,0,b,e(d)];continue}if(c(45)){a[1]++;var
 b=[3,1,b,e(d)];continue}return b}}var
-g=f(0);if(a[1]<d)throw Y;return g}function
-h5(a){return qA(function(a){return[0,a]},a)}function
-kT(a){var
-b=a4(a);return qA(function(a){return a},b)}function
-Z(a){return h5(a4(a))}function
-b8(a){if(2===a[0])return[0,h5(a[1])];var
-b=ai(a),c=Z(v(b,Dw));return[1,Z(v(b,Dx)),c]}function
-ap(a){throw[0,qx,bg(lK(Dz,a),Dy)]}function
-kU(c){var
-a=a4(c);if(p(a,DA)){var
-b=p(a,DB);if(b)throw Y;return b}return 1}function
-DC(d){var
-b=ai(d);function
-a(a){return f6(b8,v(b,a))}var
-c=a4(v(b,DD));if(p(c,DE)){if(p(c,DF)){if(p(c,DG))return ap([0,DI,[0,c,DH]]);var
-e=be(b,DJ),f=cr(function(a){return f6(b8,a)},e),g=a(DK);return[1,a(DL),g,f]}var
-h=kU(v(b,DM)),i=b8(v(b,DN)),j=a(DO),k=a(DP);return[0,a(DQ),k,j,i,h]}return[2,a(DR)]}function
-DS(d){var
-a=ai(d);if(a){var
-b=a[1];if(!p(b[1],DT)){var
-c=b[2];if(2===c[0]&&!p(c[1],DU))return 1}}return 0}function
-qB(e){var
-b=ai(e);function
-a(a){return X(b8,ae(v(b,a)))}var
-c=a4(v(b,DV)),f=be(b,DW),d=cr(function(a){return X(b8,ae(a))},f);if(p(c,DX)){if(p(c,DY)){if(p(c,DZ)){if(!p(c,D0)){var
-g=a(D3);return[1,a(D4),g,d]}}else
+g=f(0);if(a[1]<d)throw Z;return g}function
+h_(a){return qV(function(a){return[0,a]},a)}function
+k3(a){var
+b=a8(a);return qV(function(a){return a},b)}function
+_(a){return h_(a8(a))}function
+b8(a){if(2===a[0])return[0,h_(a[1])];var
+b=aj(a),c=_(v(b,D4));return[1,_(v(b,D5)),c]}function
+aq(a){throw[0,qS,bk(lU(D7,a),D6)]}function
+k4(c){var
+a=a8(c);if(p(a,D8)){var
+b=p(a,D9);if(b)throw Z;return b}return 1}function
+D_(d){var
+b=aj(d);function
+a(a){return f_(b8,v(b,a))}var
+c=a8(v(b,D$));if(p(c,Ea)){if(p(c,Eb)){if(p(c,Ec))return aq([0,Ee,[0,c,Ed]]);var
+e=bi(b,Ef),f=ct(function(a){return f_(b8,a)},e),g=a(Eg);return[1,a(Eh),g,f]}var
+h=k4(v(b,Ei)),i=b8(v(b,Ej)),j=a(Ek),k=a(El);return[0,a(Em),k,j,i,h]}return[2,a(En)]}function
+Eo(d){var
+a=aj(d);if(a){var
+b=a[1];if(!p(b[1],Ep)){var
+c=b[2];if(2===c[0]&&!p(c[1],Eq))return 1}}return 0}function
+qW(e){var
+b=aj(e);function
+a(a){return Y(b8,af(v(b,a)))}var
+c=a8(v(b,Er)),f=bi(b,Es),d=ct(function(a){return Y(b8,af(a))},f);if(p(c,Et)){if(p(c,Eu)){if(p(c,Ev)){if(!p(c,Ew)){var
+g=a(Ez);return[1,a(EA),g,d]}}else
 if(!d){var
-h=kU(v(b,D5)),i=b8(v(b,D6)),j=a(D7),k=a(D8);return[0,a(D9),k,j,i,h]}}else
-if(!d)return[2,a(D_)]}else
+h=k4(v(b,EB)),i=b8(v(b,EC)),j=a(ED),k=a(EE);return[0,a(EF),k,j,i,h]}}else
+if(!d)return[2,a(EG)]}else
 if(!d){var
-l=kU(v(b,D$)),m=b8(v(b,Ea)),n=b8(v(b,Eb)),o=a(Ec),q=a(Ed),r=a(Ee);return[3,a(Ef),r,q,o,n,m,l]}return ap([0,D2,[0,c,D1]])}function
-Eg(d){var
-a=ai(d);if(a){var
-b=a[1];if(!p(b[1],Eh)){var
-c=b[2];if(2===c[0]&&!p(c[1],Ei))return 1}}return 0}function
-Ej(d){var
-a=ai(d);if(a){var
-b=a[1];if(!p(b[1],Ek)){var
-c=b[2];if(2===c[0]&&!p(c[1],El))return 1}}return 0}function
-qC(d){var
-a=ai(d);if(a){var
-b=a[1];if(!p(b[1],Em)){var
-c=b[2];if(2===c[0]&&!p(c[1],En))return 1}}return 0}function
-dt(c,d){var
-a=ae(d);if(a){var
+l=k4(v(b,EH)),m=b8(v(b,EI)),n=b8(v(b,EJ)),o=a(EK),q=a(EL),r=a(EM);return[3,a(EN),r,q,o,n,m,l]}return aq([0,Ey,[0,c,Ex]])}function
+EO(d){var
+a=aj(d);if(a){var
+b=a[1];if(!p(b[1],EP)){var
+c=b[2];if(2===c[0]&&!p(c[1],EQ))return 1}}return 0}function
+ER(d){var
+a=aj(d);if(a){var
+b=a[1];if(!p(b[1],ES)){var
+c=b[2];if(2===c[0]&&!p(c[1],ET))return 1}}return 0}function
+qX(d){var
+a=aj(d);if(a){var
+b=a[1];if(!p(b[1],EU)){var
+c=b[2];if(2===c[0]&&!p(c[1],EV))return 1}}return 0}function
+dz(c,d){var
+a=af(d);if(a){var
 b=a[2];if(b&&!b[2]){var
-e=j(c,b[1]);return[0,j(c,a[1]),e]}}throw Y}function
-d_(g,o){var
-h=g?g[1]:g,c=ai(o),a=a4(v(c,Eo)),j=s2(a,Ep),f=0;if(0<=j)if(0<j)if(p(a,Eq))if(p(a,Er))if(p(a,Es))if(p(a,Et))if(p(a,Eu))if(p(a,Ev))if(p(a,Ew)){var
-k=p(a,Ex);if(k)f=1;else
+e=h(c,b[1]);return[0,h(c,a[1]),e]}}throw Z}function
+ed(g,o){var
+h=g?g[1]:g,c=aj(o),a=a8(v(c,EW)),j=tl(a,EX),f=0;if(0<=j)if(0<j)if(p(a,EY))if(p(a,EZ))if(p(a,E0))if(p(a,E1))if(p(a,E2))if(p(a,E3))if(p(a,E4)){var
+k=p(a,E5);if(k)f=1;else
 var
 b=k}else
 var
@@ -8796,7 +8990,7 @@ var
 b=13;else
 var
 b=2;else
-if(p(a,ES))if(p(a,ET))if(p(a,EU))if(p(a,EV))if(p(a,EW))if(p(a,EX))if(p(a,EY))if(p(a,EZ))f=1;else
+if(p(a,Fo))if(p(a,Fp))if(p(a,Fq))if(p(a,Fr))if(p(a,Fs))if(p(a,Ft))if(p(a,Fu))if(p(a,Fv))f=1;else
 var
 b=1;else
 var
@@ -8814,132 +9008,132 @@ b=14;else
 f=1;else
 var
 b=12;var
-n=f?ap([0,Ez,[0,a,Ey]]):b;function
-i(a){return v(c,EA)}var
-d=a4(v(c,EB)),l=p(d,EC);if(l)if(p(d,ED))if(p(d,EE))if(p(d,EF))var
-e=ap([0,EH,[0,d,EG]]);else
+n=f?aq([0,E7,[0,a,E6]]):b;function
+i(a){return v(c,E8)}var
+d=a8(v(c,E9)),l=p(d,E_);if(l)if(p(d,E$))if(p(d,Fa))if(p(d,Fb))var
+e=aq([0,Fd,[0,d,Fc]]);else
 var
-m=dt(Z,i(0)),e=[2,m[1],m[2]];else
+m=dz(_,i(0)),e=[2,m[1],m[2]];else
 var
-e=[0,Z(i(0))];else
+e=[0,_(i(0))];else
 var
-e=[1,Z(i(0))];else
+e=[1,_(i(0))];else
 var
 e=l;function
 q(H){var
-a=ai(H),b=0;switch(n){case
+a=aj(H),b=0;switch(n){case
 6:if(a){var
-r=a[1];if(!p(r[1],EJ)){var
+r=a[1];if(!p(r[1],Ff)){var
 s=r[2];if(1===s[0]){var
 c=s[1],m=0;if(c&&!c[2])if(a[2])m=1;else{var
 e=c[1];b=1;m=1}if(!m&&!a[2]){var
 t=c;b=2}}}}break;case
 10:if(a){var
-u=a[1];if(!p(u[1],EK)){var
+u=a[1];if(!p(u[1],Fg)){var
 v=u[2];if(1===v[0]){var
 f=v[1];if(f&&!f[2]){var
 g=a[2];if(g){var
-w=g[1];if(!p(w[1],EL)){var
+w=g[1];if(!p(w[1],Fh)){var
 x=w[2];if(1===x[0]){var
 i=x[1];if(i&&!i[2]&&!g[2]){var
-I=Z(i[1]);return[2,Z(f[1]),I]}}}}}}}}break;case
+I=_(i[1]);return[2,_(f[1]),I]}}}}}}}}break;case
 12:if(a){var
-y=a[1];if(!p(y[1],EM)){var
+y=a[1];if(!p(y[1],Fi)){var
 z=y[2];if(1===z[0]){var
 j=z[1];if(j&&!j[2]){var
 k=a[2],A=j[1];if(k){var
-B=k[1];if(!p(B[1],EN)){var
+B=k[1];if(!p(B[1],Fj)){var
 C=B[2];if(1===C[0]){var
 l=C[1];if(l&&!l[2]&&!k[2]&&h){var
-J=Z(l[1]);return[3,Z(A),J]}}}}else{var
+J=_(l[1]);return[3,_(A),J]}}}}else{var
 e=A;b=1}}}}}break;case
 16:if(a){var
-F=a[1];if(!p(F[1],EP)){var
+F=a[1];if(!p(F[1],Fl)){var
 G=F[2];if(1===G[0]&&!a[2]){var
 t=G[1];b=2}}}break;case
 14:case
 15:if(a){var
-D=a[1];if(!p(D[1],EO)){var
-E=D[2];if(1===E[0]&&!a[2])return[1,X(Z,E[1])]}}break;case
+D=a[1];if(!p(D[1],Fk)){var
+E=D[2];if(1===E[0]&&!a[2])return[1,Y(_,E[1])]}}break;case
 2:case
 8:if(a){var
-o=a[1];if(!p(o[1],EI)){var
+o=a[1];if(!p(o[1],Fe)){var
 q=o[2];if(1===q[0]){var
 d=q[1];if(d&&!d[2]&&!a[2]){var
 e=d[1];b=1}}}}break}switch(b){case
-0:throw Y;case
-1:return[0,Z(e)];default:return[1,X(Z,t)]}}var
-r=cr(q,be(c,EQ));return[0,n,cr(cT,be(c,ER)),r,e]}function
-qD(c){var
-d=d_(E2,c),e=d[1];if(!(9<=e))switch(e){case
+0:throw Z;case
+1:return[0,_(e)];default:return[1,Y(_,t)]}}var
+r=ct(q,bi(c,Fm));return[0,n,ct(cX,bi(c,Fn)),r,e]}function
+qY(c){var
+d=ed(Fy,c),e=d[1];if(!(9<=e))switch(e){case
 2:case
 6:case
 8:return d}var
-a=d_(E0,c),b=a[1];if(2!==b&&!(4<=b))return a;return ap(E1)}function
-qE(a){var
-b=d_(E3,a);return 11===b[1]?b:qD(a)}function
-E4(a){var
-b=d_(E5,a);return 12===b[1]?b:qE(a)}function
-E6(a){var
-b=d_(E7,a),c=b[1];if(9<=c)switch(c-9|0){case
+a=ed(Fw,c),b=a[1];if(2!==b&&!(4<=b))return a;return aq(Fx)}function
+qZ(a){var
+b=ed(Fz,a);return 11===b[1]?b:qY(a)}function
+FA(a){var
+b=ed(FB,a);return 12===b[1]?b:qZ(a)}function
+FC(a){var
+b=ed(FD,a),c=b[1];if(9<=c)switch(c-9|0){case
 2:case
 4:case
-7:break;default:return b}return qE(a)}function
-kV(c){var
-d=d_(E8,c),a=d[1];if(4<=a){var
+7:break;default:return b}return qZ(a)}function
+k5(c){var
+d=ed(FE,c),a=d[1];if(4<=a){var
 b=0;if(6<=a)switch(a-6|0){case
 5:case
 6:case
 7:case
 10:b=1;break}else
-b=1;if(b)return d}return qD(c)}function
-kW(b){var
-a=ai(b[2]);if(p(b[1],Fd)){var
-c=dt(Z,v(a,Fe)),d=dt(Z,v(a,Ff)),e=d[2],f=d[1],g=Z(v(a,Fg));return[1,c[1],c[2],g,f,e]}var
-h=X(Z,ae(v(a,Fh)));return[0,X(Z,ae(v(a,Fi))),h]}function
-Fj(f){var
-a=ai(f);function
-d(b){return Z(v(a,b))}function
-c(b){return f6(Z,v(a,b))}var
-b=a4(v(a,Fk));if(p(b,Fl)){if(!p(b,Fm)){var
-j=v(a,Fs),e=dt(function(a){return a},j),k=be(a,Ft),l=cr(function(a){return c(Fu)},k),m=h5(a4(e[2])),n=h5(a4(e[1])),o=d(Fv);return[0,cT(v(a,Fw)),o,n,m,l]}if(p(b,Fn))throw Y}var
-g=d(Fo),h=c(Fp),i=c(Fq);return[1,aD(b,Fr),i,h,g]}function
-kX(aG){var
-i=d9(aG),k=i[1];if(p(k,Fx)){if(p(k,Fy)){if(p(k,Fz)){if(p(k,FA))return ap([0,FC,[0,k,FB]]);var
-C=v(ai(i[2]),FD),an=0;if(2===C[0]){var
-R=p(C[1],FE);if(!R){var
+b=1;if(b)return d}return qY(c)}function
+k6(b){var
+a=aj(b[2]);if(p(b[1],FL)){var
+c=dz(_,v(a,FM)),d=dz(_,v(a,FN)),e=d[2],f=d[1],g=_(v(a,FO));return[1,c[1],c[2],g,f,e]}var
+h=Y(_,af(v(a,FP)));return[0,Y(_,af(v(a,FQ))),h]}function
+FR(f){var
+a=aj(f);function
+d(b){return _(v(a,b))}function
+c(b){return f_(_,v(a,b))}var
+b=a8(v(a,FS));if(p(b,FT)){if(!p(b,FU)){var
+j=v(a,F0),e=dz(function(a){return a},j),k=bi(a,F1),l=ct(function(a){return c(F2)},k),m=h_(a8(e[2])),n=h_(a8(e[1])),o=d(F3);return[0,cX(v(a,F4)),o,n,m,l]}if(p(b,FV))throw Z}var
+g=d(FW),h=c(FX),i=c(FY);return[1,aF(b,FZ),i,h,g]}function
+k7(aG){var
+j=ec(aG),k=j[1];if(p(k,F5)){if(p(k,F6)){if(p(k,F7)){if(p(k,F8))return aq([0,F_,[0,k,F9]]);var
+C=v(aj(j[2]),F$),an=0;if(2===C[0]){var
+R=p(C[1],Ga);if(!R){var
 Q=R;an=1}}if(!an)var
 Q=[0,b8(C)];return[6,Q]}var
-S=ai(i[2]),l=kX([0,[0,[0,FG,v(S,FF)],0]]);if(0===l[0]){var
+S=aj(j[2]),l=k7([0,[0,[0,Gc,v(S,Gb)],0]]);if(0===l[0]){var
 D=l[2];if(0===D[0]&&!l[3]){var
-T=l[4];if(!aP(b7,T)){var
-aH=Z(v(S,FI));return[5,l[1],D[1],D[2],T,aH]}}}return ap(FH)}var
-b=ai(i[2]),E=be(b,FJ),F=E?X(Fj,ae(E[1])):E,s=function(b){var
-a=0!==F?1:0;return a?ap(FK):a},m=d9(v(b,FL)),c=d9(v(b,FM)),d=m[1];if(p(d,FN)&&p(d,FO)&&p(d,FP)){if(0===be(b,FQ)){if(p(d,FR)){var
-ao=0;if(p(d,FS)){if(!p(d,FT)){var
-U=c[1],aq=0;if(p(U,FW)&&p(U,FX)){ao=1;aq=1}if(!aq){var
-n=ae(m[2]),aJ=ae(v(b,F0)),G=X(function(a){return d_(0,a)},aJ),aK=aP(function(a){switch(a[1]){case
-5:return 1-fa(Eg,n);case
-11:return aP(Ej,n);case
+T=l[4];if(!aQ(b7,T)){var
+aH=_(v(S,Ge));return[5,l[1],D[1],D[2],T,aH]}}}return aq(Gd)}var
+b=aj(j[2]),E=bi(b,Gf),F=E?Y(FR,af(E[1])):E,s=function(b){var
+a=0!==F?1:0;return a?aq(Gg):a},m=ec(v(b,Gh)),c=ec(v(b,Gi)),d=m[1];if(p(d,Gj)&&p(d,Gk)&&p(d,Gl)){if(0===bi(b,Gm)){if(p(d,Gn)){var
+ao=0;if(p(d,Go)){if(!p(d,Gp)){var
+U=c[1],ap=0;if(p(U,Gs)&&p(U,Gt)){ao=1;ap=1}if(!ap){var
+n=af(m[2]),aI=af(v(b,Gw)),G=Y(function(a){return ed(0,a)},aI),aJ=aQ(function(a){switch(a[1]){case
+5:return 1-fh(EO,n);case
+11:return aQ(ER,n);case
 7:case
 9:case
 10:case
-12:return 1;default:return 0}},G);if(!aP(DS,n)){var
-ar=0;if(!aP(b7,G)||aK)ar=1;if(ar){var
-aN=X(DC,n),h=ai(c[2]);if(p(c[1],E9))var
-O=dt(Z,v(h,E_)),P=dt(Z,v(h,E$)),aB=P[2],aC=P[1],aE=Z(v(h,Fa)),V=[1,O[1],O[2],aE,aC,aB];else
+12:return 1;default:return 0}},G);if(!aQ(Eo,n)){var
+ar=0;if(!aQ(b7,G)||aJ)ar=1;if(ar){var
+aN=Y(D_,n),i=aj(c[2]);if(p(c[1],FF))var
+O=dz(_,v(i,FG)),P=dz(_,v(i,FH)),aB=P[2],aC=P[1],aD=_(v(i,FI)),V=[1,O[1],O[2],aD,aC,aB];else
 var
-aF=f6(Z,v(h,Fb)),V=[0,f6(Z,v(h,Fc)),aF];return[0,aN,V,F,G]}}s(0);var
-aL=X(kV,ae(v(b,F1))),aM=kW(c);return[1,0,X(qB,n),0,aM,0,aL]}}}else
-if(!p(c[1],F2)){s(0);var
-W=X(kV,ae(v(b,F3))),z=0,g=W;for(;;){if(g){var
+aE=f_(_,v(i,FJ)),V=[0,f_(_,v(i,FK)),aE];return[0,aN,V,F,G]}}s(0);var
+aL=Y(k5,af(v(b,Gx))),aM=k6(c);return[1,0,Y(qW,n),0,aM,0,aL]}}}else
+if(!p(c[1],Gy)){s(0);var
+W=Y(k5,af(v(b,Gz))),z=0,g=W;for(;;){if(g){var
 L=g[2],M=g[1];if(0===M[1]){var
 z=[0,M,z],g=L;continue}var
 g=L;continue}var
-q=iB(z),as=0;if(q){var
-e=0,_=q[1][4];if(typeof
-_==="number")e=1;else
-switch(_[0]){case
+q=iG(z),as=0;if(q){var
+e=0,X=q[1][4];if(typeof
+X==="number")e=1;else
+switch(X[0]){case
 0:var
 H=q[2];if(H){var
 J=0,$=H[1][4];if(typeof
@@ -8951,79 +9145,79 @@ I=q[2];if(I){var
 K=0,aa=I[1][4];if(typeof
 aa!=="number"&&0===aa[0])if(I[2]){e=1;K=1}else
 K=1;if(!K)e=1}else
-e=1;break;default:e=1}if(!e)as=1}if(!as)ap(F4);var
-aO=Z(v(ai(c[2]),F5));return[4,Z(v(ai(m[2]),F6)),aO,W]}}if(!ao)return ap([0,FV,[0,d,FU]])}else
-if(!p(c[1],F7)){s(0);var
-t=ai(m[2]),ab=ai(c[2]),ac=function(c,a){var
-b=ae(a);return X(function(d){var
-a=ae(d);if(a){var
+e=1;break;default:e=1}if(!e)as=1}if(!as)aq(GA);var
+aO=_(v(aj(c[2]),GB));return[4,_(v(aj(m[2]),GC)),aO,W]}}if(!ao)return aq([0,Gr,[0,d,Gq]])}else
+if(!p(c[1],GD)){s(0);var
+t=aj(m[2]),ab=aj(c[2]),ac=function(c,a){var
+b=af(a);return Y(function(d){var
+a=af(d);if(a){var
 b=a[2];if(b&&!b[2]){var
-e=j(c,b[1]);return[0,a4(a[1]),e]}}throw Y},b)},aQ=function(d){var
-a=ai(d);if(a){var
-b=a[1],c=b[1];if(p(c,F8)){if(!p(c,F9)&&!a[2])return[0,X(kT,ae(b[2]))]}else
-if(!a[2])return[1,kT(b[2])]}throw Y},ad=ac(kT,v(t,F_)),af=X(aQ,ae(v(t,F$))),A=0,r=af;for(;;){if(r){var
-B=r[1],au=r[2],av=0===B[0]?B[1]:[0,B[1],0],A=lH(av,A),r=au;continue}var
-aw=iB(A),f=function(b,a){switch(a[0]){case
+e=h(c,b[1]);return[0,a8(a[1]),e]}}throw Z},b)},aP=function(d){var
+a=aj(d);if(a){var
+b=a[1],c=b[1];if(p(c,GE)){if(!p(c,GF)&&!a[2])return[0,Y(k3,af(b[2]))]}else
+if(!a[2])return[1,k3(b[2])]}throw Z},ad=ac(k3,v(t,GG)),ae=Y(aP,af(v(t,GH))),A=0,r=ae;for(;;){if(r){var
+B=r[1],au=r[2],av=0===B[0]?B[1]:[0,B[1],0],A=lR(av,A),r=au;continue}var
+aw=iG(A),f=function(b,a){switch(a[0]){case
 0:var
 c=1;break;case
 1:var
-d=lJ(a[1],b),e=1,g=d?d[1]:e,c=g;break;case
+d=lT(a[1],b),e=1,g=d?d[1]:e,c=g;break;case
 3:var
 h=f(b,a[3]),c=(1+f(b,a[2])|0)+h|0;break;case
 4:var
-i=iA(a[2]),c=lv(f(b,a[1]),i);break;default:var
-c=1+f(b,a[1])|0}return lE(32769,c)},ax=0,N=lI(function(b,a){var
-c=f(b,a[2]);return[0,[0,a[1],c],b]},ax,ad),ay=X(function(a){return f(N,a)},aw),az=lF(X(aI,N),ay),aA=0;if(32768<lI(function(b,a){return b+a|0},aA,az))ap([0,Gb,[0,a("32768"),Ga]]);var
-aR=X(E4,ae(v(b,Gc))),aS=X(Z,ae(v(ab,Gd))),aT=X(Z,ae(v(ab,Ge))),aU=ac(b8,v(t,Gf));return[3,X(a4,ae(v(t,Gg))),aU,ad,af,aT,aS,aR]}}return ap([0,FZ,[0,c[1],FY]])}throw Y}var
-ag=ai(m[2]),u=cr(Z,be(ag,Gh)),aV=function(f){var
-a=d9(f),b=a[1];if(p(b,Gi)){if(p(b,Gj)){if(p(b,Gk)){if(p(b,Gl))throw Y;var
-d=a[2],g=Z(v(ai(d),Gm));return[3,Z(v(ai(d),Gn)),g]}var
-h=a[2],c=function(a){return dt(Z,v(ai(h),a))},i=c(Go),j=c(Gp);return[1,c(Gq),j,i]}var
-e=dt(Z,a[2]);return[0,e[1],e[2]]}return[2,Z(a[2])]},w=cr(aV,be(b,Gr)),ah=p(d,Gs),aj=ah?p(d,Gt)?2:1:ah,x=ae(v(ag,Gu));if(u&&w&&fa(qC,x)){var
+i=iF(a[2]),c=lF(f(b,a[1]),i);break;default:var
+c=1+f(b,a[1])|0}return lO(32769,c)},ax=0,N=lS(function(b,a){var
+c=f(b,a[2]);return[0,[0,a[1],c],b]},ax,ad),ay=Y(function(a){return f(N,a)},aw),az=lP(Y(aK,N),ay),aA=0;if(32768<lS(function(b,a){return b+a|0},aA,az))aq([0,GJ,[0,a("32768"),GI]]);var
+aR=Y(FA,af(v(b,GK))),aS=Y(_,af(v(ab,GL))),aT=Y(_,af(v(ab,GM))),aU=ac(b8,v(t,GN));return[3,Y(a8,af(v(t,GO))),aU,ad,ae,aT,aS,aR]}}return aq([0,Gv,[0,c[1],Gu]])}throw Z}var
+ag=aj(m[2]),u=ct(_,bi(ag,GP)),aV=function(f){var
+a=ec(f),b=a[1];if(p(b,GQ)){if(p(b,GR)){if(p(b,GS)){if(p(b,GT))throw Z;var
+d=a[2],g=_(v(aj(d),GU));return[3,_(v(aj(d),GV)),g]}var
+h=a[2],c=function(a){return dz(_,v(aj(h),a))},i=c(GW),j=c(GX);return[1,c(GY),j,i]}var
+e=dz(_,a[2]);return[0,e[1],e[2]]}return[2,_(a[2])]},w=ct(aV,bi(b,GZ)),ah=p(d,G0),ai=ah?p(d,G1)?2:1:ah,x=af(v(ag,G2));if(u&&w&&fh(qX,x)){var
 aW=function(c){var
-a=ai(c);function
-b(b){return X(b8,ae(v(a,b)))}if(0!==be(a,Gv))ap(Gw);var
-d=b(Gx);return[0,b(Gy),d]},aX=X(E6,ae(v(b,Gz))),aY=w[1],aZ=kW(c),a0=u[1];return[2,aj,X(aW,x),a0,aZ,aY,F,aX]}s(0);var
-at=0;if(!u&&aD(d,GC)){var
+a=aj(c);function
+b(b){return Y(b8,af(v(a,b)))}if(0!==bi(a,G3))aq(G4);var
+d=b(G5);return[0,b(G6),d]},aX=Y(FC,af(v(b,G7))),aY=w[1],aZ=k6(c),a0=u[1];return[2,ai,Y(aW,x),a0,aZ,aY,F,aX]}s(0);var
+at=0;if(!u&&aF(d,G_)){var
 ak=1;at=1}if(!at)var
-ak=[0,aj];var
-al=0!==w?1:0,a1=al?aP(qC,x):al;if(a1)ap(GA);var
-a2=X(kV,ae(v(b,GB))),a3=kW(c);return[1,ak,X(qB,x),u,a3,w,a2]}var
-y=ai(i[2]);function
-a5(b){var
-a=ai(b),c=Z(v(a,GD)),d=[0,Z(v(a,GE)),c];return[0,a4(v(a,GF)),d]}var
-o=kX([0,[0,[0,GH,v(y,GG)],0]]);if(0===o[0]&&!o[3]){var
-am=o[4];if(!aP(b7,am)){var
-a6=Z(v(y,GJ)),a7=Z(v(y,GK)),a8=o[2],a9=o[1];return[7,X(a5,ae(v(y,GL))),a9,a8,am,a7,a6]}}return ap(GI)}function
-f8(a){return X(eU,ae(a))}function
-h6(c,b){var
-a=f8(b);if(cy(a)!==c)throw Y;return a}function
-qF(a,d){var
-b=ai(d),e=ae(v(b,GO)),f=a[2],c=X(function(a){return h6(f,a)},e),g=a[1];if(cy(c)!==g)throw Y;return[0,c,ds(v(b,GP))]}function
-du(au,i){var
+ak=[0,ai];var
+al=0!==w?1:0,a1=al?aQ(qX,x):al;if(a1)aq(G8);var
+a2=Y(k5,af(v(b,G9))),a3=k6(c);return[1,ak,Y(qW,x),u,a3,w,a2]}var
+y=aj(j[2]);function
+a4(b){var
+a=aj(b),c=_(v(a,G$)),d=[0,_(v(a,Ha)),c];return[0,a8(v(a,Hb)),d]}var
+o=k7([0,[0,[0,Hd,v(y,Hc)],0]]);if(0===o[0]&&!o[3]){var
+am=o[4];if(!aQ(b7,am)){var
+a5=_(v(y,Hf)),a6=_(v(y,Hg)),a7=o[2],a9=o[1];return[7,Y(a4,af(v(y,Hh))),a9,a7,am,a6,a5]}}return aq(He)}function
+ga(a){return Y(e1,af(a))}function
+h$(c,b){var
+a=ga(b);if(cA(a)!==c)throw Z;return a}function
+q0(a,d){var
+b=aj(d),e=af(v(b,Hk)),f=a[2],c=Y(function(a){return h$(f,a)},e),g=a[1];if(cA(c)!==g)throw Z;return[0,c,dy(v(b,Hl))]}function
+dA(au,i){var
 as=0;if(0===i[0]){var
 q=i[1];if(q){var
-U=q[1];if(!p(U[1],GQ)){var
+U=q[1];if(!p(U[1],Hm)){var
 ag=U[2];if(0===ag[0]){var
 L=ag[1];if(L){var
-ah=L[1];if(!p(ah[1],Hc)){var
-aj=ah[2];if(1===aj[0]){var
-M=aj[1];if(M){var
+ah=L[1];if(!p(ah[1],HK)){var
+ai=ah[2];if(1===ai[0]){var
+M=ai[1];if(M){var
 ak=M[1];if(1===ak[0]){var
 al=ak[1];if(al&&!al[2]&&!M[2]){var
 am=L[2];if(am&&!am[2]&&!q[2]){var
-f=Hd;as=1}}}}}}}}}}}if(!as)var
+f=HL;as=1}}}}}}}}}}}if(!as)var
 f=au;var
 r=f[2];switch(i[0]){case
 0:var
 c=i[1];if(c){var
-e=c[1],a=e[1],V=s2(a,GR),b=0;if(0<=V)if(0<V)if(p(a,GS)){var
-g=0;if(p(a,GT)&&p(a,GU)&&p(a,GV))if(p(a,GW))g=1;else{var
+e=c[1],a=e[1],V=tl(a,Hn),b=0;if(0<=V)if(0<V)if(p(a,Ho)){var
+g=0;if(p(a,Hp)&&p(a,Hq)&&p(a,Hr))if(p(a,Hs))g=1;else{var
 W=e[2];if(1===W[0]){var
 s=W[1];if(s){var
 t=s[2];if(t){var
 u=t[2];if(u&&!u[2]){if(!c[2]){var
-av=X(f8,ae(u[1])),aw=a4(t[1]);return[8,du(f,s[1]),aw,av]}b=1;g=1}else
+av=Y(ga,af(u[1])),aw=a8(t[1]);return[8,dA(f,s[1]),aw,av]}b=1;g=1}else
 g=1}else
 g=1}else
 g=1}else
@@ -9033,7 +9227,7 @@ _=e[2];if(1===_[0]){var
 y=_[1];if(y){var
 z=y[2];if(z){var
 A=z[2];if(A&&!A[2]){if(!c[2]){var
-ay=ds(A[1]),az=eU(z[1]);return[5,du(f,y[1]),az,ay]}b=1}}}}}else{var
+ay=dy(A[1]),az=e1(z[1]);return[5,dA(f,y[1]),az,ay]}b=1}}}}}else{var
 $=e[2];if(1===$[0]){if(!c[2]){var
 aA=function(m){if(1===m[0]){var
 d=m[1];if(d){var
@@ -9044,104 +9238,104 @@ n=h[1],a=n;for(;;){var
 i=0;switch(a[0]){case
 0:var
 b=a[1];if(b){var
-j=b[1],c=j[1];if(p(c,GZ)){var
-o=0;if(p(c,G0)&&p(c,G1)&&p(c,G2))o=1;if(!o&&!b[2])i=1}else{var
+j=b[1],c=j[1];if(p(c,Hv)){var
+o=0;if(p(c,Hw)&&p(c,Hx)&&p(c,Hy))o=1;if(!o&&!b[2])i=1}else{var
 k=j[2];if(1===k[0]){var
 l=k[1];if(l&&!b[2]){var
 a=l[1];continue}}}}break;case
-2:if(!p(a[1],G3))i=1;break}var
+2:if(!p(a[1],Hz))i=1;break}var
 q=i?1:0;if(q){var
-r=du(f,n),s=ds(g[1]),t=eU(e[1]);return[0,[0,[0,f8(d[1]),t],s],r]}return ap(G4)}}}}}}throw Y};return[9,X(aA,$[1])]}b=1}}else
-if(p(a,G5))if(p(a,G6))if(p(a,G7))if(p(a,G8))if(p(a,G9)){if(!p(a,G_)){if(!c[2]){var
-aa=ai(e[2]),aB=ae(v(aa,G$)),aC=r+1|0,ab=X(function(a){return h6(aC,a)},aB);if(3===cy(ab))return[1,Hb,ab,ds(v(aa,Ha))];throw Y}b=1}}else{if(!c[2]){var
-R=a4(e[2]),S=p(R,GM);if(S){if(p(R,GN))throw Y;var
+r=dA(f,n),s=dy(g[1]),t=e1(e[1]);return[0,[0,[0,ga(d[1]),t],s],r]}return aq(HA)}}}}}}throw Z};return[9,Y(aA,$[1])]}b=1}}else
+if(p(a,HB))if(p(a,HC))if(p(a,HD))if(p(a,HE))if(p(a,HF)){if(!p(a,HG)){if(!c[2]){var
+aa=aj(e[2]),aB=af(v(aa,HH)),aC=r+1|0,ab=Y(function(a){return h$(aC,a)},aB);if(3===cA(ab))return[1,HJ,ab,dy(v(aa,HI))];throw Z}b=1}}else{if(!c[2]){var
+R=a8(e[2]),S=p(R,Hi);if(S){if(p(R,Hj))throw Z;var
 T=1}else
 var
 T=S;return[2,T]}b=1}else{if(!c[2]){var
 k=e[2],o=0;switch(k[0]){case
 0:var
 l=k[1];if(l){var
-an=l[1],j=an[1],d=0;if(p(j,He)&&p(j,Hf)&&p(j,Hg)&&p(j,Hh))if(p(j,Hi))d=1;else{var
+an=l[1],j=an[1],d=0;if(p(j,HM)&&p(j,HN)&&p(j,HO)&&p(j,HP))if(p(j,HQ))d=1;else{var
 ao=an[2];if(1===ao[0]){var
 N=ao[1];if(N){var
 m=N[1],h=0;switch(m[0]){case
 0:var
 O=m[1];if(O){var
-n=O[1][1],at=0;if(p(n,Hk)&&p(n,Hl)&&p(n,Hm)&&p(n,Hn)){d=1;h=1;at=1}if(!at&&O[2]){d=1;h=1}}else{d=1;h=1}break;case
+n=O[1][1],at=0;if(p(n,HS)&&p(n,HT)&&p(n,HU)&&p(n,HV)){d=1;h=1;at=1}if(!at&&O[2]){d=1;h=1}}else{d=1;h=1}break;case
 2:var
-aq=m[1];if(p(aq,Ho)&&p(aq,Hp)){d=1;h=1}break;default:d=1;h=1}if(!h){var
+ap=m[1];if(p(ap,HW)&&p(ap,HX)){d=1;h=1}break;default:d=1;h=1}if(!h){var
 P=N[2];if(P){var
 Q=P[2];if(Q&&!(Q[2]||l[2])){var
-aL=ds(Q[1]),aM=eU(P[1]),B=[6,du(f,m),aM,aL];o=2;d=1}else
+aL=dy(Q[1]),aM=e1(P[1]),B=[6,dA(f,m),aM,aL];o=2;d=1}else
 d=1}else
 d=1}}else
 d=1}else
 d=1}if(!d&&!l[2])o=1}break;case
 2:var
-ar=k[1];if(!p(ar,Hq)||!p(ar,Hr))o=1;break}switch(o){case
+ar=k[1];if(!p(ar,HY)||!p(ar,HZ))o=1;break}switch(o){case
 0:var
-B=ap(Hj);break;case
+B=aq(HR);break;case
 1:var
-B=du(f,k);break}return[7,B]}b=1}else{var
+B=dA(f,k);break}return[7,B]}b=1}else{var
 ac=e[2];if(1===ac[0]){var
 C=ac[1];if(C){var
 D=C[2];if(D&&!D[2])if(c[2])b=1;else{var
-aD=D[1],aE=C[1],x=aE,w=function(b,a){return[3,b,a,h6(r+1|0,aD)]};b=2}}}}else{var
+aD=D[1],aE=C[1],x=aE,w=function(b,a){return[3,b,a,h$(r+1|0,aD)]};b=2}}}}else{var
 ad=e[2];if(1===ad[0]){var
 E=ad[1];if(E){var
 F=E[2];if(F){var
 G=F[2];if(G){var
 H=G[2];if(H&&!H[2]){if(!c[2]){var
-aF=du(f,H[1]),aG=du(f,G[1]),aH=ds(F[1]);return[10,h6(r+1|0,E[1]),aH,aG,aF]}b=1}}}}}}else{var
-af=e[2];if(1===af[0]){var
-I=af[1];if(I){var
+aF=dA(f,H[1]),aG=dA(f,G[1]),aH=dy(F[1]);return[10,h$(r+1|0,E[1]),aH,aG,aF]}b=1}}}}}}else{var
+ae=e[2];if(1===ae[0]){var
+I=ae[1];if(I){var
 J=I[2];if(J){var
 K=J[2];if(K&&!K[2])if(c[2])b=1;else{var
 aI=K[1],aJ=J[1],aK=I[1],x=aK,w=function(b,a){var
-c=ds(aI);return[4,b,a,eU(aJ),c]};b=2}}}}}switch(b){case
-0:if(!c[2])return ap([0,GY,[0,a,GX]]);break;case
+c=dy(aI);return[4,b,a,e1(aJ),c]};b=2}}}}}switch(b){case
+0:if(!c[2])return aq([0,Hu,[0,a,Ht]]);break;case
 1:break;default:var
-Z=qF(f,x);return w(Z[1],Z[2])}}break;case
-2:return[0,i[1]]}throw Y}function
-qG(n){var
-b=d9(n),a=b[1];if(p(a,Hu))if(p(a,Hv)){var
-h=p(a,Hw);if(!h)return h;if(p(a,Hx)){if(!p(a,Hy)){var
-c=ai(b[2]),i=function(a){return X(Z,ae(v(c,a)))},j=ai(v(c,HC)),o=ds(v(j,HD)),q=X(f8,ae(v(j,HE))),r=i(HF),s=i(HG);return[3,cT(v(c,HH)),s,r,q,o]}if(!p(a,Hz))return[2,X(Z,ae(b[2]))]}else{var
+X=q0(f,x);return w(X[1],X[2])}}break;case
+2:return[0,i[1]]}throw Z}function
+q1(n){var
+b=ec(n),a=b[1];if(p(a,H2))if(p(a,H3)){var
+h=p(a,H4);if(!h)return h;if(p(a,H5)){if(!p(a,H6)){var
+c=aj(b[2]),i=function(a){return Y(_,af(v(c,a)))},j=aj(v(c,H_)),o=dy(v(j,H$)),q=Y(ga,af(v(j,Ia))),r=i(Ib),s=i(Ic);return[3,cX(v(c,Id)),s,r,q,o]}if(!p(a,H7))return[2,Y(_,af(b[2]))]}else{var
 k=b[2];if(1===k[0]){var
 d=k[1];if(d){var
 e=d[2];if(e&&!e[2]){var
-t=cT(e[1]);return[1,cT(d[1]),t]}}}}}else{var
+t=cX(e[1]);return[1,cX(d[1]),t]}}}}}else{var
 l=b[2];if(1===l[0]){var
 f=l[1];if(f){var
 g=f[2];if(g&&!g[2]){var
-u=X(f8,ae(g[1]));return[0,cT(f[1]),u]}}}}else{var
-m=b[2];if(1===m[0]&&!m[1])return 1}return ap([0,HB,[0,a,HA]])}function
-qH(f,b){var
-a=ai(b),c=ae(v(a,HM)),d=X(function(g){var
-a=ai(g);function
+u=Y(ga,af(g[1]));return[0,cX(f[1]),u]}}}}else{var
+m=b[2];if(1===m[0]&&!m[1])return 1}return aq([0,H9,[0,a,H8]])}function
+q2(f,b){var
+a=aj(b),c=af(v(a,Ii)),d=Y(function(g){var
+a=aj(g);function
 b(d,c){var
-b=be(a,c);return b?X(d,ae(b[1])):b}var
-c=b(eU,HI),d=cr(qG,be(a,HJ)),e=cr(cT,be(a,HK));return[0,b(function(h){var
-b=ae(h);if(b){var
+b=bi(a,c);return b?Y(d,af(b[1])):b}var
+c=b(e1,Ie),d=ct(q1,bi(a,If)),e=ct(cX,bi(a,Ig));return[0,b(function(h){var
+b=af(h);if(b){var
 a=b[2];if(a){var
-c=a[1],e=b[1],d=0;if(2===c[0]&&!p(c[1],Hs)){if(!a[2]){if(p(f5(e),Ht))throw Y;d=1}}else
+c=a[1],e=b[1],d=0;if(2===c[0]&&!p(c[1],H0)){if(!a[2]){if(p(f9(e),H1))throw Z;d=1}}else
 d=1;if(d&&!a[2]){var
-g=du(f,c);return[0,cT(e),g]}}}throw Y},HL),e,d,c]},c),e=be(a,HN),g=cr(function(a){return qF(f,a)},e);return[0,qy(v(a,HO)),g,d]}function
-qI(c){var
-a=ai(c),b=be(a,HP),d=b?X(Z,ae(b[1])):b,e=qG(v(a,HQ)),f=X(Z,ae(v(a,HR)));return[0,qy(v(a,HS)),f,d,e]}function
-H2(c){var
+g=dA(f,c);return[0,cX(e),g]}}}throw Z},Ih),e,d,c]},c),e=bi(a,Ij),g=ct(function(a){return q0(f,a)},e);return[0,qT(v(a,Ik)),g,d]}function
+q3(c){var
+a=aj(c),b=bi(a,Il),d=b?Y(_,af(b[1])):b,e=q1(v(a,Im)),f=Y(_,af(v(a,In)));return[0,qT(v(a,Io)),f,d,e]}function
+Iy(c){var
 a=c[1],b=0;if(10<=a){if(!(13<=a))b=1}else
 if(8===a)b=1;return b?1:0}function
-H3(b){var
+Iz(b){var
 a=b[3];if(a&&1===a[1][0])return 1;return 0}function
-H4(b){var
-c=b[1],a=b[4];if(!(1<c+rB>>>0)&&typeof
-a!=="number"&&1===a[0])return 1-ht(k(a[1]));return 10===c?1:0}function
-H8(f){var
-h=az(f),b=[0,0];function
-i(a){if(b[1]<h)return a$(f,b[1]);throw Y}function
-k(a){if(i(0)===a){b[1]++;return 0}throw Y}function
-A(a,c){for(;;){if(b[1]<h&&j(c,a$(f,b[1]))){b[1]++;continue}return eg(f,a,b[1]-a|0)}}function
+IA(b){var
+c=b[1],a=b[4];if(!(1<c+rW>>>0)&&typeof
+a!=="number"&&1===a[0])return 1-hy(k(a[1]));return 10===c?1:0}function
+IE(f){var
+i=aB(f),b=[0,0];function
+j(a){if(b[1]<i)return bd(f,b[1]);throw Z}function
+k(a){if(j(0)===a){b[1]++;return 0}throw Z}function
+A(a,c){for(;;){if(b[1]<i&&h(c,bd(f,b[1]))){b[1]++;continue}return el(f,a,b[1]-a|0)}}function
 B(d){k(34);function
 a(a){var
 b=34!==a?1:0;if(b)var
@@ -9149,21 +9343,21 @@ c=92!==a?1:0,d=c?32<=a?1:0:c;else
 var
 d=b;return d}var
 c=A(b[1],a);k(34);return c}function
-C(e,a){if(i(0)===a){b[1]++;return 0}var
+C(e,a){if(j(0)===a){b[1]++;return 0}var
 c=0;for(;;){var
-d=[0,j(e,0),c];if(44===i(0)){b[1]++;var
-c=d;continue}k(a);return iB(d)}}function
-r(c,l){if(64<c)throw Y;var
-a=i(0),d=0;if(48<=a){if(91===a){b[1]++;var
+d=[0,h(e,0),c];if(44===j(0)){b[1]++;var
+c=d;continue}k(a);return iG(d)}}function
+r(c,l){if(64<c)throw Z;var
+a=j(0),d=0;if(48<=a){if(91===a){b[1]++;var
 f=93,g=c+1|0;return[1,C(function(a){return r(g,a)},f)]}if(123===a){b[1]++;var
 h=125;return[0,C(function(b){var
 a=B(0);k(58);return[0,a,r(c+1|0,0)]},h)]}if(!(58<=a))d=1}else{if(34===a)return[2,B(0)];if(45===a)d=1}if(d){var
-j=b[1];b[1]++;var
-e=A(j,function(a){var
-b=48<=a?1:0,c=b?a<=57?1:0:b;return c});if(p(e,Dq))return[3,e];throw Y}throw Y}var
-Q=r(0,0),D=b[1]<h?1:0,R=D?10===a$(f,b[1])?1:0:D;if(R)b[1]++;if(b[1]<h)throw Y;var
-o=ai(Q);if(p(a4(v(o,H9)),H_))throw Y;var
-a=kX(v(o,H$)),x=0;switch(a[0]){case
+i=b[1];b[1]++;var
+e=A(i,function(a){var
+b=48<=a?1:0,c=b?a<=57?1:0:b;return c});if(p(e,DY))return[3,e];throw Z}throw Z}var
+Q=r(0,0),D=b[1]<i?1:0,R=D?10===bd(f,b[1])?1:0:D;if(R)b[1]++;if(b[1]<i)throw Z;var
+o=aj(Q);if(p(a8(v(o,IF)),IG))throw Z;var
+a=k7(v(o,IH)),x=0;switch(a[0]){case
 1:var
 u=a[1],y=0;if(typeof
 u==="number")if(u)var
@@ -9173,45 +9367,45 @@ if(1===u[1])var
 w=6;else
 y=1;if(y)var
 w=3;var
-e=[0,cy(a[2]),w];break;case
+e=[0,cA(a[2]),w];break;case
 2:var
-af=1===a[1]?6:3,e=[0,cy(a[2]),af];break;case
+ae=1===a[1]?6:3,e=[0,cA(a[2]),ae];break;case
 3:var
-ag=cy(a[1]),e=[0,cy(a[4]),ag];break;case
+ag=cA(a[1]),e=[0,cA(a[4]),ag];break;case
 7:var
 E=a[2];x=1;break;case
 0:case
 5:var
 E=a[1];x=1;break;default:var
-e=Iq}if(x)var
-e=[0,cy(E),3];var
-l=d9(v(o,Ia)),m=l[1];if(p(m,HX))if(p(m,HY))if(p(m,HZ))var
-c=ap([0,H1,[0,m,H0]]);else
+e=IY}if(x)var
+e=[0,cA(E),3];var
+l=ec(v(o,II)),m=l[1];if(p(m,It))if(p(m,Iu))if(p(m,Iv))var
+c=aq([0,Ix,[0,m,Iw]]);else
 var
-n=qI(l[2]),c=[1,n[1],n[2],n[3],n[4]];else
+n=q3(l[2]),c=[1,n[1],n[2],n[3],n[4]];else
 var
-s=qH(e,l[2]),c=[0,s[1],s[2],s[3]];else
+s=q2(e,l[2]),c=[0,s[1],s[2],s[3]];else
 var
-S=ae(l[2]),c=[2,X(function(g){var
-a=d9(g),b=a[1];if(p(b,HT)){if(p(b,HU)){if(p(b,HV)){var
-f=p(b,HW);if(f)throw Y;return f}return[0,cT(a[2])]}var
-c=qI(a[2]);return[2,c[1],c[2],c[3],c[4]]}var
-d=qH(e,a[2]);return[1,d[1],d[2],d[3]]},S)];function
+S=af(l[2]),c=[2,Y(function(g){var
+a=ec(g),b=a[1];if(p(b,Ip)){if(p(b,Iq)){if(p(b,Ir)){var
+f=p(b,Is);if(f)throw Z;return f}return[0,cX(a[2])]}var
+c=q3(a[2]);return[2,c[1],c[2],c[3],c[4]]}var
+d=q2(e,a[2]);return[1,d[1],d[2],d[3]]},S)];function
 T(a){return 0!==a[3]?1:0}function
-F(a){return aP(T,a)}var
+F(a){return aQ(T,a)}var
 d=0;switch(a[0]){case
 0:if(0===c[0]){var
 H=a[4],G=a[1];d=3}else
 d=1;break;case
 1:if(0===c[0]){var
-W=c[3];if(aP(function(a){var
-b=a[1];return aP(function(a){switch(a[2][0]){case
+W=c[3];if(aQ(function(a){var
+b=a[1];return aQ(function(a){switch(a[2][0]){case
 6:case
-7:return 1;default:return 0}},b)},W)){ap(Ii);d=2}}else
+7:return 1;default:return 0}},b)},W)){aq(IQ);d=2}}else
 d=1;break;case
 2:var
-J=a[1],Z=a[7];if(0===c[0]){var
-_=1===J?6:3,K=cy(a[2])===_?1:0;if(K){var
+J=a[1],X=a[7];if(0===c[0]){var
+_=1===J?6:3,K=cA(a[2])===_?1:0;if(K){var
 M=0;if(2<=J||!(0===a[4][0]))M=1;else
 var
 t=1;if(M)var
@@ -9221,70 +9415,70 @@ t=K;var
 L=function(c){if(8===c[0]){var
 d=c[1];if(7===d[0]){var
 a=d[1],b=0;switch(a[0]){case
-1:if(!p(a[1],Ij))b=1;break;case
+1:if(!p(a[1],IR))b=1;break;case
 6:var
-e=a[1];if(1===e[0]&&!p(e[1],Ik))b=1;break}if(b)return t}}return 0},$=function(a){if(a[1])switch(a[2][0]){case
+e=a[1];if(1===e[0]&&!p(e[1],IS))b=1;break}if(b)return t}}return 0},$=function(a){if(a[1])switch(a[2][0]){case
 8:case
 9:return 1}else{var
 b=a[2];switch(b[0]){case
 8:return 1-L(b);case
 9:var
-c=b[1];return 1-fa(function(a){return L(a[2])},c)}}return 0},aa=c[3],N=0;if(aP(function(a){return aP($,a[1])},aa))ap(Il);else{var
-ab=c[3];if(fa(function(a){var
-b=a[1];return fa(function(d){var
+c=b[1];return 1-fh(function(a){return L(a[2])},c)}}return 0},aa=c[3],N=0;if(aQ(function(a){return aQ($,a[1])},aa))aq(IT);else{var
+ab=c[3];if(fh(function(a){var
+b=a[1];return fh(function(d){var
 b=d[2],a=0;switch(b[0]){case
 0:var
-c=b[1];if(p(c,H5)){if(!p(c,H6))return aP(H4,Z)}else
+c=b[1];if(p(c,IB)){if(!p(c,IC))return aQ(IA,X)}else
 a=1;break;case
-1:if(!p(b[1],H7))a=1;break;case
+1:if(!p(b[1],ID))a=1;break;case
 7:case
 8:case
 9:a=1;break}return a?1:0},b)},ab))N=1;else
-ap(Im)}if(!N)d=2}else
+aq(IU)}if(!N)d=2}else
 d=1;break;case
-5:if(aP(H2,a[4])){ap(In);d=2}else
+5:if(aQ(Iy,a[4])){aq(IV);d=2}else
 if(0===c[0]){var
-ac=c[3];if(aP(function(a){return 0!==a[1]?1:0},ac)){ap(Io);d=2}}break;case
+ac=c[3];if(aQ(function(a){return 0!==a[1]?1:0},ac)){aq(IW);d=2}}break;case
 7:var
 O=0;if(2===c[0]){var
-ad=c[1];if(aP(function(a){if(typeof
+ad=c[1];if(aQ(function(a){if(typeof
 a!=="number"&&2===a[0]){var
 b=a[4];if(typeof
-b!=="number"&&3===b[0])return 1}return 0},ad)){ap(Ip);d=2;O=1}}if(!O){var
+b!=="number"&&3===b[0])return 1}return 0},ad)){aq(IX);d=2;O=1}}if(!O){var
 H=a[4],G=a[2];d=3}break}var
 q=0;switch(d){case
 2:break;case
 3:var
-P=0;if(aP(function(a){return 10===a[1]?1:0},H)&&aP(function(a){return 2===a[0]?1:0},G)){ap(Ib);P=1}if(!P)q=2;break;case
+P=0;if(aQ(function(a){return 10===a[1]?1:0},H)&&aQ(function(a){return 2===a[0]?1:0},G)){aq(IJ);P=1}if(!P)q=2;break;case
 0:q=2;break;default:q=1}var
 z=0;switch(q){case
 2:var
 g=0;switch(a[0]){case
 5:case
-7:if(aP(H3,a[4])){ap(Ig);g=1}else
+7:if(aQ(Iz,a[4])){aq(IO);g=1}else
 if(7===a[0])switch(c[0]){case
 2:var
 V=function(a){if(typeof
-a!=="number"&&1===a[0])return F(a[3]);return 0};if(aP(V,c[1]))ap(Ih);g=1;break;case
+a!=="number"&&1===a[0])return F(a[3]);return 0};if(aQ(V,c[1]))aq(IP);g=1;break;case
 0:break;default:z=1;g=1}else
-g=1;break}if(!g)if(0===c[0]&&F(c[3]))ap(If);else
+g=1;break}if(!g)if(0===c[0]&&F(c[3]))aq(IN);else
 z=1;break;case
 1:z=1;break}var
-I=ai(v(o,Ic)),U=a4(v(I,Id));return[0,a,c,a4(v(I,Ie)),U]}function
-Ir(b){var
-a=0,f=lE(64,az(b))-18|0;for(;;){var
+I=aj(v(o,IK)),U=a8(v(I,IL));return[0,a,c,a8(v(I,IM)),U]}function
+IZ(b){var
+a=0,f=lO(64,aB(b))-18|0;for(;;){var
 c=a<=f?1:0;if(c){var
-d=aD(eg(b,a,18),Is);if(!d){var
+d=aF(el(b,a,18),I0);if(!d){var
 a=a+1|0;continue}var
 e=d}else
 var
-e=c;return e}}Kn(function(b){try{if(Ir(b))var
-a=Iu;else{try{var
-e=0,d=H8(b);e=1}catch(a){a=s4(a);if(a[1]===qx)var
-c=[0,a[2]];else{if(a!==Y)throw a;var
+e=c;return e}}KI(function(b){try{if(IZ(b))var
+a=I2;else{try{var
+e=0,d=IE(b);e=1}catch(a){a=tn(a);if(a[1]===qS)var
+c=[0,a[2]];else{if(a!==Z)throw a;var
 c=2}}if(e)var
-c=Dm(b,d)?1===d[2][0]?1:0:2;var
-a=c}}catch(a){return It}if(typeof
+c=DU(b,d)?1===d[2][0]?1:0:2;var
+a=c}}catch(a){return I1}if(typeof
 a==="number")switch(a){case
-0:return Iv;case
-1:return Iw;default:return Ix}return bg(Iy,a[1])});lG(0);return}(globalThis));
+0:return I3;case
+1:return I4;default:return I5}return bk(I6,a[1])});lQ(0);return}(globalThis));

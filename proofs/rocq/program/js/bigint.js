@@ -23,9 +23,16 @@ function oc_of_int(n) { return globalThis.BigInt(n); }
 // A number of 32 bits, or an error: nothing is cut off.
 //Provides: oc_to_int
 function oc_to_int(a) {
-  if (a > 0x7fffffff || a < -0x80000000) throw new globalThis.Error("a number of more than 32 bits");
-  return globalThis.Number(a);
+  var n = globalThis.Number(a);
+  if (n !== (n | 0)) throw new globalThis.Error("a number of more than 32 bits");
+  return n;
 }
+// Numbers that shifts are by, made once.
+//Provides: oc_small
+var oc_small = [];
+//Provides: oc_count const
+//Requires: oc_small
+function oc_count(n) { return oc_small[n] || (oc_small[n] = globalThis.BigInt(n)); }
 //Provides: oc_emod const
 //Requires: oc_abs
 function oc_emod(a, b) { var r = a % b; return r < 0 ? r + oc_abs(b) : r; }
@@ -33,10 +40,12 @@ function oc_emod(a, b) { var r = a % b; return r < 0 ? r + oc_abs(b) : r; }
 //Requires: oc_emod
 function oc_ediv(a, b) { return (a - oc_emod(a, b)) / b; }
 //Provides: oc_shl const
-function oc_shl(a, n) { return a << globalThis.BigInt(n); }
+//Requires: oc_count
+function oc_shl(a, n) { return a << oc_count(n); }
 // The floor, also of negative numbers.
 //Provides: oc_shr const
-function oc_shr(a, n) { return a >> globalThis.BigInt(n); }
+//Requires: oc_count
+function oc_shr(a, n) { return a >> oc_count(n); }
 // The floor of the root: Newton's steps from a power of two above it decrease to it.
 //Provides: oc_sqrt const
 function oc_sqrt(a) {
