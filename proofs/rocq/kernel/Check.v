@@ -202,7 +202,22 @@ Definition shows_there (values : list (option slope)) (cell : list fixed) (less 
 
 (** What is looked at of the formulas. *)
 Fixpoint is_of_divided (e : evidence) : bool :=
-  match e with ByLowerDivided _ _ | ByDivided => true | Inside e _ _ | ByTolerances e _ _ | OfOneScale _ _ e => is_of_divided e | _ => false end.
+  match e with
+  | ByLowerDivided _ _ | ByDivided => true
+  | Inside e _ _ | ByTolerances e _ _ | OfOneScale _ _ e => is_of_divided e
+  | ByFan parts => forallb (fun p => is_of_divided (snd p)) parts
+  | _ => false
+  end.
+(** The same evidence about other rows. *)
+Fixpoint of_rows_alone (e : evidence) : evidence :=
+  match e with
+  | ByLowerDivided places Y => ByLower places Y
+  | ByDivided => ByTest
+  | Inside e k p => Inside (of_rows_alone e) k p
+  | ByTolerances e ends directions => ByTolerances (of_rows_alone e) ends directions
+  | OfOneScale groups ones e => OfOneScale groups ones (of_rows_alone e)
+  | _ => e
+  end.
 Definition places_of_rows (r : rows nat) : list nat := flat_map (fun p => fst p ++ [snd p]) r.
 Definition wanted_by (t : test) (e : evidence) : list nat :=
   let own := places_of_rows (if is_of_divided e then divided else whole) in
@@ -512,6 +527,7 @@ Proof.
   replace (c * mu * U * V) with (c * U * (mu * V)) by ring. replace (c * energy M v * U) with (c * U * energy M v) by ring.
   apply Rmult_lt_compat_l; [apply Rmult_lt_0_compat |]; assumption.
 Qed.
+Definition is_of_rows (t : test) : bool := match t with SigmaMin _ | SigmaMax _ => true | _ => false end.
 Lemma holds_of_fan : forall m x t cs, cs <> [] -> (forall p, In p (Toward.wedges cs) -> holds_along (Toward.in_wedge (fst p) (snd p)) m x t) -> holds m x t.
 Proof.
   intros m x t cs n h.
@@ -1479,12 +1495,14 @@ Definition may_scale (t : test) (groups : list (list nat)) (ones : list nat) : b
   is_of_each t && forallb (fun j => is_point (nth j (fold_left Scale.of_one_scale groups params) zero)) ones && forallb (are_level t) groups.
 Definition scaled_values (groups : list (list nat)) (cell : list fixed) (t : test) (e : evidence) : list (option slope) :=
   Check.evaluate_kept bits tape (fold_left Scale.of_one_scale groups params) (kept (wanted_by t e) tape) cell.
-Definition shows_part (values : list (option slope)) (cell : list fixed) (t : test) (wedge : list Z * list Z) (part : list Z * Z * N * evidence) : bool :=
+(** Of one form of the rows, the same for all parts of a fan. *)
+Definition shows_part (of_divided : bool) (values : list (option slope)) (cell : list fixed) (t : test) (wedge : list Z * list Z) (part : list Z * Z * N * evidence) : bool :=
   let '(_, n, places, e) := part in
+  let r := if of_divided then divided else whole in let about e := if of_divided then of_rows_alone e else e in
   match e with
   | OfOneScale groups ones e => may_scale t groups ones &&
-      shows_along bits tape whole divided partial (fold_left Scale.of_one_scale groups params) inside (scaled_values groups cell t e) cell t (fst wedge) (snd wedge) n places e
-  | _ => shows_along bits tape whole divided partial params inside values cell t (fst wedge) (snd wedge) n places e
+      shows_along bits tape r divided partial (fold_left Scale.of_one_scale groups params) inside (scaled_values groups cell t e) cell t (fst wedge) (snd wedge) n places (about e)
+  | _ => shows_along bits tape r divided partial params inside values cell t (fst wedge) (snd wedge) n places (about e)
   end.
 Definition half_of (values : list (option slope)) (cell : list fixed) (t : test) (upper : option fixed) (mu : slope) (wedge : option (list Z * list Z * Z * N)) (e : evidence) : bool :=
   match e with
@@ -1502,8 +1520,8 @@ Definition shows_step (values : list (option slope)) (cell : list fixed) (t : te
   match e with
   | OfOneScale groups ones e => may_scale t groups ones &&
       shows_on bits tape whole divided partial (fold_left Scale.of_one_scale groups params) inside (scaled_values groups cell t e) cell t e
-  | ByFan parts => negb (Nat.eqb (length parts) 0) &&
-      forallb (fun p => shows_part values cell t (fst p) (snd p)) (combine (Toward.wedges (map (fun p => fst (fst (fst p))) parts)) parts)
+  | ByFan parts => negb (Nat.eqb (length parts) 0) && (negb (is_of_divided e) || is_of_rows t) &&
+      forallb (fun p => shows_part (is_of_divided e) values cell t (fst p) (snd p)) (combine (Toward.wedges (map (fun p => fst (fst (fst p))) parts)) parts)
   | ByBetween places mu lower upper =>
       match t with
       | Conditioning c2 => let mu := mu_slope bits places mu in
@@ -1604,19 +1622,19 @@ Proof.
   intros P m c2 upper mu h [H1 H2]. cbn [are_level] in h. apply andb_true_iff in h as [_ h]. rewrite forallb_forall in h.
   destruct (rows_level whole (fun i k => h i (in_or_app _ _ _ (or_introl k))) H1) as [G1 G2]. split; [exact G1 | rewrite <- G2; exact H2].
 Qed.
-Lemma along_level : forall P m t, are_level t J = true -> holds_along bits tape whole partial scaled P m x t -> holds_along bits tape whole partial theta P m x t.
+Lemma along_level : forall r P m t, r = whole \/ r = divided -> are_level t J = true -> holds_along bits tape r partial scaled P m x t -> holds_along bits tape r partial theta P m x t.
 Proof.
-  intros P m t h H.
+  intros r P m t er h H.
   assert (All : forall l, forallb (has_degree (Scale.degrees J tape)) partial && forallb (is_level (Scale.degrees J tape)) (places_of_rows whole ++ places_of_rows divided ++ l) = true ->
-    (forall i, In i partial -> has_degree (Scale.degrees J tape) i = true) /\ (forall i, In i (places_of_rows whole) -> is_level (Scale.degrees J tape) i = true) /\ (forall i, In i l -> is_level (Scale.degrees J tape) i = true)).
-  { intros l k. apply andb_true_iff in k as [p k]. rewrite forallb_forall in p, k. split; [exact p |]. split; intros i hi; apply k; repeat rewrite in_app_iff; tauto. }
+    (forall i, In i partial -> has_degree (Scale.degrees J tape) i = true) /\ (forall i, In i (places_of_rows r) -> is_level (Scale.degrees J tape) i = true) /\ (forall i, In i l -> is_level (Scale.degrees J tape) i = true)).
+  { intros l k. apply andb_true_iff in k as [p k]. rewrite forallb_forall in p, k. split; [exact p |]. split; intros i hi; apply k; repeat rewrite in_app_iff; destruct er as [-> | ->]; tauto. }
   assert (These : forall r bound, (forall i, In i (places_of_rows r) -> is_level (Scale.degrees J tape) i = true) ->
     of_these scaled x (map_rows formula_at r) bound -> of_these theta x (map_rows formula_at r) bound).
-  { intros r bound k [H1 H2]. destruct (rows_level r k H1) as [G1 G2]. split; [exact G1 | rewrite <- G2; exact H2]. }
-  destruct t; cbn [holds_along] in *; try contradiction; cbn [are_level] in h; apply All in h as [a1 [a2 a3]].
-  - destruct H as [H1 H2]. split; [| exact (These whole _ a2 H2)]. rewrite Forall_forall in H1 |- *. intros f i. exact (degree_defined f (a1 f i) (H1 f i)).
-  - exact (These whole _ a2 H).
-  - exact (These r _ a3 H).
+  { intros q bound k [H1 H2]. destruct (rows_level q k H1) as [G1 G2]. split; [exact G1 | rewrite <- G2; exact H2]. }
+  destruct t as [low | high | | | q low | | | | | | |]; cbn [holds_along] in *; try contradiction; cbn [are_level] in h; apply All in h as [a1 [a2 a3]].
+  - destruct H as [H1 H2]. split; [| exact (These r _ a2 H2)]. rewrite Forall_forall in H1 |- *. intros f i. exact (degree_defined f (a1 f i) (H1 f i)).
+  - exact (These r _ a2 H).
+  - exact (These q _ a3 H).
 Qed.
 End OneScale.
 
@@ -1631,7 +1649,7 @@ Hypothesis inside_sound : forall cell lambda x tangent, inside cell = Some tange
 Lemma scaled_shows : forall x m t groups ones, may_scale t groups ones = true ->
   exists scaled, Forall2 contains (fold_left Scale.of_one_scale groups params) scaled /\
     (forall ps, holds bits tape whole divided partial ps scaled m x t -> holds bits tape whole divided partial params theta m x t) /\
-    (forall P, holds_along bits tape whole partial scaled P m x t -> holds_along bits tape whole partial theta P m x t) /\
+    (forall r P, r = whole \/ r = divided -> holds_along bits tape r partial scaled P m x t -> holds_along bits tape r partial theta P m x t) /\
     forall c2 P upper mu, t = Conditioning c2 -> half_holds bits tape whole scaled P m x upper mu -> half_holds bits tape whole theta P m x upper mu.
 Proof.
   intros x m t groups ones h. unfold may_scale in h. apply andb_true_iff in h as [h0 h1]. apply andb_true_iff in h0 as [own _]. rewrite forallb_forall in h1.
@@ -1640,7 +1658,7 @@ Proof.
   - cbn [fold_left]. destruct (Scale.of_one_scale_sound bits J ps th hth) as [s [th1 [s0 [T1 N1]]]].
     destruct (IH (Scale.of_one_scale ps J) th1 T1 (fun K i => lv K (or_intror i))) as [th2 [T2 [H2 [G2 F2]]]]. exists th2. split; [exact T2 |]. split; [| split].
     + intros ps' H. exact (holds_level x th th1 s J s0 N1 _ _ _ t (lv J (or_introl eq_refl)) (H2 ps' H)).
-    + intros P H. exact (along_level x th th1 s J s0 N1 P _ t (lv J (or_introl eq_refl)) (G2 P H)).
+    + intros r P er H. exact (along_level x th th1 s J s0 N1 r P _ t er (lv J (or_introl eq_refl)) (G2 r P er H)).
     + intros c2 P upper mu e H. pose proof (lv J (or_introl eq_refl)) as l. rewrite e in l. exact (half_level x th th1 s J s0 N1 P _ c2 upper mu l (F2 c2 P upper mu e H)).
 Qed.
 
@@ -1678,6 +1696,12 @@ Proof.
   intros p ip. destruct (part_of_wedge parts p ip) as [[[[c0 n] places] e] iq]. specialize (h _ iq). cbn [fst snd] in h. exact (One _ _ h).
 Qed.
 
+Lemma holds_of_divided : forall m x t, is_of_rows t = true -> holds bits tape divided divided partial params theta m x t -> holds bits tape whole divided partial params theta m x t.
+Proof.
+  intros m x t h H. destruct t; try discriminate; cbn [holds] in *; [destruct H as [D H]; split; [exact D |] |];
+    (destruct H as [r [e k]]; exists r; split; [right; destruct e; assumption | exact k]).
+Qed.
+
 Lemma shows_step_holds : forall keep cell x t e, Forall2 contains cell x -> allowed x ->
   shows_step (evaluate_kept keep cell) cell t e = true -> holds bits tape whole divided partial params theta (length cell) x t.
 Proof.
@@ -1687,15 +1711,18 @@ Proof.
   destruct e as [| | | | | | | | | | | | | | | | | groups ones e | parts | places mu lower upper]; try exact (Other h); clear Other; cbn [shows_step] in h; [| | destruct t; try discriminate]; apply andb_true_iff in h as [h1 h].
   - destruct (scaled_shows x (length cell) t groups ones h1) as [scaled [T [H _]]].
     exact (H _ (kept_holds bits tape whole divided partial _ inside scaled T allowed inside_sound _ cell x t e hx ok h)).
-  - apply negb_true_iff, Nat.eqb_neq in h1. set (cs := map (fun p : list Z * Z * N * evidence => fst (fst (fst p))) parts) in *.
+  - apply andb_true_iff in h1 as [h1 h2]. apply negb_true_iff, Nat.eqb_neq in h1. set (d := is_of_divided (ByFan parts)) in *. set (r := if d then divided else whole).
+    assert (er : r = whole \/ r = divided) by (unfold r; destruct d; auto). set (cs := map (fun p : list Z * Z * N * evidence => fst (fst (fst p))) parts) in *.
     assert (ne : cs <> []) by (unfold cs; destruct parts; [contradiction h1; reflexivity | discriminate]).
-    apply (holds_of_fan bits tape whole divided partial params theta (length cell) x t cs ne). intros p ip. rewrite forallb_forall in h.
-    destruct (part_of_wedge parts p ip) as [[[[c0 n] places] e] iq]. specialize (h _ iq). cbn [fst snd shows_part] in h.
-    assert (Own : shows_along bits tape whole divided partial params inside (evaluate_kept keep cell) cell t (fst p) (snd p) n places e = true -> holds_along bits tape whole partial theta (Toward.in_wedge (fst p) (snd p)) (length cell) x t)
-      by exact (along_holds bits tape whole divided partial params inside theta theta_in allowed inside_sound keep cell x t (fst p) (snd p) n places e hx ok).
-    destruct e as [| | | | | | | | | | | | | | | | | groups ones e | |]; try exact (Own h). apply andb_true_iff in h as [h2 h].
-    destruct (scaled_shows x (length cell) t groups ones h2) as [scaled [T [_ [H _]]]].
-    exact (H _ (along_holds bits tape whole divided partial _ inside scaled T allowed inside_sound _ cell x t (fst p) (snd p) n places e hx ok h)).
+    assert (F : holds bits tape r divided partial params theta (length cell) x t).
+    { apply (holds_of_fan bits tape r divided partial params theta (length cell) x t cs ne). intros p ip. rewrite forallb_forall in h.
+      destruct (part_of_wedge parts p ip) as [[[[c0 n] places] e] iq]. specialize (h _ iq). cbn [fst snd shows_part] in h. fold r in h.
+      assert (Own : forall e, shows_along bits tape r divided partial params inside (evaluate_kept keep cell) cell t (fst p) (snd p) n places e = true -> holds_along bits tape r partial theta (Toward.in_wedge (fst p) (snd p)) (length cell) x t)
+        by (intros e' k; exact (along_holds bits tape r divided partial params inside theta theta_in allowed inside_sound keep cell x t (fst p) (snd p) n places e' hx ok k)).
+      destruct e as [| | | | | | | | | | | | | | | | | groups ones e | |]; try exact (Own _ h). apply andb_true_iff in h as [h3 h].
+      destruct (scaled_shows x (length cell) t groups ones h3) as [scaled [T [_ [H _]]]].
+      exact (H r _ er (along_holds bits tape r divided partial _ inside scaled T allowed inside_sound _ cell x t (fst p) (snd p) n places _ hx ok h)). }
+    unfold r in F. destruct d; [exact (holds_of_divided (length cell) x t h2 F) | exact F].
   - apply andb_true_iff in h1 as [h0 h1]. destruct (coords_from_hold bits cell x hx) as [lambda [el [hlam [hd C]]]]. specialize (C []). cbn [app length] in C.
     destruct (mu_slope_in bits places mu) as [q hq]. rewrite <- el in h0. pose proof (positive_there_sound bits _ _ _ h0 hq hlam) as p0.
     apply (holds_of_halves bits tape whole divided partial params theta (length cell) x c2 _ p0).

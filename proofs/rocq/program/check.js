@@ -657,6 +657,26 @@ let by_parts = 0, no_parts = 0;
     if (new Set(answers).size > 1) fail(`rank inside: ${answers}: ${n} ${places}`); else by_parts++;
   }
   if (accepted < 2) fail("rank inside is never shown");
+  // About the rows divided by B, which all parts are about or none.
+  const about = (e) => e.inside?.[0] ?? e.tolerances?.[0] ?? e, is_divided = (e) => about(e) === "divided" || about(e).lower_divided !== undefined;
+  const divided = (name, change) => {
+    const text = fs.readFileSync(path.join(__dirname, `../../certificates/${name}.cert.json`), "latin1"), changed = steps_of(text, (e, number) => is_divided(e) ? change(e, number) : e);
+    if (text === changed) fail(`divided: ${name}`);
+    return changed;
+  };
+  for (const [name, least, beyond_least, greatest, beyond_greatest] of [["orthoglide-tolerance", 0.5, 0.6, 2, 1.8], ["orthoglide-formulas", 0.5, 0.6, 2, 1.8], ["planar-3-prr", 0.4, 0.401, 0.95, 0.949],
+      ["linear-delta-klipper-cylinder", 0.52, 0.521, 1.4, 1.399]]) for (const [i, part] of [one_part, two_parts(1, 24)].entries()) {
+    nearest(divided(name, part), least, beyond_least, 9, `fan about divided, least, ${name}, ${i}`), nearest(divided(name, part), greatest, beyond_greatest, 9, `fan about divided, greatest, ${name}, ${i}`);
+  }
+  refused([[], [[[1, 0, 0], -1, 0]], [[[1, 0, 0], 0, 64]], [[[1, 0], 0, 0]]].map((parts) => divided("orthoglide-tolerance", (e) => ({ fan: parts.map((p) => [...p, e]) }))), "fan about divided");
+  refused([divided("orthoglide-tolerance", (e) => ({ fan: [[[1, 0, 0], 0, 0, e === "divided" ? { lower_divided: { y: [[1, 0, 0], [0, 1, 0], [0, 0, 1]], places: 0 } } : "divided"]] })),
+    divided("orthoglide-tolerance", (e) => ({ fan: [[[1, 0, 0], 0, 0, e === "divided" ? e : { rank: e.lower_divided }]] }))], "fan about divided");
+  for (const mixed of [(e) => [e, "test"], (e) => ["test", e]]) {
+    const [first, second] = mixed("divided"), text = divided("orthoglide-tolerance", (e) => e === "divided" ? { fan: [[[8, 1, 0], 0, 0, first], [[-1, 8, 2], 0, 0, second]] } : e), answers = three_answers(text);
+    if (answers.slice(1).some((answer) => answer !== 'NOT COVERED: evidence "fan" about "divided" and other rows is not covered by the verified checker')) fail(`fan about two forms of rows: ${answers}`);
+    fs.writeFileSync(one_of, text);
+    agrees(one_of, answers[1]);
+  }
 }
 console.log(`parts: ${by_parts} bounds with one answer, and ${no_parts} refused`);
 // Components of directions that are 0 as they are written; places; and what is accepted, and not covered.

@@ -389,14 +389,20 @@ let rec evidence shape v =
     if List.length rows <> 3 then raise Malformed else Multiplied ("direction", rows, places (get l "places"))
   | Object [ ("fan", Array parts) ] ->
     let rec is_of_fan = function
-      | String "test" | Object [ (("tolerances" | "lower" | "rank"), _) ] -> true
+      | String ("test" | "divided") | Object [ (("tolerances" | "lower" | "lower_divided" | "rank"), _) ] -> true
       | Object [ ("inside", Array (e :: _)) ] -> is_of_fan e
       | _ -> false in
+    let rec is_of_divided = function
+      | String "divided" | Object [ ("lower_divided", _) ] -> true
+      | Object [ (("inside" | "tolerances"), Array (e :: _)) ] -> is_of_divided e
+      | _ -> false in
     let part = function
-      | Array [ c; n; p; e ] when is_of_fan e -> (((integers c, integer n), places p), evidence shape e)
+      | Array [ c; n; p; e ] when is_of_fan e -> (is_of_divided e, (((integers c, integer n), places p), evidence shape e))
       | Array [ _; _; _; _ ] -> not_covered [ "this evidence \"fan\"" ]
       | _ -> raise Malformed in
-    Fan_ (List.map part parts)
+    let parts = List.map part parts in
+    if List.exists fst parts && not (List.for_all fst parts) then not_covered [ "evidence \"fan\" about \"divided\" and other rows" ];
+    Fan_ (List.map snd parts)
   | Object [ ("between", Array [ mu; p; e; f ]) ] -> Between_ (row (m + 1) mu, places p, evidence shape e, evidence shape f)
   | Object [ (name, _) ] -> not_covered [ "the evidence \""; name; "\"" ]
   | _ -> raise Malformed

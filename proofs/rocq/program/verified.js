@@ -4,27 +4,27 @@ globalThis!=="object"&&(this?b():(a.defineProperty(a.prototype,"_T_",{configurab
 b(){var
 b=this||self;b.globalThis=b;delete
 a.prototype._T_}}(Object));(function(W){"use strict";var
-li="spatial",sV="Invalid_argument",ip="precision",aU='"',lh=1255,lu="inside",rT="(",rU=0x800,sU="yaw",rQ="range",rR="tree",rS="jsError",cv=0x8000,sT="sqrt(",rP=256,io="obligation",sS="load",gp="offset",by="machine",rO="End_of_file",e$="strut",lg="center",go="arm",lf="Failure",sR="serial_margin",iv="parameters",cZ=0xff,sQ="bodies",sP="max_angle",lt="outside",gn="base_axis",le="ENOENT",sO="singular",sN=122,rN="([^/]+)",sM="0",ld=0xf,gm=128,rM=0xdc00,sK="Sys_blocked_io",sL="fd ",ge="given",rL="ENOTEMPTY",bc=248,im="bound",rK="Division_by_zero",sI="by",sJ=1027,rJ="Sys_error",gl="slider",rI="torsion",sH="postulate",rH="proof",ls="joint_error",gk="refuted",e4="mechanism",il="row",rG="EEXIST",sG="roll_pitch_yaw",gj="y",rF="cube",dB="lower",sF="within",rE="clearance",sE="turned",rD="control",ik="int_of_string",rC="between",sC="definitions",sD="dependent",gi=1024,rA="from",rB="name",sB=" : flags Open_rdonly and Open_wronly are not compatible",rz="orthocert/2",sA="reach",ry=512,sy="base_joint",sz="witness",e_="-",bp="platform",rx=0x7ff0,rw="pitch",lr=": Not a directory",bP="min",sw="trim",e9="workspace",sx=" : file already exists",ij="split",lq="legs",sv="claim",lc="joint",eg=0xffffff,rv="platform_joint",ru="formulas",rt="roll",ii="atlas",ss="greatest",st="nodes",su="Out_of_memory",rs="psi_max",iu="orientation",ih=254,sr="angle",lp="index out of bounds",rr="end",sq="one_to_one",it="_bigarr02",rq=" : flags Open_text and Open_binary are not compatible",sp="inverse",bx="drive",rp="coordinates",so="holds",ro="lower_divided",rn="speed",sm="cylinder",sn="joints",cY=0xffff,si="a leaf that fails",sj="acceleration",sk="force",gg="certified",gh="chords",sl=12520,lb="on",sh="same",e3="accuracy",gf="axis",sg="no_cube",sf="parallel_margin",rm='the drive "',la="Unix.Unix_error",is="fails",ig="tool",k$="mkdir",sd="rho",se="least",ir=1000,k_="translational",lo="tolerances",rl="Stack_overflow",ln="characteristic_length",ag="",lm="^",id="places",ie=": No such file or directory",rk="/static/",e8=0x3f,ri="stiffness",rj="Not_found",cu="planar",gd="mode",sc="joint_speed",sb="Match_failure",rh="transmission",bO="anchor",sa="at",rg="joint_force",e7="leg",rf="joint_acceleration",iq="+",k9="rmdir",r$=0xf0,r_="spherical",re=1026,r8="REJECTED",r9="undecided",bR="max",bQ="direction",rc="leg_angle",rd="orthoglide",e6="rank",r6="constraint_margin",r7="fan",gc="test",ra="Pervasives.do_at_exit",rb="utf8",b9=0x80,e5="conditioning",e2="length",q$="Undefined_recursive_module",ll=")",q_="base",r5="quantity",q9="joint_range",ic="tilt",q8="Q2",r4="reference",q7="point",r2="corner",r3=0xe0,q6="version",lk="z",r0="to",r1=0xdfff,k8="compare: functional value",rZ="Assert_failure",b$="/",rY="provenance",ef="radius",ib="side",rW=-14,b_="require",rX="format",q5="Q1",lj="ENOTDIR",q4="all",ee="box",rV=250;function
-lH(c,b,a){var
+ln="spatial",sY="Invalid_argument",is="precision",aU='"',lm=1255,iA="inside",rW="(",rX=0x800,sX="yaw",rT="range",rU="tree",rV="jsError",cv=0x8000,sW="sqrt(",rS=256,ir="obligation",sV="load",gp="offset",by="machine",rR="End_of_file",fa="strut",ll="center",go="arm",lk="Failure",sU="serial_margin",iz="parameters",cZ=0xff,sT="bodies",sS="max_angle",ly="outside",gn="base_axis",lj="ENOENT",sR="singular",sQ=122,rQ="([^/]+)",sP="0",li=0xf,gm=128,rP=0xdc00,sN="Sys_blocked_io",sO="fd ",ge="given",rO="ENOTEMPTY",bc=248,iq="bound",rN="Division_by_zero",sL="by",sM=1027,rM="Sys_error",gl="slider",rL="torsion",sK="postulate",rK="proof",lx="joint_error",gk="refuted",e5="mechanism",ip="row",rJ="EEXIST",sJ="roll_pitch_yaw",gj="y",rI="cube",dB="lower",sI="within",rH="clearance",sH="turned",rG="control",io="int_of_string",rF="between",sF="definitions",sG="dependent",gi=1024,rD="from",rE="name",sE=" : flags Open_rdonly and Open_wronly are not compatible",rC="orthocert/2",sD="reach",rB=512,sB="base_joint",sC="witness",e$="-",bp="platform",rA=0x7ff0,rz="pitch",lw=": Not a directory",bP="min",sz="trim",e_="workspace",sA=" : file already exists",im="split",lv="legs",sy="claim",lh="joint",eg=0xffffff,ry="platform_joint",rx="formulas",rw="roll",il="atlas",sv="greatest",sw="nodes",sx="Out_of_memory",rv="psi_max",iy="orientation",ik=254,su="angle",lu="index out of bounds",ru="end",st="one_to_one",ix="_bigarr02",rt=" : flags Open_text and Open_binary are not compatible",ss="inverse",bx="drive",rs="coordinates",sr="holds",ij="lower_divided",rr="speed",sp="cylinder",sq="joints",cY=0xffff,sl="a leaf that fails",sm="acceleration",sn="force",gg="certified",gh="chords",so=12520,lg="on",sk="same",e4="accuracy",gf="axis",sj="no_cube",si="parallel_margin",rq='the drive "',lf="Unix.Unix_error",iw="fails",ii="tool",le="mkdir",sg="rho",sh="least",iv=1000,ld="translational",iu="tolerances",rp="Stack_overflow",lt="characteristic_length",ag="",ls="^",ig="places",ih=": No such file or directory",ro="/static/",e9=0x3f,rm="stiffness",rn="Not_found",cu="planar",gd="mode",sf="joint_speed",se="Match_failure",rl="transmission",bO="anchor",sd="at",rk="joint_force",e8="leg",rj="joint_acceleration",it="+",lc="rmdir",sc=0xf0,sb="spherical",ri=1026,r$="REJECTED",sa="undecided",bR="max",bQ="direction",rg="leg_angle",rh="orthoglide",e7="rank",r9="constraint_margin",r_="fan",gc="test",re="Pervasives.do_at_exit",rf="utf8",b9=0x80,e6="conditioning",e3="length",rd="Undefined_recursive_module",lr=")",rc="base",r8="quantity",rb="joint_range",ie="tilt",lq="divided",ra="Q2",r7="reference",q$="point",r5="corner",r6=0xe0,q_="version",lp="z",r3="to",r4=0xdfff,lb="compare: functional value",r2="Assert_failure",b$="/",r1="provenance",ef="radius",id="side",rZ=-14,b_="require",r0="format",q9="Q1",lo="ENOTDIR",q8="all",ee="box",rY=250;function
+lL(c,b,a){var
 d=String.fromCharCode;if(b==0&&a<=4096&&a==c.length)return d.apply(null,c);var
 e=ag;for(;0<a;b+=gi,a-=gi)e+=d.apply(null,c.slice(b,b+Math.min(a,gi)));return e}function
-ix(b){if(W.Uint8Array)var
+iC(b){if(W.Uint8Array)var
 c=new(W.Uint8Array)(b.l);else
 var
 c=new
 Array(b.l);var
 e=b.c,d=e.length,a=0;for(;a<d;a++)c[a]=e.charCodeAt(a);for(d=b.l;a<d;a++)c[a]=0;b.c=c;b.t=4;return c}function
-gq(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?lH(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
-if(b.t==2&&f==b.c.length){b.c+=d.t==4?lH(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)ix(b);var
+gq(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?lL(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
+if(b.t==2&&f==b.c.length){b.c+=d.t==4?lL(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)iC(b);var
 g=d.c,h=b.c;if(d.t==4)if(f<=e)for(var
 a=0;a<c;a++)h[f+a]=g[e+a];else
 for(var
 a=c-1;a>=0;a--)h[f+a]=g[e+a];else{var
 i=Math.min(c,g.length-e);for(var
 a=0;a<i;a++)h[f+a]=g.charCodeAt(e+a);for(;a<c;a++)h[f+a]=0}}return 0}function
-fc(a){return a}function
-fb(a,b,c,d,e){gq(fc(a),b,c,d,e);return 0}function
-lw(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
+fd(a){return a}function
+fc(a,b,c,d,e){gq(fd(a),b,c,d,e);return 0}function
+lA(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
 0:return a.c.charCodeAt(b);case
 4:return a.c[b]}}function
 dD(c,a){if(c.fun)return dD(c.fun,a);if(typeof
@@ -37,22 +37,22 @@ e=arguments.length==0?1:arguments.length,d=new
 Array(a.length+e);for(var
 b=0;b<a.length;b++)d[b]=a[b];for(var
 b=0;b<arguments.length;b++)d[a.length+b]=arguments[b];return dD(c,d)}}function
-tk(b,a){if(b==0)return ag;if(a.repeat)return a.repeat(b);var
+tn(b,a){if(b==0)return ag;if(a.repeat)return a.repeat(b);var
 d=ag,c=0;for(;;){if(b&1)d+=a;b>>=1;if(b==0)return d;a+=a;c++;if(c==9)a.slice(0,1)}}function
-fd(a){if(a.t==2)a.c+=tk(a.l-a.c.length,"\0");else
-a.c=lH(a.c,0,a.c.length);a.t=0}function
-fe(a){a.t&6&&fd(a);return a.c}var
-KG=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
-KF(a){if(KG)return Math.floor(Math.log2(a));var
+fe(a){if(a.t==2)a.c+=tn(a.l-a.c.length,"\0");else
+a.c=lL(a.c,0,a.c.length);a.t=0}function
+ff(a){a.t&6&&fe(a);return a.c}var
+KQ=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
+KP(a){if(KQ)return Math.floor(Math.log2(a));var
 b=0;if(a==0)return-Infinity;if(a>=1)while(a>=2){a/=2;b++}else
 while(a<1){a*=2;b--}return b}function
-lz(c){var
+lD(c){var
 a=new(W.Float32Array)(1);a[0]=c;var
 b=new(W.Int32Array)(a.buffer);return b[0]|0}var
-tc=Math.pow(2,-24);function
-Kw(a){throw a}var
-aJ=[0];function
-th(){Kw(aJ.Division_by_zero)}function
+tf=Math.pow(2,-24);function
+KG(a){throw a}var
+aK=[0];function
+tk(){KG(aK.Division_by_zero)}function
 U(b,c,a){this.lo=b&eg;this.mi=c&eg;this.hi=a&cY}U.prototype.caml_custom="_j";U.prototype.copy=function(){return new
 U(this.lo,this.mi,this.hi)};U.prototype.ucompare=function(a){if(this.hi>a.hi)return 1;if(this.hi<a.hi)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};U.prototype.compare=function(a){var
 b=this.hi<<16,c=a.hi<<16;if(b>c)return 1;if(b<c)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};U.prototype.neg=function(){var
@@ -62,7 +62,7 @@ b=this.lo+a.lo,c=this.mi+a.mi+(b>>24),d=this.hi+a.hi+(c>>24);return new
 U(b,c,d)};U.prototype.sub=function(a){var
 b=this.lo-a.lo,c=this.mi-a.mi+(b>>24),d=this.hi-a.hi+(c>>24);return new
 U(b,c,d)};U.prototype.mul=function(a){var
-b=this.lo*a.lo,c=(b*tc|0)+this.mi*a.lo+this.lo*a.mi,d=(c*tc|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
+b=this.lo*a.lo,c=(b*tf|0)+this.mi*a.lo+this.lo*a.mi,d=(c*tf|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
 U(b,c,d)};U.prototype.isZero=function(){return(this.lo|this.mi|this.hi)==0};U.prototype.isNeg=function(){return this.hi<<16<0};U.prototype.and=function(a){return new
 U(this.lo&a.lo,this.mi&a.mi,this.hi&a.hi)};U.prototype.or=function(a){return new
 U(this.lo|a.lo,this.mi|a.mi,this.hi|a.hi)};U.prototype.xor=function(a){return new
@@ -80,22 +80,22 @@ U(this.mi>>a-24|this.hi<<48-a,this.hi<<16>>a-24>>16,b&cY);return new
 U(this.hi<<16>>a-32,b,b)};U.prototype.lsl1=function(){this.hi=this.hi<<1|this.mi>>23;this.mi=(this.mi<<1|this.lo>>23)&eg;this.lo=this.lo<<1&eg};U.prototype.lsr1=function(){this.lo=(this.lo>>>1|this.mi<<23)&eg;this.mi=(this.mi>>>1|this.hi<<23)&eg;this.hi=this.hi>>>1};U.prototype.udivmod=function(e){var
 c=0,b=this.copy(),a=e.copy(),d=new
 U(0,0,0);while(b.ucompare(a)>0){c++;a.lsl1()}while(c>=0){c--;d.lsl1();if(b.ucompare(a)>=0){d.lo++;b=b.sub(a)}a.lsr1()}return{quotient:d,modulus:b}};U.prototype.div=function(a){var
-b=this;if(a.isZero())th();var
+b=this;if(a.isZero())tk();var
 d=b.hi^a.hi;if(b.hi&cv)b=b.neg();if(a.hi&cv)a=a.neg();var
 c=b.udivmod(a).quotient;if(d&cv)c=c.neg();return c};U.prototype.mod=function(b){var
-a=this;if(b.isZero())th();var
+a=this;if(b.isZero())tk();var
 d=a.hi;if(a.hi&cv)a=a.neg();if(b.hi&cv)b=b.neg();var
 c=a.udivmod(b).modulus;if(d&cv)c=c.neg();return c};U.prototype.toInt=function(){return this.lo|this.mi<<24};U.prototype.toFloat=function(){return(this.hi<<16)*Math.pow(2,32)+this.mi*Math.pow(2,24)+this.lo};U.prototype.toArray=function(){return[this.hi>>8,this.hi&cZ,this.mi>>16,this.mi>>8&cZ,this.mi&cZ,this.lo>>16,this.lo>>8&cZ,this.lo&cZ]};U.prototype.lo32=function(){return this.lo|(this.mi&cZ)<<24};U.prototype.hi32=function(){return this.mi>>>8&cY|this.hi<<16};function
-iz(b,c,a){return new
+iE(b,c,a){return new
 U(b,c,a)}function
-iy(a){if(!isFinite(a)){if(isNaN(a))return iz(1,0,rx);return a>0?iz(0,0,rx):iz(0,0,0xfff0)}var
+iD(a){if(!isFinite(a)){if(isNaN(a))return iE(1,0,rA);return a>0?iE(0,0,rA):iE(0,0,0xfff0)}var
 f=a==0&&1/a==-Infinity?cv:a>=0?0:cv;if(f)a=-a;var
-b=KF(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-re)}else{a/=Math.pow(2,b-sJ);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
+b=KP(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-ri)}else{a/=Math.pow(2,b-sM);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
 d=Math.pow(2,24),c=a|0;a=(a-c)*d;var
 e=a|0;a=(a-e)*d;var
-g=a|0;c=c&ld|f|b<<4;return iz(g,e,c)}function
+g=a|0;c=c&li|f|b<<4;return iE(g,e,c)}function
 gt(a){return a.toArray()}function
-s2(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==it)for(var
+s5(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==ix)for(var
 a=0;a<b.dims.length;a++)if(b.dims[a]<cY)c.write(16,b.dims[a]);else{c.write(16,cY);c.write(32,0);c.write(32,b.dims[a])}else
 for(var
 a=0;a<b.dims.length;a++)c.write(32,b.dims[a]);switch(b.kind){case
@@ -117,47 +117,47 @@ e=gt(b.get(a));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 1:for(var
 a=0;a<b.data.length;a++){var
-e=gt(iy(b.get(a)));for(var
+e=gt(iD(b.get(a)));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 0:for(var
 a=0;a<b.data.length;a++){var
-e=lz(b.get(a));c.write(32,e)}break;case
+e=lD(b.get(a));c.write(32,e)}break;case
 10:for(var
 a=0;a<b.data.length/2;a++){var
-d=b.get(a);c.write(32,lz(d[1]));c.write(32,lz(d[2]))}break;case
+d=b.get(a);c.write(32,lD(d[1]));c.write(32,lD(d[2]))}break;case
 11:for(var
 a=0;a<b.data.length/2;a++){var
-f=b.get(a),e=gt(iy(f[1]));for(var
+f=b.get(a),e=gt(iD(f[1]));for(var
 d=0;d<8;d++)c.write(8,e[d]);var
-e=gt(iy(f[2]));for(var
+e=gt(iD(f[2]));for(var
 d=0;d<8;d++)c.write(8,e[d])}break}g[0]=(4+b.dims.length)*4;g[1]=(4+b.dims.length)*8}function
-Ky(b,a){throw[0,b,a]}function
-tp(a){if(a.length<24){for(var
+KI(b,a){throw[0,b,a]}function
+ts(a){if(a.length<24){for(var
 b=0;b<a.length;b++)if(a.charCodeAt(b)>127)return false;return true}else
 return!/[^\x00-\x7f]/.test(a)}function
-lI(e){for(var
+lM(e){for(var
 j=ag,c=ag,g,f,h,a,b=0,i=e.length;b<i;b++){f=e.charCodeAt(b);if(f<b9){for(var
-d=b+1;d<i&&(f=e.charCodeAt(d))<b9;d++);if(d-b>ry){c.substr(0,1);j+=c;c=ag;j+=e.slice(b,d)}else
-c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==gm){g=h+(f<<6);if(f<r3){a=g-0x3080;if(a<b9)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==gm){g=h+(g<<6);if(f<r$){a=g-0xe2080;if(a<rU||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==gm&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
-if(a>cY)c+=String.fromCharCode(0xd7c0+(a>>10),rM+(a&0x3FF));else
+d=b+1;d<i&&(f=e.charCodeAt(d))<b9;d++);if(d-b>rB){c.substr(0,1);j+=c;c=ag;j+=e.slice(b,d)}else
+c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==gm){g=h+(f<<6);if(f<r6){a=g-0x3080;if(a<b9)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==gm){g=h+(g<<6);if(f<sc){a=g-0xe2080;if(a<rX||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==gm&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
+if(a>cY)c+=String.fromCharCode(0xd7c0+(a>>10),rP+(a&0x3FF));else
 c+=String.fromCharCode(a);if(c.length>gi){c.substr(0,1);j+=c;c=ag}}return j+c}function
 cw(c,a,b){this.t=c;this.c=a;this.l=b}cw.prototype.toString=function(){switch(this.t){case
-9:return this.c;default:fd(this);case
-0:if(tp(this.c)){this.t=9;return this.c}this.t=8;case
+9:return this.c;default:fe(this);case
+0:if(ts(this.c)){this.t=9;return this.c}this.t=8;case
 8:return this.c}};cw.prototype.toUtf16=function(){var
-a=this.toString();if(this.t==9)return a;return lI(a)};cw.prototype.slice=function(){var
+a=this.toString();if(this.t==9)return a;return lM(a)};cw.prototype.slice=function(){var
 a=this.t==4?this.c.slice():this.c;return new
 cw(this.t,a,this.l)};function
-s5(a){return new
+s8(a){return new
 cw(0,a,a.length)}function
-a(a){return s5(a)}function
-lG(c,b){Ky(c,a(b))}function
-a4(a){lG(aJ.Invalid_argument,a)}function
-s0(a){switch(a){case
+a(a){return s8(a)}function
+lK(c,b){KI(c,a(b))}function
+a4(a){lK(aK.Invalid_argument,a)}function
+s3(a){switch(a){case
 7:case
 10:case
 11:return 2;default:return 1}}function
-J2(c,e){var
+Ka(c,e){var
 b=W,a;switch(c){case
 0:a=b.Float32Array;break;case
 1:a=b.Float64Array;break;case
@@ -173,43 +173,43 @@ b=W,a;switch(c){case
 11:a=b.Float64Array;break;case
 12:a=b.Uint8Array;break}if(!a)a4("Bigarray.create: unsupported kind");var
 d=new
-a(e*s0(c));return d}function
-lA(c){var
+a(e*s3(c));return d}function
+lE(c){var
 a=new(W.Int32Array)(1);a[0]=c;var
 b=new(W.Float32Array)(a.buffer);return b[0]}function
 gs(a){return new
 U(a[7]<<0|a[6]<<8|a[5]<<16,a[4]<<0|a[3]<<8|a[2]<<16,a[1]<<0|a[0]<<8)}function
-lB(d){var
-f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&ld)==0?b&cv?-Infinity:Infinity:NaN;var
-e=Math.pow(2,-24),a=(f*e+g)*e+(b&ld);if(c>0){a+=16;a*=Math.pow(2,c-sJ)}else
-a*=Math.pow(2,-re);if(b&cv)a=-a;return a}function
-lv(b){var
+lF(d){var
+f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&li)==0?b&cv?-Infinity:Infinity:NaN;var
+e=Math.pow(2,-24),a=(f*e+g)*e+(b&li);if(c>0){a+=16;a*=Math.pow(2,c-sM)}else
+a*=Math.pow(2,-ri);if(b&cv)a=-a;return a}function
+lz(b){var
 d=b.length,c=1;for(var
 a=0;a<d;a++){if(b[a]<0)a4("Bigarray.create: negative dimension");c=c*b[a]}return c}function
-Kg(b,a){return new
+Kq(b,a){return new
 U(b&eg,b>>>24&cZ|(a&cY)<<8,a>>>16&cY)}function
-lC(a){return a.hi32()}function
-lD(a){return a.lo32()}function
-iw(){a4(lp)}var
-J3=it;function
-dC(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}dC.prototype.caml_custom=J3;dC.prototype.offset=function(b){var
+lG(a){return a.hi32()}function
+lH(a){return a.lo32()}function
+iB(){a4(lu)}var
+Kb=ix;function
+dC(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}dC.prototype.caml_custom=Kb;dC.prototype.offset=function(b){var
 c=0;if(typeof
 b==="number")b=[b];if(!(b
 instanceof
 Array))a4("bigarray.js: invalid offset");if(this.dims.length!=b.length)a4("Bigarray.get/set: bad number of dimensions");if(this.layout==0)for(var
-a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])iw();c=c*this.dims[a]+b[a]}else
+a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])iB();c=c*this.dims[a]+b[a]}else
 for(var
-a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])iw();c=c*this.dims[a]+(b[a]-1)}return c};dC.prototype.get=function(a){switch(this.kind){case
+a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])iB();c=c*this.dims[a]+(b[a]-1)}return c};dC.prototype.get=function(a){switch(this.kind){case
 7:var
-d=this.data[a*2+0],b=this.data[a*2+1];return Kg(d,b);case
+d=this.data[a*2+0],b=this.data[a*2+1];return Kq(d,b);case
 10:case
 11:var
-e=this.data[a*2+0],c=this.data[a*2+1];return[ih,e,c];default:return this.data[a]}};dC.prototype.set=function(a,b){switch(this.kind){case
-7:this.data[a*2+0]=lD(b);this.data[a*2+1]=lC(b);break;case
+e=this.data[a*2+0],c=this.data[a*2+1];return[ik,e,c];default:return this.data[a]}};dC.prototype.set=function(a,b){switch(this.kind){case
+7:this.data[a*2+0]=lH(b);this.data[a*2+1]=lG(b);break;case
 10:case
 11:this.data[a*2+0]=b[1];this.data[a*2+1]=b[2];break;default:this.data[a]=b;break}return 0};dC.prototype.fill=function(b){switch(this.kind){case
 7:var
-c=lD(b),e=lC(b);if(c==e)this.data.fill(c);else
+c=lH(b),e=lG(b);if(c==e)this.data.fill(c);else
 for(var
 a=0;a<this.data.length;a++)this.data[a]=a%2==0?c:e;break;case
 10:case
@@ -236,26 +236,26 @@ a=0;a<this.data.length;a+=2){if(this.data[a+1]<b.data[a+1])return-1;if(this.data
 9:case
 12:for(var
 a=0;a<this.data.length;a++){if(this.data[a]<b.data[a])return-1;if(this.data[a]>b.data[a])return 1}break}return 0};function
-fa(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}fa.prototype=new
-dC();fa.prototype.offset=function(a){if(typeof
+fb(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}fb.prototype=new
+dC();fb.prototype.offset=function(a){if(typeof
 a!=="number")if(a
 instanceof
 Array&&a.length==1)a=a[0];else
-a4("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])iw();return a};fa.prototype.get=function(a){return this.data[a]};fa.prototype.set=function(a,b){this.data[a]=b;return 0};fa.prototype.fill=function(a){this.data.fill(a);return 0};function
-sY(c,d,a,b){var
-e=s0(c);if(lv(a)*e!=b.length)a4("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
-fa(c,d,a,b);return new
+a4("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])iB();return a};fb.prototype.get=function(a){return this.data[a]};fb.prototype.set=function(a,b){this.data[a]=b;return 0};fb.prototype.fill=function(a){this.data.fill(a);return 0};function
+s1(c,d,a,b){var
+e=s3(c);if(lz(a)*e!=b.length)a4("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
+fb(c,d,a,b);return new
 dC(c,d,a,b)}function
-ca(b){if(!aJ.Failure)aJ.Failure=[bc,a(lf),-3];lG(aJ.Failure,b)}function
-sZ(b,v,r){var
+ca(b){if(!aK.Failure)aK.Failure=[bc,a(lk),-3];lK(aK.Failure,b)}function
+s2(b,v,r){var
 i=b.read32s();if(i<0||i>16)ca("input_value: wrong number of bigarray dimensions");var
-p=b.read32s(),j=p&cZ,o=p>>8&1,h=[];if(r==it)for(var
+p=b.read32s(),j=p&cZ,o=p>>8&1,h=[];if(r==ix)for(var
 a=0;a<i;a++){var
 n=b.read16u();if(n==cY){var
 t=b.read32u(),u=b.read32u();if(t!=0)ca("input_value: bigarray dimension overflow in 32bit");n=u}h.push(n)}else
 for(var
 a=0;a<i;a++)h.push(b.read32u());var
-d=lv(h),f=J2(j,d),g=sY(j,o,h,f);switch(j){case
+d=lz(h),f=Ka(j,d),g=s1(j,o,h,f);switch(j){case
 2:for(var
 a=0;a<d;a++)f[a]=b.read8s();break;case
 3:case
@@ -282,31 +282,31 @@ e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-k=lB(gs(e));g.set(a,k)}break;case
+k=lF(gs(e));g.set(a,k)}break;case
 0:for(var
 a=0;a<d;a++){var
-k=lA(b.read32s());g.set(a,k)}break;case
+k=lE(b.read32s());g.set(a,k)}break;case
 10:for(var
 a=0;a<d;a++){var
-m=lA(b.read32s()),l=lA(b.read32s());g.set(a,[ih,m,l])}break;case
+m=lE(b.read32s()),l=lE(b.read32s());g.set(a,[ik,m,l])}break;case
 11:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-m=lB(gs(e));for(var
+m=lF(gs(e));for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-l=lB(gs(e));g.set(a,[ih,m,l])}break}v[0]=(4+i)*4;return sY(j,o,h,f)}function
-sX(a,b,c){return a.compare(b,c)}function
-lF(a,b){return Math.imul(a,b)}function
-c0(b,a){a=lF(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=lF(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
-Kd(a,b){a=c0(a,lD(b));a=c0(a,lC(b));return a}function
-tb(a,b){return Kd(a,iy(b))}function
-s1(c){var
-b=lv(c.dims),d=0;switch(c.kind){case
+l=lF(gs(e));g.set(a,[ik,m,l])}break}v[0]=(4+i)*4;return s1(j,o,h,f)}function
+s0(a,b,c){return a.compare(b,c)}function
+lJ(a,b){return Math.imul(a,b)}function
+c0(b,a){a=lJ(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=lJ(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
+Kn(a,b){a=c0(a,lH(b));a=c0(a,lG(b));return a}function
+te(a,b){return Kn(a,iD(b))}function
+s4(c){var
+b=lz(c.dims),d=0;switch(c.kind){case
 2:case
 3:case
-12:if(b>rP)b=rP;var
+12:if(b>rS)b=rS;var
 e=0,a=0;for(a=0;a+4<=c.data.length;a+=4){e=c.data[a+0]|c.data[a+1]<<8|c.data[a+2]<<16|c.data[a+3]<<24;d=c0(d,e)}e=0;switch(b&3){case
 3:e=c.data[a+2]<<16;case
 2:e|=c.data[a+1]<<8;case
@@ -323,75 +323,75 @@ a=0;a<b;a++)d=c0(d,c.data[a]);break;case
 a=0;a<b;a++)d=c0(d,c.data[a]);break;case
 10:b*=2;case
 0:if(b>64)b=64;for(var
-a=0;a<b;a++)d=tb(d,c.data[a]);break;case
+a=0;a<b;a++)d=te(d,c.data[a]);break;case
 11:b*=2;case
 1:if(b>32)b=32;for(var
-a=0;a<b;a++)d=tb(d,c.data[a]);break}return d}function
-Ke(a,b){b[0]=4;return a.read32s()}function
-Kt(a,b){switch(a.read8u()){case
+a=0;a<b;a++)d=te(d,c.data[a]);break}return d}function
+Ko(a,b){b[0]=4;return a.read32s()}function
+KD(a,b){switch(a.read8u()){case
 1:b[0]=4;return a.read32s();case
 2:ca("input_value: native integer value too large");default:ca("input_value: ill-formed native integer")}}function
-Kj(c,d){var
+Kt(c,d){var
 b=new
 Array(8);for(var
 a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return gs(b)}function
-Ki(e,d,b){var
+Ks(e,d,b){var
 c=gt(d);for(var
 a=0;a<8;a++)e.write(8,c[a]);b[0]=8;b[1]=8}function
-Kf(a,b,c){return a.compare(b)}function
-Kh(a){return a.lo32()^a.hi32()}var
-s8={"_j":{deserialize:Kj,serialize:Ki,fixed_length:8,compare:Kf,hash:Kh},"_i":{deserialize:Ke,fixed_length:4},"_n":{deserialize:Kt,fixed_length:4},"_bigarray":{deserialize:function(a,b){return sZ(a,b,"_bigarray")},serialize:s2,compare:sX,hash:s1},"_bigarr02":{deserialize:function(a,b){return sZ(a,b,it)},serialize:s2,compare:sX,hash:s1}};function
-ly(a){return s8[a.caml_custom]&&s8[a.caml_custom].compare}function
-s6(f,c,d,e){var
-b=ly(c);if(b){var
+Kp(a,b,c){return a.compare(b)}function
+Kr(a){return a.lo32()^a.hi32()}var
+s$={"_j":{deserialize:Kt,serialize:Ks,fixed_length:8,compare:Kp,hash:Kr},"_i":{deserialize:Ko,fixed_length:4},"_n":{deserialize:KD,fixed_length:4},"_bigarray":{deserialize:function(a,b){return s2(a,b,"_bigarray")},serialize:s5,compare:s0,hash:s4},"_bigarr02":{deserialize:function(a,b){return s2(a,b,ix)},serialize:s5,compare:s0,hash:s4}};function
+lC(a){return s$[a.caml_custom]&&s$[a.caml_custom].compare}function
+s9(f,c,d,e){var
+b=lC(c);if(b){var
 a=d>0?b(c,f,e):b(f,c,e);if(e&&a!=a)return d;if(+a!=+a)return+a;if((a|0)!=0)return a|0}return d}function
-lE(a){return a
+lI(a){return a
 instanceof
 cw}function
-td(a){return lE(a)}function
-s7(a){if(typeof
-a==="number")return ir;else
-if(lE(a))return 252;else
-if(td(a))return 1252;else
+tg(a){return lI(a)}function
+s_(a){if(typeof
+a==="number")return iv;else
+if(lI(a))return 252;else
+if(tg(a))return 1252;else
 if(a
 instanceof
 Array&&a[0]===a[0]>>>0&&a[0]<=255){var
-b=a[0]|0;return b==ih?0:b}else
+b=a[0]|0;return b==ik?0:b}else
 if(a
 instanceof
-String)return sl;else
+String)return so;else
 if(typeof
-a=="string")return sl;else
+a=="string")return so;else
 if(a
 instanceof
-Number)return ir;else
-if(a&&a.caml_custom)return lh;else
+Number)return iv;else
+if(a&&a.caml_custom)return lm;else
 if(a&&a.compare)return 1256;else
 if(typeof
 a=="function")return 1247;else
 if(typeof
 a=="symbol")return 1251;return 1001}function
-Kk(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
-s4(a,b){a.t&6&&fd(a);b.t&6&&fd(b);return a.c<b.c?-1:a.c>b.c?1:0}function
-tl(a,b){return s4(a,b)}function
-lx(a,b,d){var
+Ku(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
+s7(a,b){a.t&6&&fe(a);b.t&6&&fe(b);return a.c<b.c?-1:a.c>b.c?1:0}function
+to(a,b){return s7(a,b)}function
+lB(a,b,d){var
 e=[];for(;;){if(!(d&&a===b)){var
-f=s7(a);if(f==rV){a=a[1];continue}var
-g=s7(b);if(g==rV){b=b[1];continue}if(f!==g){if(f==ir){if(g==lh)return s6(a,b,-1,d);return-1}if(g==ir){if(f==lh)return s6(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
-247:a4(k8);break;case
+f=s_(a);if(f==rY){a=a[1];continue}var
+g=s_(b);if(g==rY){b=b[1];continue}if(f!==g){if(f==iv){if(g==lm)return s9(a,b,-1,d);return-1}if(g==iv){if(f==lm)return s9(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
+247:a4(lb);break;case
 248:var
-c=Kk(a[2],b[2]);if(c!=0)return c|0;break;case
-249:a4(k8);break;case
+c=Ku(a[2],b[2]);if(c!=0)return c|0;break;case
+249:a4(lb);break;case
 250:a4("equal: got Forward_tag, should not happen");break;case
 251:a4("equal: abstract value");break;case
 252:if(a!==b){var
-c=s4(a,b);if(c!=0)return c|0}break;case
+c=s7(a,b);if(c!=0)return c|0}break;case
 253:a4("equal: got Double_tag, should not happen");break;case
 254:a4("equal: got Double_array_tag, should not happen");break;case
 255:a4("equal: got Custom_tag, should not happen");break;case
-1247:a4(k8);break;case
+1247:a4(lb);break;case
 1255:var
-i=ly(a);if(i!=ly(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)a4("compare: abstract value");var
+i=lC(a);if(i!=lC(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)a4("compare: abstract value");var
 c=i(a,b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
 1256:var
 c=a.compare(b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
@@ -399,135 +399,135 @@ c=a.compare(b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;
 1001:if(a<b)return-1;if(a>b)return 1;if(a!=b){if(!d)return NaN;if(a==a)return 1;if(b==b)return-1}break;case
 1251:if(a!==b){if(!d)return NaN;return 1}break;case
 1252:var
-a=fe(a),b=fe(b);if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
+a=ff(a),b=ff(b);if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
 12520:var
 a=a.toString(),b=b.toString();if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
 246:case
 254:default:if(a.length!=b.length)return a.length<b.length?-1:1;if(a.length>1)e.push(a,b,1);break}}if(e.length==0)return 0;var
 h=e.pop();b=e.pop();a=e.pop();if(h+1<a.length)e.push(a,b,h+1);a=a[h];b=b[h]}}function
-J_(a,b){return lx(a,b,true)}function
+Ki(a,b){return lB(a,b,true)}function
 cy(a){if(a<0)a4("Bytes.create");return new
 cw(a?2:9,ag,a)}function
-s9(a,b){return+(lx(a,b,false)==0)}function
-Ka(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=ag;a.t=2}else{a.c=tk(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)ix(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}var
-Ku=0;function
-s$(){return Ku++}function
-Km(a){return a.toUtf16()}function
+ta(a,b){return+(lB(a,b,false)==0)}function
+Kk(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=ag;a.t=2}else{a.c=tn(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)iC(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}var
+KE=0;function
+tc(){return KE++}function
+Kw(a){return a.toUtf16()}function
 gu(){return typeof
 W.process!=="undefined"&&typeof
 W.process.versions!=="undefined"&&typeof
 W.process.versions.node!=="undefined"}function
-KH(){function
+KR(){function
 a(a){if(a.charAt(0)===b$)return[ag,a.substring(1)];return}function
 b(c){var
 g=/^([a-zA-Z]:|[\\/]{2}[^\\/]+[\\/]+[^\\/]+)?([\\/])?([\s\S]*?)$/,a=g.exec(c),b=a[1]||ag,e=Boolean(b&&b.charAt(1)!==":");if(Boolean(a[2]||e)){var
 d=a[1]||ag,f=a[2]||ag;return[d,c.substring(d.length+f.length)]}return}return gu()&&W.process&&W.process.platform?W.process.platform==="win32"?b:a:a}var
-lL=KH();function
-tm(a){return a.slice(-1)!==b$?a+b$:a}if(gu()&&W.process&&W.process.cwd)var
+lP=KR();function
+tp(a){return a.slice(-1)!==b$?a+b$:a}if(gu()&&W.process&&W.process.cwd)var
 gr=W.process.cwd().replace(/\\/g,b$);else
 var
-gr="/static";gr=tm(gr);function
-Ko(a){a=Km(a);if(!lL(a))a=gr+a;var
-e=lL(a),d=e[1].split(b$),b=[];for(var
+gr="/static";gr=tp(gr);function
+Ky(a){a=Kw(a);if(!lP(a))a=gr+a;var
+e=lP(a),d=e[1].split(b$),b=[];for(var
 c=0;c<d.length;c++)switch(d[c]){case"..":if(b.length>1)b.pop();break;case".":break;default:b.push(d[c]);break}b.unshift(e[0]);b.orig=a;return b}function
-KC(e){for(var
+KM(e){for(var
 f=ag,b=f,a,h,c=0,g=e.length;c<g;c++){a=e.charCodeAt(c);if(a<b9){for(var
-d=c+1;d<g&&(a=e.charCodeAt(d))<b9;d++);if(d-c>ry){b.substr(0,1);f+=b;b=ag;f+=e.slice(c,d)}else
-b+=e.slice(c,d);if(d==g)break;c=d}if(a<rU){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(b9|a&e8)}else
-if(a<0xd800||a>=r1)b+=String.fromCharCode(r3|a>>12,b9|a>>6&e8,b9|a&e8);else
-if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<rM||h>r1)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(r$|a>>18,b9|a>>12&e8,b9|a>>6&e8,b9|a&e8)}if(b.length>gi){b.substr(0,1);f+=b;b=ag}}return f+b}function
-J7(a){var
-b=9;if(!tp(a))b=8,a=KC(a);return new
+d=c+1;d<g&&(a=e.charCodeAt(d))<b9;d++);if(d-c>rB){b.substr(0,1);f+=b;b=ag;f+=e.slice(c,d)}else
+b+=e.slice(c,d);if(d==g)break;c=d}if(a<rX){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(b9|a&e9)}else
+if(a<0xd800||a>=r4)b+=String.fromCharCode(r6|a>>12,b9|a>>6&e9,b9|a&e9);else
+if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<rP||h>r4)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(sc|a>>18,b9|a>>12&e9,b9|a>>6&e9,b9|a&e9)}if(b.length>gi){b.substr(0,1);f+=b;b=ag}}return f+b}function
+Kf(a){var
+b=9;if(!ts(a))b=8,a=KM(a);return new
 cw(b,a,a.length)}function
-ff(a){return J7(a)}var
-KK=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",rG,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",le,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",lj,rL,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
+fg(a){return Kf(a)}var
+KU=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",rJ,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",lj,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",lo,rO,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
 ek(d,f,e,a){var
-b=KK.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
-c=[b,ff(f||ag),ff(e||ag)];return c}var
-tf={};function
-eh(a){return tf[a]}function
+b=KU.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
+c=[b,fg(f||ag),fg(e||ag)];return c}var
+ti={};function
+eh(a){return ti[a]}function
 ei(b,a){throw[0,b].concat(a)}function
-J6(a){return new
+Ke(a){return new
 cw(4,a,a.length)}function
-au(a){lG(aJ.Sys_error,a)}function
-Kx(a){au(a+ie)}function
-s3(){a4(lp)}function
-J5(b,a){if(a>>>0>=b.l)s3();return lw(b,a)}function
-iB(a){return a.l}function
-sW(){}function
+au(a){lK(aK.Sys_error,a)}function
+KH(a){au(a+ih)}function
+s6(){a4(lu)}function
+Kd(b,a){if(a>>>0>=b.l)s6();return lA(b,a)}function
+iG(a){return a.l}function
+sZ(){}function
 a2(a){this.data=a}a2.prototype=new
-sW();a2.prototype.truncate=function(a){var
-b=this.data;this.data=cy(a|0);gq(b,0,this.data,0,a)};a2.prototype.length=function(){return iB(this.data)};a2.prototype.write=function(b,d,g,a){var
+sZ();a2.prototype.truncate=function(a){var
+b=this.data;this.data=cy(a|0);gq(b,0,this.data,0,a)};a2.prototype.length=function(){return iG(this.data)};a2.prototype.write=function(b,d,g,a){var
 c=this.length();if(b+a>=c){var
-e=cy(b+a),f=this.data;this.data=e;gq(f,0,this.data,0,c)}fb(d,g,this.data,b,a);return 0};a2.prototype.read=function(c,a,d,b){var
-e=this.length();gq(this.data,c,a,d,b);return 0};a2.prototype.read_one=function(a){return J5(this.data,a)};a2.prototype.close=function(){};a2.prototype.constructor=a2;function
+e=cy(b+a),f=this.data;this.data=e;gq(f,0,this.data,0,c)}fc(d,g,this.data,b,a);return 0};a2.prototype.read=function(c,a,d,b){var
+e=this.length();gq(this.data,c,a,d,b);return 0};a2.prototype.read_one=function(a){return Kd(this.data,a)};a2.prototype.close=function(){};a2.prototype.constructor=a2;function
 bj(b,a){this.content={};this.root=b;this.lookupFun=a}bj.prototype.nm=function(a){return this.root+a};bj.prototype.create_dir_if_needed=function(d){var
 c=d.split(b$),b=ag;for(var
 a=0;a<c.length-1;a++){b+=c[a]+b$;if(this.content[b])continue;this.content[b]=Symbol("directory")}};bj.prototype.slash=function(a){return/\/$/.test(a)?a:a+b$};bj.prototype.lookup=function(b){if(!this.content[b]&&this.lookupFun){var
 c=this.lookupFun(a(this.root),a(b));if(c!==0){this.create_dir_if_needed(b);this.content[b]=new
-a2(fc(c[1]))}}};bj.prototype.exists=function(a){if(a==ag)return 1;var
+a2(fd(c[1]))}}};bj.prototype.exists=function(a){if(a==ag)return 1;var
 b=this.slash(a);if(this.content[b])return 1;this.lookup(a);return this.content[a]?1:0};bj.prototype.mkdir=function(c,e,d){var
-b=d&&eh(la);if(this.exists(c))if(b)ei(b,ek(rG,k$,this.nm(c)));else
+b=d&&eh(lf);if(this.exists(c))if(b)ei(b,ek(rJ,le,this.nm(c)));else
 au(c+": File exists");var
-a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||ag;if(!this.exists(a))if(b)ei(b,ek(le,k$,this.nm(a)));else
-au(a+ie);if(!this.is_dir(a))if(b)ei(b,ek(lj,k$,this.nm(a)));else
-au(a+lr);this.create_dir_if_needed(this.slash(c))};bj.prototype.rmdir=function(a,f){var
-b=f&&eh(la),c=a==ag?ag:this.slash(a),e=new
-RegExp(lm+c+rN);if(!this.exists(a))if(b)ei(b,ek(le,k9,this.nm(a)));else
-au(a+ie);if(!this.is_dir(a))if(b)ei(b,ek(lj,k9,this.nm(a)));else
-au(a+lr);for(var
+a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||ag;if(!this.exists(a))if(b)ei(b,ek(lj,le,this.nm(a)));else
+au(a+ih);if(!this.is_dir(a))if(b)ei(b,ek(lo,le,this.nm(a)));else
+au(a+lw);this.create_dir_if_needed(this.slash(c))};bj.prototype.rmdir=function(a,f){var
+b=f&&eh(lf),c=a==ag?ag:this.slash(a),e=new
+RegExp(ls+c+rQ);if(!this.exists(a))if(b)ei(b,ek(lj,lc,this.nm(a)));else
+au(a+ih);if(!this.is_dir(a))if(b)ei(b,ek(lo,lc,this.nm(a)));else
+au(a+lw);for(var
 d
 in
-this.content)if(d.match(e))if(b)ei(b,ek(rL,k9,this.nm(a)));else
+this.content)if(d.match(e))if(b)ei(b,ek(rO,lc,this.nm(a)));else
 au(this.nm(a)+": Directory not empty");delete
 this.content[c]};bj.prototype.readdir=function(a){var
-f=a==ag?ag:this.slash(a);if(!this.exists(a))au(a+ie);if(!this.is_dir(a))au(a+lr);var
+f=a==ag?ag:this.slash(a);if(!this.exists(a))au(a+ih);if(!this.is_dir(a))au(a+lw);var
 g=new
-RegExp(lm+f+rN),d={},c=[];for(var
+RegExp(ls+f+rQ),d={},c=[];for(var
 e
 in
 this.content){var
 b=e.match(g);if(b&&!d[b[1]]){d[b[1]]=true;c.push(b[1])}}return c};bj.prototype.is_dir=function(a){if(a==ag)return true;var
 b=this.slash(a);return this.content[b]?1:0};bj.prototype.unlink=function(a){var
 b=this.content[a]?true:false;delete
-this.content[a];return b};bj.prototype.open=function(a,b){if(b.rdonly&&b.wronly)au(this.nm(a)+sB);if(b.text&&b.binary)au(this.nm(a)+rq);this.lookup(a);if(this.content[a]){if(this.is_dir(a))au(this.nm(a)+" : is a directory");if(b.create&&b.excl)au(this.nm(a)+sx);var
+this.content[a];return b};bj.prototype.open=function(a,b){if(b.rdonly&&b.wronly)au(this.nm(a)+sE);if(b.text&&b.binary)au(this.nm(a)+rt);this.lookup(a);if(this.content[a]){if(this.is_dir(a))au(this.nm(a)+" : is a directory");if(b.create&&b.excl)au(this.nm(a)+sA);var
 c=this.content[a];if(b.truncate)c.truncate();return c}else
 if(b.create){this.create_dir_if_needed(a);this.content[a]=new
 a2(cy(0));return this.content[a]}else
-Kx(this.nm(a))};bj.prototype.register=function(c,a){var
-b;if(this.content[c])au(this.nm(c)+sx);if(lE(a))b=new
-a2(a);if(td(a))b=new
-a2(fc(a));else
+KH(this.nm(a))};bj.prototype.register=function(c,a){var
+b;if(this.content[c])au(this.nm(c)+sA);if(lI(a))b=new
+a2(a);if(tg(a))b=new
+a2(fd(a));else
 if(a
 instanceof
 Array)b=new
-a2(J6(a));else
+a2(Ke(a));else
 if(typeof
 a==="string")b=new
-a2(s5(a));else
+a2(s8(a));else
 if(a.toString){var
-d=fc(ff(a.toString()));b=new
+d=fd(fg(a.toString()));b=new
 a2(d)}if(b){this.create_dir_if_needed(c);this.content[c]=b}else
 au(this.nm(c)+" : registering file with invalid content type")};bj.prototype.constructor=bj;function
-aB(a){return iB(a)}function
-ej(b,a){return lw(b,a)}function
-J1(d){var
-c=aB(d),b=new
+aC(a){return iG(a)}function
+ej(b,a){return lA(b,a)}function
+J$(d){var
+c=aC(d),b=new
 Array(c),a=0;for(;a<c;a++)b[a]=ej(d,a);return b}function
-J0(a){if(a.t!=4)ix(a);return a.c}function
-J9(a,c,b){b&=cZ;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}ix(a)}a.c[c]=b;return 0}function
-J8(b,a,c){if(a>>>0>=b.l)s3();return J9(b,a,c)}function
+J_(a){if(a.t!=4)iC(a);return a.c}function
+Kh(a,c,b){b&=cZ;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}iC(a)}a.c[c]=b;return 0}function
+Kg(b,a,c){if(a>>>0>=b.l)s6();return Kh(b,a,c)}function
 cx(a){this.fs=require("fs");this.fd=a}cx.prototype=new
-sW();cx.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){au(a.toString())}};cx.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){au(a.toString())}};cx.prototype.write=function(f,b,c,e){var
-a=J1(b);if(!(a
+sZ();cx.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){au(a.toString())}};cx.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){au(a.toString())}};cx.prototype.write=function(f,b,c,e){var
+a=J$(b);if(!(a
 instanceof
 W.Uint8Array))a=new(W.Uint8Array)(a);var
 d=W.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){au(a.toString())}return 0};cx.prototype.read=function(g,d,c,f){var
-a=J0(d);if(!(a
+a=J_(d);if(!(a
 instanceof
 W.Uint8Array))a=new(W.Uint8Array)(a);var
 e=W.Buffer.from(a);try{this.fs.readSync(this.fd,e,c,f,g)}catch(a){au(a.toString())}for(var
-b=0;b<f;b++)J8(d,c+b,e[c+b]);return 0};cx.prototype.read_one=function(c){var
+b=0;b<f;b++)Kg(d,c+b,e[c+b]);return 0};cx.prototype.read_one=function(c){var
 b=new(W.Uint8Array)(1),a=W.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){au(a.toString())}return a[0]};cx.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){au(a.toString())}};cx.prototype.constructor=cx;function
 a3(a){this.fs=require("fs");this.root=a}a3.prototype.nm=function(a){return this.root+a};a3.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};a3.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};a3.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};a3.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};a3.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){au(a.toString())}};a3.prototype.unlink=function(a,c){try{var
 b=this.fs.existsSync(this.nm(a))?1:0;this.fs.unlinkSync(this.nm(a));return b}catch(a){this.raise_nodejs_error(a,c)}};a3.prototype.open=function(f,c,g){var
@@ -539,8 +539,8 @@ d=this.fs.openSync(this.nm(f),b);return new
 cx(d)}catch(a){this.raise_nodejs_error(a,g)}};a3.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};a3.prototype.stat=function(b,c){try{var
 a=this.fs.statSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};a3.prototype.lstat=function(b,c){try{var
 a=this.fs.lstatSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};a3.prototype.symlink=function(d,c,a,b){try{this.fs.symlinkSync(this.nm(c),this.nm(a),d?"dir":"file");return 0}catch(a){this.raise_nodejs_error(a,b)}};a3.prototype.readlink=function(b,c){try{var
-a=this.fs.readlinkSync(this.nm(b),rb);return ff(a)}catch(a){this.raise_nodejs_error(a,c)}};a3.prototype.raise_nodejs_error=function(a,d){var
-b=eh(la);if(d&&b){var
+a=this.fs.readlinkSync(this.nm(b),rf);return fg(a)}catch(a){this.raise_nodejs_error(a,c)}};a3.prototype.raise_nodejs_error=function(a,d){var
+b=eh(lf);if(d&&b){var
 c=ek(a.code,a.syscall,a.path,a.errno);ei(b,c)}else
 au(a.toString())};a3.prototype.stats_from_js=function(a){var
 b;if(a.isFile())b=0;else
@@ -550,29 +550,29 @@ if(a.isBlockDevice())b=3;else
 if(a.isSymbolicLink())b=4;else
 if(a.isFIFO())b=5;else
 if(a.isSocket())b=6;return[0,a.dev,a.ino,b,a.mode,a.nlink,a.uid,a.gid,a.rdev,a.size,a.atimeMs,a.mtimeMs,a.ctimeMs]};a3.prototype.constructor=a3;function
-ta(b){var
-a=lL(b);if(!a)return;return a[0]+b$}var
-iC=ta(gr)||ca("unable to compute caml_root"),fg=[];if(gu())fg.push({path:iC,device:new
-a3(iC)});else
-fg.push({path:iC,device:new
-bj(iC)});fg.push({path:rk,device:new
-bj(rk)});function
-tv(b){var
-g=Ko(b),b=g.join(b$),f=tm(b),c;for(var
-e=0;e<fg.length;e++){var
-a=fg[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&gu()){var
-d=ta(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
+td(b){var
+a=lP(b);if(!a)return;return a[0]+b$}var
+iH=td(gr)||ca("unable to compute caml_root"),fh=[];if(gu())fh.push({path:iH,device:new
+a3(iH)});else
+fh.push({path:iH,device:new
+bj(iH)});fh.push({path:ro,device:new
+bj(ro)});function
+ty(b){var
+g=Ky(b),b=g.join(b$),f=tp(b),c;for(var
+e=0;e<fh.length;e++){var
+a=fh[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&gu()){var
+d=td(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
 a={path:d,device:new
-a3(d)};fg.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;au("no device found for "+f)}function
-J$(c,b){var
-a=tv(c);if(!a.device.register)ca("cannot register file");a.device.register(a.rest,b);return 0}function
-to(c,b){var
-c=a(c),b=a(b);return J$(c,b)}function
-Kc(){var
+a3(d)};fh.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;au("no device found for "+f)}function
+Kj(c,b){var
+a=ty(c);if(!a.device.register)ca("cannot register file");a.device.register(a.rest,b);return 0}function
+tr(c,b){var
+c=a(c),b=a(b);return Kj(c,b)}function
+Km(){var
 b=W.caml_fs_tmp;if(b)for(var
-a=0;a<b.length;a++)to(b[a].name,b[a].content);W.jsoo_create_file=to;W.caml_fs_tmp=[];return 0}function
-Kv(c){var
-a=0,e=aB(c),b=10,d=1;if(e>0)switch(ej(c,a)){case
+a=0;a<b.length;a++)tr(b[a].name,b[a].content);W.jsoo_create_file=tr;W.caml_fs_tmp=[];return 0}function
+KF(c){var
+a=0,e=aC(c),b=10,d=1;if(e>0)switch(ej(c,a)){case
 45:a++;d=-1;break;case
 43:a++;d=1;break}if(a+1<e&&ej(c,a)==48)switch(ej(c,a+1)){case
 120:case
@@ -583,33 +583,33 @@ a=0,e=aB(c),b=10,d=1;if(e>0)switch(ej(c,a)){case
 66:b=2;a+=2;break;case
 117:case
 85:a+=2;break}return[a,d,b]}function
-tg(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=sN)return a-87;return-1}function
-iA(f){var
-h=Kv(f),c=h[0],i=h[1],d=h[2],g=aB(f),j=-1>>>0,e=c<g?ej(f,c):0,b=tg(e);if(b<0||b>=d)ca(ik);var
-a=b;for(c++;c<g;c++){e=ej(f,c);if(e==95)continue;b=tg(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)ca(ik)}if(c!=g)ca(ik);a=i*a;if(d==10&&(a|0)!=a)ca(ik);return a|0}function
-Kn(a,b){return+(lx(a,b,false)<=0)}function
-Kp(a,d){if(a<0)iw();var
+tj(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=sQ)return a-87;return-1}function
+iF(f){var
+h=KF(f),c=h[0],i=h[1],d=h[2],g=aC(f),j=-1>>>0,e=c<g?ej(f,c):0,b=tj(e);if(b<0||b>=d)ca(io);var
+a=b;for(c++;c<g;c++){e=ej(f,c);if(e==95)continue;b=tj(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)ca(io)}if(c!=g)ca(io);a=i*a;if(d==10&&(a|0)!=a)ca(io);return a|0}function
+Kx(a,b){return+(lB(a,b,false)<=0)}function
+Kz(a,d){if(a<0)iB();var
 a=a+1|0,b=new
 Array(a);b[0]=0;for(var
 c=1;c<a;c++)b[c]=d;return b}var
 c1=new
 Array();function
-Kq(c){var
-a=c1[c];if(!a.opened)au("Cannot flush a closed channel");if(!a.buffer||a.buffer==ag)return 0;if(a.fd&&aJ.fds[a.fd]&&aJ.fds[a.fd].output){var
-b=aJ.fds[a.fd].output;switch(b.length){case
+KA(c){var
+a=c1[c];if(!a.opened)au("Cannot flush a closed channel");if(!a.buffer||a.buffer==ag)return 0;if(a.fd&&aK.fds[a.fd]&&aK.fds[a.fd].output){var
+b=aK.fds[a.fd].output;switch(b.length){case
 2:b(c,a.buffer);break;default:b(a.buffer)}}a.buffer=ag;return 0}function
-tj(e,f){var
-b=c1[e],d=a(f),c=aB(d);b.file.write(b.offset,d,0,c);b.offset+=c;return 0}function
-KD(a){var
-a=lI(a),b=W;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+tm(e,f){var
+b=c1[e],d=a(f),c=aC(d);b.file.write(b.offset,d,0,c);b.offset+=c;return 0}function
+KN(a){var
+a=lM(a),b=W;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.error&&c.error(a)}}function
-KE(a){var
-a=lI(a),b=W;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+KO(a){var
+a=lM(a),b=W;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.log&&c.log(a)}}function
-iE(c,e,d,a){if(aJ.fds===undefined)aJ.fds=new
+iJ(c,e,d,a){if(aK.fds===undefined)aK.fds=new
 Array();a=a?a:{};var
-b={};b.file=d;b.offset=a.append?d.length():0;b.flags=a;b.output=e;aJ.fds[c]=b;if(!aJ.fd_last_idx||c>aJ.fd_last_idx)aJ.fd_last_idx=c;return c}function
-KL(c,b,g){var
+b={};b.file=d;b.offset=a.append?d.length():0;b.flags=a;b.output=e;aK.fds[c]=b;if(!aK.fd_last_idx||c>aK.fd_last_idx)aK.fd_last_idx=c;return c}function
+KV(c,b,g){var
 a={};while(b){switch(b[1]){case
 0:a.rdonly=1;break;case
 1:a.wronly=1;break;case
@@ -619,69 +619,69 @@ a={};while(b){switch(b[1]){case
 5:a.excl=1;break;case
 6:a.binary=1;break;case
 7:a.text=1;break;case
-8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)au(fe(c)+sB);if(a.text&&a.binary)au(fe(c)+rq);var
-d=tv(c),e=d.device.open(d.rest,a),f=aJ.fd_last_idx?aJ.fd_last_idx:0;return iE(f+1,tj,e,a)}iE(0,tj,new
-a2(cy(0)));iE(1,KE,new
-a2(cy(0)));iE(2,KD,new
+8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)au(ff(c)+sE);if(a.text&&a.binary)au(ff(c)+rt);var
+d=ty(c),e=d.device.open(d.rest,a),f=aK.fd_last_idx?aK.fd_last_idx:0;return iJ(f+1,tm,e,a)}iJ(0,tm,new
+a2(cy(0)));iJ(1,KO,new
+a2(cy(0)));iJ(2,KN,new
 a2(cy(0)));function
-Kr(a){var
-c=aJ.fds[a];if(c.flags.wronly)au(sL+a+" is writeonly");var
+KB(a){var
+c=aK.fds[a];if(c.flags.wronly)au(sO+a+" is writeonly");var
 d=null;if(a==0&&gu()){var
-e=require("fs");d=function(){return ff(e.readFileSync(0,rb))}}var
+e=require("fs");d=function(){return fg(e.readFileSync(0,rf))}}var
 b={file:c.file,offset:c.offset,fd:a,opened:true,out:false,refill:d};c1[b.fd]=b;return b.fd}function
-te(c){var
-b=aJ.fds[c];if(b.flags.rdonly)au(sL+c+" is readonly");var
+th(c){var
+b=aK.fds[c];if(b.flags.rdonly)au(sO+c+" is readonly");var
 a={file:b.file,offset:b.offset,fd:c,opened:true,out:true,buffer:ag};c1[a.fd]=a;return a.fd}function
-Ks(){var
+KC(){var
 b=0;for(var
 a=0;a<c1.length;a++)if(c1[a]&&c1[a].opened&&c1[a].out)b=[0,c1[a].fd,b];return b}function
-bS(b,c,a){if(a&&W.toplevelReloc)b=W.toplevelReloc(a);aJ[b+1]=c;if(a)aJ[a]=c}function
-Kz(a,b){tf[fe(a)]=b;return 0}function
-J4(a,b){if(a===b)return 1;a.t&6&&fd(a);b.t&6&&fd(b);return a.c==b.c?1:0}function
-aF(a,b){return J4(a,b)}function
-KB(){a4(lp)}function
-bd(b,a){if(a>>>0>=aB(b))KB();return ej(b,a)}function
+bS(b,c,a){if(a&&W.toplevelReloc)b=W.toplevelReloc(a);aK[b+1]=c;if(a)aK[a]=c}function
+KJ(a,b){ti[ff(a)]=b;return 0}function
+Kc(a,b){if(a===b)return 1;a.t&6&&fe(a);b.t&6&&fe(b);return a.c==b.c?1:0}function
+aF(a,b){return Kc(a,b)}function
+KL(){a4(lu)}function
+bd(b,a){if(a>>>0>=aC(b))KL();return ej(b,a)}function
 p(a,b){return 1-aF(a,b)}function
-iD(a){return a}function
-ti(a){return a}function
-tn(a){if(a
+iI(a){return a}function
+tl(a){return a}function
+tq(a){if(a
 instanceof
 Array)return a;if(W.RangeError&&a
 instanceof
-W.RangeError&&a.message&&a.message.match(/maximum call stack/i))return ti(aJ.Stack_overflow);if(W.InternalError&&a
+W.RangeError&&a.message&&a.message.match(/maximum call stack/i))return tl(aK.Stack_overflow);if(W.InternalError&&a
 instanceof
-W.InternalError&&a.message&&a.message.match(/too much recursion/i))return ti(aJ.Stack_overflow);if(a
+W.InternalError&&a.message&&a.message.match(/too much recursion/i))return tl(aK.Stack_overflow);if(a
 instanceof
-W.Error&&eh(rS))return[0,eh(rS),a];return[0,aJ.Failure,ff(String(a))]}function
+W.Error&&eh(rV))return[0,eh(rV),a];return[0,aK.Failure,fg(String(a))]}function
 cz(a){return a<0?-a:a}function
 F(a,b){return a+b}function
-lJ(a,b){return a<b?-1:a>b?1:0}function
-tr(c,b){var
+lN(a,b){return a<b?-1:a>b?1:0}function
+tu(c,b){var
 a=c%b;return a<0?a+cz(b):a}function
-lK(a,b){return(a-tr(a,b))/b}function
+lO(a,b){return(a-tu(a,b))/b}function
 L(a,b){return a==b?1:0}function
-KI(c){W.orthocert_verify=function(b){return fe(dD(c,[a(b)]))}}function
+KS(c){W.orthocert_verify=function(b){return ff(dD(c,[a(b)]))}}function
 D(a,b){return a<=b?1:0}function
 K(a,b){return a<b?1:0}function
 C(a,b){return a*b}function
 Q(a){return-a}function
 aM(a){return W.BigInt(a)}var
-tu=[];function
-tq(a){return tu[a]||(tu[a]=W.BigInt(a))}function
-ts(a,b){return a<<tq(b)}function
-tt(a,b){return a>>tq(b)}function
+tx=[];function
+tt(a){return tx[a]||(tx[a]=W.BigInt(a))}function
+tv(a,b){return a<<tt(b)}function
+tw(a,b){return a>>tt(b)}function
 aV(a){return a<0?-1:a>0?1:0}function
-KJ(a){if(a<0)throw new(W.Error)("a root of a negative number");if(a<2)return a;var
+KT(a){if(a<0)throw new(W.Error)("a root of a negative number");if(a<2)return a;var
 d=W.BigInt(1),b=d<<W.BigInt((a.toString(16).length*4+1)/2|0),c;for(;;){c=b+a/b>>d;if(c>=b)return b;b=c}}function
 aO(a,b){return a-b}function
-iF(b){var
+iK(b){var
 a=W.Number(b);if(a!==(a|0))throw new(W.Error)("a number of more than 32 bits");return a}function
-Kl(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
-Kb(b){var
-a=ag;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&Kl(b[1]))var
+Kv(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
+Kl(b){var
+a=ag;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&Kv(b[1]))var
 e=b[2],f=1;else
 var
-f=2,e=b;a+=rT;for(var
+f=2,e=b;a+=rW;for(var
 d=f;d<e.length;d++){if(d>f)a+=", ";var
 c=e[d];if(typeof
 c=="number")a+=c.toString();else
@@ -690,105 +690,105 @@ instanceof
 cw)a+=aU+c.toString()+aU;else
 if(typeof
 c=="string")a+=aU+c.toString()+aU;else
-a+="_"}a+=ll}else
+a+="_"}a+=lr}else
 if(b[0]==bc)a+=b[1];return a}function
-s_(a){if(a
+tb(a){if(a
 instanceof
 Array&&(a[0]==0||a[0]==bc)){var
 c=eh("Printexc.handle_uncaught_exception");if(c)c(a,false);else{var
-d=Kb(a),b=eh(ra);if(b)b(0);W.console.error("Fatal error: exception "+d+"\n")}}else
+d=Kl(a),b=eh(re);if(b)b(0);W.console.error("Fatal error: exception "+d+"\n")}}else
 throw a}function
-KA(){var
-a=W;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){s_(b);a.process.exit(2)});else
-if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)s_(a.error)})}KA();function
+KK(){var
+a=W;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){tb(b);a.process.exit(2)});else
+if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)tb(a.error)})}KK();function
 h(a,b){return a.length==1?a(b):dD(a,[b])}function
 ar(a,b,c){return a.length==2?a(b,c):dD(a,[b,c])}function
 gb(a,b,c,d){return a.length==3?a(b,c,d):dD(a,[b,c,d])}function
-ia(a,b,c,d,e){return a.length==4?a(b,c,d,e):dD(a,[b,c,d,e])}Kc();var
-lN=[bc,a(rJ),-2],lM=[bc,a(sV),-4],I7=[0,[0,[0,[0,0]]]],I8=[0,0],I9=[0,0],I_=[0,[0,0]],I$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,I_]]]]]]]]]]],hY=[0,[1,0],0],qp=[0,[2,0],0],kM=[0,[1,0],0],qo=[0,[2,0],0],hW=[0,[1,0],0],kL=[0,[2,0],0],Ja=[0,[0,[0,[0,0]]]],Jb=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ja]]]]]]]]]]],Jc=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jb]]]]]]]]]]],Jd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jc]]]]]]]]]]],Je=[0,[0,0]],Jf=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Je]]]]]]]]]]],Jg=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jf]]]]]]]]]]],Jh=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jg]]]]]]]]]]],Ji=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jh]]]]]]]]]]],Jj=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],Jk=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jj]]]]]]]]]]],Jl=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jk]]]]]]]]]]],Jm=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jl]]]]]]]]]]],Jn=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jm]]]]]]]]]]],Jo=[0,[0,0]],Jp=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jo]]]]]]]]]]],Jq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jp]]]]]]]]]]],Jr=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jq]]]]]]]]]]],Js=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jr]]]]]]]]]]],Jt=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Js]]]]]]]]]]],Ju=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jt]]]]]]]]]]],Jv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ju]]]]]]]]]]],Jw=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],Jx=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jw]]]]]]]]]]],Jy=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jx]]]]]]]]]]],Jz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jy]]]]]]]]]]],JA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jz]]]]]]]]]]],JB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JA]]]]]]]]]]],JC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JB]]]]]]]]]]],JD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JC]]]]]]]]]]],JE=[0,0],JF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JE]]]]]]]]]]],JG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JF]]]]]]]]]]],JH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JG]]]]]]]]]]],JI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JH]]]]]]]]]]],JJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JI]]]]]]]]]]],JK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JJ]]]]]]]]]]],JL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JK]]]]]]]]]]],JM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JL]]]]]]]]]]],JN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JM]]]]]]]]]]],JO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JN]]]]]]]]]]],JP=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],JQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JP]]]]]]]]]]],JR=[0,0],JS=[0,[0,0]],JT=[0,0],JU=[0,[0,[0,[0,[0,0]]]]],dL=[0,[0,[0,0]]],dN=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],hL=[0,[0,[0,[0,0]]]],JV=[0,[0,[0,[0,[0,0]]]]],JW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JV]]]]]]]]]]],JX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JW]]]]]]]]]]],JY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JX]]]]]]]]]]],JZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JY]]]]]]]]]]];bS(11,[bc,a(q$),-12],q$);bS(10,[bc,a(rZ),-11],rZ);bS(9,[bc,a(sK),-10],sK);bS(8,[bc,a(rl),-9],rl);bS(7,[bc,a(sb),-8],sb);bS(6,[bc,a(rj),-7],rj);bS(5,[bc,a(rK),-6],rK);bS(4,[bc,a(rO),-5],rO);bS(3,lM,sV);bS(2,[bc,a(lf),-3],lf);bS(1,lN,rJ);bS(0,[bc,a(su),-1],su);var
-tw=a("String.sub / Bytes.sub"),ty=a(ag),tx=a("String.concat"),tz=a("Array.init"),tA=a("power"),t6=[0,0],t7=[0,0],ub=[0,0,0],uc=[0,0,0],ud=[0,0],uA=[0,0],uB=[0,0],uE=[0,0],uZ=[0,0],u2=[0,0],u6=[0,0],u7=[0,0],u8=[0,0],u9=[0,0],vl=[0,0],vm=[0,0],vP=[0,0],wd=[0,[0,[0,0]]],wK=[0,0],xb=[0,0],xz=[0,0],xK=a(","),x2=[0,a(ll),0],x3=a(rT),x4=a("."),x5=[0,[0,[0,0]]],x6=a(e_),x7=a(lm),x8=[0,[0,[0,[0,[0,0]]]]],x9=[0,a(ll),0],x_=a(sT),Bb=a(q8),Bd=a(q5),Bc=a(r2),Be=a(e5),Bf=a(e3),Bg=a(lu),Bh=a(sE),Bi=a(rD),Bj=a(lo),Bk=a(r7),Bl=a(rC),Cz=[0,[0,0,0]],CQ=[0,0],CA=a(gc),CB=[0,0],CC=a("divided"),CD=[0,1],CE=a("mirror"),CF=[0,3],CG=a("negative"),CH=[0,2],CI=a(gh),CJ=[0,5],CK=a(lt),CL=[0,4],CM=a(dB),CN=a(ro),CO=a(e6),CP=a(bQ),CR=[0,0],CS=[0,0],CT=[0,0],CW=[0,[0,[0,0]]],CX=[0,[0,[0,0]]],Dm=[0,[0,[0,0]]],DA=[0,0],DV=a(ag),DN=[0,0],DP=[0,0],DO=[0,0],DQ=[0,[0,[0,[0,0]]]],DR=[0,[0,[0,0]]],DS=[0,[0,[0,[0,0]]]],DT=[0,[0,[0,0]]],DL=[0,[0,[0,0]]],DK=a(e6),DJ=[0,0],DH=[0,1,0],DI=[0,[0,[0,0]]],DG=[0,0],DF=[0,0],DE=[0,0],DB=[0,[0,0]],DC=[0,[0,[0,0]]],Dy=[0,[0,0]],Dz=[0,[0,[0,0]]],Dx=[0,0],Dt=[0,[0,[0,0]]],Ds=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,I7]]]]]]]]]],[0,0,[0,[0,[0,[0,0]]],0]]],Dn=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],[0,0,0]],Do=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],[0,[0,[0,[0,[0,[0,[0,0]]]]]],0]],Dp=[0,[0,[0,[0,[0,[0,[0,0]]]]]],0],Dq=[0,[0,[0,[0,0]]],[0,0,0]],Dk=[0,0],Dl=[0,[0,0]],Dj=[0,0,0],Di=[0,[0,[0,0]]],Dc=[0,[0,0]],Dd=[0,[0,[0,0]]],De=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,I8]]]]]]]]]]],Df=[0,[0,0]],Dg=[0,[0,[0,0]]],Db=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,I9]]]]]]]]]]],C$=[0,[0,0]],Da=[0,[0,[0,0]]],C9=[0,[0,[0,0]]],C_=[0,[0,0]],C8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,I$]]]]]]]]]]],C7=[0,0],C6=[0,0],C3=[0,[0,0]],C4=[0,0],C1=[0,0],C2=[0,1],CZ=[0,[0,0]],C0=[0,0],CY=[0,0],CU=[0,0],CV=[0,1],Cw=[0,0],Cx=[0,1],Cy=[0,2],Cs=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],Cq=[0,[0,0],0],Cr=[0,[1,0],0],Ct=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],Co=[0,[0,0]],Cp=[0,0],Cn=[0,0],Cm=[0,0],Cl=[0,0],Ck=[0,0],Cj=[0,0,0],Ch=[0,[0,0]],Ci=[0,0],Cg=[0,0,0],Ce=[0,[0,[0,0]]],Cf=[0,[0,[0,0]]],Cd=[0,0],Cb=[0,1,0],B6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jd]]]]]]]]]]],B7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ji]]]]]]]]]]],B2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jn]]]]]]]]]]],B3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jv]]]]]]]]]]],B4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JD]]]]]]]]]]],B5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JO]]]]]]]]]]],B8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JQ]]]]]]]]]]],B9=a("sqrt"),BR=[0,a("\n"),0],BS=a(q6),BT=a(ig),BU=a(rY),BV=a(rH),B1=a(gk),BW=a(gg),BX=a("verdict"),BY=a(sv),BZ=a(rz),B0=a(rX),BO=a(rR),BP=a(sz),BQ=a(ii),BK=a(r9),BL=a(ij),BM=a(gg),BN=a(gk),BF=a(is),BG=a(by),BH=a(q7),BI=a(ip),BC=a(st),BD=a(gh),BE=a(ip),By=a(sa),Bz=a(is),BA=a(ij),BB=a(sI),Bn=a(sA),Bo=a(sD),Bp=a(io),Bq=a(il),Br=a(sO),Bs=a(sp),Bt=a(ss),Bu=a(se),Bv=a(io),Bw=a(sh),A$=a(id),Ba=a(gj),A6=a(bR),A7=a(bP),A8=a(rB),AG=a(il),AH=a(sd),Ak=a(by),Al=a(b_),Am=a(iu),An=a(e9),Ao=a(cu),At=a(k_),Ap=a(ln),Aq=a(lq),Ar=a(e4),As=a(by),Au=a(b_),Av=a(iu),Aw=a(e9),Ax=a(ln),Ay=a(lq),Az=a(e4),AA=a(by),AB=a(b_),AC=a(bR),AD=a(bP),AE=a(ee),AF=a(e9),AI=a(sn),AJ=a(sC),AK=a(iv),AL=a(rp),AM=a(ru),AN=a(e4),AO=a(by),AP=a(b_),AQ=a(ib),AR=a(rF),AS=a(e9),AT=a(gp),AU=a(rd),AV=a(e4),AW=a(by),AX=a(ib),AY=a(by),AZ=a(sg),A2=a(q4),A0=a(rs),A1=a(sH),A3=a(gk),A4=a(gg),A5=a(by),A9=a(iv),A_=a(ii),Af=a(b_),Ag=a(e9),Ah=a(k_),Ai=a(e4),Ae=a(sQ),z4=a(gp),z5=a(sw),z6=a(ef),z7=a(e7),z8=a(e7),z9=a(lb),z_=a(ef),z$=a(r0),Aa=a(rA),Ab=a(bp),Ad=a(q_),Ac=a(lb),zU=a(rQ),zV=a(sU),zW=a(rw),zX=a(rt),zY=a(sG),zZ=a(sr),z0=a(rI),z1=a(ic),z2=a(ic),zQ=a(bp),zR=a(bO),zS=a(e$),zT=a(bx),zM=a(cu),zN=a(li),zO=a(r_),zJ=a(bR),zK=a(bP),zL=a(ee),zC=a(bR),zD=a(bP),zE=a(ee),zF=a(lk),zG=a(ef),zH=a(lg),zI=a(sm),zk=a(rr),zq=a(ig),zp=a(ls),zl=a(lc),zm=a(ge),zr=a(gf),zt=a(gf),zu=a(sk),zv=a(lc),zs=a(ge),zw=a(rn),zx=a(sj),zy=a(ge),zz=a(sP),zA=a(ls),zB=a(ge),zn=a(e7),zo=a(r5),zh=a(im),zi=a(im),zj=a(im),zd=a(so),ze=a(bP),zf=a(bR),zg=a(sF),yY=a(rh),yZ=a(q9),y0=a(sc),y1=a(e5),y2=a(sR),y3=a(sf),y4=a(ri),y5=a(r6),y6=a(rg),y7=a(rE),y8=a(rf),y9=a(sq),y_=a(e3),y$=a(rc),za=a(sy),zb=a(rv),zc=a(sS),yz=a(iq),yB=a(e_),yA=a(gd),yC=a(e2),yD=a(bp),yE=a(bO),yF=a(bQ),yG=a(gl),yH=a(bx),yI=a(gn),yJ=a(bp),yK=a(bO),yL=a(e$),yM=a(bx),yN=a(bQ),yO=a(cu),yP=a(bx),yQ=a(e2),yR=a(go),yS=a(bp),yT=a(bO),yU=a(r4),yV=a(gf),yW=a(go),yX=a(bx),yh=a(iq),yp=a(e_),yi=a(gd),yj=a(e2),yk=a(bp),yl=a(bO),ym=a(bQ),yn=a(gl),yo=a(bx),yq=a(gn),yr=a(bp),ys=a(bO),yt=a(e$),yu=a(bx),yv=a(bQ),yw=a(cu),yx=a(bx),ye=a(bR),yf=a(bP),yc=[0,a(aU),0],yd=a(aU),ya=a(ag),x$=[0,a(aU),0],yb=a(aU),xY=a(iq),xZ=a(e_),x0=a("*"),x1=a(b$),xT=[0,[0,[0,[0,[0,0]]]]],xU=[0,[0,[0,0]]],xV=[0,[0,0]],xW=[0,0],xX=[0,[0,[0,[0,0]]]],xR=a('":'),xS=a(aU),xP=[0,a(aU),0],xQ=a(aU),xN=[0,a("}"),0],xO=a("{"),xL=[0,a("]"),0],xM=a("["),xJ=[0,[0,[0,0]]],xI=[0,[0,[0,0]]],xG=[0,0],xD=[0,[0,[0,0]]],xE=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],xF=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],xB=[0,[0,0]],xC=[0,[0,[0,0]]],xA=[0,0],xx=[0,0],xy=[0,[0,0]],xu=[0,0],xv=[0,[0,0]],xw=[0,0],xp=[0,[0,0]],xq=[0,0],xr=[0,[0,[0,0]]],xs=[0,[0,[0,0]]],xo=[0,[0,[0,0]]],xn=[0,[0,[0,0]]],xm=[0,0],xj=[0,[0,[0,0]]],xl=[0,[0,[0,0]]],xk=[0,0],xh=[0,[0,0]],xi=[0,0],xf=[0,[0,0]],xg=[0,0],xe=[0,[0,[0,0]]],xc=[0,[0,0]],xd=[0,0],w$=[0,0],xa=[0,[0,0]],w5=[0,[0,0]],w6=[0,[0,[0,[0,[0,0]]]]],w7=[0,[0,[0,[0,0]]]],w8=[0,[0,[0,0]]],w9=[0,[0,0]],w_=[0,0],w2=[0,0],w3=[0,[0,0]],w4=[0,0],w1=[0,0],wX=[0,0],wY=[0,[0,[0,[0,[0,[0,0]]]]]],wZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JR]]]]]]]]]]],wV=[0,0,0],wW=[0,0,0],wS=[0,0,0],wT=[0,0],wO=[0,0,0],wP=[0,0,0],wQ=[0,0,0],wL=[0,[0,0]],wM=[0,[0,[0,0]]],wN=[0,0],wI=[0,0,0],wJ=[0,0,[0,1,0]],wE=[0,0,0],wF=[0,0,0],wG=[0,0,0],wH=[0,0,0],wu=[0,[0,[0,[0,[0,[0,0]]]]]],wv=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],ww=[0,[0,[0,0]]],wx=[0,[0,[0,0]]],wy=[0,[0,[0,[0,[0,[0,0]]]]]],wz=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],wA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JS]]]]]]]]]]],wB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JT]]]]]]]]]]],wC=[0,[0,[0,0]]],wD=[0,[0,[0,[0,[0,[0,0]]]]]],wq=[0,0,0],wr=[0,0,0],wm=[0,0,0],wn=[0,0,0],wo=[0,0,0],wp=[0,0,0],wl=[0,0],wk=[0,0],wj=[0,0],wh=[0,0],wi=[0,0],wg=[0,0],we=[0,0],wf=[0,0],v8=[0,0],v9=[0,0],v_=[0,0],v$=[0,[0,[0,0]]],v7=[0,0],v1=[0,0],v2=[0,0],v3=[0,[0,0]],vZ=[0,[0,0]],v0=[0,[0,[0,0]]],vX=[0,[0,[0,0]]],vY=[0,[0,0]],vV=[0,[0,0]],vW=[0,[0,[0,0]]],vU=[0,0],vS=[0,0],vT=[0,0],vQ=[0,0,0],vN=[0,[0,0]],vO=[0,0],vF=[0,[0,0]],vG=[0,0],vH=[0,[0,0]],vI=[0,0],vJ=[0,[0,0]],vK=[0,0],vL=[0,[0,0]],vM=[0,0],vD=[0,[0,0]],vE=[0,0],vB=[0,[0,0]],vC=[0,0],vx=[0,[0,0]],vy=[0,0],vz=[0,0],vA=[0,[0,0]],vo=[0,[0,0]],vp=[0,0],vq=[0,[0,0]],vr=[0,0],vs=[0,0],vt=[0,[0,0]],vu=[0,[0,0]],vv=[0,[0,0]],vw=[0,0],vk=[0,0],vj=[0,0],vg=[0,0],vh=[0,[0,0]],vf=[0,[0,[0,0]]],ve=[0,[0,[0,[0,[0,[0,0]]]]]],vc=[0,[0,0]],vd=[0,0],vb=[0,[0,0]],va=[0,0],u_=[0,0],u$=[0,[0,[0,0]]],u4=[0,[0,0]],u5=[0,[0,[0,0]]],u3=[0,[0,[0,0]]],u0=[0,[0,[0,0]]],uY=[0,[0,[0,0]]],uW=[0,[0,[0,[0,[0,[0,0]]]]]],uX=[0,[0,[0,[0,[0,[0,0]]]]]],uR=[0,[0,0]],uS=[0,0],uT=[0,[0,0]],uU=[0,[0,[0,0]]],uV=[0,[0,[0,0]]],uK=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],uL=[0,[0,[0,[0,[0,[0,0]]]]]],uM=[0,[0,[0,[0,[0,[0,0]]]]]],uN=[0,[0,[0,0]]],uO=[0,[0,[0,[0,[0,[0,0]]]]]],uP=[0,[0,[0,0]]],uQ=[0,[0,[0,0]]],uI=[0,[0,0]],uJ=[0,0],uH=[0,0,0],uG=[0,0,0],uF=[0,0,0],uD=[0,0,0],uC=[0,[0,[0,0]]],uw=[0,0],ux=[0,0],uy=[0,0],uz=[0,0],uu=[0,0],uv=[0,0],us=[0,0,0],up=[0,[0,[0,0]]],uq=[0,[0,[0,0]]],ur=[0,[0,[0,0]]],uo=[0,[0,[0,[0,0]]]],uk=[0,[0,[0,0]]],ul=[0,[0,[0,0]]],um=[0,[0,[0,0]]],un=[0,[0,1,1],[0,[0,0,1],[0,[0,1,0],[0,[0,0,0],0]]]],ui=[0,[0,0]],uj=[0,0],ug=[0,[0,0]],uh=[0,0],ue=[0,[0,0]],uf=[0,0],t3=[0,0],t4=[0,[0,0]],t1=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],t2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JU]]]]]]]]]]],tZ=[0,0,0],tX=[0,[0,[0,[0,[0,0]]]]],tN=[0,0],tO=[0,[0,0]],tP=[0,[0,[0,0]]],tQ=[0,[0,[0,[0,0]]]],tR=[0,[0,[0,[0,[0,0]]]]],tS=[0,[0,[0,[0,[0,[0,0]]]]]],tT=[0,[0,[0,[0,[0,[0,[0,0]]]]]]],tU=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],tV=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],tW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],tL=a(sM),tK=a(ag),tJ=[0,[0,0]],tH=[0,0],tE=[0,0],tG=[1,0],tF=[0,0],tD=[0,0],tB=[1,0],tC=[1,0],vi=[10,0,0,0,0],DD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JZ]]]]]]]]]]],G$=a(bR),Ha=a(bP),Hb=a(rB),G3=a(gn),G4=[0,a("a base axis of such a platform"),0],G5=a(bp),G6=a(bO),GQ=a(sr),GR=a(rQ),GS=a(sG),GT=a(ic),GU=a(rI),GV=a(ic),GW=a(sU),GX=a(rw),GY=a(rt),GE=a(sd),GF=a(il),Gg=[0,a("such a machine with bodies"),0],F5=a(ii),F6=a(by),F7=a(sg),F8=a(sH),F$=a(rs),Ga=a(q4),Gb=a(by),Gc=a(by),Ge=a(ib),Gd=[0,a("a claim that no cube of such a machine fits"),0],Gf=a(sQ),Gh=a(e4),Gi=a(e9),Gj=a(cu),Gk=a(li),Gl=a(r_),Gm=a(iu),Gn=a(ru),Go=a(rd),Gp=a(k_),Gs=a(ee),Gt=a(sm),Gw=a(b_),Gx=a(b_),Gy=a(rF),Gz=a(b_),GA=[0,a("the closed design with other bounds on psi than one from below and one from above"),0],GB=a(ib),GC=a(gp),GD=a(ee),GG=a(sC),GH=a(sn),GI=[0,a(" operations, with its definitions written out,"),0],GJ=a("a mechanism of more than "),GK=a(b_),GL=a(bR),GM=a(bP),GN=a(iv),GO=a(rp),Gq=[0,a(aU),0],Gr=a('the mechanism "'),GP=a(ln),GZ=a(iu),G0=a(cu),G1=a(li),G2=a(lq),G7=a(b_),G_=a(cu),G8=[0,a("a platform that turns on struts and other drives"),0],G9=a(b_),Gu=[0,a(aU),0],Gv=a('the workspace "'),Hc=a(by),Hd=a(by),Hf=a(gk),Hg=a(gg),Hh=a(iv),He=[0,a("an atlas of such a machine"),0],F9=[0,a(aU),0],F_=a('a claim of the kind "'),Hv=a(lu),Hw=a(dB),Hx=a(e6),Hy=a(lo),Hz=a(gc),HA=[0,a('this evidence "fan"'),0],Hm=a(dB),HK=a(gj),HL=[0,1,1],Hn=a(r7),HB=a(e3),HC=a(rC),HD=a(e5),HE=a(rD),HF=a(r2),HG=a(bQ),HH=a(gj),HI=a(id),HJ=a(bQ),Ho=a(lu),Hp=a(dB),Hq=a(ro),Hr=a(e6),Hs=a(lo),Ht=[0,a(aU),0],Hu=a('the evidence "'),HM=a(e3),HN=a(e5),HO=a(dB),HP=a(e6),HQ=a(sE),HS=a(e3),HT=a(e5),HU=a(dB),HV=a(e6),HW=a(gh),HX=a(gc),HY=a(gh),HZ=a(gc),HR=[0,a("this evidence at control points"),0],I0=a('"orthocert-paving/'),IR=a(dB),IS=a(dB),IF=a(rX),IG=a(rz),IH=a(sv),IY=[0,3,3],II=a(rH),IQ=[0,a("this set of orientations with such drives"),0],IT=[0,a('this evidence "tolerances" of a platform that turns'),0],IU=[0,a("a step of a platform that turns that is not at control points"),0],IV=[0,a("this quantity in a claim that is refuted"),0],IW=[0,a("a step in a proof that no cube fits"),0],IX=[0,a('the failure "same" of such a mechanism'),0],IJ=[0,a("the acceleration of a joint of a machine with a plane"),0],IO=[0,a("a stiffness for each joint in such a claim"),0],IP=[0,a(si),0],IN=[0,a(si),0],IK=a(rY),IL=a(q6),IM=a(ig),IB=a(lt),IC=a(gc),ID=a(bQ),It=a(ii),Iu=a(rR),Iv=a(sz),Iw=[0,a(aU),0],Ix=a('a proof of the kind "'),Ip=a(gg),Iq=a(gk),Ir=a(ij),Is=a(r9),Il=a(by),Im=a(is),In=a(q7),Io=a(ip),Ii=a(st),Ij=a(gh),Ik=a(ip),Ie=a(sa),If=a(is),Ig=a(ij),Ih=a(sI),H2=a(sD),H3=a(io),H4=a(sA),H5=a(il),H6=a(sh),H7=a(sO),H_=a(sp),H$=a(id),Ia=a(gj),Ib=a(ss),Ic=a(se),Id=a(io),H8=[0,a(aU),0],H9=a('the failure "'),H0=a(lt),H1=a(sM),Hk=a(gj),Hl=a(id),Hi=a(q5),Hj=a(q8),F2=a(gp),FS=a(lb),FT=a(q_),FU=a(e7),FV=a(bp),F0=a(sw),F1=a(gp),F3=a(ef),F4=a(e7),FW=a(ef),FX=a(r0),FY=a(rA),FZ=a(bp),FL=a(ee),FP=a(bR),FQ=a(bP),FM=a(lg),FN=a(lk),FO=a(ef),FF=a(ee),FJ=a(bR),FK=a(bP),FG=a(lg),FH=a(lk),FI=a(ef),FE=[0,1],FD=[0,1],FB=[0,1],Fz=[0,1],Fy=[0,1],Fw=[0,1],Fx=[0,a("this quantity of such a mechanism"),0],Ff=a(lc),Fg=a(sj),Fh=a(rn),Fi=a(ls),Fj=a(sP),Fl=a(sk),Fk=a(gf),Fe=a(ig),E8=a(im),EW=a(r5),EX=a(sc),Fo=a(e3),Fp=a(sy),Fq=a(rE),Fr=a(e5),Fs=a(r6),Ft=a(rf),Fu=a(rg),Fv=a(q9),EY=a(rc),EZ=a(sS),E0=a(sq),E1=a(sf),E2=a(rv),E3=a(sR),E4=a(ri),E5=a(rh),E6=[0,a(aU),0],E7=a('the quantity "'),E9=a(rr),E_=a(so),E$=a(bR),Fa=a(bP),Fb=a(sF),Fc=[0,a(aU),0],Fd=a('a bound "'),Fm=a(ge),Fn=a(e7),EU=a(bx),EV=a(e$),ES=a(bx),ET=a(cu),EP=a(bx),EQ=a(gl),Er=a(bx),Es=a(gn),Et=a(go),Eu=a(cu),Ev=a(gl),Ew=a(e$),Ez=a(bp),EA=a(bO),EB=a(gd),EC=a(e2),ED=a(bp),EE=a(bO),EF=a(bQ),EG=a(bQ),EH=a(gd),EI=a(e2),EJ=a(go),EK=a(bp),EL=a(bO),EM=a(r4),EN=a(gf),Ex=[0,a('" of such a machine'),0],Ey=a(rm),Ep=a(bx),Eq=a(go),D$=a(bx),Ea=a(cu),Eb=a(gl),Ec=a(e$),Ef=a(gn),Eg=a(bp),Eh=a(bO),Ei=a(gd),Ej=a(e2),Ek=a(bp),El=a(bO),Em=a(bQ),En=a(bQ),Ed=[0,a(aU),0],Ee=a(rm),D8=a(iq),D9=a(e_),D6=a(" is not covered by the verified checker"),D7=a(ag),D4=a(bR),D5=a(bP),D0=a(ag),D1=a(sT),D2=a(ag),D3=a(ag),DZ=[1,0],DY=a(e_),DW=a("Reader.Malformed"),DX=a("Reader.Not_covered"),I2=[0,a("a paving is checked by orthocert-verified")],I1=a(r8),I3=a("CERTIFIED"),I4=a("REFUTED"),I5=a(r8),I6=a("NOT COVERED: ");function
-gv(a){throw[0,lM,a]}function
-lO(b,a){return Kn(b,a)?b:a}function
+ic(a,b,c,d,e){return a.length==4?a(b,c,d,e):dD(a,[b,c,d,e])}Km();var
+lR=[bc,a(rM),-2],lQ=[bc,a(sY),-4],Jf=[0,[0,[0,[0,0]]]],Jg=[0,0],Jh=[0,0],Ji=[0,[0,0]],Jj=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ji]]]]]]]]]]],h0=[0,[1,0],0],qt=[0,[2,0],0],kR=[0,[1,0],0],qs=[0,[2,0],0],hY=[0,[1,0],0],kQ=[0,[2,0],0],Jk=[0,[0,[0,[0,0]]]],Jl=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jk]]]]]]]]]]],Jm=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jl]]]]]]]]]]],Jn=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jm]]]]]]]]]]],Jo=[0,[0,0]],Jp=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jo]]]]]]]]]]],Jq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jp]]]]]]]]]]],Jr=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jq]]]]]]]]]]],Js=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jr]]]]]]]]]]],Jt=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],Ju=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jt]]]]]]]]]]],Jv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ju]]]]]]]]]]],Jw=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jv]]]]]]]]]]],Jx=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jw]]]]]]]]]]],Jy=[0,[0,0]],Jz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jy]]]]]]]]]]],JA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jz]]]]]]]]]]],JB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JA]]]]]]]]]]],JC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JB]]]]]]]]]]],JD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JC]]]]]]]]]]],JE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JD]]]]]]]]]]],JF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JE]]]]]]]]]]],JG=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],JH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JG]]]]]]]]]]],JI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JH]]]]]]]]]]],JJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JI]]]]]]]]]]],JK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JJ]]]]]]]]]]],JL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JK]]]]]]]]]]],JM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JL]]]]]]]]]]],JN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JM]]]]]]]]]]],JO=[0,0],JP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JO]]]]]]]]]]],JQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JP]]]]]]]]]]],JR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JQ]]]]]]]]]]],JS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JR]]]]]]]]]]],JT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JS]]]]]]]]]]],JU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JT]]]]]]]]]]],JV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JU]]]]]]]]]]],JW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JV]]]]]]]]]]],JX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JW]]]]]]]]]]],JY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JX]]]]]]]]]]],JZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],J0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JZ]]]]]]]]]]],J1=[0,0],J2=[0,[0,0]],J3=[0,0],J4=[0,[0,[0,[0,[0,0]]]]],dL=[0,[0,[0,0]]],dN=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],hN=[0,[0,[0,[0,0]]]],J5=[0,[0,[0,[0,[0,0]]]]],J6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,J5]]]]]]]]]]],J7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,J6]]]]]]]]]]],J8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,J7]]]]]]]]]]],J9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,J8]]]]]]]]]]];bS(11,[bc,a(rd),-12],rd);bS(10,[bc,a(r2),-11],r2);bS(9,[bc,a(sN),-10],sN);bS(8,[bc,a(rp),-9],rp);bS(7,[bc,a(se),-8],se);bS(6,[bc,a(rn),-7],rn);bS(5,[bc,a(rN),-6],rN);bS(4,[bc,a(rR),-5],rR);bS(3,lQ,sY);bS(2,[bc,a(lk),-3],lk);bS(1,lR,rM);bS(0,[bc,a(sx),-1],sx);var
+tz=a("String.sub / Bytes.sub"),tB=a(ag),tA=a("String.concat"),tC=a("Array.init"),tD=a("power"),t9=[0,0],t_=[0,0],ue=[0,0,0],uf=[0,0,0],ug=[0,0],uD=[0,0],uE=[0,0],uH=[0,0],u2=[0,0],u5=[0,0],u9=[0,0],u_=[0,0],u$=[0,0],va=[0,0],vo=[0,0],vp=[0,0],vS=[0,0],wg=[0,[0,[0,0]]],wN=[0,0],xe=[0,0],xC=[0,0],xN=a(","),x5=[0,a(lr),0],x6=a(rW),x7=a("."),x8=[0,[0,[0,0]]],x9=a(e$),x_=a(ls),x$=[0,[0,[0,[0,[0,0]]]]],ya=[0,a(lr),0],yb=a(sW),Be=a(ra),Bg=a(q9),Bf=a(r5),Bh=a(e6),Bi=a(e4),Bj=a(iA),Bk=a(sH),Bl=a(rG),Bm=a(iu),Bn=a(r_),Bo=a(rF),CC=[0,[0,0,0]],CT=[0,0],CD=a(gc),CE=[0,0],CF=a(lq),CG=[0,1],CH=a("mirror"),CI=[0,3],CJ=a("negative"),CK=[0,2],CL=a(gh),CM=[0,5],CN=a(ly),CO=[0,4],CP=a(dB),CQ=a(ij),CR=a(e7),CS=a(bQ),CU=[0,0],CV=[0,0],CW=[0,0],CZ=[0,[0,[0,0]]],C0=[0,[0,[0,0]]],Dp=[0,[0,[0,0]]],DD=[0,0],DY=a(ag),DQ=[0,0],DS=[0,0],DR=[0,0],DT=[0,[0,[0,[0,0]]]],DU=[0,[0,[0,0]]],DV=[0,[0,[0,[0,0]]]],DW=[0,[0,[0,0]]],DO=[0,[0,[0,0]]],DN=a(e7),DM=[0,0],DK=[0,1,0],DL=[0,[0,[0,0]]],DJ=[0,0],DI=[0,0],DH=[0,0],DE=[0,[0,0]],DF=[0,[0,[0,0]]],DB=[0,[0,0]],DC=[0,[0,[0,0]]],DA=[0,0],Dw=[0,[0,[0,0]]],Dv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jf]]]]]]]]]],[0,0,[0,[0,[0,[0,0]]],0]]],Dq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],[0,0,0]],Dr=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],[0,[0,[0,[0,[0,[0,[0,0]]]]]],0]],Ds=[0,[0,[0,[0,[0,[0,[0,0]]]]]],0],Dt=[0,[0,[0,[0,0]]],[0,0,0]],Dn=[0,0],Do=[0,[0,0]],Dm=[0,0,0],Dl=[0,[0,[0,0]]],Df=[0,[0,0]],Dg=[0,[0,[0,0]]],Dh=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jg]]]]]]]]]]],Di=[0,[0,0]],Dj=[0,[0,[0,0]]],De=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jh]]]]]]]]]]],Dc=[0,[0,0]],Dd=[0,[0,[0,0]]],Da=[0,[0,[0,0]]],Db=[0,[0,0]],C$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jj]]]]]]]]]]],C_=[0,0],C9=[0,0],C6=[0,[0,0]],C7=[0,0],C4=[0,0],C5=[0,1],C2=[0,[0,0]],C3=[0,0],C1=[0,0],CX=[0,0],CY=[0,1],Cz=[0,0],CA=[0,1],CB=[0,2],Cv=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],Ct=[0,[0,0],0],Cu=[0,[1,0],0],Cw=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],Cr=[0,[0,0]],Cs=[0,0],Cq=[0,0],Cp=[0,0],Co=[0,0],Cn=[0,0],Cm=[0,0,0],Ck=[0,[0,0]],Cl=[0,0],Cj=[0,0,0],Ch=[0,[0,[0,0]]],Ci=[0,[0,[0,0]]],Cg=[0,0],Ce=[0,1,0],B9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jn]]]]]]]]]]],B_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Js]]]]]]]]]]],B5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jx]]]]]]]]]]],B6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JF]]]]]]]]]]],B7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JN]]]]]]]]]]],B8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JY]]]]]]]]]]],B$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,J0]]]]]]]]]]],Ca=a("sqrt"),BU=[0,a("\n"),0],BV=a(q_),BW=a(ii),BX=a(r1),BY=a(rK),B4=a(gk),BZ=a(gg),B0=a("verdict"),B1=a(sy),B2=a(rC),B3=a(r0),BR=a(rU),BS=a(sC),BT=a(il),BN=a(sa),BO=a(im),BP=a(gg),BQ=a(gk),BI=a(iw),BJ=a(by),BK=a(q$),BL=a(is),BF=a(sw),BG=a(gh),BH=a(is),BB=a(sd),BC=a(iw),BD=a(im),BE=a(sL),Bq=a(sD),Br=a(sG),Bs=a(ir),Bt=a(ip),Bu=a(sR),Bv=a(ss),Bw=a(sv),Bx=a(sh),By=a(ir),Bz=a(sk),Bc=a(ig),Bd=a(gj),A9=a(bR),A_=a(bP),A$=a(rE),AJ=a(ip),AK=a(sg),An=a(by),Ao=a(b_),Ap=a(iy),Aq=a(e_),Ar=a(cu),Aw=a(ld),As=a(lt),At=a(lv),Au=a(e5),Av=a(by),Ax=a(b_),Ay=a(iy),Az=a(e_),AA=a(lt),AB=a(lv),AC=a(e5),AD=a(by),AE=a(b_),AF=a(bR),AG=a(bP),AH=a(ee),AI=a(e_),AL=a(sq),AM=a(sF),AN=a(iz),AO=a(rs),AP=a(rx),AQ=a(e5),AR=a(by),AS=a(b_),AT=a(id),AU=a(rI),AV=a(e_),AW=a(gp),AX=a(rh),AY=a(e5),AZ=a(by),A0=a(id),A1=a(by),A2=a(sj),A5=a(q8),A3=a(rv),A4=a(sK),A6=a(gk),A7=a(gg),A8=a(by),Ba=a(iz),Bb=a(il),Ai=a(b_),Aj=a(e_),Ak=a(ld),Al=a(e5),Ah=a(sT),z7=a(gp),z8=a(sz),z9=a(ef),z_=a(e8),z$=a(e8),Aa=a(lg),Ab=a(ef),Ac=a(r3),Ad=a(rD),Ae=a(bp),Ag=a(rc),Af=a(lg),zX=a(rT),zY=a(sX),zZ=a(rz),z0=a(rw),z1=a(sJ),z2=a(su),z3=a(rL),z4=a(ie),z5=a(ie),zT=a(bp),zU=a(bO),zV=a(fa),zW=a(bx),zP=a(cu),zQ=a(ln),zR=a(sb),zM=a(bR),zN=a(bP),zO=a(ee),zF=a(bR),zG=a(bP),zH=a(ee),zI=a(lp),zJ=a(ef),zK=a(ll),zL=a(sp),zn=a(ru),zt=a(ii),zs=a(lx),zo=a(lh),zp=a(ge),zu=a(gf),zw=a(gf),zx=a(sn),zy=a(lh),zv=a(ge),zz=a(rr),zA=a(sm),zB=a(ge),zC=a(sS),zD=a(lx),zE=a(ge),zq=a(e8),zr=a(r8),zk=a(iq),zl=a(iq),zm=a(iq),zg=a(sr),zh=a(bP),zi=a(bR),zj=a(sI),y1=a(rl),y2=a(rb),y3=a(sf),y4=a(e6),y5=a(sU),y6=a(si),y7=a(rm),y8=a(r9),y9=a(rk),y_=a(rH),y$=a(rj),za=a(st),zb=a(e4),zc=a(rg),zd=a(sB),ze=a(ry),zf=a(sV),yC=a(it),yE=a(e$),yD=a(gd),yF=a(e3),yG=a(bp),yH=a(bO),yI=a(bQ),yJ=a(gl),yK=a(bx),yL=a(gn),yM=a(bp),yN=a(bO),yO=a(fa),yP=a(bx),yQ=a(bQ),yR=a(cu),yS=a(bx),yT=a(e3),yU=a(go),yV=a(bp),yW=a(bO),yX=a(r7),yY=a(gf),yZ=a(go),y0=a(bx),yk=a(it),ys=a(e$),yl=a(gd),ym=a(e3),yn=a(bp),yo=a(bO),yp=a(bQ),yq=a(gl),yr=a(bx),yt=a(gn),yu=a(bp),yv=a(bO),yw=a(fa),yx=a(bx),yy=a(bQ),yz=a(cu),yA=a(bx),yh=a(bR),yi=a(bP),yf=[0,a(aU),0],yg=a(aU),yd=a(ag),yc=[0,a(aU),0],ye=a(aU),x1=a(it),x2=a(e$),x3=a("*"),x4=a(b$),xW=[0,[0,[0,[0,[0,0]]]]],xX=[0,[0,[0,0]]],xY=[0,[0,0]],xZ=[0,0],x0=[0,[0,[0,[0,0]]]],xU=a('":'),xV=a(aU),xS=[0,a(aU),0],xT=a(aU),xQ=[0,a("}"),0],xR=a("{"),xO=[0,a("]"),0],xP=a("["),xM=[0,[0,[0,0]]],xL=[0,[0,[0,0]]],xJ=[0,0],xG=[0,[0,[0,0]]],xH=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],xI=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],xE=[0,[0,0]],xF=[0,[0,[0,0]]],xD=[0,0],xA=[0,0],xB=[0,[0,0]],xx=[0,0],xy=[0,[0,0]],xz=[0,0],xs=[0,[0,0]],xt=[0,0],xu=[0,[0,[0,0]]],xv=[0,[0,[0,0]]],xr=[0,[0,[0,0]]],xq=[0,[0,[0,0]]],xp=[0,0],xm=[0,[0,[0,0]]],xo=[0,[0,[0,0]]],xn=[0,0],xk=[0,[0,0]],xl=[0,0],xi=[0,[0,0]],xj=[0,0],xh=[0,[0,[0,0]]],xf=[0,[0,0]],xg=[0,0],xc=[0,0],xd=[0,[0,0]],w8=[0,[0,0]],w9=[0,[0,[0,[0,[0,0]]]]],w_=[0,[0,[0,[0,0]]]],w$=[0,[0,[0,0]]],xa=[0,[0,0]],xb=[0,0],w5=[0,0],w6=[0,[0,0]],w7=[0,0],w4=[0,0],w0=[0,0],w1=[0,[0,[0,[0,[0,[0,0]]]]]],w2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,J1]]]]]]]]]]],wY=[0,0,0],wZ=[0,0,0],wV=[0,0,0],wW=[0,0],wR=[0,0,0],wS=[0,0,0],wT=[0,0,0],wO=[0,[0,0]],wP=[0,[0,[0,0]]],wQ=[0,0],wL=[0,0,0],wM=[0,0,[0,1,0]],wH=[0,0,0],wI=[0,0,0],wJ=[0,0,0],wK=[0,0,0],wx=[0,[0,[0,[0,[0,[0,0]]]]]],wy=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],wz=[0,[0,[0,0]]],wA=[0,[0,[0,0]]],wB=[0,[0,[0,[0,[0,[0,0]]]]]],wC=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],wD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,J2]]]]]]]]]]],wE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,J3]]]]]]]]]]],wF=[0,[0,[0,0]]],wG=[0,[0,[0,[0,[0,[0,0]]]]]],wt=[0,0,0],wu=[0,0,0],wp=[0,0,0],wq=[0,0,0],wr=[0,0,0],ws=[0,0,0],wo=[0,0],wn=[0,0],wm=[0,0],wk=[0,0],wl=[0,0],wj=[0,0],wh=[0,0],wi=[0,0],v$=[0,0],wa=[0,0],wb=[0,0],wc=[0,[0,[0,0]]],v_=[0,0],v4=[0,0],v5=[0,0],v6=[0,[0,0]],v2=[0,[0,0]],v3=[0,[0,[0,0]]],v0=[0,[0,[0,0]]],v1=[0,[0,0]],vY=[0,[0,0]],vZ=[0,[0,[0,0]]],vX=[0,0],vV=[0,0],vW=[0,0],vT=[0,0,0],vQ=[0,[0,0]],vR=[0,0],vI=[0,[0,0]],vJ=[0,0],vK=[0,[0,0]],vL=[0,0],vM=[0,[0,0]],vN=[0,0],vO=[0,[0,0]],vP=[0,0],vG=[0,[0,0]],vH=[0,0],vE=[0,[0,0]],vF=[0,0],vA=[0,[0,0]],vB=[0,0],vC=[0,0],vD=[0,[0,0]],vr=[0,[0,0]],vs=[0,0],vt=[0,[0,0]],vu=[0,0],vv=[0,0],vw=[0,[0,0]],vx=[0,[0,0]],vy=[0,[0,0]],vz=[0,0],vn=[0,0],vm=[0,0],vj=[0,0],vk=[0,[0,0]],vi=[0,[0,[0,0]]],vh=[0,[0,[0,[0,[0,[0,0]]]]]],vf=[0,[0,0]],vg=[0,0],ve=[0,[0,0]],vd=[0,0],vb=[0,0],vc=[0,[0,[0,0]]],u7=[0,[0,0]],u8=[0,[0,[0,0]]],u6=[0,[0,[0,0]]],u3=[0,[0,[0,0]]],u1=[0,[0,[0,0]]],uZ=[0,[0,[0,[0,[0,[0,0]]]]]],u0=[0,[0,[0,[0,[0,[0,0]]]]]],uU=[0,[0,0]],uV=[0,0],uW=[0,[0,0]],uX=[0,[0,[0,0]]],uY=[0,[0,[0,0]]],uN=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],uO=[0,[0,[0,[0,[0,[0,0]]]]]],uP=[0,[0,[0,[0,[0,[0,0]]]]]],uQ=[0,[0,[0,0]]],uR=[0,[0,[0,[0,[0,[0,0]]]]]],uS=[0,[0,[0,0]]],uT=[0,[0,[0,0]]],uL=[0,[0,0]],uM=[0,0],uK=[0,0,0],uJ=[0,0,0],uI=[0,0,0],uG=[0,0,0],uF=[0,[0,[0,0]]],uz=[0,0],uA=[0,0],uB=[0,0],uC=[0,0],ux=[0,0],uy=[0,0],uv=[0,0,0],us=[0,[0,[0,0]]],ut=[0,[0,[0,0]]],uu=[0,[0,[0,0]]],ur=[0,[0,[0,[0,0]]]],un=[0,[0,[0,0]]],uo=[0,[0,[0,0]]],up=[0,[0,[0,0]]],uq=[0,[0,1,1],[0,[0,0,1],[0,[0,1,0],[0,[0,0,0],0]]]],ul=[0,[0,0]],um=[0,0],uj=[0,[0,0]],uk=[0,0],uh=[0,[0,0]],ui=[0,0],t6=[0,0],t7=[0,[0,0]],t4=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],t5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,J4]]]]]]]]]]],t2=[0,0,0],t0=[0,[0,[0,[0,[0,0]]]]],tQ=[0,0],tR=[0,[0,0]],tS=[0,[0,[0,0]]],tT=[0,[0,[0,[0,0]]]],tU=[0,[0,[0,[0,[0,0]]]]],tV=[0,[0,[0,[0,[0,[0,0]]]]]],tW=[0,[0,[0,[0,[0,[0,[0,0]]]]]]],tX=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],tY=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],tZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],tO=a(sP),tN=a(ag),tM=[0,[0,0]],tK=[0,0],tH=[0,0],tJ=[1,0],tI=[0,0],tG=[0,0],tE=[1,0],tF=[1,0],vl=[10,0,0,0,0],DG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,J9]]]]]]]]]]],Hc=a(bR),Hd=a(bP),He=a(rE),G6=a(gn),G7=[0,a("a base axis of such a platform"),0],G8=a(bp),G9=a(bO),GT=a(su),GU=a(rT),GV=a(sJ),GW=a(ie),GX=a(rL),GY=a(ie),GZ=a(sX),G0=a(rz),G1=a(rw),GH=a(sg),GI=a(ip),Gj=[0,a("such a machine with bodies"),0],F8=a(il),F9=a(by),F_=a(sj),F$=a(sK),Gc=a(rv),Gd=a(q8),Ge=a(by),Gf=a(by),Gh=a(id),Gg=[0,a("a claim that no cube of such a machine fits"),0],Gi=a(sT),Gk=a(e5),Gl=a(e_),Gm=a(cu),Gn=a(ln),Go=a(sb),Gp=a(iy),Gq=a(rx),Gr=a(rh),Gs=a(ld),Gv=a(ee),Gw=a(sp),Gz=a(b_),GA=a(b_),GB=a(rI),GC=a(b_),GD=[0,a("the closed design with other bounds on psi than one from below and one from above"),0],GE=a(id),GF=a(gp),GG=a(ee),GJ=a(sF),GK=a(sq),GL=[0,a(" operations, with its definitions written out,"),0],GM=a("a mechanism of more than "),GN=a(b_),GO=a(bR),GP=a(bP),GQ=a(iz),GR=a(rs),Gt=[0,a(aU),0],Gu=a('the mechanism "'),GS=a(lt),G2=a(iy),G3=a(cu),G4=a(ln),G5=a(lv),G_=a(b_),Hb=a(cu),G$=[0,a("a platform that turns on struts and other drives"),0],Ha=a(b_),Gx=[0,a(aU),0],Gy=a('the workspace "'),Hf=a(by),Hg=a(by),Hi=a(gk),Hj=a(gg),Hk=a(iz),Hh=[0,a("an atlas of such a machine"),0],Ga=[0,a(aU),0],Gb=a('a claim of the kind "'),Hy=a(iA),Hz=a(dB),HA=a(ij),HB=a(e7),HC=a(iu),HD=a(lq),HE=a(gc),HF=a(iA),HG=a(ij),HH=a(iu),HI=a(lq),HJ=[0,a('this evidence "fan"'),0],Hp=a(dB),HU=a(gj),HV=[0,1,1],Hq=a(r_),HL=a(e4),HM=a(rF),HN=a(e6),HO=a(rG),HP=a(r5),HQ=a(bQ),HR=a(gj),HS=a(ig),HT=a(bQ),Hr=a(iA),Hs=a(dB),Ht=a(ij),Hu=a(e7),Hv=a(iu),HK=[0,a('evidence "fan" about "divided" and other rows'),0],Hw=[0,a(aU),0],Hx=a('the evidence "'),HW=a(e4),HX=a(e6),HY=a(dB),HZ=a(e7),H0=a(sH),H2=a(e4),H3=a(e6),H4=a(dB),H5=a(e7),H6=a(gh),H7=a(gc),H8=a(gh),H9=a(gc),H1=[0,a("this evidence at control points"),0],I_=a('"orthocert-paving/'),I1=a(dB),I2=a(dB),IP=a(r0),IQ=a(rC),IR=a(sy),I8=[0,3,3],IS=a(rK),I0=[0,a("this set of orientations with such drives"),0],I3=[0,a('this evidence "tolerances" of a platform that turns'),0],I4=[0,a("a step of a platform that turns that is not at control points"),0],I5=[0,a("this quantity in a claim that is refuted"),0],I6=[0,a("a step in a proof that no cube fits"),0],I7=[0,a('the failure "same" of such a mechanism'),0],IT=[0,a("the acceleration of a joint of a machine with a plane"),0],IY=[0,a("a stiffness for each joint in such a claim"),0],IZ=[0,a(sl),0],IX=[0,a(sl),0],IU=a(r1),IV=a(q_),IW=a(ii),IL=a(ly),IM=a(gc),IN=a(bQ),ID=a(il),IE=a(rU),IF=a(sC),IG=[0,a(aU),0],IH=a('a proof of the kind "'),Iz=a(gg),IA=a(gk),IB=a(im),IC=a(sa),Iv=a(by),Iw=a(iw),Ix=a(q$),Iy=a(is),Is=a(sw),It=a(gh),Iu=a(is),Io=a(sd),Ip=a(iw),Iq=a(im),Ir=a(sL),Ia=a(sG),Ib=a(ir),Ic=a(sD),Id=a(ip),Ie=a(sk),If=a(sR),Ii=a(ss),Ij=a(ig),Ik=a(gj),Il=a(sv),Im=a(sh),In=a(ir),Ig=[0,a(aU),0],Ih=a('the failure "'),H_=a(ly),H$=a(sP),Hn=a(gj),Ho=a(ig),Hl=a(q9),Hm=a(ra),F5=a(gp),FV=a(lg),FW=a(rc),FX=a(e8),FY=a(bp),F3=a(sz),F4=a(gp),F6=a(ef),F7=a(e8),FZ=a(ef),F0=a(r3),F1=a(rD),F2=a(bp),FO=a(ee),FS=a(bR),FT=a(bP),FP=a(ll),FQ=a(lp),FR=a(ef),FI=a(ee),FM=a(bR),FN=a(bP),FJ=a(ll),FK=a(lp),FL=a(ef),FH=[0,1],FG=[0,1],FE=[0,1],FC=[0,1],FB=[0,1],Fz=[0,1],FA=[0,a("this quantity of such a mechanism"),0],Fi=a(lh),Fj=a(sm),Fk=a(rr),Fl=a(lx),Fm=a(sS),Fo=a(sn),Fn=a(gf),Fh=a(ii),E$=a(iq),EZ=a(r8),E0=a(sf),Fr=a(e4),Fs=a(sB),Ft=a(rH),Fu=a(e6),Fv=a(r9),Fw=a(rj),Fx=a(rk),Fy=a(rb),E1=a(rg),E2=a(sV),E3=a(st),E4=a(si),E5=a(ry),E6=a(sU),E7=a(rm),E8=a(rl),E9=[0,a(aU),0],E_=a('the quantity "'),Fa=a(ru),Fb=a(sr),Fc=a(bR),Fd=a(bP),Fe=a(sI),Ff=[0,a(aU),0],Fg=a('a bound "'),Fp=a(ge),Fq=a(e8),EX=a(bx),EY=a(fa),EV=a(bx),EW=a(cu),ES=a(bx),ET=a(gl),Eu=a(bx),Ev=a(gn),Ew=a(go),Ex=a(cu),Ey=a(gl),Ez=a(fa),EC=a(bp),ED=a(bO),EE=a(gd),EF=a(e3),EG=a(bp),EH=a(bO),EI=a(bQ),EJ=a(bQ),EK=a(gd),EL=a(e3),EM=a(go),EN=a(bp),EO=a(bO),EP=a(r7),EQ=a(gf),EA=[0,a('" of such a machine'),0],EB=a(rq),Es=a(bx),Et=a(go),Ec=a(bx),Ed=a(cu),Ee=a(gl),Ef=a(fa),Ei=a(gn),Ej=a(bp),Ek=a(bO),El=a(gd),Em=a(e3),En=a(bp),Eo=a(bO),Ep=a(bQ),Eq=a(bQ),Eg=[0,a(aU),0],Eh=a(rq),D$=a(it),Ea=a(e$),D9=a(" is not covered by the verified checker"),D_=a(ag),D7=a(bR),D8=a(bP),D3=a(ag),D4=a(sW),D5=a(ag),D6=a(ag),D2=[1,0],D1=a(e$),DZ=a("Reader.Malformed"),D0=a("Reader.Not_covered"),Ja=[0,a("a paving is checked by orthocert-verified")],I$=a(r$),Jb=a("CERTIFIED"),Jc=a("REFUTED"),Jd=a(r$),Je=a("NOT COVERED: ");function
+gv(a){throw[0,lQ,a]}function
+lS(b,a){return Kx(b,a)?b:a}function
 bk(d,c){var
-a=aB(d),e=aB(c),b=cy(a+e|0);fb(d,0,b,0,a);fb(c,0,b,a,e);return iD(b)}function
-lP(a,b){if(a){var
-c=a[1];return[0,c,lP(a[2],b)]}return b}Kr(0);te(1);te(2);function
-lQ(b){function
+a=aC(d),e=aC(c),b=cy(a+e|0);fc(d,0,b,0,a);fc(c,0,b,a,e);return iI(b)}function
+lT(a,b){if(a){var
+c=a[1];return[0,c,lT(a[2],b)]}return b}KB(0);th(1);th(2);function
+lU(b){function
 a(b){var
 a=b;for(;;){if(a){var
-c=a[2],d=a[1];try{Kq(d)}catch(a){a=tn(a);if(a[1]!==lN)throw a;var
+c=a[2],d=a[1];try{KA(d)}catch(a){a=tq(a);if(a[1]!==lR)throw a;var
 e=a}var
-a=c;continue}return 0}}return a(Ks(0))}Kz(a(ra),lQ);function
+a=c;continue}return 0}}return a(KC(0))}KJ(a(re),lU);function
 cA(c){var
 b=0,a=c;for(;;){if(a){var
 b=b+1|0,a=a[2];continue}return b}}function
-lR(d,c){var
+lV(d,c){var
 a=d,b=c;for(;;){if(a){var
 e=[0,a[1],b],a=a[2],b=e;continue}return b}}function
-iG(a){return lR(a,0)}function
+iL(a){return lV(a,0)}function
 Y(b,a){if(a){var
 c=a[2],d=h(b,a[1]);return[0,d,Y(b,c)]}return 0}function
-lS(e,d,c){var
+lW(e,d,c){var
 b=d,a=c;for(;;){if(a){var
 f=a[2],b=ar(e,b,a[1]),a=f;continue}return b}}function
-fh(d,c){var
+el(d,c){var
 a=c;for(;;){if(a){var
 e=a[2],b=h(d,a[1]);if(b){var
 a=e;continue}return b}return 1}}function
-aQ(d,c){var
+aP(d,c){var
 a=c;for(;;){if(a){var
 e=a[2],b=h(d,a[1]);if(b)return b;var
 a=e;continue}return 0}}function
-lT(d,c){var
+lX(d,c){var
 a=c;for(;;){if(a){var
-b=a[1],e=a[2],f=b[2];if(0===J_(b[1],d))return[0,f];var
+b=a[1],e=a[2],f=b[2];if(0===Ki(b[1],d))return[0,f];var
 a=e;continue}return 0}}function
 bT(b,c){var
-a=cy(b);Ka(a,0,b,c);return iD(a)}function
-el(g,b,a){var
-d=fc(g),f=0;if(0<=b&&0<=a&&!((iB(d)-a|0)<b)){var
+a=cy(b);Kk(a,0,b,c);return iI(a)}function
+em(g,b,a){var
+d=fd(g),f=0;if(0<=b&&0<=a&&!((iG(d)-a|0)<b)){var
 c=cy(a);gq(d,b,c,0,a);var
 e=c;f=1}if(!f)var
-e=gv(tw);return iD(e)}function
-lU(k,g){if(g){var
-h=aB(k),c=0,b=g,p=0;for(;;){if(b){var
+e=gv(tz);return iI(e)}function
+lY(k,g){if(g){var
+h=aC(k),c=0,b=g,p=0;for(;;){if(b){var
 i=b[1];if(b[2]){var
-j=(aB(i)+h|0)+c|0,m=b[2],n=c<=j?j:gv(tx),c=n,b=m;continue}var
-l=aB(i)+c|0}else
+j=(aC(i)+h|0)+c|0,m=b[2],n=c<=j?j:gv(tA),c=n,b=m;continue}var
+l=aC(i)+c|0}else
 var
 l=c;var
 f=cy(l),e=p,d=g;for(;;){if(d){var
 a=d[1];if(d[2]){var
-o=d[2];fb(a,0,f,e,aB(a));fb(k,0,f,e+aB(a)|0,h);var
-e=(e+aB(a)|0)+h|0,d=o;continue}fb(a,0,f,e,aB(a))}return iD(f)}}}return ty}function
-iH(b,c){if(0===b)return[0];if(0<=b){var
-d=Kp(b,h(c,0)),e=b-1|0,f=1;if(!(e<1)){var
+o=d[2];fc(a,0,f,e,aC(a));fc(k,0,f,e+aC(a)|0,h);var
+e=(e+aC(a)|0)+h|0,d=o;continue}fc(a,0,f,e,aC(a))}return iI(f)}}}return tB}function
+iM(b,c){if(0===b)return[0];if(0<=b){var
+d=Kz(b,h(c,0)),e=b-1|0,f=1;if(!(e<1)){var
 a=f;for(;;){d[1+a]=h(c,a);var
 g=a+1|0;if(e!==a){var
-a=g;continue}break}}return d}return gv(tz)}function
-iI(c){var
+a=g;continue}break}}return d}return gv(tC)}function
+iN(c){var
 a=c.length-1-1|0,b=0;for(;;){if(0<=a){var
 d=[0,c[1+a],b],a=a-1|0,b=d;continue}return b}}var
 d=aM(0),b=aM(1);function
 q(a){return F(a,b)}function
-lV(b,a){return F(aM(b),a)}function
+lZ(b,a){return F(aM(b),a)}function
 c(b,a){return C(aM(b),a)}function
-aW(b,a){return[0,lK(b,a),tr(b,a)]}function
-iJ(b,a){return D(b,a)?b:a}function
+aW(b,a){return[0,lO(b,a),tu(b,a)]}function
+iO(b,a){return D(b,a)?b:a}function
 bq(b,a){return D(b,a)?a:b}function
 fi(a){return fi}function
 I(a){return a?0:1}function
 y(b,a){var
 c=a?[0,h(b,a[1])]:a;return c}function
-aC(a){return a[1]}function
-aK(a){return a[2]}function
+aA(a){return a[1]}function
+aG(a){return a[2]}function
 f(a){var
 b=a?[0,f(a[2])]:a;return b}function
 g(a,b){if(a){var
 c=g(a[2],b);return[0,a[1],c]}return b}function
-lW(a){return typeof
-a==="number"?0:[0,lW(a[1])]}function
-lX(d,c){var
+l0(a){return typeof
+a==="number"?0:[0,l0(a[1])]}function
+l1(d,c){var
 a=d,b=c;for(;;)if(typeof
 a==="number")return b;else
 switch(a[0]){case
@@ -811,9 +811,9 @@ a=a[1],b=[7,b];continue;case
 8:var
 a=a[1],b=[8,b];continue;default:var
 a=a[1],b=[9,b];continue}}function
-gw(a){return lX(a,0)}function
-lY(a){if(typeof
-a==="number")return tB;else
+gw(a){return l1(a,0)}function
+l2(a){if(typeof
+a==="number")return tE;else
 switch(a[0]){case
 0:return[1,a[1]];case
 1:return[2,a[1]];case
@@ -823,9 +823,9 @@ switch(a[0]){case
 5:return[6,a[1]];case
 6:return[7,a[1]];case
 7:return[8,a[1]];case
-8:return[9,a[1]];default:return[0,lY(a[1])]}}function
+8:return[9,a[1]];default:return[0,l2(a[1])]}}function
 bV(a){if(typeof
-a==="number")return tC;else
+a==="number")return tF;else
 switch(a[0]){case
 0:return[1,bU(a[1])];case
 1:return[3,bU(a[1])];case
@@ -850,7 +850,7 @@ switch(a[0]){case
 8:return[6,bV(a[1])];default:return[8,bV(a[1])]}}function
 aR(a){return a?a[1]:a}function
 N(b,a){return b?[0,N(b[1],a)]:a}function
-lZ(a,b){return a?N(b,lZ(a[1],b)):a}function
+l3(a,b){return a?N(b,l3(a[1],b)):a}function
 dE(d,c){var
 a=d,b=c;for(;;){if(a){if(b){var
 a=a[1],b=b[1];continue}return a}return a}}function
@@ -866,33 +866,33 @@ av(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return 2}var
 e=a?1:a;return e}}function
-l0(c){var
+l4(c){var
 a=c;for(;;){if(a){var
 b=a[1];if(b){var
 a=b[1];continue}return b}return 1}}function
 gx(c,b,a){return c?h(b,gx(c[1],b,a)):a}function
-l1(a){if(a)var
-b=a[1],d=b?[0,l1(b[1])]:b,c=d;else
+l5(a){if(a)var
+b=a[1],d=b?[0,l5(b[1])]:b,c=d;else
 var
 c=a;return c}function
-iK(d,c){var
+iP(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return a?0:1}}function
-l2(a){if(D(a,b))return b;var
-e=aW(a,aM(2)),f=e[1];return L(e[2],d)?q(c(2,l2(f))):q(c(2,c(2,f)))}function
-l3(c,a){return bq(b,aO(c,a))}function
+l6(a){if(D(a,b))return b;var
+e=aW(a,aM(2)),f=e[1];return L(e[2],d)?q(c(2,l6(f))):q(c(2,c(2,f)))}function
+l7(c,a){return bq(b,aO(c,a))}function
 gy(a,j,i){var
 c=j,f=i;for(;;){if(D(f,b))return h(a,c);var
 g=aW(f,aM(2)),e=g[1];if(L(g[2],d)){var
 c=gy(a,c,e),f=e;continue}return h(a,gy(a,gy(a,c,e),e))}}function
 gz(a){function
 c(b){return C(a,b)}return function(a){return gy(c,b,a)}}function
-gA(a){if(D(a,b))return tE;var
+gA(a){if(D(a,b))return tH;var
 c=aW(a,aM(2)),e=c[1];return L(c[2],d)?[0,gA(e)]:[0,gA(e)]}function
 gB(a){if(D(a,b))return b;var
 c=aW(a,aM(2)),e=c[1];return L(c[2],d)?q(gB(e)):q(gB(e))}function
-l4(c,b){var
-a=lJ(c,b);return 0===a?0:0<=a?2:1}function
+l8(c,b){var
+a=lN(c,b);return 0===a?0:0<=a?2:1}function
 gC(j,i){var
 c=j,a=i;for(;;){if(D(c,b))return D(a,b)?1:L(aW(a,aM(2))[2],d)?0:0;var
 g=aW(c,aM(2)),h=g[1];if(L(g[2],d)){if(D(a,b))return 0;var
@@ -900,27 +900,27 @@ e=aW(a,aM(2)),k=e[1];if(L(e[2],d)){var
 c=h,a=k;continue}return 0}if(D(a,b))return 0;var
 f=aW(a,aM(2)),l=f[1];if(L(f[2],d))return 0;var
 c=h,a=l;continue}}function
-gD(b,a){return 2<=l4(b,a)?0:1}function
-em(i,e,a){if(i){var
+gD(b,a){return 2<=l8(b,a)?0:1}function
+en(i,e,a){if(i){var
 f=i[1];if(D(e,b))return[0,b,[0,b,a]];var
 w=aW(e,aM(2)),g=w[1];if(L(w[2],d)){if(D(a,b))return[0,b,[0,e,b]];var
 m=aW(a,aM(2)),A=m[1];if(L(m[2],d)){var
-j=em(f,g,A),x=j[2];return[0,c(2,j[1]),x]}var
-k=em(f,g,a),l=k[2],y=l[2],z=[0,c(2,l[1]),y];return[0,k[1],z]}if(D(a,b))return[0,b,[0,e,b]];var
+j=en(f,g,A),x=j[2];return[0,c(2,j[1]),x]}var
+k=en(f,g,a),l=k[2],y=l[2],z=[0,c(2,l[1]),y];return[0,k[1],z]}if(D(a,b))return[0,b,[0,e,b]];var
 v=aW(a,aM(2)),h=v[1];if(L(v[2],d)){var
-n=em(f,e,h),o=n[2],B=c(2,o[2]);return[0,n[1],[0,o[1],B]]}switch(l4(g,h)){case
+n=en(f,e,h),o=n[2],B=c(2,o[2]);return[0,n[1],[0,o[1],B]]}switch(l8(g,h)){case
 0:return[0,e,[0,b,b]];case
 1:var
-p=em(f,l3(h,g),e),q=p[2],r=q[2],C=[0,r,F(r,c(2,q[1]))];return[0,p[1],C];default:var
-s=em(f,l3(g,h),a),t=s[2],u=t[2],E=[0,F(u,c(2,t[1])),u];return[0,s[1],E]}}return[0,b,[0,e,a]]}function
+p=en(f,l7(h,g),e),q=p[2],r=q[2],C=[0,r,F(r,c(2,q[1]))];return[0,p[1],C];default:var
+s=en(f,l7(g,h),a),t=s[2],u=t[2],E=[0,F(u,c(2,t[1])),u];return[0,s[1],E]}}return[0,b,[0,e,a]]}function
 gE(b,a){var
-c=gA(a);return em(N(gA(b),c),b,a)}function
-l5(c,i,h){var
+c=gA(a);return en(N(gA(b),c),b,a)}function
+l9(c,i,h){var
 e=i,a=h;for(;;){if(D(e,b))return a;var
 f=aW(e,aM(2)),g=f[1];if(L(f[2],d)){var
-e=g,a=ar(c,a,a);continue}return ar(c,a,l5(c,g,ar(c,a,a)))}}function
-fj(a){return l5(N,a,tF)}function
-l6(a){return a?q(l6(a[1])):b}function
+e=g,a=ar(c,a,a);continue}return ar(c,a,l9(c,g,ar(c,a,a)))}}function
+fj(a){return l9(N,a,tI)}function
+l_(a){return a?q(l_(a[1])):b}function
 cC(f,e){var
 a=f,d=e;for(;;)if(typeof
 a==="number")return d;else
@@ -944,27 +944,27 @@ t=C(c(2,q(c(2,c(2,b)))),d),u=F(q(c(2,q(c(2,b)))),t),a=a[1],d=u;continue;case
 8:var
 v=C(c(2,q(c(2,c(2,b)))),d),w=F(c(2,c(2,c(2,b))),v),a=a[1],d=w;continue;default:var
 x=C(c(2,q(c(2,c(2,b)))),d),y=F(q(c(2,c(2,c(2,b)))),x),a=a[1],d=y;continue}}function
-iL(a){if(D(a,b))return tG;var
-c=aW(a,aM(2)),e=c[1];return L(c[2],d)?bU(iL(e)):bV(iL(e))}function
-gF(a){return gw(iL(a))}function
-l7(c,b){var
-a=lJ(c,b);return 0===a?0:0<=a?2:1}function
-l8(b,a){return 0<aV(b)?0<aV(a)?gC(b,a):0:0<aV(a)?0:1}function
-l9(b,a){return 2<=l7(b,a)?0:1}function
-gG(b,a){return 1===l7(b,a)?1:0}var
-l_=F,tI=Q;function
+iQ(a){if(D(a,b))return tJ;var
+c=aW(a,aM(2)),e=c[1];return L(c[2],d)?bU(iQ(e)):bV(iQ(e))}function
+gF(a){return gw(iQ(a))}function
+l$(c,b){var
+a=lN(c,b);return 0===a?0:0<=a?2:1}function
+ma(b,a){return 0<aV(b)?0<aV(a)?gC(b,a):0:0<aV(a)?0:1}function
+mb(b,a){return 2<=l$(b,a)?0:1}function
+gG(b,a){return 1===l$(b,a)?1:0}var
+mc=F,tL=Q;function
 cb(k,f){if(0<=aV(f)){var
-g=iF(f);if(0<=g){var
+g=iK(f);if(0<=g){var
 e=b,c=k,a=g;for(;;){if(0===a)return e;var
-h=a>>>1|0,i=C(c,c),j=1===(a&1)?C(e,c):e,e=j,c=i,a=h;continue}}return gv(tA)}return d}function
-iM(c,b){var
-a=lJ(c,b);return 0===a?0:0<=a?2:1}function
-iN(c){var
+h=a>>>1|0,i=C(c,c),j=1===(a&1)?C(e,c):e,e=j,c=i,a=h;continue}}return gv(tD)}return d}function
+iR(c,b){var
+a=lN(c,b);return 0===a?0:0<=a?2:1}function
+iS(c){var
 a=aV(c);return 0===a?d:0<a?b:Q(b)}function
-iO(a){return 0<=aV(a)?a:d}function
-en(a){var
+iT(a){return 0<=aV(a)?a:d}function
+eo(a){var
 c=aV(a);return 0===c?b:0<c?a:b}function
-l$(m){var
+md(m){var
 a=m;for(;;)if(typeof
 a==="number")return d;else
 switch(a[0]){case
@@ -987,15 +987,15 @@ j=q(c(2,q(c(2,b))));return cC(a[1],j);case
 k=c(2,c(2,c(2,b)));return cC(a[1],k);default:var
 l=q(c(2,c(2,c(2,b))));return cC(a[1],l)}}function
 cD(b,a){var
-c=aV(a);return 0===c?d:1===c?lK(b,a):lV(-1,lK(lV(-1,b),a))}function
-ma(a){var
+c=aV(a);return 0===c?d:1===c?lO(b,a):lZ(-1,lO(lZ(-1,b),a))}function
+me(a){var
 f=aV(a);if(0===f)return d;if(0<f){if(D(a,b))return d;var
 c=aW(a,aM(2)),e=c[1];return L(c[2],d)?gB(e):gB(e)}return d}function
-gH(a){return 0<aV(a)?KJ(a):d}function
+gH(a){return 0<aV(a)?KT(a):d}function
 fk(b,c){var
-a=iF(c);return 0<=a?ts(b,a):tt(b,-a|0)}function
+a=iK(c);return 0<=a?tv(b,a):tw(b,-a|0)}function
 dF(b,c){var
-a=iF(c);return 0<=a?tt(b,a):ts(b,-a|0)}function
+a=iK(c);return 0<=a?tw(b,a):tv(b,-a|0)}function
 bW(b,a){return a?a[1]:b}function
 bI(a){var
 b=a?a[2]:a;return b}function
@@ -1006,12 +1006,12 @@ G(d,c){var
 a=d,b=c;for(;;){if(b){if(a){var
 a=a[2],b=b[1];continue}return a}var
 e=a?[0,a[1]]:a;return e}}function
-eo(d,c){var
+ep(d,c){var
 a=d,b=c;for(;;){if(a){var
 e=[0,a[1],b],a=a[2],b=e;continue}return b}}function
 c2(a){if(a){var
 b=c2(a[2]);return g(a[1],b)}return a}function
-iP(g,f,e){var
+iU(g,f,e){var
 b=f,a=e;for(;;){if(b){if(a){var
 c=ar(g,b[1],a[1]);if(c){var
 b=b[2],a=a[2];continue}var
@@ -1027,8 +1027,8 @@ c=w(b,a[2]);return g(h(b,a[1]),c)}return a}function
 bz(e,d,c){var
 a=d,b=c;for(;;){if(a){var
 f=ar(e,b,a[1]),a=a[2],b=f;continue}return b}}function
-ao(c,b,a){if(a){var
-d=ao(c,b,a[2]);return ar(c,a[1],d)}return b}function
+ap(c,b,a){if(a){var
+d=ap(c,b,a[2]);return ar(c,a[1],d)}return b}function
 ak(e,d){var
 a=d;for(;;){if(a){var
 b=h(e,a[1]);if(!b){var
@@ -1044,7 +1044,7 @@ a5(b,e){var
 a=e;for(;;){if(a){var
 c=a[2],d=a[1];if(h(b,d))return[0,d,a5(b,c)];var
 a=c;continue}return a}}function
-mb(d,c){var
+mf(d,c){var
 a=c;for(;;){if(a){var
 b=a[1];if(h(d,b))return[0,b];var
 a=a[2];continue}return a}}function
@@ -1063,20 +1063,20 @@ c=b;return c}function
 aw(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[2];continue}return a}return a}}function
-aG(b,a){var
-c=a?[0,b,aG([0,b],a[1])]:a;return c}function
+aH(b,a){var
+c=a?[0,b,aH([0,b],a[1])]:a;return c}function
 ac(b,a){var
 c=a?[0,b,ac(b,a[1])]:a;return c}function
-mc(a){return ao(N,0,a)}function
-md(a){if(a){var
-e=md(a[2]),f=C(c(2,b),e),g=a[1]?b:d;return F(g,f)}return d}function
-me(j){function
+mg(a){return ap(N,0,a)}function
+mh(a){if(a){var
+e=mh(a[2]),f=C(c(2,b),e),g=a[1]?b:d;return F(g,f)}return d}function
+mi(j){function
 a(a){return 0!==(j&1<<a)?1:0}var
-c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=md([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<aV(b)?fj(b):0}function
-mf(c,b){var
+c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=mh([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<aV(b)?fj(b):0}function
+mj(c,b){var
 a=c-b|0,d=0<=a?0===a?0:2:1;return 2<=d?0:1}function
-mg(a){return[0,a,b]}function
-ep(b,a){return iM(C(b[1],a[2]),C(a[1],b[2]))?0:1}function
+mk(a){return[0,a,b]}function
+eq(b,a){return iR(C(b[1],a[2]),C(a[1],b[2]))?0:1}function
 bl(b,a){return D(C(b[1],a[2]),C(a[1],b[2]))}function
 dG(b,a){return[0,F(C(b[1],a[2]),C(a[1],b[2])),C(b[2],a[2])]}function
 a9(b,a){return[0,C(b[1],a[1]),C(b[2],a[2])]}function
@@ -1086,23 +1086,23 @@ gJ(f,c){var
 a=c[1],e=aV(a),g=0===e?[0,d,b]:0<e?[0,c[2],a]:[0,Q(c[2]),Q(a)];return a9(f,g)}function
 dI(q){var
 a=q[2],b=q[1],o=aV(b);if(0===o)var
-c=[0,cz(a),[0,d,iN(a)]];else
+c=[0,cz(a),[0,d,iS(a)]];else
 if(0<o){var
 n=aV(a);if(0===n)var
-c=[0,cz(b),[0,iN(b),d]];else
+c=[0,cz(b),[0,iS(b),d]];else
 if(0<n)var
 l=gE(b,a),m=l[2],c=[0,l[1],[0,m[1],m[2]]];else
 var
 j=gE(b,Q(a)),k=j[2],c=[0,j[1],[0,k[1],Q(k[2])]]}else{var
 p=Q(b),i=aV(a);if(0===i)var
-c=[0,cz(b),[0,iN(b),d]];else
+c=[0,cz(b),[0,iS(b),d]];else
 if(0<i)var
 g=gE(p,a),h=g[2],c=[0,g[1],[0,Q(h[1]),h[2]]];else
 var
 e=gE(p,Q(a)),f=e[2],c=[0,e[1],[0,Q(f[1]),Q(f[2])]]}var
-r=c[2],s=en(r[2]);return[0,r[1],s]}function
+r=c[2],s=eo(r[2]);return[0,r[1],s]}function
 br(a){if(typeof
-a==="number")return tK;else
+a==="number")return tN;else
 switch(a[0]){case
 0:var
 b=br(a[1]);return bk(bT(1,48),b);case
@@ -1124,48 +1124,48 @@ i=br(a[1]);return bk(bT(1,55),i);case
 j=br(a[1]);return bk(bT(1,56),j);default:var
 k=br(a[1]);return bk(bT(1,57),k)}}function
 fl(a){return typeof
-a==="number"?tL:br(a)}function
+a==="number"?tO:br(a)}function
 cE(a){return cb(c(2,b),a)}function
-mh(b,a){return dF(a,b)}function
-mi(b,a){return Q(dF(Q(a),b))}function
+ml(b,a){return dF(a,b)}function
+mm(b,a){return Q(dF(Q(a),b))}function
 gK(b,a){return Q(cD(Q(b),a))}function
 J(c,b){var
 a=fk(b,c);return[0,a,a]}function
-mj(d,c,a){var
+mn(d,c,a){var
 b=fk(c,d),e=gK(b,a);return[0,cD(b,a),e]}function
 A(b,a){return[0,F(b[1],a[1]),F(b[2],a[2])]}function
 E(b,a){return[0,aO(b[1],a[2]),aO(b[2],a[1])]}function
 $(a){return[0,Q(a[2]),Q(a[1])]}function
-mk(e,c,b,a){if(D(d,e))return D(d,b)?[0,C(e,b),C(c,a)]:D(a,d)?[0,C(c,b),C(e,a)]:[0,C(c,b),C(c,a)];if(D(c,d))return D(d,b)?[0,C(e,a),C(c,b)]:D(a,d)?[0,C(c,a),C(e,b)]:[0,C(e,a),C(e,b)];if(D(d,b))return[0,C(e,a),C(c,a)];if(D(a,d))return[0,C(c,b),C(e,b)];var
-f=bq(C(e,b),C(c,a));return[0,iJ(C(e,a),C(c,b)),f]}function
+mo(e,c,b,a){if(D(d,e))return D(d,b)?[0,C(e,b),C(c,a)]:D(a,d)?[0,C(c,b),C(e,a)]:[0,C(c,b),C(c,a)];if(D(c,d))return D(d,b)?[0,C(e,a),C(c,b)]:D(a,d)?[0,C(c,a),C(e,b)]:[0,C(e,a),C(e,b)];if(D(d,b))return[0,C(e,a),C(c,a)];if(D(a,d))return[0,C(c,b),C(e,b)];var
+f=bq(C(e,b),C(c,a));return[0,iO(C(e,a),C(c,b)),f]}function
 t(c,b,a){var
-d=mk(b[1],b[2],a[1],a[2]),e=mi(c,d[2]);return[0,mh(c,d[1]),e]}function
+d=mo(b[1],b[2],a[1],a[2]),e=mm(c,d[2]);return[0,ml(c,d[1]),e]}function
 R(b,a){var
-c=C(a[1],a[1]),e=C(a[2],a[2]),h=mi(b,bq(c,e)),g=0;if(K(a[1],d)&&K(d,a[2])){var
+c=C(a[1],a[1]),e=C(a[2],a[2]),h=mm(b,bq(c,e)),g=0;if(K(a[1],d)&&K(d,a[2])){var
 f=d;g=1}if(!g)var
-f=mh(b,iJ(c,e));return[0,f,h]}function
-iQ(b,a){var
+f=ml(b,iO(c,e));return[0,f,h]}function
+iV(b,a){var
 c=fk(cE(b),b),d=gK(c,a[1]);return[0,cD(c,a[2]),d]}function
-bX(b,a){if(K(d,a[1]))return[0,iQ(b,a)];var
-c=K(a[2],d),e=c?[0,$(iQ(b,$(a)))]:c;return e}function
-iR(c){var
+bX(b,a){if(K(d,a[1]))return[0,iV(b,a)];var
+c=K(a[2],d),e=c?[0,$(iV(b,$(a)))]:c;return e}function
+iW(c){var
 a=gH(c);return L(C(a,a),c)?a:F(a,b)}function
 cc(b,a){var
 c=K(d,a[1]);if(c)var
-f=iR(fk(a[2],b)),e=[0,[0,gH(fk(a[1],b)),f]];else
+f=iW(fk(a[2],b)),e=[0,[0,gH(fk(a[1],b)),f]];else
 var
 e=c;return e}function
-eq(a){return 0===a[0]?a[2]:a[1]}function
+er(a){return 0===a[0]?a[2]:a[1]}function
 aS(f,d,c,b,a){if(b){if(a){var
 g=aS(f,d,c,b[2],a[2]);return[0,ar(c,b[1],a[1]),g]}return e(f,b)}return e(d,a)}function
 c3(b,a){return dF(b,a)}function
-aP(a,c,b){if(D(d,a)){var
+aQ(a,c,b){if(D(d,a)){var
 e=b[1],f=Q(c3(Q(C(a,b[2])),c));return[0,c3(C(a,e),c),f]}var
 g=b[2],h=Q(c3(Q(C(a,b[1])),c));return[0,c3(C(a,g),c),h]}function
 ax(a){var
 c=Q(dF(Q(a[2]),b));return[0,dF(a[1],b),c]}function
-er(c,b,a){var
-e=mk(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=K(f,d)?a[2]:a[1],i=gK(f,h),j=K(g,d)?a[1]:a[2];return[0,cD(g,j),i]}function
+es(c,b,a){var
+e=mo(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=K(f,d)?a[2]:a[1],i=gK(f,h),j=K(g,d)?a[1]:a[2];return[0,cD(g,j),i]}function
 bJ(a){return bq(a[2],Q(a[1]))}var
 u=[0,d,d];function
 cd(a){return[0,a[1],a[1]]}function
@@ -1243,11 +1243,11 @@ b=c[1];return fm(b)?m(C(b,b)):[0,[8,a]]}return[0,[8,a]]}function
 r(a,c){if(!be(d,a)&&!be(b,c)){if(!be(d,c)&&!be(b,a))return aX(a,c)?X(a):[0,[6,a,c]];return c}return a}function
 an(c,a){return be(b,a)?c:[0,[7,c,a]]}function
 aN(a){return be(b,a)?a:[0,[9,a]]}function
-ml(d,c,b,a){return[0,[10,d,c,b,a]]}function
-es(b,a){if(a){var
+mp(d,c,b,a){return[0,[10,d,c,b,a]]}function
+et(b,a){if(a){var
 c=a[3];if(c){var
 d=a[1];return n(d,c[1])?[0,[0,d],[1,b,a[2],c[2]],c[3]]:[0,0,[0,b],a]}return[0,0,[0,b],a]}return[0,0,[0,b],a]}function
-iS(g,f,e){var
+iX(g,f,e){var
 c=f,d=e;for(;;){if(d){if(typeof
 c!=="number"&&2===c[0]){var
 c=c[1],d=d[3];continue}var
@@ -1257,34 +1257,34 @@ b!=="number")switch(b[0]){case
 b=b[1],a=a[2];continue;case
 1:var
 b=b[1],a=a[3];continue}return a[1]}}return g}}function
-iT(a,b){if(0===a[0])return[0,a[1],b];var
-c=iT(a[3],b),d=iT(a[2],c);return[0,a[1],d]}function
-iU(a){if(a){var
-b=iU(a[3]);return iT(a[2],b)}return a}function
-mm(a){if(a){var
+iY(a,b){if(0===a[0])return[0,a[1],b];var
+c=iY(a[3],b),d=iY(a[2],c);return[0,a[1],d]}function
+iZ(a){if(a){var
+b=iZ(a[3]);return iY(a[2],b)}return a}function
+mq(a){if(a){var
 c=a[3],b=a[2],d=a[1];if(0===b[0])return[0,[0,b[1],c]];var
 e=b[3],f=[0,aR(d),e,c],g=b[2],h=[0,aR(d),g,f];return[0,[0,b[1],h]]}return a}function
-iV(c,b,a){if(0===a[0])return[0,c];var
+i0(c,b,a){if(0===a[0])return[0,c];var
 d=a[3],e=a[2],f=a[1];if(typeof
 b!=="number")switch(b[0]){case
-0:return[1,f,iV(c,b[1],e),d];case
-1:return[1,f,e,iV(c,b[1],d)]}return[1,c,e,d]}function
-mn(c,b,a){if(a){var
+0:return[1,f,i0(c,b[1],e),d];case
+1:return[1,f,e,i0(c,b[1],d)]}return[1,c,e,d]}function
+mr(c,b,a){if(a){var
 d=a[3],e=a[2],f=a[1];if(typeof
-b!=="number"&&2===b[0])return[0,f,e,mn(c,b[1],d)];var
-g=[0,f,iV(c,b,e),d]}else
+b!=="number"&&2===b[0])return[0,f,e,mr(c,b[1],d)];var
+g=[0,f,i0(c,b,e),d]}else
 var
 g=a;return g}function
 c4(g,f,e){var
 b=e,a=0;for(;;){if(b){var
-c=b[1],d=es(h(f,ce(function(b){return function(a){return iS(g,a,b)}}(a),c)),a),b=b[2],a=d;continue}return iU(a)}}function
+c=b[1],d=et(h(f,ce(function(b){return function(a){return iX(g,a,b)}}(a),c)),a),b=b[2],a=d;continue}return iZ(a)}}function
 cf(e,g,m,l){var
 b=m,c=l,a=0;for(;;){if(c){var
 d=c[2],f=c[1];if(b){if(b[1]){var
-i=es(h(g,ce(function(b){return function(a){return iS(e,a,b)}}(a),f)),a),b=bI(b),c=d,a=i;continue}var
-j=es(e,a),b=b[2],c=d,a=j;continue}var
-k=es(h(g,ce(function(b){return function(a){return iS(e,a,b)}}(a),f)),a),b=bI(b),c=d,a=k;continue}return iU(a)}}function
-mo(a){switch(a[0]){case
+i=et(h(g,ce(function(b){return function(a){return iX(e,a,b)}}(a),f)),a),b=bI(b),c=d,a=i;continue}var
+j=et(e,a),b=b[2],c=d,a=j;continue}var
+k=et(h(g,ce(function(b){return function(a){return iX(e,a,b)}}(a),f)),a),b=bI(b),c=d,a=k;continue}return iZ(a)}}function
+ms(a){switch(a[0]){case
 10:return[0,a[2],[0,a[3],[0,a[4],0]]];case
 5:case
 8:case
@@ -1292,15 +1292,15 @@ mo(a){switch(a[0]){case
 0:case
 1:case
 2:return 0;default:return[0,a[1],[0,a[2],0]]}}var
-tM=1;function
-mp(a,b){return mn(tM,a,b)}function
-mq(e,c){if(c){var
+tP=1;function
+mt(a,b){return mr(tP,a,b)}function
+mu(e,c){if(c){var
 f=c[2],g=c[1],b=g,a=e;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}var
 d=[0,b]}else
 var
 d=[1,a];if(0===d[0])return[0,e,[0,d[1],f]];var
-h=d[1];return h?[0,g,mq(h,f)]:c}}return[0,e,0]}function
+h=d[1];return h?[0,g,mu(h,f)]:c}}return[0,e,0]}function
 gM(c,b){if(b){var
 d=b[2];if(c){var
 a=c[2],e=c[1];if(e)return[0,0,gM([0,e[1],a],d)];if(a)var
@@ -1310,25 +1310,25 @@ f=a;return[0,1,gM(f,d)]}var
 g=[0,0,gM(0,d)]}else
 var
 g=b;return g}function
-mr(b,a){var
-c=0;return ao(es,0,gM(bz(function(b,a){return mq(a,b)},b,c),a))}function
+mv(b,a){var
+c=0;return ap(et,0,gM(bz(function(b,a){return mu(a,b)},b,c),a))}function
 cG(k,h){var
-l=mr(k,h),b=eo(h,0),c=l,a=0;for(;;){if(b){var
-d=mm(c);if(d){var
-e=d[1],f=e[2],g=e[1],i=[0,g,a],j=g?ao(mp,f,mo(b[1])):f,b=b[2],c=j,a=i;continue}return a}return a}}function
+l=mv(k,h),b=ep(h,0),c=l,a=0;for(;;){if(b){var
+d=mq(c);if(d){var
+e=d[1],f=e[2],g=e[1],i=[0,g,a],j=g?ap(mt,f,ms(b[1])):f,b=b[2],c=j,a=i;continue}return a}return a}}function
 c5(a){function
 b(a){return[0,a]}return c4(m(d),b,a)}function
 O(a){switch(a[0]){case
 0:return 0;case
-1:return tN;case
-2:return tO;case
-3:return tP;case
-4:return tQ;case
-5:return tR;case
-6:return tS;case
-7:return tT;case
-8:return tU;case
-9:return tV;default:return tW}}function
+1:return tQ;case
+2:return tR;case
+3:return tS;case
+4:return tT;case
+5:return tU;case
+6:return tV;case
+7:return tW;case
+8:return tX;case
+9:return tY;default:return tZ}}function
 a6(J,I,H){var
 e=J,g=I,f=H;for(;;){if(e){var
 j=e[1];if(j){var
@@ -1337,7 +1337,7 @@ a=f[1],c=g[1],h=y(aR,e);switch(c[0]){case
 K=O(a);return av(O(c),K);case
 1:if(1===a[0])return av(c[1],a[1]);var
 L=O(a);return av(O(c),L);case
-2:if(2===a[0])return iM(c[1],a[1]);var
+2:if(2===a[0])return iR(c[1],a[1]);var
 M=O(a);return av(O(c),M);case
 3:if(3===a[0]){var
 k=a6(h,c[2],a[2]);if(k)return k;var
@@ -1378,7 +1378,7 @@ b=f[1],d=g[1],i=y(aR,e);switch(d[0]){case
 X=O(b);return av(O(d),X);case
 1:if(1===b[0])return av(d[1],b[1]);var
 Y=O(b);return av(O(d),Y);case
-2:if(2===b[0])return iM(d[1],b[1]);var
+2:if(2===b[0])return iR(d[1],b[1]);var
 Z=O(b);return av(O(d),Z);case
 3:if(3===b[0]){var
 v=a6(i,d[2],b[2]);if(v)return v;var
@@ -1414,15 +1414,15 @@ F=a6(i,A,b[4]);if(F)return F;var
 G=a6(i,B,b[3]);if(G)return G;var
 e=i,g=C,f=b[2];continue}var
 ag=O(b);return av(O(d),ag)}}}function
-ms(b,a){var
-c=a6(tX,b,a);return c?c:a6(0,b,a)}function
-mt(c,b){var
-a=b;for(;;){if(a)switch(ms(c,a[3])){case
+mw(b,a){var
+c=a6(t0,b,a);return c?c:a6(0,b,a)}function
+mx(c,b){var
+a=b;for(;;){if(a)switch(mw(c,a[3])){case
 0:return[0,a[4]];case
 1:var
 a=a[2];continue;default:var
 a=a[5];continue}return a}}function
-tY(b,d,c,a){if(b){var
+t1(b,d,c,a){if(b){var
 e=b[5],s=b[4],t=b[3],l=b[2];if(b[1]){if(l){if(l[1])return[0,1,[0,0,l[2],l[3],l[4],l[5]],t,s,[0,0,e,d,c,a]];if(e){if(e[1])return[0,1,[0,0,l,t,s,e[2]],e[3],e[4],[0,0,e[5],d,c,a]];if(a){if(a[1]){var
 f=a[5],u=a[4],v=a[3],m=a[2];return m?m[1]?[0,1,[0,0,b,d,c,m[2]],m[3],m[4],[0,0,m[5],v,u,f]]:f?f[1]?[0,1,[0,0,b,d,c,m],v,u,[0,0,f[2],f[3],f[4],f[5]]]:[0,0,b,d,c,a]:[0,0,b,d,c,a]:f?f[1]?[0,1,[0,0,b,d,c,m],v,u,[0,0,f[2],f[3],f[4],f[5]]]:[0,0,b,d,c,a]:[0,0,b,d,c,a]}return[0,0,b,d,c,a]}return[0,0,b,d,c,a]}if(a){if(a[1]){var
 g=a[5],w=a[4],x=a[3],n=a[2];return n?n[1]?[0,1,[0,0,b,d,c,n[2]],n[3],n[4],[0,0,n[5],x,w,g]]:g?g[1]?[0,1,[0,0,b,d,c,n],x,w,[0,0,g[2],g[3],g[4],g[5]]]:[0,0,b,d,c,a]:[0,0,b,d,c,a]:g?g[1]?[0,1,[0,0,b,d,c,n],x,w,[0,0,g[2],g[3],g[4],g[5]]]:[0,0,b,d,c,a]:[0,0,b,d,c,a]}return[0,0,b,d,c,a]}return[0,0,b,d,c,a]}if(e){if(e[1])return[0,1,[0,0,l,t,s,e[2]],e[3],e[4],[0,0,e[5],d,c,a]];if(a){if(a[1]){var
@@ -1430,22 +1430,22 @@ h=a[5],y=a[4],z=a[3],o=a[2];return o?o[1]?[0,1,[0,0,b,d,c,o[2]],o[3],o[4],[0,0,o
 i=a[5],A=a[4],B=a[3],p=a[2];return p?p[1]?[0,1,[0,0,b,d,c,p[2]],p[3],p[4],[0,0,p[5],B,A,i]]:i?i[1]?[0,1,[0,0,b,d,c,p],B,A,[0,0,i[2],i[3],i[4],i[5]]]:[0,0,b,d,c,a]:[0,0,b,d,c,a]:i?i[1]?[0,1,[0,0,b,d,c,p],B,A,[0,0,i[2],i[3],i[4],i[5]]]:[0,0,b,d,c,a]:[0,0,b,d,c,a]}return[0,0,b,d,c,a]}return[0,0,b,d,c,a]}if(a){if(a[1]){var
 j=a[5],C=a[4],D=a[3],q=a[2];return q?q[1]?[0,1,[0,0,b,d,c,q[2]],q[3],q[4],[0,0,q[5],D,C,j]]:j?j[1]?[0,1,[0,0,b,d,c,q],D,C,[0,0,j[2],j[3],j[4],j[5]]]:[0,0,b,d,c,a]:[0,0,b,d,c,a]:j?j[1]?[0,1,[0,0,b,d,c,q],D,C,[0,0,j[2],j[3],j[4],j[5]]]:[0,0,b,d,c,a]:[0,0,b,d,c,a]}return[0,0,b,d,c,a]}return[0,0,b,d,c,a]}if(a){if(a[1]){var
 k=a[5],E=a[4],F=a[3],r=a[2];return r?r[1]?[0,1,[0,0,b,d,c,r[2]],r[3],r[4],[0,0,r[5],F,E,k]]:k?k[1]?[0,1,[0,0,b,d,c,r],F,E,[0,0,k[2],k[3],k[4],k[5]]]:[0,0,b,d,c,a]:[0,0,b,d,c,a]:k?k[1]?[0,1,[0,0,b,d,c,r],F,E,[0,0,k[2],k[3],k[4],k[5]]]:[0,0,b,d,c,a]:[0,0,b,d,c,a]}return[0,0,b,d,c,a]}return[0,0,b,d,c,a]}function
-iW(b,c,a){if(a){var
-e=a[5],f=a[4],d=a[3],g=a[2],h=a[1]?function(d,c,b,a){return[0,1,d,c,b,a]}:tY;switch(ms(b,d)){case
+i1(b,c,a){if(a){var
+e=a[5],f=a[4],d=a[3],g=a[2],h=a[1]?function(d,c,b,a){return[0,1,d,c,b,a]}:t1;switch(mw(b,d)){case
 0:return a;case
-1:return h(iW(b,c,g),d,f,e);default:return h(g,d,f,iW(b,c,e))}}return[0,1,0,b,c,0]}function
-mu(d,c,b){var
-a=iW(d,c,b),e=a?[0,0,a[2],a[3],a[4],a[5]]:a;return e}function
+1:return h(i1(b,c,g),d,f,e);default:return h(g,d,f,i1(b,c,e))}}return[0,1,0,b,c,0]}function
+my(d,c,b){var
+a=i1(d,c,b),e=a?[0,0,a[2],a[3],a[4],a[5]]:a;return e}function
 cH(a){var
 b=bz(function(a,b){var
-c=mu(b,a[1],a[2]);return[0,[0,a[1]],c]},a,tZ)[2];return function(c){var
-a=mt(c,b),d=a?a[1]:a;return d}}function
-iX(b,a){if(0===a[0])return 0;var
-c=a[3];return L(b,a[1])?0:D(b,c[1])?[1,iX(b,c)]:[0,iX(b,a[2])]}function
-mv(c,a){if(a){var
-b=a[3],d=b?D(c,b[2][1]):b;return d?[2,mv(c,b)]:iX(c,a[2])}return a}function
+c=my(b,a[1],a[2]);return[0,[0,a[1]],c]},a,t2)[2];return function(c){var
+a=mx(c,b),d=a?a[1]:a;return d}}function
+i2(b,a){if(0===a[0])return 0;var
+c=a[3];return L(b,a[1])?0:D(b,c[1])?[1,i2(b,c)]:[0,i2(b,a[2])]}function
+mz(c,a){if(a){var
+b=a[3],d=b?D(c,b[2][1]):b;return d?[2,mz(c,b)]:i2(c,a[2])}return a}function
 dJ(k,d){var
-n=mt(k,d[1]);if(n)return[0,n[1],d];var
+n=mx(k,d[1]);if(n)return[0,n[1],d];var
 a=k[1],e=0;switch(a[0]){case
 0:var
 u=a[1],f=function(a){return[0,u]},c=d;break;case
@@ -1474,12 +1474,12 @@ o=dJ(g,d),D=o[1],p=dJ(i,o[2]),E=p[1],G=function(a){var
 b=h(a,E);return j(h(a,D),b)},f=G,c=p[2];break;case
 2:var
 q=dJ(l,d),J=q[1],K=function(a){return m(h(a,J))},f=K,c=q[2];break}var
-v=c[4],w=[0,f(function(a){return mv(a,c[2])}),v],x=F(c[3],b),y=es(c[3],c[2]),z=[0,mu(k,c[3],c[1]),y,x,w];return[0,c[3],z]}function
+v=c[4],w=[0,f(function(a){return mz(a,c[2])}),v],x=F(c[3],b),y=et(c[3],c[2]),z=[0,my(k,c[3],c[1]),y,x,w];return[0,c[3],z]}function
 c6(a){var
-b=0,c=[0,0,0,d,0];return eo(bz(function(b,a){return dJ(a,b)[2]},a,c)[4],b)}function
-gN(a){return ao(function(b,a){return F(bJ(b),a)},d,a)}function
+b=0,c=[0,0,0,d,0];return ep(bz(function(b,a){return dJ(a,b)[2]},a,c)[4],b)}function
+gN(a){return ap(function(b,a){return F(bJ(b),a)},d,a)}function
 cI(a,c,b){var
-d=gN(b),e=iJ(c[2],F(a[2],d));return[0,a,[0,bq(c[1],aO(a[1],d)),e],b]}function
+d=gN(b),e=iO(c[2],F(a[2],d));return[0,a,[0,bq(c[1],aO(a[1],d)),e],b]}function
 aa(a){return[0,a,a,0]}function
 cg(b,a){var
 c=a[3],d=b[3];function
@@ -1497,7 +1497,7 @@ i(b){return ax(t(a,e,b))}var
 j=aS(function(b){return ax(t(a,d,b))},i,h,g,f),k=t(a,c[2],b[2]);return cI(t(a,c[1],b[1]),k,j)}function
 fo(b,a){var
 c=a[3],d=A(a[2],a[1]),f=e(function(a){return t(b,d,a)},c),g=R(b,a[2]);return cI(R(b,a[1]),g,f)}function
-iY(a,b){var
+i3(a,b){var
 c=cc(a,b[1]);if(c){var
 g=c[1],d=cc(a,b[2]);if(d){var
 h=d[1],f=bX(a,A(h,g));if(f)var
@@ -1510,7 +1510,7 @@ j=d;var
 k=j}else
 var
 k=c;return k}function
-et(a,c,b){var
+eu(a,c,b){var
 d=bX(a,b[1]);if(d){var
 f=bX(a,b[2]);if(f)var
 h=f[1],g=t(a,c[1],d[1]),k=b[3],l=c[3],m=function(c,b){return E(c,t(a,g,b))},n=function(b){return $(t(a,g,b))},o=aS(function(a){return a},n,m,l,k),p=e(function(b){return t(a,h,b)},o),i=[0,cI(g,t(a,c[2],h),p)];else
@@ -1522,22 +1522,22 @@ j=d;return j}function
 c7(b,a){return a?h(b,a[1]):a}function
 gO(a){var
 b=e(ax,a[3]),c=ax(A(a[2],a[1]));return cI(a[1],c,b)}function
-mw(a,k,j,r,c){var
-l=gO(k),m=gO(j),g=gO(c[1]),h=gO(c[2]),s=aT(a,l,h),u=bA(aT(a,m,g),s),i=et(a,aa(J(a,b)),u);if(i)var
+mA(a,k,j,r,c){var
+l=gO(k),m=gO(j),g=gO(c[1]),h=gO(c[2]),s=aT(a,l,h),u=bA(aT(a,m,g),s),i=eu(a,aa(J(a,b)),u);if(i)var
 f=i[1],n=aT(a,bA(l,g),f),o=aT(a,bA(m,h),f),d=function(c,b){return aT(a,c,aa(b))},v=j[3],w=k[3],x=function(b,a){var
 c=d(o,a);return cg(d(n,b),c)},y=function(a){return d(o,a)},z=aS(function(a){return d(n,a)},y,x,w,v),A=r[3],B=function(b,a){return bA(b,d(f,ax(a)))[2]},C=function(a){return fn(d(f,ax(a)))[2]},p=aS(function(a){return a[2]},C,B,z,A),D=g[2],E=e(function(b){return t(a,D,b)},p),F=cI(c[2][1],c[2][2],E),G=$(h[2]),H=e(function(b){return t(a,G,b)},p),q=[0,[0,cI(c[1][1],c[1][2],H),F]];else
 var
 q=i;return q}function
-mx(a,e,d,k){var
-p=fo(a,d),f=cg(fo(a,e),p),g=bA(cg(f,aa(J(a,b))),k),l=aT(a,aa(J(a,c(2,b))),f),q=fo(a,g),h=iY(a,bA(aT(a,aa(J(a,c(2,c(2,b)))),f),q));if(h){var
-m=h[1],r=aT(a,m,d),i=et(a,cg(aT(a,g,e),r),l);if(i)var
-s=aT(a,m,e),j=et(a,bA(aT(a,g,d),s),l),t=j?[0,[0,i[1],j[1]]]:j,n=t;else
+mB(a,e,d,k){var
+p=fo(a,d),f=cg(fo(a,e),p),g=bA(cg(f,aa(J(a,b))),k),l=aT(a,aa(J(a,c(2,b))),f),q=fo(a,g),h=i3(a,bA(aT(a,aa(J(a,c(2,c(2,b)))),f),q));if(h){var
+m=h[1],r=aT(a,m,d),i=eu(a,cg(aT(a,g,e),r),l);if(i)var
+s=aT(a,m,e),j=eu(a,bA(aT(a,g,d),s),l),t=j?[0,[0,i[1],j[1]]]:j,n=t;else
 var
 n=i;var
 o=n}else
 var
 o=h;var
-u=c7(function(b){return mw(a,e,d,k,b)},o);return c7(function(b){return mw(a,e,d,k,b)},u)}function
+u=c7(function(b){return mA(a,e,d,k,b)},o);return c7(function(b){return mA(a,e,d,k,b)},u)}function
 cJ(d,b,a){if(b){if(a)return ar(d,b[1],a[1]);var
 c=a}else
 var
@@ -1556,15 +1556,15 @@ o=a[1];return c7(function(a){return[0,fn(a)]},o);case
 6:var
 p=a[2],q=a[1];return cJ(function(c,a){return[0,aT(b,c,a)]},q,p);case
 7:var
-r=a[2],t=a[1];return cJ(function(a,c){return et(b,a,c)},t,r);case
+r=a[2],t=a[1];return cJ(function(a,c){return eu(b,a,c)},t,r);case
 8:var
 u=a[1];return c7(function(a){return[0,fo(b,a)]},u);case
 9:var
-v=a[1];return c7(function(a){return iY(b,a)},v);default:var
+v=a[1];return c7(function(a){return i3(b,a)},v);default:var
 c=a[2];if(c){var
 d=a[3];if(d){var
 e=a[4];if(e){var
-w=mx(b,c[1],d[1],e[1]),x=a[1]?aK:aC;return y(x,w)}var
+w=mB(b,c[1],d[1],e[1]),x=a[1]?aG:aA;return y(x,w)}var
 g=e}else
 var
 g=d;var
@@ -1609,17 +1609,17 @@ o=a[2],p=a[1],g=o,f=p,e=function(b,a){return[0,dH(b,a)]};break;case
 4:var
 q=a[2],r=a[1],g=q,f=r,e=function(b,a){return[0,a9(b,a)]};break;case
 5:var
-s=a[2],t=a[1],g=s,f=t,e=function(c,a){return ep(a,[0,d,b])?0:[0,gJ(c,a)]};break;default:var
+s=a[2],t=a[1],g=s,f=t,e=function(c,a){return eq(a,[0,d,b])?0:[0,gJ(c,a)]};break;default:var
 k=fp(c,a[1]);return k?h(c,k[1]):k}var
 i=fp(c,f);if(i){var
 j=fp(c,g);if(j)return e(i[1],j[1]);var
 l=j}else
 var
 l=i;return l}function
-t0(a){return 0}function
-cK(a){return fp(t0,a)}function
+t3(a){return 0}function
+cK(a){return fp(t3,a)}function
 bY(a,c){switch(c[0]){case
-0:return[0,mj(a,c[1],c[2])];case
+0:return[0,mn(a,c[1],c[2])];case
 1:return 0;case
 2:var
 g=bY(a,c[1]);if(g)var
@@ -1650,11 +1650,11 @@ e=p[1];if(K(d,e[1]))return cc(a,e);var
 f=cK(z),J=f?I(bl([0,d,b],f[1])):f;if(J)return 0;if(K(d,e[2])){var
 B=cc(a,[0,e[2],e[2]]);return y(function(a){return[0,d,a[2]]},B)}var
 q=L(e[2],d),C=q?[0,u]:q;return C}return p}}function
-cL(b,a){return mj(b,a[1],a[2])}function
-my(a,f,e,d){var
+cL(b,a){return mn(b,a[1],a[2])}function
+mC(a,f,e,d){var
 h=[0,b,c(2,b)],i=[0,cL(a,a9(dH(d,e),h)),0],j=g(ac(u,f),i),k=cL(a,d)[2],l=[0,cL(a,e)[1],k],m=[0,b,c(2,b)];return[0,cL(a,a9(dG(e,d),m)),l,j]}function
-eu(c,e,a){function
-b(a){return eu(c,e,a)}if(dK(a))switch(a[0]){case
+ev(c,e,a){function
+b(a){return ev(c,e,a)}if(dK(a))switch(a[0]){case
 0:return 0;case
 1:return gb(e,a[1],a[2],a[3]);case
 2:var
@@ -1666,208 +1666,208 @@ f=a[2],d=a[1];if(ch(d,f)){var
 k=b(d);return c7(function(a){return[0,fo(c,a)]},k)}var
 l=b(f),m=b(d);return cJ(function(b,a){return[0,aT(c,b,a)]},m,l);case
 5:var
-n=b(a[2]),o=b(a[1]);return cJ(function(a,b){return et(c,a,b)},o,n);default:var
-p=b(a[1]);return c7(function(a){return iY(c,a)},p)}return y(aa,bY(c,a))}function
-aH(b,a){if(dK(a)){var
-c=eu(b,function(d,c,a){var
-e=aD(d,dL),f=e?bl(c,a):e,g=f?[0,my(b,d,c,a)]:f;return g},a);return y(function(a){return a[2]},c)}return bY(b,a)}function
-iZ(a){var
-e=bq(Q(a),d);return en(F(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e))}function
-mz(a){return iO(F(iZ(a),a))}function
-mA(b,a){var
-c=mz(b),d=Q(c3(Q(a[2]),c)),e=mz(b);return[0,c3(a[1],e),d]}function
+n=b(a[2]),o=b(a[1]);return cJ(function(a,b){return eu(c,a,b)},o,n);default:var
+p=b(a[1]);return c7(function(a){return i3(c,a)},p)}return y(aa,bY(c,a))}function
+aI(b,a){if(dK(a)){var
+c=ev(b,function(d,c,a){var
+e=aD(d,dL),f=e?bl(c,a):e,g=f?[0,mC(b,d,c,a)]:f;return g},a);return y(function(a){return a[2]},c)}return bY(b,a)}function
+i4(a){var
+e=bq(Q(a),d);return eo(F(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e))}function
+mD(a){return iT(F(i4(a),a))}function
+mE(b,a){var
+c=mD(b),d=Q(c3(Q(a[2]),c)),e=mD(b);return[0,c3(a[1],e),d]}function
 c8(c,a,b){var
-d=aH(F(c,iZ(a)),b);return y(function(b){return mA(a,b)},d)}function
-ap(d,a){var
+d=aI(F(c,i4(a)),b);return y(function(b){return mE(a,b)},d)}function
+aq(d,a){var
 b=c8(d,a[2],a[1][1]);if(b)var
 c=c8(d,a[2],a[1][2]),f=c?[0,[0,b[1][1],c[1][2]]]:c,e=f;else
 var
 e=b;return e}function
-mB(b,a){var
+mF(b,a){var
 c=Q(c3(Q(a[2]),b));return[0,c3(a[1],b),c]}function
 gP(b,a){var
 c=gK(b[2],a);return[0,cD(b[1],a),c]}function
-mC(h,g,d,b){var
-e=b[2],f=l6(d),i=c(2,f),j=C(l2(f),i),a=gP(t(h,b[1],g),j),k=l0(d)?E(e,a):A(e,a);return[0,a,k]}function
-mD(a,d,c){if(c){var
-e=c[1];return mC(a,d,e,mD(a,d,e))}var
+mG(h,g,d,b){var
+e=b[2],f=l_(d),i=c(2,f),j=C(l6(f),i),a=gP(t(h,b[1],g),j),k=l4(d)?E(e,a):A(e,a);return[0,a,k]}function
+mH(a,d,c){if(c){var
+e=c[1];return mG(a,d,e,mH(a,d,e))}var
 f=J(a,b);return[0,J(a,b),f]}function
-mE(e,g){var
+mI(e,g){var
 o=cE(e),p=C(c(2,c(2,b)),o),j=D(g[2],p);if(j){var
-n=fj(e),i=t1[1],d=n,f=0,a=i;for(;;){if(d){var
+n=fj(e),i=t4[1],d=n,f=0,a=i;for(;;){if(d){var
 h=d[1];if(a){var
 d=h,a=a[1];continue}var
 d=h,f=[0,f],a=i;continue}var
-k=N(lZ(t4,N(t2,f)),t3),l=mD(e,g,k),q=mC(e,g,k,l)[2][2],m=[0,[0,l[2][1],q]];break}}else
+k=N(l3(t7,N(t5,f)),t6),l=mH(e,g,k),q=mG(e,g,k,l)[2][2],m=[0,[0,l[2][1],q]];break}}else
 var
 m=j;return m}function
-mF(i){function
+mJ(i){function
 a(h){var
 m=cD(cE(i),h),g=fj(i),f=m,e=d,a=b;for(;;){if(g){var
 j=F(a,c(2,b)),k=F(e,cD(f,a)),l=Q(cD(f,C(h,h))),g=g[1],f=l,e=k,a=j;continue}return e}}var
 e=a(q(c(2,q(c(2,q(c(2,q(c(2,c(2,q(c(2,q(c(2,b)))))))))))))),f=C(c(2,c(2,b)),e),g=a(q(c(2,c(2,b))));return aO(C(c(2,c(2,c(2,c(2,b)))),g),f)}function
-mG(e,a){var
+mK(e,a){var
 f=D(d,a);if(f){var
-g=c(2,c(2,b));return mE(e,gP(R(e,[0,a,a]),g))}return f}function
-mH(a){var
-m=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),g=aO(mF(a),m),n=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),h=F(mF(a),n),e=mG(a,g);if(e){var
-f=mG(a,h);if(f)var
+g=c(2,c(2,b));return mI(e,gP(R(e,[0,a,a]),g))}return f}function
+mL(a){var
+m=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),g=aO(mJ(a),m),n=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),h=F(mJ(a),n),e=mK(a,g);if(e){var
+f=mK(a,h);if(f)var
 i=K(d,e[1][1]),j=i?K(f[1][2],d):i,k=j?[0,[0,g,h]]:j;else
 var
 k=f;var
 l=k}else
 var
 l=e;return l}function
-mI(a,d){var
+mM(a,d){var
 c=R(a,d),e=J(a,b);return E(A(c,c),e)}function
 c9(f,j){var
-e=aH(F(f,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),j);if(e){var
-k=e[1],a=F(f,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),d=mH(a);if(d)var
-h=c(2,c(2,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))))),i=mE(a,R(a,gP(t(a,k,d[1]),h))),g=y(function(b){return mI(a,mI(a,b))},i);else
+e=aI(F(f,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),j);if(e){var
+k=e[1],a=F(f,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),d=mL(a);if(d)var
+h=c(2,c(2,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))))),i=mI(a,R(a,gP(t(a,k,d[1]),h))),g=y(function(b){return mM(a,mM(a,b))},i);else
 var
 g=d;var
-l=c(2,c(2,c(2,c(2,c(2,c(2,b))))));return y(function(a){return mB(l,a)},g)}return e}function
-mJ(a,d){var
-e=mH(F(a,c(2,c(2,c(2,c(2,c(2,c(2,b))))))));return y(function(e){var
-f=c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))));return gP(t(a,d,mB(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e)),f)},e)}function
+l=c(2,c(2,c(2,c(2,c(2,c(2,b))))));return y(function(a){return mF(l,a)},g)}return e}function
+mN(a,d){var
+e=mL(F(a,c(2,c(2,c(2,c(2,c(2,c(2,b))))))));return y(function(e){var
+f=c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))));return gP(t(a,d,mF(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e)),f)},e)}function
 gQ(d,a){return c9(d,[3,a,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b]])}function
 i(i,e,c){var
 f=cK(c);if(f){var
 g=f[1];return e?I(bl(g,[0,d,b])):bl([0,d,b],g)}var
-a=aH(i,c);if(a){var
+a=aI(i,c);if(a){var
 h=a[1];return e?K(d,h[1]):D(d,h[1])}return a}function
-mK(c,b){var
-a=aH(c,b),d=a?1:a;return d}function
+mO(c,b){var
+a=aI(c,b),d=a?1:a;return d}function
 bC(c,a,b){var
-d=ch(a,b),e=d?mK(c,a):d;return e?e:i(c,0,[3,b,a])}function
-t5(c){var
-a=dI(c),g=en(gH(a[2])),b=[0,gH(a[1]),g],e=K(d,a[1]),f=e?ep(a9(b,b),c):e,h=f?[0,b]:f;return h}function
-mL(a){if(a){var
-e=a[2],c=a[1];if(ep(bW([0,d,b],c),[0,d,b])){var
-g=mL(e);return y(function(a){return[0,a[1],[0,c,a[2]]]},g)}var
+d=ch(a,b),e=d?mO(c,a):d;return e?e:i(c,0,[3,b,a])}function
+t8(c){var
+a=dI(c),g=eo(gH(a[2])),b=[0,gH(a[1]),g],e=K(d,a[1]),f=e?eq(a9(b,b),c):e,h=f?[0,b]:f;return h}function
+mP(a){if(a){var
+e=a[2],c=a[1];if(eq(bW([0,d,b],c),[0,d,b])){var
+g=mP(e);return y(function(a){return[0,a[1],[0,c,a[2]]]},g)}var
 f=[0,[0,c,e]]}else
 var
 f=a;return f}function
-mM(c,a){var
-e=V(c,a),f=[0,d,b];return ao(function(a,b){return dI(dG(a9(a[1],a[2]),b))},f,e)}function
-mN(c,j){if(c){var
-f=c[1],g=mL(j);if(g){var
+mQ(c,a){var
+e=V(c,a),f=[0,d,b];return ap(function(a,b){return dI(dG(a9(a[1],a[2]),b))},f,e)}function
+mR(c,j){if(c){var
+f=c[1],g=mP(j);if(g){var
 h=g[1],a=h[1],k=function(c){var
 f=bW([0,d,b],a),g=gJ(bW([0,d,b],c),f),h=bI(a),i=V(bI(c),h);return e(function(a){var
-b=a9(g,a[2]);return dI(dH(a[1],b))},i)},l=mN(f,e(k,h[2]));return y(function(c){var
-e=bW([0,d,b],a);return[0,dI(gJ(gI(mM(bI(a),c)),e)),c]},l)}var
+b=a9(g,a[2]);return dI(dH(a[1],b))},i)},l=mR(f,e(k,h[2]));return y(function(c){var
+e=bW([0,d,b],a);return[0,dI(gJ(gI(mQ(bI(a),c)),e)),c]},l)}var
 i=[0,[0,[0,b,b],ac([0,d,b],f)]]}else
 var
 i=c;return i}function
-mO(a){if(a){var
-b=fp(t5,a[1]);if(b)var
-c=mO(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+mS(a){if(a){var
+b=fp(t8,a[1]);if(b)var
+c=mS(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return t6}function
-mP(a){if(a){var
-b=mO(a[1]);if(b)var
-c=mP(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+d=b;return d}return t9}function
+mT(a){if(a){var
+b=mS(a[1]);if(b)var
+c=mT(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return t7}function
-mQ(i,m){var
-a=mP(m);if(a){var
-j=a[1],c=mN(i,j);if(c){var
-e=c[1],g=n(f(e),i),h=g?ak(function(a){return I(ep(a,[0,d,b]))},e):g;return h?l(function(a){return ep(mM(a,e),[0,d,b])},j):h}var
+d=b;return d}return t_}function
+mU(i,m){var
+a=mT(m);if(a){var
+j=a[1],c=mR(i,j);if(c){var
+e=c[1],g=n(f(e),i),h=g?ak(function(a){return I(eq(a,[0,d,b]))},e):g;return h?l(function(a){return eq(mQ(a,e),[0,d,b])},j):h}var
 k=c}else
 var
 k=a;return k}function
-t8(a){return a}function
-t9(a){return a}function
-t_(a,b){return aS(t9,t8,A,a,b)}function
 t$(a){return a}function
 ua(a){return a}function
-a_(a,b){return aS(ua,t$,t_,a,b)}function
-i0(a,f,c,d){if(c){var
-h=c[2],i=J(a,b),g=er(c[1],i,f);if(d){var
-j=i0(a,f,h,d[2]),k=d[1],l=function(c,b){return E(c,t(a,g,b))},m=function(b){return $(t(a,g,b))};return[0,aS(function(a){return a},m,l,k,c),j]}var
-n=i0(a,f,h,0);return[0,e(function(b){return $(t(a,g,b))},c),n]}return d}function
+ub(a,b){return aS(ua,t$,A,a,b)}function
+uc(a){return a}function
+ud(a){return a}function
+a_(a,b){return aS(ud,uc,ub,a,b)}function
+i5(a,f,c,d){if(c){var
+h=c[2],i=J(a,b),g=es(c[1],i,f);if(d){var
+j=i5(a,f,h,d[2]),k=d[1],l=function(c,b){return E(c,t(a,g,b))},m=function(b){return $(t(a,g,b))};return[0,aS(function(a){return a},m,l,k,c),j]}var
+n=i5(a,f,h,0);return[0,e(function(b){return $(t(a,g,b))},c),n]}return d}function
 gR(h,a){if(a){var
 b=a[1];if(b)var
-c=b[1],e=K(d,c[1]),i=e?[0,i0(h,c,b[2],a[2])]:e,f=i;else
+c=b[1],e=K(d,c[1]),i=e?[0,i5(h,c,b[2],a[2])]:e,f=i;else
 var
 f=b;var
 g=f}else
 var
 g=a;return g}function
-mR(g,f,e){var
+mV(g,f,e){var
 a=f,b=e;for(;;){if(b){if(a){var
 c=gR(g,b);if(c){var
 a=a[1],b=c[1];continue}var
 d=c}else
 var
 d=a;return d}return 1}}function
-mS(d,b,a){if(b)if(a)var
-e=a[1],f=mS(d,b[2],a[2]),g=cB(d,b[1])?cd(e):cF(e),c=[0,g,f];else
+mW(d,b,a){if(b)if(a)var
+e=a[1],f=mW(d,b[2],a[2]),g=cB(d,b[1])?cd(e):cF(e),c=[0,g,f];else
 var
 c=a;else
 var
 c=b;return c}function
-mT(a,b){if(a)if(b)var
-d=mT(a[2],b[2]),c=[0,mS(a[1],a,b[1]),d];else
+mX(a,b){if(a)if(b)var
+d=mX(a[2],b[2]),c=[0,mW(a[1],a,b[1]),d];else
 var
 c=b;else
 var
 c=a;return c}function
 a$(a){if(a){var
-b=a[1],c=a$(b),d=e(function(a){return[0,1,a]},c),f=a$(b);return g(e(function(a){return[0,0,a]},f),d)}return ub}function
-ev(c,a){var
-b=f(a);if(mR(c,b,a))return 1;var
-d=a$(aR(b));return l(function(d){return mR(c,b,mT([0,0,d],a))},d)}function
+b=a[1],c=a$(b),d=e(function(a){return[0,1,a]},c),f=a$(b);return g(e(function(a){return[0,0,a]},f),d)}return ue}function
+ew(c,a){var
+b=f(a);if(mV(c,b,a))return 1;var
+d=a$(aR(b));return l(function(d){return mV(c,b,mX([0,0,d],a))},d)}function
 ay(a){function
 b(b){var
 c=h(a,b[2]);return[0,e(a,b[1]),c]}return function(a){return e(b,a)}}function
 aE(h,e){var
 c=h,a=e[1],b=e[3];for(;;){if(c){if(b){var
 d=b[1],f=b[2],g=c[1]?A(a,d):E(a,d),c=c[2],a=g,b=f;continue}return a}return a}}function
-i1(c,b,a){var
+i6(c,b,a){var
 d=a$(c);return l(function(c){return h(a,h(ay(function(a){return aE(c,a)}),b))},d)}function
-i2(h,d,c){if(d)if(c)var
-i=c[2],e=c[1],j=d[2],f=d[1],a=function(c,a){return aP(c,F(h,b),a)},k=i2(h,j,i),l=function(c,b){var
+i7(h,d,c){if(d)if(c)var
+i=c[2],e=c[1],j=d[2],f=d[1],a=function(c,a){return aQ(c,F(h,b),a)},k=i7(h,j,i),l=function(c,b){var
 d=a(b,e);return A(a(f,c),d)},m=function(b){return a(b,e)},n=aS(function(b){return a(f,b)},m,l,i,j),o=a(f,e),g=[0,[0,A(a(f,e),o),n],k];else
 var
 g=c;else
 var
 g=d;return g}function
-ew(b,d,a,c){function
+ex(b,d,a,c){function
 e(c,d){var
-e=aP(d,b,a);return E(A(c,c),e)}function
-f(c){return $(aP(c,b,a))}return aS(function(a){return A(a,a)},f,e,d,c)}function
+e=aQ(d,b,a);return E(A(c,c),e)}function
+f(c){return $(aQ(c,b,a))}return aS(function(a){return A(a,a)},f,e,d,c)}function
 gS(d,i,h,g){var
 c=i,b=h,a=g;for(;;){if(c){if(b){var
-e=b[1],f=c[1],j=cF(e[2]),k=a_(a,i2(d,f,ew(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
-i3(b,a){return[0,[0,0,b],a]}function
+e=b[1],f=c[1],j=cF(e[2]),k=a_(a,i7(d,f,ex(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
+i8(b,a){return[0,[0,0,b],a]}function
 fq(i,b,c,h,g,a){function
 d(a){if(a){var
-j=ac([0,$(a[1][2]),0],b),c=gS(h,g,a[2],j),d=n(f(c),b);if(d)return ev(i,c);var
+j=ac([0,$(a[1][2]),0],b),c=gS(h,g,a[2],j),d=n(f(c),b);if(d)return ew(i,c);var
 e=d}else
 var
-e=a;return e}return i1(b,i3(c,a),d)}function
+e=a;return e}return i6(b,i8(c,a),d)}function
 gT(g,f,e){var
 a=f,b=e;for(;;){if(a){var
 d=a[1],h=d[1],c=gR(g,[0,[0,cd(d[2]),h],b]);if(c){var
 a=a[2],b=c[1];continue}return c}return[0,b]}}function
-i4(d,b,c,a){function
+i9(d,b,c,a){function
 e(a){if(a){var
 j=ac([0,a[1][2],0],b),c=gT(d,a[2],j);if(c){var
-e=c[1],g=n(f(e),b);if(g)return ev(d,e);var
+e=c[1],g=n(f(e),b);if(g)return ew(d,e);var
 h=g}else
 var
 h=c;var
 i=h}else
 var
-i=a;return i}return i1(b,i3(c,a),e)}function
-mU(h,g,a,f,d,c){var
+i=a;return i}return i6(b,i8(c,a),e)}function
+mY(h,g,a,f,d,c){var
 i=[0,u,u,0],b=e(function(a){return[0,a[1],i]},c),j=a?a[1]:[0,u,u,0];return fq(h,g,j,f,d,b)}function
-i5(b,a){var
+i_(b,a){var
 c=a$(b);return l(function(b){return K(d,aE(b,a)[1])},c)}function
 gU(c,b,a){var
-d=a[3],f=e(function(a){return aP(c,b,a)},d),g=a[2];return[0,aP(c,b,a[1]),g,f]}function
-mV(a,b){var
+d=a[3],f=e(function(a){return aQ(c,b,a)},d),g=a[2];return[0,aQ(c,b,a[1]),g,f]}function
+mZ(a,b){var
 c=b[3],d=a[3],e=aS(function(a){return a},$,E,d,c),f=a[2];return[0,E(a[1],b[1]),f,e]}function
 bZ(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
 ah(c,b,a){var
@@ -1882,46 +1882,46 @@ dM(a){return bm(a,aN(ab(a,a)))}function
 c_(a){var
 b=a[5];return b?b[1]:aN(a[2])}function
 gV(b,a){return b?a:bs(a)}function
-mW(e,a,i,d,h){var
+m0(e,a,i,d,h){var
 f=ab(a,e),b=ah(z,e,a7(f,a)),j=ab(b,b),g=z(X(d),j),c=gV(h,aN(g)),k=z(f,c),l=ah(B,a,bm(b,c));return[0,ah(B,b,a7(c,a)),g,l,k,[0,d],0,[0,i]]}function
-mX(a,e,d){var
+m1(a,e,d){var
 b=ab(a,a),c=aN(b),f=[0,e],g=y(function(b){return ah(z,a,a7(ab(b,a),b))},d);return[0,a,b,bm(a,c),c,0,g,f]}function
-mY(c,a){var
+m2(c,a){var
 d=ab(a,c);return[0,a,m(b),a,d,0,0,0]}function
 fr(a){return e(function(a){var
 b=a[2];return[0,bZ(a[1]),b]},a)}function
-mZ(a){return e(function(a){var
+m3(a){return e(function(a){var
 c=m(b);return[0,bZ(a[3]),c]},a)}function
-m0(b,a){var
+m4(b,a){var
 c=h(b,a[3]),d=h(b,a[2]);return[0,h(b,a[1]),d,c]}function
-m1(c,b,a){var
+m5(c,b,a){var
 d=ar(c,b[3],a[3]),e=ar(c,b[2],a[2]);return[0,ar(c,b[1],a[1]),e,d]}function
-ex(d,a){var
+ey(d,a){var
 b=cc(d,[0,a[2],a[2]]);if(b){var
 c=b[1];return[0,c[2],c[2]]}return[0,a[2],a[2]]}function
 gW(a,n,f,m,e,k,j){var
-o=m1(bA,k,j),b=m1(function(b,c){return aT(a,b,c)},e,o),c=b[3],g=b[2],h=b[1],i=cg(cg(cg(aa(J(a,d)),h),g),c),p=a$(n);return l(function(c){var
-b=m0(function(b){return R(a,aE(c,b))},e),h=b[3],j=b[2],k=b[1],l=t(a,m,ex(a,A(A(A(J(a,d),k),j),h))),g=E(aE(c,i),l),n=f?E(g,aE(c,f[1])):g;return K(d,n[1])},p)}function
+o=m5(bA,k,j),b=m5(function(b,c){return aT(a,b,c)},e,o),c=b[3],g=b[2],h=b[1],i=cg(cg(cg(aa(J(a,d)),h),g),c),p=a$(n);return l(function(c){var
+b=m4(function(b){return R(a,aE(c,b))},e),h=b[3],j=b[2],k=b[1],l=t(a,m,ey(a,A(A(A(J(a,d),k),j),h))),g=E(aE(c,i),l),n=f?E(g,aE(c,f[1])):g;return K(d,n[1])},p)}function
 ci(a){return dF(F(a[1],a[2]),b)}function
-ey(a){var
+ez(a){var
 b=ci(a);return aO(a[2],b)}function
 dO(c,b){if(b)var
-a=b[1],e=dO([0,c],b[2]),f=ey(a),h=[0,[0,ey(a),f],0],i=g(ac(u,c),h),j=ci(a),d=[0,[0,[0,ci(a),j],a,i],e];else
+a=b[1],e=dO([0,c],b[2]),f=ez(a),h=[0,[0,ez(a),f],0],i=g(ac(u,c),h),j=ci(a),d=[0,[0,[0,ci(a),j],a,i],e];else
 var
 d=b;return d}function
 c$(d,b){if(b){var
 c=b[2],a=b[1];if(d){var
 e=c$(d[1],c);return[0,[0,a,e[1]],[0,a,e[2]]]}var
-f=a[2],g=[0,[0,ci(a),f],c],h=ci(a);return[0,[0,[0,a[1],h],c],g]}return uc}function
-m2(d,c,a){if(c){if(a){var
-e=m2(d,c[2],a[2]);return A(aP(c[1],F(d,b),a[1]),e)}return u}return u}function
+f=a[2],g=[0,[0,ci(a),f],c],h=ci(a);return[0,[0,[0,a[1],h],c],g]}return uf}function
+m6(d,c,a){if(c){if(a){var
+e=m6(d,c[2],a[2]);return A(aQ(c[1],F(d,b),a[1]),e)}return u}return u}function
 dP(f,a){if(a)var
-g=a[1],c=g[2],d=g[1],h=a[2],b=function(a,b){return m2(f,a,b)},j=dP(f,h),k=e(function(a){var
+g=a[1],c=g[2],d=g[1],h=a[2],b=function(a,b){return m6(f,a,b)},j=dP(f,h),k=e(function(a){var
 e=b(d,a[2]);return A(b(a[1],c),e)},h),l=b(d,c),i=[0,[0,A(b(d,c),l),k],j];else
 var
 i=a;return i}function
 dQ(e,b,d,a){if(b)if(a)var
-f=b[1],g=dQ(e,b[2],d,a[2]),c=[0,[0,f,ew(e,a[1][1],d,f)],g];else
+f=b[1],g=dQ(e,b[2],d,a[2]),c=[0,[0,f,ex(e,a[1][1],d,f)],g];else
 var
 c=a;else
 var
@@ -1933,88 +1933,88 @@ j=e(function(a){return[0,E(u,b),0]},g),h=[0,[0,E($(t(f,c,cF(a[1][2]))),b),0],j]}
 var
 h=a;return h}function
 aY(d,c,a){var
-b=n(f(a),c);return b?ev(d,a):b}function
+b=n(f(a),c);return b?ew(d,a):b}function
 gY(d,b,a){if(b)var
 c=b[1],f=gY([0,d],b[2],a),h=g(ac(u,d),[0,a,0]),e=[0,[0,c,[0,aO(c[1],a[2]),F(c[2],a[2])],h],f];else
 var
 e=b;return e}function
-m3(d){if(d){var
+m7(d){if(d){var
 a=d[1][1];if(a){var
 b=a[2];if(b){var
 c=b[2];if(c){if(c[2])return 0;var
-g=c[1],h=b[1],i=a[1],j=m3(d[2]);return y(function(a){return[0,[0,[0,i,h],g],a]},j)}var
+g=c[1],h=b[1],i=a[1],j=m7(d[2]);return y(function(a){return[0,[0,[0,i,h],g],a]},j)}var
 e=c}else
 var
 e=b;var
 f=e}else
 var
-f=a;return f}return ud}function
-m4(d,c,b,a){return cF(bz(function(e,a){var
+f=a;return f}return ug}function
+m8(d,c,b,a){return cF(bz(function(e,a){var
 b=bJ(aE(c,a[2]));return A(e,t(d,a[1],[0,b,b]))},a,b))}function
-m5(b,c,a){return c?aw(b,a):am(b,a)}function
-m6(b,i,h,a){return ex(b,ao(function(k,j){var
+m9(b,c,a){return c?aw(b,a):am(b,a)}function
+m_(b,i,h,a){return ey(b,ap(function(k,j){var
 p=e(function(b){var
-a=aG(0,i);return e(function(a){return bJ(s(a,b[3],u))},a)},k);function
+a=aH(0,i);return e(function(a){return bJ(s(a,b[3],u))},a)},k);function
 a(n,m){var
-o=m5(h,n,p),g=e(function(a){return m5(h,m,a)},o);function
-a(a){return ao(bq,d,a)}var
+o=m9(h,n,p),g=e(function(a){return m9(h,m,a)},o);function
+a(a){return ap(bq,d,a)}var
 i=0;function
 j(a){return a}function
 k(a){return a}var
-c=a(ao(function(a,b){return aS(k,j,l_,a,b)},i,g)),l=[0,c,c],f=a(e(function(a){return ao(l_,d,a)},g));return ex(b,t(b,[0,f,f],l))}var
+c=a(ap(function(a,b){return aS(k,j,mc,a,b)},i,g)),l=[0,c,c],f=a(e(function(a){return ap(mc,d,a)},g));return ey(b,t(b,[0,f,f],l))}var
 c=a(1,1),f=a(1,0),g=a(0,1);return A(j,R(b,A(A(A(a(0,0),g),f),c)))},u,a))}function
-m7(d,a,g,f){var
-h=aG(0,d);return e(function(d){var
+m$(d,a,g,f){var
+h=aH(0,d);return e(function(d){var
 e=g?ae(a,d):aD(d,a);return e?b:cb(c(2,b),f)},h)}function
-m8(b,a){var
-c=V(b,a);return e(function(a){return aP(a[1],d,a[2])},c)}function
-m9(c,b,a){var
+na(b,a){var
+c=V(b,a);return e(function(a){return aQ(a[1],d,a[2])},c)}function
+nb(c,b,a){var
 d=[0,[0,a,0],0],f=V(c,b);return g(e(function(a){return g(a[1],[0,a[2],0])},f),d)}function
-m_(g,e){var
+nc(g,e){var
 a=g,b=e;for(;;){if(b){if(a){var
 c=n(f(b[1]),a);if(c){var
 a=a[1],b=b[2];continue}var
 d=c}else
 var
 d=a;return d}return a?0:1}}function
-m$(b,a){var
+nd(b,a){var
 c=V(b,a);return e(function(a){return a[1]?$(a[2]):a[2]},c)}function
-na(a,f,b,d,c){var
+ne(a,f,b,d,c){var
 h=gY(a,ac(u,dE(f,a)),c),i=g(e(aa,aw(a,b)),h);return g(gY(0,am(a,b),d),i)}function
-nb(a,e,c){var
+nf(a,e,c){var
 f=t(a,e,c);return K(d,E(J(a,b),f)[1])}function
-i6(a){return y(function(a){return y(fn,a)},a)}function
+i$(a){return y(function(a){return y(fn,a)},a)}function
 da(c,b,a){function
 d(a){return aT(c,b,a)}return y(function(a){return y(d,a)},a)}function
-i7(c,b,a){function
-d(a){return et(c,a,b)}return y(function(a){return c7(d,a)},a)}function
-ez(b,a){var
+ja(c,b,a){function
+d(a){return eu(c,a,b)}return y(function(a){return c7(d,a)},a)}function
+eA(b,a){var
 c=V(b,a);return e(function(c){var
 a=c[2],b=c[1];if(b){if(a){var
 d=a[1],e=b[1];return[0,cJ(function(b,a){return[0,cg(b,a)]},e,d)]}return b}return a},c)}function
 gZ(a){return aa(J(a,c(2,b)))}function
-i8(a,au,at,L,c){var
-av=ce(aC,c),f=h(bB(a,au,at),av);switch(c[0]){case
+jb(a,au,at,L,c){var
+av=ce(aA,c),f=h(bB(a,au,at),av);switch(c[0]){case
 1:var
 O=c[1],d=e(function(d){var
 c=n(O,d),e=c?[0,[0,aa(J(a,b))]]:c;return e},L);break;case
 3:var
-d=ez(c[1][2],c[2][2]);break;case
+d=eA(c[1][2],c[2][2]);break;case
 4:var
-P=e(i6,c[2][2]),d=ez(c[1][2],P);break;case
+P=e(i$,c[2][2]),d=eA(c[1][2],P);break;case
 5:var
-d=e(i6,c[1][2]);break;case
+d=e(i$,c[1][2]);break;case
 6:var
 x=c[2],y=c[1],g=y[1],u=0;if(g){var
 i=x[1];if(i)var
-Q=x[2],R=g[1],S=e(function(b){return da(a,R,b)},Q),T=y[2],U=i[1],d=ez(e(function(b){return da(a,U,b)},T),S);else{var
+Q=x[2],R=g[1],S=e(function(b){return da(a,R,b)},Q),T=y[2],U=i[1],d=eA(e(function(b){return da(a,U,b)},T),S);else{var
 z=i;u=1}}else{var
 z=g;u=1}if(u)var
 d=z;break;case
 7:var
 v=0;if(f){var
 A=c[2],j=A[1];if(j)var
-V=A[2],W=fn(f[1]),X=e(function(b){return da(a,W,b)},V),Y=ez(c[1][2],X),Z=j[1],d=e(function(b){return i7(a,Z,b)},Y);else{var
+V=A[2],W=fn(f[1]),X=e(function(b){return da(a,W,b)},V),Y=eA(c[1][2],X),Z=j[1],d=e(function(b){return ja(a,Z,b)},Y);else{var
 B=j;v=1}}else{var
 B=f;v=1}if(v)var
 d=B;break;case
@@ -2024,15 +2024,15 @@ _=C[2],$=k[1],ab=aT(a,gZ(a),$),d=e(function(b){return da(a,ab,b)},_);else
 var
 d=k;break;case
 9:if(f)var
-ac=c[1][2],ad=f[1],ae=aT(a,gZ(a),ad),d=e(function(b){return i7(a,ae,b)},ac);else
+ac=c[1][2],ad=f[1],ae=aT(a,gZ(a),ad),d=e(function(b){return ja(a,ae,b)},ac);else
 var
 d=f;break;case
 10:var
 D=c[4],E=c[3],F=c[2],l=F[1],w=0;if(l){var
 m=l[1],o=E[1],M=0;if(o){var
 p=o[1],q=D[1],N=0;if(q){var
-r=mx(a,m,p,q[1]);if(r){var
-G=r[1],s=G[2],t=G[1],af=E[2],ag=bA(p,s),ah=e(function(b){return da(a,ag,b)},af),ai=F[2],aj=bA(m,t),ak=ez(e(function(b){return da(a,aj,b)},ai),ah),al=e(i6,D[2]),am=gZ(a),an=ez(e(function(b){return da(a,am,b)},ak),al),ao=c[1]?t:fn(s),ap=e(function(b){return da(a,ao,b)},an),aq=aT(a,m,s),ar=bA(aT(a,p,t),aq),as=aT(a,gZ(a),ar),d=e(function(b){return i7(a,as,b)},ap);M=1;N=1}else
+r=mB(a,m,p,q[1]);if(r){var
+G=r[1],s=G[2],t=G[1],af=E[2],ag=bA(p,s),ah=e(function(b){return da(a,ag,b)},af),ai=F[2],aj=bA(m,t),ak=eA(e(function(b){return da(a,aj,b)},ai),ah),al=e(i$,D[2]),am=gZ(a),an=eA(e(function(b){return da(a,am,b)},ak),al),ao=c[1]?t:fn(s),ap=e(function(b){return da(a,ao,b)},an),aq=aT(a,m,s),ar=bA(aT(a,p,t),aq),as=aT(a,gZ(a),ar),d=e(function(b){return ja(a,as,b)},ap);M=1;N=1}else
 var
 H=r}else
 var
@@ -2044,39 +2044,39 @@ K=I;w=1}}else{var
 K=l;w=1}if(w)var
 d=K;break;default:var
 d=e(function(a){return 0},L)}return[0,f,d]}function
-i9(b,c,a){if(a)var
-f=a[1],g=i9(b,c,a[2]),d=[0,e(function(a){return $(t(b,t(b,c,f),a))},a),g];else
+jc(b,c,a){if(a)var
+f=a[1],g=jc(b,c,a[2]),d=[0,e(function(a){return $(t(b,t(b,c,f),a))},a),g];else
 var
 d=a;return d}function
-i_(a){return l(function(a){var
+jd(a){return l(function(a){var
 b=L(a[1],d);return b?L(a[2],d):b},a)}function
-i$(c,b,a){var
-d=V(b,a);return ao(function(a,b){return A(t(c,a[1],a[2]),b)},u,d)}function
-ja(c,b,a){var
-d=bJ(i$(c,a,b));return ao(function(b,a){return F(bJ(b),a)},d,a)}function
+je(c,b,a){var
+d=V(b,a);return ap(function(a,b){return A(t(c,a[1],a[2]),b)},u,d)}function
+jf(c,b,a){var
+d=bJ(je(c,a,b));return ap(function(b,a){return F(bJ(b),a)},d,a)}function
 cj(a){return J(a,b)}function
 fs(a,i,c,v,u){var
 f=v,e=u;for(;;){if(f){var
-j=f[1],n=0;if(!i_(c)&&!i_(j)){var
-h=ja(a,i,j),o=cj(a),p=ja(a,i,c),b=er([0,ja(a,i,c),p],o,[0,h,h])[1],k=K(d,h),l=k?K(d,b):k;if(l)var
-q=ax(iQ(a,[0,b,b])),r=function(b){return function(d,c){return E(t(a,[0,b,b],d),c)}}(b),s=[0,b,b],m=[0,a_(e,i9(a,q,aS(function(c){return function(b){return t(a,c,b)}}(s),$,r,j,c)))];else
+j=f[1],n=0;if(!jd(c)&&!jd(j)){var
+h=jf(a,i,j),o=cj(a),p=jf(a,i,c),b=es([0,jf(a,i,c),p],o,[0,h,h])[1],k=K(d,h),l=k?K(d,b):k;if(l)var
+q=ax(iV(a,[0,b,b])),r=function(b){return function(d,c){return E(t(a,[0,b,b],d),c)}}(b),s=[0,b,b],m=[0,a_(e,jc(a,q,aS(function(c){return function(b){return t(a,c,b)}}(s),$,r,j,c)))];else
 var
 m=l;var
 g=m;n=1}if(!n)var
 g=[0,e];if(g){var
 f=f[2],e=g[1];continue}return g}return[0,e]}}function
-nc(a){var
+ng(a){var
 b=a[2],c=e(function(a){return[0,a[1],u]},b);return[0,[0,a[1][1],u],c]}function
-jb(h,n,a,m,l,k){var
+jg(h,n,a,m,l,k){var
 d=m,c=l,b=k;for(;;){if(d){if(c){var
-i=c[1],j=i[1],f=d[1],o=cF(j[2]),p=a_(b,i2(a,f,ew(a,j[1],o,f))),q=i[2],r=e(function(c){return function(b){return e(ax,ew(a,b[1],b[2],c))}}(f),q),g=fs(h,n,e(function(b){return aP(b,a,cj(h))},f),r,p);if(g){var
+i=c[1],j=i[1],f=d[1],o=cF(j[2]),p=a_(b,i7(a,f,ex(a,j[1],o,f))),q=i[2],r=e(function(c){return function(b){return e(ax,ex(a,b[1],b[2],c))}}(f),q),g=fs(h,n,e(function(b){return aQ(b,a,cj(h))},f),r,p);if(g){var
 d=d[2],c=c[2],b=g[1];continue}return g}return[0,b]}return[0,b]}}function
-nd(a,j,r,q){var
+nh(a,j,r,q){var
 c=r,f=q;for(;;){if(c){var
 k=c[1],l=k[1],g=l[2],h=l[1],m=k[2],n=[0,[0,cd(g),h],f];if(m){var
 o=K(d,g[1]);if(o)var
 s=e(function(a){var
-b=a[1];return[0,ax(a[2]),b]},m),t=e(function(a){return u},h),v=[0,cj(a),t],w=cj(a),b=fs(a,[0,$(er(i$(a,h,j),w,g)),j],v,s,n);else
+b=a[1];return[0,ax(a[2]),b]},m),t=e(function(a){return u},h),v=[0,cj(a),t],w=cj(a),b=fs(a,[0,$(es(je(a,h,j),w,g)),j],v,s,n);else
 var
 b=o}else
 var
@@ -2086,22 +2086,22 @@ c=c[2],f=i[1];continue}var
 p=i}else
 var
 p=b;return p}return[0,f]}}function
-ne(c,b,a){var
-d=aG(0,a);return e(function(a){return n(a,b)?cj(c):u},d)}function
-nf(c,b,a){if(b){if(a){var
-d=nf(c,b[2],a[2]);return A(aP(b[1],c,a[1]),d)}return u}return u}function
-ng(a,j){switch(j){case
+ni(c,b,a){var
+d=aH(0,a);return e(function(a){return n(a,b)?cj(c):u},d)}function
+nj(c,b,a){if(b){if(a){var
+d=nj(c,b[2],a[2]);return A(aQ(b[1],c,a[1]),d)}return u}return u}function
+nk(a,j){switch(j){case
 0:var
 d=aO(a[2],a[1]),e=a[1];return[0,[0,e,e],[0,[0,d,d],0]];case
 1:var
 f=aO(a[1],a[2]),g=a[2];return[0,[0,g,g],[0,[0,f,f],0]];default:var
 c=dF(F(a[1],a[2]),b),h=aO(c,a[2]),i=aO(a[2],c);return[0,[0,c,c],[0,[0,i,i],[0,[0,h,h],0]]]}}function
 ft(d,c,a){if(a)var
-e=a[1],g=ft(d,[0,c],a[2]),b=y(aK,mb(function(a){return n(a[1],c)},d)),h=b?ng(e,b[1])[1]:e,f=[0,h,g];else
+e=a[1],g=ft(d,[0,c],a[2]),b=y(aG,mf(function(a){return n(a[1],c)},d)),h=b?nk(e,b[1])[1]:e,f=[0,h,g];else
 var
 f=a;return f}function
 g0(a,b){return e(function(a){var
-c=a[2];return ng(s(a[1],b,u),c)[2]},a)}function
+c=a[2];return nk(s(a[1],b,u),c)[2]},a)}function
 g1(i,b,f,a){function
 d(a){return aE(b,a[1])}var
 h=0,j=aa(u);function
@@ -2109,13 +2109,13 @@ c(f,d,a,b){if(a){var
 h=function(a){return aE(f,s(d,a[2],j))},k=e(h,b[1]),l=h(b[2]),m=c(f,[0,d],a[2],b),n=a[1];return g(e(function(a){var
 b=t(i,a,l);return[0,e(function(b){return t(i,a,b)},k),b]},n),m)}return a}var
 k=c(b,h,f,a),l=d(a[2]);return[0,[0,e(d,a[1]),l],k]}var
-ut=aa(u);function
-nh(e,d,c){if(d){var
-f=s(e,c[2],uu),a=f?f[1]:[0,ut];if(a)var
-b=nh([0,e],d[2],c),h=b?[0,[0,a[1],b[1]]]:b,g=h;else
+uw=aa(u);function
+nl(e,d,c){if(d){var
+f=s(e,c[2],ux),a=f?f[1]:[0,uw];if(a)var
+b=nl([0,e],d[2],c),h=b?[0,[0,a[1],b[1]]]:b,g=h;else
 var
-g=a;return g}return uv}function
-ni(a,c,i,p,o,g,n){var
+g=a;return g}return uy}function
+nm(a,c,i,p,o,g,n){var
 d=a$(c);return l(function(d){var
 f=h(n,d);if(f){var
 q=t(a,o,f[1]),j=E(J(a,b),q),r=i?E(j,aE(d,i[1])):j,k=function(b){function
@@ -2124,21 +2124,21 @@ g=e(function(a){return e(f,a)},p);return aY(a,c,a_(ac([0,r,0],c),g))},l=k(ax(g))
 m=l}else
 var
 m=f;return m},d)}function
-nj(c,b,a){if(a){var
+nn(c,b,a){if(a){var
 d=a[2];if(c){var
-f=nj(c[1],b,d);return[0,a[1],f]}var
+f=nn(c[1],b,d);return[0,a[1],f]}var
 e=[0,b,d]}else
 var
 e=a;return e}function
 fu(a,g){var
 b=a5(function(e){var
 c=s(e,a,u),b=D(c[1],d),f=b?D(d,c[2]):b;return I(f)},g);if(b){if(b[2])return a;var
-f=b[1],c=s(f,a,u),e=K(d,c[1])?c[1]:c[2];return nj(f,[0,e,e],a)}return a}function
-nk(c,a){if(a)var
-b=a[2],f=nk(c,b),g=b?b[1]:e(tI,c),d=[0,[0,a[1],g],f];else
+f=b[1],c=s(f,a,u),e=K(d,c[1])?c[1]:c[2];return nn(f,[0,e,e],a)}return a}function
+no(c,a){if(a)var
+b=a[2],f=no(c,b),g=b?b[1]:e(tL,c),d=[0,[0,a[1],g],f];else
 var
 d=a;return d}function
-jc(a){return a?nk(a[1],a):a}function
+jh(a){return a?no(a[1],a):a}function
 db(c,d,b,a){if(d){var
 e=d[1];if(a){var
 f=db(c,e,b,a[2]);return[0,a[1],f]}return[0,c,db(c,e,b,0)]}return a?[0,b,a[2]]:[0,b,0]}function
@@ -2149,26 +2149,26 @@ var
 f=b;else
 var
 f=c;return f}function
-dc(d,c,b,a){return db(u,c,i$(d,a,b),a)}function
-jd(a,f,e,b,d,c){var
-g=aG(0,b);return ao(function(g,c){var
-h=dc(a,f,e,ne(a,g,b));return a_(c,i9(a,$(d),h))},c,g)}function
-je(a,d,c,j,i,h,g,f){var
-k=dc(a,d,c,e(function(b){return J(a,C(h,b))},i));return a_(f,g2(a,dc(a,d,c,e(function(c){return aP(c,F(g,b),cj(a))},j)),k))}function
-jf(a,h,g,q,f,p,o,n){var
+dc(d,c,b,a){return db(u,c,je(d,a,b),a)}function
+ji(a,f,e,b,d,c){var
+g=aH(0,b);return ap(function(g,c){var
+h=dc(a,f,e,ni(a,g,b));return a_(c,jc(a,$(d),h))},c,g)}function
+jj(a,d,c,j,i,h,g,f){var
+k=dc(a,d,c,e(function(b){return J(a,C(h,b))},i));return a_(f,g2(a,dc(a,d,c,e(function(c){return aQ(c,F(g,b),cj(a))},j)),k))}function
+jk(a,h,g,q,f,p,o,n){var
 d=p,c=o,b=n;for(;;){if(d){if(c){var
-k=c[1],l=k[1],i=d[1],m=dc(a,h,g,e(function(b){return aP(b,f,cj(a))},i)),r=cF(l[2]),s=dc(a,h,g,ew(f,l[1],r,i)),t=a_(b,g2(a,e(ax,m),s)),u=k[2],j=fs(a,q,m,e(function(c){return function(b){return dc(a,h,g,e(ax,ew(f,b[1],b[2],c)))}}(i),u),t);if(j){var
+k=c[1],l=k[1],i=d[1],m=dc(a,h,g,e(function(b){return aQ(b,f,cj(a))},i)),r=cF(l[2]),s=dc(a,h,g,ex(f,l[1],r,i)),t=a_(b,g2(a,e(ax,m),s)),u=k[2],j=fs(a,q,m,e(function(c){return function(b){return dc(a,h,g,e(ax,ex(f,b[1],b[2],c)))}}(i),u),t);if(j){var
 d=d[2],c=c[2],b=j[1];continue}return j}return[0,b]}return[0,b]}}function
-nl(g,b,f,a){if(a)var
+np(g,b,f,a){if(a)var
 c=a[2],d=a[1],h=s(b,c,u),e=[0,d,db(u,b,A(t(g,f,d),h),c)];else
 var
 e=a;return e}function
-nm(a,b,m,D,C,B){var
+nq(a,b,m,D,C,B){var
 i=C,h=B;for(;;){if(i){var
 n=i[1],o=n[1],j=o[2],p=n[2],c=dc(a,b,m,o[1]);if(p){var
 q=K(d,j[1]);if(q)var
-E=cj(a),f=cd($(er(s(b,c,u),E,j))),k=cd(j),v=db(u,b,f,0),w=s(b,c,u),x=a_(h,g2(a,v,db(u,b,A(ax(t(a,f,k)),w),c))),y=s(b,c,u),z=[0,[0,k,db(u,b,A(t(a,f,k),y),c)],x],F=e(function(e){return function(c){var
-d=dc(a,b,m,c[1]);return nl(a,b,e,[0,ax(c[2]),d])}}(f),p),G=e(function(a){return u},c),g=fs(a,[0,u,D],nl(a,b,f,[0,cj(a),G]),F,z);else
+E=cj(a),f=cd($(es(s(b,c,u),E,j))),k=cd(j),v=db(u,b,f,0),w=s(b,c,u),x=a_(h,g2(a,v,db(u,b,A(ax(t(a,f,k)),w),c))),y=s(b,c,u),z=[0,[0,k,db(u,b,A(t(a,f,k),y),c)],x],F=e(function(e){return function(c){var
+d=dc(a,b,m,c[1]);return np(a,b,e,[0,ax(c[2]),d])}}(f),p),G=e(function(a){return u},c),g=fs(a,[0,u,D],np(a,b,f,[0,cj(a),G]),F,z);else
 var
 g=q}else
 var
@@ -2178,13 +2178,13 @@ i=i[2],h=l[1];continue}var
 r=l}else
 var
 r=g;return r}return[0,h]}}function
-jg(f,d,c,b,a){var
+jl(f,d,c,b,a){var
 g=e(aa,c);return cf(0,bB(f,dO(0,a),g),b,d)}function
 ad(a){if(a){var
 b=a[1];if(b)var
 c=ad(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return uA}function
+d=b;return d}return uD}function
 fv(b,a){if(a){var
 h=a[1],n=h[1],c=ad(e(function(a){return s(a,b,0)},n));if(c){var
 f=s(h[2],b,0);if(f){var
@@ -2197,20 +2197,20 @@ var
 l=f;var
 m=l}else
 var
-m=c;return m}return uB}function
+m=c;return m}return uE}function
 cM(d,c,b){var
 a=fv(d,c);return a?h(b,a[1]):a}function
 dd(a,b){return l(function(c){var
 a=s(c,b,0),d=a?1:a;return d},a)}function
 g3(b,a){if(b){var
 c=b[1],d=c[3],e=a[3],f=function(a){return a},g=aS(function(a){return a},f,A,e,d),h=a[2];return[0,A(a[1],c[1]),h,g]}return a}function
-jh(b,a){return b?mV(a,b[1]):a}function
-ji(h,g,b,f){var
+jm(b,a){return b?mZ(a,b[1]):a}function
+jn(h,g,b,f){var
 a=s(f,h,0);if(a){var
 c=a[1];if(b){var
-i=mV(c,b[1]),e=a$(g);return l(function(a){return D(d,aE(a,i)[1])},e)}return D(d,c[2][1])}return a}function
-jj(f,d,a){function
-c(a){return aP(a,d,J(f,b))}if(a){var
+i=mZ(c,b[1]),e=a$(g);return l(function(a){return D(d,aE(a,i)[1])},e)}return D(d,c[2][1])}return a}function
+jo(f,d,a){function
+c(a){return aQ(a,d,J(f,b))}if(a){var
 g=e(c,a[2]);return[0,c(a[1]),u,g]}return aa(u)}function
 g4(b,a){var
 c=s(a[1],b,0);if(c){var
@@ -2222,7 +2222,7 @@ g=f}else
 var
 g=c;return g}function
 g5(b,a){return ad(e(function(a){return s(a,b,0)},a))}function
-eA(c,k,X,C,i,h,j,g,a){switch(g[0]){case
+eB(c,k,X,C,i,h,j,g,a){switch(g[0]){case
 0:var
 s=g[1];if(typeof
 a!=="number")switch(a[0]){case
@@ -2235,29 +2235,29 @@ aH=a[2],aI=a[1],aJ=g3(j,aa(s));return cM(i,X,function(a){return fq(c,h,aJ,aI,aH,
 2:var
 _=dd(C,i);if(_){var
 $=L(s[1],d),ab=$?L(s[2],d):$;if(ab){var
-aK=a[2],aL=a[1];return cM(i,k,function(a){return mU(c,h,j,aL,aK,a)})}var
+aK=a[2],aL=a[1];return cM(i,k,function(a){return mY(c,h,j,aL,aK,a)})}var
 ac=ab}else
 var
 ac=_;return ac}return 0;case
 1:var
 ae=g[1];if(typeof
 a==="number"){if(1===a){var
-aM=jh(j,aa(ae));return cM(i,X,function(a){return i4(c,h,aM,a)})}if(!a){var
-aN=jh(j,aa(ae));return cM(i,k,function(a){return i4(c,h,aN,a)})}}return 0;case
+aM=jm(j,aa(ae));return cM(i,X,function(a){return i9(c,h,aM,a)})}if(!a){var
+aN=jm(j,aa(ae));return cM(i,k,function(a){return i9(c,h,aN,a)})}}return 0;case
 2:if(typeof
 a!=="number"&&3===a[0]){var
-af=a[1],m=jj(c,af,a[3]),ag=g[1],aQ=a[2];return cM(i,k,function(d){var
-a=i5(h,m),b=a?fq(c,h,g3(j,m),af,aQ,d):a;if(b){var
-f=m[3],g=e(function(a){return t(c,ag,a)},f),i=m[2];return i4(c,h,jh(j,[0,t(c,ag,m[1]),i,g]),d)}return b})}return 0;case
+af=a[1],m=jo(c,af,a[3]),ag=g[1],aP=a[2];return cM(i,k,function(d){var
+a=i_(h,m),b=a?fq(c,h,g3(j,m),af,aP,d):a;if(b){var
+f=m[3],g=e(function(a){return t(c,ag,a)},f),i=m[2];return i9(c,h,jm(j,[0,t(c,ag,m[1]),i,g]),d)}return b})}return 0;case
 3:if(typeof
-a==="number"&&!a)return ji(i,h,j,g[1]);return 0;case
+a==="number"&&!a)return jn(i,h,j,g[1]);return 0;case
 4:if(typeof
 a!=="number"&&0===a[0]){var
 aR=a[2],aS=a[1],aT=g3(j,aa(g[2])),aU=function(a){return fq(c,h,aT,aS,aR,a)};return cM(i,g[1],aU)}return 0;case
 5:if(typeof
 a==="number"&&!(3<=a))switch(a){case
-0:return ji(i,h,j,g[1]);case
-2:return ji(i,h,j,g[2])}return 0;case
+0:return jn(i,h,j,g[1]);case
+2:return jn(i,h,j,g[2])}return 0;case
 6:if(typeof
 a!=="number"&&8===a[0]){var
 D=g4(i,g[1]);if(D){var
@@ -2267,8 +2267,8 @@ I=g4(i,g[4]);if(I){var
 ah=I[1],ai=H[1],aj=G[1],ak=D[1],o=a[2],v=g[5],aV=a[1];if(o){var
 p=o[2];if(p){var
 q=p[2];if(q){if(q[2])return 0;var
-aC=[0,o[1],p[1],q[1]],r=m0(function(f){function
-g(a){return aP(a,aV,J(c,b))}if(f){var
+aC=[0,o[1],p[1],q[1]],r=m4(function(f){function
+g(a){return aQ(a,aV,J(c,b))}if(f){var
 a=e(g,f[2]),d=g(f[1]),h=gN(a),i=F(d[2],h),j=gN(a);return[0,d,[0,aO(d[1],j),i],a]}return aa(u)},aC),O=l(function(a){return n(f(a),[0,h])},o),P=O?gW(c,h,j,v,r,ak,ai):O,Q=P?gW(c,h,j,v,r,ak,ah):P,S=Q?gW(c,h,j,v,r,aj,ai):Q;if(S)return gW(c,h,j,v,r,aj,ah);var
 T=S}else
 var
@@ -2290,17 +2290,17 @@ var
 an=D;return an}return 0;case
 7:if(typeof
 a!=="number"&&0===a[0]){var
-ap=a[2],aq=a[1],aW=g[2],aX=g[1];return cM(i,k,function(e){var
-a=n(f(e),h),d=a?n(f(ap),h):a;if(d){var
+ao=a[2],aq=a[1],aW=g[2],aX=g[1];return cM(i,k,function(e){var
+a=n(f(e),h),d=a?n(f(ao),h):a;if(d){var
 g=function(a){if(a){var
 d=a[2],e=n(f(d),h);if(e){var
-i=dP(aq,dQ(aq,ap,J(c,b),d));return aY(c,h,a_(gX(c,aX,aW,a[1][2],d),i))}var
+i=dP(aq,dQ(aq,ao,J(c,b),d));return aY(c,h,a_(gX(c,aX,aW,a[1][2],d),i))}var
 g=e}else
 var
-g=a;return g},i=j?j[1]:aa(u);return i1(h,i3(i,e),g)}return d})}return 0;case
+g=a;return g},i=j?j[1]:aa(u);return i6(h,i8(i,e),g)}return d})}return 0;case
 8:if(typeof
 a==="number"&&5<=a){var
-aZ=g[3],a0=g[2],a1=function(a){return mU(c,h,j,a0,aZ,a)};return cM(i,g[1],a1)}return 0;case
+aZ=g[3],a0=g[2],a1=function(a){return mY(c,h,j,a0,aZ,a)};return cM(i,g[1],a1)}return 0;case
 11:if(typeof
 a==="number"&&!a){var
 K=g5(i,g[1]);if(K){var
@@ -2310,7 +2310,7 @@ w=N[1];if(w){var
 x=w[2];if(x){var
 z=x[2];if(z){var
 B=z[2];if(B){if(B[2])return 0;var
-ar=B[1],as=z[1][2],at=x[1][2],au=w[1][2],av=M[1],a3=K[1],W=ni(c,h,j,av,au,at,function(d){return[0,ex(c,ao(function(b,a){return A(R(c,aE(d,b)),a)},u,a3))]});return W?W:ni(c,h,j,av,au,at,function(f){var
+ar=B[1],as=z[1][2],at=x[1][2],au=w[1][2],av=M[1],a3=K[1],W=nm(c,h,j,av,au,at,function(d){return[0,ey(c,ap(function(b,a){return A(R(c,aE(d,b)),a)},u,a3))]});return W?W:nm(c,h,j,av,au,at,function(f){var
 b=cd(ar[1]),a=cc(c,E(as,R(c,b)));if(a){var
 d=bX(c,a[1]),e=E(as,t(c,b,aE(f,ar)));return y(function(a){return t(c,e,a)},d)}return a})}var
 aw=B}else
@@ -2331,37 +2331,37 @@ aA=M;var
 aB=aA}else
 var
 aB=K;return aB}return 0;default:return 0}}function
-nn(c,a){var
+nr(c,a){var
 d=s(a[1],c,0);if(d)var
 g=a[2][2],b=ad(e(function(a){var
 b=s(a[2],c,0);return y(function(b){return[0,a[1],b]},b)},g)),h=b?[0,[0,a[2][1],b[1]]]:b,f=h;else
 var
 f=d;return f}function
-no(b,a){return g(b,c2(a[1]))}function
-np(a,B,z,v,r,av,o,m,q,p,k){switch(p[0]){case
+ns(b,a){return g(b,c2(a[1]))}function
+nt(a,B,z,v,r,av,o,m,q,p,k){switch(p[0]){case
 9:var
 a7=p[2],a8=p[1];if(typeof
 k!=="number"&&9===k[0]){var
-aw=k[2],M=k[1],a9=k[3];if(0<aV(k[4]))return eA(a,z,v,r,o,f(m),q,p,k);var
-ba=cG(g(r,w(function(a){return g(a[1],[0,a[2],0])},v)),B),aT=e(aa,av),_=cf(0,bB(a,gY(0,m,a8),aT),ba,B),az=n(f(m),uC),aA=az?dd(r,_):az;if(aA){var
+aw=k[2],M=k[1],a9=k[3];if(0<aV(k[4]))return eB(a,z,v,r,o,f(m),q,p,k);var
+ba=cG(g(r,w(function(a){return g(a[1],[0,a[2],0])},v)),B),aT=e(aa,av),_=cf(0,bB(a,gY(0,m,a8),aT),ba,B),az=n(f(m),uF),aA=az?dd(r,_):az;if(aA){var
 N=fv(_,v);if(N){var
 O=fv(o,v);if(O){var
-P=ad(e(function(a){return nn(o,a)},a7));if(P){var
-Q=m3(N[1]);if(Q){var
-aB=O[1],bb=P[1],bc=Q[1],ab=ex(a,ao(function(f,i){function
+P=ad(e(function(a){return nr(o,a)},a7));if(P){var
+Q=m7(N[1]);if(Q){var
+aB=O[1],bb=P[1],bc=Q[1],ab=ey(a,ap(function(f,i){function
 b(b,d){var
 a=f[1],c=b?b[1]?f[2]:a[2]:a[1];return bJ(s(d,c[3],u))}function
 c(a){var
-b=h(a,ue),c=bq(h(a,uf),b);return bq(h(a,0),c)}var
+b=h(a,uh),c=bq(h(a,ui),b);return bq(h(a,0),c)}var
 d=c(function(a){var
-c=b(ug,a),d=b(uh,a);return F(F(b(0,a),d),c)}),g=[0,d,d],e=c(function(a){var
-c=b(a,ui),d=b(a,uj);return F(F(b(a,0),d),c)});return A(i,R(a,ex(a,t(a,[0,e,e],g))))},u,bc)),C=aP(a9,M,J(a,b)),af=K(d,E(C,ab)[1]),ag=af?n(f(aw),up):af,ah=ag?n(f(aB),uq):ag;if(ah){var
+c=b(uj,a),d=b(uk,a);return F(F(b(0,a),d),c)}),g=[0,d,d],e=c(function(a){var
+c=b(a,ul),d=b(a,um);return F(F(b(a,0),d),c)});return A(i,R(a,ey(a,t(a,[0,e,e],g))))},u,bc)),C=aQ(a9,M,J(a,b)),af=K(d,E(C,ab)[1]),ag=af?n(f(aw),us):af,ah=ag?n(f(aB),ut):ag;if(ah){var
 D=bX(a,C);if(D){var
-aU=ax(t(a,ab,D[1])),aW=E(J(a,b),aU),aX=a$(ur);return l(function(i){var
-g=e(function(b){return m4(a,i,b[1],b[2])},bb),p=h(ay(function(a){return aE(i,a)}),aB),F=q?aE(i,q[1]):u,N=R(a,aW),r=R(a,C),o=dP(M,dQ(M,aw,J(a,b),p)),c=a_(ac([0,$(F),0],uk),o);if(g){var
+aU=ax(t(a,ab,D[1])),aW=E(J(a,b),aU),aX=a$(uu);return l(function(i){var
+g=e(function(b){return m8(a,i,b[1],b[2])},bb),p=h(ay(function(a){return aE(i,a)}),aB),F=q?aE(i,q[1]):u,N=R(a,aW),r=R(a,C),o=dP(M,dQ(M,aw,J(a,b),p)),c=a_(ac([0,$(F),0],un),o);if(g){var
 d=g[2];if(d){var
 f=d[2];if(f){if(f[2])return 0;var
-B=d[1],D=g[1],I=f[1],j=aY(a,um,a_(ac([0,$(r),0],ul),c));if(j)return l(function(C){var
+B=d[1],D=g[1],I=f[1],j=aY(a,up,a_(ac([0,$(r),0],uo),c));if(j)return l(function(C){var
 J=E(N,F),K=C[2]?B:$(B),L=C[1]?D:$(D),o=0;if(c){var
 b=c[1],l=0;if(b){var
 d=b[2],m=0;if(d){var
@@ -2401,7 +2401,7 @@ var
 z=b;if(!l){var
 A=z;o=1}}else{var
 A=c;o=1}if(o)var
-k=A;return aY(a,uo,k)},un);var
+k=A;return aY(a,ur,k)},uq);var
 k=j}else
 var
 k=f;var
@@ -2425,15 +2425,15 @@ var
 aG=N;var
 aH=aG}else
 var
-aH=aA;return aH}return eA(a,z,v,r,o,f(m),q,p,k);case
+aH=aA;return aH}return eB(a,z,v,r,o,f(m),q,p,k);case
 10:var
 i=p[1];if(typeof
 k!=="number"&&9===k[0]){var
-j=f(m),a2=cG(no(r,i),B),a3=e(aa,av),a4=i[7],a5=i[6],a6=f(m),au=cf(0,bB(a,na(i[8],a6,m,a5,a4),a3),a2,B),aI=ae(i[8],j),aJ=aI?n(f(i[1]),j):aI;if(aJ)var
+j=f(m),a2=cG(ns(r,i),B),a3=e(aa,av),a4=i[7],a5=i[6],a6=f(m),au=cf(0,bB(a,ne(i[8],a6,m,a5,a4),a3),a2,B),aI=ae(i[8],j),aJ=aI?n(f(i[1]),j):aI;if(aJ)var
 bd=i[1],S=l(function(a){return n(f(a),j)},bd);else
 var
 S=aJ;if(S)var
-be=no(r,i),T=l(function(b){var
+be=ns(r,i),T=l(function(b){var
 a=s(b,au,0),c=a?1:a;return c},be);else
 var
 T=S;if(T)var
@@ -2443,86 +2443,99 @@ var
 U=T;if(U){var
 bg=i[1],V=ad(e(function(a){return g5(au,a)},bg));if(V){var
 W=fv(o,i[2]);if(W){var
-bh=i[4],X=ad(e(function(a){return nn(o,a)},bh));if(X){var
-Y=k[4],aK=k[2],Z=k[1],aL=X[1],aM=W[1],aN=V[1],x=i[8],bi=k[3],aj=m6(a,j,x,aN),G=aP(bi,Z,J(a,b)),ak=l8(Y,d);if(ak)var
+bh=i[4],X=ad(e(function(a){return nr(o,a)},bh));if(X){var
+Y=k[4],aK=k[2],Z=k[1],aL=X[1],aM=W[1],aN=V[1],x=i[8],bi=k[3],aj=m_(a,j,x,aN),G=aQ(bi,Z,J(a,b)),ak=ma(Y,d);if(ak)var
 H=ak;else
 var
-as=l9(Y,c(2,c(2,c(2,c(2,b))))),at=as?aD(0,x):as,H=at?aD(x,j):at;var
+as=mb(Y,c(2,c(2,c(2,c(2,b))))),at=as?aD(0,x):as,H=at?aD(x,j):at;var
 al=H?K(d,E(G,aj)[1]):H,am=al?n(f(aK),j):al,an=am?n(f(aM),j):am;if(an){var
-ap=I(i[5]);if(ap)var
-y=ap;else
+ao=I(i[5]);if(ao)var
+y=ao;else
 var
 ar=l(function(c){var
-b=ao(function(c,b){var
-a=bJ(c[2]);return A([0,a,a],b)},u,c);return nb(a,i[6],b)},aN),y=ar?l(function(c){var
-d=c[2],b=ao(function(b,d){var
-c=bJ(b[2][2]);return A(t(a,b[1],[0,c,c]),d)},u,d);return nb(a,i[6],b)},aL):ar}else
+b=ap(function(c,b){var
+a=bJ(c[2]);return A([0,a,a],b)},u,c);return nf(a,i[6],b)},aN),y=ar?l(function(c){var
+d=c[2],b=ap(function(b,d){var
+c=bJ(b[2][2]);return A(t(a,b[1],[0,c,c]),d)},u,d);return nf(a,i[6],b)},aL):ar}else
 var
 y=an;if(y){var
 L=bX(a,G);if(L){var
 aZ=ax(t(a,aj,L[1])),a0=E(J(a,b),aZ),a1=a$(j);return l(function(d){var
-s=e(function(b){return m4(a,d,b[1],b[2])},aL),y=h(ay(function(a){return aE(d,a)}),aM),t=q?aE(d,q[1]):u,z=R(a,a0),A=R(a,G),B=m7(j,x,i[9],Y),k=e(function(a){var
-b=a[2];return[0,m8(B,a[1]),b]},y),v=dP(Z,dQ(Z,aK,J(a,b),k)),c=a_(ac([0,$(t),0],j),v),m=n(f(k),j),o=m?n(f(s),j):m,p=o?m_(j,c):o,r=p?aY(a,j,a_(ac([0,$(A),0],j),c)):p;if(r){var
+s=e(function(b){return m8(a,d,b[1],b[2])},aL),y=h(ay(function(a){return aE(d,a)}),aM),t=q?aE(d,q[1]):u,z=R(a,a0),A=R(a,G),B=m$(j,x,i[9],Y),k=e(function(a){var
+b=a[2];return[0,na(B,a[1]),b]},y),v=dP(Z,dQ(Z,aK,J(a,b),k)),c=a_(ac([0,$(t),0],j),v),m=n(f(k),j),o=m?n(f(s),j):m,p=o?nc(j,c):o,r=p?aY(a,j,a_(ac([0,$(A),0],j),c)):p;if(r){var
 w=a$(aR(j));return l(function(b){var
-d=E(z,t);return aY(a,[0,j],m9(c,m$(g(b,us),s),d))},w)}return r},a1)}var
+d=E(z,t);return aY(a,[0,j],nb(c,nd(g(b,uv),s),d))},w)}return r},a1)}var
 aq=L}else
 var
 aq=y;return aq}var
 aO=X}else
 var
 aO=W;var
-aQ=aO}else
+aP=aO}else
 var
-aQ=V;var
-aS=aQ}else
+aP=V;var
+aS=aP}else
 var
-aS=U;return aS}return eA(a,z,v,r,o,f(m),q,p,k);default:return eA(a,z,v,r,o,f(m),q,p,k)}}function
-de(a){return w(function(a){return g(a[1],[0,a[2],0])},a)}function
-fw(k,f,j,a,i){var
-b=i;for(;;){var
-d=0;if(typeof
-b==="number"){if(1!==b)d=1}else
-switch(b[0]){case
+aS=U;return aS}return eB(a,z,v,r,o,f(m),q,p,k);default:return eB(a,z,v,r,o,f(m),q,p,k)}}function
+g6(c){var
+a=c;for(;;){var
+b=0;if(typeof
+a==="number"){if(1!==a)b=1}else
+switch(a[0]){case
 11:var
-b=b[3];continue;case
+a=a[3];continue;case
+12:var
+d=a[1];return l(function(a){return g6(a[2])},d);case
 1:break;case
 5:case
 10:var
-b=b[1];continue;default:d=1}var
-l=d?0:1,m=l?f:k,h=de(m);switch(a[0]){case
-0:return g(j,h);case
+a=a[1];continue;default:b=1}return b?0:1}}function
+g7(a){if(typeof
+a==="number"){if(1===a)return 0}else
+switch(a[0]){case
+1:return[0,a[1],a[2]];case
+5:var
+b=a[3],c=a[2];return[5,g7(a[1]),c,b];case
+10:var
+d=a[3],e=a[2];return[10,g7(a[1]),e,d];case
+11:var
+f=g7(a[3]);return[11,a[1],a[2],f]}return a}function
+de(a){return w(function(a){return g(a[1],[0,a[2],0])},a)}function
+fw(i,c,h,a,f){var
+j=g6(f)?c:i,d=de(j);switch(a[0]){case
+0:return g(h,d);case
 3:return[0,a[1],0];case
 5:return[0,a[1],[0,a[2],0]];case
 6:var
-n=[0,a[1],[0,a[2],[0,a[3],[0,a[4],0]]]];return w(function(a){return[0,a[1],[0,a[2],[0,a[3],0]]]},n);case
+k=[0,a[1],[0,a[2],[0,a[3],[0,a[4],0]]]];return w(function(a){return[0,a[1],[0,a[2],[0,a[3],0]]]},k);case
 9:var
-o=a[2],p=w(function(a){var
-b=e(aK,a[2][2]);return[0,a[1],b]},o);return g(de(f),p);case
+l=a[2],m=w(function(a){var
+b=e(aG,a[2][2]);return[0,a[1],b]},l);return g(de(c),m);case
 10:var
-c=a[1],q=c[4],r=w(function(a){var
-b=e(aK,a[2][2]);return[0,a[1],b]},q),s=g(c[3],r);return g(de(c[2]),s);case
+b=a[1],n=b[4],o=w(function(a){var
+b=e(aG,a[2][2]);return[0,a[1],b]},n),p=g(b[3],o);return g(de(b[2]),p);case
 11:var
-t=[0,a[3],[0,a[4],[0,a[5],[0,a[6],0]]]],u=g(c2(a[2]),t);return g(a[1],u);case
+q=[0,a[3],[0,a[4],[0,a[5],[0,a[6],0]]]],r=g(c2(a[2]),q);return g(a[1],r);case
 4:case
-8:return de(a[1]);default:return h}}}function
-g6(d){var
+8:return de(a[1]);default:return d}}function
+g8(d){var
 a=d;for(;;){if(a){var
 b=a[2],e=a[1],c=I(ak(function(b){return function(a){return n(b,a)}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-jk(j,i,h,g,a){var
+jp(j,i,h,g,a){var
 d=s(a,j,0);if(d){var
 b=s(a,i,0);if(b)var
-c=nh(0,g,s(a,h,uD)),k=c?[0,[0,b[1],c[1]]]:c,e=k;else
+c=nl(0,g,s(a,h,uG)),k=c?[0,[0,b[1],c[1]]]:c,e=k;else
 var
 e=b;var
 f=e}else
 var
 f=d;return f}function
-g7(j,b,a){if(a){var
+g9(j,b,a){if(a){var
 k=a[1],l=k[2],c=ad(e(b,k[1]));if(c){var
 f=h(b,l);if(f){var
 g=s(l,j,0);if(g){var
-i=g7(j,b,a[2]);if(i)var
+i=g9(j,b,a[2]);if(i)var
 m=K(d,g[1][2][1]),n=m?[0,[0,[0,c[1],f[1]],i[1]]]:m;else
 var
 n=i;var
@@ -2534,18 +2547,18 @@ var
 p=f;var
 q=p}else
 var
-q=c;return q}return uE}function
-nq(c,x,i,aI,w,q,p,N,M,g,b,j,a){var
-h=f(N),O=dO(0,N),P=cG(fw(i,aI,w,g,b),x),aJ=cf(0,bB(c,O,e(aa,ft(j,0,q))),P,x),aK=e(aC,j),aL=e(aa,q),aM=cf(uF,function(a){return i8(c,O,aL,aK,a)},P,x),aN=g0(j,q);function
-R(a){return jk(p,aJ,aM,j,a)}function
+q=c;return q}return uH}function
+nu(c,x,i,aI,w,q,p,N,M,g,b,j,a){var
+h=f(N),O=dO(0,N),P=cG(fw(i,aI,w,g,b),x),aJ=cf(0,bB(c,O,e(aa,ft(j,0,q))),P,x),aK=e(aA,j),aL=e(aa,q),aM=cf(uI,function(a){return jb(c,O,aL,aK,a)},P,x),aN=g0(j,q);function
+R(a){return jp(p,aJ,aM,j,a)}function
 y(a){return e(function(a){return J(c,a)},a)}var
 aP=M?M[1]:aa(u);function
 S(a){return a?aY(c,h,a[1]):a}function
 r(f,e,d,b,a){var
-g=ac([0,$(e),0],h);return S(jb(c,y(f),d,b,a,g))}function
+g=ac([0,$(e),0],h);return S(jg(c,y(f),d,b,a,g))}function
 T(d,b,a){var
-e=ac([0,b,0],h);return S(nd(c,y(d),a,e))}var
-aQ=e(aC,j),U=l(function(a){return aD(a,f(q))},aQ),W=U?g6(e(aC,j)):U,X=W?l(function(a){return n(f(a),h)},a):W;if(X){var
+e=ac([0,b,0],h);return S(nh(c,y(d),a,e))}var
+aQ=e(aA,j),U=l(function(a){return aD(a,f(q))},aQ),W=U?g8(e(aA,j)):U,X=W?l(function(a){return n(f(a),h)},a):W;if(X){var
 v=0;switch(g[0]){case
 0:var
 z=g[1],I=0;if(typeof
@@ -2563,7 +2576,7 @@ ab=a;if(!as)return ab;break;case
 at=0;if(a){if(a[2])return 0;var
 aV=a[1],aW=b[2],aX=b[1],ad=dd(w,p),au=0;if(ad){var
 ae=L(z[1],d),af=ae?L(z[2],d):ae;if(af){var
-m=function(c,b,a){return r(aV,b,aX,aW,e(nc,a))},k=i;I=1;at=1;au=1}else
+m=function(c,b,a){return r(aV,b,aX,aW,e(ng,a))},k=i;I=1;at=1;au=1}else
 var
 ag=af}else
 var
@@ -2581,7 +2594,7 @@ aw=0,a1=g[1];if(typeof
 b==="number"||!(3===b[0]))aw=1;else{var
 ay=0;if(a){var
 s=a[2],az=0;if(s){if(s[2])return 0;var
-ai=b[1],a2=s[1],a3=a[1],a4=b[2],aj=jj(c,ai,b[3]),ak=i5(h,aj);if(ak){var
+ai=b[1],a2=s[1],a3=a[1],a4=b[2],aj=jo(c,ai,b[3]),ak=i_(h,aj);if(ak){var
 m=function(f,b,a){var
 d=aE(f,aj),e=r(a3,A(d,b),ai,a4,a);return e?T(a2,E(t(c,a1,d),b),a):e},k=i;ay=1;az=1}else
 var
@@ -2592,15 +2605,15 @@ am=al}else
 var
 am=a;if(!ay)return am}if(aw)return 0;break;case
 3:var
-aA=0;if(typeof
+aB=0;if(typeof
 b==="number"&&!b){if(a)return 0;var
 C=g[1];v=1}else
-aA=1;if(aA)return 0;break;case
+aB=1;if(aB)return 0;break;case
 4:var
-aB=0,a6=g[2];if(typeof
-b==="number"||!(0===b[0]))aB=1;else{if(!a)return a;if(a[2])return 0;var
+aC=0,a6=g[2];if(typeof
+b==="number"||!(0===b[0]))aC=1;else{if(!a)return a;if(a[2])return 0;var
 a7=a[1],a8=b[2],a9=b[1],ba=function(c,a){var
-b=A(a6,a);return function(a){return r(a7,b,a9,a8,a)}},m=ba,k=g[1]}if(aB)return 0;break;case
+b=A(a6,a);return function(a){return r(a7,b,a9,a8,a)}},m=ba,k=g[1]}if(aC)return 0;break;case
 5:var
 K=0;if(typeof
 b==="number"&&!(3<=b))switch(b){case
@@ -2610,52 +2623,52 @@ C=g[1];v=1;break;case
 C=g[2];v=1;break;default:K=1}else
 K=1;if(K)return 0;break;case
 7:var
-an=g[2],ap=g[1],aF=0;if(typeof
+an=g[2],ao=g[1],aF=0;if(typeof
 b==="number"||!(0===b[0]))aF=1;else{var
-aH=0;if(a){if(a[2])return 0;var
+aG=0;if(a){if(a[2])return 0;var
 o=b[2],H=b[1],bb=a[1],aq=n(f(i),h);if(aq){var
 m=function(a,x){var
 z=y(bb);return function(g){var
 k=n(f(g),h),l=k?n(f(o),h):k;if(l){var
-s=e(aC,g),u=dP(H,dQ(H,o,cj(c),s)),v=a_(gX(c,ap,an,x,e(aC,g)),u),a=0,b=g,i=v,w=f(o);for(;;){if(b){var
-p=b[1][2],q=n(a,ap),r=e(function(g,h){return function(d){var
-a=V(aG(0,f(o)),o);return e(function(a){var
-b=nf(H,a[2],d[1]);if(h&&n(a[1],g))return E(b,ax(t(c,an,d[2])));return b},a)}}(a,q),p),j=fs(c,z,ne(c,a,w),r,i);if(j){var
+s=e(aA,g),u=dP(H,dQ(H,o,cj(c),s)),v=a_(gX(c,ao,an,x,e(aA,g)),u),a=0,b=g,i=v,w=f(o);for(;;){if(b){var
+p=b[1][2],q=n(a,ao),r=e(function(g,h){return function(d){var
+a=V(aH(0,f(o)),o);return e(function(a){var
+b=nj(H,a[2],d[1]);if(h&&n(a[1],g))return E(b,ax(t(c,an,d[2])));return b},a)}}(a,q),p),j=fs(c,z,ni(c,a,w),r,i);if(j){var
 a=[0,a],b=b[2],i=j[1];continue}var
 d=j}else
 var
 d=[0,i];if(d)return aY(c,h,d[1]);var
 m=d;break}}else
 var
-m=l;return m}},k=i;aH=1}else
+m=l;return m}},k=i;aG=1}else
 var
 ar=aq}else
 var
-ar=a;if(!aH)return ar}if(aF)return 0;break;default:return 0}if(v){var
+ar=a;if(!aG)return ar}if(aF)return 0;break;default:return 0}if(v){var
 G=R(C);if(!G)return G;var
 a5=function(b,f,a){return l(function(a){var
-b=f[2],c=a[2],e=ao(function(b,a){return F(bq(d,Q(b[2][1])),a)},d,c);return D(d,aO(aO(a[1][2][1],e),b))},a)},_=a5,Z=[0,[0,0,G[1]],0]}else{var
-B=g7(p,R,k);if(!B)return B;var
+b=f[2],c=a[2],e=ap(function(b,a){return F(bq(d,Q(b[2][1])),a)},d,c);return D(d,aO(aO(a[1][2][1],e),b))},a)},_=a5,Z=[0,[0,0,G[1]],0]}else{var
+B=g9(p,R,k);if(!B)return B;var
 _=m,Z=B[1]}var
 aU=a$(h);return l(function(a){var
 b=e(function(b){return g1(c,a,aN,b)},Z);return gb(_,a,aE(a,aP),b)},aU)}return X}function
-jl(j,a){var
-f=ao(function(b,a){return bq(cz(b),a)},d,a);function
+jq(j,a){var
+f=ap(function(b,a){return bq(cz(b),a)},d,a);function
 g(a){if(a){if(L(cz(a[1]),f))return 0;var
 b=[0,g(a[2])]}else
 var
 b=a;return b}var
 h=g(a);if(L(f,d)){var
 k=e(function(a){return u},a),l=a?[0,b,a[2]]:a;return[0,[0,[0,0,l],d],k]}var
-i=iO(F(ma(f),b)),m=e(function(a){return u},a);return[0,[0,[0,h,a],i],db(u,h,J(j,cb(c(2,b),i)),m)]}function
-g8(g,w,p,an,v,o,m,M,K,i,a,h,am,H,al,G,F){var
-j=f(M),N=dO(0,M),O=cG(fw(p,an,v,i,a),w),ao=cf(0,bB(g,N,e(aa,ft(h,0,o))),O,w),ap=e(aC,h),aq=e(aa,o),as=cf(uG,function(a){return i8(g,N,aq,ap,a)},O,w),at=g0(h,o);function
-au(a){return jk(m,ao,as,h,a)}var
-av=K?K[1]:aa(u),P=jl(g,am),Q=P[1],R=Q[1],x=R[2],k=R[1],S=P[2],aw=Q[2],q=e(function(a){return aP(a,aw,J(g,b))},x);function
-T(a){return je(g,k,q,H,al,G,F,jd(g,k,q,j,a,0))}function
+i=iT(F(me(f),b)),m=e(function(a){return u},a);return[0,[0,[0,h,a],i],db(u,h,J(j,cb(c(2,b),i)),m)]}function
+g_(g,w,p,an,v,o,m,M,K,i,a,h,am,H,al,G,F){var
+j=f(M),N=dO(0,M),O=cG(fw(p,an,v,i,a),w),ao=cf(0,bB(g,N,e(aa,ft(h,0,o))),O,w),ap=e(aA,h),aq=e(aa,o),as=cf(uJ,function(a){return jb(g,N,aq,ap,a)},O,w),at=g0(h,o);function
+au(a){return jp(m,ao,as,h,a)}var
+av=K?K[1]:aa(u),P=jq(g,am),Q=P[1],R=Q[1],x=R[2],k=R[1],S=P[2],aw=Q[2],q=e(function(a){return aQ(a,aw,J(g,b))},x);function
+T(a){return jj(g,k,q,H,al,G,F,ji(g,k,q,j,a,0))}function
 U(a){return a?aY(g,j,a[1]):a}function
-y(d,c,b,a){return U(jf(g,k,q,S,c,b,a,T($(d))))}var
-ax=e(aC,h),V=l(function(a){return aD(a,f(o))},ax),W=V?g6(e(aC,h)):V,X=W?n(f(x),j):W,Y=X?n(f(H),j):X,Z=Y?D(d,G):Y,_=Z?gG(F,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):Z,ab=_?aD(k,j):_,ac=ab?I(L(s(k,x,d),d)):ab;if(ac){switch(i[0]){case
+y(d,c,b,a){return U(jk(g,k,q,S,c,b,a,T($(d))))}var
+ax=e(aA,h),V=l(function(a){return aD(a,f(o))},ax),W=V?g8(e(aA,h)):V,X=W?n(f(x),j):W,Y=X?n(f(H),j):X,Z=Y?D(d,G):Y,_=Z?gG(F,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):Z,ab=_?aD(k,j):_,ac=ab?I(L(s(k,x,d),d)):ab;if(ac){switch(i[0]){case
 0:var
 z=i[1],C=0;if(typeof
 a==="number")C=1;else
@@ -2667,7 +2680,7 @@ b=A(z,a);return function(a){return y(b,az,ay,a)}},r=p;break;case
 2:var
 aF=a[2],aG=a[1],ae=dd(v,m),ai=0;if(ae){var
 af=L(z[1],d),ag=af?L(z[2],d):af;if(ag){var
-t=function(b,a){return y(b,aG,aF,e(nc,a))},r=p;ai=1}else
+t=function(b,a){return y(b,aG,aF,e(ng,a))},r=p;ai=1}else
 var
 ah=ag}else
 var
@@ -2676,7 +2689,7 @@ ah=ae;if(!ai)return ah;break;default:C=1}if(C)return 0;break;case
 aj=0,aH=i[1];if(typeof
 a==="number"&&!a)var
 t=function(a){var
-b=E(aH,a);return function(a){return U(nm(g,k,q,S,a,T(b)))}},r=p;else
+b=E(aH,a);return function(a){return U(nq(g,k,q,S,a,T(b)))}},r=p;else
 aj=1;if(aj)return 0;break;case
 4:var
 ak=0,aI=i[2];if(typeof
@@ -2684,53 +2697,53 @@ a==="number"||!(0===a[0]))ak=1;else
 var
 aJ=a[2],aK=a[1],aL=function(a){var
 b=A(aI,a);return function(a){return y(b,aK,aJ,a)}},t=aL,r=i[1];if(ak)return 0;break;default:return 0}var
-B=g7(m,au,r);if(B){var
-aA=B[1],aB=a$(j);return l(function(a){var
-b=e(function(b){return g1(g,a,at,b)},aA);return ar(t,aE(a,av),b)},aB)}return B}return ac}function
-nr(s,r,q,p,o,n,E,m,c,l,k,j,i,g,a){var
+B=g9(m,au,r);if(B){var
+aB=B[1],aC=a$(j);return l(function(a){var
+b=e(function(b){return g1(g,a,at,b)},aB);return ar(t,aE(a,av),b)},aC)}return B}return ac}function
+nv(s,r,q,p,o,n,E,m,c,l,k,j,i,g,a){var
 w=e(function(a){return d},c),v=0;if(typeof
 a!=="number")switch(a[0]){case
 5:var
-F=a[1],G=function(a){return g8(s,r,q,p,o,n,m,c,a,l,F,0,w,k,j,i,g)},y=G,x=a[3],t=a[2];v=1;break;case
+F=a[1],G=function(a){return g_(s,r,q,p,o,n,m,c,a,l,F,0,w,k,j,i,g)},y=G,x=a[3],t=a[2];v=1;break;case
 10:var
 b=a[3],B=a[2],f=a[1],C=0;if(typeof
 f!=="number"&&5===f[0]){if(!b)return b;if(b[2])return 0;var
-H=b[1],I=f[1],J=function(a){return g8(s,r,q,p,o,n,m,c,a,l,I,B,H,k,j,i,g)},y=J,x=f[3],t=f[2];v=1;C=1}if(!C)return b?b[2]?0:g8(s,r,q,p,o,n,m,c,0,l,f,B,b[1],k,j,i,g):b;break}if(v){var
+H=b[1],I=f[1],J=function(a){return g_(s,r,q,p,o,n,m,c,a,l,I,B,H,k,j,i,g)},y=J,x=f[3],t=f[2];v=1;C=1}if(!C)return b?b[2]?0:g_(s,r,q,p,o,n,m,c,0,l,f,B,b[1],k,j,i,g):b;break}if(v){var
 u=h(E,c);if(u){var
 z=D(d,t);if(z)return y([0,gU(t,x,u[1])]);var
 A=z}else
 var
-A=u;return A}return g8(s,r,q,p,o,n,m,c,0,l,a,0,w,k,j,i,g)}function
-ns(a,x,al,r,H,ak,q,p,aj,ai,i){function
+A=u;return A}return g_(s,r,q,p,o,n,m,c,0,l,a,0,w,k,j,i,g)}function
+nw(a,x,al,r,H,ak,q,p,aj,ai,i){function
 k(am,g,j,y){var
-h=f(q),B=dO(0,q),C=cG(de(al),x),as=cf(0,bB(a,B,e(aa,ft(j,0,r))),C,x),at=e(aC,j),au=e(aa,r),av=cf(uH,function(b){return i8(a,B,au,at,b)},C,x);function
-aw(a){return jk(ak,as,av,j,a)}var
+h=f(q),B=dO(0,q),C=cG(de(al),x),as=cf(0,bB(a,B,e(aa,ft(j,0,r))),C,x),at=e(aA,j),au=e(aa,r),av=cf(uK,function(b){return jb(a,B,au,at,b)},C,x);function
+aw(a){return jp(ak,as,av,j,a)}var
 ax=am?am[1]:aa(u);function
 k(b){return b?aY(a,h,b[1]):b}function
 F(b,a){return $(A(aE(b,aj),a))}function
 G(d,c,b){return E(t(a,d,aE(c,aj)),b)}var
-ay=e(aC,j),H=l(function(a){return aD(a,f(r))},ay),K=H?g6(e(aC,j)):H,M=K?n(f(y),h):K;if(M){var
+ay=e(aA,j),H=l(function(a){return aD(a,f(r))},ay),K=H?g8(e(aA,j)):H,M=K?n(f(y),h):K;if(M){var
 an=0;if(ai){var
-N=ai[1],O=N[1],P=O[1],Q=P[1],R=O[2],S=N[2],az=P[2],T=jl(a,y),U=T[1],V=U[1],v=V[2],i=V[1],W=T[2],aA=U[2],m=e(function(c){return aP(c,aA,J(a,b))},v),X=function(b){return je(a,i,m,Q,az,R,S,jd(a,i,m,h,b,0))},Y=n(f(v),h),Z=Y?n(f(Q),h):Y,_=Z?D(d,R):Z,ab=_?gG(S,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):_,ad=ab?aD(i,h):ab,ae=ad?I(L(s(i,v,d),d)):ad,z=0;if(ae)if(p){var
-ao=0,aB=p[1];if(typeof
+N=ai[1],O=N[1],P=O[1],Q=P[1],R=O[2],S=N[2],az=P[2],T=jq(a,y),U=T[1],V=U[1],v=V[2],i=V[1],W=T[2],aB=U[2],m=e(function(c){return aQ(c,aB,J(a,b))},v),X=function(b){return jj(a,i,m,Q,az,R,S,ji(a,i,m,h,b,0))},Y=n(f(v),h),Z=Y?n(f(Q),h):Y,_=Z?D(d,R):Z,ab=_?gG(S,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):_,ad=ab?aD(i,h):ab,ae=ad?I(L(s(i,v,d),d)):ad,z=0;if(ae)if(p){var
+ao=0,aC=p[1];if(typeof
 g==="number"&&!g){var
-o=function(d,c,b){return k(nm(a,i,m,W,b,X(G(aB,d,c))))};z=1;ao=1}if(!ao)return 0}else{var
+o=function(d,c,b){return k(nq(a,i,m,W,b,X(G(aC,d,c))))};z=1;ao=1}if(!ao)return 0}else{var
 ap=0;if(typeof
 g!=="number"&&0===g[0]){var
-aH=g[2],aI=g[1],o=function(d,c,b){return k(jf(a,i,m,W,aI,aH,b,X(F(d,c))))};z=1;ap=1}if(!ap)var
+aH=g[2],aI=g[1],o=function(d,c,b){return k(jk(a,i,m,W,aI,aH,b,X(F(d,c))))};z=1;ap=1}if(!ap)var
 af=0}else
 var
 af=ae;if(!z)return af}else{var
 ag=e(function(b){return J(a,b)},y);if(p){var
 aq=0,aJ=p[1];if(typeof
 g==="number"&&!g){var
-o=function(d,c,b){return k(nd(a,ag,b,ac([0,G(aJ,d,c),0],h)))};aq=1}if(!aq)return 0}else{var
+o=function(d,c,b){return k(nh(a,ag,b,ac([0,G(aJ,d,c),0],h)))};aq=1}if(!aq)return 0}else{var
 ar=0;if(typeof
 g==="number"||!(0===g[0]))ar=1;else
 var
-aK=g[2],aL=g[1],o=function(d,c,b){return k(jb(a,ag,aL,aK,b,ac([0,F(d,c),0],h)))};if(ar){var
+aK=g[2],aL=g[1],o=function(d,c,b){return k(jg(a,ag,aL,aK,b,ac([0,F(d,c),0],h)))};if(ar){var
 ah=0;an=1}}}if(!an){var
-w=g7(ak,aw,al);if(w){var
+w=g9(ak,aw,al);if(w){var
 aF=w[1],aG=a$(h);return l(function(b){var
 c=g0(j,r),d=e(function(d){return g1(a,b,c,d)},aF);return o(b,aE(b,ax),d)},aG)}return w}}else
 var
@@ -2755,12 +2768,12 @@ C=D(d,m);if(C)return B([0,gU(m,z,o[1])]);var
 F=C}else
 var
 F=o;return F}return k(0,i,0,y)}function
-nt(m,l,k,j,i,g,p,f,b,e,a){if(typeof
+nx(m,l,k,j,i,g,p,f,b,e,a){if(typeof
 a!=="number")switch(a[0]){case
 5:var
 q=a[2],n=h(p,b);if(n){var
 r=D(d,q);if(r){var
-y=a[1];return np(m,l,k,j,i,g,f,b,[0,gU(q,a[3],n[1])],e,y)}var
+y=a[1];return nt(m,l,k,j,i,g,f,b,[0,gU(q,a[3],n[1])],e,y)}var
 s=r}else
 var
 s=n;return s;case
@@ -2769,15 +2782,15 @@ t=a[3],u=a[2],c=a[1];if(typeof
 c!=="number"&&5===c[0]){var
 v=c[2],o=h(p,b);if(o){var
 w=D(d,v);if(w){var
-z=c[1];return nq(m,l,k,j,i,g,f,b,[0,gU(v,c[3],o[1])],e,z,u,t)}var
+z=c[1];return nu(m,l,k,j,i,g,f,b,[0,gU(v,c[3],o[1])],e,z,u,t)}var
 x=w}else
 var
-x=o;return x}return nq(m,l,k,j,i,g,f,b,0,e,c,u,t)}return np(m,l,k,j,i,g,f,b,0,e,a)}function
-jm(a){switch(a[0]){case
+x=o;return x}return nu(m,l,k,j,i,g,f,b,0,e,c,u,t)}return nt(m,l,k,j,i,g,f,b,0,e,a)}function
+jr(a){switch(a[0]){case
 9:case
 10:return 0;default:return 1}}function
-jn(t,r,q,p,k,a,f,j){var
-h=jm(a),i=h?l(function(b){var
+js(t,r,q,p,k,a,f,j){var
+h=jr(a),i=h?l(function(b){var
 a=s(b,bz(fu,f,k),u);return L(a[1],a[2])},j):h;return i?l(function(ao){switch(a[0]){case
 3:var
 f=[0,a[1],0];break;case
@@ -2823,10 +2836,10 @@ N=f;return N;case
 o=a[1];if(o){var
 O=o[1],g=a[2];if(O){if(g){var
 P=g[1];if(P)return[0,[0,F(O[1],P[1])]];var
-R=uw}else
+R=uz}else
 var
 R=g;return R}var
-ai=g?ux:g,S=ai}else
+ai=g?uA:g,S=ai}else
 var
 S=o;return S;case
 7:var
@@ -2835,14 +2848,14 @@ T=p[1],h=a[2];if(T){if(h)var
 q=h[1],aj=q?[0,[0,aO(T[1],q[1])]]:q,U=aj;else
 var
 U=h;return U}var
-al=h?uy:h,V=al}else
+al=h?uB:h,V=al}else
 var
 V=p;return V;case
 8:var
 r=a[1];if(r){var
 W=r[1];if(W){var
 X=W[1];return[0,[0,F(X,X)]]}var
-Y=uz}else
+Y=uC}else
 var
 Y=r;return Y;case
 9:var
@@ -2878,114 +2891,122 @@ a=s(c,h,0),b=a?1:a;return b},p);if(i){var
 m=g(de(q),f),o=g(de(r),m);return l(function(c){var
 a=s(c,h,0);if(a){var
 b=aV(a[1]);return 0===b?1:0<b?0:0}return a},o)}return i},f):i}function
-jo(j,a,i,h,g,f,e,d,c,b){var
-k=cG(fw(i,h,g,c,b),a);return jg(j,a,bz(fu,e,f),k,d)}function
-nu(f,d,c,n,m,b,l,q,e,k,j,i,h,a){if(typeof
+jt(j,a,i,h,g,f,e,d,c,b){var
+k=cG(fw(i,h,g,c,b),a);return jl(j,a,bz(fu,e,f),k,d)}function
+ny(f,d,c,n,m,b,l,q,e,k,j,i,h,a){if(typeof
 a!=="number"&&11===a[0]){var
-o=a[3],g=a[1],p=jn(d,c,n,m,b,k,g,a[2]);if(p){var
-r=jo(f,d,c,n,m,b,g,e,k,o);return ns(f,d,c,bz(fu,g,b),l,r,e,j,i,h,o)}return p}return ns(f,d,c,b,l,q,e,j,i,h,a)}function
-nv(r,q,p,o,m,k,j,i,h,g,d,c,a){if(typeof
+o=a[3],g=a[1],p=js(d,c,n,m,b,k,g,a[2]);if(p){var
+r=jt(f,d,c,n,m,b,g,e,k,o);return nw(f,d,c,bz(fu,g,b),l,r,e,j,i,h,o)}return p}return nw(f,d,c,b,l,q,e,j,i,h,a)}function
+nz(r,q,p,o,m,k,j,i,h,g,d,c,a){if(typeof
 a!=="number"&&12===a[0]){var
 b=a[1],s=I(n(f(b),0));if(s){var
-t=V(jc(e(function(a){return a[1][1][1]},b)),b);return l(function(a){var
-b=a[2],e=b[1];return nu(r,q,p,o,m,k,j,i,h,g,d,c,[0,[0,[0,[0,a[1][1],a[1][2]],e[1][2]],e[2]]],b[2])},t)}return s}return nu(r,q,p,o,m,k,j,i,h,g,d,c,0,a)}function
-g9(b,a){if(a){var
+t=V(jh(e(function(a){return a[1][1][1]},b)),b);return l(function(a){var
+b=a[2],e=b[1];return ny(r,q,p,o,m,k,j,i,h,g,d,c,[0,[0,[0,[0,a[1][1],a[1][2]],e[1][2]],e[2]]],b[2])},t)}return s}return ny(r,q,p,o,m,k,j,i,h,g,d,c,0,a)}function
+g$(b,a){if(a){var
 c=a[2];if(b){var
-e=g9(b[1],c);return[0,a[1],e]}var
+e=g$(b[1],c);return[0,a[1],e]}var
 d=[0,0,c]}else
 var
 d=a;return d}function
-nw(c,b,a){var
+nA(c,b,a){var
 d=V(b,a);return l(function(a){var
 b=h(c,a[1]);return b?b:I(a[2])},d)}function
-fx(k,a,i,g,c,t,o,j,b,X,p){switch(p[0]){case
+fx(m,b,k,a,i,t,o,j,g,Z,q){switch(q[0]){case
 0:var
-ab=function(a){return l(I,a)},J=ab,y=p[1];break;case
+ae=function(a){return l(I,a)},L=ae,y=q[1];break;case
 1:var
-ac=p[4],ad=p[3],ae=p[2],af=function(d){var
-e=c$(ae,b),f=fx(k,a,i,g,c,t,o,j,e[1],d,ad);return f?fx(k,a,i,g,c,t,o,j,e[2],d,ac):f},J=af,y=p[1];break;default:var
-ag=p[4],ah=p[3],ai=p[2],aj=function(d){var
-e=nw(jm,t,d);if(e){var
-f=c$(ai,j),h=fx(k,a,i,g,c,t,o,f[1],b,d,ah);if(h)return fx(k,a,i,g,c,t,o,f[2],b,d,ag);var
-l=h}else
+af=q[4],ag=q[3],ah=q[2],ai=function(c){var
+d=c$(ah,g),e=fx(m,b,k,a,i,t,o,j,d[1],c,ag);return e?fx(m,b,k,a,i,t,o,j,d[2],c,af):e},L=ai,y=q[1];break;default:var
+aj=q[4],ak=q[3],al=q[2],am=function(c){var
+d=nA(jr,t,c);if(d){var
+e=c$(al,j),f=fx(m,b,k,a,i,t,o,e[1],g,c,ak);if(f)return fx(m,b,k,a,i,t,o,e[2],g,c,aj);var
+h=f}else
 var
-l=e;return l},J=aj,y=p[1]}if(y){var
-z=jg(k,a,j,cG(w(function(e){var
-a=e[2],d=0;if(typeof
-a==="number"){if(4!==a)d=1}else
-if(11!==a[0])d=1;if(d){var
-b=G(t,e[1]);return b?fw(i,g,c,b[1],a):b}return 0},y),a),b),x=y,u=X;for(;;){if(x){var
-R=x[1],m=R[2],E=R[1],S=x[2],Y=0;if(typeof
-m==="number"&&4===m){var
-A=h(o,b);if(A)var
-_=A[1],Z=a$(f(b)),F=l(function(b){return function(a){return K(aE(a,b)[2],d)}}(_),Z);else
+h=d;return h},L=am,y=q[1]}if(y){var
+A=jl(m,b,j,cG(w(function(e){var
+b=e[2],d=0;if(typeof
+b==="number"){if(4!==b)d=1}else
+if(11!==b[0])d=1;if(d){var
+c=G(t,e[1]);return c?fw(k,a,i,c[1],b):c}return 0},y),b),g),x=y,u=Z;for(;;){if(x){var
+T=x[1],c=T[2],F=T[1],U=x[2],_=0;if(typeof
+c==="number"&&4===c){var
+B=h(o,g);if(B)var
+aa=B[1],$=a$(f(g)),H=l(function(b){return function(a){return K(aE(a,b)[2],d)}}(aa),$);else
 var
-F=A;if(F){var
-x=S,u=e(function(a){return 0},u);continue}var
-v=F}else
-Y=1;if(Y){var
-T=s(E,u,0);if(T){var
-H=G(t,E);if(H){var
-q=H[1],L=0;if(typeof
-m==="number")L=1;else
-switch(m[0]){case
+H=B;if(H){var
+x=U,u=e(function(a){return 0},u);continue}var
+v=H}else
+_=1;if(_){var
+W=s(F,u,0);if(W){var
+J=G(t,F);if(J){var
+p=J[1],M=0;if(typeof
+c==="number")M=1;else
+switch(c[0]){case
 11:var
-M=m[3],B=m[1],N=jn(a,i,g,c,j,q,B,m[2]);if(N)var
-$=jo(k,a,i,g,c,j,B,b,q,M),r=nt(k,a,i,g,c,bz(fu,B,j),o,$,b,q,M);else
-var
-r=N;break;case
-12:var
-C=m[1],O=I(n(f(C),0));if(O)var
-aa=V(jc(e(function(a){return a[1][1][1]},C)),C),r=l(function(f){return function(r){var
-s=r[2],e=r[1],l=s[1],m=l[1][2],n=l[2],d=s[2];if(typeof
-d!=="number"&&11===d[0]){var
-p=d[3],h=d[1],q=jn(a,i,g,c,j,f,h,d[2]);if(q){var
-t=e[2],u=e[1],v=jo(k,a,i,g,c,j,h,b,f,p);return nr(k,a,i,g,c,bz(fu,h,j),o,v,b,f,u,t,m,n,p)}return q}return nr(k,a,i,g,c,j,o,z,b,f,e[1],e[2],m,n,d)}}(q),aa);else
+N=c[3],C=c[1],O=js(b,k,a,i,j,p,C,c[2]);if(O)var
+ab=jt(m,b,k,a,i,j,C,g,p,N),r=nx(m,b,k,a,i,bz(fu,C,j),o,ab,g,p,N);else
 var
 r=O;break;case
-13:if(2===q[0])var
-D=jj(k,m[1],m[2]),P=i5(f(b),D),Q=P?nv(k,a,i,g,c,j,o,z,b,q,0,D,m[3]):P,r=Q?nv(k,a,i,g,c,j,o,z,b,q,[0,q[1]],D,m[4]):Q;else
+12:var
+D=c[1],P=I(n(f(D),0));if(P){var
+Q=I(g6(c));if(Q)var
+z=Q;else
 var
-r=0;break;default:L=1}if(L)var
-r=nt(k,a,i,g,c,j,o,z,b,q,m);if(r){var
-x=S,u=g9(E,u);continue}var
-U=r}else
+ad=1<p[0]?0:1,z=ad}else
 var
-U=H;var
-W=U}else
+z=P;if(z)var
+ac=V(jh(e(function(a){return a[1][1][1]},D)),D),r=l(function(C,e){return function(t){var
+u=t[2],d=t[1],v=g6(C),h=u[1],l=h[1][2],n=h[2],c=u[2],p=v?a:k;function
+q(a){return v?g7(a):a}if(typeof
+c!=="number"&&11===c[0]){var
+r=c[3],f=c[1],s=js(b,k,a,i,j,e,f,c[2]);if(s){var
+x=q(r),y=d[2],z=d[1],B=jt(m,b,k,a,i,j,f,g,e,r);return nv(m,b,p,a,i,bz(fu,f,j),o,B,g,e,z,y,l,n,x)}return s}var
+w=q(c);return nv(m,b,p,a,i,j,o,A,g,e,d[1],d[2],l,n,w)}}(c,p),ac);else
 var
-W=T;var
-v=W}}else
+r=z;break;case
+13:if(2===p[0])var
+E=jo(m,c[1],c[2]),R=i_(f(g),E),S=R?nz(m,b,k,a,i,j,o,A,g,p,0,E,c[3]):R,r=S?nz(m,b,k,a,i,j,o,A,g,p,[0,p[1]],E,c[4]):S;else
+var
+r=0;break;default:M=1}if(M)var
+r=nx(m,b,k,a,i,j,o,A,g,p,c);if(r){var
+x=U,u=g$(F,u);continue}var
+X=r}else
+var
+X=J;var
+Y=X}else
+var
+Y=W;var
+v=Y}}else
 var
 v=[0,u];break}}else
 var
-v=[0,X];return v?J(v[1]):v}function
-jp(h,g,f,e,d,c,b,a){return function(i,j,k){return fx(h,g,f,e,d,b,a,c,i,j,k)}}function
-jq(a){return e(function(a){return 1},a)}function
-eB(a,d,b,c){function
+v=[0,Z];return v?L(v[1]):v}function
+ju(h,g,f,e,d,c,b,a){return function(i,j,k){return fx(h,g,f,e,d,b,a,c,i,j,k)}}function
+jv(a){return e(function(a){return 1},a)}function
+eC(a,d,b,c){function
 f(d,c){var
 f=V(a[1],b[1]);return e(function(a){var
 b=r(c,a[2]);return B(r(d,a[1]),b)},f)}if(aX(a[2],b[2])){var
 g=a[2];return[0,f(d,c),g]}var
 h=r(a[2],b[2]),i=r(c,a[2]);return[0,f(r(d,b[2]),i),h]}function
-nx(a){var
+nB(a){var
 c=m(b);return[0,e(function(a){return m(d)},a),c]}function
 bf(a,k){var
 f=k[1];switch(f[0]){case
 1:var
 u=f[1];if(ak(function(a){return n(u,a)},a)){var
 C=m(b);return[0,e(function(a){var
-c=n(a,u)?b:d;return m(c)},a),C]}return nx(a);case
+c=n(a,u)?b:d;return m(c)},a),C]}return nB(a);case
 3:var
-D=m(b),E=bf(a,f[2]),F=m(b);return eB(bf(a,f[1]),F,E,D);case
+D=m(b),E=bf(a,f[2]),F=m(b);return eC(bf(a,f[1]),F,E,D);case
 4:var
-G=m(Q(b)),H=bf(a,f[2]),I=m(b);return eB(bf(a,f[1]),I,H,G);case
+G=m(Q(b)),H=bf(a,f[2]),I=m(b);return eC(bf(a,f[1]),I,H,G);case
 5:var
 v=bf(a,f[1]),J=v[2];return[0,e(bs,v[1]),J];case
 6:var
-w=f[2],x=f[1],K=bf(a,w);return eB(bf(a,x),w,K,x);case
+w=f[2],x=f[1],K=bf(a,w);return eC(bf(a,x),w,K,x);case
 7:var
-y=f[2],L=bs(k),M=bf(a,y),N=m(b),i=eB(bf(a,f[1]),N,M,L),O=i[1];if(l(function(a){return be(d,a)},O))return i;var
+y=f[2],L=bs(k),M=bf(a,y),N=m(b),i=eC(bf(a,f[1]),N,M,L),O=i[1];if(l(function(a){return be(d,a)},O))return i;var
 P=r(i[2],y);return[0,i[1],P];case
 8:var
 A=f[1],B=bf(a,A),R=B[2],S=B[1],T=r(m(c(2,b)),A);return[0,e(function(a){return r(T,a)},S),R];case
@@ -2994,11 +3015,11 @@ j=bf(a,f[1]),U=j[1];if(l(function(a){return be(d,a)},U)){var
 V=m(b);return[0,j[1],V]}var
 W=r(m(c(2,b)),k),X=r(j[2],W);return[0,j[1],X];case
 10:var
-o=f[4],g=f[3],h=f[2],p=[0,[10,0,h,g,o]],q=[0,[10,1,h,g,o]],Y=z(g,q),Z=bf(a,g),_=z(h,p),$=eB(bf(a,h),_,Z,Y),aa=m(Q(b)),ab=bf(a,o),s=eB($,m(c(2,b)),ab,aa),ac=s[1],ad=f[1]?p:bs(q),t=e(function(a){return r(ad,a)},ac);if(l(function(a){return be(d,a)},t))return[0,t,s[2]];var
-ae=r(h,q),af=z(r(g,p),ae),ag=r(m(c(2,b)),af);return[0,t,r(s[2],ag)];default:return nx(a)}}function
-g_(c,a){var
+o=f[4],g=f[3],h=f[2],p=[0,[10,0,h,g,o]],q=[0,[10,1,h,g,o]],Y=z(g,q),Z=bf(a,g),_=z(h,p),$=eC(bf(a,h),_,Z,Y),aa=m(Q(b)),ab=bf(a,o),s=eC($,m(c(2,b)),ab,aa),ac=s[1],ad=f[1]?p:bs(q),t=e(function(a){return r(ad,a)},ac);if(l(function(a){return be(d,a)},t))return[0,t,s[2]];var
+ae=r(h,q),af=z(r(g,p),ae),ag=r(m(c(2,b)),af);return[0,t,r(s[2],ag)];default:return nB(a)}}function
+ha(c,a){var
 b=bf(c,a),f=b[1];return e(function(a){return be(d,a)?a:an(a,b[2])},f)}function
-ny(g){var
+nC(g){var
 h=g[1],c=h[2],e=h[1];if(0===e[0]){var
 i=e[2],a=e[1];if(D(i,b)){if(0===c[0]){var
 j=c[2],m=c[1];if(D(j,b)){var
@@ -3008,29 +3029,29 @@ var
 f=l;var
 o=f?[0,a]:f;return o}return L(aW(j,aM(2))[2],d)?0:0}return 0}return L(aW(i,aM(2))[2],d)?0:0}return 0}function
 ck(c,b){var
-a=ny(c);return a?m(a[1]):[0,[1,b]]}function
+a=nC(c);return a?m(a[1]):[0,[1,b]]}function
 cN(b,a){if(a)var
 d=cN([0,b],a[2]),c=[0,ck(a[1],b),d];else
 var
 c=a;return c}function
 bg(b,a){return[0,[0,b[1],a],[0,[0,b[2],a],[0,[0,b[3],a],0]]]}function
-g$(b,d,a){switch(a[0]){case
+hb(b,d,a){switch(a[0]){case
 0:var
 c=a[1],f=[0,[0,c[4],b],0],h=g(bg(c[3],b),f),i=g(bg(c[2],b),h);return g(bg(c[1],d),i);case
 1:var
 e=a[3],j=e?bg(e[1],d):e,k=g(bg(a[2],b),j);return g(bg(a[1],b),k);default:return bg(a[1],d)}}function
 al(b,a){var
-c=m(d),e=s(N(uI,a),b,c),f=m(d),g=s(N(uJ,a),b,f);return[0,s(a,b,m(d)),g,e]}function
-nz(b,a){return ah(z,ah(B,dN,a),b)}function
-ha(c,b,a){if(a){var
-e=a[2],f=ha(c,bI(b),e),h=a[1];return g(g$(c,bW(d,b),h),f)}return a}function
-jr(g,e,c,j){if(c){var
-b=c[1],v=N(j,f(g$(g,bW(d,e),b))),w=c[2],x=jr(g,bI(e),w,v),a=cN(j,g$(g,bW(d,e),b));switch(b[0]){case
+c=m(d),e=s(N(uL,a),b,c),f=m(d),g=s(N(uM,a),b,f);return[0,s(a,b,m(d)),g,e]}function
+nD(b,a){return ah(z,ah(B,dN,a),b)}function
+hc(c,b,a){if(a){var
+e=a[2],f=hc(c,bI(b),e),h=a[1];return g(hb(c,bW(d,b),h),f)}return a}function
+jw(g,e,c,j){if(c){var
+b=c[1],v=N(j,f(hb(g,bW(d,e),b))),w=c[2],x=jw(g,bI(e),w,v),a=cN(j,hb(g,bW(d,e),b));switch(b[0]){case
 0:var
-l=b[1][5],n=s(uK,a,m(d)),o=ah(B,dN,al(a,uL)),p=dM(al(a,0)),q=al(a,uM),h=mW(nz(al(a,uN),q),p,o,n,l);break;case
+l=b[1][5],n=s(uN,a,m(d)),o=ah(B,dN,al(a,uO)),p=dM(al(a,0)),q=al(a,uP),h=m0(nD(al(a,uQ),q),p,o,n,l);break;case
 1:var
-i=b[3],r=i?[0,dM(al(a,uO))]:i,t=ah(B,dN,al(a,uP)),u=al(a,uQ),h=mX(nz(al(a,0),u),t,r);break;default:var
-h=mY(dN,dM(al(a,0)))}var
+i=b[3],r=i?[0,dM(al(a,uR))]:i,t=ah(B,dN,al(a,uS)),u=al(a,uT),h=m1(nD(al(a,0),u),t,r);break;default:var
+h=m2(dN,dM(al(a,0)))}var
 k=[0,h,x]}else
 var
 k=c;return k}function
@@ -3043,7 +3064,7 @@ j=a[2];return[0,[0,j,j],d];case
 8:var
 k=[5,a[2],a[1]];return[0,[0,k,k],d];case
 10:var
-p=a[3],q=eq(a[2]),l=[2,[2,eq(a[1]),q],p];return[0,[0,l,l],c];case
+p=a[3],q=er(a[2]),l=[2,[2,er(a[1]),q],p];return[0,[0,l,l],c];case
 11:var
 m=a[4];return[0,[0,m,m],c];case
 12:var
@@ -3054,21 +3075,21 @@ o=[5,a[2],a[3]];return[0,[0,o,o],d];case
 0:case
 1:var
 f=[5,[0,b,b],a[1]];return[0,[0,f,f],d];case
-2:case
-3:case
-14:var
-g=a[2];return[0,[0,g,g],c];default:var
-i=a[1];return[0,[0,i,i],d]}var
+5:case
+7:case
+9:var
+i=a[1];return[0,[0,i,i],d];default:var
+g=a[2];return[0,[0,g,g],c]}var
 e=[0,d,b];return[0,[0,e,e],d]}function
 fy(b,a){var
 c=a[3],d=a[2],e=a[1];return[0,[0,[0,e,e],b],[0,[0,[0,d,d],b],[0,[0,[0,c,c],b],0]]]}function
-eC(c,a){if(0===a[0]){var
+eD(c,a){if(0===a[0]){var
 e=[0,d,b],i=g(fy(c,a[5]),[0,[0,[0,e,e],d],0]),f=a[4],h=a[3];return g([0,[0,[0,h,h],c],[0,[0,[0,f,f],c],0]],i)}var
 j=fy(c,a[3]);return g(fy(c,a[2]),j)}function
 dR(b,a){if(typeof
 a!=="number")switch(a[0]){case
 10:var
-h=eC(b,a[2]);return g(eC(b,a[1]),h);case
+h=eD(b,a[2]);return g(eD(b,a[1]),h);case
 11:var
 i=fy(b,a[3]);return g(fy(b,a[2]),i);case
 12:var
@@ -3076,18 +3097,18 @@ c=a[3],f=[5,[4,c,c],a[4]];return[0,[0,[0,f,f],b],0];case
 15:var
 j=a[2],k=a[1];return e(function(b){var
 a=[5,j,b];return[0,[0,a,a],d]},k)}return 0}function
-nA(c,b,a){var
+nE(c,b,a){var
 d=f(dR(c,b)),e=N(a[2],d);return[0,[0,a[1]],e]}function
-js(c,b){if(aX(b,c))return[0,m(d)];var
+jx(c,b){if(aX(b,c))return[0,m(d)];var
 a=b[1];if(4===a[0]){var
 e=aX(a[1],c),f=e?[0,a[2]]:e;return f}return 0}function
-nB(x,p,a,o){switch(o[0]){case
+nF(x,p,a,o){switch(o[0]){case
 0:var
 i=G(x,o[1]);if(i){var
 j=i[1];if(j){var
-q=j[1],r=q[1],c=r[2],e=r[1],t=q[2],y=al(a,uR),A=ah(B,ah(z,e,a7(an(s(uS,a,m(d)),t),c)),y),C=al(a,uT),f=an(s(0,a,m(d)),t),k=js(e[1],c[1]);if(k){var
-l=js(e[2],c[2]);if(l){var
-n=js(e[3],c[3]);if(n)var
+q=j[1],r=q[1],c=r[2],e=r[1],t=q[2],y=al(a,uU),A=ah(B,ah(z,e,a7(an(s(uV,a,m(d)),t),c)),y),C=al(a,uW),f=an(s(0,a,m(d)),t),k=jx(e[1],c[1]);if(k){var
+l=jx(e[2],c[2]);if(l){var
+n=jx(e[3],c[3]);if(n)var
 w=a7(f,c),g=ah(B,[0,k[1],l[1],n[1]],w);else
 var
 g=ah(z,e,a7(z(m(b),f),c))}else
@@ -3102,48 +3123,48 @@ v=u}else
 var
 v=i;return v;case
 1:var
-D=al(a,uU);return[0,[0,al(a,0),D]];default:var
-E=h(p,al(a,uV));return[0,[0,h(p,al(a,0)),E]]}}function
-nC(e,d,c,h,g){var
-a=nB(e,d,am(uW,c),h);if(a)var
-b=nB(e,d,aw(uX,c),g),i=b?[0,[0,a[1],b[1]]]:b,f=i;else
+D=al(a,uX);return[0,[0,al(a,0),D]];default:var
+E=h(p,al(a,uY));return[0,[0,h(p,al(a,0)),E]]}}function
+nG(e,d,c,h,g){var
+a=nF(e,d,am(uZ,c),h);if(a)var
+b=nF(e,d,aw(u0,c),g),i=b?[0,[0,a[1],b[1]]]:b,f=i;else
 var
 f=a;return f}function
-nD(f,c,d,b,a){var
-h=eC(c,a),i=cN(d,g(eC(c,b),h));function
-j(a){return ah(B,dN,a)}return nC(e(function(a){var
+nH(f,c,d,b,a){var
+h=eD(c,a),i=cN(d,g(eD(c,b),h));function
+j(a){return ah(B,dN,a)}return nG(e(function(a){var
 b=a[7];return y(function(b){var
 c=c_(a);return[0,[0,b,a[1]],c]},b)},f),j,i,b,a)}function
 dS(d,c,b,a){var
 e=r(c,b);return z(r(d,a),e)}function
 bD(a){return w(function(a){return g(a[1],[0,a[2],0])},a)}function
-nE(b,a){if(b)if(a)var
-d=b[1],e=nE(b[2],a[2]),f=r(d[2],a[1]),c=[0,[0,bZ(d[1]),f],e];else
+nI(b,a){if(b)if(a)var
+d=b[1],e=nI(b[2],a[2]),f=r(d[2],a[1]),c=[0,[0,bZ(d[1]),f],e];else
 var
 c=a;else
 var
 c=b;return c}function
-nF(a){if(a){var
+nJ(a){if(a){var
 b=a[1][6];if(b){var
-c=b[1],d=nF(a[2]);if(d)var
+c=b[1],d=nJ(a[2]);if(d)var
 g=d[1],h=ab(c,c),e=[0,[0,[0,bZ(c),h],g]];else
 var
 e=d;var
 f=e}else
 var
-f=b;return f}return uZ}function
+f=b;return f}return u2}function
 fz(b,d,c,a){if(typeof
 a!=="number")switch(a[0]){case
 8:var
 i=c[1],j=ck(b0(d,a),i);return[0,e(function(a){var
 b=r(a[2],j);return[0,bZ(a[1]),b]},b)];case
-9:return nF(b);case
+9:return nJ(b);case
 15:var
 k=f(b),g=n(f(a[1]),k);if(g)var
-l=dR(d,a),h=[0,nE(b,cN(c[2],l))];else
+l=dR(d,a),h=[0,nI(b,cN(c[2],l))];else
 var
 h=g;return h}return 0}function
-hb(e,k,j,a){var
+hd(e,k,j,a){var
 P=j[1],c=ck(b0(k,a),P),u=0;if(typeof
 a==="number")u=1;else
 switch(a[0]){case
@@ -3173,12 +3194,12 @@ F=E}else
 var
 F=e;return F;case
 10:var
-t=nD(e,k,j[2],a[1],a[2]);if(t){var
+t=nH(e,k,j[2],a[1],a[2]);if(t){var
 H=t[1],I=H[2],J=H[1];return w(bZ,[0,J[1],[0,J[2],[0,I[1],[0,I[2],0]]]])}return t;case
 11:var
 Y=function(d){var
 e=d[7];if(e)var
-n=dR(k,a),f=cN(j[2],n),h=al(f,uY),b=ah(z,al(f,0),h),i=X(c),l=X(c_(d)),m=an(X(ab(b,d[1])),l),g=[0,z(z(ab(b,b),m),i),0];else
+n=dR(k,a),f=cN(j[2],n),h=al(f,u1),b=ah(z,al(f,0),h),i=X(c),l=X(c_(d)),m=an(X(ab(b,d[1])),l),g=[0,z(z(ab(b,b),m),i),0];else
 var
 g=e;return g},g=Y,f=a[1];break;case
 12:var
@@ -3191,48 +3212,48 @@ i=e[7],o=i?[0,z(z(m(b),c),f),0]:i;return o},g=Z,f=a[1];break;case
 15:var
 q=fz(e,k,j,a);return q?bD(q[1]):q;default:u=1}if(u)return 0;var
 o=G(e,f);return o?g(o[1]):o}function
-jt(d,b,c,a){if(a){var
-e=a[1],f=a[2],h=jt(d,b,nA(b,e,c),f);return g(hb(d,b,c,e),h)}return a}var
-nG=[0,d,b],nH=[0,[0,nG,nG],d];function
-ju(a){return I(ch(a[1][1],a[1][2]))}function
-hc(a){var
-b=aG(0,f(a));return a5(function(b){return ju(s(b,a,nH))},b)}function
-jv(b,a){var
-c=V(hc(b),a);return a5(function(a){return I(be(d,a[2]))},c)}function
-fA(a,b){return jv(a,g_(hc(a),b))}function
-nI(b,a){var
+jy(d,b,c,a){if(a){var
+e=a[1],f=a[2],h=jy(d,b,nE(b,e,c),f);return g(hd(d,b,c,e),h)}return a}var
+nK=[0,d,b],nL=[0,[0,nK,nK],d];function
+jz(a){return I(ch(a[1][1],a[1][2]))}function
+he(a){var
+b=aH(0,f(a));return a5(function(b){return jz(s(b,a,nL))},b)}function
+jA(b,a){var
+c=V(he(b),a);return a5(function(a){return I(be(d,a[2]))},c)}function
+fA(a,b){return jA(a,ha(he(a),b))}function
+nM(b,a){var
 c=h(b,a[3]),d=h(b,a[2]);return[0,h(b,a[1]),d,c]}function
-nJ(m,l,k,j,i,a){return ad(e(function(e){var
-a=s(e[1],k,nH),f=aO(a[2],j),g=[4,[0,c(2,b),b],i],d=[5,[3,a[1][2],a[1][1]],g],n=ap(m,[0,[0,d,d],f]);return y(function(a){return[0,a,h(l,e[2])]},n)},a))}function
-nK(f,e,a,d,c,b){return nJ(f,e,a,d,c,fA(a,b))}function
-jw(g,f,n,m,l,e,c){var
-i=[5,l,e],a=ap(g,[0,[0,i,i],d]);if(a){var
-b=nK(g,f,n,m,e,c);if(b)var
+nN(m,l,k,j,i,a){return ad(e(function(e){var
+a=s(e[1],k,nL),f=aO(a[2],j),g=[4,[0,c(2,b),b],i],d=[5,[3,a[1][2],a[1][1]],g],n=aq(m,[0,[0,d,d],f]);return y(function(a){return[0,a,h(l,e[2])]},n)},a))}function
+nO(f,e,a,d,c,b){return nN(f,e,a,d,c,fA(a,b))}function
+jB(g,f,n,m,l,e,c){var
+i=[5,l,e],a=aq(g,[0,[0,i,i],d]);if(a){var
+b=nO(g,f,n,m,e,c);if(b)var
 o=[0,a[1],b[1]],j=[0,[0,h(f,c),o]];else
 var
 j=b;var
 k=j}else
 var
 k=a;return k}function
-nL(c,F,m,al,k,j,o,s){if(s){var
-a=s[1],aH=s[2],aI=nL(c,F,m,al,k,j,nA(j,a,o),aH);if(typeof
+nP(c,F,m,al,k,j,o,s){if(s){var
+a=s[1],aH=s[2],aI=nP(c,F,m,al,k,j,nE(j,a,o),aH);if(typeof
 a==="number")if(0===a)var
 g=[0,[0,u]];else
 var
-an=F[2],ao=F[1],aq=fr(k),g=[0,[8,h(ay(m),aq),ao,an]];else
+an=F[2],ao=F[1],ap=fr(k),g=[0,[8,h(ay(m),ap),ao,an]];else
 switch(a[0]){case
 0:var
-ar=ap(c,b0(j,a)),g=y(function(a){return[0,R(c,a)]},ar);break;case
+ar=aq(c,b0(j,a)),g=y(function(a){return[0,R(c,a)]},ar);break;case
 1:var
-as=ap(c,b0(j,a)),g=y(function(a){return[1,R(c,a)]},as);break;case
+as=aq(c,b0(j,a)),g=y(function(a){return[1,R(c,a)]},as);break;case
 5:var
-au=ap(c,b0(j,a)),g=y(function(a){return[2,R(c,a)]},au);break;case
+au=aq(c,b0(j,a)),g=y(function(a){return[2,R(c,a)]},au);break;case
 8:var
 av=fz(k,j,o,a),g=y(function(a){var
 d=J(c,b);return[4,h(ay(m),a),d]},av);break;case
 9:var
 w=fz(k,j,o,a);if(w){var
-x=ap(c,b0(j,a));if(x)var
+x=aq(c,b0(j,a));if(x)var
 aw=R(c,x[1]),ax=w[1],M=[0,[4,h(ay(m),ax),aw]];else
 var
 M=x;var
@@ -3241,10 +3262,10 @@ var
 N=w;var
 g=N;break;case
 10:var
-z=nD(k,j,o[2],a[1],a[2]);if(z){var
-O=z[1],P=O[2],Q=O[1],A=ap(c,b0(j,a));if(A){var
+z=nH(k,j,o[2],a[1],a[2]);if(z){var
+O=z[1],P=O[2],Q=O[1],A=aq(c,b0(j,a));if(A){var
 S=A[1],T=D(d,S[1]);if(T)var
-q=function(a){return nI(m,a)},az=q(P[2]),aA=q(P[1]),aB=q(Q[2]),U=[0,[6,q(Q[1]),aB,aA,az,S]];else
+q=function(a){return nM(m,a)},az=q(P[2]),aA=q(P[1]),aB=q(Q[2]),U=[0,[6,q(Q[1]),aB,aA,az,S]];else
 var
 U=T;var
 V=U}else
@@ -3255,7 +3276,7 @@ var
 W=z;var
 g=W;break;case
 12:var
-r=hb(k,j,o,a),t=0;if(r)if(r[2])var
+r=hd(k,j,o,a),t=0;if(r)if(r[2])var
 g=0;else{var
 X=i(c,0,a[2]),Y=X?i(c,1,a[4]):X;if(Y){var
 B=[0,[3,h(m,r[1])]];t=1}else{var
@@ -3265,14 +3286,14 @@ g=B;break;case
 13:var
 Z=a[1],_=G(k,Z),H=0;if(_){var
 $=i(c,1,a[2]),aa=$?i(c,1,a[3]):$;if(aa)var
-aC=ap(c,b0(j,a)),g=y(function(a){return[7,Z,R(c,a)]},aC);else{var
+aC=aq(c,b0(j,a)),g=y(function(a){return[7,Z,R(c,a)]},aC);else{var
 ab=aa;H=1}}else{var
 ab=_;H=1}if(H)var
 g=ab;break;case
 14:var
-ac=a[2],ae=a[1],af=n(f(k),u0),ag=af?i(c,0,ae):af,ah=ag?i(c,1,ac):ag;if(ah){var
-C=ap(c,b0(j,a));if(C)var
-E=ad(e(function(a){return jw(c,m,al,j,ae,ac,a[4])},k)),aD=E?[0,[9,C[1],E[1]]]:E,ai=aD;else
+ac=a[2],ae=a[1],af=n(f(k),u3),ag=af?i(c,0,ae):af,ah=ag?i(c,1,ac):ag;if(ah){var
+C=aq(c,b0(j,a));if(C)var
+E=ad(e(function(a){return jB(c,m,al,j,ae,ac,a[4])},k)),aD=E?[0,[9,C[1],E[1]]]:E,ai=aD;else
 var
 ai=C;var
 aj=ai}else
@@ -3285,7 +3306,7 @@ aG=fz(k,j,o,a),g=y(function(a){var
 d=J(c,b);return[4,h(ay(m),a),d]},aG);else
 var
 g=ak;break;default:var
-p=hb(k,j,o,a),I=0;if(p){var
+p=hd(k,j,o,a),I=0;if(p){var
 v=p[2],K=p[1];if(v)if(v[2])var
 g=0;else
 var
@@ -3296,19 +3317,19 @@ g=L}var
 am=[0,g,aI]}else
 var
 am=s;return am}function
-u1(a){var
+u4(a){var
 b=0;if(typeof
 a==="number"){if(0!==a)b=1}else
 if(0!==a[0])b=1;return b?0:1}function
-eD(a){if(0===a[0])return a[1];var
+eE(a){if(0===a[0])return a[1];var
 b=a[3],c=a[2],d=a[1];return[0,[0,[3,d,b],[2,d,b]],[0,[3,c,b],[2,c,b]],a[4]]}function
-nM(a,c,g,b){if(0===c[0])return 0;if(b){var
+nQ(a,c,g,b){if(0===c[0])return 0;if(b){var
 d=b[2];if(d){var
 h=d[2];if(h){if(h[2])return 0;var
 e=d[1],f=b[1],i=c8(a,g,c[1]);if(i){var
 j=c8(a,g,c[2]);if(j){var
 k=c8(a,g,c[3]);if(k)var
-v=i[1],w=ci(f),l=E([0,ci(f),w],v),x=j[1],y=ci(e),m=E([0,ci(e),y],x),z=ey(e),B=[0,ey(e),z],C=[0,t(a,$(A(m,m)),B),0],D=ey(f),F=[0,ey(f),D],G=[0,t(a,$(A(l,l)),F),C],H=R(a,m),I=R(a,l),n=[0,[0,E(E(R(a,k[1]),I),H),u,G]];else
+v=i[1],w=ci(f),l=E([0,ci(f),w],v),x=j[1],y=ci(e),m=E([0,ci(e),y],x),z=ez(e),B=[0,ez(e),z],C=[0,t(a,$(A(m,m)),B),0],D=ez(f),F=[0,ez(f),D],G=[0,t(a,$(A(l,l)),F),C],H=R(a,m),I=R(a,l),n=[0,[0,E(E(R(a,k[1]),I),H),u,G]];else
 var
 n=k;var
 o=n}else
@@ -3326,8 +3347,8 @@ r=d;var
 s=r}else
 var
 s=b;return s}function
-hd(a,p,o){var
-q=bg(p,o),b=e(function(b){return ap(a,b)},q);if(b){var
+hf(a,p,o){var
+q=bg(p,o),b=e(function(b){return aq(a,b)},q);if(b){var
 g=b[1];if(g){var
 c=b[2];if(c){var
 h=c[1];if(h){var
@@ -3353,12 +3374,12 @@ M(c,b,a){var
 d=ar(c,b[3],a[3]),e=ar(c,b[2],a[2]);return[0,ar(c,b[1],a[1]),e,d]}function
 S(b,a){return[0,[4,b,a[1]],[4,b,a[2]],[4,b,a[3]]]}function
 x(b,a){return[2,[2,[4,b[1],a[1]],[4,b[2],a[2]]],[4,b[3],a[3]]]}function
-aA(a){return S([5,[0,b,b],[6,x(a,a)]],a)}function
+aB(a){return S([5,[0,b,b],[6,x(a,a)]],a)}function
 df(c,b,a){var
 d=bC(c,b[1],a);return d?bC(c,a,b[2]):d}function
 bt(c,b,a){var
 d=df(c,b[1],a[1]),e=d?df(c,b[2],a[2]):d;return e?df(c,b[3],a[3]):e}function
-nN(b,c,a){switch(c[0]){case
+nR(b,c,a){switch(c[0]){case
 0:var
 d=c[1];if(0===a[0]){var
 j=a[4],f=a[1],k=bt(b,d[1],f),l=k?i(b,1,x(f,f)):k,m=l?bt(b,d[2],a[2]):l,n=m?bt(b,d[3],a[3]):m,o=n?df(b,d[4],j):n,p=o?i(b,1,j):o;return p?cB(d[5],a[5]):p}return 0;case
@@ -3377,7 +3398,7 @@ cO(c,a,b){if(0===a[0])return bt(c,a[1],b);var
 d=a[3],e=[3,b[1],a[1]],f=[3,b[2],a[2]],g=i(c,0,[3,[3,[4,d,d],[4,e,e]],[4,f,f]]),h=g?i(c,0,d):g;return h?df(c,a[4],b[3]):h}function
 fB(g,f,i,h){var
 b=f[1],a=i;for(;;){if(b){if(a){var
-d=nN(g,b[1],a[1]);if(d){var
+d=nR(g,b[1],a[1]);if(d){var
 b=b[2],a=a[2];continue}var
 e=d}else
 var
@@ -3388,57 +3409,57 @@ c=a?0:1;return c?cO(g,f[2],h):c}}function
 aZ(c,b,a){var
 d=M(function(b,a){return[2,b,a]},a,b);return M(function(b,a){return[3,b,a]},d,c)}function
 fC(a,e,d,c){var
-b=aZ(e,d,c),f=aA(a),g=S(x(aA(a),b),f);return M(function(b,a){return[3,b,a]},b,g)}function
+b=aZ(e,d,c),f=aB(a),g=S(x(aB(a),b),f);return M(function(b,a){return[3,b,a]},b,g)}function
 cl(f,e,d,a,c){var
 b=fC(f,e,d,c);return[3,[4,a,a],x(b,b)]}function
 cP(c,a){return c?[6,a]:[3,[0,d,b],[6,a]]}function
 cm(a,c){switch(a[0]){case
 0:var
-e=a[3],f=a[2],d=a[1],g=fC(d,f,e,c),h=cl(d,f,e,a[4],c),i=S([5,[0,b,b],cP(a[5],h)],g),j=aA(d);return M(function(b,a){return[2,b,a]},j,i);case
-1:return aA(aZ(a[1],a[2],c));default:return aA(a[1])}}function
+e=a[3],f=a[2],d=a[1],g=fC(d,f,e,c),h=cl(d,f,e,a[4],c),i=S([5,[0,b,b],cP(a[5],h)],g),j=aB(d);return M(function(b,a){return[2,b,a]},j,i);case
+1:return aB(aZ(a[1],a[2],c));default:return aB(a[1])}}function
 bE(a,b){switch(a[0]){case
 0:var
-d=a[3],e=a[2],c=a[1],f=aA(c),g=cl(c,e,d,a[4],b),h=S(cP(a[5],g),f),i=fC(c,e,d,b);return M(function(b,a){return[2,b,a]},i,h);case
-1:return aZ(a[1],a[2],b);default:return aA(a[1])}}function
+d=a[3],e=a[2],c=a[1],f=aB(c),g=cl(c,e,d,a[4],b),h=S(cP(a[5],g),f),i=fC(c,e,d,b);return M(function(b,a){return[2,b,a]},i,h);case
+1:return aZ(a[1],a[2],b);default:return aB(a[1])}}function
 cQ(a,b){switch(a[0]){case
 0:var
-c=a[3],d=a[2],e=a[1],h=cl(e,d,c,a[4],b),i=cP(a[5],h),j=aZ(d,c,b);return[3,x(aA(e),j),i];case
+c=a[3],d=a[2],e=a[1],h=cl(e,d,c,a[4],b),i=cP(a[5],h),j=aZ(d,c,b);return[3,x(aB(e),j),i];case
 1:var
-f=a[2],g=a[1],k=aZ(g,f,b);return[6,x(aZ(g,f,b),k)];default:return x(aA(a[1]),b)}}function
-jx(a,b){switch(a[0]){case
+f=a[2],g=a[1],k=aZ(g,f,b);return[6,x(aZ(g,f,b),k)];default:return x(aB(a[1]),b)}}function
+jC(a,b){switch(a[0]){case
 0:return[0,cl(a[1],a[2],a[3],a[4],b)];case
 1:var
 c=a[2],d=a[1],e=aZ(d,c,b);return[0,x(aZ(d,c,b),e)];default:return 0}}function
 fD(e,c,a){var
-f=[0,d,b];return ao(function(b,d){var
+f=[0,d,b];return ap(function(b,d){var
 e=x(cm(b,c),a);return[2,[4,x(cm(b,c),a),e],d]},f,e)}function
-nO(f,e,c,a){if(f){if(e){var
-g=e[1],h=nO(f[2],e[2],c,a),i=x(cm(g,c),a),j=[4,x(cm(g,c),a),i];return[2,[4,f[1],j],h]}return[0,d,b]}return[0,d,b]}function
-nP(a){var
+nS(f,e,c,a){if(f){if(e){var
+g=e[1],h=nS(f[2],e[2],c,a),i=x(cm(g,c),a),j=[4,x(cm(g,c),a),i];return[2,[4,f[1],j],h]}return[0,d,b]}return[0,d,b]}function
+nT(a){var
 c=a[1];return[0,[0,c[1],b],[0,c[2],b],[0,a[2],b]]}function
-jy(a,c){switch(a[0]){case
+jD(a,c){switch(a[0]){case
 0:return a[4];case
 1:var
 d=a[2],e=a[1],f=aZ(e,d,c);return[6,x(aZ(e,d,c),f)];default:return[0,b,b]}}function
-nQ(d,i){if(d){var
+nU(d,i){if(d){var
 a=d[1];if(1===a[0]){var
 c=a[3];if(c)var
-f=c[1],g=aZ(a[1],a[2],i),k=aA(f),l=S(x(aA(f),g),k),h=[0,M(function(b,a){return[3,b,a]},g,l)];else
+f=c[1],g=aZ(a[1],a[2],i),k=aB(f),l=S(x(aB(f),g),k),h=[0,M(function(b,a){return[3,b,a]},g,l)];else
 var
 h=c;var
 b=h}else
 var
 b=0;if(b)var
-e=nQ(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
+e=nU(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
 var
-j=b;return j}return u2}function
+j=b;return j}return u5}function
 dg(a){return[0,a[1],a[2],a[3]]}function
-nR(a,b){switch(a[0]){case
+nV(a,b){switch(a[0]){case
 0:var
-f=a[4],c=a[3],g=a[2],d=a[1],i=aA(d),j=cl(d,g,c,f,b),k=S(cP(a[5],j),i),l=fC(d,g,c,b),m=M(function(b,a){return[2,b,a]},l,k);return[0,[0,[0,M(function(b,a){return[2,b,a]},b,c),m],f]];case
+f=a[4],c=a[3],g=a[2],d=a[1],i=aB(d),j=cl(d,g,c,f,b),k=S(cP(a[5],j),i),l=fC(d,g,c,b),m=M(function(b,a){return[2,b,a]},l,k);return[0,[0,[0,M(function(b,a){return[2,b,a]},b,c),m],f]];case
 1:var
 h=a[2],e=aZ(a[1],h,b),n=[6,x(e,e)];return[0,[0,[0,M(function(b,a){return[2,b,a]},b,h),e],n]];default:return 0}}function
-nS(m,e,a){switch(a[0]){case
+nW(m,e,a){switch(a[0]){case
 0:var
 n=a[5],c=G(m,a[1]);if(c){var
 d=c[1];if(d)var
@@ -3452,22 +3473,22 @@ l=c;return l;case
 1:var
 r=dg(a[3]);return[0,[0,dg(a[2]),r]];default:var
 s=h(e,dg(a[3]));return[0,[0,h(e,dg(a[2])),s]]}}function
-nT(d,a,c,b){var
+nX(d,a,c,b){var
 e=S(a,b),f=S([3,d,a],c);return M(function(b,a){return[2,b,a]},f,e)}function
-nU(a,l,c,k,j,y){var
+nY(a,l,c,k,j,y){var
 d=h(l,k);if(d){var
 m=d[1],e=h(l,j);if(e){var
-n=e[1],f=c[1],g=c[2],b=c[3],z=nT(b,g,n[1],n[2]),A=nT(b,f,m[1],m[2]),o=M(function(b,a){return[3,b,a]},A,z),B=eq(j),p=[4,b,[2,[2,eq(k),B],y]],q=i(a,1,b),r=q?i(a,0,f):q,s=r?i(a,0,[3,b,f]):r,t=s?i(a,0,g):s,u=t?i(a,0,[3,b,g]):t;if(u)return i(a,1,[3,[4,p,p],x(o,o)]);var
+n=e[1],f=c[1],g=c[2],b=c[3],z=nX(b,g,n[1],n[2]),A=nX(b,f,m[1],m[2]),o=M(function(b,a){return[3,b,a]},A,z),B=er(j),p=[4,b,[2,[2,er(k),B],y]],q=i(a,1,b),r=q?i(a,0,f):q,s=r?i(a,0,[3,b,f]):r,t=s?i(a,0,g):s,u=t?i(a,0,[3,b,g]):t;if(u)return i(a,1,[3,[4,p,p],x(o,o)]);var
 v=u}else
 var
 v=e;var
 w=v}else
 var
 w=d;return w}function
-nV(d,c,b,a,h,g,f,e){var
+nZ(d,c,b,a,h,g,f,e){var
 j=i(d,1,b),k=j?i(d,1,a):j;if(k){var
 l=ar(c,f,f),m=[4,[4,a,a],[4,ar(c,g,g),l]];return i(d,1,[3,[4,[4,[4,b,b],[4,h,h]],ar(c,e,e)],m])}return k}function
-nW(h,g,c,f,y,a){function
+n0(h,g,c,f,y,a){function
 T(a){return[4,[4,[5,[0,b,b],a],[5,[0,b,b],a]],x(f,f)]}var
 O=0;if(typeof
 a==="number")O=1;else
@@ -3495,7 +3516,7 @@ Z=C;return Z;case
 7:if(g){var
 p=g[2];if(p){var
 q=p[2];if(q){if(q[2])return 0;var
-_=q[1],$=p[1],aa=g[1],aR=jy(_,c),aS=jy($,c),aT=jy(aa,c),ab=[4,[4,[4,a[1],aT],aS],aR],l=bE(_,c),m=bE($,c),aU=bE(aa,c),P=x(aU,[0,[3,[4,m[2],l[3]],[4,m[3],l[2]]],[3,[4,m[3],l[1]],[4,m[1],l[3]]],[3,[4,m[1],l[2]],[4,m[2],l[1]]]]),ac=i(h,1,[3,ab,P]);if(ac)return i(h,1,[2,ab,P]);var
+_=q[1],$=p[1],aa=g[1],aR=jD(_,c),aS=jD($,c),aT=jD(aa,c),ab=[4,[4,[4,a[1],aT],aS],aR],l=bE(_,c),m=bE($,c),aU=bE(aa,c),P=x(aU,[0,[3,[4,m[2],l[3]],[4,m[3],l[2]]],[3,[4,m[3],l[1]],[4,m[1],l[3]]],[3,[4,m[1],l[2]],[4,m[2],l[1]]]]),ac=i(h,1,[3,ab,P]);if(ac)return i(h,1,[2,ab,P]);var
 ad=ac}else
 var
 ad=q;var
@@ -3508,14 +3529,14 @@ af=g;return af;case
 8:var
 aV=fD(g,c,f),aW=x(f,f);return i(h,1,[3,[4,[5,a[2],a[1]],aW],aV]);case
 9:var
-ag=a[1],E=nQ(g,c);if(E){var
-aX=E[1],az=[0,d,b],aB=ao(function(a,b){var
-c=x(aA(a),f);return[2,[4,x(aA(a),f),c],b]},az,aX);return i(h,1,[3,[4,[4,ag,ag],x(f,f)],aB])}return E;case
+ag=a[1],E=nU(g,c);if(E){var
+aX=E[1],az=[0,d,b],aA=ap(function(a,b){var
+c=x(aB(a),f);return[2,[4,x(aB(a),f),c],b]},az,aX);return i(h,1,[3,[4,[4,ag,ag],x(f,f)],aA])}return E;case
 10:var
-aY=a[3],a0=a[2],a1=a[1],aC=function(b,a){return[2,b,a]},aD=function(a){return M(aC,c,a)},aE=e(function(a){return nR(a,c)},g);return nU(h,function(a){return nS(aE,aD,a)},f,a1,a0,aY);case
+aY=a[3],a0=a[2],a1=a[1],aC=function(b,a){return[2,b,a]},aD=function(a){return M(aC,c,a)},aE=e(function(a){return nV(a,c)},g);return nY(h,function(a){return nW(aE,aD,a)},f,a1,a0,aY);case
 11:var
 ah=a[4],F=G(g,a[1]);if(F){var
-H=nR(F[1],c);if(H){var
+H=nV(F[1],c);if(H){var
 n=H[1][1][2],a2=dg(a[3]),a3=dg(a[2]),r=M(function(b,a){return[3,b,a]},a3,a2),ai=i(h,1,x(n,n));if(ai){var
 a4=x(n,n),a5=x(r,n),a6=[5,[4,x(r,n),a5],a4];return i(h,1,[3,[4,ah,ah],[3,x(r,r),a6]])}var
 aj=ai}else
@@ -3539,15 +3560,15 @@ K=am;if(K){if(2===j[0])return i(h,1,x(f,f));var
 an=1}else
 var
 an=K;var
-ap=an}else
+ao=an}else
 var
-ap=I;return ap;case
+ao=I;return ao;case
 13:if(g){var
 t=g[2];if(t){var
 u=t[2];if(u){if(u[2])return 0;var
 aq=u[1],ar=t[1],as=g[1],at=a[1],L=G([0,f[1],[0,f[2],[0,f[3],0]]],at);if(L){var
 N=G([0,as,[0,ar,[0,aq,0]]],at);if(N){var
-au=N[1],a8=bE(au,c),a9=cm(au,c),a_=bE(aq,c),a$=S(f[3],a_),ba=bE(ar,c),bb=S(f[2],ba),bc=bE(as,c),bd=S(f[1],bc),be=M(function(b,a){return[2,b,a]},bd,bb),bf=M(function(b,a){return[2,b,a]},be,a$);return nV(h,x,a[2],a[3],L[1],bf,a9,a8)}var
+au=N[1],a8=bE(au,c),a9=cm(au,c),a_=bE(aq,c),a$=S(f[3],a_),ba=bE(ar,c),bb=S(f[2],ba),bc=bE(as,c),bd=S(f[1],bc),be=M(function(b,a){return[2,b,a]},bd,bb),bf=M(function(b,a){return[2,b,a]},be,a$);return nZ(h,x,a[2],a[3],L[1],bf,a9,a8)}var
 av=N}else
 var
 av=L;var
@@ -3561,54 +3582,54 @@ ay=ax}else
 var
 ay=g;return ay;case
 15:var
-bg=nO(a[1],g,c,f),bh=x(f,f);return i(h,1,[3,[4,a[2],bh],bg]);default:O=1}if(O)return 0;var
+bg=nS(a[1],g,c,f),bh=x(f,f);return i(h,1,[3,[4,a[2],bh],bg]);default:O=1}if(O)return 0;var
 B=G(g,z);return B?i(h,1,A(B[1])):B}function
 fE(g,h,f,c,a){var
 m=fB(g,h,f,c);if(m)if(typeof
 a==="number")return 0===a?ak(function(e){var
-a=jx(e,c);return a?i(g,0,[3,[0,d,b],a[1]]):a},f):mQ(u3,e(function(b){var
+a=jC(e,c);return a?i(g,0,[3,[0,d,b],a[1]]):a},f):mU(u6,e(function(b){var
 a=bE(b,c);return[0,a[1],[0,a[2],[0,a[3],0]]]},f));else{if(0===a[0]){var
 j=G(h[3],a[1]);if(j){var
-p=j[1],q=nP(a[3]);return nW(g,f,c,nP(a[2]),q,p)}return j}var
+p=j[1],q=nT(a[3]);return n0(g,f,c,nT(a[2]),q,p)}return j}var
 k=G(h[3],a[1]);if(k){var
 l=G(f,a[2]);if(l){var
-n=l[1],r=k[1],s=cm(n,c);return nW(g,f,c,cm(n,c),s,r)}var
+n=l[1],r=k[1],s=cm(n,c);return n0(g,f,c,cm(n,c),s,r)}var
 o=l}else
 var
 o=k;return o}return m}function
 bK(a){return[0,a[1][1],a[2][1],a[3][1]]}function
-nX(a){switch(a[0]){case
+n1(a){switch(a[0]){case
 0:var
 b=a[1],c=b[5],d=b[4][1],e=bK(b[3]),f=bK(b[2]);return[0,bK(b[1]),f,e,d,c];case
 1:var
 g=y(bK,a[3]),h=bK(a[2]);return[1,bK(a[1]),h,g];default:return[2,bK(a[1])]}}function
-jz(a){return 0===a[0]?bK(a[1]):[0,a[1],a[2],a[4][1]]}function
-nY(b,a){var
-c=jz(a[2]);return fB(b,a,e(nX,a[1]),c)}function
-jA(b,a,c){var
+jE(a){return 0===a[0]?bK(a[1]):[0,a[1],a[2],a[4][1]]}function
+n2(b,a){var
+c=jE(a[2]);return fB(b,a,e(n1,a[1]),c)}function
+jF(b,a,c){var
 d=[0,c,aw(b,a)];return g(am(b,a),d)}function
 bu(c,a){if(c){if(a){var
 e=bu(c[2],a[2]);return[2,[4,c[1],a[1]],e]}return[0,d,b]}return[0,d,b]}function
-nZ(e,c,a){if(e){if(c){var
-f=c[1],g=nZ(e[2],c[2],a),h=bu(f,a),i=[4,bu(f,a),h];return[2,[4,e[1],i],g]}return[0,d,b]}return[0,d,b]}function
-n0(b,a){if(b){if(a){var
-c=b[1],e=n0(b[2],a[2]),f=a[1],g=function(b,a){return[2,[4,c,b],a]},h=function(a){return a};return aS(function(a){return[4,c,a]},h,g,f,e)}var
+n3(e,c,a){if(e){if(c){var
+f=c[1],g=n3(e[2],c[2],a),h=bu(f,a),i=[4,bu(f,a),h];return[2,[4,e[1],i],g]}return[0,d,b]}return[0,d,b]}function
+n4(b,a){if(b){if(a){var
+c=b[1],e=n4(b[2],a[2]),f=a[1],g=function(b,a){return[2,[4,c,b],a]},h=function(a){return a};return aS(function(a){return[4,c,a]},h,g,f,e)}var
 d=a}else
 var
 d=b;return d}function
-n1(b,c,a){var
+n5(b,c,a){var
 d=[0,c,aw([0,b],a)];return g(am(b,a),d)}function
-n2(a,b){var
-e=n(a,u4),c=e||n(a,u5),d=c?n(f(b),a):c;return d?l(function(b){return n(f(b),a)},b):d}function
-n3(a){if(a){var
+n6(a,b){var
+e=n(a,u7),c=e||n(a,u8),d=c?n(f(b),a):c;return d?l(function(b){return n(f(b),a)},b):d}function
+n7(a){if(a){var
 b=a[1];if(b){var
-c=b[1],d=n3(a[2]);return y(function(a){return[0,c,a]},d)}return b}return u6}function
-he(a){if(a){var
+c=b[1],d=n7(a[2]);return y(function(a){return[0,c,a]},d)}return b}return u9}function
+hg(a){if(a){var
 b=a[1];if(b){var
-c=b[1],d=he(a[2]);return y(function(a){return[0,c,a]},d)}return b}return u7}function
-n4(a,l,k,f){var
-b=aH(a,l);if(b){var
-c=aH(a,k);if(c){var
+c=b[1],d=hg(a[2]);return y(function(a){return[0,c,a]},d)}return b}return u_}function
+n8(a,l,k,f){var
+b=aI(a,l);if(b){var
+c=aI(a,k);if(c){var
 d=c9(a,f);if(d){var
 e=gQ(a,f);if(e)var
 m=t(a,b[1],e[1]),g=[0,E(t(a,c[1],d[1]),m)];else
@@ -3623,21 +3644,21 @@ i=c;var
 j=i}else
 var
 j=b;return j}function
-n5(a){return a?K(a[1][2],d):a}function
+n9(a){return a?K(a[1][2],d):a}function
 cn(a){return a?K(d,a[1][1]):a}function
-n6(d,a){return i(d,0,[3,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b],a])}function
-n7(d,a){if(a){var
-b=aH(d,a[1]);if(b)var
-c=n7(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
+n_(d,a){return i(d,0,[3,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b],a])}function
+n$(d,a){if(a){var
+b=aI(d,a[1]);if(b)var
+c=n$(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
 var
-e=b;return e}return u8}function
-hf(d,a){if(a){var
-b=n7(d,a[1]);if(b)var
-c=hf(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
+e=b;return e}return u$}function
+hh(d,a){if(a){var
+b=n$(d,a[1]);if(b)var
+c=hh(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
 var
-e=b;return e}return u9}function
-n8(b,a){return ao(function(c,a){return A(R(b,c),a)},u,a)}function
-n9(b,d){function
+e=b;return e}return va}function
+oa(b,a){return ap(function(c,a){return A(R(b,c),a)},u,a)}function
+ob(b,d){function
 c(e,d,c,a){var
 f=t(b,d,c);return E(t(b,e,a),f)}if(d){var
 e=d[1];if(e){var
@@ -3653,11 +3674,11 @@ n=m[2];if(n){if(n[2])return u;if(k[2])return u;var
 s=n[1],v=m[1],w=l[1],x=j[1],y=i[1],z=h[1],B=c(z,y,w,v),C=t(b,g[1],B),D=t(b,q,c(z,x,w,s));return A(E(t(b,r,c(y,x,v,s)),D),C)}return u}return u}return u}return u}return u}return u}return u}return u}if(a){var
 o=a[1];if(o){var
 p=o[2];return p?p[2]?u:a[2]?u:c(r,q,o[1],p[1]):u}return u}return u}return u}return u}return u}function
-n_(a,p,m,s,g,j){function
+oc(a,p,m,s,g,j){function
 a1(c,a){return[4,[4,[5,[0,b,b],c],[5,[0,b,b],c]],bu(a,a)]}var
 bM=m[1];function
 B(c){var
-a=[0,d,b];return ao(function(a,b){var
+a=[0,d,b];return ap(function(a,b){var
 d=bu(a,c);return[2,[4,bu(a,c),d],b]},a,bM)}function
 C(g,e){var
 a=G(m[1],g);if(a){var
@@ -3670,10 +3691,10 @@ b=0;if(typeof
 j==="number")b=1;else
 switch(j[0]){case
 6:var
-a=u_;break;case
+a=vb;break;case
 13:case
 14:var
-a=u$;break;default:b=1}if(b)var
+a=vc;break;default:b=1}if(b)var
 a=p;return n(f(c),a)},g);if(a2){var
 v=0;if(typeof
 j==="number")v=1;else
@@ -3692,7 +3713,7 @@ b!=="number"&&0===b[0])return i(a,1,[3,b[1],bR]);return 0},ai=bS,ah=j[1];break;c
 a6=j[3],a7=j[2],bT=function(d){var
 h=n(s,0);if(typeof
 d!=="number"&&1===d[0]){var
-e=d[2],f=d[1],g=i(a,0,[3,[2,a7,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b]],a6]);return g?h?n5(n4(a,f,e,a7)):cn(n4(a,f,e,a6)):g}return 0},ai=bT,ah=j[1];break;case
+e=d[2],f=d[1],g=i(a,0,[3,[2,a7,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b]],a6]);return g?h?n9(n8(a,f,e,a7)):cn(n8(a,f,e,a6)):g}return 0},ai=bT,ah=j[1];break;case
 5:if(g){var
 D=g[2];if(D){if(D[2])return 0;var
 ak=D[1],al=g[1],a8=j[1],bU=bu(al,al),bV=[4,[4,a8,a8],[4,B(ak),bU]],bW=bu(ak,ak);return i(a,1,[3,[4,B(al),bW],bV])}var
@@ -3711,17 +3732,17 @@ bc=1}else
 var
 bc=a$;return bc;case
 7:if(g){if(g[2])return 0;var
-bd=g[1],am=j[1],bZ=j[3],b0=j[2],an=he(m[7]);if(an){var
-H=an[1],ap=G(bd,am);if(ap){var
-b1=ap[1],be=n(f(H),p),bf=be?l(function(a){return n(f(a),p)},H):be;if(bf){var
+bd=g[1],am=j[1],bZ=j[3],b0=j[2],an=hg(m[7]);if(an){var
+H=an[1],ao=G(bd,am);if(ao){var
+b1=ao[1],be=n(f(H),p),bf=be?l(function(a){return n(f(a),p)},H):be;if(bf){var
 aq=G(H,am);if(aq){var
-b2=aq[1];return C(am,function(b){return nV(a,bu,b0,bZ,b1,n0(bd,H),b,b2)})}var
+b2=aq[1];return C(am,function(b){return nZ(a,bu,b0,bZ,b1,n4(bd,H),b,b2)})}var
 bg=aq}else
 var
 bg=bf;var
 bh=bg}else
 var
-bh=ap;var
+bh=ao;var
 bi=bh}else
 var
 bi=an;var
@@ -3729,13 +3750,13 @@ bj=bi}else
 var
 bj=g;return bj;case
 8:if(g){if(g[2])return 0;var
-ar=g[1],b3=nZ(j[1],m[1],ar),b4=bu(ar,ar);return i(a,1,[3,[4,j[2],b4],b3])}return g;case
+ar=g[1],b3=n3(j[1],m[1],ar),b4=bu(ar,ar);return i(a,1,[3,[4,j[2],b4],b3])}return g;case
 9:if(g)return 0;var
 bk=j[3],bl=j[2],b5=function(e){var
 f=i(a,1,bl),g=f?i(a,0,bk):f;if(g){var
-b=aH(a,bu(e,e));if(b){var
-c=aH(a,[5,bk,bl]);if(c){var
-d=mJ(a,c[1]);if(d){var
+b=aI(a,bu(e,e));if(b){var
+c=aI(a,[5,bk,bl]);if(c){var
+d=mN(a,c[1]);if(d){var
 l=R(a,d[1]);return cn([0,E(b[1],l)])}var
 h=d}else
 var
@@ -3752,8 +3773,8 @@ c=[4,b6,b[3]],d=i(a,1,c);return d?i(a,1,[3,[4,c,c],[4,b[2],b[2]]]):d},bn=b7,bm=j
 11:if(g)return 0;var
 b8=j[2],b9=function(e){var
 b=c9(a,b8);if(b){var
-c=aH(a,e[3]);if(c){var
-d=aH(a,e[2]);if(d){var
+c=aI(a,e[3]);if(c){var
+d=aI(a,e[2]);if(d){var
 f=t(a,b[1],c[1]),g=cn([0,f]);if(g){var
 k=R(a,d[1]);return cn([0,E(R(a,f),k)])}var
 h=g}else
@@ -3766,7 +3787,7 @@ j=i}else
 var
 j=b;return j},bn=b9,bm=j[1];v=2;break;case
 12:if(g)return 0;var
-au=n3(m[3]);if(au){var
+au=n7(m[3]);if(au){var
 bp=au[1],b_=j[1],bq=bz(function(b,a){return[4,b,a[3]]},bp,b_),av=e(function(a){return a[1]},bp),w=function(d,c,b,a){return[3,[4,d,a],[4,c,b]]};if(av){var
 O=av[1];if(O){var
 P=O[2];if(P){var
@@ -3779,7 +3800,7 @@ V=o[2];if(V){var
 W=V[1];if(W){var
 X=W[2];if(X){var
 Y=X[2];if(Y&&!(Y[2]||V[2]))var
-aE=Y[1],aF=X[1],aG=W[1],aI=U[1],aJ=T[1],aK=S[1],bF=w(aK,aJ,aG,aF),bG=[4,Q[1],bF],bH=[4,aC,w(aK,aI,aG,aE)],k=[2,[3,[4,aD,w(aJ,aI,aF,aE)],bH],bG];else
+aE=Y[1],aF=X[1],aG=W[1],aH=U[1],aJ=T[1],aK=S[1],bF=w(aK,aJ,aG,aF),bG=[4,Q[1],bF],bH=[4,aC,w(aK,aH,aG,aE)],k=[2,[3,[4,aD,w(aJ,aH,aF,aE)],bH],bG];else
 var
 k=[0,d,b]}else
 var
@@ -3815,14 +3836,14 @@ bs=au;return bs;case
 b$=j[2],aw=G(m[4],j[1]);if(aw){var
 ax=aw[1];if(ax){var
 bt=function(a){if(b$){var
-c=h(m[5],[0,[0,d,b],[0,d,b],[0,d,b]]),e=h(m[5],a);return M(function(b,a){return[3,b,a]},e,c)}return a},I=j[4],u=bt(dg(j[3])),J=ax[1][1][2],r=x(J,u);if(n6(a,I)){if(s){if(s[1])return 0;if(g){var
+c=h(m[5],[0,[0,d,b],[0,d,b],[0,d,b]]),e=h(m[5],a);return M(function(b,a){return[3,b,a]},e,c)}return a},I=j[4],u=bt(dg(j[3])),J=ax[1][1][2],r=x(J,u);if(n_(a,I)){if(s){if(s[1])return 0;if(g){var
 y=g[1];if(y){var
 z=y[2];if(z){var
 A=z[2];if(A){if(A[2])return 0;if(g[2])return 0;var
 aa=bt([0,y[1],z[1],A[1]]),aL=x(J,aa),aM=i(a,1,r);if(aM){var
 ab=c9(a,I);if(ab){var
-aN=ab[1],ac=aH(a,[4,x(u,u),[4,aL,aL]]);if(ac){var
-ad=aH(a,[4,[4,r,r],x(aa,aa)]);if(ad){var
+aN=ab[1],ac=aI(a,[4,x(u,u),[4,aL,aL]]);if(ac){var
+ad=aI(a,[4,[4,r,r],x(aa,aa)]);if(ad){var
 aO=cn([0,aN]);if(aO){var
 bI=ad[1],bJ=ac[1];return cn([0,E(t(a,R(a,aN),bJ),bI)])}var
 aP=aO}else
@@ -3851,9 +3872,9 @@ var
 aW=g;return aW}return g?0:i(a,1,[3,[0,d,b],r])}if(s)return 0;if(g)return 0;var
 aX=i(a,0,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],I]);if(aX){var
 ae=c9(a,I);if(ae){var
-af=aH(a,r);if(af){var
-bK=x(J,J),ag=aH(a,[6,[4,x(u,u),bK]]);if(ag){var
-bL=t(a,ae[1],ag[1]);return n5([0,E(af[1],bL)])}var
+af=aI(a,r);if(af){var
+bK=x(J,J),ag=aI(a,[6,[4,x(u,u),bK]]);if(ag){var
+bL=t(a,ae[1],ag[1]);return n9([0,E(af[1],bL)])}var
 aY=ag}else
 var
 aY=af;var
@@ -3870,7 +3891,7 @@ bv=aw;return bv;case
 K=g[1];if(K){var
 L=K[2];if(L){var
 N=L[2];if(N){if(N[2])return 0;if(g[2])return 0;var
-ca=j[3],cb=j[2],cc=j[1],cd=[0,K[1],L[1],N[1]],ce=m[5],cf=m[4];return nU(a,function(a){return nS(cf,ce,a)},cd,cc,cb,ca)}var
+ca=j[3],cb=j[2],cc=j[1],cd=[0,K[1],L[1],N[1]],ce=m[5],cf=m[4];return nY(a,function(a){return nW(cf,ce,a)},cd,cc,cb,ca)}var
 bw=N}else
 var
 bw=L;var
@@ -3881,21 +3902,21 @@ by=bx}else
 var
 by=g;return by;case
 17:if(g)return 0;var
-bA=j[2],ay=j[1],cg=j[3],az=he(m[7]);if(az){var
-aA=az[1],bB=n2(p,aA),bC=bB?n(f(bA),p):bB;if(bC){var
+bA=j[2],ay=j[1],cg=j[3],az=hg(m[7]);if(az){var
+aA=az[1],bB=n6(p,aA),bC=bB?n(f(bA),p):bB;if(bC){var
 aB=G(aA,ay);if(aB){var
 ch=aB[1];return C(ay,function(x){var
-e=hf(a,aA);if(e){var
-j=e[1],f=hf(a,[0,bA,[0,x,[0,ch,0]]]);if(f){var
+e=hh(a,aA);if(e){var
+j=e[1],f=hh(a,[0,bA,[0,x,[0,ch,0]]]);if(f){var
 b=f[1];if(b){var
 c=b[2];if(c){var
 d=c[2];if(d){if(d[2])return 0;var
-g=aH(a,cg);if(g){var
-k=g[1],l=R(a,n9(a,j)),h=n9(a,n1(ay,b[1],j)),m=cn([0,k]),o=m?cn([0,l]):m;if(o)var
+g=aI(a,cg);if(g){var
+k=g[1],l=R(a,ob(a,j)),h=ob(a,n5(ay,b[1],j)),m=cn([0,k]),o=m?cn([0,l]):m;if(o)var
 y=n(s,0)?h:$(h),i=cn([0,y]);else
 var
 i=o;if(i){var
-z=n8(a,c[1]),A=t(a,t(a,R(a,k),l),z),B=n8(a,d[1]);return cn([0,E(t(a,R(a,h),B),A)])}var
+z=oa(a,c[1]),A=t(a,t(a,R(a,k),l),z),B=oa(a,d[1]);return cn([0,E(t(a,R(a,h),B),A)])}var
 p=i}else
 var
 p=g;var
@@ -3934,76 +3955,76 @@ a3=a2;return a3}function
 fF(d,f,a){if(typeof
 a!=="number")switch(a[0]){case
 13:var
-e=a[4];if(n6(d,e)&&I(i(d,0,[3,e,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b]])))return vc;return vd;case
+e=a[4];if(n_(d,e)&&I(i(d,0,[3,e,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b]])))return vf;return vg;case
 16:return f;case
 4:case
-17:return vb}return va}function
-eE(e,d,g,f){var
+17:return ve}return vd}function
+eF(e,d,g,f){var
 b=g,a=f;for(;;){if(a){var
 c=a[1];if(aD(b,fF(e,d,c)))return[0,[0,c,b]];var
 h=a[2],b=dE(b,fF(e,d,c)),a=h;continue}return a}}function
-n$(a){return e(function(a){return[0,a,b]},a)}function
-jB(f,o,g,c,n,a){if(typeof
+od(a){return e(function(a){return[0,a,b]},a)}function
+jG(f,o,g,c,n,a){if(typeof
 a==="number"){if(0===a){var
 s=c[6];return ak(function(a){return i(f,0,[3,[0,d,b],a])},s)}var
-h=he(c[7]);return h?mQ(g,h[1]):h}else{if(0===a[0]){var
-j=eE(f,o,a[1],n);if(j){var
-p=j[1],t=p[1],u=e(n$,a[2]);return n_(f,g,c,p[2],u,t)}return j}var
-k=eE(f,o,a[1],n);if(k){var
+h=hg(c[7]);return h?mU(g,h[1]):h}else{if(0===a[0]){var
+j=eF(f,o,a[1],n);if(j){var
+p=j[1],t=p[1],u=e(od,a[2]);return oc(f,g,c,p[2],u,t)}return j}var
+k=eF(f,o,a[1],n);if(k){var
 q=k[1],l=q[1];if(typeof
 l!=="number"&&1===l[0]){var
-m=G(c[1],a[2]);return m?n_(f,g,c,q[2],[0,m[1],0],[1,l[1]]):m}var
+m=G(c[1],a[2]);return m?oc(f,g,c,q[2],[0,m[1],0],[1,l[1]]):m}var
 r=0}else
 var
 r=k;return r}}function
-jC(a){var
-b=aA(a[1]),c=S(x(b,a[2]),b),d=a[2];return M(function(b,a){return[3,b,a]},d,c)}function
-fG(a){return aA(jC(a))}function
-hg(c){var
-a=fG(c),b=aA(c[1]);return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
-hh(a,b){return aZ(a[3],a[4],b)}function
+jH(a){var
+b=aB(a[1]),c=S(x(b,a[2]),b),d=a[2];return M(function(b,a){return[3,b,a]},d,c)}function
+fG(a){return aB(jH(a))}function
+hi(c){var
+a=fG(c),b=aB(c[1]);return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
+hj(a,b){return aZ(a[3],a[4],b)}function
 fH(a,b){var
-c=hh(a,b);return x(fG(a),c)}function
+c=hj(a,b);return x(fG(a),c)}function
 fI(a,b){var
-c=hh(a,b);return x(hg(a),c)}function
-oa(a,b){var
-c=hh(a,b);return x(aA(a[1]),c)}function
-hi(b,a){var
+c=hj(a,b);return x(hi(a),c)}function
+oe(a,b){var
+c=hj(a,b);return x(aB(a[1]),c)}function
+hk(b,a){var
 c=fI(b,a),d=fH(b,a);return[2,[4,d,d],[4,c,c]]}function
-hj(a,d){var
-h=a[5],i=[4,[0,c(2,b),b],h],e=a[6],f=a[5],g=oa(a,d);return[5,[2,hi(a,d),[2,[4,g,g],[3,[4,f,f],[4,e,e]]]],i]}function
-jD(a,b){var
-f=a[5],c=[3,hj(a,b),f],d=oa(a,b),e=a[6];return[3,[3,[4,e,e],[4,d,d]],[4,c,c]]}function
-eF(a,b){var
-c=jD(a,b);return cP(a[7],c)}function
-ob(b,a){var
-c=hi(b,a),d=fI(b,a),e=[4,eF(b,a),d],f=fH(b,a);return[5,[2,[4,hj(b,a),f],e],c]}function
-oc(b,a){var
-c=hi(b,a),d=fH(b,a),e=[4,eF(b,a),d],f=fI(b,a);return[5,[3,[4,hj(b,a),f],e],c]}function
-jE(a,b){var
-c=hg(a),d=S(oc(a,b),c),e=fG(a),f=S(ob(a,b),e),g=M(function(b,a){return[2,b,a]},f,d),h=S(a[5],g),i=a[3];return M(function(b,a){return[2,b,a]},i,h)}function
+hl(a,d){var
+h=a[5],i=[4,[0,c(2,b),b],h],e=a[6],f=a[5],g=oe(a,d);return[5,[2,hk(a,d),[2,[4,g,g],[3,[4,f,f],[4,e,e]]]],i]}function
+jI(a,b){var
+f=a[5],c=[3,hl(a,b),f],d=oe(a,b),e=a[6];return[3,[3,[4,e,e],[4,d,d]],[4,c,c]]}function
+eG(a,b){var
+c=jI(a,b);return cP(a[7],c)}function
+of(b,a){var
+c=hk(b,a),d=fI(b,a),e=[4,eG(b,a),d],f=fH(b,a);return[5,[2,[4,hl(b,a),f],e],c]}function
+og(b,a){var
+c=hk(b,a),d=fH(b,a),e=[4,eG(b,a),d],f=fI(b,a);return[5,[3,[4,hl(b,a),f],e],c]}function
+jJ(a,b){var
+c=hi(a),d=S(og(a,b),c),e=fG(a),f=S(of(a,b),e),g=M(function(b,a){return[2,b,a]},f,d),h=S(a[5],g),i=a[3];return M(function(b,a){return[2,b,a]},i,h)}function
 dT(a){return[5,[3,[0,b,b],[4,a,a]],[2,[0,b,b],[4,a,a]]]}function
 dU(a){return[5,[4,[0,c(2,b),b],a],[2,[0,b,b],[4,a,a]]]}function
-jF(a,c,b){var
+jK(a,c,b){var
 d=[4,dT(a),b],e=[2,[4,dU(a),c],d],f=[4,dU(a),b];return[0,[3,[4,dT(a),c],f],e]}function
-od(c,a){var
-b=jF(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
+oh(c,a){var
+b=jK(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
 dh(b,a){return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
-oe(a,d){var
+oi(a,d){var
 e=x(a,a),f=dh(a,d),g=S([0,c(2,b),b],f),h=x(a,d),i=S([4,[0,c(2,b),b],h],a),j=S([3,[0,b,b],e],d),k=M(function(b,a){return[2,b,a]},j,i);return S([5,[0,b,b],[2,[0,b,b],e]],M(function(b,a){return[2,b,a]},k,g))}function
 di(j,b,a){switch(j[0]){case
-0:return b?b[2]?a:od(b[1],a):a;case
+0:return b?b[2]?a:oh(b[1],a):a;case
 1:if(b){var
 c=b[2];if(c){var
 d=c[2];if(d){if(d[2])return a;var
-g=jF(b[1],a[2],a[3]),i=g[1],h=jF(c[1],g[2],a[1]);return od(d[1],[0,h[2],i,h[1]])}return a}return a}return a;default:if(b){var
+g=jK(b[1],a[2],a[3]),i=g[1],h=jK(c[1],g[2],a[1]);return oh(d[1],[0,h[2],i,h[1]])}return a}return a}return a;default:if(b){var
 e=b[2];if(e){var
-f=e[2];return f?f[2]?a:oe([0,b[1],e[1],f[1]],a):a}return a}return a}}function
-of(c){var
-a=cK(c);return a?ep(a[1],[0,d,b]):a}function
-og(a,n,k,j){if(of(j)){var
+f=e[2];return f?f[2]?a:oi([0,b[1],e[1],f[1]],a):a}return a}return a}}function
+oj(c){var
+a=cK(c);return a?eq(a[1],[0,d,b]):a}function
+ok(a,n,k,j){if(oj(j)){var
 q=n?[3,[0,d,b],k]:k;return i(a,0,q)}var
-f=aH(a,k);if(f){var
+f=aI(a,k);if(f){var
 g=c9(a,[5,j,[0,c(2,b),b]]);if(g){var
 h=gQ(a,[5,j,[0,c(2,b),b]]);if(h)var
 p=t(a,f[1],g[1]),l=[0,E(h[1],p)];else
@@ -4017,23 +4038,23 @@ var
 e=f;if(e){var
 o=e[1];return n?D(d,o[1]):D(o[2],d)}return e}function
 dV(b,a,c){var
-d=bC(b,a[1],a[2]),e=d?og(b,0,c,a[1]):d;return e?og(b,1,c,a[2]):e}function
-oh(h,f,c){if(of(c))return[0,u];var
-a=F(h,iZ(f)),d=c9(a,c);if(d){var
+d=bC(b,a[1],a[2]),e=d?ok(b,0,c,a[1]):d;return e?ok(b,1,c,a[2]):e}function
+ol(h,f,c){if(oj(c))return[0,u];var
+a=F(h,i4(f)),d=c9(a,c);if(d){var
 e=gQ(a,c);if(e){var
-i=e[1],j=d[1],k=bX(a,A(J(a,b),j));return y(function(b){return mA(f,t(a,i,b))},k)}var
+i=e[1],j=d[1],k=bX(a,A(J(a,b),j));return y(function(b){return mE(f,t(a,i,b))},k)}var
 g=e}else
 var
 g=d;return g}function
-co(a){return function(b){return oh(a,d,b)}}function
+co(a){return function(b){return ol(a,d,b)}}function
 cp(d,a){var
 e=i(d,1,[2,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],a]);return e?i(d,1,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],a]):e}function
 dj(a){return[0,[3,[0,d,b],a],a]}function
-oi(a,c,o,n){var
+om(a,c,o,n){var
 i=bC(a,[0,d,b],c),j=i?cp(a,c):i;if(j){var
 e=h(co(a),c);if(e){var
-f=aH(a,o);if(f){var
-g=aH(a,n);if(g){var
+f=aI(a,o);if(f){var
+g=aI(a,n);if(g){var
 p=f[1],q=g[1];return D(d,E(t(a,R(a,e[1]),q),p)[1])}var
 k=g}else
 var
@@ -4062,7 +4083,7 @@ p=a;return p;case
 2:if(a){var
 g=a[2];if(g){var
 h=g[2];if(h){if(h[2])return 0;var
-q=h[1],r=g[1],s=a[1],C=x([0,s,r,q],[0,s,r,q]);return oi(d,c[1],C,[0,b,b])}var
+q=h[1],r=g[1],s=a[1],C=x([0,s,r,q],[0,s,r,q]);return om(d,c[1],C,[0,b,b])}var
 t=h}else
 var
 t=g;var
@@ -4071,7 +4092,7 @@ var
 u=a;return u;default:if(a){var
 i=a[2];if(i){var
 j=i[2];if(j){if(j[2])return 0;var
-k=j[1],v=i[1],w=a[1],y=oi(d,c[1],[2,[4,w,w],[4,v,v]],[2,[0,b,b],[4,k,k]]);if(y)return dV(d,dj(c[2]),k);var
+k=j[1],v=i[1],w=a[1],y=om(d,c[1],[2,[4,w,w],[4,v,v]],[2,[0,b,b],[4,k,k]]);if(y)return dV(d,dj(c[2]),k);var
 z=y}else
 var
 z=j;var
@@ -4083,26 +4104,26 @@ var
 B=a;return B}}var
 j=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))));function
 bL(b){var
-a=ao(function(f,e){var
-a=aH(j,f);if(a)var
+a=ap(function(f,e){var
+a=aI(j,f);if(a)var
 b=a[1],c=bq(cz(b[1]),cz(b[2]));else
 var
-c=d;return bq(c,e)},d,b);return K(d,a)?aO(ma(a),j):d}function
-eG(a){return[0,a[1],[0,a[2],0]]}function
+c=d;return bq(c,e)},d,b);return K(d,a)?aO(me(a),j):d}function
+eH(a){return[0,a[1],[0,a[2],0]]}function
 bh(a){var
-b=eG(a[3]),c=g(eG(a[2]),b);return g(eG(a[1]),c)}function
-hk(a){return hd(j,a,bL(bh(a)))}function
-oj(b,a){if(a){var
-g=oj([0,b],a[2]),c=a[1];if(0===c[0])var
+b=eH(a[3]),c=g(eH(a[2]),b);return g(eH(a[1]),c)}function
+hm(a){return hf(j,a,bL(bh(a)))}function
+on(b,a){if(a){var
+g=on([0,b],a[2]),c=a[1];if(0===c[0])var
 d=c[1],e=ck([0,[0,d,d],c[2]],b);else
 var
 e=[0,[1,b]];var
 f=[0,e,g]}else
 var
 f=a;return f}function
-ok(c,b,a){var
-d=eq(b);return[2,[2,eq(c),d],a]}function
-hl(b,a){return b?Q(a):d}function
+oo(c,b,a){var
+d=er(b);return[2,[2,er(c),d],a]}function
+hn(b,a){return b?Q(a):d}function
 fK(f,b,a){if(typeof
 a!=="number")switch(a[0]){case
 4:var
@@ -4110,7 +4131,7 @@ i=a[3],j=a[2];return[0,[2,j],[0,[3,j],[0,[2,i],[0,[3,i],0]]]];case
 6:return[0,[0,[5,a[3],a[2]],d],0];case
 8:var
 q=a[2],r=a[1];return e(function(a){var
-c=hl(f,b);return[0,[5,q,a],F(hl(f,b),c)]},r);case
+c=hn(f,b);return[0,[5,q,a],F(hn(f,b),c)]},r);case
 9:return[0,[1,[5,a[3],a[2]],Q(b)],0];case
 10:return[0,[0,a[2],d],0];case
 11:return[0,[2,a[2]],0];case
@@ -4118,37 +4139,37 @@ c=hl(f,b);return[0,[5,q,a],F(hl(f,b),c)]},r);case
 13:var
 c=a[3],h=bL([0,c[1],[0,c[2],[0,c[3],0]]]);return[0,[2,a[4]],[0,[0,c[1],h],[0,[0,c[2],h],[0,[0,c[3],h],0]]]];case
 14:var
-k=a[2],l=a[1],s=eC(b,k),t=g(eC(b,l),s),u=e(function(a){return[0,a[1][2],a[2]]},t);return[0,[0,ok(l,k,a[3]),b],u];case
+k=a[2],l=a[1],s=eD(b,k),t=g(eD(b,l),s),u=e(function(a){return[0,a[1][2],a[2]]},t);return[0,[0,oo(l,k,a[3]),b],u];case
 15:var
 m=a[4],n=a[3];return[0,[0,[5,a[2],m],d],[0,[0,[5,[4,n,n],m],b],0]];case
 16:var
 o=a[2],p=bL([0,o,0]);return[0,[4,a[3],aO(p,b)],[0,[0,o,p],0]];case
 17:var
-v=a[3],w=a[2];return e(function(a){return[0,[5,a,v],hl(f,b)]},w);case
+v=a[3],w=a[2];return e(function(a){return[0,[5,a,v],hn(f,b)]},w);case
 2:case
 3:return[0,[0,a[2],b],0]}return 0}function
 dk(h,c,b,e,a){if(a){var
-d=a[1],i=a[2],j=dk(h,c,b,N(e,f(fK(c,b,d))),i);return g(ar(h,oj(e,fK(c,b,d)),d),j)}return a}function
-hm(b,a){var
+d=a[1],i=a[2],j=dk(h,c,b,N(e,f(fK(c,b,d))),i);return g(ar(h,on(e,fK(c,b,d)),d),j)}return a}function
+ho(b,a){var
 c=V(b,a);return e(function(a){var
 b=r(a[1][2],a[2]);return[0,a[1][1],b]},c)}function
-hn(b,a){switch(a[0]){case
+hp(b,a){switch(a[0]){case
 0:var
-d=a[1];return ap(b,[0,[0,d,d],a[2]]);case
+d=a[1];return aq(b,[0,[0,d,d],a[2]]);case
 1:var
-e=a[1],c=ap(b,[0,[0,e,e],a[2]]);return c?mJ(b,c[1]):c;case
+e=a[1],c=aq(b,[0,[0,e,e],a[2]]);return c?mN(b,c[1]):c;case
 2:return c9(b,a[1]);case
 3:return gQ(b,a[1]);default:var
-f=a[1],g=cp(b,f);return g?oh(b,a[2],f):g}}function
-bF(a){return 1===a?ve:vf}function
+f=a[1],g=cp(b,f);return g?ol(b,a[2],f):g}}function
+bF(a){return 1===a?vh:vi}function
 b1(d,c,b,a){var
 e=a[1],f=di(d,c,a[2]),g=M(function(b,a){return[2,b,a]},b,f);return M(function(b,a){return[3,b,a]},g,e)}function
-jG(c,b,a){switch(c){case
+jL(c,b,a){switch(c){case
 0:return[0,b[1],[0,b[2],[0,a[3],0]]];case
 1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}}function
-jH(h,g,d,c,f,a){var
-e=b1(d,c,f,a);return jG(h,e,S([5,[0,b,b],g],dh(di(d,c,a[2]),e)))}function
-eH(c,d,n,m,l){var
+jM(h,g,d,c,f,a){var
+e=b1(d,c,f,a);return jL(h,e,S([5,[0,b,b],g],dh(di(d,c,a[2]),e)))}function
+eI(c,d,n,m,l){var
 b=d[2],a=n;for(;;){if(b){if(a){var
 f=a[1],g=b[1],h=bt(c,g[1],f[1]),i=h?bt(c,g[2],f[2]):h;if(i){var
 b=b[2],a=a[2];continue}var
@@ -4176,22 +4197,22 @@ e=a[1],f=I(n(e,b));return f?I(n(e,N(d,b))):f;case
 c=a[1];continue;default:var
 g=dW(d,b,a[1]);if(g){var
 c=a[2];continue}return g}}}function
-eI(c,b,m){var
+eJ(c,b,m){var
 d=m;for(;;){var
 a=d[1];switch(a[0]){case
 5:var
 d=a[1];continue;case
 6:var
-f=a[2],g=a[1],h=dW(c,b,g),i=h?eI(c,b,f):h;if(i)var
+f=a[2],g=a[1],h=dW(c,b,g),i=h?eJ(c,b,f):h;if(i)var
 j=i;else{var
-k=eI(c,b,g);if(k)return dW(c,b,f);var
+k=eJ(c,b,g);if(k)return dW(c,b,f);var
 j=k}return j;case
 7:var
-l=eI(c,b,a[1]);return l?dW(c,b,a[2]):l;case
+l=eJ(c,b,a[1]);return l?dW(c,b,a[2]):l;case
 10:return 0;case
 3:case
 4:var
-e=eI(c,b,a[1]);if(e){var
+e=eJ(c,b,a[1]);if(e){var
 d=a[2];continue}return e;case
 8:case
 9:return dW(c,b,a[1]);default:return 1}}}function
@@ -4208,14 +4229,14 @@ a=b[1];switch(a[0]){case
 b=a[1];continue;default:var
 d=cR(c,a[1]);if(d){var
 b=a[2];continue}return d}}}function
-ho(d,b,m){var
+hq(d,b,m){var
 c=m;for(;;){var
 a=c[1];switch(a[0]){case
 3:var
-f=ho(d,b,a[1]);if(f){var
+f=hq(d,b,a[1]);if(f){var
 c=a[2];continue}return f;case
 4:var
-g=ho(d,b,a[1]);return g?cR(b,a[2]):g;case
+g=hq(d,b,a[1]);return g?cR(b,a[2]):g;case
 6:var
 h=a[2],i=a[1],j=cR(b,i);if(j){var
 k=cR(b,h);if(k)var
@@ -4228,7 +4249,7 @@ e=j;return e;case
 0:case
 1:case
 2:return 1;default:return cR(b,c)}}}function
-hp(c,e){var
+hr(c,e){var
 b=e;for(;;){var
 a=b[1];switch(a[0]){case
 0:return aD(a[1],c);case
@@ -4239,26 +4260,26 @@ a=b[1];switch(a[0]){case
 8:case
 9:var
 b=a[1];continue;default:var
-d=hp(c,a[1]);if(d){var
+d=hr(c,a[1]);if(d){var
 b=a[2];continue}return d}}}function
-hq(a,h){if(a){var
-b=a[2],c=a[1],d=mm(h);if(d){var
-e=d[1],f=e[2];return e[1]?[0,c,hq(b,ao(mp,f,mo(c)))]:[0,vi,hq(b,f)]}var
-g=[0,c,hq(b,0)]}else
+hs(a,h){if(a){var
+b=a[2],c=a[1],d=mq(h);if(d){var
+e=d[1],f=e[2];return e[1]?[0,c,hs(b,ap(mt,f,ms(c)))]:[0,vl,hs(b,f)]}var
+g=[0,c,hs(b,0)]}else
 var
 g=a;return g}function
 dl(b,a){return a?h(b,a[1]):a}function
 dm(c,b,a){return dl(function(b){return dl(h(c,b),a)},b)}function
-ol(b,a){switch(a[0]){case
+op(b,a){switch(a[0]){case
 0:return a;case
 1:return a[1];default:var
 c=a[3],d=a[2],e=a[1];switch(b){case
 0:return e;case
 1:return d;default:return c}}}function
-om(a){return 0===a[0]?a[1]:0}function
-on(d,c){var
+oq(a){return 0===a[0]?a[1]:0}function
+or(d,c){var
 b=d,a=c;for(;;){if(a){var
-e=a[2],b=ol(a[1],b),a=e;continue}return om(b)}}function
+e=a[2],b=op(a[1],b),a=e;continue}return oq(b)}}function
 cq(b,a){switch(a[0]){case
 0:return[0,h(b,a[1])];case
 1:return[1,cq(b,a[1])];default:var
@@ -4277,18 +4298,18 @@ n=a[1],o=function(a){return ar(b,a,n)},i=function(a){return cq(o,a)},p=i(e),q=i(
 1:var
 j=a[1],r=bv(b,e,j),s=bv(b,f,j);return[2,bv(b,g,j),s,r];default:var
 t=bv(b,e,a[3]),u=bv(b,f,a[2]);return[2,bv(b,g,a[1]),u,t]}}}function
-jI(c,f,a){if(a)var
+jN(c,f,a){if(a)var
 d=a[1],b=function(i){var
 a=[0,d[1],d[1]],b=[0,d[2],d[2]];switch(i){case
 0:var
 e=[0,a,R(c,a)];break;case
 1:var
 g=t(c,a,b),e=[0,ax(A(a,b)),g];break;default:var
-e=[0,b,R(c,b)]}return[0,[0,h(f,e)]]},i=jI(c,f,a[2]),j=e(function(a){return[1,a]},i),k=b(2),l=b(1),g=[0,[2,b(0),l,k],j];else
+e=[0,b,R(c,b)]}return[0,[0,h(f,e)]]},i=jN(c,f,a[2]),j=e(function(a){return[1,a]},i),k=b(2),l=b(1),g=[0,[2,b(0),l,k],j];else
 var
 g=a;return g}function
-jJ(b,x,c,a){var
-d=jI(b,aK,a),z=g(jI(b,aC,a),d);return c4(vk,function(a){switch(a[0]){case
+jO(b,x,c,a){var
+d=jN(b,aG,a),z=g(jN(b,aA,a),d);return c4(vn,function(a){switch(a[0]){case
 0:return s(a[1],z,[0,[0,u]]);case
 1:return[0,[0,s(a[1],x,u)]];case
 2:return[0,[0,J(b,a[1])]];case
@@ -4306,15 +4327,15 @@ d=bX(b,a);return y(function(a){return t(b,c,a)},d)};return bv(function(a,b){retu
 8:var
 q=a[1],r=function(a){return[0,R(b,a)]};return cq(function(a){return dl(r,a)},q);case
 9:var
-v=a[1],w=function(a){return cc(b,a)};return cq(function(a){return dl(w,a)},v);default:return vj}},c)}function
-hr(a){if(a){var
+v=a[1],w=function(a){return cc(b,a)};return cq(function(a){return dl(w,a)},v);default:return vm}},c)}function
+ht(a){if(a){var
 b=a[1];if(b)var
-c=hr(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+c=ht(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return vl}function
-eJ(a){if(a){var
-g=a[1],b=g[2],c=hr(g[1]);if(c)if(b){var
-h=b[1],e=eJ(a[2]);if(e)var
+d=b;return d}return vo}function
+eK(a){if(a){var
+g=a[1],b=g[2],c=ht(g[1]);if(c)if(b){var
+h=b[1],e=eK(a[2]);if(e)var
 i=K(d,h[1]),j=i?[0,[0,[0,c[1],h],e[1]]]:i;else
 var
 j=e;var
@@ -4322,24 +4343,24 @@ f=j}else
 var
 f=b;else
 var
-f=c;return f}return vm}function
-eK(b,a){var
+f=c;return f}return vp}function
+eL(b,a){var
 c=a[3],d=y(function(a){var
 c=a[2],d=a[1][2];return[0,[0,h(b,a[1][1]),d],c]},c),e=h(b,a[2]),f=a[1];return[0,h(ay(b),f),e,d]}function
-jK(c,g,f,b,a,e){if(b){var
+jP(c,g,f,b,a,e){if(b){var
 h=b[1],l=b[2],d=function(b,a){var
-d=ia(c,fi,fi,function(a){return ol(b,a)},e);return jK(c,g,aR(f),l,a,d)},i=d(0,aO(a,h));if(i){var
+d=ic(c,fi,fi,function(a){return op(b,a)},e);return jP(c,g,aR(f),l,a,d)},i=d(0,aO(a,h));if(i){var
 j=d(2,F(a,h));if(j)return f?1:d(1,a);var
 k=j}else
 var
-k=i;return k}return ar(g,a,ia(c,fi,fi,om,e))}function
-jL(e,c,b,a){var
+k=i;return k}return ar(g,a,ic(c,fi,fi,oq,e))}function
+jQ(e,c,b,a){var
 f=ac(d,b);function
-g(b){return a}return function(a){return jK(e,g,c,f,d,a)}}function
+g(b){return a}return function(a){return jP(e,g,c,f,d,a)}}function
 dn(a){if(a){var
-b=a[1],c=b[1],d=c[1],e=b[2],f=c[2];return y(function(a){return aP(f,e,a)},d)}return[0,u]}function
-oo(f,e,k,j,i,a){var
-b=eJ(a[1]);if(b){var
+b=a[1],c=b[1],d=c[1],e=b[2],f=c[2];return y(function(a){return aQ(f,e,a)},d)}return[0,u]}function
+os(f,e,k,j,i,a){var
+b=eK(a[1]);if(b){var
 c=a[2];if(c){var
 d=dn(a[3]);if(d){var
 l=d[1],m=ac([0,E($(t(f,i,c[1])),l),0],e);return aY(f,e,gS(k,j,b[1],m))}var
@@ -4349,29 +4370,29 @@ g=c;var
 h=g}else
 var
 h=b;return h}function
-op(i,d,h,g,c){var
-a=eJ(c[1]);if(a){var
+ot(i,d,h,g,c){var
+a=eK(c[1]);if(a){var
 b=dn(c[3]);if(b){var
 j=ac([0,E(u,b[1]),0],d),k=a[1];return aY(i,d,gS(h,g,e(function(a){return[0,a[1],u]},k),j))}var
 f=b}else
 var
 f=a;return f}function
-oq(a,c,D,i){var
-j=eJ(i[1]);if(j){var
+ou(a,c,D,i){var
+j=eK(i[1]);if(j){var
 k=i[2];if(k){var
 l=dn(i[3]);if(l){var
 G=l[1],e=E(t(a,D,k[1]),G),b=j[1];if(b){var
 m=b[1],o=m[2];if(b[2]){var
 g=gT(a,b,ac([0,e,0],c));if(g){var
-p=g[1],q=n(f(p),c);if(q)return ev(a,p);var
+p=g[1],q=n(f(p),c);if(q)return ew(a,p);var
 r=q}else
 var
 r=g;return r}var
 s=K(d,e[1]),u=s?K(d,o[1]):s;if(u){var
-A=C(e[1],o[1]),B=m[1];return K(ao(function(a,b){var
+A=C(e[1],o[1]),B=m[1];return K(ap(function(a,b){var
 c=bJ(a);return F(C(bJ(a),c),b)},d,B),A)}return u}var
 h=gT(a,b,ac([0,e,0],c));if(h){var
-v=h[1],w=n(f(v),c);if(w)return ev(a,v);var
+v=h[1],w=n(f(v),c);if(w)return ew(a,v);var
 x=w}else
 var
 x=h;return x}var
@@ -4381,51 +4402,51 @@ y=k;var
 z=y}else
 var
 z=j;return z}function
-vn(c){var
+vq(c){var
 a=c[2];if(a){var
 b=dn(c[3]);if(b)return D(d,E(a[1],b[1])[1]);var
 e=b}else
 var
 e=a;return e}function
-jM(a){return w(function(a){return g(a[1],[0,a[2],0])},a)}function
-or(a,c,b){var
-e=s(b,c,m(d)),f=aG(0,a);return l(function(b){return eI(a,b,e)},f)}function
+jR(a){return w(function(a){return g(a[1],[0,a[2],0])},a)}function
+ov(a,c,b){var
+e=s(b,c,m(d)),f=aH(0,a);return l(function(b){return eJ(a,b,e)},f)}function
 fL(a){var
 c=X(a);return B(m(b),c)}function
-hs(i,g){var
+hu(i,g){var
 h=fL(g),j=X(g),e=z(m(b),j),f=r(m(c(2,b)),g),a=m(d);return i?i[1]?[0,[0,e,bs(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,bs(f),a,e]]:[0,[0,h,a,a],[0,a,e,bs(f)],[0,a,f,e]]}function
 fM(b,a){var
 c=ab(b[3],a),d=ab(b[2],a);return[0,ab(b[1],a),d,c]}function
-os(b,a){function
+ow(b,a){function
 c(b){var
 c=h(b,a[3]),d=h(b,a[2]);return[0,h(b,a[1]),d,c]}function
 d(a){var
 b=ab(a,c(function(a){return a[3]})),d=ab(a,c(function(a){return a[2]}));return[0,ab(a,c(function(a){return a[1]})),d,b]}var
 e=d(b[3]),f=d(b[2]);return[0,d(b[1]),f,e]}function
-ot(v,u){function
+ox(v,u){function
 a(a){return[0,[0,N(u,a)]]}switch(v[0]){case
 0:var
-w=fL(a(0));return[0,hs(vo,a(0)),w];case
+w=fL(a(0));return[0,hu(vr,a(0)),w];case
 1:var
-x=fL(a(0)),y=r(fL(a(vp)),x),A=r(fL(a(vq)),y),C=hs(0,a(0)),D=os(hs(vs,a(vr)),C);return[0,os(hs(vu,a(vt)),D),A];default:var
-E=a(vv),F=a(vw),g=[0,a(0),F,E],G=ab(g,g),H=B(m(b),G),j=ab(g,g),d=g[1],e=g[2],f=g[3],i=function(a){var
+x=fL(a(0)),y=r(fL(a(vs)),x),A=r(fL(a(vt)),y),C=hu(0,a(0)),D=ow(hu(vv,a(vu)),C);return[0,ow(hu(vx,a(vw)),D),A];default:var
+E=a(vy),F=a(vz),g=[0,a(0),F,E],G=ab(g,g),H=B(m(b),G),j=ab(g,g),d=g[1],e=g[2],f=g[3],i=function(a){var
 d=X(a),e=r(m(c(2,b)),d);return B(z(m(b),j),e)},h=function(f,e,d,a){var
 g=ar(f,r(e,d),a);return r(m(c(2,b)),g)},k=i(f),l=h(B,e,f,d),n=[0,h(z,d,f,e),l,k],o=h(z,e,f,d),p=i(e),q=[0,h(B,d,e,f),p,o],s=h(B,d,f,e),t=h(z,d,e,f);return[0,[0,[0,i(d),t,s],q,n],H]}}function
-ou(a){return 1<a[0]?[0,a[1],0]:0}function
-ht(a){switch(a[0]){case
+oy(a){return 1<a[0]?[0,a[1],0]:0}function
+hv(a){switch(a[0]){case
 0:return[0,a[1],0];case
 1:return[0,a[1],[0,a[2],[0,a[3],0]]];case
 2:return[0,dj(a[1]),0];default:var
 b=[0,dj(a[2]),0];return[0,dj(a[1]),b]}}function
-eL(a){return[0,[0,a[1]],[0,a[2]]]}function
-ov(a){switch(a[0]){case
-0:return[0,eL(a[1]),0];case
+eM(a){return[0,[0,a[1]],[0,a[2]]]}function
+oz(a){switch(a[0]){case
+0:return[0,eM(a[1]),0];case
 1:var
-f=[0,eL(a[3]),0],g=[0,eL(a[2]),f];return[0,eL(a[1]),g];case
+f=[0,eM(a[3]),0],g=[0,eM(a[2]),f];return[0,eM(a[1]),g];case
 2:var
-b=eL(dj(a[1]));return[0,b,[0,b,[0,b,0]]];default:var
-c=a[2],d=a[1],e=[0,[1,dj(d)[1],c],[1,d,c]];return[0,e,[0,e,[0,eL(dj(c)),0]]]}}function
-ow(a,c){if(0===c[0]){var
+b=eM(dj(a[1]));return[0,b,[0,b,[0,b,0]]];default:var
+c=a[2],d=a[1],e=[0,[1,dj(d)[1],c],[1,d,c]];return[0,e,[0,e,[0,eM(dj(c)),0]]]}}function
+oA(a,c){if(0===c[0]){var
 g=c[1];return h(co(a),g)}var
 i=c[1],d=h(co(a),i);if(d){var
 j=c[2],e=h(co(a),j);if(e){var
@@ -4433,109 +4454,109 @@ k=R(a,e[1]),l=cc(a,A(J(a,b),k)),m=d[1];return y(function(b){return t(a,m,b)},l)}
 f=e}else
 var
 f=d;return f}function
-ox(d,c){var
-a=ow(d,c[1]);if(a)var
-b=ow(d,c[2]),f=b?[0,[0,a[1][1],b[1][2]]]:b,e=f;else
+oB(d,c){var
+a=oA(d,c[1]);if(a)var
+b=oA(d,c[2]),f=b?[0,[0,a[1][1],b[1][2]]]:b,e=f;else
 var
 e=a;return e}function
-oy(a,e,c){var
+oC(a,e,c){var
 b=c[1];if(1===b[0]){var
 f=b[1];if(aD(f,a))return c;var
-g=m(d);return s(dE(f,a),e,g)}return[0,ce(function(b){return oy(a,e,b)},b)]}function
-jN(g,a,n,f,c){var
-h=g?[0,a,[0,[0,a],[0,[0,[0,a]],0]]]:[0,a,[0,[0,a],0]],i=g_(h,c),j=bZ(f),b=e(function(b){return oy(a,j,b)},i),k=s(vB,b,m(d)),l=s(vC,b,m(d));return[0,s(0,b,m(d)),l,k]}function
+g=m(d);return s(dE(f,a),e,g)}return[0,ce(function(b){return oC(a,e,b)},b)]}function
+jS(g,a,n,f,c){var
+h=g?[0,a,[0,[0,a],[0,[0,[0,a]],0]]]:[0,a,[0,[0,a],0]],i=ha(h,c),j=bZ(f),b=e(function(b){return oC(a,j,b)},i),k=s(vE,b,m(d)),l=s(vF,b,m(d));return[0,s(0,b,m(d)),l,k]}function
 bn(b,a){var
 c=r(b[2],a[1]),d=z(r(b[1],a[2]),c),e=r(b[1],a[3]),f=z(r(b[3],a[1]),e),g=r(b[3],a[2]);return[0,z(r(b[2],a[3]),g),f,d]}function
 dX(b,a){return b?b[1]?a[3]:a[2]:a[1]}function
-oz(c){function
+oD(c){function
 a(a){var
 e=n(c,a)?b:d;return m(e)}var
-e=a(vD),f=a(vE);return[0,a(0),f,e]}function
-oA(b,a){if(a)var
-d=oA(b,a[2]),c=[0,e(h(b,a[1]),a),d];else
+e=a(vG),f=a(vH);return[0,a(0),f,e]}function
+oE(b,a){if(a)var
+d=oE(b,a[2]),c=[0,e(h(b,a[1]),a),d];else
 var
 c=a;return c}function
 fN(c,b,a){switch(c){case
 0:return[0,b[1],[0,b[2],[0,a[3],0]]];case
 1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}}function
-oB(a){if(a){var
-f=a[1],b=f[2],c=hr(f[1]);if(c)if(b)var
-d=oB(a[2]),g=d?[0,[0,[0,c[1],b[1]],d[1]]]:d,e=g;else
+oF(a){if(a){var
+f=a[1],b=f[2],c=ht(f[1]);if(c)if(b)var
+d=oF(a[2]),g=d?[0,[0,[0,c[1],b[1]],d[1]]]:d,e=g;else
 var
 e=b;else
 var
-e=c;return e}return vP}function
-oC(c,b,a){var
-d=V(b,a);return ao(function(a,d){var
+e=c;return e}return vS}function
+oG(c,b,a){var
+d=V(b,a);return ap(function(a,d){var
 b=bJ(a[2]);return A(t(c,a[1],[0,b,b]),d)},u,d)}function
-oD(a,h,e,f,d){if(e)if(d)var
-i=d[1],o=oD(a,h,e[2],f,d[2]),p=i[2],q=aw(h,i[1]),c=e[1],j=ax(t(a,c[3],f)),k=c[3],l=A(ax(er(p,J(a,b),k)),j),m=t(a,c[2],l),n=t(a,c[1],f),g=[0,cF(A(A(ax(oC(a,c[4],q)),n),m)),o];else
+oH(a,h,e,f,d){if(e)if(d)var
+i=d[1],o=oH(a,h,e[2],f,d[2]),p=i[2],q=aw(h,i[1]),c=e[1],j=ax(t(a,c[3],f)),k=c[3],l=A(ax(es(p,J(a,b),k)),j),m=t(a,c[2],l),n=t(a,c[1],f),g=[0,cF(A(A(ax(oG(a,c[4],q)),n),m)),o];else
 var
 g=d;else
 var
 g=e;return g}function
-vR(a){return[0,a[1][1],a[2][1][2][1],a[1][2],a[2][2]]}function
-oE(b,a){return ad(e(function(a){return s(a,b,0)},a))}function
+vU(a){return[0,a[1][1],a[2][1][2][1],a[1][2],a[2][2]]}function
+oI(b,a){return ad(e(function(a){return s(a,b,0)},a))}function
 bM(a){switch(a){case
-0:return vV;case
-1:return vW;default:return 0}}function
+0:return vY;case
+1:return vZ;default:return 0}}function
 dY(a){switch(a){case
-0:return[0,vY,vX,m(d)];case
+0:return[0,v1,v0,m(d)];case
 1:return dN;default:var
 b=m(d),c=m(d);return[0,m(d),c,b]}}function
-hu(c,b,a){return bm(fM(c,a),b)}function
-oF(b,a){if(b)return[0,[0,[0,a]],[0,[0,[0,a]]],[0,[0,[0,[0,a]]]]];var
+hw(c,b,a){return bm(fM(c,a),b)}function
+oJ(b,a){if(b)return[0,[0,[0,a]],[0,[0,[0,a]]],[0,[0,[0,[0,a]]]]];var
 c=m(d);return[0,m(d),c,[0,[0,a]]]}function
-jO(a){var
+jT(a){var
 d=ab(a,a),e=B(m(b),d);return an(m(c(2,b)),e)}function
-oG(a,b){var
-c=bn(a,b),d=ah(B,c,bn(a,c));return ah(B,b,a7(jO(a),d))}function
-oH(h,g,f,e,d,c){var
-b=oG(c,hu(g,f,d)),a=ah(z,ah(B,dY(h),b),e);return[0,[0,b,a],aN(ab(a,a))]}function
+oK(a,b){var
+c=bn(a,b),d=ah(B,c,bn(a,c));return ah(B,b,a7(jT(a),d))}function
+oL(h,g,f,e,d,c){var
+b=oK(c,hw(g,f,d)),a=ah(z,ah(B,dY(h),b),e);return[0,[0,b,a],aN(ab(a,a))]}function
 as(a){return typeof
-a==="number"?a?vZ:v0:bF(a[1])}function
-jP(b,a,c){return typeof
-b==="number"?b?[0,a[1],[0,a[2],0]]:[0,a[1],[0,a[2],[0,a[3],0]]]:jG(b[1],a,c)}function
-eM(a){if(0===a[0]){var
+a==="number"?a?v2:v3:bF(a[1])}function
+jU(b,a,c){return typeof
+b==="number"?b?[0,a[1],[0,a[2],0]]:[0,a[1],[0,a[2],[0,a[3],0]]]:jL(b[1],a,c)}function
+eN(a){if(0===a[0]){var
 c=a[1];switch(c[0]){case
 0:return c[3];case
 1:return c[2];default:return[0,[0,d,b],[0,d,b],[0,d,b]]}}return a[1][4]}function
-eN(b,c,a){return b?di(b[1],c,a):a}function
+eO(b,c,a){return b?di(b[1],c,a):a}function
 bw(d,c,b,a){var
-e=eM(a),f=eN(d,c,eM(a)),g=M(function(b,a){return[2,b,a]},b,f);return M(function(b,a){return[3,b,a]},g,e)}function
-eO(d,c,b,a){if(0===a[0]){var
+e=eN(a),f=eO(d,c,eN(a)),g=M(function(b,a){return[2,b,a]},b,f);return M(function(b,a){return[3,b,a]},g,e)}function
+eP(d,c,b,a){if(0===a[0]){var
 f=bw(d,c,b,a);return[0,cQ(a[1],f)]}var
-e=a[1],g=oc(e,bw(d,c,b,a));return[1,ob(e,bw(d,c,b,a)),g]}function
-jQ(b,a){var
+e=a[1],g=og(e,bw(d,c,b,a));return[1,of(e,bw(d,c,b,a)),g]}function
+jV(b,a){var
 c=typeof
 b==="number"?1:0;if(c){if(b)return[0,a[1],[0,a[2],0]];var
 d=[0,a[1],[0,a[2],[0,a[3],0]]]}else
 var
 d=c;return d}function
-jR(e,d,c,a){if(0===a[0]){var
-f=bw(e,d,c,a),b=jx(a[1],f),g=b?[0,b[1],0]:b;return g}var
-h=bw(e,d,c,a);return[0,jD(a[1],h),0]}function
-oI(b,f,d){if(0===f[0])return 0===d[0]?nN(b,f[1],d[1]):0;if(0===d[0])return 0;var
+jW(e,d,c,a){if(0===a[0]){var
+f=bw(e,d,c,a),b=jC(a[1],f),g=b?[0,b[1],0]:b;return g}var
+h=bw(e,d,c,a);return[0,jI(a[1],h),0]}function
+oM(b,f,d){if(0===f[0])return 0===d[0]?nR(b,f[1],d[1]):0;if(0===d[0])return 0;var
 a=d[1],c=f[1],g=bt(b,c[1],a[1]),h=g?bt(b,c[2],a[2]):g,j=h?bt(b,c[3],a[3]):h,k=j?bt(b,c[4],a[4]):j,l=k?df(b,c[5],a[5]):k,m=l?df(b,c[6],a[6]):l,n=m?i(b,1,a[5]):m,o=n?i(b,1,a[6]):n,p=o?i(b,1,x(a[1],a[1])):o;if(p)var
-q=jC(a),e=i(b,1,x(jC(a),q));else
+q=jH(a),e=i(b,1,x(jH(a),q));else
 var
 e=p;return e?cB(c[7],a[7]):e}function
 fO(g,f,e){var
 b=f,a=e;for(;;){if(b){if(a){var
-c=oI(g,b[1],a[1]);if(c){var
+c=oM(g,b[1],a[1]);if(c){var
 b=b[2],a=a[2];continue}var
 d=c}else
 var
 d=a;return d}return a?0:1}}function
-jS(c,b,g,a){var
+jX(c,b,g,a){var
 d=cO(c,b[4],g);if(d){var
 e=b[5];if(e)return fJ(c,e[1],a);if(a)return 0;var
 f=1}else
 var
 f=d;return f}function
-hv(a){return typeof
-a==="number"?v1:2<=a[1]?v2:v3}function
-oJ(v,m,l){if(l){var
+hx(a){return typeof
+a==="number"?v4:2<=a[1]?v5:v6}function
+oN(v,m,l){if(l){var
 a=l[1],e=function(c,a){return i(v,1,[3,[0,a,b],c])},g=function(a){return[3,a[2],a[1]]};switch(a[0]){case
 0:var
 n=c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),f=e(g(a[1]),n);break;case
@@ -4566,11 +4587,11 @@ g=a[2],h=a[1],p=r(h,b2(e,g));return B(r(g,b2(e,h)),p);case
 f=b2(e,a[1]);return be(d,f)?f:an(f,a[2]);case
 8:var
 i=a[1],q=b2(e,i);return r(r(m(c(2,b)),i),q);default:return m(d)}}function
-hw(c,b,k){var
+hy(c,b,k){var
 e=k;for(;;){var
 a=e[1];switch(a[0]){case
 7:var
-g=hw(c,b,a[1]);if(g){var
+g=hy(c,b,a[1]);if(g){var
 h=a[2][1];if(1===h[0]){var
 i=h[1],j=K(d,s(i,c,u)[1]);return j?I(ak(function(a){return n(i,a)},b)):j}return 0}return g;case
 5:case
@@ -4581,9 +4602,9 @@ e=a[1];continue;case
 3:case
 4:case
 6:var
-f=hw(c,b,a[1]);if(f){var
+f=hy(c,b,a[1]);if(f){var
 e=a[2];continue}return f;default:return 1}}}function
-oK(d){var
+oO(d){var
 b=d;for(;;){var
 a=b[1];switch(a[0]){case
 0:case
@@ -4594,71 +4615,71 @@ a=b[1];switch(a[0]){case
 8:case
 9:var
 b=a[1];continue;default:var
-c=oK(a[1]);if(c){var
+c=oO(a[1]);if(c){var
 b=a[2];continue}return c}}}function
-oL(c,b,a){var
+oP(c,b,a){var
 d=e(b,a[2]);return[0,h(c,a[1]),d]}function
-jT(b,a,c){return e(function(c){var
-d=oL(b,a,c[2]),f=c[1];return[0,e(function(c){return oL(b,a,c)},f),d]},c)}function
-oM(b,a){return y(function(a){var
+jY(b,a,c){return e(function(c){var
+d=oP(b,a,c[2]),f=c[1];return[0,e(function(c){return oP(b,a,c)},f),d]},c)}function
+oQ(b,a){return y(function(a){var
 c=a[2],d=a[1][2];return[0,[0,h(b,a[1][1]),d],c]},a)}function
-v4(a,b){var
-c=oM(a,b[3]),d=h(a,b[2]);return[0,jT(a,a,b[1]),d,c]}function
-oN(c){var
+v7(a,b){var
+c=oQ(a,b[3]),d=h(a,b[2]);return[0,jY(a,a,b[1]),d,c]}function
+oR(c){var
 a=c[1];if(a){var
-b=hr(c[2]);if(b)var
+b=ht(c[2]);if(b)var
 g=e(aa,b[1]),d=[0,[0,aa(a[1]),g]];else
 var
 d=b;var
 f=d}else
 var
 f=a;return f}function
-v5(c){var
-a=ad(e(oN,c[1]));if(a)var
-b=oN(c[2]),f=b?[0,[0,a[1],b[1]]]:b,d=f;else
+v8(c){var
+a=ad(e(oR,c[1]));if(a)var
+b=oR(c[2]),f=b?[0,[0,a[1],b[1]]]:b,d=f;else
 var
 d=a;return d}function
-v6(a){return I(i_([0,a[2],a[1]]))}function
-jU(a){return[0,a[1],a[2]]}function
-oO(b,c,a){var
+v9(a){return I(jd([0,a[2],a[1]]))}function
+jZ(a){return[0,a[1],a[2]]}function
+oS(b,c,a){var
 d=e(function(c){return bG(b,b2(c,a))},c);return[0,bG(b,a),d]}function
-jV(b,e,a,d){var
+j0(b,e,a,d){var
 c=w(function(a){var
-b=jU(a[2]);return g(w(jU,a[1]),b)},d),f=a?[0,bG(b,a[1]),0]:a,h=g(f,c);return[0,bG(b,e),h]}function
-oP(c,f,b,a){var
-d=hw(f,b,a),e=d?hp(c,a):d;return e?l(function(b){return hp(c,b2(b,a))},b):e}function
-oQ(a){switch(a[0]){case
+b=jZ(a[2]);return g(w(jZ,a[1]),b)},d),f=a?[0,bG(b,a[1]),0]:a,h=g(f,c);return[0,bG(b,e),h]}function
+oT(c,f,b,a){var
+d=hy(f,b,a),e=d?hr(c,a):d;return e?l(function(b){return hr(c,b2(b,a))},b):e}function
+oU(a){switch(a[0]){case
 3:var
-d=jM(a[2]);return[0,a[3],d];case
+d=jR(a[2]);return[0,a[3],d];case
 4:return[0,a[1],0];case
 8:var
-b=a[1],e=jM(b[1]);return[0,b[2],e];case
+b=a[1],e=jR(b[1]);return[0,b[2],e];case
 9:return 0;default:var
-c=jM(a[1]);return[0,a[2],c]}}function
-oR(a,as,bc,k,o,ar,aq,w,N,j,i){switch(j[0]){case
+c=jR(a[1]);return[0,a[2],c]}}function
+oV(a,as,bc,k,o,ar,aq,w,N,j,i){switch(j[0]){case
 0:var
 at=j[4],O=j[3],au=j[2],av=j[1],S=0;if(typeof
 i==="number")S=1;else
 switch(i[0]){case
 0:var
-bd=i[2],be=i[1],u=au,r=av,q=function(b){return oo(a,o,be,bd,O,b)},p=at;break;case
+bd=i[2],be=i[1],u=au,r=av,q=function(b){return os(a,o,be,bd,O,b)},p=at;break;case
 2:var
 aw=L(O[1],d),ay=aw?L(O[2],d):aw;if(!ay)return ay;var
-bh=i[2],bi=i[1],u=au,r=av,q=function(b){return op(a,o,bi,bh,b)},p=at;break;default:S=1}if(S)return 0;break;case
+bh=i[2],bi=i[1],u=au,r=av,q=function(b){return ot(a,o,bi,bh,b)},p=at;break;default:S=1}if(S)return 0;break;case
 1:var
 aJ=0;if(typeof
 i==="number"&&!i)var
-bj=j[2],bk=j[1],bl=j[3],u=bj,r=bk,bm=0,q=function(b){return oq(a,o,bl,b)},p=bm;else
+bj=j[2],bk=j[1],bl=j[3],u=bj,r=bk,bm=0,q=function(b){return ou(a,o,bl,b)},p=bm;else
 aJ=1;if(aJ)return 0;break;case
 2:if(typeof
 i!=="number"&&3===i[0]){var
 x=i[3];if(x){var
-az=x[2],aA=n(f(az),k);if(aA){var
-bn=[0,j[1],j[2],N],bo=eK(function(a){return s(a,w,v9)},bn),aB=i[1],bp=0,bq=x[1],br=i[2],bs=j[3],bt=function(w,i){var
-c=eJ(i[1]);if(c){var
+az=x[2],aB=n(f(az),k);if(aB){var
+bn=[0,j[1],j[2],N],bo=eL(function(a){return s(a,w,wa)},bn),aC=i[1],bp=0,bq=x[1],br=i[2],bs=j[3],bt=function(w,i){var
+c=eK(i[1]);if(c){var
 j=c[1],e=i[2];if(e){var
 f=dn(i[3]);if(f){var
-k=f[1],l=function(c){return aP(c,aB,J(a,b))},u=l(w),v=e[1],g=A(t(a,l(bq),v),u),m=K(d,g[1]),n=m?aY(a,o,gS(aB,br,j,ac([0,E($(g),k),0],o))):m;if(n){var
+k=f[1],l=function(c){return aQ(c,aC,J(a,b))},u=l(w),v=e[1],g=A(t(a,l(bq),v),u),m=K(d,g[1]),n=m?aY(a,o,gS(aC,br,j,ac([0,E($(g),k),0],o))):m;if(n){var
 h=gT(a,j,ac([0,E(t(a,bs,g),k),0],o));if(h)return aY(a,o,h[1]);var
 p=h}else
 var
@@ -4671,8 +4692,8 @@ var
 r=e;var
 s=r}else
 var
-s=c;return s};return jK(function(b,a){return eK},bt,bp,az,d,bo)}var
-aE=aA}else
+s=c;return s};return jP(function(b,a){return eL},bt,bp,az,d,bo)}var
+aE=aB}else
 var
 aE=x;return aE}return 0;case
 3:var
@@ -4680,7 +4701,7 @@ aK=0;if(typeof
 i==="number"||!(0===i[0]))aK=1;else
 var
 aF=i[2],aG=i[1],bu=j[3],bv=j[2],bw=j[4],bx=j[1],by=function(g){var
-b=eJ(g[1]);if(b){var
+b=eK(g[1]);if(b){var
 c=b[1],d=g[2];if(d){var
 e=dn(g[3]);if(e){var
 h=n(f(c),o),i=h?n(f(aF),o):h;if(i){var
@@ -4697,14 +4718,14 @@ l=b;return l},u=bu,r=bv,q=by,p=j[5];if(aK)return 0;break;case
 4:var
 aL=0;if(typeof
 i==="number"&&!i)var
-u=j[1],r=0,q=vn,p=0;else
+u=j[1],r=0,q=vq,p=0;else
 aL=1;if(aL)return 0;break;case
 5:var
 aM=0;if(typeof
 i==="number"||!(0===i[0]))aM=1;else{var
 z=i[2],aN=0;if(z){var
 B=z[1];if(B){if(B[2])return 0;if(z[2])return 0;var
-bz=j[2],bA=j[1],bC=J(a,b),bD=[0,[0,B[1],0],0],bE=i[1],u=bz,r=bA,bF=0,q=function(b){return oo(a,v_,bE,bD,bC,b)},p=bF;aN=1}else
+bz=j[2],bA=j[1],bC=J(a,b),bD=[0,[0,B[1],0],0],bE=i[1],u=bz,r=bA,bF=0,q=function(b){return os(a,wb,bE,bD,bC,b)},p=bF;aN=1}else
 var
 aH=B}else
 var
@@ -4712,30 +4733,30 @@ aH=z;if(!aN)return aH}if(aM)return 0;break;case
 6:var
 aO=0;if(typeof
 i==="number"&&!i)var
-bG=j[2],bH=j[1],bI=J(a,b),u=bG,r=bH,bJ=0,q=function(b){return oq(a,v$,bI,b)},p=bJ;else
+bG=j[2],bH=j[1],bI=J(a,b),u=bG,r=bH,bJ=0,q=function(b){return ou(a,wc,bI,b)},p=bJ;else
 aO=1;if(aO)return 0;break;case
 7:var
-aQ=0;if(typeof
+aP=0;if(typeof
 i==="number"&&5<=i)var
-bK=j[2],bL=j[1],bM=j[4],bN=j[3],u=bK,r=bL,bO=0,q=function(b){return op(a,o,bN,bM,b)},p=bO;else
-aQ=1;if(aQ)return 0;break;case
+bK=j[2],bL=j[1],bM=j[4],bN=j[3],u=bK,r=bL,bO=0,q=function(b){return ot(a,o,bN,bM,b)},p=bO;else
+aP=1;if(aP)return 0;break;case
 8:if(typeof
 i!=="number"&&9===i[0]){var
-P=i[4],aI=i[2],Q=i[1],m=j[1],v=m[9],bP=i[3],aS=m[5],aT=cG(g(c2(m[4]),aS),as),aU=e(aa,bc),T=cf(0,bB(a,na(m[9],k,ar,m[7],m[8]),aU),aT,as),U=l8(P,d);if(U)var
+P=i[4],aI=i[2],Q=i[1],m=j[1],v=m[9],bP=i[3],aS=m[5],aT=cG(g(c2(m[4]),aS),as),aU=e(aa,bc),T=cf(0,bB(a,ne(m[9],k,ar,m[7],m[8]),aU),aT,as),U=ma(P,d);if(U)var
 C=U;else
 var
-ao=l9(P,c(2,c(2,c(2,c(2,b))))),ap=ao?aD(0,v):ao,C=ap?aD(v,k):ap;var
+ao=mb(P,c(2,c(2,c(2,c(2,b))))),ap=ao?aD(0,v):ao,C=ap?aD(v,k):ap;var
 W=C?ae(v,k):C,X=W?n(f(ar),k):W,Y=X?n(f(aI),k):X,Z=Y?n(f(m[1]),k):Y,_=Z?n(f(m[6]),k):Z,ab=_?n(f(m[4]),k):_;if(ab)var
 aV=m[4],D=l(function(a){return n(f(a),k)},aV);else
 var
 D=ab;if(D){var
-aW=m[4],F=ad(e(function(a){return oE(T,a)},aW));if(F){var
-af=oE(T,m[5]);if(af){var
+aW=m[4],F=ad(e(function(a){return oI(T,a)},aW));if(F){var
+af=oI(T,m[5]);if(af){var
 aX=m[6],G=ad(e(function(j){var
 c=j[1],k=m[7],d=s(c[1],aq,0);if(d){var
 h=c[2][2],b=ad(e(function(a){var
 b=s(a[2],aq,0);return y(function(a){return a[2]},b)},h));if(b)var
-i=b[1],f=[0,cF(ax(t(a,k,R(a,oC(a,e(aC,c[2][2]),i)))))];else
+i=b[1],f=[0,cF(ax(t(a,k,R(a,oG(a,e(aA,c[2][2]),i)))))];else
 var
 f=b;var
 g=f}else
@@ -4743,9 +4764,9 @@ var
 g=d;return g},aX));if(G){var
 aZ=m[1],a0=m[2],H=ad(e(function(m){function
 f(e){var
-g=ac(e,k),c=on(s(m[2],w,vS),g);if(c){var
-h=ac(e,k),d=on(s(a0,w,vT),h);if(d){var
-i=d[1],j=J(a,b);return cc(a,cd(er(c[1],j,i)))}var
+g=ac(e,k),c=or(s(m[2],w,vV),g);if(c){var
+h=ac(e,k),d=or(s(a0,w,vW),h);if(d){var
+i=d[1],j=J(a,b);return cc(a,cd(es(c[1],j,i)))}var
 f=d}else
 var
 f=c;return f}var
@@ -4757,15 +4778,15 @@ i=e;var
 j=i}else
 var
 j=c;return j},aZ));if(H){var
-ag=m6(a,k,v,F[1]),I=aP(bP,Q,J(a,b)),ah=K(d,E(I,ag)[1]);if(ah){var
+ag=m_(a,k,v,F[1]),I=aQ(bP,Q,J(a,b)),ah=K(d,E(I,ag)[1]);if(ah){var
 M=bX(a,I);if(M){var
-a1=ax(t(a,ag,M[1])),a2=E(J(a,b),a1),a3=[0,m[1],m[2],N],a4=eK(function(a){return s(a,w,vU)},a3),a5=m[6],a6=e(vR,V(V(G[1],H[1]),a5)),a7=R(a,a2),a8=R(a,I),a9=m7(k,v,m[10],P),ba=function(m){var
-b=oB(m[1]);if(b){var
+a1=ax(t(a,ag,M[1])),a2=E(J(a,b),a1),a3=[0,m[1],m[2],N],a4=eL(function(a){return s(a,w,vX)},a3),a5=m[6],a6=e(vU,V(V(G[1],H[1]),a5)),a7=R(a,a2),a8=R(a,I),a9=m$(k,v,m[10],P),ba=function(m){var
+b=oF(m[1]);if(b){var
 o=b[1],c=m[2];if(c){var
 d=c[1],h=dn(m[3]);if(h){var
-p=h[1],q=oD(a,k,a6,d,o),i=e(function(a){var
-b=a[2];return[0,m8(a9,a[1]),b]},o),z=dP(Q,dQ(Q,aI,d,i)),j=a_(ac([0,$(p),0],k),z),A=E(t(a,d,a7),p),r=n(f(i),k),s=r?n(f(q),k):r,u=s?m_(k,j):s,v=u?aY(a,k,a_(e(function(b){return[0,$(t(a,a8,b[2])),0]},i),j)):u;if(v){var
-B=a$(aR(k));return l(function(b){return aY(a,[0,k],m9(j,m$(g(b,vQ),q),A))},B)}var
+p=h[1],q=oH(a,k,a6,d,o),i=e(function(a){var
+b=a[2];return[0,na(a9,a[1]),b]},o),z=dP(Q,dQ(Q,aI,d,i)),j=a_(ac([0,$(p),0],k),z),A=E(t(a,d,a7),p),r=n(f(i),k),s=r?n(f(q),k):r,u=s?nc(k,j):s,v=u?aY(a,k,a_(e(function(b){return[0,$(t(a,a8,b[2])),0]},i),j)):u;if(v){var
+B=a$(aR(k));return l(function(b){return aY(a,[0,k],nb(j,nd(g(b,vT),q),A))},B)}var
 w=v}else
 var
 w=h;var
@@ -4774,7 +4795,7 @@ var
 x=c;var
 y=x}else
 var
-y=b;return y},bb=m[3];return h(jL(function(b,a){return eK},bb,k,ba),a4)}var
+y=b;return y},bb=m[3];return h(jQ(function(b,a){return eL},bb,k,ba),a4)}var
 ai=M}else
 var
 ai=ah;var
@@ -4793,38 +4814,38 @@ am=F;var
 an=am}else
 var
 an=D;return an}return 0;default:return 0}var
-bf=[0,r,u,N],bg=eK(function(a){return s(a,w,v8)},bf);return h(jL(function(b,a){return eK},p,k,q),bg)}function
-wa(b,a){var
-c=iP(iK,b[1],a[1]);return c?iK(b[2],a[2]):c}function
-oS(c,b){var
-a=iP(wa,c,b),d=a?1:a;return d}function
-oT(j,s,r,i,q,k,p,o,m,h,l,g,a,e){if(typeof
-e==="number"){if(0===e)return 9===a[0]?eA(j,0,0,0,g,i,0,a[1],e):0}else
+bf=[0,r,u,N],bg=eL(function(a){return s(a,w,v$)},bf);return h(jQ(function(b,a){return eL},p,k,q),bg)}function
+wd(b,a){var
+c=iU(iP,b[1],a[1]);return c?iP(b[2],a[2]):c}function
+oW(c,b){var
+a=iU(wd,c,b),d=a?1:a;return d}function
+oX(j,s,r,i,q,k,p,o,m,h,l,g,a,e){if(typeof
+e==="number"){if(0===e)return 9===a[0]?eB(j,0,0,0,g,i,0,a[1],e):0}else
 switch(e[0]){case
 6:var
 f=e[1];if(typeof
 f!=="number"&&7===f[0]){if(k){var
-t=f[3],u=f[2],v=D(d,u),w=v?gG(t,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):v;if(w)return oR(j,s,r,i,q,h,g,l,[0,[0,[0,k[1],u],t]],a,f[1]);var
+t=f[3],u=f[2],v=D(d,u),w=v?gG(t,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):v;if(w)return oV(j,s,r,i,q,h,g,l,[0,[0,[0,k[1],u],t]],a,f[1]);var
 x=w}else
 var
-x=k;return x}return oR(j,s,r,i,q,h,g,l,0,a,f);case
-8:return 9===a[0]?eA(j,0,0,0,g,i,0,a[1],e):0;case
+x=k;return x}return oV(j,s,r,i,q,h,g,l,0,a,f);case
+8:return 9===a[0]?eB(j,0,0,0,g,i,0,a[1],e):0;case
 10:if(0===a[0]){var
-y=oS(a[1],p),z=y?n(a[2],o):y;return z?ia(m,h,a[3],a[4],e):z}return 0;case
+y=oW(a[1],p),z=y?n(a[2],o):y;return z?ic(m,h,a[3],a[4],e):z}return 0;case
 12:if(0===a[0]){var
-A=oS(a[1],p),B=A?n(a[2],o):A;return B?ia(m,h,a[3],a[4],e):B}return 0}return 0}function
-oU(b){var
+A=oW(a[1],p),B=A?n(a[2],o):A;return B?ic(m,h,a[3],a[4],e):B}return 0}return 0}function
+oY(b){var
 a=b[2];if(typeof
 a!=="number"&&6===a[0])return 1;return 0}function
-wb(c){var
+we(c){var
 b=0,a=c[2];if(typeof
 a==="number"){if(0!==a)b=1}else
 switch(a[0]){case
 6:case
 8:break;default:b=1}return b?0:1}function
-wc(a){switch(a[0]){case
+wf(a){switch(a[0]){case
 8:return 0;case
-9:return jm(a[1]);default:return 1}}function
+9:return jr(a[1]);default:return 1}}function
 fP(a,o,m,j,z,x,b,v,r,C,i,k,ap,c){switch(c[0]){case
 0:var
 aq=function(a){return l(I,a)},P=aq,p=c[1];break;case
@@ -4832,32 +4853,32 @@ aq=function(a){return l(I,a)},P=aq,p=c[1];break;case
 ar=c[4],as=c[3],at=c[2],au=function(c){var
 d=c$(at,k),e=fP(a,o,m,j,z,x,b,v,r,C,i,d[1],c,as);return e?fP(a,o,m,j,z,x,b,v,r,C,i,d[2],c,ar):e},P=au,p=c[1];break;default:var
 av=c[4],aw=c[3],ax=c[2],ay=function(c){var
-d=nw(wc,j,c);if(d){var
+d=nA(wf,j,c);if(d){var
 e=c$(ax,i),f=fP(a,o,m,j,z,x,b,v,r,C,e[1],k,c,aw);if(f)return fP(a,o,m,j,z,x,b,v,r,C,e[2],k,c,av);var
 g=f}else
 var
 g=d;return g},P=ay,p=c[1]}var
-ae=h(C,i),ab=ak(wb,p),ac=ab?jg(a,m,i,cG(w(function(c){var
+ae=h(C,i),ab=ak(we,p),ac=ab?jl(a,m,i,cG(w(function(c){var
 a=G(j,c[1]);if(a){var
 b=a[1];switch(b[0]){case
 8:var
 d=b[1][6];return w(function(a){var
-b=e(aK,a[1][2][2]);return[0,a[1][1],b]},d);case
-9:return fw(0,0,0,b[1],c[2]);default:return 0}}return a},p),m),k):ab,ad=ak(oU,p);if(ad)var
+b=e(aG,a[1][2][2]);return[0,a[1][1],b]},d);case
+9:return fw(0,0,0,b[1],c[2]);default:return 0}}return a},p),m),k):ab,ad=ak(oY,p);if(ad)var
 an=w(function(b){var
-c=oU(b);if(c){var
-a=G(j,b[1]);if(a)return oQ(a[1]);var
+c=oY(b);if(c){var
+a=G(j,b[1]);if(a)return oU(a[1]);var
 d=a}else
 var
-d=c;return d},p),ao=b?[0,b[1],0]:b,ah=mr(g(ao,an),o),O=jJ(a,i,eo(hq(eo(o,0),ah),0),k);else
+d=c;return d},p),ao=b?[0,b[1],0]:b,ah=mv(g(ao,an),o),O=jO(a,i,ep(hs(ep(o,0),ah),0),k);else
 var
 O=ad;var
 q=p,f=ap;for(;;){if(q){var
 T=q[1],D=T[2],n=T[1],H=q[2];if(n){var
 U=s(n,f,0);if(U){var
 L=G(j,n);if(L){var
-V=oT(a,m,i,z,x,b,v,r,ae,k,O,ac,L[1],D);if(V){var
-q=H,f=g9(n,f);continue}var
+V=oX(a,m,i,z,x,b,v,r,ae,k,O,ac,L[1],D);if(V){var
+q=H,f=g$(n,f);continue}var
 W=V}else
 var
 W=L;var
@@ -4868,7 +4889,7 @@ B=X}else{var
 af=0;if(typeof
 D==="number"&&4===D){var
 ag=0;if(b){var
-am=0,Q=e(function(b){return[0,b,R(a,b)]},k),ai=e(aK,Q),aj=g(e(aC,Q),ai),al=c4(0,function(o){return function(b){switch(b[0]){case
+am=0,Q=e(function(b){return[0,b,R(a,b)]},k),ai=e(aG,Q),aj=g(e(aA,Q),ai),al=c4(0,function(o){return function(b){switch(b[0]){case
 0:return[0,s(b[1],o,u)];case
 1:return[0,s(b[1],i,u)];case
 2:return[0,J(a,b[1])];case
@@ -4898,8 +4919,8 @@ B=M}else
 af=1;if(af){var
 Y=s(n,f,0);if(Y){var
 N=G(j,n);if(N){var
-Z=oT(a,m,i,z,x,b,v,r,ae,k,O,ac,N[1],D);if(Z){var
-q=H,f=g9(n,f);continue}var
+Z=oX(a,m,i,z,x,b,v,r,ae,k,O,ac,N[1],D);if(Z){var
+q=H,f=g$(n,f);continue}var
 _=Z}else
 var
 _=N;var
@@ -4909,26 +4930,26 @@ aa=Y;var
 B=aa}}}else
 var
 B=[0,f];return B?P(B[1]):B}}function
-jW(d,a){var
+j1(d,a){var
 e=X(a),f=r(r(m(c(2,b)),a),d);return B(z(X(d),f),e)}function
-jX(k,a,d,j,c,i){var
+j2(k,a,d,j,c,i){var
 e=ah(z,dY(k),j);if(i){var
 b=function(b){var
 c=h(b,a[3]),d=h(b,a[2]);return[0,h(b,a[1]),d,c]},f=b(function(a){return a[3]}),g=b(function(a){return a[2]}),l=fM([0,b(function(a){return a[1]}),g,f],e);return ah(B,a7(d,c),l)}var
 m=fM(a,c);return ah(B,a7(d,e),m)}function
-oV(f,h,g,k,a,d){var
-e=dY(f),i=ah(z,e,a),j=fM(h,d),l=jW(e[3],a[3]),n=jW(e[2],a[2]),o=jW(e[1],a[1]),p=B(B(B(ab(d,d),o),n),l),q=ab(j,i),s=r(m(c(2,b)),q),t=B(r(g,p),s),u=bm(bn(j,i),k);return[0,fN(f,jX(f,h,g,a,d,0),u),t]}function
-oW(d,c,b,a){var
-e=hu(c,b,a);return ah(B,dY(d),e)}function
-oX(g,f,e,d,c){var
-b=oW(g,f,e,c),a=ah(z,b,d);return[0,[0,b,a],aN(ab(a,a))]}function
-hx(b,a){var
+oZ(f,h,g,k,a,d){var
+e=dY(f),i=ah(z,e,a),j=fM(h,d),l=j1(e[3],a[3]),n=j1(e[2],a[2]),o=j1(e[1],a[1]),p=B(B(B(ab(d,d),o),n),l),q=ab(j,i),s=r(m(c(2,b)),q),t=B(r(g,p),s),u=bm(bn(j,i),k);return[0,fN(f,j2(f,h,g,a,d,0),u),t]}function
+o0(d,c,b,a){var
+e=hw(c,b,a);return ah(B,dY(d),e)}function
+o1(g,f,e,d,c){var
+b=o0(g,f,e,c),a=ah(z,b,d);return[0,[0,b,a],aN(ab(a,a))]}function
+hz(b,a){var
 c=bg(a[2],b);return g(bg(a[1],b),c)}function
-jY(d,b,a,c){if(a)var
-e=a[1],g=cN(c,hx(b,e)),i=N(c,f(hx(b,e))),j=jY(d,b,a[2],i),k=al(g,wd),h=[0,ar(d,al(g,0),k),j];else
+j3(d,b,a,c){if(a)var
+e=a[1],g=cN(c,hz(b,e)),i=N(c,f(hz(b,e))),j=j3(d,b,a[2],i),k=al(g,wg),h=[0,ar(d,al(g,0),k),j];else
 var
 h=a;return h}function
-jZ(f,o,e,n,a){var
+j4(f,o,e,n,a){var
 g=r(X(s(0,n,m(d))),o);if(typeof
 a!=="number")switch(a[0]){case
 2:var
@@ -4941,92 +4962,92 @@ c=G(e,a[1]);if(c)var
 k=i(f,0,a[2]),l=k?[0,z(g,c[1][1][2])]:k;else
 var
 l=c;return l}return 0}function
-oY(c,b,a){if(typeof
+o2(c,b,a){if(typeof
 a!=="number"&&6===a[0]){var
 e=G(c,a[1]);return y(function(a){var
 c=s(0,b,m(d)),e=h(a[2][2],c);return[0,a[2][1],e]},e)}return 0}function
-hy(a){return i(j,0,[3,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b],a])}function
-oZ(a){var
-b=al(a,we),c=aN(ab(al(a,wf),b));return r(s(0,a,m(d)),c)}function
-o0(b,a){var
-c=ab(a,al(b,wg));return[0,bZ(a7(oZ(b),a)),c]}function
-o1(e,d,a,c,b){var
-f=b[2],g=r(oZ(a),f),h=c?hu(e,d,al(a,wh)):al(a,wi);return z(ab(b[1][2],h),g)}function
-o2(h,g,f,d,c,b,a){var
+hA(a){return i(j,0,[3,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b],a])}function
+o3(a){var
+b=al(a,wh),c=aN(ab(al(a,wi),b));return r(s(0,a,m(d)),c)}function
+o4(b,a){var
+c=ab(a,al(b,wj));return[0,bZ(a7(o3(b),a)),c]}function
+o5(e,d,a,c,b){var
+f=b[2],g=r(o3(a),f),h=c?hw(e,d,al(a,wk)):al(a,wl);return z(ab(b[1][2],h),g)}function
+o6(h,g,f,d,c,b,a){var
 i=bI(c);function
-j(a){return oW(h,g,f,a)}return nC(e(function(a){return[0,a[4]]},d),j,i,b,a)}function
+j(a){return o0(h,g,f,a)}return nG(e(function(a){return[0,a[4]]},d),j,i,b,a)}function
 dZ(a){var
-b=s(wj,a,m(d));return an(s(0,a,m(d)),b)}function
-j0(a){return a[4][2]}function
-o3(f,o,n,l,a){var
-p=a[1][2],q=e(aK,fA(n,a[1][2])),h=dZ(l),i=r(r(m(c(2,b)),o),h),d=a[1][1],j=aw(bM(f),d),k=e(function(a){return r(a,i)},j);return[0,g(g(am(bM(f),d),k),q),p]}function
-o4(a){var
-b=a[3],c=a[2],d=a[1];return hk([0,[0,d,d],[0,c,c],[0,b,b]])}function
-ws(a){if(typeof
+b=s(wm,a,m(d));return an(s(0,a,m(d)),b)}function
+j5(a){return a[4][2]}function
+o7(f,o,n,l,a){var
+p=a[1][2],q=e(aG,fA(n,a[1][2])),h=dZ(l),i=r(r(m(c(2,b)),o),h),d=a[1][1],j=aw(bM(f),d),k=e(function(a){return r(a,i)},j);return[0,g(g(am(bM(f),d),k),q),p]}function
+o8(a){var
+b=a[3],c=a[2],d=a[1];return hm([0,[0,d,d],[0,c,c],[0,b,b]])}function
+wv(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-o5(b,a){switch(b){case
+o9(b,a){switch(b){case
 0:return[0,a[1],[0,a[2],0]];case
 1:return[0,a[1],[0,a[2],[0,a[3],0]]];default:return 0}}function
-hz(a){var
+hB(a){var
 c=ch(a[1],[0,d,b]);return c?ch(a[2],[0,d,b]):c}function
-j1(d,a){switch(d){case
-0:return hz(a[3]);case
+j6(d,a){switch(d){case
+0:return hB(a[3]);case
 1:return 1;default:var
-b=hz(a[1]),c=b?hz(a[2]):b;return c?hz(a[3]):c}}function
-j2(c,b){var
-a=w(function(a){return hx(c,a)},b),d=V(aG(0,f(a)),a);return e(aC,a5(function(a){return ju(a[2])},d))}function
-o6(b){var
+b=hB(a[1]),c=b?hB(a[2]):b;return c?hB(a[3]):c}}function
+j7(c,b){var
+a=w(function(a){return hz(c,a)},b),d=V(aH(0,f(a)),a);return e(aA,a5(function(a){return jz(a[2])},d))}function
+o_(b){var
 a=b[2];if(typeof
 a!=="number")switch(a[0]){case
 10:case
 12:return 1}return 0}function
-o7(c){var
-a=c;for(;;){if(0===a[0])return ak(o6,a[1]);var
-d=ak(o6,a[1]),b=d||o7(a[3]);if(b)return b;var
+o$(c){var
+a=c;for(;;){if(0===a[0])return ak(o_,a[1]);var
+d=ak(o_,a[1]),b=d||o$(a[3]);if(b)return b;var
 a=a[4];continue}}function
-wt(a,aS,bB,C,E,aR){var
-o=C[1],k=bF(o),Z=C[6],bC=C[2],O=w(function(a){return hx(E,a)},bC),aT=C[3],T=[0,[0,aT,aT],E],ae=[0,f(O)],bE=0,aU=w(function(a){return fK(bE,E,a)},Z),bH=bM(o),aV=ot(C[5],bH),p=aV[2],H=aV[1],M=ck(T,f(O)),bJ=C[2],U=f(O),bI=0,x=jY(function(e,a){function
+ww(a,aS,bB,C,E,aR){var
+o=C[1],k=bF(o),Z=C[6],bC=C[2],O=w(function(a){return hz(E,a)},bC),aT=C[3],T=[0,[0,aT,aT],E],ae=[0,f(O)],bE=0,aU=w(function(a){return fK(bE,E,a)},Z),bH=bM(o),aV=ox(C[5],bH),p=aV[2],H=aV[1],M=ck(T,f(O)),bJ=C[2],U=f(O),bI=0,x=j3(function(e,a){function
 i(d){var
-b=oF(o,bF(o)),m=oH(o,H,p,e,a,b)[2],f=oH(o,H,p,e,a,b),g=f[1],h=bm(g[2],f[2]),i=bn(g[1],h),j=ah(B,i,bn(i,b)),c=a7(jO(b),j),k=r(c[3],d),l=r(c[2],d);return[0,fN(o,h,[0,r(c[1],d),l,k]),m]}function
+b=oJ(o,bF(o)),m=oL(o,H,p,e,a,b)[2],f=oL(o,H,p,e,a,b),g=f[1],h=bm(g[2],f[2]),i=bn(g[1],h),j=ah(B,i,bn(i,b)),c=a7(jT(b),j),k=r(c[3],d),l=r(c[2],d);return[0,fN(o,h,[0,r(c[1],d),l,k]),m]}function
 j(W){var
-v=oX(o,H,p,e,a),w=v[1],T=ah(z,dY(o),e),x=v[2],s=w[1],V=w[2],g=hu(H,p,a),i=bm(V,x),N=an(ab(g,i),M),O=X(M),P=an(ab(a,a),O),Q=2<=o?d:b,R=B(m(Q),P);function
-h(a){return[0,oz(a),0]}function
-f(a){return[0,bm(bn(oz(a),g),M),[0,a]]}switch(o){case
+v=o1(o,H,p,e,a),w=v[1],T=ah(z,dY(o),e),x=v[2],s=w[1],V=w[2],g=hw(H,p,a),i=bm(V,x),N=an(ab(g,i),M),O=X(M),P=an(ab(a,a),O),Q=2<=o?d:b,R=B(m(Q),P);function
+h(a){return[0,oD(a),0]}function
+f(a){return[0,bm(bn(oD(a),g),M),[0,a]]}switch(o){case
 0:var
-C=[0,f(vF),0],D=[0,h(vG),C],q=[0,h(0),D];break;case
+C=[0,f(vI),0],D=[0,h(vJ),C],q=[0,h(0),D];break;case
 1:var
-E=[0,f(vH),0],F=[0,f(vI),E],G=[0,f(0),F],I=[0,h(vJ),G],J=[0,h(vK),I],q=[0,h(0),J];break;default:var
-K=[0,f(vL),0],L=[0,f(vM),K],q=[0,f(0),L]}var
+E=[0,f(vK),0],F=[0,f(vL),E],G=[0,f(0),F],I=[0,h(vM),G],J=[0,h(vN),I],q=[0,h(0),J];break;default:var
+K=[0,f(vO),0],L=[0,f(vP),K],q=[0,f(0),L]}var
 j=ah(z,[0,[0,[1,U]],[0,[1,[0,U]]],[0,[1,[0,[0,U]]]]],e),k=bm(j,aN(ab(j,j)));if(o)var
-l=jN(o,U,e,s,k[3]);else
+l=jS(o,U,e,s,k[3]);else
 var
 y=m(d),A=m(d),l=[0,m(d),A,y];var
-t=jN(o,U,e,s,k[2]),u=jN(o,U,e,s,k[1]),S=oA(function(s,v){var
+t=jS(o,U,e,s,k[2]),u=jS(o,U,e,s,k[1]),S=oE(function(s,v){var
 e=v[1];function
 a(b,a){var
 c=e[3],f=dX(a,l),g=r(B(b[3],f),c),h=e[2],i=dX(a,t),j=r(B(b[2],i),h),k=e[1],n=dX(a,u),o=r(B(b[1],n),k);return B(B(B(m(d),o),j),g)}var
-w=a(l,vN),x=a(t,vO),y=[0,a(u,0),x,w],f=ab(s[1],y),k=s[2];if(k){var
+w=a(l,vQ),x=a(t,vR),y=[0,a(u,0),x,w],f=ab(s[1],y),k=s[2];if(k){var
 h=k[1],o=v[2];if(o){var
 j=o[1],A=dX(h,g),C=r(dX(j,i),A),D=dX(j,g),p=B(r(dX(h,i),D),C),E=X(M);if(n(h,j))var
 F=ab(i,g),q=z(p,r(m(c(2,b)),F));else
 var
 q=p;return B(f,an(q,E))}return f}return f},q);return[0,fN(o,i,bm(bn(g,bm(T,x)),M)),S,R,N]}var
-k=oX(o,H,p,e,a);function
-l(b){return jX(o,H,p,e,a,b)}var
+k=o1(o,H,p,e,a);function
+l(b){return j2(o,H,p,e,a,b)}var
 f=2<=o?d:b;function
 g(b){var
 c=X(M),d=m(f),e=r(z(X(b),d),c);return r(p,z(ab(a,a),e))}var
-h=[0,ab(jX(o,H,p,e,a,1),a),g];return[0,oV(o,H,p,M,e,a),h,l,k,j,i]},E,bJ,bI),W=e(function(a){return a[1]},x),bK=N(ae,f(aU)),bL=bM(o),bN=C[5];function
+h=[0,ab(j2(o,H,p,e,a,1),a),g];return[0,oZ(o,H,p,M,e,a),h,l,k,j,i]},E,bJ,bI),W=e(function(a){return a[1]},x),bK=N(ae,f(aU)),bL=bM(o),bN=C[5];function
 S(a){return[0,[0,N(bL,a)]]}var
-aI=X([0,[1,bK]]);switch(bN[0]){case
+aJ=X([0,[1,bK]]);switch(bN[0]){case
 2:var
-bs=S(vx),bt=S(vy),aJ=[0,S(0),bt,bs],F=[0,z(aI,ab(aJ,aJ))];break;case
+bs=S(vA),bt=S(vB),aK=[0,S(0),bt,bs],F=[0,z(aJ,ab(aK,aK))];break;case
 3:var
-bu=X(S(vz)),bv=X(S(0)),bw=X(S(vA)),F=[0,z(z(r(aI,B(m(b),bw)),bv),bu)];break;default:var
+bu=X(S(vC)),bv=X(S(0)),bw=X(S(vD)),F=[0,z(z(r(aJ,B(m(b),bw)),bv),bu)];break;default:var
 F=0}var
 aW=C[7];if(aW)var
-bO=0,bP=C[2],ao=jY(function(k,t){var
-a=oV(o,H,p,ck(T,f(O)),k,t);switch(o){case
+bO=0,bP=C[2],ao=j3(function(k,t){var
+a=oZ(o,H,p,ck(T,f(O)),k,t);switch(o){case
 0:var
 c=a[1];if(c){var
 l=c[2],e=c[1];if(l){var
@@ -5041,45 +5062,45 @@ ao=aW;var
 bQ=bD(ao),bR=F?[0,F[1],0]:F,bS=g(bR,bQ),bT=0,bU=g(O,[0,T,0]),bA=e(function(a){return a[1]},x),bV=[0,p,g(dk(function(c,b){if(typeof
 b!=="number")switch(b[0]){case
 6:var
-f=oY(x,c,b);if(f)var
+f=o2(x,c,b);if(f)var
 j=f[1],k=[0,j[1],[0,j[2],0]];else
 var
 k=f;return k;case
-8:return e(aK,hm(bA,c));case
+8:return e(aG,ho(bA,c));case
 13:var
 i=G(x,b[1]);if(i){var
-l=hy(b[4]);if(l){var
-m=o0(c,h(i[1][3],b[2]));return g(m[1],[0,m[2],0])}var
+l=hA(b[4]);if(l){var
+m=o4(c,h(i[1][3],b[2]));return g(m[1],[0,m[2],0])}var
 n=l}else
 var
 n=i;return n;case
-16:return w(function(a){return o3(o,M,bU,c,a)[1]},x)}var
-d=jZ(a,p,x,c,b),q=d?[0,d[1],0]:d;return q},bT,E,ae,Z),bS)],aq=g(bD(W),bV),bW=0,bX=g(O,[0,T,0]),aZ=dk(function(b,a){if(typeof
+16:return w(function(a){return o7(o,M,bU,c,a)[1]},x)}var
+d=j4(a,p,x,c,b),q=d?[0,d[1],0]:d;return q},bT,E,ae,Z),bS)],ap=g(bD(W),bV),bW=0,bX=g(O,[0,T,0]),aZ=dk(function(b,a){if(typeof
 a!=="number")switch(a[0]){case
 13:var
-f=G(x,a[1]);if(f){if(hy(a[4]))return 0;var
-k=[0,o1(H,p,b,a[2],f[1][4]),0]}else
+f=G(x,a[1]);if(f){if(hA(a[4]))return 0;var
+k=[0,o5(H,p,b,a[2],f[1][4]),0]}else
 var
 k=f;return k;case
 14:var
-i=o2(o,H,p,x,b,a[1],a[2]);if(i){var
+i=o6(o,H,p,x,b,a[1],a[2]);if(i){var
 l=i[1],n=l[2],q=l[1];return w(bZ,[0,q[1],[0,q[2],[0,n[1],[0,n[2],0]]]])}return i;case
 15:var
 j=G(x,a[1]);if(j){var
-c=h(j[1][5],0),r=[0,c[3],[0,c[4],0]],t=[0,s(wk,b,m(d)),r],u=[0,s(0,b,m(d)),t],v=g(c2(c[2]),u);return g(c[1],v)}return j;case
+c=h(j[1][5],0),r=[0,c[3],[0,c[4],0]],t=[0,s(wn,b,m(d)),r],u=[0,s(0,b,m(d)),t],v=g(c2(c[2]),u);return g(c[1],v)}return j;case
 16:var
 y=w(function(a){var
-b=e(aK,fA(bX,j0(a)));return[0,j0(a),b]},x);return g(w(function(a){var
-c=dZ(b),d=[0,h(a[6],c)[2],0],e=dZ(b);return g(h(a[6],e)[1],d)},x),y)}return 0},bW,E,ae,Z),a0=c6(e(function(a){return bG(k,a)},aq)),a1=c6(aZ),_=c5(a0),a2=c5(a1),bY=cH(_);function
+b=e(aG,fA(bX,j5(a)));return[0,j5(a),b]},x);return g(w(function(a){var
+c=dZ(b),d=[0,h(a[6],c)[2],0],e=dZ(b);return g(h(a[6],e)[1],d)},x),y)}return 0},bW,E,ae,Z),a0=c6(e(function(a){return bG(k,a)},ap)),a1=c6(aZ),_=c5(a0),a2=c5(a1),bY=cH(_);function
 v(a){return h(bY,bG(k,a))}var
 K=cH(a2);function
 a3(i){if(0===C[4][0]){var
 r=y(v,F),t=v(p),e=bM(o),g=n(f(i),k);if(g)var
-h=y(function(a){return[0,[0,a,d],d]},r),a=function(a){return s(a,_,m(d))},c=a(t),j=aG(0,e),b=l(function(b){var
+h=y(function(a){return[0,[0,a,d],d]},r),a=function(a){return s(a,_,m(d))},c=a(t),j=aH(0,e),b=l(function(b){var
 d=dW(k,b,c),e=d?l(function(d){var
 f=d[1],e=l(function(c){var
 d=a(c);return cR(N(k,b),d)},f);if(e){var
-g=a(d[2]);return ho(c,N(k,b),g)}return e},i):d;if(e){if(h){var
+g=a(d[2]);return hq(c,N(k,b),g)}return e},i):d;if(e){if(h){var
 g=a(h[1][1][1]);return cR(N(k,b),g)}var
 f=1}else
 var
@@ -5088,42 +5109,42 @@ var
 b=g;var
 q=b?e:b;return q}return 0}var
 Y=a3(h(ay(v),W)),a4=l(function(a){var
-b=bG(k,a),c=m(d);return aX(s(v(a),_,c),b)},aq),a6=a4?l(function(a){return hp(k,a)},aq):a4,a8=a6?l(function(a){var
-b=m(d);return aX(s(h(K,a),a2,b),a)},aZ):a6,a9=a8?ak(ws,Z):a8;if(a9)var
-b0=I(C[7]),ar=b0||oJ(a,[0,o],[0,C[5]]);else
+b=bG(k,a),c=m(d);return aX(s(v(a),_,c),b)},ap),a6=a4?l(function(a){return hr(k,a)},ap):a4,a8=a6?l(function(a){var
+b=m(d);return aX(s(h(K,a),a2,b),a)},aZ):a6,a9=a8?ak(wv,Z):a8;if(a9)var
+b0=I(C[7]),ar=b0||oN(a,[0,o],[0,C[5]]);else
 var
 ar=a9;var
-a_=ar?j1(o,eD(C[4])):ar,a$=a_?i(a,1,C[3]):a_;if(a$)var
-b1=ht(C[5]),as=l(function(b){var
+a_=ar?j6(o,eE(C[4])):ar,a$=a_?i(a,1,C[3]):a_;if(a$)var
+b1=hv(C[5]),as=l(function(b){var
 c=cp(a,b[1]);return c?cp(a,b[2]):c},b1);else
 var
 as=a$;if(as){var
-b2=g(O,[0,T,0]),at=ad(e(function(b){return ap(a,b)},b2));if(at){var
-au=ad(e(function(b){return hn(a,b)},aU));if(au){var
-b3=o5(o,eD(C[4])),av=ad(e(function(b){return ap(a,[0,b,E])},b3));if(av){var
-ba=av[1],b4=ov(C[5]),aw=ad(e(function(b){return ox(a,b)},b4));if(aw){var
-bb=aw[1],b5=ou(C[5]),ax=ad(e(co(a),b5));if(ax){var
-az=g(O,[0,T,0]),b6=0,aA=ad(dk(function(k,g){if(typeof
+b2=g(O,[0,T,0]),at=ad(e(function(b){return aq(a,b)},b2));if(at){var
+au=ad(e(function(b){return hp(a,b)},aU));if(au){var
+b3=o9(o,eE(C[4])),av=ad(e(function(b){return aq(a,[0,b,E])},b3));if(av){var
+ba=av[1],b4=oz(C[5]),aw=ad(e(function(b){return oB(a,b)},b4));if(aw){var
+bb=aw[1],b5=oy(C[5]),ax=ad(e(co(a),b5));if(ax){var
+az=g(O,[0,T,0]),b6=0,aB=ad(dk(function(k,g){if(typeof
 g!=="number")switch(g[0]){case
 13:var
-C=g[4],aM=G(x,g[1]);if(aM){if(o4(g[3])&&i(a,0,C)&&i(a,0,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],C])){var
-aN=g[2],aO=aM[1];if(hy(C)){var
-aG=o0(k,h(aO[3],aN)),V=aG[2];if(i(j,0,[3,C,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b]]))var
+C=g[4],aM=G(x,g[1]);if(aM){if(o8(g[3])&&i(a,0,C)&&i(a,0,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],C])){var
+aN=g[2],aO=aM[1];if(hA(C)){var
+aG=o4(k,h(aO[3],aN)),V=aG[2];if(i(j,0,[3,C,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b]]))var
 aH=0;else
 var
 be=v(V),bf=v(V),aH=[0,[6,[0,[0,e(v,aG[1]),bf],0],be],0];var
 aP=[0,[4,v(V)],aH]}else
 var
-aP=[0,[9,[3,h(K,o1(H,p,k,aN,aO[4]))]],0];return e(function(a){return[0,a]},aP)}return wq}return wr;case
+aP=[0,[9,[3,h(K,o5(H,p,k,aN,aO[4]))]],0];return e(function(a){return[0,a]},aP)}return wt}return wu;case
 16:var
 X=g[3],t=g[2],aQ=g[1],bg=bF(o);if(n(f(x),bg)&&i(a,0,aQ)&&i(a,1,t)&&i(a,1,X)&&cp(a,X)){var
-aI=ap(a,[0,[0,t,t],E]);if(aI){var
+aI=aq(a,[0,[0,t,t],E]);if(aI){var
 bh=aI[1],aJ=h(co(a),X);if(aJ){var
 bi=aJ[1],aK=ad(e(function(f){var
-b=jw(a,K,az,E,aQ,t,j0(f));if(b){var
-c=nK(a,v,az,E,t,f[1][2]);if(c){var
-g=hw(0,0,f[1][2]);if(g)var
-i=e(aC,c[1]),d=[0,[0,b[1],i]];else
+b=jB(a,K,az,E,aQ,t,j5(f));if(b){var
+c=nO(a,v,az,E,t,f[1][2]);if(c){var
+g=hy(0,0,f[1][2]);if(g)var
+i=e(aA,c[1]),d=[0,[0,b[1],i]];else
 var
 d=g}else
 var
@@ -5131,11 +5152,11 @@ d=c;var
 h=d}else
 var
 h=b;return h},x));if(aK){var
-bj=aK[1],bk=e(function(a){return o3(o,M,az,k,a)},x),aL=h(ay(v),bk),W=function(a){var
+bj=aK[1],bk=e(function(a){return o7(o,M,az,k,a)},x),aL=h(ay(v),bk),W=function(a){var
 b=bM(o),c=e(function(a){var
 b=dZ(k);return h(K,h(a[6],b)[2])},x),d=e(function(a){var
 b=dZ(k);return e(K,h(a[6],b)[1])},x),f=a3(aL);return[0,[8,[0,aL,v(p),f,d,c,bj,bh,bi,b,a]]]};if(2<=o)return[0,W(1),0];var
-bl=[0,W(1),0];return[0,W(0),bl]}return wm}return wn}return wo}return wp}var
+bl=[0,W(1),0];return[0,W(0),bl]}return wp}return wq}return wr}return ws}var
 bm=0,w=e(function(a){return a[1]},x);function
 Z(c,b,a){return[0,c,b,a,Y]}var
 F=0;if(typeof
@@ -5147,15 +5168,15 @@ z=[5,[0,b,b],g[1]],I=Z;F=1;break;case
 1:var
 aU=[5,[0,b,b],g[1]],z=aU,I=function(c,b,a){return[1,c,b,a]};F=1;break;case
 2:var
-aV=jZ(a,p,x,k,g),r=y(function(a){return[4,v(a)]},aV);break;case
+aV=j4(a,p,x,k,g),r=y(function(a){return[4,v(a)]},aV);break;case
 3:var
-aW=jZ(a,p,x,k,g),r=y(function(a){return[4,v(a)]},aW);break;case
+aW=j4(a,p,x,k,g),r=y(function(a){return[4,v(a)]},aW);break;case
 5:var
-_=g[1],aX=ap(a,[0,[0,_,_],d]),r=y(function(b){var
+_=g[1],aX=aq(a,[0,[0,_,_],d]),r=y(function(b){var
 c=R(a,b),d=v(p);return[2,h(ay(v),w),d,c]},aX);break;case
 6:var
 L=G(x,g[1]);if(L){var
-N=oY(x,k,g);if(N){var
+N=o2(x,k,g);if(N){var
 $=N[1],aa=i(a,1,g[2]),ab=aa?i(a,1,g[3]):aa;if(ab)var
 aY=v($[2]),aZ=v(L[1][1][2]),ac=[0,[5,[0,[0,[0,v($[1]),0],aZ],0],aY]];else
 var
@@ -5181,21 +5202,21 @@ an=i(a,1,g[2]);if(an)var
 a1=g[1],a2=1,O=l(function(b){return i(a,a2,b)},a1);else
 var
 O=an;if(O)var
-a4=J(a,b),a5=v(p),a6=hm(w,k),ao=[0,[0,h(ay(v),a6),a5,a4,0]];else
+a4=J(a,b),a5=v(p),a6=ho(w,k),ao=[0,[0,h(ay(v),a6),a5,a4,0]];else
 var
 ao=O;var
 r=ao;break;case
 14:var
-aq=g[2],ar=g[1],P=o2(o,H,p,x,k,ar,aq);if(P){var
-as=P[1],at=as[2],au=as[1],av=ok(ar,aq,g[3]),Q=ap(a,[0,[0,av,av],E]);if(Q){var
+ap=g[2],ar=g[1],P=o6(o,H,p,x,k,ar,ap);if(P){var
+as=P[1],at=as[2],au=as[1],av=oo(ar,ap,g[3]),Q=aq(a,[0,[0,av,av],E]);if(Q){var
 aw=Q[1],ax=D(d,aw[1]);if(ax)var
-A=function(a){return nI(K,a)},a7=A(at[2]),a8=A(at[1]),a9=A(au[2]),aA=[0,[9,[6,A(au[1]),a9,a8,a7,aw]]];else
+A=function(a){return nM(K,a)},a7=A(at[2]),a8=A(at[1]),a9=A(au[2]),aB=[0,[9,[6,A(au[1]),a9,a8,a7,aw]]];else
 var
-aA=ax;var
-aB=aA}else
+aB=ax;var
+aC=aB}else
 var
-aB=Q;var
-aD=aB}else
+aC=Q;var
+aD=aC}else
 var
 aD=P;var
 r=aD;break;case
@@ -5205,47 +5226,47 @@ aE=i(a,1,g[4]);if(aE)var
 aF=i(a,0,g[2]),T=aF?i(a,0,g[3]):aF;else
 var
 T=aE;if(T)var
-B=h(S[1][5],0),a_=h(K,B[4]),a$=h(K,B[3]),ba=h(K,s(wl,k,m(d))),bb=h(K,s(0,k,m(d))),bc=B[2],bd=e(function(a){return e(K,a)},bc),U=[0,[9,[11,e(K,B[1]),bd,bb,ba,a$,a_]]];else
+B=h(S[1][5],0),a_=h(K,B[4]),a$=h(K,B[3]),ba=h(K,s(wo,k,m(d))),bb=h(K,s(0,k,m(d))),bc=B[2],bd=e(function(a){return e(K,a)},bc),U=[0,[9,[11,e(K,B[1]),bd,bb,ba,a$,a_]]];else
 var
 U=T}else
 var
 U=S;var
 r=U;break;default:var
 r=0}if(F)var
-aT=ap(a,[0,[0,z,z],d]),r=y(function(b){var
-c=R(a,b),d=v(p);return I(h(ay(v),w),d,c)},aT);return[0,r,bm]},b6,E,ae,Z));if(aA){var
-bc=aA[1];if(C[7])var
-b7=aS[2],b8=aS[1],b9=v(p),af=jA(bB,bc,[7,h(ay(v),ao),b9,b8,b7]);else
+aT=aq(a,[0,[0,z,z],d]),r=y(function(b){var
+c=R(a,b),d=v(p);return I(h(ay(v),w),d,c)},aT);return[0,r,bm]},b6,E,ae,Z));if(aB){var
+bc=aB[1];if(C[7])var
+b7=aS[2],b8=aS[1],b9=v(p),af=jF(bB,bc,[7,h(ay(v),ao),b9,b8,b7]);else
 var
 af=bc;var
 bd=n(f(g(ba,bb)),k),be=bd?l(function(a){var
-b=oQ(a);return l(function(a){return or(k,_,a)},b)},af):bd,bf=be?F?or(k,_,v(F[1])):1:be;if(bf){var
-b_=g(au[1],ax[1]),aB=g(at[1],b_),P=o7(aR),Q=j2(E,C[2]),aa=P?e(function(a){var
-b=oO(k,Q,a[2]),c=a[1];return[0,e(function(a){return oO(k,Q,a)},c),b]},W):P,aE=P?c6(jV(k,p,F,aa)):P,aF=c5(aE),ag=cH(aF),b$=jT(ag,ag,aa),ca=h(ag,bG(k,p)),aH=y(function(a){return h(ag,bG(k,a))},F),bg=I(P);if(bg)var
+b=oU(a);return l(function(a){return ov(k,_,a)},b)},af):bd,bf=be?F?ov(k,_,v(F[1])):1:be;if(bf){var
+b_=g(au[1],ax[1]),aC=g(at[1],b_),P=o$(aR),Q=j7(E,C[2]),aa=P?e(function(a){var
+b=oS(k,Q,a[2]),c=a[1];return[0,e(function(a){return oS(k,Q,a)},c),b]},W):P,aE=P?c6(j0(k,p,F,aa)):P,aF=c5(aE),ag=cH(aF),b$=jY(ag,ag,aa),ca=h(ag,bG(k,p)),aI=y(function(a){return h(ag,bG(k,a))},F),bg=I(P);if(bg)var
 ai=bg;else{var
 br=n(f(W),k);if(br){var
-by=jV(k,p,F,aa),aM=l(function(a){var
+by=j0(k,p,F,aa),aM=l(function(a){var
 b=m(d);return aX(s(h(cH(aF),a),aF,b),a)},by);if(aM)var
-bz=jV(k,p,F,aa),aj=l(function(a){var
-b=aG(0,k);return l(function(b){return eI(k,b,a)},b)},bz);else
+bz=j0(k,p,F,aa),aj=l(function(a){var
+b=aH(0,k);return l(function(b){return eJ(k,b,a)},b)},bz);else
 var
 aj=aM;if(aj){var
-aO=y(function(a){return bG(k,a)},F),al=bG(k,p),aL=oK(al);if(aL)var
-bx=aG(0,Y),aQ=l(function(a){var
+aO=y(function(a){return bG(k,a)},F),al=bG(k,p),aL=oO(al);if(aL)var
+bx=aH(0,Y),aP=l(function(a){var
 b=dW(k,a,al),c=b?l(function(b){var
-d=b[2][2],e=g(w(jU,b[1]),d),f=N(k,a),c=l(function(a){return cR(f,a)},e);if(c){var
-h=b[2][1];return ho(al,N(k,a),h)}return c},aa):b;if(c){if(aO){var
+d=b[2][2],e=g(w(jZ,b[1]),d),f=N(k,a),c=l(function(a){return cR(f,a)},e);if(c){var
+h=b[2][1];return hq(al,N(k,a),h)}return c},aa):b;if(c){if(aO){var
 e=aO[1];return cR(N(k,a),e)}var
 d=1}else
 var
 d=c;return d},bx);else
 var
-aQ=aL;var
-am=aQ}else
+aP=aL;var
+am=aP}else
 var
 am=aj;var
 cg=am?l(function(a){var
-c=a[1],b=l(function(a){return oP(k,aB,Q,a)},c);return b?oP(k,aB,Q,a[2]):b},W):am,ai=cg}else
+c=a[1],b=l(function(a){return oT(k,aC,Q,a)},c);return b?oT(k,aC,Q,a[2]):b},W):am,ai=cg}else
 var
 ai=br}if(ai){var
 cb=e(function(a){return 1},af),cc=g(ba,bb),cd=function(p,R,ae,u,g){if(P){var
@@ -5253,7 +5274,7 @@ j=function(V,i){if(typeof
 i!=="number"&&10===i[0]){var
 m=i[3],r=i[2],u=i[1];if(typeof
 u!=="number"&&6===u[0]){if(m){if(m[2])return 0;var
-v=m[1],g=u[1],z=iP(iK,e(aC,r),Q),B=z?1:z,C=B?g6(Q):B,E=C?l(function(a){return aD(a,f(p))},Q):C,F=E?n(f(v),k):E;if(F){var
+v=m[1],g=u[1],z=iU(iP,e(aA,r),Q),B=z?1:z,C=B?g8(Q):B,E=C?l(function(a){return aD(a,f(p))},Q):C,F=E?n(f(v),k):E;if(F){var
 y=0;if(typeof
 g!=="number")switch(g[0]){case
 0:var
@@ -5261,31 +5282,31 @@ x=g[2],w=g[1],K=0;y=1;break;case
 7:var
 M=g[2],o=g[1],P=0;if(typeof
 o!=="number"&&0===o[0]){var
-S=0;if(aH){var
+S=0;if(aI){var
 N=D(d,M);if(N){var
-x=o[2],w=o[1],K=[0,[0,[0,aH[1],M],g[3]]];y=1;P=1;S=1}else
+x=o[2],w=o[1],K=[0,[0,[0,aI[1],M],g[3]]];y=1;P=1;S=1}else
 var
 O=N}else
 var
-O=aH;if(!S)return O}if(!P)return 0;break}if(y){var
-T=jJ(a,ft(r,0,p),aE,R),q=jJ(a,p,aE,R),j=function(b,a){return s(a,b,v7)},U=oM(function(a){return j(q,a)},K),W=j(q,ca),X=function(a){return j(q,a)},Z=[0,jT(function(a){return j(T,a)},X,b$),W,U],ab=g0(r,p),_=function(q){var
-m=ad(e(v5,q[1]));if(m){var
+O=aI;if(!S)return O}if(!P)return 0;break}if(y){var
+T=jO(a,ft(r,0,p),aE,R),q=jO(a,p,aE,R),j=function(b,a){return s(a,b,v_)},U=oQ(function(a){return j(q,a)},K),W=j(q,ca),X=function(a){return j(q,a)},Z=[0,jY(function(a){return j(T,a)},X,b$),W,U],ab=g0(r,p),_=function(q){var
+m=ad(e(v8,q[1]));if(m){var
 o=q[2];if(o){var
 p=dn(q[3]);if(p){var
 _=p[1],R=A(t(a,ae,o[1]),_),aa=m[1],S=e(function(d){var
-b=g1(a,0,ab,d),c=a5(v6,b[2]);return[0,b[1],c]},aa);if(V){var
-r=V[1],u=r[1],y=u[1],z=y[1],B=u[2],C=r[2],E=jl(a,v),F=E[1],G=F[1],h=G[2],g=G[1],W=F[2],i=e(function(c){return aP(c,W,J(a,b))},h),H=n(f(h),k),K=H?n(f(z),k):H,M=K?D(d,B):K,N=M?gG(C,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):M,O=N?aD(g,k):N,P=O?I(L(s(g,h,d),d)):O;if(P){var
-X=jd(a,g,i,k,$(R),0),Y=je(a,g,i,z,y[2],B,C,X),j=jf(a,g,i,E[2],w,x,S,Y);if(j)return aY(a,k,j[1]);var
+b=g1(a,0,ab,d),c=a5(v9,b[2]);return[0,b[1],c]},aa);if(V){var
+r=V[1],u=r[1],y=u[1],z=y[1],B=u[2],C=r[2],E=jq(a,v),F=E[1],G=F[1],h=G[2],g=G[1],W=F[2],i=e(function(c){return aQ(c,W,J(a,b))},h),H=n(f(h),k),K=H?n(f(z),k):H,M=K?D(d,B):K,N=M?gG(C,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):M,O=N?aD(g,k):N,P=O?I(L(s(g,h,d),d)):O;if(P){var
+X=ji(a,g,i,k,$(R),0),Y=jj(a,g,i,z,y[2],B,C,X),j=jk(a,g,i,E[2],w,x,S,Y);if(j)return aY(a,k,j[1]);var
 Q=j}else
 var
 Q=P;return Q}var
-Z=ac([0,$(R),0],k),l=jb(a,e(function(b){return J(a,b)},v),w,x,S,Z);return l?aY(a,k,l[1]):l}var
+Z=ac([0,$(R),0],k),l=jg(a,e(function(b){return J(a,b)},v),w,x,S,Z);return l?aY(a,k,l[1]):l}var
 T=p}else
 var
 T=o;var
 U=T}else
 var
-U=m;return U};return h(jL(function(b,a){return v4},Y,k,_),Z)}var
+U=m;return U};return h(jQ(function(b,a){return v7},Y,k,_),Z)}var
 G=0}else
 var
 G=F;var
@@ -5294,14 +5315,14 @@ var
 H=m;return H}return 0}return 0},m=n(u,Y),o=m?aD(0,Y):m;if(o){if(typeof
 g!=="number"&&12===g[0]){var
 i=g[1],q=I(n(f(i),0));if(q){var
-r=V(jc(e(function(a){return a[1][1][1]},i)),i);return l(function(a){var
-b=a[2],c=b[1];return j([0,[0,[0,[0,a[1][1],a[1][2]],c[1][2]],c[2]]],b[2])},r)}return q}return j(0,g)}return o}return P},ce=v(p),cf=h(ay(v),W);return fP(a,a0,a1,af,k,k,y(v,F),cf,ce,cd,aB,cc,cb,aR)}var
+r=V(jh(e(function(a){return a[1][1][1]},i)),i);return l(function(a){var
+b=a[2],c=b[1];return j([0,[0,[0,[0,a[1][1],a[1][2]],c[1][2]],c[2]]],b[2])},r)}return q}return j(0,g)}return o}return P},ce=v(p),cf=h(ay(v),W);return fP(a,a0,a1,af,k,k,y(v,F),cf,ce,cd,aC,cc,cb,aR)}var
 bh=ai}else
 var
 bh=bf;var
 bi=bh}else
 var
-bi=aA;var
+bi=aB;var
 bj=bi}else
 var
 bj=ax;var
@@ -5321,55 +5342,55 @@ bq=bp}else
 var
 bq=as;return bq}function
 fQ(b,a){return bC(b,a[1],a[2])}function
-o8(b,a){var
+pa(b,a){var
 c=fQ(b,a[1]),d=c?fQ(b,a[2]):c;return d?fQ(b,a[3]):d}function
-o9(a){return typeof
+pb(a){return typeof
 a==="number"?0:0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
-j3(a){return typeof
+j8(a){return typeof
 a==="number"?a?dY(0):dN:dY(a[1])}function
-j4(b,a,c){return typeof
+j9(b,a,c){return typeof
 b==="number"?b?[0,a[1],[0,a[2],0]]:bZ(a):fN(b[1],a,c)}function
-j5(b,d,c){if(0===c[0])return g$(b,d[1],c[1]);var
+j_(b,d,c){if(0===c[0])return hb(b,d[1],c[1]);var
 a=c[1],e=[0,[0,a[5],b],[0,[0,a[6],b],0]],f=g(bg(a[4],b),e),h=g(bg(a[3],b),f),i=g(bg(a[2],d[2]),h);return g(bg(a[1],d[1]),i)}function
-j6(b,a){if(b){var
+j$(b,a){if(b){var
 c=b[1],d=c[2];return bm(fM(c[1],a),d)}return a}function
-j7(I,H,p,af,o,ae){if(o){var
-j=o[1],ag=bW([0,d,d],af),aG=N(ae,f(j5(H,ag,j))),aH=o[2],aI=j7(I,H,p,bI(af),aH,aG),a=cN(ae,j5(H,ag,j)),w=function(c,b){var
-d=al(a,c);return ah(z,ah(B,j3(I),b),d)};if(0===j[0]){var
+ka(I,H,p,af,o,ae){if(o){var
+j=o[1],ag=bW([0,d,d],af),aG=N(ae,f(j_(H,ag,j))),aH=o[2],aI=ka(I,H,p,bI(af),aH,aG),a=cN(ae,j_(H,ag,j)),w=function(c,b){var
+d=al(a,c);return ah(z,ah(B,j8(I),b),d)};if(0===j[0]){var
 x=j[1];switch(x[0]){case
 0:var
-Y=h(p,al(a,wu)),aB=x[1][5],y=s(wv,a,m(d)),A=al(a,0),Z=w(ww,Y),g=mW(Z,dM(A),Z,y,aB),aj=[0,aN(y),0],ak=[0,aN(ab(A,A)),aj],q=[0,[0,g[1],g[2],g[3],[0,g[4]],[0,[0,g[2],y]],ak],Y];break;case
+Y=h(p,al(a,wx)),aB=x[1][5],y=s(wy,a,m(d)),A=al(a,0),Z=w(wz,Y),g=m0(Z,dM(A),Z,y,aB),aj=[0,aN(y),0],ak=[0,aN(ab(A,A)),aj],q=[0,[0,g[1],g[2],g[3],[0,g[4]],[0,[0,g[2],y]],ak],Y];break;case
 1:var
-_=h(p,al(a,wx)),$=x[3],C=$?[0,al(a,wy)]:$,aa=w(0,_),i=mX(aa,aa,0);if(C)var
+_=h(p,al(a,wA)),$=x[3],C=$?[0,al(a,wB)]:$,aa=w(0,_),i=m1(aa,aa,0);if(C)var
 J=C[1],K=[0,aN(ab(J,J)),0];else
 var
 K=C;var
 am=i[4],ao=[0,[0,m(d),am]],q=[0,[0,i[1],i[2],i[3],[0,i[4]],ao,K],_];break;default:var
-aC=m(d),aD=m(d),aE=[0,m(d),aD,aC],D=al(a,0),aF=j3(I),k=mY(aF,dM(D)),ap=[0,aN(ab(D,D)),0],q=[0,[0,k[1],k[2],k[3],[0,k[4]],0,ap],aE]}}else
+aC=m(d),aD=m(d),aE=[0,m(d),aD,aC],D=al(a,0),aF=j8(I),k=m2(aF,dM(D)),ap=[0,aN(ab(D,D)),0],q=[0,[0,k[1],k[2],k[3],[0,k[4]],0,ap],aE]}}else
 var
-ac=h(p,al(a,wz)),E=j[1][7],F=s(wA,a,m(d)),e=s(wB,a,m(d)),ad=al(a,wC),G=al(a,0),n=w(wD,ac),l=dM(G),t=ah(z,ad,a7(ab(l,ad),l)),u=dM(t),L=bn(l,u),M=ab(n,u),O=ab(n,L),aq=ab(l,n),ar=X(O),P=B(X(M),ar),as=X(aq),Q=z(X(F),as),at=r(m(c(2,b)),e),v=z(P,X(an(B(P,z(X(e),Q)),at))),au=gV(E,r(e,aN(v))),R=an(M,e),S=gV(E,an(O,e)),T=an(Q,X(e)),U=ml(0,R,S,T),V=gV(E,ml(1,R,S,T)),av=a7(V,L),W=ah(z,n,a7(e,ah(B,a7(U,u),av))),aw=[0,aN(F),0],ax=[0,aN(e),aw],ay=[0,aN(ab(t,t)),ax],az=[0,aN(ab(G,G)),ay],aA=bm(W,au),q=[0,[0,W,r(X(e),v),aA,[1,U,V],[0,[0,v,F]],az],ac];var
+ac=h(p,al(a,wC)),E=j[1][7],F=s(wD,a,m(d)),e=s(wE,a,m(d)),ad=al(a,wF),G=al(a,0),n=w(wG,ac),l=dM(G),t=ah(z,ad,a7(ab(l,ad),l)),u=dM(t),L=bn(l,u),M=ab(n,u),O=ab(n,L),aq=ab(l,n),ar=X(O),P=B(X(M),ar),as=X(aq),Q=z(X(F),as),at=r(m(c(2,b)),e),v=z(P,X(an(B(P,z(X(e),Q)),at))),au=gV(E,r(e,aN(v))),R=an(M,e),S=gV(E,an(O,e)),T=an(Q,X(e)),U=mp(0,R,S,T),V=gV(E,mp(1,R,S,T)),av=a7(V,L),W=ah(z,n,a7(e,ah(B,a7(U,u),av))),aw=[0,aN(F),0],ax=[0,aN(e),aw],ay=[0,aN(ab(t,t)),ax],az=[0,aN(ab(G,G)),ay],aA=bm(W,au),q=[0,[0,W,r(X(e),v),aA,[1,U,V],[0,[0,v,F]],az],ac];var
 ai=[0,q,aI]}else
 var
 ai=o;return ai}function
-j8(c,b,a){if(a){var
-e=a[2],f=j8(c,bI(b),e),h=a[1];return g(j5(c,bW([0,d,d],b),h),f)}return a}function
-j9(a){if(typeof
+kb(c,b,a){if(a){var
+e=a[2],f=kb(c,bI(b),e),h=a[1];return g(j_(c,bW([0,d,d],b),h),f)}return a}function
+kc(a){if(typeof
 a==="number"){var
 c=m(d),e=m(d);return[0,m(d),e,c]}var
-b=a[1];return oF(b,bF(b))}function
-o_(c,b,a){var
-d=g_(hc(c),a),f=V(g_(hc(c),b),d);return e(function(c){var
+b=a[1];return oJ(b,bF(b))}function
+pc(c,b,a){var
+d=ha(he(c),a),f=V(ha(he(c),b),d);return e(function(c){var
 d=r(a,c[1]);return z(r(b,c[2]),d)},f)}function
-o$(b,d,c,a){var
+pd(b,d,c,a){var
 f=w(function(a){var
 c=typeof
-a==="number"?0:0===a[0]?fA(b,a[1]):jv(b,o_(b,a[1],a[2])),d=e(aK,c);return g(o9(a),d)},a),h=g(bD(c),f);return g(c2(d),h)}function
-pa(c,b,u,t,s,r,j,g,q,p,d,l,k,a){var
-m=ap(c,[0,[0,a,a],g]);if(m){if(l){var
+a==="number"?0:0===a[0]?fA(b,a[1]):jA(b,pc(b,a[1],a[2])),d=e(aG,c);return g(pb(a),d)},a),h=g(bD(c),f);return g(c2(d),h)}function
+pe(c,b,u,t,s,r,j,g,q,p,d,l,k,a){var
+m=aq(c,[0,[0,a,a],g]);if(m){if(l){var
 v=l[1],x=m[1],o=ad(e(function(d){if(typeof
-d==="number")return 0;else{if(0===d[0])return jw(c,b,j,g,k,a,d[1]);var
-i=d[1],e=hn(c,[1,[5,k,a],Q(g)]);if(e){var
-f=nJ(c,b,j,g,a,jv(j,o_(j,i,d[2])));if(f)var
+d==="number")return 0;else{if(0===d[0])return jB(c,b,j,g,k,a,d[1]);var
+i=d[1],e=hp(c,[1,[5,k,a],Q(g)]);if(e){var
+f=nN(c,b,j,g,a,jA(j,pc(j,i,d[2])));if(f)var
 n=[0,e[1],f[1]],l=[0,[0,h(b,i),n]];else
 var
 l=f;var
@@ -5377,18 +5398,18 @@ m=l}else
 var
 m=e;return m}},d));if(o){var
 y=o[1];if(n(f(d),u)&&i(c,0,k)&&i(c,1,a))return e(function(a){var
-c=e(b,w(o9,d)),f=h(ay(b),p);return[0,[10,[0,e(function(a){return e(b,a)},q),f,c,y,r,x,v,t,a]]]},s);return wE}return wF}return wG}return wH}function
-pb(b,i,f,d,c,a){if(a){var
-j=a[2],k=a[1],l=pb(b,i,f,d,g(c,[0,k,0]),j),m=h(d,e(bI,g(c,j)));return ar(i,ar(f,bW(b,k),m),l)}return b}function
-pc(a,f,e,d,c,b){if(c){var
-g=0,h=c[1];return pb(a,e,d,function(b){return pc(a,f,e,d,h,b)},g,b)}return b?a:f}function
-pd(a,d,c){var
-e=hf(a,c);function
+c=e(b,w(pb,d)),f=h(ay(b),p);return[0,[10,[0,e(function(a){return e(b,a)},q),f,c,y,r,x,v,t,a]]]},s);return wH}return wI}return wJ}return wK}function
+pf(b,i,f,d,c,a){if(a){var
+j=a[2],k=a[1],l=pf(b,i,f,d,g(c,[0,k,0]),j),m=h(d,e(bI,g(c,j)));return ar(i,ar(f,bW(b,k),m),l)}return b}function
+pg(a,f,e,d,c,b){if(c){var
+g=0,h=c[1];return pf(a,e,d,function(b){return pg(a,f,e,d,h,b)},g,b)}return b?a:f}function
+ph(a,d,c){var
+e=hh(a,c);function
 f(b,c){return t(a,b,c)}var
-g=J(a,b);return y(function(a){return pc(u,g,E,f,d,a)},e)}function
-j_(e,c,o,n){var
-a=pd(e,c,o);if(a){var
-f=a[1],b=pd(e,c,n);if(b){var
+g=J(a,b);return y(function(a){return pg(u,g,E,f,d,a)},e)}function
+kd(e,c,o,n){var
+a=ph(e,c,o);if(a){var
+f=a[1],b=ph(e,c,n);if(b){var
 g=b[1],h=K(d,f[1]),i=h?K(g[2],d):h;if(i)var
 j=i;else{var
 m=K(f[2],d);if(m)return K(d,g[1]);var
@@ -5399,7 +5420,7 @@ k=b;var
 l=k}else
 var
 l=a;return l}function
-j$(b){if(b){var
+ke(b){if(b){var
 a=b[2],c=b[1];if(c){var
 e=c[2],q=c[1];if(e){var
 f=e[2],s=e[1];if(f){if(f[2])return m(d);if(a){var
@@ -5414,12 +5435,12 @@ y=n[1];if(n[2])return m(d);if(g[2])return m(d);var
 A=dS(t,u,w,x),C=r(f[1],A),D=r(s,dS(t,v,w,y));return B(z(r(q,dS(u,v,x,y)),D),C)}return m(d)}return m(d)}return m(d)}return m(d)}return m(d)}return m(d)}return m(d)}return m(d)}if(a){var
 o=a[1];if(o){var
 p=o[2];return p?p[2]?m(d):a[2]?m(d):dS(q,s,o[1],p[1]):m(d)}return m(d)}return m(d)}return m(d)}return m(d)}return m(d)}function
-pe(a){if(a){var
+pi(a){if(a){var
 b=a[1][6];if(b)var
-c=pe(a[2]),e=c?[0,[0,b[1][2],c[1]]]:c,d=e;else
+c=pi(a[2]),e=c?[0,[0,b[1][2],c[1]]]:c,d=e;else
 var
-d=b;return d}return wK}function
-pf(g,k,a){function
+d=b;return d}return wN}function
+pj(g,k,a){function
 b(a){return s(a,k,m(d))}function
 l(a){var
 e=a[2],f=r(X(b(0)),e),c=0,d=0,g=a[1];return[0,[0,bz(function(b,a){return z(b,X(a))},g,f),d],c]}function
@@ -5445,7 +5466,7 @@ d=a[1];return[0,[0,z(b(0),d),0],0]}return 0},f=v,c=a[1];break;case
 w=function(e){var
 a=e[4];if(typeof
 a!=="number"&&1===a[0]){var
-c=a[2],d=a[1],f=r(b(wL),c),g=[0,[0,z(r(b(wM),d),f),0],0],h=r(d,b(wN));return[0,[0,z(r(c,b(0)),h),0],g]}return 0},f=w,c=a[1];break;case
+c=a[2],d=a[1],f=r(b(wO),c),g=[0,[0,z(r(b(wP),d),f),0],0],h=r(d,b(wQ));return[0,[0,z(r(c,b(0)),h),0],g]}return 0},f=w,c=a[1];break;case
 6:var
 x=function(a){var
 b=a[4];if(typeof
@@ -5461,23 +5482,23 @@ A=function(a){var
 b=a[4];if(typeof
 b!=="number"&&0===b[0])return n(a);return 0},f=A,c=a[1];break;case
 12:var
-i=pe(g);if(i)var
-C=b(0),o=bz(r,i[1],C),p=j$(e(function(a){return a[5]},g)),D=[0,bs(B(p,o)),0],q=[0,[0,z(p,o),D],0];else
+i=pi(g);if(i)var
+C=b(0),o=bz(r,i[1],C),p=ke(e(function(a){return a[5]},g)),D=[0,bs(B(p,o)),0],q=[0,[0,z(p,o),D],0];else
 var
 q=i;return q;case
 17:var
 t=a[1],f=function(d){var
-a=j$(e(function(a){return a[1]},g));function
+a=ke(e(function(a){return a[1]},g));function
 b(b){var
 c=[0,bs(B(a,b)),0];return[0,z(a,b),c]}var
-f=j$(n1(t,k,e(function(a){return a[1]},g))),c=r(aN(d[2]),f),h=[0,b(bs(c)),0];return[0,b(c),h]},c=t;break;default:j=1}if(j)return 0;var
+f=ke(n5(t,k,e(function(a){return a[1]},g))),c=r(aN(d[2]),f),h=[0,b(bs(c)),0];return[0,b(c),h]},c=t;break;default:j=1}if(j)return 0;var
 h=G(g,c);return h?f(h[1]):h}function
-eP(a){return e(function(a){return[0,a[1],a[2]]},a)}function
+eQ(a){return e(function(a){return[0,a[1],a[2]]},a)}function
 d0(a){return e(function(a){var
 c=m(b);return[0,a[3],c]},a)}function
-pg(c,b,a){if(typeof
-a!=="number"&&8===a[0])return bD(hm(eP(c),b));return c2(pf(c,b,a))}function
-ph(g,m,k,L,K,t,a){if(typeof
+pk(c,b,a){if(typeof
+a!=="number"&&8===a[0])return bD(ho(eQ(c),b));return c2(pj(c,b,a))}function
+pl(g,m,k,L,K,t,a){if(typeof
 a==="number")return[0,[0,[0,u]],0];else
 switch(a[0]){case
 0:var
@@ -5485,18 +5506,18 @@ M=[5,[0,b,b],a[1]],n=M,o=function(a){return[0,a]};break;case
 1:var
 P=[5,[0,b,b],a[1]],n=P,o=function(a){return[1,a]};break;case
 5:var
-B=a[1],U=0,V=ap(g,[0,[0,B,B],d]);return[0,y(function(a){return[2,R(g,a)]},V),U];case
+B=a[1],U=0,V=aq(g,[0,[0,B,B],d]);return[0,y(function(a){return[2,R(g,a)]},V),U];case
 7:var
-C=a[3],D=a[2],E=a[1];if(!G(k,E))return wQ;var
+C=a[3],D=a[2],E=a[1];if(!G(k,E))return wT;var
 I=0;if(i(g,1,D)&&i(g,1,C))var
 W=[5,D,C],n=W,o=function(a){return[7,E,a]};else
-I=1;if(I)return wP;break;case
+I=1;if(I)return wS;break;case
 8:var
 F=i(g,1,a[2]),X=0;if(F)var
 Y=a[1],Z=1,r=l(function(a){return i(g,Z,a)},Y);else
 var
 r=F;if(r)var
-_=J(g,b),$=hm(eP(k),t),H=[0,[4,h(ay(m),$),_]];else
+_=J(g,b),$=ho(eQ(k),t),H=[0,[4,h(ay(m),$),_]];else
 var
 H=r;return[0,H,X];default:var
 s=0;if(typeof
@@ -5506,39 +5527,39 @@ switch(a[0]){case
 v=a[3],w=a[2],x=i(g,1,[3,v,w]),S=x?i(g,1,[3,[2,w,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b]],v]):x,j=S;break;case
 17:var
 A=i(g,1,a[3]);if(A)var
-T=e(function(a){return a[1]},k),j=n2(f(a[2]),T);else
+T=e(function(a){return a[1]},k),j=n6(f(a[2]),T);else
 var
 j=A;break;case
 6:case
 9:var
 z=i(g,1,a[2]),j=z?i(g,0,a[3]):z;break;default:s=1}if(s)var
 j=1;var
-p=j?pf(k,t,a):j;if(p){var
+p=j?pj(k,t,a):j;if(p){var
 Q=[0,p[1],p[2]];return e(function(a){if(a){var
 b=a[2],c=a[1];if(b){if(b[2])return 0;var
 e=h(m,b[1]);return[0,[5,h(m,c),e]]}var
 d=[0,[3,h(m,c)]]}else
 var
-d=a;return d},Q)}return wO}var
-N=0,O=ap(g,[0,[0,n,n],hl(L,K)]);return[0,y(function(a){return o(R(g,a))},O),N]}function
-pi(a){if(typeof
+d=a;return d},Q)}return wR}var
+N=0,O=aq(g,[0,[0,n,n],hn(L,K)]);return[0,y(function(a){return o(R(g,a))},O),N]}function
+pm(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-pj(a){return 0===a[0]?2===a[1][0]?0:1:1}function
-wR(k,Y,aP,j,o,G,aO){var
-a=j[1],Z=as(a),x=j[6],q=j8(o,G,j[2]),_=j[3],z=[0,[0,_,_],o],$=[0,f(q)],H=j[2],v=H?0===H[1][0]?0:1:H,aQ=j[5],K=y(function(b){var
+pn(a){return 0===a[0]?2===a[1][0]?0:1:1}function
+wU(k,Y,aP,j,o,G,aO){var
+a=j[1],Z=as(a),x=j[6],q=kb(o,G,j[2]),_=j[3],z=[0,[0,_,_],o],$=[0,f(q)],H=j[2],v=H?0===H[1][0]?0:1:H,aQ=j[5],K=y(function(b){var
 c=typeof
-a==="number"?0:bM(a[1]);return ot(b,c)},aQ),aS=j[2],aR=0,aT=ck(z,f(q)),aL=j7(a,o,function(a){return j6(K,a)},G,aS,aR),p=e(function(f){var
+a==="number"?0:bM(a[1]);return ox(b,c)},aQ),aS=j[2],aR=0,aT=ck(z,f(q)),aL=ka(a,o,function(a){return j$(K,a)},G,aS,aR),p=e(function(f){var
 g=f[2],b=f[1];function
-e(b){return j4(a,b,bm(bn(g,b),aT))}var
-h=b[1],i=bn(ah(B,j3(a),g),h),j=j4(a,b[1],i),c=b[1],d=typeof
+e(b){return j9(a,b,bm(bn(g,b),aT))}var
+h=b[1],i=bn(ah(B,j8(a),g),h),j=j9(a,b[1],i),c=b[1],d=typeof
 a==="number"?1:0,k=b[6],l=b[5],m=d?a?[0,c[1],[0,c[2],0]]:bZ(c):d,n=b[4],o=e(b[3]),p=b[2];return[0,e(b[1]),p,o,n,m,l,k,j]},aL);function
 aa(b){var
-c=0,g=j[2],h=j7(a,o,function(b){if(typeof
-a==="number")return j6(K,b);var
-c=j6(K,b);return oG(j9(a),c)},G,g,c),d=dZ(b),k=ck(z,f(q));return e(function(e){var
+c=0,g=j[2],h=ka(a,o,function(b){if(typeof
+a==="number")return j$(K,b);var
+c=j$(K,b);return oK(kc(a),c)},G,g,c),d=dZ(b),k=ck(z,f(q));return e(function(e){var
 b=e[1][3];if(typeof
-a==="number")return j4(a,b,bm(bn(e[2],b),k));var
-f=bn(e[2],b),g=ah(B,f,bn(f,j9(a))),c=a7(jO(j9(a)),g),h=r(c[3],d),i=r(c[2],d),j=[0,r(c[1],d),i,h];return fN(a[1],b,j)},h)}function
+a==="number")return j9(a,b,bm(bn(e[2],b),k));var
+f=bn(e[2],b),g=ah(B,f,bn(f,kc(a))),c=a7(jT(kc(a)),g),h=r(c[3],d),i=r(c[2],d),j=[0,r(c[1],d),i,h];return fN(a[1],b,j)},h)}function
 ab(l){return e(function(n){var
 o=m(b),d=n[3],p=dZ(l),s=ck(z,f(q));if(typeof
 a==="number")var
@@ -5548,26 +5569,26 @@ h=a[1],j=aw(bM(h),d),k=e(function(a){return r(a,r(r(m(c(2,b)),s),p))},j),i=g(am(
 ac=e(function(a){return a[4]},p);function
 aU(b,a){if(typeof
 a!=="number"&&16===a[0]){var
-c=ab(b);return o$(q,aa(b),c,ac)}return pg(p,b,a)}var
-ae=w(function(a){return a[7]},p),af=j[7],ag=af?e(function(a){return[0,a[8],a[2]]},p):af,aV=bD(ag),aW=g(ae,g(dk(aU,v,o,$,x),aV)),aY=g(bD(d0(p)),aW),ai=g(bD(eP(p)),aY),aj=c6(ai),al=c5(aj),t=cH(al);function
+c=ab(b);return pd(q,aa(b),c,ac)}return pk(p,b,a)}var
+ae=w(function(a){return a[7]},p),af=j[7],ag=af?e(function(a){return[0,a[8],a[2]]},p):af,aV=bD(ag),aW=g(ae,g(dk(aU,v,o,$,x),aV)),aY=g(bD(d0(p)),aW),ai=g(bD(eQ(p)),aY),aj=c6(ai),al=c5(aj),t=cH(al);function
 aZ(d,c){if(typeof
 c!=="number"&&16===c[0]){var
 e=c[3],n=j[2];if(typeof
 a==="number")var
 m=1;else
 var
-f=i(k,1,e),g=f?cp(k,e):f,m=g?l(pj,n):g;if(m){var
+f=i(k,1,e),g=f?cp(k,e):f,m=g?l(pn,n):g;if(m){var
 r=c[2],s=c[1],u=typeof
 a==="number"?[0,J(k,b)]:h(co(k),e),w=ab(d),x=aa(d),y=typeof
-a==="number"?wI:wJ,z=typeof
-a==="number"?as(a):bM(a[1]);return pa(k,t,Z,z,y,v,q,o,x,w,ac,u,s,r)}return wS}return ph(k,t,p,v,o,d,c)}var
+a==="number"?wL:wM,z=typeof
+a==="number"?as(a):bM(a[1]);return pe(k,t,Z,z,y,v,q,o,x,w,ac,u,s,r)}return wV}return pl(k,t,p,v,o,d,c)}var
 an=l(function(a){var
-b=m(d);return aX(s(h(t,a),al,b),a)},ai),ao=an?ak(pi,x):an;if(ao){var
-aq=j[4];if(typeof
+b=m(d);return aX(s(h(t,a),al,b),a)},ai),ao=an?ak(pm,x):an;if(ao){var
+ap=j[4];if(typeof
 a==="number")var
-ar=a?j1(0,eD(aq)):1;else
+ar=a?j6(0,eE(ap)):1;else
 var
-aM=eD(aq),ar=j1(a[1],aM);var
+aM=eE(ap),ar=j6(a[1],aM);var
 L=ar}else
 var
 L=ao;if(L){var
@@ -5578,7 +5599,7 @@ if(2<=V[1])var
 A=0;else{var
 E=j[5],U=0;if(E){var
 W=i(k,1,j[3]);if(W)var
-aN=ht(E[1]),A=l(function(a){var
+aN=hv(E[1]),A=l(function(a){var
 b=cp(k,a[1]);return b?cp(k,a[2]):b},aN);else{var
 X=W;U=1}}else{var
 X=E;U=1}if(U)var
@@ -5593,29 +5614,29 @@ N=M;if(N){var
 at=I(j[7]);if(at)var
 C=at;else
 var
-aJ=oJ(k,a,j[5]),C=aJ?l(pj,j[2]):aJ}else
+aJ=oN(k,a,j[5]),C=aJ?l(pn,j[2]):aJ}else
 var
 C=N;if(C){var
-a1=g(q,[0,z,0]),O=ad(e(function(a){return ap(k,a)},a1));if(O){var
-a2=w(function(a){return fK(v,o,a)},x),P=ad(e(function(a){return hn(k,a)},a2));if(P){var
-u=eD(j[4]),a3=typeof
-a==="number"?a?[0,u[1],[0,u[2],0]]:[0,u[1],[0,u[2],[0,u[3],0]]]:o5(a[1],u),Q=ad(e(function(a){return ap(k,[0,a,o])},a3));if(Q){var
+a1=g(q,[0,z,0]),O=ad(e(function(a){return aq(k,a)},a1));if(O){var
+a2=w(function(a){return fK(v,o,a)},x),P=ad(e(function(a){return hp(k,a)},a2));if(P){var
+u=eE(j[4]),a3=typeof
+a==="number"?a?[0,u[1],[0,u[2],0]]:[0,u[1],[0,u[2],[0,u[3],0]]]:o9(a[1],u),Q=ad(e(function(a){return aq(k,[0,a,o])},a3));if(Q){var
 au=Q[1],av=j[5];if(av)var
-a4=ov(av[1]),D=ad(e(function(a){return ox(k,a)},a4));else
+a4=oz(av[1]),D=ad(e(function(a){return oB(k,a)},a4));else
 var
-D=wT;if(D){var
-ax=D[1],F=j[5],a5=F?ou(F[1]):F,R=ad(e(co(k),a5));if(R){var
+D=wW;if(D){var
+ax=D[1],F=j[5],a5=F?oy(F[1]):F,R=ad(e(co(k),a5));if(R){var
 S=ad(dk(aZ,v,o,$,x));if(S){var
 az=S[1];if(j[7])var
-a6=Y[2],a8=Y[1],T=jA(aP,az,[8,h(ay(t),ag),a8,a6]);else
+a6=Y[2],a8=Y[1],T=jF(aP,az,[8,h(ay(t),ag),a8,a6]);else
 var
 T=az;var
 aA=n(f(g(au,ax)),Z);if(aA){var
-a9=jq(T),a_=g(au,ax),aK=0,a$=j[4];if(typeof
+a9=jv(T),a_=g(au,ax),aK=0,a$=j[4];if(typeof
 a==="number"&&!a){var
-aB=function(a){return nM(k,a$,o,a)};aK=1}if(!aK)var
+aB=function(a){return nQ(k,a$,o,a)};aK=1}if(!aK)var
 aB=function(a){return 0};var
-ba=g(P[1],R[1]),bb=g(O[1],ba),bc=e(t,ae),bd=d0(p),be=h(ay(t),bd),bf=eP(p);return gb(jp(k,aj,h(ay(t),bf),be,bc,bb,T,aB),a_,a9,aO)}var
+ba=g(P[1],R[1]),bb=g(O[1],ba),bc=e(t,ae),bd=d0(p),be=h(ay(t),bd),bf=eQ(p);return gb(ju(k,aj,h(ay(t),bf),be,bc,bb,T,aB),a_,a9,aO)}var
 aC=aA}else
 var
 aC=S;var
@@ -5637,14 +5658,14 @@ aH=O;var
 aI=aH}else
 var
 aI=C;return aI}function
-wU(b){if(0===b[0])return[0,nX(b[1])];var
+wX(b){if(0===b[0])return[0,n1(b[1])];var
 a=b[1],c=a[7],d=a[6][1],e=a[5][1],f=bK(a[4]),g=bK(a[3]),h=bK(a[2]);return[1,[0,bK(a[1]),h,g,f,e,d,c]]}function
-pk(e,d,c){var
+po(e,d,c){var
 a=d;for(;;){if(a){var
-b=a[1];if(s9(b[1],c))return b[2];var
+b=a[1];if(ta(b[1],c))return b[2];var
 a=a[2];continue}return e}}function
-ka(a,c,b){var
-d=V(e(aC,a[2]),b);return g(V(a[1],c),d)}function
+kf(a,c,b){var
+d=V(e(aA,a[2]),b);return g(V(a[1],c),d)}function
 b3(c){var
 a=c;for(;;)switch(a[0]){case
 0:var
@@ -5659,7 +5680,7 @@ bN(e,a,c){switch(a[0]){case
 0:var
 o=a[1];return ck([0,[0,o,o],d],c);case
 1:var
-q=a[1];return pk(m(d),e,q);case
+q=a[1];return po(m(d),e,q);case
 2:return bs(bN(e,a[1],c));case
 3:var
 i=a[2],g=a[1],h=B;break;case
@@ -5671,7 +5692,7 @@ i=a[2],g=a[1],h=r;break;case
 i=a[2],g=a[1],h=an;break;case
 7:var
 j=fj(a[2]),k=bN(e,a[1],c);if(j){if(j[1]){var
-l=X(k),p=function(a){return r(a,l)},n=gx(aR(l1(j)),p,l);return l0(j)?n:r(n,k)}return k}return m(b);default:return aN(bN(e,a[1],c))}var
+l=X(k),p=function(a){return r(a,l)},n=gx(aR(l5(j)),p,l);return l4(j)?n:r(n,k)}return k}return m(b);default:return aN(bN(e,a[1],c))}var
 s=bN(e,i,N(c,f(b3(g))));return h(bN(e,g,c),s)}function
 dp(c,h,b){var
 a=h;for(;;)switch(a[0]){case
@@ -5685,53 +5706,53 @@ a=a[1];continue;case
 0:case
 1:return 0;default:var
 d=a[1],i=N(b,f(b3(d))),j=dp(c,a[2],i);return g(dp(c,d,b),j)}}function
-pl(i,h,g){var
+pp(i,h,g){var
 b=i,a=h,c=g;for(;;){if(a){var
 d=a[1],e=d[2],j=N(c,f(b3(e))),k=a[2],l=bN(b,e,c),b=[0,[0,d[1],l],b],a=k,c=j;continue}return b}}function
-kb(c,a,b){if(a){var
-e=a[1],d=e[2],h=N(b,f(b3(d))),i=a[2],j=bN(c,d,b),k=kb([0,[0,e[1],j],c],i,h);return g(dp(c,d,b),k)}return a}function
+kg(c,a,b){if(a){var
+e=a[1],d=e[2],h=N(b,f(b3(d))),i=a[2],j=bN(c,d,b),k=kg([0,[0,e[1],j],c],i,h);return g(dp(c,d,b),k)}return a}function
 fR(a){return w(b3,a)}function
-pm(c,a,b){if(a)var
-d=a[1],g=N(b,f(b3(d))),h=pm(c,a[2],g),e=[0,bN(c,d,b),h];else
+pq(c,a,b){if(a)var
+d=a[1],g=N(b,f(b3(d))),h=pq(c,a[2],g),e=[0,bN(c,d,b),h];else
 var
 e=a;return e}function
-pn(c,a,b){if(a){var
-d=a[1],e=N(b,f(b3(d))),h=pn(c,a[2],e);return g(dp(c,d,b),h)}return a}function
-hA(a){return 0===a[0]?fR(a[1]):b3(a[1])}function
-kc(c,b,a){if(b){var
-d=b[1],j=N(a,f(hA(d))),k=kc(c,b[2],j);if(0===d[0])var
-h=pn(c,d[1],a);else
+pr(c,a,b){if(a){var
+d=a[1],e=N(b,f(b3(d))),h=pr(c,a[2],e);return g(dp(c,d,b),h)}return a}function
+hC(a){return 0===a[0]?fR(a[1]):b3(a[1])}function
+kh(c,b,a){if(b){var
+d=b[1],j=N(a,f(hC(d))),k=kh(c,b[2],j);if(0===d[0])var
+h=pr(c,d[1],a);else
 var
 e=d[1],i=dp(c,e,a),h=[0,bN(c,e,a),i];return g(h,k)}return b}function
-hB(c){var
+hD(c){var
 a=c[1];switch(a[0]){case
 0:var
 b=[1,a[1]];break;case
 1:var
 b=[0,a[1]];break;default:var
-b=ce(hB,a)}return[0,b]}function
-kd(c){var
+b=ce(hD,a)}return[0,b]}function
+ki(c){var
 b=c;for(;;){var
 a=b[1];switch(a[0]){case
 5:var
 b=a[1];continue;case
 6:var
-d=kd(a[2]);return r(kd(a[1]),d);case
+d=ki(a[2]);return r(ki(a[1]),d);case
 9:return a[1];default:return X(b)}}}function
-ke(n,h,a,g){if(a){var
-c=a[1],x=N(g,f(hA(c))),y=ke(n,h,a[2],x);if(0===c[0])var
-k=pm(h,c[1],g),o=[0,k,m(b),k,0,0,0,0,0];else
+kj(n,h,a,g){if(a){var
+c=a[1],x=N(g,f(hC(c))),y=kj(n,h,a[2],x);if(0===c[0])var
+k=pq(h,c[1],g),o=[0,k,m(b),k,0,0,0,0,0];else
 var
-l=bN(h,c[1],g),q=hB(l),i=bf(aG(0,n),q),d=hB(i[2]),j=e(hB,i[1]),r=0,s=0,t=0,u=0,v=[0,l],w=e(function(a){return aX(a,d)?m(b):an(a,d)},j),o=[0,j,kd(d),w,v,u,t,s,r];var
+l=bN(h,c[1],g),q=hD(l),i=bf(aH(0,n),q),d=hD(i[2]),j=e(hD,i[1]),r=0,s=0,t=0,u=0,v=[0,l],w=e(function(a){return aX(a,d)?m(b):an(a,d)},j),o=[0,j,ki(d),w,v,u,t,s,r];var
 p=[0,o,y]}else
 var
 p=a;return p}function
-kf(a){return e(function(a){return[0,a[2],d]},a)}function
-kg(a){var
-b=w(hA,a[4]),c=g(fR(e(aK,a[3])),b);return g(kf(a[2]),c)}function
-hC(a){var
-b=cN(0,kf(a[2])),c=aG(0,f(a[1]));return ka(a,e(function(a){return[0,[0,a]]},c),b)}function
-kh(b,d){var
+kk(a){return e(function(a){return[0,a[2],d]},a)}function
+kl(a){var
+b=w(hC,a[4]),c=g(fR(e(aG,a[3])),b);return g(kk(a[2]),c)}function
+hE(a){var
+b=cN(0,kk(a[2])),c=aH(0,f(a[1]));return kf(a,e(function(a){return[0,[0,a]]},c),b)}function
+km(b,d){var
 a=d;for(;;)switch(a[0]){case
 0:return 1;case
 1:var
@@ -5740,16 +5761,16 @@ e=a[1];return ak(function(a){return aF(e,a)},b);case
 7:case
 8:var
 a=a[1];continue;default:var
-c=kh(b,a[1]);if(c){var
+c=km(b,a[1]);if(c){var
 a=a[2];continue}return c}}function
-po(d){var
+ps(d){var
 a=d;for(;;){if(a){var
-b=a[2],e=a[1],c=I(ak(function(b){return function(a){return s9(b,a)}}(e),b));if(c){var
+b=a[2],e=a[1],c=I(ak(function(b){return function(a){return ta(b,a)}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-pp(a){var
-u=e(aC,a[2]),d=g(a[1],u),h=f(a[1]),o=ae(wX,h),p=o?ae(h,wY):o,q=p?ae(h,f(a[4])):p,r=q?ae(f(a[4]),wZ):q,s=r?po(d):r;if(s){var
+pt(a){var
+u=e(aA,a[2]),d=g(a[1],u),h=f(a[1]),o=ae(w0,h),p=o?ae(h,w1):o,q=p?ae(h,f(a[4])):p,r=q?ae(f(a[4]),w2):q,s=r?ps(d):r;if(s){var
 c=d,b=a[3];for(;;){if(b){var
-j=b[1],k=j[1],m=I(ak(function(b){return function(a){return aF(b,a)}}(k),c)),n=m?kh(c,j[2]):m;if(n){var
+j=b[1],k=j[1],m=I(ak(function(b){return function(a){return aF(b,a)}}(k),c)),n=m?km(c,j[2]):m;if(n){var
 c=[0,k,c],b=b[2];continue}var
 t=n}else
 var
@@ -5758,7 +5779,7 @@ i=t;break}}else
 var
 i=s;if(i){var
 v=a[4];return l(function(b){var
-c=0===b[0]?b[1]:[0,b[1],0],f=g(e(aC,a[3]),d);return l(function(a){return kh(f,a)},c)},v)}return i}function
+c=0===b[0]?b[1]:[0,b[1],0],f=g(e(aA,a[3]),d);return l(function(a){return km(f,a)},c)},v)}return i}function
 d1(f,e,g){var
 h=g[1],a=ce(function(a){return d1(f,e,a)},h);switch(a[0]){case
 0:return s(a[1],f,[0,d,b]);case
@@ -5772,7 +5793,7 @@ h=g[1],a=ce(function(a){return d1(f,e,a)},h);switch(a[0]){case
 8:var
 c=a[1];return[4,c,c];case
 9:return[6,a[1]];default:return[0,d,b]}}function
-ki(d){var
+kn(d){var
 b=d;for(;;){var
 a=b[1];switch(a[0]){case
 10:return 0;case
@@ -5783,7 +5804,7 @@ b=a[1];continue;case
 0:case
 1:case
 2:return 1;default:var
-c=ki(a[1]);if(c){var
+c=kn(a[1]);if(c){var
 b=a[2];continue}return c}}}function
 b4(g,f,e){var
 b=f,a=e;for(;;){if(b){if(a){var
@@ -5792,94 +5813,94 @@ b=b[2],a=a[2];continue}var
 d=c}else
 var
 d=a;return d}return a?0:1}}function
-w0(a){var
+w3(a){var
 b=a[4],d=0;if(typeof
 b!=="number"&&0===b[0]){var
 c=[0,b[1],0];d=1}if(!d)var
 c=0;var
 e=g(a[3],c);return g(a[1],e)}function
-hD(a){return f(a[1])}function
-pq(a){var
-b=f(fR(e(aK,a[3])));return N(f(a[2]),b)}function
-pr(a){var
-b=f(a[2]),c=a[3];return pl(hC(a),c,b)}function
-ps(a){var
-b=pq(a),c=a[4],d=pr(a);return ke(hD(a),d,c,b)}function
-pt(a,b){var
-c=w(hA,a[4]),d=g(fR(e(aK,a[3])),c);return g(b,e(function(a){return a[1][1]},d))}function
-pu(b,a){return l(function(a){if(0===a[0]){var
-c=hD(b);return n(f(a[1]),c)}return 1},a)}function
-pv(f,e){function
+hF(a){return f(a[1])}function
+pu(a){var
+b=f(fR(e(aG,a[3])));return N(f(a[2]),b)}function
+pv(a){var
+b=f(a[2]),c=a[3];return pp(hE(a),c,b)}function
+pw(a){var
+b=pu(a),c=a[4],d=pv(a);return kj(hF(a),d,c,b)}function
+px(a,b){var
+c=w(hC,a[4]),d=g(fR(e(aG,a[3])),c);return g(b,e(function(a){return a[1][1]},d))}function
+py(b,a){return l(function(a){if(0===a[0]){var
+c=hF(b);return n(f(a[1]),c)}return 1},a)}function
+pz(f,e){function
 a(a){return s(a,e,[0,d,b])}var
 c=[0,d,b];switch(f){case
 0:var
-g=a(w2);return[0,a(0),g,c];case
+g=a(w5);return[0,a(0),g,c];case
 1:var
-h=a(w3),i=a(w4);return[0,a(0),i,h];default:return[0,c,c,c]}}function
-pw(f,e){function
+h=a(w6),i=a(w7);return[0,a(0),i,h];default:return[0,c,c,c]}}function
+pA(f,e){function
 a(a){return s(a,e,[0,d,b])}var
 c=[0,d,b];switch(f){case
-0:return[0,c,c,a(w5)];case
+0:return[0,c,c,a(w8)];case
 1:var
-g=a(w6),h=a(w7);return[0,a(w8),h,g];default:var
-i=a(w9),j=a(w_);return[0,a(0),j,i]}}function
-px(t,s,k,j,r,d){var
+g=a(w9),h=a(w_);return[0,a(w$),h,g];default:var
+i=a(xa),j=a(xb);return[0,a(0),j,i]}}function
+pB(t,s,k,j,r,d){var
 c=bw(k,j,r,d);if(0===d[0])var
 e=bE(d[1],c);else
 var
-a=d[1],f=fH(a,c),g=fI(a,c),h=hj(a,c),i=eF(a,c),l=S([3,[4,h,g],[4,i,f]],hg(a)),m=S([2,[4,h,f],[4,i,g]],fG(a)),n=M(function(b,a){return[2,b,a]},m,l),o=S(a[5],n),p=hh(a,c),q=S(hi(a,c),p),e=M(function(b,a){return[3,b,a]},q,o);return jP(t,e,S([5,[0,b,b],s],dh(eN(k,j,eM(d)),e)))}function
-py(c,b,a){return b?fJ(c,b[1],a):a?0:1}function
-pz(d,b,i,a,c,o,h,m,g){var
-p=as(b),j=n(f(c),p),k=j?py(d,a,h):j,l=k?py(d,a,g):k;if(l){var
-q=e(function(c){return px(b,i,a,g,m,c)},c),r=e(function(c){return px(b,i,a,h,o,c)},c);return j_(d,as(b),r,q)}return l}function
-pA(c,j,d,b,a){var
+a=d[1],f=fH(a,c),g=fI(a,c),h=hl(a,c),i=eG(a,c),l=S([3,[4,h,g],[4,i,f]],hi(a)),m=S([2,[4,h,f],[4,i,g]],fG(a)),n=M(function(b,a){return[2,b,a]},m,l),o=S(a[5],n),p=hj(a,c),q=S(hk(a,c),p),e=M(function(b,a){return[3,b,a]},q,o);return jU(t,e,S([5,[0,b,b],s],dh(eO(k,j,eN(d)),e)))}function
+pC(c,b,a){return b?fJ(c,b[1],a):a?0:1}function
+pD(d,b,i,a,c,o,h,m,g){var
+p=as(b),j=n(f(c),p),k=j?pC(d,a,h):j,l=k?pC(d,a,g):k;if(l){var
+q=e(function(c){return pB(b,i,a,g,m,c)},c),r=e(function(c){return pB(b,i,a,h,o,c)},c);return kd(d,as(b),r,q)}return l}function
+pE(c,j,d,b,a){var
 e=aD(d,j),f=e?bl(b,a):e;if(f)var
 k=cL(c,a)[2],h=[0,cL(c,b)[1],k],l=[0,cL(c,dH(a,b)),0],i=[0,[0,h,h,g(ac(u,d),l)]];else
 var
 i=f;return i}function
-kj(a){if(a){var
+ko(a){if(a){var
 b=a[1];if(b)var
-c=kj(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+c=ko(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return xb}function
-pB(c,b,a){if(b){if(a){var
-d=b[1],f=pB(c,b[2],a[2]),g=a[1],h=function(b,a){return A(t(c,d,b),a)},i=function(a){return a};return aS(function(a){return t(c,d,a)},i,h,g,f)}var
+d=b;return d}return xe}function
+pF(c,b,a){if(b){if(a){var
+d=b[1],f=pF(c,b[2],a[2]),g=a[1],h=function(b,a){return A(t(c,d,b),a)},i=function(a){return a};return aS(function(a){return t(c,d,a)},i,h,g,f)}var
 e=a}else
 var
 e=b;return e}function
-pC(c,b,a){if(b){if(a){var
-d=pC(c,b[2],a[2]);return A(t(c,b[1],a[1]),d)}return u}return u}function
-hE(a){return ao(function(d,a){var
+pG(c,b,a){if(b){if(a){var
+d=pG(c,b[2],a[2]);return A(t(c,b[1],a[1]),d)}return u}return u}function
+hG(a){return ap(function(d,a){var
 e=c(2,b);return F(cb(bJ(d),e),a)},d,a)}function
-hF(a,i,h){var
+hH(a,i,h){var
 d=f(i);function
 t(g,e,f){var
 d=[0,b,c(2,b)];return[0,aa(cL(a,a9(dG(e,f),d)))]}var
-j=kj(e(function(b){return eu(a,t,b)},i));if(j){var
-v=j[1],w=function(b,c,e){return pA(a,d,b,c,e)},k=kj(e(function(b){return eu(a,w,b)},i));if(k){var
-x=function(b){return cL(a,b)},o=e(function(a){return e(x,a)},h),y=k[1],z=e(function(a){return a[3]},y),A=e(function(b){return pC(a,b,e(function(a){return a[2]},v))},o),B=V(aG(0,d),o),F=e(function(c){var
-i=pB(a,c[2],z),j=c[1],d=[0,J(a,b),0],e=g(ac(u,j),d);function
+j=ko(e(function(b){return ev(a,t,b)},i));if(j){var
+v=j[1],w=function(b,c,e){return pE(a,d,b,c,e)},k=ko(e(function(b){return ev(a,w,b)},i));if(k){var
+x=function(b){return cL(a,b)},o=e(function(a){return e(x,a)},h),y=k[1],z=e(function(a){return a[3]},y),A=e(function(b){return pG(a,b,e(function(a){return a[2]},v))},o),B=V(aH(0,d),o),F=e(function(c){var
+i=pF(a,c[2],z),j=c[1],d=[0,J(a,b),0],e=g(ac(u,j),d);function
 f(b,a){return E(b,ax(a))}function
 h(a){return $(ax(a))}return aS(function(a){return a},h,f,e,i)},B),p=n(f(h),d),q=p?l(function(a){return n(f(a),d)},h):p;if(q)var
-G=c(2,b),H=cb(cE(a),G),I=hE(A),m=D(C(c(2,c(2,b)),I),H);else
+G=c(2,b),H=cb(cE(a),G),I=hG(A),m=D(C(c(2,c(2,b)),I),H);else
 var
 m=q;if(m){var
-K=c(2,b),L=cb(cE(a),K),M=hE(c2(F));return D(C(c(2,c(2,b)),M),L)}var
+K=c(2,b),L=cb(cE(a),K),M=hG(c2(F));return D(C(c(2,c(2,b)),M),L)}var
 r=m}else
 var
 r=k;var
 s=r}else
 var
 s=j;return s}function
-eQ(a){return l(function(a){return I(dK(a))},a)}function
+eR(a){return l(function(a){return I(dK(a))},a)}function
 a0(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
 ba(a){return[0,a[1],a[2]]}function
-hG(b,a){var
+hI(b,a){var
 d=f(a),c=n(f(b),d);if(c){var
 e=V(b,a);return l(function(a){return bl(a[1],a[2])},e)}return c}function
-kk(c,a,b){var
-d=V(a,b),g=V(aG(c,f(a)),d);return e(function(a){return[1,a[1],a[2][1],a[2][2]]},g)}function
-eR(e,k,j,h){var
+kp(c,a,b){var
+d=V(a,b),g=V(aH(c,f(a)),d);return e(function(a){return[1,a[1],a[2][1],a[2][2]]},g)}function
+eS(e,k,j,h){var
 c=k,b=j,a=h;for(;;){if(c)if(b)if(a){var
 f=a[1],l=i(e,1,[3,ba(c[1]),f]),g=l||i(e,1,[3,f,ba(b[1])]);if(!g){var
 c=c[2],b=b[2],a=a[2];continue}var
@@ -5890,24 +5911,24 @@ var
 d=b;else
 var
 d=c;return d}}function
-kl(b,e,c){var
-a=eu(b,function(a,c,d){return pA(b,e,a,c,d)},c);return a?K(d,a[1][2][1]):a}function
-km(f,e,b,a){var
+kq(b,e,c){var
+a=ev(b,function(a,c,d){return pE(b,e,a,c,d)},c);return a?K(d,a[1][2][1]):a}function
+kr(f,e,b,a){var
 c=a[1],d=b[1],g=c[2],h=a[2],i=d[2],j=b[2],k=[0,d[1],[0,c[1],0]];return l(function(a){var
 b=[0,i,[0,g,0]];return l(function(b){var
 c=[0,j,[0,h,0]];return l(function(c){var
 d=ba(c),g=ba(b);return cO(f,e,[0,ba(a),g,d])},c)},b)},k)}function
-kn(a){switch(a[0]){case
+ks(a){switch(a[0]){case
 0:var
 c=[0,a[4],0],d=g(a0(a[3]),c),e=g(a0(a[2]),d);return g(a0(a[1]),e);case
 1:var
 b=a[3],f=b?a0(b[1]):b,h=g(a0(a[2]),f);return g(a0(a[1]),h);default:return a0(a[1])}}function
-pD(a){return 1===a[0]?0:1}function
+pH(a){return 1===a[0]?0:1}function
 fS(b,a){var
 c=a9(a,a);return bl(a9(b,b),c)?a:b}function
 fT(b,a,e,d){var
 c=dV(b,a,ba(e));return c?dV(b,a,ba(d)):c}function
-pE(f,e,c,a){switch(e[0]){case
+pI(f,e,c,a){switch(e[0]){case
 0:if(c){if(c[2])return 0;if(a)return a[2]?0:fT(f,e[1],c[1],a[1]);var
 x=a}else
 var
@@ -5981,41 +6002,41 @@ L=q;var
 M=L}else
 var
 M=c;return M}}function
-pF(a){var
-c=s(xf,a,[0,d,b]),e=s(xg,a,[0,d,b]);return[0,s(0,a,[0,d,b]),e,c]}function
-hH(a){var
-c=s(xh,a,[0,d,b]),e=s(xi,a,[0,d,b]);return[0,[0,s(0,a,[0,d,b]),e],c]}function
-ko(d,c,b,a){var
+pJ(a){var
+c=s(xi,a,[0,d,b]),e=s(xj,a,[0,d,b]);return[0,s(0,a,[0,d,b]),e,c]}function
+hJ(a){var
+c=s(xk,a,[0,d,b]),e=s(xl,a,[0,d,b]);return[0,[0,s(0,a,[0,d,b]),e],c]}function
+kt(d,c,b,a){var
 e=b1(d,c,b,a);return x(b1(d,c,b,a),e)}var
 cS=c(2,c(2,c(2,c(2,c(2,q(c(2,b)))))));function
 d2(e){var
-a=aH(cS,e);if(a){var
+a=aI(cS,e);if(a){var
 f=h(gz(c(2,b)),cS);return[0,a[1][2],f]}return[0,d,b]}var
-kp=[0,[0,d,b],[0,d,b],[0,d,b]];function
-eS(c,a){var
-e=[0,d,b];return ao(function(b,a){return[2,h(c,b),a]},e,a)}function
-fU(b,a){return ao(function(c,a){var
-d=h(b,c);return M(function(b,a){return[2,b,a]},d,a)},kp,a)}function
-pG(c){var
+ku=[0,[0,d,b],[0,d,b],[0,d,b]];function
+eT(c,a){var
+e=[0,d,b];return ap(function(b,a){return[2,h(c,b),a]},e,a)}function
+fU(b,a){return ap(function(c,a){var
+d=h(b,c);return M(function(b,a){return[2,b,a]},d,a)},ku,a)}function
+pK(c){var
 a=c;for(;;)switch(a[0]){case
 0:return 1;case
 1:return aD(a[1],dL);case
 6:var
 a=a[1];continue;default:var
-b=pG(a[1]);if(b){var
+b=pK(a[1]);if(b){var
 a=a[2];continue}return b}}function
-dq(a){return l(pG,a)}function
-kq(d,h,c,f){var
-a=eu(d,function(c,e,f){var
-a=aD(c,N(dL,h)),b=a?bl(e,f):a,g=b?[0,my(d,c,e,f)]:b;return g},f);if(a){var
-b=a[1],e=aw(dL,b[3]),g=iR(hE(aw(c,e))),i=iR(hE(am(c,e))),j=Q(F(F(gN(am(dL,b[3])),i),g));return K(b[1][2],j)}return a}function
-hI(b,a,c){if(b)if(a)var
-f=a[1],g=hI(b[2],a[2],c),h=K(b[1],d)?[3,f,c]:[2,f,c],e=[0,h,g];else
+dq(a){return l(pK,a)}function
+kv(d,h,c,f){var
+a=ev(d,function(c,e,f){var
+a=aD(c,N(dL,h)),b=a?bl(e,f):a,g=b?[0,mC(d,c,e,f)]:b;return g},f);if(a){var
+b=a[1],e=aw(dL,b[3]),g=iW(hG(aw(c,e))),i=iW(hG(am(c,e))),j=Q(F(F(gN(am(dL,b[3])),i),g));return K(b[1][2],j)}return a}function
+hK(b,a,c){if(b)if(a)var
+f=a[1],g=hK(b[2],a[2],c),h=K(b[1],d)?[3,f,c]:[2,f,c],e=[0,h,g];else
 var
 e=a;else
 var
 e=b;return e}function
-hJ(a){return y(function(a){var
+hL(a){return y(function(a){var
 d=h(gz(c(2,b)),cS);return[0,a[2],d]},a)}function
 cr(b,a){var
 c=gI(a);return[1,N(dL,b),c,a]}function
@@ -6023,7 +6044,7 @@ d3(a){if(ch(a[1],a[2]))return a[1];var
 d=[0,c(2,b),b];return[5,[2,a[1],a[2]],d]}function
 bH(a){var
 b=d3(a[3]),c=d3(a[2]);return[0,d3(a[1]),c,b]}function
-pH(a){switch(a[0]){case
+pL(a){switch(a[0]){case
 0:var
 b=a[1],c=b[5],d=d3(b[4]),e=bH(b[3]),f=bH(b[2]);return[0,bH(b[1]),f,e,d,c];case
 1:var
@@ -6033,26 +6054,26 @@ w=fB(h,g,p,a),y=w?dq(a0(a)):w;if(y){var
 q=G(g[3],P);if(q){var
 j=q[1];if(typeof
 j!=="number"&&14===j[0]){var
-B=j[2],C=j[1],r=hJ(aH(cS,B));if(r){var
-s=r[1],Q=cr(xp,s),R=cr(xq,s),t=[0,cr(0,s),R,Q],D=i(h,1,B),E=D?i(h,0,C):D;if(E)var
+B=j[2],C=j[1],r=hL(aI(cS,B));if(r){var
+s=r[1],Q=cr(xs,s),R=cr(xt,s),t=[0,cr(0,s),R,Q],D=i(h,1,B),E=D?i(h,0,C):D;if(E)var
 T=f(g[1]),u=n(f(o),T);else
 var
 u=E;var
-F=u?l(function(a){return dq(kn(a))},p):u;if(F){var
-U=g[1],H=hI(o,e(function(b){return cQ(pH(b),a)},U),C),I=dq(H);if(I){var
+F=u?l(function(a){return dq(ks(a))},p):u;if(F){var
+U=g[1],H=hK(o,e(function(b){return cQ(pL(b),a)},U),C),I=dq(H);if(I){var
 v=V(V(p,H),o),k=function(k){var
 f=k[1][2],e=k[1][1];switch(e[0]){case
 0:var
-i=e[4],l=S(f,aA(e[1])),m=aZ(e[2],e[3],a),g=M(function(b,a){return[3,b,a]},m,l),n=S([0,c(2,b),b],g);return[0,[3,x(g,g),[4,i,i]],n,[0,b,b]];case
+i=e[4],l=S(f,aB(e[1])),m=aZ(e[2],e[3],a),g=M(function(b,a){return[3,b,a]},m,l),n=S([0,c(2,b),b],g);return[0,[3,x(g,g),[4,i,i]],n,[0,b,b]];case
 1:var
 h=aZ(e[1],e[2],a),o=S([0,c(2,b),b],h);return[0,[3,x(h,h),[4,f,f]],o,[0,b,b]];default:var
-j=e[1],p=aA(j);return[0,[3,x(aA(j),a),f],p,[0,d,b]]}},m=function(j){var
+j=e[1],p=aB(j);return[0,[3,x(aB(j),a),f],p,[0,d,b]]}},m=function(j){var
 e=j[1],f=e[2],c=e[1],d=j[2];switch(c[0]){case
 0:var
-g=c[3],h=c[2],i=c[1],k=aZ(h,g,a),l=[3,x(aA(i),k),f],m=cl(i,h,g,c[4],a);return d2([5,[0,d,b],[2,cP(c[5],m),l]]);case
-1:return d2([5,[0,d,b],[2,f,cQ(c,a)]]);default:return[0,d,b]}},L=x(t,t),N=[4,eS(function(a){var
+g=c[3],h=c[2],i=c[1],k=aZ(h,g,a),l=[3,x(aB(i),k),f],m=cl(i,h,g,c[4],a);return d2([5,[0,d,b],[2,cP(c[5],m),l]]);case
+1:return d2([5,[0,d,b],[2,f,cQ(c,a)]]);default:return[0,d,b]}},L=x(t,t),N=[4,eT(function(a){var
 b=k(a)[3];return[4,m(a),b]},v),L],O=x(fU(function(a){var
-b=k(a)[2];return S(m(a),b)},v),t);return kq(h,xs,xr,[2,[2,eS(function(a){var
+b=k(a)[2];return S(m(a),b)},v),t);return kv(h,xv,xu,[2,[2,eT(function(a){var
 b=k(a)[1];return[4,m(a),b]},v),O],N])}var
 J=I}else
 var
@@ -6066,20 +6087,20 @@ z=q;var
 A=z}else
 var
 A=y;return A}function
-xt(a){var
+xw(a){var
 b=dq(a0(a[3])),c=b?dq(a0(a[4])):b;return c?dq([0,a[2],0]):c}function
-pI(a,d,c){var
-b=aG(0,bF(a));return e(function(b){var
+pM(a,d,c){var
+b=aH(0,bF(a));return e(function(b){var
 e=aD(b,bM(a))?d:c;return cr(b,e)},b)}function
-pJ(e,a,f){if(typeof
+pN(e,a,f){if(typeof
 e==="number"){if(e){var
-g=cr(xu,a);return[0,[0,cr(0,a),g,[0,d,b]],kp]}var
-h=cr(xv,a),i=cr(xw,a);return[0,[0,cr(0,a),i,h],kp]}var
-c=e[1],j=pw(c,pI(c,a,f));return[0,pv(c,pI(c,a,f)),j]}function
-pK(g,e,u,o,a){var
-p=hJ(aH(cS,u));if(p){var
+g=cr(xx,a);return[0,[0,cr(0,a),g,[0,d,b]],ku]}var
+h=cr(xy,a),i=cr(xz,a);return[0,[0,cr(0,a),i,h],ku]}var
+c=e[1],j=pA(c,pM(c,a,f));return[0,pz(c,pM(c,a,f)),j]}function
+pO(g,e,u,o,a){var
+p=hL(aI(cS,u));if(p){var
 v=p[1],q=typeof
-e==="number"?[0,[0,b,b]]:hJ(h(co(cS),o));if(q){var
+e==="number"?[0,[0,b,b]]:hL(h(co(cS),o));if(q){var
 r=q[1],w=i(g,1,u);if(w)if(typeof
 e==="number")var
 j=1;else
@@ -6087,33 +6108,33 @@ var
 B=i(g,1,o),C=B?cp(g,o):B,j=C?I(bl(r,[0,d,b])):C;else
 var
 j=w;var
-y=j?l(xt,a):j;if(y){var
-f=pJ(e,v,r)[2],k=pJ(e,v,r)[1],m=[0,c(2,b),b],n=function(b){return fU(function(a){var
-c=a[3],d=h(b,a[4]);return S([4,a[1],d],c)},a)},s=eS(function(a){var
+y=j?l(xw,a):j;if(y){var
+f=pN(e,v,r)[2],k=pN(e,v,r)[1],m=[0,c(2,b),b],n=function(b){return fU(function(a){var
+c=a[3],d=h(b,a[4]);return S([4,a[1],d],c)},a)},s=eT(function(a){var
 b=x(a[3],a[4]);return[4,a[1],b]},a),t=x(f,f),D=n(function(a){return a[3]}),E=S(f[3],D),F=n(function(a){return a[2]}),G=S(f[2],F),H=n(function(a){return a[1]}),J=S(f[1],H),K=M(function(b,a){return[2,b,a]},J,G),L=[4,t,s],N=x(f,M(function(b,a){return[2,b,a]},K,E)),O=[3,[2,x(f,fU(function(a){var
-b=dh(a[4],a[3]);return S(a[1],b)},a)),N],L],P=[2,[4,m,s],[4,[5,[0,c(2,c(2,b)),b],[2,[0,b,b],t]],O]],Q=[4,m,x(k,oe(f,fU(function(a){return S(a[1],a[4])},a)))],R=x(k,k),T=[2,[4,eS(function(a){return a[1]},a),R],Q],U=[4,m,x(fU(function(a){return S(a[1],a[3])},a),k)],V=[2,[2,[2,eS(function(a){var
+b=dh(a[4],a[3]);return S(a[1],b)},a)),N],L],P=[2,[4,m,s],[4,[5,[0,c(2,c(2,b)),b],[2,[0,b,b],t]],O]],Q=[4,m,x(k,oi(f,fU(function(a){return S(a[1],a[4])},a)))],R=x(k,k),T=[2,[4,eT(function(a){return a[1]},a),R],Q],U=[4,m,x(fU(function(a){return S(a[1],a[3])},a),k)],V=[2,[2,[2,eT(function(a){var
 b=[4,a[2],a[2]],c=x(a[4],a[4]),d=[3,[2,x(a[3],a[3]),c],b];return[4,a[1],d]},a),U],T],P],W=typeof
-e==="number"?as(e):bM(e[1]);return kq(g,as(e),W,V)}var
+e==="number"?as(e):bM(e[1]);return kv(g,as(e),W,V)}var
 z=y}else
 var
 z=q;var
 A=z}else
 var
 A=p;return A}function
-pL(a){return[6,x(a,a)]}function
-pM(b){if(0===b[0])return[0,pH(b[1])];var
+pP(a){return[6,x(a,a)]}function
+pQ(b){if(0===b[0])return[0,pL(b[1])];var
 a=b[1],c=a[7],d=d3(a[6]),e=d3(a[5]),f=bH(a[4]),g=bH(a[3]),h=bH(a[2]);return[1,[0,bH(a[1]),h,g,f,e,d,c]]}function
-hK(f,e,c,a){if(typeof
+hM(f,e,c,a){if(typeof
 a==="number")return 0;else{if(0===a[0]){var
 g=a[1],j=K(c,d)?[3,g,f]:[2,g,f];return[0,j]}var
 h=a[2],i=a[1],k=K(c,d)?gI(e):e,b=ba(k),l=[4,i,dU(b)],m=[2,[4,h,dT(b)],l],n=[4,h,dU(b)];return[1,[3,[4,i,dT(b)],n],m]}}function
-kr(a,c){if(D(c,b))return a;var
+kw(a,c){if(D(c,b))return a;var
 g=aW(c,aM(2)),h=g[1];if(L(g[2],d)){var
-e=kr(a,h);return[4,e,e]}var
-f=kr(a,h);return[4,[4,f,f],a]}function
+e=kw(a,h);return[4,e,e]}var
+f=kw(a,h);return[4,[4,f,f],a]}function
 a1(c,a){switch(a[0]){case
 0:return a[1];case
-1:return pk([0,d,b],c,a[1]);case
+1:return po([0,d,b],c,a[1]);case
 2:return[3,[0,d,b],a1(c,a[1])];case
 3:var
 e=a1(c,a[2]);return[2,a1(c,a[1]),e];case
@@ -6124,9 +6145,9 @@ g=a1(c,a[2]);return[4,a1(c,a[1]),g];case
 6:var
 h=a1(c,a[2]);return[5,a1(c,a[1]),h];case
 7:var
-i=a[2];return kr(a1(c,a[1]),i);default:return[6,a1(c,a[1])]}}function
+i=a[2];return kw(a1(c,a[1]),i);default:return[6,a1(c,a[1])]}}function
 fW(d,h,g){var
-i=d[3],b=ka(d,g,h),a=i;for(;;){if(a){var
+i=d[3],b=kf(d,g,h),a=i;for(;;){if(a){var
 c=a[1],e=a[2],f=a1(b,c[2]),b=[0,[0,c[1],f],b],a=e;continue}return b}}function
 fX(c){var
 a=c;for(;;)switch(a[0]){case
@@ -6138,51 +6159,51 @@ a=c;for(;;)switch(a[0]){case
 a=a[1];continue;default:var
 b=fX(a[1]);if(b){var
 a=a[2];continue}return b}}function
-ks(a){if(a){var
+kx(a){if(a){var
 b=a[1];if(0===b[0])return 0;var
-c=b[1],d=ks(a[2]);return y(function(a){return[0,c,a]},d)}return xz}function
-eT(c,e,p){var
+c=b[1],d=kx(a[2]);return y(function(a){return[0,c,a]},d)}return xC}function
+eU(c,e,p){var
 a=p;for(;;)switch(a[0]){case
 6:var
-g=a[2],i=eT(c,e,a[1]),j=i?eT(c,e,g):i;if(j){var
+g=a[2],i=eU(c,e,a[1]),j=i?eU(c,e,g):i;if(j){var
 k=a1(e,g),l=h(c,k);if(!l)return h(c,[3,[0,d,b],k]);var
 m=l}else
 var
 m=j;return m;case
 8:var
-n=a[1],o=eT(c,e,n);return o?h(c,a1(e,n)):o;case
+n=a[1],o=eU(c,e,n);return o?h(c,a1(e,n)):o;case
 2:case
 7:var
 a=a[1];continue;case
 0:case
 1:return 1;default:var
-f=eT(c,e,a[1]);if(f){var
+f=eU(c,e,a[1]);if(f){var
 a=a[2];continue}return f}}function
-pN(j,c,i,h,n){var
-o=c[3],b=ka(c,h,i),a=o;for(;;){if(a){var
-e=a[1],f=e[2],g=eT(j,b,f);if(g){var
+pR(j,c,i,h,n){var
+o=c[3],b=kf(c,h,i),a=o;for(;;){if(a){var
+e=a[1],f=e[2],g=eU(j,b,f);if(g){var
 k=a[2],m=a1(b,f),b=[0,[0,e[1],m],b],a=k;continue}var
 d=g}else
 var
 d=1;if(d){var
-p=fW(c,i,h);return l(function(a){return eT(j,p,a)},n)}return d}}var
-hM=z(m(b),hL);function
-pO(e){var
-a=X(hM);if(e)var
+p=fW(c,i,h);return l(function(a){return eU(j,p,a)},n)}return d}}var
+hO=z(m(b),hN);function
+pS(e){var
+a=X(hO);if(e)var
 f=r(m(c(2,b)),a),g=B(m(c(2,c(2,b))),f),h=r(m(c(2,b)),a),d=an(B(m(b),h),g);else
 var
-i=B(m(c(2,b)),a),j=X(hL),d=an(B(r(m(c(2,b)),j),a),i);return aN(d)}function
-pP(d,c,a){if(d){var
-e=pO(c),f=B(m(b),e),g=r(z(m(b),a),f);return z(m(b),g)}var
-h=m(b),i=pO(c),j=an(m(b),i);return z(r(a,B(m(b),j)),h)}function
-eU(f,e,d,a){var
-g=X(a),h=X(d),i=z(z(m(c(2,b)),h),g),j=f?e?hM:an(hM,r(m(c(2,b)),hL)):an(hM,m(c(2,b))),k=r(X(j),i);return aN(B(m(b),k))}function
-pQ(a,d){var
-h=a?b:Q(b),e=m(h),f=pP(a,d,xB),g=pP(a,d,xC),i=an(f,eU(a,d,e,f)),j=[0,B(an(g,eU(a,d,g,e)),i),0],k=an(e,eU(a,d,e,f)),l=[0,B(an(g,eU(a,d,f,g)),k),j],n=an(e,eU(a,d,g,e)),o=[0,B(an(f,eU(a,d,f,g)),n),l],p=a?d?m(c(2,b)):r(m(c(2,c(2,b))),hL):m(c(2,c(2,b)));return[0,p,o]}function
-pR(g,d){var
+i=B(m(c(2,b)),a),j=X(hN),d=an(B(r(m(c(2,b)),j),a),i);return aN(d)}function
+pT(d,c,a){if(d){var
+e=pS(c),f=B(m(b),e),g=r(z(m(b),a),f);return z(m(b),g)}var
+h=m(b),i=pS(c),j=an(m(b),i);return z(r(a,B(m(b),j)),h)}function
+eV(f,e,d,a){var
+g=X(a),h=X(d),i=z(z(m(c(2,b)),h),g),j=f?e?hO:an(hO,r(m(c(2,b)),hN)):an(hO,m(c(2,b))),k=r(X(j),i);return aN(B(m(b),k))}function
+pU(a,d){var
+h=a?b:Q(b),e=m(h),f=pT(a,d,xE),g=pT(a,d,xF),i=an(f,eV(a,d,e,f)),j=[0,B(an(g,eV(a,d,g,e)),i),0],k=an(e,eV(a,d,e,f)),l=[0,B(an(g,eV(a,d,f,g)),k),j],n=an(e,eV(a,d,g,e)),o=[0,B(an(f,eV(a,d,f,g)),n),l],p=a?d?m(c(2,b)):r(m(c(2,c(2,b))),hN):m(c(2,c(2,b)));return[0,p,o]}function
+pV(g,d){var
 c=g,a=d[1],b=d[3];for(;;){if(c){if(b){var
 e=b[2],f=c[1]?A(a,b[1]):a,c=c[2],a=f,b=e;continue}return a}return a}}function
-kt(w,v,u,t){var
+ky(w,v,u,t){var
 a=e(function(a){return s(a,u,0)},v);if(a){var
 f=a[1];if(f){var
 b=a[2];if(b){var
@@ -6192,7 +6213,7 @@ i=c[1];if(i){var
 d=c[2];if(d){var
 j=d[1];if(j){if(d[2])return 0;var
 x=j[1],y=i[1],z=g[1],A=f[1];return l(function(a){var
-c=h(a,x),d=h(a,y),e=h(a,z),b=h(a,A);return ev(w,[0,[0,b,[0,e,[0,d,0]]],[0,[0,b,[0,c,0]],[0,[0,b,0],0]]])},t)}var
+c=h(a,x),d=h(a,y),e=h(a,z),b=h(a,A);return ew(w,[0,[0,b,[0,e,[0,d,0]]],[0,[0,b,[0,c,0]],[0,[0,b,0],0]]])},t)}var
 k=j}else
 var
 k=d;var
@@ -6214,12 +6235,12 @@ q=f;var
 r=q}else
 var
 r=a;return r}function
-pS(f,i,e,c,h){var
+pW(f,i,e,c,h){var
 j=f?b:d,a=J(i,j);function
 g(b){var
 c=f?cd(b):cF(b);return E(c,a)}var
 k=[0,aa(h),0],l=[0,[0,a,c,[0,u,[0,g(c),0]]],k];return[0,[0,a,e,[0,g(e),0]],l]}function
-pT(r,b,q,p,g,o,n){if(o){var
+pX(r,b,q,p,g,o,n){if(o){var
 x=o[1];if(x[1])return 0;if(o[2])return 0;if(n){var
 j=x[2],s=0;if(g){var
 h=g[2],c=0;if(h){var
@@ -6228,16 +6249,16 @@ a=0;c=1;d=1}else{var
 t=i[1],k=h[1],l=g[1],f=0;if(typeof
 j==="number")switch(j){case
 0:var
-A=e(aE,a$(xD)),z=e(aa,0),a=kt(b,p,c4(0,bB(b,dO(0,g),z),q),A);c=1;d=1;f=1;break;case
+A=e(aE,a$(xG)),z=e(aa,0),a=ky(b,p,c4(0,bB(b,dO(0,g),z),q),A);c=1;d=1;f=1;break;case
 3:var
 a=D(k[2],l[1]);c=1;d=1;f=1;break}else
 if(4===j[0]){var
 m=j[1];if(r)if(m){var
-B=e(pR,xE),a=kt(b,p,c4(0,bB(b,pS(r,b,l,k,t),0),q),B);c=1;d=1;f=1}else{var
+B=e(pV,xH),a=ky(b,p,c4(0,bB(b,pW(r,b,l,k,t),0),q),B);c=1;d=1;f=1}else{var
 a=m;c=1;d=1;f=1}else
 if(m){var
 a=0;c=1;d=1;f=1}else{var
-C=e(pR,xF),a=kt(b,p,c4(0,bB(b,pS(r,b,l,k,t),0),q),C);c=1;d=1;f=1}}if(!f)var
+C=e(pV,xI),a=ky(b,p,c4(0,bB(b,pW(r,b,l,k,t),0),q),C);c=1;d=1;f=1}}if(!f)var
 u=0}else
 var
 u=i;if(!d)var
@@ -6247,29 +6268,29 @@ v=h;if(!c){var
 w=v;s=1}}else{var
 w=g;s=1}if(s)var
 a=w;var
-y=a?xG:a}else
+y=a?xJ:a}else
 var
 y=n;return y}return[0,n]}function
-pU(f,e,d,c,p,o,n){var
+pY(f,e,d,c,p,o,n){var
 b=p,g=o,a=n;for(;;)switch(a[0]){case
 0:var
-h=pT(f,e,d,c,b,a[1],g);return h?I(h[1]):h;case
+h=pX(f,e,d,c,b,a[1],g);return h?I(h[1]):h;case
 1:var
-i=pT(f,e,d,c,b,a[1],g);if(i){var
-j=i[1],k=c$(a[2],b),l=pU(f,e,d,c,k[1],j,a[3]);if(l){var
+i=pX(f,e,d,c,b,a[1],g);if(i){var
+j=i[1],k=c$(a[2],b),l=pY(f,e,d,c,k[1],j,a[3]);if(l){var
 b=k[2],g=j,a=a[4];continue}var
 m=l}else
 var
 m=i;return m;default:return 0}}function
-ku(a){return cb(c(2,b),aO(a,b))}function
-eV(c,a,b,i,h){var
-f=c6(pQ(a,b)),j=pQ(a,b),k=e(cH(c5(f)),j),g=[0,d,cE(c)];return pU(a,c,f,k,[0,g,[0,g,[0,i,0]]],1,h)}function
-pV(a,g,b){if(K(g,ku(a))){if(b){var
+kz(a){return cb(c(2,b),aO(a,b))}function
+eW(c,a,b,i,h){var
+f=c6(pU(a,b)),j=pU(a,b),k=e(cH(c5(f)),j),g=[0,d,cE(c)];return pY(a,c,f,k,[0,g,[0,g,[0,i,0]]],1,h)}function
+pZ(a,g,b){if(K(g,kz(a))){if(b){var
 c=b[2];if(c){var
 d=c[2];if(d){var
 e=d[2];if(e){if(e[2])return 0;var
-h=[0,g,ku(a)],v=cE(a),i=[0,ku(a),v],j=eV(a,0,1,h,b[1]),k=j?eV(a,0,0,i,c[1]):j;if(k){var
-l=eV(a,1,1,h,d[1]);if(l)return eV(a,1,0,i,e[1]);var
+h=[0,g,kz(a)],v=cE(a),i=[0,kz(a),v],j=eW(a,0,1,h,b[1]),k=j?eW(a,0,0,i,c[1]):j;if(k){var
+l=eW(a,1,1,h,d[1]);if(l)return eW(a,1,0,i,e[1]);var
 m=l}else
 var
 m=k;var
@@ -6286,298 +6307,298 @@ q=p}else
 var
 q=b;return q}if(b){var
 f=b[2];if(f){if(f[2])return 0;var
-r=[0,g,cE(a)],s=eV(a,0,0,r,b[1]);if(s)return eV(a,1,0,r,f[1]);var
+r=[0,g,cE(a)],s=eW(a,0,0,r,b[1]);if(s)return eW(a,1,0,r,f[1]);var
 t=s}else
 var
 t=f;var
 u=t}else
 var
 u=b;return u}function
-kv(a){var
+kA(a){var
 b=[1,[2,d]];return bz(function(b,a){return[1,[3,b,a]]},a,b)}function
-hN(a){return kv(e(function(a){return[1,[8,[1,[2,a]]]]},a))}function
-hO(a,c){return kv(e(function(a){var
-d=[0,a[2]],b=V(a[1],c);return[1,[7,[1,[8,kv(e(function(a){return[1,[6,[0,a[1]],[1,[2,a[2]]]]]},b))]],d]]},a))}function
-pW(e,d,c,b,a){if(0===a[0])return s(a[1],b,0);var
-f=a[1],g=ce(function(a){return pW(e,d,c,b,a)},f);return h(bB(e,d,c),g)}function
-pX(a){return a?K(d,a[1][2][1]):a}function
-xH(a){var
-b=n(f(a),xI);return b?ak(function(a){return I(L(a,d))},a):b}function
-pY(c,f,b,a){if(b)if(a)var
-d=b[1],g=t(c,J(c,a[1]),f),h=pY(c,f,b[2],a[2]),i=d[3],j=A(d[2],g),e=[0,[0,A(d[1],g),j,i],h];else
+hP(a){return kA(e(function(a){return[1,[8,[1,[2,a]]]]},a))}function
+hQ(a,c){return kA(e(function(a){var
+d=[0,a[2]],b=V(a[1],c);return[1,[7,[1,[8,kA(e(function(a){return[1,[6,[0,a[1]],[1,[2,a[2]]]]]},b))]],d]]},a))}function
+p0(e,d,c,b,a){if(0===a[0])return s(a[1],b,0);var
+f=a[1],g=ce(function(a){return p0(e,d,c,b,a)},f);return h(bB(e,d,c),g)}function
+p1(a){return a?K(d,a[1][2][1]):a}function
+xK(a){var
+b=n(f(a),xL);return b?ak(function(a){return I(L(a,d))},a):b}function
+p2(c,f,b,a){if(b)if(a)var
+d=b[1],g=t(c,J(c,a[1]),f),h=p2(c,f,b[2],a[2]),i=d[3],j=A(d[2],g),e=[0,[0,A(d[1],g),j,i],h];else
 var
 e=a;else
 var
 e=b;return e}function
-pZ(d,c){var
+p3(d,c){var
 a=G(c,d);if(a){var
 b=a[1],e=b[1];return I(L(ci(b),e))}return a}function
-hP(b,a){return eo(eo(b,0),a)}function
-kw(a){if(a){var
-b=a[2],c=a[1];if(b)return hP(c,[0,xK,kw(b)]);var
+hR(b,a){return ep(ep(b,0),a)}function
+kB(a){if(a){var
+b=a[2],c=a[1];if(b)return hR(c,[0,xN,kB(b)]);var
 d=c}else
 var
 d=a;return d}function
-H(a){return[0,xM,hP(kw(a),xL)]}function
-ai(a){return[0,xO,hP(kw(a),xN)]}function
-at(a){return[0,xQ,[0,a,xP]]}function
-o(b,a){return[0,bk(xS,bk(b,xR)),a]}function
+H(a){return[0,xP,hR(kB(a),xO)]}function
+ai(a){return[0,xR,hR(kB(a),xQ)]}function
+at(a){return[0,xT,[0,a,xS]]}function
+o(b,a){return[0,bk(xV,bk(b,xU)),a]}function
 T(b,a){return ai([0,o(b,a),0])}function
 cT(d){var
-b=d,a=tD,e=0;for(;;){if(b){var
-c=lY(a),b=b[1],a=c;continue}return[0,fl(gw(a)),e]}}function
-kx(a){return[0,fl(gF(a)),0]}function
+b=d,a=tG,e=0;for(;;){if(b){var
+c=l2(a),b=b[1],a=c;continue}return[0,fl(gw(a)),e]}}function
+kC(a){return[0,fl(gF(a)),0]}function
 fY(a){var
-c=aV(a),f=0,b=0===c?tJ:0<c?[0,gF(a)]:[1,gF(Q(a))];if(0===b[0])var
+c=aV(a),f=0,b=0===c?tM:0<c?[0,gF(a)]:[1,gF(Q(a))];if(0===b[0])var
 d=fl(b[1]);else
 var
 e=fl(b[1]),d=bk(bT(1,45),e);return[0,d,f]}function
-eW(a){var
-b=0,c=0<aV(a)?gF(a):tH;return[0,fl(c),b]}function
-ky(a){switch(a[0]){case
-2:return xU;case
-3:return 2<=a[1]?xV:xW;case
-4:return xX;default:return xT}}function
+eX(a){var
+b=0,c=0<aV(a)?gF(a):tK;return[0,fl(c),b]}function
+kD(a){switch(a[0]){case
+2:return xX;case
+3:return 2<=a[1]?xY:xZ;case
+4:return x0;default:return xW}}function
 fZ(b,a){function
-c(c,a){return ae(c,ky(a))?fZ(b,a):[0,x3,g(fZ(b,a),x2)]}switch(a[0]){case
+c(c,a){return ae(c,kD(a))?fZ(b,a):[0,x6,g(fZ(b,a),x5)]}switch(a[0]){case
 0:var
 e=a[2],f=a[1];if(typeof
 e==="number")return[0,br(f),0];var
-i=[0,x4,[0,br(e),0]];return[0,br(f),i];case
+i=[0,x7,[0,br(e),0]];return[0,br(f),i];case
 1:return[0,h(b,a[1]),0];case
-2:return[0,x6,c(x5,a[1])];case
+2:return[0,x9,c(x8,a[1])];case
 3:var
-j=a[3],k=c([0,ky(a)],j);switch(a[1]){case
+j=a[3],k=c([0,kD(a)],j);switch(a[1]){case
 0:var
-d=xY;break;case
+d=x1;break;case
 1:var
-d=xZ;break;case
+d=x2;break;case
 2:var
-d=x0;break;default:var
-d=x1}var
-l=a[2];return g(c(ky(a),l),[0,d,k]);case
+d=x3;break;default:var
+d=x4}var
+l=a[2];return g(c(kD(a),l),[0,d,k]);case
 4:var
-m=[0,x7,kx(a[2])];return g(c(x8,a[1]),m);default:return[0,x_,g(fZ(b,a[1]),x9)]}}function
-P(a){return[0,yb,g(fZ(function(a){return 0===a[0]?a[1]:ya},a),x$)]}function
-kz(a){return[0,yd,g(fZ(function(a){return a},a),yc)]}function
+m=[0,x_,kC(a[2])];return g(c(x$,a[1]),m);default:return[0,yb,g(fZ(b,a[1]),ya)]}}function
+P(a){return[0,ye,g(fZ(function(a){return 0===a[0]?a[1]:yd},a),yc)]}function
+kE(a){return[0,yg,g(fZ(function(a){return a},a),yf)]}function
 cU(a){if(0===a[0])return P(a[1]);var
-b=[0,o(ye,P(a[2])),0];return ai([0,o(yf,P(a[1])),b])}function
-hQ(b,a){var
+b=[0,o(yh,P(a[2])),0];return ai([0,o(yi,P(a[1])),b])}function
+hS(b,a){var
 c=[0,h(b,a[3]),0],d=[0,h(b,a[2]),c];return H([0,h(b,a[1]),d])}function
-yg(a){function
-b(a){return hQ(cU,a)}switch(a[0]){case
+yj(a){function
+b(a){return hS(cU,a)}switch(a[0]){case
 0:var
-e=0,f=a[5]?yh:yp,h=[0,o(yi,at(f)),e],i=[0,o(yj,cU(a[4])),h],j=[0,o(yk,b(a[3])),i],k=[0,o(yl,b(a[2])),j],l=[0,o(ym,b(a[1])),k],c=[0,o(yo,at(yn)),l];break;case
+e=0,f=a[5]?yk:ys,h=[0,o(yl,at(f)),e],i=[0,o(ym,cU(a[4])),h],j=[0,o(yn,b(a[3])),i],k=[0,o(yo,b(a[2])),j],l=[0,o(yp,b(a[1])),k],c=[0,o(yr,at(yq)),l];break;case
 1:var
-d=a[3],m=d?[0,o(yq,b(d[1])),0]:d,n=[0,o(yr,b(a[2])),0],p=[0,o(ys,b(a[1])),n],c=g([0,o(yu,at(yt)),p],m);break;default:var
-q=[0,o(yv,b(a[1])),0],c=[0,o(yx,at(yw)),q]}return ai(c)}function
-yy(a){function
+d=a[3],m=d?[0,o(yt,b(d[1])),0]:d,n=[0,o(yu,b(a[2])),0],p=[0,o(yv,b(a[1])),n],c=g([0,o(yx,at(yw)),p],m);break;default:var
+q=[0,o(yy,b(a[1])),0],c=[0,o(yA,at(yz)),q]}return ai(c)}function
+yB(a){function
 b(a){return H(e(cU,a))}function
 f(a){var
-b=a?yz:yB;return o(yA,at(b))}switch(a[0]){case
+b=a?yC:yE;return o(yD,at(b))}switch(a[0]){case
 0:var
-h=[0,f(a[5]),0],i=[0,o(yC,cU(a[4])),h],j=[0,o(yD,b(a[3])),i],k=[0,o(yE,b(a[2])),j],l=[0,o(yF,b(a[1])),k],c=[0,o(yH,at(yG)),l];break;case
+h=[0,f(a[5]),0],i=[0,o(yF,cU(a[4])),h],j=[0,o(yG,b(a[3])),i],k=[0,o(yH,b(a[2])),j],l=[0,o(yI,b(a[1])),k],c=[0,o(yK,at(yJ)),l];break;case
 1:var
-d=a[3],m=d?[0,o(yI,b(d[1])),0]:d,n=[0,o(yJ,b(a[2])),0],p=[0,o(yK,b(a[1])),n],c=g([0,o(yM,at(yL)),p],m);break;case
+d=a[3],m=d?[0,o(yL,b(d[1])),0]:d,n=[0,o(yM,b(a[2])),0],p=[0,o(yN,b(a[1])),n],c=g([0,o(yP,at(yO)),p],m);break;case
 2:var
-q=[0,o(yN,b(a[1])),0],c=[0,o(yP,at(yO)),q];break;default:var
-r=[0,f(a[7]),0],s=[0,o(yQ,cU(a[6])),r],t=[0,o(yR,cU(a[5])),s],u=[0,o(yS,b(a[4])),t],v=[0,o(yT,b(a[3])),u],w=[0,o(yU,b(a[2])),v],x=[0,o(yV,b(a[1])),w],c=[0,o(yX,at(yW)),x]}return ai(c)}function
-kA(a){switch(a){case
-0:return yY;case
-1:return yZ;case
-2:return y0;case
-3:return y1;case
-4:return y2;case
-5:return y3;case
-6:return y4;case
-7:return y5;case
-8:return y6;case
-9:return y7;case
-10:return y8;case
-11:return y9;case
-12:return y_;case
-13:return y$;case
-14:return za;case
-15:return zb;default:return zc}}function
-kB(a){if(typeof
-a==="number")return zd;else
+q=[0,o(yQ,b(a[1])),0],c=[0,o(yS,at(yR)),q];break;default:var
+r=[0,f(a[7]),0],s=[0,o(yT,cU(a[6])),r],t=[0,o(yU,cU(a[5])),s],u=[0,o(yV,b(a[4])),t],v=[0,o(yW,b(a[3])),u],w=[0,o(yX,b(a[2])),v],x=[0,o(yY,b(a[1])),w],c=[0,o(y0,at(yZ)),x]}return ai(c)}function
+kF(a){switch(a){case
+0:return y1;case
+1:return y2;case
+2:return y3;case
+3:return y4;case
+4:return y5;case
+5:return y6;case
+6:return y7;case
+7:return y8;case
+8:return y9;case
+9:return y_;case
+10:return y$;case
+11:return za;case
+12:return zb;case
+13:return zc;case
+14:return zd;case
+15:return ze;default:return zf}}function
+kG(a){if(typeof
+a==="number")return zg;else
 switch(a[0]){case
-0:return ze;case
-1:return zf;default:return zg}}function
+0:return zh;case
+1:return zi;default:return zj}}function
 f0(a){var
 c=a[4];if(typeof
 c==="number")var
 d=0;else
 switch(c[0]){case
 0:var
-d=[0,o(zh,P(c[1])),0];break;case
+d=[0,o(zk,P(c[1])),0];break;case
 1:var
-d=[0,o(zi,P(c[1])),0];break;default:var
-n=[0,P(c[2]),0],d=[0,o(zj,H([0,P(c[1]),n])),0]}var
-p=[0,o(zk,at(kB(a[4]))),d],i=a[3];if(i){var
+d=[0,o(zl,P(c[1])),0];break;default:var
+n=[0,P(c[2]),0],d=[0,o(zm,H([0,P(c[1]),n])),0]}var
+p=[0,o(zn,at(kG(a[4]))),d],i=a[3];if(i){var
 b=i[1];switch(b[0]){case
 0:var
-r=H([0,P(b[1]),0]),k=a[1],q=0,s=6===k?zl:12===k?zp:zq,f=[0,o(zm,T(s,r)),q];break;case
+r=H([0,P(b[1]),0]),k=a[1],q=0,s=6===k?zo:12===k?zs:zt,f=[0,o(zp,T(s,r)),q];break;case
 1:var
-x=H(e(P,b[1])),m=a[1],w=0;if(14<=m)switch(m+rW|0){case
+x=H(e(P,b[1])),m=a[1],w=0;if(14<=m)switch(m+rZ|0){case
 0:var
-h=zr;break;case
+h=zu;break;case
 1:var
-h=zt;break;default:var
-h=zu}else
+h=zw;break;default:var
+h=zx}else
 var
-h=zv;var
-f=[0,o(zs,T(h,x)),w];break;case
+h=zy;var
+f=[0,o(zv,T(h,x)),w];break;case
 2:var
-y=[0,o(zw,H([0,P(b[2]),0])),0],f=[0,o(zy,ai([0,o(zx,H([0,P(b[1]),0])),y])),0];break;default:var
-z=[0,o(zz,H([0,P(b[2]),0])),0],f=[0,o(zB,ai([0,o(zA,H([0,P(b[1]),0])),z])),0]}var
+y=[0,o(zz,H([0,P(b[2]),0])),0],f=[0,o(zB,ai([0,o(zA,H([0,P(b[1]),0])),y])),0];break;default:var
+z=[0,o(zC,H([0,P(b[2]),0])),0],f=[0,o(zE,ai([0,o(zD,H([0,P(b[1]),0])),z])),0]}var
 l=f}else
 var
 l=i;var
-t=g(l,p),j=a[2],u=j?[0,o(zn,cT(j[1])),0]:j,v=g(u,t);return ai([0,o(zo,at(kA(a[1]))),v])}function
-p0(a){if(0===a[0]){var
-b=[0,o(zC,hQ(P,a[2])),0];return T(zE,ai([0,o(zD,hQ(P,a[1])),b]))}var
-c=[0,P(a[5]),0],d=[0,o(zF,H([0,P(a[4]),c])),0],e=[0,o(zG,P(a[3])),d],f=[0,P(a[2]),0];return T(zI,ai([0,o(zH,H([0,P(a[1]),f])),e]))}function
-p1(a){if(0===a[0]){var
-b=[0,o(zJ,H(e(P,a[2]))),0];return T(zL,ai([0,o(zK,H(e(P,a[1]))),b]))}return p0([1,a[1],a[2],a[3],a[4],a[5]])}function
-p2(a){switch(a){case
-0:return zM;case
-1:return zN;default:return zO}}function
-zP(a){function
+t=g(l,p),j=a[2],u=j?[0,o(zq,cT(j[1])),0]:j,v=g(u,t);return ai([0,o(zr,at(kF(a[1]))),v])}function
+p4(a){if(0===a[0]){var
+b=[0,o(zF,hS(P,a[2])),0];return T(zH,ai([0,o(zG,hS(P,a[1])),b]))}var
+c=[0,P(a[5]),0],d=[0,o(zI,H([0,P(a[4]),c])),0],e=[0,o(zJ,P(a[3])),d],f=[0,P(a[2]),0];return T(zL,ai([0,o(zK,H([0,P(a[1]),f])),e]))}function
+p5(a){if(0===a[0]){var
+b=[0,o(zM,H(e(P,a[2]))),0];return T(zO,ai([0,o(zN,H(e(P,a[1]))),b]))}return p4([1,a[1],a[2],a[3],a[4],a[5]])}function
+p6(a){switch(a){case
+0:return zP;case
+1:return zQ;default:return zR}}function
+zS(a){function
 b(a){return H(e(cU,a))}var
-c=[0,o(zQ,b(a[2])),0],d=[0,o(zR,b(a[1])),c];return ai([0,o(zT,at(zS)),d])}function
-p3(a){function
+c=[0,o(zT,b(a[2])),0],d=[0,o(zU,b(a[1])),c];return ai([0,o(zW,at(zV)),d])}function
+p7(a){function
 b(b,a){var
 c=[0,P(a),0];return H([0,P(b),c])}switch(a[0]){case
-0:return T(zU,b(a[1],a[2]));case
+0:return T(zX,b(a[1],a[2]));case
 1:var
-c=a[3],d=a[2],e=a[1],f=[0,o(zV,b(c[1],c[2])),0],g=[0,o(zW,b(d[1],d[2])),f];return T(zY,ai([0,o(zX,b(e[1],e[2])),g]));case
-2:return T(zZ,P(a[1]));default:var
-h=[0,o(z0,P(a[2])),0];return T(z2,ai([0,o(z1,P(a[1])),h]))}}function
-z3(a){function
-b(a){return hQ(P,a)}if(0===a[0])var
-c=a[5],e=c?[0,o(z4,b(c[1])),0]:c,f=[0,P(a[4]),0],h=[0,o(z5,H([0,P(a[3]),f])),0],i=[0,o(z6,P(a[2])),h],j=[0,o(z7,cT(a[1])),i],d=g([0,o(z9,at(z8)),j],e);else
+c=a[3],d=a[2],e=a[1],f=[0,o(zY,b(c[1],c[2])),0],g=[0,o(zZ,b(d[1],d[2])),f];return T(z1,ai([0,o(z0,b(e[1],e[2])),g]));case
+2:return T(z2,P(a[1]));default:var
+h=[0,o(z3,P(a[2])),0];return T(z5,ai([0,o(z4,P(a[1])),h]))}}function
+z6(a){function
+b(a){return hS(P,a)}if(0===a[0])var
+c=a[5],e=c?[0,o(z7,b(c[1])),0]:c,f=[0,P(a[4]),0],h=[0,o(z8,H([0,P(a[3]),f])),0],i=[0,o(z9,P(a[2])),h],j=[0,o(z_,cT(a[1])),i],d=g([0,o(Aa,at(z$)),j],e);else
 var
-k=[0,o(z_,P(a[4])),0],l=[0,o(z$,b(a[3])),k],m=[0,o(Aa,b(a[2])),l],n=a[1]?Ab:Ad,d=[0,o(Ac,at(n)),m];return ai(d)}function
-p4(a){var
-b=a?[0,o(Ae,H(e(z3,a))),0]:a;return b}function
-kC(d,c,b,a){var
-f=[0,o(Af,H(e(f0,a))),0],h=g(p4(b),f),i=[0,o(Ag,p0(c)),0];return ai(g([0,o(Ai,T(Ah,H(e(yg,d)))),i],h))}function
-Aj(a){switch(a[0]){case
-0:return T(Ak,kC(a[1],a[2],a[3],a[4]));case
+k=[0,o(Ab,P(a[4])),0],l=[0,o(Ac,b(a[3])),k],m=[0,o(Ad,b(a[2])),l],n=a[1]?Ae:Ag,d=[0,o(Af,at(n)),m];return ai(d)}function
+p8(a){var
+b=a?[0,o(Ah,H(e(z6,a))),0]:a;return b}function
+kH(d,c,b,a){var
+f=[0,o(Ai,H(e(f0,a))),0],h=g(p8(b),f),i=[0,o(Aj,p4(c)),0];return ai(g([0,o(Al,T(Ak,H(e(yj,d)))),i],h))}function
+Am(a){switch(a[0]){case
+0:return T(An,kH(a[1],a[2],a[3],a[4]));case
 1:var
-b=a[5],c=a[3],d=a[1],f=H(e(yy,a[2])),l=[0,o(Al,H(e(f0,a[6]))),0],m=b?[0,o(Am,p3(b[1])),0]:b,n=g(m,l),k=0,p=[0,o(An,p1(a[4])),n];if(typeof
+b=a[5],c=a[3],d=a[1],f=H(e(yB,a[2])),l=[0,o(Ao,H(e(f0,a[6]))),0],m=b?[0,o(Ap,p7(b[1])),0]:b,n=g(m,l),k=0,p=[0,o(Aq,p5(a[4])),n];if(typeof
 d==="number")if(d)var
-h=Ao;else{var
-i=T(At,f);k=1}else
+h=Ar;else{var
+i=T(Aw,f);k=1}else
 var
-h=p2(d[1]);if(!k)var
-q=c?[0,o(Ap,P(c[1])),0]:c,i=T(h,ai([0,o(Aq,f),q]));return T(As,ai([0,o(Ar,i),p]));case
+h=p6(d[1]);if(!k)var
+q=c?[0,o(As,P(c[1])),0]:c,i=T(h,ai([0,o(At,f),q]));return T(Av,ai([0,o(Au,i),p]));case
 2:var
-r=[0,o(Au,H(e(f0,a[7]))),0],s=g(p4(a[6]),r),t=[0,o(Av,p3(a[5])),0],u=[0,o(Aw,p1(a[4])),t],v=[0,o(Ax,P(a[3])),0],w=ai([0,o(Ay,H(e(zP,a[2]))),v]);return T(AA,ai(g([0,o(Az,T(p2(a[1]),w)),u],s)));case
+r=[0,o(Ax,H(e(f0,a[7]))),0],s=g(p8(a[6]),r),t=[0,o(Ay,p7(a[5])),0],u=[0,o(Az,p5(a[4])),t],v=[0,o(AA,P(a[3])),0],w=ai([0,o(AB,H(e(zS,a[2]))),v]);return T(AD,ai(g([0,o(AC,T(p6(a[1]),w)),u],s)));case
 3:var
-x=[0,o(AB,H(e(f0,a[7]))),0],y=[0,o(AC,H(e(P,a[6]))),0],z=[0,o(AF,T(AE,ai([0,o(AD,H(e(P,a[5]))),y]))),x],A=0,B=a[4],C=[0,o(AI,H(e(function(a){return 0===a[0]?T(AG,H(e(kz,a[1]))):T(AH,kz(a[1]))},B))),A],D=a[3],E=[0,o(AJ,H(e(function(a){var
-b=[0,kz(a[2]),0];return H([0,at(a[1]),b])},D))),C],F=a[2],G=[0,o(AK,H(e(function(a){var
-b=[0,cU(a[2]),0];return H([0,at(a[1]),b])},F))),E];return T(AO,ai([0,o(AN,T(AM,ai([0,o(AL,H(e(at,a[1]))),G]))),z]));case
+x=[0,o(AE,H(e(f0,a[7]))),0],y=[0,o(AF,H(e(P,a[6]))),0],z=[0,o(AI,T(AH,ai([0,o(AG,H(e(P,a[5]))),y]))),x],A=0,B=a[4],C=[0,o(AL,H(e(function(a){return 0===a[0]?T(AJ,H(e(kE,a[1]))):T(AK,kE(a[1]))},B))),A],D=a[3],E=[0,o(AM,H(e(function(a){var
+b=[0,kE(a[2]),0];return H([0,at(a[1]),b])},D))),C],F=a[2],G=[0,o(AN,H(e(function(a){var
+b=[0,cU(a[2]),0];return H([0,at(a[1]),b])},F))),E];return T(AR,ai([0,o(AQ,T(AP,ai([0,o(AO,H(e(at,a[1]))),G]))),z]));case
 4:var
-I=[0,o(AP,H(e(f0,a[3]))),0],J=[0,o(AS,T(AR,ai([0,o(AQ,P(a[2])),0]))),I];return T(AW,ai([0,o(AV,T(AU,ai([0,o(AT,P(a[1])),0]))),J]));case
+I=[0,o(AS,H(e(f0,a[3]))),0],J=[0,o(AV,T(AU,ai([0,o(AT,P(a[2])),0]))),I];return T(AZ,ai([0,o(AY,T(AX,ai([0,o(AW,P(a[1])),0]))),J]));case
 5:var
-K=[0,o(AX,P(a[5])),0];return T(AZ,ai([0,o(AY,kC(a[1],[0,a[2],a[3]],0,a[4])),K]));case
+K=[0,o(A0,P(a[5])),0];return T(A2,ai([0,o(A1,kH(a[1],[0,a[2],a[3]],0,a[4])),K]));case
 6:var
-j=a[1],L=0,M=j?cU(j[1]):at(A2);return T(A1,ai([0,o(A0,M),L]));default:var
-N=[0,o(A3,P(a[6])),0],O=[0,o(A4,P(a[5])),N],Q=[0,o(A5,kC(a[2],a[3],0,a[4])),O],R=a[1];return T(A_,ai([0,o(A9,H(e(function(a){var
-b=[0,o(A6,P(a[2][2])),0],c=[0,o(A7,P(a[2][1])),b];return ai([0,o(A8,at(a[1])),c])},R))),Q]))}}function
+j=a[1],L=0,M=j?cU(j[1]):at(A5);return T(A4,ai([0,o(A3,M),L]));default:var
+N=[0,o(A6,P(a[6])),0],O=[0,o(A7,P(a[5])),N],Q=[0,o(A8,kH(a[2],a[3],0,a[4])),O],R=a[1];return T(Bb,ai([0,o(Ba,H(e(function(a){var
+b=[0,o(A9,P(a[2][2])),0],c=[0,o(A_,P(a[2][1])),b];return ai([0,o(A$,at(a[1])),c])},R))),Q]))}}function
 d4(a){return H(e(fY,a))}function
 f1(b,a){var
-c=[0,o(A$,eW(a)),0];return ai([0,o(Ba,H(e(d4,b))),c])}function
+c=[0,o(Bc,eX(a)),0];return ai([0,o(Bd,H(e(d4,b))),c])}function
 dr(a){switch(a[0]){case
 0:return at(a[1]);case
 1:var
 b=f1(a[2],a[3]);return T(a[1],b);case
 2:var
-c=a[1]?Bb:Bd;return T(Bc,at(c));case
+c=a[1]?Be:Bg;return T(Bf,at(c));case
 3:var
-d=[0,d4(a[3]),0];return T(Be,H([0,f1(a[1],a[2]),d]));case
+d=[0,d4(a[3]),0];return T(Bh,H([0,f1(a[1],a[2]),d]));case
 4:var
-f=[0,eW(a[4]),0],g=[0,fY(a[3]),f];return T(Bf,H([0,f1(a[1],a[2]),g]));case
+f=[0,eX(a[4]),0],g=[0,fY(a[3]),f];return T(Bi,H([0,f1(a[1],a[2]),g]));case
 5:var
-h=[0,eW(a[3]),0],i=[0,fY(a[2]),h];return T(Bg,H([0,dr(a[1]),i]));case
+h=[0,eX(a[3]),0],i=[0,fY(a[2]),h];return T(Bj,H([0,dr(a[1]),i]));case
 6:var
-j=[0,eW(a[3]),0],k=[0,fY(a[2]),j];return T(Bh,H([0,dr(a[1]),k]));case
-7:return T(Bi,dr(a[1]));case
+j=[0,eX(a[3]),0],k=[0,fY(a[2]),j];return T(Bk,H([0,dr(a[1]),k]));case
+7:return T(Bl,dr(a[1]));case
 8:var
-l=[0,H(e(d4,a[3])),0],m=[0,at(a[2]),l];return T(Bj,H([0,dr(a[1]),m]));case
+l=[0,H(e(d4,a[3])),0],m=[0,at(a[2]),l];return T(Bm,H([0,dr(a[1]),m]));case
 9:var
-n=a[1];return T(Bk,H(e(function(a){var
-b=a[1],c=b[1],d=[0,dr(a[2]),0],e=[0,eW(b[2]),d],f=[0,fY(c[2]),e];return H([0,d4(c[1]),f])},n)));default:var
-o=[0,dr(a[4]),0],p=[0,dr(a[3]),o],q=[0,eW(a[2]),p];return T(Bl,H([0,d4(a[1]),q]))}}function
-Bm(a){var
+n=a[1];return T(Bn,H(e(function(a){var
+b=a[1],c=b[1],d=[0,dr(a[2]),0],e=[0,eX(b[2]),d],f=[0,fY(c[2]),e];return H([0,d4(c[1]),f])},n)));default:var
+o=[0,dr(a[4]),0],p=[0,dr(a[3]),o],q=[0,eX(a[2]),p];return T(Bo,H([0,d4(a[1]),q]))}}function
+Bp(a){var
 b=[0,dr(a[2]),0];return H([0,cT(a[1]),b])}function
-p5(a){if(typeof
-a==="number")return 0===a?at(Bn):at(Bo);else
+p9(a){if(typeof
+a==="number")return 0===a?at(Bq):at(Br);else
 switch(a[0]){case
 0:var
-b=[0,H(e(d4,a[2])),0];return T(Bp,H([0,cT(a[1]),b]));case
+b=[0,H(e(d4,a[2])),0];return T(Bs,H([0,cT(a[1]),b]));case
 1:var
-c=[0,cT(a[2]),0];return T(Bq,H([0,cT(a[1]),c]));case
-2:return T(Br,H(e(P,a[1])));default:var
-d=[0,o(Bs,f1(a[4],a[5])),0],f=[0,o(Bt,H(e(P,a[3]))),d],g=[0,o(Bu,H(e(P,a[2]))),f];return T(Bw,ai([0,o(Bv,cT(a[1])),g]))}}function
-Bx(a){var
-b=a[4],h=b?[0,o(By,d4([0,b[1],b[2]])),0]:b,d=a[3],i=d?[0,o(Bz,p5(d[1])),0]:d,j=g(i,h),f=a[2],k=f?[0,o(BA,cT(f[1])),0]:f,l=g(k,j),c=a[1],m=c?[0,o(BB,H(e(Bm,[0,c[1],c[2]]))),0]:c;return ai(g(m,l))}function
-p6(f,a,d){var
-h=[0,o(BC,H(e(Bx,d))),0];if(a)var
-b=a[1],c=[0,o(BD,f1(b[1],b[2])),0];else
+c=[0,cT(a[2]),0];return T(Bt,H([0,cT(a[1]),c]));case
+2:return T(Bu,H(e(P,a[1])));default:var
+d=[0,o(Bv,f1(a[4],a[5])),0],f=[0,o(Bw,H(e(P,a[3]))),d],g=[0,o(Bx,H(e(P,a[2]))),f];return T(Bz,ai([0,o(By,cT(a[1])),g]))}}function
+BA(a){var
+b=a[4],h=b?[0,o(BB,d4([0,b[1],b[2]])),0]:b,d=a[3],i=d?[0,o(BC,p9(d[1])),0]:d,j=g(i,h),f=a[2],k=f?[0,o(BD,cT(f[1])),0]:f,l=g(k,j),c=a[1],m=c?[0,o(BE,H(e(Bp,[0,c[1],c[2]]))),0]:c;return ai(g(m,l))}function
+p_(f,a,d){var
+h=[0,o(BF,H(e(BA,d))),0];if(a)var
+b=a[1],c=[0,o(BG,f1(b[1],b[2])),0];else
 var
 c=a;var
-i=g(c,h);return ai([0,o(BE,kx(f)),i])}function
-p7(d,c,a,b){var
-f=[0,o(BF,p5(b)),0],h=a?[0,o(BG,H(e(P,a))),0]:a,i=g(h,f),j=[0,o(BH,H(e(P,c))),0];return ai(g([0,o(BI,kx(d)),j],i))}function
-BJ(a){if(typeof
-a==="number")return at(BK);else
+i=g(c,h);return ai([0,o(BH,kC(f)),i])}function
+p$(d,c,a,b){var
+f=[0,o(BI,p9(b)),0],h=a?[0,o(BJ,H(e(P,a))),0]:a,i=g(h,f),j=[0,o(BK,H(e(P,c))),0];return ai(g([0,o(BL,kC(d)),j],i))}function
+BM(a){if(typeof
+a==="number")return at(BN);else
 switch(a[0]){case
-0:return T(BL,cT(a[1]));case
-1:return T(BM,p6(a[1],a[2],a[3]));default:return T(BN,p7(a[1],a[2],a[3],a[4]))}}function
-hR(a){var
-b=iI(iH(aB(a),function(b){return bd(a,b)}));return l(function(a){var
-b=I(34===a?1:0),c=b?I(92===a?1:0):b,d=c?mf(32,a):c;return d?mf(a,126):d},b)}function
-kD(d){var
+0:return T(BO,cT(a[1]));case
+1:return T(BP,p_(a[1],a[2],a[3]));default:return T(BQ,p$(a[1],a[2],a[3],a[4]))}}function
+hT(a){var
+b=iN(iM(aC(a),function(b){return bd(a,b)}));return l(function(a){var
+b=I(34===a?1:0),c=b?I(92===a?1:0):b,d=c?mj(32,a):c;return d?mj(a,126):d},b)}function
+kI(d){var
 a=d;for(;;)switch(a[0]){case
 8:var
-b=hR(a[2]);if(b){var
+b=hT(a[2]);if(b){var
 a=a[1];continue}return b;case
 9:var
-e=a[1];return l(function(a){return kD(a[2])},e);case
+e=a[1];return l(function(a){return kI(a[2])},e);case
 10:var
-c=kD(a[3]);if(c){var
+c=kI(a[3]);if(c){var
 a=a[4];continue}return c;case
 0:case
-1:return hR(a[1]);case
+1:return hT(a[1]);case
 5:case
 6:case
 7:var
 a=a[1];continue;default:return 1}}function
 f2(b){function
 c(f){var
-a=me(f),b=ae(B2,a),c=b?ae(a,B3):b;if(c)var
+a=mi(f),b=ae(B5,a),c=b?ae(a,B6):b;if(c)var
 d=c;else{var
-e=ae(B4,a);if(e)return ae(a,B5);var
+e=ae(B7,a);if(e)return ae(a,B8);var
 d=e}return d}var
-a=iI(iH(aB(b),function(a){return bd(b,a)}));if(a){var
+a=iN(iM(aC(b),function(a){return bd(b,a)}));if(a){var
 d=a[2],e=c(a[1]),g=e?l(function(a){var
 b=c(a);if(b)var
 d=b;else
 var
-e=me(a),f=ae(B6,e),h=f?ae(e,B7):f,d=h;var
-g=d||(95===a?1:0);return g},d):e,h=g?ae(f(d),B8):g;if(h)return I(aF(b,B9));var
+e=mi(a),f=ae(B9,e),h=f?ae(e,B_):f,d=h;var
+g=d||(95===a?1:0);return g},d):e,h=g?ae(f(d),B$):g;if(h)return I(aF(b,Ca));var
 i=h}else
 var
 i=a;return i}function
-kE(c){var
+kJ(c){var
 a=c;for(;;)switch(a[0]){case
 0:return 1;case
 1:return f2(a[1]);case
 3:var
-b=kE(a[2]);if(b){var
+b=kJ(a[2]);if(b){var
 a=a[3];continue}return b;default:var
 a=a[1];continue}}function
 f3(m){var
@@ -6603,26 +6624,26 @@ a=a[3];continue}return i;case
 4:var
 j=a[2],k=f3(a[1]),l=k?gD(c(2,b),j):k;return l?gD(j,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):l;default:var
 a=a[1];continue}}function
-eX(a){return 0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
+eY(a){return 0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
 b5(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-d5(a){return w(eX,b5(a))}function
-kF(a){switch(a[0]){case
+d5(a){return w(eY,b5(a))}function
+kK(a){switch(a[0]){case
 0:var
-c=eX(a[4]),d=g(d5(a[3]),c),e=g(d5(a[2]),d);return g(d5(a[1]),e);case
+c=eY(a[4]),d=g(d5(a[3]),c),e=g(d5(a[2]),d);return g(d5(a[1]),e);case
 1:var
 b=a[3],f=b?d5(b[1]):b,h=g(d5(a[2]),f);return g(d5(a[1]),h);default:return d5(a[1])}}function
-B_(a){switch(a[0]){case
+Cb(a){switch(a[0]){case
 0:var
 d=g(a[3],[0,a[4],0]),e=g(a[2],d),b=g(a[1],e);break;case
 1:var
 c=a[3],f=c?c[1]:c,h=g(a[2],f),b=g(a[1],h);break;case
 2:var
 b=a[1];break;default:var
-i=g(a[4],[0,a[5],[0,a[6],0]]),j=g(a[3],i),k=g(a[2],j),b=g(a[1],k)}return w(eX,b)}function
-p8(a){return 0===a[0]?g(a[1],a[2]):[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
-p9(a){if(0===a[0]){var
+i=g(a[4],[0,a[5],[0,a[6],0]]),j=g(a[3],i),k=g(a[2],j),b=g(a[1],k)}return w(eY,b)}function
+qa(a){return 0===a[0]?g(a[1],a[2]):[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
+qb(a){if(0===a[0]){var
 b=b5(a[2]);return g(b5(a[1]),b)}return[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
-p_(a){switch(a[0]){case
+qc(a){switch(a[0]){case
 1:var
 b=a[3],c=a[2],d=a[1];return[0,d[1],[0,d[2],[0,c[1],[0,c[2],[0,b[1],[0,b[2],0]]]]]];case
 2:return[0,a[1],0];default:return[0,a[1],[0,a[2],0]]}}function
@@ -6638,31 +6659,31 @@ d=[0,b[1],[0,b[2],0]]}var
 f=d}else
 var
 f=c;return g(f,h)}function
-p$(a){if(0===a[0]){var
+qd(a){if(0===a[0]){var
 b=a[5],c=b?b5(b[1]):b;return[0,a[2],[0,a[3],[0,a[4],c]]]}var
 d=[0,a[4],0],e=g(b5(a[3]),d);return g(b5(a[2]),e)}function
-qa(b,e){var
+qe(b,e){var
 a=e;for(;;)switch(a[0]){case
 0:return 1;case
 1:var
 c=a[1];if(0===c[0]){var
 f=c[1];return ak(function(a){return aF(f,a)},b)}return 0;case
 3:var
-d=qa(b,a[2]);if(d){var
+d=qe(b,a[2]);if(d){var
 a=a[3];continue}return d;default:var
 a=a[1];continue}}function
 f4(c,a){return l(function(a){var
-b=f3(a);return b?qa(c,a):b},a)}function
-qb(a){if(typeof
+b=f3(a);return b?qe(c,a):b},a)}function
+qf(a){if(typeof
 a!=="number")switch(a[0]){case
 2:return a[1];case
 3:return g(a[2],a[3])}return 0}function
-qc(a){var
+qg(a){var
 d=gD(c(2,c(2,c(2,c(2,c(2,b))))),a);return d?gD(a,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b))))))))))):d}function
-qd(a,b){return b?[4,qd(a,b[1]),a]:a}function
+qh(a,b){return b?[4,qh(a,b[1]),a]:a}function
 k(a){switch(a[0]){case
 0:var
-i=a[2],j=c(2,q(c(2,c(2,b)))),l=function(a){return C(j,a)},m=gx(lW(i),l,b);return[0,l$(lX(gw(a[1]),i)),m];case
+i=a[2],j=c(2,q(c(2,c(2,b)))),l=function(a){return C(j,a)},m=gx(l0(i),l,b);return[0,md(l1(gw(a[1]),i)),m];case
 1:var
 e=a[1];return 0===e[0]?[5,[0,b,b],[0,d,b]]:[1,e[1],e[2],e[3]];case
 2:var
@@ -6673,35 +6694,35 @@ g=k(a[2]),h=k(a[3]);switch(a[1]){case
 1:return[3,g,h];case
 2:return[4,g,h];default:return[5,g,h]}case
 4:var
-n=aR(fj(a[2]));return qd(k(a[1]),n);default:return[6,k(a[1])]}}function
+n=aR(fj(a[2]));return qh(k(a[1]),n);default:return[6,k(a[1])]}}function
 b6(a){if(0===a[0]){var
 b=k(a[1]);return[0,b,b]}var
 c=k(a[2]);return[0,k(a[1]),c]}function
 d7(a){var
 b=b6(a[3]),c=b6(a[2]);return[0,b6(a[1]),c,b]}function
-B$(a){switch(a[0]){case
+Cc(a){switch(a[0]){case
 0:var
 b=a[5],c=b6(a[4]),d=d7(a[3]),e=d7(a[2]);return[0,[0,d7(a[1]),e,d,c,b]];case
 1:var
 f=y(d7,a[3]),g=d7(a[2]);return[1,d7(a[1]),g,f];default:return[2,d7(a[1])]}}function
-qe(a){if(0===a[0]){var
+qi(a){if(0===a[0]){var
 c=a[2],d=a[1],b=function(a){var
 b=k(h(a,c));return[0,k(h(a,d)),b]},e=b(function(a){return a[3]}),f=b(function(a){return a[2]});return[0,[0,b(function(a){return a[1]}),f,e]]}var
 g=k(a[5]),i=[0,k(a[4]),g],j=k(a[3]),l=k(a[2]);return[1,k(a[1]),l,j,i]}function
-eY(a){var
+eZ(a){var
 b=k(a[3]),c=k(a[2]);return[0,k(a[1]),c,b]}function
 ds(a){if(0===a[0]){var
-c=a[5],h=c?eY(c[1]):[0,[0,d,b],[0,d,b],[0,d,b]],i=k(a[4]),j=k(a[3]),l=k(a[2]);return[0,aR(a[1]),l,j,i,h]}var
+c=a[5],h=c?eZ(c[1]):[0,[0,d,b],[0,d,b],[0,d,b]],i=k(a[4]),j=k(a[3]),l=k(a[2]);return[0,aR(a[1]),l,j,i,h]}var
 e=a[4],f=a[3],g=a[2];if(a[1]){var
-m=eY(f),n=eY(g);return[2,k(e),n,m]}var
-o=eY(f),p=eY(g);return[1,k(e),p,o]}function
-hS(b,a){if(a){var
-c=a[1],d=a[2],f=hS(g(b,[0,c,0]),d),h=e(function(a){return[0,c,a]},b);return g(a5(function(c){var
+m=eZ(f),n=eZ(g);return[2,k(e),n,m]}var
+o=eZ(f),p=eZ(g);return[1,k(e),p,o]}function
+hU(b,a){if(a){var
+c=a[1],d=a[2],f=hU(g(b,[0,c,0]),d),h=e(function(a){return[0,c,a]},b);return g(a5(function(c){var
 a=c[2],b=c[1],d=0===b[0]?b[5]?0:0===a[0]?a[5]?0:n(b[1],a[1]):0:0===a[0]?0:cB(b[1],a[1]);return I(d)},h),f)}return a}function
-Ca(b){if(b[1])return 0;var
+Cd(b){if(b[1])return 0;var
 a=b[4];if(typeof
 a!=="number"&&1===a[0])return[0,[0,k(a[1])],0];return 0}function
-qf(N,M,a){switch(a[1]){case
+qj(N,M,a){switch(a[1]){case
 0:var
 g=a[4];if(typeof
 g!=="number"&&0===g[0])return[0,[1,k(g[1])],0];return 0;case
@@ -6756,10 +6777,10 @@ b=k(W);return[13,a,k(X),b]}}if(K)return 0;break;case
 9:var
 u=a[4];if(typeof
 u!=="number"&&0===u[0]){var
-Y=u[1],Z=hS(0,M);return e(function(h){var
+Y=u[1],Z=hU(0,M);return e(function(h){var
 e=k(Y),a=h[2],c=h[1];if(0===c[0]){var
 f=c[1];if(0===a[0]){var
-g=function(a){return a?eY(a[1]):[0,[0,d,b],[0,d,b],[0,d,b]]};if(n(f,a[1])){var
+g=function(a){return a?eZ(a[1]):[0,[0,d,b],[0,d,b],[0,d,b]]};if(n(f,a[1])){var
 i=k(a[2]),j=[2,[2,k(c[2]),i],e],l=g(a[5]),m=g(c[5]);return[11,aR(f),m,l,j]}var
 o=ds(a);return[10,ds(c),o,e]}var
 p=ds(a);return[10,ds(c),p,e]}var
@@ -6773,15 +6794,15 @@ $=x[2],aa=x[1],c=function(a){var
 b=k(_),c=k($);return[12,a,k(aa),c,b]}}if(L)return 0;break;case
 11:var
 G=typeof
-a[4]==="number"?1:0,ab=G?Cb:G;return ab;case
+a[4]==="number"?1:0,ab=G?Ce:G;return ab;case
 12:var
 y=a[4];if(typeof
 y!=="number"&&1===y[0]){var
 z=a[3];if(z){var
 H=z[1];if(0===H[0]){var
 ac=k(y[1]);return[0,[14,k(H[1]),ac],0]}return 0}return z}return 0;default:return 0}var
-B=a[2],P=B?[0,aR(B[1]),0]:aG(0,N);return e(c,P)}function
-Cc(c,a){switch(a[1]){case
+B=a[2],P=B?[0,aR(B[1]),0]:aH(0,N);return e(c,P)}function
+Cf(c,a){switch(a[1]){case
 0:var
 l=a[4];if(typeof
 l!=="number"&&2!==l[0])return a[2]?0:a[3]?0:1;return 0;case
@@ -6825,7 +6846,7 @@ z!=="number"&&0===z[0])return a[2]?0:a[3]?0:1;return 0;case
 N=0,A=a[4];if(typeof
 A==="number"||!(1===A[0]))N=1;else{var
 h=a[3];if(!h)return h;if(0!==h[1][0])return 0;var
-B=n(c,Ce),O=0;if(B){var
+B=n(c,Ch),O=0;if(B){var
 C=a[2];if(C){var
 b=C[1];O=1}else
 var
@@ -6851,17 +6872,17 @@ I=H;return I;case
 12:var
 J=a[4];if(typeof
 J!=="number"&&1===J[0]){if(a[2])return 0;var
-k=a[3];return k?0===k[1][0]?n(c,Cf):0:k}return 0;default:return 0}var
-p=ae(Cd,b);return p?ae(b,c):p}function
-hT(c,k,j,b){var
-l=f(c),d=w(function(a){return qf(l,j,a)},b),a=w(Ca,b),h=a?[0,a[1],a[2]]:Cg,i=g(h,d),m=qe(k);return[0,e(B$,c),m,i]}function
-qg(b){if(b[1])return 0;var
+k=a[3];return k?0===k[1][0]?n(c,Ci):0:k}return 0;default:return 0}var
+p=ae(Cg,b);return p?ae(b,c):p}function
+hV(c,k,j,b){var
+l=f(c),d=w(function(a){return qj(l,j,a)},b),a=w(Cd,b),h=a?[0,a[1],a[2]]:Cj,i=g(h,d),m=qi(k);return[0,e(Cc,c),m,i]}function
+qk(b){if(b[1])return 0;var
 a=b[4];if(typeof
 a!=="number"&&1===a[0])return[0,[0,k(a[1])],0];return 0}function
-qh(c){function
+ql(c){function
 a(a){return s(a,e(k,c),[0,d,b])}var
-f=a(Ch),g=a(Ci);return[0,a(0),g,f]}function
-hU(_,G,Z,a){switch(a[1]){case
+f=a(Ck),g=a(Cl);return[0,a(0),g,f]}function
+hW(_,G,Z,a){switch(a[1]){case
 0:var
 h=a[4];if(typeof
 h!=="number"&&0===h[0])return[0,[1,k(h[1])],0];return 0;case
@@ -6915,7 +6936,7 @@ b=k(ak);return[7,a,k(al),b]}}if(T)return 0;break;case
 9:var
 t=a[4];if(typeof
 t!=="number"&&0===t[0]){var
-am=t[1],an=hS(0,Z);return e(function(a){var
+am=t[1],an=hU(0,Z);return e(function(a){var
 b=k(am),c=ds(a[2]);return[14,ds(a[1]),c,b]},an)}return 0;case
 10:var
 u=a[4],U=0;if(typeof
@@ -6947,14 +6968,14 @@ A==="number"||!(1===A[0]))W=1;else{var
 B=a[3],av=A[1];if(!B)return B;var
 O=B[1];if(1!==O[0])return 0;var
 aw=O[1],c=function(a){var
-b=k(av);return[13,a,0,qh(aw),b]}}if(W)return 0;break;case
+b=k(av);return[13,a,0,ql(aw),b]}}if(W)return 0;break;case
 15:var
 C=a[4],X=0;if(typeof
 C==="number"||!(1===C[0]))X=1;else{var
 D=a[3],ax=C[1];if(!D)return D;var
 P=D[1];if(1!==P[0])return 0;var
 ay=P[1],c=function(a){var
-b=k(ax);return[13,a,1,qh(ay),b]}}if(X)return 0;break;case
+b=k(ax);return[13,a,1,ql(ay),b]}}if(X)return 0;break;case
 16:var
 E=a[4],Y=0;if(typeof
 E==="number"||!(1===E[0]))Y=1;else{var
@@ -6962,9 +6983,9 @@ F=a[3],az=E[1];if(!F)return F;var
 Q=F[1];if(1!==Q[0])return 0;var
 aA=Q[1],c=function(a){var
 b=k(az);return[17,a,e(k,aA),b]}}if(Y)return 0;break;default:return 0}var
-H=a[2],aa=H?[0,aR(H[1]),0]:aG(0,G);return e(c,aa)}function
-eZ(e,d,c,b){var
-f=w(function(a){return hU(e,d,c,a)},b),a=w(qg,b),h=a?[0,a[1],a[2]]:Cj;return g(h,f)}function
+H=a[2],aa=H?[0,aR(H[1]),0]:aH(0,G);return e(c,aa)}function
+e0(e,d,c,b){var
+f=w(function(a){return hW(e,d,c,a)},b),a=w(qk,b),h=a?[0,a[1],a[2]]:Cm;return g(h,f)}function
 cV(a){return 11===a[1]?1:0}function
 cs(n,m,a){var
 b=a[1];if(!(4<=b))switch(b){case
@@ -6978,7 +6999,7 @@ e=1;l=1}if(!l)var
 e=0;var
 f=cB(n,e);if(f){var
 g=a[2];if(g){var
-h=g[1],i=ae(Ck,h);return i?ae(h,m):i}var
+h=g[1],i=ae(Cn,h);return i?ae(h,m):i}var
 j=1}else
 var
 j=f;return j;case
@@ -6987,7 +7008,7 @@ k=a[4];if(typeof
 k!=="number"&&1===k[0])return a[2]?0:a[3]?0:1;return 0}return 0}function
 bb(s,b,a){var
 d=a[2];if(d)var
-e=d[1],g=ae(Cl,e),t=g?ae(e,b):g,c=t;else
+e=d[1],g=ae(Co,e),t=g?ae(e,b):g,c=t;else
 var
 c=1;var
 h=a[1];if(!(9<=h))switch(h){case
@@ -7010,11 +7031,11 @@ p=o;return p;default:return cs(0,b,a)}}return cs(0,b,a)}return cs(0,b,a);case
 q=a[4];if(typeof
 q!=="number"&&1===q[0]){var
 r=a[3];return r?0===r[1][0]?c?n(b,s):c:cs(0,b,a):cs(0,b,a)}return cs(0,b,a)}return cs(0,b,a)}function
-aI(c,b,a){return 11===a[1]?typeof
+aJ(c,b,a){return 11===a[1]?typeof
 a[4]==="number"?a[2]?bb(c,b,a):a[3]?bb(c,b,a):1:bb(c,b,a):bb(c,b,a)}function
-qi(g,b,c,a){var
+qm(g,b,c,a){var
 h=a[2];if(h)var
-i=h[1],j=ae(Cn,i),E=j?ae(i,c):j,d=E;else
+i=h[1],j=ae(Cq,i),E=j?ae(i,c):j,d=E;else
 var
 d=1;switch(a[1]){case
 1:if(a[3])return bb(as(b),c,a);if(d){var
@@ -7066,15 +7087,15 @@ b=dt(a[2]),c=dt(a[3]);switch(a[1]){case
 2:return[5,b,c];default:return[6,b,c]}case
 4:var
 d=a[2];return[7,dt(a[1]),d];default:return[8,dt(a[1])]}}function
-kG(i,h,g,b,d,c,a){var
-j=ak(cV,a),l=eZ(0,f(b),0,a),m=V(d,c),n=e(function(a){var
+kL(i,h,g,b,d,c,a){var
+j=ak(cV,a),l=e0(0,f(b),0,a),m=V(d,c),n=e(function(a){var
 b=k(a[2]);return[0,k(a[1]),b]},m),o=e(function(a){return 0===a[0]?[0,e(dt,a[1])]:[1,dt(a[1])]},b),p=e(function(a){var
 b=dt(a[2]);return[0,a[1],b]},g);return[0,[0,i,e(function(a){var
 b=b6(a[2]);return[0,a[1],b]},h),p,o],n,l,j]}function
-kH(c){function
+kM(c){function
 a(e){var
 a=[0,d,b];return s(e,c,[0,a,a])}var
-e=a(Co),f=a(Cp);return[0,a(0),f,e]}function
+e=a(Cr),f=a(Cs);return[0,a(0),f,e]}function
 d8(a){function
 b(a){var
 b=k(a[2]);return[0,k(a[1]),b]}switch(a[0]){case
@@ -7083,17 +7104,17 @@ b=k(a[2]);return[0,k(a[1]),b]}switch(a[0]){case
 c=b(a[3]),d=b(a[2]);return[1,b(a[1]),d,c];case
 2:return[2,k(a[1])];default:var
 e=k(a[2]);return[3,k(a[1]),e]}}function
-qj(a){if(0===a[0]){var
-b=V(a[1],a[2]);return[0,kH(e(function(a){var
-b=k(a[2]);return[0,k(a[1]),b]},b))]}return qe([1,a[1],a[2],a[3],a[4],a[5]])}function
-qk(j,b,i,h,g,d,a){function
-c(a){return kH(e(b6,a))}var
-l=ak(cV,a),m=eZ(0,f(b),d,a),n=d8(g),o=qj(h),p=k(i);return[0,j,e(function(a){var
+qn(a){if(0===a[0]){var
+b=V(a[1],a[2]);return[0,kM(e(function(a){var
+b=k(a[2]);return[0,k(a[1]),b]},b))]}return qi([1,a[1],a[2],a[3],a[4],a[5]])}function
+qo(j,b,i,h,g,d,a){function
+c(a){return kM(e(b6,a))}var
+l=ak(cV,a),m=e0(0,f(b),d,a),n=d8(g),o=qn(h),p=k(i);return[0,j,e(function(a){var
 b=c(a[2]);return[0,c(a[1]),b]},b),p,o,n,m,l]}function
 d9(a){return ak(function(a){return 3===a[0]?1:0},a)}function
-kI(j,a,g,i,h,c){var
-l=ak(cV,c),m=f(a),n=eZ(d9(a),m,0,c),o=y(d8,h),p=qj(i),q=g?k(g[1]):[0,b,b];return[0,j,e(function(a){function
-c(a){return kH(e(b6,a))}switch(a[0]){case
+kN(j,a,g,i,h,c){var
+l=ak(cV,c),m=f(a),n=e0(d9(a),m,0,c),o=y(d8,h),p=qn(i),q=g?k(g[1]):[0,b,b];return[0,j,e(function(a){function
+c(a){return kM(e(b6,a))}switch(a[0]){case
 0:var
 k=a[5],l=b6(a[4]),m=c(a[3]),n=c(a[2]);return[0,[0,[0,c(a[1]),n,m,l,k]]];case
 1:var
@@ -7107,17 +7128,17 @@ q=a[7],r=b6(a[6]),s=b6(a[5]),t=c(a[4]),u=c(a[3]);return[1,[0,g,c(a[2]),u,t,s,r,q
 b7(c){var
 a=c[1];if(13!==a){var
 b=16<=a?1:0;if(!b)return b}return 1}function
-kJ(a){function
+kO(a){function
 b(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}switch(a[0]){case
 0:var
 c=a[5],d=a[4],e=b(a[3]),f=b(a[2]);return[0,b(a[1]),f,e,d,c];case
 1:var
 g=y(b,a[3]),h=b(a[2]);return[1,b(a[1]),h,g];default:return[2,b(a[1])]}}function
-kK(a){if(0===a[0]){var
+kP(a){if(0===a[0]){var
 b=a[2],c=a[1];return[0,[0,c[1],[0,c[2],[0,c[3],0]]],[0,b[1],[0,b[2],[0,b[3],0]]]]}return[1,a[1],a[2],a[3],a[4],a[5]]}function
-ql(a){return a[1]?0:1}function
-qm(l){var
-b=a5(ql,l);if(b){var
+qp(a){return a[1]?0:1}function
+qq(l){var
+b=a5(qp,l);if(b){var
 d=b[1];if(d[2])return 0;if(d[3])return 0;var
 c=d[4],a=b[2];if(typeof
 c!=="number")switch(c[0]){case
@@ -7138,36 +7159,36 @@ k=a;return k}var
 i=0}else
 var
 i=b;return i}function
-qn(a){var
-c=ql(a);if(c)return c;if(1===a[1]){var
+qr(a){var
+c=qp(a);if(c)return c;if(1===a[1]){var
 b=a[4];if(typeof
 b!=="number"&&0===b[0])return 1;return 0}return 0}function
-hV(i,h,b){function
+hX(i,h,b){function
 c(b,a){return[3,1,b,a]}function
 a(b,a){return[3,3,b,a]}function
 d(b,a){return[3,2,b,a]}function
 e(b,a){return[3,0,b,a]}var
-f=c(hW,a(hW,b)),j=a(f,kL),k=i?f:a(c(b,hW),kL);function
-g(b){return a(b,[5,e(hW,d(kL,d(b,b)))])}var
+f=c(hY,a(hY,b)),j=a(f,kQ),k=i?f:a(c(b,hY),kQ);function
+g(b){return a(b,[5,e(hY,d(kQ,d(b,b)))])}var
 l=g(k);return a(h,e(g(j),l))}function
-hX(f,e,d){function
+hZ(f,e,d){function
 a(b,a){return[3,3,b,a]}function
 b(b,a){return[3,2,b,a]}var
-c=a([3,1,kM,a(kM,d)],qo),g=a(c,[5,[3,0,kM,b(qo,b(c,c))]]);return[2,b(hV(f,e,d),g)]}function
-kN(e,g,a){function
+c=a([3,1,kR,a(kR,d)],qs),g=a(c,[5,[3,0,kR,b(qs,b(c,c))]]);return[2,b(hX(f,e,d),g)]}function
+kS(e,g,a){function
 f(b,a){return[3,1,b,a]}function
 b(b,a){return[3,3,b,a]}function
 c(b,a){return[3,2,b,a]}var
-h=f(hY,b(hY,a)),d=e?h:b(f(a,hY),qp),i=b(d,[5,[3,0,hY,c(qp,c(d,d))]]);return c(hV(e,g,a),i)}function
-qq(c,g,b,a){function
+h=f(h0,b(h0,a)),d=e?h:b(f(a,h0),qt),i=b(d,[5,[3,0,h0,c(qt,c(d,d))]]);return c(hX(e,g,a),i)}function
+qu(c,g,b,a){function
 d(b,a){return e(function(c){var
-d=n(b,c)?a:Cq;return[0,d]},Cs)}return e(function(e){var
-j=[0,hV(c,b,a)],i=1,k=d(e,[2,g]);function
+d=n(b,c)?a:Ct;return[0,d]},Cv)}return e(function(e){var
+j=[0,hX(c,b,a)],i=1,k=d(e,[2,g]);function
 f(b,a){return[3,1,b,a]}var
-h=hV(c,b,a),l=d(e,f(f(hX(c,b,a),g),h));return[0,d(e,Cr),l,k,j,i]},Ct)}function
-qr(c,b,a){var
-d=[0,kN(c,b,a),0],e=[0,kN(c,b,a),d],f=[0,kN(c,b,a),e],g=[0,hX(c,b,a),0],h=[0,hX(c,b,a),g];return[0,[0,hX(c,b,a),h],f]}function
-qs(o,e,a){if(e)if(a){var
+h=hX(c,b,a),l=d(e,f(f(hZ(c,b,a),g),h));return[0,d(e,Cu),l,k,j,i]},Cw)}function
+qv(c,b,a){var
+d=[0,kS(c,b,a),0],e=[0,kS(c,b,a),d],f=[0,kS(c,b,a),e],g=[0,hZ(c,b,a),0],h=[0,hZ(c,b,a),g];return[0,[0,hZ(c,b,a),h],f]}function
+qw(o,e,a){if(e)if(a){var
 g=e[1],h=a[1],j=cK(k(g[2][1]));if(j){var
 l=j[1],m=cK(k(g[2][2]));if(m)var
 p=m[1],n=function(a){function
@@ -7177,7 +7198,7 @@ var
 f=[0,[0,d,b],[0,d,b]]}else
 var
 f=[0,[0,d,b],[0,d,b]];var
-r=qs([0,o],e[2],a[2]),i=[0,[0,g[1],[1,o,f[1],f[2]]],r]}else
+r=qw([0,o],e[2],a[2]),i=[0,[0,g[1],[1,o,f[1],f[2]]],r]}else
 var
 i=a;else
 var
@@ -7186,21 +7207,21 @@ az(b,a){switch(a[0]){case
 0:return[0,a[1],a[2]];case
 1:var
 c=a[1];if(0===c[0]){var
-e=c[1],d=mb(function(a){return aF(e,a[1])},b);return d?[1,d[1][2]]:a}return a;case
+e=c[1],d=mf(function(a){return aF(e,a[1])},b);return d?[1,d[1][2]]:a}return a;case
 2:return[2,az(b,a[1])];case
 3:var
 f=az(b,a[3]),g=az(b,a[2]);return[3,a[1],g,f];case
 4:var
 h=a[2];return[4,az(b,a[1]),h];default:return[5,az(b,a[1])]}}function
-qt(b,a){if(0===a[0])return[0,az(b,a[1])];var
+qx(b,a){if(0===a[0])return[0,az(b,a[1])];var
 c=az(b,a[2]);return[1,az(b,a[1]),c]}function
-kO(b,a){var
+kT(b,a){var
 c=h(b,a[3]),d=h(b,a[2]);return[0,h(b,a[1]),d,c]}function
-kP(c,a){if(c)if(a){var
+kU(c,a){if(c)if(a){var
 g=a[2],b=a[1],h=c[1];if(typeof
 b!=="number"&&0===b[0]){var
-e=kP(h,g);if(e){var
-i=e[1],f=kP(h,i[2]);if(f)var
+e=kU(h,g);if(e){var
+i=e[1],f=kU(h,i[2]);if(f)var
 j=f[1],k=[0,[0,[0,b[1],i[1],j[1]],j[2]]];else
 var
 k=f;var
@@ -7212,50 +7233,50 @@ var
 d=a;else
 var
 d=c;return d}function
-kQ(g,f,a){if(a){var
-e=a[1],h=a[2];if(f)return[0,e,kQ(g,f[1],h)];var
+kV(g,f,a){if(a){var
+e=a[1],h=a[2];if(f)return[0,e,kV(g,f[1],h)];var
 j=[0,e[2]],k=g?b:d,l=e[1],i=[0,[0,F(C(c(2,b),l),k),j],h]}else
 var
 i=a;return i}function
-Cu(a){if(typeof
+Cx(a){if(typeof
 a!=="number"&&1===a[0])return 1;return 0}function
-Cv(a){if(typeof
+Cy(a){if(typeof
 a!=="number"&&2===a[0])return 1;return 0}function
-hZ(e,a){if(0===a[0]){var
-f=[0,b,c(2,b)],g=hZ(e,a[3]);return a9(dG(hZ(e,a[2]),g),f)}return h(e,a[1])?[0,b,b]:[0,d,b]}function
-qu(a){return 0===a[0]?eG(a[1][4]):0}function
-qv(a){switch(a[0]){case
+h1(e,a){if(0===a[0]){var
+f=[0,b,c(2,b)],g=h1(e,a[3]);return a9(dG(h1(e,a[2]),g),f)}return h(e,a[1])?[0,b,b]:[0,d,b]}function
+qy(a){return 0===a[0]?eH(a[1][4]):0}function
+qz(a){switch(a[0]){case
 0:var
 b=a[1],c=bh(b[3]);return g(bh(b[2]),c);case
 1:var
 d=bh(a[2]);return g(bh(a[1]),d);default:return 0}}function
-h0(a){switch(a[0]){case
+h2(a){switch(a[0]){case
 0:return bL(bh(a[1][1]));case
 1:var
 b=a[3];return b?bL(bh(b[1])):d;default:return bL(bh(a[1]))}}function
-h1(c){var
-a=w(qu,c),d=a?[0,a[1],a[2]]:w(qv,c);return F(b,bL(d))}function
-qw(d,a){if(d){if(a){var
-b=a[1],g=d[1],e=qw(d[2],a[2]);if(e){var
+h3(c){var
+a=w(qy,c),d=a?[0,a[1],a[2]]:w(qz,c);return F(b,bL(d))}function
+qA(d,a){if(d){if(a){var
+b=a[1],g=d[1],e=qA(d[2],a[2]);if(e){var
 h=e[1],i=h[2],j=h[1];if(45===b)var
-c=Cw;else
+c=Cz;else
 if(43===b)var
-c=Cx;else
+c=CA;else
 var
-f=48===b?1:0,n=f?Cy:f,c=n;if(c)return[0,[0,[0,[0,g,c[1]],j],i]];var
+f=48===b?1:0,n=f?CB:f,c=n;if(c)return[0,[0,[0,[0,g,c[1]],j],i]];var
 k=49===b?1:0,o=k?[0,[0,j,[0,g,i]]]:k,l=o}else
 var
 l=e;var
 m=l}else
 var
-m=a;return m}return a?0:Cz}function
+m=a;return m}return a?0:CC}function
 du(b,c,a){switch(a[0]){case
 0:var
-d=a[1];if(aF(d,CA))return CB;if(aF(d,CC))return CD;if(aF(d,CE))return CF;if(aF(d,CG))return CH;if(aF(d,CI))return CJ;var
-n=aF(d,CK),B=n?CL:n;return B;case
+d=a[1];if(aF(d,CD))return CE;if(aF(d,CF))return CG;if(aF(d,CH))return CI;if(aF(d,CJ))return CK;if(aF(d,CL))return CM;var
+n=aF(d,CN),B=n?CO:n;return B;case
 1:var
-e=a[3],f=a[2],g=a[1];if(aF(g,CM))return[0,[0,e,f]];if(aF(g,CN))return[0,[1,e,f]];if(aF(g,CO))return[0,[2,e,f]];var
-o=aF(g,CP),C=o?[0,[8,e,f]]:o;return C;case
+e=a[3],f=a[2],g=a[1];if(aF(g,CP))return[0,[0,e,f]];if(aF(g,CQ))return[0,[1,e,f]];if(aF(g,CR))return[0,[2,e,f]];var
+o=aF(g,CS),C=o?[0,[8,e,f]]:o;return C;case
 2:return[0,[4,a[1]]];case
 3:return[0,[3,a[2],a[1],a[3]]];case
 4:return[0,[9,a[2],a[1],a[3],a[4]]];case
@@ -7267,7 +7288,7 @@ i=du(b,c,a[1]),E=i?[0,[7,i[1],a[2],a[3]]]:i;return E;case
 F=du(b,c,a[1]);return y(function(a){return[6,a]},F);case
 8:if(b){var
 p=a[3],q=a[2],j=du(b,c,a[1]);if(j){var
-r=j[1],k=qw(b,iI(iH(aB(q),function(a){return bd(q,a)})));if(k){var
+r=j[1],k=qA(b,iN(iM(aC(q),function(a){return bd(q,a)})));if(k){var
 s=k[1],t=s[2],u=s[1];if(t)return[0,[11,c,t,[10,r,u,p]]];var
 v=[0,[10,r,u,p]]}else
 var
@@ -7283,19 +7304,19 @@ z=function(a){if(a){var
 f=a[1],d=du(b,c,f[2]);if(d)var
 e=z(a[2]),h=e?[0,[0,[0,f[1],d[1]],e[1]]]:e,g=h;else
 var
-g=d;return g}return CQ},G=z(a[1]);return y(function(a){return[12,a]},G);default:var
+g=d;return g}return CT},G=z(a[1]);return y(function(a){return[12,a]},G);default:var
 l=du(b,c,a[3]);if(l)var
 m=du(b,c,a[4]),H=m?[0,[13,a[2],a[1],l[1],m[1]]]:m,A=H;else
 var
 A=l;return A}}function
-qx(e,d,a){if(a){var
+qB(e,d,a){if(a){var
 f=a[1],b=du(e,d,f[2]);if(b)var
-c=qx(e,d,a[2]),h=c?[0,[0,[0,f[1],b[1]],c[1]]]:c,g=h;else
+c=qB(e,d,a[2]),h=c?[0,[0,[0,f[1],b[1]],c[1]]]:c,g=h;else
 var
-g=b;return g}return CR}function
+g=b;return g}return CU}function
 d_(b,g,f,e,d,a){if(d)if(a){var
 c=a[1];if(c[3])return 0;if(c[4])return 0;var
-n=c[2],o=a[2],p=d[1],h=qx(f,e,c[1]);if(h){var
+n=c[2],o=a[2],p=d[1],h=qB(f,e,c[1]);if(h){var
 i=h[1];if(n){var
 j=d_(b,g,f,e,p,o);if(j){var
 q=j[1],k=d_(b,g,f,e,p,q[2]);if(k){var
@@ -7314,27 +7335,27 @@ var
 m=a;else
 var
 m=d;return m}function
-kR(i,h,g,e,d,a){if(d){if(a){var
+kW(i,h,g,e,d,a){if(d){if(a){var
 b=d_(i,h,g,e,f(a),a);if(b)var
-j=b[1],c=kR(i,h,g,e,d[1],j[2]),l=c?[0,[0,j[1],c[1]]]:c,k=l;else
+j=b[1],c=kW(i,h,g,e,d[1],j[2]),l=c?[0,[0,j[1],c[1]]]:c,k=l;else
 var
-k=b;return k}return CS}return a?0:CT}function
-qy(a){if(typeof
-a==="number")return 0===a?CU:CV;else
+k=b;return k}return CV}return a?0:CW}function
+qC(a){if(typeof
+a==="number")return 0===a?CX:CY;else
 switch(a[0]){case
 0:return[0,[0,a[1],a[2]]];case
 1:return[0,[1,a[1],a[2]]];default:return 0}}function
-kS(e,d,a){if(d)if(a){var
+kX(e,d,a){if(d)if(a){var
 b=a[1];if(b[1])return 0;var
 j=b[4],c=b[3],k=b[2],l=a[2],m=d[1];if(k){if(c)return 0;if(j)return 0;var
-f=k[1],g=kS(e,m,l);if(g){var
-n=g[1],o=n[1],h=kS(e,m,n[2]);if(h){var
-p=h[1],q=p[2],r=p[1];if(aD(f,CW))return[0,[0,[1,f,o,r],q]];var
-t=G(e,dE(f,CX));return y(function(a){return[0,[2,a,o,r],q]},t)}var
+f=k[1],g=kX(e,m,l);if(g){var
+n=g[1],o=n[1],h=kX(e,m,n[2]);if(h){var
+p=h[1],q=p[2],r=p[1];if(aD(f,CZ))return[0,[0,[1,f,o,r],q]];var
+t=G(e,dE(f,C0));return y(function(a){return[0,[2,a,o,r],q]},t)}var
 s=h}else
 var
 s=g;return s}if(c){var
-u=qy(c[1]);return y(function(a){return[0,[0,j,a],l]},u)}var
+u=qC(c[1]);return y(function(a){return[0,[0,j,a],l]},u)}var
 i=c}else
 var
 i=a;else
@@ -7343,7 +7364,7 @@ i=d;return i}function
 dv(b,a){return 0===b[0]?[0,k(b[1]),a]:a?[0,a[1],a[2]]:[0,k(b[1]),0]}function
 d$(a,e){var
 b=dv(a[1],e),c=dv(a[2],b[2]),d=dv(a[3],c[2]);return[0,[0,b[1],c[1],d[1]],d[2]]}function
-qz(d,c){if(d){var
+qD(d,c){if(d){var
 a=d[1];switch(a[0]){case
 0:var
 e=d$(a[1],c),f=d$(a[2],e[2]),g=d$(a[3],f[2]),h=dv(a[4],g[2]),b=[0,[0,e[1],f[1],g[1],h[1],a[5]],h[2]];break;case
@@ -7353,17 +7374,17 @@ o=d$(i[1],m),b=[0,[1,k,n,[0,o[1]]],o[2]];else
 var
 b=[0,[1,k,n,0],m];break;default:var
 p=d$(a[1],c),b=[0,[2,p[1]],p[2]]}var
-q=qz(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
+q=qD(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
 f5(t,g){var
 u=t[3];if(typeof
-g==="number")return 0===g?C1:C2;else
+g==="number")return 0===g?C4:C5;else
 switch(g[0]){case
 0:var
 v=g[2],h=g[1],B=G(u,h);if(B){var
 ab=0,E=B[1];if(typeof
 E==="number"||!(13===E[0]))ab=1;else
 var
-x=t[1],A=h1(x),a=e(function(a){var
+x=t[1],A=h3(x),a=e(function(a){var
 g=f(x);if(n(f(a),g)){var
 h=V(x,a);return e(function(a){var
 e=a[2],f=D(d,A),g=2===a[1][0]?1:0;return cB(g,f)?C(e,cb(c(2,b),cz(A))):e},h)}return a},v);if(ab)var
@@ -7372,9 +7393,9 @@ var
 a=v;var
 ac=G(u,h),ad=t[1],w=y(function(b){if(typeof
 b!=="number")switch(b[0]){case
-5:return CZ;case
+5:return C2;case
 12:var
-a=G(ad,b[1]);if(a){if(2===a[1][0])return C0;var
+a=G(ad,b[1]);if(a){if(2===a[1][0])return C3;var
 c=0}else
 var
 c=a;return c;case
@@ -7383,7 +7404,7 @@ c=a;return c;case
 4:case
 6:case
 7:case
-11:return 0}return CY},ac);if(w){var
+11:return 0}return C1},ac);if(w){var
 F=w[1];if(F){var
 H=F[1];if(H){if(H[1])return 0;if(a){var
 i=a[1];if(i){var
@@ -7446,10 +7467,10 @@ bo(a,b){if(a){var
 c=dv(a[1],b),d=bo(a[2],c[2]);return[0,[0,c[1],d[1]],d[2]]}return[0,0,b]}function
 aL(c){function
 a(a){return s(a,c,[0,d,b])}var
-e=a(C3),f=a(C4);return[0,a(0),f,e]}function
-qA(a,b){if(a){var
-c=a[1],d=bo(c[1],b),e=bo(c[2],d[2]),f=qA(a[2],e[2]),g=f[2],h=f[1],i=aL(e[1]);return[0,[0,[0,aL(d[1]),i],h],g]}return[0,0,b]}function
-kT(f,e){if(f){var
+e=a(C6),f=a(C7);return[0,a(0),f,e]}function
+qE(a,b){if(a){var
+c=a[1],d=bo(c[1],b),e=bo(c[2],d[2]),f=qE(a[2],e[2]),g=f[2],h=f[1],i=aL(e[1]);return[0,[0,[0,aL(d[1]),i],h],g]}return[0,0,b]}function
+kY(f,e){if(f){var
 a=f[1];switch(a[0]){case
 0:var
 g=bo(a[1],e),h=bo(a[2],g[2]),i=bo(a[3],h[2]),j=dv(a[4],i[2]),A=j[2],B=a[5],C=j[1],D=aL(i[1]),E=aL(h[1]),c=[0,[0,[0,aL(g[1]),E,D,C,B]],A];break;case
@@ -7461,9 +7482,9 @@ I=aL(p),c=[0,[0,[1,aL(m),I,0]],o];break;case
 2:var
 r=bo(a[1],e),J=r[2],c=[0,[0,[2,aL(r[1])]],J];break;default:var
 s=a[1],t=bo(s,e),u=bo(a[2],t[2]),v=bo(a[3],u[2]),w=bo(a[4],v[2]),x=dv(a[5],w[2]),y=dv(a[6],x[2]),K=s?aL(t[1]):[0,[0,d,b],[0,d,b],[0,b,b]],L=y[2],M=a[7],N=y[1],O=x[1],P=aL(w[1]),Q=aL(v[1]),c=[0,[1,[0,K,aL(u[1]),Q,P,O,N,M]],L]}var
-z=kT(f[2],c[2]);return[0,[0,c[1],z[1]],z[2]]}return[0,0,e]}function
-dw(a){return mK(j,a)}function
-C5(a){if(typeof
+z=kY(f[2],c[2]);return[0,[0,c[1],z[1]],z[2]]}return[0,0,e]}function
+dw(a){return mO(j,a)}function
+C8(a){if(typeof
 a==="number")return 1;else
 switch(a[0]){case
 5:return i(j,1,[3,a[1],[0,b,b]]);case
@@ -7484,7 +7505,7 @@ k=[0,a[2],a[1]],m=1;return l(function(a){return i(j,m,a)},k);case
 4:case
 13:var
 c=i(j,1,a[2]);return c?i(j,1,a[3]):c;default:return i(j,1,a[1])}}function
-kU(a){if(typeof
+kZ(a){if(typeof
 a==="number")return 1;else
 switch(a[0]){case
 4:var
@@ -7496,7 +7517,7 @@ B=[0,a[2],a[1]],C=1;return l(function(a){return i(j,C,a)},B);case
 11:var
 m=a[2],n=i(j,1,m);return n?i(j,0,[3,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b],m]):n;case
 13:var
-o=a[4],p=o4(a[3]),r=p?i(j,1,o):p;return r?i(j,0,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],o]):r;case
+o=a[4],p=o8(a[3]),r=p?i(j,1,o):p;return r?i(j,0,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],o]):r;case
 14:return i(j,0,a[3]);case
 15:var
 s=i(j,0,a[2]),t=s?i(j,0,a[3]):s;return t?i(j,1,a[4]):t;case
@@ -7510,11 +7531,11 @@ y=a[2],z=l(dw,y),A=z?ak(function(a){return i(j,1,[4,a,a])},y):z;return A?i(j,1,a
 1:case
 12:return i(j,1,a[1]);default:var
 k=i(j,1,a[2]);return k?i(j,1,a[3]):k}}function
-h2(d){var
+h4(d){var
 a=d;for(;;){if(a){var
 b=a[2],e=a[1],c=I(ak(function(d){return function(a){var
-h=kA(a[1]),e=aF(kA(d[1]),h);if(e)var
-i=kB(a[4]),b=aF(kB(d[4]),i);else
+h=kF(a[1]),e=aF(kF(d[1]),h);if(e)var
+i=kG(a[4]),b=aF(kG(d[4]),i);else
 var
 b=e;if(b){var
 f=d[2];if(f){var
@@ -7528,13 +7549,13 @@ b=a[2],c=a[1];if(!dK(k(c))&&!dK(k(b))){var
 e=k(c);return i(j,1,[3,k(b),e])}var
 d=k(b);return bC(j,k(c),d)}function
 ea(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-qB(a){switch(a[0]){case
+qF(a){switch(a[0]){case
 0:var
 c=[0,a[4],0],d=g(ea(a[3]),c),e=g(ea(a[2]),d);return g(ea(a[1]),e);case
 1:var
 b=a[3],f=b?ea(b[1]):b,h=g(ea(a[2]),f);return g(ea(a[1]),h);default:return ea(a[1])}}function
-qC(s,a,m){if(ak(function(a){return 9===a[1]?1:0},m)){var
-b=ae(f(a),C8),c=b?l(function(a){if(0===a[0]){var
+qG(s,a,m){if(ak(function(a){return 9===a[1]?1:0},m)){var
+b=ae(f(a),C$),c=b?l(function(a){if(0===a[0]){var
 d=a[5],e=i(j,1,k(a[2])),f=e?i(j,0,k(a[3])):e,m=f?i(j,0,k(a[4])):f,c=0;if(m)if(d)var
 p=b5(d[1]),b=l(function(a){return dw(k(a))},p);else{var
 n=1;c=1}else{var
@@ -7544,34 +7565,34 @@ o=i(j,1,k(a[4]));if(o)var
 q=b5(a[3]),r=g(b5(a[2]),q),b=l(function(a){return dw(k(a))},r);else
 var
 b=o}return b?h(s,a):b},a):b;if(c)var
-d=hS(0,a),n=d?1:d,e=n;else
+d=hU(0,a),n=d?1:d,e=n;else
 var
 e=c;return e}return a?0:1}function
-qD(a){return a?C9:C_}function
-h3(a){switch(a){case
-0:return C$;case
-1:return Da;default:return 0}}function
+qH(a){return a?Da:Db}function
+h5(a){switch(a){case
+0:return Dc;case
+1:return Dd;default:return 0}}function
 dx(a){var
 f=a[1],d=i(j,1,[2,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],f]),e=d?bC(j,a[1],a[2]):d;if(e){var
 g=a[2];return i(j,1,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],g])}return e}function
-e0(a){var
+e1(a){var
 e=bC(j,[0,d,b],a);return e?i(j,1,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],a]):e}function
-qE(c,b,a){if(0===a[0]){var
+qI(c,b,a){if(0===a[0]){var
 d=a[2],e=a[1],g=n(f(e),c),h=g?n(f(d),c):g;if(h){var
 o=V(e,d);return l(function(a){var
 b=k(a[2]);return bC(j,k(a[1]),b)},o)}return h}var
 m=b?i(j,1,k(a[3])):b;if(m){var
 p=k(a[5]);return bC(j,k(a[4]),p)}return m}function
-qF(a,e,F,E,t,s,g){function
+qJ(a,e,F,E,t,s,g){function
 u(b){var
-d=qD(a),c=n(f(b),d);return c?l(f6,b):c}var
+d=qH(a),c=n(f(b),d);return c?l(f6,b):c}var
 v=l(function(a){var
 b=u(a[1]);return b?u(a[2]):b},e);if(v)var
 G=f(e),o=ae(bF(a),G);else
 var
 o=v;var
-w=o?ae(f(e),Db):o,x=w?i(j,1,k(F)):w;if(x)var
-H=1===a?1:0,p=qE(h3(a),H,E);else
+w=o?ae(f(e),De):o,x=w?i(j,1,k(F)):w;if(x)var
+H=1===a?1:0,p=qI(h5(a),H,E);else
 var
 p=x;if(p)if(a){var
 d=d8(t);switch(d[0]){case
@@ -7580,63 +7601,63 @@ h=0;break;case
 1:var
 A=dx(d[1]),B=A?dx(d[2]):A,h=B?dx(d[3]):B;break;case
 2:var
-h=e0(d[1]);break;default:var
-C=e0(d[1]),h=C?e0(d[2]):C}var
+h=e1(d[1]);break;default:var
+C=e1(d[1]),h=C?e1(d[2]):C}var
 m=h}else
 var
 D=d8(t),J=0===D[0]?dx(D[1]):0,m=J;else
 var
 m=p;if(m)var
-I=f(e),q=qC(function(a){if(0===a[0]){var
-b=a[1],c=ae(C7,b),d=c?ae(b,I):c;if(d){if(a[5])return 0;var
+I=f(e),q=qG(function(a){if(0===a[0]){var
+b=a[1],c=ae(C_,b),d=c?ae(b,I):c;if(d){if(a[5])return 0;var
 e=1}else
 var
 e=d;return e}return 1},s,g);else
 var
 q=m;if(q)var
-b=f(e),c=bF(a),y=qD(a),r=l(function(a){var
+b=f(e),c=bF(a),y=qH(a),r=l(function(a){var
 e=a[2];if(e)var
-g=e[1],h=ae(Cm,g),w=h?ae(g,b):h,d=w;else
+g=e[1],h=ae(Cp,g),w=h?ae(g,b):h,d=w;else
 var
 d=1;switch(a[1]){case
 9:var
 i=a[4];if(typeof
-i!=="number"&&0===i[0])return a[2]?aI(c,b,a):a[3]?aI(c,b,a):1;return aI(c,b,a);case
+i!=="number"&&0===i[0])return a[2]?aJ(c,b,a):a[3]?aJ(c,b,a):1;return aJ(c,b,a);case
 10:var
 j=a[4];if(typeof
 j!=="number"&&1===j[0]){var
-k=a[3];return k?2===k[1][0]?d:aI(c,b,a):aI(c,b,a)}return aI(c,b,a);case
+k=a[3];return k?2===k[1][0]?d:aJ(c,b,a):aJ(c,b,a)}return aJ(c,b,a);case
 12:var
 l=a[4];if(typeof
-l!=="number"&&1===l[0]){if(a[2])return aI(c,b,a);var
-m=a[3];return m?3===m[1][0]?n(b,c):aI(c,b,a):aI(c,b,a)}return aI(c,b,a);case
+l!=="number"&&1===l[0]){if(a[2])return aJ(c,b,a);var
+m=a[3];return m?3===m[1][0]?n(b,c):aJ(c,b,a):aJ(c,b,a)}return aJ(c,b,a);case
 14:var
 o=a[4];if(typeof
 o!=="number"&&1===o[0]){var
 p=a[3];if(p){var
 q=p[1];if(1===q[0]){var
-r=n(f(q[1]),y),x=r?d:r;return x}return aI(c,b,a)}return aI(c,b,a)}return aI(c,b,a);case
+r=n(f(q[1]),y),x=r?d:r;return x}return aJ(c,b,a)}return aJ(c,b,a)}return aJ(c,b,a);case
 15:var
 s=a[4];if(typeof
 s!=="number"&&1===s[0]){var
 t=a[3];if(t){var
 u=t[1];if(1===u[0]){var
-v=n(f(u[1]),y),z=v?d:v;return z}return aI(c,b,a)}return aI(c,b,a)}return aI(c,b,a);default:return aI(c,b,a)}},g);else
+v=n(f(u[1]),y),z=v?d:v;return z}return aJ(c,b,a)}return aJ(c,b,a)}return aJ(c,b,a);default:return aJ(c,b,a)}},g);else
 var
 r=q;var
-z=r?h2(g):r;return z?l(kU,eZ(0,f(e),s,g)):z}function
-kV(a){switch(a[0]){case
+z=r?h4(g):r;return z?l(kZ,e0(0,f(e),s,g)):z}function
+k0(a){switch(a[0]){case
 0:var
 c=g(a[3],[0,a[4],0]),d=g(a[2],c);return g(a[1],d);case
 1:var
 b=a[3],e=b?b[1]:b,f=g(a[2],e);return g(a[1],f);case
 2:return a[1];default:var
 h=g(a[4],[0,a[5],[0,a[6],0]]),i=g(a[3],h),j=g(a[2],i);return g(a[1],j)}}function
-h4(a,b,e,T,p,m){var
+h6(a,b,e,T,p,m){var
 q=typeof
 a==="number"?a?1:a:a[1]?0:1;function
 c(a){var
-b=q?Dc:Dd;return n(f(a),b)}var
+b=q?Df:Dg;return n(f(a),b)}var
 h=d9(b),x=l(function(b){switch(b[0]){case
 0:var
 f=I(h),g=f?c(b[1]):f,i=g?c(b[2]):g;return i?c(b[3]):i;case
@@ -7659,12 +7680,12 @@ r=b[1],s=q?r?0:1:c(r),t=s?c(b[2]):s,u=t?c(b[3]):t;return u?c(b[4]):u}},b);if(x)v
 U=f(b),r=ae(as(a),U);else
 var
 r=x;var
-z=r?ae(f(b),De):r,A=z?l(f6,w(kV,b)):z;if(A){var
+z=r?ae(f(b),Dh):r,A=z?l(f6,w(k0,b)):z;if(A){var
 S=0;if(typeof
 a==="number"&&!a){var
 B=1;S=1}if(!S)var
 B=0;var
-V=q?Df:Dg,s=qE(V,B,T)}else
+V=q?Di:Dj,s=qI(V,B,T)}else
 var
 s=A;if(s)if(typeof
 a==="number")if(e)var
@@ -7692,8 +7713,8 @@ o=0;break;case
 1:var
 M=i(j,1,k(u)),N=M?dx(g[1]):M,O=N?dx(g[2]):N,o=O?dx(g[3]):O;break;case
 2:var
-P=i(j,1,k(u)),o=P?e0(g[1]):P;break;default:var
-Q=i(j,1,k(u)),R=Q?e0(g[1]):Q,o=R?e0(g[2]):R}var
+P=i(j,1,k(u)),o=P?e1(g[1]):P;break;default:var
+Q=i(j,1,k(u)),R=Q?e1(g[1]):Q,o=R?e1(g[2]):R}var
 L=o}else
 var
 L=v;var
@@ -7704,9 +7725,9 @@ d=0}else
 var
 d=s;var
 C=d?l(function(c){var
-d=qi(h,a,f(b),c);if(d)var
+d=qm(h,a,f(b),c);if(d)var
 e=d;else{var
-g=cV(c);if(g)return aI(0,0,c);var
+g=cV(c);if(g)return aJ(0,0,c);var
 e=g}return e},m):d,D=C?l(function(a){var
 e=a[1];if(4===e){var
 f=a[2];if(f)var
@@ -7720,56 +7741,56 @@ d=G(b,aR(h[1])),k=d?[0,d[1],0]:d,i=k;else
 var
 i=b;return l(function(a){switch(a[0]){case
 0:case
-3:return 1;default:return 0}},i)}return 1},m):C,E=D?h2(m):D;return E?l(kU,eZ(h,f(b),0,m)):E}function
-Dh(a){switch(a[0]){case
-0:return hk(a[1][1]);case
+3:return 1;default:return 0}},i)}return 1},m):C,E=D?h4(m):D;return E?l(kZ,e0(h,f(b),0,m)):E}function
+Dk(a){switch(a[0]){case
+0:return hm(a[1][1]);case
 1:var
-b=a[3];return b?hk(b[1]):1;default:return hk(a[1])}}function
-h5(a,k,b,d){var
-e=qC(function(g){if(0===g[0]){var
-c=g[1],d=ae(C6,c);if(d){var
+b=a[3];return b?hm(b[1]):1;default:return hm(a[1])}}function
+h7(a,k,b,d){var
+e=qG(function(g){if(0===g[0]){var
+c=g[1],d=ae(C9,c);if(d){var
 b=G(a,aR(c));if(b){if(2===b[1][0])return 0;var
 e=1}else
 var
 e=b;var
 f=e}else
 var
-f=d;return f}return 1},k,b),g=e?l(Dh,d[1]):e,h=g?ae(Di,f(a)):g;if(h)var
-m=f(a),c=l(function(a){return Cc(m,a)},b);else
+f=d;return f}return 1},k,b),g=e?l(Dk,d[1]):e,h=g?ae(Dl,f(a)):g;if(h)var
+m=f(a),c=l(function(a){return Cf(m,a)},b);else
 var
 c=h;var
-i=c?h2(b):c,j=i?l(f6,w(qB,a)):i;return j?l(C5,d[3]):j}function
-qG(m,k,a,j,i,b){var
+i=c?h4(b):c,j=i?l(f6,w(qF,a)):i;return j?l(C8,d[3]):j}function
+qK(m,k,a,j,i,b){var
 c=f(m),o=f(i),d=n(f(j),o),e=d?l(function(b){if(12===b[1]){var
 o=0,e=b[4];if(typeof
 e!=="number"&&1===e[0]){if(b[2])var
-k=aI(c,f(a),b);else
+k=aJ(c,f(a),b);else
 var
-m=b[3],q=m?0===m[1][0]?n(c,f(a)):aI(c,f(a),b):aI(c,f(a),b),k=q;var
+m=b[3],q=m?0===m[1][0]?n(c,f(a)):aJ(c,f(a),b):aJ(c,f(a),b),k=q;var
 g=k;o=1}if(!o)var
-g=aI(c,f(a),b);var
+g=aJ(c,f(a),b);var
 d=g}else
 var
-d=aI(c,f(a),b);if(d){var
+d=aJ(c,f(a),b);if(d){var
 h=b[1]-1|0;if(!(11<h>>>0))switch(h){case
 0:var
-j=b[2],p=j?[0,aR(j[1]),0]:aG(0,f(a));return l(function(c){var
+j=b[2],p=j?[0,aR(j[1]),0]:aH(0,f(a));return l(function(c){var
 b=G(a,c);return b?0===b[1][0]?0:1:b},p);case
 10:return l(function(a){return 0===a[0]?0:1},a);case
 11:return l(function(a){return 0===a[0]?0:1},a)}var
 i=1}else
 var
-i=d;return i},b):d,g=e?h2(b):e,h=g?l(function(a){return f6(a[2])},k):g;return h?l(kU,eZ(0,f(a),0,b)):h}function
-qH(a){if(a){var
+i=d;return i},b):d,g=e?h4(b):e,h=g?l(function(a){return f6(a[2])},k):g;return h?l(kZ,e0(0,f(a),0,b)):h}function
+qL(a){if(a){var
 b=a[1];if(cV(b))return 0;var
-c=[0,b,qH(a[2])]}else
+c=[0,b,qL(a[2])]}else
 var
 c=a;return c}function
 eb(h,g,d,c,b){var
-i=qH(b),k=w(function(a){return hU(h,d,c,a)},i),l=mc(e(function(a){return fF(j,g,a)},k)),a=w(qg,b),m=a?[0,a[1],a[2]]:Dj;return N(f(m),l)}function
-kW(a){return 2<=a?Dk:Dl}function
-kX(m,l,k,j,f,i){var
-g=eb(m,l,k,j,f),c=qy(i);if(c){var
+i=qL(b),k=w(function(a){return hW(h,d,c,a)},i),l=mg(e(function(a){return fF(j,g,a)},k)),a=w(qk,b),m=a?[0,a[1],a[2]]:Dm;return N(f(m),l)}function
+k1(a){return 2<=a?Dn:Do}function
+k2(m,l,k,j,f,i){var
+g=eb(m,l,k,j,f),c=qC(i);if(c){var
 a=c[1],e=0;if(typeof
 a==="number")var
 h=[0,a];else
@@ -7780,49 +7801,49 @@ var
 h=c;return h}function
 f7(b,a){var
 c=f(a5(function(a){return 0===a[0]?0:1},b));return n(f(a),c)}function
-h6(a){var
-b=V(aG(0,f(a)),a);return e(aC,a5(function(a){return ju(a[2])},b))}function
-qI(a){var
-b=a[1],c=e(h0,a[1]);return ha(h1(a[1]),c,b)}function
-kY(a){return h6(qI(a))}function
-qJ(b,a){if(a){var
-c=a[1],d=a[2],f=qJ(N(b,c[1]),d),h=c[2];return g(e(function(a){return aG(N(b,a),Dm)},h),f)}return a}function
-qK(e,a){function
+h8(a){var
+b=V(aH(0,f(a)),a);return e(aA,a5(function(a){return jz(a[2])},b))}function
+qM(a){var
+b=a[1],c=e(h2,a[1]);return hc(h3(a[1]),c,b)}function
+k3(a){return h8(qM(a))}function
+qN(b,a){if(a){var
+c=a[1],d=a[2],f=qN(N(b,c[1]),d),h=c[2];return g(e(function(a){return aH(N(b,a),Dp)},h),f)}return a}function
+qO(e,a){function
 b(f){var
 a=G(e,f);if(a){var
-b=ny(a[1]);if(b)return L(b[1],d);var
+b=nC(a[1]);if(b)return L(b[1],d);var
 c=1}else
 var
 c=a;return c}var
-c=qJ(0,a);return a5(function(a){return l(b,a)},c)}function
-qL(a){switch(a[0]){case
-0:return Dn;case
-1:return a[3]?Do:Dp;default:return Dq}}function
-Dr(a){return 0===a[0]?qL(a[1]):Ds}function
-h7(a){if(a){var
+c=qN(0,a);return a5(function(a){return l(b,a)},c)}function
+qP(a){switch(a[0]){case
+0:return Dq;case
+1:return a[3]?Dr:Ds;default:return Dt}}function
+Du(a){return 0===a[0]?qP(a[1]):Dv}function
+h9(a){if(a){var
 b=a[1];return[0,b[2],b[1]]}return[0,d,0]}function
-kZ(aB,Z,aA,Y,X,b,az,W){var
-a=hT(Z,aA,Y,X),aC=f(W),aD=e(qL,a[1]),aE=qK(qI(a),aD),aF=aB?0:kY(a),B=d_(Dt,kY(a),aF,aE,aC,W);if(B){var
+k4(aB,Z,aA,Y,X,b,az,W){var
+a=hV(Z,aA,Y,X),aC=f(W),aD=e(qP,a[1]),aE=qO(qM(a),aD),aF=aB?0:k3(a),B=d_(Dw,k3(a),aF,aE,aC,W);if(B){var
 _=B[1];if(_[2])return 0;var
-$=h5(Z,Y,X,a);if($){var
-aG=_[1],C=e(h0,a[1]),c=h1(a[1]),aH=h7(az),V=nY(j,a);if(V){var
-n=ha(c,C,a[1]),i=jr(c,C,a[1],0),ac=f(a[3]),ae=N(f(n),ac),J=[0,f(n),ae],af=a[3],E=ak(function(a){if(typeof
+$=h7(Z,Y,X,a);if($){var
+aH=_[1],C=e(h2,a[1]),c=h3(a[1]),aI=h9(az),V=n2(j,a);if(V){var
+n=hc(c,C,a[1]),i=jw(c,C,a[1],0),ac=f(a[3]),ae=N(f(n),ac),J=[0,f(n),ae],af=a[3],E=ak(function(a){if(typeof
 a!=="number"&&14===a[0])return 1;return 0},af),ag=E?w(function(a){var
-b=e(aK,fA(n,a[4]));return[0,a[4],b]},i):E,ah=g(jt(i,c,J,a[3]),ag),ai=g(bD(mZ(i)),ah),L=g(bD(fr(i)),ai),M=c6(L),O=c5(M),q=cH(O),P=l(function(a){var
+b=e(aG,fA(n,a[4]));return[0,a[4],b]},i):E,ah=g(jy(i,c,J,a[3]),ag),ai=g(bD(m3(i)),ah),L=g(bD(fr(i)),ai),M=c6(L),O=c5(M),q=cH(O),P=l(function(a){var
 b=m(d);return aX(s(h(q,a),O,b),a)},L);if(P){var
-Q=ak(u1,a[3]);if(Q){var
+Q=ak(u4,a[3]);if(Q){var
 t=C,o=a[1];for(;;){if(o){var
 p=o[1],u=bW(d,t);switch(p[0]){case
 0:var
-F=p[1],G=hd(b,F[1],u),D=0;if(G){var
-r=ap(b,[0,F[4],c]);if(r)var
+F=p[1],G=hf(b,F[1],u),D=0;if(G){var
+r=aq(b,[0,F[4],c]);if(r)var
 k=K(d,r[1][1]);else{var
 H=r;D=1}}else{var
 H=G;D=1}if(D)var
 k=H;break;case
 1:var
-I=p[3],k=I?hd(b,I[1],u):1;break;default:var
-k=hd(b,p[1],u)}if(k){var
+I=p[3],k=I?hf(b,I[1],u):1;break;default:var
+k=hf(b,p[1],u)}if(k){var
 ab=o[2],t=bI(t),o=ab;continue}var
 R=k}else
 var
@@ -7830,10 +7851,10 @@ R=1;var
 v=R;break}}else
 var
 v=Q;if(v){var
-aj=a[3],al=w(function(a){return dR(c,a)},aj),am=a[3],an=g(n,g(e(function(a){return b0(c,a)},am),al)),x=ad(e(function(a){return ap(b,a)},an));if(x){var
-ao=bg(eD(a[2]),c),y=ad(e(function(a){return ap(b,a)},ao));if(y){var
-z=ad(nL(b,aH,q,n,i,c,J,a[3]));if(z){var
-S=z[1],aq=jq(S),ar=y[1],as=a[2],at=function(a){return nM(b,as,c,a)},au=x[1],av=mZ(i),aw=h(ay(q),av),ax=fr(i);return gb(jp(b,M,h(ay(q),ax),aw,0,au,S,at),ar,aq,aG)}var
+aj=a[3],al=w(function(a){return dR(c,a)},aj),am=a[3],an=g(n,g(e(function(a){return b0(c,a)},am),al)),x=ad(e(function(a){return aq(b,a)},an));if(x){var
+ao=bg(eE(a[2]),c),y=ad(e(function(a){return aq(b,a)},ao));if(y){var
+z=ad(nP(b,aI,q,n,i,c,J,a[3]));if(z){var
+S=z[1],ap=jv(S),ar=y[1],as=a[2],at=function(a){return nQ(b,as,c,a)},au=x[1],av=m3(i),aw=h(ay(q),av),ax=fr(i);return gb(ju(b,M,h(ay(q),ax),aw,0,au,S,at),ar,ap,aH)}var
 T=z}else
 var
 T=y;var
@@ -7848,80 +7869,80 @@ A=P;return A}return V}var
 aa=$}else
 var
 aa=B;return aa}function
-Du(a){if(0===a[0])return qu(a[1]);var
-b=a[1],c=eG(b[6]);return g(eG(b[5]),c)}function
-Dv(a){if(0===a[0])return qv(a[1]);var
+Dx(a){if(0===a[0])return qy(a[1]);var
+b=a[1],c=eH(b[6]);return g(eH(b[5]),c)}function
+Dy(a){if(0===a[0])return qz(a[1]);var
 b=a[1],c=bh(b[4]);return g(bh(b[3]),c)}function
-qM(c){var
-a=w(Du,c),d=a?[0,a[1],a[2]]:w(Dv,c);return F(b,bL(d))}function
-Dw(a){if(0===a[0])return[0,h0(a[1]),d];var
+qQ(c){var
+a=w(Dx,c),d=a?[0,a[1],a[2]]:w(Dy,c);return F(b,bL(d))}function
+Dz(a){if(0===a[0])return[0,h2(a[1]),d];var
 b=a[1],c=bL(bh(b[2]));return[0,bL(bh(b[1])),c]}function
-k0(h,b,s,r,q,g,C,B,p){var
-a=kI(h,b,s,r,q,g),t=qM(a[2]),u=e(Dw,a[2]),i=j8(t,u,a[2]),D=f(p),E=qK(i,e(Dr,a[2])),F=h6(i),G=h6(i),k=d_(as(h),G,F,E,D,p);if(k){var
+k5(h,b,s,r,q,g,C,B,p){var
+a=kN(h,b,s,r,q,g),t=qQ(a[2]),u=e(Dz,a[2]),i=kb(t,u,a[2]),D=f(p),E=qO(i,e(Du,a[2])),F=h8(i),G=h8(i),k=d_(as(h),G,F,E,D,p);if(k){var
 v=k[1];if(v[2])return 0;var
-w=h4(h,b,s,r,q,g);if(w){var
-H=v[1],I=f(b),J=eb(d9(b),Dx,I,0,g),K=h7(B),y=e(wU,a[2]),m=fO(j,a[2],y);if(m)var
-z=jz(a[4]),c=cO(j,a[4],z);else
+w=h6(h,b,s,r,q,g);if(w){var
+H=v[1],I=f(b),J=eb(d9(b),DA,I,0,g),K=h9(B),y=e(wX,a[2]),m=fO(j,a[2],y);if(m)var
+z=jE(a[4]),c=cO(j,a[4],z);else
 var
 c=m;if(c){var
 n=a[5];if(n)var
-A=ht(n[1]),o=l(function(a){return fQ(j,a)},A);else
+A=hv(n[1]),o=l(function(a){return fQ(j,a)},A);else
 var
 o=1;var
 d=o}else
 var
-d=c;return d?wR(C,K,J,a,t,u,H):d}var
+d=c;return d?wU(C,K,J,a,t,u,H):d}var
 x=w}else
 var
 x=k;return x}function
-k1(r,t,ai,ah,ag,J,aP,af,v){var
+k6(r,t,ai,ah,ag,J,aP,af,v){var
 y=typeof
-r==="number"?r?Dy:Dz:h3(r[1]),B=e(k,aP),a=kI(r,t,ai,ah,ag,J),aj=kT(t,e(k,af));if(aj[2])return 0;var
-p=aj[1],ak=f7(w(kV,t),af),al=ak?h4(r,t,ai,ah,ag,J):ak;if(al)var
+r==="number"?r?DB:DC:h5(r[1]),B=e(k,aP),a=kN(r,t,ai,ah,ag,J),aj=kY(t,e(k,af));if(aj[2])return 0;var
+p=aj[1],ak=f7(w(k0,t),af),al=ak?h6(r,t,ai,ah,ag,J):ak;if(al)var
 aQ=as(r),K=n(f(B),aQ);else
 var
 K=al;if(K){if(typeof
 v!=="number"&&2===v[0]){var
-R=e(k,v[1]),aU=aw(y,R),ap=aL(am(y,R)),aV=aw(y,B),aq=aL(am(y,B)),X=fO(j,a[2],p),Y=X?cO(j,a[4],aq):X,Z=Y?cO(j,a[4],ap):Y,ar=Z?pz(j,a[1],a[3],a[5],p,aq,aV,ap,aU):Z;if(ar){var
+R=e(k,v[1]),aU=aw(y,R),ap=aL(am(y,R)),aV=aw(y,B),aq=aL(am(y,B)),X=fO(j,a[2],p),Y=X?cO(j,a[4],aq):X,Z=Y?cO(j,a[4],ap):Y,ar=Z?pD(j,a[1],a[3],a[5],p,aq,aV,ap,aU):Z;if(ar){var
 aW=as(r);return n(f(R),aW)}return ar}var
-aR=f(t),aS=hv(r),L=kX(d9(t),aS,aR,0,J,v);if(L){var
+aR=f(t),aS=hx(r),L=k2(d9(t),aS,aR,0,J,v);if(L){var
 C=L[1],g=aL(am(y,B)),m=aw(y,B),at=0;if(typeof
 v==="number"&&v){var
 N=I(d9(t));at=1}if(!at)var
 N=1;if(N){var
-T=fO(j,a[2],p),U=T?jS(j,a,g,m):T;if(U)var
+T=fO(j,a[2],p),U=T?jX(j,a,g,m):T;if(U)var
 o=a[5],W=a[3],z=a[1],aD=a[6],au=e(function(a){if(0===a[0])var
 e=bw(o,m,g,a),c=bE(a[1],e);else
 var
-d=a[1],f=jE(d,bw(o,m,g,a)),h=d[4],i=bw(o,m,g,a),j=M(function(b,a){return[2,b,a]},i,h),c=M(function(b,a){return[3,b,a]},j,f);return[0,jP(z,c,S([5,[0,b,b],W],dh(eN(o,m,eM(a)),c)))]},p),av=w(function(a){return jR(o,m,g,a)},p),ax=function(a){var
-b=eN(o,m,a);return M(function(b,a){return[2,b,a]},g,b)},ay=0,az=e(function(f){var
+d=a[1],f=jJ(d,bw(o,m,g,a)),h=d[4],i=bw(o,m,g,a),j=M(function(b,a){return[2,b,a]},i,h),c=M(function(b,a){return[3,b,a]},j,f);return[0,jU(z,c,S([5,[0,b,b],W],dh(eO(o,m,eN(a)),c)))]},p),av=w(function(a){return jW(o,m,g,a)},p),ax=function(a){var
+b=eO(o,m,a);return M(function(b,a){return[2,b,a]},g,b)},ay=0,az=e(function(f){var
 c=bw(o,m,g,f);if(0===f[0]){var
 a=f[1];switch(a[0]){case
 0:var
-i=a[4],j=a[3],k=a[2],h=a[1],n=cl(h,k,j,i,c),l=cP(a[5],n),p=S(l,aA(h)),q=fC(h,k,j,c);return[0,[0,jQ(z,M(function(b,a){return[2,b,a]},q,p)),l,i]];case
+i=a[4],j=a[3],k=a[2],h=a[1],n=cl(h,k,j,i,c),l=cP(a[5],n),p=S(l,aB(h)),q=fC(h,k,j,c);return[0,[0,jV(z,M(function(b,a){return[2,b,a]},q,p)),l,i]];case
 1:var
-r=bE(a,c),s=[6,x(bE(a,c),r)];return[0,[0,jQ(z,bE(a,c)),[0,d,b],s]];default:return 0}}var
-e=f[1],t=e[6],u=eF(e,c),v=jE(e,c),w=e[4],y=M(function(b,a){return[2,b,a]},c,w);return[0,[0,jQ(z,M(function(b,a){return[3,b,a]},y,v)),u,t]]},p),aB=e(function(a){return eO(o,m,g,a)},p),aC=[0,e(function(a){if(0===a[0])var
+r=bE(a,c),s=[6,x(bE(a,c),r)];return[0,[0,jV(z,bE(a,c)),[0,d,b],s]];default:return 0}}var
+e=f[1],t=e[6],u=eG(e,c),v=jJ(e,c),w=e[4],y=M(function(b,a){return[2,b,a]},c,w);return[0,[0,jV(z,M(function(b,a){return[3,b,a]},y,v)),u,t]]},p),aA=e(function(a){return eP(o,m,g,a)},p),aC=[0,e(function(a){if(0===a[0])var
 l=bw(o,m,g,a),d=cm(a[1],l);else
 var
-e=bw(o,m,g,a),c=a[1],f=jE(c,e),h=c[4],i=M(function(b,a){return[2,b,a]},e,h),j=M(function(b,a){return[3,b,a]},i,f),k=eF(c,e),d=S([5,[0,b,b],[4,c[5],k]],j);return jP(z,d,S([5,[0,b,b],W],dh(eN(o,m,eM(a)),d)))},p),aB,az,ay,ax,av,au],aE=as(a[1]),O=jB(j,hv(a[1]),aE,aC,aD,C);else
+e=bw(o,m,g,a),c=a[1],f=jJ(c,e),h=c[4],i=M(function(b,a){return[2,b,a]},e,h),j=M(function(b,a){return[3,b,a]},i,f),k=eG(c,e),d=S([5,[0,b,b],[4,c[5],k]],j);return jU(z,d,S([5,[0,b,b],W],dh(eO(o,m,eN(a)),d)))},p),aA,az,ay,ax,av,au],aE=as(a[1]),O=jG(j,hx(a[1]),aE,aC,aD,C);else
 var
 O=U;if(O)var
 P=O;else{if(typeof
 C!=="number"&&0===C[0]){var
 E=C[2];if(E){if(E[2])return 0;var
-Q=E[1],_=a[1],D=a[5],aT=C[1],$=fO(j,a[2],p),aa=$?jS(j,a,g,m):$;if(aa){var
-aG=a[6],F=eE(j,hv(_),aT,aG);if(F){var
+Q=E[1],_=a[1],D=a[5],aT=C[1],$=fO(j,a[2],p),aa=$?jX(j,a,g,m):$;if(aa){var
+aG=a[6],F=eF(j,hx(_),aT,aG);if(F){var
 A=F[1][1];if(typeof
 A!=="number"&&16===A[0]){var
-s=A[1],aH=a[2],aI=e(function(a){return eO(D,m,g,pM(a))},aH),ad=h(co(cS),s);if(ad)var
+s=A[1],aH=a[2],aI=e(function(a){return eP(D,m,g,pQ(a))},aH),ad=h(co(cS),s);if(ad)var
 aF=h(gz(c(2,b)),cS),u=[0,bq(d,ad[1][1]),aF];else
 var
 u=[0,d,b];var
 ae=i(j,0,s);if(ae)var
 aJ=a[2],G=l(function(a){var
-b=pM(a);if(0===b[0])return 1;var
-c=b[1],d=[1,c],e=cp(j,s),f=e?oI(j,a,d):e;return f?i(j,1,jD(c,bw(D,m,g,d))):f},aJ);else
+b=pQ(a);if(0===b[0])return 1;var
+c=b[1],d=[1,c],e=cp(j,s),f=e?oM(j,a,d):e;return f?i(j,1,jI(c,bw(D,m,g,d))):f},aJ);else
 var
 G=ae;if(G)var
 aK=f(a[2]),H=n(f(Q),aK);else
@@ -7930,22 +7951,22 @@ H=G;if(H){var
 aM=V(Q,aI),aN=V(V(p,e(function(o){var
 a=o[2],f=o[1];if(typeof
 a!=="number"&&1===a[0]){var
-g=a[2],k=a[1],p=c(2,c(2,c(2,q(c(2,c(2,b)))))),e=hK(s,a9(u,dH([0,b,b],[0,b,h(gz(c(2,b)),p)])),f,[1,k,g]);if(typeof
+g=a[2],k=a[1],p=c(2,c(2,c(2,q(c(2,c(2,b)))))),e=hM(s,a9(u,dH([0,b,b],[0,b,h(gz(c(2,b)),p)])),f,[1,k,g]);if(typeof
 e!=="number"&&1===e[0]){var
 d=d2([5,e[2],[2,[0,b,b],e[1]]]),r=[4,g,dU(d)],l=[2,[4,k,dT(d)],r],t=[4,g,dT(d)],m=[3,[4,k,dU(d)],t],n=[4,ba(u),[2,[0,b,b],l]];if(i(j,1,[2,[0,b,b],l])&&i(j,0,[3,n,m])&&i(j,0,[2,n,m])){var
-v=dU(d);return[1,dT(d),v]}return hK(s,u,f,a)}return hK(s,u,f,a)}return hK(s,u,f,a)},aM)),Q),aO=w(function(t){var
-l=t[1],a=l[2],f=l[1],h=t[2],i=eN(D,m,eM(f)),e=bw(D,m,g,f);if(0===f[0]){var
+v=dU(d);return[1,dT(d),v]}return hM(s,u,f,a)}return hM(s,u,f,a)}return hM(s,u,f,a)},aM)),Q),aO=w(function(t){var
+l=t[1],a=l[2],f=l[1],h=t[2],i=eO(D,m,eN(f)),e=bw(D,m,g,f);if(0===f[0]){var
 d=f[1];switch(d[0]){case
 0:var
 n=d[4],o=d[3],j=d[2],k=d[1];if(typeof
 a!=="number"&&0===a[0]){var
-p=a[1],u=0,v=S(p,aA(k)),w=M(function(b,a){return[3,b,a]},g,j),y=M(function(b,a){return[3,b,a]},w,v),z=aZ(j,o,e),A=[3,x(aA(k),z),p],B=cl(k,j,o,n,e);return[0,[0,d2([5,[0,h,b],[2,cP(d[5],B),A]]),n,y,i],u]}return 0;case
+p=a[1],u=0,v=S(p,aB(k)),w=M(function(b,a){return[3,b,a]},g,j),y=M(function(b,a){return[3,b,a]},w,v),z=aZ(j,o,e),A=[3,x(aB(k),z),p],B=cl(k,j,o,n,e);return[0,[0,d2([5,[0,h,b],[2,cP(d[5],B),A]]),n,y,i],u]}return 0;case
 1:if(typeof
 a!=="number"&&0===a[0]){var
 q=a[1],C=0,E=d[1],F=M(function(b,a){return[3,b,a]},g,E);return[0,[0,d2([5,[0,h,b],[2,q,cQ(d,e)]]),q,F,i],C]}return 0;default:return 0}}var
 c=f[1];if(typeof
 a!=="number"&&1===a[0]){var
-r=a[2],s=a[1],G=[4,r,fH(c,e)],H=[3,[4,s,fI(c,e)],G],J=S(r,hg(c)),I=0,K=S(s,fG(c)),L=M(function(b,a){return[2,b,a]},K,J),N=S(c[5],L),O=c[3],P=M(function(b,a){return[2,b,a]},O,N),Q=M(function(b,a){return[3,b,a]},g,P),R=c[6],T=[2,eF(c,e),H];return[0,[0,d2([5,[0,h,b],[4,c[5],T]]),R,Q,i],I]}return 0},aN);return pK(j,_,A[2],A[3],aO)}return H}var
+r=a[2],s=a[1],G=[4,r,fH(c,e)],H=[3,[4,s,fI(c,e)],G],J=S(r,hi(c)),I=0,K=S(s,fG(c)),L=M(function(b,a){return[2,b,a]},K,J),N=S(c[5],L),O=c[3],P=M(function(b,a){return[2,b,a]},O,N),Q=M(function(b,a){return[3,b,a]},g,P),R=c[6],T=[2,eG(c,e),H];return[0,[0,d2([5,[0,h,b],[4,c[5],T]]),R,Q,i],I]}return 0},aN);return pO(j,_,A[2],A[3],aO)}return H}var
 ab=0}else
 var
 ab=F;var
@@ -7969,16 +7990,16 @@ var
 d=c;var
 e=d}else
 var
-e=b;return e}return DA}function
-h8(g,k,j,a,i){var
+e=b;return e}return DD}function
+h_(g,k,j,a,i){var
 l=f(g),h=n(f(a),l);if(h){var
 m=V(V(g,V(k,j)),a);return e(function(f){var
-g=f[1],h=g[2],j=dH(h[2],h[1]),a=aO(g[1],i),k=D(d,a)?mg(cb(c(2,b),a)):[0,b,en(cb(c(2,b),Q(a)))],l=dI(gJ(a9([0,c(2,b),b],k),j)),m=f[2];return e(function(a){return dI(a9(mg(a),l))},m)},m)}return h}function
-k2(u,aU,aq,ap,t,ao,a){var
-c=hT(u,aU,aq,ap),ar=f7(w(qB,u),ao),g=ar?h5(u,aq,ap,c):ar;if(t){var
+g=f[1],h=g[2],j=dH(h[2],h[1]),a=aO(g[1],i),k=D(d,a)?mk(cb(c(2,b),a)):[0,b,eo(cb(c(2,b),Q(a)))],l=dI(gJ(a9([0,c(2,b),b],k),j)),m=f[2];return e(function(a){return dI(a9(mk(a),l))},m)},m)}return h}function
+k7(u,aU,aq,ap,t,ao,a){var
+c=hV(u,aU,aq,ap),ar=f7(w(qF,u),ao),g=ar?h7(u,aq,ap,c):ar;if(t){var
 v=t[2];if(v){var
 x=v[2];if(x){if(x[2])return 0;var
-h=x[1],i=v[1],m=t[1],as=qz(u,e(k,ao));if(as[2])return 0;var
+h=x[1],i=v[1],m=t[1],as=qD(u,e(k,ao));if(as[2])return 0;var
 f=as[1];if(typeof
 a!=="number")switch(a[0]){case
 2:var
@@ -7998,7 +8019,7 @@ aB=N}else
 var
 aB=M;return aB}if(g){var
 aZ=k(L[1]),a1=k(K[1]),aC=[0,k(J[1]),a1,aZ],a2=k(h),a3=k(i),aD=[0,k(m),a3,a2],X=fB(j,c,f,aD),Y=X?cO(j,c[2],aC):X;if(Y){var
-aR=0,aS=0;return pz(j,0,[0,b,b],0,e(function(a){return[0,a]},f),aD,aS,aC,aR)}return Y}return g}var
+aR=0,aS=0;return pD(j,0,[0,b,b],0,e(function(a){return[0,a]},f),aD,aS,aC,aR)}return Y}return g}var
 O=f5(c,a);if(O){var
 a4=k(h),a5=k(i),aE=[0,k(m),a5,a4];if(g){var
 aF=fE(j,c,f,aE,O[1]);if(aF)var
@@ -8042,22 +8063,22 @@ aN==="number"&&aN){var
 V=cW(a[2]);if(V){var
 n=V[1],W=cW(a[3]);if(W){var
 o=W[1];if(g){var
-a_=h8([0,d,[0,d,[0,d,0]]],n,o,a[4],a[5]),a$=k(h),ba=k(i),D=[0,k(m),ba,a$];if(n){var
+a_=h_([0,d,[0,d,[0,d,0]]],n,o,a[4],a[5]),a$=k(h),ba=k(i),D=[0,k(m),ba,a$];if(n){var
 p=n[2];if(p){var
 q=p[2];if(q){if(q[2])return 0;if(o){var
 r=o[2];if(r){var
 s=r[2];if(s){if(s[2])return 0;var
-Z=s[1],_=r[1],$=o[1],aa=q[1],ab=p[1],ac=n[1],ad=[0,[1,0,ac,$],[1,xd,ab,_],[1,xc,aa,Z]],ae=fB(j,c,f,D);if(ae)var
+Z=s[1],_=r[1],$=o[1],aa=q[1],ab=p[1],ac=n[1],ad=[0,[1,0,ac,$],[1,xg,ab,_],[1,xf,aa,Z]],ae=fB(j,c,f,D);if(ae)var
 aT=c[3],E=ak(function(a){if(typeof
 a==="number"&&a)return 1;return 0},aT);else
 var
 E=ae;var
-af=E?hG(n,o):E,ag=af?km(j,c[2],[0,[0,ac,ab],aa],[0,[0,$,_],Z]):af,ah=ag?eR(j,n,o,a0(D)):ag,ai=ah?l(function(a){var
-b=eQ(kn(a)),c=b?eQ([0,cQ(a,D),0]):b;if(c){var
-d=jx(a,ad);if(d)return kl(j,xe,d[1]);var
+af=E?hI(n,o):E,ag=af?kr(j,c[2],[0,[0,ac,ab],aa],[0,[0,$,_],Z]):af,ah=ag?eS(j,n,o,a0(D)):ag,ai=ah?l(function(a){var
+b=eR(ks(a)),c=b?eR([0,cQ(a,D),0]):b;if(c){var
+d=jC(a,ad);if(d)return kq(j,xh,d[1]);var
 e=1}else
 var
-e=c;return e},f):ah;if(ai)return hF(j,e(function(a){var
+e=c;return e},f):ah;if(ai)return hH(j,e(function(a){var
 b=cQ(a,D);return[3,cQ(a,ad),b]},f),a_);var
 aj=ai}else
 var
@@ -8106,21 +8127,21 @@ ax=v;var
 ay=ax}else
 var
 ay=t;return ay}function
-qN(n,m,b,l,C,B){var
+qR(n,m,b,l,C,B){var
 f=C,d=B;for(;;){if(0===d[0]){var
-h=d[1],i=G(f,h),o=i?aD(i[1][2],DD):i;if(o)var
-D=d[2],j=qN(n,m,b,l,kQ(0,h,f),D);else
+h=d[1],i=G(f,h),o=i?aD(i[1][2],DG):i;if(o)var
+D=d[2],j=qR(n,m,b,l,kV(0,h,f),D);else
 var
 j=o;if(j){var
-E=d[3],f=kQ(1,h,f),d=E;continue}return j}var
-c=d[1],a=qs(0,n,f),p=e(function(b){function
-d(b){return qt(a,b)}function
-c(a){return kO(d,a)}switch(b[0]){case
+E=d[3],f=kV(1,h,f),d=E;continue}return j}var
+c=d[1],a=qw(0,n,f),p=e(function(b){function
+d(b){return qx(a,b)}function
+c(a){return kT(d,a)}switch(b[0]){case
 0:var
-e=b[5],f=qt(a,b[4]),g=c(b[3]),h=c(b[2]);return[0,c(b[1]),h,g,f,e];case
+e=b[5],f=qx(a,b[4]),g=c(b[3]),h=c(b[2]);return[0,c(b[1]),h,g,f,e];case
 1:var
 i=y(c,b[3]),j=c(b[2]);return[1,c(b[1]),j,i];default:return[2,c(b[1])]}},m);if(0===b[0])var
-t=b[2],u=kO(function(b){return az(a,b)},t),v=b[1],k=[0,kO(function(b){return az(a,b)},v),u];else
+t=b[2],u=kT(function(b){return az(a,b)},t),v=b[1],k=[0,kT(function(b){return az(a,b)},v),u];else
 var
 w=az(a,b[5]),x=az(a,b[4]),z=az(a,b[3]),A=az(a,b[2]),k=[1,az(a,b[1]),A,z,x,w];var
 q=e(function(g){var
@@ -8148,13 +8169,13 @@ i=h;return[0,g[1],g[2],i,d]},l);if(typeof
 c==="number")return 1;else
 switch(c[0]){case
 0:return 0;case
-1:return kZ(1,p,k,0,q,c[1],c[2],c[3]);default:var
+1:return k4(1,p,k,0,q,c[1],c[2],c[3]);default:var
 g=c[4],s=0;if(typeof
 g!=="number"&&2===g[0]){var
 J=g[1],r=[2,e(function(b){return az(a,b)},J)];s=1}if(!s)var
 r=g;var
-F=c[3],H=e(function(b){return az(a,b)},F),I=c[2];return k2(p,k,0,q,e(function(b){return az(a,b)},I),H,r)}}}function
-qO(h,g){var
+F=c[3],H=e(function(b){return az(a,b)},F),I=c[2];return k7(p,k,0,q,e(function(b){return az(a,b)},I),H,r)}}}function
+qS(h,g){var
 a=cK(k(h));if(a){var
 c=a[1],e=bl([0,d,b],c);if(e)return bl(c,g);var
 f=e}else
@@ -8164,13 +8185,13 @@ f8(b,a){if(a){var
 c=a[1],d=s(c,b,0);if(d)var
 g=am(c,b),e=[0,[0,f(a5(function(a){return a},g))]];else
 var
-e=d;return e}return DF}function
-qP(b,c,a){return w(function(a){if(b7(a)){var
-d=hU(0,b,0,a);return ac(1,mc(e(function(a){return fF(j,DG,a)},d)))}return ac(0,f(qf(b,c,a)))},a)}function
-qQ(c,a){return e(function(a){var
+e=d;return e}return DI}function
+qT(b,c,a){return w(function(a){if(b7(a)){var
+d=hW(0,b,0,a);return ac(1,mg(e(function(a){return fF(j,DJ,a)},d)))}return ac(0,f(qj(b,c,a)))},a)}function
+qU(c,a){return e(function(a){var
 b=a[4],d=a[3],e=a[2],f=a[1];return[0,w(function(b){var
 a=f8(c,b[1]),d=a?[0,[0,a[1],b[2]],0]:a;return d},f),e,d,b]},a)}function
-qR(b,a){if(typeof
+qV(b,a){if(typeof
 a!=="number")switch(a[0]){case
 0:var
 c=a[2],d=f8(b,a[1]);return y(function(a){return[0,a,c]},d);case
@@ -8178,8 +8199,8 @@ c=a[2],d=f8(b,a[1]);return y(function(a){return[0,a,c]},d);case
 e=a[2],f=f8(b,a[1]);return y(function(a){return[1,a,e]},f);case
 3:var
 g=a[5],h=a[4],i=a[3],j=a[2],k=f8(b,a[1]);return y(function(a){return[3,a,j,i,h,g]},k)}return[0,a]}function
-DM(v){var
-gM=hR(v[3]),gN=gM?hR(v[4]):gM;if(gN){var
+DP(v){var
+gM=hT(v[3]),gN=gM?hT(v[4]):gM;if(gN){var
 ah=v[1];switch(ah[0]){case
 3:var
 gT=l(f2,ah[1]);if(gT)var
@@ -8187,12 +8208,12 @@ lO=ah[2],dn=l(function(a){return f2(a[1])},lO);else
 var
 dn=gT;if(dn)var
 lP=ah[3],dp=l(function(a){var
-b=f2(a[1]),c=b?kE(a[2]):b;return c?f3(a[2]):c},lP);else
+b=f2(a[1]),c=b?kJ(a[2]):b;return c?f3(a[2]):c},lP);else
 var
 dp=dn;if(dp)var
 lQ=ah[4],bS=l(function(a){var
 b=0===a[0]?a[1]:[0,a[1],0];return l(function(a){var
-b=kE(a);return b?f3(a):b},b)},lQ);else
+b=kJ(a);return b?f3(a):b},b)},lQ);else
 var
 bS=dp;break;case
 7:var
@@ -8203,29 +8224,29 @@ dl=bS}else
 var
 dl=gN;var
 eo=0;if(dl){var
-gO=v[1],dm=7===gO[0]?e(aC,gO[1]):0,gP=function(c,b){var
-a=qc(c);return a?l(function(a){var
-e=a[1],b=l(function(a){return kD(a[2])},e);if(b){var
-c=a[3];if(c)return f4(dm,qb(c[1]));var
+gO=v[1],dm=7===gO[0]?e(aA,gO[1]):0,gP=function(c,b){var
+a=qg(c);return a?l(function(a){var
+e=a[1],b=l(function(a){return kI(a[2])},e);if(b){var
+c=a[3];if(c)return f4(dm,qf(c[1]));var
 d=1}else
 var
 d=b;return d},b):a},gQ=function(e,d,c,b){var
-a=qc(e);return a?f4(dm,g(d,g(c,qb(b)))):a},o=v[1];switch(o[0]){case
+a=qg(e);return a?f4(dm,g(d,g(c,qf(b)))):a},o=v[1];switch(o[0]){case
 0:var
-ln=w(d6,o[4]),lo=g(w(p$,o[3]),ln),lp=g(p9(o[2]),lo),ai=g(w(kF,o[1]),lp);break;case
+ln=w(d6,o[4]),lo=g(w(qd,o[3]),ln),lp=g(qb(o[2]),lo),ai=g(w(kK,o[1]),lp);break;case
 1:var
-df=o[5],dg=o[3],lq=w(d6,o[6]),lr=df?p_(df[1]):df,ls=g(lr,lq),lt=g(p8(o[4]),ls),lu=dg?[0,dg[1],0]:dg,lv=g(lu,lt),ai=g(w(B_,o[2]),lv);break;case
+df=o[5],dg=o[3],lq=w(d6,o[6]),lr=df?qc(df[1]):df,ls=g(lr,lq),lt=g(qa(o[4]),ls),lu=dg?[0,dg[1],0]:dg,lv=g(lu,lt),ai=g(w(Cb,o[2]),lv);break;case
 2:var
-lw=w(d6,o[7]),lx=g(w(p$,o[6]),lw),ly=g(p_(o[5]),lx),lz=g(p8(o[4]),ly),lA=[0,o[3],lz],lB=o[2],ai=g(w(function(a){return w(eX,g(a[1],a[2]))},lB),lA);break;case
+lw=w(d6,o[7]),lx=g(w(qd,o[6]),lw),ly=g(qc(o[5]),lx),lz=g(qa(o[4]),ly),lA=[0,o[3],lz],lB=o[2],ai=g(w(function(a){return w(eY,g(a[1],a[2]))},lB),lA);break;case
 3:var
-lC=w(d6,o[7]),lD=g(o[6],lC),lE=g(o[5],lD),lF=o[2],ai=g(w(function(a){return eX(a[2])},lF),lE);break;case
+lC=w(d6,o[7]),lD=g(o[6],lC),lE=g(o[5],lD),lF=o[2],ai=g(w(function(a){return eY(a[2])},lF),lE);break;case
 4:var
 lG=w(d6,o[3]),ai=[0,o[1],[0,o[2],lG]];break;case
 5:var
-lH=w(d6,o[4]),lI=g(b5(o[3]),lH),lJ=g(b5(o[2]),lI),lK=g(w(kF,o[1]),lJ),ai=[0,o[5],lK];break;case
+lH=w(d6,o[4]),lI=g(b5(o[3]),lH),lJ=g(b5(o[2]),lI),lK=g(w(kK,o[1]),lJ),ai=[0,o[5],lK];break;case
 6:var
-dj=o[1],ai=dj?eX(dj[1]):dj;break;default:var
-lL=w(d6,o[4]),lM=g(p9(o[3]),lL),ai=g(w(kF,o[2]),lM)}var
+dj=o[1],ai=dj?eY(dj[1]):dj;break;default:var
+lL=w(d6,o[4]),lM=g(qb(o[3]),lL),ai=g(w(kK,o[2]),lM)}var
 gR=f4(dm,ai);if(gR){var
 aj=v[2];switch(aj[0]){case
 0:var
@@ -8241,64 +8262,64 @@ gS=dl;eo=1}if(eo)var
 br=gS;if(br){var
 a=v[1];switch(a[0]){case
 0:var
-P=a[4],an=a[3],ao=a[2],R=a[1],aJ=v[2];switch(aJ[0]){case
+P=a[4],an=a[3],ao=a[2],R=a[1],aK=v[2];switch(aK[0]){case
 0:var
-dI=aJ[3],hr=aJ[2],dJ=aJ[1],g6=qP(f(R),an,P),lZ=a5(function(a){return I(b7(a))},P);if(ak(b7,P)){var
-g7=kZ(0,R,ao,an,lZ,dJ,hr,qQ(e(I,g6),dI));if(g7){var
-l0=qQ(g6,dI),l1=a5(b7,P),l2=kK(ao);return k0(0,e(kJ,R),0,l2,0,l1,dJ,0,l0)}return g7}return kZ(0,R,ao,an,P,dJ,hr,dI);case
+dI=aK[3],hr=aK[2],dJ=aK[1],g6=qT(f(R),an,P),lZ=a5(function(a){return I(b7(a))},P);if(ak(b7,P)){var
+g7=k4(0,R,ao,an,lZ,dJ,hr,qU(e(I,g6),dI));if(g7){var
+l0=qU(g6,dI),l1=a5(b7,P),l2=kP(ao);return k5(0,e(kO,R),0,l2,0,l1,dJ,0,l0)}return g7}return k4(0,R,ao,an,P,dJ,hr,dI);case
 1:var
-dK=aJ[4],dM=aJ[3],dN=aJ[2],g8=qP(f(R),an,P),dz=a5(function(a){return I(b7(a))},P);if(ak(b7,P)){var
-l3=a5(b7,P),l4=kK(ao),g9=h4(0,e(kJ,R),0,l4,0,l3);if(g9)var
-dA=qR(e(I,g8),dK),l5=dA?k2(R,ao,an,dz,dN,dM,dA[1]):dA,dB=l5;else
+dK=aK[4],dM=aK[3],dN=aK[2],g8=qT(f(R),an,P),dz=a5(function(a){return I(b7(a))},P);if(ak(b7,P)){var
+l3=a5(b7,P),l4=kP(ao),g9=h6(0,e(kO,R),0,l4,0,l3);if(g9)var
+dA=qV(e(I,g8),dK),l5=dA?k7(R,ao,an,dz,dN,dM,dA[1]):dA,dB=l5;else
 var
 dB=g9;if(dB)var
 dC=dB;else{var
-g_=h5(R,an,dz,hT(R,ao,an,dz));if(g_){var
-dD=qR(g8,dK);if(dD){var
-l6=dD[1],l7=a5(b7,P),l8=kK(ao);return k1(0,e(kJ,R),0,l8,0,l7,dN,dM,l6)}var
+g_=h7(R,an,dz,hV(R,ao,an,dz));if(g_){var
+dD=qV(g8,dK);if(dD){var
+l6=dD[1],l7=a5(b7,P),l8=kP(ao);return k6(0,e(kO,R),0,l8,0,l7,dN,dM,l6)}var
 dC=dD}else
 var
-dC=g_}return dC}return k2(R,ao,an,P,dN,dM,dK);default:return 0}case
+dC=g_}return dC}return k7(R,ao,an,P,dN,dM,dK);default:return 0}case
 1:var
 bs=a[6],bW=a[5],bX=a[4],bY=a[3],X=a[2],T=a[1],aM=v[2];switch(aM[0]){case
-0:return k0(T,X,bY,bX,bW,bs,aM[1],aM[2],aM[3]);case
+0:return k5(T,X,bY,bX,bW,bs,aM[1],aM[2],aM[3]);case
 1:var
-aq=aM[4],dP=aM[3],hs=aM[2];if(typeof
-aq!=="number"&&3===aq[0]){var
-mh=aq[5],mi=aq[4],mj=aq[3],mk=aq[2],ml=aq[1],r=typeof
-T==="number"?T?DB:DC:h3(T[1]),gV=dE(as(T),r),ds=e(k,hs),a7=kI(T,X,bY,bX,bW,bs),gW=qM(a7[2]),gX=kT(X,e(k,dP));if(gX[2])return 0;var
+ap=aM[4],dP=aM[3],hs=aM[2];if(typeof
+ap!=="number"&&3===ap[0]){var
+mh=ap[5],mi=ap[4],mj=ap[3],mk=ap[2],ml=ap[1],r=typeof
+T==="number"?T?DE:DF:h5(T[1]),gV=dE(as(T),r),ds=e(k,hs),a7=kN(T,X,bY,bX,bW,bs),gW=qQ(a7[2]),gX=kY(X,e(k,dP));if(gX[2])return 0;var
 dt=cW(mk);if(dt){var
 W=dt[1],du=cW(mj);if(du){var
-aF=du[1],gY=f7(w(kV,X),dP),gZ=gY?h4(T,X,bY,bX,bW,bs):gY;if(gZ)var
+aF=du[1],gY=f7(w(k0,X),dP),gZ=gY?h6(T,X,bY,bX,bW,bs):gY;if(gZ)var
 lT=as(T),dv=n(f(ds),lT);else
 var
 dv=gZ;if(dv)var
-lU=f(X),lV=hv(T),dx=n(ml,eb(d9(X),lV,lU,0,bs));else
+lU=f(X),lV=hx(T),dx=n(ml,eb(d9(X),lV,lU,0,bs));else
 var
 dx=dv;if(dx){if(d9(X))var
 lW=ac(d,gV),g0=g(ac(gW,r),lW);else
 var
 lY=ac(Q(gW),gV),g0=g(ac(d,r),lY);var
-lX=h8(g0,W,aF,mi,mh),al=aw(r,ds),bn=aL(am(r,ds)),dy=gX[1],O=a7[5],fE=kk(0,W,aF),cD=pF(am(r,fE)),cF=aw(r,fE),fG=a7[7],fH=fG?fO(j,a7[2],dy):fG,fI=fH?jS(j,a7,bn,al):fH,fJ=fI?ae(r,xo):fI;if(fJ)var
-ka=N(r,f(al)),cG=n(f(W),ka);else
+lX=h_(g0,W,aF,mi,mh),al=aw(r,ds),bn=aL(am(r,ds)),dy=gX[1],O=a7[5],fE=kp(0,W,aF),cD=pJ(am(r,fE)),cF=aw(r,fE),fG=a7[7],fH=fG?fO(j,a7[2],dy):fG,fI=fH?jX(j,a7,bn,al):fH,fJ=fI?ae(r,xr):fI;if(fJ)var
+j$=N(r,f(al)),cG=n(f(W),j$);else
 var
 cG=fJ;var
-fL=cG?hG(W,aF):cG;if(fL)var
-kd=hH(am(r,aF)),kh=hH(am(r,W)),cI=km(j,a7[4],kh,kd);else
+fL=cG?hI(W,aF):cG;if(fL)var
+ka=hJ(am(r,aF)),kb=hJ(am(r,W)),cI=kr(j,a7[4],kb,ka);else
 var
 cI=fL;if(cI){var
-kj=aw(r,aF),kp=aw(r,W);if(O)var
-fC=O[1],j$=0===fC[0]?xm:xn,fD=n(f(al),j$),fM=fD?pE(j,fC,kp,kj):fD;else
+kc=aw(r,aF),ke=aw(r,W);if(O)var
+fC=O[1],j_=0===fC[0]?xp:xq,fD=n(f(al),j_),fM=fD?pI(j,fC,ke,kc):fD;else
 var
 fM=n(f(al),0);var
 cJ=fM}else
 var
 cJ=cI;if(cJ){var
-kr=am(r,a0(bn)),kt=am(r,aF),fN=eR(j,am(r,W),kt,kr);if(fN)var
+kf=am(r,a0(bn)),ki=am(r,aF),fN=eS(j,am(r,W),ki,kf);if(fN)var
 a4=fN;else
 if(O){var
-fS=pD(O[1]);if(fS)var
-ku=aw(r,aF),a4=eR(j,aw(r,W),ku,al);else
+fS=pH(O[1]);if(fS)var
+km=aw(r,aF),a4=eS(j,aw(r,W),km,al);else
 var
 a4=fS}else
 var
@@ -8306,24 +8327,24 @@ a4=O}else
 var
 a4=cJ;var
 fP=a4?l(function(b){var
-a=eO(O,al,bn,b),t=typeof
+a=eP(O,al,bn,b),t=typeof
 a==="number"?0:0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]];if(0===b[0])var
-k=kn(b[1]);else
+k=ks(b[1]);else
 var
 c=b[1],p=[0,c[5],[0,c[6],0]],q=g(a0(c[4]),p),r=g(a0(c[3]),q),s=g(a0(c[2]),r),k=g(a0(c[1]),s);var
-m=eQ(g(k,t));if(m)var
-u=jR(O,al,bn,b),v=1,e=l(function(a){return i(j,v,a)},u);else
+m=eR(g(k,t));if(m)var
+u=jW(O,al,bn,b),v=1,e=l(function(a){return i(j,v,a)},u);else
 var
 e=m;if(e){var
-d=eO(O,cF,cD,b),n=0;if(typeof
+d=eP(O,cF,cD,b),n=0;if(typeof
 d==="number"||!(1===d[0]))n=1;else{var
 o=0;if(typeof
 a!=="number"&&1===a[0]){var
 h=[0,[2,[4,d[1],a[1]],[4,d[2],a[2]]],0];o=1}if(!o)var
 h=0}if(n)var
 h=0;var
-w=g(jR(O,cF,cD,b),h),x=f(W);return l(function(a){return kl(j,x,a)},w)}return e},dy):a4;return fP?hF(j,e(function(d){var
-a=eO(O,al,bn,d),c=eO(O,cF,cD,d);if(typeof
+w=g(jW(O,cF,cD,b),h),x=f(W);return l(function(a){return kq(j,x,a)},w)}return e},dy):a4;return fP?hH(j,e(function(d){var
+a=eP(O,al,bn,d),c=eP(O,cF,cD,d);if(typeof
 c==="number")return[0,b,b];else{if(0===c[0]){if(typeof
 a!=="number"&&0===a[0])return[3,c[1],a[1]];return[0,b,b]}if(typeof
 a!=="number"&&1===a[0])return[3,[4,c[2],a[1]],[4,c[1],a[2]]];return[0,b,b]}},dy),lX):fP}var
@@ -8332,91 +8353,91 @@ var
 g1=du;var
 g2=g1}else
 var
-g2=dt;return g2}return k1(T,X,bY,bX,bW,bs,hs,dP,aq);default:return 0}case
+g2=dt;return g2}return k6(T,X,bY,bX,bW,bs,hs,dP,ap);default:return 0}case
 2:var
 aN=a[7],aO=a[6],bZ=a[5],b2=a[4],b3=a[3],Y=a[2],Z=a[1],aP=v[2];switch(aP[0]){case
 0:var
-hu=aP[3],ar=qk(Z,Y,b3,b2,bZ,aO,aN),mm=ar[2],dQ=F(b,bL(w(function(a){var
-b=bh(a[2]);return g(bh(a[1]),b)},mm))),mn=f(hu),mo=j2(dQ,ar[2]),mp=j2(dQ,ar[2]),dS=d_(bF(Z),mp,mo,0,mn,hu);if(dS){var
-hw=dS[1];if(hw[2])return 0;var
-hx=qF(Z,Y,b3,b2,bZ,aO,aN);if(hx){var
-mq=hw[1],mr=f(Y),ms=eb(0,kW(Z),mr,aO,aN),mt=h7(aP[2]),mu=aP[1],iX=ar[2],et=l(function(a){var
-b=o8(j,a[1]);return b?o8(j,a[2]):b},iX);if(et)var
-iY=jz(ar[4]),cg=cO(j,ar[4],iY);else
+ht=aP[3],ar=qo(Z,Y,b3,b2,bZ,aO,aN),mm=ar[2],dQ=F(b,bL(w(function(a){var
+b=bh(a[2]);return g(bh(a[1]),b)},mm))),mn=f(ht),mo=j7(dQ,ar[2]),mp=j7(dQ,ar[2]),dS=d_(bF(Z),mp,mo,0,mn,ht);if(dS){var
+hu=dS[1];if(hu[2])return 0;var
+hw=qJ(Z,Y,b3,b2,bZ,aO,aN);if(hw){var
+mq=hu[1],mr=f(Y),ms=eb(0,k1(Z),mr,aO,aN),mt=h9(aP[2]),mu=aP[1],iX=ar[2],et=l(function(a){var
+b=pa(j,a[1]);return b?pa(j,a[2]):b},iX);if(et)var
+iY=jE(ar[4]),cg=cO(j,ar[4],iY);else
 var
 cg=et;if(cg)var
-iZ=ht(ar[5]),ch=l(function(a){return fQ(j,a)},iZ);else
+iZ=hv(ar[5]),ch=l(function(a){return fQ(j,a)},iZ);else
 var
-ch=cg;return ch?wt(mu,mt,ms,ar,dQ,mq):ch}var
-hy=hx}else
+ch=cg;return ch?ww(mu,mt,ms,ar,dQ,mq):ch}var
+hy=hw}else
 var
 hy=dS;return hy;case
 1:var
-_=aP[4],hz=aP[3],aQ=e(k,aP[2]),q=h3(Z),hA=qA(Y,e(k,hz));if(hA[2])return 0;var
-t=hA[1],hB=f7(w(function(a){return g(a[1],a[2])},Y),hz),hE=hB?qF(Z,Y,b3,b2,bZ,aO,aN):hB;if(hE){var
-p=qk(Z,Y,b3,b2,bZ,aO,aN);if(typeof
+_=aP[4],hz=aP[3],aQ=e(k,aP[2]),q=h5(Z),hA=qE(Y,e(k,hz));if(hA[2])return 0;var
+t=hA[1],hB=f7(w(function(a){return g(a[1],a[2])},Y),hz),hC=hB?qJ(Z,Y,b3,b2,bZ,aO,aN):hB;if(hC){var
+p=qo(Z,Y,b3,b2,bZ,aO,aN);if(typeof
 _!=="number")switch(_[0]){case
 2:var
-hS=e(k,_[1]),hV=aw(q,hS),hW=aL(am(q,hS)),hX=aw(q,aQ),hY=aL(am(q,aQ)),eu=eH(j,p,t,hY,hX),ev=eu?eH(j,p,t,hW,hV):eu;if(ev)var
+hR=e(k,_[1]),hS=aw(q,hR),hU=aL(am(q,hR)),hX=aw(q,aQ),hY=aL(am(q,aQ)),eu=eI(j,p,t,hY,hX),ev=eu?eI(j,p,t,hU,hS):eu;if(ev)var
 i0=bF(p[1]),ci=n(f(t),i0);else
 var
 ci=ev;if(ci){var
 ew=function(b,a){var
-c=p[5],d=p[3],f=p[1];return e(function(e){return jH(f,d,c,a,b,e)},t)},i1=ew(hW,hV),i2=ew(hY,hX);return j_(j,bF(p[1]),i2,i1)}return ci;case
+c=p[5],d=p[3],f=p[1];return e(function(e){return jM(f,d,c,a,b,e)},t)},i1=ew(hU,hS),i2=ew(hY,hX);return kd(j,bF(p[1]),i2,i1)}return ci;case
 3:var
 dV=cW(_[2]);if(dV){var
 at=dV[1],dW=cW(_[3]);if(dW){var
 aR=dW[1],mw=p[2],mx=F(b,bL(w(function(a){var
-b=bh(a[2]);return g(bh(a[1]),b)},mw))),my=f(Y),mz=eb(0,kW(Z),my,aO,aN),h2=n(_[1],mz);if(h2){var
-mA=_[5],mB=_[4],mC=ac(Q(mx),dE(f(aQ),q)),mD=h8(g(ac(d,q),mC),at,aR,mB,mA),a8=aw(q,aQ),b_=aL(am(q,aQ)),a3=p[5],ft=kk(0,at,aR),fu=p[7],fv=fu?eH(j,p,t,b_,a8):fu,fw=fv?ae(q,xj):fv;if(fw)var
+b=bh(a[2]);return g(bh(a[1]),b)},mw))),my=f(Y),mz=eb(0,k1(Z),my,aO,aN),hZ=n(_[1],mz);if(hZ){var
+mA=_[5],mB=_[4],mC=ac(Q(mx),dE(f(aQ),q)),mD=h_(g(ac(d,q),mC),at,aR,mB,mA),a8=aw(q,aQ),b_=aL(am(q,aQ)),a3=p[5],ft=kp(0,at,aR),fu=p[7],fv=fu?eI(j,p,t,b_,a8):fu,fw=fv?ae(q,xm):fv;if(fw)var
 j1=N(q,f(a8)),cz=n(f(at),j1);else
 var
 cz=fw;if(cz)var
-j3=0===a3[0]?xk:xl,cA=n(f(a8),j3);else
+j2=0===a3[0]?xn:xo,cA=n(f(a8),j2);else
 var
 cA=cz;var
-fx=cA?hG(at,aR):cA;if(fx)var
-j4=hH(am(q,aR)),j5=hH(am(q,at)),cB=km(j,p[4],j5,j4);else
+fx=cA?hI(at,aR):cA;if(fx)var
+j3=hJ(am(q,aR)),j4=hJ(am(q,at)),cB=kr(j,p[4],j4,j3);else
 var
 cB=fx;if(cB)var
-j6=aw(q,aR),cC=pE(j,a3,aw(q,at),j6);else
+j5=aw(q,aR),cC=pI(j,a3,aw(q,at),j5);else
 var
 cC=cB;if(cC){var
-j7=am(q,a0(b_)),j8=am(q,aR),fy=eR(j,am(q,at),j8,j7);if(fy)var
+j6=am(q,a0(b_)),j8=am(q,aR),fy=eS(j,am(q,at),j8,j6);if(fy)var
 bk=fy;else{var
-fB=pD(a3);if(fB)var
-j9=aw(q,aR),bk=eR(j,aw(q,at),j9,a8);else
+fB=pH(a3);if(fB)var
+j9=aw(q,aR),bk=eS(j,aw(q,at),j9,a8);else
 var
 bk=fB}}else
 var
 bk=cC;var
 fA=bk?l(function(a){var
-c=a0(a[2]),b=eQ(g(a0(a[1]),c));return b?eQ([0,ko(a3,a8,b_,a),0]):b},t):bk;return fA?hF(j,e(function(a){var
-b=[6,ko(a3,a8,b_,a)],c=pF(am(q,ft));return[3,[6,ko(a3,aw(q,ft),c,a)],b]},t),mD):fA}var
-h9=h2}else
+c=a0(a[2]),b=eR(g(a0(a[1]),c));return b?eR([0,kt(a3,a8,b_,a),0]):b},t):bk;return fA?hH(j,e(function(a){var
+b=[6,kt(a3,a8,b_,a)],c=pJ(am(q,ft));return[3,[6,kt(a3,aw(q,ft),c,a)],b]},t),mD):fA}var
+h0=hZ}else
 var
-h9=dW;var
-h_=h9}else
+h0=dW;var
+h4=h0}else
 var
-h_=dV;return h_}var
-mv=f(Y),dT=kX(0,kW(Z),mv,aO,aN,_);if(dT){var
-bt=dT[1],z=aL(am(q,aQ)),u=aw(q,aQ),eq=eH(j,p,t,z,u);if(eq)var
+h4=dV;return h4}var
+mv=f(Y),dT=k2(0,k1(Z),mv,aO,aN,_);if(dT){var
+bt=dT[1],z=aL(am(q,aQ)),u=aw(q,aQ),eq=eI(j,p,t,z,u);if(eq)var
 af=p[5],er=p[3],es=p[1],iU=p[6],cf=function(a){var
-b=b1(af,u,z,a);return x(b1(af,u,z,a),b)},iN=e(function(a){return[0,jH(es,er,af,u,z,a)]},t),iO=e(cf,t),iP=function(a){var
+b=b1(af,u,z,a);return x(b1(af,u,z,a),b)},iN=e(function(a){return[0,jM(es,er,af,u,z,a)]},t),iO=e(cf,t),iP=function(a){var
 b=di(af,u,a);return M(function(b,a){return[2,b,a]},z,b)},iQ=e(function(a){var
 b=[6,cf(a)],c=b1(af,u,z,a),d=di(af,u,a[2]);return[0,[0,[0,M(function(b,a){return[2,b,a]},z,d),c],b]]},t),iR=e(function(a){return 0},t),iS=e(function(a){return[0,[6,cf(a)]]},t),iT=[0,e(function(c){var
-a=aA(b1(af,u,z,c));return jG(es,a,S([5,[0,b,b],er],dh(di(af,u,c[2]),a)))},t),iS,iR,iQ,iP,iO,iN],iV=bF(p[1]),iW=2<=p[1]?vg:vh,dU=jB(j,iW,iV,iT,iU,bt);else
+a=aB(b1(af,u,z,c));return jL(es,a,S([5,[0,b,b],er],dh(di(af,u,c[2]),a)))},t),iS,iR,iQ,iP,iO,iN],iV=bF(p[1]),iW=2<=p[1]?vj:vk,dU=jG(j,iW,iV,iT,iU,bt);else
 var
 dU=eq;if(dU)var
-hK=dU;else{if(typeof
+hD=dU;else{if(typeof
 bt!=="number"&&0===bt[0]){var
 b8=bt[2];if(b8){if(b8[2])return 0;var
-b9=b8[1],hP=bt[1],bi=p[1],fe=eH(j,p,t,z,u),ep=0;if(fe){var
-jV=p[6],jW=2<=bi?w$:xa,cw=eE(j,jW,hP,jV),cd=0;if(cw){var
+b9=b8[1],hN=bt[1],bi=p[1],fe=eI(j,p,t,z,u),ep=0;if(fe){var
+jT=p[6],jU=2<=bi?xc:xd,cw=eF(j,jU,hN,jT),cd=0;if(cw){var
 a2=cw[1][1],ce=0;if(typeof
 a2!=="number"&&15===a2[0]){var
 cx=G(t,a2[1]);if(cx){var
-bj=n$(b9),fh=a2[3],bJ=cx[1],bK=p[5],cy=p[3],jX=a2[4],jY=a2[2],e6=jH(bi,cy,bK,u,z,bJ),e7=b1(bK,u,z,bJ),cv=bu(bj,bj),e8=[4,[4,jY,[6,bu(e6,e6)]],cv],be=b1(bK,u,z,bJ),ct=di(bK,u,bJ[2]),bf=S([5,[0,b,b],cy],pw(bi,bj)),jL=dh(bf,ct),jM=pv(bi,bj),cu=M(function(b,a){return[2,b,a]},jM,jL),e5=x(be,cu),jN=x(bf,bf),jO=[4,x(be,ct),jN],jP=x(ct,bf),jQ=[3,[4,x(be,bf),jP],jO],jT=[5,[4,e5,e5],x(be,be)],e9=[4,[4,fh,fh],[2,[3,x(cu,cu),jT],jQ]],e_=[4,[4,jX,cv],[6,x(e7,e7)]],jU=bF(bi),e$=n(f(bj),jU),fa=e$?i(j,1,cv):e$,fb=fa?i(j,1,cy):fa,iM=0;if(fb){var
+bj=od(b9),fh=a2[3],bJ=cx[1],bK=p[5],cy=p[3],jV=a2[4],jY=a2[2],e6=jM(bi,cy,bK,u,z,bJ),e7=b1(bK,u,z,bJ),cv=bu(bj,bj),e8=[4,[4,jY,[6,bu(e6,e6)]],cv],be=b1(bK,u,z,bJ),ct=di(bK,u,bJ[2]),bf=S([5,[0,b,b],cy],pA(bi,bj)),jJ=dh(bf,ct),jK=pz(bi,bj),cu=M(function(b,a){return[2,b,a]},jK,jJ),e5=x(be,cu),jN=x(bf,bf),jO=[4,x(be,ct),jN],jP=x(ct,bf),jQ=[3,[4,x(be,bf),jP],jO],jR=[5,[4,e5,e5],x(be,be)],e9=[4,[4,fh,fh],[2,[3,x(cu,cu),jR],jQ]],e_=[4,[4,jV,cv],[6,x(e7,e7)]],jS=bF(bi),e$=n(f(bj),jS),fa=e$?i(j,1,cv):e$,fb=fa?i(j,1,cy):fa,iM=0;if(fb){var
 fc=i(j,1,[3,[2,e8,e9],e_]);if(fc)var
 fd=fc;else{var
 bv=i(j,1,[3,[3,e8,e9],e_]);cd=1;ce=1;iM=1}}else
@@ -8430,79 +8451,79 @@ ff=cw;if(!cd){var
 fg=ff;ep=1}}else{var
 fg=fe;ep=1}if(ep)var
 bv=fg;if(!bv){var
-fT=p[1],cL=p[5],fU=eH(j,p,t,z,u);if(fU){var
-kv=p[6],kw=2<=fT?xx:xy,cM=eE(j,kw,hP,kv);if(cM){var
+fT=p[1],cL=p[5],fU=eI(j,p,t,z,u);if(fU){var
+ko=p[6],ku=2<=fT?xA:xB,cM=eF(j,ku,hN,ko);if(cM){var
 bm=cM[1][1];if(typeof
 bm!=="number"&&16===bm[0]){var
 fZ=bm[1],f0=i(j,0,fZ);if(f0)var
-kx=f(p[2]),cN=n(f(b9),kx);else
+kw=f(p[2]),cN=n(f(b9),kw);else
 var
 cN=f0;if(cN){var
-ky=p[2],kz=V(V(t,hI(b9,e(function(a){var
-b=bH(a[2]);return pL(b1(cL,u,z,[0,bH(a[1]),b]))},ky),fZ)),b9),kA=e(function(e){var
-c=e[1],d=c[2],a=c[1],f=di(cL,u,a[2]),g=a[1],h=M(function(b,a){return[3,b,a]},z,g),i=[2,d,pL(b1(cL,u,z,a))];return[0,d2([5,[0,e[2],b],i]),d,h,f]},kz);return pK(j,[0,fT],bm[2],bm[3],kA)}return cN}var
+ky=p[2],kz=V(V(t,hK(b9,e(function(a){var
+b=bH(a[2]);return pP(b1(cL,u,z,[0,bH(a[1]),b]))},ky),fZ)),b9),kA=e(function(e){var
+c=e[1],d=c[2],a=c[1],f=di(cL,u,a[2]),g=a[1],h=M(function(b,a){return[3,b,a]},z,g),i=[2,d,pP(b1(cL,u,z,a))];return[0,d2([5,[0,e[2],b],i]),d,h,f]},kz);return pO(j,[0,fT],bm[2],bm[3],kA)}return cN}var
 fV=0}else
 var
 fV=cM;var
 fY=fV}else
 var
 fY=fU;return fY}var
-hQ=bv}else
+hO=bv}else
 var
-hQ=b8;return hQ}var
-hK=0}var
-hL=hK}else
+hO=b8;return hO}var
+hD=0}var
+hG=hD}else
 var
-hL=dT;var
-hM=hL}else
+hG=dT;var
+hM=hG}else
 var
-hM=hE;return hM;default:return 0}case
+hM=hC;return hM;default:return 0}case
 3:var
 au=a[7],bw=a[6],bx=a[5],av=a[4],dX=a[3],aS=a[2],aT=a[1],aU=v[2];switch(aU[0]){case
 0:var
-h$=aU[3],ia=h6(kg(kG(aT,aS,dX,av,bx,bw,au)[1])),mE=f(h$),dY=d_(f(aT),ia,ia,0,mE,h$);if(dY){var
+h$=aU[3],ia=h8(kl(kL(aT,aS,dX,av,bx,bw,au)[1])),mE=f(h$),dY=d_(f(aT),ia,ia,0,mE,h$);if(dY){var
 ib=dY[1];if(ib[2])return 0;var
-ic=qG(aT,aS,av,bx,bw,au);if(ic){var
-mF=ib[1],$=kG(aT,aS,dX,av,bx,bw,au),mG=eb(0,DN,f(av),0,au),id=h7(aU[2]),aV=aU[1],eW=pp($[1]);if(eW)var
+ic=qK(aT,aS,av,bx,bw,au);if(ic){var
+mF=ib[1],$=kL(aT,aS,dX,av,bx,bw,au),mG=eb(0,DQ,f(av),0,au),id=h9(aU[2]),aV=aU[1],eW=pt($[1]);if(eW)var
 jo=$[1][2],cq=l(function(a){return bC(j,a[2][1],a[2][2])},jo);else
 var
 cq=eW;if(cq)var
-js=$[2],cs=l(function(a){return bC(j,a[1],a[2])},js);else
+jp=$[2],cs=l(function(a){return bC(j,a[1],a[2])},jp);else
 var
 cs=cq;if(cs){var
-B=$[1],bb=f(B[1]),bG=$[3],cj=f(B[2]),ex=N(cj,f(fR(e(aK,B[3])))),i3=B[3],ey=pl(hC(B),i3,cj),H=ke(bb,ey,B[4],ex),i4=kc(ey,B[4],ex),i5=B[3],ez=g(kb(hC(B),i5,cj),i4),eA=f(kg(B)),eB=kf(B[2]),eC=e(function(a){return a[4]},H),i6=g(ez,dk(function(b,a){if(typeof
+B=$[1],bb=f(B[1]),bG=$[3],cj=f(B[2]),ex=N(cj,f(fR(e(aG,B[3])))),i3=B[3],ey=pp(hE(B),i3,cj),H=kj(bb,ey,B[4],ex),i4=kh(ey,B[4],ex),i5=B[3],ez=g(kg(hE(B),i5,cj),i4),eA=f(kl(B)),eB=kk(B[2]),eC=e(function(a){return a[4]},H),i6=g(ez,dk(function(b,a){if(typeof
 a!=="number"&&16===a[0]){var
-c=d0(H);return o$(eB,e(function(a){return a[3]},H),c,eC)}return pg(H,b,a)},0,d,eA,bG)),i7=g(bD(d0(H)),i6),eD=g(bD(eP(H)),i7),eF=c6(eD),eG=c5(eF),az=cH(eG),i8=function(c,a){if(typeof
+c=d0(H);return pd(eB,e(function(a){return a[3]},H),c,eC)}return pk(H,b,a)},0,d,eA,bG)),i7=g(bD(d0(H)),i6),eD=g(bD(eQ(H)),i7),eE=c6(eD),eG=c5(eE),az=cH(eG),i8=function(c,a){if(typeof
 a!=="number"&&16===a[0]){var
 f=B[4];if(l(function(a){return 0===a[0]?0:1},f)){var
-g=a[2],h=a[1],i=[0,J(aV,b)],j=d0(H);return pa(aV,az,bb,bb,wV,0,eB,d,e(function(a){return a[3]},H),j,eC,i,h,g)}return wW}return ph(aV,az,H,0,d,c,a)},eI=n(f($[2]),bb);if(eI)var
+g=a[2],h=a[1],i=[0,J(aV,b)],j=d0(H);return pe(aV,az,bb,bb,wY,0,eB,d,e(function(a){return a[3]},H),j,eC,i,h,g)}return wZ}return pl(aV,az,H,0,d,c,a)},eH=n(f($[2]),bb);if(eH)var
 i9=B[4],ck=l(function(a){return 0===a[0]?n(f(a[1]),bb):1},i9);else
 var
-ck=eI;var
+ck=eH;var
 eJ=ck?l(function(a){var
-b=m(d);return aX(s(h(az,a),eG,b),a)},eD):ck,eK=eJ?ak(pi,bG):eJ;if(eK){var
+b=m(d);return aX(s(h(az,a),eG,b),a)},eD):ck,eK=eJ?ak(pm,bG):eJ;if(eK){var
 eL=I($[4]);if(eL)var
 bI=eL;else
 var
 jn=B[4],bI=l(function(a){return 0===a[0]?0:1},jn)}else
 var
 bI=eK;if(bI){var
-i_=kg(B),cl=ad(e(function(a){return ap(aV,a)},i_));if(cl){var
-i$=0,ja=w(function(a){return fK(i$,d,a)},bG),cm=ad(e(function(a){return hn(aV,a)},ja));if(cm){var
-jb=$[2],cn=ad(e(function(a){return ap(aV,[0,a,d])},jb));if(cn){var
+i_=kl(B),cl=ad(e(function(a){return aq(aV,a)},i_));if(cl){var
+i$=0,ja=w(function(a){return fK(i$,d,a)},bG),cm=ad(e(function(a){return hp(aV,a)},ja));if(cm){var
+jb=$[2],cn=ad(e(function(a){return aq(aV,[0,a,d])},jb));if(cn){var
 co=ad(dk(i8,0,d,eA,bG));if(co){var
 eM=co[1];if($[4])var
-jc=id[2],jd=id[1],je=d0(H),cp=jA(mG,eM,[8,h(ay(az),je),jd,jc]);else
+jc=id[2],jd=id[1],je=d0(H),cp=jF(mG,eM,[8,h(ay(az),je),jd,jc]);else
 var
 cp=eM;var
-jf=jq(cp),jg=cn[1],jh=function(a){return 0},ji=g(cl[1],cm[1]),jj=e(az,ez),jk=d0(H),jl=h(ay(az),jk),jm=eP(H);return gb(jp(aV,eF,h(ay(az),jm),jl,jj,ji,cp,jh),jg,jf,mF)}var
+jf=jv(cp),jg=cn[1],jh=function(a){return 0},ji=g(cl[1],cm[1]),jj=e(az,ez),jk=d0(H),jl=h(ay(az),jk),jm=eQ(H);return gb(ju(aV,eE,h(ay(az),jm),jl,jj,ji,cp,jh),jg,jf,mF)}var
 eN=co}else
 var
 eN=cn;var
-eT=eN}else
+eO=eN}else
 var
-eT=cm;var
-eU=eT}else
+eO=cm;var
+eU=eO}else
 var
 eU=cl;var
 eV=eU}else
@@ -8512,40 +8533,40 @@ ie=ic}else
 var
 ie=dY;return ie;case
 1:var
-ab=aU[4],ig=aU[3],b$=aU[2],A=kG(aT,aS,dX,av,bx,bw,au),mH=e(k,ig),ih=bo(e(aK,aS),mH);if(ih[2])return 0;var
-E=ih[1],ii=f7(e(aK,aS),ig),ij=ii?qG(aT,aS,av,bx,bw,au):ii,ik=ij?pp(A[1]):ij;if(ik)var
+ab=aU[4],ig=aU[3],b$=aU[2],A=kL(aT,aS,dX,av,bx,bw,au),mH=e(k,ig),ih=bo(e(aG,aS),mH);if(ih[2])return 0;var
+E=ih[1],ii=f7(e(aG,aS),ig),ij=ii?qK(aT,aS,av,bx,bw,au):ii,ik=ij?pt(A[1]):ij;if(ik)var
 mI=A[2],dZ=l(function(a){return bC(j,a[1],a[2])},mI);else
 var
 dZ=ik;if(dZ){if(typeof
 ab!=="number")switch(ab[0]){case
 2:var
-d8=e(k,ab[1]),d$=e(k,b$),aB=A[1],bM=hD(aB),jZ=ps(aB),fi=e(function(a){return a[3]},jZ),fj=function(a){var
-b=pt(aB,E);function
-c(c){return d1(a,b,c)}return e(function(a){return e(c,a)},fi)},fk=b4(j,e(aK,aB[2]),E),fl=fk?b4(j,A[2],d$):fk,fm=fl?b4(j,A[2],d8):fl,fn=fm?n(f(d$),bM):fm,fo=fn?n(f(d8),bM):fn,fp=fo?pu(aB,aB[4]):fo,fq=fp?n(f(aB[4]),bM):fp,fs=fq?l(function(a){return l(ki,a)},fi):fq;if(fs){var
-j0=fj(d8);return j_(j,bM,fj(d$),j0)}return fs;case
+d8=e(k,ab[1]),d$=e(k,b$),aC=A[1],bM=hF(aC),jZ=pw(aC),fi=e(function(a){return a[3]},jZ),fj=function(a){var
+b=px(aC,E);function
+c(c){return d1(a,b,c)}return e(function(a){return e(c,a)},fi)},fk=b4(j,e(aG,aC[2]),E),fl=fk?b4(j,A[2],d$):fk,fm=fl?b4(j,A[2],d8):fl,fn=fm?n(f(d$),bM):fm,fo=fn?n(f(d8),bM):fn,fp=fo?py(aC,aC[4]):fo,fq=fp?n(f(aC[4]),bM):fp,fs=fq?l(function(a){return l(kn,a)},fi):fq;if(fs){var
+j0=fj(d8);return kd(j,bM,fj(d$),j0)}return fs;case
 3:var
 ea=cW(ab[2]);if(ea){var
 a9=ea[1],ec=cW(ab[3]);if(ec){var
-bA=ec[1],mK=eb(0,DP,f(av),0,au),ip=n(ab[1],mK);if(ip){var
-mL=ab[5],mM=ab[4],mN=h8(ac(d,f(aT)),a9,bA,mM,mL),bE=e(k,b$),aE=A[1],gm=kk(0,a9,bA),gn=A[4],go=gn?b4(j,e(aK,aE[2]),E):gn,gp=go?b4(j,A[2],bE):go;if(gp)var
-kU=e(ba,a9),cX=b4(j,A[2],kU);else
+bA=ec[1],mK=eb(0,DS,f(av),0,au),ip=n(ab[1],mK);if(ip){var
+mL=ab[5],mM=ab[4],mN=h_(ac(d,f(aT)),a9,bA,mM,mL),bE=e(k,b$),aE=A[1],gm=kp(0,a9,bA),gn=A[4],go=gn?b4(j,e(aG,aE[2]),E):gn,gp=go?b4(j,A[2],bE):go;if(gp)var
+kQ=e(ba,a9),cX=b4(j,A[2],kQ);else
 var
 cX=gp;if(cX)var
-k3=e(ba,bA),cY=b4(j,A[2],k3);else
+kR=e(ba,bA),cY=b4(j,A[2],kR);else
 var
 cY=cX;var
-gq=cY?hG(a9,bA):cY,gr=gq?eR(j,a9,bA,bE):gq,gs=gr?eQ(g(E,bE)):gr;if(gs)var
-k4=aE[3],cZ=l(function(a){return fX(a[2])},k4);else
+gq=cY?hI(a9,bA):cY,gr=gq?eS(j,a9,bA,bE):gq,gs=gr?eR(g(E,bE)):gr;if(gs)var
+kS=aE[3],cZ=l(function(a){return fX(a[2])},kS);else
 var
 cZ=gs;if(cZ){var
-c0=ks(aE[4]);if(c0){var
+c0=kx(aE[4]);if(c0){var
 bQ=c0[1],gt=l(fX,bQ);if(gt)var
-k5=1,c1=pN(function(a){return i(j,k5,a)},aE,E,bE,bQ);else
+kT=1,c1=pR(function(a){return i(j,kT,a)},aE,E,bE,bQ);else
 var
 c1=gt;if(c1)var
-k6=f(a9),c2=pN(function(a){return kl(j,k6,a)},aE,E,gm,bQ);else
+kV=f(a9),c2=pR(function(a){return kq(j,kV,a)},aE,E,gm,bQ);else
 var
-c2=c1;if(c2)return hF(j,e(function(a){var
+c2=c1;if(c2)return hH(j,e(function(a){var
 b=a1(fW(aE,E,bE),a);return[3,a1(fW(aE,E,gm),a),b]},bQ),mN);var
 gu=c2}else
 var
@@ -8559,39 +8580,39 @@ iq=ec;var
 ir=iq}else
 var
 ir=ea;return ir}var
-d4=kX(0,DO,f(av),0,au,ab);if(d4){var
-by=d4[1],aW=e(k,b$),L=A[1],eZ=hD(L),bc=ps(L),jD=pq(L),jE=L[4],jF=kc(pr(L),jE,jD),jI=f(L[2]),jJ=L[3],eY=g(kb(hC(L),jJ,jI),jF),bd=pt(L,E),e0=b4(j,e(aK,L[2]),E),e1=e0?b4(j,A[2],aW):e0,e2=e1?n(f(aW),eZ):e1,e3=e2?pu(L,L[4]):e2,e4=e3?l(ki,g(w(w0,bc),eY)):e3;if(e4)var
-jK=A[3],ju=e(function(a){var
-b=a[1];return[0,e(function(a){return d1(aW,bd,a)},b)]},bc),jv=w(function(c){var
+d4=k2(0,DR,f(av),0,au,ab);if(d4){var
+by=d4[1],aW=e(k,b$),L=A[1],eZ=hF(L),bc=pw(L),jA=pu(L),jB=L[4],jC=kh(pv(L),jB,jA),jD=f(L[2]),jH=L[3],eX=g(kg(hE(L),jH,jD),jC),bd=px(L,E),e0=b4(j,e(aG,L[2]),E),e1=e0?b4(j,A[2],aW):e0,e2=e1?n(f(aW),eZ):e1,e3=e2?py(L,L[4]):e2,e4=e3?l(kn,g(w(w3,bc),eX)):e3;if(e4)var
+jI=A[3],jq=e(function(a){var
+b=a[1];return[0,e(function(a){return d1(aW,bd,a)},b)]},bc),jr=w(function(c){var
 a=c[1];switch(a[0]){case
 7:var
 b=d1(aW,bd,a[2]);return[0,[4,b,b],0];case
-9:return[0,d1(aW,bd,a[1]),0];default:return 0}},eY),jw=function(a){return a},jx=0,jy=e(function(a){return 0},bc),jC=e(function(b){var
+9:return[0,d1(aW,bd,a[1]),0];default:return 0}},eX),js=function(a){return a},jt=0,jx=e(function(a){return 0},bc),jz=e(function(b){var
 a=b[4];if(typeof
-a!=="number"&&0===a[0])return[0,d1(aW,bd,a[1])];return 0},bc),d5=jB(j,w1,eZ,[0,e(function(a){var
-b=a[3];return e(function(a){return d1(aW,bd,a)},b)},bc),jC,jy,jx,jw,jv,ju],jK,by);else
+a!=="number"&&0===a[0])return[0,d1(aW,bd,a[1])];return 0},bc),d5=jG(j,w4,eZ,[0,e(function(a){var
+b=a[3];return e(function(a){return d1(aW,bd,a)},b)},bc),jz,jx,jt,js,jr,jq],jI,by);else
 var
 d5=e4;if(d5)var
 il=d5;else{if(typeof
 by!=="number"&&0===by[0]){var
 ca=by[2];if(ca){if(ca[2])return 0;var
-d7=ca[1],mJ=by[1],bz=e(k,b$),aD=A[1],bN=f(aD[1]),f1=b4(j,e(aK,aD[2]),E),f5=f1?b4(j,A[2],bz):f1,f9=f5?n(f(bz),bN):f5,f_=f9?dq(g(E,bz)):f9;if(f_)var
+d7=ca[1],mJ=by[1],bz=e(k,b$),aD=A[1],bN=f(aD[1]),f1=b4(j,e(aG,aD[2]),E),f5=f1?b4(j,A[2],bz):f1,f9=f5?n(f(bz),bN):f5,f_=f9?dq(g(E,bz)):f9;if(f_)var
 kB=aD[3],cP=l(function(a){return fX(a[2])},kB);else
 var
 cP=f_;if(cP){var
-cQ=eE(j,xA,mJ,A[3]);if(cQ){var
+cQ=eF(j,xD,mJ,A[3]);if(cQ){var
 bO=cQ[1][1];if(typeof
 bO!=="number"&&16===bO[0]){var
-gc=bO[2],gd=bO[1],cR=ks(aD[4]);if(cR){var
-bP=cR[1],cT=hJ(aH(cS,gc));if(cT){var
+gc=bO[2],gd=bO[1],cR=kx(aD[4]);if(cR){var
+bP=cR[1],cT=hL(aI(cS,gc));if(cT){var
 kC=cT[1],ge=i(j,1,gc),gf=ge?i(j,0,gd):ge;if(gf)var
-kH=f(bP),cU=n(f(d7),kH);else
+kD=f(bP),cU=n(f(d7),kD);else
 var
 cU=gf;var
 gg=cU?l(fX,bP):cU;if(gg){var
-kL=aD[2],kM=fW(aD,e(function(a){return d3(a[2])},kL),bz),gh=hI(d7,e(function(a){return a1(kM,a)},bP),gd),gi=dq(gh);if(gi){var
-kN=V(bz,aG(0,bN)),kO=fW(aD,E,e(function(a){var
-b=cr(a[2],kC);return[2,a[1],b]},kN)),kQ=V(V(e(function(a){return a1(kO,a)},bP),gh),d7);return kq(j,bN,bN,eS(function(a){return[4,[0,a[2],b],[3,a[1][1],a[1][2]]]},kQ))}var
+kE=aD[2],kF=fW(aD,e(function(a){return d3(a[2])},kE),bz),gh=hK(d7,e(function(a){return a1(kF,a)},bP),gd),gi=dq(gh);if(gi){var
+kG=V(bz,aH(0,bN)),kH=fW(aD,E,e(function(a){var
+b=cr(a[2],kC);return[2,a[1],b]},kG)),kM=V(V(e(function(a){return a1(kH,a)},bP),gh),d7);return kv(j,bN,bN,eT(function(a){return[4,[0,a[2],b],[3,a[1][1],a[1][2]]]},kM))}var
 gj=gi}else
 var
 gj=gg;var
@@ -8618,27 +8639,27 @@ io=dZ;return io;default:return 0}case
 aY=a[3],a_=a[2],cb=a[1],aZ=v[2];switch(aZ[0]){case
 0:var
 mO=aZ[3],mP=aZ[2],mQ=aZ[1],g$=dw(k(cb));if(g$){var
-dF=qm(aY);if(dF){var
-hc=dF[1],bp=hc[2],hd=k(bp),he=k(hc[1]),gz=i(j,1,k(a_)),gA=gz?i(j,1,[3,hd,[0,b,b]]):gz,gB=gA?i(j,1,he):gA,hf=gB?i(j,0,[3,[5,[0,b,b],hd],he]):gB,hg=hf?l(function(a){var
-b=qi(0,0,DL,a);if(b)var
+dF=qq(aY);if(dF){var
+ha=dF[1],bp=ha[2],hb=k(bp),he=k(ha[1]),gz=i(j,1,k(a_)),gA=gz?i(j,1,[3,hb,[0,b,b]]):gz,gB=gA?i(j,1,he):gA,hf=gB?i(j,0,[3,[5,[0,b,b],hb],he]):gB,hg=hf?l(function(a){var
+b=qm(0,0,DO,a);if(b)var
 c=b;else{var
-d=cV(a);if(d)return aI(0,0,a);var
+d=cV(a);if(d)return aJ(0,0,a);var
 c=d}return c},aY):hf,hh=hg?l(function(c){if(1===c[1]){var
 a=c[4];if(typeof
 a!=="number"&&0===a[0])return i(j,0,[3,[0,d,b],k(a[1])]);return 1}return 1},aY):hg;if(hh){var
-dr=a5(function(a){return I(qn(a))},aY);if(dr){var
+dr=a5(function(a){return I(qr(a))},aY);if(dr){var
 ma=[0,c(2,b),b],bT=i(j,0,[3,k(bp),ma]);if(bT)var
 dG=bT;else
 var
 md=k(bp),dG=i(j,0,[3,[0,c(2,b),b],md]);if(dG){var
-l9=w(function(a){if(cV(a))return DH;var
-b=hU(0,DI,0,a);return w(function(b){var
-c=fF(j,DJ,b);return ac(I(qn(a)),c)},b)},aY),l_=function(f){var
+l9=w(function(a){if(cV(a))return DK;var
+b=hW(0,DL,0,a);return w(function(b){var
+c=fF(j,DM,b);return ac(I(qr(a)),c)},b)},aY),l_=function(f){var
 a=f8(l9,f[1]);if(a){var
 c=a[1],e=f[2];switch(e[0]){case
 0:return[0,[0,c,[0,e[1]]],0];case
-2:return[0,[0,c,[1,DK,[0,[0,b,[0,d,[0,d,0]]],[0,[0,d,[0,b,[0,d,0]]],[0,[0,d,[0,d,[0,b,0]]],0]]],d]],0];default:return[0,[0,c,e],0]}}return a},l$=e(function(a){var
-b=a[4],c=a[3],d=a[2];return[0,w(l_,a[1]),d,c,b]},mO),mb=[0,dr[1],dr[2]],mc=qr(bT,a_,bp);return k0(0,qq(bT,cb,a_,bp),0,mc,0,mb,mQ,mP,l$)}return dG}var
+2:return[0,[0,c,[1,DN,[0,[0,b,[0,d,[0,d,0]]],[0,[0,d,[0,b,[0,d,0]]],[0,[0,d,[0,d,[0,b,0]]],0]]],d]],0];default:return[0,[0,c,e],0]}}return a},l$=e(function(a){var
+b=a[4],c=a[3],d=a[2];return[0,w(l_,a[1]),d,c,b]},mO),mb=[0,dr[1],dr[2]],mc=qv(bT,a_,bp);return k5(0,qu(bT,cb,a_,bp),0,mc,0,mb,mQ,mP,l$)}return dG}var
 hi=1}else
 var
 hi=hh;var
@@ -8650,35 +8671,35 @@ var
 hk=g$;return hk;case
 1:var
 mR=aZ[4],mS=aZ[3],mT=aZ[2],hl=dw(k(cb));if(hl){var
-dH=qm(aY);if(dH){var
-bq=dH[1][2],me=[0,c(2,b),b],bU=i(j,0,[3,k(bq),me]),hm=i(j,1,k(a_)),ho=hm?i(j,1,[3,k(bq),[0,b,b]]):hm;if(ho)if(bU)var
+dH=qq(aY);if(dH){var
+bq=dH[1][2],me=[0,c(2,b),b],bU=i(j,0,[3,k(bq),me]),hm=i(j,1,k(a_)),hn=hm?i(j,1,[3,k(bq),[0,b,b]]):hm;if(hn)if(bU)var
 bV=bU;else
 var
 mg=k(bq),bV=i(j,0,[3,[0,c(2,b),b],mg]);else
 var
-bV=ho;if(bV){var
-mf=qr(bU,a_,bq);return k1(0,qq(bU,cb,a_,bq),0,mf,0,aY,mT,mS,mR)}var
-hp=bV}else
+bV=hn;if(bV){var
+mf=qv(bU,a_,bq);return k6(0,qu(bU,cb,a_,bq),0,mf,0,aY,mT,mS,mR)}var
+ho=bV}else
 var
-hp=dH;var
-hq=hp}else
+ho=dH;var
+hq=ho}else
 var
 hq=hl;return hq;default:return 0}case
 5:var
 ed=a[4],is=a[1],ee=v[2];if(0===ee[0]){var
-it=ee[3],C=hT(is,[0,a[2],a[3]],0,ed),mU=f(it),ef=kS(kY(C),mU,it);if(ef){var
+it=ee[3],C=hV(is,[0,a[2],a[3]],0,ed),mU=f(it),ef=kX(k3(C),mU,it);if(ef){var
 iu=ef[1];if(iu[2])return 0;var
-iv=h5(is,0,ed,C),iw=iv?I(ak(cV,ed)):iv;if(iw){var
-ix=nY(j,C);if(ix){var
-mV=iu[1],iy=e(h0,C[1]),U=h1(C[1]),iz=k(a[5]),ax=ee[1],da=ha(U,iy,C[1]),ag=jr(U,iy,C[1],0),k$=f(C[3]),la=N(f(da),k$),bR=[0,f(da),la],lb=jt(ag,U,bR,C[3]),lc=g(e(c_,ag),lb),gD=g(bD(fr(ag)),lc),gE=c6(gD),gF=c5(gE),a6=cH(gF),gG=C[2];if(0===gG[0]){var
+iv=h7(is,0,ed,C),iw=iv?I(ak(cV,ed)):iv;if(iw){var
+ix=n2(j,C);if(ix){var
+mV=iu[1],iy=e(h2,C[1]),U=h3(C[1]),iz=k(a[5]),ax=ee[1],da=hc(U,iy,C[1]),ag=jw(U,iy,C[1],0),k$=f(C[3]),la=N(f(da),k$),bR=[0,f(da),la],lb=jy(ag,U,bR,C[3]),lc=g(e(c_,ag),lb),gD=g(bD(fr(ag)),lc),gE=c6(gD),gF=c5(gE),a6=cH(gF),gG=C[2];if(0===gG[0]){var
 gH=l(function(a){var
 b=m(d);return aX(s(h(a6,a),gF,b),a)},gD),gI=gH?i(j,1,iz):gH;if(gI){var
-ld=C[3],le=w(function(a){return dR(U,a)},ld),lf=C[3],lg=g(da,g(e(function(a){return b0(U,a)},lf),le)),db=ad(e(function(a){return ap(ax,a)},lg));if(db){var
-lh=bg(gG[1],U),dc=ad(e(function(a){return ap(ax,a)},lh));if(dc){var
+ld=C[3],le=w(function(a){return dR(U,a)},ld),lf=C[3],lg=g(da,g(e(function(a){return b0(U,a)},lf),le)),db=ad(e(function(a){return aq(ax,a)},lg));if(db){var
+lh=bg(gG[1],U),dc=ad(e(function(a){return aq(ax,a)},lh));if(dc){var
 dd=c8(ax,U,[5,iz,[0,c(2,c(2,c(2,c(2,b)))),b]]);if(dd){var
-de=C[3],li=dc[1],lj=db[1],lk=dd[1],k8=aG(0,f(de)),k9=e(function(k){var
+de=C[3],li=dc[1],lj=db[1],lk=dd[1],k8=aH(0,f(de)),k9=e(function(k){var
 l=G(de,k);if(l){var
-a=l[1],u=am(k,de),v=f(w(function(a){return dR(U,a)},u)),x=N(bR[2],v),j=[0,N(bR[1],k),x],r=fr(ag),g=h(ay(a6),r),c=[1,[8,[1,[1,j[1]]]]],d=hb(ag,U,j,a),n=d?[0,[3,e(a6,[0,d[1],d[2]])]]:d,m=0;if(typeof
+a=l[1],u=am(k,de),v=f(w(function(a){return dR(U,a)},u)),x=N(bR[2],v),j=[0,N(bR[1],k),x],r=fr(ag),g=h(ay(a6),r),c=[1,[8,[1,[1,j[1]]]]],d=hd(ag,U,j,a),n=d?[0,[3,e(a6,[0,d[1],d[2]])]]:d,m=0;if(typeof
 a!=="number")switch(a[0]){case
 0:return[0,[0,g,c]];case
 1:return[0,[1,g,c]];case
@@ -8697,24 +8718,24 @@ q=c;m=1;break;case
 t=fz(ag,U,j,a);return y(function(a){return[0,h(ay(a6),a),q]},t)}return 0}return l},k8),k_=e(function(a){return h(a6,c_(a))},ag),gC=e(function(a){return h(a6,a[2])},ag),ll=C[3],lm=bR[1],c9=function(aC,aB,aA){var
 k=aC,m=aB,g=aA;for(;;)switch(g[0]){case
 0:var
-v=g[1],_=n(f(v),xJ),$=_?l(function(a){var
+v=g[1],_=n(f(v),xM),$=_?l(function(a){var
 d=D(Q(c(2,c(2,c(2,b)))),a);return d?D(a,c(2,c(2,c(2,b)))):d},v):_;if($){var
-ab=pY(ax,lk,dO(0,m),v),j=g[2],w=c4(0,bB(ax,ab,e(aa,k)),gE),aD=e(aa,k),M=function(a){return pX(pW(ax,ab,aD,w,a))};if(typeof
+ab=p2(ax,lk,dO(0,m),v),j=g[2],w=c4(0,bB(ax,ab,e(aa,k)),gE),aD=e(aa,k),M=function(a){return p1(p0(ax,ab,aD,w,a))};if(typeof
 j==="number")return 0===j?ak(function(b){var
 a=s(b,w,0);return a?D(a[1][2][2],d):a},gC):0;else{if(0===j[0]){var
-a=j[2],O=l(xH,a);if(O){var
+a=j[2],O=l(xK,a);if(O){var
 q=s(j[1],k9,0);if(q){var
 i=q[1];switch(i[0]){case
 0:var
 x=0;if(a)if(a[2])var
 h=0;else{var
-A=a[1],B=i[1],ao=hO(B,A),ap=hN(A),C=[0,[0,B,[0,[1,[4,[1,[6,i[2],ap]],ao]],0]]];x=1}else{var
+A=a[1],B=i[1],ao=hQ(B,A),ap=hP(A),C=[0,[0,B,[0,[1,[4,[1,[6,i[2],ap]],ao]],0]]];x=1}else{var
 C=a;x=1}if(x)var
 h=C;break;case
 1:var
 y=0;if(a)if(a[2])var
 h=0;else{var
-E=a[1],F=i[1],aq=hN(E),ar=[1,[6,i[2],aq]],H=[0,[0,F,[0,[1,[4,hO(F,E),ar]],0]]];y=1}else{var
+E=a[1],F=i[1],aq=hP(E),ar=[1,[6,i[2],aq]],H=[0,[0,F,[0,[1,[4,hQ(F,E),ar]],0]]];y=1}else{var
 H=a;y=1}if(y)var
 h=H;break;case
 2:var
@@ -8722,7 +8743,7 @@ z=0;if(a){var
 o=a[2],an=0;if(o)if(o[2]){var
 h=0;an=1}else
 var
-I=o[1],J=a[1],p=i[1],as=hN(J),at=[1,[6,hO(p,I),as]],au=[1,[6,i[2],at]],av=hN(I),K=[0,[0,p,[0,[1,[4,[1,[6,hO(p,J),av]],au]],0]]];else
+I=o[1],J=a[1],p=i[1],as=hP(J),at=[1,[6,hQ(p,I),as]],au=[1,[6,i[2],at]],av=hP(I),K=[0,[0,p,[0,[1,[4,[1,[6,hQ(p,J),av]],au]],0]]];else
 var
 K=o;if(!an){var
 L=K;z=1}}else{var
@@ -8731,7 +8752,7 @@ h=L;break;default:if(a)var
 h=0;else
 var
 aw=i[1],h=[0,[0,0,e(function(a){return[1,[5,[0,a]]]},aw)]]}if(h){var
-P=h[1],ay=P[1],R=l(function(a){return pX(s(a[2],w,0))},ay);if(R)return l(M,P[2]);var
+P=h[1],ay=P[1],R=l(function(a){return p1(s(a[2],w,0))},ay);if(R)return l(M,P[2]);var
 S=R}else
 var
 S=h;var
@@ -8754,13 +8775,13 @@ Y=0}else
 var
 Y=r;return Y}}return $;case
 1:var
-ac=g[1],ad=pZ(ac,m);if(ad){var
+ac=g[1],ad=p3(ac,m);if(ad){var
 ae=c$(ac,m),af=c9(k,ae[1],g[2]);if(af){var
 m=ae[2],g=g[3];continue}var
 ag=af}else
 var
 ag=ad;return ag;default:var
-ah=g[1],ai=pZ(ah,k);if(ai){var
+ah=g[1],ai=p3(ah,k);if(ai){var
 aj=c$(ah,k),al=c9(aj[1],m,g[2]);if(al){var
 k=aj[2],g=g[3];continue}var
 am=al}else
@@ -8784,11 +8805,11 @@ iB=ef;return iB}return 0;case
 6:var
 iC=a[1];if(iC){var
 iD=iC[1],eg=v[2];if(0===eg[0]){var
-eh=kR(DR,0,0,0,DQ,eg[3]);if(eh){var
+eh=kW(DU,0,0,0,DT,eg[3]);if(eh){var
 iE=f6(iD);if(iE){var
 mW=eh[1],iF=b6(iD)[2],cc=eg[1],c3=c8(cc,d,iF);if(c3){var
 c7=c8(cc,d,[5,[0,b,b],iF]);if(c7){var
-k7=c3[1][1],gw=K(cE(cc),k7);if(gw)return pV(cc,c7[1][1],mW);var
+kZ=c3[1][1],gw=K(cE(cc),kZ);if(gw)return pZ(cc,c7[1][1],mW);var
 gx=gw}else
 var
 gx=c7;var
@@ -8799,40 +8820,40 @@ iG=iE}else
 var
 iG=eh;return iG}return 0}var
 ei=v[2];if(0===ei[0]){var
-ej=kR(DT,0,0,0,DS,ei[3]);return ej?pV(ei[1],d,ej[1]):ej}return 0;default:var
+ej=kW(DW,0,0,0,DV,ei[3]);return ej?pZ(ei[1],d,ej[1]):ej}return 0;default:var
 a$=a[1],iH=v[2];if(2===iH[0]){var
-iI=iH[1],ek=kP(f(iI),iI);if(ek){var
+iI=iH[1],ek=kU(f(iI),iI);if(ek){var
 iJ=ek[1];if(iJ[2])return 0;var
-el=iJ[1],g3=ae(DE,f(a$)),g4=g3?ae(f(a$),dL):g3,g5=g4?po(e(aC,a$)):g4,iK=g5?l(function(c){var
+el=iJ[1],g3=ae(DH,f(a$)),g4=g3?ae(f(a$),dL):g3,g5=g4?ps(e(aA,a$)):g4,iK=g5?l(function(c){var
 a=cK(k(c[2][1]));if(a){var
 b=cK(k(c[2][2]));if(b)return I(bl(b[1],a[1]));var
 d=b}else
 var
 d=a;return d},a$):g5;if(iK)var
-mX=hZ(Cu,el),em=qO(a[5],mX);else
+mX=h1(Cx,el),em=qS(a[5],mX);else
 var
 em=iK;if(em)var
-mY=hZ(Cv,el),en=qO(a[6],mY);else
+mY=h1(Cy,el),en=qS(a[6],mY);else
 var
 en=em;if(en){var
-lS=e(function(a){return[0,d,0]},a$);return qN(a$,a[2],a[3],a[4],lS,el)}var
+lS=e(function(a){return[0,d,0]},a$);return qR(a$,a[2],a[3],a[4],lS,el)}var
 iL=en}else
 var
 iL=ek;return iL}return 0}}return br}var
-Z=[bc,DW,s$(0)],qS=[bc,DX,s$(0)];function
-DU(l,b){var
-f=[0,o(BS,at(b[4])),0],g=[0,o(BU,ai([0,o(BT,at(b[3])),f])),0],a=b[2];switch(a[0]){case
+Z=[bc,DZ,tc(0)],qW=[bc,D0,tc(0)];function
+DX(l,b){var
+f=[0,o(BV,at(b[4])),0],g=[0,o(BX,ai([0,o(BW,at(b[3])),f])),0],a=b[2];switch(a[0]){case
 0:var
-c=T(BO,p6(a[1],a[2],a[3]));break;case
+c=T(BR,p_(a[1],a[2],a[3]));break;case
 1:var
-c=T(BP,p7(a[1],a[2],a[3],a[4]));break;default:var
-c=T(BQ,H(e(BJ,a[1])))}var
-h=[0,o(BV,c),g],i=1===b[2][0]?B1:BW,j=[0,o(BX,at(i)),h],k=[0,o(BY,Aj(b[1])),j],d=aF(lU(DV,hP(ai([0,o(B0,at(BZ)),k]),BR)),l);return d?DM(b):d}function
+c=T(BS,p$(a[1],a[2],a[3],a[4]));break;default:var
+c=T(BT,H(e(BM,a[1])))}var
+h=[0,o(BY,c),g],i=1===b[2][0]?B4:BZ,j=[0,o(B0,at(i)),h],k=[0,o(B1,Am(b[1])),j],d=aF(lY(DY,hR(ai([0,o(B3,at(B2)),k]),BU)),l);return d?DP(b):d}function
 aj(a){if(0===a[0])return a[1];throw Z}function
 af(a){if(1===a[0])return a[1];throw Z}function
 a8(a){if(2===a[0])return a[1];throw Z}function
 f9(a){if(3===a[0])return a[1];throw Z}function
-bi(b,a){return lT(a,b)}function
+bi(b,a){return lX(a,b)}function
 v(c,b){var
 a=bi(c,b);if(a)return a[1];throw Z}function
 ct(b,a){var
@@ -8841,15 +8862,15 @@ ec(a){switch(a[0]){case
 0:var
 b=a[1];if(b&&!b[2]){var
 c=b[1];return[0,c[1],c[2]]}break;case
-2:return[0,a[1],DZ]}throw Z}function
+2:return[0,a[1],D2]}throw Z}function
 f_(e,d){var
 a=Y(e,af(d));if(a){var
 b=a[2];if(b){var
 c=b[2];if(c&&!c[2])return[0,a[1],b[1],c[1]]}}throw Z}function
-h9(i){var
-f=fc(i),d=[0,0],e=iB(f)-1|0;if(!(e<0)){var
+h$(i){var
+f=fd(i),d=[0,0],e=iG(f)-1|0;if(!(e<0)){var
 c=e;for(;;){var
-a=d[1],g=lw(f,c)-48|0;if(9<g>>>0)throw Z;switch(g){case
+a=d[1],g=lA(f,c)-48|0;if(9<g>>>0)throw Z;switch(g){case
 0:var
 b=[0,a];break;case
 1:var
@@ -8871,48 +8892,48 @@ b=[8,a];break;default:var
 b=[9,a]}d[1]=b;var
 h=c-1|0;if(0!==c){var
 c=h;continue}break}}return d[1]}function
-f$(a){return l$(h9(a))}function
-e1(b){var
-a=f9(b);return 45===bd(a,0)?Q(f$(el(a,1,aB(a)-1|0))):f$(a)}function
-qT(a){return en(f$(f9(a)))}function
+f$(a){return md(h$(a))}function
+e2(b){var
+a=f9(b);return 45===bd(a,0)?Q(f$(em(a,1,aC(a)-1|0))):f$(a)}function
+qX(a){return eo(f$(f9(a)))}function
 dy(b){var
-a=f9(b);if(!(2<aB(a))&&!(64<=iA(a)))return iO(f$(a));throw Z}function
+a=f9(b);if(!(2<aC(a))&&!(64<=iF(a)))return iT(f$(a));throw Z}function
 cX(c){var
-a=f9(c);if(6<aB(a))throw Z;function
-b(a){return 0<a?[0,b(a-1|0)]:0}return b(iA(a))}function
-qU(a){var
-b=97<=a?1:0,c=b?a<=sN?1:0:b;if(c)var
+a=f9(c);if(6<aC(a))throw Z;function
+b(a){return 0<a?[0,b(a-1|0)]:0}return b(iF(a))}function
+qY(a){var
+b=97<=a?1:0,c=b?a<=sQ?1:0:b;if(c)var
 d=c;else
 var
 e=65<=a?1:0,d=e?a<=90?1:0:e;return d}function
-qV(y,b){var
-d=aB(b),a=[0,0];function
+qZ(y,b){var
+d=aC(b),a=[0,0];function
 c(e){var
 c=a[1]<d?1:0,f=c?bd(b,a[1])===e?1:0:c;return f}function
 l(e){var
-c=a[1];for(;;){if(a[1]<d&&48<=bd(b,a[1])&&!(57<bd(b,a[1]))){a[1]++;continue}return el(b,c,a[1]-c|0)}}function
+c=a[1];for(;;){if(a[1]<d&&48<=bd(b,a[1])&&!(57<bd(b,a[1]))){a[1]++;continue}return em(b,c,a[1]-c|0)}}function
 m(b){a[1]++;var
 d=f(b+1|0);if(c(41)){a[1]++;return d}throw Z}function
 i(j){if(64<j)throw Z;if(c(45)){a[1]++;return[2,i(j+1|0)]}if(c(40))var
 e=m(j);else{var
-u=0;if((a[1]+5|0)<=d&&aF(el(b,a[1],5),D1)){a[1]=a[1]+4|0;var
+u=0;if((a[1]+5|0)<=d&&aF(em(b,a[1],5),D4)){a[1]=a[1]+4|0;var
 e=[5,m(j)]}else
 u=1;if(u){var
-v=0;if(a[1]<d&&qU(bd(b,a[1]))){var
+v=0;if(a[1]<d&&qY(bd(b,a[1]))){var
 n=a[1];for(;;){if(a[1]<d){var
-w=0;if(!qU(bd(b,a[1]))&&95!==bd(b,a[1])&&(!(48<=bd(b,a[1]))||57<bd(b,a[1])))w=1;if(!w){a[1]++;continue}}var
-e=[1,h(y,el(b,n,a[1]-n|0))];break}}else
+w=0;if(!qY(bd(b,a[1]))&&95!==bd(b,a[1])&&(!(48<=bd(b,a[1]))||57<bd(b,a[1])))w=1;if(!w){a[1]++;continue}}var
+e=[1,h(y,em(b,n,a[1]-n|0))];break}}else
 v=1;if(v){var
-g=l(0),o=c(46),q=o?(a[1]++,[0,l(0)]):o,r=aF(g,D2);if(r)var
+g=l(0),o=c(46),q=o?(a[1]++,[0,l(0)]):o,r=aF(g,D5);if(r)var
 s=r;else
 var
-t=1<aB(g)?1:0,s=t?48===bd(g,0)?1:0:t;if(s)throw Z;if(q){var
-k=q[1],x=0;if(aF(k,D3)||48===bd(k,aB(k)-1|0))x=1;else
+t=1<aC(g)?1:0,s=t?48===bd(g,0)?1:0:t;if(s)throw Z;if(q){var
+k=q[1],x=0;if(aF(k,D6)||48===bd(k,aC(k)-1|0))x=1;else
 var
-z=h9(k),e=[0,h9(g),z];if(x)throw Z}else
+z=h$(k),e=[0,h$(g),z];if(x)throw Z}else
 var
-e=[0,h9(g),0]}}}if(c(94)){a[1]++;var
-f=l(0);if(p(f,D0)){if(!(2<aB(f))&&2<=iA(f)&&!(64<iA(f)))return[4,e,en(f$(f))];throw Z}throw Z}return e}function
+e=[0,h$(g),0]}}}if(c(94)){a[1]++;var
+f=l(0);if(p(f,D3)){if(!(2<aC(f))&&2<=iF(f)&&!(64<iF(f)))return[4,e,eo(f$(f))];throw Z}throw Z}return e}function
 e(d){var
 b=i(d);for(;;){if(c(42)){a[1]++;var
 b=[3,2,b,i(d)];continue}if(c(47)){a[1]++;var
@@ -8922,55 +8943,55 @@ b=e(d);for(;;){if(c(43)){a[1]++;var
 b=[3,0,b,e(d)];continue}if(c(45)){a[1]++;var
 b=[3,1,b,e(d)];continue}return b}}var
 g=f(0);if(a[1]<d)throw Z;return g}function
-h_(a){return qV(function(a){return[0,a]},a)}function
-k3(a){var
-b=a8(a);return qV(function(a){return a},b)}function
-_(a){return h_(a8(a))}function
-b8(a){if(2===a[0])return[0,h_(a[1])];var
-b=aj(a),c=_(v(b,D4));return[1,_(v(b,D5)),c]}function
-aq(a){throw[0,qS,bk(lU(D7,a),D6)]}function
-k4(c){var
-a=a8(c);if(p(a,D8)){var
-b=p(a,D9);if(b)throw Z;return b}return 1}function
-D_(d){var
+ia(a){return qZ(function(a){return[0,a]},a)}function
+k8(a){var
+b=a8(a);return qZ(function(a){return a},b)}function
+_(a){return ia(a8(a))}function
+b8(a){if(2===a[0])return[0,ia(a[1])];var
+b=aj(a),c=_(v(b,D7));return[1,_(v(b,D8)),c]}function
+ao(a){throw[0,qW,bk(lY(D_,a),D9)]}function
+k9(c){var
+a=a8(c);if(p(a,D$)){var
+b=p(a,Ea);if(b)throw Z;return b}return 1}function
+Eb(d){var
 b=aj(d);function
 a(a){return f_(b8,v(b,a))}var
-c=a8(v(b,D$));if(p(c,Ea)){if(p(c,Eb)){if(p(c,Ec))return aq([0,Ee,[0,c,Ed]]);var
-e=bi(b,Ef),f=ct(function(a){return f_(b8,a)},e),g=a(Eg);return[1,a(Eh),g,f]}var
-h=k4(v(b,Ei)),i=b8(v(b,Ej)),j=a(Ek),k=a(El);return[0,a(Em),k,j,i,h]}return[2,a(En)]}function
-Eo(d){var
+c=a8(v(b,Ec));if(p(c,Ed)){if(p(c,Ee)){if(p(c,Ef))return ao([0,Eh,[0,c,Eg]]);var
+e=bi(b,Ei),f=ct(function(a){return f_(b8,a)},e),g=a(Ej);return[1,a(Ek),g,f]}var
+h=k9(v(b,El)),i=b8(v(b,Em)),j=a(En),k=a(Eo);return[0,a(Ep),k,j,i,h]}return[2,a(Eq)]}function
+Er(d){var
 a=aj(d);if(a){var
-b=a[1];if(!p(b[1],Ep)){var
-c=b[2];if(2===c[0]&&!p(c[1],Eq))return 1}}return 0}function
-qW(e){var
+b=a[1];if(!p(b[1],Es)){var
+c=b[2];if(2===c[0]&&!p(c[1],Et))return 1}}return 0}function
+q0(e){var
 b=aj(e);function
 a(a){return Y(b8,af(v(b,a)))}var
-c=a8(v(b,Er)),f=bi(b,Es),d=ct(function(a){return Y(b8,af(a))},f);if(p(c,Et)){if(p(c,Eu)){if(p(c,Ev)){if(!p(c,Ew)){var
-g=a(Ez);return[1,a(EA),g,d]}}else
+c=a8(v(b,Eu)),f=bi(b,Ev),d=ct(function(a){return Y(b8,af(a))},f);if(p(c,Ew)){if(p(c,Ex)){if(p(c,Ey)){if(!p(c,Ez)){var
+g=a(EC);return[1,a(ED),g,d]}}else
 if(!d){var
-h=k4(v(b,EB)),i=b8(v(b,EC)),j=a(ED),k=a(EE);return[0,a(EF),k,j,i,h]}}else
-if(!d)return[2,a(EG)]}else
+h=k9(v(b,EE)),i=b8(v(b,EF)),j=a(EG),k=a(EH);return[0,a(EI),k,j,i,h]}}else
+if(!d)return[2,a(EJ)]}else
 if(!d){var
-l=k4(v(b,EH)),m=b8(v(b,EI)),n=b8(v(b,EJ)),o=a(EK),q=a(EL),r=a(EM);return[3,a(EN),r,q,o,n,m,l]}return aq([0,Ey,[0,c,Ex]])}function
-EO(d){var
-a=aj(d);if(a){var
-b=a[1];if(!p(b[1],EP)){var
-c=b[2];if(2===c[0]&&!p(c[1],EQ))return 1}}return 0}function
+l=k9(v(b,EK)),m=b8(v(b,EL)),n=b8(v(b,EM)),o=a(EN),q=a(EO),r=a(EP);return[3,a(EQ),r,q,o,n,m,l]}return ao([0,EB,[0,c,EA]])}function
 ER(d){var
 a=aj(d);if(a){var
 b=a[1];if(!p(b[1],ES)){var
 c=b[2];if(2===c[0]&&!p(c[1],ET))return 1}}return 0}function
-qX(d){var
+EU(d){var
 a=aj(d);if(a){var
-b=a[1];if(!p(b[1],EU)){var
-c=b[2];if(2===c[0]&&!p(c[1],EV))return 1}}return 0}function
+b=a[1];if(!p(b[1],EV)){var
+c=b[2];if(2===c[0]&&!p(c[1],EW))return 1}}return 0}function
+q1(d){var
+a=aj(d);if(a){var
+b=a[1];if(!p(b[1],EX)){var
+c=b[2];if(2===c[0]&&!p(c[1],EY))return 1}}return 0}function
 dz(c,d){var
 a=af(d);if(a){var
 b=a[2];if(b&&!b[2]){var
 e=h(c,b[1]);return[0,h(c,a[1]),e]}}throw Z}function
 ed(g,o){var
-h=g?g[1]:g,c=aj(o),a=a8(v(c,EW)),j=tl(a,EX),f=0;if(0<=j)if(0<j)if(p(a,EY))if(p(a,EZ))if(p(a,E0))if(p(a,E1))if(p(a,E2))if(p(a,E3))if(p(a,E4)){var
-k=p(a,E5);if(k)f=1;else
+h=g?g[1]:g,c=aj(o),a=a8(v(c,EZ)),j=to(a,E0),f=0;if(0<=j)if(0<j)if(p(a,E1))if(p(a,E2))if(p(a,E3))if(p(a,E4))if(p(a,E5))if(p(a,E6))if(p(a,E7)){var
+k=p(a,E8);if(k)f=1;else
 var
 b=k}else
 var
@@ -8990,7 +9011,7 @@ var
 b=13;else
 var
 b=2;else
-if(p(a,Fo))if(p(a,Fp))if(p(a,Fq))if(p(a,Fr))if(p(a,Fs))if(p(a,Ft))if(p(a,Fu))if(p(a,Fv))f=1;else
+if(p(a,Fr))if(p(a,Fs))if(p(a,Ft))if(p(a,Fu))if(p(a,Fv))if(p(a,Fw))if(p(a,Fx))if(p(a,Fy))f=1;else
 var
 b=1;else
 var
@@ -9008,10 +9029,10 @@ b=14;else
 f=1;else
 var
 b=12;var
-n=f?aq([0,E7,[0,a,E6]]):b;function
-i(a){return v(c,E8)}var
-d=a8(v(c,E9)),l=p(d,E_);if(l)if(p(d,E$))if(p(d,Fa))if(p(d,Fb))var
-e=aq([0,Fd,[0,d,Fc]]);else
+n=f?ao([0,E_,[0,a,E9]]):b;function
+i(a){return v(c,E$)}var
+d=a8(v(c,Fa)),l=p(d,Fb);if(l)if(p(d,Fc))if(p(d,Fd))if(p(d,Fe))var
+e=ao([0,Fg,[0,d,Ff]]);else
 var
 m=dz(_,i(0)),e=[2,m[1],m[2]];else
 var
@@ -9023,114 +9044,114 @@ e=l;function
 q(H){var
 a=aj(H),b=0;switch(n){case
 6:if(a){var
-r=a[1];if(!p(r[1],Ff)){var
+r=a[1];if(!p(r[1],Fi)){var
 s=r[2];if(1===s[0]){var
 c=s[1],m=0;if(c&&!c[2])if(a[2])m=1;else{var
 e=c[1];b=1;m=1}if(!m&&!a[2]){var
 t=c;b=2}}}}break;case
 10:if(a){var
-u=a[1];if(!p(u[1],Fg)){var
+u=a[1];if(!p(u[1],Fj)){var
 v=u[2];if(1===v[0]){var
 f=v[1];if(f&&!f[2]){var
 g=a[2];if(g){var
-w=g[1];if(!p(w[1],Fh)){var
+w=g[1];if(!p(w[1],Fk)){var
 x=w[2];if(1===x[0]){var
 i=x[1];if(i&&!i[2]&&!g[2]){var
 I=_(i[1]);return[2,_(f[1]),I]}}}}}}}}break;case
 12:if(a){var
-y=a[1];if(!p(y[1],Fi)){var
+y=a[1];if(!p(y[1],Fl)){var
 z=y[2];if(1===z[0]){var
 j=z[1];if(j&&!j[2]){var
 k=a[2],A=j[1];if(k){var
-B=k[1];if(!p(B[1],Fj)){var
+B=k[1];if(!p(B[1],Fm)){var
 C=B[2];if(1===C[0]){var
 l=C[1];if(l&&!l[2]&&!k[2]&&h){var
 J=_(l[1]);return[3,_(A),J]}}}}else{var
 e=A;b=1}}}}}break;case
 16:if(a){var
-F=a[1];if(!p(F[1],Fl)){var
+F=a[1];if(!p(F[1],Fo)){var
 G=F[2];if(1===G[0]&&!a[2]){var
 t=G[1];b=2}}}break;case
 14:case
 15:if(a){var
-D=a[1];if(!p(D[1],Fk)){var
+D=a[1];if(!p(D[1],Fn)){var
 E=D[2];if(1===E[0]&&!a[2])return[1,Y(_,E[1])]}}break;case
 2:case
 8:if(a){var
-o=a[1];if(!p(o[1],Fe)){var
+o=a[1];if(!p(o[1],Fh)){var
 q=o[2];if(1===q[0]){var
 d=q[1];if(d&&!d[2]&&!a[2]){var
 e=d[1];b=1}}}}break}switch(b){case
 0:throw Z;case
 1:return[0,_(e)];default:return[1,Y(_,t)]}}var
-r=ct(q,bi(c,Fm));return[0,n,ct(cX,bi(c,Fn)),r,e]}function
-qY(c){var
-d=ed(Fy,c),e=d[1];if(!(9<=e))switch(e){case
+r=ct(q,bi(c,Fp));return[0,n,ct(cX,bi(c,Fq)),r,e]}function
+q2(c){var
+d=ed(FB,c),e=d[1];if(!(9<=e))switch(e){case
 2:case
 6:case
 8:return d}var
-a=ed(Fw,c),b=a[1];if(2!==b&&!(4<=b))return a;return aq(Fx)}function
-qZ(a){var
-b=ed(Fz,a);return 11===b[1]?b:qY(a)}function
-FA(a){var
-b=ed(FB,a);return 12===b[1]?b:qZ(a)}function
-FC(a){var
-b=ed(FD,a),c=b[1];if(9<=c)switch(c-9|0){case
+a=ed(Fz,c),b=a[1];if(2!==b&&!(4<=b))return a;return ao(FA)}function
+q3(a){var
+b=ed(FC,a);return 11===b[1]?b:q2(a)}function
+FD(a){var
+b=ed(FE,a);return 12===b[1]?b:q3(a)}function
+FF(a){var
+b=ed(FG,a),c=b[1];if(9<=c)switch(c-9|0){case
 2:case
 4:case
-7:break;default:return b}return qZ(a)}function
-k5(c){var
-d=ed(FE,c),a=d[1];if(4<=a){var
+7:break;default:return b}return q3(a)}function
+k_(c){var
+d=ed(FH,c),a=d[1];if(4<=a){var
 b=0;if(6<=a)switch(a-6|0){case
 5:case
 6:case
 7:case
 10:b=1;break}else
-b=1;if(b)return d}return qY(c)}function
-k6(b){var
-a=aj(b[2]);if(p(b[1],FL)){var
-c=dz(_,v(a,FM)),d=dz(_,v(a,FN)),e=d[2],f=d[1],g=_(v(a,FO));return[1,c[1],c[2],g,f,e]}var
-h=Y(_,af(v(a,FP)));return[0,Y(_,af(v(a,FQ))),h]}function
-FR(f){var
+b=1;if(b)return d}return q2(c)}function
+k$(b){var
+a=aj(b[2]);if(p(b[1],FO)){var
+c=dz(_,v(a,FP)),d=dz(_,v(a,FQ)),e=d[2],f=d[1],g=_(v(a,FR));return[1,c[1],c[2],g,f,e]}var
+h=Y(_,af(v(a,FS)));return[0,Y(_,af(v(a,FT))),h]}function
+FU(f){var
 a=aj(f);function
 d(b){return _(v(a,b))}function
 c(b){return f_(_,v(a,b))}var
-b=a8(v(a,FS));if(p(b,FT)){if(!p(b,FU)){var
-j=v(a,F0),e=dz(function(a){return a},j),k=bi(a,F1),l=ct(function(a){return c(F2)},k),m=h_(a8(e[2])),n=h_(a8(e[1])),o=d(F3);return[0,cX(v(a,F4)),o,n,m,l]}if(p(b,FV))throw Z}var
-g=d(FW),h=c(FX),i=c(FY);return[1,aF(b,FZ),i,h,g]}function
-k7(aG){var
-j=ec(aG),k=j[1];if(p(k,F5)){if(p(k,F6)){if(p(k,F7)){if(p(k,F8))return aq([0,F_,[0,k,F9]]);var
-C=v(aj(j[2]),F$),an=0;if(2===C[0]){var
-R=p(C[1],Ga);if(!R){var
+b=a8(v(a,FV));if(p(b,FW)){if(!p(b,FX)){var
+j=v(a,F3),e=dz(function(a){return a},j),k=bi(a,F4),l=ct(function(a){return c(F5)},k),m=ia(a8(e[2])),n=ia(a8(e[1])),o=d(F6);return[0,cX(v(a,F7)),o,n,m,l]}if(p(b,FY))throw Z}var
+g=d(FZ),h=c(F0),i=c(F1);return[1,aF(b,F2),i,h,g]}function
+la(aH){var
+j=ec(aH),k=j[1];if(p(k,F8)){if(p(k,F9)){if(p(k,F_)){if(p(k,F$))return ao([0,Gb,[0,k,Ga]]);var
+C=v(aj(j[2]),Gc),an=0;if(2===C[0]){var
+R=p(C[1],Gd);if(!R){var
 Q=R;an=1}}if(!an)var
 Q=[0,b8(C)];return[6,Q]}var
-S=aj(j[2]),l=k7([0,[0,[0,Gc,v(S,Gb)],0]]);if(0===l[0]){var
+S=aj(j[2]),l=la([0,[0,[0,Gf,v(S,Ge)],0]]);if(0===l[0]){var
 D=l[2];if(0===D[0]&&!l[3]){var
-T=l[4];if(!aQ(b7,T)){var
-aH=_(v(S,Ge));return[5,l[1],D[1],D[2],T,aH]}}}return aq(Gd)}var
-b=aj(j[2]),E=bi(b,Gf),F=E?Y(FR,af(E[1])):E,s=function(b){var
-a=0!==F?1:0;return a?aq(Gg):a},m=ec(v(b,Gh)),c=ec(v(b,Gi)),d=m[1];if(p(d,Gj)&&p(d,Gk)&&p(d,Gl)){if(0===bi(b,Gm)){if(p(d,Gn)){var
-ao=0;if(p(d,Go)){if(!p(d,Gp)){var
-U=c[1],ap=0;if(p(U,Gs)&&p(U,Gt)){ao=1;ap=1}if(!ap){var
-n=af(m[2]),aI=af(v(b,Gw)),G=Y(function(a){return ed(0,a)},aI),aJ=aQ(function(a){switch(a[1]){case
-5:return 1-fh(EO,n);case
-11:return aQ(ER,n);case
+T=l[4];if(!aP(b7,T)){var
+aI=_(v(S,Gh));return[5,l[1],D[1],D[2],T,aI]}}}return ao(Gg)}var
+b=aj(j[2]),E=bi(b,Gi),F=E?Y(FU,af(E[1])):E,s=function(b){var
+a=0!==F?1:0;return a?ao(Gj):a},m=ec(v(b,Gk)),c=ec(v(b,Gl)),d=m[1];if(p(d,Gm)&&p(d,Gn)&&p(d,Go)){if(0===bi(b,Gp)){if(p(d,Gq)){var
+ap=0;if(p(d,Gr)){if(!p(d,Gs)){var
+U=c[1],aq=0;if(p(U,Gv)&&p(U,Gw)){ap=1;aq=1}if(!aq){var
+n=af(m[2]),aJ=af(v(b,Gz)),G=Y(function(a){return ed(0,a)},aJ),aK=aP(function(a){switch(a[1]){case
+5:return 1-el(ER,n);case
+11:return aP(EU,n);case
 7:case
 9:case
 10:case
-12:return 1;default:return 0}},G);if(!aQ(Eo,n)){var
-ar=0;if(!aQ(b7,G)||aJ)ar=1;if(ar){var
-aN=Y(D_,n),i=aj(c[2]);if(p(c[1],FF))var
-O=dz(_,v(i,FG)),P=dz(_,v(i,FH)),aB=P[2],aC=P[1],aD=_(v(i,FI)),V=[1,O[1],O[2],aD,aC,aB];else
+12:return 1;default:return 0}},G);if(!aP(Er,n)){var
+ar=0;if(!aP(b7,G)||aK)ar=1;if(ar){var
+aN=Y(Eb,n),i=aj(c[2]);if(p(c[1],FI))var
+O=dz(_,v(i,FJ)),P=dz(_,v(i,FK)),aB=P[2],aC=P[1],aD=_(v(i,FL)),V=[1,O[1],O[2],aD,aC,aB];else
 var
-aE=f_(_,v(i,FJ)),V=[0,f_(_,v(i,FK)),aE];return[0,aN,V,F,G]}}s(0);var
-aL=Y(k5,af(v(b,Gx))),aM=k6(c);return[1,0,Y(qW,n),0,aM,0,aL]}}}else
-if(!p(c[1],Gy)){s(0);var
-W=Y(k5,af(v(b,Gz))),z=0,g=W;for(;;){if(g){var
+aE=f_(_,v(i,FM)),V=[0,f_(_,v(i,FN)),aE];return[0,aN,V,F,G]}}s(0);var
+aL=Y(k_,af(v(b,GA))),aM=k$(c);return[1,0,Y(q0,n),0,aM,0,aL]}}}else
+if(!p(c[1],GB)){s(0);var
+W=Y(k_,af(v(b,GC))),z=0,g=W;for(;;){if(g){var
 L=g[2],M=g[1];if(0===M[1]){var
 z=[0,M,z],g=L;continue}var
 g=L;continue}var
-q=iG(z),as=0;if(q){var
+q=iL(z),as=0;if(q){var
 e=0,X=q[1][4];if(typeof
 X==="number")e=1;else
 switch(X[0]){case
@@ -9145,162 +9166,173 @@ I=q[2];if(I){var
 K=0,aa=I[1][4];if(typeof
 aa!=="number"&&0===aa[0])if(I[2]){e=1;K=1}else
 K=1;if(!K)e=1}else
-e=1;break;default:e=1}if(!e)as=1}if(!as)aq(GA);var
-aO=_(v(aj(c[2]),GB));return[4,_(v(aj(m[2]),GC)),aO,W]}}if(!ao)return aq([0,Gr,[0,d,Gq]])}else
-if(!p(c[1],GD)){s(0);var
+e=1;break;default:e=1}if(!e)as=1}if(!as)ao(GD);var
+aO=_(v(aj(c[2]),GE));return[4,_(v(aj(m[2]),GF)),aO,W]}}if(!ap)return ao([0,Gu,[0,d,Gt]])}else
+if(!p(c[1],GG)){s(0);var
 t=aj(m[2]),ab=aj(c[2]),ac=function(c,a){var
 b=af(a);return Y(function(d){var
 a=af(d);if(a){var
 b=a[2];if(b&&!b[2]){var
-e=h(c,b[1]);return[0,a8(a[1]),e]}}throw Z},b)},aP=function(d){var
+e=h(c,b[1]);return[0,a8(a[1]),e]}}throw Z},b)},aQ=function(d){var
 a=aj(d);if(a){var
-b=a[1],c=b[1];if(p(c,GE)){if(!p(c,GF)&&!a[2])return[0,Y(k3,af(b[2]))]}else
-if(!a[2])return[1,k3(b[2])]}throw Z},ad=ac(k3,v(t,GG)),ae=Y(aP,af(v(t,GH))),A=0,r=ae;for(;;){if(r){var
-B=r[1],au=r[2],av=0===B[0]?B[1]:[0,B[1],0],A=lR(av,A),r=au;continue}var
-aw=iG(A),f=function(b,a){switch(a[0]){case
+b=a[1],c=b[1];if(p(c,GH)){if(!p(c,GI)&&!a[2])return[0,Y(k8,af(b[2]))]}else
+if(!a[2])return[1,k8(b[2])]}throw Z},ad=ac(k8,v(t,GJ)),ae=Y(aQ,af(v(t,GK))),A=0,r=ae;for(;;){if(r){var
+B=r[1],au=r[2],av=0===B[0]?B[1]:[0,B[1],0],A=lV(av,A),r=au;continue}var
+aw=iL(A),f=function(b,a){switch(a[0]){case
 0:var
 c=1;break;case
 1:var
-d=lT(a[1],b),e=1,g=d?d[1]:e,c=g;break;case
+d=lX(a[1],b),e=1,g=d?d[1]:e,c=g;break;case
 3:var
 h=f(b,a[3]),c=(1+f(b,a[2])|0)+h|0;break;case
 4:var
-i=iF(a[2]),c=lF(f(b,a[1]),i);break;default:var
-c=1+f(b,a[1])|0}return lO(32769,c)},ax=0,N=lS(function(b,a){var
-c=f(b,a[2]);return[0,[0,a[1],c],b]},ax,ad),ay=Y(function(a){return f(N,a)},aw),az=lP(Y(aK,N),ay),aA=0;if(32768<lS(function(b,a){return b+a|0},aA,az))aq([0,GJ,[0,a("32768"),GI]]);var
-aR=Y(FA,af(v(b,GK))),aS=Y(_,af(v(ab,GL))),aT=Y(_,af(v(ab,GM))),aU=ac(b8,v(t,GN));return[3,Y(a8,af(v(t,GO))),aU,ad,ae,aT,aS,aR]}}return aq([0,Gv,[0,c[1],Gu]])}throw Z}var
-ag=aj(m[2]),u=ct(_,bi(ag,GP)),aV=function(f){var
-a=ec(f),b=a[1];if(p(b,GQ)){if(p(b,GR)){if(p(b,GS)){if(p(b,GT))throw Z;var
-d=a[2],g=_(v(aj(d),GU));return[3,_(v(aj(d),GV)),g]}var
-h=a[2],c=function(a){return dz(_,v(aj(h),a))},i=c(GW),j=c(GX);return[1,c(GY),j,i]}var
-e=dz(_,a[2]);return[0,e[1],e[2]]}return[2,_(a[2])]},w=ct(aV,bi(b,GZ)),ah=p(d,G0),ai=ah?p(d,G1)?2:1:ah,x=af(v(ag,G2));if(u&&w&&fh(qX,x)){var
+i=iK(a[2]),c=lJ(f(b,a[1]),i);break;default:var
+c=1+f(b,a[1])|0}return lS(32769,c)},ax=0,N=lW(function(b,a){var
+c=f(b,a[2]);return[0,[0,a[1],c],b]},ax,ad),ay=Y(function(a){return f(N,a)},aw),az=lT(Y(aG,N),ay),aA=0;if(32768<lW(function(b,a){return b+a|0},aA,az))ao([0,GM,[0,a("32768"),GL]]);var
+aR=Y(FD,af(v(b,GN))),aS=Y(_,af(v(ab,GO))),aT=Y(_,af(v(ab,GP))),aU=ac(b8,v(t,GQ));return[3,Y(a8,af(v(t,GR))),aU,ad,ae,aT,aS,aR]}}return ao([0,Gy,[0,c[1],Gx]])}throw Z}var
+ag=aj(m[2]),u=ct(_,bi(ag,GS)),aV=function(f){var
+a=ec(f),b=a[1];if(p(b,GT)){if(p(b,GU)){if(p(b,GV)){if(p(b,GW))throw Z;var
+d=a[2],g=_(v(aj(d),GX));return[3,_(v(aj(d),GY)),g]}var
+h=a[2],c=function(a){return dz(_,v(aj(h),a))},i=c(GZ),j=c(G0);return[1,c(G1),j,i]}var
+e=dz(_,a[2]);return[0,e[1],e[2]]}return[2,_(a[2])]},w=ct(aV,bi(b,G2)),ah=p(d,G3),ai=ah?p(d,G4)?2:1:ah,x=af(v(ag,G5));if(u&&w&&el(q1,x)){var
 aW=function(c){var
 a=aj(c);function
-b(b){return Y(b8,af(v(a,b)))}if(0!==bi(a,G3))aq(G4);var
-d=b(G5);return[0,b(G6),d]},aX=Y(FC,af(v(b,G7))),aY=w[1],aZ=k6(c),a0=u[1];return[2,ai,Y(aW,x),a0,aZ,aY,F,aX]}s(0);var
-at=0;if(!u&&aF(d,G_)){var
+b(b){return Y(b8,af(v(a,b)))}if(0!==bi(a,G6))ao(G7);var
+d=b(G8);return[0,b(G9),d]},aX=Y(FF,af(v(b,G_))),aY=w[1],aZ=k$(c),a0=u[1];return[2,ai,Y(aW,x),a0,aZ,aY,F,aX]}s(0);var
+at=0;if(!u&&aF(d,Hb)){var
 ak=1;at=1}if(!at)var
 ak=[0,ai];var
-al=0!==w?1:0,a1=al?aQ(qX,x):al;if(a1)aq(G8);var
-a2=Y(k5,af(v(b,G9))),a3=k6(c);return[1,ak,Y(qW,x),u,a3,w,a2]}var
+al=0!==w?1:0,a1=al?aP(q1,x):al;if(a1)ao(G$);var
+a2=Y(k_,af(v(b,Ha))),a3=k$(c);return[1,ak,Y(q0,x),u,a3,w,a2]}var
 y=aj(j[2]);function
 a4(b){var
-a=aj(b),c=_(v(a,G$)),d=[0,_(v(a,Ha)),c];return[0,a8(v(a,Hb)),d]}var
-o=k7([0,[0,[0,Hd,v(y,Hc)],0]]);if(0===o[0]&&!o[3]){var
-am=o[4];if(!aQ(b7,am)){var
-a5=_(v(y,Hf)),a6=_(v(y,Hg)),a7=o[2],a9=o[1];return[7,Y(a4,af(v(y,Hh))),a9,a7,am,a6,a5]}}return aq(He)}function
-ga(a){return Y(e1,af(a))}function
-h$(c,b){var
+a=aj(b),c=_(v(a,Hc)),d=[0,_(v(a,Hd)),c];return[0,a8(v(a,He)),d]}var
+o=la([0,[0,[0,Hg,v(y,Hf)],0]]);if(0===o[0]&&!o[3]){var
+am=o[4];if(!aP(b7,am)){var
+a5=_(v(y,Hi)),a6=_(v(y,Hj)),a7=o[2],a9=o[1];return[7,Y(a4,af(v(y,Hk))),a9,a7,am,a6,a5]}}return ao(Hh)}function
+ga(a){return Y(e2,af(a))}function
+ib(c,b){var
 a=ga(b);if(cA(a)!==c)throw Z;return a}function
-q0(a,d){var
-b=aj(d),e=af(v(b,Hk)),f=a[2],c=Y(function(a){return h$(f,a)},e),g=a[1];if(cA(c)!==g)throw Z;return[0,c,dy(v(b,Hl))]}function
-dA(au,i){var
-as=0;if(0===i[0]){var
+q4(a,d){var
+b=aj(d),e=af(v(b,Hn)),f=a[2],c=Y(function(a){return ib(f,a)},e),g=a[1];if(cA(c)!==g)throw Z;return[0,c,dy(v(b,Ho))]}function
+dA(aw,i){var
+au=0;if(0===i[0]){var
 q=i[1];if(q){var
-U=q[1];if(!p(U[1],Hm)){var
-ag=U[2];if(0===ag[0]){var
-L=ag[1];if(L){var
-ah=L[1];if(!p(ah[1],HK)){var
-ai=ah[2];if(1===ai[0]){var
+V=q[1];if(!p(V[1],Hp)){var
+ai=V[2];if(0===ai[0]){var
 M=ai[1];if(M){var
-ak=M[1];if(1===ak[0]){var
-al=ak[1];if(al&&!al[2]&&!M[2]){var
-am=L[2];if(am&&!am[2]&&!q[2]){var
-f=HL;as=1}}}}}}}}}}}if(!as)var
-f=au;var
+ak=M[1];if(!p(ak[1],HU)){var
+al=ak[2];if(1===al[0]){var
+N=al[1];if(N){var
+am=N[1];if(1===am[0]){var
+an=am[1];if(an&&!an[2]&&!N[2]){var
+ap=M[2];if(ap&&!ap[2]&&!q[2]){var
+f=HV;au=1}}}}}}}}}}}if(!au)var
+f=aw;var
 r=f[2];switch(i[0]){case
 0:var
 c=i[1];if(c){var
-e=c[1],a=e[1],V=tl(a,Hn),b=0;if(0<=V)if(0<V)if(p(a,Ho)){var
-g=0;if(p(a,Hp)&&p(a,Hq)&&p(a,Hr))if(p(a,Hs))g=1;else{var
-W=e[2];if(1===W[0]){var
-s=W[1];if(s){var
+e=c[1],a=e[1],W=to(a,Hq),b=0;if(0<=W)if(0<W)if(p(a,Hr)){var
+g=0;if(p(a,Hs)&&p(a,Ht)&&p(a,Hu))if(p(a,Hv))g=1;else{var
+X=e[2];if(1===X[0]){var
+s=X[1];if(s){var
 t=s[2];if(t){var
 u=t[2];if(u&&!u[2]){if(!c[2]){var
-av=Y(ga,af(u[1])),aw=a8(t[1]);return[8,dA(f,s[1]),aw,av]}b=1;g=1}else
+ax=Y(ga,af(u[1])),ay=a8(t[1]);return[8,dA(f,s[1]),ay,ax]}b=1;g=1}else
 g=1}else
 g=1}else
 g=1}else
 g=1}if(!g)if(c[2])b=1;else{var
-ax=e[2],x=ax,w=function(c,b){return[1,a,c,b]};b=2}}else{var
-_=e[2];if(1===_[0]){var
-y=_[1];if(y){var
+az=e[2],x=az,w=function(c,b){return[1,a,c,b]};b=2}}else{var
+$=e[2];if(1===$[0]){var
+y=$[1];if(y){var
 z=y[2];if(z){var
 A=z[2];if(A&&!A[2]){if(!c[2]){var
-ay=dy(A[1]),az=e1(z[1]);return[5,dA(f,y[1]),az,ay]}b=1}}}}}else{var
-$=e[2];if(1===$[0]){if(!c[2]){var
-aA=function(m){if(1===m[0]){var
-d=m[1];if(d){var
-e=d[2];if(e){var
-g=e[2];if(g){var
-h=g[2];if(h&&!h[2]){var
-n=h[1],a=n;for(;;){var
-i=0;switch(a[0]){case
+aB=dy(A[1]),aC=e2(z[1]);return[5,dA(f,y[1]),aC,aB]}b=1}}}}}else{var
+aa=e[2];if(1===aa[0]){if(!c[2]){var
+aD=function(x){if(1===x[0]){var
+i=x[1];if(i){var
+j=i[2];if(j){var
+k=j[2];if(k){var
+l=k[2];if(l&&!l[2]){var
+m=l[1],b=m;for(;;){var
+n=0;switch(b[0]){case
 0:var
-b=a[1];if(b){var
-j=b[1],c=j[1];if(p(c,Hv)){var
-o=0;if(p(c,Hw)&&p(c,Hx)&&p(c,Hy))o=1;if(!o&&!b[2])i=1}else{var
-k=j[2];if(1===k[0]){var
-l=k[1];if(l&&!b[2]){var
-a=l[1];continue}}}}break;case
-2:if(!p(a[1],Hz))i=1;break}var
-q=i?1:0;if(q){var
-r=dA(f,n),s=dy(g[1]),t=e1(e[1]);return[0,[0,[0,ga(d[1]),t],s],r]}return aq(HA)}}}}}}throw Z};return[9,Y(aA,$[1])]}b=1}}else
-if(p(a,HB))if(p(a,HC))if(p(a,HD))if(p(a,HE))if(p(a,HF)){if(!p(a,HG)){if(!c[2]){var
-aa=aj(e[2]),aB=af(v(aa,HH)),aC=r+1|0,ab=Y(function(a){return h$(aC,a)},aB);if(3===cA(ab))return[1,HJ,ab,dy(v(aa,HI))];throw Z}b=1}}else{if(!c[2]){var
-R=a8(e[2]),S=p(R,Hi);if(S){if(p(R,Hj))throw Z;var
-T=1}else
+c=b[1];if(c){var
+q=c[1],a=q[1];if(p(a,Hy)){var
+y=0;if(p(a,Hz)&&p(a,HA)&&p(a,HB)&&p(a,HC))y=1;if(!y&&!c[2])n=1}else{var
+r=q[2];if(1===r[0]){var
+s=r[1];if(s&&!c[2]){var
+b=s[1];continue}}}}break;case
+2:var
+t=b[1];if(!p(t,HD)||!p(t,HE))n=1;break}var
+z=n?1:0;if(z){var
+A=dA(f,m),B=dy(k[1]),C=e2(j[1]),d=m,D=[0,[0,[0,ga(i[1]),C],B],A];for(;;){var
+o=0;switch(d[0]){case
+0:var
+e=d[1];if(e){var
+u=e[1],h=u[1],g=0;if(p(h,HF))if(p(h,HG)){if(p(h,HH))g=1}else
+if(e[2])g=1;else{o=1;g=1}if(!g){var
+v=u[2];if(1===v[0]){var
+w=v[1];if(w&&!e[2]){var
+d=w[1];continue}}}}break;case
+2:if(!p(d[1],HI))o=1;break}var
+E=o?1:0;return[0,E,D]}}return ao(HJ)}}}}}}throw Z},B=Y(aD,aa[1]),ab=aP(aA,B),aE=ab?1-el(aA,B):ab;if(aE)ao(HK);return[9,Y(aG,B)]}b=1}}else
+if(p(a,HL))if(p(a,HM))if(p(a,HN))if(p(a,HO))if(p(a,HP)){if(!p(a,HQ)){if(!c[2]){var
+ac=aj(e[2]),aF=af(v(ac,HR)),aH=r+1|0,ad=Y(function(a){return ib(aH,a)},aF);if(3===cA(ad))return[1,HT,ad,dy(v(ac,HS))];throw Z}b=1}}else{if(!c[2]){var
+S=a8(e[2]),T=p(S,Hl);if(T){if(p(S,Hm))throw Z;var
+U=1}else
 var
-T=S;return[2,T]}b=1}else{if(!c[2]){var
+U=T;return[2,U]}b=1}else{if(!c[2]){var
 k=e[2],o=0;switch(k[0]){case
 0:var
 l=k[1];if(l){var
-an=l[1],j=an[1],d=0;if(p(j,HM)&&p(j,HN)&&p(j,HO)&&p(j,HP))if(p(j,HQ))d=1;else{var
-ao=an[2];if(1===ao[0]){var
-N=ao[1];if(N){var
-m=N[1],h=0;switch(m[0]){case
+aq=l[1],j=aq[1],d=0;if(p(j,HW)&&p(j,HX)&&p(j,HY)&&p(j,HZ))if(p(j,H0))d=1;else{var
+ar=aq[2];if(1===ar[0]){var
+O=ar[1];if(O){var
+m=O[1],h=0;switch(m[0]){case
 0:var
-O=m[1];if(O){var
-n=O[1][1],at=0;if(p(n,HS)&&p(n,HT)&&p(n,HU)&&p(n,HV)){d=1;h=1;at=1}if(!at&&O[2]){d=1;h=1}}else{d=1;h=1}break;case
+P=m[1];if(P){var
+n=P[1][1],av=0;if(p(n,H2)&&p(n,H3)&&p(n,H4)&&p(n,H5)){d=1;h=1;av=1}if(!av&&P[2]){d=1;h=1}}else{d=1;h=1}break;case
 2:var
-ap=m[1];if(p(ap,HW)&&p(ap,HX)){d=1;h=1}break;default:d=1;h=1}if(!h){var
-P=N[2];if(P){var
-Q=P[2];if(Q&&!(Q[2]||l[2])){var
-aL=dy(Q[1]),aM=e1(P[1]),B=[6,dA(f,m),aM,aL];o=2;d=1}else
+as=m[1];if(p(as,H6)&&p(as,H7)){d=1;h=1}break;default:d=1;h=1}if(!h){var
+Q=O[2];if(Q){var
+R=Q[2];if(R&&!(R[2]||l[2])){var
+aR=dy(R[1]),aS=e2(Q[1]),C=[6,dA(f,m),aS,aR];o=2;d=1}else
 d=1}else
 d=1}}else
 d=1}else
 d=1}if(!d&&!l[2])o=1}break;case
 2:var
-ar=k[1];if(!p(ar,HY)||!p(ar,HZ))o=1;break}switch(o){case
+at=k[1];if(!p(at,H8)||!p(at,H9))o=1;break}switch(o){case
 0:var
-B=aq(HR);break;case
+C=ao(H1);break;case
 1:var
-B=dA(f,k);break}return[7,B]}b=1}else{var
-ac=e[2];if(1===ac[0]){var
-C=ac[1];if(C){var
-D=C[2];if(D&&!D[2])if(c[2])b=1;else{var
-aD=D[1],aE=C[1],x=aE,w=function(b,a){return[3,b,a,h$(r+1|0,aD)]};b=2}}}}else{var
-ad=e[2];if(1===ad[0]){var
-E=ad[1];if(E){var
-F=E[2];if(F){var
-G=F[2];if(G){var
-H=G[2];if(H&&!H[2]){if(!c[2]){var
-aF=dA(f,H[1]),aG=dA(f,G[1]),aH=dy(F[1]);return[10,h$(r+1|0,E[1]),aH,aG,aF]}b=1}}}}}}else{var
+C=dA(f,k);break}return[7,C]}b=1}else{var
 ae=e[2];if(1===ae[0]){var
-I=ae[1];if(I){var
-J=I[2];if(J){var
-K=J[2];if(K&&!K[2])if(c[2])b=1;else{var
-aI=K[1],aJ=J[1],aK=I[1],x=aK,w=function(b,a){var
-c=dy(aI);return[4,b,a,e1(aJ),c]};b=2}}}}}switch(b){case
-0:if(!c[2])return aq([0,Hu,[0,a,Ht]]);break;case
+D=ae[1];if(D){var
+E=D[2];if(E&&!E[2])if(c[2])b=1;else{var
+aI=E[1],aJ=D[1],x=aJ,w=function(b,a){return[3,b,a,ib(r+1|0,aI)]};b=2}}}}else{var
+ag=e[2];if(1===ag[0]){var
+F=ag[1];if(F){var
+G=F[2];if(G){var
+H=G[2];if(H){var
+I=H[2];if(I&&!I[2]){if(!c[2]){var
+aK=dA(f,I[1]),aL=dA(f,H[1]),aM=dy(G[1]);return[10,ib(r+1|0,F[1]),aM,aL,aK]}b=1}}}}}}else{var
+ah=e[2];if(1===ah[0]){var
+J=ah[1];if(J){var
+K=J[2];if(K){var
+L=K[2];if(L&&!L[2])if(c[2])b=1;else{var
+aN=L[1],aO=K[1],aQ=J[1],x=aQ,w=function(b,a){var
+c=dy(aN);return[4,b,a,e2(aO),c]};b=2}}}}}switch(b){case
+0:if(!c[2])return ao([0,Hx,[0,a,Hw]]);break;case
 1:break;default:var
-X=q0(f,x);return w(X[1],X[2])}}break;case
+_=q4(f,x);return w(_[1],_[2])}}break;case
 2:return[0,i[1]]}throw Z}function
-q1(n){var
-b=ec(n),a=b[1];if(p(a,H2))if(p(a,H3)){var
-h=p(a,H4);if(!h)return h;if(p(a,H5)){if(!p(a,H6)){var
-c=aj(b[2]),i=function(a){return Y(_,af(v(c,a)))},j=aj(v(c,H_)),o=dy(v(j,H$)),q=Y(ga,af(v(j,Ia))),r=i(Ib),s=i(Ic);return[3,cX(v(c,Id)),s,r,q,o]}if(!p(a,H7))return[2,Y(_,af(b[2]))]}else{var
+q5(n){var
+b=ec(n),a=b[1];if(p(a,Ia))if(p(a,Ib)){var
+h=p(a,Ic);if(!h)return h;if(p(a,Id)){if(!p(a,Ie)){var
+c=aj(b[2]),i=function(a){return Y(_,af(v(c,a)))},j=aj(v(c,Ii)),o=dy(v(j,Ij)),q=Y(ga,af(v(j,Ik))),r=i(Il),s=i(Im);return[3,cX(v(c,In)),s,r,q,o]}if(!p(a,If))return[2,Y(_,af(b[2]))]}else{var
 k=b[2];if(1===k[0]){var
 d=k[1];if(d){var
 e=d[2];if(e&&!e[2]){var
@@ -9309,33 +9341,33 @@ l=b[2];if(1===l[0]){var
 f=l[1];if(f){var
 g=f[2];if(g&&!g[2]){var
 u=Y(ga,af(g[1]));return[0,cX(f[1]),u]}}}}else{var
-m=b[2];if(1===m[0]&&!m[1])return 1}return aq([0,H9,[0,a,H8]])}function
-q2(f,b){var
-a=aj(b),c=af(v(a,Ii)),d=Y(function(g){var
+m=b[2];if(1===m[0]&&!m[1])return 1}return ao([0,Ih,[0,a,Ig]])}function
+q6(f,b){var
+a=aj(b),c=af(v(a,Is)),d=Y(function(g){var
 a=aj(g);function
 b(d,c){var
 b=bi(a,c);return b?Y(d,af(b[1])):b}var
-c=b(e1,Ie),d=ct(q1,bi(a,If)),e=ct(cX,bi(a,Ig));return[0,b(function(h){var
+c=b(e2,Io),d=ct(q5,bi(a,Ip)),e=ct(cX,bi(a,Iq));return[0,b(function(h){var
 b=af(h);if(b){var
 a=b[2];if(a){var
-c=a[1],e=b[1],d=0;if(2===c[0]&&!p(c[1],H0)){if(!a[2]){if(p(f9(e),H1))throw Z;d=1}}else
+c=a[1],e=b[1],d=0;if(2===c[0]&&!p(c[1],H_)){if(!a[2]){if(p(f9(e),H$))throw Z;d=1}}else
 d=1;if(d&&!a[2]){var
-g=dA(f,c);return[0,cX(e),g]}}}throw Z},Ih),e,d,c]},c),e=bi(a,Ij),g=ct(function(a){return q0(f,a)},e);return[0,qT(v(a,Ik)),g,d]}function
-q3(c){var
-a=aj(c),b=bi(a,Il),d=b?Y(_,af(b[1])):b,e=q1(v(a,Im)),f=Y(_,af(v(a,In)));return[0,qT(v(a,Io)),f,d,e]}function
-Iy(c){var
+g=dA(f,c);return[0,cX(e),g]}}}throw Z},Ir),e,d,c]},c),e=bi(a,It),g=ct(function(a){return q4(f,a)},e);return[0,qX(v(a,Iu)),g,d]}function
+q7(c){var
+a=aj(c),b=bi(a,Iv),d=b?Y(_,af(b[1])):b,e=q5(v(a,Iw)),f=Y(_,af(v(a,Ix)));return[0,qX(v(a,Iy)),f,d,e]}function
+II(c){var
 a=c[1],b=0;if(10<=a){if(!(13<=a))b=1}else
 if(8===a)b=1;return b?1:0}function
-Iz(b){var
+IJ(b){var
 a=b[3];if(a&&1===a[1][0])return 1;return 0}function
-IA(b){var
-c=b[1],a=b[4];if(!(1<c+rW>>>0)&&typeof
-a!=="number"&&1===a[0])return 1-hy(k(a[1]));return 10===c?1:0}function
-IE(f){var
-i=aB(f),b=[0,0];function
+IK(b){var
+c=b[1],a=b[4];if(!(1<c+rZ>>>0)&&typeof
+a!=="number"&&1===a[0])return 1-hA(k(a[1]));return 10===c?1:0}function
+IO(f){var
+i=aC(f),b=[0,0];function
 j(a){if(b[1]<i)return bd(f,b[1]);throw Z}function
 k(a){if(j(0)===a){b[1]++;return 0}throw Z}function
-A(a,c){for(;;){if(b[1]<i&&h(c,bd(f,b[1]))){b[1]++;continue}return el(f,a,b[1]-a|0)}}function
+A(a,c){for(;;){if(b[1]<i&&h(c,bd(f,b[1]))){b[1]++;continue}return em(f,a,b[1]-a|0)}}function
 B(d){k(34);function
 a(a){var
 b=34!==a?1:0;if(b)var
@@ -9346,7 +9378,7 @@ c=A(b[1],a);k(34);return c}function
 C(e,a){if(j(0)===a){b[1]++;return 0}var
 c=0;for(;;){var
 d=[0,h(e,0),c];if(44===j(0)){b[1]++;var
-c=d;continue}k(a);return iG(d)}}function
+c=d;continue}k(a);return iL(d)}}function
 r(c,l){if(64<c)throw Z;var
 a=j(0),d=0;if(48<=a){if(91===a){b[1]++;var
 f=93,g=c+1|0;return[1,C(function(a){return r(g,a)},f)]}if(123===a){b[1]++;var
@@ -9354,10 +9386,10 @@ h=125;return[0,C(function(b){var
 a=B(0);k(58);return[0,a,r(c+1|0,0)]},h)]}if(!(58<=a))d=1}else{if(34===a)return[2,B(0)];if(45===a)d=1}if(d){var
 i=b[1];b[1]++;var
 e=A(i,function(a){var
-b=48<=a?1:0,c=b?a<=57?1:0:b;return c});if(p(e,DY))return[3,e];throw Z}throw Z}var
+b=48<=a?1:0,c=b?a<=57?1:0:b;return c});if(p(e,D1))return[3,e];throw Z}throw Z}var
 Q=r(0,0),D=b[1]<i?1:0,R=D?10===bd(f,b[1])?1:0:D;if(R)b[1]++;if(b[1]<i)throw Z;var
-o=aj(Q);if(p(a8(v(o,IF)),IG))throw Z;var
-a=k7(v(o,IH)),x=0;switch(a[0]){case
+o=aj(Q);if(p(a8(v(o,IP)),IQ))throw Z;var
+a=la(v(o,IR)),x=0;switch(a[0]){case
 1:var
 u=a[1],y=0;if(typeof
 u==="number")if(u)var
@@ -9377,31 +9409,31 @@ E=a[2];x=1;break;case
 0:case
 5:var
 E=a[1];x=1;break;default:var
-e=IY}if(x)var
+e=I8}if(x)var
 e=[0,cA(E),3];var
-l=ec(v(o,II)),m=l[1];if(p(m,It))if(p(m,Iu))if(p(m,Iv))var
-c=aq([0,Ix,[0,m,Iw]]);else
+l=ec(v(o,IS)),m=l[1];if(p(m,ID))if(p(m,IE))if(p(m,IF))var
+c=ao([0,IH,[0,m,IG]]);else
 var
-n=q3(l[2]),c=[1,n[1],n[2],n[3],n[4]];else
+n=q7(l[2]),c=[1,n[1],n[2],n[3],n[4]];else
 var
-s=q2(e,l[2]),c=[0,s[1],s[2],s[3]];else
+s=q6(e,l[2]),c=[0,s[1],s[2],s[3]];else
 var
 S=af(l[2]),c=[2,Y(function(g){var
-a=ec(g),b=a[1];if(p(b,Ip)){if(p(b,Iq)){if(p(b,Ir)){var
-f=p(b,Is);if(f)throw Z;return f}return[0,cX(a[2])]}var
-c=q3(a[2]);return[2,c[1],c[2],c[3],c[4]]}var
-d=q2(e,a[2]);return[1,d[1],d[2],d[3]]},S)];function
+a=ec(g),b=a[1];if(p(b,Iz)){if(p(b,IA)){if(p(b,IB)){var
+f=p(b,IC);if(f)throw Z;return f}return[0,cX(a[2])]}var
+c=q7(a[2]);return[2,c[1],c[2],c[3],c[4]]}var
+d=q6(e,a[2]);return[1,d[1],d[2],d[3]]},S)];function
 T(a){return 0!==a[3]?1:0}function
-F(a){return aQ(T,a)}var
+F(a){return aP(T,a)}var
 d=0;switch(a[0]){case
 0:if(0===c[0]){var
 H=a[4],G=a[1];d=3}else
 d=1;break;case
 1:if(0===c[0]){var
-W=c[3];if(aQ(function(a){var
-b=a[1];return aQ(function(a){switch(a[2][0]){case
+W=c[3];if(aP(function(a){var
+b=a[1];return aP(function(a){switch(a[2][0]){case
 6:case
-7:return 1;default:return 0}},b)},W)){aq(IQ);d=2}}else
+7:return 1;default:return 0}},b)},W)){ao(I0);d=2}}else
 d=1;break;case
 2:var
 J=a[1],X=a[7];if(0===c[0]){var
@@ -9415,70 +9447,70 @@ t=K;var
 L=function(c){if(8===c[0]){var
 d=c[1];if(7===d[0]){var
 a=d[1],b=0;switch(a[0]){case
-1:if(!p(a[1],IR))b=1;break;case
+1:if(!p(a[1],I1))b=1;break;case
 6:var
-e=a[1];if(1===e[0]&&!p(e[1],IS))b=1;break}if(b)return t}}return 0},$=function(a){if(a[1])switch(a[2][0]){case
+e=a[1];if(1===e[0]&&!p(e[1],I2))b=1;break}if(b)return t}}return 0},$=function(a){if(a[1])switch(a[2][0]){case
 8:case
 9:return 1}else{var
 b=a[2];switch(b[0]){case
 8:return 1-L(b);case
 9:var
-c=b[1];return 1-fh(function(a){return L(a[2])},c)}}return 0},aa=c[3],N=0;if(aQ(function(a){return aQ($,a[1])},aa))aq(IT);else{var
-ab=c[3];if(fh(function(a){var
-b=a[1];return fh(function(d){var
+c=b[1];return 1-el(function(a){return L(a[2])},c)}}return 0},aa=c[3],N=0;if(aP(function(a){return aP($,a[1])},aa))ao(I3);else{var
+ab=c[3];if(el(function(a){var
+b=a[1];return el(function(d){var
 b=d[2],a=0;switch(b[0]){case
 0:var
-c=b[1];if(p(c,IB)){if(!p(c,IC))return aQ(IA,X)}else
+c=b[1];if(p(c,IL)){if(!p(c,IM))return aP(IK,X)}else
 a=1;break;case
-1:if(!p(b[1],ID))a=1;break;case
+1:if(!p(b[1],IN))a=1;break;case
 7:case
 8:case
 9:a=1;break}return a?1:0},b)},ab))N=1;else
-aq(IU)}if(!N)d=2}else
+ao(I4)}if(!N)d=2}else
 d=1;break;case
-5:if(aQ(Iy,a[4])){aq(IV);d=2}else
+5:if(aP(II,a[4])){ao(I5);d=2}else
 if(0===c[0]){var
-ac=c[3];if(aQ(function(a){return 0!==a[1]?1:0},ac)){aq(IW);d=2}}break;case
+ac=c[3];if(aP(function(a){return 0!==a[1]?1:0},ac)){ao(I6);d=2}}break;case
 7:var
 O=0;if(2===c[0]){var
-ad=c[1];if(aQ(function(a){if(typeof
+ad=c[1];if(aP(function(a){if(typeof
 a!=="number"&&2===a[0]){var
 b=a[4];if(typeof
-b!=="number"&&3===b[0])return 1}return 0},ad)){aq(IX);d=2;O=1}}if(!O){var
+b!=="number"&&3===b[0])return 1}return 0},ad)){ao(I7);d=2;O=1}}if(!O){var
 H=a[4],G=a[2];d=3}break}var
 q=0;switch(d){case
 2:break;case
 3:var
-P=0;if(aQ(function(a){return 10===a[1]?1:0},H)&&aQ(function(a){return 2===a[0]?1:0},G)){aq(IJ);P=1}if(!P)q=2;break;case
+P=0;if(aP(function(a){return 10===a[1]?1:0},H)&&aP(function(a){return 2===a[0]?1:0},G)){ao(IT);P=1}if(!P)q=2;break;case
 0:q=2;break;default:q=1}var
 z=0;switch(q){case
 2:var
 g=0;switch(a[0]){case
 5:case
-7:if(aQ(Iz,a[4])){aq(IO);g=1}else
+7:if(aP(IJ,a[4])){ao(IY);g=1}else
 if(7===a[0])switch(c[0]){case
 2:var
 V=function(a){if(typeof
-a!=="number"&&1===a[0])return F(a[3]);return 0};if(aQ(V,c[1]))aq(IP);g=1;break;case
+a!=="number"&&1===a[0])return F(a[3]);return 0};if(aP(V,c[1]))ao(IZ);g=1;break;case
 0:break;default:z=1;g=1}else
-g=1;break}if(!g)if(0===c[0]&&F(c[3]))aq(IN);else
+g=1;break}if(!g)if(0===c[0]&&F(c[3]))ao(IX);else
 z=1;break;case
 1:z=1;break}var
-I=aj(v(o,IK)),U=a8(v(I,IL));return[0,a,c,a8(v(I,IM)),U]}function
-IZ(b){var
-a=0,f=lO(64,aB(b))-18|0;for(;;){var
+I=aj(v(o,IU)),U=a8(v(I,IV));return[0,a,c,a8(v(I,IW)),U]}function
+I9(b){var
+a=0,f=lS(64,aC(b))-18|0;for(;;){var
 c=a<=f?1:0;if(c){var
-d=aF(el(b,a,18),I0);if(!d){var
+d=aF(em(b,a,18),I_);if(!d){var
 a=a+1|0;continue}var
 e=d}else
 var
-e=c;return e}}KI(function(b){try{if(IZ(b))var
-a=I2;else{try{var
-e=0,d=IE(b);e=1}catch(a){a=tn(a);if(a[1]===qS)var
+e=c;return e}}KS(function(b){try{if(I9(b))var
+a=Ja;else{try{var
+e=0,d=IO(b);e=1}catch(a){a=tq(a);if(a[1]===qW)var
 c=[0,a[2]];else{if(a!==Z)throw a;var
 c=2}}if(e)var
-c=DU(b,d)?1===d[2][0]?1:0:2;var
-a=c}}catch(a){return I1}if(typeof
+c=DX(b,d)?1===d[2][0]?1:0:2;var
+a=c}}catch(a){return I$}if(typeof
 a==="number")switch(a){case
-0:return I3;case
-1:return I4;default:return I5}return bk(I6,a[1])});lQ(0);return}(globalThis));
+0:return Jb;case
+1:return Jc;default:return Jd}return bk(Je,a[1])});lU(0);return}(globalThis));

@@ -182,14 +182,26 @@ fn fan(parts: &[Part]) -> Exported<Vec<String>> {
         true => Ok(format!("({}, ({n})%Z, {places}%N, {})", row(c), evidence(by)?)),
         false => not_covered("this evidence \"fan\""),
     };
-    parts.iter().map(part).collect()
+    let exported = parts.iter().map(part).collect::<Exported<Vec<String>>>()?;
+    let about_divided = || parts.iter().map(|Part(.., by)| is_of_divided(by));
+    match about_divided().any(|it| it) && !about_divided().all(|it| it) {
+        true => not_covered("evidence \"fan\" about \"divided\" and other rows"),
+        false => Ok(exported),
+    }
 }
 
 fn is_of_fan(by: &Evidence) -> bool {
-    use Evidence::{Inside, Lower, Rank, Test, Tolerances};
+    use Evidence::{Divided, Inside, Lower, LowerDivided, Rank, Test, Tolerances};
     match by {
         Inside(by, ..) => is_of_fan(by),
-        by => matches!(by, Test | Lower(_) | Rank(_) | Tolerances(..)),
+        by => matches!(by, Test | Divided | Lower(_) | LowerDivided(_) | Rank(_) | Tolerances(..)),
+    }
+}
+
+fn is_of_divided(by: &Evidence) -> bool {
+    match by {
+        Evidence::Inside(by, ..) | Evidence::Tolerances(by, ..) => is_of_divided(by),
+        by => matches!(by, Evidence::Divided | Evidence::LowerDivided(_)),
     }
 }
 
