@@ -123,6 +123,9 @@ Check @kernel.Twins.refute_same_pose_sound.
 Check @kernel.TwinsDriven.refute_same_driven_sound.
 Check @kernel.TwinsWritten.refute_same_written_sound.
 Check kernel.Accelerated.refute_accelerated_sound.
+Check kernel.LegBend.leg_accelerates_so.
+Check kernel.Hastened.own_accelerates.
+Check kernel.Hastened.refute_hastened_sound.
 Check @kernel.Far.refute_far_sound.
 Check @kernel.Far.refute_far_pose_sound.
 Check @kernel.Far.refute_far_driven_sound.
@@ -174,6 +177,7 @@ Definition all_of_them :=
    @kernel.BetweenWritten.refute_between_written_sound, @kernel.Same.fits_sound, @kernel.Twins.refute_same_sound,
    @kernel.Twins.refute_same_pose_sound, @kernel.TwinsDriven.refute_same_driven_sound,
    @kernel.TwinsWritten.refute_same_written_sound, @kernel.Accelerated.refute_accelerated_sound,
+   @kernel.LegBend.leg_accelerates_so, @kernel.Hastened.own_accelerates, @kernel.Hastened.refute_hastened_sound,
    @kernel.Far.refute_far_sound, @kernel.Far.refute_far_pose_sound,
    @kernel.Far.refute_far_driven_sound, @kernel.FarWritten.refute_far_written_sound, @kernel.Control.controls_decide,
    @kernel.Pose.check_turning_sound, @Claim.every_value, @kernel.Tolerances.mean_value,

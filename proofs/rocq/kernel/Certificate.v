@@ -9,7 +9,7 @@
 
 From Coq Require Import ZArith QArith Reals Lra List Bool String Ascii DecimalString.
 From Orthocert Require Import Vec3 SingularValues Kinematics Diagonal Scaling Postulate Paper Claim.
-From Orthocert.kernel Require Import Configuration Arm Written AtPoint Orientation Turning Accelerated Singular Between BetweenWritten Twins TwinsDriven TwinsWritten Far FarWritten Legs Inputs Pose Driven.
+From Orthocert.kernel Require Import Configuration Arm Written AtPoint Orientation Turning Accelerated Singular Between BetweenWritten Twins TwinsDriven TwinsWritten Far FarWritten Legs Inputs Pose Driven Hastened.
 From Orthocert.kernel Require Tolerances.
 From Orthocert.kernel Require Import Statement Check Number Problem Faces Witness Closed Cubes NoCube.
 Import ListNotations.
@@ -685,6 +685,7 @@ Definition is_driven_demand (are_angles : bool) (k : mobility) (legs : nat) (r :
   | Parallel_, AtLeast_ _, None => Nat.eqb legs (freedom k) && match k, leg_ r with Turns _, _ | _, Some _ => false | _, None => true end
   | JointRange, e, None => is_leg && Bool.eqb are_angles match e with Within_ _ _ => true | _ => false end
   | Load_, AtMost_ _, Some (Each_ force) => is_leg && Nat.eqb legs (freedom k) && Nat.eqb (length force) legs && match k with Turns _ => false | _ => true end
+  | Acceleration_, AtMost_ _, Some (Motion_ _ _) => is_leg
   | Accuracy_, AtMost_ _, Some given => Nat.eqb legs (freedom k) && match k, leg_ r, given with Turns _, None, Near_ _ _ | (Translates | TranslatesInPlane), None, Given_ _ => true | _, _, _ => false end
   | _, _, _ => is_turning_demand (freedom k) legs r
   end.
@@ -1428,7 +1429,7 @@ Definition accept_driven_witness (k : mobility) (ls : list written_driven) (ell 
       | Singular_ other, _ => let other := map denoted other in
           refute_between_driven exact_bits c m (numbers_of (firstn n point)) (skipn n point) (numbers_of (firstn n other)) (skipn n other) && Nat.eqb (length other) (freedom k)
       | _, Some f => let P := numbers_of (firstn n point) in let t := skipn n point in match how with Dependent_ => negb (has_arms ls) | _ => true end &&
-          (refute_driven exact_bits c m P t f || match f with NFails i [v] => refute_far_driven exact_bits c m P t i v | _ => false end)
+          (refute_driven exact_bits c m P t f || match f with NFails i vs => refute_hastened exact_bits c m P t i vs || match vs with [v] => refute_far_driven exact_bits c m P t i v | _ => false end | _ => false end)
       | _, None => false
       end
   | _ => false
@@ -1701,7 +1702,7 @@ Proof.
   apply andb_true_iff in h as [_ h].
   destruct how; try (apply andb_true_iff in h as [h _]; exact (refute_between_driven_sound _ _ _ _ _ _ _ h));
     (destruct (failure_at _ _ _ _ _ _) as [f |]; [| discriminate]; apply andb_true_iff in h as [_ h]; apply orb_true_iff in h as [h | h]; [exact (refute_driven_sound _ _ _ _ _ _ h) |];
-     destruct f as [| i [| v [|]] | |]; try discriminate; exact (refute_far_driven_sound _ _ _ _ _ _ _ h)).
+     destruct f as [| i vs | |]; try discriminate; apply orb_true_iff in h as [h | h]; [exact (refute_hastened_sound _ _ _ _ _ _ _ h) |]; destruct vs as [| v [|]]; try discriminate; exact (refute_far_driven_sound _ _ _ _ _ _ _ h)).
 Qed.
 
 Lemma accept_driven_twins_sound : forall k ls ell w o rs point machine i a b y places, accept_driven_twins k ls ell w o rs point machine i a b y places = true -> has_two_poses (driven_claim_of k ls ell w o rs).

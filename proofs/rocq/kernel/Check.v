@@ -58,15 +58,16 @@ Inductive tree :=
 (** kappa^2, k^2, c^2, and places of formulas: of the last test one of the two has to be not negative.  [Least]: the
     least singular value of other rows than those of the machine; [Apart]: of two segments, by their ends; [Solved i]: |M^-1 e_i| <= 1/k, of k^2;
     [Chords]: Y^T A + A^T Y > 0 of these rows A, by one matrix for all cells; [Accurate]: of each joint its coordinate, its error and, of each tolerance, the
-    half-width with the derivative by it, errors and half-widths over the distance; [Located]: the same of any number of coordinates, in two parts; [Curved]: a |row| + b |H| < 1, of 2 H, and K^2 and s with
-    |row|^2 <= K^2 - s^2. *)
+    half-width with the derivative by it, errors and half-widths over the distance; [Located]: the same of any number of coordinates, in two parts; [Curved]: a |row| + b |H| < 1, of 2 H, where they are known of K^2 and s
+    with |row|^2 <= K^2 - s^2, and of what has to be defined. *)
 Inductive test :=
   | SigmaMin (kappa2 : fixed) | SigmaMax (k2 : fixed) | Conditioning (c2 : fixed) | AtLeast (f : nat)
   | Least (r : rows nat) (kappa2 : fixed) | Either (f g : nat) | Apart (p p' q q' : spatial nat) (distance : fixed)
   | Solved (i : nat) (k2 : fixed) | Chords (r : rows nat) (places : N) (Y : list (list Z))
   | Accurate (distance : fixed) (joints : list (nat * (fixed * list (fixed * nat))))
   | Located (a : Nearby.nearby)
-  | Curved (row : list nat) (twice : list (list nat)) (a b k2 s : nat).
+  | Curved (row : list nat) (twice : list (list nat)) (a b : nat) (lever : option (nat * nat)) (also : list nat).
+Definition lever_places (lever : option (nat * nat)) : list nat := match lever with Some (k2, s) => [k2; s] | None => [] end.
 
 Section Precision.
 Variable bits : positive.
@@ -159,10 +160,11 @@ Definition shows (values : list (option slope)) (m : nat) (less : option slope) 
       end
   | Chords r places Y, ByChords => over_rows values r (chords bits m less places Y)
   | Solved i k2, ByLower places Y => over_rows values whole (Solve.solved bits m i k2 less places Y)
-  | Curved row twice a b k2 s, ByTest =>
-      match slopes_of values row, all_some (map (slopes_of values) twice), slopes_of values [a; b; k2; s] with
-      | Some row, Some twice, Some [a; b; k2; s] => Curvature.curved bits m less row twice (range a) (range b) (Some (range k2, s))
-      | _, _, _ => false
+  | Curved row twice a b lever also, ByTest =>
+      match slopes_of values row, all_some (map (slopes_of values) twice), slopes_of values (a :: b :: lever_places lever), slopes_of values also with
+      | Some row, Some twice, Some (a :: b :: lever), Some _ =>
+          Curvature.curved bits m less row twice (range a) (range b) match lever with [k2; s] => Some (range k2, s) | _ => None end
+      | _, _, _, _ => false
       end
   | _, _ => false
   end.
@@ -230,7 +232,7 @@ Definition wanted_by (t : test) (e : evidence) : list nat :=
   | Apart p p' q q' _ => flat_map (fun p => [along_x p; along_y p; along_z p]) [p; p'; q; q']
   | Accurate _ joints => places_of_rows divided ++ flat_map (fun j => fst j :: map snd (snd (snd j))) joints
   | Located a => places_of_rows (Nearby.l_rows a) ++ Nearby.l_defined a ++ flat_map (fun j => fst j :: map snd (snd (snd j))) (Nearby.l_joints a)
-  | Curved row twice a b k2 s => row ++ concat twice ++ [a; b; k2; s]
+  | Curved row twice a b lever also => row ++ concat twice ++ a :: b :: lever_places lever ++ also
   end.
 
 (** *** Tolerances apart: of one machine at the vertices, less what all others differ by *)
@@ -488,9 +490,9 @@ Definition holds (m : nat) (x : list R) (t : test) : Prop :=
       let p := Solve.weighted_sum u (map fst r) in k * (nth i (map snd r) 0 * nth i u 0 ^ 2) < dot p p)
   | Chords r places Y => of_these x (map_rows formula_at r) (fun r => forall v, length v = m -> nonzero v ->
       0 < form (lower_weights places Y v) (map (fun p => (fst p, 0)) r) v)
-  | Curved row twice a b k2 s => let at_ i := value x theta (formula_at i) in
-      0 <= at_ a -> dot (map at_ row) (map at_ row) <= at_ k2 - at_ s ^ 2 -> forall e v, dot e e <= 1 -> length v = m -> nonzero v ->
-      Rabs (at_ b / 2 * quad (map (map at_) twice) v) < (1 - at_ a * dot (map at_ row) e) * dot v v
+  | Curved row twice a b lever also => let at_ i := value x theta (formula_at i) in
+      Forall (fun i => defined x theta (formula_at i)) also /\ (0 <= at_ a -> match lever with Some (k2, s) => dot (map at_ row) (map at_ row) <= at_ k2 - at_ s ^ 2 | None => True end -> forall e v, dot e e <= 1 -> length v = m -> nonzero v ->
+      Rabs (at_ b / 2 * quad (map (map at_) twice) v) < (1 - at_ a * dot (map at_ row) e) * dot v v)
   end.
 
 (** The same of some directions. *)
@@ -560,6 +562,11 @@ Proof.
   intros i s h. pose proof (enclosed_at i) as H. rewrite h in H. destruct H as [_ [d [h1 [h2 [u [h3 h4]]]]]].
   split; [exact d |]. split; [exact h2 |]. exists (value cs theta (formula_at i), u).
   split; [split; assumption |]. unfold at_lambda. cbn [fst snd]. lra.
+Qed.
+Lemma slopes_defined : forall l s, slopes_of values l = Some s -> Forall (fun i => defined x theta (formula_at i)) l.
+Proof.
+  unfold slopes_of. induction l as [| i l IH]; intros s e; [apply Forall_nil |]. cbn [map all_some] in e.
+  destruct (nth i values None) as [y |] eqn:ey; [| discriminate]. destruct (all_some _) as [r |]; [| discriminate]. apply Forall_cons; [exact (proj1 (entry_exists i y ey)) | exact (IH r eq_refl)].
 Qed.
 
 Lemma all_some_entries : forall a s, all_some (map (fun i => nth i values None) a) = Some s ->
@@ -669,7 +676,7 @@ Qed.
 Lemma shows_sound : forall less t e, harmless less -> shows values (length cell) less t e = true -> holds (length cell) x t.
 Proof.
   rewrite <- lambda_length. intros less t e hs h.
-  destruct t as [low | high | c2 | f | r low | f g | p p' q q' distance | i k2 | r0 places0 Y0 | distance joints | near_ | row twice a b k2 ls], e as [| | places Y | places Y | places Y | places Y mu | | | | | | | | places Y | | places Y kappa | e0 ends0 directions0 | | |];
+  destruct t as [low | high | c2 | f | r low | f g | p p' q q' distance | i k2 | r0 places0 Y0 | distance joints | near_ | row twice a b lever also], e as [| | places Y | places Y | places Y | places Y mu | | | | | | | | places Y | | places Y kappa | e0 ends0 directions0 | | |];
     cbn [shows holds] in *; try discriminate.
   1-3: apply andb_true_iff in h as [hd h]; split; [exact (are_defined_sound hd) |].
   1-2: eapply over_rows_sound; [| exact h |]; [auto |]; cbn beta; intros s es sm rel pos kappa2 v hk len nz;
@@ -727,7 +734,9 @@ Proof.
     destruct less as [t |]; [exact hs | exact I].
   - eapply over_these_sound; [exact h |]. cbn beta. intros s es sm rel pos v len nz. eapply chords_sound; eassumption.
   - destruct (slopes_of values row) as [srow |] eqn:er; [| discriminate]. destruct (all_some (map (slopes_of values) twice)) as [sh |] eqn:eh; [| discriminate].
-    destruct (slopes_of values [a; b; k2; ls]) as [[| sa [| sb [| sk [| sl [|]]]]] |] eqn:e4; try discriminate.
+    destruct (slopes_of values (a :: b :: lever_places lever)) as [[| sa [| sb sl]] |] eqn:e4; try discriminate.
+    destruct (slopes_of values also) as [sd |] eqn:ed; [| discriminate].
+    split; [exact (slopes_defined also sd ed) |].
     assert (S : forall l s, slopes_of values l = Some s -> exists e, Forall2 (entry_in bits) s e /\ map (fun i => value x theta (formula_at i)) l = map (at_lambda lambda) e).
     { intros l s el. destruct (all_some_entries l s el) as [_ E]. rewrite map_map in E. exact E. }
     assert (T : exists H, Forall2 (Forall2 (entry_in bits)) sh H /\ map (map (fun i => value x theta (formula_at i))) twice = map (map (at_lambda lambda)) H).
@@ -739,12 +748,17 @@ Proof.
     { intros i s ei. destruct (entry_exists i s ei) as [_ [c [e [k1 k2']]]]. split; [exact c | exists e; split; assumption]. }
     unfold slopes_of in e4. cbn [map all_some] in e4.
     destruct (nth a values None) as [s1 |] eqn:n1; [| discriminate]. destruct (nth b values None) as [s2 |] eqn:n2; [| discriminate].
-    destruct (nth k2 values None) as [s3 |] eqn:n3; [| discriminate]. destruct (nth ls values None) as [s4 |] eqn:n4; [| discriminate]. injection e4 as <- <- <- <-.
-    destruct (One _ _ n1) as [c1 _]. destruct (One _ _ n2) as [c2 _]. destruct (One _ _ n3) as [c3 _]. destruct (One _ _ n4) as [_ [e4 [k4 q4]]].
-    intros a0 D e v he len nz.
-    refine (Curvature.curved_sound bits lambda lambda_in less srow es sh H _ _ _ _ _ h _ hes hH c1 a0 c2 _ e v he len nz).
-    + destruct less as [t |]; [exact hs | exact I].
-    + exists (value x theta (formula_at k2)), e4. split; [exact c3 |]. split; [exact k4 |]. rewrite <- q4. exact D.
+    destruct (One _ _ n1) as [c1 _]. destruct (One _ _ n2) as [c2 _].
+    destruct lever as [[k2 ls] |]; cbn [lever_places map all_some] in e4.
+    + destruct (nth k2 values None) as [s3 |] eqn:n3; [| discriminate]. destruct (nth ls values None) as [s4 |] eqn:n4; [| discriminate]. injection e4 as <- <- <-.
+      destruct (One _ _ n3) as [c3 _]. destruct (One _ _ n4) as [_ [e4 [k4 q4]]].
+      intros a0 D e v he len nz.
+      refine (Curvature.curved_sound bits lambda lambda_in less srow es sh H _ _ _ _ _ h _ hes hH c1 a0 c2 _ e v he len nz).
+      * destruct less as [t |]; [exact hs | exact I].
+      * exists (value x theta (formula_at k2)), e4. split; [exact c3 |]. split; [exact k4 |]. rewrite <- q4. exact D.
+    + injection e4 as <- <- <-. intros a0 _ e v he len nz.
+      refine (Curvature.curved_sound bits lambda lambda_in less srow es sh H _ _ _ _ _ h _ hes hH c1 a0 c2 I e v he len nz).
+      destruct less as [t |]; [exact hs | exact I].
 Qed.
 End Cell.
 
@@ -975,7 +989,7 @@ Proof.
       cbn [forallb] in hh. apply andb_true_iff in hh as [hh _]. pose proof (Tolerances.sign_apart_sound bits _ _ _ _ hh hv ht). destruct A as [A0 A1]. cbn [snd form fst] in *.
       replace (dot A0 []) with 0 by (destruct A0; reflexivity). lra. }
   assert (Constant : forall a k, contains a k -> forall s, length s = length cell -> contains ((fun _ : list bool => a) s) ((fun _ : list R => k) (map corner s))) by (intros; assumption).
-  destruct t as [low | high | c2 | f | r low | f g | p p' q q' distance | i k2 | r0 places0 Y0 | distance joints | near_ | row twice a b k2 ls],
+  destruct t as [low | high | c2 | f | r low | f g | p p' q q' distance | i k2 | r0 places0 Y0 | distance joints | near_ | row twice a b lever also],
     e as [| | places Y | places Y | places Y | places Y mu | | | | | | | | places Y | | places Y kappa | e0 ends0 directions0 | | |]; try discriminate; try (destruct directions; discriminate).
   - destruct directions as [| u [|]]; try discriminate. apply andb_true_iff in h as [hd' h]. cbn [holds]. split; [exact (are_defined_sound cell x lambda keep (encloses_all theta theta_in) hd') |].
     exists (map_rows formula_at whole). split; [left; reflexivity |].
@@ -1122,7 +1136,7 @@ Proof.
     { apply G. intros s t' T i real ls hh ht hr.
       pose proof (lower_wedge_shows b c n places n0 k w q d lw kb rg (add low t') (K + T) pl Y i real v hh hr (add_sound bits _ _ _ _ hk ht) lv nz iv). lra. }
     assert (0 <= dot v v * at_lambda lambda el) by (apply Rmult_le_pos; assumption). lra. }
-  destruct t as [low | high | c2 | f | r low | f f' | p p' q0 q' distance | i k2 | r0 places0 Y0 | distance joints | near_ | row twice a0 b0 k2 ls], e; try discriminate; cbn [holds_along].
+  destruct t as [low | high | c2 | f | r low | f f' | p p' q0 q' distance | i k2 | r0 places0 Y0 | distance joints | near_ | row twice a0 b0 lever also], e; try discriminate; cbn [holds_along].
   - apply andb_true_iff in h as [hd' h]. split; [exact (are_defined_sound cell x lambda keep (encloses_all theta theta_in) hd') |]. exact (Low low whole _ _ h).
   - apply andb_true_iff in h as [hd' h]. split; [exact (are_defined_sound cell x lambda keep (encloses_all theta theta_in) hd') |].
     apply andb_true_iff in h as [z h]. apply andb_true_iff in z as [z1 z2]. apply Z.eqb_eq in z1, z2.

@@ -2,7 +2,7 @@
 
 From Coq Require Import ZArith Reals Lra Lia List Bool.
 From Orthocert Require Import Vec3 SingularValues Kinematics Fixed Claim.
-From Orthocert.kernel Require Import Statement Linear Arithmetic Slope Test Cell Check Number Trig Formula Machine Problem Witness Orientation Turning Control Chart Configuration Inputs Onward Poses Pose Arm Legs Recover Drives Locate.
+From Orthocert.kernel Require Import Statement Linear Arithmetic Slope Test Cell Check Number Trig Formula Machine Problem Witness Orientation Turning Control Chart Configuration Inputs Onward Poses Pose Arm Legs Recover Drives Locate LegBend.
 From Orthocert.kernel Require Solve Load.
 Import ListNotations.
 Local Open Scope R_scope.
@@ -120,7 +120,12 @@ Definition check_driven (c : driven_claim) (s : Z) (ds : list (Z * Z)) (t : tree
   let fs := all_driven k turn (quantity ell (length lay)) s ds (drives c) 0 in
   let far q := map (row_off k (quantity ell (length lay)) (turn_unit q)) (all_drives k s (placed_off k turn) ds (drives c) 0) in
   let there q := map (fun f => (row_there k (quantity ell (length lay)) (turn_unit q) (d_divided f), integer 1)) fs in let js := map d_joint fs in
-  let own q d := match d with OnePose _ _ _ => located_own lay (far q) (there q) js | _ => own_of fs q d end in
+  let zs := all_from s ds (drives c) 0 in
+  let own q d := match d with
+    | OnePose _ _ _ => located_own lay (far q) (there q) js
+    | AccelerationMax i _ _ _ => accelerated_own k (eturned turn) (quantity ell (length lay)) (length lay) fs zs q i
+    | _ => own_of fs q d
+    end in
   let built := flat_map d_built fs in let about := if only_pose c then map (fun f => (d_origin f, d_D f)) fs else [] in
   let wanted := entries (pose_rows fs) ++ entries (pose_divided fs) ++ built ++ of_each own angular s j demands ++ entries about in
   let tape := compile wanted in
@@ -128,6 +133,7 @@ Definition check_driven (c : driven_claim) (s : Z) (ds : list (Z * Z)) (t : tree
   let tests_of q d := match d with
     | OnePose error b angle => if may_be_near k (drives c) angle
         then located_tests bits place n (places_of k) (lasts_of k) angular lay s (far q) (there q) js (tangent_of k angle) error b else [None]
+    | AccelerationMax i a v b => accelerated_tests bits place k (eturned turn) (quantity ell (length lay)) (length lay) fs zs q i a v b
     | _ => tests_for place fs angular s q d
     end in
   forallb (fun e => same (nth (place e) all (integer 0)) e) wanted && existsb rules_out demands && is_flat_region k (place_of c) && is_oriented c &&
@@ -192,7 +198,7 @@ Proof.
   intros c [| [| a [| b [| e [| ? ?]]]] [| [| d [| f [| g [| ? ?]]]] [| [| h [| i [| j [| ? ?]]]] [| ? ?]]]]; cbn [determinant map length pow]; ring.
 Qed.
 
-(** Accelerations are shown of none, and accuracy in Locate.v. *)
+(** Accelerations are shown in LegBend.v, and accuracy in Locate.v. *)
 Lemma reached_aside : forall n J X T l p a r A B d, Configuration.fulfils n (Configuration J X T l p (fun _ _ _ _ => False) (fun _ _ _ => False) A) d -> Configuration.fulfils n (Configuration J X T l p a r B) d.
 Proof. intros n J X T l p a r A B [] h; try exact h; cbn in *; [| destruct h]. intros v w lv lw hv hw. destruct (h v w lv lw hv hw) as [y [[] _]]. Qed.
 
@@ -600,12 +606,18 @@ Proof.
   set (about := if only_pose c then map (fun f => (d_origin f, d_D f)) fs else []) in *. set (j := S (length lay)) in *.
   set (far := fun q => map (row_off k ell (turn_unit q)) (all_drives k s (placed_off k turn) ds (drives c) 0)) in *.
   set (there := fun q => map (fun f => (row_there k ell (turn_unit q) (d_divided f), integer 1)) fs) in *. set (js := map d_joint fs) in *.
-  set (own_q := fun q d => match d with OnePose _ _ _ => located_own lay (far q) (there q) js | _ => own_of fs q d end) in *.
+  set (zs := all_from s ds (drives c) 0) in *.
+  set (own_q := fun q d => match d with
+    | OnePose _ _ _ => located_own lay (far q) (there q) js
+    | AccelerationMax i _ _ _ => accelerated_own k (eturned turn) ell (length lay) fs zs q i
+    | _ => own_of fs q d
+    end) in *.
   set (own := of_each own_q angular s j demands) in *. set (wanted := entries (pose_rows fs) ++ entries (pose_divided fs) ++ built ++ own ++ entries about) in *.
   set (tape := compile wanted) in *. set (place := place (formulas tape)) in *.
   set (tests_q := fun q d => match d with
     | OnePose error b angle => if may_be_near bits k (drives c) angle
         then located_tests bits place (freedom k) (places_of k) (lasts_of k) angular lay s (far q) (there q) js (tangent_of bits k angle) error b else [None]
+    | AccelerationMax i a v b => accelerated_tests bits place k (eturned turn) ell (length lay) fs zs q i a v b
     | _ => tests_for bits place fs angular s q d
     end) in *.
   apply andb_true_iff in h as [h C]. apply andb_true_iff in h as [h one]. apply andb_true_iff in h as [h kinds]. apply andb_true_iff in h as [h oriented]. apply andb_true_iff in h as [h flat]. apply andb_true_iff in h as [found ex].
@@ -619,7 +631,7 @@ Proof.
   assert (Sub : forall u, In u tests -> In u all_tests) by (intros u iu; unfold all_tests; destruct (only_pose c); [apply inserted_in; right |]; exact iu).
   apply andb_true_iff in C as [len C]. apply Nat.eqb_eq in len.
   assert (Found : forall e, In e wanted -> formula_at tape (place e) = e) by (rewrite forallb_forall in found; intros e i; apply same_sound, found, i).
-  destruct (legs_stand s (drives c) m hm ds) as [th [TH [DR ST]]]. set (ins := flat_map (inputs_of angular s) demands) in *.
+  destruct (legs_stand s (drives c) m hm ds) as [th [TH [FR [DR ST]]]]. set (ins := flat_map (inputs_of angular s) demands) in *.
   set (tt := map (fun a => tangent (Claim.value a)) (curve_angles c)). set (theta := th ++ [Claim.value (length_of c) / two_to s] ++ map input_value ins ++ tt).
   assert (lt : length th = length lay) by (symmetry; exact (related_length _ _ _ _ _ TH)).
   assert (AOK : forall o, turned_by c = Some o -> are_angles o /\ 0 < Claim.value (length_of c)).
@@ -755,12 +767,42 @@ Proof.
     rewrite IH, dot_map. ring. }
   - unfold Configuration.injective in *. cbn [jacobian] in SEES. rewrite EJ in SEES. exact SEES.
   - apply Forall_forall. intros d id. destruct (HT d id) as [q [q1 [q2 q3]]].
-    assert (Other : (forall error b angle, d <> OnePose error b angle) -> Configuration.fulfils (freedom k) (legs_at k L (map nominal_driven (drives c)) m P Q) d).
-    { intro no. assert (E1 : own_q q d = own_of fs q d) by (destruct d; try reflexivity; contradiction (no _ _ _ eq_refl)). assert (E2 : tests_q q d = tests_for bits place fs angular s q d) by (destruct d; try reflexivity; contradiction (no _ _ _ eq_refl)).
+    assert (Other : (forall error b angle, d <> OnePose error b angle) -> (forall i a v b, d <> AccelerationMax i a v b) -> Configuration.fulfils (freedom k) (legs_at k L (map nominal_driven (drives c)) m P Q) d).
+    { intros no no'. assert (E1 : own_q q d = own_of fs q d) by (destruct d; try reflexivity; [contradiction (no' _ _ _ _ eq_refl) | contradiction (no _ _ _ eq_refl)]).
+      assert (E2 : tests_q q d = tests_for bits place fs angular s q d) by (destruct d; try reflexivity; [contradiction (no' _ _ _ _ eq_refl) | contradiction (no _ _ _ eq_refl)]).
       rewrite E1 in q2. rewrite E2 in q3.
       pose proof (demand_met bits x theta s (freedom k) angular fs (map look m) (fun b => vadd P (mulv Q b)) tape (params ++ inputs ++ tangents) (map place built) good W1 W2 RE q d (q1 x) q2 q3 SEES) as met.
       rewrite !map_map in met. exact (reached_aside _ _ _ _ _ _ _ _ _ _ _ met). }
-    destruct d as [| | | | | | | | | | | | | | | | | error b angle | ]; try (apply Other; discriminate). clear Other. cbn [Configuration.fulfils recovers legs_at]. cbn [own_q tests_q] in q2, q3.
+    destruct d as [| | | | | | | | | | | | | | | | i a v b | error b angle | ]; try (apply Other; discriminate); clear Other; cbn [Configuration.fulfils recovers accelerates legs_at]; cbn [own_q tests_q] in q2, q3.
+    { unfold accelerated_own in q2. unfold accelerated_tests in q3. destruct (nth_error fs i) as [f |] eqn:ef; [| destruct (q3 None (or_introl eq_refl)) as [u [eu _]]; discriminate].
+      destruct (nth_error zs i) as [z |] eqn:ez; [| destruct (q3 None (or_introl eq_refl)) as [u [eu _]]; discriminate].
+      destruct (certainly bits true b && _) eqn:ce; [| destruct (q3 None (or_introl eq_refl)) as [u [eu _]]; discriminate].
+      apply andb_true_iff in ce as [b0 ce]. apply andb_true_iff in ce as [p0 q0]. apply nonneg_sound in p0, q0. apply positive_sound in b0.
+      destruct (q3 _ (or_introl eq_refl)) as [u [eu hu]].
+      destruct (good_at x theta s (freedom k) angular fs (map look m) (fun b => vadd P (mulv Q b)) tape good W1 W2 i f ef) as [o [eo [_ [_ [_ [_ [_ go]]]]]]]. rewrite nth_error_map in eo.
+      destruct (nth_error m i) as [l |] eqn:el; [| discriminate]. injection eo as <-. cbn [look seen_row seen_joint seen_rod seen_reach] in go.
+      assert (rl : own_reach l (carried l P Q)) by (rewrite Forall_forall in RP; exact (RP l (nth_error_In _ _ el))). destruct (go rl) as [_ [rows [_ rods]]]. clear go.
+      assert (wl : well_formed_driven l) by (rewrite Forall_forall in WF; exact (WF l (nth_error_In _ _ el))).
+      assert (Fr : forall back, drives_from s x (th ++ back) z l) by (intro back; exact (related_at _ _ _ _ _ (FR x [] back) i z l ez el)).
+      assert (Th : drives_there x theta s P Q (drive_at k (eturned turn) (fst z) (snd z)) l).
+      { pose proof (DR x [] ([Claim.value (length_of c) / two_to s] ++ map input_value ins ++ tt) k (eturned turn) P Q V1 (turned_is x theta turn Q V2)) as D. cbn [app] in D. rewrite drives_of_from in D. fold zs theta in D.
+        refine (related_at _ _ _ _ _ D i _ l _ el). change (length []) with 0%nat. fold zs. rewrite nth_error_map, ez. reflexivity. }
+      assert (Kd : match fst z with RotaryDrive _ => true | _ => false end = angular /\ match fst z, l with LinearDrive (SliderLeg _), Linear (Guided _) | LinearDrive (StrutLeg _ _ _), Linear (Extensible _ _ _) | LinearDrive (PlanarLeg _), Linear (Plane _) | RotaryDrive _, Rotary _ => True | _, _ => False end).
+      { rewrite forallb_forall in kinds. assert (G : nth_error (drives c) i = Some (fst z)).
+        { clear - ez. unfold zs in ez. clear zs. revert ds i ez. generalize 0%nat. induction (drives c) as [| d drs IH]; intros j0 ds [| i] ez; try discriminate; cbn [all_from nth_error] in *; [injection ez as <-; reflexivity | exact (IH _ _ _ ez)]. }
+        pose proof (kinds _ (nth_error_In _ _ G)) as kd. apply Bool.eqb_prop in kd. pose proof (related_at _ _ _ _ _ hm i _ l G el) as isd.
+        destruct (fst z) as [[] |], l as [[] |]; cbn [is_driven is_leg_of is_angular_drive] in *; try contradiction; split; auto. }
+      destruct Kd as [ka Kd].
+      assert (mu_is : rate_unit s l = / two_to (rate angular s)).
+      { rewrite <- ka. destruct (fst z) as [[] |], l as [[] |]; try contradiction; cbn [rate_unit rate]; try (change (two_to 0) with 1; field). symmetry. apply two_to_opposite. }
+      refine (joint_met bits x th ([Claim.value (length_of c) / two_to s] ++ map input_value ins ++ tt) s k (eturned turn) ell L P Q tape (map_rows place (pose_rows fs)) (map_rows place (pose_divided fs)) (map place built) (params ++ inputs ++ tangents)
+        f z l q a v b i Fr Th V1 _ wl rl _ _ Kd _ _ b0 p0 q0 u _ hu).
+      - clear - V3 EL. destruct k; auto.
+      - rewrite mu_is. exact rows.
+      - destruct (d_rod f) as [[e2 size] |]; [| exact I]. destruct rods as [y [y1 [y2 [y3 _]]]]. exists y. auto.
+      - rewrite ka. exact (q1 x).
+      - rewrite lt. exact q2.
+      - rewrite lt. exact eu. }
     destruct (may_be_near bits k (drives c) angle) eqn:may; [| destruct (q3 None (or_introl eq_refl)) as [u [eu _]]; discriminate].
     assert (PL : is_position_of k P) by (destruct k; exact flatP).
     assert (ANG : match k with Turns _ => 0 < Claim.value angle /\ is_angle (Claim.value angle) | _ => True end).

@@ -298,17 +298,26 @@ Section Formulas.
 Variables (k : mobility) (turn : option (emat * formula)) (ell : formula) (s : Z).
 Definition eturned (b : evec) : evec := match turn with Some (N, w) => divided_by (emulv N b) w | None => b end.
 
-(** [placed]: from the platform's point to where it is. *)
-Definition drive_at (placed : evec -> evec) (dr : any_drive) (q : list formula) : drive_formulas * evec :=
-  let way a r := map2 minus (map2 plus (eplace k) r) (vector_at q a) in
+(** By where the joint on the platform is. *)
+Definition drive_from (C : evec) (dr : any_drive) (q : list formula) : drive_formulas :=
+  let way a := map2 minus C (vector_at q a) in
   match dr with
-  | LinearDrive (SliderLeg c) => let r := placed (vector_at q 6) in (slider_drive (way 3%nat r) (vector_at q 0) (nth 9 q (integer 0)) (mode c), r)
-  | LinearDrive (StrutLeg _ _ ax) => let r := placed (vector_at q 3) in
-      (strut_drive (way 0%nat r) match ax with Some _ => Some (vector_at q 6) | None => None end, r)
-  | LinearDrive (PlanarLeg _) => (plane_drive (eplace k) (vector_at q 0), EVec (integer 0) (integer 0) (integer 0))
-  | RotaryDrive a => let r := placed (vector_at q 9) in
-      (arm_drive_formulas (way 6%nat r) (vector_at q 0) (vector_at q 3) (nth 12 q (integer 0)) (nth 13 q (integer 0)) (is_positive_mode a), r)
+  | LinearDrive (SliderLeg c) => slider_drive (way 3%nat) (vector_at q 0) (nth 9 q (integer 0)) (mode c)
+  | LinearDrive (StrutLeg _ _ ax) => strut_drive (way 0%nat) match ax with Some _ => Some (vector_at q 6) | None => None end
+  | LinearDrive (PlanarLeg _) => plane_drive C (vector_at q 0)
+  | RotaryDrive a => arm_drive_formulas (way 6%nat) (vector_at q 0) (vector_at q 3) (nth 12 q (integer 0)) (nth 13 q (integer 0)) (is_positive_mode a)
   end.
+(** [placed]: from the platform's point to where it is. *)
+Definition way_to (placed : evec -> evec) (dr : any_drive) (q : list formula) : evec :=
+  match dr with
+  | LinearDrive (SliderLeg _) => placed (vector_at q 6)
+  | LinearDrive (StrutLeg _ _ _) => placed (vector_at q 3)
+  | LinearDrive (PlanarLeg _) => EVec (integer 0) (integer 0) (integer 0)
+  | RotaryDrive _ => placed (vector_at q 9)
+  end.
+Definition tip_of (dr : any_drive) (r : evec) : evec := match dr with LinearDrive (PlanarLeg _) => eplace k | _ => map2 plus (eplace k) r end.
+Definition drive_at (placed : evec -> evec) (dr : any_drive) (q : list formula) : drive_formulas * evec :=
+  let r := way_to placed dr q in (drive_from (tip_of dr r) dr q, r).
 Fixpoint all_drives (placed : evec -> evec) (ds : list (Z * Z)) (drs : list any_drive) (j : nat) : list (drive_formulas * evec) :=
   match drs with
   | [] => []
@@ -430,55 +439,56 @@ Qed.
 (** What each leg's formulas are, at the pose P, Q. *)
 Definition drives_there (x theta : list R) (s : Z) (P : vec) (Q : mat) (z : drive_formulas * evec) (l : driven) : Prop :=
   drives_as x theta s (fst z) l (carried l P Q) /\ val3 x theta (snd z) = vscale (/ two_to s) (mulv Q (offset l)).
-Lemma one_drives : forall s d v y dr l, is_driven_along v y dr l -> Forall2 scaled_within (driven_layout s d dr) (driven_parameters s d v y l) /\
-  forall x front back k placed P Q, let theta := front ++ driven_parameters s d v y l ++ back in
-    val3 x theta (eplace k) = vscale (/ two_to s) P -> (forall b, val3 x theta (placed b) = mulv Q (val3 x theta b)) ->
-    drives_there x theta s P Q (drive_at k placed dr (numbered (length front) (driven_layout s d dr))) l.
+Lemma one_drive_from : forall s d v y dr l, is_driven_along v y dr l -> Forall2 scaled_within (driven_layout s d dr) (driven_parameters s d v y l) /\
+  forall x front back, let theta := front ++ driven_parameters s d v y l ++ back in let q := numbered (length front) (driven_layout s d dr) in
+    (forall C D, val3 x theta C = vscale (/ two_to s) (vadd D (offset l)) -> drives_as x theta s (drive_from C dr q) l D) /\
+    forall placed Q, (forall b, val3 x theta (placed b) = mulv Q (val3 x theta b)) -> val3 x theta (way_to placed dr q) = vscale (/ two_to s) (mulv Q (offset l)).
 Proof.
   intros s d v y dr l h. pose proof (Rinv_0_lt_compat _ (two_to_pos (fst d))) as d1. pose proof (Rinv_0_lt_compat _ (two_to_pos (snd d))) as d2.
+  assert (Way : forall D o a, vsub (vscale (/ two_to s) (vadd D o)) (vscale (/ two_to s) a) = vscale (/ two_to s) (vsub (vadd D o) a))
+    by (intros; unfold vsub, vadd, vscale; cbn [vx vy vz]; f_equal; ring).
+  assert (Zero : forall Q, vscale (/ two_to s) (mulv Q vzero) = vzero) by (intro Q; unfold mulv, Vec3.dot, vscale, vzero; cbn [vx vy vz]; f_equal; ring).
   destruct dr as [dr | a], l as [l | l]; cbn [is_driven_along] in h; try contradiction; cbn [driven_parameters].
-  - rename h into hv. destruct (parameters_represent s (fst d) v dr l hv) as [L1 _]. split; [exact L1 |]. intros x front back k placed P Q hp T. set (theta := front ++ _ ++ back) in *.
+  - rename h into hv. destruct (parameters_represent s (fst d) v dr l hv) as [L1 _]. split; [exact L1 |]. intros x front back. cbv zeta. set (theta := front ++ _ ++ back) in *.
     pose proof (numbered_values _ _ x front back L1) as V. fold theta in V.
     cbn [driven_layout]. set (q := numbered (length front) (layout s (fst d) dr)) in *.
-    destruct dr as [c | a p ax | n], l as [i | base platform axis | normal]; cbn [is_leg_along] in hv; try contradiction; cbn [drive_at]; split; cbn [fst snd].
+    destruct dr as [c | a p ax | n], l as [i | base platform axis | normal]; cbn [is_leg_along] in hv; try contradiction; cbn [drive_from way_to offset]; (split; [intros C D hC | intros placed Q T]).
     + destruct hv as [[hu ax] [ha [hp' [hl' hm]]]]. apply (slider_drives x theta s _ _ _ _ _ _ v); [| exact ax | exists (/ two_to (fst d)); split; [exact d1 | rewrite (val3_at _ _ _ _ _ V); reflexivity] | rewrite (value_nth _ _ _ _ _ V); reflexivity | exact hm].
-      rewrite val3_minus, val3_plus, hp, T, !(val3_at _ _ _ _ _ V). cbn [parameters_of coordinates app nth Nat.add].
-      change (Vec (vx (vscale (/ two_to s) (platform_offset i))) (vy (vscale (/ two_to s) (platform_offset i))) (vz (vscale (/ two_to s) (platform_offset i)))) with (vscale (/ two_to s) (platform_offset i)).
-      rewrite mulv_scale. unfold Kinematics.w, carried. cbn [offset]. destruct (mulv Q (platform_offset i)) as [o1 o2 o3].
-      unfold vsub, vadd, vscale. cbn [vx vy vz]. f_equal; ring.
-    + rewrite T, (val3_at _ _ _ _ _ V). cbn [parameters_of coordinates app nth Nat.add offset].
-      change (Vec (vx (vscale (/ two_to s) (platform_offset i))) (vy (vscale (/ two_to s) (platform_offset i))) (vz (vscale (/ two_to s) (platform_offset i)))) with (vscale (/ two_to s) (platform_offset i)).
-      apply mulv_scale.
+      rewrite val3_minus, hC, (val3_at _ _ _ _ _ V). cbn [parameters_of coordinates app nth Nat.add]. exact (Way D (platform_offset i) (base_point i)).
+    + rewrite T, (val3_at _ _ _ _ _ V). exact (mulv_scale Q (/ two_to s) (platform_offset i)).
     + destruct hv as [ha [hp' hk]]. apply strut_drives; [| destruct ax as [a' |], axis as [k' |]; try contradiction; [| exact I]; exists (/ two_to (fst d)), v; split; [exact d1 |]; split; [rewrite (val3_at _ _ _ _ _ V); reflexivity | exact (proj2 hk)]].
-      rewrite val3_minus, val3_plus, hp, T, !(val3_at _ _ _ _ _ V). cbn [parameters_of coordinates app nth Nat.add].
-      change (Vec (vx (vscale (/ two_to s) platform)) (vy (vscale (/ two_to s) platform)) (vz (vscale (/ two_to s) platform))) with (vscale (/ two_to s) platform).
-      rewrite mulv_scale. unfold span, carried. cbn [offset]. destruct (mulv Q platform) as [o1 o2 o3].
-      unfold vsub, vadd, vscale. cbn [vx vy vz]. f_equal; ring.
-    + rewrite T, (val3_at _ _ _ _ _ V). cbn [parameters_of coordinates app nth Nat.add offset].
-      change (Vec (vx (vscale (/ two_to s) platform)) (vy (vscale (/ two_to s) platform)) (vz (vscale (/ two_to s) platform))) with (vscale (/ two_to s) platform).
-      apply mulv_scale.
+      rewrite val3_minus, hC, (val3_at _ _ _ _ _ V). cbn [parameters_of coordinates app nth Nat.add]. exact (Way D platform base).
+    + rewrite T, (val3_at _ _ _ _ _ V). exact (mulv_scale Q (/ two_to s) platform).
     + apply plane_drives; [| exists (/ two_to (fst d)); split; [exact d1 | rewrite (val3_at _ _ _ _ _ V); reflexivity]].
-      rewrite hp. f_equal. unfold carried. cbn [offset]. unfold mulv, Vec3.dot, vsub, vadd, vzero. cbn [vx vy vz]. destruct P as [p1 p2 p3]. cbn [vx vy vz]. f_equal; ring.
-    + cbn [offset]. unfold val3, mulv, Vec3.dot, vscale, vzero. cbn [ex ey ez vx vy vz integer Formula.value map_op real_op]. f_equal; ring.
+      rewrite hC. f_equal. destruct D as [p1 p2 p3]. unfold vadd, offset, vzero. cbn [vx vy vz]. f_equal; ring.
+    + rewrite Zero. reflexivity.
   - destruct h as [[hv [hy [ha he]]] [hb [hp' [hr [hl' hm]]]]]. set (t1 := coordinates _ ++ _).
     assert (L1 : Forall2 scaled_within (driven_layout s d (RotaryDrive a)) t1).
     { unfold t1. cbn [driven_layout]. repeat apply Forall2_app; try (apply three_within; assumption).
       constructor; [exists (arm_length l); split; [exact hr | cbn [snd]; unfold Rdiv; ring] |].
       constructor; [exists (rod_length l); split; [exact hl' | cbn [snd]; unfold Rdiv; ring] | constructor]. }
-    split; [exact L1 |]. intros x front back k placed P Q hp T. set (theta := front ++ _ ++ back) in *. pose proof (numbered_values _ _ x front back L1) as V. fold theta in V.
-    set (q := numbered (length front) (driven_layout s d (RotaryDrive a))) in *. cbn [drive_at]. split; cbn [fst snd].
+    split; [exact L1 |]. intros x front back. cbv zeta. set (theta := front ++ _ ++ back) in *. pose proof (numbered_values _ _ x front back L1) as V. fold theta in V.
+    set (q := numbered (length front) (driven_layout s d (RotaryDrive a))) in *. cbn [drive_from way_to offset]. split; [intros C D hC | intros placed Q T].
     + apply (arm_drives x theta s _ _ _ _ _ _ l _ v y); try assumption.
-      * rewrite val3_minus, val3_plus, hp, T, !(val3_at _ _ _ _ _ V). cbn [t1 coordinates app nth Nat.add]. unfold t1. cbn [coordinates app nth Nat.add].
-        change (Vec (vx (vscale (/ two_to s) (arm_offset l))) (vy (vscale (/ two_to s) (arm_offset l))) (vz (vscale (/ two_to s) (arm_offset l)))) with (vscale (/ two_to s) (arm_offset l)).
-        rewrite mulv_scale. unfold from_motor, carried. cbn [offset]. destruct (mulv Q (arm_offset l)) as [o1 o2 o3].
-        unfold vsub, vadd, vscale. cbn [vx vy vz]. f_equal; ring.
+      * rewrite val3_minus, hC, (val3_at _ _ _ _ _ V). unfold t1. cbn [coordinates app nth Nat.add]. exact (Way D (arm_offset l) (motor l)).
       * exists (/ two_to (fst d)). split; [exact d1 | rewrite (val3_at _ _ _ _ _ V); reflexivity].
       * exists (/ two_to (snd d)). split; [exact d2 | rewrite (val3_at _ _ _ _ _ V); reflexivity].
       * rewrite (value_nth _ _ _ _ _ V). reflexivity.
       * rewrite (value_nth _ _ _ _ _ V). reflexivity.
-    + rewrite T, (val3_at _ _ _ _ _ V). unfold t1. cbn [coordinates app nth Nat.add offset].
-      change (Vec (vx (vscale (/ two_to s) (arm_offset l))) (vy (vscale (/ two_to s) (arm_offset l))) (vz (vscale (/ two_to s) (arm_offset l)))) with (vscale (/ two_to s) (arm_offset l)).
-      apply mulv_scale.
+    + rewrite T, (val3_at _ _ _ _ _ V). unfold t1. cbn [coordinates app nth Nat.add]. exact (mulv_scale Q (/ two_to s) (arm_offset l)).
+Qed.
+Lemma one_drives : forall s d v y dr l, is_driven_along v y dr l -> Forall2 scaled_within (driven_layout s d dr) (driven_parameters s d v y l) /\
+  forall x front back k placed P Q, let theta := front ++ driven_parameters s d v y l ++ back in
+    val3 x theta (eplace k) = vscale (/ two_to s) P -> (forall b, val3 x theta (placed b) = mulv Q (val3 x theta b)) ->
+    drives_there x theta s P Q (drive_at k placed dr (numbered (length front) (driven_layout s d dr))) l.
+Proof.
+  intros s d v y dr l h. destruct (one_drive_from s d v y dr l h) as [L1 R1]. split; [exact L1 |]. intros x front back k placed P Q. cbv zeta. intros hp T.
+  destruct (R1 x front back) as [R2 R3]. specialize (R3 placed Q T). unfold drive_at. cbv zeta. split; cbn [fst snd]; [| exact R3].
+  apply R2. set (theta := front ++ _) in *. clearbody theta. clear R1 R2 L1.
+  assert (E : val3 x theta (map2 plus (eplace k) (way_to placed dr (numbered (length front) (driven_layout s d dr)))) = vscale (/ two_to s) (vadd (carried l P Q) (offset l))).
+  { rewrite val3_plus, hp, R3. unfold carried. generalize (offset l) (mulv Q (offset l)). intros o o'. unfold vscale, vadd, vsub. cbn [vx vy vz]. f_equal; ring. }
+  destruct dr as [[] |]; try exact E. unfold tip_of. rewrite hp. f_equal. destruct l as [[] |]; try contradiction. destruct P as [p1 p2 p3].
+  unfold carried. cbn [offset]. unfold mulv, Vec3.dot, vsub, vadd, vzero. cbn [vx vy vz]. f_equal; ring.
 Qed.
 
 (** Of the nominal legs, parameters are the middles. *)
@@ -495,17 +505,31 @@ Qed.
 
 Section All.
 Variable s : Z.
+(** All legs by where their joints are, each from a place of its parameters. *)
+Fixpoint all_from (ds : list (Z * Z)) (drs : list any_drive) (j : nat) : list (any_drive * list formula) :=
+  match drs with
+  | [] => []
+  | dr :: r => let lay := driven_layout s (hd (0, 0)%Z ds) dr in (dr, numbered j lay) :: all_from (tl ds) r (j + length lay)
+  end.
+Definition drives_from (x theta : list R) (z : any_drive * list formula) (l : driven) : Prop :=
+  forall C D, val3 x theta C = vscale (/ two_to s) (vadd D (offset l)) -> drives_as x theta s (drive_from C (fst z) (snd z)) l D.
+Lemma drives_of_from : forall k placed drs ds j, all_drives k s placed ds drs j = map (fun z => drive_at k placed (fst z) (snd z)) (all_from ds drs j).
+Proof. intros k placed. induction drs as [| dr drs IH]; intros ds j; [reflexivity |]. cbn [all_drives all_from map fst snd]. rewrite IH. reflexivity. Qed.
 (** All legs, with these parameters; of the nominal ones, with the middles. *)
 Lemma legs_drive : forall drs m, Forall2 is_driven drs m -> forall ds, exists th, Forall2 scaled_within (driven_layouts s ds drs) th /\
+  (forall x front back, Forall2 (drives_from x (front ++ th ++ back)) (all_from ds drs (length front)) m) /\
   forall x front back k placed P Q, let theta := front ++ th ++ back in
     val3 x theta (eplace k) = vscale (/ two_to s) P -> (forall b, val3 x theta (placed b) = mulv Q (val3 x theta b)) ->
     Forall2 (drives_there x theta s P Q) (all_drives k s placed ds drs (length front)) m.
 Proof.
-  intros drs m h. induction h as [| dr l drs m h hs IH]; intro ds; [exists []; split; [constructor | intros; constructor] |].
-  set (d := hd (0, 0)%Z ds). destruct (IH (tl ds)) as [t2 [L2 R2]]. destruct (is_driven_has_directions dr l h) as [v [y hv]]. destruct (one_drives s d v y dr l hv) as [L1 R1].
-  exists (driven_parameters s d v y l ++ t2). split; [cbn [driven_layouts]; apply Forall2_app; assumption |].
-  intros x front back k placed P Q. cbv zeta. intros hp T. cbn [all_drives]. fold d. rewrite <- app_assoc in *. constructor; [exact (R1 x front (t2 ++ back) k placed P Q hp T) |].
-  specialize (R2 x (front ++ driven_parameters s d v y l) back k placed P Q). cbv zeta in R2. rewrite app_length, <- (related_length _ _ _ _ _ L1) in R2. rewrite <- !app_assoc in R2. exact (R2 hp T).
+  intros drs m h. induction h as [| dr l drs m h hs IH]; intro ds; [exists []; split; [constructor | split; intros; constructor] |].
+  set (d := hd (0, 0)%Z ds). destruct (IH (tl ds)) as [t2 [L2 [F2 R2]]]. destruct (is_driven_has_directions dr l h) as [v [y hv]]. destruct (one_drives s d v y dr l hv) as [L1 R1].
+  destruct (one_drive_from s d v y dr l hv) as [_ F1].
+  exists (driven_parameters s d v y l ++ t2). split; [cbn [driven_layouts]; apply Forall2_app; assumption |]. split.
+  - intros x front back. cbn [all_from]. fold d. cbv zeta. rewrite <- app_assoc. constructor; [exact (proj1 (F1 x front (t2 ++ back))) |].
+    specialize (F2 x (front ++ driven_parameters s d v y l) back). rewrite app_length, <- (related_length _ _ _ _ _ L1) in F2. rewrite <- !app_assoc in F2. exact F2.
+  - intros x front back k placed P Q. cbv zeta. intros hp T. cbn [all_drives]. fold d. rewrite <- app_assoc in *. constructor; [exact (R1 x front (t2 ++ back) k placed P Q hp T) |].
+    specialize (R2 x (front ++ driven_parameters s d v y l) back k placed P Q). cbv zeta in R2. rewrite app_length, <- (related_length _ _ _ _ _ L1) in R2. rewrite <- !app_assoc in R2. exact (R2 hp T).
 Qed.
 Lemma nominal_legs_drive : forall drs m, Forall2 is_driven drs m -> forall ds, let th := map middle_of (driven_layouts s ds drs) in
   forall x front back k placed P Q, let theta := front ++ th ++ back in
@@ -527,6 +551,7 @@ Proof.
   intros x theta s k ell L P Q hp hl zs m h. induction h as [| z l zs m [h1 h2] hs IH]; cbn [map]; constructor; [exact (pose_stands x theta s k ell L P Q hp hl _ _ _ h1 h2) | exact IH].
 Qed.
 Lemma legs_stand : forall s drs m, Forall2 is_driven drs m -> forall ds, exists th, Forall2 scaled_within (driven_layouts s ds drs) th /\
+  (forall x front back, Forall2 (drives_from s x (front ++ th ++ back)) (all_from s ds drs (length front)) m) /\
   (forall x front back k placed P Q, let theta := front ++ th ++ back in
     val3 x theta (eplace k) = vscale (/ two_to s) P -> (forall b, val3 x theta (placed b) = mulv Q (val3 x theta b)) ->
     Forall2 (drives_there x theta s P Q) (all_drives k s placed ds drs (length front)) m) /\
@@ -536,7 +561,7 @@ Lemma legs_stand : forall s drs m, Forall2 is_driven drs m -> forall ds, exists 
     match k with Turns _ => L <> 0 /\ Formula.value x theta ell = / two_to s * L | _ => True end ->
     Forall2 (stands_in x theta s k L P Q) (all_driven k turn ell s ds drs (length front)) m.
 Proof.
-  intros s drs m h ds. destruct (legs_drive s drs m h ds) as [th [L1 R1]]. exists th. split; [exact L1 |]. split; [exact R1 |].
+  intros s drs m h ds. destruct (legs_drive s drs m h ds) as [th [L1 [F1 R1]]]. exists th. split; [exact L1 |]. split; [exact F1 |]. split; [exact R1 |].
   intros x front back k turn ell L P Q. cbv zeta. intros hp ht hl. apply (drives_stand x _ s k ell L P Q hp hl). exact (R1 x front back k (eturned turn) P Q hp (turned_is x _ turn Q ht)).
 Qed.
 End Named.

@@ -62,7 +62,7 @@ Definition inputs_of (are_angles : bool) (s : Z) (d : demand) : list input :=
   | SerialMin _ b | ParallelMin b => [InUnit b 0]
   | LegAngleMax _ b => [Cosine b]
   | JointAngleMax _ _ j b => let u := order_of [px j; py j; pz j] in [Cosine b; InUnit (px j) u; InUnit (py j) u; InUnit (pz j) u]
-  | AccelerationMax _ a v b => [InUnit (Over a b) 0; InUnit (Over (Times v v) b) s]
+  | AccelerationMax _ a v b => if are_angles then [InUnit (Over a b) s; InUnit (Over (Times v v) b) (s + s); Radians (1 // 1) 0] else [InUnit (Over a b) 0; InUnit (Over (Times v v) b) s]
   | OnePose _ b angle => let u := order_of [b] in [Tangent angle (u - s); InUnit b u]
   | LoadMax _ force b => map (fun x => InUnit (Over x b) (rate are_angles s)) force
   | Clear one other b => InUnit (distance_of one other b) s :: map (fun p => InUnit (greatest (fst p)) (snd p)) (body_numbers s one ++ body_numbers s other)

@@ -6,7 +6,7 @@
 From Coq Require Import ZArith Reals Lra Lia List Bool.
 From Orthocert.kernel Require Import Linear.
 From Orthocert Require Import Vec3 SingularValues Kinematics Velocity Claim.
-From Orthocert.kernel Require Import Statement Number Machine Witness Configuration Arm Orientation Turning.
+From Orthocert.kernel Require Import Statement Number Trig Machine Witness Configuration Arm Orientation Turning.
 Import ListNotations.
 Local Open Scope R_scope.
 Local Notation length := Datatypes.length.
@@ -69,8 +69,16 @@ Definition legs_recover (k : mobility) (nominal m : list driven) (P : vec) (Q : 
   forall rho, Forall2 (fun l r => is_off (value error) (own_joint l (carried l P Q)) r) nominal rho ->
   let is_at P' Q' := is_near_to k b angle P Q P' Q' /\ Forall2 (fun l r => own_reach l (carried l P' Q') /\ own_joint l (carried l P' Q') = r) m rho in
   exists P' Q', is_at P' Q' /\ forall P'' Q'', is_at P'' Q'' -> P'' = P' /\ Q'' = Q'.
+(** The joint's acceleration, of angles in degrees: along every motion through the pose with the twist v, whose rate is a, row . twist, the joint's speed, has the derivative y. *)
+Definition joint_unit (l : driven) (y : R) : R := match l with Linear _ => y | Rotary _ => in_degrees y end.
+Definition leg_accelerates (k : mobility) (ell : R) (l : driven) (P : vec) (Q : mat) (v a : list R) (y : R) : Prop :=
+  forall position turn velocity omega acceleration alpha, position 0 = P -> turn 0 = Q ->
+    has_velocity position 0 (velocity 0) -> turns turn 0 (omega 0) -> has_velocity velocity 0 acceleration -> has_velocity omega 0 alpha -> has_velocities k (velocity 0) (omega 0) ->
+    v = velocities k (velocity 0) (vscale ell (omega 0)) -> a = velocities k acceleration (vscale ell alpha) ->
+    derivable_pt_lim (fun t => Linear.dot (driven_row k ell (position t) (turn t) l) (velocities k (velocity t) (vscale ell (omega t)))) 0 (joint_unit l y).
 Definition legs_at (k : mobility) (ell : R) (nominal m : list driven) (P : vec) (Q : mat) : configuration :=
-  Configuration (map (driven_row k ell P Q) m) (map (fun l => own_joint l (carried l P Q)) m) (map (driven_rod k P Q) m) [] (fun b => vadd P (mulv Q b)) (fun _ _ _ _ => False) (legs_recover k nominal m P Q)
+  Configuration (map (driven_row k ell P Q) m) (map (fun l => own_joint l (carried l P Q)) m) (map (driven_rod k P Q) m) [] (fun b => vadd P (mulv Q b))
+    (fun i v a y => match nth_error m i with Some l => leg_accelerates k ell l P Q v a y | None => False end) (legs_recover k nominal m P Q)
     (Forall (fun l => own_reach l (carried l P Q)) m).
 
 Definition well_formed_driven (l : driven) : Prop := match l with Linear k => well_formed_leg k | Rotary k => well_formed_arm k end.

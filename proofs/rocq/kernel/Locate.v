@@ -275,7 +275,7 @@ Lemma angle_form : forall k s placed ds drs j z, In z (all_drives k s placed ds 
   match b_joint (fst z) with EAngle c a => exists A B T mode, c = elbow_of false A B T /\ a = signed mode (elbow_of true A B T) | _ => True end.
 Proof.
   intros k0 s0 placed ds0 drs0. revert ds0. induction drs0 as [| dr drs0 IH]; intros ds0 j z i; [contradiction |]. cbn [all_drives] in i. destruct i as [<- | i]; [| exact (IH _ _ _ i)].
-  destruct dr as [[c | a p [ax |] | n] | a]; try exact I. cbn [drive_at fst arm_drive_formulas b_joint]. cbv zeta. do 4 eexists. split; reflexivity.
+  destruct dr as [[c | a p [ax |] | n] | a]; try exact I. cbn [drive_at drive_from way_to tip_of fst arm_drive_formulas b_joint]. cbv zeta. do 4 eexists. split; reflexivity.
 Qed.
 
 (** Of a joint of the machine and of that of the nominal one. *)

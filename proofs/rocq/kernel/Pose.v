@@ -690,7 +690,7 @@ Definition pose_test_of (q : list formula) (d : demand) : option pose_test :=
       end
   | AccelerationMax i a v b => match nth_error zs i with
       | Some z => if certainly bits true b && (certainly bits false a && certainly bits false v) then let t := z_bend z tt in
-          Some (OnSlopes (Curved (map plain (bend_row t)) (map (map plain) (bend_twice t)) (plain (nth 0 q (integer 0))) (plain (nth 1 q (integer 0))) (plain (bend_square t)) (plain (bend_along t))))
+          Some (OnSlopes (Curved (map plain (bend_row t)) (map (map plain) (bend_twice t)) (plain (nth 0 q (integer 0))) (plain (nth 1 q (integer 0))) (Some (plain (bend_square t), plain (bend_along t))) []))
           else None
       | None => None
       end
@@ -1388,7 +1388,7 @@ Proof.
   - cbn [plain_formulas] in plains. destruct (nth_error zs n) as [z |] eqn:nz; [| discriminate]. destruct (certainly bits true b && _) eqn:ce; [| discriminate].
     apply andb_true_iff in ce as [b0 ce]. apply andb_true_iff in ce as [p0 q0]. apply nonneg_sound in p0, q0. apply positive_sound in b0. injection pu as <-.
     destruct (LegOf n z nz) as [l [nl [_ [_ [_ [_ BEND]]]]]]. rewrite Forall_forall in reach_. destruct (BEND (reach_ l (nth_error_In _ _ nl))) as [B1 [B2 B3]]. clear BEND. cbv zeta in plains.
-    pose proof (HT _ iu) as H. cbn [test_holds Check.holds] in H. cbv zeta in H. set (t' := z_bend z tt) in *.
+    pose proof (HT _ iu) as H. cbn [test_holds Check.holds] in H. cbv zeta in H. destruct H as [_ H]. set (t' := z_bend z tt) in *.
     assert (V : forall f, In f (bend_row t' ++ concat (bend_twice t') ++ [nth 0 ns (integer 0); nth 1 ns (integer 0); bend_square t'; bend_along t']) ->
       Formula.value x theta (Check.formula_at plain (plain_place f)) = Formula.value x theta f) by (intros f i; exact (f_equal (Formula.value x theta) (plains f i))).
     rewrite !(V (nth 0 ns (integer 0))), !(V (nth 1 ns (integer 0))), !(V (bend_square t')), !(V (bend_along t')) in H by (do 2 (apply in_or_app; right); cbn [In]; tauto).

@@ -350,6 +350,46 @@ for (const [name, force, stated, edits] of [
   }
 }
 console.log(`loads: ${loads} bounds with one answer, and ${no_loads} refused`);
+// Accelerations of joints: arms and sliders of platforms that turn or not, and of the closed design.
+let hastened = 0, not_hastened = 0;
+const planar_leg = (drive) => (x) => drive === "strut" ? `drive = "strut"\nanchor = [${x}, 0]\nplatform = [0, 0]`
+  : `drive = "slider"\ndirection = [1, 0]\nanchor = [${x}, 0]\nplatform = [0, 0]\nlength = "8 ± 0.01"\nmode = "${x < 5 ? "-" : "+"}"`;
+const hasty = (drives) => crossed("planar", drives.map((drive, i) => planar_leg(drive)(10 * i)), [4, 3], [6, 5]);
+for (const [name, certified, refuted, from, to, beside = ""] of [
+  ["kernel/five-bar", 5, 0.1], ["kernel/five-bar", 5, 0.1, /arm = ([\d.]+)/g, 'arm = "$1 ± 0.01"'], ["rotary-delta-linuxcnc", 20, 1], ["kernel/planar-3-rrr", 5, 0.01], ["kernel/planar-3-prr", 20, 1],
+  ["kernel/hexaglide-type", 200, 1], ["kernel/linapod-six-type", 20, 1], ["two sliders", 20, 1], ["two struts", 20, 1], ["a slider and a strut", 20, 1], ["orthoglide-cube-all", 20, 1, "", "", "transmission = { max = 2 }\n"],
+]) {
+  const design = path.join(made, "hastened.toml"), file = path.join(made, "hastened.cert.json");
+  const head = name.startsWith("two") || name.startsWith("a ") ? hasty({ "two sliders": ["slider", "slider"], "two struts": ["strut", "strut"] }[name] ?? ["slider", "strut"])
+    : fs.readFileSync(path.join(__dirname, "../../../tests/designs", `${name}.toml`), "utf8").split("[requirements]")[0], own = from ? head.replace(from, to) : head;
+  if (from && own === head) fail(`${name}: nothing to replace`);
+  for (const [verdict, stated] of [["CERTIFIED", certified], ["REFUTED", refuted]]) {
+    fs.writeFileSync(design, `${own}\n[requirements]\njoint_acceleration = { acceleration = 1, speed = 1, max = ${stated} }\n${beside}`);
+    spawnSync(orthocert, ["verify", design, "-o", file]);
+    const text = fs.readFileSync(file, "latin1"), claimed = text.indexOf('"joint_acceleration"'), said = `${name}, acceleration, ${verdict}`;
+    const with_ = (number) => (x) => text.slice(0, claimed) + text.slice(claimed).replace(new RegExp(`("${number}":\\[?)"[\\d.]+"`), `$1"${x}"`);
+    const beyond = verdict === "CERTIFIED" ? [["bound", 0.0001], ["acceleration", 9e4], ["speed", 9e4]] : [["bound", certified], ["acceleration", 0], ["speed", 0]];
+    read.push(last_number(with_("bound"), beyond[0][1], stated, 14, said, verdict));
+    hastened += 14;
+    // Of what refutes at a great speed, or acceleration, the other may be zero.
+    for (const [number, end] of beyond.slice(1)) for (let k = 0; k <= 4; k++) {
+      const answers = two_answers(with_(number)(`${1 + (end - 1) * k / 4}`));
+      if (new Set(answers).size > 1) fail(`${said}, ${number}: ${answers}`); else hastened++;
+    }
+    for (const [part, other] of [
+      ['"acceleration":["1"]', '"acceleration":["-1"]'], ['"speed":["1"]', '"speed":["-1"]'], ['"speed":["1"]', '"speeds":["1"]'], [/("joint_acceleration".*?"end":)"max"/, '$1"min"'], ['"given":{"acceleration"', '"leg":9,"given":{"acceleration"'],
+      [`"bound":"${stated}"`, '"bound":"0"'], [`"bound":"${stated}"`, '"bound":"-9"'], ['"speed":["1"]', '"speed":["1","1"]'], ...verdict === "CERTIFIED"
+        ? [[/\[1,"test"\]/, '[1,{"lower":{"places":2,"y":[[1,0],[0,1]]}}]'], [/,\[1,"test"\]/, ""], [/\[1,"test"\]/, '[1,"negative"]']]
+        : [[/"directions":\[\[[^\]]*\]/, '"directions":[[0]'], [/"directions":\[\[[^\]]*\]/, (d) => d.replace(/-?\d+/g, "0")], [/("directions":\[\[)/, "$11,"], [/"test":\d+/, '"test":0'], [/"test":\d+/, '"test":99']],
+    ]) {
+      const wrong = text.replace(part, other);
+      if (wrong === text) continue;
+      const answers = two_answers(wrong);
+      if (answers.some((answer) => answer !== "REJECTED")) fail(`${said}: ${answers}: ${part} ${other}`); else not_hastened++;
+    }
+  }
+}
+console.log(`joint accelerations of legs in any motion: ${hastened} numbers with one answer, and ${not_hastened} refused`);
 // Loads and angles of legs beside what is asked of whole machines: bodies, couples, accelerations, accuracy, two points, and determinants of struts.
 let joined = 0, no_joined = 0;
 for (const [name, requirements, most, wrong, steps] of [

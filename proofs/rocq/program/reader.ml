@@ -242,7 +242,7 @@ let strut_demand v =
 let driven_demand v =
   let r = requirement ~turns:true v in
   match r.about_ with
-  | Serial_ | Parallel_ | LegAngle_ | Load_ | OneToOne_ | Accuracy_ -> r
+  | Serial_ | Parallel_ | LegAngle_ | Load_ | OneToOne_ | Acceleration_ | Accuracy_ -> r
   | _ -> turning_demand v
 
 let region (kind, v) =
@@ -477,8 +477,8 @@ let certificate text =
     | Legs_ (kind, legs, _, _, _, _) -> (List.length legs, match kind with TranslatesInPlane -> 2 | Turns InSpace -> 6 | _ -> 3)
     | Closed_ _ | Postulate_ _ -> (3, 3) in
   let proof_ = proof shape (get l "proof") in
-  let plane_accelerates legs rs =
-    List.exists (fun r -> r.about_ = Acceleration_) rs && List.exists (function Planar_ _ -> true | _ -> false) legs in
+  let accelerates = List.exists (fun r -> r.about_ = Acceleration_) in
+  let plane_accelerates legs rs = accelerates rs && List.exists (function Planar_ _ -> true | _ -> false) legs in
   (* Apart are all that is shown of M, at control points, of as many struts as coordinates, over a box. *)
   let has_other_apart kind legs w nodes =
     let is_square = List.length legs = (match kind with InSpace -> 6 | _ -> 3) && (match kind, w with AboutPoint, _ | _, AnyCylinder_ _ -> false | _ -> true) in
@@ -499,6 +499,8 @@ let certificate text =
      not_covered [ "a step of a platform that turns that is not at control points" ]
    | Atlas_ _, Cells cells when List.exists (function Disproved (_, _, _, Same_ _) -> true | _ -> false) cells -> not_covered [ "the failure \"same\" of such a mechanism" ]
    | (Machine_ (legs, _, _, rs), Nodes _ | Atlas_ (_, legs, _, rs, _, _), _) when plane_accelerates legs rs ->
+     not_covered [ "the acceleration of a joint of a machine with a plane" ]
+   | Legs_ (_, legs, _, _, _, rs), Nodes _ when accelerates rs && List.exists (function AnyPlanar_ _ -> true | _ -> false) legs ->
      not_covered [ "the acceleration of a joint of a machine with a plane" ]
    | NoCube_ (_, _, _, rs, _), _ when List.exists is_certified_only rs -> not_covered [ "this quantity in a claim that is refuted" ]
    | NoCube_ _, Nodes (_, _, nodes) when List.exists (fun n -> n.by_ <> []) nodes -> not_covered [ "a step in a proof that no cube fits" ]

@@ -3,28 +3,28 @@
 globalThis!=="object"&&(this?b():(a.defineProperty(a.prototype,"_T_",{configurable:true,get:b}),_T_));function
 b(){var
 b=this||self;b.globalThis=b;delete
-a.prototype._T_}}(Object));(function(W){"use strict";var
-ln="spatial",sY="Invalid_argument",is="precision",aU='"',lm=1255,iA="inside",rW="(",rX=0x800,sX="yaw",rT="range",rU="tree",rV="jsError",cv=0x8000,sW="sqrt(",rS=256,ir="obligation",sV="load",gp="offset",by="machine",rR="End_of_file",fa="strut",ll="center",go="arm",lk="Failure",sU="serial_margin",iz="parameters",cZ=0xff,sT="bodies",sS="max_angle",ly="outside",gn="base_axis",lj="ENOENT",sR="singular",sQ=122,rQ="([^/]+)",sP="0",li=0xf,gm=128,rP=0xdc00,sN="Sys_blocked_io",sO="fd ",ge="given",rO="ENOTEMPTY",bc=248,iq="bound",rN="Division_by_zero",sL="by",sM=1027,rM="Sys_error",gl="slider",rL="torsion",sK="postulate",rK="proof",lx="joint_error",gk="refuted",e5="mechanism",ip="row",rJ="EEXIST",sJ="roll_pitch_yaw",gj="y",rI="cube",dB="lower",sI="within",rH="clearance",sH="turned",rG="control",io="int_of_string",rF="between",sF="definitions",sG="dependent",gi=1024,rD="from",rE="name",sE=" : flags Open_rdonly and Open_wronly are not compatible",rC="orthocert/2",sD="reach",rB=512,sB="base_joint",sC="witness",e$="-",bp="platform",rA=0x7ff0,rz="pitch",lw=": Not a directory",bP="min",sz="trim",e_="workspace",sA=" : file already exists",im="split",lv="legs",sy="claim",lh="joint",eg=0xffffff,ry="platform_joint",rx="formulas",rw="roll",il="atlas",sv="greatest",sw="nodes",sx="Out_of_memory",rv="psi_max",iy="orientation",ik=254,su="angle",lu="index out of bounds",ru="end",st="one_to_one",ix="_bigarr02",rt=" : flags Open_text and Open_binary are not compatible",ss="inverse",bx="drive",rs="coordinates",sr="holds",ij="lower_divided",rr="speed",sp="cylinder",sq="joints",cY=0xffff,sl="a leaf that fails",sm="acceleration",sn="force",gg="certified",gh="chords",so=12520,lg="on",sk="same",e4="accuracy",gf="axis",sj="no_cube",si="parallel_margin",rq='the drive "',lf="Unix.Unix_error",iw="fails",ii="tool",le="mkdir",sg="rho",sh="least",iv=1000,ld="translational",iu="tolerances",rp="Stack_overflow",lt="characteristic_length",ag="",ls="^",ig="places",ih=": No such file or directory",ro="/static/",e9=0x3f,rm="stiffness",rn="Not_found",cu="planar",gd="mode",sf="joint_speed",se="Match_failure",rl="transmission",bO="anchor",sd="at",rk="joint_force",e8="leg",rj="joint_acceleration",it="+",lc="rmdir",sc=0xf0,sb="spherical",ri=1026,r$="REJECTED",sa="undecided",bR="max",bQ="direction",rg="leg_angle",rh="orthoglide",e7="rank",r9="constraint_margin",r_="fan",gc="test",re="Pervasives.do_at_exit",rf="utf8",b9=0x80,e6="conditioning",e3="length",rd="Undefined_recursive_module",lr=")",rc="base",r8="quantity",rb="joint_range",ie="tilt",lq="divided",ra="Q2",r7="reference",q$="point",r5="corner",r6=0xe0,q_="version",lp="z",r3="to",r4=0xdfff,lb="compare: functional value",r2="Assert_failure",b$="/",r1="provenance",ef="radius",id="side",rZ=-14,b_="require",r0="format",q9="Q1",lo="ENOTDIR",q8="all",ee="box",rY=250;function
-lL(c,b,a){var
+a.prototype._T_}}(Object));(function(X){"use strict";var
+lA="spatial",tg="Invalid_argument",iy="precision",aW='"',lz=1255,iG="inside",se="(",sf=0x800,tf="yaw",sb="range",sc="tree",sd="jsError",cy=0x8000,te="sqrt(",sa=256,ix="obligation",td="load",gv="offset",by="machine",r$="End_of_file",fd="strut",ly="center",gu="arm",lx="Failure",tc="serial_margin",iF="parameters",c1=0xff,tb="bodies",ta="max_angle",lL="outside",gt="base_axis",lw="ENOENT",s$="singular",s_=122,r_="([^/]+)",s9="0",lv=0xf,gs=128,r9=0xdc00,s7="Sys_blocked_io",s8="fd ",gk="given",r8="ENOTEMPTY",bc=248,iw="bound",r7="Division_by_zero",s5="by",s6=1027,r6="Sys_error",gr="slider",r5="torsion",s4="postulate",r4="proof",lK="joint_error",gq="refuted",e8="mechanism",iv="row",r3="EEXIST",s3="roll_pitch_yaw",gp="y",r2="cube",dB="lower",s2="within",r1="clearance",s1="turned",r0="control",iu="int_of_string",rZ="between",sZ="definitions",s0="dependent",go=1024,rX="from",rY="name",sY=" : flags Open_rdonly and Open_wronly are not compatible",rW="orthocert/2",sX="reach",rV=512,sV="base_joint",sW="witness",fc="-",br="platform",rU=0x7ff0,rT="pitch",lJ=": Not a directory",bT="min",sT="trim",fb="workspace",sU=" : file already exists",it="split",lI="legs",sS="claim",lu="joint",el=0xffffff,rS="platform_joint",rR="formulas",rQ="roll",is="atlas",sP="greatest",sQ="nodes",sR="Out_of_memory",rP="psi_max",iE="orientation",ir=254,sO="angle",lH="index out of bounds",rO="end",sN="one_to_one",iD="_bigarr02",rN=" : flags Open_text and Open_binary are not compatible",sM="inverse",bx="drive",rM="coordinates",sL="holds",iq="lower_divided",rL="speed",sJ="cylinder",sK="joints",c0=0xffff,sF="a leaf that fails",sG="acceleration",sH="force",gm="certified",gn="chords",sI=12520,lt="on",sE="same",e7="accuracy",gl="axis",sD="no_cube",sC="parallel_margin",rK='the drive "',ls="Unix.Unix_error",iC="fails",ip="tool",lr="mkdir",sA="rho",sB="least",iB=1000,lq="translational",iA="tolerances",rJ="Stack_overflow",lG="characteristic_length",ah="",lF="^",im="places",io=": No such file or directory",rI="/static/",fa=0x3f,rG="stiffness",rH="Not_found",cx="planar",gj="mode",sz="joint_speed",sy="Match_failure",rF="transmission",bS="anchor",sx="at",rE="joint_force",e$="leg",rD="joint_acceleration",iz="+",lp="rmdir",sw=0xf0,sv="spherical",rC=1026,st="REJECTED",su="undecided",bV="max",bU="direction",rA="leg_angle",rB="orthoglide",e_="rank",sr="constraint_margin",ss="fan",rx="the acceleration of a joint of a machine with a plane",gi="test",ry="Pervasives.do_at_exit",rz="utf8",cb=0x80,e9="conditioning",e6="length",rw="Undefined_recursive_module",lE=")",rv="base",sq="quantity",ru="joint_range",il="tilt",lD="divided",rt="Q2",sp="reference",rs="point",sn="corner",so=0xe0,rr="version",lC="z",sl="to",sm=0xdfff,lo="compare: functional value",sk="Assert_failure",cd="/",sj="provenance",ek="radius",ik="side",sh=-14,cc="require",si="format",rq="Q1",lB="ENOTDIR",rp="all",ej="box",sg=250;function
+lY(c,b,a){var
 d=String.fromCharCode;if(b==0&&a<=4096&&a==c.length)return d.apply(null,c);var
-e=ag;for(;0<a;b+=gi,a-=gi)e+=d.apply(null,c.slice(b,b+Math.min(a,gi)));return e}function
-iC(b){if(W.Uint8Array)var
-c=new(W.Uint8Array)(b.l);else
+e=ah;for(;0<a;b+=go,a-=go)e+=d.apply(null,c.slice(b,b+Math.min(a,go)));return e}function
+iI(b){if(X.Uint8Array)var
+c=new(X.Uint8Array)(b.l);else
 var
 c=new
 Array(b.l);var
 e=b.c,d=e.length,a=0;for(;a<d;a++)c[a]=e.charCodeAt(a);for(d=b.l;a<d;a++)c[a]=0;b.c=c;b.t=4;return c}function
-gq(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?lL(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
-if(b.t==2&&f==b.c.length){b.c+=d.t==4?lL(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)iC(b);var
+gw(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?lY(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
+if(b.t==2&&f==b.c.length){b.c+=d.t==4?lY(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)iI(b);var
 g=d.c,h=b.c;if(d.t==4)if(f<=e)for(var
 a=0;a<c;a++)h[f+a]=g[e+a];else
 for(var
 a=c-1;a>=0;a--)h[f+a]=g[e+a];else{var
 i=Math.min(c,g.length-e);for(var
 a=0;a<i;a++)h[f+a]=g.charCodeAt(e+a);for(;a<c;a++)h[f+a]=0}}return 0}function
-fd(a){return a}function
-fc(a,b,c,d,e){gq(fd(a),b,c,d,e);return 0}function
-lA(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
+fg(a){return a}function
+ff(a,b,c,d,e){gw(fg(a),b,c,d,e);return 0}function
+lN(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
 0:return a.c.charCodeAt(b);case
 4:return a.c[b]}}function
 dD(c,a){if(c.fun)return dD(c.fun,a);if(typeof
@@ -37,23 +37,23 @@ e=arguments.length==0?1:arguments.length,d=new
 Array(a.length+e);for(var
 b=0;b<a.length;b++)d[b]=a[b];for(var
 b=0;b<arguments.length;b++)d[a.length+b]=arguments[b];return dD(c,d)}}function
-tn(b,a){if(b==0)return ag;if(a.repeat)return a.repeat(b);var
-d=ag,c=0;for(;;){if(b&1)d+=a;b>>=1;if(b==0)return d;a+=a;c++;if(c==9)a.slice(0,1)}}function
-fe(a){if(a.t==2)a.c+=tn(a.l-a.c.length,"\0");else
-a.c=lL(a.c,0,a.c.length);a.t=0}function
-ff(a){a.t&6&&fe(a);return a.c}var
-KQ=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
-KP(a){if(KQ)return Math.floor(Math.log2(a));var
+tH(b,a){if(b==0)return ah;if(a.repeat)return a.repeat(b);var
+d=ah,c=0;for(;;){if(b&1)d+=a;b>>=1;if(b==0)return d;a+=a;c++;if(c==9)a.slice(0,1)}}function
+fh(a){if(a.t==2)a.c+=tH(a.l-a.c.length,"\0");else
+a.c=lY(a.c,0,a.c.length);a.t=0}function
+fi(a){a.t&6&&fh(a);return a.c}var
+Lj=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
+Li(a){if(Lj)return Math.floor(Math.log2(a));var
 b=0;if(a==0)return-Infinity;if(a>=1)while(a>=2){a/=2;b++}else
 while(a<1){a*=2;b--}return b}function
-lD(c){var
-a=new(W.Float32Array)(1);a[0]=c;var
-b=new(W.Int32Array)(a.buffer);return b[0]|0}var
-tf=Math.pow(2,-24);function
-KG(a){throw a}var
+lQ(c){var
+a=new(X.Float32Array)(1);a[0]=c;var
+b=new(X.Int32Array)(a.buffer);return b[0]|0}var
+tz=Math.pow(2,-24);function
+K$(a){throw a}var
 aK=[0];function
-tk(){KG(aK.Division_by_zero)}function
-U(b,c,a){this.lo=b&eg;this.mi=c&eg;this.hi=a&cY}U.prototype.caml_custom="_j";U.prototype.copy=function(){return new
+tE(){K$(aK.Division_by_zero)}function
+U(b,c,a){this.lo=b&el;this.mi=c&el;this.hi=a&c0}U.prototype.caml_custom="_j";U.prototype.copy=function(){return new
 U(this.lo,this.mi,this.hi)};U.prototype.ucompare=function(a){if(this.hi>a.hi)return 1;if(this.hi<a.hi)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};U.prototype.compare=function(a){var
 b=this.hi<<16,c=a.hi<<16;if(b>c)return 1;if(b<c)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};U.prototype.neg=function(){var
 a=-this.lo,b=-this.mi+(a>>24),c=-this.hi+(b>>24);return new
@@ -62,7 +62,7 @@ b=this.lo+a.lo,c=this.mi+a.mi+(b>>24),d=this.hi+a.hi+(c>>24);return new
 U(b,c,d)};U.prototype.sub=function(a){var
 b=this.lo-a.lo,c=this.mi-a.mi+(b>>24),d=this.hi-a.hi+(c>>24);return new
 U(b,c,d)};U.prototype.mul=function(a){var
-b=this.lo*a.lo,c=(b*tf|0)+this.mi*a.lo+this.lo*a.mi,d=(c*tf|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
+b=this.lo*a.lo,c=(b*tz|0)+this.mi*a.lo+this.lo*a.mi,d=(c*tz|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
 U(b,c,d)};U.prototype.isZero=function(){return(this.lo|this.mi|this.hi)==0};U.prototype.isNeg=function(){return this.hi<<16<0};U.prototype.and=function(a){return new
 U(this.lo&a.lo,this.mi&a.mi,this.hi&a.hi)};U.prototype.or=function(a){return new
 U(this.lo|a.lo,this.mi|a.mi,this.hi|a.hi)};U.prototype.xor=function(a){return new
@@ -76,27 +76,27 @@ U(this.hi>>a-48,0,0)};U.prototype.shift_right=function(a){a=a&63;if(a==0)return 
 c=this.hi<<16>>16;if(a<24)return new
 U(this.lo>>a|this.mi<<24-a,this.mi>>a|c<<24-a,this.hi<<16>>a>>>16);var
 b=this.hi<<16>>31;if(a<48)return new
-U(this.mi>>a-24|this.hi<<48-a,this.hi<<16>>a-24>>16,b&cY);return new
-U(this.hi<<16>>a-32,b,b)};U.prototype.lsl1=function(){this.hi=this.hi<<1|this.mi>>23;this.mi=(this.mi<<1|this.lo>>23)&eg;this.lo=this.lo<<1&eg};U.prototype.lsr1=function(){this.lo=(this.lo>>>1|this.mi<<23)&eg;this.mi=(this.mi>>>1|this.hi<<23)&eg;this.hi=this.hi>>>1};U.prototype.udivmod=function(e){var
+U(this.mi>>a-24|this.hi<<48-a,this.hi<<16>>a-24>>16,b&c0);return new
+U(this.hi<<16>>a-32,b,b)};U.prototype.lsl1=function(){this.hi=this.hi<<1|this.mi>>23;this.mi=(this.mi<<1|this.lo>>23)&el;this.lo=this.lo<<1&el};U.prototype.lsr1=function(){this.lo=(this.lo>>>1|this.mi<<23)&el;this.mi=(this.mi>>>1|this.hi<<23)&el;this.hi=this.hi>>>1};U.prototype.udivmod=function(e){var
 c=0,b=this.copy(),a=e.copy(),d=new
 U(0,0,0);while(b.ucompare(a)>0){c++;a.lsl1()}while(c>=0){c--;d.lsl1();if(b.ucompare(a)>=0){d.lo++;b=b.sub(a)}a.lsr1()}return{quotient:d,modulus:b}};U.prototype.div=function(a){var
-b=this;if(a.isZero())tk();var
-d=b.hi^a.hi;if(b.hi&cv)b=b.neg();if(a.hi&cv)a=a.neg();var
-c=b.udivmod(a).quotient;if(d&cv)c=c.neg();return c};U.prototype.mod=function(b){var
-a=this;if(b.isZero())tk();var
-d=a.hi;if(a.hi&cv)a=a.neg();if(b.hi&cv)b=b.neg();var
-c=a.udivmod(b).modulus;if(d&cv)c=c.neg();return c};U.prototype.toInt=function(){return this.lo|this.mi<<24};U.prototype.toFloat=function(){return(this.hi<<16)*Math.pow(2,32)+this.mi*Math.pow(2,24)+this.lo};U.prototype.toArray=function(){return[this.hi>>8,this.hi&cZ,this.mi>>16,this.mi>>8&cZ,this.mi&cZ,this.lo>>16,this.lo>>8&cZ,this.lo&cZ]};U.prototype.lo32=function(){return this.lo|(this.mi&cZ)<<24};U.prototype.hi32=function(){return this.mi>>>8&cY|this.hi<<16};function
-iE(b,c,a){return new
+b=this;if(a.isZero())tE();var
+d=b.hi^a.hi;if(b.hi&cy)b=b.neg();if(a.hi&cy)a=a.neg();var
+c=b.udivmod(a).quotient;if(d&cy)c=c.neg();return c};U.prototype.mod=function(b){var
+a=this;if(b.isZero())tE();var
+d=a.hi;if(a.hi&cy)a=a.neg();if(b.hi&cy)b=b.neg();var
+c=a.udivmod(b).modulus;if(d&cy)c=c.neg();return c};U.prototype.toInt=function(){return this.lo|this.mi<<24};U.prototype.toFloat=function(){return(this.hi<<16)*Math.pow(2,32)+this.mi*Math.pow(2,24)+this.lo};U.prototype.toArray=function(){return[this.hi>>8,this.hi&c1,this.mi>>16,this.mi>>8&c1,this.mi&c1,this.lo>>16,this.lo>>8&c1,this.lo&c1]};U.prototype.lo32=function(){return this.lo|(this.mi&c1)<<24};U.prototype.hi32=function(){return this.mi>>>8&c0|this.hi<<16};function
+iK(b,c,a){return new
 U(b,c,a)}function
-iD(a){if(!isFinite(a)){if(isNaN(a))return iE(1,0,rA);return a>0?iE(0,0,rA):iE(0,0,0xfff0)}var
-f=a==0&&1/a==-Infinity?cv:a>=0?0:cv;if(f)a=-a;var
-b=KP(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-ri)}else{a/=Math.pow(2,b-sM);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
+iJ(a){if(!isFinite(a)){if(isNaN(a))return iK(1,0,rU);return a>0?iK(0,0,rU):iK(0,0,0xfff0)}var
+f=a==0&&1/a==-Infinity?cy:a>=0?0:cy;if(f)a=-a;var
+b=Li(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-rC)}else{a/=Math.pow(2,b-s6);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
 d=Math.pow(2,24),c=a|0;a=(a-c)*d;var
 e=a|0;a=(a-e)*d;var
-g=a|0;c=c&li|f|b<<4;return iE(g,e,c)}function
-gt(a){return a.toArray()}function
-s5(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==ix)for(var
-a=0;a<b.dims.length;a++)if(b.dims[a]<cY)c.write(16,b.dims[a]);else{c.write(16,cY);c.write(32,0);c.write(32,b.dims[a])}else
+g=a|0;c=c&lv|f|b<<4;return iK(g,e,c)}function
+gz(a){return a.toArray()}function
+tn(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==iD)for(var
+a=0;a<b.dims.length;a++)if(b.dims[a]<c0)c.write(16,b.dims[a]);else{c.write(16,c0);c.write(32,0);c.write(32,b.dims[a])}else
 for(var
 a=0;a<b.dims.length;a++)c.write(32,b.dims[a]);switch(b.kind){case
 2:case
@@ -113,52 +113,52 @@ a=0;a<b.data.length;a++)c.write(32,b.data[a]);break;case
 a=0;a<b.data.length;a++)c.write(32,b.data[a]);break;case
 7:for(var
 a=0;a<b.data.length/2;a++){var
-e=gt(b.get(a));for(var
+e=gz(b.get(a));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 1:for(var
 a=0;a<b.data.length;a++){var
-e=gt(iD(b.get(a)));for(var
+e=gz(iJ(b.get(a)));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 0:for(var
 a=0;a<b.data.length;a++){var
-e=lD(b.get(a));c.write(32,e)}break;case
+e=lQ(b.get(a));c.write(32,e)}break;case
 10:for(var
 a=0;a<b.data.length/2;a++){var
-d=b.get(a);c.write(32,lD(d[1]));c.write(32,lD(d[2]))}break;case
+d=b.get(a);c.write(32,lQ(d[1]));c.write(32,lQ(d[2]))}break;case
 11:for(var
 a=0;a<b.data.length/2;a++){var
-f=b.get(a),e=gt(iD(f[1]));for(var
+f=b.get(a),e=gz(iJ(f[1]));for(var
 d=0;d<8;d++)c.write(8,e[d]);var
-e=gt(iD(f[2]));for(var
+e=gz(iJ(f[2]));for(var
 d=0;d<8;d++)c.write(8,e[d])}break}g[0]=(4+b.dims.length)*4;g[1]=(4+b.dims.length)*8}function
-KI(b,a){throw[0,b,a]}function
-ts(a){if(a.length<24){for(var
+Lb(b,a){throw[0,b,a]}function
+tM(a){if(a.length<24){for(var
 b=0;b<a.length;b++)if(a.charCodeAt(b)>127)return false;return true}else
 return!/[^\x00-\x7f]/.test(a)}function
-lM(e){for(var
-j=ag,c=ag,g,f,h,a,b=0,i=e.length;b<i;b++){f=e.charCodeAt(b);if(f<b9){for(var
-d=b+1;d<i&&(f=e.charCodeAt(d))<b9;d++);if(d-b>rB){c.substr(0,1);j+=c;c=ag;j+=e.slice(b,d)}else
-c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==gm){g=h+(f<<6);if(f<r6){a=g-0x3080;if(a<b9)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==gm){g=h+(g<<6);if(f<sc){a=g-0xe2080;if(a<rX||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==gm&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
-if(a>cY)c+=String.fromCharCode(0xd7c0+(a>>10),rP+(a&0x3FF));else
-c+=String.fromCharCode(a);if(c.length>gi){c.substr(0,1);j+=c;c=ag}}return j+c}function
-cw(c,a,b){this.t=c;this.c=a;this.l=b}cw.prototype.toString=function(){switch(this.t){case
-9:return this.c;default:fe(this);case
-0:if(ts(this.c)){this.t=9;return this.c}this.t=8;case
-8:return this.c}};cw.prototype.toUtf16=function(){var
-a=this.toString();if(this.t==9)return a;return lM(a)};cw.prototype.slice=function(){var
+lZ(e){for(var
+j=ah,c=ah,g,f,h,a,b=0,i=e.length;b<i;b++){f=e.charCodeAt(b);if(f<cb){for(var
+d=b+1;d<i&&(f=e.charCodeAt(d))<cb;d++);if(d-b>rV){c.substr(0,1);j+=c;c=ah;j+=e.slice(b,d)}else
+c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==gs){g=h+(f<<6);if(f<so){a=g-0x3080;if(a<cb)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==gs){g=h+(g<<6);if(f<sw){a=g-0xe2080;if(a<sf||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==gs&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
+if(a>c0)c+=String.fromCharCode(0xd7c0+(a>>10),r9+(a&0x3FF));else
+c+=String.fromCharCode(a);if(c.length>go){c.substr(0,1);j+=c;c=ah}}return j+c}function
+cz(c,a,b){this.t=c;this.c=a;this.l=b}cz.prototype.toString=function(){switch(this.t){case
+9:return this.c;default:fh(this);case
+0:if(tM(this.c)){this.t=9;return this.c}this.t=8;case
+8:return this.c}};cz.prototype.toUtf16=function(){var
+a=this.toString();if(this.t==9)return a;return lZ(a)};cz.prototype.slice=function(){var
 a=this.t==4?this.c.slice():this.c;return new
-cw(this.t,a,this.l)};function
-s8(a){return new
-cw(0,a,a.length)}function
-a(a){return s8(a)}function
-lK(c,b){KI(c,a(b))}function
-a4(a){lK(aK.Invalid_argument,a)}function
-s3(a){switch(a){case
+cz(this.t,a,this.l)};function
+tq(a){return new
+cz(0,a,a.length)}function
+a(a){return tq(a)}function
+lX(c,b){Lb(c,a(b))}function
+a5(a){lX(aK.Invalid_argument,a)}function
+tl(a){switch(a){case
 7:case
 10:case
 11:return 2;default:return 1}}function
-Ka(c,e){var
-b=W,a;switch(c){case
+KF(c,e){var
+b=X,a;switch(c){case
 0:a=b.Float32Array;break;case
 1:a=b.Float64Array;break;case
 2:a=b.Int8Array;break;case
@@ -171,45 +171,45 @@ b=W,a;switch(c){case
 9:a=b.Int32Array;break;case
 10:a=b.Float32Array;break;case
 11:a=b.Float64Array;break;case
-12:a=b.Uint8Array;break}if(!a)a4("Bigarray.create: unsupported kind");var
+12:a=b.Uint8Array;break}if(!a)a5("Bigarray.create: unsupported kind");var
 d=new
-a(e*s3(c));return d}function
-lE(c){var
-a=new(W.Int32Array)(1);a[0]=c;var
-b=new(W.Float32Array)(a.buffer);return b[0]}function
-gs(a){return new
+a(e*tl(c));return d}function
+lR(c){var
+a=new(X.Int32Array)(1);a[0]=c;var
+b=new(X.Float32Array)(a.buffer);return b[0]}function
+gy(a){return new
 U(a[7]<<0|a[6]<<8|a[5]<<16,a[4]<<0|a[3]<<8|a[2]<<16,a[1]<<0|a[0]<<8)}function
-lF(d){var
-f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&li)==0?b&cv?-Infinity:Infinity:NaN;var
-e=Math.pow(2,-24),a=(f*e+g)*e+(b&li);if(c>0){a+=16;a*=Math.pow(2,c-sM)}else
-a*=Math.pow(2,-ri);if(b&cv)a=-a;return a}function
-lz(b){var
+lS(d){var
+f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&lv)==0?b&cy?-Infinity:Infinity:NaN;var
+e=Math.pow(2,-24),a=(f*e+g)*e+(b&lv);if(c>0){a+=16;a*=Math.pow(2,c-s6)}else
+a*=Math.pow(2,-rC);if(b&cy)a=-a;return a}function
+lM(b){var
 d=b.length,c=1;for(var
-a=0;a<d;a++){if(b[a]<0)a4("Bigarray.create: negative dimension");c=c*b[a]}return c}function
-Kq(b,a){return new
-U(b&eg,b>>>24&cZ|(a&cY)<<8,a>>>16&cY)}function
-lG(a){return a.hi32()}function
-lH(a){return a.lo32()}function
-iB(){a4(lu)}var
-Kb=ix;function
-dC(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}dC.prototype.caml_custom=Kb;dC.prototype.offset=function(b){var
+a=0;a<d;a++){if(b[a]<0)a5("Bigarray.create: negative dimension");c=c*b[a]}return c}function
+KV(b,a){return new
+U(b&el,b>>>24&c1|(a&c0)<<8,a>>>16&c0)}function
+lT(a){return a.hi32()}function
+lU(a){return a.lo32()}function
+iH(){a5(lH)}var
+KG=iD;function
+dC(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}dC.prototype.caml_custom=KG;dC.prototype.offset=function(b){var
 c=0;if(typeof
 b==="number")b=[b];if(!(b
 instanceof
-Array))a4("bigarray.js: invalid offset");if(this.dims.length!=b.length)a4("Bigarray.get/set: bad number of dimensions");if(this.layout==0)for(var
-a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])iB();c=c*this.dims[a]+b[a]}else
+Array))a5("bigarray.js: invalid offset");if(this.dims.length!=b.length)a5("Bigarray.get/set: bad number of dimensions");if(this.layout==0)for(var
+a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])iH();c=c*this.dims[a]+b[a]}else
 for(var
-a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])iB();c=c*this.dims[a]+(b[a]-1)}return c};dC.prototype.get=function(a){switch(this.kind){case
+a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])iH();c=c*this.dims[a]+(b[a]-1)}return c};dC.prototype.get=function(a){switch(this.kind){case
 7:var
-d=this.data[a*2+0],b=this.data[a*2+1];return Kq(d,b);case
+d=this.data[a*2+0],b=this.data[a*2+1];return KV(d,b);case
 10:case
 11:var
-e=this.data[a*2+0],c=this.data[a*2+1];return[ik,e,c];default:return this.data[a]}};dC.prototype.set=function(a,b){switch(this.kind){case
-7:this.data[a*2+0]=lH(b);this.data[a*2+1]=lG(b);break;case
+e=this.data[a*2+0],c=this.data[a*2+1];return[ir,e,c];default:return this.data[a]}};dC.prototype.set=function(a,b){switch(this.kind){case
+7:this.data[a*2+0]=lU(b);this.data[a*2+1]=lT(b);break;case
 10:case
 11:this.data[a*2+0]=b[1];this.data[a*2+1]=b[2];break;default:this.data[a]=b;break}return 0};dC.prototype.fill=function(b){switch(this.kind){case
 7:var
-c=lH(b),e=lG(b);if(c==e)this.data.fill(c);else
+c=lU(b),e=lT(b);if(c==e)this.data.fill(c);else
 for(var
 a=0;a<this.data.length;a++)this.data[a]=a%2==0?c:e;break;case
 10:case
@@ -236,26 +236,26 @@ a=0;a<this.data.length;a+=2){if(this.data[a+1]<b.data[a+1])return-1;if(this.data
 9:case
 12:for(var
 a=0;a<this.data.length;a++){if(this.data[a]<b.data[a])return-1;if(this.data[a]>b.data[a])return 1}break}return 0};function
-fb(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}fb.prototype=new
-dC();fb.prototype.offset=function(a){if(typeof
+fe(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}fe.prototype=new
+dC();fe.prototype.offset=function(a){if(typeof
 a!=="number")if(a
 instanceof
 Array&&a.length==1)a=a[0];else
-a4("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])iB();return a};fb.prototype.get=function(a){return this.data[a]};fb.prototype.set=function(a,b){this.data[a]=b;return 0};fb.prototype.fill=function(a){this.data.fill(a);return 0};function
-s1(c,d,a,b){var
-e=s3(c);if(lz(a)*e!=b.length)a4("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
-fb(c,d,a,b);return new
+a5("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])iH();return a};fe.prototype.get=function(a){return this.data[a]};fe.prototype.set=function(a,b){this.data[a]=b;return 0};fe.prototype.fill=function(a){this.data.fill(a);return 0};function
+tj(c,d,a,b){var
+e=tl(c);if(lM(a)*e!=b.length)a5("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
+fe(c,d,a,b);return new
 dC(c,d,a,b)}function
-ca(b){if(!aK.Failure)aK.Failure=[bc,a(lk),-3];lK(aK.Failure,b)}function
-s2(b,v,r){var
-i=b.read32s();if(i<0||i>16)ca("input_value: wrong number of bigarray dimensions");var
-p=b.read32s(),j=p&cZ,o=p>>8&1,h=[];if(r==ix)for(var
+ce(b){if(!aK.Failure)aK.Failure=[bc,a(lx),-3];lX(aK.Failure,b)}function
+tk(b,v,r){var
+i=b.read32s();if(i<0||i>16)ce("input_value: wrong number of bigarray dimensions");var
+p=b.read32s(),j=p&c1,o=p>>8&1,h=[];if(r==iD)for(var
 a=0;a<i;a++){var
-n=b.read16u();if(n==cY){var
-t=b.read32u(),u=b.read32u();if(t!=0)ca("input_value: bigarray dimension overflow in 32bit");n=u}h.push(n)}else
+n=b.read16u();if(n==c0){var
+t=b.read32u(),u=b.read32u();if(t!=0)ce("input_value: bigarray dimension overflow in 32bit");n=u}h.push(n)}else
 for(var
 a=0;a<i;a++)h.push(b.read32u());var
-d=lz(h),f=Ka(j,d),g=s1(j,o,h,f);switch(j){case
+d=lM(h),f=KF(j,d),g=tj(j,o,h,f);switch(j){case
 2:for(var
 a=0;a<d;a++)f[a]=b.read8s();break;case
 3:case
@@ -269,129 +269,129 @@ a=0;a<d;a++)f[a]=b.read16u();break;case
 a=0;a<d;a++)f[a]=b.read32s();break;case
 8:case
 9:var
-s=b.read8u();if(s)ca("input_value: cannot read bigarray with 64-bit OCaml ints");for(var
+s=b.read8u();if(s)ce("input_value: cannot read bigarray with 64-bit OCaml ints");for(var
 a=0;a<d;a++)f[a]=b.read32s();break;case
 7:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-q=gs(e);g.set(a,q)}break;case
+q=gy(e);g.set(a,q)}break;case
 1:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-k=lF(gs(e));g.set(a,k)}break;case
+k=lS(gy(e));g.set(a,k)}break;case
 0:for(var
 a=0;a<d;a++){var
-k=lE(b.read32s());g.set(a,k)}break;case
+k=lR(b.read32s());g.set(a,k)}break;case
 10:for(var
 a=0;a<d;a++){var
-m=lE(b.read32s()),l=lE(b.read32s());g.set(a,[ik,m,l])}break;case
+m=lR(b.read32s()),l=lR(b.read32s());g.set(a,[ir,m,l])}break;case
 11:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-m=lF(gs(e));for(var
+m=lS(gy(e));for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-l=lF(gs(e));g.set(a,[ik,m,l])}break}v[0]=(4+i)*4;return s1(j,o,h,f)}function
-s0(a,b,c){return a.compare(b,c)}function
-lJ(a,b){return Math.imul(a,b)}function
-c0(b,a){a=lJ(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=lJ(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
-Kn(a,b){a=c0(a,lH(b));a=c0(a,lG(b));return a}function
-te(a,b){return Kn(a,iD(b))}function
-s4(c){var
-b=lz(c.dims),d=0;switch(c.kind){case
+l=lS(gy(e));g.set(a,[ir,m,l])}break}v[0]=(4+i)*4;return tj(j,o,h,f)}function
+ti(a,b,c){return a.compare(b,c)}function
+lW(a,b){return Math.imul(a,b)}function
+c2(b,a){a=lW(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=lW(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
+KS(a,b){a=c2(a,lU(b));a=c2(a,lT(b));return a}function
+ty(a,b){return KS(a,iJ(b))}function
+tm(c){var
+b=lM(c.dims),d=0;switch(c.kind){case
 2:case
 3:case
-12:if(b>rS)b=rS;var
-e=0,a=0;for(a=0;a+4<=c.data.length;a+=4){e=c.data[a+0]|c.data[a+1]<<8|c.data[a+2]<<16|c.data[a+3]<<24;d=c0(d,e)}e=0;switch(b&3){case
+12:if(b>sa)b=sa;var
+e=0,a=0;for(a=0;a+4<=c.data.length;a+=4){e=c.data[a+0]|c.data[a+1]<<8|c.data[a+2]<<16|c.data[a+3]<<24;d=c2(d,e)}e=0;switch(b&3){case
 3:e=c.data[a+2]<<16;case
 2:e|=c.data[a+1]<<8;case
-1:e|=c.data[a+0];d=c0(d,e)}break;case
+1:e|=c.data[a+0];d=c2(d,e)}break;case
 4:case
-5:if(b>gm)b=gm;var
-e=0,a=0;for(a=0;a+2<=c.data.length;a+=2){e=c.data[a+0]|c.data[a+1]<<16;d=c0(d,e)}if((b&1)!=0)d=c0(d,c.data[a]);break;case
+5:if(b>gs)b=gs;var
+e=0,a=0;for(a=0;a+2<=c.data.length;a+=2){e=c.data[a+0]|c.data[a+1]<<16;d=c2(d,e)}if((b&1)!=0)d=c2(d,c.data[a]);break;case
 6:if(b>64)b=64;for(var
-a=0;a<b;a++)d=c0(d,c.data[a]);break;case
+a=0;a<b;a++)d=c2(d,c.data[a]);break;case
 8:case
 9:if(b>64)b=64;for(var
-a=0;a<b;a++)d=c0(d,c.data[a]);break;case
+a=0;a<b;a++)d=c2(d,c.data[a]);break;case
 7:if(b>32)b=32;b*=2;for(var
-a=0;a<b;a++)d=c0(d,c.data[a]);break;case
+a=0;a<b;a++)d=c2(d,c.data[a]);break;case
 10:b*=2;case
 0:if(b>64)b=64;for(var
-a=0;a<b;a++)d=te(d,c.data[a]);break;case
+a=0;a<b;a++)d=ty(d,c.data[a]);break;case
 11:b*=2;case
 1:if(b>32)b=32;for(var
-a=0;a<b;a++)d=te(d,c.data[a]);break}return d}function
-Ko(a,b){b[0]=4;return a.read32s()}function
-KD(a,b){switch(a.read8u()){case
+a=0;a<b;a++)d=ty(d,c.data[a]);break}return d}function
+KT(a,b){b[0]=4;return a.read32s()}function
+K8(a,b){switch(a.read8u()){case
 1:b[0]=4;return a.read32s();case
-2:ca("input_value: native integer value too large");default:ca("input_value: ill-formed native integer")}}function
-Kt(c,d){var
+2:ce("input_value: native integer value too large");default:ce("input_value: ill-formed native integer")}}function
+KY(c,d){var
 b=new
 Array(8);for(var
-a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return gs(b)}function
-Ks(e,d,b){var
-c=gt(d);for(var
+a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return gy(b)}function
+KX(e,d,b){var
+c=gz(d);for(var
 a=0;a<8;a++)e.write(8,c[a]);b[0]=8;b[1]=8}function
-Kp(a,b,c){return a.compare(b)}function
-Kr(a){return a.lo32()^a.hi32()}var
-s$={"_j":{deserialize:Kt,serialize:Ks,fixed_length:8,compare:Kp,hash:Kr},"_i":{deserialize:Ko,fixed_length:4},"_n":{deserialize:KD,fixed_length:4},"_bigarray":{deserialize:function(a,b){return s2(a,b,"_bigarray")},serialize:s5,compare:s0,hash:s4},"_bigarr02":{deserialize:function(a,b){return s2(a,b,ix)},serialize:s5,compare:s0,hash:s4}};function
-lC(a){return s$[a.caml_custom]&&s$[a.caml_custom].compare}function
-s9(f,c,d,e){var
-b=lC(c);if(b){var
+KU(a,b,c){return a.compare(b)}function
+KW(a){return a.lo32()^a.hi32()}var
+tt={"_j":{deserialize:KY,serialize:KX,fixed_length:8,compare:KU,hash:KW},"_i":{deserialize:KT,fixed_length:4},"_n":{deserialize:K8,fixed_length:4},"_bigarray":{deserialize:function(a,b){return tk(a,b,"_bigarray")},serialize:tn,compare:ti,hash:tm},"_bigarr02":{deserialize:function(a,b){return tk(a,b,iD)},serialize:tn,compare:ti,hash:tm}};function
+lP(a){return tt[a.caml_custom]&&tt[a.caml_custom].compare}function
+tr(f,c,d,e){var
+b=lP(c);if(b){var
 a=d>0?b(c,f,e):b(f,c,e);if(e&&a!=a)return d;if(+a!=+a)return+a;if((a|0)!=0)return a|0}return d}function
-lI(a){return a
+lV(a){return a
 instanceof
-cw}function
-tg(a){return lI(a)}function
-s_(a){if(typeof
-a==="number")return iv;else
-if(lI(a))return 252;else
-if(tg(a))return 1252;else
+cz}function
+tA(a){return lV(a)}function
+ts(a){if(typeof
+a==="number")return iB;else
+if(lV(a))return 252;else
+if(tA(a))return 1252;else
 if(a
 instanceof
 Array&&a[0]===a[0]>>>0&&a[0]<=255){var
-b=a[0]|0;return b==ik?0:b}else
+b=a[0]|0;return b==ir?0:b}else
 if(a
 instanceof
-String)return so;else
+String)return sI;else
 if(typeof
-a=="string")return so;else
+a=="string")return sI;else
 if(a
 instanceof
-Number)return iv;else
-if(a&&a.caml_custom)return lm;else
+Number)return iB;else
+if(a&&a.caml_custom)return lz;else
 if(a&&a.compare)return 1256;else
 if(typeof
 a=="function")return 1247;else
 if(typeof
 a=="symbol")return 1251;return 1001}function
-Ku(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
-s7(a,b){a.t&6&&fe(a);b.t&6&&fe(b);return a.c<b.c?-1:a.c>b.c?1:0}function
-to(a,b){return s7(a,b)}function
-lB(a,b,d){var
+KZ(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
+tp(a,b){a.t&6&&fh(a);b.t&6&&fh(b);return a.c<b.c?-1:a.c>b.c?1:0}function
+tI(a,b){return tp(a,b)}function
+lO(a,b,d){var
 e=[];for(;;){if(!(d&&a===b)){var
-f=s_(a);if(f==rY){a=a[1];continue}var
-g=s_(b);if(g==rY){b=b[1];continue}if(f!==g){if(f==iv){if(g==lm)return s9(a,b,-1,d);return-1}if(g==iv){if(f==lm)return s9(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
-247:a4(lb);break;case
+f=ts(a);if(f==sg){a=a[1];continue}var
+g=ts(b);if(g==sg){b=b[1];continue}if(f!==g){if(f==iB){if(g==lz)return tr(a,b,-1,d);return-1}if(g==iB){if(f==lz)return tr(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
+247:a5(lo);break;case
 248:var
-c=Ku(a[2],b[2]);if(c!=0)return c|0;break;case
-249:a4(lb);break;case
-250:a4("equal: got Forward_tag, should not happen");break;case
-251:a4("equal: abstract value");break;case
+c=KZ(a[2],b[2]);if(c!=0)return c|0;break;case
+249:a5(lo);break;case
+250:a5("equal: got Forward_tag, should not happen");break;case
+251:a5("equal: abstract value");break;case
 252:if(a!==b){var
-c=s7(a,b);if(c!=0)return c|0}break;case
-253:a4("equal: got Double_tag, should not happen");break;case
-254:a4("equal: got Double_array_tag, should not happen");break;case
-255:a4("equal: got Custom_tag, should not happen");break;case
-1247:a4(lb);break;case
+c=tp(a,b);if(c!=0)return c|0}break;case
+253:a5("equal: got Double_tag, should not happen");break;case
+254:a5("equal: got Double_array_tag, should not happen");break;case
+255:a5("equal: got Custom_tag, should not happen");break;case
+1247:a5(lo);break;case
 1255:var
-i=lC(a);if(i!=lC(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)a4("compare: abstract value");var
+i=lP(a);if(i!=lP(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)a5("compare: abstract value");var
 c=i(a,b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
 1256:var
 c=a.compare(b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
@@ -399,182 +399,182 @@ c=a.compare(b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;
 1001:if(a<b)return-1;if(a>b)return 1;if(a!=b){if(!d)return NaN;if(a==a)return 1;if(b==b)return-1}break;case
 1251:if(a!==b){if(!d)return NaN;return 1}break;case
 1252:var
-a=ff(a),b=ff(b);if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
+a=fi(a),b=fi(b);if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
 12520:var
 a=a.toString(),b=b.toString();if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
 246:case
 254:default:if(a.length!=b.length)return a.length<b.length?-1:1;if(a.length>1)e.push(a,b,1);break}}if(e.length==0)return 0;var
 h=e.pop();b=e.pop();a=e.pop();if(h+1<a.length)e.push(a,b,h+1);a=a[h];b=b[h]}}function
-Ki(a,b){return lB(a,b,true)}function
-cy(a){if(a<0)a4("Bytes.create");return new
-cw(a?2:9,ag,a)}function
-ta(a,b){return+(lB(a,b,false)==0)}function
-Kk(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=ag;a.t=2}else{a.c=tn(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)iC(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}var
-KE=0;function
-tc(){return KE++}function
-Kw(a){return a.toUtf16()}function
-gu(){return typeof
-W.process!=="undefined"&&typeof
-W.process.versions!=="undefined"&&typeof
-W.process.versions.node!=="undefined"}function
-KR(){function
-a(a){if(a.charAt(0)===b$)return[ag,a.substring(1)];return}function
+KN(a,b){return lO(a,b,true)}function
+cB(a){if(a<0)a5("Bytes.create");return new
+cz(a?2:9,ah,a)}function
+tu(a,b){return+(lO(a,b,false)==0)}function
+KP(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=ah;a.t=2}else{a.c=tH(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)iI(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}var
+K9=0;function
+tw(){return K9++}function
+K1(a){return a.toUtf16()}function
+gA(){return typeof
+X.process!=="undefined"&&typeof
+X.process.versions!=="undefined"&&typeof
+X.process.versions.node!=="undefined"}function
+Lk(){function
+a(a){if(a.charAt(0)===cd)return[ah,a.substring(1)];return}function
 b(c){var
-g=/^([a-zA-Z]:|[\\/]{2}[^\\/]+[\\/]+[^\\/]+)?([\\/])?([\s\S]*?)$/,a=g.exec(c),b=a[1]||ag,e=Boolean(b&&b.charAt(1)!==":");if(Boolean(a[2]||e)){var
-d=a[1]||ag,f=a[2]||ag;return[d,c.substring(d.length+f.length)]}return}return gu()&&W.process&&W.process.platform?W.process.platform==="win32"?b:a:a}var
-lP=KR();function
-tp(a){return a.slice(-1)!==b$?a+b$:a}if(gu()&&W.process&&W.process.cwd)var
-gr=W.process.cwd().replace(/\\/g,b$);else
+g=/^([a-zA-Z]:|[\\/]{2}[^\\/]+[\\/]+[^\\/]+)?([\\/])?([\s\S]*?)$/,a=g.exec(c),b=a[1]||ah,e=Boolean(b&&b.charAt(1)!==":");if(Boolean(a[2]||e)){var
+d=a[1]||ah,f=a[2]||ah;return[d,c.substring(d.length+f.length)]}return}return gA()&&X.process&&X.process.platform?X.process.platform==="win32"?b:a:a}var
+l2=Lk();function
+tJ(a){return a.slice(-1)!==cd?a+cd:a}if(gA()&&X.process&&X.process.cwd)var
+gx=X.process.cwd().replace(/\\/g,cd);else
 var
-gr="/static";gr=tp(gr);function
-Ky(a){a=Kw(a);if(!lP(a))a=gr+a;var
-e=lP(a),d=e[1].split(b$),b=[];for(var
+gx="/static";gx=tJ(gx);function
+K3(a){a=K1(a);if(!l2(a))a=gx+a;var
+e=l2(a),d=e[1].split(cd),b=[];for(var
 c=0;c<d.length;c++)switch(d[c]){case"..":if(b.length>1)b.pop();break;case".":break;default:b.push(d[c]);break}b.unshift(e[0]);b.orig=a;return b}function
-KM(e){for(var
-f=ag,b=f,a,h,c=0,g=e.length;c<g;c++){a=e.charCodeAt(c);if(a<b9){for(var
-d=c+1;d<g&&(a=e.charCodeAt(d))<b9;d++);if(d-c>rB){b.substr(0,1);f+=b;b=ag;f+=e.slice(c,d)}else
-b+=e.slice(c,d);if(d==g)break;c=d}if(a<rX){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(b9|a&e9)}else
-if(a<0xd800||a>=r4)b+=String.fromCharCode(r6|a>>12,b9|a>>6&e9,b9|a&e9);else
-if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<rP||h>r4)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(sc|a>>18,b9|a>>12&e9,b9|a>>6&e9,b9|a&e9)}if(b.length>gi){b.substr(0,1);f+=b;b=ag}}return f+b}function
-Kf(a){var
-b=9;if(!ts(a))b=8,a=KM(a);return new
-cw(b,a,a.length)}function
-fg(a){return Kf(a)}var
-KU=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",rJ,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",lj,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",lo,rO,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
-ek(d,f,e,a){var
-b=KU.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
-c=[b,fg(f||ag),fg(e||ag)];return c}var
-ti={};function
-eh(a){return ti[a]}function
-ei(b,a){throw[0,b].concat(a)}function
-Ke(a){return new
-cw(4,a,a.length)}function
-au(a){lK(aK.Sys_error,a)}function
-KH(a){au(a+ih)}function
-s6(){a4(lu)}function
-Kd(b,a){if(a>>>0>=b.l)s6();return lA(b,a)}function
-iG(a){return a.l}function
-sZ(){}function
-a2(a){this.data=a}a2.prototype=new
-sZ();a2.prototype.truncate=function(a){var
-b=this.data;this.data=cy(a|0);gq(b,0,this.data,0,a)};a2.prototype.length=function(){return iG(this.data)};a2.prototype.write=function(b,d,g,a){var
+Lf(e){for(var
+f=ah,b=f,a,h,c=0,g=e.length;c<g;c++){a=e.charCodeAt(c);if(a<cb){for(var
+d=c+1;d<g&&(a=e.charCodeAt(d))<cb;d++);if(d-c>rV){b.substr(0,1);f+=b;b=ah;f+=e.slice(c,d)}else
+b+=e.slice(c,d);if(d==g)break;c=d}if(a<sf){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(cb|a&fa)}else
+if(a<0xd800||a>=sm)b+=String.fromCharCode(so|a>>12,cb|a>>6&fa,cb|a&fa);else
+if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<r9||h>sm)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(sw|a>>18,cb|a>>12&fa,cb|a>>6&fa,cb|a&fa)}if(b.length>go){b.substr(0,1);f+=b;b=ah}}return f+b}function
+KK(a){var
+b=9;if(!tM(a))b=8,a=Lf(a);return new
+cz(b,a,a.length)}function
+fj(a){return KK(a)}var
+Ln=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",r3,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",lw,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",lB,r8,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
+ep(d,f,e,a){var
+b=Ln.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
+c=[b,fj(f||ah),fj(e||ah)];return c}var
+tC={};function
+em(a){return tC[a]}function
+en(b,a){throw[0,b].concat(a)}function
+KJ(a){return new
+cz(4,a,a.length)}function
+au(a){lX(aK.Sys_error,a)}function
+La(a){au(a+io)}function
+to(){a5(lH)}function
+KI(b,a){if(a>>>0>=b.l)to();return lN(b,a)}function
+iM(a){return a.l}function
+th(){}function
+a3(a){this.data=a}a3.prototype=new
+th();a3.prototype.truncate=function(a){var
+b=this.data;this.data=cB(a|0);gw(b,0,this.data,0,a)};a3.prototype.length=function(){return iM(this.data)};a3.prototype.write=function(b,d,g,a){var
 c=this.length();if(b+a>=c){var
-e=cy(b+a),f=this.data;this.data=e;gq(f,0,this.data,0,c)}fc(d,g,this.data,b,a);return 0};a2.prototype.read=function(c,a,d,b){var
-e=this.length();gq(this.data,c,a,d,b);return 0};a2.prototype.read_one=function(a){return Kd(this.data,a)};a2.prototype.close=function(){};a2.prototype.constructor=a2;function
-bj(b,a){this.content={};this.root=b;this.lookupFun=a}bj.prototype.nm=function(a){return this.root+a};bj.prototype.create_dir_if_needed=function(d){var
-c=d.split(b$),b=ag;for(var
-a=0;a<c.length-1;a++){b+=c[a]+b$;if(this.content[b])continue;this.content[b]=Symbol("directory")}};bj.prototype.slash=function(a){return/\/$/.test(a)?a:a+b$};bj.prototype.lookup=function(b){if(!this.content[b]&&this.lookupFun){var
+e=cB(b+a),f=this.data;this.data=e;gw(f,0,this.data,0,c)}ff(d,g,this.data,b,a);return 0};a3.prototype.read=function(c,a,d,b){var
+e=this.length();gw(this.data,c,a,d,b);return 0};a3.prototype.read_one=function(a){return KI(this.data,a)};a3.prototype.close=function(){};a3.prototype.constructor=a3;function
+bl(b,a){this.content={};this.root=b;this.lookupFun=a}bl.prototype.nm=function(a){return this.root+a};bl.prototype.create_dir_if_needed=function(d){var
+c=d.split(cd),b=ah;for(var
+a=0;a<c.length-1;a++){b+=c[a]+cd;if(this.content[b])continue;this.content[b]=Symbol("directory")}};bl.prototype.slash=function(a){return/\/$/.test(a)?a:a+cd};bl.prototype.lookup=function(b){if(!this.content[b]&&this.lookupFun){var
 c=this.lookupFun(a(this.root),a(b));if(c!==0){this.create_dir_if_needed(b);this.content[b]=new
-a2(fd(c[1]))}}};bj.prototype.exists=function(a){if(a==ag)return 1;var
-b=this.slash(a);if(this.content[b])return 1;this.lookup(a);return this.content[a]?1:0};bj.prototype.mkdir=function(c,e,d){var
-b=d&&eh(lf);if(this.exists(c))if(b)ei(b,ek(rJ,le,this.nm(c)));else
+a3(fg(c[1]))}}};bl.prototype.exists=function(a){if(a==ah)return 1;var
+b=this.slash(a);if(this.content[b])return 1;this.lookup(a);return this.content[a]?1:0};bl.prototype.mkdir=function(c,e,d){var
+b=d&&em(ls);if(this.exists(c))if(b)en(b,ep(r3,lr,this.nm(c)));else
 au(c+": File exists");var
-a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||ag;if(!this.exists(a))if(b)ei(b,ek(lj,le,this.nm(a)));else
-au(a+ih);if(!this.is_dir(a))if(b)ei(b,ek(lo,le,this.nm(a)));else
-au(a+lw);this.create_dir_if_needed(this.slash(c))};bj.prototype.rmdir=function(a,f){var
-b=f&&eh(lf),c=a==ag?ag:this.slash(a),e=new
-RegExp(ls+c+rQ);if(!this.exists(a))if(b)ei(b,ek(lj,lc,this.nm(a)));else
-au(a+ih);if(!this.is_dir(a))if(b)ei(b,ek(lo,lc,this.nm(a)));else
-au(a+lw);for(var
+a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||ah;if(!this.exists(a))if(b)en(b,ep(lw,lr,this.nm(a)));else
+au(a+io);if(!this.is_dir(a))if(b)en(b,ep(lB,lr,this.nm(a)));else
+au(a+lJ);this.create_dir_if_needed(this.slash(c))};bl.prototype.rmdir=function(a,f){var
+b=f&&em(ls),c=a==ah?ah:this.slash(a),e=new
+RegExp(lF+c+r_);if(!this.exists(a))if(b)en(b,ep(lw,lp,this.nm(a)));else
+au(a+io);if(!this.is_dir(a))if(b)en(b,ep(lB,lp,this.nm(a)));else
+au(a+lJ);for(var
 d
 in
-this.content)if(d.match(e))if(b)ei(b,ek(rO,lc,this.nm(a)));else
+this.content)if(d.match(e))if(b)en(b,ep(r8,lp,this.nm(a)));else
 au(this.nm(a)+": Directory not empty");delete
-this.content[c]};bj.prototype.readdir=function(a){var
-f=a==ag?ag:this.slash(a);if(!this.exists(a))au(a+ih);if(!this.is_dir(a))au(a+lw);var
+this.content[c]};bl.prototype.readdir=function(a){var
+f=a==ah?ah:this.slash(a);if(!this.exists(a))au(a+io);if(!this.is_dir(a))au(a+lJ);var
 g=new
-RegExp(ls+f+rQ),d={},c=[];for(var
+RegExp(lF+f+r_),d={},c=[];for(var
 e
 in
 this.content){var
-b=e.match(g);if(b&&!d[b[1]]){d[b[1]]=true;c.push(b[1])}}return c};bj.prototype.is_dir=function(a){if(a==ag)return true;var
-b=this.slash(a);return this.content[b]?1:0};bj.prototype.unlink=function(a){var
+b=e.match(g);if(b&&!d[b[1]]){d[b[1]]=true;c.push(b[1])}}return c};bl.prototype.is_dir=function(a){if(a==ah)return true;var
+b=this.slash(a);return this.content[b]?1:0};bl.prototype.unlink=function(a){var
 b=this.content[a]?true:false;delete
-this.content[a];return b};bj.prototype.open=function(a,b){if(b.rdonly&&b.wronly)au(this.nm(a)+sE);if(b.text&&b.binary)au(this.nm(a)+rt);this.lookup(a);if(this.content[a]){if(this.is_dir(a))au(this.nm(a)+" : is a directory");if(b.create&&b.excl)au(this.nm(a)+sA);var
+this.content[a];return b};bl.prototype.open=function(a,b){if(b.rdonly&&b.wronly)au(this.nm(a)+sY);if(b.text&&b.binary)au(this.nm(a)+rN);this.lookup(a);if(this.content[a]){if(this.is_dir(a))au(this.nm(a)+" : is a directory");if(b.create&&b.excl)au(this.nm(a)+sU);var
 c=this.content[a];if(b.truncate)c.truncate();return c}else
 if(b.create){this.create_dir_if_needed(a);this.content[a]=new
-a2(cy(0));return this.content[a]}else
-KH(this.nm(a))};bj.prototype.register=function(c,a){var
-b;if(this.content[c])au(this.nm(c)+sA);if(lI(a))b=new
-a2(a);if(tg(a))b=new
-a2(fd(a));else
+a3(cB(0));return this.content[a]}else
+La(this.nm(a))};bl.prototype.register=function(c,a){var
+b;if(this.content[c])au(this.nm(c)+sU);if(lV(a))b=new
+a3(a);if(tA(a))b=new
+a3(fg(a));else
 if(a
 instanceof
 Array)b=new
-a2(Ke(a));else
+a3(KJ(a));else
 if(typeof
 a==="string")b=new
-a2(s8(a));else
+a3(tq(a));else
 if(a.toString){var
-d=fd(fg(a.toString()));b=new
-a2(d)}if(b){this.create_dir_if_needed(c);this.content[c]=b}else
-au(this.nm(c)+" : registering file with invalid content type")};bj.prototype.constructor=bj;function
-aC(a){return iG(a)}function
-ej(b,a){return lA(b,a)}function
-J$(d){var
-c=aC(d),b=new
-Array(c),a=0;for(;a<c;a++)b[a]=ej(d,a);return b}function
-J_(a){if(a.t!=4)iC(a);return a.c}function
-Kh(a,c,b){b&=cZ;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}iC(a)}a.c[c]=b;return 0}function
-Kg(b,a,c){if(a>>>0>=b.l)s6();return Kh(b,a,c)}function
-cx(a){this.fs=require("fs");this.fd=a}cx.prototype=new
-sZ();cx.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){au(a.toString())}};cx.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){au(a.toString())}};cx.prototype.write=function(f,b,c,e){var
-a=J$(b);if(!(a
+d=fg(fj(a.toString()));b=new
+a3(d)}if(b){this.create_dir_if_needed(c);this.content[c]=b}else
+au(this.nm(c)+" : registering file with invalid content type")};bl.prototype.constructor=bl;function
+aD(a){return iM(a)}function
+eo(b,a){return lN(b,a)}function
+KE(d){var
+c=aD(d),b=new
+Array(c),a=0;for(;a<c;a++)b[a]=eo(d,a);return b}function
+KD(a){if(a.t!=4)iI(a);return a.c}function
+KM(a,c,b){b&=c1;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}iI(a)}a.c[c]=b;return 0}function
+KL(b,a,c){if(a>>>0>=b.l)to();return KM(b,a,c)}function
+cA(a){this.fs=require("fs");this.fd=a}cA.prototype=new
+th();cA.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){au(a.toString())}};cA.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){au(a.toString())}};cA.prototype.write=function(f,b,c,e){var
+a=KE(b);if(!(a
 instanceof
-W.Uint8Array))a=new(W.Uint8Array)(a);var
-d=W.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){au(a.toString())}return 0};cx.prototype.read=function(g,d,c,f){var
-a=J_(d);if(!(a
+X.Uint8Array))a=new(X.Uint8Array)(a);var
+d=X.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){au(a.toString())}return 0};cA.prototype.read=function(g,d,c,f){var
+a=KD(d);if(!(a
 instanceof
-W.Uint8Array))a=new(W.Uint8Array)(a);var
-e=W.Buffer.from(a);try{this.fs.readSync(this.fd,e,c,f,g)}catch(a){au(a.toString())}for(var
-b=0;b<f;b++)Kg(d,c+b,e[c+b]);return 0};cx.prototype.read_one=function(c){var
-b=new(W.Uint8Array)(1),a=W.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){au(a.toString())}return a[0]};cx.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){au(a.toString())}};cx.prototype.constructor=cx;function
-a3(a){this.fs=require("fs");this.root=a}a3.prototype.nm=function(a){return this.root+a};a3.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};a3.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};a3.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};a3.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};a3.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){au(a.toString())}};a3.prototype.unlink=function(a,c){try{var
-b=this.fs.existsSync(this.nm(a))?1:0;this.fs.unlinkSync(this.nm(a));return b}catch(a){this.raise_nodejs_error(a,c)}};a3.prototype.open=function(f,c,g){var
+X.Uint8Array))a=new(X.Uint8Array)(a);var
+e=X.Buffer.from(a);try{this.fs.readSync(this.fd,e,c,f,g)}catch(a){au(a.toString())}for(var
+b=0;b<f;b++)KL(d,c+b,e[c+b]);return 0};cA.prototype.read_one=function(c){var
+b=new(X.Uint8Array)(1),a=X.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){au(a.toString())}return a[0]};cA.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){au(a.toString())}};cA.prototype.constructor=cA;function
+a4(a){this.fs=require("fs");this.root=a}a4.prototype.nm=function(a){return this.root+a};a4.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};a4.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};a4.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};a4.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};a4.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){au(a.toString())}};a4.prototype.unlink=function(a,c){try{var
+b=this.fs.existsSync(this.nm(a))?1:0;this.fs.unlinkSync(this.nm(a));return b}catch(a){this.raise_nodejs_error(a,c)}};a4.prototype.open=function(f,c,g){var
 a=require("constants"),b=0;for(var
 e
 in
 c)switch(e){case"rdonly":b|=a.O_RDONLY;break;case"wronly":b|=a.O_WRONLY;break;case"append":b|=a.O_WRONLY|a.O_APPEND;break;case"create":b|=a.O_CREAT;break;case"truncate":b|=a.O_TRUNC;break;case"excl":b|=a.O_EXCL;break;case"binary":b|=a.O_BINARY;break;case"text":b|=a.O_TEXT;break;case"nonblock":b|=a.O_NONBLOCK;break}try{var
 d=this.fs.openSync(this.nm(f),b);return new
-cx(d)}catch(a){this.raise_nodejs_error(a,g)}};a3.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};a3.prototype.stat=function(b,c){try{var
-a=this.fs.statSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};a3.prototype.lstat=function(b,c){try{var
-a=this.fs.lstatSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};a3.prototype.symlink=function(d,c,a,b){try{this.fs.symlinkSync(this.nm(c),this.nm(a),d?"dir":"file");return 0}catch(a){this.raise_nodejs_error(a,b)}};a3.prototype.readlink=function(b,c){try{var
-a=this.fs.readlinkSync(this.nm(b),rf);return fg(a)}catch(a){this.raise_nodejs_error(a,c)}};a3.prototype.raise_nodejs_error=function(a,d){var
-b=eh(lf);if(d&&b){var
-c=ek(a.code,a.syscall,a.path,a.errno);ei(b,c)}else
-au(a.toString())};a3.prototype.stats_from_js=function(a){var
+cA(d)}catch(a){this.raise_nodejs_error(a,g)}};a4.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};a4.prototype.stat=function(b,c){try{var
+a=this.fs.statSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};a4.prototype.lstat=function(b,c){try{var
+a=this.fs.lstatSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};a4.prototype.symlink=function(d,c,a,b){try{this.fs.symlinkSync(this.nm(c),this.nm(a),d?"dir":"file");return 0}catch(a){this.raise_nodejs_error(a,b)}};a4.prototype.readlink=function(b,c){try{var
+a=this.fs.readlinkSync(this.nm(b),rz);return fj(a)}catch(a){this.raise_nodejs_error(a,c)}};a4.prototype.raise_nodejs_error=function(a,d){var
+b=em(ls);if(d&&b){var
+c=ep(a.code,a.syscall,a.path,a.errno);en(b,c)}else
+au(a.toString())};a4.prototype.stats_from_js=function(a){var
 b;if(a.isFile())b=0;else
 if(a.isDirectory())b=1;else
 if(a.isCharacterDevice())b=2;else
 if(a.isBlockDevice())b=3;else
 if(a.isSymbolicLink())b=4;else
 if(a.isFIFO())b=5;else
-if(a.isSocket())b=6;return[0,a.dev,a.ino,b,a.mode,a.nlink,a.uid,a.gid,a.rdev,a.size,a.atimeMs,a.mtimeMs,a.ctimeMs]};a3.prototype.constructor=a3;function
-td(b){var
-a=lP(b);if(!a)return;return a[0]+b$}var
-iH=td(gr)||ca("unable to compute caml_root"),fh=[];if(gu())fh.push({path:iH,device:new
-a3(iH)});else
-fh.push({path:iH,device:new
-bj(iH)});fh.push({path:ro,device:new
-bj(ro)});function
-ty(b){var
-g=Ky(b),b=g.join(b$),f=tp(b),c;for(var
-e=0;e<fh.length;e++){var
-a=fh[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&gu()){var
-d=td(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
+if(a.isSocket())b=6;return[0,a.dev,a.ino,b,a.mode,a.nlink,a.uid,a.gid,a.rdev,a.size,a.atimeMs,a.mtimeMs,a.ctimeMs]};a4.prototype.constructor=a4;function
+tx(b){var
+a=l2(b);if(!a)return;return a[0]+cd}var
+iN=tx(gx)||ce("unable to compute caml_root"),fk=[];if(gA())fk.push({path:iN,device:new
+a4(iN)});else
+fk.push({path:iN,device:new
+bl(iN)});fk.push({path:rI,device:new
+bl(rI)});function
+tS(b){var
+g=K3(b),b=g.join(cd),f=tJ(b),c;for(var
+e=0;e<fk.length;e++){var
+a=fk[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&gA()){var
+d=tx(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
 a={path:d,device:new
-a3(d)};fh.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;au("no device found for "+f)}function
-Kj(c,b){var
-a=ty(c);if(!a.device.register)ca("cannot register file");a.device.register(a.rest,b);return 0}function
-tr(c,b){var
-c=a(c),b=a(b);return Kj(c,b)}function
-Km(){var
-b=W.caml_fs_tmp;if(b)for(var
-a=0;a<b.length;a++)tr(b[a].name,b[a].content);W.jsoo_create_file=tr;W.caml_fs_tmp=[];return 0}function
-KF(c){var
-a=0,e=aC(c),b=10,d=1;if(e>0)switch(ej(c,a)){case
+a4(d)};fk.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;au("no device found for "+f)}function
+KO(c,b){var
+a=tS(c);if(!a.device.register)ce("cannot register file");a.device.register(a.rest,b);return 0}function
+tL(c,b){var
+c=a(c),b=a(b);return KO(c,b)}function
+KR(){var
+b=X.caml_fs_tmp;if(b)for(var
+a=0;a<b.length;a++)tL(b[a].name,b[a].content);X.jsoo_create_file=tL;X.caml_fs_tmp=[];return 0}function
+K_(c){var
+a=0,e=aD(c),b=10,d=1;if(e>0)switch(eo(c,a)){case
 45:a++;d=-1;break;case
-43:a++;d=1;break}if(a+1<e&&ej(c,a)==48)switch(ej(c,a+1)){case
+43:a++;d=1;break}if(a+1<e&&eo(c,a)==48)switch(eo(c,a+1)){case
 120:case
 88:b=16;a+=2;break;case
 111:case
@@ -583,33 +583,33 @@ a=0,e=aC(c),b=10,d=1;if(e>0)switch(ej(c,a)){case
 66:b=2;a+=2;break;case
 117:case
 85:a+=2;break}return[a,d,b]}function
-tj(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=sQ)return a-87;return-1}function
-iF(f){var
-h=KF(f),c=h[0],i=h[1],d=h[2],g=aC(f),j=-1>>>0,e=c<g?ej(f,c):0,b=tj(e);if(b<0||b>=d)ca(io);var
-a=b;for(c++;c<g;c++){e=ej(f,c);if(e==95)continue;b=tj(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)ca(io)}if(c!=g)ca(io);a=i*a;if(d==10&&(a|0)!=a)ca(io);return a|0}function
-Kx(a,b){return+(lB(a,b,false)<=0)}function
-Kz(a,d){if(a<0)iB();var
+tD(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=s_)return a-87;return-1}function
+iL(f){var
+h=K_(f),c=h[0],i=h[1],d=h[2],g=aD(f),j=-1>>>0,e=c<g?eo(f,c):0,b=tD(e);if(b<0||b>=d)ce(iu);var
+a=b;for(c++;c<g;c++){e=eo(f,c);if(e==95)continue;b=tD(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)ce(iu)}if(c!=g)ce(iu);a=i*a;if(d==10&&(a|0)!=a)ce(iu);return a|0}function
+K2(a,b){return+(lO(a,b,false)<=0)}function
+K4(a,d){if(a<0)iH();var
 a=a+1|0,b=new
 Array(a);b[0]=0;for(var
 c=1;c<a;c++)b[c]=d;return b}var
-c1=new
+c3=new
 Array();function
-KA(c){var
-a=c1[c];if(!a.opened)au("Cannot flush a closed channel");if(!a.buffer||a.buffer==ag)return 0;if(a.fd&&aK.fds[a.fd]&&aK.fds[a.fd].output){var
+K5(c){var
+a=c3[c];if(!a.opened)au("Cannot flush a closed channel");if(!a.buffer||a.buffer==ah)return 0;if(a.fd&&aK.fds[a.fd]&&aK.fds[a.fd].output){var
 b=aK.fds[a.fd].output;switch(b.length){case
-2:b(c,a.buffer);break;default:b(a.buffer)}}a.buffer=ag;return 0}function
-tm(e,f){var
-b=c1[e],d=a(f),c=aC(d);b.file.write(b.offset,d,0,c);b.offset+=c;return 0}function
-KN(a){var
-a=lM(a),b=W;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+2:b(c,a.buffer);break;default:b(a.buffer)}}a.buffer=ah;return 0}function
+tG(e,f){var
+b=c3[e],d=a(f),c=aD(d);b.file.write(b.offset,d,0,c);b.offset+=c;return 0}function
+Lg(a){var
+a=lZ(a),b=X;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.error&&c.error(a)}}function
-KO(a){var
-a=lM(a),b=W;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+Lh(a){var
+a=lZ(a),b=X;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.log&&c.log(a)}}function
-iJ(c,e,d,a){if(aK.fds===undefined)aK.fds=new
+iP(c,e,d,a){if(aK.fds===undefined)aK.fds=new
 Array();a=a?a:{};var
 b={};b.file=d;b.offset=a.append?d.length():0;b.flags=a;b.output=e;aK.fds[c]=b;if(!aK.fd_last_idx||c>aK.fd_last_idx)aK.fd_last_idx=c;return c}function
-KV(c,b,g){var
+Lo(c,b,g){var
 a={};while(b){switch(b[1]){case
 0:a.rdonly=1;break;case
 1:a.wronly=1;break;case
@@ -619,176 +619,176 @@ a={};while(b){switch(b[1]){case
 5:a.excl=1;break;case
 6:a.binary=1;break;case
 7:a.text=1;break;case
-8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)au(ff(c)+sE);if(a.text&&a.binary)au(ff(c)+rt);var
-d=ty(c),e=d.device.open(d.rest,a),f=aK.fd_last_idx?aK.fd_last_idx:0;return iJ(f+1,tm,e,a)}iJ(0,tm,new
-a2(cy(0)));iJ(1,KO,new
-a2(cy(0)));iJ(2,KN,new
-a2(cy(0)));function
-KB(a){var
-c=aK.fds[a];if(c.flags.wronly)au(sO+a+" is writeonly");var
-d=null;if(a==0&&gu()){var
-e=require("fs");d=function(){return fg(e.readFileSync(0,rf))}}var
-b={file:c.file,offset:c.offset,fd:a,opened:true,out:false,refill:d};c1[b.fd]=b;return b.fd}function
-th(c){var
-b=aK.fds[c];if(b.flags.rdonly)au(sO+c+" is readonly");var
-a={file:b.file,offset:b.offset,fd:c,opened:true,out:true,buffer:ag};c1[a.fd]=a;return a.fd}function
-KC(){var
+8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)au(fi(c)+sY);if(a.text&&a.binary)au(fi(c)+rN);var
+d=tS(c),e=d.device.open(d.rest,a),f=aK.fd_last_idx?aK.fd_last_idx:0;return iP(f+1,tG,e,a)}iP(0,tG,new
+a3(cB(0)));iP(1,Lh,new
+a3(cB(0)));iP(2,Lg,new
+a3(cB(0)));function
+K6(a){var
+c=aK.fds[a];if(c.flags.wronly)au(s8+a+" is writeonly");var
+d=null;if(a==0&&gA()){var
+e=require("fs");d=function(){return fj(e.readFileSync(0,rz))}}var
+b={file:c.file,offset:c.offset,fd:a,opened:true,out:false,refill:d};c3[b.fd]=b;return b.fd}function
+tB(c){var
+b=aK.fds[c];if(b.flags.rdonly)au(s8+c+" is readonly");var
+a={file:b.file,offset:b.offset,fd:c,opened:true,out:true,buffer:ah};c3[a.fd]=a;return a.fd}function
+K7(){var
 b=0;for(var
-a=0;a<c1.length;a++)if(c1[a]&&c1[a].opened&&c1[a].out)b=[0,c1[a].fd,b];return b}function
-bS(b,c,a){if(a&&W.toplevelReloc)b=W.toplevelReloc(a);aK[b+1]=c;if(a)aK[a]=c}function
-KJ(a,b){ti[ff(a)]=b;return 0}function
-Kc(a,b){if(a===b)return 1;a.t&6&&fe(a);b.t&6&&fe(b);return a.c==b.c?1:0}function
-aF(a,b){return Kc(a,b)}function
-KL(){a4(lu)}function
-bd(b,a){if(a>>>0>=aC(b))KL();return ej(b,a)}function
-p(a,b){return 1-aF(a,b)}function
-iI(a){return a}function
-tl(a){return a}function
-tq(a){if(a
+a=0;a<c3.length;a++)if(c3[a]&&c3[a].opened&&c3[a].out)b=[0,c3[a].fd,b];return b}function
+bW(b,c,a){if(a&&X.toplevelReloc)b=X.toplevelReloc(a);aK[b+1]=c;if(a)aK[a]=c}function
+Lc(a,b){tC[fi(a)]=b;return 0}function
+KH(a,b){if(a===b)return 1;a.t&6&&fh(a);b.t&6&&fh(b);return a.c==b.c?1:0}function
+aG(a,b){return KH(a,b)}function
+Le(){a5(lH)}function
+bd(b,a){if(a>>>0>=aD(b))Le();return eo(b,a)}function
+p(a,b){return 1-aG(a,b)}function
+iO(a){return a}function
+tF(a){return a}function
+tK(a){if(a
 instanceof
-Array)return a;if(W.RangeError&&a
+Array)return a;if(X.RangeError&&a
 instanceof
-W.RangeError&&a.message&&a.message.match(/maximum call stack/i))return tl(aK.Stack_overflow);if(W.InternalError&&a
+X.RangeError&&a.message&&a.message.match(/maximum call stack/i))return tF(aK.Stack_overflow);if(X.InternalError&&a
 instanceof
-W.InternalError&&a.message&&a.message.match(/too much recursion/i))return tl(aK.Stack_overflow);if(a
+X.InternalError&&a.message&&a.message.match(/too much recursion/i))return tF(aK.Stack_overflow);if(a
 instanceof
-W.Error&&eh(rV))return[0,eh(rV),a];return[0,aK.Failure,fg(String(a))]}function
-cz(a){return a<0?-a:a}function
-F(a,b){return a+b}function
-lN(a,b){return a<b?-1:a>b?1:0}function
-tu(c,b){var
-a=c%b;return a<0?a+cz(b):a}function
-lO(a,b){return(a-tu(a,b))/b}function
+X.Error&&em(sd))return[0,em(sd),a];return[0,aK.Failure,fj(String(a))]}function
+cC(a){return a<0?-a:a}function
+G(a,b){return a+b}function
+l0(a,b){return a<b?-1:a>b?1:0}function
+tO(c,b){var
+a=c%b;return a<0?a+cC(b):a}function
+l1(a,b){return(a-tO(a,b))/b}function
 L(a,b){return a==b?1:0}function
-KS(c){W.orthocert_verify=function(b){return ff(dD(c,[a(b)]))}}function
-D(a,b){return a<=b?1:0}function
+Ll(c){X.orthocert_verify=function(b){return fi(dD(c,[a(b)]))}}function
+F(a,b){return a<=b?1:0}function
 K(a,b){return a<b?1:0}function
-C(a,b){return a*b}function
-Q(a){return-a}function
-aM(a){return W.BigInt(a)}var
-tx=[];function
-tt(a){return tx[a]||(tx[a]=W.BigInt(a))}function
-tv(a,b){return a<<tt(b)}function
-tw(a,b){return a>>tt(b)}function
-aV(a){return a<0?-1:a>0?1:0}function
-KT(a){if(a<0)throw new(W.Error)("a root of a negative number");if(a<2)return a;var
-d=W.BigInt(1),b=d<<W.BigInt((a.toString(16).length*4+1)/2|0),c;for(;;){c=b+a/b>>d;if(c>=b)return b;b=c}}function
-aO(a,b){return a-b}function
-iK(b){var
-a=W.Number(b);if(a!==(a|0))throw new(W.Error)("a number of more than 32 bits");return a}function
-Kv(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
-Kl(b){var
-a=ag;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&Kv(b[1]))var
+D(a,b){return a*b}function
+R(a){return-a}function
+aN(a){return X.BigInt(a)}var
+tR=[];function
+tN(a){return tR[a]||(tR[a]=X.BigInt(a))}function
+tP(a,b){return a<<tN(b)}function
+tQ(a,b){return a>>tN(b)}function
+aX(a){return a<0?-1:a>0?1:0}function
+Lm(a){if(a<0)throw new(X.Error)("a root of a negative number");if(a<2)return a;var
+d=X.BigInt(1),b=d<<X.BigInt((a.toString(16).length*4+1)/2|0),c;for(;;){c=b+a/b>>d;if(c>=b)return b;b=c}}function
+aQ(a,b){return a-b}function
+iQ(b){var
+a=X.Number(b);if(a!==(a|0))throw new(X.Error)("a number of more than 32 bits");return a}function
+K0(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
+KQ(b){var
+a=ah;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&K0(b[1]))var
 e=b[2],f=1;else
 var
-f=2,e=b;a+=rW;for(var
+f=2,e=b;a+=se;for(var
 d=f;d<e.length;d++){if(d>f)a+=", ";var
 c=e[d];if(typeof
 c=="number")a+=c.toString();else
 if(c
 instanceof
-cw)a+=aU+c.toString()+aU;else
+cz)a+=aW+c.toString()+aW;else
 if(typeof
-c=="string")a+=aU+c.toString()+aU;else
-a+="_"}a+=lr}else
+c=="string")a+=aW+c.toString()+aW;else
+a+="_"}a+=lE}else
 if(b[0]==bc)a+=b[1];return a}function
-tb(a){if(a
+tv(a){if(a
 instanceof
 Array&&(a[0]==0||a[0]==bc)){var
-c=eh("Printexc.handle_uncaught_exception");if(c)c(a,false);else{var
-d=Kl(a),b=eh(re);if(b)b(0);W.console.error("Fatal error: exception "+d+"\n")}}else
+c=em("Printexc.handle_uncaught_exception");if(c)c(a,false);else{var
+d=KQ(a),b=em(ry);if(b)b(0);X.console.error("Fatal error: exception "+d+"\n")}}else
 throw a}function
-KK(){var
-a=W;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){tb(b);a.process.exit(2)});else
-if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)tb(a.error)})}KK();function
+Ld(){var
+a=X;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){tv(b);a.process.exit(2)});else
+if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)tv(a.error)})}Ld();function
 h(a,b){return a.length==1?a(b):dD(a,[b])}function
-ar(a,b,c){return a.length==2?a(b,c):dD(a,[b,c])}function
-gb(a,b,c,d){return a.length==3?a(b,c,d):dD(a,[b,c,d])}function
-ic(a,b,c,d,e){return a.length==4?a(b,c,d,e):dD(a,[b,c,d,e])}Km();var
-lR=[bc,a(rM),-2],lQ=[bc,a(sY),-4],Jf=[0,[0,[0,[0,0]]]],Jg=[0,0],Jh=[0,0],Ji=[0,[0,0]],Jj=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ji]]]]]]]]]]],h0=[0,[1,0],0],qt=[0,[2,0],0],kR=[0,[1,0],0],qs=[0,[2,0],0],hY=[0,[1,0],0],kQ=[0,[2,0],0],Jk=[0,[0,[0,[0,0]]]],Jl=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jk]]]]]]]]]]],Jm=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jl]]]]]]]]]]],Jn=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jm]]]]]]]]]]],Jo=[0,[0,0]],Jp=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jo]]]]]]]]]]],Jq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jp]]]]]]]]]]],Jr=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jq]]]]]]]]]]],Js=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jr]]]]]]]]]]],Jt=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],Ju=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jt]]]]]]]]]]],Jv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ju]]]]]]]]]]],Jw=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jv]]]]]]]]]]],Jx=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jw]]]]]]]]]]],Jy=[0,[0,0]],Jz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jy]]]]]]]]]]],JA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jz]]]]]]]]]]],JB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JA]]]]]]]]]]],JC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JB]]]]]]]]]]],JD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JC]]]]]]]]]]],JE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JD]]]]]]]]]]],JF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JE]]]]]]]]]]],JG=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],JH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JG]]]]]]]]]]],JI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JH]]]]]]]]]]],JJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JI]]]]]]]]]]],JK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JJ]]]]]]]]]]],JL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JK]]]]]]]]]]],JM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JL]]]]]]]]]]],JN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JM]]]]]]]]]]],JO=[0,0],JP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JO]]]]]]]]]]],JQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JP]]]]]]]]]]],JR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JQ]]]]]]]]]]],JS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JR]]]]]]]]]]],JT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JS]]]]]]]]]]],JU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JT]]]]]]]]]]],JV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JU]]]]]]]]]]],JW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JV]]]]]]]]]]],JX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JW]]]]]]]]]]],JY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JX]]]]]]]]]]],JZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],J0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JZ]]]]]]]]]]],J1=[0,0],J2=[0,[0,0]],J3=[0,0],J4=[0,[0,[0,[0,[0,0]]]]],dL=[0,[0,[0,0]]],dN=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],hN=[0,[0,[0,[0,0]]]],J5=[0,[0,[0,[0,[0,0]]]]],J6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,J5]]]]]]]]]]],J7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,J6]]]]]]]]]]],J8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,J7]]]]]]]]]]],J9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,J8]]]]]]]]]]];bS(11,[bc,a(rd),-12],rd);bS(10,[bc,a(r2),-11],r2);bS(9,[bc,a(sN),-10],sN);bS(8,[bc,a(rp),-9],rp);bS(7,[bc,a(se),-8],se);bS(6,[bc,a(rn),-7],rn);bS(5,[bc,a(rN),-6],rN);bS(4,[bc,a(rR),-5],rR);bS(3,lQ,sY);bS(2,[bc,a(lk),-3],lk);bS(1,lR,rM);bS(0,[bc,a(sx),-1],sx);var
-tz=a("String.sub / Bytes.sub"),tB=a(ag),tA=a("String.concat"),tC=a("Array.init"),tD=a("power"),t9=[0,0],t_=[0,0],ue=[0,0,0],uf=[0,0,0],ug=[0,0],uD=[0,0],uE=[0,0],uH=[0,0],u2=[0,0],u5=[0,0],u9=[0,0],u_=[0,0],u$=[0,0],va=[0,0],vo=[0,0],vp=[0,0],vS=[0,0],wg=[0,[0,[0,0]]],wN=[0,0],xe=[0,0],xC=[0,0],xN=a(","),x5=[0,a(lr),0],x6=a(rW),x7=a("."),x8=[0,[0,[0,0]]],x9=a(e$),x_=a(ls),x$=[0,[0,[0,[0,[0,0]]]]],ya=[0,a(lr),0],yb=a(sW),Be=a(ra),Bg=a(q9),Bf=a(r5),Bh=a(e6),Bi=a(e4),Bj=a(iA),Bk=a(sH),Bl=a(rG),Bm=a(iu),Bn=a(r_),Bo=a(rF),CC=[0,[0,0,0]],CT=[0,0],CD=a(gc),CE=[0,0],CF=a(lq),CG=[0,1],CH=a("mirror"),CI=[0,3],CJ=a("negative"),CK=[0,2],CL=a(gh),CM=[0,5],CN=a(ly),CO=[0,4],CP=a(dB),CQ=a(ij),CR=a(e7),CS=a(bQ),CU=[0,0],CV=[0,0],CW=[0,0],CZ=[0,[0,[0,0]]],C0=[0,[0,[0,0]]],Dp=[0,[0,[0,0]]],DD=[0,0],DY=a(ag),DQ=[0,0],DS=[0,0],DR=[0,0],DT=[0,[0,[0,[0,0]]]],DU=[0,[0,[0,0]]],DV=[0,[0,[0,[0,0]]]],DW=[0,[0,[0,0]]],DO=[0,[0,[0,0]]],DN=a(e7),DM=[0,0],DK=[0,1,0],DL=[0,[0,[0,0]]],DJ=[0,0],DI=[0,0],DH=[0,0],DE=[0,[0,0]],DF=[0,[0,[0,0]]],DB=[0,[0,0]],DC=[0,[0,[0,0]]],DA=[0,0],Dw=[0,[0,[0,0]]],Dv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jf]]]]]]]]]],[0,0,[0,[0,[0,[0,0]]],0]]],Dq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],[0,0,0]],Dr=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],[0,[0,[0,[0,[0,[0,[0,0]]]]]],0]],Ds=[0,[0,[0,[0,[0,[0,[0,0]]]]]],0],Dt=[0,[0,[0,[0,0]]],[0,0,0]],Dn=[0,0],Do=[0,[0,0]],Dm=[0,0,0],Dl=[0,[0,[0,0]]],Df=[0,[0,0]],Dg=[0,[0,[0,0]]],Dh=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jg]]]]]]]]]]],Di=[0,[0,0]],Dj=[0,[0,[0,0]]],De=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jh]]]]]]]]]]],Dc=[0,[0,0]],Dd=[0,[0,[0,0]]],Da=[0,[0,[0,0]]],Db=[0,[0,0]],C$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jj]]]]]]]]]]],C_=[0,0],C9=[0,0],C6=[0,[0,0]],C7=[0,0],C4=[0,0],C5=[0,1],C2=[0,[0,0]],C3=[0,0],C1=[0,0],CX=[0,0],CY=[0,1],Cz=[0,0],CA=[0,1],CB=[0,2],Cv=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],Ct=[0,[0,0],0],Cu=[0,[1,0],0],Cw=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],Cr=[0,[0,0]],Cs=[0,0],Cq=[0,0],Cp=[0,0],Co=[0,0],Cn=[0,0],Cm=[0,0,0],Ck=[0,[0,0]],Cl=[0,0],Cj=[0,0,0],Ch=[0,[0,[0,0]]],Ci=[0,[0,[0,0]]],Cg=[0,0],Ce=[0,1,0],B9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jn]]]]]]]]]]],B_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Js]]]]]]]]]]],B5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Jx]]]]]]]]]]],B6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JF]]]]]]]]]]],B7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JN]]]]]]]]]]],B8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JY]]]]]]]]]]],B$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,J0]]]]]]]]]]],Ca=a("sqrt"),BU=[0,a("\n"),0],BV=a(q_),BW=a(ii),BX=a(r1),BY=a(rK),B4=a(gk),BZ=a(gg),B0=a("verdict"),B1=a(sy),B2=a(rC),B3=a(r0),BR=a(rU),BS=a(sC),BT=a(il),BN=a(sa),BO=a(im),BP=a(gg),BQ=a(gk),BI=a(iw),BJ=a(by),BK=a(q$),BL=a(is),BF=a(sw),BG=a(gh),BH=a(is),BB=a(sd),BC=a(iw),BD=a(im),BE=a(sL),Bq=a(sD),Br=a(sG),Bs=a(ir),Bt=a(ip),Bu=a(sR),Bv=a(ss),Bw=a(sv),Bx=a(sh),By=a(ir),Bz=a(sk),Bc=a(ig),Bd=a(gj),A9=a(bR),A_=a(bP),A$=a(rE),AJ=a(ip),AK=a(sg),An=a(by),Ao=a(b_),Ap=a(iy),Aq=a(e_),Ar=a(cu),Aw=a(ld),As=a(lt),At=a(lv),Au=a(e5),Av=a(by),Ax=a(b_),Ay=a(iy),Az=a(e_),AA=a(lt),AB=a(lv),AC=a(e5),AD=a(by),AE=a(b_),AF=a(bR),AG=a(bP),AH=a(ee),AI=a(e_),AL=a(sq),AM=a(sF),AN=a(iz),AO=a(rs),AP=a(rx),AQ=a(e5),AR=a(by),AS=a(b_),AT=a(id),AU=a(rI),AV=a(e_),AW=a(gp),AX=a(rh),AY=a(e5),AZ=a(by),A0=a(id),A1=a(by),A2=a(sj),A5=a(q8),A3=a(rv),A4=a(sK),A6=a(gk),A7=a(gg),A8=a(by),Ba=a(iz),Bb=a(il),Ai=a(b_),Aj=a(e_),Ak=a(ld),Al=a(e5),Ah=a(sT),z7=a(gp),z8=a(sz),z9=a(ef),z_=a(e8),z$=a(e8),Aa=a(lg),Ab=a(ef),Ac=a(r3),Ad=a(rD),Ae=a(bp),Ag=a(rc),Af=a(lg),zX=a(rT),zY=a(sX),zZ=a(rz),z0=a(rw),z1=a(sJ),z2=a(su),z3=a(rL),z4=a(ie),z5=a(ie),zT=a(bp),zU=a(bO),zV=a(fa),zW=a(bx),zP=a(cu),zQ=a(ln),zR=a(sb),zM=a(bR),zN=a(bP),zO=a(ee),zF=a(bR),zG=a(bP),zH=a(ee),zI=a(lp),zJ=a(ef),zK=a(ll),zL=a(sp),zn=a(ru),zt=a(ii),zs=a(lx),zo=a(lh),zp=a(ge),zu=a(gf),zw=a(gf),zx=a(sn),zy=a(lh),zv=a(ge),zz=a(rr),zA=a(sm),zB=a(ge),zC=a(sS),zD=a(lx),zE=a(ge),zq=a(e8),zr=a(r8),zk=a(iq),zl=a(iq),zm=a(iq),zg=a(sr),zh=a(bP),zi=a(bR),zj=a(sI),y1=a(rl),y2=a(rb),y3=a(sf),y4=a(e6),y5=a(sU),y6=a(si),y7=a(rm),y8=a(r9),y9=a(rk),y_=a(rH),y$=a(rj),za=a(st),zb=a(e4),zc=a(rg),zd=a(sB),ze=a(ry),zf=a(sV),yC=a(it),yE=a(e$),yD=a(gd),yF=a(e3),yG=a(bp),yH=a(bO),yI=a(bQ),yJ=a(gl),yK=a(bx),yL=a(gn),yM=a(bp),yN=a(bO),yO=a(fa),yP=a(bx),yQ=a(bQ),yR=a(cu),yS=a(bx),yT=a(e3),yU=a(go),yV=a(bp),yW=a(bO),yX=a(r7),yY=a(gf),yZ=a(go),y0=a(bx),yk=a(it),ys=a(e$),yl=a(gd),ym=a(e3),yn=a(bp),yo=a(bO),yp=a(bQ),yq=a(gl),yr=a(bx),yt=a(gn),yu=a(bp),yv=a(bO),yw=a(fa),yx=a(bx),yy=a(bQ),yz=a(cu),yA=a(bx),yh=a(bR),yi=a(bP),yf=[0,a(aU),0],yg=a(aU),yd=a(ag),yc=[0,a(aU),0],ye=a(aU),x1=a(it),x2=a(e$),x3=a("*"),x4=a(b$),xW=[0,[0,[0,[0,[0,0]]]]],xX=[0,[0,[0,0]]],xY=[0,[0,0]],xZ=[0,0],x0=[0,[0,[0,[0,0]]]],xU=a('":'),xV=a(aU),xS=[0,a(aU),0],xT=a(aU),xQ=[0,a("}"),0],xR=a("{"),xO=[0,a("]"),0],xP=a("["),xM=[0,[0,[0,0]]],xL=[0,[0,[0,0]]],xJ=[0,0],xG=[0,[0,[0,0]]],xH=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],xI=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],xE=[0,[0,0]],xF=[0,[0,[0,0]]],xD=[0,0],xA=[0,0],xB=[0,[0,0]],xx=[0,0],xy=[0,[0,0]],xz=[0,0],xs=[0,[0,0]],xt=[0,0],xu=[0,[0,[0,0]]],xv=[0,[0,[0,0]]],xr=[0,[0,[0,0]]],xq=[0,[0,[0,0]]],xp=[0,0],xm=[0,[0,[0,0]]],xo=[0,[0,[0,0]]],xn=[0,0],xk=[0,[0,0]],xl=[0,0],xi=[0,[0,0]],xj=[0,0],xh=[0,[0,[0,0]]],xf=[0,[0,0]],xg=[0,0],xc=[0,0],xd=[0,[0,0]],w8=[0,[0,0]],w9=[0,[0,[0,[0,[0,0]]]]],w_=[0,[0,[0,[0,0]]]],w$=[0,[0,[0,0]]],xa=[0,[0,0]],xb=[0,0],w5=[0,0],w6=[0,[0,0]],w7=[0,0],w4=[0,0],w0=[0,0],w1=[0,[0,[0,[0,[0,[0,0]]]]]],w2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,J1]]]]]]]]]]],wY=[0,0,0],wZ=[0,0,0],wV=[0,0,0],wW=[0,0],wR=[0,0,0],wS=[0,0,0],wT=[0,0,0],wO=[0,[0,0]],wP=[0,[0,[0,0]]],wQ=[0,0],wL=[0,0,0],wM=[0,0,[0,1,0]],wH=[0,0,0],wI=[0,0,0],wJ=[0,0,0],wK=[0,0,0],wx=[0,[0,[0,[0,[0,[0,0]]]]]],wy=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],wz=[0,[0,[0,0]]],wA=[0,[0,[0,0]]],wB=[0,[0,[0,[0,[0,[0,0]]]]]],wC=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],wD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,J2]]]]]]]]]]],wE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,J3]]]]]]]]]]],wF=[0,[0,[0,0]]],wG=[0,[0,[0,[0,[0,[0,0]]]]]],wt=[0,0,0],wu=[0,0,0],wp=[0,0,0],wq=[0,0,0],wr=[0,0,0],ws=[0,0,0],wo=[0,0],wn=[0,0],wm=[0,0],wk=[0,0],wl=[0,0],wj=[0,0],wh=[0,0],wi=[0,0],v$=[0,0],wa=[0,0],wb=[0,0],wc=[0,[0,[0,0]]],v_=[0,0],v4=[0,0],v5=[0,0],v6=[0,[0,0]],v2=[0,[0,0]],v3=[0,[0,[0,0]]],v0=[0,[0,[0,0]]],v1=[0,[0,0]],vY=[0,[0,0]],vZ=[0,[0,[0,0]]],vX=[0,0],vV=[0,0],vW=[0,0],vT=[0,0,0],vQ=[0,[0,0]],vR=[0,0],vI=[0,[0,0]],vJ=[0,0],vK=[0,[0,0]],vL=[0,0],vM=[0,[0,0]],vN=[0,0],vO=[0,[0,0]],vP=[0,0],vG=[0,[0,0]],vH=[0,0],vE=[0,[0,0]],vF=[0,0],vA=[0,[0,0]],vB=[0,0],vC=[0,0],vD=[0,[0,0]],vr=[0,[0,0]],vs=[0,0],vt=[0,[0,0]],vu=[0,0],vv=[0,0],vw=[0,[0,0]],vx=[0,[0,0]],vy=[0,[0,0]],vz=[0,0],vn=[0,0],vm=[0,0],vj=[0,0],vk=[0,[0,0]],vi=[0,[0,[0,0]]],vh=[0,[0,[0,[0,[0,[0,0]]]]]],vf=[0,[0,0]],vg=[0,0],ve=[0,[0,0]],vd=[0,0],vb=[0,0],vc=[0,[0,[0,0]]],u7=[0,[0,0]],u8=[0,[0,[0,0]]],u6=[0,[0,[0,0]]],u3=[0,[0,[0,0]]],u1=[0,[0,[0,0]]],uZ=[0,[0,[0,[0,[0,[0,0]]]]]],u0=[0,[0,[0,[0,[0,[0,0]]]]]],uU=[0,[0,0]],uV=[0,0],uW=[0,[0,0]],uX=[0,[0,[0,0]]],uY=[0,[0,[0,0]]],uN=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],uO=[0,[0,[0,[0,[0,[0,0]]]]]],uP=[0,[0,[0,[0,[0,[0,0]]]]]],uQ=[0,[0,[0,0]]],uR=[0,[0,[0,[0,[0,[0,0]]]]]],uS=[0,[0,[0,0]]],uT=[0,[0,[0,0]]],uL=[0,[0,0]],uM=[0,0],uK=[0,0,0],uJ=[0,0,0],uI=[0,0,0],uG=[0,0,0],uF=[0,[0,[0,0]]],uz=[0,0],uA=[0,0],uB=[0,0],uC=[0,0],ux=[0,0],uy=[0,0],uv=[0,0,0],us=[0,[0,[0,0]]],ut=[0,[0,[0,0]]],uu=[0,[0,[0,0]]],ur=[0,[0,[0,[0,0]]]],un=[0,[0,[0,0]]],uo=[0,[0,[0,0]]],up=[0,[0,[0,0]]],uq=[0,[0,1,1],[0,[0,0,1],[0,[0,1,0],[0,[0,0,0],0]]]],ul=[0,[0,0]],um=[0,0],uj=[0,[0,0]],uk=[0,0],uh=[0,[0,0]],ui=[0,0],t6=[0,0],t7=[0,[0,0]],t4=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],t5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,J4]]]]]]]]]]],t2=[0,0,0],t0=[0,[0,[0,[0,[0,0]]]]],tQ=[0,0],tR=[0,[0,0]],tS=[0,[0,[0,0]]],tT=[0,[0,[0,[0,0]]]],tU=[0,[0,[0,[0,[0,0]]]]],tV=[0,[0,[0,[0,[0,[0,0]]]]]],tW=[0,[0,[0,[0,[0,[0,[0,0]]]]]]],tX=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],tY=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],tZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],tO=a(sP),tN=a(ag),tM=[0,[0,0]],tK=[0,0],tH=[0,0],tJ=[1,0],tI=[0,0],tG=[0,0],tE=[1,0],tF=[1,0],vl=[10,0,0,0,0],DG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,J9]]]]]]]]]]],Hc=a(bR),Hd=a(bP),He=a(rE),G6=a(gn),G7=[0,a("a base axis of such a platform"),0],G8=a(bp),G9=a(bO),GT=a(su),GU=a(rT),GV=a(sJ),GW=a(ie),GX=a(rL),GY=a(ie),GZ=a(sX),G0=a(rz),G1=a(rw),GH=a(sg),GI=a(ip),Gj=[0,a("such a machine with bodies"),0],F8=a(il),F9=a(by),F_=a(sj),F$=a(sK),Gc=a(rv),Gd=a(q8),Ge=a(by),Gf=a(by),Gh=a(id),Gg=[0,a("a claim that no cube of such a machine fits"),0],Gi=a(sT),Gk=a(e5),Gl=a(e_),Gm=a(cu),Gn=a(ln),Go=a(sb),Gp=a(iy),Gq=a(rx),Gr=a(rh),Gs=a(ld),Gv=a(ee),Gw=a(sp),Gz=a(b_),GA=a(b_),GB=a(rI),GC=a(b_),GD=[0,a("the closed design with other bounds on psi than one from below and one from above"),0],GE=a(id),GF=a(gp),GG=a(ee),GJ=a(sF),GK=a(sq),GL=[0,a(" operations, with its definitions written out,"),0],GM=a("a mechanism of more than "),GN=a(b_),GO=a(bR),GP=a(bP),GQ=a(iz),GR=a(rs),Gt=[0,a(aU),0],Gu=a('the mechanism "'),GS=a(lt),G2=a(iy),G3=a(cu),G4=a(ln),G5=a(lv),G_=a(b_),Hb=a(cu),G$=[0,a("a platform that turns on struts and other drives"),0],Ha=a(b_),Gx=[0,a(aU),0],Gy=a('the workspace "'),Hf=a(by),Hg=a(by),Hi=a(gk),Hj=a(gg),Hk=a(iz),Hh=[0,a("an atlas of such a machine"),0],Ga=[0,a(aU),0],Gb=a('a claim of the kind "'),Hy=a(iA),Hz=a(dB),HA=a(ij),HB=a(e7),HC=a(iu),HD=a(lq),HE=a(gc),HF=a(iA),HG=a(ij),HH=a(iu),HI=a(lq),HJ=[0,a('this evidence "fan"'),0],Hp=a(dB),HU=a(gj),HV=[0,1,1],Hq=a(r_),HL=a(e4),HM=a(rF),HN=a(e6),HO=a(rG),HP=a(r5),HQ=a(bQ),HR=a(gj),HS=a(ig),HT=a(bQ),Hr=a(iA),Hs=a(dB),Ht=a(ij),Hu=a(e7),Hv=a(iu),HK=[0,a('evidence "fan" about "divided" and other rows'),0],Hw=[0,a(aU),0],Hx=a('the evidence "'),HW=a(e4),HX=a(e6),HY=a(dB),HZ=a(e7),H0=a(sH),H2=a(e4),H3=a(e6),H4=a(dB),H5=a(e7),H6=a(gh),H7=a(gc),H8=a(gh),H9=a(gc),H1=[0,a("this evidence at control points"),0],I_=a('"orthocert-paving/'),I1=a(dB),I2=a(dB),IP=a(r0),IQ=a(rC),IR=a(sy),I8=[0,3,3],IS=a(rK),I0=[0,a("this set of orientations with such drives"),0],I3=[0,a('this evidence "tolerances" of a platform that turns'),0],I4=[0,a("a step of a platform that turns that is not at control points"),0],I5=[0,a("this quantity in a claim that is refuted"),0],I6=[0,a("a step in a proof that no cube fits"),0],I7=[0,a('the failure "same" of such a mechanism'),0],IT=[0,a("the acceleration of a joint of a machine with a plane"),0],IY=[0,a("a stiffness for each joint in such a claim"),0],IZ=[0,a(sl),0],IX=[0,a(sl),0],IU=a(r1),IV=a(q_),IW=a(ii),IL=a(ly),IM=a(gc),IN=a(bQ),ID=a(il),IE=a(rU),IF=a(sC),IG=[0,a(aU),0],IH=a('a proof of the kind "'),Iz=a(gg),IA=a(gk),IB=a(im),IC=a(sa),Iv=a(by),Iw=a(iw),Ix=a(q$),Iy=a(is),Is=a(sw),It=a(gh),Iu=a(is),Io=a(sd),Ip=a(iw),Iq=a(im),Ir=a(sL),Ia=a(sG),Ib=a(ir),Ic=a(sD),Id=a(ip),Ie=a(sk),If=a(sR),Ii=a(ss),Ij=a(ig),Ik=a(gj),Il=a(sv),Im=a(sh),In=a(ir),Ig=[0,a(aU),0],Ih=a('the failure "'),H_=a(ly),H$=a(sP),Hn=a(gj),Ho=a(ig),Hl=a(q9),Hm=a(ra),F5=a(gp),FV=a(lg),FW=a(rc),FX=a(e8),FY=a(bp),F3=a(sz),F4=a(gp),F6=a(ef),F7=a(e8),FZ=a(ef),F0=a(r3),F1=a(rD),F2=a(bp),FO=a(ee),FS=a(bR),FT=a(bP),FP=a(ll),FQ=a(lp),FR=a(ef),FI=a(ee),FM=a(bR),FN=a(bP),FJ=a(ll),FK=a(lp),FL=a(ef),FH=[0,1],FG=[0,1],FE=[0,1],FC=[0,1],FB=[0,1],Fz=[0,1],FA=[0,a("this quantity of such a mechanism"),0],Fi=a(lh),Fj=a(sm),Fk=a(rr),Fl=a(lx),Fm=a(sS),Fo=a(sn),Fn=a(gf),Fh=a(ii),E$=a(iq),EZ=a(r8),E0=a(sf),Fr=a(e4),Fs=a(sB),Ft=a(rH),Fu=a(e6),Fv=a(r9),Fw=a(rj),Fx=a(rk),Fy=a(rb),E1=a(rg),E2=a(sV),E3=a(st),E4=a(si),E5=a(ry),E6=a(sU),E7=a(rm),E8=a(rl),E9=[0,a(aU),0],E_=a('the quantity "'),Fa=a(ru),Fb=a(sr),Fc=a(bR),Fd=a(bP),Fe=a(sI),Ff=[0,a(aU),0],Fg=a('a bound "'),Fp=a(ge),Fq=a(e8),EX=a(bx),EY=a(fa),EV=a(bx),EW=a(cu),ES=a(bx),ET=a(gl),Eu=a(bx),Ev=a(gn),Ew=a(go),Ex=a(cu),Ey=a(gl),Ez=a(fa),EC=a(bp),ED=a(bO),EE=a(gd),EF=a(e3),EG=a(bp),EH=a(bO),EI=a(bQ),EJ=a(bQ),EK=a(gd),EL=a(e3),EM=a(go),EN=a(bp),EO=a(bO),EP=a(r7),EQ=a(gf),EA=[0,a('" of such a machine'),0],EB=a(rq),Es=a(bx),Et=a(go),Ec=a(bx),Ed=a(cu),Ee=a(gl),Ef=a(fa),Ei=a(gn),Ej=a(bp),Ek=a(bO),El=a(gd),Em=a(e3),En=a(bp),Eo=a(bO),Ep=a(bQ),Eq=a(bQ),Eg=[0,a(aU),0],Eh=a(rq),D$=a(it),Ea=a(e$),D9=a(" is not covered by the verified checker"),D_=a(ag),D7=a(bR),D8=a(bP),D3=a(ag),D4=a(sW),D5=a(ag),D6=a(ag),D2=[1,0],D1=a(e$),DZ=a("Reader.Malformed"),D0=a("Reader.Not_covered"),Ja=[0,a("a paving is checked by orthocert-verified")],I$=a(r$),Jb=a("CERTIFIED"),Jc=a("REFUTED"),Jd=a(r$),Je=a("NOT COVERED: ");function
-gv(a){throw[0,lQ,a]}function
-lS(b,a){return Kx(b,a)?b:a}function
-bk(d,c){var
-a=aC(d),e=aC(c),b=cy(a+e|0);fc(d,0,b,0,a);fc(c,0,b,a,e);return iI(b)}function
-lT(a,b){if(a){var
-c=a[1];return[0,c,lT(a[2],b)]}return b}KB(0);th(1);th(2);function
-lU(b){function
+as(a,b,c){return a.length==2?a(b,c):dD(a,[b,c])}function
+gh(a,b,c,d){return a.length==3?a(b,c,d):dD(a,[b,c,d])}function
+ij(a,b,c,d,e){return a.length==4?a(b,c,d,e):dD(a,[b,c,d,e])}KR();var
+l4=[bc,a(r6),-2],l3=[bc,a(tg),-4],JK=[0,[0,[0,[0,0]]]],JL=[0,0],JM=[0,0],JN=[0,[0,0]],JO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JN]]]]]]]]]]],h6=[0,[1,0],0],qM=[0,[2,0],0],k4=[0,[1,0],0],qL=[0,[2,0],0],h4=[0,[1,0],0],k3=[0,[2,0],0],JP=[0,[0,[0,[0,0]]]],JQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JP]]]]]]]]]]],JR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JQ]]]]]]]]]]],JS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JR]]]]]]]]]]],JT=[0,[0,0]],JU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JT]]]]]]]]]]],JV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JU]]]]]]]]]]],JW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JV]]]]]]]]]]],JX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JW]]]]]]]]]]],JY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],JZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JY]]]]]]]]]]],J0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JZ]]]]]]]]]]],J1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,J0]]]]]]]]]]],J2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,J1]]]]]]]]]]],J3=[0,[0,0]],J4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,J3]]]]]]]]]]],J5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,J4]]]]]]]]]]],J6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,J5]]]]]]]]]]],J7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,J6]]]]]]]]]]],J8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,J7]]]]]]]]]]],J9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,J8]]]]]]]]]]],J_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,J9]]]]]]]]]]],J$=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],Ka=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,J$]]]]]]]]]]],Kb=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ka]]]]]]]]]]],Kc=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Kb]]]]]]]]]]],Kd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Kc]]]]]]]]]]],Ke=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Kd]]]]]]]]]]],Kf=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ke]]]]]]]]]]],Kg=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Kf]]]]]]]]]]],Kh=[0,0],Ki=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Kh]]]]]]]]]]],Kj=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ki]]]]]]]]]]],Kk=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Kj]]]]]]]]]]],Kl=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Kk]]]]]]]]]]],Km=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Kl]]]]]]]]]]],Kn=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Km]]]]]]]]]]],Ko=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Kn]]]]]]]]]]],Kp=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ko]]]]]]]]]]],Kq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Kp]]]]]]]]]]],Kr=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Kq]]]]]]]]]]],Ks=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],Kt=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ks]]]]]]]]]]],Ku=[0,0],Kv=[0,[0,0]],Kw=[0,0],Kx=[0,[0,[0,[0,[0,0]]]]],dL=[0,[0,[0,0]]],dN=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],hT=[0,[0,[0,[0,0]]]],Ky=[0,[0,[0,[0,[0,0]]]]],Kz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ky]]]]]]]]]]],KA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Kz]]]]]]]]]]],KB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KA]]]]]]]]]]],KC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KB]]]]]]]]]]];bW(11,[bc,a(rw),-12],rw);bW(10,[bc,a(sk),-11],sk);bW(9,[bc,a(s7),-10],s7);bW(8,[bc,a(rJ),-9],rJ);bW(7,[bc,a(sy),-8],sy);bW(6,[bc,a(rH),-7],rH);bW(5,[bc,a(r7),-6],r7);bW(4,[bc,a(r$),-5],r$);bW(3,l3,tg);bW(2,[bc,a(lx),-3],lx);bW(1,l4,r6);bW(0,[bc,a(sR),-1],sR);var
+tT=a("String.sub / Bytes.sub"),tV=a(ah),tU=a("String.concat"),tW=a("Array.init"),tX=a("power"),ur=[0,0],us=[0,0],uy=[0,0,0],uz=[0,0,0],uA=[0,0],uX=[0,0],uY=[0,0],u1=[0,0],vk=[0,0],vn=[0,0],vr=[0,0],vs=[0,0],vt=[0,0],vu=[0,0],vI=[0,0],vJ=[0,0],wa=[0,0],wA=[0,[0,[0,0]]],xc=[0,0],xF=[0,0],x3=[0,0],yf=a(","),yx=[0,a(lE),0],yy=a(se),yz=a("."),yA=[0,[0,[0,0]]],yB=a(fc),yC=a(lF),yD=[0,[0,[0,[0,[0,0]]]]],yE=[0,a(lE),0],yF=a(te),BI=a(rt),BK=a(rq),BJ=a(sn),BL=a(e9),BM=a(e7),BN=a(iG),BO=a(s1),BP=a(r0),BQ=a(iA),BR=a(ss),BS=a(rZ),C6=[0,[0,0,0]],Dl=[0,0],C7=a(gi),C8=[0,0],C9=a(lD),C_=[0,1],C$=a("mirror"),Da=[0,3],Db=a("negative"),Dc=[0,2],Dd=a(gn),De=[0,5],Df=a(lL),Dg=[0,4],Dh=a(dB),Di=a(iq),Dj=a(e_),Dk=a(bU),Dm=[0,0],Dn=[0,0],Do=[0,0],Dr=[0,[0,[0,0]]],Ds=[0,[0,[0,0]]],DT=[0,[0,[0,0]]],D7=[0,0],Eq=a(ah),Ei=[0,0],Ek=[0,0],Ej=[0,0],El=[0,[0,[0,[0,0]]]],Em=[0,[0,[0,0]]],En=[0,[0,[0,[0,0]]]],Eo=[0,[0,[0,0]]],Eg=[0,[0,[0,0]]],Ef=a(e_),Ee=[0,0],Ec=[0,1,0],Ed=[0,[0,[0,0]]],Eb=[0,0],Ea=[0,0],D$=[0,0],D8=[0,[0,0]],D9=[0,[0,[0,0]]],D5=[0,[0,0]],D6=[0,[0,[0,0]]],D4=[0,0],D0=[0,[0,[0,0]]],DZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JK]]]]]]]]]],[0,0,[0,[0,[0,[0,0]]],0]]],DU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],[0,0,0]],DV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],[0,[0,[0,[0,[0,[0,[0,0]]]]]],0]],DW=[0,[0,[0,[0,[0,[0,[0,0]]]]]],0],DX=[0,[0,[0,[0,0]]],[0,0,0]],DR=[0,0],DS=[0,[0,0]],DQ=[0,0,0],DP=[0,[0,[0,0]]],DJ=[0,[0,0]],DK=[0,[0,[0,0]]],DL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JL]]]]]]]]]]],DM=[0,[0,0]],DN=[0,[0,[0,0]]],DI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JM]]]]]]]]]]],DG=[0,[0,0]],DH=[0,[0,[0,0]]],DE=[0,[0,[0,0]]],DF=[0,[0,0]],DD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JO]]]]]]]]]]],DC=[0,0],DB=[0,0],Dy=[0,[0,0]],Dz=[0,0],Dw=[0,0],Dx=[0,1],Du=[0,[0,0]],Dv=[0,0],Dt=[0,0],Dp=[0,0],Dq=[0,1],C3=[0,0],C4=[0,1],C5=[0,2],CZ=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],CX=[0,[0,0],0],CY=[0,[1,0],0],C0=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],CV=[0,[0,0]],CW=[0,0],CU=[0,0],CT=[0,0],CS=[0,0],CR=[0,0],CQ=[0,0,0],CO=[0,[0,0]],CP=[0,0],CN=[0,0,0],CL=[0,[0,[0,0]]],CM=[0,[0,[0,0]]],CK=[0,0],CI=[0,1,0],CB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JS]]]]]]]]]]],CC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,JX]]]]]]]]]]],Cx=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,J2]]]]]]]]]]],Cy=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,J_]]]]]]]]]]],Cz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Kg]]]]]]]]]]],CA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Kr]]]]]]]]]]],CD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Kt]]]]]]]]]]],CE=a("sqrt"),Cm=[0,a("\n"),0],Cn=a(rr),Co=a(ip),Cp=a(sj),Cq=a(r4),Cw=a(gq),Cr=a(gm),Cs=a("verdict"),Ct=a(sS),Cu=a(rW),Cv=a(si),Cj=a(sc),Ck=a(sW),Cl=a(is),Cf=a(su),Cg=a(it),Ch=a(gm),Ci=a(gq),Ca=a(iC),Cb=a(by),Cc=a(rs),Cd=a(iy),B9=a(sQ),B_=a(gn),B$=a(iy),B5=a(sx),B6=a(iC),B7=a(it),B8=a(s5),BU=a(sX),BV=a(s0),BW=a(ix),BX=a(iv),BY=a(s$),BZ=a(sM),B0=a(sP),B1=a(sB),B2=a(ix),B3=a(sE),BG=a(im),BH=a(gp),BB=a(bV),BC=a(bT),BD=a(rY),Bb=a(iv),Bc=a(sA),AR=a(by),AS=a(cc),AT=a(iE),AU=a(fb),AV=a(cx),A0=a(lq),AW=a(lG),AX=a(lI),AY=a(e8),AZ=a(by),A1=a(cc),A2=a(iE),A3=a(fb),A4=a(lG),A5=a(lI),A6=a(e8),A7=a(by),A8=a(cc),A9=a(bV),A_=a(bT),A$=a(ej),Ba=a(fb),Bd=a(sK),Be=a(sZ),Bf=a(iF),Bg=a(rM),Bh=a(rR),Bi=a(e8),Bj=a(by),Bk=a(cc),Bl=a(ik),Bm=a(r2),Bn=a(fb),Bo=a(gv),Bp=a(rB),Bq=a(e8),Br=a(by),Bs=a(ik),Bt=a(by),Bu=a(sD),Bx=a(rp),Bv=a(rP),Bw=a(s4),By=a(gq),Bz=a(gm),BA=a(by),BE=a(iF),BF=a(is),AM=a(cc),AN=a(fb),AO=a(lq),AP=a(e8),AL=a(tb),Az=a(gv),AA=a(sT),AB=a(ek),AC=a(e$),AD=a(e$),AE=a(lt),AF=a(ek),AG=a(sl),AH=a(rX),AI=a(br),AK=a(rv),AJ=a(lt),Ap=a(sb),Aq=a(tf),Ar=a(rT),As=a(rQ),At=a(s3),Au=a(sO),Av=a(r5),Aw=a(il),Ax=a(il),Al=a(br),Am=a(bS),An=a(fd),Ao=a(bx),Ah=a(cx),Ai=a(lA),Aj=a(sv),Ae=a(bV),Af=a(bT),Ag=a(ej),z9=a(bV),z_=a(bT),z$=a(ej),Aa=a(lC),Ab=a(ek),Ac=a(ly),Ad=a(sJ),zR=a(rO),zX=a(ip),zW=a(lK),zS=a(lu),zT=a(gk),zY=a(gl),z0=a(gl),z1=a(sH),z2=a(lu),zZ=a(gk),z3=a(rL),z4=a(sG),z5=a(gk),z6=a(ta),z7=a(lK),z8=a(gk),zU=a(e$),zV=a(sq),zO=a(iw),zP=a(iw),zQ=a(iw),zK=a(sL),zL=a(bT),zM=a(bV),zN=a(s2),zt=a(rF),zu=a(ru),zv=a(sz),zw=a(e9),zx=a(tc),zy=a(sC),zz=a(rG),zA=a(sr),zB=a(rE),zC=a(r1),zD=a(rD),zE=a(sN),zF=a(e7),zG=a(rA),zH=a(sV),zI=a(rS),zJ=a(td),y6=a(iz),y8=a(fc),y7=a(gj),y9=a(e6),y_=a(br),y$=a(bS),za=a(bU),zb=a(gr),zc=a(bx),zd=a(gt),ze=a(br),zf=a(bS),zg=a(fd),zh=a(bx),zi=a(bU),zj=a(cx),zk=a(bx),zl=a(e6),zm=a(gu),zn=a(br),zo=a(bS),zp=a(sp),zq=a(gl),zr=a(gu),zs=a(bx),yO=a(iz),yW=a(fc),yP=a(gj),yQ=a(e6),yR=a(br),yS=a(bS),yT=a(bU),yU=a(gr),yV=a(bx),yX=a(gt),yY=a(br),yZ=a(bS),y0=a(fd),y1=a(bx),y2=a(bU),y3=a(cx),y4=a(bx),yL=a(bV),yM=a(bT),yJ=[0,a(aW),0],yK=a(aW),yH=a(ah),yG=[0,a(aW),0],yI=a(aW),yt=a(iz),yu=a(fc),yv=a("*"),yw=a(cd),yo=[0,[0,[0,[0,[0,0]]]]],yp=[0,[0,[0,0]]],yq=[0,[0,0]],yr=[0,0],ys=[0,[0,[0,[0,0]]]],ym=a('":'),yn=a(aW),yk=[0,a(aW),0],yl=a(aW),yi=[0,a("}"),0],yj=a("{"),yg=[0,a("]"),0],yh=a("["),ye=[0,[0,[0,0]]],yd=[0,[0,[0,0]]],yb=[0,0],x_=[0,[0,[0,0]]],x$=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],ya=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],x8=[0,[0,0]],x9=[0,[0,[0,0]]],x5=[0,0],x6=[0,[0,0]],x7=[0,0],x4=[0,0],x1=[0,0],x2=[0,[0,0]],xY=[0,0],xZ=[0,[0,0]],x0=[0,0],xT=[0,[0,0]],xU=[0,0],xV=[0,[0,[0,0]]],xW=[0,[0,[0,0]]],xS=[0,[0,[0,0]]],xR=[0,[0,[0,0]]],xQ=[0,0],xN=[0,[0,[0,0]]],xP=[0,[0,[0,0]]],xO=[0,0],xL=[0,[0,0]],xM=[0,0],xJ=[0,[0,0]],xK=[0,0],xI=[0,[0,[0,0]]],xG=[0,[0,0]],xH=[0,0],xD=[0,0],xE=[0,[0,0]],xx=[0,[0,0]],xy=[0,[0,[0,[0,[0,0]]]]],xz=[0,[0,[0,[0,0]]]],xA=[0,[0,[0,0]]],xB=[0,[0,0]],xC=[0,0],xu=[0,0],xv=[0,[0,0]],xw=[0,0],xt=[0,0],xp=[0,0],xq=[0,[0,[0,[0,[0,[0,0]]]]]],xr=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ku]]]]]]]]]]],xn=[0,0,0],xo=[0,0,0],xk=[0,0,0],xl=[0,0],xg=[0,0,0],xh=[0,0,0],xi=[0,0,0],xd=[0,[0,0]],xe=[0,[0,[0,0]]],xf=[0,0],w_=[0,0],w$=[0,[0,0]],xa=[0,0],xb=[0,[0,0]],w7=[0,0],w8=[0,[0,0]],w9=[0,0],w5=[0,0,0],w6=[0,0,[0,1,0]],w1=[0,0,0],w2=[0,0,0],w3=[0,0,0],w4=[0,0,0],wY=[0,[0,[0,[0,[0,[0,0]]]]]],wZ=[0,[0,[0,0]]],w0=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],wR=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],wS=[0,[0,[0,0]]],wT=[0,[0,[0,[0,[0,[0,0]]]]]],wU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Kv]]]]]]]]]]],wV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Kw]]]]]]]]]]],wW=[0,[0,[0,0]]],wX=[0,[0,[0,[0,[0,[0,0]]]]]],wN=[0,0,0],wO=[0,0,0],wJ=[0,0,0],wK=[0,0,0],wL=[0,0,0],wM=[0,0,0],wI=[0,0],wH=[0,0],wG=[0,0],wE=[0,0],wF=[0,0],wD=[0,0],wB=[0,0],wC=[0,0],wt=[0,0],wu=[0,0],wv=[0,0],ww=[0,[0,[0,0]]],ws=[0,0],wm=[0,0],wn=[0,0],wo=[0,[0,0]],wk=[0,[0,0]],wl=[0,[0,[0,0]]],wi=[0,[0,[0,0]]],wj=[0,[0,0]],wg=[0,[0,0]],wh=[0,[0,[0,0]]],wf=[0,0],wd=[0,0],we=[0,0],wb=[0,0,0],v_=[0,[0,0]],v$=[0,0],v2=[0,[0,0]],v3=[0,0],v4=[0,[0,0]],v5=[0,0],v6=[0,[0,0]],v7=[0,0],v8=[0,[0,0]],v9=[0,0],v0=[0,[0,0]],v1=[0,0],vY=[0,[0,0]],vZ=[0,0],vU=[0,[0,0]],vV=[0,0],vW=[0,0],vX=[0,[0,0]],vL=[0,[0,0]],vM=[0,0],vN=[0,[0,0]],vO=[0,0],vP=[0,0],vQ=[0,[0,0]],vR=[0,[0,0]],vS=[0,[0,0]],vT=[0,0],vH=[0,0],vG=[0,0],vD=[0,0],vE=[0,[0,0]],vC=[0,[0,[0,0]]],vB=[0,[0,[0,[0,[0,[0,0]]]]]],vz=[0,[0,0]],vA=[0,0],vy=[0,[0,0]],vx=[0,0],vv=[0,0],vw=[0,[0,[0,0]]],vp=[0,[0,0]],vq=[0,[0,[0,0]]],vo=[0,[0,[0,0]]],vl=[0,[0,[0,0]]],vj=[0,[0,[0,0]]],vh=[0,[0,[0,[0,[0,[0,0]]]]]],vi=[0,[0,[0,[0,[0,[0,0]]]]]],vc=[0,[0,0]],vd=[0,0],ve=[0,[0,0]],vf=[0,[0,[0,0]]],vg=[0,[0,[0,0]]],u7=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],u8=[0,[0,[0,[0,[0,[0,0]]]]]],u9=[0,[0,[0,[0,[0,[0,0]]]]]],u_=[0,[0,[0,0]]],u$=[0,[0,[0,[0,[0,[0,0]]]]]],va=[0,[0,[0,0]]],vb=[0,[0,[0,0]]],u5=[0,[0,0]],u6=[0,0],u4=[0,0,0],u3=[0,0,0],u2=[0,0,0],u0=[0,0,0],uZ=[0,[0,[0,0]]],uT=[0,0],uU=[0,0],uV=[0,0],uW=[0,0],uR=[0,0],uS=[0,0],uP=[0,0,0],uM=[0,[0,[0,0]]],uN=[0,[0,[0,0]]],uO=[0,[0,[0,0]]],uL=[0,[0,[0,[0,0]]]],uH=[0,[0,[0,0]]],uI=[0,[0,[0,0]]],uJ=[0,[0,[0,0]]],uK=[0,[0,1,1],[0,[0,0,1],[0,[0,1,0],[0,[0,0,0],0]]]],uF=[0,[0,0]],uG=[0,0],uD=[0,[0,0]],uE=[0,0],uB=[0,[0,0]],uC=[0,0],uo=[0,0],up=[0,[0,0]],um=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],un=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Kx]]]]]]]]]]],uk=[0,0,0],ui=[0,[0,[0,[0,[0,0]]]]],t_=[0,0],t$=[0,[0,0]],ua=[0,[0,[0,0]]],ub=[0,[0,[0,[0,0]]]],uc=[0,[0,[0,[0,[0,0]]]]],ud=[0,[0,[0,[0,[0,[0,0]]]]]],ue=[0,[0,[0,[0,[0,[0,[0,0]]]]]]],uf=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],ug=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],uh=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],t8=a(s9),t7=a(ah),t6=[0,[0,0]],t4=[0,0],t1=[0,0],t3=[1,0],t2=[0,0],t0=[0,0],tY=[1,0],tZ=[1,0],vF=[10,0,0,0,0],D_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,KC]]]]]]]]]]],HG=a(bV),HH=a(bT),HI=a(rY),Hy=a(gt),Hz=[0,a("a base axis of such a platform"),0],HA=a(br),HB=a(bS),Hl=a(sO),Hm=a(sb),Hn=a(s3),Ho=a(il),Hp=a(r5),Hq=a(il),Hr=a(tf),Hs=a(rT),Ht=a(rQ),G$=a(sA),Ha=a(iv),GN=[0,a("such a machine with bodies"),0],GA=a(is),GB=a(by),GC=a(sD),GD=a(s4),GG=a(rP),GH=a(rp),GI=a(by),GJ=a(by),GL=a(ik),GK=[0,a("a claim that no cube of such a machine fits"),0],GM=a(tb),GO=a(e8),GP=a(fb),GQ=a(cx),GR=a(lA),GS=a(sv),GT=a(iE),GU=a(rR),GV=a(rB),GW=a(lq),GZ=a(ej),G0=a(sJ),G3=a(cc),G4=a(cc),G5=a(r2),G6=a(cc),G7=[0,a("the closed design with other bounds on psi than one from below and one from above"),0],G8=a(ik),G9=a(gv),G_=a(ej),Hb=a(sZ),Hc=a(sK),Hd=[0,a(" operations, with its definitions written out,"),0],He=a("a mechanism of more than "),Hf=a(cc),Hg=a(bV),Hh=a(bT),Hi=a(iF),Hj=a(rM),GX=[0,a(aW),0],GY=a('the mechanism "'),Hk=a(lG),Hu=a(iE),Hv=a(cx),Hw=a(lA),Hx=a(lI),HC=a(cc),HF=a(cx),HD=[0,a("a platform that turns on struts and other drives"),0],HE=a(cc),G1=[0,a(aW),0],G2=a('the workspace "'),HJ=a(by),HK=a(by),HM=a(gq),HN=a(gm),HO=a(iF),HL=[0,a("an atlas of such a machine"),0],GE=[0,a(aW),0],GF=a('a claim of the kind "'),H2=a(iG),H3=a(dB),H4=a(iq),H5=a(e_),H6=a(iA),H7=a(lD),H8=a(gi),H9=a(iG),H_=a(iq),H$=a(iA),Ia=a(lD),Ib=[0,a('this evidence "fan"'),0],HT=a(dB),Im=a(gp),In=[0,1,1],HU=a(ss),Id=a(e7),Ie=a(rZ),If=a(e9),Ig=a(r0),Ih=a(sn),Ii=a(bU),Ij=a(gp),Ik=a(im),Il=a(bU),HV=a(iG),HW=a(dB),HX=a(iq),HY=a(e_),HZ=a(iA),Ic=[0,a('evidence "fan" about "divided" and other rows'),0],H0=[0,a(aW),0],H1=a('the evidence "'),Io=a(e7),Ip=a(e9),Iq=a(dB),Ir=a(e_),Is=a(s1),Iu=a(e7),Iv=a(e9),Iw=a(dB),Ix=a(e_),Iy=a(gn),Iz=a(gi),IA=a(gn),IB=a(gi),It=[0,a("this evidence at control points"),0],JD=a('"orthocert-paving/'),Ju=a(dB),Jv=a(dB),Jh=a(si),Ji=a(rW),Jj=a(sS),JB=[0,3,3],Jk=a(r4),Js=[0,a("this set of orientations with such drives"),0],Jt=[0,a(rx),0],Jw=[0,a('this evidence "tolerances" of a platform that turns'),0],Jx=[0,a("a step of a platform that turns that is not at control points"),0],Jy=[0,a("this quantity in a claim that is refuted"),0],Jz=[0,a("a step in a proof that no cube fits"),0],JA=[0,a('the failure "same" of such a mechanism'),0],Jl=[0,a(rx),0],Jq=[0,a("a stiffness for each joint in such a claim"),0],Jr=[0,a(sF),0],Jp=[0,a(sF),0],Jm=a(sj),Jn=a(rr),Jo=a(ip),Jd=a(lL),Je=a(gi),Jf=a(bU),I7=a(is),I8=a(sc),I9=a(sW),I_=[0,a(aW),0],I$=a('a proof of the kind "'),I3=a(gm),I4=a(gq),I5=a(it),I6=a(su),IZ=a(by),I0=a(iC),I1=a(rs),I2=a(iy),IW=a(sQ),IX=a(gn),IY=a(iy),IS=a(sx),IT=a(iC),IU=a(it),IV=a(s5),IE=a(s0),IF=a(ix),IG=a(sX),IH=a(iv),II=a(sE),IJ=a(s$),IM=a(sM),IN=a(im),IO=a(gp),IP=a(sP),IQ=a(sB),IR=a(ix),IK=[0,a(aW),0],IL=a('the failure "'),IC=a(lL),ID=a(s9),HR=a(gp),HS=a(im),HP=a(rq),HQ=a(rt),Gx=a(gv),Gn=a(lt),Go=a(rv),Gp=a(e$),Gq=a(br),Gv=a(sT),Gw=a(gv),Gy=a(ek),Gz=a(e$),Gr=a(ek),Gs=a(sl),Gt=a(rX),Gu=a(br),Gg=a(ej),Gk=a(bV),Gl=a(bT),Gh=a(ly),Gi=a(lC),Gj=a(ek),Ga=a(ej),Ge=a(bV),Gf=a(bT),Gb=a(ly),Gc=a(lC),Gd=a(ek),F$=[0,1],F_=[0,1],F8=[0,1],F6=[0,1],F5=[0,1],F3=[0,1],F4=[0,a("this quantity of such a mechanism"),0],FM=a(lu),FN=a(sG),FO=a(rL),FP=a(lK),FQ=a(ta),FS=a(sH),FR=a(gl),FL=a(ip),FD=a(iw),Fr=a(sq),Fs=a(sz),FV=a(e7),FW=a(sV),FX=a(r1),FY=a(e9),FZ=a(sr),F0=a(rD),F1=a(rE),F2=a(ru),Ft=a(rA),Fu=a(td),Fv=a(sN),Fw=a(sC),Fx=a(rS),Fy=a(tc),Fz=a(rG),FA=a(rF),FB=[0,a(aW),0],FC=a('the quantity "'),FE=a(rO),FF=a(sL),FG=a(bV),FH=a(bT),FI=a(s2),FJ=[0,a(aW),0],FK=a('a bound "'),FT=a(gk),FU=a(e$),Fp=a(bx),Fq=a(fd),Fn=a(bx),Fo=a(cx),Fk=a(bx),Fl=a(gr),EY=a(bx),EZ=a(gt),E0=a(gu),E1=a(cx),E2=a(gr),E3=a(fd),E6=a(br),E7=a(bS),E8=a(gj),E9=a(e6),E_=a(br),E$=a(bS),Fa=a(bU),Fb=a(bU),Fc=a(gj),Fd=a(e6),Fe=a(gu),Ff=a(br),Fg=a(bS),Fh=a(sp),Fi=a(gl),E4=[0,a('" of such a machine'),0],E5=a(rK),EW=a(bx),EX=a(gu),EG=a(bx),EH=a(cx),EI=a(gr),EJ=a(fd),EM=a(gt),EN=a(br),EO=a(bS),EP=a(gj),EQ=a(e6),ER=a(br),ES=a(bS),ET=a(bU),EU=a(bU),EK=[0,a(aW),0],EL=a(rK),ED=a(iz),EE=a(fc),EB=a(" is not covered by the verified checker"),EC=a(ah),Ez=a(bV),EA=a(bT),Ev=a(ah),Ew=a(te),Ex=a(ah),Ey=a(ah),Eu=[1,0],Et=a(fc),Er=a("Reader.Malformed"),Es=a("Reader.Not_covered"),JF=[0,a("a paving is checked by orthocert-verified")],JE=a(st),JG=a("CERTIFIED"),JH=a("REFUTED"),JI=a(st),JJ=a("NOT COVERED: ");function
+gB(a){throw[0,l3,a]}function
+l5(b,a){return K2(b,a)?b:a}function
+bm(d,c){var
+a=aD(d),e=aD(c),b=cB(a+e|0);ff(d,0,b,0,a);ff(c,0,b,a,e);return iO(b)}function
+l6(a,b){if(a){var
+c=a[1];return[0,c,l6(a[2],b)]}return b}K6(0);tB(1);tB(2);function
+l7(b){function
 a(b){var
 a=b;for(;;){if(a){var
-c=a[2],d=a[1];try{KA(d)}catch(a){a=tq(a);if(a[1]!==lR)throw a;var
+c=a[2],d=a[1];try{K5(d)}catch(a){a=tK(a);if(a[1]!==l4)throw a;var
 e=a}var
-a=c;continue}return 0}}return a(KC(0))}KJ(a(re),lU);function
-cA(c){var
+a=c;continue}return 0}}return a(K7(0))}Lc(a(ry),l7);function
+cD(c){var
 b=0,a=c;for(;;){if(a){var
 b=b+1|0,a=a[2];continue}return b}}function
-lV(d,c){var
+l8(d,c){var
 a=d,b=c;for(;;){if(a){var
 e=[0,a[1],b],a=a[2],b=e;continue}return b}}function
-iL(a){return lV(a,0)}function
+iR(a){return l8(a,0)}function
 Y(b,a){if(a){var
 c=a[2],d=h(b,a[1]);return[0,d,Y(b,c)]}return 0}function
-lW(e,d,c){var
+l9(e,d,c){var
 b=d,a=c;for(;;){if(a){var
-f=a[2],b=ar(e,b,a[1]),a=f;continue}return b}}function
-el(d,c){var
+f=a[2],b=as(e,b,a[1]),a=f;continue}return b}}function
+eq(d,c){var
 a=c;for(;;){if(a){var
 e=a[2],b=h(d,a[1]);if(b){var
 a=e;continue}return b}return 1}}function
-aP(d,c){var
+aO(d,c){var
 a=c;for(;;){if(a){var
 e=a[2],b=h(d,a[1]);if(b)return b;var
 a=e;continue}return 0}}function
-lX(d,c){var
+l_(d,c){var
 a=c;for(;;){if(a){var
-b=a[1],e=a[2],f=b[2];if(0===Ki(b[1],d))return[0,f];var
+b=a[1],e=a[2],f=b[2];if(0===KN(b[1],d))return[0,f];var
 a=e;continue}return 0}}function
-bT(b,c){var
-a=cy(b);Kk(a,0,b,c);return iI(a)}function
-em(g,b,a){var
-d=fd(g),f=0;if(0<=b&&0<=a&&!((iG(d)-a|0)<b)){var
-c=cy(a);gq(d,b,c,0,a);var
+bX(b,c){var
+a=cB(b);KP(a,0,b,c);return iO(a)}function
+er(g,b,a){var
+d=fg(g),f=0;if(0<=b&&0<=a&&!((iM(d)-a|0)<b)){var
+c=cB(a);gw(d,b,c,0,a);var
 e=c;f=1}if(!f)var
-e=gv(tz);return iI(e)}function
-lY(k,g){if(g){var
-h=aC(k),c=0,b=g,p=0;for(;;){if(b){var
+e=gB(tT);return iO(e)}function
+l$(k,g){if(g){var
+h=aD(k),c=0,b=g,p=0;for(;;){if(b){var
 i=b[1];if(b[2]){var
-j=(aC(i)+h|0)+c|0,m=b[2],n=c<=j?j:gv(tA),c=n,b=m;continue}var
-l=aC(i)+c|0}else
+j=(aD(i)+h|0)+c|0,m=b[2],n=c<=j?j:gB(tU),c=n,b=m;continue}var
+l=aD(i)+c|0}else
 var
 l=c;var
-f=cy(l),e=p,d=g;for(;;){if(d){var
+f=cB(l),e=p,d=g;for(;;){if(d){var
 a=d[1];if(d[2]){var
-o=d[2];fc(a,0,f,e,aC(a));fc(k,0,f,e+aC(a)|0,h);var
-e=(e+aC(a)|0)+h|0,d=o;continue}fc(a,0,f,e,aC(a))}return iI(f)}}}return tB}function
-iM(b,c){if(0===b)return[0];if(0<=b){var
-d=Kz(b,h(c,0)),e=b-1|0,f=1;if(!(e<1)){var
+o=d[2];ff(a,0,f,e,aD(a));ff(k,0,f,e+aD(a)|0,h);var
+e=(e+aD(a)|0)+h|0,d=o;continue}ff(a,0,f,e,aD(a))}return iO(f)}}}return tV}function
+iS(b,c){if(0===b)return[0];if(0<=b){var
+d=K4(b,h(c,0)),e=b-1|0,f=1;if(!(e<1)){var
 a=f;for(;;){d[1+a]=h(c,a);var
 g=a+1|0;if(e!==a){var
-a=g;continue}break}}return d}return gv(tC)}function
-iN(c){var
+a=g;continue}break}}return d}return gB(tW)}function
+iT(c){var
 a=c.length-1-1|0,b=0;for(;;){if(0<=a){var
 d=[0,c[1+a],b],a=a-1|0,b=d;continue}return b}}var
-d=aM(0),b=aM(1);function
-q(a){return F(a,b)}function
-lZ(b,a){return F(aM(b),a)}function
-c(b,a){return C(aM(b),a)}function
-aW(b,a){return[0,lO(b,a),tu(b,a)]}function
-iO(b,a){return D(b,a)?b:a}function
-bq(b,a){return D(b,a)?a:b}function
-fi(a){return fi}function
+d=aN(0),b=aN(1);function
+q(a){return G(a,b)}function
+ma(b,a){return G(aN(b),a)}function
+c(b,a){return D(aN(b),a)}function
+aY(b,a){return[0,l1(b,a),tO(b,a)]}function
+iU(b,a){return F(b,a)?b:a}function
+bs(b,a){return F(b,a)?a:b}function
+fl(a){return fl}function
 I(a){return a?0:1}function
-y(b,a){var
+z(b,a){var
 c=a?[0,h(b,a[1])]:a;return c}function
 aA(a){return a[1]}function
-aG(a){return a[2]}function
+aH(a){return a[2]}function
 f(a){var
 b=a?[0,f(a[2])]:a;return b}function
 g(a,b){if(a){var
 c=g(a[2],b);return[0,a[1],c]}return b}function
-l0(a){return typeof
-a==="number"?0:[0,l0(a[1])]}function
-l1(d,c){var
+mb(a){return typeof
+a==="number"?0:[0,mb(a[1])]}function
+mc(d,c){var
 a=d,b=c;for(;;)if(typeof
 a==="number")return b;else
 switch(a[0]){case
@@ -811,9 +811,9 @@ a=a[1],b=[7,b];continue;case
 8:var
 a=a[1],b=[8,b];continue;default:var
 a=a[1],b=[9,b];continue}}function
-gw(a){return l1(a,0)}function
-l2(a){if(typeof
-a==="number")return tE;else
+gC(a){return mc(a,0)}function
+md(a){if(typeof
+a==="number")return tY;else
 switch(a[0]){case
 0:return[1,a[1]];case
 1:return[2,a[1]];case
@@ -823,197 +823,197 @@ switch(a[0]){case
 5:return[6,a[1]];case
 6:return[7,a[1]];case
 7:return[8,a[1]];case
-8:return[9,a[1]];default:return[0,l2(a[1])]}}function
-bV(a){if(typeof
-a==="number")return tF;else
+8:return[9,a[1]];default:return[0,md(a[1])]}}function
+bZ(a){if(typeof
+a==="number")return tZ;else
 switch(a[0]){case
-0:return[1,bU(a[1])];case
-1:return[3,bU(a[1])];case
-2:return[5,bU(a[1])];case
-3:return[7,bU(a[1])];case
-4:return[9,bU(a[1])];case
-5:return[1,bV(a[1])];case
-6:return[3,bV(a[1])];case
-7:return[5,bV(a[1])];case
-8:return[7,bV(a[1])];default:return[9,bV(a[1])]}}function
-bU(a){if(typeof
+0:return[1,bY(a[1])];case
+1:return[3,bY(a[1])];case
+2:return[5,bY(a[1])];case
+3:return[7,bY(a[1])];case
+4:return[9,bY(a[1])];case
+5:return[1,bZ(a[1])];case
+6:return[3,bZ(a[1])];case
+7:return[5,bZ(a[1])];case
+8:return[7,bZ(a[1])];default:return[9,bZ(a[1])]}}function
+bY(a){if(typeof
 a==="number")return 0;else
 switch(a[0]){case
-0:return[0,bU(a[1])];case
-1:return[2,bU(a[1])];case
-2:return[4,bU(a[1])];case
-3:return[6,bU(a[1])];case
-4:return[8,bU(a[1])];case
-5:return[0,bV(a[1])];case
-6:return[2,bV(a[1])];case
-7:return[4,bV(a[1])];case
-8:return[6,bV(a[1])];default:return[8,bV(a[1])]}}function
-aR(a){return a?a[1]:a}function
+0:return[0,bY(a[1])];case
+1:return[2,bY(a[1])];case
+2:return[4,bY(a[1])];case
+3:return[6,bY(a[1])];case
+4:return[8,bY(a[1])];case
+5:return[0,bZ(a[1])];case
+6:return[2,bZ(a[1])];case
+7:return[4,bZ(a[1])];case
+8:return[6,bZ(a[1])];default:return[8,bZ(a[1])]}}function
+aS(a){return a?a[1]:a}function
 N(b,a){return b?[0,N(b[1],a)]:a}function
-l3(a,b){return a?N(b,l3(a[1],b)):a}function
+me(a,b){return a?N(b,me(a[1],b)):a}function
 dE(d,c){var
 a=d,b=c;for(;;){if(a){if(b){var
 a=a[1],b=b[1];continue}return a}return a}}function
-cB(b,a){return b?a:a?0:1}function
+cE(b,a){return b?a:a?0:1}function
 n(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return a?0:1}}function
 ae(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return 1}}function
-aD(b,a){return ae([0,b],a)}function
+aE(b,a){return ae([0,b],a)}function
 av(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return 2}var
 e=a?1:a;return e}}function
-l4(c){var
+mf(c){var
 a=c;for(;;){if(a){var
 b=a[1];if(b){var
 a=b[1];continue}return b}return 1}}function
-gx(c,b,a){return c?h(b,gx(c[1],b,a)):a}function
-l5(a){if(a)var
-b=a[1],d=b?[0,l5(b[1])]:b,c=d;else
+gD(c,b,a){return c?h(b,gD(c[1],b,a)):a}function
+mg(a){if(a)var
+b=a[1],d=b?[0,mg(b[1])]:b,c=d;else
 var
 c=a;return c}function
-iP(d,c){var
+iV(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return a?0:1}}function
-l6(a){if(D(a,b))return b;var
-e=aW(a,aM(2)),f=e[1];return L(e[2],d)?q(c(2,l6(f))):q(c(2,c(2,f)))}function
-l7(c,a){return bq(b,aO(c,a))}function
-gy(a,j,i){var
-c=j,f=i;for(;;){if(D(f,b))return h(a,c);var
-g=aW(f,aM(2)),e=g[1];if(L(g[2],d)){var
-c=gy(a,c,e),f=e;continue}return h(a,gy(a,gy(a,c,e),e))}}function
-gz(a){function
-c(b){return C(a,b)}return function(a){return gy(c,b,a)}}function
-gA(a){if(D(a,b))return tH;var
-c=aW(a,aM(2)),e=c[1];return L(c[2],d)?[0,gA(e)]:[0,gA(e)]}function
-gB(a){if(D(a,b))return b;var
-c=aW(a,aM(2)),e=c[1];return L(c[2],d)?q(gB(e)):q(gB(e))}function
-l8(c,b){var
-a=lN(c,b);return 0===a?0:0<=a?2:1}function
-gC(j,i){var
-c=j,a=i;for(;;){if(D(c,b))return D(a,b)?1:L(aW(a,aM(2))[2],d)?0:0;var
-g=aW(c,aM(2)),h=g[1];if(L(g[2],d)){if(D(a,b))return 0;var
-e=aW(a,aM(2)),k=e[1];if(L(e[2],d)){var
-c=h,a=k;continue}return 0}if(D(a,b))return 0;var
-f=aW(a,aM(2)),l=f[1];if(L(f[2],d))return 0;var
+mh(a){if(F(a,b))return b;var
+e=aY(a,aN(2)),f=e[1];return L(e[2],d)?q(c(2,mh(f))):q(c(2,c(2,f)))}function
+mi(c,a){return bs(b,aQ(c,a))}function
+gE(a,j,i){var
+c=j,f=i;for(;;){if(F(f,b))return h(a,c);var
+g=aY(f,aN(2)),e=g[1];if(L(g[2],d)){var
+c=gE(a,c,e),f=e;continue}return h(a,gE(a,gE(a,c,e),e))}}function
+gF(a){function
+c(b){return D(a,b)}return function(a){return gE(c,b,a)}}function
+gG(a){if(F(a,b))return t1;var
+c=aY(a,aN(2)),e=c[1];return L(c[2],d)?[0,gG(e)]:[0,gG(e)]}function
+gH(a){if(F(a,b))return b;var
+c=aY(a,aN(2)),e=c[1];return L(c[2],d)?q(gH(e)):q(gH(e))}function
+mj(c,b){var
+a=l0(c,b);return 0===a?0:0<=a?2:1}function
+gI(j,i){var
+c=j,a=i;for(;;){if(F(c,b))return F(a,b)?1:L(aY(a,aN(2))[2],d)?0:0;var
+g=aY(c,aN(2)),h=g[1];if(L(g[2],d)){if(F(a,b))return 0;var
+e=aY(a,aN(2)),k=e[1];if(L(e[2],d)){var
+c=h,a=k;continue}return 0}if(F(a,b))return 0;var
+f=aY(a,aN(2)),l=f[1];if(L(f[2],d))return 0;var
 c=h,a=l;continue}}function
-gD(b,a){return 2<=l8(b,a)?0:1}function
-en(i,e,a){if(i){var
-f=i[1];if(D(e,b))return[0,b,[0,b,a]];var
-w=aW(e,aM(2)),g=w[1];if(L(w[2],d)){if(D(a,b))return[0,b,[0,e,b]];var
-m=aW(a,aM(2)),A=m[1];if(L(m[2],d)){var
-j=en(f,g,A),x=j[2];return[0,c(2,j[1]),x]}var
-k=en(f,g,a),l=k[2],y=l[2],z=[0,c(2,l[1]),y];return[0,k[1],z]}if(D(a,b))return[0,b,[0,e,b]];var
-v=aW(a,aM(2)),h=v[1];if(L(v[2],d)){var
-n=en(f,e,h),o=n[2],B=c(2,o[2]);return[0,n[1],[0,o[1],B]]}switch(l8(g,h)){case
+gJ(b,a){return 2<=mj(b,a)?0:1}function
+es(i,e,a){if(i){var
+f=i[1];if(F(e,b))return[0,b,[0,b,a]];var
+w=aY(e,aN(2)),g=w[1];if(L(w[2],d)){if(F(a,b))return[0,b,[0,e,b]];var
+m=aY(a,aN(2)),A=m[1];if(L(m[2],d)){var
+j=es(f,g,A),x=j[2];return[0,c(2,j[1]),x]}var
+k=es(f,g,a),l=k[2],y=l[2],z=[0,c(2,l[1]),y];return[0,k[1],z]}if(F(a,b))return[0,b,[0,e,b]];var
+v=aY(a,aN(2)),h=v[1];if(L(v[2],d)){var
+n=es(f,e,h),o=n[2],B=c(2,o[2]);return[0,n[1],[0,o[1],B]]}switch(mj(g,h)){case
 0:return[0,e,[0,b,b]];case
 1:var
-p=en(f,l7(h,g),e),q=p[2],r=q[2],C=[0,r,F(r,c(2,q[1]))];return[0,p[1],C];default:var
-s=en(f,l7(g,h),a),t=s[2],u=t[2],E=[0,F(u,c(2,t[1])),u];return[0,s[1],E]}}return[0,b,[0,e,a]]}function
-gE(b,a){var
-c=gA(a);return en(N(gA(b),c),b,a)}function
-l9(c,i,h){var
-e=i,a=h;for(;;){if(D(e,b))return a;var
-f=aW(e,aM(2)),g=f[1];if(L(f[2],d)){var
-e=g,a=ar(c,a,a);continue}return ar(c,a,l9(c,g,ar(c,a,a)))}}function
-fj(a){return l9(N,a,tI)}function
-l_(a){return a?q(l_(a[1])):b}function
-cC(f,e){var
+p=es(f,mi(h,g),e),q=p[2],r=q[2],C=[0,r,G(r,c(2,q[1]))];return[0,p[1],C];default:var
+s=es(f,mi(g,h),a),t=s[2],u=t[2],D=[0,G(u,c(2,t[1])),u];return[0,s[1],D]}}return[0,b,[0,e,a]]}function
+gK(b,a){var
+c=gG(a);return es(N(gG(b),c),b,a)}function
+mk(c,i,h){var
+e=i,a=h;for(;;){if(F(e,b))return a;var
+f=aY(e,aN(2)),g=f[1];if(L(f[2],d)){var
+e=g,a=as(c,a,a);continue}return as(c,a,mk(c,g,as(c,a,a)))}}function
+fm(a){return mk(N,a,t2)}function
+ml(a){return a?q(ml(a[1])):b}function
+cF(f,e){var
 a=f,d=e;for(;;)if(typeof
 a==="number")return d;else
 switch(a[0]){case
 0:var
-g=C(c(2,q(c(2,c(2,b)))),d),a=a[1],d=g;continue;case
+g=D(c(2,q(c(2,c(2,b)))),d),a=a[1],d=g;continue;case
 1:var
-h=F(b,C(c(2,q(c(2,c(2,b)))),d)),a=a[1],d=h;continue;case
+h=G(b,D(c(2,q(c(2,c(2,b)))),d)),a=a[1],d=h;continue;case
 2:var
-i=C(c(2,q(c(2,c(2,b)))),d),j=F(c(2,b),i),a=a[1],d=j;continue;case
+i=D(c(2,q(c(2,c(2,b)))),d),j=G(c(2,b),i),a=a[1],d=j;continue;case
 3:var
-k=C(c(2,q(c(2,c(2,b)))),d),l=F(q(c(2,b)),k),a=a[1],d=l;continue;case
+k=D(c(2,q(c(2,c(2,b)))),d),l=G(q(c(2,b)),k),a=a[1],d=l;continue;case
 4:var
-m=C(c(2,q(c(2,c(2,b)))),d),n=F(c(2,c(2,b)),m),a=a[1],d=n;continue;case
+m=D(c(2,q(c(2,c(2,b)))),d),n=G(c(2,c(2,b)),m),a=a[1],d=n;continue;case
 5:var
-o=C(c(2,q(c(2,c(2,b)))),d),p=F(q(c(2,c(2,b))),o),a=a[1],d=p;continue;case
+o=D(c(2,q(c(2,c(2,b)))),d),p=G(q(c(2,c(2,b))),o),a=a[1],d=p;continue;case
 6:var
-r=C(c(2,q(c(2,c(2,b)))),d),s=F(c(2,q(c(2,b))),r),a=a[1],d=s;continue;case
+r=D(c(2,q(c(2,c(2,b)))),d),s=G(c(2,q(c(2,b))),r),a=a[1],d=s;continue;case
 7:var
-t=C(c(2,q(c(2,c(2,b)))),d),u=F(q(c(2,q(c(2,b)))),t),a=a[1],d=u;continue;case
+t=D(c(2,q(c(2,c(2,b)))),d),u=G(q(c(2,q(c(2,b)))),t),a=a[1],d=u;continue;case
 8:var
-v=C(c(2,q(c(2,c(2,b)))),d),w=F(c(2,c(2,c(2,b))),v),a=a[1],d=w;continue;default:var
-x=C(c(2,q(c(2,c(2,b)))),d),y=F(q(c(2,c(2,c(2,b)))),x),a=a[1],d=y;continue}}function
-iQ(a){if(D(a,b))return tJ;var
-c=aW(a,aM(2)),e=c[1];return L(c[2],d)?bU(iQ(e)):bV(iQ(e))}function
-gF(a){return gw(iQ(a))}function
-l$(c,b){var
-a=lN(c,b);return 0===a?0:0<=a?2:1}function
-ma(b,a){return 0<aV(b)?0<aV(a)?gC(b,a):0:0<aV(a)?0:1}function
-mb(b,a){return 2<=l$(b,a)?0:1}function
-gG(b,a){return 1===l$(b,a)?1:0}var
-mc=F,tL=Q;function
-cb(k,f){if(0<=aV(f)){var
-g=iK(f);if(0<=g){var
+v=D(c(2,q(c(2,c(2,b)))),d),w=G(c(2,c(2,c(2,b))),v),a=a[1],d=w;continue;default:var
+x=D(c(2,q(c(2,c(2,b)))),d),y=G(q(c(2,c(2,c(2,b)))),x),a=a[1],d=y;continue}}function
+iW(a){if(F(a,b))return t3;var
+c=aY(a,aN(2)),e=c[1];return L(c[2],d)?bY(iW(e)):bZ(iW(e))}function
+gL(a){return gC(iW(a))}function
+mm(c,b){var
+a=l0(c,b);return 0===a?0:0<=a?2:1}function
+mn(b,a){return 0<aX(b)?0<aX(a)?gI(b,a):0:0<aX(a)?0:1}function
+mo(b,a){return 2<=mm(b,a)?0:1}function
+gM(b,a){return 1===mm(b,a)?1:0}var
+mp=G,t5=R;function
+cf(k,f){if(0<=aX(f)){var
+g=iQ(f);if(0<=g){var
 e=b,c=k,a=g;for(;;){if(0===a)return e;var
-h=a>>>1|0,i=C(c,c),j=1===(a&1)?C(e,c):e,e=j,c=i,a=h;continue}}return gv(tD)}return d}function
-iR(c,b){var
-a=lN(c,b);return 0===a?0:0<=a?2:1}function
-iS(c){var
-a=aV(c);return 0===a?d:0<a?b:Q(b)}function
-iT(a){return 0<=aV(a)?a:d}function
-eo(a){var
-c=aV(a);return 0===c?b:0<c?a:b}function
-md(m){var
+h=a>>>1|0,i=D(c,c),j=1===(a&1)?D(e,c):e,e=j,c=i,a=h;continue}}return gB(tX)}return d}function
+iX(c,b){var
+a=l0(c,b);return 0===a?0:0<=a?2:1}function
+iY(c){var
+a=aX(c);return 0===a?d:0<a?b:R(b)}function
+iZ(a){return 0<=aX(a)?a:d}function
+et(a){var
+c=aX(a);return 0===c?b:0<c?a:b}function
+mq(m){var
 a=m;for(;;)if(typeof
 a==="number")return d;else
 switch(a[0]){case
 0:var
 a=a[1];continue;case
-1:return cC(a[1],b);case
+1:return cF(a[1],b);case
 2:var
-e=c(2,b);return cC(a[1],e);case
+e=c(2,b);return cF(a[1],e);case
 3:var
-f=q(c(2,b));return cC(a[1],f);case
+f=q(c(2,b));return cF(a[1],f);case
 4:var
-g=c(2,c(2,b));return cC(a[1],g);case
+g=c(2,c(2,b));return cF(a[1],g);case
 5:var
-h=q(c(2,c(2,b)));return cC(a[1],h);case
+h=q(c(2,c(2,b)));return cF(a[1],h);case
 6:var
-i=c(2,q(c(2,b)));return cC(a[1],i);case
+i=c(2,q(c(2,b)));return cF(a[1],i);case
 7:var
-j=q(c(2,q(c(2,b))));return cC(a[1],j);case
+j=q(c(2,q(c(2,b))));return cF(a[1],j);case
 8:var
-k=c(2,c(2,c(2,b)));return cC(a[1],k);default:var
-l=q(c(2,c(2,c(2,b))));return cC(a[1],l)}}function
-cD(b,a){var
-c=aV(a);return 0===c?d:1===c?lO(b,a):lZ(-1,lO(lZ(-1,b),a))}function
-me(a){var
-f=aV(a);if(0===f)return d;if(0<f){if(D(a,b))return d;var
-c=aW(a,aM(2)),e=c[1];return L(c[2],d)?gB(e):gB(e)}return d}function
-gH(a){return 0<aV(a)?KT(a):d}function
-fk(b,c){var
-a=iK(c);return 0<=a?tv(b,a):tw(b,-a|0)}function
+k=c(2,c(2,c(2,b)));return cF(a[1],k);default:var
+l=q(c(2,c(2,c(2,b))));return cF(a[1],l)}}function
+cG(b,a){var
+c=aX(a);return 0===c?d:1===c?l1(b,a):ma(-1,l1(ma(-1,b),a))}function
+mr(a){var
+f=aX(a);if(0===f)return d;if(0<f){if(F(a,b))return d;var
+c=aY(a,aN(2)),e=c[1];return L(c[2],d)?gH(e):gH(e)}return d}function
+gN(a){return 0<aX(a)?Lm(a):d}function
+fn(b,c){var
+a=iQ(c);return 0<=a?tP(b,a):tQ(b,-a|0)}function
 dF(b,c){var
-a=iK(c);return 0<=a?tw(b,a):tv(b,-a|0)}function
-bW(b,a){return a?a[1]:b}function
-bI(a){var
+a=iQ(c);return 0<=a?tQ(b,a):tP(b,-a|0)}function
+bJ(b,a){return a?a[1]:b}function
+bz(a){var
 b=a?a[2]:a;return b}function
 s(e,d,c){var
 b=e,a=d;for(;;){if(b){if(a){var
 b=b[1],a=a[2];continue}return c}return a?a[1]:c}}function
-G(d,c){var
+E(d,c){var
 a=d,b=c;for(;;){if(b){if(a){var
 a=a[2],b=b[1];continue}return a}var
 e=a?[0,a[1]]:a;return e}}function
-ep(d,c){var
+eu(d,c){var
 a=d,b=c;for(;;){if(a){var
 e=[0,a[1],b],a=a[2],b=e;continue}return b}}function
-c2(a){if(a){var
-b=c2(a[2]);return g(a[1],b)}return a}function
-iU(g,f,e){var
+cH(a){if(a){var
+b=cH(a[2]);return g(a[1],b)}return a}function
+i0(g,f,e){var
 b=f,a=e;for(;;){if(b){if(a){var
-c=ar(g,b[1],a[1]);if(c){var
+c=as(g,b[1],a[1]);if(c){var
 b=b[2],a=a[2];continue}var
 d=c}else
 var
@@ -1022,14 +1022,14 @@ e(b,a){if(a)var
 d=e(b,a[2]),c=[0,h(b,a[1]),d];else
 var
 c=a;return c}function
-w(b,a){if(a){var
-c=w(b,a[2]);return g(h(b,a[1]),c)}return a}function
-bz(e,d,c){var
+y(b,a){if(a){var
+c=y(b,a[2]);return g(h(b,a[1]),c)}return a}function
+bA(e,d,c){var
 a=d,b=c;for(;;){if(a){var
-f=ar(e,b,a[1]),a=a[2],b=f;continue}return b}}function
-ap(c,b,a){if(a){var
-d=ap(c,b,a[2]);return ar(c,a[1],d)}return b}function
-ak(e,d){var
+f=as(e,b,a[1]),a=a[2],b=f;continue}return b}}function
+aq(c,b,a){if(a){var
+d=aq(c,b,a[2]);return as(c,a[1],d)}return b}function
+al(e,d){var
 a=d;for(;;){if(a){var
 b=h(e,a[1]);if(!b){var
 a=a[2];continue}var
@@ -1040,11 +1040,11 @@ l(d,c){var
 a=c;for(;;){if(a){var
 b=h(d,a[1]);if(b){var
 a=a[2];continue}return b}return 1}}function
-a5(b,e){var
+a6(b,e){var
 a=e;for(;;){if(a){var
-c=a[2],d=a[1];if(h(b,d))return[0,d,a5(b,c)];var
+c=a[2],d=a[1];if(h(b,d))return[0,d,a6(b,c)];var
 a=c;continue}return a}}function
-mf(d,c){var
+ms(d,c){var
 a=c;for(;;){if(a){var
 b=a[1];if(h(d,b))return[0,b];var
 a=a[2];continue}return a}}function
@@ -1054,8 +1054,8 @@ var
 c=a;else
 var
 c=b;return c}function
-am(b,a){if(b)if(a)var
-d=am(b[1],a[2]),c=[0,a[1],d];else
+ao(b,a){if(b)if(a)var
+d=ao(b[1],a[2]),c=[0,a[1],d];else
 var
 c=a;else
 var
@@ -1063,114 +1063,114 @@ c=b;return c}function
 aw(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[2];continue}return a}return a}}function
-aH(b,a){var
-c=a?[0,b,aH([0,b],a[1])]:a;return c}function
+aI(b,a){var
+c=a?[0,b,aI([0,b],a[1])]:a;return c}function
 ac(b,a){var
 c=a?[0,b,ac(b,a[1])]:a;return c}function
-mg(a){return ap(N,0,a)}function
-mh(a){if(a){var
-e=mh(a[2]),f=C(c(2,b),e),g=a[1]?b:d;return F(g,f)}return d}function
-mi(j){function
+mt(a){return aq(N,0,a)}function
+mu(a){if(a){var
+e=mu(a[2]),f=D(c(2,b),e),g=a[1]?b:d;return G(g,f)}return d}function
+mv(j){function
 a(a){return 0!==(j&1<<a)?1:0}var
-c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=mh([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<aV(b)?fj(b):0}function
-mj(c,b){var
+c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=mu([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<aX(b)?fm(b):0}function
+mw(c,b){var
 a=c-b|0,d=0<=a?0===a?0:2:1;return 2<=d?0:1}function
-mk(a){return[0,a,b]}function
-eq(b,a){return iR(C(b[1],a[2]),C(a[1],b[2]))?0:1}function
-bl(b,a){return D(C(b[1],a[2]),C(a[1],b[2]))}function
-dG(b,a){return[0,F(C(b[1],a[2]),C(a[1],b[2])),C(b[2],a[2])]}function
-a9(b,a){return[0,C(b[1],a[1]),C(b[2],a[2])]}function
-gI(a){return[0,Q(a[1]),a[2]]}function
-dH(b,a){return dG(b,gI(a))}function
-gJ(f,c){var
-a=c[1],e=aV(a),g=0===e?[0,d,b]:0<e?[0,c[2],a]:[0,Q(c[2]),Q(a)];return a9(f,g)}function
+mx(a){return[0,a,b]}function
+ev(b,a){return iX(D(b[1],a[2]),D(a[1],b[2]))?0:1}function
+bn(b,a){return F(D(b[1],a[2]),D(a[1],b[2]))}function
+dG(b,a){return[0,G(D(b[1],a[2]),D(a[1],b[2])),D(b[2],a[2])]}function
+a_(b,a){return[0,D(b[1],a[1]),D(b[2],a[2])]}function
+gO(a){return[0,R(a[1]),a[2]]}function
+dH(b,a){return dG(b,gO(a))}function
+gP(f,c){var
+a=c[1],e=aX(a),g=0===e?[0,d,b]:0<e?[0,c[2],a]:[0,R(c[2]),R(a)];return a_(f,g)}function
 dI(q){var
-a=q[2],b=q[1],o=aV(b);if(0===o)var
-c=[0,cz(a),[0,d,iS(a)]];else
+a=q[2],b=q[1],o=aX(b);if(0===o)var
+c=[0,cC(a),[0,d,iY(a)]];else
 if(0<o){var
-n=aV(a);if(0===n)var
-c=[0,cz(b),[0,iS(b),d]];else
+n=aX(a);if(0===n)var
+c=[0,cC(b),[0,iY(b),d]];else
 if(0<n)var
-l=gE(b,a),m=l[2],c=[0,l[1],[0,m[1],m[2]]];else
+l=gK(b,a),m=l[2],c=[0,l[1],[0,m[1],m[2]]];else
 var
-j=gE(b,Q(a)),k=j[2],c=[0,j[1],[0,k[1],Q(k[2])]]}else{var
-p=Q(b),i=aV(a);if(0===i)var
-c=[0,cz(b),[0,iS(b),d]];else
+j=gK(b,R(a)),k=j[2],c=[0,j[1],[0,k[1],R(k[2])]]}else{var
+p=R(b),i=aX(a);if(0===i)var
+c=[0,cC(b),[0,iY(b),d]];else
 if(0<i)var
-g=gE(p,a),h=g[2],c=[0,g[1],[0,Q(h[1]),h[2]]];else
+g=gK(p,a),h=g[2],c=[0,g[1],[0,R(h[1]),h[2]]];else
 var
-e=gE(p,Q(a)),f=e[2],c=[0,e[1],[0,Q(f[1]),Q(f[2])]]}var
-r=c[2],s=eo(r[2]);return[0,r[1],s]}function
-br(a){if(typeof
-a==="number")return tN;else
+e=gK(p,R(a)),f=e[2],c=[0,e[1],[0,R(f[1]),R(f[2])]]}var
+r=c[2],s=et(r[2]);return[0,r[1],s]}function
+bt(a){if(typeof
+a==="number")return t7;else
 switch(a[0]){case
 0:var
-b=br(a[1]);return bk(bT(1,48),b);case
+b=bt(a[1]);return bm(bX(1,48),b);case
 1:var
-c=br(a[1]);return bk(bT(1,49),c);case
+c=bt(a[1]);return bm(bX(1,49),c);case
 2:var
-d=br(a[1]);return bk(bT(1,50),d);case
+d=bt(a[1]);return bm(bX(1,50),d);case
 3:var
-e=br(a[1]);return bk(bT(1,51),e);case
+e=bt(a[1]);return bm(bX(1,51),e);case
 4:var
-f=br(a[1]);return bk(bT(1,52),f);case
+f=bt(a[1]);return bm(bX(1,52),f);case
 5:var
-g=br(a[1]);return bk(bT(1,53),g);case
+g=bt(a[1]);return bm(bX(1,53),g);case
 6:var
-h=br(a[1]);return bk(bT(1,54),h);case
+h=bt(a[1]);return bm(bX(1,54),h);case
 7:var
-i=br(a[1]);return bk(bT(1,55),i);case
+i=bt(a[1]);return bm(bX(1,55),i);case
 8:var
-j=br(a[1]);return bk(bT(1,56),j);default:var
-k=br(a[1]);return bk(bT(1,57),k)}}function
-fl(a){return typeof
-a==="number"?tO:br(a)}function
-cE(a){return cb(c(2,b),a)}function
-ml(b,a){return dF(a,b)}function
-mm(b,a){return Q(dF(Q(a),b))}function
-gK(b,a){return Q(cD(Q(b),a))}function
+j=bt(a[1]);return bm(bX(1,56),j);default:var
+k=bt(a[1]);return bm(bX(1,57),k)}}function
+fo(a){return typeof
+a==="number"?t8:bt(a)}function
+cI(a){return cf(c(2,b),a)}function
+my(b,a){return dF(a,b)}function
+mz(b,a){return R(dF(R(a),b))}function
+gQ(b,a){return R(cG(R(b),a))}function
 J(c,b){var
-a=fk(b,c);return[0,a,a]}function
-mn(d,c,a){var
-b=fk(c,d),e=gK(b,a);return[0,cD(b,a),e]}function
-A(b,a){return[0,F(b[1],a[1]),F(b[2],a[2])]}function
-E(b,a){return[0,aO(b[1],a[2]),aO(b[2],a[1])]}function
-$(a){return[0,Q(a[2]),Q(a[1])]}function
-mo(e,c,b,a){if(D(d,e))return D(d,b)?[0,C(e,b),C(c,a)]:D(a,d)?[0,C(c,b),C(e,a)]:[0,C(c,b),C(c,a)];if(D(c,d))return D(d,b)?[0,C(e,a),C(c,b)]:D(a,d)?[0,C(c,a),C(e,b)]:[0,C(e,a),C(e,b)];if(D(d,b))return[0,C(e,a),C(c,a)];if(D(a,d))return[0,C(c,b),C(e,b)];var
-f=bq(C(e,b),C(c,a));return[0,iO(C(e,a),C(c,b)),f]}function
+a=fn(b,c);return[0,a,a]}function
+mA(d,c,a){var
+b=fn(c,d),e=gQ(b,a);return[0,cG(b,a),e]}function
+A(b,a){return[0,G(b[1],a[1]),G(b[2],a[2])]}function
+C(b,a){return[0,aQ(b[1],a[2]),aQ(b[2],a[1])]}function
+$(a){return[0,R(a[2]),R(a[1])]}function
+mB(e,c,b,a){if(F(d,e))return F(d,b)?[0,D(e,b),D(c,a)]:F(a,d)?[0,D(c,b),D(e,a)]:[0,D(c,b),D(c,a)];if(F(c,d))return F(d,b)?[0,D(e,a),D(c,b)]:F(a,d)?[0,D(c,a),D(e,b)]:[0,D(e,a),D(e,b)];if(F(d,b))return[0,D(e,a),D(c,a)];if(F(a,d))return[0,D(c,b),D(e,b)];var
+f=bs(D(e,b),D(c,a));return[0,iU(D(e,a),D(c,b)),f]}function
 t(c,b,a){var
-d=mo(b[1],b[2],a[1],a[2]),e=mm(c,d[2]);return[0,ml(c,d[1]),e]}function
-R(b,a){var
-c=C(a[1],a[1]),e=C(a[2],a[2]),h=mm(b,bq(c,e)),g=0;if(K(a[1],d)&&K(d,a[2])){var
+d=mB(b[1],b[2],a[1],a[2]),e=mz(c,d[2]);return[0,my(c,d[1]),e]}function
+S(b,a){var
+c=D(a[1],a[1]),e=D(a[2],a[2]),h=mz(b,bs(c,e)),g=0;if(K(a[1],d)&&K(d,a[2])){var
 f=d;g=1}if(!g)var
-f=ml(b,iO(c,e));return[0,f,h]}function
-iV(b,a){var
-c=fk(cE(b),b),d=gK(c,a[1]);return[0,cD(c,a[2]),d]}function
-bX(b,a){if(K(d,a[1]))return[0,iV(b,a)];var
-c=K(a[2],d),e=c?[0,$(iV(b,$(a)))]:c;return e}function
-iW(c){var
-a=gH(c);return L(C(a,a),c)?a:F(a,b)}function
-cc(b,a){var
+f=my(b,iU(c,e));return[0,f,h]}function
+i1(b,a){var
+c=fn(cI(b),b),d=gQ(c,a[1]);return[0,cG(c,a[2]),d]}function
+b0(b,a){if(K(d,a[1]))return[0,i1(b,a)];var
+c=K(a[2],d),e=c?[0,$(i1(b,$(a)))]:c;return e}function
+i2(c){var
+a=gN(c);return L(D(a,a),c)?a:G(a,b)}function
+cg(b,a){var
 c=K(d,a[1]);if(c)var
-f=iW(fk(a[2],b)),e=[0,[0,gH(fk(a[1],b)),f]];else
+f=i2(fn(a[2],b)),e=[0,[0,gN(fn(a[1],b)),f]];else
 var
 e=c;return e}function
-er(a){return 0===a[0]?a[2]:a[1]}function
-aS(f,d,c,b,a){if(b){if(a){var
-g=aS(f,d,c,b[2],a[2]);return[0,ar(c,b[1],a[1]),g]}return e(f,b)}return e(d,a)}function
-c3(b,a){return dF(b,a)}function
-aQ(a,c,b){if(D(d,a)){var
-e=b[1],f=Q(c3(Q(C(a,b[2])),c));return[0,c3(C(a,e),c),f]}var
-g=b[2],h=Q(c3(Q(C(a,b[1])),c));return[0,c3(C(a,g),c),h]}function
+ew(a){return 0===a[0]?a[2]:a[1]}function
+aT(f,d,c,b,a){if(b){if(a){var
+g=aT(f,d,c,b[2],a[2]);return[0,as(c,b[1],a[1]),g]}return e(f,b)}return e(d,a)}function
+c4(b,a){return dF(b,a)}function
+aR(a,c,b){if(F(d,a)){var
+e=b[1],f=R(c4(R(D(a,b[2])),c));return[0,c4(D(a,e),c),f]}var
+g=b[2],h=R(c4(R(D(a,b[1])),c));return[0,c4(D(a,g),c),h]}function
 ax(a){var
-c=Q(dF(Q(a[2]),b));return[0,dF(a[1],b),c]}function
-es(c,b,a){var
-e=mo(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=K(f,d)?a[2]:a[1],i=gK(f,h),j=K(g,d)?a[1]:a[2];return[0,cD(g,j),i]}function
-bJ(a){return bq(a[2],Q(a[1]))}var
+c=R(dF(R(a[2]),b));return[0,dF(a[1],b),c]}function
+ex(c,b,a){var
+e=mB(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=K(f,d)?a[2]:a[1],i=gQ(f,h),j=K(g,d)?a[1]:a[2];return[0,cG(g,j),i]}function
+bK(a){return bs(a[2],R(a[1]))}var
 u=[0,d,d];function
-cd(a){return[0,a[1],a[1]]}function
-cF(a){return[0,a[2],a[2]]}function
-ce(b,a){switch(a[0]){case
+ch(a){return[0,a[1],a[1]]}function
+cJ(a){return[0,a[2],a[2]]}function
+ci(b,a){switch(a[0]){case
 0:return[0,a[1]];case
 1:return[1,a[1]];case
 2:return[2,a[1]];case
@@ -1186,68 +1186,68 @@ f=h(b,a[2]);return[7,h(b,a[1]),f];case
 8:return[8,h(b,a[1])];case
 9:return[9,h(b,a[1])];default:var
 g=h(b,a[4]),i=h(b,a[3]),j=h(b,a[2]);return[10,a[1],j,i,g]}}function
-aX(o,m){var
+aZ(o,m){var
 d=o,c=m;for(;;){var
 a=c[1],b=d[1];switch(b[0]){case
 0:return 0===a[0]?n(b[1],a[1]):0;case
 1:return 1===a[0]?n(b[1],a[1]):0;case
 2:return 2===a[0]?L(b[1],a[1]):0;case
 3:if(3===a[0]){var
-f=aX(b[1],a[1]);if(f){var
+f=aZ(b[1],a[1]);if(f){var
 d=b[2],c=a[2];continue}return f}return 0;case
 4:if(4===a[0]){var
-g=aX(b[1],a[1]);if(g){var
+g=aZ(b[1],a[1]);if(g){var
 d=b[2],c=a[2];continue}return g}return 0;case
 5:if(5===a[0]){var
 d=b[1],c=a[1];continue}return 0;case
 6:if(6===a[0]){var
-h=aX(b[1],a[1]);if(h){var
+h=aZ(b[1],a[1]);if(h){var
 d=b[2],c=a[2];continue}return h}return 0;case
 7:if(7===a[0]){var
-i=aX(b[1],a[1]);if(i){var
+i=aZ(b[1],a[1]);if(i){var
 d=b[2],c=a[2];continue}return i}return 0;case
 8:if(8===a[0]){var
 d=b[1],c=a[1];continue}return 0;case
 9:if(9===a[0]){var
 d=b[1],c=a[1];continue}return 0;default:if(10===a[0]){var
-j=cB(b[1],a[1]);if(j){var
-k=aX(b[2],a[2]);if(k){var
-l=aX(b[3],a[3]);if(l){var
+j=cE(b[1],a[1]);if(j){var
+k=aZ(b[2],a[2]);if(k){var
+l=aZ(b[3],a[3]);if(l){var
 d=b[4],c=a[4];continue}var
 e=l}else
 var
 e=k}else
 var
 e=j;return e}return 0}}}function
-gL(b){var
+gR(b){var
 a=b[1];return 2===a[0]?[0,a[1]]:0}function
 be(c,b){var
-a=gL(b);return a?L(c,a[1]):a}function
-fm(a){return K(cz(a),c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b))))))))))))))))}function
+a=gR(b);return a?L(c,a[1]):a}function
+fp(a){return K(cC(a),c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b))))))))))))))))}function
 m(a){return[0,[2,a]]}function
 B(b,a){if(be(d,b))return a;if(be(d,a))return b;var
-c=gL(b);if(c){var
-e=c[1],f=gL(a);if(f){var
-g=f[1];if(fm(e)&&fm(g))return m(F(e,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
-bs(a){var
+c=gR(b);if(c){var
+e=c[1],f=gR(a);if(f){var
+g=f[1];if(fp(e)&&fp(g))return m(G(e,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
+bu(a){var
 b=a[1];switch(b[0]){case
 2:var
-c=b[1];return fm(c)?m(Q(c)):[0,[5,a]];case
+c=b[1];return fp(c)?m(R(c)):[0,[5,a]];case
 5:return b[1];default:return[0,[5,a]]}}function
-z(b,a){if(be(d,a))return b;if(be(d,b))return bs(a);var
+x(b,a){if(be(d,a))return b;if(be(d,b))return bu(a);var
 c=b[1];if(0===c[0]){var
 e=a[1];return 0===e[0]?n(c[1],e[1])?m(d):[0,[4,b,a]]:[0,[4,b,a]]}return[0,[4,b,a]]}function
-X(a){var
-c=gL(a);if(c){var
-b=c[1];return fm(b)?m(C(b,b)):[0,[8,a]]}return[0,[8,a]]}function
-r(a,c){if(!be(d,a)&&!be(b,c)){if(!be(d,c)&&!be(b,a))return aX(a,c)?X(a):[0,[6,a,c]];return c}return a}function
-an(c,a){return be(b,a)?c:[0,[7,c,a]]}function
-aN(a){return be(b,a)?a:[0,[9,a]]}function
-mp(d,c,b,a){return[0,[10,d,c,b,a]]}function
-et(b,a){if(a){var
+W(a){var
+c=gR(a);if(c){var
+b=c[1];return fp(b)?m(D(b,b)):[0,[8,a]]}return[0,[8,a]]}function
+r(a,c){if(!be(d,a)&&!be(b,c)){if(!be(d,c)&&!be(b,a))return aZ(a,c)?W(a):[0,[6,a,c]];return c}return a}function
+ai(c,a){return be(b,a)?c:[0,[7,c,a]]}function
+aL(a){return be(b,a)?a:[0,[9,a]]}function
+mC(d,c,b,a){return[0,[10,d,c,b,a]]}function
+ey(b,a){if(a){var
 c=a[3];if(c){var
 d=a[1];return n(d,c[1])?[0,[0,d],[1,b,a[2],c[2]],c[3]]:[0,0,[0,b],a]}return[0,0,[0,b],a]}return[0,0,[0,b],a]}function
-iX(g,f,e){var
+i3(g,f,e){var
 c=f,d=e;for(;;){if(d){if(typeof
 c!=="number"&&2===c[0]){var
 c=c[1],d=d[3];continue}var
@@ -1257,34 +1257,34 @@ b!=="number")switch(b[0]){case
 b=b[1],a=a[2];continue;case
 1:var
 b=b[1],a=a[3];continue}return a[1]}}return g}}function
-iY(a,b){if(0===a[0])return[0,a[1],b];var
-c=iY(a[3],b),d=iY(a[2],c);return[0,a[1],d]}function
-iZ(a){if(a){var
-b=iZ(a[3]);return iY(a[2],b)}return a}function
-mq(a){if(a){var
+i4(a,b){if(0===a[0])return[0,a[1],b];var
+c=i4(a[3],b),d=i4(a[2],c);return[0,a[1],d]}function
+i5(a){if(a){var
+b=i5(a[3]);return i4(a[2],b)}return a}function
+mD(a){if(a){var
 c=a[3],b=a[2],d=a[1];if(0===b[0])return[0,[0,b[1],c]];var
-e=b[3],f=[0,aR(d),e,c],g=b[2],h=[0,aR(d),g,f];return[0,[0,b[1],h]]}return a}function
-i0(c,b,a){if(0===a[0])return[0,c];var
+e=b[3],f=[0,aS(d),e,c],g=b[2],h=[0,aS(d),g,f];return[0,[0,b[1],h]]}return a}function
+i6(c,b,a){if(0===a[0])return[0,c];var
 d=a[3],e=a[2],f=a[1];if(typeof
 b!=="number")switch(b[0]){case
-0:return[1,f,i0(c,b[1],e),d];case
-1:return[1,f,e,i0(c,b[1],d)]}return[1,c,e,d]}function
-mr(c,b,a){if(a){var
+0:return[1,f,i6(c,b[1],e),d];case
+1:return[1,f,e,i6(c,b[1],d)]}return[1,c,e,d]}function
+mE(c,b,a){if(a){var
 d=a[3],e=a[2],f=a[1];if(typeof
-b!=="number"&&2===b[0])return[0,f,e,mr(c,b[1],d)];var
-g=[0,f,i0(c,b,e),d]}else
+b!=="number"&&2===b[0])return[0,f,e,mE(c,b[1],d)];var
+g=[0,f,i6(c,b,e),d]}else
 var
 g=a;return g}function
-c4(g,f,e){var
+c5(g,f,e){var
 b=e,a=0;for(;;){if(b){var
-c=b[1],d=et(h(f,ce(function(b){return function(a){return iX(g,a,b)}}(a),c)),a),b=b[2],a=d;continue}return iZ(a)}}function
-cf(e,g,m,l){var
+c=b[1],d=ey(h(f,ci(function(b){return function(a){return i3(g,a,b)}}(a),c)),a),b=b[2],a=d;continue}return i5(a)}}function
+cj(e,g,m,l){var
 b=m,c=l,a=0;for(;;){if(c){var
 d=c[2],f=c[1];if(b){if(b[1]){var
-i=et(h(g,ce(function(b){return function(a){return iX(e,a,b)}}(a),f)),a),b=bI(b),c=d,a=i;continue}var
-j=et(e,a),b=b[2],c=d,a=j;continue}var
-k=et(h(g,ce(function(b){return function(a){return iX(e,a,b)}}(a),f)),a),b=bI(b),c=d,a=k;continue}return iZ(a)}}function
-ms(a){switch(a[0]){case
+i=ey(h(g,ci(function(b){return function(a){return i3(e,a,b)}}(a),f)),a),b=bz(b),c=d,a=i;continue}var
+j=ey(e,a),b=b[2],c=d,a=j;continue}var
+k=ey(h(g,ci(function(b){return function(a){return i3(e,a,b)}}(a),f)),a),b=bz(b),c=d,a=k;continue}return i5(a)}}function
+mF(a){switch(a[0]){case
 10:return[0,a[2],[0,a[3],[0,a[4],0]]];case
 5:case
 8:case
@@ -1292,70 +1292,70 @@ ms(a){switch(a[0]){case
 0:case
 1:case
 2:return 0;default:return[0,a[1],[0,a[2],0]]}}var
-tP=1;function
-mt(a,b){return mr(tP,a,b)}function
-mu(e,c){if(c){var
+t9=1;function
+mG(a,b){return mE(t9,a,b)}function
+mH(e,c){if(c){var
 f=c[2],g=c[1],b=g,a=e;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}var
 d=[0,b]}else
 var
 d=[1,a];if(0===d[0])return[0,e,[0,d[1],f]];var
-h=d[1];return h?[0,g,mu(h,f)]:c}}return[0,e,0]}function
-gM(c,b){if(b){var
+h=d[1];return h?[0,g,mH(h,f)]:c}}return[0,e,0]}function
+gS(c,b){if(b){var
 d=b[2];if(c){var
-a=c[2],e=c[1];if(e)return[0,0,gM([0,e[1],a],d)];if(a)var
-h=a[2],f=[0,aR(a[1]),h];else
+a=c[2],e=c[1];if(e)return[0,0,gS([0,e[1],a],d)];if(a)var
+h=a[2],f=[0,aS(a[1]),h];else
 var
-f=a;return[0,1,gM(f,d)]}var
-g=[0,0,gM(0,d)]}else
+f=a;return[0,1,gS(f,d)]}var
+g=[0,0,gS(0,d)]}else
 var
 g=b;return g}function
-mv(b,a){var
-c=0;return ap(et,0,gM(bz(function(b,a){return mu(a,b)},b,c),a))}function
-cG(k,h){var
-l=mv(k,h),b=ep(h,0),c=l,a=0;for(;;){if(b){var
-d=mq(c);if(d){var
-e=d[1],f=e[2],g=e[1],i=[0,g,a],j=g?ap(mt,f,ms(b[1])):f,b=b[2],c=j,a=i;continue}return a}return a}}function
-c5(a){function
-b(a){return[0,a]}return c4(m(d),b,a)}function
+mI(b,a){var
+c=0;return aq(ey,0,gS(bA(function(b,a){return mH(a,b)},b,c),a))}function
+cK(k,h){var
+l=mI(k,h),b=eu(h,0),c=l,a=0;for(;;){if(b){var
+d=mD(c);if(d){var
+e=d[1],f=e[2],g=e[1],i=[0,g,a],j=g?aq(mG,f,mF(b[1])):f,b=b[2],c=j,a=i;continue}return a}return a}}function
+c6(a){function
+b(a){return[0,a]}return c5(m(d),b,a)}function
 O(a){switch(a[0]){case
 0:return 0;case
-1:return tQ;case
-2:return tR;case
-3:return tS;case
-4:return tT;case
-5:return tU;case
-6:return tV;case
-7:return tW;case
-8:return tX;case
-9:return tY;default:return tZ}}function
-a6(J,I,H){var
+1:return t_;case
+2:return t$;case
+3:return ua;case
+4:return ub;case
+5:return uc;case
+6:return ud;case
+7:return ue;case
+8:return uf;case
+9:return ug;default:return uh}}function
+a7(J,I,H){var
 e=J,g=I,f=H;for(;;){if(e){var
 j=e[1];if(j){var
-a=f[1],c=g[1],h=y(aR,e);switch(c[0]){case
+a=f[1],c=g[1],h=z(aS,e);switch(c[0]){case
 0:if(0===a[0])return av(c[1],a[1]);var
 K=O(a);return av(O(c),K);case
 1:if(1===a[0])return av(c[1],a[1]);var
 L=O(a);return av(O(c),L);case
-2:if(2===a[0])return iR(c[1],a[1]);var
+2:if(2===a[0])return iX(c[1],a[1]);var
 M=O(a);return av(O(c),M);case
 3:if(3===a[0]){var
-k=a6(h,c[2],a[2]);if(k)return k;var
+k=a7(h,c[2],a[2]);if(k)return k;var
 e=h,g=c[1],f=a[1];continue}var
 N=O(a);return av(O(c),N);case
 4:if(4===a[0]){var
-l=a6(h,c[2],a[2]);if(l)return l;var
+l=a7(h,c[2],a[2]);if(l)return l;var
 e=h,g=c[1],f=a[1];continue}var
 P=O(a);return av(O(c),P);case
 5:if(5===a[0]){var
 e=h,g=c[1],f=a[1];continue}var
 Q=O(a);return av(O(c),Q);case
 6:if(6===a[0]){var
-m=a6(h,c[2],a[2]);if(m)return m;var
+m=a7(h,c[2],a[2]);if(m)return m;var
 e=h,g=c[1],f=a[1];continue}var
 R=O(a);return av(O(c),R);case
 7:if(7===a[0]){var
-n=a6(h,c[2],a[2]);if(n)return n;var
+n=a7(h,c[2],a[2]);if(n)return n;var
 e=h,g=c[1],f=a[1];continue}var
 S=O(a);return av(O(c),S);case
 8:if(8===a[0]){var
@@ -1365,38 +1365,38 @@ T=O(a);return av(O(c),T);case
 e=h,g=c[1],f=a[1];continue}var
 U=O(a);return av(O(c),U);default:var
 o=c[4],p=c[3],q=c[2];if(c[1]){if(10===a[0]){if(a[1]){var
-r=a6(h,o,a[4]);if(r)return r;var
-s=a6(h,p,a[3]);if(s)return s;var
+r=a7(h,o,a[4]);if(r)return r;var
+s=a7(h,p,a[3]);if(s)return s;var
 e=h,g=q,f=a[2];continue}return 2}var
 V=O(a);return av(O(c),V)}if(10===a[0]){if(a[1])return 1;var
-t=a6(h,o,a[4]);if(t)return t;var
-u=a6(h,p,a[3]);if(u)return u;var
+t=a7(h,o,a[4]);if(t)return t;var
+u=a7(h,p,a[3]);if(u)return u;var
 e=h,g=q,f=a[2];continue}var
 W=O(a);return av(O(c),W)}}return j}var
-b=f[1],d=g[1],i=y(aR,e);switch(d[0]){case
+b=f[1],d=g[1],i=z(aS,e);switch(d[0]){case
 0:if(0===b[0])return av(d[1],b[1]);var
 X=O(b);return av(O(d),X);case
 1:if(1===b[0])return av(d[1],b[1]);var
 Y=O(b);return av(O(d),Y);case
-2:if(2===b[0])return iR(d[1],b[1]);var
+2:if(2===b[0])return iX(d[1],b[1]);var
 Z=O(b);return av(O(d),Z);case
 3:if(3===b[0]){var
-v=a6(i,d[2],b[2]);if(v)return v;var
+v=a7(i,d[2],b[2]);if(v)return v;var
 e=i,g=d[1],f=b[1];continue}var
 _=O(b);return av(O(d),_);case
 4:if(4===b[0]){var
-w=a6(i,d[2],b[2]);if(w)return w;var
+w=a7(i,d[2],b[2]);if(w)return w;var
 e=i,g=d[1],f=b[1];continue}var
 $=O(b);return av(O(d),$);case
 5:if(5===b[0]){var
 e=i,g=d[1],f=b[1];continue}var
 aa=O(b);return av(O(d),aa);case
 6:if(6===b[0]){var
-x=a6(i,d[2],b[2]);if(x)return x;var
+x=a7(i,d[2],b[2]);if(x)return x;var
 e=i,g=d[1],f=b[1];continue}var
 ab=O(b);return av(O(d),ab);case
 7:if(7===b[0]){var
-z=a6(i,d[2],b[2]);if(z)return z;var
+y=a7(i,d[2],b[2]);if(y)return y;var
 e=i,g=d[1],f=b[1];continue}var
 ac=O(b);return av(O(d),ac);case
 8:if(8===b[0]){var
@@ -1406,23 +1406,23 @@ ad=O(b);return av(O(d),ad);case
 e=i,g=d[1],f=b[1];continue}var
 ae=O(b);return av(O(d),ae);default:var
 A=d[4],B=d[3],C=d[2];if(d[1]){if(10===b[0]){if(b[1]){var
-D=a6(i,A,b[4]);if(D)return D;var
-E=a6(i,B,b[3]);if(E)return E;var
+D=a7(i,A,b[4]);if(D)return D;var
+E=a7(i,B,b[3]);if(E)return E;var
 e=i,g=C,f=b[2];continue}return 2}var
 af=O(b);return av(O(d),af)}if(10===b[0]){if(b[1])return 1;var
-F=a6(i,A,b[4]);if(F)return F;var
-G=a6(i,B,b[3]);if(G)return G;var
+F=a7(i,A,b[4]);if(F)return F;var
+G=a7(i,B,b[3]);if(G)return G;var
 e=i,g=C,f=b[2];continue}var
 ag=O(b);return av(O(d),ag)}}}function
-mw(b,a){var
-c=a6(t0,b,a);return c?c:a6(0,b,a)}function
-mx(c,b){var
-a=b;for(;;){if(a)switch(mw(c,a[3])){case
+mJ(b,a){var
+c=a7(ui,b,a);return c?c:a7(0,b,a)}function
+mK(c,b){var
+a=b;for(;;){if(a)switch(mJ(c,a[3])){case
 0:return[0,a[4]];case
 1:var
 a=a[2];continue;default:var
 a=a[5];continue}return a}}function
-t1(b,d,c,a){if(b){var
+uj(b,d,c,a){if(b){var
 e=b[5],s=b[4],t=b[3],l=b[2];if(b[1]){if(l){if(l[1])return[0,1,[0,0,l[2],l[3],l[4],l[5]],t,s,[0,0,e,d,c,a]];if(e){if(e[1])return[0,1,[0,0,l,t,s,e[2]],e[3],e[4],[0,0,e[5],d,c,a]];if(a){if(a[1]){var
 f=a[5],u=a[4],v=a[3],m=a[2];return m?m[1]?[0,1,[0,0,b,d,c,m[2]],m[3],m[4],[0,0,m[5],v,u,f]]:f?f[1]?[0,1,[0,0,b,d,c,m],v,u,[0,0,f[2],f[3],f[4],f[5]]]:[0,0,b,d,c,a]:[0,0,b,d,c,a]:f?f[1]?[0,1,[0,0,b,d,c,m],v,u,[0,0,f[2],f[3],f[4],f[5]]]:[0,0,b,d,c,a]:[0,0,b,d,c,a]}return[0,0,b,d,c,a]}return[0,0,b,d,c,a]}if(a){if(a[1]){var
 g=a[5],w=a[4],x=a[3],n=a[2];return n?n[1]?[0,1,[0,0,b,d,c,n[2]],n[3],n[4],[0,0,n[5],x,w,g]]:g?g[1]?[0,1,[0,0,b,d,c,n],x,w,[0,0,g[2],g[3],g[4],g[5]]]:[0,0,b,d,c,a]:[0,0,b,d,c,a]:g?g[1]?[0,1,[0,0,b,d,c,n],x,w,[0,0,g[2],g[3],g[4],g[5]]]:[0,0,b,d,c,a]:[0,0,b,d,c,a]}return[0,0,b,d,c,a]}return[0,0,b,d,c,a]}if(e){if(e[1])return[0,1,[0,0,l,t,s,e[2]],e[3],e[4],[0,0,e[5],d,c,a]];if(a){if(a[1]){var
@@ -1430,22 +1430,22 @@ h=a[5],y=a[4],z=a[3],o=a[2];return o?o[1]?[0,1,[0,0,b,d,c,o[2]],o[3],o[4],[0,0,o
 i=a[5],A=a[4],B=a[3],p=a[2];return p?p[1]?[0,1,[0,0,b,d,c,p[2]],p[3],p[4],[0,0,p[5],B,A,i]]:i?i[1]?[0,1,[0,0,b,d,c,p],B,A,[0,0,i[2],i[3],i[4],i[5]]]:[0,0,b,d,c,a]:[0,0,b,d,c,a]:i?i[1]?[0,1,[0,0,b,d,c,p],B,A,[0,0,i[2],i[3],i[4],i[5]]]:[0,0,b,d,c,a]:[0,0,b,d,c,a]}return[0,0,b,d,c,a]}return[0,0,b,d,c,a]}if(a){if(a[1]){var
 j=a[5],C=a[4],D=a[3],q=a[2];return q?q[1]?[0,1,[0,0,b,d,c,q[2]],q[3],q[4],[0,0,q[5],D,C,j]]:j?j[1]?[0,1,[0,0,b,d,c,q],D,C,[0,0,j[2],j[3],j[4],j[5]]]:[0,0,b,d,c,a]:[0,0,b,d,c,a]:j?j[1]?[0,1,[0,0,b,d,c,q],D,C,[0,0,j[2],j[3],j[4],j[5]]]:[0,0,b,d,c,a]:[0,0,b,d,c,a]}return[0,0,b,d,c,a]}return[0,0,b,d,c,a]}if(a){if(a[1]){var
 k=a[5],E=a[4],F=a[3],r=a[2];return r?r[1]?[0,1,[0,0,b,d,c,r[2]],r[3],r[4],[0,0,r[5],F,E,k]]:k?k[1]?[0,1,[0,0,b,d,c,r],F,E,[0,0,k[2],k[3],k[4],k[5]]]:[0,0,b,d,c,a]:[0,0,b,d,c,a]:k?k[1]?[0,1,[0,0,b,d,c,r],F,E,[0,0,k[2],k[3],k[4],k[5]]]:[0,0,b,d,c,a]:[0,0,b,d,c,a]}return[0,0,b,d,c,a]}return[0,0,b,d,c,a]}function
-i1(b,c,a){if(a){var
-e=a[5],f=a[4],d=a[3],g=a[2],h=a[1]?function(d,c,b,a){return[0,1,d,c,b,a]}:t1;switch(mw(b,d)){case
+i7(b,c,a){if(a){var
+e=a[5],f=a[4],d=a[3],g=a[2],h=a[1]?function(d,c,b,a){return[0,1,d,c,b,a]}:uj;switch(mJ(b,d)){case
 0:return a;case
-1:return h(i1(b,c,g),d,f,e);default:return h(g,d,f,i1(b,c,e))}}return[0,1,0,b,c,0]}function
-my(d,c,b){var
-a=i1(d,c,b),e=a?[0,0,a[2],a[3],a[4],a[5]]:a;return e}function
-cH(a){var
-b=bz(function(a,b){var
-c=my(b,a[1],a[2]);return[0,[0,a[1]],c]},a,t2)[2];return function(c){var
-a=mx(c,b),d=a?a[1]:a;return d}}function
-i2(b,a){if(0===a[0])return 0;var
-c=a[3];return L(b,a[1])?0:D(b,c[1])?[1,i2(b,c)]:[0,i2(b,a[2])]}function
-mz(c,a){if(a){var
-b=a[3],d=b?D(c,b[2][1]):b;return d?[2,mz(c,b)]:i2(c,a[2])}return a}function
+1:return h(i7(b,c,g),d,f,e);default:return h(g,d,f,i7(b,c,e))}}return[0,1,0,b,c,0]}function
+mL(d,c,b){var
+a=i7(d,c,b),e=a?[0,0,a[2],a[3],a[4],a[5]]:a;return e}function
+cL(a){var
+b=bA(function(a,b){var
+c=mL(b,a[1],a[2]);return[0,[0,a[1]],c]},a,uk)[2];return function(c){var
+a=mK(c,b),d=a?a[1]:a;return d}}function
+i8(b,a){if(0===a[0])return 0;var
+c=a[3];return L(b,a[1])?0:F(b,c[1])?[1,i8(b,c)]:[0,i8(b,a[2])]}function
+mM(c,a){if(a){var
+b=a[3],d=b?F(c,b[2][1]):b;return d?[2,mM(c,b)]:i8(c,a[2])}return a}function
 dJ(k,d){var
-n=mx(k,d[1]);if(n)return[0,n[1],d];var
+n=mK(k,d[1]);if(n)return[0,n[1],d];var
 a=k[1],e=0;switch(a[0]){case
 0:var
 u=a[1],f=function(a){return[0,u]},c=d;break;case
@@ -1470,38 +1470,38 @@ O=function(a){return[9,a]},m=O,l=a[1];e=2;break;default:var
 P=a[1],r=dJ(a[2],d),Q=r[1],s=dJ(a[3],r[2]),R=s[1],t=dJ(a[4],s[2]),S=t[1],T=function(a){var
 b=h(a,S),c=h(a,R);return[10,P,h(a,Q),c,b]},f=T,c=t[2]}switch(e){case
 1:var
-o=dJ(g,d),D=o[1],p=dJ(i,o[2]),E=p[1],G=function(a){var
-b=h(a,E);return j(h(a,D),b)},f=G,c=p[2];break;case
+o=dJ(g,d),D=o[1],p=dJ(i,o[2]),E=p[1],F=function(a){var
+b=h(a,E);return j(h(a,D),b)},f=F,c=p[2];break;case
 2:var
 q=dJ(l,d),J=q[1],K=function(a){return m(h(a,J))},f=K,c=q[2];break}var
-v=c[4],w=[0,f(function(a){return mz(a,c[2])}),v],x=F(c[3],b),y=et(c[3],c[2]),z=[0,my(k,c[3],c[1]),y,x,w];return[0,c[3],z]}function
-c6(a){var
-b=0,c=[0,0,0,d,0];return ep(bz(function(b,a){return dJ(a,b)[2]},a,c)[4],b)}function
-gN(a){return ap(function(b,a){return F(bJ(b),a)},d,a)}function
-cI(a,c,b){var
-d=gN(b),e=iO(c[2],F(a[2],d));return[0,a,[0,bq(c[1],aO(a[1],d)),e],b]}function
+v=c[4],w=[0,f(function(a){return mM(a,c[2])}),v],x=G(c[3],b),y=ey(c[3],c[2]),z=[0,mL(k,c[3],c[1]),y,x,w];return[0,c[3],z]}function
+c7(a){var
+b=0,c=[0,0,0,d,0];return eu(bA(function(b,a){return dJ(a,b)[2]},a,c)[4],b)}function
+gT(a){return aq(function(b,a){return G(bK(b),a)},d,a)}function
+cM(a,c,b){var
+d=gT(b),e=iU(c[2],G(a[2],d));return[0,a,[0,bs(c[1],aQ(a[1],d)),e],b]}function
 aa(a){return[0,a,a,0]}function
-cg(b,a){var
+ck(b,a){var
 c=a[3],d=b[3];function
 e(a){return a}var
-f=aS(function(a){return a},e,A,d,c),g=A(b[2],a[2]);return cI(A(b[1],a[1]),g,f)}function
-bA(b,a){var
-c=a[3],d=b[3],e=aS(function(a){return a},$,E,d,c),f=E(b[2],a[2]);return cI(E(b[1],a[1]),f,e)}function
-fn(a){var
+f=aT(function(a){return a},e,A,d,c),g=A(b[2],a[2]);return cM(A(b[1],a[1]),g,f)}function
+bB(b,a){var
+c=a[3],d=b[3],e=aT(function(a){return a},$,C,d,c),f=C(b[2],a[2]);return cM(C(b[1],a[1]),f,e)}function
+fq(a){var
 b=e($,a[3]),c=$(a[2]);return[0,$(a[1]),c,b]}function
-aT(a,c,b){var
+aU(a,c,b){var
 d=A(b[2],b[1]),e=A(c[2],c[1]),f=b[3],g=c[3];function
 h(c,b){var
 f=t(a,e,b);return ax(A(t(a,d,c),f))}function
 i(b){return ax(t(a,e,b))}var
-j=aS(function(b){return ax(t(a,d,b))},i,h,g,f),k=t(a,c[2],b[2]);return cI(t(a,c[1],b[1]),k,j)}function
-fo(b,a){var
-c=a[3],d=A(a[2],a[1]),f=e(function(a){return t(b,d,a)},c),g=R(b,a[2]);return cI(R(b,a[1]),g,f)}function
-i3(a,b){var
-c=cc(a,b[1]);if(c){var
-g=c[1],d=cc(a,b[2]);if(d){var
-h=d[1],f=bX(a,A(h,g));if(f)var
-l=b[3],m=f[1],i=[0,cI(g,h,e(function(b){return t(a,m,b)},l))];else
+j=aT(function(b){return ax(t(a,d,b))},i,h,g,f),k=t(a,c[2],b[2]);return cM(t(a,c[1],b[1]),k,j)}function
+fr(b,a){var
+c=a[3],d=A(a[2],a[1]),f=e(function(a){return t(b,d,a)},c),g=S(b,a[2]);return cM(S(b,a[1]),g,f)}function
+i9(a,b){var
+c=cg(a,b[1]);if(c){var
+g=c[1],d=cg(a,b[2]);if(d){var
+h=d[1],f=b0(a,A(h,g));if(f)var
+l=b[3],m=f[1],i=[0,cM(g,h,e(function(b){return t(a,m,b)},l))];else
 var
 i=f;var
 j=i}else
@@ -1510,61 +1510,61 @@ j=d;var
 k=j}else
 var
 k=c;return k}function
-eu(a,c,b){var
-d=bX(a,b[1]);if(d){var
-f=bX(a,b[2]);if(f)var
-h=f[1],g=t(a,c[1],d[1]),k=b[3],l=c[3],m=function(c,b){return E(c,t(a,g,b))},n=function(b){return $(t(a,g,b))},o=aS(function(a){return a},n,m,l,k),p=e(function(b){return t(a,h,b)},o),i=[0,cI(g,t(a,c[2],h),p)];else
+ez(a,c,b){var
+d=b0(a,b[1]);if(d){var
+f=b0(a,b[2]);if(f)var
+h=f[1],g=t(a,c[1],d[1]),k=b[3],l=c[3],m=function(c,b){return C(c,t(a,g,b))},n=function(b){return $(t(a,g,b))},o=aT(function(a){return a},n,m,l,k),p=e(function(b){return t(a,h,b)},o),i=[0,cM(g,t(a,c[2],h),p)];else
 var
 i=f;var
 j=i}else
 var
 j=d;return j}function
-c7(b,a){return a?h(b,a[1]):a}function
-gO(a){var
-b=e(ax,a[3]),c=ax(A(a[2],a[1]));return cI(a[1],c,b)}function
-mA(a,k,j,r,c){var
-l=gO(k),m=gO(j),g=gO(c[1]),h=gO(c[2]),s=aT(a,l,h),u=bA(aT(a,m,g),s),i=eu(a,aa(J(a,b)),u);if(i)var
-f=i[1],n=aT(a,bA(l,g),f),o=aT(a,bA(m,h),f),d=function(c,b){return aT(a,c,aa(b))},v=j[3],w=k[3],x=function(b,a){var
-c=d(o,a);return cg(d(n,b),c)},y=function(a){return d(o,a)},z=aS(function(a){return d(n,a)},y,x,w,v),A=r[3],B=function(b,a){return bA(b,d(f,ax(a)))[2]},C=function(a){return fn(d(f,ax(a)))[2]},p=aS(function(a){return a[2]},C,B,z,A),D=g[2],E=e(function(b){return t(a,D,b)},p),F=cI(c[2][1],c[2][2],E),G=$(h[2]),H=e(function(b){return t(a,G,b)},p),q=[0,[0,cI(c[1][1],c[1][2],H),F]];else
+c8(b,a){return a?h(b,a[1]):a}function
+gU(a){var
+b=e(ax,a[3]),c=ax(A(a[2],a[1]));return cM(a[1],c,b)}function
+mN(a,k,j,r,c){var
+l=gU(k),m=gU(j),g=gU(c[1]),h=gU(c[2]),s=aU(a,l,h),u=bB(aU(a,m,g),s),i=ez(a,aa(J(a,b)),u);if(i)var
+f=i[1],n=aU(a,bB(l,g),f),o=aU(a,bB(m,h),f),d=function(c,b){return aU(a,c,aa(b))},v=j[3],w=k[3],x=function(b,a){var
+c=d(o,a);return ck(d(n,b),c)},y=function(a){return d(o,a)},z=aT(function(a){return d(n,a)},y,x,w,v),A=r[3],B=function(b,a){return bB(b,d(f,ax(a)))[2]},C=function(a){return fq(d(f,ax(a)))[2]},p=aT(function(a){return a[2]},C,B,z,A),D=g[2],E=e(function(b){return t(a,D,b)},p),F=cM(c[2][1],c[2][2],E),G=$(h[2]),H=e(function(b){return t(a,G,b)},p),q=[0,[0,cM(c[1][1],c[1][2],H),F]];else
 var
 q=i;return q}function
-mB(a,e,d,k){var
-p=fo(a,d),f=cg(fo(a,e),p),g=bA(cg(f,aa(J(a,b))),k),l=aT(a,aa(J(a,c(2,b))),f),q=fo(a,g),h=i3(a,bA(aT(a,aa(J(a,c(2,c(2,b)))),f),q));if(h){var
-m=h[1],r=aT(a,m,d),i=eu(a,cg(aT(a,g,e),r),l);if(i)var
-s=aT(a,m,e),j=eu(a,bA(aT(a,g,d),s),l),t=j?[0,[0,i[1],j[1]]]:j,n=t;else
+mO(a,e,d,k){var
+p=fr(a,d),f=ck(fr(a,e),p),g=bB(ck(f,aa(J(a,b))),k),l=aU(a,aa(J(a,c(2,b))),f),q=fr(a,g),h=i9(a,bB(aU(a,aa(J(a,c(2,c(2,b)))),f),q));if(h){var
+m=h[1],r=aU(a,m,d),i=ez(a,ck(aU(a,g,e),r),l);if(i)var
+s=aU(a,m,e),j=ez(a,bB(aU(a,g,d),s),l),t=j?[0,[0,i[1],j[1]]]:j,n=t;else
 var
 n=i;var
 o=n}else
 var
 o=h;var
-u=c7(function(b){return mA(a,e,d,k,b)},o);return c7(function(b){return mA(a,e,d,k,b)},u)}function
-cJ(d,b,a){if(b){if(a)return ar(d,b[1],a[1]);var
+u=c8(function(b){return mN(a,e,d,k,b)},o);return c8(function(b){return mN(a,e,d,k,b)},u)}function
+cN(d,b,a){if(b){if(a)return as(d,b[1],a[1]);var
 c=a}else
 var
 c=b;return c}function
-bB(b,j,i){var
+bC(b,j,i){var
 f=aa(u);return function(a){switch(a[0]){case
 0:return[0,s(a[1],j,f)];case
 1:return[0,s(a[1],i,f)];case
 2:return[0,aa(J(b,a[1]))];case
 3:var
-k=a[2],l=a[1];return cJ(function(b,a){return[0,cg(b,a)]},l,k);case
+k=a[2],l=a[1];return cN(function(b,a){return[0,ck(b,a)]},l,k);case
 4:var
-m=a[2],n=a[1];return cJ(function(b,a){return[0,bA(b,a)]},n,m);case
+m=a[2],n=a[1];return cN(function(b,a){return[0,bB(b,a)]},n,m);case
 5:var
-o=a[1];return c7(function(a){return[0,fn(a)]},o);case
+o=a[1];return c8(function(a){return[0,fq(a)]},o);case
 6:var
-p=a[2],q=a[1];return cJ(function(c,a){return[0,aT(b,c,a)]},q,p);case
+p=a[2],q=a[1];return cN(function(c,a){return[0,aU(b,c,a)]},q,p);case
 7:var
-r=a[2],t=a[1];return cJ(function(a,c){return eu(b,a,c)},t,r);case
+r=a[2],t=a[1];return cN(function(a,c){return ez(b,a,c)},t,r);case
 8:var
-u=a[1];return c7(function(a){return[0,fo(b,a)]},u);case
+u=a[1];return c8(function(a){return[0,fr(b,a)]},u);case
 9:var
-v=a[1];return c7(function(a){return i3(b,a)},v);default:var
+v=a[1];return c8(function(a){return i9(b,a)},v);default:var
 c=a[2];if(c){var
 d=a[3];if(d){var
 e=a[4];if(e){var
-w=mB(b,c[1],d[1],e[1]),x=a[1]?aG:aA;return y(x,w)}var
+w=mO(b,c[1],d[1],e[1]),x=a[1]?aH:aA;return z(x,w)}var
 g=e}else
 var
 g=d;var
@@ -1579,27 +1579,27 @@ a=c;for(;;)switch(a[0]){case
 a=a[1];continue;default:var
 b=dK(a[1]);if(b)return b;var
 a=a[2];continue}}function
-ch(r,q){var
+cl(r,q){var
 b=r,a=q;for(;;)switch(b[0]){case
 0:if(0===a[0]){var
-c=L(b[1],a[1]);return c?gC(b[2],a[2]):c}return 0;case
+c=L(b[1],a[1]);return c?gI(b[2],a[2]):c}return 0;case
 1:var
 d=b[3],e=b[2];if(1===a[0]){var
-f=a[3],g=a[2],h=n(b[1],a[1]),i=h?L(e[1],g[1]):h,j=i?gC(e[2],g[2]):i,k=j?L(d[1],f[1]):j;return k?gC(d[2],f[2]):k}return 0;case
+f=a[3],g=a[2],h=n(b[1],a[1]),i=h?L(e[1],g[1]):h,j=i?gI(e[2],g[2]):i,k=j?L(d[1],f[1]):j;return k?gI(d[2],f[2]):k}return 0;case
 2:if(2===a[0]){var
-l=ch(b[1],a[1]);if(l){var
+l=cl(b[1],a[1]);if(l){var
 b=b[2],a=a[2];continue}return l}return 0;case
 3:if(3===a[0]){var
-m=ch(b[1],a[1]);if(m){var
+m=cl(b[1],a[1]);if(m){var
 b=b[2],a=a[2];continue}return m}return 0;case
 4:if(4===a[0]){var
-o=ch(b[1],a[1]);if(o){var
+o=cl(b[1],a[1]);if(o){var
 b=b[2],a=a[2];continue}return o}return 0;case
 5:if(5===a[0]){var
-p=ch(b[1],a[1]);if(p){var
+p=cl(b[1],a[1]);if(p){var
 b=b[2],a=a[2];continue}return p}return 0;default:if(6===a[0]){var
 b=b[1],a=a[1];continue}return 0}}function
-fp(c,a){switch(a[0]){case
+fs(c,a){switch(a[0]){case
 0:return[0,[0,a[1],a[2]]];case
 1:return 0;case
 2:var
@@ -1607,432 +1607,432 @@ m=a[2],n=a[1],g=m,f=n,e=function(b,a){return[0,dG(b,a)]};break;case
 3:var
 o=a[2],p=a[1],g=o,f=p,e=function(b,a){return[0,dH(b,a)]};break;case
 4:var
-q=a[2],r=a[1],g=q,f=r,e=function(b,a){return[0,a9(b,a)]};break;case
+q=a[2],r=a[1],g=q,f=r,e=function(b,a){return[0,a_(b,a)]};break;case
 5:var
-s=a[2],t=a[1],g=s,f=t,e=function(c,a){return eq(a,[0,d,b])?0:[0,gJ(c,a)]};break;default:var
-k=fp(c,a[1]);return k?h(c,k[1]):k}var
-i=fp(c,f);if(i){var
-j=fp(c,g);if(j)return e(i[1],j[1]);var
+s=a[2],t=a[1],g=s,f=t,e=function(c,a){return ev(a,[0,d,b])?0:[0,gP(c,a)]};break;default:var
+k=fs(c,a[1]);return k?h(c,k[1]):k}var
+i=fs(c,f);if(i){var
+j=fs(c,g);if(j)return e(i[1],j[1]);var
 l=j}else
 var
 l=i;return l}function
-t3(a){return 0}function
-cK(a){return fp(t3,a)}function
-bY(a,c){switch(c[0]){case
-0:return[0,mn(a,c[1],c[2])];case
+ul(a){return 0}function
+cO(a){return fs(ul,a)}function
+b1(a,c){switch(c[0]){case
+0:return[0,mA(a,c[1],c[2])];case
 1:return 0;case
 2:var
-g=bY(a,c[1]);if(g)var
-h=bY(a,c[2]),D=h?[0,A(g[1],h[1])]:h,r=D;else
+g=b1(a,c[1]);if(g)var
+h=b1(a,c[2]),E=h?[0,A(g[1],h[1])]:h,r=E;else
 var
 r=g;return r;case
 3:var
-i=bY(a,c[1]);if(i)var
-j=bY(a,c[2]),F=j?[0,E(i[1],j[1])]:j,s=F;else
+i=b1(a,c[1]);if(i)var
+j=b1(a,c[2]),F=j?[0,C(i[1],j[1])]:j,s=F;else
 var
 s=i;return s;case
 4:var
-k=bY(a,c[1]);if(k)var
-l=bY(a,c[2]),G=l?[0,t(a,k[1],l[1])]:l,v=G;else
+k=b1(a,c[1]);if(k)var
+l=b1(a,c[2]),G=l?[0,t(a,k[1],l[1])]:l,v=G;else
 var
 v=k;return v;case
 5:var
-m=bY(a,c[1]);if(m){var
-n=bY(a,c[2]);if(n)var
-o=bX(a,n[1]),H=o?[0,t(a,m[1],o[1])]:o,w=H;else
+m=b1(a,c[1]);if(m){var
+n=b1(a,c[2]);if(n)var
+o=b0(a,n[1]),H=o?[0,t(a,m[1],o[1])]:o,w=H;else
 var
 w=n;var
 x=w}else
 var
 x=m;return x;default:var
-z=c[1],p=bY(a,z);if(p){var
-e=p[1];if(K(d,e[1]))return cc(a,e);var
-f=cK(z),J=f?I(bl([0,d,b],f[1])):f;if(J)return 0;if(K(d,e[2])){var
-B=cc(a,[0,e[2],e[2]]);return y(function(a){return[0,d,a[2]]},B)}var
-q=L(e[2],d),C=q?[0,u]:q;return C}return p}}function
-cL(b,a){return mn(b,a[1],a[2])}function
-mC(a,f,e,d){var
-h=[0,b,c(2,b)],i=[0,cL(a,a9(dH(d,e),h)),0],j=g(ac(u,f),i),k=cL(a,d)[2],l=[0,cL(a,e)[1],k],m=[0,b,c(2,b)];return[0,cL(a,a9(dG(e,d),m)),l,j]}function
-ev(c,e,a){function
-b(a){return ev(c,e,a)}if(dK(a))switch(a[0]){case
+y=c[1],p=b1(a,y);if(p){var
+e=p[1];if(K(d,e[1]))return cg(a,e);var
+f=cO(y),J=f?I(bn([0,d,b],f[1])):f;if(J)return 0;if(K(d,e[2])){var
+B=cg(a,[0,e[2],e[2]]);return z(function(a){return[0,d,a[2]]},B)}var
+q=L(e[2],d),D=q?[0,u]:q;return D}return p}}function
+cP(b,a){return mA(b,a[1],a[2])}function
+mP(a,f,e,d){var
+h=[0,b,c(2,b)],i=[0,cP(a,a_(dH(d,e),h)),0],j=g(ac(u,f),i),k=cP(a,d)[2],l=[0,cP(a,e)[1],k],m=[0,b,c(2,b)];return[0,cP(a,a_(dG(e,d),m)),l,j]}function
+eA(c,e,a){function
+b(a){return eA(c,e,a)}if(dK(a))switch(a[0]){case
 0:return 0;case
-1:return gb(e,a[1],a[2],a[3]);case
+1:return gh(e,a[1],a[2],a[3]);case
 2:var
-g=b(a[2]),h=b(a[1]);return cJ(function(b,a){return[0,cg(b,a)]},h,g);case
+g=b(a[2]),h=b(a[1]);return cN(function(b,a){return[0,ck(b,a)]},h,g);case
 3:var
-i=b(a[2]),j=b(a[1]);return cJ(function(b,a){return[0,bA(b,a)]},j,i);case
+i=b(a[2]),j=b(a[1]);return cN(function(b,a){return[0,bB(b,a)]},j,i);case
 4:var
-f=a[2],d=a[1];if(ch(d,f)){var
-k=b(d);return c7(function(a){return[0,fo(c,a)]},k)}var
-l=b(f),m=b(d);return cJ(function(b,a){return[0,aT(c,b,a)]},m,l);case
+f=a[2],d=a[1];if(cl(d,f)){var
+k=b(d);return c8(function(a){return[0,fr(c,a)]},k)}var
+l=b(f),m=b(d);return cN(function(b,a){return[0,aU(c,b,a)]},m,l);case
 5:var
-n=b(a[2]),o=b(a[1]);return cJ(function(a,b){return eu(c,a,b)},o,n);default:var
-p=b(a[1]);return c7(function(a){return i3(c,a)},p)}return y(aa,bY(c,a))}function
-aI(b,a){if(dK(a)){var
-c=ev(b,function(d,c,a){var
-e=aD(d,dL),f=e?bl(c,a):e,g=f?[0,mC(b,d,c,a)]:f;return g},a);return y(function(a){return a[2]},c)}return bY(b,a)}function
-i4(a){var
-e=bq(Q(a),d);return eo(F(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e))}function
-mD(a){return iT(F(i4(a),a))}function
-mE(b,a){var
-c=mD(b),d=Q(c3(Q(a[2]),c)),e=mD(b);return[0,c3(a[1],e),d]}function
-c8(c,a,b){var
-d=aI(F(c,i4(a)),b);return y(function(b){return mE(a,b)},d)}function
-aq(d,a){var
-b=c8(d,a[2],a[1][1]);if(b)var
-c=c8(d,a[2],a[1][2]),f=c?[0,[0,b[1][1],c[1][2]]]:c,e=f;else
+n=b(a[2]),o=b(a[1]);return cN(function(a,b){return ez(c,a,b)},o,n);default:var
+p=b(a[1]);return c8(function(a){return i9(c,a)},p)}return z(aa,b1(c,a))}function
+aB(b,a){if(dK(a)){var
+c=eA(b,function(d,c,a){var
+e=aE(d,dL),f=e?bn(c,a):e,g=f?[0,mP(b,d,c,a)]:f;return g},a);return z(function(a){return a[2]},c)}return b1(b,a)}function
+i_(a){var
+e=bs(R(a),d);return et(G(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e))}function
+mQ(a){return iZ(G(i_(a),a))}function
+mR(b,a){var
+c=mQ(b),d=R(c4(R(a[2]),c)),e=mQ(b);return[0,c4(a[1],e),d]}function
+c9(c,a,b){var
+d=aB(G(c,i_(a)),b);return z(function(b){return mR(a,b)},d)}function
+ar(d,a){var
+b=c9(d,a[2],a[1][1]);if(b)var
+c=c9(d,a[2],a[1][2]),f=c?[0,[0,b[1][1],c[1][2]]]:c,e=f;else
 var
 e=b;return e}function
-mF(b,a){var
-c=Q(c3(Q(a[2]),b));return[0,c3(a[1],b),c]}function
-gP(b,a){var
-c=gK(b[2],a);return[0,cD(b[1],a),c]}function
-mG(h,g,d,b){var
-e=b[2],f=l_(d),i=c(2,f),j=C(l6(f),i),a=gP(t(h,b[1],g),j),k=l4(d)?E(e,a):A(e,a);return[0,a,k]}function
-mH(a,d,c){if(c){var
-e=c[1];return mG(a,d,e,mH(a,d,e))}var
+mS(b,a){var
+c=R(c4(R(a[2]),b));return[0,c4(a[1],b),c]}function
+gV(b,a){var
+c=gQ(b[2],a);return[0,cG(b[1],a),c]}function
+mT(h,g,d,b){var
+e=b[2],f=ml(d),i=c(2,f),j=D(mh(f),i),a=gV(t(h,b[1],g),j),k=mf(d)?C(e,a):A(e,a);return[0,a,k]}function
+mU(a,d,c){if(c){var
+e=c[1];return mT(a,d,e,mU(a,d,e))}var
 f=J(a,b);return[0,J(a,b),f]}function
-mI(e,g){var
-o=cE(e),p=C(c(2,c(2,b)),o),j=D(g[2],p);if(j){var
-n=fj(e),i=t4[1],d=n,f=0,a=i;for(;;){if(d){var
+mV(e,g){var
+o=cI(e),p=D(c(2,c(2,b)),o),j=F(g[2],p);if(j){var
+n=fm(e),i=um[1],d=n,f=0,a=i;for(;;){if(d){var
 h=d[1];if(a){var
 d=h,a=a[1];continue}var
 d=h,f=[0,f],a=i;continue}var
-k=N(l3(t7,N(t5,f)),t6),l=mH(e,g,k),q=mG(e,g,k,l)[2][2],m=[0,[0,l[2][1],q]];break}}else
+k=N(me(up,N(un,f)),uo),l=mU(e,g,k),q=mT(e,g,k,l)[2][2],m=[0,[0,l[2][1],q]];break}}else
 var
 m=j;return m}function
-mJ(i){function
+mW(i){function
 a(h){var
-m=cD(cE(i),h),g=fj(i),f=m,e=d,a=b;for(;;){if(g){var
-j=F(a,c(2,b)),k=F(e,cD(f,a)),l=Q(cD(f,C(h,h))),g=g[1],f=l,e=k,a=j;continue}return e}}var
-e=a(q(c(2,q(c(2,q(c(2,q(c(2,c(2,q(c(2,q(c(2,b)))))))))))))),f=C(c(2,c(2,b)),e),g=a(q(c(2,c(2,b))));return aO(C(c(2,c(2,c(2,c(2,b)))),g),f)}function
-mK(e,a){var
-f=D(d,a);if(f){var
-g=c(2,c(2,b));return mI(e,gP(R(e,[0,a,a]),g))}return f}function
-mL(a){var
-m=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),g=aO(mJ(a),m),n=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),h=F(mJ(a),n),e=mK(a,g);if(e){var
-f=mK(a,h);if(f)var
+m=cG(cI(i),h),g=fm(i),f=m,e=d,a=b;for(;;){if(g){var
+j=G(a,c(2,b)),k=G(e,cG(f,a)),l=R(cG(f,D(h,h))),g=g[1],f=l,e=k,a=j;continue}return e}}var
+e=a(q(c(2,q(c(2,q(c(2,q(c(2,c(2,q(c(2,q(c(2,b)))))))))))))),f=D(c(2,c(2,b)),e),g=a(q(c(2,c(2,b))));return aQ(D(c(2,c(2,c(2,c(2,b)))),g),f)}function
+mX(e,a){var
+f=F(d,a);if(f){var
+g=c(2,c(2,b));return mV(e,gV(S(e,[0,a,a]),g))}return f}function
+mY(a){var
+m=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),g=aQ(mW(a),m),n=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),h=G(mW(a),n),e=mX(a,g);if(e){var
+f=mX(a,h);if(f)var
 i=K(d,e[1][1]),j=i?K(f[1][2],d):i,k=j?[0,[0,g,h]]:j;else
 var
 k=f;var
 l=k}else
 var
 l=e;return l}function
-mM(a,d){var
-c=R(a,d),e=J(a,b);return E(A(c,c),e)}function
-c9(f,j){var
-e=aI(F(f,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),j);if(e){var
-k=e[1],a=F(f,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),d=mL(a);if(d)var
-h=c(2,c(2,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))))),i=mI(a,R(a,gP(t(a,k,d[1]),h))),g=y(function(b){return mM(a,mM(a,b))},i);else
+mZ(a,d){var
+c=S(a,d),e=J(a,b);return C(A(c,c),e)}function
+c_(f,j){var
+e=aB(G(f,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),j);if(e){var
+k=e[1],a=G(f,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),d=mY(a);if(d)var
+h=c(2,c(2,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))))),i=mV(a,S(a,gV(t(a,k,d[1]),h))),g=z(function(b){return mZ(a,mZ(a,b))},i);else
 var
 g=d;var
-l=c(2,c(2,c(2,c(2,c(2,c(2,b))))));return y(function(a){return mF(l,a)},g)}return e}function
-mN(a,d){var
-e=mL(F(a,c(2,c(2,c(2,c(2,c(2,c(2,b))))))));return y(function(e){var
-f=c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))));return gP(t(a,d,mF(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e)),f)},e)}function
-gQ(d,a){return c9(d,[3,a,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b]])}function
+l=c(2,c(2,c(2,c(2,c(2,c(2,b))))));return z(function(a){return mS(l,a)},g)}return e}function
+i$(a,d){var
+e=mY(G(a,c(2,c(2,c(2,c(2,c(2,c(2,b))))))));return z(function(e){var
+f=c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))));return gV(t(a,d,mS(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e)),f)},e)}function
+gW(d,a){return c_(d,[3,a,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b]])}function
 i(i,e,c){var
-f=cK(c);if(f){var
-g=f[1];return e?I(bl(g,[0,d,b])):bl([0,d,b],g)}var
-a=aI(i,c);if(a){var
-h=a[1];return e?K(d,h[1]):D(d,h[1])}return a}function
-mO(c,b){var
-a=aI(c,b),d=a?1:a;return d}function
-bC(c,a,b){var
-d=ch(a,b),e=d?mO(c,a):d;return e?e:i(c,0,[3,b,a])}function
-t8(c){var
-a=dI(c),g=eo(gH(a[2])),b=[0,gH(a[1]),g],e=K(d,a[1]),f=e?eq(a9(b,b),c):e,h=f?[0,b]:f;return h}function
-mP(a){if(a){var
-e=a[2],c=a[1];if(eq(bW([0,d,b],c),[0,d,b])){var
-g=mP(e);return y(function(a){return[0,a[1],[0,c,a[2]]]},g)}var
+f=cO(c);if(f){var
+g=f[1];return e?I(bn(g,[0,d,b])):bn([0,d,b],g)}var
+a=aB(i,c);if(a){var
+h=a[1];return e?K(d,h[1]):F(d,h[1])}return a}function
+m0(c,b){var
+a=aB(c,b),d=a?1:a;return d}function
+bD(c,a,b){var
+d=cl(a,b),e=d?m0(c,a):d;return e?e:i(c,0,[3,b,a])}function
+uq(c){var
+a=dI(c),g=et(gN(a[2])),b=[0,gN(a[1]),g],e=K(d,a[1]),f=e?ev(a_(b,b),c):e,h=f?[0,b]:f;return h}function
+m1(a){if(a){var
+e=a[2],c=a[1];if(ev(bJ([0,d,b],c),[0,d,b])){var
+g=m1(e);return z(function(a){return[0,a[1],[0,c,a[2]]]},g)}var
 f=[0,[0,c,e]]}else
 var
 f=a;return f}function
-mQ(c,a){var
-e=V(c,a),f=[0,d,b];return ap(function(a,b){return dI(dG(a9(a[1],a[2]),b))},f,e)}function
-mR(c,j){if(c){var
-f=c[1],g=mP(j);if(g){var
+m2(c,a){var
+e=V(c,a),f=[0,d,b];return aq(function(a,b){return dI(dG(a_(a[1],a[2]),b))},f,e)}function
+m3(c,j){if(c){var
+f=c[1],g=m1(j);if(g){var
 h=g[1],a=h[1],k=function(c){var
-f=bW([0,d,b],a),g=gJ(bW([0,d,b],c),f),h=bI(a),i=V(bI(c),h);return e(function(a){var
-b=a9(g,a[2]);return dI(dH(a[1],b))},i)},l=mR(f,e(k,h[2]));return y(function(c){var
-e=bW([0,d,b],a);return[0,dI(gJ(gI(mQ(bI(a),c)),e)),c]},l)}var
+f=bJ([0,d,b],a),g=gP(bJ([0,d,b],c),f),h=bz(a),i=V(bz(c),h);return e(function(a){var
+b=a_(g,a[2]);return dI(dH(a[1],b))},i)},l=m3(f,e(k,h[2]));return z(function(c){var
+e=bJ([0,d,b],a);return[0,dI(gP(gO(m2(bz(a),c)),e)),c]},l)}var
 i=[0,[0,[0,b,b],ac([0,d,b],f)]]}else
 var
 i=c;return i}function
-mS(a){if(a){var
-b=fp(t8,a[1]);if(b)var
-c=mS(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+m4(a){if(a){var
+b=fs(uq,a[1]);if(b)var
+c=m4(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return t9}function
-mT(a){if(a){var
-b=mS(a[1]);if(b)var
-c=mT(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+d=b;return d}return ur}function
+m5(a){if(a){var
+b=m4(a[1]);if(b)var
+c=m5(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return t_}function
-mU(i,m){var
-a=mT(m);if(a){var
-j=a[1],c=mR(i,j);if(c){var
-e=c[1],g=n(f(e),i),h=g?ak(function(a){return I(eq(a,[0,d,b]))},e):g;return h?l(function(a){return eq(mQ(a,e),[0,d,b])},j):h}var
+d=b;return d}return us}function
+m6(i,m){var
+a=m5(m);if(a){var
+j=a[1],c=m3(i,j);if(c){var
+e=c[1],g=n(f(e),i),h=g?al(function(a){return I(ev(a,[0,d,b]))},e):g;return h?l(function(a){return ev(m2(a,e),[0,d,b])},j):h}var
 k=c}else
 var
 k=a;return k}function
-t$(a){return a}function
-ua(a){return a}function
-ub(a,b){return aS(ua,t$,A,a,b)}function
-uc(a){return a}function
-ud(a){return a}function
-a_(a,b){return aS(ud,uc,ub,a,b)}function
-i5(a,f,c,d){if(c){var
-h=c[2],i=J(a,b),g=es(c[1],i,f);if(d){var
-j=i5(a,f,h,d[2]),k=d[1],l=function(c,b){return E(c,t(a,g,b))},m=function(b){return $(t(a,g,b))};return[0,aS(function(a){return a},m,l,k,c),j]}var
-n=i5(a,f,h,0);return[0,e(function(b){return $(t(a,g,b))},c),n]}return d}function
-gR(h,a){if(a){var
+ut(a){return a}function
+uu(a){return a}function
+uv(a,b){return aT(uu,ut,A,a,b)}function
+uw(a){return a}function
+ux(a){return a}function
+a$(a,b){return aT(ux,uw,uv,a,b)}function
+ja(a,f,c,d){if(c){var
+h=c[2],i=J(a,b),g=ex(c[1],i,f);if(d){var
+j=ja(a,f,h,d[2]),k=d[1],l=function(c,b){return C(c,t(a,g,b))},m=function(b){return $(t(a,g,b))};return[0,aT(function(a){return a},m,l,k,c),j]}var
+n=ja(a,f,h,0);return[0,e(function(b){return $(t(a,g,b))},c),n]}return d}function
+gX(h,a){if(a){var
 b=a[1];if(b)var
-c=b[1],e=K(d,c[1]),i=e?[0,i5(h,c,b[2],a[2])]:e,f=i;else
+c=b[1],e=K(d,c[1]),i=e?[0,ja(h,c,b[2],a[2])]:e,f=i;else
 var
 f=b;var
 g=f}else
 var
 g=a;return g}function
-mV(g,f,e){var
+m7(g,f,e){var
 a=f,b=e;for(;;){if(b){if(a){var
-c=gR(g,b);if(c){var
+c=gX(g,b);if(c){var
 a=a[1],b=c[1];continue}var
 d=c}else
 var
 d=a;return d}return 1}}function
-mW(d,b,a){if(b)if(a)var
-e=a[1],f=mW(d,b[2],a[2]),g=cB(d,b[1])?cd(e):cF(e),c=[0,g,f];else
+m8(d,b,a){if(b)if(a)var
+e=a[1],f=m8(d,b[2],a[2]),g=cE(d,b[1])?ch(e):cJ(e),c=[0,g,f];else
 var
 c=a;else
 var
 c=b;return c}function
-mX(a,b){if(a)if(b)var
-d=mX(a[2],b[2]),c=[0,mW(a[1],a,b[1]),d];else
+m9(a,b){if(a)if(b)var
+d=m9(a[2],b[2]),c=[0,m8(a[1],a,b[1]),d];else
 var
 c=b;else
 var
 c=a;return c}function
-a$(a){if(a){var
-b=a[1],c=a$(b),d=e(function(a){return[0,1,a]},c),f=a$(b);return g(e(function(a){return[0,0,a]},f),d)}return ue}function
-ew(c,a){var
-b=f(a);if(mV(c,b,a))return 1;var
-d=a$(aR(b));return l(function(d){return mV(c,b,mX([0,0,d],a))},d)}function
+ba(a){if(a){var
+b=a[1],c=ba(b),d=e(function(a){return[0,1,a]},c),f=ba(b);return g(e(function(a){return[0,0,a]},f),d)}return uy}function
+eB(c,a){var
+b=f(a);if(m7(c,b,a))return 1;var
+d=ba(aS(b));return l(function(d){return m7(c,b,m9([0,0,d],a))},d)}function
 ay(a){function
 b(b){var
 c=h(a,b[2]);return[0,e(a,b[1]),c]}return function(a){return e(b,a)}}function
-aE(h,e){var
+aF(h,e){var
 c=h,a=e[1],b=e[3];for(;;){if(c){if(b){var
-d=b[1],f=b[2],g=c[1]?A(a,d):E(a,d),c=c[2],a=g,b=f;continue}return a}return a}}function
-i6(c,b,a){var
-d=a$(c);return l(function(c){return h(a,h(ay(function(a){return aE(c,a)}),b))},d)}function
-i7(h,d,c){if(d)if(c)var
-i=c[2],e=c[1],j=d[2],f=d[1],a=function(c,a){return aQ(c,F(h,b),a)},k=i7(h,j,i),l=function(c,b){var
-d=a(b,e);return A(a(f,c),d)},m=function(b){return a(b,e)},n=aS(function(b){return a(f,b)},m,l,i,j),o=a(f,e),g=[0,[0,A(a(f,e),o),n],k];else
+d=b[1],f=b[2],g=c[1]?A(a,d):C(a,d),c=c[2],a=g,b=f;continue}return a}return a}}function
+jb(c,b,a){var
+d=ba(c);return l(function(c){return h(a,h(ay(function(a){return aF(c,a)}),b))},d)}function
+jc(h,d,c){if(d)if(c)var
+i=c[2],e=c[1],j=d[2],f=d[1],a=function(c,a){return aR(c,G(h,b),a)},k=jc(h,j,i),l=function(c,b){var
+d=a(b,e);return A(a(f,c),d)},m=function(b){return a(b,e)},n=aT(function(b){return a(f,b)},m,l,i,j),o=a(f,e),g=[0,[0,A(a(f,e),o),n],k];else
 var
 g=c;else
 var
 g=d;return g}function
-ex(b,d,a,c){function
+eC(b,d,a,c){function
 e(c,d){var
-e=aQ(d,b,a);return E(A(c,c),e)}function
-f(c){return $(aQ(c,b,a))}return aS(function(a){return A(a,a)},f,e,d,c)}function
-gS(d,i,h,g){var
+e=aR(d,b,a);return C(A(c,c),e)}function
+f(c){return $(aR(c,b,a))}return aT(function(a){return A(a,a)},f,e,d,c)}function
+gY(d,i,h,g){var
 c=i,b=h,a=g;for(;;){if(c){if(b){var
-e=b[1],f=c[1],j=cF(e[2]),k=a_(a,i7(d,f,ex(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
-i8(b,a){return[0,[0,0,b],a]}function
-fq(i,b,c,h,g,a){function
+e=b[1],f=c[1],j=cJ(e[2]),k=a$(a,jc(d,f,eC(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
+jd(b,a){return[0,[0,0,b],a]}function
+ft(i,b,c,h,g,a){function
 d(a){if(a){var
-j=ac([0,$(a[1][2]),0],b),c=gS(h,g,a[2],j),d=n(f(c),b);if(d)return ew(i,c);var
+j=ac([0,$(a[1][2]),0],b),c=gY(h,g,a[2],j),d=n(f(c),b);if(d)return eB(i,c);var
 e=d}else
 var
-e=a;return e}return i6(b,i8(c,a),d)}function
-gT(g,f,e){var
+e=a;return e}return jb(b,jd(c,a),d)}function
+gZ(g,f,e){var
 a=f,b=e;for(;;){if(a){var
-d=a[1],h=d[1],c=gR(g,[0,[0,cd(d[2]),h],b]);if(c){var
+d=a[1],h=d[1],c=gX(g,[0,[0,ch(d[2]),h],b]);if(c){var
 a=a[2],b=c[1];continue}return c}return[0,b]}}function
-i9(d,b,c,a){function
+je(d,b,c,a){function
 e(a){if(a){var
-j=ac([0,a[1][2],0],b),c=gT(d,a[2],j);if(c){var
-e=c[1],g=n(f(e),b);if(g)return ew(d,e);var
+j=ac([0,a[1][2],0],b),c=gZ(d,a[2],j);if(c){var
+e=c[1],g=n(f(e),b);if(g)return eB(d,e);var
 h=g}else
 var
 h=c;var
 i=h}else
 var
-i=a;return i}return i6(b,i8(c,a),e)}function
-mY(h,g,a,f,d,c){var
-i=[0,u,u,0],b=e(function(a){return[0,a[1],i]},c),j=a?a[1]:[0,u,u,0];return fq(h,g,j,f,d,b)}function
-i_(b,a){var
-c=a$(b);return l(function(b){return K(d,aE(b,a)[1])},c)}function
-gU(c,b,a){var
-d=a[3],f=e(function(a){return aQ(c,b,a)},d),g=a[2];return[0,aQ(c,b,a[1]),g,f]}function
-mZ(a,b){var
-c=b[3],d=a[3],e=aS(function(a){return a},$,E,d,c),f=a[2];return[0,E(a[1],b[1]),f,e]}function
-bZ(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-ah(c,b,a){var
-d=ar(c,b[3],a[3]),e=ar(c,b[2],a[2]);return[0,ar(c,b[1],a[1]),e,d]}function
-a7(b,a){var
+i=a;return i}return jb(b,jd(c,a),e)}function
+m_(h,g,a,f,d,c){var
+i=[0,u,u,0],b=e(function(a){return[0,a[1],i]},c),j=a?a[1]:[0,u,u,0];return ft(h,g,j,f,d,b)}function
+jf(b,a){var
+c=ba(b);return l(function(b){return K(d,aF(b,a)[1])},c)}function
+g0(c,b,a){var
+d=a[3],f=e(function(a){return aR(c,b,a)},d),g=a[2];return[0,aR(c,b,a[1]),g,f]}function
+m$(a,b){var
+c=b[3],d=a[3],e=aT(function(a){return a},$,C,d,c),f=a[2];return[0,C(a[1],b[1]),f,e]}function
+bL(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+af(c,b,a){var
+d=as(c,b[3],a[3]),e=as(c,b[2],a[2]);return[0,as(c,b[1],a[1]),e,d]}function
+a8(b,a){var
 c=r(b,a[3]),d=r(b,a[2]);return[0,r(b,a[1]),d,c]}function
-bm(b,a){var
-c=an(b[3],a),d=an(b[2],a);return[0,an(b[1],a),d,c]}function
+bo(b,a){var
+c=ai(b[3],a),d=ai(b[2],a);return[0,ai(b[1],a),d,c]}function
 ab(b,a){var
 c=r(b[3],a[3]),d=r(b[2],a[2]);return B(B(r(b[1],a[1]),d),c)}function
-dM(a){return bm(a,aN(ab(a,a)))}function
-c_(a){var
-b=a[5];return b?b[1]:aN(a[2])}function
-gV(b,a){return b?a:bs(a)}function
-m0(e,a,i,d,h){var
-f=ab(a,e),b=ah(z,e,a7(f,a)),j=ab(b,b),g=z(X(d),j),c=gV(h,aN(g)),k=z(f,c),l=ah(B,a,bm(b,c));return[0,ah(B,b,a7(c,a)),g,l,k,[0,d],0,[0,i]]}function
-m1(a,e,d){var
-b=ab(a,a),c=aN(b),f=[0,e],g=y(function(b){return ah(z,a,a7(ab(b,a),b))},d);return[0,a,b,bm(a,c),c,0,g,f]}function
-m2(c,a){var
+dM(a){return bo(a,aL(ab(a,a)))}function
+c$(a){var
+b=a[5];return b?b[1]:aL(a[2])}function
+g1(b,a){return b?a:bu(a)}function
+na(e,a,i,d,h){var
+f=ab(a,e),b=af(x,e,a8(f,a)),j=ab(b,b),g=x(W(d),j),c=g1(h,aL(g)),k=x(f,c),l=af(B,a,bo(b,c));return[0,af(B,b,a8(c,a)),g,l,k,[0,d],0,[0,i]]}function
+nb(a,e,d){var
+b=ab(a,a),c=aL(b),f=[0,e],g=z(function(b){return af(x,a,a8(ab(b,a),b))},d);return[0,a,b,bo(a,c),c,0,g,f]}function
+nc(c,a){var
 d=ab(a,c);return[0,a,m(b),a,d,0,0,0]}function
-fr(a){return e(function(a){var
-b=a[2];return[0,bZ(a[1]),b]},a)}function
-m3(a){return e(function(a){var
-c=m(b);return[0,bZ(a[3]),c]},a)}function
-m4(b,a){var
+fu(a){return e(function(a){var
+b=a[2];return[0,bL(a[1]),b]},a)}function
+nd(a){return e(function(a){var
+c=m(b);return[0,bL(a[3]),c]},a)}function
+ne(b,a){var
 c=h(b,a[3]),d=h(b,a[2]);return[0,h(b,a[1]),d,c]}function
-m5(c,b,a){var
-d=ar(c,b[3],a[3]),e=ar(c,b[2],a[2]);return[0,ar(c,b[1],a[1]),e,d]}function
-ey(d,a){var
-b=cc(d,[0,a[2],a[2]]);if(b){var
+nf(c,b,a){var
+d=as(c,b[3],a[3]),e=as(c,b[2],a[2]);return[0,as(c,b[1],a[1]),e,d]}function
+eD(d,a){var
+b=cg(d,[0,a[2],a[2]]);if(b){var
 c=b[1];return[0,c[2],c[2]]}return[0,a[2],a[2]]}function
-gW(a,n,f,m,e,k,j){var
-o=m5(bA,k,j),b=m5(function(b,c){return aT(a,b,c)},e,o),c=b[3],g=b[2],h=b[1],i=cg(cg(cg(aa(J(a,d)),h),g),c),p=a$(n);return l(function(c){var
-b=m4(function(b){return R(a,aE(c,b))},e),h=b[3],j=b[2],k=b[1],l=t(a,m,ey(a,A(A(A(J(a,d),k),j),h))),g=E(aE(c,i),l),n=f?E(g,aE(c,f[1])):g;return K(d,n[1])},p)}function
-ci(a){return dF(F(a[1],a[2]),b)}function
-ez(a){var
-b=ci(a);return aO(a[2],b)}function
+g2(a,n,f,m,e,k,j){var
+o=nf(bB,k,j),b=nf(function(b,c){return aU(a,b,c)},e,o),c=b[3],g=b[2],h=b[1],i=ck(ck(ck(aa(J(a,d)),h),g),c),p=ba(n);return l(function(c){var
+b=ne(function(b){return S(a,aF(c,b))},e),h=b[3],j=b[2],k=b[1],l=t(a,m,eD(a,A(A(A(J(a,d),k),j),h))),g=C(aF(c,i),l),n=f?C(g,aF(c,f[1])):g;return K(d,n[1])},p)}function
+cm(a){return dF(G(a[1],a[2]),b)}function
+eE(a){var
+b=cm(a);return aQ(a[2],b)}function
 dO(c,b){if(b)var
-a=b[1],e=dO([0,c],b[2]),f=ez(a),h=[0,[0,ez(a),f],0],i=g(ac(u,c),h),j=ci(a),d=[0,[0,[0,ci(a),j],a,i],e];else
+a=b[1],e=dO([0,c],b[2]),f=eE(a),h=[0,[0,eE(a),f],0],i=g(ac(u,c),h),j=cm(a),d=[0,[0,[0,cm(a),j],a,i],e];else
 var
 d=b;return d}function
-c$(d,b){if(b){var
+da(d,b){if(b){var
 c=b[2],a=b[1];if(d){var
-e=c$(d[1],c);return[0,[0,a,e[1]],[0,a,e[2]]]}var
-f=a[2],g=[0,[0,ci(a),f],c],h=ci(a);return[0,[0,[0,a[1],h],c],g]}return uf}function
-m6(d,c,a){if(c){if(a){var
-e=m6(d,c[2],a[2]);return A(aQ(c[1],F(d,b),a[1]),e)}return u}return u}function
+e=da(d[1],c);return[0,[0,a,e[1]],[0,a,e[2]]]}var
+f=a[2],g=[0,[0,cm(a),f],c],h=cm(a);return[0,[0,[0,a[1],h],c],g]}return uz}function
+ng(d,c,a){if(c){if(a){var
+e=ng(d,c[2],a[2]);return A(aR(c[1],G(d,b),a[1]),e)}return u}return u}function
 dP(f,a){if(a)var
-g=a[1],c=g[2],d=g[1],h=a[2],b=function(a,b){return m6(f,a,b)},j=dP(f,h),k=e(function(a){var
+g=a[1],c=g[2],d=g[1],h=a[2],b=function(a,b){return ng(f,a,b)},j=dP(f,h),k=e(function(a){var
 e=b(d,a[2]);return A(b(a[1],c),e)},h),l=b(d,c),i=[0,[0,A(b(d,c),l),k],j];else
 var
 i=a;return i}function
 dQ(e,b,d,a){if(b)if(a)var
-f=b[1],g=dQ(e,b[2],d,a[2]),c=[0,[0,f,ex(e,a[1][1],d,f)],g];else
+f=b[1],g=dQ(e,b[2],d,a[2]),c=[0,[0,f,eC(e,a[1][1],d,f)],g];else
 var
 c=a;else
 var
 c=b;return c}function
-gX(f,d,c,b,a){if(a){var
+g3(f,d,c,b,a){if(a){var
 g=a[2];if(d){var
-i=gX(f,d[1],c,b,g);return[0,[0,E(u,b),0],i]}var
-j=e(function(a){return[0,E(u,b),0]},g),h=[0,[0,E($(t(f,c,cF(a[1][2]))),b),0],j]}else
+i=g3(f,d[1],c,b,g);return[0,[0,C(u,b),0],i]}var
+j=e(function(a){return[0,C(u,b),0]},g),h=[0,[0,C($(t(f,c,cJ(a[1][2]))),b),0],j]}else
 var
 h=a;return h}function
-aY(d,c,a){var
-b=n(f(a),c);return b?ew(d,a):b}function
-gY(d,b,a){if(b)var
-c=b[1],f=gY([0,d],b[2],a),h=g(ac(u,d),[0,a,0]),e=[0,[0,c,[0,aO(c[1],a[2]),F(c[2],a[2])],h],f];else
+a0(d,c,a){var
+b=n(f(a),c);return b?eB(d,a):b}function
+g4(d,b,a){if(b)var
+c=b[1],f=g4([0,d],b[2],a),h=g(ac(u,d),[0,a,0]),e=[0,[0,c,[0,aQ(c[1],a[2]),G(c[2],a[2])],h],f];else
 var
 e=b;return e}function
-m7(d){if(d){var
+nh(d){if(d){var
 a=d[1][1];if(a){var
 b=a[2];if(b){var
 c=b[2];if(c){if(c[2])return 0;var
-g=c[1],h=b[1],i=a[1],j=m7(d[2]);return y(function(a){return[0,[0,[0,i,h],g],a]},j)}var
+g=c[1],h=b[1],i=a[1],j=nh(d[2]);return z(function(a){return[0,[0,[0,i,h],g],a]},j)}var
 e=c}else
 var
 e=b;var
 f=e}else
 var
-f=a;return f}return ug}function
-m8(d,c,b,a){return cF(bz(function(e,a){var
-b=bJ(aE(c,a[2]));return A(e,t(d,a[1],[0,b,b]))},a,b))}function
-m9(b,c,a){return c?aw(b,a):am(b,a)}function
-m_(b,i,h,a){return ey(b,ap(function(k,j){var
+f=a;return f}return uA}function
+ni(d,c,b,a){return cJ(bA(function(e,a){var
+b=bK(aF(c,a[2]));return A(e,t(d,a[1],[0,b,b]))},a,b))}function
+nj(b,c,a){return c?aw(b,a):ao(b,a)}function
+nk(b,i,h,a){return eD(b,aq(function(k,j){var
 p=e(function(b){var
-a=aH(0,i);return e(function(a){return bJ(s(a,b[3],u))},a)},k);function
+a=aI(0,i);return e(function(a){return bK(s(a,b[3],u))},a)},k);function
 a(n,m){var
-o=m9(h,n,p),g=e(function(a){return m9(h,m,a)},o);function
-a(a){return ap(bq,d,a)}var
+o=nj(h,n,p),g=e(function(a){return nj(h,m,a)},o);function
+a(a){return aq(bs,d,a)}var
 i=0;function
 j(a){return a}function
 k(a){return a}var
-c=a(ap(function(a,b){return aS(k,j,mc,a,b)},i,g)),l=[0,c,c],f=a(e(function(a){return ap(mc,d,a)},g));return ey(b,t(b,[0,f,f],l))}var
-c=a(1,1),f=a(1,0),g=a(0,1);return A(j,R(b,A(A(A(a(0,0),g),f),c)))},u,a))}function
-m$(d,a,g,f){var
-h=aH(0,d);return e(function(d){var
-e=g?ae(a,d):aD(d,a);return e?b:cb(c(2,b),f)},h)}function
-na(b,a){var
-c=V(b,a);return e(function(a){return aQ(a[1],d,a[2])},c)}function
-nb(c,b,a){var
+c=a(aq(function(a,b){return aT(k,j,mp,a,b)},i,g)),l=[0,c,c],f=a(e(function(a){return aq(mp,d,a)},g));return eD(b,t(b,[0,f,f],l))}var
+c=a(1,1),f=a(1,0),g=a(0,1);return A(j,S(b,A(A(A(a(0,0),g),f),c)))},u,a))}function
+nl(d,a,g,f){var
+h=aI(0,d);return e(function(d){var
+e=g?ae(a,d):aE(d,a);return e?b:cf(c(2,b),f)},h)}function
+nm(b,a){var
+c=V(b,a);return e(function(a){return aR(a[1],d,a[2])},c)}function
+nn(c,b,a){var
 d=[0,[0,a,0],0],f=V(c,b);return g(e(function(a){return g(a[1],[0,a[2],0])},f),d)}function
-nc(g,e){var
+no(g,e){var
 a=g,b=e;for(;;){if(b){if(a){var
 c=n(f(b[1]),a);if(c){var
 a=a[1],b=b[2];continue}var
 d=c}else
 var
 d=a;return d}return a?0:1}}function
-nd(b,a){var
+np(b,a){var
 c=V(b,a);return e(function(a){return a[1]?$(a[2]):a[2]},c)}function
-ne(a,f,b,d,c){var
-h=gY(a,ac(u,dE(f,a)),c),i=g(e(aa,aw(a,b)),h);return g(gY(0,am(a,b),d),i)}function
-nf(a,e,c){var
-f=t(a,e,c);return K(d,E(J(a,b),f)[1])}function
-i$(a){return y(function(a){return y(fn,a)},a)}function
-da(c,b,a){function
-d(a){return aT(c,b,a)}return y(function(a){return y(d,a)},a)}function
-ja(c,b,a){function
-d(a){return eu(c,a,b)}return y(function(a){return c7(d,a)},a)}function
-eA(b,a){var
+nq(a,f,b,d,c){var
+h=g4(a,ac(u,dE(f,a)),c),i=g(e(aa,aw(a,b)),h);return g(g4(0,ao(a,b),d),i)}function
+nr(a,e,c){var
+f=t(a,e,c);return K(d,C(J(a,b),f)[1])}function
+jg(a){return z(function(a){return z(fq,a)},a)}function
+db(c,b,a){function
+d(a){return aU(c,b,a)}return z(function(a){return z(d,a)},a)}function
+jh(c,b,a){function
+d(a){return ez(c,a,b)}return z(function(a){return c8(d,a)},a)}function
+eF(b,a){var
 c=V(b,a);return e(function(c){var
 a=c[2],b=c[1];if(b){if(a){var
-d=a[1],e=b[1];return[0,cJ(function(b,a){return[0,cg(b,a)]},e,d)]}return b}return a},c)}function
-gZ(a){return aa(J(a,c(2,b)))}function
-jb(a,au,at,L,c){var
-av=ce(aA,c),f=h(bB(a,au,at),av);switch(c[0]){case
+d=a[1],e=b[1];return[0,cN(function(b,a){return[0,ck(b,a)]},e,d)]}return b}return a},c)}function
+g5(a){return aa(J(a,c(2,b)))}function
+ji(a,au,at,L,c){var
+av=ci(aA,c),f=h(bC(a,au,at),av);switch(c[0]){case
 1:var
 O=c[1],d=e(function(d){var
 c=n(O,d),e=c?[0,[0,aa(J(a,b))]]:c;return e},L);break;case
 3:var
-d=eA(c[1][2],c[2][2]);break;case
+d=eF(c[1][2],c[2][2]);break;case
 4:var
-P=e(i$,c[2][2]),d=eA(c[1][2],P);break;case
+P=e(jg,c[2][2]),d=eF(c[1][2],P);break;case
 5:var
-d=e(i$,c[1][2]);break;case
+d=e(jg,c[1][2]);break;case
 6:var
 x=c[2],y=c[1],g=y[1],u=0;if(g){var
 i=x[1];if(i)var
-Q=x[2],R=g[1],S=e(function(b){return da(a,R,b)},Q),T=y[2],U=i[1],d=eA(e(function(b){return da(a,U,b)},T),S);else{var
+Q=x[2],R=g[1],S=e(function(b){return db(a,R,b)},Q),T=y[2],U=i[1],d=eF(e(function(b){return db(a,U,b)},T),S);else{var
 z=i;u=1}}else{var
 z=g;u=1}if(u)var
 d=z;break;case
 7:var
 v=0;if(f){var
 A=c[2],j=A[1];if(j)var
-V=A[2],W=fn(f[1]),X=e(function(b){return da(a,W,b)},V),Y=eA(c[1][2],X),Z=j[1],d=e(function(b){return ja(a,Z,b)},Y);else{var
+V=A[2],W=fq(f[1]),X=e(function(b){return db(a,W,b)},V),Y=eF(c[1][2],X),Z=j[1],d=e(function(b){return jh(a,Z,b)},Y);else{var
 B=j;v=1}}else{var
 B=f;v=1}if(v)var
 d=B;break;case
 8:var
 C=c[1],k=C[1];if(k)var
-_=C[2],$=k[1],ab=aT(a,gZ(a),$),d=e(function(b){return da(a,ab,b)},_);else
+_=C[2],$=k[1],ab=aU(a,g5(a),$),d=e(function(b){return db(a,ab,b)},_);else
 var
 d=k;break;case
 9:if(f)var
-ac=c[1][2],ad=f[1],ae=aT(a,gZ(a),ad),d=e(function(b){return ja(a,ae,b)},ac);else
+ac=c[1][2],ad=f[1],ae=aU(a,g5(a),ad),d=e(function(b){return jh(a,ae,b)},ac);else
 var
 d=f;break;case
 10:var
 D=c[4],E=c[3],F=c[2],l=F[1],w=0;if(l){var
 m=l[1],o=E[1],M=0;if(o){var
 p=o[1],q=D[1],N=0;if(q){var
-r=mB(a,m,p,q[1]);if(r){var
-G=r[1],s=G[2],t=G[1],af=E[2],ag=bA(p,s),ah=e(function(b){return da(a,ag,b)},af),ai=F[2],aj=bA(m,t),ak=eA(e(function(b){return da(a,aj,b)},ai),ah),al=e(i$,D[2]),am=gZ(a),an=eA(e(function(b){return da(a,am,b)},ak),al),ao=c[1]?t:fn(s),ap=e(function(b){return da(a,ao,b)},an),aq=aT(a,m,s),ar=bA(aT(a,p,t),aq),as=aT(a,gZ(a),ar),d=e(function(b){return ja(a,as,b)},ap);M=1;N=1}else
+r=mO(a,m,p,q[1]);if(r){var
+G=r[1],s=G[2],t=G[1],af=E[2],ag=bB(p,s),ah=e(function(b){return db(a,ag,b)},af),ai=F[2],aj=bB(m,t),ak=eF(e(function(b){return db(a,aj,b)},ai),ah),al=e(jg,D[2]),am=g5(a),an=eF(e(function(b){return db(a,am,b)},ak),al),ao=c[1]?t:fq(s),ap=e(function(b){return db(a,ao,b)},an),aq=aU(a,m,s),ar=bB(aU(a,p,t),aq),as=aU(a,g5(a),ar),d=e(function(b){return jh(a,as,b)},ap);M=1;N=1}else
 var
 H=r}else
 var
@@ -2044,151 +2044,155 @@ K=I;w=1}}else{var
 K=l;w=1}if(w)var
 d=K;break;default:var
 d=e(function(a){return 0},L)}return[0,f,d]}function
-jc(b,c,a){if(a)var
-f=a[1],g=jc(b,c,a[2]),d=[0,e(function(a){return $(t(b,t(b,c,f),a))},a),g];else
+jj(b,c,a){if(a)var
+f=a[1],g=jj(b,c,a[2]),d=[0,e(function(a){return $(t(b,t(b,c,f),a))},a),g];else
 var
 d=a;return d}function
-jd(a){return l(function(a){var
+jk(a){return l(function(a){var
 b=L(a[1],d);return b?L(a[2],d):b},a)}function
-je(c,b,a){var
-d=V(b,a);return ap(function(a,b){return A(t(c,a[1],a[2]),b)},u,d)}function
-jf(c,b,a){var
-d=bJ(je(c,a,b));return ap(function(b,a){return F(bJ(b),a)},d,a)}function
-cj(a){return J(a,b)}function
-fs(a,i,c,v,u){var
+jl(c,b,a){var
+d=V(b,a);return aq(function(a,b){return A(t(c,a[1],a[2]),b)},u,d)}function
+jm(c,b,a){var
+d=bK(jl(c,a,b));return aq(function(b,a){return G(bK(b),a)},d,a)}function
+cn(a){return J(a,b)}function
+fv(a,i,c,v,u){var
 f=v,e=u;for(;;){if(f){var
-j=f[1],n=0;if(!jd(c)&&!jd(j)){var
-h=jf(a,i,j),o=cj(a),p=jf(a,i,c),b=es([0,jf(a,i,c),p],o,[0,h,h])[1],k=K(d,h),l=k?K(d,b):k;if(l)var
-q=ax(iV(a,[0,b,b])),r=function(b){return function(d,c){return E(t(a,[0,b,b],d),c)}}(b),s=[0,b,b],m=[0,a_(e,jc(a,q,aS(function(c){return function(b){return t(a,c,b)}}(s),$,r,j,c)))];else
+j=f[1],n=0;if(!jk(c)&&!jk(j)){var
+h=jm(a,i,j),o=cn(a),p=jm(a,i,c),b=ex([0,jm(a,i,c),p],o,[0,h,h])[1],k=K(d,h),l=k?K(d,b):k;if(l)var
+q=ax(i1(a,[0,b,b])),r=function(b){return function(d,c){return C(t(a,[0,b,b],d),c)}}(b),s=[0,b,b],m=[0,a$(e,jj(a,q,aT(function(c){return function(b){return t(a,c,b)}}(s),$,r,j,c)))];else
 var
 m=l;var
 g=m;n=1}if(!n)var
 g=[0,e];if(g){var
 f=f[2],e=g[1];continue}return g}return[0,e]}}function
-ng(a){var
+ns(a){var
 b=a[2],c=e(function(a){return[0,a[1],u]},b);return[0,[0,a[1][1],u],c]}function
-jg(h,n,a,m,l,k){var
+jn(h,n,a,m,l,k){var
 d=m,c=l,b=k;for(;;){if(d){if(c){var
-i=c[1],j=i[1],f=d[1],o=cF(j[2]),p=a_(b,i7(a,f,ex(a,j[1],o,f))),q=i[2],r=e(function(c){return function(b){return e(ax,ex(a,b[1],b[2],c))}}(f),q),g=fs(h,n,e(function(b){return aQ(b,a,cj(h))},f),r,p);if(g){var
+i=c[1],j=i[1],f=d[1],o=cJ(j[2]),p=a$(b,jc(a,f,eC(a,j[1],o,f))),q=i[2],r=e(function(c){return function(b){return e(ax,eC(a,b[1],b[2],c))}}(f),q),g=fv(h,n,e(function(b){return aR(b,a,cn(h))},f),r,p);if(g){var
 d=d[2],c=c[2],b=g[1];continue}return g}return[0,b]}return[0,b]}}function
-nh(a,j,r,q){var
+nt(a,j,r,q){var
 c=r,f=q;for(;;){if(c){var
-k=c[1],l=k[1],g=l[2],h=l[1],m=k[2],n=[0,[0,cd(g),h],f];if(m){var
+k=c[1],l=k[1],g=l[2],h=l[1],m=k[2],n=[0,[0,ch(g),h],f];if(m){var
 o=K(d,g[1]);if(o)var
 s=e(function(a){var
-b=a[1];return[0,ax(a[2]),b]},m),t=e(function(a){return u},h),v=[0,cj(a),t],w=cj(a),b=fs(a,[0,$(es(je(a,h,j),w,g)),j],v,s,n);else
+b=a[1];return[0,ax(a[2]),b]},m),t=e(function(a){return u},h),v=[0,cn(a),t],w=cn(a),b=fv(a,[0,$(ex(jl(a,h,j),w,g)),j],v,s,n);else
 var
 b=o}else
 var
 b=[0,n];if(b){var
-i=gR(a,b[1]);if(i){var
+i=gX(a,b[1]);if(i){var
 c=c[2],f=i[1];continue}var
 p=i}else
 var
 p=b;return p}return[0,f]}}function
-ni(c,b,a){var
-d=aH(0,a);return e(function(a){return n(a,b)?cj(c):u},d)}function
-nj(c,b,a){if(b){if(a){var
-d=nj(c,b[2],a[2]);return A(aQ(b[1],c,a[1]),d)}return u}return u}function
-nk(a,j){switch(j){case
+nu(c,b,a){var
+d=aI(0,a);return e(function(a){return n(a,b)?cn(c):u},d)}function
+nv(c,b,a){if(b){if(a){var
+d=nv(c,b[2],a[2]);return A(aR(b[1],c,a[1]),d)}return u}return u}function
+nw(a,j){switch(j){case
 0:var
-d=aO(a[2],a[1]),e=a[1];return[0,[0,e,e],[0,[0,d,d],0]];case
+d=aQ(a[2],a[1]),e=a[1];return[0,[0,e,e],[0,[0,d,d],0]];case
 1:var
-f=aO(a[1],a[2]),g=a[2];return[0,[0,g,g],[0,[0,f,f],0]];default:var
-c=dF(F(a[1],a[2]),b),h=aO(c,a[2]),i=aO(a[2],c);return[0,[0,c,c],[0,[0,i,i],[0,[0,h,h],0]]]}}function
-ft(d,c,a){if(a)var
-e=a[1],g=ft(d,[0,c],a[2]),b=y(aG,mf(function(a){return n(a[1],c)},d)),h=b?nk(e,b[1])[1]:e,f=[0,h,g];else
+f=aQ(a[1],a[2]),g=a[2];return[0,[0,g,g],[0,[0,f,f],0]];default:var
+c=dF(G(a[1],a[2]),b),h=aQ(c,a[2]),i=aQ(a[2],c);return[0,[0,c,c],[0,[0,i,i],[0,[0,h,h],0]]]}}function
+fw(d,c,a){if(a)var
+e=a[1],g=fw(d,[0,c],a[2]),b=z(aH,ms(function(a){return n(a[1],c)},d)),h=b?nw(e,b[1])[1]:e,f=[0,h,g];else
 var
 f=a;return f}function
-g0(a,b){return e(function(a){var
-c=a[2];return nk(s(a[1],b,u),c)[2]},a)}function
-g1(i,b,f,a){function
-d(a){return aE(b,a[1])}var
+g6(a,b){return e(function(a){var
+c=a[2];return nw(s(a[1],b,u),c)[2]},a)}function
+g7(i,b,f,a){function
+d(a){return aF(b,a[1])}var
 h=0,j=aa(u);function
 c(f,d,a,b){if(a){var
-h=function(a){return aE(f,s(d,a[2],j))},k=e(h,b[1]),l=h(b[2]),m=c(f,[0,d],a[2],b),n=a[1];return g(e(function(a){var
+h=function(a){return aF(f,s(d,a[2],j))},k=e(h,b[1]),l=h(b[2]),m=c(f,[0,d],a[2],b),n=a[1];return g(e(function(a){var
 b=t(i,a,l);return[0,e(function(b){return t(i,a,b)},k),b]},n),m)}return a}var
 k=c(b,h,f,a),l=d(a[2]);return[0,[0,e(d,a[1]),l],k]}var
-uw=aa(u);function
-nl(e,d,c){if(d){var
-f=s(e,c[2],ux),a=f?f[1]:[0,uw];if(a)var
-b=nl([0,e],d[2],c),h=b?[0,[0,a[1],b[1]]]:b,g=h;else
+uQ=aa(u);function
+nx(e,d,c){if(d){var
+f=s(e,c[2],uR),a=f?f[1]:[0,uQ];if(a)var
+b=nx([0,e],d[2],c),h=b?[0,[0,a[1],b[1]]]:b,g=h;else
 var
-g=a;return g}return uy}function
-nm(a,c,i,p,o,g,n){var
-d=a$(c);return l(function(d){var
+g=a;return g}return uS}function
+ny(a,c,i,p,o,g,n){var
+d=ba(c);return l(function(d){var
 f=h(n,d);if(f){var
-q=t(a,o,f[1]),j=E(J(a,b),q),r=i?E(j,aE(d,i[1])):j,k=function(b){function
-f(c){return t(a,b,aE(d,c))}var
-g=e(function(a){return e(f,a)},p);return aY(a,c,a_(ac([0,r,0],c),g))},l=k(ax(g));if(l)return k($(ax(g)));var
+q=t(a,o,f[1]),j=C(J(a,b),q),r=i?C(j,aF(d,i[1])):j,k=function(b){function
+f(c){return t(a,b,aF(d,c))}var
+g=e(function(a){return e(f,a)},p);return a0(a,c,a$(ac([0,r,0],c),g))},l=k(ax(g));if(l)return k($(ax(g)));var
 m=l}else
 var
 m=f;return m},d)}function
-nn(c,b,a){if(a){var
+nz(c,b,a){if(a){var
 d=a[2];if(c){var
-f=nn(c[1],b,d);return[0,a[1],f]}var
+f=nz(c[1],b,d);return[0,a[1],f]}var
 e=[0,b,d]}else
 var
 e=a;return e}function
-fu(a,g){var
-b=a5(function(e){var
-c=s(e,a,u),b=D(c[1],d),f=b?D(d,c[2]):b;return I(f)},g);if(b){if(b[2])return a;var
-f=b[1],c=s(f,a,u),e=K(d,c[1])?c[1]:c[2];return nn(f,[0,e,e],a)}return a}function
-no(c,a){if(a)var
-b=a[2],f=no(c,b),g=b?b[1]:e(tL,c),d=[0,[0,a[1],g],f];else
+fx(a,g){var
+b=a6(function(e){var
+c=s(e,a,u),b=F(c[1],d),f=b?F(d,c[2]):b;return I(f)},g);if(b){if(b[2])return a;var
+f=b[1],c=s(f,a,u),e=K(d,c[1])?c[1]:c[2];return nz(f,[0,e,e],a)}return a}function
+nA(c,a){if(a)var
+b=a[2],f=nA(c,b),g=b?b[1]:e(t5,c),d=[0,[0,a[1],g],f];else
 var
 d=a;return d}function
-jh(a){return a?no(a[1],a):a}function
-db(c,d,b,a){if(d){var
+jo(a){return a?nA(a[1],a):a}function
+dc(c,d,b,a){if(d){var
 e=d[1];if(a){var
-f=db(c,e,b,a[2]);return[0,a[1],f]}return[0,c,db(c,e,b,0)]}return a?[0,b,a[2]]:[0,b,0]}function
-g2(a,c,b){if(c)if(b)var
-g=b[2],e=b[1],h=c[2],d=c[1],i=g2(a,h,g),j=function(c,b){var
-f=t(a,e,b);return A(t(a,d,c),f)},k=function(b){return t(a,e,b)},l=aS(function(b){return t(a,d,b)},k,j,g,h),f=[0,[0,t(a,A(d,d),e),l],i];else
+f=dc(c,e,b,a[2]);return[0,a[1],f]}return[0,c,dc(c,e,b,0)]}return a?[0,b,a[2]]:[0,b,0]}function
+g8(a,c,b){if(c)if(b)var
+g=b[2],e=b[1],h=c[2],d=c[1],i=g8(a,h,g),j=function(c,b){var
+f=t(a,e,b);return A(t(a,d,c),f)},k=function(b){return t(a,e,b)},l=aT(function(b){return t(a,d,b)},k,j,g,h),f=[0,[0,t(a,A(d,d),e),l],i];else
 var
 f=b;else
 var
 f=c;return f}function
-dc(d,c,b,a){return db(u,c,je(d,a,b),a)}function
-ji(a,f,e,b,d,c){var
-g=aH(0,b);return ap(function(g,c){var
-h=dc(a,f,e,ni(a,g,b));return a_(c,jc(a,$(d),h))},c,g)}function
-jj(a,d,c,j,i,h,g,f){var
-k=dc(a,d,c,e(function(b){return J(a,C(h,b))},i));return a_(f,g2(a,dc(a,d,c,e(function(c){return aQ(c,F(g,b),cj(a))},j)),k))}function
-jk(a,h,g,q,f,p,o,n){var
+dd(d,c,b,a){return dc(u,c,jl(d,a,b),a)}function
+jp(a,f,e,b,d,c){var
+g=aI(0,b);return aq(function(g,c){var
+h=dd(a,f,e,nu(a,g,b));return a$(c,jj(a,$(d),h))},c,g)}function
+jq(a,d,c,j,i,h,g,f){var
+k=dd(a,d,c,e(function(b){return J(a,D(h,b))},i));return a$(f,g8(a,dd(a,d,c,e(function(c){return aR(c,G(g,b),cn(a))},j)),k))}function
+jr(a,h,g,q,f,p,o,n){var
 d=p,c=o,b=n;for(;;){if(d){if(c){var
-k=c[1],l=k[1],i=d[1],m=dc(a,h,g,e(function(b){return aQ(b,f,cj(a))},i)),r=cF(l[2]),s=dc(a,h,g,ex(f,l[1],r,i)),t=a_(b,g2(a,e(ax,m),s)),u=k[2],j=fs(a,q,m,e(function(c){return function(b){return dc(a,h,g,e(ax,ex(f,b[1],b[2],c)))}}(i),u),t);if(j){var
+k=c[1],l=k[1],i=d[1],m=dd(a,h,g,e(function(b){return aR(b,f,cn(a))},i)),r=cJ(l[2]),s=dd(a,h,g,eC(f,l[1],r,i)),t=a$(b,g8(a,e(ax,m),s)),u=k[2],j=fv(a,q,m,e(function(c){return function(b){return dd(a,h,g,e(ax,eC(f,b[1],b[2],c)))}}(i),u),t);if(j){var
 d=d[2],c=c[2],b=j[1];continue}return j}return[0,b]}return[0,b]}}function
-np(g,b,f,a){if(a)var
-c=a[2],d=a[1],h=s(b,c,u),e=[0,d,db(u,b,A(t(g,f,d),h),c)];else
+nB(g,b,f,a){if(a)var
+c=a[2],d=a[1],h=s(b,c,u),e=[0,d,dc(u,b,A(t(g,f,d),h),c)];else
 var
 e=a;return e}function
-nq(a,b,m,D,C,B){var
+nC(a,b,m,D,C,B){var
 i=C,h=B;for(;;){if(i){var
-n=i[1],o=n[1],j=o[2],p=n[2],c=dc(a,b,m,o[1]);if(p){var
+n=i[1],o=n[1],j=o[2],p=n[2],c=dd(a,b,m,o[1]);if(p){var
 q=K(d,j[1]);if(q)var
-E=cj(a),f=cd($(es(s(b,c,u),E,j))),k=cd(j),v=db(u,b,f,0),w=s(b,c,u),x=a_(h,g2(a,v,db(u,b,A(ax(t(a,f,k)),w),c))),y=s(b,c,u),z=[0,[0,k,db(u,b,A(t(a,f,k),y),c)],x],F=e(function(e){return function(c){var
-d=dc(a,b,m,c[1]);return np(a,b,e,[0,ax(c[2]),d])}}(f),p),G=e(function(a){return u},c),g=fs(a,[0,u,D],np(a,b,f,[0,cj(a),G]),F,z);else
+E=cn(a),f=ch($(ex(s(b,c,u),E,j))),k=ch(j),v=dc(u,b,f,0),w=s(b,c,u),x=a$(h,g8(a,v,dc(u,b,A(ax(t(a,f,k)),w),c))),y=s(b,c,u),z=[0,[0,k,dc(u,b,A(t(a,f,k),y),c)],x],F=e(function(e){return function(c){var
+d=dd(a,b,m,c[1]);return nB(a,b,e,[0,ax(c[2]),d])}}(f),p),G=e(function(a){return u},c),g=fv(a,[0,u,D],nB(a,b,f,[0,cn(a),G]),F,z);else
 var
 g=q}else
 var
-g=[0,[0,[0,cd(j),c],h]];if(g){var
-l=gR(a,g[1]);if(l){var
+g=[0,[0,[0,ch(j),c],h]];if(g){var
+l=gX(a,g[1]);if(l){var
 i=i[2],h=l[1];continue}var
 r=l}else
 var
 r=g;return r}return[0,h]}}function
-jl(f,d,c,b,a){var
-g=e(aa,c);return cf(0,bB(f,dO(0,a),g),b,d)}function
+nD(a){if(a)var
+b=a[1],c=[0,b[1],[0,b[2],0]];else
+var
+c=a;return c}function
+js(f,d,c,b,a){var
+g=e(aa,c);return cj(0,bC(f,dO(0,a),g),b,d)}function
 ad(a){if(a){var
 b=a[1];if(b)var
 c=ad(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return uD}function
-fv(b,a){if(a){var
+d=b;return d}return uX}function
+fy(b,a){if(a){var
 h=a[1],n=h[1],c=ad(e(function(a){return s(a,b,0)},n));if(c){var
 f=s(h[2],b,0);if(f){var
-i=f[1],g=fv(b,a[2]);if(g)var
+i=f[1],g=fy(b,a[2]);if(g)var
 j=K(d,i[2][1]),k=j?[0,[0,[0,c[1],i],g[1]]]:j;else
 var
 k=g;var
@@ -2197,22 +2201,22 @@ var
 l=f;var
 m=l}else
 var
-m=c;return m}return uE}function
-cM(d,c,b){var
-a=fv(d,c);return a?h(b,a[1]):a}function
-dd(a,b){return l(function(c){var
+m=c;return m}return uY}function
+cQ(d,c,b){var
+a=fy(d,c);return a?h(b,a[1]):a}function
+de(a,b){return l(function(c){var
 a=s(c,b,0),d=a?1:a;return d},a)}function
-g3(b,a){if(b){var
-c=b[1],d=c[3],e=a[3],f=function(a){return a},g=aS(function(a){return a},f,A,e,d),h=a[2];return[0,A(a[1],c[1]),h,g]}return a}function
-jm(b,a){return b?mZ(a,b[1]):a}function
-jn(h,g,b,f){var
+g9(b,a){if(b){var
+c=b[1],d=c[3],e=a[3],f=function(a){return a},g=aT(function(a){return a},f,A,e,d),h=a[2];return[0,A(a[1],c[1]),h,g]}return a}function
+jt(b,a){return b?m$(a,b[1]):a}function
+ju(h,g,b,f){var
 a=s(f,h,0);if(a){var
 c=a[1];if(b){var
-i=mZ(c,b[1]),e=a$(g);return l(function(a){return D(d,aE(a,i)[1])},e)}return D(d,c[2][1])}return a}function
-jo(f,d,a){function
-c(a){return aQ(a,d,J(f,b))}if(a){var
+i=m$(c,b[1]),e=ba(g);return l(function(a){return F(d,aF(a,i)[1])},e)}return F(d,c[2][1])}return a}function
+jv(f,d,a){function
+c(a){return aR(a,d,J(f,b))}if(a){var
 g=e(c,a[2]);return[0,c(a[1]),u,g]}return aa(u)}function
-g4(b,a){var
+g_(b,a){var
 c=s(a[1],b,0);if(c){var
 d=s(a[2],b,0);if(d)var
 e=s(a[3],b,0),h=e?[0,[0,c[1],d[1],e[1]]]:e,f=h;else
@@ -2221,148 +2225,150 @@ f=d;var
 g=f}else
 var
 g=c;return g}function
-g5(b,a){return ad(e(function(a){return s(a,b,0)},a))}function
-eB(c,k,X,C,i,h,j,g,a){switch(g[0]){case
+fz(b,a){return ad(e(function(a){return s(a,b,0)},a))}function
+eG(c,k,ab,E,i,h,j,g,a){switch(g[0]){case
 0:var
 s=g[1];if(typeof
 a!=="number")switch(a[0]){case
 0:var
-Y=dd(C,i);if(Y){var
-aD=a[2],aF=a[1],aG=g3(j,aa(s));return cM(i,k,function(a){return fq(c,h,aG,aF,aD,a)})}return Y;case
+ac=de(E,i);if(ac){var
+aH=a[2],aI=a[1],aJ=g9(j,aa(s));return cQ(i,k,function(a){return ft(c,h,aJ,aI,aH,a)})}return ac;case
 1:var
-Z=dd(C,i);if(Z){var
-aH=a[2],aI=a[1],aJ=g3(j,aa(s));return cM(i,X,function(a){return fq(c,h,aJ,aI,aH,a)})}return Z;case
+ae=de(E,i);if(ae){var
+aK=a[2],aL=a[1],aM=g9(j,aa(s));return cQ(i,ab,function(a){return ft(c,h,aM,aL,aK,a)})}return ae;case
 2:var
-_=dd(C,i);if(_){var
-$=L(s[1],d),ab=$?L(s[2],d):$;if(ab){var
-aK=a[2],aL=a[1];return cM(i,k,function(a){return mY(c,h,j,aL,aK,a)})}var
-ac=ab}else
+af=de(E,i);if(af){var
+ag=L(s[1],d),ah=ag?L(s[2],d):ag;if(ah){var
+aN=a[2],aO=a[1];return cQ(i,k,function(a){return m_(c,h,j,aO,aN,a)})}var
+ai=ah}else
 var
-ac=_;return ac}return 0;case
+ai=af;return ai}return 0;case
 1:var
-ae=g[1];if(typeof
+aj=g[1];if(typeof
 a==="number"){if(1===a){var
-aM=jm(j,aa(ae));return cM(i,X,function(a){return i9(c,h,aM,a)})}if(!a){var
-aN=jm(j,aa(ae));return cM(i,k,function(a){return i9(c,h,aN,a)})}}return 0;case
+aP=jt(j,aa(aj));return cQ(i,ab,function(a){return je(c,h,aP,a)})}if(!a){var
+aS=jt(j,aa(aj));return cQ(i,k,function(a){return je(c,h,aS,a)})}}return 0;case
 2:if(typeof
 a!=="number"&&3===a[0]){var
-af=a[1],m=jo(c,af,a[3]),ag=g[1],aP=a[2];return cM(i,k,function(d){var
-a=i_(h,m),b=a?fq(c,h,g3(j,m),af,aP,d):a;if(b){var
-f=m[3],g=e(function(a){return t(c,ag,a)},f),i=m[2];return i9(c,h,jm(j,[0,t(c,ag,m[1]),i,g]),d)}return b})}return 0;case
+ak=a[1],m=jv(c,ak,a[3]),al=g[1],aT=a[2];return cQ(i,k,function(d){var
+a=jf(h,m),b=a?ft(c,h,g9(j,m),ak,aT,d):a;if(b){var
+f=m[3],g=e(function(a){return t(c,al,a)},f),i=m[2];return je(c,h,jt(j,[0,t(c,al,m[1]),i,g]),d)}return b})}return 0;case
 3:if(typeof
-a==="number"&&!a)return jn(i,h,j,g[1]);return 0;case
+a==="number"&&!a)return ju(i,h,j,g[1]);return 0;case
 4:if(typeof
 a!=="number"&&0===a[0]){var
-aR=a[2],aS=a[1],aT=g3(j,aa(g[2])),aU=function(a){return fq(c,h,aT,aS,aR,a)};return cM(i,g[1],aU)}return 0;case
+aU=a[2],aV=a[1],aW=g9(j,aa(g[2])),aX=function(a){return ft(c,h,aW,aV,aU,a)};return cQ(i,g[1],aX)}return 0;case
 5:if(typeof
 a==="number"&&!(3<=a))switch(a){case
-0:return jn(i,h,j,g[1]);case
-2:return jn(i,h,j,g[2])}return 0;case
+0:return ju(i,h,j,g[1]);case
+2:return ju(i,h,j,g[2])}return 0;case
 6:if(typeof
 a!=="number"&&8===a[0]){var
-D=g4(i,g[1]);if(D){var
-G=g4(i,g[2]);if(G){var
-H=g4(i,g[3]);if(H){var
-I=g4(i,g[4]);if(I){var
-ah=I[1],ai=H[1],aj=G[1],ak=D[1],o=a[2],v=g[5],aV=a[1];if(o){var
+F=g_(i,g[1]);if(F){var
+H=g_(i,g[2]);if(H){var
+I=g_(i,g[3]);if(I){var
+K=g_(i,g[4]);if(K){var
+am=K[1],an=I[1],ao=H[1],ap=F[1],o=a[2],v=g[5],aY=a[1];if(o){var
 p=o[2];if(p){var
 q=p[2];if(q){if(q[2])return 0;var
-aC=[0,o[1],p[1],q[1]],r=m4(function(f){function
-g(a){return aQ(a,aV,J(c,b))}if(f){var
-a=e(g,f[2]),d=g(f[1]),h=gN(a),i=F(d[2],h),j=gN(a);return[0,d,[0,aO(d[1],j),i],a]}return aa(u)},aC),O=l(function(a){return n(f(a),[0,h])},o),P=O?gW(c,h,j,v,r,ak,ai):O,Q=P?gW(c,h,j,v,r,ak,ah):P,S=Q?gW(c,h,j,v,r,aj,ai):Q;if(S)return gW(c,h,j,v,r,aj,ah);var
-T=S}else
-var
-T=q;var
+aG=[0,o[1],p[1],q[1]],r=ne(function(f){function
+g(a){return aR(a,aY,J(c,b))}if(f){var
+a=e(g,f[2]),d=g(f[1]),h=gT(a),i=G(d[2],h),j=gT(a);return[0,d,[0,aQ(d[1],j),i],a]}return aa(u)},aG),P=l(function(a){return n(f(a),[0,h])},o),Q=P?g2(c,h,j,v,r,ap,an):P,R=Q?g2(c,h,j,v,r,ap,am):Q,T=R?g2(c,h,j,v,r,ao,an):R;if(T)return g2(c,h,j,v,r,ao,am);var
 U=T}else
 var
-U=p;var
+U=q;var
 V=U}else
 var
-V=o;return V}var
-al=I}else
+V=p;var
+W=V}else
 var
-al=H;var
-am=al}else
+W=o;return W}var
+ar=K}else
 var
-am=G;var
-an=am}else
+ar=I;var
+as=ar}else
 var
-an=D;return an}return 0;case
+as=H;var
+at=as}else
+var
+at=F;return at}return 0;case
 7:if(typeof
 a!=="number"&&0===a[0]){var
-ao=a[2],aq=a[1],aW=g[2],aX=g[1];return cM(i,k,function(e){var
-a=n(f(e),h),d=a?n(f(ao),h):a;if(d){var
+au=a[2],av=a[1],aZ=g[2],a1=g[1];return cQ(i,k,function(e){var
+a=n(f(e),h),d=a?n(f(au),h):a;if(d){var
 g=function(a){if(a){var
 d=a[2],e=n(f(d),h);if(e){var
-i=dP(aq,dQ(aq,ao,J(c,b),d));return aY(c,h,a_(gX(c,aX,aW,a[1][2],d),i))}var
+i=dP(av,dQ(av,au,J(c,b),d));return a0(c,h,a$(g3(c,a1,aZ,a[1][2],d),i))}var
 g=e}else
 var
-g=a;return g},i=j?j[1]:aa(u);return i6(h,i8(i,e),g)}return d})}return 0;case
+g=a;return g},i=j?j[1]:aa(u);return jb(h,jd(i,e),g)}return d})}return 0;case
 8:if(typeof
 a==="number"&&5<=a){var
-aZ=g[3],a0=g[2],a1=function(a){return mY(c,h,j,a0,aZ,a)};return cM(i,g[1],a1)}return 0;case
+a2=g[3],a3=g[2],a4=function(a){return m_(c,h,j,a3,a2,a)};return cQ(i,g[1],a4)}return 0;case
 11:if(typeof
 a==="number"&&!a){var
-K=g5(i,g[1]);if(K){var
-a2=g[2],M=ad(e(function(a){return g5(i,a)},a2));if(M){var
-N=g5(i,[0,g[3],[0,g[4],[0,g[5],[0,g[6],0]]]]);if(N){var
-w=N[1];if(w){var
+M=fz(i,g[1]);if(M){var
+a5=g[2],N=ad(e(function(a){return fz(i,a)},a5));if(N){var
+a6=nD(g[5]),O=fz(i,[0,g[3],[0,g[4],a6]]);if(O){var
+w=O[1];if(w){var
 x=w[2];if(x){var
-z=x[2];if(z){var
-B=z[2];if(B){if(B[2])return 0;var
-ar=B[1],as=z[1][2],at=x[1][2],au=w[1][2],av=M[1],a3=K[1],W=nm(c,h,j,av,au,at,function(d){return[0,ey(c,ap(function(b,a){return A(R(c,aE(d,b)),a)},u,a3))]});return W?W:nm(c,h,j,av,au,at,function(f){var
-b=cd(ar[1]),a=cc(c,E(as,R(c,b)));if(a){var
-d=bX(c,a[1]),e=E(as,t(c,b,aE(f,ar)));return y(function(a){return t(c,e,a)},d)}return a})}var
-aw=B}else
+y=x[2],aw=fz(i,g[6]);if(aw){if(y)var
+B=y[2],a7=B?B[2]?0:[0,[0,y[1][2],B[1]]]:B,D=a7;else
 var
-aw=z;var
-ax=aw}else
+D=y;var
+ax=x[1][2],ay=w[1][2],az=N[1],a8=M[1],X=ny(c,h,j,az,ay,ax,function(d){return[0,eD(c,aq(function(b,a){return A(S(c,aF(d,b)),a)},u,a8))]});if(X)var
+Y=X;else{if(D){var
+Z=D[1],_=Z[2],$=Z[1];return ny(c,h,j,az,ay,ax,function(f){var
+b=ch(_[1]),a=cg(c,C($,S(c,b)));if(a){var
+d=b0(c,a[1]),e=C($,t(c,b,aF(f,_)));return z(function(a){return t(c,e,a)},d)}return a})}var
+Y=D}return Y}var
+aA=aw}else
 var
-ax=x;var
-ay=ax}else
-var
-ay=w;var
-az=ay}else
-var
-az=N;var
-aA=az}else
-var
-aA=M;var
+aA=x;var
 aB=aA}else
 var
-aB=K;return aB}return 0;default:return 0}}function
-nr(c,a){var
+aB=w;var
+aC=aB}else
+var
+aC=O;var
+aD=aC}else
+var
+aD=N;var
+aE=aD}else
+var
+aE=M;return aE}return 0;default:return 0}}function
+nE(c,a){var
 d=s(a[1],c,0);if(d)var
 g=a[2][2],b=ad(e(function(a){var
-b=s(a[2],c,0);return y(function(b){return[0,a[1],b]},b)},g)),h=b?[0,[0,a[2][1],b[1]]]:b,f=h;else
+b=s(a[2],c,0);return z(function(b){return[0,a[1],b]},b)},g)),h=b?[0,[0,a[2][1],b[1]]]:b,f=h;else
 var
 f=d;return f}function
-ns(b,a){return g(b,c2(a[1]))}function
-nt(a,B,z,v,r,av,o,m,q,p,k){switch(p[0]){case
+nF(b,a){return g(b,cH(a[1]))}function
+nG(a,B,z,v,r,av,o,m,q,p,k){switch(p[0]){case
 9:var
 a7=p[2],a8=p[1];if(typeof
 k!=="number"&&9===k[0]){var
-aw=k[2],M=k[1],a9=k[3];if(0<aV(k[4]))return eB(a,z,v,r,o,f(m),q,p,k);var
-ba=cG(g(r,w(function(a){return g(a[1],[0,a[2],0])},v)),B),aT=e(aa,av),_=cf(0,bB(a,gY(0,m,a8),aT),ba,B),az=n(f(m),uF),aA=az?dd(r,_):az;if(aA){var
-N=fv(_,v);if(N){var
-O=fv(o,v);if(O){var
-P=ad(e(function(a){return nr(o,a)},a7));if(P){var
-Q=m7(N[1]);if(Q){var
-aB=O[1],bb=P[1],bc=Q[1],ab=ey(a,ap(function(f,i){function
+aw=k[2],M=k[1],a9=k[3];if(0<aX(k[4]))return eG(a,z,v,r,o,f(m),q,p,k);var
+a_=cK(g(r,y(function(a){return g(a[1],[0,a[2],0])},v)),B),aT=e(aa,av),_=cj(0,bC(a,g4(0,m,a8),aT),a_,B),az=n(f(m),uZ),aA=az?de(r,_):az;if(aA){var
+N=fy(_,v);if(N){var
+O=fy(o,v);if(O){var
+P=ad(e(function(a){return nE(o,a)},a7));if(P){var
+Q=nh(N[1]);if(Q){var
+aB=O[1],bb=P[1],bc=Q[1],ab=eD(a,aq(function(f,i){function
 b(b,d){var
-a=f[1],c=b?b[1]?f[2]:a[2]:a[1];return bJ(s(d,c[3],u))}function
+a=f[1],c=b?b[1]?f[2]:a[2]:a[1];return bK(s(d,c[3],u))}function
 c(a){var
-b=h(a,uh),c=bq(h(a,ui),b);return bq(h(a,0),c)}var
+b=h(a,uB),c=bs(h(a,uC),b);return bs(h(a,0),c)}var
 d=c(function(a){var
-c=b(uj,a),d=b(uk,a);return F(F(b(0,a),d),c)}),g=[0,d,d],e=c(function(a){var
-c=b(a,ul),d=b(a,um);return F(F(b(a,0),d),c)});return A(i,R(a,ey(a,t(a,[0,e,e],g))))},u,bc)),C=aQ(a9,M,J(a,b)),af=K(d,E(C,ab)[1]),ag=af?n(f(aw),us):af,ah=ag?n(f(aB),ut):ag;if(ah){var
-D=bX(a,C);if(D){var
-aU=ax(t(a,ab,D[1])),aW=E(J(a,b),aU),aX=a$(uu);return l(function(i){var
-g=e(function(b){return m8(a,i,b[1],b[2])},bb),p=h(ay(function(a){return aE(i,a)}),aB),F=q?aE(i,q[1]):u,N=R(a,aW),r=R(a,C),o=dP(M,dQ(M,aw,J(a,b),p)),c=a_(ac([0,$(F),0],un),o);if(g){var
+c=b(uD,a),d=b(uE,a);return G(G(b(0,a),d),c)}),g=[0,d,d],e=c(function(a){var
+c=b(a,uF),d=b(a,uG);return G(G(b(a,0),d),c)});return A(i,S(a,eD(a,t(a,[0,e,e],g))))},u,bc)),D=aR(a9,M,J(a,b)),af=K(d,C(D,ab)[1]),ag=af?n(f(aw),uM):af,ah=ag?n(f(aB),uN):ag;if(ah){var
+E=b0(a,D);if(E){var
+aU=ax(t(a,ab,E[1])),aV=C(J(a,b),aU),aW=ba(uO);return l(function(i){var
+g=e(function(b){return ni(a,i,b[1],b[2])},bb),p=h(ay(function(a){return aF(i,a)}),aB),F=q?aF(i,q[1]):u,N=S(a,aV),r=S(a,D),o=dP(M,dQ(M,aw,J(a,b),p)),c=a$(ac([0,$(F),0],uH),o);if(g){var
 d=g[2];if(d){var
 f=d[2];if(f){if(f[2])return 0;var
-B=d[1],D=g[1],I=f[1],j=aY(a,up,a_(ac([0,$(r),0],uo),c));if(j)return l(function(C){var
-J=E(N,F),K=C[2]?B:$(B),L=C[1]?D:$(D),o=0;if(c){var
+B=d[1],E=g[1],I=f[1],j=a0(a,uJ,a$(ac([0,$(r),0],uI),c));if(j)return l(function(D){var
+J=C(N,F),K=D[2]?B:$(B),L=D[1]?E:$(E),o=0;if(c){var
 b=c[1],l=0;if(b){var
 d=b[2],m=0;if(d){var
 e=d[2],n=0;if(e)if(e[2]){var
@@ -2401,7 +2407,7 @@ var
 z=b;if(!l){var
 A=z;o=1}}else{var
 A=c;o=1}if(o)var
-k=A;return aY(a,ur,k)},uq);var
+k=A;return a0(a,uL,k)},uK);var
 k=j}else
 var
 k=f;var
@@ -2410,74 +2416,74 @@ var
 m=d;var
 n=m}else
 var
-n=g;return n},aX)}var
-ai=D}else
+n=g;return n},aW)}var
+ai=E}else
 var
 ai=ah;return ai}var
 aC=Q}else
 var
 aC=P;var
-aF=aC}else
+aD=aC}else
 var
-aF=O;var
-aG=aF}else
+aD=O;var
+aG=aD}else
 var
 aG=N;var
 aH=aG}else
 var
-aH=aA;return aH}return eB(a,z,v,r,o,f(m),q,p,k);case
+aH=aA;return aH}return eG(a,z,v,r,o,f(m),q,p,k);case
 10:var
 i=p[1];if(typeof
 k!=="number"&&9===k[0]){var
-j=f(m),a2=cG(ns(r,i),B),a3=e(aa,av),a4=i[7],a5=i[6],a6=f(m),au=cf(0,bB(a,ne(i[8],a6,m,a5,a4),a3),a2,B),aI=ae(i[8],j),aJ=aI?n(f(i[1]),j):aI;if(aJ)var
-bd=i[1],S=l(function(a){return n(f(a),j)},bd);else
+j=f(m),a2=cK(nF(r,i),B),a3=e(aa,av),a4=i[7],a5=i[6],a6=f(m),au=cj(0,bC(a,nq(i[8],a6,m,a5,a4),a3),a2,B),aI=ae(i[8],j),aJ=aI?n(f(i[1]),j):aI;if(aJ)var
+bd=i[1],R=l(function(a){return n(f(a),j)},bd);else
 var
-S=aJ;if(S)var
-be=ns(r,i),T=l(function(b){var
+R=aJ;if(R)var
+be=nF(r,i),T=l(function(b){var
 a=s(b,au,0),c=a?1:a;return c},be);else
 var
-T=S;if(T)var
+T=R;if(T)var
 bf=i[3],U=l(function(b){var
 a=s(b,o,0),c=a?1:a;return c},bf);else
 var
 U=T;if(U){var
-bg=i[1],V=ad(e(function(a){return g5(au,a)},bg));if(V){var
-W=fv(o,i[2]);if(W){var
-bh=i[4],X=ad(e(function(a){return nr(o,a)},bh));if(X){var
-Y=k[4],aK=k[2],Z=k[1],aL=X[1],aM=W[1],aN=V[1],x=i[8],bi=k[3],aj=m_(a,j,x,aN),G=aQ(bi,Z,J(a,b)),ak=ma(Y,d);if(ak)var
+bg=i[1],V=ad(e(function(a){return fz(au,a)},bg));if(V){var
+W=fy(o,i[2]);if(W){var
+bh=i[4],X=ad(e(function(a){return nE(o,a)},bh));if(X){var
+Y=k[4],aK=k[2],Z=k[1],aL=X[1],aM=W[1],aN=V[1],w=i[8],bi=k[3],aj=nk(a,j,w,aN),F=aR(bi,Z,J(a,b)),ak=mn(Y,d);if(ak)var
 H=ak;else
 var
-as=mb(Y,c(2,c(2,c(2,c(2,b))))),at=as?aD(0,x):as,H=at?aD(x,j):at;var
-al=H?K(d,E(G,aj)[1]):H,am=al?n(f(aK),j):al,an=am?n(f(aM),j):am;if(an){var
+as=mo(Y,c(2,c(2,c(2,c(2,b))))),at=as?aE(0,w):as,H=at?aE(w,j):at;var
+al=H?K(d,C(F,aj)[1]):H,am=al?n(f(aK),j):al,an=am?n(f(aM),j):am;if(an){var
 ao=I(i[5]);if(ao)var
-y=ao;else
+x=ao;else
 var
 ar=l(function(c){var
-b=ap(function(c,b){var
-a=bJ(c[2]);return A([0,a,a],b)},u,c);return nf(a,i[6],b)},aN),y=ar?l(function(c){var
-d=c[2],b=ap(function(b,d){var
-c=bJ(b[2][2]);return A(t(a,b[1],[0,c,c]),d)},u,d);return nf(a,i[6],b)},aL):ar}else
+b=aq(function(c,b){var
+a=bK(c[2]);return A([0,a,a],b)},u,c);return nr(a,i[6],b)},aN),x=ar?l(function(c){var
+d=c[2],b=aq(function(b,d){var
+c=bK(b[2][2]);return A(t(a,b[1],[0,c,c]),d)},u,d);return nr(a,i[6],b)},aL):ar}else
 var
-y=an;if(y){var
-L=bX(a,G);if(L){var
-aZ=ax(t(a,aj,L[1])),a0=E(J(a,b),aZ),a1=a$(j);return l(function(d){var
-s=e(function(b){return m8(a,d,b[1],b[2])},aL),y=h(ay(function(a){return aE(d,a)}),aM),t=q?aE(d,q[1]):u,z=R(a,a0),A=R(a,G),B=m$(j,x,i[9],Y),k=e(function(a){var
-b=a[2];return[0,na(B,a[1]),b]},y),v=dP(Z,dQ(Z,aK,J(a,b),k)),c=a_(ac([0,$(t),0],j),v),m=n(f(k),j),o=m?n(f(s),j):m,p=o?nc(j,c):o,r=p?aY(a,j,a_(ac([0,$(A),0],j),c)):p;if(r){var
-w=a$(aR(j));return l(function(b){var
-d=E(z,t);return aY(a,[0,j],nb(c,nd(g(b,uv),s),d))},w)}return r},a1)}var
-aq=L}else
+x=an;if(x){var
+L=b0(a,F);if(L){var
+aY=ax(t(a,aj,L[1])),aZ=C(J(a,b),aY),a1=ba(j);return l(function(d){var
+s=e(function(b){return ni(a,d,b[1],b[2])},aL),y=h(ay(function(a){return aF(d,a)}),aM),t=q?aF(d,q[1]):u,z=S(a,aZ),A=S(a,F),B=nl(j,w,i[9],Y),k=e(function(a){var
+b=a[2];return[0,nm(B,a[1]),b]},y),v=dP(Z,dQ(Z,aK,J(a,b),k)),c=a$(ac([0,$(t),0],j),v),m=n(f(k),j),o=m?n(f(s),j):m,p=o?no(j,c):o,r=p?a0(a,j,a$(ac([0,$(A),0],j),c)):p;if(r){var
+x=ba(aS(j));return l(function(b){var
+d=C(z,t);return a0(a,[0,j],nn(c,np(g(b,uP),s),d))},x)}return r},a1)}var
+ap=L}else
 var
-aq=y;return aq}var
+ap=x;return ap}var
 aO=X}else
 var
 aO=W;var
 aP=aO}else
 var
 aP=V;var
-aS=aP}else
+aQ=aP}else
 var
-aS=U;return aS}return eB(a,z,v,r,o,f(m),q,p,k);default:return eB(a,z,v,r,o,f(m),q,p,k)}}function
-g6(c){var
+aQ=U;return aQ}return eG(a,z,v,r,o,f(m),q,p,k);default:return eG(a,z,v,r,o,f(m),q,p,k)}}function
+g$(c){var
 a=c;for(;;){var
 b=0;if(typeof
 a==="number"){if(1!==a)b=1}else
@@ -2485,57 +2491,57 @@ switch(a[0]){case
 11:var
 a=a[3];continue;case
 12:var
-d=a[1];return l(function(a){return g6(a[2])},d);case
+d=a[1];return l(function(a){return g$(a[2])},d);case
 1:break;case
 5:case
 10:var
 a=a[1];continue;default:b=1}return b?0:1}}function
-g7(a){if(typeof
+ha(a){if(typeof
 a==="number"){if(1===a)return 0}else
 switch(a[0]){case
 1:return[0,a[1],a[2]];case
 5:var
-b=a[3],c=a[2];return[5,g7(a[1]),c,b];case
+b=a[3],c=a[2];return[5,ha(a[1]),c,b];case
 10:var
-d=a[3],e=a[2];return[10,g7(a[1]),e,d];case
+d=a[3],e=a[2];return[10,ha(a[1]),e,d];case
 11:var
-f=g7(a[3]);return[11,a[1],a[2],f]}return a}function
-de(a){return w(function(a){return g(a[1],[0,a[2],0])},a)}function
-fw(i,c,h,a,f){var
-j=g6(f)?c:i,d=de(j);switch(a[0]){case
+f=ha(a[3]);return[11,a[1],a[2],f]}return a}function
+df(a){return y(function(a){return g(a[1],[0,a[2],0])},a)}function
+fA(i,c,h,a,f){var
+j=g$(f)?c:i,d=df(j);switch(a[0]){case
 0:return g(h,d);case
 3:return[0,a[1],0];case
 5:return[0,a[1],[0,a[2],0]];case
 6:var
-k=[0,a[1],[0,a[2],[0,a[3],[0,a[4],0]]]];return w(function(a){return[0,a[1],[0,a[2],[0,a[3],0]]]},k);case
+k=[0,a[1],[0,a[2],[0,a[3],[0,a[4],0]]]];return y(function(a){return[0,a[1],[0,a[2],[0,a[3],0]]]},k);case
 9:var
-l=a[2],m=w(function(a){var
-b=e(aG,a[2][2]);return[0,a[1],b]},l);return g(de(c),m);case
+l=a[2],m=y(function(a){var
+b=e(aH,a[2][2]);return[0,a[1],b]},l);return g(df(c),m);case
 10:var
-b=a[1],n=b[4],o=w(function(a){var
-b=e(aG,a[2][2]);return[0,a[1],b]},n),p=g(b[3],o);return g(de(b[2]),p);case
+b=a[1],n=b[4],o=y(function(a){var
+b=e(aH,a[2][2]);return[0,a[1],b]},n),p=g(b[3],o);return g(df(b[2]),p);case
 11:var
-q=[0,a[3],[0,a[4],[0,a[5],[0,a[6],0]]]],r=g(c2(a[2]),q);return g(a[1],r);case
+q=a[6],r=g(nD(a[5]),q),s=[0,a[3],[0,a[4],r]],t=g(cH(a[2]),s);return g(a[1],t);case
 4:case
-8:return de(a[1]);default:return d}}function
-g8(d){var
+8:return df(a[1]);default:return d}}function
+hb(d){var
 a=d;for(;;){if(a){var
-b=a[2],e=a[1],c=I(ak(function(b){return function(a){return n(b,a)}}(e),b));if(c){var
+b=a[2],e=a[1],c=I(al(function(b){return function(a){return n(b,a)}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-jp(j,i,h,g,a){var
+jw(j,i,h,g,a){var
 d=s(a,j,0);if(d){var
 b=s(a,i,0);if(b)var
-c=nl(0,g,s(a,h,uG)),k=c?[0,[0,b[1],c[1]]]:c,e=k;else
+c=nx(0,g,s(a,h,u0)),k=c?[0,[0,b[1],c[1]]]:c,e=k;else
 var
 e=b;var
 f=e}else
 var
 f=d;return f}function
-g9(j,b,a){if(a){var
+hc(j,b,a){if(a){var
 k=a[1],l=k[2],c=ad(e(b,k[1]));if(c){var
 f=h(b,l);if(f){var
 g=s(l,j,0);if(g){var
-i=g9(j,b,a[2]);if(i)var
+i=hc(j,b,a[2]);if(i)var
 m=K(d,g[1][2][1]),n=m?[0,[0,[0,c[1],f[1]],i[1]]]:m;else
 var
 n=i;var
@@ -2547,25 +2553,25 @@ var
 p=f;var
 q=p}else
 var
-q=c;return q}return uH}function
-nu(c,x,i,aI,w,q,p,N,M,g,b,j,a){var
-h=f(N),O=dO(0,N),P=cG(fw(i,aI,w,g,b),x),aJ=cf(0,bB(c,O,e(aa,ft(j,0,q))),P,x),aK=e(aA,j),aL=e(aa,q),aM=cf(uI,function(a){return jb(c,O,aL,aK,a)},P,x),aN=g0(j,q);function
-R(a){return jp(p,aJ,aM,j,a)}function
+q=c;return q}return u1}function
+nH(c,x,i,aH,w,q,p,N,M,g,b,j,a){var
+h=f(N),O=dO(0,N),P=cK(fA(i,aH,w,g,b),x),aJ=cj(0,bC(c,O,e(aa,fw(j,0,q))),P,x),aK=e(aA,j),aL=e(aa,q),aM=cj(u2,function(a){return ji(c,O,aL,aK,a)},P,x),aN=g6(j,q);function
+Q(a){return jw(p,aJ,aM,j,a)}function
 y(a){return e(function(a){return J(c,a)},a)}var
-aP=M?M[1]:aa(u);function
-S(a){return a?aY(c,h,a[1]):a}function
+aO=M?M[1]:aa(u);function
+S(a){return a?a0(c,h,a[1]):a}function
 r(f,e,d,b,a){var
-g=ac([0,$(e),0],h);return S(jg(c,y(f),d,b,a,g))}function
+g=ac([0,$(e),0],h);return S(jn(c,y(f),d,b,a,g))}function
 T(d,b,a){var
-e=ac([0,b,0],h);return S(nh(c,y(d),a,e))}var
-aQ=e(aA,j),U=l(function(a){return aD(a,f(q))},aQ),W=U?g8(e(aA,j)):U,X=W?l(function(a){return n(f(a),h)},a):W;if(X){var
+e=ac([0,b,0],h);return S(nt(c,y(d),a,e))}var
+aP=e(aA,j),U=l(function(a){return aE(a,f(q))},aP),W=U?hb(e(aA,j)):U,X=W?l(function(a){return n(f(a),h)},a):W;if(X){var
 v=0;switch(g[0]){case
 0:var
 z=g[1],I=0;if(typeof
 b!=="number")switch(b[0]){case
 0:var
 as=0;if(a){if(a[2])return 0;var
-aR=a[1],aS=b[2],aT=b[1],Y=dd(w,p);if(Y){var
+aR=a[1],aS=b[2],aT=b[1],Y=de(w,p);if(Y){var
 m=function(c,a){var
 b=A(z,a);return function(a){return r(aR,b,aT,aS,a)}},k=i;I=1;as=1}else
 var
@@ -2574,9 +2580,9 @@ var
 ab=a;if(!as)return ab;break;case
 2:var
 at=0;if(a){if(a[2])return 0;var
-aV=a[1],aW=b[2],aX=b[1],ad=dd(w,p),au=0;if(ad){var
+aV=a[1],aW=b[2],aX=b[1],ad=de(w,p),au=0;if(ad){var
 ae=L(z[1],d),af=ae?L(z[2],d):ae;if(af){var
-m=function(c,b,a){return r(aV,b,aX,aW,e(ng,a))},k=i;I=1;at=1;au=1}else
+m=function(c,b,a){return r(aV,b,aX,aW,e(ns,a))},k=i;I=1;at=1;au=1}else
 var
 ag=af}else
 var
@@ -2585,18 +2591,18 @@ ah=ag}else
 var
 ah=a;if(!at)return ah;break}if(!I)return 0;break;case
 1:var
-av=0,aZ=g[1];if(typeof
+av=0,aY=g[1];if(typeof
 b==="number"&&!b){if(!a)return a;if(a[2])return 0;var
-a0=a[1],m=function(c,a){var
-b=E(aZ,a);return function(a){return T(a0,b,a)}},k=i;av=1}if(!av)return 0;break;case
+aZ=a[1],m=function(c,a){var
+b=C(aY,a);return function(a){return T(aZ,b,a)}},k=i;av=1}if(!av)return 0;break;case
 2:var
 aw=0,a1=g[1];if(typeof
 b==="number"||!(3===b[0]))aw=1;else{var
 ay=0;if(a){var
 s=a[2],az=0;if(s){if(s[2])return 0;var
-ai=b[1],a2=s[1],a3=a[1],a4=b[2],aj=jo(c,ai,b[3]),ak=i_(h,aj);if(ak){var
+ai=b[1],a2=s[1],a3=a[1],a4=b[2],aj=jv(c,ai,b[3]),ak=jf(h,aj);if(ak){var
 m=function(f,b,a){var
-d=aE(f,aj),e=r(a3,A(d,b),ai,a4,a);return e?T(a2,E(t(c,a1,d),b),a):e},k=i;ay=1;az=1}else
+d=aF(f,aj),e=r(a3,A(d,b),ai,a4,a);return e?T(a2,C(t(c,a1,d),b),a):e},k=i;ay=1;az=1}else
 var
 al=ak}else
 var
@@ -2607,89 +2613,89 @@ am=a;if(!ay)return am}if(aw)return 0;break;case
 3:var
 aB=0;if(typeof
 b==="number"&&!b){if(a)return 0;var
-C=g[1];v=1}else
+D=g[1];v=1}else
 aB=1;if(aB)return 0;break;case
 4:var
 aC=0,a6=g[2];if(typeof
 b==="number"||!(0===b[0]))aC=1;else{if(!a)return a;if(a[2])return 0;var
-a7=a[1],a8=b[2],a9=b[1],ba=function(c,a){var
-b=A(a6,a);return function(a){return r(a7,b,a9,a8,a)}},m=ba,k=g[1]}if(aC)return 0;break;case
+a7=a[1],a8=b[2],a9=b[1],a_=function(c,a){var
+b=A(a6,a);return function(a){return r(a7,b,a9,a8,a)}},m=a_,k=g[1]}if(aC)return 0;break;case
 5:var
 K=0;if(typeof
 b==="number"&&!(3<=b))switch(b){case
 0:if(a)return 0;var
-C=g[1];v=1;break;case
+D=g[1];v=1;break;case
 2:if(a)return 0;var
-C=g[2];v=1;break;default:K=1}else
+D=g[2];v=1;break;default:K=1}else
 K=1;if(K)return 0;break;case
 7:var
-an=g[2],ao=g[1],aF=0;if(typeof
-b==="number"||!(0===b[0]))aF=1;else{var
+an=g[2],ao=g[1],aD=0;if(typeof
+b==="number"||!(0===b[0]))aD=1;else{var
 aG=0;if(a){if(a[2])return 0;var
-o=b[2],H=b[1],bb=a[1],aq=n(f(i),h);if(aq){var
+o=b[2],H=b[1],bb=a[1],ap=n(f(i),h);if(ap){var
 m=function(a,x){var
 z=y(bb);return function(g){var
 k=n(f(g),h),l=k?n(f(o),h):k;if(l){var
-s=e(aA,g),u=dP(H,dQ(H,o,cj(c),s)),v=a_(gX(c,ao,an,x,e(aA,g)),u),a=0,b=g,i=v,w=f(o);for(;;){if(b){var
+s=e(aA,g),u=dP(H,dQ(H,o,cn(c),s)),v=a$(g3(c,ao,an,x,e(aA,g)),u),a=0,b=g,i=v,w=f(o);for(;;){if(b){var
 p=b[1][2],q=n(a,ao),r=e(function(g,h){return function(d){var
-a=V(aH(0,f(o)),o);return e(function(a){var
-b=nj(H,a[2],d[1]);if(h&&n(a[1],g))return E(b,ax(t(c,an,d[2])));return b},a)}}(a,q),p),j=fs(c,z,ni(c,a,w),r,i);if(j){var
+a=V(aI(0,f(o)),o);return e(function(a){var
+b=nv(H,a[2],d[1]);if(h&&n(a[1],g))return C(b,ax(t(c,an,d[2])));return b},a)}}(a,q),p),j=fv(c,z,nu(c,a,w),r,i);if(j){var
 a=[0,a],b=b[2],i=j[1];continue}var
 d=j}else
 var
-d=[0,i];if(d)return aY(c,h,d[1]);var
+d=[0,i];if(d)return a0(c,h,d[1]);var
 m=d;break}}else
 var
 m=l;return m}},k=i;aG=1}else
 var
-ar=aq}else
+ar=ap}else
 var
-ar=a;if(!aG)return ar}if(aF)return 0;break;default:return 0}if(v){var
-G=R(C);if(!G)return G;var
+ar=a;if(!aG)return ar}if(aD)return 0;break;default:return 0}if(v){var
+E=Q(D);if(!E)return E;var
 a5=function(b,f,a){return l(function(a){var
-b=f[2],c=a[2],e=ap(function(b,a){return F(bq(d,Q(b[2][1])),a)},d,c);return D(d,aO(aO(a[1][2][1],e),b))},a)},_=a5,Z=[0,[0,0,G[1]],0]}else{var
-B=g9(p,R,k);if(!B)return B;var
+b=f[2],c=a[2],e=aq(function(b,a){return G(bs(d,R(b[2][1])),a)},d,c);return F(d,aQ(aQ(a[1][2][1],e),b))},a)},_=a5,Z=[0,[0,0,E[1]],0]}else{var
+B=hc(p,Q,k);if(!B)return B;var
 _=m,Z=B[1]}var
-aU=a$(h);return l(function(a){var
-b=e(function(b){return g1(c,a,aN,b)},Z);return gb(_,a,aE(a,aP),b)},aU)}return X}function
-jq(j,a){var
-f=ap(function(b,a){return bq(cz(b),a)},d,a);function
-g(a){if(a){if(L(cz(a[1]),f))return 0;var
+aU=ba(h);return l(function(a){var
+b=e(function(b){return g7(c,a,aN,b)},Z);return gh(_,a,aF(a,aO),b)},aU)}return X}function
+jx(j,a){var
+f=aq(function(b,a){return bs(cC(b),a)},d,a);function
+g(a){if(a){if(L(cC(a[1]),f))return 0;var
 b=[0,g(a[2])]}else
 var
 b=a;return b}var
 h=g(a);if(L(f,d)){var
 k=e(function(a){return u},a),l=a?[0,b,a[2]]:a;return[0,[0,[0,0,l],d],k]}var
-i=iT(F(me(f),b)),m=e(function(a){return u},a);return[0,[0,[0,h,a],i],db(u,h,J(j,cb(c(2,b),i)),m)]}function
-g_(g,w,p,an,v,o,m,M,K,i,a,h,am,H,al,G,F){var
-j=f(M),N=dO(0,M),O=cG(fw(p,an,v,i,a),w),ao=cf(0,bB(g,N,e(aa,ft(h,0,o))),O,w),ap=e(aA,h),aq=e(aa,o),as=cf(uJ,function(a){return jb(g,N,aq,ap,a)},O,w),at=g0(h,o);function
-au(a){return jp(m,ao,as,h,a)}var
-av=K?K[1]:aa(u),P=jq(g,am),Q=P[1],R=Q[1],x=R[2],k=R[1],S=P[2],aw=Q[2],q=e(function(a){return aQ(a,aw,J(g,b))},x);function
-T(a){return jj(g,k,q,H,al,G,F,ji(g,k,q,j,a,0))}function
-U(a){return a?aY(g,j,a[1]):a}function
-y(d,c,b,a){return U(jk(g,k,q,S,c,b,a,T($(d))))}var
-ax=e(aA,h),V=l(function(a){return aD(a,f(o))},ax),W=V?g8(e(aA,h)):V,X=W?n(f(x),j):W,Y=X?n(f(H),j):X,Z=Y?D(d,G):Y,_=Z?gG(F,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):Z,ab=_?aD(k,j):_,ac=ab?I(L(s(k,x,d),d)):ab;if(ac){switch(i[0]){case
+i=iZ(G(mr(f),b)),m=e(function(a){return u},a);return[0,[0,[0,h,a],i],dc(u,h,J(j,cf(c(2,b),i)),m)]}function
+hd(g,w,p,an,v,o,m,M,K,i,a,h,am,H,al,G,E){var
+j=f(M),N=dO(0,M),O=cK(fA(p,an,v,i,a),w),ao=cj(0,bC(g,N,e(aa,fw(h,0,o))),O,w),ap=e(aA,h),aq=e(aa,o),ar=cj(u3,function(a){return ji(g,N,aq,ap,a)},O,w),at=g6(h,o);function
+au(a){return jw(m,ao,ar,h,a)}var
+av=K?K[1]:aa(u),P=jx(g,am),Q=P[1],R=Q[1],x=R[2],k=R[1],S=P[2],aw=Q[2],q=e(function(a){return aR(a,aw,J(g,b))},x);function
+T(a){return jq(g,k,q,H,al,G,E,jp(g,k,q,j,a,0))}function
+U(a){return a?a0(g,j,a[1]):a}function
+y(d,c,b,a){return U(jr(g,k,q,S,c,b,a,T($(d))))}var
+ax=e(aA,h),V=l(function(a){return aE(a,f(o))},ax),W=V?hb(e(aA,h)):V,X=W?n(f(x),j):W,Y=X?n(f(H),j):X,Z=Y?F(d,G):Y,_=Z?gM(E,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):Z,ab=_?aE(k,j):_,ac=ab?I(L(s(k,x,d),d)):ab;if(ac){switch(i[0]){case
 0:var
-z=i[1],C=0;if(typeof
-a==="number")C=1;else
+z=i[1],D=0;if(typeof
+a==="number")D=1;else
 switch(a[0]){case
 0:var
-ay=a[2],az=a[1],ad=dd(v,m);if(!ad)return ad;var
+ay=a[2],az=a[1],ad=de(v,m);if(!ad)return ad;var
 t=function(a){var
 b=A(z,a);return function(a){return y(b,az,ay,a)}},r=p;break;case
 2:var
-aF=a[2],aG=a[1],ae=dd(v,m),ai=0;if(ae){var
+aD=a[2],aG=a[1],ae=de(v,m),ai=0;if(ae){var
 af=L(z[1],d),ag=af?L(z[2],d):af;if(ag){var
-t=function(b,a){return y(b,aG,aF,e(ng,a))},r=p;ai=1}else
+t=function(b,a){return y(b,aG,aD,e(ns,a))},r=p;ai=1}else
 var
 ah=ag}else
 var
-ah=ae;if(!ai)return ah;break;default:C=1}if(C)return 0;break;case
+ah=ae;if(!ai)return ah;break;default:D=1}if(D)return 0;break;case
 1:var
 aj=0,aH=i[1];if(typeof
 a==="number"&&!a)var
 t=function(a){var
-b=E(aH,a);return function(a){return U(nq(g,k,q,S,a,T(b)))}},r=p;else
+b=C(aH,a);return function(a){return U(nC(g,k,q,S,a,T(b)))}},r=p;else
 aj=1;if(aj)return 0;break;case
 4:var
 ak=0,aI=i[2];if(typeof
@@ -2697,55 +2703,55 @@ a==="number"||!(0===a[0]))ak=1;else
 var
 aJ=a[2],aK=a[1],aL=function(a){var
 b=A(aI,a);return function(a){return y(b,aK,aJ,a)}},t=aL,r=i[1];if(ak)return 0;break;default:return 0}var
-B=g9(m,au,r);if(B){var
-aB=B[1],aC=a$(j);return l(function(a){var
-b=e(function(b){return g1(g,a,at,b)},aB);return ar(t,aE(a,av),b)},aC)}return B}return ac}function
-nv(s,r,q,p,o,n,E,m,c,l,k,j,i,g,a){var
+B=hc(m,au,r);if(B){var
+aB=B[1],aC=ba(j);return l(function(a){var
+b=e(function(b){return g7(g,a,at,b)},aB);return as(t,aF(a,av),b)},aC)}return B}return ac}function
+nI(s,r,q,p,o,n,D,m,c,l,k,j,i,g,a){var
 w=e(function(a){return d},c),v=0;if(typeof
 a!=="number")switch(a[0]){case
 5:var
-F=a[1],G=function(a){return g_(s,r,q,p,o,n,m,c,a,l,F,0,w,k,j,i,g)},y=G,x=a[3],t=a[2];v=1;break;case
+E=a[1],G=function(a){return hd(s,r,q,p,o,n,m,c,a,l,E,0,w,k,j,i,g)},y=G,x=a[3],t=a[2];v=1;break;case
 10:var
 b=a[3],B=a[2],f=a[1],C=0;if(typeof
 f!=="number"&&5===f[0]){if(!b)return b;if(b[2])return 0;var
-H=b[1],I=f[1],J=function(a){return g_(s,r,q,p,o,n,m,c,a,l,I,B,H,k,j,i,g)},y=J,x=f[3],t=f[2];v=1;C=1}if(!C)return b?b[2]?0:g_(s,r,q,p,o,n,m,c,0,l,f,B,b[1],k,j,i,g):b;break}if(v){var
-u=h(E,c);if(u){var
-z=D(d,t);if(z)return y([0,gU(t,x,u[1])]);var
+H=b[1],I=f[1],J=function(a){return hd(s,r,q,p,o,n,m,c,a,l,I,B,H,k,j,i,g)},y=J,x=f[3],t=f[2];v=1;C=1}if(!C)return b?b[2]?0:hd(s,r,q,p,o,n,m,c,0,l,f,B,b[1],k,j,i,g):b;break}if(v){var
+u=h(D,c);if(u){var
+z=F(d,t);if(z)return y([0,g0(t,x,u[1])]);var
 A=z}else
 var
-A=u;return A}return g_(s,r,q,p,o,n,m,c,0,l,a,0,w,k,j,i,g)}function
-nw(a,x,al,r,H,ak,q,p,aj,ai,i){function
+A=u;return A}return hd(s,r,q,p,o,n,m,c,0,l,a,0,w,k,j,i,g)}function
+nJ(a,x,al,r,H,ak,q,p,aj,ai,i){function
 k(am,g,j,y){var
-h=f(q),B=dO(0,q),C=cG(de(al),x),as=cf(0,bB(a,B,e(aa,ft(j,0,r))),C,x),at=e(aA,j),au=e(aa,r),av=cf(uK,function(b){return jb(a,B,au,at,b)},C,x);function
-aw(a){return jp(ak,as,av,j,a)}var
+h=f(q),B=dO(0,q),D=cK(df(al),x),as=cj(0,bC(a,B,e(aa,fw(j,0,r))),D,x),at=e(aA,j),au=e(aa,r),av=cj(u4,function(b){return ji(a,B,au,at,b)},D,x);function
+aw(a){return jw(ak,as,av,j,a)}var
 ax=am?am[1]:aa(u);function
-k(b){return b?aY(a,h,b[1]):b}function
-F(b,a){return $(A(aE(b,aj),a))}function
-G(d,c,b){return E(t(a,d,aE(c,aj)),b)}var
-ay=e(aA,j),H=l(function(a){return aD(a,f(r))},ay),K=H?g8(e(aA,j)):H,M=K?n(f(y),h):K;if(M){var
+k(b){return b?a0(a,h,b[1]):b}function
+E(b,a){return $(A(aF(b,aj),a))}function
+G(d,c,b){return C(t(a,d,aF(c,aj)),b)}var
+ay=e(aA,j),H=l(function(a){return aE(a,f(r))},ay),K=H?hb(e(aA,j)):H,M=K?n(f(y),h):K;if(M){var
 an=0;if(ai){var
-N=ai[1],O=N[1],P=O[1],Q=P[1],R=O[2],S=N[2],az=P[2],T=jq(a,y),U=T[1],V=U[1],v=V[2],i=V[1],W=T[2],aB=U[2],m=e(function(c){return aQ(c,aB,J(a,b))},v),X=function(b){return jj(a,i,m,Q,az,R,S,ji(a,i,m,h,b,0))},Y=n(f(v),h),Z=Y?n(f(Q),h):Y,_=Z?D(d,R):Z,ab=_?gG(S,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):_,ad=ab?aD(i,h):ab,ae=ad?I(L(s(i,v,d),d)):ad,z=0;if(ae)if(p){var
+N=ai[1],O=N[1],P=O[1],Q=P[1],R=O[2],S=N[2],az=P[2],T=jx(a,y),U=T[1],V=U[1],v=V[2],i=V[1],W=T[2],aB=U[2],m=e(function(c){return aR(c,aB,J(a,b))},v),X=function(b){return jq(a,i,m,Q,az,R,S,jp(a,i,m,h,b,0))},Y=n(f(v),h),Z=Y?n(f(Q),h):Y,_=Z?F(d,R):Z,ab=_?gM(S,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):_,ad=ab?aE(i,h):ab,ae=ad?I(L(s(i,v,d),d)):ad,z=0;if(ae)if(p){var
 ao=0,aC=p[1];if(typeof
 g==="number"&&!g){var
-o=function(d,c,b){return k(nq(a,i,m,W,b,X(G(aC,d,c))))};z=1;ao=1}if(!ao)return 0}else{var
+o=function(d,c,b){return k(nC(a,i,m,W,b,X(G(aC,d,c))))};z=1;ao=1}if(!ao)return 0}else{var
 ap=0;if(typeof
 g!=="number"&&0===g[0]){var
-aH=g[2],aI=g[1],o=function(d,c,b){return k(jk(a,i,m,W,aI,aH,b,X(F(d,c))))};z=1;ap=1}if(!ap)var
+aH=g[2],aI=g[1],o=function(d,c,b){return k(jr(a,i,m,W,aI,aH,b,X(E(d,c))))};z=1;ap=1}if(!ap)var
 af=0}else
 var
 af=ae;if(!z)return af}else{var
 ag=e(function(b){return J(a,b)},y);if(p){var
 aq=0,aJ=p[1];if(typeof
 g==="number"&&!g){var
-o=function(d,c,b){return k(nh(a,ag,b,ac([0,G(aJ,d,c),0],h)))};aq=1}if(!aq)return 0}else{var
+o=function(d,c,b){return k(nt(a,ag,b,ac([0,G(aJ,d,c),0],h)))};aq=1}if(!aq)return 0}else{var
 ar=0;if(typeof
 g==="number"||!(0===g[0]))ar=1;else
 var
-aK=g[2],aL=g[1],o=function(d,c,b){return k(jg(a,ag,aL,aK,b,ac([0,F(d,c),0],h)))};if(ar){var
+aK=g[2],aL=g[1],o=function(d,c,b){return k(jn(a,ag,aL,aK,b,ac([0,E(d,c),0],h)))};if(ar){var
 ah=0;an=1}}}if(!an){var
-w=g9(ak,aw,al);if(w){var
-aF=w[1],aG=a$(h);return l(function(b){var
-c=g0(j,r),d=e(function(d){return g1(a,b,c,d)},aF);return o(b,aE(b,ax),d)},aG)}return w}}else
+w=hc(ak,aw,al);if(w){var
+aD=w[1],aG=ba(h);return l(function(b){var
+c=g6(j,r),d=e(function(d){return g7(a,b,c,d)},aD);return o(b,aF(b,ax),d)},aG)}return w}}else
 var
 ah=M;return ah}var
 y=e(function(a){return d},q),w=0;if(typeof
@@ -2764,16 +2770,16 @@ N=g[1],O=j[1],P=function(a){return k(a,O,v,N)},B=P,z=j[3],m=j[2];w=1;G=1;break;c
 11:case
 13:return g?g[2]?0:k(0,j,v,g[1]):g}if(!G)return g?g[2]?0:k(0,j,v,g[1]):g;break}if(w){var
 o=h(H,q);if(o){var
-C=D(d,m);if(C)return B([0,gU(m,z,o[1])]);var
-F=C}else
+D=F(d,m);if(D)return B([0,g0(m,z,o[1])]);var
+E=D}else
 var
-F=o;return F}return k(0,i,0,y)}function
-nx(m,l,k,j,i,g,p,f,b,e,a){if(typeof
+E=o;return E}return k(0,i,0,y)}function
+nK(m,l,k,j,i,g,p,f,b,e,a){if(typeof
 a!=="number")switch(a[0]){case
 5:var
 q=a[2],n=h(p,b);if(n){var
-r=D(d,q);if(r){var
-y=a[1];return nt(m,l,k,j,i,g,f,b,[0,gU(q,a[3],n[1])],e,y)}var
+r=F(d,q);if(r){var
+y=a[1];return nG(m,l,k,j,i,g,f,b,[0,g0(q,a[3],n[1])],e,y)}var
 s=r}else
 var
 s=n;return s;case
@@ -2781,21 +2787,21 @@ s=n;return s;case
 t=a[3],u=a[2],c=a[1];if(typeof
 c!=="number"&&5===c[0]){var
 v=c[2],o=h(p,b);if(o){var
-w=D(d,v);if(w){var
-z=c[1];return nu(m,l,k,j,i,g,f,b,[0,gU(v,c[3],o[1])],e,z,u,t)}var
+w=F(d,v);if(w){var
+z=c[1];return nH(m,l,k,j,i,g,f,b,[0,g0(v,c[3],o[1])],e,z,u,t)}var
 x=w}else
 var
-x=o;return x}return nu(m,l,k,j,i,g,f,b,0,e,c,u,t)}return nt(m,l,k,j,i,g,f,b,0,e,a)}function
-jr(a){switch(a[0]){case
+x=o;return x}return nH(m,l,k,j,i,g,f,b,0,e,c,u,t)}return nG(m,l,k,j,i,g,f,b,0,e,a)}function
+jy(a){switch(a[0]){case
 9:case
 10:return 0;default:return 1}}function
-js(t,r,q,p,k,a,f,j){var
-h=jr(a),i=h?l(function(b){var
-a=s(b,bz(fu,f,k),u);return L(a[1],a[2])},j):h;return i?l(function(ao){switch(a[0]){case
+jz(t,r,q,p,k,a,f,j){var
+h=jy(a),i=h?l(function(b){var
+a=s(b,bA(fx,f,k),u);return L(a[1],a[2])},j):h;return i?l(function(ao){switch(a[0]){case
 3:var
 f=[0,a[1],0];break;case
 4:var
-f=de(a[1]);break;case
+f=df(a[1]);break;case
 5:var
 f=[0,a[1],[0,a[2],0]];break;case
 0:case
@@ -2803,10 +2809,10 @@ f=[0,a[1],[0,a[2],0]];break;case
 2:case
 7:var
 f=0;break;default:return 0}var
-j=c4(0,function(a){switch(a[0]){case
+j=c5(0,function(a){switch(a[0]){case
 0:return[0,[0,d]];case
 1:var
-ad=a[1],ae=ak(function(a){return n(ad,a)},ao)?b:d;return[0,[0,ae]];case
+ad=a[1],ae=al(function(a){return n(ad,a)},ao)?b:d;return[0,[0,ae]];case
 2:var
 af=L(a[1],d)?0:[0,d];return[0,af];case
 3:var
@@ -2814,12 +2820,12 @@ e=a[2],j=a[1];if(j){var
 z=j[1];if(z){if(e){var
 A=e[1];if(A){var
 B=z[1],C=L(B,A[1]),ag=C?[0,[0,B]]:C;return ag}var
+D=j}else
+var
+D=e;return D}return e}if(e){if(e[1])return 0;var
 E=j}else
 var
-E=e;return E}return e}if(e){if(e[1])return 0;var
-G=j}else
-var
-G=e;return G;case
+E=e;return E;case
 4:var
 f=a[2],k=a[1];if(k){var
 H=k[1];if(H){if(f){var
@@ -2835,39 +2841,39 @@ N=f;return N;case
 6:var
 o=a[1];if(o){var
 O=o[1],g=a[2];if(O){if(g){var
-P=g[1];if(P)return[0,[0,F(O[1],P[1])]];var
-R=uz}else
+P=g[1];if(P)return[0,[0,G(O[1],P[1])]];var
+Q=uT}else
 var
-R=g;return R}var
-ai=g?uA:g,S=ai}else
+Q=g;return Q}var
+ai=g?uU:g,S=ai}else
 var
 S=o;return S;case
 7:var
 p=a[1];if(p){var
 T=p[1],h=a[2];if(T){if(h)var
-q=h[1],aj=q?[0,[0,aO(T[1],q[1])]]:q,U=aj;else
+q=h[1],aj=q?[0,[0,aQ(T[1],q[1])]]:q,U=aj;else
 var
 U=h;return U}var
-al=h?uB:h,V=al}else
+ak=h?uV:h,V=ak}else
 var
 V=p;return V;case
 8:var
 r=a[1];if(r){var
 W=r[1];if(W){var
-X=W[1];return[0,[0,F(X,X)]]}var
-Y=uC}else
+X=W[1];return[0,[0,G(X,X)]]}var
+Y=uW}else
 var
 Y=r;return Y;case
 9:var
 s=a[1];if(s){var
 t=s[1];if(t){var
-i=t[1],x=aV(i);if(0===x)var
+i=t[1],x=aX(i);if(0===x)var
 m=1;else
 if(0<x)var
-m=D(i,b)?0:L(aW(i,aM(2))[2],d)?1:0;else
+m=F(i,b)?0:L(aY(i,aN(2))[2],d)?1:0;else
 var
-y=Q(i),m=D(y,b)?0:L(aW(y,aM(2))[2],d)?1:0;var
-am=m?[0,[0,cD(i,c(2,b))]]:m,Z=am}else
+y=R(i),m=F(y,b)?0:L(aY(y,aN(2))[2],d)?1:0;var
+am=m?[0,[0,cG(i,c(2,b))]]:m,Z=am}else
 var
 Z=t;var
 _=Z}else
@@ -2886,90 +2892,90 @@ ac=ab}else
 var
 ac=u;return ac}},t);function
 k(a){return a?a[1]:d}var
-h=e(function(a){return y(k,a)},j),i=l(function(c){var
+h=e(function(a){return z(k,a)},j),i=l(function(c){var
 a=s(c,h,0),b=a?1:a;return b},p);if(i){var
-m=g(de(q),f),o=g(de(r),m);return l(function(c){var
+m=g(df(q),f),o=g(df(r),m);return l(function(c){var
 a=s(c,h,0);if(a){var
-b=aV(a[1]);return 0===b?1:0<b?0:0}return a},o)}return i},f):i}function
-jt(j,a,i,h,g,f,e,d,c,b){var
-k=cG(fw(i,h,g,c,b),a);return jl(j,a,bz(fu,e,f),k,d)}function
-ny(f,d,c,n,m,b,l,q,e,k,j,i,h,a){if(typeof
+b=aX(a[1]);return 0===b?1:0<b?0:0}return a},o)}return i},f):i}function
+jA(j,a,i,h,g,f,e,d,c,b){var
+k=cK(fA(i,h,g,c,b),a);return js(j,a,bA(fx,e,f),k,d)}function
+nL(f,d,c,n,m,b,l,q,e,k,j,i,h,a){if(typeof
 a!=="number"&&11===a[0]){var
-o=a[3],g=a[1],p=js(d,c,n,m,b,k,g,a[2]);if(p){var
-r=jt(f,d,c,n,m,b,g,e,k,o);return nw(f,d,c,bz(fu,g,b),l,r,e,j,i,h,o)}return p}return nw(f,d,c,b,l,q,e,j,i,h,a)}function
-nz(r,q,p,o,m,k,j,i,h,g,d,c,a){if(typeof
+o=a[3],g=a[1],p=jz(d,c,n,m,b,k,g,a[2]);if(p){var
+r=jA(f,d,c,n,m,b,g,e,k,o);return nJ(f,d,c,bA(fx,g,b),l,r,e,j,i,h,o)}return p}return nJ(f,d,c,b,l,q,e,j,i,h,a)}function
+nM(r,q,p,o,m,k,j,i,h,g,d,c,a){if(typeof
 a!=="number"&&12===a[0]){var
 b=a[1],s=I(n(f(b),0));if(s){var
-t=V(jh(e(function(a){return a[1][1][1]},b)),b);return l(function(a){var
-b=a[2],e=b[1];return ny(r,q,p,o,m,k,j,i,h,g,d,c,[0,[0,[0,[0,a[1][1],a[1][2]],e[1][2]],e[2]]],b[2])},t)}return s}return ny(r,q,p,o,m,k,j,i,h,g,d,c,0,a)}function
-g$(b,a){if(a){var
+t=V(jo(e(function(a){return a[1][1][1]},b)),b);return l(function(a){var
+b=a[2],e=b[1];return nL(r,q,p,o,m,k,j,i,h,g,d,c,[0,[0,[0,[0,a[1][1],a[1][2]],e[1][2]],e[2]]],b[2])},t)}return s}return nL(r,q,p,o,m,k,j,i,h,g,d,c,0,a)}function
+he(b,a){if(a){var
 c=a[2];if(b){var
-e=g$(b[1],c);return[0,a[1],e]}var
+e=he(b[1],c);return[0,a[1],e]}var
 d=[0,0,c]}else
 var
 d=a;return d}function
-nA(c,b,a){var
+nN(c,b,a){var
 d=V(b,a);return l(function(a){var
 b=h(c,a[1]);return b?b:I(a[2])},d)}function
-fx(m,b,k,a,i,t,o,j,g,Z,q){switch(q[0]){case
+fB(m,b,k,a,i,t,o,j,g,Z,q){switch(q[0]){case
 0:var
-ae=function(a){return l(I,a)},L=ae,y=q[1];break;case
+ae=function(a){return l(I,a)},L=ae,x=q[1];break;case
 1:var
 af=q[4],ag=q[3],ah=q[2],ai=function(c){var
-d=c$(ah,g),e=fx(m,b,k,a,i,t,o,j,d[1],c,ag);return e?fx(m,b,k,a,i,t,o,j,d[2],c,af):e},L=ai,y=q[1];break;default:var
+d=da(ah,g),e=fB(m,b,k,a,i,t,o,j,d[1],c,ag);return e?fB(m,b,k,a,i,t,o,j,d[2],c,af):e},L=ai,x=q[1];break;default:var
 aj=q[4],ak=q[3],al=q[2],am=function(c){var
-d=nA(jr,t,c);if(d){var
-e=c$(al,j),f=fx(m,b,k,a,i,t,o,e[1],g,c,ak);if(f)return fx(m,b,k,a,i,t,o,e[2],g,c,aj);var
+d=nN(jy,t,c);if(d){var
+e=da(al,j),f=fB(m,b,k,a,i,t,o,e[1],g,c,ak);if(f)return fB(m,b,k,a,i,t,o,e[2],g,c,aj);var
 h=f}else
 var
-h=d;return h},L=am,y=q[1]}if(y){var
-A=jl(m,b,j,cG(w(function(e){var
+h=d;return h},L=am,x=q[1]}if(x){var
+A=js(m,b,j,cK(y(function(e){var
 b=e[2],d=0;if(typeof
 b==="number"){if(4!==b)d=1}else
 if(11!==b[0])d=1;if(d){var
-c=G(t,e[1]);return c?fw(k,a,i,c[1],b):c}return 0},y),b),g),x=y,u=Z;for(;;){if(x){var
-T=x[1],c=T[2],F=T[1],U=x[2],_=0;if(typeof
+c=E(t,e[1]);return c?fA(k,a,i,c[1],b):c}return 0},x),b),g),w=x,u=Z;for(;;){if(w){var
+T=w[1],c=T[2],G=T[1],U=w[2],_=0;if(typeof
 c==="number"&&4===c){var
 B=h(o,g);if(B)var
-aa=B[1],$=a$(f(g)),H=l(function(b){return function(a){return K(aE(a,b)[2],d)}}(aa),$);else
+aa=B[1],$=ba(f(g)),H=l(function(b){return function(a){return K(aF(a,b)[2],d)}}(aa),$);else
 var
 H=B;if(H){var
-x=U,u=e(function(a){return 0},u);continue}var
+w=U,u=e(function(a){return 0},u);continue}var
 v=H}else
 _=1;if(_){var
-W=s(F,u,0);if(W){var
-J=G(t,F);if(J){var
+W=s(G,u,0);if(W){var
+J=E(t,G);if(J){var
 p=J[1],M=0;if(typeof
 c==="number")M=1;else
 switch(c[0]){case
 11:var
-N=c[3],C=c[1],O=js(b,k,a,i,j,p,C,c[2]);if(O)var
-ab=jt(m,b,k,a,i,j,C,g,p,N),r=nx(m,b,k,a,i,bz(fu,C,j),o,ab,g,p,N);else
+N=c[3],C=c[1],O=jz(b,k,a,i,j,p,C,c[2]);if(O)var
+ab=jA(m,b,k,a,i,j,C,g,p,N),r=nK(m,b,k,a,i,bA(fx,C,j),o,ab,g,p,N);else
 var
 r=O;break;case
 12:var
 D=c[1],P=I(n(f(D),0));if(P){var
-Q=I(g6(c));if(Q)var
+Q=I(g$(c));if(Q)var
 z=Q;else
 var
 ad=1<p[0]?0:1,z=ad}else
 var
 z=P;if(z)var
-ac=V(jh(e(function(a){return a[1][1][1]},D)),D),r=l(function(C,e){return function(t){var
-u=t[2],d=t[1],v=g6(C),h=u[1],l=h[1][2],n=h[2],c=u[2],p=v?a:k;function
-q(a){return v?g7(a):a}if(typeof
+ac=V(jo(e(function(a){return a[1][1][1]},D)),D),r=l(function(C,e){return function(t){var
+u=t[2],d=t[1],v=g$(C),h=u[1],l=h[1][2],n=h[2],c=u[2],p=v?a:k;function
+q(a){return v?ha(a):a}if(typeof
 c!=="number"&&11===c[0]){var
-r=c[3],f=c[1],s=js(b,k,a,i,j,e,f,c[2]);if(s){var
-x=q(r),y=d[2],z=d[1],B=jt(m,b,k,a,i,j,f,g,e,r);return nv(m,b,p,a,i,bz(fu,f,j),o,B,g,e,z,y,l,n,x)}return s}var
-w=q(c);return nv(m,b,p,a,i,j,o,A,g,e,d[1],d[2],l,n,w)}}(c,p),ac);else
+r=c[3],f=c[1],s=jz(b,k,a,i,j,e,f,c[2]);if(s){var
+x=q(r),y=d[2],z=d[1],B=jA(m,b,k,a,i,j,f,g,e,r);return nI(m,b,p,a,i,bA(fx,f,j),o,B,g,e,z,y,l,n,x)}return s}var
+w=q(c);return nI(m,b,p,a,i,j,o,A,g,e,d[1],d[2],l,n,w)}}(c,p),ac);else
 var
 r=z;break;case
 13:if(2===p[0])var
-E=jo(m,c[1],c[2]),R=i_(f(g),E),S=R?nz(m,b,k,a,i,j,o,A,g,p,0,E,c[3]):R,r=S?nz(m,b,k,a,i,j,o,A,g,p,[0,p[1]],E,c[4]):S;else
+F=jv(m,c[1],c[2]),R=jf(f(g),F),S=R?nM(m,b,k,a,i,j,o,A,g,p,0,F,c[3]):R,r=S?nM(m,b,k,a,i,j,o,A,g,p,[0,p[1]],F,c[4]):S;else
 var
 r=0;break;default:M=1}if(M)var
-r=nx(m,b,k,a,i,j,o,A,g,p,c);if(r){var
-x=U,u=g$(F,u);continue}var
+r=nK(m,b,k,a,i,j,o,A,g,p,c);if(r){var
+w=U,u=he(G,u);continue}var
 X=r}else
 var
 X=J;var
@@ -2981,81 +2987,81 @@ var
 v=[0,u];break}}else
 var
 v=[0,Z];return v?L(v[1]):v}function
-ju(h,g,f,e,d,c,b,a){return function(i,j,k){return fx(h,g,f,e,d,b,a,c,i,j,k)}}function
-jv(a){return e(function(a){return 1},a)}function
-eC(a,d,b,c){function
+jB(h,g,f,e,d,c,b,a){return function(i,j,k){return fB(h,g,f,e,d,b,a,c,i,j,k)}}function
+jC(a){return e(function(a){return 1},a)}function
+eH(a,d,b,c){function
 f(d,c){var
 f=V(a[1],b[1]);return e(function(a){var
-b=r(c,a[2]);return B(r(d,a[1]),b)},f)}if(aX(a[2],b[2])){var
+b=r(c,a[2]);return B(r(d,a[1]),b)},f)}if(aZ(a[2],b[2])){var
 g=a[2];return[0,f(d,c),g]}var
 h=r(a[2],b[2]),i=r(c,a[2]);return[0,f(r(d,b[2]),i),h]}function
-nB(a){var
+nO(a){var
 c=m(b);return[0,e(function(a){return m(d)},a),c]}function
 bf(a,k){var
 f=k[1];switch(f[0]){case
 1:var
-u=f[1];if(ak(function(a){return n(u,a)},a)){var
+u=f[1];if(al(function(a){return n(u,a)},a)){var
 C=m(b);return[0,e(function(a){var
-c=n(a,u)?b:d;return m(c)},a),C]}return nB(a);case
+c=n(a,u)?b:d;return m(c)},a),C]}return nO(a);case
 3:var
-D=m(b),E=bf(a,f[2]),F=m(b);return eC(bf(a,f[1]),F,E,D);case
+D=m(b),E=bf(a,f[2]),F=m(b);return eH(bf(a,f[1]),F,E,D);case
 4:var
-G=m(Q(b)),H=bf(a,f[2]),I=m(b);return eC(bf(a,f[1]),I,H,G);case
+G=m(R(b)),H=bf(a,f[2]),I=m(b);return eH(bf(a,f[1]),I,H,G);case
 5:var
-v=bf(a,f[1]),J=v[2];return[0,e(bs,v[1]),J];case
+v=bf(a,f[1]),J=v[2];return[0,e(bu,v[1]),J];case
 6:var
-w=f[2],x=f[1],K=bf(a,w);return eC(bf(a,x),w,K,x);case
+w=f[2],y=f[1],K=bf(a,w);return eH(bf(a,y),w,K,y);case
 7:var
-y=f[2],L=bs(k),M=bf(a,y),N=m(b),i=eC(bf(a,f[1]),N,M,L),O=i[1];if(l(function(a){return be(d,a)},O))return i;var
-P=r(i[2],y);return[0,i[1],P];case
+z=f[2],L=bu(k),M=bf(a,z),N=m(b),i=eH(bf(a,f[1]),N,M,L),O=i[1];if(l(function(a){return be(d,a)},O))return i;var
+P=r(i[2],z);return[0,i[1],P];case
 8:var
-A=f[1],B=bf(a,A),R=B[2],S=B[1],T=r(m(c(2,b)),A);return[0,e(function(a){return r(T,a)},S),R];case
+A=f[1],B=bf(a,A),Q=B[2],S=B[1],T=r(m(c(2,b)),A);return[0,e(function(a){return r(T,a)},S),Q];case
 9:var
 j=bf(a,f[1]),U=j[1];if(l(function(a){return be(d,a)},U)){var
 V=m(b);return[0,j[1],V]}var
 W=r(m(c(2,b)),k),X=r(j[2],W);return[0,j[1],X];case
 10:var
-o=f[4],g=f[3],h=f[2],p=[0,[10,0,h,g,o]],q=[0,[10,1,h,g,o]],Y=z(g,q),Z=bf(a,g),_=z(h,p),$=eC(bf(a,h),_,Z,Y),aa=m(Q(b)),ab=bf(a,o),s=eC($,m(c(2,b)),ab,aa),ac=s[1],ad=f[1]?p:bs(q),t=e(function(a){return r(ad,a)},ac);if(l(function(a){return be(d,a)},t))return[0,t,s[2]];var
-ae=r(h,q),af=z(r(g,p),ae),ag=r(m(c(2,b)),af);return[0,t,r(s[2],ag)];default:return nB(a)}}function
-ha(c,a){var
-b=bf(c,a),f=b[1];return e(function(a){return be(d,a)?a:an(a,b[2])},f)}function
-nC(g){var
+o=f[4],g=f[3],h=f[2],p=[0,[10,0,h,g,o]],q=[0,[10,1,h,g,o]],Y=x(g,q),Z=bf(a,g),_=x(h,p),$=eH(bf(a,h),_,Z,Y),aa=m(R(b)),ab=bf(a,o),s=eH($,m(c(2,b)),ab,aa),ac=s[1],ad=f[1]?p:bu(q),t=e(function(a){return r(ad,a)},ac);if(l(function(a){return be(d,a)},t))return[0,t,s[2]];var
+ae=r(h,q),af=x(r(g,p),ae),ag=r(m(c(2,b)),af);return[0,t,r(s[2],ag)];default:return nO(a)}}function
+hf(c,a){var
+b=bf(c,a),f=b[1];return e(function(a){return be(d,a)?a:ai(a,b[2])},f)}function
+nP(g){var
 h=g[1],c=h[2],e=h[1];if(0===e[0]){var
-i=e[2],a=e[1];if(D(i,b)){if(0===c[0]){var
-j=c[2],m=c[1];if(D(j,b)){var
-k=L(a,m),l=k?fm(a):k;if(l)var
+i=e[2],a=e[1];if(F(i,b)){if(0===c[0]){var
+j=c[2],m=c[1];if(F(j,b)){var
+k=L(a,m),l=k?fp(a):k;if(l)var
 n=L(g[2],d),f=n||L(a,d);else
 var
 f=l;var
-o=f?[0,a]:f;return o}return L(aW(j,aM(2))[2],d)?0:0}return 0}return L(aW(i,aM(2))[2],d)?0:0}return 0}function
-ck(c,b){var
-a=nC(c);return a?m(a[1]):[0,[1,b]]}function
-cN(b,a){if(a)var
-d=cN([0,b],a[2]),c=[0,ck(a[1],b),d];else
+o=f?[0,a]:f;return o}return L(aY(j,aN(2))[2],d)?0:0}return 0}return L(aY(i,aN(2))[2],d)?0:0}return 0}function
+bM(c,b){var
+a=nP(c);return a?m(a[1]):[0,[1,b]]}function
+co(b,a){if(a)var
+d=co([0,b],a[2]),c=[0,bM(a[1],b),d];else
 var
 c=a;return c}function
 bg(b,a){return[0,[0,b[1],a],[0,[0,b[2],a],[0,[0,b[3],a],0]]]}function
-hb(b,d,a){switch(a[0]){case
+hg(b,d,a){switch(a[0]){case
 0:var
 c=a[1],f=[0,[0,c[4],b],0],h=g(bg(c[3],b),f),i=g(bg(c[2],b),h);return g(bg(c[1],d),i);case
 1:var
 e=a[3],j=e?bg(e[1],d):e,k=g(bg(a[2],b),j);return g(bg(a[1],b),k);default:return bg(a[1],d)}}function
-al(b,a){var
-c=m(d),e=s(N(uL,a),b,c),f=m(d),g=s(N(uM,a),b,f);return[0,s(a,b,m(d)),g,e]}function
-nD(b,a){return ah(z,ah(B,dN,a),b)}function
-hc(c,b,a){if(a){var
-e=a[2],f=hc(c,bI(b),e),h=a[1];return g(hb(c,bW(d,b),h),f)}return a}function
-jw(g,e,c,j){if(c){var
-b=c[1],v=N(j,f(hb(g,bW(d,e),b))),w=c[2],x=jw(g,bI(e),w,v),a=cN(j,hb(g,bW(d,e),b));switch(b[0]){case
+am(b,a){var
+c=m(d),e=s(N(u5,a),b,c),f=m(d),g=s(N(u6,a),b,f);return[0,s(a,b,m(d)),g,e]}function
+nQ(b,a){return af(x,af(B,dN,a),b)}function
+hh(c,b,a){if(a){var
+e=a[2],f=hh(c,bz(b),e),h=a[1];return g(hg(c,bJ(d,b),h),f)}return a}function
+jD(g,e,c,j){if(c){var
+b=c[1],v=N(j,f(hg(g,bJ(d,e),b))),w=c[2],x=jD(g,bz(e),w,v),a=co(j,hg(g,bJ(d,e),b));switch(b[0]){case
 0:var
-l=b[1][5],n=s(uN,a,m(d)),o=ah(B,dN,al(a,uO)),p=dM(al(a,0)),q=al(a,uP),h=m0(nD(al(a,uQ),q),p,o,n,l);break;case
+l=b[1][5],n=s(u7,a,m(d)),o=af(B,dN,am(a,u8)),p=dM(am(a,0)),q=am(a,u9),h=na(nQ(am(a,u_),q),p,o,n,l);break;case
 1:var
-i=b[3],r=i?[0,dM(al(a,uR))]:i,t=ah(B,dN,al(a,uS)),u=al(a,uT),h=m1(nD(al(a,0),u),t,r);break;default:var
-h=m2(dN,dM(al(a,0)))}var
+i=b[3],r=i?[0,dM(am(a,u$))]:i,t=af(B,dN,am(a,va)),u=am(a,vb),h=nb(nQ(am(a,0),u),t,r);break;default:var
+h=nc(dN,dM(am(a,0)))}var
 k=[0,h,x]}else
 var
 k=c;return k}function
-b0(c,a){if(typeof
+b2(c,a){if(typeof
 a!=="number")switch(a[0]){case
 4:var
 h=[5,a[3],a[2]];return[0,[0,h,h],d];case
@@ -3064,7 +3070,7 @@ j=a[2];return[0,[0,j,j],d];case
 8:var
 k=[5,a[2],a[1]];return[0,[0,k,k],d];case
 10:var
-p=a[3],q=er(a[2]),l=[2,[2,er(a[1]),q],p];return[0,[0,l,l],c];case
+p=a[3],q=ew(a[2]),l=[2,[2,ew(a[1]),q],p];return[0,[0,l,l],c];case
 11:var
 m=a[4];return[0,[0,m,m],c];case
 12:var
@@ -3075,186 +3081,186 @@ o=[5,a[2],a[3]];return[0,[0,o,o],d];case
 0:case
 1:var
 f=[5,[0,b,b],a[1]];return[0,[0,f,f],d];case
-5:case
-7:case
-9:var
-i=a[1];return[0,[0,i,i],d];default:var
-g=a[2];return[0,[0,g,g],c]}var
+2:case
+3:case
+14:var
+g=a[2];return[0,[0,g,g],c];default:var
+i=a[1];return[0,[0,i,i],d]}var
 e=[0,d,b];return[0,[0,e,e],d]}function
-fy(b,a){var
+fC(b,a){var
 c=a[3],d=a[2],e=a[1];return[0,[0,[0,e,e],b],[0,[0,[0,d,d],b],[0,[0,[0,c,c],b],0]]]}function
-eD(c,a){if(0===a[0]){var
-e=[0,d,b],i=g(fy(c,a[5]),[0,[0,[0,e,e],d],0]),f=a[4],h=a[3];return g([0,[0,[0,h,h],c],[0,[0,[0,f,f],c],0]],i)}var
-j=fy(c,a[3]);return g(fy(c,a[2]),j)}function
+eI(c,a){if(0===a[0]){var
+e=[0,d,b],i=g(fC(c,a[5]),[0,[0,[0,e,e],d],0]),f=a[4],h=a[3];return g([0,[0,[0,h,h],c],[0,[0,[0,f,f],c],0]],i)}var
+j=fC(c,a[3]);return g(fC(c,a[2]),j)}function
 dR(b,a){if(typeof
 a!=="number")switch(a[0]){case
 10:var
-h=eD(b,a[2]);return g(eD(b,a[1]),h);case
+h=eI(b,a[2]);return g(eI(b,a[1]),h);case
 11:var
-i=fy(b,a[3]);return g(fy(b,a[2]),i);case
+i=fC(b,a[3]);return g(fC(b,a[2]),i);case
 12:var
 c=a[3],f=[5,[4,c,c],a[4]];return[0,[0,[0,f,f],b],0];case
 15:var
 j=a[2],k=a[1];return e(function(b){var
 a=[5,j,b];return[0,[0,a,a],d]},k)}return 0}function
-nE(c,b,a){var
+nR(c,b,a){var
 d=f(dR(c,b)),e=N(a[2],d);return[0,[0,a[1]],e]}function
-jx(c,b){if(aX(b,c))return[0,m(d)];var
+jE(c,b){if(aZ(b,c))return[0,m(d)];var
 a=b[1];if(4===a[0]){var
-e=aX(a[1],c),f=e?[0,a[2]]:e;return f}return 0}function
-nF(x,p,a,o){switch(o[0]){case
+e=aZ(a[1],c),f=e?[0,a[2]]:e;return f}return 0}function
+nS(y,p,a,o){switch(o[0]){case
 0:var
-i=G(x,o[1]);if(i){var
+i=E(y,o[1]);if(i){var
 j=i[1];if(j){var
-q=j[1],r=q[1],c=r[2],e=r[1],t=q[2],y=al(a,uU),A=ah(B,ah(z,e,a7(an(s(uV,a,m(d)),t),c)),y),C=al(a,uW),f=an(s(0,a,m(d)),t),k=jx(e[1],c[1]);if(k){var
-l=jx(e[2],c[2]);if(l){var
-n=jx(e[3],c[3]);if(n)var
-w=a7(f,c),g=ah(B,[0,k[1],l[1],n[1]],w);else
+q=j[1],r=q[1],c=r[2],e=r[1],t=q[2],z=am(a,vc),A=af(B,af(x,e,a8(ai(s(vd,a,m(d)),t),c)),z),C=am(a,ve),f=ai(s(0,a,m(d)),t),k=jE(e[1],c[1]);if(k){var
+l=jE(e[2],c[2]);if(l){var
+n=jE(e[3],c[3]);if(n)var
+w=a8(f,c),g=af(B,[0,k[1],l[1],n[1]],w);else
 var
-g=ah(z,e,a7(z(m(b),f),c))}else
+g=af(x,e,a8(x(m(b),f),c))}else
 var
-g=ah(z,e,a7(z(m(b),f),c))}else
+g=af(x,e,a8(x(m(b),f),c))}else
 var
-g=ah(z,e,a7(z(m(b),f),c));var
-u=[0,[0,ah(B,g,C),A]]}else
+g=af(x,e,a8(x(m(b),f),c));var
+u=[0,[0,af(B,g,C),A]]}else
 var
 u=j;var
 v=u}else
 var
 v=i;return v;case
 1:var
-D=al(a,uX);return[0,[0,al(a,0),D]];default:var
-E=h(p,al(a,uY));return[0,[0,h(p,al(a,0)),E]]}}function
-nG(e,d,c,h,g){var
-a=nF(e,d,am(uZ,c),h);if(a)var
-b=nF(e,d,aw(u0,c),g),i=b?[0,[0,a[1],b[1]]]:b,f=i;else
+D=am(a,vf);return[0,[0,am(a,0),D]];default:var
+F=h(p,am(a,vg));return[0,[0,h(p,am(a,0)),F]]}}function
+nT(e,d,c,h,g){var
+a=nS(e,d,ao(vh,c),h);if(a)var
+b=nS(e,d,aw(vi,c),g),i=b?[0,[0,a[1],b[1]]]:b,f=i;else
 var
 f=a;return f}function
-nH(f,c,d,b,a){var
-h=eD(c,a),i=cN(d,g(eD(c,b),h));function
-j(a){return ah(B,dN,a)}return nG(e(function(a){var
-b=a[7];return y(function(b){var
-c=c_(a);return[0,[0,b,a[1]],c]},b)},f),j,i,b,a)}function
+nU(f,c,d,b,a){var
+h=eI(c,a),i=co(d,g(eI(c,b),h));function
+j(a){return af(B,dN,a)}return nT(e(function(a){var
+b=a[7];return z(function(b){var
+c=c$(a);return[0,[0,b,a[1]],c]},b)},f),j,i,b,a)}function
 dS(d,c,b,a){var
-e=r(c,b);return z(r(d,a),e)}function
-bD(a){return w(function(a){return g(a[1],[0,a[2],0])},a)}function
-nI(b,a){if(b)if(a)var
-d=b[1],e=nI(b[2],a[2]),f=r(d[2],a[1]),c=[0,[0,bZ(d[1]),f],e];else
+e=r(c,b);return x(r(d,a),e)}function
+bE(a){return y(function(a){return g(a[1],[0,a[2],0])},a)}function
+nV(b,a){if(b)if(a)var
+d=b[1],e=nV(b[2],a[2]),f=r(d[2],a[1]),c=[0,[0,bL(d[1]),f],e];else
 var
 c=a;else
 var
 c=b;return c}function
-nJ(a){if(a){var
+nW(a){if(a){var
 b=a[1][6];if(b){var
-c=b[1],d=nJ(a[2]);if(d)var
-g=d[1],h=ab(c,c),e=[0,[0,[0,bZ(c),h],g]];else
+c=b[1],d=nW(a[2]);if(d)var
+g=d[1],h=ab(c,c),e=[0,[0,[0,bL(c),h],g]];else
 var
 e=d;var
 f=e}else
 var
-f=b;return f}return u2}function
-fz(b,d,c,a){if(typeof
+f=b;return f}return vk}function
+fD(b,d,c,a){if(typeof
 a!=="number")switch(a[0]){case
 8:var
-i=c[1],j=ck(b0(d,a),i);return[0,e(function(a){var
-b=r(a[2],j);return[0,bZ(a[1]),b]},b)];case
-9:return nJ(b);case
+i=c[1],j=bM(b2(d,a),i);return[0,e(function(a){var
+b=r(a[2],j);return[0,bL(a[1]),b]},b)];case
+9:return nW(b);case
 15:var
 k=f(b),g=n(f(a[1]),k);if(g)var
-l=dR(d,a),h=[0,nI(b,cN(c[2],l))];else
+l=dR(d,a),h=[0,nV(b,co(c[2],l))];else
 var
 h=g;return h}return 0}function
-hd(e,k,j,a){var
-P=j[1],c=ck(b0(k,a),P),u=0;if(typeof
+hi(e,k,j,a){var
+P=j[1],c=bM(b2(k,a),P),u=0;if(typeof
 a==="number")u=1;else
 switch(a[0]){case
 2:var
-Q=function(a){return[0,z(a[4],c),0]},g=Q,f=a[1];break;case
+Q=function(a){return[0,x(a[4],c),0]},g=Q,f=a[1];break;case
 3:var
-R=function(a){return[0,z(c,a[4]),0]},g=R,f=a[1];break;case
+R=function(a){return[0,x(c,a[4]),0]},g=R,f=a[1];break;case
 4:var
 S=function(b){var
-a=b[1],d=X(a[3]),e=X(a[2]),f=X(a[1]),g=b[2];return[0,z(z(z(r(X(c),g),f),e),d),0]},g=S,f=a[1];break;case
+a=b[1],d=W(a[3]),e=W(a[2]),f=W(a[1]),g=b[2];return[0,x(x(x(r(W(c),g),f),e),d),0]},g=S,f=a[1];break;case
 6:var
 T=function(b){var
 a=b[5];if(a)var
-e=X(a[1]),f=r(X(c),e),d=[0,z(b[2],f),0];else
+e=W(a[1]),f=r(W(c),e),d=[0,x(b[2],f),0];else
 var
 d=a;return d},g=T,f=a[1];break;case
 7:if(e){var
 l=e[2];if(l){var
 n=l[2];if(n){if(n[2])return 0;var
-x=n[1],y=l[1],A=e[1],h=x[1],i=y[1],p=A[1],K=dS(i[1],i[2],h[1],h[2]),L=r(p[3],K),M=dS(i[1],i[3],h[1],h[3]),N=r(p[2],M),O=dS(i[2],i[3],h[2],h[3]),v=B(z(r(p[1],O),N),L),U=c_(x),V=c_(y),C=r(r(r(c,c_(A)),V),U),W=[0,bs(B(v,C)),0],D=[0,z(v,C),W]}else
+w=n[1],z=l[1],A=e[1],h=w[1],i=z[1],p=A[1],K=dS(i[1],i[2],h[1],h[2]),L=r(p[3],K),M=dS(i[1],i[3],h[1],h[3]),N=r(p[2],M),O=dS(i[2],i[3],h[2],h[3]),v=B(x(r(p[1],O),N),L),U=c$(w),V=c$(z),C=r(r(r(c,c$(A)),V),U),X=[0,bu(B(v,C)),0],D=[0,x(v,C),X]}else
 var
 D=n;var
-E=D}else
+F=D}else
 var
-E=l;var
-F=E}else
+F=l;var
+G=F}else
 var
-F=e;return F;case
+G=e;return G;case
 10:var
-t=nH(e,k,j[2],a[1],a[2]);if(t){var
-H=t[1],I=H[2],J=H[1];return w(bZ,[0,J[1],[0,J[2],[0,I[1],[0,I[2],0]]]])}return t;case
+t=nU(e,k,j[2],a[1],a[2]);if(t){var
+H=t[1],I=H[2],J=H[1];return y(bL,[0,J[1],[0,J[2],[0,I[1],[0,I[2],0]]]])}return t;case
 11:var
 Y=function(d){var
 e=d[7];if(e)var
-n=dR(k,a),f=cN(j[2],n),h=al(f,u1),b=ah(z,al(f,0),h),i=X(c),l=X(c_(d)),m=an(X(ab(b,d[1])),l),g=[0,z(z(ab(b,b),m),i),0];else
+n=dR(k,a),f=co(j[2],n),h=am(f,vj),b=af(x,am(f,0),h),i=W(c),l=W(c$(d)),m=ai(W(ab(b,d[1])),l),g=[0,x(x(ab(b,b),m),i),0];else
 var
 g=e;return g},g=Y,f=a[1];break;case
 12:var
 Z=function(e){var
-p=m(d),q=dR(k,a),t=s(0,cN(j[2],q),p),f=an(t,c_(e)),g=e[5];if(g){var
-l=aN(e[2]),h=an(g[1],l),n=r(h,B(c,r(f,X(h))));return[0,z(m(b),n),0]}var
-i=e[7],o=i?[0,z(z(m(b),c),f),0]:i;return o},g=Z,f=a[1];break;case
+p=m(d),q=dR(k,a),t=s(0,co(j[2],q),p),f=ai(t,c$(e)),g=e[5];if(g){var
+l=aL(e[2]),h=ai(g[1],l),n=r(h,B(c,r(f,W(h))));return[0,x(m(b),n),0]}var
+i=e[7],o=i?[0,x(x(m(b),c),f),0]:i;return o},g=Z,f=a[1];break;case
 8:case
 9:case
 15:var
-q=fz(e,k,j,a);return q?bD(q[1]):q;default:u=1}if(u)return 0;var
-o=G(e,f);return o?g(o[1]):o}function
-jy(d,b,c,a){if(a){var
-e=a[1],f=a[2],h=jy(d,b,nE(b,e,c),f);return g(hd(d,b,c,e),h)}return a}var
-nK=[0,d,b],nL=[0,[0,nK,nK],d];function
-jz(a){return I(ch(a[1][1],a[1][2]))}function
-he(a){var
-b=aH(0,f(a));return a5(function(b){return jz(s(b,a,nL))},b)}function
-jA(b,a){var
-c=V(he(b),a);return a5(function(a){return I(be(d,a[2]))},c)}function
-fA(a,b){return jA(a,ha(he(a),b))}function
-nM(b,a){var
+q=fD(e,k,j,a);return q?bE(q[1]):q;default:u=1}if(u)return 0;var
+o=E(e,f);return o?g(o[1]):o}function
+jF(d,b,c,a){if(a){var
+e=a[1],f=a[2],h=jF(d,b,nR(b,e,c),f);return g(hi(d,b,c,e),h)}return a}var
+nX=[0,d,b],nY=[0,[0,nX,nX],d];function
+jG(a){return I(cl(a[1][1],a[1][2]))}function
+hj(a){var
+b=aI(0,f(a));return a6(function(b){return jG(s(b,a,nY))},b)}function
+jH(b,a){var
+c=V(hj(b),a);return a6(function(a){return I(be(d,a[2]))},c)}function
+fE(a,b){return jH(a,hf(hj(a),b))}function
+nZ(b,a){var
 c=h(b,a[3]),d=h(b,a[2]);return[0,h(b,a[1]),d,c]}function
-nN(m,l,k,j,i,a){return ad(e(function(e){var
-a=s(e[1],k,nL),f=aO(a[2],j),g=[4,[0,c(2,b),b],i],d=[5,[3,a[1][2],a[1][1]],g],n=aq(m,[0,[0,d,d],f]);return y(function(a){return[0,a,h(l,e[2])]},n)},a))}function
-nO(f,e,a,d,c,b){return nN(f,e,a,d,c,fA(a,b))}function
-jB(g,f,n,m,l,e,c){var
-i=[5,l,e],a=aq(g,[0,[0,i,i],d]);if(a){var
-b=nO(g,f,n,m,e,c);if(b)var
+n0(m,l,k,j,i,a){return ad(e(function(e){var
+a=s(e[1],k,nY),f=aQ(a[2],j),g=[4,[0,c(2,b),b],i],d=[5,[3,a[1][2],a[1][1]],g],n=ar(m,[0,[0,d,d],f]);return z(function(a){return[0,a,h(l,e[2])]},n)},a))}function
+n1(f,e,a,d,c,b){return n0(f,e,a,d,c,fE(a,b))}function
+jI(g,f,n,m,l,e,c){var
+i=[5,l,e],a=ar(g,[0,[0,i,i],d]);if(a){var
+b=n1(g,f,n,m,e,c);if(b)var
 o=[0,a[1],b[1]],j=[0,[0,h(f,c),o]];else
 var
 j=b;var
 k=j}else
 var
 k=a;return k}function
-nP(c,F,m,al,k,j,o,s){if(s){var
-a=s[1],aH=s[2],aI=nP(c,F,m,al,k,j,nE(j,a,o),aH);if(typeof
+n2(c,G,m,al,k,j,o,s){if(s){var
+a=s[1],aH=s[2],aI=n2(c,G,m,al,k,j,nR(j,a,o),aH);if(typeof
 a==="number")if(0===a)var
 g=[0,[0,u]];else
 var
-an=F[2],ao=F[1],ap=fr(k),g=[0,[8,h(ay(m),ap),ao,an]];else
+an=G[2],ao=G[1],ap=fu(k),g=[0,[8,h(ay(m),ap),ao,an]];else
 switch(a[0]){case
 0:var
-ar=aq(c,b0(j,a)),g=y(function(a){return[0,R(c,a)]},ar);break;case
+aq=ar(c,b2(j,a)),g=z(function(a){return[0,S(c,a)]},aq);break;case
 1:var
-as=aq(c,b0(j,a)),g=y(function(a){return[1,R(c,a)]},as);break;case
+as=ar(c,b2(j,a)),g=z(function(a){return[1,S(c,a)]},as);break;case
 5:var
-au=aq(c,b0(j,a)),g=y(function(a){return[2,R(c,a)]},au);break;case
+au=ar(c,b2(j,a)),g=z(function(a){return[2,S(c,a)]},au);break;case
 8:var
-av=fz(k,j,o,a),g=y(function(a){var
+av=fD(k,j,o,a),g=z(function(a){var
 d=J(c,b);return[4,h(ay(m),a),d]},av);break;case
 9:var
-w=fz(k,j,o,a);if(w){var
-x=aq(c,b0(j,a));if(x)var
-aw=R(c,x[1]),ax=w[1],M=[0,[4,h(ay(m),ax),aw]];else
+w=fD(k,j,o,a);if(w){var
+x=ar(c,b2(j,a));if(x)var
+aw=S(c,x[1]),ax=w[1],M=[0,[4,h(ay(m),ax),aw]];else
 var
 M=x;var
 N=M}else
@@ -3262,10 +3268,10 @@ var
 N=w;var
 g=N;break;case
 10:var
-z=nH(k,j,o[2],a[1],a[2]);if(z){var
-O=z[1],P=O[2],Q=O[1],A=aq(c,b0(j,a));if(A){var
-S=A[1],T=D(d,S[1]);if(T)var
-q=function(a){return nM(m,a)},az=q(P[2]),aA=q(P[1]),aB=q(Q[2]),U=[0,[6,q(Q[1]),aB,aA,az,S]];else
+y=nU(k,j,o[2],a[1],a[2]);if(y){var
+O=y[1],P=O[2],Q=O[1],A=ar(c,b2(j,a));if(A){var
+R=A[1],T=F(d,R[1]);if(T)var
+q=function(a){return nZ(m,a)},az=q(P[2]),aA=q(P[1]),aB=q(Q[2]),U=[0,[6,q(Q[1]),aB,aA,az,R]];else
 var
 U=T;var
 V=U}else
@@ -3273,10 +3279,10 @@ var
 V=A;var
 W=V}else
 var
-W=z;var
+W=y;var
 g=W;break;case
 12:var
-r=hd(k,j,o,a),t=0;if(r)if(r[2])var
+r=hi(k,j,o,a),t=0;if(r)if(r[2])var
 g=0;else{var
 X=i(c,0,a[2]),Y=X?i(c,1,a[4]):X;if(Y){var
 B=[0,[3,h(m,r[1])]];t=1}else{var
@@ -3284,16 +3290,16 @@ B=Y;t=1}}else{var
 B=r;t=1}if(t)var
 g=B;break;case
 13:var
-Z=a[1],_=G(k,Z),H=0;if(_){var
+Z=a[1],_=E(k,Z),H=0;if(_){var
 $=i(c,1,a[2]),aa=$?i(c,1,a[3]):$;if(aa)var
-aC=aq(c,b0(j,a)),g=y(function(a){return[7,Z,R(c,a)]},aC);else{var
+aC=ar(c,b2(j,a)),g=z(function(a){return[7,Z,S(c,a)]},aC);else{var
 ab=aa;H=1}}else{var
 ab=_;H=1}if(H)var
 g=ab;break;case
 14:var
-ac=a[2],ae=a[1],af=n(f(k),u3),ag=af?i(c,0,ae):af,ah=ag?i(c,1,ac):ag;if(ah){var
-C=aq(c,b0(j,a));if(C)var
-E=ad(e(function(a){return jB(c,m,al,j,ae,ac,a[4])},k)),aD=E?[0,[9,C[1],E[1]]]:E,ai=aD;else
+ac=a[2],ae=a[1],af=n(f(k),vl),ag=af?i(c,0,ae):af,ah=ag?i(c,1,ac):ag;if(ah){var
+C=ar(c,b2(j,a));if(C)var
+D=ad(e(function(a){return jI(c,m,al,j,ae,ac,a[4])},k)),aD=D?[0,[9,C[1],D[1]]]:D,ai=aD;else
 var
 ai=C;var
 aj=ai}else
@@ -3302,11 +3308,11 @@ aj=ah;var
 g=aj;break;case
 15:var
 aE=[0,a[2],a[1]],aF=1,ak=l(function(a){return i(c,aF,a)},aE);if(ak)var
-aG=fz(k,j,o,a),g=y(function(a){var
+aG=fD(k,j,o,a),g=z(function(a){var
 d=J(c,b);return[4,h(ay(m),a),d]},aG);else
 var
 g=ak;break;default:var
-p=hd(k,j,o,a),I=0;if(p){var
+p=hi(k,j,o,a),I=0;if(p){var
 v=p[2],K=p[1];if(v)if(v[2])var
 g=0;else
 var
@@ -3317,19 +3323,19 @@ g=L}var
 am=[0,g,aI]}else
 var
 am=s;return am}function
-u4(a){var
+vm(a){var
 b=0;if(typeof
 a==="number"){if(0!==a)b=1}else
 if(0!==a[0])b=1;return b?0:1}function
-eE(a){if(0===a[0])return a[1];var
+eJ(a){if(0===a[0])return a[1];var
 b=a[3],c=a[2],d=a[1];return[0,[0,[3,d,b],[2,d,b]],[0,[3,c,b],[2,c,b]],a[4]]}function
-nQ(a,c,g,b){if(0===c[0])return 0;if(b){var
+n3(a,c,g,b){if(0===c[0])return 0;if(b){var
 d=b[2];if(d){var
 h=d[2];if(h){if(h[2])return 0;var
-e=d[1],f=b[1],i=c8(a,g,c[1]);if(i){var
-j=c8(a,g,c[2]);if(j){var
-k=c8(a,g,c[3]);if(k)var
-v=i[1],w=ci(f),l=E([0,ci(f),w],v),x=j[1],y=ci(e),m=E([0,ci(e),y],x),z=ez(e),B=[0,ez(e),z],C=[0,t(a,$(A(m,m)),B),0],D=ez(f),F=[0,ez(f),D],G=[0,t(a,$(A(l,l)),F),C],H=R(a,m),I=R(a,l),n=[0,[0,E(E(R(a,k[1]),I),H),u,G]];else
+e=d[1],f=b[1],i=c9(a,g,c[1]);if(i){var
+j=c9(a,g,c[2]);if(j){var
+k=c9(a,g,c[3]);if(k)var
+v=i[1],w=cm(f),l=C([0,cm(f),w],v),x=j[1],y=cm(e),m=C([0,cm(e),y],x),z=eE(e),B=[0,eE(e),z],D=[0,t(a,$(A(m,m)),B),0],E=eE(f),F=[0,eE(f),E],G=[0,t(a,$(A(l,l)),F),D],H=S(a,m),I=S(a,l),n=[0,[0,C(C(S(a,k[1]),I),H),u,G]];else
 var
 n=k;var
 o=n}else
@@ -3347,14 +3353,14 @@ r=d;var
 s=r}else
 var
 s=b;return s}function
-hf(a,p,o){var
-q=bg(p,o),b=e(function(b){return aq(a,b)},q);if(b){var
+hk(a,p,o){var
+q=bg(p,o),b=e(function(b){return ar(a,b)},q);if(b){var
 g=b[1];if(g){var
 c=b[2];if(c){var
 h=c[1];if(h){var
 f=c[2];if(f){var
 i=f[1];if(i){if(f[2])return 0;var
-r=R(a,i[1]),s=R(a,h[1]);return K(d,A(A(R(a,g[1]),s),r)[1])}var
+r=S(a,i[1]),s=S(a,h[1]);return K(d,A(A(S(a,g[1]),s),r)[1])}var
 j=i}else
 var
 j=f;var
@@ -3371,152 +3377,152 @@ n=m}else
 var
 n=b;return n}function
 M(c,b,a){var
-d=ar(c,b[3],a[3]),e=ar(c,b[2],a[2]);return[0,ar(c,b[1],a[1]),e,d]}function
-S(b,a){return[0,[4,b,a[1]],[4,b,a[2]],[4,b,a[3]]]}function
-x(b,a){return[2,[2,[4,b[1],a[1]],[4,b[2],a[2]]],[4,b[3],a[3]]]}function
-aB(a){return S([5,[0,b,b],[6,x(a,a)]],a)}function
-df(c,b,a){var
-d=bC(c,b[1],a);return d?bC(c,a,b[2]):d}function
-bt(c,b,a){var
-d=df(c,b[1],a[1]),e=d?df(c,b[2],a[2]):d;return e?df(c,b[3],a[3]):e}function
-nR(b,c,a){switch(c[0]){case
+d=as(c,b[3],a[3]),e=as(c,b[2],a[2]);return[0,as(c,b[1],a[1]),e,d]}function
+P(b,a){return[0,[4,b,a[1]],[4,b,a[2]],[4,b,a[3]]]}function
+v(b,a){return[2,[2,[4,b[1],a[1]],[4,b[2],a[2]]],[4,b[3],a[3]]]}function
+aC(a){return P([5,[0,b,b],[6,v(a,a)]],a)}function
+dg(c,b,a){var
+d=bD(c,b[1],a);return d?bD(c,a,b[2]):d}function
+bv(c,b,a){var
+d=dg(c,b[1],a[1]),e=d?dg(c,b[2],a[2]):d;return e?dg(c,b[3],a[3]):e}function
+n4(b,c,a){switch(c[0]){case
 0:var
 d=c[1];if(0===a[0]){var
-j=a[4],f=a[1],k=bt(b,d[1],f),l=k?i(b,1,x(f,f)):k,m=l?bt(b,d[2],a[2]):l,n=m?bt(b,d[3],a[3]):m,o=n?df(b,d[4],j):n,p=o?i(b,1,j):o;return p?cB(d[5],a[5]):p}return 0;case
+j=a[4],f=a[1],k=bv(b,d[1],f),l=k?i(b,1,v(f,f)):k,m=l?bv(b,d[2],a[2]):l,n=m?bv(b,d[3],a[3]):m,o=n?dg(b,d[4],j):n,p=o?i(b,1,j):o;return p?cE(d[5],a[5]):p}return 0;case
 1:var
 q=c[3];if(1===a[0]){var
-e=a[3],r=bt(b,c[1],a[1]),s=r?bt(b,c[2],a[2]):r;if(s){if(q){if(e){var
-g=e[1],t=bt(b,q[1],g);if(t)return i(b,1,x(g,g));var
+e=a[3],r=bv(b,c[1],a[1]),s=r?bv(b,c[2],a[2]):r;if(s){if(q){if(e){var
+g=e[1],t=bv(b,q[1],g);if(t)return i(b,1,v(g,g));var
 u=t}else
 var
 u=e;return u}if(e)return 0;var
-v=1}else
+w=1}else
 var
-v=s;return v}return 0;default:if(2===a[0]){var
-h=a[1],w=bt(b,c[1],h);return w?i(b,1,x(h,h)):w}return 0}}function
-cO(c,a,b){if(0===a[0])return bt(c,a[1],b);var
-d=a[3],e=[3,b[1],a[1]],f=[3,b[2],a[2]],g=i(c,0,[3,[3,[4,d,d],[4,e,e]],[4,f,f]]),h=g?i(c,0,d):g;return h?df(c,a[4],b[3]):h}function
-fB(g,f,i,h){var
+w=s;return w}return 0;default:if(2===a[0]){var
+h=a[1],x=bv(b,c[1],h);return x?i(b,1,v(h,h)):x}return 0}}function
+cR(c,a,b){if(0===a[0])return bv(c,a[1],b);var
+d=a[3],e=[3,b[1],a[1]],f=[3,b[2],a[2]],g=i(c,0,[3,[3,[4,d,d],[4,e,e]],[4,f,f]]),h=g?i(c,0,d):g;return h?dg(c,a[4],b[3]):h}function
+fF(g,f,i,h){var
 b=f[1],a=i;for(;;){if(b){if(a){var
-d=nR(g,b[1],a[1]);if(d){var
+d=n4(g,b[1],a[1]);if(d){var
 b=b[2],a=a[2];continue}var
 e=d}else
 var
 e=a;var
 c=e}else
 var
-c=a?0:1;return c?cO(g,f[2],h):c}}function
-aZ(c,b,a){var
+c=a?0:1;return c?cR(g,f[2],h):c}}function
+aP(c,b,a){var
 d=M(function(b,a){return[2,b,a]},a,b);return M(function(b,a){return[3,b,a]},d,c)}function
-fC(a,e,d,c){var
-b=aZ(e,d,c),f=aB(a),g=S(x(aB(a),b),f);return M(function(b,a){return[3,b,a]},b,g)}function
-cl(f,e,d,a,c){var
-b=fC(f,e,d,c);return[3,[4,a,a],x(b,b)]}function
-cP(c,a){return c?[6,a]:[3,[0,d,b],[6,a]]}function
-cm(a,c){switch(a[0]){case
+dT(a,e,d,c){var
+b=aP(e,d,c),f=aC(a),g=P(v(aC(a),b),f);return M(function(b,a){return[3,b,a]},b,g)}function
+b3(f,e,d,a,c){var
+b=dT(f,e,d,c);return[3,[4,a,a],v(b,b)]}function
+cp(c,a){return c?[6,a]:[3,[0,d,b],[6,a]]}function
+b4(a,c){switch(a[0]){case
 0:var
-e=a[3],f=a[2],d=a[1],g=fC(d,f,e,c),h=cl(d,f,e,a[4],c),i=S([5,[0,b,b],cP(a[5],h)],g),j=aB(d);return M(function(b,a){return[2,b,a]},j,i);case
-1:return aB(aZ(a[1],a[2],c));default:return aB(a[1])}}function
-bE(a,b){switch(a[0]){case
+e=a[3],f=a[2],d=a[1],g=dT(d,f,e,c),h=b3(d,f,e,a[4],c),i=P([5,[0,b,b],cp(a[5],h)],g),j=aC(d);return M(function(b,a){return[2,b,a]},j,i);case
+1:return aC(aP(a[1],a[2],c));default:return aC(a[1])}}function
+bF(a,b){switch(a[0]){case
 0:var
-d=a[3],e=a[2],c=a[1],f=aB(c),g=cl(c,e,d,a[4],b),h=S(cP(a[5],g),f),i=fC(c,e,d,b);return M(function(b,a){return[2,b,a]},i,h);case
-1:return aZ(a[1],a[2],b);default:return aB(a[1])}}function
-cQ(a,b){switch(a[0]){case
+d=a[3],e=a[2],c=a[1],f=aC(c),g=b3(c,e,d,a[4],b),h=P(cp(a[5],g),f),i=dT(c,e,d,b);return M(function(b,a){return[2,b,a]},i,h);case
+1:return aP(a[1],a[2],b);default:return aC(a[1])}}function
+cS(a,b){switch(a[0]){case
 0:var
-c=a[3],d=a[2],e=a[1],h=cl(e,d,c,a[4],b),i=cP(a[5],h),j=aZ(d,c,b);return[3,x(aB(e),j),i];case
+c=a[3],d=a[2],e=a[1],h=b3(e,d,c,a[4],b),i=cp(a[5],h),j=aP(d,c,b);return[3,v(aC(e),j),i];case
 1:var
-f=a[2],g=a[1],k=aZ(g,f,b);return[6,x(aZ(g,f,b),k)];default:return x(aB(a[1]),b)}}function
-jC(a,b){switch(a[0]){case
-0:return[0,cl(a[1],a[2],a[3],a[4],b)];case
+f=a[2],g=a[1],k=aP(g,f,b);return[6,v(aP(g,f,b),k)];default:return v(aC(a[1]),b)}}function
+jJ(a,b){switch(a[0]){case
+0:return[0,b3(a[1],a[2],a[3],a[4],b)];case
 1:var
-c=a[2],d=a[1],e=aZ(d,c,b);return[0,x(aZ(d,c,b),e)];default:return 0}}function
-fD(e,c,a){var
-f=[0,d,b];return ap(function(b,d){var
-e=x(cm(b,c),a);return[2,[4,x(cm(b,c),a),e],d]},f,e)}function
-nS(f,e,c,a){if(f){if(e){var
-g=e[1],h=nS(f[2],e[2],c,a),i=x(cm(g,c),a),j=[4,x(cm(g,c),a),i];return[2,[4,f[1],j],h]}return[0,d,b]}return[0,d,b]}function
-nT(a){var
+c=a[2],d=a[1],e=aP(d,c,b);return[0,v(aP(d,c,b),e)];default:return 0}}function
+fG(e,c,a){var
+f=[0,d,b];return aq(function(b,d){var
+e=v(b4(b,c),a);return[2,[4,v(b4(b,c),a),e],d]},f,e)}function
+n5(f,e,c,a){if(f){if(e){var
+g=e[1],h=n5(f[2],e[2],c,a),i=v(b4(g,c),a),j=[4,v(b4(g,c),a),i];return[2,[4,f[1],j],h]}return[0,d,b]}return[0,d,b]}function
+n6(a){var
 c=a[1];return[0,[0,c[1],b],[0,c[2],b],[0,a[2],b]]}function
-jD(a,c){switch(a[0]){case
+jK(a,c){switch(a[0]){case
 0:return a[4];case
 1:var
-d=a[2],e=a[1],f=aZ(e,d,c);return[6,x(aZ(e,d,c),f)];default:return[0,b,b]}}function
-nU(d,i){if(d){var
+d=a[2],e=a[1],f=aP(e,d,c);return[6,v(aP(e,d,c),f)];default:return[0,b,b]}}function
+n7(d,i){if(d){var
 a=d[1];if(1===a[0]){var
 c=a[3];if(c)var
-f=c[1],g=aZ(a[1],a[2],i),k=aB(f),l=S(x(aB(f),g),k),h=[0,M(function(b,a){return[3,b,a]},g,l)];else
+f=c[1],g=aP(a[1],a[2],i),k=aC(f),l=P(v(aC(f),g),k),h=[0,M(function(b,a){return[3,b,a]},g,l)];else
 var
 h=c;var
 b=h}else
 var
 b=0;if(b)var
-e=nU(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
+e=n7(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
 var
-j=b;return j}return u5}function
-dg(a){return[0,a[1],a[2],a[3]]}function
-nV(a,b){switch(a[0]){case
+j=b;return j}return vn}function
+dh(a){return[0,a[1],a[2],a[3]]}function
+n8(a,b){switch(a[0]){case
 0:var
-f=a[4],c=a[3],g=a[2],d=a[1],i=aB(d),j=cl(d,g,c,f,b),k=S(cP(a[5],j),i),l=fC(d,g,c,b),m=M(function(b,a){return[2,b,a]},l,k);return[0,[0,[0,M(function(b,a){return[2,b,a]},b,c),m],f]];case
+f=a[4],c=a[3],g=a[2],d=a[1],i=aC(d),j=b3(d,g,c,f,b),k=P(cp(a[5],j),i),l=dT(d,g,c,b),m=M(function(b,a){return[2,b,a]},l,k);return[0,[0,[0,M(function(b,a){return[2,b,a]},b,c),m],f]];case
 1:var
-h=a[2],e=aZ(a[1],h,b),n=[6,x(e,e)];return[0,[0,[0,M(function(b,a){return[2,b,a]},b,h),e],n]];default:return 0}}function
-nW(m,e,a){switch(a[0]){case
+h=a[2],e=aP(a[1],h,b),n=[6,v(e,e)];return[0,[0,[0,M(function(b,a){return[2,b,a]},b,h),e],n]];default:return 0}}function
+n9(m,e,a){switch(a[0]){case
 0:var
-n=a[5],c=G(m,a[1]);if(c){var
+n=a[5],c=E(m,a[1]);if(c){var
 d=c[1];if(d)var
 f=d[1],g=f[1],i=f[2],o=g[2],p=g[1],j=function(a){var
-b=dg(n),c=S(a,o),d=M(function(b,a){return[3,b,a]},p,c);return M(function(b,a){return[2,b,a]},d,b)},q=j([5,a[4],i]),k=[0,[0,j([3,[0,b,b],[5,a[3],i]]),q]];else
+b=dh(n),c=P(a,o),d=M(function(b,a){return[3,b,a]},p,c);return M(function(b,a){return[2,b,a]},d,b)},q=j([5,a[4],i]),k=[0,[0,j([3,[0,b,b],[5,a[3],i]]),q]];else
 var
 k=d;var
 l=k}else
 var
 l=c;return l;case
 1:var
-r=dg(a[3]);return[0,[0,dg(a[2]),r]];default:var
-s=h(e,dg(a[3]));return[0,[0,h(e,dg(a[2])),s]]}}function
-nX(d,a,c,b){var
-e=S(a,b),f=S([3,d,a],c);return M(function(b,a){return[2,b,a]},f,e)}function
-nY(a,l,c,k,j,y){var
+r=dh(a[3]);return[0,[0,dh(a[2]),r]];default:var
+s=h(e,dh(a[3]));return[0,[0,h(e,dh(a[2])),s]]}}function
+n_(d,a,c,b){var
+e=P(a,b),f=P([3,d,a],c);return M(function(b,a){return[2,b,a]},f,e)}function
+n$(a,l,c,k,j,y){var
 d=h(l,k);if(d){var
 m=d[1],e=h(l,j);if(e){var
-n=e[1],f=c[1],g=c[2],b=c[3],z=nX(b,g,n[1],n[2]),A=nX(b,f,m[1],m[2]),o=M(function(b,a){return[3,b,a]},A,z),B=er(j),p=[4,b,[2,[2,er(k),B],y]],q=i(a,1,b),r=q?i(a,0,f):q,s=r?i(a,0,[3,b,f]):r,t=s?i(a,0,g):s,u=t?i(a,0,[3,b,g]):t;if(u)return i(a,1,[3,[4,p,p],x(o,o)]);var
-v=u}else
+n=e[1],f=c[1],g=c[2],b=c[3],z=n_(b,g,n[1],n[2]),A=n_(b,f,m[1],m[2]),o=M(function(b,a){return[3,b,a]},A,z),B=ew(j),p=[4,b,[2,[2,ew(k),B],y]],q=i(a,1,b),r=q?i(a,0,f):q,s=r?i(a,0,[3,b,f]):r,t=s?i(a,0,g):s,u=t?i(a,0,[3,b,g]):t;if(u)return i(a,1,[3,[4,p,p],v(o,o)]);var
+w=u}else
 var
-v=e;var
-w=v}else
+w=e;var
+x=w}else
 var
-w=d;return w}function
-nZ(d,c,b,a,h,g,f,e){var
+x=d;return x}function
+oa(d,c,b,a,h,g,f,e){var
 j=i(d,1,b),k=j?i(d,1,a):j;if(k){var
-l=ar(c,f,f),m=[4,[4,a,a],[4,ar(c,g,g),l]];return i(d,1,[3,[4,[4,[4,b,b],[4,h,h]],ar(c,e,e)],m])}return k}function
-n0(h,g,c,f,y,a){function
-T(a){return[4,[4,[5,[0,b,b],a],[5,[0,b,b],a]],x(f,f)]}var
+l=as(c,f,f),m=[4,[4,a,a],[4,as(c,g,g),l]];return i(d,1,[3,[4,[4,[4,b,b],[4,h,h]],as(c,e,e)],m])}return k}function
+ob(h,g,c,f,y,a){function
+T(a){return[4,[4,[5,[0,b,b],a],[5,[0,b,b],a]],v(f,f)]}var
 O=0;if(typeof
 a==="number")O=1;else
 switch(a[0]){case
 0:var
-aG=fD(g,c,f);return i(h,1,[3,T(a[1]),aG]);case
+aG=fG(g,c,f);return i(h,1,[3,T(a[1]),aG]);case
 1:var
-aH=T(a[1]);return i(h,1,[3,fD(g,c,f),aH]);case
+aH=T(a[1]);return i(h,1,[3,fG(g,c,f),aH]);case
 2:var
-aI=a[2],aJ=function(a){return[3,aI,cQ(a,c)]},A=aJ,z=a[1];break;case
+aI=a[2],aJ=function(a){return[3,aI,cS(a,c)]},A=aJ,z=a[1];break;case
 3:var
-aK=a[2],aL=function(a){return[3,cQ(a,c),aK]},A=aL,z=a[1];break;case
+aK=a[2],aL=function(a){return[3,cS(a,c),aK]},A=aL,z=a[1];break;case
 4:var
 U=a[3],V=a[2],aM=function(a){var
-b=cm(a,c);return[3,[4,[4,V,V],x(cm(a,c),b)],[4,U,U]]},A=aM,z=a[1];break;case
+b=b4(a,c);return[3,[4,[4,V,V],v(b4(a,c),b)],[4,U,U]]},A=aM,z=a[1];break;case
 5:var
-W=a[1],aN=x(f,f),aO=[4,[4,W,W],[4,fD(g,c,y),aN]],aP=x(y,y);return i(h,1,[3,[4,fD(g,c,f),aP],aO]);case
+W=a[1],aN=v(f,f),aO=[4,[4,W,W],[4,fG(g,c,y),aN]],aQ=v(y,y);return i(h,1,[3,[4,fG(g,c,f),aQ],aO]);case
 6:var
-X=a[2],C=G(g,a[1]);if(C){var
+X=a[2],C=E(g,a[1]);if(C){var
 k=C[1];if(0===k[0]){var
-D=k[4],aQ=cl(k[1],k[2],k[3],D,c),Y=cP(k[5],aQ);return i(h,1,[3,[4,[4,X,D],[4,X,D]],[4,Y,Y]])}var
+D=k[4],aR=b3(k[1],k[2],k[3],D,c),Y=cp(k[5],aR);return i(h,1,[3,[4,[4,X,D],[4,X,D]],[4,Y,Y]])}var
 Z=0}else
 var
 Z=C;return Z;case
 7:if(g){var
 p=g[2];if(p){var
 q=p[2];if(q){if(q[2])return 0;var
-_=q[1],$=p[1],aa=g[1],aR=jD(_,c),aS=jD($,c),aT=jD(aa,c),ab=[4,[4,[4,a[1],aT],aS],aR],l=bE(_,c),m=bE($,c),aU=bE(aa,c),P=x(aU,[0,[3,[4,m[2],l[3]],[4,m[3],l[2]]],[3,[4,m[3],l[1]],[4,m[1],l[3]]],[3,[4,m[1],l[2]],[4,m[2],l[1]]]]),ac=i(h,1,[3,ab,P]);if(ac)return i(h,1,[2,ab,P]);var
+_=q[1],$=p[1],aa=g[1],aS=jK(_,c),aT=jK($,c),aU=jK(aa,c),ab=[4,[4,[4,a[1],aU],aT],aS],l=bF(_,c),m=bF($,c),aV=bF(aa,c),Q=v(aV,[0,[3,[4,m[2],l[3]],[4,m[3],l[2]]],[3,[4,m[3],l[1]],[4,m[1],l[3]]],[3,[4,m[1],l[2]],[4,m[2],l[1]]]]),ac=i(h,1,[3,ab,Q]);if(ac)return i(h,1,[2,ab,Q]);var
 ad=ac}else
 var
 ad=q;var
@@ -3527,36 +3533,36 @@ af=ae}else
 var
 af=g;return af;case
 8:var
-aV=fD(g,c,f),aW=x(f,f);return i(h,1,[3,[4,[5,a[2],a[1]],aW],aV]);case
+aW=fG(g,c,f),aX=v(f,f);return i(h,1,[3,[4,[5,a[2],a[1]],aX],aW]);case
 9:var
-ag=a[1],E=nU(g,c);if(E){var
-aX=E[1],az=[0,d,b],aA=ap(function(a,b){var
-c=x(aB(a),f);return[2,[4,x(aB(a),f),c],b]},az,aX);return i(h,1,[3,[4,[4,ag,ag],x(f,f)],aA])}return E;case
+ag=a[1],F=n7(g,c);if(F){var
+aY=F[1],az=[0,d,b],aA=aq(function(a,b){var
+c=v(aC(a),f);return[2,[4,v(aC(a),f),c],b]},az,aY);return i(h,1,[3,[4,[4,ag,ag],v(f,f)],aA])}return F;case
 10:var
-aY=a[3],a0=a[2],a1=a[1],aC=function(b,a){return[2,b,a]},aD=function(a){return M(aC,c,a)},aE=e(function(a){return nV(a,c)},g);return nY(h,function(a){return nW(aE,aD,a)},f,a1,a0,aY);case
+aZ=a[3],a0=a[2],a1=a[1],aB=function(b,a){return[2,b,a]},aD=function(a){return M(aB,c,a)},aE=e(function(a){return n8(a,c)},g);return n$(h,function(a){return n9(aE,aD,a)},f,a1,a0,aZ);case
 11:var
-ah=a[4],F=G(g,a[1]);if(F){var
-H=nV(F[1],c);if(H){var
-n=H[1][1][2],a2=dg(a[3]),a3=dg(a[2]),r=M(function(b,a){return[3,b,a]},a3,a2),ai=i(h,1,x(n,n));if(ai){var
-a4=x(n,n),a5=x(r,n),a6=[5,[4,x(r,n),a5],a4];return i(h,1,[3,[4,ah,ah],[3,x(r,r),a6]])}var
+ah=a[4],G=E(g,a[1]);if(G){var
+H=n8(G[1],c);if(H){var
+n=H[1][1][2],a2=dh(a[3]),a3=dh(a[2]),r=M(function(b,a){return[3,b,a]},a3,a2),ai=i(h,1,v(n,n));if(ai){var
+a4=v(n,n),a5=v(r,n),a6=[5,[4,v(r,n),a5],a4];return i(h,1,[3,[4,ah,ah],[3,v(r,r),a6]])}var
 aj=ai}else
 var
 aj=H;var
 ak=aj}else
 var
-ak=F;return ak;case
+ak=G;return ak;case
 12:var
-o=a[3],s=a[2],I=G(g,a[1]);if(I){var
+o=a[3],s=a[2],I=E(g,a[1]);if(I){var
 j=I[1],al=i(h,0,s),am=al?i(h,0,o):al;if(am){var
 a7=a[4];switch(j[0]){case
 0:var
-v=j[4],w=[5,v,[6,cl(j[1],j[2],j[3],v,c)]],J=[4,w,[2,s,[4,[5,[4,o,o],v],[4,w,w]]]];break;case
+w=j[4],x=[5,w,[6,b3(j[1],j[2],j[3],w,c)]],J=[4,x,[2,s,[4,[5,[4,o,o],w],[4,x,x]]]];break;case
 1:var
-Q=j[2],R=j[1],aF=aZ(R,Q,c),J=[2,s,[5,[4,o,o],[6,x(aZ(R,Q,c),aF)]]];break;default:var
+R=j[2],S=j[1],aF=aP(S,R,c),J=[2,s,[5,[4,o,o],[6,v(aP(S,R,c),aF)]]];break;default:var
 J=s}var
 K=i(h,1,[3,J,a7])}else
 var
-K=am;if(K){if(2===j[0])return i(h,1,x(f,f));var
+K=am;if(K){if(2===j[0])return i(h,1,v(f,f));var
 an=1}else
 var
 an=K;var
@@ -3566,9 +3572,9 @@ ao=I;return ao;case
 13:if(g){var
 t=g[2];if(t){var
 u=t[2];if(u){if(u[2])return 0;var
-aq=u[1],ar=t[1],as=g[1],at=a[1],L=G([0,f[1],[0,f[2],[0,f[3],0]]],at);if(L){var
-N=G([0,as,[0,ar,[0,aq,0]]],at);if(N){var
-au=N[1],a8=bE(au,c),a9=cm(au,c),a_=bE(aq,c),a$=S(f[3],a_),ba=bE(ar,c),bb=S(f[2],ba),bc=bE(as,c),bd=S(f[1],bc),be=M(function(b,a){return[2,b,a]},bd,bb),bf=M(function(b,a){return[2,b,a]},be,a$);return nZ(h,x,a[2],a[3],L[1],bf,a9,a8)}var
+ap=u[1],ar=t[1],as=g[1],at=a[1],L=E([0,f[1],[0,f[2],[0,f[3],0]]],at);if(L){var
+N=E([0,as,[0,ar,[0,ap,0]]],at);if(N){var
+au=N[1],a8=bF(au,c),a9=b4(au,c),a_=bF(ap,c),a$=P(f[3],a_),ba=bF(ar,c),bb=P(f[2],ba),bc=bF(as,c),bd=P(f[1],bc),be=M(function(b,a){return[2,b,a]},bd,bb),bf=M(function(b,a){return[2,b,a]},be,a$);return oa(h,v,a[2],a[3],L[1],bf,a9,a8)}var
 av=N}else
 var
 av=L;var
@@ -3582,57 +3588,57 @@ ay=ax}else
 var
 ay=g;return ay;case
 15:var
-bg=nS(a[1],g,c,f),bh=x(f,f);return i(h,1,[3,[4,a[2],bh],bg]);default:O=1}if(O)return 0;var
-B=G(g,z);return B?i(h,1,A(B[1])):B}function
-fE(g,h,f,c,a){var
-m=fB(g,h,f,c);if(m)if(typeof
-a==="number")return 0===a?ak(function(e){var
-a=jC(e,c);return a?i(g,0,[3,[0,d,b],a[1]]):a},f):mU(u6,e(function(b){var
-a=bE(b,c);return[0,a[1],[0,a[2],[0,a[3],0]]]},f));else{if(0===a[0]){var
-j=G(h[3],a[1]);if(j){var
-p=j[1],q=nT(a[3]);return n0(g,f,c,nT(a[2]),q,p)}return j}var
-k=G(h[3],a[1]);if(k){var
-l=G(f,a[2]);if(l){var
-n=l[1],r=k[1],s=cm(n,c);return n0(g,f,c,cm(n,c),s,r)}var
+bg=n5(a[1],g,c,f),bh=v(f,f);return i(h,1,[3,[4,a[2],bh],bg]);default:O=1}if(O)return 0;var
+B=E(g,z);return B?i(h,1,A(B[1])):B}function
+fH(g,h,f,c,a){var
+m=fF(g,h,f,c);if(m)if(typeof
+a==="number")return 0===a?al(function(e){var
+a=jJ(e,c);return a?i(g,0,[3,[0,d,b],a[1]]):a},f):m6(vo,e(function(b){var
+a=bF(b,c);return[0,a[1],[0,a[2],[0,a[3],0]]]},f));else{if(0===a[0]){var
+j=E(h[3],a[1]);if(j){var
+p=j[1],q=n6(a[3]);return ob(g,f,c,n6(a[2]),q,p)}return j}var
+k=E(h[3],a[1]);if(k){var
+l=E(f,a[2]);if(l){var
+n=l[1],r=k[1],s=b4(n,c);return ob(g,f,c,b4(n,c),s,r)}var
 o=l}else
 var
 o=k;return o}return m}function
-bK(a){return[0,a[1][1],a[2][1],a[3][1]]}function
-n1(a){switch(a[0]){case
+bN(a){return[0,a[1][1],a[2][1],a[3][1]]}function
+oc(a){switch(a[0]){case
 0:var
-b=a[1],c=b[5],d=b[4][1],e=bK(b[3]),f=bK(b[2]);return[0,bK(b[1]),f,e,d,c];case
+b=a[1],c=b[5],d=b[4][1],e=bN(b[3]),f=bN(b[2]);return[0,bN(b[1]),f,e,d,c];case
 1:var
-g=y(bK,a[3]),h=bK(a[2]);return[1,bK(a[1]),h,g];default:return[2,bK(a[1])]}}function
-jE(a){return 0===a[0]?bK(a[1]):[0,a[1],a[2],a[4][1]]}function
-n2(b,a){var
-c=jE(a[2]);return fB(b,a,e(n1,a[1]),c)}function
-jF(b,a,c){var
-d=[0,c,aw(b,a)];return g(am(b,a),d)}function
-bu(c,a){if(c){if(a){var
-e=bu(c[2],a[2]);return[2,[4,c[1],a[1]],e]}return[0,d,b]}return[0,d,b]}function
-n3(e,c,a){if(e){if(c){var
-f=c[1],g=n3(e[2],c[2],a),h=bu(f,a),i=[4,bu(f,a),h];return[2,[4,e[1],i],g]}return[0,d,b]}return[0,d,b]}function
-n4(b,a){if(b){if(a){var
-c=b[1],e=n4(b[2],a[2]),f=a[1],g=function(b,a){return[2,[4,c,b],a]},h=function(a){return a};return aS(function(a){return[4,c,a]},h,g,f,e)}var
+g=z(bN,a[3]),h=bN(a[2]);return[1,bN(a[1]),h,g];default:return[2,bN(a[1])]}}function
+jL(a){return 0===a[0]?bN(a[1]):[0,a[1],a[2],a[4][1]]}function
+od(b,a){var
+c=jL(a[2]);return fF(b,a,e(oc,a[1]),c)}function
+jM(b,a,c){var
+d=[0,c,aw(b,a)];return g(ao(b,a),d)}function
+bh(c,a){if(c){if(a){var
+e=bh(c[2],a[2]);return[2,[4,c[1],a[1]],e]}return[0,d,b]}return[0,d,b]}function
+oe(e,c,a){if(e){if(c){var
+f=c[1],g=oe(e[2],c[2],a),h=bh(f,a),i=[4,bh(f,a),h];return[2,[4,e[1],i],g]}return[0,d,b]}return[0,d,b]}function
+of(b,a){if(b){if(a){var
+c=b[1],e=of(b[2],a[2]),f=a[1],g=function(b,a){return[2,[4,c,b],a]},h=function(a){return a};return aT(function(a){return[4,c,a]},h,g,f,e)}var
 d=a}else
 var
 d=b;return d}function
-n5(b,c,a){var
-d=[0,c,aw([0,b],a)];return g(am(b,a),d)}function
-n6(a,b){var
-e=n(a,u7),c=e||n(a,u8),d=c?n(f(b),a):c;return d?l(function(b){return n(f(b),a)},b):d}function
-n7(a){if(a){var
+og(b,c,a){var
+d=[0,c,aw([0,b],a)];return g(ao(b,a),d)}function
+oh(a,b){var
+e=n(a,vp),c=e||n(a,vq),d=c?n(f(b),a):c;return d?l(function(b){return n(f(b),a)},b):d}function
+oi(a){if(a){var
 b=a[1];if(b){var
-c=b[1],d=n7(a[2]);return y(function(a){return[0,c,a]},d)}return b}return u9}function
-hg(a){if(a){var
+c=b[1],d=oi(a[2]);return z(function(a){return[0,c,a]},d)}return b}return vr}function
+hl(a){if(a){var
 b=a[1];if(b){var
-c=b[1],d=hg(a[2]);return y(function(a){return[0,c,a]},d)}return b}return u_}function
-n8(a,l,k,f){var
-b=aI(a,l);if(b){var
-c=aI(a,k);if(c){var
-d=c9(a,f);if(d){var
-e=gQ(a,f);if(e)var
-m=t(a,b[1],e[1]),g=[0,E(t(a,c[1],d[1]),m)];else
+c=b[1],d=hl(a[2]);return z(function(a){return[0,c,a]},d)}return b}return vs}function
+oj(a,l,k,f){var
+b=aB(a,l);if(b){var
+c=aB(a,k);if(c){var
+d=c_(a,f);if(d){var
+e=gW(a,f);if(e)var
+m=t(a,b[1],e[1]),g=[0,C(t(a,c[1],d[1]),m)];else
 var
 g=e;var
 h=g}else
@@ -3644,23 +3650,23 @@ i=c;var
 j=i}else
 var
 j=b;return j}function
-n9(a){return a?K(a[1][2],d):a}function
-cn(a){return a?K(d,a[1][1]):a}function
-n_(d,a){return i(d,0,[3,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b],a])}function
-n$(d,a){if(a){var
-b=aI(d,a[1]);if(b)var
-c=n$(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
+ok(a){return a?K(a[1][2],d):a}function
+bO(a){return a?K(d,a[1][1]):a}function
+ol(d,a){return i(d,0,[3,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b],a])}function
+om(d,a){if(a){var
+b=aB(d,a[1]);if(b)var
+c=om(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
 var
-e=b;return e}return u$}function
-hh(d,a){if(a){var
-b=n$(d,a[1]);if(b)var
-c=hh(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
+e=b;return e}return vt}function
+hm(d,a){if(a){var
+b=om(d,a[1]);if(b)var
+c=hm(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
 var
-e=b;return e}return va}function
-oa(b,a){return ap(function(c,a){return A(R(b,c),a)},u,a)}function
-ob(b,d){function
+e=b;return e}return vu}function
+on(b,a){return aq(function(c,a){return A(S(b,c),a)},u,a)}function
+oo(b,d){function
 c(e,d,c,a){var
-f=t(b,d,c);return E(t(b,e,a),f)}if(d){var
+f=t(b,d,c);return C(t(b,e,a),f)}if(d){var
 e=d[1];if(e){var
 f=e[2];if(f){var
 g=f[2],q=f[1],r=e[1],a=d[2];if(g){if(g[2])return u;if(a){var
@@ -3671,17 +3677,17 @@ k=a[2];if(k){var
 l=k[1];if(l){var
 m=l[2];if(m){var
 n=m[2];if(n){if(n[2])return u;if(k[2])return u;var
-s=n[1],v=m[1],w=l[1],x=j[1],y=i[1],z=h[1],B=c(z,y,w,v),C=t(b,g[1],B),D=t(b,q,c(z,x,w,s));return A(E(t(b,r,c(y,x,v,s)),D),C)}return u}return u}return u}return u}return u}return u}return u}return u}if(a){var
+s=n[1],v=m[1],w=l[1],x=j[1],y=i[1],z=h[1],B=c(z,y,w,v),D=t(b,g[1],B),E=t(b,q,c(z,x,w,s));return A(C(t(b,r,c(y,x,v,s)),E),D)}return u}return u}return u}return u}return u}return u}return u}return u}if(a){var
 o=a[1];if(o){var
 p=o[2];return p?p[2]?u:a[2]?u:c(r,q,o[1],p[1]):u}return u}return u}return u}return u}return u}function
-oc(a,p,m,s,g,j){function
-a1(c,a){return[4,[4,[5,[0,b,b],c],[5,[0,b,b],c]],bu(a,a)]}var
+op(a,p,m,s,g,j){function
+a1(c,a){return[4,[4,[5,[0,b,b],c],[5,[0,b,b],c]],bh(a,a)]}var
 bM=m[1];function
 B(c){var
-a=[0,d,b];return ap(function(a,b){var
-d=bu(a,c);return[2,[4,bu(a,c),d],b]},a,bM)}function
-C(g,e){var
-a=G(m[1],g);if(a){var
+a=[0,d,b];return aq(function(a,b){var
+d=bh(a,c);return[2,[4,bh(a,c),d],b]},a,bM)}function
+D(g,e){var
+a=E(m[1],g);if(a){var
 b=a[1],c=n(f(b),p);if(c)return h(e,b);var
 d=c}else
 var
@@ -3691,73 +3697,73 @@ b=0;if(typeof
 j==="number")b=1;else
 switch(j[0]){case
 6:var
-a=vb;break;case
+a=vv;break;case
 13:case
 14:var
-a=vc;break;default:b=1}if(b)var
+a=vw;break;default:b=1}if(b)var
 a=p;return n(f(c),a)},g);if(a2){var
-v=0;if(typeof
-j==="number")v=1;else
+w=0;if(typeof
+j==="number")w=1;else
 switch(j[0]){case
 0:if(g){if(g[2])return 0;var
 a4=g[1],bN=B(a4);return i(a,1,[3,a1(j[1],a4),bN])}return g;case
 1:if(g){if(g[2])return 0;var
-a5=g[1],bO=a1(j[1],a5);return i(a,1,[3,B(a5),bO])}return g;case
+a5=g[1],bP=a1(j[1],a5);return i(a,1,[3,B(a5),bP])}return g;case
 2:if(g)return 0;var
-bP=j[2],bQ=function(b){if(typeof
-b!=="number"&&0===b[0])return i(a,1,[3,bP,b[1]]);return 0},ai=bQ,ah=j[1];break;case
+bQ=j[2],bR=function(b){if(typeof
+b!=="number"&&0===b[0])return i(a,1,[3,bQ,b[1]]);return 0},ai=bR,ah=j[1];break;case
 3:if(g)return 0;var
-bR=j[2],bS=function(b){if(typeof
-b!=="number"&&0===b[0])return i(a,1,[3,b[1],bR]);return 0},ai=bS,ah=j[1];break;case
+bS=j[2],bT=function(b){if(typeof
+b!=="number"&&0===b[0])return i(a,1,[3,b[1],bS]);return 0},ai=bT,ah=j[1];break;case
 4:if(g)return 0;var
-a6=j[3],a7=j[2],bT=function(d){var
+a6=j[3],a7=j[2],bU=function(d){var
 h=n(s,0);if(typeof
 d!=="number"&&1===d[0]){var
-e=d[2],f=d[1],g=i(a,0,[3,[2,a7,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b]],a6]);return g?h?n9(n8(a,f,e,a7)):cn(n8(a,f,e,a6)):g}return 0},ai=bT,ah=j[1];break;case
+e=d[2],f=d[1],g=i(a,0,[3,[2,a7,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b]],a6]);return g?h?ok(oj(a,f,e,a7)):bO(oj(a,f,e,a6)):g}return 0},ai=bU,ah=j[1];break;case
 5:if(g){var
-D=g[2];if(D){if(D[2])return 0;var
-ak=D[1],al=g[1],a8=j[1],bU=bu(al,al),bV=[4,[4,a8,a8],[4,B(ak),bU]],bW=bu(ak,ak);return i(a,1,[3,[4,B(al),bW],bV])}var
-a9=D}else
+F=g[2];if(F){if(F[2])return 0;var
+ak=F[1],al=g[1],a8=j[1],bV=bh(al,al),bW=[4,[4,a8,a8],[4,B(ak),bV]],bX=bh(ak,ak);return i(a,1,[3,[4,B(al),bX],bW])}var
+a9=F}else
 var
 a9=g;return a9;case
 6:var
-a_=j[2],bX=j[3],bY=function(b){var
-c=[5,bX,a_],d=i(a,1,a_);return d?i(a,1,[3,bu(b,b),[4,c,c]]):d},a$=C(j[1],bY);if(a$){if(m[4]){if(g){var
-F=g[1];if(F){if(F[2])return 0;if(g[2])return 0;var
-ba=F[1];return i(a,1,[4,ba,ba])}var
-bb=F}else
+a_=j[2],bY=j[3],bZ=function(b){var
+c=[5,bY,a_],d=i(a,1,a_);return d?i(a,1,[3,bh(b,b),[4,c,c]]):d},a$=D(j[1],bZ);if(a$){if(m[4]){if(g){var
+G=g[1];if(G){if(G[2])return 0;if(g[2])return 0;var
+ba=G[1];return i(a,1,[4,ba,ba])}var
+bb=G}else
 var
 bb=g;return bb}if(g)return 0;var
 bc=1}else
 var
 bc=a$;return bc;case
 7:if(g){if(g[2])return 0;var
-bd=g[1],am=j[1],bZ=j[3],b0=j[2],an=hg(m[7]);if(an){var
-H=an[1],ao=G(bd,am);if(ao){var
-b1=ao[1],be=n(f(H),p),bf=be?l(function(a){return n(f(a),p)},H):be;if(bf){var
-aq=G(H,am);if(aq){var
-b2=aq[1];return C(am,function(b){return nZ(a,bu,b0,bZ,b1,n4(bd,H),b,b2)})}var
-bg=aq}else
+bd=g[1],am=j[1],b0=j[3],b1=j[2],an=hl(m[7]);if(an){var
+H=an[1],ao=E(bd,am);if(ao){var
+b2=ao[1],be=n(f(H),p),bf=be?l(function(a){return n(f(a),p)},H):be;if(bf){var
+ap=E(H,am);if(ap){var
+b3=ap[1];return D(am,function(b){return oa(a,bh,b1,b0,b2,of(bd,H),b,b3)})}var
+bg=ap}else
 var
 bg=bf;var
-bh=bg}else
+bi=bg}else
 var
-bh=ao;var
-bi=bh}else
-var
-bi=an;var
+bi=ao;var
 bj=bi}else
 var
-bj=g;return bj;case
+bj=an;var
+bk=bj}else
+var
+bk=g;return bk;case
 8:if(g){if(g[2])return 0;var
-ar=g[1],b3=n3(j[1],m[1],ar),b4=bu(ar,ar);return i(a,1,[3,[4,j[2],b4],b3])}return g;case
+ar=g[1],b4=oe(j[1],m[1],ar),b5=bh(ar,ar);return i(a,1,[3,[4,j[2],b5],b4])}return g;case
 9:if(g)return 0;var
-bk=j[3],bl=j[2],b5=function(e){var
-f=i(a,1,bl),g=f?i(a,0,bk):f;if(g){var
-b=aI(a,bu(e,e));if(b){var
-c=aI(a,[5,bk,bl]);if(c){var
-d=mN(a,c[1]);if(d){var
-l=R(a,d[1]);return cn([0,E(b[1],l)])}var
+bl=j[3],bm=j[2],b6=function(e){var
+f=i(a,1,bm),g=f?i(a,0,bl):f;if(g){var
+b=aB(a,bh(e,e));if(b){var
+c=aB(a,[5,bl,bm]);if(c){var
+d=i$(a,c[1]);if(d){var
+l=S(a,d[1]);return bO([0,C(b[1],l)])}var
 h=d}else
 var
 h=c;var
@@ -3766,17 +3772,17 @@ var
 j=b;var
 k=j}else
 var
-k=g;return k};return C(j[1],b5);case
+k=g;return k};return D(j[1],b6);case
 10:if(g)return 0;var
-b6=j[2],b7=function(b){var
-c=[4,b6,b[3]],d=i(a,1,c);return d?i(a,1,[3,[4,c,c],[4,b[2],b[2]]]):d},bn=b7,bm=j[1];v=2;break;case
+b7=j[2],b8=function(b){var
+c=[4,b7,b[3]],d=i(a,1,c);return d?i(a,1,[3,[4,c,c],[4,b[2],b[2]]]):d},bo=b8,bn=j[1];w=2;break;case
 11:if(g)return 0;var
-b8=j[2],b9=function(e){var
-b=c9(a,b8);if(b){var
-c=aI(a,e[3]);if(c){var
-d=aI(a,e[2]);if(d){var
-f=t(a,b[1],c[1]),g=cn([0,f]);if(g){var
-k=R(a,d[1]);return cn([0,E(R(a,f),k)])}var
+b9=j[2],b_=function(e){var
+b=c_(a,b9);if(b){var
+c=aB(a,e[3]);if(c){var
+d=aB(a,e[2]);if(d){var
+f=t(a,b[1],c[1]),g=bO([0,f]);if(g){var
+k=S(a,d[1]);return bO([0,C(S(a,f),k)])}var
 h=g}else
 var
 h=d;var
@@ -3785,22 +3791,22 @@ var
 i=c;var
 j=i}else
 var
-j=b;return j},bn=b9,bm=j[1];v=2;break;case
+j=b;return j},bo=b_,bn=j[1];w=2;break;case
 12:if(g)return 0;var
-au=n7(m[3]);if(au){var
-bp=au[1],b_=j[1],bq=bz(function(b,a){return[4,b,a[3]]},bp,b_),av=e(function(a){return a[1]},bp),w=function(d,c,b,a){return[3,[4,d,a],[4,c,b]]};if(av){var
+au=oi(m[3]);if(au){var
+bq=au[1],b$=j[1],br=bA(function(b,a){return[4,b,a[3]]},bq,b$),av=e(function(a){return a[1]},bq),x=function(d,c,b,a){return[3,[4,d,a],[4,c,b]]};if(av){var
 O=av[1];if(O){var
 P=O[2];if(P){var
-Q=P[2],aC=P[1],aD=O[1],o=av[2];if(Q)if(Q[2]||!o)var
+Q=P[2],aD=P[1],aE=O[1],o=av[2];if(Q)if(Q[2]||!o)var
 k=[0,d,b];else{var
-S=o[1];if(S){var
-T=S[2];if(T){var
+R=o[1];if(R){var
+T=R[2];if(T){var
 U=T[2];if(U&&!U[2]){var
 V=o[2];if(V){var
 W=V[1];if(W){var
 X=W[2];if(X){var
 Y=X[2];if(Y&&!(Y[2]||V[2]))var
-aE=Y[1],aF=X[1],aG=W[1],aH=U[1],aJ=T[1],aK=S[1],bF=w(aK,aJ,aG,aF),bG=[4,Q[1],bF],bH=[4,aC,w(aK,aH,aG,aE)],k=[2,[3,[4,aD,w(aJ,aH,aF,aE)],bH],bG];else
+aF=Y[1],aG=X[1],aH=W[1],aI=U[1],aJ=T[1],aK=R[1],bF=x(aK,aJ,aH,aG),bG=[4,Q[1],bF],bH=[4,aD,x(aK,aI,aH,aF)],k=[2,[3,[4,aE,x(aJ,aI,aG,aF)],bH],bG];else
 var
 k=[0,d,b]}else
 var
@@ -3817,7 +3823,7 @@ var
 k=[0,d,b]}else
 if(o){var
 Z=o[1];if(Z)var
-_=Z[2],k=_?_[2]?[0,d,b]:o[2]?[0,d,b]:w(aD,aC,Z[1],_[1]):[0,d,b];else
+_=Z[2],k=_?_[2]?[0,d,b]:o[2]?[0,d,b]:x(aE,aD,Z[1],_[1]):[0,d,b];else
 var
 k=[0,d,b]}else
 var
@@ -3828,24 +3834,24 @@ var
 k=[0,d,b]}else
 var
 k=[0,d,b];var
-br=i(a,1,[3,bq,k]);if(br)return i(a,1,[2,bq,k]);var
-bs=br}else
+bs=i(a,1,[3,br,k]);if(bs)return i(a,1,[2,br,k]);var
+bt=bs}else
 var
-bs=au;return bs;case
+bt=au;return bt;case
 13:var
-b$=j[2],aw=G(m[4],j[1]);if(aw){var
+ca=j[2],aw=E(m[4],j[1]);if(aw){var
 ax=aw[1];if(ax){var
-bt=function(a){if(b$){var
-c=h(m[5],[0,[0,d,b],[0,d,b],[0,d,b]]),e=h(m[5],a);return M(function(b,a){return[3,b,a]},e,c)}return a},I=j[4],u=bt(dg(j[3])),J=ax[1][1][2],r=x(J,u);if(n_(a,I)){if(s){if(s[1])return 0;if(g){var
+bu=function(a){if(ca){var
+c=h(m[5],[0,[0,d,b],[0,d,b],[0,d,b]]),e=h(m[5],a);return M(function(b,a){return[3,b,a]},e,c)}return a},I=j[4],u=bu(dh(j[3])),J=ax[1][1][2],r=v(J,u);if(ol(a,I)){if(s){if(s[1])return 0;if(g){var
 y=g[1];if(y){var
 z=y[2];if(z){var
 A=z[2];if(A){if(A[2])return 0;if(g[2])return 0;var
-aa=bt([0,y[1],z[1],A[1]]),aL=x(J,aa),aM=i(a,1,r);if(aM){var
-ab=c9(a,I);if(ab){var
-aN=ab[1],ac=aI(a,[4,x(u,u),[4,aL,aL]]);if(ac){var
-ad=aI(a,[4,[4,r,r],x(aa,aa)]);if(ad){var
-aO=cn([0,aN]);if(aO){var
-bI=ad[1],bJ=ac[1];return cn([0,E(t(a,R(a,aN),bJ),bI)])}var
+aa=bu([0,y[1],z[1],A[1]]),aL=v(J,aa),aM=i(a,1,r);if(aM){var
+ab=c_(a,I);if(ab){var
+aN=ab[1],ac=aB(a,[4,v(u,u),[4,aL,aL]]);if(ac){var
+ad=aB(a,[4,[4,r,r],v(aa,aa)]);if(ad){var
+aO=bO([0,aN]);if(aO){var
+bI=ad[1],bJ=ac[1];return bO([0,C(t(a,S(a,aN),bJ),bI)])}var
 aP=aO}else
 var
 aP=ad;var
@@ -3871,10 +3877,10 @@ aW=aV}else
 var
 aW=g;return aW}return g?0:i(a,1,[3,[0,d,b],r])}if(s)return 0;if(g)return 0;var
 aX=i(a,0,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],I]);if(aX){var
-ae=c9(a,I);if(ae){var
-af=aI(a,r);if(af){var
-bK=x(J,J),ag=aI(a,[6,[4,x(u,u),bK]]);if(ag){var
-bL=t(a,ae[1],ag[1]);return n9([0,E(af[1],bL)])}var
+ae=c_(a,I);if(ae){var
+af=aB(a,r);if(af){var
+bK=v(J,J),ag=aB(a,[6,[4,v(u,u),bK]]);if(ag){var
+bL=t(a,ae[1],ag[1]);return ok([0,C(af[1],bL)])}var
 aY=ag}else
 var
 aY=af;var
@@ -3891,7 +3897,7 @@ bv=aw;return bv;case
 K=g[1];if(K){var
 L=K[2];if(L){var
 N=L[2];if(N){if(N[2])return 0;if(g[2])return 0;var
-ca=j[3],cb=j[2],cc=j[1],cd=[0,K[1],L[1],N[1]],ce=m[5],cf=m[4];return nY(a,function(a){return nW(cf,ce,a)},cd,cc,cb,ca)}var
+cb=j[3],cc=j[2],cd=j[1],ce=[0,K[1],L[1],N[1]],cf=m[5],cg=m[4];return n$(a,function(a){return n9(cg,cf,a)},ce,cd,cc,cb)}var
 bw=N}else
 var
 bw=L;var
@@ -3902,21 +3908,21 @@ by=bx}else
 var
 by=g;return by;case
 17:if(g)return 0;var
-bA=j[2],ay=j[1],cg=j[3],az=hg(m[7]);if(az){var
-aA=az[1],bB=n6(p,aA),bC=bB?n(f(bA),p):bB;if(bC){var
-aB=G(aA,ay);if(aB){var
-ch=aB[1];return C(ay,function(x){var
-e=hh(a,aA);if(e){var
-j=e[1],f=hh(a,[0,bA,[0,x,[0,ch,0]]]);if(f){var
+bz=j[2],ay=j[1],ch=j[3],az=hl(m[7]);if(az){var
+aA=az[1],bB=oh(p,aA),bC=bB?n(f(bz),p):bB;if(bC){var
+aC=E(aA,ay);if(aC){var
+ci=aC[1];return D(ay,function(x){var
+e=hm(a,aA);if(e){var
+j=e[1],f=hm(a,[0,bz,[0,x,[0,ci,0]]]);if(f){var
 b=f[1];if(b){var
 c=b[2];if(c){var
 d=c[2];if(d){if(d[2])return 0;var
-g=aI(a,cg);if(g){var
-k=g[1],l=R(a,ob(a,j)),h=ob(a,n5(ay,b[1],j)),m=cn([0,k]),o=m?cn([0,l]):m;if(o)var
-y=n(s,0)?h:$(h),i=cn([0,y]);else
+g=aB(a,ch);if(g){var
+k=g[1],l=S(a,oo(a,j)),h=oo(a,og(ay,b[1],j)),m=bO([0,k]),o=m?bO([0,l]):m;if(o)var
+y=n(s,0)?h:$(h),i=bO([0,y]);else
 var
 i=o;if(i){var
-z=oa(a,c[1]),A=t(a,t(a,R(a,k),l),z),B=oa(a,d[1]);return cn([0,E(t(a,R(a,h),B),A)])}var
+z=on(a,c[1]),A=t(a,t(a,S(a,k),l),z),B=on(a,d[1]);return bO([0,C(t(a,S(a,h),B),A)])}var
 p=i}else
 var
 p=g;var
@@ -3935,99 +3941,101 @@ v=f;var
 w=v}else
 var
 w=e;return w})}var
-bD=aB}else
+bD=aC}else
 var
 bD=bC;var
 bE=bD}else
 var
-bE=az;return bE;default:v=1}switch(v){case
+bE=az;return bE;default:w=1}switch(w){case
 1:var
 a3=0;break;case
 2:var
-as=G(m[3],bm);if(as){var
-at=as[1];if(at)return bn(at[1]);var
-bo=at}else
+as=E(m[3],bn);if(as){var
+at=as[1];if(at)return bo(at[1]);var
+bp=at}else
 var
-bo=as;return bo;default:var
-aj=G(m[2],ah);return aj?ai(aj[1]):aj}}else
+bp=as;return bp;default:var
+aj=E(m[2],ah);return aj?ai(aj[1]):aj}}else
 var
 a3=a2;return a3}function
-fF(d,f,a){if(typeof
+fI(d,f,a){if(typeof
 a!=="number")switch(a[0]){case
 13:var
-e=a[4];if(n_(d,e)&&I(i(d,0,[3,e,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b]])))return vf;return vg;case
+e=a[4];if(ol(d,e)&&I(i(d,0,[3,e,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b]])))return vz;return vA;case
 16:return f;case
 4:case
-17:return ve}return vd}function
-eF(e,d,g,f){var
+17:return vy}return vx}function
+dU(e,d,g,f){var
 b=g,a=f;for(;;){if(a){var
-c=a[1];if(aD(b,fF(e,d,c)))return[0,[0,c,b]];var
-h=a[2],b=dE(b,fF(e,d,c)),a=h;continue}return a}}function
-od(a){return e(function(a){return[0,a,b]},a)}function
-jG(f,o,g,c,n,a){if(typeof
+c=a[1];if(aE(b,fI(e,d,c)))return[0,[0,c,b]];var
+h=a[2],b=dE(b,fI(e,d,c)),a=h;continue}return a}}function
+fJ(a){return e(function(a){return[0,a,b]},a)}function
+jN(f,o,g,c,n,a){if(typeof
 a==="number"){if(0===a){var
-s=c[6];return ak(function(a){return i(f,0,[3,[0,d,b],a])},s)}var
-h=hg(c[7]);return h?mU(g,h[1]):h}else{if(0===a[0]){var
-j=eF(f,o,a[1],n);if(j){var
-p=j[1],t=p[1],u=e(od,a[2]);return oc(f,g,c,p[2],u,t)}return j}var
-k=eF(f,o,a[1],n);if(k){var
+s=c[6];return al(function(a){return i(f,0,[3,[0,d,b],a])},s)}var
+h=hl(c[7]);return h?m6(g,h[1]):h}else{if(0===a[0]){var
+j=dU(f,o,a[1],n);if(j){var
+p=j[1],t=p[1],u=e(fJ,a[2]);return op(f,g,c,p[2],u,t)}return j}var
+k=dU(f,o,a[1],n);if(k){var
 q=k[1],l=q[1];if(typeof
 l!=="number"&&1===l[0]){var
-m=G(c[1],a[2]);return m?oc(f,g,c,q[2],[0,m[1],0],[1,l[1]]):m}var
+m=E(c[1],a[2]);return m?op(f,g,c,q[2],[0,m[1],0],[1,l[1]]):m}var
 r=0}else
 var
 r=k;return r}}function
-jH(a){var
-b=aB(a[1]),c=S(x(b,a[2]),b),d=a[2];return M(function(b,a){return[3,b,a]},d,c)}function
-fG(a){return aB(jH(a))}function
-hi(c){var
-a=fG(c),b=aB(c[1]);return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
-hj(a,b){return aZ(a[3],a[4],b)}function
-fH(a,b){var
-c=hj(a,b);return x(fG(a),c)}function
-fI(a,b){var
-c=hj(a,b);return x(hi(a),c)}function
-oe(a,b){var
-c=hj(a,b);return x(aB(a[1]),c)}function
-hk(b,a){var
-c=fI(b,a),d=fH(b,a);return[2,[4,d,d],[4,c,c]]}function
-hl(a,d){var
-h=a[5],i=[4,[0,c(2,b),b],h],e=a[6],f=a[5],g=oe(a,d);return[5,[2,hk(a,d),[2,[4,g,g],[3,[4,f,f],[4,e,e]]]],i]}function
-jI(a,b){var
-f=a[5],c=[3,hl(a,b),f],d=oe(a,b),e=a[6];return[3,[3,[4,e,e],[4,d,d]],[4,c,c]]}function
-eG(a,b){var
-c=jI(a,b);return cP(a[7],c)}function
-of(b,a){var
-c=hk(b,a),d=fI(b,a),e=[4,eG(b,a),d],f=fH(b,a);return[5,[2,[4,hl(b,a),f],e],c]}function
-og(b,a){var
-c=hk(b,a),d=fH(b,a),e=[4,eG(b,a),d],f=fI(b,a);return[5,[3,[4,hl(b,a),f],e],c]}function
-jJ(a,b){var
-c=hi(a),d=S(og(a,b),c),e=fG(a),f=S(of(a,b),e),g=M(function(b,a){return[2,b,a]},f,d),h=S(a[5],g),i=a[3];return M(function(b,a){return[2,b,a]},i,h)}function
-dT(a){return[5,[3,[0,b,b],[4,a,a]],[2,[0,b,b],[4,a,a]]]}function
-dU(a){return[5,[4,[0,c(2,b),b],a],[2,[0,b,b],[4,a,a]]]}function
-jK(a,c,b){var
-d=[4,dT(a),b],e=[2,[4,dU(a),c],d],f=[4,dU(a),b];return[0,[3,[4,dT(a),c],f],e]}function
-oh(c,a){var
-b=jK(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
-dh(b,a){return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
-oi(a,d){var
-e=x(a,a),f=dh(a,d),g=S([0,c(2,b),b],f),h=x(a,d),i=S([4,[0,c(2,b),b],h],a),j=S([3,[0,b,b],e],d),k=M(function(b,a){return[2,b,a]},j,i);return S([5,[0,b,b],[2,[0,b,b],e]],M(function(b,a){return[2,b,a]},k,g))}function
+jO(a){var
+b=aC(a[1]),c=P(v(b,a[2]),b),d=a[2];return M(function(b,a){return[3,b,a]},d,c)}function
+eK(a){return aC(jO(a))}function
+fK(c){var
+a=eK(c),b=aC(c[1]);return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
+hn(a,b){return aP(a[3],a[4],b)}function
+fL(a,b){var
+c=hn(a,b);return v(eK(a),c)}function
+fM(a,b){var
+c=hn(a,b);return v(fK(a),c)}function
+oq(a,b){var
+c=hn(a,b);return v(aC(a[1]),c)}function
+ho(b,a){var
+c=fM(b,a),d=fL(b,a);return[2,[4,d,d],[4,c,c]]}function
+fN(a,d){var
+h=a[5],i=[4,[0,c(2,b),b],h],e=a[6],f=a[5],g=oq(a,d);return[5,[2,ho(a,d),[2,[4,g,g],[3,[4,f,f],[4,e,e]]]],i]}function
+jP(a,b){var
+f=a[5],c=[3,fN(a,b),f],d=oq(a,b),e=a[6];return[3,[3,[4,e,e],[4,d,d]],[4,c,c]]}function
+dV(a,b){var
+c=jP(a,b);return cp(a[7],c)}function
+jQ(b,a){var
+c=ho(b,a),d=fM(b,a),e=[4,dV(b,a),d],f=fL(b,a);return[5,[2,[4,fN(b,a),f],e],c]}function
+jR(b,a){var
+c=ho(b,a),d=fL(b,a),e=[4,dV(b,a),d],f=fM(b,a);return[5,[3,[4,fN(b,a),f],e],c]}function
+jS(a,b){var
+c=fK(a),d=P(jR(a,b),c),e=eK(a),f=P(jQ(a,b),e),g=M(function(b,a){return[2,b,a]},f,d),h=P(a[5],g),i=a[3];return M(function(b,a){return[2,b,a]},i,h)}function
+jT(a,c){var
+d=jS(a,c),e=a[4],f=M(function(b,a){return[2,b,a]},c,e),g=M(function(b,a){return[3,b,a]},f,d),h=dV(a,c);return P([5,[0,b,b],[4,a[5],h]],g)}function
+dW(a){return[5,[3,[0,b,b],[4,a,a]],[2,[0,b,b],[4,a,a]]]}function
+dX(a){return[5,[4,[0,c(2,b),b],a],[2,[0,b,b],[4,a,a]]]}function
+jU(a,c,b){var
+d=[4,dW(a),b],e=[2,[4,dX(a),c],d],f=[4,dX(a),b];return[0,[3,[4,dW(a),c],f],e]}function
+or(c,a){var
+b=jU(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
+cq(b,a){return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
+os(a,d){var
+e=v(a,a),f=cq(a,d),g=P([0,c(2,b),b],f),h=v(a,d),i=P([4,[0,c(2,b),b],h],a),j=P([3,[0,b,b],e],d),k=M(function(b,a){return[2,b,a]},j,i);return P([5,[0,b,b],[2,[0,b,b],e]],M(function(b,a){return[2,b,a]},k,g))}function
 di(j,b,a){switch(j[0]){case
-0:return b?b[2]?a:oh(b[1],a):a;case
+0:return b?b[2]?a:or(b[1],a):a;case
 1:if(b){var
 c=b[2];if(c){var
 d=c[2];if(d){if(d[2])return a;var
-g=jK(b[1],a[2],a[3]),i=g[1],h=jK(c[1],g[2],a[1]);return oh(d[1],[0,h[2],i,h[1]])}return a}return a}return a;default:if(b){var
+g=jU(b[1],a[2],a[3]),i=g[1],h=jU(c[1],g[2],a[1]);return or(d[1],[0,h[2],i,h[1]])}return a}return a}return a;default:if(b){var
 e=b[2];if(e){var
-f=e[2];return f?f[2]?a:oi([0,b[1],e[1],f[1]],a):a}return a}return a}}function
-oj(c){var
-a=cK(c);return a?eq(a[1],[0,d,b]):a}function
-ok(a,n,k,j){if(oj(j)){var
+f=e[2];return f?f[2]?a:os([0,b[1],e[1],f[1]],a):a}return a}return a}}function
+ot(c){var
+a=cO(c);return a?ev(a[1],[0,d,b]):a}function
+ou(a,n,k,j){if(ot(j)){var
 q=n?[3,[0,d,b],k]:k;return i(a,0,q)}var
-f=aI(a,k);if(f){var
-g=c9(a,[5,j,[0,c(2,b),b]]);if(g){var
-h=gQ(a,[5,j,[0,c(2,b),b]]);if(h)var
-p=t(a,f[1],g[1]),l=[0,E(h[1],p)];else
+f=aB(a,k);if(f){var
+g=c_(a,[5,j,[0,c(2,b),b]]);if(g){var
+h=gW(a,[5,j,[0,c(2,b),b]]);if(h)var
+p=t(a,f[1],g[1]),l=[0,C(h[1],p)];else
 var
 l=h;var
 m=l}else
@@ -4036,26 +4044,26 @@ m=g;var
 e=m}else
 var
 e=f;if(e){var
-o=e[1];return n?D(d,o[1]):D(o[2],d)}return e}function
-dV(b,a,c){var
-d=bC(b,a[1],a[2]),e=d?ok(b,0,c,a[1]):d;return e?ok(b,1,c,a[2]):e}function
-ol(h,f,c){if(oj(c))return[0,u];var
-a=F(h,i4(f)),d=c9(a,c);if(d){var
-e=gQ(a,c);if(e){var
-i=e[1],j=d[1],k=bX(a,A(J(a,b),j));return y(function(b){return mE(f,t(a,i,b))},k)}var
+o=e[1];return n?F(d,o[1]):F(o[2],d)}return e}function
+dY(b,a,c){var
+d=bD(b,a[1],a[2]),e=d?ou(b,0,c,a[1]):d;return e?ou(b,1,c,a[2]):e}function
+ov(h,f,c){if(ot(c))return[0,u];var
+a=G(h,i_(f)),d=c_(a,c);if(d){var
+e=gW(a,c);if(e){var
+i=e[1],j=d[1],k=b0(a,A(J(a,b),j));return z(function(b){return mR(f,t(a,i,b))},k)}var
 g=e}else
 var
 g=d;return g}function
-co(a){return function(b){return ol(a,d,b)}}function
-cp(d,a){var
+cr(a){return function(b){return ov(a,d,b)}}function
+cs(d,a){var
 e=i(d,1,[2,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],a]);return e?i(d,1,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],a]):e}function
 dj(a){return[0,[3,[0,d,b],a],a]}function
-om(a,c,o,n){var
-i=bC(a,[0,d,b],c),j=i?cp(a,c):i;if(j){var
-e=h(co(a),c);if(e){var
-f=aI(a,o);if(f){var
-g=aI(a,n);if(g){var
-p=f[1],q=g[1];return D(d,E(t(a,R(a,e[1]),q),p)[1])}var
+ow(a,c,o,n){var
+i=bD(a,[0,d,b],c),j=i?cs(a,c):i;if(j){var
+e=h(cr(a),c);if(e){var
+f=aB(a,o);if(f){var
+g=aB(a,n);if(g){var
+p=f[1],q=g[1];return F(d,C(t(a,S(a,e[1]),q),p)[1])}var
 k=g}else
 var
 k=f;var
@@ -4065,12 +4073,12 @@ l=e;var
 m=l}else
 var
 m=j;return m}function
-fJ(d,c,a){switch(c[0]){case
-0:return a?a[2]?0:dV(d,c[1],a[1]):a;case
+fO(d,c,a){switch(c[0]){case
+0:return a?a[2]?0:dY(d,c[1],a[1]):a;case
 1:if(a){var
 e=a[2];if(e){var
 f=e[2];if(f){if(f[2])return 0;var
-l=dV(d,c[1],a[1]),m=l?dV(d,c[2],e[1]):l;if(m)return dV(d,c[3],f[1]);var
+l=dY(d,c[1],a[1]),m=l?dY(d,c[2],e[1]):l;if(m)return dY(d,c[3],f[1]);var
 n=m}else
 var
 n=f;var
@@ -4083,7 +4091,7 @@ p=a;return p;case
 2:if(a){var
 g=a[2];if(g){var
 h=g[2];if(h){if(h[2])return 0;var
-q=h[1],r=g[1],s=a[1],C=x([0,s,r,q],[0,s,r,q]);return om(d,c[1],C,[0,b,b])}var
+q=h[1],r=g[1],s=a[1],C=v([0,s,r,q],[0,s,r,q]);return ow(d,c[1],C,[0,b,b])}var
 t=h}else
 var
 t=g;var
@@ -4092,7 +4100,7 @@ var
 u=a;return u;default:if(a){var
 i=a[2];if(i){var
 j=i[2];if(j){if(j[2])return 0;var
-k=j[1],v=i[1],w=a[1],y=om(d,c[1],[2,[4,w,w],[4,v,v]],[2,[0,b,b],[4,k,k]]);if(y)return dV(d,dj(c[2]),k);var
+k=j[1],w=i[1],x=a[1],y=ow(d,c[1],[2,[4,x,x],[4,w,w]],[2,[0,b,b],[4,k,k]]);if(y)return dY(d,dj(c[2]),k);var
 z=y}else
 var
 z=j;var
@@ -4103,75 +4111,75 @@ B=A}else
 var
 B=a;return B}}var
 j=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))));function
-bL(b){var
-a=ap(function(f,e){var
-a=aI(j,f);if(a)var
-b=a[1],c=bq(cz(b[1]),cz(b[2]));else
+bP(b){var
+a=aq(function(f,e){var
+a=aB(j,f);if(a)var
+b=a[1],c=bs(cC(b[1]),cC(b[2]));else
 var
-c=d;return bq(c,e)},d,b);return K(d,a)?aO(me(a),j):d}function
-eH(a){return[0,a[1],[0,a[2],0]]}function
-bh(a){var
-b=eH(a[3]),c=g(eH(a[2]),b);return g(eH(a[1]),c)}function
-hm(a){return hf(j,a,bL(bh(a)))}function
-on(b,a){if(a){var
-g=on([0,b],a[2]),c=a[1];if(0===c[0])var
-d=c[1],e=ck([0,[0,d,d],c[2]],b);else
+c=d;return bs(c,e)},d,b);return K(d,a)?aQ(mr(a),j):d}function
+eL(a){return[0,a[1],[0,a[2],0]]}function
+bi(a){var
+b=eL(a[3]),c=g(eL(a[2]),b);return g(eL(a[1]),c)}function
+hp(a){return hk(j,a,bP(bi(a)))}function
+ox(b,a){if(a){var
+g=ox([0,b],a[2]),c=a[1];if(0===c[0])var
+d=c[1],e=bM([0,[0,d,d],c[2]],b);else
 var
 e=[0,[1,b]];var
 f=[0,e,g]}else
 var
 f=a;return f}function
-oo(c,b,a){var
-d=er(b);return[2,[2,er(c),d],a]}function
-hn(b,a){return b?Q(a):d}function
-fK(f,b,a){if(typeof
+oy(c,b,a){var
+d=ew(b);return[2,[2,ew(c),d],a]}function
+hq(b,a){return b?R(a):d}function
+fP(h,c,a){if(typeof
 a!=="number")switch(a[0]){case
 4:var
-i=a[3],j=a[2];return[0,[2,j],[0,[3,j],[0,[2,i],[0,[3,i],0]]]];case
+l=a[3],m=a[2];return[0,[2,m],[0,[3,m],[0,[2,l],[0,[3,l],0]]]];case
 6:return[0,[0,[5,a[3],a[2]],d],0];case
 8:var
-q=a[2],r=a[1];return e(function(a){var
-c=hn(f,b);return[0,[5,q,a],F(hn(f,b),c)]},r);case
-9:return[0,[1,[5,a[3],a[2]],Q(b)],0];case
+s=a[2],t=a[1];return e(function(a){var
+b=hq(h,c);return[0,[5,s,a],G(hq(h,c),b)]},t);case
+9:return[0,[1,[5,a[3],a[2]],R(c)],0];case
 10:return[0,[0,a[2],d],0];case
 11:return[0,[2,a[2]],0];case
 12:return[0,[0,a[1],d],0];case
 13:var
-c=a[3],h=bL([0,c[1],[0,c[2],[0,c[3],0]]]);return[0,[2,a[4]],[0,[0,c[1],h],[0,[0,c[2],h],[0,[0,c[3],h],0]]]];case
+f=a[3],k=bP([0,f[1],[0,f[2],[0,f[3],0]]]);return[0,[2,a[4]],[0,[0,f[1],k],[0,[0,f[2],k],[0,[0,f[3],k],0]]]];case
 14:var
-k=a[2],l=a[1],s=eD(b,k),t=g(eD(b,l),s),u=e(function(a){return[0,a[1][2],a[2]]},t);return[0,[0,oo(l,k,a[3]),b],u];case
+n=a[2],o=a[1],u=eI(c,n),v=g(eI(c,o),u),w=e(function(a){return[0,a[1][2],a[2]]},v);return[0,[0,oy(o,n,a[3]),c],w];case
 15:var
-m=a[4],n=a[3];return[0,[0,[5,a[2],m],d],[0,[0,[5,[4,n,n],m],b],0]];case
+i=a[4],j=a[3],p=a[2];return h?[0,[0,[5,p,i],c],[0,[0,[5,[4,j,j],i],G(c,c)],[0,[1,[0,b,b],d],0]]]:[0,[0,[5,p,i],d],[0,[0,[5,[4,j,j],i],c],0]];case
 16:var
-o=a[2],p=bL([0,o,0]);return[0,[4,a[3],aO(p,b)],[0,[0,o,p],0]];case
+q=a[2],r=bP([0,q,0]);return[0,[4,a[3],aQ(r,c)],[0,[0,q,r],0]];case
 17:var
-v=a[3],w=a[2];return e(function(a){return[0,[5,a,v],hn(f,b)]},w);case
+x=a[3],y=a[2];return e(function(a){return[0,[5,a,x],hq(h,c)]},y);case
 2:case
-3:return[0,[0,a[2],b],0]}return 0}function
+3:return[0,[0,a[2],c],0]}return 0}function
 dk(h,c,b,e,a){if(a){var
-d=a[1],i=a[2],j=dk(h,c,b,N(e,f(fK(c,b,d))),i);return g(ar(h,on(e,fK(c,b,d)),d),j)}return a}function
-ho(b,a){var
+d=a[1],i=a[2],j=dk(h,c,b,N(e,f(fP(c,b,d))),i);return g(as(h,ox(e,fP(c,b,d)),d),j)}return a}function
+hr(b,a){var
 c=V(b,a);return e(function(a){var
 b=r(a[1][2],a[2]);return[0,a[1][1],b]},c)}function
-hp(b,a){switch(a[0]){case
+hs(b,a){switch(a[0]){case
 0:var
-d=a[1];return aq(b,[0,[0,d,d],a[2]]);case
+d=a[1];return ar(b,[0,[0,d,d],a[2]]);case
 1:var
-e=a[1],c=aq(b,[0,[0,e,e],a[2]]);return c?mN(b,c[1]):c;case
-2:return c9(b,a[1]);case
-3:return gQ(b,a[1]);default:var
-f=a[1],g=cp(b,f);return g?ol(b,a[2],f):g}}function
-bF(a){return 1===a?vh:vi}function
-b1(d,c,b,a){var
+e=a[1],c=ar(b,[0,[0,e,e],a[2]]);return c?i$(b,c[1]):c;case
+2:return c_(b,a[1]);case
+3:return gW(b,a[1]);default:var
+f=a[1],g=cs(b,f);return g?ov(b,a[2],f):g}}function
+bG(a){return 1===a?vB:vC}function
+b5(d,c,b,a){var
 e=a[1],f=di(d,c,a[2]),g=M(function(b,a){return[2,b,a]},b,f);return M(function(b,a){return[3,b,a]},g,e)}function
-jL(c,b,a){switch(c){case
+jV(c,b,a){switch(c){case
 0:return[0,b[1],[0,b[2],[0,a[3],0]]];case
 1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}}function
-jM(h,g,d,c,f,a){var
-e=b1(d,c,f,a);return jL(h,e,S([5,[0,b,b],g],dh(di(d,c,a[2]),e)))}function
-eI(c,d,n,m,l){var
+jW(h,g,d,c,f,a){var
+e=b5(d,c,f,a);return jV(h,e,P([5,[0,b,b],g],cq(di(d,c,a[2]),e)))}function
+eM(c,d,n,m,l){var
 b=d[2],a=n;for(;;){if(b){if(a){var
-f=a[1],g=b[1],h=bt(c,g[1],f[1]),i=h?bt(c,g[2],f[2]):h;if(i){var
+f=a[1],g=b[1],h=bv(c,g[1],f[1]),i=h?bv(c,g[2],f[2]):h;if(i){var
 b=b[2],a=a[2];continue}var
 j=i}else
 var
@@ -4179,11 +4187,11 @@ j=a;var
 e=j}else
 var
 e=a?0:1;var
-k=e?cO(c,d[4],m):e;return k?fJ(c,d[5],l):k}}function
-bG(b,d){var
+k=e?cR(c,d[4],m):e;return k?fO(c,d[5],l):k}}function
+bH(b,d){var
 a=d[1];if(8===a[0]){var
-c=a[1][1];return 0===c[0]?[0,[0,N(b,c[1])]]:[0,ce(function(a){return bG(b,a)},a)]}return[0,ce(function(a){return bG(b,a)},a)]}function
-dW(d,b,h){var
+c=a[1][1];return 0===c[0]?[0,[0,N(b,c[1])]]:[0,ci(function(a){return bH(b,a)},a)]}return[0,ci(function(a){return bH(b,a)},a)]}function
+dZ(d,b,h){var
 c=h;for(;;){var
 a=c[1];switch(a[0]){case
 0:var
@@ -4195,28 +4203,28 @@ e=a[1],f=I(n(e,b));return f?I(n(e,N(d,b))):f;case
 8:case
 9:var
 c=a[1];continue;default:var
-g=dW(d,b,a[1]);if(g){var
+g=dZ(d,b,a[1]);if(g){var
 c=a[2];continue}return g}}}function
-eJ(c,b,m){var
+eN(c,b,m){var
 d=m;for(;;){var
 a=d[1];switch(a[0]){case
 5:var
 d=a[1];continue;case
 6:var
-f=a[2],g=a[1],h=dW(c,b,g),i=h?eJ(c,b,f):h;if(i)var
+f=a[2],g=a[1],h=dZ(c,b,g),i=h?eN(c,b,f):h;if(i)var
 j=i;else{var
-k=eJ(c,b,g);if(k)return dW(c,b,f);var
+k=eN(c,b,g);if(k)return dZ(c,b,f);var
 j=k}return j;case
 7:var
-l=eJ(c,b,a[1]);return l?dW(c,b,a[2]):l;case
+l=eN(c,b,a[1]);return l?dZ(c,b,a[2]):l;case
 10:return 0;case
 3:case
 4:var
-e=eJ(c,b,a[1]);if(e){var
+e=eN(c,b,a[1]);if(e){var
 d=a[2];continue}return e;case
 8:case
-9:return dW(c,b,a[1]);default:return 1}}}function
-cR(c,e){var
+9:return dZ(c,b,a[1]);default:return 1}}}function
+cT(c,e){var
 b=e;for(;;){var
 a=b[1];switch(a[0]){case
 0:return I(n(a[1],c));case
@@ -4227,32 +4235,32 @@ a=b[1];switch(a[0]){case
 8:case
 9:var
 b=a[1];continue;default:var
-d=cR(c,a[1]);if(d){var
+d=cT(c,a[1]);if(d){var
 b=a[2];continue}return d}}}function
-hq(d,b,m){var
+ht(d,b,m){var
 c=m;for(;;){var
 a=c[1];switch(a[0]){case
 3:var
-f=hq(d,b,a[1]);if(f){var
+f=ht(d,b,a[1]);if(f){var
 c=a[2];continue}return f;case
 4:var
-g=hq(d,b,a[1]);return g?cR(b,a[2]):g;case
+g=ht(d,b,a[1]);return g?cT(b,a[2]):g;case
 6:var
-h=a[2],i=a[1],j=cR(b,i);if(j){var
-k=cR(b,h);if(k)var
+h=a[2],i=a[1],j=cT(b,i);if(j){var
+k=cT(b,h);if(k)var
 e=k;else{var
-l=aX(i,d);if(l){var
+l=aZ(i,d);if(l){var
 c=h;continue}var
 e=l}}else
 var
 e=j;return e;case
 0:case
 1:case
-2:return 1;default:return cR(b,c)}}}function
-hr(c,e){var
+2:return 1;default:return cT(b,c)}}}function
+hu(c,e){var
 b=e;for(;;){var
 a=b[1];switch(a[0]){case
-0:return aD(a[1],c);case
+0:return aE(a[1],c);case
 10:return 0;case
 1:case
 2:return 1;case
@@ -4260,82 +4268,82 @@ a=b[1];switch(a[0]){case
 8:case
 9:var
 b=a[1];continue;default:var
-d=hr(c,a[1]);if(d){var
+d=hu(c,a[1]);if(d){var
 b=a[2];continue}return d}}}function
-hs(a,h){if(a){var
-b=a[2],c=a[1],d=mq(h);if(d){var
-e=d[1],f=e[2];return e[1]?[0,c,hs(b,ap(mt,f,ms(c)))]:[0,vl,hs(b,f)]}var
-g=[0,c,hs(b,0)]}else
+hv(a,h){if(a){var
+b=a[2],c=a[1],d=mD(h);if(d){var
+e=d[1],f=e[2];return e[1]?[0,c,hv(b,aq(mG,f,mF(c)))]:[0,vF,hv(b,f)]}var
+g=[0,c,hv(b,0)]}else
 var
 g=a;return g}function
 dl(b,a){return a?h(b,a[1]):a}function
 dm(c,b,a){return dl(function(b){return dl(h(c,b),a)},b)}function
-op(b,a){switch(a[0]){case
+oz(b,a){switch(a[0]){case
 0:return a;case
 1:return a[1];default:var
 c=a[3],d=a[2],e=a[1];switch(b){case
 0:return e;case
 1:return d;default:return c}}}function
-oq(a){return 0===a[0]?a[1]:0}function
-or(d,c){var
+oA(a){return 0===a[0]?a[1]:0}function
+oB(d,c){var
 b=d,a=c;for(;;){if(a){var
-e=a[2],b=op(a[1],b),a=e;continue}return oq(b)}}function
-cq(b,a){switch(a[0]){case
+e=a[2],b=oz(a[1],b),a=e;continue}return oA(b)}}function
+ct(b,a){switch(a[0]){case
 0:return[0,h(b,a[1])];case
-1:return[1,cq(b,a[1])];default:var
-c=cq(b,a[3]),d=cq(b,a[2]);return[2,cq(b,a[1]),d,c]}}function
-bv(b,c,a){switch(c[0]){case
-0:return cq(h(b,c[1]),a);case
+1:return[1,ct(b,a[1])];default:var
+c=ct(b,a[3]),d=ct(b,a[2]);return[2,ct(b,a[1]),d,c]}}function
+bw(b,c,a){switch(c[0]){case
+0:return ct(h(b,c[1]),a);case
 1:var
 d=c[1];switch(a[0]){case
 0:var
-k=a[1];return[1,cq(function(a){return ar(b,a,k)},d)];case
-1:return[1,bv(b,d,a[1])];default:var
-l=bv(b,d,a[3]),m=bv(b,d,a[2]);return[2,bv(b,d,a[1]),m,l]}default:var
+k=a[1];return[1,ct(function(a){return as(b,a,k)},d)];case
+1:return[1,bw(b,d,a[1])];default:var
+l=bw(b,d,a[3]),m=bw(b,d,a[2]);return[2,bw(b,d,a[1]),m,l]}default:var
 e=c[3],f=c[2],g=c[1];switch(a[0]){case
 0:var
-n=a[1],o=function(a){return ar(b,a,n)},i=function(a){return cq(o,a)},p=i(e),q=i(f);return[2,i(g),q,p];case
+n=a[1],o=function(a){return as(b,a,n)},i=function(a){return ct(o,a)},p=i(e),q=i(f);return[2,i(g),q,p];case
 1:var
-j=a[1],r=bv(b,e,j),s=bv(b,f,j);return[2,bv(b,g,j),s,r];default:var
-t=bv(b,e,a[3]),u=bv(b,f,a[2]);return[2,bv(b,g,a[1]),u,t]}}}function
-jN(c,f,a){if(a)var
+j=a[1],r=bw(b,e,j),s=bw(b,f,j);return[2,bw(b,g,j),s,r];default:var
+t=bw(b,e,a[3]),u=bw(b,f,a[2]);return[2,bw(b,g,a[1]),u,t]}}}function
+jX(c,f,a){if(a)var
 d=a[1],b=function(i){var
 a=[0,d[1],d[1]],b=[0,d[2],d[2]];switch(i){case
 0:var
-e=[0,a,R(c,a)];break;case
+e=[0,a,S(c,a)];break;case
 1:var
 g=t(c,a,b),e=[0,ax(A(a,b)),g];break;default:var
-e=[0,b,R(c,b)]}return[0,[0,h(f,e)]]},i=jN(c,f,a[2]),j=e(function(a){return[1,a]},i),k=b(2),l=b(1),g=[0,[2,b(0),l,k],j];else
+e=[0,b,S(c,b)]}return[0,[0,h(f,e)]]},i=jX(c,f,a[2]),j=e(function(a){return[1,a]},i),k=b(2),l=b(1),g=[0,[2,b(0),l,k],j];else
 var
 g=a;return g}function
-jO(b,x,c,a){var
-d=jN(b,aG,a),z=g(jN(b,aA,a),d);return c4(vn,function(a){switch(a[0]){case
-0:return s(a[1],z,[0,[0,u]]);case
+jY(b,x,c,a){var
+d=jX(b,aH,a),y=g(jX(b,aA,a),d);return c5(vH,function(a){switch(a[0]){case
+0:return s(a[1],y,[0,[0,u]]);case
 1:return[0,[0,s(a[1],x,u)]];case
 2:return[0,[0,J(b,a[1])]];case
 3:var
-c=a[2],d=a[1],e=function(b,a){return[0,A(b,a)]};return bv(function(a,b){return dm(e,a,b)},d,c);case
+c=a[2],d=a[1],e=function(b,a){return[0,A(b,a)]};return bw(function(a,b){return dm(e,a,b)},d,c);case
 4:var
-f=a[2],g=a[1],h=function(b,a){return[0,E(b,a)]};return bv(function(a,b){return dm(h,a,b)},g,f);case
+f=a[2],g=a[1],h=function(b,a){return[0,C(b,a)]};return bw(function(a,b){return dm(h,a,b)},g,f);case
 5:var
-i=a[1],j=function(a){return[0,$(a)]};return cq(function(a){return dl(j,a)},i);case
+i=a[1],j=function(a){return[0,$(a)]};return ct(function(a){return dl(j,a)},i);case
 6:var
-k=a[2],l=a[1],m=function(c,a){return[0,t(b,c,a)]};return bv(function(a,b){return dm(m,a,b)},l,k);case
+k=a[2],l=a[1],m=function(c,a){return[0,t(b,c,a)]};return bw(function(a,b){return dm(m,a,b)},l,k);case
 7:var
 n=a[2],o=a[1],p=function(c,a){var
-d=bX(b,a);return y(function(a){return t(b,c,a)},d)};return bv(function(a,b){return dm(p,a,b)},o,n);case
+d=b0(b,a);return z(function(a){return t(b,c,a)},d)};return bw(function(a,b){return dm(p,a,b)},o,n);case
 8:var
-q=a[1],r=function(a){return[0,R(b,a)]};return cq(function(a){return dl(r,a)},q);case
+q=a[1],r=function(a){return[0,S(b,a)]};return ct(function(a){return dl(r,a)},q);case
 9:var
-v=a[1],w=function(a){return cc(b,a)};return cq(function(a){return dl(w,a)},v);default:return vm}},c)}function
-ht(a){if(a){var
+v=a[1],w=function(a){return cg(b,a)};return ct(function(a){return dl(w,a)},v);default:return vG}},c)}function
+hw(a){if(a){var
 b=a[1];if(b)var
-c=ht(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+c=hw(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return vo}function
-eK(a){if(a){var
-g=a[1],b=g[2],c=ht(g[1]);if(c)if(b){var
-h=b[1],e=eK(a[2]);if(e)var
+d=b;return d}return vI}function
+eO(a){if(a){var
+g=a[1],b=g[2],c=hw(g[1]);if(c)if(b){var
+h=b[1],e=eO(a[2]);if(e)var
 i=K(d,h[1]),j=i?[0,[0,[0,c[1],h],e[1]]]:i;else
 var
 j=e;var
@@ -4343,56 +4351,56 @@ f=j}else
 var
 f=b;else
 var
-f=c;return f}return vp}function
-eL(b,a){var
-c=a[3],d=y(function(a){var
+f=c;return f}return vJ}function
+eP(b,a){var
+c=a[3],d=z(function(a){var
 c=a[2],d=a[1][2];return[0,[0,h(b,a[1][1]),d],c]},c),e=h(b,a[2]),f=a[1];return[0,h(ay(b),f),e,d]}function
-jP(c,g,f,b,a,e){if(b){var
+jZ(c,g,f,b,a,e){if(b){var
 h=b[1],l=b[2],d=function(b,a){var
-d=ic(c,fi,fi,function(a){return op(b,a)},e);return jP(c,g,aR(f),l,a,d)},i=d(0,aO(a,h));if(i){var
-j=d(2,F(a,h));if(j)return f?1:d(1,a);var
+d=ij(c,fl,fl,function(a){return oz(b,a)},e);return jZ(c,g,aS(f),l,a,d)},i=d(0,aQ(a,h));if(i){var
+j=d(2,G(a,h));if(j)return f?1:d(1,a);var
 k=j}else
 var
-k=i;return k}return ar(g,a,ic(c,fi,fi,oq,e))}function
-jQ(e,c,b,a){var
+k=i;return k}return as(g,a,ij(c,fl,fl,oA,e))}function
+j0(e,c,b,a){var
 f=ac(d,b);function
-g(b){return a}return function(a){return jP(e,g,c,f,d,a)}}function
+g(b){return a}return function(a){return jZ(e,g,c,f,d,a)}}function
 dn(a){if(a){var
-b=a[1],c=b[1],d=c[1],e=b[2],f=c[2];return y(function(a){return aQ(f,e,a)},d)}return[0,u]}function
-os(f,e,k,j,i,a){var
-b=eK(a[1]);if(b){var
+b=a[1],c=b[1],d=c[1],e=b[2],f=c[2];return z(function(a){return aR(f,e,a)},d)}return[0,u]}function
+oC(f,e,k,j,i,a){var
+b=eO(a[1]);if(b){var
 c=a[2];if(c){var
 d=dn(a[3]);if(d){var
-l=d[1],m=ac([0,E($(t(f,i,c[1])),l),0],e);return aY(f,e,gS(k,j,b[1],m))}var
+l=d[1],m=ac([0,C($(t(f,i,c[1])),l),0],e);return a0(f,e,gY(k,j,b[1],m))}var
 g=d}else
 var
 g=c;var
 h=g}else
 var
 h=b;return h}function
-ot(i,d,h,g,c){var
-a=eK(c[1]);if(a){var
+oD(i,d,h,g,c){var
+a=eO(c[1]);if(a){var
 b=dn(c[3]);if(b){var
-j=ac([0,E(u,b[1]),0],d),k=a[1];return aY(i,d,gS(h,g,e(function(a){return[0,a[1],u]},k),j))}var
+j=ac([0,C(u,b[1]),0],d),k=a[1];return a0(i,d,gY(h,g,e(function(a){return[0,a[1],u]},k),j))}var
 f=b}else
 var
 f=a;return f}function
-ou(a,c,D,i){var
-j=eK(i[1]);if(j){var
+oE(a,c,E,i){var
+j=eO(i[1]);if(j){var
 k=i[2];if(k){var
 l=dn(i[3]);if(l){var
-G=l[1],e=E(t(a,D,k[1]),G),b=j[1];if(b){var
+F=l[1],e=C(t(a,E,k[1]),F),b=j[1];if(b){var
 m=b[1],o=m[2];if(b[2]){var
-g=gT(a,b,ac([0,e,0],c));if(g){var
-p=g[1],q=n(f(p),c);if(q)return ew(a,p);var
+g=gZ(a,b,ac([0,e,0],c));if(g){var
+p=g[1],q=n(f(p),c);if(q)return eB(a,p);var
 r=q}else
 var
 r=g;return r}var
 s=K(d,e[1]),u=s?K(d,o[1]):s;if(u){var
-A=C(e[1],o[1]),B=m[1];return K(ap(function(a,b){var
-c=bJ(a);return F(C(bJ(a),c),b)},d,B),A)}return u}var
-h=gT(a,b,ac([0,e,0],c));if(h){var
-v=h[1],w=n(f(v),c);if(w)return ew(a,v);var
+A=D(e[1],o[1]),B=m[1];return K(aq(function(a,b){var
+c=bK(a);return G(D(bK(a),c),b)},d,B),A)}return u}var
+h=gZ(a,b,ac([0,e,0],c));if(h){var
+v=h[1],w=n(f(v),c);if(w)return eB(a,v);var
 x=w}else
 var
 x=h;return x}var
@@ -4402,161 +4410,183 @@ y=k;var
 z=y}else
 var
 z=j;return z}function
-vq(c){var
+vK(c){var
 a=c[2];if(a){var
-b=dn(c[3]);if(b)return D(d,E(a[1],b[1])[1]);var
+b=dn(c[3]);if(b)return F(d,C(a[1],b[1])[1]);var
 e=b}else
 var
 e=a;return e}function
-jR(a){return w(function(a){return g(a[1],[0,a[2],0])},a)}function
-ov(a,c,b){var
-e=s(b,c,m(d)),f=aH(0,a);return l(function(b){return eJ(a,b,e)},f)}function
-fL(a){var
-c=X(a);return B(m(b),c)}function
-hu(i,g){var
-h=fL(g),j=X(g),e=z(m(b),j),f=r(m(c(2,b)),g),a=m(d);return i?i[1]?[0,[0,e,bs(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,bs(f),a,e]]:[0,[0,h,a,a],[0,a,e,bs(f)],[0,a,f,e]]}function
-fM(b,a){var
+j1(a){return y(function(a){return g(a[1],[0,a[2],0])},a)}function
+oF(a,c,b){var
+e=s(b,c,m(d)),f=aI(0,a);return l(function(b){return eN(a,b,e)},f)}function
+fQ(a){var
+c=W(a);return B(m(b),c)}function
+hx(i,g){var
+h=fQ(g),j=W(g),e=x(m(b),j),f=r(m(c(2,b)),g),a=m(d);return i?i[1]?[0,[0,e,bu(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,bu(f),a,e]]:[0,[0,h,a,a],[0,a,e,bu(f)],[0,a,f,e]]}function
+fR(b,a){var
 c=ab(b[3],a),d=ab(b[2],a);return[0,ab(b[1],a),d,c]}function
-ow(b,a){function
+oG(b,a){function
 c(b){var
 c=h(b,a[3]),d=h(b,a[2]);return[0,h(b,a[1]),d,c]}function
 d(a){var
 b=ab(a,c(function(a){return a[3]})),d=ab(a,c(function(a){return a[2]}));return[0,ab(a,c(function(a){return a[1]})),d,b]}var
 e=d(b[3]),f=d(b[2]);return[0,d(b[1]),f,e]}function
-ox(v,u){function
+oH(v,u){function
 a(a){return[0,[0,N(u,a)]]}switch(v[0]){case
 0:var
-w=fL(a(0));return[0,hu(vr,a(0)),w];case
+w=fQ(a(0));return[0,hx(vL,a(0)),w];case
 1:var
-x=fL(a(0)),y=r(fL(a(vs)),x),A=r(fL(a(vt)),y),C=hu(0,a(0)),D=ow(hu(vv,a(vu)),C);return[0,ow(hu(vx,a(vw)),D),A];default:var
-E=a(vy),F=a(vz),g=[0,a(0),F,E],G=ab(g,g),H=B(m(b),G),j=ab(g,g),d=g[1],e=g[2],f=g[3],i=function(a){var
-d=X(a),e=r(m(c(2,b)),d);return B(z(m(b),j),e)},h=function(f,e,d,a){var
-g=ar(f,r(e,d),a);return r(m(c(2,b)),g)},k=i(f),l=h(B,e,f,d),n=[0,h(z,d,f,e),l,k],o=h(z,e,f,d),p=i(e),q=[0,h(B,d,e,f),p,o],s=h(B,d,f,e),t=h(z,d,e,f);return[0,[0,[0,i(d),t,s],q,n],H]}}function
-oy(a){return 1<a[0]?[0,a[1],0]:0}function
-hv(a){switch(a[0]){case
+y=fQ(a(0)),z=r(fQ(a(vM)),y),A=r(fQ(a(vN)),z),C=hx(0,a(0)),D=oG(hx(vP,a(vO)),C);return[0,oG(hx(vR,a(vQ)),D),A];default:var
+E=a(vS),F=a(vT),g=[0,a(0),F,E],G=ab(g,g),H=B(m(b),G),j=ab(g,g),d=g[1],e=g[2],f=g[3],i=function(a){var
+d=W(a),e=r(m(c(2,b)),d);return B(x(m(b),j),e)},h=function(f,e,d,a){var
+g=as(f,r(e,d),a);return r(m(c(2,b)),g)},k=i(f),l=h(B,e,f,d),n=[0,h(x,d,f,e),l,k],o=h(x,e,f,d),p=i(e),q=[0,h(B,d,e,f),p,o],s=h(B,d,f,e),t=h(x,d,e,f);return[0,[0,[0,i(d),t,s],q,n],H]}}function
+oI(a){return 1<a[0]?[0,a[1],0]:0}function
+hy(a){switch(a[0]){case
 0:return[0,a[1],0];case
 1:return[0,a[1],[0,a[2],[0,a[3],0]]];case
 2:return[0,dj(a[1]),0];default:var
 b=[0,dj(a[2]),0];return[0,dj(a[1]),b]}}function
-eM(a){return[0,[0,a[1]],[0,a[2]]]}function
-oz(a){switch(a[0]){case
-0:return[0,eM(a[1]),0];case
+eQ(a){return[0,[0,a[1]],[0,a[2]]]}function
+oJ(a){switch(a[0]){case
+0:return[0,eQ(a[1]),0];case
 1:var
-f=[0,eM(a[3]),0],g=[0,eM(a[2]),f];return[0,eM(a[1]),g];case
+f=[0,eQ(a[3]),0],g=[0,eQ(a[2]),f];return[0,eQ(a[1]),g];case
 2:var
-b=eM(dj(a[1]));return[0,b,[0,b,[0,b,0]]];default:var
-c=a[2],d=a[1],e=[0,[1,dj(d)[1],c],[1,d,c]];return[0,e,[0,e,[0,eM(dj(c)),0]]]}}function
-oA(a,c){if(0===c[0]){var
-g=c[1];return h(co(a),g)}var
-i=c[1],d=h(co(a),i);if(d){var
-j=c[2],e=h(co(a),j);if(e){var
-k=R(a,e[1]),l=cc(a,A(J(a,b),k)),m=d[1];return y(function(b){return t(a,m,b)},l)}var
+b=eQ(dj(a[1]));return[0,b,[0,b,[0,b,0]]];default:var
+c=a[2],d=a[1],e=[0,[1,dj(d)[1],c],[1,d,c]];return[0,e,[0,e,[0,eQ(dj(c)),0]]]}}function
+oK(a,c){if(0===c[0]){var
+g=c[1];return h(cr(a),g)}var
+i=c[1],d=h(cr(a),i);if(d){var
+j=c[2],e=h(cr(a),j);if(e){var
+k=S(a,e[1]),l=cg(a,A(J(a,b),k)),m=d[1];return z(function(b){return t(a,m,b)},l)}var
 f=e}else
 var
 f=d;return f}function
-oB(d,c){var
-a=oA(d,c[1]);if(a)var
-b=oA(d,c[2]),f=b?[0,[0,a[1][1],b[1][2]]]:b,e=f;else
+oL(d,c){var
+a=oK(d,c[1]);if(a)var
+b=oK(d,c[2]),f=b?[0,[0,a[1][1],b[1][2]]]:b,e=f;else
 var
 e=a;return e}function
-oC(a,e,c){var
+j2(a,e,c){var
 b=c[1];if(1===b[0]){var
-f=b[1];if(aD(f,a))return c;var
-g=m(d);return s(dE(f,a),e,g)}return[0,ce(function(b){return oC(a,e,b)},b)]}function
-jS(g,a,n,f,c){var
-h=g?[0,a,[0,[0,a],[0,[0,[0,a]],0]]]:[0,a,[0,[0,a],0]],i=ha(h,c),j=bZ(f),b=e(function(b){return oC(a,j,b)},i),k=s(vE,b,m(d)),l=s(vF,b,m(d));return[0,s(0,b,m(d)),l,k]}function
-bn(b,a){var
-c=r(b[2],a[1]),d=z(r(b[1],a[2]),c),e=r(b[1],a[3]),f=z(r(b[3],a[1]),e),g=r(b[3],a[2]);return[0,z(r(b[2],a[3]),g),f,d]}function
-dX(b,a){return b?b[1]?a[3]:a[2]:a[1]}function
-oD(c){function
+f=b[1];if(aE(f,a))return c;var
+g=m(d);return s(dE(f,a),e,g)}return[0,ci(function(b){return j2(a,e,b)},b)]}function
+hz(g,a,n,f,c){var
+h=g?[0,a,[0,[0,a],[0,[0,[0,a]],0]]]:[0,a,[0,[0,a],0]],i=hf(h,c),j=bL(f),b=e(function(b){return j2(a,j,b)},i),k=s(vY,b,m(d)),l=s(vZ,b,m(d));return[0,s(0,b,m(d)),l,k]}function
+bp(b,a){var
+c=r(b[2],a[1]),d=x(r(b[1],a[2]),c),e=r(b[1],a[3]),f=x(r(b[3],a[1]),e),g=r(b[3],a[2]);return[0,x(r(b[2],a[3]),g),f,d]}function
+d0(b,a){return b?b[1]?a[3]:a[2]:a[1]}function
+j3(c){function
 a(a){var
 e=n(c,a)?b:d;return m(e)}var
-e=a(vG),f=a(vH);return[0,a(0),f,e]}function
-oE(b,a){if(a)var
-d=oE(b,a[2]),c=[0,e(h(b,a[1]),a),d];else
+e=a(v0),f=a(v1);return[0,a(0),f,e]}function
+oM(e,d,c){function
+b(a){return[0,j3(a),0]}function
+a(a){return[0,bo(bp(j3(a),d),c),[0,a]]}switch(e){case
+0:var
+f=[0,a(v2),0],g=[0,b(v3),f];return[0,b(0),g];case
+1:var
+h=[0,a(v4),0],i=[0,a(v5),h],j=[0,a(0),i],k=[0,b(v6),j],l=[0,b(v7),k];return[0,b(0),l];default:var
+m=[0,a(v8),0],n=[0,a(v9),m];return[0,a(0),n]}}function
+oN(a,g,f,y,o,l){var
+h=l[1];function
+e(c,b){var
+e=h[3],f=d0(b,a[3]),g=r(B(c[3],f),e),i=h[2],j=d0(b,a[2]),k=r(B(c[2],j),i),l=h[1],n=d0(b,a[1]),o=r(B(c[1],n),l);return B(B(B(m(d),o),k),g)}var
+u=e(a[3],v_),v=e(a[2],v$),w=[0,e(a[1],0),v,u],i=ab(o[1],w),p=o[2];if(p){var
+j=p[1],q=l[2];if(q){var
+k=q[1],z=d0(j,f),A=r(d0(k,g),z),C=d0(k,f),s=B(r(d0(j,g),C),A),D=W(y);if(n(j,k))var
+E=ab(g,f),t=x(s,r(m(c(2,b)),E));else
+var
+t=s;return B(i,ai(t,D))}return i}return i}function
+j4(b,a){if(a)var
+d=j4(b,a[2]),c=[0,e(h(b,a[1]),a),d];else
 var
 c=a;return c}function
-fN(c,b,a){switch(c){case
+fS(c,b,a){switch(c){case
 0:return[0,b[1],[0,b[2],[0,a[3],0]]];case
 1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}}function
-oF(a){if(a){var
-f=a[1],b=f[2],c=ht(f[1]);if(c)if(b)var
-d=oF(a[2]),g=d?[0,[0,[0,c[1],b[1]],d[1]]]:d,e=g;else
+oO(a){if(a){var
+f=a[1],b=f[2],c=hw(f[1]);if(c)if(b)var
+d=oO(a[2]),g=d?[0,[0,[0,c[1],b[1]],d[1]]]:d,e=g;else
 var
 e=b;else
 var
-e=c;return e}return vS}function
-oG(c,b,a){var
-d=V(b,a);return ap(function(a,d){var
-b=bJ(a[2]);return A(t(c,a[1],[0,b,b]),d)},u,d)}function
-oH(a,h,e,f,d){if(e)if(d)var
-i=d[1],o=oH(a,h,e[2],f,d[2]),p=i[2],q=aw(h,i[1]),c=e[1],j=ax(t(a,c[3],f)),k=c[3],l=A(ax(es(p,J(a,b),k)),j),m=t(a,c[2],l),n=t(a,c[1],f),g=[0,cF(A(A(ax(oG(a,c[4],q)),n),m)),o];else
+e=c;return e}return wa}function
+oP(c,b,a){var
+d=V(b,a);return aq(function(a,d){var
+b=bK(a[2]);return A(t(c,a[1],[0,b,b]),d)},u,d)}function
+oQ(a,h,e,f,d){if(e)if(d)var
+i=d[1],o=oQ(a,h,e[2],f,d[2]),p=i[2],q=aw(h,i[1]),c=e[1],j=ax(t(a,c[3],f)),k=c[3],l=A(ax(ex(p,J(a,b),k)),j),m=t(a,c[2],l),n=t(a,c[1],f),g=[0,cJ(A(A(ax(oP(a,c[4],q)),n),m)),o];else
 var
 g=d;else
 var
 g=e;return g}function
-vU(a){return[0,a[1][1],a[2][1][2][1],a[1][2],a[2][2]]}function
-oI(b,a){return ad(e(function(a){return s(a,b,0)},a))}function
-bM(a){switch(a){case
-0:return vY;case
-1:return vZ;default:return 0}}function
-dY(a){switch(a){case
-0:return[0,v1,v0,m(d)];case
+wc(a){return[0,a[1][1],a[2][1][2][1],a[1][2],a[2][2]]}function
+oR(b,a){return ad(e(function(a){return s(a,b,0)},a))}function
+bQ(a){switch(a){case
+0:return wg;case
+1:return wh;default:return 0}}function
+d1(a){switch(a){case
+0:return[0,wj,wi,m(d)];case
 1:return dN;default:var
 b=m(d),c=m(d);return[0,m(d),c,b]}}function
-hw(c,b,a){return bm(fM(c,a),b)}function
-oJ(b,a){if(b)return[0,[0,[0,a]],[0,[0,[0,a]]],[0,[0,[0,[0,a]]]]];var
+hA(c,b,a){return bo(fR(c,a),b)}function
+oS(b,a){if(b)return[0,[0,[0,a]],[0,[0,[0,a]]],[0,[0,[0,[0,a]]]]];var
 c=m(d);return[0,m(d),c,[0,[0,a]]]}function
-jT(a){var
-d=ab(a,a),e=B(m(b),d);return an(m(c(2,b)),e)}function
-oK(a,b){var
-c=bn(a,b),d=ah(B,c,bn(a,c));return ah(B,b,a7(jT(a),d))}function
-oL(h,g,f,e,d,c){var
-b=oK(c,hw(g,f,d)),a=ah(z,ah(B,dY(h),b),e);return[0,[0,b,a],aN(ab(a,a))]}function
-as(a){return typeof
-a==="number"?a?v2:v3:bF(a[1])}function
-jU(b,a,c){return typeof
-b==="number"?b?[0,a[1],[0,a[2],0]]:[0,a[1],[0,a[2],[0,a[3],0]]]:jL(b[1],a,c)}function
-eN(a){if(0===a[0]){var
+j5(a){var
+d=ab(a,a),e=B(m(b),d);return ai(m(c(2,b)),e)}function
+oT(a,b){var
+c=bp(a,b),d=af(B,c,bp(a,c));return af(B,b,a8(j5(a),d))}function
+oU(h,g,f,e,d,c){var
+b=oT(c,hA(g,f,d)),a=af(x,af(B,d1(h),b),e);return[0,[0,b,a],aL(ab(a,a))]}function
+an(a){return typeof
+a==="number"?a?wk:wl:bG(a[1])}function
+j6(b,a,c){return typeof
+b==="number"?b?[0,a[1],[0,a[2],0]]:[0,a[1],[0,a[2],[0,a[3],0]]]:jV(b[1],a,c)}function
+d2(a){if(0===a[0]){var
 c=a[1];switch(c[0]){case
 0:return c[3];case
 1:return c[2];default:return[0,[0,d,b],[0,d,b],[0,d,b]]}}return a[1][4]}function
-eO(b,c,a){return b?di(b[1],c,a):a}function
-bw(d,c,b,a){var
-e=eN(a),f=eO(d,c,eN(a)),g=M(function(b,a){return[2,b,a]},b,f);return M(function(b,a){return[3,b,a]},g,e)}function
-eP(d,c,b,a){if(0===a[0]){var
-f=bw(d,c,b,a);return[0,cQ(a[1],f)]}var
-e=a[1],g=og(e,bw(d,c,b,a));return[1,of(e,bw(d,c,b,a)),g]}function
-jV(b,a){var
+d3(b,c,a){return b?di(b[1],c,a):a}function
+bj(d,c,b,a){var
+e=d2(a),f=d3(d,c,d2(a)),g=M(function(b,a){return[2,b,a]},b,f);return M(function(b,a){return[3,b,a]},g,e)}function
+oV(h,g,d,c,f,a){if(0===a[0])var
+i=bj(d,c,f,a),e=b4(a[1],i);else
+var
+j=bj(d,c,f,a),e=jT(a[1],j);return j6(h,e,P([5,[0,b,b],g],cq(d3(d,c,d2(a)),e)))}function
+eR(d,c,b,a){if(0===a[0]){var
+f=bj(d,c,b,a);return[0,cS(a[1],f)]}var
+e=a[1],g=jR(e,bj(d,c,b,a));return[1,jQ(e,bj(d,c,b,a)),g]}function
+j7(b,a){var
 c=typeof
 b==="number"?1:0;if(c){if(b)return[0,a[1],[0,a[2],0]];var
 d=[0,a[1],[0,a[2],[0,a[3],0]]]}else
 var
 d=c;return d}function
-jW(e,d,c,a){if(0===a[0]){var
-f=bw(e,d,c,a),b=jC(a[1],f),g=b?[0,b[1],0]:b;return g}var
-h=bw(e,d,c,a);return[0,jI(a[1],h),0]}function
-oM(b,f,d){if(0===f[0])return 0===d[0]?nR(b,f[1],d[1]):0;if(0===d[0])return 0;var
-a=d[1],c=f[1],g=bt(b,c[1],a[1]),h=g?bt(b,c[2],a[2]):g,j=h?bt(b,c[3],a[3]):h,k=j?bt(b,c[4],a[4]):j,l=k?df(b,c[5],a[5]):k,m=l?df(b,c[6],a[6]):l,n=m?i(b,1,a[5]):m,o=n?i(b,1,a[6]):n,p=o?i(b,1,x(a[1],a[1])):o;if(p)var
-q=jH(a),e=i(b,1,x(jH(a),q));else
+j8(e,d,c,a){if(0===a[0]){var
+f=bj(e,d,c,a),b=jJ(a[1],f),g=b?[0,b[1],0]:b;return g}var
+h=bj(e,d,c,a);return[0,jP(a[1],h),0]}function
+oW(b,f,d){if(0===f[0])return 0===d[0]?n4(b,f[1],d[1]):0;if(0===d[0])return 0;var
+a=d[1],c=f[1],g=bv(b,c[1],a[1]),h=g?bv(b,c[2],a[2]):g,j=h?bv(b,c[3],a[3]):h,k=j?bv(b,c[4],a[4]):j,l=k?dg(b,c[5],a[5]):k,m=l?dg(b,c[6],a[6]):l,n=m?i(b,1,a[5]):m,o=n?i(b,1,a[6]):n,p=o?i(b,1,v(a[1],a[1])):o;if(p)var
+q=jO(a),e=i(b,1,v(jO(a),q));else
 var
-e=p;return e?cB(c[7],a[7]):e}function
-fO(g,f,e){var
+e=p;return e?cE(c[7],a[7]):e}function
+eS(g,f,e){var
 b=f,a=e;for(;;){if(b){if(a){var
-c=oM(g,b[1],a[1]);if(c){var
+c=oW(g,b[1],a[1]);if(c){var
 b=b[2],a=a[2];continue}var
 d=c}else
 var
 d=a;return d}return a?0:1}}function
-jX(c,b,g,a){var
-d=cO(c,b[4],g);if(d){var
-e=b[5];if(e)return fJ(c,e[1],a);if(a)return 0;var
+hB(c,b,g,a){var
+d=cR(c,b[4],g);if(d){var
+e=b[5];if(e)return fO(c,e[1],a);if(a)return 0;var
 f=1}else
 var
 f=d;return f}function
-hx(a){return typeof
-a==="number"?v4:2<=a[1]?v5:v6}function
-oN(v,m,l){if(l){var
+fT(a){return typeof
+a==="number"?wm:2<=a[1]?wn:wo}function
+oX(v,m,l){if(l){var
 a=l[1],e=function(c,a){return i(v,1,[3,[0,a,b],c])},g=function(a){return[3,a[2],a[1]]};switch(a[0]){case
 0:var
 n=c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),f=e(g(a[1]),n);break;case
@@ -4572,28 +4602,28 @@ f=h;break;case
 t=c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),f=e(a[1],t);break;default:var
 u=c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),f=e([2,a[1],a[2]],u)}return f?typeof
 m==="number"?0:m[1]?1:0===a[0]?1:0:f}return 1}function
-b2(e,j){var
+b6(e,j){var
 a=j[1];switch(a[0]){case
 1:var
 k=n(a[1],e)?b:d;return m(k);case
 3:var
-l=b2(e,a[2]);return B(b2(e,a[1]),l);case
+l=b6(e,a[2]);return B(b6(e,a[1]),l);case
 4:var
-o=b2(e,a[2]);return z(b2(e,a[1]),o);case
-5:return bs(b2(e,a[1]));case
+o=b6(e,a[2]);return x(b6(e,a[1]),o);case
+5:return bu(b6(e,a[1]));case
 6:var
-g=a[2],h=a[1],p=r(h,b2(e,g));return B(r(g,b2(e,h)),p);case
+g=a[2],h=a[1],p=r(h,b6(e,g));return B(r(g,b6(e,h)),p);case
 7:var
-f=b2(e,a[1]);return be(d,f)?f:an(f,a[2]);case
+f=b6(e,a[1]);return be(d,f)?f:ai(f,a[2]);case
 8:var
-i=a[1],q=b2(e,i);return r(r(m(c(2,b)),i),q);default:return m(d)}}function
-hy(c,b,k){var
+i=a[1],q=b6(e,i);return r(r(m(c(2,b)),i),q);default:return m(d)}}function
+hC(c,b,k){var
 e=k;for(;;){var
 a=e[1];switch(a[0]){case
 7:var
-g=hy(c,b,a[1]);if(g){var
+g=hC(c,b,a[1]);if(g){var
 h=a[2][1];if(1===h[0]){var
-i=h[1],j=K(d,s(i,c,u)[1]);return j?I(ak(function(a){return n(i,a)},b)):j}return 0}return g;case
+i=h[1],j=K(d,s(i,c,u)[1]);return j?I(al(function(a){return n(i,a)},b)):j}return 0}return g;case
 5:case
 8:var
 e=a[1];continue;case
@@ -4602,9 +4632,9 @@ e=a[1];continue;case
 3:case
 4:case
 6:var
-f=hy(c,b,a[1]);if(f){var
+f=hC(c,b,a[1]);if(f){var
 e=a[2];continue}return f;default:return 1}}}function
-oO(d){var
+oY(d){var
 b=d;for(;;){var
 a=b[1];switch(a[0]){case
 0:case
@@ -4615,72 +4645,72 @@ a=b[1];switch(a[0]){case
 8:case
 9:var
 b=a[1];continue;default:var
-c=oO(a[1]);if(c){var
+c=oY(a[1]);if(c){var
 b=a[2];continue}return c}}}function
-oP(c,b,a){var
+oZ(c,b,a){var
 d=e(b,a[2]);return[0,h(c,a[1]),d]}function
-jY(b,a,c){return e(function(c){var
-d=oP(b,a,c[2]),f=c[1];return[0,e(function(c){return oP(b,a,c)},f),d]},c)}function
-oQ(b,a){return y(function(a){var
+j9(b,a,c){return e(function(c){var
+d=oZ(b,a,c[2]),f=c[1];return[0,e(function(c){return oZ(b,a,c)},f),d]},c)}function
+o0(b,a){return z(function(a){var
 c=a[2],d=a[1][2];return[0,[0,h(b,a[1][1]),d],c]},a)}function
-v7(a,b){var
-c=oQ(a,b[3]),d=h(a,b[2]);return[0,jY(a,a,b[1]),d,c]}function
-oR(c){var
+wp(a,b){var
+c=o0(a,b[3]),d=h(a,b[2]);return[0,j9(a,a,b[1]),d,c]}function
+o1(c){var
 a=c[1];if(a){var
-b=ht(c[2]);if(b)var
+b=hw(c[2]);if(b)var
 g=e(aa,b[1]),d=[0,[0,aa(a[1]),g]];else
 var
 d=b;var
 f=d}else
 var
 f=a;return f}function
-v8(c){var
-a=ad(e(oR,c[1]));if(a)var
-b=oR(c[2]),f=b?[0,[0,a[1],b[1]]]:b,d=f;else
+wq(c){var
+a=ad(e(o1,c[1]));if(a)var
+b=o1(c[2]),f=b?[0,[0,a[1],b[1]]]:b,d=f;else
 var
 d=a;return d}function
-v9(a){return I(jd([0,a[2],a[1]]))}function
-jZ(a){return[0,a[1],a[2]]}function
-oS(b,c,a){var
-d=e(function(c){return bG(b,b2(c,a))},c);return[0,bG(b,a),d]}function
-j0(b,e,a,d){var
-c=w(function(a){var
-b=jZ(a[2]);return g(w(jZ,a[1]),b)},d),f=a?[0,bG(b,a[1]),0]:a,h=g(f,c);return[0,bG(b,e),h]}function
-oT(c,f,b,a){var
-d=hy(f,b,a),e=d?hr(c,a):d;return e?l(function(b){return hr(c,b2(b,a))},b):e}function
-oU(a){switch(a[0]){case
+wr(a){return I(jk([0,a[2],a[1]]))}function
+j_(a){return[0,a[1],a[2]]}function
+o2(b,c,a){var
+d=e(function(c){return bH(b,b6(c,a))},c);return[0,bH(b,a),d]}function
+j$(b,e,a,d){var
+c=y(function(a){var
+b=j_(a[2]);return g(y(j_,a[1]),b)},d),f=a?[0,bH(b,a[1]),0]:a,h=g(f,c);return[0,bH(b,e),h]}function
+o3(c,f,b,a){var
+d=hC(f,b,a),e=d?hu(c,a):d;return e?l(function(b){return hu(c,b6(b,a))},b):e}function
+o4(a){switch(a[0]){case
 3:var
-d=jR(a[2]);return[0,a[3],d];case
+d=j1(a[2]);return[0,a[3],d];case
 4:return[0,a[1],0];case
 8:var
-b=a[1],e=jR(b[1]);return[0,b[2],e];case
+b=a[1],e=j1(b[1]);return[0,b[2],e];case
 9:return 0;default:var
-c=jR(a[1]);return[0,a[2],c]}}function
-oV(a,as,bc,k,o,ar,aq,w,N,j,i){switch(j[0]){case
+c=j1(a[1]);return[0,a[2],c]}}function
+o5(a,as,bc,k,o,ar,aq,w,N,j,i){switch(j[0]){case
 0:var
-at=j[4],O=j[3],au=j[2],av=j[1],S=0;if(typeof
-i==="number")S=1;else
+at=j[4],O=j[3],au=j[2],av=j[1],R=0;if(typeof
+i==="number")R=1;else
 switch(i[0]){case
 0:var
-bd=i[2],be=i[1],u=au,r=av,q=function(b){return os(a,o,be,bd,O,b)},p=at;break;case
+bd=i[2],be=i[1],u=au,r=av,q=function(b){return oC(a,o,be,bd,O,b)},p=at;break;case
 2:var
 aw=L(O[1],d),ay=aw?L(O[2],d):aw;if(!ay)return ay;var
-bh=i[2],bi=i[1],u=au,r=av,q=function(b){return ot(a,o,bi,bh,b)},p=at;break;default:S=1}if(S)return 0;break;case
+bh=i[2],bi=i[1],u=au,r=av,q=function(b){return oD(a,o,bi,bh,b)},p=at;break;default:R=1}if(R)return 0;break;case
 1:var
 aJ=0;if(typeof
 i==="number"&&!i)var
-bj=j[2],bk=j[1],bl=j[3],u=bj,r=bk,bm=0,q=function(b){return ou(a,o,bl,b)},p=bm;else
+bj=j[2],bk=j[1],bl=j[3],u=bj,r=bk,bm=0,q=function(b){return oE(a,o,bl,b)},p=bm;else
 aJ=1;if(aJ)return 0;break;case
 2:if(typeof
 i!=="number"&&3===i[0]){var
 x=i[3];if(x){var
 az=x[2],aB=n(f(az),k);if(aB){var
-bn=[0,j[1],j[2],N],bo=eL(function(a){return s(a,w,wa)},bn),aC=i[1],bp=0,bq=x[1],br=i[2],bs=j[3],bt=function(w,i){var
-c=eK(i[1]);if(c){var
+bn=[0,j[1],j[2],N],bo=eP(function(a){return s(a,w,wu)},bn),aC=i[1],bp=0,bq=x[1],br=i[2],bs=j[3],bt=function(w,i){var
+c=eO(i[1]);if(c){var
 j=c[1],e=i[2];if(e){var
 f=dn(i[3]);if(f){var
-k=f[1],l=function(c){return aQ(c,aC,J(a,b))},u=l(w),v=e[1],g=A(t(a,l(bq),v),u),m=K(d,g[1]),n=m?aY(a,o,gS(aC,br,j,ac([0,E($(g),k),0],o))):m;if(n){var
-h=gT(a,j,ac([0,E(t(a,bs,g),k),0],o));if(h)return aY(a,o,h[1]);var
+k=f[1],l=function(c){return aR(c,aC,J(a,b))},u=l(w),v=e[1],g=A(t(a,l(bq),v),u),m=K(d,g[1]),n=m?a0(a,o,gY(aC,br,j,ac([0,C($(g),k),0],o))):m;if(n){var
+h=gZ(a,j,ac([0,C(t(a,bs,g),k),0],o));if(h)return a0(a,o,h[1]);var
 p=h}else
 var
 p=n;var
@@ -4692,20 +4722,20 @@ var
 r=e;var
 s=r}else
 var
-s=c;return s};return jP(function(b,a){return eL},bt,bp,az,d,bo)}var
-aE=aB}else
+s=c;return s};return jZ(function(b,a){return eP},bt,bp,az,d,bo)}var
+aD=aB}else
 var
-aE=x;return aE}return 0;case
+aD=x;return aD}return 0;case
 3:var
 aK=0;if(typeof
 i==="number"||!(0===i[0]))aK=1;else
 var
 aF=i[2],aG=i[1],bu=j[3],bv=j[2],bw=j[4],bx=j[1],by=function(g){var
-b=eK(g[1]);if(b){var
+b=eO(g[1]);if(b){var
 c=b[1],d=g[2];if(d){var
 e=dn(g[3]);if(e){var
 h=n(f(c),o),i=h?n(f(aF),o):h;if(i){var
-m=dP(aG,dQ(aG,aF,d[1],c));return aY(a,o,a_(gX(a,bx,bw,e[1],c),m))}var
+m=dP(aG,dQ(aG,aF,d[1],c));return a0(a,o,a$(g3(a,bx,bw,e[1],c),m))}var
 j=i}else
 var
 j=e;var
@@ -4718,75 +4748,75 @@ l=b;return l},u=bu,r=bv,q=by,p=j[5];if(aK)return 0;break;case
 4:var
 aL=0;if(typeof
 i==="number"&&!i)var
-u=j[1],r=0,q=vq,p=0;else
+u=j[1],r=0,q=vK,p=0;else
 aL=1;if(aL)return 0;break;case
 5:var
 aM=0;if(typeof
 i==="number"||!(0===i[0]))aM=1;else{var
-z=i[2],aN=0;if(z){var
-B=z[1];if(B){if(B[2])return 0;if(z[2])return 0;var
-bz=j[2],bA=j[1],bC=J(a,b),bD=[0,[0,B[1],0],0],bE=i[1],u=bz,r=bA,bF=0,q=function(b){return os(a,wb,bE,bD,bC,b)},p=bF;aN=1}else
+y=i[2],aN=0;if(y){var
+B=y[1];if(B){if(B[2])return 0;if(y[2])return 0;var
+bz=j[2],bA=j[1],bB=J(a,b),bD=[0,[0,B[1],0],0],bE=i[1],u=bz,r=bA,bF=0,q=function(b){return oC(a,wv,bE,bD,bB,b)},p=bF;aN=1}else
 var
 aH=B}else
 var
-aH=z;if(!aN)return aH}if(aM)return 0;break;case
+aH=y;if(!aN)return aH}if(aM)return 0;break;case
 6:var
 aO=0;if(typeof
 i==="number"&&!i)var
-bG=j[2],bH=j[1],bI=J(a,b),u=bG,r=bH,bJ=0,q=function(b){return ou(a,wc,bI,b)},p=bJ;else
+bG=j[2],bH=j[1],bI=J(a,b),u=bG,r=bH,bJ=0,q=function(b){return oE(a,ww,bI,b)},p=bJ;else
 aO=1;if(aO)return 0;break;case
 7:var
 aP=0;if(typeof
 i==="number"&&5<=i)var
-bK=j[2],bL=j[1],bM=j[4],bN=j[3],u=bK,r=bL,bO=0,q=function(b){return ot(a,o,bN,bM,b)},p=bO;else
+bK=j[2],bL=j[1],bM=j[4],bN=j[3],u=bK,r=bL,bO=0,q=function(b){return oD(a,o,bN,bM,b)},p=bO;else
 aP=1;if(aP)return 0;break;case
 8:if(typeof
 i!=="number"&&9===i[0]){var
-P=i[4],aI=i[2],Q=i[1],m=j[1],v=m[9],bP=i[3],aS=m[5],aT=cG(g(c2(m[4]),aS),as),aU=e(aa,bc),T=cf(0,bB(a,ne(m[9],k,ar,m[7],m[8]),aU),aT,as),U=ma(P,d);if(U)var
-C=U;else
+P=i[4],aI=i[2],Q=i[1],m=j[1],v=m[9],bP=i[3],aQ=m[5],aT=cK(g(cH(m[4]),aQ),as),aU=e(aa,bc),T=cj(0,bC(a,nq(m[9],k,ar,m[7],m[8]),aU),aT,as),U=mn(P,d);if(U)var
+D=U;else
 var
-ao=mb(P,c(2,c(2,c(2,c(2,b))))),ap=ao?aD(0,v):ao,C=ap?aD(v,k):ap;var
-W=C?ae(v,k):C,X=W?n(f(ar),k):W,Y=X?n(f(aI),k):X,Z=Y?n(f(m[1]),k):Y,_=Z?n(f(m[6]),k):Z,ab=_?n(f(m[4]),k):_;if(ab)var
-aV=m[4],D=l(function(a){return n(f(a),k)},aV);else
+ao=mo(P,c(2,c(2,c(2,c(2,b))))),ap=ao?aE(0,v):ao,D=ap?aE(v,k):ap;var
+W=D?ae(v,k):D,X=W?n(f(ar),k):W,Y=X?n(f(aI),k):X,Z=Y?n(f(m[1]),k):Y,_=Z?n(f(m[6]),k):Z,ab=_?n(f(m[4]),k):_;if(ab)var
+aV=m[4],E=l(function(a){return n(f(a),k)},aV);else
 var
-D=ab;if(D){var
-aW=m[4],F=ad(e(function(a){return oI(T,a)},aW));if(F){var
-af=oI(T,m[5]);if(af){var
+E=ab;if(E){var
+aW=m[4],F=ad(e(function(a){return oR(T,a)},aW));if(F){var
+af=oR(T,m[5]);if(af){var
 aX=m[6],G=ad(e(function(j){var
 c=j[1],k=m[7],d=s(c[1],aq,0);if(d){var
 h=c[2][2],b=ad(e(function(a){var
-b=s(a[2],aq,0);return y(function(a){return a[2]},b)},h));if(b)var
-i=b[1],f=[0,cF(ax(t(a,k,R(a,oG(a,e(aA,c[2][2]),i)))))];else
+b=s(a[2],aq,0);return z(function(a){return a[2]},b)},h));if(b)var
+i=b[1],f=[0,cJ(ax(t(a,k,S(a,oP(a,e(aA,c[2][2]),i)))))];else
 var
 f=b;var
 g=f}else
 var
 g=d;return g},aX));if(G){var
-aZ=m[1],a0=m[2],H=ad(e(function(m){function
+aY=m[1],aZ=m[2],H=ad(e(function(m){function
 f(e){var
-g=ac(e,k),c=or(s(m[2],w,vV),g);if(c){var
-h=ac(e,k),d=or(s(a0,w,vW),h);if(d){var
-i=d[1],j=J(a,b);return cc(a,cd(es(c[1],j,i)))}var
+g=ac(e,k),c=oB(s(m[2],w,wd),g);if(c){var
+h=ac(e,k),d=oB(s(aZ,w,we),h);if(d){var
+i=d[1],j=J(a,b);return cg(a,ch(ex(c[1],j,i)))}var
 f=d}else
 var
 f=c;return f}var
 c=f(0);if(c){var
 e=f(2);if(e)var
-g=cd(ax(A(c[1],e[1]))),h=K(d,g[1]),l=h?[0,g]:h,i=l;else
+g=ch(ax(A(c[1],e[1]))),h=K(d,g[1]),l=h?[0,g]:h,i=l;else
 var
 i=e;var
 j=i}else
 var
-j=c;return j},aZ));if(H){var
-ag=m_(a,k,v,F[1]),I=aQ(bP,Q,J(a,b)),ah=K(d,E(I,ag)[1]);if(ah){var
-M=bX(a,I);if(M){var
-a1=ax(t(a,ag,M[1])),a2=E(J(a,b),a1),a3=[0,m[1],m[2],N],a4=eL(function(a){return s(a,w,vX)},a3),a5=m[6],a6=e(vU,V(V(G[1],H[1]),a5)),a7=R(a,a2),a8=R(a,I),a9=m$(k,v,m[10],P),ba=function(m){var
-b=oF(m[1]);if(b){var
+j=c;return j},aY));if(H){var
+ag=nk(a,k,v,F[1]),I=aR(bP,Q,J(a,b)),ah=K(d,C(I,ag)[1]);if(ah){var
+M=b0(a,I);if(M){var
+a1=ax(t(a,ag,M[1])),a2=C(J(a,b),a1),a3=[0,m[1],m[2],N],a4=eP(function(a){return s(a,w,wf)},a3),a5=m[6],a6=e(wc,V(V(G[1],H[1]),a5)),a7=S(a,a2),a8=S(a,I),a9=nl(k,v,m[10],P),a_=function(m){var
+b=oO(m[1]);if(b){var
 o=b[1],c=m[2];if(c){var
 d=c[1],h=dn(m[3]);if(h){var
-p=h[1],q=oH(a,k,a6,d,o),i=e(function(a){var
-b=a[2];return[0,na(a9,a[1]),b]},o),z=dP(Q,dQ(Q,aI,d,i)),j=a_(ac([0,$(p),0],k),z),A=E(t(a,d,a7),p),r=n(f(i),k),s=r?n(f(q),k):r,u=s?nc(k,j):s,v=u?aY(a,k,a_(e(function(b){return[0,$(t(a,a8,b[2])),0]},i),j)):u;if(v){var
-B=a$(aR(k));return l(function(b){return aY(a,[0,k],nb(j,nd(g(b,vT),q),A))},B)}var
+p=h[1],q=oQ(a,k,a6,d,o),i=e(function(a){var
+b=a[2];return[0,nm(a9,a[1]),b]},o),z=dP(Q,dQ(Q,aI,d,i)),j=a$(ac([0,$(p),0],k),z),A=C(t(a,d,a7),p),r=n(f(i),k),s=r?n(f(q),k):r,u=s?no(k,j):s,v=u?a0(a,k,a$(e(function(b){return[0,$(t(a,a8,b[2])),0]},i),j)):u;if(v){var
+B=ba(aS(k));return l(function(b){return a0(a,[0,k],nn(j,np(g(b,wb),q),A))},B)}var
 w=v}else
 var
 w=h;var
@@ -4795,7 +4825,7 @@ var
 x=c;var
 y=x}else
 var
-y=b;return y},bb=m[3];return h(jQ(function(b,a){return eL},bb,k,ba),a4)}var
+y=b;return y},bb=m[3];return h(j0(function(b,a){return eP},bb,k,a_),a4)}var
 ai=M}else
 var
 ai=ah;var
@@ -4813,72 +4843,72 @@ var
 am=F;var
 an=am}else
 var
-an=D;return an}return 0;default:return 0}var
-bf=[0,r,u,N],bg=eL(function(a){return s(a,w,v$)},bf);return h(jQ(function(b,a){return eL},p,k,q),bg)}function
-wd(b,a){var
-c=iU(iP,b[1],a[1]);return c?iP(b[2],a[2]):c}function
-oW(c,b){var
-a=iU(wd,c,b),d=a?1:a;return d}function
-oX(j,s,r,i,q,k,p,o,m,h,l,g,a,e){if(typeof
-e==="number"){if(0===e)return 9===a[0]?eB(j,0,0,0,g,i,0,a[1],e):0}else
+an=E;return an}return 0;default:return 0}var
+bf=[0,r,u,N],bg=eP(function(a){return s(a,w,wt)},bf);return h(j0(function(b,a){return eP},p,k,q),bg)}function
+wx(b,a){var
+c=i0(iV,b[1],a[1]);return c?iV(b[2],a[2]):c}function
+o6(c,b){var
+a=i0(wx,c,b),d=a?1:a;return d}function
+o7(j,s,r,i,q,k,p,o,m,h,l,g,a,e){if(typeof
+e==="number"){if(0===e)return 9===a[0]?eG(j,0,0,0,g,i,0,a[1],e):0}else
 switch(e[0]){case
 6:var
 f=e[1];if(typeof
 f!=="number"&&7===f[0]){if(k){var
-t=f[3],u=f[2],v=D(d,u),w=v?gG(t,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):v;if(w)return oV(j,s,r,i,q,h,g,l,[0,[0,[0,k[1],u],t]],a,f[1]);var
+t=f[3],u=f[2],v=F(d,u),w=v?gM(t,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):v;if(w)return o5(j,s,r,i,q,h,g,l,[0,[0,[0,k[1],u],t]],a,f[1]);var
 x=w}else
 var
-x=k;return x}return oV(j,s,r,i,q,h,g,l,0,a,f);case
-8:return 9===a[0]?eB(j,0,0,0,g,i,0,a[1],e):0;case
+x=k;return x}return o5(j,s,r,i,q,h,g,l,0,a,f);case
+8:return 9===a[0]?eG(j,0,0,0,g,i,0,a[1],e):0;case
 10:if(0===a[0]){var
-y=oW(a[1],p),z=y?n(a[2],o):y;return z?ic(m,h,a[3],a[4],e):z}return 0;case
+y=o6(a[1],p),z=y?n(a[2],o):y;return z?ij(m,h,a[3],a[4],e):z}return 0;case
 12:if(0===a[0]){var
-A=oW(a[1],p),B=A?n(a[2],o):A;return B?ic(m,h,a[3],a[4],e):B}return 0}return 0}function
-oY(b){var
+A=o6(a[1],p),B=A?n(a[2],o):A;return B?ij(m,h,a[3],a[4],e):B}return 0}return 0}function
+o8(b){var
 a=b[2];if(typeof
 a!=="number"&&6===a[0])return 1;return 0}function
-we(c){var
+wy(c){var
 b=0,a=c[2];if(typeof
 a==="number"){if(0!==a)b=1}else
 switch(a[0]){case
 6:case
 8:break;default:b=1}return b?0:1}function
-wf(a){switch(a[0]){case
+wz(a){switch(a[0]){case
 8:return 0;case
-9:return jr(a[1]);default:return 1}}function
-fP(a,o,m,j,z,x,b,v,r,C,i,k,ap,c){switch(c[0]){case
+9:return jy(a[1]);default:return 1}}function
+fU(a,o,m,j,x,w,b,v,r,D,i,k,ap,c){switch(c[0]){case
 0:var
 aq=function(a){return l(I,a)},P=aq,p=c[1];break;case
 1:var
 ar=c[4],as=c[3],at=c[2],au=function(c){var
-d=c$(at,k),e=fP(a,o,m,j,z,x,b,v,r,C,i,d[1],c,as);return e?fP(a,o,m,j,z,x,b,v,r,C,i,d[2],c,ar):e},P=au,p=c[1];break;default:var
+d=da(at,k),e=fU(a,o,m,j,x,w,b,v,r,D,i,d[1],c,as);return e?fU(a,o,m,j,x,w,b,v,r,D,i,d[2],c,ar):e},P=au,p=c[1];break;default:var
 av=c[4],aw=c[3],ax=c[2],ay=function(c){var
-d=nA(wf,j,c);if(d){var
-e=c$(ax,i),f=fP(a,o,m,j,z,x,b,v,r,C,e[1],k,c,aw);if(f)return fP(a,o,m,j,z,x,b,v,r,C,e[2],k,c,av);var
+d=nN(wz,j,c);if(d){var
+e=da(ax,i),f=fU(a,o,m,j,x,w,b,v,r,D,e[1],k,c,aw);if(f)return fU(a,o,m,j,x,w,b,v,r,D,e[2],k,c,av);var
 g=f}else
 var
 g=d;return g},P=ay,p=c[1]}var
-ae=h(C,i),ab=ak(we,p),ac=ab?jl(a,m,i,cG(w(function(c){var
-a=G(j,c[1]);if(a){var
+ae=h(D,i),ab=al(wy,p),ac=ab?js(a,m,i,cK(y(function(c){var
+a=E(j,c[1]);if(a){var
 b=a[1];switch(b[0]){case
 8:var
-d=b[1][6];return w(function(a){var
-b=e(aG,a[1][2][2]);return[0,a[1][1],b]},d);case
-9:return fw(0,0,0,b[1],c[2]);default:return 0}}return a},p),m),k):ab,ad=ak(oY,p);if(ad)var
-an=w(function(b){var
-c=oY(b);if(c){var
-a=G(j,b[1]);if(a)return oU(a[1]);var
+d=b[1][6];return y(function(a){var
+b=e(aH,a[1][2][2]);return[0,a[1][1],b]},d);case
+9:return fA(0,0,0,b[1],c[2]);default:return 0}}return a},p),m),k):ab,ad=al(o8,p);if(ad)var
+an=y(function(b){var
+c=o8(b);if(c){var
+a=E(j,b[1]);if(a)return o4(a[1]);var
 d=a}else
 var
-d=c;return d},p),ao=b?[0,b[1],0]:b,ah=mv(g(ao,an),o),O=jO(a,i,ep(hs(ep(o,0),ah),0),k);else
+d=c;return d},p),ao=b?[0,b[1],0]:b,ah=mI(g(ao,an),o),O=jY(a,i,eu(hv(eu(o,0),ah),0),k);else
 var
 O=ad;var
 q=p,f=ap;for(;;){if(q){var
-T=q[1],D=T[2],n=T[1],H=q[2];if(n){var
+T=q[1],F=T[2],n=T[1],H=q[2];if(n){var
 U=s(n,f,0);if(U){var
-L=G(j,n);if(L){var
-V=oX(a,m,i,z,x,b,v,r,ae,k,O,ac,L[1],D);if(V){var
-q=H,f=g$(n,f);continue}var
+L=E(j,n);if(L){var
+V=o7(a,m,i,x,w,b,v,r,ae,k,O,ac,L[1],F);if(V){var
+q=H,f=he(n,f);continue}var
 W=V}else
 var
 W=L;var
@@ -4887,40 +4917,40 @@ var
 X=U;var
 B=X}else{var
 af=0;if(typeof
-D==="number"&&4===D){var
+F==="number"&&4===F){var
 ag=0;if(b){var
-am=0,Q=e(function(b){return[0,b,R(a,b)]},k),ai=e(aG,Q),aj=g(e(aA,Q),ai),al=c4(0,function(o){return function(b){switch(b[0]){case
+am=0,Q=e(function(b){return[0,b,S(a,b)]},k),ai=e(aH,Q),aj=g(e(aA,Q),ai),ak=c5(0,function(o){return function(b){switch(b[0]){case
 0:return[0,s(b[1],o,u)];case
 1:return[0,s(b[1],i,u)];case
 2:return[0,J(a,b[1])];case
 3:var
 c=b[2],d=b[1];return dm(function(b,a){return[0,A(b,a)]},d,c);case
 4:var
-e=b[2],f=b[1];return dm(function(b,a){return[0,E(b,a)]},f,e);case
+e=b[2],f=b[1];return dm(function(b,a){return[0,C(b,a)]},f,e);case
 5:var
 g=b[1];return dl(function(a){return[0,$(a)]},g);case
 6:var
 h=b[2],j=b[1];return dm(function(c,b){return[0,t(a,c,b)]},j,h);case
 7:var
 k=b[2],l=b[1];return dm(function(c,b){var
-d=bX(a,b);return y(function(b){return t(a,c,b)},d)},l,k);case
+d=b0(a,b);return z(function(b){return t(a,c,b)},d)},l,k);case
 8:var
-m=b[1];return dl(function(b){return[0,R(a,b)]},m);case
+m=b[1];return dl(function(b){return[0,S(a,b)]},m);case
 9:var
-n=b[1];return dl(function(b){return cc(a,b)},n);default:return 0}}}(aj),o),F=s(b[1],al,am);if(F){var
-M=K(F[1][2],d);ag=1}else
+n=b[1];return dl(function(b){return cg(a,b)},n);default:return 0}}}(aj),o),G=s(b[1],ak,am);if(G){var
+M=K(G[1][2],d);ag=1}else
 var
-S=F}else
+R=G}else
 var
-S=b;if(!ag)var
-M=S;if(M){var
+R=b;if(!ag)var
+M=R;if(M){var
 q=H,f=e(function(a){return 0},f);continue}var
 B=M}else
 af=1;if(af){var
 Y=s(n,f,0);if(Y){var
-N=G(j,n);if(N){var
-Z=oX(a,m,i,z,x,b,v,r,ae,k,O,ac,N[1],D);if(Z){var
-q=H,f=g$(n,f);continue}var
+N=E(j,n);if(N){var
+Z=o7(a,m,i,x,w,b,v,r,ae,k,O,ac,N[1],F);if(Z){var
+q=H,f=he(n,f);continue}var
 _=Z}else
 var
 _=N;var
@@ -4930,220 +4960,203 @@ aa=Y;var
 B=aa}}}else
 var
 B=[0,f];return B?P(B[1]):B}}function
-j1(d,a){var
-e=X(a),f=r(r(m(c(2,b)),a),d);return B(z(X(d),f),e)}function
-j2(k,a,d,j,c,i){var
-e=ah(z,dY(k),j);if(i){var
+ka(d,a){var
+e=W(a),f=r(r(m(c(2,b)),a),d);return B(x(W(d),f),e)}function
+kb(k,a,d,j,c,i){var
+e=af(x,d1(k),j);if(i){var
 b=function(b){var
-c=h(b,a[3]),d=h(b,a[2]);return[0,h(b,a[1]),d,c]},f=b(function(a){return a[3]}),g=b(function(a){return a[2]}),l=fM([0,b(function(a){return a[1]}),g,f],e);return ah(B,a7(d,c),l)}var
-m=fM(a,c);return ah(B,a7(d,e),m)}function
-oZ(f,h,g,k,a,d){var
-e=dY(f),i=ah(z,e,a),j=fM(h,d),l=j1(e[3],a[3]),n=j1(e[2],a[2]),o=j1(e[1],a[1]),p=B(B(B(ab(d,d),o),n),l),q=ab(j,i),s=r(m(c(2,b)),q),t=B(r(g,p),s),u=bm(bn(j,i),k);return[0,fN(f,j2(f,h,g,a,d,0),u),t]}function
-o0(d,c,b,a){var
-e=hw(c,b,a);return ah(B,dY(d),e)}function
-o1(g,f,e,d,c){var
-b=o0(g,f,e,c),a=ah(z,b,d);return[0,[0,b,a],aN(ab(a,a))]}function
-hz(b,a){var
+c=h(b,a[3]),d=h(b,a[2]);return[0,h(b,a[1]),d,c]},f=b(function(a){return a[3]}),g=b(function(a){return a[2]}),l=fR([0,b(function(a){return a[1]}),g,f],e);return af(B,a8(d,c),l)}var
+m=fR(a,c);return af(B,a8(d,e),m)}function
+o9(f,h,g,k,a,d){var
+e=d1(f),i=af(x,e,a),j=fR(h,d),l=ka(e[3],a[3]),n=ka(e[2],a[2]),o=ka(e[1],a[1]),p=B(B(B(ab(d,d),o),n),l),q=ab(j,i),s=r(m(c(2,b)),q),t=B(r(g,p),s),u=bo(bp(j,i),k);return[0,fS(f,kb(f,h,g,a,d,0),u),t]}function
+o_(d,c,b,a){var
+e=hA(c,b,a);return af(B,d1(d),e)}function
+o$(g,f,e,d,c){var
+b=o_(g,f,e,c),a=af(x,b,d);return[0,[0,b,a],aL(ab(a,a))]}function
+hD(b,a){var
 c=bg(a[2],b);return g(bg(a[1],b),c)}function
-j3(d,b,a,c){if(a)var
-e=a[1],g=cN(c,hz(b,e)),i=N(c,f(hz(b,e))),j=j3(d,b,a[2],i),k=al(g,wg),h=[0,ar(d,al(g,0),k),j];else
+kc(d,b,a,c){if(a)var
+e=a[1],g=co(c,hD(b,e)),i=N(c,f(hD(b,e))),j=kc(d,b,a[2],i),k=am(g,wA),h=[0,as(d,am(g,0),k),j];else
 var
 h=a;return h}function
-j4(f,o,e,n,a){var
-g=r(X(s(0,n,m(d))),o);if(typeof
+kd(f,o,e,n,a){var
+g=r(W(s(0,n,m(d))),o);if(typeof
 a!=="number")switch(a[0]){case
 2:var
-b=G(e,a[1]);if(b)var
-h=i(f,0,a[2]),j=h?[0,z(b[1][1][2],g)]:h;else
+b=E(e,a[1]);if(b)var
+h=i(f,0,a[2]),j=h?[0,x(b[1][1][2],g)]:h;else
 var
 j=b;return j;case
 3:var
-c=G(e,a[1]);if(c)var
-k=i(f,0,a[2]),l=k?[0,z(g,c[1][1][2])]:k;else
+c=E(e,a[1]);if(c)var
+k=i(f,0,a[2]),l=k?[0,x(g,c[1][1][2])]:k;else
 var
 l=c;return l}return 0}function
-o2(c,b,a){if(typeof
+pa(c,b,a){if(typeof
 a!=="number"&&6===a[0]){var
-e=G(c,a[1]);return y(function(a){var
+e=E(c,a[1]);return z(function(a){var
 c=s(0,b,m(d)),e=h(a[2][2],c);return[0,a[2][1],e]},e)}return 0}function
-hA(a){return i(j,0,[3,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b],a])}function
-o3(a){var
-b=al(a,wh),c=aN(ab(al(a,wi),b));return r(s(0,a,m(d)),c)}function
-o4(b,a){var
-c=ab(a,al(b,wj));return[0,bZ(a7(o3(b),a)),c]}function
-o5(e,d,a,c,b){var
-f=b[2],g=r(o3(a),f),h=c?hw(e,d,al(a,wk)):al(a,wl);return z(ab(b[1][2],h),g)}function
-o6(h,g,f,d,c,b,a){var
-i=bI(c);function
-j(a){return o0(h,g,f,a)}return nG(e(function(a){return[0,a[4]]},d),j,i,b,a)}function
-dZ(a){var
-b=s(wm,a,m(d));return an(s(0,a,m(d)),b)}function
-j5(a){return a[4][2]}function
-o7(f,o,n,l,a){var
-p=a[1][2],q=e(aG,fA(n,a[1][2])),h=dZ(l),i=r(r(m(c(2,b)),o),h),d=a[1][1],j=aw(bM(f),d),k=e(function(a){return r(a,i)},j);return[0,g(g(am(bM(f),d),k),q),p]}function
-o8(a){var
-b=a[3],c=a[2],d=a[1];return hm([0,[0,d,d],[0,c,c],[0,b,b]])}function
-wv(a){if(typeof
+hE(a){return i(j,0,[3,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b],a])}function
+pb(a){var
+b=am(a,wB),c=aL(ab(am(a,wC),b));return r(s(0,a,m(d)),c)}function
+pc(b,a){var
+c=ab(a,am(b,wD));return[0,bL(a8(pb(b),a)),c]}function
+pd(e,d,a,c,b){var
+f=b[2],g=r(pb(a),f),h=c?hA(e,d,am(a,wE)):am(a,wF);return x(ab(b[1][2],h),g)}function
+pe(h,g,f,d,c,b,a){var
+i=bz(c);function
+j(a){return o_(h,g,f,a)}return nT(e(function(a){return[0,a[4]]},d),j,i,b,a)}function
+d4(a){var
+b=s(wG,a,m(d));return ai(s(0,a,m(d)),b)}function
+ke(a){return a[4][2]}function
+pf(f,o,n,l,a){var
+p=a[1][2],q=e(aH,fE(n,a[1][2])),h=d4(l),i=r(r(m(c(2,b)),o),h),d=a[1][1],j=aw(bQ(f),d),k=e(function(a){return r(a,i)},j);return[0,g(g(ao(bQ(f),d),k),q),p]}function
+pg(a){var
+b=a[3],c=a[2],d=a[1];return hp([0,[0,d,d],[0,c,c],[0,b,b]])}function
+wP(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-o9(b,a){switch(b){case
+ph(b,a){switch(b){case
 0:return[0,a[1],[0,a[2],0]];case
 1:return[0,a[1],[0,a[2],[0,a[3],0]]];default:return 0}}function
-hB(a){var
-c=ch(a[1],[0,d,b]);return c?ch(a[2],[0,d,b]):c}function
-j6(d,a){switch(d){case
-0:return hB(a[3]);case
+hF(a){var
+c=cl(a[1],[0,d,b]);return c?cl(a[2],[0,d,b]):c}function
+kf(d,a){switch(d){case
+0:return hF(a[3]);case
 1:return 1;default:var
-b=hB(a[1]),c=b?hB(a[2]):b;return c?hB(a[3]):c}}function
-j7(c,b){var
-a=w(function(a){return hz(c,a)},b),d=V(aH(0,f(a)),a);return e(aA,a5(function(a){return jz(a[2])},d))}function
-o_(b){var
+b=hF(a[1]),c=b?hF(a[2]):b;return c?hF(a[3]):c}}function
+kg(c,b){var
+a=y(function(a){return hD(c,a)},b),d=V(aI(0,f(a)),a);return e(aA,a6(function(a){return jG(a[2])},d))}function
+pi(b){var
 a=b[2];if(typeof
 a!=="number")switch(a[0]){case
 10:case
 12:return 1}return 0}function
-o$(c){var
-a=c;for(;;){if(0===a[0])return ak(o_,a[1]);var
-d=ak(o_,a[1]),b=d||o$(a[3]);if(b)return b;var
+pj(c){var
+a=c;for(;;){if(0===a[0])return al(pi,a[1]);var
+d=al(pi,a[1]),b=d||pj(a[3]);if(b)return b;var
 a=a[4];continue}}function
-ww(a,aS,bB,C,E,aR){var
-o=C[1],k=bF(o),Z=C[6],bC=C[2],O=w(function(a){return hz(E,a)},bC),aT=C[3],T=[0,[0,aT,aT],E],ae=[0,f(O)],bE=0,aU=w(function(a){return fK(bE,E,a)},Z),bH=bM(o),aV=ox(C[5],bH),p=aV[2],H=aV[1],M=ck(T,f(O)),bJ=C[2],U=f(O),bI=0,x=j3(function(e,a){function
-i(d){var
-b=oJ(o,bF(o)),m=oL(o,H,p,e,a,b)[2],f=oL(o,H,p,e,a,b),g=f[1],h=bm(g[2],f[2]),i=bn(g[1],h),j=ah(B,i,bn(i,b)),c=a7(jT(b),j),k=r(c[3],d),l=r(c[2],d);return[0,fN(o,h,[0,r(c[1],d),l,k]),m]}function
-j(W){var
-v=o1(o,H,p,e,a),w=v[1],T=ah(z,dY(o),e),x=v[2],s=w[1],V=w[2],g=hw(H,p,a),i=bm(V,x),N=an(ab(g,i),M),O=X(M),P=an(ab(a,a),O),Q=2<=o?d:b,R=B(m(Q),P);function
-h(a){return[0,oD(a),0]}function
-f(a){return[0,bm(bn(oD(a),g),M),[0,a]]}switch(o){case
-0:var
-C=[0,f(vI),0],D=[0,h(vJ),C],q=[0,h(0),D];break;case
-1:var
-E=[0,f(vK),0],F=[0,f(vL),E],G=[0,f(0),F],I=[0,h(vM),G],J=[0,h(vN),I],q=[0,h(0),J];break;default:var
-K=[0,f(vO),0],L=[0,f(vP),K],q=[0,f(0),L]}var
-j=ah(z,[0,[0,[1,U]],[0,[1,[0,U]]],[0,[1,[0,[0,U]]]]],e),k=bm(j,aN(ab(j,j)));if(o)var
-l=jS(o,U,e,s,k[3]);else
+wQ(a,aS,bB,C,D,aQ){var
+o=C[1],k=bG(o),Z=C[6],bC=C[2],O=y(function(a){return hD(D,a)},bC),aT=C[3],T=[0,[0,aT,aT],D],ae=[0,f(O)],bD=0,aU=y(function(a){return fP(bD,D,a)},Z),bF=bQ(o),aV=oH(C[5],bF),p=aV[2],H=aV[1],M=bM(T,f(O)),bJ=C[2],U=f(O),bI=0,w=kc(function(c,a){function
+h(e){var
+b=oS(o,bG(o)),m=oU(o,H,p,c,a,b)[2],f=oU(o,H,p,c,a,b),g=f[1],h=bo(g[2],f[2]),i=bp(g[1],h),j=af(B,i,bp(i,b)),d=a8(j5(b),j),k=r(d[3],e),l=r(d[2],e);return[0,fS(o,h,[0,r(d[1],e),l,k]),m]}function
+i(F){var
+k=o$(o,H,p,c,a),l=k[1],D=af(x,d1(o),c),n=k[2],i=l[1],E=l[2],e=hA(H,p,a),h=bo(E,n),u=ai(ab(e,h),M),v=W(M),w=ai(ab(a,a),v),y=2<=o?d:b,z=B(m(y),w),A=oM(o,e,M),f=af(x,[0,[0,[1,U]],[0,[1,[0,U]]],[0,[1,[0,[0,U]]]]],c),g=bo(f,aL(ab(f,f)));if(o)var
+j=hz(o,U,c,i,g[3]);else
 var
-y=m(d),A=m(d),l=[0,m(d),A,y];var
-t=jS(o,U,e,s,k[2]),u=jS(o,U,e,s,k[1]),S=oE(function(s,v){var
-e=v[1];function
-a(b,a){var
-c=e[3],f=dX(a,l),g=r(B(b[3],f),c),h=e[2],i=dX(a,t),j=r(B(b[2],i),h),k=e[1],n=dX(a,u),o=r(B(b[1],n),k);return B(B(B(m(d),o),j),g)}var
-w=a(l,vQ),x=a(t,vR),y=[0,a(u,0),x,w],f=ab(s[1],y),k=s[2];if(k){var
-h=k[1],o=v[2];if(o){var
-j=o[1],A=dX(h,g),C=r(dX(j,i),A),D=dX(j,g),p=B(r(dX(h,i),D),C),E=X(M);if(n(h,j))var
-F=ab(i,g),q=z(p,r(m(c(2,b)),F));else
-var
-q=p;return B(f,an(q,E))}return f}return f},q);return[0,fN(o,i,bm(bn(g,bm(T,x)),M)),S,R,N]}var
-k=o1(o,H,p,e,a);function
-l(b){return j2(o,H,p,e,a,b)}var
-f=2<=o?d:b;function
-g(b){var
-c=X(M),d=m(f),e=r(z(X(b),d),c);return r(p,z(ab(a,a),e))}var
-h=[0,ab(j2(o,H,p,e,a,1),a),g];return[0,oZ(o,H,p,M,e,a),h,l,k,j,i]},E,bJ,bI),W=e(function(a){return a[1]},x),bK=N(ae,f(aU)),bL=bM(o),bN=C[5];function
-S(a){return[0,[0,N(bL,a)]]}var
-aJ=X([0,[1,bK]]);switch(bN[0]){case
+s=m(d),t=m(d),j=[0,m(d),t,s];var
+q=hz(o,U,c,i,g[2]),r=[0,hz(o,U,c,i,g[1]),q,j],C=j4(function(a,b){return oN(r,h,e,M,a,b)},A);return[0,fS(o,h,bo(bp(e,bo(D,n)),M)),C,z,u]}var
+j=o$(o,H,p,c,a);function
+k(b){return kb(o,H,p,c,a,b)}var
+e=2<=o?d:b;function
+f(b){var
+c=W(M),d=m(e),f=r(x(W(b),d),c);return r(p,x(ab(a,a),f))}var
+g=[0,ab(kb(o,H,p,c,a,1),a),f];return[0,o9(o,H,p,M,c,a),g,k,j,i,h]},D,bJ,bI),X=e(function(a){return a[1]},w),bK=N(ae,f(aU)),bN=bQ(o),bO=C[5];function
+R(a){return[0,[0,N(bN,a)]]}var
+aJ=W([0,[1,bK]]);switch(bO[0]){case
 2:var
-bs=S(vA),bt=S(vB),aK=[0,S(0),bt,bs],F=[0,z(aJ,ab(aK,aK))];break;case
+bs=R(vU),bt=R(vV),aK=[0,R(0),bt,bs],G=[0,x(aJ,ab(aK,aK))];break;case
 3:var
-bu=X(S(vC)),bv=X(S(0)),bw=X(S(vD)),F=[0,z(z(r(aJ,B(m(b),bw)),bv),bu)];break;default:var
-F=0}var
+bu=W(R(vW)),bv=W(R(0)),bw=W(R(vX)),G=[0,x(x(r(aJ,B(m(b),bw)),bv),bu)];break;default:var
+G=0}var
 aW=C[7];if(aW)var
-bO=0,bP=C[2],ao=j3(function(k,t){var
-a=oZ(o,H,p,ck(T,f(O)),k,t);switch(o){case
+bP=0,bR=C[2],ao=kc(function(k,t){var
+a=o9(o,H,p,bM(T,f(O)),k,t);switch(o){case
 0:var
 c=a[1];if(c){var
 l=c[2],e=c[1];if(l){var
-n=l[1],s=a[2];return[0,[0,e,[0,n,[0,bn(k,[0,e,n,m(d)])[3],0]]],s]}return[0,[0,e,0],a[2]]}return[0,0,a[2]];case
+n=l[1],s=a[2];return[0,[0,e,[0,n,[0,bp(k,[0,e,n,m(d)])[3],0]]],s]}return[0,[0,e,0],a[2]]}return[0,0,a[2]];case
 1:var
 g=a[1];if(g){var
 h=g[2],b=g[1];if(h){var
 q=h[2],i=h[1];if(q){var
-r=q[1],j=bn(k,[0,b,i,r]);return[0,[0,b,[0,i,[0,r,[0,j[1],[0,j[2],[0,j[3],0]]]]]],a[2]]}return[0,[0,b,[0,i,0]],a[2]]}return[0,[0,b,0],a[2]]}return[0,0,a[2]];default:return[0,a[1],a[2]]}},E,bP,bO);else
+r=q[1],j=bp(k,[0,b,i,r]);return[0,[0,b,[0,i,[0,r,[0,j[1],[0,j[2],[0,j[3],0]]]]]],a[2]]}return[0,[0,b,[0,i,0]],a[2]]}return[0,[0,b,0],a[2]]}return[0,0,a[2]];default:return[0,a[1],a[2]]}},D,bR,bP);else
 var
 ao=aW;var
-bQ=bD(ao),bR=F?[0,F[1],0]:F,bS=g(bR,bQ),bT=0,bU=g(O,[0,T,0]),bA=e(function(a){return a[1]},x),bV=[0,p,g(dk(function(c,b){if(typeof
+bS=bE(ao),bT=G?[0,G[1],0]:G,bU=g(bT,bS),bV=0,bW=g(O,[0,T,0]),bA=e(function(a){return a[1]},w),bX=[0,p,g(dk(function(c,b){if(typeof
 b!=="number")switch(b[0]){case
 6:var
-f=o2(x,c,b);if(f)var
+f=pa(w,c,b);if(f)var
 j=f[1],k=[0,j[1],[0,j[2],0]];else
 var
 k=f;return k;case
-8:return e(aG,ho(bA,c));case
+8:return e(aH,hr(bA,c));case
 13:var
-i=G(x,b[1]);if(i){var
-l=hA(b[4]);if(l){var
-m=o4(c,h(i[1][3],b[2]));return g(m[1],[0,m[2],0])}var
+i=E(w,b[1]);if(i){var
+l=hE(b[4]);if(l){var
+m=pc(c,h(i[1][3],b[2]));return g(m[1],[0,m[2],0])}var
 n=l}else
 var
 n=i;return n;case
-16:return w(function(a){return o7(o,M,bU,c,a)[1]},x)}var
-d=j4(a,p,x,c,b),q=d?[0,d[1],0]:d;return q},bT,E,ae,Z),bS)],ap=g(bD(W),bV),bW=0,bX=g(O,[0,T,0]),aZ=dk(function(b,a){if(typeof
+16:return y(function(a){return pf(o,M,bW,c,a)[1]},w)}var
+d=kd(a,p,w,c,b),q=d?[0,d[1],0]:d;return q},bV,D,ae,Z),bU)],ap=g(bE(X),bX),bY=0,bZ=g(O,[0,T,0]),aX=dk(function(b,a){if(typeof
 a!=="number")switch(a[0]){case
 13:var
-f=G(x,a[1]);if(f){if(hA(a[4]))return 0;var
-k=[0,o5(H,p,b,a[2],f[1][4]),0]}else
+f=E(w,a[1]);if(f){if(hE(a[4]))return 0;var
+k=[0,pd(H,p,b,a[2],f[1][4]),0]}else
 var
 k=f;return k;case
 14:var
-i=o6(o,H,p,x,b,a[1],a[2]);if(i){var
-l=i[1],n=l[2],q=l[1];return w(bZ,[0,q[1],[0,q[2],[0,n[1],[0,n[2],0]]]])}return i;case
+i=pe(o,H,p,w,b,a[1],a[2]);if(i){var
+l=i[1],n=l[2],q=l[1];return y(bL,[0,q[1],[0,q[2],[0,n[1],[0,n[2],0]]]])}return i;case
 15:var
-j=G(x,a[1]);if(j){var
-c=h(j[1][5],0),r=[0,c[3],[0,c[4],0]],t=[0,s(wn,b,m(d)),r],u=[0,s(0,b,m(d)),t],v=g(c2(c[2]),u);return g(c[1],v)}return j;case
+j=E(w,a[1]);if(j){var
+c=h(j[1][5],0),r=[0,c[3],[0,c[4],0]],t=[0,s(wH,b,m(d)),r],u=[0,s(0,b,m(d)),t],v=g(cH(c[2]),u);return g(c[1],v)}return j;case
 16:var
-y=w(function(a){var
-b=e(aG,fA(bX,j5(a)));return[0,j5(a),b]},x);return g(w(function(a){var
-c=dZ(b),d=[0,h(a[6],c)[2],0],e=dZ(b);return g(h(a[6],e)[1],d)},x),y)}return 0},bW,E,ae,Z),a0=c6(e(function(a){return bG(k,a)},ap)),a1=c6(aZ),_=c5(a0),a2=c5(a1),bY=cH(_);function
-v(a){return h(bY,bG(k,a))}var
-K=cH(a2);function
+x=y(function(a){var
+b=e(aH,fE(bZ,ke(a)));return[0,ke(a),b]},w);return g(y(function(a){var
+c=d4(b),d=[0,h(a[6],c)[2],0],e=d4(b);return g(h(a[6],e)[1],d)},w),x)}return 0},bY,D,ae,Z),aY=c7(e(function(a){return bH(k,a)},ap)),a1=c7(aX),_=c6(aY),a2=c6(a1),b0=cL(_);function
+v(a){return h(b0,bH(k,a))}var
+K=cL(a2);function
 a3(i){if(0===C[4][0]){var
-r=y(v,F),t=v(p),e=bM(o),g=n(f(i),k);if(g)var
-h=y(function(a){return[0,[0,a,d],d]},r),a=function(a){return s(a,_,m(d))},c=a(t),j=aH(0,e),b=l(function(b){var
-d=dW(k,b,c),e=d?l(function(d){var
+r=z(v,G),t=v(p),e=bQ(o),g=n(f(i),k);if(g)var
+h=z(function(a){return[0,[0,a,d],d]},r),a=function(a){return s(a,_,m(d))},c=a(t),j=aI(0,e),b=l(function(b){var
+d=dZ(k,b,c),e=d?l(function(d){var
 f=d[1],e=l(function(c){var
-d=a(c);return cR(N(k,b),d)},f);if(e){var
-g=a(d[2]);return hq(c,N(k,b),g)}return e},i):d;if(e){if(h){var
-g=a(h[1][1][1]);return cR(N(k,b),g)}var
+d=a(c);return cT(N(k,b),d)},f);if(e){var
+g=a(d[2]);return ht(c,N(k,b),g)}return e},i):d;if(e){if(h){var
+g=a(h[1][1][1]);return cT(N(k,b),g)}var
 f=1}else
 var
 f=e;return f},j);else
 var
 b=g;var
 q=b?e:b;return q}return 0}var
-Y=a3(h(ay(v),W)),a4=l(function(a){var
-b=bG(k,a),c=m(d);return aX(s(v(a),_,c),b)},ap),a6=a4?l(function(a){return hr(k,a)},ap):a4,a8=a6?l(function(a){var
-b=m(d);return aX(s(h(K,a),a2,b),a)},aZ):a6,a9=a8?ak(wv,Z):a8;if(a9)var
-b0=I(C[7]),ar=b0||oN(a,[0,o],[0,C[5]]);else
+Y=a3(h(ay(v),X)),a4=l(function(a){var
+b=bH(k,a),c=m(d);return aZ(s(v(a),_,c),b)},ap),a5=a4?l(function(a){return hu(k,a)},ap):a4,a7=a5?l(function(a){var
+b=m(d);return aZ(s(h(K,a),a2,b),a)},aX):a5,a9=a7?al(wP,Z):a7;if(a9)var
+b1=I(C[7]),aq=b1||oX(a,[0,o],[0,C[5]]);else
 var
-ar=a9;var
-a_=ar?j6(o,eE(C[4])):ar,a$=a_?i(a,1,C[3]):a_;if(a$)var
-b1=hv(C[5]),as=l(function(b){var
-c=cp(a,b[1]);return c?cp(a,b[2]):c},b1);else
+aq=a9;var
+a_=aq?kf(o,eJ(C[4])):aq,a$=a_?i(a,1,C[3]):a_;if(a$)var
+b2=hy(C[5]),as=l(function(b){var
+c=cs(a,b[1]);return c?cs(a,b[2]):c},b2);else
 var
 as=a$;if(as){var
-b2=g(O,[0,T,0]),at=ad(e(function(b){return aq(a,b)},b2));if(at){var
-au=ad(e(function(b){return hp(a,b)},aU));if(au){var
-b3=o9(o,eE(C[4])),av=ad(e(function(b){return aq(a,[0,b,E])},b3));if(av){var
-ba=av[1],b4=oz(C[5]),aw=ad(e(function(b){return oB(a,b)},b4));if(aw){var
-bb=aw[1],b5=oy(C[5]),ax=ad(e(co(a),b5));if(ax){var
-az=g(O,[0,T,0]),b6=0,aB=ad(dk(function(k,g){if(typeof
+b3=g(O,[0,T,0]),at=ad(e(function(b){return ar(a,b)},b3));if(at){var
+au=ad(e(function(b){return hs(a,b)},aU));if(au){var
+b4=ph(o,eJ(C[4])),av=ad(e(function(b){return ar(a,[0,b,D])},b4));if(av){var
+ba=av[1],b5=oJ(C[5]),aw=ad(e(function(b){return oL(a,b)},b5));if(aw){var
+bb=aw[1],b6=oI(C[5]),ax=ad(e(cr(a),b6));if(ax){var
+az=g(O,[0,T,0]),b7=0,aB=ad(dk(function(k,g){if(typeof
 g!=="number")switch(g[0]){case
 13:var
-C=g[4],aM=G(x,g[1]);if(aM){if(o8(g[3])&&i(a,0,C)&&i(a,0,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],C])){var
-aN=g[2],aO=aM[1];if(hA(C)){var
-aG=o4(k,h(aO[3],aN)),V=aG[2];if(i(j,0,[3,C,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b]]))var
+C=g[4],aM=E(w,g[1]);if(aM){if(pg(g[3])&&i(a,0,C)&&i(a,0,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],C])){var
+aN=g[2],aO=aM[1];if(hE(C)){var
+aG=pc(k,h(aO[3],aN)),V=aG[2];if(i(j,0,[3,C,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b]]))var
 aH=0;else
 var
-be=v(V),bf=v(V),aH=[0,[6,[0,[0,e(v,aG[1]),bf],0],be],0];var
+bf=v(V),bg=v(V),aH=[0,[6,[0,[0,e(v,aG[1]),bg],0],bf],0];var
 aP=[0,[4,v(V)],aH]}else
 var
-aP=[0,[9,[3,h(K,o5(H,p,k,aN,aO[4]))]],0];return e(function(a){return[0,a]},aP)}return wt}return wu;case
+aP=[0,[9,[3,h(K,pd(H,p,k,aN,aO[4]))]],0];return e(function(a){return[0,a]},aP)}return wN}return wO;case
 16:var
-X=g[3],t=g[2],aQ=g[1],bg=bF(o);if(n(f(x),bg)&&i(a,0,aQ)&&i(a,1,t)&&i(a,1,X)&&cp(a,X)){var
-aI=aq(a,[0,[0,t,t],E]);if(aI){var
-bh=aI[1],aJ=h(co(a),X);if(aJ){var
-bi=aJ[1],aK=ad(e(function(f){var
-b=jB(a,K,az,E,aQ,t,j5(f));if(b){var
-c=nO(a,v,az,E,t,f[1][2]);if(c){var
-g=hy(0,0,f[1][2]);if(g)var
+X=g[3],t=g[2],aQ=g[1],bh=bG(o);if(n(f(w),bh)&&i(a,0,aQ)&&i(a,1,t)&&i(a,1,X)&&cs(a,X)){var
+aI=ar(a,[0,[0,t,t],D]);if(aI){var
+bi=aI[1],aJ=h(cr(a),X);if(aJ){var
+bj=aJ[1],aK=ad(e(function(f){var
+b=jI(a,K,az,D,aQ,t,ke(f));if(b){var
+c=n1(a,v,az,D,t,f[1][2]);if(c){var
+g=hC(0,0,f[1][2]);if(g)var
 i=e(aA,c[1]),d=[0,[0,b[1],i]];else
 var
 d=g}else
@@ -5151,32 +5164,32 @@ var
 d=c;var
 h=d}else
 var
-h=b;return h},x));if(aK){var
-bj=aK[1],bk=e(function(a){return o7(o,M,az,k,a)},x),aL=h(ay(v),bk),W=function(a){var
-b=bM(o),c=e(function(a){var
-b=dZ(k);return h(K,h(a[6],b)[2])},x),d=e(function(a){var
-b=dZ(k);return e(K,h(a[6],b)[1])},x),f=a3(aL);return[0,[8,[0,aL,v(p),f,d,c,bj,bh,bi,b,a]]]};if(2<=o)return[0,W(1),0];var
-bl=[0,W(1),0];return[0,W(0),bl]}return wp}return wq}return wr}return ws}var
-bm=0,w=e(function(a){return a[1]},x);function
+h=b;return h},w));if(aK){var
+bk=aK[1],bl=e(function(a){return pf(o,M,az,k,a)},w),aL=h(ay(v),bl),W=function(a){var
+b=bQ(o),c=e(function(a){var
+b=d4(k);return h(K,h(a[6],b)[2])},w),d=e(function(a){var
+b=d4(k);return e(K,h(a[6],b)[1])},w),f=a3(aL);return[0,[8,[0,aL,v(p),f,d,c,bk,bi,bj,b,a]]]};if(2<=o)return[0,W(1),0];var
+bm=[0,W(1),0];return[0,W(0),bm]}return wJ}return wK}return wL}return wM}var
+bn=0,x=e(function(a){return a[1]},w);function
 Z(c,b,a){return[0,c,b,a,Y]}var
-F=0;if(typeof
+G=0;if(typeof
 g==="number")var
-aS=v(p),r=[0,Z(h(ay(v),w),aS,u)];else
+aS=v(p),r=[0,Z(h(ay(v),x),aS,u)];else
 switch(g[0]){case
 0:var
-z=[5,[0,b,b],g[1]],I=Z;F=1;break;case
+y=[5,[0,b,b],g[1]],I=Z;G=1;break;case
 1:var
-aU=[5,[0,b,b],g[1]],z=aU,I=function(c,b,a){return[1,c,b,a]};F=1;break;case
+aU=[5,[0,b,b],g[1]],y=aU,I=function(c,b,a){return[1,c,b,a]};G=1;break;case
 2:var
-aV=j4(a,p,x,k,g),r=y(function(a){return[4,v(a)]},aV);break;case
+aV=kd(a,p,w,k,g),r=z(function(a){return[4,v(a)]},aV);break;case
 3:var
-aW=j4(a,p,x,k,g),r=y(function(a){return[4,v(a)]},aW);break;case
+aW=kd(a,p,w,k,g),r=z(function(a){return[4,v(a)]},aW);break;case
 5:var
-_=g[1],aX=aq(a,[0,[0,_,_],d]),r=y(function(b){var
-c=R(a,b),d=v(p);return[2,h(ay(v),w),d,c]},aX);break;case
+_=g[1],aX=ar(a,[0,[0,_,_],d]),r=z(function(b){var
+c=S(a,b),d=v(p);return[2,h(ay(v),x),d,c]},aX);break;case
 6:var
-L=G(x,g[1]);if(L){var
-N=o2(x,k,g);if(N){var
+L=E(w,g[1]);if(L){var
+N=pa(w,k,g);if(N){var
 $=N[1],aa=i(a,1,g[2]),ab=aa?i(a,1,g[3]):aa;if(ab)var
 aY=v($[2]),aZ=v(L[1][1][2]),ac=[0,[5,[0,[0,[0,v($[1]),0],aZ],0],aY]];else
 var
@@ -5189,9 +5202,9 @@ var
 af=L;var
 r=af;break;case
 7:var
-ag=g[3],ah=g[2],ai=g[1],aj=G(x,ai),aR=0;if(aj){var
+ag=g[3],ah=g[2],ai=g[1],aj=E(w,ai),aR=0;if(aj){var
 ak=i(a,1,ah),al=ak?i(a,1,ag):ak;if(al){var
-a0=[5,ah,ag],z=a0,I=function(c,b,a){return[3,ai,c,b,a,Y]};F=1;aR=1}else
+a0=[5,ah,ag],y=a0,I=function(c,b,a){return[3,ai,c,b,a,Y]};G=1;aR=1}else
 var
 am=al}else
 var
@@ -5202,15 +5215,15 @@ an=i(a,1,g[2]);if(an)var
 a1=g[1],a2=1,O=l(function(b){return i(a,a2,b)},a1);else
 var
 O=an;if(O)var
-a4=J(a,b),a5=v(p),a6=ho(w,k),ao=[0,[0,h(ay(v),a6),a5,a4,0]];else
+a4=J(a,b),a5=v(p),a6=hr(x,k),ao=[0,[0,h(ay(v),a6),a5,a4,0]];else
 var
 ao=O;var
 r=ao;break;case
 14:var
-ap=g[2],ar=g[1],P=o6(o,H,p,x,k,ar,ap);if(P){var
-as=P[1],at=as[2],au=as[1],av=oo(ar,ap,g[3]),Q=aq(a,[0,[0,av,av],E]);if(Q){var
-aw=Q[1],ax=D(d,aw[1]);if(ax)var
-A=function(a){return nM(K,a)},a7=A(at[2]),a8=A(at[1]),a9=A(au[2]),aB=[0,[9,[6,A(au[1]),a9,a8,a7,aw]]];else
+ap=g[2],aq=g[1],P=pe(o,H,p,w,k,aq,ap);if(P){var
+as=P[1],at=as[2],au=as[1],av=oy(aq,ap,g[3]),Q=ar(a,[0,[0,av,av],D]);if(Q){var
+aw=Q[1],ax=F(d,aw[1]);if(ax)var
+A=function(a){return nZ(K,a)},a7=A(at[2]),a8=A(at[1]),a9=A(au[2]),aB=[0,[9,[6,A(au[1]),a9,a8,a7,aw]]];else
 var
 aB=ax;var
 aC=aB}else
@@ -5221,60 +5234,60 @@ var
 aD=P;var
 r=aD;break;case
 15:var
-S=G(x,g[1]);if(S){var
+R=E(w,g[1]);if(R){var
 aE=i(a,1,g[4]);if(aE)var
 aF=i(a,0,g[2]),T=aF?i(a,0,g[3]):aF;else
 var
 T=aE;if(T)var
-B=h(S[1][5],0),a_=h(K,B[4]),a$=h(K,B[3]),ba=h(K,s(wo,k,m(d))),bb=h(K,s(0,k,m(d))),bc=B[2],bd=e(function(a){return e(K,a)},bc),U=[0,[9,[11,e(K,B[1]),bd,bb,ba,a$,a_]]];else
+B=h(R[1][5],0),a$=h(K,B[4]),ba=[0,[0,h(K,B[3]),a$]],bb=h(K,s(wI,k,m(d))),bc=h(K,s(0,k,m(d))),a_=0,bd=B[2],be=e(function(a){return e(K,a)},bd),U=[0,[9,[11,e(K,B[1]),be,bc,bb,ba,a_]]];else
 var
 U=T}else
 var
-U=S;var
+U=R;var
 r=U;break;default:var
-r=0}if(F)var
-aT=aq(a,[0,[0,z,z],d]),r=y(function(b){var
-c=R(a,b),d=v(p);return I(h(ay(v),w),d,c)},aT);return[0,r,bm]},b6,E,ae,Z));if(aB){var
+r=0}if(G)var
+aT=ar(a,[0,[0,y,y],d]),r=z(function(b){var
+c=S(a,b),d=v(p);return I(h(ay(v),x),d,c)},aT);return[0,r,bn]},b7,D,ae,Z));if(aB){var
 bc=aB[1];if(C[7])var
-b7=aS[2],b8=aS[1],b9=v(p),af=jF(bB,bc,[7,h(ay(v),ao),b9,b8,b7]);else
+b8=aS[2],b9=aS[1],b_=v(p),ag=jM(bB,bc,[7,h(ay(v),ao),b_,b9,b8]);else
 var
-af=bc;var
+ag=bc;var
 bd=n(f(g(ba,bb)),k),be=bd?l(function(a){var
-b=oU(a);return l(function(a){return ov(k,_,a)},b)},af):bd,bf=be?F?ov(k,_,v(F[1])):1:be;if(bf){var
-b_=g(au[1],ax[1]),aC=g(at[1],b_),P=o$(aR),Q=j7(E,C[2]),aa=P?e(function(a){var
-b=oS(k,Q,a[2]),c=a[1];return[0,e(function(a){return oS(k,Q,a)},c),b]},W):P,aE=P?c6(j0(k,p,F,aa)):P,aF=c5(aE),ag=cH(aF),b$=jY(ag,ag,aa),ca=h(ag,bG(k,p)),aI=y(function(a){return h(ag,bG(k,a))},F),bg=I(P);if(bg)var
-ai=bg;else{var
-br=n(f(W),k);if(br){var
-by=j0(k,p,F,aa),aM=l(function(a){var
-b=m(d);return aX(s(h(cH(aF),a),aF,b),a)},by);if(aM)var
-bz=j0(k,p,F,aa),aj=l(function(a){var
-b=aH(0,k);return l(function(b){return eJ(k,b,a)},b)},bz);else
+b=o4(a);return l(function(a){return oF(k,_,a)},b)},ag):bd,bf=be?G?oF(k,_,v(G[1])):1:be;if(bf){var
+b$=g(au[1],ax[1]),aC=g(at[1],b$),P=pj(aQ),Q=kg(D,C[2]),aa=P?e(function(a){var
+b=o2(k,Q,a[2]),c=a[1];return[0,e(function(a){return o2(k,Q,a)},c),b]},X):P,aD=P?c7(j$(k,p,G,aa)):P,aF=c6(aD),ah=cL(aF),ca=j9(ah,ah,aa),cb=h(ah,bH(k,p)),aG=z(function(a){return h(ah,bH(k,a))},G),bg=I(P);if(bg)var
+aj=bg;else{var
+br=n(f(X),k);if(br){var
+by=j$(k,p,G,aa),aN=l(function(a){var
+b=m(d);return aZ(s(h(cL(aF),a),aF,b),a)},by);if(aN)var
+bz=j$(k,p,G,aa),ak=l(function(a){var
+b=aI(0,k);return l(function(b){return eN(k,b,a)},b)},bz);else
 var
-aj=aM;if(aj){var
-aO=y(function(a){return bG(k,a)},F),al=bG(k,p),aL=oO(al);if(aL)var
-bx=aH(0,Y),aP=l(function(a){var
-b=dW(k,a,al),c=b?l(function(b){var
-d=b[2][2],e=g(w(jZ,b[1]),d),f=N(k,a),c=l(function(a){return cR(f,a)},e);if(c){var
-h=b[2][1];return hq(al,N(k,a),h)}return c},aa):b;if(c){if(aO){var
-e=aO[1];return cR(N(k,a),e)}var
+ak=aN;if(ak){var
+aO=z(function(a){return bH(k,a)},G),am=bH(k,p),aM=oY(am);if(aM)var
+bx=aI(0,Y),aP=l(function(a){var
+b=dZ(k,a,am),c=b?l(function(b){var
+d=b[2][2],e=g(y(j_,b[1]),d),f=N(k,a),c=l(function(a){return cT(f,a)},e);if(c){var
+h=b[2][1];return ht(am,N(k,a),h)}return c},aa):b;if(c){if(aO){var
+e=aO[1];return cT(N(k,a),e)}var
 d=1}else
 var
 d=c;return d},bx);else
 var
-aP=aL;var
-am=aP}else
+aP=aM;var
+an=aP}else
 var
-am=aj;var
-cg=am?l(function(a){var
-c=a[1],b=l(function(a){return oT(k,aC,Q,a)},c);return b?oT(k,aC,Q,a[2]):b},W):am,ai=cg}else
+an=ak;var
+ch=an?l(function(a){var
+c=a[1],b=l(function(a){return o3(k,aC,Q,a)},c);return b?o3(k,aC,Q,a[2]):b},X):an,aj=ch}else
 var
-ai=br}if(ai){var
-cb=e(function(a){return 1},af),cc=g(ba,bb),cd=function(p,R,ae,u,g){if(P){var
+aj=br}if(aj){var
+cc=e(function(a){return 1},ag),cd=g(ba,bb),ce=function(p,R,ae,u,g){if(P){var
 j=function(V,i){if(typeof
 i!=="number"&&10===i[0]){var
 m=i[3],r=i[2],u=i[1];if(typeof
 u!=="number"&&6===u[0]){if(m){if(m[2])return 0;var
-v=m[1],g=u[1],z=iU(iP,e(aA,r),Q),B=z?1:z,C=B?g8(Q):B,E=C?l(function(a){return aD(a,f(p))},Q):C,F=E?n(f(v),k):E;if(F){var
+v=m[1],g=u[1],z=i0(iV,e(aA,r),Q),B=z?1:z,C=B?hb(Q):B,D=C?l(function(a){return aE(a,f(p))},Q):C,E=D?n(f(v),k):D;if(E){var
 y=0;if(typeof
 g!=="number")switch(g[0]){case
 0:var
@@ -5282,42 +5295,42 @@ x=g[2],w=g[1],K=0;y=1;break;case
 7:var
 M=g[2],o=g[1],P=0;if(typeof
 o!=="number"&&0===o[0]){var
-S=0;if(aI){var
-N=D(d,M);if(N){var
-x=o[2],w=o[1],K=[0,[0,[0,aI[1],M],g[3]]];y=1;P=1;S=1}else
+S=0;if(aG){var
+N=F(d,M);if(N){var
+x=o[2],w=o[1],K=[0,[0,[0,aG[1],M],g[3]]];y=1;P=1;S=1}else
 var
 O=N}else
 var
-O=aI;if(!S)return O}if(!P)return 0;break}if(y){var
-T=jO(a,ft(r,0,p),aE,R),q=jO(a,p,aE,R),j=function(b,a){return s(a,b,v_)},U=oQ(function(a){return j(q,a)},K),W=j(q,ca),X=function(a){return j(q,a)},Z=[0,jY(function(a){return j(T,a)},X,b$),W,U],ab=g0(r,p),_=function(q){var
-m=ad(e(v8,q[1]));if(m){var
+O=aG;if(!S)return O}if(!P)return 0;break}if(y){var
+T=jY(a,fw(r,0,p),aD,R),q=jY(a,p,aD,R),j=function(b,a){return s(a,b,ws)},U=o0(function(a){return j(q,a)},K),W=j(q,cb),X=function(a){return j(q,a)},Z=[0,j9(function(a){return j(T,a)},X,ca),W,U],ab=g6(r,p),_=function(q){var
+m=ad(e(wq,q[1]));if(m){var
 o=q[2];if(o){var
 p=dn(q[3]);if(p){var
 _=p[1],R=A(t(a,ae,o[1]),_),aa=m[1],S=e(function(d){var
-b=g1(a,0,ab,d),c=a5(v9,b[2]);return[0,b[1],c]},aa);if(V){var
-r=V[1],u=r[1],y=u[1],z=y[1],B=u[2],C=r[2],E=jq(a,v),F=E[1],G=F[1],h=G[2],g=G[1],W=F[2],i=e(function(c){return aQ(c,W,J(a,b))},h),H=n(f(h),k),K=H?n(f(z),k):H,M=K?D(d,B):K,N=M?gG(C,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):M,O=N?aD(g,k):N,P=O?I(L(s(g,h,d),d)):O;if(P){var
-X=ji(a,g,i,k,$(R),0),Y=jj(a,g,i,z,y[2],B,C,X),j=jk(a,g,i,E[2],w,x,S,Y);if(j)return aY(a,k,j[1]);var
+b=g7(a,0,ab,d),c=a6(wr,b[2]);return[0,b[1],c]},aa);if(V){var
+r=V[1],u=r[1],y=u[1],z=y[1],B=u[2],C=r[2],D=jx(a,v),E=D[1],G=E[1],h=G[2],g=G[1],W=E[2],i=e(function(c){return aR(c,W,J(a,b))},h),H=n(f(h),k),K=H?n(f(z),k):H,M=K?F(d,B):K,N=M?gM(C,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):M,O=N?aE(g,k):N,P=O?I(L(s(g,h,d),d)):O;if(P){var
+X=jp(a,g,i,k,$(R),0),Y=jq(a,g,i,z,y[2],B,C,X),j=jr(a,g,i,D[2],w,x,S,Y);if(j)return a0(a,k,j[1]);var
 Q=j}else
 var
 Q=P;return Q}var
-Z=ac([0,$(R),0],k),l=jg(a,e(function(b){return J(a,b)},v),w,x,S,Z);return l?aY(a,k,l[1]):l}var
+Z=ac([0,$(R),0],k),l=jn(a,e(function(b){return J(a,b)},v),w,x,S,Z);return l?a0(a,k,l[1]):l}var
 T=p}else
 var
 T=o;var
 U=T}else
 var
-U=m;return U};return h(jQ(function(b,a){return v7},Y,k,_),Z)}var
+U=m;return U};return h(j0(function(b,a){return wp},Y,k,_),Z)}var
 G=0}else
 var
-G=F;var
+G=E;var
 H=G}else
 var
-H=m;return H}return 0}return 0},m=n(u,Y),o=m?aD(0,Y):m;if(o){if(typeof
+H=m;return H}return 0}return 0},m=n(u,Y),o=m?aE(0,Y):m;if(o){if(typeof
 g!=="number"&&12===g[0]){var
 i=g[1],q=I(n(f(i),0));if(q){var
-r=V(jh(e(function(a){return a[1][1][1]},i)),i);return l(function(a){var
-b=a[2],c=b[1];return j([0,[0,[0,[0,a[1][1],a[1][2]],c[1][2]],c[2]]],b[2])},r)}return q}return j(0,g)}return o}return P},ce=v(p),cf=h(ay(v),W);return fP(a,a0,a1,af,k,k,y(v,F),cf,ce,cd,aC,cc,cb,aR)}var
-bh=ai}else
+r=V(jo(e(function(a){return a[1][1][1]},i)),i);return l(function(a){var
+b=a[2],c=b[1];return j([0,[0,[0,[0,a[1][1],a[1][2]],c[1][2]],c[2]]],b[2])},r)}return q}return j(0,g)}return o}return P},cf=v(p),cg=h(ay(v),X);return fU(a,aY,a1,ag,k,k,z(v,G),cg,cf,ce,aC,cd,cc,aQ)}var
+bh=aj}else
 var
 bh=bf;var
 bi=bh}else
@@ -5332,84 +5345,134 @@ bk=aw;var
 bl=bk}else
 var
 bl=av;var
-bo=bl}else
+bm=bl}else
 var
-bo=au;var
-bp=bo}else
+bm=au;var
+bn=bm}else
 var
-bp=at;var
-bq=bp}else
+bn=at;var
+bq=bn}else
 var
 bq=as;return bq}function
-fQ(b,a){return bC(b,a[1],a[2])}function
-pa(b,a){var
-c=fQ(b,a[1]),d=c?fQ(b,a[2]):c;return d?fQ(b,a[3]):d}function
-pb(a){return typeof
+fV(b,a){return bD(b,a[1],a[2])}function
+pk(b,a){var
+c=fV(b,a[1]),d=c?fV(b,a[2]):c;return d?fV(b,a[3]):d}function
+pl(a){return typeof
 a==="number"?0:0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
-j8(a){return typeof
-a==="number"?a?dY(0):dN:dY(a[1])}function
-j9(b,a,c){return typeof
-b==="number"?b?[0,a[1],[0,a[2],0]]:bZ(a):fN(b[1],a,c)}function
-j_(b,d,c){if(0===c[0])return hb(b,d[1],c[1]);var
+hG(a){return typeof
+a==="number"?a?d1(0):dN:d1(a[1])}function
+kh(b,a,c){return typeof
+b==="number"?b?[0,a[1],[0,a[2],0]]:bL(a):fS(b[1],a,c)}function
+hH(b,d,c){if(0===c[0])return hg(b,d[1],c[1]);var
 a=c[1],e=[0,[0,a[5],b],[0,[0,a[6],b],0]],f=g(bg(a[4],b),e),h=g(bg(a[3],b),f),i=g(bg(a[2],d[2]),h);return g(bg(a[1],d[1]),i)}function
-j$(b,a){if(b){var
-c=b[1],d=c[2];return bm(fM(c[1],a),d)}return a}function
-ka(I,H,p,af,o,ae){if(o){var
-j=o[1],ag=bW([0,d,d],af),aG=N(ae,f(j_(H,ag,j))),aH=o[2],aI=ka(I,H,p,bI(af),aH,aG),a=cN(ae,j_(H,ag,j)),w=function(c,b){var
-d=al(a,c);return ah(z,ah(B,j8(I),b),d)};if(0===j[0]){var
-x=j[1];switch(x[0]){case
+fW(b,a){if(b){var
+c=b[1],d=c[2];return bo(fR(c[1],a),d)}return a}function
+ki(P,o,a){function
+p(b){return af(x,P,am(a,b))}if(0===o[0]){var
+q=o[1];switch(q[0]){case
 0:var
-Y=h(p,al(a,wx)),aB=x[1][5],y=s(wy,a,m(d)),A=al(a,0),Z=w(wz,Y),g=m0(Z,dM(A),Z,y,aB),aj=[0,aN(y),0],ak=[0,aN(ab(A,A)),aj],q=[0,[0,g[1],g[2],g[3],[0,g[4]],[0,[0,g[2],y]],ak],Y];break;case
+an=q[1][5],t=s(wR,a,m(d)),u=am(a,0),Q=p(wS),f=na(Q,dM(u),Q,t,an),U=[0,aL(t),0],V=[0,aL(ab(u,u)),U];return[0,f[1],f[2],f[3],[0,f[4]],[0,[0,f[2],t]],V];case
 1:var
-_=h(p,al(a,wA)),$=x[3],C=$?[0,al(a,wB)]:$,aa=w(0,_),i=m1(aa,aa,0);if(C)var
-J=C[1],K=[0,aN(ab(J,J)),0];else
+R=q[3],v=R?[0,am(a,wT)]:R,S=p(0),g=nb(S,S,0);if(v)var
+C=v[1],D=[0,aL(ab(C,C)),0];else
 var
-K=C;var
-am=i[4],ao=[0,[0,m(d),am]],q=[0,[0,i[1],i[2],i[3],[0,i[4]],ao,K],_];break;default:var
-aC=m(d),aD=m(d),aE=[0,m(d),aD,aC],D=al(a,0),aF=j8(I),k=m2(aF,dM(D)),ap=[0,aN(ab(D,D)),0],q=[0,[0,k[1],k[2],k[3],[0,k[4]],0,ap],aE]}}else
+D=v;var
+X=g[4],Y=[0,[0,m(d),X]];return[0,g[1],g[2],g[3],[0,g[4]],Y,D];default:var
+w=am(a,0),h=nc(P,dM(w)),Z=[0,aL(ab(w,w)),0];return[0,h[1],h[2],h[3],[0,h[4]],0,Z]}}var
+y=o[1][7],z=s(wU,a,m(d)),e=s(wV,a,m(d)),T=am(a,wW),A=am(a,0),j=p(wX),i=dM(A),k=af(x,T,a8(ab(i,T),i)),l=dM(k),E=bp(i,l),F=ab(j,l),G=ab(j,E),_=ab(i,j),$=W(G),H=B(W(F),$),aa=W(_),I=x(W(z),aa),ac=r(m(c(2,b)),e),n=x(H,W(ai(B(H,x(W(e),I)),ac))),ad=g1(y,r(e,aL(n))),J=ai(F,e),K=g1(y,ai(G,e)),L=ai(I,W(e)),M=mC(0,J,K,L),N=g1(y,mC(1,J,K,L)),ae=a8(N,E),O=af(x,j,a8(e,af(B,a8(M,l),ae))),ag=[0,aL(z),0],ah=[0,aL(e),ag],aj=[0,aL(ab(k,k)),ah],ak=[0,aL(ab(A,A)),aj],al=bo(O,ad);return[0,O,r(W(e),n),al,[1,M,N],[0,[0,n,z]],ak]}function
+kj(b,c,a){if(0===c[0])switch(c[1][0]){case
+0:return h(b,am(a,wY));case
+1:return h(b,am(a,wZ));default:var
+e=m(d),f=m(d);return[0,m(d),f,e]}return h(b,am(a,w0))}function
+pm(a,c,b){return 0===c[0]?2===c[1][0]?hG(a):af(B,hG(a),b):af(B,hG(a),b)}function
+kk(j,c,i,h,b,g){if(b)var
+a=b[1],k=bJ([0,d,d],h),n=N(g,f(hH(c,k,a))),o=b[2],p=kk(j,c,i,bz(h),o,n),l=co(g,hH(c,k,a)),e=kj(i,a,l),m=[0,[0,ki(pm(j,a,e),a,l),e],p];else
 var
-ac=h(p,al(a,wC)),E=j[1][7],F=s(wD,a,m(d)),e=s(wE,a,m(d)),ad=al(a,wF),G=al(a,0),n=w(wG,ac),l=dM(G),t=ah(z,ad,a7(ab(l,ad),l)),u=dM(t),L=bn(l,u),M=ab(n,u),O=ab(n,L),aq=ab(l,n),ar=X(O),P=B(X(M),ar),as=X(aq),Q=z(X(F),as),at=r(m(c(2,b)),e),v=z(P,X(an(B(P,z(X(e),Q)),at))),au=gV(E,r(e,aN(v))),R=an(M,e),S=gV(E,an(O,e)),T=an(Q,X(e)),U=mp(0,R,S,T),V=gV(E,mp(1,R,S,T)),av=a7(V,L),W=ah(z,n,a7(e,ah(B,a7(U,u),av))),aw=[0,aN(F),0],ax=[0,aN(e),aw],ay=[0,aN(ab(t,t)),ax],az=[0,aN(ab(G,G)),ay],aA=bm(W,au),q=[0,[0,W,r(X(e),v),aA,[1,U,V],[0,[0,v,F]],az],ac];var
-ai=[0,q,aI]}else
+m=b;return m}function
+kl(c,b,a){if(a){var
+e=a[2],f=kl(c,bz(b),e),h=a[1];return g(hH(c,bJ([0,d,d],b),h),f)}return a}function
+pn(e,c,a,b){if(a)var
+g=a[1],h=hH(e,bJ([0,d,d],c),g),j=N(b,f(h)),k=a[2],l=pn(e,bz(c),k,j),i=[0,[0,g,co(b,h)],l];else
 var
-ai=o;return ai}function
-kb(c,b,a){if(a){var
-e=a[2],f=kb(c,bI(b),e),h=a[1];return g(j_(c,bW([0,d,d],b),h),f)}return a}function
-kc(a){if(typeof
+i=a;return i}function
+km(a){if(typeof
 a==="number"){var
 c=m(d),e=m(d);return[0,m(d),e,c]}var
-b=a[1];return oJ(b,bF(b))}function
-pc(c,b,a){var
-d=ha(he(c),a),f=V(ha(he(c),b),d);return e(function(c){var
-d=r(a,c[1]);return z(r(b,c[2]),d)},f)}function
-pd(b,d,c,a){var
-f=w(function(a){var
+b=a[1];return oS(b,bG(b))}function
+po(c,b,a){var
+d=hf(hj(c),a),f=V(hf(hj(c),b),d);return e(function(c){var
+d=r(a,c[1]);return x(r(b,c[2]),d)},f)}function
+pp(b,d,c,a){var
+f=y(function(a){var
 c=typeof
-a==="number"?0:0===a[0]?fA(b,a[1]):jA(b,pc(b,a[1],a[2])),d=e(aG,c);return g(pb(a),d)},a),h=g(bD(c),f);return g(c2(d),h)}function
-pe(c,b,u,t,s,r,j,g,q,p,d,l,k,a){var
-m=aq(c,[0,[0,a,a],g]);if(m){if(l){var
-v=l[1],x=m[1],o=ad(e(function(d){if(typeof
-d==="number")return 0;else{if(0===d[0])return jB(c,b,j,g,k,a,d[1]);var
-i=d[1],e=hp(c,[1,[5,k,a],Q(g)]);if(e){var
-f=nN(c,b,j,g,a,jA(j,pc(j,i,d[2])));if(f)var
+a==="number"?0:0===a[0]?fE(b,a[1]):jH(b,po(b,a[1],a[2])),d=e(aH,c);return g(pl(a),d)},a),h=g(bE(c),f);return g(cH(d),h)}function
+pq(c,b,u,t,s,r,j,g,q,p,d,l,k,a){var
+m=ar(c,[0,[0,a,a],g]);if(m){if(l){var
+v=l[1],w=m[1],o=ad(e(function(d){if(typeof
+d==="number")return 0;else{if(0===d[0])return jI(c,b,j,g,k,a,d[1]);var
+i=d[1],e=hs(c,[1,[5,k,a],R(g)]);if(e){var
+f=n0(c,b,j,g,a,jH(j,po(j,i,d[2])));if(f)var
 n=[0,e[1],f[1]],l=[0,[0,h(b,i),n]];else
 var
 l=f;var
 m=l}else
 var
 m=e;return m}},d));if(o){var
-y=o[1];if(n(f(d),u)&&i(c,0,k)&&i(c,1,a))return e(function(a){var
-c=e(b,w(pb,d)),f=h(ay(b),p);return[0,[10,[0,e(function(a){return e(b,a)},q),f,c,y,r,x,v,t,a]]]},s);return wH}return wI}return wJ}return wK}function
-pf(b,i,f,d,c,a){if(a){var
-j=a[2],k=a[1],l=pf(b,i,f,d,g(c,[0,k,0]),j),m=h(d,e(bI,g(c,j)));return ar(i,ar(f,bW(b,k),m),l)}return b}function
-pg(a,f,e,d,c,b){if(c){var
-g=0,h=c[1];return pf(a,e,d,function(b){return pg(a,f,e,d,h,b)},g,b)}return b?a:f}function
-ph(a,d,c){var
-e=hh(a,c);function
+x=o[1];if(n(f(d),u)&&i(c,0,k)&&i(c,1,a))return e(function(a){var
+c=e(b,y(pl,d)),f=h(ay(b),p);return[0,[10,[0,e(function(a){return e(b,a)},q),f,c,x,r,w,v,t,a]]]},s);return w1}return w2}return w3}return w4}function
+pr(a){return typeof
+a==="number"?a?0:1:a[1]}function
+ps(a){return[0,[0,[1,a]],[0,[1,[0,a]]],[0,[1,[0,[0,a]]]]]}function
+kn(d,c,a,b){return hz(pr(d),c,a,a,b)}function
+pt(g,f,e,d){if(0===f[0])switch(f[1][0]){case
+0:var
+a=g[6];if(a)var
+h=a[1],i=h[2],j=ai(i,aL(h[1])),n=W(j),o=r(j,B(e,r(ai(d,i),n))),k=[0,x(m(b),o)];else
+var
+k=a;return k;case
+1:var
+c=g[6];if(c)var
+p=ai(d,c[1][2]),l=[0,x(x(m(b),e),p)];else
+var
+l=c;return l;default:return 0}return 0}function
+pu(c,b){var
+d=typeof
+c==="number"?0:1,a=I(d);return a?0===b[0]?1:0:a}function
+pv(a){return 0===a[0]?2===a[1][0]?1:0:0}function
+pw(c,b){function
+a(a){return s(a,b,m(d))}if(0===c[1][0]){var
+e=a(w_);return[0,a(0),e]}var
+f=a(w$),g=ai(a(xa),f),h=a(xb);return[0,ai(a(0),h),g]}function
+px(d,c,a){var
+b=a[1];return pm(d,b,kj(c,b,a[2]))}function
+py(a,k,j,e,c){var
+l=c[1],f=px(a,k,c),n=kj(k,l,c[2]);function
+o(a){return ki(a,l,c[2])}function
+b(a){return[0,j3(a),0]}if(typeof
+a==="number")if(a)var
+t=[0,b(w7),0],g=[0,b(0),t];else
+var
+u=[0,b(w8),0],v=[0,b(w9),u],g=[0,b(0),v];else
+var
+g=oM(a[1],n,j);var
+w=o(f)[3],h=o(ps(e))[3];if(pr(a))var
+i=kn(a,e,f,h[3]);else
+var
+r=m(d),s=m(d),i=[0,m(d),s,r];var
+p=kn(a,e,f,h[2]),q=[0,kn(a,e,f,h[1]),p,i];return j4(function(a,b){return oN(q,w,n,j,a,b)},g)}function
+pz(i,h,c,b){var
+j=b[1],k=px(i,h,b),d=ps(c),a=ki(d,j,b[2]),f=[0,a[3][1],[0,a[3][2],[0,a[3][3],[0,a[2],0]]]],g=bL(k);return e(function(a){return j2(c,g,a)},f)}function
+pA(b,i,f,d,c,a){if(a){var
+j=a[2],k=a[1],l=pA(b,i,f,d,g(c,[0,k,0]),j),m=h(d,e(bz,g(c,j)));return as(i,as(f,bJ(b,k),m),l)}return b}function
+pB(a,f,e,d,c,b){if(c){var
+g=0,h=c[1];return pA(a,e,d,function(b){return pB(a,f,e,d,h,b)},g,b)}return b?a:f}function
+pC(a,d,c){var
+e=hm(a,c);function
 f(b,c){return t(a,b,c)}var
-g=J(a,b);return y(function(a){return pg(u,g,E,f,d,a)},e)}function
-kd(e,c,o,n){var
-a=ph(e,c,o);if(a){var
-f=a[1],b=ph(e,c,n);if(b){var
+g=J(a,b);return z(function(a){return pB(u,g,C,f,d,a)},e)}function
+ko(e,c,o,n){var
+a=pC(e,c,o);if(a){var
+f=a[1],b=pC(e,c,n);if(b){var
 g=b[1],h=K(d,f[1]),i=h?K(g[2],d):h;if(i)var
 j=i;else{var
 m=K(f[2],d);if(m)return K(d,g[1]);var
@@ -5420,7 +5483,7 @@ k=b;var
 l=k}else
 var
 l=a;return l}function
-ke(b){if(b){var
+kp(b){if(b){var
 a=b[2],c=b[1];if(c){var
 e=c[2],q=c[1];if(e){var
 f=e[2],s=e[1];if(f){if(f[2])return m(d);if(a){var
@@ -5430,23 +5493,23 @@ j=i[2],u=i[1];if(j){var
 v=j[1];if(j[2])return m(d);if(g){var
 k=g[1];if(k){var
 l=k[2],w=k[1];if(l){var
-n=l[2],x=l[1];if(n){var
-y=n[1];if(n[2])return m(d);if(g[2])return m(d);var
-A=dS(t,u,w,x),C=r(f[1],A),D=r(s,dS(t,v,w,y));return B(z(r(q,dS(u,v,x,y)),D),C)}return m(d)}return m(d)}return m(d)}return m(d)}return m(d)}return m(d)}return m(d)}return m(d)}if(a){var
+n=l[2],y=l[1];if(n){var
+z=n[1];if(n[2])return m(d);if(g[2])return m(d);var
+A=dS(t,u,w,y),C=r(f[1],A),D=r(s,dS(t,v,w,z));return B(x(r(q,dS(u,v,y,z)),D),C)}return m(d)}return m(d)}return m(d)}return m(d)}return m(d)}return m(d)}return m(d)}return m(d)}if(a){var
 o=a[1];if(o){var
 p=o[2];return p?p[2]?m(d):a[2]?m(d):dS(q,s,o[1],p[1]):m(d)}return m(d)}return m(d)}return m(d)}return m(d)}return m(d)}function
-pi(a){if(a){var
+pD(a){if(a){var
 b=a[1][6];if(b)var
-c=pi(a[2]),e=c?[0,[0,b[1][2],c[1]]]:c,d=e;else
+c=pD(a[2]),e=c?[0,[0,b[1][2],c[1]]]:c,d=e;else
 var
-d=b;return d}return wN}function
-pj(g,k,a){function
+d=b;return d}return xc}function
+pE(g,k,a){function
 b(a){return s(a,k,m(d))}function
 l(a){var
-e=a[2],f=r(X(b(0)),e),c=0,d=0,g=a[1];return[0,[0,bz(function(b,a){return z(b,X(a))},g,f),d],c]}function
+e=a[2],f=r(W(b(0)),e),c=0,d=0,g=a[1];return[0,[0,bA(function(b,a){return x(b,W(a))},g,f),d],c]}function
 n(e){var
 a=e[6];if(a)var
-c=a[1],f=X(c[2]),g=r(X(b(0)),f),d=[0,[0,z(c[1],g),0],0];else
+c=a[1],f=W(c[2]),g=r(W(b(0)),f),d=[0,[0,x(c[1],g),0],0];else
 var
 d=a;return d}var
 j=0;if(typeof
@@ -5456,25 +5519,25 @@ switch(a[0]){case
 u=function(c){var
 a=c[4];if(typeof
 a!=="number"&&0===a[0]){var
-d=b(0);return[0,[0,z(a[1],d),0],0]}return 0},f=u,c=a[1];break;case
+d=b(0);return[0,[0,x(a[1],d),0],0]}return 0},f=u,c=a[1];break;case
 3:var
 v=function(c){var
 a=c[4];if(typeof
 a!=="number"&&0===a[0]){var
-d=a[1];return[0,[0,z(b(0),d),0],0]}return 0},f=v,c=a[1];break;case
+d=a[1];return[0,[0,x(b(0),d),0],0]}return 0},f=v,c=a[1];break;case
 4:var
 w=function(e){var
 a=e[4];if(typeof
 a!=="number"&&1===a[0]){var
-c=a[2],d=a[1],f=r(b(wO),c),g=[0,[0,z(r(b(wP),d),f),0],0],h=r(d,b(wQ));return[0,[0,z(r(c,b(0)),h),0],g]}return 0},f=w,c=a[1];break;case
+c=a[2],d=a[1],f=r(b(xd),c),g=[0,[0,x(r(b(xe),d),f),0],0],h=r(d,b(xf));return[0,[0,x(r(c,b(0)),h),0],g]}return 0},f=w,c=a[1];break;case
 6:var
-x=function(a){var
-b=a[4];if(typeof
-b!=="number"&&1===b[0])return 0;return l(a)},f=x,c=a[1];break;case
-9:var
 y=function(a){var
 b=a[4];if(typeof
-b!=="number"&&1===b[0])return l(a);return 0},f=y,c=a[1];break;case
+b!=="number"&&1===b[0])return 0;return l(a)},f=y,c=a[1];break;case
+9:var
+z=function(a){var
+b=a[4];if(typeof
+b!=="number"&&1===b[0])return l(a);return 0},f=z,c=a[1];break;case
 10:var
 f=n,c=a[1];break;case
 11:var
@@ -5482,23 +5545,23 @@ A=function(a){var
 b=a[4];if(typeof
 b!=="number"&&0===b[0])return n(a);return 0},f=A,c=a[1];break;case
 12:var
-i=pi(g);if(i)var
-C=b(0),o=bz(r,i[1],C),p=ke(e(function(a){return a[5]},g)),D=[0,bs(B(p,o)),0],q=[0,[0,z(p,o),D],0];else
+i=pD(g);if(i)var
+C=b(0),o=bA(r,i[1],C),p=kp(e(function(a){return a[5]},g)),D=[0,bu(B(p,o)),0],q=[0,[0,x(p,o),D],0];else
 var
 q=i;return q;case
 17:var
 t=a[1],f=function(d){var
-a=ke(e(function(a){return a[1]},g));function
+a=kp(e(function(a){return a[1]},g));function
 b(b){var
-c=[0,bs(B(a,b)),0];return[0,z(a,b),c]}var
-f=ke(n5(t,k,e(function(a){return a[1]},g))),c=r(aN(d[2]),f),h=[0,b(bs(c)),0];return[0,b(c),h]},c=t;break;default:j=1}if(j)return 0;var
-h=G(g,c);return h?f(h[1]):h}function
-eQ(a){return e(function(a){return[0,a[1],a[2]]},a)}function
-d0(a){return e(function(a){var
+c=[0,bu(B(a,b)),0];return[0,x(a,b),c]}var
+f=kp(og(t,k,e(function(a){return a[1]},g))),c=r(aL(d[2]),f),h=[0,b(bu(c)),0];return[0,b(c),h]},c=t;break;default:j=1}if(j)return 0;var
+h=E(g,c);return h?f(h[1]):h}function
+eT(a){return e(function(a){return[0,a[1],a[2]]},a)}function
+d5(a){return e(function(a){var
 c=m(b);return[0,a[3],c]},a)}function
-pk(c,b,a){if(typeof
-a!=="number"&&8===a[0])return bD(ho(eQ(c),b));return c2(pj(c,b,a))}function
-pl(g,m,k,L,K,t,a){if(typeof
+pF(c,b,a){if(typeof
+a!=="number"&&8===a[0])return bE(hr(eT(c),b));return cH(pE(c,b,a))}function
+pG(g,m,k,L,K,t,a){if(typeof
 a==="number")return[0,[0,[0,u]],0];else
 switch(a[0]){case
 0:var
@@ -5506,167 +5569,199 @@ M=[5,[0,b,b],a[1]],n=M,o=function(a){return[0,a]};break;case
 1:var
 P=[5,[0,b,b],a[1]],n=P,o=function(a){return[1,a]};break;case
 5:var
-B=a[1],U=0,V=aq(g,[0,[0,B,B],d]);return[0,y(function(a){return[2,R(g,a)]},V),U];case
+B=a[1],U=0,V=ar(g,[0,[0,B,B],d]);return[0,z(function(a){return[2,S(g,a)]},V),U];case
 7:var
-C=a[3],D=a[2],E=a[1];if(!G(k,E))return wT;var
+C=a[3],D=a[2],F=a[1];if(!E(k,F))return xi;var
 I=0;if(i(g,1,D)&&i(g,1,C))var
-W=[5,D,C],n=W,o=function(a){return[7,E,a]};else
-I=1;if(I)return wS;break;case
+W=[5,D,C],n=W,o=function(a){return[7,F,a]};else
+I=1;if(I)return xh;break;case
 8:var
-F=i(g,1,a[2]),X=0;if(F)var
+G=i(g,1,a[2]),X=0;if(G)var
 Y=a[1],Z=1,r=l(function(a){return i(g,Z,a)},Y);else
 var
-r=F;if(r)var
-_=J(g,b),$=ho(eQ(k),t),H=[0,[4,h(ay(m),$),_]];else
+r=G;if(r)var
+_=J(g,b),$=hr(eT(k),t),H=[0,[4,h(ay(m),$),_]];else
 var
 H=r;return[0,H,X];default:var
 s=0;if(typeof
 a==="number")s=1;else
 switch(a[0]){case
 4:var
-v=a[3],w=a[2],x=i(g,1,[3,v,w]),S=x?i(g,1,[3,[2,w,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b]],v]):x,j=S;break;case
+v=a[3],w=a[2],x=i(g,1,[3,v,w]),R=x?i(g,1,[3,[2,w,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b]],v]):x,j=R;break;case
 17:var
 A=i(g,1,a[3]);if(A)var
-T=e(function(a){return a[1]},k),j=n6(f(a[2]),T);else
+T=e(function(a){return a[1]},k),j=oh(f(a[2]),T);else
 var
 j=A;break;case
 6:case
 9:var
-z=i(g,1,a[2]),j=z?i(g,0,a[3]):z;break;default:s=1}if(s)var
+y=i(g,1,a[2]),j=y?i(g,0,a[3]):y;break;default:s=1}if(s)var
 j=1;var
-p=j?pj(k,t,a):j;if(p){var
+p=j?pE(k,t,a):j;if(p){var
 Q=[0,p[1],p[2]];return e(function(a){if(a){var
 b=a[2],c=a[1];if(b){if(b[2])return 0;var
 e=h(m,b[1]);return[0,[5,h(m,c),e]]}var
 d=[0,[3,h(m,c)]]}else
 var
-d=a;return d},Q)}return wR}var
-N=0,O=aq(g,[0,[0,n,n],hn(L,K)]);return[0,y(function(a){return o(R(g,a))},O),N]}function
-pm(a){if(typeof
+d=a;return d},Q)}return xg}var
+N=0,O=ar(g,[0,[0,n,n],hq(L,K)]);return[0,z(function(a){return o(S(g,a))},O),N]}function
+pH(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-pn(a){return 0===a[0]?2===a[1][0]?0:1:1}function
-wU(k,Y,aP,j,o,G,aO){var
-a=j[1],Z=as(a),x=j[6],q=kb(o,G,j[2]),_=j[3],z=[0,[0,_,_],o],$=[0,f(q)],H=j[2],v=H?0===H[1][0]?0:1:H,aQ=j[5],K=y(function(b){var
+pI(a){return 0===a[0]?2===a[1][0]?0:1:1}function
+xj(k,Z,aR,j,q,A,aQ){var
+a=j[1],_=an(a),C=j[6],t=kl(q,A,j[2]),$=j[3],v=[0,[0,$,$],q],aa=[0,f(t)],L=j[2],w=L?0===L[1][0]?0:1:L,aS=j[5],x=z(function(b){var
 c=typeof
-a==="number"?0:bM(a[1]);return ox(b,c)},aQ),aS=j[2],aR=0,aT=ck(z,f(q)),aL=ka(a,o,function(a){return j$(K,a)},G,aS,aR),p=e(function(f){var
+a==="number"?0:bQ(a[1]);return oH(b,c)},aS),aU=j[2],aT=0,aV=bM(v,f(t)),aN=kk(a,q,function(a){return fW(x,a)},A,aU,aT),p=e(function(f){var
 g=f[2],b=f[1];function
-e(b){return j9(a,b,bm(bn(g,b),aT))}var
-h=b[1],i=bn(ah(B,j8(a),g),h),j=j9(a,b[1],i),c=b[1],d=typeof
-a==="number"?1:0,k=b[6],l=b[5],m=d?a?[0,c[1],[0,c[2],0]]:bZ(c):d,n=b[4],o=e(b[3]),p=b[2];return[0,e(b[1]),p,o,n,m,l,k,j]},aL);function
-aa(b){var
-c=0,g=j[2],h=ka(a,o,function(b){if(typeof
-a==="number")return j$(K,b);var
-c=j$(K,b);return oK(kc(a),c)},G,g,c),d=dZ(b),k=ck(z,f(q));return e(function(e){var
+e(b){return kh(a,b,bo(bp(g,b),aV))}var
+h=b[1],i=bp(af(B,hG(a),g),h),j=kh(a,b[1],i),c=b[1],d=typeof
+a==="number"?1:0,k=b[6],l=b[5],m=d?a?[0,c[1],[0,c[2],0]]:bL(c):d,n=b[4],o=e(b[3]),p=b[2];return[0,e(b[1]),p,o,n,m,l,k,j]},aN);function
+ab(b){var
+c=0,g=j[2],h=kk(a,q,function(b){if(typeof
+a==="number")return fW(x,b);var
+c=fW(x,b);return oT(km(a),c)},A,g,c),d=d4(b),k=bM(v,f(t));return e(function(e){var
 b=e[1][3];if(typeof
-a==="number")return j9(a,b,bm(bn(e[2],b),k));var
-f=bn(e[2],b),g=ah(B,f,bn(f,kc(a))),c=a7(jT(kc(a)),g),h=r(c[3],d),i=r(c[2],d),j=[0,r(c[1],d),i,h];return fN(a[1],b,j)},h)}function
-ab(l){return e(function(n){var
-o=m(b),d=n[3],p=dZ(l),s=ck(z,f(q));if(typeof
+a==="number")return kh(a,b,bo(bp(e[2],b),k));var
+f=bp(e[2],b),g=af(B,f,bp(f,km(a))),c=a8(j5(km(a)),g),h=r(c[3],d),i=r(c[2],d),j=[0,r(c[1],d),i,h];return fS(a[1],b,j)},h)}function
+ac(l){return e(function(n){var
+o=m(b),d=n[3],p=d4(l),q=bM(v,f(t));if(typeof
 a==="number")var
 i=d;else
 var
-h=a[1],j=aw(bM(h),d),k=e(function(a){return r(a,r(r(m(c(2,b)),s),p))},j),i=g(am(bM(h),d),k);return[0,i,o]},p)}var
-ac=e(function(a){return a[4]},p);function
-aU(b,a){if(typeof
-a!=="number"&&16===a[0]){var
-c=ab(b);return pd(q,aa(b),c,ac)}return pk(p,b,a)}var
-ae=w(function(a){return a[7]},p),af=j[7],ag=af?e(function(a){return[0,a[8],a[2]]},p):af,aV=bD(ag),aW=g(ae,g(dk(aU,v,o,$,x),aV)),aY=g(bD(d0(p)),aW),ai=g(bD(eQ(p)),aY),aj=c6(ai),al=c5(aj),t=cH(al);function
-aZ(d,c){if(typeof
-c!=="number"&&16===c[0]){var
-e=c[3],n=j[2];if(typeof
+h=a[1],j=aw(bQ(h),d),k=e(function(a){return r(a,r(r(m(c(2,b)),q),p))},j),i=g(ao(bQ(h),d),k);return[0,i,o]},p)}var
+ae=e(function(a){return a[4]},p),ag=pn(q,A,j[2],0);function
+aW(d,c){if(typeof
+c!=="number")switch(c[0]){case
+15:var
+q=c[1],r=f(t),z=bM(v,f(t)),s=function(a){return fW(x,a)},i=E(p,q);if(i){var
+j=E(ag,q);if(j){var
+b=j[1],n=i[1],e=b[1],k=pw(b,d),l=k[2],m=k[1];if(pu(a,e)){var
+h=pt(n,e,m,l),u=h?[0,h[1],0]:h;return u}if(pv(e))return 0;var
+w=g([0,m,[0,l,0]],pz(a,s,r,b)),y=g(cH(py(a,s,z,r,b)),w);return g(n[3],y)}var
+o=j}else
+var
+o=i;return o;case
+16:var
+A=ac(d);return pp(t,ab(d),A,ae)}return pF(p,d,c)}var
+ah=y(function(a){return a[7]},p),ai=j[7],aj=ai?e(function(a){return[0,a[8],a[2]]},p):ai,aX=bE(aj),aY=g(ah,g(dk(aW,w,q,aa,C),aX)),a0=g(bE(d5(p)),aY),ak=g(bE(eT(p)),a0),am=c7(ak),ap=c6(am),o=cL(ap);function
+a1(g,c){if(typeof
+c!=="number")switch(c[0]){case
+15:var
+M=c[1],Y=c[4],Z=c[3],$=c[2],N=f(t),aa=bM(v,f(t)),O=function(a){return fW(x,a)},n=E(p,M),X=0;if(n){var
+r=E(ag,M);if(r){var
+F=i(k,1,Y);if(F)var
+G=i(k,0,$),s=G?i(k,0,Z):G;else
+var
+s=F;if(s){var
+d=r[1],H=n[1],m=d[1],B=pw(d,g),C=B[2],D=B[1];if(pu(a,m))var
+Q=pt(H,m,D,C),u=z(function(a){return[3,h(o,a)]},Q);else
+if(pv(m))var
+u=0;else
+var
+R=e(o,pz(a,O,N,d)),T=h(o,C),U=h(o,D),S=0,V=py(a,O,aa,N,d),W=e(function(a){return e(o,a)},V),u=[0,[11,e(o,H[3]),W,U,T,S,R]];var
+y=u}else
+var
+y=s}else
+var
+y=r;var
+I=y}else
+var
+I=n;return[0,I,X];case
+16:var
+A=c[3],ad=j[2];if(typeof
 a==="number")var
-m=1;else
+P=1;else
 var
-f=i(k,1,e),g=f?cp(k,e):f,m=g?l(pn,n):g;if(m){var
-r=c[2],s=c[1],u=typeof
-a==="number"?[0,J(k,b)]:h(co(k),e),w=ab(d),x=aa(d),y=typeof
-a==="number"?wL:wM,z=typeof
-a==="number"?as(a):bM(a[1]);return pe(k,t,Z,z,y,v,q,o,x,w,ac,u,s,r)}return wV}return pl(k,t,p,v,o,d,c)}var
-an=l(function(a){var
-b=m(d);return aX(s(h(t,a),al,b),a)},ai),ao=an?ak(pm,x):an;if(ao){var
-ap=j[4];if(typeof
+K=i(k,1,A),L=K?cs(k,A):K,P=L?l(pI,ad):L;if(P){var
+af=c[2],ah=c[1],ai=typeof
+a==="number"?[0,J(k,b)]:h(cr(k),A),aj=ac(g),ak=ab(g),al=typeof
+a==="number"?w5:w6,am=typeof
+a==="number"?an(a):bQ(a[1]);return pq(k,o,_,am,al,w,t,q,ak,aj,ae,ai,ah,af)}return xk}return pG(k,o,p,w,q,g,c)}var
+aq=l(function(a){var
+b=m(d);return aZ(s(h(o,a),ap,b),a)},ak),as=aq?al(pH,C):aq;if(as){var
+at=j[4];if(typeof
 a==="number")var
-ar=a?j6(0,eE(ap)):1;else
+au=a?kf(0,eJ(at)):1;else
 var
-aM=eE(ap),ar=j6(a[1],aM);var
-L=ar}else
+aO=eJ(at),au=kf(a[1],aO);var
+M=au}else
 var
-L=ao;if(L){var
-V=j[1];if(typeof
-V==="number")var
-A=j[5]?0:1;else
-if(2<=V[1])var
-A=0;else{var
-E=j[5],U=0;if(E){var
-W=i(k,1,j[3]);if(W)var
-aN=hv(E[1]),A=l(function(a){var
-b=cp(k,a[1]);return b?cp(k,a[2]):b},aN);else{var
-X=W;U=1}}else{var
-X=E;U=1}if(U)var
-A=X}var
-M=A}else
+M=as;if(M){var
+W=j[1];if(typeof
+W==="number")var
+D=j[5]?0:1;else
+if(2<=W[1])var
+D=0;else{var
+H=j[5],V=0;if(H){var
+X=i(k,1,j[3]);if(X)var
+aP=hy(H[1]),D=l(function(a){var
+b=cs(k,a[1]);return b?cs(k,a[2]):b},aP);else{var
+Y=X;V=1}}else{var
+Y=H;V=1}if(V)var
+D=Y}var
+N=D}else
 var
-M=L;if(M)var
-a0=j[2],N=l(function(a){var
-b=0===a[0]?0:1;return cB(b,v)},a0);else
+N=M;if(N)var
+a2=j[2],O=l(function(a){var
+b=0===a[0]?0:1;return cE(b,w)},a2);else
 var
-N=M;if(N){var
-at=I(j[7]);if(at)var
-C=at;else
+O=N;if(O){var
+av=I(j[7]);if(av)var
+F=av;else
 var
-aJ=oN(k,a,j[5]),C=aJ?l(pn,j[2]):aJ}else
+aL=oX(k,a,j[5]),F=aL?l(pI,j[2]):aL}else
 var
-C=N;if(C){var
-a1=g(q,[0,z,0]),O=ad(e(function(a){return aq(k,a)},a1));if(O){var
-a2=w(function(a){return fK(v,o,a)},x),P=ad(e(function(a){return hp(k,a)},a2));if(P){var
-u=eE(j[4]),a3=typeof
-a==="number"?a?[0,u[1],[0,u[2],0]]:[0,u[1],[0,u[2],[0,u[3],0]]]:o9(a[1],u),Q=ad(e(function(a){return aq(k,[0,a,o])},a3));if(Q){var
-au=Q[1],av=j[5];if(av)var
-a4=oz(av[1]),D=ad(e(function(a){return oB(k,a)},a4));else
+F=O;if(F){var
+a3=g(t,[0,v,0]),P=ad(e(function(a){return ar(k,a)},a3));if(P){var
+a4=y(function(a){return fP(w,q,a)},C),Q=ad(e(function(a){return hs(k,a)},a4));if(Q){var
+u=eJ(j[4]),a5=typeof
+a==="number"?a?[0,u[1],[0,u[2],0]]:[0,u[1],[0,u[2],[0,u[3],0]]]:ph(a[1],u),R=ad(e(function(a){return ar(k,[0,a,q])},a5));if(R){var
+ax=R[1],az=j[5];if(az)var
+a6=oJ(az[1]),G=ad(e(function(a){return oL(k,a)},a6));else
 var
-D=wW;if(D){var
-ax=D[1],F=j[5],a5=F?oy(F[1]):F,R=ad(e(co(k),a5));if(R){var
-S=ad(dk(aZ,v,o,$,x));if(S){var
-az=S[1];if(j[7])var
-a6=Y[2],a8=Y[1],T=jF(aP,az,[8,h(ay(t),ag),a8,a6]);else
+G=xl;if(G){var
+aA=G[1],K=j[5],a7=K?oI(K[1]):K,S=ad(e(cr(k),a7));if(S){var
+T=ad(dk(a1,w,q,aa,C));if(T){var
+aB=T[1];if(j[7])var
+a9=Z[2],a_=Z[1],U=jM(aR,aB,[8,h(ay(o),aj),a_,a9]);else
 var
-T=az;var
-aA=n(f(g(au,ax)),Z);if(aA){var
-a9=jv(T),a_=g(au,ax),aK=0,a$=j[4];if(typeof
+U=aB;var
+aC=n(f(g(ax,aA)),_);if(aC){var
+a$=jC(U),ba=g(ax,aA),aM=0,bb=j[4];if(typeof
 a==="number"&&!a){var
-aB=function(a){return nQ(k,a$,o,a)};aK=1}if(!aK)var
-aB=function(a){return 0};var
-ba=g(P[1],R[1]),bb=g(O[1],ba),bc=e(t,ae),bd=d0(p),be=h(ay(t),bd),bf=eQ(p);return gb(ju(k,aj,h(ay(t),bf),be,bc,bb,T,aB),a_,a9,aO)}var
-aC=aA}else
+aD=function(a){return n3(k,bb,q,a)};aM=1}if(!aM)var
+aD=function(a){return 0};var
+bc=g(Q[1],S[1]),bd=g(P[1],bc),be=e(o,ah),bf=d5(p),bg=h(ay(o),bf),bh=eT(p);return gh(jB(k,am,h(ay(o),bh),bg,be,bd,U,aD),ba,a$,aQ)}var
+aE=aC}else
 var
-aC=S;var
-aD=aC}else
-var
-aD=R;var
-aE=aD}else
-var
-aE=D;var
+aE=T;var
 aF=aE}else
 var
-aF=Q;var
+aF=S;var
 aG=aF}else
 var
-aG=P;var
+aG=G;var
 aH=aG}else
 var
-aH=O;var
+aH=R;var
 aI=aH}else
 var
-aI=C;return aI}function
-wX(b){if(0===b[0])return[0,n1(b[1])];var
-a=b[1],c=a[7],d=a[6][1],e=a[5][1],f=bK(a[4]),g=bK(a[3]),h=bK(a[2]);return[1,[0,bK(a[1]),h,g,f,e,d,c]]}function
-po(e,d,c){var
+aI=Q;var
+aJ=aI}else
+var
+aJ=P;var
+aK=aJ}else
+var
+aK=F;return aK}function
+xm(b){if(0===b[0])return[0,oc(b[1])];var
+a=b[1],c=a[7],d=a[6][1],e=a[5][1],f=bN(a[4]),g=bN(a[3]),h=bN(a[2]);return[1,[0,bN(a[1]),h,g,f,e,d,c]]}function
+pJ(e,d,c){var
 a=d;for(;;){if(a){var
-b=a[1];if(ta(b[1],c))return b[2];var
+b=a[1];if(tu(b[1],c))return b[2];var
 a=a[2];continue}return e}}function
-kf(a,c,b){var
+kq(a,c,b){var
 d=V(e(aA,a[2]),b);return g(V(a[1],c),d)}function
-b3(c){var
+b7(c){var
 a=c;for(;;)switch(a[0]){case
 0:var
 b=a[1];return[0,[0,[0,b,b],d],0];case
@@ -5675,102 +5770,102 @@ b=a[1];return[0,[0,[0,b,b],d],0];case
 7:case
 8:var
 a=a[1];continue;default:var
-e=b3(a[2]);return g(b3(a[1]),e)}}function
-bN(e,a,c){switch(a[0]){case
+e=b7(a[2]);return g(b7(a[1]),e)}}function
+bR(e,a,c){switch(a[0]){case
 0:var
-o=a[1];return ck([0,[0,o,o],d],c);case
+o=a[1];return bM([0,[0,o,o],d],c);case
 1:var
-q=a[1];return po(m(d),e,q);case
-2:return bs(bN(e,a[1],c));case
+q=a[1];return pJ(m(d),e,q);case
+2:return bu(bR(e,a[1],c));case
 3:var
 i=a[2],g=a[1],h=B;break;case
 4:var
-i=a[2],g=a[1],h=z;break;case
+i=a[2],g=a[1],h=x;break;case
 5:var
 i=a[2],g=a[1],h=r;break;case
 6:var
-i=a[2],g=a[1],h=an;break;case
+i=a[2],g=a[1],h=ai;break;case
 7:var
-j=fj(a[2]),k=bN(e,a[1],c);if(j){if(j[1]){var
-l=X(k),p=function(a){return r(a,l)},n=gx(aR(l5(j)),p,l);return l4(j)?n:r(n,k)}return k}return m(b);default:return aN(bN(e,a[1],c))}var
-s=bN(e,i,N(c,f(b3(g))));return h(bN(e,g,c),s)}function
+j=fm(a[2]),k=bR(e,a[1],c);if(j){if(j[1]){var
+l=W(k),p=function(a){return r(a,l)},n=gD(aS(mg(j)),p,l);return mf(j)?n:r(n,k)}return k}return m(b);default:return aL(bR(e,a[1],c))}var
+s=bR(e,i,N(c,f(b7(g))));return h(bR(e,g,c),s)}function
 dp(c,h,b){var
 a=h;for(;;)switch(a[0]){case
 6:var
-e=a[1],k=N(b,f(b3(e))),l=dp(c,a[2],k),m=g(dp(c,e,b),l);return[0,bN(c,a,b),m];case
+e=a[1],k=N(b,f(b7(e))),l=dp(c,a[2],k),m=g(dp(c,e,b),l);return[0,bR(c,a,b),m];case
 8:var
-n=dp(c,a[1],b);return[0,bN(c,a,b),n];case
+n=dp(c,a[1],b);return[0,bR(c,a,b),n];case
 2:case
 7:var
 a=a[1];continue;case
 0:case
 1:return 0;default:var
-d=a[1],i=N(b,f(b3(d))),j=dp(c,a[2],i);return g(dp(c,d,b),j)}}function
-pp(i,h,g){var
+d=a[1],i=N(b,f(b7(d))),j=dp(c,a[2],i);return g(dp(c,d,b),j)}}function
+pK(i,h,g){var
 b=i,a=h,c=g;for(;;){if(a){var
-d=a[1],e=d[2],j=N(c,f(b3(e))),k=a[2],l=bN(b,e,c),b=[0,[0,d[1],l],b],a=k,c=j;continue}return b}}function
-kg(c,a,b){if(a){var
-e=a[1],d=e[2],h=N(b,f(b3(d))),i=a[2],j=bN(c,d,b),k=kg([0,[0,e[1],j],c],i,h);return g(dp(c,d,b),k)}return a}function
-fR(a){return w(b3,a)}function
-pq(c,a,b){if(a)var
-d=a[1],g=N(b,f(b3(d))),h=pq(c,a[2],g),e=[0,bN(c,d,b),h];else
+d=a[1],e=d[2],j=N(c,f(b7(e))),k=a[2],l=bR(b,e,c),b=[0,[0,d[1],l],b],a=k,c=j;continue}return b}}function
+kr(c,a,b){if(a){var
+e=a[1],d=e[2],h=N(b,f(b7(d))),i=a[2],j=bR(c,d,b),k=kr([0,[0,e[1],j],c],i,h);return g(dp(c,d,b),k)}return a}function
+fX(a){return y(b7,a)}function
+pL(c,a,b){if(a)var
+d=a[1],g=N(b,f(b7(d))),h=pL(c,a[2],g),e=[0,bR(c,d,b),h];else
 var
 e=a;return e}function
-pr(c,a,b){if(a){var
-d=a[1],e=N(b,f(b3(d))),h=pr(c,a[2],e);return g(dp(c,d,b),h)}return a}function
-hC(a){return 0===a[0]?fR(a[1]):b3(a[1])}function
-kh(c,b,a){if(b){var
-d=b[1],j=N(a,f(hC(d))),k=kh(c,b[2],j);if(0===d[0])var
-h=pr(c,d[1],a);else
+pM(c,a,b){if(a){var
+d=a[1],e=N(b,f(b7(d))),h=pM(c,a[2],e);return g(dp(c,d,b),h)}return a}function
+hI(a){return 0===a[0]?fX(a[1]):b7(a[1])}function
+ks(c,b,a){if(b){var
+d=b[1],j=N(a,f(hI(d))),k=ks(c,b[2],j);if(0===d[0])var
+h=pM(c,d[1],a);else
 var
-e=d[1],i=dp(c,e,a),h=[0,bN(c,e,a),i];return g(h,k)}return b}function
-hD(c){var
+e=d[1],i=dp(c,e,a),h=[0,bR(c,e,a),i];return g(h,k)}return b}function
+hJ(c){var
 a=c[1];switch(a[0]){case
 0:var
 b=[1,a[1]];break;case
 1:var
 b=[0,a[1]];break;default:var
-b=ce(hD,a)}return[0,b]}function
-ki(c){var
+b=ci(hJ,a)}return[0,b]}function
+kt(c){var
 b=c;for(;;){var
 a=b[1];switch(a[0]){case
 5:var
 b=a[1];continue;case
 6:var
-d=ki(a[2]);return r(ki(a[1]),d);case
-9:return a[1];default:return X(b)}}}function
-kj(n,h,a,g){if(a){var
-c=a[1],x=N(g,f(hC(c))),y=kj(n,h,a[2],x);if(0===c[0])var
-k=pq(h,c[1],g),o=[0,k,m(b),k,0,0,0,0,0];else
+d=kt(a[2]);return r(kt(a[1]),d);case
+9:return a[1];default:return W(b)}}}function
+ku(n,h,a,g){if(a){var
+c=a[1],x=N(g,f(hI(c))),y=ku(n,h,a[2],x);if(0===c[0])var
+k=pL(h,c[1],g),o=[0,k,m(b),k,0,0,0,0,0];else
 var
-l=bN(h,c[1],g),q=hD(l),i=bf(aH(0,n),q),d=hD(i[2]),j=e(hD,i[1]),r=0,s=0,t=0,u=0,v=[0,l],w=e(function(a){return aX(a,d)?m(b):an(a,d)},j),o=[0,j,ki(d),w,v,u,t,s,r];var
+l=bR(h,c[1],g),q=hJ(l),i=bf(aI(0,n),q),d=hJ(i[2]),j=e(hJ,i[1]),r=0,s=0,t=0,u=0,v=[0,l],w=e(function(a){return aZ(a,d)?m(b):ai(a,d)},j),o=[0,j,kt(d),w,v,u,t,s,r];var
 p=[0,o,y]}else
 var
 p=a;return p}function
-kk(a){return e(function(a){return[0,a[2],d]},a)}function
-kl(a){var
-b=w(hC,a[4]),c=g(fR(e(aG,a[3])),b);return g(kk(a[2]),c)}function
-hE(a){var
-b=cN(0,kk(a[2])),c=aH(0,f(a[1]));return kf(a,e(function(a){return[0,[0,a]]},c),b)}function
-km(b,d){var
+kv(a){return e(function(a){return[0,a[2],d]},a)}function
+kw(a){var
+b=y(hI,a[4]),c=g(fX(e(aH,a[3])),b);return g(kv(a[2]),c)}function
+hK(a){var
+b=co(0,kv(a[2])),c=aI(0,f(a[1]));return kq(a,e(function(a){return[0,[0,a]]},c),b)}function
+kx(b,d){var
 a=d;for(;;)switch(a[0]){case
 0:return 1;case
 1:var
-e=a[1];return ak(function(a){return aF(e,a)},b);case
+e=a[1];return al(function(a){return aG(e,a)},b);case
 2:case
 7:case
 8:var
 a=a[1];continue;default:var
-c=km(b,a[1]);if(c){var
+c=kx(b,a[1]);if(c){var
 a=a[2];continue}return c}}function
-ps(d){var
+pN(d){var
 a=d;for(;;){if(a){var
-b=a[2],e=a[1],c=I(ak(function(b){return function(a){return ta(b,a)}}(e),b));if(c){var
+b=a[2],e=a[1],c=I(al(function(b){return function(a){return tu(b,a)}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-pt(a){var
-u=e(aA,a[2]),d=g(a[1],u),h=f(a[1]),o=ae(w0,h),p=o?ae(h,w1):o,q=p?ae(h,f(a[4])):p,r=q?ae(f(a[4]),w2):q,s=r?ps(d):r;if(s){var
+pO(a){var
+u=e(aA,a[2]),d=g(a[1],u),h=f(a[1]),o=ae(xp,h),p=o?ae(h,xq):o,q=p?ae(h,f(a[4])):p,r=q?ae(f(a[4]),xr):q,s=r?pN(d):r;if(s){var
 c=d,b=a[3];for(;;){if(b){var
-j=b[1],k=j[1],m=I(ak(function(b){return function(a){return aF(b,a)}}(k),c)),n=m?km(c,j[2]):m;if(n){var
+j=b[1],k=j[1],m=I(al(function(b){return function(a){return aG(b,a)}}(k),c)),n=m?kx(c,j[2]):m;if(n){var
 c=[0,k,c],b=b[2];continue}var
 t=n}else
 var
@@ -5779,9 +5874,9 @@ i=t;break}}else
 var
 i=s;if(i){var
 v=a[4];return l(function(b){var
-c=0===b[0]?b[1]:[0,b[1],0],f=g(e(aA,a[3]),d);return l(function(a){return km(f,a)},c)},v)}return i}function
-d1(f,e,g){var
-h=g[1],a=ce(function(a){return d1(f,e,a)},h);switch(a[0]){case
+c=0===b[0]?b[1]:[0,b[1],0],f=g(e(aA,a[3]),d);return l(function(a){return kx(f,a)},c)},v)}return i}function
+d6(f,e,g){var
+h=g[1],a=ci(function(a){return d6(f,e,a)},h);switch(a[0]){case
 0:return s(a[1],f,[0,d,b]);case
 1:return s(a[1],e,[0,d,b]);case
 2:return[0,a[1],b];case
@@ -5793,7 +5888,7 @@ h=g[1],a=ce(function(a){return d1(f,e,a)},h);switch(a[0]){case
 8:var
 c=a[1];return[4,c,c];case
 9:return[6,a[1]];default:return[0,d,b]}}function
-kn(d){var
+ky(d){var
 b=d;for(;;){var
 a=b[1];switch(a[0]){case
 10:return 0;case
@@ -5804,105 +5899,105 @@ b=a[1];continue;case
 0:case
 1:case
 2:return 1;default:var
-c=kn(a[1]);if(c){var
+c=ky(a[1]);if(c){var
 b=a[2];continue}return c}}}function
-b4(g,f,e){var
+b8(g,f,e){var
 b=f,a=e;for(;;){if(b){if(a){var
-c=df(g,b[1],a[1]);if(c){var
+c=dg(g,b[1],a[1]);if(c){var
 b=b[2],a=a[2];continue}var
 d=c}else
 var
 d=a;return d}return a?0:1}}function
-w3(a){var
+xs(a){var
 b=a[4],d=0;if(typeof
 b!=="number"&&0===b[0]){var
 c=[0,b[1],0];d=1}if(!d)var
 c=0;var
 e=g(a[3],c);return g(a[1],e)}function
-hF(a){return f(a[1])}function
-pu(a){var
-b=f(fR(e(aG,a[3])));return N(f(a[2]),b)}function
-pv(a){var
-b=f(a[2]),c=a[3];return pp(hE(a),c,b)}function
-pw(a){var
-b=pu(a),c=a[4],d=pv(a);return kj(hF(a),d,c,b)}function
-px(a,b){var
-c=w(hC,a[4]),d=g(fR(e(aG,a[3])),c);return g(b,e(function(a){return a[1][1]},d))}function
-py(b,a){return l(function(a){if(0===a[0]){var
-c=hF(b);return n(f(a[1]),c)}return 1},a)}function
-pz(f,e){function
+hL(a){return f(a[1])}function
+pP(a){var
+b=f(fX(e(aH,a[3])));return N(f(a[2]),b)}function
+pQ(a){var
+b=f(a[2]),c=a[3];return pK(hK(a),c,b)}function
+pR(a){var
+b=pP(a),c=a[4],d=pQ(a);return ku(hL(a),d,c,b)}function
+pS(a,b){var
+c=y(hI,a[4]),d=g(fX(e(aH,a[3])),c);return g(b,e(function(a){return a[1][1]},d))}function
+pT(b,a){return l(function(a){if(0===a[0]){var
+c=hL(b);return n(f(a[1]),c)}return 1},a)}function
+kz(f,e){function
 a(a){return s(a,e,[0,d,b])}var
 c=[0,d,b];switch(f){case
 0:var
-g=a(w5);return[0,a(0),g,c];case
+g=a(xu);return[0,a(0),g,c];case
 1:var
-h=a(w6),i=a(w7);return[0,a(0),i,h];default:return[0,c,c,c]}}function
-pA(f,e){function
+h=a(xv),i=a(xw);return[0,a(0),i,h];default:return[0,c,c,c]}}function
+kA(f,e){function
 a(a){return s(a,e,[0,d,b])}var
 c=[0,d,b];switch(f){case
-0:return[0,c,c,a(w8)];case
+0:return[0,c,c,a(xx)];case
 1:var
-g=a(w9),h=a(w_);return[0,a(w$),h,g];default:var
-i=a(xa),j=a(xb);return[0,a(0),j,i]}}function
-pB(t,s,k,j,r,d){var
-c=bw(k,j,r,d);if(0===d[0])var
-e=bE(d[1],c);else
+g=a(xy),h=a(xz);return[0,a(xA),h,g];default:var
+i=a(xB),j=a(xC);return[0,a(0),j,i]}}function
+pU(t,s,k,j,r,d){var
+c=bj(k,j,r,d);if(0===d[0])var
+e=bF(d[1],c);else
 var
-a=d[1],f=fH(a,c),g=fI(a,c),h=hl(a,c),i=eG(a,c),l=S([3,[4,h,g],[4,i,f]],hi(a)),m=S([2,[4,h,f],[4,i,g]],fG(a)),n=M(function(b,a){return[2,b,a]},m,l),o=S(a[5],n),p=hj(a,c),q=S(hk(a,c),p),e=M(function(b,a){return[3,b,a]},q,o);return jU(t,e,S([5,[0,b,b],s],dh(eO(k,j,eN(d)),e)))}function
-pC(c,b,a){return b?fJ(c,b[1],a):a?0:1}function
-pD(d,b,i,a,c,o,h,m,g){var
-p=as(b),j=n(f(c),p),k=j?pC(d,a,h):j,l=k?pC(d,a,g):k;if(l){var
-q=e(function(c){return pB(b,i,a,g,m,c)},c),r=e(function(c){return pB(b,i,a,h,o,c)},c);return kd(d,as(b),r,q)}return l}function
-pE(c,j,d,b,a){var
-e=aD(d,j),f=e?bl(b,a):e;if(f)var
-k=cL(c,a)[2],h=[0,cL(c,b)[1],k],l=[0,cL(c,dH(a,b)),0],i=[0,[0,h,h,g(ac(u,d),l)]];else
+a=d[1],f=fL(a,c),g=fM(a,c),h=fN(a,c),i=dV(a,c),l=P([3,[4,h,g],[4,i,f]],fK(a)),m=P([2,[4,h,f],[4,i,g]],eK(a)),n=M(function(b,a){return[2,b,a]},m,l),o=P(a[5],n),p=hn(a,c),q=P(ho(a,c),p),e=M(function(b,a){return[3,b,a]},q,o);return j6(t,e,P([5,[0,b,b],s],cq(d3(k,j,d2(d)),e)))}function
+pV(c,b,a){return b?fO(c,b[1],a):a?0:1}function
+pW(d,b,i,a,c,o,h,m,g){var
+p=an(b),j=n(f(c),p),k=j?pV(d,a,h):j,l=k?pV(d,a,g):k;if(l){var
+q=e(function(c){return pU(b,i,a,g,m,c)},c),r=e(function(c){return pU(b,i,a,h,o,c)},c);return ko(d,an(b),r,q)}return l}function
+pX(c,j,d,b,a){var
+e=aE(d,j),f=e?bn(b,a):e;if(f)var
+k=cP(c,a)[2],h=[0,cP(c,b)[1],k],l=[0,cP(c,dH(a,b)),0],i=[0,[0,h,h,g(ac(u,d),l)]];else
 var
 i=f;return i}function
-ko(a){if(a){var
+kB(a){if(a){var
 b=a[1];if(b)var
-c=ko(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+c=kB(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return xe}function
-pF(c,b,a){if(b){if(a){var
-d=b[1],f=pF(c,b[2],a[2]),g=a[1],h=function(b,a){return A(t(c,d,b),a)},i=function(a){return a};return aS(function(a){return t(c,d,a)},i,h,g,f)}var
+d=b;return d}return xF}function
+pY(c,b,a){if(b){if(a){var
+d=b[1],f=pY(c,b[2],a[2]),g=a[1],h=function(b,a){return A(t(c,d,b),a)},i=function(a){return a};return aT(function(a){return t(c,d,a)},i,h,g,f)}var
 e=a}else
 var
 e=b;return e}function
-pG(c,b,a){if(b){if(a){var
-d=pG(c,b[2],a[2]);return A(t(c,b[1],a[1]),d)}return u}return u}function
-hG(a){return ap(function(d,a){var
-e=c(2,b);return F(cb(bJ(d),e),a)},d,a)}function
-hH(a,i,h){var
+pZ(c,b,a){if(b){if(a){var
+d=pZ(c,b[2],a[2]);return A(t(c,b[1],a[1]),d)}return u}return u}function
+hM(a){return aq(function(d,a){var
+e=c(2,b);return G(cf(bK(d),e),a)},d,a)}function
+hN(a,i,h){var
 d=f(i);function
 t(g,e,f){var
-d=[0,b,c(2,b)];return[0,aa(cL(a,a9(dG(e,f),d)))]}var
-j=ko(e(function(b){return ev(a,t,b)},i));if(j){var
-v=j[1],w=function(b,c,e){return pE(a,d,b,c,e)},k=ko(e(function(b){return ev(a,w,b)},i));if(k){var
-x=function(b){return cL(a,b)},o=e(function(a){return e(x,a)},h),y=k[1],z=e(function(a){return a[3]},y),A=e(function(b){return pG(a,b,e(function(a){return a[2]},v))},o),B=V(aH(0,d),o),F=e(function(c){var
-i=pF(a,c[2],z),j=c[1],d=[0,J(a,b),0],e=g(ac(u,j),d);function
-f(b,a){return E(b,ax(a))}function
-h(a){return $(ax(a))}return aS(function(a){return a},h,f,e,i)},B),p=n(f(h),d),q=p?l(function(a){return n(f(a),d)},h):p;if(q)var
-G=c(2,b),H=cb(cE(a),G),I=hG(A),m=D(C(c(2,c(2,b)),I),H);else
+d=[0,b,c(2,b)];return[0,aa(cP(a,a_(dG(e,f),d)))]}var
+j=kB(e(function(b){return eA(a,t,b)},i));if(j){var
+v=j[1],w=function(b,c,e){return pX(a,d,b,c,e)},k=kB(e(function(b){return eA(a,w,b)},i));if(k){var
+x=function(b){return cP(a,b)},o=e(function(a){return e(x,a)},h),y=k[1],z=e(function(a){return a[3]},y),A=e(function(b){return pZ(a,b,e(function(a){return a[2]},v))},o),B=V(aI(0,d),o),E=e(function(c){var
+i=pY(a,c[2],z),j=c[1],d=[0,J(a,b),0],e=g(ac(u,j),d);function
+f(b,a){return C(b,ax(a))}function
+h(a){return $(ax(a))}return aT(function(a){return a},h,f,e,i)},B),p=n(f(h),d),q=p?l(function(a){return n(f(a),d)},h):p;if(q)var
+G=c(2,b),H=cf(cI(a),G),I=hM(A),m=F(D(c(2,c(2,b)),I),H);else
 var
 m=q;if(m){var
-K=c(2,b),L=cb(cE(a),K),M=hG(c2(F));return D(C(c(2,c(2,b)),M),L)}var
+K=c(2,b),L=cf(cI(a),K),M=hM(cH(E));return F(D(c(2,c(2,b)),M),L)}var
 r=m}else
 var
 r=k;var
 s=r}else
 var
 s=j;return s}function
-eR(a){return l(function(a){return I(dK(a))},a)}function
-a0(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-ba(a){return[0,a[1],a[2]]}function
-hI(b,a){var
+eU(a){return l(function(a){return I(dK(a))},a)}function
+a1(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+bb(a){return[0,a[1],a[2]]}function
+hO(b,a){var
 d=f(a),c=n(f(b),d);if(c){var
-e=V(b,a);return l(function(a){return bl(a[1],a[2])},e)}return c}function
-kp(c,a,b){var
-d=V(a,b),g=V(aH(c,f(a)),d);return e(function(a){return[1,a[1],a[2][1],a[2][2]]},g)}function
-eS(e,k,j,h){var
+e=V(b,a);return l(function(a){return bn(a[1],a[2])},e)}return c}function
+kC(c,a,b){var
+d=V(a,b),g=V(aI(c,f(a)),d);return e(function(a){return[1,a[1],a[2][1],a[2][2]]},g)}function
+eV(e,k,j,h){var
 c=k,b=j,a=h;for(;;){if(c)if(b)if(a){var
-f=a[1],l=i(e,1,[3,ba(c[1]),f]),g=l||i(e,1,[3,f,ba(b[1])]);if(!g){var
+f=a[1],l=i(e,1,[3,bb(c[1]),f]),g=l||i(e,1,[3,f,bb(b[1])]);if(!g){var
 c=c[2],b=b[2],a=a[2];continue}var
 d=g}else
 var
@@ -5911,25 +6006,25 @@ var
 d=b;else
 var
 d=c;return d}}function
-kq(b,e,c){var
-a=ev(b,function(a,c,d){return pE(b,e,a,c,d)},c);return a?K(d,a[1][2][1]):a}function
-kr(f,e,b,a){var
+kD(b,e,c){var
+a=eA(b,function(a,c,d){return pX(b,e,a,c,d)},c);return a?K(d,a[1][2][1]):a}function
+kE(f,e,b,a){var
 c=a[1],d=b[1],g=c[2],h=a[2],i=d[2],j=b[2],k=[0,d[1],[0,c[1],0]];return l(function(a){var
 b=[0,i,[0,g,0]];return l(function(b){var
 c=[0,j,[0,h,0]];return l(function(c){var
-d=ba(c),g=ba(b);return cO(f,e,[0,ba(a),g,d])},c)},b)},k)}function
-ks(a){switch(a[0]){case
+d=bb(c),g=bb(b);return cR(f,e,[0,bb(a),g,d])},c)},b)},k)}function
+kF(a){switch(a[0]){case
 0:var
-c=[0,a[4],0],d=g(a0(a[3]),c),e=g(a0(a[2]),d);return g(a0(a[1]),e);case
+c=[0,a[4],0],d=g(a1(a[3]),c),e=g(a1(a[2]),d);return g(a1(a[1]),e);case
 1:var
-b=a[3],f=b?a0(b[1]):b,h=g(a0(a[2]),f);return g(a0(a[1]),h);default:return a0(a[1])}}function
-pH(a){return 1===a[0]?0:1}function
-fS(b,a){var
-c=a9(a,a);return bl(a9(b,b),c)?a:b}function
-fT(b,a,e,d){var
-c=dV(b,a,ba(e));return c?dV(b,a,ba(d)):c}function
-pI(f,e,c,a){switch(e[0]){case
-0:if(c){if(c[2])return 0;if(a)return a[2]?0:fT(f,e[1],c[1],a[1]);var
+b=a[3],f=b?a1(b[1]):b,h=g(a1(a[2]),f);return g(a1(a[1]),h);default:return a1(a[1])}}function
+p0(a){return 1===a[0]?0:1}function
+fY(b,a){var
+c=a_(a,a);return bn(a_(b,b),c)?a:b}function
+fZ(b,a,e,d){var
+c=dY(b,a,bb(e));return c?dY(b,a,bb(d)):c}function
+p1(f,e,c,a){switch(e[0]){case
+0:if(c){if(c[2])return 0;if(a)return a[2]?0:fZ(f,e[1],c[1],a[1]);var
 x=a}else
 var
 x=c;return x;case
@@ -5938,7 +6033,7 @@ i=c[2];if(i){var
 j=i[2];if(j){if(j[2])return 0;if(a){var
 k=a[2];if(k){var
 l=k[2];if(l){if(l[2])return 0;var
-y=fT(f,e[1],c[1],a[1]),z=y?fT(f,e[2],i[1],k[1]):y;if(z)return fT(f,e[3],j[1],l[1]);var
+y=fZ(f,e[1],c[1],a[1]),z=y?fZ(f,e[2],i[1],k[1]):y;if(z)return fZ(f,e[3],j[1],l[1]);var
 A=z}else
 var
 A=l;var
@@ -5961,7 +6056,7 @@ m=c[2];if(m){var
 n=m[2];if(n){if(n[2])return 0;if(a){var
 o=a[2];if(o){var
 p=o[2];if(p){if(p[2])return 0;var
-P=[0,ba(fS(n[1],p[1])),0],Q=[0,ba(fS(m[1],o[1])),P];return fJ(f,e,[0,ba(fS(c[1],a[1])),Q])}var
+P=[0,bb(fY(n[1],p[1])),0],Q=[0,bb(fY(m[1],o[1])),P];return fO(f,e,[0,bb(fY(c[1],a[1])),Q])}var
 E=p}else
 var
 E=o;var
@@ -5980,11 +6075,11 @@ q=c[2];if(q){var
 r=q[2];if(r){if(r[2])return 0;if(a){var
 s=a[2];if(s){var
 t=s[2];if(t){if(t[2])return 0;var
-g=t[1],h=r[1],N=0,R=0;if(bl(h,[0,d,b])&&bl([0,d,b],g))var
+g=t[1],h=r[1],N=0,R=0;if(bn(h,[0,d,b])&&bn([0,d,b],g))var
 H=[0,d,b];else
 N=1;if(N)var
-O=a9(g,g),H=bl(a9(h,h),O)?h:g;var
-S=[0,ba(H),R],T=[0,ba(fS(q[1],s[1])),S],I=fJ(f,e,[0,ba(fS(c[1],a[1])),T]);if(I)return fT(f,dj(e[2]),h,g);var
+O=a_(g,g),H=bn(a_(h,h),O)?h:g;var
+S=[0,bb(H),R],T=[0,bb(fY(q[1],s[1])),S],I=fO(f,e,[0,bb(fY(c[1],a[1])),T]);if(I)return fZ(f,dj(e[2]),h,g);var
 J=I}else
 var
 J=t;var
@@ -6002,82 +6097,82 @@ L=q;var
 M=L}else
 var
 M=c;return M}}function
-pJ(a){var
-c=s(xi,a,[0,d,b]),e=s(xj,a,[0,d,b]);return[0,s(0,a,[0,d,b]),e,c]}function
-hJ(a){var
-c=s(xk,a,[0,d,b]),e=s(xl,a,[0,d,b]);return[0,[0,s(0,a,[0,d,b]),e],c]}function
-kt(d,c,b,a){var
-e=b1(d,c,b,a);return x(b1(d,c,b,a),e)}var
-cS=c(2,c(2,c(2,c(2,c(2,q(c(2,b)))))));function
-d2(e){var
-a=aI(cS,e);if(a){var
-f=h(gz(c(2,b)),cS);return[0,a[1][2],f]}return[0,d,b]}var
-ku=[0,[0,d,b],[0,d,b],[0,d,b]];function
-eT(c,a){var
-e=[0,d,b];return ap(function(b,a){return[2,h(c,b),a]},e,a)}function
-fU(b,a){return ap(function(c,a){var
-d=h(b,c);return M(function(b,a){return[2,b,a]},d,a)},ku,a)}function
-pK(c){var
+p2(a){var
+c=s(xJ,a,[0,d,b]),e=s(xK,a,[0,d,b]);return[0,s(0,a,[0,d,b]),e,c]}function
+hP(a){var
+c=s(xL,a,[0,d,b]),e=s(xM,a,[0,d,b]);return[0,[0,s(0,a,[0,d,b]),e],c]}function
+kG(d,c,b,a){var
+e=b5(d,c,b,a);return v(b5(d,c,b,a),e)}var
+cU=c(2,c(2,c(2,c(2,c(2,q(c(2,b)))))));function
+d7(e){var
+a=aB(cU,e);if(a){var
+f=h(gF(c(2,b)),cU);return[0,a[1][2],f]}return[0,d,b]}var
+kH=[0,[0,d,b],[0,d,b],[0,d,b]];function
+eW(c,a){var
+e=[0,d,b];return aq(function(b,a){return[2,h(c,b),a]},e,a)}function
+f0(b,a){return aq(function(c,a){var
+d=h(b,c);return M(function(b,a){return[2,b,a]},d,a)},kH,a)}function
+p3(c){var
 a=c;for(;;)switch(a[0]){case
 0:return 1;case
-1:return aD(a[1],dL);case
+1:return aE(a[1],dL);case
 6:var
 a=a[1];continue;default:var
-b=pK(a[1]);if(b){var
+b=p3(a[1]);if(b){var
 a=a[2];continue}return b}}function
-dq(a){return l(pK,a)}function
-kv(d,h,c,f){var
-a=ev(d,function(c,e,f){var
-a=aD(c,N(dL,h)),b=a?bl(e,f):a,g=b?[0,mC(d,c,e,f)]:b;return g},f);if(a){var
-b=a[1],e=aw(dL,b[3]),g=iW(hG(aw(c,e))),i=iW(hG(am(c,e))),j=Q(F(F(gN(am(dL,b[3])),i),g));return K(b[1][2],j)}return a}function
-hK(b,a,c){if(b)if(a)var
-f=a[1],g=hK(b[2],a[2],c),h=K(b[1],d)?[3,f,c]:[2,f,c],e=[0,h,g];else
+dq(a){return l(p3,a)}function
+kI(d,h,c,f){var
+a=eA(d,function(c,e,f){var
+a=aE(c,N(dL,h)),b=a?bn(e,f):a,g=b?[0,mP(d,c,e,f)]:b;return g},f);if(a){var
+b=a[1],e=aw(dL,b[3]),g=i2(hM(aw(c,e))),i=i2(hM(ao(c,e))),j=R(G(G(gT(ao(dL,b[3])),i),g));return K(b[1][2],j)}return a}function
+hQ(b,a,c){if(b)if(a)var
+f=a[1],g=hQ(b[2],a[2],c),h=K(b[1],d)?[3,f,c]:[2,f,c],e=[0,h,g];else
 var
 e=a;else
 var
 e=b;return e}function
-hL(a){return y(function(a){var
-d=h(gz(c(2,b)),cS);return[0,a[2],d]},a)}function
-cr(b,a){var
-c=gI(a);return[1,N(dL,b),c,a]}function
-d3(a){if(ch(a[1],a[2]))return a[1];var
+hR(a){return z(function(a){var
+d=h(gF(c(2,b)),cU);return[0,a[2],d]},a)}function
+cu(b,a){var
+c=gO(a);return[1,N(dL,b),c,a]}function
+d8(a){if(cl(a[1],a[2]))return a[1];var
 d=[0,c(2,b),b];return[5,[2,a[1],a[2]],d]}function
-bH(a){var
-b=d3(a[3]),c=d3(a[2]);return[0,d3(a[1]),c,b]}function
-pL(a){switch(a[0]){case
+bI(a){var
+b=d8(a[3]),c=d8(a[2]);return[0,d8(a[1]),c,b]}function
+p4(a){switch(a[0]){case
 0:var
-b=a[1],c=b[5],d=d3(b[4]),e=bH(b[3]),f=bH(b[2]);return[0,bH(b[1]),f,e,d,c];case
+b=a[1],c=b[5],d=d8(b[4]),e=bI(b[3]),f=bI(b[2]);return[0,bI(b[1]),f,e,d,c];case
 1:var
-g=y(bH,a[3]),h=bH(a[2]);return[1,bH(a[1]),h,g];default:return[2,bH(a[1])]}}function
-fV(h,g,p,a,P,o){var
-w=fB(h,g,p,a),y=w?dq(a0(a)):w;if(y){var
-q=G(g[3],P);if(q){var
+g=z(bI,a[3]),h=bI(a[2]);return[1,bI(a[1]),h,g];default:return[2,bI(a[1])]}}function
+f1(h,g,p,a,Q,o){var
+x=fF(h,g,p,a),y=x?dq(a1(a)):x;if(y){var
+q=E(g[3],Q);if(q){var
 j=q[1];if(typeof
 j!=="number"&&14===j[0]){var
-B=j[2],C=j[1],r=hL(aI(cS,B));if(r){var
-s=r[1],Q=cr(xs,s),R=cr(xt,s),t=[0,cr(0,s),R,Q],D=i(h,1,B),E=D?i(h,0,C):D;if(E)var
+B=j[2],C=j[1],r=hR(aB(cU,B));if(r){var
+s=r[1],R=cu(xT,s),S=cu(xU,s),t=[0,cu(0,s),S,R],D=i(h,1,B),F=D?i(h,0,C):D;if(F)var
 T=f(g[1]),u=n(f(o),T);else
 var
-u=E;var
-F=u?l(function(a){return dq(ks(a))},p):u;if(F){var
-U=g[1],H=hK(o,e(function(b){return cQ(pL(b),a)},U),C),I=dq(H);if(I){var
-v=V(V(p,H),o),k=function(k){var
+u=F;var
+G=u?l(function(a){return dq(kF(a))},p):u;if(G){var
+U=g[1],H=hQ(o,e(function(b){return cS(p4(b),a)},U),C),I=dq(H);if(I){var
+w=V(V(p,H),o),k=function(k){var
 f=k[1][2],e=k[1][1];switch(e[0]){case
 0:var
-i=e[4],l=S(f,aB(e[1])),m=aZ(e[2],e[3],a),g=M(function(b,a){return[3,b,a]},m,l),n=S([0,c(2,b),b],g);return[0,[3,x(g,g),[4,i,i]],n,[0,b,b]];case
+i=e[4],l=P(f,aC(e[1])),m=aP(e[2],e[3],a),g=M(function(b,a){return[3,b,a]},m,l),n=P([0,c(2,b),b],g);return[0,[3,v(g,g),[4,i,i]],n,[0,b,b]];case
 1:var
-h=aZ(e[1],e[2],a),o=S([0,c(2,b),b],h);return[0,[3,x(h,h),[4,f,f]],o,[0,b,b]];default:var
-j=e[1],p=aB(j);return[0,[3,x(aB(j),a),f],p,[0,d,b]]}},m=function(j){var
+h=aP(e[1],e[2],a),o=P([0,c(2,b),b],h);return[0,[3,v(h,h),[4,f,f]],o,[0,b,b]];default:var
+j=e[1],p=aC(j);return[0,[3,v(aC(j),a),f],p,[0,d,b]]}},m=function(j){var
 e=j[1],f=e[2],c=e[1],d=j[2];switch(c[0]){case
 0:var
-g=c[3],h=c[2],i=c[1],k=aZ(h,g,a),l=[3,x(aB(i),k),f],m=cl(i,h,g,c[4],a);return d2([5,[0,d,b],[2,cP(c[5],m),l]]);case
-1:return d2([5,[0,d,b],[2,f,cQ(c,a)]]);default:return[0,d,b]}},L=x(t,t),N=[4,eT(function(a){var
-b=k(a)[3];return[4,m(a),b]},v),L],O=x(fU(function(a){var
-b=k(a)[2];return S(m(a),b)},v),t);return kv(h,xv,xu,[2,[2,eT(function(a){var
-b=k(a)[1];return[4,m(a),b]},v),O],N])}var
+g=c[3],h=c[2],i=c[1],k=aP(h,g,a),l=[3,v(aC(i),k),f],m=b3(i,h,g,c[4],a);return d7([5,[0,d,b],[2,cp(c[5],m),l]]);case
+1:return d7([5,[0,d,b],[2,f,cS(c,a)]]);default:return[0,d,b]}},L=v(t,t),N=[4,eW(function(a){var
+b=k(a)[3];return[4,m(a),b]},w),L],O=v(f0(function(a){var
+b=k(a)[2];return P(m(a),b)},w),t);return kI(h,xW,xV,[2,[2,eW(function(a){var
+b=k(a)[1];return[4,m(a),b]},w),O],N])}var
 J=I}else
 var
-J=F;var
+J=G;var
 K=J}else
 var
 K=r;return K}var
@@ -6087,69 +6182,69 @@ z=q;var
 A=z}else
 var
 A=y;return A}function
-xw(a){var
-b=dq(a0(a[3])),c=b?dq(a0(a[4])):b;return c?dq([0,a[2],0]):c}function
-pM(a,d,c){var
-b=aH(0,bF(a));return e(function(b){var
-e=aD(b,bM(a))?d:c;return cr(b,e)},b)}function
-pN(e,a,f){if(typeof
+xX(a){var
+b=dq(a1(a[3])),c=b?dq(a1(a[4])):b;return c?dq([0,a[2],0]):c}function
+p5(a,d,c){var
+b=aI(0,bG(a));return e(function(b){var
+e=aE(b,bQ(a))?d:c;return cu(b,e)},b)}function
+p6(e,a,f){if(typeof
 e==="number"){if(e){var
-g=cr(xx,a);return[0,[0,cr(0,a),g,[0,d,b]],ku]}var
-h=cr(xy,a),i=cr(xz,a);return[0,[0,cr(0,a),i,h],ku]}var
-c=e[1],j=pA(c,pM(c,a,f));return[0,pz(c,pM(c,a,f)),j]}function
-pO(g,e,u,o,a){var
-p=hL(aI(cS,u));if(p){var
-v=p[1],q=typeof
-e==="number"?[0,[0,b,b]]:hL(h(co(cS),o));if(q){var
-r=q[1],w=i(g,1,u);if(w)if(typeof
+g=cu(xY,a);return[0,[0,cu(0,a),g,[0,d,b]],kH]}var
+h=cu(xZ,a),i=cu(x0,a);return[0,[0,cu(0,a),i,h],kH]}var
+c=e[1],j=kA(c,p5(c,a,f));return[0,kz(c,p5(c,a,f)),j]}function
+p7(g,e,u,o,a){var
+p=hR(aB(cU,u));if(p){var
+w=p[1],q=typeof
+e==="number"?[0,[0,b,b]]:hR(h(cr(cU),o));if(q){var
+r=q[1],x=i(g,1,u);if(x)if(typeof
 e==="number")var
 j=1;else
 var
-B=i(g,1,o),C=B?cp(g,o):B,j=C?I(bl(r,[0,d,b])):C;else
+B=i(g,1,o),C=B?cs(g,o):B,j=C?I(bn(r,[0,d,b])):C;else
 var
-j=w;var
-y=j?l(xw,a):j;if(y){var
-f=pN(e,v,r)[2],k=pN(e,v,r)[1],m=[0,c(2,b),b],n=function(b){return fU(function(a){var
-c=a[3],d=h(b,a[4]);return S([4,a[1],d],c)},a)},s=eT(function(a){var
-b=x(a[3],a[4]);return[4,a[1],b]},a),t=x(f,f),D=n(function(a){return a[3]}),E=S(f[3],D),F=n(function(a){return a[2]}),G=S(f[2],F),H=n(function(a){return a[1]}),J=S(f[1],H),K=M(function(b,a){return[2,b,a]},J,G),L=[4,t,s],N=x(f,M(function(b,a){return[2,b,a]},K,E)),O=[3,[2,x(f,fU(function(a){var
-b=dh(a[4],a[3]);return S(a[1],b)},a)),N],L],P=[2,[4,m,s],[4,[5,[0,c(2,c(2,b)),b],[2,[0,b,b],t]],O]],Q=[4,m,x(k,oi(f,fU(function(a){return S(a[1],a[4])},a)))],R=x(k,k),T=[2,[4,eT(function(a){return a[1]},a),R],Q],U=[4,m,x(fU(function(a){return S(a[1],a[3])},a),k)],V=[2,[2,[2,eT(function(a){var
-b=[4,a[2],a[2]],c=x(a[4],a[4]),d=[3,[2,x(a[3],a[3]),c],b];return[4,a[1],d]},a),U],T],P],W=typeof
-e==="number"?as(e):bM(e[1]);return kv(g,as(e),W,V)}var
+j=x;var
+y=j?l(xX,a):j;if(y){var
+f=p6(e,w,r)[2],k=p6(e,w,r)[1],m=[0,c(2,b),b],n=function(b){return f0(function(a){var
+c=a[3],d=h(b,a[4]);return P([4,a[1],d],c)},a)},s=eW(function(a){var
+b=v(a[3],a[4]);return[4,a[1],b]},a),t=v(f,f),D=n(function(a){return a[3]}),E=P(f[3],D),F=n(function(a){return a[2]}),G=P(f[2],F),H=n(function(a){return a[1]}),J=P(f[1],H),K=M(function(b,a){return[2,b,a]},J,G),L=[4,t,s],N=v(f,M(function(b,a){return[2,b,a]},K,E)),O=[3,[2,v(f,f0(function(a){var
+b=cq(a[4],a[3]);return P(a[1],b)},a)),N],L],Q=[2,[4,m,s],[4,[5,[0,c(2,c(2,b)),b],[2,[0,b,b],t]],O]],R=[4,m,v(k,os(f,f0(function(a){return P(a[1],a[4])},a)))],S=v(k,k),T=[2,[4,eW(function(a){return a[1]},a),S],R],U=[4,m,v(f0(function(a){return P(a[1],a[3])},a),k)],V=[2,[2,[2,eW(function(a){var
+b=[4,a[2],a[2]],c=v(a[4],a[4]),d=[3,[2,v(a[3],a[3]),c],b];return[4,a[1],d]},a),U],T],Q],W=typeof
+e==="number"?an(e):bQ(e[1]);return kI(g,an(e),W,V)}var
 z=y}else
 var
 z=q;var
 A=z}else
 var
 A=p;return A}function
-pP(a){return[6,x(a,a)]}function
-pQ(b){if(0===b[0])return[0,pL(b[1])];var
-a=b[1],c=a[7],d=d3(a[6]),e=d3(a[5]),f=bH(a[4]),g=bH(a[3]),h=bH(a[2]);return[1,[0,bH(a[1]),h,g,f,e,d,c]]}function
-hM(f,e,c,a){if(typeof
+p8(a){return[6,v(a,a)]}function
+p9(b){if(0===b[0])return[0,p4(b[1])];var
+a=b[1],c=a[7],d=d8(a[6]),e=d8(a[5]),f=bI(a[4]),g=bI(a[3]),h=bI(a[2]);return[1,[0,bI(a[1]),h,g,f,e,d,c]]}function
+hS(f,e,c,a){if(typeof
 a==="number")return 0;else{if(0===a[0]){var
 g=a[1],j=K(c,d)?[3,g,f]:[2,g,f];return[0,j]}var
-h=a[2],i=a[1],k=K(c,d)?gI(e):e,b=ba(k),l=[4,i,dU(b)],m=[2,[4,h,dT(b)],l],n=[4,h,dU(b)];return[1,[3,[4,i,dT(b)],n],m]}}function
-kw(a,c){if(D(c,b))return a;var
-g=aW(c,aM(2)),h=g[1];if(L(g[2],d)){var
-e=kw(a,h);return[4,e,e]}var
-f=kw(a,h);return[4,[4,f,f],a]}function
-a1(c,a){switch(a[0]){case
+h=a[2],i=a[1],k=K(c,d)?gO(e):e,b=bb(k),l=[4,i,dX(b)],m=[2,[4,h,dW(b)],l],n=[4,h,dX(b)];return[1,[3,[4,i,dW(b)],n],m]}}function
+kJ(a,c){if(F(c,b))return a;var
+g=aY(c,aN(2)),h=g[1];if(L(g[2],d)){var
+e=kJ(a,h);return[4,e,e]}var
+f=kJ(a,h);return[4,[4,f,f],a]}function
+a2(c,a){switch(a[0]){case
 0:return a[1];case
-1:return po([0,d,b],c,a[1]);case
-2:return[3,[0,d,b],a1(c,a[1])];case
+1:return pJ([0,d,b],c,a[1]);case
+2:return[3,[0,d,b],a2(c,a[1])];case
 3:var
-e=a1(c,a[2]);return[2,a1(c,a[1]),e];case
+e=a2(c,a[2]);return[2,a2(c,a[1]),e];case
 4:var
-f=a1(c,a[2]);return[3,a1(c,a[1]),f];case
+f=a2(c,a[2]);return[3,a2(c,a[1]),f];case
 5:var
-g=a1(c,a[2]);return[4,a1(c,a[1]),g];case
+g=a2(c,a[2]);return[4,a2(c,a[1]),g];case
 6:var
-h=a1(c,a[2]);return[5,a1(c,a[1]),h];case
+h=a2(c,a[2]);return[5,a2(c,a[1]),h];case
 7:var
-i=a[2];return kw(a1(c,a[1]),i);default:return[6,a1(c,a[1])]}}function
-fW(d,h,g){var
-i=d[3],b=kf(d,g,h),a=i;for(;;){if(a){var
-c=a[1],e=a[2],f=a1(b,c[2]),b=[0,[0,c[1],f],b],a=e;continue}return b}}function
-fX(c){var
+i=a[2];return kJ(a2(c,a[1]),i);default:return[6,a2(c,a[1])]}}function
+f2(d,h,g){var
+i=d[3],b=kq(d,g,h),a=i;for(;;){if(a){var
+c=a[1],e=a[2],f=a2(b,c[2]),b=[0,[0,c[1],f],b],a=e;continue}return b}}function
+f3(c){var
 a=c;for(;;)switch(a[0]){case
 0:return I(dK(a[1]));case
 1:return 1;case
@@ -6157,53 +6252,53 @@ a=c;for(;;)switch(a[0]){case
 7:case
 8:var
 a=a[1];continue;default:var
-b=fX(a[1]);if(b){var
+b=f3(a[1]);if(b){var
 a=a[2];continue}return b}}function
-kx(a){if(a){var
+kK(a){if(a){var
 b=a[1];if(0===b[0])return 0;var
-c=b[1],d=kx(a[2]);return y(function(a){return[0,c,a]},d)}return xC}function
-eU(c,e,p){var
+c=b[1],d=kK(a[2]);return z(function(a){return[0,c,a]},d)}return x3}function
+eX(c,e,p){var
 a=p;for(;;)switch(a[0]){case
 6:var
-g=a[2],i=eU(c,e,a[1]),j=i?eU(c,e,g):i;if(j){var
-k=a1(e,g),l=h(c,k);if(!l)return h(c,[3,[0,d,b],k]);var
+g=a[2],i=eX(c,e,a[1]),j=i?eX(c,e,g):i;if(j){var
+k=a2(e,g),l=h(c,k);if(!l)return h(c,[3,[0,d,b],k]);var
 m=l}else
 var
 m=j;return m;case
 8:var
-n=a[1],o=eU(c,e,n);return o?h(c,a1(e,n)):o;case
+n=a[1],o=eX(c,e,n);return o?h(c,a2(e,n)):o;case
 2:case
 7:var
 a=a[1];continue;case
 0:case
 1:return 1;default:var
-f=eU(c,e,a[1]);if(f){var
+f=eX(c,e,a[1]);if(f){var
 a=a[2];continue}return f}}function
-pR(j,c,i,h,n){var
-o=c[3],b=kf(c,h,i),a=o;for(;;){if(a){var
-e=a[1],f=e[2],g=eU(j,b,f);if(g){var
-k=a[2],m=a1(b,f),b=[0,[0,e[1],m],b],a=k;continue}var
+p_(j,c,i,h,n){var
+o=c[3],b=kq(c,h,i),a=o;for(;;){if(a){var
+e=a[1],f=e[2],g=eX(j,b,f);if(g){var
+k=a[2],m=a2(b,f),b=[0,[0,e[1],m],b],a=k;continue}var
 d=g}else
 var
 d=1;if(d){var
-p=fW(c,i,h);return l(function(a){return eU(j,p,a)},n)}return d}}var
-hO=z(m(b),hN);function
-pS(e){var
-a=X(hO);if(e)var
-f=r(m(c(2,b)),a),g=B(m(c(2,c(2,b))),f),h=r(m(c(2,b)),a),d=an(B(m(b),h),g);else
+p=f2(c,i,h);return l(function(a){return eX(j,p,a)},n)}return d}}var
+hU=x(m(b),hT);function
+p$(e){var
+a=W(hU);if(e)var
+f=r(m(c(2,b)),a),g=B(m(c(2,c(2,b))),f),h=r(m(c(2,b)),a),d=ai(B(m(b),h),g);else
 var
-i=B(m(c(2,b)),a),j=X(hN),d=an(B(r(m(c(2,b)),j),a),i);return aN(d)}function
-pT(d,c,a){if(d){var
-e=pS(c),f=B(m(b),e),g=r(z(m(b),a),f);return z(m(b),g)}var
-h=m(b),i=pS(c),j=an(m(b),i);return z(r(a,B(m(b),j)),h)}function
-eV(f,e,d,a){var
-g=X(a),h=X(d),i=z(z(m(c(2,b)),h),g),j=f?e?hO:an(hO,r(m(c(2,b)),hN)):an(hO,m(c(2,b))),k=r(X(j),i);return aN(B(m(b),k))}function
-pU(a,d){var
-h=a?b:Q(b),e=m(h),f=pT(a,d,xE),g=pT(a,d,xF),i=an(f,eV(a,d,e,f)),j=[0,B(an(g,eV(a,d,g,e)),i),0],k=an(e,eV(a,d,e,f)),l=[0,B(an(g,eV(a,d,f,g)),k),j],n=an(e,eV(a,d,g,e)),o=[0,B(an(f,eV(a,d,f,g)),n),l],p=a?d?m(c(2,b)):r(m(c(2,c(2,b))),hN):m(c(2,c(2,b)));return[0,p,o]}function
-pV(g,d){var
+i=B(m(c(2,b)),a),j=W(hT),d=ai(B(r(m(c(2,b)),j),a),i);return aL(d)}function
+qa(d,c,a){if(d){var
+e=p$(c),f=B(m(b),e),g=r(x(m(b),a),f);return x(m(b),g)}var
+h=m(b),i=p$(c),j=ai(m(b),i);return x(r(a,B(m(b),j)),h)}function
+eY(f,e,d,a){var
+g=W(a),h=W(d),i=x(x(m(c(2,b)),h),g),j=f?e?hU:ai(hU,r(m(c(2,b)),hT)):ai(hU,m(c(2,b))),k=r(W(j),i);return aL(B(m(b),k))}function
+qb(a,d){var
+h=a?b:R(b),e=m(h),f=qa(a,d,x8),g=qa(a,d,x9),i=ai(f,eY(a,d,e,f)),j=[0,B(ai(g,eY(a,d,g,e)),i),0],k=ai(e,eY(a,d,e,f)),l=[0,B(ai(g,eY(a,d,f,g)),k),j],n=ai(e,eY(a,d,g,e)),o=[0,B(ai(f,eY(a,d,f,g)),n),l],p=a?d?m(c(2,b)):r(m(c(2,c(2,b))),hT):m(c(2,c(2,b)));return[0,p,o]}function
+qc(g,d){var
 c=g,a=d[1],b=d[3];for(;;){if(c){if(b){var
 e=b[2],f=c[1]?A(a,b[1]):a,c=c[2],a=f,b=e;continue}return a}return a}}function
-ky(w,v,u,t){var
+kL(w,v,u,t){var
 a=e(function(a){return s(a,u,0)},v);if(a){var
 f=a[1];if(f){var
 b=a[2];if(b){var
@@ -6213,7 +6308,7 @@ i=c[1];if(i){var
 d=c[2];if(d){var
 j=d[1];if(j){if(d[2])return 0;var
 x=j[1],y=i[1],z=g[1],A=f[1];return l(function(a){var
-c=h(a,x),d=h(a,y),e=h(a,z),b=h(a,A);return ew(w,[0,[0,b,[0,e,[0,d,0]]],[0,[0,b,[0,c,0]],[0,[0,b,0],0]]])},t)}var
+c=h(a,x),d=h(a,y),e=h(a,z),b=h(a,A);return eB(w,[0,[0,b,[0,e,[0,d,0]]],[0,[0,b,[0,c,0]],[0,[0,b,0],0]]])},t)}var
 k=j}else
 var
 k=d;var
@@ -6235,12 +6330,12 @@ q=f;var
 r=q}else
 var
 r=a;return r}function
-pW(f,i,e,c,h){var
+qd(f,i,e,c,h){var
 j=f?b:d,a=J(i,j);function
 g(b){var
-c=f?cd(b):cF(b);return E(c,a)}var
+c=f?ch(b):cJ(b);return C(c,a)}var
 k=[0,aa(h),0],l=[0,[0,a,c,[0,u,[0,g(c),0]]],k];return[0,[0,a,e,[0,g(e),0]],l]}function
-pX(r,b,q,p,g,o,n){if(o){var
+qe(r,b,q,p,g,o,n){if(o){var
 x=o[1];if(x[1])return 0;if(o[2])return 0;if(n){var
 j=x[2],s=0;if(g){var
 h=g[2],c=0;if(h){var
@@ -6249,16 +6344,16 @@ a=0;c=1;d=1}else{var
 t=i[1],k=h[1],l=g[1],f=0;if(typeof
 j==="number")switch(j){case
 0:var
-A=e(aE,a$(xG)),z=e(aa,0),a=ky(b,p,c4(0,bB(b,dO(0,g),z),q),A);c=1;d=1;f=1;break;case
+A=e(aF,ba(x_)),z=e(aa,0),a=kL(b,p,c5(0,bC(b,dO(0,g),z),q),A);c=1;d=1;f=1;break;case
 3:var
-a=D(k[2],l[1]);c=1;d=1;f=1;break}else
+a=F(k[2],l[1]);c=1;d=1;f=1;break}else
 if(4===j[0]){var
 m=j[1];if(r)if(m){var
-B=e(pV,xH),a=ky(b,p,c4(0,bB(b,pW(r,b,l,k,t),0),q),B);c=1;d=1;f=1}else{var
+B=e(qc,x$),a=kL(b,p,c5(0,bC(b,qd(r,b,l,k,t),0),q),B);c=1;d=1;f=1}else{var
 a=m;c=1;d=1;f=1}else
 if(m){var
 a=0;c=1;d=1;f=1}else{var
-C=e(pV,xI),a=ky(b,p,c4(0,bB(b,pW(r,b,l,k,t),0),q),C);c=1;d=1;f=1}}if(!f)var
+C=e(qc,ya),a=kL(b,p,c5(0,bC(b,qd(r,b,l,k,t),0),q),C);c=1;d=1;f=1}}if(!f)var
 u=0}else
 var
 u=i;if(!d)var
@@ -6268,29 +6363,29 @@ v=h;if(!c){var
 w=v;s=1}}else{var
 w=g;s=1}if(s)var
 a=w;var
-y=a?xJ:a}else
+y=a?yb:a}else
 var
 y=n;return y}return[0,n]}function
-pY(f,e,d,c,p,o,n){var
+qf(f,e,d,c,p,o,n){var
 b=p,g=o,a=n;for(;;)switch(a[0]){case
 0:var
-h=pX(f,e,d,c,b,a[1],g);return h?I(h[1]):h;case
+h=qe(f,e,d,c,b,a[1],g);return h?I(h[1]):h;case
 1:var
-i=pX(f,e,d,c,b,a[1],g);if(i){var
-j=i[1],k=c$(a[2],b),l=pY(f,e,d,c,k[1],j,a[3]);if(l){var
+i=qe(f,e,d,c,b,a[1],g);if(i){var
+j=i[1],k=da(a[2],b),l=qf(f,e,d,c,k[1],j,a[3]);if(l){var
 b=k[2],g=j,a=a[4];continue}var
 m=l}else
 var
 m=i;return m;default:return 0}}function
-kz(a){return cb(c(2,b),aO(a,b))}function
-eW(c,a,b,i,h){var
-f=c6(pU(a,b)),j=pU(a,b),k=e(cH(c5(f)),j),g=[0,d,cE(c)];return pY(a,c,f,k,[0,g,[0,g,[0,i,0]]],1,h)}function
-pZ(a,g,b){if(K(g,kz(a))){if(b){var
+kM(a){return cf(c(2,b),aQ(a,b))}function
+eZ(c,a,b,i,h){var
+f=c7(qb(a,b)),j=qb(a,b),k=e(cL(c6(f)),j),g=[0,d,cI(c)];return qf(a,c,f,k,[0,g,[0,g,[0,i,0]]],1,h)}function
+qg(a,g,b){if(K(g,kM(a))){if(b){var
 c=b[2];if(c){var
 d=c[2];if(d){var
 e=d[2];if(e){if(e[2])return 0;var
-h=[0,g,kz(a)],v=cE(a),i=[0,kz(a),v],j=eW(a,0,1,h,b[1]),k=j?eW(a,0,0,i,c[1]):j;if(k){var
-l=eW(a,1,1,h,d[1]);if(l)return eW(a,1,0,i,e[1]);var
+h=[0,g,kM(a)],v=cI(a),i=[0,kM(a),v],j=eZ(a,0,1,h,b[1]),k=j?eZ(a,0,0,i,c[1]):j;if(k){var
+l=eZ(a,1,1,h,d[1]);if(l)return eZ(a,1,0,i,e[1]);var
 m=l}else
 var
 m=k;var
@@ -6307,301 +6402,301 @@ q=p}else
 var
 q=b;return q}if(b){var
 f=b[2];if(f){if(f[2])return 0;var
-r=[0,g,cE(a)],s=eW(a,0,0,r,b[1]);if(s)return eW(a,1,0,r,f[1]);var
+r=[0,g,cI(a)],s=eZ(a,0,0,r,b[1]);if(s)return eZ(a,1,0,r,f[1]);var
 t=s}else
 var
 t=f;var
 u=t}else
 var
 u=b;return u}function
-kA(a){var
-b=[1,[2,d]];return bz(function(b,a){return[1,[3,b,a]]},a,b)}function
-hP(a){return kA(e(function(a){return[1,[8,[1,[2,a]]]]},a))}function
-hQ(a,c){return kA(e(function(a){var
-d=[0,a[2]],b=V(a[1],c);return[1,[7,[1,[8,kA(e(function(a){return[1,[6,[0,a[1]],[1,[2,a[2]]]]]},b))]],d]]},a))}function
-p0(e,d,c,b,a){if(0===a[0])return s(a[1],b,0);var
-f=a[1],g=ce(function(a){return p0(e,d,c,b,a)},f);return h(bB(e,d,c),g)}function
-p1(a){return a?K(d,a[1][2][1]):a}function
-xK(a){var
-b=n(f(a),xL);return b?ak(function(a){return I(L(a,d))},a):b}function
-p2(c,f,b,a){if(b)if(a)var
-d=b[1],g=t(c,J(c,a[1]),f),h=p2(c,f,b[2],a[2]),i=d[3],j=A(d[2],g),e=[0,[0,A(d[1],g),j,i],h];else
+kN(a){var
+b=[1,[2,d]];return bA(function(b,a){return[1,[3,b,a]]},a,b)}function
+hV(a){return kN(e(function(a){return[1,[8,[1,[2,a]]]]},a))}function
+hW(a,c){return kN(e(function(a){var
+d=[0,a[2]],b=V(a[1],c);return[1,[7,[1,[8,kN(e(function(a){return[1,[6,[0,a[1]],[1,[2,a[2]]]]]},b))]],d]]},a))}function
+qh(e,d,c,b,a){if(0===a[0])return s(a[1],b,0);var
+f=a[1],g=ci(function(a){return qh(e,d,c,b,a)},f);return h(bC(e,d,c),g)}function
+qi(a){return a?K(d,a[1][2][1]):a}function
+yc(a){var
+b=n(f(a),yd);return b?al(function(a){return I(L(a,d))},a):b}function
+qj(c,f,b,a){if(b)if(a)var
+d=b[1],g=t(c,J(c,a[1]),f),h=qj(c,f,b[2],a[2]),i=d[3],j=A(d[2],g),e=[0,[0,A(d[1],g),j,i],h];else
 var
 e=a;else
 var
 e=b;return e}function
-p3(d,c){var
-a=G(c,d);if(a){var
-b=a[1],e=b[1];return I(L(ci(b),e))}return a}function
-hR(b,a){return ep(ep(b,0),a)}function
-kB(a){if(a){var
-b=a[2],c=a[1];if(b)return hR(c,[0,xN,kB(b)]);var
+qk(d,c){var
+a=E(c,d);if(a){var
+b=a[1],e=b[1];return I(L(cm(b),e))}return a}function
+hX(b,a){return eu(eu(b,0),a)}function
+kO(a){if(a){var
+b=a[2],c=a[1];if(b)return hX(c,[0,yf,kO(b)]);var
 d=c}else
 var
 d=a;return d}function
-H(a){return[0,xP,hR(kB(a),xO)]}function
-ai(a){return[0,xR,hR(kB(a),xQ)]}function
-at(a){return[0,xT,[0,a,xS]]}function
-o(b,a){return[0,bk(xV,bk(b,xU)),a]}function
-T(b,a){return ai([0,o(b,a),0])}function
-cT(d){var
-b=d,a=tG,e=0;for(;;){if(b){var
-c=l2(a),b=b[1],a=c;continue}return[0,fl(gw(a)),e]}}function
-kC(a){return[0,fl(gF(a)),0]}function
-fY(a){var
-c=aV(a),f=0,b=0===c?tM:0<c?[0,gF(a)]:[1,gF(Q(a))];if(0===b[0])var
-d=fl(b[1]);else
+H(a){return[0,yh,hX(kO(a),yg)]}function
+aj(a){return[0,yj,hX(kO(a),yi)]}function
+at(a){return[0,yl,[0,a,yk]]}function
+o(b,a){return[0,bm(yn,bm(b,ym)),a]}function
+T(b,a){return aj([0,o(b,a),0])}function
+cV(d){var
+b=d,a=t0,e=0;for(;;){if(b){var
+c=md(a),b=b[1],a=c;continue}return[0,fo(gC(a)),e]}}function
+kP(a){return[0,fo(gL(a)),0]}function
+f4(a){var
+c=aX(a),f=0,b=0===c?t6:0<c?[0,gL(a)]:[1,gL(R(a))];if(0===b[0])var
+d=fo(b[1]);else
 var
-e=fl(b[1]),d=bk(bT(1,45),e);return[0,d,f]}function
-eX(a){var
-b=0,c=0<aV(a)?gF(a):tK;return[0,fl(c),b]}function
-kD(a){switch(a[0]){case
-2:return xX;case
-3:return 2<=a[1]?xY:xZ;case
-4:return x0;default:return xW}}function
-fZ(b,a){function
-c(c,a){return ae(c,kD(a))?fZ(b,a):[0,x6,g(fZ(b,a),x5)]}switch(a[0]){case
+e=fo(b[1]),d=bm(bX(1,45),e);return[0,d,f]}function
+e0(a){var
+b=0,c=0<aX(a)?gL(a):t4;return[0,fo(c),b]}function
+kQ(a){switch(a[0]){case
+2:return yp;case
+3:return 2<=a[1]?yq:yr;case
+4:return ys;default:return yo}}function
+f5(b,a){function
+c(c,a){return ae(c,kQ(a))?f5(b,a):[0,yy,g(f5(b,a),yx)]}switch(a[0]){case
 0:var
 e=a[2],f=a[1];if(typeof
-e==="number")return[0,br(f),0];var
-i=[0,x7,[0,br(e),0]];return[0,br(f),i];case
+e==="number")return[0,bt(f),0];var
+i=[0,yz,[0,bt(e),0]];return[0,bt(f),i];case
 1:return[0,h(b,a[1]),0];case
-2:return[0,x9,c(x8,a[1])];case
+2:return[0,yB,c(yA,a[1])];case
 3:var
-j=a[3],k=c([0,kD(a)],j);switch(a[1]){case
+j=a[3],k=c([0,kQ(a)],j);switch(a[1]){case
 0:var
-d=x1;break;case
+d=yt;break;case
 1:var
-d=x2;break;case
+d=yu;break;case
 2:var
-d=x3;break;default:var
-d=x4}var
-l=a[2];return g(c(kD(a),l),[0,d,k]);case
+d=yv;break;default:var
+d=yw}var
+l=a[2];return g(c(kQ(a),l),[0,d,k]);case
 4:var
-m=[0,x_,kC(a[2])];return g(c(x$,a[1]),m);default:return[0,yb,g(fZ(b,a[1]),ya)]}}function
-P(a){return[0,ye,g(fZ(function(a){return 0===a[0]?a[1]:yd},a),yc)]}function
-kE(a){return[0,yg,g(fZ(function(a){return a},a),yf)]}function
-cU(a){if(0===a[0])return P(a[1]);var
-b=[0,o(yh,P(a[2])),0];return ai([0,o(yi,P(a[1])),b])}function
-hS(b,a){var
+m=[0,yC,kP(a[2])];return g(c(yD,a[1]),m);default:return[0,yF,g(f5(b,a[1]),yE)]}}function
+Q(a){return[0,yI,g(f5(function(a){return 0===a[0]?a[1]:yH},a),yG)]}function
+kR(a){return[0,yK,g(f5(function(a){return a},a),yJ)]}function
+cW(a){if(0===a[0])return Q(a[1]);var
+b=[0,o(yL,Q(a[2])),0];return aj([0,o(yM,Q(a[1])),b])}function
+hY(b,a){var
 c=[0,h(b,a[3]),0],d=[0,h(b,a[2]),c];return H([0,h(b,a[1]),d])}function
-yj(a){function
-b(a){return hS(cU,a)}switch(a[0]){case
+yN(a){function
+b(a){return hY(cW,a)}switch(a[0]){case
 0:var
-e=0,f=a[5]?yk:ys,h=[0,o(yl,at(f)),e],i=[0,o(ym,cU(a[4])),h],j=[0,o(yn,b(a[3])),i],k=[0,o(yo,b(a[2])),j],l=[0,o(yp,b(a[1])),k],c=[0,o(yr,at(yq)),l];break;case
+e=0,f=a[5]?yO:yW,h=[0,o(yP,at(f)),e],i=[0,o(yQ,cW(a[4])),h],j=[0,o(yR,b(a[3])),i],k=[0,o(yS,b(a[2])),j],l=[0,o(yT,b(a[1])),k],c=[0,o(yV,at(yU)),l];break;case
 1:var
-d=a[3],m=d?[0,o(yt,b(d[1])),0]:d,n=[0,o(yu,b(a[2])),0],p=[0,o(yv,b(a[1])),n],c=g([0,o(yx,at(yw)),p],m);break;default:var
-q=[0,o(yy,b(a[1])),0],c=[0,o(yA,at(yz)),q]}return ai(c)}function
-yB(a){function
-b(a){return H(e(cU,a))}function
+d=a[3],m=d?[0,o(yX,b(d[1])),0]:d,n=[0,o(yY,b(a[2])),0],p=[0,o(yZ,b(a[1])),n],c=g([0,o(y1,at(y0)),p],m);break;default:var
+q=[0,o(y2,b(a[1])),0],c=[0,o(y4,at(y3)),q]}return aj(c)}function
+y5(a){function
+b(a){return H(e(cW,a))}function
 f(a){var
-b=a?yC:yE;return o(yD,at(b))}switch(a[0]){case
+b=a?y6:y8;return o(y7,at(b))}switch(a[0]){case
 0:var
-h=[0,f(a[5]),0],i=[0,o(yF,cU(a[4])),h],j=[0,o(yG,b(a[3])),i],k=[0,o(yH,b(a[2])),j],l=[0,o(yI,b(a[1])),k],c=[0,o(yK,at(yJ)),l];break;case
+h=[0,f(a[5]),0],i=[0,o(y9,cW(a[4])),h],j=[0,o(y_,b(a[3])),i],k=[0,o(y$,b(a[2])),j],l=[0,o(za,b(a[1])),k],c=[0,o(zc,at(zb)),l];break;case
 1:var
-d=a[3],m=d?[0,o(yL,b(d[1])),0]:d,n=[0,o(yM,b(a[2])),0],p=[0,o(yN,b(a[1])),n],c=g([0,o(yP,at(yO)),p],m);break;case
+d=a[3],m=d?[0,o(zd,b(d[1])),0]:d,n=[0,o(ze,b(a[2])),0],p=[0,o(zf,b(a[1])),n],c=g([0,o(zh,at(zg)),p],m);break;case
 2:var
-q=[0,o(yQ,b(a[1])),0],c=[0,o(yS,at(yR)),q];break;default:var
-r=[0,f(a[7]),0],s=[0,o(yT,cU(a[6])),r],t=[0,o(yU,cU(a[5])),s],u=[0,o(yV,b(a[4])),t],v=[0,o(yW,b(a[3])),u],w=[0,o(yX,b(a[2])),v],x=[0,o(yY,b(a[1])),w],c=[0,o(y0,at(yZ)),x]}return ai(c)}function
-kF(a){switch(a){case
-0:return y1;case
-1:return y2;case
-2:return y3;case
-3:return y4;case
-4:return y5;case
-5:return y6;case
-6:return y7;case
-7:return y8;case
-8:return y9;case
-9:return y_;case
-10:return y$;case
-11:return za;case
-12:return zb;case
-13:return zc;case
-14:return zd;case
-15:return ze;default:return zf}}function
-kG(a){if(typeof
-a==="number")return zg;else
+q=[0,o(zi,b(a[1])),0],c=[0,o(zk,at(zj)),q];break;default:var
+r=[0,f(a[7]),0],s=[0,o(zl,cW(a[6])),r],t=[0,o(zm,cW(a[5])),s],u=[0,o(zn,b(a[4])),t],v=[0,o(zo,b(a[3])),u],w=[0,o(zp,b(a[2])),v],x=[0,o(zq,b(a[1])),w],c=[0,o(zs,at(zr)),x]}return aj(c)}function
+kS(a){switch(a){case
+0:return zt;case
+1:return zu;case
+2:return zv;case
+3:return zw;case
+4:return zx;case
+5:return zy;case
+6:return zz;case
+7:return zA;case
+8:return zB;case
+9:return zC;case
+10:return zD;case
+11:return zE;case
+12:return zF;case
+13:return zG;case
+14:return zH;case
+15:return zI;default:return zJ}}function
+kT(a){if(typeof
+a==="number")return zK;else
 switch(a[0]){case
-0:return zh;case
-1:return zi;default:return zj}}function
-f0(a){var
+0:return zL;case
+1:return zM;default:return zN}}function
+f6(a){var
 c=a[4];if(typeof
 c==="number")var
 d=0;else
 switch(c[0]){case
 0:var
-d=[0,o(zk,P(c[1])),0];break;case
+d=[0,o(zO,Q(c[1])),0];break;case
 1:var
-d=[0,o(zl,P(c[1])),0];break;default:var
-n=[0,P(c[2]),0],d=[0,o(zm,H([0,P(c[1]),n])),0]}var
-p=[0,o(zn,at(kG(a[4]))),d],i=a[3];if(i){var
+d=[0,o(zP,Q(c[1])),0];break;default:var
+n=[0,Q(c[2]),0],d=[0,o(zQ,H([0,Q(c[1]),n])),0]}var
+p=[0,o(zR,at(kT(a[4]))),d],i=a[3];if(i){var
 b=i[1];switch(b[0]){case
 0:var
-r=H([0,P(b[1]),0]),k=a[1],q=0,s=6===k?zo:12===k?zs:zt,f=[0,o(zp,T(s,r)),q];break;case
+r=H([0,Q(b[1]),0]),k=a[1],q=0,s=6===k?zS:12===k?zW:zX,f=[0,o(zT,T(s,r)),q];break;case
 1:var
-x=H(e(P,b[1])),m=a[1],w=0;if(14<=m)switch(m+rZ|0){case
+x=H(e(Q,b[1])),m=a[1],w=0;if(14<=m)switch(m+sh|0){case
 0:var
-h=zu;break;case
+h=zY;break;case
 1:var
-h=zw;break;default:var
-h=zx}else
+h=z0;break;default:var
+h=z1}else
 var
-h=zy;var
-f=[0,o(zv,T(h,x)),w];break;case
+h=z2;var
+f=[0,o(zZ,T(h,x)),w];break;case
 2:var
-y=[0,o(zz,H([0,P(b[2]),0])),0],f=[0,o(zB,ai([0,o(zA,H([0,P(b[1]),0])),y])),0];break;default:var
-z=[0,o(zC,H([0,P(b[2]),0])),0],f=[0,o(zE,ai([0,o(zD,H([0,P(b[1]),0])),z])),0]}var
+y=[0,o(z3,H([0,Q(b[2]),0])),0],f=[0,o(z5,aj([0,o(z4,H([0,Q(b[1]),0])),y])),0];break;default:var
+z=[0,o(z6,H([0,Q(b[2]),0])),0],f=[0,o(z8,aj([0,o(z7,H([0,Q(b[1]),0])),z])),0]}var
 l=f}else
 var
 l=i;var
-t=g(l,p),j=a[2],u=j?[0,o(zq,cT(j[1])),0]:j,v=g(u,t);return ai([0,o(zr,at(kF(a[1]))),v])}function
-p4(a){if(0===a[0]){var
-b=[0,o(zF,hS(P,a[2])),0];return T(zH,ai([0,o(zG,hS(P,a[1])),b]))}var
-c=[0,P(a[5]),0],d=[0,o(zI,H([0,P(a[4]),c])),0],e=[0,o(zJ,P(a[3])),d],f=[0,P(a[2]),0];return T(zL,ai([0,o(zK,H([0,P(a[1]),f])),e]))}function
-p5(a){if(0===a[0]){var
-b=[0,o(zM,H(e(P,a[2]))),0];return T(zO,ai([0,o(zN,H(e(P,a[1]))),b]))}return p4([1,a[1],a[2],a[3],a[4],a[5]])}function
-p6(a){switch(a){case
-0:return zP;case
-1:return zQ;default:return zR}}function
-zS(a){function
-b(a){return H(e(cU,a))}var
-c=[0,o(zT,b(a[2])),0],d=[0,o(zU,b(a[1])),c];return ai([0,o(zW,at(zV)),d])}function
-p7(a){function
+t=g(l,p),j=a[2],u=j?[0,o(zU,cV(j[1])),0]:j,v=g(u,t);return aj([0,o(zV,at(kS(a[1]))),v])}function
+ql(a){if(0===a[0]){var
+b=[0,o(z9,hY(Q,a[2])),0];return T(z$,aj([0,o(z_,hY(Q,a[1])),b]))}var
+c=[0,Q(a[5]),0],d=[0,o(Aa,H([0,Q(a[4]),c])),0],e=[0,o(Ab,Q(a[3])),d],f=[0,Q(a[2]),0];return T(Ad,aj([0,o(Ac,H([0,Q(a[1]),f])),e]))}function
+qm(a){if(0===a[0]){var
+b=[0,o(Ae,H(e(Q,a[2]))),0];return T(Ag,aj([0,o(Af,H(e(Q,a[1]))),b]))}return ql([1,a[1],a[2],a[3],a[4],a[5]])}function
+qn(a){switch(a){case
+0:return Ah;case
+1:return Ai;default:return Aj}}function
+Ak(a){function
+b(a){return H(e(cW,a))}var
+c=[0,o(Al,b(a[2])),0],d=[0,o(Am,b(a[1])),c];return aj([0,o(Ao,at(An)),d])}function
+qo(a){function
 b(b,a){var
-c=[0,P(a),0];return H([0,P(b),c])}switch(a[0]){case
-0:return T(zX,b(a[1],a[2]));case
+c=[0,Q(a),0];return H([0,Q(b),c])}switch(a[0]){case
+0:return T(Ap,b(a[1],a[2]));case
 1:var
-c=a[3],d=a[2],e=a[1],f=[0,o(zY,b(c[1],c[2])),0],g=[0,o(zZ,b(d[1],d[2])),f];return T(z1,ai([0,o(z0,b(e[1],e[2])),g]));case
-2:return T(z2,P(a[1]));default:var
-h=[0,o(z3,P(a[2])),0];return T(z5,ai([0,o(z4,P(a[1])),h]))}}function
-z6(a){function
-b(a){return hS(P,a)}if(0===a[0])var
-c=a[5],e=c?[0,o(z7,b(c[1])),0]:c,f=[0,P(a[4]),0],h=[0,o(z8,H([0,P(a[3]),f])),0],i=[0,o(z9,P(a[2])),h],j=[0,o(z_,cT(a[1])),i],d=g([0,o(Aa,at(z$)),j],e);else
+c=a[3],d=a[2],e=a[1],f=[0,o(Aq,b(c[1],c[2])),0],g=[0,o(Ar,b(d[1],d[2])),f];return T(At,aj([0,o(As,b(e[1],e[2])),g]));case
+2:return T(Au,Q(a[1]));default:var
+h=[0,o(Av,Q(a[2])),0];return T(Ax,aj([0,o(Aw,Q(a[1])),h]))}}function
+Ay(a){function
+b(a){return hY(Q,a)}if(0===a[0])var
+c=a[5],e=c?[0,o(Az,b(c[1])),0]:c,f=[0,Q(a[4]),0],h=[0,o(AA,H([0,Q(a[3]),f])),0],i=[0,o(AB,Q(a[2])),h],j=[0,o(AC,cV(a[1])),i],d=g([0,o(AE,at(AD)),j],e);else
 var
-k=[0,o(Ab,P(a[4])),0],l=[0,o(Ac,b(a[3])),k],m=[0,o(Ad,b(a[2])),l],n=a[1]?Ae:Ag,d=[0,o(Af,at(n)),m];return ai(d)}function
-p8(a){var
-b=a?[0,o(Ah,H(e(z6,a))),0]:a;return b}function
-kH(d,c,b,a){var
-f=[0,o(Ai,H(e(f0,a))),0],h=g(p8(b),f),i=[0,o(Aj,p4(c)),0];return ai(g([0,o(Al,T(Ak,H(e(yj,d)))),i],h))}function
-Am(a){switch(a[0]){case
-0:return T(An,kH(a[1],a[2],a[3],a[4]));case
+k=[0,o(AF,Q(a[4])),0],l=[0,o(AG,b(a[3])),k],m=[0,o(AH,b(a[2])),l],n=a[1]?AI:AK,d=[0,o(AJ,at(n)),m];return aj(d)}function
+qp(a){var
+b=a?[0,o(AL,H(e(Ay,a))),0]:a;return b}function
+kU(d,c,b,a){var
+f=[0,o(AM,H(e(f6,a))),0],h=g(qp(b),f),i=[0,o(AN,ql(c)),0];return aj(g([0,o(AP,T(AO,H(e(yN,d)))),i],h))}function
+AQ(a){switch(a[0]){case
+0:return T(AR,kU(a[1],a[2],a[3],a[4]));case
 1:var
-b=a[5],c=a[3],d=a[1],f=H(e(yB,a[2])),l=[0,o(Ao,H(e(f0,a[6]))),0],m=b?[0,o(Ap,p7(b[1])),0]:b,n=g(m,l),k=0,p=[0,o(Aq,p5(a[4])),n];if(typeof
+b=a[5],c=a[3],d=a[1],f=H(e(y5,a[2])),l=[0,o(AS,H(e(f6,a[6]))),0],m=b?[0,o(AT,qo(b[1])),0]:b,n=g(m,l),k=0,p=[0,o(AU,qm(a[4])),n];if(typeof
 d==="number")if(d)var
-h=Ar;else{var
-i=T(Aw,f);k=1}else
+h=AV;else{var
+i=T(A0,f);k=1}else
 var
-h=p6(d[1]);if(!k)var
-q=c?[0,o(As,P(c[1])),0]:c,i=T(h,ai([0,o(At,f),q]));return T(Av,ai([0,o(Au,i),p]));case
+h=qn(d[1]);if(!k)var
+q=c?[0,o(AW,Q(c[1])),0]:c,i=T(h,aj([0,o(AX,f),q]));return T(AZ,aj([0,o(AY,i),p]));case
 2:var
-r=[0,o(Ax,H(e(f0,a[7]))),0],s=g(p8(a[6]),r),t=[0,o(Ay,p7(a[5])),0],u=[0,o(Az,p5(a[4])),t],v=[0,o(AA,P(a[3])),0],w=ai([0,o(AB,H(e(zS,a[2]))),v]);return T(AD,ai(g([0,o(AC,T(p6(a[1]),w)),u],s)));case
+r=[0,o(A1,H(e(f6,a[7]))),0],s=g(qp(a[6]),r),t=[0,o(A2,qo(a[5])),0],u=[0,o(A3,qm(a[4])),t],v=[0,o(A4,Q(a[3])),0],w=aj([0,o(A5,H(e(Ak,a[2]))),v]);return T(A7,aj(g([0,o(A6,T(qn(a[1]),w)),u],s)));case
 3:var
-x=[0,o(AE,H(e(f0,a[7]))),0],y=[0,o(AF,H(e(P,a[6]))),0],z=[0,o(AI,T(AH,ai([0,o(AG,H(e(P,a[5]))),y]))),x],A=0,B=a[4],C=[0,o(AL,H(e(function(a){return 0===a[0]?T(AJ,H(e(kE,a[1]))):T(AK,kE(a[1]))},B))),A],D=a[3],E=[0,o(AM,H(e(function(a){var
-b=[0,kE(a[2]),0];return H([0,at(a[1]),b])},D))),C],F=a[2],G=[0,o(AN,H(e(function(a){var
-b=[0,cU(a[2]),0];return H([0,at(a[1]),b])},F))),E];return T(AR,ai([0,o(AQ,T(AP,ai([0,o(AO,H(e(at,a[1]))),G]))),z]));case
+x=[0,o(A8,H(e(f6,a[7]))),0],y=[0,o(A9,H(e(Q,a[6]))),0],z=[0,o(Ba,T(A$,aj([0,o(A_,H(e(Q,a[5]))),y]))),x],A=0,B=a[4],C=[0,o(Bd,H(e(function(a){return 0===a[0]?T(Bb,H(e(kR,a[1]))):T(Bc,kR(a[1]))},B))),A],D=a[3],E=[0,o(Be,H(e(function(a){var
+b=[0,kR(a[2]),0];return H([0,at(a[1]),b])},D))),C],F=a[2],G=[0,o(Bf,H(e(function(a){var
+b=[0,cW(a[2]),0];return H([0,at(a[1]),b])},F))),E];return T(Bj,aj([0,o(Bi,T(Bh,aj([0,o(Bg,H(e(at,a[1]))),G]))),z]));case
 4:var
-I=[0,o(AS,H(e(f0,a[3]))),0],J=[0,o(AV,T(AU,ai([0,o(AT,P(a[2])),0]))),I];return T(AZ,ai([0,o(AY,T(AX,ai([0,o(AW,P(a[1])),0]))),J]));case
+I=[0,o(Bk,H(e(f6,a[3]))),0],J=[0,o(Bn,T(Bm,aj([0,o(Bl,Q(a[2])),0]))),I];return T(Br,aj([0,o(Bq,T(Bp,aj([0,o(Bo,Q(a[1])),0]))),J]));case
 5:var
-K=[0,o(A0,P(a[5])),0];return T(A2,ai([0,o(A1,kH(a[1],[0,a[2],a[3]],0,a[4])),K]));case
+K=[0,o(Bs,Q(a[5])),0];return T(Bu,aj([0,o(Bt,kU(a[1],[0,a[2],a[3]],0,a[4])),K]));case
 6:var
-j=a[1],L=0,M=j?cU(j[1]):at(A5);return T(A4,ai([0,o(A3,M),L]));default:var
-N=[0,o(A6,P(a[6])),0],O=[0,o(A7,P(a[5])),N],Q=[0,o(A8,kH(a[2],a[3],0,a[4])),O],R=a[1];return T(Bb,ai([0,o(Ba,H(e(function(a){var
-b=[0,o(A9,P(a[2][2])),0],c=[0,o(A_,P(a[2][1])),b];return ai([0,o(A$,at(a[1])),c])},R))),Q]))}}function
-d4(a){return H(e(fY,a))}function
-f1(b,a){var
-c=[0,o(Bc,eX(a)),0];return ai([0,o(Bd,H(e(d4,b))),c])}function
+j=a[1],L=0,M=j?cW(j[1]):at(Bx);return T(Bw,aj([0,o(Bv,M),L]));default:var
+N=[0,o(By,Q(a[6])),0],O=[0,o(Bz,Q(a[5])),N],P=[0,o(BA,kU(a[2],a[3],0,a[4])),O],R=a[1];return T(BF,aj([0,o(BE,H(e(function(a){var
+b=[0,o(BB,Q(a[2][2])),0],c=[0,o(BC,Q(a[2][1])),b];return aj([0,o(BD,at(a[1])),c])},R))),P]))}}function
+d9(a){return H(e(f4,a))}function
+f7(b,a){var
+c=[0,o(BG,e0(a)),0];return aj([0,o(BH,H(e(d9,b))),c])}function
 dr(a){switch(a[0]){case
 0:return at(a[1]);case
 1:var
-b=f1(a[2],a[3]);return T(a[1],b);case
+b=f7(a[2],a[3]);return T(a[1],b);case
 2:var
-c=a[1]?Be:Bg;return T(Bf,at(c));case
+c=a[1]?BI:BK;return T(BJ,at(c));case
 3:var
-d=[0,d4(a[3]),0];return T(Bh,H([0,f1(a[1],a[2]),d]));case
+d=[0,d9(a[3]),0];return T(BL,H([0,f7(a[1],a[2]),d]));case
 4:var
-f=[0,eX(a[4]),0],g=[0,fY(a[3]),f];return T(Bi,H([0,f1(a[1],a[2]),g]));case
+f=[0,e0(a[4]),0],g=[0,f4(a[3]),f];return T(BM,H([0,f7(a[1],a[2]),g]));case
 5:var
-h=[0,eX(a[3]),0],i=[0,fY(a[2]),h];return T(Bj,H([0,dr(a[1]),i]));case
+h=[0,e0(a[3]),0],i=[0,f4(a[2]),h];return T(BN,H([0,dr(a[1]),i]));case
 6:var
-j=[0,eX(a[3]),0],k=[0,fY(a[2]),j];return T(Bk,H([0,dr(a[1]),k]));case
-7:return T(Bl,dr(a[1]));case
+j=[0,e0(a[3]),0],k=[0,f4(a[2]),j];return T(BO,H([0,dr(a[1]),k]));case
+7:return T(BP,dr(a[1]));case
 8:var
-l=[0,H(e(d4,a[3])),0],m=[0,at(a[2]),l];return T(Bm,H([0,dr(a[1]),m]));case
+l=[0,H(e(d9,a[3])),0],m=[0,at(a[2]),l];return T(BQ,H([0,dr(a[1]),m]));case
 9:var
-n=a[1];return T(Bn,H(e(function(a){var
-b=a[1],c=b[1],d=[0,dr(a[2]),0],e=[0,eX(b[2]),d],f=[0,fY(c[2]),e];return H([0,d4(c[1]),f])},n)));default:var
-o=[0,dr(a[4]),0],p=[0,dr(a[3]),o],q=[0,eX(a[2]),p];return T(Bo,H([0,d4(a[1]),q]))}}function
-Bp(a){var
-b=[0,dr(a[2]),0];return H([0,cT(a[1]),b])}function
-p9(a){if(typeof
-a==="number")return 0===a?at(Bq):at(Br);else
+n=a[1];return T(BR,H(e(function(a){var
+b=a[1],c=b[1],d=[0,dr(a[2]),0],e=[0,e0(b[2]),d],f=[0,f4(c[2]),e];return H([0,d9(c[1]),f])},n)));default:var
+o=[0,dr(a[4]),0],p=[0,dr(a[3]),o],q=[0,e0(a[2]),p];return T(BS,H([0,d9(a[1]),q]))}}function
+BT(a){var
+b=[0,dr(a[2]),0];return H([0,cV(a[1]),b])}function
+qq(a){if(typeof
+a==="number")return 0===a?at(BU):at(BV);else
 switch(a[0]){case
 0:var
-b=[0,H(e(d4,a[2])),0];return T(Bs,H([0,cT(a[1]),b]));case
+b=[0,H(e(d9,a[2])),0];return T(BW,H([0,cV(a[1]),b]));case
 1:var
-c=[0,cT(a[2]),0];return T(Bt,H([0,cT(a[1]),c]));case
-2:return T(Bu,H(e(P,a[1])));default:var
-d=[0,o(Bv,f1(a[4],a[5])),0],f=[0,o(Bw,H(e(P,a[3]))),d],g=[0,o(Bx,H(e(P,a[2]))),f];return T(Bz,ai([0,o(By,cT(a[1])),g]))}}function
-BA(a){var
-b=a[4],h=b?[0,o(BB,d4([0,b[1],b[2]])),0]:b,d=a[3],i=d?[0,o(BC,p9(d[1])),0]:d,j=g(i,h),f=a[2],k=f?[0,o(BD,cT(f[1])),0]:f,l=g(k,j),c=a[1],m=c?[0,o(BE,H(e(Bp,[0,c[1],c[2]]))),0]:c;return ai(g(m,l))}function
-p_(f,a,d){var
-h=[0,o(BF,H(e(BA,d))),0];if(a)var
-b=a[1],c=[0,o(BG,f1(b[1],b[2])),0];else
+c=[0,cV(a[2]),0];return T(BX,H([0,cV(a[1]),c]));case
+2:return T(BY,H(e(Q,a[1])));default:var
+d=[0,o(BZ,f7(a[4],a[5])),0],f=[0,o(B0,H(e(Q,a[3]))),d],g=[0,o(B1,H(e(Q,a[2]))),f];return T(B3,aj([0,o(B2,cV(a[1])),g]))}}function
+B4(a){var
+b=a[4],h=b?[0,o(B5,d9([0,b[1],b[2]])),0]:b,d=a[3],i=d?[0,o(B6,qq(d[1])),0]:d,j=g(i,h),f=a[2],k=f?[0,o(B7,cV(f[1])),0]:f,l=g(k,j),c=a[1],m=c?[0,o(B8,H(e(BT,[0,c[1],c[2]]))),0]:c;return aj(g(m,l))}function
+qr(f,a,d){var
+h=[0,o(B9,H(e(B4,d))),0];if(a)var
+b=a[1],c=[0,o(B_,f7(b[1],b[2])),0];else
 var
 c=a;var
-i=g(c,h);return ai([0,o(BH,kC(f)),i])}function
-p$(d,c,a,b){var
-f=[0,o(BI,p9(b)),0],h=a?[0,o(BJ,H(e(P,a))),0]:a,i=g(h,f),j=[0,o(BK,H(e(P,c))),0];return ai(g([0,o(BL,kC(d)),j],i))}function
-BM(a){if(typeof
-a==="number")return at(BN);else
+i=g(c,h);return aj([0,o(B$,kP(f)),i])}function
+qs(d,c,a,b){var
+f=[0,o(Ca,qq(b)),0],h=a?[0,o(Cb,H(e(Q,a))),0]:a,i=g(h,f),j=[0,o(Cc,H(e(Q,c))),0];return aj(g([0,o(Cd,kP(d)),j],i))}function
+Ce(a){if(typeof
+a==="number")return at(Cf);else
 switch(a[0]){case
-0:return T(BO,cT(a[1]));case
-1:return T(BP,p_(a[1],a[2],a[3]));default:return T(BQ,p$(a[1],a[2],a[3],a[4]))}}function
-hT(a){var
-b=iN(iM(aC(a),function(b){return bd(a,b)}));return l(function(a){var
-b=I(34===a?1:0),c=b?I(92===a?1:0):b,d=c?mj(32,a):c;return d?mj(a,126):d},b)}function
-kI(d){var
+0:return T(Cg,cV(a[1]));case
+1:return T(Ch,qr(a[1],a[2],a[3]));default:return T(Ci,qs(a[1],a[2],a[3],a[4]))}}function
+hZ(a){var
+b=iT(iS(aD(a),function(b){return bd(a,b)}));return l(function(a){var
+b=I(34===a?1:0),c=b?I(92===a?1:0):b,d=c?mw(32,a):c;return d?mw(a,126):d},b)}function
+kV(d){var
 a=d;for(;;)switch(a[0]){case
 8:var
-b=hT(a[2]);if(b){var
+b=hZ(a[2]);if(b){var
 a=a[1];continue}return b;case
 9:var
-e=a[1];return l(function(a){return kI(a[2])},e);case
+e=a[1];return l(function(a){return kV(a[2])},e);case
 10:var
-c=kI(a[3]);if(c){var
+c=kV(a[3]);if(c){var
 a=a[4];continue}return c;case
 0:case
-1:return hT(a[1]);case
-5:case
-6:case
-7:var
-a=a[1];continue;default:return 1}}function
-f2(b){function
+1:return hZ(a[1]);case
+2:case
+3:case
+4:return 1;default:var
+a=a[1];continue}}function
+f8(b){function
 c(f){var
-a=mi(f),b=ae(B5,a),c=b?ae(a,B6):b;if(c)var
+a=mv(f),b=ae(Cx,a),c=b?ae(a,Cy):b;if(c)var
 d=c;else{var
-e=ae(B7,a);if(e)return ae(a,B8);var
+e=ae(Cz,a);if(e)return ae(a,CA);var
 d=e}return d}var
-a=iN(iM(aC(b),function(a){return bd(b,a)}));if(a){var
+a=iT(iS(aD(b),function(a){return bd(b,a)}));if(a){var
 d=a[2],e=c(a[1]),g=e?l(function(a){var
 b=c(a);if(b)var
 d=b;else
 var
-e=mi(a),f=ae(B9,e),h=f?ae(e,B_):f,d=h;var
-g=d||(95===a?1:0);return g},d):e,h=g?ae(f(d),B$):g;if(h)return I(aF(b,Ca));var
+e=mv(a),f=ae(CB,e),h=f?ae(e,CC):f,d=h;var
+g=d||(95===a?1:0);return g},d):e,h=g?ae(f(d),CD):g;if(h)return I(aG(b,CE));var
 i=h}else
 var
 i=a;return i}function
-kJ(c){var
+kW(c){var
 a=c;for(;;)switch(a[0]){case
 0:return 1;case
-1:return f2(a[1]);case
+1:return f8(a[1]);case
 3:var
-b=kJ(a[2]);if(b){var
+b=kW(a[2]);if(b){var
 a=a[3];continue}return b;default:var
 a=a[1];continue}}function
-f3(m){var
+f9(m){var
 a=m;for(;;)switch(a[0]){case
 0:var
 e=a[1];if(typeof
@@ -6612,42 +6707,42 @@ h=typeof
 e[1]==="number"?1:0,d=h?1:h;else
 var
 d=1;if(d){var
-f=gw(a[2]);if(typeof
+f=gC(a[2]);if(typeof
 f!=="number"&&0===f[0])return 0;var
 g=1}else
 var
 g=d;return g;case
 1:return 1;case
 3:var
-i=f3(a[2]);if(i){var
+i=f9(a[2]);if(i){var
 a=a[3];continue}return i;case
 4:var
-j=a[2],k=f3(a[1]),l=k?gD(c(2,b),j):k;return l?gD(j,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):l;default:var
+j=a[2],k=f9(a[1]),l=k?gJ(c(2,b),j):k;return l?gJ(j,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):l;default:var
 a=a[1];continue}}function
-eY(a){return 0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
-b5(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-d5(a){return w(eY,b5(a))}function
-kK(a){switch(a[0]){case
+e1(a){return 0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
+b9(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+d_(a){return y(e1,b9(a))}function
+kX(a){switch(a[0]){case
 0:var
-c=eY(a[4]),d=g(d5(a[3]),c),e=g(d5(a[2]),d);return g(d5(a[1]),e);case
+c=e1(a[4]),d=g(d_(a[3]),c),e=g(d_(a[2]),d);return g(d_(a[1]),e);case
 1:var
-b=a[3],f=b?d5(b[1]):b,h=g(d5(a[2]),f);return g(d5(a[1]),h);default:return d5(a[1])}}function
-Cb(a){switch(a[0]){case
+b=a[3],f=b?d_(b[1]):b,h=g(d_(a[2]),f);return g(d_(a[1]),h);default:return d_(a[1])}}function
+CF(a){switch(a[0]){case
 0:var
 d=g(a[3],[0,a[4],0]),e=g(a[2],d),b=g(a[1],e);break;case
 1:var
 c=a[3],f=c?c[1]:c,h=g(a[2],f),b=g(a[1],h);break;case
 2:var
 b=a[1];break;default:var
-i=g(a[4],[0,a[5],[0,a[6],0]]),j=g(a[3],i),k=g(a[2],j),b=g(a[1],k)}return w(eY,b)}function
-qa(a){return 0===a[0]?g(a[1],a[2]):[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
-qb(a){if(0===a[0]){var
-b=b5(a[2]);return g(b5(a[1]),b)}return[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
-qc(a){switch(a[0]){case
+i=g(a[4],[0,a[5],[0,a[6],0]]),j=g(a[3],i),k=g(a[2],j),b=g(a[1],k)}return y(e1,b)}function
+qt(a){return 0===a[0]?g(a[1],a[2]):[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
+qu(a){if(0===a[0]){var
+b=b9(a[2]);return g(b9(a[1]),b)}return[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
+qv(a){switch(a[0]){case
 1:var
 b=a[3],c=a[2],d=a[1];return[0,d[1],[0,d[2],[0,c[1],[0,c[2],[0,b[1],[0,b[2],0]]]]]];case
 2:return[0,a[1],0];default:return[0,a[1],[0,a[2],0]]}}function
-d6(e){var
+d$(e){var
 a=e[4],h=typeof
 a==="number"?0:2===a[0]?[0,a[1],[0,a[2],0]]:[0,a[1],0],c=e[3];if(c){var
 b=c[1];switch(b[0]){case
@@ -6659,70 +6754,70 @@ d=[0,b[1],[0,b[2],0]]}var
 f=d}else
 var
 f=c;return g(f,h)}function
-qd(a){if(0===a[0]){var
-b=a[5],c=b?b5(b[1]):b;return[0,a[2],[0,a[3],[0,a[4],c]]]}var
-d=[0,a[4],0],e=g(b5(a[3]),d);return g(b5(a[2]),e)}function
-qe(b,e){var
+qw(a){if(0===a[0]){var
+b=a[5],c=b?b9(b[1]):b;return[0,a[2],[0,a[3],[0,a[4],c]]]}var
+d=[0,a[4],0],e=g(b9(a[3]),d);return g(b9(a[2]),e)}function
+qx(b,e){var
 a=e;for(;;)switch(a[0]){case
 0:return 1;case
 1:var
 c=a[1];if(0===c[0]){var
-f=c[1];return ak(function(a){return aF(f,a)},b)}return 0;case
+f=c[1];return al(function(a){return aG(f,a)},b)}return 0;case
 3:var
-d=qe(b,a[2]);if(d){var
+d=qx(b,a[2]);if(d){var
 a=a[3];continue}return d;default:var
 a=a[1];continue}}function
-f4(c,a){return l(function(a){var
-b=f3(a);return b?qe(c,a):b},a)}function
-qf(a){if(typeof
+f_(c,a){return l(function(a){var
+b=f9(a);return b?qx(c,a):b},a)}function
+qy(a){if(typeof
 a!=="number")switch(a[0]){case
 2:return a[1];case
 3:return g(a[2],a[3])}return 0}function
-qg(a){var
-d=gD(c(2,c(2,c(2,c(2,c(2,b))))),a);return d?gD(a,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b))))))))))):d}function
-qh(a,b){return b?[4,qh(a,b[1]),a]:a}function
+qz(a){var
+d=gJ(c(2,c(2,c(2,c(2,c(2,b))))),a);return d?gJ(a,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b))))))))))):d}function
+qA(a,b){return b?[4,qA(a,b[1]),a]:a}function
 k(a){switch(a[0]){case
 0:var
-i=a[2],j=c(2,q(c(2,c(2,b)))),l=function(a){return C(j,a)},m=gx(l0(i),l,b);return[0,md(l1(gw(a[1]),i)),m];case
+i=a[2],j=c(2,q(c(2,c(2,b)))),l=function(a){return D(j,a)},m=gD(mb(i),l,b);return[0,mq(mc(gC(a[1]),i)),m];case
 1:var
 e=a[1];return 0===e[0]?[5,[0,b,b],[0,d,b]]:[1,e[1],e[2],e[3]];case
 2:var
-f=k(a[1]);return 0===f[0]?[0,Q(f[1]),f[2]]:[3,[0,d,b],f];case
+f=k(a[1]);return 0===f[0]?[0,R(f[1]),f[2]]:[3,[0,d,b],f];case
 3:var
 g=k(a[2]),h=k(a[3]);switch(a[1]){case
 0:return[2,g,h];case
 1:return[3,g,h];case
 2:return[4,g,h];default:return[5,g,h]}case
 4:var
-n=aR(fj(a[2]));return qh(k(a[1]),n);default:return[6,k(a[1])]}}function
-b6(a){if(0===a[0]){var
+n=aS(fm(a[2]));return qA(k(a[1]),n);default:return[6,k(a[1])]}}function
+b_(a){if(0===a[0]){var
 b=k(a[1]);return[0,b,b]}var
 c=k(a[2]);return[0,k(a[1]),c]}function
-d7(a){var
-b=b6(a[3]),c=b6(a[2]);return[0,b6(a[1]),c,b]}function
-Cc(a){switch(a[0]){case
+ea(a){var
+b=b_(a[3]),c=b_(a[2]);return[0,b_(a[1]),c,b]}function
+CG(a){switch(a[0]){case
 0:var
-b=a[5],c=b6(a[4]),d=d7(a[3]),e=d7(a[2]);return[0,[0,d7(a[1]),e,d,c,b]];case
+b=a[5],c=b_(a[4]),d=ea(a[3]),e=ea(a[2]);return[0,[0,ea(a[1]),e,d,c,b]];case
 1:var
-f=y(d7,a[3]),g=d7(a[2]);return[1,d7(a[1]),g,f];default:return[2,d7(a[1])]}}function
-qi(a){if(0===a[0]){var
+f=z(ea,a[3]),g=ea(a[2]);return[1,ea(a[1]),g,f];default:return[2,ea(a[1])]}}function
+qB(a){if(0===a[0]){var
 c=a[2],d=a[1],b=function(a){var
 b=k(h(a,c));return[0,k(h(a,d)),b]},e=b(function(a){return a[3]}),f=b(function(a){return a[2]});return[0,[0,b(function(a){return a[1]}),f,e]]}var
 g=k(a[5]),i=[0,k(a[4]),g],j=k(a[3]),l=k(a[2]);return[1,k(a[1]),l,j,i]}function
-eZ(a){var
+e2(a){var
 b=k(a[3]),c=k(a[2]);return[0,k(a[1]),c,b]}function
 ds(a){if(0===a[0]){var
-c=a[5],h=c?eZ(c[1]):[0,[0,d,b],[0,d,b],[0,d,b]],i=k(a[4]),j=k(a[3]),l=k(a[2]);return[0,aR(a[1]),l,j,i,h]}var
+c=a[5],h=c?e2(c[1]):[0,[0,d,b],[0,d,b],[0,d,b]],i=k(a[4]),j=k(a[3]),l=k(a[2]);return[0,aS(a[1]),l,j,i,h]}var
 e=a[4],f=a[3],g=a[2];if(a[1]){var
-m=eZ(f),n=eZ(g);return[2,k(e),n,m]}var
-o=eZ(f),p=eZ(g);return[1,k(e),p,o]}function
-hU(b,a){if(a){var
-c=a[1],d=a[2],f=hU(g(b,[0,c,0]),d),h=e(function(a){return[0,c,a]},b);return g(a5(function(c){var
-a=c[2],b=c[1],d=0===b[0]?b[5]?0:0===a[0]?a[5]?0:n(b[1],a[1]):0:0===a[0]?0:cB(b[1],a[1]);return I(d)},h),f)}return a}function
-Cd(b){if(b[1])return 0;var
+m=e2(f),n=e2(g);return[2,k(e),n,m]}var
+o=e2(f),p=e2(g);return[1,k(e),p,o]}function
+h0(b,a){if(a){var
+c=a[1],d=a[2],f=h0(g(b,[0,c,0]),d),h=e(function(a){return[0,c,a]},b);return g(a6(function(c){var
+a=c[2],b=c[1],d=0===b[0]?b[5]?0:0===a[0]?a[5]?0:n(b[1],a[1]):0:0===a[0]?0:cE(b[1],a[1]);return I(d)},h),f)}return a}function
+CH(b){if(b[1])return 0;var
 a=b[4];if(typeof
 a!=="number"&&1===a[0])return[0,[0,k(a[1])],0];return 0}function
-qj(N,M,a){switch(a[1]){case
+qC(N,M,a){switch(a[1]){case
 0:var
 g=a[4];if(typeof
 g!=="number"&&0===g[0])return[0,[1,k(g[1])],0];return 0;case
@@ -6777,11 +6872,11 @@ b=k(W);return[13,a,k(X),b]}}if(K)return 0;break;case
 9:var
 u=a[4];if(typeof
 u!=="number"&&0===u[0]){var
-Y=u[1],Z=hU(0,M);return e(function(h){var
+Y=u[1],Z=h0(0,M);return e(function(h){var
 e=k(Y),a=h[2],c=h[1];if(0===c[0]){var
 f=c[1];if(0===a[0]){var
-g=function(a){return a?eZ(a[1]):[0,[0,d,b],[0,d,b],[0,d,b]]};if(n(f,a[1])){var
-i=k(a[2]),j=[2,[2,k(c[2]),i],e],l=g(a[5]),m=g(c[5]);return[11,aR(f),m,l,j]}var
+g=function(a){return a?e2(a[1]):[0,[0,d,b],[0,d,b],[0,d,b]]};if(n(f,a[1])){var
+i=k(a[2]),j=[2,[2,k(c[2]),i],e],l=g(a[5]),m=g(c[5]);return[11,aS(f),m,l,j]}var
 o=ds(a);return[10,ds(c),o,e]}var
 p=ds(a);return[10,ds(c),p,e]}var
 q=ds(a);return[10,ds(c),q,e]},Z)}return 0;case
@@ -6794,15 +6889,15 @@ $=x[2],aa=x[1],c=function(a){var
 b=k(_),c=k($);return[12,a,k(aa),c,b]}}if(L)return 0;break;case
 11:var
 G=typeof
-a[4]==="number"?1:0,ab=G?Ce:G;return ab;case
+a[4]==="number"?1:0,ab=G?CI:G;return ab;case
 12:var
 y=a[4];if(typeof
 y!=="number"&&1===y[0]){var
 z=a[3];if(z){var
 H=z[1];if(0===H[0]){var
 ac=k(y[1]);return[0,[14,k(H[1]),ac],0]}return 0}return z}return 0;default:return 0}var
-B=a[2],P=B?[0,aR(B[1]),0]:aH(0,N);return e(c,P)}function
-Cf(c,a){switch(a[1]){case
+B=a[2],P=B?[0,aS(B[1]),0]:aI(0,N);return e(c,P)}function
+CJ(c,a){switch(a[1]){case
 0:var
 l=a[4];if(typeof
 l!=="number"&&2!==l[0])return a[2]?0:a[3]?0:1;return 0;case
@@ -6846,7 +6941,7 @@ z!=="number"&&0===z[0])return a[2]?0:a[3]?0:1;return 0;case
 N=0,A=a[4];if(typeof
 A==="number"||!(1===A[0]))N=1;else{var
 h=a[3];if(!h)return h;if(0!==h[1][0])return 0;var
-B=n(c,Ch),O=0;if(B){var
+B=n(c,CL),O=0;if(B){var
 C=a[2];if(C){var
 b=C[1];O=1}else
 var
@@ -6872,17 +6967,17 @@ I=H;return I;case
 12:var
 J=a[4];if(typeof
 J!=="number"&&1===J[0]){if(a[2])return 0;var
-k=a[3];return k?0===k[1][0]?n(c,Ci):0:k}return 0;default:return 0}var
-p=ae(Cg,b);return p?ae(b,c):p}function
-hV(c,k,j,b){var
-l=f(c),d=w(function(a){return qj(l,j,a)},b),a=w(Cd,b),h=a?[0,a[1],a[2]]:Cj,i=g(h,d),m=qi(k);return[0,e(Cc,c),m,i]}function
-qk(b){if(b[1])return 0;var
+k=a[3];return k?0===k[1][0]?n(c,CM):0:k}return 0;default:return 0}var
+p=ae(CK,b);return p?ae(b,c):p}function
+h1(c,k,j,b){var
+l=f(c),d=y(function(a){return qC(l,j,a)},b),a=y(CH,b),h=a?[0,a[1],a[2]]:CN,i=g(h,d),m=qB(k);return[0,e(CG,c),m,i]}function
+qD(b){if(b[1])return 0;var
 a=b[4];if(typeof
 a!=="number"&&1===a[0])return[0,[0,k(a[1])],0];return 0}function
-ql(c){function
+qE(c){function
 a(a){return s(a,e(k,c),[0,d,b])}var
-f=a(Ck),g=a(Cl);return[0,a(0),g,f]}function
-hW(_,G,Z,a){switch(a[1]){case
+f=a(CO),g=a(CP);return[0,a(0),g,f]}function
+h2(_,G,Z,a){switch(a[1]){case
 0:var
 h=a[4];if(typeof
 h!=="number"&&0===h[0])return[0,[1,k(h[1])],0];return 0;case
@@ -6936,7 +7031,7 @@ b=k(ak);return[7,a,k(al),b]}}if(T)return 0;break;case
 9:var
 t=a[4];if(typeof
 t!=="number"&&0===t[0]){var
-am=t[1],an=hU(0,Z);return e(function(a){var
+am=t[1],an=h0(0,Z);return e(function(a){var
 b=k(am),c=ds(a[2]);return[14,ds(a[1]),c,b]},an)}return 0;case
 10:var
 u=a[4],U=0;if(typeof
@@ -6968,14 +7063,14 @@ A==="number"||!(1===A[0]))W=1;else{var
 B=a[3],av=A[1];if(!B)return B;var
 O=B[1];if(1!==O[0])return 0;var
 aw=O[1],c=function(a){var
-b=k(av);return[13,a,0,ql(aw),b]}}if(W)return 0;break;case
+b=k(av);return[13,a,0,qE(aw),b]}}if(W)return 0;break;case
 15:var
 C=a[4],X=0;if(typeof
 C==="number"||!(1===C[0]))X=1;else{var
 D=a[3],ax=C[1];if(!D)return D;var
 P=D[1];if(1!==P[0])return 0;var
 ay=P[1],c=function(a){var
-b=k(ax);return[13,a,1,ql(ay),b]}}if(X)return 0;break;case
+b=k(ax);return[13,a,1,qE(ay),b]}}if(X)return 0;break;case
 16:var
 E=a[4],Y=0;if(typeof
 E==="number"||!(1===E[0]))Y=1;else{var
@@ -6983,11 +7078,11 @@ F=a[3],az=E[1];if(!F)return F;var
 Q=F[1];if(1!==Q[0])return 0;var
 aA=Q[1],c=function(a){var
 b=k(az);return[17,a,e(k,aA),b]}}if(Y)return 0;break;default:return 0}var
-H=a[2],aa=H?[0,aR(H[1]),0]:aH(0,G);return e(c,aa)}function
-e0(e,d,c,b){var
-f=w(function(a){return hW(e,d,c,a)},b),a=w(qk,b),h=a?[0,a[1],a[2]]:Cm;return g(h,f)}function
-cV(a){return 11===a[1]?1:0}function
-cs(n,m,a){var
+H=a[2],aa=H?[0,aS(H[1]),0]:aI(0,G);return e(c,aa)}function
+e3(e,d,c,b){var
+f=y(function(a){return h2(e,d,c,a)},b),a=y(qD,b),h=a?[0,a[1],a[2]]:CQ;return g(h,f)}function
+cX(a){return 11===a[1]?1:0}function
+cv(n,m,a){var
 b=a[1];if(!(4<=b))switch(b){case
 0:var
 c=a[4];if(typeof
@@ -6997,25 +7092,25 @@ l=0,d=a[4];if(typeof
 d!=="number"&&2===d[0]){var
 e=1;l=1}if(!l)var
 e=0;var
-f=cB(n,e);if(f){var
+f=cE(n,e);if(f){var
 g=a[2];if(g){var
-h=g[1],i=ae(Cn,h);return i?ae(h,m):i}var
+h=g[1],i=ae(CR,h);return i?ae(h,m):i}var
 j=1}else
 var
 j=f;return j;case
 3:var
 k=a[4];if(typeof
 k!=="number"&&1===k[0])return a[2]?0:a[3]?0:1;return 0}return 0}function
-bb(s,b,a){var
+aV(s,b,a){var
 d=a[2];if(d)var
-e=d[1],g=ae(Co,e),t=g?ae(e,b):g,c=t;else
+e=d[1],g=ae(CS,e),t=g?ae(e,b):g,c=t;else
 var
 c=1;var
 h=a[1];if(!(9<=h))switch(h){case
 2:var
 i=a[4];if(typeof
 i!=="number"&&1===i[0]){var
-j=a[3];return j?0===j[1][0]?c:cs(0,b,a):cs(0,b,a)}return cs(0,b,a);case
+j=a[3];return j?0===j[1][0]?c:cv(0,b,a):cv(0,b,a)}return cv(0,b,a);case
 6:var
 k=a[4];if(typeof
 k!=="number"&&0===k[0]){var
@@ -7026,56 +7121,60 @@ m=l[1];switch(m[0]){case
 o=n(f(m[1]),b);if(o){if(a[2])return 0;var
 p=1}else
 var
-p=o;return p;default:return cs(0,b,a)}}return cs(0,b,a)}return cs(0,b,a);case
+p=o;return p;default:return cv(0,b,a)}}return cv(0,b,a)}return cv(0,b,a);case
 8:var
 q=a[4];if(typeof
 q!=="number"&&1===q[0]){var
-r=a[3];return r?0===r[1][0]?c?n(b,s):c:cs(0,b,a):cs(0,b,a)}return cs(0,b,a)}return cs(0,b,a)}function
+r=a[3];return r?0===r[1][0]?c?n(b,s):c:cv(0,b,a):cv(0,b,a)}return cv(0,b,a)}return cv(0,b,a)}function
 aJ(c,b,a){return 11===a[1]?typeof
-a[4]==="number"?a[2]?bb(c,b,a):a[3]?bb(c,b,a):1:bb(c,b,a):bb(c,b,a)}function
-qm(g,b,c,a){var
+a[4]==="number"?a[2]?aV(c,b,a):a[3]?aV(c,b,a):1:aV(c,b,a):aV(c,b,a)}function
+qF(g,b,c,a){var
 h=a[2];if(h)var
-i=h[1],j=ae(Cq,i),E=j?ae(i,c):j,d=E;else
+i=h[1],j=ae(CU,i),G=j?ae(i,c):j,d=G;else
 var
 d=1;switch(a[1]){case
-1:if(a[3])return bb(as(b),c,a);if(d){var
-D=0,k=a[4];if(typeof
+1:if(a[3])return aV(an(b),c,a);if(d){var
+F=0,k=a[4];if(typeof
 k!=="number"&&2===k[0]){var
-l=1;D=1}if(!D)var
-l=0;return cB(g,l)}return d;case
+l=1;F=1}if(!F)var
+l=0;return cE(g,l)}return d;case
 4:var
 m=a[4];if(typeof
-m!=="number"&&0===m[0])return a[3]?bb(as(b),c,a):d;return bb(as(b),c,a);case
+m!=="number"&&0===m[0])return a[3]?aV(an(b),c,a):d;return aV(an(b),c,a);case
 5:var
 o=a[4];if(typeof
-o!=="number"&&0===o[0]){if(a[3])return bb(as(b),c,a);var
-p=n(c,as(b));if(p){var
+o!=="number"&&0===o[0]){if(a[3])return aV(an(b),c,a);var
+p=n(c,an(b));if(p){var
 q=typeof
 b==="number"?1:0;if(q){if(a[2])return 0;var
 e=1}else
 var
 e=q}else
 var
-e=p;return e}return bb(as(b),c,a);case
-12:var
+e=p;return e}return aV(an(b),c,a);case
+10:var
 r=a[4];if(typeof
 r!=="number"&&1===r[0]){var
-s=a[3];if(s){var
-t=s[1],u=n(c,as(b));return u?typeof
-b==="number"?a[2]?0:0===t[0]?1:0:a[2]?0:3===t[0]?1:0:u}return bb(as(b),c,a)}return bb(as(b),c,a);case
+s=a[3];return s?2===s[1][0]?d:aV(an(b),c,a):aV(an(b),c,a)}return aV(an(b),c,a);case
+12:var
+t=a[4];if(typeof
+t!=="number"&&1===t[0]){var
+u=a[3];if(u){var
+v=u[1],w=n(c,an(b));return w?typeof
+b==="number"?a[2]?0:0===v[0]?1:0:a[2]?0:3===v[0]?1:0:w}return aV(an(b),c,a)}return aV(an(b),c,a);case
 13:var
-v=a[4];if(typeof
-v!=="number"&&1===v[0])return a[3]?bb(as(b),c,a):d?I(g):d;return bb(as(b),c,a);case
+x=a[4];if(typeof
+x!=="number"&&1===x[0])return a[3]?aV(an(b),c,a):d?I(g):d;return aV(an(b),c,a);case
 16:var
-w=a[4];if(typeof
-w!=="number"&&1===w[0]){var
-x=a[3];if(x){var
-y=x[1];if(1===y[0]){var
-z=d?n(c,as(b)):d,A=z?n(f(y[1]),c):z;if(A)var
-B=typeof
-b==="number"?1:0,C=B?1:B;else
+y=a[4];if(typeof
+y!=="number"&&1===y[0]){var
+z=a[3];if(z){var
+A=z[1];if(1===A[0]){var
+B=d?n(c,an(b)):d,C=B?n(f(A[1]),c):B;if(C)var
+D=typeof
+b==="number"?1:0,E=D?1:D;else
 var
-C=A;return C}return bb(as(b),c,a)}return bb(as(b),c,a)}return bb(as(b),c,a);default:return bb(as(b),c,a)}}function
+E=C;return E}return aV(an(b),c,a)}return aV(an(b),c,a)}return aV(an(b),c,a);default:return aV(an(b),c,a)}}function
 dt(a){switch(a[0]){case
 0:return[0,k([0,a[1],a[2]])];case
 1:return[1,a[1]];case
@@ -7087,16 +7186,16 @@ b=dt(a[2]),c=dt(a[3]);switch(a[1]){case
 2:return[5,b,c];default:return[6,b,c]}case
 4:var
 d=a[2];return[7,dt(a[1]),d];default:return[8,dt(a[1])]}}function
-kL(i,h,g,b,d,c,a){var
-j=ak(cV,a),l=e0(0,f(b),0,a),m=V(d,c),n=e(function(a){var
+kY(i,h,g,b,d,c,a){var
+j=al(cX,a),l=e3(0,f(b),0,a),m=V(d,c),n=e(function(a){var
 b=k(a[2]);return[0,k(a[1]),b]},m),o=e(function(a){return 0===a[0]?[0,e(dt,a[1])]:[1,dt(a[1])]},b),p=e(function(a){var
 b=dt(a[2]);return[0,a[1],b]},g);return[0,[0,i,e(function(a){var
-b=b6(a[2]);return[0,a[1],b]},h),p,o],n,l,j]}function
-kM(c){function
+b=b_(a[2]);return[0,a[1],b]},h),p,o],n,l,j]}function
+kZ(c){function
 a(e){var
 a=[0,d,b];return s(e,c,[0,a,a])}var
-e=a(Cr),f=a(Cs);return[0,a(0),f,e]}function
-d8(a){function
+e=a(CV),f=a(CW);return[0,a(0),f,e]}function
+eb(a){function
 b(a){var
 b=k(a[2]);return[0,k(a[1]),b]}switch(a[0]){case
 0:return[0,b([0,a[1],a[2]])];case
@@ -7104,41 +7203,41 @@ b=k(a[2]);return[0,k(a[1]),b]}switch(a[0]){case
 c=b(a[3]),d=b(a[2]);return[1,b(a[1]),d,c];case
 2:return[2,k(a[1])];default:var
 e=k(a[2]);return[3,k(a[1]),e]}}function
-qn(a){if(0===a[0]){var
-b=V(a[1],a[2]);return[0,kM(e(function(a){var
-b=k(a[2]);return[0,k(a[1]),b]},b))]}return qi([1,a[1],a[2],a[3],a[4],a[5]])}function
-qo(j,b,i,h,g,d,a){function
-c(a){return kM(e(b6,a))}var
-l=ak(cV,a),m=e0(0,f(b),d,a),n=d8(g),o=qn(h),p=k(i);return[0,j,e(function(a){var
+qG(a){if(0===a[0]){var
+b=V(a[1],a[2]);return[0,kZ(e(function(a){var
+b=k(a[2]);return[0,k(a[1]),b]},b))]}return qB([1,a[1],a[2],a[3],a[4],a[5]])}function
+qH(j,b,i,h,g,d,a){function
+c(a){return kZ(e(b_,a))}var
+l=al(cX,a),m=e3(0,f(b),d,a),n=eb(g),o=qG(h),p=k(i);return[0,j,e(function(a){var
 b=c(a[2]);return[0,c(a[1]),b]},b),p,o,n,m,l]}function
-d9(a){return ak(function(a){return 3===a[0]?1:0},a)}function
-kN(j,a,g,i,h,c){var
-l=ak(cV,c),m=f(a),n=e0(d9(a),m,0,c),o=y(d8,h),p=qn(i),q=g?k(g[1]):[0,b,b];return[0,j,e(function(a){function
-c(a){return kM(e(b6,a))}switch(a[0]){case
+ec(a){return al(function(a){return 3===a[0]?1:0},a)}function
+k0(j,a,g,i,h,c){var
+l=al(cX,c),m=f(a),n=e3(ec(a),m,0,c),o=z(eb,h),p=qG(i),q=g?k(g[1]):[0,b,b];return[0,j,e(function(a){function
+c(a){return kZ(e(b_,a))}switch(a[0]){case
 0:var
-k=a[5],l=b6(a[4]),m=c(a[3]),n=c(a[2]);return[0,[0,[0,c(a[1]),n,m,l,k]]];case
+k=a[5],l=b_(a[4]),m=c(a[3]),n=c(a[2]);return[0,[0,[0,c(a[1]),n,m,l,k]]];case
 1:var
-o=y(c,a[3]),p=c(a[2]);return[0,[1,c(a[1]),p,o]];case
+o=z(c,a[3]),p=c(a[2]);return[0,[1,c(a[1]),p,o]];case
 2:return[0,[2,c(a[1])]];default:var
 f=a[1];if(f)var
 g=c(f);else
 var
 h=[0,b,b],i=[0,d,b],j=[0,d,b],g=[0,[0,j,j],[0,i,i],[0,h,h]];var
-q=a[7],r=b6(a[6]),s=b6(a[5]),t=c(a[4]),u=c(a[3]);return[1,[0,g,c(a[2]),u,t,s,r,q]]}},a),q,p,o,n,l]}function
-b7(c){var
+q=a[7],r=b_(a[6]),s=b_(a[5]),t=c(a[4]),u=c(a[3]);return[1,[0,g,c(a[2]),u,t,s,r,q]]}},a),q,p,o,n,l]}function
+b$(c){var
 a=c[1];if(13!==a){var
 b=16<=a?1:0;if(!b)return b}return 1}function
-kO(a){function
+k1(a){function
 b(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}switch(a[0]){case
 0:var
 c=a[5],d=a[4],e=b(a[3]),f=b(a[2]);return[0,b(a[1]),f,e,d,c];case
 1:var
-g=y(b,a[3]),h=b(a[2]);return[1,b(a[1]),h,g];default:return[2,b(a[1])]}}function
-kP(a){if(0===a[0]){var
+g=z(b,a[3]),h=b(a[2]);return[1,b(a[1]),h,g];default:return[2,b(a[1])]}}function
+k2(a){if(0===a[0]){var
 b=a[2],c=a[1];return[0,[0,c[1],[0,c[2],[0,c[3],0]]],[0,b[1],[0,b[2],[0,b[3],0]]]]}return[1,a[1],a[2],a[3],a[4],a[5]]}function
-qp(a){return a[1]?0:1}function
-qq(l){var
-b=a5(qp,l);if(b){var
+qI(a){return a[1]?0:1}function
+qJ(l){var
+b=a6(qI,l);if(b){var
 d=b[1];if(d[2])return 0;if(d[3])return 0;var
 c=d[4],a=b[2];if(typeof
 c!=="number")switch(c[0]){case
@@ -7159,46 +7258,46 @@ k=a;return k}var
 i=0}else
 var
 i=b;return i}function
-qr(a){var
-c=qp(a);if(c)return c;if(1===a[1]){var
+qK(a){var
+c=qI(a);if(c)return c;if(1===a[1]){var
 b=a[4];if(typeof
 b!=="number"&&0===b[0])return 1;return 0}return 0}function
-hX(i,h,b){function
+h3(i,h,b){function
 c(b,a){return[3,1,b,a]}function
 a(b,a){return[3,3,b,a]}function
 d(b,a){return[3,2,b,a]}function
 e(b,a){return[3,0,b,a]}var
-f=c(hY,a(hY,b)),j=a(f,kQ),k=i?f:a(c(b,hY),kQ);function
-g(b){return a(b,[5,e(hY,d(kQ,d(b,b)))])}var
+f=c(h4,a(h4,b)),j=a(f,k3),k=i?f:a(c(b,h4),k3);function
+g(b){return a(b,[5,e(h4,d(k3,d(b,b)))])}var
 l=g(k);return a(h,e(g(j),l))}function
-hZ(f,e,d){function
+h5(f,e,d){function
 a(b,a){return[3,3,b,a]}function
 b(b,a){return[3,2,b,a]}var
-c=a([3,1,kR,a(kR,d)],qs),g=a(c,[5,[3,0,kR,b(qs,b(c,c))]]);return[2,b(hX(f,e,d),g)]}function
-kS(e,g,a){function
+c=a([3,1,k4,a(k4,d)],qL),g=a(c,[5,[3,0,k4,b(qL,b(c,c))]]);return[2,b(h3(f,e,d),g)]}function
+k5(e,g,a){function
 f(b,a){return[3,1,b,a]}function
 b(b,a){return[3,3,b,a]}function
 c(b,a){return[3,2,b,a]}var
-h=f(h0,b(h0,a)),d=e?h:b(f(a,h0),qt),i=b(d,[5,[3,0,h0,c(qt,c(d,d))]]);return c(hX(e,g,a),i)}function
-qu(c,g,b,a){function
+h=f(h6,b(h6,a)),d=e?h:b(f(a,h6),qM),i=b(d,[5,[3,0,h6,c(qM,c(d,d))]]);return c(h3(e,g,a),i)}function
+qN(c,g,b,a){function
 d(b,a){return e(function(c){var
-d=n(b,c)?a:Ct;return[0,d]},Cv)}return e(function(e){var
-j=[0,hX(c,b,a)],i=1,k=d(e,[2,g]);function
+d=n(b,c)?a:CX;return[0,d]},CZ)}return e(function(e){var
+j=[0,h3(c,b,a)],i=1,k=d(e,[2,g]);function
 f(b,a){return[3,1,b,a]}var
-h=hX(c,b,a),l=d(e,f(f(hZ(c,b,a),g),h));return[0,d(e,Cu),l,k,j,i]},Cw)}function
-qv(c,b,a){var
-d=[0,kS(c,b,a),0],e=[0,kS(c,b,a),d],f=[0,kS(c,b,a),e],g=[0,hZ(c,b,a),0],h=[0,hZ(c,b,a),g];return[0,[0,hZ(c,b,a),h],f]}function
-qw(o,e,a){if(e)if(a){var
-g=e[1],h=a[1],j=cK(k(g[2][1]));if(j){var
-l=j[1],m=cK(k(g[2][2]));if(m)var
+h=h3(c,b,a),l=d(e,f(f(h5(c,b,a),g),h));return[0,d(e,CY),l,k,j,i]},C0)}function
+qO(c,b,a){var
+d=[0,k5(c,b,a),0],e=[0,k5(c,b,a),d],f=[0,k5(c,b,a),e],g=[0,h5(c,b,a),0],h=[0,h5(c,b,a),g];return[0,[0,h5(c,b,a),h],f]}function
+qP(o,e,a){if(e)if(a){var
+g=e[1],h=a[1],j=cO(k(g[2][1]));if(j){var
+l=j[1],m=cO(k(g[2][2]));if(m)var
 p=m[1],n=function(a){function
 d(a){return c(2,a)}var
-e=[0,a,gx(h[2],d,b)];return dG(l,a9(dH(p,l),e))},q=n(F(h[1],b)),f=[0,n(h[1]),q];else
+e=[0,a,gD(h[2],d,b)];return dG(l,a_(dH(p,l),e))},q=n(G(h[1],b)),f=[0,n(h[1]),q];else
 var
 f=[0,[0,d,b],[0,d,b]]}else
 var
 f=[0,[0,d,b],[0,d,b]];var
-r=qw([0,o],e[2],a[2]),i=[0,[0,g[1],[1,o,f[1],f[2]]],r]}else
+r=qP([0,o],e[2],a[2]),i=[0,[0,g[1],[1,o,f[1],f[2]]],r]}else
 var
 i=a;else
 var
@@ -7207,21 +7306,21 @@ az(b,a){switch(a[0]){case
 0:return[0,a[1],a[2]];case
 1:var
 c=a[1];if(0===c[0]){var
-e=c[1],d=mf(function(a){return aF(e,a[1])},b);return d?[1,d[1][2]]:a}return a;case
+e=c[1],d=ms(function(a){return aG(e,a[1])},b);return d?[1,d[1][2]]:a}return a;case
 2:return[2,az(b,a[1])];case
 3:var
 f=az(b,a[3]),g=az(b,a[2]);return[3,a[1],g,f];case
 4:var
 h=a[2];return[4,az(b,a[1]),h];default:return[5,az(b,a[1])]}}function
-qx(b,a){if(0===a[0])return[0,az(b,a[1])];var
+qQ(b,a){if(0===a[0])return[0,az(b,a[1])];var
 c=az(b,a[2]);return[1,az(b,a[1]),c]}function
-kT(b,a){var
+k6(b,a){var
 c=h(b,a[3]),d=h(b,a[2]);return[0,h(b,a[1]),d,c]}function
-kU(c,a){if(c)if(a){var
+k7(c,a){if(c)if(a){var
 g=a[2],b=a[1],h=c[1];if(typeof
 b!=="number"&&0===b[0]){var
-e=kU(h,g);if(e){var
-i=e[1],f=kU(h,i[2]);if(f)var
+e=k7(h,g);if(e){var
+i=e[1],f=k7(h,i[2]);if(f)var
 j=f[1],k=[0,[0,[0,b[1],i[1],j[1]],j[2]]];else
 var
 k=f;var
@@ -7233,50 +7332,50 @@ var
 d=a;else
 var
 d=c;return d}function
-kV(g,f,a){if(a){var
-e=a[1],h=a[2];if(f)return[0,e,kV(g,f[1],h)];var
-j=[0,e[2]],k=g?b:d,l=e[1],i=[0,[0,F(C(c(2,b),l),k),j],h]}else
+k8(g,f,a){if(a){var
+e=a[1],h=a[2];if(f)return[0,e,k8(g,f[1],h)];var
+j=[0,e[2]],k=g?b:d,l=e[1],i=[0,[0,G(D(c(2,b),l),k),j],h]}else
 var
 i=a;return i}function
-Cx(a){if(typeof
+C1(a){if(typeof
 a!=="number"&&1===a[0])return 1;return 0}function
-Cy(a){if(typeof
+C2(a){if(typeof
 a!=="number"&&2===a[0])return 1;return 0}function
-h1(e,a){if(0===a[0]){var
-f=[0,b,c(2,b)],g=h1(e,a[3]);return a9(dG(h1(e,a[2]),g),f)}return h(e,a[1])?[0,b,b]:[0,d,b]}function
-qy(a){return 0===a[0]?eH(a[1][4]):0}function
-qz(a){switch(a[0]){case
+h7(e,a){if(0===a[0]){var
+f=[0,b,c(2,b)],g=h7(e,a[3]);return a_(dG(h7(e,a[2]),g),f)}return h(e,a[1])?[0,b,b]:[0,d,b]}function
+qR(a){return 0===a[0]?eL(a[1][4]):0}function
+qS(a){switch(a[0]){case
 0:var
-b=a[1],c=bh(b[3]);return g(bh(b[2]),c);case
+b=a[1],c=bi(b[3]);return g(bi(b[2]),c);case
 1:var
-d=bh(a[2]);return g(bh(a[1]),d);default:return 0}}function
-h2(a){switch(a[0]){case
-0:return bL(bh(a[1][1]));case
+d=bi(a[2]);return g(bi(a[1]),d);default:return 0}}function
+h8(a){switch(a[0]){case
+0:return bP(bi(a[1][1]));case
 1:var
-b=a[3];return b?bL(bh(b[1])):d;default:return bL(bh(a[1]))}}function
-h3(c){var
-a=w(qy,c),d=a?[0,a[1],a[2]]:w(qz,c);return F(b,bL(d))}function
-qA(d,a){if(d){if(a){var
-b=a[1],g=d[1],e=qA(d[2],a[2]);if(e){var
+b=a[3];return b?bP(bi(b[1])):d;default:return bP(bi(a[1]))}}function
+h9(c){var
+a=y(qR,c),d=a?[0,a[1],a[2]]:y(qS,c);return G(b,bP(d))}function
+qT(d,a){if(d){if(a){var
+b=a[1],g=d[1],e=qT(d[2],a[2]);if(e){var
 h=e[1],i=h[2],j=h[1];if(45===b)var
-c=Cz;else
+c=C3;else
 if(43===b)var
-c=CA;else
+c=C4;else
 var
-f=48===b?1:0,n=f?CB:f,c=n;if(c)return[0,[0,[0,[0,g,c[1]],j],i]];var
+f=48===b?1:0,n=f?C5:f,c=n;if(c)return[0,[0,[0,[0,g,c[1]],j],i]];var
 k=49===b?1:0,o=k?[0,[0,j,[0,g,i]]]:k,l=o}else
 var
 l=e;var
 m=l}else
 var
-m=a;return m}return a?0:CC}function
+m=a;return m}return a?0:C6}function
 du(b,c,a){switch(a[0]){case
 0:var
-d=a[1];if(aF(d,CD))return CE;if(aF(d,CF))return CG;if(aF(d,CH))return CI;if(aF(d,CJ))return CK;if(aF(d,CL))return CM;var
-n=aF(d,CN),B=n?CO:n;return B;case
+d=a[1];if(aG(d,C7))return C8;if(aG(d,C9))return C_;if(aG(d,C$))return Da;if(aG(d,Db))return Dc;if(aG(d,Dd))return De;var
+n=aG(d,Df),B=n?Dg:n;return B;case
 1:var
-e=a[3],f=a[2],g=a[1];if(aF(g,CP))return[0,[0,e,f]];if(aF(g,CQ))return[0,[1,e,f]];if(aF(g,CR))return[0,[2,e,f]];var
-o=aF(g,CS),C=o?[0,[8,e,f]]:o;return C;case
+e=a[3],f=a[2],g=a[1];if(aG(g,Dh))return[0,[0,e,f]];if(aG(g,Di))return[0,[1,e,f]];if(aG(g,Dj))return[0,[2,e,f]];var
+o=aG(g,Dk),C=o?[0,[8,e,f]]:o;return C;case
 2:return[0,[4,a[1]]];case
 3:return[0,[3,a[2],a[1],a[3]]];case
 4:return[0,[9,a[2],a[1],a[3],a[4]]];case
@@ -7285,10 +7384,10 @@ h=du(b,c,a[1]),D=h?[0,[5,h[1],a[2],a[3]]]:h;return D;case
 6:var
 i=du(b,c,a[1]),E=i?[0,[7,i[1],a[2],a[3]]]:i;return E;case
 7:var
-F=du(b,c,a[1]);return y(function(a){return[6,a]},F);case
+F=du(b,c,a[1]);return z(function(a){return[6,a]},F);case
 8:if(b){var
 p=a[3],q=a[2],j=du(b,c,a[1]);if(j){var
-r=j[1],k=qA(b,iN(iM(aC(q),function(a){return bd(q,a)})));if(k){var
+r=j[1],k=qT(b,iT(iS(aD(q),function(a){return bd(q,a)})));if(k){var
 s=k[1],t=s[2],u=s[1];if(t)return[0,[11,c,t,[10,r,u,p]]];var
 v=[0,[10,r,u,p]]}else
 var
@@ -7300,30 +7399,30 @@ x=w}else
 var
 x=b;return x;case
 9:var
-z=function(a){if(a){var
+y=function(a){if(a){var
 f=a[1],d=du(b,c,f[2]);if(d)var
-e=z(a[2]),h=e?[0,[0,[0,f[1],d[1]],e[1]]]:e,g=h;else
+e=y(a[2]),h=e?[0,[0,[0,f[1],d[1]],e[1]]]:e,g=h;else
 var
-g=d;return g}return CT},G=z(a[1]);return y(function(a){return[12,a]},G);default:var
+g=d;return g}return Dl},G=y(a[1]);return z(function(a){return[12,a]},G);default:var
 l=du(b,c,a[3]);if(l)var
 m=du(b,c,a[4]),H=m?[0,[13,a[2],a[1],l[1],m[1]]]:m,A=H;else
 var
 A=l;return A}}function
-qB(e,d,a){if(a){var
+qU(e,d,a){if(a){var
 f=a[1],b=du(e,d,f[2]);if(b)var
-c=qB(e,d,a[2]),h=c?[0,[0,[0,f[1],b[1]],c[1]]]:c,g=h;else
+c=qU(e,d,a[2]),h=c?[0,[0,[0,f[1],b[1]],c[1]]]:c,g=h;else
 var
-g=b;return g}return CU}function
-d_(b,g,f,e,d,a){if(d)if(a){var
+g=b;return g}return Dm}function
+ed(b,g,f,e,d,a){if(d)if(a){var
 c=a[1];if(c[3])return 0;if(c[4])return 0;var
-n=c[2],o=a[2],p=d[1],h=qB(f,e,c[1]);if(h){var
+n=c[2],o=a[2],p=d[1],h=qU(f,e,c[1]);if(h){var
 i=h[1];if(n){var
-j=d_(b,g,f,e,p,o);if(j){var
-q=j[1],k=d_(b,g,f,e,p,q[2]);if(k){var
-r=k[1],s=r[1],t=q[1],l=n[1],z=r[2];if(aD(l,b))var
+j=ed(b,g,f,e,p,o);if(j){var
+q=j[1],k=ed(b,g,f,e,p,q[2]);if(k){var
+r=k[1],s=r[1],t=q[1],l=n[1],y=r[2];if(aE(l,b))var
 u=[0,[1,i,l,t,s]];else
 var
-x=G(g,dE(l,b)),u=y(function(a){return[2,i,a,t,s]},x);return y(function(a){return[0,a,z]},u)}var
+x=E(g,dE(l,b)),u=z(function(a){return[2,i,a,t,s]},x);return z(function(a){return[0,a,y]},u)}var
 v=k}else
 var
 v=j;return v}var
@@ -7335,67 +7434,67 @@ var
 m=a;else
 var
 m=d;return m}function
-kW(i,h,g,e,d,a){if(d){if(a){var
-b=d_(i,h,g,e,f(a),a);if(b)var
-j=b[1],c=kW(i,h,g,e,d[1],j[2]),l=c?[0,[0,j[1],c[1]]]:c,k=l;else
+k9(i,h,g,e,d,a){if(d){if(a){var
+b=ed(i,h,g,e,f(a),a);if(b)var
+j=b[1],c=k9(i,h,g,e,d[1],j[2]),l=c?[0,[0,j[1],c[1]]]:c,k=l;else
 var
-k=b;return k}return CV}return a?0:CW}function
-qC(a){if(typeof
-a==="number")return 0===a?CX:CY;else
+k=b;return k}return Dn}return a?0:Do}function
+qV(a){if(typeof
+a==="number")return 0===a?Dp:Dq;else
 switch(a[0]){case
 0:return[0,[0,a[1],a[2]]];case
 1:return[0,[1,a[1],a[2]]];default:return 0}}function
-kX(e,d,a){if(d)if(a){var
+k_(e,d,a){if(d)if(a){var
 b=a[1];if(b[1])return 0;var
 j=b[4],c=b[3],k=b[2],l=a[2],m=d[1];if(k){if(c)return 0;if(j)return 0;var
-f=k[1],g=kX(e,m,l);if(g){var
-n=g[1],o=n[1],h=kX(e,m,n[2]);if(h){var
-p=h[1],q=p[2],r=p[1];if(aD(f,CZ))return[0,[0,[1,f,o,r],q]];var
-t=G(e,dE(f,C0));return y(function(a){return[0,[2,a,o,r],q]},t)}var
+f=k[1],g=k_(e,m,l);if(g){var
+n=g[1],o=n[1],h=k_(e,m,n[2]);if(h){var
+p=h[1],q=p[2],r=p[1];if(aE(f,Dr))return[0,[0,[1,f,o,r],q]];var
+t=E(e,dE(f,Ds));return z(function(a){return[0,[2,a,o,r],q]},t)}var
 s=h}else
 var
 s=g;return s}if(c){var
-u=qC(c[1]);return y(function(a){return[0,[0,j,a],l]},u)}var
+u=qV(c[1]);return z(function(a){return[0,[0,j,a],l]},u)}var
 i=c}else
 var
 i=a;else
 var
 i=d;return i}function
 dv(b,a){return 0===b[0]?[0,k(b[1]),a]:a?[0,a[1],a[2]]:[0,k(b[1]),0]}function
-d$(a,e){var
+ee(a,e){var
 b=dv(a[1],e),c=dv(a[2],b[2]),d=dv(a[3],c[2]);return[0,[0,b[1],c[1],d[1]],d[2]]}function
-qD(d,c){if(d){var
+qW(d,c){if(d){var
 a=d[1];switch(a[0]){case
 0:var
-e=d$(a[1],c),f=d$(a[2],e[2]),g=d$(a[3],f[2]),h=dv(a[4],g[2]),b=[0,[0,e[1],f[1],g[1],h[1],a[5]],h[2]];break;case
+e=ee(a[1],c),f=ee(a[2],e[2]),g=ee(a[3],f[2]),h=dv(a[4],g[2]),b=[0,[0,e[1],f[1],g[1],h[1],a[5]],h[2]];break;case
 1:var
-i=a[3],j=d$(a[1],c),k=j[1],l=d$(a[2],j[2]),m=l[2],n=l[1];if(i)var
-o=d$(i[1],m),b=[0,[1,k,n,[0,o[1]]],o[2]];else
+i=a[3],j=ee(a[1],c),k=j[1],l=ee(a[2],j[2]),m=l[2],n=l[1];if(i)var
+o=ee(i[1],m),b=[0,[1,k,n,[0,o[1]]],o[2]];else
 var
 b=[0,[1,k,n,0],m];break;default:var
-p=d$(a[1],c),b=[0,[2,p[1]],p[2]]}var
-q=qD(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
-f5(t,g){var
+p=ee(a[1],c),b=[0,[2,p[1]],p[2]]}var
+q=qW(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
+f$(t,g){var
 u=t[3];if(typeof
-g==="number")return 0===g?C4:C5;else
+g==="number")return 0===g?Dw:Dx;else
 switch(g[0]){case
 0:var
-v=g[2],h=g[1],B=G(u,h);if(B){var
-ab=0,E=B[1];if(typeof
-E==="number"||!(13===E[0]))ab=1;else
+v=g[2],h=g[1],B=E(u,h);if(B){var
+ab=0,C=B[1];if(typeof
+C==="number"||!(13===C[0]))ab=1;else
 var
-x=t[1],A=h3(x),a=e(function(a){var
+x=t[1],A=h9(x),a=e(function(a){var
 g=f(x);if(n(f(a),g)){var
 h=V(x,a);return e(function(a){var
-e=a[2],f=D(d,A),g=2===a[1][0]?1:0;return cB(g,f)?C(e,cb(c(2,b),cz(A))):e},h)}return a},v);if(ab)var
+e=a[2],f=F(d,A),g=2===a[1][0]?1:0;return cE(g,f)?D(e,cf(c(2,b),cC(A))):e},h)}return a},v);if(ab)var
 a=v}else
 var
 a=v;var
-ac=G(u,h),ad=t[1],w=y(function(b){if(typeof
+ac=E(u,h),ad=t[1],w=z(function(b){if(typeof
 b!=="number")switch(b[0]){case
-5:return C2;case
+5:return Du;case
 12:var
-a=G(ad,b[1]);if(a){if(2===a[1][0])return C3;var
+a=E(ad,b[1]);if(a){if(2===a[1][0])return Dv;var
 c=0}else
 var
 c=a;return c;case
@@ -7404,9 +7503,9 @@ c=a;return c;case
 4:case
 6:case
 7:case
-11:return 0}return C1},ac);if(w){var
-F=w[1];if(F){var
-H=F[1];if(H){if(H[1])return 0;if(a){var
+11:return 0}return Dt},ac);if(w){var
+G=w[1];if(G){var
+H=G[1];if(H){if(H[1])return 0;if(a){var
 i=a[1];if(i){var
 j=i[2];if(j){var
 k=j[2];if(k){if(k[2])return 0;var
@@ -7457,34 +7556,34 @@ Y=[0,[0,d,d],d],Z=[0,[0,h,Y,Y]]}else
 var
 Z=w;return Z;case
 1:var
-_=g[1],z=G(u,_);if(z){var
-$=z[1];if(typeof
+_=g[1],y=E(u,_);if(y){var
+$=y[1];if(typeof
 $!=="number"&&1===$[0])return[0,[1,_,g[2]]];var
 aa=0}else
 var
-aa=z;return aa;default:return 0}}function
-bo(a,b){if(a){var
-c=dv(a[1],b),d=bo(a[2],c[2]);return[0,[0,c[1],d[1]],d[2]]}return[0,0,b]}function
-aL(c){function
+aa=y;return aa;default:return 0}}function
+bq(a,b){if(a){var
+c=dv(a[1],b),d=bq(a[2],c[2]);return[0,[0,c[1],d[1]],d[2]]}return[0,0,b]}function
+aM(c){function
 a(a){return s(a,c,[0,d,b])}var
-e=a(C6),f=a(C7);return[0,a(0),f,e]}function
-qE(a,b){if(a){var
-c=a[1],d=bo(c[1],b),e=bo(c[2],d[2]),f=qE(a[2],e[2]),g=f[2],h=f[1],i=aL(e[1]);return[0,[0,[0,aL(d[1]),i],h],g]}return[0,0,b]}function
-kY(f,e){if(f){var
+e=a(Dy),f=a(Dz);return[0,a(0),f,e]}function
+qX(a,b){if(a){var
+c=a[1],d=bq(c[1],b),e=bq(c[2],d[2]),f=qX(a[2],e[2]),g=f[2],h=f[1],i=aM(e[1]);return[0,[0,[0,aM(d[1]),i],h],g]}return[0,0,b]}function
+k$(f,e){if(f){var
 a=f[1];switch(a[0]){case
 0:var
-g=bo(a[1],e),h=bo(a[2],g[2]),i=bo(a[3],h[2]),j=dv(a[4],i[2]),A=j[2],B=a[5],C=j[1],D=aL(i[1]),E=aL(h[1]),c=[0,[0,[0,aL(g[1]),E,D,C,B]],A];break;case
+g=bq(a[1],e),h=bq(a[2],g[2]),i=bq(a[3],h[2]),j=dv(a[4],i[2]),A=j[2],B=a[5],C=j[1],D=aM(i[1]),E=aM(h[1]),c=[0,[0,[0,aM(g[1]),E,D,C,B]],A];break;case
 1:var
-k=a[3],l=bo(a[1],e),m=l[1],n=bo(a[2],l[2]),o=n[2],p=n[1];if(k)var
-q=bo(k[1],o),F=q[2],G=[0,aL(q[1])],H=aL(p),c=[0,[0,[1,aL(m),H,G]],F];else
+k=a[3],l=bq(a[1],e),m=l[1],n=bq(a[2],l[2]),o=n[2],p=n[1];if(k)var
+q=bq(k[1],o),F=q[2],G=[0,aM(q[1])],H=aM(p),c=[0,[0,[1,aM(m),H,G]],F];else
 var
-I=aL(p),c=[0,[0,[1,aL(m),I,0]],o];break;case
+I=aM(p),c=[0,[0,[1,aM(m),I,0]],o];break;case
 2:var
-r=bo(a[1],e),J=r[2],c=[0,[0,[2,aL(r[1])]],J];break;default:var
-s=a[1],t=bo(s,e),u=bo(a[2],t[2]),v=bo(a[3],u[2]),w=bo(a[4],v[2]),x=dv(a[5],w[2]),y=dv(a[6],x[2]),K=s?aL(t[1]):[0,[0,d,b],[0,d,b],[0,b,b]],L=y[2],M=a[7],N=y[1],O=x[1],P=aL(w[1]),Q=aL(v[1]),c=[0,[1,[0,K,aL(u[1]),Q,P,O,N,M]],L]}var
-z=kY(f[2],c[2]);return[0,[0,c[1],z[1]],z[2]]}return[0,0,e]}function
-dw(a){return mO(j,a)}function
-C8(a){if(typeof
+r=bq(a[1],e),J=r[2],c=[0,[0,[2,aM(r[1])]],J];break;default:var
+s=a[1],t=bq(s,e),u=bq(a[2],t[2]),v=bq(a[3],u[2]),w=bq(a[4],v[2]),x=dv(a[5],w[2]),y=dv(a[6],x[2]),K=s?aM(t[1]):[0,[0,d,b],[0,d,b],[0,b,b]],L=y[2],M=a[7],N=y[1],O=x[1],P=aM(w[1]),Q=aM(v[1]),c=[0,[1,[0,K,aM(u[1]),Q,P,O,N,M]],L]}var
+z=k$(f[2],c[2]);return[0,[0,c[1],z[1]],z[2]]}return[0,0,e]}function
+dw(a){return m0(j,a)}function
+DA(a){if(typeof
 a==="number")return 1;else
 switch(a[0]){case
 5:return i(j,1,[3,a[1],[0,b,b]]);case
@@ -7505,7 +7604,7 @@ k=[0,a[2],a[1]],m=1;return l(function(a){return i(j,m,a)},k);case
 4:case
 13:var
 c=i(j,1,a[2]);return c?i(j,1,a[3]):c;default:return i(j,1,a[1])}}function
-kZ(a){if(typeof
+la(a){if(typeof
 a==="number")return 1;else
 switch(a[0]){case
 4:var
@@ -7517,25 +7616,25 @@ B=[0,a[2],a[1]],C=1;return l(function(a){return i(j,C,a)},B);case
 11:var
 m=a[2],n=i(j,1,m);return n?i(j,0,[3,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b],m]):n;case
 13:var
-o=a[4],p=o8(a[3]),r=p?i(j,1,o):p;return r?i(j,0,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],o]):r;case
+o=a[4],p=pg(a[3]),r=p?i(j,1,o):p;return r?i(j,0,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],o]):r;case
 14:return i(j,0,a[3]);case
 15:var
 s=i(j,0,a[2]),t=s?i(j,0,a[3]):s;return t?i(j,1,a[4]):t;case
 16:var
 u=a[3],v=i(j,0,a[1]),w=v?i(j,1,a[2]):v,x=w?i(j,0,u):w;return x?i(j,1,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],u]):x;case
 17:var
-y=a[2],z=l(dw,y),A=z?ak(function(a){return i(j,1,[4,a,a])},y):z;return A?i(j,1,a[3]):A;case
+y=a[2],z=l(dw,y),A=z?al(function(a){return i(j,1,[4,a,a])},y):z;return A?i(j,1,a[3]):A;case
 2:case
 3:return dw(a[2]);case
-0:case
-1:case
-12:return i(j,1,a[1]);default:var
-k=i(j,1,a[2]);return k?i(j,1,a[3]):k}}function
-h4(d){var
+6:case
+7:case
+9:var
+k=i(j,1,a[2]);return k?i(j,1,a[3]):k;default:return i(j,1,a[1])}}function
+h_(d){var
 a=d;for(;;){if(a){var
-b=a[2],e=a[1],c=I(ak(function(d){return function(a){var
-h=kF(a[1]),e=aF(kF(d[1]),h);if(e)var
-i=kG(a[4]),b=aF(kG(d[4]),i);else
+b=a[2],e=a[1],c=I(al(function(d){return function(a){var
+h=kS(a[1]),e=aG(kS(d[1]),h);if(e)var
+i=kT(a[4]),b=aG(kT(d[4]),i);else
 var
 b=e;if(b){var
 f=d[2];if(f){var
@@ -7544,80 +7643,80 @@ g=1}else
 var
 g=b;return g}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-f6(a){if(0===a[0])return dw(k(a[1]));var
+ga(a){if(0===a[0])return dw(k(a[1]));var
 b=a[2],c=a[1];if(!dK(k(c))&&!dK(k(b))){var
 e=k(c);return i(j,1,[3,k(b),e])}var
-d=k(b);return bC(j,k(c),d)}function
-ea(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-qF(a){switch(a[0]){case
+d=k(b);return bD(j,k(c),d)}function
+ef(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+qY(a){switch(a[0]){case
 0:var
-c=[0,a[4],0],d=g(ea(a[3]),c),e=g(ea(a[2]),d);return g(ea(a[1]),e);case
+c=[0,a[4],0],d=g(ef(a[3]),c),e=g(ef(a[2]),d);return g(ef(a[1]),e);case
 1:var
-b=a[3],f=b?ea(b[1]):b,h=g(ea(a[2]),f);return g(ea(a[1]),h);default:return ea(a[1])}}function
-qG(s,a,m){if(ak(function(a){return 9===a[1]?1:0},m)){var
-b=ae(f(a),C$),c=b?l(function(a){if(0===a[0]){var
+b=a[3],f=b?ef(b[1]):b,h=g(ef(a[2]),f);return g(ef(a[1]),h);default:return ef(a[1])}}function
+qZ(s,a,m){if(al(function(a){return 9===a[1]?1:0},m)){var
+b=ae(f(a),DD),c=b?l(function(a){if(0===a[0]){var
 d=a[5],e=i(j,1,k(a[2])),f=e?i(j,0,k(a[3])):e,m=f?i(j,0,k(a[4])):f,c=0;if(m)if(d)var
-p=b5(d[1]),b=l(function(a){return dw(k(a))},p);else{var
+p=b9(d[1]),b=l(function(a){return dw(k(a))},p);else{var
 n=1;c=1}else{var
 n=m;c=1}if(c)var
 b=n}else{var
 o=i(j,1,k(a[4]));if(o)var
-q=b5(a[3]),r=g(b5(a[2]),q),b=l(function(a){return dw(k(a))},r);else
+q=b9(a[3]),r=g(b9(a[2]),q),b=l(function(a){return dw(k(a))},r);else
 var
 b=o}return b?h(s,a):b},a):b;if(c)var
-d=hU(0,a),n=d?1:d,e=n;else
+d=h0(0,a),n=d?1:d,e=n;else
 var
 e=c;return e}return a?0:1}function
-qH(a){return a?Da:Db}function
-h5(a){switch(a){case
-0:return Dc;case
-1:return Dd;default:return 0}}function
+q0(a){return a?DE:DF}function
+h$(a){switch(a){case
+0:return DG;case
+1:return DH;default:return 0}}function
 dx(a){var
-f=a[1],d=i(j,1,[2,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],f]),e=d?bC(j,a[1],a[2]):d;if(e){var
+f=a[1],d=i(j,1,[2,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],f]),e=d?bD(j,a[1],a[2]):d;if(e){var
 g=a[2];return i(j,1,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],g])}return e}function
-e1(a){var
-e=bC(j,[0,d,b],a);return e?i(j,1,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],a]):e}function
-qI(c,b,a){if(0===a[0]){var
+e4(a){var
+e=bD(j,[0,d,b],a);return e?i(j,1,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],a]):e}function
+q1(c,b,a){if(0===a[0]){var
 d=a[2],e=a[1],g=n(f(e),c),h=g?n(f(d),c):g;if(h){var
 o=V(e,d);return l(function(a){var
-b=k(a[2]);return bC(j,k(a[1]),b)},o)}return h}var
+b=k(a[2]);return bD(j,k(a[1]),b)},o)}return h}var
 m=b?i(j,1,k(a[3])):b;if(m){var
-p=k(a[5]);return bC(j,k(a[4]),p)}return m}function
-qJ(a,e,F,E,t,s,g){function
+p=k(a[5]);return bD(j,k(a[4]),p)}return m}function
+q2(a,e,F,E,t,s,g){function
 u(b){var
-d=qH(a),c=n(f(b),d);return c?l(f6,b):c}var
+d=q0(a),c=n(f(b),d);return c?l(ga,b):c}var
 v=l(function(a){var
 b=u(a[1]);return b?u(a[2]):b},e);if(v)var
-G=f(e),o=ae(bF(a),G);else
+G=f(e),o=ae(bG(a),G);else
 var
 o=v;var
-w=o?ae(f(e),De):o,x=w?i(j,1,k(F)):w;if(x)var
-H=1===a?1:0,p=qI(h5(a),H,E);else
+w=o?ae(f(e),DI):o,x=w?i(j,1,k(F)):w;if(x)var
+H=1===a?1:0,p=q1(h$(a),H,E);else
 var
 p=x;if(p)if(a){var
-d=d8(t);switch(d[0]){case
+d=eb(t);switch(d[0]){case
 0:var
 h=0;break;case
 1:var
 A=dx(d[1]),B=A?dx(d[2]):A,h=B?dx(d[3]):B;break;case
 2:var
-h=e1(d[1]);break;default:var
-C=e1(d[1]),h=C?e1(d[2]):C}var
+h=e4(d[1]);break;default:var
+C=e4(d[1]),h=C?e4(d[2]):C}var
 m=h}else
 var
-D=d8(t),J=0===D[0]?dx(D[1]):0,m=J;else
+D=eb(t),J=0===D[0]?dx(D[1]):0,m=J;else
 var
 m=p;if(m)var
-I=f(e),q=qG(function(a){if(0===a[0]){var
-b=a[1],c=ae(C_,b),d=c?ae(b,I):c;if(d){if(a[5])return 0;var
+I=f(e),q=qZ(function(a){if(0===a[0]){var
+b=a[1],c=ae(DC,b),d=c?ae(b,I):c;if(d){if(a[5])return 0;var
 e=1}else
 var
 e=d;return e}return 1},s,g);else
 var
 q=m;if(q)var
-b=f(e),c=bF(a),y=qH(a),r=l(function(a){var
+b=f(e),c=bG(a),y=q0(a),r=l(function(a){var
 e=a[2];if(e)var
-g=e[1],h=ae(Cp,g),w=h?ae(g,b):h,d=w;else
+g=e[1],h=ae(CT,g),w=h?ae(g,b):h,d=w;else
 var
 d=1;switch(a[1]){case
 9:var
@@ -7645,20 +7744,20 @@ u=t[1];if(1===u[0]){var
 v=n(f(u[1]),y),z=v?d:v;return z}return aJ(c,b,a)}return aJ(c,b,a)}return aJ(c,b,a);default:return aJ(c,b,a)}},g);else
 var
 r=q;var
-z=r?h4(g):r;return z?l(kZ,e0(0,f(e),s,g)):z}function
-k0(a){switch(a[0]){case
+z=r?h_(g):r;return z?l(la,e3(0,f(e),s,g)):z}function
+lb(a){switch(a[0]){case
 0:var
 c=g(a[3],[0,a[4],0]),d=g(a[2],c);return g(a[1],d);case
 1:var
 b=a[3],e=b?b[1]:b,f=g(a[2],e);return g(a[1],f);case
 2:return a[1];default:var
 h=g(a[4],[0,a[5],[0,a[6],0]]),i=g(a[3],h),j=g(a[2],i);return g(a[1],j)}}function
-h6(a,b,e,T,p,m){var
+ia(a,b,e,T,p,m){var
 q=typeof
 a==="number"?a?1:a:a[1]?0:1;function
 c(a){var
-b=q?Df:Dg;return n(f(a),b)}var
-h=d9(b),x=l(function(b){switch(b[0]){case
+b=q?DJ:DK;return n(f(a),b)}var
+h=ec(b),w=l(function(b){switch(b[0]){case
 0:var
 f=I(h),g=f?c(b[1]):f,i=g?c(b[2]):g;return i?c(b[3]):i;case
 1:var
@@ -7676,27 +7775,27 @@ a==="number"&&!a)return 1;var
 p=0}else
 var
 p=o;return p;default:var
-r=b[1],s=q?r?0:1:c(r),t=s?c(b[2]):s,u=t?c(b[3]):t;return u?c(b[4]):u}},b);if(x)var
-U=f(b),r=ae(as(a),U);else
+r=b[1],s=q?r?0:1:c(r),t=s?c(b[2]):s,u=t?c(b[3]):t;return u?c(b[4]):u}},b);if(w)var
+U=f(b),r=ae(an(a),U);else
 var
-r=x;var
-z=r?ae(f(b),Dh):r,A=z?l(f6,w(k0,b)):z;if(A){var
+r=w;var
+x=r?ae(f(b),DL):r,A=x?l(ga,y(lb,b)):x;if(A){var
 S=0;if(typeof
 a==="number"&&!a){var
 B=1;S=1}if(!S)var
 B=0;var
-V=q?Di:Dj,s=qI(V,B,T)}else
+V=q?DM:DN,s=q1(V,B,T)}else
 var
 s=A;if(s)if(typeof
 a==="number")if(e)var
 d=0;else
 var
-W=y(d8,p)?0:1,d=W;else
+W=z(eb,p)?0:1,d=W;else
 switch(a[1]){case
 0:if(e){var
-t=y(d8,p);if(t){var
-F=t[1];if(0===F[0])var
-H=i(j,1,k(e[1])),J=H?dx(F[1]):H;else
+t=z(eb,p);if(t){var
+G=t[1];if(0===G[0])var
+H=i(j,1,k(e[1])),J=H?dx(G[1]):H;else
 var
 J=0;var
 K=J}else
@@ -7706,15 +7805,15 @@ d=K}else
 var
 d=e;break;case
 1:if(e){var
-u=e[1],v=y(d8,p);if(v){var
+u=e[1],v=z(eb,p);if(v){var
 g=v[1];switch(g[0]){case
 0:var
 o=0;break;case
 1:var
 M=i(j,1,k(u)),N=M?dx(g[1]):M,O=N?dx(g[2]):N,o=O?dx(g[3]):O;break;case
 2:var
-P=i(j,1,k(u)),o=P?e1(g[1]):P;break;default:var
-Q=i(j,1,k(u)),R=Q?e1(g[1]):Q,o=R?e1(g[2]):R}var
+P=i(j,1,k(u)),o=P?e4(g[1]):P;break;default:var
+Q=i(j,1,k(u)),R=Q?e4(g[1]):Q,o=R?e4(g[2]):R}var
 L=o}else
 var
 L=v;var
@@ -7725,42 +7824,42 @@ d=0}else
 var
 d=s;var
 C=d?l(function(c){var
-d=qm(h,a,f(b),c);if(d)var
+d=qF(h,a,f(b),c);if(d)var
 e=d;else{var
-g=cV(c);if(g)return aJ(0,0,c);var
+g=cX(c);if(g)return aJ(0,0,c);var
 e=g}return e},m):d,D=C?l(function(a){var
 e=a[1];if(4===e){var
 f=a[2];if(f)var
-c=G(b,aR(f[1])),j=c?[0,c[1],0]:c,g=j;else
+c=E(b,aS(f[1])),j=c?[0,c[1],0]:c,g=j;else
 var
 g=b;return l(function(a){switch(a[0]){case
 0:case
 3:return 1;default:return 0}},g)}if(13===e){var
 h=a[2];if(h)var
-d=G(b,aR(h[1])),k=d?[0,d[1],0]:d,i=k;else
+d=E(b,aS(h[1])),k=d?[0,d[1],0]:d,i=k;else
 var
 i=b;return l(function(a){switch(a[0]){case
 0:case
-3:return 1;default:return 0}},i)}return 1},m):C,E=D?h4(m):D;return E?l(kZ,e0(h,f(b),0,m)):E}function
-Dk(a){switch(a[0]){case
-0:return hm(a[1][1]);case
+3:return 1;default:return 0}},i)}return 1},m):C,F=D?h_(m):D;return F?l(la,e3(h,f(b),0,m)):F}function
+DO(a){switch(a[0]){case
+0:return hp(a[1][1]);case
 1:var
-b=a[3];return b?hm(b[1]):1;default:return hm(a[1])}}function
-h7(a,k,b,d){var
-e=qG(function(g){if(0===g[0]){var
-c=g[1],d=ae(C9,c);if(d){var
-b=G(a,aR(c));if(b){if(2===b[1][0])return 0;var
+b=a[3];return b?hp(b[1]):1;default:return hp(a[1])}}function
+ib(a,k,b,d){var
+e=qZ(function(g){if(0===g[0]){var
+c=g[1],d=ae(DB,c);if(d){var
+b=E(a,aS(c));if(b){if(2===b[1][0])return 0;var
 e=1}else
 var
 e=b;var
 f=e}else
 var
-f=d;return f}return 1},k,b),g=e?l(Dk,d[1]):e,h=g?ae(Dl,f(a)):g;if(h)var
-m=f(a),c=l(function(a){return Cf(m,a)},b);else
+f=d;return f}return 1},k,b),g=e?l(DO,d[1]):e,h=g?ae(DP,f(a)):g;if(h)var
+m=f(a),c=l(function(a){return CJ(m,a)},b);else
 var
 c=h;var
-i=c?h4(b):c,j=i?l(f6,w(qF,a)):i;return j?l(C8,d[3]):j}function
-qK(m,k,a,j,i,b){var
+i=c?h_(b):c,j=i?l(ga,y(qY,a)):i;return j?l(DA,d[3]):j}function
+q3(m,k,a,j,i,b){var
 c=f(m),o=f(i),d=n(f(j),o),e=d?l(function(b){if(12===b[1]){var
 o=0,e=b[4];if(typeof
 e!=="number"&&1===e[0]){if(b[2])var
@@ -7774,93 +7873,93 @@ var
 d=aJ(c,f(a),b);if(d){var
 h=b[1]-1|0;if(!(11<h>>>0))switch(h){case
 0:var
-j=b[2],p=j?[0,aR(j[1]),0]:aH(0,f(a));return l(function(c){var
-b=G(a,c);return b?0===b[1][0]?0:1:b},p);case
+j=b[2],p=j?[0,aS(j[1]),0]:aI(0,f(a));return l(function(c){var
+b=E(a,c);return b?0===b[1][0]?0:1:b},p);case
 10:return l(function(a){return 0===a[0]?0:1},a);case
 11:return l(function(a){return 0===a[0]?0:1},a)}var
 i=1}else
 var
-i=d;return i},b):d,g=e?h4(b):e,h=g?l(function(a){return f6(a[2])},k):g;return h?l(kZ,e0(0,f(a),0,b)):h}function
-qL(a){if(a){var
-b=a[1];if(cV(b))return 0;var
-c=[0,b,qL(a[2])]}else
+i=d;return i},b):d,g=e?h_(b):e,h=g?l(function(a){return ga(a[2])},k):g;return h?l(la,e3(0,f(a),0,b)):h}function
+q4(a){if(a){var
+b=a[1];if(cX(b))return 0;var
+c=[0,b,q4(a[2])]}else
 var
 c=a;return c}function
-eb(h,g,d,c,b){var
-i=qL(b),k=w(function(a){return hW(h,d,c,a)},i),l=mg(e(function(a){return fF(j,g,a)},k)),a=w(qk,b),m=a?[0,a[1],a[2]]:Dm;return N(f(m),l)}function
-k1(a){return 2<=a?Dn:Do}function
-k2(m,l,k,j,f,i){var
-g=eb(m,l,k,j,f),c=qC(i);if(c){var
+eg(h,g,d,c,b){var
+i=q4(b),k=y(function(a){return h2(h,d,c,a)},i),l=mt(e(function(a){return fI(j,g,a)},k)),a=y(qD,b),m=a?[0,a[1],a[2]]:DQ;return N(f(m),l)}function
+lc(a){return 2<=a?DR:DS}function
+ld(m,l,k,j,f,i){var
+g=eg(m,l,k,j,f),c=qV(i);if(c){var
 a=c[1],e=0;if(typeof
 a==="number")var
 h=[0,a];else
 if(0===a[0]){var
 o=a[2],p=a[1],b=p,d=function(a){return[0,a,o]};e=1}else{var
-q=a[2],r=a[1],b=r,d=function(a){return[1,a,q]};e=1}if(e){if(!I(ak(cV,f))&&!aD(b,g))return n(b,g)?0:[0,d(aR(b))];return[0,d(b)]}}else
+q=a[2],r=a[1],b=r,d=function(a){return[1,a,q]};e=1}if(e){if(!I(al(cX,f))&&!aE(b,g))return n(b,g)?0:[0,d(aS(b))];return[0,d(b)]}}else
 var
 h=c;return h}function
-f7(b,a){var
-c=f(a5(function(a){return 0===a[0]?0:1},b));return n(f(a),c)}function
-h8(a){var
-b=V(aH(0,f(a)),a);return e(aA,a5(function(a){return jz(a[2])},b))}function
-qM(a){var
-b=a[1],c=e(h2,a[1]);return hc(h3(a[1]),c,b)}function
-k3(a){return h8(qM(a))}function
-qN(b,a){if(a){var
-c=a[1],d=a[2],f=qN(N(b,c[1]),d),h=c[2];return g(e(function(a){return aH(N(b,a),Dp)},h),f)}return a}function
-qO(e,a){function
+gb(b,a){var
+c=f(a6(function(a){return 0===a[0]?0:1},b));return n(f(a),c)}function
+ic(a){var
+b=V(aI(0,f(a)),a);return e(aA,a6(function(a){return jG(a[2])},b))}function
+q5(a){var
+b=a[1],c=e(h8,a[1]);return hh(h9(a[1]),c,b)}function
+le(a){return ic(q5(a))}function
+q6(b,a){if(a){var
+c=a[1],d=a[2],f=q6(N(b,c[1]),d),h=c[2];return g(e(function(a){return aI(N(b,a),DT)},h),f)}return a}function
+q7(e,a){function
 b(f){var
-a=G(e,f);if(a){var
-b=nC(a[1]);if(b)return L(b[1],d);var
+a=E(e,f);if(a){var
+b=nP(a[1]);if(b)return L(b[1],d);var
 c=1}else
 var
 c=a;return c}var
-c=qN(0,a);return a5(function(a){return l(b,a)},c)}function
-qP(a){switch(a[0]){case
-0:return Dq;case
-1:return a[3]?Dr:Ds;default:return Dt}}function
-Du(a){return 0===a[0]?qP(a[1]):Dv}function
-h9(a){if(a){var
+c=q6(0,a);return a6(function(a){return l(b,a)},c)}function
+q8(a){switch(a[0]){case
+0:return DU;case
+1:return a[3]?DV:DW;default:return DX}}function
+DY(a){return 0===a[0]?q8(a[1]):DZ}function
+id(a){if(a){var
 b=a[1];return[0,b[2],b[1]]}return[0,d,0]}function
-k4(aB,Z,aA,Y,X,b,az,W){var
-a=hV(Z,aA,Y,X),aC=f(W),aD=e(qP,a[1]),aE=qO(qM(a),aD),aF=aB?0:k3(a),B=d_(Dw,k3(a),aF,aE,aC,W);if(B){var
+lf(aB,Z,aA,Y,X,b,az,W){var
+a=h1(Z,aA,Y,X),aC=f(W),aD=e(q8,a[1]),aE=q7(q5(a),aD),aF=aB?0:le(a),B=ed(D0,le(a),aF,aE,aC,W);if(B){var
 _=B[1];if(_[2])return 0;var
-$=h7(Z,Y,X,a);if($){var
-aH=_[1],C=e(h2,a[1]),c=h3(a[1]),aI=h9(az),V=n2(j,a);if(V){var
-n=hc(c,C,a[1]),i=jw(c,C,a[1],0),ac=f(a[3]),ae=N(f(n),ac),J=[0,f(n),ae],af=a[3],E=ak(function(a){if(typeof
-a!=="number"&&14===a[0])return 1;return 0},af),ag=E?w(function(a){var
-b=e(aG,fA(n,a[4]));return[0,a[4],b]},i):E,ah=g(jy(i,c,J,a[3]),ag),ai=g(bD(m3(i)),ah),L=g(bD(fr(i)),ai),M=c6(L),O=c5(M),q=cH(O),P=l(function(a){var
-b=m(d);return aX(s(h(q,a),O,b),a)},L);if(P){var
-Q=ak(u4,a[3]);if(Q){var
+$=ib(Z,Y,X,a);if($){var
+aG=_[1],C=e(h8,a[1]),c=h9(a[1]),aI=id(az),V=od(j,a);if(V){var
+n=hh(c,C,a[1]),i=jD(c,C,a[1],0),ac=f(a[3]),ae=N(f(n),ac),J=[0,f(n),ae],af=a[3],E=al(function(a){if(typeof
+a!=="number"&&14===a[0])return 1;return 0},af),ag=E?y(function(a){var
+b=e(aH,fE(n,a[4]));return[0,a[4],b]},i):E,ah=g(jF(i,c,J,a[3]),ag),ai=g(bE(nd(i)),ah),L=g(bE(fu(i)),ai),M=c7(L),O=c6(M),q=cL(O),P=l(function(a){var
+b=m(d);return aZ(s(h(q,a),O,b),a)},L);if(P){var
+Q=al(vm,a[3]);if(Q){var
 t=C,o=a[1];for(;;){if(o){var
-p=o[1],u=bW(d,t);switch(p[0]){case
+p=o[1],u=bJ(d,t);switch(p[0]){case
 0:var
-F=p[1],G=hf(b,F[1],u),D=0;if(G){var
-r=aq(b,[0,F[4],c]);if(r)var
+F=p[1],G=hk(b,F[1],u),D=0;if(G){var
+r=ar(b,[0,F[4],c]);if(r)var
 k=K(d,r[1][1]);else{var
 H=r;D=1}}else{var
 H=G;D=1}if(D)var
 k=H;break;case
 1:var
-I=p[3],k=I?hf(b,I[1],u):1;break;default:var
-k=hf(b,p[1],u)}if(k){var
-ab=o[2],t=bI(t),o=ab;continue}var
+I=p[3],k=I?hk(b,I[1],u):1;break;default:var
+k=hk(b,p[1],u)}if(k){var
+ab=o[2],t=bz(t),o=ab;continue}var
 R=k}else
 var
 R=1;var
 v=R;break}}else
 var
 v=Q;if(v){var
-aj=a[3],al=w(function(a){return dR(c,a)},aj),am=a[3],an=g(n,g(e(function(a){return b0(c,a)},am),al)),x=ad(e(function(a){return aq(b,a)},an));if(x){var
-ao=bg(eE(a[2]),c),y=ad(e(function(a){return aq(b,a)},ao));if(y){var
-z=ad(nP(b,aI,q,n,i,c,J,a[3]));if(z){var
-S=z[1],ap=jv(S),ar=y[1],as=a[2],at=function(a){return nQ(b,as,c,a)},au=x[1],av=m3(i),aw=h(ay(q),av),ax=fr(i);return gb(ju(b,M,h(ay(q),ax),aw,0,au,S,at),ar,ap,aH)}var
+aj=a[3],ak=y(function(a){return dR(c,a)},aj),am=a[3],an=g(n,g(e(function(a){return b2(c,a)},am),ak)),w=ad(e(function(a){return ar(b,a)},an));if(w){var
+ao=bg(eJ(a[2]),c),x=ad(e(function(a){return ar(b,a)},ao));if(x){var
+z=ad(n2(b,aI,q,n,i,c,J,a[3]));if(z){var
+S=z[1],ap=jC(S),aq=x[1],as=a[2],at=function(a){return n3(b,as,c,a)},au=w[1],av=nd(i),aw=h(ay(q),av),ax=fu(i);return gh(jB(b,M,h(ay(q),ax),aw,0,au,S,at),aq,ap,aG)}var
 T=z}else
 var
-T=y;var
+T=x;var
 U=T}else
 var
-U=x;var
+U=w;var
 A=U}else
 var
 A=v}else
@@ -7869,187 +7968,279 @@ A=P;return A}return V}var
 aa=$}else
 var
 aa=B;return aa}function
-Dx(a){if(0===a[0])return qy(a[1]);var
-b=a[1],c=eH(b[6]);return g(eH(b[5]),c)}function
-Dy(a){if(0===a[0])return qz(a[1]);var
-b=a[1],c=bh(b[4]);return g(bh(b[3]),c)}function
-qQ(c){var
-a=w(Dx,c),d=a?[0,a[1],a[2]]:w(Dy,c);return F(b,bL(d))}function
-Dz(a){if(0===a[0])return[0,h2(a[1]),d];var
-b=a[1],c=bL(bh(b[2]));return[0,bL(bh(b[1])),c]}function
-k5(h,b,s,r,q,g,C,B,p){var
-a=kN(h,b,s,r,q,g),t=qQ(a[2]),u=e(Dz,a[2]),i=kb(t,u,a[2]),D=f(p),E=qO(i,e(Du,a[2])),F=h8(i),G=h8(i),k=d_(as(h),G,F,E,D,p);if(k){var
+D1(a){if(0===a[0])return qR(a[1]);var
+b=a[1],c=eL(b[6]);return g(eL(b[5]),c)}function
+D2(a){if(0===a[0])return qS(a[1]);var
+b=a[1],c=bi(b[4]);return g(bi(b[3]),c)}function
+q9(c){var
+a=y(D1,c),d=a?[0,a[1],a[2]]:y(D2,c);return G(b,bP(d))}function
+D3(a){if(0===a[0])return[0,h8(a[1]),d];var
+b=a[1],c=bP(bi(b[2]));return[0,bP(bi(b[1])),c]}function
+lg(h,b,s,r,q,g,C,B,p){var
+a=k0(h,b,s,r,q,g),t=q9(a[2]),u=e(D3,a[2]),i=kl(t,u,a[2]),D=f(p),E=q7(i,e(DY,a[2])),F=ic(i),G=ic(i),k=ed(an(h),G,F,E,D,p);if(k){var
 v=k[1];if(v[2])return 0;var
-w=h6(h,b,s,r,q,g);if(w){var
-H=v[1],I=f(b),J=eb(d9(b),DA,I,0,g),K=h9(B),y=e(wX,a[2]),m=fO(j,a[2],y);if(m)var
-z=jE(a[4]),c=cO(j,a[4],z);else
+w=ia(h,b,s,r,q,g);if(w){var
+H=v[1],I=f(b),J=eg(ec(b),D4,I,0,g),K=id(B),y=e(xm,a[2]),m=eS(j,a[2],y);if(m)var
+z=jL(a[4]),c=cR(j,a[4],z);else
 var
 c=m;if(c){var
 n=a[5];if(n)var
-A=hv(n[1]),o=l(function(a){return fQ(j,a)},A);else
+A=hy(n[1]),o=l(function(a){return fV(j,a)},A);else
 var
 o=1;var
 d=o}else
 var
-d=c;return d?wU(C,K,J,a,t,u,H):d}var
+d=c;return d?xj(C,K,J,a,t,u,H):d}var
 x=w}else
 var
 x=k;return x}function
-k6(r,t,ai,ah,ag,J,aP,af,v){var
-y=typeof
-r==="number"?r?DB:DC:h5(r[1]),B=e(k,aP),a=kN(r,t,ai,ah,ag,J),aj=kY(t,e(k,af));if(aj[2])return 0;var
-p=aj[1],ak=f7(w(k0,t),af),al=ak?h6(r,t,ai,ah,ag,J):ak;if(al)var
-aQ=as(r),K=n(f(B),aQ);else
+lh(x,B,a0,aZ,aY,ac,bB,aX,H){var
+J=typeof
+x==="number"?x?D5:D6:h$(x[1]),N=e(k,bB),a=k0(x,B,a0,aZ,aY,ac),a1=k$(B,e(k,aX));if(a1[2])return 0;var
+u=a1[1],a2=gb(y(lb,B),aX),a3=a2?ia(x,B,a0,aZ,aY,ac):a2;if(a3)var
+bC=an(x),ad=n(f(N),bC);else
 var
-K=al;if(K){if(typeof
-v!=="number"&&2===v[0]){var
-R=e(k,v[1]),aU=aw(y,R),ap=aL(am(y,R)),aV=aw(y,B),aq=aL(am(y,B)),X=fO(j,a[2],p),Y=X?cO(j,a[4],aq):X,Z=Y?cO(j,a[4],ap):Y,ar=Z?pD(j,a[1],a[3],a[5],p,aq,aV,ap,aU):Z;if(ar){var
-aW=as(r);return n(f(R),aW)}return ar}var
-aR=f(t),aS=hx(r),L=k2(d9(t),aS,aR,0,J,v);if(L){var
-C=L[1],g=aL(am(y,B)),m=aw(y,B),at=0;if(typeof
-v==="number"&&v){var
-N=I(d9(t));at=1}if(!at)var
-N=1;if(N){var
-T=fO(j,a[2],p),U=T?jX(j,a,g,m):T;if(U)var
-o=a[5],W=a[3],z=a[1],aD=a[6],au=e(function(a){if(0===a[0])var
-e=bw(o,m,g,a),c=bE(a[1],e);else
+ad=a3;if(ad){if(typeof
+H!=="number"&&2===H[0]){var
+aj=e(k,H[1]),bG=aw(J,aj),a8=aM(ao(J,aj)),bH=aw(J,N),a9=aM(ao(J,N)),ay=eS(j,a[2],u),az=ay?cR(j,a[4],a9):ay,aA=az?cR(j,a[4],a8):az,a$=aA?pW(j,a[1],a[3],a[5],u,a9,bH,a8,bG):aA;if(a$){var
+bI=an(x);return n(f(aj),bI)}return a$}var
+bD=f(B),bE=fT(x),ae=ld(ec(B),bE,bD,0,ac,H);if(ae){var
+O=ae[1],g=aM(ao(J,N)),m=aw(J,N),ba=0;if(typeof
+H==="number"&&H){var
+af=I(ec(B));ba=1}if(!ba)var
+af=1;if(af){var
+au=eS(j,a[2],u),av=au?hB(j,a,g,m):au;if(av)var
+w=a[5],ax=a[3],K=a[1],bl=a[6],bc=e(function(a){if(0===a[0])var
+e=bj(w,m,g,a),c=bF(a[1],e);else
 var
-d=a[1],f=jJ(d,bw(o,m,g,a)),h=d[4],i=bw(o,m,g,a),j=M(function(b,a){return[2,b,a]},i,h),c=M(function(b,a){return[3,b,a]},j,f);return[0,jU(z,c,S([5,[0,b,b],W],dh(eO(o,m,eN(a)),c)))]},p),av=w(function(a){return jW(o,m,g,a)},p),ax=function(a){var
-b=eO(o,m,a);return M(function(b,a){return[2,b,a]},g,b)},ay=0,az=e(function(f){var
-c=bw(o,m,g,f);if(0===f[0]){var
+d=a[1],f=jS(d,bj(w,m,g,a)),h=d[4],i=bj(w,m,g,a),j=M(function(b,a){return[2,b,a]},i,h),c=M(function(b,a){return[3,b,a]},j,f);return[0,j6(K,c,P([5,[0,b,b],ax],cq(d3(w,m,d2(a)),c)))]},u),bd=y(function(a){return j8(w,m,g,a)},u),be=function(a){var
+b=d3(w,m,a);return M(function(b,a){return[2,b,a]},g,b)},bf=0,bg=e(function(f){var
+c=bj(w,m,g,f);if(0===f[0]){var
 a=f[1];switch(a[0]){case
 0:var
-i=a[4],j=a[3],k=a[2],h=a[1],n=cl(h,k,j,i,c),l=cP(a[5],n),p=S(l,aB(h)),q=fC(h,k,j,c);return[0,[0,jV(z,M(function(b,a){return[2,b,a]},q,p)),l,i]];case
+i=a[4],j=a[3],k=a[2],h=a[1],n=b3(h,k,j,i,c),l=cp(a[5],n),o=P(l,aC(h)),p=dT(h,k,j,c);return[0,[0,j7(K,M(function(b,a){return[2,b,a]},p,o)),l,i]];case
 1:var
-r=bE(a,c),s=[6,x(bE(a,c),r)];return[0,[0,jV(z,bE(a,c)),[0,d,b],s]];default:return 0}}var
-e=f[1],t=e[6],u=eG(e,c),v=jJ(e,c),w=e[4],y=M(function(b,a){return[2,b,a]},c,w);return[0,[0,jV(z,M(function(b,a){return[3,b,a]},y,v)),u,t]]},p),aA=e(function(a){return eP(o,m,g,a)},p),aC=[0,e(function(a){if(0===a[0])var
-l=bw(o,m,g,a),d=cm(a[1],l);else
+q=bF(a,c),r=[6,v(bF(a,c),q)];return[0,[0,j7(K,bF(a,c)),[0,d,b],r]];default:return 0}}var
+e=f[1],s=e[6],t=dV(e,c),u=jS(e,c),x=e[4],y=M(function(b,a){return[2,b,a]},c,x);return[0,[0,j7(K,M(function(b,a){return[3,b,a]},y,u)),t,s]]},u),bi=e(function(a){return eR(w,m,g,a)},u),bk=[0,e(function(a){return oV(K,ax,w,m,g,a)},u),bi,bg,bf,be,bd,bc],bm=an(a[1]),ag=jN(j,fT(a[1]),bm,bk,bl,O);else
 var
-e=bw(o,m,g,a),c=a[1],f=jJ(c,e),h=c[4],i=M(function(b,a){return[2,b,a]},e,h),j=M(function(b,a){return[3,b,a]},i,f),k=eG(c,e),d=S([5,[0,b,b],[4,c[5],k]],j);return jU(z,d,S([5,[0,b,b],W],dh(eO(o,m,eN(a)),d)))},p),aA,az,ay,ax,av,au],aE=as(a[1]),O=jG(j,hx(a[1]),aE,aC,aD,C);else
+ag=av;if(ag)var
+ah=ag;else{if(typeof
+O!=="number"&&0===O[0]){var
+p=O[2],a6=O[1],t=a[1],aS=eS(j,a[2],u),aT=aS?hB(j,a,g,m):aS,ak=0;if(aT){var
+by=a[6],Z=dU(j,fT(t),a6,by),am=0;if(Z){var
+G=Z[1][1],ap=0;if(typeof
+G!=="number"&&15===G[0]){var
+_=E(u,G[1]);if(_){var
+o=_[1],$=bj(a[5],m,g,o);if(typeof
+t==="number")if(0===o[0])if(2===o[1][0]){var
+aq=0;if(p)if(p[2])var
+r=0;else{var
+aO=[0,fJ(p[1]),0];aq=1}else{var
+aO=p;aq=1}if(aq)var
+r=aO}else
+if(p)var
+r=0;else{var
+aK=function(c){var
+a=[0,[0,[0,b,b],[0,d,b],[0,d,b]],[0,[0,[0,d,b],[0,b,b],[0,d,b]],[0,[0,[0,d,b],[0,d,b],[0,b,b]],0]]];return e(function(b){var
+a=cq(c,b);return[0,a[1],[0,a[2],[0,a[3],0]]]},a)},aL=typeof
+t==="number"?1:0;if(aL)if(t)if(0===o[0]){var
+R=o[1],ar=0;switch(R[0]){case
+0:var
+X=R[1];ar=1;break;case
+1:var
+X=aP(R[1],R[2],$);ar=1;break;default:var
+r=0}if(ar)var
+r=[0,[0,[3,[0,d,b],X[2]],[0,X[1],0]],0]}else
 var
-O=U;if(O)var
-P=O;else{if(typeof
-C!=="number"&&0===C[0]){var
-E=C[2];if(E){if(E[2])return 0;var
-Q=E[1],_=a[1],D=a[5],aT=C[1],$=fO(j,a[2],p),aa=$?jX(j,a,g,m):$;if(aa){var
-aG=a[6],F=eF(j,hx(_),aT,aG);if(F){var
-A=F[1][1];if(typeof
-A!=="number"&&16===A[0]){var
-s=A[1],aH=a[2],aI=e(function(a){return eP(D,m,g,pQ(a))},aH),ad=h(co(cS),s);if(ad)var
-aF=h(gz(c(2,b)),cS),u=[0,bq(d,ad[1][1]),aF];else
+r=0;else
+if(0===o[0]){var
+F=o[1];switch(F[0]){case
+0:var
+aN=F[1],Y=dT(aN,F[2],F[3],$),bx=aK(aN),r=[0,[0,Y[1],[0,Y[2],[0,Y[3],0]]],bx];break;case
+1:var
+r=aK(aP(F[1],F[2],$));break;default:var
+r=0}}else
 var
-u=[0,d,b];var
-ae=i(j,0,s);if(ae)var
-aJ=a[2],G=l(function(a){var
-b=pQ(a);if(0===b[0])return 1;var
-c=b[1],d=[1,c],e=cp(j,s),f=e?oM(j,a,d):e;return f?i(j,1,jI(c,bw(D,m,g,d))):f},aJ);else
+r=0;else
 var
-G=ae;if(G)var
-aK=f(a[2]),H=n(f(Q),aK);else
+r=aL}else{var
+as=0;if(p)if(p[2])var
+r=0;else{var
+aQ=[0,fJ(p[1]),0];as=1}else{var
+aQ=p;as=1}if(as)var
+r=aQ}else{var
+at=0;if(p)if(p[2])var
+r=0;else{var
+aR=[0,fJ(p[1]),0];at=1}else{var
+aR=p;at=1}if(at)var
+r=aR}var
+aW=G[3],aa=a[5],ab=a[3],bz=G[4],bA=G[2],S=al(function(l){var
+T=oV(t,ab,aa,m,g,o),D=bh(l,l),E=[4,[4,bA,[6,bh(T,T)]],D],z=d3(aa,m,d2(o)),h=bj(aa,m,g,o),ax=typeof
+t==="number"?[0,[0,d,b],[0,d,b],[0,d,b]]:kA(t[1],l),r=P([5,[0,b,b],ab],ax),S=0===o[0]?b4(o[1],h):jT(o[1],h),ay=v(r,r),az=[4,v(S,z),ay],aA=v(z,r),aD=[3,[4,v(S,r),aA],az],aE=cq(r,z);function
+p(a){return s(a,l,[0,d,b])}if(typeof
+t==="number")if(t)var
+ag=p(x5),B=[0,p(0),ag,[0,d,b]];else
 var
-H=G;if(H){var
-aM=V(Q,aI),aN=V(V(p,e(function(o){var
+ah=p(x6),ai=p(x7),B=[0,p(0),ai,ah];else
+var
+B=kz(t[1],l);var
+a=M(function(b,a){return[2,b,a]},B,aE);if(0===o[0]){var
+k=o[1];switch(k[0]){case
+0:var
+L=k[3],N=k[2],x=k[1],aj=b3(x,N,L,k[4],h),u=cp(k[5],aj),O=v(dT(x,N,L,h),a),Q=v(aC(x),a),w=[2,[5,[3,v(a,a),[4,Q,Q]],u],[5,[4,O,O],[4,u,[4,u,u]]]];break;case
+1:var
+q=aP(k[1],k[2],h),ak=[6,v(q,q)],al=v(q,q),R=v(q,a),w=[5,[3,v(a,a),[5,[4,R,R],al]],ak];break;default:var
+w=[0,d,b]}}else
+var
+e=o[1],y=v(jT(e,h),a),am=dV(e,h),ao=[4,e[5],am],ap=fN(e,h),aq=[4,[4,e[5],[4,y,y]],ap],ar=v(eK(e),a),as=[4,jR(e,h),ar],at=v(fK(e),a),au=[3,[4,jQ(e,h),at],as],av=[4,e[5],y],aw=[4,[4,[0,c(2,b),b],av],au],w=[5,[2,[3,v(a,a),aw],aq],ao];var
+F=[4,[4,aW,aW],[2,w,aD]],G=[4,bz,D],aF=an(t),U=n(f(l),aF),V=U?i(j,1,D):U,W=V?typeof
+t==="number"?1:i(j,1,ab):V;if(W){if(0===o[0]){var
+X=i(j,1,[3,[2,E,F],G]);return X?X:i(j,1,[3,[3,E,F],G])}var
+H=aB(j,E);if(H){var
+Y=H[1],I=aB(j,F);if(I){var
+Z=I[1],J=aB(j,G);if(J){var
+K=i$(j,J[1]);if(K){var
+_=K[1],$=bO([0,C(A(Y,Z),_)]);if(!$)return bO([0,C(C(Y,Z),_)]);var
+ac=$}else
+var
+ac=K;var
+ad=ac}else
+var
+ad=J;var
+ae=ad}else
+var
+ae=I;var
+af=ae}else
+var
+af=H;return af}return W},r);am=1;ap=1}else{var
+S=_;am=1;ap=1}}if(!ap)var
+aU=0}else
+var
+aU=Z;if(!am){var
+aV=aU;ak=1}}else{var
+aV=aT;ak=1}if(ak)var
+S=aV;if(S)var
+a7=S;else{if(p){if(p[2])return 0;var
+ai=p[1],aD=a[1],Q=a[5],aE=eS(j,a[2],u),aF=aE?hB(j,a,g,m):aE;if(aF){var
+bo=a[6],T=dU(j,fT(aD),a6,bo);if(T){var
+L=T[1][1];if(typeof
+L!=="number"&&16===L[0]){var
+z=L[1],bp=a[2],bq=e(function(a){return eR(Q,m,g,p9(a))},bp),aI=h(cr(cU),z);if(aI)var
+bn=h(gF(c(2,b)),cU),D=[0,bs(d,aI[1][1]),bn];else
+var
+D=[0,d,b];var
+aJ=i(j,0,z);if(aJ)var
+br=a[2],U=l(function(a){var
+b=p9(a);if(0===b[0])return 1;var
+c=b[1],d=[1,c],e=cs(j,z),f=e?oW(j,a,d):e;return f?i(j,1,jP(c,bj(Q,m,g,d))):f},br);else
+var
+U=aJ;if(U)var
+bt=f(a[2]),W=n(f(ai),bt);else
+var
+W=U;if(W){var
+bu=V(ai,bq),bv=V(V(u,e(function(o){var
 a=o[2],f=o[1];if(typeof
 a!=="number"&&1===a[0]){var
-g=a[2],k=a[1],p=c(2,c(2,c(2,q(c(2,c(2,b)))))),e=hM(s,a9(u,dH([0,b,b],[0,b,h(gz(c(2,b)),p)])),f,[1,k,g]);if(typeof
+g=a[2],k=a[1],p=c(2,c(2,c(2,q(c(2,c(2,b)))))),e=hS(z,a_(D,dH([0,b,b],[0,b,h(gF(c(2,b)),p)])),f,[1,k,g]);if(typeof
 e!=="number"&&1===e[0]){var
-d=d2([5,e[2],[2,[0,b,b],e[1]]]),r=[4,g,dU(d)],l=[2,[4,k,dT(d)],r],t=[4,g,dT(d)],m=[3,[4,k,dU(d)],t],n=[4,ba(u),[2,[0,b,b],l]];if(i(j,1,[2,[0,b,b],l])&&i(j,0,[3,n,m])&&i(j,0,[2,n,m])){var
-v=dU(d);return[1,dT(d),v]}return hM(s,u,f,a)}return hM(s,u,f,a)}return hM(s,u,f,a)},aM)),Q),aO=w(function(t){var
-l=t[1],a=l[2],f=l[1],h=t[2],i=eO(D,m,eN(f)),e=bw(D,m,g,f);if(0===f[0]){var
+d=d7([5,e[2],[2,[0,b,b],e[1]]]),r=[4,g,dX(d)],l=[2,[4,k,dW(d)],r],s=[4,g,dW(d)],m=[3,[4,k,dX(d)],s],n=[4,bb(D),[2,[0,b,b],l]];if(i(j,1,[2,[0,b,b],l])&&i(j,0,[3,n,m])&&i(j,0,[2,n,m])){var
+t=dX(d);return[1,dW(d),t]}return hS(z,D,f,a)}return hS(z,D,f,a)}return hS(z,D,f,a)},bu)),ai),bw=y(function(t){var
+l=t[1],a=l[2],f=l[1],h=t[2],i=d3(Q,m,d2(f)),e=bj(Q,m,g,f);if(0===f[0]){var
 d=f[1];switch(d[0]){case
 0:var
 n=d[4],o=d[3],j=d[2],k=d[1];if(typeof
 a!=="number"&&0===a[0]){var
-p=a[1],u=0,v=S(p,aB(k)),w=M(function(b,a){return[3,b,a]},g,j),y=M(function(b,a){return[3,b,a]},w,v),z=aZ(j,o,e),A=[3,x(aB(k),z),p],B=cl(k,j,o,n,e);return[0,[0,d2([5,[0,h,b],[2,cP(d[5],B),A]]),n,y,i],u]}return 0;case
+p=a[1],u=0,w=P(p,aC(k)),x=M(function(b,a){return[3,b,a]},g,j),y=M(function(b,a){return[3,b,a]},x,w),z=aP(j,o,e),A=[3,v(aC(k),z),p],B=b3(k,j,o,n,e);return[0,[0,d7([5,[0,h,b],[2,cp(d[5],B),A]]),n,y,i],u]}return 0;case
 1:if(typeof
 a!=="number"&&0===a[0]){var
-q=a[1],C=0,E=d[1],F=M(function(b,a){return[3,b,a]},g,E);return[0,[0,d2([5,[0,h,b],[2,q,cQ(d,e)]]),q,F,i],C]}return 0;default:return 0}}var
+q=a[1],C=0,D=d[1],E=M(function(b,a){return[3,b,a]},g,D);return[0,[0,d7([5,[0,h,b],[2,q,cS(d,e)]]),q,E,i],C]}return 0;default:return 0}}var
 c=f[1];if(typeof
 a!=="number"&&1===a[0]){var
-r=a[2],s=a[1],G=[4,r,fH(c,e)],H=[3,[4,s,fI(c,e)],G],J=S(r,hi(c)),I=0,K=S(s,fG(c)),L=M(function(b,a){return[2,b,a]},K,J),N=S(c[5],L),O=c[3],P=M(function(b,a){return[2,b,a]},O,N),Q=M(function(b,a){return[3,b,a]},g,P),R=c[6],T=[2,eG(c,e),H];return[0,[0,d2([5,[0,h,b],[4,c[5],T]]),R,Q,i],I]}return 0},aN);return pO(j,_,A[2],A[3],aO)}return H}var
-ab=0}else
+r=a[2],s=a[1],F=[4,r,fL(c,e)],G=[3,[4,s,fM(c,e)],F],I=P(r,fK(c)),H=0,J=P(s,eK(c)),K=M(function(b,a){return[2,b,a]},J,I),L=P(c[5],K),N=c[3],O=M(function(b,a){return[2,b,a]},N,L),R=M(function(b,a){return[3,b,a]},g,O),S=c[6],T=[2,dV(c,e),G];return[0,[0,d7([5,[0,h,b],[4,c[5],T]]),S,R,i],H]}return 0},bv);return p7(j,aD,L[2],L[3],bw)}return W}var
+aG=0}else
 var
-ab=F;var
-ac=ab}else
+aG=T;var
+aH=aG}else
 var
-ac=aa;return ac}return E}var
-P=0}}else
+aH=aF;return aH}var
+a7=p}return a7}var
+ah=0}}else
 var
-P=N;var
-an=P}else
+ah=af;var
+a4=ah}else
 var
-an=L;var
-ao=an}else
+a4=ae;var
+a5=a4}else
 var
-ao=K;return ao}function
-cW(a){if(a){var
-b=cK(k(a[1]));if(b){var
-c=cW(a[2]);if(c)var
+a5=ad;return a5}function
+cY(a){if(a){var
+b=cO(k(a[1]));if(b){var
+c=cY(a[2]);if(c)var
 f=c[1],d=[0,[0,dI(b[1]),f]];else
 var
 d=c;var
 e=d}else
 var
-e=b;return e}return DD}function
-h_(g,k,j,a,i){var
+e=b;return e}return D7}function
+ie(g,k,j,a,i){var
 l=f(g),h=n(f(a),l);if(h){var
 m=V(V(g,V(k,j)),a);return e(function(f){var
-g=f[1],h=g[2],j=dH(h[2],h[1]),a=aO(g[1],i),k=D(d,a)?mk(cb(c(2,b),a)):[0,b,eo(cb(c(2,b),Q(a)))],l=dI(gJ(a9([0,c(2,b),b],k),j)),m=f[2];return e(function(a){return dI(a9(mk(a),l))},m)},m)}return h}function
-k7(u,aU,aq,ap,t,ao,a){var
-c=hV(u,aU,aq,ap),ar=f7(w(qF,u),ao),g=ar?h7(u,aq,ap,c):ar;if(t){var
+g=f[1],h=g[2],j=dH(h[2],h[1]),a=aQ(g[1],i),k=F(d,a)?mx(cf(c(2,b),a)):[0,b,et(cf(c(2,b),R(a)))],l=dI(gP(a_([0,c(2,b),b],k),j)),m=f[2];return e(function(a){return dI(a_(mx(a),l))},m)},m)}return h}function
+li(u,aU,aq,ap,t,ao,a){var
+c=h1(u,aU,aq,ap),ar=gb(y(qY,u),ao),g=ar?ib(u,aq,ap,c):ar;if(t){var
 v=t[2];if(v){var
-x=v[2];if(x){if(x[2])return 0;var
-h=x[1],i=v[1],m=t[1],as=qD(u,e(k,ao));if(as[2])return 0;var
+w=v[2];if(w){if(w[2])return 0;var
+h=w[1],i=v[1],m=t[1],as=qW(u,e(k,ao));if(as[2])return 0;var
 f=as[1];if(typeof
 a!=="number")switch(a[0]){case
 2:var
 J=a[1];if(J){var
 K=J[2];if(K){var
 L=K[2];if(L){if(L[2]){var
-M=f5(c,a);if(M){var
+M=f$(c,a);if(M){var
 aX=k(h),aY=k(i),az=[0,k(m),aY,aX];if(g){var
-aA=fE(j,c,f,az,M[1]);if(aA)var
+aA=fH(j,c,f,az,M[1]);if(aA)var
 N=aA;else{if(typeof
 a!=="number"&&0===a[0]){var
-z=a[2];return z?z[2]?0:fV(j,c,f,az,a[1],z[1]):z}var
+z=a[2];return z?z[2]?0:f1(j,c,f,az,a[1],z[1]):z}var
 N=0}}else
 var
 N=g;var
 aB=N}else
 var
 aB=M;return aB}if(g){var
-aZ=k(L[1]),a1=k(K[1]),aC=[0,k(J[1]),a1,aZ],a2=k(h),a3=k(i),aD=[0,k(m),a3,a2],X=fB(j,c,f,aD),Y=X?cO(j,c[2],aC):X;if(Y){var
-aR=0,aS=0;return pD(j,0,[0,b,b],0,e(function(a){return[0,a]},f),aD,aS,aC,aR)}return Y}return g}var
-O=f5(c,a);if(O){var
+aZ=k(L[1]),a0=k(K[1]),aC=[0,k(J[1]),a0,aZ],a2=k(h),a3=k(i),aD=[0,k(m),a3,a2],X=fF(j,c,f,aD),Y=X?cR(j,c[2],aC):X;if(Y){var
+aR=0,aS=0;return pW(j,0,[0,b,b],0,e(function(a){return[0,a]},f),aD,aS,aC,aR)}return Y}return g}var
+O=f$(c,a);if(O){var
 a4=k(h),a5=k(i),aE=[0,k(m),a5,a4];if(g){var
-aF=fE(j,c,f,aE,O[1]);if(aF)var
+aF=fH(j,c,f,aE,O[1]);if(aF)var
 P=aF;else{if(typeof
 a!=="number"&&0===a[0]){var
-A=a[2];return A?A[2]?0:fV(j,c,f,aE,a[1],A[1]):A}var
+A=a[2];return A?A[2]?0:f1(j,c,f,aE,a[1],A[1]):A}var
 P=0}}else
 var
 P=g;var
 aG=P}else
 var
 aG=O;return aG}var
-Q=f5(c,a);if(Q){var
+Q=f$(c,a);if(Q){var
 a6=k(h),a7=k(i),aH=[0,k(m),a7,a6];if(g){var
-aI=fE(j,c,f,aH,Q[1]);if(aI)var
+aI=fH(j,c,f,aH,Q[1]);if(aI)var
 R=aI;else{if(typeof
 a!=="number"&&0===a[0]){var
-B=a[2];return B?B[2]?0:fV(j,c,f,aH,a[1],B[1]):B}var
+B=a[2];return B?B[2]?0:f1(j,c,f,aH,a[1],B[1]):B}var
 R=0}}else
 var
 R=g;var
 aJ=R}else
 var
 aJ=Q;return aJ}var
-S=f5(c,a);if(S){var
+S=f$(c,a);if(S){var
 a8=k(h),a9=k(i),aK=[0,k(m),a9,a8];if(g){var
-aL=fE(j,c,f,aK,S[1]);if(aL)var
+aL=fH(j,c,f,aK,S[1]);if(aL)var
 T=aL;else{if(typeof
 a!=="number"&&0===a[0]){var
-C=a[2];return C?C[2]?0:fV(j,c,f,aK,a[1],C[1]):C}var
+C=a[2];return C?C[2]?0:f1(j,c,f,aK,a[1],C[1]):C}var
 T=0}}else
 var
 T=g;var
@@ -8057,41 +8248,41 @@ aM=T}else
 var
 aM=S;return aM;case
 3:var
-U=G(c[3],a[1]);if(U){var
+U=E(c[3],a[1]);if(U){var
 aN=U[1];if(typeof
 aN==="number"&&aN){var
-V=cW(a[2]);if(V){var
-n=V[1],W=cW(a[3]);if(W){var
+V=cY(a[2]);if(V){var
+n=V[1],W=cY(a[3]);if(W){var
 o=W[1];if(g){var
-a_=h_([0,d,[0,d,[0,d,0]]],n,o,a[4],a[5]),a$=k(h),ba=k(i),D=[0,k(m),ba,a$];if(n){var
+a_=ie([0,d,[0,d,[0,d,0]]],n,o,a[4],a[5]),a$=k(h),ba=k(i),D=[0,k(m),ba,a$];if(n){var
 p=n[2];if(p){var
 q=p[2];if(q){if(q[2])return 0;if(o){var
 r=o[2];if(r){var
 s=r[2];if(s){if(s[2])return 0;var
-Z=s[1],_=r[1],$=o[1],aa=q[1],ab=p[1],ac=n[1],ad=[0,[1,0,ac,$],[1,xg,ab,_],[1,xf,aa,Z]],ae=fB(j,c,f,D);if(ae)var
-aT=c[3],E=ak(function(a){if(typeof
+Z=s[1],_=r[1],$=o[1],aa=q[1],ab=p[1],ac=n[1],ad=[0,[1,0,ac,$],[1,xH,ab,_],[1,xG,aa,Z]],ae=fF(j,c,f,D);if(ae)var
+aT=c[3],F=al(function(a){if(typeof
 a==="number"&&a)return 1;return 0},aT);else
 var
-E=ae;var
-af=E?hI(n,o):E,ag=af?kr(j,c[2],[0,[0,ac,ab],aa],[0,[0,$,_],Z]):af,ah=ag?eS(j,n,o,a0(D)):ag,ai=ah?l(function(a){var
-b=eR(ks(a)),c=b?eR([0,cQ(a,D),0]):b;if(c){var
-d=jC(a,ad);if(d)return kq(j,xh,d[1]);var
+F=ae;var
+af=F?hO(n,o):F,ag=af?kE(j,c[2],[0,[0,ac,ab],aa],[0,[0,$,_],Z]):af,ah=ag?eV(j,n,o,a1(D)):ag,ai=ah?l(function(a){var
+b=eU(kF(a)),c=b?eU([0,cS(a,D),0]):b;if(c){var
+d=jJ(a,ad);if(d)return kD(j,xI,d[1]);var
 e=1}else
 var
-e=c;return e},f):ah;if(ai)return hH(j,e(function(a){var
-b=cQ(a,D);return[3,cQ(a,ad),b]},f),a_);var
+e=c;return e},f):ah;if(ai)return hN(j,e(function(a){var
+b=cS(a,D);return[3,cS(a,ad),b]},f),a_);var
 aj=ai}else
 var
 aj=s;var
-al=aj}else
+ak=aj}else
 var
-al=r;var
-F=al}else
+ak=r;var
+G=ak}else
 var
-F=o}else
+G=o}else
 var
-F=q;var
-am=F}else
+G=q;var
+am=G}else
 var
 am=p;var
 an=am}else
@@ -8106,12 +8297,12 @@ aP=V;return aP}var
 aQ=0}else
 var
 aQ=U;return aQ}var
-H=f5(c,a);if(H){var
+H=f$(c,a);if(H){var
 aV=k(h),aW=k(i),at=[0,k(m),aW,aV];if(g){var
-au=fE(j,c,f,at,H[1]);if(au)var
+au=fH(j,c,f,at,H[1]);if(au)var
 I=au;else{if(typeof
 a!=="number"&&0===a[0]){var
-y=a[2];return y?y[2]?0:fV(j,c,f,at,a[1],y[1]):y}var
+x=a[2];return x?x[2]?0:f1(j,c,f,at,a[1],x[1]):x}var
 I=0}}else
 var
 I=g;var
@@ -8120,30 +8311,30 @@ var
 av=H;var
 aw=av}else
 var
-aw=x;var
+aw=w;var
 ax=aw}else
 var
 ax=v;var
 ay=ax}else
 var
 ay=t;return ay}function
-qR(n,m,b,l,C,B){var
+q_(n,m,b,l,C,B){var
 f=C,d=B;for(;;){if(0===d[0]){var
-h=d[1],i=G(f,h),o=i?aD(i[1][2],DG):i;if(o)var
-D=d[2],j=qR(n,m,b,l,kV(0,h,f),D);else
+h=d[1],i=E(f,h),o=i?aE(i[1][2],D_):i;if(o)var
+D=d[2],j=q_(n,m,b,l,k8(0,h,f),D);else
 var
 j=o;if(j){var
-E=d[3],f=kV(1,h,f),d=E;continue}return j}var
-c=d[1],a=qw(0,n,f),p=e(function(b){function
-d(b){return qx(a,b)}function
-c(a){return kT(d,a)}switch(b[0]){case
+F=d[3],f=k8(1,h,f),d=F;continue}return j}var
+c=d[1],a=qP(0,n,f),p=e(function(b){function
+d(b){return qQ(a,b)}function
+c(a){return k6(d,a)}switch(b[0]){case
 0:var
-e=b[5],f=qx(a,b[4]),g=c(b[3]),h=c(b[2]);return[0,c(b[1]),h,g,f,e];case
+e=b[5],f=qQ(a,b[4]),g=c(b[3]),h=c(b[2]);return[0,c(b[1]),h,g,f,e];case
 1:var
-i=y(c,b[3]),j=c(b[2]);return[1,c(b[1]),j,i];default:return[2,c(b[1])]}},m);if(0===b[0])var
-t=b[2],u=kT(function(b){return az(a,b)},t),v=b[1],k=[0,kT(function(b){return az(a,b)},v),u];else
+i=z(c,b[3]),j=c(b[2]);return[1,c(b[1]),j,i];default:return[2,c(b[1])]}},m);if(0===b[0])var
+t=b[2],u=k6(function(b){return az(a,b)},t),v=b[1],k=[0,k6(function(b){return az(a,b)},v),u];else
 var
-w=az(a,b[5]),x=az(a,b[4]),z=az(a,b[3]),A=az(a,b[2]),k=[1,az(a,b[1]),A,z,x,w];var
+w=az(a,b[5]),x=az(a,b[4]),y=az(a,b[3]),A=az(a,b[2]),k=[1,az(a,b[1]),A,y,x,w];var
 q=e(function(g){var
 c=g[4];if(typeof
 c==="number")var
@@ -8169,537 +8360,537 @@ i=h;return[0,g[1],g[2],i,d]},l);if(typeof
 c==="number")return 1;else
 switch(c[0]){case
 0:return 0;case
-1:return k4(1,p,k,0,q,c[1],c[2],c[3]);default:var
+1:return lf(1,p,k,0,q,c[1],c[2],c[3]);default:var
 g=c[4],s=0;if(typeof
 g!=="number"&&2===g[0]){var
 J=g[1],r=[2,e(function(b){return az(a,b)},J)];s=1}if(!s)var
 r=g;var
-F=c[3],H=e(function(b){return az(a,b)},F),I=c[2];return k7(p,k,0,q,e(function(b){return az(a,b)},I),H,r)}}}function
-qS(h,g){var
-a=cK(k(h));if(a){var
-c=a[1],e=bl([0,d,b],c);if(e)return bl(c,g);var
+G=c[3],H=e(function(b){return az(a,b)},G),I=c[2];return li(p,k,0,q,e(function(b){return az(a,b)},I),H,r)}}}function
+q$(h,g){var
+a=cO(k(h));if(a){var
+c=a[1],e=bn([0,d,b],c);if(e)return bn(c,g);var
 f=e}else
 var
 f=a;return f}function
-f8(b,a){if(a){var
+gc(b,a){if(a){var
 c=a[1],d=s(c,b,0);if(d)var
-g=am(c,b),e=[0,[0,f(a5(function(a){return a},g))]];else
+g=ao(c,b),e=[0,[0,f(a6(function(a){return a},g))]];else
 var
-e=d;return e}return DI}function
-qT(b,c,a){return w(function(a){if(b7(a)){var
-d=hW(0,b,0,a);return ac(1,mg(e(function(a){return fF(j,DJ,a)},d)))}return ac(0,f(qj(b,c,a)))},a)}function
-qU(c,a){return e(function(a){var
-b=a[4],d=a[3],e=a[2],f=a[1];return[0,w(function(b){var
-a=f8(c,b[1]),d=a?[0,[0,a[1],b[2]],0]:a;return d},f),e,d,b]},a)}function
-qV(b,a){if(typeof
+e=d;return e}return Ea}function
+ra(b,c,a){return y(function(a){if(b$(a)){var
+d=h2(0,b,0,a);return ac(1,mt(e(function(a){return fI(j,Eb,a)},d)))}return ac(0,f(qC(b,c,a)))},a)}function
+rb(c,a){return e(function(a){var
+b=a[4],d=a[3],e=a[2],f=a[1];return[0,y(function(b){var
+a=gc(c,b[1]),d=a?[0,[0,a[1],b[2]],0]:a;return d},f),e,d,b]},a)}function
+rc(b,a){if(typeof
 a!=="number")switch(a[0]){case
 0:var
-c=a[2],d=f8(b,a[1]);return y(function(a){return[0,a,c]},d);case
+c=a[2],d=gc(b,a[1]);return z(function(a){return[0,a,c]},d);case
 1:var
-e=a[2],f=f8(b,a[1]);return y(function(a){return[1,a,e]},f);case
+e=a[2],f=gc(b,a[1]);return z(function(a){return[1,a,e]},f);case
 3:var
-g=a[5],h=a[4],i=a[3],j=a[2],k=f8(b,a[1]);return y(function(a){return[3,a,j,i,h,g]},k)}return[0,a]}function
-DP(v){var
-gM=hT(v[3]),gN=gM?hT(v[4]):gM;if(gN){var
-ah=v[1];switch(ah[0]){case
+g=a[5],h=a[4],i=a[3],j=a[2],k=gc(b,a[1]);return z(function(a){return[3,a,j,i,h,g]},k)}return[0,a]}function
+Eh(w){var
+gO=hZ(w[3]),gP=gO?hZ(w[4]):gO;if(gP){var
+ah=w[1];switch(ah[0]){case
 3:var
-gT=l(f2,ah[1]);if(gT)var
-lO=ah[2],dn=l(function(a){return f2(a[1])},lO);else
+gV=l(f8,ah[1]);if(gV)var
+lR=ah[2],dn=l(function(a){return f8(a[1])},lR);else
 var
-dn=gT;if(dn)var
-lP=ah[3],dp=l(function(a){var
-b=f2(a[1]),c=b?kJ(a[2]):b;return c?f3(a[2]):c},lP);else
+dn=gV;if(dn)var
+lS=ah[3],dp=l(function(a){var
+b=f8(a[1]),c=b?kW(a[2]):b;return c?f9(a[2]):c},lS);else
 var
 dp=dn;if(dp)var
-lQ=ah[4],bS=l(function(a){var
+lT=ah[4],bS=l(function(a){var
 b=0===a[0]?a[1]:[0,a[1],0];return l(function(a){var
-b=kJ(a);return b?f3(a):b},b)},lQ);else
+b=kW(a);return b?f9(a):b},b)},lT);else
 var
 bS=dp;break;case
 7:var
-lR=ah[1],gU=l(function(a){var
-b=f2(a[1]);return b?f4(0,[0,a[2][1],[0,a[2][2],0]]):b},lR),bS=gU?f4(0,[0,ah[5],[0,ah[6],0]]):gU;break;default:var
+lU=ah[1],gW=l(function(a){var
+b=f8(a[1]);return b?f_(0,[0,a[2][1],[0,a[2][2],0]]):b},lU),bS=gW?f_(0,[0,ah[5],[0,ah[6],0]]):gW;break;default:var
 bS=1}var
 dl=bS}else
 var
-dl=gN;var
-eo=0;if(dl){var
-gO=v[1],dm=7===gO[0]?e(aA,gO[1]):0,gP=function(c,b){var
-a=qg(c);return a?l(function(a){var
-e=a[1],b=l(function(a){return kI(a[2])},e);if(b){var
-c=a[3];if(c)return f4(dm,qf(c[1]));var
+dl=gP;var
+ep=0;if(dl){var
+gQ=w[1],dm=7===gQ[0]?e(aA,gQ[1]):0,gR=function(c,b){var
+a=qz(c);return a?l(function(a){var
+e=a[1],b=l(function(a){return kV(a[2])},e);if(b){var
+c=a[3];if(c)return f_(dm,qy(c[1]));var
 d=1}else
 var
-d=b;return d},b):a},gQ=function(e,d,c,b){var
-a=qg(e);return a?f4(dm,g(d,g(c,qf(b)))):a},o=v[1];switch(o[0]){case
+d=b;return d},b):a},gS=function(e,d,c,b){var
+a=qz(e);return a?f_(dm,g(d,g(c,qy(b)))):a},o=w[1];switch(o[0]){case
 0:var
-ln=w(d6,o[4]),lo=g(w(qd,o[3]),ln),lp=g(qb(o[2]),lo),ai=g(w(kK,o[1]),lp);break;case
+lq=y(d$,o[4]),lr=g(y(qw,o[3]),lq),ls=g(qu(o[2]),lr),ai=g(y(kX,o[1]),ls);break;case
 1:var
-df=o[5],dg=o[3],lq=w(d6,o[6]),lr=df?qc(df[1]):df,ls=g(lr,lq),lt=g(qa(o[4]),ls),lu=dg?[0,dg[1],0]:dg,lv=g(lu,lt),ai=g(w(Cb,o[2]),lv);break;case
+dg=o[5],dh=o[3],lt=y(d$,o[6]),lu=dg?qv(dg[1]):dg,lv=g(lu,lt),lw=g(qt(o[4]),lv),lx=dh?[0,dh[1],0]:dh,ly=g(lx,lw),ai=g(y(CF,o[2]),ly);break;case
 2:var
-lw=w(d6,o[7]),lx=g(w(qd,o[6]),lw),ly=g(qc(o[5]),lx),lz=g(qa(o[4]),ly),lA=[0,o[3],lz],lB=o[2],ai=g(w(function(a){return w(eY,g(a[1],a[2]))},lB),lA);break;case
+lz=y(d$,o[7]),lA=g(y(qw,o[6]),lz),lB=g(qv(o[5]),lA),lC=g(qt(o[4]),lB),lD=[0,o[3],lC],lE=o[2],ai=g(y(function(a){return y(e1,g(a[1],a[2]))},lE),lD);break;case
 3:var
-lC=w(d6,o[7]),lD=g(o[6],lC),lE=g(o[5],lD),lF=o[2],ai=g(w(function(a){return eY(a[2])},lF),lE);break;case
+lF=y(d$,o[7]),lG=g(o[6],lF),lH=g(o[5],lG),lI=o[2],ai=g(y(function(a){return e1(a[2])},lI),lH);break;case
 4:var
-lG=w(d6,o[3]),ai=[0,o[1],[0,o[2],lG]];break;case
+lJ=y(d$,o[3]),ai=[0,o[1],[0,o[2],lJ]];break;case
 5:var
-lH=w(d6,o[4]),lI=g(b5(o[3]),lH),lJ=g(b5(o[2]),lI),lK=g(w(kK,o[1]),lJ),ai=[0,o[5],lK];break;case
+lK=y(d$,o[4]),lL=g(b9(o[3]),lK),lM=g(b9(o[2]),lL),lN=g(y(kX,o[1]),lM),ai=[0,o[5],lN];break;case
 6:var
-dj=o[1],ai=dj?eY(dj[1]):dj;break;default:var
-lL=w(d6,o[4]),lM=g(qb(o[3]),lL),ai=g(w(kK,o[2]),lM)}var
-gR=f4(dm,ai);if(gR){var
-aj=v[2];switch(aj[0]){case
+dj=o[1],ai=dj?e1(dj[1]):dj;break;default:var
+lO=y(d$,o[4]),lP=g(qu(o[3]),lO),ai=g(y(kX,o[2]),lP)}var
+gT=f_(dm,ai);if(gT){var
+aj=w[2];switch(aj[0]){case
 0:var
-br=gP(aj[1],aj[3]);break;case
+bs=gR(aj[1],aj[3]);break;case
 1:var
-br=gQ(aj[1],aj[2],aj[3],aj[4]);break;default:var
-lN=aj[1],br=l(function(a){if(typeof
+bs=gS(aj[1],aj[2],aj[3],aj[4]);break;default:var
+lQ=aj[1],bs=l(function(a){if(typeof
 a!=="number")switch(a[0]){case
-1:return gP(a[1],a[3]);case
-2:return gQ(a[1],a[2],a[3],a[4])}return 1},lN)}}else{var
-gS=gR;eo=1}}else{var
-gS=dl;eo=1}if(eo)var
-br=gS;if(br){var
-a=v[1];switch(a[0]){case
+1:return gR(a[1],a[3]);case
+2:return gS(a[1],a[2],a[3],a[4])}return 1},lQ)}}else{var
+gU=gT;ep=1}}else{var
+gU=dl;ep=1}if(ep)var
+bs=gU;if(bs){var
+a=w[1];switch(a[0]){case
 0:var
-P=a[4],an=a[3],ao=a[2],R=a[1],aK=v[2];switch(aK[0]){case
+Q=a[4],am=a[3],ap=a[2],S=a[1],aK=w[2];switch(aK[0]){case
 0:var
-dI=aK[3],hr=aK[2],dJ=aK[1],g6=qT(f(R),an,P),lZ=a5(function(a){return I(b7(a))},P);if(ak(b7,P)){var
-g7=k4(0,R,ao,an,lZ,dJ,hr,qU(e(I,g6),dI));if(g7){var
-l0=qU(g6,dI),l1=a5(b7,P),l2=kP(ao);return k5(0,e(kO,R),0,l2,0,l1,dJ,0,l0)}return g7}return k4(0,R,ao,an,P,dJ,hr,dI);case
+dI=aK[3],ht=aK[2],dJ=aK[1],g8=ra(f(S),am,Q),l2=a6(function(a){return I(b$(a))},Q);if(al(b$,Q)){var
+g9=lf(0,S,ap,am,l2,dJ,ht,rb(e(I,g8),dI));if(g9){var
+l3=rb(g8,dI),l4=a6(b$,Q),l5=k2(ap);return lg(0,e(k1,S),0,l5,0,l4,dJ,0,l3)}return g9}return lf(0,S,ap,am,Q,dJ,ht,dI);case
 1:var
-dK=aK[4],dM=aK[3],dN=aK[2],g8=qT(f(R),an,P),dz=a5(function(a){return I(b7(a))},P);if(ak(b7,P)){var
-l3=a5(b7,P),l4=kP(ao),g9=h6(0,e(kO,R),0,l4,0,l3);if(g9)var
-dA=qV(e(I,g8),dK),l5=dA?k7(R,ao,an,dz,dN,dM,dA[1]):dA,dB=l5;else
+dK=aK[4],dM=aK[3],dN=aK[2],g_=ra(f(S),am,Q),dz=a6(function(a){return I(b$(a))},Q);if(al(b$,Q)){var
+l6=a6(b$,Q),l7=k2(ap),g$=ia(0,e(k1,S),0,l7,0,l6);if(g$)var
+dA=rc(e(I,g_),dK),l8=dA?li(S,ap,am,dz,dN,dM,dA[1]):dA,dB=l8;else
 var
-dB=g9;if(dB)var
+dB=g$;if(dB)var
 dC=dB;else{var
-g_=h7(R,an,dz,hV(R,ao,an,dz));if(g_){var
-dD=qV(g8,dK);if(dD){var
-l6=dD[1],l7=a5(b7,P),l8=kP(ao);return k6(0,e(kO,R),0,l8,0,l7,dN,dM,l6)}var
+ha=ib(S,am,dz,h1(S,ap,am,dz));if(ha){var
+dD=rc(g_,dK);if(dD){var
+l9=dD[1],l_=a6(b$,Q),l$=k2(ap);return lh(0,e(k1,S),0,l$,0,l_,dN,dM,l9)}var
 dC=dD}else
 var
-dC=g_}return dC}return k7(R,ao,an,P,dN,dM,dK);default:return 0}case
+dC=ha}return dC}return li(S,ap,am,Q,dN,dM,dK);default:return 0}case
 1:var
-bs=a[6],bW=a[5],bX=a[4],bY=a[3],X=a[2],T=a[1],aM=v[2];switch(aM[0]){case
-0:return k5(T,X,bY,bX,bW,bs,aM[1],aM[2],aM[3]);case
+bt=a[6],bW=a[5],bX=a[4],bY=a[3],X=a[2],T=a[1],aL=w[2];switch(aL[0]){case
+0:return lg(T,X,bY,bX,bW,bt,aL[1],aL[2],aL[3]);case
 1:var
-ap=aM[4],dP=aM[3],hs=aM[2];if(typeof
-ap!=="number"&&3===ap[0]){var
-mh=ap[5],mi=ap[4],mj=ap[3],mk=ap[2],ml=ap[1],r=typeof
-T==="number"?T?DE:DF:h5(T[1]),gV=dE(as(T),r),ds=e(k,hs),a7=kN(T,X,bY,bX,bW,bs),gW=qQ(a7[2]),gX=kY(X,e(k,dP));if(gX[2])return 0;var
-dt=cW(mk);if(dt){var
-W=dt[1],du=cW(mj);if(du){var
-aF=du[1],gY=f7(w(k0,X),dP),gZ=gY?h6(T,X,bY,bX,bW,bs):gY;if(gZ)var
-lT=as(T),dv=n(f(ds),lT);else
+aq=aL[4],dP=aL[3],hu=aL[2];if(typeof
+aq!=="number"&&3===aq[0]){var
+mk=aq[5],ml=aq[4],mm=aq[3],mn=aq[2],mo=aq[1],r=typeof
+T==="number"?T?D8:D9:h$(T[1]),gX=dE(an(T),r),ds=e(k,hu),a7=k0(T,X,bY,bX,bW,bt),gY=q9(a7[2]),gZ=k$(X,e(k,dP));if(gZ[2])return 0;var
+dt=cY(mn);if(dt){var
+W=dt[1],du=cY(mm);if(du){var
+aG=du[1],g0=gb(y(lb,X),dP),g1=g0?ia(T,X,bY,bX,bW,bt):g0;if(g1)var
+lW=an(T),dv=n(f(ds),lW);else
 var
-dv=gZ;if(dv)var
-lU=f(X),lV=hx(T),dx=n(ml,eb(d9(X),lV,lU,0,bs));else
+dv=g1;if(dv)var
+lX=f(X),lY=fT(T),dx=n(mo,eg(ec(X),lY,lX,0,bt));else
 var
-dx=dv;if(dx){if(d9(X))var
-lW=ac(d,gV),g0=g(ac(gW,r),lW);else
+dx=dv;if(dx){if(ec(X))var
+lZ=ac(d,gX),g2=g(ac(gY,r),lZ);else
 var
-lY=ac(Q(gW),gV),g0=g(ac(d,r),lY);var
-lX=h_(g0,W,aF,mi,mh),al=aw(r,ds),bn=aL(am(r,ds)),dy=gX[1],O=a7[5],fE=kp(0,W,aF),cD=pJ(am(r,fE)),cF=aw(r,fE),fG=a7[7],fH=fG?fO(j,a7[2],dy):fG,fI=fH?jX(j,a7,bn,al):fH,fJ=fI?ae(r,xr):fI;if(fJ)var
-j$=N(r,f(al)),cG=n(f(W),j$);else
+l1=ac(R(gY),gX),g2=g(ac(d,r),l1);var
+l0=ie(g2,W,aG,ml,mk),ak=aw(r,ds),bo=aM(ao(r,ds)),dy=gZ[1],O=a7[5],fF=kC(0,W,aG),cE=p2(ao(r,fF)),cF=aw(r,fF),fG=a7[7],fH=fG?eS(j,a7[2],dy):fG,fK=fH?hB(j,a7,bo,ak):fH,fL=fK?ae(r,xS):fK;if(fL)var
+j$=N(r,f(ak)),cG=n(f(W),j$);else
 var
-cG=fJ;var
-fL=cG?hI(W,aF):cG;if(fL)var
-ka=hJ(am(r,aF)),kb=hJ(am(r,W)),cI=kr(j,a7[4],kb,ka);else
+cG=fL;var
+fM=cG?hO(W,aG):cG;if(fM)var
+ka=hP(ao(r,aG)),kb=hP(ao(r,W)),cH=kE(j,a7[4],kb,ka);else
 var
-cI=fL;if(cI){var
-kc=aw(r,aF),ke=aw(r,W);if(O)var
-fC=O[1],j_=0===fC[0]?xp:xq,fD=n(f(al),j_),fM=fD?pI(j,fC,ke,kc):fD;else
+cH=fM;if(cH){var
+kc=aw(r,aG),kd=aw(r,W);if(O)var
+fC=O[1],j_=0===fC[0]?xQ:xR,fE=n(f(ak),j_),fN=fE?p1(j,fC,kd,kc):fE;else
 var
-fM=n(f(al),0);var
-cJ=fM}else
+fN=n(f(ak),0);var
+cJ=fN}else
 var
-cJ=cI;if(cJ){var
-kf=am(r,a0(bn)),ki=am(r,aF),fN=eS(j,am(r,W),ki,kf);if(fN)var
-a4=fN;else
+cJ=cH;if(cJ){var
+ke=ao(r,a1(bo)),kf=ao(r,aG),fO=eV(j,ao(r,W),kf,ke);if(fO)var
+a4=fO;else
 if(O){var
-fS=pH(O[1]);if(fS)var
-km=aw(r,aF),a4=eS(j,aw(r,W),km,al);else
+fR=p0(O[1]);if(fR)var
+kh=aw(r,aG),a4=eV(j,aw(r,W),kh,ak);else
 var
-a4=fS}else
+a4=fR}else
 var
 a4=O}else
 var
 a4=cJ;var
-fP=a4?l(function(b){var
-a=eP(O,al,bn,b),t=typeof
+fQ=a4?l(function(b){var
+a=eR(O,ak,bo,b),t=typeof
 a==="number"?0:0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]];if(0===b[0])var
-k=ks(b[1]);else
+k=kF(b[1]);else
 var
-c=b[1],p=[0,c[5],[0,c[6],0]],q=g(a0(c[4]),p),r=g(a0(c[3]),q),s=g(a0(c[2]),r),k=g(a0(c[1]),s);var
-m=eR(g(k,t));if(m)var
-u=jW(O,al,bn,b),v=1,e=l(function(a){return i(j,v,a)},u);else
+c=b[1],p=[0,c[5],[0,c[6],0]],q=g(a1(c[4]),p),r=g(a1(c[3]),q),s=g(a1(c[2]),r),k=g(a1(c[1]),s);var
+m=eU(g(k,t));if(m)var
+u=j8(O,ak,bo,b),v=1,e=l(function(a){return i(j,v,a)},u);else
 var
 e=m;if(e){var
-d=eP(O,cF,cD,b),n=0;if(typeof
+d=eR(O,cF,cE,b),n=0;if(typeof
 d==="number"||!(1===d[0]))n=1;else{var
 o=0;if(typeof
 a!=="number"&&1===a[0]){var
 h=[0,[2,[4,d[1],a[1]],[4,d[2],a[2]]],0];o=1}if(!o)var
 h=0}if(n)var
 h=0;var
-w=g(jW(O,cF,cD,b),h),x=f(W);return l(function(a){return kq(j,x,a)},w)}return e},dy):a4;return fP?hH(j,e(function(d){var
-a=eP(O,al,bn,d),c=eP(O,cF,cD,d);if(typeof
+w=g(j8(O,cF,cE,b),h),x=f(W);return l(function(a){return kD(j,x,a)},w)}return e},dy):a4;return fQ?hN(j,e(function(d){var
+a=eR(O,ak,bo,d),c=eR(O,cF,cE,d);if(typeof
 c==="number")return[0,b,b];else{if(0===c[0]){if(typeof
 a!=="number"&&0===a[0])return[3,c[1],a[1]];return[0,b,b]}if(typeof
-a!=="number"&&1===a[0])return[3,[4,c[2],a[1]],[4,c[1],a[2]]];return[0,b,b]}},dy),lX):fP}var
-g1=dx}else
+a!=="number"&&1===a[0])return[3,[4,c[2],a[1]],[4,c[1],a[2]]];return[0,b,b]}},dy),l0):fQ}var
+g3=dx}else
 var
-g1=du;var
-g2=g1}else
+g3=du;var
+g4=g3}else
 var
-g2=dt;return g2}return k6(T,X,bY,bX,bW,bs,hs,dP,ap);default:return 0}case
+g4=dt;return g4}return lh(T,X,bY,bX,bW,bt,hu,dP,aq);default:return 0}case
 2:var
-aN=a[7],aO=a[6],bZ=a[5],b2=a[4],b3=a[3],Y=a[2],Z=a[1],aP=v[2];switch(aP[0]){case
+aN=a[7],aO=a[6],bZ=a[5],b0=a[4],b1=a[3],Y=a[2],Z=a[1],aP=w[2];switch(aP[0]){case
 0:var
-ht=aP[3],ar=qo(Z,Y,b3,b2,bZ,aO,aN),mm=ar[2],dQ=F(b,bL(w(function(a){var
-b=bh(a[2]);return g(bh(a[1]),b)},mm))),mn=f(ht),mo=j7(dQ,ar[2]),mp=j7(dQ,ar[2]),dS=d_(bF(Z),mp,mo,0,mn,ht);if(dS){var
-hu=dS[1];if(hu[2])return 0;var
-hw=qJ(Z,Y,b3,b2,bZ,aO,aN);if(hw){var
-mq=hu[1],mr=f(Y),ms=eb(0,k1(Z),mr,aO,aN),mt=h9(aP[2]),mu=aP[1],iX=ar[2],et=l(function(a){var
-b=pa(j,a[1]);return b?pa(j,a[2]):b},iX);if(et)var
-iY=jE(ar[4]),cg=cO(j,ar[4],iY);else
+hv=aP[3],as=qH(Z,Y,b1,b0,bZ,aO,aN),mp=as[2],dQ=G(b,bP(y(function(a){var
+b=bi(a[2]);return g(bi(a[1]),b)},mp))),mq=f(hv),mr=kg(dQ,as[2]),ms=kg(dQ,as[2]),dS=ed(bG(Z),ms,mr,0,mq,hv);if(dS){var
+hw=dS[1];if(hw[2])return 0;var
+hx=q2(Z,Y,b1,b0,bZ,aO,aN);if(hx){var
+mt=hw[1],mu=f(Y),mv=eg(0,lc(Z),mu,aO,aN),mw=id(aP[2]),mx=aP[1],iZ=as[2],eu=l(function(a){var
+b=pk(j,a[1]);return b?pk(j,a[2]):b},iZ);if(eu)var
+i0=jL(as[4]),cg=cR(j,as[4],i0);else
 var
-cg=et;if(cg)var
-iZ=hv(ar[5]),ch=l(function(a){return fQ(j,a)},iZ);else
+cg=eu;if(cg)var
+i1=hy(as[5]),ch=l(function(a){return fV(j,a)},i1);else
 var
-ch=cg;return ch?ww(mu,mt,ms,ar,dQ,mq):ch}var
-hy=hw}else
+ch=cg;return ch?wQ(mx,mw,mv,as,dQ,mt):ch}var
+hz=hx}else
 var
-hy=dS;return hy;case
+hz=dS;return hz;case
 1:var
-_=aP[4],hz=aP[3],aQ=e(k,aP[2]),q=h5(Z),hA=qE(Y,e(k,hz));if(hA[2])return 0;var
-t=hA[1],hB=f7(w(function(a){return g(a[1],a[2])},Y),hz),hC=hB?qJ(Z,Y,b3,b2,bZ,aO,aN):hB;if(hC){var
-p=qo(Z,Y,b3,b2,bZ,aO,aN);if(typeof
+_=aP[4],hA=aP[3],aQ=e(k,aP[2]),q=h$(Z),hC=qX(Y,e(k,hA));if(hC[2])return 0;var
+t=hC[1],hD=gb(y(function(a){return g(a[1],a[2])},Y),hA),hE=hD?q2(Z,Y,b1,b0,bZ,aO,aN):hD;if(hE){var
+p=qH(Z,Y,b1,b0,bZ,aO,aN);if(typeof
 _!=="number")switch(_[0]){case
 2:var
-hR=e(k,_[1]),hS=aw(q,hR),hU=aL(am(q,hR)),hX=aw(q,aQ),hY=aL(am(q,aQ)),eu=eI(j,p,t,hY,hX),ev=eu?eI(j,p,t,hU,hS):eu;if(ev)var
-i0=bF(p[1]),ci=n(f(t),i0);else
+hM=e(k,_[1]),hS=aw(q,hM),hT=aM(ao(q,hM)),hU=aw(q,aQ),hX=aM(ao(q,aQ)),ev=eM(j,p,t,hX,hU),ew=ev?eM(j,p,t,hT,hS):ev;if(ew)var
+i2=bG(p[1]),ci=n(f(t),i2);else
 var
-ci=ev;if(ci){var
-ew=function(b,a){var
-c=p[5],d=p[3],f=p[1];return e(function(e){return jM(f,d,c,a,b,e)},t)},i1=ew(hU,hS),i2=ew(hY,hX);return kd(j,bF(p[1]),i2,i1)}return ci;case
+ci=ew;if(ci){var
+ex=function(b,a){var
+c=p[5],d=p[3],f=p[1];return e(function(e){return jW(f,d,c,a,b,e)},t)},i3=ex(hT,hS),i4=ex(hX,hU);return ko(j,bG(p[1]),i4,i3)}return ci;case
 3:var
-dV=cW(_[2]);if(dV){var
-at=dV[1],dW=cW(_[3]);if(dW){var
-aR=dW[1],mw=p[2],mx=F(b,bL(w(function(a){var
-b=bh(a[2]);return g(bh(a[1]),b)},mw))),my=f(Y),mz=eb(0,k1(Z),my,aO,aN),hZ=n(_[1],mz);if(hZ){var
-mA=_[5],mB=_[4],mC=ac(Q(mx),dE(f(aQ),q)),mD=h_(g(ac(d,q),mC),at,aR,mB,mA),a8=aw(q,aQ),b_=aL(am(q,aQ)),a3=p[5],ft=kp(0,at,aR),fu=p[7],fv=fu?eI(j,p,t,b_,a8):fu,fw=fv?ae(q,xm):fv;if(fw)var
-j1=N(q,f(a8)),cz=n(f(at),j1);else
+dW=cY(_[2]);if(dW){var
+at=dW[1],dX=cY(_[3]);if(dX){var
+aR=dX[1],mz=p[2],mA=G(b,bP(y(function(a){var
+b=bi(a[2]);return g(bi(a[1]),b)},mz))),mB=f(Y),mC=eg(0,lc(Z),mB,aO,aN),hY=n(_[1],mC);if(hY){var
+mD=_[5],mE=_[4],mF=ac(R(mA),dE(f(aQ),q)),mG=ie(g(ac(d,q),mF),at,aR,mE,mD),a8=aw(q,aQ),b6=aM(ao(q,aQ)),a3=p[5],ft=kC(0,at,aR),fv=p[7],fw=fv?eM(j,p,t,b6,a8):fv,fx=fw?ae(q,xN):fw;if(fx)var
+j1=N(q,f(a8)),cA=n(f(at),j1);else
 var
-cz=fw;if(cz)var
-j2=0===a3[0]?xn:xo,cA=n(f(a8),j2);else
+cA=fx;if(cA)var
+j2=0===a3[0]?xO:xP,cB=n(f(a8),j2);else
 var
-cA=cz;var
-fx=cA?hI(at,aR):cA;if(fx)var
-j3=hJ(am(q,aR)),j4=hJ(am(q,at)),cB=kr(j,p[4],j4,j3);else
+cB=cA;var
+fy=cB?hO(at,aR):cB;if(fy)var
+j3=hP(ao(q,aR)),j4=hP(ao(q,at)),cC=kE(j,p[4],j4,j3);else
 var
-cB=fx;if(cB)var
-j5=aw(q,aR),cC=pI(j,a3,aw(q,at),j5);else
+cC=fy;if(cC)var
+j5=aw(q,aR),cD=p1(j,a3,aw(q,at),j5);else
 var
-cC=cB;if(cC){var
-j6=am(q,a0(b_)),j8=am(q,aR),fy=eS(j,am(q,at),j8,j6);if(fy)var
-bk=fy;else{var
-fB=pH(a3);if(fB)var
-j9=aw(q,aR),bk=eS(j,aw(q,at),j9,a8);else
+cD=cC;if(cD){var
+j6=ao(q,a1(b6)),j7=ao(q,aR),fz=eV(j,ao(q,at),j7,j6);if(fz)var
+bl=fz;else{var
+fB=p0(a3);if(fB)var
+j9=aw(q,aR),bl=eV(j,aw(q,at),j9,a8);else
 var
-bk=fB}}else
+bl=fB}}else
 var
-bk=cC;var
-fA=bk?l(function(a){var
-c=a0(a[2]),b=eR(g(a0(a[1]),c));return b?eR([0,kt(a3,a8,b_,a),0]):b},t):bk;return fA?hH(j,e(function(a){var
-b=[6,kt(a3,a8,b_,a)],c=pJ(am(q,ft));return[3,[6,kt(a3,aw(q,ft),c,a)],b]},t),mD):fA}var
-h0=hZ}else
+bl=cD;var
+fA=bl?l(function(a){var
+c=a1(a[2]),b=eU(g(a1(a[1]),c));return b?eU([0,kG(a3,a8,b6,a),0]):b},t):bl;return fA?hN(j,e(function(a){var
+b=[6,kG(a3,a8,b6,a)],c=p2(ao(q,ft));return[3,[6,kG(a3,aw(q,ft),c,a)],b]},t),mG):fA}var
+h0=hY}else
 var
-h0=dW;var
-h4=h0}else
+h0=dX;var
+h3=h0}else
 var
-h4=dV;return h4}var
-mv=f(Y),dT=k2(0,k1(Z),mv,aO,aN,_);if(dT){var
-bt=dT[1],z=aL(am(q,aQ)),u=aw(q,aQ),eq=eI(j,p,t,z,u);if(eq)var
-af=p[5],er=p[3],es=p[1],iU=p[6],cf=function(a){var
-b=b1(af,u,z,a);return x(b1(af,u,z,a),b)},iN=e(function(a){return[0,jM(es,er,af,u,z,a)]},t),iO=e(cf,t),iP=function(a){var
-b=di(af,u,a);return M(function(b,a){return[2,b,a]},z,b)},iQ=e(function(a){var
-b=[6,cf(a)],c=b1(af,u,z,a),d=di(af,u,a[2]);return[0,[0,[0,M(function(b,a){return[2,b,a]},z,d),c],b]]},t),iR=e(function(a){return 0},t),iS=e(function(a){return[0,[6,cf(a)]]},t),iT=[0,e(function(c){var
-a=aB(b1(af,u,z,c));return jL(es,a,S([5,[0,b,b],er],dh(di(af,u,c[2]),a)))},t),iS,iR,iQ,iP,iO,iN],iV=bF(p[1]),iW=2<=p[1]?vj:vk,dU=jG(j,iW,iV,iT,iU,bt);else
+h3=dW;return h3}var
+my=f(Y),dT=ld(0,lc(Z),my,aO,aN,_);if(dT){var
+bu=dT[1],x=aM(ao(q,aQ)),u=aw(q,aQ),er=eM(j,p,t,x,u);if(er)var
+af=p[5],es=p[3],et=p[1],iW=p[6],cf=function(a){var
+b=b5(af,u,x,a);return v(b5(af,u,x,a),b)},iP=e(function(a){return[0,jW(et,es,af,u,x,a)]},t),iQ=e(cf,t),iR=function(a){var
+b=di(af,u,a);return M(function(b,a){return[2,b,a]},x,b)},iS=e(function(a){var
+b=[6,cf(a)],c=b5(af,u,x,a),d=di(af,u,a[2]);return[0,[0,[0,M(function(b,a){return[2,b,a]},x,d),c],b]]},t),iT=e(function(a){return 0},t),iU=e(function(a){return[0,[6,cf(a)]]},t),iV=[0,e(function(c){var
+a=aC(b5(af,u,x,c));return jV(et,a,P([5,[0,b,b],es],cq(di(af,u,c[2]),a)))},t),iU,iT,iS,iR,iQ,iP],iX=bG(p[1]),iY=2<=p[1]?vD:vE,dV=jN(j,iY,iX,iV,iW,bu);else
 var
-dU=eq;if(dU)var
-hD=dU;else{if(typeof
-bt!=="number"&&0===bt[0]){var
-b8=bt[2];if(b8){if(b8[2])return 0;var
-b9=b8[1],hN=bt[1],bi=p[1],fe=eI(j,p,t,z,u),ep=0;if(fe){var
-jT=p[6],jU=2<=bi?xc:xd,cw=eF(j,jU,hN,jT),cd=0;if(cw){var
-a2=cw[1][1],ce=0;if(typeof
-a2!=="number"&&15===a2[0]){var
-cx=G(t,a2[1]);if(cx){var
-bj=od(b9),fh=a2[3],bJ=cx[1],bK=p[5],cy=p[3],jV=a2[4],jY=a2[2],e6=jM(bi,cy,bK,u,z,bJ),e7=b1(bK,u,z,bJ),cv=bu(bj,bj),e8=[4,[4,jY,[6,bu(e6,e6)]],cv],be=b1(bK,u,z,bJ),ct=di(bK,u,bJ[2]),bf=S([5,[0,b,b],cy],pA(bi,bj)),jJ=dh(bf,ct),jK=pz(bi,bj),cu=M(function(b,a){return[2,b,a]},jK,jJ),e5=x(be,cu),jN=x(bf,bf),jO=[4,x(be,ct),jN],jP=x(ct,bf),jQ=[3,[4,x(be,bf),jP],jO],jR=[5,[4,e5,e5],x(be,be)],e9=[4,[4,fh,fh],[2,[3,x(cu,cu),jR],jQ]],e_=[4,[4,jV,cv],[6,x(e7,e7)]],jS=bF(bi),e$=n(f(bj),jS),fa=e$?i(j,1,cv):e$,fb=fa?i(j,1,cy):fa,iM=0;if(fb){var
-fc=i(j,1,[3,[2,e8,e9],e_]);if(fc)var
-fd=fc;else{var
-bv=i(j,1,[3,[3,e8,e9],e_]);cd=1;ce=1;iM=1}}else
+dV=er;if(dV)var
+hF=dV;else{if(typeof
+bu!=="number"&&0===bu[0]){var
+b3=bu[2];if(b3){if(b3[2])return 0;var
+b4=b3[1],hI=bu[1],bj=p[1],ff=eM(j,p,t,x,u),eq=0;if(ff){var
+jT=p[6],jU=2<=bj?xD:xE,cx=dU(j,jU,hI,jT),cd=0;if(cx){var
+a0=cx[1][1],ce=0;if(typeof
+a0!=="number"&&15===a0[0]){var
+cy=E(t,a0[1]);if(cy){var
+bk=fJ(b4),fi=a0[3],bJ=cy[1],bK=p[5],cz=p[3],jX=a0[4],jY=a0[2],e7=jW(bj,cz,bK,u,x,bJ),e8=b5(bK,u,x,bJ),cw=bh(bk,bk),e9=[4,[4,jY,[6,bh(e7,e7)]],cw],be=b5(bK,u,x,bJ),ct=di(bK,u,bJ[2]),bf=P([5,[0,b,b],cz],kA(bj,bk)),jI=cq(bf,ct),jJ=kz(bj,bk),cv=M(function(b,a){return[2,b,a]},jJ,jI),e6=v(be,cv),jK=v(bf,bf),jO=[4,v(be,ct),jK],jP=v(ct,bf),jQ=[3,[4,v(be,bf),jP],jO],jR=[5,[4,e6,e6],v(be,be)],e_=[4,[4,fi,fi],[2,[3,v(cv,cv),jR],jQ]],e$=[4,[4,jX,cw],[6,v(e8,e8)]],jS=bG(bj),fa=n(f(bk),jS),fb=fa?i(j,1,cw):fa,fc=fb?i(j,1,cz):fb,iO=0;if(fc){var
+fd=i(j,1,[3,[2,e9,e_],e$]);if(fd)var
+fe=fd;else{var
+bv=i(j,1,[3,[3,e9,e_],e$]);cd=1;ce=1;iO=1}}else
 var
-fd=fb;if(!iM){var
-bv=fd;cd=1;ce=1}}else{var
-bv=cx;cd=1;ce=1}}if(!ce)var
-ff=0}else
+fe=fc;if(!iO){var
+bv=fe;cd=1;ce=1}}else{var
+bv=cy;cd=1;ce=1}}if(!ce)var
+fg=0}else
 var
-ff=cw;if(!cd){var
-fg=ff;ep=1}}else{var
-fg=fe;ep=1}if(ep)var
-bv=fg;if(!bv){var
-fT=p[1],cL=p[5],fU=eI(j,p,t,z,u);if(fU){var
-ko=p[6],ku=2<=fT?xA:xB,cM=eF(j,ku,hN,ko);if(cM){var
+fg=cx;if(!cd){var
+fh=fg;eq=1}}else{var
+fh=ff;eq=1}if(eq)var
+bv=fh;if(!bv){var
+fS=p[1],cK=p[5],fU=eM(j,p,t,x,u);if(fU){var
+ki=p[6],kj=2<=fS?x1:x2,cM=dU(j,kj,hI,ki);if(cM){var
 bm=cM[1][1];if(typeof
 bm!=="number"&&16===bm[0]){var
 fZ=bm[1],f0=i(j,0,fZ);if(f0)var
-kw=f(p[2]),cN=n(f(b9),kw);else
+kk=f(p[2]),cN=n(f(b4),kk);else
 var
 cN=f0;if(cN){var
-ky=p[2],kz=V(V(t,hK(b9,e(function(a){var
-b=bH(a[2]);return pP(b1(cL,u,z,[0,bH(a[1]),b]))},ky),fZ)),b9),kA=e(function(e){var
-c=e[1],d=c[2],a=c[1],f=di(cL,u,a[2]),g=a[1],h=M(function(b,a){return[3,b,a]},z,g),i=[2,d,pP(b1(cL,u,z,a))];return[0,d2([5,[0,e[2],b],i]),d,h,f]},kz);return pO(j,[0,fT],bm[2],bm[3],kA)}return cN}var
-fV=0}else
+kl=p[2],km=V(V(t,hQ(b4,e(function(a){var
+b=bI(a[2]);return p8(b5(cK,u,x,[0,bI(a[1]),b]))},kl),fZ)),b4),kn=e(function(e){var
+c=e[1],d=c[2],a=c[1],f=di(cK,u,a[2]),g=a[1],h=M(function(b,a){return[3,b,a]},x,g),i=[2,d,p8(b5(cK,u,x,a))];return[0,d7([5,[0,e[2],b],i]),d,h,f]},km);return p7(j,[0,fS],bm[2],bm[3],kn)}return cN}var
+fW=0}else
 var
-fV=cM;var
-fY=fV}else
+fW=cM;var
+fY=fW}else
 var
 fY=fU;return fY}var
-hO=bv}else
+hJ=bv}else
 var
-hO=b8;return hO}var
-hD=0}var
-hG=hD}else
+hJ=b3;return hJ}var
+hF=0}var
+hG=hF}else
 var
 hG=dT;var
-hM=hG}else
+hH=hG}else
 var
-hM=hC;return hM;default:return 0}case
+hH=hE;return hH;default:return 0}case
 3:var
-au=a[7],bw=a[6],bx=a[5],av=a[4],dX=a[3],aS=a[2],aT=a[1],aU=v[2];switch(aU[0]){case
+au=a[7],bw=a[6],bx=a[5],av=a[4],dY=a[3],aS=a[2],aT=a[1],aU=w[2];switch(aU[0]){case
 0:var
-h$=aU[3],ia=h8(kl(kL(aT,aS,dX,av,bx,bw,au)[1])),mE=f(h$),dY=d_(f(aT),ia,ia,0,mE,h$);if(dY){var
-ib=dY[1];if(ib[2])return 0;var
-ic=qK(aT,aS,av,bx,bw,au);if(ic){var
-mF=ib[1],$=kL(aT,aS,dX,av,bx,bw,au),mG=eb(0,DQ,f(av),0,au),id=h9(aU[2]),aV=aU[1],eW=pt($[1]);if(eW)var
-jo=$[1][2],cq=l(function(a){return bC(j,a[2][1],a[2][2])},jo);else
+h4=aU[3],h5=ic(kw(kY(aT,aS,dY,av,bx,bw,au)[1])),mH=f(h4),dZ=ed(f(aT),h5,h5,0,mH,h4);if(dZ){var
+h6=dZ[1];if(h6[2])return 0;var
+h_=q3(aT,aS,av,bx,bw,au);if(h_){var
+mI=h6[1],$=kY(aT,aS,dY,av,bx,bw,au),mJ=eg(0,Ei,f(av),0,au),ig=id(aU[2]),aV=aU[1],eX=pO($[1]);if(eX)var
+jq=$[1][2],cr=l(function(a){return bD(j,a[2][1],a[2][2])},jq);else
 var
-cq=eW;if(cq)var
-jp=$[2],cs=l(function(a){return bC(j,a[1],a[2])},jp);else
+cr=eX;if(cr)var
+jr=$[2],cs=l(function(a){return bD(j,a[1],a[2])},jr);else
 var
-cs=cq;if(cs){var
-B=$[1],bb=f(B[1]),bG=$[3],cj=f(B[2]),ex=N(cj,f(fR(e(aG,B[3])))),i3=B[3],ey=pp(hE(B),i3,cj),H=kj(bb,ey,B[4],ex),i4=kh(ey,B[4],ex),i5=B[3],ez=g(kg(hE(B),i5,cj),i4),eA=f(kl(B)),eB=kk(B[2]),eC=e(function(a){return a[4]},H),i6=g(ez,dk(function(b,a){if(typeof
+cs=cr;if(cs){var
+B=$[1],ba=f(B[1]),bF=$[3],cj=f(B[2]),ey=N(cj,f(fX(e(aH,B[3])))),i5=B[3],ez=pK(hK(B),i5,cj),H=ku(ba,ez,B[4],ey),i6=ks(ez,B[4],ey),i7=B[3],eA=g(kr(hK(B),i7,cj),i6),eB=f(kw(B)),eC=kv(B[2]),eD=e(function(a){return a[4]},H),i8=g(eA,dk(function(b,a){if(typeof
 a!=="number"&&16===a[0]){var
-c=d0(H);return pd(eB,e(function(a){return a[3]},H),c,eC)}return pk(H,b,a)},0,d,eA,bG)),i7=g(bD(d0(H)),i6),eD=g(bD(eQ(H)),i7),eE=c6(eD),eG=c5(eE),az=cH(eG),i8=function(c,a){if(typeof
+c=d5(H);return pp(eC,e(function(a){return a[3]},H),c,eD)}return pF(H,b,a)},0,d,eB,bF)),i9=g(bE(d5(H)),i8),eE=g(bE(eT(H)),i9),eF=c7(eE),eG=c6(eF),az=cL(eG),i_=function(c,a){if(typeof
 a!=="number"&&16===a[0]){var
 f=B[4];if(l(function(a){return 0===a[0]?0:1},f)){var
-g=a[2],h=a[1],i=[0,J(aV,b)],j=d0(H);return pe(aV,az,bb,bb,wY,0,eB,d,e(function(a){return a[3]},H),j,eC,i,h,g)}return wZ}return pl(aV,az,H,0,d,c,a)},eH=n(f($[2]),bb);if(eH)var
-i9=B[4],ck=l(function(a){return 0===a[0]?n(f(a[1]),bb):1},i9);else
+g=a[2],h=a[1],i=[0,J(aV,b)],j=d5(H);return pq(aV,az,ba,ba,xn,0,eC,d,e(function(a){return a[3]},H),j,eD,i,h,g)}return xo}return pG(aV,az,H,0,d,c,a)},eH=n(f($[2]),ba);if(eH)var
+i$=B[4],ck=l(function(a){return 0===a[0]?n(f(a[1]),ba):1},i$);else
 var
 ck=eH;var
-eJ=ck?l(function(a){var
-b=m(d);return aX(s(h(az,a),eG,b),a)},eD):ck,eK=eJ?ak(pm,bG):eJ;if(eK){var
-eL=I($[4]);if(eL)var
-bI=eL;else
+eI=ck?l(function(a){var
+b=m(d);return aZ(s(h(az,a),eG,b),a)},eE):ck,eJ=eI?al(pH,bF):eI;if(eJ){var
+eK=I($[4]);if(eK)var
+bH=eK;else
 var
-jn=B[4],bI=l(function(a){return 0===a[0]?0:1},jn)}else
+jp=B[4],bH=l(function(a){return 0===a[0]?0:1},jp)}else
 var
-bI=eK;if(bI){var
-i_=kl(B),cl=ad(e(function(a){return aq(aV,a)},i_));if(cl){var
-i$=0,ja=w(function(a){return fK(i$,d,a)},bG),cm=ad(e(function(a){return hp(aV,a)},ja));if(cm){var
-jb=$[2],cn=ad(e(function(a){return aq(aV,[0,a,d])},jb));if(cn){var
-co=ad(dk(i8,0,d,eA,bG));if(co){var
-eM=co[1];if($[4])var
-jc=id[2],jd=id[1],je=d0(H),cp=jF(mG,eM,[8,h(ay(az),je),jd,jc]);else
+bH=eJ;if(bH){var
+ja=kw(B),cl=ad(e(function(a){return ar(aV,a)},ja));if(cl){var
+jb=0,jc=y(function(a){return fP(jb,d,a)},bF),cm=ad(e(function(a){return hs(aV,a)},jc));if(cm){var
+jd=$[2],cn=ad(e(function(a){return ar(aV,[0,a,d])},jd));if(cn){var
+co=ad(dk(i_,0,d,eB,bF));if(co){var
+eL=co[1];if($[4])var
+je=ig[2],jf=ig[1],jg=d5(H),cp=jM(mJ,eL,[8,h(ay(az),jg),jf,je]);else
 var
-cp=eM;var
-jf=jv(cp),jg=cn[1],jh=function(a){return 0},ji=g(cl[1],cm[1]),jj=e(az,ez),jk=d0(H),jl=h(ay(az),jk),jm=eQ(H);return gb(ju(aV,eE,h(ay(az),jm),jl,jj,ji,cp,jh),jg,jf,mF)}var
+cp=eL;var
+jh=jC(cp),ji=cn[1],jj=function(a){return 0},jk=g(cl[1],cm[1]),jl=e(az,eA),jm=d5(H),jn=h(ay(az),jm),jo=eT(H);return gh(jB(aV,eF,h(ay(az),jo),jn,jl,jk,cp,jj),ji,jh,mI)}var
 eN=co}else
 var
 eN=cn;var
 eO=eN}else
 var
 eO=cm;var
-eU=eO}else
+eP=eO}else
 var
-eU=cl;var
-eV=eU}else
+eP=cl;var
+eQ=eP}else
 var
-eV=bI;return eV}return cs}var
-ie=ic}else
+eQ=bH;return eQ}return cs}var
+ih=h_}else
 var
-ie=dY;return ie;case
+ih=dZ;return ih;case
 1:var
-ab=aU[4],ig=aU[3],b$=aU[2],A=kL(aT,aS,dX,av,bx,bw,au),mH=e(k,ig),ih=bo(e(aG,aS),mH);if(ih[2])return 0;var
-E=ih[1],ii=f7(e(aG,aS),ig),ij=ii?qK(aT,aS,av,bx,bw,au):ii,ik=ij?pt(A[1]):ij;if(ik)var
-mI=A[2],dZ=l(function(a){return bC(j,a[1],a[2])},mI);else
+ab=aU[4],ii=aU[3],b7=aU[2],A=kY(aT,aS,dY,av,bx,bw,au),mK=e(k,ii),ij=bq(e(aH,aS),mK);if(ij[2])return 0;var
+D=ij[1],ik=gb(e(aH,aS),ii),il=ik?q3(aT,aS,av,bx,bw,au):ik,im=il?pO(A[1]):il;if(im)var
+mL=A[2],d0=l(function(a){return bD(j,a[1],a[2])},mL);else
 var
-dZ=ik;if(dZ){if(typeof
+d0=im;if(d0){if(typeof
 ab!=="number")switch(ab[0]){case
 2:var
-d8=e(k,ab[1]),d$=e(k,b$),aC=A[1],bM=hF(aC),jZ=pw(aC),fi=e(function(a){return a[3]},jZ),fj=function(a){var
-b=px(aC,E);function
-c(c){return d1(a,b,c)}return e(function(a){return e(c,a)},fi)},fk=b4(j,e(aG,aC[2]),E),fl=fk?b4(j,A[2],d$):fk,fm=fl?b4(j,A[2],d8):fl,fn=fm?n(f(d$),bM):fm,fo=fn?n(f(d8),bM):fn,fp=fo?py(aC,aC[4]):fo,fq=fp?n(f(aC[4]),bM):fp,fs=fq?l(function(a){return l(kn,a)},fi):fq;if(fs){var
-j0=fj(d8);return kd(j,bM,fj(d$),j0)}return fs;case
+d4=e(k,ab[1]),d9=e(k,b7),aD=A[1],bL=hL(aD),jZ=pR(aD),fj=e(function(a){return a[3]},jZ),fk=function(a){var
+b=pS(aD,D);function
+c(c){return d6(a,b,c)}return e(function(a){return e(c,a)},fj)},fl=b8(j,e(aH,aD[2]),D),fm=fl?b8(j,A[2],d9):fl,fn=fm?b8(j,A[2],d4):fm,fo=fn?n(f(d9),bL):fn,fp=fo?n(f(d4),bL):fo,fq=fp?pT(aD,aD[4]):fp,fr=fq?n(f(aD[4]),bL):fq,fs=fr?l(function(a){return l(ky,a)},fj):fr;if(fs){var
+j0=fk(d4);return ko(j,bL,fk(d9),j0)}return fs;case
 3:var
-ea=cW(ab[2]);if(ea){var
-a9=ea[1],ec=cW(ab[3]);if(ec){var
-bA=ec[1],mK=eb(0,DS,f(av),0,au),ip=n(ab[1],mK);if(ip){var
-mL=ab[5],mM=ab[4],mN=h_(ac(d,f(aT)),a9,bA,mM,mL),bE=e(k,b$),aE=A[1],gm=kp(0,a9,bA),gn=A[4],go=gn?b4(j,e(aG,aE[2]),E):gn,gp=go?b4(j,A[2],bE):go;if(gp)var
-kQ=e(ba,a9),cX=b4(j,A[2],kQ);else
+d_=cY(ab[2]);if(d_){var
+a9=d_[1],ea=cY(ab[3]);if(ea){var
+bA=ea[1],mN=eg(0,Ek,f(av),0,au),ir=n(ab[1],mN);if(ir){var
+mO=ab[5],mP=ab[4],mQ=ie(ac(d,f(aT)),a9,bA,mP,mO),bB=e(k,b7),aF=A[1],go=kC(0,a9,bA),gp=A[4],gq=gp?b8(j,e(aH,aF[2]),D):gp,gr=gq?b8(j,A[2],bB):gq;if(gr)var
+kM=e(bb,a9),cW=b8(j,A[2],kM);else
 var
-cX=gp;if(cX)var
-kR=e(ba,bA),cY=b4(j,A[2],kR);else
+cW=gr;if(cW)var
+kN=e(bb,bA),cZ=b8(j,A[2],kN);else
 var
-cY=cX;var
-gq=cY?hI(a9,bA):cY,gr=gq?eS(j,a9,bA,bE):gq,gs=gr?eR(g(E,bE)):gr;if(gs)var
-kS=aE[3],cZ=l(function(a){return fX(a[2])},kS);else
+cZ=cW;var
+gs=cZ?hO(a9,bA):cZ,gt=gs?eV(j,a9,bA,bB):gs,gu=gt?eU(g(D,bB)):gt;if(gu)var
+kO=aF[3],c0=l(function(a){return f3(a[2])},kO);else
 var
-cZ=gs;if(cZ){var
-c0=kx(aE[4]);if(c0){var
-bQ=c0[1],gt=l(fX,bQ);if(gt)var
-kT=1,c1=pR(function(a){return i(j,kT,a)},aE,E,bE,bQ);else
+c0=gu;if(c0){var
+c1=kK(aF[4]);if(c1){var
+bQ=c1[1],gv=l(f3,bQ);if(gv)var
+kP=1,c2=p_(function(a){return i(j,kP,a)},aF,D,bB,bQ);else
 var
-c1=gt;if(c1)var
-kV=f(a9),c2=pR(function(a){return kq(j,kV,a)},aE,E,gm,bQ);else
+c2=gv;if(c2)var
+kQ=f(a9),c3=p_(function(a){return kD(j,kQ,a)},aF,D,go,bQ);else
 var
-c2=c1;if(c2)return hH(j,e(function(a){var
-b=a1(fW(aE,E,bE),a);return[3,a1(fW(aE,E,gm),a),b]},bQ),mN);var
-gu=c2}else
+c3=c2;if(c3)return hN(j,e(function(a){var
+b=a2(f2(aF,D,bB),a);return[3,a2(f2(aF,D,go),a),b]},bQ),mQ);var
+gw=c3}else
 var
-gu=c0;var
-gv=gu}else
+gw=c1;var
+gx=gw}else
 var
-gv=cZ;return gv}var
-iq=ip}else
+gx=c0;return gx}var
+is=ir}else
 var
-iq=ec;var
-ir=iq}else
+is=ea;var
+it=is}else
 var
-ir=ea;return ir}var
-d4=k2(0,DR,f(av),0,au,ab);if(d4){var
-by=d4[1],aW=e(k,b$),L=A[1],eZ=hF(L),bc=pw(L),jA=pu(L),jB=L[4],jC=kh(pv(L),jB,jA),jD=f(L[2]),jH=L[3],eX=g(kg(hE(L),jH,jD),jC),bd=px(L,E),e0=b4(j,e(aG,L[2]),E),e1=e0?b4(j,A[2],aW):e0,e2=e1?n(f(aW),eZ):e1,e3=e2?py(L,L[4]):e2,e4=e3?l(kn,g(w(w3,bc),eX)):e3;if(e4)var
-jI=A[3],jq=e(function(a){var
-b=a[1];return[0,e(function(a){return d1(aW,bd,a)},b)]},bc),jr=w(function(c){var
+it=d_;return it}var
+d1=ld(0,Ej,f(av),0,au,ab);if(d1){var
+by=d1[1],aW=e(k,b7),L=A[1],eZ=hL(L),bc=pR(L),jy=pP(L),jz=L[4],jA=ks(pQ(L),jz,jy),jE=f(L[2]),jG=L[3],eY=g(kr(hK(L),jG,jE),jA),bd=pS(L,D),e0=b8(j,e(aH,L[2]),D),e2=e0?b8(j,A[2],aW):e0,e3=e2?n(f(aW),eZ):e2,e4=e3?pT(L,L[4]):e3,e5=e4?l(ky,g(y(xs,bc),eY)):e4;if(e5)var
+jH=A[3],js=e(function(a){var
+b=a[1];return[0,e(function(a){return d6(aW,bd,a)},b)]},bc),jt=y(function(c){var
 a=c[1];switch(a[0]){case
 7:var
-b=d1(aW,bd,a[2]);return[0,[4,b,b],0];case
-9:return[0,d1(aW,bd,a[1]),0];default:return 0}},eX),js=function(a){return a},jt=0,jx=e(function(a){return 0},bc),jz=e(function(b){var
+b=d6(aW,bd,a[2]);return[0,[4,b,b],0];case
+9:return[0,d6(aW,bd,a[1]),0];default:return 0}},eY),ju=function(a){return a},jv=0,jw=e(function(a){return 0},bc),jx=e(function(b){var
 a=b[4];if(typeof
-a!=="number"&&0===a[0])return[0,d1(aW,bd,a[1])];return 0},bc),d5=jG(j,w4,eZ,[0,e(function(a){var
-b=a[3];return e(function(a){return d1(aW,bd,a)},b)},bc),jz,jx,jt,js,jr,jq],jI,by);else
+a!=="number"&&0===a[0])return[0,d6(aW,bd,a[1])];return 0},bc),d2=jN(j,xt,eZ,[0,e(function(a){var
+b=a[3];return e(function(a){return d6(aW,bd,a)},b)},bc),jx,jw,jv,ju,jt,js],jH,by);else
 var
-d5=e4;if(d5)var
-il=d5;else{if(typeof
+d2=e5;if(d2)var
+io=d2;else{if(typeof
 by!=="number"&&0===by[0]){var
 ca=by[2];if(ca){if(ca[2])return 0;var
-d7=ca[1],mJ=by[1],bz=e(k,b$),aD=A[1],bN=f(aD[1]),f1=b4(j,e(aG,aD[2]),E),f5=f1?b4(j,A[2],bz):f1,f9=f5?n(f(bz),bN):f5,f_=f9?dq(g(E,bz)):f9;if(f_)var
-kB=aD[3],cP=l(function(a){return fX(a[2])},kB);else
+d3=ca[1],mM=by[1],bz=e(k,b7),aE=A[1],bM=f(aE[1]),f1=b8(j,e(aH,aE[2]),D),f4=f1?b8(j,A[2],bz):f1,f5=f4?n(f(bz),bM):f4,f6=f5?dq(g(D,bz)):f5;if(f6)var
+kp=aE[3],cP=l(function(a){return f3(a[2])},kp);else
 var
-cP=f_;if(cP){var
-cQ=eF(j,xD,mJ,A[3]);if(cQ){var
-bO=cQ[1][1];if(typeof
-bO!=="number"&&16===bO[0]){var
-gc=bO[2],gd=bO[1],cR=kx(aD[4]);if(cR){var
-bP=cR[1],cT=hL(aI(cS,gc));if(cT){var
-kC=cT[1],ge=i(j,1,gc),gf=ge?i(j,0,gd):ge;if(gf)var
-kD=f(bP),cU=n(f(d7),kD);else
+cP=f6;if(cP){var
+cQ=dU(j,x4,mM,A[3]);if(cQ){var
+bN=cQ[1][1];if(typeof
+bN!=="number"&&16===bN[0]){var
+gd=bN[2],ge=bN[1],cS=kK(aE[4]);if(cS){var
+bO=cS[1],cT=hR(aB(cU,gd));if(cT){var
+kq=cT[1],gf=i(j,1,gd),gg=gf?i(j,0,ge):gf;if(gg)var
+kt=f(bO),cV=n(f(d3),kt);else
 var
-cU=gf;var
-gg=cU?l(fX,bP):cU;if(gg){var
-kE=aD[2],kF=fW(aD,e(function(a){return d3(a[2])},kE),bz),gh=hK(d7,e(function(a){return a1(kF,a)},bP),gd),gi=dq(gh);if(gi){var
-kG=V(bz,aH(0,bN)),kH=fW(aD,E,e(function(a){var
-b=cr(a[2],kC);return[2,a[1],b]},kG)),kM=V(V(e(function(a){return a1(kH,a)},bP),gh),d7);return kv(j,bN,bN,eT(function(a){return[4,[0,a[2],b],[3,a[1][1],a[1][2]]]},kM))}var
-gj=gi}else
-var
-gj=gg;var
-gk=gj}else
-var
-gk=cT;var
+cV=gg;var
+gi=cV?l(f3,bO):cV;if(gi){var
+kx=aE[2],kB=f2(aE,e(function(a){return d8(a[2])},kx),bz),gj=hQ(d3,e(function(a){return a2(kB,a)},bO),ge),gk=dq(gj);if(gk){var
+kH=V(bz,aI(0,bM)),kJ=f2(aE,D,e(function(a){var
+b=cu(a[2],kq);return[2,a[1],b]},kH)),kL=V(V(e(function(a){return a2(kJ,a)},bO),gj),d3);return kI(j,bM,bM,eW(function(a){return[4,[0,a[2],b],[3,a[1][1],a[1][2]]]},kL))}var
 gl=gk}else
 var
-gl=cR;return gl}var
-f$=0}else
+gl=gi;var
+gm=gl}else
 var
-f$=cQ;var
-ga=f$}else
+gm=cT;var
+gn=gm}else
 var
-ga=cP;return ga}return ca}var
-il=0}var
-im=il}else
+gn=cS;return gn}var
+f7=0}else
 var
-im=d4;var
-io=im}else
+f7=cQ;var
+f$=f7}else
 var
-io=dZ;return io;default:return 0}case
+f$=cP;return f$}return ca}var
+io=0}var
+ip=io}else
+var
+ip=d1;var
+iq=ip}else
+var
+iq=d0;return iq;default:return 0}case
 4:var
-aY=a[3],a_=a[2],cb=a[1],aZ=v[2];switch(aZ[0]){case
+aX=a[3],a_=a[2],cb=a[1],aY=w[2];switch(aY[0]){case
 0:var
-mO=aZ[3],mP=aZ[2],mQ=aZ[1],g$=dw(k(cb));if(g$){var
-dF=qq(aY);if(dF){var
-ha=dF[1],bp=ha[2],hb=k(bp),he=k(ha[1]),gz=i(j,1,k(a_)),gA=gz?i(j,1,[3,hb,[0,b,b]]):gz,gB=gA?i(j,1,he):gA,hf=gB?i(j,0,[3,[5,[0,b,b],hb],he]):gB,hg=hf?l(function(a){var
-b=qm(0,0,DO,a);if(b)var
+mR=aY[3],mS=aY[2],mT=aY[1],hb=dw(k(cb));if(hb){var
+dF=qJ(aX);if(dF){var
+hc=dF[1],bp=hc[2],hd=k(bp),he=k(hc[1]),gB=i(j,1,k(a_)),gC=gB?i(j,1,[3,hd,[0,b,b]]):gB,gD=gC?i(j,1,he):gC,hf=gD?i(j,0,[3,[5,[0,b,b],hd],he]):gD,hg=hf?l(function(a){var
+b=qF(0,0,Eg,a);if(b)var
 c=b;else{var
-d=cV(a);if(d)return aJ(0,0,a);var
-c=d}return c},aY):hf,hh=hg?l(function(c){if(1===c[1]){var
+d=cX(a);if(d)return aJ(0,0,a);var
+c=d}return c},aX):hf,hj=hg?l(function(c){if(1===c[1]){var
 a=c[4];if(typeof
-a!=="number"&&0===a[0])return i(j,0,[3,[0,d,b],k(a[1])]);return 1}return 1},aY):hg;if(hh){var
-dr=a5(function(a){return I(qr(a))},aY);if(dr){var
-ma=[0,c(2,b),b],bT=i(j,0,[3,k(bp),ma]);if(bT)var
+a!=="number"&&0===a[0])return i(j,0,[3,[0,d,b],k(a[1])]);return 1}return 1},aX):hg;if(hj){var
+dr=a6(function(a){return I(qK(a))},aX);if(dr){var
+md=[0,c(2,b),b],bT=i(j,0,[3,k(bp),md]);if(bT)var
 dG=bT;else
 var
-md=k(bp),dG=i(j,0,[3,[0,c(2,b),b],md]);if(dG){var
-l9=w(function(a){if(cV(a))return DK;var
-b=hW(0,DL,0,a);return w(function(b){var
-c=fF(j,DM,b);return ac(I(qr(a)),c)},b)},aY),l_=function(f){var
-a=f8(l9,f[1]);if(a){var
+mg=k(bp),dG=i(j,0,[3,[0,c(2,b),b],mg]);if(dG){var
+ma=y(function(a){if(cX(a))return Ec;var
+b=h2(0,Ed,0,a);return y(function(b){var
+c=fI(j,Ee,b);return ac(I(qK(a)),c)},b)},aX),mb=function(f){var
+a=gc(ma,f[1]);if(a){var
 c=a[1],e=f[2];switch(e[0]){case
 0:return[0,[0,c,[0,e[1]]],0];case
-2:return[0,[0,c,[1,DN,[0,[0,b,[0,d,[0,d,0]]],[0,[0,d,[0,b,[0,d,0]]],[0,[0,d,[0,d,[0,b,0]]],0]]],d]],0];default:return[0,[0,c,e],0]}}return a},l$=e(function(a){var
-b=a[4],c=a[3],d=a[2];return[0,w(l_,a[1]),d,c,b]},mO),mb=[0,dr[1],dr[2]],mc=qv(bT,a_,bp);return k5(0,qu(bT,cb,a_,bp),0,mc,0,mb,mQ,mP,l$)}return dG}var
-hi=1}else
+2:return[0,[0,c,[1,Ef,[0,[0,b,[0,d,[0,d,0]]],[0,[0,d,[0,b,[0,d,0]]],[0,[0,d,[0,d,[0,b,0]]],0]]],d]],0];default:return[0,[0,c,e],0]}}return a},mc=e(function(a){var
+b=a[4],c=a[3],d=a[2];return[0,y(mb,a[1]),d,c,b]},mR),me=[0,dr[1],dr[2]],mf=qO(bT,a_,bp);return lg(0,qN(bT,cb,a_,bp),0,mf,0,me,mT,mS,mc)}return dG}var
+hk=1}else
 var
-hi=hh;var
-hj=hi}else
+hk=hj;var
+hl=hk}else
 var
-hj=dF;var
-hk=hj}else
+hl=dF;var
+hm=hl}else
 var
-hk=g$;return hk;case
+hm=hb;return hm;case
 1:var
-mR=aZ[4],mS=aZ[3],mT=aZ[2],hl=dw(k(cb));if(hl){var
-dH=qq(aY);if(dH){var
-bq=dH[1][2],me=[0,c(2,b),b],bU=i(j,0,[3,k(bq),me]),hm=i(j,1,k(a_)),hn=hm?i(j,1,[3,k(bq),[0,b,b]]):hm;if(hn)if(bU)var
+mU=aY[4],mV=aY[3],mW=aY[2],hn=dw(k(cb));if(hn){var
+dH=qJ(aX);if(dH){var
+br=dH[1][2],mh=[0,c(2,b),b],bU=i(j,0,[3,k(br),mh]),ho=i(j,1,k(a_)),hp=ho?i(j,1,[3,k(br),[0,b,b]]):ho;if(hp)if(bU)var
 bV=bU;else
 var
-mg=k(bq),bV=i(j,0,[3,[0,c(2,b),b],mg]);else
+mj=k(br),bV=i(j,0,[3,[0,c(2,b),b],mj]);else
 var
-bV=hn;if(bV){var
-mf=qv(bU,a_,bq);return k6(0,qu(bU,cb,a_,bq),0,mf,0,aY,mT,mS,mR)}var
-ho=bV}else
+bV=hp;if(bV){var
+mi=qO(bU,a_,br);return lh(0,qN(bU,cb,a_,br),0,mi,0,aX,mW,mV,mU)}var
+hq=bV}else
 var
-ho=dH;var
-hq=ho}else
+hq=dH;var
+hr=hq}else
 var
-hq=hl;return hq;default:return 0}case
+hr=hn;return hr;default:return 0}case
 5:var
-ed=a[4],is=a[1],ee=v[2];if(0===ee[0]){var
-it=ee[3],C=hV(is,[0,a[2],a[3]],0,ed),mU=f(it),ef=kX(k3(C),mU,it);if(ef){var
-iu=ef[1];if(iu[2])return 0;var
-iv=h7(is,0,ed,C),iw=iv?I(ak(cV,ed)):iv;if(iw){var
-ix=n2(j,C);if(ix){var
-mV=iu[1],iy=e(h2,C[1]),U=h3(C[1]),iz=k(a[5]),ax=ee[1],da=hc(U,iy,C[1]),ag=jw(U,iy,C[1],0),k$=f(C[3]),la=N(f(da),k$),bR=[0,f(da),la],lb=jy(ag,U,bR,C[3]),lc=g(e(c_,ag),lb),gD=g(bD(fr(ag)),lc),gE=c6(gD),gF=c5(gE),a6=cH(gF),gG=C[2];if(0===gG[0]){var
-gH=l(function(a){var
-b=m(d);return aX(s(h(a6,a),gF,b),a)},gD),gI=gH?i(j,1,iz):gH;if(gI){var
-ld=C[3],le=w(function(a){return dR(U,a)},ld),lf=C[3],lg=g(da,g(e(function(a){return b0(U,a)},lf),le)),db=ad(e(function(a){return aq(ax,a)},lg));if(db){var
-lh=bg(gG[1],U),dc=ad(e(function(a){return aq(ax,a)},lh));if(dc){var
-dd=c8(ax,U,[5,iz,[0,c(2,c(2,c(2,c(2,b)))),b]]);if(dd){var
-de=C[3],li=dc[1],lj=db[1],lk=dd[1],k8=aH(0,f(de)),k9=e(function(k){var
-l=G(de,k);if(l){var
-a=l[1],u=am(k,de),v=f(w(function(a){return dR(U,a)},u)),x=N(bR[2],v),j=[0,N(bR[1],k),x],r=fr(ag),g=h(ay(a6),r),c=[1,[8,[1,[1,j[1]]]]],d=hd(ag,U,j,a),n=d?[0,[3,e(a6,[0,d[1],d[2]])]]:d,m=0;if(typeof
+eb=a[4],iu=a[1],ee=w[2];if(0===ee[0]){var
+iv=ee[3],C=h1(iu,[0,a[2],a[3]],0,eb),mX=f(iv),ef=k_(le(C),mX,iv);if(ef){var
+iw=ef[1];if(iw[2])return 0;var
+ix=ib(iu,0,eb,C),iy=ix?I(al(cX,eb)):ix;if(iy){var
+iz=od(j,C);if(iz){var
+mY=iw[1],iA=e(h8,C[1]),U=h9(C[1]),iB=k(a[5]),ax=ee[1],db=hh(U,iA,C[1]),ag=jD(U,iA,C[1],0),kZ=f(C[3]),k3=N(f(db),kZ),bR=[0,f(db),k3],k4=jF(ag,U,bR,C[3]),k5=g(e(c$,ag),k4),gF=g(bE(fu(ag)),k5),gG=c7(gF),gH=c6(gG),a5=cL(gH),gI=C[2];if(0===gI[0]){var
+gJ=l(function(a){var
+b=m(d);return aZ(s(h(a5,a),gH,b),a)},gF),gK=gJ?i(j,1,iB):gJ;if(gK){var
+k6=C[3],k8=y(function(a){return dR(U,a)},k6),la=C[3],lj=g(db,g(e(function(a){return b2(U,a)},la),k8)),dc=ad(e(function(a){return ar(ax,a)},lj));if(dc){var
+lk=bg(gI[1],U),dd=ad(e(function(a){return ar(ax,a)},lk));if(dd){var
+de=c9(ax,U,[5,iB,[0,c(2,c(2,c(2,c(2,b)))),b]]);if(de){var
+df=C[3],ll=dd[1],lm=dc[1],ln=de[1],kS=aI(0,f(df)),kT=e(function(k){var
+l=E(df,k);if(l){var
+a=l[1],u=ao(k,df),v=f(y(function(a){return dR(U,a)},u)),w=N(bR[2],v),j=[0,N(bR[1],k),w],r=fu(ag),g=h(ay(a5),r),c=[1,[8,[1,[1,j[1]]]]],d=hi(ag,U,j,a),n=d?[0,[3,e(a5,[0,d[1],d[2]])]]:d,m=0;if(typeof
 a!=="number")switch(a[0]){case
 0:return[0,[0,g,c]];case
 1:return[0,[1,g,c]];case
@@ -8715,27 +8906,27 @@ q=c;m=1;break;case
 3:case
 6:case
 7:return n}if(m){var
-t=fz(ag,U,j,a);return y(function(a){return[0,h(ay(a6),a),q]},t)}return 0}return l},k8),k_=e(function(a){return h(a6,c_(a))},ag),gC=e(function(a){return h(a6,a[2])},ag),ll=C[3],lm=bR[1],c9=function(aC,aB,aA){var
+t=fD(ag,U,j,a);return z(function(a){return[0,h(ay(a5),a),q]},t)}return 0}return l},kS),kU=e(function(a){return h(a5,c$(a))},ag),gE=e(function(a){return h(a5,a[2])},ag),lo=C[3],lp=bR[1],c_=function(aC,aB,aA){var
 k=aC,m=aB,g=aA;for(;;)switch(g[0]){case
 0:var
-v=g[1],_=n(f(v),xM),$=_?l(function(a){var
-d=D(Q(c(2,c(2,c(2,b)))),a);return d?D(a,c(2,c(2,c(2,b)))):d},v):_;if($){var
-ab=p2(ax,lk,dO(0,m),v),j=g[2],w=c4(0,bB(ax,ab,e(aa,k)),gE),aD=e(aa,k),M=function(a){return p1(p0(ax,ab,aD,w,a))};if(typeof
-j==="number")return 0===j?ak(function(b){var
-a=s(b,w,0);return a?D(a[1][2][2],d):a},gC):0;else{if(0===j[0]){var
-a=j[2],O=l(xK,a);if(O){var
-q=s(j[1],k9,0);if(q){var
+v=g[1],_=n(f(v),ye),$=_?l(function(a){var
+d=F(R(c(2,c(2,c(2,b)))),a);return d?F(a,c(2,c(2,c(2,b)))):d},v):_;if($){var
+ab=qj(ax,ln,dO(0,m),v),j=g[2],w=c5(0,bC(ax,ab,e(aa,k)),gG),aD=e(aa,k),M=function(a){return qi(qh(ax,ab,aD,w,a))};if(typeof
+j==="number")return 0===j?al(function(b){var
+a=s(b,w,0);return a?F(a[1][2][2],d):a},gE):0;else{if(0===j[0]){var
+a=j[2],O=l(yc,a);if(O){var
+q=s(j[1],kT,0);if(q){var
 i=q[1];switch(i[0]){case
 0:var
 x=0;if(a)if(a[2])var
 h=0;else{var
-A=a[1],B=i[1],ao=hQ(B,A),ap=hP(A),C=[0,[0,B,[0,[1,[4,[1,[6,i[2],ap]],ao]],0]]];x=1}else{var
+A=a[1],B=i[1],ao=hW(B,A),ap=hV(A),C=[0,[0,B,[0,[1,[4,[1,[6,i[2],ap]],ao]],0]]];x=1}else{var
 C=a;x=1}if(x)var
 h=C;break;case
 1:var
 y=0;if(a)if(a[2])var
 h=0;else{var
-E=a[1],F=i[1],aq=hP(E),ar=[1,[6,i[2],aq]],H=[0,[0,F,[0,[1,[4,hQ(F,E),ar]],0]]];y=1}else{var
+D=a[1],G=i[1],aq=hV(D),ar=[1,[6,i[2],aq]],H=[0,[0,G,[0,[1,[4,hW(G,D),ar]],0]]];y=1}else{var
 H=a;y=1}if(y)var
 h=H;break;case
 2:var
@@ -8743,7 +8934,7 @@ z=0;if(a){var
 o=a[2],an=0;if(o)if(o[2]){var
 h=0;an=1}else
 var
-I=o[1],J=a[1],p=i[1],as=hP(J),at=[1,[6,hQ(p,I),as]],au=[1,[6,i[2],at]],av=hP(I),K=[0,[0,p,[0,[1,[4,[1,[6,hQ(p,J),av]],au]],0]]];else
+I=o[1],J=a[1],p=i[1],as=hV(J),at=[1,[6,hW(p,I),as]],au=[1,[6,i[2],at]],av=hV(I),K=[0,[0,p,[0,[1,[4,[1,[6,hW(p,J),av]],au]],0]]];else
 var
 K=o;if(!an){var
 L=K;z=1}}else{var
@@ -8752,8 +8943,8 @@ h=L;break;default:if(a)var
 h=0;else
 var
 aw=i[1],h=[0,[0,0,e(function(a){return[1,[5,[0,a]]]},aw)]]}if(h){var
-P=h[1],ay=P[1],R=l(function(a){return p1(s(a[2],w,0))},ay);if(R)return l(M,P[2]);var
-S=R}else
+P=h[1],ay=P[1],Q=l(function(a){return qi(s(a[2],w,0))},ay);if(Q)return l(M,P[2]);var
+S=Q}else
 var
 S=h;var
 T=S}else
@@ -8762,12 +8953,12 @@ T=q;var
 U=T}else
 var
 U=O;return U}var
-V=j[2],W=j[1],r=G(ll,W);if(r){var
+V=j[2],W=j[1],r=E(lo,W);if(r){var
 X=r[1];if(typeof
 X!=="number"&&1===X[0]){var
-t=G(gC,V);if(t){var
-u=G(k_,V);if(u){var
-az=N(lm,W);return M([1,[4,[1,[8,[0,u[1]]]],[1,[6,[1,[8,[1,[1,az]]]],[0,t[1]]]]]])}var
+t=E(gE,V);if(t){var
+u=E(kU,V);if(u){var
+az=N(lp,W);return M([1,[4,[1,[8,[0,u[1]]]],[1,[6,[1,[8,[1,[1,az]]]],[0,t[1]]]]]])}var
 Z=u}else
 var
 Z=t;return Z}var
@@ -8775,102 +8966,102 @@ Y=0}else
 var
 Y=r;return Y}}return $;case
 1:var
-ac=g[1],ad=p3(ac,m);if(ad){var
-ae=c$(ac,m),af=c9(k,ae[1],g[2]);if(af){var
+ac=g[1],ad=qk(ac,m);if(ad){var
+ae=da(ac,m),af=c_(k,ae[1],g[2]);if(af){var
 m=ae[2],g=g[3];continue}var
 ag=af}else
 var
 ag=ad;return ag;default:var
-ah=g[1],ai=p3(ah,k);if(ai){var
-aj=c$(ah,k),al=c9(aj[1],m,g[2]);if(al){var
+ah=g[1],ai=qk(ah,k);if(ai){var
+aj=da(ah,k),ak=c_(aj[1],m,g[2]);if(ak){var
 k=aj[2],g=g[3];continue}var
-am=al}else
+am=ak}else
 var
-am=ai;return am}};return c9(lj,li,mV)}var
-gJ=dd}else
+am=ai;return am}};return c_(lm,ll,mY)}var
+gL=de}else
 var
-gJ=dc;var
-gK=gJ}else
+gL=dd;var
+gM=gL}else
 var
-gK=db;var
-gL=gK}else
+gM=dc;var
+gN=gM}else
 var
-gL=gI;return gL}return 0}var
-iA=ix}else
+gN=gK;return gN}return 0}var
+iC=iz}else
 var
-iA=iw;var
-iB=iA}else
+iC=iy;var
+iD=iC}else
 var
-iB=ef;return iB}return 0;case
+iD=ef;return iD}return 0;case
 6:var
-iC=a[1];if(iC){var
-iD=iC[1],eg=v[2];if(0===eg[0]){var
-eh=kW(DU,0,0,0,DT,eg[3]);if(eh){var
-iE=f6(iD);if(iE){var
-mW=eh[1],iF=b6(iD)[2],cc=eg[1],c3=c8(cc,d,iF);if(c3){var
-c7=c8(cc,d,[5,[0,b,b],iF]);if(c7){var
-kZ=c3[1][1],gw=K(cE(cc),kZ);if(gw)return pZ(cc,c7[1][1],mW);var
-gx=gw}else
+iE=a[1];if(iE){var
+iF=iE[1],eh=w[2];if(0===eh[0]){var
+ei=k9(Em,0,0,0,El,eh[3]);if(ei){var
+iG=ga(iF);if(iG){var
+mZ=ei[1],iH=b_(iF)[2],cc=eh[1],c4=c9(cc,d,iH);if(c4){var
+c8=c9(cc,d,[5,[0,b,b],iH]);if(c8){var
+kR=c4[1][1],gy=K(cI(cc),kR);if(gy)return qg(cc,c8[1][1],mZ);var
+gz=gy}else
 var
-gx=c7;var
-gy=gx}else
+gz=c8;var
+gA=gz}else
 var
-gy=c3;return gy}var
-iG=iE}else
+gA=c4;return gA}var
+iI=iG}else
 var
-iG=eh;return iG}return 0}var
-ei=v[2];if(0===ei[0]){var
-ej=kW(DW,0,0,0,DV,ei[3]);return ej?pZ(ei[1],d,ej[1]):ej}return 0;default:var
-a$=a[1],iH=v[2];if(2===iH[0]){var
-iI=iH[1],ek=kU(f(iI),iI);if(ek){var
-iJ=ek[1];if(iJ[2])return 0;var
-el=iJ[1],g3=ae(DH,f(a$)),g4=g3?ae(f(a$),dL):g3,g5=g4?ps(e(aA,a$)):g4,iK=g5?l(function(c){var
-a=cK(k(c[2][1]));if(a){var
-b=cK(k(c[2][2]));if(b)return I(bl(b[1],a[1]));var
+iI=ei;return iI}return 0}var
+ej=w[2];if(0===ej[0]){var
+ek=k9(Eo,0,0,0,En,ej[3]);return ek?qg(ej[1],d,ek[1]):ek}return 0;default:var
+a$=a[1],iJ=w[2];if(2===iJ[0]){var
+iK=iJ[1],el=k7(f(iK),iK);if(el){var
+iL=el[1];if(iL[2])return 0;var
+em=iL[1],g5=ae(D$,f(a$)),g6=g5?ae(f(a$),dL):g5,g7=g6?pN(e(aA,a$)):g6,iM=g7?l(function(c){var
+a=cO(k(c[2][1]));if(a){var
+b=cO(k(c[2][2]));if(b)return I(bn(b[1],a[1]));var
 d=b}else
 var
-d=a;return d},a$):g5;if(iK)var
-mX=h1(Cx,el),em=qS(a[5],mX);else
+d=a;return d},a$):g7;if(iM)var
+m0=h7(C1,em),en=q$(a[5],m0);else
 var
-em=iK;if(em)var
-mY=h1(Cy,el),en=qS(a[6],mY);else
+en=iM;if(en)var
+m1=h7(C2,em),eo=q$(a[6],m1);else
 var
-en=em;if(en){var
-lS=e(function(a){return[0,d,0]},a$);return qR(a$,a[2],a[3],a[4],lS,el)}var
-iL=en}else
+eo=en;if(eo){var
+lV=e(function(a){return[0,d,0]},a$);return q_(a$,a[2],a[3],a[4],lV,em)}var
+iN=eo}else
 var
-iL=ek;return iL}return 0}}return br}var
-Z=[bc,DZ,tc(0)],qW=[bc,D0,tc(0)];function
-DX(l,b){var
-f=[0,o(BV,at(b[4])),0],g=[0,o(BX,ai([0,o(BW,at(b[3])),f])),0],a=b[2];switch(a[0]){case
+iN=el;return iN}return 0}}return bs}var
+Z=[bc,Er,tw(0)],rd=[bc,Es,tw(0)];function
+Ep(l,b){var
+f=[0,o(Cn,at(b[4])),0],g=[0,o(Cp,aj([0,o(Co,at(b[3])),f])),0],a=b[2];switch(a[0]){case
 0:var
-c=T(BR,p_(a[1],a[2],a[3]));break;case
+c=T(Cj,qr(a[1],a[2],a[3]));break;case
 1:var
-c=T(BS,p$(a[1],a[2],a[3],a[4]));break;default:var
-c=T(BT,H(e(BM,a[1])))}var
-h=[0,o(BY,c),g],i=1===b[2][0]?B4:BZ,j=[0,o(B0,at(i)),h],k=[0,o(B1,Am(b[1])),j],d=aF(lY(DY,hR(ai([0,o(B3,at(B2)),k]),BU)),l);return d?DP(b):d}function
-aj(a){if(0===a[0])return a[1];throw Z}function
-af(a){if(1===a[0])return a[1];throw Z}function
-a8(a){if(2===a[0])return a[1];throw Z}function
-f9(a){if(3===a[0])return a[1];throw Z}function
-bi(b,a){return lX(a,b)}function
-v(c,b){var
-a=bi(c,b);if(a)return a[1];throw Z}function
-ct(b,a){var
+c=T(Ck,qs(a[1],a[2],a[3],a[4]));break;default:var
+c=T(Cl,H(e(Ce,a[1])))}var
+h=[0,o(Cq,c),g],i=1===b[2][0]?Cw:Cr,j=[0,o(Cs,at(i)),h],k=[0,o(Ct,AQ(b[1])),j],d=aG(l$(Eq,hX(aj([0,o(Cv,at(Cu)),k]),Cm)),l);return d?Eh(b):d}function
+ak(a){if(0===a[0])return a[1];throw Z}function
+ag(a){if(1===a[0])return a[1];throw Z}function
+a9(a){if(2===a[0])return a[1];throw Z}function
+gd(a){if(3===a[0])return a[1];throw Z}function
+bk(b,a){return l_(a,b)}function
+w(c,b){var
+a=bk(c,b);if(a)return a[1];throw Z}function
+cw(b,a){var
 c=a?[0,h(b,a[1])]:a;return c}function
-ec(a){switch(a[0]){case
+eh(a){switch(a[0]){case
 0:var
 b=a[1];if(b&&!b[2]){var
 c=b[1];return[0,c[1],c[2]]}break;case
-2:return[0,a[1],D2]}throw Z}function
-f_(e,d){var
-a=Y(e,af(d));if(a){var
+2:return[0,a[1],Eu]}throw Z}function
+ge(e,d){var
+a=Y(e,ag(d));if(a){var
 b=a[2];if(b){var
 c=b[2];if(c&&!c[2])return[0,a[1],b[1],c[1]]}}throw Z}function
-h$(i){var
-f=fd(i),d=[0,0],e=iG(f)-1|0;if(!(e<0)){var
+ig(i){var
+f=fg(i),d=[0,0],e=iM(f)-1|0;if(!(e<0)){var
 c=e;for(;;){var
-a=d[1],g=lA(f,c)-48|0;if(9<g>>>0)throw Z;switch(g){case
+a=d[1],g=lN(f,c)-48|0;if(9<g>>>0)throw Z;switch(g){case
 0:var
 b=[0,a];break;case
 1:var
@@ -8892,48 +9083,48 @@ b=[8,a];break;default:var
 b=[9,a]}d[1]=b;var
 h=c-1|0;if(0!==c){var
 c=h;continue}break}}return d[1]}function
-f$(a){return md(h$(a))}function
-e2(b){var
-a=f9(b);return 45===bd(a,0)?Q(f$(em(a,1,aC(a)-1|0))):f$(a)}function
-qX(a){return eo(f$(f9(a)))}function
+gf(a){return mq(ig(a))}function
+e5(b){var
+a=gd(b);return 45===bd(a,0)?R(gf(er(a,1,aD(a)-1|0))):gf(a)}function
+re(a){return et(gf(gd(a)))}function
 dy(b){var
-a=f9(b);if(!(2<aC(a))&&!(64<=iF(a)))return iT(f$(a));throw Z}function
-cX(c){var
-a=f9(c);if(6<aC(a))throw Z;function
-b(a){return 0<a?[0,b(a-1|0)]:0}return b(iF(a))}function
-qY(a){var
-b=97<=a?1:0,c=b?a<=sQ?1:0:b;if(c)var
+a=gd(b);if(!(2<aD(a))&&!(64<=iL(a)))return iZ(gf(a));throw Z}function
+cZ(c){var
+a=gd(c);if(6<aD(a))throw Z;function
+b(a){return 0<a?[0,b(a-1|0)]:0}return b(iL(a))}function
+rf(a){var
+b=97<=a?1:0,c=b?a<=s_?1:0:b;if(c)var
 d=c;else
 var
 e=65<=a?1:0,d=e?a<=90?1:0:e;return d}function
-qZ(y,b){var
-d=aC(b),a=[0,0];function
+rg(y,b){var
+d=aD(b),a=[0,0];function
 c(e){var
 c=a[1]<d?1:0,f=c?bd(b,a[1])===e?1:0:c;return f}function
 l(e){var
-c=a[1];for(;;){if(a[1]<d&&48<=bd(b,a[1])&&!(57<bd(b,a[1]))){a[1]++;continue}return em(b,c,a[1]-c|0)}}function
+c=a[1];for(;;){if(a[1]<d&&48<=bd(b,a[1])&&!(57<bd(b,a[1]))){a[1]++;continue}return er(b,c,a[1]-c|0)}}function
 m(b){a[1]++;var
 d=f(b+1|0);if(c(41)){a[1]++;return d}throw Z}function
 i(j){if(64<j)throw Z;if(c(45)){a[1]++;return[2,i(j+1|0)]}if(c(40))var
 e=m(j);else{var
-u=0;if((a[1]+5|0)<=d&&aF(em(b,a[1],5),D4)){a[1]=a[1]+4|0;var
+u=0;if((a[1]+5|0)<=d&&aG(er(b,a[1],5),Ew)){a[1]=a[1]+4|0;var
 e=[5,m(j)]}else
 u=1;if(u){var
-v=0;if(a[1]<d&&qY(bd(b,a[1]))){var
+v=0;if(a[1]<d&&rf(bd(b,a[1]))){var
 n=a[1];for(;;){if(a[1]<d){var
-w=0;if(!qY(bd(b,a[1]))&&95!==bd(b,a[1])&&(!(48<=bd(b,a[1]))||57<bd(b,a[1])))w=1;if(!w){a[1]++;continue}}var
-e=[1,h(y,em(b,n,a[1]-n|0))];break}}else
+w=0;if(!rf(bd(b,a[1]))&&95!==bd(b,a[1])&&(!(48<=bd(b,a[1]))||57<bd(b,a[1])))w=1;if(!w){a[1]++;continue}}var
+e=[1,h(y,er(b,n,a[1]-n|0))];break}}else
 v=1;if(v){var
-g=l(0),o=c(46),q=o?(a[1]++,[0,l(0)]):o,r=aF(g,D5);if(r)var
+g=l(0),o=c(46),q=o?(a[1]++,[0,l(0)]):o,r=aG(g,Ex);if(r)var
 s=r;else
 var
-t=1<aC(g)?1:0,s=t?48===bd(g,0)?1:0:t;if(s)throw Z;if(q){var
-k=q[1],x=0;if(aF(k,D6)||48===bd(k,aC(k)-1|0))x=1;else
+t=1<aD(g)?1:0,s=t?48===bd(g,0)?1:0:t;if(s)throw Z;if(q){var
+k=q[1],x=0;if(aG(k,Ey)||48===bd(k,aD(k)-1|0))x=1;else
 var
-z=h$(k),e=[0,h$(g),z];if(x)throw Z}else
+z=ig(k),e=[0,ig(g),z];if(x)throw Z}else
 var
-e=[0,h$(g),0]}}}if(c(94)){a[1]++;var
-f=l(0);if(p(f,D3)){if(!(2<aC(f))&&2<=iF(f)&&!(64<iF(f)))return[4,e,eo(f$(f))];throw Z}throw Z}return e}function
+e=[0,ig(g),0]}}}if(c(94)){a[1]++;var
+f=l(0);if(p(f,Ev)){if(!(2<aD(f))&&2<=iL(f)&&!(64<iL(f)))return[4,e,et(gf(f))];throw Z}throw Z}return e}function
 e(d){var
 b=i(d);for(;;){if(c(42)){a[1]++;var
 b=[3,2,b,i(d)];continue}if(c(47)){a[1]++;var
@@ -8943,55 +9134,55 @@ b=e(d);for(;;){if(c(43)){a[1]++;var
 b=[3,0,b,e(d)];continue}if(c(45)){a[1]++;var
 b=[3,1,b,e(d)];continue}return b}}var
 g=f(0);if(a[1]<d)throw Z;return g}function
-ia(a){return qZ(function(a){return[0,a]},a)}function
-k8(a){var
-b=a8(a);return qZ(function(a){return a},b)}function
-_(a){return ia(a8(a))}function
-b8(a){if(2===a[0])return[0,ia(a[1])];var
-b=aj(a),c=_(v(b,D7));return[1,_(v(b,D8)),c]}function
-ao(a){throw[0,qW,bk(lY(D_,a),D9)]}function
-k9(c){var
-a=a8(c);if(p(a,D$)){var
-b=p(a,Ea);if(b)throw Z;return b}return 1}function
-Eb(d){var
-b=aj(d);function
-a(a){return f_(b8,v(b,a))}var
-c=a8(v(b,Ec));if(p(c,Ed)){if(p(c,Ee)){if(p(c,Ef))return ao([0,Eh,[0,c,Eg]]);var
-e=bi(b,Ei),f=ct(function(a){return f_(b8,a)},e),g=a(Ej);return[1,a(Ek),g,f]}var
-h=k9(v(b,El)),i=b8(v(b,Em)),j=a(En),k=a(Eo);return[0,a(Ep),k,j,i,h]}return[2,a(Eq)]}function
-Er(d){var
-a=aj(d);if(a){var
-b=a[1];if(!p(b[1],Es)){var
-c=b[2];if(2===c[0]&&!p(c[1],Et))return 1}}return 0}function
-q0(e){var
-b=aj(e);function
-a(a){return Y(b8,af(v(b,a)))}var
-c=a8(v(b,Eu)),f=bi(b,Ev),d=ct(function(a){return Y(b8,af(a))},f);if(p(c,Ew)){if(p(c,Ex)){if(p(c,Ey)){if(!p(c,Ez)){var
-g=a(EC);return[1,a(ED),g,d]}}else
+ih(a){return rg(function(a){return[0,a]},a)}function
+lj(a){var
+b=a9(a);return rg(function(a){return a},b)}function
+_(a){return ih(a9(a))}function
+ca(a){if(2===a[0])return[0,ih(a[1])];var
+b=ak(a),c=_(w(b,Ez));return[1,_(w(b,EA)),c]}function
+ap(a){throw[0,rd,bm(l$(EC,a),EB)]}function
+lk(c){var
+a=a9(c);if(p(a,ED)){var
+b=p(a,EE);if(b)throw Z;return b}return 1}function
+EF(d){var
+b=ak(d);function
+a(a){return ge(ca,w(b,a))}var
+c=a9(w(b,EG));if(p(c,EH)){if(p(c,EI)){if(p(c,EJ))return ap([0,EL,[0,c,EK]]);var
+e=bk(b,EM),f=cw(function(a){return ge(ca,a)},e),g=a(EN);return[1,a(EO),g,f]}var
+h=lk(w(b,EP)),i=ca(w(b,EQ)),j=a(ER),k=a(ES);return[0,a(ET),k,j,i,h]}return[2,a(EU)]}function
+EV(d){var
+a=ak(d);if(a){var
+b=a[1];if(!p(b[1],EW)){var
+c=b[2];if(2===c[0]&&!p(c[1],EX))return 1}}return 0}function
+rh(e){var
+b=ak(e);function
+a(a){return Y(ca,ag(w(b,a)))}var
+c=a9(w(b,EY)),f=bk(b,EZ),d=cw(function(a){return Y(ca,ag(a))},f);if(p(c,E0)){if(p(c,E1)){if(p(c,E2)){if(!p(c,E3)){var
+g=a(E6);return[1,a(E7),g,d]}}else
 if(!d){var
-h=k9(v(b,EE)),i=b8(v(b,EF)),j=a(EG),k=a(EH);return[0,a(EI),k,j,i,h]}}else
-if(!d)return[2,a(EJ)]}else
+h=lk(w(b,E8)),i=ca(w(b,E9)),j=a(E_),k=a(E$);return[0,a(Fa),k,j,i,h]}}else
+if(!d)return[2,a(Fb)]}else
 if(!d){var
-l=k9(v(b,EK)),m=b8(v(b,EL)),n=b8(v(b,EM)),o=a(EN),q=a(EO),r=a(EP);return[3,a(EQ),r,q,o,n,m,l]}return ao([0,EB,[0,c,EA]])}function
-ER(d){var
-a=aj(d);if(a){var
-b=a[1];if(!p(b[1],ES)){var
-c=b[2];if(2===c[0]&&!p(c[1],ET))return 1}}return 0}function
-EU(d){var
-a=aj(d);if(a){var
-b=a[1];if(!p(b[1],EV)){var
-c=b[2];if(2===c[0]&&!p(c[1],EW))return 1}}return 0}function
-q1(d){var
-a=aj(d);if(a){var
-b=a[1];if(!p(b[1],EX)){var
-c=b[2];if(2===c[0]&&!p(c[1],EY))return 1}}return 0}function
+l=lk(w(b,Fc)),m=ca(w(b,Fd)),n=ca(w(b,Fe)),o=a(Ff),q=a(Fg),r=a(Fh);return[3,a(Fi),r,q,o,n,m,l]}return ap([0,E5,[0,c,E4]])}function
+Fj(d){var
+a=ak(d);if(a){var
+b=a[1];if(!p(b[1],Fk)){var
+c=b[2];if(2===c[0]&&!p(c[1],Fl))return 1}}return 0}function
+Fm(d){var
+a=ak(d);if(a){var
+b=a[1];if(!p(b[1],Fn)){var
+c=b[2];if(2===c[0]&&!p(c[1],Fo))return 1}}return 0}function
+ri(d){var
+a=ak(d);if(a){var
+b=a[1];if(!p(b[1],Fp)){var
+c=b[2];if(2===c[0]&&!p(c[1],Fq))return 1}}return 0}function
 dz(c,d){var
-a=af(d);if(a){var
+a=ag(d);if(a){var
 b=a[2];if(b&&!b[2]){var
 e=h(c,b[1]);return[0,h(c,a[1]),e]}}throw Z}function
-ed(g,o){var
-h=g?g[1]:g,c=aj(o),a=a8(v(c,EZ)),j=to(a,E0),f=0;if(0<=j)if(0<j)if(p(a,E1))if(p(a,E2))if(p(a,E3))if(p(a,E4))if(p(a,E5))if(p(a,E6))if(p(a,E7)){var
-k=p(a,E8);if(k)f=1;else
+ei(g,o){var
+h=g?g[1]:g,c=ak(o),a=a9(w(c,Fr)),j=tI(a,Fs),f=0;if(0<=j)if(0<j)if(p(a,Ft))if(p(a,Fu))if(p(a,Fv))if(p(a,Fw))if(p(a,Fx))if(p(a,Fy))if(p(a,Fz)){var
+k=p(a,FA);if(k)f=1;else
 var
 b=k}else
 var
@@ -9011,7 +9202,7 @@ var
 b=13;else
 var
 b=2;else
-if(p(a,Fr))if(p(a,Fs))if(p(a,Ft))if(p(a,Fu))if(p(a,Fv))if(p(a,Fw))if(p(a,Fx))if(p(a,Fy))f=1;else
+if(p(a,FV))if(p(a,FW))if(p(a,FX))if(p(a,FY))if(p(a,FZ))if(p(a,F0))if(p(a,F1))if(p(a,F2))f=1;else
 var
 b=1;else
 var
@@ -9029,10 +9220,10 @@ b=14;else
 f=1;else
 var
 b=12;var
-n=f?ao([0,E_,[0,a,E9]]):b;function
-i(a){return v(c,E$)}var
-d=a8(v(c,Fa)),l=p(d,Fb);if(l)if(p(d,Fc))if(p(d,Fd))if(p(d,Fe))var
-e=ao([0,Fg,[0,d,Ff]]);else
+n=f?ap([0,FC,[0,a,FB]]):b;function
+i(a){return w(c,FD)}var
+d=a9(w(c,FE)),l=p(d,FF);if(l)if(p(d,FG))if(p(d,FH))if(p(d,FI))var
+e=ap([0,FK,[0,d,FJ]]);else
 var
 m=dz(_,i(0)),e=[2,m[1],m[2]];else
 var
@@ -9042,116 +9233,117 @@ e=[1,_(i(0))];else
 var
 e=l;function
 q(H){var
-a=aj(H),b=0;switch(n){case
+a=ak(H),b=0;switch(n){case
 6:if(a){var
-r=a[1];if(!p(r[1],Fi)){var
+r=a[1];if(!p(r[1],FM)){var
 s=r[2];if(1===s[0]){var
 c=s[1],m=0;if(c&&!c[2])if(a[2])m=1;else{var
 e=c[1];b=1;m=1}if(!m&&!a[2]){var
 t=c;b=2}}}}break;case
 10:if(a){var
-u=a[1];if(!p(u[1],Fj)){var
+u=a[1];if(!p(u[1],FN)){var
 v=u[2];if(1===v[0]){var
 f=v[1];if(f&&!f[2]){var
 g=a[2];if(g){var
-w=g[1];if(!p(w[1],Fk)){var
+w=g[1];if(!p(w[1],FO)){var
 x=w[2];if(1===x[0]){var
 i=x[1];if(i&&!i[2]&&!g[2]){var
 I=_(i[1]);return[2,_(f[1]),I]}}}}}}}}break;case
 12:if(a){var
-y=a[1];if(!p(y[1],Fl)){var
+y=a[1];if(!p(y[1],FP)){var
 z=y[2];if(1===z[0]){var
 j=z[1];if(j&&!j[2]){var
 k=a[2],A=j[1];if(k){var
-B=k[1];if(!p(B[1],Fm)){var
+B=k[1];if(!p(B[1],FQ)){var
 C=B[2];if(1===C[0]){var
 l=C[1];if(l&&!l[2]&&!k[2]&&h){var
 J=_(l[1]);return[3,_(A),J]}}}}else{var
 e=A;b=1}}}}}break;case
 16:if(a){var
-F=a[1];if(!p(F[1],Fo)){var
+F=a[1];if(!p(F[1],FS)){var
 G=F[2];if(1===G[0]&&!a[2]){var
 t=G[1];b=2}}}break;case
 14:case
 15:if(a){var
-D=a[1];if(!p(D[1],Fn)){var
+D=a[1];if(!p(D[1],FR)){var
 E=D[2];if(1===E[0]&&!a[2])return[1,Y(_,E[1])]}}break;case
 2:case
 8:if(a){var
-o=a[1];if(!p(o[1],Fh)){var
+o=a[1];if(!p(o[1],FL)){var
 q=o[2];if(1===q[0]){var
 d=q[1];if(d&&!d[2]&&!a[2]){var
 e=d[1];b=1}}}}break}switch(b){case
 0:throw Z;case
 1:return[0,_(e)];default:return[1,Y(_,t)]}}var
-r=ct(q,bi(c,Fp));return[0,n,ct(cX,bi(c,Fq)),r,e]}function
-q2(c){var
-d=ed(FB,c),e=d[1];if(!(9<=e))switch(e){case
+r=cw(q,bk(c,FT));return[0,n,cw(cZ,bk(c,FU)),r,e]}function
+rj(c){var
+d=ei(F5,c),e=d[1];if(!(9<=e))switch(e){case
 2:case
 6:case
 8:return d}var
-a=ed(Fz,c),b=a[1];if(2!==b&&!(4<=b))return a;return ao(FA)}function
-q3(a){var
-b=ed(FC,a);return 11===b[1]?b:q2(a)}function
-FD(a){var
-b=ed(FE,a);return 12===b[1]?b:q3(a)}function
-FF(a){var
-b=ed(FG,a),c=b[1];if(9<=c)switch(c-9|0){case
+a=ei(F3,c),b=a[1];if(2!==b&&!(4<=b))return a;return ap(F4)}function
+rk(a){var
+b=ei(F6,a);return 11===b[1]?b:rj(a)}function
+F7(a){var
+b=ei(F8,a);return 12===b[1]?b:rk(a)}function
+F9(a){var
+b=ei(F_,a),c=b[1];if(9<=c)switch(c-9|0){case
 2:case
 4:case
-7:break;default:return b}return q3(a)}function
-k_(c){var
-d=ed(FH,c),a=d[1];if(4<=a){var
+7:break;default:return b}return rk(a)}function
+ll(c){var
+d=ei(F$,c),a=d[1];if(4<=a){var
 b=0;if(6<=a)switch(a-6|0){case
+4:case
 5:case
 6:case
 7:case
 10:b=1;break}else
-b=1;if(b)return d}return q2(c)}function
-k$(b){var
-a=aj(b[2]);if(p(b[1],FO)){var
-c=dz(_,v(a,FP)),d=dz(_,v(a,FQ)),e=d[2],f=d[1],g=_(v(a,FR));return[1,c[1],c[2],g,f,e]}var
-h=Y(_,af(v(a,FS)));return[0,Y(_,af(v(a,FT))),h]}function
-FU(f){var
-a=aj(f);function
-d(b){return _(v(a,b))}function
-c(b){return f_(_,v(a,b))}var
-b=a8(v(a,FV));if(p(b,FW)){if(!p(b,FX)){var
-j=v(a,F3),e=dz(function(a){return a},j),k=bi(a,F4),l=ct(function(a){return c(F5)},k),m=ia(a8(e[2])),n=ia(a8(e[1])),o=d(F6);return[0,cX(v(a,F7)),o,n,m,l]}if(p(b,FY))throw Z}var
-g=d(FZ),h=c(F0),i=c(F1);return[1,aF(b,F2),i,h,g]}function
-la(aH){var
-j=ec(aH),k=j[1];if(p(k,F8)){if(p(k,F9)){if(p(k,F_)){if(p(k,F$))return ao([0,Gb,[0,k,Ga]]);var
-C=v(aj(j[2]),Gc),an=0;if(2===C[0]){var
-R=p(C[1],Gd);if(!R){var
+b=1;if(b)return d}return rj(c)}function
+lm(b){var
+a=ak(b[2]);if(p(b[1],Gg)){var
+c=dz(_,w(a,Gh)),d=dz(_,w(a,Gi)),e=d[2],f=d[1],g=_(w(a,Gj));return[1,c[1],c[2],g,f,e]}var
+h=Y(_,ag(w(a,Gk)));return[0,Y(_,ag(w(a,Gl))),h]}function
+Gm(f){var
+a=ak(f);function
+d(b){return _(w(a,b))}function
+c(b){return ge(_,w(a,b))}var
+b=a9(w(a,Gn));if(p(b,Go)){if(!p(b,Gp)){var
+j=w(a,Gv),e=dz(function(a){return a},j),k=bk(a,Gw),l=cw(function(a){return c(Gx)},k),m=ih(a9(e[2])),n=ih(a9(e[1])),o=d(Gy);return[0,cZ(w(a,Gz)),o,n,m,l]}if(p(b,Gq))throw Z}var
+g=d(Gr),h=c(Gs),i=c(Gt);return[1,aG(b,Gu),i,h,g]}function
+ln(aF){var
+j=eh(aF),k=j[1];if(p(k,GA)){if(p(k,GB)){if(p(k,GC)){if(p(k,GD))return ap([0,GF,[0,k,GE]]);var
+C=w(ak(j[2]),GG),an=0;if(2===C[0]){var
+R=p(C[1],GH);if(!R){var
 Q=R;an=1}}if(!an)var
-Q=[0,b8(C)];return[6,Q]}var
-S=aj(j[2]),l=la([0,[0,[0,Gf,v(S,Ge)],0]]);if(0===l[0]){var
+Q=[0,ca(C)];return[6,Q]}var
+S=ak(j[2]),l=ln([0,[0,[0,GJ,w(S,GI)],0]]);if(0===l[0]){var
 D=l[2];if(0===D[0]&&!l[3]){var
-T=l[4];if(!aP(b7,T)){var
-aI=_(v(S,Gh));return[5,l[1],D[1],D[2],T,aI]}}}return ao(Gg)}var
-b=aj(j[2]),E=bi(b,Gi),F=E?Y(FU,af(E[1])):E,s=function(b){var
-a=0!==F?1:0;return a?ao(Gj):a},m=ec(v(b,Gk)),c=ec(v(b,Gl)),d=m[1];if(p(d,Gm)&&p(d,Gn)&&p(d,Go)){if(0===bi(b,Gp)){if(p(d,Gq)){var
-ap=0;if(p(d,Gr)){if(!p(d,Gs)){var
-U=c[1],aq=0;if(p(U,Gv)&&p(U,Gw)){ap=1;aq=1}if(!aq){var
-n=af(m[2]),aJ=af(v(b,Gz)),G=Y(function(a){return ed(0,a)},aJ),aK=aP(function(a){switch(a[1]){case
-5:return 1-el(ER,n);case
-11:return aP(EU,n);case
+T=l[4];if(!aO(b$,T)){var
+aI=_(w(S,GL));return[5,l[1],D[1],D[2],T,aI]}}}return ap(GK)}var
+b=ak(j[2]),E=bk(b,GM),F=E?Y(Gm,ag(E[1])):E,s=function(b){var
+a=0!==F?1:0;return a?ap(GN):a},m=eh(w(b,GO)),c=eh(w(b,GP)),d=m[1];if(p(d,GQ)&&p(d,GR)&&p(d,GS)){if(0===bk(b,GT)){if(p(d,GU)){var
+ao=0;if(p(d,GV)){if(!p(d,GW)){var
+U=c[1],aq=0;if(p(U,GZ)&&p(U,G0)){ao=1;aq=1}if(!aq){var
+n=ag(m[2]),aJ=ag(w(b,G3)),G=Y(function(a){return ei(0,a)},aJ),aK=aO(function(a){switch(a[1]){case
+5:return 1-eq(Fj,n);case
+11:return aO(Fm,n);case
 7:case
 9:case
 10:case
-12:return 1;default:return 0}},G);if(!aP(Er,n)){var
-ar=0;if(!aP(b7,G)||aK)ar=1;if(ar){var
-aN=Y(Eb,n),i=aj(c[2]);if(p(c[1],FI))var
-O=dz(_,v(i,FJ)),P=dz(_,v(i,FK)),aB=P[2],aC=P[1],aD=_(v(i,FL)),V=[1,O[1],O[2],aD,aC,aB];else
+12:return 1;default:return 0}},G);if(!aO(EV,n)){var
+ar=0;if(!aO(b$,G)||aK)ar=1;if(ar){var
+aN=Y(EF,n),i=ak(c[2]);if(p(c[1],Ga))var
+O=dz(_,w(i,Gb)),P=dz(_,w(i,Gc)),aB=P[2],aC=P[1],aD=_(w(i,Gd)),V=[1,O[1],O[2],aD,aC,aB];else
 var
-aE=f_(_,v(i,FM)),V=[0,f_(_,v(i,FN)),aE];return[0,aN,V,F,G]}}s(0);var
-aL=Y(k_,af(v(b,GA))),aM=k$(c);return[1,0,Y(q0,n),0,aM,0,aL]}}}else
-if(!p(c[1],GB)){s(0);var
-W=Y(k_,af(v(b,GC))),z=0,g=W;for(;;){if(g){var
+aE=ge(_,w(i,Ge)),V=[0,ge(_,w(i,Gf)),aE];return[0,aN,V,F,G]}}s(0);var
+aL=Y(ll,ag(w(b,G4))),aM=lm(c);return[1,0,Y(rh,n),0,aM,0,aL]}}}else
+if(!p(c[1],G5)){s(0);var
+W=Y(ll,ag(w(b,G6))),z=0,g=W;for(;;){if(g){var
 L=g[2],M=g[1];if(0===M[1]){var
 z=[0,M,z],g=L;continue}var
 g=L;continue}var
-q=iL(z),as=0;if(q){var
+q=iR(z),as=0;if(q){var
 e=0,X=q[1][4];if(typeof
 X==="number")e=1;else
 switch(X[0]){case
@@ -9166,89 +9358,89 @@ I=q[2];if(I){var
 K=0,aa=I[1][4];if(typeof
 aa!=="number"&&0===aa[0])if(I[2]){e=1;K=1}else
 K=1;if(!K)e=1}else
-e=1;break;default:e=1}if(!e)as=1}if(!as)ao(GD);var
-aO=_(v(aj(c[2]),GE));return[4,_(v(aj(m[2]),GF)),aO,W]}}if(!ap)return ao([0,Gu,[0,d,Gt]])}else
-if(!p(c[1],GG)){s(0);var
-t=aj(m[2]),ab=aj(c[2]),ac=function(c,a){var
-b=af(a);return Y(function(d){var
-a=af(d);if(a){var
+e=1;break;default:e=1}if(!e)as=1}if(!as)ap(G7);var
+aP=_(w(ak(c[2]),G8));return[4,_(w(ak(m[2]),G9)),aP,W]}}if(!ao)return ap([0,GY,[0,d,GX]])}else
+if(!p(c[1],G_)){s(0);var
+t=ak(m[2]),ab=ak(c[2]),ac=function(c,a){var
+b=ag(a);return Y(function(d){var
+a=ag(d);if(a){var
 b=a[2];if(b&&!b[2]){var
-e=h(c,b[1]);return[0,a8(a[1]),e]}}throw Z},b)},aQ=function(d){var
-a=aj(d);if(a){var
-b=a[1],c=b[1];if(p(c,GH)){if(!p(c,GI)&&!a[2])return[0,Y(k8,af(b[2]))]}else
-if(!a[2])return[1,k8(b[2])]}throw Z},ad=ac(k8,v(t,GJ)),ae=Y(aQ,af(v(t,GK))),A=0,r=ae;for(;;){if(r){var
-B=r[1],au=r[2],av=0===B[0]?B[1]:[0,B[1],0],A=lV(av,A),r=au;continue}var
-aw=iL(A),f=function(b,a){switch(a[0]){case
+e=h(c,b[1]);return[0,a9(a[1]),e]}}throw Z},b)},aQ=function(d){var
+a=ak(d);if(a){var
+b=a[1],c=b[1];if(p(c,G$)){if(!p(c,Ha)&&!a[2])return[0,Y(lj,ag(b[2]))]}else
+if(!a[2])return[1,lj(b[2])]}throw Z},ad=ac(lj,w(t,Hb)),ae=Y(aQ,ag(w(t,Hc))),A=0,r=ae;for(;;){if(r){var
+B=r[1],au=r[2],av=0===B[0]?B[1]:[0,B[1],0],A=l8(av,A),r=au;continue}var
+aw=iR(A),f=function(b,a){switch(a[0]){case
 0:var
 c=1;break;case
 1:var
-d=lX(a[1],b),e=1,g=d?d[1]:e,c=g;break;case
+d=l_(a[1],b),e=1,g=d?d[1]:e,c=g;break;case
 3:var
 h=f(b,a[3]),c=(1+f(b,a[2])|0)+h|0;break;case
 4:var
-i=iK(a[2]),c=lJ(f(b,a[1]),i);break;default:var
-c=1+f(b,a[1])|0}return lS(32769,c)},ax=0,N=lW(function(b,a){var
-c=f(b,a[2]);return[0,[0,a[1],c],b]},ax,ad),ay=Y(function(a){return f(N,a)},aw),az=lT(Y(aG,N),ay),aA=0;if(32768<lW(function(b,a){return b+a|0},aA,az))ao([0,GM,[0,a("32768"),GL]]);var
-aR=Y(FD,af(v(b,GN))),aS=Y(_,af(v(ab,GO))),aT=Y(_,af(v(ab,GP))),aU=ac(b8,v(t,GQ));return[3,Y(a8,af(v(t,GR))),aU,ad,ae,aT,aS,aR]}}return ao([0,Gy,[0,c[1],Gx]])}throw Z}var
-ag=aj(m[2]),u=ct(_,bi(ag,GS)),aV=function(f){var
-a=ec(f),b=a[1];if(p(b,GT)){if(p(b,GU)){if(p(b,GV)){if(p(b,GW))throw Z;var
-d=a[2],g=_(v(aj(d),GX));return[3,_(v(aj(d),GY)),g]}var
-h=a[2],c=function(a){return dz(_,v(aj(h),a))},i=c(GZ),j=c(G0);return[1,c(G1),j,i]}var
-e=dz(_,a[2]);return[0,e[1],e[2]]}return[2,_(a[2])]},w=ct(aV,bi(b,G2)),ah=p(d,G3),ai=ah?p(d,G4)?2:1:ah,x=af(v(ag,G5));if(u&&w&&el(q1,x)){var
+i=iQ(a[2]),c=lW(f(b,a[1]),i);break;default:var
+c=1+f(b,a[1])|0}return l5(32769,c)},ax=0,N=l9(function(b,a){var
+c=f(b,a[2]);return[0,[0,a[1],c],b]},ax,ad),ay=Y(function(a){return f(N,a)},aw),az=l6(Y(aH,N),ay),aA=0;if(32768<l9(function(b,a){return b+a|0},aA,az))ap([0,He,[0,a("32768"),Hd]]);var
+aR=Y(F7,ag(w(b,Hf))),aS=Y(_,ag(w(ab,Hg))),aT=Y(_,ag(w(ab,Hh))),aU=ac(ca,w(t,Hi));return[3,Y(a9,ag(w(t,Hj))),aU,ad,ae,aT,aS,aR]}}return ap([0,G2,[0,c[1],G1]])}throw Z}var
+af=ak(m[2]),u=cw(_,bk(af,Hk)),aV=function(f){var
+a=eh(f),b=a[1];if(p(b,Hl)){if(p(b,Hm)){if(p(b,Hn)){if(p(b,Ho))throw Z;var
+d=a[2],g=_(w(ak(d),Hp));return[3,_(w(ak(d),Hq)),g]}var
+h=a[2],c=function(a){return dz(_,w(ak(h),a))},i=c(Hr),j=c(Hs);return[1,c(Ht),j,i]}var
+e=dz(_,a[2]);return[0,e[1],e[2]]}return[2,_(a[2])]},v=cw(aV,bk(b,Hu)),ah=p(d,Hv),ai=ah?p(d,Hw)?2:1:ah,x=ag(w(af,Hx));if(u&&v&&eq(ri,x)){var
 aW=function(c){var
-a=aj(c);function
-b(b){return Y(b8,af(v(a,b)))}if(0!==bi(a,G6))ao(G7);var
-d=b(G8);return[0,b(G9),d]},aX=Y(FF,af(v(b,G_))),aY=w[1],aZ=k$(c),a0=u[1];return[2,ai,Y(aW,x),a0,aZ,aY,F,aX]}s(0);var
-at=0;if(!u&&aF(d,Hb)){var
-ak=1;at=1}if(!at)var
-ak=[0,ai];var
-al=0!==w?1:0,a1=al?aP(q1,x):al;if(a1)ao(G$);var
-a2=Y(k_,af(v(b,Ha))),a3=k$(c);return[1,ak,Y(q0,x),u,a3,w,a2]}var
-y=aj(j[2]);function
+a=ak(c);function
+b(b){return Y(ca,ag(w(a,b)))}if(0!==bk(a,Hy))ap(Hz);var
+d=b(HA);return[0,b(HB),d]},aX=Y(F9,ag(w(b,HC))),aY=v[1],aZ=lm(c),a0=u[1];return[2,ai,Y(aW,x),a0,aZ,aY,F,aX]}s(0);var
+at=0;if(!u&&aG(d,HF)){var
+aj=1;at=1}if(!at)var
+aj=[0,ai];var
+al=0!==v?1:0,a1=al?aO(ri,x):al;if(a1)ap(HD);var
+a2=Y(ll,ag(w(b,HE))),a3=lm(c);return[1,aj,Y(rh,x),u,a3,v,a2]}var
+y=ak(j[2]);function
 a4(b){var
-a=aj(b),c=_(v(a,Hc)),d=[0,_(v(a,Hd)),c];return[0,a8(v(a,He)),d]}var
-o=la([0,[0,[0,Hg,v(y,Hf)],0]]);if(0===o[0]&&!o[3]){var
-am=o[4];if(!aP(b7,am)){var
-a5=_(v(y,Hi)),a6=_(v(y,Hj)),a7=o[2],a9=o[1];return[7,Y(a4,af(v(y,Hk))),a9,a7,am,a6,a5]}}return ao(Hh)}function
-ga(a){return Y(e2,af(a))}function
-ib(c,b){var
-a=ga(b);if(cA(a)!==c)throw Z;return a}function
-q4(a,d){var
-b=aj(d),e=af(v(b,Hn)),f=a[2],c=Y(function(a){return ib(f,a)},e),g=a[1];if(cA(c)!==g)throw Z;return[0,c,dy(v(b,Ho))]}function
+a=ak(b),c=_(w(a,HG)),d=[0,_(w(a,HH)),c];return[0,a9(w(a,HI)),d]}var
+o=ln([0,[0,[0,HK,w(y,HJ)],0]]);if(0===o[0]&&!o[3]){var
+am=o[4];if(!aO(b$,am)){var
+a5=_(w(y,HM)),a6=_(w(y,HN)),a7=o[2],a8=o[1];return[7,Y(a4,ag(w(y,HO))),a8,a7,am,a6,a5]}}return ap(HL)}function
+gg(a){return Y(e5,ag(a))}function
+ii(c,b){var
+a=gg(b);if(cD(a)!==c)throw Z;return a}function
+rl(a,d){var
+b=ak(d),e=ag(w(b,HR)),f=a[2],c=Y(function(a){return ii(f,a)},e),g=a[1];if(cD(c)!==g)throw Z;return[0,c,dy(w(b,HS))]}function
 dA(aw,i){var
 au=0;if(0===i[0]){var
 q=i[1];if(q){var
-V=q[1];if(!p(V[1],Hp)){var
+V=q[1];if(!p(V[1],HT)){var
 ai=V[2];if(0===ai[0]){var
 M=ai[1];if(M){var
-ak=M[1];if(!p(ak[1],HU)){var
-al=ak[2];if(1===al[0]){var
+aj=M[1];if(!p(aj[1],Im)){var
+al=aj[2];if(1===al[0]){var
 N=al[1];if(N){var
 am=N[1];if(1===am[0]){var
 an=am[1];if(an&&!an[2]&&!N[2]){var
-ap=M[2];if(ap&&!ap[2]&&!q[2]){var
-f=HV;au=1}}}}}}}}}}}if(!au)var
+ao=M[2];if(ao&&!ao[2]&&!q[2]){var
+f=In;au=1}}}}}}}}}}}if(!au)var
 f=aw;var
 r=f[2];switch(i[0]){case
 0:var
 c=i[1];if(c){var
-e=c[1],a=e[1],W=to(a,Hq),b=0;if(0<=W)if(0<W)if(p(a,Hr)){var
-g=0;if(p(a,Hs)&&p(a,Ht)&&p(a,Hu))if(p(a,Hv))g=1;else{var
+e=c[1],a=e[1],W=tI(a,HU),b=0;if(0<=W)if(0<W)if(p(a,HV)){var
+g=0;if(p(a,HW)&&p(a,HX)&&p(a,HY))if(p(a,HZ))g=1;else{var
 X=e[2];if(1===X[0]){var
 s=X[1];if(s){var
 t=s[2];if(t){var
 u=t[2];if(u&&!u[2]){if(!c[2]){var
-ax=Y(ga,af(u[1])),ay=a8(t[1]);return[8,dA(f,s[1]),ay,ax]}b=1;g=1}else
+ax=Y(gg,ag(u[1])),ay=a9(t[1]);return[8,dA(f,s[1]),ay,ax]}b=1;g=1}else
 g=1}else
 g=1}else
 g=1}else
 g=1}if(!g)if(c[2])b=1;else{var
-az=e[2],x=az,w=function(c,b){return[1,a,c,b]};b=2}}else{var
+az=e[2],x=az,v=function(c,b){return[1,a,c,b]};b=2}}else{var
 $=e[2];if(1===$[0]){var
 y=$[1];if(y){var
 z=y[2];if(z){var
 A=z[2];if(A&&!A[2]){if(!c[2]){var
-aB=dy(A[1]),aC=e2(z[1]);return[5,dA(f,y[1]),aC,aB]}b=1}}}}}else{var
+aB=dy(A[1]),aC=e5(z[1]);return[5,dA(f,y[1]),aC,aB]}b=1}}}}}else{var
 aa=e[2];if(1===aa[0]){if(!c[2]){var
 aD=function(x){if(1===x[0]){var
 i=x[1];if(i){var
@@ -9259,258 +9451,266 @@ m=l[1],b=m;for(;;){var
 n=0;switch(b[0]){case
 0:var
 c=b[1];if(c){var
-q=c[1],a=q[1];if(p(a,Hy)){var
-y=0;if(p(a,Hz)&&p(a,HA)&&p(a,HB)&&p(a,HC))y=1;if(!y&&!c[2])n=1}else{var
+q=c[1],a=q[1];if(p(a,H2)){var
+y=0;if(p(a,H3)&&p(a,H4)&&p(a,H5)&&p(a,H6))y=1;if(!y&&!c[2])n=1}else{var
 r=q[2];if(1===r[0]){var
 s=r[1];if(s&&!c[2]){var
 b=s[1];continue}}}}break;case
 2:var
-t=b[1];if(!p(t,HD)||!p(t,HE))n=1;break}var
+t=b[1];if(!p(t,H7)||!p(t,H8))n=1;break}var
 z=n?1:0;if(z){var
-A=dA(f,m),B=dy(k[1]),C=e2(j[1]),d=m,D=[0,[0,[0,ga(i[1]),C],B],A];for(;;){var
+A=dA(f,m),B=dy(k[1]),C=e5(j[1]),d=m,D=[0,[0,[0,gg(i[1]),C],B],A];for(;;){var
 o=0;switch(d[0]){case
 0:var
 e=d[1];if(e){var
-u=e[1],h=u[1],g=0;if(p(h,HF))if(p(h,HG)){if(p(h,HH))g=1}else
+u=e[1],h=u[1],g=0;if(p(h,H9))if(p(h,H_)){if(p(h,H$))g=1}else
 if(e[2])g=1;else{o=1;g=1}if(!g){var
 v=u[2];if(1===v[0]){var
 w=v[1];if(w&&!e[2]){var
 d=w[1];continue}}}}break;case
-2:if(!p(d[1],HI))o=1;break}var
-E=o?1:0;return[0,E,D]}}return ao(HJ)}}}}}}throw Z},B=Y(aD,aa[1]),ab=aP(aA,B),aE=ab?1-el(aA,B):ab;if(aE)ao(HK);return[9,Y(aG,B)]}b=1}}else
-if(p(a,HL))if(p(a,HM))if(p(a,HN))if(p(a,HO))if(p(a,HP)){if(!p(a,HQ)){if(!c[2]){var
-ac=aj(e[2]),aF=af(v(ac,HR)),aH=r+1|0,ad=Y(function(a){return ib(aH,a)},aF);if(3===cA(ad))return[1,HT,ad,dy(v(ac,HS))];throw Z}b=1}}else{if(!c[2]){var
-S=a8(e[2]),T=p(S,Hl);if(T){if(p(S,Hm))throw Z;var
+2:if(!p(d[1],Ia))o=1;break}var
+E=o?1:0;return[0,E,D]}}return ap(Ib)}}}}}}throw Z},B=Y(aD,aa[1]),ab=aO(aA,B),aE=ab?1-eq(aA,B):ab;if(aE)ap(Ic);return[9,Y(aH,B)]}b=1}}else
+if(p(a,Id))if(p(a,Ie))if(p(a,If))if(p(a,Ig))if(p(a,Ih)){if(!p(a,Ii)){if(!c[2]){var
+ac=ak(e[2]),aF=ag(w(ac,Ij)),aG=r+1|0,ad=Y(function(a){return ii(aG,a)},aF);if(3===cD(ad))return[1,Il,ad,dy(w(ac,Ik))];throw Z}b=1}}else{if(!c[2]){var
+S=a9(e[2]),T=p(S,HP);if(T){if(p(S,HQ))throw Z;var
 U=1}else
 var
 U=T;return[2,U]}b=1}else{if(!c[2]){var
 k=e[2],o=0;switch(k[0]){case
 0:var
 l=k[1];if(l){var
-aq=l[1],j=aq[1],d=0;if(p(j,HW)&&p(j,HX)&&p(j,HY)&&p(j,HZ))if(p(j,H0))d=1;else{var
+aq=l[1],j=aq[1],d=0;if(p(j,Io)&&p(j,Ip)&&p(j,Iq)&&p(j,Ir))if(p(j,Is))d=1;else{var
 ar=aq[2];if(1===ar[0]){var
 O=ar[1];if(O){var
 m=O[1],h=0;switch(m[0]){case
 0:var
 P=m[1];if(P){var
-n=P[1][1],av=0;if(p(n,H2)&&p(n,H3)&&p(n,H4)&&p(n,H5)){d=1;h=1;av=1}if(!av&&P[2]){d=1;h=1}}else{d=1;h=1}break;case
+n=P[1][1],av=0;if(p(n,Iu)&&p(n,Iv)&&p(n,Iw)&&p(n,Ix)){d=1;h=1;av=1}if(!av&&P[2]){d=1;h=1}}else{d=1;h=1}break;case
 2:var
-as=m[1];if(p(as,H6)&&p(as,H7)){d=1;h=1}break;default:d=1;h=1}if(!h){var
+as=m[1];if(p(as,Iy)&&p(as,Iz)){d=1;h=1}break;default:d=1;h=1}if(!h){var
 Q=O[2];if(Q){var
 R=Q[2];if(R&&!(R[2]||l[2])){var
-aR=dy(R[1]),aS=e2(Q[1]),C=[6,dA(f,m),aS,aR];o=2;d=1}else
+aR=dy(R[1]),aS=e5(Q[1]),C=[6,dA(f,m),aS,aR];o=2;d=1}else
 d=1}else
 d=1}}else
 d=1}else
 d=1}if(!d&&!l[2])o=1}break;case
 2:var
-at=k[1];if(!p(at,H8)||!p(at,H9))o=1;break}switch(o){case
+at=k[1];if(!p(at,IA)||!p(at,IB))o=1;break}switch(o){case
 0:var
-C=ao(H1);break;case
+C=ap(It);break;case
 1:var
 C=dA(f,k);break}return[7,C]}b=1}else{var
 ae=e[2];if(1===ae[0]){var
 D=ae[1];if(D){var
 E=D[2];if(E&&!E[2])if(c[2])b=1;else{var
-aI=E[1],aJ=D[1],x=aJ,w=function(b,a){return[3,b,a,ib(r+1|0,aI)]};b=2}}}}else{var
-ag=e[2];if(1===ag[0]){var
-F=ag[1];if(F){var
+aI=E[1],aJ=D[1],x=aJ,v=function(b,a){return[3,b,a,ii(r+1|0,aI)]};b=2}}}}else{var
+af=e[2];if(1===af[0]){var
+F=af[1];if(F){var
 G=F[2];if(G){var
 H=G[2];if(H){var
 I=H[2];if(I&&!I[2]){if(!c[2]){var
-aK=dA(f,I[1]),aL=dA(f,H[1]),aM=dy(G[1]);return[10,ib(r+1|0,F[1]),aM,aL,aK]}b=1}}}}}}else{var
+aK=dA(f,I[1]),aL=dA(f,H[1]),aM=dy(G[1]);return[10,ii(r+1|0,F[1]),aM,aL,aK]}b=1}}}}}}else{var
 ah=e[2];if(1===ah[0]){var
 J=ah[1];if(J){var
 K=J[2];if(K){var
 L=K[2];if(L&&!L[2])if(c[2])b=1;else{var
-aN=L[1],aO=K[1],aQ=J[1],x=aQ,w=function(b,a){var
-c=dy(aN);return[4,b,a,e2(aO),c]};b=2}}}}}switch(b){case
-0:if(!c[2])return ao([0,Hx,[0,a,Hw]]);break;case
+aN=L[1],aP=K[1],aQ=J[1],x=aQ,v=function(b,a){var
+c=dy(aN);return[4,b,a,e5(aP),c]};b=2}}}}}switch(b){case
+0:if(!c[2])return ap([0,H1,[0,a,H0]]);break;case
 1:break;default:var
-_=q4(f,x);return w(_[1],_[2])}}break;case
+_=rl(f,x);return v(_[1],_[2])}}break;case
 2:return[0,i[1]]}throw Z}function
-q5(n){var
-b=ec(n),a=b[1];if(p(a,Ia))if(p(a,Ib)){var
-h=p(a,Ic);if(!h)return h;if(p(a,Id)){if(!p(a,Ie)){var
-c=aj(b[2]),i=function(a){return Y(_,af(v(c,a)))},j=aj(v(c,Ii)),o=dy(v(j,Ij)),q=Y(ga,af(v(j,Ik))),r=i(Il),s=i(Im);return[3,cX(v(c,In)),s,r,q,o]}if(!p(a,If))return[2,Y(_,af(b[2]))]}else{var
+rm(n){var
+b=eh(n),a=b[1];if(p(a,IE))if(p(a,IF)){var
+h=p(a,IG);if(!h)return h;if(p(a,IH)){if(!p(a,II)){var
+c=ak(b[2]),i=function(a){return Y(_,ag(w(c,a)))},j=ak(w(c,IM)),o=dy(w(j,IN)),q=Y(gg,ag(w(j,IO))),r=i(IP),s=i(IQ);return[3,cZ(w(c,IR)),s,r,q,o]}if(!p(a,IJ))return[2,Y(_,ag(b[2]))]}else{var
 k=b[2];if(1===k[0]){var
 d=k[1];if(d){var
 e=d[2];if(e&&!e[2]){var
-t=cX(e[1]);return[1,cX(d[1]),t]}}}}}else{var
+t=cZ(e[1]);return[1,cZ(d[1]),t]}}}}}else{var
 l=b[2];if(1===l[0]){var
 f=l[1];if(f){var
 g=f[2];if(g&&!g[2]){var
-u=Y(ga,af(g[1]));return[0,cX(f[1]),u]}}}}else{var
-m=b[2];if(1===m[0]&&!m[1])return 1}return ao([0,Ih,[0,a,Ig]])}function
-q6(f,b){var
-a=aj(b),c=af(v(a,Is)),d=Y(function(g){var
-a=aj(g);function
+u=Y(gg,ag(g[1]));return[0,cZ(f[1]),u]}}}}else{var
+m=b[2];if(1===m[0]&&!m[1])return 1}return ap([0,IL,[0,a,IK]])}function
+rn(f,b){var
+a=ak(b),c=ag(w(a,IW)),d=Y(function(g){var
+a=ak(g);function
 b(d,c){var
-b=bi(a,c);return b?Y(d,af(b[1])):b}var
-c=b(e2,Io),d=ct(q5,bi(a,Ip)),e=ct(cX,bi(a,Iq));return[0,b(function(h){var
-b=af(h);if(b){var
+b=bk(a,c);return b?Y(d,ag(b[1])):b}var
+c=b(e5,IS),d=cw(rm,bk(a,IT)),e=cw(cZ,bk(a,IU));return[0,b(function(h){var
+b=ag(h);if(b){var
 a=b[2];if(a){var
-c=a[1],e=b[1],d=0;if(2===c[0]&&!p(c[1],H_)){if(!a[2]){if(p(f9(e),H$))throw Z;d=1}}else
+c=a[1],e=b[1],d=0;if(2===c[0]&&!p(c[1],IC)){if(!a[2]){if(p(gd(e),ID))throw Z;d=1}}else
 d=1;if(d&&!a[2]){var
-g=dA(f,c);return[0,cX(e),g]}}}throw Z},Ir),e,d,c]},c),e=bi(a,It),g=ct(function(a){return q4(f,a)},e);return[0,qX(v(a,Iu)),g,d]}function
-q7(c){var
-a=aj(c),b=bi(a,Iv),d=b?Y(_,af(b[1])):b,e=q5(v(a,Iw)),f=Y(_,af(v(a,Ix)));return[0,qX(v(a,Iy)),f,d,e]}function
-II(c){var
+g=dA(f,c);return[0,cZ(e),g]}}}throw Z},IV),e,d,c]},c),e=bk(a,IX),g=cw(function(a){return rl(f,a)},e);return[0,re(w(a,IY)),g,d]}function
+ro(c){var
+a=ak(c),b=bk(a,IZ),d=b?Y(_,ag(b[1])):b,e=rm(w(a,I0)),f=Y(_,ag(w(a,I1)));return[0,re(w(a,I2)),f,d,e]}function
+Ja(c){var
 a=c[1],b=0;if(10<=a){if(!(13<=a))b=1}else
 if(8===a)b=1;return b?1:0}function
-IJ(b){var
+Jb(b){var
 a=b[3];if(a&&1===a[1][0])return 1;return 0}function
-IK(b){var
-c=b[1],a=b[4];if(!(1<c+rZ>>>0)&&typeof
-a!=="number"&&1===a[0])return 1-hA(k(a[1]));return 10===c?1:0}function
-IO(f){var
-i=aC(f),b=[0,0];function
+Jc(b){var
+c=b[1],a=b[4];if(!(1<c+sh>>>0)&&typeof
+a!=="number"&&1===a[0])return 1-hE(k(a[1]));return 10===c?1:0}function
+Jg(f){var
+i=aD(f),b=[0,0];function
 j(a){if(b[1]<i)return bd(f,b[1]);throw Z}function
 k(a){if(j(0)===a){b[1]++;return 0}throw Z}function
-A(a,c){for(;;){if(b[1]<i&&h(c,bd(f,b[1]))){b[1]++;continue}return em(f,a,b[1]-a|0)}}function
-B(d){k(34);function
+B(a,c){for(;;){if(b[1]<i&&h(c,bd(f,b[1]))){b[1]++;continue}return er(f,a,b[1]-a|0)}}function
+C(d){k(34);function
 a(a){var
 b=34!==a?1:0;if(b)var
 c=92!==a?1:0,d=c?32<=a?1:0:c;else
 var
 d=b;return d}var
-c=A(b[1],a);k(34);return c}function
-C(e,a){if(j(0)===a){b[1]++;return 0}var
+c=B(b[1],a);k(34);return c}function
+D(e,a){if(j(0)===a){b[1]++;return 0}var
 c=0;for(;;){var
 d=[0,h(e,0),c];if(44===j(0)){b[1]++;var
-c=d;continue}k(a);return iL(d)}}function
+c=d;continue}k(a);return iR(d)}}function
 r(c,l){if(64<c)throw Z;var
 a=j(0),d=0;if(48<=a){if(91===a){b[1]++;var
-f=93,g=c+1|0;return[1,C(function(a){return r(g,a)},f)]}if(123===a){b[1]++;var
-h=125;return[0,C(function(b){var
-a=B(0);k(58);return[0,a,r(c+1|0,0)]},h)]}if(!(58<=a))d=1}else{if(34===a)return[2,B(0)];if(45===a)d=1}if(d){var
+f=93,g=c+1|0;return[1,D(function(a){return r(g,a)},f)]}if(123===a){b[1]++;var
+h=125;return[0,D(function(b){var
+a=C(0);k(58);return[0,a,r(c+1|0,0)]},h)]}if(!(58<=a))d=1}else{if(34===a)return[2,C(0)];if(45===a)d=1}if(d){var
 i=b[1];b[1]++;var
-e=A(i,function(a){var
-b=48<=a?1:0,c=b?a<=57?1:0:b;return c});if(p(e,D1))return[3,e];throw Z}throw Z}var
-Q=r(0,0),D=b[1]<i?1:0,R=D?10===bd(f,b[1])?1:0:D;if(R)b[1]++;if(b[1]<i)throw Z;var
-o=aj(Q);if(p(a8(v(o,IP)),IQ))throw Z;var
-a=la(v(o,IR)),x=0;switch(a[0]){case
+e=B(i,function(a){var
+b=48<=a?1:0,c=b?a<=57?1:0:b;return c});if(p(e,Et))return[3,e];throw Z}throw Z}var
+R=r(0,0),E=b[1]<i?1:0,S=E?10===bd(f,b[1])?1:0:E;if(S)b[1]++;if(b[1]<i)throw Z;var
+o=ak(R);if(p(a9(w(o,Jh)),Ji))throw Z;var
+a=ln(w(o,Jj)),x=0;switch(a[0]){case
 1:var
 u=a[1],y=0;if(typeof
 u==="number")if(u)var
-w=2;else
+v=2;else
 y=1;else
 if(1===u[1])var
-w=6;else
+v=6;else
 y=1;if(y)var
-w=3;var
-e=[0,cA(a[2]),w];break;case
+v=3;var
+e=[0,cD(a[2]),v];break;case
 2:var
-ae=1===a[1]?6:3,e=[0,cA(a[2]),ae];break;case
+ai=1===a[1]?6:3,e=[0,cD(a[2]),ai];break;case
 3:var
-ag=cA(a[1]),e=[0,cA(a[4]),ag];break;case
+aj=cD(a[1]),e=[0,cD(a[4]),aj];break;case
 7:var
-E=a[2];x=1;break;case
+F=a[2];x=1;break;case
 0:case
 5:var
-E=a[1];x=1;break;default:var
-e=I8}if(x)var
-e=[0,cA(E),3];var
-l=ec(v(o,IS)),m=l[1];if(p(m,ID))if(p(m,IE))if(p(m,IF))var
-c=ao([0,IH,[0,m,IG]]);else
+F=a[1];x=1;break;default:var
+e=JB}if(x)var
+e=[0,cD(F),3];var
+l=eh(w(o,Jk)),m=l[1];if(p(m,I7))if(p(m,I8))if(p(m,I9))var
+c=ap([0,I$,[0,m,I_]]);else
 var
-n=q7(l[2]),c=[1,n[1],n[2],n[3],n[4]];else
+n=ro(l[2]),c=[1,n[1],n[2],n[3],n[4]];else
 var
-s=q6(e,l[2]),c=[0,s[1],s[2],s[3]];else
+s=rn(e,l[2]),c=[0,s[1],s[2],s[3]];else
 var
-S=af(l[2]),c=[2,Y(function(g){var
-a=ec(g),b=a[1];if(p(b,Iz)){if(p(b,IA)){if(p(b,IB)){var
-f=p(b,IC);if(f)throw Z;return f}return[0,cX(a[2])]}var
-c=q7(a[2]);return[2,c[1],c[2],c[3],c[4]]}var
-d=q6(e,a[2]);return[1,d[1],d[2],d[3]]},S)];function
-T(a){return 0!==a[3]?1:0}function
-F(a){return aP(T,a)}var
+T=ag(l[2]),c=[2,Y(function(g){var
+a=eh(g),b=a[1];if(p(b,I3)){if(p(b,I4)){if(p(b,I5)){var
+f=p(b,I6);if(f)throw Z;return f}return[0,cZ(a[2])]}var
+c=ro(a[2]);return[2,c[1],c[2],c[3],c[4]]}var
+d=rn(e,a[2]);return[1,d[1],d[2],d[3]]},T)];function
+U(a){return 10===a[1]?1:0}function
+G(a){return aO(U,a)}function
+V(a){return 0!==a[3]?1:0}function
+H(a){return aO(V,a)}var
 d=0;switch(a[0]){case
 0:if(0===c[0]){var
-H=a[4],G=a[1];d=3}else
-d=1;break;case
+J=a[4],I=a[1];d=3}else
+d=2;break;case
 1:if(0===c[0]){var
-W=c[3];if(aP(function(a){var
-b=a[1];return aP(function(a){switch(a[2][0]){case
+_=c[3];if(aO(function(a){var
+b=a[1];return aO(function(a){switch(a[2][0]){case
 6:case
-7:return 1;default:return 0}},b)},W)){ao(I0);d=2}}else
-d=1;break;case
+7:return 1;default:return 0}},b)},_))ap(Js);else{var
+O=0;if(G(a[6])){var
+$=a[2];if(aO(function(a){return 2===a[0]?1:0},$)){ap(Jt);O=1}}if(!O)d=1}}else
+d=2;break;case
 2:var
-J=a[1],X=a[7];if(0===c[0]){var
-_=1===J?6:3,K=cA(a[2])===_?1:0;if(K){var
-M=0;if(2<=J||!(0===a[4][0]))M=1;else
+L=a[1],aa=a[7];if(0===c[0]){var
+ab=1===L?6:3,M=cD(a[2])===ab?1:0;if(M){var
+P=0;if(2<=L||!(0===a[4][0]))P=1;else
 var
-t=1;if(M)var
+t=1;if(P)var
 t=0}else
 var
-t=K;var
-L=function(c){if(8===c[0]){var
+t=M;var
+N=function(c){if(8===c[0]){var
 d=c[1];if(7===d[0]){var
 a=d[1],b=0;switch(a[0]){case
-1:if(!p(a[1],I1))b=1;break;case
+1:if(!p(a[1],Ju))b=1;break;case
 6:var
-e=a[1];if(1===e[0]&&!p(e[1],I2))b=1;break}if(b)return t}}return 0},$=function(a){if(a[1])switch(a[2][0]){case
+e=a[1];if(1===e[0]&&!p(e[1],Jv))b=1;break}if(b)return t}}return 0},ac=function(a){if(a[1])switch(a[2][0]){case
 8:case
 9:return 1}else{var
 b=a[2];switch(b[0]){case
-8:return 1-L(b);case
+8:return 1-N(b);case
 9:var
-c=b[1];return 1-el(function(a){return L(a[2])},c)}}return 0},aa=c[3],N=0;if(aP(function(a){return aP($,a[1])},aa))ao(I3);else{var
-ab=c[3];if(el(function(a){var
-b=a[1];return el(function(d){var
+c=b[1];return 1-eq(function(a){return N(a[2])},c)}}return 0},ad=c[3],al=0;if(aO(function(a){return aO(ac,a[1])},ad))ap(Jw);else{var
+ae=c[3];if(eq(function(a){var
+b=a[1];return eq(function(d){var
 b=d[2],a=0;switch(b[0]){case
 0:var
-c=b[1];if(p(c,IL)){if(!p(c,IM))return aP(IK,X)}else
+c=b[1];if(p(c,Jd)){if(!p(c,Je))return aO(Jc,aa)}else
 a=1;break;case
-1:if(!p(b[1],IN))a=1;break;case
+1:if(!p(b[1],Jf))a=1;break;case
 7:case
 8:case
-9:a=1;break}return a?1:0},b)},ab))N=1;else
-ao(I4)}if(!N)d=2}else
-d=1;break;case
-5:if(aP(II,a[4])){ao(I5);d=2}else
+9:a=1;break}return a?1:0},b)},ae)){d=1;al=1}else
+ap(Jx)}}else
+d=2;break;case
+5:if(aO(Ja,a[4]))ap(Jy);else
 if(0===c[0]){var
-ac=c[3];if(aP(function(a){return 0!==a[1]?1:0},ac)){ao(I6);d=2}}break;case
+af=c[3];if(aO(function(a){return 0!==a[1]?1:0},af))ap(Jz);else
+d=1}else
+d=1;break;case
 7:var
-O=0;if(2===c[0]){var
-ad=c[1];if(aP(function(a){if(typeof
+z=0;if(2===c[0]){var
+ah=c[1];if(aO(function(a){if(typeof
 a!=="number"&&2===a[0]){var
 b=a[4];if(typeof
-b!=="number"&&3===b[0])return 1}return 0},ad)){ao(I7);d=2;O=1}}if(!O){var
-H=a[4],G=a[2];d=3}break}var
+b!=="number"&&3===b[0])return 1}return 0},ah))ap(JA);else
+z=1}else
+z=1;if(z){var
+J=a[4],I=a[2];d=3}break;default:d=1}var
 q=0;switch(d){case
-2:break;case
+0:break;case
 3:var
-P=0;if(aP(function(a){return 10===a[1]?1:0},H)&&aP(function(a){return 2===a[0]?1:0},G)){ao(IT);P=1}if(!P)q=2;break;case
-0:q=2;break;default:q=1}var
-z=0;switch(q){case
+Q=0;if(G(J)&&aO(function(a){return 2===a[0]?1:0},I)){ap(Jl);Q=1}if(!Q)q=2;break;case
+1:q=2;break;default:q=1}var
+A=0;switch(q){case
 2:var
 g=0;switch(a[0]){case
 5:case
-7:if(aP(IJ,a[4])){ao(IY);g=1}else
+7:if(aO(Jb,a[4])){ap(Jq);g=1}else
 if(7===a[0])switch(c[0]){case
 2:var
-V=function(a){if(typeof
-a!=="number"&&1===a[0])return F(a[3]);return 0};if(aP(V,c[1]))ao(IZ);g=1;break;case
-0:break;default:z=1;g=1}else
-g=1;break}if(!g)if(0===c[0]&&F(c[3]))ao(IX);else
-z=1;break;case
-1:z=1;break}var
-I=aj(v(o,IU)),U=a8(v(I,IV));return[0,a,c,a8(v(I,IW)),U]}function
-I9(b){var
-a=0,f=lS(64,aC(b))-18|0;for(;;){var
+X=function(a){if(typeof
+a!=="number"&&1===a[0])return H(a[3]);return 0};if(aO(X,c[1]))ap(Jr);g=1;break;case
+0:break;default:A=1;g=1}else
+g=1;break}if(!g)if(0===c[0]&&H(c[3]))ap(Jp);else
+A=1;break;case
+1:A=1;break}var
+K=ak(w(o,Jm)),W=a9(w(K,Jn));return[0,a,c,a9(w(K,Jo)),W]}function
+JC(b){var
+a=0,f=l5(64,aD(b))-18|0;for(;;){var
 c=a<=f?1:0;if(c){var
-d=aF(em(b,a,18),I_);if(!d){var
+d=aG(er(b,a,18),JD);if(!d){var
 a=a+1|0;continue}var
 e=d}else
 var
-e=c;return e}}KS(function(b){try{if(I9(b))var
-a=Ja;else{try{var
-e=0,d=IO(b);e=1}catch(a){a=tq(a);if(a[1]===qW)var
+e=c;return e}}Ll(function(b){try{if(JC(b))var
+a=JF;else{try{var
+e=0,d=Jg(b);e=1}catch(a){a=tK(a);if(a[1]===rd)var
 c=[0,a[2]];else{if(a!==Z)throw a;var
 c=2}}if(e)var
-c=DX(b,d)?1===d[2][0]?1:0:2;var
-a=c}}catch(a){return I$}if(typeof
+c=Ep(b,d)?1===d[2][0]?1:0:2;var
+a=c}}catch(a){return JE}if(typeof
 a==="number")switch(a){case
-0:return Jb;case
-1:return Jc;default:return Jd}return bk(Je,a[1])});lU(0);return}(globalThis));
+0:return JG;case
+1:return JH;default:return JI}return bm(JJ,a[1])});l7(0);return}(globalThis));

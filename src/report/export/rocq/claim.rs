@@ -545,7 +545,8 @@ fn requirement(requirement: &Requirement, asked: Asked) -> Exported<String> {
         "Serial_" | "Parallel_" | "LegAngle_" | "Load_" => asked < Asked::OfTwoPoints,
         "OneToOne_" | "Accuracy_" => true,
         "BaseJoint_" | "PlatformJoint_" => asked == Asked::OfStruts,
-        "Clearance_" | "Acceleration_" => matches!(asked, Asked::Anything | Asked::OfStruts),
+        "Clearance_" => matches!(asked, Asked::Anything | Asked::OfStruts),
+        "Acceleration_" => asked != Asked::OfTwoPoints,
         _ => asked == Asked::Anything,
     };
     if !is_asked {

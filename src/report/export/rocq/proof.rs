@@ -56,7 +56,7 @@ fn covered(proof: &Proof, subject: &Subject<'_>) -> Exported<()> {
         (Kind::Atlas, Proof::Atlas(cells)) if cells.iter().any(is_same) => {
             "the failure \"same\" of such a mechanism"
         }
-        (Kind::Machine, Proof::Tree(_)) | (Kind::Atlas, _) if accelerates_plane => {
+        (Kind::Machine | Kind::Legs, Proof::Tree(_)) | (Kind::Atlas, _) if accelerates_plane => {
             "the acceleration of a joint of a machine with a plane"
         }
         (Kind::NoCube, _) if holds_alone() => "this quantity in a claim that is refuted",
