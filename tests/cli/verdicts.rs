@@ -68,6 +68,22 @@ fn every_design_has_its_verdict() {
     }
 }
 
+/// Lengths of metres with tolerances of a tenth of a millimetre are beyond machine words: the proof, of 8 million changes by
+/// tolerances, takes a third of a second to check, and 12 times as many are too many.
+#[test]
+fn a_proof_in_integers_of_any_size_is_not_too_long() {
+    let folder = Folder::new();
+    let name = "tests/designs/kernel/hexapod-rubin-camera-as-made.toml";
+    let text = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join(name)).unwrap();
+    let (machine, _) = text.split_once("[requirements]").unwrap();
+    let of =
+        |min: &str| format!("{machine}[requirements]\nstiffness = {{ min = {min}, joint = 1 }}\n");
+    folder.write("d.toml", &of("0.117"));
+    folder.run(&["verify", "d.toml"]).exits(0).says(&["CERTIFIED"]);
+    folder.write("e.toml", &of("0.1215"));
+    folder.run(&["verify", "e.toml"]).exits(3).says(&["the proof", "longer than is admissible"]);
+}
+
 #[test]
 fn a_refutation_shows_the_point_the_value_and_the_bound() {
     let folder = Folder::with(&["orthoglide-310.toml"]);

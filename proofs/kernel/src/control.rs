@@ -76,9 +76,21 @@ impl Control {
         self
     }
 
-    /// Evaluations of a formula at all control points.
+    /// Numbers that [`Control::values`] finds: of each formula one for all nodes of the coordinates that it depends on.
     pub fn work(&self) -> usize {
-        self.points().saturating_mul(self.tape.ops().len())
+        let mut depends: Vec<[bool; MOST_COORDINATES]> = Vec::new();
+        let mut sum = 0usize;
+        for &op in self.tape.ops() {
+            let own = |k: usize| match op {
+                Op::Coordinate(j) => j % self.m == k,
+                _ => op.parts().any(|f| depends[f.0][k]),
+            };
+            let own = std::array::from_fn(own);
+            let of = |(on, &degree): (&bool, &u8)| if *on { usize::from(degree) + 1 } else { 1 };
+            sum = sum.saturating_add(own.iter().zip(&self.degrees).map(of).product());
+            depends.push(own);
+        }
+        sum
     }
 
     /// How many control points there are.

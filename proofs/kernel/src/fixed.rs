@@ -21,6 +21,8 @@ use std::ops::Shr;
 pub trait Integer: Clone + Default + Ord + Shr<u32, Output = Self> + ToPrimitive {
     /// The time of an operation, in that of one on words.
     const WORK: usize;
+    /// The same of a change by a tolerance.
+    const CHANGE: usize;
     /// This integer.
     fn of(n: &BigInt) -> Option<Self>;
     /// `n 2^bits`.
@@ -56,6 +58,7 @@ fn moderate(x: BigInt) -> Option<BigInt> {
 
 impl Integer for BigInt {
     const WORK: usize = 128;
+    const CHANGE: usize = 64;
 
     fn of(n: &BigInt) -> Option<Self> {
         Some(n.clone())
@@ -100,6 +103,7 @@ impl Integer for BigInt {
 /// Products of two words have 127 bits at most and fit into `i128`.
 impl Integer for i64 {
     const WORK: usize = 1;
+    const CHANGE: usize = 4;
 
     fn of(n: &BigInt) -> Option<Self> {
         n.to_i64()

@@ -43,7 +43,7 @@ pub enum Op {
 
 impl Op {
     /// The entries it is made of.
-    fn parts(self) -> impl Iterator<Item = Formula> {
+    pub(crate) fn parts(self) -> impl Iterator<Item = Formula> {
         let (count, parts) = match self {
             Op::Coordinate(_) | Op::Parameter(_) | Op::Integer(_) => (0, [Formula(0); 3]),
             Op::Add(a, b) | Op::Sub(a, b) | Op::Mul(a, b) | Op::Div(a, b) => (2, [a, b, b]),

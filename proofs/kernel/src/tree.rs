@@ -68,8 +68,10 @@ impl Theorem for Problem {
         let halves_a_range = |node: &&Node| node.split.is_some_and(|k| k >= self.dimension());
         let halves = tree.nodes.iter().filter(halves_a_range).count();
         let steps = tree.nodes.iter().filter(is_evaluated).count() + WORK_OF_HALVES * halves;
-        let work = steps.saturating_mul(self.work()).saturating_add(checker.work_of(tree));
-        if work.saturating_mul(Z::WORK * (1 + bits as usize / 64)) > self.most_work {
+        let [work, changes] = checker.work_of(tree);
+        let work = steps.saturating_mul(self.work()).saturating_add(work).saturating_mul(Z::WORK);
+        let all = work.saturating_add(changes.saturating_mul(Z::CHANGE));
+        if all.saturating_mul(1 + bits as usize / 64) > self.most_work {
             return Err(Rejected::Work);
         }
         let unit = self.offset.as_ref().map(|part| {

@@ -87,7 +87,7 @@ mod tests {
         let decider = Decider::new(&subject).unwrap().with_cuts(true);
         let cancel = AtomicBool::new(false);
         let grower = Grower { decider: &decider, depth: depth + 1, cancel: &cancel };
-        let mut roots = vec![Root::WHOLE];
+        let mut roots = vec![(Root::WHOLE, None)];
         for _ in 0..depth {
             let split = grower.level(&roots, &mut Tally::default()).unwrap();
             roots = split.into_iter().flat_map(|(_, halves)| halves).collect();

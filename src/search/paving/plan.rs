@@ -1,6 +1,6 @@
 //! How deep a paving has to go, from samples of its cells.
 
-use super::tree::{Cancelled, Grower, Segment, Tally};
+use super::tree::{Cancelled, Grower, Open, Segment, Tally};
 use super::Goal;
 use orthocert_kernel::paving::{Cut, Root, SHARE_BITS};
 use rayon::prelude::*;
@@ -29,10 +29,10 @@ pub fn depth(
     goal: &Goal,
 ) -> Result<u32, Cancelled> {
     let subtree = |segment: &Segment| match segment {
-        Segment::Subtree(root) => Some(*root),
+        Segment::Subtree(root) => Some((*root, None)),
         Segment::Known(_) => None,
     };
-    let mut roots: Vec<Root> = segments.iter().filter_map(subtree).collect();
+    let mut roots: Vec<Open> = segments.iter().filter_map(subtree).collect();
     // No tree has more boxes: nothing is to be chosen.
     let most = roots.len() as f64 * f64::from(grower.depth + 1 - coarse).exp2();
     if goal.gap.is_none() && most < goal.max_boxes as f64 {
@@ -60,7 +60,7 @@ pub fn depth(
         let one_of = open.len().div_ceil(most);
         let kept = open.iter().step_by(one_of);
         scale *= open.len() as f64 / kept.len() as f64;
-        roots = kept.flat_map(|(_, halves)| *halves).collect();
+        roots = kept.flat_map(|(_, halves)| halves.clone()).collect();
     }
     Ok(grower.depth)
 }

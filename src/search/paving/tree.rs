@@ -36,7 +36,10 @@ pub(super) fn is_left(kind: &Kind) -> bool {
 /// Of so many depths, cells of one are looked at by themselves; what is next of the others is foreseen from these.
 pub(super) const FORESEEN: u32 = 3;
 
-/// A node to be decided, and what is foreseen of it.
+/// A node that waits, and what is foreseen of it.
+pub(super) type Open = (Root, Option<Margins>);
+
+/// The same to be decided.
 type Node<'a> = (&'a Root, Option<&'a Margins>);
 
 /// Grows trees of one claim down to one depth.
@@ -114,16 +117,20 @@ impl Grower<'_> {
     /// Decides cells of one depth; returns those that are split, each with its halves.
     pub(super) fn level(
         &self,
-        roots: &[Root],
+        roots: &[Open],
         tally: &mut Tally,
-    ) -> Result<Vec<(Root, [Root; 2])>, Cancelled> {
-        let of_root = |root: &Root| {
+    ) -> Result<Vec<(Root, [Open; 2])>, Cancelled> {
+        let of_root = |(root, foreseen): &Open| {
             if self.cancel.load(Ordering::Relaxed) {
                 return Err(Cancelled);
             }
             let mut own = Tally::default();
-            let (item, ..) = self.decided((root, None), &mut own);
-            Ok((own, halves(root, &item).map(|(_, halves)| (*root, halves))))
+            let (item, _, margins) = self.decided((root, foreseen.as_ref()), &mut own);
+            let split = halves(root, &item).map(|(axis, [lower, upper])| {
+                let [of_lower, of_upper] = self.foreseen(root.depth + 1, axis, margins);
+                (*root, [(lower, of_lower), (upper, of_upper)])
+            });
+            Ok((own, split))
         };
         let all: Vec<_> = roots.par_iter().map(of_root).collect::<Result<_, _>>()?;
         tally.boxes += all.len() as u64;
@@ -133,13 +140,7 @@ impl Grower<'_> {
 
     /// Decides a node and appends it; its halves, if it is split, wait. Halves that may not be split
     /// are appended with it, in one byte where that does for them.
-    fn node(
-        &self,
-        root: Node<'_>,
-        out: &mut Vec<u8>,
-        tally: &mut Tally,
-        waiting: &mut Vec<(Root, Option<Margins>)>,
-    ) {
+    fn node(&self, root: Node<'_>, out: &mut Vec<u8>, tally: &mut Tally, waiting: &mut Vec<Open>) {
         let (item, parts, margins) = self.decided(root, tally);
         let (root, _) = root;
         let Some((axis, [lower, upper])) = halves(root, &item) else {

@@ -13,9 +13,9 @@ impl<E: Enclosure> Checker<'_, E> {
     /// The work of all steps, beside that of formulas over cells: at vertices the operations on
     /// matrices, with all their sign vertices; at control points the formulas there; with tolerances apart all
     /// formulas with their derivatives once a node, twice where directions are of one scale in some of its steps and not in
-    /// others, and for each step those of one machine, and at each vertex or
-    /// control point all changes, four operations each.
-    pub(crate) fn work_of(&self, tree: &Tree) -> usize {
+    /// others, and for each step those of one machine; and how often, at each vertex or control point, a tolerance changes a
+    /// number.
+    pub(crate) fn work_of(&self, tree: &Tree) -> [usize; 2] {
         let m = self.problem.dimension();
         let signs = |test: &Test| match test {
             Test::Accuracy(test) => test.rows.len().pow(2) << test.rows.len(),
@@ -27,8 +27,9 @@ impl<E: Enclosure> Checker<'_, E> {
         let (entries, derived) = (self.problem.tape.ops().len(), self.problem.derived.as_ref());
         let tests = self.problem.obligations.iter().map(|obligation| &obligation.test);
         let at_vertices: Vec<usize> = tests.map(|test| at_vertices(test, &self.rows, m)).collect();
+        let both = |a: [usize; 2], b: [usize; 2]| [0, 1].map(|k| a[k].saturating_add(b[k]));
         let of_part = |obligation: &usize, evidence: &Evidence| match evidence {
-            Evidence::Control(_) => self.controls.get(*obligation).map_or(0, at_controls),
+            Evidence::Control(_) => [self.controls.get(*obligation).map_or(0, at_controls), 0],
             Evidence::Tolerances(inner, ends, _) => {
                 let is_control = matches!(**inner, Evidence::Control(_));
                 let controls = [&self.controls, &self.derived].map(|all| all.get(*obligation));
@@ -44,15 +45,14 @@ impl<E: Enclosure> Checker<'_, E> {
                 let values = if is_control { 0 } else { m * (m + 1) };
                 let each = matrices * (steps * (m + 2) * (m + 2) + values);
                 let changes = derived.and_then(|derived| derived.changes.get(*obligation));
-                let changes = changes.map_or(0, |&changes| 4 * changes * each);
-                let start = changes.saturating_mul(points).saturating_add(entries);
-                controls().map(at_controls).fold(start, usize::saturating_add)
+                let changes = changes.map_or(0, |&changes| changes * each).saturating_mul(points);
+                [controls().map(at_controls).fold(entries, usize::saturating_add), changes]
             }
-            _ => at_vertices.get(*obligation).copied().unwrap_or(0),
+            _ => [at_vertices.get(*obligation).copied().unwrap_or(0), 0],
         };
         let of_step = |Step(obligation, evidence): &Step| {
             let parts = evidence.parts().into_iter();
-            parts.map(|part| of_part(obligation, part)).fold(0, usize::saturating_add)
+            parts.map(|part| of_part(obligation, part)).fold([0; 2], both)
         };
         let of_node = |node: &Node| {
             let apart = node.by.iter().flat_map(|Step(_, by)| by.parts());
@@ -62,9 +62,9 @@ impl<E: Enclosure> Checker<'_, E> {
             });
             let times = of_one_scale.collect::<BTreeSet<bool>>().len();
             let all = derived.map_or(0, |derived| times * derived.tape.ops().len());
-            node.by.iter().map(of_step).fold(all, usize::saturating_add)
+            node.by.iter().map(of_step).fold([all, 0], both)
         };
-        tree.nodes.iter().map(of_node).fold(0, usize::saturating_add)
+        tree.nodes.iter().map(of_node).fold([0; 2], both)
     }
 }
 
