@@ -78,9 +78,9 @@ fn a_proof_in_integers_of_any_size_is_not_too_long() {
     let (machine, _) = text.split_once("[requirements]").unwrap();
     let of =
         |min: &str| format!("{machine}[requirements]\nstiffness = {{ min = {min}, joint = 1 }}\n");
-    folder.write("d.toml", &of("0.117"));
+    folder.write("d.toml", of("0.117"));
     folder.run(&["verify", "d.toml"]).exits(0).says(&["CERTIFIED"]);
-    folder.write("e.toml", &of("0.1215"));
+    folder.write("e.toml", of("0.1215"));
     folder.run(&["verify", "e.toml"]).exits(3).says(&["the proof", "longer than is admissible"]);
 }
 
