@@ -89,7 +89,12 @@ fn what_the_verified_checker_does_not_cover_is_refused_in_its_words() {
             "the quantity \"base_joint\"",
         ),
         (step, r#"[2,{"turned":["test",1,1]}]"#, "the evidence \"turned\""),
-        (step, r#"[2,{"fan":[[[1,0,0],0,0,"divided"]]}]"#, "this evidence \"fan\""),
+        (step, r#"[2,{"fan":[[[1,0,0],0,0,"negative"]]}]"#, "this evidence \"fan\""),
+        (
+            step,
+            r#"[2,{"fan":[[[1,0,0],0,0,"divided"],[[0,1,0],0,0,"test"]]}]"#,
+            "evidence \"fan\" about \"divided\" and other rows",
+        ),
         (step, r#"[2,{"control":"divided"}]"#, "this evidence at control points"),
         (r#","split":1}"#, r#","split":1,"fails":"reach"}"#, "a leaf that fails"),
     ] {

@@ -310,11 +310,15 @@ fn a_page_proves_its_claim_again() {
         include_str!("../designs/kernel/planar-3-rpr.toml").to_owned() + "one_to_one = true\n";
     browser.open(&report(&folder, "one-to-one", &once, 0).unwrap());
     assert_eq!(browser.evaluate(PROVED), "accepted");
-    // Accelerations of sliders of platforms that turn the verified checker does not know.
-    let design = include_str!("../designs/kernel/planar-3-prr.toml").to_owned()
-        + "joint_acceleration = { speed = 1, acceleration = 1, max = 1000 }\n";
-    browser.open(&report(&folder, "accelerated", &design, 0).unwrap());
-    assert_eq!(browser.evaluate(PROVED), "not-covered");
+    // Accelerations of mechanisms by formulas the verified checker does not know.
+    for (machine, proved) in [
+        (include_str!("../designs/kernel/planar-3-prr.toml"), "accepted"),
+        (include_str!("../designs/kernel/linear-delta-formulas.toml"), "not-covered"),
+    ] {
+        let asked = "joint_acceleration = { speed = 1, acceleration = 1, max = 1000 }\n";
+        browser.open(&report(&folder, "accelerated", &(machine.to_owned() + asked), 0).unwrap());
+        assert_eq!(browser.evaluate(PROVED), proved);
+    }
     let why = browser.text("#reproved");
     assert!(
         why.contains("is not covered by the verified checker; the exact checker accepted"),
