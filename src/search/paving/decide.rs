@@ -307,12 +307,7 @@ impl<'a> Decider<'a> {
             self.judge.confirms(cell, inherited, &Item { steps: steps.to_vec(), kind })
         };
         if left == 0 && confirms(&steps, Kind::Inner) {
-            return Decision {
-                steps,
-                fate: Fate::Closed(Kind::Inner),
-                parts: Vec::new(),
-                margins: None,
-            };
+            return Decision { steps, ..Decision::closed(Kind::Inner) };
         }
         let is_split = || Kind::Split(Axis::X);
         steps.retain(|step| confirms(std::slice::from_ref(step), is_split()));
@@ -331,12 +326,7 @@ impl<'a> Decider<'a> {
         }
         let done = discharged(inherited, &steps);
         if done == self.subject.all() {
-            return Decision {
-                steps,
-                fate: Fate::Closed(Kind::Inner),
-                parts: Vec::new(),
-                margins: None,
-            };
+            return Decision { steps, ..Decision::closed(Kind::Inner) };
         }
         let along = match worst {
             Some(worst) if !self.open(!left).any(|o| is_general(self.test(o))) => {

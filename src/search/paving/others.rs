@@ -144,12 +144,7 @@ impl Attempt<'_, '_> {
         match self.parts(most) {
             Parts::Shown(mut items) => {
                 let first = items.remove(0);
-                Decision {
-                    steps: first.steps,
-                    fate: Fate::Closed(first.kind),
-                    parts: items,
-                    margins: None,
-                }
+                Decision { steps: first.steps, parts: items, ..Decision::closed(first.kind) }
             }
             Parts::Not { steps, weights } => match crossing {
                 Some(worst) => self.open(steps, &self.moved(&ranges, worst)),

@@ -22,20 +22,23 @@ impl<E: Enclosure> Checker<'_, E> {
             _ => 0,
         };
         let at_controls = |(test, control): &(Test, Control)| {
-            control.work().saturating_add(control.points().saturating_mul(signs(test)))
+            let points = control.points();
+            (points, control.work().saturating_add(points.saturating_mul(signs(test))))
         };
+        let [own, apart] = [&self.controls, &self.derived]
+            .map(|all| all.iter().map(at_controls).collect::<Vec<(usize, usize)>>());
         let (entries, derived) = (self.problem.tape.ops().len(), self.problem.derived.as_ref());
         let tests = self.problem.obligations.iter().map(|obligation| &obligation.test);
         let at_vertices: Vec<usize> = tests.map(|test| at_vertices(test, &self.rows, m)).collect();
         let both = |a: [usize; 2], b: [usize; 2]| [0, 1].map(|k| a[k].saturating_add(b[k]));
         let of_part = |obligation: &usize, evidence: &Evidence| match evidence {
-            Evidence::Control(_) => [self.controls.get(*obligation).map_or(0, at_controls), 0],
+            Evidence::Control(_) => [own.get(*obligation).map_or(0, |(_, work)| *work), 0],
             Evidence::Tolerances(inner, ends, _) => {
                 let is_control = matches!(**inner, Evidence::Control(_));
-                let controls = [&self.controls, &self.derived].map(|all| all.get(*obligation));
+                let controls = [&own, &apart].map(|all| all.get(*obligation));
                 let controls = || controls.into_iter().flatten().filter(|_| is_control);
                 let points = match is_control {
-                    true => controls().map(|(_, control)| control.points()).max().unwrap_or(0),
+                    true => controls().map(|(points, _)| *points).max().unwrap_or(0),
                     false => 1 << m,
                 };
                 // Two matrices of conditioning, two steps from the middle, values at vertices of m + 1 terms.
@@ -46,7 +49,7 @@ impl<E: Enclosure> Checker<'_, E> {
                 let each = matrices * (steps * (m + 2) * (m + 2) + values);
                 let changes = derived.and_then(|derived| derived.changes.get(*obligation));
                 let changes = changes.map_or(0, |&changes| changes * each).saturating_mul(points);
-                [controls().map(at_controls).fold(entries, usize::saturating_add), changes]
+                [controls().map(|(_, work)| *work).fold(entries, usize::saturating_add), changes]
             }
             _ => [at_vertices.get(*obligation).copied().unwrap_or(0), 0],
         };
