@@ -154,7 +154,9 @@ impl View for Over<'_> {
 
     fn moved(&self, f: Formula) -> [[f64; 3]; 2] {
         let Some(Entry { lo, hi, .. }) = self.of(f) else { return [[0.0; 3]; 2] };
-        [[0, 1, 2].map(|k| 0.5 * (lo[k] + hi[k])), [0, 1, 2].map(|k| 0.5 * (hi[k] - lo[k]))]
+        let middle = |k: usize| 0.5 * (lo[k] + hi[k]);
+        let half = |k: usize| 0.5 * (hi[k] - lo[k]);
+        [[middle(0), middle(1), middle(2)], [half(0), half(1), half(2)]]
     }
 }
 

@@ -25,7 +25,9 @@ impl Margin {
         half.along[axis] *= 0.5;
         half.beyond[axis] *= 0.5;
         half.off += half.beyond[axis];
-        [-1.0, 1.0].map(|side| Margin { centre: self.centre + side * half.along[axis], ..half })
+        let moved = half.along[axis];
+        let at = |centre: f64| Margin { centre, ..half };
+        [at(self.centre - moved), at(self.centre + moved)]
     }
 
     /// Whether the test seems to hold on the cell, to second order.
@@ -58,13 +60,15 @@ impl Margin {
 
     /// What is gained by halving each coordinate.
     pub(super) fn weights(&self) -> [f64; 3] {
-        std::array::from_fn(|k| self.along[k].abs() + self.beyond[k].abs())
+        let of = |k: usize| self.along[k].abs() + self.beyond[k].abs();
+        [of(0), of(1), of(2)]
     }
 
     fn times(self, factor: f64) -> Self {
-        let times = |all: [f64; 3]| all.map(|x| x * factor);
+        let times = |[x, y, z]: [f64; 3]| [x * factor, y * factor, z * factor];
         let Margin { centre, along, beyond, off } = self;
-        let beyond = times(beyond).map(f64::abs);
+        let [x, y, z] = times(beyond);
+        let beyond = [x.abs(), y.abs(), z.abs()];
         let off = off * factor.abs();
         Margin { centre: centre * factor, along: times(along), beyond, off }
     }
@@ -76,7 +80,7 @@ impl Margin {
     }
 
     fn plus(self, other: Self) -> Self {
-        let sum = |a: [f64; 3], b: [f64; 3]| std::array::from_fn(|k| a[k] + b[k]);
+        let sum = |a: [f64; 3], b: [f64; 3]| [a[0] + b[0], a[1] + b[1], a[2] + b[2]];
         let (along, beyond) = (sum(self.along, other.along), sum(self.beyond, other.beyond));
         let off = self.off + other.off;
         Margin { centre: self.centre + other.centre, along, beyond, off }

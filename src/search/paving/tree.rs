@@ -1,7 +1,6 @@
 //! The tree of a paving: written depth first, cut into subtrees for the threads.
 
 use super::decide::{Decider, Fate, Margins};
-use super::margin::Margin;
 use orthocert_kernel::paving::{discharged, Axis, Item, Kind, Root};
 use orthocert_kernel::prover::{write_pair, write_steps};
 use rayon::prelude::*;
@@ -174,10 +173,11 @@ impl Grower<'_> {
     /// The margins that are foreseen of a node's halves, of the depth `depth`.
     fn foreseen(&self, depth: u32, axis: Axis, margins: Option<Margins>) -> [Option<Margins>; 2] {
         let Some(margins) = margins.filter(|_| !self.is_seen(depth)) else { return [None, None] };
-        [0, 1].map(|side| {
-            let half = |(o, own): &(usize, Margin)| (*o, own.halves(axis.index())[side]);
-            Some(margins.iter().map(half).collect())
-        })
+        let (mut lower, mut upper) = (margins.clone(), margins);
+        for ((_, lower), (_, upper)) in lower.iter_mut().zip(upper.iter_mut()) {
+            [*lower, *upper] = lower.halves(axis.index());
+        }
+        [Some(lower), Some(upper)]
     }
 
     /// Whether nothing is foreseen of cells of a depth: subtrees from there are what they are whoever grows them.
@@ -219,7 +219,8 @@ fn halves(root: &Root, item: &Item) -> Option<(Axis, [Root; 2])> {
     let Kind::Split(axis) = item.kind else { return None };
     let (lower, upper) = root.cell.halves(axis)?;
     let inherited = discharged(root.inherited, &item.steps);
-    Some((axis, [lower, upper].map(|cell| Root { cell, inherited, depth: root.depth + 1 })))
+    let below = |cell| Root { cell, inherited, depth: root.depth + 1 };
+    Some((axis, [below(lower), below(upper)]))
 }
 
 #[cfg(test)]

@@ -75,7 +75,8 @@ impl Edge {
 
     /// Its parts before it, and those before its end.
     pub(super) fn ends(self) -> [i64; 2] {
-        [0, 1].map(|part| self.index() as i64 + part)
+        let before = self.index() as i64;
+        [before, before + 1]
     }
 }
 

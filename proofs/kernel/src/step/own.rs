@@ -192,11 +192,12 @@ fn adjugate(mut g: Square, m: usize) -> Square {
 }
 
 /// The matrix times a power of two such that its greatest entry has so many bits.
-fn sized(g: Square, bits: u32) -> Option<Square> {
+fn sized(mut g: Square, bits: u32) -> Option<Square> {
     let most = g.iter().flatten().map(|x| x.unsigned_abs()).max().filter(|&most| most > 0)?;
     let own = u64::BITS - most.leading_zeros();
     let fit = |x: i64| if own > bits { x >> (own - bits) } else { x << (bits - own) };
-    Some(g.map(|row| row.map(fit)))
+    g.iter_mut().flatten().for_each(|x| *x = fit(*x));
+    Some(g)
 }
 
 /// The longest column of a high power of a matrix with entries of at most `2^BITS`, or `2^57`: sums of
