@@ -223,7 +223,7 @@ fn a_sample_is_drawn_by_a_seed_that_nobody_knew() {
         .into_iter()
         .map(|(_, item)| match item.kind {
             Kind::Outer(_) => {
-                let reach = Outer::Given(Failure::Reach);
+                let reach = Outer::Given(Failure::Reach.into());
                 Item { steps: Vec::new(), kind: Kind::Outer(reach) }
             }
             _ => item,

@@ -50,17 +50,17 @@ impl Item {
             Kind::Outer(Outer::Own(obligation)) => {
                 out.push(OUTER + small(*obligation).filter(|n| *n < PAIR - OUTER)?);
             }
-            Kind::Outer(Outer::Given(Failure::Reach)) => out.push(REACH),
-            Kind::Outer(Outer::Given(Failure::Row(obligation, leg))) => {
-                out.extend([ROW, small(*obligation)?, small(*leg)?]);
-            }
-            Kind::Outer(Outer::Given(Failure::Obligation(obligation, directions))) => {
-                out.extend([FAILS, small(*obligation)?, count(directions.len())?]);
-                directions.iter().try_for_each(|v| put(out, v))?;
-            }
-            Kind::Outer(Outer::Given(
-                Failure::Same { .. } | Failure::Singular(_) | Failure::Dependent,
-            )) => return None,
+            Kind::Outer(Outer::Given(failure)) => match &**failure {
+                Failure::Reach => out.push(REACH),
+                Failure::Row(obligation, leg) => {
+                    out.extend([ROW, small(*obligation)?, small(*leg)?]);
+                }
+                Failure::Obligation(obligation, directions) => {
+                    out.extend([FAILS, small(*obligation)?, count(directions.len())?]);
+                    directions.iter().try_for_each(|v| put(out, v))?;
+                }
+                Failure::Same { .. } | Failure::Singular(_) | Failure::Dependent => return None,
+            },
         }
         Some(())
     }

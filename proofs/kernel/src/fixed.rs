@@ -29,6 +29,8 @@ pub trait Integer: Clone + Default + Ord + Shr<u32, Output = Self> + ToPrimitive
     fn scaled(n: i64, bits: u32) -> Option<Self>;
     /// `self + other`.
     fn plus(&self, other: &Self) -> Option<Self>;
+    /// `self - other`.
+    fn minus(&self, other: &Self) -> Option<Self>;
     /// `-self`.
     fn negated(&self) -> Option<Self>;
     /// `floor(n self / 2^places)`.
@@ -70,6 +72,10 @@ impl Integer for BigInt {
 
     fn plus(&self, other: &Self) -> Option<Self> {
         moderate(self + other)
+    }
+
+    fn minus(&self, other: &Self) -> Option<Self> {
+        moderate(self - other)
     }
 
     fn negated(&self) -> Option<Self> {
@@ -118,16 +124,25 @@ impl Integer for i64 {
         self.checked_add(*other)
     }
 
+    fn minus(&self, other: &Self) -> Option<Self> {
+        self.checked_sub(*other)
+    }
+
     fn negated(&self) -> Option<Self> {
         self.checked_neg()
     }
 
     fn dyadic(&self, n: i64, places: u32) -> Option<Self> {
-        self.product(&n, places)
+        // Most products by few digits fit into a word.
+        match self.checked_mul(n) {
+            Some(product) => Some(product >> places.min(63)),
+            None => self.product(&n, places),
+        }
     }
 
     fn product(&self, other: &Self, bits: u32) -> Option<Self> {
-        ((i128::from(*self) * i128::from(*other)) >> bits.min(127)).try_into().ok()
+        let floor = (i128::from(*self) * i128::from(*other)) >> (bits & 63);
+        i64::try_from(floor).ok().filter(|_| bits < 64)
     }
 
     fn ratio(&self, other: &Self, divisor: &Self) -> Option<Self> {
@@ -267,6 +282,10 @@ impl<Z: Integer> Arithmetic for Fixed<Z> {
         Some(Interval { lo: a.lo.plus(&b.lo)?, hi: a.hi.plus(&b.hi)? })
     }
 
+    fn sub(&self, a: &Interval<Z>, b: &Interval<Z>) -> Option<Interval<Z>> {
+        Some(Interval { lo: a.lo.minus(&b.hi)?, hi: a.hi.minus(&b.lo)? })
+    }
+
     fn neg(&self, a: &Interval<Z>) -> Option<Interval<Z>> {
         Some(Interval { lo: a.hi.negated()?, hi: a.lo.negated()? })
     }
@@ -345,7 +364,7 @@ impl<Z: Integer> Enclosure for Fixed<Z> {
         slopes: &[Interval<Z>],
     ) -> Option<Interval<Z>> {
         let reach = slopes.iter().try_fold(Z::default(), |sum, s| sum.plus(&magnitude(s)?))?;
-        let lo = range.lo.clone().max(centre.lo.plus(&reach.negated()?)?);
+        let lo = range.lo.clone().max(centre.lo.minus(&reach)?);
         let hi = range.hi.clone().min(centre.hi.plus(&reach)?);
         (lo <= hi).then_some(Interval { lo, hi })
     }

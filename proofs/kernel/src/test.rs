@@ -376,7 +376,11 @@ impl<E: Enclosure> Over<'_, E> {
             let [_, greatest] = e.ends(row.last()?);
             let z = residual(&row, &greatest)?;
             let half = |i: usize, j: usize| e.dyadic(y[i], places + 1, &z[j]);
-            t.change(|i, j, entry| e.add(entry, &e.add(&half(i, j)?, &half(j, i)?)?))?;
+            t.change(|i, j, entry| {
+                let own = half(i, j)?;
+                let both = if i == j { e.add(&own, &own) } else { e.add(&own, &half(j, i)?) };
+                e.add(entry, &both?)
+            })?;
             if !changes.is_empty() {
                 let fixed = y.iter().map(|&y| e.dyadic(y, places, &one));
                 let fixed: Vector<E::Number> = fixed.collect::<Option<_>>()?;

@@ -380,7 +380,7 @@ impl<'a> Decider<'a> {
         }
         let test = self.test(obligation);
         let all = directions(test, &self.subject.problem, &self.sampler, &at);
-        let of = |directions| Outer::Given(Failure::Obligation(obligation, directions));
+        let of = |directions| Outer::Given(Failure::Obligation(obligation, directions).into());
         all.into_iter().map(of).find(|outer| {
             let item = Item { steps: Vec::new(), kind: Kind::Outer(outer.clone()) };
             self.judge.confirms(cell, 0, &item)
@@ -406,7 +406,7 @@ impl<'a> Decider<'a> {
         let item = |kind| Item { steps: Vec::new(), kind };
         let seems = |failure: &Failure| over.fails(failure);
         if seems(&Failure::Reach) {
-            let kind = Kind::Outer(Outer::Given(Failure::Reach));
+            let kind = Kind::Outer(Outer::Given(Failure::Reach.into()));
             if self.judge.confirms(cell, 0, &item(kind.clone())) {
                 return Decision::closed(kind);
             }

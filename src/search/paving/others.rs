@@ -284,8 +284,8 @@ impl Attempt<'_, '_> {
         let claim = self.sampler.claim();
         let all = failures(claim, problem, self.sampler, worst, DIGITS);
         let kinds = all.into_iter().take(3).map(|failure| match others.is_empty() {
-            true => Kind::Outer(Outer::Given(failure)),
-            false => Kind::At(at.clone(), Outer::Given(failure)),
+            true => Kind::Outer(Outer::Given(failure.into())),
+            false => Kind::At(at.clone(), Outer::Given(failure.into())),
         });
         let item = |kind| Item { steps: Vec::new(), kind };
         kinds.map(item).find(|item| self.confirms(self.cell, 0, item)).map(|item| item.kind)

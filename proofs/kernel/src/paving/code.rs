@@ -58,7 +58,7 @@ pub enum Outer {
     /// In this obligation, in its own directions (`own.rs`).
     Own(usize),
     /// As is said.
-    Given(Failure),
+    Given(Box<Failure>),
 }
 
 pub(crate) const INNER: u8 = 0x03;
@@ -148,17 +148,17 @@ impl Item {
                 INNER => (Kind::Inner, None),
                 BOUNDARY => (Kind::Boundary, None),
                 MIRRORED => (Kind::Mirrored, None),
-                REACH => (Kind::Outer(Outer::Given(Failure::Reach)), None),
+                REACH => (Kind::Outer(Outer::Given(Failure::Reach.into())), None),
                 ROW => {
                     let [obligation, leg] = [source.byte()?, source.byte()?].map(usize::from);
-                    (Kind::Outer(Outer::Given(Failure::Row(obligation, leg))), None)
+                    (Kind::Outer(Outer::Given(Failure::Row(obligation, leg).into())), None)
                 }
                 FAILS => {
                     let obligation = usize::from(source.byte()?);
                     let directions = (0..source.count()?).map(|_| source.integers());
                     let directions = directions.collect::<Result<_, _>>()?;
                     let failure = Failure::Obligation(obligation, directions);
-                    (Kind::Outer(Outer::Given(failure)), None)
+                    (Kind::Outer(Outer::Given(failure.into())), None)
                 }
                 OUTER..PAIR => (Kind::Outer(Outer::Own(usize::from(code - OUTER))), None),
                 PAIR..0xcb => {

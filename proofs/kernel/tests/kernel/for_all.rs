@@ -285,6 +285,6 @@ fn evidence_at_control_points_has_bytes() {
     ] {
         assert!(read(evidence).unwrap_err().contains("no meaning there"));
     }
-    let given = Kind::At(vec![0], Outer::Given(Failure::Reach));
+    let given = Kind::At(vec![0], Outer::Given(Failure::Reach.into()));
     assert!(Item { steps: Vec::new(), kind: given }.write(&mut Vec::new()).is_some());
 }

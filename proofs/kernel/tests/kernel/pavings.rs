@@ -173,7 +173,7 @@ fn every_shorter_file_and_every_changed_byte_is_rejected_or_says_the_same() {
 
 /// A failure of singular values in a direction.
 fn along(obligation: usize, v: &[i64]) -> Kind {
-    Kind::Outer(Outer::Given(Failure::Obligation(obligation, vec![v.to_vec()])))
+    Kind::Outer(Outer::Given(Failure::Obligation(obligation, vec![v.to_vec()]).into()))
 }
 
 #[test]
@@ -201,7 +201,7 @@ fn each_kind_is_rejected_where_it_is_not_true() {
     let of_two = Evidence::Lower(Multiplier { y: vec![vec![1, 0, 0], vec![0, 1, 0]], places: 1 });
     let flat = Item { steps: vec![Step(0, Some(of_two))], kind: Kind::Inner };
     let outer_in = |o: usize| bare(Kind::Outer(Outer::Own(o)));
-    let row = |o, leg| bare(Kind::Outer(Outer::Given(Failure::Row(o, leg))));
+    let row = |o, leg| bare(Kind::Outer(Outer::Given(Failure::Row(o, leg).into())));
     for (name, at, item, expected) in [
         ("outer without truth", inner, bare(along(0, &[1, 1, 1])), "is not outer"),
         ("the same, of its own", inner, outer_in(0), "is not outer"),
@@ -212,7 +212,12 @@ fn each_kind_is_rejected_where_it_is_not_true() {
         ("in no obligation", outer, bare(along(9, &[1, 1, 1])), "is not outer"),
         ("by a row of another obligation", outer, row(0, 0), "is not outer"),
         ("by the row of no leg", outer, row(1, 3), "is not outer"),
-        ("out of reach", inner, bare(Kind::Outer(Outer::Given(Failure::Reach))), "is not outer"),
+        (
+            "out of reach",
+            inner,
+            bare(Kind::Outer(Outer::Given(Failure::Reach.into()))),
+            "is not outer",
+        ),
         ("undecided as inner", boundary, bare(Kind::Inner), "is not certainly met"),
         (
             "undecided as inner, with steps",
@@ -482,7 +487,7 @@ fn a_sample_is_drawn_by_its_seed_and_finds_what_is_wrong() {
     assert_eq!(sampled(&bytes, u64::MAX, 1).unwrap().accepted.checked, whole.checked);
     // One wrong cell: found by the share of the seeds that the sample has of the cells.
     let wrong = items.iter().rposition(|i| matches!(i.kind, Kind::Outer(_))).unwrap();
-    items[wrong].kind = Kind::Outer(Outer::Given(Failure::Reach));
+    items[wrong].kind = Kind::Outer(Outer::Given(Failure::Reach.into()));
     let bytes = written(&plain, &items);
     assert!(checked(&bytes).is_err());
     let half = whole.checked / 2;
