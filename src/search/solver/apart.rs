@@ -219,10 +219,11 @@ impl Over<'_> {
         (0..self.formulas.slopes.m).map(place).collect()
     }
 
-    /// What tolerances take off the value there, about, and the part of it that is lost for the ranges of derivatives; and what
-    /// is lost for those of slopes.
-    pub(super) fn taken_off(&self, Worst { place, weights, .. }: &Worst) -> Option<[f64; 2]> {
-        let parameters = self.prover.parameters();
+    /// The derivative by each parameter there, about, and half of its range.
+    fn by_derivatives(
+        &self,
+        Worst { place, weights, .. }: &Worst,
+    ) -> Option<BTreeMap<usize, [f64; 2]>> {
         let values = self.prover.checker.derived(self.formulas.place, false)?;
         let Derived { of, .. } = self.problem().derived.as_ref()?;
         let mut by: BTreeMap<usize, [f64; 2]> = BTreeMap::new();
@@ -238,6 +239,23 @@ impl Over<'_> {
                 own[1] += weight.abs() * all.1;
             }
         }
+        Some(by)
+    }
+
+    /// What each tolerance times half of the range of the derivative by it is there.
+    pub(super) fn ranges_of_derivatives(&self, found: &Worst) -> Option<Vec<(usize, f64)>> {
+        let all = self.by_derivatives(found)?.into_iter().map(|(j, [_, half])| {
+            let (low, high) = *self.prover.parameters().get(j)?;
+            Some((j, (high - low) * half))
+        });
+        all.collect()
+    }
+
+    /// What tolerances take off the value there, about, and the part of it that is lost for the ranges of derivatives; and what
+    /// is lost for those of slopes.
+    pub(super) fn taken_off(&self, found: &Worst) -> Option<[f64; 2]> {
+        let parameters = self.prover.parameters();
+        let by = self.by_derivatives(found)?;
         let (mut changed, mut lost) = (0.0, 0.0);
         for (j, [slope, half]) in by {
             let (low, high) = *parameters.get(j)?;
@@ -247,7 +265,7 @@ impl Over<'_> {
         let machine: Vec<Pair> = parameters.iter().map(middle).map(|x| (x, x)).collect();
         let (slopes, edges) = (self.formulas.slopes, self.formulas.place.edges);
         let machine = evaluate(&self.problem().tape, &machine, slopes, edges);
-        for (f, weight) in weights {
+        for (f, weight) in &found.weights {
             let all: f64 = machine.of(*f)?.slopes[..self.m()].iter().map(half_width).sum();
             lost += weight.abs() * all;
         }

@@ -4,11 +4,12 @@
 //! refuted; the claims that say so have that bound alone.
 
 use super::evidence::{Apart, Prover};
+use super::parts::Parts;
 use super::refute::{number, witness_at};
 use super::sample::{Place, Quality, Sampler, Worst};
 use super::search::{resume, search, Branch, Ends, Outcome};
 use super::value::{alone, Bounded};
-use super::{accepted, few, look_into, refuted, verify, Answer};
+use super::{accepted, few, in_parts_of_tolerances, look_into, refuted, verify, Answer};
 use crate::exact::Exact;
 use crate::search::{Budget, Control, Steps, Stop};
 use num_rational::BigRational;
@@ -31,6 +32,8 @@ const OPEN_CENTRES: usize = 8;
 const MOST_BOXES: [usize; 2] = [50_000, 20_000];
 /// One of so many boxes of a width may be open where a looser one goes on.
 const FEW_OPEN: usize = 8;
+/// With tolerances in parts each width may take so many times the boxes that are worth it elsewhere.
+const TIMES_IN_PARTS: usize = 4;
 /// Longest text of an exact number.
 const MOST_DIGITS: usize = 1000;
 /// How often a better inner end may turn up before the search is given up.
@@ -598,6 +601,17 @@ fn certify(
     {
         let apart = search(&Apart(&prover), &whole, ends, few(budget), control);
         found = apart.filter(|apart| apart.is_proof() || apart.stop == Stop::Cancelled).or(found);
+    }
+    if found.as_ref().is_none_or(|found| found.stop == Stop::Hopeless)
+        && problem.orientation.len() <= 1
+    {
+        let holds = Parts::new(&prover).is_some_and(|parts| {
+            let max_boxes = budget.max_boxes.min(TIMES_IN_PARTS * parts.most());
+            parts.hold_next_to(&point, Budget { max_boxes, ..budget }, control)
+        });
+        let parts = holds.then(|| in_parts_of_tolerances(&prover, TIMES_IN_PARTS, budget, control));
+        let ended = |parts: &Outcome| parts.is_proof() || parts.stop == Stop::Cancelled;
+        found = parts.flatten().filter(ended).or(found);
     }
     let Some(found) = found else { return Ok(Attempt::Undecided(Stop::Hopeless)) };
     if found.stop == Stop::Cancelled {

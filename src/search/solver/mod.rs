@@ -407,20 +407,22 @@ fn apart_or_in_parts(
     control: &mut Control<'_>,
 ) -> Option<Vec<Node>> {
     apart(prover, budget, control).or_else(|| {
-        let found = in_parts_of_tolerances(prover, budget, control)?;
+        let found = in_parts_of_tolerances(prover, 1, budget, control)?;
         found.is_proof().then_some(found.nodes)
     })
 }
 
-/// The same with tolerances in parts, where no box of the workspace is small enough.
+/// The same with tolerances in parts, where no box of the workspace is small enough; of so many times the boxes that are
+/// worth it.
 fn in_parts_of_tolerances(
     prover: &Prover<'_>,
+    times: usize,
     budget: Budget,
     control: &mut Control<'_>,
 ) -> Option<Outcome> {
     let parts = Parts::new(prover)?;
     let ends = Ends { hopeless: true, enough: Some(MOST_ABREAST) };
-    let budget = Budget { max_boxes: budget.max_boxes.min(parts.most()), ..budget };
+    let budget = Budget { max_boxes: budget.max_boxes.min(times * parts.most()), ..budget };
     search(&parts, &Branch::whole(&parts), ends, budget, control)
 }
 

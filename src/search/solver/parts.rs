@@ -2,9 +2,10 @@
 
 use super::apart::{at_place, Stretched, LENGTHS};
 use super::doubles::Pair;
-use super::evidence::{centre, Over, Prover};
+use super::evidence::{centre, next_to, Over, Prover};
 use super::rows::Rows;
-use super::search::{halved, Boxes, Cell, Trial};
+use super::search::{halved, search, Boxes, Branch, Cell, Ends, Trial};
+use crate::search::{Budget, Control};
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 use orthocert_kernel::certificate::Node;
 use orthocert_kernel::formula::Formula;
@@ -32,8 +33,12 @@ pub(super) struct Parts<'a> {
     provers: Mutex<Vec<Prover<'a>>>,
 }
 
-/// Most numbers with two ends: each box is looked at once more for either half of each.
+/// Most numbers with two ends of which all are tried: each box is looked at once more for either half of each.
 const MOST_NUMBERS: usize = 16;
+/// Of more numbers, so many are tried, those to whose halves most is lost.
+const TRIED: usize = 6;
+/// Next to one point so much fewer boxes have to be enough.
+const NEXT_TO_POINT: usize = 4;
 /// Tolerances, and coordinates, times boxes of a tree; a third of it for each coordinate of orientation, as each box takes
 /// three times as long.
 const MOST_TRIED: usize = 16_000;
@@ -53,12 +58,27 @@ impl<'a> Parts<'a> {
         let root: Cell = prover.root.iter().copied().chain(ranges).collect();
         let coordinates = prover.root.len();
         let numbers = root.len() - coordinates;
-        (1..=MOST_NUMBERS).contains(&numbers).then(|| Parts {
+        // Many numbers of a platform that turns in space take longer than they gain.
+        let most = if problem.orientation.len() > 1 { MOST_NUMBERS } else { usize::MAX };
+        (1..=most).contains(&numbers).then(|| Parts {
             problem,
             root,
             coordinates,
             provers: Mutex::default(),
         })
+    }
+
+    /// Whether all tests hold next to a point of the workspace, with tolerances in few parts, of so many boxes as a tree
+    /// may have: where they do not, no tree is a proof of as few.
+    pub fn hold_next_to(&self, point: &[f64], budget: Budget, control: &mut Control<'_>) -> bool {
+        let (own, ranges) = self.root.split_at(self.coordinates);
+        let own = point.iter().zip(own).map(|(&x, &range)| next_to(x, range));
+        let root = own.chain(ranges.iter().copied()).collect();
+        let there = Parts { root, provers: Mutex::default(), ..*self };
+        let ends = Ends { hopeless: true, enough: None };
+        let budget = Budget { max_boxes: budget.max_boxes / NEXT_TO_POINT, ..budget };
+        let found = search(&there, &Branch::whole(&there), ends, budget, control);
+        found.is_some_and(|found| found.is_proof())
     }
 
     /// With a prover for a part of the tolerances.
@@ -106,8 +126,34 @@ impl<'a> Parts<'a> {
             });
             gains.sum()
         };
-        let is_tried = |k: usize| k == first || k >= self.coordinates;
+        let tried = self.tried(cell, open);
+        let is_tried = |k: usize| k == first || tried.contains(&k);
         (0..cell.len()).map(|k| if is_tried(k) { gain(k) } else { f64::MIN }).collect()
+    }
+
+    /// The ranges whose halves are tried.
+    fn tried(&self, cell: &Cell, open: &[usize]) -> Vec<usize> {
+        let all = self.coordinates..cell.len();
+        if all.len() <= MOST_NUMBERS {
+            return all.collect();
+        }
+        let (own, ranges) = cell.split_at(self.coordinates);
+        let of = |prover: &mut Prover<'a>| {
+            prover.on(&own.to_vec(), |over| {
+                let mut all: BTreeMap<usize, f64> = BTreeMap::new();
+                for o in open {
+                    over.lost_by(&self.problem.obligations[*o].test, &mut all);
+                }
+                all
+            })
+        };
+        let lost = self.narrowed(ranges, of).unwrap_or_default();
+        let inputs = self.problem.inputs.iter().enumerate();
+        let with_ends = inputs.filter(|(_, input)| input.has_two_ends()).map(|(j, _)| j);
+        let lost: Vec<f64> = with_ends.map(|j| lost.get(&j).copied().unwrap_or_default()).collect();
+        let mut order: Vec<usize> = (0..lost.len()).filter(|&i| lost[i] > 0.0).collect();
+        order.sort_by(|&a, &b| lost[b].total_cmp(&lost[a]));
+        order.iter().take(TRIED).map(|i| self.coordinates + i).collect()
     }
 }
 
@@ -176,6 +222,25 @@ impl Over<'_> {
             }
         };
         self.there(test, own).or_else(|| own(self))
+    }
+
+    /// Adds what is lost of a test for the ranges of derivatives, by each number, as a share of all of it: about the sum of
+    /// a row of second derivatives times both tolerances.
+    fn lost_by(&self, test: &Test, all: &mut BTreeMap<usize, f64>) {
+        let own = |there: &Over<'_>| {
+            let tests = match test {
+                Test::Conditioning(c) => vec![Test::SigmaMin(*c), Test::SigmaMax(*c)],
+                _ => vec![test.clone()],
+            };
+            let lost = |test: &Test| there.ranges_of_derivatives(&there.worst(test)?);
+            tests.iter().map(lost).collect::<Option<Vec<_>>>()
+        };
+        for lost in self.there(test, own).or_else(|| own(self)).into_iter().flatten() {
+            let total: f64 = lost.iter().map(|(_, lost)| lost).sum();
+            for (j, lost) in lost.into_iter().filter(|_| total > 0.0 && total.is_finite()) {
+                *all.entry(j).or_default() += lost / total;
+            }
+        }
     }
 
     fn left_along(&self, test: &Test) -> Option<[f64; 2]> {

@@ -156,6 +156,27 @@ fn tolerances_are_enclosed_to_second_order() {
     assert!(greatest <= outer && greatest > 0.99 * outer, "{greatest} {outer}");
 }
 
+/// Of rods of 110 +- 20 no box of any size holds; of those of thirty numbers that matter, the ranges are divided.
+#[test]
+fn extremes_of_wide_tolerances_are_enclosed_in_parts() {
+    let one = ("psi-greatest", (1, 50));
+    let cases = [
+        ("kernel/five-bar-rough", ("parallel-margin", (1, 50))),
+        ("kernel/five-bar-rough", one),
+        ("orthoglide-wide-tolerance", ("rho-1-least", (1, 1_000))),
+    ];
+    for (design, (name, relative)) in cases {
+        let file = format!("{}/tests/designs/{design}.toml", env!("CARGO_MANIFEST_DIR"));
+        let claim = crate::design::Design::read(file.as_ref()).expect("a design").claim;
+        let [(_, found)] = &all(&claim, &[name], relative)[..] else { panic!("{name}") };
+        assert!(found.width <= BigRational::new(relative.0.into(), relative.1.into()), "{name}");
+        let Proof::Tree(tree) = &found.certified.proof else { panic!("a tree") };
+        let m = Problem::new(&claim).expect("a claim").dimension();
+        assert!(tree.nodes.iter().any(|node| node.split.is_some_and(|k| k >= m)), "{name}");
+        assert!(check(&found.certified).is_ok() && found.refuted.is_some(), "{name}");
+    }
+}
+
 #[test]
 fn values_are_tight_bounds() {
     for claim in [orthoglide(r#"{"min":"311","max":"312"}"#, CUBE), rotary()] {
