@@ -13,8 +13,8 @@ if [ ! -x "$venv/bin/python" ]; then
   python3 -m venv "$venv"
   "$venv/bin/pip" install --quiet --disable-pip-version-check -r "$here/requirements.txt"
 fi
-cargo build --release --locked --quiet
-orthocert=${CARGO_TARGET_DIR:-target}/release/orthocert
+cargo build --profile dist --locked --quiet
+orthocert=${CARGO_TARGET_DIR:-target}/dist/orthocert
 if [ "${1-}" = --hexapods ]; then
   "$venv/bin/python" "$here/hexapod.py" "$orthocert"
 else
