@@ -7,9 +7,8 @@ use crate::exact::Exact;
 use crate::files::output;
 use crate::report::text::{duration, wrap, WIDTH};
 use crate::report::{exactly, placed, point_text, pose_text, CertificateFile};
-use crate::search::solver::extremes::{
-    enclose, is_singular, loosest, of_cube, Enclosed, Extreme, NotEnclosed,
-};
+use crate::search::solver::enclose::{enclose, is_singular, loosest, Enclosed, NotEnclosed};
+use crate::search::solver::extremes::{of_cube, Extreme};
 use crate::search::solver::sector::{self, Sector};
 use crate::search::solver::value::{coordinates, in_length, listed, with_unit};
 use crate::search::Budget;

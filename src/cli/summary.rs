@@ -5,7 +5,7 @@ use super::{input, interrupt, print, Failure, Format, Status};
 use crate::questions::summary::{summary, text, Question};
 use crate::report::text::headline_of;
 use crate::report::Outcome;
-use crate::search::solver::extremes::{loosest, NotEnclosed};
+use crate::search::solver::enclose::{loosest, NotEnclosed};
 use crate::search::solver::{number, verify};
 use num_rational::BigRational;
 use num_traits::Signed;

@@ -2,7 +2,8 @@
 //! where the other is of one size with what is so.
 
 use super::End;
-use crate::search::solver::extremes::{beyond, reached, seen, Extreme, NotEnclosed};
+use crate::search::solver::enclose::{beyond, reached, seen, NotEnclosed};
+use crate::search::solver::extremes::Extreme;
 use crate::search::solver::{number, proof, value};
 use crate::search::{Budget, Control, Steps, Stop};
 use num_rational::BigRational;

@@ -28,9 +28,8 @@ pub use signed::signed;
 use crate::exact::decimal::{rounded, Toward};
 use crate::exact::Exact;
 use crate::report::{exactly, Counterexample, Facts, Outcome, Report};
-use crate::search::solver::extremes::{
-    enclose, is_singular, reached, Enclosed, Extreme, NotEnclosed,
-};
+use crate::search::solver::enclose::{enclose, is_singular, reached, Enclosed, NotEnclosed};
+use crate::search::solver::extremes::Extreme;
 use crate::search::solver::value::{Bounded, Coordinates};
 use crate::search::solver::{sector, Verification};
 use crate::search::{Budget, Control, Steps};

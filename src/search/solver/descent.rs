@@ -11,12 +11,23 @@ const MOST_AXES: usize = 3;
 const STARTS: usize = 3;
 const MORE_STARTS: usize = 16;
 const CLOSE: f64 = 0.02;
+/// Values that are looked at for more starts, with the tolerances at their worse ends.
+const VALUES_AT_ENDS: usize = 2000;
 /// What starts differ by, at least, in some coordinate.
 const APART: f64 = 0.3;
 
 /// The greatest difference of coordinates.
 fn distance(one: &Place, other: &Place) -> f64 {
     one.u.iter().zip(&other.u).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+}
+
+/// Adds the first of the places that are apart from all others, until there are so many.
+fn add_apart<'a>(apart: &mut Vec<&'a Place>, places: impl Iterator<Item = &'a Place>, most: usize) {
+    for place in places {
+        if apart.len() < most && apart.iter().all(|other| distance(other, place) > APART) {
+            apart.push(place);
+        }
+    }
 }
 
 impl Sampler<'_> {
@@ -155,6 +166,22 @@ impl Sampler<'_> {
         self.qualities().into_iter().filter_map(worst).collect()
     }
 
+    /// The corners of the workspace, and the middles of its edges and faces, with each tolerance at its worse end, worst
+    /// first: where the middle machine is far from failing, another may be near.
+    fn worse_at_ends(&self, quality: Quality, grid: &[(f64, &Place)]) -> Vec<Place> {
+        let Some(most) = VALUES_AT_ENDS.checked_div(2 * self.frees()) else { return Vec::new() };
+        let is_coarse = |place: &Place| place.u.iter().all(|u| [0.0, 0.5, 1.0].contains(u));
+        let coarse = grid.iter().filter(|(_, place)| is_coarse(place)).take(most);
+        let at_ends = |&(margin, place): &(f64, &Place)| {
+            let mut worst = Worst { quality, place: place.clone(), margin };
+            self.to_ends(&mut worst);
+            worst
+        };
+        let mut all: Vec<Worst> = coarse.map(at_ends).collect();
+        all.sort_by(|a, b| a.margin.total_cmp(&b.margin));
+        all.into_iter().map(|worst| worst.place).collect()
+    }
+
     /// The worst place found of every quality, from the worst points of the grid.
     pub fn worst_values(&self, finest: i32) -> Vec<Worst> {
         let grid: Vec<_> = self.grid().into_iter().map(|p| (self.at(&p), p)).collect();
@@ -168,12 +195,11 @@ impl Sampler<'_> {
                 grid.iter().map(|(values, p)| (margin(values, p), p)).collect();
             starts.sort_by(|a, b| a.0.total_cmp(&b.0));
             let most = if self.box_.len() > MOST_AXES { MORE_STARTS } else { STARTS };
-            let mut apart: Vec<&Place> = Vec::new();
-            for (_, start) in starts {
-                if apart.len() < most && apart.iter().all(|other| distance(other, start) > APART) {
-                    apart.push(start);
-                }
-            }
+            let at_ends = self.worse_at_ends(quality, &starts);
+            let mut apart = Vec::new();
+            add_apart(&mut apart, at_ends.iter(), STARTS);
+            let most = apart.len() + most;
+            add_apart(&mut apart, starts.into_iter().map(|(_, start)| start), most);
             let mut worst: Option<Worst> = None;
             for (number, start) in apart.into_iter().enumerate() {
                 let is_close = |worst: &Worst| (0.0..CLOSE).contains(&worst.margin);

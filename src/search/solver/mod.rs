@@ -21,7 +21,8 @@
 //! | `refute`   | a place where an obligation seems to fail as an exact witness               |
 //! | `violation` | how far from holding a test is at a place, and along which direction       |
 //! | [`value`]  | a quantity at a place, in the claim's own unit                              |
-//! | [`extremes`] | encloses how small and how large each quantity gets                       |
+//! | [`extremes`] | how small and how large each quantity gets                                |
+//! | [`mod@enclose`] | encloses that                                                          |
 //! | [`sector`] | encloses the angles that a joint takes                                      |
 //! | [`margin`](mod@margin) | by how much a claim's bounds could be tightened                 |
 //!
@@ -36,6 +37,7 @@ mod chords;
 mod descent;
 mod directions;
 pub(crate) mod doubles;
+pub mod enclose;
 pub(crate) mod evidence;
 pub mod extremes;
 pub(crate) mod fails;
@@ -87,7 +89,7 @@ const GUARD_APART: u32 = 22;
 /// others.
 const MOST_IN_RANGES: [usize; 2] = [8, 2000];
 /// Boxes of one level with tolerances in parts: where these help, few are enough.
-const MOST_ABREAST: usize = 512;
+const MOST_ABREAST: usize = 4096;
 /// Boxes with directions apart: each takes long, and few are enough where they help.
 const MOST_APART: usize = 300;
 /// The greatest bound that is searched with.
@@ -407,22 +409,25 @@ fn apart_or_in_parts(
     control: &mut Control<'_>,
 ) -> Option<Vec<Node>> {
     apart(prover, budget, control).or_else(|| {
-        let found = in_parts_of_tolerances(prover, 1, budget, control)?;
+        let found = in_parts_of_tolerances(prover, (None, 1), budget, control)?;
         found.is_proof().then_some(found.nodes)
     })
 }
 
 /// The same with tolerances in parts, where no box of the workspace is small enough; of so many times the boxes that are
-/// worth it.
+/// worth it, and where a point is given only if the tests hold next to it.
 fn in_parts_of_tolerances(
     prover: &Prover<'_>,
-    times: usize,
+    (point, times): (Option<&[f64]>, usize),
     budget: Budget,
     control: &mut Control<'_>,
 ) -> Option<Outcome> {
     let parts = Parts::new(prover)?;
     let ends = Ends { hopeless: true, enough: Some(MOST_ABREAST) };
     let budget = Budget { max_boxes: budget.max_boxes.min(times * parts.most()), ..budget };
+    if point.is_some_and(|point| !parts.hold_next_to(point, budget, control)) {
+        return None;
+    }
     search(&parts, &Branch::whole(&parts), ends, budget, control)
 }
 

@@ -18,8 +18,12 @@ use std::sync::Mutex;
 const WORTH: f64 = 0.25;
 /// The least that is lost, of what is left.
 const LEAST_LOST: f64 = 1e-9;
-/// The greatest gain of one half that counts.
+/// The greatest gain of one half that counts, and the least gain that tells anything.
 const MOST_GAIN: f64 = 1e3;
+const LEAST_GAIN: f64 = 1e-3;
+/// Of so many halvings one is of what is relatively widest, whatever is gained: what is left of a test is foreseen from its
+/// worst vertex and machine alone, and may be so wrongly on every box below.
+const ONE_OF: u32 = 12;
 
 /// What each number changes of a row.
 type Changes = BTreeMap<usize, DVector<f64>>;
@@ -28,6 +32,8 @@ type Changes = BTreeMap<usize, DVector<f64>>;
 pub(super) struct Parts<'a> {
     problem: &'a Problem,
     root: Cell,
+    /// How wide the whole workspace, and tolerances, are.
+    widths: Vec<f64>,
     coordinates: usize,
     /// Those that no thread narrows at the moment.
     provers: Mutex<Vec<Prover<'a>>>,
@@ -37,8 +43,9 @@ pub(super) struct Parts<'a> {
 const MOST_NUMBERS: usize = 16;
 /// Of more numbers, so many are tried, those to whose halves most is lost.
 const TRIED: usize = 6;
-/// Next to one point so much fewer boxes have to be enough.
+/// Next to one point so much fewer boxes have to be enough, and of a level so many.
 const NEXT_TO_POINT: usize = 4;
+const ABREAST_NEXT_TO_POINT: usize = 256;
 /// Tolerances, and coordinates, times boxes of a tree; a third of it for each coordinate of orientation, as each box takes
 /// three times as long.
 const MOST_TRIED: usize = 16_000;
@@ -62,6 +69,7 @@ impl<'a> Parts<'a> {
         let most = if problem.orientation.len() > 1 { MOST_NUMBERS } else { usize::MAX };
         (1..=most).contains(&numbers).then(|| Parts {
             problem,
+            widths: root.iter().map(|(lo, hi)| hi - lo).collect(),
             root,
             coordinates,
             provers: Mutex::default(),
@@ -74,8 +82,8 @@ impl<'a> Parts<'a> {
         let (own, ranges) = self.root.split_at(self.coordinates);
         let own = point.iter().zip(own).map(|(&x, &range)| next_to(x, range));
         let root = own.chain(ranges.iter().copied()).collect();
-        let there = Parts { root, provers: Mutex::default(), ..*self };
-        let ends = Ends { hopeless: true, enough: None };
+        let there = Parts { root, widths: self.widths.clone(), provers: Mutex::default(), ..*self };
+        let ends = Ends { hopeless: true, enough: Some(ABREAST_NEXT_TO_POINT) };
         let budget = Budget { max_boxes: budget.max_boxes / NEXT_TO_POINT, ..budget };
         let found = search(&there, &Branch::whole(&there), ends, budget, control);
         found.is_some_and(|found| found.is_proof())
@@ -101,8 +109,41 @@ impl<'a> Parts<'a> {
         all.unwrap_or_default()
     }
 
-    /// How much is gained by halving the coordinate along which what is open varies most, and each range.
-    fn gains(&self, cell: &Cell, open: &[usize], own: &[f64]) -> Vec<f64> {
+    /// How much is gained by halving the coordinate along which what is open varies most, and each range; where that tells
+    /// nothing, and now and then, how wide each is of its whole.
+    fn weights(&self, cell: &Cell, open: &[usize], own: &[f64]) -> Vec<f64> {
+        let tried = self.tried(cell, open);
+        if self.halvings(cell) % ONE_OF == ONE_OF - 1 {
+            return self.shares(cell, &tried);
+        }
+        let gains = self.gains(cell, open, own, &tried);
+        if gains.iter().any(|gain| *gain > LEAST_GAIN) {
+            return gains;
+        }
+        self.shares(cell, &tried)
+    }
+
+    /// Of each coordinate, and of these ranges, the share of its whole.
+    fn shares(&self, cell: &Cell, tried: &[usize]) -> Vec<f64> {
+        let share = |(k, ((lo, hi), whole)): (usize, (&Pair, &f64))| {
+            let is_meant = k < self.coordinates || tried.contains(&k);
+            if is_meant {
+                (hi - lo) / whole
+            } else {
+                f64::MIN
+            }
+        };
+        cell.iter().zip(&self.widths).enumerate().map(share).collect()
+    }
+
+    /// From the root to a box.
+    fn halvings(&self, cell: &Cell) -> u32 {
+        let each = cell.iter().zip(&self.root).filter(|(_, root)| root.0 < root.1);
+        let each = each.map(|(own, root)| ((root.1 - root.0) / (own.1 - own.0)).log2().round());
+        each.sum::<f64>() as u32
+    }
+
+    fn gains(&self, cell: &Cell, open: &[usize], own: &[f64], tried: &[usize]) -> Vec<f64> {
         let before = self.margins(cell, open);
         let greatest = |best: usize, k: usize| if own[k] > own[best] { k } else { best };
         let first = (0..self.coordinates).fold(0, greatest);
@@ -126,7 +167,6 @@ impl<'a> Parts<'a> {
             });
             gains.sum()
         };
-        let tried = self.tried(cell, open);
         let is_tried = |k: usize| k == first || tried.contains(&k);
         (0..cell.len()).map(|k| if is_tried(k) { gain(k) } else { f64::MIN }).collect()
     }
@@ -195,7 +235,7 @@ impl Boxes for Parts<'_> {
         } else if trial.open.iter().any(of_whole) {
             trial.weights.resize(cell.len(), f64::MIN);
         } else {
-            trial.weights = self.gains(cell, &trial.open, &trial.weights);
+            trial.weights = self.weights(cell, &trial.open, &trial.weights);
         }
         trial
     }

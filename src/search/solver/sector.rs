@@ -1,6 +1,6 @@
 //! The angles that a joint takes: a certified sector in which all of them are, up to whole turns.
 
-use super::extremes::{narrowest, of_one_width, rounded, NotEnclosed};
+use super::enclose::{narrowest, of_one_width, rounded, NotEnclosed};
 use super::refute::number;
 use super::sample::{Place, Quality, Sampler, Worst};
 use super::value::{alone, middle as range_middle, turns, Bounded};
