@@ -343,7 +343,7 @@ impl Over<'_> {
         weights
     }
 
-    fn along(&self, f: Formula, k: usize) -> f64 {
+    pub(super) fn along(&self, f: Formula, k: usize) -> f64 {
         self.formulas.of(f).map_or(f64::INFINITY, |slope| magnitude(&slope.slopes[k]))
     }
 
@@ -367,33 +367,41 @@ impl Over<'_> {
 
     /// By how much a test's formulas vary along a coordinate.
     fn varies(&self, test: &Test, k: usize) -> f64 {
-        let sum = |all: &mut dyn Iterator<Item = &Formula>| -> f64 {
-            all.map(|&f| self.along(f, k)).sum()
-        };
+        self.weighted(test).iter().map(|&(f, weight)| weight * self.along(f, k)).sum()
+    }
+
+    /// What a test is made of, and how much each of that counts.
+    pub(super) fn weighted(&self, test: &Test) -> Vec<(Formula, f64)> {
+        let once = |all: &mut dyn Iterator<Item = &Formula>| all.map(|&f| (f, 1.0)).collect();
         match test {
             Test::SigmaMin(_) | Test::SigmaMax(_) | Test::Conditioning(_) | Test::Solve(_) => {
-                self.rows_vary(self.problem().legs.iter().map(|leg| &leg.row), k)
+                self.weighted_rows(self.problem().legs.iter().map(|leg| &leg.row))
             }
             Test::Least(rows, _) | Test::Greatest(rows, _) | Test::OneToOne(rows) => {
-                self.rows_vary(rows.iter(), k)
+                self.weighted_rows(rows.iter())
             }
-            Test::AtLeast(f) => self.along(*f, k),
-            Test::Beyond(f, b) => self.along(*f, k) + self.along(*b, k),
-            Test::Accuracy(accuracy) => sum(&mut accuracy.rows.iter().flatten()),
-            Test::Apart(apart) => sum(&mut apart.ends.iter().flatten().flatten()),
+            Test::AtLeast(f) => vec![(*f, 1.0)],
+            Test::Beyond(f, b) => vec![(*f, 1.0), (*b, 1.0)],
+            Test::Accuracy(accuracy) => once(&mut accuracy.rows.iter().flatten()),
+            Test::Apart(apart) => once(&mut apart.ends.iter().flatten().flatten()),
             Test::Curvature(test) => {
                 let [a, b] = [test.a, test.b].map(|f| self.centre(f).unwrap_or(1.0));
-                a * sum(&mut test.row.iter()) + b * sum(&mut test.twice.iter().flatten())
+                let row = test.row.iter().map(|&f| (f, a));
+                row.chain(test.twice.iter().flatten().map(|&f| (f, b))).collect()
             }
         }
     }
 
-    /// `sum_i |S_k A_i|/sqrt(D_i) + 16 |S_k D_i|/D_i`.
-    fn rows_vary<'r>(&self, rows: impl Iterator<Item = &'r Row<Formula>>, k: usize) -> f64 {
-        rows.fold(0.0, |sum, row| {
+    /// Rows, so that what varies is `sum_i |S_k A_i|/sqrt(D_i) + 16 |S_k D_i|/D_i`.
+    fn weighted_rows<'r>(
+        &self,
+        rows: impl Iterator<Item = &'r Row<Formula>>,
+    ) -> Vec<(Formula, f64)> {
+        let weighted = |row: &'r Row<Formula>| {
             let d = self.centre(row.d).unwrap_or(1.0).max(f64::MIN_POSITIVE);
-            let a: f64 = row.a.iter().map(|&a| self.along(a, k)).sum();
-            sum + a / d.sqrt() + WEIGHT_OF_D * self.along(row.d, k) / d
-        })
+            let a = row.a.iter().map(move |&a| (a, 1.0 / d.sqrt()));
+            a.chain([(row.d, WEIGHT_OF_D / d)])
+        };
+        rows.flat_map(weighted).collect()
     }
 }

@@ -1,7 +1,7 @@
 //! Tolerances in parts: where they are too wide for boxes of any size, boxes of the workspace and of these.
 
 use super::apart::{at_place, Stretched, LENGTHS};
-use super::doubles::Pair;
+use super::doubles::{magnitude, Pair};
 use super::evidence::{centre, next_to, Over, Prover};
 use super::rows::Rows;
 use super::search::{halved, search, Boxes, Branch, Cell, Ends, Trial};
@@ -21,9 +21,9 @@ const LEAST_LOST: f64 = 1e-9;
 /// The greatest gain of one half that counts, and the least gain that tells anything.
 const MOST_GAIN: f64 = 1e3;
 const LEAST_GAIN: f64 = 1e-3;
-/// Of so many halvings one is of what is relatively widest, whatever is gained: what is left of a test is foreseen from its
-/// worst vertex and machine alone, and may be so wrongly on every box below.
-const ONE_OF: u32 = 12;
+/// Of so many halvings one is of that along which formulas vary most, whatever is gained: what is left of a test is
+/// foreseen from its worst vertex and machine alone, and may be so wrongly on every box below.
+const ONE_OF: u32 = 3;
 
 /// What each number changes of a row.
 type Changes = BTreeMap<usize, DVector<f64>>;
@@ -89,6 +89,12 @@ impl<'a> Parts<'a> {
         found.is_some_and(|found| found.is_proof())
     }
 
+    /// Which inputs the ranges are of.
+    fn numbers(&self) -> impl Iterator<Item = usize> + '_ {
+        let inputs = self.problem.inputs.iter().enumerate();
+        inputs.filter(|(_, input)| input.has_two_ends()).map(|(j, _)| j)
+    }
+
     /// With a prover for a part of the tolerances.
     fn narrowed<T>(&self, ranges: &[Pair], then: impl FnOnce(&mut Prover<'a>) -> T) -> Option<T> {
         let waiting = self.provers.lock().ok()?.pop();
@@ -110,30 +116,39 @@ impl<'a> Parts<'a> {
     }
 
     /// How much is gained by halving the coordinate along which what is open varies most, and each range; where that tells
-    /// nothing, and now and then, how wide each is of its whole.
+    /// nothing, and now and then, by how much it varies along each.
     fn weights(&self, cell: &Cell, open: &[usize], own: &[f64]) -> Vec<f64> {
-        let tried = self.tried(cell, open);
-        if self.halvings(cell) % ONE_OF == ONE_OF - 1 {
-            return self.shares(cell, &tried);
+        if self.halvings(cell) % ONE_OF != ONE_OF - 1 {
+            let gains = self.gains(cell, open, own);
+            if gains.iter().any(|gain| *gain > LEAST_GAIN) {
+                return gains;
+            }
         }
-        let gains = self.gains(cell, open, own, &tried);
-        if gains.iter().any(|gain| *gain > LEAST_GAIN) {
-            return gains;
-        }
-        self.shares(cell, &tried)
+        self.variations(cell, open)
     }
 
-    /// Of each coordinate, and of these ranges, the share of its whole.
-    fn shares(&self, cell: &Cell, tried: &[usize]) -> Vec<f64> {
-        let share = |(k, ((lo, hi), whole)): (usize, (&Pair, &f64))| {
-            let is_meant = k < self.coordinates || tried.contains(&k);
-            if is_meant {
-                (hi - lo) / whole
-            } else {
-                f64::MIN
-            }
+    /// By how much, about, what is open varies along each coordinate, and with each range; where that is not known, what part
+    /// each is of its whole.
+    fn variations(&self, cell: &Cell, open: &[usize]) -> Vec<f64> {
+        let (own, ranges) = cell.split_at(self.coordinates);
+        let numbers: Vec<usize> = self.numbers().collect();
+        let of = |prover: &mut Prover<'a>| {
+            prover.on(&own.to_vec(), |over| {
+                let tests = open.iter().map(|&o| &self.problem.obligations[o].test);
+                tests.filter_map(|test| over.variation(test, &numbers)).collect::<Vec<_>>()
+            })
         };
-        cell.iter().zip(&self.widths).enumerate().map(share).collect()
+        let mut weights = vec![0.0; cell.len()];
+        for part in self.narrowed(ranges, of).unwrap_or_default() {
+            let total: f64 = part.iter().sum();
+            if total.is_finite() && total > 0.0 {
+                weights.iter_mut().zip(&part).for_each(|(weight, part)| *weight += part / total);
+            }
+        }
+        if weights.iter().any(|weight| *weight > 0.0) {
+            return weights;
+        }
+        cell.iter().zip(&self.widths).map(|((lo, hi), whole)| (hi - lo) / whole).collect()
     }
 
     /// From the root to a box.
@@ -143,7 +158,7 @@ impl<'a> Parts<'a> {
         each.sum::<f64>() as u32
     }
 
-    fn gains(&self, cell: &Cell, open: &[usize], own: &[f64], tried: &[usize]) -> Vec<f64> {
+    fn gains(&self, cell: &Cell, open: &[usize], own: &[f64]) -> Vec<f64> {
         let before = self.margins(cell, open);
         let greatest = |best: usize, k: usize| if own[k] > own[best] { k } else { best };
         let first = (0..self.coordinates).fold(0, greatest);
@@ -167,6 +182,7 @@ impl<'a> Parts<'a> {
             });
             gains.sum()
         };
+        let tried = self.tried(cell, open);
         let is_tried = |k: usize| k == first || tried.contains(&k);
         (0..cell.len()).map(|k| if is_tried(k) { gain(k) } else { f64::MIN }).collect()
     }
@@ -188,9 +204,8 @@ impl<'a> Parts<'a> {
             })
         };
         let lost = self.narrowed(ranges, of).unwrap_or_default();
-        let inputs = self.problem.inputs.iter().enumerate();
-        let with_ends = inputs.filter(|(_, input)| input.has_two_ends()).map(|(j, _)| j);
-        let lost: Vec<f64> = with_ends.map(|j| lost.get(&j).copied().unwrap_or_default()).collect();
+        let lost: Vec<f64> =
+            self.numbers().map(|j| lost.get(&j).copied().unwrap_or_default()).collect();
         let mut order: Vec<usize> = (0..lost.len()).filter(|&i| lost[i] > 0.0).collect();
         order.sort_by(|&a, &b| lost[b].total_cmp(&lost[a]));
         order.iter().take(TRIED).map(|i| self.coordinates + i).collect()
@@ -262,6 +277,27 @@ impl Over<'_> {
             }
         };
         self.there(test, own).or_else(|| own(self))
+    }
+
+    /// By how much a test's formulas vary along each coordinate, and with each of these numbers; none where derivatives are not
+    /// defined.
+    fn variation(&self, test: &Test, numbers: &[usize]) -> Option<Vec<f64>> {
+        let derived = self.prover.checker.derived(self.formulas.place, self.prover.has_scales())?;
+        let derivatives = &self.problem().derived.as_ref()?.of;
+        let m = self.m();
+        let mut all = vec![0.0; m + numbers.len()];
+        for (f, weight) in self.weighted(test) {
+            for (k, varies) in all.iter_mut().take(m).enumerate() {
+                *varies += weight * self.along(f, k);
+            }
+            for (j, derivative) in derivatives.get(&f)? {
+                let Some(i) = numbers.iter().position(|number| number == j) else { continue };
+                let (low, high) = *self.prover.parameters().get(*j)?;
+                all[m + i] +=
+                    weight * 0.5 * (high - low) * magnitude(&derived.of(*derivative)?.range);
+            }
+        }
+        Some(all)
     }
 
     /// Adds what is lost of a test for the ranges of derivatives, by each number, as a share of all of it: about the sum of
