@@ -15,7 +15,6 @@ use num_traits::ToPrimitive;
 use orthocert_checker::certificate::Certificate;
 use orthocert_kernel::claim::MachineClaim;
 use orthocert_kernel::input::ClaimError;
-use orthocert_kernel::number::Expression;
 use std::time::Instant;
 
 /// Largest factor between one value and the next that is of use.
@@ -267,20 +266,7 @@ pub fn proof(
     budget: Budget,
     control: &mut Control<'_>,
 ) -> Result<Option<Box<Certificate>>, NoAnswer> {
-    proof_about(claim, None, budget, control)
-}
-
-/// The same, where it is known at which point the claim is nearest to failing.
-///
-/// # Errors
-/// If it was cancelled.
-pub fn proof_about(
-    claim: &MachineClaim,
-    point: Option<&[Expression]>,
-    budget: Budget,
-    control: &mut Control<'_>,
-) -> Result<Option<Box<Certificate>>, NoAnswer> {
-    let found = solver::proof_about(claim, point, budget, control).ok();
+    let found = solver::proof(claim, budget, control).ok();
     unless_cancelled(control, found)
 }
 
@@ -297,7 +283,7 @@ pub fn refutation(
     Ok(solver::refutation(claim))
 }
 
-fn unless_cancelled<T>(control: &Control<'_>, found: T) -> Result<T, NoAnswer> {
+pub(super) fn unless_cancelled<T>(control: &Control<'_>, found: T) -> Result<T, NoAnswer> {
     match control.is_cancelled() {
         true => Err(NoAnswer::Cancelled),
         false => Ok(found),

@@ -9,16 +9,20 @@
 use crate::exact::arithmetic::apply;
 use crate::exact::Exact;
 use crate::questions::frontier::{
-    frontier, proof_about, refutation, Bracket, NoAnswer, Succeeds, Walk, LARGEST_FACTOR,
+    decimal, frontier, refutation, unless_cancelled, Bracket, NoAnswer, Succeeds, Walk,
+    LARGEST_FACTOR,
 };
 use crate::report::exactly;
+use crate::search::solver::enclose::of_one_width;
 use crate::search::solver::{self, number};
-use crate::search::{Budget, Control};
+use crate::search::{Budget, Control, Stop};
 use num_rational::BigRational;
 use num_traits::{Signed, ToPrimitive, Zero};
 use orthocert_checker::certificate::Proof;
 use orthocert_kernel::claim::{Leg, MachineClaim, Mechanism, Quantity, Turning, Vector};
 use orthocert_kernel::number::{Expression, Operator};
+use orthocert_kernel::problem::Problem;
+use std::cell::Cell;
 use std::fmt;
 use std::time::Instant;
 
@@ -303,11 +307,37 @@ pub fn widest(
         Proof::Witness(witness) => Some(&witness.point[..]),
         _ => None,
     });
-    let certified = control.part([0.6, 1.0], |control| {
-        frontier(&walk, control, |t, control| match scheme.claim(claim, t) {
-            Some(claim) => proof_about(&claim, point, budget, control),
-            None => Ok(None),
+    let ran_out = Cell::new(false);
+    let prove = |walk: &Walk, budget, control: &mut Control<'_>| {
+        frontier(walk, control, |t, control| {
+            let Some(claim) = scheme.claim(claim, t) else { return Ok(None) };
+            let found = solver::proof_about(&claim, point, budget, control);
+            ran_out.set(ran_out.get() || matches!(found, Err(Stop::Boxes | Stop::Time)));
+            unless_cancelled(control, found.ok())
         })
-    })?;
+    };
+    // Of platforms that turn one proof that is not found may take all the time: first, then, what few boxes prove.
+    let first = decimal(walk.start, gap).and_then(|t| scheme.claim(claim, &t));
+    let few = first.and_then(|claim| Some(of_one_width(budget, &Problem::new(&claim).ok()?)));
+    let few = few.filter(|few| claim.orientation.is_some() && few.max_boxes < budget.max_boxes);
+    let certified = match few {
+        None => control.part([0.6, 1.0], |control| prove(&walk, budget, control))?,
+        Some(few) => {
+            let quick = control.part([0.6, 0.8], |control| prove(&walk, few, control))?;
+            let least = quick.as_ref().and_then(|(t, _)| t.to_f64());
+            let enough = least.is_some_and(|t| walk.enough.is_some_and(|enough| t >= enough));
+            if enough || !ran_out.get() {
+                quick
+            } else {
+                let between = |least: f64| Walk {
+                    start: (least * walk.start).sqrt(),
+                    limits: (least, walk.limits.1),
+                    ..walk
+                };
+                let walk = least.map_or(walk, between);
+                control.part([0.8, 1.0], |control| prove(&walk, budget, control))?.or(quick)
+            }
+        }
+    };
     Ok(Bracket { certified, refuted })
 }

@@ -228,8 +228,8 @@ pub fn beyond(value: f64, factor: &BigRational) -> Option<BigRational> {
     Some(rounded(&value, &(value.abs() / BigRational::from_integer(10.into()))))
 }
 
-/// The budget after which a width is given up.
-pub(super) fn of_one_width(budget: Budget, problem: &Problem) -> Budget {
+/// The budget after which a width, or one of several bounds, is given up.
+pub(crate) fn of_one_width(budget: Budget, problem: &Problem) -> Budget {
     let slower = if turns_with_tolerances(problem) { 6 } else { 1 };
     let own = MOST_BOXES[usize::from(!problem.orientation.is_empty())];
     let most = own / 3usize.pow(problem.orientation.len() as u32) / slower;
