@@ -198,12 +198,12 @@ impl Sampler<'_> {
             let at_ends = self.worse_at_ends(quality, &starts);
             let mut apart = Vec::new();
             add_apart(&mut apart, at_ends.iter(), STARTS);
-            let most = apart.len() + most;
+            let [always, most] = [STARTS, most].map(|own| apart.len() + own);
             add_apart(&mut apart, starts.into_iter().map(|(_, start)| start), most);
             let mut worst: Option<Worst> = None;
             for (number, start) in apart.into_iter().enumerate() {
                 let is_close = |worst: &Worst| (0.0..CLOSE).contains(&worst.margin);
-                if number >= STARTS && !worst.as_ref().is_some_and(is_close) {
+                if number >= always && !worst.as_ref().is_some_and(is_close) {
                     break;
                 }
                 let found = self.descended(quality, start, COARSE);
