@@ -9,7 +9,7 @@
 use crate::exact::arithmetic::apply;
 use crate::exact::Exact;
 use crate::questions::frontier::{
-    decimal, frontier, refutation, unless_cancelled, Bracket, NoAnswer, Succeeds, Walk,
+    decimal, frontier, refutation, unless_cancelled, Bracket, Certified, NoAnswer, Succeeds, Walk,
     LARGEST_FACTOR,
 };
 use crate::report::exactly;
@@ -307,6 +307,20 @@ pub fn widest(
         Proof::Witness(witness) => Some(&witness.point[..]),
         _ => None,
     });
+    let certified = control
+        .part([0.6, 1.0], |control| certified(claim, scheme, (&walk, point), budget, control))?;
+    Ok(Bracket { certified, refuted })
+}
+
+/// The widest `t` found for which the claim widened by `scheme` is certified; `point` is where it is nearest to failing.
+/// Of platforms that turn one proof that is not found may take all the time: what few boxes prove is first, then.
+fn certified(
+    claim: &MachineClaim,
+    scheme: &Scheme,
+    (walk, point): (&Walk, Option<&[Expression]>),
+    budget: Budget,
+    control: &mut Control<'_>,
+) -> Result<Option<Certified>, NoAnswer> {
     let ran_out = Cell::new(false);
     let prove = |walk: &Walk, budget, control: &mut Control<'_>| {
         frontier(walk, control, |t, control| {
@@ -316,28 +330,23 @@ pub fn widest(
             unless_cancelled(control, found.ok())
         })
     };
-    // Of platforms that turn one proof that is not found may take all the time: first, then, what few boxes prove.
-    let first = decimal(walk.start, gap).and_then(|t| scheme.claim(claim, &t));
+    let first = decimal(walk.start, walk.gap).and_then(|t| scheme.claim(claim, &t));
     let few = first.and_then(|claim| Some(of_one_width(budget, &Problem::new(&claim).ok()?)));
     let few = few.filter(|few| claim.orientation.is_some() && few.max_boxes < budget.max_boxes);
-    let certified = match few {
-        None => control.part([0.6, 1.0], |control| prove(&walk, budget, control))?,
-        Some(few) => {
-            let quick = control.part([0.6, 0.8], |control| prove(&walk, few, control))?;
-            let least = quick.as_ref().and_then(|(t, _)| t.to_f64());
-            let enough = least.is_some_and(|t| walk.enough.is_some_and(|enough| t >= enough));
-            if enough || !ran_out.get() {
-                quick
-            } else {
-                let between = |least: f64| Walk {
-                    start: (least * walk.start).sqrt(),
-                    limits: (least, walk.limits.1),
-                    ..walk
-                };
-                let walk = least.map_or(walk, between);
-                control.part([0.8, 1.0], |control| prove(&walk, budget, control))?.or(quick)
-            }
-        }
+    let Some(few) = few else { return prove(walk, budget, control) };
+    let quick = control.part([0.0, 0.5], |control| prove(walk, few, control))?;
+    let least = quick.as_ref().and_then(|(t, _)| t.to_f64());
+    let is_enough = least.is_some_and(|t| walk.enough.is_some_and(|enough| t >= enough));
+    if is_enough || !ran_out.get() {
+        return Ok(quick);
+    }
+    let beyond = |least: f64| {
+        let start = match walk.enough {
+            Some(_) => (least * walk.start).sqrt(),
+            None => least * UNPROVED,
+        };
+        Walk { start, limits: (least, walk.limits.1), ..*walk }
     };
-    Ok(Bracket { certified, refuted })
+    let walk = least.map_or(*walk, beyond);
+    Ok(control.part([0.5, 1.0], |control| prove(&walk, budget, control))?.or(quick))
 }
