@@ -367,7 +367,34 @@ impl Over<'_> {
 
     /// By how much a test's formulas vary along a coordinate.
     fn varies(&self, test: &Test, k: usize) -> f64 {
-        self.weighted(test).iter().map(|&(f, weight)| weight * self.along(f, k)).sum()
+        let sum = |all: &mut dyn Iterator<Item = &Formula>| -> f64 {
+            all.map(|&f| self.along(f, k)).sum()
+        };
+        match test {
+            Test::SigmaMin(_) | Test::SigmaMax(_) | Test::Conditioning(_) | Test::Solve(_) => {
+                self.rows_vary(self.problem().legs.iter().map(|leg| &leg.row), k)
+            }
+            Test::Least(rows, _) | Test::Greatest(rows, _) | Test::OneToOne(rows) => {
+                self.rows_vary(rows.iter(), k)
+            }
+            Test::AtLeast(f) => self.along(*f, k),
+            Test::Beyond(f, b) => self.along(*f, k) + self.along(*b, k),
+            Test::Accuracy(accuracy) => sum(&mut accuracy.rows.iter().flatten()),
+            Test::Apart(apart) => sum(&mut apart.ends.iter().flatten().flatten()),
+            Test::Curvature(test) => {
+                let [a, b] = [test.a, test.b].map(|f| self.centre(f).unwrap_or(1.0));
+                a * sum(&mut test.row.iter()) + b * sum(&mut test.twice.iter().flatten())
+            }
+        }
+    }
+
+    /// `sum_i |S_k A_i|/sqrt(D_i) + 16 |S_k D_i|/D_i`.
+    fn rows_vary<'r>(&self, rows: impl Iterator<Item = &'r Row<Formula>>, k: usize) -> f64 {
+        rows.fold(0.0, |sum, row| {
+            let d = self.centre(row.d).unwrap_or(1.0).max(f64::MIN_POSITIVE);
+            let a: f64 = row.a.iter().map(|&a| self.along(a, k)).sum();
+            sum + a / d.sqrt() + WEIGHT_OF_D * self.along(row.d, k) / d
+        })
     }
 
     /// What a test is made of, and how much each of that counts.
