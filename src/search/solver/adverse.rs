@@ -73,20 +73,11 @@ impl Sampler<'_> {
     }
 
     fn worst_machine(&self, quality: Quality, finest: i32) -> Option<Worst> {
-        let at = |place: Place| {
-            let margin = self.margin_at(quality, &place);
-            Worst { quality, place, margin }
-        };
-        let mut starts: Vec<Worst> = Vec::new();
-        for place in self.grid() {
-            let mut start = at(place);
-            self.to_ends(&mut start);
-            starts.push(start);
-        }
-        starts.sort_by(|a, b| a.margin.total_cmp(&b.margin));
+        let mut starts = self.at_worse_ends(quality, self.grid());
         starts.truncate(STARTS);
         let first = starts.first()?.place.clone();
-        starts.extend(machines(first.t.len()).map(|t| at(Place { t, ..first.clone() })));
+        let others = machines(first.t.len()).map(|t| Place { t, ..first.clone() });
+        starts.extend(others.map(|place| self.worst_at(quality, place)));
         let found = starts.into_iter().map(|start| self.alternate(start, finest));
         let best = found.min_by(|a, b| a.margin.total_cmp(&b.margin))?;
         // Where the worst is not at the ends after all.

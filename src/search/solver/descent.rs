@@ -44,8 +44,7 @@ impl Sampler<'_> {
     /// The same, of more than [`MOST_AXES`] coordinates without diagonals.
     fn descended(&self, quality: Quality, start: &Place, finest: i32) -> Worst {
         let (m, p) = (self.box_.len(), self.frees());
-        let margin = self.margin_at(quality, start);
-        let mut worst = Worst { quality, place: start.clone(), margin };
+        let mut worst = self.worst_at(quality, start.clone());
         self.to_ends(&mut worst);
         self.compass(&mut worst, 0..m, 1..=COARSE.min(finest));
         if p > 0 {
@@ -168,18 +167,33 @@ impl Sampler<'_> {
 
     /// The corners of the workspace, and the middles of its edges and faces, with each tolerance at its worse end, worst
     /// first: where the middle machine is far from failing, another may be near.
-    fn worse_at_ends(&self, quality: Quality, grid: &[(f64, &Place)]) -> Vec<Place> {
+    fn corners_at_worse_ends(&self, quality: Quality, grid: &[(f64, &Place)]) -> Vec<Worst> {
         let Some(most) = VALUES_AT_ENDS.checked_div(2 * self.frees()) else { return Vec::new() };
-        let is_coarse = |place: &Place| place.u.iter().all(|u| [0.0, 0.5, 1.0].contains(u));
-        let coarse = grid.iter().filter(|(_, place)| is_coarse(place)).take(most);
-        let at_ends = |&(margin, place): &(f64, &Place)| {
-            let mut worst = Worst { quality, place: place.clone(), margin };
+        let is_coarse = |place: &&Place| place.u.iter().all(|u| [0.0, 0.5, 1.0].contains(u));
+        let coarse = grid.iter().map(|(_, place)| *place).filter(is_coarse).take(most);
+        self.at_worse_ends(quality, coarse.cloned())
+    }
+
+    /// Places with each tolerance at its worse end, worst first.
+    pub(super) fn at_worse_ends(
+        &self,
+        quality: Quality,
+        places: impl IntoIterator<Item = Place>,
+    ) -> Vec<Worst> {
+        let at_ends = |place| {
+            let mut worst = self.worst_at(quality, place);
             self.to_ends(&mut worst);
             worst
         };
-        let mut all: Vec<Worst> = coarse.map(at_ends).collect();
+        let mut all: Vec<Worst> = places.into_iter().map(at_ends).collect();
         all.sort_by(|a, b| a.margin.total_cmp(&b.margin));
-        all.into_iter().map(|worst| worst.place).collect()
+        all
+    }
+
+    /// A place with its margin.
+    pub(super) fn worst_at(&self, quality: Quality, place: Place) -> Worst {
+        let margin = self.margin_at(quality, &place);
+        Worst { quality, place, margin }
     }
 
     /// The worst place found of every quality, from the worst points of the grid.
@@ -195,9 +209,9 @@ impl Sampler<'_> {
                 grid.iter().map(|(values, p)| (margin(values, p), p)).collect();
             starts.sort_by(|a, b| a.0.total_cmp(&b.0));
             let most = if self.box_.len() > MOST_AXES { MORE_STARTS } else { STARTS };
-            let at_ends = self.worse_at_ends(quality, &starts);
+            let at_ends = self.corners_at_worse_ends(quality, &starts);
             let mut apart = Vec::new();
-            add_apart(&mut apart, at_ends.iter(), STARTS);
+            add_apart(&mut apart, at_ends.iter().map(|worst| &worst.place), STARTS);
             let [always, most] = [STARTS, most].map(|own| apart.len() + own);
             add_apart(&mut apart, starts.into_iter().map(|(_, start)| start), most);
             let mut worst: Option<Worst> = None;

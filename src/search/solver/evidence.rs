@@ -322,7 +322,8 @@ impl Over<'_> {
         if parts.is_empty() {
             let tests = open.iter().map(|&o| &self.problem().obligations[o].test);
             let part = |test: &Test| {
-                let own = coordinates.clone().map(|k| self.varies(test, k)).collect::<Vec<_>>();
+                let along = |k| self.varies(test, &|f| self.along(f, k));
+                let own = coordinates.clone().map(along).collect::<Vec<_>>();
                 match test {
                     Test::Accuracy(accuracy) => self.with_spread(accuracy, &own).unwrap_or(own),
                     _ => own,
@@ -330,13 +331,7 @@ impl Over<'_> {
             };
             parts = tests.map(part).collect();
         }
-        let mut weights = vec![0.0; self.m()];
-        for part in parts {
-            let total: f64 = part.iter().sum();
-            if total.is_finite() && total > 0.0 {
-                weights.iter_mut().zip(&part).for_each(|(weight, part)| *weight += part / total);
-            }
-        }
+        let weights = sums_of_shares(&parts, self.m());
         if weights.iter().all(|&weight| weight == 0.0) {
             return self.formulas.place.edges.iter().map(|edge| edge[2].0).collect();
         }
@@ -365,20 +360,18 @@ impl Over<'_> {
         .collect()
     }
 
-    /// By how much a test's formulas vary along a coordinate.
-    fn varies(&self, test: &Test, k: usize) -> f64 {
-        let sum = |all: &mut dyn Iterator<Item = &Formula>| -> f64 {
-            all.map(|&f| self.along(f, k)).sum()
-        };
+    /// By how much a test's formulas vary, where it is known of each.
+    pub(super) fn varies(&self, test: &Test, of: &dyn Fn(Formula) -> f64) -> f64 {
+        let sum = |all: &mut dyn Iterator<Item = &Formula>| -> f64 { all.map(|&f| of(f)).sum() };
         match test {
             Test::SigmaMin(_) | Test::SigmaMax(_) | Test::Conditioning(_) | Test::Solve(_) => {
-                self.rows_vary(self.problem().legs.iter().map(|leg| &leg.row), k)
+                self.rows_vary(self.problem().legs.iter().map(|leg| &leg.row), of)
             }
             Test::Least(rows, _) | Test::Greatest(rows, _) | Test::OneToOne(rows) => {
-                self.rows_vary(rows.iter(), k)
+                self.rows_vary(rows.iter(), of)
             }
-            Test::AtLeast(f) => self.along(*f, k),
-            Test::Beyond(f, b) => self.along(*f, k) + self.along(*b, k),
+            Test::AtLeast(f) => of(*f),
+            Test::Beyond(f, b) => of(*f) + of(*b),
             Test::Accuracy(accuracy) => sum(&mut accuracy.rows.iter().flatten()),
             Test::Apart(apart) => sum(&mut apart.ends.iter().flatten().flatten()),
             Test::Curvature(test) => {
@@ -388,47 +381,28 @@ impl Over<'_> {
         }
     }
 
-    /// `sum_i |S_k A_i|/sqrt(D_i) + 16 |S_k D_i|/D_i`.
-    fn rows_vary<'r>(&self, rows: impl Iterator<Item = &'r Row<Formula>>, k: usize) -> f64 {
-        rows.fold(0.0, |sum, row| {
-            let d = self.centre(row.d).unwrap_or(1.0).max(f64::MIN_POSITIVE);
-            let a: f64 = row.a.iter().map(|&a| self.along(a, k)).sum();
-            sum + a / d.sqrt() + WEIGHT_OF_D * self.along(row.d, k) / d
-        })
-    }
-
-    /// What a test is made of, and how much each of that counts.
-    pub(super) fn weighted(&self, test: &Test) -> Vec<(Formula, f64)> {
-        let once = |all: &mut dyn Iterator<Item = &Formula>| all.map(|&f| (f, 1.0)).collect();
-        match test {
-            Test::SigmaMin(_) | Test::SigmaMax(_) | Test::Conditioning(_) | Test::Solve(_) => {
-                self.weighted_rows(self.problem().legs.iter().map(|leg| &leg.row))
-            }
-            Test::Least(rows, _) | Test::Greatest(rows, _) | Test::OneToOne(rows) => {
-                self.weighted_rows(rows.iter())
-            }
-            Test::AtLeast(f) => vec![(*f, 1.0)],
-            Test::Beyond(f, b) => vec![(*f, 1.0), (*b, 1.0)],
-            Test::Accuracy(accuracy) => once(&mut accuracy.rows.iter().flatten()),
-            Test::Apart(apart) => once(&mut apart.ends.iter().flatten().flatten()),
-            Test::Curvature(test) => {
-                let [a, b] = [test.a, test.b].map(|f| self.centre(f).unwrap_or(1.0));
-                let row = test.row.iter().map(|&f| (f, a));
-                row.chain(test.twice.iter().flatten().map(|&f| (f, b))).collect()
-            }
-        }
-    }
-
-    /// Rows, so that what varies is `sum_i |S_k A_i|/sqrt(D_i) + 16 |S_k D_i|/D_i`.
-    fn weighted_rows<'r>(
+    /// `sum_i |dA_i|/sqrt(D_i) + 16 |dD_i|/D_i`.
+    fn rows_vary<'r>(
         &self,
         rows: impl Iterator<Item = &'r Row<Formula>>,
-    ) -> Vec<(Formula, f64)> {
-        let weighted = |row: &'r Row<Formula>| {
+        of: &dyn Fn(Formula) -> f64,
+    ) -> f64 {
+        rows.fold(0.0, |sum, row| {
             let d = self.centre(row.d).unwrap_or(1.0).max(f64::MIN_POSITIVE);
-            let a = row.a.iter().map(move |&a| (a, 1.0 / d.sqrt()));
-            a.chain([(row.d, WEIGHT_OF_D / d)])
-        };
-        rows.flat_map(weighted).collect()
+            let a: f64 = row.a.iter().map(|&a| of(a)).sum();
+            sum + a / d.sqrt() + WEIGHT_OF_D * of(row.d) / d
+        })
     }
+}
+
+/// The sums of the parts, each divided by its total; without those whose total is none.
+pub(super) fn sums_of_shares(parts: &[Vec<f64>], length: usize) -> Vec<f64> {
+    let mut sums = vec![0.0; length];
+    for part in parts {
+        let total: f64 = part.iter().sum();
+        if total.is_finite() && total > 0.0 {
+            sums.iter_mut().zip(part).for_each(|(sum, part)| *sum += part / total);
+        }
+    }
+    sums
 }

@@ -88,7 +88,7 @@ const GUARD_APART: u32 = 22;
 /// Boxes after which tolerances are taken apart: certificates in ranges are shorter. Of platforms that turn, and of
 /// others.
 const MOST_IN_RANGES: [usize; 2] = [8, 2000];
-/// Boxes of one level with tolerances in parts: where these help, few are enough.
+/// Boxes of one level with tolerances in parts.
 const MOST_ABREAST: usize = 4096;
 /// Boxes with directions apart: each takes long, and few are enough where they help.
 const MOST_APART: usize = 300;

@@ -2,7 +2,7 @@
 
 use super::apart::{at_place, Stretched, LENGTHS};
 use super::doubles::{magnitude, Pair};
-use super::evidence::{centre, next_to, Over, Prover};
+use super::evidence::{centre, next_to, sums_of_shares, Over, Prover};
 use super::rows::Rows;
 use super::search::{halved, search, Boxes, Branch, Cell, Ends, Trial};
 use crate::search::{Budget, Control};
@@ -32,8 +32,6 @@ type Changes = BTreeMap<usize, DVector<f64>>;
 pub(super) struct Parts<'a> {
     problem: &'a Problem,
     root: Cell,
-    /// How wide the whole workspace, and tolerances, are.
-    widths: Vec<f64>,
     coordinates: usize,
     /// Those that no thread narrows at the moment.
     provers: Mutex<Vec<Prover<'a>>>,
@@ -69,7 +67,6 @@ impl<'a> Parts<'a> {
         let most = if problem.orientation.len() > 1 { MOST_NUMBERS } else { usize::MAX };
         (1..=most).contains(&numbers).then(|| Parts {
             problem,
-            widths: root.iter().map(|(lo, hi)| hi - lo).collect(),
             root,
             coordinates,
             provers: Mutex::default(),
@@ -82,7 +79,7 @@ impl<'a> Parts<'a> {
         let (own, ranges) = self.root.split_at(self.coordinates);
         let own = point.iter().zip(own).map(|(&x, &range)| next_to(x, range));
         let root = own.chain(ranges.iter().copied()).collect();
-        let there = Parts { root, widths: self.widths.clone(), provers: Mutex::default(), ..*self };
+        let there = Parts { root, provers: Mutex::default(), ..*self };
         let ends = Ends { hopeless: true, enough: Some(ABREAST_NEXT_TO_POINT) };
         let budget = Budget { max_boxes: budget.max_boxes / NEXT_TO_POINT, ..budget };
         let found = search(&there, &Branch::whole(&there), ends, budget, control);
@@ -133,31 +130,31 @@ impl<'a> Parts<'a> {
         let (own, ranges) = cell.split_at(self.coordinates);
         let numbers: Vec<usize> = self.numbers().collect();
         let of = |prover: &mut Prover<'a>| {
-            prover.on(&own.to_vec(), |over| {
+            let parts: Vec<Vec<f64>> = prover.on(&own.to_vec(), |over| {
                 let tests = open.iter().map(|&o| &self.problem.obligations[o].test);
-                tests.filter_map(|test| over.variation(test, &numbers)).collect::<Vec<_>>()
-            })
-        };
-        let mut weights = vec![0.0; cell.len()];
-        for part in self.narrowed(ranges, of).unwrap_or_default() {
-            let total: f64 = part.iter().sum();
-            if total.is_finite() && total > 0.0 {
-                weights.iter_mut().zip(&part).for_each(|(weight, part)| *weight += part / total);
+                tests.filter_map(|test| over.variation(test, &numbers)).collect()
+            });
+            let weights = sums_of_shares(&parts, cell.len());
+            if weights.iter().any(|weight| *weight > 0.0) {
+                return weights;
             }
-        }
-        if weights.iter().any(|weight| *weight > 0.0) {
-            return weights;
-        }
-        cell.iter().zip(&self.widths).map(|((lo, hi), whole)| (hi - lo) / whole).collect()
+            let whole = prover.root.iter().chain(&self.root[self.coordinates..]);
+            cell.iter()
+                .zip(whole)
+                .map(|(own, whole)| (own.1 - own.0) / (whole.1 - whole.0))
+                .collect()
+        };
+        self.narrowed(ranges, of).unwrap_or_else(|| vec![0.0; cell.len()])
     }
 
-    /// From the root to a box.
+    /// How many halvings lead from the root to a box.
     fn halvings(&self, cell: &Cell) -> u32 {
         let each = cell.iter().zip(&self.root).filter(|(_, root)| root.0 < root.1);
         let each = each.map(|(own, root)| ((root.1 - root.0) / (own.1 - own.0)).log2().round());
         each.sum::<f64>() as u32
     }
 
+    /// By how much the halves hold more nearly than the box, where they are tried.
     fn gains(&self, cell: &Cell, open: &[usize], own: &[f64]) -> Vec<f64> {
         let before = self.margins(cell, open);
         let greatest = |best: usize, k: usize| if own[k] > own[best] { k } else { best };
@@ -279,25 +276,20 @@ impl Over<'_> {
         self.there(test, own).or_else(|| own(self))
     }
 
-    /// By how much a test's formulas vary along each coordinate, and with each of these numbers; none where derivatives are not
-    /// defined.
+    /// By how much a test's formulas vary along each coordinate, and with each of these numbers; endlessly where that is not
+    /// known.
     fn variation(&self, test: &Test, numbers: &[usize]) -> Option<Vec<f64>> {
         let derived = self.prover.checker.derived(self.formulas.place, self.prover.has_scales())?;
         let derivatives = &self.problem().derived.as_ref()?.of;
-        let m = self.m();
-        let mut all = vec![0.0; m + numbers.len()];
-        for (f, weight) in self.weighted(test) {
-            for (k, varies) in all.iter_mut().take(m).enumerate() {
-                *varies += weight * self.along(f, k);
-            }
-            for (j, derivative) in derivatives.get(&f)? {
-                let Some(i) = numbers.iter().position(|number| number == j) else { continue };
-                let (low, high) = *self.prover.parameters().get(*j)?;
-                all[m + i] +=
-                    weight * 0.5 * (high - low) * magnitude(&derived.of(*derivative)?.range);
-            }
-        }
-        Some(all)
+        let by = |f: Formula, number: usize| {
+            let own = derivatives.get(&f)?.iter().filter(|(j, _)| *j == number);
+            let sizes = own.map(|(_, d)| Some(magnitude(&derived.of(*d)?.range)));
+            let (low, high) = *self.prover.parameters().get(number)?;
+            Some(0.5 * (high - low) * sizes.sum::<Option<f64>>()?)
+        };
+        let along = (0..self.m()).map(|k| self.varies(test, &|f| self.along(f, k)));
+        let with = |&j: &usize| self.varies(test, &|f| by(f, j).unwrap_or(f64::INFINITY));
+        Some(along.chain(numbers.iter().map(with)).collect())
     }
 
     /// Adds what is lost of a test for the ranges of derivatives, by each number, as a share of all of it: about the sum of
