@@ -51,7 +51,7 @@ fn it_describes_every_form_of_evidence_and_of_failure() {
         Evidence::Corner(Corner::Q1),
         Evidence::Corner(Corner::Q2),
         Evidence::Outside,
-        Evidence::Tolerances(about(Evidence::Test), "-0+".to_owned(), vec![vec![-3, i64::MAX]]),
+        Evidence::Tolerances(about(Evidence::Test), "-0+1<=>".to_owned(), vec![vec![-3, i64::MAX]]),
         Evidence::Fan(vec![Part(vec![i64::MIN, 1], 1, 63, Evidence::Test)]),
         Evidence::Between(vec![3, 0, -1], 63, about(Evidence::Test), about(Evidence::Test)),
         Evidence::Inside(about(Evidence::Test), 1, 0),

@@ -221,8 +221,7 @@ pub(crate) fn shown(
     match cell {
         AtlasCell::Certified(tree) => {
             spend(&mut left, work::of_numbers(&problem, tree))?;
-            let is_apart = tree.takes_tolerances_apart();
-            let problem = if is_apart { problem.with_derivatives() } else { problem };
+            let problem = problem.with_derivatives_for(tree);
             let most_work = problem.most_work.min(left.saturating_mul(work::OF_TREES));
             tree::check(&Problem { most_work, ..problem }, tree)
         }

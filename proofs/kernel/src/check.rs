@@ -19,8 +19,7 @@ pub fn check(certificate: &Certificate) -> Result<(), Rejected> {
     match (&certificate.claim, certificate.verdict, &certificate.proof) {
         (Claim::Machine(claim), Certified, Proof::Tree(tree)) => {
             let problem = problem(claim)?;
-            let is_apart = tree.takes_tolerances_apart();
-            tree::check(&if is_apart { problem.with_derivatives() } else { problem }, tree)
+            tree::check(&problem.with_derivatives_for(tree), tree)
         }
         (Claim::Machine(claim), Refuted, Proof::Witness(witness)) => {
             Ok(witness::check(&Problem::new(claim)?, &claim.workspace, witness)?)

@@ -1,7 +1,7 @@
 //! A claim as formulas, a box, and obligations: what a proof is about.
 
 use crate::cell::Cell;
-use crate::certificate::MOST_WORK;
+use crate::certificate::{Evidence, Node, Step, Tree, MOST_WORK};
 use crate::claim::{Bound, Leg, MachineClaim, Mechanism, Quantity, Turning, Workspace};
 use crate::compile::{Builder, MOST_DERIVATIVES, MOST_LEGS};
 use crate::control::Control;
@@ -14,7 +14,7 @@ use crate::input::{
 use crate::machine;
 use crate::number::Expression;
 use crate::quantity::{self, Obligation, Test};
-use crate::test::tolerances::Derivatives;
+use crate::test::tolerances::{is_of_second_order, Derivatives, SecondDerivatives};
 use crate::test::Row;
 use num_bigint::BigInt;
 use std::collections::{BTreeSet, HashMap};
@@ -70,14 +70,30 @@ pub struct Derived {
     pub of: Derivatives,
     /// For each obligation how many rows times quantities there are that change them.
     pub(crate) changes: Vec<usize>,
+    /// Second derivatives, where they are asked for.
+    pub second: Option<Second>,
+}
+
+/// The second derivatives of a problem by pairs of some quantities.
+#[derive(Clone, Debug)]
+pub struct Second {
+    /// These quantities.
+    pub by: BTreeSet<usize>,
+    /// The tape with derivatives, and they.
+    pub tape: Tape,
+    /// Of each formula.
+    pub of: SecondDerivatives,
+    /// For each obligation how many rows times pairs of quantities there are that change them.
+    pub(crate) changes: Vec<usize>,
 }
 
 /// Most entries of a tape with these.
 const MOST_DERIVED: usize = 1 << 14;
 /// Inputs before one that are compared with it.
 const NEAR: usize = 32;
-/// Most rows times quantities that change them, of an obligation.
+/// Most rows times quantities that change them, of an obligation, and rows times pairs of these.
 const MOST_CHANGES: usize = 1 << 8;
+const MOST_SECOND_CHANGES: usize = 1 << 10;
 
 /// The workspace's own inequality.
 #[derive(Clone, Debug)]
@@ -178,11 +194,7 @@ impl Problem {
         if !self.inputs.iter().any(Input::differs) {
             return None;
         }
-        // Polynomials, where there are such.
-        let own = Some(self.scaled()).filter(|scaled| !scaled.is_empty());
-        let own = own.unwrap_or_else(|| self.legs.iter().map(|leg| leg.row.clone()).collect());
-        let rows = self.obligations.iter().map(|obligation| obligation.test.rows(&own));
-        let rows: Vec<Vec<Vec<Formula>>> = rows.collect();
+        let rows = self.rows_of_tests();
         let others = self.weight.into_iter().chain(self.turned);
         let others = others.chain(self.inside.as_ref().map(|inside| inside.g));
         let formulas: BTreeSet<Formula> =
@@ -205,14 +217,85 @@ impl Problem {
             });
             of.insert(formula, each.collect());
         }
-        let changes = |row: &Vec<Formula>| {
-            let all = row.iter().filter_map(|f| of.get(f)).flatten().map(|&(j, _)| j);
-            all.collect::<BTreeSet<usize>>().len()
-        };
-        let changes = rows.iter().map(|rows| rows.iter().map(changes).sum());
-        let changes: Vec<usize> = changes.collect();
+        let changes = changes(&rows, &of);
         let few = tape.ops().len() <= MOST_DERIVED && changes.iter().all(|&n| n <= MOST_CHANGES);
-        few.then_some(Derived { tape, of, changes })
+        few.then_some(Derived { tape, of, changes, second: None })
+    }
+
+    /// The rows of each obligation's test: polynomials, where there are such.
+    fn rows_of_tests(&self) -> Vec<Vec<Vec<Formula>>> {
+        let own = Some(self.scaled()).filter(|scaled| !scaled.is_empty());
+        let own = own.unwrap_or_else(|| self.legs.iter().map(|leg| leg.row.clone()).collect());
+        self.obligations.iter().map(|obligation| obligation.test.rows(&own)).collect()
+    }
+
+    /// With the second derivatives by these quantities too; as it is, where there are none, or where they take too many
+    /// operations.
+    #[must_use]
+    pub fn with_second_derivatives(mut self, by: &BTreeSet<usize>) -> Self {
+        let second = self.derived.as_ref().and_then(|own| self.second_derivatives(own, by));
+        if let Some(derived) = &mut self.derived {
+            derived.second = second;
+        }
+        self
+    }
+
+    fn second_derivatives(&self, own: &Derived, by: &BTreeSet<usize>) -> Option<Second> {
+        if by.is_empty() {
+            return None;
+        }
+        let (mut tape, mut of) = (own.tape.clone(), HashMap::new());
+        let (zero, mut spent) = (tape.integer(0), 0usize);
+        let formulas: BTreeSet<&Formula> = own.of.keys().collect();
+        for formula in formulas {
+            let mut all: Vec<([usize; 2], Formula)> = Vec::new();
+            let derivatives = own.of.get(formula)?.iter().filter(|(j, _)| by.contains(j));
+            for &(j, derivative) in derivatives {
+                let parts = tape.parts(&[derivative]);
+                let ops = || parts.iter().zip(tape.ops()).filter(|(&part, _)| part);
+                let later = |op: &Op| matches!(op, Op::Parameter(l) if *l >= j && by.contains(l));
+                let with: Vec<Op> = ops().map(|(_, &op)| op).filter(later).collect();
+                spent = spent.saturating_add(with.len().saturating_mul(ops().count()));
+                if spent > MOST_DERIVATIVES {
+                    return None;
+                }
+                let second = tape.derivatives(derivative, &with);
+                all.extend(with.into_iter().zip(second).filter_map(|(op, second)| match op {
+                    Op::Parameter(l) if second != zero => Some(([j, l], second)),
+                    _ => None,
+                }));
+            }
+            of.insert(*formula, all);
+        }
+        let changes = changes(&self.rows_of_tests(), &of);
+        let few = tape.ops().len() <= MOST_DERIVED;
+        let few = few && changes.iter().all(|&n| n <= MOST_SECOND_CHANGES);
+        few.then(|| Second { by: by.clone(), tape, of, changes })
+    }
+
+    /// With the derivatives that a tree's evidence is made of.
+    pub(crate) fn with_derivatives_for(self, tree: &Tree) -> Self {
+        if !tree.takes_tolerances_apart() {
+            return self;
+        }
+        let by = self.of_second_order(&tree.nodes);
+        self.with_derivatives().with_second_derivatives(&by)
+    }
+
+    /// The quantities that are of second order in some evidence.
+    fn of_second_order(&self, nodes: &[Node]) -> BTreeSet<usize> {
+        let differing = self.inputs.iter().enumerate().filter(|(_, input)| input.differs());
+        let differing: Vec<usize> = differing.map(|(j, _)| j).collect();
+        let parts = nodes.iter().flat_map(|node| &node.by).flat_map(|Step(_, by)| by.parts());
+        let ends = parts.filter_map(|by| match by {
+            Evidence::Tolerances(_, ends, _) => Some(ends),
+            _ => None,
+        });
+        let second = |ends: &String| {
+            let all = ends.chars().zip(&differing).filter(|(end, _)| is_of_second_order(*end));
+            all.map(|(_, &j)| j).collect::<Vec<usize>>()
+        };
+        ends.flat_map(second).collect()
     }
 
     /// Whether what depends on no coordinate is defined, for every machine: directions are not zero,
@@ -441,4 +524,16 @@ fn inside(builder: &mut Builder, claim: &MachineClaim) -> Option<Inside> {
     }
     let gradient = builder.tape.gradient(g, &coordinates(3)).numerators;
     Some(Inside { g, gradient })
+}
+
+/// For each obligation how many of its rows times what they differ by there are.
+fn changes<K: Copy + Ord>(
+    rows: &[Vec<Vec<Formula>>],
+    of: &HashMap<Formula, Vec<(K, Formula)>>,
+) -> Vec<usize> {
+    let each = |row: &Vec<Formula>| {
+        let all = row.iter().filter_map(|f| of.get(f)).flatten().map(|&(k, _)| k);
+        all.collect::<BTreeSet<K>>().len()
+    };
+    rows.iter().map(|rows| rows.iter().map(each).sum()).collect()
 }

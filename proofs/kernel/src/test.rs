@@ -74,12 +74,15 @@ pub struct Place<'a, N> {
     pub touches: [bool; 2],
     /// The formulas of all machines, with their derivatives; and of those with directions of one scale.
     pub(crate) derived: [OnceCell<Values<Slope<N>>>; 2],
+    /// The same with second derivatives.
+    pub(crate) second: [OnceCell<Values<Slope<N>>>; 2],
 }
 
 impl<'a, N> Place<'a, N> {
     /// A cell with these edges.
     pub fn new(edges: &'a [[N; 3]], touches: [bool; 2]) -> Self {
-        Place { edges, touches, derived: [const { OnceCell::new() }; 2] }
+        let [derived, second] = [const { [const { OnceCell::new() }; 2] }; 2];
+        Place { edges, touches, derived, second }
     }
 }
 

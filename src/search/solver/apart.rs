@@ -12,11 +12,16 @@ use orthocert_kernel::problem::Derived;
 use orthocert_kernel::quantity::Test;
 use orthocert_kernel::slope::{evaluate, Slope};
 use orthocert_kernel::test::{self, Row};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Greatest components of directions that are tried: the longer, the less is lost along them, and the
 /// more across them. Of length 0 all directions count alike, which is best where several are worst at once.
 pub(super) const LENGTHS: [f64; 3] = [64.0, 8.0, 0.0];
+/// The same of second order, where across them as little is lost.
+pub(super) const LENGTHS_OF_SECOND_ORDER: [f64; 3] = [1024.0, 64.0, 0.0];
+
+/// What part of all that is lost for ranges of derivatives makes a quantity one of second order.
+const OF_SECOND_ORDER: f64 = 0.01;
 
 /// Where a test is nearest to failing.
 pub(super) struct Worst {
@@ -66,14 +71,42 @@ impl Over<'_> {
     pub(super) fn with_tolerances_apart(&self, test: &Test) -> Option<Evidence> {
         self.problem().derived.as_ref()?;
         let worst = self.there(test, |there| there.worst(test)).or_else(|| self.worst(test))?;
-        let lengths = if worst.directions.is_empty() { &LENGTHS[..1] } else { &LENGTHS };
+        let most = if worst.directions.is_empty() { 1 } else { LENGTHS.len() };
         // Of one scale are what no other evidence shows: fewer checkers know of it.
         let scales = [false, true].into_iter().take(1 + usize::from(self.prover.has_scales()));
-        scales.into_iter().find_map(|scaled| {
-            let machines = [self.worst_machine(&worst, scaled), Some(self.middle_machine(scaled))];
-            let mut machines = machines.iter().flatten();
-            machines.find_map(|ends| self.apart_from(test, &worst, (ends, lengths)))
+        let machines = scales.flat_map(|scaled| {
+            [self.worst_machine(&worst, scaled), Some(self.middle_machine(scaled))]
+        });
+        let machines: Vec<String> = machines.flatten().collect();
+        let from = |ends: &str, all: &[f64]| self.apart_from(test, &worst, (ends, &all[..most]));
+        machines.iter().find_map(|ends| from(ends, &LENGTHS)).or_else(|| {
+            let by = self.of_second_order(test)?;
+            let all = machines.iter().map(|ends| self.to_second_order(ends, &by));
+            all.into_iter().find_map(|ends| from(&ends, &LENGTHS_OF_SECOND_ORDER))
         })
+    }
+
+    /// The quantities for the ranges of whose derivatives most is lost, where second derivatives are known.
+    pub(super) fn of_second_order(&self, test: &Test) -> Option<BTreeSet<usize>> {
+        self.problem().derived.as_ref()?.second.as_ref()?;
+        let mut lost = BTreeMap::new();
+        self.lost_by(test, &mut lost);
+        let total: f64 = lost.values().sum();
+        let most = lost.into_iter().filter(|(_, lost)| *lost > OF_SECOND_ORDER * total);
+        Some(most.map(|(j, _)| j).collect()).filter(|by: &BTreeSet<usize>| !by.is_empty())
+    }
+
+    /// Where the one machine is, with these quantities of second order.
+    pub(super) fn to_second_order(&self, ends: &str, by: &BTreeSet<usize>) -> String {
+        let inputs = self.problem().inputs.iter().enumerate();
+        let differing = inputs.filter(|(_, input)| input.differs()).map(|(j, _)| j);
+        let second = |(end, j): (char, usize)| match end {
+            '-' if by.contains(&j) => '<',
+            '0' if by.contains(&j) => '=',
+            '+' if by.contains(&j) => '>',
+            end => end,
+        };
+        ends.chars().zip(differing).map(second).collect()
     }
 
     /// The machine in the middle; with directions of one scale, where it says so.
@@ -229,14 +262,10 @@ impl Over<'_> {
         let mut by: BTreeMap<usize, [f64; 2]> = BTreeMap::new();
         for (f, weight) in weights {
             for (j, derivative) in of.get(f)? {
-                let slope = values.of(*derivative)?;
-                let along = slope.slopes.iter().zip(place);
-                let parts = along.map(|(s, at)| (middle(s) * at, half_width(s) * at.abs()));
-                let start = (middle(&slope.at_centre), half_width(&slope.at_centre));
-                let all = parts.fold(start, |a, b| (a.0 + b.0, a.1 + b.1));
+                let [value, half] = there(values.of(*derivative)?, place);
                 let own = by.entry(*j).or_default();
-                own[0] += weight * all.0;
-                own[1] += weight.abs() * all.1;
+                own[0] += weight * value;
+                own[1] += weight.abs() * half;
             }
         }
         Some(by)
@@ -251,16 +280,47 @@ impl Over<'_> {
         all.collect()
     }
 
+    /// What is lost there, about, for each quantity of second order: for pairs of two, which may be of either sign, and for the
+    /// ranges of second derivatives.
+    fn lost_to_second_order(
+        &self,
+        Worst { place, weights, .. }: &Worst,
+    ) -> Option<BTreeMap<usize, f64>> {
+        let of = &self.problem().derived.as_ref()?.second.as_ref()?.of;
+        let values = self.prover.checker.second(self.formulas.place, false)?;
+        let mut by: BTreeMap<[usize; 2], [f64; 2]> = BTreeMap::new();
+        for (f, weight) in weights {
+            for (pair, second) in of.get(f)? {
+                let [value, half] = there(values.of(*second)?, place);
+                let own = by.entry(*pair).or_default();
+                own[0] += weight * value;
+                own[1] += weight.abs() * half;
+            }
+        }
+        let mut lost = BTreeMap::new();
+        for ([j, l], [value, half]) in by {
+            let width = |j: usize| self.prover.parameters().get(j).map(half_width);
+            let both = width(j)? * width(l)?;
+            let own = both * if j == l { half } else { value.abs() + half };
+            *lost.entry(j).or_default() += 0.5 * own;
+            *lost.entry(l).or_default() += 0.5 * own;
+        }
+        Some(lost)
+    }
+
     /// What tolerances take off the value there, about, and the part of it that is lost for the ranges of derivatives; and what
     /// is lost for those of slopes.
     pub(super) fn taken_off(&self, found: &Worst) -> Option<[f64; 2]> {
         let parameters = self.prover.parameters();
         let by = self.by_derivatives(found)?;
+        let second = self.lost_to_second_order(found);
         let (mut changed, mut lost) = (0.0, 0.0);
         for (j, [slope, half]) in by {
             let (low, high) = *parameters.get(j)?;
             changed += 0.5 * (high - low) * slope.abs();
-            lost += (high - low) * (half - slope.abs()).max(0.0);
+            let first = (high - low) * (half - slope.abs()).max(0.0);
+            let second = second.as_ref().and_then(|lost| lost.get(&j));
+            lost += second.map_or(first, |second| first.min(*second));
         }
         let machine: Vec<Pair> = parameters.iter().map(middle).map(|x| (x, x)).collect();
         let (slopes, edges) = (self.formulas.slopes, self.formulas.place.edges);
@@ -301,6 +361,14 @@ impl Over<'_> {
         }
         Some(slopes)
     }
+}
+
+/// The middle and half the width of a formula's range at a place between the ends of each coordinate's range.
+fn there(formula: &Slope<Pair>, place: &[f64]) -> [f64; 2] {
+    let along = formula.slopes.iter().zip(place);
+    let parts = along.map(|(s, at)| [middle(s) * at, half_width(s) * at.abs()]);
+    let start = [middle(&formula.at_centre), half_width(&formula.at_centre)];
+    parts.fold(start, |a, b| [a[0] + b[0], a[1] + b[1]])
 }
 
 /// A formula at a place between the ends of each coordinate's range, about.

@@ -8,7 +8,9 @@ use super::refute::witness_at;
 use super::sample::{Place, Quality, Sampler, Worst};
 use super::search::{resume, search, Branch, Ends, Outcome};
 use super::value::{alone, Bounded};
-use super::{accepted, few, in_parts_of_tolerances, look_into, refuted, verify, Answer};
+use super::{
+    accepted, few, in_parts_of_tolerances, look_into, refuted, verify, with_derivatives, Answer,
+};
 use crate::search::{Budget, Control, Steps, Stop};
 use num_rational::BigRational;
 use num_traits::{FromPrimitive, One, Signed, Zero};
@@ -372,7 +374,7 @@ fn certify(
     budget: Budget,
     control: &mut Control<'_>,
 ) -> Result<Attempt, NotEnclosed> {
-    let problem = Problem::new(claim)?.with_derivatives();
+    let problem = with_derivatives(Problem::new(claim)?);
     let prover = Prover::new(&problem)?;
     // Tolerances may be too wide at the worst place found already.
     let sampler = Sampler::new(claim, &problem)?;

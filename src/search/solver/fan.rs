@@ -153,8 +153,11 @@ impl Over<'_> {
             let wedge = Some(Wedge { between, n, places });
             let formulas = test::Over { wedge, inside: None, ..*self.formulas };
             let over = Over { formulas: &formulas, ..*self };
-            let by =
-                ends.iter().find_map(|ends| over.apart_from(test, &worst, (ends, &LENGTHS)))?;
+            let from = |ends: &String| over.apart_from(test, &worst, (ends, &LENGTHS));
+            let by = ends.iter().find_map(from).or_else(|| {
+                let second = over.of_second_order(test)?;
+                ends.iter().find_map(|ends| from(&over.to_second_order(ends, &second)))
+            })?;
             Some((n, places, by))
         })
     }

@@ -72,6 +72,7 @@ use orthocert_kernel::problem::Problem;
 use parts::Parts;
 use sample::{Sampler, Worst};
 use search::{search, Branch, Ends, Open, Outcome};
+use std::collections::BTreeSet;
 use std::sync::atomic::AtomicBool;
 
 pub use refute::{approximate, number};
@@ -325,7 +326,7 @@ pub fn proof_about(
     let [ranges, rest, checks] = parts_of(&problem);
     let in_ranges = match holds(&problem) {
         true => control.part(ranges, |control| in_ranges(&problem, budget, control)),
-        false => Err(Box::new(problem.clone().with_derivatives())),
+        false => Err(Box::new(with_derivatives(problem.clone()))),
     };
     let (problem, nodes) = match in_ranges {
         Ok(nodes) => (problem, Some(nodes)),
@@ -343,13 +344,21 @@ pub fn proof_about(
     }
 }
 
+/// With derivatives by what machines differ by, and, of machines whose rows are tested at vertices, second ones.
+fn with_derivatives(problem: Problem) -> Problem {
+    let differing = problem.inputs.iter().enumerate().filter(|(_, input)| input.differs());
+    let is_scaled = problem.legs.iter().all(|leg| leg.scaled.is_some());
+    let by = if is_scaled { BTreeSet::new() } else { differing.map(|(j, _)| j).collect() };
+    problem.with_derivatives().with_second_derivatives(&by)
+}
+
 /// A short tree of a problem with tolerances, in ranges; where there is none, the problem to search.
 fn in_ranges(
     problem: &Problem,
     budget: Budget,
     control: &mut Control<'_>,
 ) -> Result<Vec<Node>, Box<Problem>> {
-    let derived = Box::new(problem.clone().with_derivatives());
+    let derived = Box::new(with_derivatives(problem.clone()));
     if derived.derived.is_none() {
         return Err(derived);
     }
@@ -478,7 +487,7 @@ pub(crate) fn tree(
     control: &mut Control<'_>,
     accepts: impl Fn(&Tree) -> bool,
 ) -> Result<Tree, Stop> {
-    let derived = Some(problem.clone().with_derivatives());
+    let derived = Some(with_derivatives(problem.clone()));
     let problem = derived.as_ref().unwrap_or(problem);
     let prover = Prover::new(problem).map_err(|_| Stop::Hopeless)?;
     if !points.iter().all(|point| prover.holds_next_to(point, problem.derived.is_some())) {

@@ -294,7 +294,7 @@ impl Over<'_> {
 
     /// Adds what is lost of a test for the ranges of derivatives, by each number, as a share of all of it: about the sum of
     /// a row of second derivatives times both tolerances.
-    fn lost_by(&self, test: &Test, all: &mut BTreeMap<usize, f64>) {
+    pub(super) fn lost_by(&self, test: &Test, all: &mut BTreeMap<usize, f64>) {
         let own = |there: &Over<'_>| {
             let tests = match test {
                 Test::Conditioning(c) => vec![Test::SigmaMin(*c), Test::SigmaMax(*c)],

@@ -7,8 +7,9 @@ use crate::control::{Control, Controls};
 use crate::formula::{Formula, Op};
 use crate::quantity::Test;
 use crate::slope::evaluate;
-use crate::test::tolerances::Tolerances;
+use crate::test::tolerances::{is_of_second_order, OfSecondOrder, Tolerances};
 use crate::test::{width, Formulas, Over, Place};
+use std::collections::BTreeSet;
 
 /// Whether these are directions for a test, or half of one, of `m` coordinates, one for each matrix; of other rows, of as many entries.
 pub(super) fn are_for(directions: &[Vec<i64>], (test, half): (&Test, bool), m: usize) -> bool {
@@ -73,9 +74,30 @@ impl<E: Enclosure> Checker<'_, E> {
         }))
     }
 
-    /// What is so with tolerances apart, by the lemma of [`Tolerances`]. The one machine has the least
+    /// The same with second derivatives, where these are known.
+    pub fn second<'p>(
+        &self,
+        place: &'p Place<'_, E::Number>,
+        of_one_scale: bool,
+    ) -> Option<&'p Formulas<E>> {
+        let tape = &self.problem.derived.as_ref()?.second.as_ref()?.tape;
+        let known = self.derived(place, of_one_scale)?;
+        let [ranges, scaled] = &place.second;
+        let (values, parameters) = match of_one_scale {
+            true => (scaled, &self.scaled_parameters),
+            false => (ranges, &self.parameters),
+        };
+        let slopes = self.slopes(place.edges.len());
+        let coordinate = |k: usize| slopes.coordinate(k, place.edges.get(k)?.clone());
+        let parameter = |j: usize| slopes.constant(parameters.get(j)?.clone());
+        let run = || tape.run_parts(&slopes, (None, known), coordinate, parameter);
+        Some(values.get_or_init(run))
+    }
+
+    /// What is so with tolerances apart, by the lemmas of [`Tolerances`]. The one machine has the least
     /// value of each quantity with two ends, or name, the greatest or one in the middle, as its character of
-    /// `ends` says: `-`, `+` or `0`. Where one is `1`, directions are of one scale, and that is what it has.
+    /// `ends` says: `-`, `+` or `0`, or `<`, `>` or `=` of second order. Where one is `1`, directions are of one scale, and
+    /// that is what it has.
     pub fn apart<T>(
         &self,
         over: &Over<'_, E>,
@@ -88,22 +110,36 @@ impl<E: Enclosure> Checker<'_, E> {
         let of_one_scale = ends.contains('1');
         let all = if of_one_scale { &self.scaled_parameters } else { &self.parameters };
         let values = self.derived(over.place, of_one_scale)?;
-        let derivatives = &self.problem.derived.as_ref()?.of;
-        let mut named = ends.chars();
-        let start = |(at, x): (usize, &E::Number)| match self.problem.inputs.get(at)?.differs() {
-            true => start(self.arithmetic, x, named.next()?),
-            false => Some((x.clone(), Vec::new())),
+        let derived = self.problem.derived.as_ref()?;
+        let (mut named, mut by) = (ends.chars(), BTreeSet::new());
+        let start = |(at, x): (usize, &E::Number)| {
+            if !self.problem.inputs.get(at)?.differs() {
+                return Some((x.clone(), Vec::new()));
+            }
+            let end = named.next()?;
+            by.extend(is_of_second_order(end).then_some(at));
+            start(self.arithmetic, x, end)
         };
         let own: Vec<_> = all.iter().enumerate().map(start).collect::<Option<_>>()?;
         let (starts, steps): (Vec<E::Number>, Vec<Vec<E::Number>>) = own.into_iter().unzip();
-        let machine = evaluate(&self.problem.tape, &starts, over.slopes, over.place.edges);
+        let tape = if by.is_empty() { &self.problem.tape } else { &derived.tape };
+        let machine = evaluate(tape, &starts, over.slopes, over.place.edges);
+        let second = match by.is_empty() {
+            true => None,
+            false => {
+                let known = derived.second.as_ref().filter(|known| by.is_subset(&known.by))?;
+                let values = self.second(over.place, of_one_scale)?;
+                Some(OfSecondOrder { by, values, of: &known.of })
+            }
+        };
         let tolerances = Tolerances {
             machine: &machine,
             all,
             parameters: &starts,
             controls: None,
             steps: &steps,
-            derivatives,
+            derivatives: &derived.of,
+            second,
             directions,
         };
         let over = Over { values, inside: None, tolerances: Some(&tolerances), ..*over };
@@ -132,9 +168,12 @@ impl<E: Enclosure> Checker<'_, E> {
         let Some(tolerances) = over.tolerances else {
             return Some(then(&Over { controls: Some(&all), inside: None, ..*over }));
         };
+        if tolerances.second.is_some() {
+            return None;
+        }
         let own = found(&self.controls, test)?;
         let own = own.values(self.arithmetic, tolerances.parameters, over.place.edges)?;
-        let tolerances = Tolerances { controls: Some(&own), ..*tolerances };
+        let tolerances = Tolerances { controls: Some(&own), second: None, ..*tolerances };
         let over =
             Over { controls: Some(&all), inside: None, tolerances: Some(&tolerances), ..*over };
         own.is_like(&all).then(|| then(&over))
@@ -152,9 +191,9 @@ fn start<E: Enclosure>(e: &E, x: &E::Number, end: char) -> Option<(E::Number, Ve
     let [lo, hi] = e.ends(x);
     let up_from = |low: &E::Number| Some(e.ends(&e.sub(&hi, low)?)[1].clone());
     Some(match end {
-        '-' => (lo.clone(), vec![up_from(&lo)?]),
-        '+' => (hi.clone(), vec![e.neg(&up_from(&lo)?)?]),
-        '0' => {
+        '-' | '<' => (lo.clone(), vec![up_from(&lo)?]),
+        '+' | '>' => (hi.clone(), vec![e.neg(&up_from(&lo)?)?]),
+        '0' | '=' => {
             let [middle, _] = e.ends(&e.halve(&e.add(&lo, &hi)?)?);
             let half = up_from(&middle)?;
             let back = e.neg(&half)?;

@@ -6,6 +6,7 @@ use crate::certificate::{Evidence, Node, Step, Tree};
 use crate::control::Control;
 use crate::formula::Formula;
 use crate::quantity::Test;
+use crate::test::tolerances::is_of_second_order;
 use crate::test::Row;
 use std::collections::BTreeSet;
 
@@ -13,8 +14,8 @@ impl<E: Enclosure> Checker<'_, E> {
     /// The work of all steps, beside that of formulas over cells: at vertices the operations on
     /// matrices, with all their sign vertices; at control points the formulas there; with tolerances apart all
     /// formulas with their derivatives once a node, twice where directions are of one scale in some of its steps and not in
-    /// others, and for each step those of one machine; and how often, at each vertex or control point, a tolerance changes a
-    /// number.
+    /// others, and for each step those of one machine; of second order with all second derivatives, and with the derivatives of
+    /// the one machine; and how often, at each vertex or control point, a tolerance, or a pair of these, changes a number.
     pub(crate) fn work_of(&self, tree: &Tree) -> [usize; 2] {
         let m = self.problem.dimension();
         let signs = |test: &Test| match test {
@@ -28,6 +29,9 @@ impl<E: Enclosure> Checker<'_, E> {
         let [own, apart] = [&self.controls, &self.derived]
             .map(|all| all.iter().map(at_controls).collect::<Vec<(usize, usize)>>());
         let (entries, derived) = (self.problem.tape.ops().len(), self.problem.derived.as_ref());
+        let second = derived.and_then(|derived| derived.second.as_ref());
+        let all = derived.map_or(0, |derived| derived.tape.ops().len());
+        let is_curved = |ends: &str| ends.chars().any(is_of_second_order);
         let tests = self.problem.obligations.iter().map(|obligation| &obligation.test);
         let at_vertices: Vec<usize> = tests.map(|test| at_vertices(test, &self.rows, m)).collect();
         let both = |a: [usize; 2], b: [usize; 2]| [0, 1].map(|k| a[k].saturating_add(b[k]));
@@ -44,12 +48,21 @@ impl<E: Enclosure> Checker<'_, E> {
                 // Two matrices of conditioning, two steps from the middle, values at vertices of m + 1 terms.
                 let test = self.problem.obligations.get(*obligation).map(|o| &o.test);
                 let matrices = if matches!(test, Some(Test::Conditioning(_))) { 2 } else { 1 };
-                let steps = if ends.contains('0') { 2 } else { 1 };
+                let steps = if ends.contains(['0', '=']) { 2 } else { 1 };
                 let values = if is_control { 0 } else { m * (m + 1) };
-                let each = matrices * (steps * (m + 2) * (m + 2) + values);
-                let changes = derived.and_then(|derived| derived.changes.get(*obligation));
-                let changes = changes.map_or(0, |&changes| changes * each).saturating_mul(points);
-                [controls().map(|(_, work)| *work).fold(entries, usize::saturating_add), changes]
+                let each = |steps: usize| matrices * (steps * (m + 2) * (m + 2) + values);
+                let of = |changes: Option<&Vec<usize>>, steps: usize| {
+                    let changes = changes.and_then(|changes| changes.get(*obligation));
+                    changes.map_or(0, |&changes| changes * each(steps)).saturating_mul(points)
+                };
+                let first = of(derived.map(|derived| &derived.changes), steps);
+                let (entries, pairs) = match second.filter(|_| is_curved(ends)) {
+                    None => (entries, 0),
+                    Some(second) => (all, of(Some(&second.changes), steps * steps)),
+                };
+                let entries =
+                    controls().map(|(_, work)| *work).fold(entries, usize::saturating_add);
+                [entries, first.saturating_add(pairs)]
             }
             _ => [at_vertices.get(*obligation).copied().unwrap_or(0), 0],
         };
@@ -59,13 +72,14 @@ impl<E: Enclosure> Checker<'_, E> {
         };
         let of_node = |node: &Node| {
             let apart = node.by.iter().flat_map(|Step(_, by)| by.parts());
-            let of_one_scale = apart.filter_map(|by| match by {
-                Evidence::Tolerances(_, ends, _) => Some(ends.contains('1')),
+            let kinds = apart.filter_map(|by| match by {
+                Evidence::Tolerances(_, ends, _) => Some((ends.contains('1'), is_curved(ends))),
                 _ => None,
             });
-            let times = of_one_scale.collect::<BTreeSet<bool>>().len();
-            let all = derived.map_or(0, |derived| times * derived.tape.ops().len());
-            node.by.iter().map(of_step).fold([all, 0], both)
+            let kinds: BTreeSet<(bool, bool)> = kinds.collect();
+            let second = second.map_or(0, |second| second.tape.ops().len());
+            let entries = kinds.iter().map(|(_, curved)| if *curved { second } else { all }).sum();
+            node.by.iter().map(of_step).fold([entries, 0], both)
         };
         tree.nodes.iter().map(of_node).fold([0; 2], both)
     }

@@ -10,10 +10,18 @@ use crate::control::Controls;
 use crate::definite::{Triangle, Vector};
 use crate::formula::{Formula, Values};
 use crate::slope::Slope;
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 /// Derivatives of a formula, each by the parameter of this number.
 pub type Derivatives = HashMap<Formula, Vec<(usize, Formula)>>;
+
+/// Second derivatives, each by two parameters, the first not after the other.
+pub type SecondDerivatives = HashMap<Formula, Vec<([usize; 2], Formula)>>;
+
+/// Whether this character says of a quantity that it is of second order.
+pub fn is_of_second_order(end: char) -> bool {
+    matches!(end, '<' | '=' | '>')
+}
 
 /// How machines differ from one of them.
 ///
@@ -32,6 +40,16 @@ pub type Derivatives = HashMap<Formula, Vec<(usize, Formula)>>;
 /// It may be another for each formula; the `lambda_k` are not, and the weights depend on `x` alone. ∎
 /// With derivatives of the one machine alone it would be unsound: `theta^2` has none at 0, and is 1 at
 /// the end of `[-1, 1]`.
+///
+/// **Lemma (second order).** Let `S` be some of the quantities, and `delta_j` what `theta` differs by from `theta_0` in quantity
+/// `j`. Then the same is so with these changes: of each `j` of `S`, `delta_j` times the derivative of the one machine; of each pair
+/// of `S`, `delta_j delta_l` times the second derivative by both for some machine, half of it where `l = j`; of each
+/// other `j` what it was. *Proof.* Let `theta_1` differ from `theta_0` in `S` alone, as `theta` does. By Taylor's theorem along the
+/// segment between both, with Lagrange's remainder, `f(x, theta_1) - f(x, theta_0)` is the sum of the first two, each pair
+/// once, as second derivatives are symmetric; from `theta_1` to `theta` the mean value theorem gives the rest. With
+/// `delta_j = sum lambda_k r_k` over the steps of `j`, `delta_j delta_l = sum lambda_k lambda_k' r_k r_k'`, and
+/// `lambda_k lambda_k'` is in `[0, 1]`; and `delta_j^2/2 = (delta_j/r)^2 r^2/2` with the first step `r`, as no step of `j` is longer. ∎
+/// Without the pairs of two it would be unsound: `theta_1 theta_2` has no derivative at 0.
 pub struct Tolerances<'a, E: Enclosure> {
     /// The formulas of the one machine.
     pub machine: &'a Values<Slope<E::Number>>,
@@ -45,13 +63,42 @@ pub struct Tolerances<'a, E: Enclosure> {
     pub steps: &'a [Vec<E::Number>],
     /// The derivatives of the formulas that tests are made of, all of them.
     pub derivatives: &'a Derivatives,
+    /// Those of second order, where there are some.
+    pub second: Option<OfSecondOrder<'a, E>>,
     /// Directions, in which what is lost is least; any will do.
     pub directions: &'a [Vec<i64>],
 }
 
+/// The quantities of second order.
+pub struct OfSecondOrder<'a, E: Enclosure> {
+    /// Their parameters.
+    pub by: BTreeSet<usize>,
+    /// The second derivatives of all machines.
+    pub values: &'a Values<Slope<E::Number>>,
+    /// Of which formulas.
+    pub of: &'a SecondDerivatives,
+}
+
+impl<E: Enclosure> Tolerances<'_, E> {
+    /// The steps of a quantity, or of two.
+    fn steps_of(&self, e: &E, quantities: (Option<usize>, usize)) -> Option<Vec<E::Number>> {
+        let steps = |j: usize| self.steps.get(j);
+        match quantities {
+            (None, j) => steps(j).cloned(),
+            (Some(j), l) if j == l => {
+                steps(j)?.iter().take(1).map(|r| e.halve(&e.mul(r, r)?)).collect()
+            }
+            (Some(j), l) => {
+                let others = steps(l)?;
+                steps(j)?.iter().flat_map(|r| others.iter().map(|s| e.mul(r, s))).collect()
+            }
+        }
+    }
+}
+
 impl<E: Enclosure> Over<'_, E> {
-    /// At a vertex, for each step of a quantity on which one of the formulas depends the `s_vk` of all of
-    /// them, in the order of parameters.
+    /// At a vertex, for each step of a quantity, and then of two of second order, on which one of the formulas depends the
+    /// `s_vk` of all of them, in the order of parameters.
     pub(super) fn changes<'f>(
         &self,
         formulas: impl Iterator<Item = &'f Formula> + Clone,
@@ -59,22 +106,35 @@ impl<E: Enclosure> Over<'_, E> {
     ) -> Option<Vec<Vector<E::Number>>> {
         let e = self.slopes.arithmetic;
         let Some(tolerances) = self.tolerances else { return Some(Vec::new()) };
-        let mut all: BTreeMap<usize, Vector<E::Number>> = BTreeMap::new();
-        let length = formulas.clone().count();
+        let mut all: BTreeMap<(Option<usize>, usize), Vector<E::Number>> = BTreeMap::new();
+        let (zero, length) = (e.integer(0)?, formulas.clone().count());
+        let mut add = |by, k: usize, derivative| {
+            let zeros = || std::iter::repeat_n(zero.clone(), length).collect();
+            let own: &mut Vector<E::Number> = all.entry(by).or_insert_with(zeros);
+            *own.get_mut(k)? = derivative;
+            Some(())
+        };
+        let second = tolerances.second.as_ref();
         for (k, formula) in formulas.enumerate() {
             // It is defined for all machines.
             self.of_all(*formula, v)?;
-            for (j, derivative) in tolerances.derivatives.get(formula)? {
-                let zero = e.integer(0)?;
-                let zeros = || std::iter::repeat_n(zero, length).collect();
-                let own = all.entry(*j).or_insert_with(zeros);
-                *own.get_mut(k)? = self.of_all(*derivative, v)?;
+            for &(j, derivative) in tolerances.derivatives.get(formula)? {
+                let is_second = second.is_some_and(|second| second.by.contains(&j));
+                let value =
+                    if is_second { self.own_at(derivative, v) } else { self.of_all(derivative, v) };
+                add((None, j), k, value?)?;
+            }
+            let Some(OfSecondOrder { by, values, of }) = second else { continue };
+            for &([j, l], derivative) in of.get(formula)? {
+                if by.contains(&j) && by.contains(&l) {
+                    add((Some(j), l), k, self.slopes.at(values.of(derivative)?, v)?)?;
+                }
             }
         }
         let mut changes = Vec::new();
-        for (j, slopes) in all {
-            for step in tolerances.steps.get(j)? {
-                changes.push(slopes.iter().map(|s| e.mul(step, s)).collect::<Option<_>>()?);
+        for (by, slopes) in all {
+            for step in tolerances.steps_of(e, by)? {
+                changes.push(slopes.iter().map(|s| e.mul(&step, s)).collect::<Option<_>>()?);
             }
         }
         Some(changes)

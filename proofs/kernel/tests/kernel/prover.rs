@@ -332,11 +332,12 @@ impl<'a> Prover<'a> {
         test: &Test,
         proposed: &dyn Fn(&Over<'_, Rough>) -> Option<Evidence>,
     ) -> Option<Evidence> {
-        self.problem.derived.as_ref()?;
+        let second = self.problem.derived.as_ref()?.second.is_some();
+        let names = if second { ["<", ">", "="] } else { ["-", "+", "0"] };
         let quantities = self.problem.inputs.iter().filter(|x| x.differs()).count() as u32;
         let digits = |n: usize, size: u32| (0..size).map(move |k| n / 3usize.pow(k) % 3);
         let all = |size: u32| (0..3usize.pow(size)).map(move |n| digits(n, size));
-        let machines = all(quantities).map(|ends| ends.map(|k| ["-", "+", "0"][k]).collect());
+        let machines = all(quantities).map(|ends| ends.map(|k| names[k]).collect());
         let along = |n| {
             vec![digits(n, self.problem.dimension() as u32).map(|k| 16 * (k as i64 - 1)).collect()]
         };

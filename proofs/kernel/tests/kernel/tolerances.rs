@@ -43,8 +43,21 @@ fn sliders(bound: &str) -> MachineClaim {
 
 /// A certificate with tolerances apart, if one of at most so many boxes is found, and accepted.
 fn apart(claim: &MachineClaim, most: usize) -> Option<Certificate> {
+    found(&Problem::new(claim).expect("well formed").with_derivatives(), claim, most)
+}
+
+/// The same to second order.
+fn to_second_order(claim: &MachineClaim, most: usize) -> Option<Certificate> {
     let problem = Problem::new(claim).expect("well formed").with_derivatives();
-    let tree = Prover::new(&problem).tree(most)?;
+    let differing = problem.inputs.iter().enumerate().filter(|(_, input)| input.differs());
+    let by = differing.map(|(j, _)| j).collect();
+    let problem = problem.with_second_derivatives(&by);
+    assert!(problem.derived.as_ref().is_some_and(|derived| derived.second.is_some()));
+    found(&problem, claim, most)
+}
+
+fn found(problem: &Problem, claim: &MachineClaim, most: usize) -> Option<Certificate> {
+    let tree = Prover::new(problem).tree(most)?;
     let found = certificate(claim, Verdict::Certified, Proof::Tree(tree));
     check(&found).is_ok().then_some(found)
 }
@@ -89,6 +102,49 @@ fn derivatives_are_of_all_machines() {
     assert!(apart(&one_rho("a*(4-a)/4-x", "2.1"), 8).is_some());
 }
 
+/// An interior extreme costs the range of the second derivative alone.
+#[test]
+fn second_derivatives_leave_what_is_of_third_order() {
+    // a (4 - a)/4 - x is 1 at a = 2, where its derivative is 0, and -1/2 the second, of all machines.
+    let own = |max| one_rho("a*(4-a)/4-x", max);
+    for max in ["0.8", "0.95", "0.9999"] {
+        assert!(to_second_order(&own(max), 8).is_none(), "{max}");
+    }
+    assert!(apart(&own("1.0001"), 8).is_none());
+    let found = to_second_order(&own("1.0001"), 8).expect("true");
+    let printed = found.to_text().expect("a text");
+    assert!(printed.contains(r#","=",[]]}"#), "{printed}");
+    assert_eq!(Certificate::read(&printed).as_ref(), Ok(&found));
+    // Of a row, whose least value is at an end: 2 - a^2 for a in [-1, 1].
+    let row = |bound| one_row("2-a^2+b*0", [["-1", "1"], ["1", "3"]], bound);
+    for bound in ["0.6", "0.9", "0.999"] {
+        assert!(to_second_order(&row(bound), 8).is_none(), "{bound}");
+    }
+    assert!(to_second_order(&row("1.01"), 8).is_some());
+}
+
+/// At the middle no derivative of `a b` says anything; that by both does.
+#[test]
+fn pairs_of_quantities_count() {
+    let row = |bound| one_row("2-a*b", [["-1", "1"]; 2], bound);
+    for bound in ["0.5", "0.51", "0.7", "0.99"] {
+        assert!(to_second_order(&row(bound), 8).is_none(), "{bound}");
+    }
+    assert!(to_second_order(&row("1.01"), 8).is_some());
+    // Half of it twice would be too little: (a + b)^2/4 is 1 at both least ends and at both greatest.
+    let square = |bound| one_row("2-(a+b)^2/4", [["-1", "1"]; 2], bound);
+    for bound in ["0.51", "0.6", "0.7", "0.99"] {
+        assert!(to_second_order(&square(bound), 8).is_none(), "{bound}");
+    }
+    assert!(to_second_order(&square("1.01"), 8).is_some());
+    // Third derivatives are in the ranges of second ones: a^3 from 0 to 1.
+    let cube = |bound| one_row("2-a^3+b*0", [["0", "1"], ["1", "3"]], bound);
+    for bound in ["0.51", "0.7", "0.99"] {
+        assert!(to_second_order(&cube(bound), 8).is_none(), "{bound}");
+    }
+    assert!(to_second_order(&cube("1.01"), 8).is_some());
+}
+
 #[test]
 fn certified_bounds_hold_for_sampled_machines() {
     // M = [[1, p], [q, 1]], p = (y - a)/sqrt(100 - (y - a)^2), q = (x - b)/sqrt(100 - (x - b)^2).
@@ -111,8 +167,38 @@ fn certified_bounds_hold_for_sampled_machines() {
     }
     let at = |factor: f64| sliders(&format!("{:.6}", worst * factor));
     assert!(apart(&at(1.0003), 400).is_some());
+    assert!(to_second_order(&at(1.0003), 400).is_some());
     for factor in [0.9999, 0.999, 0.99] {
         assert!(apart(&at(factor), 400).is_none(), "{factor}");
+        assert!(to_second_order(&at(factor), 400).is_none(), "{factor}");
+    }
+}
+
+/// Characters of second order say what they say of each quantity by itself.
+#[test]
+fn nothing_else_goes_with_second_order() {
+    let own = one_row("a-a^2/8+b*0", [["1.9", "2.1"]; 2], "0.691");
+    let good = to_second_order(&own, 8).expect("true");
+    let accepted = |own: &MachineClaim, bound: &str, ends: &str| {
+        let Proof::Tree(mut tree) = good.proof.clone() else { panic!("a tree") };
+        for Step(_, by) in tree.nodes.iter_mut().flat_map(|node| &mut node.by) {
+            if let Evidence::Tolerances(_, own, _) = by {
+                ends.clone_into(own);
+            }
+        }
+        let text = serde_json::to_string(own).expect("a text").replace("0.691", bound);
+        check(&certificate(&claim(&text), Verdict::Certified, Proof::Tree(tree))).is_ok()
+    };
+    let all = |own: &MachineClaim, bound: &str| {
+        let ends = |n: usize| -> String {
+            [n % 6, n / 6].iter().map(|&k| char::from(b"-+0<>="[k])).collect()
+        };
+        (0..36).map(ends).filter(|ends| accepted(own, bound, ends)).collect::<Vec<String>>()
+    };
+    assert_eq!(all(&own, "0.69"), Vec::<String>::new(), "false");
+    assert!(all(&own, "0.691").len() >= 12);
+    for ends in ["<", "<<<", "x<", "<1", ""] {
+        assert!(!accepted(&own, "0.691", ends), "{ends}");
     }
 }
 
@@ -302,6 +388,14 @@ fn nothing_else_goes_with_control_points() {
         other => other,
     };
     assert!(!with(&plain), "ranges are too wide");
+    let second = |evidence| match evidence {
+        Evidence::Tolerances(inner, ends, directions) => {
+            let ends = ends.replace('-', "<").replace('0', "=").replace('+', ">");
+            Evidence::Tolerances(inner, ends, directions)
+        }
+        other => other,
+    };
+    assert!(!with(&second), "second derivatives are of vertices alone");
 }
 
 /// The axis of a strut's joint, `[0, -1]`, and the strut, whose end is off by as much.
