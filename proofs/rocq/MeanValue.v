@@ -84,3 +84,30 @@ Proof.
   rewrite <- (Rabs_pos_eq w) at 1 by lra. rewrite <- Rabs_mult. revert N1 N2. unfold Rabs. repeat destruct (Rcase_abs _); lra.
 Qed.
 End Halving.
+
+(** And so it is at a point that is no end. *)
+Theorem mean_value_inside : forall f f' a b, a < b -> (forall c, a <= c <= b -> derivable_pt_lim f c (f' c)) ->
+  exists c, f b - f a = f' c * (b - a) /\ a < c < b.
+Proof.
+  intros f f' a b order derivable.
+  enough (H : exists p q, a < p /\ p < q /\ q < b /\ f q - f p = (f b - f a) / (b - a) * (q - p)).
+  { destruct H as [p [q [h1 [h2 [h3 e]]]]]. destruct (mean_value_theorem f f' p q h2 ltac:(intros c hc; apply derivable; lra)) as [c [E hc]].
+    exists c. split; [| lra]. rewrite e in E. assert (K : (f b - f a) / (b - a) = f' c) by (apply Rmult_eq_reg_r with (q - p); lra). rewrite <- K. field. lra. }
+  set (k := (f b - f a) / (b - a)). set (l := (b - a) / 2). set (m := a + l).
+  destruct (narrower f f' a b derivable (b - a) a) as [y [hy [y1 [y2 e]]]]; [lra | |].
+  { split; [lra |]. split; [lra |]. replace (a + (b - a)) with b by ring. field. lra. }
+  fold k l in e. assert (l0 : 0 < l) by (unfold l; lra).
+  destruct (Req_dec y a) as [ya | ya]; [| destruct (Req_dec y m) as [ym | ym]].
+  3: { exists y, (y + l). unfold m, l in *. repeat split; lra. }
+  - assert (F : f m - f a = k * l) by (subst y; exact e).
+    destruct (narrower f f' a b derivable l a) as [z [hz [z1 [z2 g]]]]; [lra | split; [lra |]; split; [unfold l; lra | exact F] |].
+    fold k in g. destruct (Req_dec z a) as [za | za].
+    + exists (a + l / 2), m. subst z. unfold m, l in *. repeat split; lra.
+    + exists z, (z + l / 2). unfold m, l in *. repeat split; lra.
+  - assert (T : f b - f a = k * (b - a)) by (unfold k; field; lra).
+    assert (F : f m - f a = k * l) by (subst y; replace (m + l) with b in e by (unfold m, l; field); unfold l in *; lra).
+    destruct (narrower f f' a b derivable l a) as [z [hz [z1 [z2 g]]]]; [lra | split; [lra |]; split; [unfold l; lra | exact F] |].
+    fold k in g. destruct (Req_dec z a) as [za | za].
+    + exists (a + l / 2), m. subst z. unfold m, l in *. repeat split; lra.
+    + exists z, (z + l / 2). unfold m, l in *. repeat split; lra.
+Qed.
