@@ -241,4 +241,197 @@ Proof.
     by (apply sum_same; intros j i; rewrite (D j i); f_equal; apply sum_same; intros l k; rewrite (D l k); reflexivity).
   rewrite S1, S2, S3. ring.
 Qed.
+
+(** ** Values with derivatives and second ones: these by every two of some places in [by_], unknown where there are too few *)
+
+Definition curve : Type := dual * list partial_rate.
+Definition unknown : partial_rate := Some None.
+
+Section Run.
+Variables (coords params : list slope) (by_ : list nat) (pairs : list (nat * nat)).
+
+Definition r_times (r s : partial_rate) : partial_rate :=
+  match r, s with None, _ | _, None => None | Some a, Some b => Some (lift2 (fun a b => Some (s_mul bits a b)) a b) end.
+Definition r_square (r : partial_rate) : partial_rate := option_map (option_map (s_sqr bits)) r.
+Definition r_sub (r s : partial_rate) : partial_rate := r_add r (r_neg s).
+
+(** Of places p and q and the second derivatives of what there is. *)
+Fixpoint by_pairs (f : nat -> nat -> partial_rate -> partial_rate -> partial_rate -> partial_rate) (ps : list (nat * nat)) (a b c : list partial_rate) : list partial_rate :=
+  match ps, a, b, c with (p, q) :: ps', r :: a', s :: b', t :: c' => f p q r s t :: by_pairs f ps' a' b' c' | _, _, _, _ => [] end.
+
+Definition rate_at (d : dual) (p : nat) : partial_rate := nth p (snd d) unknown.
+(** The product of derivatives of one formula. *)
+Definition both (d : dual) (p q : nat) : partial_rate := if Nat.eqb p q then r_square (rate_at d p) else r_times (rate_at d p) (rate_at d q).
+
+Definition seconds (o : op curve) (result : dual) : list partial_rate :=
+  let one (a : curve) f := by_pairs (fun p q r _ _ => f p q r) pairs (snd a) (snd a) (snd a) in
+  let two (a b : curve) f := by_pairs (fun p q r s _ => f p q r s) pairs (snd a) (snd b) (snd b) in
+  match o with
+  | Coord _ | Param _ | Integer _ => map (fun _ => None) pairs
+  | Add a b => two a b (fun _ _ r s => r_add r s)
+  | Sub a b => two a b (fun _ _ r s => r_sub r s)
+  | Neg a => one a (fun _ _ r => r_neg r)
+  | Mul a b => match fst (fst a), fst (fst b) with
+      | Some f, Some g => let ra := rate_at (fst a) in let rb := rate_at (fst b) in
+          two a b (fun p q r s => r_add (r_add (r_times (ra p) (rb q)) (r_times (ra q) (rb p))) (r_add (r_mul bits g r) (r_mul bits f s)))
+      | _, _ => []
+      end
+  | Div a b => match fst result, fst (fst b) with
+      | Some k, Some g => let rk := rate_at result in let rb := rate_at (fst b) in
+          two a b (fun p q r s => r_div bits g (r_sub (r_sub r (r_add (r_times (rk q) (rb p)) (r_mul bits k s))) (r_times (rk p) (rb q))))
+      | _, _ => []
+      end
+  | Sqr a => match fst (fst a) with
+      | Some f => one a (fun p q r => r_mul bits (Tolerances.two bits) (r_add (both (fst a) p q) (r_mul bits f r)))
+      | None => []
+      end
+  | Sqrt a => match fst result with
+      | Some f => let twice := s_mul bits (Tolerances.two bits) f in
+          one a (fun p q r => r_div bits twice (r_sub r (r_mul bits (Tolerances.two bits) (both result p q))))
+      | None => []
+      end
+  | Elbow second a b t => match fst (fst a), fst (fst b), fst (fst t) with
+      | Some f, Some g, Some h =>
+          match s_elbow bits f g h with
+          | Some (c, s) =>
+              let m := r_mul bits in let plus := r_add in let two := Tolerances.two bits in
+              let ra := rate_at (fst a) in let rb := rate_at (fst b) in let rt := rate_at (fst t) in
+              let x := s_sub f c in let y := s_sub g s in let d := s_mul bits two (s_sub (s_mul bits g c) (s_mul bits f s)) in
+              let n p := r_sub (m two (plus (m x (ra p)) (m y (rb p)))) (rt p) in
+              let along u p := r_div bits d (m u (n p)) in
+              let by_sine := along (s_neg s) in let by_cosine := along c in
+              by_pairs (fun p q r r' r'' =>
+                let cq := by_sine q in let sq := by_cosine q in
+                let npq := r_sub (m two (plus (plus (r_times (r_sub (ra q) cq) (ra p)) (m x r)) (plus (r_times (r_sub (rb q) sq) (rb p)) (m y r')))) r'' in
+                let dq := m two (r_sub (plus (m c (rb q)) (m g cq)) (plus (m s (ra q)) (m f sq))) in
+                r_div bits d (r_sub (plus (r_times (if second then cq else r_neg sq) (n p)) (m (if second then c else s_neg s) npq)) (r_times (rate_at result p) dq)))
+                pairs (snd a) (snd b) (snd t)
+          | None => []
+          end
+      | _, _, _ => []
+      end
+  end.
+Definition curve_op (o : op curve) : curve := let result := dual_op bits coords params by_ (map_op fst o) in (result, seconds o result).
+
+Section Sound.
+Variables (lambda xs cs theta : list R).
+Hypothesis lambda_in : Forall (fun t => -1 <= t <= 1) lambda.
+Let none := constant zero.
+Hypothesis coords_hold : forall k, holds bits lambda (nth k coords none) (nth k cs 0) (nth k xs 0).
+Hypothesis params_hold : forall j, holds bits lambda (nth j params none) (nth j theta 0) (nth j theta 0).
+Local Notation rate_is := (rate_is bits lambda).
+
+Definition second_is (r : partial_rate) (p q : nat) (e : formula) : Prop :=
+  rate_is r (second_rate cs theta (nth p by_ O) (nth q by_ O) e) (second_rate xs theta (nth p by_ O) (nth q by_ O) e).
+Definition encloses_seconds (c : curve) (e : formula) : Prop :=
+  encloses_rates bits by_ lambda xs cs theta (fst c) e /\
+  forall k, second_is (nth k (snd c) unknown) (fst (nth k pairs (O, O))) (snd (nth k pairs (O, O))) e.
+
+Lemma rate_times : forall r s a b c d, rate_is r a b -> rate_is s c d -> rate_is (r_times r s) (a * c) (b * d).
+Proof.
+  intros [[r |] |] [[s |] |] a b c d h k; cbn [r_times lift2 Tolerances.rate_is] in *; try exact I; try (destruct h; subst; split; ring); try (destruct k; subst; split; ring).
+  apply (s_mul_holds bits lambda lambda_in); assumption.
+Qed.
+Lemma rate_square : forall r a b, rate_is r a b -> rate_is (r_square r) (a * a) (b * b).
+Proof.
+  intros [[r |] |] a b h; cbn [r_square option_map Tolerances.rate_is] in *; [| exact I | destruct h; subst; split; ring].
+  replace (a * a) with (a ^ 2) by ring. replace (b * b) with (b ^ 2) by ring. apply (s_sqr_holds bits lambda lambda_in), h.
+Qed.
+Lemma rate_sub : forall r s a b c d, rate_is r a b -> rate_is s c d -> rate_is (r_sub r s) (a + - c) (b + - d).
+Proof. intros. apply (rate_add bits lambda lambda_in); [assumption | apply rate_neg; assumption]. Qed.
+Lemma rate_same : forall r a b a' b', rate_is r a b -> a' = a -> b' = b -> rate_is r a' b'.
+Proof. intros; subst; assumption. Qed.
+
+Lemma by_pairs_at : forall (P : nat -> nat -> partial_rate -> Prop) f, (forall p q, P p q unknown) -> forall k ps a b c,
+  (forall p q, nth k ps (O, O) = (p, q) -> P p q (f p q (nth k a unknown) (nth k b unknown) (nth k c unknown))) ->
+  P (fst (nth k ps (O, O))) (snd (nth k ps (O, O))) (nth k (by_pairs f ps a b c) unknown).
+Proof.
+  intros P f hu. induction k as [| k IH]; intros [| [p q] ps] [| r a] [| s b] [| t c] h; cbn [by_pairs nth] in *; try apply hu; [apply h; reflexivity | apply IH, h].
+Qed.
+
+Lemma curve_op_sound : forall (o : op address) f g, (forall i, encloses_seconds (f i) (g i)) -> encloses_seconds (curve_op (map_op f o)) (F (map_op g o)).
+Proof.
+  intros o f g h.
+  assert (V : encloses_rates bits by_ lambda xs cs theta (dual_op bits coords params by_ (map_op fst (map_op f o))) (F (map_op g o))).
+  { replace (map_op fst (map_op f o)) with (map_op (fun i => fst (f i)) o) by (destruct o; reflexivity).
+    apply dual_op_sound; try assumption. intro i. exact (proj1 (h i)). }
+  split; [exact V |]. intro k. unfold curve_op. cbv zeta. cbn [snd]. set (result := dual_op bits coords params by_ (map_op fst (map_op f o))) in *. clearbody result.
+  destruct V as [V W]. fold unknown in W.
+  assert (E : forall i s, fst (fst (f i)) = Some s -> holds bits lambda s (value cs theta (g i)) (value xs theta (g i)))
+    by (intros i s e; pose proof (proj1 (proj1 (h i))) as K; rewrite e in K; apply K).
+  assert (D : forall i p, rate_is (rate_at (fst (f i)) p) (rate cs theta (nth p by_ O) (g i)) (rate xs theta (nth p by_ O) (g i))) by (intros i p; exact (proj2 (proj1 (h i)) p)).
+  assert (G : forall i p q, nth k pairs (O, O) = (p, q) -> second_is (nth k (snd (f i)) unknown) p q (g i)) by (intros i p q e; pose proof (proj2 (h i) k) as K; rewrite e in K; exact K).
+  assert (U : forall e p q, second_is unknown p q e) by (intros; exact I).
+  assert (B : forall d e, (forall p, rate_is (rate_at d p) (rate cs theta (nth p by_ O) e) (rate xs theta (nth p by_ O) e)) -> forall p q,
+    rate_is (both d p q) (rate cs theta (nth p by_ O) e * rate cs theta (nth q by_ O) e) (rate xs theta (nth p by_ O) e * rate xs theta (nth q by_ O) e)).
+  { intros d e hd p q. unfold both. destruct (Nat.eqb_spec p q) as [<- |]; [apply rate_square, hd | apply rate_times; apply hd]. }
+  assert (Nothing : forall p q e, second_is (nth k [] unknown) p q e) by (intros; destruct k; exact I).
+  destruct o as [i | j | n | a b | a b | a | a b | a b | a | a | second a b t]; cbn [map_op seconds] in *.
+  - clear. revert k. induction pairs as [| p l IH]; intros [| k]; cbn [map nth]; try exact I; [split; reflexivity | apply IH].
+  - clear. revert k. induction pairs as [| p l IH]; intros [| k]; cbn [map nth]; try exact I; [| apply IH].
+    split; reflexivity.
+  - clear. revert k. induction pairs as [| p l IH]; intros [| k]; cbn [map nth]; try exact I; [split; reflexivity | apply IH].
+  - apply (by_pairs_at (fun p q r => second_is r p q (F (Add (g a) (g b))))); [intros; apply U |]. intros p q e. apply (rate_add bits lambda lambda_in); apply G, e.
+  - apply (by_pairs_at (fun p q r => second_is r p q (F (Sub (g a) (g b))))); [intros; apply U |]. intros p q e. apply rate_sub; apply G, e.
+  - apply (by_pairs_at (fun p q r => second_is r p q (F (Neg (g a))))); [intros; apply U |]. intros p q e. apply rate_neg, G, e.
+  - destruct (fst (fst (f a))) as [s |] eqn:ea; [| apply Nothing]. destruct (fst (fst (f b))) as [t |] eqn:eb; [| apply Nothing].
+    apply (by_pairs_at (fun p q r => second_is r p q (F (Mul (g a) (g b))))); [intros; apply U |]. intros p q e. unfold second_is. rewrite !second_mul.
+    repeat apply (rate_add bits lambda lambda_in); first [apply rate_times; apply D | apply (rate_mul bits lambda lambda_in); [auto | apply G, e]].
+  - destruct (fst result) as [s |] eqn:er; [| apply Nothing]. destruct (fst (fst (f b))) as [t |] eqn:eb; [| apply Nothing]. destruct V as [_ [_ V]].
+    apply (by_pairs_at (fun p q r => second_is r p q (F (Div (g a) (g b))))); [intros; apply U |]. intros p q e. unfold second_is. rewrite !second_div.
+    apply (rate_div bits lambda lambda_in); [auto |]. apply rate_sub; [apply rate_sub; [apply G, e |]; apply (rate_add bits lambda lambda_in) |].
+    + apply rate_times; [apply W | apply D].
+    + apply (rate_mul bits lambda lambda_in); [exact V | apply G, e].
+    + apply rate_times; [apply W | apply D].
+  - destruct (fst (fst (f a))) as [s |] eqn:ea; [| apply Nothing].
+    apply (by_pairs_at (fun p q r => second_is r p q (F (Sqr (g a))))); [intros; apply U |]. intros p q e. unfold second_is. rewrite !second_sqr.
+    apply (rate_mul bits lambda lambda_in); [apply two_holds |]. apply (rate_add bits lambda lambda_in); [apply B, D | apply (rate_mul bits lambda lambda_in); [auto | apply G, e]].
+  - destruct (fst result) as [s |] eqn:er; [| apply Nothing]. destruct V as [_ [_ V]]. cbn [value map_op real_op] in V.
+    apply (by_pairs_at (fun p q r => second_is r p q (F (Sqrt (g a))))); [intros; apply U |]. intros p q e. unfold second_is. rewrite !second_sqrt.
+    apply (rate_div bits lambda lambda_in); [apply s_mul_holds; [exact lambda_in | apply two_holds | exact V] |]. apply rate_sub; [apply G, e |].
+    apply (rate_mul bits lambda lambda_in); [apply two_holds | apply B; exact W].
+  - destruct (fst (fst (f a))) as [sa |] eqn:ea; [| apply Nothing]. destruct (fst (fst (f b))) as [sb |] eqn:eb; [| apply Nothing].
+    destruct (fst (fst (f t))) as [st |] eqn:et; [| apply Nothing]. apply E in ea, eb, et.
+    destruct (s_elbow bits sa sb st) as [[c s] |] eqn:K; [| apply Nothing].
+    destruct (s_elbow_holds bits lambda lambda_in _ _ _ _ _ _ _ _ _ _ K ea eb et) as [_ [_ [hc hs]]]. cbn [fst snd] in hc, hs.
+    apply (by_pairs_at (fun p q r => second_is r p q (F (Elbow second (g a) (g b) (g t))))); [intros; apply U |]. intros p q e. unfold second_is. rewrite !second_elbow. cbv zeta.
+    change (fst (elbow (value cs theta (g a)) (value cs theta (g b)) (value cs theta (g t)))) with (value cs theta (F (Elbow false (g a) (g b) (g t)))) in hc.
+    change (fst (elbow (value xs theta (g a)) (value xs theta (g b)) (value xs theta (g t)))) with (value xs theta (F (Elbow false (g a) (g b) (g t)))) in hc.
+    change (snd (elbow (value cs theta (g a)) (value cs theta (g b)) (value cs theta (g t)))) with (value cs theta (F (Elbow true (g a) (g b) (g t)))) in hs.
+    change (snd (elbow (value xs theta (g a)) (value xs theta (g b)) (value xs theta (g t)))) with (value xs theta (F (Elbow true (g a) (g b) (g t)))) in hs.
+    set (ec := F (Elbow false (g a) (g b) (g t))) in *. set (es := F (Elbow true (g a) (g b) (g t))) in *. pose proof (two_holds bits lambda) as h2.
+    set (d := s_mul bits (Tolerances.two bits) (s_sub (s_mul bits sb c) (s_mul bits sa s))).
+    set (n := fun p => r_sub (r_mul bits (Tolerances.two bits) (r_add (r_mul bits (s_sub sa c) (rate_at (fst (f a)) p)) (r_mul bits (s_sub sb s) (rate_at (fst (f b)) p)))) (rate_at (fst (f t)) p)).
+    assert (hx : holds bits lambda (s_sub sa c) (value cs theta (g a) - value cs theta ec) (value xs theta (g a) - value xs theta ec)) by (apply s_sub_holds; assumption).
+    assert (hy : holds bits lambda (s_sub sb s) (value cs theta (g b) - value cs theta es) (value xs theta (g b) - value xs theta es)) by (apply s_sub_holds; assumption).
+    assert (hd : holds bits lambda d (2 * (value cs theta (g b) * value cs theta ec - value cs theta (g a) * value cs theta es)) (2 * (value xs theta (g b) * value xs theta ec - value xs theta (g a) * value xs theta es)))
+      by (unfold d; repeat (apply s_mul_holds || apply s_sub_holds); assumption).
+    assert (hn : forall p, rate_is (n p)
+      (2 * ((value cs theta (g a) - value cs theta ec) * rate cs theta (nth p by_ O) (g a) + (value cs theta (g b) - value cs theta es) * rate cs theta (nth p by_ O) (g b)) + - rate cs theta (nth p by_ O) (g t))
+      (2 * ((value xs theta (g a) - value xs theta ec) * rate xs theta (nth p by_ O) (g a) + (value xs theta (g b) - value xs theta es) * rate xs theta (nth p by_ O) (g b)) + - rate xs theta (nth p by_ O) (g t))).
+    { intro p0. unfold n. apply rate_sub; [| apply D]. apply (rate_mul bits lambda lambda_in); [exact h2 |]. apply (rate_add bits lambda lambda_in); apply (rate_mul bits lambda lambda_in); try assumption; apply D. }
+    assert (Alike : forall (z : list R), elbow (value z theta (g a)) (value z theta (g b)) (value z theta (g t)) = (value z theta ec, value z theta es))
+      by (intro z; unfold ec, es; cbn [value map_op real_op]; destruct (elbow _ _ _); reflexivity).
+    assert (hcq : forall q, rate_is (r_div bits d (r_mul bits (s_neg s) (n q))) (rate cs theta (nth q by_ O) ec) (rate xs theta (nth q by_ O) ec)).
+    { intro q0. eapply rate_same; [apply (rate_div bits lambda lambda_in); [exact hd |]; apply (rate_mul bits lambda lambda_in); [apply s_neg_holds, hs | apply hn] | |];
+        unfold ec at 1; cbn [rate]; rewrite Alike; reflexivity. }
+    assert (hsq : forall q, rate_is (r_div bits d (r_mul bits c (n q))) (rate cs theta (nth q by_ O) es) (rate xs theta (nth q by_ O) es)).
+    { intro q0. eapply rate_same; [apply (rate_div bits lambda lambda_in); [exact hd |]; apply (rate_mul bits lambda lambda_in); [exact hc | apply hn] | |];
+        unfold es at 1; cbn [rate]; rewrite Alike; reflexivity. }
+    clearbody ec es. pose proof (fun r z u v w => rate_mul bits lambda lambda_in r z u v w) as Rm. pose proof (fun r z u v w y => rate_add bits lambda lambda_in r z u v w y) as Ra.
+    apply (rate_div bits lambda lambda_in); [exact hd |]. apply rate_sub; [apply Ra | apply rate_times; [apply W |]].
+    + apply rate_times; [destruct second; [apply hcq | apply rate_neg, hsq] | apply hn].
+    + apply Rm; [destruct second; [exact hc | apply s_neg_holds, hs] |]. apply rate_sub; [| apply G, e]. apply Rm; [exact h2 |].
+      apply Ra; apply Ra; first [apply Rm; [assumption | apply G, e] | apply rate_times; [apply rate_sub; [apply D | first [apply hcq | apply hsq]] | apply D]].
+    + apply Rm; [exact h2 |]. apply rate_sub; apply Ra; (apply Rm; [assumption | first [apply D | apply hcq | apply hsq]]).
+Qed.
+
+Theorem seconds_sound : forall keep tape, Forall2 encloses_seconds (run_kept curve ((None, []), []) curve_op keep tape) (formulas tape).
+Proof.
+  assert (never : forall f, encloses_seconds ((None, []), []) f).
+  { intro f. split; [split; [exact I | intros [| p]; exact I] | intros [| k]; exact I]. }
+  intros keep tape. apply (run_kept_related curve formula ((None, []), []) (integer 0) curve_op F encloses_seconds); [apply never | exact curve_op_sound | exact never].
+Qed.
+End Sound.
+End Run.
 End Precision.
