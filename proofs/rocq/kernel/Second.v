@@ -434,4 +434,198 @@ Proof.
 Qed.
 End Sound.
 End Run.
+
+(** ** What there is of a formula: of first derivatives those of the one machine by parameters that are moved first, and second ones by every two of these *)
+
+Section Ends.
+Variables (ends : list (nat * choice)) (curved : list nat).
+
+Definition parameter_at (p : nat) : nat := nth p (map fst ends) O.
+Fixpoint pairs_of (l : list nat) : list (nat * nat) := match l with [] => [] | p :: l' => map (pair p) l ++ pairs_of l' end.
+Definition pairs : list (nat * nat) := pairs_of (filter (fun p => is_in (parameter_at p) curved) (seq 0 (length ends))).
+(** Others by a number that no parameter has. *)
+Definition of_the_one (params : list fixed) : list nat := map (fun e => if is_in (fst e) curved then fst e else length params) ends.
+
+Fixpoint all_known (l : list partial_rate) : option (list slope) :=
+  match l with
+  | [] => Some []
+  | r :: l' => match match r with None => Some (constant zero) | Some r => r end, all_known l' with Some s, Some ss => Some (s :: ss) | _, _ => None end
+  end.
+Definition rates_of (one : dual) (all : curve) : option (list slope) :=
+  all_known (map (fun p => rate_at (if is_in (parameter_at p) curved then one else fst all) p) (seq 0 (length ends)) ++ map (fun k => nth k (snd all) unknown) (seq 0 (length pairs))).
+
+Definition product (ss : list (list fixed)) (k : nat * nat) : list fixed :=
+  if Nat.eqb (fst k) (snd k) then match nth (fst k) ss [] with r :: _ => [halve (mul bits r r)] | [] => [] end
+  else flat_map (fun r => map (mul bits r) (nth (snd k) ss [])) (nth (fst k) ss []).
+Definition steps (params : list fixed) : list (list fixed) := let ss := Tolerances.steps ends params in ss ++ map (product ss) pairs.
+
+(** What these are steps of. *)
+Definition difference (ds : list R) (k : nat * nat) : R := if Nat.eqb (fst k) (snd k) then nth (fst k) ds 0 ^ 2 / 2 else nth (fst k) ds 0 * nth (snd k) ds 0.
+Definition differences (theta0 theta : list R) : list R :=
+  let ds := map (fun e => nth (fst e) theta 0 - nth (fst e) theta0 0) ends in ds ++ map (difference ds) pairs.
+
+Lemma share_times : forall m n, is_share m -> is_share n -> is_share (m * n).
+Proof. intros m n [h1 h2] [k1 k2]. split; nra. Qed.
+
+Lemma stride_square : forall a c ms, stepped bits (snd (start a c)) ms -> exists m r, is_share m /\ contains (hd zero (snd (start a c))) r /\ stride ms ^ 2 = m * (r * r).
+Proof.
+  intros a c ms h. pose proof (unit_R_pos bits) as u.
+  assert (One : forall n, stepped bits [n] ms -> exists m r, is_share m /\ contains n r /\ stride ms ^ 2 = m * (r * r)).
+  { clear h. intros n h. inversion h as [| ? [m r] ? ? [h1 h2] h3]; subst. inversion h3; subst. exists (m * m), r. split; [apply share_times; exact h1 |]. split; [exact h2 |]. unfold stride. cbn. ring. }
+  destruct c; cbn [start snd hd] in *; [apply One, h .. |]. set (n := (hi a - _)%Z) in *.
+  inversion h as [| ? [m r] ? ? [h1 h2] h3]; subst. inversion h3 as [| ? [m' r'] ? ? [k1 k2] k3]; subst. inversion k3; subst. cbn [fst snd] in *.
+  assert (e : r' = - r).
+  { destruct h2 as [l1 l2], k2 as [g1 g2]. cbn [lo hi] in *. match type of g1 with IZR ?z <= _ => replace z with (- n)%Z in g1, g2 by (unfold n; lia) end. rewrite opp_IZR in g1, g2.
+    apply Rmult_eq_reg_r with (unit_R bits); lra. }
+  subst r'. exists ((m - m') ^ 2), r. split; [destruct h1, k1; split; [apply pow2_ge_0 |]; assert (-1 <= m - m' <= 1) by lra; set (z := m - m') in *; nra |]. split; [exact h2 |]. unfold stride. cbn. ring.
+Qed.
+
+Lemma stepped_products : forall rs ts ms ns, stepped bits rs ms -> stepped bits ts ns ->
+  exists ls, stepped bits (flat_map (fun r => map (mul bits r) ts) rs) ls /\ stride ls = stride ms * stride ns.
+Proof.
+  intros rs ts ms ns h k. induction h as [| r [m y] rs ms [h1 h2] h [ls [l1 l2]]]; cbn [flat_map]; [exists []; split; [constructor | unfold stride; cbn; ring] |].
+  exists (map (fun n => (m * fst n, y * snd n)) ns ++ ls). split.
+  - apply Forall2_app; [| exact l1]. eapply map_related; [| exact k]. intros t n [k1 k2]. cbn [fst snd] in *. split; [apply share_times; assumption | apply mul_sound; assumption].
+  - unfold stride, sum_of in *. rewrite fold_right_app, l2. cbn [fold_right fst snd]. clear.
+    assert (G : forall w, fold_right (fun p s => fst p * snd p + s) w (map (fun n : R * R => (m * fst n, y * snd n)) ns) = m * y * fold_right (fun p s => fst p * snd p + s) 0 ns + w)
+      by (intro w; induction ns as [| n ns I]; cbn [map fold_right fst snd]; [ring | rewrite I; ring]).
+    rewrite G. ring.
+Qed.
+
+Lemma steps_sound : forall params theta0 theta mss, Forall2 (stepped bits) (Tolerances.steps ends params) mss ->
+  Forall2 (fun e ms => nth (fst e) theta 0 - nth (fst e) theta0 0 = stride ms) ends mss ->
+  exists mss', Forall2 (stepped bits) (steps params) mss' /\ map stride mss' = differences theta0 theta.
+Proof.
+  intros params theta0 theta mss h d. unfold steps, differences. set (ss := Tolerances.steps ends params) in *.
+  assert (E : map (fun e => nth (fst e) theta 0 - nth (fst e) theta0 0) ends = map stride mss).
+  { clear h ss. induction d as [| e ms es mss h d IH]; [reflexivity |]. cbn [map]. rewrite h, IH. reflexivity. }
+  rewrite E. cbv zeta.
+  assert (N : forall p, stepped bits (nth p ss []) (nth p mss [])) by (intro p; clear - h; revert p; induction h as [| s ms ss mss h1 h IH]; intros [| p]; cbn [nth]; auto; constructor).
+  assert (D : forall p, nth p (map stride mss) 0 = stride (nth p mss [])) by (intro p; exact (map_nth stride mss [] p)).
+  assert (F : forall p, nth p ss [] = [] \/ exists a c, nth p ss [] = snd (start a c)).
+  { intro p. unfold ss, Tolerances.steps. destruct (Nat.lt_ge_cases p (length ends)) as [l | l]; [right | left; apply nth_overflow; rewrite map_length; exact l].
+    set (f := fun e : nat * choice => snd (start (nth (fst e) params zero) (snd e))). rewrite (nth_indep _ _ (f (O, FromLeast))) by (rewrite map_length; exact l).
+    rewrite map_nth. unfold f. eexists _, _. reflexivity. }
+  assert (K : forall k, exists ms, stepped bits (product ss k) ms /\ stride ms = difference (map stride mss) k).
+  { intros [p q]. unfold product, difference. cbn [fst snd]. rewrite !D. specialize (N p) as hp. destruct (Nat.eqb_spec p q) as [<- | n].
+    - destruct (F p) as [e | [a [c e]]]; rewrite e in *.
+      + inversion hp. exists []. split; [constructor | unfold stride; cbn; field].
+      + destruct (stride_square a c _ hp) as [m [r [h1 [h2 h3]]]]. rewrite h3. destruct (snd (start a c)) as [| s l] eqn:z; [destruct c; discriminate |]. cbn [hd] in h2.
+        exists [(m, r * r / 2)]. split; [constructor; [split; [exact h1 | apply halve_sound, mul_sound; exact h2] | constructor] | unfold stride; cbn; field].
+    - apply stepped_products; [exact hp | apply N]. }
+  assert (G : forall l, exists mss', Forall2 (stepped bits) (map (product ss) l) mss' /\ map stride mss' = map (difference (map stride mss)) l).
+  { induction l as [| k l [mss' [h1 h2]]]; [exists []; split; [constructor | reflexivity] |]. destruct (K k) as [ms [k1 k2]]. exists (ms :: mss'). split; [constructor; assumption |]. cbn [map]. rewrite k2, h2. reflexivity. }
+  destruct (G pairs) as [mss' [h1 h2]]. exists (mss ++ mss'). split; [apply Forall2_app; assumption |]. rewrite map_app, h2. reflexivity.
+Qed.
+
+(** Sums over all two of some places, and over every two. *)
+Definition total {A : Type} (l : list A) (f : A -> R) : R := fold_right (fun a s => f a + s) 0 l.
+Lemma total_linear : forall (A : Type) (l : list A) k f g, total l (fun a => k * f a + g a) = k * total l f + total l g.
+Proof. intros A l k f g. unfold total. induction l as [| a l IH]; cbn [fold_right]; [ring |]. rewrite IH. ring. Qed.
+Lemma total_same : forall (A : Type) (l : list A) f g, (forall a, In a l -> f a = g a) -> total l f = total l g.
+Proof. intros A l f g h. unfold total. induction l as [| a l IH]; [reflexivity |]. cbn [fold_right]. rewrite (h a) by (left; reflexivity). rewrite IH by (intros; apply h; right; assumption). reflexivity. Qed.
+Lemma total_map : forall (A B : Type) (k : A -> B) l f, total (map k l) f = total l (fun a => f (k a)).
+Proof. intros A B k l f. unfold total. induction l as [| a l IH]; [reflexivity |]. cbn [map fold_right]. rewrite IH. reflexivity. Qed.
+Lemma total_app : forall (A : Type) (l m : list A) f, total (l ++ m) f = total l f + total m f.
+Proof. intros A l m f. unfold total. induction l as [| a l IH]; cbn [app fold_right]; [ring |]. rewrite IH. ring. Qed.
+
+Lemma total_pairs : forall (d : nat -> R) (s : nat -> nat -> R), (forall p q, s p q = s q p) -> forall l, NoDup l ->
+  / 2 * total l (fun p => d p * total l (fun q => d q * s p q)) = total (pairs_of l) (fun k => (if Nat.eqb (fst k) (snd k) then d (fst k) ^ 2 / 2 else d (fst k) * d (snd k)) * s (fst k) (snd k)).
+Proof.
+  intros d s sym. induction l as [| p l IH]; intro nd; [unfold total; cbn; ring |]. inversion nd as [| ? ? no nd']; subst. cbn [pairs_of]. rewrite total_app, <- (IH nd'), total_map.
+  set (g := fun a => (if Nat.eqb (fst (p, a)) (snd (p, a)) then d (fst (p, a)) ^ 2 / 2 else d (fst (p, a)) * d (snd (p, a))) * s (fst (p, a)) (snd (p, a))).
+  set (T := total l (fun q => d q * s p q)). set (W := total l (fun p => d p * total l (fun q => d q * s p q))).
+  change (total (p :: l) g) with (g p + total l g). assert (Gp : g p = d p ^ 2 / 2 * s p p) by (unfold g; cbn [fst snd]; rewrite Nat.eqb_refl; reflexivity).
+  assert (Gl : total l g = d p * T).
+  { unfold T. rewrite <- (Rplus_0_r (d p * total l (fun q => d q * s p q))). replace 0 with (total l (fun _ => 0)) by (clear; unfold total; induction l as [| a l I]; cbn [fold_right]; [| rewrite I]; ring).
+    rewrite <- total_linear. apply total_same. intros q i. unfold g. cbn [fst snd]. destruct (Nat.eqb_spec p q) as [<- |]; [contradiction | ring]. }
+  rewrite Gp, Gl. change (total (p :: l) (fun p0 => d p0 * total (p :: l) (fun q => d q * s p0 q))) with (d p * (d p * s p p + T) + total l (fun p0 => d p0 * (d p * s p0 p + total l (fun q => d q * s p0 q)))).
+  rewrite (total_same _ l _ (fun p0 => d p * (d p0 * s p p0) + d p0 * total l (fun q => d q * s p0 q))) by (intros q _; rewrite (sym q p); ring).
+  rewrite total_linear. fold T W. field.
+Qed.
+
+Lemma as_seq : forall (A : Type) (a : A) l, map (fun p => nth p l a) (seq 0 (length l)) = l.
+Proof.
+  intros A a l. assert (G : forall b, map (fun p => nth p (b ++ l) a) (seq (length b) (length l)) = l); [| exact (G [])].
+  induction l as [| y l IH]; intro b; [reflexivity |]. cbn [length seq map]. f_equal.
+  - rewrite app_nth2, Nat.sub_diag by lia. reflexivity.
+  - specialize (IH (b ++ [y])). rewrite app_length, Nat.add_1_r, <- app_assoc in IH. exact IH.
+Qed.
+Lemma filter_mapped : forall (A B : Type) (p : B -> bool) (g : A -> B) l, filter p (map g l) = map g (filter (fun a => p (g a)) l).
+Proof. intros A B p g l. induction l as [| a l IH]; [reflexivity |]. cbn [map filter]. destruct (p (g a)); cbn [map]; rewrite IH; reflexivity. Qed.
+Lemma dot_mapped : forall (A : Type) (f g : A -> R) l, dot (map f l) (map g l) = total l (fun a => f a * g a).
+Proof. intros A f g l. unfold total. induction l as [| a l IH]; [reflexivity |]. cbn [map dot fold_right]. rewrite IH. reflexivity. Qed.
+Lemma dot_app : forall a b c e, length a = length b -> dot (a ++ c) (b ++ e) = dot a b + dot c e.
+Proof. induction a as [| y a IH]; intros [| z b] c e l; try discriminate; cbn [app dot]; [ring |]. rewrite IH by (cbn in l; congruence). ring. Qed.
+
+Lemma all_known_sound : forall lambda l vs, Forall2 (fun r (v : R * R) => Tolerances.rate_is bits lambda r (fst v) (snd v)) l vs -> forall ss, all_known l = Some ss ->
+  exists es, Forall2 (entry_in bits) ss es /\ map (at_lambda lambda) es = map snd vs.
+Proof.
+  intros lambda. induction 1 as [| r [a b] l vs h hs IH]; intros ss k; cbn [all_known] in k; [injection k as <-; exists []; split; [constructor | reflexivity] |]. cbn [fst snd] in h.
+  destruct (match r with None => _ | Some r => r end) as [s |] eqn:er; [| discriminate]. destruct (all_known l) as [ss' |]; [| discriminate]. injection k as <-.
+  destruct (IH ss' eq_refl) as [es [k1 k2]].
+  assert (X : exists e, entry_in bits s e /\ at_lambda lambda e = b).
+  { destruct r as [[t |] |]; cbn [Tolerances.rate_is] in h; [| discriminate |].
+    - injection er as <-. destruct h as [h1 [h2 [u [h3 h4]]]]. exists (a, u). split; [split; assumption |]. unfold at_lambda. cbn [fst snd]. lra.
+    - injection er as <-. destruct h as [_ ->]. exists (0, []). split; [split; [apply zero_sound | constructor] | unfold at_lambda; cbn; ring]. }
+  destruct X as [e [x1 x2]]. exists (e :: es). split; [constructor; assumption |]. cbn [map snd]. rewrite x2, k2. reflexivity.
+Qed.
+
+(** The value of a formula at another machine. *)
+Theorem second_sound : forall lambda x cs params theta0 theta f one all s rs, NoDup (map fst ends) -> Forall2 contains params theta0 -> Forall2 contains params theta ->
+  (forall th, Forall2 contains params th -> defined x th f) -> (forall j, ~ In j (map fst ends) -> nth j theta0 0 = nth j theta 0) ->
+  encloses_rates bits (of_the_one params) lambda x cs theta0 one f -> (forall th, Forall2 contains params th -> encloses_seconds (map fst ends) pairs lambda x cs th all f) ->
+  fst one = Some s -> rates_of one all = Some rs ->
+  exists e, multi_in bits (s, rs) e /\ value x theta f = at_lambda lambda (moved (fst e) (differences theta0 theta) (snd e)).
+Proof.
+  intros lambda x cs params th0 th f one all s rs nd h0 h1 df same [V One] All e1 er.
+  destruct (second_mean_value (map fst ends) curved x params th0 th f nd h0 h1 df same) as [t [t' [ht [ht' E]]]]. cbv zeta in E.
+  rewrite e1 in V. destruct V as [_ [_ [m1 [_ [u [m2 m3]]]]]].
+  set (js := map fst ends) in *. set (d := fun j => nth j th 0 - nth j th0 0).
+  set (first := fun z j => if is_in j curved then rate z th0 j f else rate z t j f).
+  set (second := fun z p q => second_rate z t' (nth p js O) (nth q js O) f).
+  assert (F : Forall2 (fun r (v : R * R) => Tolerances.rate_is bits lambda r (fst v) (snd v))
+    (map (fun p => rate_at (if is_in (parameter_at p) curved then one else fst all) p) (seq 0 (length ends)) ++ map (fun k => nth k (snd all) unknown) (seq 0 (length pairs)))
+    (map (fun p => (first cs (nth p js O), first x (nth p js O))) (seq 0 (length ends)) ++
+     map (fun k => let (p, q) := nth k pairs (O, O) in (second cs p q, second x p q)) (seq 0 (length pairs)))).
+  { apply Forall2_app.
+    - assert (L : forall l, (forall p, In p l -> (p < length ends)%nat) -> Forall2 (fun r (v : R * R) => Tolerances.rate_is bits lambda r (fst v) (snd v))
+        (map (fun p => rate_at (if is_in (parameter_at p) curved then one else fst all) p) l) (map (fun p => (first cs (nth p js O), first x (nth p js O))) l)).
+      { induction l as [| p l IH]; intro b; cbn [map]; constructor; [| apply IH; intros; apply b; right; assumption]. cbn [fst snd]. unfold first, parameter_at. fold js.
+        destruct (is_in (nth p js O) curved) eqn:e; [| exact (proj2 (proj1 (All t ht)) p)]. specialize (One p). unfold of_the_one in One.
+        set (g := fun e0 : nat * choice => if is_in (fst e0) curved then fst e0 else length params) in One.
+        assert (G : nth p (map g ends) O = nth p js O); [| rewrite G in One; exact One].
+        specialize (b p (or_introl eq_refl)). unfold js in e |- *. rewrite (nth_indep _ O (g (O, FromLeast))) by (rewrite map_length; exact b).
+        rewrite (nth_indep _ O (fst (O, FromLeast))) in e |- * by (rewrite map_length; exact b). rewrite !map_nth in *. unfold g. rewrite e. reflexivity. }
+      apply L. intros p i. apply in_seq in i. lia.
+    - generalize (seq 0 (length pairs)). induction l as [| k l IH]; cbn [map]; constructor; [| exact IH]. pose proof (proj2 (All t' ht') k) as K. unfold second_is in K. fold js in K.
+      destruct (nth k pairs (O, O)) as [p q]. exact K. }
+  destruct (all_known_sound lambda _ _ F rs er) as [es [k1 k2]]. exists ((value cs th0 f, u), es). split; [split; [split; assumption | exact k1] |].
+  cbn [fst snd]. rewrite at_moved, k2, map_app, !map_map. cbn [snd]. unfold differences.
+  assert (X1 : map (fun p => first x (nth p js O)) (seq 0 (length ends)) = map (fun e => first x (fst e)) ends).
+  { rewrite <- (map_map (fun p => nth p js O) (first x)), <- (map_map fst (first x)). f_equal. replace (length ends) with (length js) by apply map_length. apply as_seq. }
+  assert (X2 : map (fun k => snd (let (p, q) := nth k pairs (O, O) in (second cs p q, second x p q))) (seq 0 (length pairs)) = map (fun k => second x (fst k) (snd k)) pairs).
+  { rewrite <- (as_seq _ (O, O) pairs) at 2. rewrite map_map. apply map_ext. intro k. destruct (nth k pairs (O, O)); reflexivity. }
+  cbn [snd] in *. rewrite X1, X2, dot_app by (rewrite !map_length; reflexivity). fold d. clear X1 X2. set (ds := map (fun e => nth (fst e) th 0 - nth (fst e) th0 0) ends).
+  assert (Ds : forall p, (p < length ends)%nat -> nth p ds 0 = d (nth p js O)).
+  { intros p l. unfold ds, js. change (fun e : nat * choice => nth (fst e) th 0 - nth (fst e) th0 0) with (fun e : nat * choice => d (fst e)). rewrite (nth_indep _ 0 (d (fst (O, FromLeast)))) by (rewrite map_length; exact l).
+    rewrite (nth_indep _ O (fst (O, FromLeast))) by (rewrite map_length; exact l). rewrite (map_nth (fun e : nat * choice => d (fst e))), map_nth. reflexivity. }
+  unfold ds at 1. rewrite !dot_mapped. rewrite E.
+  assert (A0 : value x th0 f = at_lambda lambda (value cs th0 f, u)) by (unfold at_lambda; cbn [fst snd]; lra). rewrite A0, Rplus_assoc. f_equal. f_equal.
+  - unfold js. rewrite sum_mapped. apply total_same. intros e _. unfold first, d. destruct (is_in (fst e) curved); reflexivity.
+  - set (own := filter (fun p => is_in (parameter_at p) curved) (seq 0 (length ends))).
+    assert (O : filter (fun j => is_in j curved) js = map (fun p => nth p js O) own).
+    { symmetry. unfold own. replace (length ends) with (length js) by apply map_length.
+      exact (eq_trans (eq_sym (filter_mapped _ _ (fun j => is_in j curved) (fun p => nth p js 0%nat) _)) (f_equal _ (as_seq nat 0%nat js))). }
+    rewrite O. unfold pairs. fold own.
+    assert (S : forall f0, sum_over (map (fun p => nth p js 0%nat) own) f0 = total own (fun p => f0 (nth p js 0%nat))) by (intro; apply sum_mapped).
+    rewrite S. rewrite (total_same _ own _ (fun p => d (nth p js 0%nat) * total own (fun q => d (nth q js 0%nat) * second x p q))) by (intros p _; rewrite S; reflexivity).
+    rewrite (total_pairs (fun p => d (nth p js 0%nat)) (second x)); [| intros; apply second_symmetric, df, ht' | apply NoDup_filter, seq_NoDup].
+    assert (I : forall l, (forall p, In p l -> (p < length ends)%nat) -> forall k, In k (pairs_of l) -> (fst k < length ends)%nat /\ (snd k < length ends)%nat).
+    { induction l as [| p l IH]; intros b k i; [contradiction |]. cbn [pairs_of] in i. apply in_app_or in i as [i | i].
+      - apply in_map_iff in i as [q [<- i]]. split; apply b; [left; reflexivity | exact i].
+      - apply IH; [| exact i]. intros q iq. apply b. right. exact iq. }
+    apply total_same. intros k i. destruct (I own ltac:(intros p ip; apply filter_In in ip as [ip _]; apply in_seq in ip; lia) k i) as [l1 l2]. unfold difference. rewrite !Ds by assumption. reflexivity.
+Qed.
+End Ends.
 End Precision.
