@@ -1006,16 +1006,19 @@ Definition length_order (ds : list drive) : Z :=
   let some := match flat_map lengths_of ds with [] => flat_map places_of ds | l => l end in
   (1 + order_of some)%Z.
 
-Definition choice_of (c : ascii) : option Tolerances.choice :=
-  if (c =? "-")%char then Some Tolerances.FromLeast else if (c =? "+")%char then Some Tolerances.FromGreatest
-  else if (c =? "0")%char then Some Tolerances.FromMiddle else None.
-(** For each of these parameters a character; and those that directions of one scale leave no range. *)
-Fixpoint ends_of (free : list nat) (l : list ascii) : option (list (nat * Tolerances.choice) * list nat) :=
+(** Where the one machine is, and whether the parameter is of second order. *)
+Definition choice_of (c : ascii) : option (Tolerances.choice * bool) :=
+  if (c =? "-")%char then Some (Tolerances.FromLeast, false) else if (c =? "+")%char then Some (Tolerances.FromGreatest, false)
+  else if (c =? "0")%char then Some (Tolerances.FromMiddle, false)
+  else if (c =? "<")%char then Some (Tolerances.FromLeast, true) else if (c =? ">")%char then Some (Tolerances.FromGreatest, true)
+  else if (c =? "=")%char then Some (Tolerances.FromMiddle, true) else None.
+(** For each of these parameters a character; those of second order, and those that directions of one scale leave no range. *)
+Fixpoint ends_of (free : list nat) (l : list ascii) : option (list (nat * Tolerances.choice) * list nat * list nat) :=
   match free, l with
-  | [], [] => Some ([], [])
+  | [], [] => Some ([], [], [])
   | j :: free', c :: l' => match ends_of free' l', choice_of c with
-      | Some (r, ones), Some c => Some ((j, c) :: r, ones)
-      | Some (r, ones), None => if (c =? "1")%char then Some (r, j :: ones) else None
+      | Some (r, curved, ones), Some (c, second) => Some ((j, c) :: r, if second then j :: curved else curved, ones)
+      | Some (r, curved, ones), None => if (c =? "1")%char then Some (r, curved, j :: ones) else None
       | None, _ => None
       end
   | _, _ => None
@@ -1043,8 +1046,8 @@ Fixpoint evidence_of (s : step) : option evidence :=
   | AtControls_ s => option_map AtControls (evidence_of s)
   | Apart_ s ends vs =>
       match apart, evidence_of s, ends_of apart (list_ascii_of_string ends) with
-      | _ :: _, Some e, Some (ends, []) => Some (ByTolerances e ends vs)
-      | _ :: _, Some e, Some (ends, ones) => Some (OfOneScale groups ones (ByTolerances e ends vs))
+      | _ :: _, Some e, Some (ends, curved, []) => Some (ByTolerances e ends curved vs)
+      | _ :: _, Some e, Some (ends, curved, ones) => Some (OfOneScale groups ones (ByTolerances e ends curved vs))
       | _, _, _ => None
       end
   | Fan_ cs => option_map ByFan ((fix all ps := match ps with

@@ -7,7 +7,7 @@
 From Coq Require Import ZArith Reals Lra Lia List Bool.
 From Orthocert Require Import Fixed.
 From Orthocert.kernel Require Import Formula Linear Arithmetic Slope Definite Test Cell Apart.
-From Orthocert.kernel Require Solve Near Nearby Spread Twofold Tolerances Curvature Scale Toward.
+From Orthocert.kernel Require Solve Near Nearby Spread Twofold Tolerances Second Curvature Scale Toward.
 Import ListNotations.
 Local Open Scope R_scope.
 
@@ -39,8 +39,8 @@ Inductive evidence :=
   | ByChords
   (* of accuracy: kappa, over the 2^places of Y, and of platforms that turn 2^q, by which columns of the other part are multiplied *)
   | ByAccuracy (places : N) (Y : list (list Z)) (kappa : Z) (q : N)
-  (* with tolerances apart: where the one machine is, by the numbers of its parameters, and directions *)
-  | ByTolerances (e : evidence) (ends : list (nat * Tolerances.choice)) (directions : list (list Z))
+  (* with tolerances apart: where the one machine is, by the numbers of its parameters, which of these are of second order, and directions *)
+  | ByTolerances (e : evidence) (ends : list (nat * Tolerances.choice)) (curved : list nat) (directions : list (list Z))
   (* with directions of one scale, by the numbers of their parameters, and which of these are the same of all machines then *)
   | OfOneScale (groups : list (list nat)) (ones : list nat) (e : evidence)
   (* of the directions between each of these and the next one: less n over 2^places times what says so *)
@@ -206,7 +206,7 @@ Definition shows_there (values : list (option slope)) (cell : list fixed) (less 
 Fixpoint is_of_divided (e : evidence) : bool :=
   match e with
   | ByLowerDivided _ _ | ByDivided => true
-  | Inside e _ _ | ByTolerances e _ _ | OfOneScale _ _ e => is_of_divided e
+  | Inside e _ _ | ByTolerances e _ _ _ | OfOneScale _ _ e => is_of_divided e
   | ByFan parts => forallb (fun p => is_of_divided (snd p)) parts
   | _ => false
   end.
@@ -216,7 +216,7 @@ Fixpoint of_rows_alone (e : evidence) : evidence :=
   | ByLowerDivided places Y => ByLower places Y
   | ByDivided => ByTest
   | Inside e k p => Inside (of_rows_alone e) k p
-  | ByTolerances e ends directions => ByTolerances (of_rows_alone e) ends directions
+  | ByTolerances e ends curved directions => ByTolerances (of_rows_alone e) ends curved directions
   | OfOneScale groups ones e => OfOneScale groups ones (of_rows_alone e)
   | _ => e
   end.
@@ -243,6 +243,28 @@ Definition multi_of (values machine : list (option slope)) (duals : list Toleran
   | Some _, Some s, Some rs => Some (s, rs)
   | _, _, _ => None
   end.
+(** To second order too, if some are. *)
+Definition second_multi_of (values : list (option slope)) (ones : list Tolerances.dual) (alls : list Second.curve) (ends : list (nat * Tolerances.choice)) (curved : list nat)
+    (i : nat) : option (Tolerances.multi slope) :=
+  let one := nth i ones (None, []) in
+  match nth i values None, fst one, Second.rates_of ends curved one (nth i alls ((None, []), [])) with
+  | Some _, Some s, Some rs => Some (s, rs)
+  | _, _, _ => None
+  end.
+Definition machines (values : list (option slope)) (coords : list slope) (own : list bool) (ends : list (nat * Tolerances.choice)) (curved : list nat) : nat -> option (Tolerances.multi slope) :=
+  let one := map constant (Tolerances.starts_from ends 0 params) in
+  match curved with
+  | [] =>
+      let machine := run_kept (option slope) None (slope_op bits coords one) own tape in
+      let duals := run_kept Tolerances.dual (None, []) (Tolerances.dual_op bits coords (map constant params) (map fst ends)) own tape in
+      multi_of values machine duals ends
+  | _ =>
+      let ones := run_kept Tolerances.dual (None, []) (Tolerances.dual_op bits coords one (Second.of_the_one ends curved params)) own tape in
+      let alls := run_kept Second.curve ((None, []), []) (Second.curve_op bits coords (map constant params) (map fst ends) (Second.pairs ends curved)) own tape in
+      second_multi_of values ones alls ends curved
+  end.
+(** Each of these is one of those with tolerances, and once. *)
+Definition are_among (curved : list nat) (ends : list (nat * Tolerances.choice)) : bool := forallb (fun j => Second.is_in j (map fst ends)) curved && are_once curved.
 (** Of which all D_i are positive, for all machines. *)
 Fixpoint rows_apart (values : list (option slope)) (of : nat -> option (Tolerances.multi slope)) (r : rows nat) : option (list (list (Tolerances.multi slope) * Tolerances.multi slope)) :=
   match r with
@@ -255,14 +277,12 @@ Fixpoint rows_apart (values : list (option slope)) (of : nat -> option (Toleranc
   end.
 
 Definition shows_apart (values : list (option slope)) (cell : list fixed) (less : option slope) (t : test) (e : evidence)
-    (ends : list (nat * Tolerances.choice)) (directions : list (list Z)) : bool :=
+    (ends : list (nat * Tolerances.choice)) (curved : list nat) (directions : list (list Z)) : bool :=
   let m := length cell in
   let coords := coords_from 0 cell in
   let own := kept (wanted_by t e) tape in
-  let machine := run_kept (option slope) None (slope_op bits coords (map constant (Tolerances.starts_from ends 0 params))) own tape in
-  let duals := run_kept Tolerances.dual (None, []) (Tolerances.dual_op bits coords (map constant params) (map fst ends)) own tape in
-  let steps := Tolerances.steps ends params in
-  let of := multi_of values machine duals ends in
+  let steps := Second.steps bits ends curved params in
+  let of := machines values coords own ends curved in
   let direction v := map (Fixed.integer bits) v in
   let subtracted := match less with Some t => t | None => constant zero end in
   let at_vertices (r : list (list (Tolerances.multi slope) * Tolerances.multi slope)) (holds : list bool -> fixed -> list (Tolerances.varied fixed) -> bool) :=
@@ -272,7 +292,7 @@ Definition shows_apart (values : list (option slope)) (cell : list fixed) (less 
   let lower v k places Y r := definite (Tolerances.lower_apart bits (direction v) places Y r (repeat [neg k] m)) in
   let upper v k r := definite (Tolerances.upper_apart bits (direction v) r (repeat [k] m)) in
   let sign f := match of f with Some q => at_vertices [([], q)] (fun _ t r => forallb (Tolerances.sign_apart t) r) | None => false end in
-  forallb (fun j => Nat.ltb j (length params)) (map fst ends) && are_once (map fst ends) && forallb (fun v => Nat.eqb (length v) m) directions &&
+  forallb (fun j => Nat.ltb j (length params)) (map fst ends) && are_once (map fst ends) && (are_among curved ends && forallb (fun v => Nat.eqb (length v) m) directions) &&
   match t, e, directions with
   | SigmaMin low, ByLower places Y, [v] => are_defined values && over whole (fun _ t => lower v (add low t) places Y)
   | SigmaMin low, ByRank places Y, [v] => are_defined values &&
@@ -297,14 +317,12 @@ Definition toward_of (v : list Z) : nat * list Z * N * list fixed :=
   else let q := Z.to_N (Z.log2 most + 1) in (k, v, q, Toward.put_in zero k (Fixed.integer bits (2 ^ Z.of_N q)) (map (fun _ => zero) v)).
 
 Definition shows_wedge (values : list (option slope)) (cell : list fixed) (less : option slope) (t : test) (e : evidence)
-    (ends : list (nat * Tolerances.choice)) (direction b c : list Z) (n : Z) (places : N) : bool :=
+    (ends : list (nat * Tolerances.choice)) (curved : list nat) (direction b c : list Z) (n : Z) (places : N) : bool :=
   let m := length cell in
   let coords := coords_from 0 cell in
   let own := kept (wanted_by t e) tape in
-  let machine := run_kept (option slope) None (slope_op bits coords (map constant (Tolerances.starts_from ends 0 params))) own tape in
-  let duals := run_kept Tolerances.dual (None, []) (Tolerances.dual_op bits coords (map constant params) (map fst ends)) own tape in
-  let steps := Tolerances.steps ends params in
-  let of := multi_of values machine duals ends in
+  let steps := Second.steps bits ends curved params in
+  let of := machines values coords own ends curved in
   let subtracted := match less with Some t => t | None => constant zero end in
   let over (r : rows nat) (holds : fixed -> list (Tolerances.varied fixed) -> bool) :=
     match rows_apart values of r with
@@ -318,7 +336,7 @@ Definition shows_wedge (values : list (option slope)) (cell : list fixed) (less 
   let lower a places Y r := definite (Toward.lower_toward bits k w' d places Y r (start (neg a))) in
   let upper a r := definite (Toward.upper_toward bits k w' d r (start a)) in
   forallb (fun j => Nat.ltb j (length params)) (map fst ends) && are_once (map fst ends) &&
-  Nat.eqb (length w) m && Nat.eqb (length b) m && (0 <=? n)%Z && (places <? 64)%N && Nat.ltb k m && negb (nth k w 0 =? 0)%Z &&
+  Nat.eqb (length w) m && (are_among curved ends && Nat.eqb (length b) m) && (0 <=? n)%Z && (places <? 64)%N && Nat.ltb k m && negb (nth k w 0 =? 0)%Z &&
   match t, e with
   | SigmaMin low, ByLower places Y => are_defined values && over whole (fun t => lower (add low t) places Y)
   | SigmaMin low, ByRank places Y => are_defined values &&
@@ -332,32 +350,31 @@ Definition shows_along (values : list (option slope)) (cell : list fixed) (t : t
   let inside_of k p f := match inside cell with Some tangent => (0 <=? k)%Z && f (Some (dyadic_slope k p tangent)) | None => false end in
   let none := map (fun _ => 0%Z) cell in
   match e with
-  | ByTolerances (Inside e k p) ends [v] => inside_of k p (fun less => shows_wedge values cell less t e ends v b c n places)
-  | ByTolerances e ends [v] => shows_wedge values cell None t e ends v b c n places
-  | ByTolerances _ _ _ => false
-  | Inside e k p => inside_of k p (fun less => shows_wedge values cell less t e [] none b c n places)
-  | e => shows_wedge values cell None t e [] none b c n places
+  | ByTolerances (Inside e k p) ends curved [v] => inside_of k p (fun less => shows_wedge values cell less t e ends curved v b c n places)
+  | ByTolerances e ends curved [v] => shows_wedge values cell None t e ends curved v b c n places
+  | ByTolerances _ _ _ _ => false
+  | Inside e k p => inside_of k p (fun less => shows_wedge values cell less t e [] [] none b c n places)
+  | e => shows_wedge values cell None t e [] [] none b c n places
   end.
 
 (** One bound of a condition number, [mu], or where [upper] c^2 mu, at the vertices; of the directions of a wedge, or of all. *)
 Definition shows_half (values : list (option slope)) (cell : list fixed) (upper : option fixed) (mu : slope) (wedge : option (list Z * list Z * Z * N))
-    (less : option slope) (e : evidence) (ends : list (nat * Tolerances.choice)) (direction : list Z) : bool :=
+    (less : option slope) (e : evidence) (ends : list (nat * Tolerances.choice)) (curved : list nat) (direction : list Z) : bool :=
   let m := length cell in
   let coords := coords_from 0 cell in
   let own := kept (places_of_rows whole) tape in
-  let machine := run_kept (option slope) None (slope_op bits coords (map constant (Tolerances.starts_from ends 0 params))) own tape in
-  let duals := run_kept Tolerances.dual (None, []) (Tolerances.dual_op bits coords (map constant params) (map fst ends)) own tape in
-  let of := multi_of values machine duals ends in
+  let steps := Second.steps bits ends curved params in
+  let of := machines values coords own ends curved in
   let subtracted := match less with Some t => t | None => constant zero end in
   let over (holds : list bool -> fixed -> list (Tolerances.varied fixed) -> bool) :=
     match rows_apart values of whole with
-    | Some r => forallb (fun s => holds s (at_vertex s subtracted) (map (Tolerances.varied_at bits s (Tolerances.steps ends params)) r)) (signs m)
+    | Some r => forallb (fun s => holds s (at_vertex s subtracted) (map (Tolerances.varied_at bits s steps) r)) (signs m)
     | None => false
     end in
   let definite t := match t with Some t => Solve.is_definite bits m t | None => false end in
   let least s t := neg (add (at_vertex s mu) t) in
   let greatest c2 s t := sub (mul bits c2 (at_vertex s mu)) t in
-  forallb (fun j => Nat.ltb j (length params)) (map fst ends) && are_once (map fst ends) && Nat.eqb (length direction) m &&
+  forallb (fun j => Nat.ltb j (length params)) (map fst ends) && are_once (map fst ends) && (are_among curved ends && Nat.eqb (length direction) m) &&
   match wedge with
   | None =>
       let w := map (Fixed.integer bits) direction in
@@ -382,21 +399,21 @@ Definition half_on (values : list (option slope)) (cell : list fixed) (upper : o
   let inside_of k p f := match inside cell with Some tangent => (0 <=? k)%Z && f (Some (dyadic_slope k p tangent)) | None => false end in
   let none := map (fun _ => 0%Z) cell in
   match e with
-  | ByTolerances (Inside e k p) ends [v] => inside_of k p (fun less => half less e ends v)
-  | ByTolerances e ends [v] => half None e ends v
-  | ByTolerances _ _ _ => false
-  | Inside e k p => inside_of k p (fun less => half less e [] none)
-  | e => half None e [] none
+  | ByTolerances (Inside e k p) ends curved [v] => inside_of k p (fun less => half less e ends curved v)
+  | ByTolerances e ends curved [v] => half None e ends curved v
+  | ByTolerances _ _ _ _ => false
+  | Inside e k p => inside_of k p (fun less => half less e [] [] none)
+  | e => half None e [] [] none
   end.
 
 Definition shows_on (values : list (option slope)) (cell : list fixed) (t : test) (e : evidence) : bool :=
   match e with
-  | ByTolerances (Inside e n places) ends directions =>
+  | ByTolerances (Inside e n places) ends curved directions =>
       match inside cell with
-      | Some tangent => (0 <=? n)%Z && shows_apart values cell (Some (dyadic_slope n places tangent)) t e ends directions
+      | Some tangent => (0 <=? n)%Z && shows_apart values cell (Some (dyadic_slope n places tangent)) t e ends curved directions
       | None => false
       end
-  | ByTolerances e ends directions => shows_apart values cell None t e ends directions
+  | ByTolerances e ends curved directions => shows_apart values cell None t e ends curved directions
   | Inside e n places =>
       match inside cell with
       | Some tangent => (0 <=? n)%Z && shows_there values cell (Some (dyadic_slope n places tangent)) t e
@@ -783,9 +800,8 @@ Hypothesis ends_once : are_once (map fst ends) = true.
 Variables keep own : list bool.
 Let values := evaluate_kept keep cell.
 Let coords := coords_from 0 cell.
-Let machine := run_kept (option slope) None (slope_op bits coords (map constant (Tolerances.starts_from ends 0 params))) own tape.
-Let duals := run_kept Tolerances.dual (None, []) (Tolerances.dual_op bits coords (map constant params) (map fst ends)) own tape.
-Let of := multi_of values machine duals ends.
+Variable curved : list nat.
+Let of := machines values coords own ends curved.
 
 Lemma strides : exists theta0 mss, Forall2 contains (Tolerances.starts_from ends 0 params) theta0 /\ Forall2 contains params theta0 /\
   (forall j, ~ In j (map fst ends) -> nth j theta0 0 = nth j theta 0) /\ Forall2 (Tolerances.stepped bits) (Tolerances.steps ends params) mss /\
@@ -810,38 +826,64 @@ Proof.
   exact (evaluate_kept_sound bits lambda lambda_in x cs th _ _ coords_hold (params_hold bits lambda params th h) keep tape).
 Qed.
 
+(** Of second order too. *)
+Lemma all_strides : exists theta0 mss, Forall2 contains (Tolerances.starts_from ends 0 params) theta0 /\ Forall2 contains params theta0 /\
+  (forall j, ~ In j (map fst ends) -> nth j theta0 0 = nth j theta 0) /\ Forall2 (Tolerances.stepped bits) (Second.steps bits ends curved params) mss /\
+  map Tolerances.stride mss = Second.differences ends curved theta0 theta.
+Proof.
+  destruct strides as [theta0 [mss [h0 [h1 [same [hm hd]]]]]]. destruct (Second.steps_sound bits ends curved params theta0 theta mss hm hd) as [mss' [k1 k2]].
+  exists theta0, mss'. repeat (split; [assumption |]). exact k2.
+Qed.
+
 (** The value of a formula, of a machine that differs so from the one. *)
 Definition value_of (mss : list (list (R * R))) (l : list R) (e : Tolerances.multi entry) : R := at_lambda l (Tolerances.moved (fst e) (map Tolerances.stride mss) (snd e)).
 
 Lemma multi_sound : forall theta0 mss i q, Forall2 contains (Tolerances.starts_from ends 0 params) theta0 -> Forall2 contains params theta0 ->
   (forall j, ~ In j (map fst ends) -> nth j theta0 0 = nth j theta 0) ->
-  Forall2 (fun p ms => nth (fst p) theta 0 - nth (fst p) theta0 0 = Tolerances.stride ms) ends mss -> of i = Some q ->
+  map Tolerances.stride mss = Second.differences ends curved theta0 theta -> of i = Some q ->
   exists e, Tolerances.multi_in bits q e /\ value x theta (formula_at i) = value_of mss lambda e.
 Proof.
-  intros theta0 mss i q h0 h1 same hs h. unfold of, multi_of in h. destruct (nth i values None) as [sv |] eqn:ev; [| discriminate].
-  destruct (nth i machine None) as [s0 |] eqn:e0; [| discriminate]. destruct (Tolerances.rates_from 0 ends (nth i duals (None, []))) as [rs |] eqn:er; [| discriminate].
-  injection h as <-.
-  assert (D : forall th, Forall2 contains params th -> defined x th (formula_at i)).
-  { intros th hth. pose proof (encloses_all th hth i) as E. rewrite ev in E. exact (proj1 (proj2 E)). }
-  destruct (Tolerances.mean_value bits (map fst ends) x params theta0 theta (formula_at i) (are_once_sound _ ends_once) h1 theta_in D same) as [th [hth V]].
-  assert (M : encloses bits lambda x cs theta0 (nth i machine None) (formula_at i)).
-  { apply (nth_related _ _ _ _ (encloses bits lambda x cs theta0)); [exact I |].
-    exact (evaluate_kept_sound bits lambda lambda_in x cs theta0 _ _ coords_hold (params_hold bits lambda _ theta0 h0) own tape). }
-  rewrite e0 in M. destruct M as [_ [_ [m1 [_ [u [m2 m3]]]]]].
-  assert (Q : Tolerances.encloses_rates bits (map fst ends) lambda x cs th (nth i duals (None, [])) (formula_at i)).
-  { apply (nth_related _ _ _ _ (Tolerances.encloses_rates bits (map fst ends) lambda x cs th)); [split; [exact I | intros [| p]; exact I] |].
-    exact (Tolerances.duals_sound bits coords (map constant params) (map fst ends) lambda x cs th lambda_in coords_hold (params_hold bits lambda params th hth) own tape). }
-  destruct Q as [_ Q].
-  destruct (Tolerances.rates_from_sound bits lambda (fun j => Tolerances.rate x th j (formula_at i)) (fun j => Tolerances.rate cs th j (formula_at i)) ends _ 0 rs er Q) as [es [k1 k2]].
-  exists ((value cs theta0 (formula_at i), u), es). split; [split; [split; assumption | exact k1] |].
-  unfold value_of. rewrite Tolerances.at_moved. cbn [fst snd]. rewrite V. f_equal; [unfold at_lambda; cbn [fst snd]; lra |].
-  clear - hs k2. revert es k2. induction hs as [| p ms l mss e hs IH]; intros es k2; inversion k2 as [| ? en ? es' e1 k3]; subst; [reflexivity |].
-  cbn [map Tolerances.sum_over fold_right dot]. unfold Tolerances.sum_over in IH. rewrite (IH es' k3), e, e1. reflexivity.
+  intros theta0 mss i q h0 h1 same hs h. unfold value_of. rewrite hs.
+  assert (D : nth i values None <> None -> forall th, Forall2 contains params th -> defined x th (formula_at i)).
+  { intros n th hth. pose proof (encloses_all th hth i) as E. destruct (nth i values None); [exact (proj1 (proj2 E)) | contradiction]. }
+  unfold of, machines in h. set (one := map constant (Tolerances.starts_from ends 0 params)) in h. destruct curved as [| j0 others] eqn:second; cbv zeta in h.
+  - unfold multi_of in h. set (machine := run_kept (option slope) _ _ _ _) in h. set (duals := run_kept Tolerances.dual _ _ _ _) in h.
+    destruct (nth i values None) as [sv |] eqn:ev; [| discriminate]. specialize (D ltac:(discriminate)).
+    destruct (nth i machine None) as [s0 |] eqn:e0; [| discriminate]. destruct (Tolerances.rates_from 0 ends (nth i duals (None, []))) as [rs |] eqn:er; [| discriminate].
+    injection h as <-.
+    destruct (Tolerances.mean_value bits (map fst ends) x params theta0 theta (formula_at i) (are_once_sound _ ends_once) h1 theta_in D same) as [th [hth V]].
+    assert (M : encloses bits lambda x cs theta0 (nth i machine None) (formula_at i)).
+    { apply (nth_related _ _ _ _ (encloses bits lambda x cs theta0)); [exact I |].
+      exact (evaluate_kept_sound bits lambda lambda_in x cs theta0 _ _ coords_hold (params_hold bits lambda _ theta0 h0) own tape). }
+    rewrite e0 in M. destruct M as [_ [_ [m1 [_ [u [m2 m3]]]]]].
+    assert (Q : Tolerances.encloses_rates bits (map fst ends) lambda x cs th (nth i duals (None, [])) (formula_at i)).
+    { apply (nth_related _ _ _ _ (Tolerances.encloses_rates bits (map fst ends) lambda x cs th)); [split; [exact I | intros [| p]; exact I] |].
+      exact (Tolerances.duals_sound bits coords (map constant params) (map fst ends) lambda x cs th lambda_in coords_hold (params_hold bits lambda params th hth) own tape). }
+    destruct Q as [_ Q].
+    destruct (Tolerances.rates_from_sound bits lambda (fun j => Tolerances.rate x th j (formula_at i)) (fun j => Tolerances.rate cs th j (formula_at i)) ends _ 0 rs er Q) as [es [k1 k2]].
+    exists ((value cs theta0 (formula_at i), u), es). split; [split; [split; assumption | exact k1] |].
+    rewrite Tolerances.at_moved, Second.none_of_second_order. cbn [fst snd]. rewrite V. f_equal; [unfold at_lambda; cbn [fst snd]; lra |].
+    clear - k2. induction k2 as [| p en l es e k IH]; [reflexivity |].
+    cbn [map Tolerances.sum_over fold_right dot]. unfold Tolerances.sum_over in IH. rewrite IH, e. reflexivity.
+  - rewrite <- second in *. clear second. unfold second_multi_of in h. set (ones := run_kept Tolerances.dual _ _ _ _) in h. set (alls := run_kept Second.curve _ _ _ _) in h.
+    destruct (nth i values None) as [sv |] eqn:ev; [| discriminate]. specialize (D ltac:(discriminate)).
+    destruct (fst (nth i ones (None, []))) as [s0 |] eqn:e0; [| discriminate]. destruct (Second.rates_of ends curved _ _) as [rs |] eqn:er; [| discriminate].
+    injection h as <-. refine (Second.second_sound bits ends curved lambda x cs params theta0 theta (formula_at i) _ _ s0 rs (are_once_sound _ ends_once) h1 theta_in D same _ _ e0 er).
+    + apply (nth_related _ _ _ _ (Tolerances.encloses_rates bits (Second.of_the_one ends curved params) lambda x cs theta0)); [split; [exact I | intros [| p]; exact I] |].
+      exact (Tolerances.duals_sound bits coords one _ lambda x cs theta0 lambda_in coords_hold (params_hold bits lambda _ theta0 h0) own tape).
+    + intros th hth. apply (nth_related _ _ _ _ (Second.encloses_seconds bits (map fst ends) (Second.pairs ends curved) lambda x cs th)); [split; [split; [exact I | intros [| p]; exact I] | intros [| k]; exact I] |].
+      exact (Second.seconds_sound bits coords (map constant params) (map fst ends) _ lambda x cs th lambda_in coords_hold (params_hold bits lambda params th hth) own tape).
+Qed.
+(** A formula that it is known of is defined. *)
+Lemma of_defined : forall i q, of i = Some q -> defined x theta (formula_at i).
+Proof.
+  intros i q h. pose proof (encloses_all theta theta_in i) as E. unfold of, machines, multi_of, second_multi_of in h.
+  destruct curved; cbv zeta in h; (destruct (nth i values None); [exact (proj1 (proj2 E)) | discriminate]).
 Qed.
 
 Lemma multis_sound : forall theta0 mss a qs, Forall2 contains (Tolerances.starts_from ends 0 params) theta0 -> Forall2 contains params theta0 ->
   (forall j, ~ In j (map fst ends) -> nth j theta0 0 = nth j theta 0) ->
-  Forall2 (fun p ms => nth (fst p) theta 0 - nth (fst p) theta0 0 = Tolerances.stride ms) ends mss -> all_some (map of a) = Some qs ->
+  map Tolerances.stride mss = Second.differences ends curved theta0 theta -> all_some (map of a) = Some qs ->
   Forall (defined x theta) (map formula_at a) /\
   exists es, Forall2 (Tolerances.multi_in bits) qs es /\ map (value x theta) (map formula_at a) = map (value_of mss lambda) es.
 Proof.
@@ -850,13 +892,13 @@ Proof.
   - destruct (of i) as [q |] eqn:e; [| discriminate]. destruct (all_some (map of a)) as [qs' |]; [| discriminate]. injection h as <-.
     destruct (IH qs' eq_refl) as [d [es [k1 k2]]]. destruct (multi_sound theta0 mss i q h0 h1 same hs e) as [en [g1 g2]].
     split.
-    + cbn [map]. constructor; [| exact d]. pose proof (encloses_all theta theta_in i) as E. unfold of, multi_of in e. destruct (nth i values None); [exact (proj1 (proj2 E)) | discriminate].
+    + cbn [map]. constructor; [| exact d]. exact (of_defined i q e).
     + exists (en :: es). split; [constructor; assumption |]. cbn [map]. rewrite g2, k2. reflexivity.
 Qed.
 
 Lemma rows_apart_sound : forall theta0 mss r srs, Forall2 contains (Tolerances.starts_from ends 0 params) theta0 -> Forall2 contains params theta0 ->
   (forall j, ~ In j (map fst ends) -> nth j theta0 0 = nth j theta 0) ->
-  Forall2 (fun p ms => nth (fst p) theta 0 - nth (fst p) theta0 0 = Tolerances.stride ms) ends mss -> rows_apart values of r = Some srs ->
+  map Tolerances.stride mss = Second.differences ends curved theta0 theta -> rows_apart values of r = Some srs ->
   regular x (map_rows formula_at r) /\
   exists es, Forall2 (fun s e => Forall2 (Tolerances.multi_in bits) (fst s) (fst e) /\ Tolerances.multi_in bits (snd s) (snd e)) srs es /\
     map_rows (value x theta) (map_rows formula_at r) = map (fun e => (map (value_of mss lambda) (fst e), value_of mss lambda (snd e))) es.
@@ -875,9 +917,9 @@ Qed.
 
 (** Vertices decide: of a form of the rows with a constant, and what is subtracted. *)
 Lemma vertices_apart : forall mss (srs : list (list (Tolerances.multi slope) * Tolerances.multi slope)) es less el (holds_at : list bool -> fixed -> list (Tolerances.varied fixed) -> bool) c p w v,
-  Forall2 (Tolerances.stepped bits) (Tolerances.steps ends params) mss ->
+  Forall2 (Tolerances.stepped bits) (Second.steps bits ends curved params) mss ->
   Forall2 (fun s e => Forall2 (Tolerances.multi_in bits) (fst s) (fst e) /\ Tolerances.multi_in bits (snd s) (snd e)) srs es -> entry_in bits less el ->
-  forallb (fun s => holds_at s (at_vertex s less) (map (Tolerances.varied_at bits s (Tolerances.steps ends params)) srs)) (signs (length cell)) = true ->
+  forallb (fun s => holds_at s (at_vertex s less) (map (Tolerances.varied_at bits s (Second.steps bits ends curved params)) srs)) (signs (length cell)) = true ->
   (forall l l1 l2 a b, (forall e, at_lambda l e = a * at_lambda l1 e + b * at_lambda l2 e) -> a + b = 1 -> c l = a * c l1 + b * c l2) ->
   (forall s t T i r, length s = length cell -> holds_at s t i = true -> contains t T -> Forall2 (Tolerances.varied_in bits) i r -> 0 < c (map corner s) + p * T + form w r v) ->
   0 < c lambda + p * at_lambda lambda el + form w (map (fun e => (map (value_of mss lambda) (fst e), value_of mss lambda (snd e))) es) v.
@@ -890,7 +932,7 @@ Proof.
   rewrite R0. apply (vertices_decide lambda (fun l => c l + p * at_lambda l el + form w (map_rows (at_lambda l) E) v) lambda_in).
   - intros before t after. rewrite (form_affine _ _ _ _ _ (at_lambda_affine before t after)).
     rewrite (affine _ _ _ _ _ (at_lambda_affine before t after)) by field. rewrite (at_lambda_affine before t after el). field.
-  - intros s len. rewrite lambda_length in len. apply (H s (at_vertex s less) _ (map (Tolerances.varied_at bits s (Tolerances.steps ends params)) srs)).
+  - intros s len. rewrite lambda_length in len. apply (H s (at_vertex s less) _ (map (Tolerances.varied_at bits s (Second.steps bits ends curved params)) srs)).
     + exact len.
     + apply h. rewrite <- len. apply signs_all.
     + apply at_vertex_sound, he.
@@ -920,10 +962,10 @@ Proof.
   pose proof (definite_apart (Some t) U v m h ltac:(intros t' e'; injection e' as <-; exact hU) len nz) as P. specialize (q v z). rewrite <- len, quad_diagonal in q. lra.
 Qed.
 
-Theorem shows_apart_sound : forall less t e directions, own = kept (wanted_by t e) tape -> harmless lambda less -> shows_apart values cell less t e ends directions = true -> holds (length cell) x t.
+Theorem shows_apart_sound : forall less t e directions, own = kept (wanted_by t e) tape -> harmless lambda less -> shows_apart values cell less t e ends curved directions = true -> holds (length cell) x t.
 Proof.
   intros less t e directions eo hs h. unfold shows_apart in h. cbv zeta in h. rewrite <- eo in h. apply andb_true_iff in h as [_ h].
-  destruct strides as [theta0 [mss [h0 [h1 [same [hm hd]]]]]].
+  destruct all_strides as [theta0 [mss [h0 [h1 [same [hm hd]]]]]].
   assert (L : exists el, entry_in bits match less with Some t => t | None => constant zero end el /\ 0 <= at_lambda lambda el).
   { destruct less as [s |]; [exact hs |]. exists (0, []). split; [apply constant_in, zero_sound | unfold at_lambda; cbn; lra]. }
   destruct L as [el [hel el0]]. set (subtracted := match less with Some t => t | None => constant zero end) in *.
@@ -931,7 +973,7 @@ Proof.
   { intros k l l1 l2 a b _ s. replace (a * k + b * k) with ((a + b) * k) by ring. rewrite s. ring. }
   (* rows, with what is shown of them at the vertices *)
   assert (Over : forall r (holds_at : list bool -> fixed -> list (Tolerances.varied fixed) -> bool),
-    match rows_apart values of r with Some srs => forallb (fun s => holds_at s (at_vertex s subtracted) (map (Tolerances.varied_at bits s (Tolerances.steps ends params)) srs)) (signs (length cell)) | None => false end = true ->
+    match rows_apart values of r with Some srs => forallb (fun s => holds_at s (at_vertex s subtracted) (map (Tolerances.varied_at bits s (Second.steps bits ends curved params)) srs)) (signs (length cell)) | None => false end = true ->
     regular x (map_rows formula_at r) /\ forall c p w v,
       (forall l l1 l2 a b, (forall e, at_lambda l e = a * at_lambda l1 e + b * at_lambda l2 e) -> a + b = 1 -> c l = a * c l1 + b * c l2) ->
       (forall s t T i real, length s = length cell -> holds_at s t i = true -> contains t T -> Forall2 (Tolerances.varied_in bits) i real -> length i = length r -> 0 < c (map corner s) + p * T + form w real v) ->
@@ -944,13 +986,13 @@ Proof.
     - exact affine.
     - intros s t' T i real ls hh ht hr. apply andb_true_iff in hh as [hh hl]. apply Nat.eqb_eq in hl. exact (H s t' T i real ls hh ht hr hl). }
   assert (Each : forall (r : rows nat) (f g : list bool -> fixed -> list (Tolerances.varied fixed) -> bool), (forall s t i, f s t i = true -> g s t i = true) ->
-    match rows_apart values of r with Some srs => forallb (fun s => f s (at_vertex s subtracted) (map (Tolerances.varied_at bits s (Tolerances.steps ends params)) srs)) (signs (length cell)) | None => false end = true ->
-    match rows_apart values of r with Some srs => forallb (fun s => g s (at_vertex s subtracted) (map (Tolerances.varied_at bits s (Tolerances.steps ends params)) srs)) (signs (length cell)) | None => false end = true).
+    match rows_apart values of r with Some srs => forallb (fun s => f s (at_vertex s subtracted) (map (Tolerances.varied_at bits s (Second.steps bits ends curved params)) srs)) (signs (length cell)) | None => false end = true ->
+    match rows_apart values of r with Some srs => forallb (fun s => g s (at_vertex s subtracted) (map (Tolerances.varied_at bits s (Second.steps bits ends curved params)) srs)) (signs (length cell)) | None => false end = true).
   { intros r f g fg k. destruct (rows_apart values of r) as [srs |]; [| discriminate]. rewrite forallb_forall in *. intros s hin. apply fg, k, hin. }
   assert (Low : forall (bound : list bool -> fixed) K u places Y r v,
     (forall l l1 l2 a b, (forall e : entry, at_lambda l e = a * at_lambda l1 e + b * at_lambda l2 e) -> a + b = 1 -> K l = a * K l1 + b * K l2) ->
     (forall s, length s = length cell -> contains (bound s) (K (map corner s))) -> length v = length cell -> nonzero v ->
-    match rows_apart values of r with Some srs => forallb (fun s => match Tolerances.lower_apart bits u places Y (map (Tolerances.varied_at bits s (Tolerances.steps ends params)) srs) (repeat [neg (add (bound s) (at_vertex s subtracted))] (length cell)) with
+    match rows_apart values of r with Some srs => forallb (fun s => match Tolerances.lower_apart bits u places Y (map (Tolerances.varied_at bits s (Second.steps bits ends curved params)) srs) (repeat [neg (add (bound s) (at_vertex s subtracted))] (length cell)) with
       Some t => Solve.is_definite bits (length cell) t | None => false end) (signs (length cell)) | None => false end = true ->
     regular x (map_rows formula_at r) /\ K lambda * dot v v < energy (map_rows (value x theta) (map_rows formula_at r)) v).
   { intros bound K u places Y r v affine hk len nz k.
@@ -965,7 +1007,7 @@ Proof.
   assert (Up : forall (bound : list bool -> fixed) K u r v,
     (forall l l1 l2 a b, (forall e : entry, at_lambda l e = a * at_lambda l1 e + b * at_lambda l2 e) -> a + b = 1 -> K l = a * K l1 + b * K l2) ->
     (forall s, length s = length cell -> contains (bound s) (K (map corner s))) -> length v = length cell -> nonzero v ->
-    match rows_apart values of r with Some srs => forallb (fun s => match Tolerances.upper_apart bits u (map (Tolerances.varied_at bits s (Tolerances.steps ends params)) srs) (repeat [sub (bound s) (at_vertex s subtracted)] (length cell)) with
+    match rows_apart values of r with Some srs => forallb (fun s => match Tolerances.upper_apart bits u (map (Tolerances.varied_at bits s (Second.steps bits ends curved params)) srs) (repeat [sub (bound s) (at_vertex s subtracted)] (length cell)) with
       Some t => Solve.is_definite bits (length cell) t | None => false end) (signs (length cell)) | None => false end = true ->
     regular x (map_rows formula_at r) /\ energy (map_rows (value x theta) (map_rows formula_at r)) v < K lambda * dot v v).
   { intros bound K u r v affine hk len nz k.
@@ -976,9 +1018,9 @@ Proof.
       - intros l l1 l2 a b h3 h4. rewrite (affine l l1 l2 a b h3 h4). ring.
       - intros s t' T i real ls hh ht hr _. pose proof (upper_apart_shows _ _ (K (map corner s) - T) _ _ _ _ hh hr (sub_sound bits _ _ _ _ (hk s ls) ht) len nz z). lra. }
     assert (0 <= dot v v * at_lambda lambda el) by (apply Rmult_le_pos; assumption). lra. }
-  assert (Sign : forall f, match of f with Some q => forallb (fun s => forallb (Tolerances.sign_apart (at_vertex s subtracted)) [Tolerances.varied_at bits s (Tolerances.steps ends params) ([], q)]) (signs (length cell)) | None => false end = true -> is_nonneg x f).
+  assert (Sign : forall f, match of f with Some q => forallb (fun s => forallb (Tolerances.sign_apart (at_vertex s subtracted)) [Tolerances.varied_at bits s (Second.steps bits ends curved params) ([], q)]) (signs (length cell)) | None => false end = true -> is_nonneg x f).
   { intros f k. destruct (of f) as [q |] eqn:ef; [| discriminate]. destruct (multi_sound theta0 mss f q h0 h1 same hd ef) as [en [g1 g2]]. split.
-    - pose proof (encloses_all theta theta_in f) as E. unfold of, multi_of in ef. destruct (nth f values None); [exact (proj1 (proj2 E)) | discriminate].
+    - exact (of_defined f q ef).
     - rewrite g2. apply Rnot_lt_le. intro neg0.
       set (m := - value_of mss lambda en) in *. assert (m0 : 0 < m) by (unfold m; lra).
       pose proof (vertices_apart mss [([], q)] [([], en)] subtracted el (fun s t i => Nat.eqb (length i) 1 && forallb (Tolerances.sign_apart t) i) (fun _ => m) (-1) [(0, 1)] []
@@ -1049,13 +1091,13 @@ Proof.
 Qed.
 
 Lemma rows_shown : forall less el r (holds_at : list bool -> fixed -> list (Tolerances.varied fixed) -> bool), entry_in bits less el ->
-  match rows_apart values of r with Some srs => forallb (fun s => holds_at s (at_vertex s less) (map (Tolerances.varied_at bits s (Tolerances.steps ends params)) srs)) (signs (length cell)) | None => false end = true ->
+  match rows_apart values of r with Some srs => forallb (fun s => holds_at s (at_vertex s less) (map (Tolerances.varied_at bits s (Second.steps bits ends curved params)) srs)) (signs (length cell)) | None => false end = true ->
   regular x (map_rows formula_at r) /\ forall c p w v,
     (forall l l1 l2 a b, (forall e, at_lambda l e = a * at_lambda l1 e + b * at_lambda l2 e) -> a + b = 1 -> c l = a * c l1 + b * c l2) ->
     (forall s t T i real, length s = length cell -> holds_at s t i = true -> contains t T -> Forall2 (Tolerances.varied_in bits) i real -> 0 < c (map corner s) + p * T + form w real v) ->
     0 < c lambda + p * at_lambda lambda el + form w (map_rows (value x theta) (map_rows formula_at r)) v.
 Proof.
-  intros less el r holds_at hel k. destruct strides as [theta0 [mss [h0 [h1 [same [hm hd]]]]]]. destruct (rows_apart values of r) as [srs |] eqn:er; [| discriminate].
+  intros less el r holds_at hel k. destruct all_strides as [theta0 [mss [h0 [h1 [same [hm hd]]]]]]. destruct (rows_apart values of r) as [srs |] eqn:er; [| discriminate].
   destruct (rows_apart_sound theta0 mss r srs h0 h1 same hd er) as [reg [es [e1 e2]]]. split; [exact reg |]. intros c p w v affine H. rewrite e2.
   exact (vertices_apart mss srs es less el holds_at c p w v hm e1 hel k affine H).
 Qed.
@@ -1115,7 +1157,7 @@ Proof.
 Qed.
 End Wedge.
 
-Theorem shows_wedge_sound : forall less t e direction b c n places, own = kept (wanted_by t e) tape -> harmless lambda less -> shows_wedge values cell less t e ends direction b c n places = true ->
+Theorem shows_wedge_sound : forall less t e direction b c n places, own = kept (wanted_by t e) tape -> harmless lambda less -> shows_wedge values cell less t e ends curved direction b c n places = true ->
   holds_along (Toward.in_wedge b c) (length cell) x t.
 Proof.
   intros less t e direction b c n places eo hs h. unfold shows_wedge in h. cbv zeta in h. rewrite <- eo in h. destruct (toward_of direction) as [[[k w] q] d].
@@ -1125,7 +1167,7 @@ Proof.
   { destruct less as [s |]; [exact hs |]. exists (0, []). split; [apply constant_in, zero_sound | unfold at_lambda; cbn; lra]. }
   destruct L as [el [hel el0]]. set (subtracted := match less with Some t => t | None => constant zero end) in *.
   set (w' := map (fun x => Arithmetic.dyadic x q (Fixed.integer bits 1)) w) in *.
-  assert (Low : forall low r pl Y, match rows_apart values of r with Some srs => forallb (fun s => match Toward.lower_toward bits k w' d pl Y (map (Tolerances.varied_at bits s (Tolerances.steps ends params)) srs)
+  assert (Low : forall low r pl Y, match rows_apart values of r with Some srs => forallb (fun s => match Toward.lower_toward bits k w' d pl Y (map (Tolerances.varied_at bits s (Second.steps bits ends curved params)) srs)
       (Toward.less_wedge bits k w' b c n places (Toward.squares bits k w' (length cell) (neg (add low (at_vertex s subtracted))) [])) with Some t => Solve.is_definite bits (length cell) t | None => false end) (signs (length cell)) | None => false end = true ->
     of_these x (map_rows formula_at r) (fun r => forall kappa2 v, contains low kappa2 -> length v = length cell -> nonzero v -> Toward.in_wedge b c v -> kappa2 * dot v v < energy r v)).
   { intros low r pl Y g1. destruct (rows_shown subtracted el r (fun s t i => match Toward.lower_toward bits k w' d pl Y i
@@ -1164,7 +1206,7 @@ Qed.
 
 Definition in_part (wedge : option (list Z * list Z * Z * N)) (v : list R) : Prop := match wedge with Some (b, c, _, _) => Toward.in_wedge b c v | None => True end.
 Theorem shows_half_sound : forall upper mu q wedge less e direction, own = kept (places_of_rows whole) tape -> entry_in bits mu q -> harmless lambda less ->
-  shows_half values cell upper mu wedge less e ends direction = true -> half_holds (in_part wedge) (length cell) x upper (at_lambda lambda q).
+  shows_half values cell upper mu wedge less e ends curved direction = true -> half_holds (in_part wedge) (length cell) x upper (at_lambda lambda q).
 Proof.
   intros upper mu q wedge less e direction eo hq hs h. unfold shows_half in h. cbv zeta in h. rewrite <- eo in h. apply andb_true_iff in h as [_ h].
   assert (L : exists el, entry_in bits match less with Some t => t | None => constant zero end el /\ 0 <= at_lambda lambda el).
@@ -1173,7 +1215,7 @@ Proof.
   assert (Low : forall (P : list R -> Prop) places Y (form_at : fixed -> list (Tolerances.varied fixed) -> option triangle),
     (forall a K i r v, match form_at (neg a) i with Some t => Solve.is_definite bits (length cell) t | None => false end = true -> Forall2 (Tolerances.varied_in bits) i r -> contains a K ->
       length v = length cell -> nonzero v -> P v -> K * dot v v < form (lower_weights places Y v) r v) ->
-    match rows_apart values of whole with Some srs => forallb (fun s => match form_at (neg (add (at_vertex s mu) (at_vertex s subtracted))) (map (Tolerances.varied_at bits s (Tolerances.steps ends params)) srs) with
+    match rows_apart values of whole with Some srs => forallb (fun s => match form_at (neg (add (at_vertex s mu) (at_vertex s subtracted))) (map (Tolerances.varied_at bits s (Second.steps bits ends curved params)) srs) with
       Some t => Solve.is_definite bits (length cell) t | None => false end) (signs (length cell)) | None => false end = true ->
     half_holds P (length cell) x None (at_lambda lambda q)).
   { intros P places Y form_at H g. destruct (rows_shown subtracted el whole (fun s t i => match form_at (neg (add (at_vertex s mu) t)) i with Some t => Solve.is_definite bits (length cell) t | None => false end) hel g) as [R G].
@@ -1184,7 +1226,7 @@ Proof.
   assert (Up : forall (P : list R -> Prop) c2 (form_at : fixed -> list (Tolerances.varied fixed) -> option triangle),
     (forall a K i r v, match form_at a i with Some t => Solve.is_definite bits (length cell) t | None => false end = true -> Forall2 (Tolerances.varied_in bits) i r -> contains a K ->
       length v = length cell -> nonzero v -> P v -> forall z, 0 < K * dot v v + form (upper_weights z) r v) ->
-    match rows_apart values of whole with Some srs => forallb (fun s => match form_at (sub (mul bits c2 (at_vertex s mu)) (at_vertex s subtracted)) (map (Tolerances.varied_at bits s (Tolerances.steps ends params)) srs) with
+    match rows_apart values of whole with Some srs => forallb (fun s => match form_at (sub (mul bits c2 (at_vertex s mu)) (at_vertex s subtracted)) (map (Tolerances.varied_at bits s (Second.steps bits ends curved params)) srs) with
       Some t => Solve.is_definite bits (length cell) t | None => false end) (signs (length cell)) | None => false end = true ->
     half_holds P (length cell) x (Some c2) (at_lambda lambda q)).
   { intros P c2 form_at H g. destruct (rows_shown subtracted el whole (fun s t i => match form_at (sub (mul bits c2 (at_vertex s mu)) t) i with Some t => Solve.is_definite bits (length cell) t | None => false end) hel g) as [R G].
@@ -1395,20 +1437,20 @@ Proof.
          [destruct q as [| q]; [| exact (Other k)]; exact (accuracy_holds keep cell x lambda el hlam hx Each less _ _ _ _ _ hl k) | exact (located_holds keep cell x lambda el hlam hx Each less _ _ _ _ _ hl k)]].
     intros th hth i. apply (nth_related _ _ _ _ (encloses bits lambda x (map (centre_of bits) cell) th)); [exact I |].
     exact (evaluate_kept_sound bits lambda hlam x (map (centre_of bits) cell) th _ _ C (params_hold bits lambda params th hth) keep tape). }
-  assert (Apart : forall less e ends directions, harmless lambda less -> shows_apart (evaluate_kept keep cell) cell less t e ends directions = true -> holds (length cell) x t).
-  { intros less e' ends directions hl k. assert (k' := k). unfold shows_apart in k'. cbv zeta in k'. apply andb_true_iff in k' as [k' _]. apply andb_true_iff in k' as [k' _].
-    apply andb_true_iff in k' as [k1 k2]. exact (shows_apart_sound cell x lambda el hlam C ends k1 k2 keep _ less t e' directions eq_refl hl k). }
+  assert (Apart : forall less e ends curved directions, harmless lambda less -> shows_apart (evaluate_kept keep cell) cell less t e ends curved directions = true -> holds (length cell) x t).
+  { intros less e' ends curved directions hl k. assert (k' := k). unfold shows_apart in k'. cbv zeta in k'. apply andb_true_iff in k' as [k' _]. apply andb_true_iff in k' as [k' _].
+    apply andb_true_iff in k' as [k1 k2]. exact (shows_apart_sound cell x lambda el hlam C ends k1 k2 keep _ curved less t e' directions eq_refl hl k). }
   assert (Tangent : forall tangent n places, inside cell = Some tangent -> (0 <=? n)%Z = true -> harmless lambda (Some (dyadic_slope n places tangent))).
   { intros tangent n places i n0. destruct (inside_sound _ _ _ _ i el ok hd) as [d [h1 h2]].
     destruct (dyadic_in bits n places _ _ h1) as [d' [g1 g2]]. exists d'. split; [exact g1 |]. rewrite g2.
     apply Z.leb_le, IZR_le in n0. pose proof (two_power places) as p.
     apply Rmult_le_pos; [| exact h2]. apply Rmult_le_pos; [exact n0 | apply Rlt_le, Rinv_0_lt_compat, p]. }
-  destruct e as [| | | | | | | | | e' n places | | | | | | | e' ends directions | | |]; try (apply (K None _ I h)).
+  destruct e as [| | | | | | | | | e' n places | | | | | | | e' ends curved directions | | |]; try (apply (K None _ I h)).
   - cbn [shows_on] in h. destruct (inside cell) as [tangent |] eqn:i; [| discriminate h]. apply andb_true_iff in h as [n0 h].
     exact (K _ _ (Tangent tangent n places eq_refl n0) h).
-  - unfold shows_on in h. destruct e' as [| | | | | | | | | e' n places | | | | | | | e' ends' directions' | | |]; try (exact (Apart None _ _ _ I h)).
+  - unfold shows_on in h. destruct e' as [| | | | | | | | | e' n places | | | | | | | e' ends' curved' directions' | | |]; try (exact (Apart None _ _ _ _ I h)).
     destruct (inside cell) as [tangent |] eqn:i; [| discriminate h]. apply andb_true_iff in h as [n0 h].
-    exact (Apart _ _ _ _ (Tangent tangent n places eq_refl n0) h).
+    exact (Apart _ _ _ _ _ (Tangent tangent n places eq_refl n0) h).
 Qed.
 
 Lemma tangent_harmless : forall lambda k p tangent d, (0 <=? k)%Z = true -> entry_in bits tangent d -> 0 <= at_lambda lambda d -> harmless lambda (Some (dyadic_slope k p tangent)).
@@ -1421,19 +1463,19 @@ Lemma along_holds : forall keep cell x t b c n places e, Forall2 contains cell x
   shows_along (evaluate_kept keep cell) cell t b c n places e = true -> holds_along (Toward.in_wedge b c) (length cell) x t.
 Proof.
   intros keep cell x t b c n places e hx ok h. destruct (coords_from_hold bits cell x hx) as [lambda [el [hlam [hd C]]]]. specialize (C []). cbn [app length] in C.
-  assert (One : forall less e ends direction, harmless lambda less -> shows_wedge (evaluate_kept keep cell) cell less t e ends direction b c n places = true ->
+  assert (One : forall less e ends curved direction, harmless lambda less -> shows_wedge (evaluate_kept keep cell) cell less t e ends curved direction b c n places = true ->
     holds_along (Toward.in_wedge b c) (length cell) x t).
-  { intros less e' ends direction hl k. assert (k' := k). unfold shows_wedge in k'. cbv zeta in k'. destruct (toward_of direction) as [[[k0 w] q] d].
+  { intros less e' ends curved direction hl k. assert (k' := k). unfold shows_wedge in k'. cbv zeta in k'. destruct (toward_of direction) as [[[k0 w] q] d].
     apply andb_true_iff in k' as [k' _]. do 6 apply andb_true_iff in k' as [k' _]. apply andb_true_iff in k' as [k1 k2].
-    exact (shows_wedge_sound cell x lambda el hlam C ends k1 k2 keep _ less t e' direction b c n places eq_refl hl k). }
+    exact (shows_wedge_sound cell x lambda el hlam C ends k1 k2 keep _ curved less t e' direction b c n places eq_refl hl k). }
   assert (Tangent : forall k p f, match inside cell with Some tangent => (0 <=? k)%Z && f (Some (dyadic_slope k p tangent)) | None => false end = true ->
     exists less, harmless lambda less /\ f less = true).
   { intros k p f g. destruct (inside cell) as [tangent |] eqn:i; [| discriminate]. apply andb_true_iff in g as [n0 g]. exists (Some (dyadic_slope k p tangent)). split; [| exact g].
     destruct (inside_sound _ _ _ _ i el ok hd) as [d [h1 h2]]. exact (tangent_harmless lambda k p tangent d n0 h1 h2). }
-  unfold shows_along in h. destruct e as [| | | | | | | | | e k p | | | | | | | e ends directions | | |]; try (exact (One None _ _ _ I h)).
-  - destruct (Tangent k p (fun less => shows_wedge (evaluate_kept keep cell) cell less t e [] (map (fun _ => 0%Z) cell) b c n places) h) as [less [hl g]]. exact (One less _ _ _ hl g).
-  - destruct e as [| | | | | | | | | e k p | | | | | | | | | |]; try (destruct directions as [| v [|]]; try discriminate; exact (One None _ _ _ I h)).
-    destruct directions as [| v [|]]; try discriminate. destruct (Tangent k p (fun less => shows_wedge (evaluate_kept keep cell) cell less t e ends v b c n places) h) as [less [hl g]]. exact (One less _ _ _ hl g).
+  unfold shows_along in h. destruct e as [| | | | | | | | | e k p | | | | | | | e ends curved directions | | |]; try (exact (One None _ _ _ _ I h)).
+  - destruct (Tangent k p (fun less => shows_wedge (evaluate_kept keep cell) cell less t e [] [] (map (fun _ => 0%Z) cell) b c n places) h) as [less [hl g]]. exact (One less _ _ _ _ hl g).
+  - destruct e as [| | | | | | | | | e k p | | | | | | | | | |]; try (destruct directions as [| v [|]]; try discriminate; exact (One None _ _ _ _ I h)).
+    destruct directions as [| v [|]]; try discriminate. destruct (Tangent k p (fun less => shows_wedge (evaluate_kept keep cell) cell less t e ends curved v b c n places) h) as [less [hl g]]. exact (One less _ _ _ _ hl g).
 Qed.
 
 (** The same of a bound of a condition number, with [mu] at the point, which is that of [lambda]. *)
@@ -1443,17 +1485,17 @@ Lemma half_on_holds : forall keep cell x lambda upper mu q wedge e, entry_in bit
   half_on (evaluate_kept keep cell) cell upper mu wedge e = true -> half_holds (in_part wedge) (length cell) x upper (at_lambda lambda q).
 Proof.
   intros keep cell x lambda upper mu q wedge e hq el hlam ok hd C h.
-  assert (One : forall less e ends direction, harmless lambda less -> shows_half (evaluate_kept keep cell) cell upper mu wedge less e ends direction = true -> half_holds (in_part wedge) (length cell) x upper (at_lambda lambda q)).
-  { intros less e' ends direction hl k. assert (k' := k). unfold shows_half in k'. cbv zeta in k'. apply andb_true_iff in k' as [k' _]. apply andb_true_iff in k' as [k' _]. apply andb_true_iff in k' as [k1 k2].
-    exact (shows_half_sound cell x lambda el hlam C ends k1 k2 keep _ upper mu q wedge less e' direction eq_refl hq hl k). }
+  assert (One : forall less e ends curved direction, harmless lambda less -> shows_half (evaluate_kept keep cell) cell upper mu wedge less e ends curved direction = true -> half_holds (in_part wedge) (length cell) x upper (at_lambda lambda q)).
+  { intros less e' ends curved direction hl k. assert (k' := k). unfold shows_half in k'. cbv zeta in k'. apply andb_true_iff in k' as [k' _]. apply andb_true_iff in k' as [k' _]. apply andb_true_iff in k' as [k1 k2].
+    exact (shows_half_sound cell x lambda el hlam C ends k1 k2 keep _ curved upper mu q wedge less e' direction eq_refl hq hl k). }
   assert (Tangent : forall k p f, match inside cell with Some tangent => (0 <=? k)%Z && f (Some (dyadic_slope k p tangent)) | None => false end = true ->
     exists less, harmless lambda less /\ f less = true).
   { intros k p f g. destruct (inside cell) as [tangent |] eqn:i; [| discriminate]. apply andb_true_iff in g as [n0 g]. exists (Some (dyadic_slope k p tangent)). split; [| exact g].
     destruct (inside_sound _ _ _ _ i el ok hd) as [d [h1 h2]]. exact (tangent_harmless lambda k p tangent d n0 h1 h2). }
-  unfold half_on in h. cbv zeta in h. destruct e as [| | | | | | | | | e k p | | | | | | | e ends directions | | |]; try (exact (One None _ _ _ I h)).
-  - destruct (Tangent k p (fun less => shows_half (evaluate_kept keep cell) cell upper mu wedge less e [] (map (fun _ => 0%Z) cell)) h) as [less [hl g]]. exact (One less _ _ _ hl g).
-  - destruct e as [| | | | | | | | | e k p | | | | | | | | | |]; try (destruct directions as [| v [|]]; try discriminate; exact (One None _ _ _ I h)).
-    destruct directions as [| v [|]]; try discriminate. destruct (Tangent k p (fun less => shows_half (evaluate_kept keep cell) cell upper mu wedge less e ends v) h) as [less [hl g]]. exact (One less _ _ _ hl g).
+  unfold half_on in h. cbv zeta in h. destruct e as [| | | | | | | | | e k p | | | | | | | e ends curved directions | | |]; try (exact (One None _ _ _ _ I h)).
+  - destruct (Tangent k p (fun less => shows_half (evaluate_kept keep cell) cell upper mu wedge less e [] [] (map (fun _ => 0%Z) cell)) h) as [less [hl g]]. exact (One less _ _ _ _ hl g).
+  - destruct e as [| | | | | | | | | e k p | | | | | | | | | |]; try (destruct directions as [| v [|]]; try discriminate; exact (One None _ _ _ _ I h)).
+    destruct directions as [| v [|]]; try discriminate. destruct (Tangent k p (fun less => shows_half (evaluate_kept keep cell) cell upper mu wedge less e ends curved v) h) as [less [hl g]]. exact (One less _ _ _ _ hl g).
 Qed.
 
 Lemma evaluate_holds : forall cell x t e, Forall2 contains cell x -> allowed x -> shows_on (evaluate cell) cell t e = true -> holds (length cell) x t.

@@ -84,7 +84,7 @@ Definition shows_at (cell : list fixed) (ts : list tensor) (values : list (optio
       match g with Some g => (0 <=? k)%Z && (places <? 64)%N && shows_less cell values ts (Some (g, k, places)) t e | None => false end
   | AtControls e => shows_less cell values ts None t e
   | ByTest | ByDirection _ _ => match t with OnSlopes t => shows bits [] [] [] values m None t e | _ => false end
-  | ByTolerances _ _ _ | ByFan _ => match t with LeastOf r w k ends => same_rows r main && Nat.eqb w main_w && varied cell k ends e | _ => false end
+  | ByTolerances _ _ _ _ | ByFan _ => match t with LeastOf r w k ends => same_rows r main && Nat.eqb w main_w && varied cell k ends e | _ => false end
   | _ => false
   end.
 (** No orientation of the set is in the cell. *)
@@ -744,7 +744,7 @@ Definition ends_of (fs : list formula) (m : nat) (k : motion) (r : rows nat) (w 
 (** The parameters of struts with tolerances, where these are apart somewhere in a tree. *)
 Definition free_struts (s : Z) (ts : list (tolerances * tolerances)) : list nat :=
   let lay := flat_map (strut_layout s) ts in map fst (filter (fun p => has_two_ends (snd p)) (combine (seq 0 (length lay)) lay)).
-Definition is_apart (s : nat * evidence) : bool := match snd s with ByTolerances _ _ _ | ByFan _ => true | _ => false end.
+Definition is_apart (s : nat * evidence) : bool := match snd s with ByTolerances _ _ _ _ | ByFan _ => true | _ => false end.
 Fixpoint has_apart (t : tree) : bool :=
   match t with Leaf steps => existsb is_apart steps | Split steps _ lower upper | Parts steps _ lower upper => existsb is_apart steps || has_apart lower || has_apart upper end.
 

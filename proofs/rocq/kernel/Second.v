@@ -464,6 +464,9 @@ Definition difference (ds : list R) (k : nat * nat) : R := if Nat.eqb (fst k) (s
 Definition differences (theta0 theta : list R) : list R :=
   let ds := map (fun e => nth (fst e) theta 0 - nth (fst e) theta0 0) ends in ds ++ map (difference ds) pairs.
 
+Lemma none_moved_first : filter (fun p => is_in (parameter_at p) []) (seq 0 (length ends)) = [].
+Proof. generalize (seq 0 (length ends)). induction l as [| p l IH]; [reflexivity | exact IH]. Qed.
+
 Lemma share_times : forall m n, is_share m -> is_share n -> is_share (m * n).
 Proof. intros m n [h1 h2] [k1 k2]. split; nra. Qed.
 
@@ -628,4 +631,7 @@ Proof.
     apply total_same. intros k i. destruct (I own ltac:(intros p ip; apply filter_In in ip as [ip _]; apply in_seq in ip; lia) k i) as [l1 l2]. unfold difference. rewrite !Ds by assumption. reflexivity.
 Qed.
 End Ends.
+
+Lemma none_of_second_order : forall ends theta0 theta, differences ends [] theta0 theta = map (fun e => nth (fst e) theta 0 - nth (fst e) theta0 0) ends.
+Proof. intros. unfold differences, pairs. rewrite none_moved_first. apply app_nil_r. Qed.
 End Precision.

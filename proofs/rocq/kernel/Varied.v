@@ -447,7 +447,7 @@ Definition are_fit (F : multi_rows formula) (all : list formula) : bool :=
 Definition shows_part (tape : list (op address)) (placed : multi_rows nat) (placed_w : nat) (placed_g : option nat) (cell : list fixed) (k : fixed) (part : option wedge) (by_ : evidence) : bool :=
   let shows es v l places Y := everywhere (@map_vsample) ends m (varied_lower_at bits m places Y v part (Tolerances.steps es params) k) (varied_tensors bits params tape es cell placed placed_w l) in
   match by_ with
-  | ByTolerances (AtControls inner) es [v] =>
+  | ByTolerances (AtControls inner) es [] [v] =>
       same_numbers (map fst es) free && Check.are_once free && forallb (fun j => Nat.ltb j (length params)) free && Nat.eqb (length v) m &&
       match inner with
       | ByLower places Y => shows es v None places Y
@@ -567,8 +567,8 @@ Proof.
   { destruct by_; try exact (Part None _ h I). apply andb_true_iff in h as [n0 h]. rewrite forallb_forall in h.
     destruct (Toward.fan_covers (map (fun p => fst (fst (fst p))) parts) v) as [p [ip iw]]; [intro z; destruct parts; discriminate|].
     destruct (Check.part_of_wedge parts p ip) as [[[[c0 z] pl] e0] iq]. specialize (h _ iq). cbn [fst snd] in h. exact (Part _ _ h iw). }
-  clear h. intros part by' h iv. unfold along, shows_part in h. cbv zeta in h. clear along. destruct by' as [| | | | | | | | | | | | | | | | inner es dirs | | |]; try discriminate. destruct inner as [| | | | | | | | | | | inner | | | | | | | |]; try discriminate.
-  destruct dirs as [| dir [|]]; try discriminate. apply andb_true_iff in h as [h s]. apply andb_true_iff in h as [h _]. apply andb_true_iff in h as [h ex]. apply andb_true_iff in h as [sn on].
+  clear h. intros part by' h iv. unfold along, shows_part in h. cbv zeta in h. clear along. destruct by' as [| | | | | | | | | | | | | | | | inner es curved dirs | | |]; try discriminate. destruct inner as [| | | | | | | | | | | inner | | | | | | | |]; try discriminate.
+  destruct curved; [| discriminate]. destruct dirs as [| dir [|]]; try discriminate. apply andb_true_iff in h as [h s]. apply andb_true_iff in h as [h _]. apply andb_true_iff in h as [h ex]. apply andb_true_iff in h as [sn on].
   unfold same_numbers in sn. destruct (list_eq_dec _ _ _) as [ef |]; [| discriminate]. rewrite <- ef in on, ex.
   assert (Aff := fit). unfold are_fit in Aff. apply andb_true_iff in Aff as [Aff _]. apply andb_true_iff in Aff as [Aff _]. apply andb_true_iff in Aff as [_ Aff].
   unfold varied_wanted in Aff. change (image m w :: ?a ++ ?b) with ([image m w] ++ (a ++ b)) in Aff. apply affine_app in Aff as [Aw Aff]. apply affine_app in Aff as [Ag AF].
